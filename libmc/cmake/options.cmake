@@ -1,0 +1,29 @@
+# Compile options of our own targets. Users of mc::mc get none of these but C++20.
+add_library(mc_options INTERFACE)
+target_compile_features(mc_options INTERFACE cxx_std_20)
+target_compile_options(mc_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Wcast-qual -Woverloaded-virtual -Wextra-semi
+  # A fused multiply-add changes the last bit from one inlining to the next: we write std::fma where we mean it.
+  -ffp-contract=off
+  # Lets sqrt and floor become instructions; values stay IEEE.
+  -fno-math-errno)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # g++ 12 reports false positives inside Eigen and the standard library at -O3.
+  target_compile_options(mc_options INTERFACE -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow
+    -Wno-stringop-overread -Wno-restrict -Wno-psabi)
+endif()
+if(MC_WERROR)
+  target_compile_options(mc_options INTERFACE -Werror)
+endif()
+if(MC_NATIVE)
+  target_compile_options(mc_options INTERFACE -march=native)
+endif()
+if(MC_CHECKED)
+  target_compile_options(mc_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(mc_options INTERFACE -fsanitize=address,undefined)
+  target_compile_definitions(mc_options INTERFACE MC_CHECKED)
+endif()
+if(MC_TSAN)
+  target_compile_options(mc_options INTERFACE -fsanitize=thread)
+  target_link_options(mc_options INTERFACE -fsanitize=thread)
+endif()

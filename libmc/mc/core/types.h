@@ -1,0 +1,84 @@
+#pragma once
+/// Scalars, small vectors and the constants that every file uses.
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <numbers>
+
+namespace mc {
+
+/// A real number type: float, double, or a multiprecision type such as the 50-digit oracle of check/oracle.h.
+/// Generic code writes `using std::sqrt; sqrt(x)`, so that the multiprecision overload is found too.
+template <class S>
+concept Real = std::numeric_limits<S>::is_specialized && !std::numeric_limits<S>::is_integer;
+
+template <class S, int N> using Vec = Eigen::Matrix<S, N, 1>;
+template <class S> using Vec2 = Vec<S, 2>;
+template <class S> using Vec3 = Vec<S, 3>;
+
+namespace detail {
+template <class S, int N> struct PointType { using type = Vec<S, N>; };
+template <class S> struct PointType<S, 1> { using type = S; };
+} // namespace detail
+
+/// A point of an N-dimensional set: a plain scalar when N = 1, a column vector otherwise.
+template <class S, int N> using Point = typename detail::PointType<S, N>::type;
+
+/// pi, to the precision of S.
+template <Real S>
+inline const S pi = [] {
+  if constexpr (std::floating_point<S>) return std::numbers::pi_v<S>;
+  else return S(acos(S(-1)));
+}();
+
+/// The largest S below 1: the last value that a uniform number in [0,1) can take.
+template <Real S> inline const S one_minus_epsilon = S(1) - std::numeric_limits<S>::epsilon() / 2;
+
+template <Real S> inline const S infinity = std::numeric_limits<S>::infinity();
+
+template <class S> constexpr S sqr(const S& x) { return x * x; }
+
+/// sqrt(max(x, 0)): for radicands that rounding may push just below 0. NaN stays NaN.
+template <Real S> S safe_sqrt(const S& x) {
+  using std::sqrt;
+  return x < 0 ? S(0) : S(sqrt(x));
+}
+
+/// a b - c d with two roundings instead of three: no cancellation when the products nearly agree (Kahan).
+///   error : 1.5 ulp of the result [JeannerodLouvetMuller13]
+template <Real S> S difference_of_products(const S& a, const S& b, const S& c, const S& d) {
+  using std::fma;
+  const S cd = c * d;
+  return S(fma(a, b, S(-cd))) + S(fma(S(-c), d, cd));
+}
+
+/// Cross product, each component by difference_of_products.
+template <Real S> Vec3<S> cross(const Vec3<S>& a, const Vec3<S>& b) {
+  return {difference_of_products(a.y(), b.z(), a.z(), b.y()), difference_of_products(a.z(), b.x(), a.x(), b.z()),
+          difference_of_products(a.x(), b.y(), a.y(), b.x())};
+}
+
+/// Cartesian direction of the cosine z = cos(theta), the sine and the azimuth phi [rad].
+template <Real S> Vec3<S> spherical_direction(const S& sin_theta, const S& cos_theta, const S& phi) {
+  using std::cos, std::sin;
+  return {sin_theta * S(cos(phi)), sin_theta * S(sin(phi)), cos_theta};
+}
+
+/// Azimuth of (x, y) as a fraction of a full turn, in [0,1); 0 at the origin.
+template <Real S> S turn(const S& x, const S& y) {
+  using std::atan2;
+  const S t = S(atan2(y, x)) / (2 * pi<S>);
+  const S wrapped = t < 0 ? S(t + 1) : t;
+  return wrapped < 1 ? wrapped : S(0);
+}
+
+/// Converts every component; a plain scalar converts as itself.
+template <class T, class P> auto cast_point(const P& p) {
+  if constexpr (requires { p.template cast<T>(); }) return p.template cast<T>().eval();
+  else return T(p);
+}
+
+} // namespace mc

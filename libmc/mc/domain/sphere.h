@@ -1,0 +1,38 @@
+#pragma once
+/// The unit sphere of directions.
+
+#include <mc/domain/concept.h>
+
+namespace mc {
+
+/// |w| = 1 to 8 eps in the squared length; false for NaN.
+template <Real S> bool is_unit(const Vec3<S>& w) {
+  using std::abs;
+  return abs(w.squaredNorm() - 1) <= 8 * std::numeric_limits<S>::epsilon();
+}
+
+/// 1 - cos(theta) of a unit vector, without cancellation at the pole.
+template <Real S> S one_minus_z(const Vec3<S>& w) {
+  return w.z() > 0 ? S((w.x() * w.x() + w.y() * w.y()) / (1 + w.z())) : S(1 - w.z());
+}
+
+/// Unit vectors.
+///   chart : v = ((1 - z) / 2, phi / 2 pi); uniform in solid angle, so the Jacobian is the constant 4 pi
+///   error : v keeps its relative precision at the +z pole
+template <Real S> struct Sphere {
+  using Scalar = S;
+  using Point = Vec3<S>;
+  using UnitPoint = Vec2<S>;
+  static constexpr int dim = 2;
+  static constexpr Measure measure = Measure::solid_angle;
+
+  Point from_unit(const UnitPoint& v) const {
+    return spherical_direction<S>(2 * safe_sqrt<S>(v[0] * (1 - v[0])), 1 - 2 * v[0], 2 * pi<S> * v[1]);
+  }
+  UnitPoint to_unit(const Point& w) const { return {one_minus_z(w) / 2, turn<S>(w.x(), w.y())}; }
+  S jacobian(const UnitPoint&) const { return 4 * pi<S>; }
+  bool contains(const Point& w) const { return is_unit(w); }
+  template <Real T> Sphere<T> cast() const { return {}; }
+};
+
+} // namespace mc

@@ -1,0 +1,55 @@
+#pragma once
+/// Running mean and variance.
+
+#include <mc/estimate/estimate.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace mc {
+
+/// Count, mean and sum of squared deviations of a stream of doubles, mergeable; non-finite values are counted apart and the
+/// first one's index is kept.
+///   error  : relative error of the mean and variance O(eps) per merge, no cancellation [Welford62, ChanGolubLeVeque83]
+///   throws : estimate() throws Error when any value was not finite, or there are fewer than two
+class Moments {
+ public:
+  void add(double x, std::uint64_t index = 0) {
+    if (!std::isfinite(x)) [[unlikely]] {
+      if (non_finite_++ == 0) witness_ = index;
+      return;
+    }
+    ++count_;
+    const double delta = x - mean_;
+    mean_ += delta / static_cast<double>(count_);
+    m2_ += delta * (x - mean_);
+  }
+
+  void merge(const Moments& other) {
+    if (other.non_finite_ > 0 && non_finite_ == 0) witness_ = other.witness_;
+    non_finite_ += other.non_finite_;
+    if (other.count_ == 0) return;
+    const double a = static_cast<double>(count_), b = static_cast<double>(other.count_), n = a + b;
+    const double delta = other.mean_ - mean_;
+    mean_ += delta * (b / n);
+    m2_ += other.m2_ + delta * delta * (a * b / n);
+    count_ += other.count_;
+  }
+
+  std::uint64_t count() const { return count_; }
+  double mean() const { return mean_; }
+  /// Unbiased sample variance; 0 for fewer than two values.
+  double variance() const { return count_ > 1 ? m2_ / static_cast<double>(count_ - 1) : 0.0; }
+  double std_error() const { return count_ > 1 ? std::sqrt(variance() / static_cast<double>(count_)) : 0.0; }
+  std::uint64_t non_finite() const { return non_finite_; }
+  std::uint64_t witness() const { return witness_; } ///< index of the first non-finite value
+
+  /// The mean with its standard error and count - 1 degrees of freedom.
+  Estimate estimate() const;
+
+ private:
+  std::uint64_t count_ = 0, non_finite_ = 0, witness_ = 0;
+  double mean_ = 0, m2_ = 0;
+};
+
+} // namespace mc

@@ -1,0 +1,55 @@
+#pragma once
+/// Samplers: point sets in [0,1)^d as pure functions of (index, dim).
+
+#include <mc/random/uniform.h>
+
+#include <cstdint>
+#include <utility>
+
+namespace mc {
+
+/// An immutable point set. bits(index, dim) is coordinate `dim` of point `index` as a 64-bit binary fraction of [0,1); any
+/// index below 2^32 and any dim are valid. Dimensions beyond those of the construction are hashed independent ones: they
+/// never wrap. The seed is a constructor argument: another seed is an independent randomisation of the same construction.
+template <class T>
+concept Sampler = requires(const T s, std::uint64_t index, std::uint32_t dim) {
+  { s.bits(index, dim) } -> std::same_as<std::uint64_t>;
+};
+
+/// Coordinate `dim` of point `index`, in [0,1).
+template <Real S, Sampler T> S coordinate(const T& sampler, std::uint64_t index, std::uint32_t dim) {
+  return uniform<S>(sampler.bits(index, dim));
+}
+
+/// Coordinates dim, dim + 1, ... of point `index`; a plain scalar when N = 1.
+template <Real S, int N, Sampler T> Point<S, N> point(const T& sampler, std::uint64_t index, std::uint32_t dim = 0) {
+  if constexpr (N == 1) return coordinate<S>(sampler, index, dim);
+  else {
+    Point<S, N> u;
+    for (int i = 0; i < N; ++i) u[i] = coordinate<S>(sampler, index, dim + static_cast<std::uint32_t>(i));
+    return u;
+  }
+}
+
+/// Walks the dimensions of one point.
+template <Real S, Sampler T> class SampleStream {
+ public:
+  SampleStream(T sampler, std::uint64_t index, std::uint32_t dim = 0)
+      : sampler_(std::move(sampler)), index_(index), dim_(dim) {}
+
+  S next() { return coordinate<S>(sampler_, index_, dim_++); }
+  template <int N> Point<S, N> next() {
+    const Point<S, N> u = point<S, N>(sampler_, index_, dim_);
+    dim_ += N;
+    return u;
+  }
+  std::uint32_t dim() const { return dim_; }
+  void skip_to(std::uint32_t dim) { dim_ = dim; }
+
+ private:
+  T sampler_;
+  std::uint64_t index_;
+  std::uint32_t dim_;
+};
+
+} // namespace mc

@@ -1,0 +1,45 @@
+#pragma once
+/// Distributions on the upper hemisphere about +z.
+
+#include <mc/domain/hemisphere.h>
+#include <mc/warp/concept.h>
+#include <mc/warp/disk.h>
+
+namespace mc {
+
+/// Uniform directions on the hemisphere.
+///   sample : u -> z = 1 - u0, phi = 2 pi u1
+///   pdf    : 1 / (2 pi) [1/sr]; 0 below the horizon
+///   invert : |invert(sample(u)) - u| <= 8 eps
+///   Source : [ShirleyWangZimmerman96]; 1 - z is kept instead of z, so directions near the pole keep their precision.
+template <Real S> struct UniformHemisphere {
+  using Scalar = S;
+  using Domain = Hemisphere<S>;
+
+  Domain domain() const { return {}; }
+  Vec3<S> sample(const Vec2<S>& u) const { return domain().from_unit(u); }
+  S pdf(const Vec3<S>& w) const { return w.z() >= 0 ? S(1 / (2 * pi<S>)) : S(0); }
+  Vec2<S> invert(const Vec3<S>& w) const { return domain().to_unit(w); }
+  template <Real T> UniformHemisphere<T> cast() const { return {}; }
+};
+
+/// Directions with density proportional to cos(theta): a uniform point of the disk, lifted.
+///   sample : concentric disk point p, z = sqrt(1 - |p|^2), with 1 - |p|^2 taken from the radius without cancellation
+///   pdf    : z / pi [1/sr]; 0 below the horizon
+///   invert : |invert(sample(u)) - u| <= 8 eps
+///   Source : [Malley88], the disk by [ShirleyChiu97]
+template <Real S> struct CosineHemisphere {
+  using Scalar = S;
+  using Domain = Hemisphere<S>;
+
+  Domain domain() const { return {}; }
+  Vec3<S> sample(const Vec2<S>& u) const {
+    const Vec2<S> p = UniformDisk<S>{}.sample(u);
+    return {p.x(), p.y(), safe_sqrt<S>(1 - p.squaredNorm())};
+  }
+  S pdf(const Vec3<S>& w) const { return w.z() > 0 ? S(w.z() / pi<S>) : S(0); }
+  Vec2<S> invert(const Vec3<S>& w) const { return UniformDisk<S>{}.invert({w.x(), w.y()}); }
+  template <Real T> CosineHemisphere<T> cast() const { return {}; }
+};
+
+} // namespace mc

@@ -1,0 +1,32 @@
+#pragma once
+/// The BSDF as a warp: sample, eval and pdf say the same thing.
+
+#include <render/core/types.h>
+
+#include <optional>
+
+namespace render {
+
+/// Directions live in the local frame with the shading normal on +z; wo and wi both leave the surface.
+struct BsdfSample {
+  Vec3 wi;
+  Spectrum f;                ///< the BSDF without the cosine; for a delta lobe such that f |cos| / pdf is the lobe's weight
+  Float pdf = 0;             ///< [1/sr]; for a delta lobe its probability
+  bool delta = false;
+  bool transmission = false; ///< wi lies on the other side of the surface
+};
+
+/// A BSDF models:
+///   sample(wo, uc, u) : uc chooses a lobe, u in [0,1)^2 a direction in it; nullopt: absorbed
+///   eval(wo, wi)      : f [1/sr], delta lobes excluded
+///   pdf(wo, wi)       : density of wi [1/sr], delta lobes excluded
+///   is_delta()        : it has delta lobes only, so light sampling is of no use
+template <class T>
+concept BsdfLike = requires(const T b, Vec3 wo, Vec3 wi, Float uc, Vec2 u) {
+  { b.sample(wo, uc, u) } -> std::same_as<std::optional<BsdfSample>>;
+  { b.eval(wo, wi) } -> std::convertible_to<Spectrum>;
+  { b.pdf(wo, wi) } -> std::convertible_to<Float>;
+  { b.is_delta() } -> std::convertible_to<bool>;
+};
+
+} // namespace render

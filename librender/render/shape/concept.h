@@ -1,0 +1,57 @@
+#pragma once
+/// What a shape gives: hits, surface points with error bounds, and samples of its area seen from a point.
+
+#include <render/core/ray.h>
+
+#include <optional>
+
+namespace render {
+
+/// The nearest crossing of a ray: which primitive of which shape, and where on it.
+struct Hit {
+  Float t = 0;
+  int shape = -1;            ///< index into the scene's shapes
+  int prim = -1;             ///< triangle of a mesh; 0 for a sphere
+  Float b1 = 0, b2 = 0;      ///< barycentric weights of vertices 1 and 2 (mesh only)
+};
+
+/// A point on a surface, computed so that its error is bounded.
+///   error : each coordinate of p is within `error` of the true surface
+struct SurfacePoint {
+  Vec3 p;
+  Float error = 0;
+  Vec3 ng;                   ///< geometric normal, unit; the light-emitting side
+  Vec3 ns;                   ///< shading normal, unit, same side as ng
+  Vec2 uv = Vec2::Zero();
+  int shape = -1, prim = -1;
+
+  /// Ray origin moved along the normal, to the side that d points to, just beyond the error bound: a ray from there meets
+  /// this surface again only where it truly does. No scene-scale epsilon.
+  Vec3 offset_origin(const Vec3& d) const;
+  Ray spawn_ray(const Vec3& d) const { return {offset_origin(d), d}; }
+  /// Ray to another surface point that stops before it.
+  Ray spawn_ray_to(const SurfacePoint& target) const;
+};
+
+/// A point of a shape chosen to illuminate a reference point.
+struct ShapeSample {
+  SurfacePoint point;
+  Vec3 wi;                   ///< unit direction from the reference point
+  Float pdf = 0;             ///< density of wi [1/sr] as seen from the reference point
+};
+
+/// Shapes are a closed set (shape.h). Each models:
+///   sample(ref, u)    : u in [0,1)^2 -> a point of the shape as seen from ref, nullopt where none can be seen
+///   pdf(ref, wi, hit) : density [1/sr] with which sample(ref, .) picks the direction wi that meets the shape at `hit`
+///   area()            : total area
+///   bounds()          : axis-aligned box
+///   surface_point     : the point of a Hit
+template <class T>
+concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint hit, Ray ray, Hit h) {
+  { s.sample(ref, u) } -> std::same_as<std::optional<ShapeSample>>;
+  { s.pdf(ref, wi, hit) } -> std::convertible_to<Float>;
+  { s.area() } -> std::convertible_to<double>;
+  { s.surface_point(ray, h) } -> std::same_as<SurfacePoint>;
+};
+
+} // namespace render
