@@ -1,0 +1,85 @@
+#pragma once
+/// The options of each subcommand of carlo, as plain data, and the functions that run them.
+/// Each function prints its result on stdout and progress on stderr, returns the exit code, and throws mc::Error on bad input.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace carlo {
+
+/// What carlo returns to the shell.
+enum ExitCode : int {
+  exit_ok = 0,          ///< done, and every check passed
+  exit_failed = 1,      ///< done, but a check failed: a sampler broke a law, two images differ
+  exit_bad_input = 2,   ///< bad usage, file or value; one line on stderr says what to do
+  exit_interrupted = 130 ///< Ctrl-C; what was rendered so far is written and marked partial
+};
+
+struct RenderOptions {
+  std::string scene;
+  std::string output;                       ///< empty: the scene's name with .exr in the current folder
+  std::optional<int> spp;                   ///< samples per pixel
+  std::optional<double> seconds;            ///< wall-clock budget [s]
+  std::optional<double> target_error;       ///< mean relative standard error to reach
+  std::string size;                         ///< "WxH"; empty: the scene's
+  std::string strategy, sampler;            ///< empty: mis, sobol
+  std::optional<int> max_depth;             ///< path vertices after the camera; -1: unlimited
+  std::uint64_t seed = 0;
+  int threads = 0;                          ///< 0: all
+  double exposure = 0;                      ///< stops, PNG only
+  bool allow_invalid = false;               ///< write the image although samples were not finite
+  std::string command;                      ///< the command line, for the metadata
+};
+int render(const RenderOptions& options);
+
+struct CompareOptions {
+  std::string a, b;
+  std::string metric;                       ///< empty: all
+  std::string diff;                         ///< file for the difference image; empty: none
+  double alpha = 0.01;                      ///< family-wise
+};
+int compare(const CompareOptions& options);
+
+struct ValidateOptions {
+  std::vector<std::string> names;
+  bool all = false, list = false;
+  double alpha = 0.01;                      ///< family-wise over every statistical test of the run
+  std::uint64_t samples = 1'000'000;        ///< per case
+  std::uint64_t seed = 1;
+  std::string scalar;                       ///< "float", "double"; empty: both
+  std::string json;                         ///< file; empty: none
+  std::string command;
+};
+int validate(const ValidateOptions& options);
+
+struct ConvergeOptions {
+  std::vector<std::string> experiments;     ///< empty: all
+  bool list = false;
+  std::string samplers = "random,stratified,sobol";
+  std::uint64_t max_n = 1 << 16;
+  int replicates = 64;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::string output = "out/convergence";
+  std::string command;
+};
+int converge(const ConvergeOptions& options);
+
+struct IntegrateOptions {
+  std::string integrand;                    ///< a name, or an expression
+  std::string domain;                       ///< "x=0:1,y=-1:2" for an expression
+  bool list = false;
+  double rel_error = 1e-3, abs_error = 0;
+  std::uint64_t max_calls = 10'000'000;
+  std::string method = "auto";
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::string json;
+  std::string command;
+};
+int integrate(const IntegrateOptions& options);
+
+} // namespace carlo

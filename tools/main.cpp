@@ -1,0 +1,134 @@
+/// carlo: the command line. The only file that includes CLI11.
+
+#include "commands.h"
+#include "version.h"
+
+#include <mc/core/error.h>
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+namespace {
+
+constexpr const char* exit_codes = "Exit codes: 0 done and every check passed; 1 a check failed; 2 bad usage, file or value; 130 interrupted.";
+
+void add_render(CLI::App& app, carlo::RenderOptions& o) {
+  auto* c = app.add_subcommand("render", "Render a Mitsuba XML scene to EXR, PFM or PNG, with an error bar");
+  c->footer(exit_codes);
+  c->add_option("SCENE", o.scene, "Scene file (Mitsuba XML)")->required();
+  c->add_option("-o,--output", o.output, "Image to write: .exr (radiance and variance), .pfm or .png (sRGB) [SCENE.exr here]");
+  auto* budget = c->add_option_group("budget", "How long (one of these; default: the scene's samples per pixel)");
+  budget->add_option("--spp", o.spp, "Samples per pixel");
+  budget->add_option("--time", o.seconds, "Wall-clock seconds");
+  budget->add_option("--target-error", o.target_error, "Mean relative standard error of the pixels to reach");
+  budget->require_option(0, 1);
+  c->add_option("--size", o.size, "Image size WxH in pixels [the scene's]");
+  c->add_option("--strategy", o.strategy, "bsdf, hemisphere, light, mixture, nee or mis [mis]");
+  c->add_option("--sampler", o.sampler, "independent, stratified or sobol [sobol]");
+  c->add_option("--max-depth", o.max_depth, "Longest path in edges, -1 for no limit [the scene's]");
+  c->add_option("--seed", o.seed, "Seed; same seed, same bits, whatever the number of threads")->capture_default_str();
+  c->add_option("--threads", o.threads, "Threads, 0 for all of the machine's")->capture_default_str();
+  c->add_option("--exposure", o.exposure, "Stops added before a PNG is written")->capture_default_str();
+  c->add_flag("--allow-invalid", o.allow_invalid, "Write the image although some samples were not finite");
+}
+
+void add_compare(CLI::App& app, carlo::CompareOptions& o) {
+  auto* c = app.add_subcommand("compare", "Say whether two images agree: error metrics, and z-tests where variance is known");
+  c->footer(exit_codes);
+  c->add_option("A", o.a, "Image")->required();
+  c->add_option("B", o.b, "Image, the reference of relative metrics")->required();
+  c->add_option("--metric", o.metric, "Print only this: mse, rmse, mae, relmse, psnr [all]");
+  c->add_option("--diff", o.diff, "Write the difference image to this file");
+  c->add_option("--alpha", o.alpha, "Chance that two correct images are called different, over all tests")->capture_default_str();
+}
+
+void add_validate(CLI::App& app, carlo::ValidateOptions& o) {
+  auto* c = app.add_subcommand("validate", "Check samplers against their laws: chi-square, KS, mass, Jacobian, inverse, oracle");
+  c->footer(exit_codes);
+  c->add_option("NAME", o.names, "Samplers to check, by name (see --list)");
+  c->add_flag("--all", o.all, "Check every sampler");
+  c->add_flag("--list", o.list, "List every sampler with its parameters, and stop");
+  c->add_option("--alpha", o.alpha, "Chance of a false rejection, over all tests of the run")->capture_default_str();
+  c->add_option("--samples", o.samples, "Samples per case")->capture_default_str();
+  c->add_option("--seed", o.seed, "Seed")->capture_default_str();
+  c->add_option("--scalar", o.scalar, "float or double [both]");
+  c->add_option("--json", o.json, "Write the results to this file");
+}
+
+void add_converge(CLI::App& app, carlo::ConvergeOptions& o) {
+  auto* c = app.add_subcommand("converge", "Measure how error falls with samples and with seconds; write data and plots");
+  c->footer(exit_codes);
+  c->add_option("EXPERIMENT", o.experiments, "Experiments by name [all]");
+  c->add_flag("--list", o.list, "List the experiments, and stop");
+  c->add_option("--samplers", o.samplers, "Comma-separated: random, stratified, sobol")->capture_default_str();
+  c->add_option("--max-n", o.max_n, "Largest number of samples N")->capture_default_str();
+  c->add_option("--replicates", o.replicates, "Independent repetitions behind each RMS error")->capture_default_str();
+  c->add_option("--seed", o.seed, "Seed")->capture_default_str();
+  c->add_option("--threads", o.threads, "Threads, 0 for all of the machine's")->capture_default_str();
+  c->add_option("-o,--output", o.output, "Folder for CSV, JSON, gnuplot script, SVG and PNG")->capture_default_str();
+}
+
+void add_integrate(CLI::App& app, carlo::IntegrateOptions& o) {
+  auto* c = app.add_subcommand("integrate", "Integrate a named integrand or an expression, with an error bar");
+  c->footer(exit_codes);
+  c->add_option("INTEGRAND", o.integrand, "Name (see --list) or expression, e.g. \"exp(-x*x)*cos(y)\"");
+  c->add_option("-d,--domain", o.domain, "Bounds of an expression's variables, e.g. \"x=0:1,y=-1:2\"");
+  c->add_flag("--list", o.list, "List the named integrands, and stop");
+  c->add_option("--rel-error", o.rel_error, "Relative standard error to reach")->capture_default_str();
+  c->add_option("--abs-error", o.abs_error, "Absolute standard error that also suffices")->capture_default_str();
+  c->add_option("--max-calls", o.max_calls, "Most evaluations of the integrand")->capture_default_str();
+  c->add_option("--method", o.method, "auto, plain, stratified, rqmc or vegas")->capture_default_str();
+  c->add_option("--seed", o.seed, "Seed")->capture_default_str();
+  c->add_option("--threads", o.threads, "Threads, 0 for all of the machine's")->capture_default_str();
+  c->add_option("--json", o.json, "Write the result to this file");
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("carlo: Monte Carlo samplers validated, convergence measured, scenes rendered with error bars");
+  app.set_version_flag("--version", fmt::format("carlo {} ({})", carlo::version, carlo::commit));
+  app.require_subcommand(1);
+  app.footer(exit_codes);
+
+  carlo::RenderOptions render;
+  carlo::CompareOptions compare;
+  carlo::ValidateOptions validate;
+  carlo::ConvergeOptions converge;
+  carlo::IntegrateOptions integrate;
+  add_validate(app, validate);
+  add_converge(app, converge);
+  add_integrate(app, integrate);
+  add_render(app, render);
+  add_compare(app, compare);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e); // --help, --version
+    throw mc::Error(fmt::format("{} (see carlo --help)", e.what()));
+  }
+
+  std::string command = "carlo";
+  for (int i = 1; i < argc; ++i) command += fmt::format(" {}", argv[i]);
+  render.command = validate.command = converge.command = integrate.command = command;
+
+  if (app.got_subcommand("render")) return carlo::render(render);
+  if (app.got_subcommand("compare")) return carlo::compare(compare);
+  if (app.got_subcommand("validate")) return carlo::validate(validate);
+  if (app.got_subcommand("converge")) return carlo::converge(converge);
+  return carlo::integrate(integrate);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "carlo: out of memory; ask for a smaller image or fewer samples\n");
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "carlo: %s\n", e.what());
+  }
+  return carlo::exit_bad_input;
+}

@@ -1,0 +1,14 @@
+// Subcommands that have not landed yet; each leaves this file with the commit that brings it.
+#include "commands.h"
+
+#include <mc/core/error.h>
+
+namespace carlo {
+
+int render(const RenderOptions&) { throw mc::Error("render: not built yet"); }
+int compare(const CompareOptions&) { throw mc::Error("compare: not built yet"); }
+int validate(const ValidateOptions&) { throw mc::Error("validate: not built yet"); }
+int converge(const ConvergeOptions&) { throw mc::Error("converge: not built yet"); }
+int integrate(const IntegrateOptions&) { throw mc::Error("integrate: not built yet"); }
+
+} // namespace carlo

@@ -1,0 +1,9 @@
+#pragma once
+/// Which carlo this is, for --version and the metadata of every file it writes.
+
+namespace carlo {
+
+extern const char* const version; ///< "0.1.0"
+extern const char* const commit;  ///< abbreviated commit, "-dirty" when the tree was changed, "unknown" outside git
+
+} // namespace carlo
