@@ -1,0 +1,12 @@
+#!/usr/bin/env bash
+# Installs the build tree into a scratch folder, builds this project against it, runs its tests.
+# Usage: run.sh BUILD_DIR CMAKE COMPILER
+set -eu
+build=$1 cmake=$2 compiler=$3
+here=$(cd "$(dirname "$0")" && pwd)
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+"$cmake" --install "$build" --prefix "$scratch/prefix" >/dev/null
+"$cmake" -S "$here" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_CXX_COMPILER="$compiler" >/dev/null
+"$cmake" --build "$scratch/build"
+"$scratch/build/consumer_test"

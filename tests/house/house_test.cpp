@@ -1,0 +1,164 @@
+// The layout of the house: who may include whom, every header has its test, no file grows beyond one idea.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const fs::path root = MC_SOURCE_DIR;
+
+struct Include { std::string file, header; int line; };
+
+std::vector<fs::path> sources(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (extension == ".h" || extension == ".cpp") files.push_back(fs::relative(entry.path(), root));
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<Include> includes(const fs::path& folder) {
+  static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<Include> found;
+  for (const fs::path& file : sources(folder)) {
+    std::ifstream in(root / file);
+    std::string text;
+    for (int line = 1; std::getline(in, text); ++line) {
+      std::smatch match;
+      if (std::regex_search(text, match, pattern)) found.push_back({file.string(), match[1], line});
+    }
+  }
+  return found;
+}
+
+using Rooms = std::map<std::string, std::set<std::string>>;
+
+// Every room with the rooms it may include, and transitively theirs.
+Rooms closure(Rooms rooms) {
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (auto& [room, allowed] : rooms)
+      for (const std::string& next : std::set<std::string>(allowed))
+        if (const auto it = rooms.find(next); it != rooms.end())
+          for (const std::string& further : it->second) grown |= allowed.insert(further).second;
+  }
+  return rooms;
+}
+
+const Rooms allowed_rooms = closure({
+    {"mc/core", {}},
+    {"mc/random", {"mc/core"}},
+    {"mc/domain", {"mc/core"}},
+    {"mc/warp", {"mc/domain", "mc/core"}},
+    {"mc/table", {"mc/domain", "mc/core"}},
+    {"mc/sampler", {"mc/random"}},
+    {"mc/estimate", {"mc/warp", "mc/table", "mc/sampler"}},
+    {"mc/check", {"mc/estimate", "mc/table", "mc/sampler"}},
+    {"mc/gtest", {"mc/check"}},
+    {"render/core", {"mc/core"}},
+    {"render/texture", {"render/core", "mc/warp", "mc/table"}},
+    {"render/shape", {"render/core", "mc/warp", "mc/table"}},
+    {"render/bsdf", {"render/texture", "render/core", "mc/warp", "mc/table"}},
+    {"render/light", {"render/shape", "render/texture", "render/core", "mc/warp", "mc/table"}},
+    {"render/camera", {"render/core", "mc/warp", "mc/table"}},
+    {"render/accel", {"render/shape"}},
+    {"render/film", {"render/core", "mc/estimate"}},
+    {"render/scene", {"render/accel", "render/bsdf", "render/light", "render/camera", "render/film"}},
+    {"render/integrator", {"render/scene", "mc/sampler", "mc/estimate"}},
+    {"render/io", {"render/scene", "render/film"}},
+    {"render", {"render/integrator", "render/scene", "render/film", "mc/sampler", "mc/estimate"}},
+});
+
+// "libmc/mc/warp/disk.h" or "mc/warp/disk.h" -> "mc/warp"; a file directly under render/ is the room "render".
+std::string room_of(std::string path) {
+  for (const std::string prefix : {"libmc/", "librender/"})
+    if (path.starts_with(prefix)) path.erase(0, prefix.size());
+  const std::string parent = fs::path(path).parent_path().generic_string();
+  std::vector<std::string> parts;
+  std::stringstream stream(parent);
+  for (std::string part; std::getline(stream, part, '/');) parts.push_back(part);
+  return parts.size() < 2 ? parent : parts[0] + "/" + parts[1];
+}
+
+bool is_ours(const std::string& header) { return header.starts_with("mc/") || header.starts_with("render/"); }
+
+TEST(House, IncludesFollowTheDesign) {
+  for (const char* folder : {"libmc/mc", "librender/render"}) {
+    for (const Include& i : includes(folder)) {
+      if (!is_ours(i.header)) continue;
+      const std::string from = room_of(i.file), to = room_of(i.header);
+      ASSERT_TRUE(allowed_rooms.contains(from)) << i.file << " stands in a folder that the design does not name";
+      EXPECT_TRUE(from == to || allowed_rooms.at(from).contains(to))
+          << i.file << ":" << i.line << ": " << from << " may not include <" << i.header << ">";
+    }
+  }
+}
+
+TEST(House, LibrariesNeverIncludeTestsBenchOrTools) {
+  for (const char* folder : {"libmc/mc", "librender/render"})
+    for (const Include& i : includes(folder))
+      EXPECT_TRUE(!i.header.starts_with("tests/") && !i.header.starts_with("tools/") && !i.header.starts_with("bench/") &&
+                  !i.header.starts_with("support/"))
+          << i.file << ":" << i.line << ": <" << i.header << ">";
+}
+
+// A library that is costly to compile or easy to swap stands behind one .cpp.
+TEST(House, EachOutsideLibraryHasOneDoor) {
+  const std::map<std::string, std::string> doors = {{"CLI/", "CLI11"},         {"pugixml.hpp", "pugixml"},
+                                                    {"tiny_obj_loader.h", "tinyobjloader"}, {"OpenEXR/", "OpenEXR"},
+                                                    {"Imf", "OpenEXR"},        {"stb/", "stb"},
+                                                    {"muParser", "muparser"}};
+  std::map<std::string, std::set<std::string>> users;
+  for (const char* folder : {"libmc/mc", "librender/render", "tools"})
+    for (const Include& i : includes(folder))
+      for (const auto& [prefix, library] : doors)
+        if (i.header.starts_with(prefix)) users[library].insert(i.file);
+  for (const auto& [library, files] : users)
+    EXPECT_LE(files.size(), 1u) << library << " is included by " << *files.begin() << " and " << *files.rbegin();
+}
+
+TEST(House, EveryPublicHeaderHasItsTest) {
+  for (const std::string base : {"libmc", "librender"}) {
+    const fs::path inner = base == "libmc" ? "libmc/mc" : "librender/render";
+    for (const fs::path& file : sources(inner)) {
+      if (file.extension() != ".h" || file.filename() == "concept.h" || file.filename() == "types.h") continue;
+      const fs::path relative = fs::relative(file, base);
+      const fs::path test = root / "tests" / relative.parent_path() / (relative.stem().string() + "_test.cpp");
+      EXPECT_TRUE(fs::exists(test)) << file << " has no " << fs::relative(test, root);
+    }
+  }
+}
+
+TEST(House, AFileIsOneIdea) {
+  for (const char* folder : {"libmc", "librender", "tools", "tests", "bench"}) {
+    for (const fs::path& file : sources(folder)) {
+      std::ifstream in(root / file);
+      const auto lines = std::count(std::istreambuf_iterator<char>(in), {}, '\n');
+      EXPECT_LE(lines, 500) << file;
+    }
+  }
+}
+
+TEST(House, TopLevelHoldsWhatTheDesignNames) {
+  const std::set<std::string> known = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "libmc", "librender",
+                                       "tools", "tests", "bench", "notebooks-data", "build", "out"};
+  for (const auto& entry : fs::directory_iterator(root)) {
+    const std::string file = entry.path().filename().string();
+    EXPECT_TRUE(file.starts_with(".") || known.contains(file)) << file;
+  }
+}
+
+} // namespace

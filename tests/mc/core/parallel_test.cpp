@@ -1,0 +1,51 @@
+#include <mc/core/parallel.h>
+
+#include <mc/core/error.h>
+#include <mc/estimate/moments.h>
+#include <mc/random/uniform.h>
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+namespace {
+
+TEST(Parallel, VisitsEveryIndexOnce) {
+  for (const int threads : {0, 1, 2, 7}) {
+    std::vector<std::atomic<int>> visits(1000);
+    mc::parallel_for(visits.size(), threads, [&](std::size_t i) { ++visits[i]; });
+    for (const auto& v : visits) EXPECT_EQ(v, 1);
+  }
+  mc::parallel_for(0, 2, [](std::size_t) { FAIL() << "an empty loop has no body"; });
+}
+
+TEST(Parallel, ReductionHasTheSameBitsForAnyThreadCount) {
+  const auto run = [](int threads) {
+    return mc::parallel_reduce<mc::Moments>(64, threads, [](std::size_t chunk) {
+      mc::Moments m;
+      for (std::uint64_t i = 0; i < 1000; ++i) m.add(mc::hash_uniform<double>(1, chunk, i));
+      return m;
+    });
+  };
+  const mc::Moments one = run(1);
+  for (const int threads : {2, 3, 8}) {
+    const mc::Moments many = run(threads);
+    EXPECT_EQ(one.mean(), many.mean());
+    EXPECT_EQ(one.variance(), many.variance());
+  }
+}
+
+TEST(Parallel, FirstExceptionStopsTheLoopAndIsRethrown) {
+  for (const int threads : {1, 2, 4}) {
+    std::atomic<int> started = 0;
+    EXPECT_THROW(mc::parallel_for(1'000'000, threads,
+                                  [&](std::size_t i) {
+                                    ++started;
+                                    mc::require(i != 10, "chunk {} is broken", i);
+                                  }),
+                 mc::Error);
+    EXPECT_LE(started, 999'999);
+  }
+}
+
+} // namespace
