@@ -1,0 +1,49 @@
+#include <mc/core/types.h>
+
+#include <mc/check/oracle.h>
+#include <mc/random/pcg.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using mc::Oracle;
+
+TEST(Types, ConstantsReachThePrecisionOfTheirScalar) {
+  EXPECT_EQ(mc::pi<double>, M_PI);
+  EXPECT_LE(abs(mc::pi<Oracle> - Oracle("3.14159265358979323846264338327950288419716939937510582097494")), Oracle(1e-49));
+  EXPECT_LT(mc::one_minus_epsilon<float>, 1.0f);
+  EXPECT_EQ(std::nextafter(mc::one_minus_epsilon<float>, 2.0f), 1.0f);
+  EXPECT_EQ(std::nextafter(mc::one_minus_epsilon<double>, 2.0), 1.0);
+}
+
+TEST(Types, SafeSqrtKeepsNaN) {
+  EXPECT_EQ(mc::safe_sqrt(-1e-9f), 0.0f);
+  EXPECT_EQ(mc::safe_sqrt(4.0), 2.0);
+  EXPECT_TRUE(std::isnan(mc::safe_sqrt(std::numeric_limits<double>::quiet_NaN())));
+}
+
+// [JeannerodLouvetMuller13]: 1.5 ulp, measured against 50 digits on products that nearly cancel.
+TEST(Types, DifferenceOfProductsDoesNotCancel) {
+  mc::Pcg random(3);
+  double worst = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const float a = random.uniform<float>() + 0.5f, b = random.uniform<float>() + 0.5f;
+    const float c = b * (1 + 1e-6f * random.uniform<float>()), d = a;
+    const double exact = double(a) * double(b) - double(c) * double(d); // exact: 24-bit products fit 53 bits
+    const double got = mc::difference_of_products(a, b, c, d);
+    if (exact != 0) worst = std::max(worst, std::abs(got - exact) / std::abs(exact) / std::numeric_limits<float>::epsilon());
+  }
+  EXPECT_LE(worst, 1.5);
+}
+
+TEST(Types, TurnStaysInTheUnitInterval) {
+  EXPECT_EQ(mc::turn(0.0f, 0.0f), 0.0f);
+  EXPECT_EQ(mc::turn(0.0f, 1.0f), 0.25f);
+  const float below = mc::turn(1.0f, -std::numeric_limits<float>::denorm_min());
+  EXPECT_TRUE(below >= 0 && below < 1) << below;
+  EXPECT_LT(mc::turn(-1.0, -1e-300), 1.0);
+  EXPECT_NEAR(mc::turn(0.0, -1.0), 0.75, 1e-15);
+}
+
+} // namespace
