@@ -1,0 +1,51 @@
+#pragma once
+/// Ray queries against all shapes of a scene.
+
+#include <render/accel/wide_tree.h>
+#include <render/shape/shape.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace render {
+
+struct Shear;
+
+/// Nearest and any hit of single rays.
+///   triangles : watertight [WoopBenthinWald13] for inside or outside, re-decided in double on an exact edge; distance from the
+///               plane equation in double, since Woop's own is off by up to a percent
+///   spheres   : in double
+///   Degenerate triangles are left out. Immutable after construction, so threads share it. It copies what it needs: the shapes
+///   need not outlive it.
+class Bvh {
+ public:
+  Bvh() = default;
+  explicit Bvh(std::span<const Shape> shapes);
+
+  std::optional<Hit> intersect(const Ray& ray) const;
+  bool occluded(const Ray& ray) const;
+  /// Box of everything; empty for an empty scene.
+  const Box& bounds() const { return bounds_; }
+
+ private:
+  typedef Float Four __attribute__((vector_size(4 * sizeof(Float))));
+  /// Four triangles; spare lanes repeat the last one.
+  struct TriangleBlock {
+    Four v[3][3]; ///< [vertex][axis]
+    std::uint32_t id[4];
+  };
+  struct TriangleId { int shape, prim; };
+
+  template <bool any> bool intersect_block(const TriangleBlock& block, const Ray& ray, const Shear& shear, Float& t_max, Hit& hit) const;
+  template <bool any> bool trace(const Ray& ray, Hit& hit) const;
+
+  WideTree triangle_tree_, sphere_tree_;
+  std::vector<TriangleBlock> blocks_;     ///< one per leaf
+  std::vector<TriangleId> triangle_ids_;
+  std::vector<Sphere> spheres_;           ///< in leaf order
+  std::vector<int> sphere_ids_;
+  Box bounds_;
+};
+
+} // namespace render

@@ -1,0 +1,142 @@
+#include <render/accel/wide_tree.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace render {
+
+/// A node of the binary tree that is collapsed afterwards. count > 0: a leaf over order[first, first + count).
+struct WideTree::Binary {
+  Box box;
+  std::uint32_t first = 0, count = 0, left = 0, right = 0;
+};
+
+namespace {
+
+constexpr int bins = 32;
+constexpr int deepest = 64; // beyond this depth halves are taken by count, which adds at most 32 levels
+
+struct Split { int axis = -1; int bin = 0; double cost = mc::infinity<double>; };
+
+double blocks(std::uint32_t n) { return double((n + WideTree::block - 1) / WideTree::block); }
+
+} // namespace
+
+WideTree::WideTree(const std::vector<Box>& boxes) : order_(boxes.size()) {
+  if (boxes.empty()) return;
+  std::iota(order_.begin(), order_.end(), 0u);
+  std::vector<Binary> tree(1);
+  tree[0].count = static_cast<std::uint32_t>(boxes.size());
+  for (const Box& b : boxes) tree[0].box.add(b);
+
+  const auto center = [&](std::uint32_t i, int axis) { return Float(0.5) * boxes[i].lo[axis] + Float(0.5) * boxes[i].hi[axis]; };
+  struct Task { std::uint32_t node; int depth; };
+  std::vector<Task> tasks = {{0, 0}};
+  while (!tasks.empty()) {
+    const auto [index, depth] = tasks.back();
+    tasks.pop_back();
+    const std::uint32_t first = tree[index].first, count = tree[index].count;
+    if (count <= block) continue;
+    const auto begin = order_.begin() + first, end = begin + count;
+
+    Box centers;
+    for (auto it = begin; it != end; ++it) centers.add(Vec3(center(*it, 0), center(*it, 1), center(*it, 2)));
+    const auto bin_of = [&](std::uint32_t i, int axis) {
+      const Float extent = centers.hi[axis] - centers.lo[axis];
+      return std::min(bins - 1, static_cast<int>((center(i, axis) - centers.lo[axis]) / extent * Float(bins)));
+    };
+
+    Split best;
+    for (int axis = 0; axis < 3 && depth < deepest; ++axis) {
+      if (!(centers.hi[axis] > centers.lo[axis])) continue;
+      std::array<Box, bins> box;
+      std::array<std::uint32_t, bins> n{};
+      for (auto it = begin; it != end; ++it) {
+        const int b = bin_of(*it, axis);
+        box[static_cast<std::size_t>(b)].add(boxes[*it]);
+        ++n[static_cast<std::size_t>(b)];
+      }
+      std::array<double, bins> right{};
+      Box sweep;
+      std::uint32_t swept = 0;
+      for (std::size_t b = bins - 1; b > 0; --b) {
+        sweep.add(box[b]);
+        right[b] = double(sweep.half_area()) * blocks(swept += n[b]);
+      }
+      sweep = Box{};
+      swept = 0;
+      for (std::size_t b = 0; b + 1 < bins; ++b) {
+        sweep.add(box[b]);
+        swept += n[b];
+        const double cost = double(sweep.half_area()) * blocks(swept) + right[b + 1];
+        if (swept > 0 && swept < count && cost < best.cost) best = {axis, static_cast<int>(b), cost};
+      }
+    }
+
+    auto middle = begin + count / 2; // identical centres, or too deep: halves by count
+    if (best.axis >= 0) {
+      middle = std::partition(begin, end, [&](std::uint32_t i) { return bin_of(i, best.axis) <= best.bin; });
+    } else {
+      int axis = 0;
+      (centers.hi - centers.lo).maxCoeff(&axis);
+      std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) { return center(a, axis) < center(b, axis); });
+    }
+
+    Binary left, right;
+    left.first = first;
+    left.count = static_cast<std::uint32_t>(middle - begin);
+    right.first = first + left.count;
+    right.count = count - left.count;
+    for (auto it = begin; it != middle; ++it) left.box.add(boxes[*it]);
+    for (auto it = middle; it != end; ++it) right.box.add(boxes[*it]);
+    const auto children = static_cast<std::uint32_t>(tree.size());
+    tree[index].count = 0;
+    tree[index].left = children;
+    tree[index].right = children + 1;
+    tree.push_back(left);
+    tree.push_back(right);
+    tasks.push_back({children, depth + 1});
+    tasks.push_back({children + 1, depth + 1});
+  }
+  collapse(tree, 0);
+}
+
+std::uint32_t WideTree::collapse(const std::vector<Binary>& binary, std::uint32_t root) {
+  const auto index = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.emplace_back();
+  std::array<std::uint32_t, 8> open{};
+  std::size_t n = 0;
+  open[n++] = root;
+  while (n < 8) {
+    int widest = -1;
+    for (std::size_t i = 0; i < n; ++i)
+      if (binary[open[i]].count == 0 && (widest < 0 || binary[open[i]].box.half_area() > binary[open[static_cast<std::size_t>(widest)]].box.half_area()))
+        widest = static_cast<int>(i);
+    if (widest < 0) break;
+    const Binary& opened = binary[open[static_cast<std::size_t>(widest)]];
+    open[static_cast<std::size_t>(widest)] = opened.left;
+    open[n++] = opened.right;
+  }
+  Node node;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Box box = i < n ? binary[open[i]].box : Box{}; // an empty box is never entered
+    for (int a = 0; a < 3; ++a) {
+      node.bounds[a][i] = box.lo[a];
+      node.bounds[a + 3][i] = box.hi[a];
+    }
+    node.child[i] = leaf_bit;
+    if (i >= n) continue;
+    const Binary& child = binary[open[i]];
+    if (child.count > 0) {
+      node.child[i] = leaf_bit | static_cast<std::uint32_t>(leaves_.size());
+      leaves_.push_back({child.first, child.count});
+    } else {
+      node.child[i] = collapse(binary, open[i]);
+    }
+  }
+  nodes_[index] = node;
+  return index;
+}
+
+} // namespace render

@@ -1,0 +1,146 @@
+#pragma once
+/// An 8-wide bounding volume hierarchy over boxes, traversed one ray at a time.
+
+#include <render/core/ray.h>
+
+#include <cstdint>
+#include <vector>
+
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+namespace render {
+
+/// Eight lanes of Float; the compiler maps them to the widest registers it may use.
+typedef Float Lanes __attribute__((vector_size(8 * sizeof(Float))));
+
+/// An axis-aligned box; empty until something is added.
+struct Box {
+  Vec3 lo = Vec3::Constant(mc::infinity<Float>), hi = Vec3::Constant(-mc::infinity<Float>);
+
+  void add(const Vec3& p) { lo = lo.cwiseMin(p), hi = hi.cwiseMax(p); }
+  void add(const Box& b) { lo = lo.cwiseMin(b.lo), hi = hi.cwiseMax(b.hi); }
+  /// Half the surface area; 0 when empty.
+  Float half_area() const {
+    const Vec3 e = hi - lo;
+    return e.x() >= 0 ? e.x() * e.y() + e.y() * e.z() + e.z() * e.x() : Float(0);
+  }
+};
+
+/// The hierarchy. Leaves are blocks of up to `block` primitives that the owner intersects.
+///   build  : binned SAH [Wald07] with 32 bins, costs counted in blocks, collapsed to 8 children by opening the largest box
+///   ray    : IEEE slabs: 1/0 = inf, and a NaN from 0 * inf never rejects a box, so axis-parallel rays in box planes hit
+class WideTree {
+ public:
+  static constexpr int block = 4;
+
+  /// Builds over the boxes; order()[first .. first + count) are then the boxes of a leaf.
+  explicit WideTree(const std::vector<Box>& boxes);
+  WideTree() = default;
+
+  const std::vector<std::uint32_t>& order() const { return order_; }
+  struct Leaf { std::uint32_t first, count; };
+  const std::vector<Leaf>& leaves() const { return leaves_; }
+  bool empty() const { return nodes_.empty(); }
+  std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
+
+  /// Calls leaf(index, t_max) for each leaf that the ray may enter before t_max, near ones first; `leaf` may shorten t_max and
+  /// returns true to stop.
+  template <class F> void traverse(const Ray& ray, Float& t_max, F&& leaf) const;
+
+ private:
+  struct alignas(64) Node {
+    Lanes bounds[6]; ///< lo x, lo y, lo z, hi x, hi y, hi z
+    std::uint32_t child[8];
+  };
+  static constexpr std::uint32_t leaf_bit = 0x80000000u;
+  static constexpr int stack_size = 768; ///< 7 per level; the builder bounds the depth
+
+  struct Binary;
+  std::uint32_t collapse(const std::vector<Binary>& binary, std::uint32_t root);
+
+  std::vector<Node> nodes_;
+  std::vector<Leaf> leaves_;
+  std::vector<std::uint32_t> order_;
+};
+
+namespace detail {
+
+/// Bit i is set where lane i of the comparison a <= b holds.
+inline unsigned less_equal(const Lanes& a, const Lanes& b) {
+#if defined(__AVX__)
+  if constexpr (sizeof(Float) == 4) {
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(reinterpret_cast<const __m256&>(a), reinterpret_cast<const __m256&>(b), _CMP_LE_OQ)));
+  }
+#endif
+  unsigned mask = 0;
+  for (int i = 0; i < 8; ++i) mask |= static_cast<unsigned>(a[i] <= b[i]) << i;
+  return mask;
+}
+
+} // namespace detail
+
+template <class F> void WideTree::traverse(const Ray& ray, Float& t_max, F&& leaf) const {
+  if (nodes_.empty()) return;
+  struct Entry { std::uint32_t child; Float t; };
+  Entry stack[stack_size];
+  int size = 0;
+
+  const Vec3 rd = ray.d.cwiseInverse();
+  Lanes o[3], r[3];
+  int near[3], far[3];
+  for (int a = 0; a < 3; ++a) {
+    o[a] = ray.o[a] - Lanes{};
+    r[a] = rd[a] - Lanes{};
+    near[a] = std::signbit(rd[a]) ? a + 3 : a;
+    far[a] = std::signbit(rd[a]) ? a : a + 3;
+  }
+  // Grows the far distance by the rounding of the slab products, so that no box is missed [Ize13].
+  const Lanes grow = (1 + 4 * std::numeric_limits<Float>::epsilon()) - Lanes{};
+
+  std::uint32_t current = 0;
+  while (true) {
+    if (!(current & leaf_bit)) {
+      const Node& node = nodes_[current];
+      Lanes enter = Lanes{}, exit = t_max - Lanes{};
+      for (int a = 0; a < 3; ++a) {
+        const Lanes t0 = (node.bounds[near[a]] - o[a]) * r[a];
+        const Lanes t1 = (node.bounds[far[a]] - o[a]) * r[a] * grow;
+        enter = t0 > enter ? t0 : enter; // NaN keeps the old value
+        exit = t1 < exit ? t1 : exit;
+      }
+      unsigned mask = detail::less_equal(enter, exit);
+      if (mask != 0) {
+        // The nearest child next, the others on the stack with nearer ones on top.
+        const int first = __builtin_ctz(mask);
+        mask &= mask - 1;
+        current = node.child[first];
+        if (mask == 0) continue;
+        Float t = enter[first];
+        const int base = size;
+        for (; mask != 0; mask &= mask - 1) {
+          const int i = __builtin_ctz(mask);
+          Entry entry{node.child[i], enter[i]};
+          if (entry.t < t) {
+            std::swap(entry.child, current);
+            std::swap(entry.t, t);
+          }
+          int k = size++;
+          for (; k > base && stack[k - 1].t < entry.t; --k) stack[k] = stack[k - 1];
+          stack[k] = entry;
+        }
+        continue;
+      }
+    } else if (leaf(current & ~leaf_bit, t_max)) {
+      return;
+    }
+    do {
+      if (size == 0) return;
+      --size;
+    } while (stack[size].t > t_max);
+    current = stack[size].child;
+  }
+}
+
+} // namespace render

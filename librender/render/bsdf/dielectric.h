@@ -1,0 +1,47 @@
+#pragma once
+/// Smooth glass.
+
+#include <render/bsdf/concept.h>
+
+#include <cmath>
+
+namespace render {
+
+/// Fresnel reflectance of a smooth dielectric for unpolarised light: mean of the squared parallel and perpendicular amplitudes.
+///   cos_i : cosine of incidence in [0,1];  eta : index of the far side over that of the near side
+///   cos_t : set to the cosine of refraction; 0 at total internal reflection, where the result is 1
+struct Fresnel { Float reflectance, cos_t; };
+inline Fresnel fresnel_dielectric(Float cos_i, Float eta) {
+  const Float sin2_t = (1 - cos_i) * (1 + cos_i) / (eta * eta);
+  if (!(sin2_t < 1)) return {1, 0};
+  const Float cos_t = std::sqrt(1 - sin2_t);
+  const Float parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  const Float perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+  return {(parallel * parallel + perpendicular * perpendicular) / 2, cos_t};
+}
+
+/// Smooth boundary to a medium of relative index eta (inside over outside, the normal points outside): two delta lobes,
+/// chosen by the Fresnel reflectance.
+///   f      : radiance is divided by the squared relative index on refraction, so that etendue is conserved
+///   Source : Fresnel's equations, [BornWolf99] section 1.5; exact, not Schlick's fit
+struct Dielectric {
+  Float eta = Float(1.5);
+  Spectrum reflectance = Spectrum::Ones();
+  Spectrum transmittance = Spectrum::Ones();
+
+  std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2&) const {
+    const Float cos_i = std::abs(wo.z());
+    if (!(cos_i > 0)) return {};
+    const Float ratio = wo.z() > 0 ? eta : 1 / eta;
+    const auto [r, cos_t] = fresnel_dielectric(cos_i, ratio);
+    if (uc < r) return BsdfSample{{-wo.x(), -wo.y(), wo.z()}, reflectance * (r / cos_i), r, true};
+    const Float t = 1 - r;
+    const Vec3 wi(-wo.x() / ratio, -wo.y() / ratio, wo.z() > 0 ? -cos_t : cos_t);
+    return BsdfSample{wi.normalized(), transmittance * (t / (ratio * ratio * cos_t)), t, true, true};
+  }
+  Spectrum eval(const Vec3&, const Vec3&) const { return Spectrum::Zero(); }
+  Float pdf(const Vec3&, const Vec3&) const { return 0; }
+  bool is_delta() const { return true; }
+};
+
+} // namespace render

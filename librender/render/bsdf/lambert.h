@@ -1,0 +1,32 @@
+#pragma once
+/// Perfectly diffuse reflection.
+
+#include <render/bsdf/concept.h>
+
+#include <mc/warp/hemisphere.h>
+
+namespace render {
+
+/// Lambertian reflector, the same on both sides.
+///   eval   : albedo / pi where wo and wi lie on the same side, else 0
+///   sample : cosine hemisphere on the side of wo; pdf |cos wi| / pi [1/sr]
+struct Lambert {
+  Spectrum albedo = Spectrum::Constant(Float(0.5));
+
+  std::optional<BsdfSample> sample(const Vec3& wo, Float, const Vec2& u) const {
+    Vec3 wi = mc::CosineHemisphere<Float>{}.sample(u);
+    const Float density = wi.z() / mc::pi<Float>;
+    if (!(density > 0)) return {};
+    if (wo.z() < 0) wi.z() = -wi.z();
+    return BsdfSample{wi, albedo / mc::pi<Float>, density};
+  }
+  Spectrum eval(const Vec3& wo, const Vec3& wi) const {
+    return wo.z() * wi.z() > 0 ? Spectrum(albedo / mc::pi<Float>) : Spectrum(Spectrum::Zero());
+  }
+  Float pdf(const Vec3& wo, const Vec3& wi) const {
+    return wo.z() * wi.z() > 0 ? std::abs(wi.z()) / mc::pi<Float> : Float(0);
+  }
+  bool is_delta() const { return false; }
+};
+
+} // namespace render

@@ -1,0 +1,52 @@
+#pragma once
+/// Pixel reconstruction filters, applied by importance sampling.
+
+#include <render/core/types.h>
+
+#include <cmath>
+#include <variant>
+
+namespace render {
+
+/// Offset of a sample from the pixel's centre [pixels], u in [0,1)^2. Samples belong to one pixel each and weigh the same, so
+/// pixels stay independent estimates [ErnstEtAl06].
+struct BoxFilter {
+  Float radius = Float(0.5);
+  Vec2 sample(const Vec2& u) const { return radius * (2 * u - Vec2::Ones()); }
+};
+
+/// Triangle function of half width `radius`; variance radius^2 / 6 per axis.
+struct TentFilter {
+  Float radius = 1;
+  static Float tent(Float u) { return u < Float(0.5) ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); }
+  Vec2 sample(const Vec2& u) const { return {radius * tent(u[0]), radius * tent(u[1])}; }
+};
+
+/// Normal distribution of standard deviation sigma [pixels], not truncated; by Box and Muller's transform.
+struct GaussianFilter {
+  Float sigma = Float(0.5);
+  Vec2 sample(const Vec2& u) const {
+    const Float r = sigma * std::sqrt(-2 * std::log1p(-u[0])), phi = 2 * mc::pi<Float> * u[1];
+    return {r * std::cos(phi), r * std::sin(phi)};
+  }
+};
+
+/// The mean of n x n tents of half width `radius`, one about the centre of each subpixel: the filter of smallpt (n = 2).
+struct SubpixelTentFilter {
+  int n = 2;
+  Float radius = Float(0.5);
+  Float axis(Float u) const {
+    const Float cell = std::min(std::floor(u * Float(n)), Float(n - 1));
+    return (cell + Float(0.5)) / Float(n) - Float(0.5) + radius * TentFilter::tent(u * Float(n) - cell);
+  }
+  Vec2 sample(const Vec2& u) const { return {axis(u[0]), axis(u[1])}; }
+};
+
+struct Filter : std::variant<BoxFilter, TentFilter, GaussianFilter, SubpixelTentFilter> {
+  using variant::variant;
+  Vec2 sample(const Vec2& u) const {
+    return std::visit([&](const auto& f) { return f.sample(u); }, static_cast<const variant&>(*this));
+  }
+};
+
+} // namespace render

@@ -1,0 +1,115 @@
+#include <render/shape/triangle_mesh.h>
+
+#include <mc/core/error.h>
+
+#include <algorithm>
+
+namespace render {
+
+namespace {
+
+Vec3d normal_of(const std::array<Vec3, 3>& v) {
+  const Vec3d a = v[0].cast<double>();
+  return mc::cross<double>(v[1].cast<double>() - a, v[2].cast<double>() - a);
+}
+
+std::vector<Vec3> transformed(const std::vector<Vec3d>& points, const Transform& to_world) {
+  std::vector<Vec3> result;
+  for (const Vec3d& p : points) result.push_back((to_world.leftCols<3>() * p + to_world.col(3)).cast<Float>());
+  return result;
+}
+
+} // namespace
+
+TriangleMesh::TriangleMesh(std::vector<Vec3> positions, std::vector<std::array<std::uint32_t, 3>> triangles,
+                           std::vector<Vec3> normals, std::vector<Vec2> uvs)
+    : positions_(std::move(positions)), triangles_(std::move(triangles)), normals_(std::move(normals)), uvs_(std::move(uvs)) {
+  mc::require(!triangles_.empty(), "mesh: no triangle; at least one is needed");
+  for (std::size_t i = 0; i < positions_.size(); ++i)
+    mc::require(positions_[i].allFinite(), "mesh: vertex {} = ({}, {}, {}) is not finite", i, positions_[i].x(), positions_[i].y(),
+                positions_[i].z());
+  for (std::size_t i = 0; i < triangles_.size(); ++i)
+    for (const std::uint32_t v : triangles_[i])
+      mc::require(v < positions_.size(), "mesh: triangle {} names vertex {}, but there are only {}", i, v, positions_.size());
+  mc::require(normals_.empty() || normals_.size() == positions_.size(), "mesh: {} normals for {} vertices; give one each or none",
+              normals_.size(), positions_.size());
+  mc::require(uvs_.empty() || uvs_.size() == positions_.size(), "mesh: {} texture coordinates for {} vertices; give one each or none",
+              uvs_.size(), positions_.size());
+  cumulative_area_.reserve(triangles_.size());
+  for (std::size_t i = 0; i < triangles_.size(); ++i) cumulative_area_.push_back(area_ += normal_of(vertices(i)).norm() / 2);
+}
+
+TriangleMesh TriangleMesh::rectangle(const Transform& to_world) {
+  const std::vector<Vec3d> corners = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  return {transformed(corners, to_world), {{0, 1, 2}, {0, 2, 3}}, {}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+}
+
+TriangleMesh TriangleMesh::box(const Transform& to_world) {
+  std::vector<Vec3d> corners;
+  for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  // Faces as quads, counter-clockwise seen from outside.
+  for (const std::array<std::uint32_t, 4>& q :
+       {std::array<std::uint32_t, 4>{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+    triangles.push_back({q[0], q[1], q[2]});
+    triangles.push_back({q[0], q[2], q[3]});
+  }
+  // A mirroring transform turns the winding inside out; turn it back.
+  if (to_world.leftCols<3>().determinant() < 0)
+    for (auto& t : triangles) std::swap(t[1], t[2]);
+  return {transformed(corners, to_world), std::move(triangles)};
+}
+
+SurfacePoint TriangleMesh::point(std::size_t triangle, double b1, double b2) const {
+  const auto v = vertices(triangle);
+  const double b0 = 1 - b1 - b2;
+  const auto& index = triangles_[triangle];
+  SurfacePoint s;
+  s.p = (b0 * v[0].cast<double>() + b1 * v[1].cast<double>() + b2 * v[2].cast<double>()).cast<Float>();
+  // Interpolated in double, rounded once: half an ulp of the largest coordinate, doubled for the rounding in double.
+  s.error = std::numeric_limits<Float>::epsilon() *
+            std::max({v[0].lpNorm<Eigen::Infinity>(), v[1].lpNorm<Eigen::Infinity>(), v[2].lpNorm<Eigen::Infinity>()});
+  s.ng = normal_of(v).normalized().cast<Float>();
+  s.ns = s.ng;
+  if (!normals_.empty()) {
+    const Vec3 n = Float(b0) * normals_[index[0]] + Float(b1) * normals_[index[1]] + Float(b2) * normals_[index[2]];
+    if (n.squaredNorm() > 0) s.ns = n.normalized();
+    if (s.ns.dot(s.ng) < 0) s.ns = -s.ns;
+  }
+  if (!uvs_.empty()) s.uv = Float(b0) * uvs_[index[0]] + Float(b1) * uvs_[index[1]] + Float(b2) * uvs_[index[2]];
+  s.prim = static_cast<int>(triangle);
+  return s;
+}
+
+SurfacePoint TriangleMesh::surface_point(const Ray&, const Hit& hit) const {
+  SurfacePoint s = point(static_cast<std::size_t>(hit.prim), double(hit.b1), double(hit.b2));
+  s.shape = hit.shape;
+  return s;
+}
+
+std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) const {
+  const double target = double(u[0]) * area_;
+  const auto it = std::upper_bound(cumulative_area_.begin(), cumulative_area_.end(), target);
+  if (it == cumulative_area_.end()) return {};
+  const auto triangle = static_cast<std::size_t>(it - cumulative_area_.begin());
+  const double below = triangle > 0 ? cumulative_area_[triangle - 1] : 0;
+  const double u0 = std::min((target - below) / (*it - below), 1 - 0x1p-53);
+  // Uniform barycentrics: sqrt makes strips of equal area parallel to the edge opposite vertex 0.
+  const double root = std::sqrt(u0), b1 = root * (1 - double(u[1])), b2 = root * double(u[1]);
+  ShapeSample s;
+  s.point = point(triangle, b1, b2);
+  const Vec3 between = s.point.p - ref;
+  const Float distance2 = between.squaredNorm();
+  if (!(distance2 > 0)) return {};
+  s.wi = between / std::sqrt(distance2);
+  s.pdf = pdf(ref, s.wi, s.point);
+  if (!(s.pdf > 0) || !std::isfinite(s.pdf)) return {};
+  return s;
+}
+
+Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {
+  const Float cosine = std::abs(hit.ng.dot(wi));
+  return cosine > 0 ? (hit.p - ref).squaredNorm() / (cosine * Float(area_)) : Float(0);
+}
+
+} // namespace render
