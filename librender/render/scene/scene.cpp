@@ -1,0 +1,58 @@
+#include <render/scene/scene.h>
+
+#include <mc/core/error.h>
+
+#include <algorithm>
+
+namespace render {
+
+int Scene::add(Shape shape, int bsdf, std::optional<AreaLight> light) {
+  const int index = static_cast<int>(shapes.size());
+  shapes.push_back(std::move(shape));
+  shape_bsdf.push_back(bsdf);
+  shape_light.push_back(light ? static_cast<int>(lights.size()) : -1);
+  if (light) {
+    light->shape = index;
+    lights.push_back(*light);
+  }
+  return index;
+}
+
+void Scene::prepare() {
+  mc::require(!shapes.empty() || background, "scene: it has neither a shape nor a background; add at least one");
+  mc::require(shape_bsdf.size() == shapes.size() && shape_light.size() == shapes.size(), "scene: every shape needs a BSDF and a light index");
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    mc::require(shape_bsdf[i] >= 0 && static_cast<std::size_t>(shape_bsdf[i]) < bsdfs.size(), "scene: shape {} names BSDF {} of {}", i,
+                shape_bsdf[i], bsdfs.size());
+
+  double total = 0;
+  std::vector<double> power;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const AreaLight& light = lights[i];
+    mc::require((light.radiance >= 0).all() && light.radiance.isFinite().all(), "scene: light {} has radiance ({}, {}, {}); it must be finite and >= 0",
+                i, light.radiance[0], light.radiance[1], light.radiance[2]);
+    const double area = shapes[static_cast<std::size_t>(light.shape)].area();
+    mc::require(area > 0, "scene: light {} is shape {} of area {}; an emitting shape needs an area > 0", i, light.shape, area);
+    power.push_back(area * double(luminance(light.radiance)) * (light.two_sided ? 2 : 1));
+    total += power.back();
+  }
+  light_pmf_.clear();
+  light_cdf_.clear();
+  double below = 0;
+  for (const double p : power) {
+    const double pmf = total > 0 ? p / total : 1.0 / double(power.size());
+    light_pmf_.push_back(Float(pmf));
+    light_cdf_.push_back(Float(below += pmf));
+  }
+  bvh_ = Bvh(shapes);
+}
+
+Scene::LightChoice Scene::choose_light(Float uc) const {
+  MC_ASSERT(!lights.empty());
+  auto i = static_cast<std::size_t>(std::upper_bound(light_cdf_.begin(), light_cdf_.end(), uc) - light_cdf_.begin());
+  i = std::min(i, lights.size() - 1);
+  while (i > 0 && light_pmf_[i] == 0) --i; // rounding may leave the last sum below uc
+  return {static_cast<int>(i), light_pmf_[i]};
+}
+
+} // namespace render
