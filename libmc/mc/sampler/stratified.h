@@ -41,7 +41,7 @@ class Stratified {
     const std::uint32_t d = group_ - dim % group_;
     const Slab s = slab(box, n, d);
     // The slab [start, start + size) of n boxes, jittered: exact 64-bit fractions, so never 1.
-    using Wide = unsigned __int128;
+    __extension__ using Wide = unsigned __int128;
     const Wide offset = Wide{s.size} * jitter;
     return static_cast<std::uint64_t>(((Wide{s.start} << 64) + offset) / n);
   }

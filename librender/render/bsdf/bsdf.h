@@ -1,11 +1,10 @@
 #pragma once
 /// The closed set of BSDFs.
 
+#include <render/core/dispatch.h>
 #include <render/bsdf/dielectric.h>
 #include <render/bsdf/lambert.h>
 #include <render/bsdf/metal.h>
-
-#include <variant>
 
 namespace render {
 
@@ -14,20 +13,17 @@ struct Bsdf : std::variant<Lambert, Metal, Dielectric> {
   using variant::variant;
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
-    return visit([&](const auto& b) { return b.sample(wo, uc, u); });
+    return dispatch(*this, [&](const auto& b) { return b.sample(wo, uc, u); });
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
-    return visit([&](const auto& b) { return b.eval(wo, wi); });
+    return dispatch(*this, [&](const auto& b) { return b.eval(wo, wi); });
   }
   Float pdf(const Vec3& wo, const Vec3& wi) const {
-    return visit([&](const auto& b) { return b.pdf(wo, wi); });
+    return dispatch(*this, [&](const auto& b) { return b.pdf(wo, wi); });
   }
   bool is_delta() const {
-    return visit([](const auto& b) { return b.is_delta(); });
+    return dispatch(*this, [](const auto& b) { return b.is_delta(); });
   }
-
- private:
-  template <class F> decltype(auto) visit(F&& f) const { return std::visit(f, static_cast<const variant&>(*this)); }
 };
 
 } // namespace render

@@ -1,10 +1,10 @@
 #pragma once
 /// Pixel reconstruction filters, applied by importance sampling.
 
+#include <render/core/dispatch.h>
 #include <render/core/types.h>
 
 #include <cmath>
-#include <variant>
 
 namespace render {
 
@@ -45,7 +45,7 @@ struct SubpixelTentFilter {
 struct Filter : std::variant<BoxFilter, TentFilter, GaussianFilter, SubpixelTentFilter> {
   using variant::variant;
   Vec2 sample(const Vec2& u) const {
-    return std::visit([&](const auto& f) { return f.sample(u); }, static_cast<const variant&>(*this));
+    return dispatch(*this, [&](const auto& f) { return f.sample(u); });
   }
 };
 

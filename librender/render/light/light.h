@@ -1,9 +1,9 @@
 #pragma once
 /// Lights.
 
+#include <render/core/dispatch.h>
 #include <render/core/types.h>
 
-#include <variant>
 
 namespace render {
 
@@ -38,7 +38,7 @@ struct Background : std::variant<ConstantBackground, GradientBackground> {
   using variant::variant;
   /// Radiance that arrives along the unit direction d away from the scene.
   Spectrum eval(const Vec3& d) const {
-    return std::visit([&](const auto& b) { return b.eval(d); }, static_cast<const variant&>(*this));
+    return dispatch(*this, [&](const auto& b) { return b.eval(d); });
   }
 };
 

@@ -42,14 +42,15 @@ struct ShapeSample {
 
 /// Shapes are a closed set (shape.h). Each models:
 ///   sample(ref, u)    : u in [0,1)^2 -> a point of the shape as seen from ref, nullopt where none can be seen
-///   pdf(ref, wi, hit) : density [1/sr] with which sample(ref, .) picks the direction wi that meets the shape at `hit`
+///   pdf(ref, wi, hit) : density [1/sr] with which sample(ref, .) picks wi, as far as it is due to the point `hit`
+///   pdf(ref, wi)      : density [1/sr] of the direction wi: the sum over all points where it meets the shape
 ///   area()            : total area
-///   bounds()          : axis-aligned box
 ///   surface_point     : the point of a Hit
 template <class T>
 concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint hit, Ray ray, Hit h) {
   { s.sample(ref, u) } -> std::same_as<std::optional<ShapeSample>>;
   { s.pdf(ref, wi, hit) } -> std::convertible_to<Float>;
+  { s.pdf(ref, wi) } -> std::convertible_to<Float>;
   { s.area() } -> std::convertible_to<double>;
   { s.surface_point(ray, h) } -> std::same_as<SurfacePoint>;
 };

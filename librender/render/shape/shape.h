@@ -1,10 +1,9 @@
 #pragma once
 /// The closed set of shapes.
 
+#include <render/core/dispatch.h>
 #include <render/shape/sphere.h>
 #include <render/shape/triangle_mesh.h>
-
-#include <variant>
 
 namespace render {
 
@@ -13,20 +12,20 @@ struct Shape : std::variant<TriangleMesh, Sphere> {
   using variant::variant;
 
   std::optional<ShapeSample> sample(const Vec3& ref, const Vec2& u) const {
-    return visit([&](const auto& s) { return s.sample(ref, u); });
+    return dispatch(*this, [&](const auto& s) { return s.sample(ref, u); });
   }
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {
-    return visit([&](const auto& s) { return s.pdf(ref, wi, hit); });
+    return dispatch(*this, [&](const auto& s) { return s.pdf(ref, wi, hit); });
+  }
+  Float pdf(const Vec3& ref, const Vec3& wi) const {
+    return dispatch(*this, [&](const auto& s) { return s.pdf(ref, wi); });
   }
   double area() const {
-    return visit([](const auto& s) { return s.area(); });
+    return dispatch(*this, [](const auto& s) { return s.area(); });
   }
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const {
-    return visit([&](const auto& s) { return s.surface_point(ray, hit); });
+    return dispatch(*this, [&](const auto& s) { return s.surface_point(ray, hit); });
   }
-
- private:
-  template <class F> decltype(auto) visit(F&& f) const { return std::visit(f, static_cast<const variant&>(*this)); }
 };
 
 } // namespace render

@@ -100,4 +100,20 @@ Float Sphere::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) cons
   return cosine > 0 ? (hit.p - ref).squaredNorm() / (cosine * Float(area())) : Float(0);
 }
 
+Float Sphere::pdf(const Vec3& ref, const Vec3& wi) const {
+  Float sum = 0;
+  // At most two crossings, seen from ref; from outside a whole sphere both belong to the same cone and count once.
+  const Vec3d oc = ref.cast<double>() - center_, d = wi.cast<double>();
+  const double b = -oc.dot(d), discriminant = radius_ * radius_ - (oc + d * b).squaredNorm();
+  if (!(discriminant >= 0)) return 0;
+  const double half = std::sqrt(discriminant);
+  for (const double t : {b - half, b + half}) {
+    const Vec3d direction = (oc + t * d) / radius_;
+    if (!(t > 0) || (is_cap() && !(direction.dot(axis_) * radius_ >= radius_ - height_))) continue;
+    sum += pdf(ref, wi, point(direction));
+    if (cone(oc.squaredNorm())) break;
+  }
+  return sum;
+}
+
 } // namespace render

@@ -21,6 +21,7 @@ class Sphere {
 
   std::optional<ShapeSample> sample(const Vec3& ref, const Vec2& u) const;
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const;
+  Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 

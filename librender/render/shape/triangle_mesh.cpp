@@ -112,4 +112,20 @@ Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit
   return cosine > 0 ? (hit.p - ref).squaredNorm() / (cosine * Float(area_)) : Float(0);
 }
 
+Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi) const {
+  const Vec3d o = ref.cast<double>(), d = wi.cast<double>();
+  double sum = 0;
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    // Moeller and Trumbore's test; t^2 / (|cos| area) with |cos| = |n . d| / |n| [MoellerTrumbore97].
+    const auto v = vertices(i);
+    const Vec3d a = v[0].cast<double>(), e1 = v[1].cast<double>() - a, e2 = v[2].cast<double>() - a, n = mc::cross<double>(e1, e2);
+    const double det = -n.dot(d);
+    if (det == 0) continue;
+    const Vec3d s = o - a, q = mc::cross<double>(s, d);
+    const double t = n.dot(s) / det, b1 = e2.dot(q) / det, b2 = -e1.dot(q) / det;
+    if (t > 0 && b1 >= 0 && b2 >= 0 && b1 + b2 <= 1) sum += t * t * d.squaredNorm() * n.norm() / std::abs(det);
+  }
+  return Float(sum / area_);
+}
+
 } // namespace render

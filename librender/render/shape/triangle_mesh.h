@@ -28,6 +28,7 @@ class TriangleMesh {
 
   std::optional<ShapeSample> sample(const Vec3& ref, const Vec2& u) const;
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const;
+  Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const { return area_; }
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
