@@ -33,6 +33,7 @@ template <class Stream>
 Tally render_row(const Scene& scene, const RenderOptions& options, const PathOptions& path, const Pass& pass, int y, Film& film) {
   Tally tally;
   const Vec2 scale(1 / Float(film.width()), 1 / Float(film.height()));
+  const Vec2 tan_half = scene.camera.tan_half(Float(film.width()) / Float(film.height()));
   for (int x = 0; x < film.width(); ++x) {
     const std::uint64_t key = mc::hash(options.seed, static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x), pass.number);
     Eigen::Array3d sum = Eigen::Array3d::Zero();
@@ -41,7 +42,7 @@ Tally render_row(const Scene& scene, const RenderOptions& options, const PathOpt
       Stream stream(key, pass.count, i);
       const Vec2 offset = scene.filter.sample(stream.next2());
       const Vec2 s = (Vec2(Float(x) + Float(0.5), Float(y) + Float(0.5)) + offset).cwiseProduct(scale);
-      const Ray ray = scene.camera.ray(s, scene.camera.lens_radius > 0 ? stream.next2() : Vec2(Vec2::Zero()));
+      const Ray ray = scene.camera.ray(s, tan_half, scene.camera.lens_radius > 0 ? stream.next2() : Vec2(Vec2::Zero()));
       const Spectrum radiance = trace_path(scene, ray, stream, path, tally.rays);
       ++tally.samples;
       if (!radiance.isFinite().all()) [[unlikely]] {

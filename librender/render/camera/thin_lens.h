@@ -8,16 +8,26 @@
 namespace render {
 
 /// A thin lens focused on a plane; lens_radius 0 is a pinhole.
-///   ray(s, u) : s in [0,1]^2 across the film, (0,0) its top left corner; u in [0,1)^2 chooses the point of the lens
-///   The ray starts on the plane at distance `near` before the lens [scene units], so that what stands closer is cut away.
 struct ThinLens {
+  /// Which side of the film the field of view spans.
+  enum class FovAxis { x, y, smaller, larger };
+
   Vec3 origin = Vec3::Zero();
   Vec3 right = Vec3::UnitX(), up = Vec3::UnitY(), forward = -Vec3::UnitZ(); ///< orthonormal
-  Float tan_half_x = 1, tan_half_y = 1; ///< tangents of half the horizontal and vertical field of view
-  Float lens_radius = 0, focus_distance = 1, near = 0;
+  FovAxis fov_axis = FovAxis::y;
+  Float tan_half_fov = 1; ///< tangent of half the field of view along fov_axis
+  Float lens_radius = 0, focus_distance = 1;
+  Float near = 0; ///< what stands closer before the lens is cut away [scene units]
 
-  Ray ray(const Vec2& s, const Vec2& u) const {
-    const Vec3 toward = right * ((2 * s[0] - 1) * tan_half_x) + up * ((1 - 2 * s[1]) * tan_half_y) + forward;
+  /// Tangents of half the horizontal and vertical field of view for a film of width / height = aspect.
+  Vec2 tan_half(Float aspect) const {
+    const bool along_x = fov_axis == FovAxis::x || (fov_axis == FovAxis::smaller && aspect < 1) || (fov_axis == FovAxis::larger && aspect >= 1);
+    return along_x ? Vec2(tan_half_fov, tan_half_fov / aspect) : Vec2(tan_half_fov * aspect, tan_half_fov);
+  }
+
+  /// The ray through the film point s in [0,1]^2, (0,0) its top left corner; u in [0,1)^2 chooses the point of the lens.
+  Ray ray(const Vec2& s, const Vec2& tan_half_xy, const Vec2& u) const {
+    const Vec3 toward = right * ((2 * s[0] - 1) * tan_half_xy[0]) + up * ((1 - 2 * s[1]) * tan_half_xy[1]) + forward;
     Vec3 start = origin, d = toward;
     if (lens_radius > 0) {
       const Vec2 lens = lens_radius * mc::UniformDisk<Float>{}.sample(u);

@@ -1,0 +1,84 @@
+#include <render/io/formats.h>
+
+#include <mc/core/error.h>
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+
+#include <array>
+#include <vector>
+
+namespace render::formats {
+
+namespace {
+
+constexpr std::array<const char*, 6> channels = {"R", "G", "B", "variance.R", "variance.G", "variance.B"};
+
+// One plane of floats per channel, as OpenEXR wants them.
+struct Planes {
+  std::vector<std::vector<float>> plane;
+  int width;
+  Planes(std::size_t count, int w, int h) : plane(count, std::vector<float>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h))), width(w) {}
+  Imf::Slice slice(std::size_t c, int x0, int y0) {
+    const std::ptrdiff_t origin = -(static_cast<std::ptrdiff_t>(y0) * width + x0);
+    return {Imf::FLOAT, reinterpret_cast<char*>(plane[c].data() + origin), sizeof(float), sizeof(float) * static_cast<std::size_t>(width)};
+  }
+};
+
+} // namespace
+
+void write_exr(const std::string& path, const Image& image) {
+  const std::size_t count = image.variance.empty() ? 3 : 6;
+  Imf::Header header(image.width, image.height);
+  Imf::FrameBuffer frame;
+  Planes planes(count, image.width, image.height);
+  for (std::size_t c = 0; c < count; ++c) {
+    header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
+    const auto& source = c < 3 ? image.pixels : image.variance;
+    for (std::size_t i = 0; i < source.size(); ++i) planes.plane[c][i] = static_cast<float>(source[i][static_cast<int>(c % 3)]);
+    frame.insert(channels[c], planes.slice(c, 0, 0));
+  }
+  for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
+  try {
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height);
+  } catch (const std::exception& e) {
+    throw mc::Error(fmt::format("cannot write EXR: {}", e.what()));
+  }
+}
+
+Image read_exr(const std::string& path) {
+  try {
+    Imf::InputFile file(path.c_str());
+    const auto window = file.header().dataWindow();
+    const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
+    const bool with_variance = file.header().channels().findChannel(channels[3]) != nullptr;
+    for (std::size_t c = 0; c < 3; ++c)
+      mc::require(file.header().channels().findChannel(channels[c]) != nullptr, "EXR has no channel {}; R, G and B are needed", channels[c]);
+    Planes planes(with_variance ? 6 : 3, width, height);
+    Imf::FrameBuffer frame;
+    for (std::size_t c = 0; c < planes.plane.size(); ++c) frame.insert(channels[c], planes.slice(c, window.min.x, window.min.y));
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+    Image image(width, height);
+    if (with_variance) image.variance.resize(image.pixels.size());
+    for (std::size_t c = 0; c < planes.plane.size(); ++c) {
+      auto& target = c < 3 ? image.pixels : image.variance;
+      for (std::size_t i = 0; i < target.size(); ++i) target[i][static_cast<int>(c % 3)] = Float(planes.plane[c][i]);
+    }
+    for (auto it = file.header().begin(); it != file.header().end(); ++it)
+      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute())) image.metadata[it.name()] = text->value();
+    return image;
+  } catch (const mc::Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw mc::Error(fmt::format("cannot read EXR: {}", e.what()));
+  }
+}
+
+} // namespace render::formats

@@ -1,0 +1,16 @@
+#pragma once
+/// One reader or writer per image format, each with its outside library behind one .cpp. Called through image_io.h.
+
+#include <render/film/image.h>
+
+#include <string>
+
+namespace render::formats {
+
+void write_exr(const std::string& path, const Image& image);
+Image read_exr(const std::string& path);
+void write_pfm(const std::string& path, const Image& image);
+Image read_pfm(const std::string& path);
+void write_png(const std::string& path, const Image& image, double exposure);
+
+} // namespace render::formats

@@ -1,0 +1,72 @@
+#include <render/io/xml.h>
+
+#include <mc/core/error.h>
+#include <mc/core/file.h>
+
+#include <pugixml.hpp>
+
+#include <algorithm>
+
+namespace render {
+
+const std::string& XmlElement::attribute(std::string_view key) const {
+  const auto it = attributes_.find(std::string(key));
+  if (it == attributes_.end()) fail(fmt::format("attribute '{}' is missing", key));
+  it->second.seen = true;
+  return it->second.value;
+}
+
+std::string XmlElement::attribute_or(std::string_view key, std::string_view fallback) const {
+  return has(key) ? attribute(key) : std::string(fallback);
+}
+
+std::string XmlElement::where() const { return fmt::format("{}:{}", file, line); }
+
+void XmlElement::fail(const std::string& message) const { throw mc::Error(fmt::format("{}: <{}>: {}", where(), tag, message)); }
+
+void XmlElement::require_all_seen() const {
+  if (!seen_) {
+    const auto value = [&](const char* key) {
+      const auto it = attributes_.find(key);
+      return it == attributes_.end() ? std::string() : fmt::format(" {}=\"{}\"", key, it->second.value);
+    };
+    throw mc::Error(fmt::format("{}: <{}{}{}> is not supported here; remove it", where(), tag, value("type"), value("name")));
+  }
+  for (const auto& [key, attribute] : attributes_)
+    if (!attribute.seen) fail(fmt::format("attribute {}=\"{}\" is not supported; remove it", key, attribute.value));
+  for (const XmlElement& child : children) child.require_all_seen();
+}
+
+namespace {
+
+int line_at(const std::string& text, std::ptrdiff_t offset) {
+  const auto end = text.begin() + std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text.size()));
+  return 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
+}
+
+XmlElement convert(const pugi::xml_node& node, const std::string& path, const std::string& text) {
+  XmlElement element;
+  element.tag = node.name();
+  element.file = path;
+  element.line = line_at(text, node.offset_debug());
+  for (const auto& a : node.attributes()) element.set(a.name(), a.value());
+  for (const auto& child : node.children()) {
+    if (child.type() == pugi::node_element) element.children.push_back(convert(child, path, text));
+    else element.fail(fmt::format("text '{}' between elements is not supported; remove it", child.value()));
+  }
+  return element;
+}
+
+} // namespace
+
+XmlElement read_xml(const std::string& path) {
+  const std::string text = mc::read_file(path);
+  pugi::xml_document document;
+  const auto result = document.load_buffer(text.data(), text.size());
+  mc::require(bool(result), "{}:{}: broken XML: {}", path, line_at(text, result.offset), result.description());
+  const auto root = document.document_element();
+  mc::require(bool(root), "{}: no XML element; a <scene> is needed", path);
+  return convert(root, path, text);
+}
+
+} // namespace render
