@@ -5,7 +5,6 @@
 
 namespace carlo {
 
-int render(const RenderOptions&) { throw mc::Error("render: not built yet"); }
 int compare(const CompareOptions&) { throw mc::Error("compare: not built yet"); }
 int validate(const ValidateOptions&) { throw mc::Error("validate: not built yet"); }
 int converge(const ConvergeOptions&) { throw mc::Error("converge: not built yet"); }

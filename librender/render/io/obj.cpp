@@ -8,6 +8,8 @@
 #include <tiny_obj_loader.h>
 #pragma GCC diagnostic pop
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <cstdlib>
 #include <map>

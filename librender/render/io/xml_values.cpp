@@ -37,11 +37,11 @@ Transform look_at(const XmlElement& e) {
     return Vec3d(v[0], v[1], v[2]);
   };
   const Vec3d origin = point("origin"), forward = (point("target") - origin).normalized();
-  const Vec3d left = point("up").cross(forward);
+  const Vec3d left = mc::cross<double>(point("up"), forward);
   if (!(left.norm() > 0)) e.fail("lookAt: target - origin must not be 0 or parallel to up");
   Transform t;
   t.col(0) = left.normalized();
-  t.col(1) = forward.cross(left.normalized());
+  t.col(1) = mc::cross<double>(forward, left.normalized());
   t.col(2) = forward;
   t.col(3) = origin;
   return t;
@@ -54,7 +54,7 @@ Transform rotation(const XmlElement& e) {
   const Vec3d a = axis.normalized();
   const double angle = parse_number(e, e.attribute("angle")) * mc::pi<double> / 180, s = std::sin(angle), c = std::cos(angle);
   Transform t = Transform::Zero();
-  for (int i = 0; i < 3; ++i) t.col(i) = c * Vec3d::Unit(i) + s * a.cross(Vec3d::Unit(i)) + (1 - c) * a[i] * a;
+  for (int i = 0; i < 3; ++i) t.col(i) = c * Vec3d::Unit(i) + s * mc::cross<double>(a, Vec3d::Unit(i)) + (1 - c) * a[i] * a;
   return t;
 }
 

@@ -2,6 +2,8 @@
 
 #include <mc/core/error.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 
 namespace render {
