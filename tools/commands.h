@@ -40,6 +40,7 @@ struct CompareOptions {
   std::string metric;                       ///< empty: all
   std::string diff;                         ///< file for the difference image; empty: none
   double alpha = 0.01;                      ///< family-wise
+  double tolerance = 0;                     ///< relative difference that still counts as agreement
 };
 int compare(const CompareOptions& options);
 

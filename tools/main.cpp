@@ -40,9 +40,10 @@ void add_compare(CLI::App& app, carlo::CompareOptions& o) {
   c->footer(exit_codes);
   c->add_option("A", o.a, "Image")->required();
   c->add_option("B", o.b, "Image, the reference of relative metrics")->required();
-  c->add_option("--metric", o.metric, "Print only this: mse, rmse, mae, relmse, psnr [all]");
+  c->add_option("--metric", o.metric, "Print only this: mse, rmse, mae, relmse, max or mean_ratio [all, and the verdict]");
   c->add_option("--diff", o.diff, "Write the difference image to this file");
   c->add_option("--alpha", o.alpha, "Chance that two correct images are called different, over all tests")->capture_default_str();
+  c->add_option("--tolerance", o.tolerance, "Difference, relative to B, that still counts as agreement")->capture_default_str();
 }
 
 void add_validate(CLI::App& app, carlo::ValidateOptions& o) {
