@@ -73,9 +73,10 @@ class Comparison {
           const int x0 = std::max(x - 1, 0), y0 = std::max(y - 1, 0), x1 = std::min(x + 2, a_.width), y1 = std::min(y + 2, a_.height);
           const Cell around = sum(x0, y0, x1, y1, c);
           const double n = double(x1 - x0) * double(y1 - y0);
+          // The surroundings lend their variance, not their degrees of freedom: noise is far from normal within a pixel.
           cell.variance_a = around.variance_a / n;
           cell.variance_b = around.variance_b / n;
-          test(cell, 1, n, x, y, c, pixel);
+          test(cell, 1, 1, x, y, c, pixel);
         }
       for (int y = 0; y < a_.height; y += block_size)
         for (int x = 0; x < a_.width; x += block_size) {

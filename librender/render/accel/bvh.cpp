@@ -106,7 +106,9 @@ bool Bvh::intersect_block(const TriangleBlock& block, const Ray& ray, const Shea
     if (det == 0) continue;
 
     const auto vertex = [&](int k) { return Vec3d(block.v[k][0][lane], block.v[k][1][lane], block.v[k][2][lane]); };
-    const Vec3d p0 = vertex(0), e1 = vertex(1) - p0, e2 = vertex(2) - p0, n = mc::cross<double>(e1, e2);
+    // Differences of floats and their products are all but exact in double; no compensated product is needed.
+    const Vec3d p0 = vertex(0), e1 = vertex(1) - p0, e2 = vertex(2) - p0;
+    const Vec3d n(e1.y() * e2.z() - e1.z() * e2.y(), e1.z() * e2.x() - e1.x() * e2.z(), e1.x() * e2.y() - e1.y() * e2.x());
     const double t = n.dot(p0 - ray.o.cast<double>()) / n.dot(ray.d.cast<double>());
     if (!(t > 0 && t < double(t_max))) continue;
     if constexpr (any) return true;

@@ -37,8 +37,13 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, std::vector<std::array<s
               normals_.size(), positions_.size());
   mc::require(uvs_.empty() || uvs_.size() == positions_.size(), "mesh: {} texture coordinates for {} vertices; give one each or none",
               uvs_.size(), positions_.size());
-  cumulative_area_.reserve(triangles_.size());
-  for (std::size_t i = 0; i < triangles_.size(); ++i) cumulative_area_.push_back(area_ += normal_of(vertices(i)).norm() / 2);
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    const Vec3d n = normal_of(vertices(i));
+    cumulative_area_.push_back(area_ += n.norm() / 2);
+    face_normals_.push_back(n.stableNormalized().cast<Float>());
+  }
+  // Points are interpolated in double and rounded once: half an ulp of the largest coordinate, doubled for safety.
+  for (const Vec3& p : positions_) error_ = std::max(error_, std::numeric_limits<Float>::epsilon() * p.lpNorm<Eigen::Infinity>());
 }
 
 TriangleMesh TriangleMesh::rectangle(const Transform& to_world) {
@@ -68,10 +73,8 @@ SurfacePoint TriangleMesh::point(std::size_t triangle, double b1, double b2) con
   const auto& index = triangles_[triangle];
   SurfacePoint s;
   s.p = (b0 * v[0].cast<double>() + b1 * v[1].cast<double>() + b2 * v[2].cast<double>()).cast<Float>();
-  // Interpolated in double, rounded once: half an ulp of the largest coordinate, doubled for the rounding in double.
-  s.error = std::numeric_limits<Float>::epsilon() *
-            std::max({v[0].lpNorm<Eigen::Infinity>(), v[1].lpNorm<Eigen::Infinity>(), v[2].lpNorm<Eigen::Infinity>()});
-  s.ng = normal_of(v).normalized().cast<Float>();
+  s.error = error_;
+  s.ng = face_normals_[triangle];
   s.ns = s.ng;
   if (!normals_.empty()) {
     const Vec3 n = Float(b0) * normals_[index[0]] + Float(b1) * normals_[index[1]] + Float(b2) * normals_[index[2]];
