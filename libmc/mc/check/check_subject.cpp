@@ -1,0 +1,216 @@
+#include <mc/check/check_subject.h>
+
+#include <mc/check/cell_tests.h>
+#include <mc/check/cubature.h>
+#include <mc/check/partition.h>
+#include <mc/core/error.h>
+#include <mc/core/types.h>
+#include <mc/random/hash.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace mc {
+namespace {
+
+using Kind = Subject::Draw::Kind;
+
+// What single draws show, with the first witness of each fault.
+struct Tally {
+  struct Fault { std::uint64_t count = 0, seed = 0, index = 0; };
+  Fault failed, outside, not_finite, leak, weight;
+  double worst_weight = 0;
+  std::uint64_t n = 0;
+  std::vector<std::uint64_t> atoms;
+
+  static void note(Fault& f, std::uint64_t seed, std::uint64_t index) {
+    if (f.count++ == 0) f.seed = seed, f.index = index;
+  }
+};
+
+constexpr std::size_t chunk = 1 << 15;
+
+// Draws n samples in chunks; f(draw) for every point.
+template <class F> void draw(const Subject& s, std::uint64_t seed, std::uint64_t n, Tally& tally, F&& f) {
+  std::vector<Subject::Draw> draws;
+  for (std::uint64_t first = 0; first < n; first += chunk) {
+    const std::uint64_t stream = hash(seed, first / chunk);
+    draws.clear();
+    s.draw(stream, static_cast<std::size_t>(std::min<std::uint64_t>(chunk, n - first)), draws);
+    require(!draws.empty(), "{}: it draws no samples", s.name);
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+      const Subject::Draw& d = draws[i];
+      ++tally.n;
+      switch (d.kind) {
+      case Kind::failed: Tally::note(tally.failed, stream, i); continue;
+      case Kind::outside: Tally::note(tally.outside, stream, i); continue;
+      case Kind::not_finite: Tally::note(tally.not_finite, stream, i); continue;
+      case Kind::atom:
+      case Kind::point: break;
+      }
+      if (!d.pdf_positive) Tally::note(tally.leak, stream, i);
+      const double off = std::abs(d.weight - 1);
+      if (!(off <= s.weight_tolerance)) Tally::note(tally.weight, stream, i);
+      if (!(off <= tally.worst_weight)) tally.worst_weight = off;
+      if (d.kind == Kind::atom) {
+        if (d.atom < 0 || static_cast<std::size_t>(d.atom) >= s.atoms.size()) Tally::note(tally.outside, stream, i);
+        else ++tally.atoms[static_cast<std::size_t>(d.atom)];
+        continue;
+      }
+      f(d.v);
+    }
+  }
+}
+
+void per_sample(const Subject& s, const Tally& t, Report& report) {
+  const auto add = [&](const char* name, const Tally::Fault& f, Fault fault, double statistic, double limit) {
+    Check c{name, f.count == 0 ? Verdict::pass : Verdict::fail, {}, 0, statistic, limit, fault, {}};
+    if (f.count > 0) {
+      c.detail = fmt::format("{} of {} samples", f.count, t.n);
+      if (s.describe_draw) c.detail += fmt::format(", first {}", s.describe_draw(f.seed, f.index));
+    }
+    report.checks.push_back(std::move(c));
+  };
+  const auto count = [](const Tally::Fault& f) { return static_cast<double>(f.count); };
+  add("finite", t.not_finite, Fault::not_finite, count(t.not_finite), 0);
+  add("in the domain", t.outside, Fault::outside, count(t.outside), 0);
+  add("pdf > 0 at samples", t.leak, Fault::leak, count(t.leak), 0);
+  add("weight = f / pdf", t.weight, Fault::weight, t.worst_weight, s.weight_tolerance);
+  if (!s.may_fail) add("never fails", t.failed, Fault::leak, count(t.failed), 0);
+}
+
+// Ranks of a cell's faces in the pilot, per axis.
+struct Ranks {
+  std::array<std::vector<double>, 3> sorted;
+  Ranks(const std::vector<Partition::Coordinates>& pilot, int dim) {
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) {
+      for (const auto& v : pilot) sorted[d].push_back(v[d]);
+      std::sort(sorted[d].begin(), sorted[d].end());
+    }
+  }
+  double operator()(std::size_t axis, double v) const {
+    const auto& s = sorted[axis];
+    return static_cast<double>(std::lower_bound(s.begin(), s.end(), v) - s.begin()) / static_cast<double>(std::max<std::size_t>(s.size(), 1));
+  }
+};
+
+} // namespace
+
+Report check_subject(const Subject& s, const SubjectOptions& options) {
+  require(options.samples >= 1000, "check_subject: samples = {}; at least 1000 are needed", options.samples);
+  require(options.alpha > 0 && options.alpha < 1, "check_subject: alpha = {} must lie in (0, 1)", options.alpha);
+  const auto start = std::chrono::steady_clock::now();
+  Report report;
+  report.subject = s.name;
+  report.alpha = options.alpha;
+  report.samples = options.samples;
+
+  Tally tally;
+  tally.atoms.assign(s.atoms.size(), 0);
+  Tally pilot_tally = tally;
+  std::vector<Partition::Coordinates> pilot;
+  std::vector<Box> boxes;
+  CubatureResult masses;
+  std::vector<Cell> cells;
+  const double n = static_cast<double>(options.samples);
+
+  double atoms_mass = 0;
+  for (std::size_t i = 0; i < s.atoms.size(); ++i) {
+    require(s.atoms[i] >= 0 && s.atoms[i] <= 1 + 1e-6, "{}: probability of outcome {} = {} must lie in [0, 1]", s.name, i, s.atoms[i]);
+    atoms_mass += s.atoms[i];
+  }
+
+  if (s.dim > 0) {
+    draw(s, hash(options.seed, 1), std::max<std::uint64_t>(options.samples / 8, 1000), pilot_tally, [&](const auto& v) { pilot.push_back(v); });
+    const double continuous = n * static_cast<double>(pilot.size()) / static_cast<double>(pilot_tally.n);
+    const int depth = std::clamp(static_cast<int>(std::log2(std::max(continuous, 1.0) / 200)), 0, 12);
+    const Ranks ranks(pilot, s.dim);
+    const Partition partition(std::move(pilot), s.dim, depth);
+    for (int i = 0; i < partition.size(); ++i) {
+      boxes.push_back(partition.box(i));
+      Cell c;
+      for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
+        c.rank_lo[d] = ranks(d, boxes.back().lo[d]), c.rank_hi[d] = boxes.back().hi[d] < 1 ? ranks(d, boxes.back().hi[d]) : 1.0;
+      cells.push_back(c);
+    }
+    CubatureGoal goal;
+    goal.total_error = 0.2 / std::sqrt(n);
+    goal.box_error = [n](double value) { return 0.04 * std::sqrt(std::max(value, 1 / n) / n); };
+    goal.max_evaluations = options.max_evaluations;
+    masses = integrate_boxes(s.density, s.dim, boxes, goal);
+    draw(s, hash(options.seed, 2), options.samples, tally, [&](const auto& v) { ++cells[static_cast<std::size_t>(partition.cell(v))].observed; });
+    for (std::size_t i = 0; i < cells.size(); ++i) cells[i].p = masses.boxes[i].value, cells[i].error = masses.boxes[i].error;
+  } else {
+    draw(s, hash(options.seed, 2), options.samples, tally, [](const auto&) {});
+  }
+
+  // The pilot's draws obey the same laws.
+  Tally all = tally;
+  const auto merge = [](Tally::Fault& a, const Tally::Fault& b) {
+    if (a.count == 0) a = b;
+    else a.count += b.count;
+  };
+  merge(all.failed, pilot_tally.failed), merge(all.outside, pilot_tally.outside), merge(all.not_finite, pilot_tally.not_finite);
+  merge(all.leak, pilot_tally.leak), merge(all.weight, pilot_tally.weight);
+  all.n += pilot_tally.n;
+  all.worst_weight = std::max(all.worst_weight, pilot_tally.worst_weight);
+  per_sample(s, all, report);
+
+  report.mass = masses.total.value + atoms_mass;
+  report.mass_error = masses.total.error;
+  if (masses.bad)
+    report.checks.push_back({"pdf finite and >= 0", Verdict::fail, {}, 0, 1, 0, Fault::not_finite,
+                             fmt::format("at chart coordinates ({:.17g}, {:.17g}, {:.17g}){}", (*masses.bad)[0], (*masses.bad)[1], (*masses.bad)[2],
+                                         s.describe_point ? ", " + s.describe_point(*masses.bad) : std::string())});
+  {
+    const double excess = report.mass - 1, off = s.may_fail ? std::max(excess, 0.0) : std::abs(excess);
+    Check c{"mass", Verdict::pass, {}, 0, off, report.mass_error + s.mass_tolerance, Fault::mass, {}};
+    if (!(off <= c.limit)) c.verdict = Verdict::fail;
+    else if (report.mass_error > 1 / std::sqrt(n)) c.verdict = Verdict::inconclusive;
+    if (c.verdict != Verdict::pass)
+      c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}; {} evaluations", report.mass, report.mass_error, masses.evaluations);
+    report.checks.push_back(std::move(c));
+  }
+
+  for (std::size_t i = 0; i < s.atoms.size(); ++i) {
+    Cell c;
+    c.p = s.atoms[i];
+    c.observed = tally.atoms[i];
+    cells.push_back(c);
+    if (c.p == 0 && c.observed > 0)
+      report.checks.push_back({"outcomes of probability 0", Verdict::fail, {}, 0, static_cast<double>(c.observed), 0, Fault::leak,
+                               fmt::format("outcome {} came {} times", i, c.observed)});
+  }
+  if (s.may_fail) {
+    Cell failure;
+    failure.p = std::max(1 - report.mass, 0.0);
+    failure.error = report.mass_error + s.mass_tolerance;
+    failure.observed = tally.failed.count;
+    cells.push_back(failure);
+  }
+
+  std::vector<Cell> tested = cells;
+  CellTests tests = test_cells(std::move(tested), s.dim, options.alpha);
+  for (Check& c : tests.checks) report.checks.push_back(std::move(c));
+  report.detectable = tests.detectable;
+  report.detectable_cell = tests.detectable_cell;
+
+  const double total = std::max(report.mass + (s.may_fail ? std::max(1 - report.mass, 0.0) : 0.0), 1e-300);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    WorstCell w{boxes[i].lo, boxes[i].hi, static_cast<double>(cells[i].observed), n * cells[i].p / total, 0, {}};
+    w.z = (w.observed - w.expected) / std::sqrt(std::max(w.expected, 0.5));
+    report.worst.push_back(w);
+  }
+  std::sort(report.worst.begin(), report.worst.end(), [](const WorstCell& a, const WorstCell& b) { return std::abs(a.z) > std::abs(b.z); });
+  if (report.worst.size() > 5) report.worst.resize(5);
+  for (WorstCell& w : report.worst) {
+    Subject::Coordinates centre;
+    for (std::size_t d = 0; d < 3; ++d) centre[d] = 0.5 * (w.lo[d] + w.hi[d]);
+    if (s.describe_point) w.where = s.describe_point(centre);
+  }
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+} // namespace mc

@@ -1,0 +1,25 @@
+#pragma once
+/// The laws of anything that draws points with a claimed density.
+
+#include <mc/check/report.h>
+#include <mc/check/subject.h>
+
+namespace mc {
+
+struct SubjectOptions {
+  std::uint64_t samples = 1'000'000; ///< counted; an eighth as many more are drawn for the bins
+  std::uint64_t seed = 1;
+  double alpha = 0.001;              ///< chance that a correct subject is rejected, over all its statistical tests. The default
+                                     ///< lets a suite of a hundred samplers pass nine seeds in ten
+  std::size_t max_evaluations = 4'000'000; ///< of the density, for the expected counts
+};
+
+/// Draws and tests:
+///   per sample : finite, in the domain, pdf positive and finite, stated weight = f / pdf; failures only where allowed
+///   mass       : the claimed density and atoms integrate to 1 (to at most 1, the rest failing, where failures are allowed)
+///   counts     : all tests of cell_tests.h on cells adapted to the density
+///   detection  : the report states the smallest errors it would have caught with probability .99
+///   throws     : Error when samples < 1000, or alpha is not in (0, 1)
+Report check_subject(const Subject& subject, const SubjectOptions& options = {});
+
+} // namespace mc

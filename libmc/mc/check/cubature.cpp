@@ -1,0 +1,195 @@
+#include <mc/check/cubature.h>
+
+#include <mc/core/error.h>
+#include <mc/core/sum.h>
+#include <mc/core/types.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mc {
+namespace {
+
+// Nodes on [0,1] and weights of the nested Clenshaw-Curtis rules with n, n/2 and n/4 intervals, on the nodes of the finest.
+struct Rule {
+  int nodes;
+  std::vector<double> x;
+  std::array<std::vector<double>, 3> w;
+
+  explicit Rule(int n) : nodes(n + 1), x(static_cast<std::size_t>(n + 1)) {
+    for (int j = 0; j <= n; ++j) x[static_cast<std::size_t>(j)] = 0.5 - 0.5 * std::cos(pi<double> * j / n);
+    // Just inside the faces: what holds on the far side of a face is another box's business.
+    x.front() = 0x1p-24, x.back() = 1 - 0x1p-24;
+    for (int level = 0; level < 3; ++level) {
+      const int m = n >> level;
+      auto& weights = w[static_cast<std::size_t>(level)];
+      weights.assign(x.size(), 0.0);
+      for (int j = 0; j <= m; ++j) {
+        double sum = 1;
+        for (int k = 1; 2 * k <= m; ++k) sum -= (2 * k == m ? 1.0 : 2.0) / (4.0 * k * k - 1) * std::cos(2 * pi<double> * k * j / m);
+        weights[static_cast<std::size_t>(j << level)] = (m == 1 ? 0.5 : (j == 0 || j == m ? 0.5 : 1.0) * sum / m);
+      }
+    }
+  }
+};
+
+struct Region {
+  Box box;
+  double value = 0, error = 0;
+  int owner = 0, axis = 0;
+  bool rough = false; // the finer rule was of no use: halve with the cheaper one
+  bool operator<(const Region& other) const { return error < other.error; }
+};
+
+class Integrator {
+ public:
+  Integrator(const std::function<double(const std::array<double, 3>&)>& f, int dim) : f_(f), dim_(dim) {}
+
+  void evaluate(Region& r) {
+    const Rule& rule = r.rough || dim_ == 3 ? coarse() : fine();
+    const int n = rule.nodes;
+    std::array<double, 3> width{1, 1, 1};
+    double volume = 1;
+    for (int d = 0; d < dim_; ++d) width[ix(d)] = r.box.hi[ix(d)] - r.box.lo[ix(d)], volume *= width[ix(d)];
+    // sums[0..2]: all axes at level 0, 1, 2; sums[3 + d]: axis d at level 1, the others at level 0.
+    std::array<double, 6> sums{};
+    const int n1 = dim_ > 1 ? n : 1, n2 = dim_ > 2 ? n : 1;
+    std::array<double, 3> v{};
+    double largest = 0;
+    for (int k = 0; k < n2; ++k)
+      for (int j = 0; j < n1; ++j)
+        for (int i = 0; i < n; ++i) {
+          const std::array<int, 3> index{i, j, k};
+          for (int d = 0; d < dim_; ++d) v[ix(d)] = r.box.lo[ix(d)] + width[ix(d)] * rule.x[ix(index[ix(d)])];
+          double value = f_(v);
+          if (!(value >= 0 && value <= std::numeric_limits<double>::max())) {
+            if (!bad) bad = v;
+            value = 0;
+          }
+          largest = std::max(largest, value);
+          std::array<double, 6> product;
+          product.fill(value);
+          for (int d = 0; d < dim_; ++d) {
+            const std::size_t node = ix(index[ix(d)]);
+            for (std::size_t level = 0; level < 3; ++level) product[level] *= rule.w[level][node];
+            for (int e = 0; e < dim_; ++e) product[ix(3 + e)] *= rule.w[e == d ? 1 : 0][node];
+          }
+          for (std::size_t s = 0; s < sums.size(); ++s) sums[s] += product[s];
+        }
+    evaluations += static_cast<std::size_t>(n) * static_cast<std::size_t>(n1) * static_cast<std::size_t>(n2);
+    r.value = sums[0] * volume;
+    const double e1 = std::abs(sums[0] - sums[1]) * volume, e2 = std::abs(sums[1] - sums[2]) * volume;
+    // Geometric convergence: the next difference would be about e1 (e1 / e2); ten times that is the bound.
+    const double ratio = e2 > 0 ? e1 / e2 : 0.0;
+    r.error = ratio < 0.1 ? e1 * 10 * ratio : 1.5 * e1;
+    r.error += 4e-16 * largest * volume;
+    r.rough = r.rough || ratio > 0.3;
+    r.axis = 0;
+    double worst = -1;
+    for (int d = 0; d < dim_; ++d) {
+      const double disagreement = std::abs(sums[0] - sums[ix(3 + d)]);
+      if (disagreement > worst) worst = disagreement, r.axis = d;
+    }
+  }
+
+  // Halves r in place and returns the other half.
+  Region halve(Region& r) {
+    Region other = r;
+    const std::size_t axis = ix(r.axis);
+    const double middle = 0.5 * (r.box.lo[axis] + r.box.hi[axis]);
+    r.box.hi[axis] = other.box.lo[axis] = middle;
+    evaluate(r);
+    evaluate(other);
+    return other;
+  }
+  static bool divisible(const Region& r) {
+    const std::size_t axis = ix(r.axis);
+    const double middle = 0.5 * (r.box.lo[axis] + r.box.hi[axis]);
+    return middle > r.box.lo[axis] && middle < r.box.hi[axis];
+  }
+
+  std::size_t evaluations = 0;
+  std::optional<std::array<double, 3>> bad;
+
+ private:
+  static std::size_t ix(int i) { return static_cast<std::size_t>(i); }
+  static const Rule& fine() {
+    static const Rule rule(8);
+    return rule;
+  }
+  static const Rule& coarse() {
+    static const Rule rule(4);
+    return rule;
+  }
+  const std::function<double(const std::array<double, 3>&)>& f_;
+  int dim_;
+};
+
+} // namespace
+
+CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim, const std::vector<Box>& boxes,
+                               const CubatureGoal& goal) {
+  require(dim >= 1 && dim <= 3, "integrate_boxes: dim {} must lie in 1..3", dim);
+  Integrator integrator(f, dim);
+  CubatureResult result;
+  result.boxes.resize(boxes.size());
+  std::vector<Region> regions;
+  regions.reserve(boxes.size());
+
+  // First each box by itself to its own goal, then all together to the goal of the total.
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const std::size_t first = regions.size();
+    Region whole;
+    whole.box = boxes[i];
+    whole.owner = static_cast<int>(i);
+    integrator.evaluate(whole);
+    regions.push_back(whole);
+    for (;;) {
+      double value = 0, error = 0;
+      for (std::size_t r = first; r < regions.size(); ++r) value += regions[r].value, error += regions[r].error;
+      const double allowed = goal.box_error ? goal.box_error(value) : goal.total_error;
+      if (error <= allowed) break;
+      if (integrator.evaluations >= goal.max_evaluations) {
+        result.converged = false;
+        break;
+      }
+      // Halve every region with more than its share: cheaper than one at a time, since the sums are recomputed.
+      const double share = 0.5 * allowed / static_cast<double>(regions.size() - first);
+      bool progress = false;
+      for (std::size_t r = first, end = regions.size(); r < end; ++r)
+        if (regions[r].error > share && Integrator::divisible(regions[r])) {
+          Region other = integrator.halve(regions[r]);
+          regions.push_back(other);
+          progress = true;
+        }
+      if (!progress) break;
+    }
+  }
+
+  double error = 0;
+  for (const Region& r : regions) error += r.error;
+  std::make_heap(regions.begin(), regions.end());
+  while (error > goal.total_error && integrator.evaluations < goal.max_evaluations && Integrator::divisible(regions.front())) {
+    std::pop_heap(regions.begin(), regions.end());
+    error -= regions.back().error;
+    Region other = integrator.halve(regions.back());
+    error += regions.back().error + other.error;
+    std::push_heap(regions.begin(), regions.end());
+    regions.push_back(other);
+    std::push_heap(regions.begin(), regions.end());
+  }
+
+  CompensatedSum value, bound;
+  for (const Region& r : regions) {
+    auto& box = result.boxes[static_cast<std::size_t>(r.owner)];
+    box.value += r.value, box.error += r.error;
+    value.add(r.value), bound.add(r.error);
+  }
+  result.total = {value.value(), bound.value()};
+  result.converged = result.converged && result.total.error <= goal.total_error;
+  result.evaluations = integrator.evaluations;
+  result.bad = integrator.bad;
+  return result;
+}
+
+} // namespace mc

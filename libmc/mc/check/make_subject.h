@@ -1,0 +1,143 @@
+#pragma once
+/// Subjects of warps and of pairs of functions.
+
+#include <mc/check/subject.h>
+#include <mc/random/pcg.h>
+#include <mc/warp/concept.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+namespace mc {
+
+namespace detail {
+
+template <class P> bool all_finite(const P& x) {
+  if constexpr (requires { x.size(); }) {
+    for (int i = 0; i < x.size(); ++i)
+      if (!std::isfinite(static_cast<double>(x[i]))) return false;
+    return true;
+  } else {
+    return std::isfinite(static_cast<double>(x));
+  }
+}
+
+template <class P> double component(const P& x, int i) {
+  if constexpr (requires { x.size(); }) return static_cast<double>(x[i]);
+  else return static_cast<double>(x);
+}
+
+/// "(0.25, 0.5)" with as many digits as tell the point from its neighbours.
+template <class P> std::string format_point(const P& x) {
+  if constexpr (requires { x.size(); }) {
+    std::string text = "(";
+    for (int i = 0; i < x.size(); ++i) text += fmt::format("{}{:.{}g}", i ? ", " : "", static_cast<double>(x[i]), std::numeric_limits<typename P::Scalar>::max_digits10);
+    return text + ")";
+  } else {
+    return fmt::format("{:.{}g}", static_cast<double>(x), std::numeric_limits<P>::max_digits10);
+  }
+}
+
+template <class D> typename D::UnitPoint unit_point(const Subject::Coordinates& v) {
+  if constexpr (D::dim == 1) return v[0];
+  else {
+    typename D::UnitPoint p;
+    for (int i = 0; i < D::dim; ++i) p[i] = v[static_cast<std::size_t>(i)];
+    return p;
+  }
+}
+
+/// The subject of a draw (random, x) -> bool and a density on a domain. Draw fills x and returns false where it fails.
+template <Domain D, class Draw, class Pdf> Subject subject_on(std::string name, const D& domain, Draw draw, Pdf pdf) {
+  using S = typename D::Scalar;
+  using Point = typename D::Point;
+  const auto chart = domain.template cast<double>();
+  using Chart = decltype(chart);
+  Subject s;
+  s.name = std::move(name);
+  s.dim = D::dim;
+  s.mass_tolerance = 64 * static_cast<double>(std::numeric_limits<S>::epsilon());
+  s.draw = [domain, chart, draw, pdf](std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
+    Pcg random(seed);
+    for (std::size_t i = 0; i < n; ++i) {
+      Subject::Draw& d = out.emplace_back();
+      Point x;
+      if (!draw(random, x)) {
+        d.kind = Subject::Draw::Kind::failed;
+      } else if (!all_finite(x)) {
+        d.kind = Subject::Draw::Kind::not_finite;
+      } else if (!domain.contains(x)) {
+        d.kind = Subject::Draw::Kind::outside;
+      } else {
+        const double density = static_cast<double>(pdf(x));
+        d.pdf_positive = density > 0 && std::isfinite(density);
+        const auto v = chart.to_unit(cast_point<double>(x));
+        for (int k = 0; k < D::dim; ++k) d.v[static_cast<std::size_t>(k)] = component(v, k);
+      }
+    }
+  };
+  s.density = [chart, pdf](const Subject::Coordinates& v) {
+    const auto p = unit_point<std::remove_cvref_t<Chart>>(v);
+    return static_cast<double>(pdf(cast_point<S>(chart.from_unit(p)))) * chart.jacobian(p);
+  };
+  s.describe_draw = [draw, pdf](std::uint64_t seed, std::uint64_t index) {
+    Pcg random(seed);
+    Point x;
+    bool ok = true;
+    for (std::uint64_t i = 0; i <= index; ++i) ok = draw(random, x);
+    if (!ok) return fmt::format("draw {} of Pcg({})", index, seed);
+    return fmt::format("x = {}, pdf = {:.9g}, draw {} of Pcg({})", format_point(x), static_cast<double>(pdf(x)), index, seed);
+  };
+  s.describe_point = [chart](const Subject::Coordinates& v) { return format_point(cast_point<float>(chart.from_unit(unit_point<std::remove_cvref_t<Chart>>(v)))); };
+  return s;
+}
+
+} // namespace detail
+
+/// A warp. Float points are mapped to the chart in double, so the bins lose no precision.
+template <Warp W> Subject make_subject(std::string name, const W& warp) {
+  using S = typename W::Scalar;
+  constexpr int dim = W::Domain::dim;
+  const typename W::Domain domain = warp.domain();
+  Subject s = detail::subject_on(
+      std::move(name), domain,
+      [warp](Pcg& random, PointOf<W>& x) {
+        x = warp.sample(random.point<S, dim>());
+        return true;
+      },
+      [warp](const PointOf<W>& x) { return warp.pdf(x); });
+  s.describe_draw = [warp](std::uint64_t seed, std::uint64_t index) {
+    Pcg random(seed);
+    random.advance(index * static_cast<std::uint64_t>(dim) * (std::same_as<S, float> ? 1 : 2));
+    const UnitPointOf<W> u = random.point<S, dim>();
+    const PointOf<W> x = warp.sample(u);
+    return fmt::format("u = {}, x = {}, pdf = {:.9g}", detail::format_point(u), detail::format_point(x), static_cast<double>(warp.pdf(x)));
+  };
+  return s;
+}
+
+/// A sampler random -> x (or optional x, empty where it fails) drawing from mc::Pcg, its claimed density and the domain.
+template <Domain D, class Sampler, class Pdf>
+Subject make_subject(std::string name, const D& domain, Sampler sampler, Pdf pdf) {
+  using Result = std::invoke_result_t<Sampler, Pcg&>;
+  constexpr bool optional = !std::convertible_to<Result, typename D::Point>;
+  Subject s = detail::subject_on(
+      std::move(name), domain,
+      [sampler](Pcg& random, typename D::Point& x) {
+        if constexpr (optional) {
+          const auto drawn = sampler(random);
+          if (drawn) x = *drawn;
+          return drawn.has_value();
+        } else {
+          x = sampler(random);
+          return true;
+        }
+      },
+      pdf);
+  s.may_fail = optional;
+  return s;
+}
+
+} // namespace mc

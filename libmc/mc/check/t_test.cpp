@@ -1,0 +1,26 @@
+#include <mc/check/t_test.h>
+
+#include <boost/math/distributions/students_t.hpp>
+
+#include <cmath>
+
+namespace mc {
+
+TTest t_test(const Moments& moments, double value, double alpha) {
+  const Estimate e = moments.estimate();
+  const boost::math::students_t student(e.dof);
+  TTest result;
+  // Equal values have no standard error: they agree or they do not.
+  if (!(e.std_error > 0)) {
+    result.t = e.value == value ? 0.0 : std::copysign(HUGE_VAL, e.value - value);
+    result.p = e.value == value ? 1.0 : 0.0;
+    return result;
+  }
+  result.t = (e.value - value) / e.std_error;
+  result.p = 2 * boost::math::cdf(boost::math::complement(student, std::abs(result.t)));
+  result.detectable = e.std_error * (boost::math::quantile(boost::math::complement(student, alpha / 2)) +
+                                     boost::math::quantile(student, 0.99));
+  return result;
+}
+
+} // namespace mc
