@@ -66,12 +66,23 @@ Bvh::Bvh(std::span<const Shape> shapes) {
         for (int a = 0; a < 3; ++a) block.v[k][a][lane] = vertices[id][static_cast<std::size_t>(k)][a];
       block.id[lane] = id;
     }
-    blocks_.push_back(block);
+    triangle_blocks_.push_back(block);
   }
   sphere_tree_ = WideTree(sphere_boxes);
-  for (const std::uint32_t id : sphere_tree_.order()) {
-    spheres_.push_back(spheres[id]);
-    sphere_ids_.push_back(sphere_ids[id]);
+  for (const auto& leaf : sphere_tree_.leaves()) {
+    SphereBlock block;
+    for (std::uint32_t lane = 0; lane < 4; ++lane) {
+      const std::uint32_t id = sphere_tree_.order()[leaf.first + std::min(lane, leaf.count - 1)];
+      const Sphere& s = spheres[id];
+      for (int a = 0; a < 3; ++a) {
+        block.center[a][lane] = s.center()[a];
+        block.axis[a][lane] = s.axis()[a];
+      }
+      block.radius2[lane] = s.radius() * s.radius();
+      block.cap[lane] = s.is_cap() ? s.radius() - s.height() : -mc::infinity<double>;
+      block.shape[lane] = sphere_ids[id];
+    }
+    sphere_blocks_.push_back(block);
   }
 }
 
@@ -121,30 +132,54 @@ bool Bvh::intersect_block(const TriangleBlock& block, const Ray& ray, const Shea
   return found;
 }
 
+// Sphere::intersect, four at a time.
+bool Bvh::intersect_block(const SphereBlock& block, const Ray& ray, Float& t_max, Hit& hit) {
+  const Vec3d d = ray.d.cast<double>();
+  const double a = d.squaredNorm(), inverse_a = 1 / a;
+  const FourDoubles ox = double(ray.o.x()) - block.center[0], oy = double(ray.o.y()) - block.center[1], oz = double(ray.o.z()) - block.center[2];
+  const FourDoubles b = -(ox * d.x() + oy * d.y() + oz * d.z()), nearest = b * inverse_a;
+  const FourDoubles px = ox + d.x() * nearest, py = oy + d.y() * nearest, pz = oz + d.z() * nearest;
+  const FourDoubles discriminant = block.radius2 - (px * px + py * py + pz * pz);
+  const auto crossed = discriminant >= 0;
+  if (!(crossed[0] | crossed[1] | crossed[2] | crossed[3])) return false;
+
+  FourDoubles root;
+  for (int i = 0; i < 4; ++i) root[i] = std::sqrt(crossed[i] ? a * discriminant[i] : 0.0);
+  const FourDoubles q = b < 0 ? b - root : b + root;
+  const FourDoubles c = ox * ox + oy * oy + oz * oz - block.radius2;
+  const FourDoubles first = q * inverse_a, second = c / q; // q = 0 gives NaN, which is no hit
+  const FourDoubles t0 = first < second ? first : second, t1 = first < second ? second : first;
+  const double limit = double(t_max);
+  const FourDoubles along = block.axis[0] * d.x() + block.axis[1] * d.y() + block.axis[2] * d.z();
+  const FourDoubles start = block.axis[0] * ox + block.axis[1] * oy + block.axis[2] * oz;
+  const auto hit0 = crossed & (t0 > 0) & (t0 < limit) & (start + t0 * along >= block.cap);
+  const auto hit1 = crossed & (t1 > 0) & (t1 < limit) & (start + t1 * along >= block.cap);
+  bool found = false;
+  for (int i = 0; i < 4; ++i) {
+    if (!(hit0[i] | hit1[i])) continue;
+    const double t = hit0[i] ? t0[i] : t1[i];
+    if (found && !(t < double(t_max))) continue;
+    found = true;
+    t_max = Float(t);
+    hit = {t_max, block.shape[i], 0, 0, 0};
+  }
+  return found;
+}
+
 template <bool any> bool Bvh::trace(const Ray& ray, Hit& hit) const {
   Float t_max = ray.t_max;
   bool found = false;
   if (!triangle_tree_.empty()) {
     const Shear shear(ray.d);
     triangle_tree_.traverse(ray, t_max, [&](std::uint32_t leaf, Float& t) {
-      found |= intersect_block<any>(blocks_[leaf], ray, shear, t, hit);
+      found |= intersect_block<any>(triangle_blocks_[leaf], ray, shear, t, hit);
       return any && found;
     });
     if (any && found) return true;
   }
   sphere_tree_.traverse(ray, t_max, [&](std::uint32_t leaf, Float& t) {
-    const auto [first, count] = sphere_tree_.leaves()[leaf];
-    for (std::uint32_t i = first; i < first + count; ++i) {
-      Ray shorter = ray;
-      shorter.t_max = t;
-      if (const auto distance = spheres_[i].intersect(shorter)) {
-        found = true;
-        if (any) return true;
-        t = Float(*distance);
-        hit = {t, sphere_ids_[i], 0, 0, 0};
-      }
-    }
-    return false;
+    found |= intersect_block(sphere_blocks_[leaf], ray, t, hit);
+    return any && found;
   });
   return found;
 }

@@ -36,15 +36,22 @@ class Bvh {
     std::uint32_t id[4];
   };
   struct TriangleId { int shape, prim; };
+  typedef double FourDoubles __attribute__((vector_size(4 * sizeof(double))));
+  /// Four spheres or caps; spare lanes repeat the last one.
+  struct SphereBlock {
+    FourDoubles center[3], radius2;
+    FourDoubles axis[3], cap; ///< a point at `offset` from the centre belongs to the shape where offset . axis >= cap
+    int shape[4];
+  };
 
   template <bool any> bool intersect_block(const TriangleBlock& block, const Ray& ray, const Shear& shear, Float& t_max, Hit& hit) const;
+  static bool intersect_block(const SphereBlock& block, const Ray& ray, Float& t_max, Hit& hit);
   template <bool any> bool trace(const Ray& ray, Hit& hit) const;
 
   WideTree triangle_tree_, sphere_tree_;
-  std::vector<TriangleBlock> blocks_;     ///< one per leaf
+  std::vector<TriangleBlock> triangle_blocks_; ///< one per leaf
   std::vector<TriangleId> triangle_ids_;
-  std::vector<Sphere> spheres_;           ///< in leaf order
-  std::vector<int> sphere_ids_;
+  std::vector<SphereBlock> sphere_blocks_; ///< one per leaf
   Box bounds_;
 };
 

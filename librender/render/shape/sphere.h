@@ -27,10 +27,12 @@ class Sphere {
 
   const Vec3d& center() const { return center_; }
   double radius() const { return radius_; }
+  const Vec3d& axis() const { return axis_; }
+  double height() const { return height_; }
+  bool is_cap() const { return height_ < 2 * radius_; }
 
  private:
   SurfacePoint point(const Vec3d& direction) const; ///< of the surface in the unit `direction` from the centre
-  bool is_cap() const { return height_ < 2 * radius_; }
   /// 1 - cos of the cone that the sphere fills seen from squared distance d2; nullopt inside, on the surface, or for a cap.
   std::optional<double> cone(double d2) const;
 
