@@ -1,0 +1,36 @@
+#pragma once
+/// Spherical caps.
+
+#include <mc/core/error.h>
+#include <mc/domain/sphere.h>
+
+namespace mc {
+
+/// Unit vectors within an angle of +z, given by h = 1 - cos(angle) in (0, 2]: any angle from 1e-19 rad to pi keeps its precision.
+///   chart  : v = ((1 - z) / h, phi / 2 pi); uniform in solid angle, so the Jacobian is the constant 2 pi h
+///   throws : Error unless 0 < h <= 2
+template <Real S> struct Cap {
+  using Scalar = S;
+  using Point = Vec3<S>;
+  using UnitPoint = Vec2<S>;
+  static constexpr int dim = 2;
+  static constexpr Measure measure = Measure::solid_angle;
+
+  S h = 1;
+
+  Cap() = default;
+  explicit Cap(S h_) : h(h_) { require(h > 0 && h <= 2, "Cap: 1 - cos = {} must lie in (0, 2]", static_cast<double>(h)); }
+
+  Point from_unit(const UnitPoint& v) const {
+    const S t = v[0] * h; // 1 - z, so sin^2 = t (2 - t) without cancellation
+    return spherical_direction<S>(safe_sqrt<S>(t * (2 - t)), 1 - t, 2 * pi<S> * v[1]);
+  }
+  UnitPoint to_unit(const Point& w) const { return {one_minus_z(w) / h, turn<S>(w.x(), w.y())}; }
+  S jacobian(const UnitPoint&) const { return 2 * pi<S> * h; }
+  /// The direction lies in the cone, up to rounding.
+  bool reaches(const Point& w) const { return one_minus_z(w) <= h * (1 + 8 * std::numeric_limits<S>::epsilon()); }
+  bool contains(const Point& w) const { return is_unit(w) && reaches(w); }
+  template <Real T> Cap<T> cast() const { return Cap<T>(T(h)); }
+};
+
+} // namespace mc

@@ -1,0 +1,49 @@
+#pragma once
+/// Uniform directions in a cone.
+
+#include <mc/domain/cap.h>
+#include <mc/warp/concept.h>
+
+namespace mc {
+
+/// Uniform directions within an angle of +z.
+///   made from : the angle [rad], its cosine, 1 - cosine, or its squared sine (angle <= pi/2); keep to the form you have: the
+///               cosine of a narrow cone no longer knows the angle
+///   sample    : u -> 1 - z = u0 (1 - cos), phi = 2 pi u1
+///   pdf       : 1 / (2 pi (1 - cos)) [1/sr]; 0 outside the cone
+///   invert    : |invert(sample(u)) - u| <= 16 eps, for any angle
+///   throws    : Error unless the angle lies in (0, pi]
+///   Source    : [ShirleyWangZimmerman96], in terms of 1 - cos so that nothing cancels
+template <Real S> class UniformCone {
+ public:
+  using Scalar = S;
+  using Domain = Cap<S>;
+
+  static UniformCone from_one_minus_cos(S h) { return UniformCone(h); }
+  static UniformCone from_angle(S angle) {
+    using std::sin;
+    require(angle > 0 && angle <= pi<S>, "UniformCone: angle {} must lie in (0, pi]", static_cast<double>(angle));
+    return UniformCone(2 * sqr<S>(sin(S(angle / 2)))); // 1 - cos a = 2 sin^2(a/2)
+  }
+  static UniformCone from_cos(S cosine) {
+    require(cosine >= -1 && cosine < 1, "UniformCone: cosine {} must lie in [-1, 1)", static_cast<double>(cosine));
+    return UniformCone(1 - cosine);
+  }
+  static UniformCone from_sin2(S sin2) {
+    using std::sqrt;
+    require(sin2 > 0 && sin2 <= 1, "UniformCone: squared sine {} must lie in (0, 1]", static_cast<double>(sin2));
+    return UniformCone(sin2 / (1 + S(sqrt(S(1 - sin2)))));
+  }
+
+  Domain domain() const { return cap_; }
+  Vec3<S> sample(const Vec2<S>& u) const { return cap_.from_unit(u); }
+  S pdf(const Vec3<S>& w) const { return cap_.reaches(w) ? S(1 / (2 * pi<S> * cap_.h)) : S(0); }
+  Vec2<S> invert(const Vec3<S>& w) const { return cap_.to_unit(w); }
+  template <Real T> UniformCone<T> cast() const { return UniformCone<T>::from_one_minus_cos(T(cap_.h)); }
+
+ private:
+  explicit UniformCone(S h) : cap_(h) {}
+  Cap<S> cap_;
+};
+
+} // namespace mc

@@ -1,0 +1,48 @@
+#pragma once
+/// A linear density on an interval.
+
+#include <mc/domain/interval.h>
+#include <mc/warp/concept.h>
+
+namespace mc {
+
+/// Density on [0,1] that goes linearly from a at 0 to b at 1 (up to normalisation).
+///   sample : x = u (a + b) / (a + sqrt(a^2 (1-u) + b^2 u)), the stable root of the quadratic
+///   pdf    : 2 ((1-x) a + x b) / (a + b) [1/length]; 0 outside
+///   invert : |invert(sample(u)) - u| <= 8 eps
+///   throws : Error unless a, b are finite, >= 0 and not both 0
+///   Source : [PharrJakobHumphreys23] section 2.4.2; scaled by the larger value, so weights of 1e30 and 1e-30 do not overflow
+template <Real S> struct Linear {
+  using Scalar = S;
+  using Domain = Interval<S>;
+
+  S a = 1, b = 1; ///< scaled so that the larger is 1
+
+  Linear() = default;
+  Linear(S a_, S b_) : a(a_), b(b_) {
+    using std::isfinite, std::max;
+    require(isfinite(a) && isfinite(b) && a >= 0 && b >= 0 && (a > 0 || b > 0), "Linear: values {} and {} must be finite, >= 0 and not both 0",
+            static_cast<double>(a), static_cast<double>(b));
+    const S largest = max(a, b);
+    a = a / largest;
+    b = b / largest;
+  }
+
+  Domain domain() const { return {}; }
+  S sample(S u) const {
+    using std::max, std::min, std::sqrt;
+    // With a = 0 the density vanishes at 0: u = 0 stands for half its step.
+    const S v = a == 0 ? S(max(u, S(std::numeric_limits<S>::epsilon() / 4))) : u;
+    if (v == 0) return S(0);
+    return min(S(v * (a + b) / (a + S(sqrt(S(a * a * (1 - v) + b * b * v))))), one_minus_epsilon<S>);
+  }
+  S pdf(S x) const { return x >= 0 && x <= 1 ? S(2 * ((1 - x) * a + x * b) / (a + b)) : S(0); }
+  S invert(S x) const { return x * (a * (2 - x) + b * x) / (a + b); }
+  template <Real T> Linear<T> cast() const {
+    Linear<T> other;
+    other.a = T(a), other.b = T(b);
+    return other;
+  }
+};
+
+} // namespace mc
