@@ -51,6 +51,7 @@ struct ValidateOptions {
   std::uint64_t samples = 1'000'000;        ///< per case
   std::uint64_t seed = 1;
   std::string scalar;                       ///< "float", "double"; empty: both
+  int threads = 0;                          ///< 0: all
   std::string json;                         ///< file; empty: none
   std::string command;
 };

@@ -56,6 +56,7 @@ void add_validate(CLI::App& app, carlo::ValidateOptions& o) {
   c->add_option("--samples", o.samples, "Samples per case")->capture_default_str();
   c->add_option("--seed", o.seed, "Seed")->capture_default_str();
   c->add_option("--scalar", o.scalar, "float or double [both]");
+  c->add_option("--threads", o.threads, "Threads, 0 for all of the machine's")->capture_default_str();
   c->add_option("--json", o.json, "Write the results to this file");
 }
 

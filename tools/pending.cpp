@@ -5,7 +5,6 @@
 
 namespace carlo {
 
-int validate(const ValidateOptions&) { throw mc::Error("validate: not built yet"); }
 int converge(const ConvergeOptions&) { throw mc::Error("converge: not built yet"); }
 int integrate(const IntegrateOptions&) { throw mc::Error("integrate: not built yet"); }
 

@@ -1,7 +1,9 @@
 #include <mc/check/check_subject.h>
 
 #include <mc/check/cell_tests.h>
+#include <mc/check/chi_square.h>
 #include <mc/check/cubature.h>
+#include <mc/check/multiple_testing.h>
 #include <mc/check/partition.h>
 #include <mc/core/error.h>
 #include <mc/core/types.h>
@@ -80,6 +82,27 @@ void per_sample(const Subject& s, const Tally& t, Report& report) {
   if (!s.may_fail) add("never fails", t.failed, Fault::leak, count(t.failed), 0);
 }
 
+// The rate of failures against what the density leaves of 1, as far as its integral is known.
+Check failures(const Subject& s, const Tally& t, const Report& report) {
+  Check c{"failures", Verdict::pass, {}, 0.05, static_cast<double>(t.failed.count), 0, Fault::mass, {}};
+  const double expected = std::clamp(1 - report.mass, 0.0, 1.0), slack = report.mass_error + s.mass_tolerance;
+  const double rate = static_cast<double>(t.failed.count) / static_cast<double>(t.n);
+  const double kinder = rate > expected ? std::min(expected + slack, rate) : std::max(expected - slack, rate);
+  const double level = sidak_level(report.alpha, c.share), sure = binomial_tail(t.failed.count, t.n, kinder);
+  c.p = binomial_tail(t.failed.count, t.n, expected);
+  // Near 0 and 1 rounding of the integral decides the raw p; what it cannot refute is no evidence.
+  if (slack * static_cast<double>(t.n) < 3 * std::sqrt(static_cast<double>(t.n) * expected) || sure <= level) {
+    if (sure <= level) c.verdict = Verdict::fail;
+    else if (*c.p <= level) c.verdict = Verdict::inconclusive;
+  } else {
+    c.p = sure;
+  }
+  if (c.verdict != Verdict::pass)
+    c.detail = fmt::format("{} of {} samples failed, {:.1f} expected of a density of mass {:.8g} +- {:.2g}", t.failed.count, t.n,
+                           expected * static_cast<double>(t.n), report.mass, report.mass_error);
+  return c;
+}
+
 // Ranks of a cell's faces in the pilot, per axis.
 struct Ranks {
   std::array<std::vector<double>, 3> sorted;
@@ -135,7 +158,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
       cells.push_back(c);
     }
     CubatureGoal goal;
-    goal.total_error = 0.2 / std::sqrt(n);
+    goal.total_error = 0.06 / std::sqrt(n);
     goal.box_error = [n](double value) { return 0.04 * std::sqrt(std::max(value, 1 / n) / n); };
     goal.max_evaluations = options.max_evaluations;
     masses = integrate_boxes(s.density, s.dim, boxes, goal);
@@ -182,21 +205,14 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
       report.checks.push_back({"outcomes of probability 0", Verdict::fail, {}, 0, static_cast<double>(c.observed), 0, Fault::leak,
                                fmt::format("outcome {} came {} times", i, c.observed)});
   }
-  if (s.may_fail) {
-    Cell failure;
-    failure.p = std::max(1 - report.mass, 0.0);
-    failure.error = report.mass_error + s.mass_tolerance;
-    failure.observed = tally.failed.count;
-    cells.push_back(failure);
-  }
-
   std::vector<Cell> tested = cells;
   CellTests tests = test_cells(std::move(tested), s.dim, options.alpha);
   for (Check& c : tests.checks) report.checks.push_back(std::move(c));
+  if (s.may_fail) report.checks.push_back(failures(s, tally, report));
   report.detectable = tests.detectable;
   report.detectable_cell = tests.detectable_cell;
 
-  const double total = std::max(report.mass + (s.may_fail ? std::max(1 - report.mass, 0.0) : 0.0), 1e-300);
+  const double total = s.may_fail ? 1.0 : std::max(report.mass, 1e-300);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     WorstCell w{boxes[i].lo, boxes[i].hi, static_cast<double>(cells[i].observed), n * cells[i].p / total, 0, {}};
     w.z = (w.observed - w.expected) / std::sqrt(std::max(w.expected, 0.5));

@@ -79,10 +79,11 @@ class Integrator {
     evaluations += static_cast<std::size_t>(n) * static_cast<std::size_t>(n1) * static_cast<std::size_t>(n2);
     r.value = sums[0] * volume;
     const double e1 = std::abs(sums[0] - sums[1]) * volume, e2 = std::abs(sums[1] - sums[2]) * volume;
-    // Geometric convergence: the next difference would be about e1 (e1 / e2); ten times that is the bound.
+    // Geometric convergence: the next difference would be about e1 (e1 / e2); ten times that is the bound. A small e1 alone may
+    // be luck, so a part of e2 stays.
     const double ratio = e2 > 0 ? e1 / e2 : 0.0;
-    r.error = ratio < 0.1 ? e1 * 10 * ratio : 1.5 * e1;
-    r.error += 4e-16 * largest * volume;
+    r.error = ratio < 0.1 ? e1 * 10 * ratio : 2 * e1;
+    r.error = std::max(r.error, (n < 9 ? 0.1 : 0.01) * e2) + 4e-16 * largest * volume;
     r.rough = r.rough || ratio > 0.3;
     r.axis = 0;
     double worst = -1;
@@ -97,9 +98,13 @@ class Integrator {
     Region other = r;
     const std::size_t axis = ix(r.axis);
     const double middle = 0.5 * (r.box.lo[axis] + r.box.hi[axis]);
+    const double claimed = r.value, bound = r.error;
     r.box.hi[axis] = other.box.lo[axis] = middle;
     evaluate(r);
     evaluate(other);
+    // A bound that its own halves refute says that theirs are too small as well.
+    const double change = std::abs(r.value + other.value - claimed);
+    if (change > bound) r.error = std::max(r.error, change / 4), other.error = std::max(other.error, change / 4);
     return other;
   }
   static bool divisible(const Region& r) {

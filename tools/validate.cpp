@@ -1,0 +1,107 @@
+// carlo validate: every sampler against its laws.
+#include "catalogue.h"
+#include "commands.h"
+#include "progress.h"
+#include "validate_output.h"
+
+#include <mc/check/multiple_testing.h>
+#include <mc/core/error.h>
+#include <mc/core/file.h>
+#include <mc/core/parallel.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <mutex>
+#include <set>
+
+namespace carlo {
+namespace {
+
+std::string plain(const Case& c) { return c.name + (c.parameters.empty() ? "" : "(" + c.parameters + ")"); }
+
+// The cases that a word names: a sampler, or one case as --list prints it.
+std::vector<const Case*> select(const ValidateOptions& o) {
+  mc::require(o.scalar.empty() || o.scalar == "float" || o.scalar == "double", "validate: --scalar '{}' must be float or double", o.scalar);
+  std::vector<const Case*> chosen;
+  const auto wanted = [&](const Case& c) { return o.scalar.empty() || c.scalar == o.scalar; };
+  if (o.all || (o.list && o.names.empty())) {
+    for (const Case& c : catalogue())
+      if (wanted(c)) chosen.push_back(&c);
+  }
+  for (const std::string& name : o.names) {
+    bool known = false;
+    for (const Case& c : catalogue()) {
+      if (name != c.name && name != plain(c)) continue;
+      known = true;
+      if (wanted(c)) chosen.push_back(&c);
+    }
+    if (known) continue;
+    std::set<std::string> names;
+    for (const Case& c : catalogue()) names.insert(c.name);
+    throw mc::Error(fmt::format("validate: unknown sampler '{}'{} (carlo validate --list names them all)", name, mc::did_you_mean(name, names)));
+  }
+  std::vector<const Case*> unique;
+  for (const Case* c : chosen)
+    if (std::find(unique.begin(), unique.end(), c) == unique.end()) unique.push_back(c);
+  mc::require(o.list || !unique.empty(), "validate: {}", o.names.empty() ? "name a sampler, or give --all or --list" : "no case over this scalar");
+  return unique;
+}
+
+std::string error_text(double e) { return e > 0 ? fmt::format("{:.2g} %", 100 * e) : std::string("-"); }
+
+std::string line_of(const Case& c, const mc::Report& r) {
+  return fmt::format("{:<44} {:<7} {:<12} {:>8.2g} {:>9} {:>9} {:>7.1f} {:>6.2f}\n", plain(c), c.scalar, name(r.verdict()), r.p(), error_text(r.detectable),
+                     error_text(r.detectable_cell), r.ns_per_sample, r.seconds);
+}
+
+} // namespace
+
+int validate(const ValidateOptions& o) {
+  const std::vector<const Case*> cases = select(o);
+  if (o.list) {
+    for (const Case* c : cases) fmt::print("{:<44} {}\n", plain(*c), c->scalar);
+    return exit_ok;
+  }
+  mc::require(o.alpha > 0 && o.alpha < 1, "validate: --alpha {} must lie in (0, 1)", o.alpha);
+  mc::require(o.samples >= 1000, "validate: --samples {}; at least 1000 are needed", o.samples);
+  if (!o.json.empty()) mc::write_file(o.json, "{}\n"); // an unwritable place is refused before the work, not after it
+
+  const double alpha = mc::sidak_level(o.alpha, 1 / static_cast<double>(cases.size()));
+  std::vector<mc::Report> reports(cases.size());
+  std::vector<char> done(cases.size(), 0);
+  std::size_t printed = 0, finished = 0;
+  std::mutex mutex;
+  Progress progress;
+  fmt::print("{:<44} {:<7} {:<12} {:>8} {:>9} {:>9} {:>7} {:>6}\n", "sampler", "scalar", "verdict", "p", "detects", "in a cell", "ns", "s");
+  mc::parallel_for(cases.size(), o.threads, [&](std::size_t i) {
+    CaseOptions options;
+    options.samples = o.samples, options.seed = o.seed, options.alpha = alpha;
+    mc::Report report = mc::with_context(cases[i]->title(), [&] { return cases[i]->check(options); });
+    const std::lock_guard lock(mutex);
+    reports[i] = std::move(report);
+    done[i] = 1;
+    ++finished;
+    if (printed < cases.size() && done[printed]) progress.clear();
+    for (; printed < cases.size() && done[printed]; ++printed) fmt::print("{}", line_of(*cases[printed], reports[printed]));
+    std::fflush(stdout);
+    progress.show(static_cast<double>(finished) / static_cast<double>(cases.size()), fmt::format("{} of {} cases", finished, cases.size()));
+  });
+  progress.clear();
+
+  std::size_t passed = 0, inconclusive = 0;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    passed += reports[i].passed();
+    inconclusive += reports[i].verdict() == mc::Verdict::inconclusive;
+  }
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    if (!reports[i].passed())
+      fmt::print("\n{}\n  again: carlo validate '{}' --scalar {} --seed {} --samples {} --alpha {:.4g}\n", reports[i].to_string(), plain(*cases[i]), cases[i]->scalar,
+                 o.seed, o.samples, alpha);
+  fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed, cases.size(),
+             inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(), o.alpha, o.samples, o.seed);
+  if (!o.json.empty()) write_json(o.json, o, cases, reports);
+  return passed == cases.size() ? exit_ok : exit_failed;
+}
+
+} // namespace carlo
