@@ -1,0 +1,36 @@
+#include <mc/table/alias_table.h>
+#include <mc/table/cdf.h>
+
+namespace mc {
+
+AliasTable::AliasTable(std::span<const double> weights) {
+  const Cdf cdf(weights); // checks the weights, and keeps every positive one reachable
+  const std::size_t n = cdf.size();
+  bins_.resize(n);
+  std::vector<double> share(n); // of a bin, in units of 1 / n
+  std::vector<std::uint32_t> small, large;
+  for (std::size_t i = 0; i < n; ++i) {
+    pmf_.push_back(cdf.pmf(i));
+    share[i] = cdf.pmf(i) * static_cast<double>(n);
+    (share[i] < 1 ? small : large).push_back(static_cast<std::uint32_t>(i));
+  }
+  while (!small.empty() && !large.empty()) {
+    const std::uint32_t s = small.back(), l = large.back();
+    small.pop_back();
+    bins_[s] = {share[s], l};
+    share[l] -= 1 - share[s];
+    if (share[l] < 1) {
+      large.pop_back();
+      small.push_back(l);
+    }
+  }
+  // What remains is 1 up to rounding. An outcome of weight 0 cannot remain while a large one does; if rounding has used up the
+  // large ones, it gives its bin to the most likely outcome.
+  std::uint32_t likely = 0;
+  for (std::uint32_t i = 0; i < n; ++i)
+    if (pmf_[i] > pmf_[likely]) likely = i;
+  for (const std::uint32_t i : large) bins_[i] = {1, i};
+  for (const std::uint32_t i : small) bins_[i] = pmf_[i] > 0 ? Bin{1, i} : Bin{0, likely};
+}
+
+} // namespace mc

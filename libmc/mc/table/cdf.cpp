@@ -1,0 +1,59 @@
+#include <mc/core/error.h>
+#include <mc/core/sum.h>
+#include <mc/table/cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace mc {
+
+Cdf::Cdf(std::span<const double> weights) {
+  const std::size_t n = weights.size();
+  require(n > 0, "table: no weights; at least one is needed");
+  require(n < std::numeric_limits<std::uint32_t>::max(), "table: {} weights; at most 2^32 - 2 are supported", n);
+  double largest = 0;
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    require(std::isfinite(weights[i]) && weights[i] >= 0, "table: weights[{}] = {} is not finite and >= 0", i, weights[i]);
+    largest = std::max(largest, weights[i]);
+    if (weights[i] > 0) last = i;
+  }
+  require(largest > 0, "table: all {} weights are 0; at least one must be > 0", n);
+
+  // Relative to the largest, so that neither 1e300 overflows nor denormals lose their bits.
+  int exponent;
+  std::frexp(largest, &exponent);
+  CompensatedSum total;
+  for (const double w : weights) total.add(std::ldexp(w, -exponent));
+  const double scale = total.value();
+  sum_ = std::ldexp(scale, exponent);
+
+  cumulative_.resize(n + 1);
+  CompensatedSum running;
+  cumulative_[0] = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    running.add(std::ldexp(weights[i], -exponent));
+    double next = i < last ? std::min(running.value() / scale, 1.0) : 1.0;
+    // A weight too small for the sum still gets the smallest interval.
+    if (weights[i] > 0) next = std::max(next, std::nextafter(cumulative_[i], 2.0));
+    else next = cumulative_[i];
+    cumulative_[i + 1] = next;
+  }
+  // What was pushed beyond 1 is pushed back from the end; each positive weight keeps an interval.
+  double limit = 1;
+  for (std::size_t i = n; i > 0 && (cumulative_[i] > limit || i > last); --i) {
+    cumulative_[i] = limit;
+    if (weights[i - 1] > 0) limit = std::nextafter(limit, 0.0);
+  }
+
+  guide_.resize(n + 1);
+  std::size_t outcome = 0;
+  for (std::size_t k = 0; k <= n; ++k) {
+    const double u = static_cast<double>(k) / static_cast<double>(n);
+    while (outcome < last && !(cumulative_[outcome + 1] > u)) ++outcome;
+    guide_[k] = static_cast<std::uint32_t>(outcome);
+  }
+}
+
+} // namespace mc

@@ -1,0 +1,110 @@
+#pragma once
+/// A piecewise constant distribution on the unit square.
+
+#include <mc/domain/box.h>
+#include <mc/table/table_dist_1d.h>
+
+namespace mc {
+
+/// width x height cells on the unit square, row by row (row 0 at y = 0), each chosen with probability proportional to its
+/// weight, uniform within.
+///   sample : u1 chooses the row, u0 the column in it -> (x, y)
+///   pdf    : pmf(row) pmf(column | row) width height [1/area]; 0 outside and in cells of weight 0
+///   invert : |invert(sample(u)) - u| <= 4 eps for points that round to the cell they were drawn in
+///   throws : Error unless weights are width * height numbers, finite, >= 0, not all 0
+///   Source : inverse transform sampling of the marginal and the conditionals [PharrJakobHumphreys23] section A.5.6
+template <Real S> class TableDist2D {
+ public:
+  using Scalar = S;
+  using Domain = Square<S>;
+
+  TableDist2D(std::span<const double> weights, std::size_t width, std::size_t height) : TableDist2D(make_rows(weights, width, height), width) {}
+
+  /// Weights f(x, y) at the middle of each cell.
+  template <class F> static TableDist2D from_function(F&& f, std::size_t width, std::size_t height) {
+    std::vector<double> weights;
+    weights.reserve(width * height);
+    for (std::size_t y = 0; y < height; ++y)
+      for (std::size_t x = 0; x < width; ++x)
+        weights.push_back(static_cast<double>(f((static_cast<double>(x) + 0.5) / static_cast<double>(width), (static_cast<double>(y) + 0.5) / static_cast<double>(height))));
+    return TableDist2D(weights, width, height);
+  }
+
+  /// For a latitude-longitude image: row y spans theta in [pi y / height, pi (y + 1) / height], weighted by the solid angle
+  /// of the row, cos(theta_0) - cos(theta_1).
+  static TableDist2D from_lat_long(std::span<const double> weights, std::size_t width, std::size_t height) {
+    std::vector<double> scaled(weights.begin(), weights.end());
+    for (std::size_t i = 0; i < scaled.size(); ++i) {
+      const double y = static_cast<double>(i / std::max<std::size_t>(width, 1)), h = static_cast<double>(height);
+      scaled[i] *= 2 * std::sin(pi<double> * (y + 0.5) / h) * std::sin(pi<double> / (2 * h));
+    }
+    return TableDist2D(scaled, width, height);
+  }
+
+  std::size_t width() const { return width_; }
+  std::size_t height() const { return rows_.size(); }
+  /// Probability of the cell (column x, row y).
+  S pmf(std::size_t x, std::size_t y) const { return row_choice_.pmf(y) == 0 ? S(0) : S(row_choice_.pmf(y)) * rows_[y].pmf(x); }
+
+  Domain domain() const { return {}; }
+  Vec2<S> sample(const Vec2<S>& u) const {
+    const S y = row_choice_.sample(u[1]);
+    return {rows_[row_of(y)].sample(u[0]), y};
+  }
+  S pdf(const Vec2<S>& p) const {
+    if (!domain().contains(p)) return S(0);
+    const S marginal = row_choice_.pdf(p[1]);
+    return marginal == 0 ? S(0) : S(marginal * rows_[row_of(p[1])].pdf(p[0]));
+  }
+  Vec2<S> invert(const Vec2<S>& p) const { return {rows_[row_of(p[1])].invert(p[0]), row_choice_.invert(p[1])}; }
+  template <Real T> TableDist2D<T> cast() const {
+    std::vector<TableDist1D<T>> rows;
+    for (const auto& row : rows_) rows.push_back(row.template cast<T>());
+    return TableDist2D<T>(std::move(rows), row_choice_.template cast<T>(), width_);
+  }
+
+ private:
+  template <Real T> friend class TableDist2D;
+  struct Rows { std::vector<TableDist1D<S>> rows; std::vector<double> sums; };
+
+  static Rows make_rows(std::span<const double> weights, std::size_t width, std::size_t height) {
+    require(width > 0 && height > 0 && weights.size() == width * height, "TableDist2D: {} weights for {}x{} cells; {} are needed", weights.size(),
+            width, height, width * height);
+    double largest = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      require(std::isfinite(weights[i]) && weights[i] >= 0, "TableDist2D: weights[{}] = {} (column {}, row {}) is not finite and >= 0", i, weights[i],
+              i % width, i / width);
+      largest = std::max(largest, weights[i]);
+    }
+    require(largest > 0, "TableDist2D: all {} weights are 0; at least one must be > 0", weights.size());
+    // A power of two near 1 / largest: row sums neither overflow nor sink below the denormals.
+    int exponent;
+    std::frexp(largest, &exponent);
+    Rows result;
+    std::vector<double> row(width);
+    for (std::size_t y = 0; y < height; ++y) {
+      bool empty = true;
+      for (std::size_t x = 0; x < width; ++x) empty &= weights[y * width + x] == 0;
+      // A row of weight 0 is never chosen; it gets a uniform placeholder.
+      for (std::size_t x = 0; x < width; ++x) row[x] = empty ? 1 : weights[y * width + x];
+      result.rows.emplace_back(row);
+      double scaled = 0;
+      for (std::size_t x = 0; x < width && !empty; ++x) scaled += std::ldexp(weights[y * width + x], -exponent);
+      result.sums.push_back(empty ? 0 : std::max(scaled, std::numeric_limits<double>::denorm_min()));
+    }
+    return result;
+  }
+  TableDist2D(Rows rows, std::size_t width) : rows_(std::move(rows.rows)), row_choice_(std::span<const double>(rows.sums)), width_(width) {}
+  TableDist2D(std::vector<TableDist1D<S>> rows, TableDist1D<S> row_choice, std::size_t width)
+      : rows_(std::move(rows)), row_choice_(std::move(row_choice)), width_(width) {}
+
+  std::size_t row_of(S y) const {
+    return std::min(static_cast<std::size_t>(static_cast<double>(y * S(static_cast<double>(rows_.size())))), rows_.size() - 1);
+  }
+
+  std::vector<TableDist1D<S>> rows_;
+  TableDist1D<S> row_choice_;
+  std::size_t width_;
+};
+
+} // namespace mc
