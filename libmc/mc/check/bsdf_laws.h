@@ -47,6 +47,7 @@ template <Real S, class Bsdf> Subject bsdf_subject(const Bsdf& bsdf, const Vec3<
   s.may_fail = true;
   s.weight_tolerance = options.tolerance;
   s.mass_tolerance = options.mass_tolerance;
+  s.epsilon = static_cast<double>(std::numeric_limits<S>::epsilon());
   // Probabilities of the delta lobes as the first samples state them.
   std::array<double, 2> lobes{};
   bool continuous = false;

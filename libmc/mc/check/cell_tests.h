@@ -22,7 +22,7 @@ struct CellTests {
   double detectable = 0, detectable_cell = 0; ///< see Report
 };
 
-/// Tests counts against probabilities, given their sum (atoms are cells of their own, at the end). Spends 0.95 of alpha.
+/// Tests counts against probabilities, given their sum (atoms are cells of their own, at the end). Spends 0.91 of alpha.
 ///   chi-square : the cells form a binary tree in their order; at each node the split of its count between its halves is
 ///                binomial and independent of all other nodes, so the levels give independent chi-squares, each sensitive to
 ///                errors of its own size

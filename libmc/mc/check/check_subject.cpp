@@ -82,6 +82,99 @@ void per_sample(const Subject& s, const Tally& t, Report& report) {
   if (!s.may_fail) add("never fails", t.failed, Fault::leak, count(t.failed), 0);
 }
 
+// Ranks of a cell's faces in the pilot, per axis.
+struct Ranks {
+  std::array<std::vector<double>, 3> sorted;
+  Ranks(const std::vector<Partition::Coordinates>& pilot, int dim) {
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) {
+      for (const auto& v : pilot) sorted[d].push_back(v[d]);
+      std::sort(sorted[d].begin(), sorted[d].end());
+    }
+  }
+  double operator()(std::size_t axis, double v) const {
+    const auto& s = sorted[axis];
+    return static_cast<double>(std::lower_bound(s.begin(), s.end(), v) - s.begin()) / static_cast<double>(std::max<std::size_t>(s.size(), 1));
+  }
+};
+
+// A slab of the cube, a few units in the last place wide, in which the pilot shows the most samples: where a clamp or a
+// fallback value puts an atom that no cell is small enough to see.
+struct Slab {
+  std::size_t axis = 0, pilot = 0;
+  Box box;
+  std::vector<Box> pieces; ///< of the slab, cut at the pilot's quantiles of the other axes so that no lobe is missed
+  std::uint64_t observed = 0;
+};
+
+std::vector<Slab> crowded_slabs(const Subject& s, const std::vector<Partition::Coordinates>& pilot, const Ranks& ranks) {
+  std::vector<Slab> slabs;
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
+    const std::vector<double>& v = ranks.sorted[axis];
+    const auto width = [&](double a) { return 64 * s.epsilon * std::abs(a) + 1e-300; };
+    Slab slab;
+    double at = 0;
+    for (std::size_t i = 0, j = 0; i < v.size(); ++i) {
+      while (j < v.size() && v[j] <= v[i] + width(v[i])) ++j;
+      if (j - i > slab.pilot) slab.pilot = j - i, at = v[i];
+    }
+    if (slab.pilot < 4) continue;
+    double blur = width(at);
+    if (s.resolution) {
+      int seen = 0;
+      for (const auto& p : pilot)
+        if (p[axis] >= at && p[axis] <= at + width(at) && seen++ < 16) blur = std::max(blur, 8 * s.resolution(p, static_cast<int>(axis)));
+    }
+    slab.axis = axis;
+    slab.box.lo[axis] = std::max(at - blur, 0.0);
+    slab.box.hi[axis] = std::min(at + 2 * blur, 1.0);
+    if (!(slab.box.hi[axis] > slab.box.lo[axis])) continue;
+    slab.pieces = {slab.box};
+    for (std::size_t other = 0; other < static_cast<std::size_t>(s.dim); ++other) {
+      if (other == axis) continue;
+      const std::size_t cuts = s.dim == 2 ? 64 : 16;
+      std::vector<Box> finer;
+      for (Box piece : slab.pieces) {
+        for (std::size_t k = 1; k < cuts; ++k) {
+          const double cut = ranks.sorted[other][k * ranks.sorted[other].size() / cuts];
+          if (!(cut > piece.lo[other] && cut < piece.hi[other])) continue;
+          finer.push_back(piece);
+          finer.back().hi[other] = piece.lo[other] = cut;
+        }
+        finer.push_back(piece);
+      }
+      slab.pieces = std::move(finer);
+    }
+    slabs.push_back(std::move(slab));
+  }
+  return slabs;
+}
+
+Check atoms(const Subject& s, const std::vector<Slab>& slabs, const Report& report, double n, std::size_t max_evaluations) {
+  Check c{"no atoms", Verdict::pass, 1.0, 0.04, 0, 0, Fault::atom, {}};
+  double sure = 1;
+  for (const Slab& slab : slabs) {
+    CubatureGoal goal;
+    goal.total_error = 0.1 / n;
+    goal.box_error = [&](double value) { return std::max(0.1 / n / static_cast<double>(slab.pieces.size()), 0.01 * value); };
+    goal.max_evaluations = max_evaluations / 8;
+    const auto [value, error] = integrate_boxes(s.density, s.dim, slab.pieces, goal).total;
+    const double share = static_cast<double>(slab.observed) / n;
+    if (share <= value) continue;
+    const double raw = sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(value, 1.0)), s.dim);
+    sure = std::min(sure, sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(value + error, share)), s.dim));
+    if (raw >= *c.p) continue;
+    c.p = raw;
+    c.statistic = static_cast<double>(slab.observed);
+    c.detail = fmt::format("{} samples, {:.3g} expected, with coordinate {} of the chart in [{:.17g}, {:.17g}]", slab.observed, n * value, slab.axis,
+                           slab.box.lo[slab.axis], slab.box.hi[slab.axis]);
+  }
+  const double level = sidak_level(report.alpha, c.share);
+  if (sure <= level) c.verdict = Verdict::fail;
+  else if (*c.p <= level) c.verdict = Verdict::inconclusive;
+  if (c.verdict == Verdict::pass) c.detail.clear();
+  return c;
+}
+
 // The rate of failures against what the density leaves of 1, as far as its integral is known.
 Check failures(const Subject& s, const Tally& t, const Report& report) {
   Check c{"failures", Verdict::pass, {}, 0.05, static_cast<double>(t.failed.count), 0, Fault::mass, {}};
@@ -103,21 +196,6 @@ Check failures(const Subject& s, const Tally& t, const Report& report) {
   return c;
 }
 
-// Ranks of a cell's faces in the pilot, per axis.
-struct Ranks {
-  std::array<std::vector<double>, 3> sorted;
-  Ranks(const std::vector<Partition::Coordinates>& pilot, int dim) {
-    for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) {
-      for (const auto& v : pilot) sorted[d].push_back(v[d]);
-      std::sort(sorted[d].begin(), sorted[d].end());
-    }
-  }
-  double operator()(std::size_t axis, double v) const {
-    const auto& s = sorted[axis];
-    return static_cast<double>(std::lower_bound(s.begin(), s.end(), v) - s.begin()) / static_cast<double>(std::max<std::size_t>(s.size(), 1));
-  }
-};
-
 } // namespace
 
 Report check_subject(const Subject& s, const SubjectOptions& options) {
@@ -136,6 +214,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   std::vector<Box> boxes;
   CubatureResult masses;
   std::vector<Cell> cells;
+  std::vector<Slab> slabs;
   const double n = static_cast<double>(options.samples);
 
   double atoms_mass = 0;
@@ -149,6 +228,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
     const double continuous = n * static_cast<double>(pilot.size()) / static_cast<double>(pilot_tally.n);
     const int depth = std::clamp(static_cast<int>(std::log2(std::max(continuous, 1.0) / 200)), 0, 12);
     const Ranks ranks(pilot, s.dim);
+    slabs = crowded_slabs(s, pilot, ranks);
     const Partition partition(std::move(pilot), s.dim, depth);
     for (int i = 0; i < partition.size(); ++i) {
       boxes.push_back(partition.box(i));
@@ -162,7 +242,10 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
     goal.box_error = [n](double value) { return 0.04 * std::sqrt(std::max(value, 1 / n) / n); };
     goal.max_evaluations = options.max_evaluations;
     masses = integrate_boxes(s.density, s.dim, boxes, goal);
-    draw(s, hash(options.seed, 2), options.samples, tally, [&](const auto& v) { ++cells[static_cast<std::size_t>(partition.cell(v))].observed; });
+    draw(s, hash(options.seed, 2), options.samples, tally, [&](const auto& v) {
+      ++cells[static_cast<std::size_t>(partition.cell(v))].observed;
+      for (Slab& slab : slabs) slab.observed += v[slab.axis] >= slab.box.lo[slab.axis] && v[slab.axis] <= slab.box.hi[slab.axis];
+    });
     for (std::size_t i = 0; i < cells.size(); ++i) cells[i].p = masses.boxes[i].value, cells[i].error = masses.boxes[i].error;
   } else {
     draw(s, hash(options.seed, 2), options.samples, tally, [](const auto&) {});
@@ -205,6 +288,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
       report.checks.push_back({"outcomes of probability 0", Verdict::fail, {}, 0, static_cast<double>(c.observed), 0, Fault::leak,
                                fmt::format("outcome {} came {} times", i, c.observed)});
   }
+  if (s.dim > 0) report.checks.push_back(atoms(s, slabs, report, n, options.max_evaluations));
   std::vector<Cell> tested = cells;
   CellTests tests = test_cells(std::move(tested), s.dim, options.alpha);
   for (Check& c : tests.checks) report.checks.push_back(std::move(c));

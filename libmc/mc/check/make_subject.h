@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -27,6 +28,11 @@ template <class P> bool all_finite(const P& x) {
 template <class P> double component(const P& x, int i) {
   if constexpr (requires { x.size(); }) return static_cast<double>(x[i]);
   else return static_cast<double>(x);
+}
+
+template <class P> int components(const P& x) {
+  if constexpr (requires { x.size(); }) return static_cast<int>(x.size());
+  else return 1;
 }
 
 /// "(0.25, 0.5)" with as many digits as tell the point from its neighbours.
@@ -59,6 +65,20 @@ template <Domain D, class Draw, class Pdf> Subject subject_on(std::string name, 
   s.name = std::move(name);
   s.dim = D::dim;
   s.mass_tolerance = 64 * static_cast<double>(std::numeric_limits<S>::epsilon());
+  s.epsilon = static_cast<double>(std::numeric_limits<S>::epsilon());
+  s.resolution = [chart](const Subject::Coordinates& v, int axis) {
+    const auto p = unit_point<std::remove_cvref_t<Chart>>(v);
+    const auto x = chart.from_unit(p);
+    const double eps = static_cast<double>(std::numeric_limits<S>::epsilon());
+    double worst = eps * v[static_cast<std::size_t>(axis)];
+    for (int i = 0; i < components(x); ++i) {
+      auto y = x;
+      if constexpr (requires { y.size(); }) y[i] *= 1 + eps;
+      else y *= 1 + eps;
+      worst = std::max(worst, std::abs(component(chart.to_unit(y), axis) - component(p, axis)));
+    }
+    return worst;
+  };
   s.draw = [domain, chart, draw, pdf](std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
     Pcg random(seed);
     for (std::size_t i = 0; i < n; ++i) {

@@ -29,6 +29,7 @@ std::string_view name(Fault f) {
   case Fault::inverse: return "inverse: invert does not undo sample";
   case Fault::jacobian: return "jacobian: pdf is not the density of sample";
   case Fault::precision: return "precision: rounding error beyond the stated bound";
+  case Fault::atom: return "atom: many samples share one value of a coordinate";
   case Fault::shape: return "shape: the samples follow another density";
   case Fault::local: return "local: too many or too few samples in single cells";
   case Fault::physics: return "physics: reciprocity, energy or sign";

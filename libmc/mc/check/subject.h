@@ -44,6 +44,9 @@ struct Subject {
   double mass_tolerance = 1e-12;    ///< rounding error of the claimed density, relative
   double weight_tolerance = 1e-4;   ///< largest |weight - 1|
 
+  double epsilon = 2.220446049250313e-16; ///< of the scalar that the points are computed in
+  /// How far one unit in the last place of the point at v moves chart coordinate `axis`; empty: epsilon times v.
+  std::function<double(const Coordinates& v, int axis)> resolution;
   /// The numbers behind draw `index` of stream `seed` in full precision; may be empty.
   std::function<std::string(std::uint64_t seed, std::uint64_t index)> describe_draw;
   /// The point of the domain at chart coordinates v; may be empty.
