@@ -1,0 +1,44 @@
+#pragma once
+/// Sobol's sequence in many dimensions.
+
+#include <mc/sampler/concept.h>
+#include <mc/sampler/owen_scramble.h>
+
+namespace mc {
+
+/// Owen-scrambled Sobol' points: a (t,s)-sequence in base 2, each dimension scrambled independently by the seed. Dimensions
+/// from Sobol::dimensions on are hashed independent ones.
+///   index  : below 2^32
+///   RMS error of the mean of a smooth integrand near N^-3/2 when N is a power of two, never much worse than independent
+///   Source : [Sobol67], direction numbers of [JoeKuo08] as tabulated in Boost.Random, scrambling [Owen95]
+class Sobol {
+ public:
+  static constexpr std::uint32_t dimensions = 1024;
+
+  explicit Sobol(std::uint64_t seed = 0) : seed_(seed), columns_(direction_numbers()) {}
+
+  std::uint64_t bits(std::uint64_t index, std::uint32_t dim) const {
+    const std::uint64_t key = hash(seed_, dim);
+    const std::uint64_t low = mix64(key ^ index);
+    if (dim >= dimensions) return low;
+    const std::uint32_t x = owen_scramble(unscrambled(static_cast<std::uint32_t>(index), dim), static_cast<std::uint32_t>(key >> 32));
+    return (std::uint64_t{x} << 32) | (low & 0xffffffffu);
+  }
+
+  /// The point before scrambling, as a fraction of 2^32.
+  std::uint32_t unscrambled(std::uint32_t index, std::uint32_t dim) const {
+    const std::uint32_t* column = columns_ + std::size_t{dim} * 32;
+    std::uint32_t x = 0;
+    for (; index != 0; index &= index - 1) x ^= column[__builtin_ctz(index)];
+    return x;
+  }
+
+ private:
+  /// dimensions x 32 columns, built once per process.
+  static const std::uint32_t* direction_numbers();
+
+  std::uint64_t seed_;
+  const std::uint32_t* columns_;
+};
+
+} // namespace mc
