@@ -15,7 +15,7 @@ const std::uint32_t* Sobol::direction_numbers() {
     for (std::uint32_t dim = 1; dim < dimensions; ++dim) {
       const std::uint32_t polynomial = Table::polynomial(dim - 1);
       const auto degree = static_cast<std::uint32_t>(31 - __builtin_clz(polynomial));
-      std::uint32_t m[32];
+      std::uint32_t m[32] = {};
       for (std::uint32_t k = 0; k < 32; ++k) {
         if (k < degree) {
           m[k] = Table::minit(dim - 1, k);
