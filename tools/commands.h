@@ -61,8 +61,8 @@ struct ConvergeOptions {
   std::vector<std::string> experiments;     ///< empty: all
   bool list = false;
   std::string samplers = "random,stratified,sobol";
-  std::uint64_t max_n = 1 << 16;
-  int replicates = 64;
+  std::uint64_t max_n = 1 << 18;
+  int replicates = 128;
   std::uint64_t seed = 1;
   int threads = 0;
   std::string output = "out/convergence";

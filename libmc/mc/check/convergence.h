@@ -1,0 +1,35 @@
+#pragma once
+/// How error falls with the number of samples.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mc {
+
+/// Root-mean-square error at one N, from independent repetitions against the true value.
+struct RmsError {
+  double n = 0;
+  double rms = 0;
+  double lo = 0, hi = 0;   ///< 95 % confidence interval of the RMS error
+  double seconds = 0;      ///< CPU seconds of one repetition
+};
+
+/// RMS error of `estimates` against `truth`.
+///   interval : from the chi-square distribution of R mean squared errors, for errors that are close to normal
+///   throws   : Error for fewer than 2 estimates
+RmsError rms_error(double n, std::span<const double> estimates, double truth);
+
+/// A power law rms = c N^slope.
+struct PowerLaw {
+  double slope = 0, lo = 0, hi = 0; ///< with its 95 % confidence interval
+  double constant = 0;              ///< c
+};
+
+/// Least squares of log rms against log N. The logarithm of an RMS error of R repetitions has variance close to 1 / (2 R),
+/// whatever N, so all points weigh the same; the interval is the wider of that theory and of the scatter about the line
+/// (Student t), since curvature is an error of the law too.
+///   throws : Error for fewer than 3 points or an error of 0
+PowerLaw fit_power_law(std::span<const RmsError> errors, std::uint32_t repetitions);
+
+} // namespace mc
