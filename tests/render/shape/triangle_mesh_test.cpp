@@ -1,0 +1,109 @@
+#include <render/shape/triangle_mesh.h>
+
+#include <mc/core/error.h>
+#include <mc/random/pcg.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace render;
+
+const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+Transform scaled_at(const Vec3d& scale, const Vec3d& at) {
+  Transform m;
+  m << scale.x(), 0, 0, at.x(), 0, scale.y(), 0, at.y(), 0, 0, scale.z(), at.z();
+  return m;
+}
+
+template <class F> std::string message_of(F&& f) {
+  try {
+    f();
+  } catch (const mc::Error& e) {
+    return e.what();
+  }
+  return "nothing was thrown";
+}
+
+TEST(TriangleMesh, RejectsBadDataByNameAndValue) {
+  EXPECT_THROW(TriangleMesh(corners, {}), mc::Error);
+  EXPECT_THAT(message_of([] { TriangleMesh(corners, {{0, 1, 2}, {0, 1, 4}}); }), testing::HasSubstr("triangle 1 names vertex 4"));
+  for (const Float bad : {std::numeric_limits<Float>::quiet_NaN(), mc::infinity<Float>}) {
+    auto positions = corners;
+    positions[2].y() = bad;
+    EXPECT_THAT(message_of([&] { TriangleMesh(positions, {{0, 1, 2}}); }), testing::HasSubstr("vertex 2"));
+  }
+  EXPECT_THROW(TriangleMesh(corners, {{0, 1, 2}}, {Vec3(0, 0, 1)}), mc::Error);
+  EXPECT_THROW(TriangleMesh(corners, {{0, 1, 2}}, {}, {Vec2(0, 0)}), mc::Error);
+}
+
+TEST(TriangleMesh, Areas) {
+  EXPECT_EQ(TriangleMesh::rectangle(scaled_at({65, 52.5, 1}, {278, 554, 279.5})).area(), 13650);
+  EXPECT_EQ(TriangleMesh::box(scaled_at({1, 2, 3}, {0, 0, 0})).area(), 8 * (2 + 6 + 3));
+  EXPECT_EQ(TriangleMesh(corners, {{0, 1, 1}}).area(), 0);
+}
+
+// d^2 / (cos A) against the analytic solid angle of the Cornell light: the mean of 1/pdf on a grid of u.
+TEST(TriangleMesh, SolidAngleOfTheCornellLight) {
+  Transform m; // the square in xy, laid into the plane y = 554
+  m << 65, 0, 0, 278, 0, 0, 1, 554, 0, 52.5, 0, 279.5;
+  const TriangleMesh light = TriangleMesh::rectangle(m);
+  const int n = 512;
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const auto s = light.sample(Vec3(278, 0, Float(279.5)), Vec2((Float(i) + Float(0.5)) / n, (Float(j) + Float(0.5)) / n));
+      ASSERT_TRUE(s.has_value());
+      sum += 1 / double(s->pdf);
+    }
+  EXPECT_NEAR(sum / (n * n), 0.043975585816, 1e-7);
+}
+
+TEST(TriangleMesh, SampleSaysWhatPdfSaysAndSkipsDegenerateTriangles) {
+  const TriangleMesh mesh(corners, {{0, 1, 1}, {1, 2, 3}, {2, 2, 2}, {0, 2, 1}, {3, 3, 0}});
+  mc::Pcg random(1);
+  for (int i = 0; i < 5000; ++i) {
+    Vec2 u = random.point<Float, 2>();
+    if (i % 10 == 0) u[i % 20 == 0] = i % 40 < 20 ? Float(0) : mc::one_minus_epsilon<Float>;
+    const Vec3 ref = 3 * random.point<Float, 3>() + Vec3::Constant(1);
+    const auto s = mesh.sample(ref, u);
+    ASSERT_TRUE(s.has_value());
+    EXPECT_TRUE(s->point.prim == 1 || s->point.prim == 3) << s->point.prim;
+    EXPECT_EQ(s->pdf, mesh.pdf(ref, s->wi, s->point));
+    EXPECT_LE((ref + (s->point.p - ref).norm() * s->wi - s->point.p).norm(), 4e-6);
+  }
+  EXPECT_EQ(TriangleMesh(corners, {{0, 1, 1}}).sample(Vec3(1, 1, 1), Vec2(0, 0)), std::nullopt);
+}
+
+// A direction through a box meets it twice; each crossing has its own density.
+TEST(TriangleMesh, DirectionPdfSumsTheCrossings) {
+  const TriangleMesh box = TriangleMesh::box(scaled_at({1, 1, 1}, {0, 0, 0}));
+  const Vec3 ref(Float(0.1), Float(0.2), 4), wi(0, 0, -1);
+  EXPECT_NEAR(double(box.pdf(ref, wi)), (9 + 25) / 24.0, 1e-6);
+  EXPECT_EQ(box.pdf(ref, Vec3(0, 0, 1)), 0);
+}
+
+TEST(TriangleMesh, NormalsOfBoxesPointOutwardAlsoWhenMirrored) {
+  for (const double mirror : {1.0, -1.0}) {
+    const TriangleMesh box = TriangleMesh::box(scaled_at({mirror, 2, 3}, {5, 6, 7}));
+    for (int i = 0; i < static_cast<int>(box.size()); ++i) {
+      const SurfacePoint s = box.surface_point({}, {1, 0, i, Float(0.3), Float(0.3)});
+      EXPECT_GT(s.ng.dot(s.p - Vec3(5, 6, 7)), 0) << i;
+    }
+  }
+}
+
+TEST(TriangleMesh, ShadingNormalsKeepToTheGeometricSideAndUvsInterpolate) {
+  const TriangleMesh mesh({corners[0], corners[1], corners[2]}, {{0, 1, 2}}, {Vec3(0, 0, -1), Vec3(0, 0, -1), Vec3(1, 0, -1).normalized()},
+                          {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)});
+  const SurfacePoint s = mesh.surface_point({}, {1, 3, 0, Float(0.25), Float(0.5)});
+  EXPECT_GT(s.ns.dot(s.ng), 0);
+  EXPECT_LE(std::abs(s.ns.norm() - 1), 1e-6);
+  EXPECT_EQ(s.uv, Vec2(Float(0.25), Float(0.5)));
+  EXPECT_EQ(s.p, Vec3(Float(0.25), Float(0.5), 0));
+  EXPECT_EQ(s.shape, 3);
+}
+
+} // namespace
