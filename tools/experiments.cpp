@@ -29,7 +29,7 @@ std::vector<Experiment> make() {
   list.push_back({"pi", "pi by darts at a square", week3 + ", chapter 2", 2, pi, -0.75, 64, ball});
   list.push_back({"x2_uniform", "x^2 on [0,2], uniform density", week3 + ", chapter 3", 1, 8.0 / 3, -1.5, 16,
                   [](Unit u) { return 2 * mc::sqr(2 * u[0]); }});
-  list.push_back({"x2_linear", "x^2 on [0,2], density x/2", week3 + ", chapter 3", 1, 8.0 / 3, -1.5, 16, [](Unit u) {
+  list.push_back({"x2_linear", "x^2 on [0,2], density x/2", week3 + ", chapter 3", 1, 8.0 / 3, 0, 16, [](Unit u) {
                     const double x = 2 * std::sqrt(u[0]);
                     return 2 * x; // x^2 / (x / 2)
                   }});

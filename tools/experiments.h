@@ -16,7 +16,7 @@ struct Experiment {
   int dim;
   double truth;
   /// Exponent with which the RMS error of jittered sampling falls: -1/2 - 1/d for a smooth integrand, -1/2 - 1/(2 d) for the
-  /// indicator of a body [MitchellA96].
+  /// indicator of a body [MitchellA96]; 0: none stated, since there is no error, or a derivative is infinite.
   double stratified_slope;
   double fit_from;        ///< smallest N in the asymptotic range
   std::function<double(std::span<const double>)> f; ///< of u in [0,1)^dim; its mean is the integral

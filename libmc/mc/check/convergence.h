@@ -12,7 +12,7 @@ struct RmsError {
   double n = 0;
   double rms = 0;
   double lo = 0, hi = 0;   ///< 95 % confidence interval of the RMS error
-  double seconds = 0;      ///< CPU seconds of one repetition
+  double seconds = 0;      ///< CPU seconds of one repetition, where the caller measures them
 };
 
 /// RMS error of `estimates` against `truth`.
