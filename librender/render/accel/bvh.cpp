@@ -167,17 +167,18 @@ bool Bvh::intersect_block(const SphereBlock& block, const Ray& ray, Float& t_max
 }
 
 template <bool any> bool Bvh::trace(const Ray& ray, Hit& hit) const {
+  constexpr auto order = any ? WideTree::Order::any : WideTree::Order::near_first;
   Float t_max = ray.t_max;
   bool found = false;
   if (!triangle_tree_.empty()) {
     const Shear shear(ray.d);
-    triangle_tree_.traverse(ray, t_max, [&](std::uint32_t leaf, Float& t) {
+    triangle_tree_.traverse<order>(ray, t_max, [&](std::uint32_t leaf, Float& t) {
       found |= intersect_block<any>(triangle_blocks_[leaf], ray, shear, t, hit);
       return any && found;
     });
     if (any && found) return true;
   }
-  sphere_tree_.traverse(ray, t_max, [&](std::uint32_t leaf, Float& t) {
+  sphere_tree_.traverse<order>(ray, t_max, [&](std::uint32_t leaf, Float& t) {
     found |= intersect_block(sphere_blocks_[leaf], ray, t, hit);
     return any && found;
   });

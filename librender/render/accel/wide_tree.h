@@ -45,9 +45,10 @@ class WideTree {
   bool empty() const { return nodes_.empty(); }
   std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
 
-  /// Calls leaf(index, t_max) for each leaf that the ray may enter before t_max, near ones first; `leaf` may shorten t_max and
-  /// returns true to stop.
-  template <class F> void traverse(const Ray& ray, Float& t_max, F&& leaf) const;
+  /// Calls leaf(index, t_max) for each leaf that the ray may enter before t_max; `leaf` may shorten t_max and returns true to
+  /// stop. Near leaves come first, or in any order where the first hit is as good as the nearest.
+  enum class Order { near_first, any };
+  template <Order order_wanted = Order::near_first, class F> void traverse(const Ray& ray, Float& t_max, F&& leaf) const;
 
  private:
   struct alignas(64) Node {
@@ -79,25 +80,42 @@ inline unsigned less_equal(const Lanes& a, const Lanes& b) {
   return mask;
 }
 
+/// The larger or smaller of t and old; old where t is NaN, which is what the instructions do.
+inline Lanes larger(const Lanes& t, const Lanes& old) {
+#if defined(__AVX__)
+  if constexpr (sizeof(Float) == 4)
+    return reinterpret_cast<const Lanes&>(static_cast<const __m256&>(_mm256_max_ps(reinterpret_cast<const __m256&>(t), reinterpret_cast<const __m256&>(old))));
+#endif
+  return t > old ? t : old;
+}
+inline Lanes smaller(const Lanes& t, const Lanes& old) {
+#if defined(__AVX__)
+  if constexpr (sizeof(Float) == 4)
+    return reinterpret_cast<const Lanes&>(static_cast<const __m256&>(_mm256_min_ps(reinterpret_cast<const __m256&>(t), reinterpret_cast<const __m256&>(old))));
+#endif
+  return t < old ? t : old;
+}
+
 } // namespace detail
 
-template <class F> void WideTree::traverse(const Ray& ray, Float& t_max, F&& leaf) const {
+template <WideTree::Order order_wanted, class F> void WideTree::traverse(const Ray& ray, Float& t_max, F&& leaf) const {
   if (nodes_.empty()) return;
   struct Entry { std::uint32_t child; Float t; };
   Entry stack[stack_size];
   int size = 0;
 
   const Vec3 rd = ray.d.cwiseInverse();
-  Lanes o[3], r[3];
+  // The far distance grows by more than the rounding of the slab products, so that no box is missed [Ize13].
+  const Vec3 rd_far = rd * (1 + 4 * std::numeric_limits<Float>::epsilon());
+  Lanes o[3], r[3], r_far[3];
   int near[3], far[3];
   for (int a = 0; a < 3; ++a) {
     o[a] = ray.o[a] - Lanes{};
     r[a] = rd[a] - Lanes{};
+    r_far[a] = rd_far[a] - Lanes{};
     near[a] = std::signbit(rd[a]) ? a + 3 : a;
     far[a] = std::signbit(rd[a]) ? a : a + 3;
   }
-  // Grows the far distance by the rounding of the slab products, so that no box is missed [Ize13].
-  const Lanes grow = (1 + 4 * std::numeric_limits<Float>::epsilon()) - Lanes{};
 
   std::uint32_t current = 0;
   while (true) {
@@ -106,9 +124,9 @@ template <class F> void WideTree::traverse(const Ray& ray, Float& t_max, F&& lea
       Lanes enter = Lanes{}, exit = t_max - Lanes{};
       for (int a = 0; a < 3; ++a) {
         const Lanes t0 = (node.bounds[near[a]] - o[a]) * r[a];
-        const Lanes t1 = (node.bounds[far[a]] - o[a]) * r[a] * grow;
-        enter = t0 > enter ? t0 : enter; // NaN keeps the old value
-        exit = t1 < exit ? t1 : exit;
+        const Lanes t1 = (node.bounds[far[a]] - o[a]) * r_far[a];
+        enter = detail::larger(t0, enter); // NaN keeps the old value
+        exit = detail::smaller(t1, exit);
       }
       unsigned mask = detail::less_equal(enter, exit);
       if (mask != 0) {
@@ -116,6 +134,13 @@ template <class F> void WideTree::traverse(const Ray& ray, Float& t_max, F&& lea
         const int first = __builtin_ctz(mask);
         mask &= mask - 1;
         current = node.child[first];
+        if constexpr (order_wanted == Order::any) {
+          for (; mask != 0; mask &= mask - 1) {
+            const int i = __builtin_ctz(mask);
+            stack[size++] = {node.child[i], enter[i]};
+          }
+          continue;
+        }
         if (mask == 0) continue;
         Float t = enter[first];
         const int base = size;
