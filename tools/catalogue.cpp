@@ -5,8 +5,10 @@ namespace carlo {
 const Catalogue& catalogue() {
   static const Catalogue cases = [] {
     Catalogue c;
-    add_disks(c);
-    add_hemispheres(c);
+    add_intervals(c);
+    add_planes(c);
+    add_spheres(c);
+    add_tables(c);
     add_bsdfs(c);
     return c;
   }();

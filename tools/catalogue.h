@@ -2,7 +2,7 @@
 /// Every sampler of libmc and librender with the parameters it is checked at.
 ///
 /// A family adds its samplers in a file of its own, catalogue_<family>.cpp, one line per case:
-///   void add_hemispheres(Catalogue& c) {
+///   void add_spheres(Catalogue& c) {
 ///     add_warp(c, "CosineHemisphere", "", [](auto s) { return mc::CosineHemisphere<decltype(s)>{}; }, {.invert_eps = 8});
 ///   }
 /// then declares that function below, calls it in catalogue.cpp and names the file in CMakeLists.txt. add_warp of
@@ -39,8 +39,10 @@ using Catalogue = std::vector<Case>;
 /// All cases, families in order.
 const Catalogue& catalogue();
 
-void add_disks(Catalogue& c);
-void add_hemispheres(Catalogue& c);
+void add_intervals(Catalogue& c);
+void add_planes(Catalogue& c);
+void add_spheres(Catalogue& c);
+void add_tables(Catalogue& c);
 void add_bsdfs(Catalogue& c);
 
 } // namespace carlo

@@ -8,9 +8,9 @@
 #include <mc/core/error.h>
 #include <mc/core/file.h>
 #include <mc/core/parallel.h>
+#include <mc/random/hash.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <mutex>
 #include <set>
@@ -48,6 +48,12 @@ std::vector<const Case*> select(const ValidateOptions& o) {
   return unique;
 }
 
+// Every case draws its own numbers, the same ones whichever cases run beside it.
+std::uint64_t seed_of(const Case& c, std::uint64_t seed) {
+  for (const char letter : c.title()) seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
+  return seed;
+}
+
 std::string error_text(double e) { return e > 0 ? fmt::format("{:.2g} %", 100 * e) : std::string("-"); }
 
 std::string line_of(const Case& c, const mc::Report& r) {
@@ -76,7 +82,7 @@ int validate(const ValidateOptions& o) {
   fmt::print("{:<44} {:<7} {:<12} {:>8} {:>9} {:>9} {:>7} {:>6}\n", "sampler", "scalar", "verdict", "p", "detects", "in a cell", "ns", "s");
   mc::parallel_for(cases.size(), o.threads, [&](std::size_t i) {
     CaseOptions options;
-    options.samples = o.samples, options.seed = o.seed, options.alpha = alpha;
+    options.samples = o.samples, options.seed = seed_of(*cases[i], o.seed), options.alpha = alpha;
     mc::Report report = mc::with_context(cases[i]->title(), [&] { return cases[i]->check(options); });
     const std::lock_guard lock(mutex);
     reports[i] = std::move(report);

@@ -101,8 +101,8 @@ struct Ranks {
 // fallback value puts an atom that no cell is small enough to see.
 struct Slab {
   std::size_t axis = 0, pilot = 0;
-  Box box;
-  std::vector<Box> pieces; ///< of the slab, cut at the pilot's quantiles of the other axes so that no lobe is missed
+  UnitBox box;
+  std::vector<UnitBox> pieces; ///< of the slab, cut at the pilot's quantiles of the other axes so that no lobe is missed
   std::uint64_t observed = 0;
 };
 
@@ -132,8 +132,8 @@ std::vector<Slab> crowded_slabs(const Subject& s, const std::vector<Partition::C
     for (std::size_t other = 0; other < static_cast<std::size_t>(s.dim); ++other) {
       if (other == axis) continue;
       const std::size_t cuts = s.dim == 2 ? 64 : 16;
-      std::vector<Box> finer;
-      for (Box piece : slab.pieces) {
+      std::vector<UnitBox> finer;
+      for (UnitBox piece : slab.pieces) {
         for (std::size_t k = 1; k < cuts; ++k) {
           const double cut = ranks.sorted[other][k * ranks.sorted[other].size() / cuts];
           if (!(cut > piece.lo[other] && cut < piece.hi[other])) continue;
@@ -211,7 +211,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   tally.atoms.assign(s.atoms.size(), 0);
   Tally pilot_tally = tally;
   std::vector<Partition::Coordinates> pilot;
-  std::vector<Box> boxes;
+  std::vector<UnitBox> boxes;
   CubatureResult masses;
   std::vector<Cell> cells;
   std::vector<Slab> slabs;

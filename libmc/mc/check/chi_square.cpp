@@ -5,6 +5,7 @@
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <boost/math/special_functions/erf.hpp>
 
 #include <algorithm>
@@ -24,8 +25,9 @@ double normal_quantile(double p) { return std::sqrt(2.0) * boost::math::erfc_inv
 
 double chi_square_noncentrality(double dof, double level, double power) {
   const double critical = boost::math::quantile(boost::math::complement(boost::math::chi_squared(dof), std::max(level, 1e-300)));
-  // Noncentral chi-square with lambda is about scale * chi-square with h degrees of freedom, by its first two moments.
+  // For many degrees of freedom noncentral chi-square with lambda is about scale * chi-square with h degrees of freedom, by its first two moments.
   const auto reached = [&](double lambda) {
+    if (dof <= 20) return boost::math::cdf(boost::math::complement(boost::math::non_central_chi_squared(dof, lambda), critical));
     const double scale = (dof + 2 * lambda) / (dof + lambda), h = sqr(dof + lambda) / (dof + 2 * lambda);
     return chi_square_tail(critical / scale, h);
   };

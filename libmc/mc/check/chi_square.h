@@ -16,7 +16,7 @@ double normal_tail(double z);
 double normal_quantile(double p);
 
 /// The noncentrality at which a chi-square test of this level rejects with probability `power`.
-///   error : 2 % (Patnaik's approximation [Patnaik49])
+///   error : 2 %; exact up to 20 degrees of freedom, beyond by Patnaik's approximation [Patnaik49]
 double chi_square_noncentrality(double dof, double level, double power);
 
 /// P(X <= k) and P(X >= k) doubled, the smaller of the two, at most 1: exact two-sided tail of X ~ Binomial(n, p).

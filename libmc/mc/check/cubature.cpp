@@ -34,7 +34,7 @@ struct Rule {
 };
 
 struct Region {
-  Box box;
+  UnitBox box;
   double value = 0, error = 0;
   int owner = 0, axis = 0;
   bool rough = false; // the finer rule was of no use: halve with the cheaper one
@@ -46,19 +46,18 @@ class Integrator {
   Integrator(const std::function<double(const std::array<double, 3>&)>& f, int dim) : f_(f), dim_(dim) {}
 
   void evaluate(Region& r) {
-    const Rule& rule = r.rough || dim_ == 3 ? coarse() : fine();
+    const Rule& rule = r.rough ? coarse() : fine();
     const int n = rule.nodes;
     std::array<double, 3> width{1, 1, 1};
     double volume = 1;
     for (int d = 0; d < dim_; ++d) width[ix(d)] = r.box.hi[ix(d)] - r.box.lo[ix(d)], volume *= width[ix(d)];
-    // sums[0..2]: all axes at level 0, 1, 2; sums[3 + d]: axis d at level 1, the others at level 0.
-    std::array<double, 6> sums{};
-    const int n1 = dim_ > 1 ? n : 1, n2 = dim_ > 2 ? n : 1;
+    const std::array<int, 3> count{n, dim_ > 1 ? n : 1, dim_ > 2 ? n : 1};
+    values_.clear();
     std::array<double, 3> v{};
-    double largest = 0;
-    for (int k = 0; k < n2; ++k)
-      for (int j = 0; j < n1; ++j)
-        for (int i = 0; i < n; ++i) {
+    double largest = 0, least = HUGE_VAL;
+    for (int k = 0; k < count[2]; ++k)
+      for (int j = 0; j < count[1]; ++j)
+        for (int i = 0; i < count[0]; ++i) {
           const std::array<int, 3> index{i, j, k};
           for (int d = 0; d < dim_; ++d) v[ix(d)] = r.box.lo[ix(d)] + width[ix(d)] * rule.x[ix(index[ix(d)])];
           double value = f_(v);
@@ -66,31 +65,41 @@ class Integrator {
             if (!bad) bad = v;
             value = 0;
           }
-          largest = std::max(largest, value);
-          std::array<double, 6> product;
-          product.fill(value);
-          for (int d = 0; d < dim_; ++d) {
-            const std::size_t node = ix(index[ix(d)]);
-            for (std::size_t level = 0; level < 3; ++level) product[level] *= rule.w[level][node];
-            for (int e = 0; e < dim_; ++e) product[ix(3 + e)] *= rule.w[e == d ? 1 : 0][node];
-          }
-          for (std::size_t s = 0; s < sums.size(); ++s) sums[s] += product[s];
+          largest = std::max(largest, value), least = std::min(least, value);
+          values_.push_back(value);
         }
-    evaluations += static_cast<std::size_t>(n) * static_cast<std::size_t>(n1) * static_cast<std::size_t>(n2);
-    r.value = sums[0] * volume;
-    const double e1 = std::abs(sums[0] - sums[1]) * volume, e2 = std::abs(sums[1] - sums[2]) * volume;
+    evaluations += values_.size();
+
+    // Line by line along each axis, so that the errors of neighbouring lines cannot cancel.
+    double e1 = 0, e2 = 0, worst = -1, integral = 0;
+    const std::array<int, 3> stride{1, n, n * n};
+    for (int axis = 0; axis < dim_; ++axis) {
+      const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+      double d1 = 0, d2 = 0;
+      integral = 0;
+      for (int j = 0; j < count[ix(b)]; ++j)
+        for (int i = 0; i < count[ix(a)]; ++i) {
+          const double w = (count[ix(a)] > 1 ? rule.w[0][ix(i)] : 1.0) * (count[ix(b)] > 1 ? rule.w[0][ix(j)] : 1.0);
+          const double* line = values_.data() + i * stride[ix(a)] + j * stride[ix(b)];
+          std::array<double, 3> q{};
+          for (int k = 0; k < n; ++k)
+            for (std::size_t level = 0; level < 3; ++level) q[level] += rule.w[level][ix(k)] * line[k * stride[ix(axis)]];
+          integral += w * q[0];
+          d1 += w * std::abs(q[0] - q[1]);
+          d2 += w * std::abs(q[1] - q[2]);
+        }
+      e1 += d1, e2 += d2;
+      if (d1 > worst) worst = d1, r.axis = axis;
+    }
+    r.value = integral * volume;
+    e1 *= volume, e2 *= volume;
     // Geometric convergence: the next difference would be about e1 (e1 / e2); ten times that is the bound. A small e1 alone may
     // be luck, so a part of e2 stays.
     const double ratio = e2 > 0 ? e1 / e2 : 0.0;
-    r.error = ratio < 0.1 ? e1 * 10 * ratio : 2 * e1;
-    r.error = std::max(r.error, (n < 9 ? 0.1 : 0.01) * e2) + 4e-16 * largest * volume;
-    r.rough = r.rough || ratio > 0.3;
-    r.axis = 0;
-    double worst = -1;
-    for (int d = 0; d < dim_; ++d) {
-      const double disagreement = std::abs(sums[0] - sums[ix(3 + d)]);
-      if (disagreement > worst) worst = disagreement, r.axis = d;
-    }
+    r.error = ratio < 0.1 ? 10 * e1 * ratio : 2 * e1;
+    const bool edge = least == 0 && largest > 0; // of the support: never smooth
+    r.error = std::max(r.error, (edge ? 0.25 : r.rough ? 0.1 : 0.01) * e2) + 4e-16 * largest * volume;
+    r.rough = r.rough || edge || ratio > 0.3;
   }
 
   // Halves r in place and returns the other half.
@@ -128,11 +137,12 @@ class Integrator {
   }
   const std::function<double(const std::array<double, 3>&)>& f_;
   int dim_;
+  std::vector<double> values_;
 };
 
 } // namespace
 
-CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim, const std::vector<Box>& boxes,
+CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim, const std::vector<UnitBox>& boxes,
                                const CubatureGoal& goal) {
   require(dim >= 1 && dim <= 3, "integrate_boxes: dim {} must lie in 1..3", dim);
   Integrator integrator(f, dim);

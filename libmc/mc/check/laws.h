@@ -104,7 +104,7 @@ template <InvertibleWarp W> void jacobian_law(const W& oracle, std::uint64_t poi
   using S = typename W::Scalar;
   constexpr int dim = W::Domain::dim;
   const auto domain = oracle.domain();
-  const S h(1e-15);
+  const S h(1e-20);
   Pcg random(seed, 12);
   for (std::uint64_t k = 0; k < points; ++k) {
     const Subject::Coordinates c = law_point<dim>(random);

@@ -1,8 +1,9 @@
 #pragma once
-/// Subjects of warps and of pairs of functions.
+/// Subjects of warps, of discrete distributions and of pairs of functions.
 
 #include <mc/check/subject.h>
 #include <mc/random/pcg.h>
+#include <mc/table/concept.h>
 #include <mc/warp/concept.h>
 
 #include <fmt/format.h>
@@ -134,6 +135,36 @@ template <Warp W> Subject make_subject(std::string name, const W& warp) {
     const UnitPointOf<W> u = random.point<S, dim>();
     const PointOf<W> x = warp.sample(u);
     return fmt::format("u = {}, x = {}, pdf = {:.9g}", detail::format_point(u), detail::format_point(x), static_cast<double>(warp.pdf(x)));
+  };
+  return s;
+}
+
+/// A discrete distribution: its outcomes are atoms, its weight the ratio of stated and tabulated probability. An u_remapped
+/// outside [0,1) counts as not finite.
+template <DiscreteDistribution D> Subject make_discrete_subject(std::string name, const D& distribution) {
+  using S = typename D::Scalar;
+  Subject s;
+  s.name = std::move(name);
+  s.mass_tolerance = 64 * static_cast<double>(std::numeric_limits<S>::epsilon());
+  for (std::size_t i = 0; i < distribution.size(); ++i) s.atoms.push_back(static_cast<double>(distribution.pmf(i)));
+  s.draw = [distribution](std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
+    using Kind = Subject::Draw::Kind;
+    Pcg random(seed);
+    for (std::size_t i = 0; i < n; ++i) {
+      Subject::Draw& d = out.emplace_back();
+      const auto drawn = distribution.sample_index(random.uniform<S>());
+      d.kind = drawn.u_remapped >= 0 && drawn.u_remapped < 1 ? Kind::atom : Kind::not_finite;
+      d.atom = static_cast<int>(drawn.index);
+      d.pdf_positive = drawn.pmf > 0;
+      d.weight = static_cast<double>(drawn.pmf / distribution.pmf(drawn.index));
+    }
+  };
+  s.describe_draw = [distribution](std::uint64_t seed, std::uint64_t index) {
+    Pcg random(seed);
+    random.advance(index * (std::same_as<S, float> ? 1 : 2));
+    const S u = random.uniform<S>();
+    const auto drawn = distribution.sample_index(u);
+    return fmt::format("u = {}, outcome {}, pmf = {:.9g}, u_remapped = {}", detail::format_point(u), drawn.index, static_cast<double>(drawn.pmf), detail::format_point(drawn.u_remapped));
   };
   return s;
 }

@@ -20,10 +20,10 @@ Partition::Partition(std::vector<Coordinates> pilot, int dim, int depth) : dim_(
   require(dim >= 1 && dim <= 3, "Partition: dim {} must lie in 1..3", dim);
   require(depth >= 0 && depth <= 24, "Partition: depth {} must lie in 0..24", depth);
   splits_.resize(static_cast<std::size_t>(size()));
-  split(1, Box{}, pilot.data(), pilot.data() + pilot.size(), 0);
+  split(1, UnitBox{}, pilot.data(), pilot.data() + pilot.size(), 0);
 }
 
-void Partition::split(int node, const Box& box, Coordinates* begin, Coordinates* end, int level) {
+void Partition::split(int node, const UnitBox& box, Coordinates* begin, Coordinates* end, int level) {
   if (level == depth_) return;
   // The place for a split of this axis; none when the pilot cannot be divided there.
   const auto place = [&](std::uint32_t axis) -> std::optional<double> {
@@ -58,14 +58,14 @@ void Partition::split(int node, const Box& box, Coordinates* begin, Coordinates*
   const double at = s.at;
   const std::uint32_t axis = s.axis;
   Coordinates* middle = std::partition(begin, end, [&](const Coordinates& v) { return v[axis] < at; });
-  Box left = box, right = box;
+  UnitBox left = box, right = box;
   left.hi[axis] = right.lo[axis] = at;
   split(2 * node, left, begin, middle, level + 1);
   split(2 * node + 1, right, middle, end, level + 1);
 }
 
-Box Partition::box(int cell) const {
-  Box b;
+UnitBox Partition::box(int cell) const {
+  UnitBox b;
   for (int level = 0, node = 1; level < depth_; ++level) {
     const Split& s = splits_[static_cast<std::size_t>(node)];
     const bool right = (cell >> (depth_ - 1 - level)) & 1;

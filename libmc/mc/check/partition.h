@@ -8,7 +8,7 @@
 namespace mc {
 
 /// An axis-parallel box of the unit cube, half open: lo <= v < hi (closed where hi = 1).
-struct Box {
+struct UnitBox {
   std::array<double, 3> lo{0, 0, 0}, hi{1, 1, 1};
 };
 
@@ -26,7 +26,7 @@ class Partition {
 
   int size() const { return 1 << depth_; }
   int depth() const { return depth_; }
-  Box box(int cell) const;
+  UnitBox box(int cell) const;
   int cell(const Coordinates& v) const {
     int node = 1;
     for (int level = 0; level < depth_; ++level) {
@@ -38,7 +38,7 @@ class Partition {
 
  private:
   struct Split { double at; std::uint32_t axis; };
-  void split(int node, const Box& box, Coordinates* begin, Coordinates* end, int level);
+  void split(int node, const UnitBox& box, Coordinates* begin, Coordinates* end, int level);
 
   int dim_, depth_;
   std::vector<Split> splits_; ///< heap order, root at 1
