@@ -4,7 +4,6 @@
 #include <mc/domain/interval.h>
 #include <mc/table/cdf.h>
 #include <mc/table/concept.h>
-#include <mc/warp/concept.h>
 
 #include <algorithm>
 
@@ -14,7 +13,9 @@ namespace mc {
 /// DiscreteDistribution by index and an InvertibleWarp by point.
 ///   sample : u -> cell i with cdf(i) <= u < cdf(i+1), then linear within it
 ///   pdf    : pmf(i) n / (hi - lo) [1/length]; 0 outside and in cells of weight 0
-///   invert : |invert(sample(u)) - u| <= 4 eps for points that round to the cell they were drawn in
+///            Points keep to their cell as long as S can tell it from its neighbours: cells no narrower than 2 ulp(hi).
+///   invert : |invert(sample(u)) - u| <= 4 eps + pmf(i) ulp(x) n / (hi - lo): the rounding of x, magnified where cells are narrow
+///   reach  : an outcome less likely than the spacing of u (2^-24 float, 2^-53 double) is met only by a finer u
 ///   throws : Error for no weights, a weight that is not finite and >= 0, or all weights 0
 ///   Source : inverse transform sampling; see Cdf for the bounds
 template <Real S> class TableDist1D {
@@ -33,9 +34,7 @@ template <Real S> class TableDist1D {
 
   DiscreteSample<S> sample_index(S u) const {
     const std::size_t i = cdf_.find(static_cast<double>(u));
-    const double remapped = (static_cast<double>(u) - cdf_.cdf(i)) / cdf_.pmf(i);
-    using std::min;
-    return {i, S(cdf_.pmf(i)), min(S(remapped), one_minus_epsilon<S>)};
+    return {i, S(cdf_.pmf(i)), below_one(S(within(i, u)))};
   }
   S pmf(std::size_t i) const { return S(cdf_.pmf(i)); }
   std::size_t size() const { return cdf_.size(); }
@@ -43,23 +42,29 @@ template <Real S> class TableDist1D {
   Domain domain() const { return interval_; }
   S sample(S u) const {
     const std::size_t i = cdf_.find(static_cast<double>(u));
-    const S low = S(cdf_.cdf(i)), within = (u - low) / S(cdf_.pmf(i));
-    using std::max, std::min;
-    const S n = S(static_cast<double>(size())), cell = S(static_cast<double>(i));
-    // Rounding must not carry the point into the next cell, which may have weight 0.
-    S v = (cell + min(max(within, S(0)), one_minus_epsilon<S>)) / n;
+    const Work v = (index(i) + within(i, u)) / index(size());
+    S x = S(Work(interval_.lo) * (1 - v) + Work(interval_.hi) * v);
+    // Rounding must not carry the point into a neighbouring cell, which may have weight 0.
     if constexpr (std::floating_point<S>)
-      while (cell_of(v) > i) v = std::nextafter(v, S(0));
-    return interval_.from_unit(v);
+      for (int step = 0; step < 4; ++step) {
+        const std::size_t at = cell(x);
+        if (at == i) break;
+        x = std::nextafter(x, at < i ? interval_.hi : interval_.lo);
+      }
+    return x;
   }
   S pdf(S x) const {
     if (!interval_.contains(x)) return S(0);
-    return S(cdf_.pmf(cell_of(interval_.to_unit(x)))) * S(static_cast<double>(size())) / interval_.jacobian(S(0));
+    return S(Work(cdf_.pmf(cell(x))) * index(size()) / (Work(interval_.hi) - Work(interval_.lo)));
   }
   S invert(S x) const {
-    const S v = interval_.to_unit(x);
-    const std::size_t i = cell_of(v);
-    return S(cdf_.cdf(i)) + (v * S(static_cast<double>(size())) - S(static_cast<double>(i))) * S(cdf_.pmf(i));
+    const std::size_t i = cell(x);
+    return S(Work(cdf_.cdf(i)) + (unit(x) * index(size()) - index(i)) * Work(cdf_.pmf(i)));
+  }
+  /// The cell that holds x; the outermost one beyond the ends.
+  std::size_t cell(S x) const {
+    const Work v = unit(x) * index(size());
+    return v > 0 ? std::min(static_cast<std::size_t>(static_cast<double>(v)), size() - 1) : 0;
   }
   template <Real T> TableDist1D<T> cast() const { return TableDist1D<T>(cdf_, interval_.template cast<T>()); }
 
@@ -69,9 +74,12 @@ template <Real S> class TableDist1D {
   template <Real T> friend class TableDist1D;
   TableDist1D(Cdf cdf, Interval<S> interval) : cdf_(std::move(cdf)), interval_(interval) {}
 
-  std::size_t cell_of(S v) const {
-    return std::min(static_cast<std::size_t>(static_cast<double>(v * S(static_cast<double>(size())))), size() - 1);
-  }
+  // A float has too few bits to count the cells of a large table, so it computes in double.
+  using Work = std::conditional_t<std::same_as<S, float>, double, S>;
+  static Work index(std::size_t i) { return Work(static_cast<double>(i)); }
+  static S below_one(S v) { return v < 1 ? v : one_minus_epsilon<S>; }
+  Work within(std::size_t i, S u) const { return (Work(u) - Work(cdf_.cdf(i))) / Work(cdf_.pmf(i)); }
+  Work unit(S x) const { return (Work(x) - Work(interval_.lo)) / (Work(interval_.hi) - Work(interval_.lo)); }
 
   Cdf cdf_;
   Interval<S> interval_;

@@ -32,18 +32,18 @@ struct Planes {
 } // namespace
 
 void write_exr(const std::string& path, const Image& image) {
-  const std::size_t count = image.variance.empty() ? 3 : 6;
-  Imf::Header header(image.width, image.height);
-  Imf::FrameBuffer frame;
-  Planes planes(count, image.width, image.height);
-  for (std::size_t c = 0; c < count; ++c) {
-    header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
-    const auto& source = c < 3 ? image.pixels : image.variance;
-    for (std::size_t i = 0; i < source.size(); ++i) planes.plane[c][i] = static_cast<float>(source[i][static_cast<int>(c % 3)]);
-    frame.insert(channels[c], planes.slice(c, 0, 0));
-  }
-  for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
   try {
+    const std::size_t count = image.variance.empty() ? 3 : 6;
+    Imf::Header header(image.width, image.height);
+    Imf::FrameBuffer frame;
+    Planes planes(count, image.width, image.height);
+    for (std::size_t c = 0; c < count; ++c) {
+      header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
+      const auto& source = c < 3 ? image.pixels : image.variance;
+      for (std::size_t i = 0; i < source.size(); ++i) planes.plane[c][i] = static_cast<float>(source[i][static_cast<int>(c % 3)]);
+      frame.insert(channels[c], planes.slice(c, 0, 0));
+    }
+    for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
     Imf::OutputFile file(path.c_str(), header);
     file.setFrameBuffer(frame);
     file.writePixels(image.height);

@@ -52,7 +52,7 @@ XmlElement convert(const pugi::xml_node& node, const std::string& path, const st
   for (const auto& a : node.attributes()) element.set(a.name(), a.value());
   for (const auto& child : node.children()) {
     if (child.type() == pugi::node_element) element.children.push_back(convert(child, path, text));
-    else element.fail(fmt::format("text '{}' between elements is not supported; remove it", child.value()));
+    else element.fail("text between elements is not supported; remove it");
   }
   return element;
 }

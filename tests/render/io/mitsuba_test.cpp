@@ -1,0 +1,132 @@
+#include <render/io/mitsuba.h>
+
+#include <render/io/image_io.h>
+#include <render/render.h>
+
+#include "support/files.h"
+
+namespace {
+
+const char* const sensor = "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor>";
+
+struct Mitsuba : support::ScratchTest {
+  std::string scene(const std::string& body) const { return write("s.xml", "<scene version=\"0.6.0\">\n" + body + "\n</scene>\n"); }
+  std::string refusal(const std::string& body) const {
+    const std::string file = scene(body);
+    std::string message = support::error_of([&] { render::read_mitsuba(file); });
+    EXPECT_EQ(message.find('\n'), std::string::npos) << "one line: " << message;
+    return message;
+  }
+};
+
+std::string gallery(const std::string& name) { return std::string(MC_SOURCE_DIR) + "/librender/scenes/" + name; }
+
+TEST_F(Mitsuba, ReadsTheCornellBoxAsItIs) {
+  const render::Scene scene = render::read_mitsuba(gallery("cbox.xml"));
+  EXPECT_EQ(scene.shapes.size(), 8u);
+  ASSERT_EQ(scene.lights.size(), 1u);
+  EXPECT_NEAR(scene.shapes[static_cast<std::size_t>(scene.lights[0].shape)].area(), 130 * 105, 1);
+  EXPECT_EQ(scene.defaults.width, 512);
+  EXPECT_EQ(scene.defaults.spp, 4);
+  EXPECT_EQ(scene.defaults.max_depth, -1);
+  EXPECT_TRUE(std::holds_alternative<render::GaussianFilter>(scene.filter));
+  EXPECT_NEAR(scene.camera.forward.z(), 1, 1e-6);
+  EXPECT_NEAR(scene.camera.right.x(), -1, 1e-6);
+  // The light shines down, inside the room.
+  const auto& light = scene.shapes[static_cast<std::size_t>(scene.lights[0].shape)];
+  EXPECT_LT(light.sample(render::Vec3(278, 0, 280), render::Vec2(0.3f, 0.6f))->point.ng.y(), -0.99);
+}
+
+TEST_F(Mitsuba, EveryGallerySceneLoadsAndRenders) {
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(gallery(""))) {
+    if (entry.path().extension() != ".xml") continue;
+    ++scenes;
+    const render::Scene scene = render::read_mitsuba(entry.path().string());
+    render::RenderOptions options;
+    options.width = 24, options.height = 18, options.spp = 8;
+    const auto result = render::render(scene, options);
+    EXPECT_EQ(result.invalid, 0u) << entry.path();
+    double sum = 0;
+    for (const auto& p : result.image.pixels) sum += p.sum();
+    EXPECT_GT(sum, 0) << entry.path();
+  }
+  EXPECT_GE(scenes, 12);
+}
+
+TEST_F(Mitsuba, NamesFileLineAndRemedy) {
+  EXPECT_THAT(support::error_of([&] { render::read_mitsuba(path("none.xml")); }), testing::HasSubstr("none.xml': no such file"));
+  EXPECT_THAT(support::error_of([&] { render::read_mitsuba(write("b.xml", "<scene>\n<shape\n</scene>")); }), testing::HasSubstr("b.xml:"));
+  EXPECT_THAT(refusal(""), testing::HasSubstr("no <sensor>"));
+  EXPECT_THAT(refusal(sensor), testing::HasSubstr("neither a shape nor a background"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"spere\"/>"), testing::HasSubstr("s.xml:3: <shape>: unknown type 'spere'; did you mean 'sphere'?"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"serialized\"/>"), testing::HasSubstr("s.xml:3: <shape>: unknown type 'serialized'"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"difuse\" id=\"a\"/>"), testing::HasSubstr("did you mean 'diffuse'?"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<volume/>"), testing::HasSubstr("s.xml:3: <volume>: unknown element"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"one\"/></shape>"), testing::HasSubstr("s.xml:3: <float>: 'one' is not a finite number"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>"), testing::HasSubstr("s.xml:3: sphere: radius -1 must be finite and > 0"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radus\" value=\"1\"/></shape>"), testing::HasSubstr("s.xml:3: <float name=\"radus\"> is not supported here; remove it"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"obj\"><string name=\"filename\" value=\"gone.obj\"/></shape>"), testing::AllOf(testing::HasSubstr("s.xml:3"), testing::HasSubstr("gone.obj': no such file")));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><ref id=\"whte\"/></shape>\n<bsdf type=\"diffuse\" id=\"white\"/>"), testing::HasSubstr("no BSDF has the id 'whte'; did you mean 'white'?"));
+  EXPECT_THAT(refusal("<integrator type=\"volpath\"/>" + std::string(sensor)), testing::HasSubstr("unknown type 'volpath'"));
+  EXPECT_THAT(refusal("<sensor type=\"perspective\"><float name=\"fov\" value=\"180\"/></sensor>"), testing::HasSubstr("fov 180 must lie in (0, 180) degrees"));
+  EXPECT_THAT(refusal("<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/><sampler type=\"x\"><integer name=\"sampleCount\" value=\"0\"/></sampler></sensor>"), testing::HasSubstr("sampleCount 0 must be at least 1"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"diffuse\" id=\"a\"><rgb name=\"reflectance\" value=\"1.5\"/></bsdf>"), testing::HasSubstr("reflectance 1.5 must lie in [0, 1]"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<emitter type=\"constant\"><rgb name=\"radiance\" value=\"-1\"/></emitter>"), testing::HasSubstr("must be finite and >= 0"));
+}
+
+TEST_F(Mitsuba, MeshProblemsNameSceneAndMesh) {
+  write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"obj\"><string name=\"filename\" value=\"nan.obj\"/></shape>"), testing::AllOf(testing::HasSubstr("s.xml:3"), testing::HasSubstr("nan.obj: line 2")));
+  write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"obj\"><string name=\"filename\" value=\"flat.obj\"/><emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>"),
+              testing::HasSubstr("an emitting shape needs an area > 0"));
+}
+
+TEST_F(Mitsuba, ASceneWithoutLightIsBlackNotAnError) {
+  const render::Scene scene = render::read_mitsuba(this->scene(std::string(sensor) + "<shape type=\"sphere\"/>"));
+  EXPECT_FALSE(scene.has_light());
+  render::RenderOptions options;
+  options.width = options.height = 4;
+  options.spp = 4;
+  for (const auto& p : render::render(scene, options).image.pixels) EXPECT_TRUE((p == 0).all());
+}
+
+// Every 16x16 block within 4 combined standard errors plus 0.5 % of the reference (its own noise, at most 1.9 % per pixel, is far
+// smaller over a block). 64 samples per pixel of the sizes of the references.
+struct Reference : testing::TestWithParam<std::array<const char*, 2>> {};
+
+TEST_P(Reference, BlocksAgree) {
+  const auto [name, file] = GetParam();
+  if (!support::shared_present(file)) return;
+  const render::Image reference = render::read_image(support::shared(file));
+  const render::Scene scene = render::read_mitsuba(gallery(name));
+  render::RenderOptions options;
+  options.width = reference.width, options.height = reference.height, options.spp = 64;
+  options.seed = 3;
+  const auto result = render::render(scene, options);
+  ASSERT_EQ(result.invalid, 0u);
+  int blocks = 0;
+  double worst = 0;
+  for (int y0 = 0; y0 < reference.height; y0 += 16)
+    for (int x0 = 0; x0 < reference.width; x0 += 16)
+      for (int c = 0; c < 3; ++c, ++blocks) {
+        double difference = 0, sum = 0, variance = 0;
+        for (int y = y0; y < std::min(y0 + 16, reference.height); ++y)
+          for (int x = x0; x < std::min(x0 + 16, reference.width); ++x) {
+            difference += double(result.image.at(x, y)[c]) - double(reference.at(x, y)[c]);
+            sum += double(reference.at(x, y)[c]);
+            variance += double(result.image.variance[reference.index(x, y)][c]);
+          }
+        const double excess = std::abs(difference) - 0.005 * std::abs(sum);
+        if (excess > 0) worst = std::max(worst, excess / std::sqrt(variance));
+        EXPECT_LE(excess, 4 * std::sqrt(variance)) << name << " block (" << x0 << ", " << y0 << ") channel " << c;
+      }
+  std::printf("%s: %d blocks, the worst %.2f standard errors beyond 0.5 %%\n", name, blocks, worst);
+}
+
+INSTANTIATE_TEST_SUITE_P(Mitsuba, Reference,
+                         testing::Values(std::array{"cbox.xml", "refs/cbox_lajolla_256.pfm"}, std::array{"cornell_white.xml", "refs/book3_cornell_300.pfm"},
+                                         std::array{"smallpt.xml", "refs/smallpt_256x192.pfm"}));
+
+} // namespace

@@ -1,0 +1,45 @@
+#include <render/io/obj.h>
+
+#include "support/files.h"
+
+namespace {
+
+struct Obj : support::ScratchTest {
+  static render::Transform identity() {
+    render::Transform t = render::Transform::Zero();
+    t.leftCols<3>().setIdentity();
+    return t;
+  }
+  std::string refusal(const std::string& text) const {
+    const std::string file = write("bad.obj", text);
+    return support::error_of([&] { render::read_obj(file, identity()); });
+  }
+};
+
+TEST_F(Obj, QuadBecomesTwoTriangles) {
+  const auto mesh = render::read_obj(write("quad.obj", "v 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\nf 1 2 3 4\n"), identity());
+  EXPECT_EQ(mesh.size(), 2u);
+  EXPECT_DOUBLE_EQ(mesh.area(), 6);
+}
+
+TEST_F(Obj, TransformAndNegativeIndices) {
+  render::Transform t = identity();
+  t(0, 0) = -2; // mirrors: the winding is turned so that the normal stays on its side
+  t(2, 3) = 5;
+  const auto mesh = render::read_obj(write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n"), t);
+  EXPECT_DOUBLE_EQ(mesh.area(), 1);
+  const auto v = mesh.vertices(0);
+  EXPECT_EQ(v[0].z(), 5);
+  EXPECT_GT(mc::cross<render::Float>(v[1] - v[0], v[2] - v[0]).z(), 0);
+}
+
+TEST_F(Obj, RefusesWithFileAndPlace) {
+  EXPECT_THAT(support::error_of([&] { render::read_obj(path("none.obj"), identity()); }), testing::HasSubstr("no such file"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), testing::HasSubstr("names vertex 9, but there are only 3"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n"), testing::HasSubstr("bad.obj: line 2: vertex 2 has y = nan, which is not finite"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 inf\nv 0 1 0\nf 1 2 3\n"), testing::HasSubstr("line 2: vertex 2 has z = inf"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n"), testing::HasSubstr("line 2: vertex 2 has no number for y"));
+  EXPECT_THAT(refusal("v 0 0 0\n"), testing::HasSubstr("no triangle"));
+}
+
+} // namespace

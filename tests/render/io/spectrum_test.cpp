@@ -1,0 +1,32 @@
+#include <render/io/spectrum.h>
+
+#include "support/files.h"
+
+namespace {
+
+// The constant 1 under the fit: XYZ (0.99769, 1.00025, 0.99520), RGB (1.1993, 0.9508, 0.9037) to four digits.
+TEST(Spectrum, ConstantOne) {
+  const render::Spectrum rgb = render::spectrum_to_rgb({{400, 1}, {700, 1}});
+  EXPECT_NEAR(rgb[0], 1.1993, 5e-5);
+  EXPECT_NEAR(rgb[1], 0.9508, 5e-5);
+  EXPECT_NEAR(rgb[2], 0.9037, 5e-5);
+}
+
+TEST(Spectrum, IsLinearAndInterpolates) {
+  const render::Spectrum one = render::spectrum_to_rgb({{400, 1}, {700, 1}});
+  const render::Spectrum ramp = render::spectrum_to_rgb({{400, 0}, {700, 3}});
+  const render::Spectrum fine = render::spectrum_to_rgb({{400, 0}, {450, 0.5}, {600, 2}, {700, 3}});
+  const render::Spectrum flipped = render::spectrum_to_rgb({{400, 3}, {700, 0}});
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(ramp[c], fine[c], 1e-5);
+    EXPECT_NEAR(ramp[c] + flipped[c], 3 * one[c], 1e-5);
+  }
+}
+
+TEST(Spectrum, RefusesNonsense) {
+  EXPECT_THAT(support::error_of([] { render::spectrum_to_rgb({}); }), testing::HasSubstr("no samples"));
+  EXPECT_THAT(support::error_of([] { render::spectrum_to_rgb({{500, 1}, {400, 1}}); }), testing::HasSubstr("sample 1 (400:1)"));
+  EXPECT_THAT(support::error_of([] { render::spectrum_to_rgb({{400, NAN}}); }), testing::HasSubstr("must be finite"));
+}
+
+} // namespace

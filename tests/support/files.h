@@ -1,0 +1,52 @@
+#pragma once
+// Scratch folders and error messages, for tests of input and output.
+
+#include <mc/core/error.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+
+namespace support {
+
+/// A test with a folder of its own that is removed at the end.
+struct ScratchTest : testing::Test {
+  std::filesystem::path folder;
+
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder = std::filesystem::path(testing::TempDir()) / (std::string(info->test_suite_name()) + "." + info->name());
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder / name, std::ios::binary) << text;
+    return path(name);
+  }
+};
+
+/// What f complains about; "" when it does not.
+inline std::string error_of(const std::function<void()>& f) {
+  try {
+    f();
+  } catch (const mc::Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+/// Where the comparison data of the workplace stand. Tests that only compare against it say so and pass where it is absent.
+inline bool shared_present(const std::string& file) {
+  if (std::filesystem::exists(std::string(MC_SHARED_DIR) + "/" + file)) return true;
+  std::printf("skipped: the reference %s is not here\n", file.c_str());
+  return false;
+}
+inline std::string shared(const std::string& file) { return std::string(MC_SHARED_DIR) + "/" + file; }
+
+} // namespace support
