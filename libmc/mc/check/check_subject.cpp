@@ -97,6 +97,50 @@ struct Ranks {
   }
 };
 
+// Pieces of the cells for the cubature. Where the pilot fills only a corner of its cell, the rest is cut in steps that grow by
+// a factor of four, so that a lobe far narrower than the cell cannot slip between the nodes.
+struct Pieces {
+  std::vector<UnitBox> boxes;
+  std::vector<std::size_t> owner;
+};
+
+Pieces cut_into_pieces(const Partition& partition, const std::vector<Partition::Coordinates>& pilot, int dim) {
+  const auto cells = static_cast<std::size_t>(partition.size());
+  std::vector<UnitBox> extent(cells);
+  for (UnitBox& e : extent) e.lo = {2, 2, 2}, e.hi = {-1, -1, -1};
+  for (const auto& v : pilot) {
+    UnitBox& e = extent[static_cast<std::size_t>(partition.cell(v))];
+    for (std::size_t d = 0; d < 3; ++d) e.lo[d] = std::min(e.lo[d], v[d]), e.hi[d] = std::max(e.hi[d], v[d]);
+  }
+  Pieces pieces;
+  for (std::size_t i = 0; i < cells; ++i) {
+    std::vector<UnitBox> parts{partition.box(static_cast<int>(i))};
+    for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) {
+      const double lo = parts[0].lo[d], hi = parts[0].hi[d], size = extent[i].hi[d] - extent[i].lo[d];
+      if (!(size > 0)) continue;
+      std::vector<double> cuts;
+      double step = size;
+      for (double at = extent[i].lo[d] - size; at > lo + step; step *= 4, at -= step) cuts.push_back(at);
+      step = size;
+      for (double at = extent[i].hi[d] + size; at < hi - step; step *= 4, at += step) cuts.push_back(at);
+      if (cuts.empty()) continue;
+      std::sort(cuts.begin(), cuts.end());
+      std::vector<UnitBox> finer;
+      for (UnitBox part : parts) {
+        for (const double at : cuts) {
+          if (!(at > part.lo[d] && at < part.hi[d])) continue;
+          finer.push_back(part);
+          finer.back().hi[d] = part.lo[d] = at;
+        }
+        finer.push_back(part);
+      }
+      parts = std::move(finer);
+    }
+    for (const UnitBox& part : parts) pieces.boxes.push_back(part), pieces.owner.push_back(i);
+  }
+  return pieces;
+}
+
 // A slab of the cube, a few units in the last place wide, in which the pilot shows the most samples: where a clamp or a
 // fallback value puts an atom that no cell is small enough to see.
 struct Slab {
@@ -229,7 +273,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
     const int depth = std::clamp(static_cast<int>(std::log2(std::max(continuous, 1.0) / 200)), 0, 12);
     const Ranks ranks(pilot, s.dim);
     slabs = crowded_slabs(s, pilot, ranks);
-    const Partition partition(std::move(pilot), s.dim, depth);
+    const Partition partition(pilot, s.dim, depth);
     for (int i = 0; i < partition.size(); ++i) {
       boxes.push_back(partition.box(i));
       Cell c;
@@ -241,12 +285,16 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
     goal.total_error = 0.06 / std::sqrt(n);
     goal.box_error = [n](double value) { return 0.04 * std::sqrt(std::max(value, 1 / n) / n); };
     goal.max_evaluations = options.max_evaluations;
-    masses = integrate_boxes(s.density, s.dim, boxes, goal);
+    const Pieces pieces = cut_into_pieces(partition, pilot, s.dim);
+    masses = integrate_boxes(s.density, s.dim, pieces.boxes, goal);
+    for (std::size_t i = 0; i < pieces.boxes.size(); ++i) {
+      Cell& c = cells[pieces.owner[i]];
+      c.p += masses.boxes[i].value, c.error += masses.boxes[i].error;
+    }
     draw(s, hash(options.seed, 2), options.samples, tally, [&](const auto& v) {
       ++cells[static_cast<std::size_t>(partition.cell(v))].observed;
       for (Slab& slab : slabs) slab.observed += v[slab.axis] >= slab.box.lo[slab.axis] && v[slab.axis] <= slab.box.hi[slab.axis];
     });
-    for (std::size_t i = 0; i < cells.size(); ++i) cells[i].p = masses.boxes[i].value, cells[i].error = masses.boxes[i].error;
   } else {
     draw(s, hash(options.seed, 2), options.samples, tally, [](const auto&) {});
   }

@@ -7,6 +7,7 @@
 
 #include <mc/check/laws.h>
 #include <mc/check/t_test.h>
+#include <mc/core/error.h>
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,115 @@
+#include <mc/check/check_subject.h>
+
+#include <mc/check/make_subject.h>
+#include <mc/core/error.h>
+#include <mc/domain/hemisphere.h>
+#include <mc/domain/interval.h>
+#include <mc/warp/hemisphere.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using V = mc::Vec3<double>;
+using mc::Fault, mc::Pcg, mc::Verdict;
+
+V cosine(Pcg& r) { return mc::CosineHemisphere<double>{}.sample(r.point<double, 2>()); }
+double cosine_pdf(const V& w) { return w.z() > 0 ? w.z() / mc::pi<double> : 0.0; }
+
+// 300 seeds at alpha = 10 %, cheap sizes. KS on cells is conservative, so the rate may lie below 10 %; above it is a fault:
+// Binomial(300, 0.1) stays below 48 with probability 0.9995.
+TEST(CheckSubject, AcceptsTheRightSamplerAtTheRateOfAlpha) {
+  const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
+  int rejected = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const mc::Report r = check_subject(s, {.samples = 10'000, .seed = seed, .alpha = 0.1});
+    EXPECT_NE(r.verdict(), Verdict::inconclusive) << r.to_string();
+    rejected += r.verdict() == Verdict::fail;
+  }
+  EXPECT_LE(rejected, 48);
+  EXPECT_GE(rejected, 8);
+}
+
+TEST(CheckSubject, SharpLobesAreAsEasyAsCosines) {
+  // 1 - z exponential with mean 1e-10: a lobe of 1e-5 rad.
+  const double scale = 1e-10;
+  const auto sampler = [scale](Pcg& r) {
+    const double t = -scale * std::log1p(-r.uniform<double>()), phi = 2 * mc::pi<double> * r.uniform<double>();
+    return mc::spherical_direction<double>(std::sqrt(t * (2 - t)), 1 - t, phi);
+  };
+  const auto pdf = [scale](const V& w) { return std::exp(-mc::one_minus_z(w) / scale) / (2 * mc::pi<double> * scale); };
+  const mc::Report r = check_subject(make_subject("lobe", mc::Hemisphere<double>{}, sampler, pdf), {.samples = 200'000});
+  EXPECT_TRUE(r.passed()) << r.to_string();
+  EXPECT_NEAR(r.mass, 1, 1e-3);
+}
+
+TEST(CheckSubject, FailuresAreTestedAgainstTheMissingMass) {
+  const auto sampler = [](double p) {
+    return [p](Pcg& r) -> std::optional<V> {
+      if (r.uniform<double>() < p) return {};
+      return cosine(r);
+    };
+  };
+  const auto pdf = [](const V& w) { return 0.9 * cosine_pdf(w); };
+  const mc::Hemisphere<double> domain;
+  EXPECT_TRUE(check_subject(make_subject("0.1", domain, sampler(0.1), pdf), {.samples = 100'000}).passed());
+  const mc::Report wrong = check_subject(make_subject("0.11", domain, sampler(0.11), pdf), {.samples = 100'000});
+  EXPECT_EQ(wrong.verdict(), Verdict::fail);
+  EXPECT_EQ(wrong.fault(), Fault::mass) << wrong.to_string();
+}
+
+TEST(CheckSubject, SaysInconclusiveWhenTheQuadratureCannotBeTrusted) {
+  // A density that oscillates far below the size of any cell.
+  const auto pdf = [](double x) { return 1 + std::sin(2e7 * x) * (std::fmod(x * 1e8, 1.0) < 0.5 ? 1.0 : 0.7); };
+  const mc::Subject s = make_subject("rough", mc::Interval<double>(0, 1), [](Pcg& r) { return r.uniform<double>(); }, pdf);
+  EXPECT_NE(check_subject(s, {.samples = 100'000, .max_evaluations = 100'000}).verdict(), Verdict::pass);
+}
+
+TEST(CheckSubject, WitnessesAreInTheReport) {
+  const auto sampler = [](Pcg& r) {
+    V w = cosine(r);
+    if (r.uniform<double>() < 1e-3) w = -w;
+    return w;
+  };
+  const mc::Report r = check_subject(make_subject("below", mc::Hemisphere<double>{}, sampler, cosine_pdf), {.samples = 10'000});
+  EXPECT_EQ(r.fault(), Fault::outside);
+  EXPECT_THAT(r.to_string(), testing::HasSubstr("first x = ("));
+}
+
+TEST(CheckSubject, DiscreteOutcomes) {
+  mc::Subject s;
+  s.name = "coin";
+  s.atoms = {0.5, 0.5};
+  const auto coin = [](double p) {
+    return [p](std::uint64_t seed, std::size_t n, std::vector<mc::Subject::Draw>& out) {
+      Pcg random(seed);
+      for (std::size_t i = 0; i < n; ++i) {
+        mc::Subject::Draw d;
+        d.kind = mc::Subject::Draw::Kind::atom;
+        d.atom = random.uniform<double>() < p ? 0 : 1;
+        out.push_back(d);
+      }
+    };
+  };
+  s.draw = coin(0.5);
+  EXPECT_TRUE(check_subject(s, {.samples = 100'000}).passed());
+  s.draw = coin(0.51);
+  EXPECT_FALSE(check_subject(s, {.samples = 100'000}).passed());
+  s.draw = coin(0.5);
+  s.atoms = {0.5, 0.5, 0.01};
+  EXPECT_EQ(check_subject(s, {.samples = 100'000}).fault(), Fault::mass);
+}
+
+TEST(CheckSubject, SameSeedSameReport) {
+  const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
+  EXPECT_EQ(check_subject(s, {.samples = 5000}).p(), check_subject(s, {.samples = 5000}).p());
+}
+
+TEST(CheckSubject, RefusesNonsense) {
+  const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
+  EXPECT_THROW(check_subject(s, {.samples = 10}), mc::Error);
+  EXPECT_THROW(check_subject(s, {.alpha = 2}), mc::Error);
+}
+
+} // namespace

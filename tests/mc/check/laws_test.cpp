@@ -1,0 +1,75 @@
+#include <mc/check/laws.h>
+
+#include <mc/domain/interval.h>
+#include <mc/warp/hemisphere.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using mc::Fault;
+
+constexpr mc::LawOptions cheap_options() { return {}; }
+
+mc::LawOptions cheap() {
+  mc::LawOptions o = cheap_options();
+  o.samples = 20'000;
+  o.points = 64;
+  return o;
+}
+
+// Density 2 x on [0,1]; `Slip` breaks one law at a time.
+enum class Slip { none, pdf_scale, invert, edge, precision };
+template <class S, Slip slip> struct Ramp {
+  using Scalar = S;
+  using Domain = mc::Interval<S>;
+  Domain domain() const { return {}; }
+  S sample(S u) const {
+    using std::sqrt;
+    const S v = S(1) - u; // in (0, 1]
+    S x = S(sqrt(v));
+    if constexpr (slip == Slip::precision && std::floating_point<S>) x = x * (1 + 100 * std::numeric_limits<S>::epsilon()) < 1 ? x * (1 + 100 * std::numeric_limits<S>::epsilon()) : x;
+    if constexpr (slip == Slip::edge) return u == 0 ? S(2) : x;
+    return x;
+  }
+  S pdf(S x) const { return x >= 0 && x <= 1 ? S(slip == Slip::pdf_scale ? 2.001 : 2) * x : S(0); }
+  S invert(S x) const { return S(1) - (slip == Slip::invert ? S(x * x * x) : S(x * x)); }
+  template <mc::Real T> Ramp<T, slip> cast() const { return {}; }
+};
+
+template <class W> mc::Report laws(const W& w) { return check_laws(w, cheap()); }
+
+TEST(Laws, ARightWarpPasses) {
+  EXPECT_TRUE(laws(Ramp<float, Slip::none>{}).passed()) << laws(Ramp<float, Slip::none>{}).to_string();
+  EXPECT_TRUE(laws(Ramp<double, Slip::none>{}).passed()) << laws(Ramp<double, Slip::none>{}).to_string();
+  EXPECT_TRUE(laws(mc::UniformHemisphere<float>{}).passed());
+}
+
+TEST(Laws, EachSlipBreaksItsOwnLaw) {
+  const auto broken = [](const mc::Report& r, const std::string& law) {
+    for (const mc::Check& c : r.checks)
+      if (c.name.find(law) != std::string::npos && c.verdict == mc::Verdict::fail) return true;
+    return false;
+  };
+  EXPECT_TRUE(broken(laws(Ramp<double, Slip::pdf_scale>{}), "|det| pdf = 1"));
+  EXPECT_TRUE(broken(laws(Ramp<double, Slip::pdf_scale>{}), "mass"));
+  EXPECT_TRUE(broken(laws(Ramp<double, Slip::invert>{}), "invert"));
+  EXPECT_TRUE(broken(laws(Ramp<double, Slip::edge>{}), "edges"));
+  EXPECT_TRUE(broken(laws(Ramp<double, Slip::precision>{}), "sample against 50 digits"));
+  EXPECT_TRUE(broken(laws(Ramp<float, Slip::precision>{}), "sample against 50 digits"));
+}
+
+TEST(Laws, TheWitnessIsPrintedInFull) {
+  EXPECT_THAT(laws(Ramp<double, Slip::edge>{}).to_string(), testing::HasSubstr("outside the domain at u = 0: x = 2, pdf = 0"));
+}
+
+TEST(Laws, StatisticsCanBeLeftOut) {
+  mc::LawOptions o = cheap();
+  o.samples = 0;
+  const mc::Report r = check_laws(mc::CosineHemisphere<double>{}, o);
+  EXPECT_TRUE(r.passed());
+  EXPECT_EQ(r.checks.size(), 5u);
+}
+
+} // namespace

@@ -1,0 +1,41 @@
+#include <mc/gtest/matchers.h>
+
+#include <mc/domain/interval.h>
+#include <mc/warp/disk.h>
+#include <mc/warp/hemisphere.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Matchers, WarpLaws) {
+  EXPECT_WARP_LAWS(mc::UniformDisk<double>{});
+  mc::LawOptions few;
+  few.samples = 20'000;
+  EXPECT_WARP_LAWS(mc::CosineHemisphere<float>{}, few);
+}
+
+TEST(Matchers, SamplesMatchPdf) {
+  const auto sampler = [](mc::Pcg& r) { return std::sqrt(1 - r.uniform<double>()); };
+  const mc::SubjectOptions few{.samples = 50'000};
+  EXPECT_SAMPLES_MATCH_PDF(sampler, [](double x) { return 2 * x; }, mc::Interval<double>(0, 1), few);
+  const testing::AssertionResult wrong = mc::samples_match_pdf("sampler", sampler, [](double x) { return 3 * x * x; }, mc::Interval<double>(0, 1), few);
+  EXPECT_FALSE(wrong);
+  EXPECT_THAT(wrong.message(), testing::AllOf(HasSubstr("sampler: fail"), HasSubstr("shape"), HasSubstr("observed")));
+}
+
+TEST(Matchers, Mean) {
+  mc::Pcg random(8);
+  std::vector<float> u(10'000);
+  for (float& x : u) x = random.uniform<float>();
+  EXPECT_MEAN(u, 0.5);
+  const testing::AssertionResult wrong = mc::has_mean("u", u, 0.52);
+  EXPECT_FALSE(wrong);
+  EXPECT_THAT(wrong.message(), testing::AllOf(HasSubstr("mean of u: "), HasSubstr("expected 0.52"), HasSubstr("standard errors off")));
+  EXPECT_THAT(mc::has_mean("x", std::vector<double>{1, std::nan("")}, 0).message(), HasSubstr("not finite"));
+}
+
+} // namespace
