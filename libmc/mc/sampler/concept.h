@@ -16,6 +16,12 @@ concept Sampler = requires(const T s, std::uint64_t index, std::uint32_t dim) {
   { s.bits(index, dim) } -> std::same_as<std::uint64_t>;
 };
 
+/// The point at fraction jitter / 2^64 of interval `i` of `n` equal ones, i < n: rounded down, so never 1.
+constexpr std::uint64_t jittered(std::uint64_t i, std::uint64_t n, std::uint64_t jitter) {
+  __extension__ using Wide = unsigned __int128;
+  return static_cast<std::uint64_t>(((Wide{i} << 64) + jitter) / n);
+}
+
 /// Coordinate `dim` of point `index`, in [0,1).
 template <Real S, Sampler T> S coordinate(const T& sampler, std::uint64_t index, std::uint32_t dim) {
   return uniform<S>(sampler.bits(index, dim));

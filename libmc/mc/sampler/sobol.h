@@ -4,13 +4,17 @@
 #include <mc/sampler/concept.h>
 #include <mc/sampler/owen_scramble.h>
 
+#include <algorithm>
+#include <array>
+#include <span>
+
 namespace mc {
 
 /// Owen-scrambled Sobol' points: a (t,s)-sequence in base 2, each dimension scrambled independently by the seed. Dimensions
 /// from Sobol::dimensions on are hashed independent ones.
 ///   index  : below 2^32
 ///   RMS error of the mean of a smooth integrand near N^-3/2 when N is a power of two, never much worse than independent
-///   Source : [Sobol67], direction numbers of [JoeKuo08] as tabulated in Boost.Random, scrambling [Owen95]
+///   Source : [Sobol67], direction numbers of [JoeKuo08] (new-joe-kuo-6, "D6") as tabulated in Boost.Random, scrambling [Owen95]
 class Sobol {
  public:
   static constexpr std::uint32_t dimensions = 1024;
@@ -31,6 +35,31 @@ class Sobol {
     std::uint32_t x = 0;
     for (; index != 0; index &= index - 1) x ^= column[__builtin_ctz(index)];
     return x;
+  }
+
+  /// Coordinate `dim` of points first, first + 1, ...: the bits of coordinate<S>, several points at a time.
+  template <Real S> void fill(std::uint64_t first, std::uint32_t dim, std::span<S> out) const {
+    if (dim >= dimensions) {
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] = uniform<S>(bits(first + i, dim));
+      return;
+    }
+    // An aligned block of indices is the point of its first, combined with the points of the offsets.
+    constexpr std::size_t block = 64;
+    std::array<std::uint32_t, block> offsets;
+    for (std::uint32_t i = 0; i < block; ++i) offsets[i] = unscrambled(i, dim);
+    const std::uint64_t key = hash(seed_, dim);
+    const auto scramble = static_cast<std::uint32_t>(key >> 32);
+    for (std::size_t done = 0; done < out.size();) {
+      const std::uint64_t index = first + done;
+      const std::size_t skip = index % block, n = std::min(block - skip, out.size() - done);
+      const std::uint32_t base = unscrambled(static_cast<std::uint32_t>(index - skip), dim);
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::uint32_t x = owen_scramble(base ^ offsets[skip + i], scramble);
+        if constexpr (std::same_as<S, float>) out[done + i] = static_cast<float>(x >> 8) * 0x1p-24f;
+        else out[done + i] = uniform<S>((std::uint64_t{x} << 32) | (mix64(key ^ (index + i)) & 0xffffffffu));
+      }
+      done += n;
+    }
   }
 
  private:

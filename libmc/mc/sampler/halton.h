@@ -1,0 +1,75 @@
+#pragma once
+/// Halton's sequence.
+
+#include <mc/sampler/concept.h>
+#include <mc/sampler/owen_scramble.h>
+
+#include <array>
+#include <cstddef>
+
+namespace mc {
+
+/// How the digits of a Halton point are randomised. The permutations are random affine maps d -> a d + c modulo the prime
+/// base, which move any two digits to any two others with equal probability: all that the variance depends on [Matousek98].
+///   digits : one per digit position, the same for all points; keeps the sequence's regularity
+///   owen   : one per digit position and value of the digits before it (nested), so that errors of neighbouring bases decouple
+enum class HaltonScramble { digits, owen };
+
+/// Randomised Halton points: dimension `dim` is the index written backwards in the dim-th prime base. Dimensions from
+/// Halton::dimensions on are hashed independent ones.
+///   Any b^k consecutive indices aligned to b^k fall one into each interval [j, j + 1) b^-k of the dimension with base b.
+///   Cost grows with the number of digits of 2^32 in the base; prefer Sobol where counts are powers of two.
+///   Source : [Halton60]
+class Halton {
+ public:
+  static constexpr std::uint32_t dimensions = 1024;
+
+  explicit Halton(std::uint64_t seed = 0, HaltonScramble scramble = HaltonScramble::owen) : seed_(seed), scramble_(scramble) {}
+
+  std::uint64_t bits(std::uint64_t index, std::uint32_t dim) const {
+    const std::uint64_t key = hash(seed_, dim);
+    if (dim >= dimensions) return mix64(key ^ index);
+    const bool nested = scramble_ == HaltonScramble::owen;
+    const auto rest = static_cast<std::uint32_t>(index);
+    // Digits deeper than those of a 32-bit index: the same permutations for all points, or independent ones for each.
+    const std::uint64_t tail = nested ? hash(~key, index) : hash(~key);
+    if (dim == 0) {
+      const std::uint32_t x = nested ? owen_scramble(reverse_bits(rest), static_cast<std::uint32_t>(key >> 32))
+                                     : reverse_bits(rest) ^ static_cast<std::uint32_t>(key >> 32);
+      return (std::uint64_t{x} << 32) | (tail >> 32);
+    }
+    return scrambled(rest, base(dim), key, nested, tail);
+  }
+
+  static constexpr std::uint32_t base(std::uint32_t dim) { return primes[dim]; }
+
+ private:
+  static constexpr std::uint64_t scrambled(std::uint32_t rest, std::uint32_t b, std::uint64_t key, bool nested, std::uint64_t tail) {
+    std::uint64_t value = 0, scale = 1;
+    for (std::uint64_t position = 1; scale < std::uint64_t{1} << 32; ++position) {
+      const std::uint64_t h = mix64(key + position * 0x9e3779b97f4a7c15ULL + (nested ? mix64(value) : 0));
+      const std::uint64_t a = 1 + (((h & 0xffffffffu) * (b - 1)) >> 32), c = ((h >> 32) * b) >> 32;
+      value = value * b + (a * (rest % b) + c) % b;
+      rest /= b;
+      scale *= b;
+    }
+    return jittered(value, scale, tail);
+  }
+
+  static constexpr std::array<std::uint16_t, dimensions> primes = [] {
+    std::array<std::uint16_t, dimensions> found{};
+    std::array<bool, 8192> composite{};
+    std::size_t n = 0;
+    for (std::size_t i = 2; n < dimensions; ++i) {
+      if (composite[i]) continue;
+      found[n++] = static_cast<std::uint16_t>(i);
+      for (std::size_t j = i * i; j < composite.size(); j += i) composite[j] = true;
+    }
+    return found;
+  }();
+
+  std::uint64_t seed_;
+  HaltonScramble scramble_;
+};
+
+} // namespace mc

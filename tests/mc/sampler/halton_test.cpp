@@ -1,0 +1,54 @@
+#include <mc/sampler/halton.h>
+
+#include "nets.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using test::occupancy;
+using test::Range;
+constexpr mc::HaltonScramble both[] = {mc::HaltonScramble::digits, mc::HaltonScramble::owen};
+
+TEST(Halton, BasesArePrimes) {
+  EXPECT_EQ(mc::Halton::base(0), 2u);
+  EXPECT_EQ(mc::Halton::base(4), 11u);
+  EXPECT_EQ(mc::Halton::base(1023), 8161u);
+}
+
+TEST(Halton, AlignedBlocksFillEveryInterval) {
+  for (const auto scramble : both)
+    for (const std::uint32_t d : {0u, 1u, 2u, 5u, 1023u}) {
+      const std::uint64_t b = mc::Halton::base(d);
+      for (std::uint64_t n = b; n < 10000; n *= b)
+        for (const std::uint64_t block : {0u, 3u}) EXPECT_EQ(occupancy(mc::Halton(5, scramble), block * n, n, d, n), (Range{1, 1})) << "base " << b;
+    }
+}
+
+TEST(Halton, FirstTwoDimensionsFillBoxes) {
+  for (const auto scramble : both) EXPECT_EQ(occupancy(mc::Halton(2, scramble), 2592, 1296, 0, 16, 1, 81), (Range{1, 1}));
+}
+
+TEST(Halton, UniformOverSeeds) {
+  for (const auto scramble : both)
+    for (const std::uint32_t d : {0u, 1u, 30u, 1022u, 1023u, 3000u})
+      for (const std::uint64_t i : {0ull, 1ull, 0xffffffffull})
+        EXPECT_LE(test::seed_moments([&](std::uint64_t s) { return mc::Halton(s, scramble); }, i, d, 4000), 5) << d << " " << i;
+}
+
+TEST(Halton, DimensionsBeyondTheLastDoNotWrap) {
+  const mc::Halton s(1);
+  for (std::uint32_t i = 0; i < 16; ++i) EXPECT_NE(s.bits(i, 1024), s.bits(i, 0));
+}
+
+// A smooth integrand: the error of 7776 points is well below 1/6 of that of 216, where independent points reach 1/6.
+TEST(Halton, ConvergesFasterThanIndependent) {
+  const auto f = [](double x, double y) { return std::exp(x) * std::exp(y); };
+  const double exact = mc::sqr(std::exp(1.0) - 1);
+  for (const auto scramble : both) {
+    const auto make = [&](std::uint64_t s) { return mc::Halton(s, scramble); };
+    EXPECT_LE(test::rms_error(make, 7776, 30, 0, exact, f), test::rms_error(make, 216, 30, 0, exact, f) / 15);
+  }
+}
+
+} // namespace
