@@ -1,0 +1,19 @@
+#include <mc/domain/hemisphere.h>
+
+#include "support/chart.h"
+
+namespace {
+
+TEST(Hemisphere, Chart) {
+  support::expect_chart(mc::Hemisphere<float>(), 8);
+  support::expect_chart(mc::Hemisphere<double>(), 8);
+}
+
+TEST(Hemisphere, EndsAtTheHorizon) {
+  const mc::Hemisphere<float> hemisphere;
+  EXPECT_TRUE(hemisphere.contains({1, 0, 0}));
+  EXPECT_FALSE(hemisphere.contains({1, 0, -1e-7f}));
+  EXPECT_FALSE(hemisphere.contains({NAN, 0, 1}));
+}
+
+} // namespace

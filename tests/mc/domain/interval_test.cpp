@@ -1,0 +1,41 @@
+#include <mc/domain/interval.h>
+
+#include "support/chart.h"
+#include "support/files.h"
+
+namespace {
+
+TEST(Interval, Chart) {
+  support::expect_chart(mc::Interval<float>(), 1);
+  support::expect_chart(mc::Interval<double>(-2, 6), 2);
+}
+
+TEST(HalfLine, Chart) {
+  support::expect_chart(mc::HalfLine<float>(0, 2), 4);
+  support::expect_chart(mc::HalfLine<double>(0, -3), 4);
+}
+
+TEST(RealLine, Chart) {
+  support::expect_chart(mc::RealLine<float>(0, 1), 4);
+  support::expect_chart(mc::RealLine<double>(0, 1e-3), 4);
+}
+
+// Far out on either side v keeps its relative precision toward 0, and 1 - v its absolute one.
+TEST(RealLine, TailsDoNotCancel) {
+  const mc::RealLine<double> line;
+  EXPECT_NEAR(line.to_unit(-1e8) * 2e8, 1, 1e-7);
+  EXPECT_NEAR((1 - line.to_unit(1e8)) * 2e8, 1, 1e-7);
+  EXPECT_EQ(line.to_unit(0), 0.5);
+}
+
+TEST(Interval, RefusesNonsense) {
+  EXPECT_EQ(support::error_of([] { mc::Interval<double>(1, 1); }), "Interval: [1, 1] needs finite bounds with lo < hi");
+  EXPECT_NE(support::error_of([] { mc::Interval<double>(0, INFINITY); }), "");
+  EXPECT_NE(support::error_of([] { mc::Interval<double>(NAN, 1); }), "");
+  EXPECT_NE(support::error_of([] { mc::HalfLine<double>(0, 0); }), "");
+  EXPECT_NE(support::error_of([] { mc::RealLine<double>(0, -1); }), "");
+  EXPECT_FALSE(mc::Interval<double>().contains(NAN));
+  EXPECT_FALSE(mc::RealLine<double>().contains(INFINITY));
+}
+
+} // namespace
