@@ -1,0 +1,27 @@
+#pragma once
+/// Dot product of three-vectors that keeps its relative precision when the terms nearly cancel.
+
+#include <mc/core/types.h>
+
+namespace mc {
+
+/// a . b, as if computed with twice the digits of S and rounded once at the end.
+///   error  : |result - a.b| <= eps |a.b| + 8 eps^2 |a| |b|
+///   Source : Dot2 of [OgitaRumpOishi05]; float simply computes in double, where its products are exact
+template <Real S> S accurate_dot(const Vec3<S>& a, const Vec3<S>& b) {
+  if constexpr (std::same_as<S, float>) {
+    return static_cast<float>(double(a.x()) * double(b.x()) + double(a.y()) * double(b.y()) + double(a.z()) * double(b.z()));
+  } else if constexpr (std::floating_point<S>) {
+    S sum = a[0] * b[0], low = std::fma(a[0], b[0], -sum);
+    for (int i = 1; i < 3; ++i) {
+      const S p = a[i] * b[i], t = sum + p, v = t - sum;
+      low += std::fma(a[i], b[i], -p) + ((sum - (t - v)) + (p - v));
+      sum = t;
+    }
+    return sum + low;
+  } else {
+    return a.dot(b);
+  }
+}
+
+} // namespace mc
