@@ -29,14 +29,16 @@ Cdf::Cdf(std::span<const double> weights) {
   const double scale = total.value();
   sum_ = std::ldexp(scale, exponent);
 
+  // Ends are multiples of the spacing of uniform<double>, so its numbers meet each outcome exactly as often as pmf says.
+  constexpr double unit = 0x1p-53;
   cumulative_.resize(n + 1);
   CompensatedSum running;
   cumulative_[0] = 0;
   for (std::size_t i = 0; i < n; ++i) {
     running.add(std::ldexp(weights[i], -exponent));
-    double next = i < last ? std::min(running.value() / scale, 1.0) : 1.0;
+    double next = i < last ? std::min(std::nearbyint(running.value() / scale * 0x1p53) * unit, 1.0) : 1.0;
     // A weight too small for the sum still gets the smallest interval.
-    if (weights[i] > 0) next = std::max(next, std::nextafter(cumulative_[i], 2.0));
+    if (weights[i] > 0) next = std::max(next, cumulative_[i] + unit);
     else next = cumulative_[i];
     cumulative_[i + 1] = next;
   }
@@ -44,7 +46,7 @@ Cdf::Cdf(std::span<const double> weights) {
   double limit = 1;
   for (std::size_t i = n; i > 0 && (cumulative_[i] > limit || i > last); --i) {
     cumulative_[i] = limit;
-    if (weights[i - 1] > 0) limit = std::nextafter(limit, 0.0);
+    if (weights[i - 1] > 0) limit -= unit;
   }
 
   guide_.resize(n + 1);

@@ -13,7 +13,7 @@ namespace mc {
 /// DiscreteDistribution by index and an InvertibleWarp by point.
 ///   sample : u -> cell i with cdf(i) <= u < cdf(i+1), then linear within it
 ///   pdf    : pmf(i) n / (hi - lo) [1/length]; 0 outside and in cells of weight 0
-///            Points keep to their cell as long as S can tell it from its neighbours: cells no narrower than 2 ulp(hi).
+///            Points keep to their cell as long as S can tell it from its neighbours: cells no narrower than 8 eps max(|lo|, |hi|).
 ///   invert : |invert(sample(u)) - u| <= 4 eps + pmf(i) ulp(x) n / (hi - lo): the rounding of x, magnified where cells are narrow
 ///   reach  : an outcome less likely than the spacing of u (2^-24 float, 2^-53 double) is met only by a finer u
 ///   throws : Error for no weights, a weight that is not finite and >= 0, or all weights 0
@@ -45,12 +45,14 @@ template <Real S> class TableDist1D {
     const Work v = (index(i) + within(i, u)) / index(size());
     S x = S(Work(interval_.lo) * (1 - v) + Work(interval_.hi) * v);
     // Rounding must not carry the point into a neighbouring cell, which may have weight 0.
-    if constexpr (std::floating_point<S>)
+    if constexpr (std::floating_point<S>) {
+      const S nudge = std::numeric_limits<S>::epsilon() * std::max(std::abs(interval_.lo), std::abs(interval_.hi));
       for (int step = 0; step < 4; ++step) {
         const std::size_t at = cell(x);
         if (at == i) break;
-        x = std::nextafter(x, at < i ? interval_.hi : interval_.lo);
+        x = std::clamp(at < i ? x + nudge : x - nudge, interval_.lo, interval_.hi);
       }
+    }
     return x;
   }
   S pdf(S x) const {

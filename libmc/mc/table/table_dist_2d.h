@@ -1,6 +1,7 @@
 #pragma once
 /// A piecewise constant distribution on the unit square.
 
+#include <mc/core/sum.h>
 #include <mc/domain/box.h>
 #include <mc/table/table_dist_1d.h>
 
@@ -46,17 +47,29 @@ template <Real S> class TableDist2D {
   /// Probability of the cell (column x, row y).
   S pmf(std::size_t x, std::size_t y) const { return row_choice_.pmf(y) == 0 ? S(0) : S(row_choice_.pmf(y)) * rows_[y].pmf(x); }
 
+  /// A cell by its column x and row y.
+  struct Cell {
+    std::size_t x, y;
+    S pmf;               ///< > 0
+    Vec2<S> u_remapped;  ///< uniform again, independent of the cell
+  };
+  Cell sample_index(const Vec2<S>& u) const {
+    const auto row = row_choice_.sample_index(u[1]);
+    const auto column = rows_[row.index].sample_index(u[0]);
+    return {column.index, row.index, row.pmf * column.pmf, {column.u_remapped, row.u_remapped}};
+  }
+
   Domain domain() const { return {}; }
   Vec2<S> sample(const Vec2<S>& u) const {
     const S y = row_choice_.sample(u[1]);
-    return {rows_[row_of(y)].sample(u[0]), y};
+    return {rows_[row_choice_.cell(y)].sample(u[0]), y};
   }
   S pdf(const Vec2<S>& p) const {
     if (!domain().contains(p)) return S(0);
     const S marginal = row_choice_.pdf(p[1]);
-    return marginal == 0 ? S(0) : S(marginal * rows_[row_of(p[1])].pdf(p[0]));
+    return marginal == 0 ? S(0) : S(marginal * rows_[row_choice_.cell(p[1])].pdf(p[0]));
   }
-  Vec2<S> invert(const Vec2<S>& p) const { return {rows_[row_of(p[1])].invert(p[0]), row_choice_.invert(p[1])}; }
+  Vec2<S> invert(const Vec2<S>& p) const { return {rows_[row_choice_.cell(p[1])].invert(p[0]), row_choice_.invert(p[1])}; }
   template <Real T> TableDist2D<T> cast() const {
     std::vector<TableDist1D<T>> rows;
     for (const auto& row : rows_) rows.push_back(row.template cast<T>());
@@ -88,19 +101,15 @@ template <Real S> class TableDist2D {
       // A row of weight 0 is never chosen; it gets a uniform placeholder.
       for (std::size_t x = 0; x < width; ++x) row[x] = empty ? 1 : weights[y * width + x];
       result.rows.emplace_back(row);
-      double scaled = 0;
-      for (std::size_t x = 0; x < width && !empty; ++x) scaled += std::ldexp(weights[y * width + x], -exponent);
-      result.sums.push_back(empty ? 0 : std::max(scaled, std::numeric_limits<double>::denorm_min()));
+      CompensatedSum scaled;
+      for (std::size_t x = 0; x < width && !empty; ++x) scaled.add(std::ldexp(weights[y * width + x], -exponent));
+      result.sums.push_back(empty ? 0 : std::max(scaled.value(), std::numeric_limits<double>::denorm_min()));
     }
     return result;
   }
   TableDist2D(Rows rows, std::size_t width) : rows_(std::move(rows.rows)), row_choice_(std::span<const double>(rows.sums)), width_(width) {}
   TableDist2D(std::vector<TableDist1D<S>> rows, TableDist1D<S> row_choice, std::size_t width)
       : rows_(std::move(rows)), row_choice_(std::move(row_choice)), width_(width) {}
-
-  std::size_t row_of(S y) const {
-    return std::min(static_cast<std::size_t>(static_cast<double>(y * S(static_cast<double>(rows_.size())))), rows_.size() - 1);
-  }
 
   std::vector<TableDist1D<S>> rows_;
   TableDist1D<S> row_choice_;

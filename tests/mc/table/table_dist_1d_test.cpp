@@ -1,0 +1,74 @@
+#include <mc/random/uniform.h>
+#include <mc/table/table_dist_1d.h>
+#include <mc/warp/concept.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+template <class S> class TableDist1DTest : public testing::Test {};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(TableDist1DTest, Scalars);
+
+static_assert(mc::DiscreteDistribution<mc::TableDist1D<float>> && mc::InvertibleWarp<mc::TableDist1D<double>>);
+
+// Points stay in the cell they were drawn in, at its ends too, so never where the density is 0. n = 49: 1/49*49 < 1 in double.
+TYPED_TEST(TableDist1DTest, PointsStayInCellsOfPositiveWeight) {
+  using S = TypeParam;
+  for (const std::size_t n : {1u, 2u, 3u, 10u, 49u, 98u, 1000u, 4097u})
+    for (const auto& interval : {mc::Interval<S>(0, 1), mc::Interval<S>(-3, S(0.1)), mc::Interval<S>(100, 101)}) {
+      std::vector<double> w(n, 0.0);
+      for (std::size_t i = n > 1; i < n; i += 2) w[i] = 1 + static_cast<double>(i % 5);
+      const mc::TableDist1D<S> table(w, interval);
+      for (std::size_t i = 0; i < n; ++i)
+        for (const S u : {S(table.cdf().cdf(i)), S(std::nextafter(S(table.cdf().cdf(i + 1)), S(0))), mc::hash_uniform<S>(1, i)}) {
+          if (!(u < 1)) continue;
+          const S x = table.sample(u);
+          const auto s = table.sample_index(u);
+          ASSERT_TRUE(interval.contains(x));
+          ASSERT_GT(w[s.index], 0);
+          ASSERT_GE(s.u_remapped, 0);
+          ASSERT_LT(s.u_remapped, 1);
+          ASSERT_GT(table.pdf(x), 0) << "n " << n << ", u " << u << ", x " << x;
+          ASSERT_EQ(table.cell(x), s.index) << "n " << n << ", u " << u << ", x " << x;
+        }
+    }
+}
+
+TYPED_TEST(TableDist1DTest, InvertsSamples) {
+  using S = TypeParam;
+  const mc::TableDist1D<S> table(std::vector<double>{1, 0, 3, 2, 0, 5});
+  for (int k = 0; k < 10000; ++k) {
+    const S u = mc::hash_uniform<S>(2, k);
+    EXPECT_NEAR(table.invert(table.sample(u)), u, 6 * std::numeric_limits<S>::epsilon());
+  }
+}
+
+TYPED_TEST(TableDist1DTest, DensityIsOffTheIntervalZero) {
+  const mc::TableDist1D<TypeParam> table(std::vector<double>{1, 3}, {2, 4});
+  EXPECT_EQ(table.pdf(TypeParam(1.9)), 0);
+  EXPECT_EQ(table.pdf(TypeParam(4.1)), 0);
+  EXPECT_EQ(table.pdf(TypeParam(2.5)), TypeParam(0.25));
+  EXPECT_EQ(table.pdf(4), TypeParam(0.75));
+}
+
+// 524288 cells and a float: the cells that 24-bit numbers can meet are met with their own index.
+TYPED_TEST(TableDist1DTest, LargeTables) {
+  using S = TypeParam;
+  std::vector<double> w(524288);
+  for (std::size_t i = 0; i < w.size(); ++i) w[i] = static_cast<double>(i % 3);
+  const mc::TableDist1D<S> table(w);
+  for (int k = 0; k < 200000; ++k) {
+    const S u = mc::hash_uniform<S>(3, k), x = table.sample(u);
+    ASSERT_EQ(table.cell(x), table.sample_index(u).index);
+    ASSERT_EQ(table.pdf(x), S(table.cdf().pmf(table.cell(x)) * 524288));
+  }
+}
+
+TEST(TableDist1D, FromFunctionAndCast) {
+  const auto table = mc::TableDist1D<double>::from_function([](double x) { return x; }, 4, {0, 4});
+  EXPECT_DOUBLE_EQ(table.pmf(3), 3.5 / 8);
+  EXPECT_EQ(table.cast<float>().pdf(3.5f), static_cast<float>(table.pdf(3.5)));
+}
+
+} // namespace
