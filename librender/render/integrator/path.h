@@ -71,7 +71,7 @@ Spectrum trace_path(const Scene& scene, Ray ray, Stream& stream, const PathOptio
   Vec3 previous = ray.o;
   Float previous_pdf = 0; // of the last direction; 0: camera or delta lobe, which no light sampling could have chosen
 
-  for (int edges = 1;; ++edges) {
+  for (int edges = 1; options.max_depth < 0 || edges <= options.max_depth; ++edges) {
     ++rays;
     const auto hit = scene.bvh().intersect(ray);
     if (!hit) {
@@ -93,7 +93,7 @@ Spectrum trace_path(const Scene& scene, Ray ray, Stream& stream, const PathOptio
         radiance += weight * beta * emitted;
       }
     }
-    if (options.max_depth >= 0 && edges >= options.max_depth) return radiance;
+    if (edges == options.max_depth) return radiance;
 
     const Bsdf& bsdf = scene.bsdfs[static_cast<std::size_t>(scene.shape_bsdf[shape_index])];
     const auto frame = mc::Frame<Float>::from_z(point.ns);
@@ -160,6 +160,7 @@ Spectrum trace_path(const Scene& scene, Ray ray, Stream& stream, const PathOptio
       beta *= bsdf.eval(wo, wi) * (std::abs(wi.z()) / previous_pdf);
     }
     if (is_black(beta)) return radiance;
+    if (!beta.isFinite().all()) [[unlikely]] return beta; // an invalid sample; roulette would end the path without a trace
 
     if (edges >= 4) {
       const Float survive = std::min(std::sqrt(beta.maxCoeff() * eta_scale), Float(0.95));
@@ -169,6 +170,7 @@ Spectrum trace_path(const Scene& scene, Ray ray, Stream& stream, const PathOptio
     previous = point.p;
     ray = point.spawn_ray(d);
   }
+  return radiance;
 }
 
 } // namespace render

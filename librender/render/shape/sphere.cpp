@@ -63,8 +63,10 @@ SurfacePoint Sphere::surface_point(const Ray& ray, const Hit& hit) const {
 double Sphere::area() const { return 2 * mc::pi<double> * radius_ * height_; }
 
 std::optional<double> Sphere::cone(double d2) const {
+  // Points of the sphere itself round to either side of it. Taken for outside, their cone would hold nothing but themselves.
+  const double rounding = 4 * double(std::numeric_limits<Float>::epsilon()) * (radius_ + center_.lpNorm<Eigen::Infinity>());
+  if (is_cap() || !(d2 > mc::sqr(radius_ + rounding))) return {};
   const double sin2 = radius_ * radius_ / d2;
-  if (is_cap() || !(sin2 < 1)) return {};
   return sin2 / (1 + std::sqrt(1 - sin2));
 }
 

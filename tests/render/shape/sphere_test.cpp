@@ -121,4 +121,20 @@ TEST(Sphere, NormalsPointOutwardOrInward) {
   }
 }
 
+// Points of the sphere round to either side of it; seen from them the far wall must be sampled, not themselves.
+TEST(Sphere, SeenFromItsOwnSurfaceIsSampledByArea) {
+  mc::Pcg random(21);
+  for (const Vec3d& center : {Vec3d(0, 0, 0), Vec3d(30, -7, 2)}) {
+    const Sphere sphere(center, 1, true);
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 ref = (center + direction(random).cast<double>().normalized()).cast<Float>();
+      const auto s = sphere.sample(ref, random.point<Float, 2>());
+      ASSERT_TRUE(s.has_value()) << i;
+      // Density 1 / (4 pi) of area: distance^2 / cos = 2 distance on a unit sphere, so pdf = distance / (2 pi).
+      const double distance = (s->point.p - ref).cast<double>().norm();
+      EXPECT_NEAR(s->pdf, distance / (2 * mc::pi<double>), 1e-5 / distance) << i;
+    }
+  }
+}
+
 } // namespace

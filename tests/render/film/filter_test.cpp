@@ -1,0 +1,47 @@
+#include <render/film/filter.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using namespace render;
+
+/// Mean, variance and largest |x| of the first axis, by the midpoint rule.
+struct Axis { double mean = 0, variance = 0, reach = 0, covariance = 0; };
+Axis axis(const Filter& filter, int n = 400) {
+  Axis a;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Vec2 p = filter.sample(Vec2((Float(i) + Float(0.5)) / Float(n), (Float(j) + Float(0.5)) / Float(n)));
+      a.mean += double(p[0]) / (n * n), a.variance += double(p[0] * p[0]) / (n * n);
+      a.covariance += double(p[0] * p[1]) / (n * n);
+      a.reach = std::max(a.reach, double(std::abs(p[0])));
+    }
+  return a;
+}
+
+TEST(Filter, VariancesAreThoseOfTheirShapes) {
+  struct Row { const char* name; Filter filter; double variance, reach, tolerance; };
+  for (const Row& row : {Row{"box", BoxFilter{Float(0.5)}, 1 / 12.0, 0.5, 1e-4}, {"wide box", BoxFilter{2}, 4 / 3.0, 2, 1e-4},
+                         // Square roots at the ends: the midpoint rule is off by O(n^-1.5).
+                         {"tent", TentFilter{1}, 1 / 6.0, 1, 5e-4},
+                         // The midpoint rule cuts the tail of the logarithm: 2e-3 of the variance at n = 400.
+                         {"gaussian", GaussianFilter{Float(0.75)}, 0.5625, 4, 2e-3},
+                         {"smallpt", SubpixelTentFilter{2, Float(0.5)}, 0.25 / 6 + 0.0625, 0.75, 5e-4}}) {
+    const Axis a = axis(row.filter);
+    EXPECT_NEAR(a.mean, 0, 1e-5) << row.name;
+    EXPECT_NEAR(a.covariance, 0, 1e-5) << row.name;
+    EXPECT_NEAR(a.variance / row.variance, 1, row.tolerance) << row.name;
+    EXPECT_LE(a.reach, row.reach) << row.name;
+  }
+}
+
+TEST(Filter, FiniteAtTheEdgesOfTheUnitSquare) {
+  for (const Filter& filter : {Filter(BoxFilter{}), Filter(TentFilter{}), Filter(GaussianFilter{}), Filter(SubpixelTentFilter{})})
+    for (const Float a : {Float(0), Float(0.5), mc::one_minus_epsilon<Float>})
+      for (const Float b : {Float(0), Float(0.5), mc::one_minus_epsilon<Float>}) EXPECT_TRUE(filter.sample(Vec2(a, b)).allFinite()) << a << ", " << b;
+}
+
+} // namespace
