@@ -96,6 +96,9 @@ TriangleMesh read_obj(const std::string& path, const Transform& to_world) {
         triangles.push_back(triangle);
       }
     }
+    // The library leaves out a larger polygon with a bad index and says so only in a warning.
+    mc::require(reader.Warning().find("ndices out of bounds") == std::string::npos && reader.Warning().find("invalid vertex index") == std::string::npos,
+                "a polygon names a vertex, normal or texture coordinate that does not exist");
     return TriangleMesh(std::move(positions), std::move(triangles), std::move(normals), std::move(uvs));
   });
 }

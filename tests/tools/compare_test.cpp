@@ -1,0 +1,108 @@
+// carlo compare: what it must accept and what it must reject.
+
+#include "run_carlo.h"
+
+#include <render/io/image_io.h>
+
+#include <support/files.h>
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace {
+
+using support::run_carlo;
+using testing::HasSubstr;
+
+constexpr int size = 48, replicates = 8;
+
+// Uniform noise of standard deviation 0.1 per replicate about `mean`, with its estimated variance.
+render::Image noisy(std::uint64_t seed, double mean) {
+  std::mt19937_64 engine(seed);
+  std::uniform_real_distribution<double> noise(-0.1 * std::sqrt(3.0), 0.1 * std::sqrt(3.0));
+  render::Image image(size, size);
+  image.variance.resize(image.pixels.size());
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      double sum = 0, squares = 0;
+      for (int r = 0; r < replicates; ++r) {
+        const double x = mean + noise(engine);
+        sum += x;
+        squares += x * x;
+      }
+      const double m = sum / replicates;
+      image.pixels[i][c] = render::Float(m);
+      image.variance[i][c] = render::Float((squares / replicates - m * m) / (replicates - 1));
+    }
+  image.metadata["carlo.estimates_per_pixel"] = std::to_string(replicates);
+  return image;
+}
+
+struct Compare : support::ScratchTest {
+  void save(const std::string& name, const render::Image& image) const { render::write_image(path(name), image); }
+  support::Run compare(const std::string& arguments) const { return run_carlo("compare " + path("a.exr") + " " + path("b.exr") + " " + arguments); }
+};
+
+// Ten fixed pairs at alpha = 0.01: two rejections or more have probability 0.004.
+TEST_F(Compare, AcceptsNoiseAndRejectsABlockOrAPixelThatIsOff) {
+  int rejected = 0;
+  for (std::uint64_t k = 0; k < 10; ++k) {
+    save("a.exr", noisy(2 * k, 0.5));
+    save("b.exr", noisy(2 * k + 1, 0.5));
+    rejected += compare("").exit_code;
+  }
+  EXPECT_LE(rejected, 1);
+
+  const render::Image right = noisy(1, 0.5);
+  save("b.exr", right);
+  render::Image off = noisy(2, 0.5);
+  for (int y = 16; y < 32; ++y) // 0.4 standard errors of a pixel's difference, but 6 of a block's
+    for (int x = 16; x < 32; ++x) off.at(x, y)[1] += render::Float(0.02);
+  save("a.exr", off);
+  EXPECT_EQ(compare("").exit_code, 1);
+  EXPECT_EQ(compare("--tolerance 0.05").exit_code, 0) << "0.02 is 4 % of 0.5";
+
+  off = noisy(2, 0.5);
+  off.at(3, 40)[0] += 3;
+  save("a.exr", off);
+  const support::Run run = compare("");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.output, HasSubstr("(3, 40) red"));
+}
+
+TEST_F(Compare, MetricsAndDifferenceImage) {
+  render::Image a(4, 2), b(4, 2);
+  for (auto& p : a.pixels) p.setConstant(render::Float(0.75));
+  for (auto& p : b.pixels) p.setConstant(render::Float(0.5));
+  save("a.exr", a);
+  save("b.exr", b);
+  EXPECT_EQ(compare("--metric mse").output, "0.0625\n");
+  EXPECT_EQ(compare("--metric rmse").output, "0.25\n");
+  EXPECT_EQ(compare("--metric mae").output, "0.25\n");
+  EXPECT_EQ(compare("--metric max").output, "0.25\n");
+  EXPECT_EQ(compare("--metric mean_ratio").output, "1.5\n");
+  EXPECT_EQ(compare("--metric relmse --diff " + path("d.pfm")).output, "0.240385\n"); // 0.0625 / (0.25 + 0.01)
+  EXPECT_EQ(render::read_image(path("d.pfm")).at(3, 1)[2], render::Float(0.25));
+}
+
+TEST_F(Compare, BadInputIsOneLine) {
+  save("a.exr", noisy(1, 0.5));
+  save("b.exr", render::Image(4, 4));
+  EXPECT_EQ(compare("").exit_code, 2);
+  EXPECT_THAT(compare("").output, HasSubstr("sizes must agree"));
+  render::Image broken = noisy(2, 0.5);
+  broken.at(7, 9)[2] = std::numeric_limits<render::Float>::quiet_NaN();
+  save("b.exr", broken);
+  EXPECT_EQ(compare("").exit_code, 2) << "NaN agrees with nothing";
+  EXPECT_THAT(compare("").output, HasSubstr("(7, 9)"));
+  EXPECT_THAT(compare("--metric mes").output, HasSubstr("(7, 9)"));
+  save("b.exr", noisy(2, 0.5));
+  EXPECT_THAT(compare("--metric mes").output, HasSubstr("did you mean 'mse'"));
+  EXPECT_EQ(compare("--alpha 2").exit_code, 2);
+  EXPECT_EQ(run_carlo("compare " + path("a.exr") + " " + path("none.exr")).exit_code, 2);
+}
+
+} // namespace

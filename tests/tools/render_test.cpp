@@ -1,0 +1,118 @@
+// carlo render, run as a user runs it.
+
+#include "run_carlo.h"
+
+#include <render/io/image_io.h>
+
+#include <support/files.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <unistd.h>
+
+namespace {
+
+using support::run_carlo;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string scenes = MC_SOURCE_DIR "/librender/scenes/";
+
+struct RenderCommand : support::ScratchTest {
+  // One line on stderr, exit 2, and no file where the picture would be.
+  void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
+    const support::Run run = run_carlo("render " + arguments);
+    EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.output;
+    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+    EXPECT_TRUE(run.output.starts_with("carlo: ")) << run.output;
+    for (const std::string& word : words) EXPECT_THAT(run.output, HasSubstr(word)) << arguments;
+    EXPECT_FALSE(std::filesystem::exists(path("out.pfm")));
+  }
+  std::string cbox() const { return scenes + "cbox.xml --size 8x8 -o " + path("out.pfm"); }
+};
+
+TEST_F(RenderCommand, RefusesBadInputInOneLine) {
+  expect_refused("nowhere.xml -o " + path("out.pfm"), {"nowhere.xml", "no such file"});
+  expect_refused(cbox() + " --spp 0", {"0 samples per pixel", "at least 1"});
+  expect_refused(cbox() + " --spp -3", {"-3 samples per pixel", "at least 1"});
+  expect_refused(cbox() + " --time -1", {"-1", "> 0"});
+  expect_refused(cbox() + " --target-error 0", {"target error of 0"});
+  expect_refused(cbox() + " --sampler sobl", {"'sobl'", "did you mean 'sobol'"});
+  expect_refused(cbox() + " --strategy mess", {"'mess'", "did you mean 'mis'"});
+  expect_refused(cbox() + " --max-depth 0", {"--max-depth 0"});
+  expect_refused(cbox() + " --threads -2", {"--threads -2"});
+  expect_refused(scenes + "cbox.xml --size 8 -o " + path("out.pfm"), {"--size '8'", "WIDTHxHEIGHT"});
+  expect_refused(scenes + "cbox.xml -o " + path("no/such/out.pfm"), {"no/such", "does not exist"});
+  expect_refused(scenes + "cbox.xml -o " + path("out.gif"), {".gif", ".exr, .pfm or .png"});
+}
+
+// A folder stands where the file should go: true of root as well, whom permissions do not stop.
+TEST_F(RenderCommand, OutputThatCannotBeWrittenIsOneLine) {
+  std::filesystem::create_directory(path("taken.pfm"));
+  const support::Run run = run_carlo("render " + scenes + "cbox.xml --spp 1 --size 4x4 -o " + path("taken.pfm"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.output, HasSubstr("taken.pfm"));
+  EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+}
+
+TEST_F(RenderCommand, SceneWithoutLightIsBlackWithAWarning) {
+  const std::string scene = write("dark.xml", R"(<scene version="0.5.0">
+    <sensor type="perspective"><float name="fov" value="40"/></sensor>
+    <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape></scene>)");
+  const support::Run run = run_carlo("render " + scene + " --spp 2 --size 4x4 -o " + path("out.pfm"));
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, AllOf(HasSubstr("warning"), HasSubstr("no light")));
+  for (const auto& p : render::read_image(path("out.pfm")).pixels) EXPECT_TRUE((p == 0).all());
+}
+
+TEST_F(RenderCommand, ThreadsDoNotChangeABitAndMetadataTellsHow) {
+  for (const char* threads : {"1", "2"}) {
+    const support::Run run =
+        run_carlo("render " + scenes + "cbox.xml --spp 4 --size 24x16 --seed 5 --threads " + threads + " -o " + path(threads) + ".exr");
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    EXPECT_THAT(run.output, AllOf(HasSubstr("samples/s"), HasSubstr("rays/s"), HasSubstr("mean standard error"), HasSubstr(" 0 invalid samples")));
+    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << "no progress bar without a terminal: " << run.output;
+  }
+  const render::Image a = render::read_image(path("1.exr")), b = render::read_image(path("2.exr"));
+  ASSERT_EQ(a.pixels.size(), 24u * 16u);
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) {
+    EXPECT_TRUE((a.pixels[i] == b.pixels[i]).all());
+    EXPECT_TRUE((a.variance[i] == b.variance[i]).all());
+  }
+  EXPECT_EQ(a.metadata.at("carlo.seed"), "5");
+  EXPECT_EQ(a.metadata.at("carlo.samples_per_pixel"), "4");
+  EXPECT_THAT(a.metadata.at("carlo.command"), HasSubstr("--seed 5"));
+  EXPECT_NE(a.metadata.at("carlo.commit"), "");
+  EXPECT_FALSE(a.metadata.contains("carlo.partial"));
+}
+
+TEST_F(RenderCommand, CtrlCWritesWhatIsThereMarkedPartial) {
+  const std::string output = path("cut.exr"), log = path("log");
+  const pid_t child = fork();
+  if (child == 0) {
+    if (!std::freopen(log.c_str(), "w", stdout)) _exit(99);
+    execl(CARLO_PATH, "carlo", "render", (scenes + "cbox.xml").c_str(), "--time", "60", "--size", "16x16", "-o", output.c_str(), nullptr);
+    _exit(98);
+  }
+  ASSERT_GT(child, 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  ASSERT_EQ(kill(child, SIGINT), 0);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  const render::Image image = render::read_image(output);
+  EXPECT_TRUE(image.metadata.contains("carlo.partial"));
+  EXPECT_FALSE(image.variance.empty());
+  EXPECT_GT(image.at(8, 8).sum(), 0);
+  std::ifstream text(log);
+  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(text), {}), HasSubstr("PARTIAL"));
+}
+
+} // namespace
