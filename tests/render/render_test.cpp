@@ -1,0 +1,162 @@
+#include <render/render.h>
+
+#include <mc/core/error.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace render;
+
+constexpr PixelSampler samplers[] = {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol};
+
+/// A lit sphere on a plane under a small sphere light and a dim sky.
+Scene small_scene() {
+  Scene scene;
+  scene.bsdfs = {Lambert{Spectrum(Float(0.8), Float(0.6), Float(0.4))}, Dielectric{}};
+  scene.background = ConstantBackground{Spectrum::Constant(Float(0.1))};
+  scene.add(Sphere(Vec3d(0, -101, 0), 100), 0);
+  scene.add(Sphere(Vec3d(-0.7, -0.4, 0), 0.6), 0);
+  scene.add(Sphere(Vec3d(0.7, -0.4, 0), 0.6), 1);
+  scene.add(Sphere(Vec3d(0, 2, 1), 0.4), 0, AreaLight{-1, Spectrum::Constant(10)});
+  scene.camera.origin = Vec3(0, 0, 5);
+  scene.camera.tan_half_fov = Float(0.4);
+  scene.defaults.width = 24, scene.defaults.height = 20;
+  scene.prepare();
+  return scene;
+}
+
+TEST(Render, SameBitsForAnyNumberOfThreads) {
+  const Scene scene = small_scene();
+  for (const PixelSampler sampler : samplers) {
+    RenderOptions options;
+    options.spp = 16, options.sampler = sampler, options.threads = 1;
+    const RenderResult one = render::render(scene, options);
+    options.threads = 2;
+    const RenderResult two = render::render(scene, options);
+    EXPECT_EQ(one.rays, two.rays);
+    EXPECT_EQ(one.samples, 16u * 24 * 20);
+    int different = 0;
+    for (std::size_t i = 0; i < one.image.pixels.size(); ++i)
+      different += !(one.image.pixels[i] == two.image.pixels[i]).all() || !(one.image.variance[i] == two.image.variance[i]).all();
+    EXPECT_EQ(different, 0) << name(sampler);
+    options.seed = 1;
+    const RenderResult other = render::render(scene, options);
+    for (std::size_t i = 0; i < one.image.pixels.size(); ++i) different += !(one.image.pixels[i] == other.image.pixels[i]).all();
+    EXPECT_GE(different, 1) << name(sampler) << ": another seed, the same picture";
+  }
+}
+
+// Two seeds differ by what their error bars say: the sum of squared differences is that of the variances. Pixels are weighted by
+// the mean variance of sixteen other renders, or a few caustic pixels would decide: one alone, of four replicates, is itself too
+// noisy to weigh by. Over 16 pairs the ratio was .96 to 1.03 in eighteen trials.
+TEST(Render, ErrorBarsAreHonest) {
+  const Scene scene = small_scene();
+  for (const PixelSampler sampler : samplers) {
+    RenderOptions options;
+    options.spp = 32, options.sampler = sampler;
+    std::vector<double> scale(24 * 20, 1e-6);
+    for (options.seed = 1000; options.seed < 1016; ++options.seed) {
+      const RenderResult r = render::render(scene, options);
+      for (std::size_t i = 0; i < scale.size(); ++i) scale[i] += double(r.image.variance[i].mean()) / 16;
+    }
+    double difference = 0, variance = 0;
+    for (std::uint64_t pair = 0; pair < 8; ++pair) {
+      options.seed = 2 * pair;
+      const RenderResult a = render::render(scene, options);
+      options.seed = 2 * pair + 1;
+      const RenderResult b = render::render(scene, options);
+      for (std::size_t i = 0; i < a.image.pixels.size(); ++i) {
+        const double weight = 1 / scale[i];
+        difference += weight * double((a.image.pixels[i] - b.image.pixels[i]).square().sum());
+        variance += weight * double((a.image.variance[i] + b.image.variance[i]).sum());
+      }
+    }
+    EXPECT_NEAR(difference / variance, 1, 0.15) << name(sampler);
+  }
+}
+
+TEST(Render, StratifiedAndSobolBeatIndependent) {
+  const Scene scene = small_scene();
+  double error[3];
+  for (int i = 0; i < 3; ++i) {
+    RenderOptions options;
+    options.spp = 64, options.sampler = samplers[i];
+    error[i] = render::render(scene, options).relative_error;
+  }
+  EXPECT_LE(error[1], error[0]);
+  EXPECT_LE(error[2], error[0]);
+}
+
+TEST(Render, CountsInvalidSamplesAndKeepsTheFirst) {
+  Scene scene = small_scene();
+  scene.bsdfs[0] = Lambert{Spectrum(Float(0.5), std::numeric_limits<Float>::quiet_NaN(), Float(0.5))};
+  RenderOptions options;
+  options.spp = 8;
+  const RenderResult result = render::render(scene, options);
+  EXPECT_GE(result.invalid, 1u);
+  EXPECT_LE(result.invalid, result.samples);
+  EXPECT_EQ(result.first_invalid.pass, 0u);
+  for (const Spectrum& p : result.image.pixels) EXPECT_TRUE(p.isFinite().all());
+  options.threads = 1;
+  const RenderResult again = render::render(scene, options);
+  EXPECT_EQ(again.invalid, result.invalid);
+  EXPECT_EQ(again.first_invalid.x, result.first_invalid.x);
+  EXPECT_EQ(again.first_invalid.y, result.first_invalid.y);
+  EXPECT_EQ(again.first_invalid.index, result.first_invalid.index);
+  EXPECT_EQ(render::render(small_scene(), options).invalid, 0u);
+}
+
+TEST(Render, StopsByTimeErrorOrCancel) {
+  const Scene scene = small_scene();
+  RenderOptions options;
+  options.target_error = 0.05;
+  const RenderResult exact = render::render(scene, options);
+  EXPECT_LE(exact.relative_error, 0.05);
+  EXPECT_GE(exact.estimates, 4u);
+
+  options = {};
+  options.seconds = 0.05;
+  const RenderResult timed = render::render(scene, options);
+  EXPECT_GE(timed.seconds, 0.05);
+  EXPECT_FALSE(timed.partial);
+
+  const std::atomic<bool> stop = true;
+  options = {};
+  options.cancel = &stop;
+  const RenderResult cancelled = render::render(scene, options);
+  EXPECT_TRUE(cancelled.partial);
+  EXPECT_EQ(cancelled.samples, 0u);
+}
+
+TEST(Render, ASceneWithoutLightIsBlack) {
+  Scene scene;
+  scene.bsdfs.push_back(Lambert{});
+  scene.add(Sphere(Vec3d(0, 0, -3), 1), 0);
+  scene.prepare();
+  RenderOptions options;
+  options.width = 4, options.height = 3, options.spp = 4;
+  const RenderResult result = render::render(scene, options);
+  EXPECT_EQ(result.image.width, 4);
+  EXPECT_EQ(result.image.height, 3);
+  for (const Spectrum& p : result.image.pixels) EXPECT_TRUE(is_black(p));
+  EXPECT_EQ(result.relative_error, 0);
+}
+
+TEST(Render, RejectsBadOptions) {
+  const Scene scene = small_scene();
+  const auto with = [&](auto change) {
+    RenderOptions options;
+    change(options);
+    return [&scene, options] { render::render(scene, options); };
+  };
+  for (const int spp : {0, -3}) EXPECT_THROW(with([&](RenderOptions& o) { o.spp = spp; })(), mc::Error);
+  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    EXPECT_THROW(with([&](RenderOptions& o) { o.seconds = bad; })(), mc::Error);
+    EXPECT_THROW(with([&](RenderOptions& o) { o.target_error = bad; })(), mc::Error);
+  }
+  EXPECT_THROW(sampler_from("sobel"), mc::Error);
+  for (const PixelSampler s : samplers) EXPECT_EQ(sampler_from(name(s)), s);
+}
+
+} // namespace
