@@ -1,0 +1,37 @@
+#include <mc/warp/spherical_rectangle.h>
+
+#include <mc/gtest/matchers.h>
+
+namespace mc {
+namespace {
+
+template <class S> class SphericalRectangleOver : public testing::Test {};
+using Scalars = testing::Types<float, double>;
+TYPED_TEST_SUITE(SphericalRectangleOver, Scalars);
+
+// Edges 1e-4 at distance 1 are 1e-8 sr; aspects 1 and 20, either orientation.
+TYPED_TEST(SphericalRectangleOver, ObeysTheLawsFromHugeToTiny) {
+  using S = TypeParam;
+  for (const double edge : {30.0, 1.0, 0.1, 1e-2, 1e-4})
+    for (const double aspect : {1.0, -0.05}) {
+      const SphericalRectangle<S> warp(Vec3<S>(S(0.3), S(-0.2), S(0.9)), Vec3<S>(S(edge), S(0.1 * edge), S(-0.2 * edge)),
+                                      Vec3<S>(S(0.3 * edge), S(aspect * edge), S(0.05 * edge)));
+      EXPECT_WARP_LAWS(warp, {.name = fmt::format("edge {}, aspect {}", edge, aspect), .samples = edge >= 1 ? 20'000u : 0u,
+                              .invert_eps = 6400 / std::min(1.0, edge) / std::abs(aspect), .sample_eps = edge > 1 ? 64.0 : 16.0, .pdf_eps = 16});
+    }
+}
+
+TEST(SphericalRectangle, FaceOfTheCubeIsTwoThirdsPi) {
+  const SphericalRectangle<double> face({-1, -1, 1}, {2, 0, 0}, {0, 2, 0});
+  EXPECT_NEAR(face.solid_angle(), 2 * std::numbers::pi / 3, 1e-14);
+}
+
+TEST(SphericalRectangle, RefusesDegenerateRectangles) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((SphericalRectangle<double>({0, 0, 1}, {1, 0, 0}, {2, 0, 0})), Error);
+  EXPECT_THROW((SphericalRectangle<double>({0, 0, 1}, {1, 0, 0}, {0, 0, 1})), Error);
+  EXPECT_THROW((SphericalRectangle<double>({0, 0, nan}, {1, 0, 0}, {0, 1, 0})), Error);
+}
+
+} // namespace
+} // namespace mc
