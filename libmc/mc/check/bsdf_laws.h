@@ -19,7 +19,7 @@ struct BsdfOptions {
   double eta = 1;                 ///< index of the inside (z < 0) over that of the outside
   double tolerance = 1e-3;        ///< relative, of f and pdf as sample, eval and pdf state them, and of reciprocity
   double mass_tolerance = 1e-5;   ///< rounding error of the density's integral
-  std::size_t max_evaluations = 4'000'000;
+  std::size_t max_evaluations = 12'000'000;
 };
 
 namespace detail {

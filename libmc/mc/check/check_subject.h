@@ -11,7 +11,7 @@ struct SubjectOptions {
   std::uint64_t seed = 1;
   double alpha = 0.001;              ///< chance that a correct subject is rejected, over all its statistical tests. The default
                                      ///< lets a suite of a hundred samplers pass nine seeds in ten
-  std::size_t max_evaluations = 4'000'000; ///< of the density, for the expected counts
+  std::size_t max_evaluations = 12'000'000; ///< of the density, for the expected counts
 };
 
 /// Draws and tests:

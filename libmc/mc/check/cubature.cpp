@@ -10,26 +10,47 @@
 namespace mc {
 namespace {
 
-// Nodes on [0,1] and weights of the nested Clenshaw-Curtis rules with n, n/2 and n/4 intervals, on the nodes of the finest.
+// Nodes on [0,1] of nested Clenshaw-Curtis rules with n, n/2 and n/4 intervals, on the nodes of the finest; and at each node that
+// a rule adds to the next coarser one, the weights of the coarser interpolant there.
 struct Rule {
+  struct Surplus {
+    std::size_t node;
+    double weight;
+    std::vector<double> interpolation;
+  };
   int nodes;
-  std::vector<double> x;
-  std::array<std::vector<double>, 3> w;
+  std::vector<double> x, w;
+  std::array<std::vector<Surplus>, 2> surpluses; // of the finest rule, and of the next
 
-  explicit Rule(int n) : nodes(n + 1), x(static_cast<std::size_t>(n + 1)) {
+  explicit Rule(int n) : nodes(n + 1), x(static_cast<std::size_t>(n + 1)), w(weights(n, 1)) {
     for (int j = 0; j <= n; ++j) x[static_cast<std::size_t>(j)] = 0.5 - 0.5 * std::cos(pi<double> * j / n);
-    // Just inside the faces: what holds on the far side of a face is another box's business.
-    x.front() = 0x1p-24, x.back() = 1 - 0x1p-24;
-    for (int level = 0; level < 3; ++level) {
-      const int m = n >> level;
-      auto& weights = w[static_cast<std::size_t>(level)];
-      weights.assign(x.size(), 0.0);
-      for (int j = 0; j <= m; ++j) {
-        double sum = 1;
-        for (int k = 1; 2 * k <= m; ++k) sum -= (2 * k == m ? 1.0 : 2.0) / (4.0 * k * k - 1) * std::cos(2 * pi<double> * k * j / m);
-        weights[static_cast<std::size_t>(j << level)] = (m == 1 ? 0.5 : (j == 0 || j == m ? 0.5 : 1.0) * sum / m);
+    for (int level = 0; level < 2; ++level) {
+      const int stride = 1 << level;
+      const std::vector<double> own = weights(n / stride, stride);
+      for (int j = stride; j < n; j += 2 * stride) {
+        Surplus s{static_cast<std::size_t>(j), own[static_cast<std::size_t>(j)], std::vector<double>(x.size(), 0.0)};
+        for (int k = 0; k <= n; k += 2 * stride) {
+          double product = 1;
+          for (int m = 0; m <= n; m += 2 * stride)
+            if (m != k) product *= (x[s.node] - x[static_cast<std::size_t>(m)]) / (x[static_cast<std::size_t>(k)] - x[static_cast<std::size_t>(m)]);
+          s.interpolation[static_cast<std::size_t>(k)] = product;
+        }
+        surpluses[static_cast<std::size_t>(level)].push_back(std::move(s));
       }
     }
+    // Just inside the faces: what holds on the far side of a face is another box's business.
+    x.front() = 0x1p-24, x.back() = 1 - 0x1p-24;
+  }
+
+ private:
+  std::vector<double> weights(int m, int stride) const {
+    std::vector<double> result(x.size(), 0.0);
+    for (int j = 0; j <= m; ++j) {
+      double sum = 1;
+      for (int k = 1; 2 * k <= m; ++k) sum -= (2 * k == m ? 1.0 : 2.0) / (4.0 * k * k - 1) * std::cos(2 * pi<double> * k * j / m);
+      result[static_cast<std::size_t>(j * stride)] = (j == 0 || j == m ? 0.5 : 1.0) * sum / m;
+    }
+    return result;
   }
 };
 
@@ -46,7 +67,7 @@ class Integrator {
   Integrator(const std::function<double(const std::array<double, 3>&)>& f, int dim) : f_(f), dim_(dim) {}
 
   void evaluate(Region& r) {
-    const Rule& rule = r.rough ? coarse() : fine();
+    const Rule& rule = r.rough && dim_ == 3 ? coarse() : fine();
     const int n = rule.nodes;
     std::array<double, 3> width{1, 1, 1};
     double volume = 1;
@@ -70,35 +91,37 @@ class Integrator {
         }
     evaluations += values_.size();
 
-    // Line by line along each axis, so that the errors of neighbouring lines cannot cancel.
+    // What each new node differs from the interpolant of the coarser rule, in absolute value, so that neither nodes nor lines
+    // cancel: a function that jumps at random cannot look smooth.
     double e1 = 0, e2 = 0, worst = -1, integral = 0;
     const std::array<int, 3> stride{1, n, n * n};
     for (int axis = 0; axis < dim_; ++axis) {
       const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-      double d1 = 0, d2 = 0;
+      std::array<double, 2> d{};
       integral = 0;
       for (int j = 0; j < count[ix(b)]; ++j)
         for (int i = 0; i < count[ix(a)]; ++i) {
-          const double w = (count[ix(a)] > 1 ? rule.w[0][ix(i)] : 1.0) * (count[ix(b)] > 1 ? rule.w[0][ix(j)] : 1.0);
+          const double w = (count[ix(a)] > 1 ? rule.w[ix(i)] : 1.0) * (count[ix(b)] > 1 ? rule.w[ix(j)] : 1.0);
           const double* line = values_.data() + i * stride[ix(a)] + j * stride[ix(b)];
-          std::array<double, 3> q{};
-          for (int k = 0; k < n; ++k)
-            for (std::size_t level = 0; level < 3; ++level) q[level] += rule.w[level][ix(k)] * line[k * stride[ix(axis)]];
-          integral += w * q[0];
-          d1 += w * std::abs(q[0] - q[1]);
-          d2 += w * std::abs(q[1] - q[2]);
+          const int step = stride[ix(axis)];
+          for (int k = 0; k < n; ++k) integral += w * rule.w[ix(k)] * line[k * step];
+          for (std::size_t level = 0; level < 2; ++level)
+            for (const Rule::Surplus& s : rule.surpluses[level]) {
+              double expected = 0;
+              for (int k = 0; k < n; k += 2 << level) expected += s.interpolation[ix(k)] * line[k * step];
+              d[level] += w * s.weight * std::abs(line[static_cast<int>(s.node) * step] - expected);
+            }
         }
-      e1 += d1, e2 += d2;
-      if (d1 > worst) worst = d1, r.axis = axis;
+      e1 += d[0], e2 += d[1];
+      if (d[0] > worst) worst = d[0], r.axis = axis;
     }
     r.value = integral * volume;
     e1 *= volume, e2 *= volume;
-    // Geometric convergence: the next difference would be about e1 (e1 / e2); ten times that is the bound. A small e1 alone may
-    // be luck, so a part of e2 stays.
+    // Geometric convergence: the next surplus would be about e1 (e1 / e2); ten times that is the bound.
     const double ratio = e2 > 0 ? e1 / e2 : 0.0;
-    r.error = ratio < 0.1 ? 10 * e1 * ratio : 2 * e1;
+    r.error = ratio < 0.1 ? 10 * e1 * ratio : e1;
     const bool edge = least == 0 && largest > 0; // of the support: never smooth
-    r.error = std::max(r.error, (edge ? 0.25 : r.rough ? 0.1 : 0.01) * e2) + 4e-16 * largest * volume;
+    r.error = std::max(r.error, (edge ? 0.25 : r.rough ? 0.1 : 0.002) * e2) + 4e-16 * largest * volume;
     r.rough = r.rough || edge || ratio > 0.3;
   }
 

@@ -26,11 +26,12 @@ struct CubatureGoal {
 };
 
 /// Integrals of a non-negative f over each of the boxes of the unit cube of dimension 1, 2 or 3.
-///   rule  : tensor Clenshaw-Curtis of 9 points per axis (5 where f is not smooth); boxes are halved
+///   rule  : tensor Clenshaw-Curtis of 9 points per axis (5 in three dimensions where f is not smooth); boxes are halved
 ///           across the axis that disagrees most between nested rules. The rule samples the faces of the box, so a
 ///           discontinuity cannot hide between the outermost nodes and the face.
-///   error : the difference of nested rules, reduced only where three of them show geometric convergence. Heuristic in
-///           theory; in the tests true error <= bound on all smooth, singular and discontinuous cases.
+///   error : the hierarchical surpluses of the finest nodes in absolute value, reduced only where two levels of them show
+///           geometric convergence. Heuristic in theory; in the tests true error <= bound on all smooth, singular,
+///           discontinuous and piecewise constant cases.
 ///   Source : [ClenshawCurtis60]; global adaptivity as in [GenzMalik80]
 CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim, const std::vector<UnitBox>& boxes,
                                const CubatureGoal& goal = {});

@@ -22,7 +22,7 @@ struct LawOptions {
   double sample_eps = 16;            ///< |sample(u) - exact|, relative to max(1, |exact|)
   double pdf_eps = 64;               ///< |pdf(x) / exact - 1|
   double mass_eps = 64;              ///< |mass - 1| beyond the bound on the quadrature error
-  std::size_t max_evaluations = 4'000'000;
+  std::size_t max_evaluations = 12'000'000;
 };
 
 namespace detail {

@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/types.h>
+#include <mc/random/uniform.h>
 
 #include <gtest/gtest.h>
 
@@ -23,6 +24,11 @@ std::vector<Case> cases() {
       {"half sphere", 2, [](const Point& v) { return mc::safe_sqrt(1 - v[0] * v[0] - v[1] * v[1]); }, mc::pi<double> / 6},
       {"edge with a root", 2, [](const Point& v) { return mc::safe_sqrt(0.37 - v[0]); }, 2.0 / 3 * std::pow(0.37, 1.5)},
       {"narrow lobe at the face", 2, [](const Point& v) { return exp(-v[0] * 1e4) * 1e4; }, 1},
+      {"300 random steps", 1, [](const Point& v) { return mc::hash_uniform<double>(1, static_cast<std::uint64_t>(v[0] * 300)); }, [] {
+         double sum = 0;
+         for (std::uint64_t i = 0; i < 300; ++i) sum += mc::hash_uniform<double>(1, i);
+         return sum / 300;
+       }()},
       {"smooth in three dimensions", 3, [](const Point& v) { return exp(v[0] + v[1] + v[2]); }, std::pow(std::exp(1) - 1, 3)},
   };
 }

@@ -1,0 +1,80 @@
+// Every sampler of the two libraries is in the catalogue, and every case obeys its laws.
+
+#include "catalogue.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// The types of a folder's headers whose own body has all of the members.
+std::set<std::string> types_with(const fs::path& folder, const std::vector<std::string>& members) {
+  static const std::regex declaration(R"((?:^|\n)(?:template <[^\n]*>\s*\n?)?(?:  requires[^\n]*\n)?(?:struct|class) (\w+)[^;{\n]*\{)");
+  std::set<std::string> types;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".h" || entry.path().filename() == "concept.h") continue;
+    const std::string text = text_of(entry.path());
+    for (auto it = std::sregex_iterator(text.begin(), text.end(), declaration); it != std::sregex_iterator(); ++it) {
+      const std::size_t start = static_cast<std::size_t>(it->position() + it->length());
+      const std::string body = text.substr(start, text.find("\n}", start) - start);
+      bool all = true;
+      for (const std::string& member : members) all = all && std::regex_search(body, std::regex("[ >&]" + member + R"(\()"));
+      if (all) types.insert((*it)[1]);
+    }
+  }
+  return types;
+}
+
+TEST(Catalogue, NoSamplerIsLeftOut) {
+  std::set<std::string> known;
+  for (const carlo::Case& c : carlo::catalogue()) known.insert(c.name);
+  const fs::path root = MC_SOURCE_DIR;
+  std::set<std::string> found;
+  for (const char* folder : {"libmc/mc/warp", "libmc/mc/table"})
+    for (const std::vector<std::string>& members : {std::vector<std::string>{"sample", "pdf"}, {"sample_index", "pmf"}}) found.merge(types_with(root / folder, members));
+  found.merge(types_with(root / "librender/render/bsdf", {"sample", "eval", "pdf"}));
+  found.erase("Bsdf"); // the closed set of the others
+  EXPECT_GE(found.size(), 8u) << "the scan of the headers finds nothing";
+  for (const std::string& type : found) EXPECT_TRUE(known.contains(type)) << type << " is in no catalogue_*.cpp";
+}
+
+TEST(Catalogue, TitlesAreUnique) {
+  std::set<std::string> titles;
+  for (const carlo::Case& c : carlo::catalogue()) EXPECT_TRUE(titles.insert(c.title()).second) << c.title();
+}
+
+// 20000 samples: the deterministic laws at full strength, the counts at a coarse one; `carlo validate --all` runs them at 1e6.
+// Alpha 1e-6 a case: the seeds are fixed and some five hundred cases must pass.
+class CatalogueTest : public testing::TestWithParam<carlo::Case> {};
+
+TEST_P(CatalogueTest, ObeysItsLaws) {
+  const mc::Report report = GetParam().check({.samples = 20'000, .seed = 7, .alpha = 1e-6});
+  EXPECT_TRUE(report.passed()) << report.to_string();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, CatalogueTest, testing::ValuesIn(carlo::catalogue()), [](const auto& one) {
+  std::string name = one.param.title();
+  std::replace_if(name.begin(), name.end(), [](unsigned char ch) { return std::isalnum(ch) == 0; }, '_');
+  return name;
+});
+
+} // namespace
+
+namespace carlo {
+// GoogleTest prints the bytes of a parameter otherwise.
+void PrintTo(const Case& c, std::ostream* out) { *out << c.title(); }
+} // namespace carlo
