@@ -1,0 +1,96 @@
+#pragma once
+/// Exponential distributions on the half line and on an interval.
+
+#include <mc/domain/interval.h>
+#include <mc/warp/concept.h>
+
+#include <algorithm>
+
+namespace mc {
+
+/// Exponential distribution on [0, inf).
+///   sample : x = -log(1 - u) / rate
+///   pdf    : rate exp(-rate x) [1/length]; 0 for x < 0. Relative error (2 + rate x) eps: the tail is ill-conditioned in x
+///   invert : |invert(sample(u)) - u| <= 8 eps
+///   throws : Error unless rate and 1 / rate are finite and > 0
+template <Real S> struct Exponential {
+  using Scalar = S;
+  using Domain = HalfLine<S>;
+
+  S rate = 1;
+
+  Exponential() = default;
+  explicit Exponential(S rate_) : rate(rate_) {
+    using std::isfinite;
+    require(rate > 0 && isfinite(rate) && isfinite(S(1 / rate)), "Exponential: rate {} and its inverse must be finite and > 0", static_cast<double>(rate));
+  }
+
+  Domain domain() const { return {S(0), S(1 / rate)}; }
+  S sample(S u) const {
+    using std::log1p;
+    return -S(log1p(S(-u))) / rate;
+  }
+  S pdf(S x) const {
+    using std::exp;
+    return x >= 0 ? S(rate * S(exp(S(-rate * x)))) : S(0);
+  }
+  S invert(S x) const {
+    using std::expm1;
+    return -S(expm1(S(-rate * x)));
+  }
+  template <Real T> Exponential<T> cast() const { return Exponential<T>(T(rate)); }
+};
+
+/// Exponential distribution cut to [0, length]: decays for rate > 0, grows for rate < 0, uniform for rate = 0.
+///   sample : x = -log(1 - u (1 - e^-k)) / |rate|, k = |rate| length; mirrored for rate < 0. Where k > 1 and u > 1/2 the
+///            logarithm is that of (1 - u) + u e^-k, which does not cancel
+///   pdf    : |rate| exp(-|rate| t) / (1 - e^-k) [1/length], t the distance from the dense end; 0 outside
+///   invert : |invert(sample(u)) - u| <= 16 eps; for rate < 0 max(16, k) eps, as the dense end is not at 0
+///   throws : Error unless rate is finite, length is finite and > 0, and k is finite
+template <Real S> struct TrimmedExponential {
+  using Scalar = S;
+  using Domain = Interval<S>;
+
+  S rate = 1, length = 1;
+
+  TrimmedExponential() = default;
+  TrimmedExponential(S rate_, S length_) : rate(rate_), length(length_) {
+    using std::isfinite;
+    require(isfinite(rate) && isfinite(length) && length > 0 && isfinite(S(rate * length)),
+            "TrimmedExponential: rate {}, length {}: both and their product must be finite, and length > 0", static_cast<double>(rate), static_cast<double>(length));
+  }
+
+  Domain domain() const { return {S(0), length}; }
+  S sample(S u) const {
+    using std::expm1, std::exp, std::log, std::log1p, std::max, std::min;
+    const S a = magnitude(), k = a * length;
+    if (flat(k)) return min(S(u * length), length);
+    // 1 - u = 1 would reach the far end, whose density may underflow.
+    const S v = rate < 0 ? S(min(S(1 - u), one_minus_epsilon<S>)) : u;
+    const S rest = k > 1 && v > S(0.5) ? S(log(S((1 - v) + v * S(exp(S(-k)))))) : S(log1p(S(v * S(expm1(S(-k))))));
+    const S t = min(S(-rest / a), length);
+    return rate < 0 ? S(length - t) : t;
+  }
+  S pdf(S x) const {
+    using std::exp, std::expm1;
+    if (!(x >= 0 && x <= length)) return S(0);
+    const S a = magnitude(), k = a * length;
+    return flat(k) ? S(1 / length) : S(a * S(exp(S(-a * from_dense_end(x)))) / -S(expm1(S(-k))));
+  }
+  S invert(S x) const {
+    using std::expm1;
+    const S a = magnitude(), k = a * length;
+    if (flat(k)) return x / length;
+    const S v = S(expm1(S(-a * from_dense_end(x)))) / S(expm1(S(-k)));
+    return rate < 0 ? S(1 - v) : v;
+  }
+  template <Real T> TrimmedExponential<T> cast() const { return {T(rate), T(length)}; }
+
+ private:
+  S magnitude() const { return rate < 0 ? S(-rate) : rate; }
+  S from_dense_end(S x) const { return rate < 0 ? S(length - x) : x; }
+  /// e^-k differs from 1 by less than a rounding.
+  static bool flat(const S& k) { return k < std::numeric_limits<S>::epsilon() / 4; }
+};
+
+} // namespace mc

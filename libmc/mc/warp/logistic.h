@@ -1,0 +1,105 @@
+#pragma once
+/// Logistic distributions on the line and on an interval.
+
+#include <mc/domain/interval.h>
+#include <mc/warp/concept.h>
+
+#include <algorithm>
+
+namespace mc {
+
+namespace detail {
+
+/// 1 / (1 + e^-t), with relative precision in the lower tail.
+template <Real S> S sigmoid(const S& t) {
+  using std::exp;
+  if (t < 0) {
+    const S e = S(exp(t));
+    return e / (1 + e);
+  }
+  return 1 / (1 + S(exp(S(-t))));
+}
+
+/// e^-t / (1 + e^-t)^2, even in t.
+template <Real S> S logistic_density(const S& t) {
+  using std::abs, std::exp;
+  const S e = S(exp(S(-S(abs(t)))));
+  return e / sqr<S>(1 + e);
+}
+
+} // namespace detail
+
+/// Logistic distribution on the real line.
+///   sample : x = mean + scale log(u / (1 - u)); u = 0 stands for half its step, so x is finite
+///   pdf    : e^-t / (scale (1 + e^-t)^2), t = (x - mean) / scale [1/length]. Relative error (4 + |t|) eps for mean = 0
+///   invert : |invert(sample(u)) - u| <= 8 eps for mean = 0; a mean far from 0 costs its own rounding
+///   throws : Error unless mean is finite and scale is finite and > 0
+template <Real S> struct Logistic {
+  using Scalar = S;
+  using Domain = RealLine<S>;
+
+  S mean = 0, scale = 1;
+
+  Logistic() = default;
+  Logistic(S mean_, S scale_) : mean(mean_), scale(scale_) {
+    using std::isfinite;
+    require(isfinite(mean) && isfinite(scale) && scale > 0, "Logistic: mean {}, scale {}: both must be finite and scale > 0", static_cast<double>(mean),
+            static_cast<double>(scale));
+  }
+
+  Domain domain() const { return {mean, scale}; }
+  S sample(S u) const {
+    using std::log, std::log1p, std::max;
+    // Between the quartiles 2 u - 1 is exact, so x keeps its relative precision where it crosses the mean.
+    if (u > S(0.25) && u < S(0.75)) return mean + scale * S(log1p(S((2 * u - 1) / (1 - u))));
+    const S v = max(u, S(std::numeric_limits<S>::epsilon() / 4));
+    return mean + scale * S(log(S(v / (1 - v))));
+  }
+  S pdf(S x) const { return detail::logistic_density<S>((x - mean) / scale) / scale; }
+  S invert(S x) const { return detail::sigmoid<S>((x - mean) / scale); }
+  template <Real T> Logistic<T> cast() const { return {T(mean), T(scale)}; }
+};
+
+/// Logistic distribution of mean 0 cut to [lo, hi].
+///   sample : x = scale log(F / G) of the cut CDF F = F(lo) + u m and G = F(-hi) + (1 - u) m; the mass m of the interval is
+///            F(hi) F(-lo) (1 - e^((lo - hi) / scale)), so that nothing cancels, in the tails and on short intervals too
+///   pdf    : the logistic density / m [1/length]; 0 outside
+///   invert : |invert(sample(u)) - u| <= 8 eps max(1, max(scale, |lo|, |hi|) / (hi - lo))
+///   throws : Error unless lo < hi, both finite, scale is finite and > 0, and m does not underflow
+template <Real S> struct TrimmedLogistic {
+  using Scalar = S;
+  using Domain = Interval<S>;
+
+  S scale = 1, lo = -1, hi = 1;
+
+  TrimmedLogistic() = default;
+  TrimmedLogistic(S scale_, S lo_, S hi_) : scale(scale_), lo(lo_), hi(hi_) {
+    using std::isfinite;
+    require(isfinite(scale) && scale > 0, "TrimmedLogistic: scale {} must be finite and > 0", static_cast<double>(scale));
+    require(isfinite(lo) && isfinite(hi) && lo < hi, "TrimmedLogistic: [{}, {}] needs finite bounds with lo < hi", static_cast<double>(lo), static_cast<double>(hi));
+    require(mass() >= std::numeric_limits<S>::min(), "TrimmedLogistic: the mass of [{}, {}] at scale {} underflows", static_cast<double>(lo),
+            static_cast<double>(hi), static_cast<double>(scale));
+  }
+
+  Domain domain() const { return {lo, hi}; }
+  S sample(S u) const {
+    using std::log, std::max, std::min;
+    const S v = max(u, S(std::numeric_limits<S>::epsilon() / 4)), m = mass();
+    const S below = detail::sigmoid<S>(lo / scale) + v * m, above = detail::sigmoid<S>(-hi / scale) + (1 - v) * m;
+    return min(max(S(scale * S(log(S(below / above)))), lo), hi);
+  }
+  S pdf(S x) const { return x >= lo && x <= hi ? S(detail::logistic_density<S>(x / scale) / scale / mass()) : S(0); }
+  S invert(S x) const {
+    using std::expm1;
+    return detail::sigmoid<S>(x / scale) / detail::sigmoid<S>(hi / scale) * (S(expm1(S((lo - x) / scale))) / S(expm1(S((lo - hi) / scale))));
+  }
+  template <Real T> TrimmedLogistic<T> cast() const { return {T(scale), T(lo), T(hi)}; }
+
+ private:
+  S mass() const {
+    using std::expm1;
+    return detail::sigmoid<S>(hi / scale) * detail::sigmoid<S>(-lo / scale) * -S(expm1(S((lo - hi) / scale)));
+  }
+};
+
+} // namespace mc
