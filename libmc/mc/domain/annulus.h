@@ -1,0 +1,48 @@
+#pragma once
+/// Rings about the origin.
+
+#include <mc/core/error.h>
+#include <mc/domain/concept.h>
+
+namespace mc {
+
+/// Points of the plane with inner <= |p| <= outer.
+///   chart  : v = ((|p|^2 - inner^2) / (outer^2 - inner^2), phi / 2 pi); uniform in area, so the Jacobian is the constant area
+///   error  : v0 is known to about eps outer / (outer - inner), the rounding of p
+///   throws : Error unless 0 <= inner < outer, both finite
+template <Real S> struct Annulus {
+  using Scalar = S;
+  using Point = Vec2<S>;
+  using UnitPoint = Vec2<S>;
+  static constexpr int dim = 2;
+  static constexpr Measure measure = Measure::area;
+
+  S inner = 0, outer = 1;
+
+  Annulus() = default;
+  Annulus(S inner_, S outer_) : inner(inner_), outer(outer_) {
+    using std::isfinite;
+    require(inner >= 0 && inner < outer && isfinite(outer), "Annulus: radii {} and {}; 0 <= inner < outer, both finite, are needed", static_cast<double>(inner),
+            static_cast<double>(outer));
+  }
+
+  S area() const { return pi<S> * (outer - inner) * (outer + inner); }
+  Point from_unit(const UnitPoint& v) const {
+    using std::cos, std::sin;
+    const S r = safe_sqrt<S>(inner * inner + v[0] * ((outer - inner) * (outer + inner))), phi = 2 * pi<S> * v[1];
+    return {r * S(cos(phi)), r * S(sin(phi))};
+  }
+  UnitPoint to_unit(const Point& p) const {
+    using std::max, std::min;
+    const S r = p.norm(), v = ((r - inner) * (r + inner)) / ((outer - inner) * (outer + inner));
+    return {min(max(v, S(0)), S(1)), turn<S>(p.x(), p.y())};
+  }
+  S jacobian(const UnitPoint&) const { return area(); }
+  bool contains(const Point& p) const {
+    const S r = p.norm(), slack = 4 * std::numeric_limits<S>::epsilon() * outer;
+    return r >= inner - slack && r <= outer + slack;
+  }
+  template <Real T> Annulus<T> cast() const { return {T(inner), T(outer)}; }
+};
+
+} // namespace mc

@@ -1,0 +1,32 @@
+#pragma once
+/// Uniform points of a ring.
+
+#include <mc/domain/annulus.h>
+#include <mc/warp/concept.h>
+
+namespace mc {
+
+/// Uniform points with inner <= |p| <= outer, in polar coordinates.
+///   sample : u -> r^2 = inner^2 + u0 (outer^2 - inner^2), phi = 2 pi u1; with inner = 0 the polar map of the disk, which
+///            distorts strata near the centre where UniformDisk does not
+///   pdf    : 1 / (pi (outer - inner) (outer + inner)) [1/area]; 0 outside the ring, up to 4 eps outer
+///   invert : |invert(sample(u)) - u| <= 8 eps outer / (outer - inner): p does not know a thin ring's u0 better
+///   throws : Error unless 0 <= inner < outer, both finite
+///   Source : [ShirleyWangZimmerman96]
+template <Real S> struct UniformAnnulus {
+  using Scalar = S;
+  using Domain = Annulus<S>;
+
+  Domain ring;
+
+  UniformAnnulus() = default;
+  UniformAnnulus(S inner, S outer) : ring(inner, outer) {}
+
+  Domain domain() const { return ring; }
+  Vec2<S> sample(const Vec2<S>& u) const { return ring.from_unit(u); }
+  S pdf(const Vec2<S>& p) const { return ring.contains(p) ? S(1 / ring.area()) : S(0); }
+  Vec2<S> invert(const Vec2<S>& p) const { return ring.to_unit(p); }
+  template <Real T> UniformAnnulus<T> cast() const { return {T(ring.inner), T(ring.outer)}; }
+};
+
+} // namespace mc

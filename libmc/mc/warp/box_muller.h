@@ -1,0 +1,47 @@
+#pragma once
+/// The 2-D Gaussian in polar form.
+
+#include <mc/domain/product.h>
+#include <mc/warp/concept.h>
+
+namespace mc {
+
+/// Isotropic normal distribution about the origin of the plane.
+///   sample : r = sigma sqrt(-2 log(1 - u0)), phi = 2 pi u1. 1 - u0 is never 0, so r is finite for every u
+///   pdf    : exp(-r^2 / (2 sigma^2)) / (2 pi sigma^2) [1/area]. Relative error (4 + (r / sigma)^2) eps
+///   invert : |invert(sample(u)) - u| <= 8 eps
+///   throws : Error unless sigma is finite and > 0
+///   Source : [BoxMuller58]. Two independent normals by inverse CDF (Normal2D) distort strata less and cost more
+template <Real S> struct BoxMuller {
+  using Scalar = S;
+  using Domain = Plane<S>;
+
+  S sigma = 1;
+
+  BoxMuller() = default;
+  explicit BoxMuller(S sigma_) : sigma(sigma_) {
+    using std::isfinite;
+    require(isfinite(sigma) && sigma > 0, "BoxMuller: sigma {} must be finite and > 0", static_cast<double>(sigma));
+  }
+
+  Domain domain() const { return {{S(0), sigma}, {S(0), sigma}}; }
+  Vec2<S> sample(const Vec2<S>& u) const {
+    using std::cos, std::log1p, std::sin, std::sqrt;
+    const S r = sigma * S(sqrt(S(-2 * S(log1p(S(-u[0])))))), phi = 2 * pi<S> * u[1];
+    return {r * S(cos(phi)), r * S(sin(phi))};
+  }
+  S pdf(const Vec2<S>& p) const {
+    using std::exp;
+    return S(exp(S(-half_square(p)))) / (2 * pi<S> * sigma * sigma);
+  }
+  Vec2<S> invert(const Vec2<S>& p) const {
+    using std::expm1;
+    return {-S(expm1(S(-half_square(p)))), turn<S>(p.x(), p.y())};
+  }
+  template <Real T> BoxMuller<T> cast() const { return BoxMuller<T>(T(sigma)); }
+
+ private:
+  S half_square(const Vec2<S>& p) const { return (sqr<S>(p.x() / sigma) + sqr<S>(p.y() / sigma)) / 2; }
+};
+
+} // namespace mc

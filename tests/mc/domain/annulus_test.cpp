@@ -1,0 +1,29 @@
+#include <mc/domain/annulus.h>
+
+#include <mc/core/error.h>
+#include "support/charts.h"
+
+namespace mc {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(Annulus, Chart) {
+  for (const double inner : {0.0, 0.5, 0.99}) {
+    expect_round_trip(Annulus<float>(float(inner), 1), 8 / (1 - inner));
+    expect_round_trip(Annulus<double>(inner, 1), 8 / (1 - inner));
+    expect_jacobian(Annulus<Oracle>(Oracle(inner), 1));
+  }
+  EXPECT_FALSE((Annulus<double>(0.5, 1).contains({0.1, 0.1})));
+  EXPECT_FALSE((Annulus<double>(0.5, 1).contains({nan, 0.7})));
+}
+
+TEST(Annulus, RefusesNonsense) {
+  EXPECT_THROW((Annulus<double>(1, 1)), Error);
+  EXPECT_THROW((Annulus<double>(-1, 1)), Error);
+  EXPECT_THROW((Annulus<double>(nan, 1)), Error);
+  EXPECT_THROW((Annulus<double>(0, HUGE_VAL)), Error);
+}
+
+} // namespace
+} // namespace mc
