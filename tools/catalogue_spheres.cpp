@@ -3,6 +3,7 @@
 #include <mc/warp/cone.h>
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/mixture.h>
+#include <mc/warp/rotated.h>
 #include <mc/warp/sphere.h>
 
 namespace carlo {
@@ -18,6 +19,10 @@ void add_spheres(Catalogue& c) {
       using S = decltype(s);
       return mc::Mixture(std::array<S, 2>{S(weight), S(1 - weight)}, mc::UniformHemisphere<S>{}, mc::CosineHemisphere<S>{});
     });
+  add_warp(c, "Rotated", "cosine about (0.6, -0.8, 0)", [](auto s) {
+    using S = decltype(s);
+    return mc::Rotated(mc::CosineHemisphere<S>{}, mc::Vec3<S>(S(0.6), S(-0.8), 0));
+  }, {.invert_eps = 64, .pdf_eps = 512}); // eps / z at the horizon
 }
 
 } // namespace carlo

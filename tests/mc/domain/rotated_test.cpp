@@ -1,0 +1,24 @@
+#include <mc/domain/rotated.h>
+
+#include <mc/domain/hemisphere.h>
+
+#include <mc/core/error.h>
+#include "support/charts.h"
+
+namespace mc {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(RotatedDomain, Chart) {
+  const Vec3<double> n = Vec3<double>(1, -2, 0.3).normalized();
+  const RotatedDomain<Hemisphere<double>> turned{{}, Frame<double>::from_z(n)};
+  expect_jacobian(turned.cast<Oracle>());
+  EXPECT_TRUE(turned.contains(n));
+  EXPECT_FALSE(turned.contains(-n));
+  EXPECT_FALSE(turned.contains({nan, 0, 1}));
+  EXPECT_TRUE(turned.contains(turned.from_unit({1, 0.3}))) << "the rim";
+}
+
+} // namespace
+} // namespace mc
