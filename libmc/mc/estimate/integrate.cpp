@@ -1,76 +1,294 @@
 #include <mc/core/error.h>
 #include <mc/core/parallel.h>
+#include <mc/estimate/importance_grid.h>
 #include <mc/estimate/integrate.h>
 #include <mc/estimate/moments.h>
-#include <mc/sampler/independent.h>
-#include <mc/sampler/sobol.h>
-#include <mc/sampler/stratified.h>
+#include <mc/estimate/point_set.h>
+
+#include <boost/math/distributions/chi_squared.hpp>
 
 #include <array>
+#include <bit>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 namespace mc {
 
 namespace {
 
-using Integrand = std::function<double(std::span<const double>)>;
-
-constexpr std::array<std::string_view, 4> method_names = {"auto", "plain", "stratified", "rqmc"};
+constexpr std::array<std::string_view, 5> method_names = {"auto", "plain", "stratified", "rqmc", "vegas"};
 constexpr std::uint64_t chunk = 4096; // points per task: fixed, so sums do not depend on the number of threads
+constexpr std::uint64_t block = 256;  // points drawn at once
+constexpr std::uint64_t longest = std::uint64_t{1} << 32;
 
-// Moments of f over points [first, first + count) of a sampler.
-template <Sampler T> Moments evaluate(const Integrand& f, int dim, const T& sampler, std::uint64_t first, std::uint64_t count) {
-  Moments moments;
-  std::vector<double> u(static_cast<std::size_t>(dim));
-  for (std::uint64_t i = first; i < first + count; ++i) {
-    for (int d = 0; d < dim; ++d) u[static_cast<std::size_t>(d)] = coordinate<double>(sampler, i, static_cast<std::uint32_t>(d));
-    moments.add(f(u), i);
-  }
-  return moments;
-}
+struct Cancelled {};
 
-template <Sampler T> Moments evaluate_parallel(const Integrand& f, int dim, const T& sampler, std::uint64_t first, std::uint64_t count, int threads) {
-  return parallel_reduce<Moments>((count + chunk - 1) / chunk, threads, [&](std::size_t i) {
-    const std::uint64_t begin = first + i * chunk;
-    return evaluate(f, dim, sampler, begin, std::min(chunk, first + count - begin));
-  });
-}
-
-template <Sampler T> void require_finite(const Moments& m, const T& sampler, int dim) {
-  if (m.non_finite() == 0) return;
-  std::string point;
-  for (int d = 0; d < dim; ++d) point += fmt::format("{}{:.17g}", d ? ", " : "", coordinate<double>(sampler, m.witness(), static_cast<std::uint32_t>(d)));
-  throw Error(fmt::format("integrate: the integrand is not finite at {} of {} points, the first at u = ({}); it must be finite almost everywhere",
-                          m.non_finite(), m.non_finite() + m.count(), point));
-}
-
-// Points [first, first + count) of one randomisation, in parallel.
-template <Sampler T> Moments replicate(const Integrand& f, int dim, const T& sampler, std::uint64_t first, std::uint64_t count, int threads) {
-  const Moments m = evaluate_parallel(f, dim, sampler, first, count, threads);
-  require_finite(m, sampler, dim);
-  return m;
-}
-
-// Independent rounds of doubling size, weighed by the square of their number of points: by the number alone, the early rounds
-// would dominate an error that falls faster than N^-1/2; by the measured variances, the mean would be biased.
-struct Rounds {
-  double weight = 0, value = 0, variance = 0; // of the weighted mean
-  std::vector<std::pair<double, double>> all; // mean and its variance
-  void add(const Moments& replicates, double points) {
-    const double share = points * points / (weight + points * points), v = sqr(replicates.std_error());
-    value += share * (replicates.mean() - value);
-    variance = sqr(1 - share) * variance + share * share * v;
-    weight += points * points;
-    all.emplace_back(replicates.mean(), v);
-  }
-  double chi2() const {
-    double sum = 0;
-    for (const auto& [mean, v] : all)
-      if (v > 0) sum += sqr(mean - value) / v;
-    return sum;
+// What one task adds up: moments of every output, and what the grid learns from.
+struct Sums {
+  std::vector<Moments> outputs;
+  std::vector<double> power;
+  void merge(const Sums& other) {
+    if (outputs.empty()) *this = other;
+    else {
+      for (std::size_t k = 0; k < outputs.size(); ++k) outputs[k].merge(other.outputs[k]);
+      for (std::size_t i = 0; i < power.size(); ++i) power[i] += other.power[i];
+    }
   }
 };
+
+using Estimates = std::vector<Estimate>; // one per output
+
+// A run of integrate: the integrand, the budget, the clock.
+struct Run {
+  const VectorIntegrand& f;
+  std::size_t outputs;
+  int dim;
+  const IntegrateOptions& o;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  std::uint64_t calls = 0;
+  std::vector<Estimates> rounds = {}; // independent of each other and of the last estimates
+
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+  std::uint64_t left() const { return o.max_calls - calls; }
+
+  Sums evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const ImportanceGrid* grid, std::span<const double> learn) const {
+    if (o.cancel && o.cancel->load()) throw Cancelled{};
+    const auto d = static_cast<std::size_t>(dim);
+    Sums sums{std::vector<Moments>(outputs), std::vector<double>(learn.empty() ? 0 : d * ImportanceGrid::bins)};
+    std::vector<double> u(block * d), values(outputs), columns(outputs * block);
+    std::vector<std::uint8_t> bins(grid ? d : 0);
+    for (; first < last; first += block) {
+      const auto n = static_cast<std::size_t>(std::min(block, last - first));
+      fill_points(set, first, dim, {u.data(), n * d});
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::span<double> point(u.data() + i * d, d);
+        const double jacobian = grid ? grid->map(point, bins) : 1.0;
+        f(point, values);
+        double power = 0;
+        for (std::size_t k = 0; k < outputs; ++k) {
+          const double x = values[k] * jacobian;
+          columns[k * block + i] = x;
+          if (!learn.empty()) power += sqr(x * learn[k]);
+        }
+        if (!learn.empty())
+          for (std::size_t j = 0; j < d; ++j) sums.power[j * ImportanceGrid::bins + bins[j]] += power;
+      }
+      for (std::size_t k = 0; k < outputs; ++k) sums.outputs[k].add(std::span(columns).subspan(k * block, n), first);
+    }
+    return sums;
+  }
+
+  // Points [first, first + count) of each set; one result per set.
+  std::vector<Sums> evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count, const ImportanceGrid* grid = nullptr,
+                                 std::span<const double> learn = {}) {
+    const std::uint64_t chunks = (count + chunk - 1) / chunk;
+    std::vector<Sums> parts(sets.size() * chunks), results(sets.size());
+    parallel_for(parts.size(), o.threads, [&](std::size_t i) {
+      const std::uint64_t begin = first + i % chunks * chunk;
+      parts[i] = evaluate(sets[i / chunks], begin, std::min(begin + chunk, first + count), grid, learn);
+    });
+    for (std::size_t i = 0; i < parts.size(); ++i) results[i / chunks].merge(parts[i]);
+    for (std::size_t r = 0; r < sets.size(); ++r)
+      for (const Moments& m : results[r].outputs) require_finite(m, sets[r], grid);
+    calls += count * sets.size();
+    return results;
+  }
+
+  void require_finite(const Moments& m, const PointSet& set, const ImportanceGrid* grid) const {
+    if (m.non_finite() == 0) return;
+    std::vector<double> u(static_cast<std::size_t>(dim));
+    std::vector<std::uint8_t> bins(u.size());
+    fill_points(set, m.witness(), dim, u);
+    if (grid) grid->map(u, bins);
+    std::string point;
+    for (const double x : u) point += fmt::format("{}{:.17g}", point.empty() ? "" : ", ", x);
+    throw Error(fmt::format("integrate: the integrand is not finite at {} of {} points, the first at u = ({}); it must be finite almost everywhere",
+                            m.non_finite(), m.non_finite() + m.count(), point));
+  }
+
+  std::vector<PointSet> sobol_sets(std::uint64_t purpose, std::uint32_t replicates) const {
+    std::vector<PointSet> sets;
+    for (std::uint32_t r = 0; r < replicates; ++r) sets.emplace_back(ScrambledSobol{hash(o.seed, purpose, r)});
+    return sets;
+  }
+
+  Estimates estimates(const std::vector<Sums>& replicates) const {
+    Estimates all;
+    for (std::size_t k = 0; k < outputs; ++k) {
+      Moments means;
+      for (const Sums& s : replicates) means.add(s.outputs[k].mean());
+      all.push_back({means.mean(), means.std_error(), static_cast<double>(replicates.size() - 1), calls});
+    }
+    return all;
+  }
+
+  bool converged(const Estimates& all) const {
+    for (const Estimate& e : all)
+      if (!(e.std_error <= o.abs_error || e.std_error <= o.rel_error * std::abs(e.value))) return false;
+    return true;
+  }
+
+  void report(const Estimates& all) const {
+    if (o.progress) o.progress({all.front(), calls, seconds()});
+  }
+};
+
+// Replicated Sobol' sequences, extended from step to step.
+struct Sequences {
+  std::vector<PointSet> sets;
+  const ImportanceGrid* grid = nullptr;
+  std::uint64_t length = 0;
+  std::vector<Sums> sums = {};
+
+  Estimates extend(Run& run, std::uint64_t to) {
+    const std::vector<Sums> more = run.evaluate_all(sets, length, to - length, grid);
+    if (sums.empty()) sums = more;
+    else
+      for (std::size_t r = 0; r < sums.size(); ++r) sums[r].merge(more[r]);
+    length = to;
+    return run.estimates(sums);
+  }
+};
+
+// The outcome so far, good for an answer when the run is cancelled.
+struct Outcome {
+  Estimates estimates;
+  Method method;
+  Stop stop = Stop::max_calls;
+};
+
+Outcome plain(Run& run, std::optional<Outcome>& last) {
+  Sums total;
+  for (std::uint64_t first = 0, count = 1024;; first += count, count = first) {
+    count = std::min(count, run.left());
+    total.merge(run.evaluate_all({Independent{run.o.seed}}, first, count).front());
+    Outcome out{{}, Method::plain};
+    for (const Moments& m : total.outputs) out.estimates.push_back(m.estimate());
+    run.report(out.estimates);
+    if (run.converged(out.estimates)) out.stop = Stop::converged;
+    if (out.stop == Stop::converged || run.left() == 0) return out;
+    last = out;
+  }
+}
+
+// Independent rounds, weighed by the square of their number of points: by the number alone, the early rounds would dominate an
+// error that falls faster than N^-1/2; by the measured variances, the mean would be biased.
+Outcome stratified(Run& run, std::optional<Outcome>& last) {
+  Outcome out{Estimates(run.outputs), Method::stratified};
+  double weight = 0;
+  for (std::uint64_t points = std::min<std::uint64_t>(64, run.left() / run.o.replicates), round = 0;; ++round) {
+    std::vector<PointSet> sets;
+    for (std::uint32_t r = 0; r < run.o.replicates; ++r)
+      sets.emplace_back(Stratified(static_cast<std::uint32_t>(points), hash(run.o.seed, round, r), static_cast<std::uint32_t>(std::min(run.dim, 8))));
+    const Estimates now = run.estimates(run.evaluate_all(sets, 0, points));
+    const double square = sqr(static_cast<double>(points)), share = square / (weight + square);
+    weight += square;
+    for (std::size_t k = 0; k < run.outputs; ++k) {
+      Estimate& e = out.estimates[k];
+      e = {e.value + share * (now[k].value - e.value), std::hypot((1 - share) * e.std_error, share * now[k].std_error), now[k].dof, run.calls};
+    }
+    run.rounds.push_back(now);
+    run.report(out.estimates);
+    if (run.converged(out.estimates)) out.stop = Stop::converged;
+    // The last round takes all that is left rather than leave a rest that is too small for another doubling.
+    const std::uint64_t left = std::min(run.left() / run.o.replicates, longest - 1);
+    if (out.stop == Stop::converged || left < points) return out;
+    points = left < 4 * points ? left : 2 * points;
+    last = out;
+  }
+}
+
+// Learns the grid in rounds of growing size.
+ImportanceGrid learn(Run& run, std::uint64_t budget, std::vector<double>& scale) {
+  ImportanceGrid grid(run.dim);
+  constexpr std::array<std::uint64_t, 5> share = {16, 16, 8, 4, 2};
+  const std::uint32_t r = run.o.replicates;
+  for (std::size_t k = 0; k < share.size(); ++k) {
+    const std::uint64_t points = std::bit_floor(budget / share[k] / r);
+    if (points < 16) continue;
+    const std::vector<Sums> sums = run.evaluate_all(run.sobol_sets(2 + k, r), 0, points, &grid, scale);
+    const Estimates now = run.estimates(sums);
+    run.rounds.push_back(now);
+    run.report(now);
+    Sums total;
+    for (const Sums& s : sums) total.merge(s);
+    grid.refine(total.power);
+    // Outputs of different size count alike from the second round on.
+    for (std::size_t j = 0; j < run.outputs; ++j) {
+      const double size = std::hypot(total.outputs[j].mean(), std::sqrt(total.outputs[j].variance()));
+      scale[j] = size > 0 && std::isfinite(1 / size) ? 1 / size : 0;
+    }
+  }
+  return grid;
+}
+
+// How much smaller the errors of b are than those of a: the mean logarithm of the ratio.
+double advantage(const Estimates& a, const Estimates& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) sum += std::log((a[k].std_error + 1e-300) / (b[k].std_error + 1e-300));
+  return sum;
+}
+
+Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
+  std::uint32_t replicates = run.o.replicates;
+  const auto limit = [&] { return std::min(std::bit_floor(run.left() / replicates), longest); };
+  Outcome out{{}, method == Method::vegas ? Method::vegas : Method::rqmc};
+  Sequences chosen;
+  std::optional<ImportanceGrid> grid;
+
+  // auto and rqmc: the bare sequences first.
+  if (method != Method::vegas) {
+    // The longest power of two that at least the wanted number of replicates can have, and as many replicates as then fit.
+    if (method == Method::rqmc) replicates = static_cast<std::uint32_t>(std::min<std::uint64_t>(run.left() / limit(), 2 * replicates - 1));
+    const std::uint64_t longest_sequence = limit(), pilot = method == Method::rqmc ? longest_sequence : std::max<std::uint64_t>(longest_sequence / 16, 1);
+    chosen = {run.sobol_sets(0, replicates)};
+    for (std::uint64_t to = std::min<std::uint64_t>(64, pilot); to <= pilot; to *= 2) {
+      out.estimates = chosen.extend(run, to);
+      run.report(out.estimates);
+      if (run.converged(out.estimates)) return out.stop = Stop::converged, out;
+      last = out;
+    }
+    if (method == Method::rqmc) return out;
+  }
+
+  std::vector<double> scale(run.outputs, 1.0);
+  grid = learn(run, std::min<std::uint64_t>(run.o.max_calls / 8, std::uint64_t{1} << 18), scale);
+  Sequences guided{run.sobol_sets(1, replicates), &*grid};
+  if (method == Method::vegas) {
+    const std::uint64_t now = std::max<std::uint64_t>(limit(), 1);
+    guided.sets = run.sobol_sets(1, replicates = static_cast<std::uint32_t>(std::min<std::uint64_t>(run.left() / now, 2 * replicates - 1)));
+    chosen = std::move(guided);
+  } else {
+    const Estimates tried = guided.extend(run, std::min(chosen.length, limit()));
+    if (advantage(out.estimates, tried) > 0) {
+      out.estimates = tried;
+      out.method = Method::vegas;
+      chosen = std::move(guided);
+    } else {
+      run.rounds.clear();
+    }
+  }
+  const std::uint64_t affordable = std::bit_floor(chosen.length + run.left() / replicates);
+  for (std::uint64_t to = std::max<std::uint64_t>(std::min<std::uint64_t>(64, affordable), 2 * chosen.length);; to *= 2) {
+    if (!out.estimates.empty()) {
+      if (run.converged(out.estimates)) return out.stop = Stop::converged, out;
+      if (to > std::min(affordable, longest)) break;
+      last = out;
+    }
+    out.estimates = chosen.extend(run, to);
+    run.report(out.estimates);
+  }
+  return out;
+}
+
+void require_sane(int outputs, int dim, const IntegrateOptions& o) {
+  require(dim >= 1, "integrate: dimension {} must be at least 1", dim);
+  require(outputs >= 1, "integrate: {} outputs; at least 1 is needed", outputs);
+  require(o.rel_error >= 0 && o.abs_error >= 0, "integrate: tolerances {} (relative) and {} (absolute) must be >= 0", o.rel_error, o.abs_error);
+  require(o.confidence > 0 && o.confidence < 1, "integrate: confidence {} must lie in (0, 1)", o.confidence);
+  require(o.replicates >= 2 && o.replicates <= 1u << 20, "integrate: {} replicates; between 2 and 2^20 are needed for an error", o.replicates);
+}
 
 } // namespace
 
@@ -91,83 +309,65 @@ std::string_view name(Stop stop) {
   return "";
 }
 
-Integral integrate_unit(const Integrand& f, int dim, const IntegrateOptions& o) {
-  require(dim >= 1, "integrate: dimension {} must be at least 1", dim);
-  require(o.rel_error >= 0 && o.abs_error >= 0, "integrate: tolerances {} (relative) and {} (absolute) must be >= 0", o.rel_error, o.abs_error);
-  require(o.confidence > 0 && o.confidence < 1, "integrate: confidence {} must lie in (0, 1)", o.confidence);
-  require(o.replicates >= 2, "integrate: {} replicates; an error needs at least 2", o.replicates);
+VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, const IntegrateOptions& o) {
+  require_sane(outputs, dim, o);
+  const Method method = o.method == Method::automatic && static_cast<std::uint32_t>(dim) > Sobol::dimensions ? Method::plain : o.method;
+  const std::uint64_t least = method == Method::plain ? 2 : 2 * std::uint64_t{o.replicates};
+  require(o.max_calls >= least, "integrate: max_calls {} is too few; at least {} are needed", o.max_calls, least);
 
-  Integral result;
-  result.method = o.method != Method::automatic ? o.method : static_cast<std::uint32_t>(dim) <= Sobol::dimensions ? Method::rqmc : Method::plain;
-  const bool plain = result.method == Method::plain;
-  const std::uint64_t per_round = plain ? 1 : o.replicates;
-  require(o.max_calls >= 2 * per_round, "integrate: max_calls {} is too few; at least {} are needed", o.max_calls, 2 * per_round);
-
-  const auto start = std::chrono::steady_clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  Moments moments;                              // plain: every sample
-  std::vector<Moments> sequences(o.replicates); // rqmc: every replicate, extended from round to round
-  Rounds rounds;                                // stratified
-  for (std::uint64_t count = plain ? 1024 : 64, round = 0;; ++round) {
-    const std::uint64_t left = (o.max_calls - result.calls) / per_round;
-    const std::uint64_t points = std::min({count, left, std::uint64_t{1} << 32});
-    if (plain) {
-      const Independent sampler{o.seed};
-      moments.merge(evaluate_parallel(f, dim, sampler, result.calls, points, o.threads));
-      require_finite(moments, sampler, dim);
-      result.estimate = moments.estimate();
-    } else if (result.method == Method::rqmc) {
-      Moments means;
-      for (std::uint32_t r = 0; r < o.replicates; ++r) {
-        Moments& sequence = sequences[r];
-        sequence.merge(replicate(f, dim, Sobol(hash(o.seed, r)), sequence.count(), points, o.threads));
-        means.add(sequence.mean());
-      }
-      result.estimate = {means.mean(), means.std_error(), static_cast<double>(o.replicates - 1), result.calls + points * per_round};
-    } else {
-      Moments means;
-      for (std::uint32_t r = 0; r < o.replicates; ++r) {
-        const Stratified sampler(static_cast<std::uint32_t>(points), hash(o.seed, round, r), static_cast<std::uint32_t>(std::min(dim, 8)));
-        means.add(replicate(f, dim, sampler, 0, points, o.threads).mean());
-      }
-      rounds.add(means, static_cast<double>(points));
-      result.estimate = {rounds.value, std::sqrt(rounds.variance), static_cast<double>(o.replicates - 1), result.calls + points * per_round};
-    }
-    result.calls += points * per_round;
-    result.seconds = elapsed();
-    if (o.progress) o.progress({result.estimate, result.calls, result.seconds});
-    const double error = result.estimate.std_error;
-    if (error <= o.abs_error || error <= o.rel_error * std::abs(result.estimate.value)) result.stop = Stop::converged;
-    else if ((o.max_calls - result.calls) / per_round < std::min<std::uint64_t>(count, 2)) result.stop = Stop::max_calls;
-    else if (o.cancel && o.cancel->load()) result.stop = Stop::cancelled;
-    else {
-      // An extended sequence doubles when the new points are as many as the old ones.
-      if (!(result.method == Method::rqmc && round == 0)) count *= 2;
-      continue;
-    }
-    break;
+  Run run{f, static_cast<std::size_t>(outputs), dim, o};
+  std::optional<Outcome> last;
+  Outcome outcome;
+  try {
+    outcome = method == Method::plain ? plain(run, last) : method == Method::stratified ? stratified(run, last) : sequences(run, method, last);
+  } catch (const Cancelled&) {
+    require(last.has_value(), "integrate: cancelled before anything was estimated");
+    outcome = *last;
+    outcome.stop = Stop::cancelled;
   }
-  result.interval = result.estimate.interval(o.confidence);
-  result.chi2 = rounds.chi2();
-  result.chi2_dof = rounds.all.empty() ? 0 : static_cast<double>(rounds.all.size() - 1);
+  VectorIntegral result;
+  for (std::size_t k = 0; k < run.outputs; ++k) {
+    Integral r;
+    r.estimate = outcome.estimates[k];
+    r.interval = r.estimate.interval(o.confidence);
+    r.calls = run.calls;
+    r.seconds = run.seconds();
+    r.method = outcome.method;
+    r.stop = outcome.stop;
+    for (const Estimates& round : run.rounds) {
+      const double v = sqr(round[k].std_error) + (outcome.method == Method::vegas ? sqr(r.estimate.std_error) : 0);
+      if (v > 0) r.chi2 += sqr(round[k].value - r.estimate.value) / v, r.chi2_dof += 1;
+    }
+    if (outcome.method == Method::stratified && r.chi2_dof > 0) r.chi2_dof -= 1;
+    r.consistent = !(r.chi2_dof > 0) || cdf(complement(boost::math::chi_squared(r.chi2_dof), r.chi2)) > 1e-4;
+    result.outputs.push_back(r);
+  }
   return result;
 }
 
-Integral integrate_rqmc(const Integrand& f, int dim, std::uint64_t count, std::uint32_t replicates, std::uint64_t seed, int threads) {
-  require(dim >= 1, "integrate_rqmc: dimension {} must be at least 1", dim);
-  require(count >= 1 && count <= (std::uint64_t{1} << 32), "integrate_rqmc: {} points; between 1 and 2^32 are possible", count);
-  require(replicates >= 2, "integrate_rqmc: {} replicates; an error needs at least 2", replicates);
-  const auto start = std::chrono::steady_clock::now();
-  Moments means;
-  for (std::uint32_t r = 0; r < replicates; ++r) means.add(replicate(f, dim, Sobol(hash(seed, r)), 0, count, threads).mean());
+Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim, const IntegrateOptions& o) {
+  const VectorIntegrand one = [&](std::span<const double> u, std::span<double> values) { values[0] = f(u); };
+  return integrate_unit(one, 1, dim, o).outputs.front();
+}
+
+Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count, std::uint32_t replicates, std::uint64_t seed,
+                        int threads) {
+  IntegrateOptions o;
+  o.replicates = replicates;
+  o.seed = seed;
+  o.threads = threads;
+  o.max_calls = count * replicates;
+  require_sane(1, dim, o);
+  require(count >= 1 && count <= longest, "integrate_rqmc: {} points; between 1 and 2^32 are possible", count);
+  const VectorIntegrand one = [&](std::span<const double> u, std::span<double> values) { values[0] = f(u); };
+  Run run{one, 1, dim, o};
   Integral result;
-  result.estimate = means.estimate();
-  result.estimate.count = count * replicates;
+  result.estimate = run.estimates(run.evaluate_all(run.sobol_sets(0, replicates), 0, count)).front();
   result.interval = result.estimate.interval();
-  result.calls = count * replicates;
+  result.calls = run.calls;
   result.method = Method::rqmc;
   result.stop = Stop::max_calls;
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.seconds = run.seconds();
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <mc/estimate/estimate.h>
 #include <mc/warp/concept.h>
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <span>
@@ -14,8 +15,9 @@
 
 namespace mc {
 
-/// How points are placed. `automatic` picks rqmc up to 1024 dimensions, plain above.
-enum class Method { automatic, plain, stratified, rqmc };
+/// How points are placed. `automatic` starts with rqmc, tries the importance grid when that has not converged by a 16th of the
+/// calls and keeps the better of the two; plain above 1024 dimensions.
+enum class Method { automatic, plain, stratified, rqmc, vegas };
 std::string_view name(Method method);
 /// Throws Error, naming the nearest method, for an unknown name.
 Method method_from(std::string_view name);
@@ -38,7 +40,7 @@ struct IntegrateOptions {
   std::uint64_t seed = 1;
   int threads = 0;                      ///< 0: all of the machine's; the result has the same bits for any number
   double confidence = 0.95;             ///< of the interval
-  std::uint32_t replicates = 16;        ///< independent randomisations behind the error of stratified and rqmc
+  std::uint32_t replicates = 24;        ///< least number of independent randomisations behind the error of stratified, rqmc and vegas
   std::function<void(const IntegrateProgress&)> progress = {};
   const std::atomic<bool>* cancel = nullptr;
 };
@@ -51,29 +53,47 @@ struct Integral {
   double seconds = 0;
   Method method = Method::plain;        ///< the one picked
   Stop stop = Stop::converged;
-  double chi2 = 0, chi2_dof = 0;        ///< stratified: agreement of the rounds, near its dof when they agree; else 0
+  double chi2 = 0, chi2_dof = 0;        ///< stratified and vegas: agreement of the independent rounds, near its dof; else 0
+  /// Whether the rounds agree: chi2 is exceeded by chance with probability over 1e-4. False: distrust the error bar.
+  bool consistent = true;
 };
 
-/// The integral over the unit cube of f(u) du, f evaluated at points of [0,1)^dim.
-///   method : plain: independent points, error from the sample variance. rqmc: independently scrambled Sobol' sequences that
-///            double in length; stratified: rounds of jittered grids of doubling size; error from the replicates
-///   throws : Error for dim < 1, a tolerance that is negative or NaN, both tolerances 0 without a call limit, max_calls too small
-///            for one round, confidence outside (0,1); what the integrand throws, after all threads have stopped; and for an
-///            integrand that is not finite, with the point where it first was
+/// Several integrals from the same calls.
+struct VectorIntegral {
+  std::vector<Integral> outputs;        ///< all fields but the estimates, intervals and chi2 are common
+};
+
+/// f(u, values) fills `values`, one per output, for a point u of the unit cube.
+using VectorIntegrand = std::function<void(std::span<const double> u, std::span<double> values)>;
+
+/// The integral over the unit cube of f(u) du, f evaluated at points of [0,1)^dim, from several threads at once.
+///   plain      : independent points, error from the sample variance
+///   stratified : rounds of jittered grids of doubling size, error from replicates
+///   rqmc       : independently scrambled Sobol' sequences that double in length, error from replicates
+///   vegas      : rqmc through an ImportanceGrid learned on up to an eighth of the calls; the rounds it was learned on are the
+///                consistency check. The grid is frozen before the sequences start, so the estimate is unbiased
+///   throws     : Error for dim < 1, a tolerance that is negative or NaN, max_calls too small for one round, confidence outside
+///                (0,1); what the integrand throws, after all threads have stopped; and for an integrand that is not finite,
+///                with the point where it first was; and when cancelled before anything was estimated
 Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim, const IntegrateOptions& options = {});
 
+/// The same for `outputs` integrands at once; converged when each of them is.
+VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, const IntegrateOptions& options = {});
+
 /// Replicated randomised quasi-Monte Carlo with `count` points in each of `replicates` randomisations, without a tolerance.
-Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count, std::uint32_t replicates = 16,
+Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count, std::uint32_t replicates = 24,
                         std::uint64_t seed = 1, int threads = 0);
 
 namespace detail {
 template <Domain D> typename D::UnitPoint unit_point(std::span<const double> u) {
   using S = typename D::Scalar;
-  if constexpr (D::dim == 1) return S(u[0]);
+  // A double below 1 may round to 1 as a float.
+  const auto coordinate = [](double x) { return std::min(S(x), one_minus_epsilon<S>); };
+  if constexpr (D::dim == 1) return coordinate(u[0]);
   else {
     typename D::UnitPoint v;
     if constexpr (D::dim == Eigen::Dynamic) v.resize(static_cast<Eigen::Index>(u.size()));
-    for (std::size_t i = 0; i < u.size(); ++i) v[static_cast<Eigen::Index>(i)] = S(u[i]);
+    for (std::size_t i = 0; i < u.size(); ++i) v[static_cast<Eigen::Index>(i)] = coordinate(u[i]);
     return v;
   }
 }

@@ -3,8 +3,10 @@
 
 #include <mc/estimate/estimate.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 namespace mc {
 
@@ -23,6 +25,24 @@ class Moments {
     const double delta = x - mean_;
     mean_ += delta / static_cast<double>(count_);
     m2_ += delta * (x - mean_);
+  }
+
+  /// Adds a block of values whose indices start at `first`: two passes over it instead of a division per value.
+  void add(std::span<const double> values, std::uint64_t first) {
+    Moments block;
+    double sum = 0;
+    for (const double x : values) sum += x;
+    const double n = static_cast<double>(values.size()), mean = sum / n;
+    if (!std::isfinite(sum)) { // or the sum overflowed: one by one
+      for (std::size_t i = 0; i < values.size(); ++i) block.add(values[i], first + i);
+    } else if (!values.empty()) {
+      double squares = 0, rest = 0;
+      for (const double x : values) squares += (x - mean) * (x - mean), rest += x - mean;
+      block.count_ = values.size();
+      block.mean_ = mean + rest / n;
+      block.m2_ = std::max(0.0, squares - rest * rest / n);
+    }
+    merge(block);
   }
 
   void merge(const Moments& other) {

@@ -1,0 +1,68 @@
+#include <mc/core/error.h>
+#include <mc/core/types.h>
+#include <mc/estimate/importance_grid.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace mc {
+
+namespace {
+constexpr double uniform_share = 0.1; // of the probability, in each dimension
+constexpr double jump_share = 0.5;    // of a jump's height that counts as mass
+} // namespace
+
+ImportanceGrid::ImportanceGrid(int dim) : dim_(dim), edges_(static_cast<std::size_t>(dim) * (bins + 1)) {
+  require(dim >= 1, "ImportanceGrid: dimension {} must be at least 1", dim);
+  for (std::size_t i = 0; i < edges_.size(); ++i) edges_[i] = static_cast<double>(i % (bins + 1)) / bins;
+}
+
+std::span<const double> ImportanceGrid::edges(int d) const { return {edges_.data() + static_cast<std::size_t>(d) * (bins + 1), bins + 1}; }
+
+double ImportanceGrid::map(std::span<double> u, std::span<std::uint8_t> bin) const {
+  double jacobian = 1;
+  const double* e = edges_.data();
+  for (std::size_t d = 0; d < u.size(); ++d, e += bins + 1) {
+    const double scaled = u[d] * bins;
+    const auto i = static_cast<std::size_t>(scaled);
+    const double width = e[i + 1] - e[i];
+    u[d] = std::min(e[i] + (scaled - static_cast<double>(i)) * width, one_minus_epsilon<double>);
+    bin[d] = static_cast<std::uint8_t>(i);
+    jacobian *= bins * width;
+  }
+  return jacobian;
+}
+
+void ImportanceGrid::refine(std::span<const double> power) {
+  MC_ASSERT(power.size() == static_cast<std::size_t>(dim_) * bins);
+  std::array<double, bins> mass;
+  std::array<double, bins + 1> edges;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dim_); ++d) {
+    const double* p = power.data() + d * bins;
+    double* e = edges_.data() + d * (bins + 1);
+    double total = 0;
+    for (std::size_t i = 0; i < bins; ++i) {
+      const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, bins - 1);
+      // Neighbours damp the noise of a round. Where the integrand jumps between them, edges are drawn to the jump: within the
+      // bin that holds it the density cannot follow.
+      const auto size = [&](std::size_t j) { return std::sqrt(p[j]) / std::max(e[j + 1] - e[j], 1e-300); };
+      const double jump = std::max(std::abs(size(i) - size(before)), std::abs(size(after) - size(i))) * (e[i + 1] - e[i]);
+      total += mass[i] = std::sqrt((p[before] + 2 * p[i] + p[after]) / 4) + jump_share * jump;
+    }
+    if (!(total > 0) || !std::isfinite(total)) continue; // nothing seen: nothing learned
+    for (std::size_t i = 0; i < bins; ++i) mass[i] = (1 - uniform_share) * mass[i] / total + uniform_share * (e[i + 1] - e[i]);
+    edges[0] = 0;
+    edges[bins] = 1;
+    double below = 0; // mass of the old bins below i
+    for (std::size_t i = 0, k = 1; k < bins; ++k) {
+      const double target = static_cast<double>(k) / bins;
+      while (i + 1 < bins && below + mass[i] < target) below += mass[i++];
+      const double share = std::clamp((target - below) / mass[i], 0.0, 1.0);
+      edges[k] = std::max(edges[k - 1], e[i] + share * (e[i + 1] - e[i]));
+    }
+    std::copy(edges.begin(), edges.end(), e);
+  }
+}
+
+} // namespace mc

@@ -1,0 +1,38 @@
+#pragma once
+/// Importance sampling learned from the integrand, one dimension at a time.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mc {
+
+/// A separable map of the unit cube onto itself, piecewise linear in each dimension: `bins` intervals of equal probability whose
+/// edges move to where the integrand is large. The number of bins is a power of two, so that their edges are edges of
+/// elementary intervals of a Sobol' sequence: the jumps of the density cost it nothing.
+///   map    : u in [0,1)^dim -> x in [0,1)^dim, in place, with the Jacobian |dx/du| = 1 / density
+///   refine : makes the density in each dimension proportional to the root of the mean of (f / density)^2 over the others,
+///            which is the best separable step, with more edges at its jumps. A tenth of the probability stays uniform, so no region
+///            is lost and the Jacobian stays below 10 in each dimension
+///   Source : [Lepage78]
+class ImportanceGrid {
+ public:
+  static constexpr std::size_t bins = 128;
+
+  explicit ImportanceGrid(int dim);
+
+  int dim() const { return dim_; }
+  /// Maps one point in place, notes the bin it falls in for each dimension, and returns the Jacobian.
+  double map(std::span<double> u, std::span<std::uint8_t> bin) const;
+  /// `power` holds, for each dimension and bin, the sum of (f Jacobian)^2 over the points of a round.
+  void refine(std::span<const double> power);
+  /// The edges of one dimension: bins + 1 increasing numbers from 0 to 1.
+  std::span<const double> edges(int d) const;
+
+ private:
+  int dim_;
+  std::vector<double> edges_; // dim x (bins + 1)
+};
+
+} // namespace mc

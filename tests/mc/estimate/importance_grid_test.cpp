@@ -1,0 +1,67 @@
+#include <mc/core/error.h>
+#include <mc/estimate/importance_grid.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace {
+
+using mc::ImportanceGrid;
+
+// Refines a 1-D grid on f at the middle of many equal parts of each bin.
+template <class F> ImportanceGrid learned(F&& f, int rounds) {
+  ImportanceGrid grid(1);
+  for (int k = 0; k < rounds; ++k) {
+    std::vector<double> power(ImportanceGrid::bins);
+    for (std::size_t i = 0; i < 64 * ImportanceGrid::bins; ++i) {
+      std::array<double, 1> u = {(static_cast<double>(i) + 0.5) / (64 * ImportanceGrid::bins)};
+      std::array<std::uint8_t, 1> bin;
+      const double jacobian = grid.map(u, bin);
+      power[bin[0]] += std::pow(f(u[0]) * jacobian, 2);
+    }
+    grid.refine(power);
+  }
+  return grid;
+}
+
+TEST(ImportanceGrid, StartsAsTheIdentity) {
+  const ImportanceGrid grid(2);
+  std::array u = {0.3, 0.9999};
+  std::array<std::uint8_t, 2> bin;
+  EXPECT_DOUBLE_EQ(grid.map(u, bin), 1);
+  EXPECT_DOUBLE_EQ(u[0], 0.3);
+  EXPECT_EQ(bin[1], ImportanceGrid::bins - 1);
+}
+
+TEST(ImportanceGrid, MapsTheCubeOntoItself) {
+  const ImportanceGrid grid = learned([](double x) { return std::exp(-200 * std::abs(x - 0.3)); }, 4);
+  EXPECT_EQ(grid.edges(0).front(), 0);
+  EXPECT_EQ(grid.edges(0).back(), 1);
+  for (std::size_t i = 0; i < ImportanceGrid::bins; ++i) EXPECT_LT(grid.edges(0)[i], grid.edges(0)[i + 1]);
+  for (const double v : {0.0, 0x1p-40, 0.5, std::nextafter(1.0, 0.0)}) {
+    std::array u = {v};
+    std::array<std::uint8_t, 1> bin;
+    const double jacobian = grid.map(u, bin);
+    EXPECT_GE(u[0], 0);
+    EXPECT_LT(u[0], 1);
+    EXPECT_GT(jacobian, 0);
+    EXPECT_LE(jacobian, 10.001); // a tenth of the probability is uniform
+  }
+}
+
+TEST(ImportanceGrid, CrowdsWhereTheIntegrandIs) {
+  const ImportanceGrid grid = learned([](double x) { return x < 0.01 ? 1.0 : 0.0; }, 6);
+  std::size_t inside = 0;
+  for (const double e : grid.edges(0)) inside += e <= 0.01;
+  EXPECT_GE(inside, ImportanceGrid::bins / 2);
+}
+
+TEST(ImportanceGrid, NothingSeenNothingLearned) {
+  const ImportanceGrid grid = learned([](double) { return 0.0; }, 2);
+  EXPECT_DOUBLE_EQ(grid.edges(0)[64], 64.0 / ImportanceGrid::bins);
+}
+
+TEST(ImportanceGrid, RefusesNoDimensions) { EXPECT_THROW(ImportanceGrid(0), mc::Error); }
+
+} // namespace

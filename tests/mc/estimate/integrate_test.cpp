@@ -1,0 +1,184 @@
+#include <mc/core/error.h>
+#include <mc/domain/box.h>
+#include <mc/domain/sphere.h>
+#include <mc/estimate/integrate.h>
+#include <mc/warp/hemisphere.h>
+
+#include <gmock/gmock.h>
+
+#include <limits>
+
+namespace {
+
+using Unit = std::span<const double>;
+using mc::Method;
+constexpr Method methods[] = {Method::plain, Method::stratified, Method::rqmc, Method::vegas, Method::automatic};
+
+double peak(Unit u) { // a product of two Lorentzians, 1 / (c^-2 + (u - w)^2)
+  return 1 / ((1e-2 + mc::sqr(u[0] - 0.4)) * (1e-2 + mc::sqr(u[1] - 0.7)));
+}
+double peak_truth() {
+  const auto side = [](double w) { return 10 * (std::atan(10 * (1 - w)) + std::atan(10 * w)); };
+  return side(0.4) * side(0.7);
+}
+
+mc::IntegrateOptions with(Method method, std::uint64_t calls, std::uint64_t seed = 1) {
+  mc::IntegrateOptions o;
+  o.method = method;
+  o.max_calls = calls;
+  o.rel_error = 0;
+  o.seed = seed;
+  return o;
+}
+
+TEST(Integrate, EveryMethodIsWithinItsError) {
+  for (const Method method : methods) {
+    const mc::Integral r = mc::integrate_unit(peak, 2, with(method, 200'000));
+    // 5 sigma with 23 degrees of freedom: a false alarm in 2e-5 of seeds; the seed is fixed.
+    EXPECT_LE(std::abs(r.estimate.value - peak_truth()), 5 * r.estimate.std_error) << name(method);
+    EXPECT_LE(r.calls, 200'000u);
+    EXPECT_GE(r.calls, 100'000u) << name(method);
+    EXPECT_EQ(r.stop, mc::Stop::max_calls);
+    EXPECT_TRUE(r.consistent) << name(method);
+  }
+}
+
+TEST(Integrate, SameBitsForAnyNumberOfThreads) {
+  for (const Method method : methods) {
+    mc::IntegrateOptions o = with(method, 100'000);
+    o.threads = 1;
+    const mc::Integral one = mc::integrate_unit(peak, 2, o);
+    for (const int threads : {2, 5}) {
+      o.threads = threads;
+      const mc::Integral many = mc::integrate_unit(peak, 2, o);
+      EXPECT_EQ(one.estimate.value, many.estimate.value) << name(method);
+      EXPECT_EQ(one.estimate.std_error, many.estimate.std_error) << name(method);
+      EXPECT_EQ(one.chi2, many.chi2) << name(method);
+    }
+  }
+}
+
+// Shares within 1 and 2 sigma over 1000 seeds, in the intervals [.66,.71] and [.94,.965]: a share of 1000 has a standard error of
+// .015 and .007, so the intervals allow for Student t with 23 degrees of freedom (.672, .943) but not for a wrong error.
+TEST(Integrate, ErrorBarsAreCalibrated) {
+  for (const Method method : methods) {
+    int within1 = 0, within2 = 0;
+    for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
+      mc::IntegrateOptions o = with(method, 5000, seed);
+      o.threads = 1;
+      o.replicates = 32;
+      const mc::Integral r = mc::integrate_unit(peak, 2, o);
+      const double z = std::abs(r.estimate.value - peak_truth()) / r.estimate.std_error;
+      within1 += z <= 1;
+      within2 += z <= 2;
+    }
+    EXPECT_THAT(within1 / 1000.0, testing::AllOf(testing::Ge(0.64), testing::Le(0.73))) << name(method);
+    EXPECT_THAT(within2 / 1000.0, testing::AllOf(testing::Ge(0.925), testing::Le(0.975))) << name(method);
+  }
+}
+
+TEST(Integrate, StopsAtTheWantedError) {
+  for (const Method method : methods) {
+    mc::IntegrateOptions o;
+    o.method = method;
+    o.rel_error = 1e-2;
+    const mc::Integral r = mc::integrate_unit(peak, 2, o);
+    EXPECT_EQ(r.stop, mc::Stop::converged);
+    EXPECT_LE(r.estimate.std_error, 1e-2 * r.estimate.value);
+    EXPECT_LT(r.calls, 200'000u) << name(method);
+  }
+}
+
+TEST(Integrate, AutomaticPicksTheGridWhereItHelps) {
+  EXPECT_EQ(mc::integrate_unit(peak, 2, with(Method::automatic, 300'000)).method, Method::vegas);
+  EXPECT_EQ(mc::integrate_unit([](Unit u) { return std::sin(6.28 * (u[0] + u[1])); }, 2, with(Method::automatic, 300'000)).method, Method::rqmc);
+  EXPECT_EQ(mc::integrate_unit([](Unit u) { return u[1099]; }, 1100, with(Method::automatic, 1000)).method, Method::plain);
+}
+
+TEST(Integrate, DomainsAndWarps) {
+  const auto cos2 = [](const mc::Vec3<double>& w) { return w.z() * w.z(); };
+  const mc::Integral sphere = mc::integrate(cos2, mc::Sphere<double>{}, with(Method::rqmc, 100'000));
+  EXPECT_NEAR(sphere.estimate.value, 4 * mc::pi<double> / 3, 5 * sphere.estimate.std_error);
+  const mc::Integral hemisphere = mc::integrate([](const mc::Vec3<float>& w) { return w.z() * w.z() * w.z(); }, mc::CosineHemisphere<float>{}, with(Method::rqmc, 100'000));
+  EXPECT_NEAR(hemisphere.estimate.value, mc::pi<double> / 2, 1e-4);
+  const mc::Box<double, Eigen::Dynamic> box(Eigen::VectorXd::Constant(3, -1), Eigen::VectorXd::Constant(3, 2));
+  const mc::Integral volume = mc::integrate([](const Eigen::VectorXd& x) { return x.sum(); }, box, with(Method::automatic, 100'000));
+  EXPECT_NEAR(volume.estimate.value, 27 * 1.5, 5 * volume.estimate.std_error + 1e-9);
+}
+
+TEST(Integrate, VectorsShareTheirCalls) {
+  const mc::VectorIntegrand f = [](Unit u, std::span<double> y) { y[0] = u[0], y[1] = 1e6 * u[0] * u[1], y[2] = 3; };
+  for (const Method method : methods) {
+    const mc::VectorIntegral r = mc::integrate_unit(f, 3, 2, with(method, 50'000));
+    ASSERT_EQ(r.outputs.size(), 3u);
+    EXPECT_NEAR(r.outputs[0].estimate.value, 0.5, 5 * r.outputs[0].estimate.std_error);
+    EXPECT_NEAR(r.outputs[1].estimate.value, 2.5e5, 5 * r.outputs[1].estimate.std_error);
+    // Through the grid even a constant has the weights' noise.
+    EXPECT_NEAR(r.outputs[2].estimate.value, 3, 5 * r.outputs[2].estimate.std_error + 1e-12);
+  }
+}
+
+TEST(Integrate, NonFiniteValuesAreNamed) {
+  for (const Method method : methods) {
+    const auto f = [](Unit u) { return u[0] > 0.5 ? std::numeric_limits<double>::quiet_NaN() : 1.0; };
+    try {
+      mc::integrate_unit(f, 2, with(method, 10'000));
+      ADD_FAILURE() << name(method);
+    } catch (const mc::Error& e) {
+      EXPECT_THAT(e.what(), testing::HasSubstr("not finite at")) << name(method);
+      EXPECT_THAT(e.what(), testing::HasSubstr("u = (0.")) << name(method);
+    }
+  }
+}
+
+TEST(Integrate, WhatTheIntegrandThrowsComesBack) {
+  for (const int threads : {1, 4}) {
+    mc::IntegrateOptions o = with(Method::plain, 1'000'000);
+    o.threads = threads;
+    EXPECT_THROW(mc::integrate_unit([](Unit u) -> double { return u[0] < 0.9 ? 1 : throw std::domain_error("no"); }, 1, o), std::domain_error);
+  }
+}
+
+TEST(Integrate, CancelKeepsWhatThereIs) {
+  std::atomic<bool> cancel = false;
+  mc::IntegrateOptions o = with(Method::rqmc, 1'000'000'000);
+  o.cancel = &cancel;
+  int reports = 0;
+  o.progress = [&](const mc::IntegrateProgress& p) {
+    EXPECT_GT(p.calls, 0u);
+    if (++reports == 4) cancel = true;
+  };
+  const mc::Integral r = mc::integrate_unit(peak, 2, o);
+  EXPECT_EQ(r.stop, mc::Stop::cancelled);
+  EXPECT_LE(std::abs(r.estimate.value - peak_truth()), 5 * r.estimate.std_error);
+  cancel = true;
+  EXPECT_THROW(mc::integrate_unit(peak, 2, o), mc::Error);
+}
+
+TEST(Integrate, RefusesNonsense) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto refuses = [](auto change, int dim = 2) {
+    mc::IntegrateOptions o;
+    change(o);
+    EXPECT_THROW(mc::integrate_unit(peak, dim, o), mc::Error);
+  };
+  refuses([](mc::IntegrateOptions&) {}, 0);
+  refuses([](mc::IntegrateOptions& o) { o.rel_error = -1; });
+  refuses([&](mc::IntegrateOptions& o) { o.rel_error = nan; });
+  refuses([&](mc::IntegrateOptions& o) { o.abs_error = nan; });
+  refuses([](mc::IntegrateOptions& o) { o.max_calls = 0; });
+  refuses([](mc::IntegrateOptions& o) { o.confidence = 1; });
+  refuses([](mc::IntegrateOptions& o) { o.replicates = 1; });
+  EXPECT_THROW(mc::method_from("vega"), mc::Error);
+  EXPECT_THROW((mc::Box<double, 2>({0, nan}, {1, 1})), mc::Error);
+  EXPECT_THROW((mc::Box<double, 2>({0, 2}, {1, 1})), mc::Error);
+  EXPECT_THROW(mc::integrate_rqmc(peak, 2, 0), mc::Error);
+}
+
+TEST(IntegrateRqmc, IsWithinItsError) {
+  const mc::Integral r = mc::integrate_rqmc(peak, 2, 4096);
+  EXPECT_LE(std::abs(r.estimate.value - peak_truth()), 5 * r.estimate.std_error);
+  EXPECT_EQ(r.calls, 24u * 4096);
+}
+
+} // namespace

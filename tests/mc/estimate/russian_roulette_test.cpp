@@ -1,0 +1,30 @@
+#include <mc/estimate/moments.h>
+#include <mc/estimate/russian_roulette.h>
+#include <mc/random/uniform.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace {
+
+// 4 sigma: a false alarm in 6e-5 of seeds; the seed is fixed.
+TEST(RussianRoulette, KeepsTheMean) {
+  for (const double p : {0.01, 0.5, 0.99, 1.0}) {
+    mc::Moments m;
+    for (std::uint64_t i = 0; i < 100'000; ++i) m.add(mc::russian_roulette(p, mc::hash_uniform<double>(3, i)).weight);
+    EXPECT_LE(std::abs(m.mean() - 1), 4 * m.std_error() + 1e-12) << p;
+  }
+}
+
+TEST(RussianRoulette, CertainSurvivalCostsNothing) {
+  const auto r = mc::russian_roulette(1.0f, std::nextafter(1.0f, 0.0f));
+  EXPECT_TRUE(r.survives);
+  EXPECT_EQ(r.weight, 1.0f);
+}
+
+TEST(RussianRoulette, RefusesWhatWouldBias) {
+  for (const double p : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()}) EXPECT_THROW(mc::russian_roulette(p, 0.5), mc::Error) << p;
+}
+
+} // namespace
