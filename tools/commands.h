@@ -52,7 +52,8 @@ struct ValidateOptions {
   std::uint64_t seed = 1;
   std::string scalar;                       ///< "float", "double"; empty: both
   int threads = 0;                          ///< 0: all
-  std::string json;                         ///< file; empty: none
+  std::optional<double> detect;             ///< relative error to catch with probability .99; chooses `samples`
+  std::string json, junit;                  ///< files; empty: none
   std::string command;
 };
 int validate(const ValidateOptions& options);

@@ -53,11 +53,13 @@ void add_validate(CLI::App& app, carlo::ValidateOptions& o) {
   c->add_flag("--all", o.all, "Check every sampler");
   c->add_flag("--list", o.list, "List every sampler with its parameters, and stop");
   c->add_option("--alpha", o.alpha, "Chance of a false rejection, over all tests of the run")->capture_default_str();
-  c->add_option("--samples", o.samples, "Samples per case")->capture_default_str();
+  auto* samples = c->add_option("--samples", o.samples, "Samples per case")->capture_default_str();
+  c->add_option("--detect", o.detect, "Choose the samples that catch this relative error of a density (0.003: 0.3 %) with probability .99")->excludes(samples);
   c->add_option("--seed", o.seed, "Seed")->capture_default_str();
   c->add_option("--scalar", o.scalar, "float or double [both]");
   c->add_option("--threads", o.threads, "Threads, 0 for all of the machine's")->capture_default_str();
   c->add_option("--json", o.json, "Write the results to this file");
+  c->add_option("--junit", o.junit, "Write the verdicts to this file as JUnit XML");
 }
 
 void add_converge(CLI::App& app, carlo::ConvergeOptions& o) {

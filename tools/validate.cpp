@@ -4,6 +4,7 @@
 #include "progress.h"
 #include "validate_output.h"
 
+#include <mc/check/check_subject.h>
 #include <mc/check/multiple_testing.h>
 #include <mc/core/error.h>
 #include <mc/core/file.h>
@@ -63,17 +64,25 @@ std::string line_of(const Case& c, const mc::Report& r) {
 
 } // namespace
 
-int validate(const ValidateOptions& o) {
+int validate(const ValidateOptions& options) {
+  ValidateOptions o = options;
   const std::vector<const Case*> cases = select(o);
   if (o.list) {
     for (const Case* c : cases) fmt::print("{:<44} {}\n", plain(*c), c->scalar);
     return exit_ok;
   }
   mc::require(o.alpha > 0 && o.alpha < 1, "validate: --alpha {} must lie in (0, 1)", o.alpha);
-  mc::require(o.samples >= 1000, "validate: --samples {}; at least 1000 are needed", o.samples);
-  if (!o.json.empty()) mc::write_file(o.json, "{}\n"); // an unwritable place is refused before the work, not after it
-
   const double alpha = mc::sidak_level(o.alpha, 1 / static_cast<double>(cases.size()));
+  if (o.detect) {
+    mc::require(*o.detect >= 1e-4 && *o.detect <= 1, "validate: --detect {} must lie in [0.0001, 1]", *o.detect);
+    o.samples = mc::samples_to_detect(*o.detect, alpha);
+    fmt::print("{} samples per case to detect {:g} %\n", o.samples, 100 * *o.detect);
+  }
+  mc::require(o.samples >= 1000, "validate: --samples {}; at least 1000 are needed", o.samples);
+  // An unwritable place is refused before the work, not after it.
+  if (!o.json.empty()) mc::write_file(o.json, "{}\n");
+  if (!o.junit.empty()) mc::write_file(o.junit, "<testsuite/>\n");
+
   std::vector<mc::Report> reports(cases.size());
   std::vector<char> done(cases.size(), 0);
   std::size_t printed = 0, finished = 0;
@@ -81,9 +90,8 @@ int validate(const ValidateOptions& o) {
   Progress progress;
   fmt::print("{:<44} {:<7} {:<12} {:>8} {:>9} {:>9} {:>7} {:>6}\n", "sampler", "scalar", "verdict", "p", "detects", "in a cell", "ns", "s");
   mc::parallel_for(cases.size(), o.threads, [&](std::size_t i) {
-    CaseOptions options;
-    options.samples = o.samples, options.seed = seed_of(*cases[i], o.seed), options.alpha = alpha;
-    mc::Report report = mc::with_context(cases[i]->title(), [&] { return cases[i]->check(options); });
+    const CaseOptions c{.samples = o.samples, .seed = seed_of(*cases[i], o.seed), .alpha = alpha};
+    mc::Report report = mc::with_context(cases[i]->title(), [&] { return cases[i]->check(c); });
     const std::lock_guard lock(mutex);
     reports[i] = std::move(report);
     done[i] = 1;
@@ -106,6 +114,7 @@ int validate(const ValidateOptions& o) {
                  o.seed, o.samples, alpha);
   fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed, cases.size(),
              inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(), o.alpha, o.samples, o.seed);
+  if (!o.junit.empty()) write_junit(o.junit, cases, reports);
   if (!o.json.empty()) write_json(o.json, o, cases, reports);
   return passed == cases.size() ? exit_ok : exit_failed;
 }

@@ -3,11 +3,46 @@
 
 #include <mc/core/file.h>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 namespace carlo {
 
 using nlohmann::json;
+
+namespace {
+
+std::string escape(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+    case '&': out += "&amp;"; break;
+    case '<': out += "&lt;"; break;
+    case '>': out += "&gt;"; break;
+    case '"': out += "&quot;"; break;
+    default: out += c;
+    }
+  }
+  return out;
+}
+
+} // namespace
+
+void write_junit(const std::string& file, const std::vector<const Case*>& cases, const std::vector<mc::Report>& reports) {
+  std::size_t failures = 0;
+  double seconds = 0;
+  for (const mc::Report& r : reports) failures += !r.passed(), seconds += r.seconds;
+  std::string xml = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"carlo validate\" tests=\"{}\" failures=\"{}\" time=\"{:.3f}\">\n",
+                                cases.size(), failures, seconds);
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"", escape(cases[i]->name), escape(cases[i]->title()), reports[i].seconds);
+    if (reports[i].passed()) xml += "/>\n";
+    else
+      xml += fmt::format(">\n    <failure message=\"{}\">{}</failure>\n  </testcase>\n", escape(fmt::format("{}, {}", name(reports[i].verdict()), name(reports[i].fault()))),
+                         escape(reports[i].to_string()));
+  }
+  mc::write_file(file, xml + "</testsuite>\n");
+}
 
 void write_json(const std::string& file, const ValidateOptions& options, const std::vector<const Case*>& cases, const std::vector<mc::Report>& reports) {
   json all = {{"command", options.command}, {"commit", commit},       {"seed", options.seed},

@@ -14,4 +14,7 @@ namespace carlo {
 /// worst: [{lo, hi, observed, expected, z, where}]}]}; not finite numbers are null.
 void write_json(const std::string& file, const ValidateOptions& options, const std::vector<const Case*>& cases, const std::vector<mc::Report>& reports);
 
+/// One testsuite, one testcase per case with its seconds; the report of a case that did not pass is its failure.
+void write_junit(const std::string& file, const std::vector<const Case*>& cases, const std::vector<mc::Report>& reports);
+
 } // namespace carlo

@@ -33,6 +33,9 @@ struct Tally {
 
 constexpr std::size_t chunk = 1 << 15;
 
+// At least 200 samples to a cell, at most 4096 cells.
+int tree_depth(double samples) { return std::clamp(static_cast<int>(std::log2(std::max(samples, 1.0) / 200)), 0, 12); }
+
 // Draws n samples in chunks; f(draw) for every point.
 template <class F> void draw(const Subject& s, std::uint64_t seed, std::uint64_t n, Tally& tally, F&& f) {
   std::vector<Subject::Draw> draws;
@@ -270,7 +273,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   if (s.dim > 0) {
     draw(s, hash(options.seed, 1), std::max<std::uint64_t>(options.samples / 8, 1000), pilot_tally, [&](const auto& v) { pilot.push_back(v); });
     const double continuous = n * static_cast<double>(pilot.size()) / static_cast<double>(pilot_tally.n);
-    const int depth = std::clamp(static_cast<int>(std::log2(std::max(continuous, 1.0) / 200)), 0, 12);
+    const int depth = tree_depth(continuous);
     const Ranks ranks(pilot, s.dim);
     slabs = crowded_slabs(s, pilot, ranks);
     const Partition partition(pilot, s.dim, depth);
@@ -359,6 +362,26 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
+}
+
+std::uint64_t samples_to_detect(double error, double alpha) {
+  require(error > 0, "samples_to_detect: error = {} must be > 0", error);
+  require(alpha > 0 && alpha < 1, "samples_to_detect: alpha = {} must lie in (0, 1)", alpha);
+  // What test_cells reports for cells of equal shares, as a function of the samples.
+  const auto detectable = [&](double n) {
+    std::vector<Cell> cells(std::size_t{1} << tree_depth(n));
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      cells[i].p = 1 / static_cast<double>(cells.size());
+      cells[i].observed = static_cast<std::uint64_t>(n / static_cast<double>(cells.size()));
+    }
+    return test_cells(std::move(cells), 1, alpha).detectable;
+  };
+  double lo = 1000, hi = 1e12;
+  for (int i = 0; i < 60 && hi > 1.001 * lo; ++i) {
+    const double middle = std::sqrt(lo * hi), found = detectable(middle);
+    (found > 0 && found <= error ? hi : lo) = middle;
+  }
+  return static_cast<std::uint64_t>(std::ceil(hi));
 }
 
 } // namespace mc

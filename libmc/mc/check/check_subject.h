@@ -23,4 +23,8 @@ struct SubjectOptions {
 ///   throws     : Error when samples < 1000, or alpha is not in (0, 1)
 Report check_subject(const Subject& subject, const SubjectOptions& options = {});
 
+/// Samples at which check_subject catches a density whose relative error is `error`, of random sign from cell to cell, with
+/// probability .99 at family-wise alpha. Throws Error unless 0 < error and 0 < alpha < 1.
+std::uint64_t samples_to_detect(double error, double alpha);
+
 } // namespace mc

@@ -101,6 +101,14 @@ TEST(CheckSubject, DiscreteOutcomes) {
   EXPECT_EQ(check_subject(s, {.samples = 100'000}).fault(), Fault::mass);
 }
 
+TEST(CheckSubject, SamplesToDetectAreEnough) {
+  const std::uint64_t n = mc::samples_to_detect(0.05, 0.001);
+  const mc::Report r = check_subject(make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf), {.samples = n});
+  EXPECT_LE(r.detectable, 0.0525);
+  EXPECT_GE(r.detectable, 0.04);
+  EXPECT_THROW(mc::samples_to_detect(0, 0.01), mc::Error);
+}
+
 TEST(CheckSubject, SameSeedSameReport) {
   const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
   EXPECT_EQ(check_subject(s, {.samples = 5000}).p(), check_subject(s, {.samples = 5000}).p());

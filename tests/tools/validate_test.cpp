@@ -1,0 +1,109 @@
+// carlo validate: selection, verdicts, files and bad input.
+
+#include "commands.h"
+#include "catalogue.h"
+
+#include <mc/core/error.h>
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace {
+
+using carlo::ValidateOptions;
+using testing::HasSubstr;
+
+ValidateOptions few(std::vector<std::string> names) {
+  ValidateOptions o;
+  o.names = std::move(names);
+  o.samples = 5000;
+  return o;
+}
+
+// What validate prints, and its exit code.
+struct Output { int code; std::string text; };
+Output run(const ValidateOptions& o) {
+  testing::internal::CaptureStdout();
+  const int code = carlo::validate(o);
+  std::fflush(stdout);
+  return {code, testing::internal::GetCapturedStdout()};
+}
+
+std::string message(const ValidateOptions& o) {
+  try {
+    carlo::validate(o);
+  } catch (const mc::Error& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(Validate, ANameIsAllItsCases) {
+  const Output out = run(few({"CosineHemisphere", "Linear(a=0, b=1)"}));
+  EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
+  EXPECT_THAT(out.text, testing::AllOf(HasSubstr("4 of 4 cases passed"), HasSubstr("float   pass"), HasSubstr("double  pass"), HasSubstr("Linear(a=0, b=1)")));
+}
+
+TEST(Validate, OneScalar) {
+  ValidateOptions o = few({"CosineHemisphere"});
+  o.scalar = "float";
+  EXPECT_THAT(run(o).text, HasSubstr("1 of 1 cases passed"));
+}
+
+TEST(Validate, ListNamesEveryCase) {
+  ValidateOptions o;
+  o.list = true;
+  const std::string text = run(o).text;
+  for (const carlo::Case& c : carlo::catalogue()) EXPECT_THAT(text, HasSubstr(c.name));
+}
+
+TEST(Validate, ResultsDoNotDependOnThreads) {
+  ValidateOptions one = few({"UniformDisk"}), two = one;
+  one.threads = 1, two.threads = 2;
+  const std::filesystem::path folder = testing::TempDir();
+  one.json = (folder / "one.json").string(), two.json = (folder / "two.json").string();
+  run(one), run(two);
+  const auto p = [](const std::string& file) {
+    const std::string text = mc::read_file(file);
+    return text.substr(text.find("\"p\""), 40);
+  };
+  EXPECT_EQ(p(one.json), p(two.json));
+  EXPECT_THAT(mc::read_file(one.json), testing::AllOf(HasSubstr("\"verdict\": \"pass\""), HasSubstr("\"passed\": true"), HasSubstr("\"commit\"")));
+}
+
+TEST(Validate, JunitIsWellFormed) {
+  ValidateOptions o = few({"UniformDisk"});
+  o.junit = (std::filesystem::path(testing::TempDir()) / "junit.xml").string();
+  run(o);
+  EXPECT_THAT(mc::read_file(o.junit), testing::AllOf(HasSubstr("<testsuite name=\"carlo validate\" tests=\"2\" failures=\"0\""), HasSubstr("</testsuite>")));
+}
+
+TEST(Validate, DetectChoosesTheSamples) {
+  ValidateOptions o = few({"UniformDisk"});
+  o.detect = 0.05;
+  o.scalar = "double";
+  const Output out = run(o);
+  EXPECT_EQ(out.code, carlo::exit_ok);
+  EXPECT_THAT(out.text, HasSubstr("to detect 5 %"));
+}
+
+TEST(Validate, BadInputIsOneLine) {
+  EXPECT_THAT(message(few({"CosineHemispher"})), HasSubstr("unknown sampler 'CosineHemispher'; did you mean 'CosineHemisphere'?"));
+  EXPECT_THAT(message(few({})), HasSubstr("name a sampler, or give --all or --list"));
+  ValidateOptions o = few({"UniformDisk"});
+  o.alpha = 2;
+  EXPECT_THAT(message(o), HasSubstr("--alpha 2 must lie in (0, 1)"));
+  o = few({"UniformDisk"}), o.samples = 3;
+  EXPECT_THAT(message(o), HasSubstr("--samples 3"));
+  o = few({"UniformDisk"}), o.scalar = "half";
+  EXPECT_THAT(message(o), HasSubstr("--scalar 'half' must be float or double"));
+  o = few({"UniformDisk"}), o.json = "/nonexistent/folder/file.json";
+  EXPECT_THAT(message(o), HasSubstr("/nonexistent/folder"));
+  o = few({"UniformDisk"}), o.detect = -1;
+  EXPECT_THAT(message(o), HasSubstr("--detect"));
+}
+
+} // namespace
