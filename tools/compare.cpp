@@ -73,7 +73,8 @@ class Comparison {
           const int x0 = std::max(x - 1, 0), y0 = std::max(y - 1, 0), x1 = std::min(x + 2, a_.width), y1 = std::min(y + 2, a_.height);
           const Cell around = sum(x0, y0, x1, y1, c);
           const double n = double(x1 - x0) * double(y1 - y0);
-          // The surroundings lend their variance, not their degrees of freedom: noise is far from normal within a pixel.
+          // The surroundings lend their variance, not their degrees of freedom: noise is far from normal within a pixel, where
+          // one rare bright path decides. Student's t with at most 3 degrees of freedom has tails heavy enough for that.
           cell.variance_a = around.variance_a / n;
           cell.variance_b = around.variance_b / n;
           test(cell, 1, 1, x, y, c, pixel);
@@ -118,7 +119,8 @@ class Comparison {
     if (variance > 0) {
       t = excess / std::sqrt(variance);
       const double va = cell.variance_a, vb = cell.variance_b;
-      const double dof = va + vb > 0 ? pooled * mc::sqr(va + vb) / (va * va / noise_a_.dof + vb * vb / noise_b_.dof) : pooled;
+      const double welch = va + vb > 0 ? pooled * mc::sqr(va + vb) / (va * va / noise_a_.dof + vb * vb / noise_b_.dof) : pooled;
+      const double dof = pooled > 1 ? welch : std::min(welch, 3.0);
       p = 2 * cdf(complement(boost::math::students_t(dof), t));
     }
     if (p < worst.p || (p == worst.p && t > worst.t)) worst = {p, t, difference, std::sqrt(variance), x, y, c};

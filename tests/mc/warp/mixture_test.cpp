@@ -1,0 +1,39 @@
+#include <mc/warp/hemisphere.h>
+#include <mc/warp/mixture.h>
+#include <mc/warp/tent.h>
+
+#include <mc/gtest/matchers.h>
+
+namespace mc {
+namespace {
+
+template <class S> auto half_and_half(S a, S b) { return Mixture(std::array<S, 2>{a, b}, UniformHemisphere<S>{}, CosineHemisphere<S>{}); }
+
+TEST(Mixture, ObeysTheLaws) {
+  // Stretching u0 magnifies its rounding by 1 / weight, and the rim of the cosine lobe by more: 64 eps of the sample.
+  EXPECT_WARP_LAWS(half_and_half(0.3f, 0.7f), {.samples = 50'000, .sample_eps = 64, .pdf_eps = 16});
+  EXPECT_WARP_LAWS(half_and_half(0.3, 0.7), {.samples = 50'000, .sample_eps = 64, .pdf_eps = 16});
+}
+
+TEST(Mixture, WeightsNeedNotSumToOneAndMayBeZero) {
+  const Vec3<double> z(0, 0, 1);
+  EXPECT_DOUBLE_EQ(half_and_half(2.0, 6.0).pdf(z), 0.25 / (2 * pi<double>)+0.75 / pi<double>);
+  EXPECT_DOUBLE_EQ(half_and_half(0.0, 6.0).pdf(z), 1 / pi<double>);
+  const auto first_only = half_and_half(1.0, 0.0);
+  const auto w = first_only.sample({one_minus_epsilon<double>, 0.5});
+  EXPECT_NEAR(w.z(), UniformHemisphere<double>{}.sample({one_minus_epsilon<double>, 0.5}).z(), 1e-7);
+}
+
+TEST(Mixture, ThreeComponentsInOneDimension) {
+  const Mixture mixture(std::array{1.0, 2.0, 1.0}, Tent<double>(0, 1), Tent<double>(0, 1), Tent<double>(0, 1));
+  EXPECT_WARP_LAWS(mixture, {.samples = 50'000, .pdf_eps = 16});
+}
+
+TEST(Mixture, RefusesNonsense) {
+  EXPECT_THROW(half_and_half(0.0, 0.0), Error);
+  EXPECT_THROW(half_and_half(-1.0, 2.0), Error);
+  EXPECT_THROW(half_and_half(1.0, double(NAN)), Error);
+}
+
+} // namespace
+} // namespace mc
