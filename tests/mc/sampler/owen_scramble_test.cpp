@@ -11,9 +11,12 @@ namespace {
 TEST(ReverseBits, IsItsOwnInverse) {
   EXPECT_EQ(mc::reverse_bits(1), 0x80000000u);
   EXPECT_EQ(mc::reverse_bits(0xf0u), 0x0f000000u);
+  static_assert(mc::reverse_bits64(0xf0u) == 0x0f00000000000000u);
   for (std::uint32_t k = 0; k < 1000; ++k) {
     const auto x = static_cast<std::uint32_t>(mc::mix64(k));
     EXPECT_EQ(mc::reverse_bits(mc::reverse_bits(x)), x);
+    EXPECT_EQ(mc::reverse_bits64(x) >> 32, mc::reverse_bits(x));
+    EXPECT_EQ(mc::reverse_bits64(std::uint64_t{x} << 32), mc::reverse_bits(x));
   }
 }
 
