@@ -8,7 +8,11 @@
 
 namespace mc {
 
-Cdf::Cdf(std::span<const double> weights) {
+Cdf::Cdf(std::span<const double> weights) : cumulative_(weights.size() + 1), guide_(weights.size() + 1) {
+  fill(weights, cumulative_.data(), guide_.data());
+}
+
+void Cdf::fill(std::span<const double> weights, double* cumulative, std::uint32_t* guide) {
   const std::size_t n = weights.size();
   require(n > 0, "table: no weights; at least one is needed");
   require(n < std::numeric_limits<std::uint32_t>::max(), "table: {} weights; at most 2^32 - 2 are supported", n);
@@ -27,34 +31,35 @@ Cdf::Cdf(std::span<const double> weights) {
   CompensatedSum total;
   for (const double w : weights) total.add(std::ldexp(w, -exponent));
   const double scale = total.value();
-  sum_ = std::ldexp(scale, exponent);
 
   // Ends are multiples of the spacing of uniform<double>, so its numbers meet each outcome exactly as often as pmf says.
   constexpr double unit = 0x1p-53;
-  cumulative_.resize(n + 1);
   CompensatedSum running;
-  cumulative_[0] = 0;
+  cumulative[0] = 0;
   for (std::size_t i = 0; i < n; ++i) {
     running.add(std::ldexp(weights[i], -exponent));
     double next = i < last ? std::min(std::nearbyint(running.value() / scale * 0x1p53) * unit, 1.0) : 1.0;
     // A weight too small for the sum still gets the smallest interval.
-    if (weights[i] > 0) next = std::max(next, cumulative_[i] + unit);
-    else next = cumulative_[i];
-    cumulative_[i + 1] = next;
+    if (weights[i] > 0) next = std::max(next, cumulative[i] + unit);
+    else next = cumulative[i];
+    cumulative[i + 1] = next;
   }
   // What was pushed beyond 1 is pushed back from the end; each positive weight keeps an interval.
   double limit = 1;
-  for (std::size_t i = n; i > 0 && (cumulative_[i] > limit || i > last); --i) {
-    cumulative_[i] = limit;
+  for (std::size_t i = n; i > 0 && (cumulative[i] > limit || i > last); --i) {
+    cumulative[i] = limit;
     if (weights[i - 1] > 0) limit -= unit;
   }
 
-  guide_.resize(n + 1);
   std::size_t outcome = 0;
   for (std::size_t k = 0; k <= n; ++k) {
-    const double u = static_cast<double>(k) / static_cast<double>(n);
-    while (outcome < last && !(cumulative_[outcome + 1] > u)) ++outcome;
-    guide_[k] = static_cast<std::uint32_t>(outcome);
+    // The least u that the product u n, rounded, puts in cell k.
+    const double m = static_cast<double>(n), start = static_cast<double>(k);
+    double u = start / m;
+    while (u * m < start) u = std::nextafter(u, 2.0);
+    while (u > 0 && std::nextafter(u, 0.0) * m >= start) u = std::nextafter(u, 0.0);
+    while (outcome < last && !(cumulative[outcome + 1] > u)) ++outcome;
+    guide[k] = static_cast<std::uint32_t>(outcome);
   }
 }
 

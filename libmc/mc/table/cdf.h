@@ -8,6 +8,38 @@
 
 namespace mc {
 
+/// Look-up in a cumulative table that lives elsewhere; see Cdf.
+struct CdfView {
+  const double* cumulative;   ///< n + 1 entries, from 0 to 1
+  const std::uint32_t* guide; ///< n + 1 entries: the first outcome for the least u with u n >= k
+  std::uint32_t n;
+
+  double cdf(std::size_t i) const { return cumulative[i]; }
+  double pmf(std::size_t i) const { return cumulative[i + 1] - cumulative[i]; }
+  std::size_t size() const { return n; }
+
+  /// The outcome whose interval holds u in [0,1): the first whose upper end exceeds u.
+  std::size_t find(double u) const {
+    const auto cell = static_cast<std::size_t>(static_cast<std::int64_t>(u * n));
+    std::size_t lo = guide[cell];
+    // Most cells hold one or two candidates: two steps without a jump to mispredict.
+    lo += cumulative[lo + 1] <= u;
+    lo += cumulative[lo + 1] <= u;
+    return cumulative[lo + 1] > u ? lo : find_beyond(lo + 1, cell, u);
+  }
+
+ private:
+  std::size_t find_beyond(std::size_t lo, std::size_t cell, double u) const {
+    std::size_t hi = guide[cell + 1];
+    for (int step = 0; lo < hi; ++step) {
+      const std::size_t middle = step < 2 ? lo : lo + (hi - lo) / 2;
+      if (cumulative[middle + 1] > u) hi = middle;
+      else lo = middle + 1;
+    }
+    return lo;
+  }
+};
+
 /// Cumulative distribution over n outcomes with constant-time lookup.
 ///   The probability of outcome i IS the length of its interval, cdf(i + 1) - cdf(i), so what is sampled and what is claimed
 ///   cannot disagree. An outcome of positive weight has a positive interval; one of weight 0 has none.
@@ -19,30 +51,20 @@ class Cdf {
  public:
   explicit Cdf(std::span<const double> weights);
 
-  std::size_t size() const { return cumulative_.size() - 1; }
+  /// Fills a table of n + 1 ends and n + 1 guides for n weights.
+  static void fill(std::span<const double> weights, double* cumulative, std::uint32_t* guide);
+
+  std::size_t size() const { return guide_.size() - 1; }
   /// Lower end of the interval of outcome i; cdf(size()) = 1.
   double cdf(std::size_t i) const { return cumulative_[i]; }
-  double pmf(std::size_t i) const { return cumulative_[i + 1] - cumulative_[i]; }
-  double sum() const { return sum_; } ///< of the weights, may be infinite when they overflow
-
+  double pmf(std::size_t i) const { return view().pmf(i); }
   /// The outcome whose interval holds u in [0,1).
-  std::size_t find(double u) const {
-    const std::size_t n = size();
-    const auto cell = static_cast<std::size_t>(u * static_cast<double>(n));
-    std::size_t lo = guide_[cell], hi = guide_[cell + 1];
-    // First outcome whose upper end exceeds u; most cells hold one or two candidates, so walk before halving.
-    for (int step = 0; lo < hi; ++step) {
-      const std::size_t middle = step < 3 ? lo : lo + (hi - lo) / 2;
-      if (cumulative_[middle + 1] > u) hi = middle;
-      else lo = middle + 1;
-    }
-    return lo;
-  }
+  std::size_t find(double u) const { return view().find(u); }
+  CdfView view() const { return {cumulative_.data(), guide_.data(), static_cast<std::uint32_t>(size())}; }
 
  private:
-  std::vector<double> cumulative_;    ///< n + 1 entries, from 0 to 1
-  std::vector<std::uint32_t> guide_;  ///< n + 1 entries: the first outcome whose upper end exceeds k / n
-  double sum_ = 0;
+  std::vector<double> cumulative_;
+  std::vector<std::uint32_t> guide_;
 };
 
 } // namespace mc

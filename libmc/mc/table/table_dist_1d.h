@@ -6,8 +6,58 @@
 #include <mc/table/concept.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mc {
+
+/// A piecewise constant distribution over a cumulative table that lives elsewhere; see TableDist1D.
+template <Real S> struct StepsView {
+  CdfView cdf;
+  Interval<S> interval;
+
+  DiscreteSample<S> sample_index(S u) const {
+    const std::size_t i = cdf.find(static_cast<double>(u));
+    return {i, S(cdf.pmf(i)), below_one(S(within(i, u)))};
+  }
+  S sample(S u) const { return sample(u, cdf.find(static_cast<double>(u))); }
+  /// The point for u in the interval of outcome i.
+  S sample(S u, std::size_t i) const {
+    const Work v = (index(i) + within(i, u)) / index(cdf.size());
+    const S x = S(Work(interval.lo) * (1 - v) + Work(interval.hi) * v);
+    return !std::floating_point<S> || cell(x) == i ? x : nudged(x, i);
+  }
+  S pdf(S x) const { return interval.contains(x) ? pdf_of_cell(cell(x)) : S(0); }
+  S pdf_of_cell(std::size_t i) const { return S(Work(cdf.pmf(i)) * index(cdf.size()) / (Work(interval.hi) - Work(interval.lo))); }
+  S invert(S x) const {
+    const std::size_t i = cell(x);
+    return S(Work(cdf.cdf(i)) + (unit(x) * index(cdf.size()) - index(i)) * Work(cdf.pmf(i)));
+  }
+  /// The cell that holds x; the outermost one beyond the ends.
+  std::size_t cell(S x) const {
+    const Work v = unit(x) * index(cdf.size());
+    return v > 0 ? std::min(static_cast<std::size_t>(static_cast<std::int64_t>(static_cast<double>(v))), cdf.size() - 1) : 0;
+  }
+
+ private:
+  // A float has too few bits to count the cells of a large table, so it computes in double.
+  using Work = std::conditional_t<std::same_as<S, float>, double, S>;
+  static Work index(std::size_t i) { return Work(static_cast<double>(static_cast<std::int64_t>(i))); }
+  static S below_one(S v) { return v < 1 ? v : one_minus_epsilon<S>; }
+  Work within(std::size_t i, S u) const { return (Work(u) - Work(cdf.cdf(i))) / Work(cdf.pmf(i)); }
+  Work unit(S x) const { return (Work(x) - Work(interval.lo)) / (Work(interval.hi) - Work(interval.lo)); }
+
+  // Rounding must not carry the point into a neighbouring cell, which may have weight 0.
+  S nudged(S x, std::size_t i) const {
+    using std::abs, std::clamp;
+    const S step = std::numeric_limits<S>::epsilon() * std::max(S(abs(interval.lo)), S(abs(interval.hi)));
+    for (int k = 0; k < 4; ++k) {
+      const std::size_t at = cell(x);
+      if (at == i) break;
+      x = clamp(S(at < i ? x + step : x - step), interval.lo, interval.hi);
+    }
+    return x;
+  }
+};
 
 /// n cells of equal width on [lo, hi], each chosen with probability proportional to its weight, uniform within: a
 /// DiscreteDistribution by index and an InvertibleWarp by point.
@@ -32,42 +82,16 @@ template <Real S> class TableDist1D {
     return TableDist1D(weights, interval);
   }
 
-  DiscreteSample<S> sample_index(S u) const {
-    const std::size_t i = cdf_.find(static_cast<double>(u));
-    return {i, S(cdf_.pmf(i)), below_one(S(within(i, u)))};
-  }
+  DiscreteSample<S> sample_index(S u) const { return view().sample_index(u); }
   S pmf(std::size_t i) const { return S(cdf_.pmf(i)); }
   std::size_t size() const { return cdf_.size(); }
 
   Domain domain() const { return interval_; }
-  S sample(S u) const {
-    const std::size_t i = cdf_.find(static_cast<double>(u));
-    const Work v = (index(i) + within(i, u)) / index(size());
-    S x = S(Work(interval_.lo) * (1 - v) + Work(interval_.hi) * v);
-    // Rounding must not carry the point into a neighbouring cell, which may have weight 0.
-    if constexpr (std::floating_point<S>) {
-      const S nudge = std::numeric_limits<S>::epsilon() * std::max(std::abs(interval_.lo), std::abs(interval_.hi));
-      for (int step = 0; step < 4; ++step) {
-        const std::size_t at = cell(x);
-        if (at == i) break;
-        x = std::clamp(at < i ? x + nudge : x - nudge, interval_.lo, interval_.hi);
-      }
-    }
-    return x;
-  }
-  S pdf(S x) const {
-    if (!interval_.contains(x)) return S(0);
-    return S(Work(cdf_.pmf(cell(x))) * index(size()) / (Work(interval_.hi) - Work(interval_.lo)));
-  }
-  S invert(S x) const {
-    const std::size_t i = cell(x);
-    return S(Work(cdf_.cdf(i)) + (unit(x) * index(size()) - index(i)) * Work(cdf_.pmf(i)));
-  }
+  S sample(S u) const { return view().sample(u); }
+  S pdf(S x) const { return view().pdf(x); }
+  S invert(S x) const { return view().invert(x); }
   /// The cell that holds x; the outermost one beyond the ends.
-  std::size_t cell(S x) const {
-    const Work v = unit(x) * index(size());
-    return v > 0 ? std::min(static_cast<std::size_t>(static_cast<double>(v)), size() - 1) : 0;
-  }
+  std::size_t cell(S x) const { return view().cell(x); }
   template <Real T> TableDist1D<T> cast() const { return TableDist1D<T>(cdf_, interval_.template cast<T>()); }
 
   const Cdf& cdf() const { return cdf_; }
@@ -75,13 +99,7 @@ template <Real S> class TableDist1D {
  private:
   template <Real T> friend class TableDist1D;
   TableDist1D(Cdf cdf, Interval<S> interval) : cdf_(std::move(cdf)), interval_(interval) {}
-
-  // A float has too few bits to count the cells of a large table, so it computes in double.
-  using Work = std::conditional_t<std::same_as<S, float>, double, S>;
-  static Work index(std::size_t i) { return Work(static_cast<double>(i)); }
-  static S below_one(S v) { return v < 1 ? v : one_minus_epsilon<S>; }
-  Work within(std::size_t i, S u) const { return (Work(u) - Work(cdf_.cdf(i))) / Work(cdf_.pmf(i)); }
-  Work unit(S x) const { return (Work(x) - Work(interval_.lo)) / (Work(interval_.hi) - Work(interval_.lo)); }
+  StepsView<S> view() const { return {cdf_.view(), interval_}; }
 
   Cdf cdf_;
   Interval<S> interval_;

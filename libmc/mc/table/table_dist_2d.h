@@ -7,10 +7,18 @@
 
 namespace mc {
 
+/// The distributions of the column given the row, one after the other: width + 1 ends and guides per row, see CdfView.
+struct ConditionalRows {
+  std::vector<double> cumulative;
+  std::vector<std::uint32_t> guide;
+  std::size_t width;
+};
+
 /// width x height cells on the unit square, row by row (row 0 at y = 0), each chosen with probability proportional to its
 /// weight, uniform within.
 ///   sample : u1 chooses the row, u0 the column in it -> (x, y)
 ///   pdf    : pmf(row) pmf(column | row) width height [1/area]; 0 outside and in cells of weight 0
+///            Points keep to their cell as those of TableDist1D do: in float up to 2^20 rows and columns.
 ///   invert : |invert(sample(u)) - u| <= 4 eps for points that round to the cell they were drawn in
 ///   throws : Error unless weights are width * height numbers, finite, >= 0, not all 0
 ///   Source : inverse transform sampling of the marginal and the conditionals [PharrJakobHumphreys23] section A.5.6
@@ -19,7 +27,7 @@ template <Real S> class TableDist2D {
   using Scalar = S;
   using Domain = Square<S>;
 
-  TableDist2D(std::span<const double> weights, std::size_t width, std::size_t height) : TableDist2D(make_rows(weights, width, height), width) {}
+  TableDist2D(std::span<const double> weights, std::size_t width, std::size_t height) : TableDist2D(make_rows(weights, width, height)) {}
 
   /// Weights f(x, y) at the middle of each cell.
   template <class F> static TableDist2D from_function(F&& f, std::size_t width, std::size_t height) {
@@ -42,10 +50,10 @@ template <Real S> class TableDist2D {
     return TableDist2D(scaled, width, height);
   }
 
-  std::size_t width() const { return width_; }
-  std::size_t height() const { return rows_.size(); }
+  std::size_t width() const { return rows_.width; }
+  std::size_t height() const { return row_choice_.size(); }
   /// Probability of the cell (column x, row y).
-  S pmf(std::size_t x, std::size_t y) const { return row_choice_.pmf(y) == 0 ? S(0) : S(row_choice_.pmf(y)) * rows_[y].pmf(x); }
+  S pmf(std::size_t x, std::size_t y) const { return row_choice_.pmf(y) == 0 ? S(0) : S(row_choice_.pmf(y)) * S(row(y).cdf.pmf(x)); }
 
   /// A cell by its column x and row y.
   struct Cell {
@@ -54,33 +62,32 @@ template <Real S> class TableDist2D {
     Vec2<S> u_remapped;  ///< uniform again, independent of the cell
   };
   Cell sample_index(const Vec2<S>& u) const {
-    const auto row = row_choice_.sample_index(u[1]);
-    const auto column = rows_[row.index].sample_index(u[0]);
+    const auto row = rows().sample_index(u[1]);
+    const auto column = this->row(row.index).sample_index(u[0]);
     return {column.index, row.index, row.pmf * column.pmf, {column.u_remapped, row.u_remapped}};
   }
 
   Domain domain() const { return {}; }
   Vec2<S> sample(const Vec2<S>& u) const {
-    const S y = row_choice_.sample(u[1]);
-    return {rows_[row_choice_.cell(y)].sample(u[0]), y};
+    const std::size_t y = row_choice_.find(static_cast<double>(u[1]));
+    return {row(y).sample(u[0]), rows().sample(u[1], y)};
   }
   S pdf(const Vec2<S>& p) const {
     if (!domain().contains(p)) return S(0);
-    const S marginal = row_choice_.pdf(p[1]);
-    return marginal == 0 ? S(0) : S(marginal * rows_[row_choice_.cell(p[1])].pdf(p[0]));
+    const std::size_t y = rows().cell(p[1]);
+    const S marginal = rows().pdf_of_cell(y);
+    const StepsView<S> columns = row(y);
+    return marginal == 0 ? S(0) : S(marginal * columns.pdf_of_cell(columns.cell(p[0])));
   }
-  Vec2<S> invert(const Vec2<S>& p) const { return {rows_[row_choice_.cell(p[1])].invert(p[0]), row_choice_.invert(p[1])}; }
-  template <Real T> TableDist2D<T> cast() const {
-    std::vector<TableDist1D<T>> rows;
-    for (const auto& row : rows_) rows.push_back(row.template cast<T>());
-    return TableDist2D<T>(std::move(rows), row_choice_.template cast<T>(), width_);
-  }
+  Vec2<S> invert(const Vec2<S>& p) const { return {row(rows().cell(p[1])).invert(p[0]), rows().invert(p[1])}; }
+  template <Real T> TableDist2D<T> cast() const { return TableDist2D<T>(rows_, row_choice_); }
 
  private:
   template <Real T> friend class TableDist2D;
-  struct Rows { std::vector<TableDist1D<S>> rows; std::vector<double> sums; };
+  using Rows = ConditionalRows;
+  struct Made { Rows rows; std::vector<double> sums; };
 
-  static Rows make_rows(std::span<const double> weights, std::size_t width, std::size_t height) {
+  static Made make_rows(std::span<const double> weights, std::size_t width, std::size_t height) {
     require(width > 0 && height > 0 && weights.size() == width * height, "TableDist2D: {} weights for {}x{} cells; {} are needed", weights.size(),
             width, height, width * height);
     double largest = 0;
@@ -93,27 +100,32 @@ template <Real S> class TableDist2D {
     // A power of two near 1 / largest: row sums neither overflow nor sink below the denormals.
     int exponent;
     std::frexp(largest, &exponent);
-    Rows result;
+    const std::size_t stride = width + 1;
+    Made made{{std::vector<double>(height * stride), std::vector<std::uint32_t>(height * stride), width}, {}};
     std::vector<double> row(width);
     for (std::size_t y = 0; y < height; ++y) {
       bool empty = true;
       for (std::size_t x = 0; x < width; ++x) empty &= weights[y * width + x] == 0;
       // A row of weight 0 is never chosen; it gets a uniform placeholder.
       for (std::size_t x = 0; x < width; ++x) row[x] = empty ? 1 : weights[y * width + x];
-      result.rows.emplace_back(row);
+      Cdf::fill(row, &made.rows.cumulative[y * stride], &made.rows.guide[y * stride]);
       CompensatedSum scaled;
       for (std::size_t x = 0; x < width && !empty; ++x) scaled.add(std::ldexp(weights[y * width + x], -exponent));
-      result.sums.push_back(empty ? 0 : std::max(scaled.value(), std::numeric_limits<double>::denorm_min()));
+      made.sums.push_back(empty ? 0 : std::max(scaled.value(), std::numeric_limits<double>::denorm_min()));
     }
-    return result;
+    return made;
   }
-  TableDist2D(Rows rows, std::size_t width) : rows_(std::move(rows.rows)), row_choice_(std::span<const double>(rows.sums)), width_(width) {}
-  TableDist2D(std::vector<TableDist1D<S>> rows, TableDist1D<S> row_choice, std::size_t width)
-      : rows_(std::move(rows)), row_choice_(std::move(row_choice)), width_(width) {}
+  explicit TableDist2D(Made made) : rows_(std::move(made.rows)), row_choice_(std::span<const double>(made.sums)) {}
+  TableDist2D(Rows rows, Cdf row_choice) : rows_(std::move(rows)), row_choice_(std::move(row_choice)) {}
 
-  std::vector<TableDist1D<S>> rows_;
-  TableDist1D<S> row_choice_;
-  std::size_t width_;
+  StepsView<S> rows() const { return {row_choice_.view(), {}}; }
+  StepsView<S> row(std::size_t y) const {
+    const std::size_t first = y * (rows_.width + 1);
+    return {{&rows_.cumulative[first], &rows_.guide[first], static_cast<std::uint32_t>(rows_.width)}, {}};
+  }
+
+  Rows rows_;
+  Cdf row_choice_;
 };
 
 } // namespace mc

@@ -39,6 +39,16 @@ TEST(Cdf, EveryPositiveWeightIsReachableAndNoOther) {
   expect_consistent(w);
 }
 
+// The rounding of u n may put the last u of an interval in the guide's next cell.
+TEST(Cdf, EndsThatFallOnTheGuide) {
+  for (std::size_t n = 1; n < 500; ++n) {
+    std::vector<double> w(n, 1.0);
+    expect_consistent(w);
+    for (std::size_t i = 0; i < n; i += 3) w[i] = 2;
+    expect_consistent(w);
+  }
+}
+
 TEST(Cdf, TwoToThe24Entries) {
   std::vector<double> w(std::size_t{1} << 24, 1.0);
   w[5] = 1e30;
