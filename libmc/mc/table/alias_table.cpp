@@ -10,14 +10,14 @@ AliasTable::AliasTable(std::span<const double> weights) {
   std::vector<double> share(n); // of a bin, in units of 1 / n
   std::vector<std::uint32_t> small, large;
   for (std::size_t i = 0; i < n; ++i) {
-    pmf_.push_back(cdf.pmf(i));
+    bins_[i].pmf = cdf.pmf(i);
     share[i] = cdf.pmf(i) * static_cast<double>(n);
     (share[i] < 1 ? small : large).push_back(static_cast<std::uint32_t>(i));
   }
   while (!small.empty() && !large.empty()) {
     const std::uint32_t s = small.back(), l = large.back();
     small.pop_back();
-    bins_[s] = {share[s], l};
+    bins_[s].threshold = share[s], bins_[s].alias = l;
     share[l] -= 1 - share[s];
     if (share[l] < 1) {
       large.pop_back();
@@ -28,9 +28,9 @@ AliasTable::AliasTable(std::span<const double> weights) {
   // large ones, it gives its bin to the most likely outcome.
   std::uint32_t likely = 0;
   for (std::uint32_t i = 0; i < n; ++i)
-    if (pmf_[i] > pmf_[likely]) likely = i;
-  for (const std::uint32_t i : large) bins_[i] = {1, i};
-  for (const std::uint32_t i : small) bins_[i] = pmf_[i] > 0 ? Bin{1, i} : Bin{0, likely};
+    if (pmf(i) > pmf(likely)) likely = i;
+  for (const std::uint32_t i : large) bins_[i].threshold = 1, bins_[i].alias = i;
+  for (const std::uint32_t i : small) bins_[i].threshold = pmf(i) > 0, bins_[i].alias = pmf(i) > 0 ? i : likely;
 }
 
 } // namespace mc

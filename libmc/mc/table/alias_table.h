@@ -23,22 +23,28 @@ class AliasTable {
   explicit AliasTable(std::span<const double> weights);
 
   DiscreteSample<double> sample_index(double u) const {
-    const double scaled = u * static_cast<double>(bins_.size());
-    const auto i = static_cast<std::size_t>(scaled) < bins_.size() ? static_cast<std::size_t>(scaled) : bins_.size() - 1;
-    const Bin& bin = bins_[i];
+    const double scaled = u * static_cast<double>(static_cast<std::int64_t>(bins_.size())); // rounds to less than size()
+    const auto i = static_cast<std::int64_t>(scaled);
+    const Bin& bin = bins_[static_cast<std::size_t>(i)];
     const double v = scaled - static_cast<double>(i);
-    if (v < bin.threshold) return {i, pmf_[i], below_one(v / bin.threshold)};
-    return {bin.alias, pmf_[bin.alias], below_one((v - bin.threshold) / (1 - bin.threshold))};
+    // Look-ups by 0 or 1 rather than a jump, which would be mispredicted as often as not.
+    const bool other = !(v < bin.threshold);
+    const double from[] = {0, bin.threshold}, width[] = {bin.threshold, 1 - bin.threshold};
+    const std::size_t outcome[] = {static_cast<std::size_t>(i), bin.alias};
+    return {outcome[other], bins_[outcome[other]].pmf, below_one((v - from[other]) / width[other])};
   }
-  double pmf(std::size_t i) const { return pmf_[i]; }
+  double pmf(std::size_t i) const { return bins_[i].pmf; }
   std::size_t size() const { return bins_.size(); }
 
  private:
-  struct Bin { double threshold; std::uint32_t alias; };
+  struct Bin {
+    double threshold;
+    double pmf; // of the outcome of this index
+    std::uint32_t alias;
+  };
   static double below_one(double v) { return v < 1 ? v : one_minus_epsilon<double>; }
 
   std::vector<Bin> bins_;
-  std::vector<double> pmf_;
 };
 
 } // namespace mc
