@@ -8,6 +8,8 @@ const Catalogue& catalogue() {
     add_intervals(c);
     add_planes(c);
     add_spheres(c);
+    add_lobes(c);
+    add_lights(c);
     add_tables(c);
     add_bsdfs(c);
     return c;

@@ -42,6 +42,8 @@ const Catalogue& catalogue();
 void add_intervals(Catalogue& c);
 void add_planes(Catalogue& c);
 void add_spheres(Catalogue& c);
+void add_lobes(Catalogue& c);
+void add_lights(Catalogue& c);
 void add_tables(Catalogue& c);
 void add_bsdfs(Catalogue& c);
 
