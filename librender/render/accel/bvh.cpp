@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace render {
 
@@ -17,7 +18,29 @@ struct Shear {
   }
 };
 
+/// The ray in double.
+struct Line {
+  Vec3d o, d;
+  double d2, inverse_d2;
+
+  explicit Line(const Ray& ray) : o(ray.o.cast<double>()), d(ray.d.cast<double>()), d2(d.squaredNorm()), inverse_d2(1 / d2) {}
+};
+
 namespace {
+
+constexpr std::uint32_t few_spheres = 12;
+
+template <class Mask> bool any_lane(const Mask& mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
+
+template <class Doubles> Doubles square_root(const Doubles& x) {
+#if defined(__AVX__)
+  return reinterpret_cast<const Doubles&>(static_cast<const __m256d&>(_mm256_sqrt_pd(reinterpret_cast<const __m256d&>(x))));
+#else
+  Doubles root;
+  for (int i = 0; i < 4; ++i) root[i] = std::sqrt(x[i]);
+  return root;
+#endif
+}
 
 Box sphere_box(const Sphere& s) {
   // Rounded outward, so that the float box holds the double sphere.
@@ -57,22 +80,28 @@ Bvh::Bvh(std::span<const Shape> shapes) {
   for (const Box& b : triangle_boxes) bounds_.add(b);
   for (const Box& b : sphere_boxes) bounds_.add(b);
 
-  triangle_tree_ = WideTree(triangle_boxes);
+  triangle_tree_ = WideTree(triangle_boxes, 8);
   for (const auto& leaf : triangle_tree_.leaves()) {
     TriangleBlock block;
-    for (std::uint32_t lane = 0; lane < 4; ++lane) {
+    for (std::uint32_t lane = 0; lane < 8; ++lane) {
       const std::uint32_t id = triangle_tree_.order()[leaf.first + std::min(lane, leaf.count - 1)];
-      for (int k = 0; k < 3; ++k)
-        for (int a = 0; a < 3; ++a) block.v[k][a][lane] = vertices[id][static_cast<std::size_t>(k)][a];
+      const auto& v = vertices[id];
+      for (std::size_t k = 0; k < 3; ++k)
+        for (int a = 0; a < 3; ++a) block.v[k][a][lane] = v[k][a];
+      // Differences of floats and their products are all but exact in double; no compensated product is needed.
+      const Vec3d p = v[0].cast<double>(), n = mc::cross<double>(v[1].cast<double>() - p, v[2].cast<double>() - p);
+      for (int a = 0; a < 3; ++a) block.normal[a][lane] = n[a];
+      block.plane[lane] = n.dot(p);
       block.id[lane] = id;
     }
     triangle_blocks_.push_back(block);
   }
-  sphere_tree_ = WideTree(sphere_boxes);
-  for (const auto& leaf : sphere_tree_.leaves()) {
+
+  const auto add_spheres = [&](const std::vector<std::uint32_t>& order, WideTree::Leaf leaf) {
     SphereBlock block;
+    block.caps = false;
     for (std::uint32_t lane = 0; lane < 4; ++lane) {
-      const std::uint32_t id = sphere_tree_.order()[leaf.first + std::min(lane, leaf.count - 1)];
+      const std::uint32_t id = order[leaf.first + std::min(lane, leaf.count - 1)];
       const Sphere& s = spheres[id];
       for (int a = 0; a < 3; ++a) {
         block.center[a][lane] = s.center()[a];
@@ -80,32 +109,45 @@ Bvh::Bvh(std::span<const Shape> shapes) {
       }
       block.radius2[lane] = s.radius() * s.radius();
       block.cap[lane] = s.is_cap() ? s.radius() - s.height() : -mc::infinity<double>;
+      block.caps |= s.is_cap();
       block.shape[lane] = sphere_ids[id];
     }
     sphere_blocks_.push_back(block);
+  };
+  const auto count = static_cast<std::uint32_t>(spheres.size());
+  if (count <= few_spheres) {
+    std::vector<std::uint32_t> order(count);
+    std::iota(order.begin(), order.end(), 0u);
+    for (std::uint32_t first = 0; first < count; first += 4) add_spheres(order, {first, std::min(4u, count - first)});
+  } else {
+    sphere_tree_ = WideTree(sphere_boxes);
+    for (const auto& leaf : sphere_tree_.leaves()) add_spheres(sphere_tree_.order(), leaf);
   }
 }
 
 // U, V, W are the signed areas opposite vertices 0, 1, 2 in the sheared frame; all of one sign: inside.
 template <bool any>
 bool Bvh::intersect_block(const TriangleBlock& block, const Ray& ray, const Shear& shear, Float& t_max, Hit& hit) const {
-  Four x[3], y[3];
+  Lanes x[3], y[3];
   for (int k = 0; k < 3; ++k) {
-    const Four z = block.v[k][shear.kz] - ray.o[shear.kz];
+    const Lanes z = block.v[k][shear.kz] - ray.o[shear.kz];
     x[k] = (block.v[k][shear.kx] - ray.o[shear.kx]) - shear.sx * z;
     y[k] = (block.v[k][shear.ky] - ray.o[shear.ky]) - shear.sy * z;
   }
-  const Four u4 = x[2] * y[1] - y[2] * x[1], v4 = x[0] * y[2] - y[0] * x[2], w4 = x[1] * y[0] - y[1] * x[0];
-  const Four lowest = u4 < v4 ? (u4 < w4 ? u4 : w4) : (v4 < w4 ? v4 : w4);
-  const Four highest = u4 > v4 ? (u4 > w4 ? u4 : w4) : (v4 > w4 ? v4 : w4);
-  const auto candidates = (lowest >= 0) | (highest <= 0);
-  if (!(candidates[0] | candidates[1] | candidates[2] | candidates[3])) return false;
+  const Lanes u8 = x[2] * y[1] - y[2] * x[1], v8 = x[0] * y[2] - y[0] * x[2], w8 = x[1] * y[0] - y[1] * x[0];
+  const Lanes lowest = detail::smaller(u8, detail::smaller(v8, w8)), highest = detail::larger(u8, detail::larger(v8, w8));
+  unsigned candidates = detail::less_equal(Lanes{}, lowest) | detail::less_equal(highest, Lanes{});
+  if (candidates == 0) return false;
 
+  const EightDoubles above = block.plane - (block.normal[0] * double(ray.o[0]) + block.normal[1] * double(ray.o[1]) + block.normal[2] * double(ray.o[2]));
+  const EightDoubles t8 = above / (block.normal[0] * double(ray.d[0]) + block.normal[1] * double(ray.d[1]) + block.normal[2] * double(ray.d[2]));
   bool found = false;
-  for (int lane = 0; lane < 4; ++lane) {
-    if (!candidates[lane]) continue;
-    double u = double(u4[lane]), v = double(v4[lane]), w = double(w4[lane]);
-    if (u == 0 || v == 0 || w == 0) {
+  for (; candidates != 0; candidates &= candidates - 1) {
+    const int lane = __builtin_ctz(candidates);
+    const double t = t8[lane];
+    if (!(t > 0 && t < double(t_max))) continue;
+    double u = double(u8[lane]), v = double(v8[lane]), w = double(w8[lane]);
+    if (u == 0 || v == 0 || w == 0) [[unlikely]] {
       // On an edge to float precision: products of floats are exact in double, so both neighbours decide alike.
       const auto edge = [&](int a, int b) {
         return double(x[a][lane]) * double(y[b][lane]) - double(y[a][lane]) * double(x[b][lane]);
@@ -115,55 +157,46 @@ bool Bvh::intersect_block(const TriangleBlock& block, const Ray& ray, const Shea
     }
     const double det = u + v + w;
     if (det == 0) continue;
-
-    const auto vertex = [&](int k) { return Vec3d(block.v[k][0][lane], block.v[k][1][lane], block.v[k][2][lane]); };
-    // Differences of floats and their products are all but exact in double; no compensated product is needed.
-    const Vec3d p0 = vertex(0), e1 = vertex(1) - p0, e2 = vertex(2) - p0;
-    const Vec3d n(e1.y() * e2.z() - e1.z() * e2.y(), e1.z() * e2.x() - e1.x() * e2.z(), e1.x() * e2.y() - e1.y() * e2.x());
-    const double t = n.dot(p0 - ray.o.cast<double>()) / n.dot(ray.d.cast<double>());
-    if (!(t > 0 && t < double(t_max))) continue;
     if constexpr (any) return true;
-    const Float rounded = Float(t);
-    t_max = rounded;
+    t_max = Float(t);
     const TriangleId id = triangle_ids_[block.id[lane]];
-    hit = {rounded, id.shape, id.prim, Float(v / det), Float(w / det)};
+    const double inverse = 1 / det;
+    hit = {t_max, id.shape, id.prim, Float(v * inverse), Float(w * inverse)};
     found = true;
   }
   return found;
 }
 
 // Sphere::intersect, four at a time.
-bool Bvh::intersect_block(const SphereBlock& block, const Ray& ray, Float& t_max, Hit& hit) {
-  const Vec3d d = ray.d.cast<double>();
-  const double a = d.squaredNorm(), inverse_a = 1 / a;
-  const FourDoubles ox = double(ray.o.x()) - block.center[0], oy = double(ray.o.y()) - block.center[1], oz = double(ray.o.z()) - block.center[2];
-  const FourDoubles b = -(ox * d.x() + oy * d.y() + oz * d.z()), nearest = b * inverse_a;
+template <bool any> bool Bvh::intersect_block(const SphereBlock& block, const Line& line, Float& t_max, Hit& hit) {
+  const Vec3d& d = line.d;
+  const FourDoubles ox = line.o.x() - block.center[0], oy = line.o.y() - block.center[1], oz = line.o.z() - block.center[2];
+  const FourDoubles b = -(ox * d.x() + oy * d.y() + oz * d.z()), nearest = b * line.inverse_d2;
   const FourDoubles px = ox + d.x() * nearest, py = oy + d.y() * nearest, pz = oz + d.z() * nearest;
   const FourDoubles discriminant = block.radius2 - (px * px + py * py + pz * pz);
   const auto crossed = discriminant >= 0;
-  if (!(crossed[0] | crossed[1] | crossed[2] | crossed[3])) return false;
+  if (!any_lane(crossed)) return false;
 
-  FourDoubles root;
-  for (int i = 0; i < 4; ++i) root[i] = std::sqrt(crossed[i] ? a * discriminant[i] : 0.0);
+  const FourDoubles root = square_root(crossed ? line.d2 * discriminant : FourDoubles{});
   const FourDoubles q = b < 0 ? b - root : b + root;
   const FourDoubles c = ox * ox + oy * oy + oz * oz - block.radius2;
-  const FourDoubles first = q * inverse_a, second = c / q; // q = 0 gives NaN, which is no hit
+  const FourDoubles first = q * line.inverse_d2, second = c / q; // q = 0 gives NaN, which is no hit
   const FourDoubles t0 = first < second ? first : second, t1 = first < second ? second : first;
   const double limit = double(t_max);
-  const FourDoubles along = block.axis[0] * d.x() + block.axis[1] * d.y() + block.axis[2] * d.z();
-  const FourDoubles start = block.axis[0] * ox + block.axis[1] * oy + block.axis[2] * oz;
-  const auto hit0 = crossed & (t0 > 0) & (t0 < limit) & (start + t0 * along >= block.cap);
-  const auto hit1 = crossed & (t1 > 0) & (t1 < limit) & (start + t1 * along >= block.cap);
-  bool found = false;
-  for (int i = 0; i < 4; ++i) {
-    if (!(hit0[i] | hit1[i])) continue;
-    const double t = hit0[i] ? t0[i] : t1[i];
-    if (found && !(t < double(t_max))) continue;
-    found = true;
-    t_max = Float(t);
-    hit = {t_max, block.shape[i], 0, 0, 0};
+  auto hit0 = crossed & (t0 > 0) & (t0 < limit), hit1 = crossed & (t1 > 0) & (t1 < limit);
+  if (block.caps) {
+    const FourDoubles along = block.axis[0] * d.x() + block.axis[1] * d.y() + block.axis[2] * d.z();
+    const FourDoubles start = block.axis[0] * ox + block.axis[1] * oy + block.axis[2] * oz;
+    hit0 &= start + t0 * along >= block.cap;
+    hit1 &= start + t1 * along >= block.cap;
   }
-  return found;
+  if constexpr (any) return any_lane(hit0 | hit1);
+  const FourDoubles t = hit0 ? t0 : hit1 ? t1 : FourDoubles{} + mc::infinity<double>;
+  const int a = t[1] < t[0] ? 1 : 0, e = t[3] < t[2] ? 3 : 2, lane = t[e] < t[a] ? e : a;
+  if (!(t[lane] < limit)) return false;
+  t_max = Float(t[lane]);
+  hit = {t_max, block.shape[lane], 0, 0, 0};
+  return true;
 }
 
 template <bool any> bool Bvh::trace(const Ray& ray, Hit& hit) const {
@@ -178,8 +211,17 @@ template <bool any> bool Bvh::trace(const Ray& ray, Hit& hit) const {
     });
     if (any && found) return true;
   }
+  if (sphere_blocks_.empty()) return found;
+  const Line line(ray);
+  if (sphere_tree_.empty()) {
+    for (const SphereBlock& block : sphere_blocks_) {
+      found |= intersect_block<any>(block, line, t_max, hit);
+      if (any && found) return true;
+    }
+    return found;
+  }
   sphere_tree_.traverse<order>(ray, t_max, [&](std::uint32_t leaf, Float& t) {
-    found |= intersect_block(sphere_blocks_[leaf], ray, t, hit);
+    found |= intersect_block<any>(sphere_blocks_[leaf], line, t, hit);
     return any && found;
   });
   return found;

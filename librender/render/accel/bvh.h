@@ -11,6 +11,7 @@
 namespace render {
 
 struct Shear;
+struct Line;
 
 /// Nearest and any hit of single rays.
 ///   triangles : watertight [WoopBenthinWald13] for inside or outside, re-decided in double on an exact edge; distance from the
@@ -29,11 +30,12 @@ class Bvh {
   const Box& bounds() const { return bounds_; }
 
  private:
-  typedef Float Four __attribute__((vector_size(4 * sizeof(Float))));
-  /// Four triangles; spare lanes repeat the last one.
+  typedef double EightDoubles __attribute__((vector_size(8 * sizeof(double))));
+  /// Eight triangles; spare lanes repeat the last one.
   struct TriangleBlock {
-    Four v[3][3]; ///< [vertex][axis]
-    std::uint32_t id[4];
+    Lanes v[3][3];                 ///< [vertex][axis]
+    EightDoubles normal[3], plane; ///< points p of the plane: normal . p = plane
+    std::uint32_t id[8];
   };
   struct TriangleId { int shape, prim; };
   typedef double FourDoubles __attribute__((vector_size(4 * sizeof(double))));
@@ -42,16 +44,17 @@ class Bvh {
     FourDoubles center[3], radius2;
     FourDoubles axis[3], cap; ///< a point at `offset` from the centre belongs to the shape where offset . axis >= cap
     int shape[4];
+    bool caps; ///< some lane is a cap
   };
 
   template <bool any> bool intersect_block(const TriangleBlock& block, const Ray& ray, const Shear& shear, Float& t_max, Hit& hit) const;
-  static bool intersect_block(const SphereBlock& block, const Ray& ray, Float& t_max, Hit& hit);
+  template <bool any> static bool intersect_block(const SphereBlock& block, const Line& line, Float& t_max, Hit& hit);
   template <bool any> bool trace(const Ray& ray, Hit& hit) const;
 
-  WideTree triangle_tree_, sphere_tree_;
+  WideTree triangle_tree_, sphere_tree_; ///< no tree for few spheres: every ray tries them all
   std::vector<TriangleBlock> triangle_blocks_; ///< one per leaf
   std::vector<TriangleId> triangle_ids_;
-  std::vector<SphereBlock> sphere_blocks_; ///< one per leaf
+  std::vector<SphereBlock> sphere_blocks_; ///< one per leaf, or all
   Box bounds_;
 };
 

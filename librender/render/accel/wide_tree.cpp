@@ -19,12 +19,11 @@ constexpr int deepest = 64; // beyond this depth halves are taken by count, whic
 
 struct Split { int axis = -1; int bin = 0; double cost = mc::infinity<double>; };
 
-double blocks(std::uint32_t n) { return double((n + WideTree::block - 1) / WideTree::block); }
-
 } // namespace
 
-WideTree::WideTree(const std::vector<Box>& boxes) : order_(boxes.size()) {
+WideTree::WideTree(const std::vector<Box>& boxes, std::uint32_t lanes) : order_(boxes.size()) {
   if (boxes.empty()) return;
+  const auto blocks = [lanes](std::uint32_t n) { return double((n + lanes - 1) / lanes); };
   std::iota(order_.begin(), order_.end(), 0u);
   std::vector<Binary> tree(1);
   tree[0].count = static_cast<std::uint32_t>(boxes.size());
@@ -37,7 +36,7 @@ WideTree::WideTree(const std::vector<Box>& boxes) : order_(boxes.size()) {
     const auto [index, depth] = tasks.back();
     tasks.pop_back();
     const std::uint32_t first = tree[index].first, count = tree[index].count;
-    if (count <= block) continue;
+    if (count <= lanes) continue;
     const auto begin = order_.begin() + first, end = begin + count;
 
     Box centers;

@@ -28,15 +28,15 @@ struct Box {
   }
 };
 
-/// The hierarchy. Leaves are blocks of up to `block` primitives that the owner intersects.
+/// The hierarchy. Leaves are blocks of up to `lanes` primitives that the owner intersects.
 ///   build  : binned SAH [Wald07] with 32 bins, costs counted in blocks, collapsed to 8 children by opening the largest box
 ///   ray    : IEEE slabs: 1/0 = inf, and a NaN from 0 * inf never rejects a box, so axis-parallel rays in box planes hit
 class WideTree {
  public:
-  static constexpr int block = 4;
+  static constexpr std::uint32_t block = 4;
 
   /// Builds over the boxes; order()[first .. first + count) are then the boxes of a leaf.
-  explicit WideTree(const std::vector<Box>& boxes);
+  explicit WideTree(const std::vector<Box>& boxes, std::uint32_t lanes = block);
   WideTree() = default;
 
   const std::vector<std::uint32_t>& order() const { return order_; }

@@ -22,11 +22,12 @@ struct TentFilter {
   Vec2 sample(const Vec2& u) const { return {radius * tent(u[0]), radius * tent(u[1])}; }
 };
 
-/// Normal distribution of standard deviation sigma [pixels], not truncated; by Box and Muller's transform.
+/// Normal distribution of standard deviation sigma [pixels], not truncated; by Box and Muller's transform. 1 - u is exact for
+/// the multiples of 2^-24 that u is.
 struct GaussianFilter {
   Float sigma = Float(0.5);
   Vec2 sample(const Vec2& u) const {
-    const Float r = sigma * std::sqrt(-2 * std::log1p(-u[0])), phi = 2 * mc::pi<Float> * u[1];
+    const Float r = sigma * std::sqrt(-2 * std::log(1 - u[0])), phi = 2 * mc::pi<Float> * u[1];
     return {r * std::cos(phi), r * std::sin(phi)};
   }
 };

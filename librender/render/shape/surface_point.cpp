@@ -4,22 +4,12 @@
 
 namespace render {
 
-namespace {
-
-// The neighbour of x in the direction of `toward`'s sign.
-Float step(Float x, Float toward) {
-  return toward > 0 ? std::nextafter(x, mc::infinity<Float>) : toward < 0 ? std::nextafter(x, -mc::infinity<Float>) : x;
-}
-
-} // namespace
-
-// The surface lies within `error` of p in each coordinate, so within error * |n|_1 along the normal; one more step per
-// coordinate pays for rounding the sum [PharrJakobHumphreys23, section 6.8.6].
+// The surface lies within `error` of p in each coordinate, so within error * |n|_1 along the normal [PharrJakobHumphreys23,
+// section 6.8.6]. Rounding the sum moves each coordinate by up to half an ulp: a whole one of the largest is added to the error.
 Vec3 SurfacePoint::offset_origin(const Vec3& d) const {
-  const Float distance = error * ng.lpNorm<1>();
-  const Vec3 offset = d.dot(ng) < 0 ? Vec3(-distance * ng) : Vec3(distance * ng);
-  const Vec3 o = p + offset;
-  return {step(o.x(), offset.x()), step(o.y(), offset.y()), step(o.z(), offset.z())};
+  const Float rounding = std::numeric_limits<Float>::epsilon() * p.lpNorm<Eigen::Infinity>();
+  const Float distance = (error + rounding) * ng.lpNorm<1>();
+  return p + std::copysign(distance, d.dot(ng)) * ng;
 }
 
 Ray SurfacePoint::spawn_ray_to(const SurfacePoint& target) const {

@@ -40,6 +40,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, std::vector<std::array<s
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     const Vec3d n = normal_of(vertices(i));
     cumulative_area_.push_back(area_ += n.norm() / 2);
+    reciprocal_area_.push_back(2 / n.norm());
     face_normals_.push_back(n.stableNormalized().cast<Float>());
   }
   // Points are interpolated in double and rounded once: half an ulp of the largest coordinate, doubled for safety.
@@ -94,11 +95,13 @@ SurfacePoint TriangleMesh::surface_point(const Ray&, const Hit& hit) const {
 
 std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) const {
   const double target = double(u[0]) * area_;
-  const auto it = std::upper_bound(cumulative_area_.begin(), cumulative_area_.end(), target);
+  auto it = cumulative_area_.begin();
+  if (cumulative_area_.size() <= 4) it = std::find_if(it, cumulative_area_.end(), [=](double a) { return target < a; });
+  else it = std::upper_bound(it, cumulative_area_.end(), target);
   if (it == cumulative_area_.end()) return {};
   const auto triangle = static_cast<std::size_t>(it - cumulative_area_.begin());
   const double below = triangle > 0 ? cumulative_area_[triangle - 1] : 0;
-  const double u0 = std::min((target - below) / (*it - below), 1 - 0x1p-53);
+  const double u0 = std::min((target - below) * reciprocal_area_[triangle], 1 - 0x1p-53);
   // Uniform barycentrics: sqrt makes strips of equal area parallel to the edge opposite vertex 0.
   const double root = std::sqrt(u0), b1 = root * (1 - double(u[1])), b2 = root * double(u[1]);
   ShapeSample s;
@@ -106,8 +109,9 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
   const Vec3 between = s.point.p - ref;
   const Float distance2 = between.squaredNorm();
   if (!(distance2 > 0)) return {};
-  s.wi = between / std::sqrt(distance2);
-  s.pdf = pdf(ref, s.wi, s.point);
+  s.wi = between * (1 / std::sqrt(distance2));
+  const Float cosine = std::abs(s.point.ng.dot(s.wi));
+  s.pdf = distance2 / (cosine * Float(area_));
   if (!(s.pdf > 0) || !std::isfinite(s.pdf)) return {};
   return s;
 }

@@ -46,7 +46,7 @@ class TriangleMesh {
   std::vector<Vec3> normals_; ///< per vertex; empty: flat
   std::vector<Vec2> uvs_;     ///< per vertex; empty: none
   std::vector<Vec3> face_normals_; ///< unit; 0 for a degenerate triangle
-  std::vector<double> cumulative_area_;
+  std::vector<double> cumulative_area_, reciprocal_area_;
   double area_ = 0;
   Float error_ = 0; ///< of an interpolated point, per coordinate
 };
