@@ -67,7 +67,8 @@ template <Real S> struct TrimmedExponential {
     if (flat(k)) return min(S(u * length), length);
     // 1 - u = 1 would reach the far end, whose density may underflow.
     const S v = rate < 0 ? S(min(S(1 - u), one_minus_epsilon<S>)) : u;
-    const S rest = k > 1 && v > S(0.5) ? S(log(S((1 - v) + v * S(exp(S(-k)))))) : S(log1p(S(v * S(expm1(S(-k))))));
+    const S tail = rate < 0 ? S(max(u, S(1 - one_minus_epsilon<S>))) : S(1 - u); // 1 - v, without its rounding
+    const S rest = k > 1 && v > S(0.5) ? S(log(S(tail + v * S(exp(S(-k)))))) : S(log1p(S(v * S(expm1(S(-k))))));
     const S t = min(S(-rest / a), length);
     return rate < 0 ? S(length - t) : t;
   }

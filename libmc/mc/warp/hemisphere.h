@@ -26,7 +26,7 @@ template <Real S> struct UniformHemisphere {
 };
 
 /// Directions with density proportional to cos(theta): a uniform point of the disk, lifted.
-///   sample : concentric disk point p, z = sqrt(1 - |p|^2), with 1 - |p|^2 taken from the radius without cancellation and at
+///   sample : concentric disk point p, z = sqrt(1 - |p|^2), with 1 - |p|^2 taken from u without cancellation and at
 ///            least eps / 2, half a step of u, so that the pdf of a sample is positive on the rim too
 ///   pdf    : z / pi [1/sr]; 0 below the horizon
 ///   invert : |invert(sample(u)) - u| <= 8 eps
@@ -37,10 +37,11 @@ template <Real S> struct CosineHemisphere {
 
   Domain domain() const { return {}; }
   Vec3<S> sample(const Vec2<S>& u) const {
-    using std::abs, std::max, std::sqrt;
+    using std::max, std::min, std::sqrt;
     const Vec2<S> p = UniformDisk<S>{}.sample(u);
-    const S r = max(S(abs(S(2 * u[0] - 1))), S(abs(S(2 * u[1] - 1))));
-    return {p.x(), p.y(), S(sqrt(max(S((1 - r) * (1 + r)), S(std::numeric_limits<S>::epsilon() / 2))))};
+    // 1 - |p| is twice the distance to the nearest edge of the square, and exact.
+    const S t = 2 * min(min(u[0], S(1 - u[0])), min(u[1], S(1 - u[1])));
+    return {p.x(), p.y(), S(sqrt(max(S(t * (2 - t)), S(std::numeric_limits<S>::epsilon() / 2))))};
   }
   S pdf(const Vec3<S>& w) const { return w.z() > 0 ? S(w.z() / pi<S>) : S(0); }
   Vec2<S> invert(const Vec3<S>& w) const { return UniformDisk<S>{}.invert({w.x(), w.y()}); }
