@@ -10,24 +10,23 @@
 
 namespace mc {
 
-/// A piecewise constant distribution over a cumulative table that lives elsewhere; see TableDist1D.
+/// The geometry of TableDist1D over a cumulative table that lives elsewhere: n cells of equal width on an interval.
 template <Real S> struct StepsView {
   CdfView cdf;
   Interval<S> interval;
 
-  DiscreteSample<S> sample_index(S u) const {
-    const std::size_t i = cdf.find(static_cast<double>(u));
-    return {i, S(cdf.pmf(i)), below_one(S(within(i, u)))};
+  std::size_t find(S u) const { return cdf.find(static_cast<double>(u)); }
+  /// For u in the interval of outcome i: how far it is along it, in [0,1), and the point as far along cell i.
+  S remapped(S u, std::size_t i) const {
+    const S v = S(within(u, i));
+    return v < 1 ? v : one_minus_epsilon<S>;
   }
-  S sample(S u) const { return sample(u, cdf.find(static_cast<double>(u))); }
-  /// The point for u in the interval of outcome i.
-  S sample(S u, std::size_t i) const {
-    const Work v = (index(i) + within(i, u)) / index(cdf.size());
+  S point(S u, std::size_t i) const {
+    const Work v = (index(i) + within(u, i)) / index(cdf.size());
     const S x = S(Work(interval.lo) * (1 - v) + Work(interval.hi) * v);
     return !std::floating_point<S> || cell(x) == i ? x : nudged(x, i);
   }
-  S pdf(S x) const { return interval.contains(x) ? pdf_of_cell(cell(x)) : S(0); }
-  S pdf_of_cell(std::size_t i) const { return S(Work(cdf.pmf(i)) * index(cdf.size()) / (Work(interval.hi) - Work(interval.lo))); }
+  S density(std::size_t i) const { return S(Work(cdf.pmf(i)) * index(cdf.size()) / (Work(interval.hi) - Work(interval.lo))); }
   S invert(S x) const {
     const std::size_t i = cell(x);
     return S(Work(cdf.cdf(i)) + (unit(x) * index(cdf.size()) - index(i)) * Work(cdf.pmf(i)));
@@ -42,8 +41,7 @@ template <Real S> struct StepsView {
   // A float has too few bits to count the cells of a large table, so it computes in double.
   using Work = std::conditional_t<std::same_as<S, float>, double, S>;
   static Work index(std::size_t i) { return Work(static_cast<double>(static_cast<std::int64_t>(i))); }
-  static S below_one(S v) { return v < 1 ? v : one_minus_epsilon<S>; }
-  Work within(std::size_t i, S u) const { return (Work(u) - Work(cdf.cdf(i))) / Work(cdf.pmf(i)); }
+  Work within(S u, std::size_t i) const { return (Work(u) - Work(cdf.cdf(i))) / Work(cdf.pmf(i)); }
   Work unit(S x) const { return (Work(x) - Work(interval.lo)) / (Work(interval.hi) - Work(interval.lo)); }
 
   // Rounding must not carry the point into a neighbouring cell, which may have weight 0.
@@ -82,13 +80,16 @@ template <Real S> class TableDist1D {
     return TableDist1D(weights, interval);
   }
 
-  DiscreteSample<S> sample_index(S u) const { return view().sample_index(u); }
+  DiscreteSample<S> sample_index(S u) const {
+    const std::size_t i = view().find(u);
+    return {i, pmf(i), view().remapped(u, i)};
+  }
   S pmf(std::size_t i) const { return S(cdf_.pmf(i)); }
   std::size_t size() const { return cdf_.size(); }
 
   Domain domain() const { return interval_; }
-  S sample(S u) const { return view().sample(u); }
-  S pdf(S x) const { return view().pdf(x); }
+  S sample(S u) const { return view().point(u, view().find(u)); }
+  S pdf(S x) const { return interval_.contains(x) ? view().density(cell(x)) : S(0); }
   S invert(S x) const { return view().invert(x); }
   /// The cell that holds x; the outermost one beyond the ends.
   std::size_t cell(S x) const { return view().cell(x); }

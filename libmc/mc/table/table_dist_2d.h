@@ -62,22 +62,24 @@ template <Real S> class TableDist2D {
     Vec2<S> u_remapped;  ///< uniform again, independent of the cell
   };
   Cell sample_index(const Vec2<S>& u) const {
-    const auto row = rows().sample_index(u[1]);
-    const auto column = this->row(row.index).sample_index(u[0]);
-    return {column.index, row.index, row.pmf * column.pmf, {column.u_remapped, row.u_remapped}};
+    const std::size_t y = rows().find(u[1]);
+    const StepsView<S> columns = row(y);
+    const std::size_t x = columns.find(u[0]);
+    return {x, y, pmf(x, y), {columns.remapped(u[0], x), rows().remapped(u[1], y)}};
   }
 
   Domain domain() const { return {}; }
   Vec2<S> sample(const Vec2<S>& u) const {
-    const std::size_t y = row_choice_.find(static_cast<double>(u[1]));
-    return {row(y).sample(u[0]), rows().sample(u[1], y)};
+    const std::size_t y = rows().find(u[1]);
+    const StepsView<S> columns = row(y);
+    return {columns.point(u[0], columns.find(u[0])), rows().point(u[1], y)};
   }
   S pdf(const Vec2<S>& p) const {
     if (!domain().contains(p)) return S(0);
     const std::size_t y = rows().cell(p[1]);
-    const S marginal = rows().pdf_of_cell(y);
     const StepsView<S> columns = row(y);
-    return marginal == 0 ? S(0) : S(marginal * columns.pdf_of_cell(columns.cell(p[0])));
+    const S marginal = rows().density(y);
+    return marginal == 0 ? S(0) : S(marginal * columns.density(columns.cell(p[0])));
   }
   Vec2<S> invert(const Vec2<S>& p) const { return {row(rows().cell(p[1])).invert(p[0]), rows().invert(p[1])}; }
   template <Real T> TableDist2D<T> cast() const { return TableDist2D<T>(rows_, row_choice_); }
