@@ -36,10 +36,11 @@ Tally render_row(const Scene& scene, const RenderOptions& options, const PathOpt
   const Vec2 tan_half = scene.camera.tan_half(Float(film.width()) / Float(film.height()));
   for (int x = 0; x < film.width(); ++x) {
     const std::uint64_t key = mc::hash(options.seed, static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x), pass.number);
+    const typename Stream::Points points(key, pass.count);
     Eigen::Array3d sum = Eigen::Array3d::Zero();
     std::uint32_t valid = 0;
     for (std::uint32_t i = 0; i < pass.count; ++i) {
-      Stream stream(key, pass.count, i);
+      Stream stream(points, i);
       const Vec2 offset = scene.filter.sample(stream.next2());
       const Vec2 s = (Vec2(Float(x) + Float(0.5), Float(y) + Float(0.5)) + offset).cwiseProduct(scale);
       const Ray ray = scene.camera.ray(s, tan_half, scene.camera.lens_radius > 0 ? stream.next2() : Vec2(Vec2::Zero()));

@@ -22,12 +22,22 @@ struct PaddedSobol {
   }
 
   /// Both coordinates of a pair at once.
-  template <Real S> Vec2<S> pair(std::uint64_t index, std::uint32_t number) const {
+  template <Real S> Vec2<S> pair(std::uint64_t index, std::uint32_t number) const { return pair_key(number).template point<S>(index); }
+
+  /// What all points of a pair share, for callers that take many: pair(index, number) = pair_key(number).point(index).
+  struct PairKey {
+    std::uint64_t key, second;
+    template <Real S> Vec2<S> point(std::uint64_t index) const {
+      const std::uint32_t i = shuffled(index, key);
+      // One reversal for both: the lower half becomes the upper one.
+      const std::uint64_t y = owen_scramble_reversed(pascal(i), static_cast<std::uint32_t>(second));
+      const std::uint64_t x = reverse_bits64(y << 32 | reversed_first(i, key));
+      return {uniform<S>(x & 0xffffffff00000000u), uniform<S>(x << 32)};
+    }
+  };
+  PairKey pair_key(std::uint32_t number) const {
     const std::uint64_t key = hash(seed, number);
-    const std::uint32_t i = shuffled(index, key);
-    // One reversal for both: the lower half becomes the upper one.
-    const std::uint64_t x = reverse_bits64(std::uint64_t{reversed_second(i, key)} << 32 | reversed_first(i, key));
-    return {uniform<S>(x & 0xffffffff00000000u), uniform<S>(x << 32)};
+    return {key, mix64(key)};
   }
 
  private:

@@ -51,11 +51,8 @@ SurfacePoint Sphere::point(const Vec3d& direction) const {
 }
 
 SurfacePoint Sphere::surface_point(const Ray& ray, const Hit& hit) const {
-  // Refined in double: the float t alone would miss the surface of a large sphere.
-  Ray open = ray;
-  open.t_max = mc::infinity<Float>;
-  const double t = intersect(open).value_or(double(hit.t));
-  SurfacePoint s = point((ray.o.cast<double>() + t * ray.d.cast<double>() - center_).normalized());
+  // In double and projected: the float t moves the point along the surface by an ulp of the distance, but not off it.
+  SurfacePoint s = point((ray.o.cast<double>() + double(hit.t) * ray.d.cast<double>() - center_).normalized());
   s.shape = hit.shape;
   return s;
 }

@@ -95,11 +95,13 @@ SurfacePoint TriangleMesh::surface_point(const Ray&, const Hit& hit) const {
 
 std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) const {
   const double target = double(u[0]) * area_;
-  auto it = cumulative_area_.begin();
-  if (cumulative_area_.size() <= 4) it = std::find_if(it, cumulative_area_.end(), [=](double a) { return target < a; });
-  else it = std::upper_bound(it, cumulative_area_.end(), target);
-  if (it == cumulative_area_.end()) return {};
-  const auto triangle = static_cast<std::size_t>(it - cumulative_area_.begin());
+  std::size_t triangle = 0;
+  if (size() <= 8) { // without branches that no predictor could guess
+    for (const double a : cumulative_area_) triangle += static_cast<std::size_t>(target >= a);
+  } else {
+    triangle = static_cast<std::size_t>(std::upper_bound(cumulative_area_.begin(), cumulative_area_.end(), target) - cumulative_area_.begin());
+  }
+  if (triangle == size()) return {};
   const double below = triangle > 0 ? cumulative_area_[triangle - 1] : 0;
   const double u0 = std::min((target - below) * reciprocal_area_[triangle], 1 - 0x1p-53);
   // Uniform barycentrics: sqrt makes strips of equal area parallel to the edge opposite vertex 0.
