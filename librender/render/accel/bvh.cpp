@@ -28,9 +28,21 @@ struct Line {
 
 namespace {
 
-constexpr std::uint32_t few_spheres = 12;
+constexpr std::uint32_t few_spheres = 12, few_triangles = 48; // six blocks of triangles cost less than a node and its sorted children
 
 template <class Mask> bool any_lane(const Mask& mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
+
+/// Bit i is set where lane i of t lies in (0, t_max).
+template <class Doubles> unsigned between(const Doubles& t, double t_max) {
+#if defined(__AVX512F__)
+  const auto& x = reinterpret_cast<const __m512d&>(t);
+  return _mm512_cmp_pd_mask(x, _mm512_setzero_pd(), _CMP_GT_OQ) & _mm512_cmp_pd_mask(x, _mm512_set1_pd(t_max), _CMP_LT_OQ);
+#else
+  unsigned mask = 0;
+  for (int i = 0; i < 8; ++i) mask |= static_cast<unsigned>(t[i] > 0 && t[i] < t_max) << i;
+  return mask;
+#endif
+}
 
 template <class Doubles> Doubles square_root(const Doubles& x) {
 #if defined(__AVX__)
@@ -50,6 +62,20 @@ Box sphere_box(const Sphere& s) {
     box.hi[a] = std::nextafter(Float(s.center()[a] + s.radius()), mc::infinity<Float>);
   }
   return box;
+}
+
+// Blocks of primitives: those of a tree's leaves, or full ones without a tree where there are few.
+template <class F> WideTree build(const std::vector<Box>& boxes, std::uint32_t lanes, std::uint32_t few, const F& add) {
+  if (boxes.size() > few) {
+    WideTree tree(boxes, lanes);
+    for (const auto& leaf : tree.leaves()) add(tree.order(), leaf);
+    return tree;
+  }
+  const auto count = static_cast<std::uint32_t>(boxes.size());
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  for (std::uint32_t first = 0; first < count; first += lanes) add(order, {first, std::min(lanes, count - first)});
+  return {};
 }
 
 } // namespace
@@ -80,11 +106,10 @@ Bvh::Bvh(std::span<const Shape> shapes) {
   for (const Box& b : triangle_boxes) bounds_.add(b);
   for (const Box& b : sphere_boxes) bounds_.add(b);
 
-  triangle_tree_ = WideTree(triangle_boxes, 8);
-  for (const auto& leaf : triangle_tree_.leaves()) {
+  const auto add_triangles = [&](const std::vector<std::uint32_t>& order, WideTree::Leaf leaf) {
     TriangleBlock block;
     for (std::uint32_t lane = 0; lane < 8; ++lane) {
-      const std::uint32_t id = triangle_tree_.order()[leaf.first + std::min(lane, leaf.count - 1)];
+      const std::uint32_t id = order[leaf.first + std::min(lane, leaf.count - 1)];
       const auto& v = vertices[id];
       for (std::size_t k = 0; k < 3; ++k)
         for (int a = 0; a < 3; ++a) block.v[k][a][lane] = v[k][a];
@@ -95,7 +120,8 @@ Bvh::Bvh(std::span<const Shape> shapes) {
       block.id[lane] = id;
     }
     triangle_blocks_.push_back(block);
-  }
+  };
+  triangle_tree_ = build(triangle_boxes, 8, few_triangles, add_triangles);
 
   const auto add_spheres = [&](const std::vector<std::uint32_t>& order, WideTree::Leaf leaf) {
     SphereBlock block;
@@ -114,15 +140,7 @@ Bvh::Bvh(std::span<const Shape> shapes) {
     }
     sphere_blocks_.push_back(block);
   };
-  const auto count = static_cast<std::uint32_t>(spheres.size());
-  if (count <= few_spheres) {
-    std::vector<std::uint32_t> order(count);
-    std::iota(order.begin(), order.end(), 0u);
-    for (std::uint32_t first = 0; first < count; first += 4) add_spheres(order, {first, std::min(4u, count - first)});
-  } else {
-    sphere_tree_ = WideTree(sphere_boxes);
-    for (const auto& leaf : sphere_tree_.leaves()) add_spheres(sphere_tree_.order(), leaf);
-  }
+  sphere_tree_ = build(sphere_boxes, 4, few_spheres, add_spheres);
 }
 
 // U, V, W are the signed areas opposite vertices 0, 1, 2 in the sheared frame; all of one sign: inside.
@@ -141,11 +159,12 @@ bool Bvh::intersect_block(const TriangleBlock& block, const Ray& ray, const Shea
 
   const EightDoubles above = block.plane - (block.normal[0] * double(ray.o[0]) + block.normal[1] * double(ray.o[1]) + block.normal[2] * double(ray.o[2]));
   const EightDoubles t8 = above / (block.normal[0] * double(ray.d[0]) + block.normal[1] * double(ray.d[1]) + block.normal[2] * double(ray.d[2]));
+  candidates &= between(t8, double(t_max));
   bool found = false;
   for (; candidates != 0; candidates &= candidates - 1) {
     const int lane = __builtin_ctz(candidates);
     const double t = t8[lane];
-    if (!(t > 0 && t < double(t_max))) continue;
+    if (!(t < double(t_max))) continue;
     double u = double(u8[lane]), v = double(v8[lane]), w = double(w8[lane]);
     if (u == 0 || v == 0 || w == 0) [[unlikely]] {
       // On an edge to float precision: products of floats are exact in double, so both neighbours decide alike.
@@ -203,8 +222,14 @@ template <bool any> bool Bvh::trace(const Ray& ray, Hit& hit) const {
   constexpr auto order = any ? WideTree::Order::any : WideTree::Order::near_first;
   Float t_max = ray.t_max;
   bool found = false;
-  if (!triangle_tree_.empty()) {
+  if (!triangle_blocks_.empty()) {
     const Shear shear(ray.d);
+    if (triangle_tree_.empty()) {
+      for (const TriangleBlock& block : triangle_blocks_) {
+        found |= intersect_block<any>(block, ray, shear, t_max, hit);
+        if (any && found) return true;
+      }
+    }
     triangle_tree_.traverse<order>(ray, t_max, [&](std::uint32_t leaf, Float& t) {
       found |= intersect_block<any>(triangle_blocks_[leaf], ray, shear, t, hit);
       return any && found;

@@ -51,8 +51,8 @@ class Bvh {
   template <bool any> static bool intersect_block(const SphereBlock& block, const Line& line, Float& t_max, Hit& hit);
   template <bool any> bool trace(const Ray& ray, Hit& hit) const;
 
-  WideTree triangle_tree_, sphere_tree_; ///< no tree for few spheres: every ray tries them all
-  std::vector<TriangleBlock> triangle_blocks_; ///< one per leaf
+  WideTree triangle_tree_, sphere_tree_; ///< none for few: every ray tries all blocks
+  std::vector<TriangleBlock> triangle_blocks_; ///< one per leaf, or all
   std::vector<TriangleId> triangle_ids_;
   std::vector<SphereBlock> sphere_blocks_; ///< one per leaf, or all
   Box bounds_;
