@@ -29,8 +29,7 @@ template <Real S> struct TrowbridgeReitzSurface {
 };
 
 /// All normals, density D(m) m_z: directions of a cosine hemisphere, stretched.
-///   sample : cosine-distributed h, m = normalized (alpha_x h_x, alpha_y h_y, h_z), within 4 eps (1 + 1 / min alpha): on the rim
-///            of the hemisphere h_z carries the rounding of 2 u - 1, which the stretch magnifies
+///   sample : cosine-distributed h, m = normalized (alpha_x h_x, alpha_y h_y, h_z), within 16 eps
 ///   pdf    : D(m) m_z [1/sr], relative error 16 eps; 0 below the horizon
 ///   invert : |invert(sample(u)) - u| <= 16 eps
 ///   throws : Error unless both roughnesses lie in [1e-6, 1e3]
