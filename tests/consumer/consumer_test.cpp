@@ -1,14 +1,29 @@
 // A user's own test suite against the installed package.
 
-#include <mc/random/pcg.h>
+#include <mc/estimate/integrate.h>
+#include <mc/gtest/matchers.h>
 #include <mc/warp/hemisphere.h>
 
 #include <gtest/gtest.h>
 
-TEST(Consumer, SamplesACosineHemisphere) {
-  mc::Pcg random(1);
-  const mc::CosineHemisphere<float> warp;
-  double cosine = 0;
-  for (int i = 0; i < 10000; ++i) cosine += warp.sample(random.point<float, 2>()).z();
-  EXPECT_NEAR(cosine / 10000, 2.0 / 3, 0.01); // 4 standard errors: variance 1/2 - 4/9
+namespace {
+
+// The ten lines of the README: a sampler of one's own, checked against its claimed density.
+mc::Vec3<double> my_sample(mc::Pcg& random) { return mc::CosineHemisphere<double>().sample(random.point<double, 2>()); }
+double my_pdf(const mc::Vec3<double>& w) { return std::max(w.z(), 0.0) / mc::pi<double>; }
+double wrong_pdf(const mc::Vec3<double>& w) { return w.z() >= 0 ? 1 / (2 * mc::pi<double>) : 0; }
+
+TEST(Consumer, LibraryWarpObeysItsLaws) { EXPECT_WARP_LAWS(mc::CosineHemisphere<float>(), {.samples = 100'000}); }
+
+TEST(Consumer, OwnSamplerMatchesItsPdf) { EXPECT_SAMPLES_MATCH_PDF(my_sample, my_pdf, mc::Hemisphere<double>()); }
+
+TEST(Consumer, AWrongPdfIsRejected) {
+  EXPECT_FALSE(mc::samples_match_pdf("my_sample", my_sample, wrong_pdf, mc::Hemisphere<double>()));
 }
+
+TEST(Consumer, Integrates) {
+  const mc::Integral r = mc::integrate([](const mc::Vec3<double>& w) { return w.z() * w.z() * w.z(); }, mc::CosineHemisphere<double>());
+  EXPECT_NEAR(r.estimate.value, mc::pi<double> / 2, 5 * r.estimate.std_error);
+}
+
+} // namespace
