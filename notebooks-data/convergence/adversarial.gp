@@ -17,8 +17,8 @@ plot "adversarial.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with 
      "adversarial.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.52 ± 0.04}", \
      56.5554 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
      "adversarial.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "adversarial.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-1.49 ± 0.03}", \
-     14352.9 * x**(-1.5) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
+     "adversarial.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-1.52 ± 0.03}", \
+     11540 * x**(-1.5) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
      "adversarial.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
      "adversarial.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-1.49 ± 0.03}", \
      NaN notitle

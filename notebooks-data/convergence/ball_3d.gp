@@ -17,8 +17,8 @@ plot "ball_3d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with fill
      "ball_3d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.50 ± 0.02}", \
      4.13415 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
      "ball_3d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "ball_3d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.66 ± 0.02}", \
-     5.75926 * x**(-0.666667) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
+     "ball_3d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.65 ± 0.01}", \
+     5.90705 * x**(-0.666667) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
      "ball_3d.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
      "ball_3d.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-0.65 ± 0.01}", \
      NaN notitle

@@ -17,8 +17,8 @@ plot "ball_5d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with fill
      "ball_5d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.49 ± 0.01}", \
      12.3351 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
      "ball_5d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "ball_5d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.61 ± 0.01}", \
-     16.2593 * x**(-0.6) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
+     "ball_5d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.59 ± 0.02}", \
+     16.9481 * x**(-0.6) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
      "ball_5d.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
      "ball_5d.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-0.58 ± 0.01}", \
      NaN notitle

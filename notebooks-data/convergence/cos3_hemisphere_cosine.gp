@@ -17,8 +17,8 @@ plot "cos3_hemisphere_cosine.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN
      "cos3_hemisphere_cosine.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.49 ± 0.01}", \
      0.913453 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
      "cos3_hemisphere_cosine.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "cos3_hemisphere_cosine.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-1.00 ± 0.02}", \
-     2.30565 * x**(-1) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
+     "cos3_hemisphere_cosine.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.99 ± 0.02}", \
+     2.41508 * x**(-1) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
      "cos3_hemisphere_cosine.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
      "cos3_hemisphere_cosine.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-1.23 ± 0.02}", \
      NaN notitle

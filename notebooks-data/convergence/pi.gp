@@ -17,8 +17,8 @@ plot "pi.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with filledcur
      "pi.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.49 ± 0.01}", \
      1.76788 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
      "pi.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "pi.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.74 ± 0.01}", \
-     2.67457 * x**(-0.75) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
+     "pi.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.74 ± 0.02}", \
+     3.08321 * x**(-0.75) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
      "pi.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
      "pi.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-0.76 ± 0.01}", \
      NaN notitle

@@ -18,7 +18,7 @@ plot "x2_uniform.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with f
      2.34549 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
      "x2_uniform.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
      "x2_uniform.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-1.50 ± 0.01}", \
-     2.7782 * x**(-1.5) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
+     2.65866 * x**(-1.5) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
      "x2_uniform.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
      "x2_uniform.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-1.50 ± 0.01}", \
      NaN notitle
