@@ -30,6 +30,7 @@ struct Case {
   std::string parameters; ///< "alpha=0.1, theta=60"; empty without any
   std::string scalar;     ///< "float" or "double"
   std::function<mc::Report(const CaseOptions&)> check;
+  std::string again = {}; ///< what follows "carlo validate" to check it alone; empty: its name
 
   std::string title() const { return name + (parameters.empty() ? "" : "(" + parameters + ")") + " " + scalar; }
 };

@@ -54,6 +54,12 @@ struct ValidateOptions {
   int threads = 0;                          ///< 0: all
   std::optional<double> detect;             ///< relative error to catch with probability .99; chooses `samples`
   std::string json, junit;                  ///< files; empty: none
+  std::string plugin;                       ///< a shared object whose samplers are checked instead of the catalogue's
+  std::vector<std::string> parameters;      ///< of the plugin: one set each, "alpha=0.1,n=3"
+  double timeout = 60;                      ///< wall-clock seconds per case of the plugin
+  std::string samples_file, pdf_file;       ///< samples and the density on a grid, see samples_file.h
+  std::string domain;                       ///< of the grid; empty: by the columns of the samples
+  bool unnormalized = false;                ///< the grid is only proportional to the density
   std::string command;
 };
 int validate(const ValidateOptions& options);

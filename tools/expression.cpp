@@ -1,49 +1,19 @@
 /// The only file that includes muParser.
 
 #include "expression.h"
+#include "sides.h"
 
 #include <mc/core/error.h>
 
 #include <muParser.h>
 
 #include <atomic>
-#include <charconv>
-#include <cmath>
 #include <limits>
 #include <memory>
 
 namespace carlo {
 
 namespace {
-
-struct Side {
-  std::string name;
-  double lo, hi;
-};
-
-double number(std::string_view text, std::string_view side) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  mc::require(error == std::errc() && end == text.data() + text.size() && std::isfinite(value), "--domain: '{}' in '{}' is not a finite number", text, side);
-  return value;
-}
-
-std::vector<Side> parse_box(const std::string& box) {
-  std::vector<Side> sides;
-  for (std::size_t begin = 0; begin <= box.size();) {
-    const std::size_t end = std::min(box.find(',', begin), box.size());
-    const std::string side = box.substr(begin, end - begin);
-    const std::size_t equals = side.find('='), colon = side.find(':');
-    mc::require(equals != std::string::npos && equals > 0 && colon != std::string::npos && colon > equals,
-                "--domain: '{}' is not of the form name=lo:hi, as in \"x=0:1,y=-1:2\"", side);
-    Side s{side.substr(0, equals), number(std::string_view(side).substr(equals + 1, colon - equals - 1), side), number(std::string_view(side).substr(colon + 1), side)};
-    mc::require(s.lo < s.hi, "--domain: '{}' has bounds {} and {}; lo < hi is needed", side, s.lo, s.hi);
-    for (const Side& other : sides) mc::require(other.name != s.name, "--domain: '{}' is bounded twice", s.name);
-    sides.push_back(s);
-    begin = end + 1;
-  }
-  return sides;
-}
 
 // A parser with its variables: muParser evaluates in place, so each thread needs its own.
 struct Instance {
@@ -70,7 +40,7 @@ struct Instance {
 
 Experiment parse_expression(const std::string& expression, const std::string& box) {
   mc::require(!box.empty(), "'{}' is not a name of --list; for an expression give --domain, as in \"x=0:1,y=-1:2\"", expression);
-  const std::vector<Side> sides = parse_box(box);
+  const std::vector<Side> sides = parse_sides(box);
   const Instance checked(expression, sides);
   double volume = 1;
   for (const Side& s : sides) volume *= s.hi - s.lo;

@@ -15,6 +15,14 @@ namespace {
 
 constexpr const char* exit_codes = "Exit codes: 0 done and every check passed; 1 a check failed; 2 bad usage, file or value; 130 interrupted.";
 
+constexpr const char* validate_files =
+    "--samples-file: one sample a row, numbers separated by commas or blanks; # begins a comment, a first row of names is left out.\n"
+    "  x on an interval; x,y on a rectangle; a unit vector x,y,z, to 1e-5, on the sphere.\n"
+    "--pdf-file: W numbers in each of H rows; cell (column i, row j) holds the mean of the density over\n"
+    "  x in lo + (hi-lo) [i,i+1]/W, y in lo + (hi-lo) [j,j+1]/H, the first row at the least y; an interval has one row;\n"
+    "  on the sphere azimuth 2 pi [i,i+1]/W from +x toward +y, angle pi [j,j+1]/H from +z, per steradian.\n"
+    "  An image is grey (R = G = B), its top row first. The integral is 1 to 1e-4, or any with --unnormalized.\n";
+
 void add_render(CLI::App& app, carlo::RenderOptions& o) {
   auto* c = app.add_subcommand("render", "Render a Mitsuba XML scene to EXR, PFM or PNG, with an error bar");
   c->footer(exit_codes);
@@ -48,7 +56,7 @@ void add_compare(CLI::App& app, carlo::CompareOptions& o) {
 
 void add_validate(CLI::App& app, carlo::ValidateOptions& o) {
   auto* c = app.add_subcommand("validate", "Check samplers against their laws: chi-square, KS, mass, Jacobian, inverse, oracle");
-  c->footer(exit_codes);
+  c->footer(fmt::format("{}\n{}", validate_files, exit_codes));
   c->add_option("NAME", o.names, "Samplers to check, by name (see --list)");
   c->add_flag("--all", o.all, "Check every sampler");
   c->add_flag("--list", o.list, "List every sampler with its parameters, and stop");
@@ -60,6 +68,13 @@ void add_validate(CLI::App& app, carlo::ValidateOptions& o) {
   c->add_option("--threads", o.threads, "Threads, 0 for all of the machine's")->capture_default_str();
   c->add_option("--json", o.json, "Write the results to this file");
   c->add_option("--junit", o.junit, "Write the verdicts to this file as JUnit XML");
+  c->add_option("--plugin", o.plugin, "Check the samplers of this shared object, compiled against <mc/check/plugin.h>");
+  c->add_option("--params", o.parameters, "Parameters of the plugin's samplers, \"alpha=0.1,n=3\"; each --params is a case")->allow_extra_args(false);
+  c->add_option("--timeout", o.timeout, "Seconds that the plugin may take per case")->capture_default_str();
+  c->add_option("--samples-file", o.samples_file, "Check these samples against the density of --pdf-file; all of them count")->excludes(samples);
+  c->add_option("--pdf-file", o.pdf_file, "Density on a grid: .csv, .exr or .pfm");
+  c->add_option("--domain", o.domain, "Of the grid: \"x=lo:hi\", \"x=lo:hi,y=lo:hi\" or sphere [by the columns of the samples: 1 or 2 in 0:1, 3 sphere]");
+  c->add_flag("--unnormalized", o.unnormalized, "The grid is only proportional to the density");
 }
 
 void add_converge(CLI::App& app, carlo::ConvergeOptions& o) {

@@ -1,7 +1,9 @@
 // carlo validate: every sampler against its laws.
 #include "catalogue.h"
 #include "commands.h"
+#include "plugin.h"
 #include "progress.h"
+#include "samples_file.h"
 #include "validate_output.h"
 
 #include <mc/check/check_subject.h>
@@ -21,25 +23,27 @@ namespace {
 
 std::string plain(const Case& c) { return c.name + (c.parameters.empty() ? "" : "(" + c.parameters + ")"); }
 
-// The cases that a word names: a sampler, or one case as --list prints it.
-std::vector<const Case*> select(const ValidateOptions& o) {
+std::string again(const Case& c) { return c.again.empty() ? fmt::format("'{}' --scalar {}", plain(c), c.scalar) : c.again; }
+
+// The cases that a word names: a sampler, or one case as --list prints it. What the user brought is checked whole if none is named.
+std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catalogue, bool brought) {
   mc::require(o.scalar.empty() || o.scalar == "float" || o.scalar == "double", "validate: --scalar '{}' must be float or double", o.scalar);
   std::vector<const Case*> chosen;
   const auto wanted = [&](const Case& c) { return o.scalar.empty() || c.scalar == o.scalar; };
-  if (o.all || (o.list && o.names.empty())) {
-    for (const Case& c : catalogue())
+  if (o.all || ((o.list || brought) && o.names.empty())) {
+    for (const Case& c : catalogue)
       if (wanted(c)) chosen.push_back(&c);
   }
   for (const std::string& name : o.names) {
     bool known = false;
-    for (const Case& c : catalogue()) {
+    for (const Case& c : catalogue) {
       if (name != c.name && name != plain(c)) continue;
       known = true;
       if (wanted(c)) chosen.push_back(&c);
     }
     if (known) continue;
     std::set<std::string> names;
-    for (const Case& c : catalogue()) names.insert(c.name);
+    for (const Case& c : catalogue) names.insert(c.name);
     throw mc::Error(fmt::format("validate: unknown sampler '{}'{} (carlo validate --list names them all)", name, mc::did_you_mean(name, names)));
   }
   std::vector<const Case*> unique;
@@ -66,7 +70,18 @@ std::string line_of(const Case& c, const mc::Report& r) {
 
 int validate(const ValidateOptions& options) {
   ValidateOptions o = options;
-  const std::vector<const Case*> cases = select(o);
+  mc::require(o.plugin.empty() || o.samples_file.empty(), "validate: give --plugin or --samples-file, not both");
+  mc::require(o.parameters.empty() || !o.plugin.empty(), "validate: --params sets parameters of a --plugin");
+  mc::require(o.pdf_file.empty() || !o.samples_file.empty(), "validate: --pdf-file needs the samples to hold against it: --samples-file");
+  Catalogue brought;
+  if (!o.plugin.empty()) brought = plugin_cases(o.plugin, o.parameters, o.timeout);
+  std::uint64_t available = 0; // samples of a file
+  if (!o.samples_file.empty()) {
+    const SamplesFileCase file = samples_file_case({o.samples_file, o.pdf_file, o.domain, o.unnormalized});
+    brought.push_back(file.one);
+    o.samples = available = file.samples;
+  }
+  const std::vector<const Case*> cases = select(o, brought.empty() ? catalogue() : brought, !brought.empty());
   if (o.list) {
     for (const Case* c : cases) fmt::print("{:<44} {}\n", plain(*c), c->scalar);
     return exit_ok;
@@ -78,10 +93,12 @@ int validate(const ValidateOptions& options) {
     o.samples = mc::samples_to_detect(*o.detect, alpha);
     fmt::print("{} samples per case to detect {:g} %\n", o.samples, 100 * *o.detect);
   }
+  mc::require(available == 0 || o.samples <= available, "{}: it holds {} samples to count beside those for the bins; --detect {} needs {}", o.samples_file, available,
+              o.detect.value_or(0), o.samples);
   mc::require(o.samples >= 1000, "validate: --samples {}; at least 1000 are needed", o.samples);
   // An unwritable place is refused before the work, not after it.
-  if (!o.json.empty()) mc::write_file(o.json, "{}\n");
-  if (!o.junit.empty()) mc::write_file(o.junit, "<testsuite/>\n");
+  for (const std::string& file : {o.json, o.junit})
+    if (!file.empty()) mc::require_writable(file);
 
   std::vector<mc::Report> reports(cases.size());
   std::vector<char> done(cases.size(), 0);
@@ -110,8 +127,8 @@ int validate(const ValidateOptions& options) {
   }
   for (std::size_t i = 0; i < cases.size(); ++i)
     if (!reports[i].passed())
-      fmt::print("\n{}\n  again: carlo validate '{}' --scalar {} --seed {} --samples {} --alpha {:.4g}\n", reports[i].to_string(), plain(*cases[i]), cases[i]->scalar,
-                 o.seed, o.samples, alpha);
+      fmt::print("\n{}\n  again: carlo validate {} --seed {}{} --alpha {:.4g}\n", reports[i].to_string(), again(*cases[i]), o.seed,
+                 available > 0 ? std::string() : fmt::format(" --samples {}", o.samples), alpha);
   fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed, cases.size(),
              inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(), o.alpha, o.samples, o.seed);
   if (!o.junit.empty()) write_junit(o.junit, cases, reports);

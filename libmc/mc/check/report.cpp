@@ -26,6 +26,7 @@ std::string_view name(Fault f) {
   case Fault::leak: return "leak: samples where the density is zero";
   case Fault::mass: return "mass: the density does not integrate to one";
   case Fault::weight: return "weight: the stated weight disagrees with eval and pdf";
+  case Fault::support: return "support: the integrand is positive where the density is zero";
   case Fault::inverse: return "inverse: invert does not undo sample";
   case Fault::jacobian: return "jacobian: pdf is not the density of sample";
   case Fault::precision: return "precision: rounding error beyond the stated bound";

@@ -16,7 +16,7 @@ enum class Verdict { pass, fail, inconclusive };
 std::string_view name(Verdict v);
 
 /// What a failed check points to. `shape`: the samples follow another density than the one claimed.
-enum class Fault { none, edge, not_finite, outside, leak, mass, weight, inverse, jacobian, precision, atom, shape, local, physics };
+enum class Fault { none, edge, not_finite, outside, leak, mass, weight, support, inverse, jacobian, precision, atom, shape, local, physics };
 
 std::string_view name(Fault f);
 

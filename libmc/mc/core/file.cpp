@@ -14,14 +14,24 @@ namespace mc {
 
 namespace fs = std::filesystem;
 
-void replace_file(const std::string& path, const std::function<void(const std::string&)>& write) {
-  const fs::path target(path);
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+namespace {
+
+fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
+
+} // namespace
+
+void require_writable(const std::string& path) {
+  const fs::path target(path), folder = folder_of(target);
   std::error_code error;
   require(!target.filename().empty() && !fs::is_directory(target, error), "cannot write '{}': it is a folder; name a file in it", path);
   require(fs::is_directory(folder, error), "cannot write '{}': the folder '{}' does not exist; create it first", path, folder.string());
   require(access(folder.c_str(), W_OK) == 0, "cannot write '{}': the folder '{}' is not writable", path, folder.string());
+}
 
+void replace_file(const std::string& path, const std::function<void(const std::string&)>& write) {
+  require_writable(path);
+  const fs::path target(path), folder = folder_of(target);
+  std::error_code error;
   const std::string temporary =
       (folder / fmt::format(".{}.{}.tmp{}", target.stem().string(), getpid(), target.extension().string())).string();
   try {

@@ -15,6 +15,9 @@ void replace_file(const std::string& path, const std::function<void(const std::s
 /// Writes the bytes by replace_file. Throws Error when the disk is full.
 void write_file(const std::string& path, std::string_view bytes);
 
+/// Refuses a place that replace_file would refuse, before the work for it is done. Changes nothing.
+void require_writable(const std::string& path);
+
 /// The whole file. Throws Error when it is missing or cannot be read.
 std::string read_file(const std::string& path);
 

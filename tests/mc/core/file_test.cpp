@@ -58,6 +58,16 @@ TEST_F(FileTest, SaysWhatToDo) {
   EXPECT_EQ(message([&] { mc::read_file(missing); }), "cannot read '" + missing + "': no such file");
 }
 
+TEST_F(FileTest, AskingWhetherAPlaceIsWritableLeavesNoTrace) {
+  const std::string path = folder / "a.txt", missing = folder / "none" / "a.txt";
+  mc::require_writable(path);
+  EXPECT_EQ(files(), 0u);
+  mc::write_file(path, "old");
+  mc::require_writable(path);
+  EXPECT_EQ(mc::read_file(path), "old");
+  EXPECT_EQ(message([&] { mc::require_writable(missing); }), message([&] { mc::write_file(missing, "x"); }));
+}
+
 // /dev/full accepts the open and refuses the bytes, as a full disk does.
 TEST_F(FileTest, AFullDiskIsAnError) {
   const std::string path = folder / "a.txt";

@@ -1,0 +1,36 @@
+#include <mc/check/plugin.h>
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+// What other languages copy: a change of any of these needs another MC_PLUGIN_ABI.
+TEST(PluginHeader, LayoutOfVersionOne) {
+  ASSERT_EQ(MC_PLUGIN_ABI, 1);
+  ASSERT_EQ(sizeof(void*), 8u);
+  EXPECT_EQ(sizeof(mc_parameter), 32u);
+  EXPECT_EQ(offsetof(mc_sampler, name), 0u);
+  EXPECT_EQ(offsetof(mc_sampler, domain), 8u);
+  EXPECT_EQ(offsetof(mc_sampler, lo), 16u);
+  EXPECT_EQ(offsetof(mc_sampler, hi), 40u);
+  EXPECT_EQ(offsetof(mc_sampler, uniforms), 64u);
+  EXPECT_EQ(offsetof(mc_sampler, parameters), 80u);
+  EXPECT_EQ(offsetof(mc_sampler, pdf_tolerance), 88u);
+  EXPECT_EQ(offsetof(mc_sampler, create), 112u);
+  EXPECT_EQ(offsetof(mc_sampler, sample), 128u);
+  EXPECT_EQ(offsetof(mc_sampler, weight), 160u);
+  EXPECT_EQ(sizeof(mc_sampler), 168u);
+  EXPECT_EQ(sizeof(mc_plugin_info), 24u);
+}
+
+TEST(PluginHeader, IsPureC99) {
+  const std::string command = "printf '#include <mc/check/plugin.h>\\n' | '" MC_CXX_COMPILER
+                              "' -x c -std=c99 -pedantic-errors -Wall -Wextra -Werror -fsyntax-only -I'" MC_SOURCE_DIR "/libmc' -";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+}
+
+} // namespace

@@ -1,0 +1,172 @@
+// carlo validate --plugin: right samplers pass, wrong ones are rejected, and a plugin that misbehaves is one line.
+
+#include "commands.h"
+
+#include <support/files.h>
+
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using carlo::ValidateOptions;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+ValidateOptions plugin(const std::string& file, std::vector<std::string> names = {}) {
+  ValidateOptions o;
+  o.plugin = std::string(PLUGIN_DIR "/") + file + ".so";
+  o.names = std::move(names);
+  o.samples = 20'000;
+  o.threads = 1;
+  return o;
+}
+
+ValidateOptions cosine(const std::string& fault) {
+  ValidateOptions o = plugin("samplers", {"Cosine"});
+  if (!fault.empty()) o.parameters = {fault + "=1"};
+  return o;
+}
+
+struct Output { int code; std::string text; };
+Output run(const ValidateOptions& o) {
+  testing::internal::CaptureStdout();
+  const int code = carlo::validate(o);
+  std::fflush(stdout);
+  return {code, testing::internal::GetCapturedStdout()};
+}
+
+// What carlo complains about, a single line.
+std::string line(const ValidateOptions& o) {
+  testing::internal::CaptureStdout();
+  const std::string text = support::error_of([&] { carlo::validate(o); });
+  std::fflush(stdout);
+  testing::internal::GetCapturedStdout();
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  return text;
+}
+
+TEST(Plugin, RightSamplersPassInEveryKindOfDomain) {
+  // Six cases at a family-wise alpha of 0.01, one fixed seed.
+  const Output out = run(plugin("samplers"));
+  EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
+  EXPECT_THAT(out.text, HasSubstr("6 of 6 cases passed"));
+  EXPECT_THAT(out.text, HasSubstr("float   pass")) << "the tail computes in float";
+}
+
+TEST(Plugin, OneWrittenInCppPasses) { EXPECT_EQ(run(plugin("right")).code, carlo::exit_ok); }
+
+struct Wrong { const char *fault, *found; };
+struct WrongPlugin : testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongPlugin, IsRejectedWithItsFaultNamed) {
+  const Output out = run(cosine(GetParam().fault));
+  EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
+  EXPECT_THAT(out.text, AllOf(HasSubstr("0 of 1 cases passed"), HasSubstr(GetParam().found), HasSubstr("again: carlo validate --plugin '")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Plugin, WrongPlugin,
+                         testing::Values(Wrong{"pdf_high", "the density integrates to 1.01"}, Wrong{"weight_low", "likely fault: weight"},
+                                         Wrong{"nan_sample", "-nan"}, Wrong{"nan_pdf", "pdf = -nan"}, Wrong{"leak", "likely fault: outside"},
+                                         Wrong{"not_unit", "likely fault: outside"}, Wrong{"silent", "x = (nan, nan, nan)"},
+                                         Wrong{"wrong_inverse", "invert(sample(u)) = u fail"}, Wrong{"tilted_pdf", "|det| pdf = 1, upper quartile fail"},
+                                         Wrong{"hole", "likely fault: support"}),
+                         [](const auto& wrong) { return std::string(wrong.param.fault); });
+
+TEST(Plugin, ARotationByADegreeIsRejected) {
+  ValidateOptions o = plugin("samplers", {"Halves"});
+  o.samples = 200'000; // 2.5e-3 of the mass lies on the wrong side of the edge
+  EXPECT_EQ(run(o).code, carlo::exit_ok);
+  o.parameters = {"tilt=1"};
+  EXPECT_EQ(run(o).code, carlo::exit_failed);
+}
+
+TEST(Plugin, EverySetOfParametersIsACase) {
+  ValidateOptions o = plugin("samplers", {"Box"});
+  o.parameters = {"power=0", "power=0.5"};
+  const Output out = run(o);
+  EXPECT_THAT(out.text, AllOf(HasSubstr("Box(power=0) "), HasSubstr("Box(power=0.5)"), HasSubstr("2 of 2 cases passed")));
+  o.list = true;
+  EXPECT_THAT(run(o).text, AllOf(HasSubstr("Box(power=0.5)"), Not(HasSubstr("Cosine"))));
+}
+
+TEST(Plugin, TheReportCrossesTheProcessWhole) {
+  ValidateOptions o = cosine("pdf_high");
+  o.json = testing::TempDir() + "/plugin.json";
+  run(o);
+  EXPECT_THAT(mc::read_file(o.json), AllOf(HasSubstr("\"name\": \"mass\""), HasSubstr("\"worst\": ["), HasSubstr("\"z\": "), HasSubstr("\"ns_per_sample\"")));
+}
+
+TEST(Plugin, TheSameSeedGivesTheSameVerdict) {
+  const auto p = [] {
+    const std::string text = run(cosine("")).text;
+    return text.substr(text.find("pass"), 30);
+  };
+  EXPECT_EQ(p(), p());
+}
+
+TEST(Plugin, ACrashIsOneLineThatSaysWhere) {
+  EXPECT_THAT(line(cosine("crash")), AllOf(HasSubstr("samplers.so: it crashed in sample at u = (0."), HasSubstr("Segmentation fault (signal 11)")));
+  EXPECT_THAT(line(cosine("quit")), AllOf(HasSubstr("it ended the process in sample at u = (0."), HasSubstr("exit code 0")));
+  EXPECT_THAT(line(plugin("throws")), AllOf(HasSubstr("it threw in sample at u = ("), HasSubstr("no square root today")));
+  EXPECT_THAT(line(plugin("crash_on_load")), HasSubstr("it crashed in loading: Aborted"));
+}
+
+TEST(Plugin, AHangEndsWithTheTimeout) {
+  ValidateOptions o = cosine("hang");
+  o.timeout = 0.3;
+  EXPECT_THAT(line(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("no answer in 0.3 s")));
+  o.parameters = {"slow=1"};
+  EXPECT_THAT(line(o), AllOf(HasSubstr("not done in 0.3 s, in sample"), HasSubstr("raise --timeout or lower --samples")));
+  o.timeout = 0;
+  EXPECT_THAT(line(o), HasSubstr("--timeout 0 must lie in"));
+}
+
+TEST(Plugin, NothingIsWrittenWhenItCrashes) {
+  ValidateOptions o = cosine("crash");
+  o.json = testing::TempDir() + "/crash.json", o.junit = testing::TempDir() + "/crash.xml";
+  mc::write_file(o.json, "old");
+  line(o);
+  EXPECT_EQ(mc::read_file(o.json), "old");
+  EXPECT_FALSE(std::filesystem::exists(o.junit));
+}
+
+TEST(Plugin, WhatCannotBeLoadedSaysWhy) {
+  EXPECT_THAT(line(plugin("absent")), HasSubstr("absent.so': no such file"));
+  ValidateOptions o = plugin("right");
+  o.plugin = testing::TempDir() + "/text.so";
+  mc::write_file(o.plugin, "int main() {}\n");
+  EXPECT_THAT(line(o), AllOf(HasSubstr("text.so: it cannot be loaded: "), Not(HasSubstr("text.so: it cannot be loaded: /"))));
+  EXPECT_THAT(line(plugin("no_entry")), HasSubstr("no_entry.so: it has no function mc_plugin"));
+  EXPECT_THAT(line(plugin("undefined")), AllOf(HasSubstr("it cannot be loaded"), HasSubstr("nobody_defines_this")));
+  EXPECT_THAT(line(plugin("wrong_abi")), HasSubstr("made for version 77 of <mc/check/plugin.h>, this carlo for 1"));
+  EXPECT_THAT(line(plugin("wrong_size")), HasSubstr("its mc_sampler has 8 bytes"));
+  EXPECT_THAT(line(plugin("no_pdf")), HasSubstr("sampler Uniform: it has no function pdf"));
+  EXPECT_THAT(line(plugin("unknown_domain")), HasSubstr("domain = 9"));
+  EXPECT_THAT(line(plugin("no_name")), HasSubstr("sampler 0 has no name"));
+  EXPECT_THAT(line(plugin("weight_alone")), HasSubstr("states a weight, but no eval"));
+  EXPECT_THAT(line(plugin("reversed")), HasSubstr("interval [2, 1]"));
+}
+
+TEST(Plugin, BadParametersAreOneLine) {
+  const auto with = [](const std::string& set) {
+    ValidateOptions o = plugin("samplers");
+    o.parameters = {set};
+    return line(o);
+  };
+  EXPECT_THAT(with("powr=1"), HasSubstr("no sampler has a parameter 'powr'; did you mean 'power'?"));
+  EXPECT_THAT(with("power"), HasSubstr("'power' in 'power' is not of the form name=number"));
+  EXPECT_THAT(with("power=x"), HasSubstr("not of the form name=number"));
+  EXPECT_THAT(with("power=21"), HasSubstr("power = 21 of Box must lie in [0, 20]"));
+  EXPECT_THAT(with("power=13"), HasSubstr("create refuses the parameters"));
+  EXPECT_THAT(with("power=1,tilt=1"), HasSubstr("no sampler has all the parameters"));
+  EXPECT_THAT(line(plugin("samplers", {"Cosin"})), HasSubstr("unknown sampler 'Cosin'; did you mean 'Cosine'?"));
+  ValidateOptions o;
+  o.parameters = {"a=1"};
+  EXPECT_THAT(line(o), HasSubstr("--params sets parameters of a --plugin"));
+}
+
+} // namespace

@@ -1,0 +1,60 @@
+// A plugin in C++ with one flaw, chosen by a macro; without any it is right.
+#include <mc/check/plugin.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+void nobody_defines_this();
+
+namespace {
+
+std::int32_t sample(const void*, const double* u, double* x) {
+#if defined(FLAW_throws)
+  if (u[0] > 0.5) throw std::runtime_error("no square root today");
+#elif defined(FLAW_undefined)
+  nobody_defines_this();
+#endif
+  x[0] = u[0];
+  return 1;
+}
+double pdf(const void*, const double*) { return 1; }
+
+mc_sampler uniform() {
+  mc_sampler s{};
+  s.name = "Uniform";
+  s.domain = MC_INTERVAL;
+  s.sample = sample;
+  s.pdf = pdf;
+#if defined(FLAW_no_pdf)
+  s.pdf = nullptr;
+#elif defined(FLAW_unknown_domain)
+  s.domain = 9;
+#elif defined(FLAW_crash_on_load)
+  std::abort();
+#elif defined(FLAW_no_name)
+  s.name = "a b";
+#elif defined(FLAW_weight_alone)
+  s.weight = [](const void*, const double*, const double*) { return 1.0; };
+#elif defined(FLAW_reversed)
+  s.lo[0] = 2, s.hi[0] = 1;
+#endif
+  return s;
+}
+
+const mc_sampler samplers[] = {uniform()};
+
+} // namespace
+
+#if defined(FLAW_wrong_abi)
+extern "C" const mc_plugin_info* mc_plugin() {
+  static const mc_plugin_info info = {77, sizeof(mc_sampler), 1, samplers};
+  return &info;
+}
+#elif defined(FLAW_wrong_size)
+extern "C" const mc_plugin_info* mc_plugin() {
+  static const mc_plugin_info info = {MC_PLUGIN_ABI, 8, 1, samplers};
+  return &info;
+}
+#elif !defined(FLAW_no_entry)
+MC_PLUGIN(samplers)
+#endif

@@ -1,0 +1,220 @@
+// carlo validate --samples-file --pdf-file: densities on grids, smooth and stepped, right and wrong, and bad files.
+
+#include "commands.h"
+
+#include <support/files.h>
+
+#include <render/io/image_io.h>
+
+#include <mc/core/types.h>
+#include <mc/random/pcg.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using carlo::ValidateOptions;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr double pi = std::numbers::pi;
+
+struct SamplesFile : support::ScratchTest {
+  static constexpr int n = 40'000;
+
+  // n rows of what draw returns, printed as most programs do.
+  template <class Draw> std::string samples(Draw draw, const std::string& name = "s.csv", int rows = n) const {
+    mc::Pcg random(7);
+    std::string text = "# drawn by a test\n";
+    for (int i = 0; i < rows; ++i) text += draw(random) + "\n";
+    return write(name, text);
+  }
+  // The grid's rows of cell means.
+  template <class Mean> std::string grid(int width, int height, Mean mean) const {
+    std::string text;
+    for (int j = 0; j < height; ++j)
+      for (int i = 0; i < width; ++i) text += fmt::format("{:.9g}{}", mean(i, j), i + 1 < width ? "," : "\n");
+    return write("p.csv", text);
+  }
+  ValidateOptions options(const std::string& samples, const std::string& pdf) const {
+    ValidateOptions o;
+    o.samples_file = samples, o.pdf_file = pdf;
+    return o;
+  }
+};
+
+struct Output { int code; std::string text; };
+Output run(const ValidateOptions& o) {
+  testing::internal::CaptureStdout();
+  const int code = carlo::validate(o);
+  std::fflush(stdout);
+  return {code, testing::internal::GetCapturedStdout()};
+}
+
+std::string line(const ValidateOptions& o) {
+  testing::internal::CaptureStdout();
+  const std::string text = support::error_of([&] { carlo::validate(o); });
+  std::fflush(stdout);
+  testing::internal::GetCapturedStdout();
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  return text;
+}
+
+// x of density 2 x, y uniform.
+std::string ramp(mc::Pcg& random) {
+  const double x = std::sqrt(random.uniform<double>());
+  return fmt::format("{:.6f},{:.6f}", x, random.uniform<double>());
+}
+double ramp_mean(int i, int) { return (2.0 * i + 1) / 16; }
+double one(int, int) { return 1; }
+
+// A cosine lobe about +z, and its mean over a cell of a latitude-longitude grid of height 32.
+std::string cosine(mc::Pcg& random) {
+  const double u = random.uniform<double>(), phi = 2 * pi * random.uniform<double>();
+  return fmt::format("{:.7g} {:.7g} {:.7g}", std::sqrt(u) * std::cos(phi), std::sqrt(u) * std::sin(phi), std::sqrt(1 - u));
+}
+double cosine_mean(int, int j) {
+  const double a = std::cos(pi * j / 32), b = std::cos(pi * (j + 1) / 32);
+  return j < 16 ? (a * a - b * b) / (2 * pi * (a - b)) : 0;
+}
+
+TEST_F(SamplesFile, ADensityThatVariesWithinItsCellsPasses) {
+  // 16 columns for 40000 samples of a slope: bins finer than a cell would reject it.
+  const Output out = run(options(samples(ramp), grid(16, 1, ramp_mean)));
+  EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
+  EXPECT_THAT(out.text, AllOf(HasSubstr("1 of 1 cases passed"), HasSubstr("35555 samples each")));
+}
+
+TEST_F(SamplesFile, EverySeedDealsTheRowsAnewAndPasses) {
+  ValidateOptions o = options(samples(ramp), grid(16, 4, ramp_mean));
+  int passed = 0;
+  for (o.seed = 1; o.seed <= 20; ++o.seed) passed += run(o).code == carlo::exit_ok;
+  // The samples are the same, so that the seeds are not independent; at alpha = 0.01 two failures in twenty would be bad luck.
+  EXPECT_GE(passed, 19);
+}
+
+TEST_F(SamplesFile, AnotherDensityIsRejectedAndPlaced) {
+  const Output out = run(options(samples(ramp), grid(16, 16, [](int, int j) { return ramp_mean(j, 0); })));
+  EXPECT_EQ(out.code, carlo::exit_failed);
+  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: "), HasSubstr(" at (0."), HasSubstr("again: carlo validate --samples-file '")));
+}
+
+TEST_F(SamplesFile, AnErrorOfThreePercentInTheSlopeIsRejected) {
+  // Density 2 x against 0.03 + 1.97 x: means off by 1.5 % at most where the samples are, 48 % in the first of 16 columns.
+  EXPECT_EQ(run(options(samples(ramp), grid(16, 1, [](int i, int) { return 0.03 + 0.97 * ramp_mean(i, 0); }))).code, carlo::exit_failed);
+}
+
+TEST_F(SamplesFile, TheIntegralMustBeOneUnlessToldOtherwise) {
+  ValidateOptions o = options(samples(ramp), grid(16, 1, [](int i, int) { return 1.01 * ramp_mean(i, 0); }));
+  const Output out = run(o);
+  EXPECT_EQ(out.code, carlo::exit_failed);
+  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: mass"), HasSubstr("the density integrates to 1.01")));
+  o.unnormalized = true;
+  EXPECT_EQ(run(o).code, carlo::exit_ok);
+}
+
+TEST_F(SamplesFile, ASampleWhereTheDensityIsZeroIsALeakOfItsLine) {
+  const std::string file = samples(ramp);
+  std::ofstream(file, std::ios::app) << "0.01, 0.5\n";
+  ValidateOptions o = options(file, grid(64, 1, [](int i, int) { return i == 0 ? 0.0 : (2.0 * i + 1) / 64; }));
+  o.unnormalized = true;
+  const Output out = run(o);
+  EXPECT_EQ(out.code, carlo::exit_failed);
+  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: leak"), HasSubstr("s.csv:"), HasSubstr("in cell (0, 0) of the grid")));
+}
+
+TEST_F(SamplesFile, AnIntervalWithBounds) {
+  const auto draw = [](mc::Pcg& random) { return fmt::format("{}", 4 * std::sqrt(random.uniform<double>()) - 1); };
+  ValidateOptions o = options(samples(draw), grid(16, 1, [](int i, int) { return ramp_mean(i, 0) / 4; }));
+  o.domain = "x=-1:3";
+  EXPECT_EQ(run(o).code, carlo::exit_ok);
+  o.domain = "x=-1:3.1";
+  EXPECT_EQ(run(o).code, carlo::exit_failed);
+}
+
+TEST_F(SamplesFile, DirectionsOnALatitudeLongitudeGrid) {
+  const std::string file = samples(cosine);
+  EXPECT_EQ(run(options(file, grid(8, 32, cosine_mean))).code, carlo::exit_ok);
+  // Against the uniform hemisphere, of mass 1 too.
+  EXPECT_EQ(run(options(file, grid(8, 32, [](int, int j) { return j < 16 ? 1 / (2 * pi) : 0; }))).code, carlo::exit_failed);
+  const auto turned = [](mc::Pcg& random) { // by a right angle about x
+    double x, y, z;
+    std::sscanf(cosine(random).c_str(), "%lf %lf %lf", &x, &y, &z);
+    return fmt::format("{} {} {}", x, z, -y);
+  };
+  EXPECT_EQ(run(options(samples(turned), grid(8, 32, cosine_mean))).code, carlo::exit_failed);
+}
+
+TEST_F(SamplesFile, AGreyExrIsAGrid) {
+  render::Image image(16, 4);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 16; ++x) image.at(x, y).setConstant(static_cast<render::Float>(ramp_mean(x, y)));
+  ValidateOptions o = options(samples(ramp), path("p.exr"));
+  render::write_image(o.pdf_file, image);
+  EXPECT_EQ(run(o).code, carlo::exit_ok);
+  image.at(3, 2)[1] += 1;
+  render::write_image(o.pdf_file, image);
+  EXPECT_THAT(line(o), AllOf(HasSubstr("p.exr: pixel (3, 2) is ("), HasSubstr("a density is grey")));
+  image.at(3, 2).setConstant(-1);
+  render::write_image(o.pdf_file, image);
+  EXPECT_THAT(line(o), HasSubstr("a density is finite and >= 0"));
+  o.pdf_file = write("torn.exr", "v/1");
+  EXPECT_THAT(line(o), HasSubstr("torn.exr"));
+}
+
+TEST_F(SamplesFile, DetectNeedsEnoughSamples) {
+  ValidateOptions o = options(samples(ramp), grid(16, 1, ramp_mean));
+  o.detect = 0.2;
+  EXPECT_THAT(run(o).text, HasSubstr("samples per case to detect 20 %"));
+  o.detect = 0.001;
+  EXPECT_THAT(line(o), HasSubstr("it holds 35555 samples to count beside those for the bins; --detect 0.001 needs"));
+}
+
+TEST_F(SamplesFile, ABadRowIsNamedByItsLine) {
+  const std::string good = grid(16, 1, ramp_mean);
+  const auto with = [&](const std::string& row) { return line(options(write("b.csv", "x,y\n0.5,0.5\n\n# note\n" + row + "\n0.1,0.2\n"), good)); };
+  EXPECT_THAT(with("0.1,zero"), HasSubstr("b.csv:5: 'zero' is not a number"));
+  EXPECT_THAT(with("0.1,nan"), HasSubstr("b.csv:5: 'nan' is not a finite number"));
+  EXPECT_THAT(with("0.1,1e999"), HasSubstr("b.csv:5: '1e999' is not a finite number"));
+  EXPECT_THAT(with("0.1"), HasSubstr("b.csv:5: 1 numbers; the rows before have 2"));
+  EXPECT_THAT(with("0.1,"), HasSubstr("b.csv:5: an empty field"));
+  EXPECT_THAT(with("0.1,,0.2"), HasSubstr("b.csv:5: an empty field"));
+  EXPECT_THAT(with("0.1,0.2x"), HasSubstr("b.csv:5: '0.2x' is not a number"));
+  EXPECT_THAT(line(options(write("b.csv", "nan,1\n"), good)), HasSubstr("b.csv:1: 'nan'")) << "not a row of names";
+  EXPECT_THAT(line(options(write("b.csv", "x,y\n"), good)), HasSubstr("b.csv: it holds no numbers"));
+}
+
+TEST_F(SamplesFile, BadFilesAreOneLine) {
+  const std::string file = samples(ramp), good = grid(16, 1, ramp_mean);
+  EXPECT_THAT(line(options(path("none.csv"), good)), HasSubstr("none.csv': no such file"));
+  EXPECT_THAT(line(options(file, path("none.exr"))), HasSubstr("none.exr"));
+  EXPECT_THAT(line(options(file, "")), HasSubstr("needs the density to hold the samples against: --pdf-file"));
+  EXPECT_THAT(line(options("", good)), HasSubstr("--pdf-file needs the samples"));
+  EXPECT_THAT(line(options(samples(ramp, "few.csv", 1999), good)), HasSubstr("few.csv: 1999 samples; at least 2000 are needed"));
+  EXPECT_THAT(line(options(file, write("q.csv", "1,2\n3,-1\n"))), HasSubstr("q.csv:2: number 2 is -1; a density is >= 0"));
+  EXPECT_THAT(line(options(file, write("q.csv", "0,0\n0,0\n"))), HasSubstr("q.csv: the density integrates to 0"));
+  ValidateOptions o = options(samples([](mc::Pcg& random) { return fmt::format("{}", random.uniform<double>()); }, "x.csv"), grid(4, 4, one));
+  EXPECT_THAT(line(o), HasSubstr("p.csv: 4 rows; the density on an interval is one row"));
+}
+
+TEST_F(SamplesFile, SamplesOffTheGridAreOneLine) {
+  ValidateOptions o = options(samples(ramp), grid(4, 4, one));
+  o.domain = "x=0:0.5,y=0:1";
+  EXPECT_THAT(line(o), testing::MatchesRegex(".*s\\.csv:[0-9]+: \\(0\\.[0-9]+, 0\\.[0-9]+\\) is not covered by the grid of .*p\\.csv, x in \\[0, 0\\.5\\], y in \\[0, 1\\]; "
+                                             "[0-9]+ of 40000 samples are not \\(see --domain\\)"));
+  o.domain = "sphere";
+  EXPECT_THAT(line(o), HasSubstr("s.csv: 2 columns; 3 are needed on the unit sphere"));
+  o.domain = "x=0:1";
+  EXPECT_THAT(line(o), HasSubstr("s.csv: 2 columns; 1 is needed on x in [0, 1]"));
+  o.domain = "x=1:0,y=0:1";
+  EXPECT_THAT(line(o), HasSubstr("lo < hi is needed"));
+  const auto long_vector = [](mc::Pcg& random) {
+    double x, y, z;
+    std::sscanf(cosine(random).c_str(), "%lf %lf %lf", &x, &y, &z);
+    return fmt::format("{} {} {}", 1.001 * x, 1.001 * y, 1.001 * z);
+  };
+  EXPECT_THAT(line(options(samples(long_vector), grid(8, 32, cosine_mean))), HasSubstr("is not covered by the grid"));
+}
+
+} // namespace

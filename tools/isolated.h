@@ -1,0 +1,46 @@
+#pragma once
+/// Code that is not ours, run in a process of its own.
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace carlo {
+
+/// What the foreign code is doing, in memory that both processes see, so that a crash or a hang can be placed.
+class Watch {
+ public:
+  static constexpr int max_arguments = 6;
+
+  /// Around every call: enter before, leave after it. `function` is a string literal, `argument` one too ("u", "x", "").
+  void enter(const char* function, const char* argument = "", const double* values = nullptr, int n = 0) {
+    argument_ = argument;
+    n_ = n;
+    for (int i = 0; i < n; ++i) values_[i] = values[i];
+    function_.store(function, std::memory_order_relaxed);
+  }
+  void leave() {
+    function_.store(nullptr, std::memory_order_relaxed);
+    calls_.store(calls_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+  }
+
+  std::uint64_t calls() const { return calls_.load(std::memory_order_relaxed); }
+  bool inside() const { return function_.load(std::memory_order_relaxed) != nullptr; }
+  /// " in sample at u = (0.25, 0.5)", or " after 12 calls" outside of any.
+  std::string where() const;
+
+ private:
+  std::atomic<const char*> function_{nullptr};
+  const char* argument_ = "";
+  std::atomic<std::uint64_t> calls_{0};
+  int n_ = 0;
+  double values_[max_arguments] = {};
+};
+
+/// Runs work in a forked child and returns what it returned. Its standard output goes to standard error.
+///   timeout : wall-clock seconds, then the child is killed
+///   throws  : Error "who: ..." in one line when the work throws, crashes, ends the process or takes too long, saying where
+std::string run_isolated(const std::string& who, double timeout, const std::function<std::string(Watch&)>& work);
+
+} // namespace carlo

@@ -1,0 +1,280 @@
+#include "plugin.h"
+
+#include <mc/check/check_subject.h>
+#include <mc/check/law_ledger.h>
+#include <mc/check/make_subject.h>
+#include <mc/domain/box.h>
+#include <mc/domain/disk.h>
+#include <mc/domain/hemisphere.h>
+#include <mc/domain/interval.h>
+#include <mc/domain/sphere.h>
+#include <mc/domain/triangle.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+namespace carlo {
+
+namespace {
+
+using mc::Subject;
+using Coordinates = std::array<double, 3>;
+using Uniforms = std::array<double, Watch::max_arguments>;
+
+// The plugin's functions in the types of its domain.
+template <mc::Domain D> struct Plugged {
+  using S = typename D::Scalar;
+  using Point = typename D::Point;
+
+  PluginSampler plugin;
+  D domain;
+
+  static Point narrow(const double* x) {
+    if constexpr (requires(Point p) { p.size(); }) {
+      Point p;
+      for (int i = 0; i < p.size(); ++i) p[i] = static_cast<S>(x[i]);
+      return p;
+    } else {
+      return static_cast<S>(x[0]);
+    }
+  }
+  static Coordinates widen(const Point& x) {
+    Coordinates c{};
+    for (int i = 0; i < mc::detail::components(x); ++i) c[static_cast<std::size_t>(i)] = mc::detail::component(x, i);
+    return c;
+  }
+
+  Uniforms uniforms(mc::Pcg& random) const {
+    Uniforms u{};
+    for (int i = 0; i < plugin.uniforms(); ++i) u[static_cast<std::size_t>(i)] = static_cast<double>(random.uniform<S>());
+    return u;
+  }
+  std::optional<Point> sample(const Uniforms& u) const {
+    Coordinates x;
+    x.fill(std::numeric_limits<double>::quiet_NaN()); // what sample forgets to write shows
+    return plugin.sample(u.data(), x.data()) ? std::optional<Point>(narrow(x.data())) : std::nullopt;
+  }
+  // Both to 64 eps of their length.
+  static bool same(const Point& a, const Point& b) {
+    const double eps = static_cast<double>(std::numeric_limits<S>::epsilon());
+    double apart = 0, size = 1;
+    for (int i = 0; i < mc::detail::components(a); ++i) {
+      apart += std::abs(mc::detail::component(a, i) - mc::detail::component(b, i));
+      size += std::abs(mc::detail::component(a, i));
+    }
+    return apart <= 64 * eps * size;
+  }
+  double pdf(const Point& x) const { return plugin.pdf(widen(x).data()); }
+  std::optional<Uniforms> invert(const Point& x) const {
+    Uniforms u;
+    u.fill(std::numeric_limits<double>::quiet_NaN());
+    return plugin.invert(widen(x).data(), u.data()) ? std::optional<Uniforms>(u) : std::nullopt;
+  }
+  double eval(const Point& x) const { return plugin.eval(widen(x).data()); }
+  double weight(const Uniforms& u, const Point& x) const { return plugin.weight(u.data(), widen(x).data()); }
+
+  std::string format(const Uniforms& u) const {
+    std::string text = "(";
+    for (int i = 0; i < plugin.uniforms(); ++i) text += fmt::format("{}{:.17g}", i ? ", " : "", u[static_cast<std::size_t>(i)]);
+    return text + ")";
+  }
+  std::string describe(const Uniforms& u) const {
+    const auto x = sample(u);
+    if (!x) return fmt::format("u = {}: it fails", format(u));
+    std::string text = fmt::format("u = {}, x = {}, pdf = {:.9g}", format(u), mc::detail::format_point(*x), pdf(*x));
+    if (plugin->eval) text += fmt::format(", eval = {:.9g}", eval(*x));
+    if (plugin->weight) text += fmt::format(", weight = {:.9g}", weight(u, *x));
+    return text;
+  }
+};
+
+// weight pdf / f, 1 where they agree.
+template <class D> double weight_ratio(const Plugged<D>& p, const Uniforms& u) {
+  const auto x = p.sample(u);
+  const double f = p.eval(*x), stated = p.weight(u, *x);
+  return f == 0 && stated == 0 ? 1.0 : stated * p.pdf(*x) / f;
+}
+
+template <class D> Subject subject_of(const Plugged<D>& p, const std::string& title) {
+  Subject s = mc::make_subject(
+      title, p.domain, [p](mc::Pcg& random) { return p.sample(p.uniforms(random)); }, [p](const typename D::Point& x) { return p.pdf(x); });
+  s.may_fail = p.plugin->may_fail != 0;
+  if (p.plugin->pdf_tolerance > 0) s.mass_tolerance = p.plugin->pdf_tolerance;
+  if (p.plugin->weight_tolerance > 0) s.weight_tolerance = p.plugin->weight_tolerance;
+  s.describe_draw = [p](std::uint64_t seed, std::uint64_t index) {
+    mc::Pcg random(seed);
+    random.advance(index * static_cast<std::uint64_t>(p.plugin.uniforms()) * (std::same_as<typename D::Scalar, float> ? 1 : 2));
+    return p.describe(p.uniforms(random));
+  };
+  if (!p.plugin->weight) return s;
+  s.draw = [p, draw = s.draw](std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
+    const std::size_t first = out.size();
+    draw(seed, n, out);
+    mc::Pcg random(seed);
+    for (std::size_t i = first; i < out.size(); ++i) {
+      const Uniforms u = p.uniforms(random);
+      if (out[i].kind == Subject::Draw::Kind::point) out[i].weight = weight_ratio(p, u);
+    }
+  };
+  return s;
+}
+
+template <class D> mc::Check edge_law(const Plugged<D>& p) {
+  const double last = static_cast<double>(mc::one_minus_epsilon<typename D::Scalar>);
+  const std::array<double, 5> places{0, 0x1p-24, 0.5, 1 - 0x1p-24, last};
+  int total = 1;
+  for (int i = 0; i < p.plugin.uniforms(); ++i) total *= static_cast<int>(places.size());
+  mc::LawLedger ledger("edges of the unit cube", 0, mc::Fault::edge);
+  for (int k = 0; k < total; ++k) {
+    Uniforms u{};
+    for (int i = 0, rest = k; i < p.plugin.uniforms(); ++i, rest /= 5) u[static_cast<std::size_t>(i)] = places[static_cast<std::size_t>(rest % 5)];
+    const auto x = p.sample(u);
+    const double density = x && mc::detail::all_finite(*x) ? p.pdf(*x) : 0;
+    const bool fine = x ? mc::detail::all_finite(*x) && p.domain.contains(*x) && density > 0 && std::isfinite(density) : p.plugin->may_fail != 0;
+    ledger.note(fine ? 0 : 1, [&] { return "not a point of the domain with a positive, finite pdf: " + p.describe(u); });
+  }
+  return ledger.check();
+}
+
+// eval >= 0 and finite, and positive only where pdf is, at uniform points of the chart.
+template <class D> void eval_laws(const Plugged<D>& p, std::uint64_t seed, std::vector<mc::Check>& laws) {
+  mc::LawLedger sign("eval finite and >= 0", 0, mc::Fault::physics), support("pdf > 0 where eval > 0", 0, mc::Fault::support);
+  mc::Pcg random(seed, 31);
+  for (int k = 0; k < 20000; ++k) {
+    const auto x = p.domain.from_unit(random.point<typename D::Scalar, D::dim>());
+    if (!mc::detail::all_finite(x)) continue;
+    const double f = p.eval(x), density = p.pdf(x);
+    const auto where = [&] { return fmt::format("x = {}, eval = {:.9g}, pdf = {:.9g}", mc::detail::format_point(x), f, density); };
+    sign.note(f >= 0 && std::isfinite(f) ? 0 : 1, where);
+    support.note(f > 0 && !(density > 0) ? 1 : 0, where);
+  }
+  laws.push_back(sign.check());
+  laws.push_back(support.check());
+}
+
+template <class D> mc::Check inverse_law(const Plugged<D>& p, std::uint64_t seed) {
+  const double eps = static_cast<double>(std::numeric_limits<typename D::Scalar>::epsilon());
+  mc::LawLedger ledger("invert(sample(u)) = u", p.plugin->invert_tolerance > 0 ? p.plugin->invert_tolerance : std::sqrt(eps), mc::Fault::inverse);
+  mc::Pcg random(seed, 32);
+  for (int k = 0; k < 20000; ++k) {
+    const Uniforms u = p.uniforms(random);
+    const auto x = p.sample(u);
+    if (!x) continue;
+    const auto back = p.invert(*x);
+    double worst = back ? 0 : HUGE_VAL;
+    for (int i = 0; back && i < p.plugin.uniforms(); ++i) {
+      double off = std::abs((*back)[static_cast<std::size_t>(i)] - u[static_cast<std::size_t>(i)]);
+      // The two sides of an azimuth's seam are one point.
+      if (off > 0.5 && off <= 1)
+        if (const auto again = p.sample(*back); again && p.same(*again, *x)) off = 1 - off;
+      worst = off <= worst ? worst : off;
+    }
+    ledger.note(worst, [&] { return back ? fmt::format("u = {}, invert(sample(u)) = {}", p.format(u), p.format(*back)) : fmt::format("u = {}: invert fails", p.format(u)); });
+  }
+  return ledger.check();
+}
+
+// |det d sample / d u| pdf = 1 by central differences in double. Three steps bound the error of their own result, which is taken
+// off; rounding of an ill-conditioned sampler may still slip through at single points, so the upper quartile is judged.
+template <class D> mc::Check jacobian_law(const Plugged<D>& p, std::uint64_t seed) {
+  constexpr int dim = D::dim;
+  constexpr double limit = 1e-6, first_step = 0x1p-12;
+  struct Point { double off; Uniforms u; };
+  std::vector<Point> points;
+  mc::Pcg random(seed, 33);
+  const auto determinant = [&](const Uniforms& u, double h) {
+    std::array<mc::Vec3<double>, 3> columns = {mc::Vec3<double>::UnitX(), mc::Vec3<double>::UnitY(), mc::Vec3<double>::UnitZ()};
+    for (int axis = 0; axis < dim; ++axis) {
+      Uniforms ahead = u, behind = u;
+      ahead[static_cast<std::size_t>(axis)] += h, behind[static_cast<std::size_t>(axis)] -= h;
+      const auto a = p.sample(ahead), b = p.sample(behind);
+      if (!a || !b) return std::numeric_limits<double>::quiet_NaN();
+      const auto va = p.domain.to_unit(*a), vb = p.domain.to_unit(*b);
+      for (int i = 0; i < dim; ++i)
+        columns[static_cast<std::size_t>(axis)][i] = (mc::detail::component(va, i) - mc::detail::component(vb, i)) / (2 * h);
+    }
+    return std::abs(columns[0].dot(mc::cross(columns[1], columns[2])));
+  };
+  for (int k = 0; k < 1000; ++k) {
+    Uniforms u = p.uniforms(random);
+    for (int i = 0; i < dim; ++i) u[static_cast<std::size_t>(i)] = first_step + (1 - 2 * first_step - 0x1p-40) * u[static_cast<std::size_t>(i)];
+    const auto x = p.sample(u);
+    if (!x) continue;
+    const double claim = p.pdf(*x) * p.domain.jacobian(p.domain.to_unit(*x));
+    const double a = claim * determinant(u, first_step), b = claim * determinant(u, first_step / 2), c = claim * determinant(u, first_step / 4);
+    const double spread = std::max({a, b, c}) - std::min({a, b, c}), off = std::abs(c - 1) - 16 * spread;
+    points.push_back({off > 0 ? off : 0.0, u});
+  }
+  mc::Check check{"|det| pdf = 1, upper quartile", mc::Verdict::pass, {}, 0, 0, limit, mc::Fault::jacobian, {}};
+  if (points.size() < 100) return check;
+  const auto quartile = points.begin() + static_cast<std::ptrdiff_t>(points.size() * 3 / 4);
+  std::nth_element(points.begin(), quartile, points.end(), [](const Point& a, const Point& b) { return a.off < b.off; });
+  check.statistic = quartile->off;
+  if (!(check.statistic <= limit)) check.verdict = mc::Verdict::fail, check.detail = p.describe(quartile->u);
+  return check;
+}
+
+template <class D> double ns_per_sample(const Plugged<D>& p) {
+  constexpr int n = 1 << 11;
+  mc::Pcg random(3);
+  std::vector<Uniforms> u;
+  for (int i = 0; i < n; ++i) u.push_back(p.uniforms(random));
+  double best = HUGE_VAL;
+  Coordinates x{};
+  for (int round = 0; round < 4; ++round) {
+    const auto start = std::chrono::steady_clock::now();
+    for (const Uniforms& one : u) p.plugin.sample(one.data(), x.data());
+    best = std::min(best, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / n);
+  }
+  return best;
+}
+
+template <mc::Domain D> mc::Report check_on(const PluginSampler& plugin, const D& domain, const std::string& title, const CaseOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const Plugged<D> p{plugin, domain};
+  std::vector<mc::Check> laws{edge_law(p)};
+  if (plugin->eval) eval_laws(p, options.seed, laws);
+  if (plugin->invert) {
+    laws.push_back(inverse_law(p, options.seed));
+    if constexpr (std::same_as<typename D::Scalar, double>) laws.push_back(jacobian_law(p, options.seed));
+  }
+  mc::SubjectOptions o;
+  o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha;
+  mc::Report report = check_subject(subject_of(p, title), o);
+  report.checks.insert(report.checks.end(), laws.begin(), laws.end());
+  report.ns_per_sample = ns_per_sample(p);
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+template <mc::Real S> mc::Report check_over(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
+  const auto check = [&](const auto& domain) { return check_on(plugin, domain, title, options); };
+  std::array<S, 3> lo, hi;
+  const bool unit = std::all_of(plugin->lo, plugin->lo + 3, [](double x) { return x == 0; }) && std::all_of(plugin->hi, plugin->hi + 3, [](double x) { return x == 0; });
+  for (std::size_t i = 0; i < 3; ++i) lo[i] = static_cast<S>(plugin->lo[i]), hi[i] = unit ? S(1) : static_cast<S>(plugin->hi[i]);
+  switch (plugin->domain) {
+  case MC_INTERVAL:
+    if (std::isinf(lo[0]) && std::isinf(hi[0])) return check(mc::RealLine<S>());
+    if (std::isinf(hi[0])) return check(mc::HalfLine<S>(lo[0], S(1)));
+    if (std::isinf(lo[0])) return check(mc::HalfLine<S>(hi[0], S(-1)));
+    return check(mc::Interval<S>(lo[0], hi[0]));
+  case MC_BOX:
+    if (plugin->dim == 1) return check(mc::Interval<S>(lo[0], hi[0]));
+    if (plugin->dim == 2) return check(mc::Box<S, 2>({lo[0], lo[1]}, {hi[0], hi[1]}));
+    return check(mc::Box<S, 3>({lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}));
+  case MC_DISK: return check(mc::Disk<S>());
+  case MC_TRIANGLE: return check(mc::Triangle<S>());
+  case MC_SPHERE: return check(mc::Sphere<S>());
+  default: return check(mc::Hemisphere<S>());
+  }
+}
+
+} // namespace
+
+mc::Report check_plugin(const PluginSampler& sampler, const std::string& title, const CaseOptions& options) {
+  return sampler->scalar == MC_FLOAT ? check_over<float>(sampler, title, options) : check_over<double>(sampler, title, options);
+}
+
+} // namespace carlo
