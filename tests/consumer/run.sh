@@ -10,3 +10,5 @@ trap 'rm -rf "$scratch"' EXIT
 "$cmake" -S "$here" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DCMAKE_CXX_COMPILER="$compiler" >/dev/null
 "$cmake" --build "$scratch/build"
 "$scratch/build/consumer_test"
+carlo=$scratch/prefix/bin/carlo
+[ ! -x "$carlo" ] || "$carlo" validate --plugin "$scratch/build/mine.so" --params n=1 --params n=1000 --samples 100000
