@@ -12,6 +12,7 @@ namespace carlo {
 
 void add_planes(Catalogue& c) {
   add_warp(c, "UniformDisk", "", [](auto s) { return mc::UniformDisk<decltype(s)>{}; }, {.invert_eps = 8});
+  add_warp(c, "PolarDisk", "", [](auto s) { return mc::PolarDisk<decltype(s)>{}; }, {.invert_eps = 8});
   add_warp(c, "UniformTriangle", "", [](auto s) { return mc::UniformTriangle<decltype(s)>{}; }, {.invert_eps = 4});
   for (const double inner : {0.0, 0.5})
     add_warp(c, "UniformAnnulus", fmt::format("inner={:g}, outer=1", inner), [inner](auto s) { return mc::UniformAnnulus<decltype(s)>(static_cast<decltype(s)>(inner), 1); });

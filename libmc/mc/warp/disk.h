@@ -4,13 +4,15 @@
 #include <mc/domain/disk.h>
 #include <mc/warp/concept.h>
 
+#include <algorithm>
+
 namespace mc {
 
 /// Uniform points on the unit disk by the low-distortion concentric map.
 ///   sample : u in [0,1)^2 -> p in R^2, |p| <= 1
 ///   pdf    : 1 / pi [1/area]; 0 for |p| > 1
 ///   invert : |invert(sample(u)) - u| <= 8 eps
-///   Source : [ShirleyChiu97]. The polar map distorts strata near the centre.
+///   Source : [ShirleyChiu97]. PolarDisk distorts strata near the centre.
 template <Real S> struct UniformDisk {
   using Scalar = S;
   using Domain = Disk<S>;
@@ -48,6 +50,24 @@ template <Real S> struct UniformDisk {
   }
 
   template <Real T> UniformDisk<T> cast() const { return {}; }
+};
+
+/// The same distribution by the polar map, kept for comparison: strata become slivers near the centre and bands at the rim.
+///   sample : r = sqrt(u0), phi = 2 pi u1, so that u0 = |p|^2
+///   pdf    : 1 / pi [1/area]; 0 for |p| > 1
+///   invert : |invert(sample(u)) - u| <= 8 eps
+template <Real S> struct PolarDisk {
+  using Scalar = S;
+  using Domain = Disk<S>;
+
+  Domain domain() const { return {}; }
+  Vec2<S> sample(const Vec2<S>& u) const { return domain().from_unit(u); }
+  S pdf(const Vec2<S>& p) const { return domain().contains(p) ? S(1 / pi<S>) : S(0); }
+  Vec2<S> invert(const Vec2<S>& p) const {
+    const Vec2<S> v = domain().to_unit(p);
+    return {std::min(v[0], one_minus_epsilon<S>), v[1]};
+  }
+  template <Real T> PolarDisk<T> cast() const { return {}; }
 };
 
 } // namespace mc
