@@ -1,8 +1,10 @@
 #pragma once
-/// Random termination without bias.
+/// Random termination and multiplication of an estimate without bias.
 
 #include <mc/core/error.h>
 #include <mc/core/types.h>
+
+#include <cstdint>
 
 namespace mc {
 
@@ -17,6 +19,22 @@ template <Real S> struct Roulette {
 template <Real S> Roulette<S> russian_roulette(S probability, S u) {
   require(probability > 0 && probability <= 1, "russian_roulette: survival probability {} must lie in (0, 1]", static_cast<double>(probability));
   return u < probability ? Roulette<S>{true, 1 / probability} : Roulette<S>{false, S(0)};
+}
+
+/// How many independent continuations an estimate gets, and the factor on each that keeps its mean.
+///   copies : the number next below or above `expected`, decided by u in [0,1), so that its mean is `expected`; below 1 this is
+///            Russian roulette. `weight` is 1 / expected
+///   throws : Error unless 0 < expected <= 2^20: more copies are a fault of whoever asks for them
+///   Source : [ArvoKirk90]
+template <Real S> struct Splitting {
+  std::uint32_t copies;
+  S weight;
+};
+template <Real S> Splitting<S> split(S expected, S u) {
+  require(expected > 0 && expected <= S(1 << 20), "split: expected number of copies {} must lie in (0, 2^20]",
+          static_cast<double>(expected));
+  const auto least = static_cast<std::uint32_t>(expected);
+  return {least + (u < expected - S(least) ? 1u : 0u), 1 / expected};
 }
 
 } // namespace mc

@@ -2,6 +2,8 @@
 
 #include "support/files.h"
 
+#include <gmock/gmock.h>
+
 namespace {
 
 TEST(Estimate, NormalInterval) {

@@ -27,4 +27,29 @@ TEST(RussianRoulette, RefusesWhatWouldBias) {
   for (const double p : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()}) EXPECT_THROW(mc::russian_roulette(p, 0.5), mc::Error) << p;
 }
 
+// 4 sigma: a false alarm in 6e-5 of seeds; the seed is fixed.
+TEST(Splitting, KeepsTheMeanAndTheNextWholeNumbers) {
+  for (const double expected : {0.01, 0.5, 1.0, 1.25, 7.9, 1000.5}) {
+    mc::Moments m;
+    for (std::uint64_t i = 0; i < 100'000; ++i) {
+      const auto s = mc::split(expected, mc::hash_uniform<double>(4, i));
+      ASSERT_LT(std::abs(s.copies - expected), 1);
+      m.add(s.copies * s.weight);
+    }
+    EXPECT_LE(std::abs(m.mean() - 1), 4 * m.std_error() + 1e-12) << expected;
+  }
+}
+
+TEST(Splitting, WholeNumbersAreCertain) {
+  for (const float u : {0.0f, 0.5f, std::nextafter(1.0f, 0.0f)}) {
+    EXPECT_EQ(mc::split(3.0f, u).copies, 3u);
+    EXPECT_EQ(mc::split(1.0f, u).weight, 1.0f);
+  }
+  EXPECT_EQ(mc::split(1e-30f, 0.0f).copies, 1u);
+}
+
+TEST(Splitting, RefusesWhatWouldBiasOrNeverEnd) {
+  for (const double n : {0.0, -1.0, 2e6, std::numeric_limits<double>::quiet_NaN()}) EXPECT_THROW(mc::split(n, 0.5), mc::Error) << n;
+}
+
 } // namespace
