@@ -60,6 +60,7 @@ ChiSquare chi_square(const std::vector<std::uint64_t>& observed, const std::vect
     total_expected += expected[i];
     impossible = impossible || (expected[i] == 0 && observed[i] > 0);
   }
+  require(total_observed > 0, "chi_square: no samples in {} cells; at least one is needed", observed.size());
   require(std::abs(total_observed - total_expected) <= 1e-6 * total_observed,
           "chi_square: {} observed, {} expected in all: the totals must agree", total_observed, total_expected);
 

@@ -32,8 +32,8 @@ struct ChiSquare {
 /// Compares counts with expected counts that add up to the same total.
 ///   pooling : neighbours are joined until each expects at least `least`; nothing is dropped
 ///   zeros   : a count where exactly 0 is expected makes p = 0
-///   throws  : Error when the sizes differ, an expected count is negative or not finite, or the totals differ by more than
-///             1e-6 of the total
+///   throws  : Error when the sizes differ, there are no counts, an expected one is negative or not finite, or the totals differ by
+///             more than 1e-6 of the total
 ///   Source  : [Pearson1900]
 ChiSquare chi_square(const std::vector<std::uint64_t>& observed, const std::vector<double>& expected, double alpha = 0.01, double least = 5);
 

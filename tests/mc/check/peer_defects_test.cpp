@@ -1,0 +1,44 @@
+// Where the statistics of renderers' test harnesses break, measured on their own code: each defect is named with what it let pass, and
+// must not pass here. Samplers that must be rejected are among the mutants.
+
+#include <mc/check/chi_square.h>
+#include <mc/check/t_test.h>
+#include <mc/core/error.h>
+#include <mc/random/pcg.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+// 2d. hypothesis.h: the variance is floored at 1e-5, so a mean of 1.001e-4 with a deviation of 1e-6 passes as 1e-4 after a million
+// values: 100 standard errors.
+TEST(PeerDefects, SmallVariancesAreNotFloored) {
+  mc::Moments m;
+  for (int i = 0; i < 1'000'000; ++i) m.add(1.001e-4 + (i % 2 ? 1e-6 : -1e-6));
+  const mc::TTest t = mc::t_test(m, 1e-4);
+  EXPECT_NEAR(t.t, 100, 0.01);
+  EXPECT_LT(t.p, 1e-300);
+}
+
+// 2d. Mitsuba 3: the last group of pooled cells is dropped while incomplete, so 100000 samples where 1 is expected pass.
+TEST(PeerDefects, StraySamplesInPooledCellsCount) {
+  std::vector<double> expected(5000, 1000 - 1.0 / 5000);
+  std::vector<std::uint64_t> observed(5000, 980);
+  for (int i = 0; i < 100; ++i) expected.push_back(0.01), observed.push_back(1000);
+  EXPECT_LT(mc::chi_square(observed, expected).p, 1e-300);
+}
+
+// 2d. Mitsuba 3: no samples at all, nothing expected: accepted with p = 1.
+TEST(PeerDefects, NoSamplesAreNoEvidence) { EXPECT_THROW(mc::chi_square({0, 0, 0}, {0, 0, 0}), mc::Error); }
+
+// pbrt-v4 counts in float: from 2^24 on a count stands still. Moments of 2^25 values, by merging.
+TEST(PeerDefects, CountsGoBeyond2To24) {
+  mc::Moments m;
+  m.add(1), m.add(2);
+  for (int i = 0; i < 24; ++i) m.merge(mc::Moments(m));
+  EXPECT_EQ(m.count(), std::uint64_t{1} << 25);
+  EXPECT_NEAR(m.mean(), 1.5, 1e-12);
+  EXPECT_NEAR(m.variance(), 0.25, 1e-7);
+}
+
+} // namespace

@@ -1,0 +1,101 @@
+// Where tables that renderers ship break, measured on their own code: each defect is named with the figure it gave there, and must not
+// be here.
+
+#include <mc/core/error.h>
+#include <mc/core/sum.h>
+#include <mc/random/hash.h>
+#include <mc/random/uniform.h>
+#include <mc/table/alias_table.h>
+#include <mc/table/table_dist_1d.h>
+#include <mc/table/table_dist_2d.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+constexpr std::size_t width = 1024, height = 512, n = width * height;
+
+std::vector<double> sky(std::size_t sun, double radiance) {
+  std::vector<double> w(n);
+  for (std::size_t i = 0; i < n; ++i) w[i] = 0.5 + mc::hash_uniform<double>(4, i);
+  w[sun] = radiance;
+  return w;
+}
+
+double total(const std::vector<double>& w) {
+  mc::CompensatedSum sum;
+  for (const double x : w) sum.add(x);
+  return sum.value();
+}
+
+// D5. pbrt-v4, a sky of 1024 x 512 with a sun in one table: 424287 of 524288 cells are never sampled with the sun in the middle, and
+// 524277 with the sun at cell 10.
+TEST(PeerDefects, EveryCellBesideTheSunIsReached) {
+  for (const std::size_t sun : {std::size_t{10}, n / 2}) {
+    const std::vector<double> w = sky(sun, 1e8);
+    const double sum = total(w);
+    const mc::TableDist1D<double> table(w);
+    for (std::size_t i = 0; i < n; ++i) {
+      ASSERT_EQ(table.sample_index(table.cdf().cdf(i)).index, i);
+      ASSERT_NEAR(table.pmf(i) / (w[i] / sum), 1, 1e-6) << i;
+    }
+  }
+}
+
+// D5b. pbrt-v4, the same sky in two dimensions: in the row of the sun the cells to its right get 8 % too much or too little, up to 74 %.
+TEST(PeerDefects, CellsInTheRowOfTheSunHaveTheirMass) {
+  const std::size_t row = 100, sun = row * width + 10;
+  const std::vector<double> w = sky(sun, 1e8);
+  const double sum = total(w);
+  const mc::TableDist2D<double> table(w, width, height);
+  for (std::size_t x = 0; x < width; ++x) ASSERT_NEAR(table.pmf(x, row) / (w[row * width + x] / sum), 1, 1e-6) << x;
+}
+
+// D5. pbrt-v4: all zeros are sampled with pdf NaN or 0, one infinity makes everything NaN, a negative weight is taken for its
+// absolute value, denormals sum to 0. D7: so do its SampleDiscrete and (all zero) its alias table.
+TEST(PeerDefects, WeightsThatAreNoneAndWeightsAtTheEndsOfTheRange) {
+  const double inf = std::numeric_limits<double>::infinity(), tiny = std::numeric_limits<double>::denorm_min(),
+               huge = std::numeric_limits<double>::max();
+  for (const std::vector<double>& w : std::vector<std::vector<double>>{{0, 0}, {1, inf}, {1, std::nan("")}, {1, -5}, {}}) {
+    EXPECT_THROW(mc::TableDist1D<float>{w}, mc::Error);
+    EXPECT_THROW(mc::AliasTable{w}, mc::Error);
+    if (!w.empty()) {
+      EXPECT_THROW((mc::TableDist2D<float>(w, 2, 1)), mc::Error);
+    }
+  }
+  for (const double value : {tiny, 1e-45, 1e-40, 1e38, 3e38, huge}) {
+    const std::vector<double> w(16, value);
+    EXPECT_EQ(mc::TableDist1D<float>(w).pdf(0.37f), 1.0f) << value;
+    EXPECT_EQ(mc::AliasTable(w).pmf(3), 1.0 / 16) << value;
+    EXPECT_EQ((mc::TableDist2D<float>(w, 4, 4).pdf({0.37f, 0.1f})), 1.0f) << value;
+  }
+}
+
+// D6. pbrt-v4: alias tables of 65536 entries sample an entry 226 times too often; of half zeros, entries of weight 0. The probabilities
+// that the bins imply, from the place in each bin where the outcome changes.
+TEST(PeerDefects, AliasTablesSampleWhatTheySay) {
+  constexpr std::size_t size = 65536;
+  for (const bool zeros : {false, true}) {
+    std::vector<double> w(size), mass(size);
+    for (std::size_t i = 0; i < size; ++i) w[i] = zeros && i % 2 ? 0 : mc::hash_uniform<double>(9, i);
+    if (zeros) w[7] = 1e6;
+    const mc::AliasTable table(w);
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto outcome = [&](double v) { return table.sample_index((static_cast<double>(i) + v) / size).index; };
+      const std::size_t first = outcome(0), second = outcome(1 - 0x1p-30);
+      double lo = 0, hi = 1;
+      while (first != second && hi - lo > 0x1p-32) (outcome((lo + hi) / 2) == first ? lo : hi) = (lo + hi) / 2;
+      mass[first] += hi / size;
+      mass[second] += (1 - hi) / size;
+    }
+    const double sum = total(w);
+    for (std::size_t i = 0; i < size; ++i) {
+      ASSERT_NEAR(table.pmf(i), w[i] / sum, 1e-15);
+      ASSERT_TRUE(w[i] > 0 || mass[i] == 0) << i;
+      // Each of up to all the bins of an entry is known to 2^-30 of a bin.
+      ASSERT_NEAR(mass[i], table.pmf(i), 0x1p-29 * (1.0 / size + table.pmf(i))) << i;
+    }
+  }
+}
+
+} // namespace
