@@ -34,7 +34,8 @@ bool is_header(std::string_view text) {
   const std::string_view word = text.substr(0, text.find_first_of(",; \t\r"));
   double value = 0;
   const char* last = word.data() + word.size();
-  return (std::isalpha(static_cast<unsigned char>(text[0])) || text[0] == '_' || text[0] == '"') && std::from_chars(word.data(), last, value).ptr != last;
+  return (std::isalpha(static_cast<unsigned char>(text[0])) || text[0] == '_' || text[0] == '"') &&
+         std::from_chars(word.data(), last, value).ptr != last;
 }
 
 void parse_row(std::string_view text, CsvTable& table) {

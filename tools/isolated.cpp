@@ -78,7 +78,8 @@ std::string Watch::where() const {
   const char* function = function_.load(std::memory_order_relaxed);
   if (!function) return fmt::format(" after {} calls", calls());
   std::string text = fmt::format(" in {}", function);
-  for (int i = 0; i < n_; ++i) text += i == 0 ? fmt::format(" at {} = ({:.17g}", argument_, values_[0]) : fmt::format(", {:.17g}", values_[i]);
+  for (int i = 0; i < n_; ++i)
+    text += i == 0 ? fmt::format(" at {} = ({:.17g}", argument_, values_[0]) : fmt::format(", {:.17g}", values_[i]);
   return n_ > 0 ? text + ")" : text;
 }
 

@@ -69,11 +69,13 @@ void add_validate(CLI::App& app, carlo::ValidateOptions& o) {
   c->add_option("--json", o.json, "Write the results to this file");
   c->add_option("--junit", o.junit, "Write the verdicts to this file as JUnit XML");
   c->add_option("--plugin", o.plugin, "Check the samplers of this shared object, compiled against <mc/check/plugin.h>");
-  c->add_option("--params", o.parameters, "Parameters of the plugin's samplers, \"alpha=0.1,n=3\"; each --params is a case")->allow_extra_args(false);
+  c->add_option("--params", o.parameters, "Parameters of the plugin's samplers, \"alpha=0.1,n=3\"; each --params is a case")
+      ->allow_extra_args(false);
   c->add_option("--timeout", o.timeout, "Seconds that the plugin may take per case")->capture_default_str();
-  c->add_option("--samples-file", o.samples_file, "Check these samples against the density of --pdf-file; all of them count")->excludes(samples);
+  c->add_option("--samples-file", o.samples_file, "Check these samples against the density of --pdf-file; all of them count")
+      ->excludes(samples);
   c->add_option("--pdf-file", o.pdf_file, "Density on a grid: .csv, .exr or .pfm");
-  c->add_option("--domain", o.domain, "Of the grid: \"x=lo:hi\", \"x=lo:hi,y=lo:hi\" or sphere [by the columns of the samples: 1 or 2 in 0:1, 3 sphere]");
+  c->add_option("--domain", o.domain, "Of the grid: \"x=lo:hi\", \"x=lo:hi,y=lo:hi\" or sphere [by the columns: 1 or 2 in 0:1, 3 sphere]");
   c->add_flag("--unnormalized", o.unnormalized, "The grid is only proportional to the density");
 }
 

@@ -69,21 +69,25 @@ void require_sound(const mc_sampler& s, std::size_t index) {
   mc::with_context(fmt::format("sampler {}", s.name), [&] {
     mc::require(s.domain >= MC_INTERVAL && s.domain <= MC_HEMISPHERE, "domain = {} is none of mc_domain, 1 to 6", s.domain);
     mc::require(s.domain != MC_BOX || (s.dim >= 1 && s.dim <= 3), "dim = {}; a box has 1 to 3 dimensions", s.dim);
-    mc::require(s.domain != MC_INTERVAL || s.lo[0] < s.hi[0] || (s.lo[0] == 0 && s.hi[0] == 0), "interval [{}, {}] needs lo < hi", s.lo[0], s.hi[0]);
-    mc::require(s.uniforms >= 0 && s.uniforms <= Watch::max_arguments, "uniforms = {} must lie in 0 to {}", s.uniforms, Watch::max_arguments);
+    mc::require(s.domain != MC_INTERVAL || s.lo[0] < s.hi[0] || (s.lo[0] == 0 && s.hi[0] == 0), "interval [{}, {}] needs lo < hi", s.lo[0],
+                s.hi[0]);
+    mc::require(s.uniforms >= 0 && s.uniforms <= Watch::max_arguments, "uniforms = {} must lie in 0 to {}", s.uniforms,
+                Watch::max_arguments);
     mc::require(s.scalar == MC_DOUBLE || s.scalar == MC_FLOAT, "scalar = {} is none of mc_scalar, 0 or 1", s.scalar);
     mc::require(s.sample, "it has no function sample");
     mc::require(s.pdf, "it has no function pdf");
     mc::require(!s.weight || s.eval, "it states a weight, but no eval to hold it against");
-    mc::require(!s.invert || s.uniforms == 0 || s.uniforms == dimension(s), "it has invert, but takes {} uniforms in {} dimensions; invert needs as many", s.uniforms,
-                dimension(s));
-    for (const double t : {s.pdf_tolerance, s.weight_tolerance, s.invert_tolerance}) mc::require(t >= 0 && t < 1, "a tolerance is {}; it must lie in [0, 1)", t);
+    mc::require(!s.invert || s.uniforms == 0 || s.uniforms == dimension(s),
+                "it has invert, but takes {} uniforms in {} dimensions; invert needs as many", s.uniforms, dimension(s));
+    for (const double t : {s.pdf_tolerance, s.weight_tolerance, s.invert_tolerance})
+      mc::require(t >= 0 && t < 1, "a tolerance is {}; it must lie in [0, 1)", t);
     mc::require(s.parameter_count >= 0 && s.parameter_count <= 64, "parameter_count = {} must lie in 0 to 64", s.parameter_count);
     mc::require(s.parameter_count == 0 || s.parameters, "parameters is NULL, parameter_count is {}", s.parameter_count);
     for (int i = 0; i < s.parameter_count; ++i) {
       const mc_parameter& p = s.parameters[i];
       mc::require(is_word(p.name), "parameter {} has no name of letters, digits and _", i);
-      mc::require(std::isfinite(p.value) && p.lo <= p.value && p.value <= p.hi, "parameter {} = {} does not lie in its range [{}, {}]", p.name, p.value, p.lo, p.hi);
+      mc::require(std::isfinite(p.value) && p.lo <= p.value && p.value <= p.hi, "parameter {} = {} does not lie in its range [{}, {}]",
+                  p.name, p.value, p.lo, p.hi);
     }
   });
 }
@@ -93,7 +97,8 @@ std::vector<Description> describe(const std::string& path, double timeout) {
     std::vector<Description> all;
     for (const mc_sampler& s : load_plugin(path, watch)) {
       Description& d = all.emplace_back(Description{s.name, s.scalar == MC_FLOAT ? "float" : "double", {}});
-      for (int i = 0; i < s.parameter_count; ++i) d.parameters.push_back({s.parameters[i].name, s.parameters[i].value, s.parameters[i].lo, s.parameters[i].hi});
+      for (int i = 0; i < s.parameter_count; ++i)
+        d.parameters.push_back({s.parameters[i].name, s.parameters[i].value, s.parameters[i].lo, s.parameters[i].hi});
     }
     ByteWriter writer;
     writer(all);
@@ -115,7 +120,8 @@ Set parse_set(std::string_view text) {
     const std::size_t equals = one.find('=');
     double value = 0;
     const char* end = one.data() + one.size();
-    mc::require(equals != std::string_view::npos && equals > 0 && std::from_chars(one.data() + equals + 1, end, value).ptr == end && std::isfinite(value),
+    mc::require(equals != std::string_view::npos && equals > 0 && std::from_chars(one.data() + equals + 1, end, value).ptr == end &&
+                    std::isfinite(value),
                 "--params: '{}' in '{}' is not of the form name=number, as in \"alpha=0.1,n=3\"", one, text);
     set.emplace_back(one.substr(0, equals), value);
   }
@@ -139,7 +145,12 @@ PluginSampler::PluginSampler(const mc_sampler& sampler, std::vector<double> para
   void* self = sampler.create(parameters_->data());
   watch.leave();
   mc::require(self != nullptr, "create refuses the parameters");
-  self_ = {self, [](void*) {}}; // the process ends before it could leak
+  self_ = {self, [destroy = sampler.destroy, &watch](void* made) {
+             if (!destroy) return;
+             watch.enter("destroy");
+             destroy(made);
+             watch.leave();
+           }};
 }
 
 int PluginSampler::coordinates() const {
@@ -206,9 +217,12 @@ std::span<const mc_sampler> load_plugin(const std::string& path, Watch& watch) {
   const mc_plugin_info* const info = entry();
   watch.leave();
   mc::require(info != nullptr, "mc_plugin returned NULL");
-  mc::require(info->abi == MC_PLUGIN_ABI, "it is made for version {} of <mc/check/plugin.h>, this carlo for {}; compile it again", info->abi, MC_PLUGIN_ABI);
-  mc::require(info->sampler_size == sizeof(mc_sampler), "its mc_sampler has {} bytes, that of <mc/check/plugin.h> {}", info->sampler_size, sizeof(mc_sampler));
-  mc::require(info->sampler_count >= 1 && info->sampler_count <= 1000 && info->samplers, "it lists {} samplers; 1 to 1000 are needed", info->sampler_count);
+  mc::require(info->abi == MC_PLUGIN_ABI, "it is made for version {} of <mc/check/plugin.h>, this carlo for {}; compile it again",
+              info->abi, MC_PLUGIN_ABI);
+  mc::require(info->sampler_size == sizeof(mc_sampler), "its mc_sampler has {} bytes, that of <mc/check/plugin.h> {}", info->sampler_size,
+              sizeof(mc_sampler));
+  mc::require(info->sampler_count >= 1 && info->sampler_count <= 1000 && info->samplers, "it lists {} samplers; 1 to 1000 are needed",
+              info->sampler_count);
   const std::span<const mc_sampler> samplers(info->samplers, info->sampler_count);
   for (std::size_t i = 0; i < samplers.size(); ++i) require_sound(samplers[i], i);
   return samplers;
@@ -259,7 +273,8 @@ Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& 
       if (!std::all_of(parsed[k].begin(), parsed[k].end(), [&](const auto& one) { return find(parameters, one.first); })) continue;
       for (const auto& [name, value] : parsed[k]) {
         Parameter& p = *find(parameters, name);
-        mc::require(value >= p.lo && value <= p.hi, "{}: --params: {} = {} of {} must lie in [{}, {}]", path, name, value, samplers[index].name, p.lo, p.hi);
+        mc::require(value >= p.lo && value <= p.hi, "{}: --params: {} = {} of {} must lie in [{}, {}]", path, name, value,
+                    samplers[index].name, p.lo, p.hi);
         p.value = value;
       }
       add(index, samplers[index], parameters, parsed[k]);
@@ -267,7 +282,8 @@ Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& 
     }
     if (!any) add(index, samplers[index], samplers[index].parameters, {});
   }
-  for (std::size_t k = 0; k < parsed.size(); ++k) mc::require(used[k], "{}: no sampler has all the parameters of --params '{}'", path, sets[k]);
+  for (std::size_t k = 0; k < parsed.size(); ++k)
+    mc::require(used[k], "{}: no sampler has all the parameters of --params '{}'", path, sets[k]);
   return cases;
 }
 

@@ -129,10 +129,12 @@ template <class D> mc::Check edge_law(const Plugged<D>& p) {
   mc::LawLedger ledger("edges of the unit cube", 0, mc::Fault::edge);
   for (int k = 0; k < total; ++k) {
     Uniforms u{};
-    for (int i = 0, rest = k; i < p.plugin.uniforms(); ++i, rest /= 5) u[static_cast<std::size_t>(i)] = places[static_cast<std::size_t>(rest % 5)];
+    for (int i = 0, rest = k; i < p.plugin.uniforms(); ++i, rest /= 5)
+      u[static_cast<std::size_t>(i)] = places[static_cast<std::size_t>(rest % 5)];
     const auto x = p.sample(u);
     const double density = x && mc::detail::all_finite(*x) ? p.pdf(*x) : 0;
-    const bool fine = x ? mc::detail::all_finite(*x) && p.domain.contains(*x) && density > 0 && std::isfinite(density) : p.plugin->may_fail != 0;
+    const bool fine =
+        x ? mc::detail::all_finite(*x) && p.domain.contains(*x) && density > 0 && std::isfinite(density) : p.plugin->may_fail != 0;
     ledger.note(fine ? 0 : 1, [&] { return "not a point of the domain with a positive, finite pdf: " + p.describe(u); });
   }
   return ledger.check();
@@ -156,7 +158,8 @@ template <class D> void eval_laws(const Plugged<D>& p, std::uint64_t seed, std::
 
 template <class D> mc::Check inverse_law(const Plugged<D>& p, std::uint64_t seed) {
   const double eps = static_cast<double>(std::numeric_limits<typename D::Scalar>::epsilon());
-  mc::LawLedger ledger("invert(sample(u)) = u", p.plugin->invert_tolerance > 0 ? p.plugin->invert_tolerance : std::sqrt(eps), mc::Fault::inverse);
+  mc::LawLedger ledger("invert(sample(u)) = u", p.plugin->invert_tolerance > 0 ? p.plugin->invert_tolerance : std::sqrt(eps),
+                       mc::Fault::inverse);
   mc::Pcg random(seed, 32);
   for (int k = 0; k < 20000; ++k) {
     const Uniforms u = p.uniforms(random);
@@ -171,7 +174,10 @@ template <class D> mc::Check inverse_law(const Plugged<D>& p, std::uint64_t seed
         if (const auto again = p.sample(*back); again && p.same(*again, *x)) off = 1 - off;
       worst = off <= worst ? worst : off;
     }
-    ledger.note(worst, [&] { return back ? fmt::format("u = {}, invert(sample(u)) = {}", p.format(u), p.format(*back)) : fmt::format("u = {}: invert fails", p.format(u)); });
+    ledger.note(worst, [&] {
+      return back ? fmt::format("u = {}, invert(sample(u)) = {}", p.format(u), p.format(*back))
+                  : fmt::format("u = {}: invert fails", p.format(u));
+    });
   }
   return ledger.check();
 }
@@ -199,11 +205,13 @@ template <class D> mc::Check jacobian_law(const Plugged<D>& p, std::uint64_t see
   };
   for (int k = 0; k < 1000; ++k) {
     Uniforms u = p.uniforms(random);
-    for (int i = 0; i < dim; ++i) u[static_cast<std::size_t>(i)] = first_step + (1 - 2 * first_step - 0x1p-40) * u[static_cast<std::size_t>(i)];
+    for (int i = 0; i < dim; ++i)
+      u[static_cast<std::size_t>(i)] = first_step + (1 - 2 * first_step - 0x1p-40) * u[static_cast<std::size_t>(i)];
     const auto x = p.sample(u);
     if (!x) continue;
     const double claim = p.pdf(*x) * p.domain.jacobian(p.domain.to_unit(*x));
-    const double a = claim * determinant(u, first_step), b = claim * determinant(u, first_step / 2), c = claim * determinant(u, first_step / 4);
+    const double a = claim * determinant(u, first_step), b = claim * determinant(u, first_step / 2),
+                 c = claim * determinant(u, first_step / 4);
     const double spread = std::max({a, b, c}) - std::min({a, b, c}), off = std::abs(c - 1) - 16 * spread;
     points.push_back({off > 0 ? off : 0.0, u});
   }
@@ -231,7 +239,8 @@ template <class D> double ns_per_sample(const Plugged<D>& p) {
   return best;
 }
 
-template <mc::Domain D> mc::Report check_on(const PluginSampler& plugin, const D& domain, const std::string& title, const CaseOptions& options) {
+template <mc::Domain D>
+mc::Report check_on(const PluginSampler& plugin, const D& domain, const std::string& title, const CaseOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const Plugged<D> p{plugin, domain};
   std::vector<mc::Check> laws{edge_law(p)};
@@ -249,16 +258,39 @@ template <mc::Domain D> mc::Report check_on(const PluginSampler& plugin, const D
   return report;
 }
 
+// The quartiles of the samples on a line: charts of infinite intervals are centred on them.
+std::array<double, 3> quartiles(const PluginSampler& plugin, std::uint64_t seed) {
+  mc::Pcg random(seed, 34);
+  std::vector<double> drawn;
+  for (int i = 0; i < 1000; ++i) {
+    Uniforms u{};
+    for (int k = 0; k < plugin.uniforms(); ++k) u[static_cast<std::size_t>(k)] = random.uniform<double>();
+    double x = std::numeric_limits<double>::quiet_NaN();
+    if (plugin.sample(u.data(), &x) && std::isfinite(x)) drawn.push_back(x);
+  }
+  if (drawn.empty()) return {-1, 0, 1};
+  std::sort(drawn.begin(), drawn.end());
+  return {drawn[drawn.size() / 4], drawn[drawn.size() / 2], drawn[drawn.size() * 3 / 4]};
+}
+
+template <mc::Real S> mc::Report check_infinite(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
+  const auto [low, middle, high] = quartiles(plugin, options.seed);
+  const double lo = plugin->lo[0], hi = plugin->hi[0];
+  const auto scale = [](double size) { return static_cast<S>(size > 0 ? size : 1.0); };
+  if (std::isinf(lo) && std::isinf(hi)) return check_on(plugin, mc::RealLine<S>(static_cast<S>(middle), scale(high - low)), title, options);
+  if (std::isinf(hi)) return check_on(plugin, mc::HalfLine<S>(static_cast<S>(lo), scale(middle - lo)), title, options);
+  return check_on(plugin, mc::HalfLine<S>(static_cast<S>(hi), -scale(hi - middle)), title, options);
+}
+
 template <mc::Real S> mc::Report check_over(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
   const auto check = [&](const auto& domain) { return check_on(plugin, domain, title, options); };
   std::array<S, 3> lo, hi;
-  const bool unit = std::all_of(plugin->lo, plugin->lo + 3, [](double x) { return x == 0; }) && std::all_of(plugin->hi, plugin->hi + 3, [](double x) { return x == 0; });
+  const bool unit = std::all_of(plugin->lo, plugin->lo + 3, [](double x) { return x == 0; }) &&
+                    std::all_of(plugin->hi, plugin->hi + 3, [](double x) { return x == 0; });
   for (std::size_t i = 0; i < 3; ++i) lo[i] = static_cast<S>(plugin->lo[i]), hi[i] = unit ? S(1) : static_cast<S>(plugin->hi[i]);
   switch (plugin->domain) {
   case MC_INTERVAL:
-    if (std::isinf(lo[0]) && std::isinf(hi[0])) return check(mc::RealLine<S>());
-    if (std::isinf(hi[0])) return check(mc::HalfLine<S>(lo[0], S(1)));
-    if (std::isinf(lo[0])) return check(mc::HalfLine<S>(hi[0], S(-1)));
+    if (std::isinf(lo[0]) || std::isinf(hi[0])) return check_infinite<S>(plugin, title, options);
     return check(mc::Interval<S>(lo[0], hi[0]));
   case MC_BOX:
     if (plugin->dim == 1) return check(mc::Interval<S>(lo[0], hi[0]));

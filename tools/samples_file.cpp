@@ -12,6 +12,7 @@
 #include <mc/table/table_dist_2d.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -25,6 +26,7 @@ using mc::Subject;
 using mc::Vec2;
 
 constexpr double unit_tolerance = 1e-5, mass_tolerance = 1e-4;
+constexpr double digits = 1e-6; // to which programs print numbers of order 1
 
 // The sphere as (azimuth, angle from +z), each over its range, or a rectangle, as the unit square of the grid.
 struct GridDomain {
@@ -59,7 +61,9 @@ struct GridDomain {
   // Of a cell in row j.
   double measure(std::size_t j, std::size_t width, std::size_t height) const {
     const double w = static_cast<double>(width), h = static_cast<double>(height);
-    if (sphere) return 2 * mc::pi<double> / w * 2 * std::sin(mc::pi<double> * (static_cast<double>(j) + 0.5) / h) * std::sin(mc::pi<double> / (2 * h));
+    if (sphere)
+      return 2 * mc::pi<double> / w * 2 * std::sin(mc::pi<double> * (static_cast<double>(j) + 0.5) / h) *
+             std::sin(mc::pi<double> / (2 * h));
     double area = 1 / (w * h);
     for (const Side& s : sides) area *= s.hi - s.lo;
     return area;
@@ -78,8 +82,10 @@ GridDomain domain_of(const SamplesFileOptions& o, std::size_t columns) {
   else if (!o.domain.empty()) d.sides = parse_sides(o.domain);
   else if (columns == 1) d.sides = {{"x", 0, 1}};
   else d.sides = {{"x", 0, 1}, {"y", 0, 1}};
-  mc::require(d.columns() <= 3 && (d.sphere || d.sides.size() <= 2), "--domain: '{}' has {} variables; a grid has 1 or 2", o.domain, d.sides.size());
-  mc::require(columns == d.columns(), "{}: {} columns; {} {} needed on {}", o.samples, columns, d.columns(), d.columns() == 1 ? "is" : "are", d.name());
+  mc::require(d.columns() <= 3 && (d.sphere || d.sides.size() <= 2), "--domain: '{}' has {} variables; a grid has 1 or 2", o.domain,
+              d.sides.size());
+  mc::require(columns == d.columns(), "{}: {} columns; {} {} needed on {}", o.samples, columns, d.columns(),
+              d.columns() == 1 ? "is" : "are", d.name());
   return d;
 }
 
@@ -93,7 +99,8 @@ Grid read_grid(const std::string& file) {
   if (!file.ends_with(".exr") && !file.ends_with(".pfm")) {
     const CsvTable table = read_csv(file);
     for (std::size_t i = 0; i < table.values.size(); ++i)
-      mc::require(table.values[i] >= 0, "{}:{}: number {} is {}; a density is >= 0", file, table.lines[i / table.columns], i % table.columns + 1, table.values[i]);
+      mc::require(table.values[i] >= 0, "{}:{}: number {} is {}; a density is >= 0", file, table.lines[i / table.columns],
+                  i % table.columns + 1, table.values[i]);
     return {table.columns, table.rows(), table.values};
   }
   const render::Image image = mc::with_context(file, [&] { return render::read_image(file); });
@@ -101,7 +108,9 @@ Grid read_grid(const std::string& file) {
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const auto& p = image.pixels[i];
     const double value = static_cast<double>(p[0]);
-    const auto where = [&] { return fmt::format("{}: pixel ({}, {}) is ({:g}, {:g}, {:g})", file, i % g.width, i / g.width, p[0], p[1], p[2]); };
+    const auto where = [&] {
+      return fmt::format("{}: pixel ({}, {}) is ({:g}, {:g}, {:g})", file, i % g.width, i / g.width, p[0], p[1], p[2]);
+    };
     if (!(value >= 0 && std::isfinite(value))) throw mc::Error(where() + "; a density is finite and >= 0");
     if (!(p[0] == p[1] && p[1] == p[2])) throw mc::Error(where() + "; a density is grey, R = G = B");
     g.density.push_back(value);
@@ -136,27 +145,44 @@ std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
     grid.density[i] *= domain.measure(i / grid.width, grid.width, grid.height);
     mass.add(grid.density[i]);
   }
-  mc::require(mass.value() > 0 && std::isfinite(mass.value()), "{}: the density integrates to {}; some cell must be positive, and none beyond doubles", o.pdf, mass.value());
+  mc::require(mass.value() > 0 && std::isfinite(mass.value()),
+              "{}: the density integrates to {}; some cell must be positive, and none beyond doubles", o.pdf, mass.value());
 
+  const auto cell_of = [&](const double* x) -> std::optional<std::uint32_t> {
+    const auto index = [](double at, std::size_t n) { return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1); };
+    const auto p = domain.to_square(x);
+    if (!p) return {};
+    return static_cast<std::uint32_t>(index((*p)[1], grid.height) * grid.width + index((*p)[0], grid.width));
+  };
   std::vector<std::uint32_t> cells;
   cells.reserve(table.rows());
   std::size_t off = 0, first_off = 0;
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    const auto p = domain.to_square(table.row(i));
-    if (!p && off++ == 0) first_off = i;
-    const auto index = [](double at, std::size_t n) { return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1); };
-    cells.push_back(p ? static_cast<std::uint32_t>(index((*p)[1], grid.height) * grid.width + index((*p)[0], grid.width)) : 0);
+    const double* x = table.row(i);
+    auto cell = cell_of(x);
+    if (!cell && off++ == 0) first_off = i;
+    // What rounding of the last printed digit carried across an edge of the support is no leak.
+    if (cell && grid.density[*cell] == 0)
+      for (std::size_t k = 0; k < table.columns; ++k)
+        for (const double sign : {-1.0, 1.0}) {
+          std::array<double, 3> moved{};
+          std::copy(x, x + table.columns, moved.begin());
+          moved[k] += sign * digits * (domain.sphere ? 1 : domain.sides[k].hi - domain.sides[k].lo);
+          if (const auto beside = cell_of(moved.data()); beside && grid.density[*beside] > 0) cell = beside;
+        }
+    cells.push_back(cell.value_or(0));
   }
   if (off > 0) {
     const double* x = table.row(first_off);
     std::string point;
     for (std::size_t k = 0; k < table.columns; ++k) point += fmt::format("{}{}", k ? ", " : "", x[k]);
-    throw mc::Error(fmt::format("{}:{}: ({}) is not covered by the grid of {}, {}; {} of {} samples are not (see --domain)", o.samples, table.lines[first_off], point,
-                                o.pdf, domain.name(), off, table.rows()));
+    throw mc::Error(fmt::format("{}:{}: ({}) is not covered by the grid of {}, {}; {} of {} samples are not (see --domain)", o.samples,
+                                table.lines[first_off], point, o.pdf, domain.name(), off, table.rows()));
   }
   mc::TableDist2D<double> distribution(grid.density, grid.width, grid.height);
-  return std::make_shared<const SamplesFile>(SamplesFile{o.samples, std::move(table), std::move(domain), grid.width, grid.height, std::move(grid.density),
-                                                         o.unnormalized ? 1.0 : mass.value(), std::move(distribution), std::move(cells)});
+  return std::make_shared<const SamplesFile>(SamplesFile{o.samples, std::move(table), std::move(domain), grid.width, grid.height,
+                                                         std::move(grid.density), o.unnormalized ? 1.0 : mass.value(),
+                                                         std::move(distribution), std::move(cells)});
 }
 
 // Deals the rows in an order that the seed chooses, each once: a stream that is new gets the next of them.

@@ -3,6 +3,7 @@
 
 #include <mc/core/error.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -50,10 +50,10 @@ std::string line(const ValidateOptions& o) {
 }
 
 TEST(Plugin, RightSamplersPassInEveryKindOfDomain) {
-  // Six cases at a family-wise alpha of 0.01, one fixed seed.
+  // Eight cases at a family-wise alpha of 0.01, one fixed seed.
   const Output out = run(plugin("samplers"));
   EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
-  EXPECT_THAT(out.text, HasSubstr("6 of 6 cases passed"));
+  EXPECT_THAT(out.text, HasSubstr("8 of 8 cases passed"));
   EXPECT_THAT(out.text, HasSubstr("float   pass")) << "the tail computes in float";
 }
 
@@ -65,15 +65,16 @@ struct WrongPlugin : testing::TestWithParam<Wrong> {};
 TEST_P(WrongPlugin, IsRejectedWithItsFaultNamed) {
   const Output out = run(cosine(GetParam().fault));
   EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
-  EXPECT_THAT(out.text, AllOf(HasSubstr("0 of 1 cases passed"), HasSubstr(GetParam().found), HasSubstr("again: carlo validate --plugin '")));
+  EXPECT_THAT(out.text,
+              AllOf(HasSubstr("0 of 1 cases passed"), HasSubstr(GetParam().found), HasSubstr("again: carlo validate --plugin '")));
 }
 
 INSTANTIATE_TEST_SUITE_P(Plugin, WrongPlugin,
                          testing::Values(Wrong{"pdf_high", "the density integrates to 1.01"}, Wrong{"weight_low", "likely fault: weight"},
-                                         Wrong{"nan_sample", "-nan"}, Wrong{"nan_pdf", "pdf = -nan"}, Wrong{"leak", "likely fault: outside"},
-                                         Wrong{"not_unit", "likely fault: outside"}, Wrong{"silent", "x = (nan, nan, nan)"},
-                                         Wrong{"wrong_inverse", "invert(sample(u)) = u fail"}, Wrong{"tilted_pdf", "|det| pdf = 1, upper quartile fail"},
-                                         Wrong{"hole", "likely fault: support"}),
+                                         Wrong{"nan_sample", "likely fault: not finite"}, Wrong{"nan_pdf", "pdf finite and >= 0 fail"},
+                                         Wrong{"leak", "likely fault: outside"}, Wrong{"not_unit", "likely fault: outside"},
+                                         Wrong{"silent", "x = (nan, nan, nan)"}, Wrong{"wrong_inverse", "invert(sample(u)) = u fail"},
+                                         Wrong{"tilted_pdf", "|det| pdf = 1, upper quartile fail"}, Wrong{"hole", "likely fault: support"}),
                          [](const auto& wrong) { return std::string(wrong.param.fault); });
 
 TEST(Plugin, ARotationByADegreeIsRejected) {
@@ -97,7 +98,8 @@ TEST(Plugin, TheReportCrossesTheProcessWhole) {
   ValidateOptions o = cosine("pdf_high");
   o.json = testing::TempDir() + "/plugin.json";
   run(o);
-  EXPECT_THAT(mc::read_file(o.json), AllOf(HasSubstr("\"name\": \"mass\""), HasSubstr("\"worst\": ["), HasSubstr("\"z\": "), HasSubstr("\"ns_per_sample\"")));
+  EXPECT_THAT(mc::read_file(o.json),
+              AllOf(HasSubstr("\"name\": \"mass\""), HasSubstr("\"worst\": ["), HasSubstr("\"z\": "), HasSubstr("\"ns_per_sample\"")));
 }
 
 TEST(Plugin, TheSameSeedGivesTheSameVerdict) {
@@ -109,9 +111,13 @@ TEST(Plugin, TheSameSeedGivesTheSameVerdict) {
 }
 
 TEST(Plugin, ACrashIsOneLineThatSaysWhere) {
-  EXPECT_THAT(line(cosine("crash")), AllOf(HasSubstr("samplers.so: it crashed in sample at u = (0."), HasSubstr("Segmentation fault (signal 11)")));
+  EXPECT_THAT(line(cosine("crash")),
+              AllOf(HasSubstr("samplers.so: it crashed in sample at u = (0."), HasSubstr("Segmentation fault (signal 11)")));
   EXPECT_THAT(line(cosine("quit")), AllOf(HasSubstr("it ended the process in sample at u = (0."), HasSubstr("exit code 0")));
   EXPECT_THAT(line(plugin("throws")), AllOf(HasSubstr("it threw in sample at u = ("), HasSubstr("no square root today")));
+  ValidateOptions box = plugin("samplers", {"Box"});
+  box.parameters = {"power=14"};
+  EXPECT_THAT(line(box), HasSubstr("it crashed in destroy: Aborted"));
   EXPECT_THAT(line(plugin("crash_on_load")), HasSubstr("it crashed in loading: Aborted"));
 }
 

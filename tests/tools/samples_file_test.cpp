@@ -124,6 +124,12 @@ TEST_F(SamplesFile, ASampleWhereTheDensityIsZeroIsALeakOfItsLine) {
   EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: leak"), HasSubstr("s.csv:"), HasSubstr("in cell (0, 0) of the grid")));
 }
 
+TEST_F(SamplesFile, ASampleThatPrintingCarriedOverTheEdgeIsNone) {
+  const auto draw = [](mc::Pcg& random) { return fmt::format("{}", std::max(0.5 - 4e-7, 0.5 + 0.5 * random.uniform<double>() - 1e-4)); };
+  const std::string file = samples(draw);
+  EXPECT_EQ(run(options(file, grid(2, 1, [](int i, int) { return 2.0 * i; }))).code, carlo::exit_ok);
+}
+
 TEST_F(SamplesFile, AnIntervalWithBounds) {
   const auto draw = [](mc::Pcg& random) { return fmt::format("{}", 4 * std::sqrt(random.uniform<double>()) - 1); };
   ValidateOptions o = options(samples(draw), grid(16, 1, [](int i, int) { return ramp_mean(i, 0) / 4; }));
@@ -173,7 +179,9 @@ TEST_F(SamplesFile, DetectNeedsEnoughSamples) {
 
 TEST_F(SamplesFile, ABadRowIsNamedByItsLine) {
   const std::string good = grid(16, 1, ramp_mean);
-  const auto with = [&](const std::string& row) { return line(options(write("b.csv", "x,y\n0.5,0.5\n\n# note\n" + row + "\n0.1,0.2\n"), good)); };
+  const auto with = [&](const std::string& row) {
+    return line(options(write("b.csv", "x,y\n0.5,0.5\n\n# note\n" + row + "\n0.1,0.2\n"), good));
+  };
   EXPECT_THAT(with("0.1,zero"), HasSubstr("b.csv:5: 'zero' is not a number"));
   EXPECT_THAT(with("0.1,nan"), HasSubstr("b.csv:5: 'nan' is not a finite number"));
   EXPECT_THAT(with("0.1,1e999"), HasSubstr("b.csv:5: '1e999' is not a finite number"));
@@ -194,15 +202,19 @@ TEST_F(SamplesFile, BadFilesAreOneLine) {
   EXPECT_THAT(line(options(samples(ramp, "few.csv", 1999), good)), HasSubstr("few.csv: 1999 samples; at least 2000 are needed"));
   EXPECT_THAT(line(options(file, write("q.csv", "1,2\n3,-1\n"))), HasSubstr("q.csv:2: number 2 is -1; a density is >= 0"));
   EXPECT_THAT(line(options(file, write("q.csv", "0,0\n0,0\n"))), HasSubstr("q.csv: the density integrates to 0"));
-  ValidateOptions o = options(samples([](mc::Pcg& random) { return fmt::format("{}", random.uniform<double>()); }, "x.csv"), grid(4, 4, one));
+  ValidateOptions o =
+      options(samples([](mc::Pcg& random) { return fmt::format("{}", random.uniform<double>()); }, "x.csv"), grid(4, 4, one));
   EXPECT_THAT(line(o), HasSubstr("p.csv: 4 rows; the density on an interval is one row"));
 }
 
 TEST_F(SamplesFile, SamplesOffTheGridAreOneLine) {
   ValidateOptions o = options(samples(ramp), grid(4, 4, one));
   o.domain = "x=0:0.5,y=0:1";
-  EXPECT_THAT(line(o), testing::MatchesRegex(".*s\\.csv:[0-9]+: \\(0\\.[0-9]+, 0\\.[0-9]+\\) is not covered by the grid of .*p\\.csv, x in \\[0, 0\\.5\\], y in \\[0, 1\\]; "
-                                             "[0-9]+ of 40000 samples are not \\(see --domain\\)"));
+  EXPECT_THAT(
+      line(o),
+      testing::MatchesRegex(
+          ".*s\\.csv:[0-9]+: \\(0\\.[0-9]+, 0\\.[0-9]+\\) is not covered by the grid of .*p\\.csv, x in \\[0, 0\\.5\\], y in \\[0, 1\\]; "
+          "[0-9]+ of 40000 samples are not \\(see --domain\\)"));
   o.domain = "sphere";
   EXPECT_THAT(line(o), HasSubstr("s.csv: 2 columns; 3 are needed on the unit sphere"));
   o.domain = "x=0:1";

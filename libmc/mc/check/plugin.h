@@ -30,11 +30,11 @@ enum mc_domain {
   MC_BOX = 2,       ///< x[i] in [lo[i], hi[i]], finite, i < dim; 1/length, 1/area or 1/volume
   MC_DISK = 3,      ///< x[0]^2 + x[1]^2 <= 1; 1/area
   MC_TRIANGLE = 4,  ///< barycentric: x[0] >= 0, x[1] >= 0, x[0] + x[1] <= 1, of area 1/2; 1/area
-  MC_SPHERE = 5,    ///< unit vectors x[0..2]; 1/steradian
+  MC_SPHERE = 5,    ///< unit vectors x[0..2]; 1/steradian. Lobes narrower than 1e-6 rad are resolved about +z only
   MC_HEMISPHERE = 6 ///< unit vectors with x[2] >= 0; 1/steradian
 };
 
-/// What the sampler computes in. It sets the default tolerances; the doubles of a float sampler must hold floats.
+/// What the sampler computes in: it sets the default tolerances, and u and x are rounded to it.
 enum mc_scalar { MC_DOUBLE = 0, MC_FLOAT = 1 };
 
 /// A number that `carlo validate --params "alpha=0.1"` may set.
@@ -62,7 +62,7 @@ typedef struct mc_sampler {
   /// Optional: makes what the other functions get as `self` out of the parameters, in their order; NULL refuses them. Without
   /// it `self` is the array of parameters itself, a const double *.
   void *(*create)(const double *parameters);
-  void (*destroy)(void *self);
+  void (*destroy)(void *self); ///< optional: frees what create made
 
   /// u in [0,1)^uniforms -> x in the domain. Returns 1, or 0 where it fails and x means nothing.
   int32_t (*sample)(const void *self, const double *u, double *x);

@@ -62,7 +62,7 @@ class Mixture {
   template <std::size_t... I>
   typename Domain::Point sample_component(std::size_t i, const typename Domain::UnitPoint& u, std::index_sequence<I...>) const {
     typename Domain::Point x{};
-    ((I == i ? (x = std::get<I>(warps_).sample(u), true) : false) || ...);
+    ((I == i ? void(x = std::get<I>(warps_).sample(u)) : void()), ...);
     return x;
   }
   template <std::size_t... I> Scalar pdf_sum(const typename Domain::Point& x, std::index_sequence<I...>) const {

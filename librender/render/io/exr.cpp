@@ -58,13 +58,16 @@ Image read_exr(const std::string& path) {
     const auto window = file.header().dataWindow();
     const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
     const bool with_variance = file.header().channels().findChannel(channels[3]) != nullptr;
-    for (std::size_t c = 0; c < 3; ++c)
-      mc::require(file.header().channels().findChannel(channels[c]) != nullptr, "EXR has no channel {}; R, G and B are needed", channels[c]);
+    const auto has = [&](const char* channel) { return file.header().channels().findChannel(channel) != nullptr; };
+    const bool grey = has("Y") && !has("R") && !has("G") && !has("B");
+    for (std::size_t c = 0; c < 3; ++c) mc::require(grey || has(channels[c]), "EXR has no channel {}; R, G and B, or Y alone, are needed", channels[c]);
     Planes planes(with_variance ? 6 : 3, width, height);
     Imf::FrameBuffer frame;
-    for (std::size_t c = 0; c < planes.plane.size(); ++c) frame.insert(channels[c], planes.slice(c, window.min.x, window.min.y));
+    if (grey) frame.insert("Y", planes.slice(0, window.min.x, window.min.y));
+    for (std::size_t c = grey ? 3 : 0; c < planes.plane.size(); ++c) frame.insert(channels[c], planes.slice(c, window.min.x, window.min.y));
     file.setFrameBuffer(frame);
     file.readPixels(window.min.y, window.max.y);
+    if (grey) planes.plane[1] = planes.plane[2] = planes.plane[0];
     Image image(width, height);
     if (with_variance) image.variance.resize(image.pixels.size());
     for (std::size_t c = 0; c < planes.plane.size(); ++c) {

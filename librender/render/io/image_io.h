@@ -15,7 +15,8 @@ namespace render {
 ///   throws : Error for another extension, a folder that is missing or not writable, a full disk
 void write_image(const std::string& path, const Image& image, double exposure = 0);
 
-/// Reads .exr or .pfm. Throws Error for a missing or damaged file or another extension.
+/// Reads .exr (channels R, G and B, or Y alone when it is grey) or .pfm. Throws Error for a missing or damaged file or another
+/// extension.
 Image read_image(const std::string& path);
 
 } // namespace render

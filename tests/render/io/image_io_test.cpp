@@ -41,6 +41,29 @@ TEST_F(ImageIo, ExrKeepsRadianceVarianceAndMetadata) {
   EXPECT_TRUE(render::read_image(path("b.exr")).variance.empty());
 }
 
+// A grey image as other programs write it: 2x1 pixels, the one channel Y.
+TEST_F(ImageIo, ExrOfLuminanceAloneIsGrey) {
+  const auto number = [](auto x) { return std::string(reinterpret_cast<const char*>(&x), sizeof x); };
+  const auto text = [](const char* s) { return std::string(s) + '\0'; };
+  const auto attribute = [&](const char* name, const char* type, const std::string& value) {
+    return text(name) + text(type) + number(static_cast<std::int32_t>(value.size())) + value;
+  };
+  const std::string box = number(0) + number(0) + number(1) + number(0);
+  std::string file = number(20000630) + number(2);
+  file += attribute("channels", "chlist", text("Y") + number(2) + number(0) + number(1) + number(1) + '\0');
+  file += attribute("compression", "compression", std::string(1, '\0'));
+  file += attribute("dataWindow", "box2i", box) + attribute("displayWindow", "box2i", box);
+  file += attribute("lineOrder", "lineOrder", std::string(1, '\0')) + attribute("pixelAspectRatio", "float", number(1.0f));
+  file += attribute("screenWindowCenter", "v2f", number(0.0f) + number(0.0f)) + attribute("screenWindowWidth", "float", number(1.0f)) + '\0';
+  file += number(static_cast<std::uint64_t>(file.size() + 8)) + number(0) + number(8) + number(0.25f) + number(3.0f);
+  const Image image = render::read_image(write("grey.exr", file));
+  ASSERT_EQ(image.width, 2);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_EQ(image.at(0, 0)[c], render::Float(0.25)) << c;
+    EXPECT_EQ(image.at(1, 0)[c], render::Float(3)) << c;
+  }
+}
+
 TEST_F(ImageIo, PfmKeepsRadianceBottomRowFirst) {
   const Image image = picture(false);
   render::write_image(path("a.pfm"), image);

@@ -71,6 +71,27 @@ static double pdf_tail(const void *self, const double *x) {
   return x[0] >= 0 ? 1 / ((1 + x[0]) * (1 + x[0])) : 0;
 }
 
+/* The logistic distribution, far from 0 and narrow, and its mirrored half. */
+static int32_t sample_logistic(const void *self, const double *u, double *x) {
+  (void)self;
+  x[0] = 1e6 + 1e-3 * log((u[0] + 0x1p-60) / (1 - u[0]));
+  return 1;
+}
+static double pdf_logistic(const void *self, const double *x) {
+  const double t = exp(-fabs(x[0] - 1e6) * 1e3);
+  (void)self;
+  return 1e3 * t / ((1 + t) * (1 + t));
+}
+static int32_t sample_below(const void *self, const double *u, double *x) {
+  (void)self;
+  x[0] = 5 + 20 * log(1 - u[0]);
+  return 1;
+}
+static double pdf_below(const void *self, const double *x) {
+  (void)self;
+  return x[0] <= 5 ? exp((x[0] - 5) / 20) / 20 : 0;
+}
+
 /* Uniform in the disk by rejection from the square: fails with probability 1 - pi / 4. */
 static int32_t sample_rejection(const void *self, const double *u, double *x) {
   (void)self;
@@ -83,6 +104,10 @@ static double pdf_rejection(const void *self, const double *x) {
 }
 
 /* A box of three dimensions with a state made of its parameter. */
+static void destroy(void *self) {
+  if (*(double *)self == 14) abort();
+  free(self);
+}
 static void *create(const double *parameters) {
   double *power;
   if (parameters[0] == 13) return NULL;
@@ -142,12 +167,38 @@ static const mc_parameter faults[] = {
 static const mc_parameter tilt[] = {{"tilt", 0, -90, 90}};
 static const mc_parameter power[] = {{"power", 2, 0, 20}};
 static const mc_sampler samplers[] = {
-    {.name = "Cosine", .domain = MC_HEMISPHERE, .parameters = faults, .parameter_count = slow + 1, .sample = sample, .pdf = pdf, .invert = invert, .eval = eval, .weight = weight},
+    {.name = "Cosine",
+     .domain = MC_HEMISPHERE,
+     .parameters = faults,
+     .parameter_count = slow + 1,
+     .sample = sample,
+     .pdf = pdf,
+     .invert = invert,
+     .eval = eval,
+     .weight = weight},
     {.name = "Tail", .domain = MC_INTERVAL, .hi = {INFINITY}, .scalar = MC_FLOAT, .sample = sample_tail, .pdf = pdf_tail},
+    {.name = "Logistic", .domain = MC_INTERVAL, .lo = {-INFINITY}, .hi = {INFINITY}, .sample = sample_logistic, .pdf = pdf_logistic},
+    {.name = "Below", .domain = MC_INTERVAL, .lo = {-INFINITY}, .hi = {5}, .sample = sample_below, .pdf = pdf_below},
     {.name = "Rejection", .domain = MC_DISK, .may_fail = 1, .sample = sample_rejection, .pdf = pdf_rejection},
-    {.name = "Box", .domain = MC_BOX, .dim = 3, .lo = {-1}, .hi = {1, 3, 1}, .parameters = power, .parameter_count = 1, .create = create, .sample = sample_box, .pdf = pdf_box},
+    {.name = "Box",
+     .domain = MC_BOX,
+     .dim = 3,
+     .lo = {-1},
+     .hi = {1, 3, 1},
+     .parameters = power,
+     .parameter_count = 1,
+     .create = create,
+     .destroy = destroy,
+     .sample = sample_box,
+     .pdf = pdf_box},
     {.name = "Triangle", .domain = MC_TRIANGLE, .sample = sample_triangle, .pdf = pdf_triangle},
-    {.name = "Halves", .domain = MC_SPHERE, .uniforms = 3, .parameters = tilt, .parameter_count = 1, .sample = sample_halves, .pdf = pdf_halves},
+    {.name = "Halves",
+     .domain = MC_SPHERE,
+     .uniforms = 3,
+     .parameters = tilt,
+     .parameter_count = 1,
+     .sample = sample_halves,
+     .pdf = pdf_halves},
 };
 
 MC_PLUGIN(samplers)
