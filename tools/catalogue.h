@@ -22,6 +22,7 @@ struct CaseOptions {
   std::uint64_t samples = 1'000'000;
   std::uint64_t seed = 1;
   double alpha = 0.001;
+  bool evidence = false; ///< keep what the page draws
 };
 
 /// One sampler at one set of parameters over one scalar.

@@ -21,7 +21,7 @@ void add_bsdf(Catalogue& c, const std::string& name, const std::string& paramete
     const render::Vec3 wo = render::Vec3d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)).cast<render::Float>();
     one.check = [bsdf, wo, bounds, title = one.title()](const CaseOptions& options) {
       mc::BsdfOptions o = bounds;
-      o.name = title, o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha;
+      o.name = title, o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.evidence = options.evidence;
       return mc::check_bsdf<render::Float>(bsdf, wo, o);
     };
     c.push_back(std::move(one));

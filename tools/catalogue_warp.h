@@ -12,7 +12,7 @@ template <class W> void add_case(Catalogue& c, std::string name, std::string par
   bounds.name = one.title();
   one.check = [warp, bounds](const CaseOptions& options) {
     mc::LawOptions o = bounds;
-    o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha;
+    o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.evidence = options.evidence;
     return check_laws(warp, o);
   };
   c.push_back(std::move(one));

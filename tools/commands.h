@@ -60,6 +60,7 @@ struct ValidateOptions {
   std::string samples_file, pdf_file;       ///< samples and the density on a grid, see samples_file.h
   std::string domain;                       ///< of the grid; empty: by the columns of the samples
   bool unnormalized = false;                ///< the grid is only proportional to the density
+  std::string report;                       ///< folder for index.html; empty: none
   std::string command;
 };
 int validate(const ValidateOptions& options);

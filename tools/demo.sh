@@ -27,7 +27,7 @@ set -o pipefail
 run cbox $carlo render librender/scenes/cbox.xml -o out/cbox.exr --size 256x256 --spp 256
 run cbox_png $carlo render librender/scenes/cbox.xml -o out/cbox.png --size 512x512 --spp 64 --exposure 1
 run glass $carlo render librender/scenes/cornell_glass.xml -o out/cornell_glass.png --size 400x400 --spp 144
-run validate $carlo validate --all --json out/validate.json
+run validate $carlo validate --all --json out/validate.json --report out/validate
 run converge $carlo converge pi -o out/convergence
 
 escape() { sed 's/&/\&amp;/g; s/</\&lt;/g; s/>/\&gt;/g'; }
@@ -54,7 +54,7 @@ HTML
   printf '<img src="cbox.png" alt="Cornell box" width="512"></section>'
   section "Glass sphere in a Cornell box" glass "The closing picture of Ray Tracing: The Rest of Your Life, with light let through the glass."
   printf '<img src="cornell_glass.png" alt="Cornell box with a glass sphere"></section>'
-  section "Every sampler obeys its laws" validate "Chi-square, Kolmogorov-Smirnov, mass, Jacobian, inverse and 50-digit oracle, under one family-wise error rate."
+  section "Every sampler obeys its laws" validate "Chi-square, Kolmogorov-Smirnov, mass, Jacobian, inverse and 50-digit oracle, under one family-wise error rate. <a href=\"validate/index.html\">Maps and curves of every case</a>."
   printf '</section>'
   section "Random against stratified" converge "Root-mean-square error of pi by darts. Stratified samples converge as N<sup>-3/4</sup>, random ones as N<sup>-1/2</sup>."
   printf '<img src="convergence/pi.svg" alt="RMS error against N"></section></html>'

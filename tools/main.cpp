@@ -67,7 +67,8 @@ void add_validate(CLI::App& app, carlo::ValidateOptions& o) {
   c->add_option("--scalar", o.scalar, "float or double [both]");
   c->add_option("--threads", o.threads, "Threads, 0 for all of the machine's")->capture_default_str();
   c->add_option("--json", o.json, "Write the results to this file");
-  c->add_option("--junit", o.junit, "Write the verdicts to this file as JUnit XML");
+  c->add_option("--junit", o.junit, "Write the results to this file as JUnit XML");
+  c->add_option("--report", o.report, "Write a page with maps and curves of every case to this folder (index.html)");
   c->add_option("--plugin", o.plugin, "Check the samplers of this shared object, compiled against <mc/check/plugin.h>");
   c->add_option("--params", o.parameters, "Parameters of the plugin's samplers, \"alpha=0.1,n=3\"; each --params is a case")
       ->allow_extra_args(false);

@@ -26,9 +26,29 @@ template <class A> void each(A& a, WorstCell& cell) {
   a(lo, hi, observed, expected, z, where);
 }
 
+template <class A> void each(A& a, Axis& axis) {
+  auto& [name, scale, from, to] = axis;
+  a(name, scale, from, to);
+}
+
+template <class A> void each(A& a, CellCount& cell) {
+  auto& [lo, hi, observed, expected] = cell;
+  a(lo, hi, observed, expected);
+}
+
+template <class A> void each(A& a, Evidence::After& after) {
+  auto& [samples, p] = after;
+  a(samples, p);
+}
+
+template <class A> void each(A& a, Evidence& evidence) {
+  auto& [cells, outcomes, p_after] = evidence;
+  a(cells, outcomes, p_after);
+}
+
 template <class A> void each(A& a, Report& report) {
-  auto& [subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, worst] = report;
-  a(subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, worst);
+  auto& [subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst, evidence] = report;
+  a(subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst, evidence);
 }
 
 } // namespace mc

@@ -250,7 +250,7 @@ mc::Report check_on(const PluginSampler& plugin, const D& domain, const std::str
     if constexpr (std::same_as<typename D::Scalar, double>) laws.push_back(jacobian_law(p, options.seed));
   }
   mc::SubjectOptions o;
-  o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha;
+  o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.evidence = options.evidence;
   mc::Report report = check_subject(subject_of(p, title), o);
   report.checks.insert(report.checks.end(), laws.begin(), laws.end());
   report.ns_per_sample = ns_per_sample(p);

@@ -249,7 +249,7 @@ SamplesFileCase samples_file_case(const SamplesFileOptions& options) {
   c.samples = std::min(rows - rows / 9 - 1, rows - 1000);
   c.one.check = [file, title = c.one.title()](const CaseOptions& o) {
     mc::SubjectOptions s;
-    s.samples = o.samples, s.seed = o.seed, s.alpha = o.alpha;
+    s.samples = o.samples, s.seed = o.seed, s.alpha = o.alpha, s.evidence = o.evidence;
     return mc::check_subject(subject_of(file, title, o.seed), s);
   };
   return c;

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <mutex>
 #include <set>
 
@@ -22,8 +23,6 @@ namespace carlo {
 namespace {
 
 std::string plain(const Case& c) { return c.name + (c.parameters.empty() ? "" : "(" + c.parameters + ")"); }
-
-std::string again(const Case& c) { return c.again.empty() ? fmt::format("'{}' --scalar {}", plain(c), c.scalar) : c.again; }
 
 // The cases that a word names: a sampler, or one case as --list prints it. What the user brought is checked whole if none is named.
 std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catalogue, bool brought) {
@@ -59,11 +58,23 @@ std::uint64_t seed_of(const Case& c, std::uint64_t seed) {
   return seed;
 }
 
+// The page's file in that folder, which is created where it is missing.
+std::string page_in(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  mc::require(!error && std::filesystem::is_directory(folder), "validate: --report '{}' is not a folder and cannot be made one{}; name a folder that can be written", folder,
+              error ? fmt::format(" ({})", error.message()) : std::string());
+  const std::string file = (std::filesystem::path(folder) / "index.html").string();
+  mc::require_writable(file);
+  return file;
+}
+
 std::string error_text(double e) { return e > 0 ? fmt::format("{:.2g} %", 100 * e) : std::string("-"); }
 
-std::string line_of(const Case& c, const mc::Report& r) {
-  return fmt::format("{:<44} {:<7} {:<12} {:>8.2g} {:>9} {:>9} {:>7.1f} {:>6.2f}\n", plain(c), c.scalar, name(r.verdict()), r.p(), error_text(r.detectable),
-                     error_text(r.detectable_cell), r.ns_per_sample, r.seconds);
+std::string line_of(std::size_t width, const Case& c, const mc::Report& r) {
+  const std::string ns = r.ns_per_sample > 0 ? fmt::format("{:.1f}", r.ns_per_sample) : "-";
+  return fmt::format("{:<{}} {:<7} {:<12} {:>8.2g} {:>9} {:>9} {:>7} {:>6.2f}\n", plain(c), width, c.scalar, name(r.verdict()), r.p(), error_text(r.detectable),
+                     error_text(r.detectable_cell), ns, r.seconds);
 }
 
 } // namespace
@@ -99,22 +110,25 @@ int validate(const ValidateOptions& options) {
   // An unwritable place is refused before the work, not after it.
   for (const std::string& file : {o.json, o.junit})
     if (!file.empty()) mc::require_writable(file);
+  const std::string page = o.report.empty() ? "" : page_in(o.report);
 
   std::vector<mc::Report> reports(cases.size());
   std::vector<char> done(cases.size(), 0);
   std::size_t printed = 0, finished = 0;
   std::mutex mutex;
   Progress progress;
-  fmt::print("{:<44} {:<7} {:<12} {:>8} {:>9} {:>9} {:>7} {:>6}\n", "sampler", "scalar", "verdict", "p", "detects", "in a cell", "ns", "s");
+  std::size_t width = 24;
+  for (const Case* c : cases) width = std::max(width, plain(*c).size());
+  fmt::print("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>7} {:>6}\n", "sampler", width, "scalar", "verdict", "p", "detects", "in a cell", "ns", "s");
   mc::parallel_for(cases.size(), o.threads, [&](std::size_t i) {
-    const CaseOptions c{.samples = o.samples, .seed = seed_of(*cases[i], o.seed), .alpha = alpha};
+    const CaseOptions c{.samples = o.samples, .seed = seed_of(*cases[i], o.seed), .alpha = alpha, .evidence = !page.empty()};
     mc::Report report = mc::with_context(cases[i]->title(), [&] { return cases[i]->check(c); });
     const std::lock_guard lock(mutex);
     reports[i] = std::move(report);
     done[i] = 1;
     ++finished;
     if (printed < cases.size() && done[printed]) progress.clear();
-    for (; printed < cases.size() && done[printed]; ++printed) fmt::print("{}", line_of(*cases[printed], reports[printed]));
+    for (; printed < cases.size() && done[printed]; ++printed) fmt::print("{}", line_of(width, *cases[printed], reports[printed]));
     std::fflush(stdout);
     progress.show(static_cast<double>(finished) / static_cast<double>(cases.size()), fmt::format("{} of {} cases", finished, cases.size()));
   });
@@ -127,12 +141,15 @@ int validate(const ValidateOptions& options) {
   }
   for (std::size_t i = 0; i < cases.size(); ++i)
     if (!reports[i].passed())
-      fmt::print("\n{}\n  again: carlo validate {} --seed {}{} --alpha {:.4g}\n", reports[i].to_string(), again(*cases[i]), o.seed,
-                 available > 0 ? std::string() : fmt::format(" --samples {}", o.samples), alpha);
+      fmt::print("\n{}\n  again: {}\n", reports[i].to_string(), command_again(*cases[i], o, cases.size()));
   fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed, cases.size(),
              inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(), o.alpha, o.samples, o.seed);
-  if (!o.junit.empty()) write_junit(o.junit, cases, reports);
+  if (!o.junit.empty()) write_junit(o.junit, o, cases, reports);
   if (!o.json.empty()) write_json(o.json, o, cases, reports);
+  if (!page.empty()) {
+    write_page(page, o, cases, reports);
+    fmt::print("page: {}\n", page);
+  }
   return passed == cases.size() ? exit_ok : exit_failed;
 }
 

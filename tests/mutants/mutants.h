@@ -34,7 +34,7 @@ inline std::vector<Mutant> all() {
 
 // Tests of counts see one fault at several scales: whether it is called shape, local or atom is a matter of degree.
 inline bool same_kind(mc::Fault a, mc::Fault b) {
-  const auto counted = [](mc::Fault f) { return f == mc::Fault::shape || f == mc::Fault::local || f == mc::Fault::atom; };
+  const auto counted = [](mc::Fault f) { return f == mc::Fault::shape || f == mc::Fault::rotation || f == mc::Fault::local || f == mc::Fault::atom; };
   return a == b || (counted(a) && counted(b));
 }
 

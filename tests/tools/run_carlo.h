@@ -1,5 +1,5 @@
 #pragma once
-// Runs the carlo binary as a user does.
+// Runs the carlo binary, or any other, as a user does.
 
 #include <array>
 #include <cstdio>
@@ -14,14 +14,16 @@ struct Run {
   std::string output; ///< stdout and stderr
 };
 
-inline Run run_carlo(const std::string& arguments) {
-  FILE* pipe = popen(("'" CARLO_PATH "' " + arguments + " 2>&1").c_str(), "r");
-  if (!pipe) return {-1, "cannot start carlo"};
+inline Run run(const std::string& command) {
+  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (!pipe) return {-1, "cannot start " + command};
   std::string output;
   std::array<char, 4096> buffer;
   for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) output.append(buffer.data(), n);
   const int status = pclose(pipe);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output};
 }
+
+inline Run run_carlo(const std::string& arguments) { return run("'" CARLO_PATH "' " + arguments); }
 
 } // namespace support

@@ -78,7 +78,8 @@ TEST(Validate, JunitIsWellFormed) {
   ValidateOptions o = few({"UniformDisk"});
   o.junit = (std::filesystem::path(testing::TempDir()) / "junit.xml").string();
   run(o);
-  EXPECT_THAT(mc::read_file(o.junit), testing::AllOf(HasSubstr("<testsuite name=\"carlo validate\" tests=\"2\" failures=\"0\""), HasSubstr("</testsuite>")));
+  EXPECT_THAT(mc::read_file(o.junit), testing::AllOf(HasSubstr("<testsuite name=\"carlo validate\" tests=\"2\" failures=\"0\""), HasSubstr("<property name=\"ns_per_sample\" value="), HasSubstr("<property name=\"again\" value=\"carlo validate 'UniformDisk' --scalar float"),
+                                                         HasSubstr("</testsuite>")));
 }
 
 TEST(Validate, DetectChoosesTheSamples) {

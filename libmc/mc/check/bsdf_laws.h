@@ -5,6 +5,7 @@
 #include <mc/check/law_ledger.h>
 #include <mc/check/make_subject.h>
 #include <mc/check/t_test.h>
+#include <mc/check/timing.h>
 #include <mc/domain/sphere.h>
 
 namespace mc {
@@ -20,6 +21,7 @@ struct BsdfOptions {
   double tolerance = 1e-3;        ///< relative, of f and pdf as sample, eval and pdf state them, and of reciprocity
   double mass_tolerance = 1e-5;   ///< rounding error of the density's integral
   std::size_t max_evaluations = 12'000'000;
+  bool evidence = false;          ///< see SubjectOptions
 };
 
 namespace detail {
@@ -62,6 +64,7 @@ template <Real S, class Bsdf> Subject bsdf_subject(const Bsdf& bsdf, const Vec3<
     }
   }
   s.dim = continuous ? 2 : 0;
+  s.axes = chart_axes(Sphere<double>{});
   if (lobes[0] > 0 || lobes[1] > 0) s.atoms = {lobes[0], lobes[1]};
   const auto draw_one = [bsdf, wo](Pcg& random) {
     const S uc = random.uniform<S>();
@@ -122,7 +125,8 @@ template <Real S, class Bsdf> Subject bsdf_subject(const Bsdf& bsdf, const Vec3<
 /// the directional albedo, at most 1 in every channel; tested one-sided at five standard errors).
 template <Real S, class Bsdf> Report check_bsdf(const Bsdf& bsdf, const Vec3<S>& wo, const BsdfOptions& options = {}) {
   SubjectOptions o;
-  o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.max_evaluations = options.max_evaluations;
+  o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.max_evaluations = options.max_evaluations, o.evidence = options.evidence;
+  const auto start = std::chrono::steady_clock::now();
   Report report = check_subject(bsdf_subject<S>(bsdf, wo, options), o);
 
   LawLedger sign("f finite and >= 0", 0, Fault::physics), reciprocity("reciprocity", options.tolerance, Fault::physics);
@@ -155,6 +159,18 @@ template <Real S, class Bsdf> Report check_bsdf(const Bsdf& bsdf, const Vec3<S>&
   }
   for (const LawLedger* law : {&sign, &reciprocity, &energy})
     if (law != &reciprocity || options.reciprocal) report.checks.push_back(law->check());
+
+  struct Input { S uc; Vec2<S> u; };
+  std::vector<Input> inputs;
+  for (int i = 0; i < timing_inputs; ++i) {
+    const S uc = random.uniform<S>();
+    inputs.push_back({uc, random.point<S, 2>()});
+  }
+  report.ns_per_sample = ns_per_sample(inputs, [&](const Input& in) {
+    const auto drawn = bsdf.sample(wo, in.uc, in.u);
+    return drawn ? static_cast<double>(drawn->wi.x()) : 0.0;
+  });
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }
 

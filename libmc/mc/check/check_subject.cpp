@@ -5,6 +5,7 @@
 #include <mc/check/cubature.h>
 #include <mc/check/multiple_testing.h>
 #include <mc/check/partition.h>
+#include <mc/check/rotation.h>
 #include <mc/core/error.h>
 #include <mc/core/types.h>
 #include <mc/random/hash.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 namespace mc {
 namespace {
@@ -25,6 +27,8 @@ struct Tally {
   double worst_weight = 0;
   std::uint64_t n = 0;
   std::vector<std::uint64_t> atoms;
+  std::uint64_t milestone = ~std::uint64_t{0}; ///< on_milestone is called after so many draws
+  std::function<void()> on_milestone;
 
   static void note(Fault& f, std::uint64_t seed, std::uint64_t index) {
     if (f.count++ == 0) f.seed = seed, f.index = index;
@@ -46,6 +50,7 @@ template <class F> void draw(const Subject& s, std::uint64_t seed, std::uint64_t
     require(!draws.empty(), "{}: it draws no samples", s.name);
     for (std::size_t i = 0; i < draws.size(); ++i) {
       const Subject::Draw& d = draws[i];
+      if (tally.n == tally.milestone) tally.on_milestone();
       ++tally.n;
       switch (d.kind) {
       case Kind::failed: Tally::note(tally.failed, stream, i); continue;
@@ -151,6 +156,7 @@ struct Slab {
   UnitBox box;
   std::vector<UnitBox> pieces; ///< of the slab, cut at the pilot's quantiles of the other axes so that no lobe is missed
   std::uint64_t observed = 0;
+  double mass = 0, error = 0;  ///< claimed by the density
 };
 
 std::vector<Slab> crowded_slabs(const Subject& s, const std::vector<Partition::Coordinates>& pilot, const Ranks& ranks) {
@@ -196,23 +202,29 @@ std::vector<Slab> crowded_slabs(const Subject& s, const std::vector<Partition::C
   return slabs;
 }
 
-Check atoms(const Subject& s, const std::vector<Slab>& slabs, const Report& report, double n, std::size_t max_evaluations) {
-  Check c{"no atoms", Verdict::pass, 1.0, 0.04, 0, 0, Fault::atom, {}};
-  double sure = 1;
-  for (const Slab& slab : slabs) {
+void weigh(const Subject& s, std::vector<Slab>& slabs, double n, std::size_t max_evaluations) {
+  for (Slab& slab : slabs) {
     CubatureGoal goal;
     goal.total_error = 0.1 / n;
     goal.box_error = [&](double value) { return std::max(0.1 / n / static_cast<double>(slab.pieces.size()), 0.01 * value); };
     goal.max_evaluations = max_evaluations / 8;
     const auto [value, error] = integrate_boxes(s.density, s.dim, slab.pieces, goal).total;
+    slab.mass = value, slab.error = error;
+  }
+}
+
+Check atoms(int dim, const std::vector<Slab>& slabs, const Report& report, double n) {
+  Check c{"no atoms", Verdict::pass, 1.0, 0.04, 0, 0, Fault::atom, {}};
+  double sure = 1;
+  for (const Slab& slab : slabs) {
     const double share = static_cast<double>(slab.observed) / n;
-    if (share <= value) continue;
-    const double raw = sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(value, 1.0)), s.dim);
-    sure = std::min(sure, sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(value + error, share)), s.dim));
+    if (share <= slab.mass) continue;
+    const double raw = sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(slab.mass, 1.0)), dim);
+    sure = std::min(sure, sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(slab.mass + slab.error, share)), dim));
     if (raw >= *c.p) continue;
     c.p = raw;
     c.statistic = static_cast<double>(slab.observed);
-    c.detail = fmt::format("{} samples, {:.3g} expected, with coordinate {} of the chart in [{:.17g}, {:.17g}]", slab.observed, n * value, slab.axis,
+    c.detail = fmt::format("{} samples, {:.3g} expected, with coordinate {} of the chart in [{:.17g}, {:.17g}]", slab.observed, n * slab.mass, slab.axis,
                            slab.box.lo[slab.axis], slab.box.hi[slab.axis]);
   }
   const double level = sidak_level(report.alpha, c.share);
@@ -253,11 +265,15 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   report.subject = s.name;
   report.alpha = options.alpha;
   report.samples = options.samples;
+  if (s.dim > 0) report.axes = s.axes;
+  for (int i = static_cast<int>(report.axes.size()); i < s.dim; ++i) report.axes.push_back({fmt::format("v{}", i)});
+  if (options.evidence) report.evidence.emplace();
 
   Tally tally;
   tally.atoms.assign(s.atoms.size(), 0);
   Tally pilot_tally = tally;
   std::vector<Partition::Coordinates> pilot;
+  std::optional<Partition> partition;
   std::vector<UnitBox> boxes;
   CubatureResult masses;
   std::vector<Cell> cells;
@@ -276,9 +292,9 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
     const int depth = tree_depth(continuous);
     const Ranks ranks(pilot, s.dim);
     slabs = crowded_slabs(s, pilot, ranks);
-    const Partition partition(pilot, s.dim, depth);
-    for (int i = 0; i < partition.size(); ++i) {
-      boxes.push_back(partition.box(i));
+    partition.emplace(pilot, s.dim, depth);
+    for (int i = 0; i < partition->size(); ++i) {
+      boxes.push_back(partition->box(i));
       Cell c;
       for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
         c.rank_lo[d] = ranks(d, boxes.back().lo[d]), c.rank_hi[d] = boxes.back().hi[d] < 1 ? ranks(d, boxes.back().hi[d]) : 1.0;
@@ -288,14 +304,40 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
     goal.total_error = 0.06 / std::sqrt(n);
     goal.box_error = [n](double value) { return 0.04 * std::sqrt(std::max(value, 1 / n) / n); };
     goal.max_evaluations = options.max_evaluations;
-    const Pieces pieces = cut_into_pieces(partition, pilot, s.dim);
+    const Pieces pieces = cut_into_pieces(*partition, pilot, s.dim);
     masses = integrate_boxes(s.density, s.dim, pieces.boxes, goal);
     for (std::size_t i = 0; i < pieces.boxes.size(); ++i) {
       Cell& c = cells[pieces.owner[i]];
       c.p += masses.boxes[i].value, c.error += masses.boxes[i].error;
     }
+    weigh(s, slabs, n, options.max_evaluations);
+  }
+  report.mass = masses.total.value + atoms_mass;
+  report.mass_error = masses.total.error;
+  cells.resize(boxes.size() + s.atoms.size());
+  for (std::size_t i = 0; i < s.atoms.size(); ++i) cells[boxes.size() + i].p = s.atoms[i];
+
+  // Every test of the counts so far.
+  const auto statistics = [&] {
+    for (std::size_t i = 0; i < s.atoms.size(); ++i) cells[boxes.size() + i].observed = tally.atoms[i];
+    CellTests tests = test_cells(cells, s.dim, options.alpha);
+    if (s.dim > 0) tests.checks.insert(tests.checks.begin(), atoms(s.dim, slabs, report, static_cast<double>(tally.n)));
+    if (s.may_fail) tests.checks.push_back(failures(s, tally, report));
+    return tests;
+  };
+  if (options.evidence) {
+    tally.milestone = 1024;
+    tally.on_milestone = [&] {
+      Report so_far;
+      so_far.checks = statistics().checks;
+      report.evidence->p_after.push_back({tally.n, so_far.p()});
+      tally.milestone *= 2;
+    };
+  }
+
+  if (s.dim > 0) {
     draw(s, hash(options.seed, 2), options.samples, tally, [&](const auto& v) {
-      ++cells[static_cast<std::size_t>(partition.cell(v))].observed;
+      ++cells[static_cast<std::size_t>(partition->cell(v))].observed;
       for (Slab& slab : slabs) slab.observed += v[slab.axis] >= slab.box.lo[slab.axis] && v[slab.axis] <= slab.box.hi[slab.axis];
     });
   } else {
@@ -314,8 +356,6 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   all.worst_weight = std::max(all.worst_weight, pilot_tally.worst_weight);
   per_sample(s, all, report);
 
-  report.mass = masses.total.value + atoms_mass;
-  report.mass_error = masses.total.error;
   if (masses.bad)
     report.checks.push_back({"pdf finite and >= 0", Verdict::fail, {}, 0, 1, 0, Fault::not_finite,
                              fmt::format("at chart coordinates ({:.17g}, {:.17g}, {:.17g}){}", (*masses.bad)[0], (*masses.bad)[1], (*masses.bad)[2],
@@ -331,34 +371,52 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   }
 
   for (std::size_t i = 0; i < s.atoms.size(); ++i) {
-    Cell c;
-    c.p = s.atoms[i];
-    c.observed = tally.atoms[i];
-    cells.push_back(c);
-    if (c.p == 0 && c.observed > 0)
-      report.checks.push_back({"outcomes of probability 0", Verdict::fail, {}, 0, static_cast<double>(c.observed), 0, Fault::leak,
-                               fmt::format("outcome {} came {} times", i, c.observed)});
+    if (s.atoms[i] == 0 && tally.atoms[i] > 0)
+      report.checks.push_back({"outcomes of probability 0", Verdict::fail, {}, 0, static_cast<double>(tally.atoms[i]), 0, Fault::leak,
+                               fmt::format("outcome {} came {} times", i, tally.atoms[i])});
   }
-  if (s.dim > 0) report.checks.push_back(atoms(s, slabs, report, n, options.max_evaluations));
-  std::vector<Cell> tested = cells;
-  CellTests tests = test_cells(std::move(tested), s.dim, options.alpha);
+  CellTests tests = statistics();
+  const auto of_shape = [](const Check& c) { return c.verdict == Verdict::fail && (c.fault == Fault::shape || c.fault == Fault::local); };
+  if (const auto first = std::find_if(tests.checks.begin(), tests.checks.end(), of_shape); first != tests.checks.end() && s.dim > 1) {
+    for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
+      if (report.axes[d].scale != Axis::Scale::azimuth) continue;
+      const std::optional<double> turn = find_rotation(s, d, *partition, cells, pilot);
+      if (!turn) continue;
+      first->detail += fmt::format("; as if {} were turned by {:.3g} deg", report.axes[d].name, 360 * *turn);
+      for (Check& c : tests.checks)
+        if (of_shape(c)) c.fault = Fault::rotation;
+    }
+  }
   for (Check& c : tests.checks) report.checks.push_back(std::move(c));
-  if (s.may_fail) report.checks.push_back(failures(s, tally, report));
   report.detectable = tests.detectable;
   report.detectable_cell = tests.detectable_cell;
 
   const double total = s.may_fail ? 1.0 : std::max(report.mass, 1e-300);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    WorstCell w{boxes[i].lo, boxes[i].hi, static_cast<double>(cells[i].observed), n * cells[i].p / total, 0, {}};
-    w.z = (w.observed - w.expected) / std::sqrt(std::max(w.expected, 0.5));
-    report.worst.push_back(w);
+  const auto expected = [&](std::size_t i) { return n * cells[i].p / total; };
+  const auto z = [&](std::size_t i) { return (static_cast<double>(cells[i].observed) - expected(i)) / std::sqrt(std::max(expected(i), 0.5)); };
+  std::vector<std::size_t> order(cells.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto five = order.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(order.size(), 5));
+  std::partial_sort(order.begin(), five, order.end(), [&](std::size_t a, std::size_t b) { return std::abs(z(a)) > std::abs(z(b)); });
+  for (auto i = order.begin(); i != five; ++i) {
+    WorstCell w{{}, {}, static_cast<double>(cells[*i].observed), expected(*i), z(*i), {}};
+    if (*i < boxes.size()) {
+      w.lo = boxes[*i].lo, w.hi = boxes[*i].hi;
+      Subject::Coordinates centre;
+      for (std::size_t d = 0; d < 3; ++d) centre[d] = 0.5 * (w.lo[d] + w.hi[d]);
+      if (s.describe_point) w.where = s.describe_point(centre);
+    } else {
+      w.where = fmt::format("outcome {}", *i - boxes.size());
+    }
+    report.worst.push_back(std::move(w));
   }
-  std::sort(report.worst.begin(), report.worst.end(), [](const WorstCell& a, const WorstCell& b) { return std::abs(a.z) > std::abs(b.z); });
-  if (report.worst.size() > 5) report.worst.resize(5);
-  for (WorstCell& w : report.worst) {
-    Subject::Coordinates centre;
-    for (std::size_t d = 0; d < 3; ++d) centre[d] = 0.5 * (w.lo[d] + w.hi[d]);
-    if (s.describe_point) w.where = s.describe_point(centre);
+  if (report.evidence) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      CellCount c{{}, {}, static_cast<double>(cells[i].observed), expected(i)};
+      if (i < boxes.size()) c.lo = boxes[i].lo, c.hi = boxes[i].hi;
+      (i < boxes.size() ? report.evidence->cells : report.evidence->outcomes).push_back(c);
+    }
+    report.evidence->p_after.push_back({tally.n, report.p()});
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

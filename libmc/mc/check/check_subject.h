@@ -12,6 +12,7 @@ struct SubjectOptions {
   double alpha = 0.001;              ///< chance that a correct subject is rejected, over all its statistical tests. The default
                                      ///< lets a suite of a hundred samplers pass nine seeds in ten
   std::size_t max_evaluations = 12'000'000; ///< of the density, for the expected counts
+  bool evidence = false;             ///< keep all counts and the p-value's way, for pages and plots
 };
 
 /// Draws and tests:

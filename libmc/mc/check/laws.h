@@ -6,6 +6,7 @@
 #include <mc/check/law_ledger.h>
 #include <mc/check/make_subject.h>
 #include <mc/check/oracle.h>
+#include <mc/check/timing.h>
 
 #include <chrono>
 
@@ -23,6 +24,7 @@ struct LawOptions {
   double pdf_eps = 64;               ///< |pdf(x) / exact - 1|
   double mass_eps = 64;              ///< |mass - 1| beyond the bound on the quadrature error
   std::size_t max_evaluations = 12'000'000;
+  bool evidence = false;             ///< see SubjectOptions
 };
 
 namespace detail {
@@ -158,24 +160,6 @@ template <Warp W, Warp O> void precision_laws(const W& warp, const O& oracle, st
   }
 }
 
-/// Processor time of sample alone.
-template <Warp W> double ns_per_sample(const W& warp) {
-  constexpr int dim = W::Domain::dim, n = 1 << 12, rounds = 8;
-  using S = typename W::Scalar;
-  Pcg random(3);
-  std::vector<UnitPointOf<W>> u;
-  for (int i = 0; i < n; ++i) u.push_back(random.point<S, dim>());
-  double best = HUGE_VAL, sum = 0;
-  for (int round = 0; round < rounds; ++round) {
-    const auto start = std::chrono::steady_clock::now();
-    for (const auto& v : u) sum += component(warp.sample(v), 0);
-    best = std::min(best, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / n);
-  }
-  volatile double keep = sum;
-  (void)keep;
-  return best;
-}
-
 } // namespace detail
 
 /// Checks one warp; each law is one Check of the report.
@@ -191,7 +175,7 @@ template <Warp W> Report check_laws(const W& warp, const LawOptions& options = {
     Subject subject = make_subject(options.name, warp);
     subject.mass_tolerance = options.mass_eps * static_cast<double>(std::numeric_limits<typename W::Scalar>::epsilon());
     SubjectOptions o;
-    o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.max_evaluations = options.max_evaluations;
+    o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.max_evaluations = options.max_evaluations, o.evidence = options.evidence;
     report = check_subject(subject, o);
   } else {
     report.subject = options.name;
@@ -219,7 +203,10 @@ template <Warp W> Report check_laws(const W& warp, const LawOptions& options = {
   close(pdf);
 
   report.checks.insert(report.checks.begin(), laws.begin(), laws.end());
-  report.ns_per_sample = detail::ns_per_sample(warp);
+  std::vector<UnitPointOf<W>> u;
+  Pcg random(3);
+  for (int i = 0; i < timing_inputs; ++i) u.push_back(random.point<typename W::Scalar, W::Domain::dim>());
+  report.ns_per_sample = ns_per_sample(u, [&](const UnitPointOf<W>& v) { return detail::component(warp.sample(v), 0); });
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Subjects of warps, of discrete distributions and of pairs of functions.
 
+#include <mc/check/chart_axes.h>
 #include <mc/check/subject.h>
 #include <mc/random/pcg.h>
 #include <mc/table/concept.h>
@@ -65,6 +66,7 @@ template <Domain D, class Draw, class Pdf> Subject subject_on(std::string name, 
   Subject s;
   s.name = std::move(name);
   s.dim = D::dim;
+  s.axes = chart_axes(domain);
   s.mass_tolerance = 64 * static_cast<double>(std::numeric_limits<S>::epsilon());
   s.epsilon = static_cast<double>(std::numeric_limits<S>::epsilon());
   s.resolution = [chart](const Subject::Coordinates& v, int axis) {

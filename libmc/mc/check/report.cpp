@@ -31,6 +31,7 @@ std::string_view name(Fault f) {
   case Fault::jacobian: return "jacobian: pdf is not the density of sample";
   case Fault::precision: return "precision: rounding error beyond the stated bound";
   case Fault::atom: return "atom: many samples share one value of a coordinate";
+  case Fault::rotation: return "rotation: the samples follow the density turned about its pole";
   case Fault::shape: return "shape: the samples follow another density";
   case Fault::local: return "local: too many or too few samples in single cells";
   case Fault::physics: return "physics: reciprocity, energy or sign";
@@ -72,9 +73,20 @@ std::string Report::to_string() const {
     if (!c.detail.empty()) text += fmt::format("; {}", c.detail);
   }
   if (verdict() == Verdict::pass) return text;
-  for (const WorstCell& w : worst)
-    text += fmt::format("\n  cell ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}){}: observed {:g}, expected {:.1f}, z = {:.1f}", w.lo[0],
-                        w.lo[1], w.lo[2], w.hi[0], w.hi[1], w.hi[2], w.where.empty() ? "" : " at " + w.where, w.observed, w.expected, w.z);
+  for (const WorstCell& w : worst) {
+    const std::string cell = describe_cell(axes, w.lo, w.hi);
+    text += fmt::format("\n  {}{}{}: observed {:.0f}, expected {:.1f}, z = {:.1f}", w.lo == w.hi ? "" : cell.empty() ? "cell" : "cell " + cell,
+                        w.lo == w.hi || w.where.empty() ? "" : " at ", w.where, w.observed, w.expected, w.z);
+  }
+  return text;
+}
+
+std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo, const std::array<double, 3>& hi) {
+  std::string text;
+  for (std::size_t d = 0; d < std::min<std::size_t>(axes.size(), 3); ++d) {
+    const Axis& axis = axes[d];
+    text += fmt::format("{}{} {:.5g} to {:.5g}{}{}", d > 0 ? ", " : "", axis.name, axis.value(lo[d]), axis.value(hi[d]), axis.unit().empty() ? "" : " ", axis.unit());
+  }
   return text;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 /// What a checker found.
 
+#include <mc/check/axis.h>
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -15,8 +17,9 @@ enum class Verdict { pass, fail, inconclusive };
 
 std::string_view name(Verdict v);
 
-/// What a failed check points to. `shape`: the samples follow another density than the one claimed.
-enum class Fault { none, edge, not_finite, outside, leak, mass, weight, support, inverse, jacobian, precision, atom, shape, local, physics };
+/// What a failed check points to. `shape`: the samples follow another density than the one claimed; `rotation`: the claimed one,
+/// turned about the pole.
+enum class Fault { none, edge, not_finite, outside, leak, mass, weight, support, inverse, jacobian, precision, atom, rotation, shape, local, physics };
 
 std::string_view name(Fault f);
 
@@ -32,12 +35,29 @@ struct Check {
   std::string detail;            ///< where and by how much, one line; empty when there is nothing to say
 };
 
-/// A cell of the partition whose count is far from what the density claims.
+/// A cell of the partition, or a discrete outcome, whose count is far from what the density claims.
 struct WorstCell {
-  std::array<double, 3> lo{}, hi{}; ///< chart coordinates
+  std::array<double, 3> lo{}, hi{}; ///< chart coordinates; all 0 for an outcome
   double observed = 0, expected = 0, z = 0;
-  std::string where;                ///< its centre as a point of the domain
+  std::string where;                ///< its centre as a point of the domain; "outcome 3"
 };
+
+/// Samples counted in a cell, and how many the density claims.
+struct CellCount {
+  std::array<double, 3> lo{}, hi{}; ///< chart coordinates
+  double observed = 0, expected = 0;
+};
+
+/// What the maps and curves of a page are drawn from. Some 300 kB where the samples are many.
+struct Evidence {
+  std::vector<CellCount> cells;     ///< a complete kd-tree's, in its order: the two halves of each aligned run share a face
+  std::vector<CellCount> outcomes;  ///< discrete ones; lo and hi are 0
+  struct After { std::uint64_t samples; double p; };
+  std::vector<After> p_after;       ///< Report::p() had the run stopped there: after 1024, 2048, 4096, ... and all samples
+};
+
+/// "theta 1.5 to 3 deg, phi 0 to 90 deg".
+std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo, const std::array<double, 3>& hi);
 
 /// All checks of one subject. Statistical checks share one family-wise alpha, see multiple_testing.h.
 struct Report {
@@ -50,7 +70,9 @@ struct Report {
   double seconds = 0;
   double ns_per_sample = 0;
   std::vector<Check> checks;
+  std::vector<Axis> axes;          ///< what the chart coordinates of cells stand for; empty for discrete outcomes
   std::vector<WorstCell> worst;    ///< the five worst, worst first
+  std::optional<Evidence> evidence; ///< only where the options asked for it
 
   Verdict verdict() const; ///< fail if any failed, else inconclusive if any is, else pass
   bool passed() const { return verdict() == Verdict::pass; }

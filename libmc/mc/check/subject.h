@@ -1,6 +1,7 @@
 #pragma once
 /// Anything that draws points with a claimed density, reduced to what the statistical tests need.
 
+#include <mc/check/axis.h>
 #include <mc/domain/concept.h>
 
 #include <array>
@@ -19,6 +20,7 @@ struct Subject {
 
   std::string name;
   int dim = 0; ///< 0: discrete outcomes only
+  std::vector<Axis> axes; ///< what the coordinates stand for; may be empty
 
   /// One draw, or why there is none.
   ///   failed     : the sampler returned nothing, which counts against 1 - mass and is an error unless may_fail

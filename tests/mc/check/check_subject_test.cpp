@@ -120,4 +120,56 @@ TEST(CheckSubject, RefusesNonsense) {
   EXPECT_THROW(check_subject(s, {.alpha = 2}), mc::Error);
 }
 
+TEST(CheckSubject, EvidenceIsAllTheCountsAndTheWayOfP) {
+  const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
+  const mc::Report plain = check_subject(s, {.samples = 50'000}), r = check_subject(s, {.samples = 50'000, .evidence = true});
+  EXPECT_FALSE(plain.evidence);
+  ASSERT_TRUE(r.evidence);
+  EXPECT_EQ(plain.to_string(), r.to_string());
+  EXPECT_EQ(plain.axes.size(), 2u);
+  double observed = 0, expected = 0, volume = 0;
+  for (const mc::CellCount& c : r.evidence->cells) {
+    observed += c.observed, expected += c.expected;
+    volume += (c.hi[0] - c.lo[0]) * (c.hi[1] - c.lo[1]);
+  }
+  EXPECT_EQ(observed, 50'000);
+  EXPECT_NEAR(expected, 50'000, 1e-3);
+  EXPECT_NEAR(volume, 1, 1e-12);
+  ASSERT_EQ(r.evidence->p_after.size(), 7u); // 1024, ..., 32768, all
+  EXPECT_EQ(r.evidence->p_after[5].samples, 32768u);
+  EXPECT_EQ(r.evidence->p_after.back().samples, 50'000u);
+  EXPECT_EQ(r.evidence->p_after.back().p, r.p());
+  // What 32768 samples say is what a run of 32768 samples would say, but for the pilot's size and so the cells.
+  for (const auto& [samples, p] : r.evidence->p_after) EXPECT_GT(p, 0.001) << samples;
+}
+
+TEST(CheckSubject, TheWayOfPFallsForAWrongSampler) {
+  const auto skewed = [](Pcg& r) {
+    const double z = std::pow(r.uniform<double>(), 1 / 2.1), phi = 2 * mc::pi<double> * r.uniform<double>();
+    return mc::spherical_direction<double>(std::sqrt(1 - z * z), z, phi);
+  };
+  const mc::Report r = check_subject(make_subject("exponent", mc::Hemisphere<double>{}, skewed, cosine_pdf), {.samples = 1 << 17, .evidence = true});
+  EXPECT_EQ(r.verdict(), Verdict::fail);
+  EXPECT_GT(r.evidence->p_after.front().p, 1e-3);
+  EXPECT_LT(r.evidence->p_after.back().p, 1e-9);
+}
+
+TEST(CheckSubject, OutcomesAreEvidenceToo) {
+  mc::Subject s;
+  s.name = "coin", s.atoms = {0.5, 0.5};
+  s.draw = [](std::uint64_t seed, std::size_t n, std::vector<mc::Subject::Draw>& out) {
+    Pcg random(seed);
+    for (std::size_t i = 0; i < n; ++i) {
+      out.emplace_back().kind = mc::Subject::Draw::Kind::atom;
+      out.back().atom = random.uniform<double>() < 0.55;
+    }
+  };
+  const mc::Report r = check_subject(s, {.samples = 10'000, .evidence = true});
+  EXPECT_EQ(r.verdict(), Verdict::fail);
+  ASSERT_EQ(r.evidence->outcomes.size(), 2u);
+  EXPECT_EQ(r.evidence->outcomes[0].observed + r.evidence->outcomes[1].observed, 10'000);
+  EXPECT_EQ(r.evidence->outcomes[1].expected, 5000);
+  EXPECT_THAT(r.to_string(), testing::HasSubstr("outcome 1: observed 5"));
+}
+
 } // namespace

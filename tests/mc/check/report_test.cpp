@@ -31,6 +31,16 @@ TEST(Report, TextSaysWhereAndByHowMuch) {
                                             testing::HasSubstr("at (0, 0, 1): observed 120, expected 64.0, z = 7.0"), testing::HasSubstr("likely fault: mass")));
 }
 
+TEST(Report, CellsReadInTheCoordinatesOfTheDomain) {
+  Report r;
+  r.axes = {{"theta", mc::Axis::Scale::polar, 0, 1}, {"phi", mc::Axis::Scale::azimuth, 0, 1}};
+  r.checks.push_back({"cells", Verdict::fail, 1e-9, 0.1, 7, 0, Fault::local, ""});
+  r.worst.push_back({{0, 0.25, 0}, {0.5, 0.5, 1}, 120, 64, 7, "(0, 0, 1)"});
+  r.worst.push_back({{}, {}, 12, 3, 5.2, "outcome 4"});
+  EXPECT_THAT(r.to_string(), testing::AllOf(testing::HasSubstr("cell theta 0 to 60 deg, phi 90 to 180 deg at (0, 0, 1): observed 120"),
+                                            testing::HasSubstr("\n  outcome 4: observed 12, expected 3.0, z = 5.2")));
+}
+
 TEST(Report, EveryFaultAndVerdictHasAName) {
   for (int i = 0; i <= static_cast<int>(Fault::physics); ++i) EXPECT_GT(name(static_cast<Fault>(i)).size(), 3u) << i;
   for (const Verdict v : {Verdict::pass, Verdict::fail, Verdict::inconclusive}) EXPECT_GT(name(v).size(), 3u);

@@ -1,0 +1,52 @@
+#pragma once
+/// How the coordinates of a chart read on its domain, for reports and maps.
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <string_view>
+
+namespace mc {
+
+/// One chart coordinate v in [0,1] and the quantity of the domain that it stands for, a monotone function of v alone:
+///   linear    : a (1 - v) + b v
+///   radius    : sqrt(a^2 + (b^2 - a^2) v)
+///   half_line : a + b v / (1 - v)
+///   real_line : a + b w / (1 - w^2) * 2, w = 2 v - 1
+///   polar     : the angle from the pole [deg] whose 1 - cos is b v
+///   azimuth   : 360 v [deg], and 360 meets 0
+struct Axis {
+  enum class Scale { linear, radius, half_line, real_line, polar, azimuth };
+
+  std::string name = "v";
+  Scale scale = Scale::linear;
+  double a = 0, b = 1;
+
+  double value(double v) const {
+    switch (scale) {
+    case Scale::linear: return a * (1 - v) + b * v;
+    case Scale::radius: return std::sqrt(a * a + (b - a) * (b + a) * v);
+    case Scale::half_line: return a + b * (v / (1 - v));
+    case Scale::real_line: return a + b * ((2 * v - 1) / (2 * v * (1 - v)));
+    case Scale::polar: return 360 / std::numbers::pi * std::asin(std::sqrt(std::min(b * v / 2, 1.0)));
+    case Scale::azimuth: return 360 * v;
+    }
+    return v;
+  }
+  std::string_view unit() const { return scale == Scale::polar || scale == Scale::azimuth ? "deg" : ""; }
+};
+
+constexpr std::string_view name(Axis::Scale s) {
+  switch (s) {
+  case Axis::Scale::linear: return "linear";
+  case Axis::Scale::radius: return "radius";
+  case Axis::Scale::half_line: return "half_line";
+  case Axis::Scale::real_line: return "real_line";
+  case Axis::Scale::polar: return "polar";
+  case Axis::Scale::azimuth: return "azimuth";
+  }
+  return "";
+}
+
+} // namespace mc

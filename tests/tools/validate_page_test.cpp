@@ -1,0 +1,202 @@
+// The page of carlo validate: what it holds, and what a headless browser makes of it.
+
+#include "catalogue.h"
+#include "commands.h"
+#include "validate_output.h"
+#include "validate_page.h"
+
+#include <mc/check/check_subject.h>
+#include <mc/check/make_subject.h>
+#include <mc/core/error.h>
+#include <mc/core/file.h>
+#include <mc/domain/hemisphere.h>
+#include <mc/domain/interval.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "run_carlo.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr, testing::Not;
+
+constexpr std::uint64_t samples = 60'000;
+
+// Right and wrong samplers of different kinds and their reports, as a run of validate hands them over.
+struct Results {
+  std::vector<carlo::Case> cases;
+  std::vector<mc::Report> reports;
+  carlo::ValidateOptions options;
+
+  std::vector<const carlo::Case*> pointers() const {
+    std::vector<const carlo::Case*> p;
+    for (const carlo::Case& c : cases) p.push_back(&c);
+    return p;
+  }
+  void add(const std::string& name, const std::string& parameters, const mc::Subject& subject) {
+    cases.push_back({name, parameters, "double", {}});
+    reports.push_back(check_subject(subject, {.samples = samples, .evidence = true}));
+  }
+};
+
+const Results& results() {
+  static const Results made = [] {
+    using V = mc::Vec3<double>;
+    Results r;
+    r.options.command = "carlo validate </script> & \"quotes\"", r.options.samples = samples;
+    const mc::Hemisphere<double> hemisphere;
+    const auto cosine = [](double exponent) {
+      return [exponent](mc::Pcg& random) {
+        const double z = std::pow(random.uniform<double>(), 1 / (1 + exponent)), phi = 2 * mc::pi<double> * random.uniform<double>();
+        return mc::spherical_direction<double>(std::sqrt(1 - z * z), z, phi);
+      };
+    };
+    const auto pdf = [](const V& w) { return w.z() > 0 ? w.z() / mc::pi<double> : 0.0; };
+    r.add("RightCosine", "exponent=1", make_subject("right", hemisphere, cosine(1), pdf));
+    r.add("WrongCosine", "exponent=1.1", make_subject("wrong", hemisphere, cosine(1.1), pdf));
+    r.add("Tent", "on [-1,1]", make_subject("tent", mc::Interval<double>{-1, 1}, [](mc::Pcg& p) { return p.uniform<double>() + p.uniform<double>() - 1; },
+                                            [](double x) { return 1 - std::abs(x); }));
+    mc::Subject dice;
+    dice.name = "dice", dice.atoms.assign(6, 1.0 / 6);
+    dice.draw = [](std::uint64_t seed, std::size_t n, std::vector<mc::Subject::Draw>& out) {
+      mc::Pcg random(seed);
+      for (std::size_t i = 0; i < n; ++i) {
+        out.emplace_back().kind = mc::Subject::Draw::Kind::atom;
+        out.back().atom = static_cast<int>(6 * random.uniform<double>());
+      }
+    };
+    r.add("Dice", "", dice);
+    return r;
+  }();
+  return made;
+}
+
+struct Page : testing::Test {
+  fs::path folder = fs::path(testing::TempDir()) / ("carlo_page_" + std::to_string(::getpid()));
+  std::string file = (folder / "index.html").string();
+  void SetUp() override {
+    fs::create_directories(folder);
+    write_page(file, results().options, results().pointers(), results().reports);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  // What the browser made of the page at the address file#hash, and what it logged; empty without a browser.
+  std::string browse(const std::string& hash, const std::string& more = "--dump-dom") const {
+    for (const char* browser : {"chromium", "chromium-browser", "google-chrome"}) {
+      if (std::system(fmt::format("command -v {} >/dev/null 2>&1", browser).c_str()) != 0) continue;
+      const std::string command = fmt::format("timeout 60 {} --headless --no-sandbox --disable-gpu --disable-background-networking --disable-dev-shm-usage "
+                                              "--user-data-dir='{}' --enable-logging=stderr --virtual-time-budget=3000 {} 'file://{}#{}'",
+                                              browser, (folder / "profile").string(), more, file, hash);
+      return support::run(command).output;
+    }
+    fmt::print("no chromium here: the page was not looked at in a browser\n");
+    return {};
+  }
+};
+
+// What the page complained of on the browser's console.
+std::string logged(const std::string& dom) {
+  const std::size_t at = dom.find("CONSOLE");
+  return at == std::string::npos ? "" : dom.substr(at, 500);
+}
+
+// Says which text is missing without printing the whole page.
+bool has(const std::string& dom, const std::string& text) { return dom.find(text) != std::string::npos; }
+
+TEST_F(Page, NeedsNothingElse) {
+  const std::string text = mc::read_file(file);
+  for (const char* loaded : {"src=", "url(", "@import", "fetch(", "XMLHttpRequest", "http://www.w3.org/1999", "https://"}) EXPECT_THAT(text, Not(HasSubstr(loaded))) << loaded;
+  for (const char* mark : {"@CSS@", "@DATA@", "@MAPS@", "@JS@"}) EXPECT_THAT(text, Not(HasSubstr(mark)));
+  EXPECT_THAT(text, HasSubstr("carlo validate \\u003c/script>")) << "data cannot end its element";
+}
+
+TEST_F(Page, TreesArePackedWhole) {
+  const mc::Evidence& evidence = *results().reports[0].evidence;
+  const std::size_t n = evidence.cells.size();
+  const carlo::PackedTree all = carlo::pack_tree(evidence, 2, 4096), few = carlo::pack_tree(evidence, 2, 33);
+  EXPECT_EQ(all.axes.size(), n - 1);
+  EXPECT_EQ(all.numbers.size(), (4 * (3 * n - 1) + 2) / 3 * 4);
+  EXPECT_EQ(few.axes, all.axes.substr(0, 31)) << "a power of two";
+  EXPECT_THAT(all.axes, testing::StartsWith("011")) << "axes alternate";
+}
+
+// In a browser: failures first, search, order and maps. One load each, a second or so.
+TEST_F(Page, FailuresComeFirstAndOpen) {
+  const std::string dom = browse("");
+  if (dom.empty()) return;
+  EXPECT_EQ(logged(dom), "");
+  EXPECT_TRUE(has(dom, "1 of 4 cases fails"));
+  EXPECT_LT(dom.find("WrongCosine</b>"), dom.find("RightCosine</b>"));
+  EXPECT_TRUE(has(dom, "Likely fault: shape"));
+  EXPECT_TRUE(has(dom, "carlo validate 'WrongCosine(exponent=1.1)' --scalar double --seed 1 --samples 60000"));
+  for (const char* map : {"observed map", "expected map", "residual map"}) {
+    const std::size_t at = dom.find(fmt::format("aria-label=\"{}\"", map));
+    ASSERT_NE(at, std::string::npos) << map;
+    EXPECT_TRUE(has(dom.substr(at, dom.find('>', at) - at), "data-cells=\"256\"")) << dom.substr(at, 200);
+  }
+  EXPECT_TRUE(has(dom, "<circle"));
+  EXPECT_TRUE(has(dom, "cell theta") || has(dom, "<td>theta")) << "the worst cells have their coordinates";
+}
+
+TEST_F(Page, SearchFilters) {
+  const std::string dom = browse("q=tent%20double");
+  if (dom.empty()) return;
+  EXPECT_EQ(logged(dom), "");
+  EXPECT_TRUE(has(dom, "Tent</b>"));
+  EXPECT_FALSE(has(dom, "Cosine</b>"));
+}
+
+TEST_F(Page, ColumnsSortAndEveryKindOpens) {
+  const std::string dom = browse("sort=name&desc=1&open=0,2,3&map=equal");
+  if (dom.empty()) return;
+  EXPECT_EQ(logged(dom), "");
+  const auto at = [&](const char* name) { return dom.find(std::string(name) + "</b>"); };
+  EXPECT_LT(at("WrongCosine"), at("Tent"));
+  EXPECT_LT(at("Tent"), at("RightCosine"));
+  EXPECT_LT(at("RightCosine"), at("Dice"));
+  EXPECT_TRUE(has(dom, "aria-sort=\"descending\""));
+  EXPECT_TRUE(has(dom, "6 cells")) << "the dice";
+}
+
+TEST_F(Page, NothingOverflowsOnAPhone) {
+  // A frame of 390 pixels, since a browser's own window is never as narrow; the page in it says how wide it came out.
+  std::string text = mc::read_file(file);
+  text.insert(text.find("</body>"), "<script>parent.postMessage(document.documentElement.scrollWidth + ' of ' + innerWidth, '*');</script>");
+  mc::write_file((folder / "phone.html").string(), text);
+  mc::write_file(file, "<body><script>addEventListener('message', e => { document.title = 'width ' + e.data; });</script>"
+                       "<iframe src='phone.html#open=0,1,2,3' style='width: 390px; height: 844px; border: 0'></iframe></body>");
+  const std::string dom = browse("");
+  if (dom.empty()) return;
+  int wide = 0, of = 0;
+  const std::size_t at = dom.find("<title>width");
+  ASSERT_NE(at, std::string::npos) << dom.substr(0, 1000);
+  ASSERT_EQ(std::sscanf(dom.c_str() + at, "<title>width %d of %d", &wide, &of), 2) << dom.substr(at, 100);
+  EXPECT_LE(of, 390);
+  EXPECT_LE(wide, of);
+}
+
+TEST(ValidateReport, AnUnwritableFolderIsRefusedBeforeTheWork) {
+  carlo::ValidateOptions o;
+  o.names = {"UniformDisk"};
+  const std::string file = (fs::path(testing::TempDir()) / "carlo_in_the_way").string();
+  mc::write_file(file, "mine");
+  for (const std::string& place : {file, file + "/report", std::string("/proc/report")}) {
+    o.report = place;
+    try {
+      carlo::validate(o);
+      ADD_FAILURE() << place << " accepted";
+    } catch (const mc::Error& e) {
+      EXPECT_THAT(e.what(), testing::AllOf(HasSubstr(place), Not(HasSubstr("\n"))));
+    }
+  }
+  EXPECT_EQ(mc::read_file(file), "mine");
+  fs::remove(file);
+}
+
+} // namespace
