@@ -17,7 +17,7 @@ struct RmsError {
 
 /// RMS error of `estimates` against `truth`.
 ///   interval : from the chi-square distribution of R mean squared errors, for errors that are close to normal
-///   throws   : Error for fewer than 2 estimates
+///   throws   : Error for fewer than 2 estimates, or when one or the truth is not finite
 RmsError rms_error(double n, std::span<const double> estimates, double truth);
 
 /// A power law rms = c N^slope.
@@ -29,7 +29,7 @@ struct PowerLaw {
 /// Least squares of log rms against log N. The logarithm of an RMS error of R repetitions has variance close to 1 / (2 R),
 /// whatever N, so all points weigh the same; the interval is the wider of that theory and of the scatter about the line
 /// (Student t), since curvature is an error of the law too.
-///   throws : Error for fewer than 3 points or an error of 0
+///   throws : Error for fewer than 3 points, no repetitions, an N or an error that is not finite and > 0, or all N equal
 PowerLaw fit_power_law(std::span<const RmsError> errors, std::uint32_t repetitions);
 
 } // namespace mc

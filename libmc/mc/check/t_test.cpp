@@ -1,4 +1,5 @@
 #include <mc/check/t_test.h>
+#include <mc/core/error.h>
 
 #include <boost/math/distributions/students_t.hpp>
 
@@ -7,6 +8,8 @@
 namespace mc {
 
 TTest t_test(const Moments& moments, double value, double alpha) {
+  require(std::isfinite(value), "t_test: value {} must be finite", value);
+  require(alpha > 0 && alpha < 1, "t_test: alpha {} must lie in (0, 1)", alpha);
   const Estimate e = moments.estimate();
   const boost::math::students_t student(e.dof);
   TTest result;

@@ -285,7 +285,9 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
 void require_sane(int outputs, int dim, const IntegrateOptions& o) {
   require(dim >= 1, "integrate: dimension {} must be at least 1", dim);
   require(outputs >= 1, "integrate: {} outputs; at least 1 is needed", outputs);
-  require(o.rel_error >= 0 && o.abs_error >= 0, "integrate: tolerances {} (relative) and {} (absolute) must be >= 0", o.rel_error, o.abs_error);
+  require(o.rel_error >= 0 && o.abs_error >= 0 && std::isfinite(o.rel_error) && std::isfinite(o.abs_error),
+          "integrate: tolerances {} (relative) and {} (absolute) must be finite and >= 0", o.rel_error, o.abs_error);
+  require(o.threads >= 0, "integrate: threads {} must be >= 0; 0 stands for all of the machine's", o.threads);
   require(o.confidence > 0 && o.confidence < 1, "integrate: confidence {} must lie in (0, 1)", o.confidence);
   require(o.replicates >= 2 && o.replicates <= 1u << 20, "integrate: {} replicates; between 2 and 2^20 are needed for an error", o.replicates);
 }
@@ -311,6 +313,7 @@ std::string_view name(Stop stop) {
 
 VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, const IntegrateOptions& o) {
   require_sane(outputs, dim, o);
+  require(f != nullptr, "integrate: the integrand is an empty function; it must be callable");
   const Method method = o.method == Method::automatic && static_cast<std::uint32_t>(dim) > Sobol::dimensions ? Method::plain : o.method;
   const std::uint64_t least = method == Method::plain ? 2 : 2 * std::uint64_t{o.replicates};
   require(o.max_calls >= least, "integrate: max_calls {} is too few; at least {} are needed", o.max_calls, least);
@@ -346,6 +349,7 @@ VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, co
 }
 
 Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim, const IntegrateOptions& o) {
+  require(f != nullptr, "integrate: the integrand is an empty function; it must be callable");
   const VectorIntegrand one = [&](std::span<const double> u, std::span<double> values) { values[0] = f(u); };
   return integrate_unit(one, 1, dim, o).outputs.front();
 }
@@ -358,6 +362,7 @@ Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f,
   o.threads = threads;
   o.max_calls = count * replicates;
   require_sane(1, dim, o);
+  require(f != nullptr, "integrate: the integrand is an empty function; it must be callable");
   require(count >= 1 && count <= longest, "integrate_rqmc: {} points; between 1 and 2^32 are possible", count);
   const VectorIntegrand one = [&](std::span<const double> u, std::span<double> values) { values[0] = f(u); };
   Run run{one, 1, dim, o};
