@@ -73,8 +73,8 @@ using VectorIntegrand = std::function<void(std::span<const double> u, std::span<
 ///   vegas      : rqmc through an ImportanceGrid learned on up to an eighth of the calls; the rounds it was learned on are the
 ///                consistency check. The grid is frozen before the sequences start, so the estimate is unbiased
 ///   throws     : Error for an empty f, dim < 1, a tolerance that is negative or not finite, max_calls too small for one round,
-///                confidence outside (0,1), threads < 0; what the integrand throws, after all threads have stopped; and for an integrand that is not finite,
-///                with the point where it first was; and when cancelled before anything was estimated
+///                confidence outside (0,1), threads < 0; what the integrand throws, after all threads have stopped; and for an
+///                integrand that is not finite, with the point where it first was; and when cancelled before anything was estimated
 Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim, const IntegrateOptions& options = {});
 
 /// The same for `outputs` integrands at once; converged when each of them is.
