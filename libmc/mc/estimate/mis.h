@@ -141,7 +141,7 @@ class MultipleImportance {
   }
   template <std::size_t... I> PointOf<First> sample(std::size_t i, const UnitPointOf<First>& u, std::index_sequence<I...>) const {
     PointOf<First> x{};
-    ((I == i ? (x = std::get<I>(warps_).sample(u), true) : false) || ...);
+    ((I == i ? void(x = std::get<I>(warps_).sample(u)) : void()), ...);
     return x;
   }
 
