@@ -47,7 +47,8 @@ template <class A> void each(A& a, Evidence& evidence) {
 }
 
 template <class A> void each(A& a, Report& report) {
-  auto& [subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst, evidence] = report;
+  auto& [subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst, evidence] =
+      report;
   a(subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst, evidence);
 }
 
@@ -77,7 +78,7 @@ template <class A> void each(A& a, Description& description) {
   a(name, scalar, parameters);
 }
 
-int dimension(const mc_sampler& s) { return s.domain == MC_INTERVAL ? 1 : s.domain == MC_BOX ? s.dim : 2; }
+int dimension(const mc_sampler& s) { return s.domain == MC_INTERVAL || s.domain == MC_DISCRETE ? 1 : s.domain == MC_BOX ? s.dim : 2; }
 
 bool is_word(const char* text) {
   if (!text || !*text) return false;
@@ -87,10 +88,13 @@ bool is_word(const char* text) {
 void require_sound(const mc_sampler& s, std::size_t index) {
   mc::require(is_word(s.name), "sampler {} has no name of letters, digits and _", index);
   mc::with_context(fmt::format("sampler {}", s.name), [&] {
-    mc::require(s.domain >= MC_INTERVAL && s.domain <= MC_HEMISPHERE, "domain = {} is none of mc_domain, 1 to 6", s.domain);
+    mc::require(s.domain >= MC_INTERVAL && s.domain <= MC_DISCRETE, "domain = {} is none of mc_domain, 1 to 7", s.domain);
     mc::require(s.domain != MC_BOX || (s.dim >= 1 && s.dim <= 3), "dim = {}; a box has 1 to 3 dimensions", s.dim);
     mc::require(s.domain != MC_INTERVAL || s.lo[0] < s.hi[0] || (s.lo[0] == 0 && s.hi[0] == 0), "interval [{}, {}] needs lo < hi", s.lo[0],
                 s.hi[0]);
+    mc::require(s.domain != MC_DISCRETE || (s.hi[0] >= 1 && s.hi[0] <= 1 << 24 && s.hi[0] == std::floor(s.hi[0])),
+                "hi[0] = {} outcomes; 1 to 2^24 are needed", s.hi[0]);
+    mc::require(s.domain != MC_DISCRETE || (!s.invert && !s.eval), "discrete outcomes have neither invert nor eval");
     mc::require(s.uniforms >= 0 && s.uniforms <= Watch::max_arguments, "uniforms = {} must lie in 0 to {}", s.uniforms,
                 Watch::max_arguments);
     mc::require(s.scalar == MC_DOUBLE || s.scalar == MC_FLOAT, "scalar = {} is none of mc_scalar, 0 or 1", s.scalar);
@@ -175,7 +179,8 @@ PluginSampler::PluginSampler(const mc_sampler& sampler, std::vector<double> para
 
 int PluginSampler::coordinates() const {
   switch (sampler_->domain) {
-  case MC_INTERVAL: return 1;
+  case MC_INTERVAL:
+  case MC_DISCRETE: return 1;
   case MC_BOX: return sampler_->dim;
   case MC_DISK:
   case MC_TRIANGLE: return 2;

@@ -51,6 +51,12 @@ template <mc::Domain D> struct Plugged {
     for (int i = 0; i < plugin.uniforms(); ++i) u[static_cast<std::size_t>(i)] = static_cast<double>(random.uniform<S>());
     return u;
   }
+  // Those of draw `index` of the stream `seed`.
+  Uniforms uniforms_at(std::uint64_t seed, std::uint64_t index) const {
+    mc::Pcg random(seed);
+    random.advance(index * static_cast<std::uint64_t>(plugin.uniforms()) * (std::same_as<S, float> ? 1 : 2));
+    return uniforms(random);
+  }
   std::optional<Point> sample(const Uniforms& u) const {
     Coordinates x;
     x.fill(std::numeric_limits<double>::quiet_NaN()); // what sample forgets to write shows
@@ -103,11 +109,7 @@ template <class D> Subject subject_of(const Plugged<D>& p, const std::string& ti
   s.may_fail = p.plugin->may_fail != 0;
   if (p.plugin->pdf_tolerance > 0) s.mass_tolerance = p.plugin->pdf_tolerance;
   if (p.plugin->weight_tolerance > 0) s.weight_tolerance = p.plugin->weight_tolerance;
-  s.describe_draw = [p](std::uint64_t seed, std::uint64_t index) {
-    mc::Pcg random(seed);
-    random.advance(index * static_cast<std::uint64_t>(p.plugin.uniforms()) * (std::same_as<typename D::Scalar, float> ? 1 : 2));
-    return p.describe(p.uniforms(random));
-  };
+  s.describe_draw = [p](std::uint64_t seed, std::uint64_t index) { return p.describe(p.uniforms_at(seed, index)); };
   if (!p.plugin->weight) return s;
   s.draw = [p, draw = s.draw](std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
     const std::size_t first = out.size();
@@ -121,7 +123,8 @@ template <class D> Subject subject_of(const Plugged<D>& p, const std::string& ti
   return s;
 }
 
-template <class D> mc::Check edge_law(const Plugged<D>& p) {
+// fine(u) at u in {0, 2^-24, 1/2, 1 - 2^-24, 1 - ulp}^n.
+template <class D, class Describe, class Fine> mc::Check edge_law(const Plugged<D>& p, Describe describe, Fine fine) {
   const double last = static_cast<double>(mc::one_minus_epsilon<typename D::Scalar>);
   const std::array<double, 5> places{0, 0x1p-24, 0.5, 1 - 0x1p-24, last};
   int total = 1;
@@ -131,13 +134,21 @@ template <class D> mc::Check edge_law(const Plugged<D>& p) {
     Uniforms u{};
     for (int i = 0, rest = k; i < p.plugin.uniforms(); ++i, rest /= 5)
       u[static_cast<std::size_t>(i)] = places[static_cast<std::size_t>(rest % 5)];
-    const auto x = p.sample(u);
-    const double density = x && mc::detail::all_finite(*x) ? p.pdf(*x) : 0;
-    const bool fine =
-        x ? mc::detail::all_finite(*x) && p.domain.contains(*x) && density > 0 && std::isfinite(density) : p.plugin->may_fail != 0;
-    ledger.note(fine ? 0 : 1, [&] { return "not a point of the domain with a positive, finite pdf: " + p.describe(u); });
+    ledger.note(fine(u) ? 0 : 1, [&] { return "not a point of the domain with a positive, finite pdf: " + describe(u); });
   }
   return ledger.check();
+}
+
+template <class D> mc::Check edge_law(const Plugged<D>& p) {
+  return edge_law(
+      p, [&](const Uniforms& u) { return p.describe(u); },
+      [&](const Uniforms& u) {
+        const auto x = p.sample(u);
+        if (!x) return p.plugin->may_fail != 0;
+        if (!mc::detail::all_finite(*x) || !p.domain.contains(*x)) return false;
+        const double density = p.pdf(*x);
+        return density > 0 && std::isfinite(density);
+      });
 }
 
 // eval >= 0 and finite, and positive only where pdf is, at uniform points of the chart.
@@ -282,6 +293,47 @@ template <mc::Real S> mc::Report check_infinite(const PluginSampler& plugin, con
   return check_on(plugin, mc::HalfLine<S>(static_cast<S>(hi), -scale(hi - middle)), title, options);
 }
 
+// Outcomes 0 to n - 1 as atoms; an x that is none of them is outside.
+template <mc::Real S> mc::Report check_discrete(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
+  using Kind = Subject::Draw::Kind;
+  const auto start = std::chrono::steady_clock::now();
+  const Plugged<mc::Interval<S>> p{plugin, {S(0), static_cast<S>(plugin->hi[0])}};
+  Subject s;
+  s.name = title;
+  s.may_fail = plugin->may_fail != 0;
+  s.mass_tolerance = plugin->pdf_tolerance > 0 ? plugin->pdf_tolerance : 64 * static_cast<double>(std::numeric_limits<S>::epsilon());
+  for (double i = 0; i < plugin->hi[0]; ++i) s.atoms.push_back(plugin.pdf(&i));
+  const auto one = [p, n = plugin->hi[0]](const Uniforms& u) {
+    Subject::Draw d;
+    double x = std::numeric_limits<double>::quiet_NaN();
+    if (!p.plugin.sample(u.data(), &x)) d.kind = Kind::failed;
+    else if (!std::isfinite(x)) d.kind = Kind::not_finite;
+    else if (!(x >= 0 && x < n && x == std::floor(x))) d.kind = Kind::outside;
+    else d.kind = Kind::atom, d.atom = static_cast<int>(x), d.pdf_positive = p.plugin.pdf(&x) > 0;
+    return d;
+  };
+  const auto describe = [p](const Uniforms& u) {
+    double x = std::numeric_limits<double>::quiet_NaN();
+    if (!p.plugin.sample(u.data(), &x)) return fmt::format("u = {}: it fails", p.format(u));
+    return fmt::format("u = {}, x = {:.17g}, pdf = {:.9g}", p.format(u), x, p.plugin.pdf(&x));
+  };
+  s.draw = [p, one](std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
+    mc::Pcg random(seed);
+    for (std::size_t i = 0; i < n; ++i) out.push_back(one(p.uniforms(random)));
+  };
+  s.describe_draw = [p, describe](std::uint64_t seed, std::uint64_t index) { return describe(p.uniforms_at(seed, index)); };
+  mc::SubjectOptions o;
+  o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.evidence = options.evidence;
+  mc::Report report = check_subject(s, o);
+  report.checks.push_back(edge_law(p, describe, [&](const Uniforms& u) {
+    const Subject::Draw d = one(u);
+    return d.kind == Kind::failed ? plugin->may_fail != 0 : d.kind == Kind::atom && d.pdf_positive;
+  }));
+  report.ns_per_sample = ns_per_sample(p);
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
 template <mc::Real S> mc::Report check_over(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
   const auto check = [&](const auto& domain) { return check_on(plugin, domain, title, options); };
   std::array<S, 3> lo, hi;
@@ -297,6 +349,7 @@ template <mc::Real S> mc::Report check_over(const PluginSampler& plugin, const s
     if (plugin->dim == 2) return check(mc::Box<S, 2>({lo[0], lo[1]}, {hi[0], hi[1]}));
     return check(mc::Box<S, 3>({lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}));
   case MC_DISK: return check(mc::Disk<S>());
+  case MC_DISCRETE: return check_discrete<S>(plugin, title, options);
   case MC_TRIANGLE: return check(mc::Triangle<S>());
   case MC_SPHERE: return check(mc::Sphere<S>());
   default: return check(mc::Hemisphere<S>());

@@ -208,6 +208,10 @@ Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::strin
   s.name = title;
   s.dim = f->domain.columns() == 1 ? 1 : 2;
   s.mass_tolerance = mass_tolerance;
+  const std::string x = f->domain.sphere ? "azimuth" : f->domain.sides.front().name;
+  const std::string y = f->domain.sphere ? "theta" : f->domain.sides.back().name;
+  if (s.dim == 1) s.axes = {{.name = "quantile of " + x}};
+  else s.axes = {{.name = fmt::format("quantile of {} in its row", x)}, {.name = "quantile of " + y}};
   const auto deal = std::make_shared<Deal>(static_cast<std::uint32_t>(f->table.rows()), seed);
   s.draw = [f, deal, seed](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
     const std::uint64_t first = deal->open(stream, n);

@@ -50,10 +50,10 @@ std::string line(const ValidateOptions& o) {
 }
 
 TEST(Plugin, RightSamplersPassInEveryKindOfDomain) {
-  // Eight cases at a family-wise alpha of 0.01, one fixed seed.
+  // Nine cases at a family-wise alpha of 0.01, one fixed seed.
   const Output out = run(plugin("samplers"));
   EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
-  EXPECT_THAT(out.text, HasSubstr("8 of 8 cases passed"));
+  EXPECT_THAT(out.text, HasSubstr("9 of 9 cases passed"));
   EXPECT_THAT(out.text, HasSubstr("float   pass")) << "the tail computes in float";
 }
 
@@ -83,6 +83,14 @@ TEST(Plugin, ARotationByADegreeIsRejected) {
   EXPECT_EQ(run(o).code, carlo::exit_ok);
   o.parameters = {"tilt=1"};
   EXPECT_EQ(run(o).code, carlo::exit_failed);
+}
+
+TEST(Plugin, AnOutcomeOfProbabilityZeroAtAnEdgeIsRejected) {
+  ValidateOptions o = plugin("samplers", {"Table"});
+  o.parameters = {"forgets=1"};
+  const Output out = run(o);
+  EXPECT_EQ(out.code, carlo::exit_failed);
+  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: edge"), HasSubstr("u = (0), x = 0, pdf = 0")));
 }
 
 TEST(Plugin, EverySetOfParametersIsACase) {

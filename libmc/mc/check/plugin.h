@@ -31,7 +31,8 @@ enum mc_domain {
   MC_DISK = 3,      ///< x[0]^2 + x[1]^2 <= 1; 1/area
   MC_TRIANGLE = 4,  ///< barycentric: x[0] >= 0, x[1] >= 0, x[0] + x[1] <= 1, of area 1/2; 1/area
   MC_SPHERE = 5,    ///< unit vectors x[0..2]; 1/steradian. Lobes narrower than 1e-6 rad are resolved about +z only
-  MC_HEMISPHERE = 6 ///< unit vectors with x[2] >= 0; 1/steradian
+  MC_HEMISPHERE = 6, ///< unit vectors with x[2] >= 0; 1/steradian
+  MC_DISCRETE = 7    ///< x[0] = 0, 1, ..., hi[0] - 1, at most 2^24 outcomes; pdf is the probability. No invert, eval or weight
 };
 
 /// What the sampler computes in: it sets the default tolerances, and u and x are rounded to it.
@@ -48,7 +49,7 @@ typedef struct mc_sampler {
   const char *name;  ///< letters, digits and _
   int32_t domain;    ///< one of mc_domain
   int32_t dim;       ///< of MC_BOX: 1 to 3
-  double lo[3], hi[3]; ///< of MC_INTERVAL and MC_BOX; all 0: the unit interval or cube
+  double lo[3], hi[3]; ///< of MC_INTERVAL, MC_BOX (all 0: the unit interval or cube) and MC_DISCRETE
   int32_t uniforms;  ///< numbers that one sample takes, at most 6; 0: as many as the domain has dimensions
   int32_t scalar;    ///< one of mc_scalar
   int32_t may_fail;  ///< 1: sample may return 0, and the pdf integrates to the probability that it does not

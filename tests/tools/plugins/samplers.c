@@ -124,6 +124,16 @@ static double pdf_box(const void *self, const double *x) {
   return (n + 1) * pow(0.5 * (x[0] + 1), n) / 6;
 }
 
+/* Three outcomes of probabilities 0, 3/4 and 1/4; with `forgets`, the first is returned at u = 0. */
+static int32_t sample_table(const void *self, const double *u, double *x) {
+  x[0] = *(const double *)self != 0 && u[0] == 0 ? 0 : u[0] < 0.75 ? 1 : 2;
+  return 1;
+}
+static double pdf_table(const void *self, const double *x) {
+  (void)self;
+  return x[0] == 1 ? 0.75 : x[0] == 2 ? 0.25 : 0;
+}
+
 static int32_t sample_triangle(const void *self, const double *u, double *x) {
   const double root = sqrt(u[0]);
   (void)self;
@@ -164,6 +174,7 @@ static const mc_parameter faults[] = {
     {"hole", 0, 0, 1},
     {"slow", 0, 0, 1},
 };
+static const mc_parameter forgets[] = {{"forgets", 0, 0, 1}};
 static const mc_parameter tilt[] = {{"tilt", 0, -90, 90}};
 static const mc_parameter power[] = {{"power", 2, 0, 20}};
 static const mc_sampler samplers[] = {
@@ -191,6 +202,13 @@ static const mc_sampler samplers[] = {
      .destroy = destroy,
      .sample = sample_box,
      .pdf = pdf_box},
+    {.name = "Table",
+     .domain = MC_DISCRETE,
+     .hi = {3},
+     .parameters = forgets,
+     .parameter_count = 1,
+     .sample = sample_table,
+     .pdf = pdf_table},
     {.name = "Triangle", .domain = MC_TRIANGLE, .sample = sample_triangle, .pdf = pdf_triangle},
     {.name = "Halves",
      .domain = MC_SPHERE,
