@@ -106,7 +106,7 @@ std::string run_isolated(const std::string& who, double timeout, const std::func
   double moved = 0; // when the count of calls was last seen to grow
   bool open = true, dead = false;
   int status = 0;
-  while (!dead && elapsed() < timeout) {
+  while (!dead && !whole(message) && elapsed() < timeout) {
     if (open) {
       pollfd p{ends[0], POLLIN, 0};
       if (poll(&p, 1, static_cast<int>(std::clamp(1000 * (timeout - elapsed()), 1.0, 50.0))) > 0) {

@@ -131,10 +131,10 @@ TEST(Plugin, ACrashIsOneLineThatSaysWhere) {
 
 TEST(Plugin, AHangEndsWithTheTimeout) {
   ValidateOptions o = cosine("hang");
-  o.timeout = 0.3;
-  EXPECT_THAT(line(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("no answer in 0.3 s")));
+  o.timeout = 0.5;
+  EXPECT_THAT(line(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("no answer in 0.5 s")));
   o.parameters = {"slow=1"};
-  EXPECT_THAT(line(o), AllOf(HasSubstr("not done in 0.3 s, in sample"), HasSubstr("raise --timeout or lower --samples")));
+  EXPECT_THAT(line(o), AllOf(HasSubstr("not done in 0.5 s, in sample"), HasSubstr("raise --timeout or lower --samples")));
   o.timeout = 0;
   EXPECT_THAT(line(o), HasSubstr("--timeout 0 must lie in"));
 }
