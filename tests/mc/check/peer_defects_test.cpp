@@ -31,14 +31,4 @@ TEST(PeerDefects, StraySamplesInPooledCellsCount) {
 // 2d. Mitsuba 3: no samples at all, nothing expected: accepted with p = 1.
 TEST(PeerDefects, NoSamplesAreNoEvidence) { EXPECT_THROW(mc::chi_square({0, 0, 0}, {0, 0, 0}), mc::Error); }
 
-// pbrt-v4 counts in float: from 2^24 on a count stands still. Moments of 2^25 values, by merging.
-TEST(PeerDefects, CountsGoBeyond2To24) {
-  mc::Moments m;
-  m.add(1), m.add(2);
-  for (int i = 0; i < 24; ++i) m.merge(mc::Moments(m));
-  EXPECT_EQ(m.count(), std::uint64_t{1} << 25);
-  EXPECT_NEAR(m.mean(), 1.5, 1e-12);
-  EXPECT_NEAR(m.variance(), 0.25, 1e-7);
-}
-
 } // namespace
