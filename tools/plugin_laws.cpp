@@ -1,100 +1,20 @@
 #include "plugin.h"
+#include "plugin_domain.h"
 
+#include <mc/check/chart_axes.h>
 #include <mc/check/check_subject.h>
 #include <mc/check/law_ledger.h>
-#include <mc/check/make_subject.h>
-#include <mc/domain/box.h>
-#include <mc/domain/disk.h>
-#include <mc/domain/hemisphere.h>
-#include <mc/domain/interval.h>
-#include <mc/domain/sphere.h>
-#include <mc/domain/triangle.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
+#include <variant>
 
 namespace carlo {
 
 namespace {
 
 using mc::Subject;
-using Coordinates = std::array<double, 3>;
-using Uniforms = std::array<double, Watch::max_arguments>;
-
-// The plugin's functions in the types of its domain.
-template <mc::Domain D> struct Plugged {
-  using S = typename D::Scalar;
-  using Point = typename D::Point;
-
-  PluginSampler plugin;
-  D domain;
-
-  static Point narrow(const double* x) {
-    if constexpr (requires(Point p) { p.size(); }) {
-      Point p;
-      for (int i = 0; i < p.size(); ++i) p[i] = static_cast<S>(x[i]);
-      return p;
-    } else {
-      return static_cast<S>(x[0]);
-    }
-  }
-  static Coordinates widen(const Point& x) {
-    Coordinates c{};
-    for (int i = 0; i < mc::detail::components(x); ++i) c[static_cast<std::size_t>(i)] = mc::detail::component(x, i);
-    return c;
-  }
-
-  Uniforms uniforms(mc::Pcg& random) const {
-    Uniforms u{};
-    for (int i = 0; i < plugin.uniforms(); ++i) u[static_cast<std::size_t>(i)] = static_cast<double>(random.uniform<S>());
-    return u;
-  }
-  // Those of draw `index` of the stream `seed`.
-  Uniforms uniforms_at(std::uint64_t seed, std::uint64_t index) const {
-    mc::Pcg random(seed);
-    random.advance(index * static_cast<std::uint64_t>(plugin.uniforms()) * (std::same_as<S, float> ? 1 : 2));
-    return uniforms(random);
-  }
-  std::optional<Point> sample(const Uniforms& u) const {
-    Coordinates x;
-    x.fill(std::numeric_limits<double>::quiet_NaN()); // what sample forgets to write shows
-    return plugin.sample(u.data(), x.data()) ? std::optional<Point>(narrow(x.data())) : std::nullopt;
-  }
-  // Both to 64 eps of their length.
-  static bool same(const Point& a, const Point& b) {
-    const double eps = static_cast<double>(std::numeric_limits<S>::epsilon());
-    double apart = 0, size = 1;
-    for (int i = 0; i < mc::detail::components(a); ++i) {
-      apart += std::abs(mc::detail::component(a, i) - mc::detail::component(b, i));
-      size += std::abs(mc::detail::component(a, i));
-    }
-    return apart <= 64 * eps * size;
-  }
-  double pdf(const Point& x) const { return plugin.pdf(widen(x).data()); }
-  std::optional<Uniforms> invert(const Point& x) const {
-    Uniforms u;
-    u.fill(std::numeric_limits<double>::quiet_NaN());
-    return plugin.invert(widen(x).data(), u.data()) ? std::optional<Uniforms>(u) : std::nullopt;
-  }
-  double eval(const Point& x) const { return plugin.eval(widen(x).data()); }
-  double weight(const Uniforms& u, const Point& x) const { return plugin.weight(u.data(), widen(x).data()); }
-
-  std::string format(const Uniforms& u) const {
-    std::string text = "(";
-    for (int i = 0; i < plugin.uniforms(); ++i) text += fmt::format("{}{:.17g}", i ? ", " : "", u[static_cast<std::size_t>(i)]);
-    return text + ")";
-  }
-  std::string describe(const Uniforms& u) const {
-    const auto x = sample(u);
-    if (!x) return fmt::format("u = {}: it fails", format(u));
-    std::string text = fmt::format("u = {}, x = {}, pdf = {:.9g}", format(u), mc::detail::format_point(*x), pdf(*x));
-    if (plugin->eval) text += fmt::format(", eval = {:.9g}", eval(*x));
-    if (plugin->weight) text += fmt::format(", weight = {:.9g}", weight(u, *x));
-    return text;
-  }
-};
 
 // weight pdf / f, 1 where they agree.
 template <class D> double weight_ratio(const Plugged<D>& p, const Uniforms& u) {
@@ -106,6 +26,7 @@ template <class D> double weight_ratio(const Plugged<D>& p, const Uniforms& u) {
 template <class D> Subject subject_of(const Plugged<D>& p, const std::string& title) {
   Subject s = mc::make_subject(
       title, p.domain, [p](mc::Pcg& random) { return p.sample(p.uniforms(random)); }, [p](const typename D::Point& x) { return p.pdf(x); });
+  s.axes = std::visit([](const auto& d) { return mc::chart_axes(d); }, p.domain.which);
   s.may_fail = p.plugin->may_fail != 0;
   if (p.plugin->pdf_tolerance > 0) s.mass_tolerance = p.plugin->pdf_tolerance;
   if (p.plugin->weight_tolerance > 0) s.weight_tolerance = p.plugin->weight_tolerance;
@@ -288,16 +209,17 @@ template <mc::Real S> mc::Report check_infinite(const PluginSampler& plugin, con
   const auto [low, middle, high] = quartiles(plugin, options.seed);
   const double lo = plugin->lo[0], hi = plugin->hi[0];
   const auto scale = [](double size) { return static_cast<S>(size > 0 ? size : 1.0); };
-  if (std::isinf(lo) && std::isinf(hi)) return check_on(plugin, mc::RealLine<S>(static_cast<S>(middle), scale(high - low)), title, options);
-  if (std::isinf(hi)) return check_on(plugin, mc::HalfLine<S>(static_cast<S>(lo), scale(middle - lo)), title, options);
-  return check_on(plugin, mc::HalfLine<S>(static_cast<S>(hi), -scale(hi - middle)), title, options);
+  if (std::isinf(lo) && std::isinf(hi))
+    return check_on(plugin, Line<S>{mc::RealLine<S>(static_cast<S>(middle), scale(high - low))}, title, options);
+  if (std::isinf(hi)) return check_on(plugin, Line<S>{mc::HalfLine<S>(static_cast<S>(lo), scale(middle - lo))}, title, options);
+  return check_on(plugin, Line<S>{mc::HalfLine<S>(static_cast<S>(hi), -scale(hi - middle))}, title, options);
 }
 
 // Outcomes 0 to n - 1 as atoms; an x that is none of them is outside.
 template <mc::Real S> mc::Report check_discrete(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
   using Kind = Subject::Draw::Kind;
   const auto start = std::chrono::steady_clock::now();
-  const Plugged<mc::Interval<S>> p{plugin, {S(0), static_cast<S>(plugin->hi[0])}};
+  const Plugged<Line<S>> p{plugin, {}}; // for its uniforms
   Subject s;
   s.name = title;
   s.may_fail = plugin->may_fail != 0;
@@ -343,16 +265,16 @@ template <mc::Real S> mc::Report check_over(const PluginSampler& plugin, const s
   switch (plugin->domain) {
   case MC_INTERVAL:
     if (std::isinf(lo[0]) || std::isinf(hi[0])) return check_infinite<S>(plugin, title, options);
-    return check(mc::Interval<S>(lo[0], hi[0]));
+    return check(Line<S>{mc::Interval<S>(lo[0], hi[0])});
   case MC_BOX:
-    if (plugin->dim == 1) return check(mc::Interval<S>(lo[0], hi[0]));
-    if (plugin->dim == 2) return check(mc::Box<S, 2>({lo[0], lo[1]}, {hi[0], hi[1]}));
-    return check(mc::Box<S, 3>({lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}));
-  case MC_DISK: return check(mc::Disk<S>());
+    if (plugin->dim == 1) return check(Line<S>{mc::Interval<S>(lo[0], hi[0])});
+    if (plugin->dim == 2) return check(Plane<S>{mc::Box<S, 2>({lo[0], lo[1]}, {hi[0], hi[1]})});
+    return check(Space<S>{mc::Box<S, 3>({lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]})});
+  case MC_DISK: return check(Plane<S>{mc::Disk<S>()});
   case MC_DISCRETE: return check_discrete<S>(plugin, title, options);
-  case MC_TRIANGLE: return check(mc::Triangle<S>());
-  case MC_SPHERE: return check(mc::Sphere<S>());
-  default: return check(mc::Hemisphere<S>());
+  case MC_TRIANGLE: return check(Plane<S>{mc::Triangle<S>()});
+  case MC_SPHERE: return check(Directions<S>{mc::Sphere<S>()});
+  default: return check(Directions<S>{mc::Hemisphere<S>()});
   }
 }
 
