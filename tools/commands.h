@@ -65,6 +65,12 @@ struct ValidateOptions {
 };
 int validate(const ValidateOptions& options);
 
+/// validate with names = {"book-slips", SLIP...}: the wrong samplers of the books, the test that rejects each and after how many
+/// samples, the right one beside it; all of them and the Cornell boxes when no SLIP is named. `samples` bounds the search.
+/// JSON: {command, commit, seed, alpha, passed, slips: [{id, name, where, story, caught, test, samples (0: none needed), fault,
+/// report, right: {verdict, p, samples}}], boxes: [{name, where, story, mean, std_error, off, off_error, p, agrees}]}.
+int book_slips(const ValidateOptions& options);
+
 struct ConvergeOptions {
   std::vector<std::string> experiments;     ///< empty: all
   bool list = false;

@@ -57,7 +57,7 @@ void add_compare(CLI::App& app, carlo::CompareOptions& o) {
 void add_validate(CLI::App& app, carlo::ValidateOptions& o) {
   auto* c = app.add_subcommand("validate", "Check samplers against their laws: chi-square, KS, mass, Jacobian, inverse, oracle");
   c->footer(fmt::format("{}\n{}", validate_files, exit_codes));
-  c->add_option("NAME", o.names, "Samplers to check, by name (see --list)");
+  c->add_option("NAME", o.names, "Samplers to check, by name (see --list); book-slips [SLIP...]: the wrong samplers of the books and what rejects them");
   c->add_flag("--all", o.all, "Check every sampler");
   c->add_flag("--list", o.list, "List every sampler with its parameters, and stop");
   c->add_option("--alpha", o.alpha, "Chance of a false rejection, over all tests of the run")->capture_default_str();

@@ -43,6 +43,7 @@ std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catal
     if (known) continue;
     std::set<std::string> names;
     for (const Case& c : catalogue) names.insert(c.name);
+    names.insert("book-slips");
     throw mc::Error(fmt::format("validate: unknown sampler '{}'{} (carlo validate --list names them all)", name, mc::did_you_mean(name, names)));
   }
   std::vector<const Case*> unique;
@@ -80,6 +81,7 @@ std::string line_of(std::size_t width, const Case& c, const mc::Report& r) {
 } // namespace
 
 int validate(const ValidateOptions& options) {
+  if (!options.names.empty() && options.names.front() == "book-slips") return book_slips(options);
   ValidateOptions o = options;
   mc::require(o.plugin.empty() || o.samples_file.empty(), "validate: give --plugin or --samples-file, not both");
   mc::require(o.parameters.empty() || !o.plugin.empty(), "validate: --params sets parameters of a --plugin");

@@ -6,6 +6,7 @@
 #include <mc/check/multiple_testing.h>
 #include <mc/check/partition.h>
 #include <mc/check/rotation.h>
+#include <mc/check/slabs.h>
 #include <mc/core/error.h>
 #include <mc/core/types.h>
 #include <mc/random/hash.h>
@@ -149,83 +150,27 @@ Pieces cut_into_pieces(const Partition& partition, const std::vector<Partition::
   return pieces;
 }
 
-// A slab of the cube, a few units in the last place wide, in which the pilot shows the most samples: where a clamp or a
-// fallback value puts an atom that no cell is small enough to see.
-struct Slab {
-  std::size_t axis = 0, pilot = 0;
-  UnitBox box;
-  std::vector<UnitBox> pieces; ///< of the slab, cut at the pilot's quantiles of the other axes so that no lobe is missed
-  std::uint64_t observed = 0;
-  double mass = 0, error = 0;  ///< claimed by the density
-};
-
-std::vector<Slab> crowded_slabs(const Subject& s, const std::vector<Partition::Coordinates>& pilot, const Ranks& ranks) {
-  std::vector<Slab> slabs;
-  for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
-    const std::vector<double>& v = ranks.sorted[axis];
-    const auto width = [&](double a) { return 64 * s.epsilon * std::abs(a) + 1e-300; };
-    Slab slab;
-    double at = 0;
-    for (std::size_t i = 0, j = 0; i < v.size(); ++i) {
-      while (j < v.size() && v[j] <= v[i] + width(v[i])) ++j;
-      if (j - i > slab.pilot) slab.pilot = j - i, at = v[i];
-    }
-    if (slab.pilot < 4) continue;
-    double blur = width(at);
-    if (s.resolution) {
-      int seen = 0;
-      for (const auto& p : pilot)
-        if (p[axis] >= at && p[axis] <= at + width(at) && seen++ < 16) blur = std::max(blur, 8 * s.resolution(p, static_cast<int>(axis)));
-    }
-    slab.axis = axis;
-    slab.box.lo[axis] = std::max(at - blur, 0.0);
-    slab.box.hi[axis] = std::min(at + 2 * blur, 1.0);
-    if (!(slab.box.hi[axis] > slab.box.lo[axis])) continue;
-    slab.pieces = {slab.box};
-    for (std::size_t other = 0; other < static_cast<std::size_t>(s.dim); ++other) {
-      if (other == axis) continue;
-      const std::size_t cuts = s.dim == 2 ? 64 : 16;
-      std::vector<UnitBox> finer;
-      for (UnitBox piece : slab.pieces) {
-        for (std::size_t k = 1; k < cuts; ++k) {
-          const double cut = ranks.sorted[other][k * ranks.sorted[other].size() / cuts];
-          if (!(cut > piece.lo[other] && cut < piece.hi[other])) continue;
-          finer.push_back(piece);
-          finer.back().hi[other] = piece.lo[other] = cut;
-        }
-        finer.push_back(piece);
-      }
-      slab.pieces = std::move(finer);
-    }
-    slabs.push_back(std::move(slab));
-  }
-  return slabs;
-}
-
-void weigh(const Subject& s, std::vector<Slab>& slabs, double n, std::size_t max_evaluations) {
-  for (Slab& slab : slabs) {
-    CubatureGoal goal;
-    goal.total_error = 0.1 / n;
-    goal.box_error = [&](double value) { return std::max(0.1 / n / static_cast<double>(slab.pieces.size()), 0.01 * value); };
-    goal.max_evaluations = max_evaluations / 8;
-    const auto [value, error] = integrate_boxes(s.density, s.dim, slab.pieces, goal).total;
-    slab.mass = value, slab.error = error;
-  }
-}
-
-Check atoms(int dim, const std::vector<Slab>& slabs, const Report& report, double n) {
-  Check c{"no atoms", Verdict::pass, 1.0, 0.04, 0, 0, Fault::atom, {}};
+// Atoms or gaps: the counts of the slabs of one kind against their mass, on the side that the kind suspects.
+Check suspects(const Subject& s, Slab::Kind kind, const std::vector<Slab>& slabs, const Report& report, double n) {
+  const bool crowd = kind == Slab::Kind::crowd;
+  Check c{crowd ? "no atoms" : "no gaps", Verdict::pass, 1.0, crowd ? 0.03 : 0.02, 0, 0, crowd ? Fault::atom : Fault::local, {}};
   double sure = 1;
+  const double total = s.may_fail ? 1.0 : std::max(report.mass, 1e-300);
   for (const Slab& slab : slabs) {
-    const double share = static_cast<double>(slab.observed) / n;
-    if (share <= slab.mass) continue;
-    const double raw = sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(slab.mass, 1.0)), dim);
-    sure = std::min(sure, sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(slab.mass + slab.error, share)), dim));
+    if (slab.kind != kind) continue;
+    const double share = static_cast<double>(slab.observed) / n, claimed = crowd ? slab.mass : slab.mass / total;
+    if (crowd ? share <= claimed : share >= claimed) continue;
+    const double kinder = crowd ? std::min(claimed + slab.error, share) : std::max(claimed - slab.error, share);
+    const auto tail = [&](double p) {
+      return sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(p, 1.0)), crowd ? s.dim : 3 * s.dim);
+    };
+    const double raw = tail(claimed);
+    sure = std::min(sure, tail(kinder));
     if (raw >= *c.p) continue;
     c.p = raw;
     c.statistic = static_cast<double>(slab.observed);
-    c.detail = fmt::format("{} samples, {:.3g} expected, with coordinate {} of the chart in [{:.17g}, {:.17g}]", slab.observed, n * slab.mass, slab.axis,
-                           slab.box.lo[slab.axis], slab.box.hi[slab.axis]);
+    c.detail = fmt::format("{} samples, {:.3g} expected, with coordinate {} of the chart in [{:.17g}, {:.17g}]", slab.observed, n * claimed,
+                           slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis]);
   }
   const double level = sidak_level(report.alpha, c.share);
   if (sure <= level) c.verdict = Verdict::fail;
@@ -236,7 +181,7 @@ Check atoms(int dim, const std::vector<Slab>& slabs, const Report& report, doubl
 
 // The rate of failures against what the density leaves of 1, as far as its integral is known.
 Check failures(const Subject& s, const Tally& t, const Report& report) {
-  Check c{"failures", Verdict::pass, {}, 0.05, static_cast<double>(t.failed.count), 0, Fault::mass, {}};
+  Check c{"failures", Verdict::pass, {}, 0.04, static_cast<double>(t.failed.count), 0, Fault::mass, {}};
   const double expected = std::clamp(1 - report.mass, 0.0, 1.0), slack = report.mass_error + s.mass_tolerance;
   const double rate = static_cast<double>(t.failed.count) / static_cast<double>(t.n);
   const double kinder = rate > expected ? std::min(expected + slack, rate) : std::max(expected - slack, rate);
@@ -291,7 +236,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
     const double continuous = n * static_cast<double>(pilot.size()) / static_cast<double>(pilot_tally.n);
     const int depth = tree_depth(continuous);
     const Ranks ranks(pilot, s.dim);
-    slabs = crowded_slabs(s, pilot, ranks);
+    slabs = suspect_slabs(s, pilot, ranks.sorted);
     partition.emplace(pilot, s.dim, depth);
     for (int i = 0; i < partition->size(); ++i) {
       boxes.push_back(partition->box(i));
@@ -310,7 +255,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
       Cell& c = cells[pieces.owner[i]];
       c.p += masses.boxes[i].value, c.error += masses.boxes[i].error;
     }
-    weigh(s, slabs, n, options.max_evaluations);
+    weigh(s, slabs, n, options.max_evaluations / 8);
   }
   report.mass = masses.total.value + atoms_mass;
   report.mass_error = masses.total.error;
@@ -321,7 +266,10 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   const auto statistics = [&] {
     for (std::size_t i = 0; i < s.atoms.size(); ++i) cells[boxes.size() + i].observed = tally.atoms[i];
     CellTests tests = test_cells(cells, s.dim, options.alpha);
-    if (s.dim > 0) tests.checks.insert(tests.checks.begin(), atoms(s.dim, slabs, report, static_cast<double>(tally.n)));
+    if (s.dim > 0) {
+      const auto of = [&](Slab::Kind kind) { return suspects(s, kind, slabs, report, static_cast<double>(tally.n)); };
+      tests.checks.insert(tests.checks.begin(), {of(Slab::Kind::crowd), of(Slab::Kind::gap)});
+    }
     if (s.may_fail) tests.checks.push_back(failures(s, tally, report));
     return tests;
   };

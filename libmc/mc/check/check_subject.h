@@ -20,6 +20,7 @@ struct SubjectOptions {
 ///   mass       : the claimed density and atoms integrate to 1 (to at most 1, the rest failing, where failures are allowed)
 ///   counts     : all tests of cell_tests.h on cells adapted to the density
 ///   atoms      : the narrowest crowd of pilot samples on each axis, counted anew, against the mass of its slab
+///   gaps       : the widest gap between pilot samples inside each axis and at its ends, likewise
 ///   detection  : the report states the smallest errors it would have caught with probability .99
 ///   throws     : Error when samples < 1000, or alpha is not in (0, 1)
 Report check_subject(const Subject& subject, const SubjectOptions& options = {});

@@ -35,6 +35,7 @@ std::string_view name(Fault f) {
   case Fault::shape: return "shape: the samples follow another density";
   case Fault::local: return "local: too many or too few samples in single cells";
   case Fault::physics: return "physics: reciprocity, energy or sign";
+  case Fault::bias: return "bias: the mean of the estimates is another";
   }
   return "";
 }

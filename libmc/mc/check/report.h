@@ -19,7 +19,9 @@ std::string_view name(Verdict v);
 
 /// What a failed check points to. `shape`: the samples follow another density than the one claimed; `rotation`: the claimed one,
 /// turned about the pole.
-enum class Fault { none, edge, not_finite, outside, leak, mass, weight, support, inverse, jacobian, precision, atom, rotation, shape, local, physics };
+enum class Fault {
+  none, edge, not_finite, outside, leak, mass, weight, support, inverse, jacobian, precision, atom, rotation, shape, local, physics, bias
+};
 
 std::string_view name(Fault f);
 

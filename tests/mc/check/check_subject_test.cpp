@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace {
 
 using V = mc::Vec3<double>;
@@ -75,6 +77,30 @@ TEST(CheckSubject, WitnessesAreInTheReport) {
   const mc::Report r = check_subject(make_subject("below", mc::Hemisphere<double>{}, sampler, cosine_pdf), {.samples = 10'000});
   EXPECT_EQ(r.fault(), Fault::outside);
   EXPECT_THAT(r.to_string(), testing::HasSubstr("first x = ("));
+}
+
+// An azimuth of 2 * 3.14 u leaves a gap at the end of the turn, a clamp one at each end of u, a skipped interval one inside: too
+// narrow for any cell, each seen empty by the pilot and then by the samples. A right density whose support has such gaps passes.
+TEST(CheckSubject, GapsAreFoundInsideAndAtBothEnds) {
+  const mc::Interval<double> unit(0, 1);
+  const auto gap = [&](double lo, double hi, bool claimed) {
+    const double width = hi - lo;
+    const auto sampler = [=](Pcg& r) {
+      const double x = (1 - width) * r.uniform<double>();
+      return x < lo ? x : x + width;
+    };
+    const auto pdf = [=](double x) { return !claimed ? 1.0 : x >= lo && x < hi ? 0.0 : 1 / (1 - width); };
+    return check_subject(make_subject("gap", unit, sampler, pdf), {.samples = 200'000, .seed = 3, .alpha = 1e-3});
+  };
+  for (const auto& [lo, hi] : {std::pair(0.0, 1e-3), std::pair(0.4, 0.401), std::pair(0.999, 1.0)}) {
+    const mc::Report wrong = gap(lo, hi, false), right = gap(lo, hi, true);
+    EXPECT_EQ(wrong.verdict(), Verdict::fail) << lo;
+    const auto check = std::find_if(wrong.checks.begin(), wrong.checks.end(), [](const mc::Check& c) { return c.name == "no gaps"; });
+    ASSERT_NE(check, wrong.checks.end());
+    EXPECT_EQ(check->verdict, Verdict::fail) << wrong.to_string();
+    EXPECT_LE(check->statistic, 20) << "of 200 expected"; // a few stand at the edges that the pilot saw
+    EXPECT_TRUE(right.passed()) << right.to_string();
+  }
 }
 
 TEST(CheckSubject, DiscreteOutcomes) {

@@ -42,7 +42,7 @@ TEST(Report, CellsReadInTheCoordinatesOfTheDomain) {
 }
 
 TEST(Report, EveryFaultAndVerdictHasAName) {
-  for (int i = 0; i <= static_cast<int>(Fault::physics); ++i) EXPECT_GT(name(static_cast<Fault>(i)).size(), 3u) << i;
+  for (int i = 0; i <= static_cast<int>(Fault::bias); ++i) EXPECT_GT(name(static_cast<Fault>(i)).size(), 3u) << i;
   for (const Verdict v : {Verdict::pass, Verdict::fail, Verdict::inconclusive}) EXPECT_GT(name(v).size(), 3u);
 }
 

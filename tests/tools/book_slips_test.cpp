@@ -1,0 +1,116 @@
+// carlo validate book-slips: every slip told, the right ones beside them, the Cornell boxes, JSON and bad input.
+
+#include "commands.h"
+#include "slips.h"
+#include "slips_cornell.h"
+
+#include <mc/core/error.h>
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace {
+
+using carlo::ValidateOptions;
+using testing::AllOf;
+using testing::HasSubstr;
+
+ValidateOptions slips(std::vector<std::string> names, std::uint64_t samples) {
+  ValidateOptions o;
+  o.names = {"book-slips"};
+  o.names.insert(o.names.end(), names.begin(), names.end());
+  o.samples = samples;
+  return o;
+}
+
+struct Output {
+  int code;
+  std::string text;
+};
+Output run(const ValidateOptions& o) {
+  testing::internal::CaptureStdout();
+  const int code = carlo::validate(o);
+  std::fflush(stdout);
+  return {code, testing::internal::GetCapturedStdout()};
+}
+
+std::string message(const ValidateOptions& o) {
+  try {
+    carlo::validate(o);
+  } catch (const mc::Error& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(BookSlips, AllAreRejectedAndTheirRemediesPass) {
+  ValidateOptions o = slips({}, 100'000);
+  o.json = (std::filesystem::path(testing::TempDir()) / "slips.json").string();
+  const Output out = run(o);
+  const std::size_t n = carlo::slips_of_books().size();
+  EXPECT_THAT(out.text, HasSubstr(fmt::format("{} of {} slips rejected, {} of {} right ones passed", n, n, n, n)));
+  for (const carlo::Slip& s : carlo::slips_of_books()) EXPECT_THAT(out.text, HasSubstr(s.title().substr(s.id.size() + 1)));
+  EXPECT_THAT(out.text, HasSubstr("Which Cornell box was right?"));
+  EXPECT_THAT(mc::read_file(o.json), AllOf(HasSubstr("\"id\": \"P36\""), HasSubstr("\"boxes\""), HasSubstr("\"commit\"")));
+}
+
+TEST(BookSlips, ANamedSlipTellsItsStory) {
+  for (const char* name : {"P5", "eight cube roots"}) {
+    const Output out = run(slips({name}, 20'000));
+    EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
+    EXPECT_THAT(out.text, AllOf(HasSubstr("1 of 1 slips rejected, 1 of 1 right ones passed"), HasSubstr("8 x^(1/3) leaves [0,2]"),
+                                HasSubstr("in the domain fail")));
+  }
+}
+
+// A wrong sampler that so few samples cannot tell is reported as missed, and the exit code says so.
+TEST(BookSlips, AMissedSlipFails) {
+  const Output out = run(slips({"P36"}, 8000));
+  EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
+  EXPECT_THAT(out.text, AllOf(HasSubstr("missed"), HasSubstr("0 of 1 slips rejected")));
+}
+
+TEST(BookSlips, ListNamesEverySlip) {
+  ValidateOptions o = slips({}, 8000);
+  o.list = true;
+  const std::string text = run(o).text;
+  for (const carlo::Slip& s : carlo::slips_of_books()) EXPECT_THAT(text, AllOf(HasSubstr(s.name), HasSubstr(s.where)));
+}
+
+TEST(BookSlips, BadInputIsOneLine) {
+  EXPECT_THAT(message(slips({"in-ball Lambertain"}, 8000)),
+              HasSubstr("unknown slip 'in-ball Lambertain'; did you mean 'in-ball Lambertian'?"));
+  EXPECT_THAT(message(slips({}, 10)), HasSubstr("--samples 10 must lie in"));
+  ValidateOptions o = slips({"P1"}, 8000);
+  o.alpha = 0;
+  EXPECT_THAT(message(o), HasSubstr("--alpha 0 must lie in (0, 1)"));
+  o = slips({"P1"}, 8000), o.junit = "slips.xml";
+  EXPECT_THAT(message(o), HasSubstr("--json only"));
+  o = slips({"P1"}, 8000), o.json = "/nonexistent/folder/file.json";
+  EXPECT_THAT(message(o), HasSubstr("/nonexistent/folder"));
+  o = {}, o.names = {"book-slip"};
+  EXPECT_THAT(message(o), HasSubstr("did you mean 'book-slips'?"));
+}
+
+// The right boxes agree with the reference within five standard errors; the wrong ones are as far off as when each was
+// integrated on its own: +12 % in the ball, -16 % doubled, -21 % light only, -1.7 % half hidden.
+TEST(CornellBoxes, RightOnesAgreeAndWrongOnesAreOffByWhatIsKnown) {
+  const auto boxes = carlo::cornell_boxes(60'000, 1, 0);
+  ASSERT_EQ(boxes.size(), 7u);
+  const double off[] = {0, 0, 0, 0.125, -0.161, -0.21, -0.017};
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    EXPECT_LE(std::abs(boxes[i].off - off[i]), 5 * boxes[i].off_error + 0.01)
+        << boxes[i].name << ": " << boxes[i].off << " +- " << boxes[i].off_error;
+    EXPECT_LE(boxes[i].off_error, 0.05) << boxes[i].name;
+  }
+}
+
+TEST(CornellBoxes, ThreadsDoNotChangeThem) {
+  const auto one = carlo::cornell_boxes(5000, 2, 1), two = carlo::cornell_boxes(5000, 2, 2);
+  for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].mean, two[i].mean) << one[i].name;
+}
+
+} // namespace
