@@ -180,7 +180,7 @@ std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, i
     Strategy strategy;
   };
   const Way ways[] = {
-      {{"cosine and light, half each", "reference", "unit cosine directions; the density of each sample is the mixture's", true},
+      {{"cosine and light, half each", "reference", "cosine directions; the density of a sample is the mixture's", true},
        mixed<cosine>},
       {{"normal + unit vector", "book v3.2.3", "cosine directions: right", true}, weightless<on_ball>},
       {{"uniform hemisphere", "book v3.2.3", "right too: the text that calls the difference a bug is stale", true}, hemisphere},
