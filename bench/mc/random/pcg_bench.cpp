@@ -1,26 +1,41 @@
-// ns per number: pcg32, the yardstick of all other benchmarks, and hashed numbers.
-#include <mc/random/pcg.h>
-
-#include <benchmark/benchmark.h>
+// Random numbers: pcg32, the yardstick of all other benchmarks, uniform numbers from it, and hashed ones.
+#include "../../speed.h"
 
 namespace {
 
-void Pcg32(benchmark::State& state) {
+void pcg32(benchmark::State& state) {
   mc::Pcg random(1);
   for (auto _ : state) benchmark::DoNotOptimize(random.next32());
+  bench::note(state, 1, 1.7);
 }
-BENCHMARK(Pcg32);
+BENCHMARK(pcg32);
 
-void PcgUniformFloat(benchmark::State& state) {
+template <class S> void pcg(benchmark::State& state) {
   mc::Pcg random(1);
-  for (auto _ : state) benchmark::DoNotOptimize(random.uniform<float>());
+  for (auto _ : state) benchmark::DoNotOptimize(random.uniform<S>());
+  bench::note(state);
 }
-BENCHMARK(PcgUniformFloat);
+BENCHMARK(pcg<float>)->Name("pcg32 uniform float");
+BENCHMARK(pcg<double>)->Name("pcg32 uniform double");
 
-void HashUniformFloat(benchmark::State& state) {
+template <class S> void pcg_fill(benchmark::State& state) {
+  mc::Pcg random(1);
+  std::vector<S> out(1024);
+  for (auto _ : state) {
+    random.fill<S>(out);
+    benchmark::DoNotOptimize(out.data());
+    benchmark::ClobberMemory();
+  }
+  bench::note(state, 1024);
+}
+BENCHMARK(pcg_fill<float>)->Name("pcg32 uniform float/n");
+BENCHMARK(pcg_fill<double>)->Name("pcg32 uniform double/n");
+
+void hashed(benchmark::State& state) {
   std::uint64_t i = 0;
   for (auto _ : state) benchmark::DoNotOptimize(mc::hash_uniform<float>(1, i++));
+  bench::note(state);
 }
-BENCHMARK(HashUniformFloat);
+BENCHMARK(hashed)->Name("hash uniform float");
 
 } // namespace

@@ -1,5 +1,6 @@
-// ns per 2-D point, scalar float, random access; and per number in batches.
-#include <mc/random/pcg.h>
+// Points by random access, and runs of points in one dimension; scalar float.
+#include "../../speed.h"
+
 #include <mc/sampler/halton.h>
 #include <mc/sampler/lattice.h>
 #include <mc/sampler/multi_jittered.h>
@@ -7,64 +8,62 @@
 #include <mc/sampler/sobol.h>
 #include <mc/sampler/stratified.h>
 
-#include <benchmark/benchmark.h>
-
 namespace {
 
-void Pcg32(benchmark::State& state) {
-  mc::Pcg random(1);
-  for (auto _ : state) benchmark::DoNotOptimize(random.next32());
-}
-BENCHMARK(Pcg32);
-
-template <class T> void points(benchmark::State& state, const T& sampler) {
+// Points of the first 65536 in a scattered order, as pixels and paths ask for them.
+template <class F> void points(benchmark::State& state, double aim, const F& point) {
   std::uint32_t i = 0;
   for (auto _ : state) {
-    const mc::Vec2<float> u = mc::point<float, 2>(sampler, i++ & 0xffff);
+    const mc::Vec2<float> u = point((i += 40503) & 0xffff);
     benchmark::DoNotOptimize(u);
   }
+  bench::note(state, 1, aim);
+}
+template <class T> auto pair_of(const T& sampler) {
+  return [sampler](std::uint32_t i) { return mc::point<float, 2>(sampler, i, 2); };
 }
 
-void PaddedSobolPair(benchmark::State& state) {
-  const mc::PaddedSobol sampler{1};
-  std::uint32_t i = 0;
-  for (auto _ : state) {
-    const mc::Vec2<float> u = sampler.pair<float>(i++, 0);
-    benchmark::DoNotOptimize(u);
-  }
+void padded(benchmark::State& state) {
+  points(state, 12, [sampler = mc::PaddedSobol{1}](std::uint32_t i) { return sampler.pair<float>(i, 1); });
 }
-BENCHMARK(PaddedSobolPair);
-void Sobol(benchmark::State& state) { points(state, mc::Sobol(1)); }
-BENCHMARK(Sobol);
-void Stratified(benchmark::State& state) { points(state, mc::Stratified(65536, 1)); }
-BENCHMARK(Stratified);
-void MultiJittered(benchmark::State& state) { points(state, mc::MultiJittered(65536, 1)); }
-BENCHMARK(MultiJittered);
-void Halton(benchmark::State& state) { points(state, mc::Halton(1)); }
-BENCHMARK(Halton);
-void Lattice(benchmark::State& state) { points(state, mc::Lattice(1)); }
-BENCHMARK(Lattice);
+BENCHMARK(padded)->Name("Sobol 2-D, padded, Owen");
+void sobol(benchmark::State& state) { points(state, 12, pair_of(mc::Sobol(1))); }
+BENCHMARK(sobol)->Name("Sobol dims 2 and 3, Owen");
+void stratified(benchmark::State& state) { points(state, 0, pair_of(mc::Stratified(65536, 1))); }
+BENCHMARK(stratified)->Name("stratified 2-D");
+void multi_jittered(benchmark::State& state) { points(state, 0, pair_of(mc::MultiJittered(65536, 1))); }
+BENCHMARK(multi_jittered)->Name("multi-jittered 2-D");
+void halton(benchmark::State& state) { points(state, 0, pair_of(mc::Halton(1))); }
+BENCHMARK(halton)->Name("Halton dims 2 and 3, Owen");
+void lattice(benchmark::State& state) { points(state, 0, pair_of(mc::Lattice(1))); }
+BENCHMARK(lattice)->Name("lattice 2-D");
 
-// ns per iteration / 1024 = ns per number.
-void SobolScalar1024(benchmark::State& state) {
+constexpr std::uint64_t run = 1024;
+
+template <class S> void run_scalar(benchmark::State& state) {
   const mc::Sobol sampler(1);
-  std::vector<float> out(1024);
+  std::vector<S> out(run);
   for (auto _ : state) {
-    for (std::uint32_t i = 0; i < 1024; ++i) out[i] = mc::coordinate<float>(sampler, 1024 + i, 3);
+    for (std::uint64_t i = 0; i < run; ++i) out[i] = mc::coordinate<S>(sampler, run + i, 3);
     benchmark::DoNotOptimize(out.data());
     benchmark::ClobberMemory();
   }
+  bench::note(state, run);
 }
-BENCHMARK(SobolScalar1024);
-void SobolFill1024(benchmark::State& state) {
+BENCHMARK(run_scalar<float>)->Name("Sobol run in dim 3, float");
+BENCHMARK(run_scalar<double>)->Name("Sobol run in dim 3, double");
+
+template <class S> void run_filled(benchmark::State& state) {
   const mc::Sobol sampler(1);
-  std::vector<float> out(1024);
+  std::vector<S> out(run);
   for (auto _ : state) {
-    sampler.fill<float>(1024, 3, out);
+    sampler.fill<S>(run, 3, out);
     benchmark::DoNotOptimize(out.data());
     benchmark::ClobberMemory();
   }
+  bench::note(state, run);
 }
-BENCHMARK(SobolFill1024);
+BENCHMARK(run_filled<float>)->Name("Sobol run in dim 3, float/n");
+BENCHMARK(run_filled<double>)->Name("Sobol run in dim 3, double/n");
 
 } // namespace

@@ -3,10 +3,13 @@
 
 #include <Eigen/Core>
 
+#include <bit>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <limits>
 #include <numbers>
+#include <type_traits>
 
 namespace mc {
 
@@ -39,12 +42,26 @@ template <Real S> inline const S one_minus_epsilon = S(1) - std::numeric_limits<
 
 template <Real S> inline const S infinity = std::numeric_limits<S>::infinity();
 
+/// The unsigned integer as wide as float or double.
+template <std::floating_point S> using BitsOf = std::conditional_t<sizeof(S) == 4, std::uint32_t, std::uint64_t>;
+
+/// c ? a : b, by masks: for choices that depend on random numbers, where a jump is mispredicted as often as not.
+template <Real S> S choose(bool c, const S& a, const S& b) {
+  if constexpr (std::floating_point<S>) {
+    using Bits = BitsOf<S>;
+    const Bits bits = std::bit_cast<Bits>(b);
+    return std::bit_cast<S>(bits ^ ((std::bit_cast<Bits>(a) ^ bits) & (Bits{0} - Bits{c})));
+  } else {
+    return c ? a : b;
+  }
+}
+
 template <class S> constexpr S sqr(const S& x) { return x * x; }
 
 /// sqrt(max(x, 0)): for radicands that rounding may push just below 0. NaN stays NaN.
 template <Real S> S safe_sqrt(const S& x) {
   using std::sqrt;
-  return x < 0 ? S(0) : S(sqrt(x));
+  return sqrt(x < 0 ? S(0) : x); // the choice inside: a loop over it vectorises
 }
 
 /// a b - c d with two roundings instead of three: no cancellation when the products nearly agree (Kahan).

@@ -2,6 +2,7 @@
 /// Rings about the origin.
 
 #include <mc/core/error.h>
+#include <mc/core/turns.h>
 #include <mc/domain/concept.h>
 
 namespace mc {
@@ -28,9 +29,7 @@ template <Real S> struct Annulus {
 
   S area() const { return pi<S> * (outer - inner) * (outer + inner); }
   Point from_unit(const UnitPoint& v) const {
-    using std::cos, std::sin;
-    const S r = safe_sqrt<S>(inner * inner + v[0] * ((outer - inner) * (outer + inner))), phi = 2 * pi<S> * v[1];
-    return {r * S(cos(phi)), r * S(sin(phi))};
+    return at_turn<S>(safe_sqrt<S>(inner * inner + v[0] * ((outer - inner) * (outer + inner))), v[1]);
   }
   UnitPoint to_unit(const Point& p) const {
     using std::max, std::min;

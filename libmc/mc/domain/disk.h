@@ -1,6 +1,7 @@
 #pragma once
 /// The unit disk.
 
+#include <mc/core/turns.h>
 #include <mc/domain/concept.h>
 
 namespace mc {
@@ -14,11 +15,7 @@ template <Real S> struct Disk {
   static constexpr int dim = 2;
   static constexpr Measure measure = Measure::area;
 
-  Point from_unit(const UnitPoint& v) const {
-    using std::cos, std::sin;
-    const S r = safe_sqrt<S>(v[0]), phi = 2 * pi<S> * v[1];
-    return {r * S(cos(phi)), r * S(sin(phi))};
-  }
+  Point from_unit(const UnitPoint& v) const { return at_turn<S>(safe_sqrt<S>(v[0]), v[1]); }
   UnitPoint to_unit(const Point& p) const { return {p.squaredNorm(), turn<S>(p.x(), p.y())}; }
   S jacobian(const UnitPoint&) const { return pi<S>; }
   bool contains(const Point& p) const { return p.squaredNorm() <= 1 + 4 * std::numeric_limits<S>::epsilon(); }

@@ -1,6 +1,7 @@
 #pragma once
 /// The unit sphere of directions.
 
+#include <mc/core/turns.h>
 #include <mc/domain/concept.h>
 
 namespace mc {
@@ -13,7 +14,9 @@ template <Real S> bool is_unit(const Vec3<S>& w) {
 
 /// 1 - cos(theta) of a unit vector, without cancellation at the pole.
 template <Real S> S one_minus_z(const Vec3<S>& w) {
-  return w.z() > 0 ? S((w.x() * w.x() + w.y() * w.y()) / (1 + w.z())) : S(1 - w.z());
+  using std::abs;
+  const S far = 1 + S(abs(w.z())), near = (w.x() * w.x() + w.y() * w.y()) / far;
+  return choose<S>(w.z() > 0, near, far);
 }
 
 /// Unit vectors.
@@ -27,7 +30,7 @@ template <Real S> struct Sphere {
   static constexpr Measure measure = Measure::solid_angle;
 
   Point from_unit(const UnitPoint& v) const {
-    return spherical_direction<S>(2 * safe_sqrt<S>(v[0] * (1 - v[0])), 1 - 2 * v[0], 2 * pi<S> * v[1]);
+    return direction_at_turn<S>(2 * safe_sqrt<S>(v[0] * (1 - v[0])), 1 - 2 * v[0], v[1]);
   }
   UnitPoint to_unit(const Point& w) const { return {one_minus_z(w) / 2, turn<S>(w.x(), w.y())}; }
   S jacobian(const UnitPoint&) const { return 4 * pi<S>; }

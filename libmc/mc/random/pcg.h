@@ -5,6 +5,9 @@
 
 #include <pcg_random.hpp>
 
+#include <array>
+#include <span>
+
 namespace mc {
 
 /// A stream of independent random bits: pcg32 (XSH-RR, period 2^64 per stream, 2^63 streams) [ONeill14].
@@ -14,7 +17,10 @@ class Pcg {
   explicit Pcg(std::uint64_t seed = 0, std::uint64_t stream = 0) : engine_(mix64(seed + 1), stream) {}
 
   std::uint32_t next32() { return engine_(); }
-  std::uint64_t next64() { return (std::uint64_t{engine_()} << 32) | engine_(); }
+  std::uint64_t next64() {
+    const std::uint64_t high = engine_();
+    return high << 32 | engine_();
+  }
 
   /// Uniform in [0,1): one 32-bit draw for float, two for wider scalars.
   template <Real S> S uniform() {
@@ -32,11 +38,48 @@ class Pcg {
     }
   }
 
+  /// The next out.size() uniform numbers: those of uniform<S>() one by one, drawn by many leapfrogging copies of the stream at once.
+  template <std::floating_point S> void fill(std::span<S> out) {
+    std::size_t done = 0;
+    if (out.size() >= 2 * lanes) done = engine_.fill(out);
+    for (; done < out.size(); ++done) out[done] = uniform<S>();
+  }
+
   /// Skips n 32-bit draws in O(log n).
   void advance(std::uint64_t n) { engine_.advance(n); }
 
  private:
-  pcg32 engine_;
+  static constexpr std::size_t lanes = 32;
+
+  struct Engine : pcg32 {
+    Engine(std::uint64_t seed, std::uint64_t stream) : pcg32(seed, stream) {}
+
+    // Fills whole rows of `lanes` numbers and says how many that is.
+    template <class S> std::size_t fill(std::span<S> out) {
+      constexpr std::size_t draws = std::same_as<S, float> ? 1 : 2;
+      const std::uint64_t factor = multiplier(), step = increment();
+      // `lanes` numbers ahead is an affine function of the state again; its values at 0 and 1 tell it.
+      const std::uint64_t row_step = pcg32::advance(0, lanes * draws, factor, step);
+      const std::uint64_t row_factor = pcg32::advance(1, lanes * draws, factor, step) - row_step;
+      std::array<std::uint64_t, lanes> state;
+      for (std::size_t k = 0; k < lanes; ++k) {
+        state[k] = state_;
+        pcg32::advance(draws);
+      }
+      std::size_t done = 0;
+      for (; done + lanes <= out.size(); done += lanes) {
+        for (std::size_t k = 0; k < lanes; ++k) {
+          std::uint64_t bits = std::uint64_t{pcg32::output(state[k])} << 32;
+          if constexpr (draws == 2) bits |= pcg32::output(state[k] * factor + step);
+          out[done + k] = mc::uniform<S>(bits);
+          state[k] = state[k] * row_factor + row_step;
+        }
+      }
+      state_ = state[0];
+      return done;
+    }
+  };
+  Engine engine_;
 };
 
 } // namespace mc

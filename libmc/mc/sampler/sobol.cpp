@@ -11,7 +11,7 @@ const std::uint32_t* Sobol::direction_numbers() {
   static const std::vector<std::uint32_t> table = [] {
     using Table = boost::random::detail::qrng_tables::sobol;
     std::vector<std::uint32_t> columns(std::size_t{dimensions} * 32);
-    for (std::uint32_t k = 0; k < 32; ++k) columns[k] = 0x80000000u >> k;
+    for (std::uint32_t k = 0; k < 32; ++k) columns[k] = 1u << k;
     for (std::uint32_t dim = 1; dim < dimensions; ++dim) {
       const std::uint32_t polynomial = Table::polynomial(dim - 1);
       const auto degree = static_cast<std::uint32_t>(31 - __builtin_clz(polynomial));
@@ -24,7 +24,7 @@ const std::uint32_t* Sobol::direction_numbers() {
           for (std::uint32_t i = 0; i < degree; ++i)
             if (polynomial >> i & 1) m[k] ^= m[k - (degree - i)] << (degree - i);
         }
-        columns[std::size_t{dim} * 32 + k] = m[k] << (31 - k);
+        columns[std::size_t{dim} * 32 + k] = reverse_bits(m[k] << (31 - k));
       }
     }
     return columns;

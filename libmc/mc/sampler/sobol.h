@@ -25,17 +25,13 @@ class Sobol {
     const std::uint64_t key = hash(seed_, dim);
     const std::uint64_t low = mix64(key ^ index);
     if (dim >= dimensions) return low;
-    const std::uint32_t x = owen_scramble(unscrambled(static_cast<std::uint32_t>(index), dim), static_cast<std::uint32_t>(key >> 32));
-    return (std::uint64_t{x} << 32) | (low & 0xffffffffu);
+    // Reversed, the word of 64 bits has the scrambled ones in its upper half.
+    const std::uint64_t x = reverse_bits64(owen_scramble_reversed(reversed(static_cast<std::uint32_t>(index), dim), static_cast<std::uint32_t>(key >> 32)));
+    return x | (low & 0xffffffffu);
   }
 
   /// The point before scrambling, as a fraction of 2^32.
-  std::uint32_t unscrambled(std::uint32_t index, std::uint32_t dim) const {
-    const std::uint32_t* column = columns_ + std::size_t{dim} * 32;
-    std::uint32_t x = 0;
-    for (; index != 0; index &= index - 1) x ^= column[__builtin_ctz(index)];
-    return x;
-  }
+  std::uint32_t unscrambled(std::uint32_t index, std::uint32_t dim) const { return reverse_bits(reversed(index, dim)); }
 
   /// Coordinate `dim` of points first, first + 1, ...: the bits of coordinate<S>, several points at a time.
   template <Real S> void fill(std::uint64_t first, std::uint32_t dim, std::span<S> out) const {
@@ -46,15 +42,15 @@ class Sobol {
     // An aligned block of indices is the point of its first, combined with the points of the offsets.
     constexpr std::size_t block = 64;
     std::array<std::uint32_t, block> offsets;
-    for (std::uint32_t i = 0; i < block; ++i) offsets[i] = unscrambled(i, dim);
+    for (std::uint32_t i = 0; i < block; ++i) offsets[i] = reversed(i, dim);
     const std::uint64_t key = hash(seed_, dim);
     const auto scramble = static_cast<std::uint32_t>(key >> 32);
     for (std::size_t done = 0; done < out.size();) {
       const std::uint64_t index = first + done;
       const std::size_t skip = index % block, n = std::min(block - skip, out.size() - done);
-      const std::uint32_t base = unscrambled(static_cast<std::uint32_t>(index - skip), dim);
+      const std::uint32_t base = reversed(static_cast<std::uint32_t>(index - skip), dim);
       for (std::size_t i = 0; i < n; ++i) {
-        const std::uint32_t x = owen_scramble(base ^ offsets[skip + i], scramble);
+        const std::uint32_t x = reverse_bits(owen_scramble_reversed(base ^ offsets[skip + i], scramble));
         if constexpr (std::same_as<S, float>) out[done + i] = static_cast<float>(x >> 8) * 0x1p-24f;
         else out[done + i] = uniform<S>((std::uint64_t{x} << 32) | (mix64(key ^ (index + i)) & 0xffffffffu));
       }
@@ -63,7 +59,16 @@ class Sobol {
   }
 
  private:
-  /// dimensions x 32 columns, built once per process.
+  // The point before scrambling with its leading bit last, as the scrambling wants it: the exclusive or of the columns that the
+  // bits of the index choose, all 32 of them without a jump.
+  std::uint32_t reversed(std::uint32_t index, std::uint32_t dim) const {
+    const std::uint32_t* column = columns_ + std::size_t{dim} * 32;
+    std::uint32_t x = 0;
+    for (std::uint32_t k = 0; k < 32; ++k) x ^= column[k] & (0u - (index >> k & 1u));
+    return x;
+  }
+
+  /// dimensions x 32 columns, each with its leading bit last, built once per process.
   static const std::uint32_t* direction_numbers();
 
   std::uint64_t seed_;

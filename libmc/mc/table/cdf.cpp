@@ -8,7 +8,7 @@
 
 namespace mc {
 
-Cdf::Cdf(std::span<const double> weights) : cumulative_(weights.size() + 1), guide_(weights.size() + 1) {
+Cdf::Cdf(std::span<const double> weights) : cumulative_(CdfView::ends(weights.size())), guide_(CdfView::cells(weights.size()) + 1) {
   fill(weights, cumulative_.data(), guide_.data());
 }
 
@@ -51,10 +51,13 @@ void Cdf::fill(std::span<const double> weights, double* cumulative, std::uint32_
     if (weights[i - 1] > 0) limit -= unit;
   }
 
+  for (std::size_t i = n + 1; i < CdfView::ends(n); ++i) cumulative[i] = 2;
+
   std::size_t outcome = 0;
-  for (std::size_t k = 0; k <= n; ++k) {
-    // The least u that the product u n, rounded, puts in cell k.
-    const double m = static_cast<double>(n), start = static_cast<double>(k);
+  const std::uint32_t cells = CdfView::cells(n);
+  for (std::uint32_t k = 0; k <= cells; ++k) {
+    // The least u that the product of u and the number of cells, rounded, puts in cell k.
+    const double m = cells, start = k;
     double u = start / m;
     while (u * m < start) u = std::nextafter(u, 2.0);
     while (u > 0 && std::nextafter(u, 0.0) * m >= start) u = std::nextafter(u, 0.0);

@@ -10,9 +10,15 @@ namespace mc {
 
 /// Look-up in a cumulative table that lives elsewhere; see Cdf.
 struct CdfView {
-  const double* cumulative;   ///< n + 1 entries, from 0 to 1
-  const std::uint32_t* guide; ///< n + 1 entries: the first outcome for the least u with u n >= k
+  static constexpr std::size_t window = 3; ///< outcomes that are looked at without a jump
+
+  const double* cumulative;   ///< ends(n) entries: n + 1 from 0 to 1, and above 1 as many as a look beyond the last may meet
+  const std::uint32_t* guide; ///< cells(n) + 1 entries: the first outcome for the least u with u cells(n) >= k
   std::uint32_t n;
+
+  static constexpr std::size_t ends(std::size_t n) { return n + 1 + window; }
+  /// One guide for two outcomes: half the memory costs less than one more comparison.
+  static constexpr std::uint32_t cells(std::size_t n) { return static_cast<std::uint32_t>((n + 1) / 2); }
 
   double cdf(std::size_t i) const { return cumulative[i]; }
   double pmf(std::size_t i) const { return cumulative[i + 1] - cumulative[i]; }
@@ -20,12 +26,12 @@ struct CdfView {
 
   /// The outcome whose interval holds u in [0,1): the first whose upper end exceeds u.
   std::size_t find(double u) const {
-    const auto cell = static_cast<std::size_t>(static_cast<std::int64_t>(u * n));
-    std::size_t lo = guide[cell];
-    // Most cells hold one or two candidates: two steps without a jump to mispredict.
-    lo += cumulative[lo + 1] <= u;
-    lo += cumulative[lo + 1] <= u;
-    return cumulative[lo + 1] > u ? lo : find_beyond(lo + 1, cell, u);
+    const auto cell = static_cast<std::size_t>(static_cast<std::int64_t>(u * cells(n)));
+    const std::size_t lo = guide[cell];
+    // Most cells hold no more candidates than these: counted, without a jump to mispredict.
+    std::size_t passed = 0;
+    for (std::size_t k = 1; k <= window; ++k) passed += cumulative[lo + k] <= u;
+    return passed < window ? lo + passed : find_beyond(lo + window, cell, u);
   }
 
  private:
@@ -45,16 +51,16 @@ struct CdfView {
 ///   cannot disagree. An outcome of positive weight has a positive interval; one of weight 0 has none.
 ///   Ends are multiples of 2^-53: of the 2^53 values of uniform<double>, exactly the share pmf(i) falls on outcome i.
 ///   error  : |pmf(i) - w_i / sum w| <= 2^-52 if no weight is below 2^-53 of the sum; else up to n 2^-53
-///   cost   : O(1) expected whatever n and the weights: a guide table of n entries starts the search [ChenAsau74]
+///   cost   : O(1) expected whatever n and the weights: a guide table starts the search [ChenAsau74]
 ///   throws : Error for no weights, a weight that is not finite and >= 0, or all weights 0
 class Cdf {
  public:
   explicit Cdf(std::span<const double> weights);
 
-  /// Fills a table of n + 1 ends and n + 1 guides for n weights.
+  /// Fills the arrays of a CdfView for n weights.
   static void fill(std::span<const double> weights, double* cumulative, std::uint32_t* guide);
 
-  std::size_t size() const { return guide_.size() - 1; }
+  std::size_t size() const { return cumulative_.size() - CdfView::ends(0); }
   /// Lower end of the interval of outcome i; cdf(size()) = 1.
   double cdf(std::size_t i) const { return cumulative_[i]; }
   double pmf(std::size_t i) const { return view().pmf(i); }

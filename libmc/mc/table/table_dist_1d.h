@@ -10,10 +10,13 @@
 
 namespace mc {
 
+/// [0,1], known to the compiler: of a table on it, all divisions by the width fall away.
+struct UnitInterval { static constexpr int lo = 0, hi = 1; };
+
 /// The geometry of TableDist1D over a cumulative table that lives elsewhere: n cells of equal width on an interval.
-template <Real S> struct StepsView {
+template <Real S, class I = Interval<S>> struct StepsView {
   CdfView cdf;
-  Interval<S> interval;
+  [[no_unique_address]] I interval;
 
   std::size_t find(S u) const { return cdf.find(static_cast<double>(u)); }
   /// For u in the interval of outcome i: how far it is along it, in [0,1), and the point as far along cell i.
@@ -23,7 +26,9 @@ template <Real S> struct StepsView {
   }
   S point(S u, std::size_t i) const {
     const Work v = (index(i) + within(u, i)) / index(cdf.size());
-    const S x = S(Work(interval.lo) * (1 - v) + Work(interval.hi) * v);
+    S x;
+    if constexpr (std::same_as<I, UnitInterval>) x = S(v);
+    else x = S(Work(interval.lo) * (1 - v) + Work(interval.hi) * v);
     return !std::floating_point<S> || cell(x) == i ? x : nudged(x, i);
   }
   S density(std::size_t i) const { return S(Work(cdf.pmf(i)) * index(cdf.size()) / (Work(interval.hi) - Work(interval.lo))); }
@@ -47,11 +52,11 @@ template <Real S> struct StepsView {
   // Rounding must not carry the point into a neighbouring cell, which may have weight 0.
   S nudged(S x, std::size_t i) const {
     using std::abs, std::clamp;
-    const S step = std::numeric_limits<S>::epsilon() * std::max(S(abs(interval.lo)), S(abs(interval.hi)));
+    const S step = std::numeric_limits<S>::epsilon() * std::max(S(abs(S(interval.lo))), S(abs(S(interval.hi))));
     for (int k = 0; k < 4; ++k) {
       const std::size_t at = cell(x);
       if (at == i) break;
-      x = clamp(S(at < i ? x + step : x - step), interval.lo, interval.hi);
+      x = clamp(S(at < i ? x + step : x - step), S(interval.lo), S(interval.hi));
     }
     return x;
   }

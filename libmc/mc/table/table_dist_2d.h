@@ -7,7 +7,7 @@
 
 namespace mc {
 
-/// The distributions of the column given the row, one after the other: width + 1 ends and guides per row, see CdfView.
+/// The distributions of the column given the row, one after the other: the arrays of a CdfView per row.
 struct ConditionalRows {
   std::vector<double> cumulative;
   std::vector<std::uint32_t> guide;
@@ -63,7 +63,7 @@ template <Real S> class TableDist2D {
   };
   Cell sample_index(const Vec2<S>& u) const {
     const std::size_t y = rows().find(u[1]);
-    const StepsView<S> columns = row(y);
+    const auto columns = row(y);
     const std::size_t x = columns.find(u[0]);
     return {x, y, pmf(x, y), {columns.remapped(u[0], x), rows().remapped(u[1], y)}};
   }
@@ -71,13 +71,13 @@ template <Real S> class TableDist2D {
   Domain domain() const { return {}; }
   Vec2<S> sample(const Vec2<S>& u) const {
     const std::size_t y = rows().find(u[1]);
-    const StepsView<S> columns = row(y);
+    const auto columns = row(y);
     return {columns.point(u[0], columns.find(u[0])), rows().point(u[1], y)};
   }
   S pdf(const Vec2<S>& p) const {
     if (!domain().contains(p)) return S(0);
     const std::size_t y = rows().cell(p[1]);
-    const StepsView<S> columns = row(y);
+    const auto columns = row(y);
     const S marginal = rows().density(y);
     return marginal == 0 ? S(0) : S(marginal * columns.density(columns.cell(p[0])));
   }
@@ -102,15 +102,15 @@ template <Real S> class TableDist2D {
     // A power of two near 1 / largest: row sums neither overflow nor sink below the denormals.
     int exponent;
     std::frexp(largest, &exponent);
-    const std::size_t stride = width + 1;
-    Made made{{std::vector<double>(height * stride), std::vector<std::uint32_t>(height * stride), width}, {}};
+    const std::size_t ends = CdfView::ends(width), guides = CdfView::cells(width) + 1;
+    Made made{{std::vector<double>(height * ends), std::vector<std::uint32_t>(height * guides), width}, {}};
     std::vector<double> row(width);
     for (std::size_t y = 0; y < height; ++y) {
       bool empty = true;
       for (std::size_t x = 0; x < width; ++x) empty &= weights[y * width + x] == 0;
       // A row of weight 0 is never chosen; it gets a uniform placeholder.
       for (std::size_t x = 0; x < width; ++x) row[x] = empty ? 1 : weights[y * width + x];
-      Cdf::fill(row, &made.rows.cumulative[y * stride], &made.rows.guide[y * stride]);
+      Cdf::fill(row, &made.rows.cumulative[y * ends], &made.rows.guide[y * guides]);
       CompensatedSum scaled;
       for (std::size_t x = 0; x < width && !empty; ++x) scaled.add(std::ldexp(weights[y * width + x], -exponent));
       made.sums.push_back(empty ? 0 : std::max(scaled.value(), std::numeric_limits<double>::denorm_min()));
@@ -120,10 +120,10 @@ template <Real S> class TableDist2D {
   explicit TableDist2D(Made made) : rows_(std::move(made.rows)), row_choice_(std::span<const double>(made.sums)) {}
   TableDist2D(Rows rows, Cdf row_choice) : rows_(std::move(rows)), row_choice_(std::move(row_choice)) {}
 
-  StepsView<S> rows() const { return {row_choice_.view(), {}}; }
-  StepsView<S> row(std::size_t y) const {
-    const std::size_t first = y * (rows_.width + 1);
-    return {{&rows_.cumulative[first], &rows_.guide[first], static_cast<std::uint32_t>(rows_.width)}, {}};
+  StepsView<S, UnitInterval> rows() const { return {row_choice_.view(), {}}; }
+  StepsView<S, UnitInterval> row(std::size_t y) const {
+    const std::size_t n = rows_.width;
+    return {{&rows_.cumulative[y * CdfView::ends(n)], &rows_.guide[y * (CdfView::cells(n) + 1)], static_cast<std::uint32_t>(n)}, {}};
   }
 
   Rows rows_;

@@ -29,9 +29,9 @@ template <Real S> class BeckmannNormals {
 
   Domain domain() const { return {}; }
   Vec3<S> sample(const Vec2<S>& u) const {
-    using std::cos, std::log1p, std::sin, std::sqrt;
-    const S r = sqrt(S(-S(log1p(S(-u[0]))))), phi = 2 * pi<S> * u[1];
-    return Vec3<S>(alpha_x_ * r * S(cos(phi)), alpha_y_ * r * S(sin(phi)), S(1)).normalized();
+    using std::log1p, std::sqrt;
+    const Vec2<S> slope = at_turn<S>(sqrt(S(-S(log1p(S(-u[0]))))), u[1]);
+    return Vec3<S>(alpha_x_ * slope.x(), alpha_y_ * slope.y(), S(1)).normalized();
   }
   S pdf(const Vec3<S>& m) const {
     using std::exp;

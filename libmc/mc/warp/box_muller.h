@@ -1,6 +1,7 @@
 #pragma once
 /// The 2-D Gaussian in polar form.
 
+#include <mc/core/turns.h>
 #include <mc/domain/product.h>
 #include <mc/warp/concept.h>
 
@@ -26,9 +27,8 @@ template <Real S> struct BoxMuller {
 
   Domain domain() const { return {{S(0), sigma}, {S(0), sigma}}; }
   Vec2<S> sample(const Vec2<S>& u) const {
-    using std::cos, std::log1p, std::sin, std::sqrt;
-    const S r = sigma * S(sqrt(S(-2 * S(log1p(S(-u[0])))))), phi = 2 * pi<S> * u[1];
-    return {r * S(cos(phi)), r * S(sin(phi))};
+    using std::log1p, std::sqrt;
+    return at_turn<S>(sigma * S(sqrt(S(-2 * S(log1p(S(-u[0])))))), u[1]);
   }
   S pdf(const Vec2<S>& p) const {
     using std::exp;

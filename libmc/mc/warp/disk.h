@@ -20,16 +20,14 @@ template <Real S> struct UniformDisk {
   Domain domain() const { return {}; }
 
   Vec2<S> sample(const Vec2<S>& u) const {
-    using std::abs, std::cos, std::sin;
+    using std::abs;
     const S a = 2 * u[0] - 1, b = 2 * u[1] - 1;
-    if (a == 0 && b == 0) return {S(0), S(0)};
-    // The wedge |a| > |b| measures phi from the x axis, the other from the y axis, so phi stays within pi/4 of an axis.
-    if (abs(a) > abs(b)) {
-      const S phi = pi<S> / 4 * (b / a);
-      return {a * S(cos(phi)), a * S(sin(phi))};
-    }
-    const S phi = pi<S> / 4 * (a / b);
-    return {b * S(sin(phi)), b * S(cos(phi))};
+    // The wedge |a| > |b| measures the azimuth from the x axis, the other from the y axis: within an eighth of a turn of it.
+    const bool wide = abs(a) > abs(b);
+    const S r = wide ? a : b, other = wide ? b : a;
+    const CosSin<S> phi = cos_sin_octant<S>(other / (r == 0 ? S(1) : r) / 8);
+    const S along = r * phi.cos, across = r * phi.sin;
+    return {choose<S>(wide, along, across), choose<S>(wide, across, along)};
   }
 
   S pdf(const Vec2<S>& p) const { return domain().contains(p) ? S(1 / pi<S>) : S(0); }

@@ -33,32 +33,31 @@ template <Real S> class HenyeyGreenstein {
 
   Vec3<S> sample(const Vec2<S>& u) const {
     using std::sqrt;
-    const S v = 1 - u[0], d = h_ + 2 * g_ * v;
-    const S near = 2 * u[0] * sqr<S>(h_ / d) * (1 + g_ * v);               // 1 - cos
-    const S far = 2 * v * sqr<S>((1 + g_) / d) * (h_ + g_ * v);            // 1 + cos
-    const S cosine = near < 1 ? S(1 - near) : S(far - 1);
-    return spherical_direction<S>(S(sqrt(S(near * far))), backward_ ? S(-cosine) : cosine, 2 * pi<S> * u[1]);
+    const S v = 1 - u[0], q = 1 / (h_ + 2 * g_ * v);
+    const S near = 2 * u[0] * sqr<S>(h_ * q) * (1 + g_ * v);    // 1 - cos
+    const S far = 2 * v * sqr<S>((1 + g_) * q) * (h_ + g_ * v); // 1 + cos
+    const S cosine = choose<S>(near < 1, 1 - near, far - 1);
+    return direction_at_turn<S>(S(sqrt(S(near * far))), front_ * cosine, u[1]);
   }
   S pdf(const Vec3<S>& w) const {
     using std::sqrt;
     const S d = h_ * h_ + 2 * g_ * from_pole(w);
-    return h_ * (1 + g_) / (4 * pi<S> * d * S(sqrt(d)));
+    return scale_ / (d * S(sqrt(d)));
   }
   Vec2<S> invert(const Vec3<S>& w) const {
     using std::min, std::sqrt;
     const S t = from_pole(w), q = sqrt(S(h_ * h_ + 2 * g_ * t));
     return {min(S((1 + g_) * t / (q * (q + h_))), one_minus_epsilon<S>), turn<S>(w.x(), w.y())};
   }
-  template <Real T> HenyeyGreenstein<T> cast() const { return HenyeyGreenstein<T>(T(h_), backward_); }
+  template <Real T> HenyeyGreenstein<T> cast() const { return HenyeyGreenstein<T>(T(h_), front_ < 0); }
 
  private:
   template <Real T> friend class HenyeyGreenstein;
-  HenyeyGreenstein(S h, bool backward) : h_(h), g_(1 - h), backward_(backward) {}
+  HenyeyGreenstein(S h, bool backward) : h_(h), g_(1 - h), front_(backward ? S(-1) : S(1)), scale_(h * (1 + g_) / (4 * pi<S>)) {}
 
-  S from_pole(const Vec3<S>& w) const { return one_minus_z<S>(backward_ ? Vec3<S>(w.x(), w.y(), -w.z()) : w); }
+  S from_pole(const Vec3<S>& w) const { return one_minus_z<S>({w.x(), w.y(), front_ * w.z()}); }
 
-  S h_, g_; ///< 1 - |g|, |g|
-  bool backward_;
+  S h_, g_, front_, scale_; ///< 1 - |g|, |g|, sign of g, (1 - g^2) / 4 pi
 };
 
 } // namespace mc

@@ -75,12 +75,12 @@ template <Real S> class TrowbridgeReitzVisibleNormals {
   Domain domain() const { return {}; }
 
   Vec3<S> sample(const Vec2<S>& u) const {
-    using std::cos, std::sin, std::sqrt;
+    using std::sqrt;
     // h_z = c_z + w_z and 1 - c_z are products, so only 1 + c_z = (1 - w_z) + h_z needs a sum, of positive terms.
     const S hz = (1 - u[1]) * (1 + w_.z());
     const S sin_c = sqrt(S(u[1] * (1 + w_.z()) * (below_one_ + hz)));
-    const S phi = 2 * pi<S> * u[0];
-    Vec3<S> h(sin_c * S(cos(phi)) + w_.x(), sin_c * S(sin(phi)) + w_.y(), hz);
+    const CosSin<S> phi = cos_sin<S>(u[0]);
+    Vec3<S> h(sin_c * phi.cos + w_.x(), sin_c * phi.sin + w_.y(), hz);
     const S lacking = 4 * std::numeric_limits<S>::epsilon() - h.dot(w_);
     if (lacking > 0) [[unlikely]] h += lacking * w_;
     return surface_.stretch(h).normalized();

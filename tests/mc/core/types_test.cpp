@@ -23,6 +23,14 @@ TEST(Types, SafeSqrtKeepsNaN) {
   EXPECT_TRUE(std::isnan(mc::safe_sqrt(std::numeric_limits<double>::quiet_NaN())));
 }
 
+TEST(Types, ChooseTakesEitherSideWhole) {
+  EXPECT_EQ(mc::choose(true, 1.5f, -2.0f), 1.5f);
+  EXPECT_EQ(mc::choose(false, 1.5, -2.0), -2.0);
+  EXPECT_EQ(mc::choose(false, std::numeric_limits<double>::quiet_NaN(), -0.0), 0.0);
+  EXPECT_TRUE(std::isnan(mc::choose(true, std::numeric_limits<float>::quiet_NaN(), 1.0f)));
+  EXPECT_EQ(mc::choose(true, Oracle(3), Oracle(4)), 3);
+}
+
 // [JeannerodLouvetMuller13]: 1.5 ulp, measured against 50 digits on products that nearly cancel.
 TEST(Types, DifferenceOfProductsDoesNotCancel) {
   mc::Pcg random(3);

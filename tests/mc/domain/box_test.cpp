@@ -1,5 +1,7 @@
 #include <mc/domain/box.h>
 
+#include <gmock/gmock.h>
+
 #include "support/chart.h"
 #include "support/files.h"
 

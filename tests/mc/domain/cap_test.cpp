@@ -1,5 +1,7 @@
 #include <mc/domain/cap.h>
 
+#include <gmock/gmock.h>
+
 #include "support/chart.h"
 #include "support/files.h"
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace {
 
 TEST(Pcg, EngineMatchesItsReferenceOutput) {
@@ -43,6 +45,21 @@ TEST(Pcg, UniformMoments) {
   }
   EXPECT_LE(std::abs(sum / n - 0.5), 5 * std::sqrt(1.0 / 12 / n));
   EXPECT_LE(std::abs(squares / n - 1.0 / 3), 5 * std::sqrt(4.0 / 45 / n));
+}
+
+template <class S> void expect_fill_is_uniform() {
+  mc::Pcg one_by_one(3, 4), filled(3, 4);
+  for (const std::size_t n : {0, 1, 63, 64, 65, 96, 1000}) {
+    std::vector<S> out(n);
+    filled.fill<S>(out);
+    for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(out[i], one_by_one.uniform<S>()) << i << " of " << n;
+  }
+  EXPECT_EQ(filled.next64(), one_by_one.next64());
+}
+
+TEST(Pcg, FillHasTheBitsOfUniform) {
+  expect_fill_is_uniform<float>();
+  expect_fill_is_uniform<double>();
 }
 
 } // namespace

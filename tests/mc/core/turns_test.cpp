@@ -1,0 +1,65 @@
+#include <mc/core/turns.h>
+
+#include <mc/check/oracle.h>
+#include <mc/random/pcg.h>
+
+#include <gtest/gtest.h>
+
+namespace mc {
+namespace {
+
+// Distance in units of the last place of the exact value; of the smallest normal number where that is 0.
+template <class S, class T> double ulps(S got, const T& exact) {
+  using std::abs;
+  const S near = abs(static_cast<S>(exact)), least = std::numeric_limits<S>::min();
+  const S place = near > least ? std::nextafter(near, infinity<S>) - near : least;
+  return static_cast<double>(T(abs(T(T(got) - exact)) / T(place)));
+}
+
+// Every multiple of 2^-24: all that uniform<float> gives. Double is exact enough to judge float: its own error is 2^-29 ulp.
+TEST(Turns, EveryFloatUniformIsWithinTwoUlps) {
+  double worst = 0;
+  for (std::uint32_t i = 0; i < 1u << 24; ++i) {
+    const float u = static_cast<float>(i) * 0x1p-24f;
+    const auto got = cos_sin<float>(u);
+    const auto exact = cos_sin<double>(double(u));
+    const double off = std::max(ulps<float>(got.cos, exact.cos), ulps<float>(got.sin, exact.sin));
+    worst = off <= worst ? worst : off;
+  }
+  EXPECT_LE(worst, 2);
+}
+
+// Double, and float between its multiples of 2^-24, against 50 digits; half of the points close to the zeros.
+template <class S> double worst_ulps() {
+  Pcg random(12);
+  double worst = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const S far = random.uniform<S>(), near = std::ldexp(far, -static_cast<int>(random.next32() % 40));
+    const S u = i % 2 == 0 ? far : S(0.25) * S(i / 2 % 4) + near / 4;
+    const auto got = cos_sin<S>(u);
+    const auto exact = cos_sin<Oracle>(Oracle(u));
+    const double off = std::max(ulps<S>(got.cos, exact.cos), ulps<S>(got.sin, exact.sin));
+    worst = off <= worst ? worst : off;
+  }
+  return worst;
+}
+
+TEST(Turns, WithinTwoUlpsOfFiftyDigits) {
+  EXPECT_LE(worst_ulps<float>(), 2);
+  EXPECT_LE(worst_ulps<double>(), 2);
+}
+
+TEST(Turns, QuartersAreExact) {
+  const double expected[5][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}};
+  for (int k = 0; k <= 4; ++k) {
+    EXPECT_EQ(cos_sin<float>(float(k) / 4).cos, float(expected[k][0])) << k;
+    EXPECT_EQ(cos_sin<float>(float(k) / 4).sin, float(expected[k][1])) << k;
+    EXPECT_EQ(cos_sin<double>(k / 4.0).cos, expected[k][0]) << k;
+    EXPECT_EQ(cos_sin<double>(k / 4.0).sin, expected[k][1]) << k;
+  }
+  EXPECT_EQ(at_turn<double>(3, 0.25), Vec2<double>(0, 3));
+  EXPECT_EQ(direction_at_turn<double>(0.6, 0.8, 0.5), Vec3<double>(-0.6, 0, 0.8));
+}
+
+} // namespace
+} // namespace mc
