@@ -28,9 +28,20 @@ struct Line {
 
 namespace {
 
-constexpr std::uint32_t few_spheres = 12, few_triangles = 48; // six blocks of triangles cost less than a node and its sorted children
+constexpr std::uint32_t few_spheres = 24, few_triangles = 48; // six blocks of triangles cost less than a node and its sorted children
 
-template <class Mask> bool any_lane(const Mask& mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
+template <class Mask> bool any_lane(const Mask& mask) {
+#if defined(__AVX512DQ__)
+  return _mm512_movepi64_mask(reinterpret_cast<const __m512i&>(mask)) != 0;
+#else
+  return (mask[0] | mask[1] | mask[2] | mask[3] | mask[4] | mask[5] | mask[6] | mask[7]) != 0;
+#endif
+}
+
+template <class Doubles> int lowest_lane(const Doubles& t) {
+  const auto lower = [&](int a, int b) { return t[b] < t[a] ? b : a; };
+  return lower(lower(lower(0, 1), lower(2, 3)), lower(lower(4, 5), lower(6, 7)));
+}
 
 /// Bit i is set where lane i of t lies in (0, t_max).
 template <class Doubles> unsigned between(const Doubles& t, double t_max) {
@@ -45,11 +56,11 @@ template <class Doubles> unsigned between(const Doubles& t, double t_max) {
 }
 
 template <class Doubles> Doubles square_root(const Doubles& x) {
-#if defined(__AVX__)
-  return reinterpret_cast<const Doubles&>(static_cast<const __m256d&>(_mm256_sqrt_pd(reinterpret_cast<const __m256d&>(x))));
+#if defined(__AVX512F__)
+  return reinterpret_cast<const Doubles&>(static_cast<const __m512d&>(_mm512_sqrt_pd(reinterpret_cast<const __m512d&>(x))));
 #else
   Doubles root;
-  for (int i = 0; i < 4; ++i) root[i] = std::sqrt(x[i]);
+  for (int i = 0; i < 8; ++i) root[i] = std::sqrt(x[i]); // the compiler packs them
   return root;
 #endif
 }
@@ -126,7 +137,7 @@ Bvh::Bvh(std::span<const Shape> shapes) {
   const auto add_spheres = [&](const std::vector<std::uint32_t>& order, WideTree::Leaf leaf) {
     SphereBlock block;
     block.caps = false;
-    for (std::uint32_t lane = 0; lane < 4; ++lane) {
+    for (std::uint32_t lane = 0; lane < 8; ++lane) {
       const std::uint32_t id = order[leaf.first + std::min(lane, leaf.count - 1)];
       const Sphere& s = spheres[id];
       for (int a = 0; a < 3; ++a) {
@@ -140,7 +151,7 @@ Bvh::Bvh(std::span<const Shape> shapes) {
     }
     sphere_blocks_.push_back(block);
   };
-  sphere_tree_ = build(sphere_boxes, 4, few_spheres, add_spheres);
+  sphere_tree_ = build(sphere_boxes, 8, few_spheres, add_spheres);
 }
 
 // U, V, W are the signed areas opposite vertices 0, 1, 2 in the sheared frame; all of one sign: inside.
@@ -186,32 +197,32 @@ bool Bvh::intersect_block(const TriangleBlock& block, const Ray& ray, const Shea
   return found;
 }
 
-// Sphere::intersect, four at a time.
+// Sphere::intersect, eight at a time.
 template <bool any> bool Bvh::intersect_block(const SphereBlock& block, const Line& line, Float& t_max, Hit& hit) {
   const Vec3d& d = line.d;
-  const FourDoubles ox = line.o.x() - block.center[0], oy = line.o.y() - block.center[1], oz = line.o.z() - block.center[2];
-  const FourDoubles b = -(ox * d.x() + oy * d.y() + oz * d.z()), nearest = b * line.inverse_d2;
-  const FourDoubles px = ox + d.x() * nearest, py = oy + d.y() * nearest, pz = oz + d.z() * nearest;
-  const FourDoubles discriminant = block.radius2 - (px * px + py * py + pz * pz);
+  const EightDoubles ox = line.o.x() - block.center[0], oy = line.o.y() - block.center[1], oz = line.o.z() - block.center[2];
+  const EightDoubles b = -(ox * d.x() + oy * d.y() + oz * d.z()), nearest = b * line.inverse_d2;
+  const EightDoubles px = ox + d.x() * nearest, py = oy + d.y() * nearest, pz = oz + d.z() * nearest;
+  const EightDoubles discriminant = block.radius2 - (px * px + py * py + pz * pz);
   const auto crossed = discriminant >= 0;
   if (!any_lane(crossed)) return false;
 
-  const FourDoubles root = square_root(crossed ? line.d2 * discriminant : FourDoubles{});
-  const FourDoubles q = b < 0 ? b - root : b + root;
-  const FourDoubles c = ox * ox + oy * oy + oz * oz - block.radius2;
-  const FourDoubles first = q * line.inverse_d2, second = c / q; // q = 0 gives NaN, which is no hit
-  const FourDoubles t0 = first < second ? first : second, t1 = first < second ? second : first;
+  const EightDoubles root = square_root(crossed ? line.d2 * discriminant : EightDoubles{});
+  const EightDoubles q = b < 0 ? b - root : b + root;
+  const EightDoubles c = ox * ox + oy * oy + oz * oz - block.radius2;
+  const EightDoubles first = q * line.inverse_d2, second = c / q; // q = 0 gives NaN, which is no hit
+  const EightDoubles t0 = first < second ? first : second, t1 = first < second ? second : first;
   const double limit = double(t_max);
   auto hit0 = crossed & (t0 > 0) & (t0 < limit), hit1 = crossed & (t1 > 0) & (t1 < limit);
   if (block.caps) {
-    const FourDoubles along = block.axis[0] * d.x() + block.axis[1] * d.y() + block.axis[2] * d.z();
-    const FourDoubles start = block.axis[0] * ox + block.axis[1] * oy + block.axis[2] * oz;
+    const EightDoubles along = block.axis[0] * d.x() + block.axis[1] * d.y() + block.axis[2] * d.z();
+    const EightDoubles start = block.axis[0] * ox + block.axis[1] * oy + block.axis[2] * oz;
     hit0 &= start + t0 * along >= block.cap;
     hit1 &= start + t1 * along >= block.cap;
   }
   if constexpr (any) return any_lane(hit0 | hit1);
-  const FourDoubles t = hit0 ? t0 : hit1 ? t1 : FourDoubles{} + mc::infinity<double>;
-  const int a = t[1] < t[0] ? 1 : 0, e = t[3] < t[2] ? 3 : 2, lane = t[e] < t[a] ? e : a;
+  const EightDoubles t = hit0 ? t0 : hit1 ? t1 : EightDoubles{} + mc::infinity<double>;
+  const int lane = lowest_lane(t);
   if (!(t[lane] < limit)) return false;
   t_max = Float(t[lane]);
   hit = {t_max, block.shape[lane], 0, 0, 0};

@@ -38,12 +38,11 @@ class Bvh {
     std::uint32_t id[8];
   };
   struct TriangleId { int shape, prim; };
-  typedef double FourDoubles __attribute__((vector_size(4 * sizeof(double))));
-  /// Four spheres or caps; spare lanes repeat the last one.
+  /// Eight spheres or caps; spare lanes repeat the last one.
   struct SphereBlock {
-    FourDoubles center[3], radius2;
-    FourDoubles axis[3], cap; ///< a point at `offset` from the centre belongs to the shape where offset . axis >= cap
-    int shape[4];
+    EightDoubles center[3], radius2;
+    EightDoubles axis[3], cap; ///< a point at `offset` from the centre belongs to the shape where offset . axis >= cap
+    int shape[8];
     bool caps; ///< some lane is a cap
   };
 

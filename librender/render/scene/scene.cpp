@@ -44,6 +44,13 @@ void Scene::prepare() {
     light_pmf_.push_back(Float(pmf));
     light_cdf_.push_back(Float(below += pmf));
   }
+  targets_.clear();
+  for (const AreaLight& light : lights) targets_.push_back(light.shape);
+  targets_.insert(targets_.end(), guides.begin(), guides.end());
+  speculars_.clear();
+  for (std::size_t i = 0; i < shapes.size() && !lights.empty(); ++i)
+    if (std::holds_alternative<Sphere>(shapes[i]) && bsdfs[static_cast<std::size_t>(shape_bsdf[i])].is_delta()) speculars_.push_back(static_cast<int>(i));
+  if (speculars_.size() > most_speculars) speculars_.clear();
   bvh_ = Bvh(shapes);
 }
 

@@ -47,10 +47,18 @@ struct Scene {
   LightChoice choose_light(Float uc) const;
   Float light_pmf(int light) const { return light_pmf_[static_cast<std::size_t>(light)]; }
 
+  /// Shapes that the `mixture` strategy aims at: those of the lights, and the guides.
+  const std::vector<int>& targets() const { return targets_; }
+  /// Spheres of glass or mirror that may cast caustics of the lights; none where there are so many that aiming would not pay.
+  const std::vector<int>& speculars() const { return speculars_; }
+
   const Bvh& bvh() const { return bvh_; }
 
  private:
+  static constexpr std::size_t most_speculars = 8;
+
   Bvh bvh_;
+  std::vector<int> targets_, speculars_;
   std::vector<Float> light_pmf_, light_cdf_;
 };
 

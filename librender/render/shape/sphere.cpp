@@ -7,6 +7,12 @@
 
 namespace render {
 
+namespace {
+
+Float cone_pdf(double one_minus_cos) { return Float(1 / (2 * mc::pi<double> * one_minus_cos)); }
+
+} // namespace
+
 Sphere::Sphere(const Vec3d& center, double radius, bool inside_out)
     : center_(center), radius_(radius), height_(2 * radius), inside_out_(inside_out) {
   mc::require(center.allFinite(), "sphere: centre ({}, {}, {}) is not finite", center.x(), center.y(), center.z());
@@ -69,48 +75,50 @@ std::optional<double> Sphere::cone(double d2) const {
 
 std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const {
   const Vec3d toward = center_ - ref.cast<double>();
-  const double d2 = toward.squaredNorm(), phi = 2 * mc::pi<double> * double(u[1]);
+  const double d2 = toward.squaredNorm();
+  // Any point of the circle of latitude will do, so its azimuth may be rounded to float.
+  const Float phi = 2 * mc::pi<Float> * u[1];
+  const auto direction = [c = double(std::cos(phi)), s = double(std::sin(phi))](double sine, double cosine) { return Vec3d(sine * c, sine * s, cosine); };
   ShapeSample s;
   if (const auto one_minus_cos = cone(d2)) {
     // A direction of the cone, and the near point of the sphere along it.
     const double v = double(u[0]) * *one_minus_cos, cosine = 1 - v, sin2 = v * (2 - v), d = std::sqrt(d2);
     const auto frame = mc::Frame<double>::from_z(toward / d);
-    const Vec3d wi = frame.to_world(mc::spherical_direction<double>(std::sqrt(sin2), cosine, phi));
+    const Vec3d wi = frame.to_world(direction(std::sqrt(sin2), cosine));
     const double t = d * cosine - mc::safe_sqrt<double>(radius_ * radius_ - d2 * sin2);
     s.point = point((t * wi - toward).normalized());
     s.wi = wi.cast<Float>();
+    s.pdf = cone_pdf(*one_minus_cos);
   } else {
     const double v = double(u[0]) * height_ / radius_; // 1 - cos of the angle from the axis
     const auto frame = mc::Frame<double>::from_z(axis_);
-    s.point = point(frame.to_world(mc::spherical_direction<double>(mc::safe_sqrt<double>(v * (2 - v)), 1 - v, phi)));
+    s.point = point(frame.to_world(direction(mc::safe_sqrt<double>(v * (2 - v)), 1 - v)).normalized());
     const Vec3 between = s.point.p - ref;
     if (!(between.squaredNorm() > 0)) return {};
     s.wi = between.normalized();
+    s.pdf = pdf(ref, s.wi, s.point);
   }
-  s.pdf = pdf(ref, s.wi, s.point);
   if (!(s.pdf > 0) || !std::isfinite(s.pdf)) return {};
   return s;
 }
 
 Float Sphere::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {
   if (const auto one_minus_cos = cone((center_ - ref.cast<double>()).squaredNorm()))
-    return Float(1 / (2 * mc::pi<double> * *one_minus_cos));
+    return cone_pdf(*one_minus_cos);
   const Float cosine = std::abs(hit.ng.dot(wi));
   return cosine > 0 ? (hit.p - ref).squaredNorm() / (cosine * Float(area())) : Float(0);
 }
 
 Float Sphere::pdf(const Vec3& ref, const Vec3& wi) const {
-  Float sum = 0;
-  // At most two crossings, seen from ref; from outside a whole sphere both belong to the same cone and count once.
   const Vec3d oc = ref.cast<double>() - center_, d = wi.cast<double>();
   const double b = -oc.dot(d), discriminant = radius_ * radius_ - (oc + d * b).squaredNorm();
   if (!(discriminant >= 0)) return 0;
+  if (const auto one_minus_cos = cone(oc.squaredNorm())) return b > 0 ? cone_pdf(*one_minus_cos) : Float(0);
+  Float sum = 0;
   const double half = std::sqrt(discriminant);
   for (const double t : {b - half, b + half}) {
     const Vec3d direction = (oc + t * d) / radius_;
-    if (!(t > 0) || (is_cap() && !(direction.dot(axis_) * radius_ >= radius_ - height_))) continue;
-    sum += pdf(ref, wi, point(direction));
-    if (cone(oc.squaredNorm())) break;
+    if (t > 0 && (!is_cap() || direction.dot(axis_) * radius_ >= radius_ - height_)) sum += pdf(ref, wi, point(direction));
   }
   return sum;
 }

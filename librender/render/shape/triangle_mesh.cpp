@@ -15,6 +15,16 @@ Vec3d normal_of(const std::array<Vec3, 3>& v) {
   return mc::cross<double>(v[1].cast<double>() - a, v[2].cast<double>() - a);
 }
 
+/// Where the line o + t d meets the plane of a triangle: barycentric weights of vertices 1 and 2, |cos| of the angle between d
+/// and the normal. NaN or infinite where it is parallel. Source: [MoellerTrumbore97]
+struct Crossing { double t, b1, b2, cosine; };
+Crossing cross_plane(const std::array<Vec3, 3>& v, const Vec3d& o, const Vec3d& d) {
+  const Vec3d a = v[0].cast<double>(), e1 = v[1].cast<double>() - a, e2 = v[2].cast<double>() - a, n = mc::cross<double>(e1, e2);
+  const double det = -n.dot(d);
+  const Vec3d s = o - a, q = mc::cross<double>(s, d);
+  return {n.dot(s) / det, e2.dot(q) / det, -e1.dot(q) / det, std::abs(det) / (n.norm() * d.norm())};
+}
+
 std::vector<Vec3> transformed(const std::vector<Vec3d>& points, const Transform& to_world) {
   std::vector<Vec3> result;
   for (const Vec3d& p : points) result.push_back((to_world.leftCols<3>() * p + to_world.col(3)).cast<Float>());
@@ -42,6 +52,9 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, std::vector<std::array<s
     cumulative_area_.push_back(area_ += n.norm() / 2);
     reciprocal_area_.push_back(2 / n.norm());
     face_normals_.push_back(n.stableNormalized().cast<Float>());
+    const auto v = vertices(i);
+    const Vec3 center = (v[0] + v[1] + v[2]) / 3;
+    around_.push_back({center, std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()})});
   }
   // Points are interpolated in double and rounded once: half an ulp of the largest coordinate, doubled for safety.
   for (const Vec3& p : positions_) error_ = std::max(error_, std::numeric_limits<Float>::epsilon() * p.lpNorm<Eigen::Infinity>());
@@ -104,9 +117,18 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
   if (triangle == size()) return {};
   const double below = triangle > 0 ? cumulative_area_[triangle - 1] : 0;
   const double u0 = std::min((target - below) * reciprocal_area_[triangle], 1 - 0x1p-53);
+  ShapeSample s;
+  if (const auto directions = near_triangle(ref, triangle)) {
+    const Vec3d d = directions->sample({u0, double(u[1])});
+    const Crossing at = cross_plane(vertices(triangle), ref.cast<double>(), d);
+    const double b1 = std::clamp(at.b1, 0.0, 1.0);
+    s.point = point(triangle, b1, std::clamp(at.b2, 0.0, 1 - b1));
+    s.wi = d.cast<Float>();
+    s.pdf = Float(1 / (reciprocal_area_[triangle] * area_ * directions->solid_angle()));
+    return s;
+  }
   // Uniform barycentrics: sqrt makes strips of equal area parallel to the edge opposite vertex 0.
   const double root = std::sqrt(u0), b1 = root * (1 - double(u[1])), b2 = root * double(u[1]);
-  ShapeSample s;
   s.point = point(triangle, b1, b2);
   const Vec3 between = s.point.p - ref;
   const Float distance2 = between.squaredNorm();
@@ -118,25 +140,34 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
   return s;
 }
 
+std::optional<mc::SphericalTriangle<double>> TriangleMesh::near_triangle(const Vec3& ref, std::size_t triangle) const {
+  const auto& [center, radius2] = around_[triangle];
+  const Vec3 off = ref - center;
+  if (!(off.squaredNorm() < Float(1.2) * radius2 && mc::sqr(off.dot(face_normals_[triangle])) < radius2 / 16)) return {};
+  const auto v = vertices(triangle);
+  const Vec3d p = v[0].cast<double>(), a = p - ref.cast<double>(), ab = v[1].cast<double>() - p, ac = v[2].cast<double>() - p;
+  const double height = std::abs(a.dot(mc::cross<double>(ab, ac))) * reciprocal_area_[triangle] / 2;
+  if (!(height * height > 1e-16 * double(radius2))) return {};
+  return mc::SphericalTriangle<double>(a, ab, ac);
+}
+
+Float TriangleMesh::triangle_pdf(const Vec3& ref, std::size_t triangle, double cosine, double distance2) const {
+  if (const auto directions = near_triangle(ref, triangle)) return Float(1 / (reciprocal_area_[triangle] * area_ * directions->solid_angle()));
+  return cosine > 0 ? Float(distance2 / (cosine * area_)) : Float(0);
+}
+
 Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {
-  const Float cosine = std::abs(hit.ng.dot(wi));
-  return cosine > 0 ? (hit.p - ref).squaredNorm() / (cosine * Float(area_)) : Float(0);
+  return triangle_pdf(ref, static_cast<std::size_t>(hit.prim), double(std::abs(hit.ng.dot(wi))), double((hit.p - ref).squaredNorm()));
 }
 
 Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi) const {
   const Vec3d o = ref.cast<double>(), d = wi.cast<double>();
-  double sum = 0;
+  Float sum = 0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    // Moeller and Trumbore's test; t^2 / (|cos| area) with |cos| = |n . d| / |n| [MoellerTrumbore97].
-    const auto v = vertices(i);
-    const Vec3d a = v[0].cast<double>(), e1 = v[1].cast<double>() - a, e2 = v[2].cast<double>() - a, n = mc::cross<double>(e1, e2);
-    const double det = -n.dot(d);
-    if (det == 0) continue;
-    const Vec3d s = o - a, q = mc::cross<double>(s, d);
-    const double t = n.dot(s) / det, b1 = e2.dot(q) / det, b2 = -e1.dot(q) / det;
-    if (t > 0 && b1 >= 0 && b2 >= 0 && b1 + b2 <= 1) sum += t * t * d.squaredNorm() * n.norm() / std::abs(det);
+    const Crossing at = cross_plane(vertices(i), o, d);
+    if (at.t > 0 && at.b1 >= 0 && at.b2 >= 0 && at.b1 + at.b2 <= 1) sum += triangle_pdf(ref, i, at.cosine, at.t * at.t * d.squaredNorm());
   }
-  return Float(sum / area_);
+  return sum;
 }
 
 } // namespace render

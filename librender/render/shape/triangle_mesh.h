@@ -3,6 +3,8 @@
 
 #include <render/shape/concept.h>
 
+#include <mc/warp/spherical_triangle.h>
+
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -13,7 +15,9 @@ namespace render {
 using Transform = Eigen::Matrix<double, 3, 4>;
 
 /// Triangles over shared vertices. The geometric normal follows the winding (counter-clockwise seen from its side).
-///   sample : uniform in area; pdf distance^2 / (|cos| area) [1/sr]
+///   sample : a triangle by its area; of a far one a point uniform in area, of one that nearly touches ref a direction
+///            uniform in its solid angle, since uniform area would have an all but infinite variance there
+///   pdf    : distance^2 / (|cos| area), or triangle area / (area * solid angle) [1/sr]
 ///   throws : Error when an index is out of range, a coordinate is not finite, or there is no triangle. A degenerate triangle
 ///            is allowed: it is never hit and never sampled.
 class TriangleMesh {
@@ -40,6 +44,11 @@ class TriangleMesh {
 
  private:
   SurfacePoint point(std::size_t triangle, double b1, double b2) const;
+  /// The directions from ref through a triangle that ref nearly touches: it lies less than a quarter of the triangle's radius
+  /// from the plane, and beside the triangle. Else nullopt, as for a triangle that is seen edge-on.
+  std::optional<mc::SphericalTriangle<double>> near_triangle(const Vec3& ref, std::size_t triangle) const;
+  /// Density [1/sr] of a direction from ref that meets the triangle at cosine `cosine` and squared distance `distance2`.
+  Float triangle_pdf(const Vec3& ref, std::size_t triangle, double cosine, double distance2) const;
 
   std::vector<Vec3> positions_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
@@ -47,6 +56,8 @@ class TriangleMesh {
   std::vector<Vec2> uvs_;     ///< per vertex; empty: none
   std::vector<Vec3> face_normals_; ///< unit; 0 for a degenerate triangle
   std::vector<double> cumulative_area_, reciprocal_area_;
+  struct Ball { Vec3 center; Float radius2; };
+  std::vector<Ball> around_; ///< per triangle, about its centroid
   double area_ = 0;
   Float error_ = 0; ///< of an interpolated point, per coordinate
 };
