@@ -124,7 +124,7 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
     const double b1 = std::clamp(at.b1, 0.0, 1.0);
     s.point = point(triangle, b1, std::clamp(at.b2, 0.0, 1 - b1));
     s.wi = d.cast<Float>();
-    s.pdf = Float(1 / (reciprocal_area_[triangle] * area_ * directions->solid_angle()));
+    s.pdf = near_pdf(triangle, *directions);
     return s;
   }
   // Uniform barycentrics: sqrt makes strips of equal area parallel to the edge opposite vertex 0.
@@ -134,11 +134,12 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
   const Float distance2 = between.squaredNorm();
   if (!(distance2 > 0)) return {};
   s.wi = between * (1 / std::sqrt(distance2));
-  const Float cosine = std::abs(s.point.ng.dot(s.wi));
-  s.pdf = distance2 / (cosine * Float(area_));
+  s.pdf = area_pdf(std::abs(s.point.ng.dot(s.wi)), distance2);
   if (!(s.pdf > 0) || !std::isfinite(s.pdf)) return {};
   return s;
 }
+
+Float TriangleMesh::area_pdf(Float cosine, Float distance2) const { return cosine > 0 ? distance2 / (cosine * Float(area_)) : Float(0); }
 
 std::optional<mc::SphericalTriangle<double>> TriangleMesh::near_triangle(const Vec3& ref, std::size_t triangle) const {
   const auto& [center, radius2] = around_[triangle];
@@ -151,13 +152,14 @@ std::optional<mc::SphericalTriangle<double>> TriangleMesh::near_triangle(const V
   return mc::SphericalTriangle<double>(a, ab, ac);
 }
 
-Float TriangleMesh::triangle_pdf(const Vec3& ref, std::size_t triangle, double cosine, double distance2) const {
-  if (const auto directions = near_triangle(ref, triangle)) return Float(1 / (reciprocal_area_[triangle] * area_ * directions->solid_angle()));
-  return cosine > 0 ? Float(distance2 / (cosine * area_)) : Float(0);
+Float TriangleMesh::near_pdf(std::size_t triangle, const mc::SphericalTriangle<double>& directions) const {
+  return Float(1 / (reciprocal_area_[triangle] * area_ * directions.solid_angle()));
 }
 
 Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {
-  return triangle_pdf(ref, static_cast<std::size_t>(hit.prim), double(std::abs(hit.ng.dot(wi))), double((hit.p - ref).squaredNorm()));
+  const auto triangle = static_cast<std::size_t>(hit.prim);
+  if (const auto directions = near_triangle(ref, triangle)) return near_pdf(triangle, *directions);
+  return area_pdf(std::abs(hit.ng.dot(wi)), (hit.p - ref).squaredNorm());
 }
 
 Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi) const {
@@ -165,7 +167,9 @@ Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi) const {
   Float sum = 0;
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     const Crossing at = cross_plane(vertices(i), o, d);
-    if (at.t > 0 && at.b1 >= 0 && at.b2 >= 0 && at.b1 + at.b2 <= 1) sum += triangle_pdf(ref, i, at.cosine, at.t * at.t * d.squaredNorm());
+    if (!(at.t > 0 && at.b1 >= 0 && at.b2 >= 0 && at.b1 + at.b2 <= 1)) continue;
+    const auto directions = near_triangle(ref, i);
+    sum += directions ? near_pdf(i, *directions) : area_pdf(Float(at.cosine), Float(at.t * at.t * d.squaredNorm()));
   }
   return sum;
 }

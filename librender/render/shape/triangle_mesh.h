@@ -47,8 +47,9 @@ class TriangleMesh {
   /// The directions from ref through a triangle that ref nearly touches: it lies less than a quarter of the triangle's radius
   /// from the plane, and beside the triangle. Else nullopt, as for a triangle that is seen edge-on.
   std::optional<mc::SphericalTriangle<double>> near_triangle(const Vec3& ref, std::size_t triangle) const;
-  /// Density [1/sr] of a direction from ref that meets the triangle at cosine `cosine` and squared distance `distance2`.
-  Float triangle_pdf(const Vec3& ref, std::size_t triangle, double cosine, double distance2) const;
+  // Densities [1/sr] of a direction that meets a near triangle, and a far one at cosine `cosine`.
+  Float near_pdf(std::size_t triangle, const mc::SphericalTriangle<double>& directions) const;
+  Float area_pdf(Float cosine, Float distance2) const;
 
   std::vector<Vec3> positions_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;

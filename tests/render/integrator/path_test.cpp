@@ -3,6 +3,7 @@
 #include <mc/check/t_test.h>
 #include <mc/core/error.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 // Pictures known in closed form, traced by every strategy. Each comparison is a t-test at alpha = 1e-5; there are about fifty, so

@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace {

@@ -1,5 +1,6 @@
 #include <render/shape/triangle_mesh.h>
 
+#include <mc/check/t_test.h>
 #include <mc/core/error.h>
 #include <mc/random/pcg.h>
 
@@ -59,6 +60,25 @@ TEST(TriangleMesh, SolidAngleOfTheCornellLight) {
       sum += 1 / double(s->pdf);
     }
   EXPECT_NEAR(sum / (n * n), 0.043975585816, 1e-7);
+}
+
+// A hair below a square light: by area, 1/pdf would be 1e-6 nearly always and 1e6 at times; by solid angle it is a hemisphere shared
+// by two triangles.
+TEST(TriangleMesh, LightThatNearlyTouchesIsSampledBySolidAngle) {
+  const TriangleMesh light = TriangleMesh::rectangle(scaled_at({1, 1, 1}, {0, 0, 0}));
+  const Vec3 ref(Float(0.3), Float(-0.2), Float(-1e-3));
+  mc::Pcg random(3);
+  mc::Moments solid_angle;
+  for (int i = 0; i < 5000; ++i) {
+    const auto s = light.sample(ref, random.point<Float, 2>());
+    ASSERT_TRUE(s.has_value());
+    EXPECT_LE(1 / s->pdf, 4 * mc::pi<Float>);
+    EXPECT_EQ(s->pdf, light.pdf(ref, s->wi, s->point));
+    solid_angle.add(1 / double(s->pdf), std::uint64_t(i));
+  }
+  // The sum of atan(a b / (h sqrt(a^2 + b^2 + h^2))) over the four rectangles from the foot of the height h; alpha = 1e-4 for one
+  // fixed seed.
+  EXPECT_GE(mc::t_test(solid_angle, 2 * mc::pi<double> - 0.006153914).p, 1e-4);
 }
 
 TEST(TriangleMesh, SampleSaysWhatPdfSaysAndSkipsDegenerateTriangles) {
