@@ -61,7 +61,8 @@ class Table : public benchmark::BenchmarkReporter {
 
 int main(int argc, char** argv) {
   // Repetitions of all benchmarks are shuffled, so that a slow minute of the machine does not fall on one of them alone.
-  std::vector<std::string> words{argv[0], "--benchmark_repetitions=9", "--benchmark_min_time=0.02", "--benchmark_enable_random_interleaving=true"};
+  std::vector<std::string> words{argv[0], "--benchmark_repetitions=9", "--benchmark_min_time=0.02",
+                                 "--benchmark_enable_random_interleaving=true"};
   words.insert(words.end(), argv + 1, argv + argc);
   std::vector<char*> args;
   for (std::string& word : words) args.push_back(word.data());

@@ -37,7 +37,8 @@ template <Real S> CosSin<S> cos_sin(const S& u) {
     const CosSin<S> q = cos_sin_octant<S>(u - S(0.25) * static_cast<S>(quarter));
     // An odd quarter exchanges the two; signs by quarter. On the bits, since no jump on a random number is ever predicted.
     using Bits = BitsOf<S>;
-    const Bits k = static_cast<Bits>(quarter), c = std::bit_cast<Bits>(q.cos), s = std::bit_cast<Bits>(q.sin), exchange = (c ^ s) & (Bits{0} - (k & 1));
+    const Bits k = static_cast<Bits>(quarter), c = std::bit_cast<Bits>(q.cos), s = std::bit_cast<Bits>(q.sin);
+    const Bits exchange = (c ^ s) & (Bits{0} - (k & 1));
     constexpr int to_sign = 8 * sizeof(Bits) - 2;
     return {std::bit_cast<S>(c ^ exchange ^ ((k + 1) & 2) << to_sign), std::bit_cast<S>(s ^ exchange ^ (k & 2) << to_sign)};
   } else {

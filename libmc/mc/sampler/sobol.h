@@ -26,7 +26,8 @@ class Sobol {
     const std::uint64_t low = mix64(key ^ index);
     if (dim >= dimensions) return low;
     // Reversed, the word of 64 bits has the scrambled ones in its upper half.
-    const std::uint64_t x = reverse_bits64(owen_scramble_reversed(reversed(static_cast<std::uint32_t>(index), dim), static_cast<std::uint32_t>(key >> 32)));
+    const std::uint32_t last_first = reversed(static_cast<std::uint32_t>(index), dim);
+    const std::uint64_t x = reverse_bits64(owen_scramble_reversed(last_first, static_cast<std::uint32_t>(key >> 32)));
     return x | (low & 0xffffffffu);
   }
 

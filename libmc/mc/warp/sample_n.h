@@ -22,8 +22,10 @@ template <Warp W> using PointColumns = std::array<std::span<typename W::Scalar>,
 ///   throws : Error unless all arrays have one size
 template <Warp W> void sample_n(const W& warp, const UnitColumns<W>& u, const PointColumns<W>& x) {
   const std::size_t n = u[0].size();
-  for (const auto& column : u) require(column.size() == n, "sample_n: {} numbers in one array of u, {} in the first; as many are needed", column.size(), n);
-  for (const auto& column : x) require(column.size() == n, "sample_n: {} numbers in an array of points, {} in those of u; as many are needed", column.size(), n);
+  for (const auto& column : u)
+    require(column.size() == n, "sample_n: {} numbers in one array of u, {} in the first; as many are needed", column.size(), n);
+  for (const auto& column : x)
+    require(column.size() == n, "sample_n: {} numbers in an array of points, {} in those of u; as many are needed", column.size(), n);
   // What a loop writes is on the stack, where nothing that it reads can be: the proof that compilers ask for.
   constexpr std::size_t block = 64;
   std::array<std::array<typename W::Scalar, block>, std::tuple_size_v<PointColumns<W>>> out;

@@ -12,8 +12,11 @@ namespace mc {
 ///   pdf       : 1 / solid angle [1/sr], relative error 16 eps unless seen edge-on; 0 outside
 ///   invert    : as SphericalTriangle
 ///   throws    : Error unless corner and edges span a finite volume > 0
-///   Source    : a fan of two [Arvo95] triangles in the closed form of spherical_triangle.h. Rejected: the azimuthal cuts of Ureña et
-///               al. 2013, whose angle excess cancels below 1e-3 sr
+///   Source    : a fan of two [Arvo95] triangles in the closed form of spherical_triangle.h. Rejected by measurement
+///               (bench_spherical_rectangle, float): the azimuthal cuts of Urena et al. 2013. Their solid angle, an excess of angles
+///               over 2 pi, is off by 1e-5 at 0.01 sr, by 4e-4 at 1e-4 sr and is lost below; the fan keeps 3 eps down to 1e-8 sr. A
+///               sample of the fan costs 0.7 times theirs, with construction 1.3 times. Beyond 6 sr, next to the horizon, the fan's
+///               samples are off by 1500 eps, theirs by 110
 template <Real S> class SphericalRectangle {
  public:
   using Scalar = S;
