@@ -63,8 +63,8 @@ std::uint64_t seed_of(const Case& c, std::uint64_t seed) {
 std::string page_in(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  mc::require(!error && std::filesystem::is_directory(folder), "validate: --report '{}' is not a folder and cannot be made one{}; name a folder that can be written", folder,
-              error ? fmt::format(" ({})", error.message()) : std::string());
+  mc::require(!error && std::filesystem::is_directory(folder), "validate: --report '{}' is no folder and cannot be made one{}; name another",
+              folder, error ? fmt::format(" ({})", error.message()) : std::string());
   const std::string file = (std::filesystem::path(folder) / "index.html").string();
   mc::require_writable(file);
   return file;
@@ -74,8 +74,8 @@ std::string error_text(double e) { return e > 0 ? fmt::format("{:.2g} %", 100 * 
 
 std::string line_of(std::size_t width, const Case& c, const mc::Report& r) {
   const std::string ns = r.ns_per_sample > 0 ? fmt::format("{:.1f}", r.ns_per_sample) : "-";
-  return fmt::format("{:<{}} {:<7} {:<12} {:>8.2g} {:>9} {:>9} {:>7} {:>6.2f}\n", plain(c), width, c.scalar, name(r.verdict()), r.p(), error_text(r.detectable),
-                     error_text(r.detectable_cell), ns, r.seconds);
+  return fmt::format("{:<{}} {:<7} {:<12} {:>8.2g} {:>9} {:>9} {:>7} {:>6.2f}\n", plain(c), width, c.scalar, name(r.verdict()), r.p(),
+                     error_text(r.detectable), error_text(r.detectable_cell), ns, r.seconds);
 }
 
 } // namespace
@@ -121,7 +121,8 @@ int validate(const ValidateOptions& options) {
   Progress progress;
   std::size_t width = 24;
   for (const Case* c : cases) width = std::max(width, plain(*c).size());
-  fmt::print("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>7} {:>6}\n", "sampler", width, "scalar", "verdict", "p", "detects", "in a cell", "ns", "s");
+  fmt::print("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>7} {:>6}\n", "sampler", width, "scalar", "verdict", "p", "detects", "in a cell",
+             "ns", "s");
   mc::parallel_for(cases.size(), o.threads, [&](std::size_t i) {
     const CaseOptions c{.samples = o.samples, .seed = seed_of(*cases[i], o.seed), .alpha = alpha, .evidence = !page.empty()};
     mc::Report report = mc::with_context(cases[i]->title(), [&] { return cases[i]->check(c); });
@@ -146,10 +147,11 @@ int validate(const ValidateOptions& options) {
       fmt::print("\n{}\n  again: {}\n", reports[i].to_string(), command_again(*cases[i], o, cases.size()));
   fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed, cases.size(),
              inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(), o.alpha, o.samples, o.seed);
-  if (!o.junit.empty()) write_junit(o.junit, o, cases, reports);
-  if (!o.json.empty()) write_json(o.json, o, cases, reports);
+  const Run run{o, cases, reports};
+  if (!o.junit.empty()) write_junit(o.junit, run);
+  if (!o.json.empty()) write_json(o.json, run);
   if (!page.empty()) {
-    write_page(page, o, cases, reports);
+    write_page(page, run);
     fmt::print("page: {}\n", page);
   }
   return passed == cases.size() ? exit_ok : exit_failed;

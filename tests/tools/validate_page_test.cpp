@@ -60,8 +60,8 @@ const Results& results() {
     const auto pdf = [](const V& w) { return w.z() > 0 ? w.z() / mc::pi<double> : 0.0; };
     r.add("RightCosine", "exponent=1", make_subject("right", hemisphere, cosine(1), pdf));
     r.add("WrongCosine", "exponent=1.1", make_subject("wrong", hemisphere, cosine(1.1), pdf));
-    r.add("Tent", "on [-1,1]", make_subject("tent", mc::Interval<double>{-1, 1}, [](mc::Pcg& p) { return p.uniform<double>() + p.uniform<double>() - 1; },
-                                            [](double x) { return 1 - std::abs(x); }));
+    const auto tent = [](mc::Pcg& random) { return random.uniform<double>() + random.uniform<double>() - 1; };
+    r.add("Tent", "on [-1,1]", make_subject("tent", mc::Interval<double>{-1, 1}, tent, [](double x) { return 1 - std::abs(x); }));
     mc::Subject dice;
     dice.name = "dice", dice.atoms.assign(6, 1.0 / 6);
     dice.draw = [](std::uint64_t seed, std::size_t n, std::vector<mc::Subject::Draw>& out) {
@@ -82,17 +82,19 @@ struct Page : testing::Test {
   std::string file = (folder / "index.html").string();
   void SetUp() override {
     fs::create_directories(folder);
-    write_page(file, results().options, results().pointers(), results().reports);
+    const std::vector<const carlo::Case*> cases = results().pointers();
+    carlo::write_page(file, {results().options, cases, results().reports});
   }
   void TearDown() override { fs::remove_all(folder); }
 
   // What the browser made of the page at the address file#hash, and what it logged; empty without a browser.
-  std::string browse(const std::string& hash, const std::string& more = "--dump-dom") const {
+  std::string browse(const std::string& hash) const {
     for (const char* browser : {"chromium", "chromium-browser", "google-chrome"}) {
       if (std::system(fmt::format("command -v {} >/dev/null 2>&1", browser).c_str()) != 0) continue;
-      const std::string command = fmt::format("timeout 60 {} --headless --no-sandbox --disable-gpu --disable-background-networking --disable-dev-shm-usage "
-                                              "--user-data-dir='{}' --enable-logging=stderr --virtual-time-budget=3000 {} 'file://{}#{}'",
-                                              browser, (folder / "profile").string(), more, file, hash);
+      const std::string command = fmt::format(
+          "timeout 60 {} --headless --no-sandbox --disable-gpu --disable-background-networking --disable-dev-shm-usage "
+          "--user-data-dir='{}' --enable-logging=stderr --virtual-time-budget=3000 --dump-dom 'file://{}#{}'",
+          browser, (folder / "profile").string(), file, hash);
       return support::run(command).output;
     }
     fmt::print("no chromium here: the page was not looked at in a browser\n");
@@ -111,7 +113,8 @@ bool has(const std::string& dom, const std::string& text) { return dom.find(text
 
 TEST_F(Page, NeedsNothingElse) {
   const std::string text = mc::read_file(file);
-  for (const char* loaded : {"src=", "url(", "@import", "fetch(", "XMLHttpRequest", "http://www.w3.org/1999", "https://"}) EXPECT_THAT(text, Not(HasSubstr(loaded))) << loaded;
+  for (const char* loaded : {"src=", "url(", "@import", "fetch(", "XMLHttpRequest", "http://www.w3.org/1999", "https://"})
+    EXPECT_FALSE(has(text, loaded)) << loaded;
   for (const char* mark : {"@CSS@", "@DATA@", "@MAPS@", "@JS@"}) EXPECT_THAT(text, Not(HasSubstr(mark)));
   EXPECT_THAT(text, HasSubstr("carlo validate \\u003c/script>")) << "data cannot end its element";
 }
@@ -167,7 +170,8 @@ TEST_F(Page, ColumnsSortAndEveryKindOpens) {
 TEST_F(Page, NothingOverflowsOnAPhone) {
   // A frame of 390 pixels, since a browser's own window is never as narrow; the page in it says how wide it came out.
   std::string text = mc::read_file(file);
-  text.insert(text.find("</body>"), "<script>parent.postMessage(document.documentElement.scrollWidth + ' of ' + innerWidth, '*');</script>");
+  text.insert(text.find("</body>"),
+              "<script>parent.postMessage(document.documentElement.scrollWidth + ' of ' + innerWidth, '*');</script>");
   mc::write_file((folder / "phone.html").string(), text);
   mc::write_file(file, "<body><script>addEventListener('message', e => { document.title = 'width ' + e.data; });</script>"
                        "<iframe src='phone.html#open=0,1,2,3' style='width: 390px; height: 844px; border: 0'></iframe></body>");

@@ -28,10 +28,18 @@ template <Domain D> std::vector<Axis> chart_axes(const D&) {
   for (int i = 0; i < D::dim; ++i) axes.push_back({D::dim == 1 ? std::string("v") : fmt::format("v{}", i)});
   return axes;
 }
-template <Real S> std::vector<Axis> chart_axes(const Interval<S>& d) { return {{"x", Axis::Scale::linear, static_cast<double>(d.lo), static_cast<double>(d.hi)}}; }
-template <Real S> std::vector<Axis> chart_axes(const HalfLine<S>& d) { return {{"x", Axis::Scale::half_line, static_cast<double>(d.origin), static_cast<double>(d.scale)}}; }
-template <Real S> std::vector<Axis> chart_axes(const RealLine<S>& d) { return {{"x", Axis::Scale::real_line, static_cast<double>(d.center), static_cast<double>(d.scale)}}; }
-template <Real S> std::vector<Axis> chart_axes(const Disk<S>&) { return {{"r", Axis::Scale::radius, 0, 1}, {"phi", Axis::Scale::azimuth, 0, 1}}; }
+template <Real S> std::vector<Axis> chart_axes(const Interval<S>& d) {
+  return {{"x", Axis::Scale::linear, static_cast<double>(d.lo), static_cast<double>(d.hi)}};
+}
+template <Real S> std::vector<Axis> chart_axes(const HalfLine<S>& d) {
+  return {{"x", Axis::Scale::half_line, static_cast<double>(d.origin), static_cast<double>(d.scale)}};
+}
+template <Real S> std::vector<Axis> chart_axes(const RealLine<S>& d) {
+  return {{"x", Axis::Scale::real_line, static_cast<double>(d.center), static_cast<double>(d.scale)}};
+}
+template <Real S> std::vector<Axis> chart_axes(const Disk<S>&) {
+  return {{"r", Axis::Scale::radius, 0, 1}, {"phi", Axis::Scale::azimuth, 0, 1}};
+}
 template <Real S> std::vector<Axis> chart_axes(const Annulus<S>& d) {
   return {{"r", Axis::Scale::radius, static_cast<double>(d.inner), static_cast<double>(d.outer)}, {"phi", Axis::Scale::azimuth, 0, 1}};
 }
@@ -43,7 +51,8 @@ template <Real S, int N> std::vector<Axis> chart_axes(const Box<S, N>& d) {
   std::vector<Axis> axes;
   for (int i = 0; i < d.dimension(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    axes.push_back({k < 3 ? std::string(1, "xyz"[k]) : fmt::format("x{}", i), Axis::Scale::linear, static_cast<double>(d.lo[i]), static_cast<double>(d.hi[i])});
+    const std::string name = k < 3 ? std::string(1, "xyz"[k]) : fmt::format("x{}", i);
+    axes.push_back({name, Axis::Scale::linear, static_cast<double>(d.lo[i]), static_cast<double>(d.hi[i])});
   }
   return axes;
 }

@@ -341,7 +341,9 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
 
   const double total = s.may_fail ? 1.0 : std::max(report.mass, 1e-300);
   const auto expected = [&](std::size_t i) { return n * cells[i].p / total; };
-  const auto z = [&](std::size_t i) { return (static_cast<double>(cells[i].observed) - expected(i)) / std::sqrt(std::max(expected(i), 0.5)); };
+  const auto z = [&](std::size_t i) {
+    return (static_cast<double>(cells[i].observed) - expected(i)) / std::sqrt(std::max(expected(i), 0.5));
+  };
   std::vector<std::size_t> order(cells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto five = order.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(order.size(), 5));

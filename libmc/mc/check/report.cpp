@@ -75,9 +75,10 @@ std::string Report::to_string() const {
   }
   if (verdict() == Verdict::pass) return text;
   for (const WorstCell& w : worst) {
-    const std::string cell = describe_cell(axes, w.lo, w.hi);
-    text += fmt::format("\n  {}{}{}: observed {:.0f}, expected {:.1f}, z = {:.1f}", w.lo == w.hi ? "" : cell.empty() ? "cell" : "cell " + cell,
-                        w.lo == w.hi || w.where.empty() ? "" : " at ", w.where, w.observed, w.expected, w.z);
+    const bool outcome = w.lo == w.hi;
+    const std::string place = describe_cell(axes, w.lo, w.hi), cell = outcome ? "" : place.empty() ? "cell" : "cell " + place;
+    text += fmt::format("\n  {}{}{}: observed {:.0f}, expected {:.1f}, z = {:.1f}", cell, outcome || w.where.empty() ? "" : " at ", w.where,
+                        w.observed, w.expected, w.z);
   }
   return text;
 }
@@ -86,7 +87,8 @@ std::string describe_cell(const std::vector<Axis>& axes, const std::array<double
   std::string text;
   for (std::size_t d = 0; d < std::min<std::size_t>(axes.size(), 3); ++d) {
     const Axis& axis = axes[d];
-    text += fmt::format("{}{} {:.5g} to {:.5g}{}{}", d > 0 ? ", " : "", axis.name, axis.value(lo[d]), axis.value(hi[d]), axis.unit().empty() ? "" : " ", axis.unit());
+    text += fmt::format("{}{} {:.5g} to {:.5g}{}{}", d > 0 ? ", " : "", axis.name, axis.value(lo[d]), axis.value(hi[d]),
+                        axis.unit().empty() ? "" : " ", axis.unit());
   }
   return text;
 }

@@ -56,8 +56,9 @@ std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Pa
     dof += 1, before += off * off / expected;
     score += rate * off / expected, information += rate * rate / expected;
   }
-  if (information > 0 && std::isfinite(information) && std::abs(score) < 0.01 * information && explains(before, before - score * score / information, dof, 25))
-    return score / information;
+  const double turn_of_score = score / information; // NaN when no turn changes the density
+  if (std::isfinite(information) && std::abs(turn_of_score) < 0.01 && explains(before, before - score * turn_of_score, dof, 25))
+    return turn_of_score;
 
   // Runs of cells that 16 thousand points of the pilot fill.
   const std::size_t stride = std::max<std::size_t>(1, pilot.size() / 16384);

@@ -14,7 +14,8 @@ template <class Input, class Sample> double ns_per_sample(const std::vector<Inpu
   for (int round = 0; round < 8; ++round) {
     const auto start = std::chrono::steady_clock::now();
     for (const Input& input : inputs) sum += sample(input);
-    best = std::min(best, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / static_cast<double>(inputs.size()));
+    const std::chrono::duration<double, std::nano> passed = std::chrono::steady_clock::now() - start;
+    best = std::min(best, passed.count() / static_cast<double>(inputs.size()));
   }
   volatile double keep = sum;
   (void)keep;

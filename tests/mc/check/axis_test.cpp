@@ -18,14 +18,16 @@ TEST(Axis, ReadsTheQuantityOfEachScale) {
   EXPECT_DOUBLE_EQ((Axis{"phi", Scale::azimuth, 0, 1}).value(0.25), 90);
   EXPECT_NEAR((Axis{"theta", Scale::polar, 0, 2}).value(0.5), 90, 1e-12);
   EXPECT_NEAR((Axis{"theta", Scale::polar, 0, 1}).value(0.5), 60, 1e-12);
-  EXPECT_NEAR((Axis{"theta", Scale::polar, 0, 1e-20}).value(1), 180 / std::numbers::pi * std::sqrt(2e-20), 1e-21) << "no cancellation at the pole";
+  EXPECT_NEAR((Axis{"theta", Scale::polar, 0, 1e-20}).value(1), 180 / std::numbers::pi * std::sqrt(2e-20), 1e-21)
+      << "no cancellation at the pole";
 }
 
 TEST(Axis, AnglesHaveAUnitAndEveryScaleAName) {
   EXPECT_EQ((Axis{"phi", Scale::azimuth, 0, 1}).unit(), "deg");
   EXPECT_EQ(Axis{}.unit(), "");
   std::set<std::string_view> names;
-  for (const Scale s : {Scale::linear, Scale::radius, Scale::half_line, Scale::real_line, Scale::polar, Scale::azimuth}) names.insert(name(s));
+  for (const Scale s : {Scale::linear, Scale::radius, Scale::half_line, Scale::real_line, Scale::polar, Scale::azimuth})
+    names.insert(name(s));
   EXPECT_EQ(names.size(), 6u);
 }
 

@@ -52,7 +52,8 @@ TEST(FindRotation, RoundDensitiesAreNeverTurned) {
       const double z = std::pow(r.uniform<double>(), 1 / (1 + exponent)), phi = 2 * mc::pi<double> * r.uniform<double>();
       return mc::spherical_direction<double>(std::sqrt(1 - z * z), z, phi);
     };
-    const mc::Subject s = make_subject("round", mc::Hemisphere<double>{}, sampler, [](const V& w) { return w.z() > 0 ? w.z() / mc::pi<double> : 0.0; });
+    const auto pdf = [](const V& w) { return w.z() > 0 ? w.z() / mc::pi<double> : 0.0; };
+    const mc::Subject s = make_subject("round", mc::Hemisphere<double>{}, sampler, pdf);
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       const mc::Report r = check_subject(s, {.samples = 60'000, .seed = seed});
       EXPECT_EQ(r.verdict(), mc::Verdict::fail);
