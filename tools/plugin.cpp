@@ -46,10 +46,15 @@ template <class A> void each(A& a, Evidence& evidence) {
   a(cells, outcomes, p_after);
 }
 
+template <class A> void each(A& a, Figure& figure) {
+  auto& [name, value, std_error, where] = figure;
+  a(name, value, std_error, where);
+}
+
 template <class A> void each(A& a, Report& report) {
-  auto& [subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst, evidence] =
+  auto& [subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst, evidence, figures] =
       report;
-  a(subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst, evidence);
+  a(subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst, evidence, figures);
 }
 
 } // namespace mc

@@ -51,6 +51,7 @@ json results(const Run& run) {
                 {"seconds", r.seconds},
                 {"again", command_again(*cases[i], options, cases.size())},
                 {"axes", json::array()},
+                {"figures", json::array()},
                 {"checks", json::array()},
                 {"worst", json::array()}};
     for (const mc::Axis& a : r.axes)
@@ -58,6 +59,7 @@ json results(const Run& run) {
     for (const mc::Check& c : r.checks)
       one["checks"].push_back({{"name", c.name}, {"verdict", name(c.verdict)}, {"p", c.p ? json(*c.p) : json()}, {"share", c.share},
                                {"statistic", c.statistic}, {"limit", c.limit}, {"detail", c.detail}});
+    for (const mc::Figure& f : r.figures) one["figures"].push_back({{"name", f.name}, {"value", f.value}, {"std_error", f.std_error}, {"where", f.where}});
     for (const mc::WorstCell& w : r.worst)
       one["worst"].push_back({{"lo", w.lo}, {"hi", w.hi}, {"cell", w.lo == w.hi ? "" : describe_cell(r.axes, w.lo, w.hi)},
                               {"where", w.where}, {"observed", w.observed}, {"expected", w.expected}, {"z", w.z}});

@@ -21,6 +21,14 @@ TEST(Consumer, AWrongPdfIsRejected) {
   EXPECT_FALSE(mc::samples_match_pdf("my_sample", my_sample, wrong_pdf, mc::Hemisphere<double>()));
 }
 
+TEST(Consumer, TheMeanOfItsHeightIsTwoThirds) {
+  mc::Pcg random(1);
+  std::vector<double> heights;
+  for (int i = 0; i < 10'000; ++i) heights.push_back(my_sample(random).z());
+  EXPECT_MEAN(heights, 2.0 / 3);
+  EXPECT_FALSE(mc::has_mean("heights", heights, 0.65));
+}
+
 TEST(Consumer, Integrates) {
   const mc::Integral r = mc::integrate([](const mc::Vec3<double>& w) { return w.z() * w.z() * w.z(); }, mc::CosineHemisphere<double>());
   EXPECT_NEAR(r.estimate.value, mc::pi<double> / 2, 5 * r.estimate.std_error);

@@ -229,7 +229,7 @@ CellTests test_cells(std::vector<Cell> cells, int dim, double alpha) {
   Tester t{std::move(cells), dim, alpha, 0, {}, {}, {}, {}};
   t.pool();
   if (t.cells.size() < 2 || t.n == 0) return {};
-  // Shares of alpha: the scores are the most powerful against the faults that samplers have. 0.09 is left to failures, atoms and gaps.
+  // Shares of alpha: the scores are the most powerful against the faults that samplers have. 0.09 is left to check_subject.
   const double axes = std::max(dim, 1);
   t.levels(dim > 0 ? 0.26 : 0.61);
   t.single_cells(dim > 0 ? 0.15 : 0.3);

@@ -19,6 +19,7 @@ struct SubjectOptions {
 ///   per sample : finite, in the domain, pdf positive and finite, stated weight = f / pdf; failures only where allowed
 ///   mass       : the claimed density and atoms integrate to 1 (to at most 1, the rest failing, where failures are allowed)
 ///   counts     : all tests of cell_tests.h on cells adapted to the density
+///   inverted   : the sampler's own inverse, where it has one, makes the first 131072 samples uniform (uniformity.h)
 ///   atoms      : the narrowest crowd of pilot samples on each axis, counted anew, against the mass of its slab
 ///   gaps       : the widest gap between pilot samples inside each axis and at its ends, likewise
 ///   detection  : the report states the smallest errors it would have caught with probability .99

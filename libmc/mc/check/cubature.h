@@ -30,8 +30,9 @@ struct CubatureGoal {
 ///           across the axis that disagrees most between nested rules. The rule samples the faces of the box, so a
 ///           discontinuity cannot hide between the outermost nodes and the face.
 ///   error : the hierarchical surpluses of the finest nodes in absolute value, reduced only where two levels of them show
-///           geometric convergence. Heuristic in theory; in the tests true error <= bound on all smooth, singular,
-///           discontinuous and piecewise constant cases.
+///           geometric convergence. No rule that only evaluates f can be rigorous: a lobe that all nodes miss is not seen, so
+///           cut the boxes where mass is known to be (check_subject does, by its pilot). In the tests the true error is within the
+///           bound for smooth, singular, discontinuous and piecewise constant f, and for 300 products of random factors.
 ///   Source : [ClenshawCurtis60]; global adaptivity as in [GenzMalik80]
 CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim, const std::vector<UnitBox>& boxes,
                                const CubatureGoal& goal = {});

@@ -73,6 +73,7 @@ std::string Report::to_string() const {
                 : fmt::format("{:.6g}, limit {:.6g}", c.statistic, c.limit);
     if (!c.detail.empty()) text += fmt::format("; {}", c.detail);
   }
+  for (const Figure& f : figures) text += fmt::format("\n  {}: {:.6g} +- {:.2g}{}", f.name, f.value, f.std_error, f.where.empty() ? "" : " at " + f.where);
   if (verdict() == Verdict::pass) return text;
   for (const WorstCell& w : worst) {
     const bool outcome = w.lo == w.hi;

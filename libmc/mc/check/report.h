@@ -61,6 +61,13 @@ struct Evidence {
 /// "theta 1.5 to 3 deg, phi 0 to 90 deg".
 std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo, const std::array<double, 3>& hi);
 
+/// A measured quantity that is reported and not judged by itself, say the white furnace value.
+struct Figure {
+  std::string name;
+  double value = 0, std_error = 0;
+  std::string where; ///< may be empty
+};
+
 /// All checks of one subject. Statistical checks share one family-wise alpha, see multiple_testing.h.
 struct Report {
   std::string subject;
@@ -75,6 +82,7 @@ struct Report {
   std::vector<Axis> axes;          ///< what the chart coordinates of cells stand for; empty for discrete outcomes
   std::vector<WorstCell> worst;    ///< the five worst, worst first
   std::optional<Evidence> evidence; ///< only where the options asked for it
+  std::vector<Figure> figures;
 
   Verdict verdict() const; ///< fail if any failed, else inconclusive if any is, else pass
   bool passed() const { return verdict() == Verdict::pass; }

@@ -46,6 +46,10 @@ struct Subject {
   double mass_tolerance = 1e-12;    ///< rounding error of the claimed density, relative
   double weight_tolerance = 1e-4;   ///< largest |weight - 1|
 
+  /// The point of the unit cube that the point at v was drawn from, as the sampler's own inverse says; may be empty.
+  std::function<Coordinates(const Coordinates& v)> invert;
+  double invert_error = 0;          ///< bound on the error of its coordinates
+
   double epsilon = 2.220446049250313e-16; ///< of the scalar that the points are computed in
   /// How far one unit in the last place of the point at v moves chart coordinate `axis`; empty: epsilon times v.
   std::function<double(const Coordinates& v, int axis)> resolution;

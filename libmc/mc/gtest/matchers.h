@@ -1,7 +1,7 @@
 #pragma once
 /// The checkers as GoogleTest assertions, for users' own suites.
 ///   EXPECT_WARP_LAWS(warp) or (warp, options)     : all laws of laws.h, options = mc::LawOptions
-///   EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain): sampler(mc::Pcg&) -> point or optional point; pdf(point)
+///   EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain): sampler(u) or sampler(mc::Pcg&) -> point or optional point; pdf(point)
 ///   EXPECT_MEAN(values, value)                    : Student's t at alpha 0.001, values any range of numbers
 /// Failures say which law broke, where and by how much. Seeds are fixed, so a test that passes keeps passing.
 
@@ -17,7 +17,7 @@ inline testing::AssertionResult assert_passed(const Report& report) {
   return report.passed() ? testing::AssertionSuccess() : testing::AssertionFailure() << report.to_string();
 }
 
-template <Warp W> testing::AssertionResult obeys_laws(const char* expression, const W& warp, LawOptions options = {}) {
+template <Samplable W> testing::AssertionResult obeys_laws(const char* expression, const W& warp, LawOptions options = {}) {
   if (options.name == LawOptions{}.name) options.name = expression;
   return assert_passed(check_laws(warp, options));
 }

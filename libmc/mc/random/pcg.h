@@ -48,6 +48,9 @@ class Pcg {
   /// Skips n 32-bit draws in O(log n).
   void advance(std::uint64_t n) { engine_.advance(n); }
 
+  /// Same state and stream: the same numbers follow.
+  friend bool operator==(const Pcg& a, const Pcg& b) { return a.engine_ == b.engine_; }
+
  private:
   static constexpr std::size_t lanes = 32;
 

@@ -1,7 +1,10 @@
 #include <mc/check/bsdf_laws.h>
 
+#include <mc/core/frame.h>
 #include <mc/warp/hemisphere.h>
+#include <mc/warp/henyey_greenstein.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -12,7 +15,7 @@ using V = mc::Vec3<double>;
 using Color = Eigen::Array3d;
 using mc::Fault;
 
-enum class Slip { none, weight, cosine, energy, reciprocity, negative, mirror, mirror_probability };
+enum class Slip { none, weight, cosine, energy, grazing_energy, reciprocity, negative, support, mirror_reciprocity, mirror_probability };
 
 struct Sample { V wi; Color f; double pdf; bool delta, transmission; };
 
@@ -22,19 +25,21 @@ struct Coated {
   double mirror = 0;
 
   Color eval(const V& wo, const V& wi) const {
-    if (!(wo.z() > 0 && wi.z() > 0)) return Color::Zero();
+    if (!(wo.z() > 0 && wi.z() > 0) || mirror == 1) return Color::Zero();
     double f = 0.5 / mc::pi<double>;
     if (slip == Slip::energy) f *= 2.2;
+    if (slip == Slip::grazing_energy && wo.z() < 0.2) f *= 2.2;
     if (slip == Slip::reciprocity) f *= 0.5 + wo.z();
     if (slip == Slip::negative) f -= 0.1 * (wi.x() > 0.9);
     if (slip == Slip::negative && wi.x() > 0.9) f = -f;
     return Color::Constant(f);
   }
   double pdf(const V& wo, const V& wi) const {
+    if (slip == Slip::support && wi.x() > 0.5) return 0;
     return wo.z() > 0 && wi.z() > 0 ? (1 - mirror) * (slip == Slip::cosine ? 1 / (2 * mc::pi<double>) : wi.z() / mc::pi<double>) : 0.0;
   }
   std::optional<Sample> sample(const V& wo, double uc, const mc::Vec2<double>& u) const {
-    if (uc < mirror) return Sample{V(-wo.x(), -wo.y(), wo.z()), Color::Constant(0.2 * mirror / wo.z()), slip == Slip::mirror_probability ? uc : mirror, true, false};
+    if (uc < mirror) return Sample{V(-wo.x(), -wo.y(), wo.z()), Color::Constant((slip == Slip::mirror_reciprocity && wo.x() > 0 ? 0.5 : 0.2) * mirror / wo.z()), slip == Slip::mirror_probability ? uc : mirror, true, false};
     const V wi = mc::CosineHemisphere<double>{}.sample(u);
     return Sample{wi, (slip == Slip::weight ? 1.01 : 1.0) * eval(wo, wi), pdf(wo, wi), false, false};
   }
@@ -57,6 +62,74 @@ TEST(BsdfLaws, EachSlipIsNamed) {
   EXPECT_EQ(check({Slip::negative}).fault(), Fault::physics);
   EXPECT_EQ(check({Slip::cosine}).verdict(), mc::Verdict::fail);
   EXPECT_EQ(check({Slip::mirror_probability, 0.3}).fault(), Fault::weight);
+}
+
+bool broken(const mc::Report& r, const std::string& law) {
+  return std::any_of(r.checks.begin(), r.checks.end(), [&](const mc::Check& c) { return c.name == law && c.verdict == mc::Verdict::fail; });
+}
+
+TEST(BsdfLaws, PhysicsBeyondTheSampledPairs) {
+  EXPECT_TRUE(broken(check({Slip::support}), "pdf > 0 where f > 0"));
+  EXPECT_TRUE(broken(check({Slip::grazing_energy}), "energy <= 1"));
+  EXPECT_TRUE(broken(check({Slip::mirror_reciprocity, 0.3}), "reciprocity"));
+}
+
+TEST(BsdfLaws, TheWhiteFurnaceIsReported) {
+  const mc::Report r = check({Slip::none, 0.3});
+  ASSERT_EQ(r.figures.size(), 2u);
+  EXPECT_NEAR(r.figures[0].value, 0.5 + 0.2 * 0.3, 5 * r.figures[0].std_error + 1e-12);
+  EXPECT_GE(r.figures[1].value, r.figures[0].value - 5 * r.figures[0].std_error);
+}
+
+TEST(BsdfLaws, TheWitnessNamesItsRandomNumbers) {
+  EXPECT_THAT(check({Slip::weight}).to_string(), testing::HasSubstr("first u = (0."));
+}
+
+// Glass of index 1.5 by Schlick's weights, with or without the squared index on refraction.
+struct Glass {
+  bool squared = true;
+  struct Sample { V wi; double f, pdf; bool delta, transmission; };
+  double eval(const V&, const V&) const { return 0; }
+  double pdf(const V&, const V&) const { return 0; }
+  std::optional<Sample> sample(const V& wo, double uc, const mc::Vec2<double>&) const {
+    const double ratio = wo.z() > 0 ? 1.5 : 1 / 1.5, sin2 = (1 - wo.z() * wo.z()) / (ratio * ratio);
+    const double cos_t = std::sqrt(std::max(1 - sin2, 0.0)), outer = wo.z() > 0 ? wo.z() : cos_t;
+    const double r = sin2 < 1 ? 0.04 + 0.96 * std::pow(1 - outer, 5) : 1;
+    if (uc < r) return Sample{V(-wo.x(), -wo.y(), wo.z()), r / std::abs(wo.z()), r, true, false};
+    const V wi(-wo.x() / ratio, -wo.y() / ratio, wo.z() > 0 ? -cos_t : cos_t);
+    return Sample{wi, (1 - r) / cos_t / (squared ? ratio * ratio : 1), 1 - r, true, true};
+  }
+};
+
+TEST(BsdfLaws, RefractionCarriesTheSquaredIndex) {
+  for (const V& wo : {V(0.6, 0, 0.8), V(0.3, 0, -std::sqrt(0.91))}) {
+    const auto check = [&](Glass g) { return mc::check_bsdf<double>(g, wo, {.samples = 20'000, .eta = 1.5, .lossless = true}); };
+    EXPECT_TRUE(check({}).passed()) << check({}).to_string();
+    EXPECT_TRUE(broken(check({false}), "reciprocity"));
+    EXPECT_TRUE(broken(check({false}), "energy <= 1"));
+  }
+}
+
+// A phase function: no cosine, weights instead of values, one channel.
+struct Phase {
+  double slip = 1;
+  struct Sample { V wi; double pdf, weight; };
+  mc::HenyeyGreenstein<double> lobe{0.6};
+  static V about(const V& w, const V& local) { return mc::Frame<double>::from_z(w).to_world(local); }
+  double eval(const V& wo, const V& wi) const { return pdf(wo, wi); }
+  double pdf(const V& wo, const V& wi) const { return lobe.pdf(mc::Frame<double>::from_z(wo).to_local(wi)); }
+  std::optional<Sample> sample(const V& wo, const mc::Vec2<double>& u) const {
+    const V wi = about(wo, lobe.sample(u));
+    return Sample{wi, pdf(wo, wi), slip};
+  }
+};
+
+TEST(BsdfLaws, PhaseFunctions) {
+  const mc::BsdfOptions options{.samples = 50'000, .cosine = false, .lossless = true};
+  const mc::Report r = mc::check_bsdf<double>(Phase{}, V(0.6, 0, 0.8), options);
+  EXPECT_TRUE(r.passed()) << r.to_string();
+  EXPECT_NEAR(r.figures[0].value, 1, 1e-12);
+  EXPECT_EQ(mc::check_bsdf<double>(Phase{1.01}, V(0.6, 0, 0.8), options).fault(), Fault::weight);
 }
 
 } // namespace

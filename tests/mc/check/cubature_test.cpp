@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/types.h>
+#include <mc/random/pcg.h>
 #include <mc/random/uniform.h>
 
 #include <gtest/gtest.h>
@@ -45,6 +46,48 @@ TEST(Cubature, ErrorIsWithinItsBound) {
       EXPECT_LE(r.total.error, goal) << c.name;
       EXPECT_LE(std::abs(r.total.value - c.exact), r.total.error + 1e-14) << c.name << " goal " << goal;
     }
+}
+
+// One factor f(x) on [0,1] with its integral.
+struct Factor { std::function<double(double)> f; double integral; };
+
+Factor random_factor(mc::Pcg& random) {
+  const double a = random.uniform<double>(), b = random.uniform<double>();
+  const double rate = std::exp(7 * b - 1); // 0.4 to 400
+  switch (random.next32() % 7) {
+  case 0: return {[=](double x) { return std::exp(-rate * x); }, -std::expm1(-rate) / rate};
+  case 1: { // Gaussian lobe, no narrower than the gap between two nodes
+    const double inverse = std::min(rate, 12.0);
+    const auto antiderivative = [=](double x) { return std::sqrt(mc::pi<double>) / (2 * inverse) * std::erf(inverse * (x - a)); };
+    return {[=](double x) { return std::exp(-mc::sqr(inverse * (x - a))); }, antiderivative(1) - antiderivative(0)};
+  }
+  case 2: return {[=](double x) { return x < a ? 1.0 : b; }, a + (1 - a) * b};
+  case 3: return {[=](double x) { return std::abs(x - a) + 0.1 * b; }, (a * a + (1 - a) * (1 - a)) / 2 + 0.1 * b};
+  case 4: return {[=](double x) { return std::pow(x, 3 * a - 0.5); }, 1 / (3 * a + 0.5)};
+  case 5: return {[=](double x) { return 1 + std::cos(rate / 4 * x + a); }, 1 + (std::sin(rate / 4 + a) - std::sin(a)) / (rate / 4)};
+  default: return {[=](double x) { return mc::safe_sqrt(a - x); }, std::pow(a, 1.5) * 2 / 3};
+  }
+}
+
+// The bound holds for 300 products of random factors: lobes, steps, kinks, singular powers, oscillations and edges with a root.
+TEST(Cubature, TheBoundHoldsForRandomProducts) {
+  mc::Pcg random(77);
+  for (int k = 0; k < 300; ++k) {
+    const int dim = k % 10 == 0 ? 3 : 1 + k % 2;
+    std::vector<Factor> factors;
+    double exact = 1;
+    for (int d = 0; d < dim; ++d) factors.push_back(random_factor(random)), exact *= factors.back().integral;
+    mc::CubatureGoal goal;
+    goal.total_error = 1e-4 * exact, goal.max_evaluations = 200'000;
+    const auto r = mc::integrate_boxes(
+        [&](const Point& v) {
+          double product = 1;
+          for (std::size_t d = 0; d < factors.size(); ++d) product *= factors[d].f(v[d]);
+          return product;
+        },
+        dim, {mc::UnitBox{}}, goal);
+    EXPECT_LE(std::abs(r.total.value - exact), r.total.error + 1e-14) << k << ", dim " << dim;
+  }
 }
 
 TEST(Cubature, BoxesAddUpToTheWhole) {

@@ -1,5 +1,6 @@
 #include <mc/check/laws.h>
 
+#include <mc/domain/disk.h>
 #include <mc/domain/interval.h>
 #include <mc/warp/hemisphere.h>
 
@@ -62,6 +63,60 @@ TEST(Laws, EachSlipBreaksItsOwnLaw) {
 
 TEST(Laws, TheWitnessIsPrintedInFull) {
   EXPECT_THAT(laws(Ramp<double, Slip::edge>{}).to_string(), testing::HasSubstr("outside the domain at u = 0: x = 2, pdf = 0"));
+}
+
+// A struct with sample and pdf alone, and the same as a pair of functions.
+struct OwnDisk {
+  using Domain = mc::Disk<double>;
+  double stretch = 1;
+  Domain domain() const { return {}; }
+  mc::Vec2<double> sample(const mc::Vec2<double>& u) const {
+    const double r = std::sqrt(u[0]), phi = 2 * mc::pi<double> * u[1];
+    return {r * std::cos(phi), r * std::sin(phi)};
+  }
+  double pdf(const mc::Vec2<double>& p) const { return p.norm() <= 1 ? stretch / mc::pi<double> : 0; }
+};
+
+TEST(Laws, AStructOfSampleAndPdfIsEnough) {
+  EXPECT_TRUE(laws(OwnDisk{}).passed()) << laws(OwnDisk{}).to_string();
+  EXPECT_EQ(laws(OwnDisk{1.001}).fault(), Fault::mass);
+}
+
+TEST(Laws, APairOfFunctionsOnADomain) {
+  const auto sample = [](double u) { return std::sqrt(u); };
+  const auto check = [&](auto pdf) { return mc::check_laws(mc::Interval<double>(0, 1), sample, pdf, cheap()); };
+  // The density of the square root vanishes at its end, where u = 0 leads.
+  const mc::Report r = check([](double x) { return 2 * x; });
+  EXPECT_EQ(r.fault(), Fault::edge) << r.to_string();
+  EXPECT_TRUE(mc::check_laws(mc::Interval<double>(0, 1), [](double u) { return std::sqrt(1 - u); }, [](double x) { return 2 * x; }, cheap()).passed());
+  EXPECT_EQ(check([](double) { return 1.0; }).verdict(), mc::Verdict::fail);
+}
+
+TEST(Laws, ASamplerThatFailsIsAllowedWhatItSays) {
+  const auto sample = [](double u) -> std::optional<double> {
+    if (u < 0.25) return {};
+    return u;
+  };
+  const auto pdf = [](double x) { return x < 0.25 ? 0.0 : 1.0; };
+  EXPECT_TRUE(mc::check_laws(mc::Interval<double>(0, 1), sample, pdf, cheap()).passed());
+  EXPECT_EQ(mc::check_laws(mc::Interval<double>(0, 1), sample, [](double x) { return x < 0.25 ? 0.0 : 4.0 / 3; }, cheap()).fault(), Fault::mass);
+}
+
+// A branch at u = 0.7 that steps out of the domain at one number only.
+struct Branching {
+  using Domain = mc::Interval<double>;
+  bool slip;
+  Domain domain() const { return {0, 2}; }
+  double sample(double u) const {
+    if (u < 0.7) return u;
+    return slip && u == 0.7 ? -1 : u + 1;
+  }
+  double pdf(double x) const { return (x >= 0 && x < 0.7) || (x >= 1.7 && x <= 2) ? 1 : 0; }
+};
+
+TEST(Laws, TheNeighboursOfABranchAreTried) {
+  EXPECT_TRUE(laws(Branching{false}).passed()) << laws(Branching{false}).to_string();
+  EXPECT_THAT(laws(Branching{true}).to_string(), testing::HasSubstr("outside the domain at u = 0.69999999999999996"));
 }
 
 TEST(Laws, StatisticsCanBeLeftOut) {

@@ -1,6 +1,7 @@
 #include <render/bsdf/metal.h>
 
 #include <mc/check/bsdf_laws.h>
+#include <mc/check/roughness_limit.h>
 
 #include <gtest/gtest.h>
 
@@ -37,6 +38,13 @@ TEST(Metal, SamplesFollowTheChordDensity) {
                                                 {.samples = 50'000, .alpha = 1e-5, .reciprocal = false, .mass_tolerance = 1e-4});
       EXPECT_TRUE(report.passed()) << "fuzz " << fuzz << ", " << angle << " degrees\n" << report.to_string();
     }
+}
+
+TEST(Metal, TendsToTheMirrorAsFuzzVanishes) {
+  const auto metal = [](Float fuzz) { return Metal{Spectrum::Constant(Float(0.9)), fuzz}; };
+  for (const double angle : {0.0, 60.0, 85.0, 120.0})
+    for (const mc::Check& c : mc::check_roughness_limit<Float>(metal, metal(0), at_angle(angle)))
+      EXPECT_EQ(c.verdict, mc::Verdict::pass) << c.name << ": " << c.detail;
 }
 
 // Share of samples below the surface as measured from the book's own code (seed-slips P14). 4e5 samples: 5 standard errors are
