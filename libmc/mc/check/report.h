@@ -75,7 +75,7 @@ struct Report {
   std::uint64_t samples = 0;
   double mass = 1, mass_error = 0; ///< integral of the claimed density, atoms included, and its error bound
   double detectable = 0;           ///< relative error of the density, of random sign from cell to cell, caught with probability .99
-  double detectable_cell = 0;      ///< relative error in a single cell of average mass, caught with probability .99
+  double detectable_cell = 0;      ///< relative error in a single one of the checker's cells, of average mass, caught with probability .99
   double seconds = 0;
   double ns_per_sample = 0;
   std::vector<Check> checks;
