@@ -42,14 +42,16 @@ struct CourseGgx {
     const V h = (wo + wi).normalized();
     return mc::TrowbridgeReitzNormals<double>(roughness).pdf(h) / (4 * wo.dot(h));
   }
+  bool hidden(const V& wo) const { return horizon == Horizon::rejected && !(wo.z() > 0); }
   double pdf(const V& wo, const V& wi) const {
+    if (hidden(wo)) return 0;
     if (!(wi.z() > 0)) return horizon == Horizon::ignored && wi.z() < 0 ? half_pdf(wo, wi) : 0;
     return diffuse == Diffuse::none ? half_pdf(wo, wi) : 0.5 * half_pdf(wo, wi) + 0.5 * wi.z() / pi;
   }
   F eval(const V& wo, const V& wi) const {
     const V h = (wo + wi).normalized();
     const double nl = std::max(wi.z(), 0.0), nv = std::max(wo.z(), 0.0); // the course's saturate
-    if (horizon == Horizon::rejected && !(nl > 0)) return F::Zero();
+    if (hidden(wo) || (horizon == Horizon::rejected && !(nl > 0))) return F::Zero();
     const auto masking = [&](double c) { return c / (c * (1 - k) + k); };
     const double d = mc::TrowbridgeReitzNormals<double>(roughness).pdf(h) / h.z();
     double f = d * masking(nl) * masking(nv) * schlick(f0, wo.dot(h)) / (4 * nl * nv);
@@ -58,6 +60,7 @@ struct CourseGgx {
     return F::Constant(f);
   }
   std::optional<Scattering::Sample> sample(const V& wo, double uc, const V2& u) const {
+    if (hidden(wo)) return {};
     V wi;
     if (diffuse != Diffuse::none && uc < 0.5)
       wi = mc::CosineHemisphere<double>{}.sample(u);

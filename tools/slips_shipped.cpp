@@ -87,7 +87,7 @@ Trial weights(float (*heuristic)(float, float)) {
 // A grey diffuse surface sampled by a diffuse and a rough lobe; sample picks with one weight, pdf states another.
 Trial two_lobes(double sampled, double stated) {
   const auto density = [](double weight, const V& wo, const V& wi) {
-    if (!(wi.z() > 0)) return 0.0;
+    if (!(wo.z() > 0 && wi.z() > 0)) return 0.0;
     const V h = (wo + wi).normalized();
     return weight * wi.z() / pi + (1 - weight) * mc::TrowbridgeReitzNormals<double>(0.5).pdf(h) / (4 * wo.dot(h));
   };
@@ -98,10 +98,10 @@ Trial two_lobes(double sampled, double stated) {
       const V h = mc::TrowbridgeReitzNormals<double>(0.5).sample(u);
       wi = (2 * wo.dot(h) * h - wo).normalized();
     }
-    if (!(wi.z() > 0)) return {};
+    if (!(wo.z() > 0 && wi.z() > 0)) return {};
     return Scattering::Sample{wi, F::Constant(0.5 / pi), density(sampled, wo, wi)};
   };
-  b.eval = [](const V&, const V& wi) { return F(F::Constant(wi.z() > 0 ? 0.5 / pi : 0)); };
+  b.eval = [](const V& wo, const V& wi) { return F(F::Constant(wo.z() > 0 && wi.z() > 0 ? 0.5 / pi : 0)); };
   b.pdf = [=](const V& wo, const V& wi) { return density(stated, wo, wi); };
   return trial(b, 30);
 }
