@@ -45,6 +45,8 @@ bool find_gap(const Subject& s, const std::vector<double>& v, Place place, Slab&
   std::ptrdiff_t below = -2;
   for (std::ptrdiff_t i = from; i <= to; ++i) {
     const std::ptrdiff_t first = std::max<std::ptrdiff_t>(i - around, 0), last = std::min(i + 1 + around, n - 1);
+    // Rounding may carry samples just out of the chart, where nothing is claimed.
+    if (at(i) < 0 || at(i + 1) > 1) continue;
     const double gap = at(i + 1) - at(i), inside = i >= 0 && i + 1 < n ? gap : 0;
     const double spacing = (at(last) - at(first) - inside) / static_cast<double>(last - first - (inside > 0 ? 1 : 0));
     if (gap > widest * spacing && gap > 1e4 * s.epsilon) widest = gap / spacing, below = i;
@@ -54,6 +56,17 @@ bool find_gap(const Subject& s, const std::vector<double>& v, Place place, Slab&
   slab.box.lo[slab.axis] = below < 0 ? 0.0 : at(below) + margin;
   slab.box.hi[slab.axis] = below + 1 >= n ? 1.0 : at(below + 1) - margin;
   return true;
+}
+
+// Whether the points beside a gap are rounded to steps as wide as it is.
+bool is_rounding(const Subject& s, const std::vector<Subject::Coordinates>& pilot, const Slab& gap) {
+  if (!s.resolution) return false;
+  const std::size_t axis = gap.axis;
+  const double lo = gap.box.lo[axis], hi = gap.box.hi[axis], middle = (lo + hi) / 2;
+  const auto nearest = std::min_element(pilot.begin(), pilot.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a[axis] - middle) < std::abs(b[axis] - middle);
+  });
+  return hi - lo <= 16 * s.resolution(*nearest, static_cast<int>(axis));
 }
 
 } // namespace
@@ -87,7 +100,7 @@ std::vector<Slab> suspect_slabs(const Subject& s, const std::vector<Subject::Coo
     for (const Place place : {Place::low_end, Place::inside, Place::high_end}) {
       Slab gap;
       gap.kind = Slab::Kind::gap, gap.axis = axis;
-      if (find_gap(s, sorted[axis], place, gap)) add(std::move(gap));
+      if (find_gap(s, sorted[axis], place, gap) && !is_rounding(s, pilot, gap)) add(std::move(gap));
     }
   }
   return slabs;

@@ -2,6 +2,7 @@
 
 #include <mc/check/make_subject.h>
 #include <mc/domain/interval.h>
+#include <mc/warp/spherical_triangle.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -55,6 +56,23 @@ TEST(Slabs, HolesAreGapsInsideAndAtBothEnds) {
     middles.push_back((s.box.lo[0] + s.box.hi[0]) / 2);
   }
   EXPECT_THAT(middles, testing::ElementsAre(testing::DoubleNear(0.002, 1e-3), testing::DoubleNear(0.502, 1e-3), testing::DoubleNear(0.998, 1e-3)));
+}
+
+// A triangle of 1e-4 seen in float: its points are rounded to steps of 1e-3 of its chart, and some lie just outside.
+TEST(Slabs, RoundingIsNoGap) {
+  const mc::SphericalTriangle<float> triangle(mc::Vec3<float>(0.3f, -0.2f, 0.9f), mc::Vec3<float>(1e-4f, 1e-5f, -2e-5f),
+                                              mc::Vec3<float>(3e-5f, 1e-4f, 5e-6f));
+  const mc::Subject s = make_subject("tiny triangle", triangle);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    std::vector<mc::Subject::Draw> draws;
+    s.draw(seed, 100'000, draws);
+    std::vector<mc::Subject::Coordinates> pilot;
+    std::array<std::vector<double>, 3> sorted;
+    for (const auto& d : draws) pilot.push_back(d.v), sorted[0].push_back(d.v[0]), sorted[1].push_back(d.v[1]);
+    for (auto& axis : sorted) std::sort(axis.begin(), axis.end());
+    for (const mc::Slab& slab : suspect_slabs(s, pilot, sorted))
+      EXPECT_NE(slab.kind, Kind::gap) << slab.box.lo[slab.axis] << " to " << slab.box.hi[slab.axis];
+  }
 }
 
 } // namespace
