@@ -12,6 +12,7 @@ const Catalogue& catalogue() {
     add_lights(c);
     add_tables(c);
     add_bsdfs(c);
+    add_shapes(c);
     return c;
   }();
   return cases;

@@ -7,7 +7,7 @@
 ///   }
 /// then declares that function below, calls it in catalogue.cpp and names the file in CMakeLists.txt. add_warp of
 /// catalogue_warp.h makes a float and a double case of the line, add_bsdf of catalogue_bsdf.h one case per direction.
-/// The test tools/catalogue_test.cpp fails when a warp, table or BSDF of the headers is not in the list.
+/// The test tools/catalogue_test.cpp fails when a warp, table, BSDF, shape, filter or camera of the headers is not in the list.
 
 #include <mc/check/report.h>
 
@@ -48,5 +48,6 @@ void add_lobes(Catalogue& c);
 void add_lights(Catalogue& c);
 void add_tables(Catalogue& c);
 void add_bsdfs(Catalogue& c);
+void add_shapes(Catalogue& c);
 
 } // namespace carlo
