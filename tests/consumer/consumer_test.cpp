@@ -8,7 +8,22 @@
 
 namespace {
 
-// The ten lines of the README: a sampler of one's own, checked against its claimed density.
+// As the README has it.
+struct MyBsdf { // reflects half of the light, the same in all directions
+  using W = mc::Vec3<float>;
+  struct Sample { W wi; float f, pdf; };
+  float eval(const W& wo, const W& wi) const { return wo.z() * wi.z() > 0 ? 0.5f / mc::pi<float> : 0; }
+  float pdf(const W& wo, const W& wi) const { return wo.z() * wi.z() > 0 ? std::abs(wi.z()) / mc::pi<float> : 0; }
+  std::optional<Sample> sample(const W& wo, const mc::Vec2<float>& u) const {
+    W wi = mc::CosineHemisphere<float>().sample(u);
+    if (wo.z() < 0) wi.z() = -wi.z();
+    return Sample{wi, eval(wo, wi), pdf(wo, wi)};
+  }
+};
+
+TEST(MyBsdf, IsRight) { EXPECT_BSDF_LAWS(MyBsdf(), mc::Vec3<float>(0.6f, 0, 0.8f)); }
+
+// A sampler of one's own, checked against its claimed density.
 mc::Vec3<double> my_sample(mc::Pcg& random) { return mc::CosineHemisphere<double>().sample(random.point<double, 2>()); }
 double my_pdf(const mc::Vec3<double>& w) { return std::max(w.z(), 0.0) / mc::pi<double>; }
 double wrong_pdf(const mc::Vec3<double>& w) { return w.z() >= 0 ? 1 / (2 * mc::pi<double>) : 0; }

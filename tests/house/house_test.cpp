@@ -161,4 +161,22 @@ TEST(House, TopLevelHoldsWhatTheDesignNames) {
   }
 }
 
+std::string text_of(const fs::path& file) {
+  std::ifstream in(root / file);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+// The README's BSDF and plugin are those that the consumer compiles and runs against the installed package.
+TEST(House, TheExamplesOfTheReadmeAreCompiled) {
+  const std::string readme = text_of("README.md"), consumer = text_of("tests/consumer/consumer_test.cpp");
+  const std::size_t from = readme.find("struct MyBsdf"), to = readme.find("```", from);
+  ASSERT_NE(to, std::string::npos);
+  EXPECT_NE(consumer.find(readme.substr(from, to - from)), std::string::npos)
+      << "README.md: MyBsdf is not that of tests/consumer/consumer_test.cpp";
+  EXPECT_NE(readme.find("```c\n" + text_of("tests/consumer/mine.c") + "```"), std::string::npos)
+      << "README.md: the plugin is not tests/consumer/mine.c";
+}
+
 } // namespace

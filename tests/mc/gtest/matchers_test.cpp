@@ -18,11 +18,41 @@ TEST(Matchers, WarpLaws) {
   EXPECT_WARP_LAWS(mc::CosineHemisphere<float>{}, few);
 }
 
+// A grey that reflects `albedo`, and says so in its samples unless `stated` differs.
+struct Grey {
+  struct Sample {
+    mc::Vec3<double> wi;
+    double f, pdf;
+  };
+  double albedo, stated;
+  double eval(const mc::Vec3<double>& wo, const mc::Vec3<double>& wi) const {
+    return wo.z() > 0 && wi.z() > 0 ? albedo / mc::pi<double> : 0;
+  }
+  double pdf(const mc::Vec3<double>& wo, const mc::Vec3<double>& wi) const {
+    return wo.z() > 0 && wi.z() > 0 ? wi.z() / mc::pi<double> : 0;
+  }
+  std::optional<Sample> sample(const mc::Vec3<double>& wo, const mc::Vec2<double>& u) const {
+    const mc::Vec3<double> wi = mc::CosineHemisphere<double>{}.sample(u);
+    return Sample{wi, stated / mc::pi<double>, pdf(wo, wi)};
+  }
+};
+
+TEST(Matchers, BsdfLaws) {
+  const mc::Vec3<double> wo(0.6, 0, 0.8);
+  const mc::BsdfOptions few{.samples = 20'000};
+  EXPECT_BSDF_LAWS((Grey{0.5, 0.5}), wo, few);
+  EXPECT_THAT(mc::obeys_bsdf_laws("grey", Grey{0.5, 0.6}, wo, few).message(),
+              testing::AllOf(HasSubstr("grey: fail"), HasSubstr("weight = f / pdf")));
+  EXPECT_THAT(mc::obeys_bsdf_laws("grey", Grey{1.1, 1.1}, wo, few).message(), HasSubstr("energy <= 1"));
+}
+
 TEST(Matchers, SamplesMatchPdf) {
   const auto sampler = [](mc::Pcg& r) { return std::sqrt(1 - r.uniform<double>()); };
   const mc::SubjectOptions few{.samples = 50'000};
-  EXPECT_SAMPLES_MATCH_PDF(sampler, [](double x) { return 2 * x; }, mc::Interval<double>(0, 1), few);
-  const testing::AssertionResult wrong = mc::samples_match_pdf("sampler", sampler, [](double x) { return 3 * x * x; }, mc::Interval<double>(0, 1), few);
+  EXPECT_SAMPLES_MATCH_PDF(
+      sampler, [](double x) { return 2 * x; }, mc::Interval<double>(0, 1), few);
+  const testing::AssertionResult wrong = mc::samples_match_pdf(
+      "sampler", sampler, [](double x) { return 3 * x * x; }, mc::Interval<double>(0, 1), few);
   EXPECT_FALSE(wrong);
   EXPECT_THAT(wrong.message(), testing::AllOf(HasSubstr("sampler: fail"), HasSubstr("shape"), HasSubstr("observed")));
 }
