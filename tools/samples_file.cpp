@@ -248,9 +248,8 @@ SamplesFileCase samples_file_case(const SamplesFileOptions& options) {
   c.one.again = fmt::format("--samples-file '{}' --pdf-file '{}'", options.samples, options.pdf);
   if (!options.domain.empty()) c.one.again += fmt::format(" --domain '{}'", options.domain);
   if (options.unnormalized) c.one.again += " --unnormalized";
-  // check_subject draws max(n / 8, 1000) more.
   const std::uint64_t rows = file->table.rows();
-  c.samples = std::min(rows - rows / 9 - 1, rows - 1000);
+  c.samples = rows - mc::pilot_samples(rows - rows / 9);
   c.one.check = [file, title = c.one.title()](const CaseOptions& o) {
     mc::SubjectOptions s;
     s.samples = o.samples, s.seed = o.seed, s.alpha = o.alpha, s.evidence = o.evidence;

@@ -31,7 +31,7 @@ struct SamplesFileCase {
 ///   method  : a sample becomes a uniform point of its cell, and that a point of the unit square by the inverse of the grid's own
 ///             distribution function, where the claim is the constant 1: expected counts are exact, and a density that varies
 ///             within a cell is no fault. What is wrong only within cells is not seen. A sample in a cell of density 0 is a leak,
-///             unless it lies within 1e-6 of a positive one. A ninth of the rows, chosen by the seed, makes the bins.
+///             unless it lies within 1e-6 of a positive one. A ninth of the rows, at most 2^20, chosen by the seed, makes the bins.
 ///   throws  : Error for a file that is missing or broken ("s.csv:17: ..."), fewer than 2000 samples, a sample off the domain, a
 ///             grid that holds a number that is not finite and >= 0, or nothing but zeros
 SamplesFileCase samples_file_case(const SamplesFileOptions& options);

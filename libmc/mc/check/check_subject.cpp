@@ -233,7 +233,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   }
 
   if (s.dim > 0) {
-    draw(s, hash(options.seed, 1), std::max<std::uint64_t>(options.samples / 8, 1000), pilot_tally, [&](const auto& v) { pilot.push_back(v); });
+    draw(s, hash(options.seed, 1), pilot_samples(options.samples), pilot_tally, [&](const auto& v) { pilot.push_back(v); });
     const double continuous = n * static_cast<double>(pilot.size()) / static_cast<double>(pilot_tally.n);
     const int depth = tree_depth(continuous);
     const Ranks ranks(pilot, s.dim);
@@ -375,6 +375,8 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;
 }
+
+std::uint64_t pilot_samples(std::uint64_t samples) { return std::clamp<std::uint64_t>(samples / 8, 1000, 1 << 20); }
 
 std::uint64_t samples_to_detect(double error, double alpha) {
   require(error > 0, "samples_to_detect: error = {} must be > 0", error);

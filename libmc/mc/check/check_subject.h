@@ -7,7 +7,7 @@
 namespace mc {
 
 struct SubjectOptions {
-  std::uint64_t samples = 1'000'000; ///< counted; an eighth as many more are drawn for the bins
+  std::uint64_t samples = 1'000'000; ///< counted; pilot_samples(samples) more are drawn for the bins
   std::uint64_t seed = 1;
   double alpha = 0.001;              ///< chance that a correct subject is rejected, over all its statistical tests. The default
                                      ///< lets a suite of a hundred samplers pass nine seeds in ten
@@ -25,6 +25,9 @@ struct SubjectOptions {
 ///   detection  : the report states the smallest errors it would have caught with probability .99
 ///   throws     : Error when samples < 1000, or alpha is not in (0, 1)
 Report check_subject(const Subject& subject, const SubjectOptions& options = {});
+
+/// Samples that make the bins: an eighth of those that are counted, at least 1000, at most 2^20, which is 256 for each of 4096 cells.
+std::uint64_t pilot_samples(std::uint64_t samples);
 
 /// Samples at which check_subject catches a density whose relative error is `error`, of random sign from cell to cell, with
 /// probability .99 at family-wise alpha. Throws Error unless 0 < error and 0 < alpha < 1.
