@@ -68,14 +68,14 @@ Estimate ControlVariates::estimate(const Eigen::VectorXd& beta) const {
   Eigen::VectorXd c(mean_.size());
   c << 1, -beta;
   const double n = static_cast<double>(count_);
-  return {c.dot(mean_), std::sqrt(std::max(0.0, c.dot(scatter_ * c)) / (n - 1) / n), n - 1, count_};
+  return Estimate::student(c.dot(mean_), std::sqrt(std::max(0.0, c.dot(scatter_ * c)) / (n - 1) / n), n - 1, count_);
 }
 
 Estimate cross_estimate(const ControlVariates& a, const ControlVariates& b) {
   const Estimate first = a.estimate(b.coefficients()), second = b.estimate(a.coefficients());
   const double n = static_cast<double>(first.count + second.count), share = static_cast<double>(first.count) / n;
-  return {share * first.value + (1 - share) * second.value, std::hypot(share * first.std_error, (1 - share) * second.std_error),
-          first.dof + second.dof, first.count + second.count};
+  return Estimate::student(share * first.value + (1 - share) * second.value, std::hypot(share * first.error(), (1 - share) * second.error()),
+                           first.dof + second.dof, first.count + second.count);
 }
 
 } // namespace mc

@@ -5,12 +5,27 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace mc {
 
 namespace {
 constexpr double uniform_share = 0.1; // of the probability, in each dimension
 constexpr double jump_share = 0.5;    // of a jump's height that counts as mass
+constexpr double enough = 64;         // points behind what is taken for the power of a bin
+
+// The mean over the neighbours within `reach`, with weights that fall linearly; beyond its ends the row is mirrored.
+std::array<double, ImportanceGrid::bins> pooled(std::span<const double> row, std::ptrdiff_t reach) {
+  std::array<double, ImportanceGrid::bins> out;
+  const auto n = static_cast<std::ptrdiff_t>(row.size());
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    double sum = 0;
+    for (std::ptrdiff_t j = i - reach; j <= i + reach; ++j)
+      sum += static_cast<double>(reach + 1 - std::abs(j - i)) * row[static_cast<std::size_t>(j < 0 ? -1 - j : j >= n ? 2 * n - 1 - j : j)];
+    out[static_cast<std::size_t>(i)] = sum / sqr(static_cast<double>(reach + 1));
+  }
+  return out;
+}
 } // namespace
 
 ImportanceGrid::ImportanceGrid(int dim) : dim_(dim), edges_(static_cast<std::size_t>(dim) * (bins + 1)) {
@@ -34,12 +49,15 @@ double ImportanceGrid::map(std::span<double> u, std::span<std::uint8_t> bin) con
   return jacobian;
 }
 
-void ImportanceGrid::refine(std::span<const double> power) {
+void ImportanceGrid::refine(std::span<const double> power, std::uint64_t points) {
   MC_ASSERT(power.size() == static_cast<std::size_t>(dim_) * bins);
   std::array<double, bins> mass;
   std::array<double, bins + 1> edges;
+  // What the few points of a short round say of a bin is noise, and a density that follows it puts rare, huge weights where it fell
+  // too low: the next sums would be off by more than their error tells. So bins pool with their neighbours for enough points.
+  const auto reach = static_cast<std::ptrdiff_t>(std::clamp(std::ceil(enough * bins / static_cast<double>(points)) - 1, 0.0, bins / 2.0));
   for (std::size_t d = 0; d < static_cast<std::size_t>(dim_); ++d) {
-    const double* p = power.data() + d * bins;
+    const std::array<double, bins> p = pooled(power.subspan(d * bins, bins), reach);
     double* e = edges_.data() + d * (bins + 1);
     double total = 0;
     for (std::size_t i = 0; i < bins; ++i) {

@@ -14,7 +14,8 @@ namespace mc {
 ///   map    : u in [0,1)^dim -> x in [0,1)^dim, in place, with the Jacobian |dx/du| = 1 / density
 ///   refine : makes the density in each dimension proportional to the root of the mean of (f / density)^2 over the others,
 ///            which is the best separable step, with more edges at its jumps. A tenth of the probability stays uniform, so no region
-///            is lost and the Jacobian stays below 10 in each dimension
+///            is lost and the Jacobian stays below 10 in each dimension. Of few points only the coarse shape is learned: at least 64
+///            stand behind what is taken for the power of a bin
 ///   Source : [Lepage78]
 class ImportanceGrid {
  public:
@@ -25,8 +26,8 @@ class ImportanceGrid {
   int dim() const { return dim_; }
   /// Maps one point in place, notes the bin it falls in for each dimension, and returns the Jacobian.
   double map(std::span<double> u, std::span<std::uint8_t> bin) const;
-  /// `power` holds, for each dimension and bin, the sum of (f Jacobian)^2 over the points of a round.
-  void refine(std::span<const double> power);
+  /// `power` holds, for each dimension and bin, the sum of (f Jacobian)^2 over the `points` of a round.
+  void refine(std::span<const double> power, std::uint64_t points);
   /// The edges of one dimension: bins + 1 increasing numbers from 0 to 1.
   std::span<const double> edges(int d) const;
 

@@ -6,11 +6,14 @@
 #include <mc/estimate/point_set.h>
 
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 
 #include <array>
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace mc {
@@ -37,7 +40,25 @@ struct Sums {
   }
 };
 
-using Estimates = std::vector<Estimate>; // one per output
+// A mean whose variance was estimated with `dof` degrees of freedom.
+struct Mean { double value = 0, variance = 0, dof = 0; };
+using Means = std::vector<Mean>; // one per output
+
+// Degrees of freedom behind the sum of the variances [Welch47].
+double welch(const Mean& a, const Mean& b) {
+  const double sum = a.variance + b.variance; // a share of it does not underflow when squared
+  return sum > 0 ? 1 / (sqr(a.variance / sum) / a.dof + sqr(b.variance / sum) / b.dof) : a.dof + b.dof;
+}
+
+// By how many standard deviations of a normal two independent means differ; nothing where both are exact.
+std::optional<double> deviate(const Mean& a, const Mean& b) {
+  const double error = std::sqrt(a.variance + b.variance);
+  if (!(error > 0)) return {};
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  const double t = std::abs(a.value - b.value) / std::hypot(error, rounding * std::max(std::abs(a.value), std::abs(b.value)));
+  const double tail = cdf(complement(boost::math::students_t(welch(a, b)), t));
+  return quantile(complement(boost::math::normal(), std::max(tail, 1e-300)));
+}
 
 // A run of integrate: the integrand, the budget, the clock.
 struct Run {
@@ -47,7 +68,8 @@ struct Run {
   const IntegrateOptions& o;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   std::uint64_t calls = 0;
-  std::vector<Estimates> rounds = {}; // independent of each other and of the last estimates
+  std::vector<Means> rounds = {};             // of learning: independent of each other and of the last means
+  std::vector<double> chi2 = std::vector<double>(outputs), chi2_dof = std::vector<double>(outputs);
 
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
   std::uint64_t left() const { return o.max_calls - calls; }
@@ -113,24 +135,31 @@ struct Run {
     return sets;
   }
 
-  Estimates estimates(const std::vector<Sums>& replicates) const {
-    Estimates all;
+  Means means(const std::vector<Sums>& replicates) const {
+    Means all;
     for (std::size_t k = 0; k < outputs; ++k) {
-      Moments means;
-      for (const Sums& s : replicates) means.add(s.outputs[k].mean());
-      all.push_back({means.mean(), means.std_error(), static_cast<double>(replicates.size() - 1), calls});
+      Moments m;
+      for (const Sums& s : replicates) m.add(s.outputs[k].mean());
+      all.push_back({m.mean(), sqr(m.std_error()), static_cast<double>(replicates.size() - 1)});
     }
     return all;
   }
 
-  bool converged(const Estimates& all) const {
-    for (const Estimate& e : all)
-      if (!(e.std_error <= o.abs_error || e.std_error <= o.rel_error * std::abs(e.value))) return false;
+  void compare(const Means& a, const Means& b) {
+    for (std::size_t k = 0; k < outputs; ++k)
+      if (const auto z = deviate(a[k], b[k])) chi2[k] += sqr(*z), chi2_dof[k] += 1;
+  }
+
+  Estimate estimate(const Mean& m) const { return Estimate::student(m.value, std::sqrt(m.variance), m.dof, calls); }
+
+  bool converged(const Means& all) const {
+    for (const Mean& m : all)
+      if (const double error = estimate(m).std_error; !(error <= o.abs_error || error <= o.rel_error * std::abs(m.value))) return false;
     return true;
   }
 
-  void report(const Estimates& all) const {
-    if (o.progress) o.progress({all.front(), calls, seconds()});
+  void report(const Means& all) const {
+    if (o.progress) o.progress({estimate(all.front()), calls, seconds()});
   }
 };
 
@@ -141,19 +170,19 @@ struct Sequences {
   std::uint64_t length = 0;
   std::vector<Sums> sums = {};
 
-  Estimates extend(Run& run, std::uint64_t to) {
+  Means extend(Run& run, std::uint64_t to) {
     const std::vector<Sums> more = run.evaluate_all(sets, length, to - length, grid);
     if (sums.empty()) sums = more;
     else
       for (std::size_t r = 0; r < sums.size(); ++r) sums[r].merge(more[r]);
     length = to;
-    return run.estimates(sums);
+    return run.means(sums);
   }
 };
 
 // The outcome so far, good for an answer when the run is cancelled.
 struct Outcome {
-  Estimates estimates;
+  Means means;
   Method method;
   Stop stop = Stop::max_calls;
 };
@@ -164,9 +193,9 @@ Outcome plain(Run& run, std::optional<Outcome>& last) {
     count = std::min(count, run.left());
     total.merge(run.evaluate_all({Independent{run.o.seed}}, first, count).front());
     Outcome out{{}, Method::plain};
-    for (const Moments& m : total.outputs) out.estimates.push_back(m.estimate());
-    run.report(out.estimates);
-    if (run.converged(out.estimates)) out.stop = Stop::converged;
+    for (const Moments& m : total.outputs) out.means.push_back({m.mean(), sqr(m.std_error()), static_cast<double>(m.count() - 1)});
+    run.report(out.means);
+    if (run.converged(out.means)) out.stop = Stop::converged;
     if (out.stop == Stop::converged || run.left() == 0) return out;
     last = out;
   }
@@ -175,22 +204,23 @@ Outcome plain(Run& run, std::optional<Outcome>& last) {
 // Independent rounds, weighed by the square of their number of points: by the number alone, the early rounds would dominate an
 // error that falls faster than N^-1/2; by the measured variances, the mean would be biased.
 Outcome stratified(Run& run, std::optional<Outcome>& last) {
-  Outcome out{Estimates(run.outputs), Method::stratified};
+  Outcome out{Means(run.outputs), Method::stratified};
   double weight = 0;
   for (std::uint64_t points = std::min<std::uint64_t>(64, run.left() / run.o.replicates), round = 0;; ++round) {
     std::vector<PointSet> sets;
     for (std::uint32_t r = 0; r < run.o.replicates; ++r)
       sets.emplace_back(Stratified(static_cast<std::uint32_t>(points), hash(run.o.seed, round, r), static_cast<std::uint32_t>(std::min(run.dim, 8))));
-    const Estimates now = run.estimates(run.evaluate_all(sets, 0, points));
+    const Means now = run.means(run.evaluate_all(sets, 0, points));
+    if (round > 0) run.compare(now, out.means);
     const double square = sqr(static_cast<double>(points)), share = square / (weight + square);
     weight += square;
     for (std::size_t k = 0; k < run.outputs; ++k) {
-      Estimate& e = out.estimates[k];
-      e = {e.value + share * (now[k].value - e.value), std::hypot((1 - share) * e.std_error, share * now[k].std_error), now[k].dof, run.calls};
+      const Mean& all = out.means[k];
+      const Mean a{all.value, sqr(1 - share) * all.variance, std::max(all.dof, 1.0)}, b{now[k].value, sqr(share) * now[k].variance, now[k].dof};
+      out.means[k] = {a.value + share * (b.value - a.value), a.variance + b.variance, welch(a, b)};
     }
-    run.rounds.push_back(now);
-    run.report(out.estimates);
-    if (run.converged(out.estimates)) out.stop = Stop::converged;
+    run.report(out.means);
+    if (run.converged(out.means)) out.stop = Stop::converged;
     // The last round takes all that is left rather than leave a rest that is too small for another doubling.
     const std::uint64_t left = std::min(run.left() / run.o.replicates, longest - 1);
     if (out.stop == Stop::converged || left < points) return out;
@@ -199,21 +229,21 @@ Outcome stratified(Run& run, std::optional<Outcome>& last) {
   }
 }
 
-// Learns the grid in rounds of growing size.
-ImportanceGrid learn(Run& run, std::uint64_t budget, std::vector<double>& scale) {
+// Learns the grid in rounds of growing size, on an eighth of the calls, or, where those are few, on up to a quarter.
+ImportanceGrid learn(Run& run, std::vector<double>& scale) {
+  const std::uint64_t most = run.o.max_calls / 4, few = 1 << 13, many = 1 << 18, budget = std::clamp(most / 2, std::min(most, few), many);
   ImportanceGrid grid(run.dim);
   constexpr std::array<std::uint64_t, 5> share = {16, 16, 8, 4, 2};
   const std::uint32_t r = run.o.replicates;
   for (std::size_t k = 0; k < share.size(); ++k) {
-    const std::uint64_t points = std::bit_floor(budget / share[k] / r);
-    if (points < 16) continue;
+    const std::uint64_t points = budget / share[k] / r;
+    if (points < 8) continue;
     const std::vector<Sums> sums = run.evaluate_all(run.sobol_sets(2 + k, r), 0, points, &grid, scale);
-    const Estimates now = run.estimates(sums);
-    run.rounds.push_back(now);
-    run.report(now);
+    run.rounds.push_back(run.means(sums));
+    run.report(run.rounds.back());
     Sums total;
     for (const Sums& s : sums) total.merge(s);
-    grid.refine(total.power);
+    grid.refine(total.power, points * r);
     // Outputs of different size count alike from the second round on.
     for (std::size_t j = 0; j < run.outputs; ++j) {
       const double size = std::hypot(total.outputs[j].mean(), std::sqrt(total.outputs[j].variance()));
@@ -224,9 +254,9 @@ ImportanceGrid learn(Run& run, std::uint64_t budget, std::vector<double>& scale)
 }
 
 // How much smaller the errors of b are than those of a: the mean logarithm of the ratio.
-double advantage(const Estimates& a, const Estimates& b) {
+double advantage(const Means& a, const Means& b) {
   double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += std::log((a[k].std_error + 1e-300) / (b[k].std_error + 1e-300));
+  for (std::size_t k = 0; k < a.size(); ++k) sum += std::log((a[k].variance + 1e-300) / (b[k].variance + 1e-300));
   return sum;
 }
 
@@ -244,25 +274,25 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
     const std::uint64_t longest_sequence = limit(), pilot = method == Method::rqmc ? longest_sequence : std::max<std::uint64_t>(longest_sequence / 16, 1);
     chosen = {run.sobol_sets(0, replicates)};
     for (std::uint64_t to = std::min<std::uint64_t>(64, pilot); to <= pilot; to *= 2) {
-      out.estimates = chosen.extend(run, to);
-      run.report(out.estimates);
-      if (run.converged(out.estimates)) return out.stop = Stop::converged, out;
+      out.means = chosen.extend(run, to);
+      run.report(out.means);
+      if (run.converged(out.means)) return out.stop = Stop::converged, out;
       last = out;
     }
     if (method == Method::rqmc) return out;
   }
 
   std::vector<double> scale(run.outputs, 1.0);
-  grid = learn(run, std::min<std::uint64_t>(run.o.max_calls / 8, std::uint64_t{1} << 18), scale);
+  grid = learn(run, scale);
   Sequences guided{run.sobol_sets(1, replicates), &*grid};
   if (method == Method::vegas) {
     const std::uint64_t now = std::max<std::uint64_t>(limit(), 1);
     guided.sets = run.sobol_sets(1, replicates = static_cast<std::uint32_t>(std::min<std::uint64_t>(run.left() / now, 2 * replicates - 1)));
     chosen = std::move(guided);
   } else {
-    const Estimates tried = guided.extend(run, std::min(chosen.length, limit()));
-    if (advantage(out.estimates, tried) > 0) {
-      out.estimates = tried;
+    const Means tried = guided.extend(run, std::min(chosen.length, limit()));
+    if (advantage(out.means, tried) > 0) {
+      out.means = tried;
       out.method = Method::vegas;
       chosen = std::move(guided);
     } else {
@@ -271,13 +301,13 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   }
   const std::uint64_t affordable = std::bit_floor(chosen.length + run.left() / replicates);
   for (std::uint64_t to = std::max<std::uint64_t>(std::min<std::uint64_t>(64, affordable), 2 * chosen.length);; to *= 2) {
-    if (!out.estimates.empty()) {
-      if (run.converged(out.estimates)) return out.stop = Stop::converged, out;
+    if (!out.means.empty()) {
+      if (run.converged(out.means)) return out.stop = Stop::converged, out;
       if (to > std::min(affordable, longest)) break;
       last = out;
     }
-    out.estimates = chosen.extend(run, to);
-    run.report(out.estimates);
+    out.means = chosen.extend(run, to);
+    run.report(out.means);
   }
   return out;
 }
@@ -328,20 +358,19 @@ VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, co
     outcome = *last;
     outcome.stop = Stop::cancelled;
   }
+  if (outcome.method == Method::vegas)
+    for (const Means& round : run.rounds) run.compare(round, outcome.means);
   VectorIntegral result;
   for (std::size_t k = 0; k < run.outputs; ++k) {
     Integral r;
-    r.estimate = outcome.estimates[k];
+    r.estimate = run.estimate(outcome.means[k]);
     r.interval = r.estimate.interval(o.confidence);
     r.calls = run.calls;
     r.seconds = run.seconds();
     r.method = outcome.method;
     r.stop = outcome.stop;
-    for (const Estimates& round : run.rounds) {
-      const double v = sqr(round[k].std_error) + (outcome.method == Method::vegas ? sqr(r.estimate.std_error) : 0);
-      if (v > 0) r.chi2 += sqr(round[k].value - r.estimate.value) / v, r.chi2_dof += 1;
-    }
-    if (outcome.method == Method::stratified && r.chi2_dof > 0) r.chi2_dof -= 1;
+    r.chi2 = run.chi2[k];
+    r.chi2_dof = run.chi2_dof[k];
     r.consistent = !(r.chi2_dof > 0) || cdf(complement(boost::math::chi_squared(r.chi2_dof), r.chi2)) > 1e-4;
     result.outputs.push_back(r);
   }
@@ -367,7 +396,7 @@ Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f,
   const VectorIntegrand one = [&](std::span<const double> u, std::span<double> values) { values[0] = f(u); };
   Run run{one, 1, dim, o};
   Integral result;
-  result.estimate = run.estimates(run.evaluate_all(run.sobol_sets(0, replicates), 0, count)).front();
+  result.estimate = run.estimate(run.means(run.evaluate_all(run.sobol_sets(0, replicates), 0, count)).front());
   result.interval = result.estimate.interval();
   result.calls = run.calls;
   result.method = Method::rqmc;

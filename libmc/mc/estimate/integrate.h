@@ -53,7 +53,9 @@ struct Integral {
   double seconds = 0;
   Method method = Method::plain;        ///< the one picked
   Stop stop = Stop::converged;
-  double chi2 = 0, chi2_dof = 0;        ///< stratified and vegas: agreement of the independent rounds, near its dof; else 0
+  /// stratified and vegas: how well independent rounds agree, each difference turned from Student's t into a normal deviate and
+  /// squared; near its dof. plain and rqmc: 0
+  double chi2 = 0, chi2_dof = 0;
   /// Whether the rounds agree: chi2 is exceeded by chance with probability over 1e-4. False: distrust the error bar.
   bool consistent = true;
 };
@@ -70,8 +72,10 @@ using VectorIntegrand = std::function<void(std::span<const double> u, std::span<
 ///   plain      : independent points, error from the sample variance
 ///   stratified : rounds of jittered grids of doubling size, error from replicates
 ///   rqmc       : independently scrambled Sobol' sequences that double in length, error from replicates
-///   vegas      : rqmc through an ImportanceGrid learned on up to an eighth of the calls; the rounds it was learned on are the
-///                consistency check. The grid is frozen before the sequences start, so the estimate is unbiased
+///   vegas      : rqmc through an ImportanceGrid learned on an eighth of the calls, a quarter of 32768 or less; the rounds it was
+///                learned on are the consistency check. The grid is frozen before the sequences start, so the estimate is unbiased
+///   error      : without a tolerance, 66 to 71 % of runs lie within 1 std_error of the truth and 94 to 96.5 % within 2, for every
+///                method over Genz's families [Genz87]
 ///   throws     : Error for an empty f, dim < 1, a tolerance that is negative or not finite, max_calls too small for one round,
 ///                confidence outside (0,1), threads < 0; what the integrand throws, after all threads have stopped; and for an
 ///                integrand that is not finite, with the point where it first was; and when cancelled before anything was estimated

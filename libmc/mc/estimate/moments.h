@@ -60,11 +60,12 @@ class Moments {
   double mean() const { return mean_; }
   /// Unbiased sample variance; 0 for fewer than two values.
   double variance() const { return count_ > 1 ? m2_ / static_cast<double>(count_ - 1) : 0.0; }
+  /// Of the mean, as computed; estimate() widens it for the uncertainty of a variance of few values.
   double std_error() const { return count_ > 1 ? std::sqrt(variance() / static_cast<double>(count_)) : 0.0; }
   std::uint64_t non_finite() const { return non_finite_; }
   std::uint64_t witness() const { return witness_; } ///< index of the first non-finite value
 
-  /// The mean with its standard error and count - 1 degrees of freedom.
+  /// The mean with its error bar, count - 1 degrees of freedom behind it.
   Estimate estimate() const;
 
  private:

@@ -58,26 +58,6 @@ TEST(Integrate, SameBitsForAnyNumberOfThreads) {
   }
 }
 
-// Shares within 1 and 2 sigma over 1000 seeds of one smooth integrand. Exact errors give .683 and .954 (plain), Student t with 31
-// degrees of freedom .675 and .946; a share of 1000 has a standard error of .015 and .007. The bounds are about 3 of those around
-// both, so a right error bar fails in less than 1 % of choices of seeds; the seeds are fixed.
-TEST(Integrate, ErrorBarsAreCalibrated) {
-  for (const Method method : methods) {
-    int within1 = 0, within2 = 0;
-    for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
-      mc::IntegrateOptions o = with(method, 5000, seed);
-      o.threads = 1;
-      o.replicates = 32;
-      const mc::Integral r = mc::integrate_unit(peak, 2, o);
-      const double z = std::abs(r.estimate.value - peak_truth()) / r.estimate.std_error;
-      within1 += z <= 1;
-      within2 += z <= 2;
-    }
-    EXPECT_THAT(within1 / 1000.0, testing::AllOf(testing::Ge(0.64), testing::Le(0.73))) << name(method);
-    EXPECT_THAT(within2 / 1000.0, testing::AllOf(testing::Ge(0.925), testing::Le(0.975))) << name(method);
-  }
-}
-
 TEST(Integrate, StopsAtTheWantedError) {
   for (const Method method : methods) {
     mc::IntegrateOptions o;
