@@ -129,9 +129,9 @@ struct Run {
                             m.non_finite(), m.non_finite() + m.count(), point));
   }
 
-  std::vector<PointSet> sobol_sets(std::uint64_t purpose, std::uint32_t replicates) const {
+  std::vector<PointSet> sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const {
     std::vector<PointSet> sets;
-    for (std::uint32_t r = 0; r < replicates; ++r) sets.emplace_back(ScrambledSobol{hash(o.seed, purpose, r)});
+    for (std::uint32_t r = first; r < last; ++r) sets.emplace_back(ScrambledSobol{hash(o.seed, purpose, r)});
     return sets;
   }
 
@@ -165,17 +165,28 @@ struct Run {
 
 // Replicated Sobol' sequences, extended from step to step.
 struct Sequences {
-  std::vector<PointSet> sets;
+  std::uint64_t purpose;
   const ImportanceGrid* grid = nullptr;
   std::uint64_t length = 0;
+  std::vector<PointSet> sets = {};
   std::vector<Sums> sums = {};
 
   Means extend(Run& run, std::uint64_t to) {
+    if (sets.empty()) sets = run.sobol_sets(purpose, 0, run.o.replicates);
+    sums.resize(sets.size());
     const std::vector<Sums> more = run.evaluate_all(sets, length, to - length, grid);
-    if (sums.empty()) sums = more;
-    else
-      for (std::size_t r = 0; r < sums.size(); ++r) sums[r].merge(more[r]);
+    for (std::size_t r = 0; r < sums.size(); ++r) sums[r].merge(more[r]);
     length = to;
+    return run.means(sums);
+  }
+
+  // More of them, as long as the others.
+  Means widen(Run& run, std::uint32_t count) {
+    const auto have = static_cast<std::uint32_t>(sets.size());
+    const std::vector<PointSet> more = run.sobol_sets(purpose, have, have + count);
+    const std::vector<Sums> theirs = run.evaluate_all(more, 0, length, grid);
+    sets.insert(sets.end(), more.begin(), more.end());
+    sums.insert(sums.end(), theirs.begin(), theirs.end());
     return run.means(sums);
   }
 };
@@ -229,16 +240,16 @@ Outcome stratified(Run& run, std::optional<Outcome>& last) {
   }
 }
 
-// Learns the grid in rounds of growing size, on an eighth of the calls, or, where those are few, on up to a quarter.
+// Learns the grid in rounds of growing size, on a 32nd of the calls, or, where those are few, on up to a quarter.
 ImportanceGrid learn(Run& run, std::vector<double>& scale) {
-  const std::uint64_t most = run.o.max_calls / 4, few = 1 << 13, many = 1 << 18, budget = std::clamp(most / 2, std::min(most, few), many);
+  const std::uint64_t least = std::min<std::uint64_t>(run.o.max_calls / 4, 1 << 13), budget = std::clamp<std::uint64_t>(run.o.max_calls / 32, least, 1 << 18);
   ImportanceGrid grid(run.dim);
   constexpr std::array<std::uint64_t, 5> share = {16, 16, 8, 4, 2};
   const std::uint32_t r = run.o.replicates;
   for (std::size_t k = 0; k < share.size(); ++k) {
     const std::uint64_t points = budget / share[k] / r;
     if (points < 8) continue;
-    const std::vector<Sums> sums = run.evaluate_all(run.sobol_sets(2 + k, r), 0, points, &grid, scale);
+    const std::vector<Sums> sums = run.evaluate_all(run.sobol_sets(2 + k, 0, r), 0, points, &grid, scale);
     run.rounds.push_back(run.means(sums));
     run.report(run.rounds.back());
     Sums total;
@@ -261,53 +272,43 @@ double advantage(const Means& a, const Means& b) {
 }
 
 Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
-  std::uint32_t replicates = run.o.replicates;
-  const auto limit = [&] { return std::min(std::bit_floor(run.left() / replicates), longest); };
   Outcome out{{}, method == Method::vegas ? Method::vegas : Method::rqmc};
-  Sequences chosen;
-  std::optional<ImportanceGrid> grid;
-
-  // auto and rqmc: the bare sequences first.
-  if (method != Method::vegas) {
-    // The longest power of two that at least the wanted number of replicates can have, and as many replicates as then fit.
-    if (method == Method::rqmc) replicates = static_cast<std::uint32_t>(std::min<std::uint64_t>(run.left() / limit(), 2 * replicates - 1));
-    const std::uint64_t longest_sequence = limit(), pilot = method == Method::rqmc ? longest_sequence : std::max<std::uint64_t>(longest_sequence / 16, 1);
-    chosen = {run.sobol_sets(0, replicates)};
-    for (std::uint64_t to = std::min<std::uint64_t>(64, pilot); to <= pilot; to *= 2) {
-      out.means = chosen.extend(run, to);
-      run.report(out.means);
-      if (run.converged(out.means)) return out.stop = Stop::converged, out;
-      last = out;
+  const auto affordable = [&](const Sequences& s) { return std::min(std::bit_floor(s.length + run.left() / run.o.replicates), longest); };
+  const auto done = [&] {
+    run.report(out.means);
+    if (run.converged(out.means)) out.stop = Stop::converged;
+    last = out;
+    return out.stop == Stop::converged;
+  };
+  const auto grow = [&](Sequences& s, std::uint64_t end) {
+    for (std::uint64_t to = std::max(std::min<std::uint64_t>(64, end), 2 * s.length); to <= end; to *= 2) {
+      out.means = s.extend(run, to);
+      if (done()) return true;
     }
-    if (method == Method::rqmc) return out;
-  }
+    return false;
+  };
 
-  std::vector<double> scale(run.outputs, 1.0);
-  grid = learn(run, scale);
-  Sequences guided{run.sobol_sets(1, replicates), &*grid};
-  if (method == Method::vegas) {
-    const std::uint64_t now = std::max<std::uint64_t>(limit(), 1);
-    guided.sets = run.sobol_sets(1, replicates = static_cast<std::uint32_t>(std::min<std::uint64_t>(run.left() / now, 2 * replicates - 1)));
-    chosen = std::move(guided);
-  } else {
-    const Means tried = guided.extend(run, std::min(chosen.length, limit()));
-    if (advantage(out.means, tried) > 0) {
+  Sequences chosen{.purpose = 0};
+  if (method == Method::rqmc && grow(chosen, affordable(chosen))) return out;
+  if (method == Method::automatic && grow(chosen, std::max<std::uint64_t>(affordable(chosen) / 16, 1))) return out;
+  std::optional<ImportanceGrid> grid;
+  if (method != Method::rqmc) {
+    std::vector<double> scale(run.outputs, 1.0);
+    grid = learn(run, scale);
+    Sequences guided{.purpose = 1, .grid = &*grid};
+    if (method == Method::vegas) chosen = std::move(guided);
+    else if (const Means tried = guided.extend(run, std::min(chosen.length, affordable(guided))); advantage(out.means, tried) > 0) {
       out.means = tried;
       out.method = Method::vegas;
       chosen = std::move(guided);
-    } else {
-      run.rounds.clear();
-    }
+      if (done()) return out;
+    } else run.rounds.clear();
+    if (grow(chosen, affordable(chosen))) return out;
   }
-  const std::uint64_t affordable = std::bit_floor(chosen.length + run.left() / replicates);
-  for (std::uint64_t to = std::max<std::uint64_t>(std::min<std::uint64_t>(64, affordable), 2 * chosen.length);; to *= 2) {
-    if (!out.means.empty()) {
-      if (run.converged(out.means)) return out.stop = Stop::converged, out;
-      if (to > std::min(affordable, longest)) break;
-      last = out;
-    }
-    out.means = chosen.extend(run, to);
-    run.report(out.means);
+  // What is left is too little for twice the length, but may do for more replicates.
+  if (const auto more = static_cast<std::uint32_t>(run.left() / chosen.length); more > 0) {
+    out.means = chosen.widen(run, more);
+    done();
   }
   return out;
 }
@@ -396,7 +397,7 @@ Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f,
   const VectorIntegrand one = [&](std::span<const double> u, std::span<double> values) { values[0] = f(u); };
   Run run{one, 1, dim, o};
   Integral result;
-  result.estimate = run.estimate(run.means(run.evaluate_all(run.sobol_sets(0, replicates), 0, count)).front());
+  result.estimate = run.estimate(run.means(run.evaluate_all(run.sobol_sets(0, 0, replicates), 0, count)).front());
   result.interval = result.estimate.interval();
   result.calls = run.calls;
   result.method = Method::rqmc;
