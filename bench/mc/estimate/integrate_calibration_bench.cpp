@@ -1,6 +1,7 @@
 /// How honest the error bars of integrate() are on Genz's integrals: the shares of runs within 1 and 2 standard errors of the
 /// truth, and within the 95 % interval, for each method; prints a table.
-/// Usage: bench_mc_estimate_calibration [RUNS [CALLS [FIRST_SEED [METHOD]]]]; runs are per integral.
+/// Usage: bench_mc_estimate_calibration [RUNS [CALLS [FIRST_SEED [METHOD [NAME]]]]]; runs are per integral; NAME keeps the
+/// integrals that contain it.
 /// Runs whose rounds disagree (`consistent` is false) are counted apart: shares are of the others.
 
 #include "genz.h"
@@ -53,7 +54,7 @@ int main(int argc, char** argv) {
   const int runs = argc > 1 ? std::atoi(argv[1]) : 1000;
   const auto calls = static_cast<std::uint64_t>(argc > 2 ? std::strtod(argv[2], nullptr) : 1e4);
   const std::uint64_t first = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1;
-  const std::string only = argc > 4 ? argv[4] : "";
+  const std::string only = argc > 4 ? argv[4] : "", integrals = argc > 5 ? argv[5] : "";
   fmt::print("{} runs of {} calls per integral from seed {}; error/rms: geometric mean of the standard error over the actual error\n", runs, calls, first);
   fmt::print("{:<11} {:<22} {:>6} {:>7} {:>7} {:>7} {:>8} {:>8} {:>9}\n", "method", "integral", "runs", "1 sigma", "2 sigma", "95 %", "flagged", "err/rms", "rel. rms");
   for (const mc::Method method : {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas, mc::Method::automatic}) {
@@ -61,6 +62,7 @@ int main(int argc, char** argv) {
     Shares all;
     std::uint64_t seed = first; // another one for each integral: those of one dimension would share their points
     for (const carlo::Experiment& e : carlo::genz_integrals()) {
+      if (e.name.find(integrals) == std::string::npos) continue;
       Shares shares;
       for (int i = 0; i < runs; ++i) {
         mc::IntegrateOptions o;
