@@ -1,6 +1,7 @@
 #include <mc/estimate/point_set.h>
 
 #include <array>
+#include <bit>
 
 namespace mc {
 
@@ -13,29 +14,51 @@ template <Sampler T> void fill(const T& sampler, std::uint64_t first, std::size_
     for (std::size_t d = 0; d < dim; ++d) u[i + d] = coordinate<double>(sampler, first + i / dim, static_cast<std::uint32_t>(d));
 }
 
+// Scrambled coordinates of the points base + skip, ..., base + skip + count - 1, to the same places of x.
+void coordinates(const Sobol& sobol, std::uint64_t seed, std::uint32_t dim, std::uint64_t base, std::size_t skip, std::size_t count,
+                 std::array<std::uint32_t, window>& x) {
+  // Points base .. base + 2^k - 1 from the first half of them, their bits in reverse order.
+  x[0] = reverse_bits(sobol.unscrambled(static_cast<std::uint32_t>(base), dim));
+  for (std::uint32_t half = 1; half < skip + count; half *= 2) {
+    const std::uint32_t column = reverse_bits(sobol.unscrambled(half, dim));
+    for (std::uint32_t i = 0; i < half; ++i) x[half + i] = x[i] ^ column;
+  }
+  const auto key = static_cast<std::uint32_t>(hash(seed, dim) >> 32);
+  for (std::size_t i = skip; i < skip + count; ++i) x[i] = reverse_bits(owen_scramble_reversed(x[i], key));
+}
+
+// The low 26 bits of x at the even places.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 16) & 0x0000ffff0000ffffu;
+  x = (x | x << 8) & 0x00ff00ff00ff00ffu;
+  x = (x | x << 4) & 0x0f0f0f0f0f0f0f0fu;
+  x = (x | x << 2) & 0x3333333333333333u;
+  return (x | x << 1) & 0x5555555555555555u;
+}
+
 void fill(const ScrambledSobol& set, std::uint64_t first, std::size_t dim, std::span<double> u) {
   const Sobol sobol(set.seed);
   const std::uint64_t last = first + u.size() / dim;
-  std::array<std::uint32_t, window> x;
+  std::array<std::uint32_t, window> x, y;
   for (std::uint64_t begin = first; begin < last;) {
     const std::uint64_t base = begin / window * window, end = std::min(base + window, last);
     double* out = u.data() + (begin - first) * dim;
     const auto skip = static_cast<std::size_t>(begin - base), count = static_cast<std::size_t>(end - begin);
     for (std::size_t d = 0; d < dim; ++d) {
       const auto dimension = static_cast<std::uint32_t>(d);
-      if (dimension >= Sobol::dimensions) {
+      if (dim <= interlaced_dims) {
+        coordinates(sobol, set.seed, 2 * dimension, base, skip, count, x);
+        coordinates(sobol, set.seed, 2 * dimension + 1, base, skip, count, y);
+        for (std::size_t i = 0; i < count; ++i) { // 52 bits after the point of 1.x, and the middle of their interval
+          const std::uint64_t bits = spread(x[skip + i] >> 6) << 1 | spread(y[skip + i] >> 6);
+          out[i * dim + d] = std::bit_cast<double>(bits | 0x3ff0000000000000u) - (1 - 0x1p-53);
+        }
+      } else if (dimension < Sobol::dimensions) {
+        coordinates(sobol, set.seed, dimension, base, skip, count, x);
+        for (std::size_t i = 0; i < count; ++i) out[i * dim + d] = (static_cast<double>(x[skip + i]) + 0.5) * 0x1p-32;
+      } else {
         for (std::size_t i = 0; i < count; ++i) out[i * dim + d] = coordinate<double>(sobol, begin + i, dimension);
-        continue;
       }
-      // Points base .. base + 2^k - 1 from the first half of them.
-      x[0] = sobol.unscrambled(static_cast<std::uint32_t>(base), dimension);
-      for (std::uint32_t half = 1; half < skip + count; half *= 2) {
-        const std::uint32_t column = sobol.unscrambled(half, dimension);
-        for (std::uint32_t i = 0; i < half; ++i) x[half + i] = x[i] ^ column;
-      }
-      const auto key = static_cast<std::uint32_t>(hash(set.seed, dimension) >> 32);
-      for (std::size_t i = skip; i < skip + count; ++i) x[i] = owen_scramble(x[i], key);
-      for (std::size_t i = 0; i < count; ++i) out[i * dim + d] = (static_cast<double>(x[skip + i]) + 0.5) * 0x1p-32;
     }
     begin = end;
   }

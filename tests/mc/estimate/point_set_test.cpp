@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace {
@@ -20,6 +21,29 @@ TEST(PointSet, SobolBlocksAreTheSequence) {
       EXPECT_LT(u[i], 1);
     }
   }
+}
+
+// The bits of two coordinates in turn, and every power of two of points one to an interval: a net in each coordinate.
+TEST(PointSet, TwoDimensionsAreInterlaced) {
+  const mc::Sobol sobol(11);
+  for (const int dim : {1, 2})
+    for (const std::uint64_t first : {0ull, 3ull, 250ull, (1ull << 32) - 300}) {
+      const auto n = static_cast<std::size_t>(dim);
+      std::vector<double> u(300 * n);
+      mc::fill_points(mc::ScrambledSobol{11}, first, dim, u);
+      for (std::size_t i = 0; i < u.size(); ++i) {
+        const auto bits = static_cast<std::uint64_t>(std::ldexp(u[i], 52));
+        EXPECT_EQ(u[i], std::ldexp(static_cast<double>(bits) + 0.5, -52));
+        const auto d = static_cast<std::uint32_t>(2 * (i % n));
+        for (std::uint32_t k = 0; k < 52; ++k)
+          ASSERT_EQ(bits >> (51 - k) & 1, sobol.bits(first + i / n, d + k % 2) >> (63 - k / 2) & 1) << i << " " << k;
+      }
+    }
+  std::vector<double> u(1024);
+  std::vector<int> cells(1024);
+  mc::fill_points(mc::ScrambledSobol{3}, 0, 1, u);
+  for (const double x : u) ++cells[static_cast<std::size_t>(1024 * x)];
+  EXPECT_EQ(cells, std::vector<int>(1024, 1));
 }
 
 TEST(PointSet, DimensionsBeyondSobolAreHashed) {
