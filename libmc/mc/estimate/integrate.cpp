@@ -60,9 +60,19 @@ std::optional<double> deviate(const Mean& a, const Mean& b) {
   return quantile(complement(boost::math::normal(), std::max(tail, 1e-300)));
 }
 
+// One value or several, without a call through another for the one.
+struct Integrand {
+  const std::function<double(std::span<const double>)>* one = nullptr;
+  const VectorIntegrand* several = nullptr;
+  void operator()(std::span<const double> u, std::span<double> values) const {
+    if (one) values[0] = (*one)(u);
+    else (*several)(u, values);
+  }
+};
+
 // A run of integrate: the integrand, the budget, the clock.
 struct Run {
-  const VectorIntegrand& f;
+  Integrand f;
   std::size_t outputs;
   int dim;
   const IntegrateOptions& o;
@@ -129,9 +139,14 @@ struct Run {
                             m.non_finite(), m.non_finite() + m.count(), point));
   }
 
+  // Those of purpose 0 take the integrand as it is; under a grid it has jumps.
   std::vector<PointSet> sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const {
     std::vector<PointSet> sets;
-    for (std::uint32_t r = first; r < last; ++r) sets.emplace_back(ScrambledSobol{hash(o.seed, purpose, r)});
+    for (std::uint32_t r = first; r < last; ++r) {
+      const std::uint64_t seed = hash(o.seed, purpose, r);
+      if (purpose == 0 && dim <= 2) sets.emplace_back(InterlacedSobol{seed});
+      else sets.emplace_back(ScrambledSobol{seed});
+    }
     return sets;
   }
 
@@ -342,9 +357,10 @@ std::string_view name(Stop stop) {
   return "";
 }
 
-VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, const IntegrateOptions& o) {
+namespace {
+VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const IntegrateOptions& o) {
   require_sane(outputs, dim, o);
-  require(f != nullptr, "integrate: the integrand is an empty function; it must be callable");
+  require(f.one ? *f.one != nullptr : *f.several != nullptr, "integrate: the integrand is an empty function; it must be callable");
   const Method method = o.method == Method::automatic && static_cast<std::uint32_t>(dim) > Sobol::dimensions ? Method::plain : o.method;
   const std::uint64_t least = method == Method::plain ? 2 : 2 * std::uint64_t{o.replicates};
   require(o.max_calls >= least, "integrate: max_calls {} is too few; at least {} are needed", o.max_calls, least);
@@ -378,10 +394,14 @@ VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, co
   return result;
 }
 
+} // namespace
+
+VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, const IntegrateOptions& o) {
+  return integrate_unit(Integrand{.several = &f}, outputs, dim, o);
+}
+
 Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim, const IntegrateOptions& o) {
-  require(f != nullptr, "integrate: the integrand is an empty function; it must be callable");
-  const VectorIntegrand one = [&](std::span<const double> u, std::span<double> values) { values[0] = f(u); };
-  return integrate_unit(one, 1, dim, o).outputs.front();
+  return integrate_unit(Integrand{.one = &f}, 1, dim, o).outputs.front();
 }
 
 Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count, std::uint32_t replicates, std::uint64_t seed,
@@ -394,8 +414,7 @@ Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f,
   require_sane(1, dim, o);
   require(f != nullptr, "integrate: the integrand is an empty function; it must be callable");
   require(count >= 1 && count <= longest, "integrate_rqmc: {} points; between 1 and 2^32 are possible", count);
-  const VectorIntegrand one = [&](std::span<const double> u, std::span<double> values) { values[0] = f(u); };
-  Run run{one, 1, dim, o};
+  Run run{{.one = &f}, 1, dim, o};
   Integral result;
   result.estimate = run.estimate(run.means(run.evaluate_all(run.sobol_sets(0, 0, replicates), 0, count)).front());
   result.interval = result.estimate.interval();

@@ -71,7 +71,8 @@ using VectorIntegrand = std::function<void(std::span<const double> u, std::span<
 /// The integral over the unit cube of f(u) du, f evaluated at points of [0,1)^dim, from several threads at once.
 ///   plain      : independent points, error from the sample variance
 ///   stratified : rounds of jittered grids of doubling size, error from replicates
-///   rqmc       : independently scrambled Sobol' sequences that double in length, error from replicates
+///   rqmc       : independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions, error from
+///                replicates
 ///   vegas      : rqmc through an ImportanceGrid learned on a 32nd of the calls, or up to a quarter where those are few; the rounds
 ///                it was learned on are the consistency check. The grid is frozen before the sequences start, so the estimate is unbiased
 ///   error      : without a tolerance, 66 to 71 % of runs lie within 1 std_error of the truth and 94 to 96.5 % within 2, for every

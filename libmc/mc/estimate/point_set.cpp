@@ -1,5 +1,7 @@
+#include <mc/core/error.h>
 #include <mc/estimate/point_set.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -36,32 +38,46 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 1) & 0x5555555555555555u;
 }
 
+// Calls visit(base, skip, count, out) for windows of points that cover u.
+template <class Visit> void windows(std::uint64_t first, std::size_t dim, std::span<double> u, Visit&& visit) {
+  const std::uint64_t last = first + u.size() / dim;
+  for (std::uint64_t begin = first, end; begin < last; begin = end) {
+    const std::uint64_t base = begin / window * window;
+    end = std::min(base + window, last);
+    visit(base, static_cast<std::size_t>(begin - base), static_cast<std::size_t>(end - begin), u.data() + (begin - first) * dim);
+  }
+}
+
 void fill(const ScrambledSobol& set, std::uint64_t first, std::size_t dim, std::span<double> u) {
   const Sobol sobol(set.seed);
-  const std::uint64_t last = first + u.size() / dim;
-  std::array<std::uint32_t, window> x, y;
-  for (std::uint64_t begin = first; begin < last;) {
-    const std::uint64_t base = begin / window * window, end = std::min(base + window, last);
-    double* out = u.data() + (begin - first) * dim;
-    const auto skip = static_cast<std::size_t>(begin - base), count = static_cast<std::size_t>(end - begin);
+  std::array<std::uint32_t, window> x;
+  windows(first, dim, u, [&](std::uint64_t base, std::size_t skip, std::size_t count, double* out) {
     for (std::size_t d = 0; d < dim; ++d) {
       const auto dimension = static_cast<std::uint32_t>(d);
-      if (dim <= interlaced_dims) {
-        coordinates(sobol, set.seed, 2 * dimension, base, skip, count, x);
-        coordinates(sobol, set.seed, 2 * dimension + 1, base, skip, count, y);
-        for (std::size_t i = 0; i < count; ++i) { // 52 bits after the point of 1.x, and the middle of their interval
-          const std::uint64_t bits = spread(x[skip + i] >> 6) << 1 | spread(y[skip + i] >> 6);
-          out[i * dim + d] = std::bit_cast<double>(bits | 0x3ff0000000000000u) - (1 - 0x1p-53);
-        }
-      } else if (dimension < Sobol::dimensions) {
+      if (dimension < Sobol::dimensions) {
         coordinates(sobol, set.seed, dimension, base, skip, count, x);
         for (std::size_t i = 0; i < count; ++i) out[i * dim + d] = (static_cast<double>(x[skip + i]) + 0.5) * 0x1p-32;
       } else {
-        for (std::size_t i = 0; i < count; ++i) out[i * dim + d] = coordinate<double>(sobol, begin + i, dimension);
+        for (std::size_t i = 0; i < count; ++i) out[i * dim + d] = coordinate<double>(sobol, base + skip + i, dimension);
       }
     }
-    begin = end;
-  }
+  });
+}
+
+void fill(const InterlacedSobol& set, std::uint64_t first, std::size_t dim, std::span<double> u) {
+  MC_ASSERT(2 * dim <= Sobol::dimensions);
+  const Sobol sobol(set.seed);
+  std::array<std::uint32_t, window> x, y;
+  windows(first, dim, u, [&](std::uint64_t base, std::size_t skip, std::size_t count, double* out) {
+    for (std::size_t d = 0; d < dim; ++d) {
+      coordinates(sobol, set.seed, static_cast<std::uint32_t>(2 * d), base, skip, count, x);
+      coordinates(sobol, set.seed, static_cast<std::uint32_t>(2 * d + 1), base, skip, count, y);
+      for (std::size_t i = 0; i < count; ++i) { // 52 bits after the point of 1.x, then the middle of their interval
+        const std::uint64_t bits = spread(x[skip + i] >> 6) << 1 | spread(y[skip + i] >> 6);
+        out[i * dim + d] = std::bit_cast<double>(bits | 0x3ff0000000000000u) - (1 - 0x1p-53);
+      }
+    }
+  });
 }
 
 } // namespace

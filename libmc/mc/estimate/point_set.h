@@ -12,21 +12,22 @@
 
 namespace mc {
 
-/// A Sobol' sequence of double precision points, Owen-scrambled by the seed. In one and two dimensions each coordinate interlaces the
-/// bits of two of the sequence's: a net of order 2, whose error for n points of a smooth integrand falls like n^-2.5 instead of n^-1.5.
-/// In more dimensions interlaced points were no better than plain ones at 10^5 of them, so they stay plain.
-///   Source : [Dick11]
+/// A Sobol' sequence of double precision points, Owen-scrambled by the seed.
 struct ScrambledSobol { std::uint64_t seed = 0; };
-inline constexpr std::size_t interlaced_dims = 2;
+
+/// Each coordinate interlaces the bits of two of a ScrambledSobol: a net of order 2, whose error for n points of a smooth integrand falls
+/// like n^-2.5 instead of n^-1.5. In five and more dimensions it is no better up to 10^5 points, nor on integrands that jump.
+///   Source : [Dick11]
+struct InterlacedSobol { std::uint64_t seed = 0; };
 
 /// The point sets that integrate() places its calls on.
-using PointSet = std::variant<Independent, Stratified, ScrambledSobol>;
+using PointSet = std::variant<Independent, Stratified, ScrambledSobol, InterlacedSobol>;
 
 /// Writes points first, first + 1, ... to u, the dim coordinates of each side by side; u.size() is a multiple of dim.
 ///   Independent, Stratified : the bits of coordinate<double>(sampler, index, dim)
-///   ScrambledSobol : the leading 32 bits of Sobol(seed), or 26 of each of two coordinates where they are interlaced, with the middle of
-///            their interval below them, so never 0 or 1; a whole block at a time, since neighbours in the sequence share all but their
-///            low bits. Indices below 2^32
+///   ScrambledSobol : the leading 32 bits of Sobol(seed) with the middle of their interval below them, so never 0 or 1; a whole
+///            block at a time, since neighbours in the sequence share all but their low bits. Indices below 2^32
+///   InterlacedSobol : so too, with 26 bits each of its coordinates 2 d and 2 d + 1; dim at most 512
 void fill_points(const PointSet& set, std::uint64_t first, int dim, std::span<double> u);
 
 } // namespace mc

@@ -24,13 +24,13 @@ TEST(PointSet, SobolBlocksAreTheSequence) {
 }
 
 // The bits of two coordinates in turn, and every power of two of points one to an interval: a net in each coordinate.
-TEST(PointSet, TwoDimensionsAreInterlaced) {
+TEST(PointSet, InterlacedBitsAreTwoCoordinatesInTurn) {
   const mc::Sobol sobol(11);
-  for (const int dim : {1, 2})
+  for (const int dim : {1, 2, 5})
     for (const std::uint64_t first : {0ull, 3ull, 250ull, (1ull << 32) - 300}) {
       const auto n = static_cast<std::size_t>(dim);
       std::vector<double> u(300 * n);
-      mc::fill_points(mc::ScrambledSobol{11}, first, dim, u);
+      mc::fill_points(mc::InterlacedSobol{11}, first, dim, u);
       for (std::size_t i = 0; i < u.size(); ++i) {
         const auto bits = static_cast<std::uint64_t>(std::ldexp(u[i], 52));
         EXPECT_EQ(u[i], std::ldexp(static_cast<double>(bits) + 0.5, -52));
@@ -41,7 +41,7 @@ TEST(PointSet, TwoDimensionsAreInterlaced) {
     }
   std::vector<double> u(1024);
   std::vector<int> cells(1024);
-  mc::fill_points(mc::ScrambledSobol{3}, 0, 1, u);
+  mc::fill_points(mc::InterlacedSobol{3}, 0, 1, u);
   for (const double x : u) ++cells[static_cast<std::size_t>(1024 * x)];
   EXPECT_EQ(cells, std::vector<int>(1024, 1));
 }
