@@ -139,12 +139,14 @@ struct Run {
                             m.non_finite(), m.non_finite() + m.count(), point));
   }
 
-  // Those of purpose 0 take the integrand as it is; under a grid it has jumps.
+  // Whether the bare sequences, those of purpose 0, are interlaced. Under a grid they are not: smooth peaks would gain by it, but
+  // integrands that jump would lose.
+  bool interlaced() const { return dim <= 2; }
   std::vector<PointSet> sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const {
     std::vector<PointSet> sets;
     for (std::uint32_t r = first; r < last; ++r) {
       const std::uint64_t seed = hash(o.seed, purpose, r);
-      if (purpose == 0 && dim <= 2) sets.emplace_back(InterlacedSobol{seed});
+      if (purpose == 0 && interlaced()) sets.emplace_back(InterlacedSobol{seed});
       else sets.emplace_back(ScrambledSobol{seed});
     }
     return sets;
@@ -185,6 +187,7 @@ struct Sequences {
   std::uint64_t length = 0;
   std::vector<PointSet> sets = {};
   std::vector<Sums> sums = {};
+  std::vector<Means> history = {}; // at each length
 
   Means extend(Run& run, std::uint64_t to) {
     if (sets.empty()) sets = run.sobol_sets(purpose, 0, run.o.replicates);
@@ -192,7 +195,8 @@ struct Sequences {
     const std::vector<Sums> more = run.evaluate_all(sets, length, to - length, grid);
     for (std::size_t r = 0; r < sums.size(); ++r) sums[r].merge(more[r]);
     length = to;
-    return run.means(sums);
+    history.push_back(run.means(sums));
+    return history.back();
   }
 
   // More of them, as long as the others.
@@ -279,10 +283,16 @@ ImportanceGrid learn(Run& run, std::vector<double>& scale) {
   return grid;
 }
 
-// How much smaller the errors of b are than those of a: the mean logarithm of the ratio.
-double advantage(const Means& a, const Means& b) {
+// By how much the errors of a will exceed those of b, a mean logarithm, after so many more doublings, if they go on falling as they did
+// over the last three.
+double advantage(const Sequences& a, const Sequences& b, double doublings) {
+  const std::size_t steps = std::min<std::size_t>(std::min(a.history.size(), b.history.size()) - 1, 3);
+  const auto error = [](const Sequences& s, std::size_t back, std::size_t k) { return std::log(s.history[s.history.size() - 1 - back][k].variance + 1e-300); };
   double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += std::log((a[k].variance + 1e-300) / (b[k].variance + 1e-300));
+  for (std::size_t k = 0; k < a.history.back().size(); ++k) {
+    const double now = error(a, 0, k) - error(b, 0, k), then = error(a, steps, k) - error(b, steps, k);
+    sum += now + (steps > 0 ? (now - then) * doublings / static_cast<double>(steps) : 0);
+  }
   return sum;
 }
 
@@ -295,8 +305,9 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
     last = out;
     return out.stop == Stop::converged;
   };
+  const auto next = [](const Sequences& s, std::uint64_t end) { return std::max(std::min<std::uint64_t>(64, end), 2 * s.length); };
   const auto grow = [&](Sequences& s, std::uint64_t end) {
-    for (std::uint64_t to = std::max(std::min<std::uint64_t>(64, end), 2 * s.length); to <= end; to *= 2) {
+    for (std::uint64_t to = next(s, end); to <= end; to *= 2) {
       out.means = s.extend(run, to);
       if (done()) return true;
     }
@@ -312,12 +323,18 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
     grid = learn(run, scale);
     Sequences guided{.purpose = 1, .grid = &*grid};
     if (method == Method::vegas) chosen = std::move(guided);
-    else if (const Means tried = guided.extend(run, std::min(chosen.length, affordable(guided))); advantage(out.means, tried) > 0) {
-      out.means = tried;
-      out.method = Method::vegas;
-      chosen = std::move(guided);
-      if (done()) return out;
-    } else run.rounds.clear();
+    else {
+      const std::uint64_t end = std::min(chosen.length, affordable(guided));
+      for (std::uint64_t to = next(guided, end); to <= end; to *= 2) guided.extend(run, to);
+      // Interlaced points may start worse and fall faster, so where there are any the two compete at the length they would end with.
+      const double doublings = run.interlaced() ? std::log2(static_cast<double>(affordable(guided)) / static_cast<double>(end)) : 0;
+      if (advantage(chosen, guided, doublings) > 0) {
+        out.means = guided.history.back();
+        out.method = Method::vegas;
+        chosen = std::move(guided);
+        if (done()) return out;
+      } else run.rounds.clear();
+    }
     if (grow(chosen, affordable(chosen))) return out;
   }
   // What is left is too little for twice the length, but may do for more replicates.
