@@ -43,8 +43,9 @@ std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catal
     if (known) continue;
     std::set<std::string> names;
     for (const Case& c : catalogue) names.insert(c.name);
-    names.insert("book-slips");
-    throw mc::Error(fmt::format("validate: unknown sampler '{}'{} (carlo validate --list names them all)", name, mc::did_you_mean(name, names)));
+    if (!brought) names.insert("book-slips");
+    throw mc::Error(fmt::format("validate: unknown sampler '{}'{} ({})", name, mc::did_you_mean(name, names),
+                                brought ? "--list shows what your file brings" : "carlo validate --list names them all"));
   }
   std::vector<const Case*> unique;
   for (const Case* c : chosen)

@@ -47,7 +47,7 @@ function head() {
     $("columns").append(element("button", {type: "button", "data-key": key, class: kind, onclick: () => order(key)}, label));
   }
   $("columns").prepend(element("span"));
-  $("sort").append(element("option", {value: ""}, "worst first"));
+  $("sort").append(element("option", {value: ""}, "failures first"));
   for (const [key, label] of columns) for (const desc of ["", "-"])
     $("sort").append(element("option", {value: desc + key}, `${label} ${desc ? "\u2193" : "\u2191"}`));
   $("sort").addEventListener("change", () => set({sort: $("sort").value.replace("-", ""), desc: $("sort").value.startsWith("-")}));
