@@ -10,6 +10,7 @@
 #include <mc/check/timing.h>
 
 #include <chrono>
+#include <functional>
 
 namespace mc {
 
@@ -47,24 +48,31 @@ template <Samplable W> std::optional<PointOf<W>> point_of(const W& warp, const U
   return PointOf<W>(unwrapped(drawn));
 }
 
-template <int N> Subject::Coordinates law_point(Pcg& random) {
+/// Numbers of any scalar, of which a law uses as many as its domain has dimensions.
+template <class S> using Triple = std::array<S, 3>;
+
+template <class W> UnitPointOf<W> unit_point_of(const Triple<ScalarOf<W>>& u) {
+  if constexpr (W::Domain::dim == 1) return u[0];
+  else {
+    UnitPointOf<W> p;
+    for (int i = 0; i < W::Domain::dim; ++i) p[i] = u[static_cast<std::size_t>(i)];
+    return p;
+  }
+}
+
+inline Subject::Coordinates law_point(Pcg& random, int dim) {
   Subject::Coordinates u{};
-  for (int i = 0; i < N; ++i) u[static_cast<std::size_t>(i)] = random.uniform<double>();
+  for (int i = 0; i < dim; ++i) u[static_cast<std::size_t>(i)] = random.uniform<double>();
   return u;
 }
 
+template <Real S> S narrowed(double x) {
+  const S s = static_cast<S>(x);
+  return s < one_minus_epsilon<S> ? s : one_minus_epsilon<S>;
+}
 template <class W> UnitPointOf<W> narrow(const Subject::Coordinates& u) {
   using S = ScalarOf<W>;
-  const auto one = [](double x) {
-    const S s = static_cast<S>(x);
-    return s < one_minus_epsilon<S> ? s : one_minus_epsilon<S>;
-  };
-  if constexpr (W::Domain::dim == 1) return one(u[0]);
-  else {
-    UnitPointOf<W> p;
-    for (int i = 0; i < W::Domain::dim; ++i) p[i] = one(u[static_cast<std::size_t>(i)]);
-    return p;
-  }
+  return unit_point_of<W>({narrowed<S>(u[0]), narrowed<S>(u[1]), narrowed<S>(u[2])});
 }
 
 template <class P> double distance(const P& a, const P& b) {
@@ -77,18 +85,33 @@ template <class P> double magnitude(const P& a) {
   else return std::abs(static_cast<double>(a));
 }
 
-/// sample and pdf at the ends, the quarters and the middle of the unit cube, and at the neighbours of every break that is found.
+/// The point of u, of the chart at `start` where the sampler fails.
+template <Samplable W> std::vector<ScalarOf<W>> numbers_at(const W& warp, const Triple<ScalarOf<W>>& u, const Triple<ScalarOf<W>>& start) {
+  const auto drawn = point_of(warp, unit_point_of<W>(u));
+  const PointOf<W> x = drawn ? *drawn : PointOf<W>(warp.domain().from_unit(unit_point_of<W>(start)));
+  if constexpr (requires { x.size(); }) return {x.data(), x.data() + x.size()};
+  else return {x};
+}
+
+/// Calls probe at the ends, the quarters and the middle of the unit cube, and at the neighbours of every break that is found on lines
+/// along each axis, of map(u, start of the line) and, since rounding hides a kink from its own scalar, of `exact`, which may be empty.
+template <Real S> struct EdgeWalk {
+  template <class T> using Map = std::function<std::vector<T>(const Triple<T>& u, const Triple<T>& start)>;
+  int dim;
+  std::function<void(const Triple<S>& u)> probe;
+  Map<S> map;
+  Map<Oracle> exact;
+  void operator()(std::uint64_t seed) const;
+};
+extern template struct EdgeWalk<float>;
+extern template struct EdgeWalk<double>;
+
+/// sample and pdf where EdgeWalk goes.
 template <Samplable W> void edge_law(const W& warp, std::uint64_t seed, LawLedger& ledger) {
   using S = ScalarOf<W>;
-  using U = UnitPointOf<W>;
-  using std::nextafter;
-  constexpr int dim = W::Domain::dim;
-  const S h = std::numeric_limits<S>::epsilon() / 2, last = one_minus_epsilon<S>;
-  const auto set = [](U& u, int axis, S t) {
-    if constexpr (dim == 1) u = t;
-    else u[axis] = t;
-  };
-  const auto probe = [&](const U& u) {
+  EdgeWalk<S> walk{W::Domain::dim, {}, [&](const Triple<S>& u, const Triple<S>& start) { return numbers_at(warp, u, start); }, {}};
+  walk.probe = [&](const Triple<S>& numbers) {
+    const auto u = unit_point_of<W>(numbers);
     const auto x = point_of(warp, u);
     if (!x) return;
     const double density = static_cast<double>(warp.pdf(*x));
@@ -98,50 +121,9 @@ template <Samplable W> void edge_law(const W& warp, std::uint64_t seed, LawLedge
                          format_point(u), format_point(*x), density);
     });
   };
-
-  const std::array<S, 9> places{S(0), h, S(0.25), S(0.5) - h / 2, S(0.5), S(0.5) + h, S(0.75), S(1 - 0x1p-24), last};
-  int total = 1;
-  for (int i = 0; i < dim; ++i) total *= static_cast<int>(places.size());
-  for (int k = 0; k < total; ++k) {
-    U u;
-    for (int i = 0, rest = k; i < dim; ++i, rest /= 9) set(u, i, places[static_cast<std::size_t>(rest % 9)]);
-    probe(u);
-  }
-
-  Pcg random(seed, 14);
-  for (int axis = 0; axis < dim; ++axis) {
-    for (int line = 0; line < (dim == 1 ? 1 : 8); ++line) {
-      U u = narrow<W>(law_point<dim>(random));
-      const auto neighbours = [&](S t) {
-        for (const S place : {S(t - h), S(nextafter(S(nextafter(t, S(0))), S(0))), S(nextafter(t, S(0))), t, S(nextafter(t, S(1))),
-                              S(nextafter(S(nextafter(t, S(1))), S(1))), S(t + h)}) {
-          set(u, axis, place < 0 ? S(0) : place < last ? place : last);
-          probe(u);
-        }
-      };
-      const U start = u;
-      const auto along = [&](S t) {
-        U v = start;
-        set(v, axis, t);
-        const auto x = point_of(warp, v);
-        return x ? *x : PointOf<W>(warp.domain().from_unit(start));
-      };
-      for (const S t : find_breaks<S>(along, 256, 4)) neighbours(t);
-      // Rounding hides a kink from its own scalar.
-      if constexpr (HasOracle<W>) {
-        if (line > 0) continue;
-        const auto oracle = warp.template cast<Oracle>();
-        auto v = cast_point<Oracle>(start);
-        const auto exactly = [&](const Oracle& t) {
-          if constexpr (dim == 1) v = t;
-          else v[axis] = t;
-          const auto x = point_of(oracle, v);
-          return x ? *x : oracle.domain().from_unit(cast_point<Oracle>(start));
-        };
-        for (const Oracle& t : find_breaks<Oracle>(exactly, 48, 2)) neighbours(static_cast<S>(t));
-      }
-    }
-  }
+  if constexpr (HasOracle<W>)
+    walk.exact = [oracle = warp.template cast<Oracle>()](const Triple<Oracle>& u, const Triple<Oracle>& start) { return numbers_at(oracle, u, start); };
+  walk(seed);
 }
 
 /// invert(sample(u)) = u.
@@ -151,7 +133,7 @@ template <Invertible W> void inverse_law(const W& warp, std::uint64_t seed, LawL
   const double eps = static_cast<double>(std::numeric_limits<S>::epsilon());
   Pcg random(seed, 11);
   for (int k = 0; k < 20000; ++k) {
-    const auto u = narrow<W>(law_point<dim>(random));
+    const auto u = narrow<W>(law_point(random, dim));
     const auto drawn = point_of(warp, u);
     if (!drawn) continue;
     const PointOf<W> x = *drawn;
@@ -169,41 +151,28 @@ template <Invertible W> void inverse_law(const W& warp, std::uint64_t seed, LawL
 }
 
 /// |det d sample / d u| pdf = 1, by central differences over the oracle.
+///   chart   : u -> chart coordinates of the sample
+///   density : u -> pdf of the sample times the Jacobian of the chart
+void jacobian_law(int dim, const std::function<Triple<Oracle>(const Triple<Oracle>&)>& chart, const std::function<Oracle(const Triple<Oracle>&)>& density,
+                  std::uint64_t points, std::uint64_t seed, LawLedger& ledger);
+
 template <Invertible W> void jacobian_law(const W& oracle, std::uint64_t points, std::uint64_t seed, LawLedger& ledger) {
-  using S = ScalarOf<W>;
-  constexpr int dim = W::Domain::dim;
   const auto domain = oracle.domain();
-  const S h(1e-20);
-  Pcg random(seed, 12);
-  for (std::uint64_t k = 0; k < points; ++k) {
-    const Subject::Coordinates c = law_point<dim>(random);
-    const auto u = narrow<W>(c);
-    const auto chart = [&](int axis, const S& step) {
-      auto shifted = u;
-      if constexpr (dim == 1) shifted = u + step;
-      else shifted[axis] += step;
-      return domain.to_unit(oracle.sample(shifted));
-    };
-    S determinant;
-    if constexpr (dim == 1) {
-      determinant = (chart(0, h) - chart(0, S(-h))) / (2 * h);
-    } else {
-      Eigen::Matrix<S, dim, dim> jacobian;
-      for (int axis = 0; axis < dim; ++axis) {
-        const auto ahead = chart(axis, h), behind = chart(axis, S(-h));
-        for (int i = 0; i < dim; ++i) jacobian(i, axis) = (ahead[i] - behind[i]) / (2 * h);
-      }
-      if constexpr (dim == 2) determinant = jacobian(0, 0) * jacobian(1, 1) - jacobian(0, 1) * jacobian(1, 0);
-      else
-        determinant = jacobian(0, 0) * (jacobian(1, 1) * jacobian(2, 2) - jacobian(1, 2) * jacobian(2, 1)) -
-                      jacobian(0, 1) * (jacobian(1, 0) * jacobian(2, 2) - jacobian(1, 2) * jacobian(2, 0)) +
-                      jacobian(0, 2) * (jacobian(1, 0) * jacobian(2, 1) - jacobian(1, 1) * jacobian(2, 0));
+  const auto at = [&](const Triple<Oracle>& u) { return domain.to_unit(oracle.sample(unit_point_of<W>(u))); };
+  const auto chart = [&](const Triple<Oracle>& u) {
+    const auto v = at(u);
+    if constexpr (W::Domain::dim == 1) return Triple<Oracle>{v, 0, 0};
+    else {
+      Triple<Oracle> t;
+      for (int i = 0; i < W::Domain::dim; ++i) t[static_cast<std::size_t>(i)] = v[i];
+      return t;
     }
-    const auto x = oracle.sample(u);
-    const S product = determinant * S(oracle.pdf(x)) * S(domain.jacobian(domain.to_unit(x)));
-    const double off = std::abs(static_cast<double>(S((product < 0 ? S(-product) : product) - 1)));
-    ledger.note(off, [&] { return fmt::format("|det| pdf - 1 = {:.3g} at u = ({:.17g}, {:.17g}, {:.17g})", off, c[0], c[1], c[2]); });
-  }
+  };
+  const auto density = [&](const Triple<Oracle>& u) {
+    const auto x = oracle.sample(unit_point_of<W>(u));
+    return Oracle(Oracle(oracle.pdf(x)) * Oracle(domain.jacobian(domain.to_unit(x))));
+  };
+  jacobian_law(W::Domain::dim, chart, density, points, seed, ledger);
 }
 
 /// sample and pdf of the warp against the oracle, in epsilons.
@@ -214,7 +183,7 @@ template <Samplable W, Samplable O> void precision_laws(const W& warp, const O& 
   const double eps = static_cast<double>(std::numeric_limits<S>::epsilon());
   Pcg random(seed, 13);
   for (std::uint64_t k = 0; k < points; ++k) {
-    const auto u = narrow<W>(law_point<dim>(random));
+    const auto u = narrow<W>(law_point(random, dim));
     const auto drawn = point_of(warp, u);
     const auto truth = point_of(oracle, cast_point<T>(u));
     // Where one fails and the other does not is a matter of rounding; the rate of failures is tested with the mass.
