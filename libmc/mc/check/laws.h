@@ -117,12 +117,17 @@ template <Samplable W> void edge_law(const W& warp, std::uint64_t seed, LawLedge
     const double density = static_cast<double>(warp.pdf(*x));
     const bool finite = all_finite(*x), inside = finite && warp.domain().contains(*x), positive = density > 0 && std::isfinite(density);
     ledger.note(finite && inside && positive ? 0 : 1, [&] {
-      return fmt::format("{} at u = {}: x = {}, pdf = {:.9g}", !finite ? "not finite" : !inside ? "outside the domain" : "pdf not positive and finite",
+      return fmt::format("{} at u = {}: x = {}, pdf = {:.9g}",
+                         !finite   ? "not finite"
+                         : !inside ? "outside the domain"
+                                   : "pdf not positive and finite",
                          format_point(u), format_point(*x), density);
     });
   };
   if constexpr (HasOracle<W>)
-    walk.exact = [oracle = warp.template cast<Oracle>()](const Triple<Oracle>& u, const Triple<Oracle>& start) { return numbers_at(oracle, u, start); };
+    walk.exact = [oracle = warp.template cast<Oracle>()](const Triple<Oracle>& u, const Triple<Oracle>& start) {
+      return numbers_at(oracle, u, start);
+    };
   walk(seed);
 }
 
@@ -153,8 +158,8 @@ template <Invertible W> void inverse_law(const W& warp, std::uint64_t seed, LawL
 /// |det d sample / d u| pdf = 1, by central differences over the oracle.
 ///   chart   : u -> chart coordinates of the sample
 ///   density : u -> pdf of the sample times the Jacobian of the chart
-void jacobian_law(int dim, const std::function<Triple<Oracle>(const Triple<Oracle>&)>& chart, const std::function<Oracle(const Triple<Oracle>&)>& density,
-                  std::uint64_t points, std::uint64_t seed, LawLedger& ledger);
+void jacobian_law(int dim, const std::function<Triple<Oracle>(const Triple<Oracle>&)>& chart,
+                  const std::function<Oracle(const Triple<Oracle>&)>& density, std::uint64_t points, std::uint64_t seed, LawLedger& ledger);
 
 template <Invertible W> void jacobian_law(const W& oracle, std::uint64_t points, std::uint64_t seed, LawLedger& ledger) {
   const auto domain = oracle.domain();
@@ -176,7 +181,8 @@ template <Invertible W> void jacobian_law(const W& oracle, std::uint64_t points,
 }
 
 /// sample and pdf of the warp against the oracle, in epsilons.
-template <Samplable W, Samplable O> void precision_laws(const W& warp, const O& oracle, std::uint64_t points, std::uint64_t seed, LawLedger& sample, LawLedger& pdf) {
+template <Samplable W, Samplable O>
+void precision_laws(const W& warp, const O& oracle, std::uint64_t points, std::uint64_t seed, LawLedger& sample, LawLedger& pdf) {
   using S = ScalarOf<W>;
   using T = ScalarOf<O>;
   constexpr int dim = W::Domain::dim;
@@ -196,7 +202,8 @@ template <Samplable W, Samplable O> void precision_laws(const W& warp, const O& 
     // Rounding may carry x across the edge of the support, where the two sides differ and both are right.
     if (!(density > 0)) continue;
     const double ratio = static_cast<double>(T(T(warp.pdf(x)) / density)), wrong = std::abs(ratio - 1) / eps;
-    pdf.note(wrong, [&] { return fmt::format("{:.3g} eps at x = {}: pdf = {:.9g}", wrong, format_point(x), static_cast<double>(warp.pdf(x))); });
+    pdf.note(wrong,
+             [&] { return fmt::format("{:.3g} eps at x = {}: pdf = {:.9g}", wrong, format_point(x), static_cast<double>(warp.pdf(x))); });
   }
 }
 
@@ -239,7 +246,8 @@ template <Samplable W> Report check_laws(const W& warp, const LawOptions& option
       };
     }
     SubjectOptions o;
-    o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.max_evaluations = options.max_evaluations, o.evidence = options.evidence;
+    o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.max_evaluations = options.max_evaluations,
+    o.evidence = options.evidence;
     report = check_subject(subject, o);
   } else {
     report.subject = options.name;

@@ -20,7 +20,8 @@ TEST(FindBreaks, AJumpIsFoundToTheLastBit) {
 TEST(FindBreaks, AKinkIsFoundOverFiftyDigits) {
   using mc::Oracle;
   for (const double at : {0.3, 0.5, 0.71234567}) {
-    const auto breaks = mc::find_breaks<Oracle>([&](const Oracle& t) { return std::vector{t < at ? Oracle(t * t) : Oracle(t * t + (t - at) / 2)}; }, 48, 2);
+    const auto breaks =
+        mc::find_breaks<Oracle>([&](const Oracle& t) { return std::vector{t < at ? Oracle(t * t) : Oracle(t * t + (t - at) / 2)}; }, 48, 2);
     EXPECT_TRUE(std::any_of(breaks.begin(), breaks.end(), [&](const Oracle& t) { return abs(t - at) < 1e-15; })) << at;
   }
 }
