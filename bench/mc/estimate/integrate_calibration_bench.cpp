@@ -42,7 +42,8 @@ struct Shares {
   }
   void print(const std::string& name, std::string_view method, double scale) const {
     const double n = runs - flagged;
-    fmt::print("{:<11} {:<22} {:>6} {:>7.4f} {:>7.4f} {:>7.4f} {:>8.4f}", method, name, runs, within1 / n, within2 / n, covered / n, double(flagged) / runs);
+    fmt::print("{:<11} {:<22} {:>6} {:>7.4f} {:>7.4f} {:>7.4f} {:>8.4f}", method, name, runs, within1 / n, within2 / n, covered / n,
+               double(flagged) / runs);
     if (scale > 0) fmt::print(" {:>8.3f} {:>9.2e}", std::exp(log_error / n) / std::sqrt(squares / n), std::sqrt(squares / n) / scale);
     fmt::print("\n");
   }

@@ -68,7 +68,8 @@ Estimate ControlVariates::estimate(const Eigen::VectorXd& beta) const {
   Eigen::VectorXd c(mean_.size());
   c << 1, -beta;
   const double n = static_cast<double>(count_);
-  return Estimate::student(c.dot(mean_), std::sqrt(std::max(0.0, c.dot(scatter_ * c)) / (n - 1) / n), n - 1, count_);
+  const double variance = std::max(0.0, c.dot(scatter_ * c)) / (n - 1);
+  return Estimate::student(c.dot(mean_), std::sqrt(variance / n), n - 1, count_);
 }
 
 Estimate cross_estimate(const ControlVariates& a, const ControlVariates& b) {

@@ -14,7 +14,9 @@ double two_sided(double dof, double tail) {
 double one_sigma(double dof) { return dof > 0 ? two_sided(dof, cdf(complement(boost::math::normal(), 1.0))) : 1.0; }
 } // namespace
 
-Estimate Estimate::student(double value, double error, double dof, std::uint64_t count) { return {value, error * one_sigma(dof), dof, count}; }
+Estimate Estimate::student(double value, double error, double dof, std::uint64_t count) {
+  return {value, error * one_sigma(dof), dof, count};
+}
 double Estimate::error() const { return std_error / one_sigma(dof); }
 
 Estimate::Interval Estimate::interval(double confidence) const {

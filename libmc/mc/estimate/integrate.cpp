@@ -53,7 +53,7 @@ double welch(const Mean& a, const Mean& b) {
 // By how many standard deviations of a normal two independent means differ; nothing where both are exact.
 std::optional<double> deviate(const Mean& a, const Mean& b) {
   const double error = std::sqrt(a.variance + b.variance);
-  if (!(error > 0)) return {};
+  if (!(error > 0) || !std::isfinite(error)) return {};
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
   const double t = std::abs(a.value - b.value) / std::hypot(error, rounding * std::max(std::abs(a.value), std::abs(b.value)));
   const double tail = cdf(complement(boost::math::students_t(welch(a, b)), t));
@@ -223,7 +223,8 @@ Outcome plain(Run& run, std::optional<Outcome>& last) {
     count = std::min(count, run.left());
     total.merge(run.evaluate_all({Independent{run.o.seed}}, first, count).front());
     Outcome out{{}, Method::plain};
-    for (const Moments& m : total.outputs) out.means.push_back({m.mean(), sqr(m.std_error()), static_cast<double>(m.count() - 1)});
+    for (const Moments& m : total.outputs)
+      out.means.push_back({m.mean(), sqr(m.std_error()), static_cast<double>(m.count() - 1)});
     run.report(out.means);
     if (run.converged(out.means)) out.stop = Stop::converged;
     if (out.stop == Stop::converged || run.left() == 0) return out;
@@ -261,7 +262,8 @@ Outcome stratified(Run& run, std::optional<Outcome>& last) {
 
 // Learns the grid in rounds of growing size, on a 32nd of the calls, or, where those are few, on up to a quarter.
 ImportanceGrid learn(Run& run, std::vector<double>& scale) {
-  const std::uint64_t least = std::min<std::uint64_t>(run.o.max_calls / 4, 1 << 13), budget = std::clamp<std::uint64_t>(run.o.max_calls / 32, least, 1 << 18);
+  const std::uint64_t least = std::min<std::uint64_t>(run.o.max_calls / 4, 1 << 13);
+  const std::uint64_t budget = std::clamp<std::uint64_t>(run.o.max_calls / 32, least, 1 << 18);
   ImportanceGrid grid(run.dim);
   constexpr std::array<std::uint64_t, 5> share = {16, 16, 8, 4, 2};
   const std::uint32_t r = run.o.replicates;
@@ -287,7 +289,9 @@ ImportanceGrid learn(Run& run, std::vector<double>& scale) {
 // over the last three.
 double advantage(const Sequences& a, const Sequences& b, double doublings) {
   const std::size_t steps = std::min<std::size_t>(std::min(a.history.size(), b.history.size()) - 1, 3);
-  const auto error = [](const Sequences& s, std::size_t back, std::size_t k) { return std::log(s.history[s.history.size() - 1 - back][k].variance + 1e-300); };
+  const auto error = [](const Sequences& s, std::size_t back, std::size_t k) {
+    return std::log(s.history[s.history.size() - 1 - back][k].variance + 1e-300);
+  };
   double sum = 0;
   for (std::size_t k = 0; k < a.history.back().size(); ++k) {
     const double now = error(a, 0, k) - error(b, 0, k), then = error(a, steps, k) - error(b, steps, k);

@@ -62,7 +62,7 @@ TEST(ImportanceGrid, CrowdsWhereTheIntegrandIs) {
 // count of 64 is off by 1/8, its root by 1/16, and the worst of 128 bins by 4 of those. Unpooled, bins without a point get 10.
 TEST(ImportanceGrid, FewPointsTeachNoNoise) {
   for (const std::size_t points : {128u, 512u, 2048u, 8192u}) {
-    const mc::Independent sampler(points);
+    const mc::Independent sampler{points};
     ImportanceGrid grid(1);
     std::vector<double> power(ImportanceGrid::bins);
     std::array<std::uint8_t, 1> bin;

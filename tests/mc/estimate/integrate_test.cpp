@@ -58,6 +58,21 @@ TEST(Integrate, SameBitsForAnyNumberOfThreads) {
   }
 }
 
+// A power of two scales every number of the estimate exactly, as long as squares of values have an exponent.
+TEST(Integrate, TheUnitDoesNotMatter) {
+  for (const Method method : methods) {
+    const mc::Integral one = mc::integrate_unit(peak, 2, with(method, 30'000));
+    for (const int power : {-400, 400}) {
+      const mc::Integral r = mc::integrate_unit([&](Unit u) { return std::ldexp(peak(u), power); }, 2, with(method, 30'000));
+      EXPECT_EQ(r.estimate.value, std::ldexp(one.estimate.value, power)) << name(method);
+      EXPECT_EQ(r.estimate.std_error, std::ldexp(one.estimate.std_error, power)) << name(method);
+      EXPECT_EQ(r.method, one.method);
+      EXPECT_NEAR(r.chi2, one.chi2, 1e-9 * one.chi2);
+    }
+    EXPECT_NO_THROW(mc::integrate_unit([](Unit u) { return 1e300 * u[0] * peak(u); }, 2, with(method, 30'000)));
+  }
+}
+
 TEST(Integrate, StopsAtTheWantedError) {
   for (const Method method : methods) {
     mc::IntegrateOptions o;
