@@ -111,9 +111,10 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
   const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const auto cancelled = [&] { return options.cancel && options.cancel->load(std::memory_order_relaxed); };
 
-  std::uint32_t done = 0;
+  std::uint32_t done = 0; // whole passes
+  bool complete = false;
   double error = mc::infinity<double>;
-  for (; done < passes && !cancelled(); ++done) {
+  while (!complete && !cancelled()) {
     const Pass pass{done, count, separate};
     std::vector<Tally> rows(static_cast<std::size_t>(height));
     std::atomic<std::uint64_t> rows_done = 0;
@@ -130,8 +131,10 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     });
     for (const Tally& row : rows) total.merge(row);
     error = film.relative_error();
-    if (options.seconds && elapsed() >= *options.seconds) { ++done; break; }
-    if (options.target_error && done >= 3 && error <= *options.target_error) { ++done; break; }
+    if (rows_done < rows.size()) break;
+    ++done;
+    complete = done == passes || (options.seconds && elapsed() >= *options.seconds) ||
+               (options.target_error && done >= 4 && error <= *options.target_error);
   }
 
   result.image = film.image();
@@ -144,7 +147,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
   result.relative_error = error;
   result.invalid = total.invalid;
   result.first_invalid = total.first;
-  result.partial = cancelled();
+  result.partial = !complete;
   return result;
 }
 

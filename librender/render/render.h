@@ -34,7 +34,7 @@ struct RenderOptions {
   std::optional<int> max_depth;           ///< none: the scene's
   std::uint64_t seed = 0;
   int threads = 0;                        ///< 0: all of the machine's
-  std::function<void(const Progress&)> progress;
+  std::function<void(const Progress&)> progress; ///< called after every row, from any of the threads, also at once
   const std::atomic<bool>* cancel = nullptr; ///< set it to stop after the rows under way
 };
 

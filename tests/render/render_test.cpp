@@ -127,6 +127,17 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   const RenderResult cancelled = render::render(scene, options);
   EXPECT_TRUE(cancelled.partial);
   EXPECT_EQ(cancelled.samples, 0u);
+
+  // Cancelled in the second pass: one whole estimate counts. Cancelled after the last: the picture is whole.
+  for (const bool late : {false, true}) {
+    std::atomic<bool> halt = false;
+    options = {};
+    options.spp = 16, options.threads = 1, options.cancel = &halt;
+    options.progress = [&](const Progress& p) { halt = p.fraction > (late ? 0.999 : 0.3); };
+    const RenderResult result = render::render(scene, options);
+    EXPECT_EQ(result.partial, !late);
+    EXPECT_EQ(result.estimates, late ? 4u : 1u);
+  }
 }
 
 TEST(Render, ASceneWithoutLightIsBlack) {

@@ -3,6 +3,8 @@
 
 #include <mc/core/types.h>
 
+#include <cmath>
+
 namespace mc {
 
 /// Right-handed orthonormal frame with z along a unit vector.
@@ -12,7 +14,8 @@ template <Real S> struct Frame {
   Vec3<S> x, y, z;
 
   static Frame from_z(const Vec3<S>& n) {
-    const S sign = n.z() < 0 ? S(-1) : S(1);
+    using std::copysign;
+    const S sign = copysign(S(1), n.z());
     const S a = S(-1) / (sign + n.z());
     const S b = n.x() * n.y() * a;
     return {{S(1) + sign * n.x() * n.x() * a, sign * b, -sign * n.x()}, {b, sign + n.y() * n.y() * a, -n.y()}, n};

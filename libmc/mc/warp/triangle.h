@@ -18,7 +18,9 @@ template <Real S> struct UniformTriangle {
 
   Domain domain() const { return {}; }
   Vec2<S> sample(const Vec2<S>& u) const {
-    return u[0] < u[1] ? Vec2<S>(u[0] / 2, u[1] - u[0] / 2) : Vec2<S>(u[0] - u[1] / 2, u[1] / 2);
+    const bool low = u[0] < u[1];
+    const S half = S((low ? u[0] : u[1]) / 2); // two selections, no branch
+    return {low ? half : S(u[0] - half), low ? S(u[1] - half) : half};
   }
   S pdf(const Vec2<S>& b) const { return domain().contains(b) ? S(2) : S(0); }
   Vec2<S> invert(const Vec2<S>& b) const {

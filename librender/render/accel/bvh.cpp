@@ -12,7 +12,8 @@ struct Shear {
   Float sx, sy;
 
   explicit Shear(const Vec3& d) {
-    d.cwiseAbs().maxCoeff(&kz);
+    const Float ax = std::abs(d.x()), ay = std::abs(d.y());
+    kz = std::abs(d.z()) > std::max(ax, ay) ? 2 : int(ay > ax); // compiles to no branch
     kx = (kz + 1) % 3, ky = (kz + 2) % 3;
     sx = d[kx] / d[kz], sy = d[ky] / d[kz];
   }

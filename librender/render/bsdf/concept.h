@@ -13,7 +13,7 @@ struct BsdfSample {
   Spectrum f;                ///< the BSDF without the cosine; for a delta lobe such that f |cos| / pdf is the lobe's weight
   Float pdf = 0;             ///< [1/sr]; for a delta lobe its probability
   bool delta = false;
-  bool transmission = false; ///< wi lies on the other side of the surface
+  Float eta = 1;             ///< refractive index on the side of wi over that on the side of wo
 };
 
 /// A BSDF models:

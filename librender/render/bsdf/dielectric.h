@@ -37,7 +37,7 @@ struct Dielectric {
     if (uc < r) return BsdfSample{{-wo.x(), -wo.y(), wo.z()}, reflectance * (r / cos_i), r, true};
     const Float t = 1 - r;
     const Vec3 wi(-wo.x() / ratio, -wo.y() / ratio, wo.z() > 0 ? -cos_t : cos_t);
-    return BsdfSample{wi.normalized(), transmittance * (t / (ratio * ratio * cos_t)), t, true, true};
+    return BsdfSample{wi.normalized(), transmittance * (t / (ratio * ratio * cos_t)), t, true, ratio};
   }
   Spectrum eval(const Vec3&, const Vec3&) const { return Spectrum::Zero(); }
   Float pdf(const Vec3&, const Vec3&) const { return 0; }

@@ -5,6 +5,8 @@
 
 #include <mc/warp/hemisphere.h>
 
+#include <numbers>
+
 namespace render {
 
 /// Lambertian reflector, the same on both sides.
@@ -15,18 +17,21 @@ struct Lambert {
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float, const Vec2& u) const {
     Vec3 wi = mc::CosineHemisphere<Float>{}.sample(u);
-    const Float density = wi.z() / mc::pi<Float>;
+    const Float density = wi.z() * inv_pi;
     if (!(density > 0)) return {};
     if (wo.z() < 0) wi.z() = -wi.z();
-    return BsdfSample{wi, albedo / mc::pi<Float>, density};
+    return BsdfSample{wi, albedo * inv_pi, density};
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
-    return wo.z() * wi.z() > 0 ? Spectrum(albedo / mc::pi<Float>) : Spectrum(Spectrum::Zero());
+    return wo.z() * wi.z() > 0 ? Spectrum(albedo * inv_pi) : Spectrum(Spectrum::Zero());
   }
   Float pdf(const Vec3& wo, const Vec3& wi) const {
-    return wo.z() * wi.z() > 0 ? std::abs(wi.z()) / mc::pi<Float> : Float(0);
+    return wo.z() * wi.z() > 0 ? std::abs(wi.z()) * inv_pi : Float(0);
   }
   bool is_delta() const { return false; }
+
+ private:
+  static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
 };
 
 } // namespace render

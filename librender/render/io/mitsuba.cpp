@@ -54,7 +54,10 @@ class Reader {
       e.mark();
       if (e.tag == "integrator") integrator(e);
       else if (e.tag == "sensor") has_sensor = true, sensor(e);
-      else if (e.tag == "bsdf") named_bsdfs_[e.attribute("id")] = add_bsdf(e);
+      else if (e.tag == "bsdf") {
+        const std::string& id = e.attribute("id");
+        if (!named_bsdfs_.try_emplace(id, add_bsdf(e)).second) e.fail(fmt::format("a second BSDF with the id '{}'; ids must differ", id));
+      }
       else if (e.tag == "shape") shapes_.push_back(&e); // after all BSDFs, which may be named later
       else if (e.tag == "emitter") background(e);
       else e.fail("unknown element; use integrator, sensor, bsdf, shape or emitter");

@@ -10,33 +10,82 @@
 
 #include <Eigen/LU>
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <tuple>
 
 namespace render {
 
 namespace {
 
-// The library reads what is not a number as 0: look at the vertex lines first.
-void check_vertices(const std::string& text) {
-  std::size_t line = 0, vertex = 0;
-  for (std::size_t begin = 0; begin < text.size(); ++line) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (text.compare(begin, 2, "v ") == 0) {
-      ++vertex;
-      const char* cursor = text.c_str() + begin + 1;
-      for (const char axis : {'x', 'y', 'z'}) {
-        char* after = nullptr;
-        const double value = std::strtod(cursor, &after);
-        mc::require(after != cursor && after <= text.c_str() + end, "line {}: vertex {} has no number for {}", line + 1, vertex, axis);
-        mc::require(std::isfinite(static_cast<float>(value)), "line {}: vertex {} has {} = {}, which is not finite", line + 1, vertex, axis, value);
-        cursor = after;
-      }
-    }
-    begin = end + 1;
+constexpr std::string_view blanks = " \t\r";
+
+/// Calls f(line number, keyword, rest of the line) for every line.
+template <class F> void for_each_line(std::string_view text, const F& f) {
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    line = line.substr(0, line.find('#'));
+    const std::string_view keyword = line.substr(0, line.find_first_of(blanks));
+    f(number, keyword, line.substr(keyword.size()));
   }
+}
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> elements = {
+    {{"v", "vertex"}, {"vt", "texture coordinate"}, {"vn", "normal"}}};
+using Counts = std::array<long, elements.size()>;
+
+void check_position(std::size_t line, long vertex, std::string_view text) {
+  const std::string numbers(text); // ends in 0, as strtod needs
+  const char* cursor = numbers.c_str();
+  for (const char axis : {'x', 'y', 'z'}) {
+    char* after = nullptr;
+    const double value = std::strtod(cursor, &after);
+    mc::require(after != cursor, "line {}: vertex {} has no number for {}", line, vertex, axis);
+    mc::require(std::isfinite(static_cast<float>(value)), "line {}: vertex {} has {} = {}, which is not finite", line, vertex, axis, value);
+    cursor = after;
+  }
+}
+
+/// A corner is v, v/vt, v//vn or v/vt/vn; negative numbers count from the last element.
+void check_corner(std::size_t line, std::string_view corner, const Counts& counts) {
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    const std::string_view field = corner.substr(0, corner.find('/'));
+    long index = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), index);
+    const bool number = error == std::errc() && end == field.data() + field.size();
+    mc::require(number || (k > 0 && field.empty()), "line {}: '{}' is not the number of a {}", line, field, elements[k].second);
+    mc::require(!number || (index != 0 && std::abs(index) <= counts[k]), "line {}: a face names {} {}, but there are only {}", line,
+                elements[k].second, index, counts[k]);
+    if (field.size() == corner.size()) return;
+    corner.remove_prefix(field.size() + 1);
+  }
+  throw mc::Error(fmt::format("line {}: a corner of a face ends in '/{}'; write v, v/vt, v//vn or v/vt/vn", line, corner));
+}
+
+// The library reads what is not a number as 0 and leaves out polygons with a bad index: look at the lines first.
+void check_lines(std::string_view text) {
+  Counts counts{};
+  for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
+    for (std::size_t k = 0; k < counts.size(); ++k)
+      if (keyword == elements[k].first) ++counts[k];
+    if (keyword == "v") check_position(line, counts[0], rest);
+  });
+  for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
+    if (keyword != "f") return;
+    int corners = 0;
+    for (;; ++corners) {
+      rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+      if (rest.empty()) break;
+      const std::string_view corner = rest.substr(0, rest.find_first_of(blanks));
+      check_corner(line, corner, counts);
+      rest.remove_prefix(corner.size());
+    }
+    mc::require(corners >= 3, "line {}: a face of {} corners; at least 3 are needed", line, corners);
+  });
 }
 
 } // namespace
@@ -44,6 +93,7 @@ void check_vertices(const std::string& text) {
 TriangleMesh read_obj(const std::string& path, const Transform& to_world) {
   const std::string text = mc::read_file(path);
   return mc::with_context(path, [&] {
+    check_lines(text);
     tinyobj::ObjReader reader;
     tinyobj::ObjReaderConfig config;
     config.triangulate = true;
@@ -53,30 +103,21 @@ TriangleMesh read_obj(const std::string& path, const Transform& to_world) {
     mc::require(parsed, "broken OBJ: {}", problem.empty() ? "unreadable" : problem);
 
     const tinyobj::attrib_t& attributes = reader.GetAttrib();
-    const auto n_positions = static_cast<int>(attributes.vertices.size() / 3), n_normals = static_cast<int>(attributes.normals.size() / 3),
-               n_uvs = static_cast<int>(attributes.texcoords.size() / 2);
-    check_vertices(text);
-
     const Eigen::Matrix3d linear = to_world.leftCols<3>(), normal_map = linear.inverse().transpose();
     const bool mirrored = linear.determinant() < 0;
-    bool has_normals = n_normals > 0, has_uvs = n_uvs > 0;
+    bool has_normals = true;
     for (const auto& shape : reader.GetShapes())
-      for (const auto& corner : shape.mesh.indices) has_normals &= corner.normal_index >= 0, has_uvs &= corner.texcoord_index >= 0;
+      for (const auto& corner : shape.mesh.indices) has_normals &= corner.normal_index >= 0;
 
     std::vector<Vec3> positions, normals;
-    std::vector<Vec2> uvs;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::map<std::tuple<int, int, int>, std::uint32_t> known; // one vertex per distinct corner
+    std::map<std::pair<int, int>, std::uint32_t> known; // one vertex per distinct corner
     for (const auto& shape : reader.GetShapes()) {
       for (std::size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3) {
         std::array<std::uint32_t, 3> triangle{};
         for (std::size_t k = 0; k < 3; ++k) {
           const auto& corner = shape.mesh.indices[i + k];
-          mc::require(corner.vertex_index >= 0 && corner.vertex_index < n_positions, "face {} names vertex {}, but there are only {}", i / 3 + 1,
-                      corner.vertex_index + 1, n_positions);
-          mc::require(!has_normals || corner.normal_index < n_normals, "face {} names normal {}, but there are only {}", i / 3 + 1, corner.normal_index + 1, n_normals);
-          mc::require(!has_uvs || corner.texcoord_index < n_uvs, "face {} names texture coordinate {}, but there are only {}", i / 3 + 1, corner.texcoord_index + 1, n_uvs);
-          const std::tuple key(corner.vertex_index, has_normals ? corner.normal_index : -1, has_uvs ? corner.texcoord_index : -1);
+          const std::pair key(corner.vertex_index, has_normals ? corner.normal_index : -1);
           const auto [it, added] = known.try_emplace(key, static_cast<std::uint32_t>(positions.size()));
           if (added) {
             const auto at = [](const std::vector<tinyobj::real_t>& v, int index) {
@@ -85,10 +126,6 @@ TriangleMesh read_obj(const std::string& path, const Transform& to_world) {
             };
             positions.push_back((linear * at(attributes.vertices, corner.vertex_index) + to_world.col(3)).cast<Float>());
             if (has_normals) normals.push_back((normal_map * at(attributes.normals, corner.normal_index)).normalized().cast<Float>());
-            if (has_uvs) {
-              const auto j = static_cast<std::size_t>(corner.texcoord_index) * 2;
-              uvs.emplace_back(Float(attributes.texcoords[j]), Float(attributes.texcoords[j + 1]));
-            }
           }
           triangle[k] = it->second;
         }
@@ -96,10 +133,7 @@ TriangleMesh read_obj(const std::string& path, const Transform& to_world) {
         triangles.push_back(triangle);
       }
     }
-    // The library leaves out a larger polygon with a bad index and says so only in a warning.
-    mc::require(reader.Warning().find("ndices out of bounds") == std::string::npos && reader.Warning().find("invalid vertex index") == std::string::npos,
-                "a polygon names a vertex, normal or texture coordinate that does not exist");
-    return TriangleMesh(std::move(positions), std::move(triangles), std::move(normals), std::move(uvs));
+    return TriangleMesh(std::move(positions), triangles, std::move(normals));
   });
 }
 

@@ -37,7 +37,7 @@ struct Scene {
   int add(Shape shape, int bsdf, std::optional<AreaLight> light = {});
 
   /// Checks the scene, builds the BVH and the choice of lights.
-  ///   throws : Error for an empty scene, an emitting shape without area, or an index out of range
+  ///   throws : Error for an empty scene, an emitting shape without area, a BSDF's parameter or an index out of range
   void prepare();
 
   bool has_light() const { return !lights.empty() || background.has_value(); }

@@ -22,7 +22,6 @@ struct SurfacePoint {
   Float error = 0;
   Vec3 ng;                   ///< geometric normal, unit; the light-emitting side
   Vec3 ns;                   ///< shading normal, unit, same side as ng
-  Vec2 uv = Vec2::Zero();
   int shape = -1, prim = -1;
 
   /// Ray origin moved along the normal, to the side that d points to, just beyond the error bound: a ray from there meets

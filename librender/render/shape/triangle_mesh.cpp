@@ -1,6 +1,7 @@
 #include <render/shape/triangle_mesh.h>
 
 #include <mc/core/error.h>
+#include <mc/warp/triangle.h>
 
 #include <Eigen/LU>
 
@@ -33,36 +34,37 @@ std::vector<Vec3> transformed(const std::vector<Vec3d>& points, const Transform&
 
 } // namespace
 
-TriangleMesh::TriangleMesh(std::vector<Vec3> positions, std::vector<std::array<std::uint32_t, 3>> triangles,
-                           std::vector<Vec3> normals, std::vector<Vec2> uvs)
-    : positions_(std::move(positions)), triangles_(std::move(triangles)), normals_(std::move(normals)), uvs_(std::move(uvs)) {
-  mc::require(!triangles_.empty(), "mesh: no triangle; at least one is needed");
+TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& triangles, std::vector<Vec3> normals)
+    : positions_(std::move(positions)), normals_(std::move(normals)) {
+  mc::require(!triangles.empty(), "mesh: no triangle; at least one is needed");
   for (std::size_t i = 0; i < positions_.size(); ++i)
     mc::require(positions_[i].allFinite(), "mesh: vertex {} = ({}, {}, {}) is not finite", i, positions_[i].x(), positions_[i].y(),
                 positions_[i].z());
-  for (std::size_t i = 0; i < triangles_.size(); ++i)
-    for (const std::uint32_t v : triangles_[i])
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (const std::uint32_t v : triangles[i])
       mc::require(v < positions_.size(), "mesh: triangle {} names vertex {}, but there are only {}", i, v, positions_.size());
   mc::require(normals_.empty() || normals_.size() == positions_.size(), "mesh: {} normals for {} vertices; give one each or none",
               normals_.size(), positions_.size());
-  mc::require(uvs_.empty() || uvs_.size() == positions_.size(), "mesh: {} texture coordinates for {} vertices; give one each or none",
-              uvs_.size(), positions_.size());
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
-    const Vec3d n = normal_of(vertices(i));
-    cumulative_area_.push_back(area_ += n.norm() / 2);
-    reciprocal_area_.push_back(2 / n.norm());
-    face_normals_.push_back(n.stableNormalized().cast<Float>());
-    const auto v = vertices(i);
+  for (const auto& vertices : triangles) {
+    const std::array<Vec3, 3> v = {positions_[vertices[0]], positions_[vertices[1]], positions_[vertices[2]]};
+    const Vec3d n = normal_of(v);
     const Vec3 center = (v[0] + v[1] + v[2]) / 3;
-    around_.push_back({center, std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()})});
+    const Float radius2 = std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()});
+    faces_.push_back({vertices, n.stableNormalized().cast<Float>(), center, radius2, area_, n.norm() / 2});
+    area_ += faces_.back().area;
   }
+  const auto agrees = [&](const Face& f, std::uint32_t v) { return normals_[v].dot(f.normal) > Float(1 - 1e-6) * normals_[v].norm(); };
+  if (!normals_.empty() && std::all_of(faces_.begin(), faces_.end(), [&](const Face& f) {
+        return std::all_of(f.vertices.begin(), f.vertices.end(), [&](std::uint32_t v) { return agrees(f, v); });
+      }))
+    normals_.clear();
   // Points are interpolated in double and rounded once: half an ulp of the largest coordinate, doubled for safety.
   for (const Vec3& p : positions_) error_ = std::max(error_, std::numeric_limits<Float>::epsilon() * p.lpNorm<Eigen::Infinity>());
 }
 
 TriangleMesh TriangleMesh::rectangle(const Transform& to_world) {
   const std::vector<Vec3d> corners = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-  return {transformed(corners, to_world), {{0, 1, 2}, {0, 2, 3}}, {}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+  return {transformed(corners, to_world), {{0, 1, 2}, {0, 2, 3}}};
 }
 
 TriangleMesh TriangleMesh::box(const Transform& to_world) {
@@ -78,24 +80,23 @@ TriangleMesh TriangleMesh::box(const Transform& to_world) {
   // A mirroring transform turns the winding inside out; turn it back.
   if (to_world.leftCols<3>().determinant() < 0)
     for (auto& t : triangles) std::swap(t[1], t[2]);
-  return {transformed(corners, to_world), std::move(triangles)};
+  return {transformed(corners, to_world), triangles};
 }
 
 SurfacePoint TriangleMesh::point(std::size_t triangle, double b1, double b2) const {
+  const Face& face = faces_[triangle];
   const auto v = vertices(triangle);
   const double b0 = 1 - b1 - b2;
-  const auto& index = triangles_[triangle];
   SurfacePoint s;
   s.p = (b0 * v[0].cast<double>() + b1 * v[1].cast<double>() + b2 * v[2].cast<double>()).cast<Float>();
   s.error = error_;
-  s.ng = face_normals_[triangle];
-  s.ns = s.ng;
+  s.ng = s.ns = face.normal;
   if (!normals_.empty()) {
-    const Vec3 n = Float(b0) * normals_[index[0]] + Float(b1) * normals_[index[1]] + Float(b2) * normals_[index[2]];
+    const auto& [i, j, k] = face.vertices;
+    const Vec3 n = Float(b0) * normals_[i] + Float(b1) * normals_[j] + Float(b2) * normals_[k];
     if (n.squaredNorm() > 0) s.ns = n.normalized();
     if (s.ns.dot(s.ng) < 0) s.ns = -s.ns;
   }
-  if (!uvs_.empty()) s.uv = Float(b0) * uvs_[index[0]] + Float(b1) * uvs_[index[1]] + Float(b2) * uvs_[index[2]];
   s.prim = static_cast<int>(triangle);
   return s;
 }
@@ -110,26 +111,18 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
   const double target = double(u[0]) * area_;
   std::size_t triangle = 0;
   if (size() <= 8) { // without branches that no predictor could guess
-    for (const double a : cumulative_area_) triangle += static_cast<std::size_t>(target >= a);
+    for (const Face& face : faces_) triangle += static_cast<std::size_t>(target >= face.before + face.area);
   } else {
-    triangle = static_cast<std::size_t>(std::upper_bound(cumulative_area_.begin(), cumulative_area_.end(), target) - cumulative_area_.begin());
+    const auto ends_after = [](double t, const Face& face) { return t < face.before + face.area; };
+    triangle = static_cast<std::size_t>(std::upper_bound(faces_.begin(), faces_.end(), target, ends_after) - faces_.begin());
   }
   if (triangle == size()) return {};
-  const double below = triangle > 0 ? cumulative_area_[triangle - 1] : 0;
-  const double u0 = std::min((target - below) * reciprocal_area_[triangle], 1 - 0x1p-53);
+  const double u0 = std::min((target - faces_[triangle].before) / faces_[triangle].area, 1 - 0x1p-53);
+  const mc::Vec2<double> v(u0, double(u[1]));
+  if (const auto directions = near_triangle(ref, triangle)) [[unlikely]] return sample_near(ref, triangle, *directions, v);
   ShapeSample s;
-  if (const auto directions = near_triangle(ref, triangle)) {
-    const Vec3d d = directions->sample({u0, double(u[1])});
-    const Crossing at = cross_plane(vertices(triangle), ref.cast<double>(), d);
-    const double b1 = std::clamp(at.b1, 0.0, 1.0);
-    s.point = point(triangle, b1, std::clamp(at.b2, 0.0, 1 - b1));
-    s.wi = d.cast<Float>();
-    s.pdf = near_pdf(triangle, *directions);
-    return s;
-  }
-  // Uniform barycentrics: sqrt makes strips of equal area parallel to the edge opposite vertex 0.
-  const double root = std::sqrt(u0), b1 = root * (1 - double(u[1])), b2 = root * double(u[1]);
-  s.point = point(triangle, b1, b2);
+  const mc::Vec2<double> b = mc::UniformTriangle<double>{}.sample(v);
+  s.point = point(triangle, b[0], b[1]);
   const Vec3 between = s.point.p - ref;
   const Float distance2 = between.squaredNorm();
   if (!(distance2 > 0)) return {};
@@ -139,21 +132,29 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
   return s;
 }
 
+ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle, const mc::SphericalTriangle<double>& directions,
+                                      const mc::Vec2<double>& u) const {
+  const Vec3d d = directions.sample(u);
+  const Crossing at = cross_plane(vertices(triangle), ref.cast<double>(), d);
+  const double b1 = std::clamp(at.b1, 0.0, 1.0);
+  return {point(triangle, b1, std::clamp(at.b2, 0.0, 1 - b1)), d.cast<Float>(), near_pdf(triangle, directions)};
+}
+
 Float TriangleMesh::area_pdf(Float cosine, Float distance2) const { return cosine > 0 ? distance2 / (cosine * Float(area_)) : Float(0); }
 
 std::optional<mc::SphericalTriangle<double>> TriangleMesh::near_triangle(const Vec3& ref, std::size_t triangle) const {
-  const auto& [center, radius2] = around_[triangle];
-  const Vec3 off = ref - center;
-  if (!(off.squaredNorm() < Float(1.2) * radius2 && mc::sqr(off.dot(face_normals_[triangle])) < radius2 / 16)) return {};
+  const Face& face = faces_[triangle];
+  const Vec3 off = ref - face.center;
+  if (!(off.squaredNorm() < Float(1.2) * face.radius2 && mc::sqr(off.dot(face.normal)) < face.radius2 / 16)) return {};
   const auto v = vertices(triangle);
   const Vec3d p = v[0].cast<double>(), a = p - ref.cast<double>(), ab = v[1].cast<double>() - p, ac = v[2].cast<double>() - p;
-  const double height = std::abs(a.dot(mc::cross<double>(ab, ac))) * reciprocal_area_[triangle] / 2;
-  if (!(height * height > 1e-16 * double(radius2))) return {};
+  const double height = std::abs(a.dot(mc::cross<double>(ab, ac))) / (2 * face.area);
+  if (!(height * height > 1e-16 * double(face.radius2))) return {};
   return mc::SphericalTriangle<double>(a, ab, ac);
 }
 
 Float TriangleMesh::near_pdf(std::size_t triangle, const mc::SphericalTriangle<double>& directions) const {
-  return Float(1 / (reciprocal_area_[triangle] * area_ * directions.solid_angle()));
+  return Float(faces_[triangle].area / (area_ * directions.solid_angle()));
 }
 
 Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {
@@ -165,7 +166,7 @@ Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit
 Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi) const {
   const Vec3d o = ref.cast<double>(), d = wi.cast<double>();
   Float sum = 0;
-  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+  for (std::size_t i = 0; i < size(); ++i) {
     const Crossing at = cross_plane(vertices(i), o, d);
     if (!(at.t > 0 && at.b1 >= 0 && at.b2 >= 0 && at.b1 + at.b2 <= 1)) continue;
     const auto directions = near_triangle(ref, i);

@@ -22,8 +22,8 @@ using Transform = Eigen::Matrix<double, 3, 4>;
 ///            is allowed: it is never hit and never sampled.
 class TriangleMesh {
  public:
-  TriangleMesh(std::vector<Vec3> positions, std::vector<std::array<std::uint32_t, 3>> triangles,
-               std::vector<Vec3> normals = {}, std::vector<Vec2> uvs = {});
+  /// normals : one per vertex, or none; where all agree with their triangles, the mesh is flat and needs none
+  TriangleMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& triangles, std::vector<Vec3> normals = {});
 
   /// The square [-1,1]^2 in the plane z = 0, normal +z, under `to_world`.
   static TriangleMesh rectangle(const Transform& to_world);
@@ -36,9 +36,9 @@ class TriangleMesh {
   double area() const { return area_; }
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
-  std::size_t size() const { return triangles_.size(); }
+  std::size_t size() const { return faces_.size(); }
   std::array<Vec3, 3> vertices(std::size_t triangle) const {
-    const auto& t = triangles_[triangle];
+    const auto& t = faces_[triangle].vertices;
     return {positions_[t[0]], positions_[t[1]], positions_[t[2]]};
   }
 
@@ -47,18 +47,21 @@ class TriangleMesh {
   /// The directions from ref through a triangle that ref nearly touches: it lies less than a quarter of the triangle's radius
   /// from the plane, and beside the triangle. Else nullopt, as for a triangle that is seen edge-on.
   std::optional<mc::SphericalTriangle<double>> near_triangle(const Vec3& ref, std::size_t triangle) const;
+  ShapeSample sample_near(const Vec3& ref, std::size_t triangle, const mc::SphericalTriangle<double>& directions,
+                          const mc::Vec2<double>& u) const;
   // Densities [1/sr] of a direction that meets a near triangle, and a far one at cosine `cosine`.
   Float near_pdf(std::size_t triangle, const mc::SphericalTriangle<double>& directions) const;
   Float area_pdf(Float cosine, Float distance2) const;
 
-  std::vector<Vec3> positions_;
-  std::vector<std::array<std::uint32_t, 3>> triangles_;
-  std::vector<Vec3> normals_; ///< per vertex; empty: flat
-  std::vector<Vec2> uvs_;     ///< per vertex; empty: none
-  std::vector<Vec3> face_normals_; ///< unit; 0 for a degenerate triangle
-  std::vector<double> cumulative_area_, reciprocal_area_;
-  struct Ball { Vec3 center; Float radius2; };
-  std::vector<Ball> around_; ///< per triangle, about its centroid
+  struct Face {
+    std::array<std::uint32_t, 3> vertices;
+    Vec3 normal;           ///< unit; 0 for a degenerate triangle
+    Vec3 center;           ///< centroid
+    Float radius2;         ///< of the ball about it
+    double before, area;   ///< area of the triangles before this one, and its own
+  };
+  std::vector<Vec3> positions_, normals_; ///< per vertex; no normals: flat
+  std::vector<Face> faces_;
   double area_ = 0;
   Float error_ = 0; ///< of an interpolated point, per coordinate
 };

@@ -58,12 +58,13 @@ TEST(Dielectric, RefractsBySnellsLaw) {
     const Vec3 wo = Vec3d(std::sin(theta) * 0.6, std::sin(theta) * 0.8, std::cos(theta)).cast<Float>();
     const auto s = Dielectric{}.sample(wo, mc::one_minus_epsilon<Float>, Vec2::Zero());
     ASSERT_TRUE(s.has_value());
-    if (!s->transmission) { // total reflection
+    if (s->eta == 1) { // total reflection
       EXPECT_GE(theta, 90 * mc::pi<double> / 180) << i;
       EXPECT_LE(theta, (180 - 41.81) * mc::pi<double> / 180) << i;
       continue;
     }
     const Float n_o = wo.z() > 0 ? 1 : Float(1.5), n_i = wo.z() > 0 ? Float(1.5) : 1;
+    EXPECT_NEAR(s->eta, n_i / n_o, 1e-6) << i;
     EXPECT_LE((n_o * wo.head<2>() + n_i * s->wi.head<2>()).norm(), 2e-6) << i;
     EXPECT_LE(wo.z() * s->wi.z(), 0) << i;
     EXPECT_NEAR(s->wi.norm(), 1, 1e-6) << i;

@@ -15,7 +15,8 @@ TYPED_TEST_SUITE(PathStream, Streams);
 TYPED_TEST(PathStream, IsAFunctionOfKeyAndIndex) {
   std::set<Float> firsts;
   for (std::uint32_t index = 0; index < 16; ++index) {
-    TypeParam a(7, 16, index), b(7, 16, index), other(8, 16, index);
+    const typename TypeParam::Points points(7, 16), others(8, 16);
+    TypeParam a(points, index), b(points, index), other(others, index);
     int same = 0;
     for (int i = 0; i < 40; ++i) {
       const Vec2 u = a.next2();
@@ -37,7 +38,8 @@ template <class Stream> void fills_cells() {
   for (std::uint32_t pair = 0; pair < Stream::pairs; ++pair) {
     std::set<int> cells;
     for (std::uint32_t index = 0; index < 16; ++index) {
-      Stream stream(99, 16, index);
+      const typename Stream::Points points(99, 16);
+      Stream stream(points, index);
       Vec2 u = stream.next2();
       for (std::uint32_t k = 0; k < pair; ++k) {
         if (index % 2) stream.next();
@@ -48,6 +50,27 @@ template <class Stream> void fills_cells() {
     EXPECT_EQ(cells.size(), 16u) << "pair " << pair;
   }
 }
+// The two branches of 8 paths fill the 4 x 4 cells of their first pair, and share no numbers.
+template <class Stream> void branches_fill_cells() {
+  const typename Stream::Points points(99, 8);
+  std::set<int> cells;
+  std::set<Float> singles;
+  for (std::uint32_t index = 0; index < 8; ++index) {
+    Stream stream(points, index);
+    stream.next2();
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      Stream branch = stream.branch(i, 2);
+      const Vec2 u = branch.next2();
+      cells.insert(int(4 * u[0]) * 4 + int(4 * u[1]));
+      singles.insert(branch.next());
+    }
+    singles.insert(stream.next());
+  }
+  EXPECT_EQ(cells.size(), 16u);
+  EXPECT_EQ(singles.size(), 24u);
+}
+TEST(PathStreamPairs, BranchesOfSobolFillCells) { branches_fill_cells<SobolStream>(); }
+TEST(PathStreamPairs, BranchesOfStratifiedFillCells) { branches_fill_cells<StratifiedStream>(); }
 TEST(PathStreamPairs, SobolFillsCells) { fills_cells<SobolStream>(); }
 TEST(PathStreamPairs, StratifiedFillsCells) { fills_cells<StratifiedStream>(); }
 

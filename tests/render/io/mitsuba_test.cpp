@@ -62,6 +62,7 @@ TEST_F(Mitsuba, NamesFileLineAndRemedy) {
   EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"spere\"/>"), testing::HasSubstr("s.xml:3: <shape>: unknown type 'spere'; did you mean 'sphere'?"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"serialized\"/>"), testing::HasSubstr("s.xml:3: <shape>: unknown type 'serialized'"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"difuse\" id=\"a\"/>"), testing::HasSubstr("did you mean 'diffuse'?"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\" id=\"a\"/>"), testing::HasSubstr("s.xml:4: <bsdf>: a second BSDF with the id 'a'"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<volume/>"), testing::HasSubstr("s.xml:3: <volume>: unknown element"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"one\"/></shape>"), testing::HasSubstr("s.xml:3: <float>: 'one' is not a finite number"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>"), testing::HasSubstr("s.xml:3: sphere: radius -1 must be finite and > 0"));
@@ -92,12 +93,17 @@ TEST_F(Mitsuba, ASceneWithoutLightIsBlackNotAnError) {
   for (const auto& p : render::render(scene, options).image.pixels) EXPECT_TRUE((p == 0).all());
 }
 
-// Every 16x16 block within 4 combined standard errors plus 0.5 % of the reference (its own noise, at most 1.9 % per pixel, is far
-// smaller over a block). 64 samples per pixel of the sizes of the references.
-struct Reference : testing::TestWithParam<std::array<const char*, 2>> {};
+// Every 16x16 block within 4 combined standard errors plus 0.5 % of the reference; 64 samples per pixel of the sizes of the
+// references. Their README states their own noise, the mean of (x - truth)^2 / (truth^2 + .01): at 64 samples it is no longer
+// small against ours, above all where a channel is dark.
+struct ReferenceImage {
+  const char *scene, *file;
+  double noise;
+};
+struct Reference : testing::TestWithParam<ReferenceImage> {};
 
 TEST_P(Reference, BlocksAgree) {
-  const auto [name, file] = GetParam();
+  const auto [name, file, noise] = GetParam();
   if (!support::shared_present(file)) return;
   const render::Image reference = render::read_image(support::shared(file));
   const render::Scene scene = render::read_mitsuba(gallery(name));
@@ -116,7 +122,7 @@ TEST_P(Reference, BlocksAgree) {
           for (int x = x0; x < std::min(x0 + 16, reference.width); ++x) {
             difference += double(result.image.at(x, y)[c]) - double(reference.at(x, y)[c]);
             sum += double(reference.at(x, y)[c]);
-            variance += double(result.image.variance[reference.index(x, y)][c]);
+            variance += double(result.image.variance[reference.index(x, y)][c]) + noise * (mc::sqr(double(reference.at(x, y)[c])) + 0.01);
           }
         const double excess = std::abs(difference) - 0.005 * std::abs(sum);
         if (excess > 0) worst = std::max(worst, excess / std::sqrt(variance));
@@ -126,7 +132,8 @@ TEST_P(Reference, BlocksAgree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Mitsuba, Reference,
-                         testing::Values(std::array{"cbox.xml", "refs/cbox_lajolla_256.pfm"}, std::array{"cornell_white.xml", "refs/book3_cornell_300.pfm"},
-                                         std::array{"smallpt.xml", "refs/smallpt_256x192.pfm"}));
+                         testing::Values(ReferenceImage{"cbox.xml", "refs/cbox_lajolla_256.pfm", 4.9e-5},
+                                         ReferenceImage{"cornell_white.xml", "refs/book3_cornell_300.pfm", 3.7e-4},
+                                         ReferenceImage{"smallpt.xml", "refs/smallpt_256x192.pfm", 4.4e-4}));
 
 } // namespace

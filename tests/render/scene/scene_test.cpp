@@ -54,6 +54,18 @@ TEST(Scene, SaysWhatIsWrong) {
   const Float nan = std::numeric_limits<Float>::quiet_NaN();
   for (const Float bad : {Float(-1), nan, mc::infinity<Float>}) EXPECT_THAT(message(one_sphere(Spectrum(1, bad, 1))), testing::HasSubstr("light 0 has radiance"));
 
+  for (const Bsdf& wrong : {Bsdf(Lambert{Spectrum(1, nan, 1)}), Bsdf(Metal{Spectrum::Ones(), Float(1.5)}), Bsdf(Dielectric{0})}) {
+    Scene s = one_sphere();
+    s.bsdfs[0] = wrong;
+    EXPECT_THAT(message(s), testing::HasSubstr("scene: BSDF 0: "));
+  }
+  Scene guided = one_sphere();
+  guided.guides = {7};
+  EXPECT_THAT(message(guided), testing::HasSubstr("the guides name shape 7"));
+  Scene unlit = one_sphere();
+  unlit.shape_light[0] = 2;
+  EXPECT_THAT(message(unlit), testing::HasSubstr("names light 2"));
+
   Scene missing = one_sphere();
   missing.shape_bsdf.clear();
   EXPECT_THAT(message(missing), testing::HasSubstr("every shape needs"));

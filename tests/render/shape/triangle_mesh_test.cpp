@@ -37,7 +37,6 @@ TEST(TriangleMesh, RejectsBadDataByNameAndValue) {
     EXPECT_THAT(message_of([&] { TriangleMesh(positions, {{0, 1, 2}}); }), testing::HasSubstr("vertex 2"));
   }
   EXPECT_THROW(TriangleMesh(corners, {{0, 1, 2}}, {Vec3(0, 0, 1)}), mc::Error);
-  EXPECT_THROW(TriangleMesh(corners, {{0, 1, 2}}, {}, {Vec2(0, 0)}), mc::Error);
 }
 
 TEST(TriangleMesh, Areas) {
@@ -115,13 +114,11 @@ TEST(TriangleMesh, NormalsOfBoxesPointOutwardAlsoWhenMirrored) {
   }
 }
 
-TEST(TriangleMesh, ShadingNormalsKeepToTheGeometricSideAndUvsInterpolate) {
-  const TriangleMesh mesh({corners[0], corners[1], corners[2]}, {{0, 1, 2}}, {Vec3(0, 0, -1), Vec3(0, 0, -1), Vec3(1, 0, -1).normalized()},
-                          {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)});
+TEST(TriangleMesh, ShadingNormalsKeepToTheGeometricSide) {
+  const TriangleMesh mesh({corners[0], corners[1], corners[2]}, {{0, 1, 2}}, {Vec3(0, 0, -1), Vec3(0, 0, -1), Vec3(1, 0, -1).normalized()});
   const SurfacePoint s = mesh.surface_point({}, {1, 3, 0, Float(0.25), Float(0.5)});
   EXPECT_GT(s.ns.dot(s.ng), 0);
   EXPECT_LE(std::abs(s.ns.norm() - 1), 1e-6);
-  EXPECT_EQ(s.uv, Vec2(Float(0.25), Float(0.5)));
   EXPECT_EQ(s.p, Vec3(Float(0.25), Float(0.5), 0));
   EXPECT_EQ(s.shape, 3);
 }
