@@ -7,7 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -23,13 +25,23 @@ constexpr const char* validate_files =
     "  on the sphere azimuth 2 pi [i,i+1]/W from +x toward +y, angle pi [j,j+1]/H from +z, per steradian.\n"
     "  An image is grey (R = G = B), its top row first. The integral is 1 to 1e-4, or any with --unnormalized.\n";
 
+// 1e6 is a count too.
+const CLI::Validator count(
+    [](std::string& text) {
+      char* end = nullptr;
+      const double value = std::strtod(text.c_str(), &end);
+      if (*end == 0 && value == std::floor(value) && std::abs(value) <= 0x1p53) text = fmt::format("{:.0f}", value);
+      return std::string();
+    },
+    "");
+
 void add_render(CLI::App& app, carlo::RenderOptions& o) {
   auto* c = app.add_subcommand("render", "Render a Mitsuba XML scene to EXR, PFM or PNG, with an error bar");
   c->footer(exit_codes);
   c->add_option("SCENE", o.scene, "Scene file (Mitsuba XML)")->required();
   c->add_option("-o,--output", o.output, "Image to write: .exr (radiance and variance), .pfm or .png (sRGB) [SCENE.exr here]");
   auto* budget = c->add_option_group("budget", "How long (one of these; default: the scene's samples per pixel)");
-  budget->add_option("--spp", o.spp, "Samples per pixel");
+  budget->add_option("--spp", o.spp, "Samples per pixel")->transform(count);
   budget->add_option("--time", o.seconds, "Wall-clock seconds");
   budget->add_option("--target-error", o.target_error, "Mean relative standard error of the pixels to reach");
   budget->require_option(0, 1);
@@ -61,7 +73,7 @@ void add_validate(CLI::App& app, carlo::ValidateOptions& o) {
   c->add_flag("--all", o.all, "Check every sampler");
   c->add_flag("--list", o.list, "List every sampler with its parameters, and stop");
   c->add_option("--alpha", o.alpha, "Chance of a false rejection, over all tests of the run")->capture_default_str();
-  auto* samples = c->add_option("--samples", o.samples, "Samples per case")->capture_default_str();
+  auto* samples = c->add_option("--samples", o.samples, "Samples per case")->transform(count)->capture_default_str();
   c->add_option("--detect", o.detect, "Choose the samples that catch this relative error of a density (0.003: 0.3 %) with probability .99")->excludes(samples);
   c->add_option("--seed", o.seed, "Seed")->capture_default_str();
   c->add_option("--scalar", o.scalar, "float or double [both]");
@@ -86,7 +98,7 @@ void add_converge(CLI::App& app, carlo::ConvergeOptions& o) {
   c->add_option("EXPERIMENT", o.experiments, "Experiments by name [all]");
   c->add_flag("--list", o.list, "List the experiments, and stop");
   c->add_option("--samplers", o.samplers, "Comma-separated: random, stratified, sobol")->capture_default_str();
-  c->add_option("--max-n", o.max_n, "Largest number of samples N")->capture_default_str();
+  c->add_option("--max-n", o.max_n, "Largest number of samples N")->transform(count)->capture_default_str();
   c->add_option("--replicates", o.replicates, "Independent repetitions behind each RMS error")->capture_default_str();
   c->add_option("--seed", o.seed, "Seed")->capture_default_str();
   c->add_option("--threads", o.threads, "Threads, 0 for all of the machine's")->capture_default_str();
@@ -101,7 +113,7 @@ void add_integrate(CLI::App& app, carlo::IntegrateOptions& o) {
   c->add_flag("--list", o.list, "List the named integrands, and stop");
   c->add_option("--rel-error", o.rel_error, "Relative standard error to reach")->capture_default_str();
   c->add_option("--abs-error", o.abs_error, "Absolute standard error that also suffices")->capture_default_str();
-  c->add_option("--max-calls", o.max_calls, "Most evaluations of the integrand")->capture_default_str();
+  c->add_option("--max-calls", o.max_calls, "Most evaluations of the integrand")->transform(count)->capture_default_str();
   c->add_option("--method", o.method, "auto, plain, stratified, rqmc or vegas")->capture_default_str();
   c->add_option("--seed", o.seed, "Seed")->capture_default_str();
   c->add_option("--threads", o.threads, "Threads, 0 for all of the machine's")->capture_default_str();

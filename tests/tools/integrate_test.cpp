@@ -1,5 +1,6 @@
 #include "expression.h"
 #include "genz.h"
+#include "run_carlo.h"
 
 #include <mc/core/error.h>
 #include <mc/estimate/integrate.h>
@@ -93,6 +94,16 @@ TEST(Genz, ErrorBarsAreCalibrated) {
     EXPECT_THAT(share2, testing::AllOf(testing::Ge(0.9475 - slack(0.9475)), testing::Le(0.9545 + slack(0.9545)))) << name(method);
     EXPECT_LE(flagged, 10) << name(method);
   }
+}
+
+TEST(Integrate, CountsMayBeWrittenAsPowersOfTen) {
+  const auto value = [](const std::string& calls) {
+    const support::Run r = support::run_carlo("integrate x*x -d x=0:1 --method plain --rel-error 1e-9 --max-calls " + calls);
+    return r.output.substr(0, r.output.find('\n'));
+  };
+  EXPECT_EQ(value("1e3"), value("1000"));
+  EXPECT_NE(value("1e4"), value("1000"));
+  EXPECT_EQ(support::run_carlo("integrate x -d x=0:1 --max-calls 1.5").exit_code, 2);
 }
 
 } // namespace
