@@ -1,23 +1,64 @@
 #include <mc/core/parallel.h>
 
+#include <algorithm>
+
+// The thread sanitizer does not see how libtbb, which is not built for it, synchronises its threads: under it, plain threads.
+#if defined(__SANITIZE_THREAD__)
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#else
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
-
-#include <algorithm>
+#endif
 
 namespace mc {
 
-int hardware_threads() { return std::max(1, tbb::info::default_concurrency()); }
+namespace {
+
+#if defined(__SANITIZE_THREAD__)
+int available_threads() { return static_cast<int>(std::thread::hardware_concurrency()); }
+
+void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& f) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr first;
+  std::mutex mutex;
+  const auto work = [&] {
+    try {
+      for (std::size_t i; (i = next++) < n;) f(i);
+    } catch (...) {
+      next = n;
+      const std::lock_guard lock(mutex);
+      if (!first) first = std::current_exception();
+    }
+  };
+  std::vector<std::jthread> pool;
+  for (int i = 0; i < threads; ++i) pool.emplace_back(work);
+  pool.clear(); // joins
+  if (first) std::rethrow_exception(first);
+}
+#else
+int available_threads() { return tbb::info::default_concurrency(); }
+
+void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& f) {
+  // TBB cancels the group on the first exception and rethrows it here.
+  tbb::task_arena arena(threads);
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, n, f, tbb::simple_partitioner{}); });
+}
+#endif
+
+} // namespace
+
+int hardware_threads() { return std::max(1, available_threads()); }
 
 void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& f) {
   if (threads == 1 || n < 2) {
     for (std::size_t i = 0; i < n; ++i) f(i);
     return;
   }
-  // TBB cancels the group on the first exception and rethrows it here.
-  tbb::task_arena arena(threads > 0 ? threads : hardware_threads());
-  arena.execute([&] { tbb::parallel_for(std::size_t{0}, n, f, tbb::simple_partitioner{}); });
+  for_all(n, threads > 0 ? threads : hardware_threads(), f);
 }
 
 } // namespace mc
