@@ -9,6 +9,7 @@
 #include <mutex>
 #include <thread>
 #else
+#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -43,8 +44,11 @@ void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>&
 int available_threads() { return tbb::info::default_concurrency(); }
 
 void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& f) {
-  // TBB cancels the group on the first exception and rethrows it here.
-  tbb::task_arena arena(threads);
+  // TBB complains on the terminal about more threads than the machine has. It cancels the group on the first exception and
+  // rethrows it here.
+  using tbb::global_control;
+  const std::size_t limit = global_control::active_value(global_control::max_allowed_parallelism);
+  tbb::task_arena arena(static_cast<int>(std::min(static_cast<std::size_t>(threads), limit)));
   arena.execute([&] { tbb::parallel_for(std::size_t{0}, n, f, tbb::simple_partitioner{}); });
 }
 #endif
