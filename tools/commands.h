@@ -15,7 +15,7 @@ enum ExitCode : int {
   exit_ok = 0,          ///< done, and every check passed
   exit_failed = 1,      ///< done, but a check failed: a sampler broke a law, two images differ
   exit_bad_input = 2,   ///< bad usage, file or value; one line on stderr says what to do
-  exit_interrupted = 130 ///< Ctrl-C; what was rendered so far is written and marked partial
+  exit_interrupted = 130 ///< Ctrl-C; what was found so far is written, or said, and marked as such
 };
 
 struct RenderOptions {

@@ -2,6 +2,7 @@
 #include "experiments.h"
 #include "expression.h"
 #include "genz.h"
+#include "interrupt.h"
 #include "progress.h"
 #include "version.h"
 
@@ -55,6 +56,8 @@ int integrate(const IntegrateOptions& o) {
   settings.progress = [&](const mc::IntegrateProgress& p) {
     progress.show(double(p.calls) / double(o.max_calls), fmt::format("{:.8g} ± {:.2g}", p.estimate.value, p.estimate.std_error));
   };
+  const Interrupt interrupt;
+  settings.cancel = interrupt.flag();
   const mc::Integral r = mc::integrate_unit(e.f, e.dim, settings);
   progress.clear();
 
@@ -75,7 +78,7 @@ int integrate(const IntegrateOptions& o) {
     if (std::isfinite(e.truth)) j["truth"] = e.truth;
     mc::write_file(o.json, j.dump(1) + "\n");
   }
-  return exit_ok;
+  return r.stop == mc::Stop::cancelled ? exit_interrupted : exit_ok;
 }
 
 } // namespace carlo

@@ -1,4 +1,5 @@
 #include "commands.h"
+#include "interrupt.h"
 #include "progress.h"
 #include "version.h"
 
@@ -8,8 +9,6 @@
 
 #include <mc/core/error.h>
 
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <mutex>
@@ -17,23 +16,6 @@
 namespace carlo {
 
 namespace {
-
-std::atomic<bool> interrupted = false;
-
-/// Turns Ctrl-C into a flag while it lives; a second Ctrl-C ends the program at once.
-class InterruptGuard {
- public:
-  InterruptGuard() : old_(std::signal(SIGINT, [](int) {
-    interrupted = true;
-    std::signal(SIGINT, SIG_DFL);
-  })) {}
-  ~InterruptGuard() { std::signal(SIGINT, old_); }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-
- private:
-  void (*old_)(int);
-};
 
 void parse_size(const std::string& text, int& width, int& height) {
   char rest = 0;
@@ -70,7 +52,6 @@ int render(const RenderOptions& options) {
   mc::require(options.threads >= 0, "--threads {} must be >= 0", options.threads);
   settings.threads = options.threads;
   settings.seed = options.seed;
-  settings.cancel = &interrupted;
 
   const ::render::Scene scene = ::render::read_mitsuba(options.scene);
   if (!scene.has_light()) std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", options.scene.c_str());
@@ -83,8 +64,8 @@ int render(const RenderOptions& options) {
                                           std::isfinite(p.relative_error) ? fmt::format("  error {:.2f} %", 100 * p.relative_error) : ""));
   };
 
-  interrupted = false;
-  const InterruptGuard guard;
+  const Interrupt interrupt;
+  settings.cancel = interrupt.flag();
   ::render::RenderResult result = ::render::render(scene, settings);
   progress.clear();
 

@@ -106,4 +106,10 @@ TEST(Integrate, CountsMayBeWrittenAsPowersOfTen) {
   EXPECT_EQ(support::run_carlo("integrate x -d x=0:1 --max-calls 1.5").exit_code, 2);
 }
 
+TEST(Integrate, CtrlCSaysWhatWasFound) {
+  const support::Run r = support::run("timeout --preserve-status -s INT 0.7 '" CARLO_PATH "' integrate genz_c0_8d --method plain --rel-error 1e-12 --max-calls 1e12");
+  EXPECT_EQ(r.exit_code, 130) << r.output;
+  EXPECT_THAT(r.output, testing::AllOf(testing::HasSubstr(" ± "), testing::HasSubstr("stopped: cancelled")));
+}
+
 } // namespace
