@@ -30,7 +30,7 @@ const CLI::Validator count(
     [](std::string& text) {
       char* end = nullptr;
       const double value = std::strtod(text.c_str(), &end);
-      if (*end == 0 && value == std::floor(value) && std::abs(value) <= 0x1p53) text = fmt::format("{:.0f}", value);
+      if (end != text.c_str() && *end == 0 && value == std::floor(value) && std::abs(value) <= 0x1p53) text = fmt::format("{:.0f}", value);
       return std::string();
     },
     "");

@@ -55,15 +55,18 @@ Trial mean_trial(double value, Numbers estimator);
 /// A law without counts: error(random) <= limit at every point. NaN breaks it.
 Trial law_trial(std::string law, double limit, mc::Fault fault, Numbers error);
 
+constexpr double pi = std::numbers::pi;
+inline double uniform(mc::Pcg& r) { return r.uniform<double>(); }
+
 /// Directions, their cosine density, a point in the unit ball.
 inline Direction direction(double z, double phi) {
   return mc::spherical_direction<double>(mc::safe_sqrt<double>((1 - z) * (1 + z)), z, phi);
 }
 inline Direction incident(double degrees) {
-  return direction(std::cos(degrees * std::numbers::pi / 180), 0);
+  return direction(std::cos(degrees * pi / 180), 0);
 }
 inline double cosine_pdf(const Direction& w) {
-  return w.z() > 0 ? w.z() / std::numbers::pi : 0.0;
+  return w.z() > 0 ? w.z() / pi : 0.0;
 }
 Direction cosine(mc::Pcg& r);
 Direction in_ball(mc::Pcg& r);

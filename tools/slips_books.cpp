@@ -13,11 +13,7 @@ namespace {
 
 using V = Direction;
 using mc::Fault, mc::Pcg;
-constexpr double pi = std::numbers::pi;
 
-double uniform(Pcg& r) {
-  return r.uniform<double>();
-}
 double hemisphere_pdf(const V& w) {
   return w.z() >= 0 ? 1 / (2 * pi) : 0.0;
 }

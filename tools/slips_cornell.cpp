@@ -12,11 +12,6 @@ namespace {
 
 using V = Direction;
 using mc::Pcg;
-constexpr double pi = std::numbers::pi;
-
-double uniform(Pcg& r) {
-  return r.uniform<double>();
-}
 
 struct Hit {
   double t = HUGE_VAL;

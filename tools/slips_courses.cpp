@@ -23,11 +23,7 @@ using V = Direction;
 using V2 = mc::Vec2<double>;
 using F = Eigen::Array3d;
 using mc::Fault, mc::Pcg;
-constexpr double pi = std::numbers::pi;
 
-double uniform(Pcg& r) {
-  return r.uniform<double>();
-}
 double schlick(double f0, double cosine) {
   return f0 + (1 - f0) * std::pow(1 - cosine, 5);
 }

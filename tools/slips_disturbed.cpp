@@ -9,11 +9,7 @@ namespace {
 
 using V = Direction;
 using mc::Fault, mc::Pcg;
-constexpr double pi = std::numbers::pi;
 
-double uniform(Pcg& r) {
-  return r.uniform<double>();
-}
 V uniform_direction(Pcg& r) {
   return mc::UniformHemisphere<double>{}.sample(r.point<double, 2>());
 }

@@ -23,11 +23,6 @@ using V = Direction;
 using V2 = mc::Vec2<double>;
 using F = Eigen::Array3d;
 using mc::Fault, mc::Pcg;
-constexpr double pi = std::numbers::pi;
-
-double uniform(Pcg& r) {
-  return r.uniform<double>();
-}
 
 // Four equal cells; the last entry of the distribution function is what the sum was, not 1.
 double table_sample(double u, double third) {

@@ -1,10 +1,9 @@
 // carlo validate book-slips: every slip told, the right ones beside them, the Cornell boxes, JSON and bad input.
 
-#include "commands.h"
+#include "run_validate.h"
 #include "slips.h"
 #include "slips_cornell.h"
 
-#include <mc/core/error.h>
 #include <mc/core/file.h>
 
 #include <gmock/gmock.h>
@@ -15,6 +14,7 @@
 namespace {
 
 using carlo::ValidateOptions;
+using support::Output, support::refusal, support::run;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -24,26 +24,6 @@ ValidateOptions slips(std::vector<std::string> names, std::uint64_t samples) {
   o.names.insert(o.names.end(), names.begin(), names.end());
   o.samples = samples;
   return o;
-}
-
-struct Output {
-  int code;
-  std::string text;
-};
-Output run(const ValidateOptions& o) {
-  testing::internal::CaptureStdout();
-  const int code = carlo::validate(o);
-  std::fflush(stdout);
-  return {code, testing::internal::GetCapturedStdout()};
-}
-
-std::string message(const ValidateOptions& o) {
-  try {
-    carlo::validate(o);
-  } catch (const mc::Error& e) {
-    return e.what();
-  }
-  return "accepted";
 }
 
 TEST(BookSlips, AllAreRejectedAndTheirRemediesPass) {
@@ -81,18 +61,18 @@ TEST(BookSlips, ListNamesEverySlip) {
 }
 
 TEST(BookSlips, BadInputIsOneLine) {
-  EXPECT_THAT(message(slips({"in-ball Lambertain"}, 8000)),
+  EXPECT_THAT(refusal(slips({"in-ball Lambertain"}, 8000)),
               HasSubstr("unknown slip 'in-ball Lambertain'; did you mean 'in-ball Lambertian'?"));
-  EXPECT_THAT(message(slips({}, 10)), HasSubstr("--samples 10 must lie in"));
+  EXPECT_THAT(refusal(slips({}, 10)), HasSubstr("--samples 10 must lie in"));
   ValidateOptions o = slips({"P1"}, 8000);
   o.alpha = 0;
-  EXPECT_THAT(message(o), HasSubstr("--alpha 0 must lie in (0, 1)"));
+  EXPECT_THAT(refusal(o), HasSubstr("--alpha 0 must lie in (0, 1)"));
   o = slips({"P1"}, 8000), o.junit = "slips.xml";
-  EXPECT_THAT(message(o), HasSubstr("--json only"));
+  EXPECT_THAT(refusal(o), HasSubstr("--json only"));
   o = slips({"P1"}, 8000), o.json = "/nonexistent/folder/file.json";
-  EXPECT_THAT(message(o), HasSubstr("/nonexistent/folder"));
+  EXPECT_THAT(refusal(o), HasSubstr("/nonexistent/folder"));
   o = {}, o.names = {"book-slip"};
-  EXPECT_THAT(message(o), HasSubstr("did you mean 'book-slips'?"));
+  EXPECT_THAT(refusal(o), HasSubstr("did you mean 'book-slips'?"));
 }
 
 // The right boxes agree with the reference within five standard errors; the wrong ones are as far off as when each was

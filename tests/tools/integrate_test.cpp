@@ -3,6 +3,7 @@
 #include "run_carlo.h"
 
 #include <mc/core/error.h>
+#include <mc/core/file.h>
 #include <mc/estimate/integrate.h>
 
 #include <gmock/gmock.h>
@@ -110,6 +111,13 @@ TEST(Integrate, CtrlCSaysWhatWasFound) {
   const support::Run r = support::run("timeout --preserve-status -s INT 0.7 '" CARLO_PATH "' integrate genz_c0_8d --method plain --rel-error 1e-12 --max-calls 1e12");
   EXPECT_EQ(r.exit_code, 130) << r.output;
   EXPECT_THAT(r.output, testing::AllOf(testing::HasSubstr(" ± "), testing::HasSubstr("stopped: cancelled")));
+}
+
+TEST(Integrate, SaysWhatTheReadmeShows) {
+  const std::string readme = mc::read_file(MC_SOURCE_DIR "/README.md"), prompt = "$ carlo integrate ";
+  const std::size_t command = readme.find(prompt) + prompt.size(), answer = readme.find('\n', command) + 1;
+  const support::Run r = support::run_carlo("integrate " + readme.substr(command, answer - 1 - command));
+  EXPECT_EQ(r.output.substr(0, r.output.find('\n')), readme.substr(answer, readme.find('\n', answer) - answer));
 }
 
 } // namespace

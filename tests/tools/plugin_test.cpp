@@ -1,8 +1,6 @@
 // carlo validate --plugin: right samplers pass, wrong ones are rejected, and a plugin that misbehaves is one line.
 
-#include "commands.h"
-
-#include <support/files.h>
+#include "run_validate.h"
 
 #include <mc/core/file.h>
 
@@ -12,6 +10,7 @@
 namespace {
 
 using carlo::ValidateOptions;
+using support::Output, support::refusal, support::run;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -29,24 +28,6 @@ ValidateOptions cosine(const std::string& fault) {
   ValidateOptions o = plugin("samplers", {"Cosine"});
   if (!fault.empty()) o.parameters = {fault + "=1"};
   return o;
-}
-
-struct Output { int code; std::string text; };
-Output run(const ValidateOptions& o) {
-  testing::internal::CaptureStdout();
-  const int code = carlo::validate(o);
-  std::fflush(stdout);
-  return {code, testing::internal::GetCapturedStdout()};
-}
-
-// What carlo complains about, a single line.
-std::string line(const ValidateOptions& o) {
-  testing::internal::CaptureStdout();
-  const std::string text = support::error_of([&] { carlo::validate(o); });
-  std::fflush(stdout);
-  testing::internal::GetCapturedStdout();
-  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-  return text;
 }
 
 TEST(Plugin, RightSamplersPassInEveryKindOfDomain) {
@@ -119,57 +100,57 @@ TEST(Plugin, TheSameSeedGivesTheSameVerdict) {
 }
 
 TEST(Plugin, ACrashIsOneLineThatSaysWhere) {
-  EXPECT_THAT(line(cosine("crash")),
+  EXPECT_THAT(refusal(cosine("crash")),
               AllOf(HasSubstr("samplers.so: it crashed in sample at u = (0."), HasSubstr("Segmentation fault (signal 11)")));
-  EXPECT_THAT(line(cosine("quit")), AllOf(HasSubstr("it ended the process in sample at u = (0."), HasSubstr("exit code 0")));
-  EXPECT_THAT(line(plugin("throws")), AllOf(HasSubstr("it threw in sample at u = ("), HasSubstr("no square root today")));
+  EXPECT_THAT(refusal(cosine("quit")), AllOf(HasSubstr("it ended the process in sample at u = (0."), HasSubstr("exit code 0")));
+  EXPECT_THAT(refusal(plugin("throws")), AllOf(HasSubstr("it threw in sample at u = ("), HasSubstr("no square root today")));
   ValidateOptions box = plugin("samplers", {"Box"});
   box.parameters = {"power=14"};
-  EXPECT_THAT(line(box), HasSubstr("it crashed in destroy: Aborted"));
-  EXPECT_THAT(line(plugin("crash_on_load")), HasSubstr("it crashed in loading: Aborted"));
+  EXPECT_THAT(refusal(box), HasSubstr("it crashed in destroy: Aborted"));
+  EXPECT_THAT(refusal(plugin("crash_on_load")), HasSubstr("it crashed in loading: Aborted"));
 }
 
 TEST(Plugin, AHangEndsWithTheTimeout) {
   ValidateOptions o = cosine("hang");
   o.timeout = 0.5;
-  EXPECT_THAT(line(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("no answer in 0.5 s")));
+  EXPECT_THAT(refusal(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("no answer in 0.5 s")));
   o.parameters = {"slow=1"};
-  EXPECT_THAT(line(o), AllOf(HasSubstr("not done in 0.5 s, in sample"), HasSubstr("raise --timeout or lower --samples")));
+  EXPECT_THAT(refusal(o), AllOf(HasSubstr("not done in 0.5 s, in sample"), HasSubstr("raise --timeout or lower --samples")));
   o.timeout = 0;
-  EXPECT_THAT(line(o), HasSubstr("--timeout 0 must lie in"));
+  EXPECT_THAT(refusal(o), HasSubstr("--timeout 0 must lie in"));
 }
 
 TEST(Plugin, NothingIsWrittenWhenItCrashes) {
   ValidateOptions o = cosine("crash");
   o.json = testing::TempDir() + "/crash.json", o.junit = testing::TempDir() + "/crash.xml";
   mc::write_file(o.json, "old");
-  line(o);
+  refusal(o);
   EXPECT_EQ(mc::read_file(o.json), "old");
   EXPECT_FALSE(std::filesystem::exists(o.junit));
 }
 
 TEST(Plugin, WhatCannotBeLoadedSaysWhy) {
-  EXPECT_THAT(line(plugin("absent")), HasSubstr("absent.so': no such file"));
+  EXPECT_THAT(refusal(plugin("absent")), HasSubstr("absent.so': no such file"));
   ValidateOptions o = plugin("right");
   o.plugin = testing::TempDir() + "/text.so";
   mc::write_file(o.plugin, "int main() {}\n");
-  EXPECT_THAT(line(o), AllOf(HasSubstr("text.so: it cannot be loaded: "), Not(HasSubstr("text.so: it cannot be loaded: /"))));
-  EXPECT_THAT(line(plugin("no_entry")), HasSubstr("no_entry.so: it has no function mc_plugin"));
-  EXPECT_THAT(line(plugin("undefined")), AllOf(HasSubstr("it cannot be loaded"), HasSubstr("nobody_defines_this")));
-  EXPECT_THAT(line(plugin("wrong_abi")), HasSubstr("made for version 77 of <mc/check/plugin.h>, this carlo for 1"));
-  EXPECT_THAT(line(plugin("wrong_size")), HasSubstr("its mc_sampler has 8 bytes"));
-  EXPECT_THAT(line(plugin("no_pdf")), HasSubstr("sampler Uniform: it has no function pdf"));
-  EXPECT_THAT(line(plugin("unknown_domain")), HasSubstr("domain = 9"));
-  EXPECT_THAT(line(plugin("no_name")), HasSubstr("sampler 0 has no name"));
-  EXPECT_THAT(line(plugin("weight_alone")), HasSubstr("states a weight, but no eval"));
-  EXPECT_THAT(line(plugin("reversed")), HasSubstr("interval [2, 1]"));
+  EXPECT_THAT(refusal(o), AllOf(HasSubstr("text.so: it cannot be loaded: "), Not(HasSubstr("text.so: it cannot be loaded: /"))));
+  EXPECT_THAT(refusal(plugin("no_entry")), HasSubstr("no_entry.so: it has no function mc_plugin"));
+  EXPECT_THAT(refusal(plugin("undefined")), AllOf(HasSubstr("it cannot be loaded"), HasSubstr("nobody_defines_this")));
+  EXPECT_THAT(refusal(plugin("wrong_abi")), HasSubstr("made for version 77 of <mc/check/plugin.h>, this carlo for 1"));
+  EXPECT_THAT(refusal(plugin("wrong_size")), HasSubstr("its mc_sampler has 8 bytes"));
+  EXPECT_THAT(refusal(plugin("no_pdf")), HasSubstr("sampler Uniform: it has no function pdf"));
+  EXPECT_THAT(refusal(plugin("unknown_domain")), HasSubstr("domain = 9"));
+  EXPECT_THAT(refusal(plugin("no_name")), HasSubstr("sampler 0 has no name"));
+  EXPECT_THAT(refusal(plugin("weight_alone")), HasSubstr("states a weight, but no eval"));
+  EXPECT_THAT(refusal(plugin("reversed")), HasSubstr("interval [2, 1]"));
 }
 
 TEST(Plugin, BadParametersAreOneLine) {
   const auto with = [](const std::string& set) {
     ValidateOptions o = plugin("samplers");
     o.parameters = {set};
-    return line(o);
+    return refusal(o);
   };
   EXPECT_THAT(with("powr=1"), HasSubstr("no sampler has a parameter 'powr'; did you mean 'power'?"));
   EXPECT_THAT(with("power"), HasSubstr("'power' in 'power' is not of the form name=number"));
@@ -177,10 +158,10 @@ TEST(Plugin, BadParametersAreOneLine) {
   EXPECT_THAT(with("power=21"), HasSubstr("power = 21 of Box must lie in [0, 20]"));
   EXPECT_THAT(with("power=13"), HasSubstr("create refuses the parameters"));
   EXPECT_THAT(with("power=1,tilt=1"), HasSubstr("no sampler has all the parameters"));
-  EXPECT_THAT(line(plugin("samplers", {"Cosin"})), HasSubstr("unknown sampler 'Cosin'; did you mean 'Cosine'?"));
+  EXPECT_THAT(refusal(plugin("samplers", {"Cosin"})), HasSubstr("unknown sampler 'Cosin'; did you mean 'Cosine'?"));
   ValidateOptions o;
   o.parameters = {"a=1"};
-  EXPECT_THAT(line(o), HasSubstr("--params sets parameters of a --plugin"));
+  EXPECT_THAT(refusal(o), HasSubstr("--params sets parameters of a --plugin"));
 }
 
 } // namespace

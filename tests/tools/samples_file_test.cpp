@@ -1,6 +1,6 @@
 // carlo validate --samples-file --pdf-file: densities on grids, smooth and stepped, right and wrong, and bad files.
 
-#include "commands.h"
+#include "run_validate.h"
 
 #include <support/files.h>
 
@@ -15,6 +15,7 @@
 namespace {
 
 using carlo::ValidateOptions;
+using support::Output, support::refusal, support::run;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -43,23 +44,6 @@ struct SamplesFile : support::ScratchTest {
     return o;
   }
 };
-
-struct Output { int code; std::string text; };
-Output run(const ValidateOptions& o) {
-  testing::internal::CaptureStdout();
-  const int code = carlo::validate(o);
-  std::fflush(stdout);
-  return {code, testing::internal::GetCapturedStdout()};
-}
-
-std::string line(const ValidateOptions& o) {
-  testing::internal::CaptureStdout();
-  const std::string text = support::error_of([&] { carlo::validate(o); });
-  std::fflush(stdout);
-  testing::internal::GetCapturedStdout();
-  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
-  return text;
-}
 
 // x of density 2 x, y uniform.
 std::string ramp(mc::Pcg& random) {
@@ -161,12 +145,12 @@ TEST_F(SamplesFile, AGreyExrIsAGrid) {
   EXPECT_EQ(run(o).code, carlo::exit_ok);
   image.at(3, 2)[1] += 1;
   render::write_image(o.pdf_file, image);
-  EXPECT_THAT(line(o), AllOf(HasSubstr("p.exr: pixel (3, 2) is ("), HasSubstr("a density is grey")));
+  EXPECT_THAT(refusal(o), AllOf(HasSubstr("p.exr: pixel (3, 2) is ("), HasSubstr("a density is grey")));
   image.at(3, 2).setConstant(-1);
   render::write_image(o.pdf_file, image);
-  EXPECT_THAT(line(o), HasSubstr("a density is finite and >= 0"));
+  EXPECT_THAT(refusal(o), HasSubstr("a density is finite and >= 0"));
   o.pdf_file = write("torn.exr", "v/1");
-  EXPECT_THAT(line(o), HasSubstr("torn.exr"));
+  EXPECT_THAT(refusal(o), HasSubstr("torn.exr"));
 }
 
 TEST_F(SamplesFile, DetectNeedsEnoughSamples) {
@@ -174,13 +158,13 @@ TEST_F(SamplesFile, DetectNeedsEnoughSamples) {
   o.detect = 0.2;
   EXPECT_THAT(run(o).text, HasSubstr("samples per case to detect 20 %"));
   o.detect = 0.001;
-  EXPECT_THAT(line(o), HasSubstr("it holds 35556 samples to count beside those for the bins; --detect 0.001 needs"));
+  EXPECT_THAT(refusal(o), HasSubstr("it holds 35556 samples to count beside those for the bins; --detect 0.001 needs"));
 }
 
 TEST_F(SamplesFile, ABadRowIsNamedByItsLine) {
   const std::string good = grid(16, 1, ramp_mean);
   const auto with = [&](const std::string& row) {
-    return line(options(write("b.csv", "x,y\n0.5,0.5\n\n# note\n" + row + "\n0.1,0.2\n"), good));
+    return refusal(options(write("b.csv", "x,y\n0.5,0.5\n\n# note\n" + row + "\n0.1,0.2\n"), good));
   };
   EXPECT_THAT(with("0.1,zero"), HasSubstr("b.csv:5: 'zero' is not a number"));
   EXPECT_THAT(with("0.1,nan"), HasSubstr("b.csv:5: 'nan' is not a finite number"));
@@ -189,44 +173,44 @@ TEST_F(SamplesFile, ABadRowIsNamedByItsLine) {
   EXPECT_THAT(with("0.1,"), HasSubstr("b.csv:5: an empty field"));
   EXPECT_THAT(with("0.1,,0.2"), HasSubstr("b.csv:5: an empty field"));
   EXPECT_THAT(with("0.1,0.2x"), HasSubstr("b.csv:5: '0.2x' is not a number"));
-  EXPECT_THAT(line(options(write("b.csv", "nan,1\n"), good)), HasSubstr("b.csv:1: 'nan'")) << "not a row of names";
-  EXPECT_THAT(line(options(write("b.csv", "x,y\n"), good)), HasSubstr("b.csv: it holds no numbers"));
+  EXPECT_THAT(refusal(options(write("b.csv", "nan,1\n"), good)), HasSubstr("b.csv:1: 'nan'")) << "not a row of names";
+  EXPECT_THAT(refusal(options(write("b.csv", "x,y\n"), good)), HasSubstr("b.csv: it holds no numbers"));
 }
 
 TEST_F(SamplesFile, BadFilesAreOneLine) {
   const std::string file = samples(ramp), good = grid(16, 1, ramp_mean);
-  EXPECT_THAT(line(options(path("none.csv"), good)), HasSubstr("none.csv': no such file"));
-  EXPECT_THAT(line(options(file, path("none.exr"))), HasSubstr("none.exr"));
-  EXPECT_THAT(line(options(file, "")), HasSubstr("needs the density to hold the samples against: --pdf-file"));
-  EXPECT_THAT(line(options("", good)), HasSubstr("--pdf-file needs the samples"));
-  EXPECT_THAT(line(options(samples(ramp, "few.csv", 1999), good)), HasSubstr("few.csv: 1999 samples; at least 2000 are needed"));
-  EXPECT_THAT(line(options(file, write("q.csv", "1,2\n3,-1\n"))), HasSubstr("q.csv:2: number 2 is -1; a density is >= 0"));
-  EXPECT_THAT(line(options(file, write("q.csv", "0,0\n0,0\n"))), HasSubstr("q.csv: the density integrates to 0"));
+  EXPECT_THAT(refusal(options(path("none.csv"), good)), HasSubstr("none.csv': no such file"));
+  EXPECT_THAT(refusal(options(file, path("none.exr"))), HasSubstr("none.exr"));
+  EXPECT_THAT(refusal(options(file, "")), HasSubstr("needs the density to hold the samples against: --pdf-file"));
+  EXPECT_THAT(refusal(options("", good)), HasSubstr("--pdf-file needs the samples"));
+  EXPECT_THAT(refusal(options(samples(ramp, "few.csv", 1999), good)), HasSubstr("few.csv: 1999 samples; at least 2000 are needed"));
+  EXPECT_THAT(refusal(options(file, write("q.csv", "1,2\n3,-1\n"))), HasSubstr("q.csv:2: number 2 is -1; a density is >= 0"));
+  EXPECT_THAT(refusal(options(file, write("q.csv", "0,0\n0,0\n"))), HasSubstr("q.csv: the density integrates to 0"));
   ValidateOptions o =
       options(samples([](mc::Pcg& random) { return fmt::format("{}", random.uniform<double>()); }, "x.csv"), grid(4, 4, one));
-  EXPECT_THAT(line(o), HasSubstr("p.csv: 4 rows; the density on an interval is one row"));
+  EXPECT_THAT(refusal(o), HasSubstr("p.csv: 4 rows; the density on an interval is one row"));
 }
 
 TEST_F(SamplesFile, SamplesOffTheGridAreOneLine) {
   ValidateOptions o = options(samples(ramp), grid(4, 4, one));
   o.domain = "x=0:0.5,y=0:1";
   EXPECT_THAT(
-      line(o),
+      refusal(o),
       testing::MatchesRegex(
           ".*s\\.csv:[0-9]+: \\(0\\.[0-9]+, 0\\.[0-9]+\\) is not covered by the grid of .*p\\.csv, x in \\[0, 0\\.5\\], y in \\[0, 1\\]; "
           "[0-9]+ of 40000 samples are not \\(see --domain\\)"));
   o.domain = "sphere";
-  EXPECT_THAT(line(o), HasSubstr("s.csv: 2 columns; 3 are needed on the unit sphere"));
+  EXPECT_THAT(refusal(o), HasSubstr("s.csv: 2 columns; 3 are needed on the unit sphere"));
   o.domain = "x=0:1";
-  EXPECT_THAT(line(o), HasSubstr("s.csv: 2 columns; 1 is needed on x in [0, 1]"));
+  EXPECT_THAT(refusal(o), HasSubstr("s.csv: 2 columns; 1 is needed on x in [0, 1]"));
   o.domain = "x=1:0,y=0:1";
-  EXPECT_THAT(line(o), HasSubstr("lo < hi is needed"));
+  EXPECT_THAT(refusal(o), HasSubstr("lo < hi is needed"));
   const auto long_vector = [](mc::Pcg& random) {
     double x, y, z;
     std::sscanf(cosine(random).c_str(), "%lf %lf %lf", &x, &y, &z);
     return fmt::format("{} {} {}", 1.001 * x, 1.001 * y, 1.001 * z);
   };
-  EXPECT_THAT(line(options(samples(long_vector), grid(8, 32, cosine_mean))), HasSubstr("is not covered by the grid"));
+  EXPECT_THAT(refusal(options(samples(long_vector), grid(8, 32, cosine_mean))), HasSubstr("is not covered by the grid"));
 }
 
 } // namespace

@@ -1,9 +1,8 @@
 // carlo validate: selection, verdicts, files and bad input.
 
-#include "commands.h"
 #include "catalogue.h"
+#include "run_validate.h"
 
-#include <mc/core/error.h>
 #include <mc/core/file.h>
 
 #include <gmock/gmock.h>
@@ -14,6 +13,7 @@
 namespace {
 
 using carlo::ValidateOptions;
+using support::Output, support::refusal, support::run;
 using testing::HasSubstr;
 
 ValidateOptions few(std::vector<std::string> names) {
@@ -21,24 +21,6 @@ ValidateOptions few(std::vector<std::string> names) {
   o.names = std::move(names);
   o.samples = 5000;
   return o;
-}
-
-// What validate prints, and its exit code.
-struct Output { int code; std::string text; };
-Output run(const ValidateOptions& o) {
-  testing::internal::CaptureStdout();
-  const int code = carlo::validate(o);
-  std::fflush(stdout);
-  return {code, testing::internal::GetCapturedStdout()};
-}
-
-std::string message(const ValidateOptions& o) {
-  try {
-    carlo::validate(o);
-  } catch (const mc::Error& e) {
-    return e.what();
-  }
-  return "accepted";
 }
 
 TEST(Validate, ANameIsAllItsCases) {
@@ -92,19 +74,19 @@ TEST(Validate, DetectChoosesTheSamples) {
 }
 
 TEST(Validate, BadInputIsOneLine) {
-  EXPECT_THAT(message(few({"CosineHemispher"})), HasSubstr("unknown sampler 'CosineHemispher'; did you mean 'CosineHemisphere'?"));
-  EXPECT_THAT(message(few({})), HasSubstr("name a sampler, or give --all or --list"));
+  EXPECT_THAT(refusal(few({"CosineHemispher"})), HasSubstr("unknown sampler 'CosineHemispher'; did you mean 'CosineHemisphere'?"));
+  EXPECT_THAT(refusal(few({})), HasSubstr("name a sampler, or give --all or --list"));
   ValidateOptions o = few({"UniformDisk"});
   o.alpha = 2;
-  EXPECT_THAT(message(o), HasSubstr("--alpha 2 must lie in (0, 1)"));
+  EXPECT_THAT(refusal(o), HasSubstr("--alpha 2 must lie in (0, 1)"));
   o = few({"UniformDisk"}), o.samples = 3;
-  EXPECT_THAT(message(o), HasSubstr("--samples 3"));
+  EXPECT_THAT(refusal(o), HasSubstr("--samples 3"));
   o = few({"UniformDisk"}), o.scalar = "half";
-  EXPECT_THAT(message(o), HasSubstr("--scalar 'half' must be float or double"));
+  EXPECT_THAT(refusal(o), HasSubstr("--scalar 'half' must be float or double"));
   o = few({"UniformDisk"}), o.json = "/nonexistent/folder/file.json";
-  EXPECT_THAT(message(o), HasSubstr("/nonexistent/folder"));
+  EXPECT_THAT(refusal(o), HasSubstr("/nonexistent/folder"));
   o = few({"UniformDisk"}), o.detect = -1;
-  EXPECT_THAT(message(o), HasSubstr("--detect"));
+  EXPECT_THAT(refusal(o), HasSubstr("--detect"));
 }
 
 } // namespace

@@ -16,8 +16,8 @@ namespace mc {
 struct ScrambledSobol { std::uint64_t seed = 0; };
 
 /// Each coordinate interlaces the bits of two of a ScrambledSobol: a net of order 2, whose error for n points of a smooth integrand falls
-/// like n^-2.5 instead of n^-1.5. In five and eight dimensions it is worse on most of Genz's integrals at 10^5 points,
-/// and so it is on integrands that jump.
+/// like n^-2.5 but for powers of log n, instead of n^-1.5: measured n^-2.4 in one dimension and below n^-2 in two. In five nothing is
+/// gained at 4096 points.
 ///   Source : [Dick11]
 struct InterlacedSobol { std::uint64_t seed = 0; };
 

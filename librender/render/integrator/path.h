@@ -233,6 +233,7 @@ class Tracer {
 ///   Russian roulette: from the fourth edge on a path survives with four times the largest component of its throughput, corrected
 ///   for the compression of radiance in glass, at most .99. The factor balances variance against cost: at one the Cornell box and
 ///   smallpt's take about a third more time to a given error.
+/// Times to a given error are measured as CPU seconds of `carlo render` times the relmse of `carlo compare` between two seeds.
 template <class Stream>
 Spectrum trace_path(const Scene& scene, const Ray& ray, Stream& stream, const PathOptions& options, std::uint64_t& rays) {
   return detail::Tracer(scene, options, rays).follow({ray, ray.o}, stream, true);

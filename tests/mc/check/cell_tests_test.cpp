@@ -55,16 +55,16 @@ TEST(CellTests, RejectsAtMostAtTheRateOfAlpha) {
 TEST(CellTests, FindsExponentsSpikesAndSteps) {
   auto cells = uniform_cells(512);
   fill(cells, 3, 100000, 1.05);
-  EXPECT_FALSE(report(mc::test_cells(cells, 1, 0.01)).passed()) << "exponent";
+  EXPECT_EQ(report(mc::test_cells(cells, 1, 0.01)).verdict(), mc::Verdict::fail) << "exponent";
   cells = uniform_cells(512);
   fill(cells, 4, 100000);
   cells[77].observed += 150;
   const mc::Report spike = report(mc::test_cells(cells, 1, 0.01));
-  EXPECT_FALSE(spike.passed()) << "spike";
+  EXPECT_EQ(spike.verdict(), mc::Verdict::fail) << "spike";
   cells = uniform_cells(512);
   fill(cells, 5, 100000);
   for (std::size_t i = 0; i < 512; i += 2) cells[i].observed += 12;
-  EXPECT_FALSE(report(mc::test_cells(cells, 1, 0.01)).passed()) << "alternating";
+  EXPECT_EQ(report(mc::test_cells(cells, 1, 0.01)).verdict(), mc::Verdict::fail) << "alternating";
 }
 
 // What it says it catches, it catches: random signs of the stated size, and a single cell off by the stated size.
@@ -85,8 +85,8 @@ TEST(CellTests, KeepsItsPromiseOfPower) {
       const double v = random.uniform<double>() * (256 + stated.detectable_cell);
       ++one[v < 256 ? static_cast<std::size_t>(v) : 100].observed;
     }
-    caught += !report(mc::test_cells(wrong, 1, 0.01)).passed();
-    caught_cell += !report(mc::test_cells(one, 1, 0.01)).passed();
+    caught += report(mc::test_cells(wrong, 1, 0.01)).verdict() == mc::Verdict::fail;
+    caught_cell += report(mc::test_cells(one, 1, 0.01)).verdict() == mc::Verdict::fail;
   }
   EXPECT_GE(caught, 95);
   EXPECT_GE(caught_cell, 95);

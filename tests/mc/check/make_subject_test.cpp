@@ -94,7 +94,8 @@ TEST(MakeSubject, AnImageShapedTable) {
   pixels[20 * 64 + 5] = 1100;
   const mc::TableDist2D<float> other(pixels, 64, 32);
   const auto sampler = [&](const mc::Vec2<float>& u) { return table.sample(u); };
-  EXPECT_FALSE(check_subject(mc::make_subject("another image", table.domain(), sampler, [&](const mc::Vec2<float>& p) { return other.pdf(p); }), {.samples = 50'000}).passed());
+  const auto pdf = [&](const mc::Vec2<float>& p) { return other.pdf(p); };
+  EXPECT_EQ(check_subject(mc::make_subject("another image", table.domain(), sampler, pdf), {.samples = 50'000}).verdict(), mc::Verdict::fail);
 }
 
 TEST(MakeSubject, ADiscreteDistributionBecomesAtoms) {
