@@ -9,7 +9,8 @@
 
 namespace bench {
 
-/// Items per iteration, and the time per item that is aimed at, in ns, on a machine where one draw of pcg32 takes 1.7 ns; 0 if none is.
+/// Items per iteration, and the time per item that is aimed at, in ns, on a machine where one draw of pcg32 takes 1.7
+/// ns; 0 if none is.
 inline void note(benchmark::State& state, double items = 1, double aim = 0) {
   state.counters["items"] = items;
   state.counters["aim"] = aim;

@@ -1,5 +1,6 @@
-// One table of all the speeds of libmc: ns per item of processor time (median over the repetitions), as a multiple of pcg32 in
-// the same run, which is what machines are compared by, and of batch forms ("name/n") how often faster they are.
+// One table of all the speeds of libmc: ns per item of processor time (median over the repetitions), as a multiple of
+// pcg32 in the same run, which is what machines are compared by, and of batch forms ("name/n") how often faster they
+// are.
 #include "speed.h"
 
 #include <fmt/format.h>
@@ -60,7 +61,8 @@ class Table : public benchmark::BenchmarkReporter {
 } // namespace
 
 int main(int argc, char** argv) {
-  // Repetitions of all benchmarks are shuffled, so that a slow minute of the machine does not fall on one of them alone.
+  // Repetitions of all benchmarks are shuffled, so that a slow minute of the machine does not fall on one of them
+  // alone.
   std::vector<std::string> words{argv[0], "--benchmark_repetitions=9", "--benchmark_min_time=0.02",
                                  "--benchmark_enable_random_interleaving=true"};
   words.insert(words.end(), argv + 1, argv + argc);

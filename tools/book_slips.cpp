@@ -27,13 +27,14 @@ std::vector<Slip> select(const std::vector<std::string>& names) {
   Slips all = slips_of_books(), chosen;
   if (names.size() < 2) return all;
   for (auto name = names.begin() + 1; name != names.end(); ++name) {
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const Slip& s) { return *name == s.id || *name == s.name || *name == s.title(); });
+    const auto found = std::find_if(
+        all.begin(), all.end(), [&](const Slip& s) { return *name == s.id || *name == s.name || *name == s.title(); });
     if (found == all.end()) {
       std::vector<std::string> known;
       for (const Slip& s : all) known.push_back(s.id), known.push_back(s.name);
-      throw mc::Error(fmt::format("validate book-slips: unknown slip '{}'{} (carlo validate book-slips --list names them all)", *name,
-                                  mc::did_you_mean(*name, known)));
+      throw mc::Error(
+          fmt::format("validate book-slips: unknown slip '{}'{} (carlo validate book-slips --list names them all)",
+                      *name, mc::did_you_mean(*name, known)));
     }
     chosen.push_back(*found);
   }
@@ -50,7 +51,8 @@ struct Told {
 // Doubles the samples until the wrong one is rejected; all looks together reject a right one with probability alpha.
 Told tell(const Slip& slip, const ValidateOptions& o) {
   std::uint64_t seed = o.seed; // its own numbers, whichever slips are told beside it
-  for (const char letter : slip.id) seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
+  for (const char letter : slip.id)
+    seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
   double looks = 1;
   for (std::uint64_t n = slip.wrong.fewest; n < o.samples; n *= 2) looks += 1;
   const double alpha = mc::sidak_level(o.alpha, 1 / looks);
@@ -105,15 +107,17 @@ int book_slips(const ValidateOptions& o) {
     return exit_ok;
   }
   mc::require(o.alpha > 0 && o.alpha < 1, "validate book-slips: --alpha {} must lie in (0, 1)", o.alpha);
-  mc::require(o.samples >= 8000 && o.samples <= 1'000'000'000, "validate book-slips: --samples {} must lie in [8000, 1e9]", o.samples);
+  mc::require(o.samples >= 8000 && o.samples <= 1'000'000'000,
+              "validate book-slips: --samples {} must lie in [8000, 1e9]", o.samples);
   mc::require(o.junit.empty() && o.scalar.empty() && !o.detect && !o.all && o.plugin.empty() && o.samples_file.empty(),
               "validate book-slips: takes names, --list, --alpha, --samples, --seed, --threads and --json only");
   if (!o.json.empty()) mc::write_file(o.json, "{}\n");
 
-  fmt::print("book: Ray Tracing: The Rest of Your Life, 2016; course: Introduction to Real-Time Ray Tracing, SIGGRAPH 2019;\n"
-             "lecture: CMU 15-468, 2021, with smallpt; lajolla: its design notes, UCSD CSE 272\n\n"
-             "{:<4} {:<34} {:<29} {:<27} {:>8}  {}\n",
-             "slip", "", "where", "caught by", "samples", "the right one");
+  fmt::print(
+      "book: Ray Tracing: The Rest of Your Life, 2016; course: Introduction to Real-Time Ray Tracing, SIGGRAPH 2019;\n"
+      "lecture: CMU 15-468, 2021, with smallpt; lajolla: its design notes, UCSD CSE 272\n\n"
+      "{:<4} {:<34} {:<29} {:<27} {:>8}  {}\n",
+      "slip", "", "where", "caught by", "samples", "the right one");
   std::vector<Told> told(slips.size());
   std::vector<char> done(slips.size(), 0);
   std::size_t printed = 0, finished = 0;
@@ -129,11 +133,12 @@ int book_slips(const ValidateOptions& o) {
     for (; printed < slips.size() && done[printed]; ++printed) {
       const Slip& s = slips[printed];
       const Told& r = told[printed];
-      fmt::print("{:<4} {:<34} {:<29} {:<27} {:>8}  {}, p = {:.2g}\n", s.id, s.name, s.where, r.test, samples_text(s, r),
-                 name(r.right.verdict()), r.right.p());
+      fmt::print("{:<4} {:<34} {:<29} {:<27} {:>8}  {}, p = {:.2g}\n", s.id, s.name, s.where, r.test,
+                 samples_text(s, r), name(r.right.verdict()), r.right.p());
     }
     std::fflush(stdout);
-    progress.show(static_cast<double>(finished) / static_cast<double>(slips.size()), fmt::format("{} of {} slips", finished, slips.size()));
+    progress.show(static_cast<double>(finished) / static_cast<double>(slips.size()),
+                  fmt::format("{} of {} slips", finished, slips.size()));
   });
   progress.clear();
 
@@ -147,7 +152,8 @@ int book_slips(const ValidateOptions& o) {
   bool boxes_as_claimed = true;
   if (o.names.size() > 1) {
     for (std::size_t i = 0; i < slips.size(); ++i) {
-      fmt::print("\n{}, {}\n  {}\n  wrong{}\n", slips[i].title(), slips[i].where, slips[i].story, told[i].wrong.to_string());
+      fmt::print("\n{}, {}\n  {}\n  wrong{}\n", slips[i].title(), slips[i].where, slips[i].story,
+                 told[i].wrong.to_string());
       if (!told[i].right.passed()) fmt::print("  right{}\n", told[i].right.to_string());
     }
   } else {
@@ -158,8 +164,8 @@ int book_slips(const ValidateOptions& o) {
     for (const CornellBox& b : boxes) {
       const bool agrees = b.p > level;
       boxes_as_claimed = boxes_as_claimed && agrees == b.claimed_right;
-      const std::string off =
-          &b == &boxes.front() ? fmt::format("{:.4f}", b.mean) : fmt::format("{:+.1f} % +- {:.1f}", 100 * b.off, 100 * b.off_error);
+      const std::string off = &b == &boxes.front() ? fmt::format("{:.4f}", b.mean)
+                                                   : fmt::format("{:+.1f} % +- {:.1f}", 100 * b.off, 100 * b.off_error);
       fmt::print("  {:<34} {:<12} {:<16} {}  {}\n", b.name, b.where, off, agrees ? "right" : "wrong", b.story);
       all["boxes"].push_back({{"name", b.name},
                               {"where", b.where},
@@ -172,8 +178,8 @@ int book_slips(const ValidateOptions& o) {
                               {"agrees", agrees}});
     }
   }
-  fmt::print("\n{} of {} slips rejected, {} of {} right ones passed, at alpha {:g} over all looks of a slip, seed {}\n", caught,
-             slips.size(), right, slips.size(), o.alpha, o.seed);
+  fmt::print("\n{} of {} slips rejected, {} of {} right ones passed, at alpha {:g} over all looks of a slip, seed {}\n",
+             caught, slips.size(), right, slips.size(), o.alpha, o.seed);
   const bool passed = caught == slips.size() && right == slips.size() && boxes_as_claimed;
   all["passed"] = passed;
   if (!o.json.empty()) mc::write_file(o.json, all.dump(1) + "\n");

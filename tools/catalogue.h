@@ -3,11 +3,13 @@
 ///
 /// A family adds its samplers in a file of its own, catalogue_<family>.cpp, one line per case:
 ///   void add_spheres(Catalogue& c) {
-///     add_warp(c, "CosineHemisphere", "", [](auto s) { return mc::CosineHemisphere<decltype(s)>{}; }, {.invert_eps = 8});
+///     add_warp(c, "CosineHemisphere", "", [](auto s) { return mc::CosineHemisphere<decltype(s)>{}; }, {.invert_eps =
+///     8});
 ///   }
 /// then declares that function below, calls it in catalogue.cpp and names the file in CMakeLists.txt. add_warp of
 /// catalogue_warp.h makes a float and a double case of the line, add_bsdf of catalogue_bsdf.h one case per direction.
-/// The test tools/catalogue_test.cpp fails when a warp, table, BSDF, shape, filter or camera of the headers is not in the list.
+/// The test tools/catalogue_test.cpp fails when a warp, table, BSDF, shape, filter or camera of the headers is not in
+/// the list.
 
 #include <mc/check/report.h>
 

@@ -15,7 +15,8 @@ void add_planes(Catalogue& c) {
   add_warp(c, "PolarDisk", "", [](auto s) { return mc::PolarDisk<decltype(s)>{}; }, {.invert_eps = 8});
   add_warp(c, "UniformTriangle", "", [](auto s) { return mc::UniformTriangle<decltype(s)>{}; }, {.invert_eps = 4});
   for (const double inner : {0.0, 0.5})
-    add_warp(c, "UniformAnnulus", fmt::format("inner={:g}, outer=1", inner), [inner](auto s) { return mc::UniformAnnulus<decltype(s)>(static_cast<decltype(s)>(inner), 1); });
+    add_warp(c, "UniformAnnulus", fmt::format("inner={:g}, outer=1", inner),
+             [inner](auto s) { return mc::UniformAnnulus<decltype(s)>(static_cast<decltype(s)>(inner), 1); });
   add_warp(c, "UniformParallelogram", "", [](auto s) {
     using S = decltype(s);
     return mc::UniformParallelogram<S>{{mc::Vec3<S>(0, 0, 0), mc::Vec3<S>(1, 2, 3), mc::Vec3<S>(-1, 0, S(0.5))}};

@@ -1,4 +1,5 @@
-// Points of shapes seen from a point, the choice of a light, offsets of filters, points of the lens: all in librender's Float.
+// Points of shapes seen from a point, the choice of a light, offsets of filters, points of the lens: all in librender's
+// Float.
 #include "catalogue.h"
 
 #include <render/scene/scene.h>
@@ -19,13 +20,14 @@ using Number = std::function<double(const Vec2& u)>;
 constexpr Float eps = std::numeric_limits<Float>::epsilon(), nan = std::numeric_limits<Float>::quiet_NaN();
 
 // A sampler that is no warp; `number` takes the time of one sample.
-void add_subject(Catalogue& c, const std::string& name, const std::string& parameters, mc::Subject subject, const Number& number,
-                 double mass_tolerance = 64 * double(eps)) {
+void add_subject(Catalogue& c, const std::string& name, const std::string& parameters, mc::Subject subject,
+                 const Number& number, double mass_tolerance = 64 * double(eps)) {
   Case one{name, parameters, sizeof(Float) == 4 ? "float" : "double", {}};
   subject.name = one.title();
   subject.mass_tolerance = mass_tolerance;
   one.check = [subject = std::move(subject), number](const CaseOptions& o) {
-    mc::Report report = mc::check_subject(subject, {.samples = o.samples, .seed = o.seed, .alpha = o.alpha, .evidence = o.evidence});
+    mc::Report report =
+        mc::check_subject(subject, {.samples = o.samples, .seed = o.seed, .alpha = o.alpha, .evidence = o.evidence});
     std::vector<Vec2> inputs;
     mc::Pcg random(3);
     for (int i = 0; i < mc::timing_inputs; ++i) inputs.push_back(random.point<Float, 2>());
@@ -42,27 +44,30 @@ Number time_of(const Shape& shape, const Vec3& ref) {
   };
 }
 
-// The directions from ref to a shape, against the density of a direction. `domain` holds them all. One on the outline may round out of
-// the shape by 4 eps; it is moved back towards the middle.
+// The directions from ref to a shape, against the density of a direction. `domain` holds them all. One on the outline
+// may round out of the shape by 4 eps; it is moved back towards the middle.
 template <class D>
-void add_directions(Catalogue& c, const std::string& name, const std::string& parameters, const Shape& shape, const Vec3& ref,
-                    const D& domain, const Vec3& middle) {
+void add_directions(Catalogue& c, const std::string& name, const std::string& parameters, const Shape& shape,
+                    const Vec3& ref, const D& domain, const Vec3& middle) {
   const auto sample = [=](const Vec2& u) {
     const auto s = shape.sample(ref, u);
     if (!s) return Vec3(nan, nan, nan);
-    return domain.contains(s->wi) && shape.pdf(ref, s->wi) > 0 ? s->wi
-                                                               : Vec3((s->wi + 4 * eps * (middle - s->wi).normalized()).normalized());
+    return domain.contains(s->wi) && shape.pdf(ref, s->wi) > 0
+               ? s->wi
+               : Vec3((s->wi + 4 * eps * (middle - s->wi).normalized()).normalized());
   };
   const auto pdf = [=](const Vec3& wi) { return shape.pdf(ref, wi); };
   add_subject(c, name, parameters + ", directions", make_subject("", domain, sample, pdf), time_of(shape, ref));
 }
 
-// The points that a shape's sampler finds from ref, against the density of the direction to a point, per area of the domain.
+// The points that a shape's sampler finds from ref, against the density of the direction to a point, per area of the
+// domain.
 //   domain : holds the images of all points;  image : SurfacePoint -> its point;  surface : that point -> SurfacePoint
 //   scale  : area of the shape per area of the domain
 template <class D, class Image, class Surface>
-void add_points(Catalogue& c, const std::string& name, const std::string& parameters, const Shape& shape, const Vec3& ref, const D& domain,
-                const Image& image, const Surface& surface, double scale, double tolerance = 1e-3) {
+void add_points(Catalogue& c, const std::string& name, const std::string& parameters, const Shape& shape,
+                const Vec3& ref, const D& domain, const Image& image, const Surface& surface, double scale,
+                double tolerance = 1e-3) {
   struct Drawn {
     Vec3 x;
     Float weight, pdf;
@@ -70,7 +75,8 @@ void add_points(Catalogue& c, const std::string& name, const std::string& parame
   // Per area; the weight of f = 1 under it holds what the sampler itself says of its density.
   const auto per_area = [=](const SurfacePoint& p, Float pdf) {
     const Vec3d between = (p.p - ref).template cast<double>();
-    return Float(double(pdf) * std::abs(p.ng.template cast<double>().dot(between.normalized())) / between.squaredNorm() * scale);
+    return Float(double(pdf) * std::abs(p.ng.template cast<double>().dot(between.normalized())) /
+                 between.squaredNorm() * scale);
   };
   const auto sample = [=](const Vec2& u) {
     const auto s = shape.sample(ref, u);
@@ -95,10 +101,11 @@ void add_spheres_seen(Catalogue& c) {
   for (const double ratio : {0.01, 0.5, 0.999}) {
     const mc::RotatedDomain<mc::Cap<Float>> cone{cap_of(ratio * ratio / (1 + std::sqrt(1 - ratio * ratio))),
                                                  mc::Frame<Float>::from_z(center.normalized())};
-    add_directions(c, "Sphere", fmt::format("radius/distance={:g}", ratio), Sphere(at, ratio * at.norm()), Vec3::Zero(), cone,
-                   center.normalized());
+    add_directions(c, "Sphere", fmt::format("radius/distance={:g}", ratio), Sphere(at, ratio * at.norm()), Vec3::Zero(),
+                   cone, center.normalized());
   }
-  const auto add = [&](const std::string& where, const Sphere& sphere, const Vec3& ref, const auto& domain, double tolerance = 1e-3) {
+  const auto add = [&](const std::string& where, const Sphere& sphere, const Vec3& ref, const auto& domain,
+                       double tolerance = 1e-3) {
     const auto image = [=](const SurfacePoint& p) {
       return Vec3(((p.p.cast<double>() - at) / sphere.radius()).normalized().cast<Float>());
     };
@@ -121,8 +128,10 @@ void add_meshes_seen(Catalogue& c) {
     const auto cut = [=](std::uint32_t i) { return mc::sqr(Float(i) / Float(strips)); };
     std::vector<Vec3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    for (std::uint32_t i = 0; i <= strips; ++i) positions.push_back(corner + cut(i) * e1), positions.push_back(corner + cut(i) * e1 + e2);
-    for (std::uint32_t i = 0; i < 2 * strips; i += 2) triangles.push_back({i, i + 2, i + 3}), triangles.push_back({i, i + 3, i + 1});
+    for (std::uint32_t i = 0; i <= strips; ++i)
+      positions.push_back(corner + cut(i) * e1), positions.push_back(corner + cut(i) * e1 + e2);
+    for (std::uint32_t i = 0; i < 2 * strips; i += 2)
+      triangles.push_back({i, i + 2, i + 3}), triangles.push_back({i, i + 3, i + 1});
     const TriangleMesh mesh(positions, triangles);
     const mc::Parallelogram<Float> domain(corner, e1, e2);
     const mc::Patch<Float, 4> directions(corner - ref, e1, e2);
@@ -146,8 +155,8 @@ void add_meshes_seen(Catalogue& c) {
   const Vec3 a(Float(0.5), -1, 2), b(1, 1, Float(0.5)), e(-1, Float(0.5), Float(0.25));
   const mc::Patch<Float, 3> directions(a, b, e);
   add_directions(c, "TriangleMesh", "one triangle behind another",
-                 TriangleMesh({a, a + b, a + e, 2 * a, 2 * (a + b), 2 * (a + e)}, {{0, 1, 2}, {3, 4, 5}}), Vec3::Zero(), directions,
-                 directions.from_unit({Float(0.5), Float(0.5)}));
+                 TriangleMesh({a, a + b, a + e, 2 * a, 2 * (a + b), 2 * (a + e)}, {{0, 1, 2}, {3, 4, 5}}), Vec3::Zero(),
+                 directions, directions.from_unit({Float(0.5), Float(0.5)}));
 }
 
 // The choice of a light of a scene, by power.
@@ -166,7 +175,8 @@ void add_choice(Catalogue& c) {
   auto scene = std::make_shared<Scene>();
   scene->bsdfs.emplace_back(Lambert{});
   for (const double radiance : {0.0, 1.0, 1e-3, 0.0, 20.0, 3.0, 0.0})
-    scene->add(Sphere(Vec3d(double(scene->shapes.size()), 0, 0), 0.1), 0, AreaLight{-1, Spectrum::Constant(Float(radiance))});
+    scene->add(Sphere(Vec3d(double(scene->shapes.size()), 0, 0), 0.1), 0,
+               AreaLight{-1, Spectrum::Constant(Float(radiance))});
   scene->prepare();
   const LightChoice choice{scene};
   add_subject(c, "Scene", "choice of a light", mc::make_discrete_subject("", choice),
@@ -175,15 +185,19 @@ void add_choice(Catalogue& c) {
 
 // Offsets of a filter against the density of its contract.
 template <class F, class W>
-void add_filter(Catalogue& c, const std::string& name, const std::string& parameters, const F& filter, const W& density) {
+void add_filter(Catalogue& c, const std::string& name, const std::string& parameters, const F& filter,
+                const W& density) {
   const auto sample = [=](const Vec2& u) { return filter.sample(u); };
-  add_subject(c, name, parameters, make_subject("", density.domain(), sample, [=](const Vec2& x) { return density.pdf(x); }),
+  add_subject(c, name, parameters,
+              make_subject("", density.domain(), sample, [=](const Vec2& x) { return density.pdf(x); }),
               [=](const Vec2& u) { return double(filter.sample(u).sum()); });
 }
 
 struct Uniform {
   Float radius;
-  mc::ProductDomain<mc::Interval<Float>, mc::Interval<Float>> domain() const { return {{-radius, radius}, {-radius, radius}}; }
+  mc::ProductDomain<mc::Interval<Float>, mc::Interval<Float>> domain() const {
+    return {{-radius, radius}, {-radius, radius}};
+  }
   Float pdf(const Vec2&) const { return 1 / mc::sqr<Float>(2 * radius); }
 };
 
@@ -210,11 +224,14 @@ void add_camera(Catalogue& c) {
   const mc::Normal<Float> normal(0, Float(0.5));
   add_filter(c, "GaussianFilter", "sigma=0.5", GaussianFilter{}, mc::Normal2D<Float>{normal, normal});
   for (const int n : {2, 3})
-    add_filter(c, "SubpixelTentFilter", fmt::format("n={}, radius=0.5", n), SubpixelTentFilter{n, Float(0.5)}, Tents{n, Float(0.5)});
+    add_filter(c, "SubpixelTentFilter", fmt::format("n={}, radius=0.5", n), SubpixelTentFilter{n, Float(0.5)},
+               Tents{n, Float(0.5)});
 
   ThinLens lens;
   lens.lens_radius = 1, lens.focus_distance = 3;
-  const auto sample = [=](const Vec2& u) { return Vec2(lens.ray(Vec2(Float(0.3), Float(0.9)), lens.tan_half(1), u).o.head<2>()); };
+  const auto sample = [=](const Vec2& u) {
+    return Vec2(lens.ray(Vec2(Float(0.3), Float(0.9)), lens.tan_half(1), u).o.head<2>());
+  };
   add_subject(c, "ThinLens", "points of the lens",
               make_subject("", mc::Disk<Float>{}, sample, [](const Vec2&) { return 1 / mc::pi<Float>; }),
               [=](const Vec2& u) { return double(sample(u).sum()); });

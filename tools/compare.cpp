@@ -17,7 +17,10 @@ namespace {
 
 using ::render::Image;
 
-struct Metric { std::string_view name; double value; };
+struct Metric {
+  std::string_view name;
+  double value;
+};
 
 std::vector<Metric> metrics(const Image& a, const Image& b) {
   double square = 0, absolute = 0, relative = 0, peak = 0, mean_a = 0, mean_b = 0;
@@ -32,8 +35,8 @@ std::vector<Metric> metrics(const Image& a, const Image& b) {
       mean_a += x;
       mean_b += y;
     }
-  return {{"mse", square / n},       {"rmse", std::sqrt(square / n)}, {"mae", absolute / n},
-          {"relmse", relative / n},  {"max", peak},                   {"mean_ratio", mean_a / mean_b}};
+  return {{"mse", square / n}, {"rmse", std::sqrt(square / n)}, {"mae", absolute / n}, {"relmse", relative / n},
+          {"max", peak},       {"mean_ratio", mean_a / mean_b}};
 }
 
 // Variance of each mean, and the degrees of freedom behind it.
@@ -52,29 +55,35 @@ struct Worst {
   int x = 0, y = 0, channel = 0;
 };
 
-struct Cell { double difference = 0, reference = 0, variance_a = 0, variance_b = 0; };
+struct Cell {
+  double difference = 0, reference = 0, variance_a = 0, variance_b = 0;
+};
 
 class Comparison {
  public:
-  Comparison(const Image& a, const Image& b, double tolerance) : a_(a), b_(b), noise_a_(a), noise_b_(b), tolerance_(tolerance) {}
+  Comparison(const Image& a, const Image& b, double tolerance)
+      : a_(a), b_(b), noise_a_(a), noise_b_(b), tolerance_(tolerance) {}
 
   bool possible() const { return noise_a_.known || noise_b_.known; }
 
-  // Pixels, each with the variance of its 3x3 surroundings: a pixel that missed a rare bright path underestimates its own.
-  // Blocks of 16x16 pixels see what is spread thinly.
+  // Pixels, each with the variance of its 3x3 surroundings: a pixel that missed a rare bright path underestimates its
+  // own. Blocks of 16x16 pixels see what is spread thinly.
   void run() {
     for (int c = 0; c < 3; ++c) {
-      // A pixel none of whose samples met a rare event looks noiseless: differences far below the typical noise are not judged.
+      // A pixel none of whose samples met a rare event looks noiseless: differences far below the typical noise are not
+      // judged.
       const Cell whole = sum(0, 0, a_.width, a_.height, c);
       floor_ = 1e-6 * (whole.variance_a + whole.variance_b) / double(a_.pixels.size());
       for (int y = 0; y < a_.height; ++y)
         for (int x = 0; x < a_.width; ++x) {
           Cell cell = sum(x, y, x + 1, y + 1, c);
-          const int x0 = std::max(x - 1, 0), y0 = std::max(y - 1, 0), x1 = std::min(x + 2, a_.width), y1 = std::min(y + 2, a_.height);
+          const int x0 = std::max(x - 1, 0), y0 = std::max(y - 1, 0), x1 = std::min(x + 2, a_.width),
+                    y1 = std::min(y + 2, a_.height);
           const Cell around = sum(x0, y0, x1, y1, c);
           const double n = double(x1 - x0) * double(y1 - y0);
-          // The surroundings lend their variance, not their degrees of freedom: noise is far from normal within a pixel, where
-          // one rare bright path decides. Student's t with at most 3 degrees of freedom has tails heavy enough for that.
+          // The surroundings lend their variance, not their degrees of freedom: noise is far from normal within a
+          // pixel, where one rare bright path decides. Student's t with at most 3 degrees of freedom has tails heavy
+          // enough for that.
           cell.variance_a = around.variance_a / n;
           cell.variance_b = around.variance_b / n;
           test(cell, 1, 1, x, y, c, pixel);
@@ -88,7 +97,9 @@ class Comparison {
     }
   }
 
-  double family_p() const { return -std::expm1(tests * std::log1p(-std::min(std::min(pixel.p, block.p), 1 - 0x1p-53))); }
+  double family_p() const {
+    return -std::expm1(tests * std::log1p(-std::min(std::min(pixel.p, block.p), 1 - 0x1p-53)));
+  }
 
   Worst pixel, block;
   double tests = 0;
@@ -119,7 +130,8 @@ class Comparison {
     if (variance > 0) {
       t = excess / std::sqrt(variance);
       const double va = cell.variance_a, vb = cell.variance_b;
-      const double welch = va + vb > 0 ? pooled * mc::sqr(va + vb) / (va * va / noise_a_.dof + vb * vb / noise_b_.dof) : pooled;
+      const double welch =
+          va + vb > 0 ? pooled * mc::sqr(va + vb) / (va * va / noise_a_.dof + vb * vb / noise_b_.dof) : pooled;
       const double dof = pooled > 1 ? welch : std::min(welch, 3.0);
       p = 2 * cdf(complement(boost::math::students_t(dof), t));
     }
@@ -137,12 +149,13 @@ int compare(const CompareOptions& options) {
   mc::require(options.alpha > 0 && options.alpha < 1, "--alpha {} must lie in (0, 1)", options.alpha);
   mc::require(options.tolerance >= 0, "--tolerance {} must be >= 0", options.tolerance);
   const Image a = ::render::read_image(options.a), b = ::render::read_image(options.b);
-  mc::require(a.width == b.width && a.height == b.height, "'{}' is {}x{} but '{}' is {}x{}; the sizes must agree", options.a, a.width, a.height,
-              options.b, b.width, b.height);
+  mc::require(a.width == b.width && a.height == b.height, "'{}' is {}x{} but '{}' is {}x{}; the sizes must agree",
+              options.a, a.width, a.height, options.b, b.width, b.height);
   for (const auto* image : {&a, &b})
     for (std::size_t i = 0; i < image->pixels.size(); ++i)
-      mc::require(image->pixels[i].isFinite().all(), "'{}': pixel ({}, {}) is not finite", image == &a ? options.a : options.b,
-                  i % static_cast<std::size_t>(a.width), i / static_cast<std::size_t>(a.width));
+      mc::require(image->pixels[i].isFinite().all(), "'{}': pixel ({}, {}) is not finite",
+                  image == &a ? options.a : options.b, i % static_cast<std::size_t>(a.width),
+                  i / static_cast<std::size_t>(a.width));
 
   const auto all = metrics(a, b);
   bool found = options.metric.empty();
@@ -154,7 +167,8 @@ int compare(const CompareOptions& options) {
     if (options.metric.empty()) std::printf("%-10s %.6g\n", std::string(m.name).c_str(), m.value);
     else std::printf("%.6g\n", m.value);
   }
-  mc::require(found, "unknown metric '{}'{}; use one of {}", options.metric, mc::did_you_mean(options.metric, names), fmt::join(names, ", "));
+  mc::require(found, "unknown metric '{}'{}; use one of {}", options.metric, mc::did_you_mean(options.metric, names),
+              fmt::join(names, ", "));
 
   if (!options.diff.empty()) {
     Image difference(a.width, a.height);
@@ -171,14 +185,15 @@ int compare(const CompareOptions& options) {
   comparison.run();
   static constexpr std::array channel = {"red", "green", "blue"};
   const auto print = [&](const char* what, const Worst& w) {
-    std::printf("%-10s worst at (%d, %d) %s: difference %.3g, %.2f standard errors, p = %.2g\n", what, w.x, w.y, channel[static_cast<std::size_t>(w.channel)],
-                w.difference, w.t, w.p);
+    std::printf("%-10s worst at (%d, %d) %s: difference %.3g, %.2f standard errors, p = %.2g\n", what, w.x, w.y,
+                channel[static_cast<std::size_t>(w.channel)], w.difference, w.t, w.p);
   };
   print("pixels", comparison.pixel);
   print("blocks", comparison.block);
   const double p = comparison.family_p();
   const bool agree = p >= options.alpha;
-  std::printf("verdict    %s: family-wise p = %.3g over %.0f tests, alpha = %g%s\n", agree ? "agree" : "DIFFER", p, comparison.tests, options.alpha,
+  std::printf("verdict    %s: family-wise p = %.3g over %.0f tests, alpha = %g%s\n", agree ? "agree" : "DIFFER", p,
+              comparison.tests, options.alpha,
               options.tolerance > 0 ? fmt::format(", tolerance {} of the reference", options.tolerance).c_str() : "");
   return agree ? exit_ok : exit_failed;
 }

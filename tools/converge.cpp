@@ -31,8 +31,8 @@ constexpr std::array<std::string_view, 3> known_samplers = {"random", "stratifie
 struct Curve {
   std::string sampler;
   std::vector<mc::RmsError> errors;
-  double theory = 0;         ///< slope; 0: none stated
-  bool exact = false;        ///< no error beyond rounding, so no slope
+  double theory = 0;  ///< slope; 0: none stated
+  bool exact = false; ///< no error beyond rounding, so no slope
   mc::PowerLaw law;
 };
 
@@ -47,7 +47,8 @@ template <mc::Sampler T> double mean(const Experiment& e, const T& sampler, std:
   const std::span<const double> point(u.data(), static_cast<std::size_t>(e.dim));
   mc::CompensatedSum sum;
   for (std::uint64_t i = 0; i < n; ++i) {
-    for (int d = 0; d < e.dim; ++d) u[static_cast<std::size_t>(d)] = mc::coordinate<double>(sampler, i, static_cast<std::uint32_t>(d));
+    for (int d = 0; d < e.dim; ++d)
+      u[static_cast<std::size_t>(d)] = mc::coordinate<double>(sampler, i, static_cast<std::uint32_t>(d));
     sum.add(e.f(point));
   }
   return sum.value() / double(n);
@@ -55,11 +56,13 @@ template <mc::Sampler T> double mean(const Experiment& e, const T& sampler, std:
 
 double estimate(const Experiment& e, std::string_view sampler, std::uint64_t n, std::uint64_t seed) {
   if (sampler == "random") return mean(e, mc::Independent{seed}, n);
-  if (sampler == "stratified") return mean(e, mc::Stratified(static_cast<std::uint32_t>(n), seed, static_cast<std::uint32_t>(e.dim)), n);
+  if (sampler == "stratified")
+    return mean(e, mc::Stratified(static_cast<std::uint32_t>(n), seed, static_cast<std::uint32_t>(e.dim)), n);
   return mean(e, mc::Sobol(seed), n);
 }
 
-Curve measure(const Experiment& e, const std::string& sampler, const ConvergeOptions& o, const std::function<void(double)>& progress) {
+Curve measure(const Experiment& e, const std::string& sampler, const ConvergeOptions& o,
+              const std::function<void(double)>& progress) {
   Curve curve;
   curve.sampler = sampler;
   curve.theory = sampler == "random" ? -0.5 : sampler == "stratified" ? e.stratified_slope : 0;
@@ -82,7 +85,8 @@ Curve measure(const Experiment& e, const std::string& sampler, const ConvergeOpt
     progress(double(n));
   }
   curve.exact = worst <= 1e-12 * std::max(1.0, std::abs(e.truth));
-  if (!curve.exact && fitted.size() >= 3) curve.law = mc::fit_power_law(fitted, static_cast<std::uint32_t>(o.replicates));
+  if (!curve.exact && fitted.size() >= 3)
+    curve.law = mc::fit_power_law(fitted, static_cast<std::uint32_t>(o.replicates));
   return curve;
 }
 
@@ -96,19 +100,32 @@ std::string slope_text(const Curve& c) {
 std::string csv(const Experiment& e, const std::vector<Curve>& curves) {
   std::string text = "experiment,sampler,n,rms_error,rms_lo,rms_hi,cpu_seconds\n";
   for (const Curve& c : curves)
-    for (const mc::RmsError& p : c.errors) text += fmt::format("{},{},{:.0f},{:.9g},{:.9g},{:.9g},{:.6g}\n", e.name, c.sampler, p.n, p.rms, p.lo, p.hi, p.seconds);
+    for (const mc::RmsError& p : c.errors)
+      text += fmt::format("{},{},{:.0f},{:.9g},{:.9g},{:.9g},{:.6g}\n", e.name, c.sampler, p.n, p.rms, p.lo, p.hi,
+                          p.seconds);
   return text;
 }
 
 std::string json(const Experiment& e, const std::vector<Curve>& curves, const ConvergeOptions& o) {
-  nlohmann::ordered_json j = {{"command", o.command}, {"commit", commit},         {"seed", o.seed},   {"experiment", e.name},
-                              {"title", e.title},     {"source", e.source},       {"dimension", e.dim}, {"truth", e.truth},
-                              {"replicates", o.replicates}, {"fit_from", e.fit_from}, {"curves", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json j = {{"command", o.command},
+                              {"commit", commit},
+                              {"seed", o.seed},
+                              {"experiment", e.name},
+                              {"title", e.title},
+                              {"source", e.source},
+                              {"dimension", e.dim},
+                              {"truth", e.truth},
+                              {"replicates", o.replicates},
+                              {"fit_from", e.fit_from},
+                              {"curves", nlohmann::ordered_json::array()}};
   for (const Curve& c : curves) {
     nlohmann::ordered_json points = nlohmann::ordered_json::array();
-    for (const mc::RmsError& p : c.errors) points.push_back({{"n", p.n}, {"rms_error", p.rms}, {"rms_lo", p.lo}, {"rms_hi", p.hi}, {"cpu_seconds", p.seconds}});
+    for (const mc::RmsError& p : c.errors)
+      points.push_back(
+          {{"n", p.n}, {"rms_error", p.rms}, {"rms_lo", p.lo}, {"rms_hi", p.hi}, {"cpu_seconds", p.seconds}});
     nlohmann::ordered_json k = {{"sampler", c.sampler}, {"exact", c.exact}, {"points", points}};
-    if (!c.exact) k["slope"] = {{"value", c.law.slope}, {"lo", c.law.lo}, {"hi", c.law.hi}, {"constant", c.law.constant}};
+    if (!c.exact)
+      k["slope"] = {{"value", c.law.slope}, {"lo", c.law.lo}, {"hi", c.law.hi}, {"constant", c.law.constant}};
     if (c.theory != 0) k["theory"] = c.theory;
     j["curves"].push_back(k);
   }
@@ -138,13 +155,18 @@ set ylabel "root-mean-square error"
     for (std::size_t i = 0; i < curves.size(); ++i) {
       const Curve& c = curves[i];
       if (c.exact) continue;
-      const auto color = colors[static_cast<std::size_t>(std::find(known_samplers.begin(), known_samplers.end(), c.sampler) - known_samplers.begin())];
+      const auto color = colors[static_cast<std::size_t>(
+          std::find(known_samplers.begin(), known_samplers.end(), c.sampler) - known_samplers.begin())];
       const std::string pick = fmt::format("(strcol(2) eq \"{}\" ? ", c.sampler);
-      plot += fmt::format("\"{0}.csv\" skip 1 using {1}{2} : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb \"{3}\" notitle, \\\n     ", e.name, pick,
-                          fmt::format("${}", column), color);
-      plot += fmt::format("\"{0}.csv\" skip 1 using {1}{2} : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb \"{3}\" title \"{4}\", \\\n     ", e.name, pick,
-                          fmt::format("${}", column), color,
-                          with_guides ? fmt::format("{}: N^{{{:.2f} ± {:.2f}}}", c.sampler, c.law.slope, (c.law.hi - c.law.lo) / 2) : c.sampler);
+      plot += fmt::format("\"{0}.csv\" skip 1 using {1}{2} : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "
+                          "\"{3}\" notitle, \\\n     ",
+                          e.name, pick, fmt::format("${}", column), color);
+      plot += fmt::format(
+          "\"{0}.csv\" skip 1 using {1}{2} : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb \"{3}\" title \"{4}\", "
+          "\\\n     ",
+          e.name, pick, fmt::format("${}", column), color,
+          with_guides ? fmt::format("{}: N^{{{:.2f} ± {:.2f}}}", c.sampler, c.law.slope, (c.law.hi - c.law.lo) / 2)
+                      : c.sampler);
       if (with_guides && c.theory != 0)
         plot += fmt::format("{0:.6g} * x**({1:.6g}) with lines dt 3 lw 1 lc rgb \"{2}\" notitle, \\\n     ",
                             c.errors.back().rms / std::pow(c.errors.back().n, c.theory), c.theory, color);
@@ -158,7 +180,8 @@ set ylabel "root-mean-square error"
 
 bool draw(const std::filesystem::path& folder, const std::string& name) {
   for (const char* kind : {"svg", "png"}) {
-    const std::string command = fmt::format("cd '{}' && gnuplot -e 'kind=\"{}\"' {}.gp 2>{}.log", folder.string(), kind, name, name);
+    const std::string command =
+        fmt::format("cd '{}' && gnuplot -e 'kind=\"{}\"' {}.gp 2>{}.log", folder.string(), kind, name, name);
     if (std::system(command.c_str()) != 0) return false;
   }
   std::filesystem::remove(folder / (name + ".log"));
@@ -182,12 +205,13 @@ int converge(const ConvergeOptions& o) {
     for (const Experiment& e : experiments()) std::printf("%-24s %s\n", e.name.c_str(), e.title.c_str());
     return exit_ok;
   }
-  mc::require(o.replicates >= 8, "--replicates {} is too few for an error of the error; at least 8 are needed", o.replicates);
+  mc::require(o.replicates >= 8, "--replicates {} is too few for an error of the error; at least 8 are needed",
+              o.replicates);
   mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
   const std::vector<std::string> samplers = split(o.samplers);
   for (const std::string& s : samplers)
-    mc::require(std::find(known_samplers.begin(), known_samplers.end(), s) != known_samplers.end(), "unknown sampler '{}'{}; use random, stratified or sobol", s,
-                mc::did_you_mean(s, known_samplers));
+    mc::require(std::find(known_samplers.begin(), known_samplers.end(), s) != known_samplers.end(),
+                "unknown sampler '{}'{}; use random, stratified or sobol", s, mc::did_you_mean(s, known_samplers));
   std::vector<const Experiment*> chosen;
   for (const std::string& name : o.experiments) chosen.push_back(&experiment(name));
   if (chosen.empty())
@@ -199,7 +223,8 @@ int converge(const ConvergeOptions& o) {
   mc::require(!failed, "cannot create the folder '{}': {}", o.output, failed.message());
 
   const bool can_draw = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
-  if (!can_draw) std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
+  if (!can_draw)
+    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
   Progress progress;
   // Work grows with N: the last N takes half of a curve's time.
   const double total = double(chosen.size() * samplers.size());
@@ -219,7 +244,8 @@ int converge(const ConvergeOptions& o) {
     progress.clear();
     std::printf("%s: %s\n", e->name.c_str(), e->title.c_str());
     for (const Curve& c : curves)
-      std::printf("  %-11s RMS error %.3g at N = %.0f, %s\n", c.sampler.c_str(), c.errors.back().rms, c.errors.back().n, slope_text(c).c_str());
+      std::printf("  %-11s RMS error %.3g at N = %.0f, %s\n", c.sampler.c_str(), c.errors.back().rms, c.errors.back().n,
+                  slope_text(c).c_str());
     const bool anything = std::any_of(curves.begin(), curves.end(), [](const Curve& c) { return !c.exact; });
     if (can_draw && anything) mc::require(draw(folder, e->name), "gnuplot failed on {}.gp; see {}.log", base, base);
   }

@@ -23,7 +23,8 @@ double take_number(std::string_view& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
   mc::require(!word.empty(), "an empty field");
-  mc::require(end == word.data() + word.size() && error != std::errc::invalid_argument, "'{}' is not a number", word.substr(0, 40));
+  mc::require(end == word.data() + word.size() && error != std::errc::invalid_argument, "'{}' is not a number",
+              word.substr(0, 40));
   mc::require(error == std::errc() && std::isfinite(value), "'{}' is not a finite number", word.substr(0, 40));
   text.remove_prefix(word.size());
   return value;

@@ -33,7 +33,8 @@ std::vector<Experiment> make() {
                     const double x = 2 * std::sqrt(u[0]);
                     return 2 * x; // x^2 / (x / 2)
                   }});
-  list.push_back({"x2_quadratic", "x^2 on [0,2], density 3 x^2 / 8: no error at all", week3 + ", chapter 3", 1, 8.0 / 3, 0, 16, [](Unit u) {
+  list.push_back({"x2_quadratic", "x^2 on [0,2], density 3 x^2 / 8: no error at all", week3 + ", chapter 3", 1, 8.0 / 3,
+                  0, 16, [](Unit u) {
                     const double x = 2 * std::cbrt(1 - u[0]); // 1 - u, so that x > 0
                     return x * x / (3 * x * x / 8);
                   }});
@@ -42,21 +43,24 @@ std::vector<Experiment> make() {
                     const auto w = warp.sample(pair(u));
                     return mc::sqr(w.z()) / warp.pdf(w);
                   }});
-  list.push_back({"cos3_hemisphere_uniform", "cos^3 over the hemisphere, uniform density", week3 + ", chapter 7", 2, pi / 2, -1.0, 64, [](Unit u) {
+  list.push_back({"cos3_hemisphere_uniform", "cos^3 over the hemisphere, uniform density", week3 + ", chapter 7", 2,
+                  pi / 2, -1.0, 64, [](Unit u) {
                     const mc::UniformHemisphere<double> warp;
                     const auto w = warp.sample(pair(u));
                     return w.z() * w.z() * w.z() / warp.pdf(w);
                   }});
-  list.push_back({"cos3_hemisphere_cosine", "cos^3 over the hemisphere, density cos/pi", week3 + ", chapter 7", 2, pi / 2, -1.0, 64,
-                  [](Unit u) {
+  list.push_back({"cos3_hemisphere_cosine", "cos^3 over the hemisphere, density cos/pi", week3 + ", chapter 7", 2,
+                  pi / 2, -1.0, 64, [](Unit u) {
                     const mc::CosineHemisphere<double> warp;
                     const auto w = warp.sample(pair(u));
                     return w.z() * w.z() * w.z() / warp.pdf(w);
                   }});
-  list.push_back({"ball_3d", "volume of the ball in 3 dimensions by darts", week3 + ", chapter 2", 3, 4 * pi / 3, -0.5 - 1.0 / 6, 64, ball});
-  list.push_back({"ball_5d", "volume of the ball in 5 dimensions by darts", week3 + ", chapter 2", 5, 8 * pi * pi / 15, -0.6, 64, ball});
-  list.push_back({"adversarial", "-cos(2 pi x) on [0,100]: a regular grid sees only the crests", codex, 1, 0, -1.5, 1024,
-                  [](Unit u) { return -100 * std::cos(200 * mc::pi<double> * u[0]); }});
+  list.push_back({"ball_3d", "volume of the ball in 3 dimensions by darts", week3 + ", chapter 2", 3, 4 * pi / 3,
+                  -0.5 - 1.0 / 6, 64, ball});
+  list.push_back({"ball_5d", "volume of the ball in 5 dimensions by darts", week3 + ", chapter 2", 5, 8 * pi * pi / 15,
+                  -0.6, 64, ball});
+  list.push_back({"adversarial", "-cos(2 pi x) on [0,100]: a regular grid sees only the crests", codex, 1, 0, -1.5,
+                  1024, [](Unit u) { return -100 * std::cos(200 * mc::pi<double> * u[0]); }});
   return list;
 }
 

@@ -39,7 +39,8 @@ struct Instance {
 } // namespace
 
 Experiment parse_expression(const std::string& expression, const std::string& box) {
-  mc::require(!box.empty(), "'{}' is not a name of --list; for an expression give --domain, as in \"x=0:1,y=-1:2\"", expression);
+  mc::require(!box.empty(), "'{}' is not a name of --list; for an expression give --domain, as in \"x=0:1,y=-1:2\"",
+              expression);
   const std::vector<Side> sides = parse_sides(box);
   const Instance checked(expression, sides);
   double volume = 1;

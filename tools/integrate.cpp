@@ -24,12 +24,14 @@ Experiment integrand(const IntegrateOptions& o) {
   if (!o.domain.empty()) return parse_expression(o.integrand, o.domain);
   for (const Experiment& e : genz_integrals())
     if (e.name == o.integrand) return e;
-  const bool a_name = o.integrand.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
+  const bool a_name = o.integrand.find_first_not_of(
+                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
   if (!a_name) return parse_expression(o.integrand, o.domain);
   if (o.integrand.starts_with("genz")) {
     std::vector<std::string_view> names;
     for (const Experiment& e : genz_integrals()) names.push_back(e.name);
-    throw mc::Error(fmt::format("unknown integrand '{}'{}; --list shows them all", o.integrand, mc::did_you_mean(o.integrand, names)));
+    throw mc::Error(fmt::format("unknown integrand '{}'{}; --list shows them all", o.integrand,
+                                mc::did_you_mean(o.integrand, names)));
   }
   return experiment(o.integrand);
 }
@@ -54,27 +56,32 @@ int integrate(const IntegrateOptions& o) {
   settings.threads = o.threads;
   Progress progress;
   settings.progress = [&](const mc::IntegrateProgress& p) {
-    progress.show(double(p.calls) / double(o.max_calls), fmt::format("{:.8g} ± {:.2g}", p.estimate.value, p.estimate.std_error));
+    progress.show(double(p.calls) / double(o.max_calls),
+                  fmt::format("{:.8g} ± {:.2g}", p.estimate.value, p.estimate.std_error));
   };
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
   const mc::Integral r = mc::integrate_unit(e.f, e.dim, settings);
   progress.clear();
 
-  std::printf("%s = %.10g ± %.2g (standard error), 95 %% in [%.10g, %.10g]\n", e.title.c_str(), r.estimate.value, r.estimate.std_error, r.interval.lo,
-              r.interval.hi);
-  std::printf("%s calls in %s by %s; stopped: %s\n", format_count(double(r.calls)).c_str(), format_seconds(r.seconds).c_str(),
-              std::string(name(r.method)).c_str(), std::string(name(r.stop)).c_str());
+  std::printf("%s = %.10g ± %.2g (standard error), 95 %% in [%.10g, %.10g]\n", e.title.c_str(), r.estimate.value,
+              r.estimate.std_error, r.interval.lo, r.interval.hi);
+  std::printf("%s calls in %s by %s; stopped: %s\n", format_count(double(r.calls)).c_str(),
+              format_seconds(r.seconds).c_str(), std::string(name(r.method)).c_str(),
+              std::string(name(r.stop)).c_str());
   if (std::isfinite(e.truth))
     std::printf("the true value is %.10g, %.2f standard errors away\n", e.truth,
                 r.estimate.std_error > 0 ? std::abs(r.estimate.value - e.truth) / r.estimate.std_error : 0.0);
-  if (!r.consistent) std::printf("warning: the rounds disagree (chi-square %.3g for %.0f degrees of freedom): distrust the error\n", r.chi2, r.chi2_dof);
+  if (!r.consistent)
+    std::printf("warning: the rounds disagree (chi-square %.3g for %.0f degrees of freedom): distrust the error\n",
+                r.chi2, r.chi2_dof);
   if (!o.json.empty()) {
-    nlohmann::ordered_json j = {{"command", o.command},   {"commit", commit},          {"seed", o.seed},
-                                      {"integrand", e.name},    {"value", r.estimate.value}, {"std_error", r.estimate.std_error},
-                                      {"lo", r.interval.lo},    {"hi", r.interval.hi},       {"calls", r.calls},
-                                      {"seconds", r.seconds},   {"method", name(r.method)},  {"stop", name(r.stop)},
-                                      {"chi2", r.chi2},         {"chi2_dof", r.chi2_dof},    {"consistent", r.consistent}};
+    nlohmann::ordered_json j = {
+        {"command", o.command}, {"commit", commit},          {"seed", o.seed},
+        {"integrand", e.name},  {"value", r.estimate.value}, {"std_error", r.estimate.std_error},
+        {"lo", r.interval.lo},  {"hi", r.interval.hi},       {"calls", r.calls},
+        {"seconds", r.seconds}, {"method", name(r.method)},  {"stop", name(r.stop)},
+        {"chi2", r.chi2},       {"chi2_dof", r.chi2_dof},    {"consistent", r.consistent}};
     if (std::isfinite(e.truth)) j["truth"] = e.truth;
     mc::write_file(o.json, j.dump(1) + "\n");
   }

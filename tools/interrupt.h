@@ -9,10 +9,11 @@ namespace carlo {
 /// Turns Ctrl-C into a flag while it lives; a second Ctrl-C ends the program at once.
 class Interrupt {
  public:
-  Interrupt() : old_(std::signal(SIGINT, [](int) {
-    raised_ = true;
-    std::signal(SIGINT, SIG_DFL);
-  })) {
+  Interrupt()
+      : old_(std::signal(SIGINT, [](int) {
+          raised_ = true;
+          std::signal(SIGINT, SIG_DFL);
+        })) {
     raised_ = false;
   }
   ~Interrupt() { std::signal(SIGINT, old_); }

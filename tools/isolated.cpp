@@ -30,7 +30,8 @@ struct Unmap {
   void operator()(Watch* w) const { munmap(w, sizeof(Watch)); }
 };
 
-// What the child sends: how the work ended, then its result or the error's text. Length first, so that a cut message shows.
+// What the child sends: how the work ended, then its result or the error's text. Length first, so that a cut message
+//                       shows.
 enum Ending : char { returned = 'r', refused = 'e', threw = 't' };
 
 [[noreturn]] void run_child(int pipe, Watch& watch, const std::function<std::string(Watch&)>& work) {
@@ -84,7 +85,9 @@ std::string Watch::where() const {
 }
 
 std::string run_isolated(const std::string& who, double timeout, const std::function<std::string(Watch&)>& work) {
-  const auto system_error = [&](const char* what) { return mc::Error(fmt::format("{}: {}: {}", who, what, std::strerror(errno))); };
+  const auto system_error = [&](const char* what) {
+    return mc::Error(fmt::format("{}: {}: {}", who, what, std::strerror(errno)));
+  };
   void* memory = mmap(nullptr, sizeof(Watch), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) throw system_error("no shared memory");
   const std::unique_ptr<Watch, Unmap> watch(new (memory) Watch);
@@ -123,17 +126,22 @@ std::string run_isolated(const std::string& who, double timeout, const std::func
   }
   if (!dead) {
     kill(child, SIGKILL);
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {}
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
   }
   close(ends[0]);
 
   if (!whole(message)) {
     if (!dead && watch->inside() && elapsed() - moved > 0.5 * timeout)
       throw mc::Error(fmt::format("{}: it hangs{}: no answer in {:g} s (--timeout)", who, watch->where(), timeout));
-    if (!dead) throw mc::Error(fmt::format("{}: not done in {:g} s,{}; raise --timeout or lower --samples", who, timeout, watch->where()));
+    if (!dead)
+      throw mc::Error(
+          fmt::format("{}: not done in {:g} s,{}; raise --timeout or lower --samples", who, timeout, watch->where()));
     if (WIFSIGNALED(status))
-      throw mc::Error(fmt::format("{}: it crashed{}: {} (signal {})", who, watch->where(), strsignal(WTERMSIG(status)), WTERMSIG(status)));
-    throw mc::Error(fmt::format("{}: it ended the process{} with exit code {}; it must return", who, watch->where(), WEXITSTATUS(status)));
+      throw mc::Error(fmt::format("{}: it crashed{}: {} (signal {})", who, watch->where(), strsignal(WTERMSIG(status)),
+                                  WTERMSIG(status)));
+    throw mc::Error(fmt::format("{}: it ended the process{} with exit code {}; it must return", who, watch->where(),
+                                WEXITSTATUS(status)));
   }
   std::string text = message.substr(1 + sizeof(std::uint64_t));
   if (message[0] == returned) return text;

@@ -13,7 +13,8 @@ class Watch {
  public:
   static constexpr int max_arguments = 6;
 
-  /// Around every call: enter before, leave after it. `function` is a string literal, `argument` one too ("u", "x", "").
+  /// Around every call: enter before, leave after it. `function` is a string literal, `argument` one too ("u", "x",
+  ///                    "").
   void enter(const char* function, const char* argument = "", const double* values = nullptr, int n = 0) {
     argument_ = argument;
     n_ = n;
@@ -40,7 +41,8 @@ class Watch {
 
 /// Runs work in a forked child and returns what it returned. Its standard output goes to standard error.
 ///   timeout : wall-clock seconds, then the child is killed
-///   throws  : Error "who: ..." in one line when the work throws, crashes, ends the process or takes too long, saying where
+///   throws  : Error "who: ..." in one line when the work throws, crashes, ends the process or takes too long, saying
+///             where
 std::string run_isolated(const std::string& who, double timeout, const std::function<std::string(Watch&)>& work);
 
 } // namespace carlo

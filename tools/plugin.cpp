@@ -52,9 +52,10 @@ template <class A> void each(A& a, Figure& figure) {
 }
 
 template <class A> void each(A& a, Report& report) {
-  auto& [subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst, evidence, figures] =
-      report;
-  a(subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst, evidence, figures);
+  auto& [subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes,
+         worst, evidence, figures] = report;
+  a(subject, alpha, samples, mass, mass_error, detectable, detectable_cell, seconds, ns_per_sample, checks, axes, worst,
+    evidence, figures);
 }
 
 } // namespace mc
@@ -83,20 +84,24 @@ template <class A> void each(A& a, Description& description) {
   a(name, scalar, parameters);
 }
 
-int dimension(const mc_sampler& s) { return s.domain == MC_INTERVAL || s.domain == MC_DISCRETE ? 1 : s.domain == MC_BOX ? s.dim : 2; }
+int dimension(const mc_sampler& s) {
+  return s.domain == MC_INTERVAL || s.domain == MC_DISCRETE ? 1 : s.domain == MC_BOX ? s.dim : 2;
+}
 
 bool is_word(const char* text) {
   if (!text || !*text) return false;
-  return std::all_of(text, text + std::string_view(text).size(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
+  return std::all_of(text, text + std::string_view(text).size(),
+                     [](unsigned char c) { return std::isalnum(c) || c == '_'; });
 }
 
 void require_sound(const mc_sampler& s, std::size_t index) {
   mc::require(is_word(s.name), "sampler {} has no name of letters, digits and _", index);
   mc::with_context(fmt::format("sampler {}", s.name), [&] {
-    mc::require(s.domain >= MC_INTERVAL && s.domain <= MC_DISCRETE, "domain = {} is none of mc_domain, 1 to 7", s.domain);
+    mc::require(s.domain >= MC_INTERVAL && s.domain <= MC_DISCRETE, "domain = {} is none of mc_domain, 1 to 7",
+                s.domain);
     mc::require(s.domain != MC_BOX || (s.dim >= 1 && s.dim <= 3), "dim = {}; a box has 1 to 3 dimensions", s.dim);
-    mc::require(s.domain != MC_INTERVAL || s.lo[0] < s.hi[0] || (s.lo[0] == 0 && s.hi[0] == 0), "interval [{}, {}] needs lo < hi", s.lo[0],
-                s.hi[0]);
+    mc::require(s.domain != MC_INTERVAL || s.lo[0] < s.hi[0] || (s.lo[0] == 0 && s.hi[0] == 0),
+                "interval [{}, {}] needs lo < hi", s.lo[0], s.hi[0]);
     mc::require(s.domain != MC_DISCRETE || (s.hi[0] >= 1 && s.hi[0] <= 1 << 24 && s.hi[0] == std::floor(s.hi[0])),
                 "hi[0] = {} outcomes; 1 to 2^24 are needed", s.hi[0]);
     mc::require(s.domain != MC_DISCRETE || (!s.invert && !s.eval), "discrete outcomes have neither invert nor eval");
@@ -107,16 +112,18 @@ void require_sound(const mc_sampler& s, std::size_t index) {
     mc::require(s.pdf, "it has no function pdf");
     mc::require(!s.weight || s.eval, "it states a weight, but no eval to hold it against");
     mc::require(!s.invert || s.uniforms == 0 || s.uniforms == dimension(s),
-                "it has invert, but takes {} uniforms in {} dimensions; invert needs as many", s.uniforms, dimension(s));
+                "it has invert, but takes {} uniforms in {} dimensions; invert needs as many", s.uniforms,
+                dimension(s));
     for (const double t : {s.pdf_tolerance, s.weight_tolerance, s.invert_tolerance})
       mc::require(t >= 0 && t < 1, "a tolerance is {}; it must lie in [0, 1)", t);
-    mc::require(s.parameter_count >= 0 && s.parameter_count <= 64, "parameter_count = {} must lie in 0 to 64", s.parameter_count);
+    mc::require(s.parameter_count >= 0 && s.parameter_count <= 64, "parameter_count = {} must lie in 0 to 64",
+                s.parameter_count);
     mc::require(s.parameter_count == 0 || s.parameters, "parameters is NULL, parameter_count is {}", s.parameter_count);
     for (int i = 0; i < s.parameter_count; ++i) {
       const mc_parameter& p = s.parameters[i];
       mc::require(is_word(p.name), "parameter {} has no name of letters, digits and _", i);
-      mc::require(std::isfinite(p.value) && p.lo <= p.value && p.value <= p.hi, "parameter {} = {} does not lie in its range [{}, {}]",
-                  p.name, p.value, p.lo, p.hi);
+      mc::require(std::isfinite(p.value) && p.lo <= p.value && p.value <= p.hi,
+                  "parameter {} = {} does not lie in its range [{}, {}]", p.name, p.value, p.lo, p.hi);
     }
   });
 }
@@ -149,8 +156,8 @@ Set parse_set(std::string_view text) {
     const std::size_t equals = one.find('=');
     double value = 0;
     const char* end = one.data() + one.size();
-    mc::require(equals != std::string_view::npos && equals > 0 && std::from_chars(one.data() + equals + 1, end, value).ptr == end &&
-                    std::isfinite(value),
+    mc::require(equals != std::string_view::npos && equals > 0 &&
+                    std::from_chars(one.data() + equals + 1, end, value).ptr == end && std::isfinite(value),
                 "--params: '{}' in '{}' is not of the form name=number, as in \"alpha=0.1,n=3\"", one, text);
     set.emplace_back(one.substr(0, equals), value);
   }
@@ -158,7 +165,8 @@ Set parse_set(std::string_view text) {
 }
 
 Parameter* find(std::vector<Parameter>& parameters, const std::string& name) {
-  const auto it = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == name; });
+  const auto it =
+      std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == name; });
   return it == parameters.end() ? nullptr : &*it;
 }
 
@@ -242,17 +250,19 @@ std::span<const mc_sampler> load_plugin(const std::string& path, Watch& watch) {
     throw mc::Error(fmt::format("it cannot be loaded: {}", why));
   }
   const auto entry = reinterpret_cast<const mc_plugin_info* (*)()>(dlsym(library, "mc_plugin"));
-  mc::require(entry != nullptr, "it has no function mc_plugin; end the source with MC_PLUGIN(samplers) of <mc/check/plugin.h>");
+  mc::require(entry != nullptr,
+              "it has no function mc_plugin; end the source with MC_PLUGIN(samplers) of <mc/check/plugin.h>");
   watch.enter("mc_plugin");
   const mc_plugin_info* const info = entry();
   watch.leave();
   mc::require(info != nullptr, "mc_plugin returned NULL");
-  mc::require(info->abi == MC_PLUGIN_ABI, "it is made for version {} of <mc/check/plugin.h>, this carlo for {}; compile it again",
-              info->abi, MC_PLUGIN_ABI);
-  mc::require(info->sampler_size == sizeof(mc_sampler), "its mc_sampler has {} bytes, that of <mc/check/plugin.h> {}", info->sampler_size,
-              sizeof(mc_sampler));
-  mc::require(info->sampler_count >= 1 && info->sampler_count <= 1000 && info->samplers, "it lists {} samplers; 1 to 1000 are needed",
-              info->sampler_count);
+  mc::require(info->abi == MC_PLUGIN_ABI,
+              "it is made for version {} of <mc/check/plugin.h>, this carlo for {}; compile it again", info->abi,
+              MC_PLUGIN_ABI);
+  mc::require(info->sampler_size == sizeof(mc_sampler), "its mc_sampler has {} bytes, that of <mc/check/plugin.h> {}",
+              info->sampler_size, sizeof(mc_sampler));
+  mc::require(info->sampler_count >= 1 && info->sampler_count <= 1000 && info->samplers,
+              "it lists {} samplers; 1 to 1000 are needed", info->sampler_count);
   const std::span<const mc_sampler> samplers(info->samplers, info->sampler_count);
   for (std::size_t i = 0; i < samplers.size(); ++i) require_sound(samplers[i], i);
   return samplers;
@@ -271,14 +281,17 @@ Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& 
   for (const std::string& text : sets) {
     parsed.push_back(parse_set(text));
     for (const auto& [name, value] : parsed.back())
-      mc::require(known.contains(name), "{}: --params: no sampler has a parameter '{}'{}", path, name, mc::did_you_mean(name, known));
+      mc::require(known.contains(name), "{}: --params: no sampler has a parameter '{}'{}", path, name,
+                  mc::did_you_mean(name, known));
   }
 
   Catalogue cases;
-  const auto add = [&](std::size_t index, const Description& d, const std::vector<Parameter>& parameters, const Set& set) {
+  const auto add = [&](std::size_t index, const Description& d, const std::vector<Parameter>& parameters,
+                       const Set& set) {
     Case& c = cases.emplace_back();
     c.name = d.name, c.scalar = d.scalar;
-    for (const auto& [name, value] : set) c.parameters += fmt::format("{}{}={}", c.parameters.empty() ? "" : ", ", name, value);
+    for (const auto& [name, value] : set)
+      c.parameters += fmt::format("{}{}={}", c.parameters.empty() ? "" : ", ", name, value);
     std::vector<double> values;
     for (const Parameter& p : parameters) values.push_back(p.value);
     c.again = fmt::format("--plugin '{}' {}", path, d.name);
@@ -300,11 +313,13 @@ Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& 
     bool any = false;
     for (std::size_t k = 0; k < parsed.size(); ++k) {
       std::vector<Parameter> parameters = samplers[index].parameters;
-      if (!std::all_of(parsed[k].begin(), parsed[k].end(), [&](const auto& one) { return find(parameters, one.first); })) continue;
+      if (!std::all_of(parsed[k].begin(), parsed[k].end(),
+                       [&](const auto& one) { return find(parameters, one.first); }))
+        continue;
       for (const auto& [name, value] : parsed[k]) {
         Parameter& p = *find(parameters, name);
-        mc::require(value >= p.lo && value <= p.hi, "{}: --params: {} = {} of {} must lie in [{}, {}]", path, name, value,
-                    samplers[index].name, p.lo, p.hi);
+        mc::require(value >= p.lo && value <= p.hi, "{}: --params: {} = {} of {} must lie in [{}, {}]", path, name,
+                    value, samplers[index].name, p.lo, p.hi);
         p.value = value;
       }
       add(index, samplers[index], parameters, parsed[k]);

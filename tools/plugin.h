@@ -13,8 +13,8 @@
 
 namespace carlo {
 
-/// A sampler of a loaded shared object with its parameters set: the functions of mc_sampler, each call noted in the watch.
-/// Lives in the child only.
+/// A sampler of a loaded shared object with its parameters set: the functions of mc_sampler, each call noted in the
+/// watch. Lives in the child only.
 class PluginSampler {
  public:
   /// throws : Error when create refuses the parameters
@@ -39,16 +39,17 @@ class PluginSampler {
 };
 
 /// Loads the shared object and checks its table of samplers against the contracts of the header.
-///   throws : Error for a file that is no shared object, lacks mc_plugin or one that it needs itself, has another ABI, or a
-///            sampler without a function, or with a domain, a number or a parameter that means nothing
+///   throws : Error for a file that is no shared object, lacks mc_plugin or one that it needs itself, has another ABI,
+///            or a sampler without a function, or with a domain, a number or a parameter that means nothing
 std::span<const mc_sampler> load_plugin(const std::string& path, Watch& watch);
 
 /// Every law that the sampler's functions allow: those of check_subject, edges of the unit cube, weight = eval / pdf,
 /// pdf > 0 where eval > 0, invert(sample(u)) = u, |det d sample / d u| pdf = 1.
 mc::Report check_plugin(const PluginSampler& sampler, const std::string& title, const CaseOptions& options);
 
-/// One case per sampler of the shared object and per set of parameters, "alpha=0.1, n=3", that names only parameters of the
-/// sampler; where there is none, one at the defaults. Loading and checking run in processes of their own, see isolated.h.
+/// One case per sampler of the shared object and per set of parameters, "alpha=0.1, n=3", that names only parameters of
+/// the sampler; where there is none, one at the defaults. Loading and checking run in processes of their own, see
+/// isolated.h.
 ///   timeout : seconds per case
 ///   throws  : Error for a plugin that load_plugin refuses, that crashes or hangs, or a set that no sampler can take
 Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& sets, double timeout);

@@ -47,7 +47,8 @@ template <mc::Domain First, mc::Domain... Rest> struct OneOf {
     return std::visit([&](const auto& d) { return d.contains(x); }, which);
   }
   template <mc::Real T> auto cast() const {
-    using Other = OneOf<decltype(std::declval<First>().template cast<T>()), decltype(std::declval<Rest>().template cast<T>())...>;
+    using Other =
+        OneOf<decltype(std::declval<First>().template cast<T>()), decltype(std::declval<Rest>().template cast<T>())...>;
     return std::visit([](const auto& d) { return Other{d.template cast<T>()}; }, which);
   }
 };
@@ -82,7 +83,8 @@ template <mc::Domain D> struct Plugged {
 
   Uniforms uniforms(mc::Pcg& random) const {
     Uniforms u{};
-    for (int i = 0; i < plugin.uniforms(); ++i) u[static_cast<std::size_t>(i)] = static_cast<double>(random.uniform<S>());
+    for (int i = 0; i < plugin.uniforms(); ++i)
+      u[static_cast<std::size_t>(i)] = static_cast<double>(random.uniform<S>());
     return u;
   }
   // Those of draw `index` of the stream `seed`.
@@ -117,7 +119,8 @@ template <mc::Domain D> struct Plugged {
 
   std::string format(const Uniforms& u) const {
     std::string text = "(";
-    for (int i = 0; i < plugin.uniforms(); ++i) text += fmt::format("{}{:.17g}", i ? ", " : "", u[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < plugin.uniforms(); ++i)
+      text += fmt::format("{}{:.17g}", i ? ", " : "", u[static_cast<std::size_t>(i)]);
     return text + ")";
   }
   std::string describe(const Uniforms& u) const {

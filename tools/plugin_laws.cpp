@@ -25,7 +25,8 @@ template <class D> double weight_ratio(const Plugged<D>& p, const Uniforms& u) {
 
 template <class D> Subject subject_of(const Plugged<D>& p, const std::string& title) {
   Subject s = mc::make_subject(
-      title, p.domain, [p](mc::Pcg& random) { return p.sample(p.uniforms(random)); }, [p](const typename D::Point& x) { return p.pdf(x); });
+      title, p.domain, [p](mc::Pcg& random) { return p.sample(p.uniforms(random)); },
+      [p](const typename D::Point& x) { return p.pdf(x); });
   s.axes = std::visit([](const auto& d) { return mc::chart_axes(d); }, p.domain.which);
   s.may_fail = p.plugin->may_fail != 0;
   if (p.plugin->pdf_tolerance > 0) s.mass_tolerance = p.plugin->pdf_tolerance;
@@ -55,7 +56,8 @@ template <class D, class Describe, class Fine> mc::Check edge_law(const Plugged<
     Uniforms u{};
     for (int i = 0, rest = k; i < p.plugin.uniforms(); ++i, rest /= 5)
       u[static_cast<std::size_t>(i)] = places[static_cast<std::size_t>(rest % 5)];
-    ledger.note(fine(u) ? 0 : 1, [&] { return "not a point of the domain with a positive, finite pdf: " + describe(u); });
+    ledger.note(fine(u) ? 0 : 1,
+                [&] { return "not a point of the domain with a positive, finite pdf: " + describe(u); });
   }
   return ledger.check();
 }
@@ -74,13 +76,16 @@ template <class D> mc::Check edge_law(const Plugged<D>& p) {
 
 // eval >= 0 and finite, and positive only where pdf is, at uniform points of the chart.
 template <class D> void eval_laws(const Plugged<D>& p, std::uint64_t seed, std::vector<mc::Check>& laws) {
-  mc::LawLedger sign("eval finite and >= 0", 0, mc::Fault::physics), support("pdf > 0 where eval > 0", 0, mc::Fault::support);
+  mc::LawLedger sign("eval finite and >= 0", 0, mc::Fault::physics),
+      support("pdf > 0 where eval > 0", 0, mc::Fault::support);
   mc::Pcg random(seed, 31);
   for (int k = 0; k < 20000; ++k) {
     const auto x = p.domain.from_unit(random.point<typename D::Scalar, D::dim>());
     if (!mc::detail::all_finite(x)) continue;
     const double f = p.eval(x), density = p.pdf(x);
-    const auto where = [&] { return fmt::format("x = {}, eval = {:.9g}, pdf = {:.9g}", mc::detail::format_point(x), f, density); };
+    const auto where = [&] {
+      return fmt::format("x = {}, eval = {:.9g}, pdf = {:.9g}", mc::detail::format_point(x), f, density);
+    };
     sign.note(f >= 0 && std::isfinite(f) ? 0 : 1, where);
     support.note(f > 0 && !(density > 0) ? 1 : 0, where);
   }
@@ -90,7 +95,8 @@ template <class D> void eval_laws(const Plugged<D>& p, std::uint64_t seed, std::
 
 template <class D> mc::Check inverse_law(const Plugged<D>& p, std::uint64_t seed) {
   const double eps = static_cast<double>(std::numeric_limits<typename D::Scalar>::epsilon());
-  mc::LawLedger ledger("invert(sample(u)) = u", p.plugin->invert_tolerance > 0 ? p.plugin->invert_tolerance : std::sqrt(eps),
+  mc::LawLedger ledger("invert(sample(u)) = u",
+                       p.plugin->invert_tolerance > 0 ? p.plugin->invert_tolerance : std::sqrt(eps),
                        mc::Fault::inverse);
   mc::Pcg random(seed, 32);
   for (int k = 0; k < 20000; ++k) {
@@ -114,16 +120,21 @@ template <class D> mc::Check inverse_law(const Plugged<D>& p, std::uint64_t seed
   return ledger.check();
 }
 
-// |det d sample / d u| pdf = 1 by central differences in double. Three steps bound the error of their own result, which is taken
-// off; rounding of an ill-conditioned sampler may still slip through at single points, so the upper quartile is judged.
+// |det d sample / d u| pdf = 1 by central differences in double. Three steps bound the error of their own result, which
+// is taken off; rounding of an ill-conditioned sampler may still slip through at single points, so the upper quartile
+// is judged.
 template <class D> mc::Check jacobian_law(const Plugged<D>& p, std::uint64_t seed) {
   constexpr int dim = D::dim;
   constexpr double limit = 1e-6, first_step = 0x1p-12;
-  struct Point { double off; Uniforms u; };
+  struct Point {
+    double off;
+    Uniforms u;
+  };
   std::vector<Point> points;
   mc::Pcg random(seed, 33);
   const auto determinant = [&](const Uniforms& u, double h) {
-    std::array<mc::Vec3<double>, 3> columns = {mc::Vec3<double>::UnitX(), mc::Vec3<double>::UnitY(), mc::Vec3<double>::UnitZ()};
+    std::array<mc::Vec3<double>, 3> columns = {mc::Vec3<double>::UnitX(), mc::Vec3<double>::UnitY(),
+                                               mc::Vec3<double>::UnitZ()};
     for (int axis = 0; axis < dim; ++axis) {
       Uniforms ahead = u, behind = u;
       ahead[static_cast<std::size_t>(axis)] += h, behind[static_cast<std::size_t>(axis)] -= h;
@@ -131,7 +142,8 @@ template <class D> mc::Check jacobian_law(const Plugged<D>& p, std::uint64_t see
       if (!a || !b) return std::numeric_limits<double>::quiet_NaN();
       const auto va = p.domain.to_unit(*a), vb = p.domain.to_unit(*b);
       for (int i = 0; i < dim; ++i)
-        columns[static_cast<std::size_t>(axis)][i] = (mc::detail::component(va, i) - mc::detail::component(vb, i)) / (2 * h);
+        columns[static_cast<std::size_t>(axis)][i] =
+            (mc::detail::component(va, i) - mc::detail::component(vb, i)) / (2 * h);
     }
     return std::abs(columns[0].dot(mc::cross(columns[1], columns[2])));
   };
@@ -150,7 +162,8 @@ template <class D> mc::Check jacobian_law(const Plugged<D>& p, std::uint64_t see
   mc::Check check{"|det| pdf = 1, upper quartile", mc::Verdict::pass, {}, 0, 0, limit, mc::Fault::jacobian, {}};
   if (points.size() < 100) return check;
   const auto quartile = points.begin() + static_cast<std::ptrdiff_t>(points.size() * 3 / 4);
-  std::nth_element(points.begin(), quartile, points.end(), [](const Point& a, const Point& b) { return a.off < b.off; });
+  std::nth_element(points.begin(), quartile, points.end(),
+                   [](const Point& a, const Point& b) { return a.off < b.off; });
   check.statistic = quartile->off;
   if (!(check.statistic <= limit)) check.verdict = mc::Verdict::fail, check.detail = p.describe(quartile->u);
   return check;
@@ -166,13 +179,15 @@ template <class D> double ns_per_sample(const Plugged<D>& p) {
   for (int round = 0; round < 4; ++round) {
     const auto start = std::chrono::steady_clock::now();
     for (const Uniforms& one : u) p.plugin.sample(one.data(), x.data());
-    best = std::min(best, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / n);
+    best =
+        std::min(best, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count() / n);
   }
   return best;
 }
 
 template <mc::Domain D>
-mc::Report check_on(const PluginSampler& plugin, const D& domain, const std::string& title, const CaseOptions& options) {
+mc::Report check_on(const PluginSampler& plugin, const D& domain, const std::string& title,
+                    const CaseOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const Plugged<D> p{plugin, domain};
   std::vector<mc::Check> laws{edge_law(p)};
@@ -205,25 +220,29 @@ std::array<double, 3> quartiles(const PluginSampler& plugin, std::uint64_t seed)
   return {drawn[drawn.size() / 4], drawn[drawn.size() / 2], drawn[drawn.size() * 3 / 4]};
 }
 
-template <mc::Real S> mc::Report check_infinite(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
+template <mc::Real S>
+mc::Report check_infinite(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
   const auto [low, middle, high] = quartiles(plugin, options.seed);
   const double lo = plugin->lo[0], hi = plugin->hi[0];
   const auto scale = [](double size) { return static_cast<S>(size > 0 ? size : 1.0); };
   if (std::isinf(lo) && std::isinf(hi))
     return check_on(plugin, Line<S>{mc::RealLine<S>(static_cast<S>(middle), scale(high - low))}, title, options);
-  if (std::isinf(hi)) return check_on(plugin, Line<S>{mc::HalfLine<S>(static_cast<S>(lo), scale(middle - lo))}, title, options);
+  if (std::isinf(hi))
+    return check_on(plugin, Line<S>{mc::HalfLine<S>(static_cast<S>(lo), scale(middle - lo))}, title, options);
   return check_on(plugin, Line<S>{mc::HalfLine<S>(static_cast<S>(hi), -scale(hi - middle))}, title, options);
 }
 
 // Outcomes 0 to n - 1 as atoms; an x that is none of them is outside.
-template <mc::Real S> mc::Report check_discrete(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
+template <mc::Real S>
+mc::Report check_discrete(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
   using Kind = Subject::Draw::Kind;
   const auto start = std::chrono::steady_clock::now();
   const Plugged<Line<S>> p{plugin, {}}; // for its uniforms
   Subject s;
   s.name = title;
   s.may_fail = plugin->may_fail != 0;
-  s.mass_tolerance = plugin->pdf_tolerance > 0 ? plugin->pdf_tolerance : 64 * static_cast<double>(std::numeric_limits<S>::epsilon());
+  s.mass_tolerance =
+      plugin->pdf_tolerance > 0 ? plugin->pdf_tolerance : 64 * static_cast<double>(std::numeric_limits<S>::epsilon());
   for (double i = 0; i < plugin->hi[0]; ++i) s.atoms.push_back(plugin.pdf(&i));
   const auto one = [p, n = plugin->hi[0]](const Uniforms& u) {
     Subject::Draw d;
@@ -243,7 +262,9 @@ template <mc::Real S> mc::Report check_discrete(const PluginSampler& plugin, con
     mc::Pcg random(seed);
     for (std::size_t i = 0; i < n; ++i) out.push_back(one(p.uniforms(random)));
   };
-  s.describe_draw = [p, describe](std::uint64_t seed, std::uint64_t index) { return describe(p.uniforms_at(seed, index)); };
+  s.describe_draw = [p, describe](std::uint64_t seed, std::uint64_t index) {
+    return describe(p.uniforms_at(seed, index));
+  };
   mc::SubjectOptions o;
   o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.evidence = options.evidence;
   mc::Report report = check_subject(s, o);
@@ -256,12 +277,14 @@ template <mc::Real S> mc::Report check_discrete(const PluginSampler& plugin, con
   return report;
 }
 
-template <mc::Real S> mc::Report check_over(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
+template <mc::Real S>
+mc::Report check_over(const PluginSampler& plugin, const std::string& title, const CaseOptions& options) {
   const auto check = [&](const auto& domain) { return check_on(plugin, domain, title, options); };
   std::array<S, 3> lo, hi;
   const bool unit = std::all_of(plugin->lo, plugin->lo + 3, [](double x) { return x == 0; }) &&
                     std::all_of(plugin->hi, plugin->hi + 3, [](double x) { return x == 0; });
-  for (std::size_t i = 0; i < 3; ++i) lo[i] = static_cast<S>(plugin->lo[i]), hi[i] = unit ? S(1) : static_cast<S>(plugin->hi[i]);
+  for (std::size_t i = 0; i < 3; ++i)
+    lo[i] = static_cast<S>(plugin->lo[i]), hi[i] = unit ? S(1) : static_cast<S>(plugin->hi[i]);
   switch (plugin->domain) {
   case MC_INTERVAL:
     if (std::isinf(lo[0]) || std::isinf(hi[0])) return check_infinite<S>(plugin, title, options);
@@ -281,7 +304,8 @@ template <mc::Real S> mc::Report check_over(const PluginSampler& plugin, const s
 } // namespace
 
 mc::Report check_plugin(const PluginSampler& sampler, const std::string& title, const CaseOptions& options) {
-  return sampler->scalar == MC_FLOAT ? check_over<float>(sampler, title, options) : check_over<double>(sampler, title, options);
+  return sampler->scalar == MC_FLOAT ? check_over<float>(sampler, title, options)
+                                     : check_over<double>(sampler, title, options);
 }
 
 } // namespace carlo

@@ -22,9 +22,11 @@ void Progress::show(double fraction, const std::string& text) {
   const std::string remaining = fraction > 0 ? format_seconds(elapsed / fraction * (1 - fraction)) + " left" : "";
   constexpr int width = 24;
   const int filled = static_cast<int>(std::lround(fraction * width));
-  std::string line = fmt::format("[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", width - filled, 100 * fraction, remaining, text);
+  std::string line = fmt::format("[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", width - filled, 100 * fraction,
+                                 remaining, text);
   winsize window{};
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 && line.size() >= window.ws_col) line.resize(window.ws_col - 1u);
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 && line.size() >= window.ws_col)
+    line.resize(window.ws_col - 1u);
   std::fprintf(stderr, "\r\033[K%s", line.c_str());
   std::fflush(stderr);
   drawn_ = true;

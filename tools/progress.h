@@ -6,7 +6,8 @@
 
 namespace carlo {
 
-/// Redraws one line on stderr, at most ten times a second, and only when stderr is a terminal; the line is erased at the end.
+/// Redraws one line on stderr, at most ten times a second, and only when stderr is a terminal; the line is erased at
+/// the end.
 class Progress {
  public:
   Progress();

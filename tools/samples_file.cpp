@@ -51,11 +51,13 @@ struct GridDomain {
   std::string describe(const Vec2<double>& p) const {
     if (sphere) {
       const double phi = 2 * mc::pi<double> * p[0], theta = mc::pi<double> * p[1];
-      return fmt::format("({:.6g}, {:.6g}, {:.6g})", std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+      return fmt::format("({:.6g}, {:.6g}, {:.6g})", std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                         std::cos(theta));
     }
     std::string text = "(";
     for (std::size_t i = 0; i < sides.size(); ++i)
-      text += fmt::format("{}{:.6g}", i ? ", " : "", sides[i].lo + (sides[i].hi - sides[i].lo) * p[static_cast<Eigen::Index>(i)]);
+      text += fmt::format("{}{:.6g}", i ? ", " : "",
+                          sides[i].lo + (sides[i].hi - sides[i].lo) * p[static_cast<Eigen::Index>(i)]);
     return text + ")";
   }
   // Of a cell in row j.
@@ -71,7 +73,8 @@ struct GridDomain {
   std::string name() const {
     if (sphere) return fmt::format("the unit sphere (to {:g})", unit_tolerance);
     std::string text;
-    for (const Side& s : sides) text += fmt::format("{}{} in [{:g}, {:g}]", text.empty() ? "" : ", ", s.name, s.lo, s.hi);
+    for (const Side& s : sides)
+      text += fmt::format("{}{} in [{:g}, {:g}]", text.empty() ? "" : ", ", s.name, s.lo, s.hi);
     return text;
   }
 };
@@ -82,8 +85,8 @@ GridDomain domain_of(const SamplesFileOptions& o, std::size_t columns) {
   else if (!o.domain.empty()) d.sides = parse_sides(o.domain);
   else if (columns == 1) d.sides = {{"x", 0, 1}};
   else d.sides = {{"x", 0, 1}, {"y", 0, 1}};
-  mc::require(d.columns() <= 3 && (d.sphere || d.sides.size() <= 2), "--domain: '{}' has {} variables; a grid has 1 or 2", o.domain,
-              d.sides.size());
+  mc::require(d.columns() <= 3 && (d.sphere || d.sides.size() <= 2),
+              "--domain: '{}' has {} variables; a grid has 1 or 2", o.domain, d.sides.size());
   mc::require(columns == d.columns(), "{}: {} columns; {} {} needed on {}", o.samples, columns, d.columns(),
               d.columns() == 1 ? "is" : "are", d.name());
   return d;
@@ -99,8 +102,8 @@ Grid read_grid(const std::string& file) {
   if (!file.ends_with(".exr") && !file.ends_with(".pfm")) {
     const CsvTable table = read_csv(file);
     for (std::size_t i = 0; i < table.values.size(); ++i)
-      mc::require(table.values[i] >= 0, "{}:{}: number {} is {}; a density is >= 0", file, table.lines[i / table.columns],
-                  i % table.columns + 1, table.values[i]);
+      mc::require(table.values[i] >= 0, "{}:{}: number {} is {}; a density is >= 0", file,
+                  table.lines[i / table.columns], i % table.columns + 1, table.values[i]);
     return {table.columns, table.rows(), table.values};
   }
   const render::Image image = mc::with_context(file, [&] { return render::read_image(file); });
@@ -137,8 +140,10 @@ std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
   mc::require(table.rows() < std::uint64_t{1} << 32, "{}: {} samples; fewer than 2^32 fit", o.samples, table.rows());
   GridDomain domain = domain_of(o, table.columns);
   Grid grid = read_grid(o.pdf);
-  mc::require(domain.columns() > 1 || grid.height == 1, "{}: {} rows; the density on an interval is one row", o.pdf, grid.height);
-  mc::require(grid.density.size() < std::uint64_t{1} << 32, "{}: {} cells; fewer than 2^32 fit", o.pdf, grid.density.size());
+  mc::require(domain.columns() > 1 || grid.height == 1, "{}: {} rows; the density on an interval is one row", o.pdf,
+              grid.height);
+  mc::require(grid.density.size() < std::uint64_t{1} << 32, "{}: {} cells; fewer than 2^32 fit", o.pdf,
+              grid.density.size());
 
   mc::CompensatedSum mass;
   for (std::size_t i = 0; i < grid.density.size(); ++i) {
@@ -146,10 +151,13 @@ std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
     mass.add(grid.density[i]);
   }
   mc::require(mass.value() > 0 && std::isfinite(mass.value()),
-              "{}: the density integrates to {}; some cell must be positive, and none beyond doubles", o.pdf, mass.value());
+              "{}: the density integrates to {}; some cell must be positive, and none beyond doubles", o.pdf,
+              mass.value());
 
   const auto cell_of = [&](const double* x) -> std::optional<std::uint32_t> {
-    const auto index = [](double at, std::size_t n) { return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1); };
+    const auto index = [](double at, std::size_t n) {
+      return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1);
+    };
     const auto p = domain.to_square(x);
     if (!p) return {};
     return static_cast<std::uint32_t>(index((*p)[1], grid.height) * grid.width + index((*p)[0], grid.width));
@@ -176,13 +184,14 @@ std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
     const double* x = table.row(first_off);
     std::string point;
     for (std::size_t k = 0; k < table.columns; ++k) point += fmt::format("{}{}", k ? ", " : "", x[k]);
-    throw mc::Error(fmt::format("{}:{}: ({}) is not covered by the grid of {}, {}; {} of {} samples are not (see --domain)", o.samples,
-                                table.lines[first_off], point, o.pdf, domain.name(), off, table.rows()));
+    throw mc::Error(
+        fmt::format("{}:{}: ({}) is not covered by the grid of {}, {}; {} of {} samples are not (see --domain)",
+                    o.samples, table.lines[first_off], point, o.pdf, domain.name(), off, table.rows()));
   }
   mc::TableDist2D<double> distribution(grid.density, grid.width, grid.height);
-  return std::make_shared<const SamplesFile>(SamplesFile{o.samples, std::move(table), std::move(domain), grid.width, grid.height,
-                                                         std::move(grid.density), o.unnormalized ? 1.0 : mass.value(),
-                                                         std::move(distribution), std::move(cells)});
+  return std::make_shared<const SamplesFile>(
+      SamplesFile{o.samples, std::move(table), std::move(domain), grid.width, grid.height, std::move(grid.density),
+                  o.unnormalized ? 1.0 : mass.value(), std::move(distribution), std::move(cells)});
 }
 
 // Deals the rows in an order that the seed chooses, each once: a stream that is new gets the next of them.
@@ -218,8 +227,10 @@ Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::strin
     for (std::size_t k = 0; k < n; ++k) {
       const std::uint32_t row = deal->row(first + k), cell = f->cells[row];
       const std::uint64_t bits = mc::hash(seed, row);
-      const Vec2<double> p((static_cast<double>(cell % f->width) + mc::uniform<double>(bits)) / static_cast<double>(f->width),
-                           (static_cast<double>(cell / f->width) + mc::uniform<double>(mc::mix64(bits))) / static_cast<double>(f->height));
+      const Vec2<double> p((static_cast<double>(cell % f->width) + mc::uniform<double>(bits)) /
+                               static_cast<double>(f->width),
+                           (static_cast<double>(cell / f->width) + mc::uniform<double>(mc::mix64(bits))) /
+                               static_cast<double>(f->height));
       Subject::Draw& d = out.emplace_back();
       d.pdf_positive = f->weights[cell] > 0;
       const Vec2<double> u = f->distribution.invert(p);
@@ -230,10 +241,14 @@ Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::strin
   s.describe_draw = [f, deal](std::uint64_t stream, std::uint64_t index) {
     const std::uint32_t row = deal->row(deal->open(stream, 0) + index), cell = f->cells[row];
     std::string point;
-    for (std::size_t k = 0; k < f->table.columns; ++k) point += fmt::format("{}{}", k ? ", " : "", f->table.row(row)[k]);
-    return fmt::format("{}:{}: ({}) in cell ({}, {}) of the grid", f->file, f->table.lines[row], point, cell % f->width, cell / f->width);
+    for (std::size_t k = 0; k < f->table.columns; ++k)
+      point += fmt::format("{}{}", k ? ", " : "", f->table.row(row)[k]);
+    return fmt::format("{}:{}: ({}) in cell ({}, {}) of the grid", f->file, f->table.lines[row], point, cell % f->width,
+                       cell / f->width);
   };
-  s.describe_point = [f](const Subject::Coordinates& v) { return f->domain.describe(f->distribution.sample({v[0], v[1]})); };
+  s.describe_point = [f](const Subject::Coordinates& v) {
+    return f->domain.describe(f->distribution.sample({v[0], v[1]}));
+  };
   return s;
 }
 

@@ -8,9 +8,7 @@ namespace {
 
 using Kind = mc::Subject::Draw::Kind;
 
-mc::SubjectOptions options(const CaseOptions& c) {
-  return {.samples = c.samples, .seed = c.seed, .alpha = c.alpha};
-}
+mc::SubjectOptions options(const CaseOptions& c) { return {.samples = c.samples, .seed = c.seed, .alpha = c.alpha}; }
 
 template <class D> mc::Subject on(const D& domain, Directions sampler, Density pdf, Failures failures) {
   mc::Subject s = make_subject("", domain, std::move(sampler), std::move(pdf));
@@ -20,14 +18,11 @@ template <class D> mc::Subject on(const D& domain, Directions sampler, Density p
 
 bool is_bad(const mc::Subject& s, const mc::Subject::Draw& d) {
   switch (d.kind) {
-  case Kind::failed:
-    return !s.may_fail;
+  case Kind::failed: return !s.may_fail;
   case Kind::outside:
-  case Kind::not_finite:
-    return true;
+  case Kind::not_finite: return true;
   case Kind::atom:
-  case Kind::point:
-    break;
+  case Kind::point: break;
   }
   return !d.pdf_positive || !(std::abs(d.weight - 1) <= s.weight_tolerance);
 }
@@ -71,7 +66,8 @@ Trial trial(const Inverted& warp, double tolerance) {
       const mc::Vec2<double> u = random.point<double, 2>(), off = (warp.invert(warp.sample(u)) - u).cwiseAbs();
       // The two sides of an azimuth's seam are one point.
       const auto turned = [](double x) { return x > 0.5 ? 1 - x : x; };
-      inverse.note(std::max(turned(off[0]), turned(off[1])), [&] { return fmt::format("u = {}", mc::detail::format_point(u)); });
+      inverse.note(std::max(turned(off[0]), turned(off[1])),
+                   [&] { return fmt::format("u = {}", mc::detail::format_point(u)); });
     }
     report.checks.insert(report.checks.begin(), inverse.check());
     return report;
@@ -107,19 +103,21 @@ Trial mean_trial(double value, Numbers estimator) {
     mc::Pcg random(c.seed);
     for (std::uint64_t i = 0; i < c.samples; ++i) moments.add(estimator(random), i);
     const auto bad = static_cast<double>(moments.non_finite());
-    report.checks.push_back(
-        {"finite",
-         bad > 0 ? mc::Verdict::fail : mc::Verdict::pass,
-         {},
-         0,
-         bad,
-         0,
-         mc::Fault::not_finite,
-         bad > 0 ? fmt::format("{} of {} estimates, first number {}", bad, c.samples, moments.witness()) : std::string()});
+    report.checks.push_back({"finite",
+                             bad > 0 ? mc::Verdict::fail : mc::Verdict::pass,
+                             {},
+                             0,
+                             bad,
+                             0,
+                             mc::Fault::not_finite,
+                             bad > 0
+                                 ? fmt::format("{} of {} estimates, first number {}", bad, c.samples, moments.witness())
+                                 : std::string()});
     if (bad > 0) return report;
     const bool exact = std::abs(moments.mean() - value) <= 1e-12 * std::abs(value); // a perfect estimator has no spread
     const mc::TTest test = exact ? mc::TTest{} : mc::t_test(moments, value, c.alpha);
-    mc::Check mean{"mean", test.p <= c.alpha ? mc::Verdict::fail : mc::Verdict::pass, test.p, 1, test.t, 0, mc::Fault::bias, {}};
+    mc::Check mean{
+        "mean", test.p <= c.alpha ? mc::Verdict::fail : mc::Verdict::pass, test.p, 1, test.t, 0, mc::Fault::bias, {}};
     if (mean.verdict == mc::Verdict::fail)
       mean.detail = fmt::format("{:.6g} +- {:.2g} instead of {:.6g}", moments.mean(), moments.std_error(), value);
     report.checks.push_back(std::move(mean));
@@ -153,9 +151,7 @@ Trial law_trial(std::string law, double limit, mc::Fault fault, Numbers error) {
   return t;
 }
 
-Direction cosine(mc::Pcg& r) {
-  return mc::CosineHemisphere<double>{}.sample(r.point<double, 2>());
-}
+Direction cosine(mc::Pcg& r) { return mc::CosineHemisphere<double>{}.sample(r.point<double, 2>()); }
 
 Direction in_ball(mc::Pcg& r) {
   for (;;) {

@@ -1,5 +1,6 @@
 #pragma once
-/// What a slip can be: a sampler with its density, a warp with its inverse, a BSDF, an estimator of a known mean, or a law.
+/// What a slip can be: a sampler with its density, a warp with its inverse, a BSDF, an estimator of a known mean, or a
+///                     law.
 /// Function objects, not templates: a list of sixty samplers then compiles in seconds.
 
 #include "slips.h"
@@ -62,12 +63,8 @@ inline double uniform(mc::Pcg& r) { return r.uniform<double>(); }
 inline Direction direction(double z, double phi) {
   return mc::spherical_direction<double>(mc::safe_sqrt<double>((1 - z) * (1 + z)), z, phi);
 }
-inline Direction incident(double degrees) {
-  return direction(std::cos(degrees * pi / 180), 0);
-}
-inline double cosine_pdf(const Direction& w) {
-  return w.z() > 0 ? w.z() / pi : 0.0;
-}
+inline Direction incident(double degrees) { return direction(std::cos(degrees * pi / 180), 0); }
+inline double cosine_pdf(const Direction& w) { return w.z() > 0 ? w.z() / pi : 0.0; }
 Direction cosine(mc::Pcg& r);
 Direction in_ball(mc::Pcg& r);
 

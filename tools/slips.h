@@ -1,8 +1,8 @@
 #pragma once
 /// Known-wrong samplers, densities, weights and estimators, each with the right one beside it.
 ///
-/// They stand here in our own words because two readers need them: `carlo validate book-slips`, which tells what the checkers
-/// make of the code that the books print, and the tests, which demand that every one of them is rejected.
+/// They stand here in our own words because two readers need them: `carlo validate book-slips`, which tells what the
+/// checkers make of the code that the books print, and the tests, which demand that every one of them is rejected.
 /// A family adds its slips in a file of its own, slips_<family>.cpp.
 
 #include "catalogue.h"
@@ -19,14 +19,14 @@ namespace carlo {
 /// A sampler, weight or estimator ready to be judged; made by the functions of slip_trials.h.
 struct Trial {
   std::function<mc::Report(const CaseOptions&)> check;
-  /// Draws of a stream until one shows by itself that it is wrong (not finite, outside, density 0, weight off); 0 when none of
-  /// the first `most` does.
+  /// Draws of a stream until one shows by itself that it is wrong (not finite, outside, density 0, weight off); 0 when
+  /// none of the first `most` does.
   std::function<std::uint64_t(std::uint64_t seed, std::uint64_t most)> first_bad;
   std::uint64_t fewest = 1000; ///< samples that `check` needs
 };
 
-/// One slip. The numbers P1 to P36 are those of the books and courses, in the order of their lists; R1 ... were shipped by
-/// renderers; C1 ... and V1 ... are small disturbances of a cosine lobe and of visible normals.
+/// One slip. The numbers P1 to P36 are those of the books and courses, in the order of their lists; R1 ... were shipped
+/// by renderers; C1 ... and V1 ... are small disturbances of a cosine lobe and of visible normals.
 struct Slip {
   std::string id;
   std::string name;

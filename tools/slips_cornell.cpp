@@ -97,25 +97,17 @@ struct Bounce {
 };
 using Strategy = Bounce (*)(const Hit&, Pcg&);
 
-V around(const V& n, const V& local) {
-  return mc::Frame<double>::from_z(n).to_world(local);
-}
+V around(const V& n, const V& local) { return mc::Frame<double>::from_z(n).to_world(local); }
 
 template <V (*lobe)(Pcg&)> Bounce mixed(const Hit& h, Pcg& r) {
   const V w = uniform(r) < 0.5 ? toward_light(h.p, r) : around(h.n, lobe(r));
   const double c = std::max(w.dot(h.n), 0.0) / pi;
   return {w, c > 0 ? c / (0.5 * c + 0.5 * toward_light_pdf(h.p, w)) : 0};
 }
-template <V (*lobe)(Pcg&)> Bounce weightless(const Hit& h, Pcg& r) {
-  return {around(h.n, lobe(r)), 1};
-}
+template <V (*lobe)(Pcg&)> Bounce weightless(const Hit& h, Pcg& r) { return {around(h.n, lobe(r)), 1}; }
 
-V unit_in_ball(Pcg& r) {
-  return (V::UnitZ() + in_ball(r)).normalized();
-}
-V on_ball(Pcg& r) {
-  return (V::UnitZ() + in_ball(r).normalized()).normalized();
-}
+V unit_in_ball(Pcg& r) { return (V::UnitZ() + in_ball(r)).normalized(); }
+V on_ball(Pcg& r) { return (V::UnitZ() + in_ball(r).normalized()).normalized(); }
 
 Bounce hemisphere(const Hit& h, Pcg& r) {
   const double z = uniform(r);
@@ -175,10 +167,12 @@ std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, i
     Strategy strategy;
   };
   const Way ways[] = {
-      {{"cosine and light, half each", "reference", "cosine directions; the density of a sample is the mixture's", true},
+      {{"cosine and light, half each", "reference", "cosine directions; the density of a sample is the mixture's",
+        true},
        mixed<cosine>},
       {{"normal + unit vector", "book v3.2.3", "cosine directions: right", true}, weightless<on_ball>},
-      {{"uniform hemisphere", "book v3.2.3", "right too: the text that calls the difference a bug is stale", true}, hemisphere},
+      {{"uniform hemisphere", "book v3.2.3", "right too: the text that calls the difference a bug is stale", true},
+       hemisphere},
       {{"normal + point in the ball", "book, ch. 4", "P1: directions crowd the normal, out of the box's dark corners"},
        weightless<unit_in_ball>},
       {{"doubled cosine lobe", "book, ch. 6", "P2: directions crowd the horizon"}, weightless<doubled>},

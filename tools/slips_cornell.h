@@ -17,7 +17,8 @@ struct CornellBox {
 };
 
 /// The reference first: cosine and light directions in a correct mixture, on four times as many paths.
-///   scene  : 555 units wide, two white boxes, a ceiling light of radiance 15, camera and colours of the books; 50 bounces
+///   scene  : 555 units wide, two white boxes, a ceiling light of radiance 15, camera and colours of the books; 50
+///            bounces
 ///   result : same bits for any number of threads
 ///   Source : [Shirley16]
 std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, int threads);

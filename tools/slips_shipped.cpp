@@ -50,7 +50,8 @@ double third_barycentric(Pcg& r, bool twice) {
   return std::max(b1 + b2 - 1, 0.0);
 }
 
-// Visible normals by a disk around the stretched direction w. `skewed`: near the pole the tangent is (1,0,0), not perpendicular.
+// Visible normals by a disk around the stretched direction w. `skewed`: near the pole the tangent is (1,0,0), not
+// perpendicular.
 Inverted visible_normals(bool skewed) {
   const double alpha = 0.01;
   const V wo = incident(24), w = V(alpha * wo.x(), alpha * wo.y(), wo.z()).normalized();
@@ -74,7 +75,8 @@ Inverted visible_normals(bool skewed) {
 // The power heuristic of two densities over the range of float.
 Trial weights(float (*heuristic)(float, float)) {
   return law_trial("weights sum to 1", 1e-6, Fault::weight, [heuristic](Pcg& r) {
-    const auto f = static_cast<float>(std::pow(10.0, 60 * uniform(r) - 30)), g = static_cast<float>(f * std::pow(10.0, 2 * uniform(r) - 1));
+    const auto f = static_cast<float>(std::pow(10.0, 60 * uniform(r) - 30)),
+               g = static_cast<float>(f * std::pow(10.0, 2 * uniform(r) - 1));
     return std::abs(static_cast<double>(heuristic(f, g)) + static_cast<double>(heuristic(g, f)) - 1);
   });
 }
@@ -103,7 +105,8 @@ Trial two_lobes(double sampled, double stated) {
 
 // The mean cosine of a phase function that was asked for g = 0.995.
 Trial mean_cosine(double g) {
-  return mean_trial(0.995, [warp = mc::HenyeyGreenstein<double>(g)](Pcg& r) { return warp.sample(r.point<double, 2>()).z(); });
+  return mean_trial(0.995,
+                    [warp = mc::HenyeyGreenstein<double>(g)](Pcg& r) { return warp.sample(r.point<double, 2>()).z(); });
 }
 
 // A warp at the corners, the middle and just inside them: finite, in its domain, density positive.
@@ -140,7 +143,8 @@ struct ConcentricBeckmann {
   float alpha = 0.3f;
   mc::Vec3<float> sample(const mc::Vec2<float>& u) const {
     const mc::Vec2<float> d = concentric(u);
-    const float r2 = d.squaredNorm(), t2 = -alpha * alpha * std::log(1 - r2), c = 1 / std::sqrt(1 + t2), s = std::sqrt(t2 / r2) * c;
+    const float r2 = d.squaredNorm(), t2 = -alpha * alpha * std::log(1 - r2), c = 1 / std::sqrt(1 + t2),
+                s = std::sqrt(t2 / r2) * c;
     return {d.x() * s, d.y() * s, c};
   }
   float pdf(const mc::Vec3<float>& m) const { return mc::BeckmannNormals<float>(alpha).pdf(m); }
@@ -149,8 +153,11 @@ struct ConcentricBeckmann {
 // exp(-c x) on [0,1] in float, by logarithms of nearly equal numbers.
 Trial trimmed_exponential() {
   const float c = 1e-6f;
-  const auto sampler = [c](Pcg& r) { return std::min(std::log(1 - r.uniform<float>() * (1 - std::exp(-c))) / -c, 1.0f); };
-  return trial(make_subject("", mc::Interval<float>(0, 1), sampler, [c](float x) { return c / (1 - std::exp(-c)) * std::exp(-c * x); }));
+  const auto sampler = [c](Pcg& r) {
+    return std::min(std::log(1 - r.uniform<float>() * (1 - std::exp(-c))) / -c, 1.0f);
+  };
+  return trial(make_subject("", mc::Interval<float>(0, 1), sampler,
+                            [c](float x) { return c / (1 - std::exp(-c)) * std::exp(-c * x); }));
 }
 
 // The density a + (b - a) x on [0,1] of large values: their squares overflow.
@@ -160,7 +167,8 @@ Trial linear_squared() {
     const float u = r.uniform<float>();
     return (a - std::sqrt((1 - u) * a * a + u * b * b)) / (a - b);
   };
-  return trial(make_subject("", mc::Interval<float>(0, 1), sampler, [a, b](float x) { return 2 * ((1 - x) * a + x * b) / (a + b); }));
+  return trial(make_subject("", mc::Interval<float>(0, 1), sampler,
+                            [a, b](float x) { return 2 * ((1 - x) * a + x * b) / (a + b); }));
 }
 
 // von Mises-Fisher at kappa = 1e-7 in float: 1 - exp(-2 kappa) cancels.
@@ -176,7 +184,8 @@ Trial nearly_uniform_fisher() {
   return trial(make_subject("", mc::Sphere<float>{}, sampler, pdf));
 }
 
-// Three outcomes whose sums were rounded: what is left of u is divided by the weight, not by the width that was searched.
+// Three outcomes whose sums were rounded: what is left of u is divided by the weight, not by the width that was
+// searched.
 struct ReusedRemainder {
   using Scalar = float;
   std::size_t size() const { return 3; }
@@ -198,37 +207,46 @@ Slips slips_of_renderers() {
                    0, 1, [](Pcg& r) { return table_sample(uniform(r), 0.74); }, [](double) { return 1.0; })),
                trial(on_interval(
                    0, 1, [](Pcg& r) { return table_sample(uniform(r), 0.75); }, [](double) { return 1.0; }))});
-  s.push_back({"R2", "smoothstep inverse", "pbrt-v4", "its polynomial ignores its argument: 0 / 0 for every x", Fault::inverse, 1000,
-               smoothstep_inverse([](double x) {
+  s.push_back({"R2", "smoothstep inverse", "pbrt-v4", "its polynomial ignores its argument: 0 / 0 for every x",
+               Fault::inverse, 1000, smoothstep_inverse([](double x) {
                  const auto p = [x](double) { return x * x * x * (2 - x); };
                  return (p(x) - p(0)) / (p(1) - p(0));
                }),
                smoothstep_inverse([](double x) { return mc::Smoothstep<double>{}.invert(x); })});
-  s.push_back({"R3", "barycentrics divided twice", "pbrt-v4, spherical triangle",
-               "the second division uses the first's result: the third coordinate turns negative", Fault::outside, 1000,
-               law_trial("barycentrics >= 0", 1e-15, Fault::outside, [](Pcg& r) { return third_barycentric(r, true); }),
-               law_trial("barycentrics >= 0", 1e-15, Fault::outside, [](Pcg& r) { return third_barycentric(r, false); })});
+  s.push_back(
+      {"R3", "barycentrics divided twice", "pbrt-v4, spherical triangle",
+       "the second division uses the first's result: the third coordinate turns negative", Fault::outside, 1000,
+       law_trial("barycentrics >= 0", 1e-15, Fault::outside, [](Pcg& r) { return third_barycentric(r, true); }),
+       law_trial("barycentrics >= 0", 1e-15, Fault::outside, [](Pcg& r) { return third_barycentric(r, false); })});
   s.push_back({"R4", "visible normals in a skewed frame", "pbrt-v4, Trowbridge-Reitz",
-               "near the pole the tangent is (1,0,0), not orthogonal: mean slope .2 % of its spread off", Fault::inverse, 1000,
-               trial(visible_normals(true)), trial(visible_normals(false))});
+               "near the pole the tangent is (1,0,0), not orthogonal: mean slope .2 % of its spread off",
+               Fault::inverse, 1000, trial(visible_normals(true)), trial(visible_normals(false))});
   s.push_back({"R5", "weights that sum to 2", "pbrt-v4, Mitsuba 3: power heuristic",
-               "squares of float densities beyond 1e19 overflow, below 1e-22 vanish; divide by the larger first", Fault::weight, 1000,
+               "squares of float densities beyond 1e19 overflow, below 1e-22 vanish; divide by the larger first",
+               Fault::weight, 1000,
                weights([](float f, float g) { return std::isinf(f * f) ? 1.0f : f * f / (f * f + g * g); }),
                weights([](float f, float g) { return mc::power_heuristic<float>(1, f, 1, g); })});
-  s.push_back({"R6", "lobe weights differ", "three-gpu-pathtracer", "sample picks lobes with one weight, pdf states another", Fault::weight,
-               1000, two_lobes(0.5, 0.4), two_lobes(0.5, 0.5)});
-  s.push_back({"R7", "a missing 1 / pdf", "a user's Mitsuba 3 plugin", "sample returns f cos instead of f cos / pdf", Fault::bias, 1000,
-               mean_trial(1, [](Pcg& r) { return cosine_pdf(mc::UniformHemisphere<double>{}.sample(r.point<double, 2>())); }),
-               mean_trial(1, [](Pcg& r) { return cosine_pdf(mc::UniformHemisphere<double>{}.sample(r.point<double, 2>())) * 2 * pi; })});
+  s.push_back({"R6", "lobe weights differ", "three-gpu-pathtracer",
+               "sample picks lobes with one weight, pdf states another", Fault::weight, 1000, two_lobes(0.5, 0.4),
+               two_lobes(0.5, 0.5)});
   s.push_back(
-      {"R8", "narrow cone by its cosine", "pbrt-v4, Mitsuba 3", "a cone of 1 mrad in float: pdf 5 % off, nine distinct cosines",
-       Fault::mass, 1000,
-       trial(make_subject(
-           "", mc::Sphere<float>{}, [](Pcg& r) { return mc::UniformCone<float>::from_cos(std::cos(1e-3f)).sample(r.point<float, 2>()); },
-           [](const mc::Vec3<float>& w) { return mc::one_minus_z(w) <= 5e-7f ? 1 / (2 * mc::pi<float> * (1 - std::cos(1e-3f))) : 0; })),
-       trial(make_subject("", mc::UniformCone<float>::from_angle(1e-3f)))});
-  s.push_back({"R9", "two normals under one root", "pbrt-v4 until 2025", "sqrt(-2 ln(u) cos phi) is NaN for three of four draws",
-               Fault::not_finite, 1000,
+      {"R7", "a missing 1 / pdf", "a user's Mitsuba 3 plugin", "sample returns f cos instead of f cos / pdf",
+       Fault::bias, 1000,
+       mean_trial(1, [](Pcg& r) { return cosine_pdf(mc::UniformHemisphere<double>{}.sample(r.point<double, 2>())); }),
+       mean_trial(1, [](Pcg& r) {
+         return cosine_pdf(mc::UniformHemisphere<double>{}.sample(r.point<double, 2>())) * 2 * pi;
+       })});
+  s.push_back({"R8", "narrow cone by its cosine", "pbrt-v4, Mitsuba 3",
+               "a cone of 1 mrad in float: pdf 5 % off, nine distinct cosines", Fault::mass, 1000,
+               trial(make_subject(
+                   "", mc::Sphere<float>{},
+                   [](Pcg& r) { return mc::UniformCone<float>::from_cos(std::cos(1e-3f)).sample(r.point<float, 2>()); },
+                   [](const mc::Vec3<float>& w) {
+                     return mc::one_minus_z(w) <= 5e-7f ? 1 / (2 * mc::pi<float> * (1 - std::cos(1e-3f))) : 0;
+                   })),
+               trial(make_subject("", mc::UniformCone<float>::from_angle(1e-3f)))});
+  s.push_back({"R9", "two normals under one root", "pbrt-v4 until 2025",
+               "sqrt(-2 ln(u) cos phi) is NaN for three of four draws", Fault::not_finite, 1000,
                trial(make_subject(
                    "", mc::BoxMuller<double>{}.domain(),
                    [](Pcg& r) {
@@ -238,23 +256,28 @@ Slips slips_of_renderers() {
                    [](const V2& p) { return mc::BoxMuller<double>{}.pdf(p); })),
                trial(make_subject("", mc::BoxMuller<double>{}))});
   s.push_back({"R10", "phase function clamped to g = .99", "pbrt-v4",
-               "asked for g = .995 it scatters as .99: sample and pdf agree, the mean cosine does not", Fault::bias, 4000,
-               mean_cosine(0.99), mean_cosine(0.995)});
-  s.push_back({"R11", "cosine lobe through the disk's rim", "pbrt-v4", "u = (0, 1/2) gives z = 0, where the density is 0", Fault::edge,
-               1000, edges(ConcentricCosine{}), edges(mc::CosineHemisphere<float>{})});
-  s.push_back({"R12", "the centre of the disk", "Mitsuba 3, Beckmann", "u = (1/2, 1/2), the second Sobol' point, is 0 / 0", Fault::edge,
-               1000, edges(ConcentricBeckmann{}), edges(mc::BeckmannNormals<float>(0.3f))});
-  s.push_back({"R13", "a nearly flat exponential", "pbrt-v4", "1 - exp(-1e-6) in float: 18 distinct samples, density 1.3 % off",
-               Fault::mass, 1000, trimmed_exponential(), trial(make_subject("", mc::TrimmedExponential<float>(1e-6f, 1)))});
-  s.push_back(
-      {"R14", "a cylinder of area 1 / pi", "tungsten", "density 1 / pi on an area of 4 pi", Fault::mass, 1000,
-       trial(on_sphere([](Pcg& r) { return direction(1 - 2 * uniform(r), 2 * pi * uniform(r)); }, [](const V&) { return 1 / pi; })),
-       trial(on_sphere([](Pcg& r) { return direction(1 - 2 * uniform(r), 2 * pi * uniform(r)); }, [](const V&) { return 1 / (4 * pi); }))});
-  s.push_back({"R15", "squares that overflow", "pbrt-v4, Mitsuba 3: bilinear", "linear weights of 1e30 in float are not a number",
-               Fault::not_finite, 1000, linear_squared(), trial(make_subject("", mc::Linear<float>(1e30f, 2e30f)))});
+               "asked for g = .995 it scatters as .99: sample and pdf agree, the mean cosine does not", Fault::bias,
+               4000, mean_cosine(0.99), mean_cosine(0.995)});
+  s.push_back({"R11", "cosine lobe through the disk's rim", "pbrt-v4",
+               "u = (0, 1/2) gives z = 0, where the density is 0", Fault::edge, 1000, edges(ConcentricCosine{}),
+               edges(mc::CosineHemisphere<float>{})});
+  s.push_back({"R12", "the centre of the disk", "Mitsuba 3, Beckmann",
+               "u = (1/2, 1/2), the second Sobol' point, is 0 / 0", Fault::edge, 1000, edges(ConcentricBeckmann{}),
+               edges(mc::BeckmannNormals<float>(0.3f))});
+  s.push_back({"R13", "a nearly flat exponential", "pbrt-v4",
+               "1 - exp(-1e-6) in float: 18 distinct samples, density 1.3 % off", Fault::mass, 1000,
+               trimmed_exponential(), trial(make_subject("", mc::TrimmedExponential<float>(1e-6f, 1)))});
+  s.push_back({"R14", "a cylinder of area 1 / pi", "tungsten", "density 1 / pi on an area of 4 pi", Fault::mass, 1000,
+               trial(on_sphere([](Pcg& r) { return direction(1 - 2 * uniform(r), 2 * pi * uniform(r)); },
+                               [](const V&) { return 1 / pi; })),
+               trial(on_sphere([](Pcg& r) { return direction(1 - 2 * uniform(r), 2 * pi * uniform(r)); },
+                               [](const V&) { return 1 / (4 * pi); }))});
+  s.push_back({"R15", "squares that overflow", "pbrt-v4, Mitsuba 3: bilinear",
+               "linear weights of 1e30 in float are not a number", Fault::not_finite, 1000, linear_squared(),
+               trial(make_subject("", mc::Linear<float>(1e30f, 2e30f)))});
   s.push_back({"R16", "nearly uniform von Mises-Fisher", "Mitsuba 3",
-               "1 - exp(-2 kappa) in float: the density of kappa = 1e-7 integrates to 1.12", Fault::mass, 1000, nearly_uniform_fisher(),
-               trial(make_subject("", mc::VonMisesFisher<float>(1e-7f)))});
+               "1 - exp(-2 kappa) in float: the density of kappa = 1e-7 integrates to 1.12", Fault::mass, 1000,
+               nearly_uniform_fisher(), trial(make_subject("", mc::VonMisesFisher<float>(1e-7f)))});
   s.push_back({"R17", "a remainder outside [0,1)", "Nori, sampleReuse",
                "the reused number is divided by another width than the one that was searched", Fault::not_finite, 8000,
                trial(mc::make_discrete_subject("", ReusedRemainder{})),

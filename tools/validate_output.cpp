@@ -57,12 +57,23 @@ json results(const Run& run) {
     for (const mc::Axis& a : r.axes)
       one["axes"].push_back({{"name", a.name}, {"scale", name(a.scale)}, {"a", a.a}, {"b", a.b}, {"unit", a.unit()}});
     for (const mc::Check& c : r.checks)
-      one["checks"].push_back({{"name", c.name}, {"verdict", name(c.verdict)}, {"p", c.p ? json(*c.p) : json()}, {"share", c.share},
-                               {"statistic", c.statistic}, {"limit", c.limit}, {"detail", c.detail}});
-    for (const mc::Figure& f : r.figures) one["figures"].push_back({{"name", f.name}, {"value", f.value}, {"std_error", f.std_error}, {"where", f.where}});
+      one["checks"].push_back({{"name", c.name},
+                               {"verdict", name(c.verdict)},
+                               {"p", c.p ? json(*c.p) : json()},
+                               {"share", c.share},
+                               {"statistic", c.statistic},
+                               {"limit", c.limit},
+                               {"detail", c.detail}});
+    for (const mc::Figure& f : r.figures)
+      one["figures"].push_back({{"name", f.name}, {"value", f.value}, {"std_error", f.std_error}, {"where", f.where}});
     for (const mc::WorstCell& w : r.worst)
-      one["worst"].push_back({{"lo", w.lo}, {"hi", w.hi}, {"cell", w.lo == w.hi ? "" : describe_cell(r.axes, w.lo, w.hi)},
-                              {"where", w.where}, {"observed", w.observed}, {"expected", w.expected}, {"z", w.z}});
+      one["worst"].push_back({{"lo", w.lo},
+                              {"hi", w.hi},
+                              {"cell", w.lo == w.hi ? "" : describe_cell(r.axes, w.lo, w.hi)},
+                              {"where", w.where},
+                              {"observed", w.observed},
+                              {"expected", w.expected},
+                              {"z", w.z}});
     if (r.evidence)
       for (const auto& [samples, p] : r.evidence->p_after) one["p_after"].push_back({samples, p});
     all["cases"].push_back(std::move(one));
@@ -83,8 +94,8 @@ void write_junit(const std::string& file, const Run& run) {
                                 cases.size(), failures, seconds);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const mc::Report& r = reports[i];
-    xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n    <properties>\n", escape(cases[i]->name),
-                       escape(cases[i]->title()), r.seconds);
+    xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\">\n    <properties>\n",
+                       escape(cases[i]->name), escape(cases[i]->title()), r.seconds);
     const auto property = [&](const char* key, const auto& value) {
       xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", key, escape(fmt::format("{}", value)));
     };
@@ -103,8 +114,8 @@ void write_junit(const std::string& file, const Run& run) {
     property("again", command_again(*cases[i], options, cases.size()));
     xml += "    </properties>\n";
     if (!r.passed())
-      xml += fmt::format("    <failure message=\"{}, {}\">{}</failure>\n", name(r.verdict()), escape(std::string(name(r.fault()))),
-                         escape(r.to_string()));
+      xml += fmt::format("    <failure message=\"{}, {}\">{}</failure>\n", name(r.verdict()),
+                         escape(std::string(name(r.fault()))), escape(r.to_string()));
     xml += "  </testcase>\n";
   }
   mc::write_file(file, xml + "</testsuite>\n");
@@ -115,12 +126,11 @@ std::string command_again(const Case& c, const ValidateOptions& options, std::si
   const std::string parameters = c.parameters.empty() ? "" : "(" + c.parameters + ")";
   const std::string what = c.again.empty() ? fmt::format("'{}{}' --scalar {}", c.name, parameters, c.scalar) : c.again;
   return fmt::format("carlo validate {} --seed {}{} --alpha {:.6g}", what, options.seed,
-                     options.samples_file.empty() ? fmt::format(" --samples {}", options.samples) : std::string(), alpha);
+                     options.samples_file.empty() ? fmt::format(" --samples {}", options.samples) : std::string(),
+                     alpha);
 }
 
-void write_json(const std::string& file, const Run& run) {
-  mc::write_file(file, results(run).dump(1) + "\n");
-}
+void write_json(const std::string& file, const Run& run) { mc::write_file(file, results(run).dump(1) + "\n"); }
 
 void write_page(const std::string& file, const Run& run) {
   const auto& [options, cases, reports] = run;

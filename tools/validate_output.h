@@ -22,12 +22,13 @@ std::string command_again(const Case& c, const ValidateOptions& options, std::si
 /// The schema is in notebooks-data/README.md; not finite numbers are null.
 void write_json(const std::string& file, const Run& run);
 
-/// One testsuite, one testcase per case with its figures as properties; the report of a case that did not pass is its failure.
+/// One testsuite, one testcase per case with its figures as properties; the report of a case that did not pass is its
+/// failure.
 void write_junit(const std::string& file, const Run& run);
 
-/// A page that needs no other file and no network: the results, and for each case that kept its evidence the maps of observed and
-/// expected counts and of their residuals, and the way of its p-value. Cases that did not pass keep all of their cells, the others
-/// 1024.
+/// A page that needs no other file and no network: the results, and for each case that kept its evidence the maps of
+/// observed and expected counts and of their residuals, and the way of its p-value. Cases that did not pass keep all of
+/// their cells, the others 1024.
 void write_page(const std::string& file, const Run& run);
 
 } // namespace carlo

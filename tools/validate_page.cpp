@@ -50,7 +50,9 @@ PackedTree pack_tree(const mc::Evidence& evidence, int dim, std::size_t most) {
   for (std::size_t i = 1; i < kept; ++i) {
     const mc::CellCount &left = nodes[2 * i], &right = nodes[2 * i + 1];
     std::size_t axis = 0;
-    while (axis + 1 < static_cast<std::size_t>(dim) && !(left.hi[axis] == right.lo[axis] && left.lo[axis] < right.lo[axis])) ++axis;
+    while (axis + 1 < static_cast<std::size_t>(dim) &&
+           !(left.hi[axis] == right.lo[axis] && left.lo[axis] < right.lo[axis]))
+      ++axis;
     tree.axes += static_cast<char>('0' + axis);
     numbers.push_back(static_cast<float>(right.lo[axis]));
   }

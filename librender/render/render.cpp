@@ -30,12 +30,14 @@ struct Pass {
 };
 
 template <class Stream>
-Tally render_row(const Scene& scene, const RenderOptions& options, const PathOptions& path, const Pass& pass, int y, Film& film) {
+Tally render_row(const Scene& scene, const RenderOptions& options, const PathOptions& path, const Pass& pass, int y,
+                 Film& film) {
   Tally tally;
   const Vec2 scale(1 / Float(film.width()), 1 / Float(film.height()));
   const Vec2 tan_half = scene.camera.tan_half(Float(film.width()) / Float(film.height()));
   for (int x = 0; x < film.width(); ++x) {
-    const std::uint64_t key = mc::hash(options.seed, static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x), pass.number);
+    const std::uint64_t key =
+        mc::hash(options.seed, static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x), pass.number);
     const typename Stream::Points points(key, pass.count);
     Eigen::Array3d sum = Eigen::Array3d::Zero();
     std::uint32_t valid = 0;
@@ -70,8 +72,8 @@ RowFunction row_function(PixelSampler sampler) {
   return nullptr;
 }
 
-// Passes for a fixed sample count: between 4 and 8 where spp allows it, so that the variance has some degrees of freedom and
-// the point sets stay long.
+// Passes for a fixed sample count: between 4 and 8 where spp allows it, so that the variance has some degrees of
+// freedom and the point sets stay long.
 std::uint32_t passes_for(std::uint32_t spp) {
   for (const std::uint32_t passes : {4u, 8u, 6u, 5u, 7u, 3u, 2u})
     if (spp % passes == 0) return passes;
@@ -83,7 +85,8 @@ std::uint32_t passes_for(std::uint32_t spp) {
 PixelSampler sampler_from(std::string_view word) {
   for (std::size_t i = 0; i < sampler_names.size(); ++i)
     if (sampler_names[i] == word) return static_cast<PixelSampler>(i);
-  throw mc::Error(fmt::format("unknown sampler '{}'{}; use one of {}", word, mc::did_you_mean(word, sampler_names), fmt::join(sampler_names, ", ")));
+  throw mc::Error(fmt::format("unknown sampler '{}'{}; use one of {}", word, mc::did_you_mean(word, sampler_names),
+                              fmt::join(sampler_names, ", ")));
 }
 
 std::string_view name(PixelSampler sampler) { return sampler_names[static_cast<std::size_t>(sampler)]; }
@@ -94,8 +97,10 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
   const bool open_ended = options.seconds || options.target_error;
   const int spp = options.spp.value_or(scene.defaults.spp);
   mc::require(open_ended || spp > 0, "render: {} samples per pixel; at least 1 is needed", spp);
-  mc::require(!options.seconds || *options.seconds > 0, "render: a time of {} s; it must be > 0", options.seconds.value_or(0));
-  mc::require(!options.target_error || *options.target_error > 0, "render: a target error of {}; it must be > 0", options.target_error.value_or(0));
+  mc::require(!options.seconds || *options.seconds > 0, "render: a time of {} s; it must be > 0",
+              options.seconds.value_or(0));
+  mc::require(!options.target_error || *options.target_error > 0, "render: a target error of {}; it must be > 0",
+              options.target_error.value_or(0));
 
   const PathOptions path{options.strategy, options.max_depth.value_or(scene.defaults.max_depth)};
   const RowFunction render_one = row_function(options.sampler);
@@ -125,9 +130,11 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
       if (!options.progress) return;
       const double within = double(rows_done) / double(height), now = elapsed();
       const double fraction = options.seconds ? now / *options.seconds
-                              : options.target_error ? (std::isfinite(error) ? mc::sqr(*options.target_error / error) : 0.0)
-                                                     : (done + within) / passes;
-      options.progress({fraction, total.samples + rows_done * static_cast<std::uint64_t>(width) * count, total.rays, now, error});
+                              : options.target_error
+                                  ? (std::isfinite(error) ? mc::sqr(*options.target_error / error) : 0.0)
+                                  : (done + within) / passes;
+      options.progress(
+          {fraction, total.samples + rows_done * static_cast<std::uint64_t>(width) * count, total.rays, now, error});
     });
     for (const Tally& row : rows) total.merge(row);
     error = film.relative_error();

@@ -18,41 +18,41 @@ PixelSampler sampler_from(std::string_view name);
 std::string_view name(PixelSampler sampler);
 
 struct Progress {
-  double fraction = 0;         ///< of the work, in [0,1]
+  double fraction = 0; ///< of the work, in [0,1]
   std::uint64_t samples = 0, rays = 0;
   double seconds = 0;
-  double relative_error = 0;   ///< infinite while unknown
+  double relative_error = 0; ///< infinite while unknown
 };
 
 struct RenderOptions {
-  int width = 0, height = 0;              ///< 0: the scene's
-  std::optional<int> spp;                 ///< samples per pixel; none of the three: the scene's
-  std::optional<double> seconds;          ///< wall-clock budget [s]
-  std::optional<double> target_error;     ///< relative RMS standard error of the pixels
+  int width = 0, height = 0;          ///< 0: the scene's
+  std::optional<int> spp;             ///< samples per pixel; none of the three: the scene's
+  std::optional<double> seconds;      ///< wall-clock budget [s]
+  std::optional<double> target_error; ///< relative RMS standard error of the pixels
   Strategy strategy = Strategy::mis;
   PixelSampler sampler = PixelSampler::sobol;
-  std::optional<int> max_depth;           ///< none: the scene's
+  std::optional<int> max_depth; ///< none: the scene's
   std::uint64_t seed = 0;
-  int threads = 0;                        ///< 0: all of the machine's
+  int threads = 0;                               ///< 0: all of the machine's
   std::function<void(const Progress&)> progress; ///< called after every row, from any of the threads, also at once
-  const std::atomic<bool>* cancel = nullptr; ///< set it to stop after the rows under way
+  const std::atomic<bool>* cancel = nullptr;     ///< set it to stop after the rows under way
 };
 
 struct RenderResult {
-  Image image;                            ///< with variance where a pixel has two independent estimates or more
+  Image image; ///< with variance where a pixel has two independent estimates or more
   std::uint64_t samples = 0, rays = 0;
-  double spp = 0;                         ///< samples per pixel taken
-  std::uint32_t estimates = 0;            ///< independent estimates per pixel behind the variance
+  double spp = 0;              ///< samples per pixel taken
+  std::uint32_t estimates = 0; ///< independent estimates per pixel behind the variance
   double seconds = 0, cpu_seconds = 0;
-  double relative_error = 0;              ///< see Film::relative_error
-  std::uint64_t invalid = 0;              ///< samples that were not finite; they are left out of the image
+  double relative_error = 0; ///< see Film::relative_error
+  std::uint64_t invalid = 0; ///< samples that were not finite; they are left out of the image
   InvalidSample first_invalid;
-  bool partial = false;                   ///< cancelled before the end
+  bool partial = false; ///< cancelled before the end
 };
 
-/// Renders in passes. A pass gives every pixel one estimate from an independently randomised point set, so the variance between
-/// passes is honest for low-discrepancy points too; with the independent sampler every sample is an estimate of its own.
-/// The result depends on the seed, not on the number of threads.
+/// Renders in passes. A pass gives every pixel one estimate from an independently randomised point set, so the variance
+/// between passes is honest for low-discrepancy points too; with the independent sampler every sample is an estimate of
+/// its own. The result depends on the seed, not on the number of threads.
 ///   throws : Error for a non-positive size, sample count, time or error
 RenderResult render(const Scene& scene, const RenderOptions& options);
 

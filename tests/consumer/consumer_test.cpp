@@ -11,7 +11,10 @@ namespace {
 // As the README has it.
 struct MyBsdf { // reflects half of the light, the same in all directions
   using W = mc::Vec3<float>;
-  struct Sample { W wi; float f, pdf; };
+  struct Sample {
+    W wi;
+    float f, pdf;
+  };
   float eval(const W& wo, const W& wi) const { return wo.z() * wi.z() > 0 ? 0.5f / mc::pi<float> : 0; }
   float pdf(const W& wo, const W& wi) const { return wo.z() * wi.z() > 0 ? std::abs(wi.z()) / mc::pi<float> : 0; }
   std::optional<Sample> sample(const W& wo, const mc::Vec2<float>& u) const {
@@ -33,9 +36,11 @@ TEST(Consumer, LibraryWarpObeysItsLaws) { EXPECT_WARP_LAWS(mc::CosineHemisphere<
 TEST(Consumer, OwnSamplerMatchesItsPdf) { EXPECT_SAMPLES_MATCH_PDF(my_sample, my_pdf, mc::Hemisphere<double>()); }
 
 TEST(Consumer, AWrongPdfIsRejected) {
-  const testing::AssertionResult result = mc::samples_match_pdf("my_sample", my_sample, wrong_pdf, mc::Hemisphere<double>());
+  const testing::AssertionResult result =
+      mc::samples_match_pdf("my_sample", my_sample, wrong_pdf, mc::Hemisphere<double>());
   EXPECT_FALSE(result);
-  EXPECT_NE(std::string(result.message()).find("my_sample: fail"), std::string::npos) << result.message(); // not inconclusive
+  EXPECT_NE(std::string(result.message()).find("my_sample: fail"), std::string::npos)
+      << result.message(); // not inconclusive
 }
 
 TEST(Consumer, TheMeanOfItsHeightIsTwoThirds) {
@@ -47,7 +52,8 @@ TEST(Consumer, TheMeanOfItsHeightIsTwoThirds) {
 }
 
 TEST(Consumer, Integrates) {
-  const mc::Integral r = mc::integrate([](const mc::Vec3<double>& w) { return w.z() * w.z() * w.z(); }, mc::CosineHemisphere<double>());
+  const mc::Integral r =
+      mc::integrate([](const mc::Vec3<double>& w) { return w.z() * w.z() * w.z(); }, mc::CosineHemisphere<double>());
   EXPECT_NEAR(r.estimate.value, mc::pi<double> / 2, 5 * r.estimate.std_error);
 }
 

@@ -18,7 +18,10 @@ namespace {
 
 const fs::path root = MC_SOURCE_DIR;
 
-struct Include { std::string file, header; int line; };
+struct Include {
+  std::string file, header;
+  int line;
+};
 
 std::vector<fs::path> sources(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -110,17 +113,17 @@ TEST(House, IncludesFollowTheDesign) {
 TEST(House, LibrariesNeverIncludeTestsBenchOrTools) {
   for (const char* folder : {"libmc/mc", "librender/render"})
     for (const Include& i : includes(folder))
-      EXPECT_TRUE(!i.header.starts_with("tests/") && !i.header.starts_with("tools/") && !i.header.starts_with("bench/") &&
-                  !i.header.starts_with("support/"))
+      EXPECT_TRUE(!i.header.starts_with("tests/") && !i.header.starts_with("tools/") &&
+                  !i.header.starts_with("bench/") && !i.header.starts_with("support/"))
           << i.file << ":" << i.line << ": <" << i.header << ">";
 }
 
 // A library that is costly to compile or easy to swap stands behind one .cpp.
 TEST(House, EachOutsideLibraryHasOneDoor) {
-  const std::map<std::string, std::string> doors = {{"CLI/", "CLI11"},         {"pugixml.hpp", "pugixml"},
-                                                    {"tiny_obj_loader.h", "tinyobjloader"}, {"OpenEXR/", "OpenEXR"},
-                                                    {"Imf", "OpenEXR"},        {"stb/", "stb"},
-                                                    {"muParser", "muparser"}};
+  const std::map<std::string, std::string> doors = {
+      {"CLI/", "CLI11"},       {"pugixml.hpp", "pugixml"}, {"tiny_obj_loader.h", "tinyobjloader"},
+      {"OpenEXR/", "OpenEXR"}, {"Imf", "OpenEXR"},         {"stb/", "stb"},
+      {"muParser", "muparser"}};
   std::map<std::string, std::set<std::string>> users;
   for (const char* folder : {"libmc/mc", "librender/render", "tools"})
     for (const Include& i : includes(folder))
@@ -153,8 +156,9 @@ TEST(House, AFileIsOneIdea) {
 }
 
 TEST(House, TopLevelHoldsWhatTheDesignNames) {
-  const std::set<std::string> known = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "libmc", "librender",
-                                       "tools", "tests", "bench", "notebooks-data", "build", "out"};
+  const std::set<std::string> known = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE",
+                                       "libmc",          "librender",         "tools",     "tests",
+                                       "bench",          "notebooks-data",    "build",     "out"};
   for (const auto& entry : fs::directory_iterator(root)) {
     const std::string file = entry.path().filename().string();
     EXPECT_TRUE(file.starts_with(".") || known.contains(file)) << file;

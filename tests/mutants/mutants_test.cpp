@@ -1,6 +1,6 @@
-// Known-wrong samplers: each must be rejected at alpha = 1 % by the law that its fault breaks, and the right one beside it not.
-// They stand in tools/slips_*.cpp, where carlo tells their story. The seeds are fixed; a slip runs with two, with one where it
-// takes many samples.
+// Known-wrong samplers: each must be rejected at alpha = 1 % by the law that its fault breaks, and the right one beside
+// it not. They stand in tools/slips_*.cpp, where carlo tells their story. The seeds are fixed; a slip runs with two,
+// with one where it takes many samples.
 
 #include "slips.h"
 
@@ -13,9 +13,7 @@
 namespace carlo {
 
 // GoogleTest prints the bytes of a parameter otherwise.
-void PrintTo(const Slip& s, std::ostream* out) {
-  *out << s.title() << ", " << s.where << ": " << s.story;
-}
+void PrintTo(const Slip& s, std::ostream* out) { *out << s.title() << ", " << s.where << ": " << s.story; }
 
 } // namespace carlo
 
@@ -26,7 +24,9 @@ using mc::Fault;
 
 // Tests of counts see one fault at several scales: whether it is called shape, local or atom is a matter of degree.
 bool same_kind(Fault a, Fault b) {
-  const auto counted = [](Fault f) { return f == Fault::shape || f == Fault::rotation || f == Fault::local || f == Fault::atom; };
+  const auto counted = [](Fault f) {
+    return f == Fault::shape || f == Fault::rotation || f == Fault::local || f == Fault::atom;
+  };
   return a == b || (counted(a) && counted(b));
 }
 
@@ -63,7 +63,8 @@ TEST(Mutants, EveryNumberHasItsSlipOrItsReason) {
     EXPECT_FALSE(s.where.empty() || s.story.empty() || s.name.empty()) << s.id;
   }
   // The comments that open slips_books.cpp and slips_courses.cpp say why these have no sampler.
-  for (const char* none : {"P10", "P16", "P17", "P23", "P28", "P31", "P32"}) EXPECT_TRUE(ids.insert(none).second) << none;
+  for (const char* none : {"P10", "P16", "P17", "P23", "P28", "P31", "P32"})
+    EXPECT_TRUE(ids.insert(none).second) << none;
   for (int i = 1; i <= 36; ++i) EXPECT_TRUE(ids.contains("P" + std::to_string(i))) << i;
 }
 

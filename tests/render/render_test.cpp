@@ -38,18 +38,20 @@ TEST(Render, SameBitsForAnyNumberOfThreads) {
     EXPECT_EQ(one.samples, 16u * 24 * 20);
     int different = 0;
     for (std::size_t i = 0; i < one.image.pixels.size(); ++i)
-      different += !(one.image.pixels[i] == two.image.pixels[i]).all() || !(one.image.variance[i] == two.image.variance[i]).all();
+      different += !(one.image.pixels[i] == two.image.pixels[i]).all() ||
+                   !(one.image.variance[i] == two.image.variance[i]).all();
     EXPECT_EQ(different, 0) << name(sampler);
     options.seed = 1;
     const RenderResult other = render::render(scene, options);
-    for (std::size_t i = 0; i < one.image.pixels.size(); ++i) different += !(one.image.pixels[i] == other.image.pixels[i]).all();
+    for (std::size_t i = 0; i < one.image.pixels.size(); ++i)
+      different += !(one.image.pixels[i] == other.image.pixels[i]).all();
     EXPECT_GE(different, 1) << name(sampler) << ": another seed, the same picture";
   }
 }
 
-// Two seeds differ by what their error bars say: the sum of squared differences is that of the variances. Pixels are weighted by
-// the mean variance of sixteen other renders, or a few caustic pixels would decide: one alone, of four replicates, is itself too
-// noisy to weigh by. Over 16 pairs the ratio was .96 to 1.03 in eighteen trials.
+// Two seeds differ by what their error bars say: the sum of squared differences is that of the variances. Pixels are
+// weighted by the mean variance of sixteen other renders, or a few caustic pixels would decide: one alone, of four
+// replicates, is itself too noisy to weigh by. Over 16 pairs the ratio was .96 to 1.03 in eighteen trials.
 TEST(Render, ErrorBarsAreHonest) {
   const Scene scene = small_scene();
   for (const PixelSampler sampler : samplers) {

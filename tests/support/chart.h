@@ -9,8 +9,8 @@
 
 namespace support {
 
-/// |dx/dv| at v by central differences over 50 digits: the absolute derivative, the area of a plane or surface element, or the
-/// volume of a box.
+/// |dx/dv| at v by central differences over 50 digits: the absolute derivative, the area of a plane or surface element,
+/// or the volume of a box.
 template <mc::Domain D> double numeric_jacobian(const D& exact, const typename D::UnitPoint& v) {
   using mc::Oracle;
   const Oracle h("1e-18");
@@ -38,7 +38,8 @@ template <mc::Domain D> double numeric_jacobian(const D& exact, const typename D
   }
 }
 
-/// Round trips within `eps` machine epsilons of the unit cube, points in the domain, Jacobian to 1e-6 of the numeric one.
+/// Round trips within `eps` machine epsilons of the unit cube, points in the domain, Jacobian to 1e-6 of the numeric
+/// one.
 template <mc::Domain D> void expect_chart(const D& domain, double eps) {
   using S = typename D::Scalar;
   mc::Pcg random(11);

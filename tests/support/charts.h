@@ -29,7 +29,8 @@ template <Domain D> void expect_round_trip(const D& domain, double eps) {
   EXPECT_LE(worst / static_cast<double>(std::numeric_limits<S>::epsilon()), eps);
 }
 
-/// |dx/dv| by central differences over 50 digits: the square root of the Gram determinant, so surfaces in space count too.
+/// |dx/dv| by central differences over 50 digits: the square root of the Gram determinant, so surfaces in space count
+/// too.
 template <class D> void expect_jacobian(const D& domain) {
   const Oracle h(1e-20);
   Pcg random(6);

@@ -42,7 +42,8 @@ inline std::string error_of(const std::function<void()>& f) {
   return "";
 }
 
-/// Where the comparison data of the workplace stand. Tests that only compare against it say so and pass where it is absent.
+/// Where the comparison data of the workplace stand. Tests that only compare against it say so and pass where it is
+/// absent.
 inline bool shared_present(const std::string& file) {
   if (std::filesystem::exists(std::string(MC_SHARED_DIR) + "/" + file)) return true;
   std::printf("skipped: the reference %s is not here\n", file.c_str());

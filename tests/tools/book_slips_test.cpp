@@ -32,17 +32,19 @@ TEST(BookSlips, AllAreRejectedAndTheirRemediesPass) {
   const Output out = run(o);
   const std::size_t n = carlo::slips_of_books().size();
   EXPECT_THAT(out.text, HasSubstr(fmt::format("{} of {} slips rejected, {} of {} right ones passed", n, n, n, n)));
-  for (const carlo::Slip& s : carlo::slips_of_books()) EXPECT_THAT(out.text, HasSubstr(s.title().substr(s.id.size() + 1)));
+  for (const carlo::Slip& s : carlo::slips_of_books())
+    EXPECT_THAT(out.text, HasSubstr(s.title().substr(s.id.size() + 1)));
   EXPECT_THAT(out.text, HasSubstr("Which Cornell box was right?"));
-  EXPECT_THAT(mc::read_file(o.json), AllOf(HasSubstr("\"id\": \"P36\""), HasSubstr("\"boxes\""), HasSubstr("\"commit\"")));
+  EXPECT_THAT(mc::read_file(o.json),
+              AllOf(HasSubstr("\"id\": \"P36\""), HasSubstr("\"boxes\""), HasSubstr("\"commit\"")));
 }
 
 TEST(BookSlips, ANamedSlipTellsItsStory) {
   for (const char* name : {"P5", "eight cube roots"}) {
     const Output out = run(slips({name}, 20'000));
     EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
-    EXPECT_THAT(out.text, AllOf(HasSubstr("1 of 1 slips rejected, 1 of 1 right ones passed"), HasSubstr("8 x^(1/3) leaves [0,2]"),
-                                HasSubstr("in the domain fail")));
+    EXPECT_THAT(out.text, AllOf(HasSubstr("1 of 1 slips rejected, 1 of 1 right ones passed"),
+                                HasSubstr("8 x^(1/3) leaves [0,2]"), HasSubstr("in the domain fail")));
   }
 }
 

@@ -23,7 +23,8 @@ std::string text_of(const fs::path& file) {
 
 // The types of a folder's headers whose own body has all of the members.
 std::set<std::string> types_with(const fs::path& folder, const std::vector<std::string>& members) {
-  static const std::regex declaration(R"((?:^|\n)(?:template <[^\n]*>\s*\n?)?(?:  requires[^\n]*\n)?(?:struct|class) (\w+)[^;{\n]*\{)");
+  static const std::regex declaration(
+      R"((?:^|\n)(?:template <[^\n]*>\s*\n?)?(?:  requires[^\n]*\n)?(?:struct|class) (\w+)[^;{\n]*\{)");
   std::set<std::string> types;
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".h" || entry.path().filename() == "concept.h") continue;
@@ -32,7 +33,8 @@ std::set<std::string> types_with(const fs::path& folder, const std::vector<std::
       const std::size_t start = static_cast<std::size_t>(it->position() + it->length());
       const std::string body = text.substr(start, text.find("\n}", start) - start);
       bool all = true;
-      for (const std::string& member : members) all = all && std::regex_search(body, std::regex("[ >&]" + member + R"(\()"));
+      for (const std::string& member : members)
+        all = all && std::regex_search(body, std::regex("[ >&]" + member + R"(\()"));
       if (all) types.insert((*it)[1]);
     }
   }
@@ -63,8 +65,8 @@ TEST(Catalogue, TitlesAreUnique) {
   for (const carlo::Case& c : carlo::catalogue()) EXPECT_TRUE(titles.insert(c.title()).second) << c.title();
 }
 
-// 20000 samples: the deterministic laws at full strength, the counts at a coarse one; `carlo validate --all` runs them at 1e6.
-// Alpha 1e-6 a case: the seeds are fixed and some five hundred cases must pass.
+// 20000 samples: the deterministic laws at full strength, the counts at a coarse one; `carlo validate --all` runs them
+// at 1e6. Alpha 1e-6 a case: the seeds are fixed and some five hundred cases must pass.
 class CatalogueTest : public testing::TestWithParam<carlo::Case> {};
 
 TEST_P(CatalogueTest, ObeysItsLaws) {

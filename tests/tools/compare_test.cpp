@@ -43,7 +43,9 @@ render::Image noisy(std::uint64_t seed, double mean) {
 
 struct Compare : support::ScratchTest {
   void save(const std::string& name, const render::Image& image) const { render::write_image(path(name), image); }
-  support::Run compare(const std::string& arguments) const { return run_carlo("compare " + path("a.exr") + " " + path("b.exr") + " " + arguments); }
+  support::Run compare(const std::string& arguments) const {
+    return run_carlo("compare " + path("a.exr") + " " + path("b.exr") + " " + arguments);
+  }
 };
 
 // Ten fixed pairs at alpha = 0.01: two rejections or more have probability 0.004.

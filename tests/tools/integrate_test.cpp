@@ -54,11 +54,14 @@ TEST(Expression, RefusesNonsenseInOneLine) {
 
 // Against the exact values of an independent program, whose parameters were printed with six digits.
 TEST(Genz, TrueValues) {
-  const double known[] = {-0.296538203498543, 0.330427988733901,  -0.33151717718612,  383.489107994049,  5861.82247981009,   3515.1675158421,
-                          0.157652586526151,  0.0191763775830123, 0.0023208851724021, 0.0543691692087356, 0.0447845113982428, 0.0507512475186547,
-                          0.0751924873775562, 0.0284361508662098, 0.01361211328293,   629.605673633046,  1386.89787835375,   4829.44716579627};
+  const double known[] = {-0.296538203498543, 0.330427988733901,  -0.33151717718612,  383.489107994049,
+                          5861.82247981009,   3515.1675158421,    0.157652586526151,  0.0191763775830123,
+                          0.0023208851724021, 0.0543691692087356, 0.0447845113982428, 0.0507512475186547,
+                          0.0751924873775562, 0.0284361508662098, 0.01361211328293,   629.605673633046,
+                          1386.89787835375,   4829.44716579627};
   ASSERT_EQ(carlo::genz_integrals().size(), std::size(known));
-  for (std::size_t i = 0; i < std::size(known); ++i) EXPECT_LE(std::abs(carlo::genz_integrals()[i].truth / known[i] - 1), 3e-5) << carlo::genz_integrals()[i].name;
+  for (std::size_t i = 0; i < std::size(known); ++i)
+    EXPECT_LE(std::abs(carlo::genz_integrals()[i].truth / known[i] - 1), 3e-5) << carlo::genz_integrals()[i].name;
 }
 
 TEST(Genz, AutomaticIsWithinItsError) {
@@ -67,15 +70,18 @@ TEST(Genz, AutomaticIsWithinItsError) {
     o.rel_error = 0;
     o.max_calls = 100'000;
     const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
-    if (r.consistent) { EXPECT_LE(std::abs(r.estimate.value - e.truth), 5 * r.estimate.std_error) << e.name; }
+    if (r.consistent) {
+      EXPECT_LE(std::abs(r.estimate.value - e.truth), 5 * r.estimate.std_error) << e.name;
+    }
   }
 }
 
-// Shares of runs within 1 and 2 standard errors, flagged runs aside. n = 1080 normal errors with known sigma would give .6827 and
-// .9545, Student's t of 24 replicates .6827 and .9475. The bounds are 3.5 binomial standard deviations beyond either: alpha = 5e-4 for
-// each of 20 bounds, so 1 % of the choices of seeds would fail; the seeds are fixed.
+// Shares of runs within 1 and 2 standard errors, flagged runs aside. n = 1080 normal errors with known sigma would give
+// .6827 and .9545, Student's t of 24 replicates .6827 and .9475. The bounds are 3.5 binomial standard deviations beyond
+// either: alpha = 5e-4 for each of 20 bounds, so 1 % of the choices of seeds would fail; the seeds are fixed.
 TEST(Genz, ErrorBarsAreCalibrated) {
-  for (const mc::Method method : {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas, mc::Method::automatic}) {
+  for (const mc::Method method :
+       {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas, mc::Method::automatic}) {
     mc::IntegrateOptions o;
     o.method = method;
     o.rel_error = 0;
@@ -91,15 +97,18 @@ TEST(Genz, ErrorBarsAreCalibrated) {
       }
     const auto slack = [&](double p) { return 3.5 * std::sqrt(p * (1 - p) / runs); };
     const double share1 = double(within1) / (runs - flagged), share2 = double(within2) / (runs - flagged);
-    EXPECT_THAT(share1, testing::AllOf(testing::Ge(0.6827 - slack(0.6827)), testing::Le(0.6827 + slack(0.6827)))) << name(method);
-    EXPECT_THAT(share2, testing::AllOf(testing::Ge(0.9475 - slack(0.9475)), testing::Le(0.9545 + slack(0.9545)))) << name(method);
+    EXPECT_THAT(share1, testing::AllOf(testing::Ge(0.6827 - slack(0.6827)), testing::Le(0.6827 + slack(0.6827))))
+        << name(method);
+    EXPECT_THAT(share2, testing::AllOf(testing::Ge(0.9475 - slack(0.9475)), testing::Le(0.9545 + slack(0.9545))))
+        << name(method);
     EXPECT_LE(flagged, 10) << name(method);
   }
 }
 
 TEST(Integrate, CountsMayBeWrittenAsPowersOfTen) {
   const auto value = [](const std::string& calls) {
-    const support::Run r = support::run_carlo("integrate x*x -d x=0:1 --method plain --rel-error 1e-9 --max-calls " + calls);
+    const support::Run r =
+        support::run_carlo("integrate x*x -d x=0:1 --method plain --rel-error 1e-9 --max-calls " + calls);
     return r.output.substr(0, r.output.find('\n'));
   };
   EXPECT_EQ(value("1e3"), value("1000"));
@@ -108,7 +117,8 @@ TEST(Integrate, CountsMayBeWrittenAsPowersOfTen) {
 }
 
 TEST(Integrate, CtrlCSaysWhatWasFound) {
-  const support::Run r = support::run("timeout --preserve-status -s INT 0.7 '" CARLO_PATH "' integrate genz_c0_8d --method plain --rel-error 1e-12 --max-calls 1e12");
+  const support::Run r = support::run("timeout --preserve-status -s INT 0.7 '" CARLO_PATH
+                                      "' integrate genz_c0_8d --method plain --rel-error 1e-12 --max-calls 1e12");
   EXPECT_EQ(r.exit_code, 130) << r.output;
   EXPECT_THAT(r.output, testing::AllOf(testing::HasSubstr(" ± "), testing::HasSubstr("stopped: cancelled")));
 }

@@ -40,23 +40,26 @@ TEST(Plugin, RightSamplersPassInEveryKindOfDomain) {
 
 TEST(Plugin, OneWrittenInCppPasses) { EXPECT_EQ(run(plugin("right")).code, carlo::exit_ok); }
 
-struct Wrong { const char *fault, *found; };
+struct Wrong {
+  const char *fault, *found;
+};
 struct WrongPlugin : testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongPlugin, IsRejectedWithItsFaultNamed) {
   const Output out = run(cosine(GetParam().fault));
   EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
-  EXPECT_THAT(out.text,
-              AllOf(HasSubstr("0 of 1 cases passed"), HasSubstr(GetParam().found), HasSubstr("again: carlo validate --plugin '")));
+  EXPECT_THAT(out.text, AllOf(HasSubstr("0 of 1 cases passed"), HasSubstr(GetParam().found),
+                              HasSubstr("again: carlo validate --plugin '")));
 }
 
-INSTANTIATE_TEST_SUITE_P(Plugin, WrongPlugin,
-                         testing::Values(Wrong{"pdf_high", "the density integrates to 1.01"}, Wrong{"weight_low", "likely fault: weight"},
-                                         Wrong{"nan_sample", "likely fault: not finite"}, Wrong{"nan_pdf", "pdf finite and >= 0 fail"},
-                                         Wrong{"leak", "likely fault: outside"}, Wrong{"not_unit", "likely fault: outside"},
-                                         Wrong{"silent", "x = (nan, nan, nan)"}, Wrong{"wrong_inverse", "invert(sample(u)) = u fail"},
-                                         Wrong{"tilted_pdf", "|det| pdf = 1, upper quartile fail"}, Wrong{"hole", "likely fault: support"}),
-                         [](const auto& wrong) { return std::string(wrong.param.fault); });
+INSTANTIATE_TEST_SUITE_P(
+    Plugin, WrongPlugin,
+    testing::Values(Wrong{"pdf_high", "the density integrates to 1.01"}, Wrong{"weight_low", "likely fault: weight"},
+                    Wrong{"nan_sample", "likely fault: not finite"}, Wrong{"nan_pdf", "pdf finite and >= 0 fail"},
+                    Wrong{"leak", "likely fault: outside"}, Wrong{"not_unit", "likely fault: outside"},
+                    Wrong{"silent", "x = (nan, nan, nan)"}, Wrong{"wrong_inverse", "invert(sample(u)) = u fail"},
+                    Wrong{"tilted_pdf", "|det| pdf = 1, upper quartile fail"}, Wrong{"hole", "likely fault: support"}),
+    [](const auto& wrong) { return std::string(wrong.param.fault); });
 
 TEST(Plugin, ARotationByADegreeIsRejected) {
   ValidateOptions o = plugin("samplers", {"Halves"});
@@ -78,7 +81,8 @@ TEST(Plugin, EverySetOfParametersIsACase) {
   ValidateOptions o = plugin("samplers", {"Box"});
   o.parameters = {"power=0", "power=0.5"};
   const Output out = run(o);
-  EXPECT_THAT(out.text, AllOf(HasSubstr("Box(power=0) "), HasSubstr("Box(power=0.5)"), HasSubstr("2 of 2 cases passed")));
+  EXPECT_THAT(out.text,
+              AllOf(HasSubstr("Box(power=0) "), HasSubstr("Box(power=0.5)"), HasSubstr("2 of 2 cases passed")));
   o.list = true;
   EXPECT_THAT(run(o).text, AllOf(HasSubstr("Box(power=0.5)"), Not(HasSubstr("Cosine"))));
 }
@@ -87,8 +91,8 @@ TEST(Plugin, TheReportCrossesTheProcessWhole) {
   ValidateOptions o = cosine("pdf_high");
   o.json = testing::TempDir() + "/plugin.json";
   run(o);
-  EXPECT_THAT(mc::read_file(o.json),
-              AllOf(HasSubstr("\"name\": \"mass\""), HasSubstr("\"worst\": ["), HasSubstr("\"z\": "), HasSubstr("\"ns_per_sample\"")));
+  EXPECT_THAT(mc::read_file(o.json), AllOf(HasSubstr("\"name\": \"mass\""), HasSubstr("\"worst\": ["),
+                                           HasSubstr("\"z\": "), HasSubstr("\"ns_per_sample\"")));
 }
 
 TEST(Plugin, TheSameSeedGivesTheSameVerdict) {
@@ -100,10 +104,12 @@ TEST(Plugin, TheSameSeedGivesTheSameVerdict) {
 }
 
 TEST(Plugin, ACrashIsOneLineThatSaysWhere) {
-  EXPECT_THAT(refusal(cosine("crash")),
-              AllOf(HasSubstr("samplers.so: it crashed in sample at u = (0."), HasSubstr("Segmentation fault (signal 11)")));
-  EXPECT_THAT(refusal(cosine("quit")), AllOf(HasSubstr("it ended the process in sample at u = (0."), HasSubstr("exit code 0")));
-  EXPECT_THAT(refusal(plugin("throws")), AllOf(HasSubstr("it threw in sample at u = ("), HasSubstr("no square root today")));
+  EXPECT_THAT(refusal(cosine("crash")), AllOf(HasSubstr("samplers.so: it crashed in sample at u = (0."),
+                                              HasSubstr("Segmentation fault (signal 11)")));
+  EXPECT_THAT(refusal(cosine("quit")),
+              AllOf(HasSubstr("it ended the process in sample at u = (0."), HasSubstr("exit code 0")));
+  EXPECT_THAT(refusal(plugin("throws")),
+              AllOf(HasSubstr("it threw in sample at u = ("), HasSubstr("no square root today")));
   ValidateOptions box = plugin("samplers", {"Box"});
   box.parameters = {"power=14"};
   EXPECT_THAT(refusal(box), HasSubstr("it crashed in destroy: Aborted"));
@@ -115,7 +121,8 @@ TEST(Plugin, AHangEndsWithTheTimeout) {
   o.timeout = 0.5;
   EXPECT_THAT(refusal(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("no answer in 0.5 s")));
   o.parameters = {"slow=1"};
-  EXPECT_THAT(refusal(o), AllOf(HasSubstr("not done in 0.5 s, in sample"), HasSubstr("raise --timeout or lower --samples")));
+  EXPECT_THAT(refusal(o),
+              AllOf(HasSubstr("not done in 0.5 s, in sample"), HasSubstr("raise --timeout or lower --samples")));
   o.timeout = 0;
   EXPECT_THAT(refusal(o), HasSubstr("--timeout 0 must lie in"));
 }
@@ -134,7 +141,8 @@ TEST(Plugin, WhatCannotBeLoadedSaysWhy) {
   ValidateOptions o = plugin("right");
   o.plugin = testing::TempDir() + "/text.so";
   mc::write_file(o.plugin, "int main() {}\n");
-  EXPECT_THAT(refusal(o), AllOf(HasSubstr("text.so: it cannot be loaded: "), Not(HasSubstr("text.so: it cannot be loaded: /"))));
+  EXPECT_THAT(refusal(o),
+              AllOf(HasSubstr("text.so: it cannot be loaded: "), Not(HasSubstr("text.so: it cannot be loaded: /"))));
   EXPECT_THAT(refusal(plugin("no_entry")), HasSubstr("no_entry.so: it has no function mc_plugin"));
   EXPECT_THAT(refusal(plugin("undefined")), AllOf(HasSubstr("it cannot be loaded"), HasSubstr("nobody_defines_this")));
   EXPECT_THAT(refusal(plugin("wrong_abi")), HasSubstr("made for version 77 of <mc/check/plugin.h>, this carlo for 1"));

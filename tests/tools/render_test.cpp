@@ -73,11 +73,13 @@ TEST_F(RenderCommand, SceneWithoutLightIsBlackWithAWarning) {
 
 TEST_F(RenderCommand, ThreadsDoNotChangeABitAndMetadataTellsHow) {
   for (const char* threads : {"1", "2"}) {
-    const support::Run run =
-        run_carlo("render " + scenes + "cbox.xml --spp 4 --size 24x16 --seed 5 --threads " + threads + " -o " + path(threads) + ".exr");
+    const support::Run run = run_carlo("render " + scenes + "cbox.xml --spp 4 --size 24x16 --seed 5 --threads " +
+                                       threads + " -o " + path(threads) + ".exr");
     ASSERT_EQ(run.exit_code, 0) << run.output;
-    EXPECT_THAT(run.output, AllOf(HasSubstr("samples/s"), HasSubstr("rays/s"), HasSubstr("mean standard error"), HasSubstr(" 0 invalid samples")));
-    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << "no progress bar without a terminal: " << run.output;
+    EXPECT_THAT(run.output, AllOf(HasSubstr("samples/s"), HasSubstr("rays/s"), HasSubstr("mean standard error"),
+                                  HasSubstr(" 0 invalid samples")));
+    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1)
+        << "no progress bar without a terminal: " << run.output;
   }
   const render::Image a = render::read_image(path("1.exr")), b = render::read_image(path("2.exr"));
   ASSERT_EQ(a.pixels.size(), 24u * 16u);
@@ -97,7 +99,8 @@ TEST_F(RenderCommand, CtrlCWritesWhatIsThereMarkedPartial) {
   const pid_t child = fork();
   if (child == 0) {
     if (!std::freopen(log.c_str(), "w", stdout)) _exit(99);
-    execl(CARLO_PATH, "carlo", "render", (scenes + "cbox.xml").c_str(), "--time", "60", "--size", "16x16", "-o", output.c_str(), nullptr);
+    execl(CARLO_PATH, "carlo", "render", (scenes + "cbox.xml").c_str(), "--time", "60", "--size", "16x16", "-o",
+          output.c_str(), nullptr);
     _exit(98);
   }
   ASSERT_GT(child, 0);

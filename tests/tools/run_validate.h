@@ -12,7 +12,10 @@
 
 namespace support {
 
-struct Output { int code; std::string text; };
+struct Output {
+  int code;
+  std::string text;
+};
 inline Output run(const carlo::ValidateOptions& o) {
   testing::internal::CaptureStdout();
   const int code = carlo::validate(o);

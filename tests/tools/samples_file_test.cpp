@@ -56,7 +56,8 @@ double one(int, int) { return 1; }
 // A cosine lobe about +z, and its mean over a cell of a latitude-longitude grid of height 32.
 std::string cosine(mc::Pcg& random) {
   const double u = random.uniform<double>(), phi = 2 * pi * random.uniform<double>();
-  return fmt::format("{:.7g} {:.7g} {:.7g}", std::sqrt(u) * std::cos(phi), std::sqrt(u) * std::sin(phi), std::sqrt(1 - u));
+  return fmt::format("{:.7g} {:.7g} {:.7g}", std::sqrt(u) * std::cos(phi), std::sqrt(u) * std::sin(phi),
+                     std::sqrt(1 - u));
 }
 double cosine_mean(int, int j) {
   const double a = std::cos(pi * j / 32), b = std::cos(pi * (j + 1) / 32);
@@ -74,19 +75,23 @@ TEST_F(SamplesFile, EverySeedDealsTheRowsAnewAndPasses) {
   ValidateOptions o = options(samples(ramp), grid(16, 4, ramp_mean));
   int passed = 0;
   for (o.seed = 1; o.seed <= 20; ++o.seed) passed += run(o).code == carlo::exit_ok;
-  // The samples are the same, so that the seeds are not independent; at alpha = 0.01 two failures in twenty would be bad luck.
+  // The samples are the same, so that the seeds are not independent; at alpha = 0.01 two failures in twenty would be
+  // bad luck.
   EXPECT_GE(passed, 19);
 }
 
 TEST_F(SamplesFile, AnotherDensityIsRejectedAndPlaced) {
   const Output out = run(options(samples(ramp), grid(16, 16, [](int, int j) { return ramp_mean(j, 0); })));
   EXPECT_EQ(out.code, carlo::exit_failed);
-  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: "), HasSubstr(" at (0."), HasSubstr("again: carlo validate --samples-file '")));
+  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: "), HasSubstr(" at (0."),
+                              HasSubstr("again: carlo validate --samples-file '")));
 }
 
 TEST_F(SamplesFile, AnErrorOfThreePercentInTheSlopeIsRejected) {
-  // Density 2 x against 0.03 + 1.97 x: means off by 1.5 % at most where the samples are, 48 % in the first of 16 columns.
-  EXPECT_EQ(run(options(samples(ramp), grid(16, 1, [](int i, int) { return 0.03 + 0.97 * ramp_mean(i, 0); }))).code, carlo::exit_failed);
+  // Density 2 x against 0.03 + 1.97 x: means off by 1.5 % at most where the samples are, 48 % in the first of 16
+  // columns.
+  EXPECT_EQ(run(options(samples(ramp), grid(16, 1, [](int i, int) { return 0.03 + 0.97 * ramp_mean(i, 0); }))).code,
+            carlo::exit_failed);
 }
 
 TEST_F(SamplesFile, TheIntegralMustBeOneUnlessToldOtherwise) {
@@ -105,11 +110,14 @@ TEST_F(SamplesFile, ASampleWhereTheDensityIsZeroIsALeakOfItsLine) {
   o.unnormalized = true;
   const Output out = run(o);
   EXPECT_EQ(out.code, carlo::exit_failed);
-  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: leak"), HasSubstr("s.csv:"), HasSubstr("in cell (0, 0) of the grid")));
+  EXPECT_THAT(out.text,
+              AllOf(HasSubstr("likely fault: leak"), HasSubstr("s.csv:"), HasSubstr("in cell (0, 0) of the grid")));
 }
 
 TEST_F(SamplesFile, ASampleThatPrintingCarriedOverTheEdgeIsNone) {
-  const auto draw = [](mc::Pcg& random) { return fmt::format("{}", std::max(0.5 - 4e-7, 0.5 + 0.5 * random.uniform<double>() - 1e-4)); };
+  const auto draw = [](mc::Pcg& random) {
+    return fmt::format("{}", std::max(0.5 - 4e-7, 0.5 + 0.5 * random.uniform<double>() - 1e-4));
+  };
   const std::string file = samples(draw);
   EXPECT_EQ(run(options(file, grid(2, 1, [](int i, int) { return 2.0 * i; }))).code, carlo::exit_ok);
 }
@@ -127,7 +135,8 @@ TEST_F(SamplesFile, DirectionsOnALatitudeLongitudeGrid) {
   const std::string file = samples(cosine);
   EXPECT_EQ(run(options(file, grid(8, 32, cosine_mean))).code, carlo::exit_ok);
   // Against the uniform hemisphere, of mass 1 too.
-  EXPECT_EQ(run(options(file, grid(8, 32, [](int, int j) { return j < 16 ? 1 / (2 * pi) : 0; }))).code, carlo::exit_failed);
+  EXPECT_EQ(run(options(file, grid(8, 32, [](int, int j) { return j < 16 ? 1 / (2 * pi) : 0; }))).code,
+            carlo::exit_failed);
   const auto turned = [](mc::Pcg& random) { // by a right angle about x
     double x, y, z;
     std::sscanf(cosine(random).c_str(), "%lf %lf %lf", &x, &y, &z);
@@ -183,22 +192,22 @@ TEST_F(SamplesFile, BadFilesAreOneLine) {
   EXPECT_THAT(refusal(options(file, path("none.exr"))), HasSubstr("none.exr"));
   EXPECT_THAT(refusal(options(file, "")), HasSubstr("needs the density to hold the samples against: --pdf-file"));
   EXPECT_THAT(refusal(options("", good)), HasSubstr("--pdf-file needs the samples"));
-  EXPECT_THAT(refusal(options(samples(ramp, "few.csv", 1999), good)), HasSubstr("few.csv: 1999 samples; at least 2000 are needed"));
-  EXPECT_THAT(refusal(options(file, write("q.csv", "1,2\n3,-1\n"))), HasSubstr("q.csv:2: number 2 is -1; a density is >= 0"));
+  EXPECT_THAT(refusal(options(samples(ramp, "few.csv", 1999), good)),
+              HasSubstr("few.csv: 1999 samples; at least 2000 are needed"));
+  EXPECT_THAT(refusal(options(file, write("q.csv", "1,2\n3,-1\n"))),
+              HasSubstr("q.csv:2: number 2 is -1; a density is >= 0"));
   EXPECT_THAT(refusal(options(file, write("q.csv", "0,0\n0,0\n"))), HasSubstr("q.csv: the density integrates to 0"));
-  ValidateOptions o =
-      options(samples([](mc::Pcg& random) { return fmt::format("{}", random.uniform<double>()); }, "x.csv"), grid(4, 4, one));
+  ValidateOptions o = options(
+      samples([](mc::Pcg& random) { return fmt::format("{}", random.uniform<double>()); }, "x.csv"), grid(4, 4, one));
   EXPECT_THAT(refusal(o), HasSubstr("p.csv: 4 rows; the density on an interval is one row"));
 }
 
 TEST_F(SamplesFile, SamplesOffTheGridAreOneLine) {
   ValidateOptions o = options(samples(ramp), grid(4, 4, one));
   o.domain = "x=0:0.5,y=0:1";
-  EXPECT_THAT(
-      refusal(o),
-      testing::MatchesRegex(
-          ".*s\\.csv:[0-9]+: \\(0\\.[0-9]+, 0\\.[0-9]+\\) is not covered by the grid of .*p\\.csv, x in \\[0, 0\\.5\\], y in \\[0, 1\\]; "
-          "[0-9]+ of 40000 samples are not \\(see --domain\\)"));
+  EXPECT_THAT(refusal(o), testing::MatchesRegex(".*s\\.csv:[0-9]+: \\(0\\.[0-9]+, 0\\.[0-9]+\\) is not covered by the "
+                                                "grid of .*p\\.csv, x in \\[0, 0\\.5\\], y in \\[0, 1\\]; "
+                                                "[0-9]+ of 40000 samples are not \\(see --domain\\)"));
   o.domain = "sphere";
   EXPECT_THAT(refusal(o), HasSubstr("s.csv: 2 columns; 3 are needed on the unit sphere"));
   o.domain = "x=0:1";
@@ -210,7 +219,8 @@ TEST_F(SamplesFile, SamplesOffTheGridAreOneLine) {
     std::sscanf(cosine(random).c_str(), "%lf %lf %lf", &x, &y, &z);
     return fmt::format("{} {} {}", 1.001 * x, 1.001 * y, 1.001 * z);
   };
-  EXPECT_THAT(refusal(options(samples(long_vector), grid(8, 32, cosine_mean))), HasSubstr("is not covered by the grid"));
+  EXPECT_THAT(refusal(options(samples(long_vector), grid(8, 32, cosine_mean))),
+              HasSubstr("is not covered by the grid"));
 }
 
 } // namespace

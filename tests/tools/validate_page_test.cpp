@@ -53,7 +53,8 @@ const Results& results() {
     const mc::Hemisphere<double> hemisphere;
     const auto cosine = [](double exponent) {
       return [exponent](mc::Pcg& random) {
-        const double z = std::pow(random.uniform<double>(), 1 / (1 + exponent)), phi = 2 * mc::pi<double> * random.uniform<double>();
+        const double z = std::pow(random.uniform<double>(), 1 / (1 + exponent)),
+                     phi = 2 * mc::pi<double> * random.uniform<double>();
         return mc::spherical_direction<double>(std::sqrt(1 - z * z), z, phi);
       };
     };
@@ -61,7 +62,8 @@ const Results& results() {
     r.add("RightCosine", "exponent=1", make_subject("right", hemisphere, cosine(1), pdf));
     r.add("WrongCosine", "exponent=1.1", make_subject("wrong", hemisphere, cosine(1.1), pdf));
     const auto tent = [](mc::Pcg& random) { return random.uniform<double>() + random.uniform<double>() - 1; };
-    r.add("Tent", "on [-1,1]", make_subject("tent", mc::Interval<double>{-1, 1}, tent, [](double x) { return 1 - std::abs(x); }));
+    r.add("Tent", "on [-1,1]",
+          make_subject("tent", mc::Interval<double>{-1, 1}, tent, [](double x) { return 1 - std::abs(x); }));
     mc::Subject dice;
     dice.name = "dice", dice.atoms.assign(6, 1.0 / 6);
     dice.draw = [](std::uint64_t seed, std::size_t n, std::vector<mc::Subject::Draw>& out) {
@@ -113,7 +115,8 @@ bool has(const std::string& dom, const std::string& text) { return dom.find(text
 
 TEST_F(Page, NeedsNothingElse) {
   const std::string text = mc::read_file(file);
-  for (const char* loaded : {"src=", "url(", "@import", "fetch(", "XMLHttpRequest", "http://www.w3.org/1999", "https://"})
+  for (const char* loaded :
+       {"src=", "url(", "@import", "fetch(", "XMLHttpRequest", "http://www.w3.org/1999", "https://"})
     EXPECT_FALSE(has(text, loaded)) << loaded;
   for (const char* mark : {"@CSS@", "@DATA@", "@MAPS@", "@JS@"}) EXPECT_THAT(text, Not(HasSubstr(mark)));
   EXPECT_THAT(text, HasSubstr("carlo validate \\u003c/script>")) << "data cannot end its element";
@@ -173,8 +176,9 @@ TEST_F(Page, NothingOverflowsOnAPhone) {
   text.insert(text.find("</body>"),
               "<script>parent.postMessage(document.documentElement.scrollWidth + ' of ' + innerWidth, '*');</script>");
   mc::write_file((folder / "phone.html").string(), text);
-  mc::write_file(file, "<body><script>addEventListener('message', e => { document.title = 'width ' + e.data; });</script>"
-                       "<iframe src='phone.html#open=0,1,2,3' style='width: 390px; height: 844px; border: 0'></iframe></body>");
+  mc::write_file(
+      file, "<body><script>addEventListener('message', e => { document.title = 'width ' + e.data; });</script>"
+            "<iframe src='phone.html#open=0,1,2,3' style='width: 390px; height: 844px; border: 0'></iframe></body>");
   const std::string dom = browse("");
   if (dom.empty()) return;
   int wide = 0, of = 0;

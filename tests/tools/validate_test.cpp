@@ -26,7 +26,8 @@ ValidateOptions few(std::vector<std::string> names) {
 TEST(Validate, ANameIsAllItsCases) {
   const Output out = run(few({"CosineHemisphere", "Linear(a=0, b=1)"}));
   EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
-  EXPECT_THAT(out.text, testing::AllOf(HasSubstr("4 of 4 cases passed"), HasSubstr("float   pass"), HasSubstr("double  pass"), HasSubstr("Linear(a=0, b=1)")));
+  EXPECT_THAT(out.text, testing::AllOf(HasSubstr("4 of 4 cases passed"), HasSubstr("float   pass"),
+                                       HasSubstr("double  pass"), HasSubstr("Linear(a=0, b=1)")));
 }
 
 TEST(Validate, OneScalar) {
@@ -53,15 +54,19 @@ TEST(Validate, ResultsDoNotDependOnThreads) {
     return text.substr(text.find("\"p\""), 40);
   };
   EXPECT_EQ(p(one.json), p(two.json));
-  EXPECT_THAT(mc::read_file(one.json), testing::AllOf(HasSubstr("\"verdict\": \"pass\""), HasSubstr("\"passed\": true"), HasSubstr("\"commit\"")));
+  EXPECT_THAT(mc::read_file(one.json), testing::AllOf(HasSubstr("\"verdict\": \"pass\""), HasSubstr("\"passed\": true"),
+                                                      HasSubstr("\"commit\"")));
 }
 
 TEST(Validate, JunitIsWellFormed) {
   ValidateOptions o = few({"UniformDisk"});
   o.junit = (std::filesystem::path(testing::TempDir()) / "junit.xml").string();
   run(o);
-  EXPECT_THAT(mc::read_file(o.junit), testing::AllOf(HasSubstr("<testsuite name=\"carlo validate\" tests=\"2\" failures=\"0\""), HasSubstr("<property name=\"ns_per_sample\" value="), HasSubstr("<property name=\"again\" value=\"carlo validate 'UniformDisk' --scalar float"),
-                                                         HasSubstr("</testsuite>")));
+  EXPECT_THAT(mc::read_file(o.junit),
+              testing::AllOf(HasSubstr("<testsuite name=\"carlo validate\" tests=\"2\" failures=\"0\""),
+                             HasSubstr("<property name=\"ns_per_sample\" value="),
+                             HasSubstr("<property name=\"again\" value=\"carlo validate 'UniformDisk' --scalar float"),
+                             HasSubstr("</testsuite>")));
 }
 
 TEST(Validate, DetectChoosesTheSamples) {
@@ -74,7 +79,8 @@ TEST(Validate, DetectChoosesTheSamples) {
 }
 
 TEST(Validate, BadInputIsOneLine) {
-  EXPECT_THAT(refusal(few({"CosineHemispher"})), HasSubstr("unknown sampler 'CosineHemispher'; did you mean 'CosineHemisphere'?"));
+  EXPECT_THAT(refusal(few({"CosineHemispher"})),
+              HasSubstr("unknown sampler 'CosineHemispher'; did you mean 'CosineHemisphere'?"));
   EXPECT_THAT(refusal(few({})), HasSubstr("name a sampler, or give --all or --list"));
   ValidateOptions o = few({"UniformDisk"});
   o.alpha = 2;

@@ -1,5 +1,5 @@
-// Every known-wrong sampler against the checker: rejections at alpha = 1 % over several seeds, beside what the checkers of other
-// renderers print for the same disturbance.
+// Every known-wrong sampler against the checker: rejections at alpha = 1 % over several seeds, beside what the checkers
+// of other renderers print for the same disturbance.
 // Usage: bench_mc_check_power [SEEDS [SAMPLES [ID]]]; 20 seeds of 1e6 samples unless told otherwise.
 
 #include "slips.h"
@@ -13,8 +13,8 @@
 
 namespace {
 
-// Rejection rates measured at alpha = 1 % and 1e6 samples: Nori's chi-square, its warptest (5.2e6 samples), Mitsuba 3's, pbrt-v4's,
-// and the best of a multi-resolution chi-square, KS, moments and mass on their own.
+// Rejection rates measured at alpha = 1 % and 1e6 samples: Nori's chi-square, its warptest (5.2e6 samples), Mitsuba
+// 3's, pbrt-v4's, and the best of a multi-resolution chi-square, KS, moments and mass on their own.
 struct Peers {
   double nori, warptest, mitsuba, pbrt, best;
 };
@@ -34,12 +34,14 @@ int main(int argc, char** argv) {
   const auto seeds = static_cast<std::size_t>(argc > 1 ? std::atoi(argv[1]) : 20);
   const auto samples = static_cast<std::uint64_t>(argc > 2 ? std::atof(argv[2]) : 1e6);
   const std::string only = argc > 3 ? argv[3] : "";
-  fmt::print("{:<46} {:>5} {:>9} {:>9}  {:<28} | {:>5} {:>8} {:>8} {:>5} {:>5}\n", "mutant, alpha = 1 %", "runs", "rejected", "s per run",
-             "by", "nori", "warptest", "mitsuba", "pbrt", "best");
+  fmt::print("{:<46} {:>5} {:>9} {:>9}  {:<28} | {:>5} {:>8} {:>8} {:>5} {:>5}\n", "mutant, alpha = 1 %", "runs",
+             "rejected", "s per run", "by", "nori", "warptest", "mitsuba", "pbrt", "best");
   for (const carlo::Slip& slip : carlo::all_slips()) {
     if (!only.empty() && only != slip.id) continue;
     std::vector<mc::Report> reports(seeds);
-    mc::parallel_for(seeds, 0, [&](std::size_t i) { reports[i] = slip.wrong.check({.samples = samples, .seed = i + 1, .alpha = 0.01}); });
+    mc::parallel_for(seeds, 0, [&](std::size_t i) {
+      reports[i] = slip.wrong.check({.samples = samples, .seed = i + 1, .alpha = 0.01});
+    });
     std::size_t rejected = 0;
     double seconds = 0;
     std::string by;
@@ -49,10 +51,11 @@ int main(int argc, char** argv) {
       for (const mc::Check& c : r.checks)
         if (by.empty() && c.verdict == mc::Verdict::fail) by = c.name;
     }
-    fmt::print("{:<46} {:>5} {:>9} {:>9.3f}  {:<28}", slip.title(), seeds, rejected, seconds / static_cast<double>(seeds), by);
+    fmt::print("{:<46} {:>5} {:>9} {:>9.3f}  {:<28}", slip.title(), seeds, rejected,
+               seconds / static_cast<double>(seeds), by);
     if (const auto p = peers.find(slip.id); p != peers.end())
-      fmt::print(" | {:>5.2f} {:>8.2f} {:>8.2f} {:>5.2f} {:>5.2f}", p->second.nori, p->second.warptest, p->second.mitsuba, p->second.pbrt,
-                 p->second.best);
+      fmt::print(" | {:>5.2f} {:>8.2f} {:>8.2f} {:>5.2f} {:>5.2f}", p->second.nori, p->second.warptest,
+                 p->second.mitsuba, p->second.pbrt, p->second.best);
     fmt::print("\n");
     std::fflush(stdout);
   }

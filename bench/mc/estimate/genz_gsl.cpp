@@ -1,4 +1,5 @@
-/// RMS relative error of integrate() against GSL, shifted Sobol' and padded Owen-scrambled Sobol' points on Genz's integrals, and the
+/// RMS relative error of integrate() against GSL, shifted Sobol' and padded Owen-scrambled Sobol' points on Genz's
+/// integrals, and the
 /// cost of a call: prints a table.
 /// Usage: bench_genz [CALLS [SEEDS [FIRST_SEED [NAME]]]]; NAME keeps the integrals that contain it
 
@@ -31,7 +32,9 @@ using carlo::Experiment;
 
 double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
-double call(double* x, std::size_t dim, void* data) { return static_cast<const Experiment*>(data)->f(std::span<const double>(x, dim)); }
+double call(double* x, std::size_t dim, void* data) {
+  return static_cast<const Experiment*>(data)->f(std::span<const double>(x, dim));
+}
 
 struct Gsl {
   const Experiment& e;
@@ -41,7 +44,8 @@ struct Gsl {
   gsl_rng* rng;
 
   Gsl(const Experiment& experiment, std::size_t calls_, unsigned long seed)
-      : e(experiment), dim(static_cast<std::size_t>(e.dim)), calls(calls_), f{call, dim, const_cast<Experiment*>(&e)}, rng(gsl_rng_alloc(gsl_rng_mt19937)) {
+      : e(experiment), dim(static_cast<std::size_t>(e.dim)), calls(calls_), f{call, dim, const_cast<Experiment*>(&e)},
+        rng(gsl_rng_alloc(gsl_rng_mt19937)) {
     hi.fill(1);
     gsl_rng_set(rng, seed);
   }
@@ -126,7 +130,9 @@ double padded_sobol(const Experiment& e, std::uint64_t calls, std::uint64_t seed
   return means.mean();
 }
 
-struct Column { double rms = 0, nanoseconds = 0; };
+struct Column {
+  double rms = 0, nanoseconds = 0;
+};
 
 template <class F> Column measure(const Experiment& e, std::uint64_t calls, int seeds, int first, F&& f) {
   double sum = 0;
@@ -141,18 +147,26 @@ int main(int argc, char** argv) {
   const auto calls = static_cast<std::uint64_t>(argc > 1 ? std::strtod(argv[1], nullptr) : 1e6);
   const int seeds = argc > 2 ? std::atoi(argv[2]) : 20, first = argc > 3 ? std::atoi(argv[3]) : 1;
   const std::string only = argc > 4 ? argv[4] : "";
-  std::printf("RMS relative error of %d seeds from %d at %llu calls, one thread; ns: overhead per call beyond the integrand\n", seeds, first,
-              static_cast<unsigned long long>(calls));
-  std::printf("%-22s %8s %8s %8s %8s %8s %8s | %8s %-5s %6s | %6s %6s\n", "integral", "plain", "miser", "vegas", "vegasW", "shifted", "padded", "auto", "", "ratio", "ns", "vegas");
+  std::printf(
+      "RMS relative error of %d seeds from %d at %llu calls, one thread; ns: overhead per call beyond the integrand\n",
+      seeds, first, static_cast<unsigned long long>(calls));
+  std::printf("%-22s %8s %8s %8s %8s %8s %8s | %8s %-5s %6s | %6s %6s\n", "integral", "plain", "miser", "vegas",
+              "vegasW", "shifted", "padded", "auto", "", "ratio", "ns", "vegas");
   int won = 0, light = 0, cells = 0;
   for (const Experiment& e : carlo::genz_integrals()) {
     if (e.name.find(only) == std::string::npos) continue;
     ++cells;
     const auto gsl = [&](double (Gsl::*method)()) {
-      return measure(e, calls, seeds, first, [&](int s) { return (Gsl(e, calls, static_cast<unsigned long>(s)).*method)(); });
+      return measure(e, calls, seeds, first,
+                     [&](int s) { return (Gsl(e, calls, static_cast<unsigned long>(s)).*method)(); });
     };
-    const std::array peers = {gsl(&Gsl::plain), gsl(&Gsl::miser), gsl(&Gsl::vegas), gsl(&Gsl::vegas_warm), gsl(&Gsl::shifted_sobol),
-                              measure(e, calls, seeds, first, [&](int s) { return padded_sobol(e, calls, static_cast<std::uint64_t>(s)); })};
+    const std::array peers = {
+        gsl(&Gsl::plain),
+        gsl(&Gsl::miser),
+        gsl(&Gsl::vegas),
+        gsl(&Gsl::vegas_warm),
+        gsl(&Gsl::shifted_sobol),
+        measure(e, calls, seeds, first, [&](int s) { return padded_sobol(e, calls, static_cast<std::uint64_t>(s)); })};
     mc::Method picked{};
     const Column ours = measure(e, calls, seeds, first, [&](int s) {
       mc::IntegrateOptions o;
@@ -179,8 +193,10 @@ int main(int argc, char** argv) {
     for (const Column& p : peers) std::printf(" %8.1e", p.rms), best = std::min(best, p.rms);
     won += ours.rms <= best;
     light += ours.nanoseconds - alone <= 0.5 * (peers[2].nanoseconds - alone);
-    std::printf(" | %8.1e %-5s %6.3f | %6.1f %6.1f\n", ours.rms, std::string(name(picked)).c_str(), ours.rms / best, ours.nanoseconds - alone, peers[2].nanoseconds - alone);
+    std::printf(" | %8.1e %-5s %6.3f | %6.1f %6.1f\n", ours.rms, std::string(name(picked)).c_str(), ours.rms / best,
+                ours.nanoseconds - alone, peers[2].nanoseconds - alone);
     std::fflush(stdout);
   }
-  std::printf("auto at or below the best peer in %d of %d, its overhead at most half of gsl_monte_vegas's in %d\n", won, cells, light);
+  std::printf("auto at or below the best peer in %d of %d, its overhead at most half of gsl_monte_vegas's in %d\n", won,
+              cells, light);
 }

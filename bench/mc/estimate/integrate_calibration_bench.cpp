@@ -1,6 +1,7 @@
-/// How honest the error bars of integrate() are on Genz's integrals: the shares of runs within 1 and 2 standard errors of the
-/// truth, and within the 95 % interval, for each method; prints a table.
-/// Usage: bench_mc_estimate_calibration [RUNS [CALLS [FIRST_SEED [METHOD [NAME]]]]]; runs are per integral; NAME keeps the
+/// How honest the error bars of integrate() are on Genz's integrals: the shares of runs within 1 and 2 standard errors
+/// of the truth, and within the 95 % interval, for each method; prints a table.
+/// Usage: bench_mc_estimate_calibration [RUNS [CALLS [FIRST_SEED [METHOD [NAME]]]]]; runs are per integral; NAME keeps
+///        the
 /// integrals that contain it.
 /// Runs whose rounds disagree (`consistent` is false) are counted apart: shares are of the others.
 
@@ -42,9 +43,11 @@ struct Shares {
   }
   void print(const std::string& name, std::string_view method, double scale) const {
     const double n = runs - flagged;
-    fmt::print("{:<11} {:<22} {:>6} {:>7.4f} {:>7.4f} {:>7.4f} {:>8.4f}", method, name, runs, within1 / n, within2 / n, covered / n,
-               double(flagged) / runs);
-    if (scale > 0) fmt::print(" {:>8.3f} {:>9.2e}", std::exp(log_error / n) / std::sqrt(squares / n), std::sqrt(squares / n) / scale);
+    fmt::print("{:<11} {:<22} {:>6} {:>7.4f} {:>7.4f} {:>7.4f} {:>8.4f}", method, name, runs, within1 / n, within2 / n,
+               covered / n, double(flagged) / runs);
+    if (scale > 0)
+      fmt::print(" {:>8.3f} {:>9.2e}", std::exp(log_error / n) / std::sqrt(squares / n),
+                 std::sqrt(squares / n) / scale);
     fmt::print("\n");
   }
 };
@@ -56,9 +59,13 @@ int main(int argc, char** argv) {
   const auto calls = static_cast<std::uint64_t>(argc > 2 ? std::strtod(argv[2], nullptr) : 1e4);
   const std::uint64_t first = argc > 3 ? std::strtoull(argv[3], nullptr, 10) : 1;
   const std::string only = argc > 4 ? argv[4] : "", integrals = argc > 5 ? argv[5] : "";
-  fmt::print("{} runs of {} calls per integral from seed {}; error/rms: geometric mean of the standard error over the actual error\n", runs, calls, first);
-  fmt::print("{:<11} {:<22} {:>6} {:>7} {:>7} {:>7} {:>8} {:>8} {:>9}\n", "method", "integral", "runs", "1 sigma", "2 sigma", "95 %", "flagged", "err/rms", "rel. rms");
-  for (const mc::Method method : {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas, mc::Method::automatic}) {
+  fmt::print("{} runs of {} calls per integral from seed {}; error/rms: geometric mean of the standard error over the "
+             "actual error\n",
+             runs, calls, first);
+  fmt::print("{:<11} {:<22} {:>6} {:>7} {:>7} {:>7} {:>8} {:>8} {:>9}\n", "method", "integral", "runs", "1 sigma",
+             "2 sigma", "95 %", "flagged", "err/rms", "rel. rms");
+  for (const mc::Method method :
+       {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas, mc::Method::automatic}) {
     if (!only.empty() && only != name(method)) continue;
     Shares all;
     std::uint64_t seed = first; // another one for each integral: those of one dimension would share their points

@@ -24,8 +24,8 @@ template <class S> class Urena {
     if (z0_ > 0) z_ = -z_, z0_ = -z0_;
     x0_ = corner.dot(x_), x1_ = x0_ + edge1.norm(), y0_ = corner.dot(y_), y1_ = y0_ + edge2.norm();
     const Vec3<S> v00(x0_, y0_, z0_), v01(x0_, y1_, z0_), v10(x1_, y0_, z0_), v11(x1_, y1_, z0_);
-    const Vec3<S> n0 = cross<S>(v00, v10).normalized(), n1 = cross<S>(v10, v11).normalized(), n2 = cross<S>(v11, v01).normalized(),
-                  n3 = cross<S>(v01, v00).normalized();
+    const Vec3<S> n0 = cross<S>(v00, v10).normalized(), n1 = cross<S>(v10, v11).normalized(),
+                  n2 = cross<S>(v11, v01).normalized(), n3 = cross<S>(v01, v00).normalized();
     const auto angle = [](const Vec3<S>& a, const Vec3<S>& b) { return S(acos(S(-a.dot(b)))); };
     b0_ = n0.z(), b1_ = n2.z();
     k_ = 2 * pi<S> - angle(n2, n3) - angle(n3, n0);
@@ -38,7 +38,8 @@ template <class S> class Urena {
     const S au = u[0] * solid_angle_ + k_, fu = (S(cos(au)) * b0_ - b1_) / S(sin(au));
     const S cu = min(max(S((fu > 0 ? S(1) : S(-1)) / S(sqrt(S(fu * fu + b0_ * b0_)))), S(-1)), S(1));
     const S xu = min(max(S(-(cu * z0_) / max(S(sqrt(S(1 - cu * cu))), S(1e-30))), x0_), x1_);
-    const S d = sqrt(S(xu * xu + z0_ * z0_)), h0 = y0_ / S(sqrt(S(d * d + y0_ * y0_))), h1 = y1_ / S(sqrt(S(d * d + y1_ * y1_)));
+    const S d = sqrt(S(xu * xu + z0_ * z0_)), h0 = y0_ / S(sqrt(S(d * d + y0_ * y0_))),
+            h1 = y1_ / S(sqrt(S(d * d + y1_ * y1_)));
     const S h = h0 + u[1] * (h1 - h0), yv = h * h < 1 - S(1e-6) ? S(h * d / S(sqrt(S(1 - h * h)))) : y1_;
     return (x_ * xu + y_ * yv + z_ * z0_).normalized();
   }
@@ -54,7 +55,8 @@ template <class W, class O> double worst(const W& warp, const O& exact) {
   double most = 0;
   for (int i = 0; i < 1000; ++i) {
     const Vec2<float> u = random.point<float, 2>();
-    const double off = static_cast<double>((cast_point<Oracle>(warp.sample(u)) - exact.sample(cast_point<Oracle>(u))).norm());
+    const double off =
+        static_cast<double>((cast_point<Oracle>(warp.sample(u)) - exact.sample(cast_point<Oracle>(u))).norm());
     most = off <= most ? most : off;
   }
   return most;
@@ -69,7 +71,8 @@ template <class F> double ns(const std::vector<Vec2<float>>& points, F sample) {
         const Vec3<float> w = sample(u);
         asm volatile("" : : "r"(&w) : "memory");
       }
-    times.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC * 1e9 / 8 / static_cast<double>(points.size()));
+    times.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC * 1e9 / 8 /
+                    static_cast<double>(points.size()));
   }
   std::nth_element(times.begin(), times.begin() + 7, times.end());
   return times[7];
@@ -79,7 +82,8 @@ template <class F> double ns(const std::vector<Vec2<float>>& points, F sample) {
 
 int main() {
   const double eps = std::numeric_limits<float>::epsilon();
-  fmt::print("{:>10} {:>14} {:>14} {:>14} {:>14}   errors in eps; area relative\n", "sr", "fan: area", "sample", "Urena: area", "sample");
+  fmt::print("{:>10} {:>14} {:>14} {:>14} {:>14}   errors in eps; area relative\n", "sr", "fan: area", "sample",
+             "Urena: area", "sample");
   for (const float edge : {1e-4f, 1e-3f, 1e-2f, 0.1f, 1.0f, 10.0f, 100.0f}) {
     const Vec3<float> corner(-0.3f * edge, -0.4f * edge, 0.9f), ex(edge, 0, 0), ey(0, edge, 0);
     const SphericalRectangle<float> fan(corner, ex, ey);
@@ -88,8 +92,8 @@ int main() {
     const Urena<Oracle> other_exact(cast_point<Oracle>(corner), cast_point<Oracle>(ex), cast_point<Oracle>(ey));
     const double area = static_cast<double>(exact.solid_angle());
     const auto off = [&](float a) { return std::abs(a / area - 1) / eps; };
-    fmt::print("{:>10.3g} {:>14.2g} {:>14.3g} {:>14.2g} {:>14.3g}\n", area, off(fan.solid_angle()), worst(fan, exact) / eps,
-               off(other.solid_angle()), worst(other, other_exact) / eps);
+    fmt::print("{:>10.3g} {:>14.2g} {:>14.3g} {:>14.2g} {:>14.3g}\n", area, off(fan.solid_angle()),
+               worst(fan, exact) / eps, off(other.solid_angle()), worst(other, other_exact) / eps);
   }
   std::vector<Vec2<float>> points(1 << 15);
   Pcg random(2);

@@ -1,4 +1,5 @@
-// Warps: sample, or sample and density, of points made beforehand; scalar float unless a name says double. "made anew": with the
+// Warps: sample, or sample and density, of points made beforehand; scalar float unless a name says double. "made anew":
+//        with the
 // construction for each sample, as a renderer pays it at each new point of a surface.
 #include "../../speed.h"
 
@@ -75,10 +76,12 @@ const bool registered = [] {
   // A square of 2 x 2 at height 2, as a light over a table.
   const auto corner = [](const auto& u) { return Vec3<float>(u[0] - 1.5f, u[1] - 1.5f, 2); };
   const Vec3<float> ex(2, 0, 0), ey(0, 2, 0);
-  measure("SphericalTriangle, sample + pdf", 90, mc::SphericalTriangle<float>(corner(mc::Vec2<float>(0.5f, 0.5f)), ex, ey), true);
+  measure("SphericalTriangle, sample + pdf", 90,
+          mc::SphericalTriangle<float>(corner(mc::Vec2<float>(0.5f, 0.5f)), ex, ey), true);
   measure<float>("SphericalTriangle, made anew, sample + pdf", 90, true,
                  [=](const auto& u) { return mc::SphericalTriangle<float>(corner(u), ex, ey); });
-  measure("SphericalRectangle, sample + pdf", 90, mc::SphericalRectangle<float>(corner(mc::Vec2<float>(0.5f, 0.5f)), ex, ey), true);
+  measure("SphericalRectangle, sample + pdf", 90,
+          mc::SphericalRectangle<float>(corner(mc::Vec2<float>(0.5f, 0.5f)), ex, ey), true);
   measure<float>("SphericalRectangle, made anew, sample + pdf", 90, true,
                  [=](const auto& u) { return mc::SphericalRectangle<float>(corner(u), ex, ey); });
   return true;

@@ -1,5 +1,5 @@
-/// Closest-hit and any-hit rates of our BVH, and of Embree 3 (rtcIntersect1, rtcOccluded1) where it was found: single thread,
-/// one ray per call, the same rays and the same mesh of 105k triangles, in one run.
+/// Closest-hit and any-hit rates of our BVH, and of Embree 3 (rtcIntersect1, rtcOccluded1) where it was found: single
+/// thread, one ray per call, the same rays and the same mesh of 105k triangles, in one run.
 
 #include <render/accel/bvh.h>
 
@@ -37,7 +37,8 @@ const World& world() {
       for (int j = 0; j <= n; ++j) {
         const double theta = mc::pi<double> * (i + 0.02) / (n + 0.04), phi = 2 * mc::pi<double> * j / n;
         const double r = 1 + 0.08 * std::sin(17 * theta) * std::cos(13 * phi) + 0.02 * std::sin(61 * theta + 47 * phi);
-        w.positions.push_back(Vec3(Float(r * std::sin(theta) * std::cos(phi)), Float(r * std::sin(theta) * std::sin(phi)), Float(r * std::cos(theta))));
+        w.positions.push_back(Vec3(Float(r * std::sin(theta) * std::cos(phi)),
+                                   Float(r * std::sin(theta) * std::sin(phi)), Float(r * std::cos(theta))));
       }
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
@@ -66,7 +67,8 @@ const Bvh& ours() {
 
 enum Kind { primary, bounce, shadow };
 
-/// primary: pinhole, scanline order; bounce: from its hits into the hemisphere; shadow: from its hits toward a small light.
+/// primary: pinhole, scanline order; bounce: from its hits into the hemisphere; shadow: from its hits toward a small
+///          light.
 const std::vector<Ray>& rays(Kind kind) {
   static const std::array<std::vector<Ray>, 3> built = [] {
     std::array<std::vector<Ray>, 3> r;
@@ -120,9 +122,11 @@ RTCScene embree() {
     const RTCDevice device = rtcNewDevice("threads=1");
     const RTCScene s = rtcNewScene(device);
     const RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* p = static_cast<float*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, world().positions.size()));
+    auto* p = static_cast<float*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, world().positions.size()));
     for (const Vec3& v : world().positions) *p++ = v.x(), *p++ = v.y(), *p++ = v.z();
-    auto* t = static_cast<unsigned*>(rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, world().triangles.size()));
+    auto* t = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, world().triangles.size()));
     for (const auto& v : world().triangles) *t++ = v[0], *t++ = v[1], *t++ = v[2];
     rtcCommitGeometry(g);
     rtcAttachGeometry(s, g);

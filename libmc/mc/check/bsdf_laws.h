@@ -16,14 +16,14 @@ struct BsdfOptions {
   std::uint64_t samples = 1'000'000;
   std::uint64_t seed = 1;
   double alpha = 0.001;
-  bool reciprocal = true;         ///< f(wo, wi) = f(wi, wo); with eta, f(wo, wi) / eta_i^2 symmetric across the surface
-  double eta = 1;                 ///< index of the inside (z < 0) over that of the outside
-  bool cosine = true;             ///< eval leaves the cosine out; false where it holds it, and for phase functions
-  bool lossless = false;          ///< nothing is absorbed: the white furnace value is 1, not only at most 1
-  double tolerance = 1e-3;        ///< relative, of f and pdf as sample, eval and pdf state them, and of reciprocity
-  double mass_tolerance = 1e-5;   ///< rounding error of the density's integral
+  bool reciprocal = true;       ///< f(wo, wi) = f(wi, wo); with eta, f(wo, wi) / eta_i^2 symmetric across the surface
+  double eta = 1;               ///< index of the inside (z < 0) over that of the outside
+  bool cosine = true;           ///< eval leaves the cosine out; false where it holds it, and for phase functions
+  bool lossless = false;        ///< nothing is absorbed: the white furnace value is 1, not only at most 1
+  double tolerance = 1e-3;      ///< relative, of f and pdf as sample, eval and pdf state them, and of reciprocity
+  double mass_tolerance = 1e-5; ///< rounding error of the density's integral
   std::size_t max_evaluations = 12'000'000;
-  bool evidence = false;          ///< see SubjectOptions
+  bool evidence = false; ///< see SubjectOptions
 };
 
 namespace detail {
@@ -46,7 +46,9 @@ template <class Drawn, class W> bool is_transmission(const Drawn& d, const W& wo
   else return d.wi.z() * wo.z() < 0;
 }
 /// |cos wi| where eval leaves it out.
-template <class W> auto cosine_factor(const W& wi, const BsdfOptions& options) { return options.cosine ? std::abs(wi.z()) : typename W::Scalar(1); }
+template <class W> auto cosine_factor(const W& wi, const BsdfOptions& options) {
+  return options.cosine ? std::abs(wi.z()) : typename W::Scalar(1);
+}
 
 /// What one sample stands for: f |cos| / pdf, in doubles, one channel repeated; 0 where pdf = 0.
 template <class Drawn> std::array<double, 3> throughput(const Drawn& d, const BsdfOptions& options) {
@@ -60,15 +62,18 @@ template <class Drawn> std::array<double, 3> throughput(const Drawn& d, const Bs
 }
 
 /// How far a sample's own f, weight and pdf are from eval and pdf.
-template <class Bsdf, class W, class Drawn> double sample_disagreement(const Bsdf& bsdf, const W& wo, const Drawn& d, const BsdfOptions& options) {
+template <class Bsdf, class W, class Drawn>
+double sample_disagreement(const Bsdf& bsdf, const W& wo, const Drawn& d, const BsdfOptions& options) {
   const auto density = bsdf.pdf(wo, d.wi);
   double off = 0;
   if constexpr (requires { d.f; }) off = disagreement(d.f, decltype(d.f)(bsdf.eval(wo, d.wi)));
   if constexpr (requires { d.weight; }) {
     using Value = std::remove_cvref_t<decltype(d.weight)>;
-    off = std::max(off, disagreement(Value(d.weight * density), Value(bsdf.eval(wo, d.wi) * cosine_factor(d.wi, options))));
+    off = std::max(off,
+                   disagreement(Value(d.weight * density), Value(bsdf.eval(wo, d.wi) * cosine_factor(d.wi, options))));
   }
-  if constexpr (requires { d.pdf; }) off = std::max(off, disagreement(static_cast<double>(d.pdf), static_cast<double>(density)));
+  if constexpr (requires { d.pdf; })
+    off = std::max(off, disagreement(static_cast<double>(d.pdf), static_cast<double>(density)));
   return off;
 }
 
@@ -77,10 +82,12 @@ template <class Bsdf, class W, class Drawn> double sample_disagreement(const Bsd
 /// A BSDF over scalar S with fixed wo as a subject on the sphere of wi. The BSDF is any object with
 ///   sample(wo, uc, u) or sample(wo, u) -> optional of {wi, pdf, f or weight, perhaps delta and transmission}
 ///   eval(wo, wi) -> f,  pdf(wo, wi)
-/// where weight = f |cos| / pdf. Delta lobes, at most one on either side, become discrete outcomes: 0 reflection, 1 transmission.
-/// A phase function is a BSDF without the cosine.
-///   weight : 1 where the f, weight and pdf of a sample agree with eval and pdf, or a delta lobe repeats its probability
-template <Real S, class Bsdf> Subject bsdf_subject(const Bsdf& bsdf, const Vec3<S>& wo, const BsdfOptions& options = {}) {
+/// where weight = f |cos| / pdf. Delta lobes, at most one on either side, become discrete outcomes: 0 reflection, 1
+/// transmission. A phase function is a BSDF without the cosine.
+///   weight : 1 where the f, weight and pdf of a sample agree with eval and pdf, or a delta lobe repeats its
+///            probability
+template <Real S, class Bsdf>
+Subject bsdf_subject(const Bsdf& bsdf, const Vec3<S>& wo, const BsdfOptions& options = {}) {
   Subject s;
   s.name = options.name;
   s.may_fail = true;
@@ -95,7 +102,8 @@ template <Real S, class Bsdf> Subject bsdf_subject(const Bsdf& bsdf, const Vec3<
     for (int i = 0; i < 4096; ++i) {
       const auto drawn = detail::scatter<S>(bsdf, wo, random);
       if (!drawn) continue;
-      if (detail::is_delta(*drawn)) lobes[detail::is_transmission(*drawn, wo) ? 1 : 0] = static_cast<double>(drawn->pdf);
+      if (detail::is_delta(*drawn))
+        lobes[detail::is_transmission(*drawn, wo) ? 1 : 0] = static_cast<double>(drawn->pdf);
       else continuous = true;
     }
   }
@@ -136,19 +144,23 @@ template <Real S, class Bsdf> Subject bsdf_subject(const Bsdf& bsdf, const Vec3<
   };
   s.density = [bsdf, wo](const Subject::Coordinates& v) {
     const Sphere<double> chart;
-    return static_cast<double>(bsdf.pdf(wo, Vec3<S>(chart.from_unit({v[0], v[1]}).template cast<S>()))) * chart.jacobian({v[0], v[1]});
+    return static_cast<double>(bsdf.pdf(wo, Vec3<S>(chart.from_unit({v[0], v[1]}).template cast<S>()))) *
+           chart.jacobian({v[0], v[1]});
   };
   s.describe_draw = [=](std::uint64_t seed, std::uint64_t index) {
     Pcg random(seed), before(seed);
     auto drawn = draw_one(random);
     for (std::uint64_t i = 0; i < index; ++i) before = random, drawn = draw_one(random);
-    std::string text = fmt::format("{}wo = {}, draw {} of Pcg({})", detail::format_uniforms<S>(before, random), detail::format_point(wo), index, seed);
+    std::string text = fmt::format("{}wo = {}, draw {} of Pcg({})", detail::format_uniforms<S>(before, random),
+                                   detail::format_point(wo), index, seed);
     if (!drawn) return text + ": absorbed";
     text += fmt::format(": wi = {}, pdf = {:.9g}", detail::format_point(drawn->wi), static_cast<double>(drawn->pdf));
     if constexpr (requires { drawn->f; }) text += fmt::format(", f = {}", detail::format_point(drawn->f));
-    if constexpr (requires { drawn->weight; }) text += fmt::format(", weight = {}", detail::format_point(drawn->weight));
+    if constexpr (requires { drawn->weight; })
+      text += fmt::format(", weight = {}", detail::format_point(drawn->weight));
     if (!detail::is_delta(*drawn))
-      text += fmt::format("; eval = {}, pdf() = {:.9g}", detail::format_point(bsdf.eval(wo, drawn->wi)), static_cast<double>(bsdf.pdf(wo, drawn->wi)));
+      text += fmt::format("; eval = {}, pdf() = {:.9g}", detail::format_point(bsdf.eval(wo, drawn->wi)),
+                          static_cast<double>(bsdf.pdf(wo, drawn->wi)));
     return text;
   };
   s.describe_point = [](const Subject::Coordinates& v) {
@@ -160,11 +172,14 @@ template <Real S, class Bsdf> Subject bsdf_subject(const Bsdf& bsdf, const Vec3<
 namespace detail {
 
 /// The squared index of the medium that w runs in, which radiance carries.
-template <class W> double squared_index(const W& w, const BsdfOptions& options) { return w.z() > 0 ? 1.0 : options.eta * options.eta; }
+template <class W> double squared_index(const W& w, const BsdfOptions& options) {
+  return w.z() > 0 ? 1.0 : options.eta * options.eta;
+}
 
 /// The white furnace: the share of light from everywhere that leaves along wo, the mean of f |cos| / pdf, per channel.
 template <Real S, class Bsdf>
-std::array<Moments, 3> white_furnace(const Bsdf& bsdf, const Vec3<S>& wo, int n, std::uint64_t seed, const BsdfOptions& options) {
+std::array<Moments, 3> white_furnace(const Bsdf& bsdf, const Vec3<S>& wo, int n, std::uint64_t seed,
+                                     const BsdfOptions& options) {
   std::array<Moments, 3> albedo;
   Pcg random(seed, 22);
   for (int i = 0; i < n; ++i) {
@@ -181,19 +196,23 @@ std::array<Moments, 3> white_furnace(const Bsdf& bsdf, const Vec3<S>& wo, int n,
 }
 
 /// Energy at wo; keeps the greatest channel's figure.
-inline Figure energy_law(const std::array<Moments, 3>& albedo, const std::string& where, const BsdfOptions& options, LawLedger& ledger) {
+inline Figure energy_law(const std::array<Moments, 3>& albedo, const std::string& where, const BsdfOptions& options,
+                         LawLedger& ledger) {
   Figure greatest{"white furnace", -1, 0, where};
   for (const Moments& m : albedo) {
     const double slack = 5 * m.std_error() + options.tolerance, mean = m.non_finite() ? HUGE_VAL : m.mean();
     if (mean > greatest.value) greatest.value = mean, greatest.std_error = m.std_error();
     const double off = options.lossless ? std::abs(mean - 1) - slack : mean - 1 - slack;
-    ledger.note(std::max(off, 0.0), [&] { return fmt::format("white furnace {:.6g} +- {:.2g} at wo = {}", mean, m.std_error(), where); });
+    ledger.note(std::max(off, 0.0),
+                [&] { return fmt::format("white furnace {:.6g} +- {:.2g} at wo = {}", mean, m.std_error(), where); });
   }
   return greatest;
 }
 
 /// The same light through a delta lobe both ways: shares of the energy, so that refraction needs no further factor.
-template <Real S, class Bsdf> void delta_reciprocity(const Bsdf& bsdf, const Vec3<S>& wo, std::uint64_t seed, const BsdfOptions& options, LawLedger& ledger) {
+template <Real S, class Bsdf>
+void delta_reciprocity(const Bsdf& bsdf, const Vec3<S>& wo, std::uint64_t seed, const BsdfOptions& options,
+                       LawLedger& ledger) {
   Pcg random(seed, 23);
   std::array<bool, 2> done{};
   for (int i = 0; i < 256; ++i) {
@@ -209,12 +228,13 @@ template <Real S, class Bsdf> void delta_reciprocity(const Bsdf& bsdf, const Vec
     std::optional<double> back;
     for (int k = 0; k < 1024 && !back; ++k) {
       const auto d = scatter<S>(bsdf, there->wi, random);
-      if (d && is_delta(*d) && is_transmission(*d, there->wi) == through && static_cast<double>(d->wi.dot(wo)) > 0.999) back = share(*d, there->wi);
+      if (d && is_delta(*d) && is_transmission(*d, there->wi) == through && static_cast<double>(d->wi.dot(wo)) > 0.999)
+        back = share(*d, there->wi);
     }
     if (!back && forth < 0.05) continue; // too rare to meet
     ledger.note(std::abs(forth - back.value_or(HUGE_VAL)), [&] {
-      return fmt::format("delta lobe: share {:.6g} from wo = {} to wi = {}, {} back", forth, format_point(wo), format_point(there->wi),
-                         back ? fmt::format("{:.6g}", *back) : "none");
+      return fmt::format("delta lobe: share {:.6g} from wo = {} to wi = {}, {} back", forth, format_point(wo),
+                         format_point(there->wi), back ? fmt::format("{:.6g}", *back) : "none");
     });
   }
 }
@@ -224,13 +244,16 @@ template <Real S, class Bsdf> void delta_reciprocity(const Bsdf& bsdf, const Vec
 /// Everything check_subject finds for one wo, and the physics:
 ///   sign        : f finite and >= 0, for sampled wi and for uniform ones
 ///   support     : pdf > 0 wherever f > 0 at uniform wi, or the estimator would miss light
-///   reciprocity : f(wo, wi) = f(wi, wo), with the squared index across the surface; delta lobes by their shares of the energy
-///   energy      : at most 1 (exactly 1 where lossless) in every channel, at wo and at 16 more directions a side, one-sided at five standard
-///                 errors; the white furnace values are figures of the report
-/// Directions on the other side than wo are only looked from where samples cross the surface: a BSDF of one side may be undefined there.
+///   reciprocity : f(wo, wi) = f(wi, wo), with the squared index across the surface; delta lobes by their shares of the
+///                 energy
+///   energy      : at most 1 (exactly 1 where lossless) in every channel, at wo and at 16 more directions a side,
+///                 one-sided at five standard errors; the white furnace values are figures of the report
+/// Directions on the other side than wo are only looked from where samples cross the surface: a BSDF of one side may be
+/// undefined there.
 template <Real S, class Bsdf> Report check_bsdf(const Bsdf& bsdf, const Vec3<S>& wo, const BsdfOptions& options = {}) {
   SubjectOptions o;
-  o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.max_evaluations = options.max_evaluations, o.evidence = options.evidence;
+  o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha,
+  o.max_evaluations = options.max_evaluations, o.evidence = options.evidence;
   const auto start = std::chrono::steady_clock::now();
   Report report = check_subject(bsdf_subject<S>(bsdf, wo, options), o);
 
@@ -250,8 +273,9 @@ template <Real S, class Bsdf> Report check_bsdf(const Bsdf& bsdf, const Vec3<S>&
       greatest = std::max(greatest, f);
     }
     const auto describe = [&] {
-      return fmt::format("f(wo, wi) = {}, f(wi, wo) = {}, pdf = {:.9g}, wo = {}, wi = {}", detail::format_point(there), detail::format_point(back),
-                         static_cast<double>(bsdf.pdf(wo, wi)), detail::format_point(wo), detail::format_point(wi));
+      return fmt::format("f(wo, wi) = {}, f(wi, wo) = {}, pdf = {:.9g}, wo = {}, wi = {}", detail::format_point(there),
+                         detail::format_point(back), static_cast<double>(bsdf.pdf(wo, wi)), detail::format_point(wo),
+                         detail::format_point(wi));
     };
     sign.note(negative, describe);
     support.note(greatest > 0 && !(bsdf.pdf(wo, wi) > 0) ? 1 : 0, describe);
@@ -272,21 +296,28 @@ template <Real S, class Bsdf> Report check_bsdf(const Bsdf& bsdf, const Vec3<S>&
   }
   if (options.reciprocal) detail::delta_reciprocity<S>(bsdf, wo, options.seed, options, reciprocity);
 
-  report.figures.push_back(detail::energy_law(detail::white_furnace<S>(bsdf, wo, n, options.seed, options), detail::format_point(wo), options, energy));
+  report.figures.push_back(detail::energy_law(detail::white_furnace<S>(bsdf, wo, n, options.seed, options),
+                                              detail::format_point(wo), options, energy));
   Figure most{"white furnace, greatest over wo", -1, 0, {}};
   for (int k = 0; k < 32; ++k) {
     constexpr std::array<double, 8> cosines{1, 0.9, 0.7, 0.5, 0.3, 0.1, 0.03, 0.003};
     if (k % 2 && !through) continue;
-    const double z = (k % 2 ? -1 : 1) * (wo.z() < 0 ? -1 : 1) * cosines[static_cast<std::size_t>(k / 2 % 8)], phi = k < 16 ? 0.4 : 2.3;
+    const double z = (k % 2 ? -1 : 1) * (wo.z() < 0 ? -1 : 1) * cosines[static_cast<std::size_t>(k / 2 % 8)],
+                 phi = k < 16 ? 0.4 : 2.3;
     const Vec3<S> w = spherical_direction<double>(std::sqrt(1 - z * z), z, phi).template cast<S>();
-    Figure f = detail::energy_law(detail::white_furnace<S>(bsdf, w, 1000, options.seed + static_cast<std::uint64_t>(k) + 1, options), detail::format_point(w), options, energy);
+    Figure f = detail::energy_law(
+        detail::white_furnace<S>(bsdf, w, 1000, options.seed + static_cast<std::uint64_t>(k) + 1, options),
+        detail::format_point(w), options, energy);
     if (f.value > most.value) most.value = f.value, most.std_error = f.std_error, most.where = f.where;
   }
   report.figures.push_back(std::move(most));
   for (const LawLedger* law : {&sign, &support, &reciprocity, &energy})
     if (law != &reciprocity || options.reciprocal) report.checks.push_back(law->check());
 
-  struct Input { S uc; Vec2<S> u; };
+  struct Input {
+    S uc;
+    Vec2<S> u;
+  };
   std::vector<Input> inputs;
   for (int i = 0; i < timing_inputs; ++i) {
     const S uc = random.uniform<S>();

@@ -50,14 +50,16 @@ struct Tester {
   }
 
   void pool() {
-    const double total = std::accumulate(cells.begin(), cells.end(), 0.0, [](double s, const Cell& c) { return s + c.p; });
+    const double total =
+        std::accumulate(cells.begin(), cells.end(), 0.0, [](double s, const Cell& c) { return s + c.p; });
     for (const Cell& c : cells) n += static_cast<double>(c.observed);
     std::vector<Cell> pooled;
     Cell next;
     bool empty = true;
     const auto join = [](Cell& a, const Cell& b) {
       a.p += b.p, a.error += b.error, a.observed += b.observed;
-      for (std::size_t d = 0; d < 3; ++d) a.rank_lo[d] = std::min(a.rank_lo[d], b.rank_lo[d]), a.rank_hi[d] = std::max(a.rank_hi[d], b.rank_hi[d]);
+      for (std::size_t d = 0; d < 3; ++d)
+        a.rank_lo[d] = std::min(a.rank_lo[d], b.rank_lo[d]), a.rank_hi[d] = std::max(a.rank_hi[d], b.rank_hi[d]);
     };
     for (const Cell& c : cells) {
       if (empty) next = c, empty = false;
@@ -79,12 +81,17 @@ struct Tester {
     }
   }
 
-  struct Group { double statistic = 0, dof = 0, bias = 0, expected = 0; };
+  struct Group {
+    double statistic = 0, dof = 0, bias = 0, expected = 0;
+  };
 
   // Chi-squares of pairs of tree levels, from the coarsest.
   void levels(double share) {
     std::vector<Group> groups;
-    struct Node { std::size_t lo, hi; int level; };
+    struct Node {
+      std::size_t lo, hi;
+      int level;
+    };
     std::vector<Node> stack{{0, cells.size(), 0}};
     while (!stack.empty()) {
       const Node node = stack.back();
@@ -113,8 +120,8 @@ struct Tester {
     double coarse = 1;
     for (const Group& g : groups) {
       const double fine = coarse + g.dof;
-      add(fmt::format("chi-square, {:.0f} to {:.0f} cells", coarse, fine), g.statistic, g.dof, std::sqrt(g.bias), each, Fault::shape,
-          fmt::format("{:.0f} expected", g.dof));
+      add(fmt::format("chi-square, {:.0f} to {:.0f} cells", coarse, fine), g.statistic, g.dof, std::sqrt(g.bias), each,
+          Fault::shape, fmt::format("{:.0f} expected", g.dof));
       coarse = fine;
     }
     if (!groups.empty()) {
@@ -141,9 +148,11 @@ struct Tester {
       second[0] += c.p * s[0] * s[0], second[1] += c.p * s[0] * s[1], second[2] += c.p * s[1] * s[1];
       extreme = std::max({extreme, -s[0], -s[1]});
     }
-    const double v00 = n * (second[0] - mean[0] * mean[0]), v01 = n * (second[1] - mean[0] * mean[1]), v11 = n * (second[2] - mean[1] * mean[1]);
+    const double v00 = n * (second[0] - mean[0] * mean[0]), v01 = n * (second[1] - mean[0] * mean[1]),
+                 v11 = n * (second[2] - mean[1] * mean[1]);
     const double det = v00 * v11 - v01 * v01;
-    if (!(det > 1e-9 * v00 * v11) || !(v00 > sqr(4 * extreme))) return; // too few cells, or too few samples for normality
+    if (!(det > 1e-9 * v00 * v11) || !(v00 > sqr(4 * extreme)))
+      return; // too few cells, or too few samples for normality
     const double x = sum[0] - n * mean[0], y = sum[1] - n * mean[1];
     const double statistic = (v11 * x * x - 2 * v01 * x * y + v00 * y * y) / det;
     const double shift = n * (bias[0] / std::sqrt(v00) + bias[1] / std::sqrt(v11));
@@ -160,8 +169,8 @@ struct Tester {
     }
     const double variance = n * (second - mean * mean);
     if (!(variance > 16)) return;
-    add(fmt::format("correlation, axes {} and {}", axis, other), sqr(sum - n * mean) / variance, 1, n * bias / std::sqrt(variance), share,
-        Fault::shape, fmt::format("off by {:.3g}", (sum - n * mean) / n));
+    add(fmt::format("correlation, axes {} and {}", axis, other), sqr(sum - n * mean) / variance, 1,
+        n * bias / std::sqrt(variance), share, Fault::shape, fmt::format("off by {:.3g}", (sum - n * mean) / n));
   }
 
   void ks(int axis, double share) {
@@ -178,7 +187,14 @@ struct Tester {
       if (std::abs(excess) > std::abs(worst)) worst = excess, drift_at = n * drift;
     }
     const double lambda = std::abs(worst) / std::sqrt(n), bias = drift_at / std::sqrt(n);
-    Check c{fmt::format("KS, axis {}", axis), Verdict::pass, kolmogorov_tail(lambda), share, lambda / std::sqrt(n), 0, Fault::shape, {}};
+    Check c{fmt::format("KS, axis {}", axis),
+            Verdict::pass,
+            kolmogorov_tail(lambda),
+            share,
+            lambda / std::sqrt(n),
+            0,
+            Fault::shape,
+            {}};
     if (kolmogorov_tail(std::max(lambda - bias, 0.0)) <= level(share)) c.verdict = Verdict::fail;
     else if (bias > 0.3) c.verdict = Verdict::inconclusive;
     else c.p = kolmogorov_tail(std::max(lambda - bias, 0.0));
@@ -187,7 +203,10 @@ struct Tester {
   }
 
   void single_cells(double share) {
-    struct Candidate { double z, p, error, count; std::size_t lo, hi; };
+    struct Candidate {
+      double z, p, error, count;
+      std::size_t lo, hi;
+    };
     std::vector<Candidate> candidates;
     double family = 0;
     for (std::size_t size = 1; size < cells.size(); size *= 4)
@@ -200,17 +219,22 @@ struct Tester {
         if (std::abs(z) > 2.5) candidates.push_back({z, q, error[hi] - error[lo], count, lo, hi});
       }
     if (family == 0) return;
-    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return std::abs(a.z) > std::abs(b.z); });
+    std::sort(candidates.begin(), candidates.end(),
+              [](const Candidate& a, const Candidate& b) { return std::abs(a.z) > std::abs(b.z); });
     if (candidates.size() > 64) candidates.resize(64);
     double least = 1, least_sure = 1, z = 0, at = 0, bias = 0;
-    const auto tail = [&](double count, double q) { return binomial_tail(static_cast<std::uint64_t>(count), static_cast<std::uint64_t>(n), std::clamp(q, 0.0, 1.0)); };
+    const auto tail = [&](double count, double q) {
+      return binomial_tail(static_cast<std::uint64_t>(count), static_cast<std::uint64_t>(n), std::clamp(q, 0.0, 1.0));
+    };
     for (const Candidate& c : candidates) {
       const double raw = tail(c.count, c.p);
       // The error bound moves the expected count towards the observed one, at most all the way.
       const double observed_share = c.count / n;
       const double kinder = c.z > 0 ? std::min(c.p + c.error, observed_share) : std::max(c.p - c.error, observed_share);
       least_sure = std::min(least_sure, tail(c.count, kinder));
-      if (raw < least) least = raw, z = c.z, at = static_cast<double>(c.hi - c.lo), bias = c.error * std::sqrt(n / std::max(c.p, 1 / n));
+      if (raw < least)
+        least = raw, z = c.z, at = static_cast<double>(c.hi - c.lo),
+        bias = c.error * std::sqrt(n / std::max(c.p, 1 / n));
     }
     Check c{"cells", Verdict::pass, sidak(least, family), share, z, 0, Fault::local, {}};
     if (sidak(least_sure, family) <= level(share)) c.verdict = Verdict::fail;
@@ -219,7 +243,8 @@ struct Tester {
     if (c.verdict != Verdict::pass) c.detail = fmt::format("a run of {:.0f} cells is {:.2g} sigma off", at, z);
     result.checks.push_back(std::move(c));
     const double expected = n / static_cast<double>(cells.size());
-    result.detectable_cell = (normal_quantile(1 - std::pow(1 - level(share), 1 / family)) + 2.326) / std::sqrt(expected);
+    result.detectable_cell =
+        (normal_quantile(1 - std::pow(1 - level(share), 1 / family)) + 2.326) / std::sqrt(expected);
   }
 };
 
@@ -229,7 +254,8 @@ CellTests test_cells(std::vector<Cell> cells, int dim, double alpha) {
   Tester t{std::move(cells), dim, alpha, 0, {}, {}, {}, {}};
   t.pool();
   if (t.cells.size() < 2 || t.n == 0) return {};
-  // Shares of alpha: the scores are the most powerful against the faults that samplers have. 0.09 is left to check_subject.
+  // Shares of alpha: the scores are the most powerful against the faults that samplers have. 0.09 is left to
+  //                  check_subject.
   const double axes = std::max(dim, 1);
   t.levels(dim > 0 ? 0.26 : 0.61);
   t.single_cells(dim > 0 ? 0.15 : 0.3);

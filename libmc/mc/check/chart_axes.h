@@ -19,10 +19,12 @@
 namespace mc {
 
 /// Axes of directions about a pole, out to where 1 - cos is h.
-inline std::vector<Axis> polar_axes(double h) { return {{"theta", Axis::Scale::polar, 0, h}, {"phi", Axis::Scale::azimuth, 0, 1}}; }
+inline std::vector<Axis> polar_axes(double h) {
+  return {{"theta", Axis::Scale::polar, 0, h}, {"phi", Axis::Scale::azimuth, 0, 1}};
+}
 
-/// What the chart coordinates of a domain stand for; the coordinates themselves, named v0, v1, ..., where no single one has a
-/// meaning (triangles, patches, domains unknown here).
+/// What the chart coordinates of a domain stand for; the coordinates themselves, named v0, v1, ..., where no single one
+/// has a meaning (triangles, patches, domains unknown here).
 template <Domain D> std::vector<Axis> chart_axes(const D&) {
   std::vector<Axis> axes;
   for (int i = 0; i < D::dim; ++i) axes.push_back({D::dim == 1 ? std::string("v") : fmt::format("v{}", i)});
@@ -41,7 +43,8 @@ template <Real S> std::vector<Axis> chart_axes(const Disk<S>&) {
   return {{"r", Axis::Scale::radius, 0, 1}, {"phi", Axis::Scale::azimuth, 0, 1}};
 }
 template <Real S> std::vector<Axis> chart_axes(const Annulus<S>& d) {
-  return {{"r", Axis::Scale::radius, static_cast<double>(d.inner), static_cast<double>(d.outer)}, {"phi", Axis::Scale::azimuth, 0, 1}};
+  return {{"r", Axis::Scale::radius, static_cast<double>(d.inner), static_cast<double>(d.outer)},
+          {"phi", Axis::Scale::azimuth, 0, 1}};
 }
 template <Real S> std::vector<Axis> chart_axes(const Sphere<S>&) { return polar_axes(2); }
 template <Real S> std::vector<Axis> chart_axes(const Hemisphere<S>&) { return polar_axes(1); }

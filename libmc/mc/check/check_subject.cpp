@@ -24,7 +24,9 @@ using Kind = Subject::Draw::Kind;
 
 // What single draws show, with the first witness of each fault.
 struct Tally {
-  struct Fault { std::uint64_t count = 0, seed = 0, index = 0; };
+  struct Fault {
+    std::uint64_t count = 0, seed = 0, index = 0;
+  };
   Fault failed, outside, not_finite, leak, weight;
   double worst_weight = 0;
   std::uint64_t n = 0;
@@ -107,12 +109,13 @@ struct Ranks {
   }
   double operator()(std::size_t axis, double v) const {
     const auto& s = sorted[axis];
-    return static_cast<double>(std::lower_bound(s.begin(), s.end(), v) - s.begin()) / static_cast<double>(std::max<std::size_t>(s.size(), 1));
+    return static_cast<double>(std::lower_bound(s.begin(), s.end(), v) - s.begin()) /
+           static_cast<double>(std::max<std::size_t>(s.size(), 1));
   }
 };
 
-// Pieces of the cells for the cubature. Where the pilot fills only a corner of its cell, the rest is cut in steps that grow by
-// a factor of four, so that a lobe far narrower than the cell cannot slip between the nodes.
+// Pieces of the cells for the cubature. Where the pilot fills only a corner of its cell, the rest is cut in steps that
+// grow by a factor of four, so that a lobe far narrower than the cell cannot slip between the nodes.
 struct Pieces {
   std::vector<UnitBox> boxes;
   std::vector<std::size_t> owner;
@@ -158,7 +161,14 @@ Pieces cut_into_pieces(const Partition& partition, const std::vector<Partition::
 // Atoms or gaps: the counts of the slabs of one kind against their mass, on the side that the kind suspects.
 Check suspects(const Subject& s, Slab::Kind kind, const std::vector<Slab>& slabs, const Report& report, double n) {
   const bool crowd = kind == Slab::Kind::crowd;
-  Check c{crowd ? "no atoms" : "no gaps", Verdict::pass, 1.0, crowd ? atoms_share : gaps_share, 0, 0, crowd ? Fault::atom : Fault::local, {}};
+  Check c{crowd ? "no atoms" : "no gaps",
+          Verdict::pass,
+          1.0,
+          crowd ? atoms_share : gaps_share,
+          0,
+          0,
+          crowd ? Fault::atom : Fault::local,
+          {}};
   double sure = 1;
   const double total = s.may_fail ? 1.0 : std::max(report.mass, 1e-300);
   for (const Slab& slab : slabs) {
@@ -167,7 +177,8 @@ Check suspects(const Subject& s, Slab::Kind kind, const std::vector<Slab>& slabs
     if (crowd ? share <= claimed : share >= claimed) continue;
     const double kinder = crowd ? std::min(claimed + slab.error, share) : std::max(claimed - slab.error, share);
     const auto tail = [&](double p) {
-      return sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(p, 1.0)), crowd ? s.dim : 3 * s.dim);
+      return sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(p, 1.0)),
+                   crowd ? s.dim : 3 * s.dim);
     };
     sure = std::min(sure, tail(kinder));
     // An immaterial error is simply conceded to the sampler.
@@ -175,8 +186,8 @@ Check suspects(const Subject& s, Slab::Kind kind, const std::vector<Slab>& slabs
     if (p >= *c.p) continue;
     c.p = p;
     c.statistic = static_cast<double>(slab.observed);
-    c.detail = fmt::format("{} samples, {:.3g} expected, with coordinate {} of the chart in [{:.17g}, {:.17g}]", slab.observed, n * claimed,
-                           slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis]);
+    c.detail = fmt::format("{} samples, {:.3g} expected, with coordinate {} of the chart in [{:.17g}, {:.17g}]",
+                           slab.observed, n * claimed, slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis]);
   }
   const double level = sidak_level(report.alpha, c.share);
   if (sure <= level) c.verdict = Verdict::fail;
@@ -185,8 +196,8 @@ Check suspects(const Subject& s, Slab::Kind kind, const std::vector<Slab>& slabs
   return c;
 }
 
-// The rate of failures against what the density leaves of 1. The error of its integral is conceded to the sampler; where that would
-// matter the mass itself is inconclusive.
+// The rate of failures against what the density leaves of 1. The error of its integral is conceded to the sampler;
+// where that would matter the mass itself is inconclusive.
 Check failures(const Subject& s, const Tally& t, const Report& report) {
   Check c{"failures", Verdict::pass, {}, failures_share, static_cast<double>(t.failed.count), 0, Fault::mass, {}};
   const double expected = std::clamp(1 - report.mass, 0.0, 1.0), slack = report.mass_error + s.mass_tolerance;
@@ -195,8 +206,8 @@ Check failures(const Subject& s, const Tally& t, const Report& report) {
   c.p = binomial_tail(t.failed.count, t.n, kinder);
   if (*c.p > sidak_level(report.alpha, c.share)) return c;
   c.verdict = Verdict::fail;
-  c.detail = fmt::format("{} of {} samples failed, {:.1f} expected of a density of mass {:.8g} +- {:.2g}", t.failed.count, t.n,
-                         expected * static_cast<double>(t.n), report.mass, report.mass_error);
+  c.detail = fmt::format("{} of {} samples failed, {:.1f} expected of a density of mass {:.8g} +- {:.2g}",
+                         t.failed.count, t.n, expected * static_cast<double>(t.n), report.mass, report.mass_error);
   return c;
 }
 
@@ -228,12 +239,14 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
 
   double atoms_mass = 0;
   for (std::size_t i = 0; i < s.atoms.size(); ++i) {
-    require(s.atoms[i] >= 0 && s.atoms[i] <= 1 + 1e-6, "{}: probability of outcome {} = {} must lie in [0, 1]", s.name, i, s.atoms[i]);
+    require(s.atoms[i] >= 0 && s.atoms[i] <= 1 + 1e-6, "{}: probability of outcome {} = {} must lie in [0, 1]", s.name,
+            i, s.atoms[i]);
     atoms_mass += s.atoms[i];
   }
 
   if (s.dim > 0) {
-    draw(s, hash(options.seed, 1), pilot_samples(options.samples), pilot_tally, [&](const auto& v) { pilot.push_back(v); });
+    draw(s, hash(options.seed, 1), pilot_samples(options.samples), pilot_tally,
+         [&](const auto& v) { pilot.push_back(v); });
     const double continuous = n * static_cast<double>(pilot.size()) / static_cast<double>(pilot_tally.n);
     const int depth = tree_depth(continuous);
     const Ranks ranks(pilot, s.dim);
@@ -243,7 +256,8 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
       boxes.push_back(partition->box(i));
       Cell c;
       for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
-        c.rank_lo[d] = ranks(d, boxes.back().lo[d]), c.rank_hi[d] = boxes.back().hi[d] < 1 ? ranks(d, boxes.back().hi[d]) : 1.0;
+        c.rank_lo[d] = ranks(d, boxes.back().lo[d]),
+        c.rank_hi[d] = boxes.back().hi[d] < 1 ? ranks(d, boxes.back().hi[d]) : 1.0;
       cells.push_back(c);
     }
     CubatureGoal goal;
@@ -288,7 +302,8 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
     draw(s, hash(options.seed, 2), options.samples, tally, [&](const auto& v) {
       ++cells[static_cast<std::size_t>(partition->cell(v))].observed;
       if (s.invert && inverted.size() < most_inverted) inverted.push_back(s.invert(v));
-      for (Slab& slab : slabs) slab.observed += v[slab.axis] >= slab.box.lo[slab.axis] && v[slab.axis] <= slab.box.hi[slab.axis];
+      for (Slab& slab : slabs)
+        slab.observed += v[slab.axis] >= slab.box.lo[slab.axis] && v[slab.axis] <= slab.box.hi[slab.axis];
     });
   } else {
     draw(s, hash(options.seed, 2), options.samples, tally, [](const auto&) {});
@@ -300,34 +315,52 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
     if (a.count == 0) a = b;
     else a.count += b.count;
   };
-  merge(all.failed, pilot_tally.failed), merge(all.outside, pilot_tally.outside), merge(all.not_finite, pilot_tally.not_finite);
+  merge(all.failed, pilot_tally.failed), merge(all.outside, pilot_tally.outside),
+      merge(all.not_finite, pilot_tally.not_finite);
   merge(all.leak, pilot_tally.leak), merge(all.weight, pilot_tally.weight);
   all.n += pilot_tally.n;
   all.worst_weight = std::max(all.worst_weight, pilot_tally.worst_weight);
   per_sample(s, all, report);
 
   if (masses.bad)
-    report.checks.push_back({"pdf finite and >= 0", Verdict::fail, {}, 0, 1, 0, Fault::not_finite,
-                             fmt::format("at chart coordinates ({:.17g}, {:.17g}, {:.17g}){}", (*masses.bad)[0], (*masses.bad)[1], (*masses.bad)[2],
-                                         s.describe_point ? ", " + s.describe_point(*masses.bad) : std::string())});
+    report.checks.push_back(
+        {"pdf finite and >= 0",
+         Verdict::fail,
+         {},
+         0,
+         1,
+         0,
+         Fault::not_finite,
+         fmt::format("at chart coordinates ({:.17g}, {:.17g}, {:.17g}){}", (*masses.bad)[0], (*masses.bad)[1],
+                     (*masses.bad)[2], s.describe_point ? ", " + s.describe_point(*masses.bad) : std::string())});
   {
     const double excess = report.mass - 1, off = s.may_fail ? std::max(excess, 0.0) : std::abs(excess);
     Check c{"mass", Verdict::pass, {}, 0, off, report.mass_error + s.mass_tolerance, Fault::mass, {}};
     if (!(off <= c.limit)) c.verdict = Verdict::fail;
     else if (report.mass_error > 1 / std::sqrt(n)) c.verdict = Verdict::inconclusive;
     if (c.verdict != Verdict::pass)
-      c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}; {} evaluations", report.mass, report.mass_error, masses.evaluations);
+      c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}; {} evaluations", report.mass,
+                             report.mass_error, masses.evaluations);
     report.checks.push_back(std::move(c));
   }
 
   for (std::size_t i = 0; i < s.atoms.size(); ++i) {
     if (s.atoms[i] == 0 && tally.atoms[i] > 0)
-      report.checks.push_back({"outcomes of probability 0", Verdict::fail, {}, 0, static_cast<double>(tally.atoms[i]), 0, Fault::leak,
+      report.checks.push_back({"outcomes of probability 0",
+                               Verdict::fail,
+                               {},
+                               0,
+                               static_cast<double>(tally.atoms[i]),
+                               0,
+                               Fault::leak,
                                fmt::format("outcome {} came {} times", i, tally.atoms[i])});
   }
   CellTests tests = statistics();
-  const auto of_shape = [](const Check& c) { return c.verdict == Verdict::fail && (c.fault == Fault::shape || c.fault == Fault::local); };
-  if (const auto first = std::find_if(tests.checks.begin(), tests.checks.end(), of_shape); first != tests.checks.end() && s.dim > 1) {
+  const auto of_shape = [](const Check& c) {
+    return c.verdict == Verdict::fail && (c.fault == Fault::shape || c.fault == Fault::local);
+  };
+  if (const auto first = std::find_if(tests.checks.begin(), tests.checks.end(), of_shape);
+      first != tests.checks.end() && s.dim > 1) {
     for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
       if (report.axes[d].scale != Axis::Scale::azimuth) continue;
       const std::optional<double> turn = find_rotation(s, d, *partition, cells, pilot);
@@ -338,7 +371,8 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
     }
   }
   if (!inverted.empty())
-    if (auto c = test_uniformity(inverted, s.dim, s.invert_error, options.alpha, uniformity_share)) report.checks.push_back(std::move(*c));
+    if (auto c = test_uniformity(inverted, s.dim, s.invert_error, options.alpha, uniformity_share))
+      report.checks.push_back(std::move(*c));
   for (Check& c : tests.checks) report.checks.push_back(std::move(c));
   report.detectable = tests.detectable;
   report.detectable_cell = tests.detectable_cell;
@@ -351,7 +385,8 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   std::vector<std::size_t> order(cells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto five = order.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(order.size(), 5));
-  std::partial_sort(order.begin(), five, order.end(), [&](std::size_t a, std::size_t b) { return std::abs(z(a)) > std::abs(z(b)); });
+  std::partial_sort(order.begin(), five, order.end(),
+                    [&](std::size_t a, std::size_t b) { return std::abs(z(a)) > std::abs(z(b)); });
   for (auto i = order.begin(); i != five; ++i) {
     WorstCell w{{}, {}, static_cast<double>(cells[*i].observed), expected(*i), z(*i), {}};
     if (*i < boxes.size()) {

@@ -9,15 +9,16 @@ namespace mc {
 struct SubjectOptions {
   std::uint64_t samples = 1'000'000; ///< counted; pilot_samples(samples) more are drawn for the bins
   std::uint64_t seed = 1;
-  double alpha = 0.001;              ///< chance that a correct subject is rejected, over all its statistical tests. The default
-                                     ///< lets a suite of a hundred samplers pass nine seeds in ten
+  double alpha = 0.001; ///< chance that a correct subject is rejected, over all its statistical tests. The default
+                        ///< lets a suite of a hundred samplers pass nine seeds in ten
   std::size_t max_evaluations = 12'000'000; ///< of the density, for the expected counts
-  bool evidence = false;             ///< keep all counts and the p-value's way, for pages and plots
+  bool evidence = false;                    ///< keep all counts and the p-value's way, for pages and plots
 };
 
 /// Draws and tests:
 ///   per sample : finite, in the domain, pdf positive and finite, stated weight = f / pdf; failures only where allowed
-///   mass       : the claimed density and atoms integrate to 1 (to at most 1, the rest failing, where failures are allowed)
+///   mass       : the claimed density and atoms integrate to 1 (to at most 1, the rest failing, where failures are
+///                allowed)
 ///   counts     : all tests of cell_tests.h on cells adapted to the density
 ///   inverted   : the sampler's own inverse, where it has one, makes the first 131072 samples uniform (uniformity.h)
 ///   atoms      : the narrowest crowd of pilot samples on each axis, counted anew, against the mass of its slab
@@ -26,11 +27,12 @@ struct SubjectOptions {
 ///   throws     : Error when samples < 1000, or alpha is not in (0, 1)
 Report check_subject(const Subject& subject, const SubjectOptions& options = {});
 
-/// Samples that make the bins: an eighth of those that are counted, at least 1000, at most 2^20, which is 256 for each of 4096 cells.
+/// Samples that make the bins: an eighth of those that are counted, at least 1000, at most 2^20, which is 256 for each
+/// of 4096 cells.
 std::uint64_t pilot_samples(std::uint64_t samples);
 
-/// Samples at which check_subject catches a density whose relative error is `error`, of random sign from cell to cell, with
-/// probability .99 at family-wise alpha. Throws Error unless 0 < error and 0 < alpha < 1.
+/// Samples at which check_subject catches a density whose relative error is `error`, of random sign from cell to cell,
+/// with probability .99 at family-wise alpha. Throws Error unless 0 < error and 0 < alpha < 1.
 std::uint64_t samples_to_detect(double error, double alpha);
 
 } // namespace mc

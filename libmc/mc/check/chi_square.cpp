@@ -24,10 +24,13 @@ double normal_tail(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
 double normal_quantile(double p) { return std::sqrt(2.0) * boost::math::erfc_inv(std::clamp(p, 1e-300, 1.0)); }
 
 double chi_square_noncentrality(double dof, double level, double power) {
-  const double critical = boost::math::quantile(boost::math::complement(boost::math::chi_squared(dof), std::max(level, 1e-300)));
-  // For many degrees of freedom noncentral chi-square with lambda is about scale * chi-square with h degrees of freedom, by its first two moments.
+  const double critical =
+      boost::math::quantile(boost::math::complement(boost::math::chi_squared(dof), std::max(level, 1e-300)));
+  // For many degrees of freedom noncentral chi-square with lambda is about scale * chi-square with h degrees of
+  // freedom, by its first two moments.
   const auto reached = [&](double lambda) {
-    if (dof <= 20) return boost::math::cdf(boost::math::complement(boost::math::non_central_chi_squared(dof, lambda), critical));
+    if (dof <= 20)
+      return boost::math::cdf(boost::math::complement(boost::math::non_central_chi_squared(dof, lambda), critical));
     const double scale = (dof + 2 * lambda) / (dof + lambda), h = sqr(dof + lambda) / (dof + 2 * lambda);
     return chi_square_tail(critical / scale, h);
   };
@@ -45,17 +48,20 @@ double binomial_tail(std::uint64_t k, std::uint64_t n, double p) {
   if (p >= 1) return k == n ? 1.0 : 0.0;
   const boost::math::binomial distribution(static_cast<double>(n), p);
   const double at_most = boost::math::cdf(distribution, static_cast<double>(k));
-  const double at_least = k == 0 ? 1.0 : boost::math::cdf(boost::math::complement(distribution, static_cast<double>(k - 1)));
+  const double at_least =
+      k == 0 ? 1.0 : boost::math::cdf(boost::math::complement(distribution, static_cast<double>(k - 1)));
   return std::min(1.0, 2 * std::min(at_most, at_least));
 }
 
-ChiSquare chi_square(const std::vector<std::uint64_t>& observed, const std::vector<double>& expected, double alpha, double least) {
-  require(observed.size() == expected.size() && !expected.empty(), "chi_square: {} counts for {} expected counts", observed.size(),
-          expected.size());
+ChiSquare chi_square(const std::vector<std::uint64_t>& observed, const std::vector<double>& expected, double alpha,
+                     double least) {
+  require(observed.size() == expected.size() && !expected.empty(), "chi_square: {} counts for {} expected counts",
+          observed.size(), expected.size());
   double total_observed = 0, total_expected = 0;
   bool impossible = false;
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    require(expected[i] >= 0 && std::isfinite(expected[i]), "chi_square: expected[{}] = {} is not finite and >= 0", i, expected[i]);
+    require(expected[i] >= 0 && std::isfinite(expected[i]), "chi_square: expected[{}] = {} is not finite and >= 0", i,
+            expected[i]);
     total_observed += static_cast<double>(observed[i]);
     total_expected += expected[i];
     impossible = impossible || (expected[i] == 0 && observed[i] > 0);

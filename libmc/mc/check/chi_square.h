@@ -26,15 +26,17 @@ struct ChiSquare {
   double statistic = 0;
   double dof = 0; ///< cells after pooling - 1
   double p = 1;
-  double detectable = 0; ///< relative error of every expected count, of random sign, caught at `alpha` with probability .99
+  double detectable =
+      0; ///< relative error of every expected count, of random sign, caught at `alpha` with probability .99
 };
 
 /// Compares counts with expected counts that add up to the same total.
 ///   pooling : neighbours are joined until each expects at least `least`; nothing is dropped
 ///   zeros   : a count where exactly 0 is expected makes p = 0
-///   throws  : Error when the sizes differ, there are no counts, an expected one is negative or not finite, or the totals differ by
-///             more than 1e-6 of the total
+///   throws  : Error when the sizes differ, there are no counts, an expected one is negative or not finite, or the
+///             totals differ by more than 1e-6 of the total
 ///   Source  : [Pearson1900]
-ChiSquare chi_square(const std::vector<std::uint64_t>& observed, const std::vector<double>& expected, double alpha = 0.01, double least = 5);
+ChiSquare chi_square(const std::vector<std::uint64_t>& observed, const std::vector<double>& expected,
+                     double alpha = 0.01, double least = 5);
 
 } // namespace mc

@@ -36,7 +36,8 @@ PowerLaw fit_power_law(std::span<const RmsError> errors, std::uint32_t repetitio
   double mean_x = 0, mean_y = 0;
   for (const RmsError& e : errors) {
     require(e.n > 0 && std::isfinite(e.n), "fit_power_law: N = {} must be finite and > 0", e.n);
-    require(e.rms > 0 && std::isfinite(e.rms), "fit_power_law: the error at N = {} is {}; it must be finite and > 0", e.n, e.rms);
+    require(e.rms > 0 && std::isfinite(e.rms), "fit_power_law: the error at N = {} is {}; it must be finite and > 0",
+            e.n, e.rms);
     mean_x += std::log(e.n) / count;
     mean_y += std::log(e.rms) / count;
   }
@@ -45,7 +46,8 @@ PowerLaw fit_power_law(std::span<const RmsError> errors, std::uint32_t repetitio
     xx += sqr(std::log(e.n) - mean_x);
     xy += (std::log(e.n) - mean_x) * (std::log(e.rms) - mean_y);
   }
-  require(xx > 0, "fit_power_law: all {} points have N = {}; a slope needs two different N", errors.size(), errors[0].n);
+  require(xx > 0, "fit_power_law: all {} points have N = {}; a slope needs two different N", errors.size(),
+          errors[0].n);
   PowerLaw law;
   law.slope = xy / xx;
   law.constant = std::exp(mean_y - law.slope * mean_x);

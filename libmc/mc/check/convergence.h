@@ -11,8 +11,8 @@ namespace mc {
 struct RmsError {
   double n = 0;
   double rms = 0;
-  double lo = 0, hi = 0;   ///< 95 % confidence interval of the RMS error
-  double seconds = 0;      ///< CPU seconds of one repetition, where the caller measures them
+  double lo = 0, hi = 0; ///< 95 % confidence interval of the RMS error
+  double seconds = 0;    ///< CPU seconds of one repetition, where the caller measures them
 };
 
 /// RMS error of `estimates` against `truth`.
@@ -26,10 +26,11 @@ struct PowerLaw {
   double constant = 0;              ///< c
 };
 
-/// Least squares of log rms against log N. The logarithm of an RMS error of R repetitions has variance close to 1 / (2 R),
-/// whatever N, so all points weigh the same; the interval is the wider of that theory and of the scatter about the line
-/// (Student t), since curvature is an error of the law too.
-///   throws : Error for fewer than 3 points, no repetitions, an N or an error that is not finite and > 0, or all N equal
+/// Least squares of log rms against log N. The logarithm of an RMS error of R repetitions has variance close to 1 / (2
+/// R), whatever N, so all points weigh the same; the interval is the wider of that theory and of the scatter about the
+/// line (Student t), since curvature is an error of the law too.
+///   throws : Error for fewer than 3 points, no repetitions, an N or an error that is not finite and > 0, or all N
+///            equal
 PowerLaw fit_power_law(std::span<const RmsError> errors, std::uint32_t repetitions);
 
 } // namespace mc

@@ -10,8 +10,8 @@
 namespace mc {
 namespace {
 
-// Nodes on [0,1] of nested Clenshaw-Curtis rules with n, n/2 and n/4 intervals, on the nodes of the finest; and at each node that
-// a rule adds to the next coarser one, the weights of the coarser interpolant there.
+// Nodes on [0,1] of nested Clenshaw-Curtis rules with n, n/2 and n/4 intervals, on the nodes of the finest; and at each
+// node that a rule adds to the next coarser one, the weights of the coarser interpolant there.
 struct Rule {
   struct Surplus {
     std::size_t node;
@@ -32,7 +32,9 @@ struct Rule {
         for (int k = 0; k <= n; k += 2 * stride) {
           double product = 1;
           for (int m = 0; m <= n; m += 2 * stride)
-            if (m != k) product *= (x[s.node] - x[static_cast<std::size_t>(m)]) / (x[static_cast<std::size_t>(k)] - x[static_cast<std::size_t>(m)]);
+            if (m != k)
+              product *= (x[s.node] - x[static_cast<std::size_t>(m)]) /
+                         (x[static_cast<std::size_t>(k)] - x[static_cast<std::size_t>(m)]);
           s.interpolation[static_cast<std::size_t>(k)] = product;
         }
         surpluses[static_cast<std::size_t>(level)].push_back(std::move(s));
@@ -47,7 +49,8 @@ struct Rule {
     std::vector<double> result(x.size(), 0.0);
     for (int j = 0; j <= m; ++j) {
       double sum = 1;
-      for (int k = 1; 2 * k <= m; ++k) sum -= (2 * k == m ? 1.0 : 2.0) / (4.0 * k * k - 1) * std::cos(2 * pi<double> * k * j / m);
+      for (int k = 1; 2 * k <= m; ++k)
+        sum -= (2 * k == m ? 1.0 : 2.0) / (4.0 * k * k - 1) * std::cos(2 * pi<double> * k * j / m);
       result[static_cast<std::size_t>(j * stride)] = (j == 0 || j == m ? 0.5 : 1.0) * sum / m;
     }
     return result;
@@ -91,7 +94,8 @@ class Integrator {
         }
     evaluations += values_.size();
 
-    // What each new node differs from the interpolant of the coarser rule, in absolute value, so that neither nodes nor lines
+    // What each new node differs from the interpolant of the coarser rule, in absolute value, so that neither nodes nor
+    // lines
     // cancel: a function that jumps at random cannot look smooth.
     double e1 = 0, e2 = 0, worst = -1, integral = 0;
     const std::array<int, 3> stride{1, n, n * n};
@@ -165,8 +169,8 @@ class Integrator {
 
 } // namespace
 
-CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim, const std::vector<UnitBox>& boxes,
-                               const CubatureGoal& goal) {
+CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim,
+                               const std::vector<UnitBox>& boxes, const CubatureGoal& goal) {
   require(dim >= 1 && dim <= 3, "integrate_boxes: dim {} must lie in 1..3", dim);
   Integrator integrator(f, dim);
   CubatureResult result;
@@ -207,7 +211,8 @@ CubatureResult integrate_boxes(const std::function<double(const std::array<doubl
   double error = 0;
   for (const Region& r : regions) error += r.error;
   std::make_heap(regions.begin(), regions.end());
-  while (error > goal.total_error && integrator.evaluations < goal.max_evaluations && Integrator::divisible(regions.front())) {
+  while (error > goal.total_error && integrator.evaluations < goal.max_evaluations &&
+         Integrator::divisible(regions.front())) {
     std::pop_heap(regions.begin(), regions.end());
     error -= regions.back().error;
     Region other = integrator.halve(regions.back());

@@ -21,7 +21,8 @@ template <Real S> double bend(const std::vector<S>& a, const std::vector<S>& m, 
 
 } // namespace
 
-template <Real S> std::vector<S> find_breaks(const std::function<std::vector<S>(const S&)>& map, int segments, std::size_t most) {
+template <Real S>
+std::vector<S> find_breaks(const std::function<std::vector<S>(const S&)>& map, int segments, std::size_t most) {
   using P = std::vector<S>;
   // The last number that a sampler can meet: wide scalars get doubles.
   const S last = one_minus_epsilon<S> < S(1 - 0x1p-53) ? one_minus_epsilon<S> : S(1 - 0x1p-53);
@@ -39,7 +40,8 @@ template <Real S> std::vector<S> find_breaks(const std::function<std::vector<S>(
   const auto outstanding = [most](const std::vector<double>& values, std::size_t apart) {
     std::vector<std::pair<double, std::size_t>> found;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const double before = i >= apart ? values[i - apart] : 0, after = i + apart < values.size() ? values[i + apart] : 0;
+      const double before = i >= apart ? values[i - apart] : 0,
+                   after = i + apart < values.size() ? values[i + apart] : 0;
       if (values[i] > 3 * std::max(before, after)) found.emplace_back(std::max(before, after) / values[i], i);
     }
     std::sort(found.begin(), found.end());

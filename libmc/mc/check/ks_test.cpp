@@ -13,7 +13,8 @@ double kolmogorov_tail(double lambda) {
   if (lambda < 1) {
     // The theta function's other expansion converges fast where the alternating one cancels.
     double sum = 0;
-    for (int k = 1; k < 20; k += 2) sum += std::exp(-k * k * std::numbers::pi * std::numbers::pi / (8 * lambda * lambda));
+    for (int k = 1; k < 20; k += 2)
+      sum += std::exp(-k * k * std::numbers::pi * std::numbers::pi / (8 * lambda * lambda));
     return 1 - std::sqrt(2 * std::numbers::pi) / lambda * sum;
   }
   double sum = 0;

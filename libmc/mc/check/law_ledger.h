@@ -14,7 +14,8 @@ class LawLedger {
  public:
   LawLedger(std::string law, double limit, Fault fault) : law_(std::move(law)), limit_(limit), fault_(fault) {}
 
-  /// One point: its error, and a description that is only made for a new worst one beyond the limit. NaN is the worst error.
+  /// One point: its error, and a description that is only made for a new worst one beyond the limit. NaN is the worst
+  ///            error.
   template <std::invocable Describe> void note(double error, Describe&& describe) {
     ++points_;
     if (error <= limit_) {
@@ -30,7 +31,8 @@ class LawLedger {
 
   Check check() const {
     Check c{law_, broken_ == 0 ? Verdict::pass : Verdict::fail, {}, 0, worst_, limit_, fault_, {}};
-    if (broken_ > 0) c.detail = witness_ + "; broken at " + std::to_string(broken_) + " of " + std::to_string(points_) + " points";
+    if (broken_ > 0)
+      c.detail = witness_ + "; broken at " + std::to_string(broken_) + " of " + std::to_string(points_) + " points";
     return c;
   }
 

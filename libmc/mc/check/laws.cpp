@@ -10,7 +10,8 @@ template <Real S> void EdgeWalk<S>::operator()(std::uint64_t seed) const {
   for (int i = 0; i < dim; ++i) total *= static_cast<int>(places.size());
   for (int k = 0; k < total; ++k) {
     Triple<S> u{};
-    for (int i = 0, rest = k; i < dim; ++i, rest /= 9) u[static_cast<std::size_t>(i)] = places[static_cast<std::size_t>(rest % 9)];
+    for (int i = 0, rest = k; i < dim; ++i, rest /= 9)
+      u[static_cast<std::size_t>(i)] = places[static_cast<std::size_t>(rest % 9)];
     probe(u);
   }
 
@@ -21,8 +22,8 @@ template <Real S> void EdgeWalk<S>::operator()(std::uint64_t seed) const {
       const Triple<S> start{narrowed<S>(c[0]), narrowed<S>(c[1]), narrowed<S>(c[2])};
       const auto neighbours = [&](S t) {
         Triple<S> u = start;
-        for (const S place : {S(t - h), S(nextafter(S(nextafter(t, S(0))), S(0))), S(nextafter(t, S(0))), t, S(nextafter(t, S(1))),
-                              S(nextafter(S(nextafter(t, S(1))), S(1))), S(t + h)}) {
+        for (const S place : {S(t - h), S(nextafter(S(nextafter(t, S(0))), S(0))), S(nextafter(t, S(0))), t,
+                              S(nextafter(t, S(1))), S(nextafter(S(nextafter(t, S(1))), S(1))), S(t + h)}) {
           u[axis] = place < 0 ? S(0) : place < last ? place : last;
           probe(u);
         }
@@ -62,10 +63,13 @@ void jacobian_law(int dim, const std::function<Triple<Oracle>(const Triple<Oracl
       const Triple<Oracle> a = chart(ahead), b = chart(behind);
       for (std::size_t i = 0; i < n; ++i) j[i][axis] = (a[i] - b[i]) / (2 * h);
     }
-    const Oracle determinant = j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) - j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
+    const Oracle determinant = j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) -
+                               j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
                                j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
     const double off = std::abs(static_cast<double>(Oracle(abs(Oracle(determinant * density(u))) - 1)));
-    ledger.note(off, [&] { return fmt::format("|det| pdf - 1 = {:.3g} at u = ({:.17g}, {:.17g}, {:.17g})", off, c[0], c[1], c[2]); });
+    ledger.note(off, [&] {
+      return fmt::format("|det| pdf - 1 = {:.3g} at u = ({:.17g}, {:.17g}, {:.17g})", off, c[0], c[1], c[2]);
+    });
   }
 }
 

@@ -19,19 +19,21 @@ struct LawOptions {
   std::string name = "warp";
   std::uint64_t samples = 1'000'000; ///< for the counts; 0 leaves the statistical tests out
   std::uint64_t seed = 1;
-  double alpha = 0.001;              ///< see SubjectOptions
-  std::uint64_t points = 256;        ///< random points of the deterministic laws over the 50-digit oracle
-  double invert_eps = 16;            ///< |invert(sample(u)) - u|
-  double sample_eps = 16;            ///< |sample(u) - exact|, relative to max(1, |exact|)
-  double pdf_eps = 64;               ///< |pdf(x) / exact - 1|
-  double mass_eps = 64;              ///< |mass - 1| beyond the bound on the quadrature error
+  double alpha = 0.001;       ///< see SubjectOptions
+  std::uint64_t points = 256; ///< random points of the deterministic laws over the 50-digit oracle
+  double invert_eps = 16;     ///< |invert(sample(u)) - u|
+  double sample_eps = 16;     ///< |sample(u) - exact|, relative to max(1, |exact|)
+  double pdf_eps = 64;        ///< |pdf(x) / exact - 1|
+  double mass_eps = 64;       ///< |mass - 1| beyond the bound on the quadrature error
   std::size_t max_evaluations = 12'000'000;
-  bool evidence = false;             ///< see SubjectOptions
+  bool evidence = false; ///< see SubjectOptions
 };
 
 /// A sampler that is its own oracle, and one with an inverse.
 template <class W>
-concept HasOracle = Samplable<W> && requires(const W w) { w.template cast<Oracle>(); };
+concept HasOracle = Samplable<W> && requires(const W w) {
+  w.template cast<Oracle>();
+};
 template <class W>
 concept Invertible = Samplable<W> && requires(const W w, typename W::Domain::Point x) {
   { w.invert(x) } -> std::convertible_to<typename W::Domain::UnitPoint>;
@@ -86,15 +88,17 @@ template <class P> double magnitude(const P& a) {
 }
 
 /// The point of u, of the chart at `start` where the sampler fails.
-template <Samplable W> std::vector<ScalarOf<W>> numbers_at(const W& warp, const Triple<ScalarOf<W>>& u, const Triple<ScalarOf<W>>& start) {
+template <Samplable W>
+std::vector<ScalarOf<W>> numbers_at(const W& warp, const Triple<ScalarOf<W>>& u, const Triple<ScalarOf<W>>& start) {
   const auto drawn = point_of(warp, unit_point_of<W>(u));
   const PointOf<W> x = drawn ? *drawn : PointOf<W>(warp.domain().from_unit(unit_point_of<W>(start)));
   if constexpr (requires { x.size(); }) return {x.data(), x.data() + x.size()};
   else return {x};
 }
 
-/// Calls probe at the ends, the quarters and the middle of the unit cube, and at the neighbours of every break that is found on lines
-/// along each axis, of map(u, start of the line) and, since rounding hides a kink from its own scalar, of `exact`, which may be empty.
+/// Calls probe at the ends, the quarters and the middle of the unit cube, and at the neighbours of every break that is
+/// found on lines along each axis, of map(u, start of the line) and, since rounding hides a kink from its own scalar,
+/// of `exact`, which may be empty.
 template <Real S> struct EdgeWalk {
   template <class T> using Map = std::function<std::vector<T>(const Triple<T>& u, const Triple<T>& start)>;
   int dim;
@@ -109,13 +113,15 @@ extern template struct EdgeWalk<double>;
 /// sample and pdf where EdgeWalk goes.
 template <Samplable W> void edge_law(const W& warp, std::uint64_t seed, LawLedger& ledger) {
   using S = ScalarOf<W>;
-  EdgeWalk<S> walk{W::Domain::dim, {}, [&](const Triple<S>& u, const Triple<S>& start) { return numbers_at(warp, u, start); }, {}};
+  EdgeWalk<S> walk{
+      W::Domain::dim, {}, [&](const Triple<S>& u, const Triple<S>& start) { return numbers_at(warp, u, start); }, {}};
   walk.probe = [&](const Triple<S>& numbers) {
     const auto u = unit_point_of<W>(numbers);
     const auto x = point_of(warp, u);
     if (!x) return;
     const double density = static_cast<double>(warp.pdf(*x));
-    const bool finite = all_finite(*x), inside = finite && warp.domain().contains(*x), positive = density > 0 && std::isfinite(density);
+    const bool finite = all_finite(*x), inside = finite && warp.domain().contains(*x),
+               positive = density > 0 && std::isfinite(density);
     ledger.note(finite && inside && positive ? 0 : 1, [&] {
       return fmt::format("{} at u = {}: x = {}, pdf = {:.9g}",
                          !finite   ? "not finite"
@@ -148,10 +154,13 @@ template <Invertible W> void inverse_law(const W& warp, std::uint64_t seed, LawL
       double off = std::abs(component(back, i) - component(u, i));
       // The two sides of an azimuth's seam are one point.
       if (off > 0.5)
-        if (const auto again = point_of(warp, back); again && distance(*again, x) <= 64 * eps * std::max(1.0, magnitude(x))) off = 1 - off;
+        if (const auto again = point_of(warp, back);
+            again && distance(*again, x) <= 64 * eps * std::max(1.0, magnitude(x)))
+          off = 1 - off;
       worst = off <= worst ? worst : off;
     }
-    ledger.note(worst / eps, [&] { return fmt::format("u = {}, invert(sample(u)) = {}", format_point(u), format_point(back)); });
+    ledger.note(worst / eps,
+                [&] { return fmt::format("u = {}, invert(sample(u)) = {}", format_point(u), format_point(back)); });
   }
 }
 
@@ -159,9 +168,11 @@ template <Invertible W> void inverse_law(const W& warp, std::uint64_t seed, LawL
 ///   chart   : u -> chart coordinates of the sample
 ///   density : u -> pdf of the sample times the Jacobian of the chart
 void jacobian_law(int dim, const std::function<Triple<Oracle>(const Triple<Oracle>&)>& chart,
-                  const std::function<Oracle(const Triple<Oracle>&)>& density, std::uint64_t points, std::uint64_t seed, LawLedger& ledger);
+                  const std::function<Oracle(const Triple<Oracle>&)>& density, std::uint64_t points, std::uint64_t seed,
+                  LawLedger& ledger);
 
-template <Invertible W> void jacobian_law(const W& oracle, std::uint64_t points, std::uint64_t seed, LawLedger& ledger) {
+template <Invertible W>
+void jacobian_law(const W& oracle, std::uint64_t points, std::uint64_t seed, LawLedger& ledger) {
   const auto domain = oracle.domain();
   const auto at = [&](const Triple<Oracle>& u) { return domain.to_unit(oracle.sample(unit_point_of<W>(u))); };
   const auto chart = [&](const Triple<Oracle>& u) {
@@ -182,7 +193,8 @@ template <Invertible W> void jacobian_law(const W& oracle, std::uint64_t points,
 
 /// sample and pdf of the warp against the oracle, in epsilons.
 template <Samplable W, Samplable O>
-void precision_laws(const W& warp, const O& oracle, std::uint64_t points, std::uint64_t seed, LawLedger& sample, LawLedger& pdf) {
+void precision_laws(const W& warp, const O& oracle, std::uint64_t points, std::uint64_t seed, LawLedger& sample,
+                    LawLedger& pdf) {
   using S = ScalarOf<W>;
   using T = ScalarOf<O>;
   constexpr int dim = W::Domain::dim;
@@ -197,13 +209,16 @@ void precision_laws(const W& warp, const O& oracle, std::uint64_t points, std::u
     const PointOf<W> x = *drawn;
     const PointOf<O> exact = *truth;
     const double off = distance(cast_point<T>(x), exact) / std::max(1.0, magnitude(exact)) / eps;
-    sample.note(off, [&] { return fmt::format("{:.3g} eps at u = {}: x = {}", off, format_point(u), format_point(x)); });
+    sample.note(off,
+                [&] { return fmt::format("{:.3g} eps at u = {}: x = {}", off, format_point(u), format_point(x)); });
     const T density = oracle.pdf(cast_point<T>(x));
     // Rounding may carry x across the edge of the support, where the two sides differ and both are right.
     if (!(density > 0)) continue;
     const double ratio = static_cast<double>(T(T(warp.pdf(x)) / density)), wrong = std::abs(ratio - 1) / eps;
-    pdf.note(wrong,
-             [&] { return fmt::format("{:.3g} eps at x = {}: pdf = {:.9g}", wrong, format_point(x), static_cast<double>(warp.pdf(x))); });
+    pdf.note(wrong, [&] {
+      return fmt::format("{:.3g} eps at x = {}: pdf = {:.9g}", wrong, format_point(x),
+                         static_cast<double>(warp.pdf(x)));
+    });
   }
 }
 
@@ -221,8 +236,9 @@ template <Domain D, class Sample, class Pdf> struct FunctionSampler {
 };
 
 /// Checks one warp, or any struct with a domain, sample and pdf; each law is one Check of the report.
-///   edges     : sample finite and in the domain, pdf positive and finite, for u in the product of the ends, quarters and the middle
-///               of [0,1) with their neighbours, and beside the branches that find_breaks sees on lines along each axis
+///   edges     : sample finite and in the domain, pdf positive and finite, for u in the product of the ends, quarters
+///               and the middle of [0,1) with their neighbours, and beside the branches that find_breaks sees on lines
+///               along each axis
 ///   invert    : invert(sample(u)) = u at 20000 random u, within invert_eps               (with invert)
 ///   jacobian  : |det d sample / d u| pdf = 1 to 1e-20 by differences over 50 digits      (with invert and cast)
 ///   precision : sample and pdf against the 50-digit oracle, within sample_eps and pdf_eps (with cast)
@@ -246,8 +262,8 @@ template <Samplable W> Report check_laws(const W& warp, const LawOptions& option
       };
     }
     SubjectOptions o;
-    o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.max_evaluations = options.max_evaluations,
-    o.evidence = options.evidence;
+    o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha,
+    o.max_evaluations = options.max_evaluations, o.evidence = options.evidence;
     report = check_subject(subject, o);
   } else {
     report.subject = options.name;
@@ -291,7 +307,8 @@ template <Samplable W> Report check_laws(const W& warp, const LawOptions& option
 }
 
 /// The same for a pair of functions on a domain: sample(u) -> x or optional x, pdf(x).
-template <Domain D, class Sample, class Pdf> Report check_laws(const D& domain, Sample sample, Pdf pdf, const LawOptions& options = {}) {
+template <Domain D, class Sample, class Pdf>
+Report check_laws(const D& domain, Sample sample, Pdf pdf, const LawOptions& options = {}) {
   return check_laws(FunctionSampler<D, Sample, Pdf>{domain, sample, pdf}, options);
 }
 

@@ -16,9 +16,11 @@
 
 namespace mc {
 
-/// What the checkers ask of a sampler: a Warp without its change of scalar. sample may return an optional, empty where it fails.
+/// What the checkers ask of a sampler: a Warp without its change of scalar. sample may return an optional, empty where
+/// it fails.
 template <class W>
-concept Samplable = Domain<typename W::Domain> && requires(const W w, typename W::Domain::Point x, typename W::Domain::UnitPoint u) {
+concept Samplable = Domain<typename W::Domain> &&
+    requires(const W w, typename W::Domain::Point x, typename W::Domain::UnitPoint u) {
   { w.domain() } -> std::convertible_to<typename W::Domain>;
   w.sample(u);
   { w.pdf(x) } -> std::convertible_to<typename W::Domain::Scalar>;
@@ -29,7 +31,8 @@ namespace detail {
 template <class T> struct Unwrapped { using type = T; };
 template <class T> struct Unwrapped<std::optional<T>> { using type = T; };
 /// Whether a sampler's result is optional, and what it holds.
-template <class R> constexpr bool may_be_empty = !std::same_as<typename Unwrapped<std::remove_cvref_t<R>>::type, std::remove_cvref_t<R>>;
+template <class R>
+constexpr bool may_be_empty = !std::same_as<typename Unwrapped<std::remove_cvref_t<R>>::type, std::remove_cvref_t<R>>;
 template <class R> const auto& unwrapped(const R& r) {
   if constexpr (may_be_empty<R>) return *r;
   else return r;
@@ -78,7 +81,9 @@ template <class P> int components(const P& x) {
 template <class P> std::string format_point(const P& x) {
   if constexpr (requires { x.size(); }) {
     std::string text = "(";
-    for (int i = 0; i < x.size(); ++i) text += fmt::format("{}{:.{}g}", i ? ", " : "", static_cast<double>(x[i]), std::numeric_limits<typename P::Scalar>::max_digits10);
+    for (int i = 0; i < x.size(); ++i)
+      text += fmt::format("{}{:.{}g}", i ? ", " : "", static_cast<double>(x[i]),
+                          std::numeric_limits<typename P::Scalar>::max_digits10);
     return text + ")";
   } else {
     return fmt::format("{:.{}g}", static_cast<double>(x), std::numeric_limits<P>::max_digits10);
@@ -93,7 +98,8 @@ template <Real S> std::string format_uniforms(Pcg before, const Pcg& after) {
   const bool wide = !std::same_as<S, float> && words % 2 == 0;
   const int count = wide ? words / 2 : words;
   std::string text = count > 1 ? "u = (" : "u = ";
-  for (int i = 0; i < count; ++i) text += (i ? ", " : "") + (wide ? format_point(before.uniform<double>()) : format_point(before.uniform<float>()));
+  for (int i = 0; i < count; ++i)
+    text += (i ? ", " : "") + (wide ? format_point(before.uniform<double>()) : format_point(before.uniform<float>()));
   return text + (count > 1 ? "), " : ", ");
 }
 
@@ -106,8 +112,8 @@ template <class D> typename D::UnitPoint unit_point(const Subject::Coordinates& 
   }
 }
 
-/// The subject of a draw and a density on a domain. draw(random, x) fills x and returns its stated weight times pdf / f, 1 where it
-/// states none; nothing where it fails.
+/// The subject of a draw and a density on a domain. draw(random, x) fills x and returns its stated weight times pdf /
+/// f, 1 where it states none; nothing where it fails.
 template <Domain D, class Draw, class Pdf> Subject subject_on(std::string name, const D& domain, Draw draw, Pdf pdf) {
   using S = typename D::Scalar;
   using Point = typename D::Point;
@@ -167,16 +173,18 @@ template <Domain D, class Draw, class Pdf> Subject subject_on(std::string name, 
     return fmt::format("{}x = {}, pdf = {:.9g}{}, {}", u, format_point(x), static_cast<double>(pdf(x)),
                        *weight == 1 ? "" : fmt::format(", stated weight = {:.9g} f / pdf", *weight), where);
   };
-  s.describe_point = [chart](const Subject::Coordinates& v) { return format_point(cast_point<float>(chart.from_unit(unit_point<std::remove_cvref_t<Chart>>(v)))); };
+  s.describe_point = [chart](const Subject::Coordinates& v) {
+    return format_point(cast_point<float>(chart.from_unit(unit_point<std::remove_cvref_t<Chart>>(v))));
+  };
   return s;
 }
 
 } // namespace detail
 
 /// A sampler on a domain, its claimed density and perhaps the f it is for.
-///   sampler : takes u, a point of the unit cube of the domain's dimension, or mc::Pcg& to draw from as it likes. Returns a point x; or
-///             a struct of x, weight and perhaps pdf, whose weight must be f / pdf (a light's radiance over its density, say); or an
-///             optional of either, empty where it fails
+///   sampler : takes u, a point of the unit cube of the domain's dimension, or mc::Pcg& to draw from as it likes.
+///             Returns a point x; or a struct of x, weight and perhaps pdf, whose weight must be f / pdf (a light's
+///             radiance over its density, say); or an optional of either, empty where it fails
 ///   pdf, f  : functions of x; f may return several channels as an Eigen array
 template <Domain D, class Sampler, class Pdf, class F = std::nullptr_t>
 Subject make_subject(std::string name, const D& domain, Sampler sampler, Pdf pdf, [[maybe_unused]] F f = nullptr) {
@@ -188,7 +196,8 @@ Subject make_subject(std::string name, const D& domain, Sampler sampler, Pdf pdf
   using Result = std::invoke_result_t<decltype(call), Pcg&>;
   using Held = typename detail::Unwrapped<Result>::type;
   constexpr bool weighted = requires(const Held& held) { held.x, held.weight; };
-  static_assert(!weighted || !std::same_as<F, std::nullptr_t>, "make_subject: a sampler that states weights needs the f they are for");
+  static_assert(!weighted || !std::same_as<F, std::nullptr_t>,
+                "make_subject: a sampler that states weights needs the f they are for");
   Subject s = detail::subject_on(
       std::move(name), domain,
       [=](Pcg& random, typename D::Point& x) -> std::optional<double> {
@@ -200,7 +209,8 @@ Subject make_subject(std::string name, const D& domain, Sampler sampler, Pdf pdf
           const S density = static_cast<S>(pdf(x));
           using Value = std::remove_cvref_t<decltype(held.weight)>;
           double off = detail::disagreement(Value(held.weight * density), Value(f(x)));
-          if constexpr (requires { held.pdf; }) off = std::max(off, detail::disagreement(static_cast<double>(held.pdf), static_cast<double>(density)));
+          if constexpr (requires { held.pdf; })
+            off = std::max(off, detail::disagreement(static_cast<double>(held.pdf), static_cast<double>(density)));
           return 1 + off;
         } else {
           x = held;
@@ -212,15 +222,16 @@ Subject make_subject(std::string name, const D& domain, Sampler sampler, Pdf pdf
   return s;
 }
 
-/// A warp, or any struct with domain, sample and pdf. Float points are mapped to the chart in double, so the bins lose no precision.
+/// A warp, or any struct with domain, sample and pdf. Float points are mapped to the chart in double, so the bins lose
+/// no precision.
 template <Samplable W> Subject make_subject(std::string name, const W& warp) {
   return make_subject(
       std::move(name), typename W::Domain(warp.domain()), [warp](const UnitPointOf<W>& u) { return warp.sample(u); },
       [warp](const PointOf<W>& x) { return warp.pdf(x); });
 }
 
-/// A discrete distribution: its outcomes are atoms, its weight the ratio of stated and tabulated probability. An u_remapped
-/// outside [0,1) counts as not finite.
+/// A discrete distribution: its outcomes are atoms, its weight the ratio of stated and tabulated probability. An
+/// u_remapped outside [0,1) counts as not finite.
 template <DiscreteDistribution D> Subject make_discrete_subject(std::string name, const D& distribution) {
   using S = typename D::Scalar;
   Subject s;
@@ -244,7 +255,8 @@ template <DiscreteDistribution D> Subject make_discrete_subject(std::string name
     random.advance(index * (std::same_as<S, float> ? 1 : 2));
     const S u = random.uniform<S>();
     const auto drawn = distribution.sample_index(u);
-    return fmt::format("u = {}, outcome {}, pmf = {:.9g}, u_remapped = {}", detail::format_point(u), drawn.index, static_cast<double>(drawn.pmf), detail::format_point(drawn.u_remapped));
+    return fmt::format("u = {}, outcome {}, pmf = {:.9g}, u_remapped = {}", detail::format_point(u), drawn.index,
+                       static_cast<double>(drawn.pmf), detail::format_point(drawn.u_remapped));
   };
   return s;
 }

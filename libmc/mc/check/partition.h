@@ -12,10 +12,10 @@ struct UnitBox {
   std::array<double, 3> lo{0, 0, 0}, hi{1, 1, 1};
 };
 
-/// A complete kd-tree over the unit cube whose 2^depth cells hold about equal shares of a pilot sample, so that a lobe of any
-/// sharpness gets as many cells as a cosine. Axes alternate from level to level. Each split is the shortest binary fraction
-/// between the pilot's 45 % and 55 % quantiles: the edges of tables, supports and branches mostly lie on such places, and then
-/// no cell straddles them.
+/// A complete kd-tree over the unit cube whose 2^depth cells hold about equal shares of a pilot sample, so that a lobe
+/// of any sharpness gets as many cells as a cosine. Axes alternate from level to level. Each split is the shortest
+/// binary fraction between the pilot's 45 % and 55 % quantiles: the edges of tables, supports and branches mostly lie
+/// on such places, and then no cell straddles them.
 ///   Cells are numbered in tree order: the nodes of level k are the aligned runs of 2^(depth - k) cells.
 class Partition {
  public:
@@ -37,7 +37,10 @@ class Partition {
   }
 
  private:
-  struct Split { double at; std::uint32_t axis; };
+  struct Split {
+    double at;
+    std::uint32_t axis;
+  };
   void split(int node, const UnitBox& box, Coordinates* begin, Coordinates* end, int level);
 
   int dim_, depth_;

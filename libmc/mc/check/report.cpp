@@ -64,7 +64,8 @@ Fault Report::fault() const {
 }
 
 std::string Report::to_string() const {
-  std::string text = fmt::format("{}: {}, p = {:.3g} of {} samples at alpha = {:g}", subject, name(verdict()), p(), samples, alpha);
+  std::string text =
+      fmt::format("{}: {}, p = {:.3g} of {} samples at alpha = {:g}", subject, name(verdict()), p(), samples, alpha);
   if (fault() != Fault::none) text += fmt::format("\n  likely fault: {}", name(fault()));
   for (const Check& c : checks) {
     if (c.verdict == Verdict::pass) continue;
@@ -73,18 +74,23 @@ std::string Report::to_string() const {
                 : fmt::format("{:.6g}, limit {:.6g}", c.statistic, c.limit);
     if (!c.detail.empty()) text += fmt::format("; {}", c.detail);
   }
-  for (const Figure& f : figures) text += fmt::format("\n  {}: {:.6g} +- {:.2g}{}", f.name, f.value, f.std_error, f.where.empty() ? "" : " at " + f.where);
+  for (const Figure& f : figures)
+    text += fmt::format("\n  {}: {:.6g} +- {:.2g}{}", f.name, f.value, f.std_error,
+                        f.where.empty() ? "" : " at " + f.where);
   if (verdict() == Verdict::pass) return text;
   for (const WorstCell& w : worst) {
     const bool outcome = w.lo == w.hi;
-    const std::string place = describe_cell(axes, w.lo, w.hi), cell = outcome ? "" : place.empty() ? "cell" : "cell " + place;
-    text += fmt::format("\n  {}{}{}: observed {:.0f}, expected {:.1f}, z = {:.1f}", cell, outcome || w.where.empty() ? "" : " at ", w.where,
-                        w.observed, w.expected, w.z);
+    const std::string place = describe_cell(axes, w.lo, w.hi), cell = outcome         ? ""
+                                                                      : place.empty() ? "cell"
+                                                                                      : "cell " + place;
+    text += fmt::format("\n  {}{}{}: observed {:.0f}, expected {:.1f}, z = {:.1f}", cell,
+                        outcome || w.where.empty() ? "" : " at ", w.where, w.observed, w.expected, w.z);
   }
   return text;
 }
 
-std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo, const std::array<double, 3>& hi) {
+std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo,
+                          const std::array<double, 3>& hi) {
   std::string text;
   for (std::size_t d = 0; d < std::min<std::size_t>(axes.size(), 3); ++d) {
     const Axis& axis = axes[d];

@@ -26,7 +26,8 @@ double face(const Subject& s, const UnitBox& box, std::size_t axis, double at) {
     Subject::Coordinates v{};
     v[axis] = std::min(at, 1 - 1e-12);
     const std::array<double, 2> t{a, b};
-    for (std::size_t k = 0; k < n; ++k) v[others[k]] = box.lo[others[k]] + (0.5 + t[k]) * (box.hi[others[k]] - box.lo[others[k]]);
+    for (std::size_t k = 0; k < n; ++k)
+      v[others[k]] = box.lo[others[k]] + (0.5 + t[k]) * (box.hi[others[k]] - box.lo[others[k]]);
     return s.density(v);
   };
   for (const auto& [a, wa] : {std::pair{-node, 5.0}, {0.0, 8.0}, {node, 5.0}}) {
@@ -39,8 +40,8 @@ double face(const Subject& s, const UnitBox& box, std::size_t axis, double at) {
 
 } // namespace
 
-std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Partition& partition, const std::vector<Cell>& cells,
-                                    const std::vector<Partition::Coordinates>& pilot) {
+std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Partition& partition,
+                                    const std::vector<Cell>& cells, const std::vector<Partition::Coordinates>& pilot) {
   const auto size = static_cast<std::size_t>(partition.size());
   double n = 0, mass = 0;
   for (std::size_t i = 0; i < size; ++i) n += static_cast<double>(cells[i].observed), mass += cells[i].p;
@@ -57,7 +58,8 @@ std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Pa
     score += rate * off / expected, information += rate * rate / expected;
   }
   const double turn_of_score = score / information; // NaN when no turn changes the density
-  if (std::isfinite(information) && std::abs(turn_of_score) < 0.01 && explains(before, before - score * turn_of_score, dof, 25))
+  if (std::isfinite(information) && std::abs(turn_of_score) < 0.01 &&
+      explains(before, before - score * turn_of_score, dof, 25))
     return turn_of_score;
 
   // Runs of cells that 16 thousand points of the pilot fill.

@@ -10,7 +10,8 @@ namespace mc {
 namespace {
 
 // The place on an axis where most samples share one value, up to rounding.
-bool find_crowd(const Subject& s, const std::vector<Subject::Coordinates>& pilot, const std::vector<double>& v, Slab& slab) {
+bool find_crowd(const Subject& s, const std::vector<Subject::Coordinates>& pilot, const std::vector<double>& v,
+                Slab& slab) {
   const std::size_t axis = slab.axis;
   const auto width = [&](double a) { return 64 * s.epsilon * std::abs(a) + 1e-300; };
   double at = 0;
@@ -23,15 +24,16 @@ bool find_crowd(const Subject& s, const std::vector<Subject::Coordinates>& pilot
   if (s.resolution) {
     int seen = 0;
     for (const auto& p : pilot)
-      if (p[axis] >= at && p[axis] <= at + width(at) && seen++ < 16) blur = std::max(blur, 8 * s.resolution(p, static_cast<int>(axis)));
+      if (p[axis] >= at && p[axis] <= at + width(at) && seen++ < 16)
+        blur = std::max(blur, 8 * s.resolution(p, static_cast<int>(axis)));
   }
   slab.box.lo[axis] = std::max(at - blur, 0.0);
   slab.box.hi[axis] = std::min(at + 2 * blur, 1.0);
   return slab.box.hi[axis] > slab.box.lo[axis];
 }
 
-// The widest gap of a place on an axis, in spacings of the 64 samples around it. Exponential spacings are seldom more than 16
-// times their mean, so that a right sampler rarely pays for the test.
+// The widest gap of a place on an axis, in spacings of the 64 samples around it. Exponential spacings are seldom more
+// than 16 times their mean, so that a right sampler rarely pays for the test.
 enum class Place : std::uint8_t { low_end, inside, high_end };
 
 bool find_gap(const Subject& s, const std::vector<double>& v, Place place, Slab& slab) {
@@ -110,7 +112,9 @@ void weigh(const Subject& s, std::vector<Slab>& slabs, double n, std::size_t max
   for (Slab& slab : slabs) {
     CubatureGoal goal;
     goal.total_error = 0.1 / n;
-    goal.box_error = [&](double value) { return std::max(0.1 / n / static_cast<double>(slab.pieces.size()), 0.01 * value); };
+    goal.box_error = [&](double value) {
+      return std::max(0.1 / n / static_cast<double>(slab.pieces.size()), 0.01 * value);
+    };
     goal.max_evaluations = max_evaluations;
     const auto [value, error] = integrate_boxes(s.density, s.dim, slab.pieces, goal).total;
     slab.mass = value, slab.error = error;

@@ -12,14 +12,14 @@
 
 namespace mc {
 
-/// A sampler with its claimed density, seen through the chart of its domain: the tests live on the unit cube and never ask
-/// what the domain was. Warps, pairs of lambdas, BSDFs, tables, plugins and files of samples all become Subjects; see
-/// make_subject.h for the first two.
+/// A sampler with its claimed density, seen through the chart of its domain: the tests live on the unit cube and never
+/// ask what the domain was. Warps, pairs of lambdas, BSDFs, tables, plugins and files of samples all become Subjects;
+/// see make_subject.h for the first two.
 struct Subject {
   using Coordinates = std::array<double, 3>; ///< of the unit cube; unused entries are 0
 
   std::string name;
-  int dim = 0; ///< 0: discrete outcomes only
+  int dim = 0;            ///< 0: discrete outcomes only
   std::vector<Axis> axes; ///< what the coordinates stand for; may be empty
 
   /// One draw, or why there is none.
@@ -31,7 +31,7 @@ struct Subject {
     bool pdf_positive = true; ///< the claimed density at the drawn point is positive and finite
     int atom = -1;            ///< index of a discrete outcome (delta lobe, table index)
     Coordinates v{};
-    double weight = 1;        ///< claimed weight * pdf / f where the sampler states a weight; 1 when they agree
+    double weight = 1; ///< claimed weight * pdf / f where the sampler states a weight; 1 when they agree
   };
   /// Appends n draws of the stream `seed` to `out`. Same seed, same draws.
   std::function<void(std::uint64_t seed, std::size_t n, std::vector<Draw>& out)> draw;
@@ -43,12 +43,12 @@ struct Subject {
   std::vector<double> atoms;
   bool may_fail = false;
 
-  double mass_tolerance = 1e-12;    ///< rounding error of the claimed density, relative
-  double weight_tolerance = 1e-4;   ///< largest |weight - 1|
+  double mass_tolerance = 1e-12;  ///< rounding error of the claimed density, relative
+  double weight_tolerance = 1e-4; ///< largest |weight - 1|
 
   /// The point of the unit cube that the point at v was drawn from, as the sampler's own inverse says; may be empty.
   std::function<Coordinates(const Coordinates& v)> invert;
-  double invert_error = 0;          ///< bound on the error of its coordinates
+  double invert_error = 0; ///< bound on the error of its coordinates
 
   double epsilon = 2.220446049250313e-16; ///< of the scalar that the points are computed in
   /// How far one unit in the last place of the point at v moves chart coordinate `axis`; empty: epsilon times v.

@@ -22,8 +22,8 @@ TTest t_test(const Moments& moments, double value, double alpha) {
   }
   result.t = (e.value - value) / error;
   result.p = 2 * boost::math::cdf(boost::math::complement(student, std::abs(result.t)));
-  result.detectable =
-      error * (boost::math::quantile(boost::math::complement(student, alpha / 2)) + boost::math::quantile(student, 0.99));
+  result.detectable = error * (boost::math::quantile(boost::math::complement(student, alpha / 2)) +
+                               boost::math::quantile(student, 0.99));
   return result;
 }
 

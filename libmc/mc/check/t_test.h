@@ -13,7 +13,8 @@ struct TTest {
 
 /// Tests whether the mean of the values is `value`.
 ///   error  : exact for normal values; else as good as the central limit theorem
-///   throws : Error when a value was not finite, or there are fewer than two; unless `value` is finite and 0 < alpha < 1
+///   throws : Error when a value was not finite, or there are fewer than two; unless `value` is finite and 0 < alpha <
+///            1
 ///   Source : [Student08]
 TTest t_test(const Moments& moments, double value, double alpha = 0.01);
 

@@ -8,7 +8,8 @@
 
 namespace mc {
 
-/// Time of one sample(input) -> number [ns]: the best of eight rounds over the inputs, so that a busy machine does not show.
+/// Time of one sample(input) -> number [ns]: the best of eight rounds over the inputs, so that a busy machine does not
+/// show.
 template <class Input, class Sample> double ns_per_sample(const std::vector<Input>& inputs, Sample sample) {
   double best = HUGE_VAL, sum = 0;
   for (int round = 0; round < 8; ++round) {

@@ -10,7 +10,8 @@ namespace mc {
 ///   Source : Dot2 of [OgitaRumpOishi05]; float simply computes in double, where its products are exact
 template <Real S> S accurate_dot(const Vec3<S>& a, const Vec3<S>& b) {
   if constexpr (std::same_as<S, float>) {
-    return static_cast<float>(double(a.x()) * double(b.x()) + double(a.y()) * double(b.y()) + double(a.z()) * double(b.z()));
+    return static_cast<float>(double(a.x()) * double(b.x()) + double(a.y()) * double(b.y()) +
+                              double(a.z()) * double(b.z()));
   } else if constexpr (std::floating_point<S>) {
     S sum = a[0] * b[0], low = std::fma(a[0], b[0], -sum);
     for (int i = 1; i < 3; ++i) {

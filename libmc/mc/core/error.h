@@ -16,9 +16,11 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws Error with the formatted message unless `ok`. Write the condition so that NaN fails it: `x >= 0`, never `!(x < 0)`.
+/// Throws Error with the formatted message unless `ok`. Write the condition so that NaN fails it: `x >= 0`, never `!(x
+/// < 0)`.
 template <class... Args> void require(bool ok, fmt::format_string<Args...> message, Args&&... args) {
-  if (!ok) [[unlikely]] throw Error(fmt::format(message, std::forward<Args>(args)...));
+  if (!ok) [[unlikely]]
+    throw Error(fmt::format(message, std::forward<Args>(args)...));
 }
 
 /// Runs f; an Error that leaves it gains "where: " in front.

@@ -23,9 +23,12 @@ fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? t
 void require_writable(const std::string& path) {
   const fs::path target(path), folder = folder_of(target);
   std::error_code error;
-  require(!target.filename().empty() && !fs::is_directory(target, error), "cannot write '{}': it is a folder; name a file in it", path);
-  require(fs::is_directory(folder, error), "cannot write '{}': the folder '{}' does not exist; create it first", path, folder.string());
-  require(access(folder.c_str(), W_OK) == 0, "cannot write '{}': the folder '{}' is not writable", path, folder.string());
+  require(!target.filename().empty() && !fs::is_directory(target, error),
+          "cannot write '{}': it is a folder; name a file in it", path);
+  require(fs::is_directory(folder, error), "cannot write '{}': the folder '{}' does not exist; create it first", path,
+          folder.string());
+  require(access(folder.c_str(), W_OK) == 0, "cannot write '{}': the folder '{}' is not writable", path,
+          folder.string());
 }
 
 void replace_file(const std::string& path, const std::function<void(const std::string&)>& write) {

@@ -7,8 +7,9 @@
 
 namespace mc {
 
-/// Runs write(temporary) on a temporary name beside `path`, then renames it to `path`: an interrupted run leaves the old file
-/// or the new one, never half of one. The temporary file keeps the extension of `path` and is removed when write throws.
+/// Runs write(temporary) on a temporary name beside `path`, then renames it to `path`: an interrupted run leaves the
+/// old file or the new one, never half of one. The temporary file keeps the extension of `path` and is removed when
+/// write throws.
 ///   throws : Error when the folder is missing or not writable, or `path` is a folder
 void replace_file(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 

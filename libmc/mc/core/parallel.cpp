@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-// The thread sanitizer does not see how libtbb, which is not built for it, synchronises its threads: under it, plain threads.
+// The thread sanitizer does not see how libtbb, which is not built for it, synchronises its threads: under it, plain
+// threads.
 #if defined(__SANITIZE_THREAD__)
 #include <atomic>
 #include <exception>
@@ -44,8 +45,8 @@ void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>&
 int available_threads() { return tbb::info::default_concurrency(); }
 
 void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>& f) {
-  // TBB complains on the terminal about more threads than the machine has. It cancels the group on the first exception and
-  // rethrows it here.
+  // TBB complains on the terminal about more threads than the machine has. It cancels the group on the first exception
+  // and rethrows it here.
   using tbb::global_control;
   const std::size_t limit = global_control::active_value(global_control::max_allowed_parallelism);
   tbb::task_arena arena(static_cast<int>(std::min(static_cast<std::size_t>(threads), limit)));

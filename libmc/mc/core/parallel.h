@@ -14,8 +14,8 @@ int hardware_threads();
 /// loop: no new i is started, all threads are joined, and it is rethrown.
 void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& f);
 
-/// Computes f(chunk) for every chunk in [0, n) in parallel and merges the results in chunk order, so that the sum has the
-/// same bits for any number of threads. Result needs merge(const Result&) and a default constructor.
+/// Computes f(chunk) for every chunk in [0, n) in parallel and merges the results in chunk order, so that the sum has
+/// the same bits for any number of threads. Result needs merge(const Result&) and a default constructor.
 template <class Result, class F> Result parallel_reduce(std::size_t n, int threads, F&& f) {
   std::vector<Result> parts(n);
   parallel_for(n, threads, [&](std::size_t i) { parts[i] = f(i); });

@@ -11,17 +11,27 @@ template <Real S> struct CosSin { S cos, sin; };
 
 /// Cosine and sine of t turns, |t| <= 1/8, by one polynomial each: no branch and no call, so loops over it vectorise.
 ///   error  : 2 ulp for float and for double
-///   Source : interpolation at Chebyshev nodes of (cos(2 pi t) - 1) / t^2 and sin(2 pi t) / t in t^2; 2 pi as a sum of two numbers
+///   Source : interpolation at Chebyshev nodes of (cos(2 pi t) - 1) / t^2 and sin(2 pi t) / t in t^2; 2 pi as a sum of
+///            two numbers
 template <Real S> CosSin<S> cos_sin_octant(const S& t) {
   const S z = t * t;
   if constexpr (std::same_as<S, float>) {
     return {1 + z * (-19.7392088f + z * (64.9393691f + z * (-85.4488201f + z * 59.424106f))),
             t * 6.28318548f + t * (-1.74845553e-7f + z * (-41.3416626f + z * (81.5925429f + z * -75.4016127f)))};
   } else if constexpr (std::same_as<S, double>) {
-    return {1 + z * (-19.73920880217871723 + z * (64.939394022668242743 + z * (-85.456817206643804246 + z * (60.244641352702008933 +
-                z * (-26.426253275854721364 + z * (7.9032069115696784291 + z * -1.6990343940660636356)))))),
-            t * 6.2831853071795862 + t * (2.4492935982947064e-16 + z * (-41.341702240399636207 + z * (81.605249275948035209 +
-                z * (-76.705859704274550647 + z * (42.058685020160894047 + z * (-15.093804209987113512 + z * 3.7808689593022955184))))))};
+    return {1 + z * (-19.73920880217871723 +
+                     z * (64.939394022668242743 +
+                          z * (-85.456817206643804246 +
+                               z * (60.244641352702008933 +
+                                    z * (-26.426253275854721364 +
+                                         z * (7.9032069115696784291 + z * -1.6990343940660636356)))))),
+            t * 6.2831853071795862 +
+                t * (2.4492935982947064e-16 +
+                     z * (-41.341702240399636207 +
+                          z * (81.605249275948035209 +
+                               z * (-76.705859704274550647 +
+                                    z * (42.058685020160894047 +
+                                         z * (-15.093804209987113512 + z * 3.7808689593022955184))))))};
   } else {
     using std::cos, std::sin;
     const S phi = 2 * pi<S> * t;
@@ -35,12 +45,14 @@ template <Real S> CosSin<S> cos_sin(const S& u) {
   if constexpr (std::floating_point<S>) {
     const auto quarter = static_cast<std::int32_t>(4 * u + S(0.5));
     const CosSin<S> q = cos_sin_octant<S>(u - S(0.25) * static_cast<S>(quarter));
-    // An odd quarter exchanges the two; signs by quarter. On the bits, since no jump on a random number is ever predicted.
+    // An odd quarter exchanges the two; signs by quarter. On the bits, since no jump on a random number is ever
+    // predicted.
     using Bits = BitsOf<S>;
     const Bits k = static_cast<Bits>(quarter), c = std::bit_cast<Bits>(q.cos), s = std::bit_cast<Bits>(q.sin);
     const Bits exchange = (c ^ s) & (Bits{0} - (k & 1));
     constexpr int to_sign = 8 * sizeof(Bits) - 2;
-    return {std::bit_cast<S>(c ^ exchange ^ ((k + 1) & 2) << to_sign), std::bit_cast<S>(s ^ exchange ^ (k & 2) << to_sign)};
+    return {std::bit_cast<S>(c ^ exchange ^ ((k + 1) & 2) << to_sign),
+            std::bit_cast<S>(s ^ exchange ^ (k & 2) << to_sign)};
   } else {
     return cos_sin_octant<S>(u);
   }

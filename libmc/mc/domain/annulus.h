@@ -8,7 +8,8 @@
 namespace mc {
 
 /// Points of the plane with inner <= |p| <= outer.
-///   chart  : v = ((|p|^2 - inner^2) / (outer^2 - inner^2), phi / 2 pi); uniform in area, so the Jacobian is the constant area
+///   chart  : v = ((|p|^2 - inner^2) / (outer^2 - inner^2), phi / 2 pi); uniform in area, so the Jacobian is the
+///            constant area
 ///   error  : v0 is known to about eps outer / (outer - inner), the rounding of p
 ///   throws : Error unless 0 <= inner < outer, both finite
 template <Real S> struct Annulus {
@@ -23,7 +24,8 @@ template <Real S> struct Annulus {
   Annulus() = default;
   Annulus(S inner_, S outer_) : inner(inner_), outer(outer_) {
     using std::isfinite;
-    require(inner >= 0 && inner < outer && isfinite(outer), "Annulus: radii {} and {}; 0 <= inner < outer, both finite, are needed", static_cast<double>(inner),
+    require(inner >= 0 && inner < outer && isfinite(outer),
+            "Annulus: radii {} and {}; 0 <= inner < outer, both finite, are needed", static_cast<double>(inner),
             static_cast<double>(outer));
   }
 

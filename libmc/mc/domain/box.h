@@ -18,15 +18,15 @@ template <Real S, int N> struct Box {
 
   Point lo, hi;
 
-  Box()
-    requires(N != Eigen::Dynamic)
-      : lo(Point::Zero()), hi(Point::Ones()) {}
+  Box() requires(N != Eigen::Dynamic) : lo(Point::Zero()), hi(Point::Ones()) {}
   Box(const Point& lo_, const Point& hi_) : lo(lo_), hi(hi_) {
     using std::isfinite;
-    require(lo.size() >= 1 && lo.size() == hi.size(), "Box: bounds of dimension {} and {}; both need the same, at least 1", lo.size(), hi.size());
+    require(lo.size() >= 1 && lo.size() == hi.size(),
+            "Box: bounds of dimension {} and {}; both need the same, at least 1", lo.size(), hi.size());
     for (Eigen::Index i = 0; i < lo.size(); ++i)
-      require(isfinite(lo[i]) && isfinite(hi[i]) && lo[i] < hi[i], "Box: side {} is [{}, {}]; finite bounds with lo < hi are needed", i,
-              static_cast<double>(lo[i]), static_cast<double>(hi[i]));
+      require(isfinite(lo[i]) && isfinite(hi[i]) && lo[i] < hi[i],
+              "Box: side {} is [{}, {}]; finite bounds with lo < hi are needed", i, static_cast<double>(lo[i]),
+              static_cast<double>(hi[i]));
   }
 
   int dimension() const { return static_cast<int>(lo.size()); }

@@ -6,7 +6,8 @@
 
 namespace mc {
 
-/// Unit vectors within an angle of +z, given by h = 1 - cos(angle) in (0, 2]: any angle from 1e-19 rad to pi keeps its precision.
+/// Unit vectors within an angle of +z, given by h = 1 - cos(angle) in (0, 2]: any angle from 1e-19 rad to pi keeps its
+/// precision.
 ///   chart  : v = ((1 - z) / h, phi / 2 pi); uniform in solid angle, so the Jacobian is the constant 2 pi h
 ///   throws : Error unless 0 < h <= 2
 template <Real S> struct Cap {
@@ -19,7 +20,9 @@ template <Real S> struct Cap {
   S h = 1;
 
   Cap() = default;
-  explicit Cap(S h_) : h(h_) { require(h > 0 && h <= 2, "Cap: 1 - cos = {} must lie in (0, 2]", static_cast<double>(h)); }
+  explicit Cap(S h_) : h(h_) {
+    require(h > 0 && h <= 2, "Cap: 1 - cos = {} must lie in (0, 2]", static_cast<double>(h));
+  }
 
   Point from_unit(const UnitPoint& v) const {
     const S t = v[0] * h; // 1 - z, so sin^2 = t (2 - t) without cancellation

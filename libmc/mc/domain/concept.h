@@ -20,7 +20,8 @@ constexpr std::string_view name(Measure m) {
   return "";
 }
 
-/// A set X with a chart: from_unit maps the open unit cube (0,1)^dim onto X up to a set of measure zero, and jacobian(v) is
+/// A set X with a chart: from_unit maps the open unit cube (0,1)^dim onto X up to a set of measure zero, and
+///                       jacobian(v) is
 /// |dx/dv| in the measure of X, so  integral over X of f dx = integral over the cube of f(from_unit(v)) jacobian(v) dv.
 ///   UnitPoint : Point<Scalar, dim> (a scalar when dim = 1)
 ///   Point     : what a warp onto X returns (a scalar, Vec2, or a unit Vec3 for directions)

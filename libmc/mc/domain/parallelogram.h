@@ -24,9 +24,11 @@ template <Real S> struct Parallelogram {
   Parallelogram(const Point& origin_, const Point& a_, const Point& b_) : origin(origin_), a(a_), b(b_) {
     using std::isfinite;
     for (int i = 0; i < 3; ++i)
-      require(isfinite(origin[i]) && isfinite(a[i]) && isfinite(b[i]), "Parallelogram: coordinate {} of the origin or of an edge is not finite: {}, {}, {}", i,
+      require(isfinite(origin[i]) && isfinite(a[i]) && isfinite(b[i]),
+              "Parallelogram: coordinate {} of the origin or of an edge is not finite: {}, {}, {}", i,
               static_cast<double>(origin[i]), static_cast<double>(a[i]), static_cast<double>(b[i]));
-    require(area() > 0 && isfinite(area()), "Parallelogram: the edges span an area of {}; it must be finite and > 0", static_cast<double>(area()));
+    require(area() > 0 && isfinite(area()), "Parallelogram: the edges span an area of {}; it must be finite and > 0",
+            static_cast<double>(area()));
   }
 
   S area() const { return cross<S>(a, b).norm(); }
@@ -40,9 +42,12 @@ template <Real S> struct Parallelogram {
   S jacobian(const UnitPoint&) const { return area(); }
   /// In the plane and within the edges, to the rounding of a sample.
   bool contains(const Point& x) const {
-    return (from_unit(to_unit(x)) - x).norm() <= 16 * std::numeric_limits<S>::epsilon() * (origin.norm() + a.norm() + b.norm());
+    return (from_unit(to_unit(x)) - x).norm() <=
+           16 * std::numeric_limits<S>::epsilon() * (origin.norm() + a.norm() + b.norm());
   }
-  template <Real T> Parallelogram<T> cast() const { return {cast_point<T>(origin), cast_point<T>(a), cast_point<T>(b)}; }
+  template <Real T> Parallelogram<T> cast() const {
+    return {cast_point<T>(origin), cast_point<T>(a), cast_point<T>(b)};
+  }
 };
 
 } // namespace mc

@@ -6,12 +6,13 @@
 
 namespace mc {
 
-/// Directions through the planar triangle (origin + s edge1 + t edge2; s, t >= 0, s + t <= 1), or with Corners = 4 through the whole
-/// parallelogram (s, t <= 1).
+/// Directions through the planar triangle (origin + s edge1 + t edge2; s, t >= 0, s + t <= 1), or with Corners = 4
+/// through the whole parallelogram (s, t <= 1).
 ///   chart    : (s, t) = v for the parallelogram, v0 (1 - v1, v1) for the triangle; directions are normalized points
 ///   jacobian : area element * distance of the plane / |p|^3
 ///   contains : unit, and on the inner side of the planes through the edges up to 64 eps of distance
-///   throws   : Error unless the triple product of origin, edge1, edge2 is finite and not 0: the patch must not be seen edge-on
+///   throws   : Error unless the triple product of origin, edge1, edge2 is finite and not 0: the patch must not be seen
+///              edge-on
 template <Real S, int Corners> struct Patch {
   using Scalar = S;
   using Point = Vec3<S>;
@@ -25,7 +26,8 @@ template <Real S, int Corners> struct Patch {
   Patch(const Vec3<S>& o, const Vec3<S>& e1, const Vec3<S>& e2) : origin(o), edge1(e1), edge2(e2) {
     using std::abs, std::isfinite;
     const S volume = abs(triple());
-    require(volume > 0 && isfinite(volume), "Patch: origin and edges span a volume of {}; it must be finite and > 0", static_cast<double>(volume));
+    require(volume > 0 && isfinite(volume), "Patch: origin and edges span a volume of {}; it must be finite and > 0",
+            static_cast<double>(volume));
   }
 
   S triple() const { return origin.dot(cross<S>(edge1, edge2)); }
@@ -54,10 +56,13 @@ template <Real S, int Corners> struct Patch {
     const Vec3<S> p1 = origin + edge1, p2 = origin + edge2;
     const S sign = triple() > 0 ? S(1) : S(-1);
     if constexpr (Corners == 4)
-      return inside(origin, edge1, w, sign) && inside(p1, edge2, w, sign) && inside(p2 + edge1, -edge1, w, sign) && inside(p2, -edge2, w, sign);
+      return inside(origin, edge1, w, sign) && inside(p1, edge2, w, sign) && inside(p2 + edge1, -edge1, w, sign) &&
+             inside(p2, -edge2, w, sign);
     else return inside(origin, edge1, w, sign) && inside(p1, edge2 - edge1, w, sign) && inside(p2, -edge2, w, sign);
   }
-  template <Real T> Patch<T, Corners> cast() const { return {cast_point<T>(origin), cast_point<T>(edge1), cast_point<T>(edge2)}; }
+  template <Real T> Patch<T, Corners> cast() const {
+    return {cast_point<T>(origin), cast_point<T>(edge1), cast_point<T>(edge2)};
+  }
 
  private:
   static bool inside(const Vec3<S>& p, const Vec3<S>& edge, const Vec3<S>& w, S sign) {

@@ -7,7 +7,8 @@ namespace mc {
 
 namespace detail {
 /// Numbers in a point, and the part of a longer vector that holds it.
-template <class P> constexpr int numbers = [] {
+template <class P>
+constexpr int numbers = [] {
   if constexpr (requires { P::SizeAtCompileTime; }) return int(P::SizeAtCompileTime);
   else return 1;
 }();
@@ -24,13 +25,14 @@ template <class V, class P> void put(V& v, int start, const P& p) {
 /// Pairs (a, b) of points of two domains, their coordinates in one vector.
 ///   chart : those of a and b side by side; the Jacobian is the product
 template <Domain A, Domain B>
-  requires std::same_as<typename A::Scalar, typename B::Scalar>
+requires std::same_as<typename A::Scalar, typename B::Scalar>
 struct ProductDomain {
   using Scalar = typename A::Scalar;
   static constexpr int dim = A::dim + B::dim, split = detail::numbers<typename A::Point>;
   using Point = Vec<Scalar, split + detail::numbers<typename B::Point>>;
   using UnitPoint = Vec<Scalar, dim>;
-  static constexpr Measure measure = A::measure == Measure::length && B::measure == Measure::length ? Measure::area : Measure::volume;
+  static constexpr Measure measure =
+      A::measure == Measure::length && B::measure == Measure::length ? Measure::area : Measure::volume;
 
   A first;
   B second;
@@ -38,7 +40,9 @@ struct ProductDomain {
   static typename A::Point first_of(const Point& x) { return detail::part<typename A::Point>(x, 0); }
   static typename B::Point second_of(const Point& x) { return detail::part<typename B::Point>(x, split); }
   static typename A::UnitPoint first_unit(const UnitPoint& v) { return detail::part<typename A::UnitPoint>(v, 0); }
-  static typename B::UnitPoint second_unit(const UnitPoint& v) { return detail::part<typename B::UnitPoint>(v, A::dim); }
+  static typename B::UnitPoint second_unit(const UnitPoint& v) {
+    return detail::part<typename B::UnitPoint>(v, A::dim);
+  }
   static Point join(const typename A::Point& a, const typename B::Point& b) {
     Point x;
     detail::put(x, 0, a), detail::put(x, split, b);
@@ -50,11 +54,18 @@ struct ProductDomain {
     return v;
   }
 
-  Point from_unit(const UnitPoint& v) const { return join(first.from_unit(first_unit(v)), second.from_unit(second_unit(v))); }
-  UnitPoint to_unit(const Point& x) const { return join_unit(first.to_unit(first_of(x)), second.to_unit(second_of(x))); }
+  Point from_unit(const UnitPoint& v) const {
+    return join(first.from_unit(first_unit(v)), second.from_unit(second_unit(v)));
+  }
+  UnitPoint to_unit(const Point& x) const {
+    return join_unit(first.to_unit(first_of(x)), second.to_unit(second_of(x)));
+  }
   Scalar jacobian(const UnitPoint& v) const { return first.jacobian(first_unit(v)) * second.jacobian(second_unit(v)); }
   bool contains(const Point& x) const { return first.contains(first_of(x)) && second.contains(second_of(x)); }
-  template <Real T> auto cast() const { return ProductDomain<decltype(first.template cast<T>()), decltype(second.template cast<T>())>{first.template cast<T>(), second.template cast<T>()}; }
+  template <Real T> auto cast() const {
+    return ProductDomain<decltype(first.template cast<T>()), decltype(second.template cast<T>())>{
+        first.template cast<T>(), second.template cast<T>()};
+  }
 };
 
 /// The plane, each axis by the chart of the real line.

@@ -32,7 +32,8 @@ template <Domain D> struct RotatedDomain {
   Scalar jacobian(const UnitPoint& v) const { return inner.jacobian(v); }
   bool contains(const Point& w) const { return is_unit<Scalar>(w) && inner.contains(to_local(w).normalized()); }
   template <Real T> auto cast() const {
-    return RotatedDomain<decltype(inner.template cast<T>())>{inner.template cast<T>(), Frame<T>::from_z(cast_point<T>(frame.z).normalized())};
+    return RotatedDomain<decltype(inner.template cast<T>())>{inner.template cast<T>(),
+                                                             Frame<T>::from_z(cast_point<T>(frame.z).normalized())};
   }
 };
 

@@ -9,7 +9,8 @@ namespace mc {
 
 ControlVariates::ControlVariates(std::span<const double> means)
     : means_(Eigen::Map<const Eigen::VectorXd>(means.data(), static_cast<Eigen::Index>(means.size()))),
-      mean_(Eigen::VectorXd::Zero(means_.size() + 1)), scatter_(Eigen::MatrixXd::Zero(means_.size() + 1, means_.size() + 1)) {
+      mean_(Eigen::VectorXd::Zero(means_.size() + 1)),
+      scatter_(Eigen::MatrixXd::Zero(means_.size() + 1, means_.size() + 1)) {
   require(!means.empty(), "ControlVariates: no controls; at least one is needed");
   for (std::size_t j = 0; j < means.size(); ++j)
     require(std::isfinite(means[j]), "ControlVariates: means[{}] = {} is not finite", j, means[j]);
@@ -32,7 +33,8 @@ void ControlVariates::add(double f, std::span<const double> g, std::uint64_t ind
 
 void ControlVariates::merge(const ControlVariates& other) {
   require(means_.size() == other.means_.size() && means_ == other.means_,
-          "ControlVariates: merge of {} and {} controls of different means; they must be the same", means_.size(), other.means_.size());
+          "ControlVariates: merge of {} and {} controls of different means; they must be the same", means_.size(),
+          other.means_.size());
   if (other.non_finite_ > 0 && non_finite_ == 0) witness_ = other.witness_;
   non_finite_ += other.non_finite_;
   if (other.count_ == 0) return;
@@ -44,8 +46,8 @@ void ControlVariates::merge(const ControlVariates& other) {
 }
 
 void ControlVariates::require_enough() const {
-  require(non_finite_ == 0, "ControlVariates: {} of {} values are not finite, the first at index {}", non_finite_, non_finite_ + count_,
-          witness_);
+  require(non_finite_ == 0, "ControlVariates: {} of {} values are not finite, the first at index {}", non_finite_,
+          non_finite_ + count_, witness_);
   require(count_ >= 2, "ControlVariates: {} values; at least 2 are needed", count_);
 }
 
@@ -64,7 +66,8 @@ Eigen::VectorXd ControlVariates::coefficients() const {
 Estimate ControlVariates::estimate(const Eigen::VectorXd& beta) const {
   require_enough();
   require(beta.size() == means_.size() && beta.allFinite(),
-          "ControlVariates: {} coefficients for {} controls; as many finite ones are needed", beta.size(), means_.size());
+          "ControlVariates: {} coefficients for {} controls; as many finite ones are needed", beta.size(),
+          means_.size());
   Eigen::VectorXd c(mean_.size());
   c << 1, -beta;
   const double n = static_cast<double>(count_);
@@ -75,8 +78,9 @@ Estimate ControlVariates::estimate(const Eigen::VectorXd& beta) const {
 Estimate cross_estimate(const ControlVariates& a, const ControlVariates& b) {
   const Estimate first = a.estimate(b.coefficients()), second = b.estimate(a.coefficients());
   const double n = static_cast<double>(first.count + second.count), share = static_cast<double>(first.count) / n;
-  return Estimate::student(share * first.value + (1 - share) * second.value, std::hypot(share * first.error(), (1 - share) * second.error()),
-                           first.dof + second.dof, first.count + second.count);
+  return Estimate::student(share * first.value + (1 - share) * second.value,
+                           std::hypot(share * first.error(), (1 - share) * second.error()), first.dof + second.dof,
+                           first.count + second.count);
 }
 
 } // namespace mc

@@ -12,11 +12,12 @@ namespace mc {
 
 /// Joint moments of an integrand f and controls g_1 ... g_k whose means are known, mergeable.
 ///   estimate(beta) : mean of f - sum_j beta_j (g_j - means[j]): unbiased when beta does not depend on these samples
-///   coefficients() : the beta of least variance, Cov(g)^-1 Cov(g, f), of these samples; where controls depend on each other linearly,
-///                    the shortest in units of their standard deviations. For use on other samples: on its own it would bias
+///   coefficients() : the beta of least variance, Cov(g)^-1 Cov(g, f), of these samples; where controls depend on each
+///                    other linearly, the shortest in units of their standard deviations. For use on other samples: on
+///                    its own it would bias
 ///   error          : no cancellation: Welford's update of the covariance
-///   throws         : Error unless there is a control and all means are finite; estimate() and coefficients() when a value was not
-///                    finite, with the index of the first, or there are fewer than two
+///   throws         : Error unless there is a control and all means are finite; estimate() and coefficients() when a
+///                    value was not finite, with the index of the first, or there are fewer than two
 ///   Source         : [LavenbergWelch81]
 class ControlVariates {
  public:
@@ -41,7 +42,8 @@ class ControlVariates {
   std::uint64_t count_ = 0, non_finite_ = 0, witness_ = 0;
 };
 
-/// Both halves of the samples at once: each with the coefficients of the other, so unbiased, and no pilot is thrown away.
+/// Both halves of the samples at once: each with the coefficients of the other, so unbiased, and no pilot is thrown
+/// away.
 ///   error  : the errors of the halves are uncorrelated up to a relative 1 / n, so they add as squares
 ///   throws : Error as estimate(), and unless both know the same means
 Estimate cross_estimate(const ControlVariates& a, const ControlVariates& b);

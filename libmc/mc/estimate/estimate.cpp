@@ -8,7 +8,8 @@ namespace mc {
 
 namespace {
 double two_sided(double dof, double tail) {
-  return dof > 0 ? quantile(complement(boost::math::students_t(dof), tail)) : quantile(complement(boost::math::normal(), tail));
+  return dof > 0 ? quantile(complement(boost::math::students_t(dof), tail))
+                 : quantile(complement(boost::math::normal(), tail));
 }
 // Student's t at the probability of one sigma.
 double one_sigma(double dof) { return dof > 0 ? two_sided(dof, cdf(complement(boost::math::normal(), 1.0))) : 1.0; }

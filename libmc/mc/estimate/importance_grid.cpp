@@ -21,7 +21,9 @@ std::array<double, ImportanceGrid::bins> pooled(std::span<const double> row, std
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     double sum = 0;
     for (std::ptrdiff_t j = i - reach; j <= i + reach; ++j)
-      sum += static_cast<double>(reach + 1 - std::abs(j - i)) * row[static_cast<std::size_t>(j < 0 ? -1 - j : j >= n ? 2 * n - 1 - j : j)];
+      sum += static_cast<double>(reach + 1 - std::abs(j - i)) * row[static_cast<std::size_t>(j < 0    ? -1 - j
+                                                                                             : j >= n ? 2 * n - 1 - j
+                                                                                                      : j)];
     out[static_cast<std::size_t>(i)] = sum / sqr(static_cast<double>(reach + 1));
   }
   return out;
@@ -33,7 +35,9 @@ ImportanceGrid::ImportanceGrid(int dim) : dim_(dim), edges_(static_cast<std::siz
   for (std::size_t i = 0; i < edges_.size(); ++i) edges_[i] = static_cast<double>(i % (bins + 1)) / bins;
 }
 
-std::span<const double> ImportanceGrid::edges(int d) const { return {edges_.data() + static_cast<std::size_t>(d) * (bins + 1), bins + 1}; }
+std::span<const double> ImportanceGrid::edges(int d) const {
+  return {edges_.data() + static_cast<std::size_t>(d) * (bins + 1), bins + 1};
+}
 
 double ImportanceGrid::map(std::span<double> u, std::span<std::uint8_t> bin) const {
   double jacobian = 1;
@@ -53,23 +57,28 @@ void ImportanceGrid::refine(std::span<const double> power, std::uint64_t points)
   MC_ASSERT(power.size() == static_cast<std::size_t>(dim_) * bins);
   std::array<double, bins> mass;
   std::array<double, bins + 1> edges;
-  // What the few points of a short round say of a bin is noise, and a density that follows it puts rare, huge weights where it fell
-  // too low: the next sums would be off by more than their error tells. So bins pool with their neighbours for enough points.
-  const auto reach = static_cast<std::ptrdiff_t>(std::clamp(std::ceil(enough * bins / static_cast<double>(points)) - 1, 0.0, bins / 2.0));
+  // What the few points of a short round say of a bin is noise, and a density that follows it puts rare, huge weights
+  // where it fell
+  // too low: the next sums would be off by more than their error tells. So bins pool with their neighbours for enough
+  //          points.
+  const auto reach = static_cast<std::ptrdiff_t>(
+      std::clamp(std::ceil(enough * bins / static_cast<double>(points)) - 1, 0.0, bins / 2.0));
   for (std::size_t d = 0; d < static_cast<std::size_t>(dim_); ++d) {
     const std::array<double, bins> p = pooled(power.subspan(d * bins, bins), reach);
     double* e = edges_.data() + d * (bins + 1);
     double total = 0;
     for (std::size_t i = 0; i < bins; ++i) {
       const std::size_t before = i > 0 ? i - 1 : 0, after = std::min(i + 1, bins - 1);
-      // Neighbours damp the noise of a round. Where the integrand jumps between them, edges are drawn to the jump: within the
-      // bin that holds it the density cannot follow.
+      // Neighbours damp the noise of a round. Where the integrand jumps between them, edges are drawn to the jump:
+      // within the bin that holds it the density cannot follow.
       const auto size = [&](std::size_t j) { return std::sqrt(p[j]) / std::max(e[j + 1] - e[j], 1e-300); };
-      const double jump = std::max(std::abs(size(i) - size(before)), std::abs(size(after) - size(i))) * (e[i + 1] - e[i]);
+      const double jump =
+          std::max(std::abs(size(i) - size(before)), std::abs(size(after) - size(i))) * (e[i + 1] - e[i]);
       total += mass[i] = std::sqrt((p[before] + 2 * p[i] + p[after]) / 4) + jump_share * jump;
     }
     if (!(total > 0) || !std::isfinite(total)) continue; // nothing seen: nothing learned
-    for (std::size_t i = 0; i < bins; ++i) mass[i] = (1 - uniform_share) * mass[i] / total + uniform_share * (e[i + 1] - e[i]);
+    for (std::size_t i = 0; i < bins; ++i)
+      mass[i] = (1 - uniform_share) * mass[i] / total + uniform_share * (e[i + 1] - e[i]);
     edges[0] = 0;
     edges[bins] = 1;
     double below = 0; // mass of the old bins below i

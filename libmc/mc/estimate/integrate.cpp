@@ -41,7 +41,9 @@ struct Sums {
 };
 
 // A mean whose variance was estimated with `dof` degrees of freedom.
-struct Mean { double value = 0, variance = 0, dof = 0; };
+struct Mean {
+  double value = 0, variance = 0, dof = 0;
+};
 using Means = std::vector<Mean>; // one per output
 
 // Degrees of freedom behind the sum of the variances [Welch47].
@@ -55,7 +57,8 @@ std::optional<double> deviate(const Mean& a, const Mean& b) {
   const double error = std::sqrt(a.variance + b.variance);
   if (!(error > 0) || !std::isfinite(error)) return {};
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  const double t = std::abs(a.value - b.value) / std::hypot(error, rounding * std::max(std::abs(a.value), std::abs(b.value)));
+  const double t =
+      std::abs(a.value - b.value) / std::hypot(error, rounding * std::max(std::abs(a.value), std::abs(b.value)));
   const double tail = cdf(complement(boost::math::students_t(welch(a, b)), t));
   return quantile(complement(boost::math::normal(), std::max(tail, 1e-300)));
 }
@@ -78,13 +81,14 @@ struct Run {
   const IntegrateOptions& o;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   std::uint64_t calls = 0;
-  std::vector<Means> rounds = {};             // of learning: independent of each other and of the last means
+  std::vector<Means> rounds = {}; // of learning: independent of each other and of the last means
   std::vector<double> chi2 = std::vector<double>(outputs), chi2_dof = std::vector<double>(outputs);
 
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
   std::uint64_t left() const { return o.max_calls - calls; }
 
-  Sums evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const ImportanceGrid* grid, std::span<const double> learn) const {
+  Sums evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const ImportanceGrid* grid,
+                std::span<const double> learn) const {
     if (o.cancel && o.cancel->load()) throw Cancelled{};
     const auto d = static_cast<std::size_t>(dim);
     Sums sums{std::vector<Moments>(outputs), std::vector<double>(learn.empty() ? 0 : d * ImportanceGrid::bins)};
@@ -112,8 +116,8 @@ struct Run {
   }
 
   // Points [first, first + count) of each set; one result per set.
-  std::vector<Sums> evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count, const ImportanceGrid* grid = nullptr,
-                                 std::span<const double> learn = {}) {
+  std::vector<Sums> evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
+                                 const ImportanceGrid* grid = nullptr, std::span<const double> learn = {}) {
     const std::uint64_t chunks = (count + chunk - 1) / chunk;
     std::vector<Sums> parts(sets.size() * chunks), results(sets.size());
     parallel_for(parts.size(), o.threads, [&](std::size_t i) {
@@ -135,12 +139,13 @@ struct Run {
     if (grid) grid->map(u, bins);
     std::string point;
     for (const double x : u) point += fmt::format("{}{:.17g}", point.empty() ? "" : ", ", x);
-    throw Error(fmt::format("integrate: the integrand is not finite at {} of {} points, the first at u = ({}); it must be finite almost everywhere",
+    throw Error(fmt::format("integrate: the integrand is not finite at {} of {} points, the first at u = ({}); it must "
+                            "be finite almost everywhere",
                             m.non_finite(), m.non_finite() + m.count(), point));
   }
 
-  // Whether the bare sequences, those of purpose 0, are interlaced. Under a grid they are not: smooth peaks would gain by it, but
-  // integrands that jump would lose.
+  // Whether the bare sequences, those of purpose 0, are interlaced. Under a grid they are not: smooth peaks would gain
+  // by it, but integrands that jump would lose.
   bool interlaced() const { return dim <= 2; }
   std::vector<PointSet> sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const {
     std::vector<PointSet> sets;
@@ -171,7 +176,9 @@ struct Run {
 
   bool converged(const Means& all) const {
     for (const Mean& m : all)
-      if (const double error = estimate(m).std_error; !(error <= o.abs_error || error <= o.rel_error * std::abs(m.value))) return false;
+      if (const double error = estimate(m).std_error;
+          !(error <= o.abs_error || error <= o.rel_error * std::abs(m.value)))
+        return false;
     return true;
   }
 
@@ -232,22 +239,24 @@ Outcome plain(Run& run, std::optional<Outcome>& last) {
   }
 }
 
-// Independent rounds, weighed by the square of their number of points: by the number alone, the early rounds would dominate an
-// error that falls faster than N^-1/2; by the measured variances, the mean would be biased.
+// Independent rounds, weighed by the square of their number of points: by the number alone, the early rounds would
+// dominate an error that falls faster than N^-1/2; by the measured variances, the mean would be biased.
 Outcome stratified(Run& run, std::optional<Outcome>& last) {
   Outcome out{Means(run.outputs), Method::stratified};
   double weight = 0;
   for (std::uint64_t points = std::min<std::uint64_t>(64, run.left() / run.o.replicates), round = 0;; ++round) {
     std::vector<PointSet> sets;
     for (std::uint32_t r = 0; r < run.o.replicates; ++r)
-      sets.emplace_back(Stratified(static_cast<std::uint32_t>(points), hash(run.o.seed, round, r), static_cast<std::uint32_t>(std::min(run.dim, 8))));
+      sets.emplace_back(Stratified(static_cast<std::uint32_t>(points), hash(run.o.seed, round, r),
+                                   static_cast<std::uint32_t>(std::min(run.dim, 8))));
     const Means now = run.means(run.evaluate_all(sets, 0, points));
     if (round > 0) run.compare(now, out.means);
     const double square = sqr(static_cast<double>(points)), share = square / (weight + square);
     weight += square;
     for (std::size_t k = 0; k < run.outputs; ++k) {
       const Mean& all = out.means[k];
-      const Mean a{all.value, sqr(1 - share) * all.variance, std::max(all.dof, 1.0)}, b{now[k].value, sqr(share) * now[k].variance, now[k].dof};
+      const Mean a{all.value, sqr(1 - share) * all.variance, std::max(all.dof, 1.0)},
+          b{now[k].value, sqr(share) * now[k].variance, now[k].dof};
       out.means[k] = {a.value + share * (b.value - a.value), a.variance + b.variance, welch(a, b)};
     }
     run.report(out.means);
@@ -285,8 +294,8 @@ ImportanceGrid learn(Run& run, std::vector<double>& scale) {
   return grid;
 }
 
-// By how much the errors of a will exceed those of b, a mean logarithm, after so many more doublings, if they go on falling as they did
-// over the last three.
+// By how much the errors of a will exceed those of b, a mean logarithm, after so many more doublings, if they go on
+// falling as they did over the last three.
 double advantage(const Sequences& a, const Sequences& b, double doublings) {
   const std::size_t steps = std::min<std::size_t>(std::min(a.history.size(), b.history.size()) - 1, 3);
   const auto error = [](const Sequences& s, std::size_t back, std::size_t k) {
@@ -302,14 +311,18 @@ double advantage(const Sequences& a, const Sequences& b, double doublings) {
 
 Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   Outcome out{{}, method == Method::vegas ? Method::vegas : Method::rqmc};
-  const auto affordable = [&](const Sequences& s) { return std::min(std::bit_floor(s.length + run.left() / run.o.replicates), longest); };
+  const auto affordable = [&](const Sequences& s) {
+    return std::min(std::bit_floor(s.length + run.left() / run.o.replicates), longest);
+  };
   const auto done = [&] {
     run.report(out.means);
     if (run.converged(out.means)) out.stop = Stop::converged;
     last = out;
     return out.stop == Stop::converged;
   };
-  const auto next = [](const Sequences& s, std::uint64_t end) { return std::max(std::min<std::uint64_t>(64, end), 2 * s.length); };
+  const auto next = [](const Sequences& s, std::uint64_t end) {
+    return std::max(std::min<std::uint64_t>(64, end), 2 * s.length);
+  };
   const auto grow = [&](Sequences& s, std::uint64_t end) {
     for (std::uint64_t to = next(s, end); to <= end; to *= 2) {
       out.means = s.extend(run, to);
@@ -330,8 +343,10 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
     else {
       const std::uint64_t end = std::min(chosen.length, affordable(guided));
       for (std::uint64_t to = next(guided, end); to <= end; to *= 2) guided.extend(run, to);
-      // Interlaced points may start worse and fall faster, so where there are any the two compete at the length they would end with.
-      const double doublings = run.interlaced() ? std::log2(static_cast<double>(affordable(guided)) / static_cast<double>(end)) : 0;
+      // Interlaced points may start worse and fall faster, so where there are any the two compete at the length they
+      // would end with.
+      const double doublings =
+          run.interlaced() ? std::log2(static_cast<double>(affordable(guided)) / static_cast<double>(end)) : 0;
       if (advantage(chosen, guided, doublings) > 0) {
         out.means = guided.history.back();
         out.method = Method::vegas;
@@ -356,7 +371,8 @@ void require_sane(int outputs, int dim, const IntegrateOptions& o) {
           "integrate: tolerances {} (relative) and {} (absolute) must be finite and >= 0", o.rel_error, o.abs_error);
   require(o.threads >= 0, "integrate: threads {} must be >= 0; 0 stands for all of the machine's", o.threads);
   require(o.confidence > 0 && o.confidence < 1, "integrate: confidence {} must lie in (0, 1)", o.confidence);
-  require(o.replicates >= 2 && o.replicates <= 1u << 20, "integrate: {} replicates; between 2 and 2^20 are needed for an error", o.replicates);
+  require(o.replicates >= 2 && o.replicates <= 1u << 20,
+          "integrate: {} replicates; between 2 and 2^20 are needed for an error", o.replicates);
 }
 
 } // namespace
@@ -366,7 +382,8 @@ std::string_view name(Method method) { return method_names[static_cast<std::size
 Method method_from(std::string_view word) {
   for (std::size_t i = 0; i < method_names.size(); ++i)
     if (method_names[i] == word) return static_cast<Method>(i);
-  throw Error(fmt::format("unknown method '{}'{}; use one of {}", word, did_you_mean(word, method_names), fmt::join(method_names, ", ")));
+  throw Error(fmt::format("unknown method '{}'{}; use one of {}", word, did_you_mean(word, method_names),
+                          fmt::join(method_names, ", ")));
 }
 
 std::string_view name(Stop stop) {
@@ -381,8 +398,10 @@ std::string_view name(Stop stop) {
 namespace {
 VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const IntegrateOptions& o) {
   require_sane(outputs, dim, o);
-  require(f.one ? *f.one != nullptr : *f.several != nullptr, "integrate: the integrand is an empty function; it must be callable");
-  const Method method = o.method == Method::automatic && static_cast<std::uint32_t>(dim) > Sobol::dimensions ? Method::plain : o.method;
+  require(f.one ? *f.one != nullptr : *f.several != nullptr,
+          "integrate: the integrand is an empty function; it must be callable");
+  const Method method =
+      o.method == Method::automatic && static_cast<std::uint32_t>(dim) > Sobol::dimensions ? Method::plain : o.method;
   const std::uint64_t least = method == Method::plain ? 2 : 2 * std::uint64_t{o.replicates};
   require(o.max_calls >= least, "integrate: max_calls {} is too few; at least {} are needed", o.max_calls, least);
 
@@ -390,7 +409,9 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
   std::optional<Outcome> last;
   Outcome outcome;
   try {
-    outcome = method == Method::plain ? plain(run, last) : method == Method::stratified ? stratified(run, last) : sequences(run, method, last);
+    outcome = method == Method::plain        ? plain(run, last)
+              : method == Method::stratified ? stratified(run, last)
+                                             : sequences(run, method, last);
   } catch (const Cancelled&) {
     require(last.has_value(), "integrate: cancelled before anything was estimated");
     outcome = *last;
@@ -425,8 +446,8 @@ Integral integrate_unit(const std::function<double(std::span<const double>)>& f,
   return integrate_unit(Integrand{.one = &f}, 1, dim, o).outputs.front();
 }
 
-Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count, std::uint32_t replicates, std::uint64_t seed,
-                        int threads) {
+Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count,
+                        std::uint32_t replicates, std::uint64_t seed, int threads) {
   IntegrateOptions o;
   o.replicates = replicates;
   o.seed = seed;

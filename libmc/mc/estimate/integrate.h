@@ -15,8 +15,8 @@
 
 namespace mc {
 
-/// How points are placed. `automatic` starts with rqmc, tries the importance grid when that has not converged by a 16th of the
-/// calls and keeps the better of the two; plain above 1024 dimensions.
+/// How points are placed. `automatic` starts with rqmc, tries the importance grid when that has not converged by a 16th
+/// of the calls and keeps the better of the two; plain above 1024 dimensions.
 enum class Method { automatic, plain, stratified, rqmc, vegas };
 std::string_view name(Method method);
 /// Throws Error, naming the nearest method, for an unknown name.
@@ -33,14 +33,15 @@ struct IntegrateProgress {
 };
 
 struct IntegrateOptions {
-  double rel_error = 1e-3;              ///< stop when std_error <= rel_error |value| ...
-  double abs_error = 0;                 ///< ... or std_error <= abs_error
-  std::uint64_t max_calls = 1'000'000;  ///< never evaluate the integrand more often
+  double rel_error = 1e-3;             ///< stop when std_error <= rel_error |value| ...
+  double abs_error = 0;                ///< ... or std_error <= abs_error
+  std::uint64_t max_calls = 1'000'000; ///< never evaluate the integrand more often
   Method method = Method::automatic;
   std::uint64_t seed = 1;
-  int threads = 0;                      ///< 0: all of the machine's; the result has the same bits for any number
-  double confidence = 0.95;             ///< of the interval
-  std::uint32_t replicates = 24;        ///< least number of independent randomisations behind the error of stratified, rqmc and vegas
+  int threads = 0;          ///< 0: all of the machine's; the result has the same bits for any number
+  double confidence = 0.95; ///< of the interval
+  std::uint32_t replicates =
+      24; ///< least number of independent randomisations behind the error of stratified, rqmc and vegas
   std::function<void(const IntegrateProgress&)> progress = {};
   const std::atomic<bool>* cancel = nullptr;
 };
@@ -48,12 +49,13 @@ struct IntegrateOptions {
 /// An integral with its error bar and how it was come by.
 struct Integral {
   Estimate estimate;
-  Estimate::Interval interval{};        ///< two-sided, Student t for replicates
+  Estimate::Interval interval{}; ///< two-sided, Student t for replicates
   std::uint64_t calls = 0;
   double seconds = 0;
-  Method method = Method::plain;        ///< the one picked
+  Method method = Method::plain; ///< the one picked
   Stop stop = Stop::converged;
-  /// stratified and vegas: how well independent rounds agree, each difference turned from Student's t into a normal deviate and
+  /// stratified and vegas: how well independent rounds agree, each difference turned from Student's t into a normal
+  ///                       deviate and
   /// squared; near its dof. plain and rqmc: 0
   double chi2 = 0, chi2_dof = 0;
   /// Whether the rounds agree: chi2 is exceeded by chance with probability over 1e-4. False: distrust the error bar.
@@ -62,7 +64,7 @@ struct Integral {
 
 /// Several integrals from the same calls.
 struct VectorIntegral {
-  std::vector<Integral> outputs;        ///< all fields but the estimates, intervals and chi2 are common
+  std::vector<Integral> outputs; ///< all fields but the estimates, intervals and chi2 are common
 };
 
 /// f(u, values) fills `values`, one per output, for a point u of the unit cube.
@@ -71,23 +73,27 @@ using VectorIntegrand = std::function<void(std::span<const double> u, std::span<
 /// The integral over the unit cube of f(u) du, f evaluated at points of [0,1)^dim, from several threads at once.
 ///   plain      : independent points, error from the sample variance
 ///   stratified : rounds of jittered grids of doubling size, error from replicates
-///   rqmc       : independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions, error from
-///                replicates
-///   vegas      : rqmc through an ImportanceGrid learned on a 32nd of the calls, or up to a quarter where those are few; the rounds
-///                it was learned on are the consistency check. The grid is frozen before the sequences start, so the estimate is unbiased
-///   error      : without a tolerance, 66 to 71 % of runs lie within 1 std_error of the truth and 94 to 96.5 % within 2, for every
-///                method over Genz's families [Genz87]
-///   throws     : Error for an empty f, dim < 1, a tolerance that is negative or not finite, max_calls too small for one round,
-///                confidence outside (0,1), threads < 0; what the integrand throws, after all threads have stopped; and for an
-///                integrand that is not finite, with the point where it first was; and when cancelled before anything was estimated
-Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim, const IntegrateOptions& options = {});
+///   rqmc       : independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions,
+///                error from replicates
+///   vegas      : rqmc through an ImportanceGrid learned on a 32nd of the calls, or up to a quarter where those are
+///                few; the rounds it was learned on are the consistency check. The grid is frozen before the sequences
+///                start, so the estimate is unbiased
+///   error      : without a tolerance, 66 to 71 % of runs lie within 1 std_error of the truth and 94 to 96.5 % within
+///                2, for every method over Genz's families [Genz87]
+///   throws     : Error for an empty f, dim < 1, a tolerance that is negative or not finite, max_calls too small for
+///                one round, confidence outside (0,1), threads < 0; what the integrand throws, after all threads have
+///                stopped; and for an integrand that is not finite, with the point where it first was; and when
+///                cancelled before anything was estimated
+Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim,
+                        const IntegrateOptions& options = {});
 
 /// The same for `outputs` integrands at once; converged when each of them is.
 VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, const IntegrateOptions& options = {});
 
-/// Replicated randomised quasi-Monte Carlo with `count` points in each of `replicates` randomisations, without a tolerance.
-Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count, std::uint32_t replicates = 24,
-                        std::uint64_t seed = 1, int threads = 0);
+/// Replicated randomised quasi-Monte Carlo with `count` points in each of `replicates` randomisations, without a
+/// tolerance.
+Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count,
+                        std::uint32_t replicates = 24, std::uint64_t seed = 1, int threads = 0);
 
 namespace detail {
 template <Domain D> typename D::UnitPoint unit_point(std::span<const double> u) {
@@ -110,8 +116,8 @@ template <Domain D> int dimension(const D& domain) {
 
 /// The integral of f over a domain, in the domain's measure.
 template <class F, Domain D>
-  requires std::invocable<F, typename D::Point>
-Integral integrate(F&& f, const D& domain, const IntegrateOptions& options = {}) {
+requires std::invocable<F, typename D::Point> Integral integrate(F&& f, const D& domain,
+                                                                 const IntegrateOptions& options = {}) {
   return integrate_unit(
       [&](std::span<const double> u) {
         const auto v = detail::unit_point<D>(u);
@@ -122,8 +128,7 @@ Integral integrate(F&& f, const D& domain, const IntegrateOptions& options = {})
 
 /// The integral of f over the domain of a warp, importance-sampled by the warp: the mean of f(x) / pdf(x).
 template <class F, Warp W>
-  requires std::invocable<F, PointOf<W>>
-Integral integrate(F&& f, const W& warp, const IntegrateOptions& options = {}) {
+requires std::invocable<F, PointOf<W>> Integral integrate(F&& f, const W& warp, const IntegrateOptions& options = {}) {
   return integrate_unit(
       [&](std::span<const double> u) {
         const auto x = warp.sample(detail::unit_point<typename W::Domain>(u));

@@ -13,7 +13,8 @@
 
 namespace mc {
 
-/// How a sample's weight is shared among the techniques that could have drawn it, by q_j = n_j p_j: number of samples times density.
+/// How a sample's weight is shared among the techniques that could have drawn it, by q_j = n_j p_j: number of samples
+/// times density.
 ///   balance()      : w_i = q_i / sum_j q_j; no other has a variance much below its
 ///   power(beta)    : w_i = q_i^beta / sum_j q_j^beta; beta = 2 is usual
 ///   cutoff(alpha)  : balance among the techniques with q_j >= alpha max q, the others get 0
@@ -42,12 +43,14 @@ template <Real S> struct Heuristic {
   }
 };
 
-/// Weight of technique i, given the density p_j >= 0 [any common measure] and the number of samples n_j >= 0 of each. For one sample
-/// from a technique chosen at random, n_j is the probability of the choice.
-///   error : the weights sum to 1 within (n + 2) eps over the whole range of the scalar: densities are divided by the largest
-///           before anything else, so 1e-30 and 1e30 neither vanish nor overflow. An infinite density (a delta technique)
-///           takes all the weight, shared by counts among the infinite ones; all densities 0: all weights 0
-template <Real S> S mis_weight(std::size_t i, std::span<const S> densities, std::span<const S> counts, const Heuristic<S>& heuristic = {}) {
+/// Weight of technique i, given the density p_j >= 0 [any common measure] and the number of samples n_j >= 0 of each.
+/// For one sample from a technique chosen at random, n_j is the probability of the choice.
+///   error : the weights sum to 1 within (n + 2) eps over the whole range of the scalar: densities are divided by the
+///           largest before anything else, so 1e-30 and 1e30 neither vanish nor overflow. An infinite density (a delta
+///           technique) takes all the weight, shared by counts among the infinite ones; all densities 0: all weights 0
+template <Real S>
+S mis_weight(std::size_t i, std::span<const S> densities, std::span<const S> counts,
+             const Heuristic<S>& heuristic = {}) {
   using std::isinf;
   MC_ASSERT(densities.size() == counts.size() && i < densities.size());
   S largest(0);
@@ -83,12 +86,12 @@ template <Real S> S power_heuristic(S n_f, S f, S n_g, S g) {
 
 /// Estimators of the integral of f over the domain of several warps.
 ///   counts : samples of each technique; f must be 0 wherever all techniques with a positive count have density 0
-///   error  : unbiased for every heuristic, provided no technique of positive count is cut off everywhere where it alone samples f
+///   error  : unbiased for every heuristic, provided no technique of positive count is cut off everywhere where it
+///            alone samples f
 ///   throws : Error unless the counts are finite, >= 0 and not all 0
 ///   Source : [Veach97] sections 9.2.1 (several samples) and 9.2.4 (one sample)
 template <Warp First, Warp... Rest>
-  requires(std::same_as<typename First::Domain, typename Rest::Domain> && ...)
-class MultipleImportance {
+requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class MultipleImportance {
  public:
   using S = typename First::Scalar;
   static constexpr std::size_t size = 1 + sizeof...(Rest);
@@ -109,7 +112,8 @@ class MultipleImportance {
     return std::apply([&](const auto&... warp) { return Values{warp.pdf(x)...}; }, warps_);
   }
 
-  /// The sum over techniques of the mean of w f / p over counts[i] samples, rounded up; next() gives the points of the unit cube.
+  /// The sum over techniques of the mean of w f / p over counts[i] samples, rounded up; next() gives the points of the
+  /// unit cube.
   template <class F, class Next> double multi_sample(F&& f, Next&& next) const {
     Values counts = counts_;
     for (S& n : counts) n = S(std::ceil(static_cast<double>(n)));
@@ -119,7 +123,8 @@ class MultipleImportance {
     return sum;
   }
 
-  /// One sample from technique i with probability counts[i] / sum of counts, chosen by uc in [0,1): w f / (probability p).
+  /// One sample from technique i with probability counts[i] / sum of counts, chosen by uc in [0,1): w f / (probability
+  /// p).
   template <class F> double one_sample(F&& f, const S& uc, const UnitPointOf<First>& u) const {
     Values chances = counts_;
     for (S& n : chances) n /= total_;
@@ -130,7 +135,8 @@ class MultipleImportance {
   }
 
  private:
-  template <class F> double contribution(F&& f, std::size_t i, const UnitPointOf<First>& u, const Values& counts) const {
+  template <class F>
+  double contribution(F&& f, std::size_t i, const UnitPointOf<First>& u, const Values& counts) const {
     const PointOf<First> x = sample(i, u, std::make_index_sequence<size>());
     const double value = static_cast<double>(f(x));
     if (value == 0) return 0;
@@ -139,7 +145,8 @@ class MultipleImportance {
     const double w = static_cast<double>(mis_weight<S>(i, p, counts, heuristic_));
     return w * value / (static_cast<double>(counts[i]) * static_cast<double>(p[i]));
   }
-  template <std::size_t... I> PointOf<First> sample(std::size_t i, const UnitPointOf<First>& u, std::index_sequence<I...>) const {
+  template <std::size_t... I>
+  PointOf<First> sample(std::size_t i, const UnitPointOf<First>& u, std::index_sequence<I...>) const {
     PointOf<First> x{};
     ((I == i ? void(x = std::get<I>(warps_).sample(u)) : void()), ...);
     return x;

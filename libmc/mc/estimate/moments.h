@@ -10,8 +10,8 @@
 
 namespace mc {
 
-/// Count, mean and sum of squared deviations of a stream of doubles, mergeable; non-finite values are counted apart and the
-/// first one's index is kept.
+/// Count, mean and sum of squared deviations of a stream of doubles, mergeable; non-finite values are counted apart and
+/// the first one's index is kept.
 ///   error  : relative error of the mean and variance O(eps) per merge, no cancellation [Welford62, ChanGolubLeVeque83]
 ///   throws : estimate() throws Error when any value was not finite, or there are fewer than two
 class Moments {

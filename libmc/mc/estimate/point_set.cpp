@@ -13,12 +13,13 @@ constexpr std::uint64_t window = 256; // points whose index differs in the low b
 
 template <Sampler T> void fill(const T& sampler, std::uint64_t first, std::size_t dim, std::span<double> u) {
   for (std::size_t i = 0; i < u.size(); i += dim)
-    for (std::size_t d = 0; d < dim; ++d) u[i + d] = coordinate<double>(sampler, first + i / dim, static_cast<std::uint32_t>(d));
+    for (std::size_t d = 0; d < dim; ++d)
+      u[i + d] = coordinate<double>(sampler, first + i / dim, static_cast<std::uint32_t>(d));
 }
 
 // Scrambled coordinates of the points base + skip, ..., base + skip + count - 1, to the same places of x.
-void coordinates(const Sobol& sobol, std::uint64_t seed, std::uint32_t dim, std::uint64_t base, std::size_t skip, std::size_t count,
-                 std::array<std::uint32_t, window>& x) {
+void coordinates(const Sobol& sobol, std::uint64_t seed, std::uint32_t dim, std::uint64_t base, std::size_t skip,
+                 std::size_t count, std::array<std::uint32_t, window>& x) {
   // Points base .. base + 2^k - 1 from the first half of them, their bits in reverse order.
   x[0] = reverse_bits(sobol.unscrambled(static_cast<std::uint32_t>(base), dim));
   for (std::uint32_t half = 1; half < skip + count; half *= 2) {
@@ -44,7 +45,8 @@ template <class Visit> void windows(std::uint64_t first, std::size_t dim, std::s
   for (std::uint64_t begin = first, end; begin < last; begin = end) {
     const std::uint64_t base = begin / window * window;
     end = std::min(base + window, last);
-    visit(base, static_cast<std::size_t>(begin - base), static_cast<std::size_t>(end - begin), u.data() + (begin - first) * dim);
+    visit(base, static_cast<std::size_t>(begin - base), static_cast<std::size_t>(end - begin),
+          u.data() + (begin - first) * dim);
   }
 }
 
@@ -58,7 +60,8 @@ void fill(const ScrambledSobol& set, std::uint64_t first, std::size_t dim, std::
         coordinates(sobol, set.seed, dimension, base, skip, count, x);
         for (std::size_t i = 0; i < count; ++i) out[i * dim + d] = (static_cast<double>(x[skip + i]) + 0.5) * 0x1p-32;
       } else {
-        for (std::size_t i = 0; i < count; ++i) out[i * dim + d] = coordinate<double>(sobol, base + skip + i, dimension);
+        for (std::size_t i = 0; i < count; ++i)
+          out[i * dim + d] = coordinate<double>(sobol, base + skip + i, dimension);
       }
     }
   });

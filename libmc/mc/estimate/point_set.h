@@ -13,20 +13,25 @@
 namespace mc {
 
 /// A Sobol' sequence of double precision points, Owen-scrambled by the seed.
-struct ScrambledSobol { std::uint64_t seed = 0; };
+struct ScrambledSobol {
+  std::uint64_t seed = 0;
+};
 
-/// Each coordinate interlaces the bits of two of a ScrambledSobol: a net of order 2, whose error for n points of a smooth integrand falls
-/// like n^-2.5 but for powers of log n, instead of n^-1.5: measured n^-2.4 in one dimension and below n^-2 in two. In five nothing is
-/// gained at 4096 points.
+/// Each coordinate interlaces the bits of two of a ScrambledSobol: a net of order 2, whose error for n points of a
+/// smooth integrand falls like n^-2.5 but for powers of log n, instead of n^-1.5: measured n^-2.4 in one dimension and
+/// below n^-2 in two. In five nothing is gained at 4096 points.
 ///   Source : [Dick11]
-struct InterlacedSobol { std::uint64_t seed = 0; };
+struct InterlacedSobol {
+  std::uint64_t seed = 0;
+};
 
 /// The point sets that integrate() places its calls on.
 using PointSet = std::variant<Independent, Stratified, ScrambledSobol, InterlacedSobol>;
 
 /// Writes points first, first + 1, ... to u, the dim coordinates of each side by side; u.size() is a multiple of dim.
 ///   Independent, Stratified : the bits of coordinate<double>(sampler, index, dim)
-///   ScrambledSobol : the leading 32 bits of Sobol(seed) with the middle of their interval below them, so never 0 or 1; a whole
+///   ScrambledSobol : the leading 32 bits of Sobol(seed) with the middle of their interval below them, so never 0 or 1;
+///                    a whole
 ///            block at a time, since neighbours in the sequence share all but their low bits. Indices below 2^32
 ///   InterlacedSobol : so too, with 26 bits each of its coordinates 2 d and 2 d + 1; dim at most 512
 void fill_points(const PointSet& set, std::uint64_t first, int dim, std::span<double> u);

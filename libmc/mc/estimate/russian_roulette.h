@@ -17,13 +17,14 @@ template <Real S> struct Roulette {
   S weight;
 };
 template <Real S> Roulette<S> russian_roulette(S probability, S u) {
-  require(probability > 0 && probability <= 1, "russian_roulette: survival probability {} must lie in (0, 1]", static_cast<double>(probability));
+  require(probability > 0 && probability <= 1, "russian_roulette: survival probability {} must lie in (0, 1]",
+          static_cast<double>(probability));
   return u < probability ? Roulette<S>{true, 1 / probability} : Roulette<S>{false, S(0)};
 }
 
 /// How many independent continuations an estimate gets, and the factor on each that keeps its mean.
-///   copies : the number next below or above `expected`, decided by u in [0,1), so that its mean is `expected`; below 1 this is
-///            Russian roulette. `weight` is 1 / expected
+///   copies : the number next below or above `expected`, decided by u in [0,1), so that its mean is `expected`; below 1
+///            this is Russian roulette. `weight` is 1 / expected
 ///   throws : Error unless 0 < expected <= 2^20: more copies are a fault of whoever asks for them
 ///   Source : [ArvoKirk90]
 template <Real S> struct Splitting {

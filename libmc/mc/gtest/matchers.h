@@ -1,9 +1,10 @@
 #pragma once
 /// The checkers as GoogleTest assertions, for users' own suites.
 ///   EXPECT_WARP_LAWS(warp) or (warp, options)     : all laws of laws.h, options = mc::LawOptions
-///   EXPECT_BSDF_LAWS(bsdf, wo) or (.., options)   : all laws of bsdf_laws.h seen from wo, a mc::Vec3; options = mc::BsdfOptions
-///   EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain): sampler(u) or sampler(mc::Pcg&) -> point or optional point; pdf(point)
-///   EXPECT_MEAN(values, value)                    : Student's t at alpha 0.001, values any range of numbers
+///   EXPECT_BSDF_LAWS(bsdf, wo) or (.., options)   : all laws of bsdf_laws.h seen from wo, a mc::Vec3; options =
+///   mc::BsdfOptions EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain): sampler(u) or sampler(mc::Pcg&) -> point or
+///   optional point; pdf(point) EXPECT_MEAN(values, value)                    : Student's t at alpha 0.001, values any
+///   range of numbers
 /// Failures say which law broke, where and by how much. Seeds are fixed, so a test that passes keeps passing.
 
 #include <mc/check/bsdf_laws.h>
@@ -19,13 +20,15 @@ inline testing::AssertionResult assert_passed(const Report& report) {
   return report.passed() ? testing::AssertionSuccess() : testing::AssertionFailure() << report.to_string();
 }
 
-template <Samplable W> testing::AssertionResult obeys_laws(const char* expression, const W& warp, LawOptions options = {}) {
+template <Samplable W>
+testing::AssertionResult obeys_laws(const char* expression, const W& warp, LawOptions options = {}) {
   if (options.name == LawOptions{}.name) options.name = expression;
   return assert_passed(check_laws(warp, options));
 }
 
 template <class Bsdf, class S>
-testing::AssertionResult obeys_bsdf_laws(const char* expression, const Bsdf& bsdf, const Vec3<S>& wo, BsdfOptions options = {}) {
+testing::AssertionResult obeys_bsdf_laws(const char* expression, const Bsdf& bsdf, const Vec3<S>& wo,
+                                         BsdfOptions options = {}) {
   if (options.name == BsdfOptions{}.name) options.name = expression;
   return assert_passed(check_bsdf<S>(bsdf, wo, options));
 }
@@ -45,8 +48,8 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
     const TTest t = t_test(moments, value, alpha);
     if (t.p > alpha) return testing::AssertionSuccess();
     return testing::AssertionFailure() << fmt::format(
-               "mean of {}: {:.9g} +- {:.2g} over {} values, expected {:.9g}: {:.1f} standard errors off, p = {:.3g}", expression,
-               moments.mean(), moments.std_error(), moments.count(), value, t.t, t.p);
+               "mean of {}: {:.9g} +- {:.2g} over {} values, expected {:.9g}: {:.1f} standard errors off, p = {:.3g}",
+               expression, moments.mean(), moments.std_error(), moments.count(), value, t.t, t.p);
   } catch (const Error& e) {
     return testing::AssertionFailure() << expression << ": " << e.what();
   }
@@ -56,6 +59,6 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
 
 #define EXPECT_WARP_LAWS(warp, ...) EXPECT_TRUE(::mc::obeys_laws(#warp, warp __VA_OPT__(, ) __VA_ARGS__))
 #define EXPECT_BSDF_LAWS(bsdf, wo, ...) EXPECT_TRUE(::mc::obeys_bsdf_laws(#bsdf, bsdf, wo __VA_OPT__(, ) __VA_ARGS__))
-#define EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain, ...)                                                                                \
+#define EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain, ...)                                                            \
   EXPECT_TRUE(::mc::samples_match_pdf(#sampler, sampler, pdf, domain __VA_OPT__(, ) __VA_ARGS__))
 #define EXPECT_MEAN(values, value, ...) EXPECT_TRUE(::mc::has_mean(#values, values, value __VA_OPT__(, ) __VA_ARGS__))

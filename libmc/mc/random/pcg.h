@@ -38,7 +38,8 @@ class Pcg {
     }
   }
 
-  /// The next out.size() uniform numbers: those of uniform<S>() one by one, drawn by many leapfrogging copies of the stream at once.
+  /// The next out.size() uniform numbers: those of uniform<S>() one by one, drawn by many leapfrogging copies of the
+  /// stream at once.
   template <std::floating_point S> void fill(std::span<S> out) {
     std::size_t done = 0;
     if (out.size() >= 2 * lanes) done = engine_.fill(out);

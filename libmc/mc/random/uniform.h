@@ -8,8 +8,8 @@
 
 namespace mc {
 
-/// The leading bits of a 64-bit word as a multiple of 2^-p in [0, 1 - 2^-p], p = 24 for float and 53 for double: exact, so
-/// never 1. A multiprecision scalar gets the double.
+/// The leading bits of a 64-bit word as a multiple of 2^-p in [0, 1 - 2^-p], p = 24 for float and 53 for double: exact,
+/// so never 1. A multiprecision scalar gets the double.
 template <Real S> S uniform(std::uint64_t bits) {
   if constexpr (std::same_as<S, float>) return static_cast<float>(bits >> 40) * 0x1p-24f;
   else return S(static_cast<double>(bits >> 11) * 0x1p-53);

@@ -8,9 +8,10 @@
 
 namespace mc {
 
-/// An immutable point set. bits(index, dim) is coordinate `dim` of point `index` as a 64-bit binary fraction of [0,1); any
-/// index below 2^32 and any dim are valid. Dimensions beyond those of the construction are hashed independent ones: they
-/// never wrap. The seed is a constructor argument: another seed is an independent randomisation of the same construction.
+/// An immutable point set. bits(index, dim) is coordinate `dim` of point `index` as a 64-bit binary fraction of [0,1);
+/// any index below 2^32 and any dim are valid. Dimensions beyond those of the construction are hashed independent ones:
+/// they never wrap. The seed is a constructor argument: another seed is an independent randomisation of the same
+/// construction.
 template <class T>
 concept Sampler = requires(const T s, std::uint64_t index, std::uint32_t dim) {
   { s.bits(index, dim) } -> std::same_as<std::uint64_t>;

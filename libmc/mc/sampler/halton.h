@@ -9,22 +9,25 @@
 
 namespace mc {
 
-/// How the digits of a Halton point are randomised. The permutations are random affine maps d -> a d + c modulo the prime
-/// base, which move any two digits to any two others with equal probability: all that the variance depends on [Matousek98].
+/// How the digits of a Halton point are randomised. The permutations are random affine maps d -> a d + c modulo the
+/// prime base, which move any two digits to any two others with equal probability: all that the variance depends on
+/// [Matousek98].
 ///   digits : one per digit position, the same for all points; keeps the sequence's regularity
-///   owen   : one per digit position and value of the digits before it (nested), so that errors of neighbouring bases decouple
+///   owen   : one per digit position and value of the digits before it (nested), so that errors of neighbouring bases
+///            decouple
 enum class HaltonScramble { digits, owen };
 
 /// Randomised Halton points: dimension `dim` is the index written backwards in the dim-th prime base. Dimensions from
 /// Halton::dimensions on are hashed independent ones.
-///   Any b^k consecutive indices aligned to b^k fall one into each interval [j, j + 1) b^-k of the dimension with base b.
-///   Cost grows with the number of digits of 2^32 in the base; prefer Sobol where counts are powers of two.
+///   Any b^k consecutive indices aligned to b^k fall one into each interval [j, j + 1) b^-k of the dimension with base
+///   b. Cost grows with the number of digits of 2^32 in the base; prefer Sobol where counts are powers of two.
 ///   Source : [Halton60]
 class Halton {
  public:
   static constexpr std::uint32_t dimensions = 1024;
 
-  explicit Halton(std::uint64_t seed = 0, HaltonScramble scramble = HaltonScramble::owen) : seed_(seed), scramble_(scramble) {}
+  explicit Halton(std::uint64_t seed = 0, HaltonScramble scramble = HaltonScramble::owen)
+      : seed_(seed), scramble_(scramble) {}
 
   std::uint64_t bits(std::uint64_t index, std::uint32_t dim) const {
     const std::uint64_t key = hash(seed_, dim);
@@ -44,7 +47,8 @@ class Halton {
   static constexpr std::uint32_t base(std::uint32_t dim) { return primes[dim]; }
 
  private:
-  static constexpr std::uint64_t scrambled(std::uint32_t rest, std::uint32_t b, std::uint64_t key, bool nested, std::uint64_t tail) {
+  static constexpr std::uint64_t scrambled(std::uint32_t rest, std::uint32_t b, std::uint64_t key, bool nested,
+                                           std::uint64_t tail) {
     std::uint64_t value = 0, scale = 1;
     for (std::uint64_t position = 1; scale < std::uint64_t{1} << 32; ++position) {
       const std::uint64_t h = mix64(key + position * 0x9e3779b97f4a7c15ULL + (nested ? mix64(value) : 0));

@@ -7,8 +7,9 @@
 
 namespace mc {
 
-/// `count` points of which, in every dimension, each of the `count` equal intervals holds exactly one, jittered; dimensions are
-/// shuffled independently, so any number of them may be used. The variance of the additive part of an integrand vanishes.
+/// `count` points of which, in every dimension, each of the `count` equal intervals holds exactly one, jittered;
+/// dimensions are shuffled independently, so any number of them may be used. The variance of the additive part of an
+/// integrand vanishes.
 ///   An index >= count starts another independent set of `count` points.
 ///   throws : Error unless count >= 1
 ///   Source : [McKayBeckmanConover79]

@@ -9,10 +9,11 @@
 
 namespace mc {
 
-/// `count` points, well spread in each pair of dimensions (0,1), (2,3), ... : jittered on a grid of columns x rows and Latin in
-/// both axes at once, with the same shuffle for all columns, which keeps neighbours apart. Pairs are shuffled independently.
-///   even dimension : at most one point in each of columns * rows >= count equal intervals; exactly one when count is a product
-///                    columns * rows (any square)
+/// `count` points, well spread in each pair of dimensions (0,1), (2,3), ... : jittered on a grid of columns x rows and
+/// Latin in both axes at once, with the same shuffle for all columns, which keeps neighbours apart. Pairs are shuffled
+/// independently.
+///   even dimension : at most one point in each of columns * rows >= count equal intervals; exactly one when count is a
+///                    product columns * rows (any square)
 ///   odd dimension  : exactly one point in each of count equal intervals, for any count
 ///   An index >= count starts another independent set of `count` points.
 ///   throws : Error unless count is in [1, 2^31]

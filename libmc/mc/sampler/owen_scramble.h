@@ -23,7 +23,8 @@ constexpr std::uint64_t reverse_bits64(std::uint64_t x) {
     using Words [[gnu::vector_size(16)]] = long long;
     using Bytes [[gnu::vector_size(16)]] = char;
     const Words word{static_cast<long long>(x), 0}, exchange{static_cast<long long>(0x8040201008040201u), 0};
-    return static_cast<std::uint64_t>(reinterpret_cast<Words>(__builtin_ia32_vgf2p8affineqb_v16qi(reinterpret_cast<Bytes>(word), reinterpret_cast<Bytes>(exchange), 0))[0]);
+    return static_cast<std::uint64_t>(reinterpret_cast<Words>(
+        __builtin_ia32_vgf2p8affineqb_v16qi(reinterpret_cast<Bytes>(word), reinterpret_cast<Bytes>(exchange), 0))[0]);
   }
 #endif
   x = ((x & 0x0f0f0f0f0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0f0f0f0f0fu);
@@ -31,7 +32,8 @@ constexpr std::uint64_t reverse_bits64(std::uint64_t x) {
   return ((x & 0x5555555555555555u) << 1) | ((x >> 1) & 0x5555555555555555u);
 }
 
-/// The hash of Owen's scrambling: a bit of the result depends on its own and lower bits only, so it acts on a reversed word.
+/// The hash of Owen's scrambling: a bit of the result depends on its own and lower bits only, so it acts on a reversed
+/// word.
 constexpr std::uint32_t owen_scramble_reversed(std::uint32_t x, std::uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -41,8 +43,8 @@ constexpr std::uint32_t owen_scramble_reversed(std::uint32_t x, std::uint32_t se
   return x;
 }
 
-/// Owen's scrambling of the binary fraction x / 2^32: each bit is flipped by a random function of the bits above it, so any
-/// elementary interval maps onto one of the same size.
+/// Owen's scrambling of the binary fraction x / 2^32: each bit is flipped by a random function of the bits above it, so
+/// any elementary interval maps onto one of the same size.
 ///   Source : [Owen95]; the hash construction by [LaineKarras11], its constants by [Vegdahl21]
 constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
   return reverse_bits(owen_scramble_reversed(reverse_bits(x), seed));

@@ -6,8 +6,9 @@
 
 namespace mc {
 
-/// The first two dimensions of Sobol's sequence, once per pair of dimensions (0,1), (2,3), ..., each pair Owen-scrambled and
-/// its points shuffled independently by the seed: every aligned power-of-two block of indices is a (0,m,2)-net in every pair.
+/// The first two dimensions of Sobol's sequence, once per pair of dimensions (0,1), (2,3), ..., each pair
+/// Owen-scrambled and its points shuffled independently by the seed: every aligned power-of-two block of indices is a
+/// (0,m,2)-net in every pair.
 ///   RMS error of smooth 2-D integrands near N^-3/2; pairs are uncorrelated with each other.
 ///   Source : [Sobol67], shuffled scrambling [Burley20]
 struct PaddedSobol {
@@ -22,7 +23,9 @@ struct PaddedSobol {
   }
 
   /// Both coordinates of a pair at once.
-  template <Real S> Vec2<S> pair(std::uint64_t index, std::uint32_t number) const { return pair_key(number).template point<S>(index); }
+  template <Real S> Vec2<S> pair(std::uint64_t index, std::uint32_t number) const {
+    return pair_key(number).template point<S>(index);
+  }
 
   /// What all points of a pair share, for callers that take many: pair(index, number) = pair_key(number).point(index).
   struct PairKey {
@@ -43,7 +46,8 @@ struct PaddedSobol {
  private:
   static std::uint32_t reversed(std::uint32_t x) { return static_cast<std::uint32_t>(reverse_bits64(x) >> 32); }
   static std::uint32_t shuffled(std::uint64_t index, std::uint64_t key) {
-    return reversed(owen_scramble_reversed(reversed(static_cast<std::uint32_t>(index)), static_cast<std::uint32_t>(key)));
+    return reversed(
+        owen_scramble_reversed(reversed(static_cast<std::uint32_t>(index)), static_cast<std::uint32_t>(key)));
   }
 
   // Scrambled coordinates, with the leading bit last: the order in which the index gives them and the hash wants them.
@@ -54,8 +58,8 @@ struct PaddedSobol {
     return owen_scramble_reversed(pascal(i), static_cast<std::uint32_t>(mix64(key)));
   }
 
-  // Column k of the second generator matrix is row k of Pascal's triangle modulo 2; the product by the whole matrix is five
-  // shifts, since the triangle modulo 2 is a Kronecker power of [1 1; 0 1].
+  // Column k of the second generator matrix is row k of Pascal's triangle modulo 2; the product by the whole matrix is
+  // five shifts, since the triangle modulo 2 is a Kronecker power of [1 1; 0 1].
   static constexpr std::uint32_t pascal(std::uint32_t i) {
     i ^= (i & 0xaaaaaaaau) >> 1;
     i ^= (i & 0xccccccccu) >> 2;

@@ -5,10 +5,12 @@
 
 namespace mc {
 
-/// The first four dimensions of Sobol's sequence, once per group (0..3), (4..7), ..., each group Owen-scrambled and its points
-/// shuffled independently by the seed: for integrands of up to four variables that interact, such as a lens and a pixel.
-///   Every aligned block of 2^m indices is a (3,m,4)-net in every group, a (0,m,2)-net in its first two dimensions; groups are
-///   uncorrelated with each other. Where two variables at a time suffice, PaddedSobol is faster and every pair of it is a (0,m,2)-net
+/// The first four dimensions of Sobol's sequence, once per group (0..3), (4..7), ..., each group Owen-scrambled and its
+/// points shuffled independently by the seed: for integrands of up to four variables that interact, such as a lens and
+/// a pixel.
+///   Every aligned block of 2^m indices is a (3,m,4)-net in every group, a (0,m,2)-net in its first two dimensions;
+///   groups are uncorrelated with each other. Where two variables at a time suffice, PaddedSobol is faster and every
+///   pair of it is a (0,m,2)-net
 ///   index  : below 2^32
 ///   Source : [Sobol67], direction numbers of [JoeKuo08], shuffled scrambling [Burley20]
 class PaddedSobol4D {

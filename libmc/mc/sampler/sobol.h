@@ -10,11 +10,13 @@
 
 namespace mc {
 
-/// Owen-scrambled Sobol' points: a (t,s)-sequence in base 2, each dimension scrambled independently by the seed. Dimensions
-/// from Sobol::dimensions on are hashed independent ones.
+/// Owen-scrambled Sobol' points: a (t,s)-sequence in base 2, each dimension scrambled independently by the seed.
+/// Dimensions from Sobol::dimensions on are hashed independent ones.
 ///   index  : below 2^32
-///   RMS error of the mean of a smooth integrand near N^-3/2 when N is a power of two, never much worse than independent
-///   Source : [Sobol67], direction numbers of [JoeKuo08] (new-joe-kuo-6, "D6") as tabulated in Boost.Random, scrambling [Owen95]
+///   RMS error of the mean of a smooth integrand near N^-3/2 when N is a power of two, never much worse than
+///   independent
+///   Source : [Sobol67], direction numbers of [JoeKuo08] (new-joe-kuo-6, "D6") as tabulated in Boost.Random, scrambling
+///            [Owen95]
 class Sobol {
  public:
   static constexpr std::uint32_t dimensions = 1024;
@@ -60,8 +62,8 @@ class Sobol {
   }
 
  private:
-  // The point before scrambling with its leading bit last, as the scrambling wants it: the exclusive or of the columns that the
-  // bits of the index choose, all 32 of them without a jump.
+  // The point before scrambling with its leading bit last, as the scrambling wants it: the exclusive or of the columns
+  // that the bits of the index choose, all 32 of them without a jump.
   std::uint32_t reversed(std::uint32_t index, std::uint32_t dim) const {
     const std::uint32_t* column = columns_ + std::size_t{dim} * 32;
     std::uint32_t x = 0;

@@ -10,13 +10,13 @@
 
 namespace mc {
 
-/// `count` jittered points: dimensions are taken in groups of `group`; in each group the cube is cut into `count` boxes of equal
-/// volume, about count^(1/group) along each side, and every box holds one point. Groups are shuffled against each other, so
-/// any number of dimensions may be used (padding). Any count works, not only perfect powers: the cube is cut into slabs whose
-/// thickness is proportional to the number of boxes in them.
+/// `count` jittered points: dimensions are taken in groups of `group`; in each group the cube is cut into `count` boxes
+/// of equal volume, about count^(1/group) along each side, and every box holds one point. Groups are shuffled against
+/// each other, so any number of dimensions may be used (padding). Any count works, not only perfect powers: the cube is
+/// cut into slabs whose thickness is proportional to the number of boxes in them.
 ///   An index >= count starts another independent set of `count` points.
-///   RMS error of the mean of a Lipschitz integrand of one group: count^(-1/2 - 1/group), for group 1 and 2 down to N^-3/2, N^-1
-///   and, where the integrand jumps along a curve in the square, N^-3/4 [MitchellA96].
+///   RMS error of the mean of a Lipschitz integrand of one group: count^(-1/2 - 1/group), for group 1 and 2 down to
+///   N^-3/2, N^-1 and, where the integrand jumps along a curve in the square, N^-3/4 [MitchellA96].
 ///   throws : Error unless count >= 1 and group >= 1
 class Stratified {
  public:
@@ -49,7 +49,9 @@ class Stratified {
   std::uint32_t count() const { return count_; }
 
  private:
-  struct Slab { std::uint32_t start, size; };
+  struct Slab {
+    std::uint32_t start, size;
+  };
 
   // The slab that holds `box` when n boxes are cut along the first of d remaining dimensions.
   static Slab slab(std::uint32_t box, std::uint32_t n, std::uint32_t d) {

@@ -24,8 +24,8 @@ AliasTable::AliasTable(std::span<const double> weights) {
       small.push_back(l);
     }
   }
-  // What remains is 1 up to rounding. An outcome of weight 0 cannot remain while a large one does; if rounding has used up the
-  // large ones, it gives its bin to the most likely outcome.
+  // What remains is 1 up to rounding. An outcome of weight 0 cannot remain while a large one does; if rounding has used
+  // up the large ones, it gives its bin to the most likely outcome.
   std::uint32_t likely = 0;
   for (std::uint32_t i = 0; i < n; ++i)
     if (pmf(i) > pmf(likely)) likely = i;

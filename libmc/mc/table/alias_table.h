@@ -9,8 +9,8 @@
 
 namespace mc {
 
-/// Walker's alias table in Vose's construction: one lookup whatever the number of outcomes. Unlike a CDF it is not monotone in
-/// u, so stratification of u is lost; prefer TableDist1D for low-discrepancy points.
+/// Walker's alias table in Vose's construction: one lookup whatever the number of outcomes. Unlike a CDF it is not
+/// monotone in u, so stratification of u is lost; prefer TableDist1D for low-discrepancy points.
 ///   sample_index : the bin floor(u n) keeps its own outcome below a threshold and its alias above
 ///   pmf          : w_i / sum w
 ///   error        : the sampled probability of i differs from pmf(i) by at most 2^-52 per bin that points to it
@@ -23,7 +23,8 @@ class AliasTable {
   explicit AliasTable(std::span<const double> weights);
 
   DiscreteSample<double> sample_index(double u) const {
-    const double scaled = u * static_cast<double>(static_cast<std::int64_t>(bins_.size())); // rounds to less than size()
+    const double scaled =
+        u * static_cast<double>(static_cast<std::int64_t>(bins_.size())); // rounds to less than size()
     const auto i = static_cast<std::int64_t>(scaled);
     const Bin& bin = bins_[static_cast<std::size_t>(i)];
     const double v = scaled - static_cast<double>(i);

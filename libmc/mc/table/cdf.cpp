@@ -8,7 +8,8 @@
 
 namespace mc {
 
-Cdf::Cdf(std::span<const double> weights) : cumulative_(CdfView::ends(weights.size())), guide_(CdfView::cells(weights.size()) + 1) {
+Cdf::Cdf(std::span<const double> weights)
+    : cumulative_(CdfView::ends(weights.size())), guide_(CdfView::cells(weights.size()) + 1) {
   fill(weights, cumulative_.data(), guide_.data());
 }
 
@@ -19,7 +20,8 @@ void Cdf::fill(std::span<const double> weights, double* cumulative, std::uint32_
   double largest = 0;
   std::size_t last = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    require(std::isfinite(weights[i]) && weights[i] >= 0, "table: weights[{}] = {} is not finite and >= 0", i, weights[i]);
+    require(std::isfinite(weights[i]) && weights[i] >= 0, "table: weights[{}] = {} is not finite and >= 0", i,
+            weights[i]);
     largest = std::max(largest, weights[i]);
     if (weights[i] > 0) last = i;
   }
@@ -32,7 +34,8 @@ void Cdf::fill(std::span<const double> weights, double* cumulative, std::uint32_
   for (const double w : weights) total.add(std::ldexp(w, -exponent));
   const double scale = total.value();
 
-  // Ends are multiples of the spacing of uniform<double>, so its numbers meet each outcome exactly as often as pmf says.
+  // Ends are multiples of the spacing of uniform<double>, so its numbers meet each outcome exactly as often as pmf
+  // says.
   constexpr double unit = 0x1p-53;
   CompensatedSum running;
   cumulative[0] = 0;

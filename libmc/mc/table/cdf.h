@@ -12,7 +12,8 @@ namespace mc {
 struct CdfView {
   static constexpr std::size_t window = 3; ///< outcomes that are looked at without a jump
 
-  const double* cumulative;   ///< ends(n) entries: n + 1 from 0 to 1, and above 1 as many as a look beyond the last may meet
+  const double*
+      cumulative; ///< ends(n) entries: n + 1 from 0 to 1, and above 1 as many as a look beyond the last may meet
   const std::uint32_t* guide; ///< cells(n) + 1 entries: the first outcome for the least u with u cells(n) >= k
   std::uint32_t n;
 
@@ -47,8 +48,8 @@ struct CdfView {
 };
 
 /// Cumulative distribution over n outcomes with constant-time lookup.
-///   The probability of outcome i IS the length of its interval, cdf(i + 1) - cdf(i), so what is sampled and what is claimed
-///   cannot disagree. An outcome of positive weight has a positive interval; one of weight 0 has none.
+///   The probability of outcome i IS the length of its interval, cdf(i + 1) - cdf(i), so what is sampled and what is
+///   claimed cannot disagree. An outcome of positive weight has a positive interval; one of weight 0 has none.
 ///   Ends are multiples of 2^-53: of the 2^53 values of uniform<double>, exactly the share pmf(i) falls on outcome i.
 ///   error  : |pmf(i) - w_i / sum w| <= 2^-52 if no weight is below 2^-53 of the sum; else up to n 2^-53
 ///   cost   : O(1) expected whatever n and the weights: a guide table starts the search [ChenAsau74]

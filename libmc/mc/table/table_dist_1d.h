@@ -11,7 +11,9 @@
 namespace mc {
 
 /// [0,1], known to the compiler: of a table on it, all divisions by the width fall away.
-struct UnitInterval { static constexpr int lo = 0, hi = 1; };
+struct UnitInterval {
+  static constexpr int lo = 0, hi = 1;
+};
 
 /// The geometry of TableDist1D over a cumulative table that lives elsewhere: n cells of equal width on an interval.
 template <Real S, class I = Interval<S>> struct StepsView {
@@ -31,7 +33,9 @@ template <Real S, class I = Interval<S>> struct StepsView {
     else x = S(Work(interval.lo) * (1 - v) + Work(interval.hi) * v);
     return !std::floating_point<S> || cell(x) == i ? x : nudged(x, i);
   }
-  S density(std::size_t i) const { return S(Work(cdf.pmf(i)) * index(cdf.size()) / (Work(interval.hi) - Work(interval.lo))); }
+  S density(std::size_t i) const {
+    return S(Work(cdf.pmf(i)) * index(cdf.size()) / (Work(interval.hi) - Work(interval.lo)));
+  }
   S invert(S x) const {
     const std::size_t i = cell(x);
     return S(Work(cdf.cdf(i)) + (unit(x) * index(cdf.size()) - index(i)) * Work(cdf.pmf(i)));
@@ -39,7 +43,8 @@ template <Real S, class I = Interval<S>> struct StepsView {
   /// The cell that holds x; the outermost one beyond the ends.
   std::size_t cell(S x) const {
     const Work v = unit(x) * index(cdf.size());
-    return v > 0 ? std::min(static_cast<std::size_t>(static_cast<std::int64_t>(static_cast<double>(v))), cdf.size() - 1) : 0;
+    return v > 0 ? std::min(static_cast<std::size_t>(static_cast<std::int64_t>(static_cast<double>(v))), cdf.size() - 1)
+                 : 0;
   }
 
  private:
@@ -66,8 +71,10 @@ template <Real S, class I = Interval<S>> struct StepsView {
 /// DiscreteDistribution by index and an InvertibleWarp by point.
 ///   sample : u -> cell i with cdf(i) <= u < cdf(i+1), then linear within it
 ///   pdf    : pmf(i) n / (hi - lo) [1/length]; 0 outside and in cells of weight 0
-///            Points keep to their cell as long as S can tell it from its neighbours: cells no narrower than 8 eps max(|lo|, |hi|).
-///   invert : |invert(sample(u)) - u| <= 4 eps + pmf(i) ulp(x) n / (hi - lo): the rounding of x, magnified where cells are narrow
+///            Points keep to their cell as long as S can tell it from its neighbours: cells no narrower than 8 eps
+///            max(|lo|, |hi|).
+///   invert : |invert(sample(u)) - u| <= 4 eps + pmf(i) ulp(x) n / (hi - lo): the rounding of x, magnified where cells
+///            are narrow
 ///   reach  : an outcome less likely than the spacing of u (2^-24 float, 2^-53 double) is met only by a finer u
 ///   throws : Error for no weights, a weight that is not finite and >= 0, or all weights 0
 ///   Source : inverse transform sampling; see Cdf for the bounds
@@ -76,12 +83,15 @@ template <Real S> class TableDist1D {
   using Scalar = S;
   using Domain = Interval<S>;
 
-  explicit TableDist1D(std::span<const double> weights, Interval<S> interval = {}) : cdf_(weights), interval_(interval) {}
+  explicit TableDist1D(std::span<const double> weights, Interval<S> interval = {})
+      : cdf_(weights), interval_(interval) {}
 
   /// Weights f(x) at the middle of each of n cells.
   template <class F> static TableDist1D from_function(F&& f, std::size_t n, Interval<S> interval = {}) {
     std::vector<double> weights(n);
-    for (std::size_t i = 0; i < n; ++i) weights[i] = static_cast<double>(f(interval.from_unit(S((static_cast<double>(i) + 0.5) / static_cast<double>(n)))));
+    for (std::size_t i = 0; i < n; ++i)
+      weights[i] =
+          static_cast<double>(f(interval.from_unit(S((static_cast<double>(i) + 0.5) / static_cast<double>(n)))));
     return TableDist1D(weights, interval);
   }
 

@@ -14,8 +14,8 @@ struct ConditionalRows {
   std::size_t width;
 };
 
-/// width x height cells on the unit square, row by row (row 0 at y = 0), each chosen with probability proportional to its
-/// weight, uniform within.
+/// width x height cells on the unit square, row by row (row 0 at y = 0), each chosen with probability proportional to
+/// its weight, uniform within.
 ///   sample : u1 chooses the row, u0 the column in it -> (x, y)
 ///   pdf    : pmf(row) pmf(column | row) width height [1/area]; 0 outside and in cells of weight 0
 ///            Points keep to their cell as those of TableDist1D do: in float up to 2^20 rows and columns.
@@ -27,7 +27,8 @@ template <Real S> class TableDist2D {
   using Scalar = S;
   using Domain = Square<S>;
 
-  TableDist2D(std::span<const double> weights, std::size_t width, std::size_t height) : TableDist2D(make_rows(weights, width, height)) {}
+  TableDist2D(std::span<const double> weights, std::size_t width, std::size_t height)
+      : TableDist2D(make_rows(weights, width, height)) {}
 
   /// Weights f(x, y) at the middle of each cell.
   template <class F> static TableDist2D from_function(F&& f, std::size_t width, std::size_t height) {
@@ -35,12 +36,13 @@ template <Real S> class TableDist2D {
     weights.reserve(width * height);
     for (std::size_t y = 0; y < height; ++y)
       for (std::size_t x = 0; x < width; ++x)
-        weights.push_back(static_cast<double>(f((static_cast<double>(x) + 0.5) / static_cast<double>(width), (static_cast<double>(y) + 0.5) / static_cast<double>(height))));
+        weights.push_back(static_cast<double>(f((static_cast<double>(x) + 0.5) / static_cast<double>(width),
+                                                (static_cast<double>(y) + 0.5) / static_cast<double>(height))));
     return TableDist2D(weights, width, height);
   }
 
-  /// For a latitude-longitude image: row y spans theta in [pi y / height, pi (y + 1) / height], weighted by the solid angle
-  /// of the row, cos(theta_0) - cos(theta_1).
+  /// For a latitude-longitude image: row y spans theta in [pi y / height, pi (y + 1) / height], weighted by the solid
+  /// angle of the row, cos(theta_0) - cos(theta_1).
   static TableDist2D from_lat_long(std::span<const double> weights, std::size_t width, std::size_t height) {
     std::vector<double> scaled(weights.begin(), weights.end());
     for (std::size_t i = 0; i < scaled.size(); ++i) {
@@ -53,13 +55,15 @@ template <Real S> class TableDist2D {
   std::size_t width() const { return rows_.width; }
   std::size_t height() const { return row_choice_.size(); }
   /// Probability of the cell (column x, row y).
-  S pmf(std::size_t x, std::size_t y) const { return row_choice_.pmf(y) == 0 ? S(0) : S(row_choice_.pmf(y)) * S(row(y).cdf.pmf(x)); }
+  S pmf(std::size_t x, std::size_t y) const {
+    return row_choice_.pmf(y) == 0 ? S(0) : S(row_choice_.pmf(y)) * S(row(y).cdf.pmf(x));
+  }
 
   /// A cell by its column x and row y.
   struct Cell {
     std::size_t x, y;
-    S pmf;               ///< > 0
-    Vec2<S> u_remapped;  ///< uniform again, independent of the cell
+    S pmf;              ///< > 0
+    Vec2<S> u_remapped; ///< uniform again, independent of the cell
   };
   Cell sample_index(const Vec2<S>& u) const {
     const std::size_t y = rows().find(u[1]);
@@ -87,15 +91,19 @@ template <Real S> class TableDist2D {
  private:
   template <Real T> friend class TableDist2D;
   using Rows = ConditionalRows;
-  struct Made { Rows rows; std::vector<double> sums; };
+  struct Made {
+    Rows rows;
+    std::vector<double> sums;
+  };
 
   static Made make_rows(std::span<const double> weights, std::size_t width, std::size_t height) {
-    require(width > 0 && height > 0 && weights.size() == width * height, "TableDist2D: {} weights for {}x{} cells; {} are needed", weights.size(),
-            width, height, width * height);
+    require(width > 0 && height > 0 && weights.size() == width * height,
+            "TableDist2D: {} weights for {}x{} cells; {} are needed", weights.size(), width, height, width * height);
     double largest = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      require(std::isfinite(weights[i]) && weights[i] >= 0, "TableDist2D: weights[{}] = {} (column {}, row {}) is not finite and >= 0", i, weights[i],
-              i % width, i / width);
+      require(std::isfinite(weights[i]) && weights[i] >= 0,
+              "TableDist2D: weights[{}] = {} (column {}, row {}) is not finite and >= 0", i, weights[i], i % width,
+              i / width);
       largest = std::max(largest, weights[i]);
     }
     require(largest > 0, "TableDist2D: all {} weights are 0; at least one must be > 0", weights.size());
@@ -123,7 +131,9 @@ template <Real S> class TableDist2D {
   StepsView<S, UnitInterval> rows() const { return {row_choice_.view(), {}}; }
   StepsView<S, UnitInterval> row(std::size_t y) const {
     const std::size_t n = rows_.width;
-    return {{&rows_.cumulative[y * CdfView::ends(n)], &rows_.guide[y * (CdfView::cells(n) + 1)], static_cast<std::uint32_t>(n)}, {}};
+    return {{&rows_.cumulative[y * CdfView::ends(n)], &rows_.guide[y * (CdfView::cells(n) + 1)],
+             static_cast<std::uint32_t>(n)},
+            {}};
   }
 
   Rows rows_;

@@ -7,8 +7,8 @@
 namespace mc {
 
 /// Uniform points with inner <= |p| <= outer, in polar coordinates.
-///   sample : u -> r^2 = inner^2 + u0 (outer^2 - inner^2), phi = 2 pi u1; with inner = 0 the polar map of the disk, which
-///            distorts strata near the centre where UniformDisk does not
+///   sample : u -> r^2 = inner^2 + u0 (outer^2 - inner^2), phi = 2 pi u1; with inner = 0 the polar map of the disk,
+///            which distorts strata near the centre where UniformDisk does not
 ///   pdf    : 1 / (pi (outer - inner) (outer + inner)) [1/area]; 0 outside the ring, up to 4 eps outer
 ///   invert : |invert(sample(u)) - u| <= 8 eps outer / (outer - inner): p does not know a thin ring's u0 better
 ///   throws : Error unless 0 <= inner < outer, both finite

@@ -11,8 +11,9 @@ namespace mc {
 
 /// Normals of a surface with Gaussian slopes, density D(m) m_z.
 ///   sample : slope (alpha_x r cos phi, alpha_y r sin phi), r^2 = -log(1 - u0), phi = 2 pi u1
-///   pdf    : exp(-r^2) / (pi alpha_x alpha_y m_z^3) [1/sr], r^2 = ((m_x / alpha_x)^2 + (m_y / alpha_y)^2) / m_z^2; 0 below the horizon.
-///            Relative error (8 + 8 r^2) eps: the tail is ill-conditioned in m; r^2 < 1 for 63 percent of the samples
+///   pdf    : exp(-r^2) / (pi alpha_x alpha_y m_z^3) [1/sr], r^2 = ((m_x / alpha_x)^2 + (m_y / alpha_y)^2) / m_z^2; 0
+///            below the horizon. Relative error (8 + 8 r^2) eps: the tail is ill-conditioned in m; r^2 < 1 for 63
+///            percent of the samples
 ///   invert : |invert(sample(u)) - u| <= 16 eps
 ///   throws : Error unless both roughnesses lie in [1e-6, 1e3]
 ///   Source : [WalterEtAl07]; from the components of m, never from 1 - z^2, so a float normal suffices at alpha = 1e-4
@@ -23,8 +24,9 @@ template <Real S> class BeckmannNormals {
 
   explicit BeckmannNormals(S alpha) : BeckmannNormals(alpha, alpha) {}
   BeckmannNormals(S ax, S ay) : alpha_x_(ax), alpha_y_(ay) {
-    require(ax >= S(1e-6) && ax <= S(1e3) && ay >= S(1e-6) && ay <= S(1e3), "BeckmannNormals: alpha_x = {}, alpha_y = {}: both must lie in [1e-6, 1000]",
-            static_cast<double>(ax), static_cast<double>(ay));
+    require(ax >= S(1e-6) && ax <= S(1e3) && ay >= S(1e-6) && ay <= S(1e3),
+            "BeckmannNormals: alpha_x = {}, alpha_y = {}: both must lie in [1e-6, 1000]", static_cast<double>(ax),
+            static_cast<double>(ay));
   }
 
   Domain domain() const { return {}; }

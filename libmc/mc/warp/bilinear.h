@@ -23,8 +23,9 @@ template <Real S> struct Bilinear {
     using std::isfinite, std::max;
     const auto good = [](const S& w) { return isfinite(w) && w >= 0; };
     const S largest = max(max(w00, w10), max(w01, w11));
-    require(good(w00) && good(w10) && good(w01) && good(w11) && largest > 0, "Bilinear: values {}, {}, {}, {} must be finite, >= 0 and not all 0",
-            static_cast<double>(w00), static_cast<double>(w10), static_cast<double>(w01), static_cast<double>(w11));
+    require(good(w00) && good(w10) && good(w01) && good(w11) && largest > 0,
+            "Bilinear: values {}, {}, {}, {} must be finite, >= 0 and not all 0", static_cast<double>(w00),
+            static_cast<double>(w10), static_cast<double>(w01), static_cast<double>(w11));
     w00 /= largest, w10 /= largest, w01 /= largest, w11 /= largest;
   }
 

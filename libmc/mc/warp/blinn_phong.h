@@ -2,8 +2,8 @@
 /// The power-cosine lobe.
 
 #include <mc/core/error.h>
-#include <mc/warp/concept.h>
 #include <mc/domain/hemisphere.h>
+#include <mc/warp/concept.h>
 
 #include <algorithm>
 
@@ -11,8 +11,8 @@ namespace mc {
 
 /// Directions with density proportional to cos(theta)^n, n real.
 ///   sample : 1 - z = 1 - (1 - u0)^(1 / (n+1)) by expm1 and log1p, phi = 2 pi u1
-///   pdf    : (n + 1) / (2 pi) (1 - t)^n [1/sr], t = 1 - z from x^2 + y^2 near the pole; 0 below the horizon. Relative error
-///            (8 + 4 n t) eps: the tail is ill-conditioned in w
+///   pdf    : (n + 1) / (2 pi) (1 - t)^n [1/sr], t = 1 - z from x^2 + y^2 near the pole; 0 below the horizon. Relative
+///            error (8 + 4 n t) eps: the tail is ill-conditioned in w
 ///   invert : |invert(sample(u)) - u| <= 16 eps for n >= 1; (1 - u0 is z^(n+1))
 ///   throws : Error unless n is finite and >= 0
 ///   Source : [Blinn77]
@@ -34,7 +34,7 @@ template <Real S> class BlinnPhong {
   }
   S pdf(const Vec3<S>& w) const {
     using std::exp;
-    return w.z() > 0 ? S((n_ + 1) / (2 * pi<S>) * S(exp(S(n_ * log_z(w))))) : S(0);
+    return w.z() > 0 ? S((n_ + 1) / (2 * pi<S>)*S(exp(S(n_ * log_z(w))))) : S(0);
   }
   Vec2<S> invert(const Vec3<S>& w) const {
     using std::expm1, std::max, std::min;

@@ -13,13 +13,13 @@ namespace mc {
 /// A warp is a plain struct: no base class, no registration. Its constructor refuses nonsense parameters.
 template <class W>
 concept Warp = Domain<typename W::Domain> &&
-               requires(const W w, typename W::Domain::Point x, typename W::Domain::UnitPoint u) {
-                 typename W::Scalar;
-                 { w.domain() } -> std::convertible_to<typename W::Domain>;
-                 { w.sample(u) } -> std::convertible_to<typename W::Domain::Point>;
-                 { w.pdf(x) } -> std::convertible_to<typename W::Scalar>;
-                 { w.template cast<double>() };
-               };
+    requires(const W w, typename W::Domain::Point x, typename W::Domain::UnitPoint u) {
+  typename W::Scalar;
+  { w.domain() } -> std::convertible_to<typename W::Domain>;
+  { w.sample(u) } -> std::convertible_to<typename W::Domain::Point>;
+  { w.pdf(x) } -> std::convertible_to<typename W::Scalar>;
+  {w.template cast<double>()};
+};
 
 /// A bijective warp: invert(sample(u)) = u up to the bound in the warp's contract, hence |det d sample / d u| pdf = 1.
 template <class W>

@@ -7,8 +7,8 @@
 namespace mc {
 
 /// Uniform directions within an angle of +z.
-///   made from : the angle [rad], its cosine, 1 - cosine, or its squared sine (angle <= pi/2); keep to the form you have: the
-///               cosine of a narrow cone no longer knows the angle
+///   made from : the angle [rad], its cosine, 1 - cosine, or its squared sine (angle <= pi/2); keep to the form you
+///               have: the cosine of a narrow cone no longer knows the angle
 ///   sample    : u -> 1 - z = u0 (1 - cos), phi = 2 pi u1
 ///   pdf       : 1 / (2 pi (1 - cos)) [1/sr]; 0 outside the cone
 ///   invert    : |invert(sample(u)) - u| <= 16 eps, for any angle

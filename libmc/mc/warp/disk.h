@@ -22,7 +22,8 @@ template <Real S> struct UniformDisk {
   Vec2<S> sample(const Vec2<S>& u) const {
     using std::abs;
     const S a = 2 * u[0] - 1, b = 2 * u[1] - 1;
-    // The wedge |a| > |b| measures the azimuth from the x axis, the other from the y axis: within an eighth of a turn of it.
+    // The wedge |a| > |b| measures the azimuth from the x axis, the other from the y axis: within an eighth of a turn
+    // of it.
     const bool wide = abs(a) > abs(b);
     const S r = wide ? a : b, other = wide ? b : a;
     const CosSin<S> phi = cos_sin_octant<S>(other / (r == 0 ? S(1) : r) / 8);
@@ -39,10 +40,10 @@ template <Real S> struct UniformDisk {
     S a, b;
     if (abs(p.x()) > abs(p.y())) {
       a = p.x() < 0 ? S(-r) : r;
-      b = a * (4 / pi<S>) * S(atan(S(p.y() / p.x())));
+      b = a * (4 / pi<S>)*S(atan(S(p.y() / p.x())));
     } else {
       b = p.y() < 0 ? S(-r) : r;
-      a = b * (4 / pi<S>) * S(atan(S(p.x() / p.y())));
+      a = b * (4 / pi<S>)*S(atan(S(p.x() / p.y())));
     }
     return {(a + 1) / 2, (b + 1) / 2};
   }
@@ -50,7 +51,8 @@ template <Real S> struct UniformDisk {
   template <Real T> UniformDisk<T> cast() const { return {}; }
 };
 
-/// The same distribution by the polar map, kept for comparison: strata become slivers near the centre and bands at the rim.
+/// The same distribution by the polar map, kept for comparison: strata become slivers near the centre and bands at the
+/// rim.
 ///   sample : r = sqrt(u0), phi = 2 pi u1, so that u0 = |p|^2
 ///   pdf    : 1 / pi [1/area]; 0 for |p| > 1
 ///   invert : |invert(sample(u)) - u| <= 8 eps

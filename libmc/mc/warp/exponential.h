@@ -10,7 +10,8 @@ namespace mc {
 
 /// Exponential distribution on [0, inf).
 ///   sample : x = -log(1 - u) / rate
-///   pdf    : rate exp(-rate x) [1/length]; 0 for x < 0. Relative error (2 + rate x) eps: the tail is ill-conditioned in x
+///   pdf    : rate exp(-rate x) [1/length]; 0 for x < 0. Relative error (2 + rate x) eps: the tail is ill-conditioned
+///            in x
 ///   invert : |invert(sample(u)) - u| <= 8 eps
 ///   throws : Error unless rate and 1 / rate are finite and > 0
 template <Real S> struct Exponential {
@@ -22,7 +23,8 @@ template <Real S> struct Exponential {
   Exponential() = default;
   explicit Exponential(S rate_) : rate(rate_) {
     using std::isfinite;
-    require(rate > 0 && isfinite(rate) && isfinite(S(1 / rate)), "Exponential: rate {} and its inverse must be finite and > 0", static_cast<double>(rate));
+    require(rate > 0 && isfinite(rate) && isfinite(S(1 / rate)),
+            "Exponential: rate {} and its inverse must be finite and > 0", static_cast<double>(rate));
   }
 
   Domain domain() const { return {S(0), S(1 / rate)}; }
@@ -42,8 +44,8 @@ template <Real S> struct Exponential {
 };
 
 /// Exponential distribution cut to [0, length]: decays for rate > 0, grows for rate < 0, uniform for rate = 0.
-///   sample : x = -log(1 - u (1 - e^-k)) / |rate|, k = |rate| length; mirrored for rate < 0. Where k > 1 and u > 1/2 the
-///            logarithm is that of (1 - u) + u e^-k, which does not cancel
+///   sample : x = -log(1 - u (1 - e^-k)) / |rate|, k = |rate| length; mirrored for rate < 0. Where k > 1 and u > 1/2
+///            the logarithm is that of (1 - u) + u e^-k, which does not cancel
 ///   pdf    : |rate| exp(-|rate| t) / (1 - e^-k) [1/length], t the distance from the dense end; 0 outside
 ///   invert : |invert(sample(u)) - u| <= 16 eps; for rate < 0 max(16, k) eps, as the dense end is not at 0
 ///   throws : Error unless rate is finite, length is finite and > 0, and k is finite
@@ -57,7 +59,8 @@ template <Real S> struct TrimmedExponential {
   TrimmedExponential(S rate_, S length_) : rate(rate_), length(length_) {
     using std::isfinite;
     require(isfinite(rate) && isfinite(length) && length > 0 && isfinite(S(rate * length)),
-            "TrimmedExponential: rate {}, length {}: both and their product must be finite, and length > 0", static_cast<double>(rate), static_cast<double>(length));
+            "TrimmedExponential: rate {}, length {}: both and their product must be finite, and length > 0",
+            static_cast<double>(rate), static_cast<double>(length));
   }
 
   Domain domain() const { return {S(0), length}; }

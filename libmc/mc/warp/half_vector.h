@@ -1,11 +1,11 @@
 #pragma once
 /// Directions in which microfacets send light: reflected about a random normal, or refracted through it.
 ///
-/// A direction tells its normal by the half vector: s = wo + wi for reflection, s = wo + eta wi for refraction, normalized and
-/// turned upward. Rounding wi by eps turns that normal by eps / |s|, and a surface of roughness alpha amplifies this by 1 / alpha.
-/// So pdf(wi) is right for the wi that it is given, to its stated bound, yet away from grazing incidence it differs from the density
-/// at the normal that was drawn by up to 8 eps / (alpha |s|): half a percent for float, alpha = 1e-4 and |s| = 2. Whoever still has
-/// the normal has the density without that loss:
+/// A direction tells its normal by the half vector: s = wo + wi for reflection, s = wo + eta wi for refraction,
+/// normalized and turned upward. Rounding wi by eps turns that normal by eps / |s|, and a surface of roughness alpha
+/// amplifies this by 1 / alpha. So pdf(wi) is right for the wi that it is given, to its stated bound, yet away from
+/// grazing incidence it differs from the density at the normal that was drawn by up to 8 eps / (alpha |s|): half a
+/// percent for float, alpha = 1e-4 and |s| = 2. Whoever still has the normal has the density without that loss:
 ///   m = normals.sample(u);  wi = lobe.direction(m);  pdf = lobe.pdf_at_normal(m)
 
 #include <mc/core/dot.h>
@@ -25,7 +25,8 @@ concept NormalsSeenFrom = Warp<N> && requires(const N n) {
 
 namespace detail {
 
-/// v / |v| - v of a vector that is unit up to rounding. Relative error that of |v|^2 - 1, taken with twice the digits of S.
+/// v / |v| - v of a vector that is unit up to rounding. Relative error that of |v|^2 - 1, taken with twice the digits
+/// of S.
 template <Real S> Vec3<S> to_unit_length(const Vec3<S>& v) {
   if constexpr (std::floating_point<S>) {
     S sum(-1), low(0);
@@ -48,8 +49,8 @@ template <Warp N> struct Facets {
   S floor = 16 * std::numeric_limits<S>::epsilon(); ///< least |wo.m| at which wi still tells m from its neighbours
 
   void require_unit(const char* who) const {
-    require(is_unit(wo), "{}: wo = ({}, {}, {}) must be a unit vector", who, static_cast<double>(wo.x()), static_cast<double>(wo.y()),
-            static_cast<double>(wo.z()));
+    require(is_unit(wo), "{}: wo = ({}, {}, {}) must be a unit vector", who, static_cast<double>(wo.x()),
+            static_cast<double>(wo.y()), static_cast<double>(wo.z()));
   }
 
   /// The normal turned toward wo, and lifted to the floor where wo grazes it.
@@ -57,7 +58,8 @@ template <Warp N> struct Facets {
     const S c = accurate_dot(wo, m);
     const Vec3<S> n = c < 0 ? Vec3<S>(-m) : m;
     const S lacking = floor - (c < 0 ? S(-c) : c);
-    if (lacking > 0) [[unlikely]] return Vec3<S>(n + lacking * wo).normalized();
+    if (lacking > 0) [[unlikely]]
+      return Vec3<S>(n + lacking * wo).normalized();
     return n;
   }
   Vec3<S> reflect(const Vec3<S>& n) const { return Vec3<S>(2 * accurate_dot(wo, n) * n - wo).normalized(); }
@@ -67,7 +69,9 @@ template <Warp N> struct Facets {
     // c - eta cos_t without its cancellation.
     return Vec3<S>(-wo - (g / (c + S(sqrt(S(g + c * c))))) * n).normalized();
   }
-  bool refracts(const Vec3<S>& n, const S& eta) const { return sqr<S>(accurate_dot(wo, n)) + (eta - 1) * (eta + 1) > 0; }
+  bool refracts(const Vec3<S>& n, const S& eta) const {
+    return sqr<S>(accurate_dot(wo, n)) + (eta - 1) * (eta + 1) > 0;
+  }
 
   /// wo + eta wi of the directions of both: what their lengths lack of 1 matters as much as a turn by the same amount.
   Vec3<S> sum(const Vec3<S>& wi, const S& eta) const {
@@ -75,7 +79,8 @@ template <Warp N> struct Facets {
     const Vec3<S> rest = to_unit_length(wo) + eta * to_unit_length(wi);
     return Vec3<S>(S(fma(eta, wi.x(), wo.x())), S(fma(eta, wi.y(), wo.y())), S(fma(eta, wi.z(), wo.z()))) + rest;
   }
-  /// The upper one of the two normals +-s / |s|; a normal that rounding may have carried below the horizon counts as above it.
+  /// The upper one of the two normals +-s / |s|; a normal that rounding may have carried below the horizon counts as
+  /// above it.
   Vec3<S> upward(const Vec3<S>& s, const S& length) const {
     const S eps = std::numeric_limits<S>::epsilon();
     Vec3<S> h = s / length;
@@ -98,7 +103,8 @@ template <Warp N> struct Facets {
     const S length = s.norm(); // 2 |wo.h|
     return length > 0 ? reflected_pdf(upward(s, length), S(2 * length)) : S(0);
   }
-  /// Jacobian eta^2 cos_t / (wo.h + eta wi.h)^2, [WalterEtAl07] equation 17; the sum in the denominator is |wo + eta wi|.
+  /// Jacobian eta^2 cos_t / (wo.h + eta wi.h)^2, [WalterEtAl07] equation 17; the sum in the denominator is |wo + eta
+  /// wi|.
   S refracted_pdf_at(const Vec3<S>& m, const S& eta) const {
     using std::abs, std::sqrt;
     const S c = abs(accurate_dot(wo, m)), g = (eta - 1) * (eta + 1), k2 = g + c * c;
@@ -125,9 +131,11 @@ template <Warp N> struct Facets {
 } // namespace detail
 
 /// wo reflected about a random normal.
-///   sample : wi = 2 (wo.m) m - wo for the sample m of the normals, which may face away from wo: still one-to-one. Within 64 eps
+///   sample : wi = 2 (wo.m) m - wo for the sample m of the normals, which may face away from wo: still one-to-one.
+///            Within 64 eps
 ///   pdf    : pdf(m) / (4 |wo.m|) [1/sr] at m = the half vector. Relative error that of the normals' pdf + 32 eps
-///   invert : |invert(sample(u)) - u| <= 16 eps / (alpha |wo + wi|), the conditioning above, where the normals' own inverse is exact
+///   invert : |invert(sample(u)) - u| <= 16 eps / (alpha |wo + wi|), the conditioning above, where the normals' own
+///            inverse is exact
 ///   throws : Error unless wo is a unit vector
 ///   Source : [WalterEtAl07] equation 14
 template <Warp N> class Reflected {
@@ -136,12 +144,10 @@ template <Warp N> class Reflected {
   using S = Scalar;
   using Domain = Sphere<S>;
 
-  Reflected(const Vec3<S>& wo, N normals)
-    requires(!NormalsSeenFrom<N>)
-      : facets_{std::move(normals), wo} { facets_.require_unit("Reflected"); }
-  explicit Reflected(N normals)
-    requires NormalsSeenFrom<N>
-      : facets_{normals, normals.wo()} {}
+  Reflected(const Vec3<S>& wo, N normals) requires(!NormalsSeenFrom<N>) : facets_{std::move(normals), wo} {
+    facets_.require_unit("Reflected");
+  }
+  explicit Reflected(N normals) requires NormalsSeenFrom<N> : facets_{normals, normals.wo()} {}
 
   Domain domain() const { return {}; }
   Vec3<S> sample(const Vec2<S>& u) const { return direction(facets_.normals.sample(u)); }
@@ -168,7 +174,8 @@ template <class N> explicit Reflected(N) -> Reflected<N>;
 
 /// wo refracted through a random normal into a denser medium.
 ///   eta    : index of refraction on the far side over that on wo's, in [1.0001, 1e4]; every normal refracts
-///   sample : wi = -(wo + (eta^2 - 1) / (wo.m + eta cos_t) m) / eta by Snell's law, for the normal m turned toward wo. Within 64 eps
+///   sample : wi = -(wo + (eta^2 - 1) / (wo.m + eta cos_t) m) / eta by Snell's law, for the normal m turned toward wo.
+///            Within 64 eps
 ///   pdf    : pdf(m) eta^2 cos_t / |wo + eta wi|^2 [1/sr]. Relative error (64 + 4 / |wo.m|) eps
 ///   invert : |invert(sample(u)) - u| <= 16 eps eta / (alpha |wo + eta wi|), likewise
 ///   throws : Error unless wo is a unit vector and eta in its range
@@ -179,12 +186,14 @@ template <Warp N> class RefractedIn {
   using S = Scalar;
   using Domain = Sphere<S>;
 
-  RefractedIn(const Vec3<S>& wo, N normals, S eta)
-    requires(!NormalsSeenFrom<N>)
-      : RefractedIn(detail::Facets<N>{std::move(normals), wo}, eta) { check(); }
-  RefractedIn(N normals, S eta)
-    requires NormalsSeenFrom<N>
-      : RefractedIn(detail::Facets<N>{normals, normals.wo()}, eta) { check(); }
+  RefractedIn(const Vec3<S>& wo, N normals, S eta) requires(!NormalsSeenFrom<N>)
+      : RefractedIn(detail::Facets<N>{std::move(normals), wo}, eta) {
+    check();
+  }
+  RefractedIn(N normals, S eta) requires NormalsSeenFrom<N>
+      : RefractedIn(detail::Facets<N>{normals, normals.wo()}, eta) {
+    check();
+  }
 
   Domain domain() const { return {}; }
   Vec3<S> sample(const Vec2<S>& u) const { return direction(facets_.normals.sample(u)); }
@@ -208,7 +217,8 @@ template <Warp N> class RefractedIn {
   }
   void check() const {
     facets_.require_unit("RefractedIn");
-    require(eta_ >= S(1.0001) && eta_ <= S(1e4), "RefractedIn: eta = {} must lie in [1.0001, 10000]", static_cast<double>(eta_));
+    require(eta_ >= S(1.0001) && eta_ <= S(1e4), "RefractedIn: eta = {} must lie in [1.0001, 10000]",
+            static_cast<double>(eta_));
   }
   detail::Facets<N> facets_;
   S eta_;
@@ -220,8 +230,8 @@ template <class N, class S> RefractedIn(N, S) -> RefractedIn<N>;
 /// wo refracted through a random normal into a rarer medium, or reflected where the normal reflects totally.
 ///   eta    : index of refraction on the far side over that on wo's, in [1e-4, 0.9999]
 ///   sample : the refraction of RefractedIn where (wo.m)^2 > 1 - eta^2, else the reflection. Within 64 eps / cos_t
-///   pdf    : the sum of both densities [1/sr]: a direction may be the refraction by one normal and the reflection by another. Relative
-///            error (64 + 4 / |wo.m| + 4 / cos_t) eps
+///   pdf    : the sum of both densities [1/sr]: a direction may be the refraction by one normal and the reflection by
+///            another. Relative error (64 + 4 / |wo.m| + 4 / cos_t) eps
 ///   invert : none, for that reason
 ///   throws : Error unless wo is a unit vector and eta in its range
 ///   Source : [WalterEtAl07] equations 14, 16 and 17
@@ -231,12 +241,14 @@ template <Warp N> class RefractedOut {
   using S = Scalar;
   using Domain = Sphere<S>;
 
-  RefractedOut(const Vec3<S>& wo, N normals, S eta)
-    requires(!NormalsSeenFrom<N>)
-      : RefractedOut(detail::Facets<N>{std::move(normals), wo}, eta) { check(); }
-  RefractedOut(N normals, S eta)
-    requires NormalsSeenFrom<N>
-      : RefractedOut(detail::Facets<N>{normals, normals.wo()}, eta) { check(); }
+  RefractedOut(const Vec3<S>& wo, N normals, S eta) requires(!NormalsSeenFrom<N>)
+      : RefractedOut(detail::Facets<N>{std::move(normals), wo}, eta) {
+    check();
+  }
+  RefractedOut(N normals, S eta) requires NormalsSeenFrom<N>
+      : RefractedOut(detail::Facets<N>{normals, normals.wo()}, eta) {
+    check();
+  }
 
   Domain domain() const { return {}; }
   Vec3<S> sample(const Vec2<S>& u) const { return direction(facets_.normals.sample(u)); }
@@ -251,7 +263,8 @@ template <Warp N> class RefractedOut {
     const Vec3<S> n = facets_.facing(m);
     return facets_.refracts(n, eta_) ? facets_.refract(n, eta_) : facets_.reflect(n);
   }
-  /// Density of direction(m) [1/sr] by way of m alone: pdf less what other normals add. As accurate as the density of the normals.
+  /// Density of direction(m) [1/sr] by way of m alone: pdf less what other normals add. As accurate as the density of
+  /// the normals.
   S pdf_at_normal(const Vec3<S>& m) const {
     return facets_.refracts(m, eta_) ? facets_.refracted_pdf_at(m, eta_) : facets_.reflected_pdf_at(m);
   }
@@ -266,7 +279,8 @@ template <Warp N> class RefractedOut {
   RefractedOut(detail::Facets<N> facets, S eta) : facets_(std::move(facets)), eta_(eta) {}
   void check() const {
     facets_.require_unit("RefractedOut");
-    require(eta_ >= S(1e-4) && eta_ <= S(0.9999), "RefractedOut: eta = {} must lie in [0.0001, 0.9999]", static_cast<double>(eta_));
+    require(eta_ >= S(1e-4) && eta_ <= S(0.9999), "RefractedOut: eta = {} must lie in [0.0001, 0.9999]",
+            static_cast<double>(eta_));
   }
   detail::Facets<N> facets_;
   S eta_;

@@ -9,11 +9,12 @@ namespace mc {
 
 /// Directions about +z with mean cosine g.
 ///   made from : g, or 1 - |g| and the sign: a g near 1 no longer knows its distance from 1
-///   sample    : t = 2 u (1-g)^2 (1 + g (1-u)) / (1 - g + 2 g (1-u))^2 is 1 - cos for g >= 0: products and positive sums only, no
-///               division by g, so g = 0 needs no case of its own; g < 0 is mirrored
-///   pdf       : (1 - g^2) / (4 pi ((1-g)^2 + 2 g t)^(3/2)) [1/sr], t from x^2 + y^2 near the pole; relative error 16 eps
-///   invert    : |invert(sample(u)) - u| <= 16 eps for |g| <= 0.9, 16 eps / (1 - |g|) beyond, where u in the backward half is
-///               packed into few bits of t
+///   sample    : t = 2 u (1-g)^2 (1 + g (1-u)) / (1 - g + 2 g (1-u))^2 is 1 - cos for g >= 0: products and positive
+///               sums only, no division by g, so g = 0 needs no case of its own; g < 0 is mirrored
+///   pdf       : (1 - g^2) / (4 pi ((1-g)^2 + 2 g t)^(3/2)) [1/sr], t from x^2 + y^2 near the pole; relative error 16
+///               eps
+///   invert    : |invert(sample(u)) - u| <= 16 eps for |g| <= 0.9, 16 eps / (1 - |g|) beyond, where u in the backward
+///               half is packed into few bits of t
 ///   throws    : Error unless |g| < 1
 ///   Source    : [HenyeyGreenstein41]
 template <Real S> class HenyeyGreenstein {
@@ -53,7 +54,8 @@ template <Real S> class HenyeyGreenstein {
 
  private:
   template <Real T> friend class HenyeyGreenstein;
-  HenyeyGreenstein(S h, bool backward) : h_(h), g_(1 - h), front_(backward ? S(-1) : S(1)), scale_(h * (1 + g_) / (4 * pi<S>)) {}
+  HenyeyGreenstein(S h, bool backward)
+      : h_(h), g_(1 - h), front_(backward ? S(-1) : S(1)), scale_(h * (1 + g_) / (4 * pi<S>)) {}
 
   S from_pole(const Vec3<S>& w) const { return one_minus_z<S>({w.x(), w.y(), front_ * w.z()}); }
 

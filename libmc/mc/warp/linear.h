@@ -11,7 +11,8 @@ namespace mc {
 ///   pdf    : 2 ((1-x) a + x b) / (a + b) [1/length]; 0 outside
 ///   invert : |invert(sample(u)) - u| <= 8 eps
 ///   throws : Error unless a, b are finite, >= 0 and not both 0
-///   Source : [PharrJakobHumphreys23] section 2.4.2; scaled by the larger value, so weights of 1e30 and 1e-30 do not overflow
+///   Source : [PharrJakobHumphreys23] section 2.4.2; scaled by the larger value, so weights of 1e30 and 1e-30 do not
+///            overflow
 template <Real S> struct Linear {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -21,8 +22,9 @@ template <Real S> struct Linear {
   Linear() = default;
   Linear(S a_, S b_) : a(a_), b(b_) {
     using std::isfinite, std::max;
-    require(isfinite(a) && isfinite(b) && a >= 0 && b >= 0 && (a > 0 || b > 0), "Linear: values {} and {} must be finite, >= 0 and not both 0",
-            static_cast<double>(a), static_cast<double>(b));
+    require(isfinite(a) && isfinite(b) && a >= 0 && b >= 0 && (a > 0 || b > 0),
+            "Linear: values {} and {} must be finite, >= 0 and not both 0", static_cast<double>(a),
+            static_cast<double>(b));
     const S largest = max(a, b);
     a = a / largest;
     b = b / largest;

@@ -43,7 +43,8 @@ template <Real S> struct Logistic {
   Logistic() = default;
   Logistic(S mean_, S scale_) : mean(mean_), scale(scale_) {
     using std::isfinite;
-    require(isfinite(mean) && isfinite(scale) && scale > 0, "Logistic: mean {}, scale {}: both must be finite and scale > 0", static_cast<double>(mean),
+    require(isfinite(mean) && isfinite(scale) && scale > 0,
+            "Logistic: mean {}, scale {}: both must be finite and scale > 0", static_cast<double>(mean),
             static_cast<double>(scale));
   }
 
@@ -61,8 +62,9 @@ template <Real S> struct Logistic {
 };
 
 /// Logistic distribution of mean 0 cut to [lo, hi].
-///   sample : x = scale log(F / G) of the cut CDF F = F(lo) + u m and G = F(-hi) + (1 - u) m; the mass m of the interval is
-///            F(hi) F(-lo) (1 - e^((lo - hi) / scale)), so that nothing cancels, in the tails and on short intervals too
+///   sample : x = scale log(F / G) of the cut CDF F = F(lo) + u m and G = F(-hi) + (1 - u) m; the mass m of the
+///            interval is F(hi) F(-lo) (1 - e^((lo - hi) / scale)), so that nothing cancels, in the tails and on short
+///            intervals too
 ///   pdf    : the logistic density / m [1/length]; 0 outside
 ///   invert : |invert(sample(u)) - u| <= 8 eps max(1, max(scale, |lo|, |hi|) / (hi - lo))
 ///   throws : Error unless lo < hi, both finite, scale is finite and > 0, and m does not underflow
@@ -75,10 +77,12 @@ template <Real S> struct TrimmedLogistic {
   TrimmedLogistic() = default;
   TrimmedLogistic(S scale_, S lo_, S hi_) : scale(scale_), lo(lo_), hi(hi_) {
     using std::isfinite;
-    require(isfinite(scale) && scale > 0, "TrimmedLogistic: scale {} must be finite and > 0", static_cast<double>(scale));
-    require(isfinite(lo) && isfinite(hi) && lo < hi, "TrimmedLogistic: [{}, {}] needs finite bounds with lo < hi", static_cast<double>(lo), static_cast<double>(hi));
-    require(mass() >= std::numeric_limits<S>::min(), "TrimmedLogistic: the mass of [{}, {}] at scale {} underflows", static_cast<double>(lo),
-            static_cast<double>(hi), static_cast<double>(scale));
+    require(isfinite(scale) && scale > 0, "TrimmedLogistic: scale {} must be finite and > 0",
+            static_cast<double>(scale));
+    require(isfinite(lo) && isfinite(hi) && lo < hi, "TrimmedLogistic: [{}, {}] needs finite bounds with lo < hi",
+            static_cast<double>(lo), static_cast<double>(hi));
+    require(mass() >= std::numeric_limits<S>::min(), "TrimmedLogistic: the mass of [{}, {}] at scale {} underflows",
+            static_cast<double>(lo), static_cast<double>(hi), static_cast<double>(scale));
   }
 
   Domain domain() const { return {lo, hi}; }
@@ -91,7 +95,8 @@ template <Real S> struct TrimmedLogistic {
   S pdf(S x) const { return x >= lo && x <= hi ? S(detail::logistic_density<S>(x / scale) / scale / mass()) : S(0); }
   S invert(S x) const {
     using std::expm1;
-    return detail::sigmoid<S>(x / scale) / detail::sigmoid<S>(hi / scale) * (S(expm1(S((lo - x) / scale))) / S(expm1(S((lo - hi) / scale))));
+    return detail::sigmoid<S>(x / scale) / detail::sigmoid<S>(hi / scale) *
+           (S(expm1(S((lo - x) / scale))) / S(expm1(S((lo - hi) / scale))));
   }
   template <Real T> TrimmedLogistic<T> cast() const { return {T(scale), T(lo), T(hi)}; }
 

@@ -9,25 +9,26 @@
 
 namespace mc {
 
-/// A weighted mixture of warps onto one domain. The first coordinate of u chooses the component and is then stretched back to
-/// [0,1), so stratification survives.
+/// A weighted mixture of warps onto one domain. The first coordinate of u chooses the component and is then stretched
+/// back to [0,1), so stratification survives.
 ///   pdf    : sum of w_i pdf_i(x); every component counts, whichever was sampled
 ///   invert : none, since several u reach the same x
 ///   throws : Error unless the weights are finite, >= 0 and not all 0
 ///   Source : one-sample combination [Veach97] section 9.2.4
 template <Warp First, Warp... Rest>
-  requires(std::same_as<typename First::Domain, typename Rest::Domain> && ...)
-class Mixture {
+requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class Mixture {
  public:
   using Scalar = typename First::Scalar;
   using Domain = typename First::Domain;
   static constexpr std::size_t size = 1 + sizeof...(Rest);
 
-  Mixture(const std::array<Scalar, size>& weights, First first, Rest... rest) : weights_(weights), warps_(std::move(first), std::move(rest)...) {
+  Mixture(const std::array<Scalar, size>& weights, First first, Rest... rest)
+      : weights_(weights), warps_(std::move(first), std::move(rest)...) {
     using std::isfinite;
     Scalar sum(0);
     for (std::size_t i = 0; i < size; ++i) {
-      require(isfinite(weights_[i]) && weights_[i] >= 0, "Mixture: weights[{}] = {} is not finite and >= 0", i, static_cast<double>(weights_[i]));
+      require(isfinite(weights_[i]) && weights_[i] >= 0, "Mixture: weights[{}] = {} is not finite and >= 0", i,
+              static_cast<double>(weights_[i]));
       sum += weights_[i];
     }
     require(sum > 0, "Mixture: all {} weights are 0; at least one must be > 0", size);
@@ -60,7 +61,8 @@ class Mixture {
     else return u[0];
   }
   template <std::size_t... I>
-  typename Domain::Point sample_component(std::size_t i, const typename Domain::UnitPoint& u, std::index_sequence<I...>) const {
+  typename Domain::Point sample_component(std::size_t i, const typename Domain::UnitPoint& u,
+                                          std::index_sequence<I...>) const {
     typename Domain::Point x{};
     ((I == i ? void(x = std::get<I>(warps_).sample(u)) : void()), ...);
     return x;

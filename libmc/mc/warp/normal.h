@@ -10,8 +10,8 @@ namespace mc {
 
 /// Normal distribution on the real line, by its inverse CDF, so that strata of u stay strata of x.
 ///   sample : x = mean - sigma sqrt(2) erfc^-1(2 u); u = 0 stands for half its step, so x is finite
-///   pdf    : exp(-t^2 / 2) / (sigma sqrt(2 pi)), t = (x - mean) / sigma [1/length]. Relative error (1 + t^2) eps: the density
-///            in the tail is ill-conditioned in x
+///   pdf    : exp(-t^2 / 2) / (sigma sqrt(2 pi)), t = (x - mean) / sigma [1/length]. Relative error (1 + t^2) eps: the
+///            density in the tail is ill-conditioned in x
 ///   invert : |invert(sample(u)) - u| <= 16 eps for mean = 0
 ///   throws : Error unless mean is finite and sigma is finite and > 0
 ///   Source : erfc and its inverse from Boost.Math
@@ -24,8 +24,9 @@ template <Real S> struct Normal {
   Normal() = default;
   Normal(S mean_, S sigma_) : mean(mean_), sigma(sigma_) {
     using std::isfinite;
-    require(isfinite(mean) && isfinite(sigma) && sigma > 0, "Normal: mean {}, sigma {}: both must be finite and sigma > 0",
-            static_cast<double>(mean), static_cast<double>(sigma));
+    require(isfinite(mean) && isfinite(sigma) && sigma > 0,
+            "Normal: mean {}, sigma {}: both must be finite and sigma > 0", static_cast<double>(mean),
+            static_cast<double>(sigma));
   }
 
   Domain domain() const { return {mean, sigma}; }

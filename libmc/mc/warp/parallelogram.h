@@ -9,8 +9,8 @@ namespace mc {
 /// Uniform points of a parallelogram in space.
 ///   sample : origin + u0 a + u1 b
 ///   pdf    : 1 / |a x b| [1/area]; 0 off the parallelogram, up to the rounding of a sample
-///   invert : |invert(sample(u)) - u| <= 16 eps for a parallelogram at the origin with edges at a wide angle; a distant origin
-///            or a narrow angle costs its own conditioning
+///   invert : |invert(sample(u)) - u| <= 16 eps for a parallelogram at the origin with edges at a wide angle; a distant
+///            origin or a narrow angle costs its own conditioning
 ///   throws : Error unless the coordinates are finite and the area is > 0
 template <Real S> struct UniformParallelogram {
   using Scalar = S;

@@ -11,7 +11,8 @@ namespace mc {
 /// Density on [0,1] proportional to x^n.
 ///   sample : x = u^(1 / (n + 1)); u = 0 stands for half its step
 ///   pdf    : (n + 1) x^n [1/length]; 0 outside
-///   invert : |invert(sample(u)) - u| <= (8 + n / 2) eps: for large n all samples lie close to 1, where x knows u to n eps
+///   invert : |invert(sample(u)) - u| <= (8 + n / 2) eps: for large n all samples lie close to 1, where x knows u to n
+///            eps
 ///   throws : Error unless n is finite and >= 0
 template <Real S> struct Power {
   using Scalar = S;

@@ -12,7 +12,7 @@ namespace mc {
 ///   pdf    : pdf_a(a) pdf_b(b)
 ///   invert : by the parts, with their bounds; present when both have one
 template <Warp A, Warp B>
-  requires std::same_as<typename A::Scalar, typename B::Scalar>
+requires std::same_as<typename A::Scalar, typename B::Scalar>
 struct Product {
   using Scalar = typename A::Scalar;
   using Domain = ProductDomain<typename A::Domain, typename B::Domain>;
@@ -23,14 +23,17 @@ struct Product {
   B second;
 
   Domain domain() const { return {first.domain(), second.domain()}; }
-  Point sample(const UnitPoint& u) const { return Domain::join(first.sample(Domain::first_unit(u)), second.sample(Domain::second_unit(u))); }
+  Point sample(const UnitPoint& u) const {
+    return Domain::join(first.sample(Domain::first_unit(u)), second.sample(Domain::second_unit(u)));
+  }
   Scalar pdf(const Point& x) const { return first.pdf(Domain::first_of(x)) * second.pdf(Domain::second_of(x)); }
-  UnitPoint invert(const Point& x) const
-    requires InvertibleWarp<A> && InvertibleWarp<B>
-  {
+  UnitPoint invert(const Point& x) const requires InvertibleWarp<A> && InvertibleWarp<B> {
     return Domain::join_unit(first.invert(Domain::first_of(x)), second.invert(Domain::second_of(x)));
   }
-  template <Real T> auto cast() const { return Product<decltype(first.template cast<T>()), decltype(second.template cast<T>())>{first.template cast<T>(), second.template cast<T>()}; }
+  template <Real T> auto cast() const {
+    return Product<decltype(first.template cast<T>()), decltype(second.template cast<T>())>{first.template cast<T>(),
+                                                                                            second.template cast<T>()};
+  }
 };
 
 template <class A, class B> Product(A, B) -> Product<A, B>;

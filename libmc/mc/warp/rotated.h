@@ -11,8 +11,9 @@ namespace mc {
 
 /// A distribution about +z turned to an axis n.
 ///   sample : the direction in the frame of n
-///   pdf    : that of the direction in the frame [1/sr]; a direction on the rim of the support that rounding carried out by up
-///            to 8 eps counts as inside. A density that vanishes on the rim is ill-conditioned there: eps / z for the cosine
+///   pdf    : that of the direction in the frame [1/sr]; a direction on the rim of the support that rounding carried
+///            out by up to 8 eps counts as inside. A density that vanishes on the rim is ill-conditioned there: eps / z
+///            for the cosine
 ///   invert : of the direction in the frame; ill-conditioned where the warp is near its pole, as the sum of the axes
 ///            rounds to eps, so u0 of a uniform warp is known to eps and u1 to eps / sin(theta)
 ///   throws : Error unless |n| = 1 to 32 eps
@@ -27,16 +28,15 @@ template <Warp W> struct Rotated {
   Rotated(W warp_, const Vec3<Scalar>& n) : warp(std::move(warp_)) {
     using std::abs;
     const Scalar square = n.squaredNorm();
-    require(abs(Scalar(square - 1)) <= 64 * std::numeric_limits<Scalar>::epsilon(), "Rotated: the axis has length^2 {}; a unit vector is needed", static_cast<double>(square));
+    require(abs(Scalar(square - 1)) <= 64 * std::numeric_limits<Scalar>::epsilon(),
+            "Rotated: the axis has length^2 {}; a unit vector is needed", static_cast<double>(square));
     frame = Frame<Scalar>::from_z(n.normalized());
   }
 
   Domain domain() const { return {warp.domain(), frame}; }
   Vec3<Scalar> sample(const typename Domain::UnitPoint& u) const { return domain().to_world(warp.sample(u)); }
   Scalar pdf(const Vec3<Scalar>& w) const { return warp.pdf(domain().to_local(w)); }
-  typename Domain::UnitPoint invert(const Vec3<Scalar>& w) const
-    requires InvertibleWarp<W>
-  {
+  typename Domain::UnitPoint invert(const Vec3<Scalar>& w) const requires InvertibleWarp<W> {
     return warp.invert(domain().to_local(w));
   }
   template <Real T> auto cast() const {

@@ -11,21 +11,27 @@
 namespace mc {
 
 /// One array per coordinate of u, and one per coordinate of the points of a warp.
-template <Warp W> using UnitColumns = std::array<std::span<const typename W::Scalar>, sizeof(UnitPointOf<W>) / sizeof(typename W::Scalar)>;
-template <Warp W> using PointColumns = std::array<std::span<typename W::Scalar>, sizeof(PointOf<W>) / sizeof(typename W::Scalar)>;
+template <Warp W>
+using UnitColumns =
+    std::array<std::span<const typename W::Scalar>, sizeof(UnitPointOf<W>) / sizeof(typename W::Scalar)>;
+template <Warp W>
+using PointColumns = std::array<std::span<typename W::Scalar>, sizeof(PointOf<W>) / sizeof(typename W::Scalar)>;
 
-/// sample for every i, e.g. sample_n(CosineHemisphere<float>{}, {u0, u1}, {x, y, z}): the same code and the same bits, in a loop
-/// that the compiler turns into vector instructions where sample neither jumps nor calls: disk, annulus, sphere, hemispheres,
-/// cone, Henyey-Greenstein. With AVX2 or AVX-512 these take 1/5 of the time or less; any other warp takes that of a plain loop.
+/// sample for every i, e.g. sample_n(CosineHemisphere<float>{}, {u0, u1}, {x, y, z}): the same code and the same bits,
+/// in a loop that the compiler turns into vector instructions where sample neither jumps nor calls: disk, annulus,
+/// sphere, hemispheres, cone, Henyey-Greenstein. With AVX2 or AVX-512 these take 1/5 of the time or less; any other
+/// warp takes that of a plain loop.
 ///   bits   : of sample, if the caller too compiles with -ffp-contract=off
 ///   arrays : an output may be an array of u; otherwise they must not overlap
 ///   throws : Error unless all arrays have one size
 template <Warp W> void sample_n(const W& warp, const UnitColumns<W>& u, const PointColumns<W>& x) {
   const std::size_t n = u[0].size();
   for (const auto& column : u)
-    require(column.size() == n, "sample_n: {} numbers in one array of u, {} in the first; as many are needed", column.size(), n);
+    require(column.size() == n, "sample_n: {} numbers in one array of u, {} in the first; as many are needed",
+            column.size(), n);
   for (const auto& column : x)
-    require(column.size() == n, "sample_n: {} numbers in an array of points, {} in those of u; as many are needed", column.size(), n);
+    require(column.size() == n, "sample_n: {} numbers in an array of points, {} in those of u; as many are needed",
+            column.size(), n);
   // What a loop writes is on the stack, where nothing that it reads can be: the proof that compilers ask for.
   constexpr std::size_t block = 64;
   std::array<std::array<typename W::Scalar, block>, std::tuple_size_v<PointColumns<W>>> out;

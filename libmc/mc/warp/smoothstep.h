@@ -9,8 +9,9 @@
 namespace mc {
 
 /// Density on [0,1] proportional to the smooth step 3 x^2 - 2 x^3.
-///   sample : the root of x^3 (2 - x) = u by Newton's method from cbrt(u). The CDF is convex and the start lies above the
-///            root, so the iterates fall to it; the first that does not fall ends the search. u = 0 stands for half its step
+///   sample : the root of x^3 (2 - x) = u by Newton's method from cbrt(u). The CDF is convex and the start lies above
+///            the root, so the iterates fall to it; the first that does not fall ends the search. u = 0 stands for half
+///            its step
 ///   pdf    : 2 x^2 (3 - 2 x) [1/length]; 0 outside
 ///   invert : |invert(sample(u)) - u| <= 8 eps
 template <Real S> struct Smoothstep {

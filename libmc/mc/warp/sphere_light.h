@@ -8,10 +8,11 @@ namespace mc {
 
 /// Uniform directions, about +z, of the cone that a sphere fills; z points from the viewer to its centre (frame()).
 ///   made from : the centre relative to the viewer, and the radius; the viewer may be anywhere
-///   sample    : outside, the cone with 1 - cos = s^2 / (1 + cos), s = radius / distance, which no distance cancels; on the surface
-///               the hemisphere towards the centre; inside every direction
-///   pdf       : 1 / (2 pi (1 - cos)) [1/sr]; 0 outside the cone. Relative error 16 eps in the local frame: a world direction in
-///               S holds the offset from the axis only to eps, so narrower cones than eps need the local form
+///   sample    : outside, the cone with 1 - cos = s^2 / (1 + cos), s = radius / distance, which no distance cancels; on
+///               the surface the hemisphere towards the centre; inside every direction
+///   pdf       : 1 / (2 pi (1 - cos)) [1/sr]; 0 outside the cone. Relative error 16 eps in the local frame: a world
+///               direction in S holds the offset from the axis only to eps, so narrower cones than eps need the local
+///               form
 ///   invert    : |invert(sample(u)) - u| <= 16 eps
 ///   throws    : Error unless the centre is finite, radius is finite and > 0, and radius / distance > 1e-18
 ///   Source    : [ShirleyWangZimmerman96]
@@ -20,7 +21,9 @@ template <Real S> class SphereLight {
   using Scalar = S;
   using Domain = Cap<S>;
 
-  SphereLight(const Vec3<S>& center, S radius) : SphereLight(center, radius, center.allFinite() ? S(center.stableNorm()) : std::numeric_limits<S>::quiet_NaN()) {}
+  SphereLight(const Vec3<S>& center, S radius)
+      : SphereLight(center, radius, center.allFinite() ? S(center.stableNorm()) : std::numeric_limits<S>::quiet_NaN()) {
+  }
 
   Domain domain() const { return cone_.domain(); }
   Vec3<S> sample(const Vec2<S>& u) const { return cone_.sample(u); }
@@ -32,13 +35,15 @@ template <Real S> class SphereLight {
 
  private:
   SphereLight(const Vec3<S>& center, S radius, S distance)
-      : center_(center), radius_(radius), frame_(Frame<S>::from_z(distance > 0 ? Vec3<S>(center / distance) : Vec3<S>(0, 0, 1))),
+      : center_(center), radius_(radius),
+        frame_(Frame<S>::from_z(distance > 0 ? Vec3<S>(center / distance) : Vec3<S>(0, 0, 1))),
         cone_(UniformCone<S>::from_one_minus_cos(filled(radius, distance))) {}
 
   static S filled(const S& radius, const S& distance) {
     using std::isfinite, std::sqrt;
-    require(isfinite(radius) && radius > 0 && isfinite(distance) && distance >= 0, "SphereLight: radius {} must be finite and > 0, distance {} finite",
-            static_cast<double>(radius), static_cast<double>(distance));
+    require(isfinite(radius) && radius > 0 && isfinite(distance) && distance >= 0,
+            "SphereLight: radius {} must be finite and > 0, distance {} finite", static_cast<double>(radius),
+            static_cast<double>(distance));
     if (distance < radius) return S(2);
     const S s = radius / distance;
     require(s > S(1e-18), "SphereLight: radius / distance = {} must exceed 1e-18", static_cast<double>(s));

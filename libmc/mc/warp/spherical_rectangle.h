@@ -7,23 +7,25 @@ namespace mc {
 
 /// Uniform directions through a parallelogram seen from the origin.
 ///   made from : the corner relative to the viewer, and the two edges from it
-///   sample    : arcs from the corner sweep the patch, first the half between edge1 and the diagonal, then the other; u0 is the share
-///               of the solid angle swept, along the arc 1 - cosine to the corner grows like u1. Continuous in u
+///   sample    : arcs from the corner sweep the patch, first the half between edge1 and the diagonal, then the other;
+///               u0 is the share of the solid angle swept, along the arc 1 - cosine to the corner grows like u1.
+///               Continuous in u
 ///   pdf       : 1 / solid angle [1/sr], relative error 16 eps unless seen edge-on; 0 outside
 ///   invert    : as SphericalTriangle
 ///   throws    : Error unless corner and edges span a finite volume > 0
 ///   Source    : a fan of two [Arvo95] triangles in the closed form of spherical_triangle.h. Rejected by measurement
-///               (bench_spherical_rectangle, float): the azimuthal cuts of Urena et al. 2013. Their solid angle, an excess of angles
-///               over 2 pi, is off by 1e-5 at 0.01 sr, by 4e-4 at 1e-4 sr and is lost below; the fan keeps 3 eps down to 1e-8 sr. A
-///               sample of the fan costs 0.7 times theirs, with construction 1.3 times. Beyond 6 sr, next to the horizon, the fan's
-///               samples are off by 1500 eps, theirs by 110
+///               (bench_spherical_rectangle, float): the azimuthal cuts of Urena et al. 2013. Their solid angle, an
+///               excess of angles over 2 pi, is off by 1e-5 at 0.01 sr, by 4e-4 at 1e-4 sr and is lost below; the fan
+///               keeps 3 eps down to 1e-8 sr. A sample of the fan costs 0.7 times theirs, with construction 1.3 times.
+///               Beyond 6 sr, next to the horizon, the fan's samples are off by 1500 eps, theirs by 110
 template <Real S> class SphericalRectangle {
  public:
   using Scalar = S;
   using Domain = ParallelogramPatch<S>;
 
   SphericalRectangle(const Vec3<S>& corner, const Vec3<S>& edge1, const Vec3<S>& edge2)
-      : domain_(corner, edge1, edge2), first_(corner + edge1, -edge1, edge2), second_(corner + edge1 + edge2, -(edge1 + edge2), -edge1),
+      : domain_(corner, edge1, edge2), first_(corner + edge1, -edge1, edge2),
+        second_(corner + edge1 + edge2, -(edge1 + edge2), -edge1),
         share_(first_.angle / (first_.angle + second_.angle)) {}
 
   Domain domain() const { return domain_; }

@@ -18,12 +18,12 @@ template <Real S> Vec3<S> unit_difference(const Vec3<S>& a, const Vec3<S>& b_min
   return (b_minus_a - b * (longer / lb)) / la;
 }
 
-/// The spherical triangle of a and its neighbours b, c: area and inverse, all from differences of unit vectors, so that nothing
-/// cancels when it is tiny.
+/// The spherical triangle of a and its neighbours b, c: area and inverse, all from differences of unit vectors, so that
+/// nothing cancels when it is tiny.
 template <Real S> struct SphericalTriangleMap {
-  Vec3<S> b;      ///< unit vector to the apex
-  Vec3<S> ba;     ///< a - b, of unit vectors
-  Vec3<S> a, arc; ///< unit vector to a, and the unit tangent there of the arc to c
+  Vec3<S> b;                    ///< unit vector to the apex
+  Vec3<S> ba;                   ///< a - b, of unit vectors
+  Vec3<S> a, arc;               ///< unit vector to a, and the unit tangent there of the arc to c
   S sides, skew, volume, angle; ///< 1 + a.b, b.arc, det(a, b, arc), solid angle
 
   /// pa: a; ab, ac: from a to the other two, not unit.
@@ -45,7 +45,9 @@ template <Real S> struct SphericalTriangleMap {
     angle = 2 * S(atan2(S(volume * t), S(sides + skew * t)));
   }
 
-  static S half_tangent(const S& sine, const S& cosine) { return cosine > 0 ? S(sine / (1 + cosine)) : S((1 - cosine) / sine); }
+  static S half_tangent(const S& sine, const S& cosine) {
+    return cosine > 0 ? S(sine / (1 + cosine)) : S((1 - cosine) / sine);
+  }
 
   Vec3<S> sample(const S& part, const S& u1) const {
     using std::cos, std::max, std::sin, std::sqrt;
@@ -81,15 +83,15 @@ template <Real S> struct SphericalTriangleMap {
 } // namespace detail
 
 /// Uniform directions through the triangle with the given corners, the origin being the point that sees it.
-///   made from : corner a and the edges to b and c, all relative to the viewer and of any length: a tiny triangle is known by its
-///               edges, not by differences of far corners
-///   sample    : the arc from b cuts off the share u0 of the solid angle; along it 1 - cosine to b grows like u1. Within 16 eps of
-///               exact for edges up to a radian, 64 eps for a triangle that fills most of a hemisphere
+///   made from : corner a and the edges to b and c, all relative to the viewer and of any length: a tiny triangle is
+///               known by its edges, not by differences of far corners
+///   sample    : the arc from b cuts off the share u0 of the solid angle; along it 1 - cosine to b grows like u1.
+///               Within 16 eps of exact for edges up to a radian, 64 eps for a triangle that fills most of a hemisphere
 ///   pdf       : 1 / solid angle [1/sr], relative error 16 eps unless seen edge-on; 0 outside
 ///   invert    : |invert(sample(u)) - u| <= 64 eps / (shortest angular edge * sqrt(u1)): a unit vector holds no more
 ///   throws    : Error unless a, ab, ac span a finite volume > 0
-///   Source    : [Arvo95]; area and its inverse in closed form from [VanOosteromStrackee83], without the angles whose excess over
-///               pi cancels below 1e-3 sr. Measured down to 1e-8 sr
+///   Source    : [Arvo95]; area and its inverse in closed form from [VanOosteromStrackee83], without the angles whose
+///               excess over pi cancels below 1e-3 sr. Measured down to 1e-8 sr
 template <Real S> class SphericalTriangle {
  public:
   using Scalar = S;

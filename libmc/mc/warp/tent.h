@@ -8,8 +8,8 @@ namespace mc {
 
 /// Density that falls linearly from the centre to 0 at distance radius.
 ///   sample : x = center -+ radius (1 - sqrt(2 u)) for u < 1/2, mirrored above
-///   pdf    : (radius - |x - center|) / radius^2 [1/length]; 0 outside. At least the density half a step of u from the end, so
-///            that samples that round to the end keep a positive density
+///   pdf    : (radius - |x - center|) / radius^2 [1/length]; 0 outside. At least the density half a step of u from the
+///            end, so that samples that round to the end keep a positive density
 ///   invert : |invert(sample(u)) - u| <= 8 eps where center = 0; a centre far from 0 costs its own rounding
 ///   throws : Error unless center is finite and radius is finite and > 0
 template <Real S> struct Tent {
@@ -21,8 +21,9 @@ template <Real S> struct Tent {
   Tent() = default;
   Tent(S center_, S radius_) : center(center_), radius(radius_) {
     using std::isfinite;
-    require(isfinite(center) && isfinite(radius) && radius > 0, "Tent: center {}, radius {}: both must be finite and radius > 0",
-            static_cast<double>(center), static_cast<double>(radius));
+    require(isfinite(center) && isfinite(radius) && radius > 0,
+            "Tent: center {}, radius {}: both must be finite and radius > 0", static_cast<double>(center),
+            static_cast<double>(radius));
   }
 
   Domain domain() const { return {center - radius, center + radius}; }

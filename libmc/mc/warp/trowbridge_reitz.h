@@ -8,20 +8,22 @@
 
 namespace mc {
 
-/// The microsurface as a unit sphere stretched by diag(alpha_x, alpha_y, 1): normals of the one are normals of the other, stretched.
+/// The microsurface as a unit sphere stretched by diag(alpha_x, alpha_y, 1): normals of the one are normals of the
+/// other, stretched.
 ///   throws : Error unless both roughnesses lie in [1e-6, 1e3]
 template <Real S> struct TrowbridgeReitzSurface {
   S alpha_x = 1, alpha_y = 1;
 
   TrowbridgeReitzSurface(S ax, S ay) : alpha_x(ax), alpha_y(ay) {
-    require(ax >= S(1e-6) && ax <= S(1e3) && ay >= S(1e-6) && ay <= S(1e3), "TrowbridgeReitz: alpha_x = {}, alpha_y = {}: both must lie in [1e-6, 1000]",
-            static_cast<double>(ax), static_cast<double>(ay));
+    require(ax >= S(1e-6) && ax <= S(1e3) && ay >= S(1e-6) && ay <= S(1e3),
+            "TrowbridgeReitz: alpha_x = {}, alpha_y = {}: both must lie in [1e-6, 1000]", static_cast<double>(ax),
+            static_cast<double>(ay));
   }
   Vec3<S> stretch(const Vec3<S>& v) const { return {alpha_x * v.x(), alpha_y * v.y(), v.z()}; }
   Vec3<S> unstretch(const Vec3<S>& v) const { return {v.x() / alpha_x, v.y() / alpha_y, v.z()}; }
 
-  /// D(m) [1/sr] from the components of m, each to its relative precision: nothing is taken from 1 - z^2, so a float normal is
-  /// enough at alpha = 1e-4 too. Relative error 8 eps.
+  /// D(m) [1/sr] from the components of m, each to its relative precision: nothing is taken from 1 - z^2, so a float
+  /// normal is enough at alpha = 1e-4 too. Relative error 8 eps.
   S d(const Vec3<S>& m) const {
     const S q = unstretch(m).squaredNorm();
     return 1 / (pi<S> * (alpha_x * q) * (alpha_y * q));
@@ -53,11 +55,13 @@ template <Real S> class TrowbridgeReitzNormals {
 };
 
 /// Normals visible from wo, density D(m) max(wo.m, 0) G1(wo) / wo_z.
-///   sample : reflections of the stretched wo off a sphere cover a spherical cap uniformly: c on the cap, h = c + w, unstretched.
-///            No frame is built, so none can be skewed near the pole. w.h has a floor of 4 eps, so wo.m > 0 for every u
-///   pdf    : 2 D(m) wo.m / (wo_z + |stretched wo|) [1/sr]: finite on the horizon. Relative error 16 eps, because wo.m is
-///            computed without cancellation; but as a function of a rounded m it is ill-conditioned by 1 / wo.m
-///   invert : |invert(sample(u)) - u| <= 16 eps / sin(angle between c and z), the azimuth being loose near the pole of the cap
+///   sample : reflections of the stretched wo off a sphere cover a spherical cap uniformly: c on the cap, h = c + w,
+///            unstretched. No frame is built, so none can be skewed near the pole. w.h has a floor of 4 eps, so wo.m >
+///            0 for every u
+///   pdf    : 2 D(m) wo.m / (wo_z + |stretched wo|) [1/sr]: finite on the horizon. Relative error 16 eps, because wo.m
+///            is computed without cancellation; but as a function of a rounded m it is ill-conditioned by 1 / wo.m
+///   invert : |invert(sample(u)) - u| <= 16 eps / sin(angle between c and z), the azimuth being loose near the pole of
+///            the cap
 ///   throws : Error unless both roughnesses lie in [1e-6, 1e3] and wo is a unit vector with wo_z >= 0
 ///   Source : [DupuyBenyoub23]; the density of [Heitz18]
 template <Real S> class TrowbridgeReitzVisibleNormals {
@@ -68,7 +72,8 @@ template <Real S> class TrowbridgeReitzVisibleNormals {
   TrowbridgeReitzVisibleNormals(const Vec3<S>& wo, S alpha) : TrowbridgeReitzVisibleNormals(wo, alpha, alpha) {}
   TrowbridgeReitzVisibleNormals(const Vec3<S>& wo, S alpha_x, S alpha_y)
       : TrowbridgeReitzVisibleNormals(TrowbridgeReitzSurface<S>(alpha_x, alpha_y), wo) {
-    require(wo.z() >= 0 && is_unit(wo), "TrowbridgeReitzVisibleNormals: wo = ({}, {}, {}) must be a unit vector with z >= 0",
+    require(wo.z() >= 0 && is_unit(wo),
+            "TrowbridgeReitzVisibleNormals: wo = ({}, {}, {}) must be a unit vector with z >= 0",
             static_cast<double>(wo.x()), static_cast<double>(wo.y()), static_cast<double>(wo.z()));
   }
 
@@ -82,7 +87,8 @@ template <Real S> class TrowbridgeReitzVisibleNormals {
     const CosSin<S> phi = cos_sin<S>(u[0]);
     Vec3<S> h(sin_c * phi.cos + w_.x(), sin_c * phi.sin + w_.y(), hz);
     const S lacking = 4 * std::numeric_limits<S>::epsilon() - h.dot(w_);
-    if (lacking > 0) [[unlikely]] h += lacking * w_;
+    if (lacking > 0) [[unlikely]]
+      h += lacking * w_;
     return surface_.stretch(h).normalized();
   }
 
@@ -113,7 +119,8 @@ template <Real S> class TrowbridgeReitzVisibleNormals {
   template <Real T> friend class TrowbridgeReitzVisibleNormals;
 
   /// Takes wo as it is: a wo that was unit in float is not unit to 50 digits, yet the oracle must get the same one.
-  TrowbridgeReitzVisibleNormals(const TrowbridgeReitzSurface<S>& surface, const Vec3<S>& wo) : surface_(surface), wo_(wo) {
+  TrowbridgeReitzVisibleNormals(const TrowbridgeReitzSurface<S>& surface, const Vec3<S>& wo)
+      : surface_(surface), wo_(wo) {
     const Vec3<S> stretched = surface_.stretch(wo);
     const S length = stretched.norm();
     w_ = stretched / length;

@@ -8,8 +8,8 @@
 namespace mc {
 
 /// Directions about +z with density proportional to exp(kappa cos(theta)).
-///   sample : 1 - z = t = -log(1 - u (1 - exp(-2 kappa))) / kappa, by log1p and expm1; where kappa is small and u large, 1 + z is
-///            what is computed
+///   sample : 1 - z = t = -log(1 - u (1 - exp(-2 kappa))) / kappa, by log1p and expm1; where kappa is small and u
+///            large, 1 + z is what is computed
 ///   pdf    : kappa exp(-kappa t) / (2 pi (1 - exp(-2 kappa))) [1/sr], t from x^2 + y^2 near the pole. Relative error
 ///            (8 + 4 kappa t) eps: the tail is ill-conditioned in w; kappa t < 1 for 63 percent of the samples
 ///   invert : |invert(sample(u)) - u| <= 16 eps
@@ -22,7 +22,8 @@ template <Real S> class VonMisesFisher {
 
   explicit VonMisesFisher(S kappa) : kappa_(kappa) {
     using std::exp, std::expm1, std::isfinite;
-    require(isfinite(kappa) && kappa >= 0, "VonMisesFisher: kappa = {} must be finite and >= 0", static_cast<double>(kappa));
+    require(isfinite(kappa) && kappa >= 0, "VonMisesFisher: kappa = {} must be finite and >= 0",
+            static_cast<double>(kappa));
     mass_ = -S(expm1(S(-2 * kappa)));
     tail_ = S(exp(S(-2 * kappa)));
     peak_ = mass_ > 0 ? S(kappa / (2 * pi<S> * mass_)) : S(1 / (4 * pi<S>));
@@ -41,7 +42,7 @@ template <Real S> class VonMisesFisher {
       t = -S(log1p(S(-u[0] * mass_))) / kappa_;
       cosine = 1 - t;
     } else if (growth_ > 0) {
-      t = min(S(S(log1p(S((1 - u[0]) * growth_))) / kappa_), S(2));  // 1 + z: t (2 - t) is the same
+      t = min(S(S(log1p(S((1 - u[0]) * growth_))) / kappa_), S(2)); // 1 + z: t (2 - t) is the same
       cosine = t - 1;
     } else {
       t = min(S(-S(log(S((1 - u[0]) + u[0] * tail_))) / kappa_), S(2));

@@ -24,12 +24,14 @@ struct Line {
   Vec3d o, d;
   double d2, inverse_d2;
 
-  explicit Line(const Ray& ray) : o(ray.o.cast<double>()), d(ray.d.cast<double>()), d2(d.squaredNorm()), inverse_d2(1 / d2) {}
+  explicit Line(const Ray& ray)
+      : o(ray.o.cast<double>()), d(ray.d.cast<double>()), d2(d.squaredNorm()), inverse_d2(1 / d2) {}
 };
 
 namespace {
 
-constexpr std::uint32_t few_spheres = 24, few_triangles = 48; // six blocks of triangles cost less than a node and its sorted children
+constexpr std::uint32_t few_spheres = 24,
+                        few_triangles = 48; // six blocks of triangles cost less than a node and its sorted children
 
 template <class Mask> bool any_lane(const Mask& mask) {
 #if defined(__AVX512DQ__)
@@ -48,7 +50,8 @@ template <class Doubles> int lowest_lane(const Doubles& t) {
 template <class Doubles> unsigned between(const Doubles& t, double t_max) {
 #if defined(__AVX512F__)
   const auto& x = reinterpret_cast<const __m512d&>(t);
-  return _mm512_cmp_pd_mask(x, _mm512_setzero_pd(), _CMP_GT_OQ) & _mm512_cmp_pd_mask(x, _mm512_set1_pd(t_max), _CMP_LT_OQ);
+  return _mm512_cmp_pd_mask(x, _mm512_setzero_pd(), _CMP_GT_OQ) &
+         _mm512_cmp_pd_mask(x, _mm512_set1_pd(t_max), _CMP_LT_OQ);
 #else
   unsigned mask = 0;
   for (int i = 0; i < 8; ++i) mask |= static_cast<unsigned>(t[i] > 0 && t[i] < t_max) << i;
@@ -58,7 +61,8 @@ template <class Doubles> unsigned between(const Doubles& t, double t_max) {
 
 template <class Doubles> Doubles square_root(const Doubles& x) {
 #if defined(__AVX512F__)
-  return reinterpret_cast<const Doubles&>(static_cast<const __m512d&>(_mm512_sqrt_pd(reinterpret_cast<const __m512d&>(x))));
+  return reinterpret_cast<const Doubles&>(
+      static_cast<const __m512d&>(_mm512_sqrt_pd(reinterpret_cast<const __m512d&>(x))));
 #else
   Doubles root;
   for (int i = 0; i < 8; ++i) root[i] = std::sqrt(x[i]); // the compiler packs them
@@ -157,7 +161,8 @@ Bvh::Bvh(std::span<const Shape> shapes) {
 
 // U, V, W are the signed areas opposite vertices 0, 1, 2 in the sheared frame; all of one sign: inside.
 template <bool any>
-bool Bvh::intersect_block(const TriangleBlock& block, const Ray& ray, const Shear& shear, Float& t_max, Hit& hit) const {
+bool Bvh::intersect_block(const TriangleBlock& block, const Ray& ray, const Shear& shear, Float& t_max,
+                          Hit& hit) const {
   Lanes x[3], y[3];
   for (int k = 0; k < 3; ++k) {
     const Lanes z = block.v[k][shear.kz] - ray.o[shear.kz];
@@ -165,12 +170,15 @@ bool Bvh::intersect_block(const TriangleBlock& block, const Ray& ray, const Shea
     y[k] = (block.v[k][shear.ky] - ray.o[shear.ky]) - shear.sy * z;
   }
   const Lanes u8 = x[2] * y[1] - y[2] * x[1], v8 = x[0] * y[2] - y[0] * x[2], w8 = x[1] * y[0] - y[1] * x[0];
-  const Lanes lowest = detail::smaller(u8, detail::smaller(v8, w8)), highest = detail::larger(u8, detail::larger(v8, w8));
+  const Lanes lowest = detail::smaller(u8, detail::smaller(v8, w8)),
+              highest = detail::larger(u8, detail::larger(v8, w8));
   unsigned candidates = detail::less_equal(Lanes{}, lowest) | detail::less_equal(highest, Lanes{});
   if (candidates == 0) return false;
 
-  const EightDoubles above = block.plane - (block.normal[0] * double(ray.o[0]) + block.normal[1] * double(ray.o[1]) + block.normal[2] * double(ray.o[2]));
-  const EightDoubles t8 = above / (block.normal[0] * double(ray.d[0]) + block.normal[1] * double(ray.d[1]) + block.normal[2] * double(ray.d[2]));
+  const EightDoubles above = block.plane - (block.normal[0] * double(ray.o[0]) + block.normal[1] * double(ray.o[1]) +
+                                            block.normal[2] * double(ray.o[2]));
+  const EightDoubles t8 = above / (block.normal[0] * double(ray.d[0]) + block.normal[1] * double(ray.d[1]) +
+                                   block.normal[2] * double(ray.d[2]));
   candidates &= between(t8, double(t_max));
   bool found = false;
   for (; candidates != 0; candidates &= candidates - 1) {
@@ -201,7 +209,8 @@ bool Bvh::intersect_block(const TriangleBlock& block, const Ray& ray, const Shea
 // Sphere::intersect, eight at a time.
 template <bool any> bool Bvh::intersect_block(const SphereBlock& block, const Line& line, Float& t_max, Hit& hit) {
   const Vec3d& d = line.d;
-  const EightDoubles ox = line.o.x() - block.center[0], oy = line.o.y() - block.center[1], oz = line.o.z() - block.center[2];
+  const EightDoubles ox = line.o.x() - block.center[0], oy = line.o.y() - block.center[1],
+                     oz = line.o.z() - block.center[2];
   const EightDoubles b = -(ox * d.x() + oy * d.y() + oz * d.z()), nearest = b * line.inverse_d2;
   const EightDoubles px = ox + d.x() * nearest, py = oy + d.y() * nearest, pz = oz + d.z() * nearest;
   const EightDoubles discriminant = block.radius2 - (px * px + py * py + pz * pz);

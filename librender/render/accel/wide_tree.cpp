@@ -17,7 +17,11 @@ namespace {
 constexpr int bins = 32;
 constexpr int deepest = 64; // beyond this depth halves are taken by count, which adds at most 32 levels
 
-struct Split { int axis = -1; int bin = 0; double cost = mc::infinity<double>; };
+struct Split {
+  int axis = -1;
+  int bin = 0;
+  double cost = mc::infinity<double>;
+};
 
 } // namespace
 
@@ -29,8 +33,13 @@ WideTree::WideTree(const std::vector<Box>& boxes, std::uint32_t lanes) : order_(
   tree[0].count = static_cast<std::uint32_t>(boxes.size());
   for (const Box& b : boxes) tree[0].box.add(b);
 
-  const auto center = [&](std::uint32_t i, int axis) { return Float(0.5) * boxes[i].lo[axis] + Float(0.5) * boxes[i].hi[axis]; };
-  struct Task { std::uint32_t node; int depth; };
+  const auto center = [&](std::uint32_t i, int axis) {
+    return Float(0.5) * boxes[i].lo[axis] + Float(0.5) * boxes[i].hi[axis];
+  };
+  struct Task {
+    std::uint32_t node;
+    int depth;
+  };
   std::vector<Task> tasks = {{0, 0}};
   while (!tasks.empty()) {
     const auto [index, depth] = tasks.back();
@@ -79,7 +88,8 @@ WideTree::WideTree(const std::vector<Box>& boxes, std::uint32_t lanes) : order_(
     } else {
       int axis = 0;
       (centers.hi - centers.lo).maxCoeff(&axis);
-      std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) { return center(a, axis) < center(b, axis); });
+      std::nth_element(begin, middle, end,
+                       [&](std::uint32_t a, std::uint32_t b) { return center(a, axis) < center(b, axis); });
     }
 
     Binary left, right;
@@ -110,7 +120,9 @@ std::uint32_t WideTree::collapse(const std::vector<Binary>& binary, std::uint32_
   while (n < 8) {
     int widest = -1;
     for (std::size_t i = 0; i < n; ++i)
-      if (binary[open[i]].count == 0 && (widest < 0 || binary[open[i]].box.half_area() > binary[open[static_cast<std::size_t>(widest)]].box.half_area()))
+      if (binary[open[i]].count == 0 &&
+          (widest < 0 ||
+           binary[open[i]].box.half_area() > binary[open[static_cast<std::size_t>(widest)]].box.half_area()))
         widest = static_cast<int>(i);
     if (widest < 0) break;
     const Binary& opened = binary[open[static_cast<std::size_t>(widest)]];

@@ -29,8 +29,10 @@ struct Box {
 };
 
 /// The hierarchy. Leaves are blocks of up to `lanes` primitives that the owner intersects.
-///   build  : binned SAH [Wald07] with 32 bins, costs counted in blocks, collapsed to 8 children by opening the largest box
-///   ray    : IEEE slabs: 1/0 = inf, and a NaN from 0 * inf never rejects a box, so axis-parallel rays in box planes hit
+///   build  : binned SAH [Wald07] with 32 bins, costs counted in blocks, collapsed to 8 children by opening the largest
+///            box
+///   ray    : IEEE slabs: 1/0 = inf, and a NaN from 0 * inf never rejects a box, so axis-parallel rays in box planes
+///            hit
 class WideTree {
  public:
   static constexpr std::uint32_t block = 4;
@@ -40,15 +42,18 @@ class WideTree {
   WideTree() = default;
 
   const std::vector<std::uint32_t>& order() const { return order_; }
-  struct Leaf { std::uint32_t first, count; };
+  struct Leaf {
+    std::uint32_t first, count;
+  };
   const std::vector<Leaf>& leaves() const { return leaves_; }
   bool empty() const { return nodes_.empty(); }
   std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
 
-  /// Calls leaf(index, t_max) for each leaf that the ray may enter before t_max; `leaf` may shorten t_max and returns true to
-  /// stop. Near leaves come first, or in any order where the first hit is as good as the nearest.
+  /// Calls leaf(index, t_max) for each leaf that the ray may enter before t_max; `leaf` may shorten t_max and returns
+  /// true to stop. Near leaves come first, or in any order where the first hit is as good as the nearest.
   enum class Order { near_first, any };
-  template <Order order_wanted = Order::near_first, class F> void traverse(const Ray& ray, Float& t_max, F&& leaf) const;
+  template <Order order_wanted = Order::near_first, class F>
+  void traverse(const Ray& ray, Float& t_max, F&& leaf) const;
 
  private:
   struct alignas(64) Node {
@@ -72,7 +77,8 @@ namespace detail {
 inline unsigned less_equal(const Lanes& a, const Lanes& b) {
 #if defined(__AVX__)
   if constexpr (sizeof(Float) == 4) {
-    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_cmp_ps(reinterpret_cast<const __m256&>(a), reinterpret_cast<const __m256&>(b), _CMP_LE_OQ)));
+    return static_cast<unsigned>(_mm256_movemask_ps(
+        _mm256_cmp_ps(reinterpret_cast<const __m256&>(a), reinterpret_cast<const __m256&>(b), _CMP_LE_OQ)));
   }
 #endif
   unsigned mask = 0;
@@ -84,14 +90,16 @@ inline unsigned less_equal(const Lanes& a, const Lanes& b) {
 inline Lanes larger(const Lanes& t, const Lanes& old) {
 #if defined(__AVX__)
   if constexpr (sizeof(Float) == 4)
-    return reinterpret_cast<const Lanes&>(static_cast<const __m256&>(_mm256_max_ps(reinterpret_cast<const __m256&>(t), reinterpret_cast<const __m256&>(old))));
+    return reinterpret_cast<const Lanes&>(static_cast<const __m256&>(
+        _mm256_max_ps(reinterpret_cast<const __m256&>(t), reinterpret_cast<const __m256&>(old))));
 #endif
   return t > old ? t : old;
 }
 inline Lanes smaller(const Lanes& t, const Lanes& old) {
 #if defined(__AVX__)
   if constexpr (sizeof(Float) == 4)
-    return reinterpret_cast<const Lanes&>(static_cast<const __m256&>(_mm256_min_ps(reinterpret_cast<const __m256&>(t), reinterpret_cast<const __m256&>(old))));
+    return reinterpret_cast<const Lanes&>(static_cast<const __m256&>(
+        _mm256_min_ps(reinterpret_cast<const __m256&>(t), reinterpret_cast<const __m256&>(old))));
 #endif
   return t < old ? t : old;
 }
@@ -100,7 +108,10 @@ inline Lanes smaller(const Lanes& t, const Lanes& old) {
 
 template <WideTree::Order order_wanted, class F> void WideTree::traverse(const Ray& ray, Float& t_max, F&& leaf) const {
   if (nodes_.empty()) return;
-  struct Entry { std::uint32_t child; Float t; };
+  struct Entry {
+    std::uint32_t child;
+    Float t;
+  };
   Entry stack[stack_size];
   int size = 0;
 

@@ -1,10 +1,10 @@
 #pragma once
 /// The closed set of BSDFs.
 
-#include <render/core/dispatch.h>
 #include <render/bsdf/dielectric.h>
 #include <render/bsdf/lambert.h>
 #include <render/bsdf/metal.h>
+#include <render/core/dispatch.h>
 
 #include <mc/core/error.h>
 
@@ -31,7 +31,8 @@ struct Bsdf : std::variant<Lambert, Metal, Dielectric> {
 /// Throws Error where a parameter is out of its range.
 inline void require_valid(const Bsdf& bsdf) {
   const auto color = [](std::string_view what, const Spectrum& s) {
-    mc::require((s >= 0).all() && s.isFinite().all(), "{} ({}, {}, {}) must be finite and >= 0", what, s[0], s[1], s[2]);
+    mc::require((s >= 0).all() && s.isFinite().all(), "{} ({}, {}, {}) must be finite and >= 0", what, s[0], s[1],
+                s[2]);
   };
   if (const auto* lambert = std::get_if<Lambert>(&bsdf)) color("albedo", lambert->albedo);
   if (const auto* metal = std::get_if<Metal>(&bsdf)) {

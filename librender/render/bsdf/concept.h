@@ -10,10 +10,10 @@ namespace render {
 /// Directions live in the local frame with the shading normal on +z; wo and wi both leave the surface.
 struct BsdfSample {
   Vec3 wi;
-  Spectrum f;                ///< the BSDF without the cosine; for a delta lobe such that f |cos| / pdf is the lobe's weight
-  Float pdf = 0;             ///< [1/sr]; for a delta lobe its probability
+  Spectrum f;    ///< the BSDF without the cosine; for a delta lobe such that f |cos| / pdf is the lobe's weight
+  Float pdf = 0; ///< [1/sr]; for a delta lobe its probability
   bool delta = false;
-  Float eta = 1;             ///< refractive index on the side of wi over that on the side of wo
+  Float eta = 1; ///< refractive index on the side of wi over that on the side of wo
 };
 
 /// A BSDF models:

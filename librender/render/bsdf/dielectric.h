@@ -7,10 +7,13 @@
 
 namespace render {
 
-/// Fresnel reflectance of a smooth dielectric for unpolarised light: mean of the squared parallel and perpendicular amplitudes.
+/// Fresnel reflectance of a smooth dielectric for unpolarised light: mean of the squared parallel and perpendicular
+/// amplitudes.
 ///   cos_i : cosine of incidence in [0,1];  eta : index of the far side over that of the near side
 ///   cos_t : the cosine of refraction; 0 at total internal reflection, where the result is 1
-struct Fresnel { Float reflectance, cos_t; };
+struct Fresnel {
+  Float reflectance, cos_t;
+};
 inline Fresnel fresnel_dielectric(Float cos_i, Float eta) {
   const Float sin2_t = (1 - cos_i) * (1 + cos_i) / (eta * eta);
   if (!(sin2_t < 1)) return {1, 0};

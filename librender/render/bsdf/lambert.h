@@ -25,9 +25,7 @@ struct Lambert {
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
     return wo.z() * wi.z() > 0 ? Spectrum(albedo * inv_pi) : Spectrum(Spectrum::Zero());
   }
-  Float pdf(const Vec3& wo, const Vec3& wi) const {
-    return wo.z() * wi.z() > 0 ? std::abs(wi.z()) * inv_pi : Float(0);
-  }
+  Float pdf(const Vec3& wo, const Vec3& wi) const { return wo.z() * wi.z() > 0 ? std::abs(wi.z()) * inv_pi : Float(0); }
   bool is_delta() const { return false; }
 
  private:

@@ -11,10 +11,10 @@ namespace render {
 /// Mirror reflection about +z, on the side of wo.
 inline Vec3 reflect(const Vec3& wo) { return {-wo.x(), -wo.y(), wo.z()}; }
 
-/// A mirror (fuzz 0), or the book's fuzzy metal: the mirror direction r plus fuzz times a uniform point of the unit ball, then
-/// normalised; directions below the surface are absorbed.
-///   pdf    : the mass of the ball of radius fuzz about r along the ray t wi, (t2^3 - t1^3) / (4 pi fuzz^3) [1/sr], where
-///            t1 <= t2 are the distances at which the ray enters and leaves it
+/// A mirror (fuzz 0), or the book's fuzzy metal: the mirror direction r plus fuzz times a uniform point of the unit
+/// ball, then normalised; directions below the surface are absorbed.
+///   pdf    : the mass of the ball of radius fuzz about r along the ray t wi, (t2^3 - t1^3) / (4 pi fuzz^3) [1/sr],
+///            where t1 <= t2 are the distances at which the ray enters and leaves it
 ///   eval   : albedo pdf / |cos wi|, so that a sample weighs exactly albedo; hence not reciprocal, as in the book
 ///   throws : the scene reader refuses fuzz outside [0, 1]
 ///   Source : the sampling is [Shirley16]'s; the density is derived here and checked by chi-square
@@ -28,7 +28,8 @@ struct Metal {
     if (is_delta()) return BsdfSample{r, albedo / std::abs(r.z()), 1, true};
     // Uniform point of the ball: radius from uc, direction from u.
     const Float z = 1 - 2 * u[0];
-    const Vec3 direction = mc::spherical_direction<Float>(2 * mc::safe_sqrt<Float>(u[0] * (1 - u[0])), z, 2 * mc::pi<Float> * u[1]);
+    const Vec3 direction =
+        mc::spherical_direction<Float>(2 * mc::safe_sqrt<Float>(u[0] * (1 - u[0])), z, 2 * mc::pi<Float> * u[1]);
     const Vec3 w = r + fuzz * std::cbrt(uc) * direction;
     const Float length = w.norm();
     if (!(length > 0)) return {};

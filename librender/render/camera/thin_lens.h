@@ -21,11 +21,13 @@ struct ThinLens {
 
   /// Tangents of half the horizontal and vertical field of view for a film of width / height = aspect.
   Vec2 tan_half(Float aspect) const {
-    const bool along_x = fov_axis == FovAxis::x || (fov_axis == FovAxis::smaller && aspect < 1) || (fov_axis == FovAxis::larger && aspect >= 1);
+    const bool along_x = fov_axis == FovAxis::x || (fov_axis == FovAxis::smaller && aspect < 1) ||
+                         (fov_axis == FovAxis::larger && aspect >= 1);
     return along_x ? Vec2(tan_half_fov, tan_half_fov / aspect) : Vec2(tan_half_fov * aspect, tan_half_fov);
   }
 
-  /// The ray through the film point s in [0,1]^2, (0,0) its top left corner; u in [0,1)^2 chooses the point of the lens.
+  /// The ray through the film point s in [0,1]^2, (0,0) its top left corner; u in [0,1)^2 chooses the point of the
+  /// lens.
   Ray ray(const Vec2& s, const Vec2& tan_half_xy, const Vec2& u) const {
     const Vec3 toward = right * ((2 * s[0] - 1) * tan_half_xy[0]) + up * ((1 - 2 * s[1]) * tan_half_xy[1]) + forward;
     Vec3 start = origin, d = toward;

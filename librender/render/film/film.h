@@ -25,13 +25,15 @@ class Film {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  /// Adds one independent estimate of the pixel. Pixels may be written by different threads; one pixel by one at a time.
+  /// Adds one independent estimate of the pixel. Pixels may be written by different threads; one pixel by one at a
+  /// time.
   void add(int x, int y, const Eigen::Array3d& estimate);
 
   /// Means, and the variance of each mean where a pixel has at least two estimates.
   Image image() const;
 
-  /// Root of the mean variance over pixels and channels, relative to the mean radiance; infinite before the second estimate.
+  /// Root of the mean variance over pixels and channels, relative to the mean radiance; infinite before the second
+  /// estimate.
   double relative_error() const;
 
  private:

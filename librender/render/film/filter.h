@@ -8,8 +8,8 @@
 
 namespace render {
 
-/// Offset of a sample from the pixel's centre [pixels], u in [0,1)^2. Samples belong to one pixel each and weigh the same, so
-/// pixels stay independent estimates [ErnstEtAl06].
+/// Offset of a sample from the pixel's centre [pixels], u in [0,1)^2. Samples belong to one pixel each and weigh the
+/// same, so pixels stay independent estimates [ErnstEtAl06].
 struct BoxFilter {
   Float radius = Float(0.5);
   Vec2 sample(const Vec2& u) const { return radius * (2 * u - Vec2::Ones()); }
@@ -22,8 +22,8 @@ struct TentFilter {
   Vec2 sample(const Vec2& u) const { return {radius * tent(u[0]), radius * tent(u[1])}; }
 };
 
-/// Normal distribution of standard deviation sigma [pixels], not truncated; by Box and Muller's transform. 1 - u is exact for
-/// the multiples of 2^-24 that u is.
+/// Normal distribution of standard deviation sigma [pixels], not truncated; by Box and Muller's transform. 1 - u is
+/// exact for the multiples of 2^-24 that u is.
 struct GaussianFilter {
   Float sigma = Float(0.5);
   Vec2 sample(const Vec2& u) const {
@@ -32,7 +32,8 @@ struct GaussianFilter {
   }
 };
 
-/// The mean of n x n tents of half width `radius`, one about the centre of each subpixel: the filter of smallpt (n = 2).
+/// The mean of n x n tents of half width `radius`, one about the centre of each subpixel: the filter of smallpt (n =
+/// 2).
 struct SubpixelTentFilter {
   int n = 2;
   Float radius = Float(0.5);

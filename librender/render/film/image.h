@@ -9,7 +9,8 @@
 
 namespace render {
 
-/// Row-major pixels, the top row first, linear sRGB radiance; optionally the variance of each pixel's mean, per channel.
+/// Row-major pixels, the top row first, linear sRGB radiance; optionally the variance of each pixel's mean, per
+/// channel.
 struct Image {
   int width = 0, height = 0;
   std::vector<Spectrum> pixels;
@@ -17,9 +18,12 @@ struct Image {
   std::map<std::string, std::string> metadata; ///< command, seed, samples, commit
 
   Image() = default;
-  Image(int w, int h) : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), Spectrum::Zero()) {}
+  Image(int w, int h)
+      : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), Spectrum::Zero()) {}
 
-  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x); }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
   Spectrum& at(int x, int y) { return pixels[index(x, y)]; }
   const Spectrum& at(int x, int y) const { return pixels[index(x, y)]; }
 };

@@ -19,7 +19,7 @@ enum class Strategy {
   light,      ///< toward the lights only, as in [Shirley16] chapter 7: misses all light that other surfaces reflect
   mixture,    ///< one direction from the equal mixture of lights (and guides) and BSDF, as in [Shirley16] chapter 8
   nee,        ///< next event estimation: a point of a light at every vertex, lights met by chance do not count
-  mis         ///< nee and directions from the BSDF, some aimed at glass and mirrors, weighted by the power heuristic [Veach97]
+  mis ///< nee and directions from the BSDF, some aimed at glass and mirrors, weighted by the power heuristic [Veach97]
 };
 
 /// Throws Error, naming the nearest strategy, for an unknown name.
@@ -73,9 +73,9 @@ struct Walk {
   Ray ray;                          ///< to trace next
   Vec3 previous;                    ///< where it comes from
   Spectrum beta = Spectrum::Ones(); ///< what light found along it counts
-  Float previous_pdf = 0;           ///< of its direction; 0: camera or delta lobe, which no light sampling could have chosen
-  Float eta_scale = 1;              ///< undoes the compression of radiance in glass
-  int edges = 0;                    ///< traced so far
+  Float previous_pdf = 0; ///< of its direction; 0: camera or delta lobe, which no light sampling could have chosen
+  Float eta_scale = 1;    ///< undoes the compression of radiance in glass
+  int edges = 0;          ///< traced so far
 };
 
 /// Where a path meets a surface.
@@ -96,7 +96,8 @@ class Tracer {
   template <class Stream> Spectrum follow(Walk walk, Stream& stream, bool whole) {
     Spectrum radiance = Spectrum::Zero();
     while (options_.max_depth < 0 || walk.edges < options_.max_depth) {
-      if (!walk.beta.isFinite().all()) [[unlikely]] return walk.beta; // an invalid sample
+      if (!walk.beta.isFinite().all()) [[unlikely]]
+        return walk.beta; // an invalid sample
       ++walk.edges;
       ++rays_;
       const auto hit = scene_.bvh().intersect(walk.ray);
@@ -110,7 +111,8 @@ class Tracer {
       if (walk.edges == options_.max_depth) return radiance;
 
       const auto frame = mc::Frame<Float>::from_z(point.ns);
-      const Vertex vertex{scene_.bsdfs[static_cast<std::size_t>(scene_.shape_bsdf[shape])], point, frame, frame.to_local(-walk.ray.d)};
+      const Vertex vertex{scene_.bsdfs[static_cast<std::size_t>(scene_.shape_bsdf[shape])], point, frame,
+                          frame.to_local(-walk.ray.d)};
       const bool delta = vertex.bsdf.is_delta();
       if (connects() && !delta && !scene_.lights.empty()) radiance += walk.beta * connect(vertex, stream);
       if (whole && !delta) {
@@ -139,7 +141,8 @@ class Tracer {
     if (is_black(emitted) || !connects() || walk.previous_pdf == 0) return emitted;
     if (options_.strategy == Strategy::nee) return Spectrum::Zero();
     const Shape& shape = scene_.shapes[static_cast<std::size_t>(point.shape)];
-    return emitted * power_weight(walk.previous_pdf, scene_.light_pmf(light) * shape.pdf(walk.previous, walk.ray.d, point));
+    return emitted *
+           power_weight(walk.previous_pdf, scene_.light_pmf(light) * shape.pdf(walk.previous, walk.ray.d, point));
   }
 
   // Light from one point of a light, reflected toward wo.
@@ -156,14 +159,16 @@ class Tracer {
     ++rays_;
     if (scene_.bvh().occluded(vertex.point.spawn_ray_to(s->point))) return Spectrum::Zero();
     const Float pdf = pmf * s->pdf;
-    const Float weight = options_.strategy == Strategy::mis ? power_weight(pdf, direction_pdf(vertex, wi, s->wi)) : Float(1);
+    const Float weight =
+        options_.strategy == Strategy::mis ? power_weight(pdf, direction_pdf(vertex, wi, s->wi)) : Float(1);
     return f * emitted * (std::abs(wi.z()) * weight / pdf);
   }
 
   // Density with which scatter picks the direction wi (d in the world), where the strategy aims or follows the BSDF.
   Float direction_pdf(const Vertex& vertex, const Vec3& wi, const Vec3& d) const {
     const Float density = vertex.bsdf.pdf(vertex.wo, wi);
-    return aim_.share > 0 ? (1 - aim_.share) * density + aim_.share * aim_pdf(scene_, aim_, vertex.point.p, d) : density;
+    return aim_.share > 0 ? (1 - aim_.share) * density + aim_.share * aim_pdf(scene_, aim_, vertex.point.p, d)
+                          : density;
   }
 
   // The next direction; false where the path ends.
@@ -225,17 +230,20 @@ class Tracer {
 
 /// Radiance that arrives along `ray`, one sample. `rays` counts the rays traced.
 ///   The background is met by following the BSDF only, in every strategy, and always counts fully.
-///   Caustics cannot be reached by connecting to a light. Therefore `mis` aims a quarter of its directions at the spheres of
-///   glass or mirror, where a scene has any: smallpt's box takes a quarter less time to a given error.
-///   A path splits in two where it first meets a surface that is not a delta, since two fifths of the time but little of the
-///   variance come from the way there and the light straight from the lights: a tenth to a fifth less time to a given error,
-///   no less with three or four branches. Source: [ArvoKirk90]
-///   Russian roulette: from the fourth edge on a path survives with four times the largest component of its throughput, corrected
-///   for the compression of radiance in glass, at most .99. The factor balances variance against cost: at one the Cornell box and
-///   smallpt's take about a third more time to a given error.
-/// Times to a given error are measured as CPU seconds of `carlo render` times the relmse of `carlo compare` between two seeds.
+///   Caustics cannot be reached by connecting to a light. Therefore `mis` aims a quarter of its directions at the
+///   spheres of glass or mirror, where a scene has any: smallpt's box takes a quarter less time to a given error.
+///   A path splits in two where it first meets a surface that is not a delta, since two fifths of the time but little
+///   of the variance come from the way there and the light straight from the lights: a tenth to a fifth less time to a
+///   given error, no less with three or four branches. Source: [ArvoKirk90]
+///   Russian roulette: from the fourth edge on a path survives with four times the largest component of its throughput,
+///                     corrected
+///   for the compression of radiance in glass, at most .99. The factor balances variance against cost: at one the
+///   Cornell box and smallpt's take about a third more time to a given error.
+/// Times to a given error are measured as CPU seconds of `carlo render` times the relmse of `carlo compare` between two
+/// seeds.
 template <class Stream>
-Spectrum trace_path(const Scene& scene, const Ray& ray, Stream& stream, const PathOptions& options, std::uint64_t& rays) {
+Spectrum trace_path(const Scene& scene, const Ray& ray, Stream& stream, const PathOptions& options,
+                    std::uint64_t& rays) {
   return detail::Tracer(scene, options, rays).follow({ray, ray.o}, stream, true);
 }
 

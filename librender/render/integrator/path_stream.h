@@ -11,9 +11,9 @@
 
 namespace render {
 
-/// Independent numbers throughout. All streams are pure functions of (key, index): the key is hashed from the seed, the pixel
-/// and the pass, the index counts the pixel's points within the pass. What the points share is computed once, in Points, which
-/// must outlive the streams. Where a path splits, branch(i, n) is the stream of its branch i of n.
+/// Independent numbers throughout. All streams are pure functions of (key, index): the key is hashed from the seed, the
+/// pixel and the pass, the index counts the pixel's points within the pass. What the points share is computed once, in
+/// Points, which must outlive the streams. Where a path splits, branch(i, n) is the stream of its branch i of n.
 class IndependentStream {
  public:
   struct Points {
@@ -32,15 +32,16 @@ class IndependentStream {
   mc::Pcg random_;
 };
 
-/// The first pairs of a path (film, lens, the first two vertices) from a well-spread point set of `count` points, which is where
-/// it pays; single numbers and later pairs independent. The branches of all paths of a pass share one point set, n times as
-/// large.
+/// The first pairs of a path (film, lens, the first two vertices) from a well-spread point set of `count` points, which
+/// is where it pays; single numbers and later pairs independent. The branches of all paths of a pass share one point
+/// set, n times as large.
 template <class PointSet> class PairedStream {
  public:
   using Points = PointSet;
   static constexpr std::uint32_t pairs = Points::pairs;
 
-  PairedStream(const Points& points, std::uint32_t index) : PairedStream(points, mc::hash(points.key, index), index, 0, 1) {}
+  PairedStream(const Points& points, std::uint32_t index)
+      : PairedStream(points, mc::hash(points.key, index), index, 0, 1) {}
   PairedStream branch(std::uint32_t i, std::uint32_t n) const {
     return PairedStream(*points_, mc::hash(seed_, i), index_ * n + i, pair_, spread_ * n);
   }

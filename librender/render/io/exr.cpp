@@ -22,10 +22,12 @@ constexpr std::array<const char*, 6> channels = {"R", "G", "B", "variance.R", "v
 struct Planes {
   std::vector<std::vector<float>> plane;
   int width;
-  Planes(std::size_t count, int w, int h) : plane(count, std::vector<float>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h))), width(w) {}
+  Planes(std::size_t count, int w, int h)
+      : plane(count, std::vector<float>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h))), width(w) {}
   Imf::Slice slice(std::size_t c, int x0, int y0) {
     const std::ptrdiff_t origin = -(static_cast<std::ptrdiff_t>(y0) * width + x0);
-    return {Imf::FLOAT, reinterpret_cast<char*>(plane[c].data() + origin), sizeof(float), sizeof(float) * static_cast<std::size_t>(width)};
+    return {Imf::FLOAT, reinterpret_cast<char*>(plane[c].data() + origin), sizeof(float),
+            sizeof(float) * static_cast<std::size_t>(width)};
   }
 };
 
@@ -40,7 +42,8 @@ void write_exr(const std::string& path, const Image& image) {
     for (std::size_t c = 0; c < count; ++c) {
       header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
       const auto& source = c < 3 ? image.pixels : image.variance;
-      for (std::size_t i = 0; i < source.size(); ++i) planes.plane[c][i] = static_cast<float>(source[i][static_cast<int>(c % 3)]);
+      for (std::size_t i = 0; i < source.size(); ++i)
+        planes.plane[c][i] = static_cast<float>(source[i][static_cast<int>(c % 3)]);
       frame.insert(channels[c], planes.slice(c, 0, 0));
     }
     for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
@@ -60,11 +63,13 @@ Image read_exr(const std::string& path) {
     const bool with_variance = file.header().channels().findChannel(channels[3]) != nullptr;
     const auto has = [&](const char* channel) { return file.header().channels().findChannel(channel) != nullptr; };
     const bool grey = has("Y") && !has("R") && !has("G") && !has("B");
-    for (std::size_t c = 0; c < 3; ++c) mc::require(grey || has(channels[c]), "EXR has no channel {}; R, G and B, or Y alone, are needed", channels[c]);
+    for (std::size_t c = 0; c < 3; ++c)
+      mc::require(grey || has(channels[c]), "EXR has no channel {}; R, G and B, or Y alone, are needed", channels[c]);
     Planes planes(with_variance ? 6 : 3, width, height);
     Imf::FrameBuffer frame;
     if (grey) frame.insert("Y", planes.slice(0, window.min.x, window.min.y));
-    for (std::size_t c = grey ? 3 : 0; c < planes.plane.size(); ++c) frame.insert(channels[c], planes.slice(c, window.min.x, window.min.y));
+    for (std::size_t c = grey ? 3 : 0; c < planes.plane.size(); ++c)
+      frame.insert(channels[c], planes.slice(c, window.min.x, window.min.y));
     file.setFrameBuffer(frame);
     file.readPixels(window.min.y, window.max.y);
     if (grey) planes.plane[1] = planes.plane[2] = planes.plane[0];
@@ -75,7 +80,8 @@ Image read_exr(const std::string& path) {
       for (std::size_t i = 0; i < target.size(); ++i) target[i][static_cast<int>(c % 3)] = Float(planes.plane[c][i]);
     }
     for (auto it = file.header().begin(); it != file.header().end(); ++it)
-      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute())) image.metadata[it.name()] = text->value();
+      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
+        image.metadata[it.name()] = text->value();
     return image;
   } catch (const mc::Error&) {
     throw;

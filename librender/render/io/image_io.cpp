@@ -14,7 +14,8 @@ namespace {
 
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
 }
 
@@ -35,9 +36,11 @@ void write_image(const std::string& path, const Image& image, double exposure) {
 
 Image read_image(const std::string& path) {
   const std::string extension = extension_of(path);
-  mc::require(extension == ".exr" || extension == ".pfm", "cannot read '{}': unknown image format '{}'; use .exr or .pfm", path, extension);
+  mc::require(extension == ".exr" || extension == ".pfm",
+              "cannot read '{}': unknown image format '{}'; use .exr or .pfm", path, extension);
   mc::require(std::filesystem::exists(path), "cannot read '{}': no such file", path);
-  return mc::with_context(path, [&] { return extension == ".exr" ? formats::read_exr(path) : formats::read_pfm(path); });
+  return mc::with_context(path,
+                          [&] { return extension == ".exr" ? formats::read_exr(path) : formats::read_pfm(path); });
 }
 
 } // namespace render

@@ -15,7 +15,8 @@ namespace {
 using Names = std::vector<std::string_view>;
 
 [[noreturn]] void unknown(const XmlElement& e, const std::string& type, const Names& known) {
-  e.fail(fmt::format("unknown type '{}'{}; use one of {}", type, mc::did_you_mean(type, known), fmt::join(known, ", ")));
+  e.fail(
+      fmt::format("unknown type '{}'{}; use one of {}", type, mc::did_you_mean(type, known), fmt::join(known, ", ")));
 }
 
 const XmlElement* child_of(const XmlElement& parent, std::string_view tag) {
@@ -56,9 +57,9 @@ class Reader {
       else if (e.tag == "sensor") has_sensor = true, sensor(e);
       else if (e.tag == "bsdf") {
         const std::string& id = e.attribute("id");
-        if (!named_bsdfs_.try_emplace(id, add_bsdf(e)).second) e.fail(fmt::format("a second BSDF with the id '{}'; ids must differ", id));
-      }
-      else if (e.tag == "shape") shapes_.push_back(&e); // after all BSDFs, which may be named later
+        if (!named_bsdfs_.try_emplace(id, add_bsdf(e)).second)
+          e.fail(fmt::format("a second BSDF with the id '{}'; ids must differ", id));
+      } else if (e.tag == "shape") shapes_.push_back(&e); // after all BSDFs, which may be named later
       else if (e.tag == "emitter") background(e);
       else e.fail("unknown element; use integrator, sensor, bsdf, shape or emitter");
     }
@@ -75,7 +76,8 @@ class Reader {
     if (type != "path") unknown(e, type, {"path"});
     const Parameters p(e);
     scene_.defaults.max_depth = p.integer("maxDepth", -1);
-    if (scene_.defaults.max_depth < -1 || scene_.defaults.max_depth == 0) e.fail(fmt::format("maxDepth {} must be -1 or at least 1", scene_.defaults.max_depth));
+    if (scene_.defaults.max_depth < -1 || scene_.defaults.max_depth == 0)
+      e.fail(fmt::format("maxDepth {} must be -1 or at least 1", scene_.defaults.max_depth));
     p.accept({"rrDepth", "strictNormals", "hideEmitters"});
   }
 
@@ -102,8 +104,10 @@ class Reader {
     const double fov = p.number("fov");
     if (!(fov > 0 && fov < 180)) e.fail(fmt::format("fov {} must lie in (0, 180) degrees", fov));
     const std::string axis = p.string("fovAxis", "x");
-    static const std::map<std::string, ThinLens::FovAxis> axes = {
-        {"x", ThinLens::FovAxis::x}, {"y", ThinLens::FovAxis::y}, {"smaller", ThinLens::FovAxis::smaller}, {"larger", ThinLens::FovAxis::larger}};
+    static const std::map<std::string, ThinLens::FovAxis> axes = {{"x", ThinLens::FovAxis::x},
+                                                                  {"y", ThinLens::FovAxis::y},
+                                                                  {"smaller", ThinLens::FovAxis::smaller},
+                                                                  {"larger", ThinLens::FovAxis::larger}};
     if (!axes.contains(axis)) e.fail(fmt::format("fovAxis '{}' must be x, y, smaller or larger", axis));
     camera.fov_axis = axes.at(axis);
     camera.tan_half_fov = Float(std::tan(fov * mc::pi<double> / 360));
@@ -173,7 +177,8 @@ class Reader {
     }
     if (type == "dielectric") {
       const double inside = p.number("intIOR", 1.5046), outside = p.number("extIOR", 1.000277);
-      if (!(inside > 0 && outside > 0)) e.fail(fmt::format("indices of refraction {} and {} must be > 0", inside, outside));
+      if (!(inside > 0 && outside > 0))
+        e.fail(fmt::format("indices of refraction {} and {} must be > 0", inside, outside));
       return Dielectric{Float(inside / outside), albedo(e, p, "specularReflectance", Spectrum::Ones()),
                         albedo(e, p, "specularTransmittance", Spectrum::Ones())};
     }
@@ -235,14 +240,17 @@ class Reader {
       light = AreaLight{-1, radiance(*emitter, q, "radiance", {}), q.boolean("twoSided", false)};
     }
     Shape s = geometry(e, p);
-    if (light && !(s.area() > 0)) e.fail(fmt::format("an emitting shape needs an area > 0, but this one has {}", s.area()));
+    if (light && !(s.area() > 0))
+      e.fail(fmt::format("an emitting shape needs an area > 0, but this one has {}", s.area()));
     const int index = scene_.add(std::move(s), bsdf_of(e), light);
     if (p.boolean("guide", false)) scene_.guides.push_back(index);
   }
 
-  static Spectrum radiance(const XmlElement& e, const Parameters& p, std::string_view name, std::optional<Spectrum> fallback) {
+  static Spectrum radiance(const XmlElement& e, const Parameters& p, std::string_view name,
+                           std::optional<Spectrum> fallback) {
     const Spectrum value = p.color(name, fallback);
-    if (!((value >= 0).all() && value.isFinite().all())) e.fail(fmt::format("{} ({}, {}, {}) must be finite and >= 0", name, value[0], value[1], value[2]));
+    if (!((value >= 0).all() && value.isFinite().all()))
+      e.fail(fmt::format("{} ({}, {}, {}) must be finite and >= 0", name, value[0], value[1], value[2]));
     return value;
   }
 
@@ -251,7 +259,8 @@ class Reader {
     e.attribute_or("id", "");
     const std::string& type = e.attribute("type");
     const Parameters p(e);
-    if (type == "constant") scene_.background = ConstantBackground{radiance(e, p, "radiance", Spectrum(Spectrum::Ones()))};
+    if (type == "constant")
+      scene_.background = ConstantBackground{radiance(e, p, "radiance", Spectrum(Spectrum::Ones()))};
     else if (type == "gradient") {
       const GradientBackground sky;
       scene_.background = GradientBackground{radiance(e, p, "bottom", sky.bottom), radiance(e, p, "top", sky.top)};

@@ -45,7 +45,8 @@ void check_position(std::size_t line, long vertex, std::string_view text) {
     char* after = nullptr;
     const double value = std::strtod(cursor, &after);
     mc::require(after != cursor, "line {}: vertex {} has no number for {}", line, vertex, axis);
-    mc::require(std::isfinite(static_cast<float>(value)), "line {}: vertex {} has {} = {}, which is not finite", line, vertex, axis, value);
+    mc::require(std::isfinite(static_cast<float>(value)), "line {}: vertex {} has {} = {}, which is not finite", line,
+                vertex, axis, value);
     cursor = after;
   }
 }
@@ -57,13 +58,15 @@ void check_corner(std::size_t line, std::string_view corner, const Counts& count
     long index = 0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), index);
     const bool number = error == std::errc() && end == field.data() + field.size();
-    mc::require(number || (k > 0 && field.empty()), "line {}: '{}' is not the number of a {}", line, field, elements[k].second);
-    mc::require(!number || (index != 0 && std::abs(index) <= counts[k]), "line {}: a face names {} {}, but there are only {}", line,
-                elements[k].second, index, counts[k]);
+    mc::require(number || (k > 0 && field.empty()), "line {}: '{}' is not the number of a {}", line, field,
+                elements[k].second);
+    mc::require(!number || (index != 0 && std::abs(index) <= counts[k]),
+                "line {}: a face names {} {}, but there are only {}", line, elements[k].second, index, counts[k]);
     if (field.size() == corner.size()) return;
     corner.remove_prefix(field.size() + 1);
   }
-  throw mc::Error(fmt::format("line {}: a corner of a face ends in '/{}'; write v, v/vt, v//vn or v/vt/vn", line, corner));
+  throw mc::Error(
+      fmt::format("line {}: a corner of a face ends in '/{}'; write v, v/vt, v//vn or v/vt/vn", line, corner));
 }
 
 // The library reads what is not a number as 0 and leaves out polygons with a bad index: look at the lines first.
@@ -124,8 +127,10 @@ TriangleMesh read_obj(const std::string& path, const Transform& to_world) {
               const auto j = static_cast<std::size_t>(index) * 3;
               return Vec3d(double(v[j]), double(v[j + 1]), double(v[j + 2]));
             };
-            positions.push_back((linear * at(attributes.vertices, corner.vertex_index) + to_world.col(3)).cast<Float>());
-            if (has_normals) normals.push_back((normal_map * at(attributes.normals, corner.normal_index)).normalized().cast<Float>());
+            positions.push_back(
+                (linear * at(attributes.vertices, corner.vertex_index) + to_world.col(3)).cast<Float>());
+            if (has_normals)
+              normals.push_back((normal_map * at(attributes.normals, corner.normal_index)).normalized().cast<Float>());
           }
           triangle[k] = it->second;
         }

@@ -33,12 +33,16 @@ Image read_pfm(const std::string& path) {
   int width = 0, height = 0;
   double scale = 0;
   header >> magic >> width >> height >> scale;
-  mc::require(header && (magic == "PF" || magic == "Pf"), "not a PFM file: it does not start with PF, a size and a scale");
-  mc::require(width > 0 && height > 0 && scale != 0, "PFM header says {}x{}, scale {}; all must be non-zero", width, height, scale);
+  mc::require(header && (magic == "PF" || magic == "Pf"),
+              "not a PFM file: it does not start with PF, a size and a scale");
+  mc::require(width > 0 && height > 0 && scale != 0, "PFM header says {}x{}, scale {}; all must be non-zero", width,
+              height, scale);
   const int channels = magic == "PF" ? 3 : 1;
   const std::size_t start = static_cast<std::size_t>(header.tellg()) + 1;
-  const std::size_t needed = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels) * 4;
-  mc::require(bytes.size() >= start + needed, "PFM data ends early: {} bytes of {}", bytes.size() - std::min(start, bytes.size()), needed);
+  const std::size_t needed =
+      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels) * 4;
+  mc::require(bytes.size() >= start + needed, "PFM data ends early: {} bytes of {}",
+              bytes.size() - std::min(start, bytes.size()), needed);
   Image image(width, height);
   const char* raw = bytes.data() + start;
   for (int y = height - 1; y >= 0; --y)

@@ -23,7 +23,8 @@ namespace {
 
 // sRGB transfer curve, IEC 61966-2-1.
 std::uint8_t encode(double linear) {
-  const double x = std::clamp(linear, 0.0, 1.0); // NaN becomes 0: std::clamp leaves it, the conversion below must not see it
+  const double x =
+      std::clamp(linear, 0.0, 1.0); // NaN becomes 0: std::clamp leaves it, the conversion below must not see it
   const double srgb = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
   return std::isfinite(srgb) ? static_cast<std::uint8_t>(std::lround(255 * srgb)) : std::uint8_t{0};
 }
@@ -38,7 +39,8 @@ std::string text_chunk(const std::string& key, const std::string& value) {
   std::string chunk;
   append_word(chunk, static_cast<std::uint32_t>(data.size() - 4));
   chunk += data;
-  append_word(chunk, static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(data.data()), static_cast<uInt>(data.size()))));
+  append_word(chunk, static_cast<std::uint32_t>(
+                         crc32(0, reinterpret_cast<const Bytef*>(data.data()), static_cast<uInt>(data.size()))));
   return chunk;
 }
 
@@ -51,8 +53,11 @@ void write_png(const std::string& path, const Image& image, double exposure) {
   for (const Spectrum& p : image.pixels)
     for (int c = 0; c < 3; ++c) bytes.push_back(encode(gain * double(p[c])));
   std::string file;
-  const auto append = [](void* to, void* data, int size) { static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size)); };
-  const int written = stbi_write_png_to_func(append, &file, image.width, image.height, 3, bytes.data(), image.width * 3);
+  const auto append = [](void* to, void* data, int size) {
+    static_cast<std::string*>(to)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+  };
+  const int written =
+      stbi_write_png_to_func(append, &file, image.width, image.height, 3, bytes.data(), image.width * 3);
   mc::require(written != 0, "cannot encode a {}x{} PNG", image.width, image.height);
   // Text goes after the signature (8 bytes) and the header chunk (25 bytes).
   std::string text;

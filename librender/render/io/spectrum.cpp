@@ -15,7 +15,8 @@ double lobe(double wavelength, double center, double left, double right) {
 }
 
 Vec3d matching_functions(double w) {
-  return {0.362 * lobe(w, 442.0, 0.0624, 0.0374) + 1.056 * lobe(w, 599.8, 0.0264, 0.0323) - 0.065 * lobe(w, 501.1, 0.0490, 0.0382),
+  return {0.362 * lobe(w, 442.0, 0.0624, 0.0374) + 1.056 * lobe(w, 599.8, 0.0264, 0.0323) -
+              0.065 * lobe(w, 501.1, 0.0490, 0.0382),
           0.821 * lobe(w, 568.8, 0.0213, 0.0247) + 0.286 * lobe(w, 530.9, 0.0613, 0.0322),
           1.217 * lobe(w, 437.0, 0.0845, 0.0278) + 0.681 * lobe(w, 459.0, 0.0385, 0.0725)};
 }
@@ -37,8 +38,10 @@ double value_at(const std::vector<SpectralSample>& s, double wavelength) {
 Spectrum spectrum_to_rgb(const std::vector<SpectralSample>& samples) {
   mc::require(!samples.empty(), "spectrum: no samples; give wavelength:value pairs");
   for (std::size_t i = 0; i < samples.size(); ++i)
-    mc::require(std::isfinite(samples[i].value) && std::isfinite(samples[i].wavelength) && (i == 0 || samples[i].wavelength > samples[i - 1].wavelength),
-                "spectrum: sample {} ({}:{}) must be finite and of a longer wavelength than the one before", i, samples[i].wavelength, samples[i].value);
+    mc::require(std::isfinite(samples[i].value) && std::isfinite(samples[i].wavelength) &&
+                    (i == 0 || samples[i].wavelength > samples[i - 1].wavelength),
+                "spectrum: sample {} ({}:{}) must be finite and of a longer wavelength than the one before", i,
+                samples[i].wavelength, samples[i].value);
   Vec3d xyz = Vec3d::Zero();
   for (int w = 400; w <= 700; ++w) xyz += value_at(samples, w) * matching_functions(w);
   xyz /= cie_y_integral;

@@ -8,10 +8,13 @@
 namespace render {
 
 /// A value at a wavelength [nm].
-struct SpectralSample { double wavelength, value; };
+struct SpectralSample {
+  double wavelength, value;
+};
 
-/// Linear sRGB of a spectrum that is piecewise linear between samples of increasing wavelength and constant beyond them: the
-/// sum over 400..700 nm in 1 nm steps against the CIE 1931 colour matching functions, normalised so that the constant 1 has
+/// Linear sRGB of a spectrum that is piecewise linear between samples of increasing wavelength and constant beyond
+/// them: the sum over 400..700 nm in 1 nm steps against the CIE 1931 colour matching functions, normalised so that the
+///       constant 1 has
 /// Y = 1, then the sRGB matrix.
 ///   error  : the analytic fit of the matching functions is good to about 1 %
 ///   throws : Error unless the wavelengths increase and all numbers are finite

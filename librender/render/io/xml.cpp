@@ -22,7 +22,9 @@ std::string XmlElement::attribute_or(std::string_view key, std::string_view fall
 
 std::string XmlElement::where() const { return fmt::format("{}:{}", file, line); }
 
-void XmlElement::fail(const std::string& message) const { throw mc::Error(fmt::format("{}: <{}>: {}", where(), tag, message)); }
+void XmlElement::fail(const std::string& message) const {
+  throw mc::Error(fmt::format("{}: <{}>: {}", where(), tag, message));
+}
 
 void XmlElement::require_all_seen() const {
   if (!seen_) {
@@ -30,7 +32,8 @@ void XmlElement::require_all_seen() const {
       const auto it = attributes_.find(key);
       return it == attributes_.end() ? std::string() : fmt::format(" {}=\"{}\"", key, it->second.value);
     };
-    throw mc::Error(fmt::format("{}: <{}{}{}> is not supported here; remove it", where(), tag, value("type"), value("name")));
+    throw mc::Error(
+        fmt::format("{}: <{}{}{}> is not supported here; remove it", where(), tag, value("type"), value("name")));
   }
   for (const auto& [key, attribute] : attributes_)
     if (!attribute.seen) fail(fmt::format("attribute {}=\"{}\" is not supported; remove it", key, attribute.value));

@@ -32,7 +32,10 @@ class XmlElement {
   void set(std::string key, std::string value) { attributes_[std::move(key)] = {std::move(value), false}; }
 
  private:
-  struct Attribute { std::string value; mutable bool seen; };
+  struct Attribute {
+    std::string value;
+    mutable bool seen;
+  };
   std::map<std::string, Attribute> attributes_;
   mutable bool seen_ = false;
 };

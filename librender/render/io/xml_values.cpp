@@ -52,9 +52,11 @@ Transform rotation(const XmlElement& e) {
   const Vec3d axis = triple(e, 0);
   if (!(axis.norm() > 0)) e.fail("rotate: the axis must not be 0");
   const Vec3d a = axis.normalized();
-  const double angle = parse_number(e, e.attribute("angle")) * mc::pi<double> / 180, s = std::sin(angle), c = std::cos(angle);
+  const double angle = parse_number(e, e.attribute("angle")) * mc::pi<double> / 180, s = std::sin(angle),
+               c = std::cos(angle);
   Transform t = Transform::Zero();
-  for (int i = 0; i < 3; ++i) t.col(i) = c * Vec3d::Unit(i) + s * mc::cross<double>(a, Vec3d::Unit(i)) + (1 - c) * a[i] * a;
+  for (int i = 0; i < 3; ++i)
+    t.col(i) = c * Vec3d::Unit(i) + s * mc::cross<double>(a, Vec3d::Unit(i)) + (1 - c) * a[i] * a;
   return t;
 }
 
@@ -84,7 +86,8 @@ double parse_number(const XmlElement& element, const std::string& text) {
   while (begin < end && std::isspace(static_cast<unsigned char>(*begin))) ++begin;
   while (end > begin && std::isspace(static_cast<unsigned char>(end[-1]))) --end;
   const auto [after, error] = std::from_chars(begin, end, value);
-  if (error != std::errc{} || after != end || !std::isfinite(value)) element.fail(fmt::format("'{}' is not a finite number", text));
+  if (error != std::errc{} || after != end || !std::isfinite(value))
+    element.fail(fmt::format("'{}' is not a finite number", text));
   return value;
 }
 
@@ -110,7 +113,8 @@ const XmlElement* Parameters::find(std::string_view name) const {
 
 const XmlElement* Parameters::value_of(std::string_view name, std::initializer_list<std::string_view> kinds) const {
   const XmlElement* e = find(name);
-  if (e && std::find(kinds.begin(), kinds.end(), e->tag) == kinds.end()) e->fail(fmt::format("'{}' must be a <{}>", name, fmt::join(kinds, "> or <")));
+  if (e && std::find(kinds.begin(), kinds.end(), e->tag) == kinds.end())
+    e->fail(fmt::format("'{}' must be a <{}>", name, fmt::join(kinds, "> or <")));
   return e;
 }
 
@@ -125,7 +129,8 @@ double Parameters::number(std::string_view name, std::optional<double> fallback)
 int Parameters::integer(std::string_view name, std::optional<int> fallback) const {
   if (const XmlElement* e = value_of(name, {"integer"})) {
     const double value = parse_number(*e, e->attribute("value"));
-    if (value != std::floor(value) || std::abs(value) > 1e9) e->fail(fmt::format("'{}' is not an integer", e->attribute("value")));
+    if (value != std::floor(value) || std::abs(value) > 1e9)
+      e->fail(fmt::format("'{}' is not an integer", e->attribute("value")));
     return static_cast<int>(value);
   }
   if (!fallback) missing(name);
@@ -163,16 +168,20 @@ Spectrum Parameters::color(std::string_view name, std::optional<Spectrum> fallba
     std::vector<SpectralSample> samples;
     for (std::size_t begin = 0; (begin = text.find_first_not_of(" ,\t\r\n", begin)) != std::string::npos;) {
       const std::size_t colon = text.find(':', begin), end = std::min(text.find(',', begin), text.size());
-      if (colon == std::string::npos || colon > end) e->fail(fmt::format("'{}' is not wavelength:value", text.substr(begin, end - begin)));
-      samples.push_back({parse_number(*e, text.substr(begin, colon - begin)), parse_number(*e, text.substr(colon + 1, end - colon - 1))});
+      if (colon == std::string::npos || colon > end)
+        e->fail(fmt::format("'{}' is not wavelength:value", text.substr(begin, end - begin)));
+      samples.push_back({parse_number(*e, text.substr(begin, colon - begin)),
+                         parse_number(*e, text.substr(colon + 1, end - colon - 1))});
       begin = end;
     }
     return mc::with_context(e->where(), [&] { return spectrum_to_rgb(samples); });
   }
   std::vector<double> v;
   if (text.starts_with('#')) {
-    if (text.size() != 7 || text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos) e->fail(fmt::format("'{}' is not #rrggbb", text));
-    for (std::size_t i = 1; i < 7; i += 2) v.push_back(srgb_to_linear(std::stoi(text.substr(i, 2), nullptr, 16) / 255.0));
+    if (text.size() != 7 || text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+      e->fail(fmt::format("'{}' is not #rrggbb", text));
+    for (std::size_t i = 1; i < 7; i += 2)
+      v.push_back(srgb_to_linear(std::stoi(text.substr(i, 2), nullptr, 16) / 255.0));
   } else if (text.find_first_of(" ,\t") == std::string::npos) {
     v.assign(3, parse_number(*e, text));
   } else {

@@ -14,8 +14,8 @@ double parse_number(const XmlElement& element, const std::string& text);
 /// n numbers separated by commas or blanks.
 std::vector<double> parse_numbers(const XmlElement& element, const std::string& text, std::size_t n);
 
-/// The children of a plugin element by kind and name, e.g. <float name="fov" value="40"/>. A child that was found is marked as
-/// seen; a child of the same name but another kind is an error.
+/// The children of a plugin element by kind and name, e.g. <float name="fov" value="40"/>. A child that was found is
+/// marked as seen; a child of the same name but another kind is an error.
 class Parameters {
  public:
   explicit Parameters(const XmlElement& element) : element_(element) {}

@@ -4,7 +4,6 @@
 #include <render/core/dispatch.h>
 #include <render/core/types.h>
 
-
 namespace render {
 
 /// A shape that emits the same radiance in every direction, from the side its normal points to unless two_sided.

@@ -23,11 +23,11 @@ struct RenderDefaults {
 /// Shapes with their materials and lights, the background and the camera. Fill it, then call prepare().
 struct Scene {
   std::vector<Shape> shapes;
-  std::vector<int> shape_bsdf;     ///< per shape, index into bsdfs
-  std::vector<int> shape_light;    ///< per shape, index into lights, or -1
+  std::vector<int> shape_bsdf;  ///< per shape, index into bsdfs
+  std::vector<int> shape_light; ///< per shape, index into lights, or -1
   std::vector<Bsdf> bsdfs;
   std::vector<AreaLight> lights;
-  std::vector<int> guides;         ///< shapes that the `mixture` strategy also aims at, besides the lights
+  std::vector<int> guides; ///< shapes that the `mixture` strategy also aims at, besides the lights
   std::optional<Background> background;
   ThinLens camera;
   Filter filter;
@@ -43,13 +43,17 @@ struct Scene {
   bool has_light() const { return !lights.empty() || background.has_value(); }
 
   /// A light chosen with probability proportional to its emitted power, and that probability.
-  struct LightChoice { int light; Float pmf; };
+  struct LightChoice {
+    int light;
+    Float pmf;
+  };
   LightChoice choose_light(Float uc) const;
   Float light_pmf(int light) const { return light_pmf_[static_cast<std::size_t>(light)]; }
 
   /// Shapes that the `mixture` strategy aims at: those of the lights, and the guides.
   const std::vector<int>& targets() const { return targets_; }
-  /// Spheres of glass or mirror that may cast caustics of the lights; none where there are so many that aiming would not pay.
+  /// Spheres of glass or mirror that may cast caustics of the lights; none where there are so many that aiming would
+  /// not pay.
   const std::vector<int>& speculars() const { return speculars_; }
 
   const Bvh& bvh() const { return bvh_; }

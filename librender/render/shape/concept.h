@@ -10,9 +10,9 @@ namespace render {
 /// The nearest crossing of a ray: which primitive of which shape, and where on it.
 struct Hit {
   Float t = 0;
-  int shape = -1;            ///< index into the scene's shapes
-  int prim = -1;             ///< triangle of a mesh; 0 for a sphere
-  Float b1 = 0, b2 = 0;      ///< barycentric weights of vertices 1 and 2 (mesh only)
+  int shape = -1;       ///< index into the scene's shapes
+  int prim = -1;        ///< triangle of a mesh; 0 for a sphere
+  Float b1 = 0, b2 = 0; ///< barycentric weights of vertices 1 and 2 (mesh only)
 };
 
 /// A point on a surface, computed so that its error is bounded.
@@ -20,12 +20,12 @@ struct Hit {
 struct SurfacePoint {
   Vec3 p;
   Float error = 0;
-  Vec3 ng;                   ///< geometric normal, unit; the light-emitting side
-  Vec3 ns;                   ///< shading normal, unit, same side as ng
+  Vec3 ng; ///< geometric normal, unit; the light-emitting side
+  Vec3 ns; ///< shading normal, unit, same side as ng
   int shape = -1, prim = -1;
 
-  /// Ray origin moved along the normal, to the side that d points to, just beyond the error bound: a ray from there meets
-  /// this surface again only where it truly does. No scene-scale epsilon.
+  /// Ray origin moved along the normal, to the side that d points to, just beyond the error bound: a ray from there
+  /// meets this surface again only where it truly does. No scene-scale epsilon.
   Vec3 offset_origin(const Vec3& d) const;
   Ray spawn_ray(const Vec3& d) const { return {offset_origin(d), d}; }
   /// Ray to another surface point that stops before it.
@@ -35,8 +35,8 @@ struct SurfacePoint {
 /// A point of a shape chosen to illuminate a reference point.
 struct ShapeSample {
   SurfacePoint point;
-  Vec3 wi;                   ///< unit direction from the reference point
-  Float pdf = 0;             ///< density of wi [1/sr] as seen from the reference point
+  Vec3 wi;       ///< unit direction from the reference point
+  Float pdf = 0; ///< density of wi [1/sr] as seen from the reference point
 };
 
 /// Shapes are a closed set (shape.h). Each models:

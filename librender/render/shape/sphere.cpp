@@ -21,7 +21,8 @@ Sphere::Sphere(const Vec3d& center, double radius, bool inside_out)
 
 Sphere Sphere::cap(const Vec3d& center, double radius, const Vec3d& axis, double height, bool inside_out) {
   Sphere s(center, radius, inside_out);
-  mc::require(axis.allFinite() && axis.norm() > 0, "sphere: cap axis ({}, {}, {}) must be finite and not 0", axis.x(), axis.y(), axis.z());
+  mc::require(axis.allFinite() && axis.norm() > 0, "sphere: cap axis ({}, {}, {}) must be finite and not 0", axis.x(),
+              axis.y(), axis.z());
   mc::require(height > 0 && height <= 2 * radius, "sphere: cap height {} must lie in (0, 2 radius]", height);
   s.axis_ = axis.normalized();
   s.height_ = height;
@@ -31,7 +32,8 @@ Sphere Sphere::cap(const Vec3d& center, double radius, const Vec3d& axis, double
 std::optional<double> Sphere::intersect(const Ray& ray) const {
   const Vec3d o = ray.o.cast<double>() - center_, d = ray.d.cast<double>();
   const double a = d.squaredNorm(), b = -o.dot(d);
-  // Squared distance of the centre from the line, without the cancellation of b^2 - 4 a c [HainesGuntherAkenineMoller19].
+  // Squared distance of the centre from the line, without the cancellation of b^2 - 4 a c
+  // [HainesGuntherAkenineMoller19].
   const double discriminant = radius_ * radius_ - (o + d * (b / a)).squaredNorm();
   if (!(discriminant >= 0)) return {};
   const double q = b + std::copysign(std::sqrt(a * discriminant), b);
@@ -66,8 +68,10 @@ SurfacePoint Sphere::surface_point(const Ray& ray, const Hit& hit) const {
 double Sphere::area() const { return 2 * mc::pi<double> * radius_ * height_; }
 
 std::optional<double> Sphere::cone(double d2) const {
-  // Points of the sphere itself round to either side of it. Taken for outside, their cone would hold nothing but themselves.
-  const double rounding = 4 * double(std::numeric_limits<Float>::epsilon()) * (radius_ + center_.lpNorm<Eigen::Infinity>());
+  // Points of the sphere itself round to either side of it. Taken for outside, their cone would hold nothing but
+  // themselves.
+  const double rounding =
+      4 * double(std::numeric_limits<Float>::epsilon()) * (radius_ + center_.lpNorm<Eigen::Infinity>());
   if (is_cap() || !(d2 > mc::sqr(radius_ + rounding))) return {};
   const double sin2 = radius_ * radius_ / d2;
   return sin2 / (1 + std::sqrt(1 - sin2));
@@ -78,7 +82,9 @@ std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const 
   const double d2 = toward.squaredNorm();
   // Any point of the circle of latitude will do, so its azimuth may be rounded to float.
   const Float phi = 2 * mc::pi<Float> * u[1];
-  const auto direction = [c = double(std::cos(phi)), s = double(std::sin(phi))](double sine, double cosine) { return Vec3d(sine * c, sine * s, cosine); };
+  const auto direction = [c = double(std::cos(phi)), s = double(std::sin(phi))](double sine, double cosine) {
+    return Vec3d(sine * c, sine * s, cosine);
+  };
   ShapeSample s;
   if (const auto one_minus_cos = cone(d2)) {
     // A direction of the cone, and the near point of the sphere along it.
@@ -103,8 +109,7 @@ std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const 
 }
 
 Float Sphere::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {
-  if (const auto one_minus_cos = cone((center_ - ref.cast<double>()).squaredNorm()))
-    return cone_pdf(*one_minus_cos);
+  if (const auto one_minus_cos = cone((center_ - ref.cast<double>()).squaredNorm())) return cone_pdf(*one_minus_cos);
   const Float cosine = std::abs(hit.ng.dot(wi));
   return cosine > 0 ? (hit.p - ref).squaredNorm() / (cosine * Float(area())) : Float(0);
 }
@@ -118,7 +123,8 @@ Float Sphere::pdf(const Vec3& ref, const Vec3& wi) const {
   const double half = std::sqrt(discriminant);
   for (const double t : {b - half, b + half}) {
     const Vec3d direction = (oc + t * d) / radius_;
-    if (t > 0 && (!is_cap() || direction.dot(axis_) * radius_ >= radius_ - height_)) sum += pdf(ref, wi, point(direction));
+    if (t > 0 && (!is_cap() || direction.dot(axis_) * radius_ >= radius_ - height_))
+      sum += pdf(ref, wi, point(direction));
   }
   return sum;
 }

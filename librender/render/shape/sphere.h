@@ -5,8 +5,8 @@
 
 namespace render {
 
-/// A sphere, or the cap of it that lies within `height` of the pole `axis`. Intersected and sampled in double, so that the
-/// walls of smallpt (radius 1e5) and the ground of the book's scenes (radius 1000) are exact to a float ulp.
+/// A sphere, or the cap of it that lies within `height` of the pole `axis`. Intersected and sampled in double, so that
+/// the walls of smallpt (radius 1e5) and the ground of the book's scenes (radius 1000) are exact to a float ulp.
 ///   normal : outward; inward when `inside_out`
 ///   sample : a whole sphere seen from outside: uniform in the cone that it fills; otherwise uniform in area
 ///   pdf    : 1 / (2 pi (1 - cos theta_max)), or distance^2 / (|cos| area) [1/sr]
@@ -33,7 +33,8 @@ class Sphere {
 
  private:
   SurfacePoint point(const Vec3d& direction) const; ///< of the surface in the unit `direction` from the centre
-  /// 1 - cos of the cone that the sphere fills seen from squared distance d2; nullopt inside, on the surface, or for a cap.
+  /// 1 - cos of the cone that the sphere fills seen from squared distance d2; nullopt inside, on the surface, or for a
+  /// cap.
   std::optional<double> cone(double d2) const;
 
   Vec3d center_;

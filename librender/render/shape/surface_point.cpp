@@ -4,8 +4,9 @@
 
 namespace render {
 
-// The surface lies within `error` of p in each coordinate, so within error * |n|_1 along the normal [PharrJakobHumphreys23,
-// section 6.8.6]. Rounding the sum moves each coordinate by up to half an ulp: a whole one of the largest is added to the error.
+// The surface lies within `error` of p in each coordinate, so within error * |n|_1 along the normal
+// [PharrJakobHumphreys23, section 6.8.6]. Rounding the sum moves each coordinate by up to half an ulp: a whole one of
+// the largest is added to the error.
 Vec3 SurfacePoint::offset_origin(const Vec3& d) const {
   const Float rounding = std::numeric_limits<Float>::epsilon() * p.lpNorm<Eigen::Infinity>();
   const Float distance = (error + rounding) * ng.lpNorm<1>();

@@ -16,11 +16,14 @@ Vec3d normal_of(const std::array<Vec3, 3>& v) {
   return mc::cross<double>(v[1].cast<double>() - a, v[2].cast<double>() - a);
 }
 
-/// Where the line o + t d meets the plane of a triangle: barycentric weights of vertices 1 and 2, |cos| of the angle between d
-/// and the normal. NaN or infinite where it is parallel. Source: [MoellerTrumbore97]
-struct Crossing { double t, b1, b2, cosine; };
+/// Where the line o + t d meets the plane of a triangle: barycentric weights of vertices 1 and 2, |cos| of the angle
+/// between d and the normal. NaN or infinite where it is parallel. Source: [MoellerTrumbore97]
+struct Crossing {
+  double t, b1, b2, cosine;
+};
 Crossing cross_plane(const std::array<Vec3, 3>& v, const Vec3d& o, const Vec3d& d) {
-  const Vec3d a = v[0].cast<double>(), e1 = v[1].cast<double>() - a, e2 = v[2].cast<double>() - a, n = mc::cross<double>(e1, e2);
+  const Vec3d a = v[0].cast<double>(), e1 = v[1].cast<double>() - a, e2 = v[2].cast<double>() - a,
+              n = mc::cross<double>(e1, e2);
   const double det = -n.dot(d);
   const Vec3d s = o - a, q = mc::cross<double>(s, d);
   return {n.dot(s) / det, e2.dot(q) / det, -e1.dot(q) / det, std::abs(det) / (n.norm() * d.norm())};
@@ -34,32 +37,38 @@ std::vector<Vec3> transformed(const std::vector<Vec3d>& points, const Transform&
 
 } // namespace
 
-TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& triangles, std::vector<Vec3> normals)
+TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                           std::vector<Vec3> normals)
     : positions_(std::move(positions)), normals_(std::move(normals)) {
   mc::require(!triangles.empty(), "mesh: no triangle; at least one is needed");
   for (std::size_t i = 0; i < positions_.size(); ++i)
-    mc::require(positions_[i].allFinite(), "mesh: vertex {} = ({}, {}, {}) is not finite", i, positions_[i].x(), positions_[i].y(),
-                positions_[i].z());
+    mc::require(positions_[i].allFinite(), "mesh: vertex {} = ({}, {}, {}) is not finite", i, positions_[i].x(),
+                positions_[i].y(), positions_[i].z());
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (const std::uint32_t v : triangles[i])
-      mc::require(v < positions_.size(), "mesh: triangle {} names vertex {}, but there are only {}", i, v, positions_.size());
-  mc::require(normals_.empty() || normals_.size() == positions_.size(), "mesh: {} normals for {} vertices; give one each or none",
-              normals_.size(), positions_.size());
+      mc::require(v < positions_.size(), "mesh: triangle {} names vertex {}, but there are only {}", i, v,
+                  positions_.size());
+  mc::require(normals_.empty() || normals_.size() == positions_.size(),
+              "mesh: {} normals for {} vertices; give one each or none", normals_.size(), positions_.size());
   for (const auto& vertices : triangles) {
     const std::array<Vec3, 3> v = {positions_[vertices[0]], positions_[vertices[1]], positions_[vertices[2]]};
     const Vec3d n = normal_of(v);
     const Vec3 center = (v[0] + v[1] + v[2]) / 3;
-    const Float radius2 = std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()});
+    const Float radius2 =
+        std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()});
     faces_.push_back({vertices, n.stableNormalized().cast<Float>(), center, radius2, area_, n.norm() / 2});
     area_ += faces_.back().area;
   }
-  const auto agrees = [&](const Face& f, std::uint32_t v) { return normals_[v].dot(f.normal) > Float(1 - 1e-6) * normals_[v].norm(); };
+  const auto agrees = [&](const Face& f, std::uint32_t v) {
+    return normals_[v].dot(f.normal) > Float(1 - 1e-6) * normals_[v].norm();
+  };
   if (!normals_.empty() && std::all_of(faces_.begin(), faces_.end(), [&](const Face& f) {
         return std::all_of(f.vertices.begin(), f.vertices.end(), [&](std::uint32_t v) { return agrees(f, v); });
       }))
     normals_.clear();
   // Points are interpolated in double and rounded once: half an ulp of the largest coordinate, doubled for safety.
-  for (const Vec3& p : positions_) error_ = std::max(error_, std::numeric_limits<Float>::epsilon() * p.lpNorm<Eigen::Infinity>());
+  for (const Vec3& p : positions_)
+    error_ = std::max(error_, std::numeric_limits<Float>::epsilon() * p.lpNorm<Eigen::Infinity>());
 }
 
 TriangleMesh TriangleMesh::rectangle(const Transform& to_world) {
@@ -72,8 +81,12 @@ TriangleMesh TriangleMesh::box(const Transform& to_world) {
   for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
   std::vector<std::array<std::uint32_t, 3>> triangles;
   // Faces as quads, counter-clockwise seen from outside.
-  for (const std::array<std::uint32_t, 4>& q :
-       {std::array<std::uint32_t, 4>{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+  for (const std::array<std::uint32_t, 4>& q : {std::array<std::uint32_t, 4>{0, 4, 6, 2},
+                                                {1, 3, 7, 5},
+                                                {0, 1, 5, 4},
+                                                {2, 6, 7, 3},
+                                                {0, 2, 3, 1},
+                                                {4, 5, 7, 6}}) {
     triangles.push_back({q[0], q[1], q[2]});
     triangles.push_back({q[0], q[2], q[3]});
   }
@@ -114,12 +127,14 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
     for (const Face& face : faces_) triangle += static_cast<std::size_t>(target >= face.before + face.area);
   } else {
     const auto ends_after = [](double t, const Face& face) { return t < face.before + face.area; };
-    triangle = static_cast<std::size_t>(std::upper_bound(faces_.begin(), faces_.end(), target, ends_after) - faces_.begin());
+    triangle =
+        static_cast<std::size_t>(std::upper_bound(faces_.begin(), faces_.end(), target, ends_after) - faces_.begin());
   }
   if (triangle == size()) return {};
   const double u0 = std::min((target - faces_[triangle].before) / faces_[triangle].area, 1 - 0x1p-53);
   const mc::Vec2<double> v(u0, double(u[1]));
-  if (const auto directions = near_triangle(ref, triangle)) [[unlikely]] return sample_near(ref, triangle, *directions, v);
+  if (const auto directions = near_triangle(ref, triangle)) [[unlikely]]
+    return sample_near(ref, triangle, *directions, v);
   ShapeSample s;
   const mc::Vec2<double> b = mc::UniformTriangle<double>{}.sample(v);
   s.point = point(triangle, b[0], b[1]);
@@ -132,7 +147,8 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
   return s;
 }
 
-ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle, const mc::SphericalTriangle<double>& directions,
+ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle,
+                                      const mc::SphericalTriangle<double>& directions,
                                       const mc::Vec2<double>& u) const {
   const Vec3d d = directions.sample(u);
   const Crossing at = cross_plane(vertices(triangle), ref.cast<double>(), d);
@@ -140,14 +156,17 @@ ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle, con
   return {point(triangle, b1, std::clamp(at.b2, 0.0, 1 - b1)), d.cast<Float>(), near_pdf(triangle, directions)};
 }
 
-Float TriangleMesh::area_pdf(Float cosine, Float distance2) const { return cosine > 0 ? distance2 / (cosine * Float(area_)) : Float(0); }
+Float TriangleMesh::area_pdf(Float cosine, Float distance2) const {
+  return cosine > 0 ? distance2 / (cosine * Float(area_)) : Float(0);
+}
 
 std::optional<mc::SphericalTriangle<double>> TriangleMesh::near_triangle(const Vec3& ref, std::size_t triangle) const {
   const Face& face = faces_[triangle];
   const Vec3 off = ref - face.center;
   if (!(off.squaredNorm() < Float(1.2) * face.radius2 && mc::sqr(off.dot(face.normal)) < face.radius2 / 16)) return {};
   const auto v = vertices(triangle);
-  const Vec3d p = v[0].cast<double>(), a = p - ref.cast<double>(), ab = v[1].cast<double>() - p, ac = v[2].cast<double>() - p;
+  const Vec3d p = v[0].cast<double>(), a = p - ref.cast<double>(), ab = v[1].cast<double>() - p,
+              ac = v[2].cast<double>() - p;
   const double height = std::abs(a.dot(mc::cross<double>(ab, ac))) / (2 * face.area);
   if (!(height * height > 1e-16 * double(face.radius2))) return {};
   return mc::SphericalTriangle<double>(a, ab, ac);

@@ -18,12 +18,14 @@ using Transform = Eigen::Matrix<double, 3, 4>;
 ///   sample : a triangle by its area; of a far one a point uniform in area, of one that nearly touches ref a direction
 ///            uniform in its solid angle, since uniform area would have an all but infinite variance there
 ///   pdf    : distance^2 / (|cos| area), or triangle area / (area * solid angle) [1/sr]
-///   throws : Error when an index is out of range, a coordinate is not finite, or there is no triangle. A degenerate triangle
+///   throws : Error when an index is out of range, a coordinate is not finite, or there is no triangle. A degenerate
+///            triangle
 ///            is allowed: it is never hit and never sampled.
 class TriangleMesh {
  public:
   /// normals : one per vertex, or none; where all agree with their triangles, the mesh is flat and needs none
-  TriangleMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& triangles, std::vector<Vec3> normals = {});
+  TriangleMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& triangles,
+               std::vector<Vec3> normals = {});
 
   /// The square [-1,1]^2 in the plane z = 0, normal +z, under `to_world`.
   static TriangleMesh rectangle(const Transform& to_world);
@@ -44,8 +46,8 @@ class TriangleMesh {
 
  private:
   SurfacePoint point(std::size_t triangle, double b1, double b2) const;
-  /// The directions from ref through a triangle that ref nearly touches: it lies less than a quarter of the triangle's radius
-  /// from the plane, and beside the triangle. Else nullopt, as for a triangle that is seen edge-on.
+  /// The directions from ref through a triangle that ref nearly touches: it lies less than a quarter of the triangle's
+  /// radius from the plane, and beside the triangle. Else nullopt, as for a triangle that is seen edge-on.
   std::optional<mc::SphericalTriangle<double>> near_triangle(const Vec3& ref, std::size_t triangle) const;
   ShapeSample sample_near(const Vec3& ref, std::size_t triangle, const mc::SphericalTriangle<double>& directions,
                           const mc::Vec2<double>& u) const;
@@ -55,10 +57,10 @@ class TriangleMesh {
 
   struct Face {
     std::array<std::uint32_t, 3> vertices;
-    Vec3 normal;           ///< unit; 0 for a degenerate triangle
-    Vec3 center;           ///< centroid
-    Float radius2;         ///< of the ball about it
-    double before, area;   ///< area of the triangles before this one, and its own
+    Vec3 normal;         ///< unit; 0 for a degenerate triangle
+    Vec3 center;         ///< centroid
+    Float radius2;       ///< of the ball about it
+    double before, area; ///< area of the triangles before this one, and its own
   };
   std::vector<Vec3> positions_, normals_; ///< per vertex; no normals: flat
   std::vector<Face> faces_;

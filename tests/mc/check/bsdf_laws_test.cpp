@@ -15,9 +15,25 @@ using V = mc::Vec3<double>;
 using Color = Eigen::Array3d;
 using mc::Fault;
 
-enum class Slip { none, weight, cosine, energy, grazing_energy, reciprocity, negative, support, mirror_reciprocity, mirror_probability };
+enum class Slip {
+  none,
+  weight,
+  cosine,
+  energy,
+  grazing_energy,
+  reciprocity,
+  negative,
+  support,
+  mirror_reciprocity,
+  mirror_probability
+};
 
-struct Sample { V wi; Color f; double pdf; bool delta, transmission; };
+struct Sample {
+  V wi;
+  Color f;
+  double pdf;
+  bool delta, transmission;
+};
 
 // Half Lambert, half perfect mirror when asked for.
 struct Coated {
@@ -36,18 +52,21 @@ struct Coated {
   }
   double pdf(const V& wo, const V& wi) const {
     if (slip == Slip::support && wi.x() > 0.5) return 0;
-    return wo.z() > 0 && wi.z() > 0 ? (1 - mirror) * (slip == Slip::cosine ? 1 / (2 * mc::pi<double>) : wi.z() / mc::pi<double>) : 0.0;
+    return wo.z() > 0 && wi.z() > 0
+               ? (1 - mirror) * (slip == Slip::cosine ? 1 / (2 * mc::pi<double>) : wi.z() / mc::pi<double>)
+               : 0.0;
   }
   std::optional<Sample> sample(const V& wo, double uc, const mc::Vec2<double>& u) const {
-    if (uc < mirror) return Sample{V(-wo.x(), -wo.y(), wo.z()), Color::Constant((slip == Slip::mirror_reciprocity && wo.x() > 0 ? 0.5 : 0.2) * mirror / wo.z()), slip == Slip::mirror_probability ? uc : mirror, true, false};
+    if (uc < mirror)
+      return Sample{V(-wo.x(), -wo.y(), wo.z()),
+                    Color::Constant((slip == Slip::mirror_reciprocity && wo.x() > 0 ? 0.5 : 0.2) * mirror / wo.z()),
+                    slip == Slip::mirror_probability ? uc : mirror, true, false};
     const V wi = mc::CosineHemisphere<double>{}.sample(u);
     return Sample{wi, (slip == Slip::weight ? 1.01 : 1.0) * eval(wo, wi), pdf(wo, wi), false, false};
   }
 };
 
-mc::Report check(Coated b) {
-  return mc::check_bsdf<double>(b, V(0.6, 0, 0.8), {.samples = 50'000});
-}
+mc::Report check(Coated b) { return mc::check_bsdf<double>(b, V(0.6, 0, 0.8), {.samples = 50'000}); }
 
 TEST(BsdfLaws, ARightBsdfPassesWithAndWithoutADeltaLobe) {
   EXPECT_TRUE(check({}).passed()) << check({}).to_string();
@@ -65,7 +84,8 @@ TEST(BsdfLaws, EachSlipIsNamed) {
 }
 
 bool broken(const mc::Report& r, const std::string& law) {
-  return std::any_of(r.checks.begin(), r.checks.end(), [&](const mc::Check& c) { return c.name == law && c.verdict == mc::Verdict::fail; });
+  return std::any_of(r.checks.begin(), r.checks.end(),
+                     [&](const mc::Check& c) { return c.name == law && c.verdict == mc::Verdict::fail; });
 }
 
 TEST(BsdfLaws, PhysicsBeyondTheSampledPairs) {
@@ -88,7 +108,11 @@ TEST(BsdfLaws, TheWitnessNamesItsRandomNumbers) {
 // Glass of index 1.5 by Schlick's weights, with or without the squared index on refraction.
 struct Glass {
   bool squared = true;
-  struct Sample { V wi; double f, pdf; bool delta, transmission; };
+  struct Sample {
+    V wi;
+    double f, pdf;
+    bool delta, transmission;
+  };
   double eval(const V&, const V&) const { return 0; }
   double pdf(const V&, const V&) const { return 0; }
   std::optional<Sample> sample(const V& wo, double uc, const mc::Vec2<double>&) const {
@@ -103,7 +127,9 @@ struct Glass {
 
 TEST(BsdfLaws, RefractionCarriesTheSquaredIndex) {
   for (const V& wo : {V(0.6, 0, 0.8), V(0.3, 0, -std::sqrt(0.91))}) {
-    const auto check = [&](Glass g) { return mc::check_bsdf<double>(g, wo, {.samples = 20'000, .eta = 1.5, .lossless = true}); };
+    const auto check = [&](Glass g) {
+      return mc::check_bsdf<double>(g, wo, {.samples = 20'000, .eta = 1.5, .lossless = true});
+    };
     EXPECT_TRUE(check({}).passed()) << check({}).to_string();
     EXPECT_TRUE(broken(check({false}), "reciprocity"));
     EXPECT_TRUE(broken(check({false}), "energy <= 1"));
@@ -113,7 +139,10 @@ TEST(BsdfLaws, RefractionCarriesTheSquaredIndex) {
 // A phase function: no cosine, weights instead of values, one channel.
 struct Phase {
   double slip = 1;
-  struct Sample { V wi; double pdf, weight; };
+  struct Sample {
+    V wi;
+    double pdf, weight;
+  };
   mc::HenyeyGreenstein<double> lobe{0.6};
   static V about(const V& w, const V& local) { return mc::Frame<double>::from_z(w).to_world(local); }
   double eval(const V& wo, const V& wi) const { return pdf(wo, wi); }

@@ -20,7 +20,9 @@ std::vector<mc::Cell> uniform_cells(std::size_t k) {
 
 void fill(std::vector<mc::Cell>& cells, std::uint64_t seed, int n, double power = 1) {
   mc::Pcg random(seed);
-  for (int i = 0; i < n; ++i) ++cells[static_cast<std::size_t>(std::pow(random.uniform<double>(), power) * static_cast<double>(cells.size()))].observed;
+  for (int i = 0; i < n; ++i)
+    ++cells[static_cast<std::size_t>(std::pow(random.uniform<double>(), power) * static_cast<double>(cells.size()))]
+          .observed;
 }
 
 mc::Report report(const mc::CellTests& t) {
@@ -40,7 +42,8 @@ TEST(CellTests, SharesNeverExceedAlpha) {
   }
 }
 
-// 1000 runs at 10 %, of which 91 % is spent; KS on cells is conservative. Binomial(1000, 0.1) lies below 140 with 0.9999.
+// 1000 runs at 10 %, of which 91 % is spent; KS on cells is conservative. Binomial(1000, 0.1) lies below 140 with
+// 0.9999.
 TEST(CellTests, RejectsAtMostAtTheRateOfAlpha) {
   int rejected = 0;
   for (int run = 0; run < 1000; ++run) {
@@ -77,11 +80,13 @@ TEST(CellTests, KeepsItsPromiseOfPower) {
     mc::Pcg random(static_cast<std::uint64_t>(run) + 50);
     auto wrong = uniform_cells(256);
     std::vector<double> cdf{0};
-    for (std::size_t i = 0; i < 256; ++i) cdf.push_back(cdf.back() + 1 + (random.uniform<double>() < 0.5 ? -1 : 1) * stated.detectable);
+    for (std::size_t i = 0; i < 256; ++i)
+      cdf.push_back(cdf.back() + 1 + (random.uniform<double>() < 0.5 ? -1 : 1) * stated.detectable);
     auto one = uniform_cells(256);
     for (int i = 0; i < 100000; ++i) {
       const double u = random.uniform<double>();
-      ++wrong[static_cast<std::size_t>(std::upper_bound(cdf.begin(), cdf.end() - 1, u * cdf.back()) - cdf.begin()) - 1].observed;
+      ++wrong[static_cast<std::size_t>(std::upper_bound(cdf.begin(), cdf.end() - 1, u * cdf.back()) - cdf.begin()) - 1]
+            .observed;
       const double v = random.uniform<double>() * (256 + stated.detectable_cell);
       ++one[v < 256 ? static_cast<std::size_t>(v) : 100].observed;
     }

@@ -14,7 +14,8 @@ template <class D> void expect_polar(const D& domain, bool directions) {
   ASSERT_EQ(axes.size(), 2u);
   for (const Vec2<double>& v : {Vec2<double>(0.1, 0.2), Vec2<double>(0.7, 0.9)}) {
     const auto x = domain.from_unit(v);
-    const double first = directions ? 180 / mc::pi<double> * std::atan2(std::hypot(x[0], x[1]), x[x.size() - 1]) : std::hypot(x[0], x[1]);
+    const double first = directions ? 180 / mc::pi<double> * std::atan2(std::hypot(x[0], x[1]), x[x.size() - 1])
+                                    : std::hypot(x[0], x[1]);
     EXPECT_NEAR(axes[0].value(v[0]), first, 1e-9);
     EXPECT_NEAR(axes[1].value(v[1]), 180 / mc::pi<double> * std::atan2(x[1], x[0]) + (x[1] < 0 ? 360 : 0), 1e-9);
   }

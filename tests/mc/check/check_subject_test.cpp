@@ -19,8 +19,8 @@ using mc::Fault, mc::Pcg, mc::Verdict;
 V cosine(Pcg& r) { return mc::CosineHemisphere<double>{}.sample(r.point<double, 2>()); }
 double cosine_pdf(const V& w) { return w.z() > 0 ? w.z() / mc::pi<double> : 0.0; }
 
-// 300 seeds at alpha = 10 %, cheap sizes. KS on cells is conservative, so the rate may lie below 10 %; above it is a fault:
-// Binomial(300, 0.1) stays below 48 with probability 0.9995.
+// 300 seeds at alpha = 10 %, cheap sizes. KS on cells is conservative, so the rate may lie below 10 %; above it is a
+// fault: Binomial(300, 0.1) stays below 48 with probability 0.9995.
 TEST(CheckSubject, AcceptsTheRightSamplerAtTheRateOfAlpha) {
   const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
   int rejected = 0;
@@ -41,7 +41,8 @@ TEST(CheckSubject, SharpLobesAreAsEasyAsCosines) {
     return mc::spherical_direction<double>(std::sqrt(t * (2 - t)), 1 - t, phi);
   };
   const auto pdf = [scale](const V& w) { return std::exp(-mc::one_minus_z(w) / scale) / (2 * mc::pi<double> * scale); };
-  const mc::Report r = check_subject(make_subject("lobe", mc::Hemisphere<double>{}, sampler, pdf), {.samples = 200'000});
+  const mc::Report r =
+      check_subject(make_subject("lobe", mc::Hemisphere<double>{}, sampler, pdf), {.samples = 200'000});
   EXPECT_TRUE(r.passed()) << r.to_string();
   EXPECT_NEAR(r.mass, 1, 1e-3);
 }
@@ -64,7 +65,8 @@ TEST(CheckSubject, FailuresAreTestedAgainstTheMissingMass) {
 TEST(CheckSubject, SaysInconclusiveWhenTheQuadratureCannotBeTrusted) {
   // A density that oscillates far below the size of any cell.
   const auto pdf = [](double x) { return 1 + std::sin(2e7 * x) * (std::fmod(x * 1e8, 1.0) < 0.5 ? 1.0 : 0.7); };
-  const mc::Subject s = make_subject("rough", mc::Interval<double>(0, 1), [](Pcg& r) { return r.uniform<double>(); }, pdf);
+  const mc::Subject s = make_subject(
+      "rough", mc::Interval<double>(0, 1), [](Pcg& r) { return r.uniform<double>(); }, pdf);
   EXPECT_NE(check_subject(s, {.samples = 100'000, .max_evaluations = 100'000}).verdict(), Verdict::pass);
 }
 
@@ -74,13 +76,15 @@ TEST(CheckSubject, WitnessesAreInTheReport) {
     if (r.uniform<double>() < 1e-3) w = -w;
     return w;
   };
-  const mc::Report r = check_subject(make_subject("below", mc::Hemisphere<double>{}, sampler, cosine_pdf), {.samples = 10'000});
+  const mc::Report r =
+      check_subject(make_subject("below", mc::Hemisphere<double>{}, sampler, cosine_pdf), {.samples = 10'000});
   EXPECT_EQ(r.fault(), Fault::outside);
   EXPECT_THAT(r.to_string(), testing::ContainsRegex("first u = .0[^)]*., x = "));
 }
 
-// An azimuth of 2 * 3.14 u leaves a gap at the end of the turn, a clamp one at each end of u, a skipped interval one inside: too
-// narrow for any cell, each seen empty by the pilot and then by the samples. A right density whose support has such gaps passes.
+// An azimuth of 2 * 3.14 u leaves a gap at the end of the turn, a clamp one at each end of u, a skipped interval one
+// inside: too narrow for any cell, each seen empty by the pilot and then by the samples. A right density whose support
+//         has such gaps passes.
 TEST(CheckSubject, GapsAreFoundInsideAndAtBothEnds) {
   const mc::Interval<double> unit(0, 1);
   const auto gap = [&](double lo, double hi, bool claimed) {
@@ -95,7 +99,8 @@ TEST(CheckSubject, GapsAreFoundInsideAndAtBothEnds) {
   for (const auto& [lo, hi] : {std::pair(0.0, 1e-3), std::pair(0.4, 0.401), std::pair(0.999, 1.0)}) {
     const mc::Report wrong = gap(lo, hi, false), right = gap(lo, hi, true);
     EXPECT_EQ(wrong.verdict(), Verdict::fail) << lo;
-    const auto check = std::find_if(wrong.checks.begin(), wrong.checks.end(), [](const mc::Check& c) { return c.name == "no gaps"; });
+    const auto check =
+        std::find_if(wrong.checks.begin(), wrong.checks.end(), [](const mc::Check& c) { return c.name == "no gaps"; });
     ASSERT_NE(check, wrong.checks.end());
     EXPECT_EQ(check->verdict, Verdict::fail) << wrong.to_string();
     EXPECT_LE(check->statistic, 20) << "of 200 expected"; // a few stand at the edges that the pilot saw
@@ -129,7 +134,8 @@ TEST(CheckSubject, DiscreteOutcomes) {
 
 TEST(CheckSubject, SamplesToDetectAreEnough) {
   const std::uint64_t n = mc::samples_to_detect(0.05, 0.001);
-  const mc::Report r = check_subject(make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf), {.samples = n});
+  const mc::Report r =
+      check_subject(make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf), {.samples = n});
   EXPECT_LE(r.detectable, 0.0525);
   EXPECT_GE(r.detectable, 0.04);
   EXPECT_THROW(mc::samples_to_detect(0, 0.01), mc::Error);
@@ -148,7 +154,8 @@ TEST(CheckSubject, RefusesNonsense) {
 
 TEST(CheckSubject, EvidenceIsAllTheCountsAndTheWayOfP) {
   const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
-  const mc::Report plain = check_subject(s, {.samples = 50'000}), r = check_subject(s, {.samples = 50'000, .evidence = true});
+  const mc::Report plain = check_subject(s, {.samples = 50'000}),
+                   r = check_subject(s, {.samples = 50'000, .evidence = true});
   EXPECT_FALSE(plain.evidence);
   ASSERT_TRUE(r.evidence);
   EXPECT_EQ(plain.to_string(), r.to_string());
@@ -174,7 +181,8 @@ TEST(CheckSubject, TheWayOfPFallsForAWrongSampler) {
     const double z = std::pow(r.uniform<double>(), 1 / 2.1), phi = 2 * mc::pi<double> * r.uniform<double>();
     return mc::spherical_direction<double>(std::sqrt(1 - z * z), z, phi);
   };
-  const mc::Report r = check_subject(make_subject("exponent", mc::Hemisphere<double>{}, skewed, cosine_pdf), {.samples = 1 << 17, .evidence = true});
+  const mc::Report r = check_subject(make_subject("exponent", mc::Hemisphere<double>{}, skewed, cosine_pdf),
+                                     {.samples = 1 << 17, .evidence = true});
   EXPECT_EQ(r.verdict(), Verdict::fail);
   EXPECT_GT(r.evidence->p_after.front().p, 1e-3);
   EXPECT_LT(r.evidence->p_after.back().p, 1e-9);

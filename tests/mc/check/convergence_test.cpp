@@ -35,7 +35,8 @@ TEST(PowerLaw, IntervalHoldsTheSlope) {
     for (std::uint64_t n = 8; n <= 256; n *= 2) {
       std::vector<double> estimates(64);
       for (std::uint64_t r = 0; r < estimates.size(); ++r)
-        for (std::uint64_t i = 0; i < n; ++i) estimates[r] += mc::hash_uniform<double>(run, n, r, i) / static_cast<double>(n);
+        for (std::uint64_t i = 0; i < n; ++i)
+          estimates[r] += mc::hash_uniform<double>(run, n, r, i) / static_cast<double>(n);
       errors.push_back(mc::rms_error(static_cast<double>(n), estimates, 0.5));
     }
     const mc::PowerLaw law = mc::fit_power_law(errors, 64);

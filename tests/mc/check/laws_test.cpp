@@ -30,7 +30,8 @@ template <class S, Slip slip> struct Ramp {
     using std::sqrt;
     const S v = S(1) - u; // in (0, 1]
     S x = S(sqrt(v));
-    if constexpr (slip == Slip::precision && std::floating_point<S>) x = x * (1 + 100 * std::numeric_limits<S>::epsilon()) < 1 ? x * (1 + 100 * std::numeric_limits<S>::epsilon()) : x;
+    if constexpr (slip == Slip::precision && std::floating_point<S>)
+      x = x * (1 + 100 * std::numeric_limits<S>::epsilon()) < 1 ? x * (1 + 100 * std::numeric_limits<S>::epsilon()) : x;
     if constexpr (slip == Slip::edge) return u == 0 ? S(2) : x;
     return x;
   }
@@ -62,7 +63,8 @@ TEST(Laws, EachSlipBreaksItsOwnLaw) {
 }
 
 TEST(Laws, TheWitnessIsPrintedInFull) {
-  EXPECT_THAT(laws(Ramp<double, Slip::edge>{}).to_string(), testing::HasSubstr("outside the domain at u = 0: x = 2, pdf = 0"));
+  EXPECT_THAT(laws(Ramp<double, Slip::edge>{}).to_string(),
+              testing::HasSubstr("outside the domain at u = 0: x = 2, pdf = 0"));
 }
 
 // A struct with sample and pdf alone, and the same as a pair of functions.
@@ -88,7 +90,10 @@ TEST(Laws, APairOfFunctionsOnADomain) {
   // The density of the square root vanishes at its end, where u = 0 leads.
   const mc::Report r = check([](double x) { return 2 * x; });
   EXPECT_EQ(r.fault(), Fault::edge) << r.to_string();
-  EXPECT_TRUE(mc::check_laws(mc::Interval<double>(0, 1), [](double u) { return std::sqrt(1 - u); }, [](double x) { return 2 * x; }, cheap()).passed());
+  EXPECT_TRUE(mc::check_laws(
+                  mc::Interval<double>(0, 1), [](double u) { return std::sqrt(1 - u); }, [](double x) { return 2 * x; },
+                  cheap())
+                  .passed());
   EXPECT_EQ(check([](double) { return 1.0; }).verdict(), mc::Verdict::fail);
 }
 
@@ -99,7 +104,10 @@ TEST(Laws, ASamplerThatFailsIsAllowedWhatItSays) {
   };
   const auto pdf = [](double x) { return x < 0.25 ? 0.0 : 1.0; };
   EXPECT_TRUE(mc::check_laws(mc::Interval<double>(0, 1), sample, pdf, cheap()).passed());
-  EXPECT_EQ(mc::check_laws(mc::Interval<double>(0, 1), sample, [](double x) { return x < 0.25 ? 0.0 : 4.0 / 3; }, cheap()).fault(), Fault::mass);
+  EXPECT_EQ(mc::check_laws(
+                mc::Interval<double>(0, 1), sample, [](double x) { return x < 0.25 ? 0.0 : 4.0 / 3; }, cheap())
+                .fault(),
+            Fault::mass);
 }
 
 // A branch at u = 0.7 that steps out of the domain at one number only.

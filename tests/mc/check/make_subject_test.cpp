@@ -37,10 +37,22 @@ TEST(MakeSubject, AWarpBecomesChartPoints) {
 TEST(MakeSubject, DrawsAreClassified) {
   const mc::Interval<double> unit;
   const auto pdf = [](double x) { return x > 0.5 ? 2.0 : 0.0; };
-  EXPECT_EQ(draw(mc::make_subject("nan", unit, [](mc::Pcg&) { return std::nan(""); }, pdf), 1)[0].kind, Kind::not_finite);
-  EXPECT_EQ(draw(mc::make_subject("out", unit, [](mc::Pcg&) { return 2.0; }, pdf), 1)[0].kind, Kind::outside);
-  EXPECT_FALSE(draw(mc::make_subject("leak", unit, [](mc::Pcg&) { return 0.25; }, pdf), 1)[0].pdf_positive);
-  const mc::Subject failing = mc::make_subject("fails", unit, [](mc::Pcg&) { return std::optional<double>(); }, pdf);
+  EXPECT_EQ(draw(mc::make_subject(
+                     "nan", unit, [](mc::Pcg&) { return std::nan(""); }, pdf),
+                 1)[0]
+                .kind,
+            Kind::not_finite);
+  EXPECT_EQ(draw(mc::make_subject(
+                     "out", unit, [](mc::Pcg&) { return 2.0; }, pdf),
+                 1)[0]
+                .kind,
+            Kind::outside);
+  EXPECT_FALSE(draw(mc::make_subject(
+                        "leak", unit, [](mc::Pcg&) { return 0.25; }, pdf),
+                    1)[0]
+                   .pdf_positive);
+  const mc::Subject failing = mc::make_subject(
+      "fails", unit, [](mc::Pcg&) { return std::optional<double>(); }, pdf);
   EXPECT_EQ(draw(failing, 1)[0].kind, Kind::failed);
   EXPECT_TRUE(failing.may_fail);
 }
@@ -54,21 +66,34 @@ TEST(MakeSubject, TheWitnessIsTheDraw) {
 
 TEST(MakeSubject, TheWitnessNamesTheUniformNumbersItTook) {
   const auto sampler = [](mc::Pcg& r) { return mc::Vec2<float>(r.uniform<float>(), r.uniform<float>()); };
-  const mc::Subject s = mc::make_subject("u", mc::Square<float>(), sampler, [](const mc::Vec2<float>&) { return 1.0f; });
+  const mc::Subject s =
+      mc::make_subject("u", mc::Square<float>(), sampler, [](const mc::Vec2<float>&) { return 1.0f; });
   mc::Pcg random(1);
   random.advance(2);
-  EXPECT_THAT(s.describe_draw(1, 1), testing::StartsWith("u = " + mc::detail::format_point(random.point<float, 2>()) + ", x = "));
+  EXPECT_THAT(s.describe_draw(1, 1),
+              testing::StartsWith("u = " + mc::detail::format_point(random.point<float, 2>()) + ", x = "));
 }
 
-// A light seen from a point: a rectangle at height 1, sampled by area, its radiance divided by the density of directions.
+// A light seen from a point: a rectangle at height 1, sampled by area, its radiance divided by the density of
+// directions.
 struct AreaLightSeen {
-  struct Sample { mc::Vec3<double> x; Eigen::Array3d weight; double pdf; };
+  struct Sample {
+    mc::Vec3<double> x;
+    Eigen::Array3d weight;
+    double pdf;
+  };
   double slip = 1;
   // The point at height 1 in direction w.
   static mc::Vec2<double> hit(const mc::Vec3<double>& w) { return {w.x() / w.z(), w.y() / w.z()}; }
-  static bool visible(const mc::Vec3<double>& w) { return w.z() > 0 && std::abs(hit(w).x()) <= 1 && std::abs(hit(w).y()) <= 0.5; }
-  Eigen::Array3d radiance(const mc::Vec3<double>& w) const { return visible(w) ? Eigen::Array3d(1, 2, 3) : Eigen::Array3d(Eigen::Array3d::Zero()); }
-  double pdf(const mc::Vec3<double>& w) const { return visible(w) ? 1 / (2 * w.z() * w.z() * w.z()) : 0; } // r^2 / (cos area)
+  static bool visible(const mc::Vec3<double>& w) {
+    return w.z() > 0 && std::abs(hit(w).x()) <= 1 && std::abs(hit(w).y()) <= 0.5;
+  }
+  Eigen::Array3d radiance(const mc::Vec3<double>& w) const {
+    return visible(w) ? Eigen::Array3d(1, 2, 3) : Eigen::Array3d(Eigen::Array3d::Zero());
+  }
+  double pdf(const mc::Vec3<double>& w) const {
+    return visible(w) ? 1 / (2 * w.z() * w.z() * w.z()) : 0;
+  } // r^2 / (cos area)
   Sample sample(const mc::Vec2<double>& u) const {
     const mc::Vec3<double> w = mc::Vec3<double>(2 * u[0] - 1, u[1] - 0.5, 1).normalized();
     return {w, slip * Eigen::Array3d(1, 2, 3) / pdf(w), pdf(w)};
@@ -77,8 +102,11 @@ struct AreaLightSeen {
 
 TEST(MakeSubject, ALightSeenFromAPoint) {
   const auto check = [](AreaLightSeen light) {
-    return check_subject(mc::make_subject("light", mc::Hemisphere<double>(), [=](const mc::Vec2<double>& u) { return light.sample(u); },
-                                          [=](const mc::Vec3<double>& w) { return light.pdf(w); }, [=](const mc::Vec3<double>& w) { return light.radiance(w); }),
+    return check_subject(mc::make_subject(
+                             "light", mc::Hemisphere<double>(),
+                             [=](const mc::Vec2<double>& u) { return light.sample(u); },
+                             [=](const mc::Vec3<double>& w) { return light.pdf(w); },
+                             [=](const mc::Vec3<double>& w) { return light.radiance(w); }),
                          {.samples = 50'000});
   };
   EXPECT_TRUE(check({}).passed()) << check({}).to_string();
@@ -95,7 +123,9 @@ TEST(MakeSubject, AnImageShapedTable) {
   const mc::TableDist2D<float> other(pixels, 64, 32);
   const auto sampler = [&](const mc::Vec2<float>& u) { return table.sample(u); };
   const auto pdf = [&](const mc::Vec2<float>& p) { return other.pdf(p); };
-  EXPECT_EQ(check_subject(mc::make_subject("another image", table.domain(), sampler, pdf), {.samples = 50'000}).verdict(), mc::Verdict::fail);
+  EXPECT_EQ(
+      check_subject(mc::make_subject("another image", table.domain(), sampler, pdf), {.samples = 50'000}).verdict(),
+      mc::Verdict::fail);
 }
 
 TEST(MakeSubject, ADiscreteDistributionBecomesAtoms) {

@@ -14,7 +14,8 @@ TEST(Sidak, AdjustsAndKeepsTinyValues) {
 
 TEST(Sidak, SharesAreLevelsInverted) {
   for (const double share : {0.01, 0.25, 1.0})
-    for (const double alpha : {1e-6, 0.01, 0.5}) EXPECT_NEAR(mc::sidak_share(mc::sidak_level(alpha, share), share), alpha, 1e-14);
+    for (const double alpha : {1e-6, 0.01, 0.5})
+      EXPECT_NEAR(mc::sidak_share(mc::sidak_level(alpha, share), share), alpha, 1e-14);
   EXPECT_NEAR(mc::sidak_share(0.003, 0.2), mc::sidak(0.003, 5), 1e-15);
 }
 

@@ -7,7 +7,8 @@ namespace {
 TEST(Oracle, FiftyDigits) {
   const mc::Oracle root = sqrt(mc::Oracle(2));
   EXPECT_LE(abs(mc::Oracle(root * root - 2)), mc::Oracle("1e-49"));
-  EXPECT_LE(abs(mc::Oracle(mc::pi<mc::Oracle> - mc::Oracle("3.14159265358979323846264338327950288419716939937510"))), mc::Oracle("1e-48"));
+  EXPECT_LE(abs(mc::Oracle(mc::pi<mc::Oracle> - mc::Oracle("3.14159265358979323846264338327950288419716939937510"))),
+            mc::Oracle("1e-48"));
   static_assert(mc::Real<mc::Oracle>);
 }
 

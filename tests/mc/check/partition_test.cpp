@@ -37,7 +37,8 @@ TEST(Partition, CellsTileTheCubeAndHoldEqualShares) {
         const mc::UnitBox b = partition.box(i);
         double v = 1;
         Point middle{};
-        for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) v *= b.hi[d] - b.lo[d], middle[d] = 0.5 * (b.lo[d] + b.hi[d]);
+        for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d)
+          v *= b.hi[d] - b.lo[d], middle[d] = 0.5 * (b.lo[d] + b.hi[d]);
         volume += v;
         EXPECT_EQ(partition.cell(middle), i);
         EXPECT_EQ(partition.cell(b.lo), i);
@@ -45,7 +46,8 @@ TEST(Partition, CellsTileTheCubeAndHoldEqualShares) {
       EXPECT_NEAR(volume, 1, 1e-12);
       std::vector<int> counts(512);
       for (const Point& p : draw(dim, 65536, 2, power)) ++counts[static_cast<std::size_t>(partition.cell(p))];
-      // 128 expected; splits between the 45 and 55 % quantiles at nine levels keep shares within a factor of 1.1^9 = 2.4.
+      // 128 expected; splits between the 45 and 55 % quantiles at nine levels keep shares within a factor of 1.1^9 =
+      // 2.4.
       for (const int c : counts) EXPECT_TRUE(c >= 30 && c <= 400) << c;
     }
 }

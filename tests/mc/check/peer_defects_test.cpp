@@ -1,5 +1,5 @@
-// Where the statistics of renderers' test harnesses break, measured on their own code: each defect is named with what it let pass, and
-// must not pass here. Samplers that must be rejected are among the mutants.
+// Where the statistics of renderers' test harnesses break, measured on their own code: each defect is named with what
+// it let pass, and must not pass here. Samplers that must be rejected are among the mutants.
 
 #include <mc/check/chi_square.h>
 #include <mc/check/t_test.h>
@@ -10,7 +10,8 @@
 
 namespace {
 
-// 2d. hypothesis.h: the variance is floored at 1e-5, so a mean of 1.001e-4 with a deviation of 1e-6 passes as 1e-4 after a million
+// 2d. hypothesis.h: the variance is floored at 1e-5, so a mean of 1.001e-4 with a deviation of 1e-6 passes as 1e-4
+// after a million
 // values: 100 standard errors.
 TEST(PeerDefects, SmallVariancesAreNotFloored) {
   mc::Moments m;
@@ -20,7 +21,8 @@ TEST(PeerDefects, SmallVariancesAreNotFloored) {
   EXPECT_LT(t.p, 1e-300);
 }
 
-// 2d. Mitsuba 3: the last group of pooled cells is dropped while incomplete, so 100000 samples where 1 is expected pass.
+// 2d. Mitsuba 3: the last group of pooled cells is dropped while incomplete, so 100000 samples where 1 is expected
+// pass.
 TEST(PeerDefects, StraySamplesInPooledCellsCount) {
   std::vector<double> expected(5000, 1000 - 1.0 / 5000);
   std::vector<std::uint64_t> observed(5000, 980);

@@ -28,8 +28,9 @@ TEST(PluginHeader, LayoutOfVersionOne) {
 }
 
 TEST(PluginHeader, IsPureC99) {
-  const std::string command = "printf '#include <mc/check/plugin.h>\\n' | '" MC_CXX_COMPILER
-                              "' -x c -std=c99 -pedantic-errors -Wall -Wextra -Werror -fsyntax-only -I'" MC_SOURCE_DIR "/libmc' -";
+  const std::string command =
+      "printf '#include <mc/check/plugin.h>\\n' | '" MC_CXX_COMPILER
+      "' -x c -std=c99 -pedantic-errors -Wall -Wextra -Werror -fsyntax-only -I'" MC_SOURCE_DIR "/libmc' -";
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
 }
 

@@ -27,8 +27,10 @@ TEST(Report, TextSaysWhereAndByHowMuch) {
   r.subject = "Cone";
   r.checks.push_back({"mass", Verdict::fail, {}, 0, 0.003, 1e-6, Fault::mass, "integrates to 1.003"});
   r.worst.push_back({{0, 0.25, 0}, {0.5, 0.5, 1}, 120, 64, 7, "(0, 0, 1)"});
-  EXPECT_THAT(r.to_string(), testing::AllOf(testing::HasSubstr("Cone: fail"), testing::HasSubstr("mass fail: 0.003, limit 1e-06; integrates to 1.003"),
-                                            testing::HasSubstr("at (0, 0, 1): observed 120, expected 64.0, z = 7.0"), testing::HasSubstr("likely fault: mass")));
+  EXPECT_THAT(r.to_string(), testing::AllOf(testing::HasSubstr("Cone: fail"),
+                                            testing::HasSubstr("mass fail: 0.003, limit 1e-06; integrates to 1.003"),
+                                            testing::HasSubstr("at (0, 0, 1): observed 120, expected 64.0, z = 7.0"),
+                                            testing::HasSubstr("likely fault: mass")));
 }
 
 TEST(Report, CellsReadInTheCoordinatesOfTheDomain) {
@@ -37,8 +39,9 @@ TEST(Report, CellsReadInTheCoordinatesOfTheDomain) {
   r.checks.push_back({"cells", Verdict::fail, 1e-9, 0.1, 7, 0, Fault::local, ""});
   r.worst.push_back({{0, 0.25, 0}, {0.5, 0.5, 1}, 120, 64, 7, "(0, 0, 1)"});
   r.worst.push_back({{}, {}, 12, 3, 5.2, "outcome 4"});
-  EXPECT_THAT(r.to_string(), testing::AllOf(testing::HasSubstr("cell theta 0 to 60 deg, phi 90 to 180 deg at (0, 0, 1): observed 120"),
-                                            testing::HasSubstr("\n  outcome 4: observed 12, expected 3.0, z = 5.2")));
+  EXPECT_THAT(r.to_string(),
+              testing::AllOf(testing::HasSubstr("cell theta 0 to 60 deg, phi 90 to 180 deg at (0, 0, 1): observed 120"),
+                             testing::HasSubstr("\n  outcome 4: observed 12, expected 3.0, z = 5.2")));
 }
 
 TEST(Report, EveryFaultAndVerdictHasAName) {

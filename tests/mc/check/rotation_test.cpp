@@ -22,7 +22,9 @@ mc::Subject bent_cosine(double degrees, double bend = 0.8) {
       return mc::spherical_direction<double>(std::sqrt(u), std::sqrt(1 - u), turned);
     }
   };
-  const auto pdf = [](const V& w) { return w.z() > 0 ? w.z() / mc::pi<double> * (1 + 0.8 * w.x() / std::hypot(w.x(), w.y())) : 0.0; };
+  const auto pdf = [](const V& w) {
+    return w.z() > 0 ? w.z() / mc::pi<double> * (1 + 0.8 * w.x() / std::hypot(w.x(), w.y())) : 0.0;
+  };
   return make_subject("bent cosine", mc::Hemisphere<double>{}, sampler, pdf);
 }
 
@@ -34,7 +36,8 @@ TEST(FindRotation, NamesTheTurnSmallAndLarge) {
     const std::size_t at = text.find(words);
     ASSERT_NE(at, std::string::npos) << text;
     const double found = std::stod(text.substr(at + words.size()));
-    // The score's standard error is 0.3 degree here, the search of large turns resolves 0.2 and sees an eighth of the samples.
+    // The score's standard error is 0.3 degree here, the search of large turns resolves 0.2 and sees an eighth of the
+    // samples.
     EXPECT_LE(std::abs(std::remainder(found - degrees, 360)), 2.5) << degrees << text;
   }
 }
@@ -49,7 +52,8 @@ TEST(FindRotation, AnotherShapeIsNoRotation) {
 TEST(FindRotation, RoundDensitiesAreNeverTurned) {
   for (const double exponent : {0.8, 1.1, 1.5}) {
     const auto sampler = [exponent](Pcg& r) {
-      const double z = std::pow(r.uniform<double>(), 1 / (1 + exponent)), phi = 2 * mc::pi<double> * r.uniform<double>();
+      const double z = std::pow(r.uniform<double>(), 1 / (1 + exponent)),
+                   phi = 2 * mc::pi<double> * r.uniform<double>();
       return mc::spherical_direction<double>(std::sqrt(1 - z * z), z, phi);
     };
     const auto pdf = [](const V& w) { return w.z() > 0 ? w.z() / mc::pi<double> : 0.0; };

@@ -55,7 +55,8 @@ TEST(Slabs, HolesAreGapsInsideAndAtBothEnds) {
     EXPECT_NEAR(s.mass, 0.004, 5e-4);
     middles.push_back((s.box.lo[0] + s.box.hi[0]) / 2);
   }
-  EXPECT_THAT(middles, testing::ElementsAre(testing::DoubleNear(0.002, 1e-3), testing::DoubleNear(0.502, 1e-3), testing::DoubleNear(0.998, 1e-3)));
+  EXPECT_THAT(middles, testing::ElementsAre(testing::DoubleNear(0.002, 1e-3), testing::DoubleNear(0.502, 1e-3),
+                                            testing::DoubleNear(0.998, 1e-3)));
 }
 
 // A triangle of 1e-4 seen in float: its points are rounded to steps of 1e-3 of its chart, and some lie just outside.

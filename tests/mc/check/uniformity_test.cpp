@@ -19,16 +19,19 @@ std::vector<std::array<double, 3>> points(std::uint64_t seed, int n, double powe
   return p;
 }
 
-// 400 runs at 10 %: Binomial(400, 0.1) lies in 16 to 66 with probability 0.9999; dependent tests make Sidak conservative.
+// 400 runs at 10 %: Binomial(400, 0.1) lies in 16 to 66 with probability 0.9999; dependent tests make Sidak
+// conservative.
 TEST(Uniformity, RejectsAtTheRateOfAlpha) {
   int rejected = 0;
-  for (std::uint64_t seed = 0; seed < 400; ++seed) rejected += mc::test_uniformity(points(seed, 2000), 2, 0, 0.1, 1)->verdict == mc::Verdict::fail;
+  for (std::uint64_t seed = 0; seed < 400; ++seed)
+    rejected += mc::test_uniformity(points(seed, 2000), 2, 0, 0.1, 1)->verdict == mc::Verdict::fail;
   EXPECT_LE(rejected, 66);
   EXPECT_GE(rejected, 12);
 }
 
 TEST(Uniformity, FindsWrongPowersAndCorrelations) {
-  const auto bent = mc::test_uniformity(points(1, 100'000, 1.02), 2, 0, 0.001, 1), tied = mc::test_uniformity(points(2, 100'000, 1, 0.02), 2, 0, 0.001, 1);
+  const auto bent = mc::test_uniformity(points(1, 100'000, 1.02), 2, 0, 0.001, 1),
+             tied = mc::test_uniformity(points(2, 100'000, 1, 0.02), 2, 0, 0.001, 1);
   EXPECT_EQ(bent->verdict, mc::Verdict::fail);
   EXPECT_THAT(bent->detail, testing::HasSubstr("axis 0"));
   EXPECT_EQ(tied->verdict, mc::Verdict::fail);

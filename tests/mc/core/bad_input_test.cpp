@@ -1,4 +1,5 @@
-// Every constructor and every function that takes data refuses nonsense with one line: what, which, its value, what is needed.
+// Every constructor and every function that takes data refuses nonsense with one line: what, which, its value, what is
+// needed.
 
 #include "support/files.h"
 
@@ -78,7 +79,8 @@ void expect_refused(const std::vector<Row>& rows) {
 
 // A parameter of one number: each bad value must be in the message.
 template <class Make>
-void add(std::vector<Row>& rows, const std::string& subject, const std::string& need, std::initializer_list<S> bad, Make make) {
+void add(std::vector<Row>& rows, const std::string& subject, const std::string& need, std::initializer_list<S> bad,
+         Make make) {
   for (const S x : bad) rows.push_back({[=] { make(x); }, {subject + ":", fmt::format("{}", x), need}});
 }
 
@@ -118,16 +120,23 @@ TEST(BadInput, WarpsOnThePlaneAndTheSphere) {
   add(rows, "TrowbridgeReitzVisibleNormals", "unit vector with z >= 0", {nan, -1, 2},
       [](S x) { TrowbridgeReitzVisibleNormals<S>(V(0, 0, x), 0.1); });
   add(rows, "Reflected", "unit vector", {nan, inf, 0, 2}, [](S x) { Reflected(V(0, 0, x), BeckmannNormals<S>(0.1)); });
-  add(rows, "RefractedIn", "[1.0001, 10000]", {nan, inf, 0.5, 1, -2}, [](S x) { RefractedIn(V(0, 0, 1), BeckmannNormals<S>(0.1), x); });
-  add(rows, "RefractedOut", "[0.0001, 0.9999]", {nan, 0, 1, 1.5, -2}, [](S x) { RefractedOut(V(0, 0, 1), BeckmannNormals<S>(0.1), x); });
+  add(rows, "RefractedIn", "[1.0001, 10000]", {nan, inf, 0.5, 1, -2},
+      [](S x) { RefractedIn(V(0, 0, 1), BeckmannNormals<S>(0.1), x); });
+  add(rows, "RefractedOut", "[0.0001, 0.9999]", {nan, 0, 1, 1.5, -2},
+      [](S x) { RefractedOut(V(0, 0, 1), BeckmannNormals<S>(0.1), x); });
   add(rows, "SphereLight", "finite and > 0", {nan, inf, 0, -1}, [](S x) { SphereLight<S>(V(0, 0, 1), x); });
   rows.push_back({[] { SphereLight<S>(V(0, nan, 1), 1); }, {"SphereLight:", "nan"}});
   rows.push_back({[] { Rotated(CosineHemisphere<S>{}, V(0, 0, 2)); }, {"Rotated:", "length^2 4", "unit vector"}});
   rows.push_back({[] { Rotated(CosineHemisphere<S>{}, V(nan, 0, 1)); }, {"Rotated:", "nan", "unit vector"}});
-  rows.push_back({[] { SphericalTriangle<S>(V(0, 0, nan), V(1, 0, 0), V(0, 1, 0)); }, {"Patch:", "nan", "finite and > 0"}});
-  rows.push_back({[] { SphericalTriangle<S>(V(0, 0, 0), V(1, 0, 0), V(0, 1, 0)); }, {"Patch:", "volume of 0", "finite and > 0"}});
-  rows.push_back({[] { SphericalRectangle<S>(V(0, 0, 1), V(1, 0, 0), V(2, 0, 0)); }, {"Patch:", "volume of 0", "finite and > 0"}});
-  const auto mixture = [](S a, S b) { return [=] { Mixture(std::array{a, b}, UniformHemisphere<S>{}, CosineHemisphere<S>{}); }; };
+  rows.push_back(
+      {[] { SphericalTriangle<S>(V(0, 0, nan), V(1, 0, 0), V(0, 1, 0)); }, {"Patch:", "nan", "finite and > 0"}});
+  rows.push_back(
+      {[] { SphericalTriangle<S>(V(0, 0, 0), V(1, 0, 0), V(0, 1, 0)); }, {"Patch:", "volume of 0", "finite and > 0"}});
+  rows.push_back(
+      {[] { SphericalRectangle<S>(V(0, 0, 1), V(1, 0, 0), V(2, 0, 0)); }, {"Patch:", "volume of 0", "finite and > 0"}});
+  const auto mixture = [](S a, S b) {
+    return [=] { Mixture(std::array{a, b}, UniformHemisphere<S>{}, CosineHemisphere<S>{}); };
+  };
   rows.push_back({mixture(1, nan), {"Mixture:", "weights[1] = nan", "finite and >= 0"}});
   rows.push_back({mixture(-1, 1), {"Mixture:", "weights[0] = -1", "finite and >= 0"}});
   rows.push_back({mixture(0, 0), {"Mixture:", "all 2 weights are 0", "at least one must be > 0"}});
@@ -141,10 +150,14 @@ TEST(BadInput, Domains) {
   add(rows, "HalfLine", "finite", {nan, inf, 0}, [](S x) { HalfLine<S>(0, x); });
   add(rows, "RealLine", "scale > 0", {nan, inf, 0, -1}, [](S x) { RealLine<S>(0, x); });
   add(rows, "Box", "lo < hi", {nan, inf, 0, -1}, [](S x) { Box<S, 2>({0, 0}, {1, x}); });
-  rows.push_back({[] { Box<S, Eigen::Dynamic>(Eigen::VectorXd(0), Eigen::VectorXd(0)); }, {"Box:", "dimension 0", "at least 1"}});
-  rows.push_back({[] { Box<S, Eigen::Dynamic>(Eigen::VectorXd::Zero(2), Eigen::VectorXd::Ones(3)); }, {"Box:", "2 and 3", "the same"}});
-  rows.push_back({[] { Parallelogram<S>(V(0, 0, 0), V(1, 0, 0), V(2, 0, 0)); }, {"Parallelogram:", "area of 0", "finite and > 0"}});
-  rows.push_back({[] { Parallelogram<S>(V(0, nan, 0), V(1, 0, 0), V(0, 1, 0)); }, {"Parallelogram:", "coordinate 1", "nan"}});
+  rows.push_back(
+      {[] { Box<S, Eigen::Dynamic>(Eigen::VectorXd(0), Eigen::VectorXd(0)); }, {"Box:", "dimension 0", "at least 1"}});
+  rows.push_back({[] { Box<S, Eigen::Dynamic>(Eigen::VectorXd::Zero(2), Eigen::VectorXd::Ones(3)); },
+                  {"Box:", "2 and 3", "the same"}});
+  rows.push_back({[] { Parallelogram<S>(V(0, 0, 0), V(1, 0, 0), V(2, 0, 0)); },
+                  {"Parallelogram:", "area of 0", "finite and > 0"}});
+  rows.push_back(
+      {[] { Parallelogram<S>(V(0, nan, 0), V(1, 0, 0), V(0, 1, 0)); }, {"Parallelogram:", "coordinate 1", "nan"}});
   expect_refused(rows);
 }
 
@@ -153,7 +166,8 @@ TEST(BadInput, TablesAndSamplers) {
   const auto tables = [&](const Weights& w, const std::vector<std::string>& says) {
     rows.push_back({[=] { TableDist1D<float>{w}; }, says});
     rows.push_back({[=] { AliasTable{w}; }, says});
-    rows.push_back({[=] { TableDist2D<float>(w, w.size(), 1); }, w.empty() ? std::vector<std::string>{"TableDist2D:", "0x1 cells"} : says});
+    rows.push_back({[=] { TableDist2D<float>(w, w.size(), 1); },
+                    w.empty() ? std::vector<std::string>{"TableDist2D:", "0x1 cells"} : says});
   };
   tables({}, {"table:", "no weights", "at least one is needed"});
   tables({0, 0, 0}, {"all 3 weights are 0", "at least one must be > 0"});
@@ -161,11 +175,14 @@ TEST(BadInput, TablesAndSamplers) {
   tables({1, 2, inf}, {"weights[2] = inf", "not finite and >= 0"});
   tables({-5, 1}, {"weights[0] = -5", "not finite and >= 0"});
   rows.push_back({[] { TableDist2D<float>(Weights{1, 2, 3}, 2, 2); }, {"TableDist2D:", "3 weights", "4 are needed"}});
-  rows.push_back({[] { TableDist2D<float>::from_lat_long(Weights{1, 2, 3}, 2, 2); }, {"TableDist2D:", "3 weights", "4 are needed"}});
+  rows.push_back({[] {
+                    TableDist2D<float>::from_lat_long(Weights{1, 2, 3}, 2, 2);
+                  },
+                  {"TableDist2D:", "3 weights", "4 are needed"}});
   rows.push_back({[] { TableDist1D<double>(Weights{1}, {2, 1}); }, {"Interval:", "[2, 1]", "lo < hi"}});
   rows.push_back({[] { TableDist1D<double>::from_function([](double) { return 1.0; }, 0); }, {"table:", "no weights"}});
-  rows.push_back(
-      {[] { TableDist1D<double>::from_function([](double x) { return x - 1; }, 2); }, {"weights[0] = -0.75", "not finite and >= 0"}});
+  rows.push_back({[] { TableDist1D<double>::from_function([](double x) { return x - 1; }, 2); },
+                  {"weights[0] = -0.75", "not finite and >= 0"}});
   rows.push_back({[] { Stratified(0, 1, 2); }, {"Stratified:", "count 0", "at least 1"}});
   rows.push_back({[] { Stratified(4, 1, 0); }, {"Stratified:", "group 0", "at least 1"}});
   rows.push_back({[] { LatinHypercube(0, 1); }, {"LatinHypercube:", "count 0", "at least 1"}});
@@ -191,14 +208,16 @@ TEST(BadInput, Integrate) {
   }
   for (const Method method : {Method::plain, Method::stratified, Method::rqmc, Method::vegas, Method::automatic})
     for (const std::uint64_t calls : {0, 1})
-      refuses({fmt::format("max_calls {}", calls), "at least"}, [&](IntegrateOptions& o) { o.method = method, o.max_calls = calls; });
+      refuses({fmt::format("max_calls {}", calls), "at least"},
+              [&](IntegrateOptions& o) { o.method = method, o.max_calls = calls; });
   for (const double bad : {0.0, 1.0, -1.0, nan})
     refuses({fmt::format("confidence {}", bad), "(0, 1)"}, [&](IntegrateOptions& o) { o.confidence = bad; });
   for (const std::uint32_t bad : {0u, 1u, 2000000u})
-    refuses({fmt::format("{} replicates", bad), "between 2 and 2^20"}, [&](IntegrateOptions& o) { o.replicates = bad; });
+    refuses({fmt::format("{} replicates", bad), "between 2 and 2^20"},
+            [&](IntegrateOptions& o) { o.replicates = bad; });
   refuses({"threads -1", ">= 0"}, [](IntegrateOptions& o) { o.threads = -1; });
-  rows.push_back(
-      {[] { integrate_unit(std::function<double(std::span<const double>)>(), 2); }, {"integrate:", "empty function", "callable"}});
+  rows.push_back({[] { integrate_unit(std::function<double(std::span<const double>)>(), 2); },
+                  {"integrate:", "empty function", "callable"}});
   rows.push_back({[] { integrate_unit(VectorIntegrand(), 1, 2); }, {"integrate:", "empty function", "callable"}});
   rows.push_back({[] { integrate_unit([](auto, auto) {}, 0, 2); }, {"integrate:", "0 outputs", "at least 1"}});
   rows.push_back({[] { integrate([](S x) { return x; }, Interval<S>(0, nan)); }, {"Interval:", "nan", "lo < hi"}});
@@ -260,10 +279,15 @@ TEST(BadInput, Checkers) {
                   {"fit_power_law:", "N = 16", "two different"}});
   rows.push_back({[] { Partition({}, 0, 3); }, {"Partition:", "dim 0", "1..3"}});
   rows.push_back({[] { ks_test({}, [](double x) { return x; }); }, {"ks_test:", "no samples"}});
-  rows.push_back({[] { ks_test({0.5, nan}, [](double x) { return x; }); }, {"ks_test:", "samples[1] = nan", "not finite"}});
-  rows.push_back({[] { integrate_boxes([](const auto&) { return 1.0; }, 4, {}); }, {"integrate_boxes:", "dim 4", "1..3"}});
+  rows.push_back({[] {
+                    ks_test({0.5, nan}, [](double x) { return x; });
+                  },
+                  {"ks_test:", "samples[1] = nan", "not finite"}});
+  rows.push_back(
+      {[] { integrate_boxes([](const auto&) { return 1.0; }, 4, {}); }, {"integrate_boxes:", "dim 4", "1..3"}});
   const Subject subject = make_subject("cosine", CosineHemisphere<S>{});
-  rows.push_back({[=] { check_subject(subject, {.samples = 10}); }, {"check_subject:", "samples = 10", "at least 1000"}});
+  rows.push_back(
+      {[=] { check_subject(subject, {.samples = 10}); }, {"check_subject:", "samples = 10", "at least 1000"}});
   rows.push_back({[=] { check_subject(subject, {.alpha = nan}); }, {"check_subject:", "alpha = nan", "(0, 1)"}});
   expect_refused(rows);
 }

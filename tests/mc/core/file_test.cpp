@@ -51,8 +51,9 @@ TEST_F(FileTest, AFailedWriteLeavesTheOldFile) {
 
 TEST_F(FileTest, SaysWhatToDo) {
   const std::string missing = folder / "none" / "a.txt";
-  EXPECT_EQ(message([&] { mc::write_file(missing, "x"); }),
-            "cannot write '" + missing + "': the folder '" + (folder / "none").string() + "' does not exist; create it first");
+  EXPECT_EQ(message([&] { mc::write_file(missing, "x"); }), "cannot write '" + missing + "': the folder '" +
+                                                                (folder / "none").string() +
+                                                                "' does not exist; create it first");
   EXPECT_EQ(message([&] { mc::write_file(folder, "x"); }),
             "cannot write '" + folder.string() + "': it is a folder; name a file in it");
   EXPECT_EQ(message([&] { mc::read_file(missing); }), "cannot read '" + missing + "': no such file");

@@ -16,7 +16,8 @@ template <class S, class T> double ulps(S got, const T& exact) {
   return static_cast<double>(T(abs(T(T(got) - exact)) / T(place)));
 }
 
-// Every multiple of 2^-24: all that uniform<float> gives. Double is exact enough to judge float: its own error is 2^-29 ulp.
+// Every multiple of 2^-24: all that uniform<float> gives. Double is exact enough to judge float: its own error is 2^-29
+// ulp.
 TEST(Turns, EveryFloatUniformIsWithinTwoUlps) {
   double worst = 0;
   for (std::uint32_t i = 0; i < 1u << 24; ++i) {

@@ -11,7 +11,8 @@ using mc::Oracle;
 
 TEST(Types, ConstantsReachThePrecisionOfTheirScalar) {
   EXPECT_EQ(mc::pi<double>, M_PI);
-  EXPECT_LE(abs(mc::pi<Oracle> - Oracle("3.14159265358979323846264338327950288419716939937510582097494")), Oracle(1e-49));
+  EXPECT_LE(abs(mc::pi<Oracle> - Oracle("3.14159265358979323846264338327950288419716939937510582097494")),
+            Oracle(1e-49));
   EXPECT_LT(mc::one_minus_epsilon<float>, 1.0f);
   EXPECT_EQ(std::nextafter(mc::one_minus_epsilon<float>, 2.0f), 1.0f);
   EXPECT_EQ(std::nextafter(mc::one_minus_epsilon<double>, 2.0), 1.0);
@@ -40,7 +41,8 @@ TEST(Types, DifferenceOfProductsDoesNotCancel) {
     const float c = b * (1 + 1e-6f * random.uniform<float>()), d = a;
     const double exact = double(a) * double(b) - double(c) * double(d); // exact: 24-bit products fit 53 bits
     const double got = mc::difference_of_products(a, b, c, d);
-    if (exact != 0) worst = std::max(worst, std::abs(got - exact) / std::abs(exact) / std::numeric_limits<float>::epsilon());
+    if (exact != 0)
+      worst = std::max(worst, std::abs(got - exact) / std::abs(exact) / std::numeric_limits<float>::epsilon());
   }
   EXPECT_LE(worst, 1.5);
 }

@@ -21,10 +21,17 @@ TEST(Box, DynamicTakesItsDimensionFromTheBounds) {
 }
 
 TEST(Box, RefusesNonsense) {
-  EXPECT_EQ(support::error_of([] { mc::Square<double>({0, 1}, {1, 1}); }), "Box: side 1 is [1, 1]; finite bounds with lo < hi are needed");
-  EXPECT_THAT(support::error_of([] { mc::Square<double>({0, NAN}, {1, 1}); }), testing::HasSubstr("side 1 is [nan, 1]"));
+  EXPECT_EQ(support::error_of([] {
+              mc::Square<double>({0, 1}, {1, 1});
+            }),
+            "Box: side 1 is [1, 1]; finite bounds with lo < hi are needed");
+  EXPECT_THAT(support::error_of([] {
+                mc::Square<double>({0, NAN}, {1, 1});
+              }),
+              testing::HasSubstr("side 1 is [nan, 1]"));
   using Dynamic = mc::Box<double, Eigen::Dynamic>;
-  EXPECT_THAT(support::error_of([] { Dynamic(Eigen::VectorXd(), Eigen::VectorXd()); }), testing::HasSubstr("at least 1"));
+  EXPECT_THAT(support::error_of([] { Dynamic(Eigen::VectorXd(), Eigen::VectorXd()); }),
+              testing::HasSubstr("at least 1"));
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 #include <mc/domain/product.h>
 
-#include <mc/core/error.h>
 #include "support/charts.h"
+#include <mc/core/error.h>
 
 namespace mc {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <mc/domain/hemisphere.h>
 
-#include <mc/core/error.h>
 #include "support/charts.h"
+#include <mc/core/error.h>
 
 namespace mc {
 namespace {

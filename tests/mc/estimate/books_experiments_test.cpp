@@ -1,5 +1,5 @@
-// The numeric experiments of the books on Monte Carlo and rendering, each against its analytic value; where a book prints another, the
-// test says so. `carlo converge` shows how the errors of some of them fall.
+// The numeric experiments of the books on Monte Carlo and rendering, each against its analytic value; where a book
+// prints another, the test says so. `carlo converge` shows how the errors of some of them fall.
 
 #include <mc/core/error.h>
 #include <mc/domain/box.h>
@@ -26,12 +26,12 @@ using Unit = std::span<const double>;
 using V = mc::Vec3<double>;
 constexpr double pi = std::numbers::pi;
 
-mc::Vec2<double> pair(Unit u) {
-  return {u[0], u[1]};
-}
+mc::Vec2<double> pair(Unit u) { return {u[0], u[1]}; }
 
-// Mean and variance per sample of f(u). 5 standard errors of 24 replicates, a false alarm in 5e-5 of seeds, or rounding.
-void expect_moments(const char* what, int dim, const std::function<double(Unit)>& f, double mean, double variance = NAN) {
+// Mean and variance per sample of f(u). 5 standard errors of 24 replicates, a false alarm in 5e-5 of seeds, or
+// rounding.
+void expect_moments(const char* what, int dim, const std::function<double(Unit)>& f, double mean,
+                    double variance = NAN) {
   mc::IntegrateOptions o;
   o.method = mc::Method::rqmc;
   o.rel_error = 0, o.max_calls = 200'000;
@@ -40,12 +40,15 @@ void expect_moments(const char* what, int dim, const std::function<double(Unit)>
     y[1] = mc::sqr(y[0] - mean);
   };
   const mc::VectorIntegral r = mc::integrate_unit(both, 2, dim, o);
-  EXPECT_LE(std::abs(r.outputs[0].estimate.value - mean), 5 * r.outputs[0].estimate.std_error + 1e-11 * std::max(1.0, std::abs(mean)))
+  EXPECT_LE(std::abs(r.outputs[0].estimate.value - mean),
+            5 * r.outputs[0].estimate.std_error + 1e-11 * std::max(1.0, std::abs(mean)))
       << what;
-  EXPECT_LE(r.outputs[0].estimate.std_error, 2e-3 * std::max({1.0, std::abs(mean), std::isnan(variance) ? 0 : std::sqrt(variance)}))
+  EXPECT_LE(r.outputs[0].estimate.std_error,
+            2e-3 * std::max({1.0, std::abs(mean), std::isnan(variance) ? 0 : std::sqrt(variance)}))
       << what;
   if (!std::isnan(variance)) {
-    EXPECT_LE(std::abs(r.outputs[1].estimate.value - variance), 5 * r.outputs[1].estimate.std_error + 1e-11 * std::max(1.0, variance))
+    EXPECT_LE(std::abs(r.outputs[1].estimate.value - variance),
+              5 * r.outputs[1].estimate.std_error + 1e-11 * std::max(1.0, variance))
         << what;
   }
 }
@@ -54,11 +57,13 @@ TEST(BooksExperiments, PiByDarts) {
   const auto hit = [](Unit u) { return mc::sqr(2 * u[0] - 1) + mc::sqr(2 * u[1] - 1) <= 1 ? 4.0 : 0.0; };
   expect_moments("pi", 2, hit, pi, pi * (4 - pi));
   expect_moments(
-      "ball in cube", 3, [](Unit u) { return mc::sqr(2 * u[0] - 1) + mc::sqr(2 * u[1] - 1) + mc::sqr(2 * u[2] - 1) <= 1 ? 1.0 : 0.0; },
+      "ball in cube", 3,
+      [](Unit u) { return mc::sqr(2 * u[0] - 1) + mc::sqr(2 * u[1] - 1) + mc::sqr(2 * u[2] - 1) <= 1 ? 1.0 : 0.0; },
       pi / 6);
 }
 
-// pi by N jittered strata: rms error 2.85 N^-0.75, measured over 64 seeds; rms of 64 values is known to 9 %, 3 of those.
+// pi by N jittered strata: rms error 2.85 N^-0.75, measured over 64 seeds; rms of 64 values is known to 9 %, 3 of
+// those.
 TEST(BooksExperiments, PiByStrata) {
   for (const std::uint32_t side : {32u, 100u}) {
     double squares = 0;
@@ -67,7 +72,9 @@ TEST(BooksExperiments, PiByStrata) {
       int hits = 0;
       for (std::uint32_t i = 0; i < side; ++i)
         for (std::uint32_t j = 0; j < side; ++j)
-          hits += mc::sqr(2 * (i + random.uniform<double>()) / side - 1) + mc::sqr(2 * (j + random.uniform<double>()) / side - 1) <= 1;
+          hits += mc::sqr(2 * (i + random.uniform<double>()) / side - 1) +
+                      mc::sqr(2 * (j + random.uniform<double>()) / side - 1) <=
+                  1;
       squares += mc::sqr(4.0 * hits / (side * side) - pi) / 64;
     }
     EXPECT_NEAR(std::sqrt(squares) / (2.85 * std::pow(side, -1.5)), 1, 0.3) << side;
@@ -79,10 +86,12 @@ TEST(BooksExperiments, SquareByThreeDensities) {
       "density 1/2", 1, [](Unit u) { return 2 * mc::sqr(2 * u[0]); }, 8.0 / 3, 256.0 / 45);
   const mc::Linear<double> linear(0, 1); // x/2 on [0,2], in units of 2
   expect_moments(
-      "density x/2", 1, [&](Unit u) { return 2 * mc::sqr(2 * linear.sample(u[0])) / linear.pdf(linear.sample(u[0])); }, 8.0 / 3, 8.0 / 9);
+      "density x/2", 1, [&](Unit u) { return 2 * mc::sqr(2 * linear.sample(u[0])) / linear.pdf(linear.sample(u[0])); },
+      8.0 / 3, 8.0 / 9);
   const mc::Power<double> square(2); // 3 x^2 / 8
   expect_moments(
-      "density 3 x^2 / 8", 1, [&](Unit u) { return 2 * mc::sqr(2 * square.sample(u[0])) / square.pdf(square.sample(u[0])); }, 8.0 / 3, 0);
+      "density 3 x^2 / 8", 1,
+      [&](Unit u) { return 2 * mc::sqr(2 * square.sample(u[0])) / square.pdf(square.sample(u[0])); }, 8.0 / 3, 0);
   EXPECT_NEAR(linear.invert(0.5), 0.25, 1e-15);    // P(1) = 0.25
   EXPECT_NEAR(linear.invert(0.25), 0.0625, 1e-15); // P(0.5) = 0.0625
   EXPECT_NEAR(2 * linear.sample(0.49), 2 * std::sqrt(0.49), 1e-15);
@@ -112,9 +121,11 @@ TEST(BooksExperiments, CosinesOverSphereAndHemisphere) {
   expect_moments(
       "cos over the hemisphere", 2, [&](Unit u) { return uniform.sample(pair(u)).z() * 2 * pi; }, pi);
   expect_moments(
-      "cos^3, uniform", 2, [&](Unit u) { return cube(uniform.sample(pair(u))) * 2 * pi; }, pi / 2, 4 * pi * pi / 7 - pi * pi / 4);
+      "cos^3, uniform", 2, [&](Unit u) { return cube(uniform.sample(pair(u))) * 2 * pi; }, pi / 2,
+      4 * pi * pi / 7 - pi * pi / 4);
   expect_moments(
-      "cos^3, cosine", 2, [&](Unit u) { return cube(cosine.sample(pair(u))) / cosine.pdf(cosine.sample(pair(u))); }, pi / 2, pi * pi / 12);
+      "cos^3, cosine", 2, [&](Unit u) { return cube(cosine.sample(pair(u))) / cosine.pdf(cosine.sample(pair(u))); },
+      pi / 2, pi * pi / 12);
   expect_moments(
       "E cos of the cosine lobe", 2, [&](Unit u) { return cosine.sample(pair(u)).z(); }, 2.0 / 3);
   EXPECT_NEAR(1 / sphere.pdf({0, 0, 1}), 4 * pi, 1e-14);
@@ -180,7 +191,8 @@ TEST(BooksExperiments, Moments) {
 // A solar cell over a day of 86000 s, in joules: 50 sin(pi t / 86000) + 2 watts.
 TEST(BooksExperiments, Energy) {
   expect_moments(
-      "energy", 1, [](Unit u) { return 86000 * (50 * std::sin(pi * u[0]) + 2); }, 8.6e6 / pi + 172000, mc::sqr(1323361.34816));
+      "energy", 1, [](Unit u) { return 86000 * (50 * std::sin(pi * u[0]) + 2); }, 8.6e6 / pi + 172000,
+      mc::sqr(1323361.34816));
 }
 
 TEST(BooksExperiments, SymmetricDifferences) {

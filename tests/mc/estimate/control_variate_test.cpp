@@ -42,7 +42,8 @@ TEST(ControlVariates, CoefficientsAreThoseOfLeastVariance) {
   EXPECT_NEAR(least * std::sqrt(10'000.0), 0.439, 0.02);
 }
 
-// A control that is the integrand up to a factor leaves no error; one that is constant changes nothing; one given twice counts once.
+// A control that is the integrand up to a factor leaves no error; one that is constant changes nothing; one given twice
+// counts once.
 TEST(ControlVariates, SpecialControls) {
   mc::Pcg random(2);
   const std::array<double, 1> one = {2.5};
@@ -63,8 +64,8 @@ TEST(ControlVariates, SpecialControls) {
   EXPECT_LT(r.std_error, 0.3 * repeated.plain().std_error);
 }
 
-// One control. A coefficient fitted to the same 8 samples biases the mean, that of the other half does not. 5 standard errors over 20000
-// runs, a false alarm in 6e-7 of seeds; the seed is fixed.
+// One control. A coefficient fitted to the same 8 samples biases the mean, that of the other half does not. 5 standard
+// errors over 20000 runs, a false alarm in 6e-7 of seeds; the seed is fixed.
 TEST(CrossEstimate, IsUnbiasedWhereFittingInPlaceIsNot) {
   mc::Pcg random(3);
   mc::Moments crossed, in_place;
@@ -82,7 +83,8 @@ TEST(CrossEstimate, IsUnbiasedWhereFittingInPlaceIsNot) {
   EXPECT_GE(std::abs(in_place.mean() - truth), 10 * in_place.std_error());
 }
 
-// Shares within 1 and 2 sigma over 2000 runs of 2 x 100 samples: .683 and .954, with standard errors .0104 and .0047; 3 of those.
+// Shares within 1 and 2 sigma over 2000 runs of 2 x 100 samples: .683 and .954, with standard errors .0104 and .0047; 3
+// of those.
 TEST(CrossEstimate, ErrorBarIsCalibrated) {
   mc::Pcg random(4);
   int within1 = 0, within2 = 0;
@@ -109,14 +111,22 @@ TEST(ControlVariates, MergingIsAdding) {
 }
 
 TEST(ControlVariates, RefusesNonsense) {
-  EXPECT_EQ(support::error_of([] { ControlVariates(std::span<const double>{}); }), "ControlVariates: no controls; at least one is needed");
-  EXPECT_EQ(support::error_of([] { ControlVariates(std::array{1.0, double(INFINITY)}); }), "ControlVariates: means[1] = inf is not finite");
+  EXPECT_EQ(support::error_of([] { ControlVariates(std::span<const double>{}); }),
+            "ControlVariates: no controls; at least one is needed");
+  EXPECT_EQ(support::error_of([] {
+              ControlVariates(std::array{1.0, double(INFINITY)});
+            }),
+            "ControlVariates: means[1] = inf is not finite");
   ControlVariates m(means);
   m.add(1, std::array{1.0, 2.0}, 0);
   EXPECT_THAT(support::error_of([&] { m.plain(); }), testing::HasSubstr("at least 2 are needed"));
   m.add(1, std::array{1.0, double(NAN)}, 17);
-  EXPECT_THAT(support::error_of([&] { m.coefficients(); }), testing::HasSubstr("1 of 2 values are not finite, the first at index 17"));
-  EXPECT_THAT(support::error_of([&] { m.merge(ControlVariates(std::array{1.0, 2.0})); }), testing::HasSubstr("different means"));
+  EXPECT_THAT(support::error_of([&] { m.coefficients(); }),
+              testing::HasSubstr("1 of 2 values are not finite, the first at index 17"));
+  EXPECT_THAT(support::error_of([&] {
+                m.merge(ControlVariates(std::array{1.0, 2.0}));
+              }),
+              testing::HasSubstr("different means"));
   mc::Pcg random(6);
   EXPECT_THAT(support::error_of([&] { drawn(random, 5).estimate(Eigen::VectorXd::Zero(3)); }),
               testing::HasSubstr("3 coefficients for 2 controls"));

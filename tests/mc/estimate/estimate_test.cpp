@@ -37,7 +37,9 @@ TEST(Estimate, OneSigmaHasOneMeaning) {
 
 TEST(Estimate, RefusesNonsense) {
   for (const double confidence : {0.0, 1.0, -1.0, double(NAN)})
-    EXPECT_THAT(support::error_of([&] { mc::Estimate{}.interval(confidence); }), testing::HasSubstr("must lie in (0, 1)")) << confidence;
+    EXPECT_THAT(support::error_of([&] { mc::Estimate{}.interval(confidence); }),
+                testing::HasSubstr("must lie in (0, 1)"))
+        << confidence;
 }
 
 } // namespace

@@ -58,8 +58,9 @@ TEST(ImportanceGrid, CrowdsWhereTheIntegrandIs) {
   EXPECT_GE(inside, ImportanceGrid::bins / 2);
 }
 
-// Of a constant there is nothing to learn but the noise of the points: one round of 128 to 8192 random ones, 64 behind each bin. A
-// count of 64 is off by 1/8, its root by 1/16, and the worst of 128 bins by 4 of those. Unpooled, bins without a point get 10.
+// Of a constant there is nothing to learn but the noise of the points: one round of 128 to 8192 random ones, 64 behind
+// each bin. A count of 64 is off by 1/8, its root by 1/16, and the worst of 128 bins by 4 of those. Unpooled, bins
+// without a point get 10.
 TEST(ImportanceGrid, FewPointsTeachNoNoise) {
   for (const std::size_t points : {128u, 512u, 2048u, 8192u}) {
     const mc::Independent sampler{points};

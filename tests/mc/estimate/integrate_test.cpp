@@ -63,7 +63,8 @@ TEST(Integrate, TheUnitDoesNotMatter) {
   for (const Method method : methods) {
     const mc::Integral one = mc::integrate_unit(peak, 2, with(method, 30'000));
     for (const int power : {-400, 400}) {
-      const mc::Integral r = mc::integrate_unit([&](Unit u) { return std::ldexp(peak(u), power); }, 2, with(method, 30'000));
+      const mc::Integral r =
+          mc::integrate_unit([&](Unit u) { return std::ldexp(peak(u), power); }, 2, with(method, 30'000));
       EXPECT_EQ(r.estimate.value, std::ldexp(one.estimate.value, power)) << name(method);
       EXPECT_EQ(r.estimate.std_error, std::ldexp(one.estimate.std_error, power)) << name(method);
       EXPECT_EQ(r.method, one.method);
@@ -87,18 +88,24 @@ TEST(Integrate, StopsAtTheWantedError) {
 
 TEST(Integrate, AutomaticPicksTheGridWhereItHelps) {
   EXPECT_EQ(mc::integrate_unit(peak, 2, with(Method::automatic, 300'000)).method, Method::vegas);
-  EXPECT_EQ(mc::integrate_unit([](Unit u) { return std::sin(6.28 * (u[0] + u[1])); }, 2, with(Method::automatic, 300'000)).method, Method::rqmc);
-  EXPECT_EQ(mc::integrate_unit([](Unit u) { return u[1099]; }, 1100, with(Method::automatic, 1000)).method, Method::plain);
+  EXPECT_EQ(
+      mc::integrate_unit([](Unit u) { return std::sin(6.28 * (u[0] + u[1])); }, 2, with(Method::automatic, 300'000))
+          .method,
+      Method::rqmc);
+  EXPECT_EQ(mc::integrate_unit([](Unit u) { return u[1099]; }, 1100, with(Method::automatic, 1000)).method,
+            Method::plain);
 }
 
 TEST(Integrate, DomainsAndWarps) {
   const auto cos2 = [](const mc::Vec3<double>& w) { return w.z() * w.z(); };
   const mc::Integral sphere = mc::integrate(cos2, mc::Sphere<double>{}, with(Method::rqmc, 100'000));
   EXPECT_NEAR(sphere.estimate.value, 4 * mc::pi<double> / 3, 5 * sphere.estimate.std_error);
-  const mc::Integral hemisphere = mc::integrate([](const mc::Vec3<float>& w) { return w.z() * w.z() * w.z(); }, mc::CosineHemisphere<float>{}, with(Method::rqmc, 100'000));
+  const mc::Integral hemisphere = mc::integrate([](const mc::Vec3<float>& w) { return w.z() * w.z() * w.z(); },
+                                                mc::CosineHemisphere<float>{}, with(Method::rqmc, 100'000));
   EXPECT_NEAR(hemisphere.estimate.value, mc::pi<double> / 2, 1e-4);
   const mc::Box<double, Eigen::Dynamic> box(Eigen::VectorXd::Constant(3, -1), Eigen::VectorXd::Constant(3, 2));
-  const mc::Integral volume = mc::integrate([](const Eigen::VectorXd& x) { return x.sum(); }, box, with(Method::automatic, 100'000));
+  const mc::Integral volume =
+      mc::integrate([](const Eigen::VectorXd& x) { return x.sum(); }, box, with(Method::automatic, 100'000));
   EXPECT_NEAR(volume.estimate.value, 27 * 1.5, 5 * volume.estimate.std_error + 1e-9);
 }
 
@@ -131,7 +138,9 @@ TEST(Integrate, WhatTheIntegrandThrowsComesBack) {
   for (const int threads : {1, 4}) {
     mc::IntegrateOptions o = with(Method::plain, 1'000'000);
     o.threads = threads;
-    EXPECT_THROW(mc::integrate_unit([](Unit u) -> double { return u[0] < 0.9 ? 1 : throw std::domain_error("no"); }, 1, o), std::domain_error);
+    EXPECT_THROW(
+        mc::integrate_unit([](Unit u) -> double { return u[0] < 0.9 ? 1 : throw std::domain_error("no"); }, 1, o),
+        std::domain_error);
   }
 }
 

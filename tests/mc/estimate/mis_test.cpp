@@ -48,7 +48,8 @@ TYPED_TEST(Mis, WeightsSumToOneOverTheWholeRange) {
 TYPED_TEST(Mis, WeightsOfAHundredTechniquesSumToOne) {
   using S = TypeParam;
   std::vector<S> p, n;
-  for (int j = 0; j < 100; ++j) p.push_back(static_cast<S>(std::pow(10.0, 0.7 * j - 35))), n.push_back(static_cast<S>(1 + j % 7));
+  for (int j = 0; j < 100; ++j)
+    p.push_back(static_cast<S>(std::pow(10.0, 0.7 * j - 35))), n.push_back(static_cast<S>(1 + j % 7));
   for (const mc::Heuristic<S>& h : heuristics<S>()) {
     S sum(0);
     for (std::size_t i = 0; i < p.size(); ++i) sum += mc::mis_weight<S>(i, p, n, h);
@@ -101,8 +102,9 @@ struct ConeOnHemisphere {
   template <mc::Real T> ConeOnHemisphere cast() const { return *this; }
 };
 
-// A narrow light of 1e-2 rad in a wide glow: integral over the hemisphere of [a cone of radiance 1000, and 1 elsewhere] cos.
-// Both estimators are unbiased with every heuristic: 5 standard errors, a false alarm in 6e-7 of seeds; the seeds are fixed.
+// A narrow light of 1e-2 rad in a wide glow: integral over the hemisphere of [a cone of radiance 1000, and 1 elsewhere]
+// cos. Both estimators are unbiased with every heuristic: 5 standard errors, a false alarm in 6e-7 of seeds; the seeds
+// are fixed.
 TEST(MultipleImportance, IsUnbiasedWithEveryHeuristic) {
   using V = mc::Vec3<double>;
   const auto cone = mc::UniformCone<double>::from_angle(0.01);
@@ -130,16 +132,20 @@ TEST(MultipleImportance, NeverDrawsFromATechniqueOfCountZero) {
   const mc::CosineHemisphere<double> cosine;
   const auto f = [](const mc::Vec3<double>& w) { return w.z(); };
   for (const double uc : {0.0, 0.5, mc::one_minus_epsilon<double>}) {
-    EXPECT_NEAR(mc::MultipleImportance(std::array{0.0, 3.0, 0.0}, {}, uniform, cosine, uniform).one_sample(f, uc, {0.3, 0.4}),
-                mc::pi<double>, 1e-14);
+    EXPECT_NEAR(
+        mc::MultipleImportance(std::array{0.0, 3.0, 0.0}, {}, uniform, cosine, uniform).one_sample(f, uc, {0.3, 0.4}),
+        mc::pi<double>, 1e-14);
   }
-  EXPECT_NEAR(mc::MultipleImportance(std::array{0.0, 3.0}, {}, uniform, cosine).multi_sample(f, [] { return mc::Vec2<double>(0.1, 0.2); }),
+  EXPECT_NEAR(mc::MultipleImportance(std::array{0.0, 3.0}, {}, uniform, cosine)
+                  .multi_sample(f, [] { return mc::Vec2<double>(0.1, 0.2); }),
               mc::pi<double>, 1e-14);
 }
 
 TEST(MultipleImportance, RefusesNonsense) {
   const mc::UniformHemisphere<double> uniform;
-  const auto make = [&](double a, double b) { return mc::MultipleImportance(std::array{a, b}, mc::Heuristic<double>{}, uniform, uniform); };
+  const auto make = [&](double a, double b) {
+    return mc::MultipleImportance(std::array{a, b}, mc::Heuristic<double>{}, uniform, uniform);
+  };
   EXPECT_THROW(make(0, 0), mc::Error);
   EXPECT_THROW(make(-1, 2), mc::Error);
   EXPECT_THROW(make(1, NAN), mc::Error);

@@ -17,7 +17,8 @@ TEST(PointSet, SobolBlocksAreTheSequence) {
     std::vector<double> u(300 * dim);
     mc::fill_points(mc::ScrambledSobol{11}, first, dim, u);
     for (std::size_t i = 0; i < u.size(); ++i) {
-      const auto bits = static_cast<std::uint32_t>(sobol.bits(first + i / dim, static_cast<std::uint32_t>(i % dim)) >> 32);
+      const auto bits =
+          static_cast<std::uint32_t>(sobol.bits(first + i / dim, static_cast<std::uint32_t>(i % dim)) >> 32);
       EXPECT_EQ(u[i], (bits + 0.5) * 0x1p-32);
       EXPECT_GT(u[i], 0);
       EXPECT_LT(u[i], 1);

@@ -24,7 +24,8 @@ TEST(RussianRoulette, CertainSurvivalCostsNothing) {
 }
 
 TEST(RussianRoulette, RefusesWhatWouldBias) {
-  for (const double p : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()}) EXPECT_THROW(mc::russian_roulette(p, 0.5), mc::Error) << p;
+  for (const double p : {0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(mc::russian_roulette(p, 0.5), mc::Error) << p;
 }
 
 // 4 sigma: a false alarm in 6e-5 of seeds; the seed is fixed.
@@ -49,7 +50,8 @@ TEST(Splitting, WholeNumbersAreCertain) {
 }
 
 TEST(Splitting, RefusesWhatWouldBiasOrNeverEnd) {
-  for (const double n : {0.0, -1.0, 2e6, std::numeric_limits<double>::quiet_NaN()}) EXPECT_THROW(mc::split(n, 0.5), mc::Error) << n;
+  for (const double n : {0.0, -1.0, 2e6, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(mc::split(n, 0.5), mc::Error) << n;
 }
 
 } // namespace

@@ -64,7 +64,8 @@ TEST(Matchers, Mean) {
   EXPECT_MEAN(u, 0.5);
   const testing::AssertionResult wrong = mc::has_mean("u", u, 0.52);
   EXPECT_FALSE(wrong);
-  EXPECT_THAT(wrong.message(), testing::AllOf(HasSubstr("mean of u: "), HasSubstr("expected 0.52"), HasSubstr("standard errors off")));
+  EXPECT_THAT(wrong.message(),
+              testing::AllOf(HasSubstr("mean of u: "), HasSubstr("expected 0.52"), HasSubstr("standard errors off")));
   EXPECT_THAT(mc::has_mean("x", std::vector<double>{1, std::nan("")}, 0).message(), HasSubstr("not finite"));
 }
 

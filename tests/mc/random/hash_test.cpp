@@ -26,8 +26,8 @@ TEST(Hash, NoCollisionsOnAGrid) {
   EXPECT_EQ(seen.size(), 65536u); // 2^31 pairs in 2^64 values: a collision by chance has probability 1e-10
 }
 
-// Each output bit flips with probability 1/2 when an input bit does. 128 x 64 proportions of 4096 trials, sd 2^-7: the largest
-// deviation exceeds 6 sd with probability 2e-5.
+// Each output bit flips with probability 1/2 when an input bit does. 128 x 64 proportions of 4096 trials, sd 2^-7: the
+// largest deviation exceeds 6 sd with probability 2e-5.
 TEST(Hash, Avalanche) {
   constexpr int trials = 4096;
   double worst = 0;
@@ -36,7 +36,8 @@ TEST(Hash, Avalanche) {
       int flips[64] = {};
       for (std::uint64_t t = 0; t < trials; ++t) {
         const std::uint64_t flip = std::uint64_t{1} << in;
-        const std::uint64_t d = mc::hash(t, 3 * t) ^ (part == 0 ? mc::hash(t ^ flip, 3 * t) : mc::hash(t, (3 * t) ^ flip));
+        const std::uint64_t d =
+            mc::hash(t, 3 * t) ^ (part == 0 ? mc::hash(t ^ flip, 3 * t) : mc::hash(t, (3 * t) ^ flip));
         for (int out = 0; out < 64; ++out) flips[out] += static_cast<int>(d >> out & 1);
       }
       for (const int f : flips) worst = std::max(worst, std::abs(f / double(trials) - 0.5));

@@ -27,8 +27,8 @@ TEST(Permute, StaysInRangeForLargeSizes) {
     for (std::uint32_t i = 0; i < 1000; ++i) EXPECT_LT(mc::permute(n - 1 - i * 1000, n, i), n);
 }
 
-// Where the first two of n land, over seeds, against the uniform law on ordered pairs: chi-square below its mean plus 5 standard
-// deviations, alpha about 1e-6.
+// Where the first two of n land, over seeds, against the uniform law on ordered pairs: chi-square below its mean plus 5
+// standard deviations, alpha about 1e-6.
 TEST(Permute, PairsAreUniform) {
   for (const std::uint32_t n : {3u, 4u, 7u, 16u, 23u}) {
     constexpr int seeds = 200'000;

@@ -21,19 +21,22 @@ TEST(Halton, AlignedBlocksFillEveryInterval) {
     for (const std::uint32_t d : {0u, 1u, 2u, 5u, 1023u}) {
       const std::uint64_t b = mc::Halton::base(d);
       for (std::uint64_t n = b; n < 10000; n *= b)
-        for (const std::uint64_t block : {0u, 3u}) EXPECT_EQ(occupancy(mc::Halton(5, scramble), block * n, n, d, n), (Range{1, 1})) << "base " << b;
+        for (const std::uint64_t block : {0u, 3u})
+          EXPECT_EQ(occupancy(mc::Halton(5, scramble), block * n, n, d, n), (Range{1, 1})) << "base " << b;
     }
 }
 
 TEST(Halton, FirstTwoDimensionsFillBoxes) {
-  for (const auto scramble : both) EXPECT_EQ(occupancy(mc::Halton(2, scramble), 2592, 1296, 0, 16, 1, 81), (Range{1, 1}));
+  for (const auto scramble : both)
+    EXPECT_EQ(occupancy(mc::Halton(2, scramble), 2592, 1296, 0, 16, 1, 81), (Range{1, 1}));
 }
 
 TEST(Halton, UniformOverSeeds) {
   for (const auto scramble : both)
     for (const std::uint32_t d : {0u, 1u, 30u, 1022u, 1023u, 3000u})
       for (const std::uint64_t i : {0ull, 1ull, 0xffffffffull})
-        EXPECT_LE(test::seed_moments([&](std::uint64_t s) { return mc::Halton(s, scramble); }, i, d, 4000), 5) << d << " " << i;
+        EXPECT_LE(test::seed_moments([&](std::uint64_t s) { return mc::Halton(s, scramble); }, i, d, 4000), 5)
+            << d << " " << i;
 }
 
 TEST(Halton, DimensionsBeyondTheLastDoNotWrap) {

@@ -10,7 +10,9 @@
 namespace test {
 
 /// Fewest and most points of indices [first, first + count) among n equal intervals of dimension dim.
-struct Range { int least, most; };
+struct Range {
+  int least, most;
+};
 inline bool operator==(const Range& a, const Range& b) { return a.least == b.least && a.most == b.most; }
 
 inline std::size_t interval(std::uint64_t bits, std::uint64_t n) {
@@ -18,7 +20,8 @@ inline std::size_t interval(std::uint64_t bits, std::uint64_t n) {
   return static_cast<std::size_t>((Wide{bits} * n) >> 64);
 }
 
-template <mc::Sampler T> Range occupancy(const T& s, std::uint64_t first, std::uint64_t count, std::uint32_t dim, std::uint64_t n) {
+template <mc::Sampler T>
+Range occupancy(const T& s, std::uint64_t first, std::uint64_t count, std::uint32_t dim, std::uint64_t n) {
   std::vector<int> hits(n);
   for (std::uint64_t i = 0; i < count; ++i) ++hits[interval(s.bits(first + i, dim), n)];
   return {*std::min_element(hits.begin(), hits.end()), *std::max_element(hits.begin(), hits.end())};
@@ -26,25 +29,30 @@ template <mc::Sampler T> Range occupancy(const T& s, std::uint64_t first, std::u
 
 /// The same on an nx x ny grid of dimensions (dx, dy).
 template <mc::Sampler T>
-Range occupancy(const T& s, std::uint64_t first, std::uint64_t count, std::uint32_t dx, std::uint64_t nx, std::uint32_t dy, std::uint64_t ny) {
+Range occupancy(const T& s, std::uint64_t first, std::uint64_t count, std::uint32_t dx, std::uint64_t nx,
+                std::uint32_t dy, std::uint64_t ny) {
   std::vector<int> hits(nx * ny);
-  for (std::uint64_t i = 0; i < count; ++i) ++hits[interval(s.bits(first + i, dy), ny) * nx + interval(s.bits(first + i, dx), nx)];
+  for (std::uint64_t i = 0; i < count; ++i)
+    ++hits[interval(s.bits(first + i, dy), ny) * nx + interval(s.bits(first + i, dx), nx)];
   return {*std::min_element(hits.begin(), hits.end()), *std::max_element(hits.begin(), hits.end())};
 }
 
 /// RMS error of the mean of f(u0, u1) over `seeds` samplers made by make(seed).
-template <class Make, class F> double rms_error(const Make& make, std::uint32_t count, int seeds, std::uint32_t dim, double exact, const F& f) {
+template <class Make, class F>
+double rms_error(const Make& make, std::uint32_t count, int seeds, std::uint32_t dim, double exact, const F& f) {
   double squares = 0;
   for (int seed = 0; seed < seeds; ++seed) {
     const auto s = make(mc::hash(99, seed));
     double sum = 0;
-    for (std::uint32_t i = 0; i < count; ++i) sum += f(mc::coordinate<double>(s, i, dim), mc::coordinate<double>(s, i, dim + 1));
+    for (std::uint32_t i = 0; i < count; ++i)
+      sum += f(mc::coordinate<double>(s, i, dim), mc::coordinate<double>(s, i, dim + 1));
     squares += mc::sqr(sum / count - exact);
   }
   return std::sqrt(squares / seeds);
 }
 
-/// Largest |mean - 1/2|, |E u^2 - 1/3| and |E (u_d - 1/2)(u_{d+1} - 1/2)| of one point over seeds, in standard deviations.
+/// Largest |mean - 1/2|, |E u^2 - 1/3| and |E (u_d - 1/2)(u_{d+1} - 1/2)| of one point over seeds, in standard
+/// deviations.
 template <class Make> double seed_moments(const Make& make, std::uint64_t index, std::uint32_t dim, int seeds = 20000) {
   double first = 0, second = 0, cross = 0;
   for (int seed = 0; seed < seeds; ++seed) {
@@ -53,7 +61,8 @@ template <class Make> double seed_moments(const Make& make, std::uint64_t index,
     first += u - 0.5, second += u * u - 1.0 / 3, cross += (u - 0.5) * (v - 0.5);
   }
   const double n = seeds;
-  return std::max({std::abs(first) / std::sqrt(n / 12), std::abs(second) / std::sqrt(n * 4 / 45), std::abs(cross) / (std::sqrt(n) / 12)});
+  return std::max({std::abs(first) / std::sqrt(n / 12), std::abs(second) / std::sqrt(n * 4 / 45),
+                   std::abs(cross) / (std::sqrt(n) / 12)});
 }
 
 } // namespace test

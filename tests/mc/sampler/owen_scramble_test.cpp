@@ -26,7 +26,8 @@ TEST(OwenScramble, PreservesElementaryIntervals) {
     const auto x = static_cast<std::uint32_t>(mc::hash(1, t)), seed = static_cast<std::uint32_t>(mc::hash(2, t));
     for (int k = 0; k < 32; ++k) {
       const std::uint32_t first_difference = 0x80000000u >> k;
-      const std::uint32_t y = (x ^ first_difference) ^ (static_cast<std::uint32_t>(mc::hash(3, t, k)) & (first_difference - 1));
+      const std::uint32_t y =
+          (x ^ first_difference) ^ (static_cast<std::uint32_t>(mc::hash(3, t, k)) & (first_difference - 1));
       EXPECT_EQ(__builtin_clz(mc::owen_scramble(x, seed) ^ mc::owen_scramble(y, seed)), k);
     }
   }

@@ -36,7 +36,8 @@ TEST(PaddedSobol4D, EveryGroupIsANet) {
 }
 
 TEST(PaddedSobol4D, FirstPairOfAGroupIsAZeroNet) {
-  for (int m = 0; m <= 8; ++m) EXPECT_EQ(occupancy(mc::PaddedSobol4D(7), 256, 256, 8, 1u << m, 9, 1u << (8 - m)), (Range{1, 1}));
+  for (int m = 0; m <= 8; ++m)
+    EXPECT_EQ(occupancy(mc::PaddedSobol4D(7), 256, 256, 8, 1u << m, 9, 1u << (8 - m)), (Range{1, 1}));
 }
 
 // With 256 points on 16 x 16 cells an aligned net over two groups would have one point in each cell.
@@ -48,10 +49,12 @@ TEST(PaddedSobol4D, GroupsAreShuffledAgainstEachOther) {
 TEST(PaddedSobol4D, PointsDoNotRepeat) {
   std::set<std::uint64_t> seen;
   for (std::uint64_t i = 0; i < 1000; ++i)
-    for (std::uint32_t d = 0; d < 8; ++d) EXPECT_TRUE(seen.insert(mc::PaddedSobol4D(1).bits(i, d)).second) << i << ' ' << d;
+    for (std::uint32_t d = 0; d < 8; ++d)
+      EXPECT_TRUE(seen.insert(mc::PaddedSobol4D(1).bits(i, d)).second) << i << ' ' << d;
 }
 
-// A product of four: slope -3/2 as for two, so 16 times the points give 1/64 of the error; a factor 2 of leeway. Independent pairs
+// A product of four: slope -3/2 as for two, so 16 times the points give 1/64 of the error; a factor 2 of leeway.
+//                    Independent pairs
 // leave what all four have in common to chance.
 TEST(PaddedSobol4D, FourVariablesThatInteractConverge) {
   const double exact = mc::sqr(mc::sqr(std::exp(1.0) - 1));

@@ -16,32 +16,38 @@ TEST(Sobol, PointsAreThoseOfBoost) {
   boost::random::sobol_engine<std::uint32_t, 32> engine(dims);
   const mc::Sobol sobol;
   for (std::uint32_t i = 1; i < 300; ++i) // Boost leaves the origin out
-    for (std::uint32_t d = 0; d < dims; ++d) ASSERT_EQ(engine(), sobol.unscrambled(i ^ (i >> 1), d)) << "point " << i << ", dim " << d;
+    for (std::uint32_t d = 0; d < dims; ++d)
+      ASSERT_EQ(engine(), sobol.unscrambled(i ^ (i >> 1), d)) << "point " << i << ", dim " << d;
 }
 
 TEST(Sobol, EveryDimensionIsANetInBase2) {
   for (const std::uint32_t d : {0u, 1u, 2u, 17u, 500u, 1023u})
-    for (const std::uint64_t first : {0ull, 1024ull, 0xfffffc00ull}) EXPECT_EQ(occupancy(mc::Sobol(3), first, 1024, d, 1024), (Range{1, 1}));
+    for (const std::uint64_t first : {0ull, 1024ull, 0xfffffc00ull})
+      EXPECT_EQ(occupancy(mc::Sobol(3), first, 1024, d, 1024), (Range{1, 1}));
 }
 
 TEST(Sobol, FirstTwoDimensionsAreAZeroNet) {
   for (std::uint64_t seed = 0; seed < 5; ++seed)
     for (int m = 0; m <= 10; ++m)
-      EXPECT_EQ(occupancy(mc::Sobol(seed), 4096, 1024, 0, 1u << m, 1, 1u << (10 - m)), (Range{1, 1})) << "2^" << m << " columns";
+      EXPECT_EQ(occupancy(mc::Sobol(seed), 4096, 1024, 0, 1u << m, 1, 1u << (10 - m)), (Range{1, 1}))
+          << "2^" << m << " columns";
 }
 
-// What [JoeKuo08] optimise: pairs of dimensions have a small quality parameter t. t = 4 for all pairs of the first eight with 2^10 points.
+// What [JoeKuo08] optimise: pairs of dimensions have a small quality parameter t. t = 4 for all pairs of the first
+// eight with 2^10 points.
 TEST(Sobol, PairsOfDimensionsAreNets) {
   for (std::uint32_t a = 0; a < 8; ++a)
     for (std::uint32_t b = 0; b < a; ++b)
-      for (int m = 0; m <= 6; ++m) EXPECT_EQ(occupancy(mc::Sobol(1), 0, 1024, a, 1u << m, b, 1u << (6 - m)), (Range{16, 16})) << a << " " << b;
+      for (int m = 0; m <= 6; ++m)
+        EXPECT_EQ(occupancy(mc::Sobol(1), 0, 1024, a, 1u << m, b, 1u << (6 - m)), (Range{16, 16})) << a << " " << b;
 }
 
 // Each point is uniform over seeds: 15 moments, 5 sd each, alpha below 1e-5.
 TEST(Sobol, UniformOverSeeds) {
   const auto make = [](std::uint64_t seed) { return mc::Sobol(seed); };
   for (const std::uint64_t i : {0ull, 1ull, 0xffffffffull})
-    for (const std::uint32_t d : {0u, 5u, 1022u, 1023u, 5000u}) EXPECT_LE(test::seed_moments(make, i, d), 5) << i << " " << d;
+    for (const std::uint32_t d : {0u, 5u, 1022u, 1023u, 5000u})
+      EXPECT_LE(test::seed_moments(make, i, d), 5) << i << " " << d;
 }
 
 TEST(Sobol, DimensionsBeyondTheLastDoNotWrap) {

@@ -23,7 +23,8 @@ TEST(Stratified, OnePointPerCellOfAGrid) {
 
 TEST(Stratified, OneDimensionalGroupsHaveOnePointPerInterval) {
   for (const std::uint32_t n : {1u, 2u, 7u, 100u, 1021u})
-    for (const std::uint32_t dim : {0u, 1u, 2u, 77u}) EXPECT_EQ(occupancy(mc::Stratified(n, 2, 1), 0, n, dim, n), (Range{1, 1}));
+    for (const std::uint32_t dim : {0u, 1u, 2u, 77u})
+      EXPECT_EQ(occupancy(mc::Stratified(n, 2, 1), 0, n, dim, n), (Range{1, 1}));
 }
 
 // Any count: the slabs hold count / slabs points each up to one, in proportion to their width.
@@ -39,7 +40,8 @@ TEST(Stratified, AnyCountKeepsItsSlabs) {
       ys[slab].push_back(mc::coordinate<double>(s, i, 1));
     }
     for (std::uint32_t k = 0; k < slabs; ++k) {
-      const std::size_t boxes = (std::uint64_t{k + 1} * n + slabs - 1) / slabs - (std::uint64_t{k} * n + slabs - 1) / slabs;
+      const std::size_t boxes =
+          (std::uint64_t{k + 1} * n + slabs - 1) / slabs - (std::uint64_t{k} * n + slabs - 1) / slabs;
       std::set<std::size_t> rows;
       for (const double y : ys[k]) rows.insert(static_cast<std::size_t>(y * static_cast<double>(boxes)));
       EXPECT_EQ(ys[k].size(), boxes);
@@ -48,12 +50,14 @@ TEST(Stratified, AnyCountKeepsItsSlabs) {
   }
 }
 
-// The quarter disk: its boundary crosses about n^1/2 of the cells, so the error falls as n^-3/4: 64 times the points, 1/22.6 of
+// The quarter disk: its boundary crosses about n^1/2 of the cells, so the error falls as n^-3/4: 64 times the points,
+//                   1/22.6 of
 // the error. 200 seeds know the ratio of RMS errors within 15 % at 2 sd.
 TEST(Stratified, SlopeOnTheDiskIsThreeQuarters) {
   const auto make = [](std::uint32_t n) { return [n](std::uint64_t seed) { return mc::Stratified(n, seed); }; };
   const auto f = [](double x, double y) { return x * x + y * y < 1 ? 1.0 : 0.0; };
-  const double coarse = test::rms_error(make(64), 64, 200, 0, mc::pi<double> / 4, f), fine = test::rms_error(make(4096), 4096, 200, 0, mc::pi<double> / 4, f);
+  const double coarse = test::rms_error(make(64), 64, 200, 0, mc::pi<double> / 4, f),
+               fine = test::rms_error(make(4096), 4096, 200, 0, mc::pi<double> / 4, f);
   EXPECT_NEAR(std::log(fine / coarse) / std::log(64.0), -0.75, 0.06);
 }
 
@@ -61,7 +65,8 @@ TEST(Stratified, UniformOverSeeds) {
   for (const std::uint32_t n : {1u, 3u, 10u, 0xffffffffu})
     for (const std::uint32_t d : {0u, 1u, 6u})
       for (const std::uint64_t i : {0ull, 1ull, 0xfffffffeull})
-        EXPECT_LE(test::seed_moments([n](std::uint64_t seed) { return mc::Stratified(n, seed); }, i, d, 4000), 5) << n << " " << d << " " << i;
+        EXPECT_LE(test::seed_moments([n](std::uint64_t seed) { return mc::Stratified(n, seed); }, i, d, 4000), 5)
+            << n << " " << d << " " << i;
 }
 
 TEST(Stratified, RejectsNonsense) {

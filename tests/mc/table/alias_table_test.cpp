@@ -12,8 +12,14 @@ static_assert(mc::DiscreteDistribution<mc::AliasTable>);
 
 // u from each end of each half of each bin: no outcome of weight 0, and all of the others.
 TEST(AliasTable, ReachesEveryPositiveWeightAndNoOther) {
-  for (const std::vector<double>& w : std::vector<std::vector<double>>{
-           {1}, {0, 1}, {1, 0, 0}, {1, 2, 3, 4}, {1, 1, 1}, {1e-3, 1, 0, 1e-3}, {0, 5e-324, 0}, {0.1, 0.2, 0.3, 0.4, 0, 1e-8}}) {
+  for (const std::vector<double>& w : std::vector<std::vector<double>>{{1},
+                                                                       {0, 1},
+                                                                       {1, 0, 0},
+                                                                       {1, 2, 3, 4},
+                                                                       {1, 1, 1},
+                                                                       {1e-3, 1, 0, 1e-3},
+                                                                       {0, 5e-324, 0},
+                                                                       {0.1, 0.2, 0.3, 0.4, 0, 1e-8}}) {
     const mc::AliasTable table(w);
     std::vector<double> mass(w.size());
     constexpr int steps = 100'000;
@@ -41,7 +47,8 @@ TEST(AliasTable, RemappedIsUniformAndIndependent) {
   constexpr int n = 200'000;
   for (int k = 0; k < n; ++k) {
     const auto s = table.sample_index(mc::hash_uniform<double>(8, k));
-    first += s.u_remapped - 0.5, second += mc::sqr(s.u_remapped) - 1.0 / 3, cross += (s.u_remapped - 0.5) * (static_cast<double>(s.index) - 3.5);
+    first += s.u_remapped - 0.5, second += mc::sqr(s.u_remapped) - 1.0 / 3,
+        cross += (s.u_remapped - 0.5) * (static_cast<double>(s.index) - 3.5);
   }
   EXPECT_LE(std::abs(first), 5 * std::sqrt(n / 12.0));
   EXPECT_LE(std::abs(second), 5 * std::sqrt(n * 4 / 45.0));

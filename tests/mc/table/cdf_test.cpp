@@ -30,12 +30,21 @@ void expect_consistent(const std::vector<double>& w) {
 
 TEST(Cdf, EveryPositiveWeightIsReachableAndNoOther) {
   const double tiny = std::numeric_limits<double>::denorm_min(), huge = std::numeric_limits<double>::max();
-  for (const std::vector<double>& w : std::vector<std::vector<double>>{
-           {1}, {0, 1}, {1, 0}, {0, 0, 5, 0}, {1e-30, 1e30, 1e-30}, {1e30, 1e-30, 0, 1e-30, 0}, {tiny, tiny, tiny}, {tiny, 0, huge, 0, tiny},
-           {huge, huge, huge}, {0, tiny, 1, tiny, tiny, tiny, 0}, {1, 1, 1, 1, 1, 1, 1}})
+  for (const std::vector<double>& w : std::vector<std::vector<double>>{{1},
+                                                                       {0, 1},
+                                                                       {1, 0},
+                                                                       {0, 0, 5, 0},
+                                                                       {1e-30, 1e30, 1e-30},
+                                                                       {1e30, 1e-30, 0, 1e-30, 0},
+                                                                       {tiny, tiny, tiny},
+                                                                       {tiny, 0, huge, 0, tiny},
+                                                                       {huge, huge, huge},
+                                                                       {0, tiny, 1, tiny, tiny, tiny, 0},
+                                                                       {1, 1, 1, 1, 1, 1, 1}})
     expect_consistent(w);
   std::vector<double> w(1 << 16);
-  for (std::size_t i = 0; i < w.size(); ++i) w[i] = mc::hash(1, i) % 3 == 0 ? 0 : std::pow(10.0, 60 * mc::hash_uniform<double>(2, i) - 30);
+  for (std::size_t i = 0; i < w.size(); ++i)
+    w[i] = mc::hash(1, i) % 3 == 0 ? 0 : std::pow(10.0, 60 * mc::hash_uniform<double>(2, i) - 30);
   expect_consistent(w);
 }
 
@@ -65,7 +74,8 @@ TEST(Cdf, MassIsTheShareOfTheWeight) {
   for (std::size_t i = 0; i < w.size(); ++i) EXPECT_NEAR(cdf.pmf(i), w[i] / sum, 0x1p-52);
 }
 
-// peers.md: a sky of 1024 x 512 with a sun of 1e6 times its radiance. Every entry is met with the probability of its weight.
+// peers.md: a sky of 1024 x 512 with a sun of 1e6 times its radiance. Every entry is met with the probability of its
+//           weight.
 TEST(Cdf, SunInTheSky) {
   for (const std::size_t sun : {std::size_t{10}, std::size_t{262144}}) {
     std::vector<double> w(524288);

@@ -1,5 +1,5 @@
-// Where tables that renderers ship break, measured on their own code: each defect is named with the figure it gave there, and must not
-// be here.
+// Where tables that renderers ship break, measured on their own code: each defect is named with the figure it gave
+// there, and must not be here.
 
 #include <mc/core/error.h>
 #include <mc/core/sum.h>
@@ -28,8 +28,8 @@ double total(const std::vector<double>& w) {
   return sum.value();
 }
 
-// D5. pbrt-v4, a sky of 1024 x 512 with a sun in one table: 424287 of 524288 cells are never sampled with the sun in the middle, and
-// 524277 with the sun at cell 10.
+// D5. pbrt-v4, a sky of 1024 x 512 with a sun in one table: 424287 of 524288 cells are never sampled with the sun in
+// the middle, and 524277 with the sun at cell 10.
 TEST(PeerDefects, EveryCellBesideTheSunIsReached) {
   for (const std::size_t sun : {std::size_t{10}, n / 2}) {
     const std::vector<double> w = sky(sun, 1e8);
@@ -42,7 +42,8 @@ TEST(PeerDefects, EveryCellBesideTheSunIsReached) {
   }
 }
 
-// D5b. pbrt-v4, the same sky in two dimensions: in the row of the sun the cells to its right get 8 % too much or too little, up to 74 %.
+// D5b. pbrt-v4, the same sky in two dimensions: in the row of the sun the cells to its right get 8 % too much or too
+// little, up to 74 %.
 TEST(PeerDefects, CellsInTheRowOfTheSunHaveTheirMass) {
   const std::size_t row = 100, sun = row * width + 10;
   const std::vector<double> w = sky(sun, 1e8);
@@ -51,12 +52,13 @@ TEST(PeerDefects, CellsInTheRowOfTheSunHaveTheirMass) {
   for (std::size_t x = 0; x < width; ++x) ASSERT_NEAR(table.pmf(x, row) / (w[row * width + x] / sum), 1, 1e-6) << x;
 }
 
-// D5. pbrt-v4: all zeros are sampled with pdf NaN or 0, one infinity makes everything NaN, a negative weight is taken for its
-// absolute value, denormals sum to 0. D7: so do its SampleDiscrete and (all zero) its alias table.
+// D5. pbrt-v4: all zeros are sampled with pdf NaN or 0, one infinity makes everything NaN, a negative weight is taken
+// for its absolute value, denormals sum to 0. D7: so do its SampleDiscrete and (all zero) its alias table.
 TEST(PeerDefects, WeightsThatAreNoneAndWeightsAtTheEndsOfTheRange) {
   const double inf = std::numeric_limits<double>::infinity(), tiny = std::numeric_limits<double>::denorm_min(),
                huge = std::numeric_limits<double>::max();
-  for (const std::vector<double>& w : std::vector<std::vector<double>>{{0, 0}, {1, inf}, {1, std::nan("")}, {1, -5}, {}}) {
+  for (const std::vector<double>& w :
+       std::vector<std::vector<double>>{{0, 0}, {1, inf}, {1, std::nan("")}, {1, -5}, {}}) {
     EXPECT_THROW(mc::TableDist1D<float>{w}, mc::Error);
     EXPECT_THROW(mc::AliasTable{w}, mc::Error);
     if (!w.empty()) {
@@ -71,8 +73,8 @@ TEST(PeerDefects, WeightsThatAreNoneAndWeightsAtTheEndsOfTheRange) {
   }
 }
 
-// D6. pbrt-v4: alias tables of 65536 entries sample an entry 226 times too often; of half zeros, entries of weight 0. The probabilities
-// that the bins imply, from the place in each bin where the outcome changes.
+// D6. pbrt-v4: alias tables of 65536 entries sample an entry 226 times too often; of half zeros, entries of weight 0.
+// The probabilities that the bins imply, from the place in each bin where the outcome changes.
 TEST(PeerDefects, AliasTablesSampleWhatTheySay) {
   constexpr std::size_t size = 65536;
   for (const bool zeros : {false, true}) {

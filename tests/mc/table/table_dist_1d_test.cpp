@@ -12,7 +12,8 @@ TYPED_TEST_SUITE(TableDist1DTest, Scalars);
 
 static_assert(mc::DiscreteDistribution<mc::TableDist1D<float>> && mc::InvertibleWarp<mc::TableDist1D<double>>);
 
-// Points stay in the cell they were drawn in, at its ends too, so never where the density is 0. n = 49: 1/49*49 < 1 in double.
+// Points stay in the cell they were drawn in, at its ends too, so never where the density is 0. n = 49: 1/49*49 < 1 in
+// double.
 TYPED_TEST(TableDist1DTest, PointsStayInCellsOfPositiveWeight) {
   using S = TypeParam;
   for (const std::size_t n : {1u, 2u, 3u, 10u, 49u, 98u, 1000u, 4097u})
@@ -21,7 +22,8 @@ TYPED_TEST(TableDist1DTest, PointsStayInCellsOfPositiveWeight) {
       for (std::size_t i = n > 1; i < n; i += 2) w[i] = 1 + static_cast<double>(i % 5);
       const mc::TableDist1D<S> table(w, interval);
       for (std::size_t i = 0; i < n; ++i)
-        for (const S u : {S(table.cdf().cdf(i)), S(std::nextafter(S(table.cdf().cdf(i + 1)), S(0))), mc::hash_uniform<S>(1, i)}) {
+        for (const S u :
+             {S(table.cdf().cdf(i)), S(std::nextafter(S(table.cdf().cdf(i + 1)), S(0))), mc::hash_uniform<S>(1, i)}) {
           if (!(u < 1)) continue;
           const S x = table.sample(u);
           const auto s = table.sample_index(u);

@@ -14,7 +14,8 @@ static_assert(mc::InvertibleWarp<mc::TableDist2D<float>>);
 
 std::vector<double> holes(std::size_t n) {
   std::vector<double> w(n);
-  for (std::size_t i = 0; i < n; ++i) w[i] = mc::hash(5, i) % 2 == 0 ? 0 : std::pow(10.0, 60 * mc::hash_uniform<double>(6, i) - 30);
+  for (std::size_t i = 0; i < n; ++i)
+    w[i] = mc::hash(5, i) % 2 == 0 ? 0 : std::pow(10.0, 60 * mc::hash_uniform<double>(6, i) - 30);
   return w;
 }
 
@@ -62,13 +63,17 @@ TEST(TableDist2D, MassIsTheShareOfTheWeight) {
 TEST(TableDist2D, LatLongWeighsBySolidAngle) {
   const auto table = mc::TableDist2D<double>::from_lat_long(std::vector<double>(8 * 16, 1.0), 16, 8);
   for (std::size_t y = 0; y < 8; ++y) {
-    const double row = (std::cos(mc::pi<double> * static_cast<double>(y) / 8) - std::cos(mc::pi<double> * static_cast<double>(y + 1) / 8)) / 2;
+    const double row = (std::cos(mc::pi<double> * static_cast<double>(y) / 8) -
+                        std::cos(mc::pi<double> * static_cast<double>(y + 1) / 8)) /
+                       2;
     EXPECT_NEAR(table.pmf(3, y) * 16, row, 1e-15);
   }
 }
 
 TEST(TableDist2D, RejectsNonsense) {
-  const auto make = [](std::vector<double> w, std::size_t width, std::size_t height) { return mc::TableDist2D<float>(w, width, height); };
+  const auto make = [](std::vector<double> w, std::size_t width, std::size_t height) {
+    return mc::TableDist2D<float>(w, width, height);
+  };
   EXPECT_THROW(make({1, 2, 3}, 2, 2), mc::Error);
   EXPECT_THROW(make({}, 0, 0), mc::Error);
   EXPECT_THROW(make({0, 0}, 2, 1), mc::Error);

@@ -11,8 +11,18 @@ TYPED_TEST_SUITE(BilinearOver, Scalars);
 
 TYPED_TEST(BilinearOver, ObeysTheLawsWithZeroEdgesAndHugeWeights) {
   using S = TypeParam;
-  for (const std::array<double, 4>& w : {std::array{1., 2., 3., 4.}, {1., 1., 1., 1.}, {0., 0., 0., 1.}, {1., 0., 0., 0.}, {1., 0., 0., 1.}, {0., 0., 1., 1.}, {0., 1., 0., 1.}, {1e30, 1., 1e30, 0.}, {1e30, 1e30, 1e30, 1e30}})
-    EXPECT_WARP_LAWS(Bilinear<S>(S(w[0]), S(w[1]), S(w[2]), S(w[3])), {.name = fmt::format("{} {} {} {}", w[0], w[1], w[2], w[3]), .samples = 0, .points = 64, .pdf_eps = 16});
+  for (const std::array<double, 4>& w : {std::array{1., 2., 3., 4.},
+                                         {1., 1., 1., 1.},
+                                         {0., 0., 0., 1.},
+                                         {1., 0., 0., 0.},
+                                         {1., 0., 0., 1.},
+                                         {0., 0., 1., 1.},
+                                         {0., 1., 0., 1.},
+                                         {1e30, 1., 1e30, 0.},
+                                         {1e30, 1e30, 1e30, 1e30}})
+    EXPECT_WARP_LAWS(
+        Bilinear<S>(S(w[0]), S(w[1]), S(w[2]), S(w[3])),
+        {.name = fmt::format("{} {} {} {}", w[0], w[1], w[2], w[3]), .samples = 0, .points = 64, .pdf_eps = 16});
 }
 
 TEST(Bilinear, RefusesNonsense) {

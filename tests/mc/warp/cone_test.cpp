@@ -12,7 +12,8 @@ TYPED_TEST_SUITE(ConeOver, Scalars);
 TYPED_TEST(ConeOver, ObeysTheLawsAtAnyAngle) {
   using S = TypeParam;
   for (const double angle : {1e-9, 1e-5, 0.01, 1.0, 3.0, 3.14159})
-    EXPECT_WARP_LAWS(UniformCone<S>::from_angle(S(angle)), {.name = fmt::format("angle {}", angle), .samples = 0, .invert_eps = 16, .pdf_eps = 16});
+    EXPECT_WARP_LAWS(UniformCone<S>::from_angle(S(angle)),
+                     {.name = fmt::format("angle {}", angle), .samples = 0, .invert_eps = 16, .pdf_eps = 16});
 }
 
 // A renderer that stores the cosine gives a cone of 1e-9 rad no solid angle at all: pi 1e-18 sr.
@@ -31,12 +32,14 @@ TEST(UniformCone, FormsAgree) {
   EXPECT_NEAR(UniformCone<double>::from_one_minus_cos(1 - std::cos(angle)).pdf(z) / pdf, 1, 1e-14);
   EXPECT_NEAR(UniformCone<double>::from_sin2(sqr(std::sin(angle))).pdf(z) / pdf, 1, 1e-14);
   EXPECT_EQ(UniformCone<double>::from_angle(angle).pdf({std::sin(0.71), 0, std::cos(0.71)}), 0);
-  // The sphere of the Cornell box from the origin and from the floor below the light, and one that fills a sixth of a turn.
+  // The sphere of the Cornell box from the origin and from the floor below the light, and one that fills a sixth of a
+  // turn.
   EXPECT_NEAR(1 / UniformCone<double>::from_sin2(0.25).pdf(z), 0.841787214477, 1e-12);
 }
 
 TEST(UniformCone, RefusesNonsense) {
-  for (const double bad : {0.0, -1.0, 3.2, double(NAN)}) EXPECT_THROW(UniformCone<double>::from_angle(bad), Error) << bad;
+  for (const double bad : {0.0, -1.0, 3.2, double(NAN)})
+    EXPECT_THROW(UniformCone<double>::from_angle(bad), Error) << bad;
   EXPECT_THROW(UniformCone<double>::from_cos(1), Error);
   EXPECT_THROW(UniformCone<double>::from_sin2(1.1), Error);
   EXPECT_THROW(UniformCone<double>::from_one_minus_cos(0), Error);

@@ -9,16 +9,23 @@ namespace {
 
 template <class S> Vec3<S> at(double degrees, double phi = 0.7) {
   const double t = degrees * std::numbers::pi / 180;
-  return Vec3<double>(std::sin(t) * std::cos(phi), std::sin(t) * std::sin(phi), degrees == 90 ? 0.0 : std::cos(t)).cast<S>();
+  return Vec3<double>(std::sin(t) * std::cos(phi), std::sin(t) * std::sin(phi), degrees == 90 ? 0.0 : std::cos(t))
+      .cast<S>();
 }
 
 template <class S> class HalfVectorOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(HalfVectorOver, Scalars);
 
-// The deterministic laws; the counts are taken over the catalogue. Bounds that depend on the point have their own tests below.
+// The deterministic laws; the counts are taken over the catalogue. Bounds that depend on the point have their own tests
+// below.
 LawOptions deterministic(std::string name, double sample_eps = 64, double pdf_eps = 64) {
-  return {.name = std::move(name), .samples = 0, .points = 32, .invert_eps = HUGE_VAL, .sample_eps = sample_eps, .pdf_eps = pdf_eps};
+  return {.name = std::move(name),
+          .samples = 0,
+          .points = 32,
+          .invert_eps = HUGE_VAL,
+          .sample_eps = sample_eps,
+          .pdf_eps = pdf_eps};
 }
 
 TYPED_TEST(HalfVectorOver, ReflectionObeysTheLawsAtEveryRoughnessAndIncidence) {
@@ -28,7 +35,8 @@ TYPED_TEST(HalfVectorOver, ReflectionObeysTheLawsAtEveryRoughnessAndIncidence) {
       EXPECT_WARP_LAWS(Reflected(TrowbridgeReitzVisibleNormals<S>(at<S>(degrees), S(alpha), S(0.5 * alpha))),
                        deterministic(fmt::format("visible normals {}, {} degrees", alpha, degrees)));
   for (const double degrees : {60.0, 120.0}) // from below too
-    EXPECT_WARP_LAWS(Reflected(at<S>(degrees), BeckmannNormals<S>(S(0.3))), deterministic(fmt::format("Beckmann, {} degrees", degrees)));
+    EXPECT_WARP_LAWS(Reflected(at<S>(degrees), BeckmannNormals<S>(S(0.3))),
+                     deterministic(fmt::format("Beckmann, {} degrees", degrees)));
 }
 
 TYPED_TEST(HalfVectorOver, RefractionObeysTheLawsAtEveryRoughnessAndIncidence) {
@@ -36,14 +44,16 @@ TYPED_TEST(HalfVectorOver, RefractionObeysTheLawsAtEveryRoughnessAndIncidence) {
   for (const double alpha : {1e-4, 1.0})
     for (const double degrees : {60.0, 90.0}) {
       const TrowbridgeReitzVisibleNormals<S> normals(at<S>(degrees), S(alpha));
-      EXPECT_WARP_LAWS(RefractedIn(normals, S(1.5)), deterministic(fmt::format("alpha {}, {} degrees", alpha, degrees), 64, HUGE_VAL));
+      EXPECT_WARP_LAWS(RefractedIn(normals, S(1.5)),
+                       deterministic(fmt::format("alpha {}, {} degrees", alpha, degrees), 64, HUGE_VAL));
     }
   EXPECT_WARP_LAWS(RefractedIn(TrowbridgeReitzVisibleNormals<S>(at<S>(80), S(0.3)), S(1.0003)),
                    deterministic("nearly equal media", 64, HUGE_VAL));
   EXPECT_WARP_LAWS(RefractedIn(TrowbridgeReitzVisibleNormals<S>(at<S>(80), S(0.3)), S(100)),
                    deterministic("a hundredfold denser medium", 64, HUGE_VAL));
   // The pole of the chart is up: seen from below, a needle of light leaves along it.
-  EXPECT_WARP_LAWS(RefractedIn(Vec3<S>(0, 0, -1), TrowbridgeReitzNormals<S>(S(1e-4)), S(1.5)), deterministic("from below"));
+  EXPECT_WARP_LAWS(RefractedIn(Vec3<S>(0, 0, -1), TrowbridgeReitzNormals<S>(S(1e-4)), S(1.5)),
+                   deterministic("from below"));
 }
 
 TYPED_TEST(HalfVectorOver, RefractionOutObeysTheLawsWhereItReflectsTotallyToo) {
@@ -64,7 +74,8 @@ TYPED_TEST(HalfVectorOver, RefractionIsAsPreciseAsItsCosines) {
     for (int i = 0; i < 150; ++i) {
       const Vec2<S> u = random.template point<S, 2>();
       const Vec3<S> m = normals.sample(u), wi = lobe.sample(u);
-      const double c = double(normals.wo().dot(m)), cos_t2 = 1 - (1 - c * c) / (eta * eta), cos_t = cos_t2 > 0 ? std::sqrt(cos_t2) : 1;
+      const double c = double(normals.wo().dot(m)), cos_t2 = 1 - (1 - c * c) / (eta * eta),
+                   cos_t = cos_t2 > 0 ? std::sqrt(cos_t2) : 1;
       const Vec3<Oracle> wide = exact.sample(cast_point<Oracle>(u));
       EXPECT_LE(double(Oracle((wide - cast_point<Oracle>(wi)).norm())), 64 * eps / cos_t) << c << ' ' << cos_t;
       const double ratio = double(Oracle(lobe.pdf(wi)) / exact.pdf(cast_point<Oracle>(wi)));
@@ -88,7 +99,8 @@ TYPED_TEST(HalfVectorOver, ConditioningIsAsStated) {
     for (int i = 0; i < 20000; ++i) {
       const Vec2<S> u = random.template point<S, 2>();
       const Vec3<S> m = normals.sample(u), wi = lobe.direction(m);
-      const double unit = eps * eta / (alpha * Vec3<double>(wo.template cast<double>() + eta * wi.template cast<double>()).norm());
+      const double unit =
+          eps * eta / (alpha * Vec3<double>(wo.template cast<double>() + eta * wi.template cast<double>()).norm());
       EXPECT_LE((lobe.invert(wi) - u).norm(), 16 * unit) << alpha << ' ' << eta;
       if (alpha <= 0.01) {
         EXPECT_LE(std::abs(lobe.pdf(wi) / lobe.pdf_at_normal(m) - 1), 8 * unit) << alpha << ' ' << eta;
@@ -118,8 +130,8 @@ TYPED_TEST(HalfVectorOver, DensityAtTheNormalLosesNothing) {
       const Vec3<Oracle> wide = cast_point<Oracle>(m);
       const Oracle c = cast_point<Oracle>(normals.wo()).dot(wide), k = sqrt(Oracle(1.25 + c * c));
       EXPECT_NEAR(double(Oracle(reflected.pdf_at_normal(m)) * 4 * c / exact.pdf(wide)), 1, 32 * eps);
-      EXPECT_NEAR(double(Oracle(refracted.pdf_at_normal(m)) / (exact.pdf(wide) * Oracle(1.5) * k / sqr<Oracle>(k - c))), 1,
-                  (32 + 8 / double(c)) * eps);
+      EXPECT_NEAR(double(Oracle(refracted.pdf_at_normal(m)) / (exact.pdf(wide) * Oracle(1.5) * k / sqr<Oracle>(k - c))),
+                  1, (32 + 8 / double(c)) * eps);
     }
   }
 }

@@ -13,15 +13,26 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TYPED_TEST(LogisticOver, ObeysTheLaws) {
   using S = TypeParam;
-  for (const double scale : {1e-4, 1.0, 1e4}) EXPECT_WARP_LAWS(Logistic<S>(0, S(scale)), {.name = fmt::format("scale {}", scale), .samples = scale == 1 ? 50'000u : 0u, .invert_eps = 8, .pdf_eps = 16});
+  for (const double scale : {1e-4, 1.0, 1e4})
+    EXPECT_WARP_LAWS(
+        Logistic<S>(0, S(scale)),
+        {.name = fmt::format("scale {}", scale), .samples = scale == 1 ? 50'000u : 0u, .invert_eps = 8, .pdf_eps = 16});
 }
 
 TYPED_TEST(LogisticOver, TrimmedObeysTheLawsInTailsAndOnShortIntervals) {
   using S = TypeParam;
-  for (const auto& [lo, hi] : {std::pair{-1.0, 1.0}, {0.0, 5.0}, {-60.0, 70.0}, {40.0, 41.0}, {-41.0, -40.0}, {-1e-3, 1e-3}, {-300.0, 300.0}}) {
+  for (const auto& [lo, hi] : {std::pair{-1.0, 1.0},
+                               {0.0, 5.0},
+                               {-60.0, 70.0},
+                               {40.0, 41.0},
+                               {-41.0, -40.0},
+                               {-1e-3, 1e-3},
+                               {-300.0, 300.0}}) {
     const double condition = std::max({1.0, std::abs(lo), std::abs(hi)}) / (hi - lo);
-    EXPECT_WARP_LAWS(TrimmedLogistic<S>(1, S(lo), S(hi)),
-                     {.name = fmt::format("[{}, {}]", lo, hi), .samples = 0, .invert_eps = 8 * std::max(1.0, condition), .pdf_eps = 64});
+    EXPECT_WARP_LAWS(TrimmedLogistic<S>(1, S(lo), S(hi)), {.name = fmt::format("[{}, {}]", lo, hi),
+                                                           .samples = 0,
+                                                           .invert_eps = 8 * std::max(1.0, condition),
+                                                           .pdf_eps = 64});
   }
 }
 

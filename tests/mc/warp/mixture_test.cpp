@@ -7,7 +7,9 @@
 namespace mc {
 namespace {
 
-template <class S> auto half_and_half(S a, S b) { return Mixture(std::array<S, 2>{a, b}, UniformHemisphere<S>{}, CosineHemisphere<S>{}); }
+template <class S> auto half_and_half(S a, S b) {
+  return Mixture(std::array<S, 2>{a, b}, UniformHemisphere<S>{}, CosineHemisphere<S>{});
+}
 
 TEST(Mixture, ObeysTheLaws) {
   // Stretching u0 magnifies its rounding by 1 / weight, and the rim of the cosine lobe by more: 64 eps of the sample.

@@ -1,5 +1,5 @@
-// Where samplers that renderers ship break, measured on their own code: each defect is named with the figure it gave there, and must
-// not be here. Bounds over whole ranges stand with each warp's laws.
+// Where samplers that renderers ship break, measured on their own code: each defect is named with the figure it gave
+// there, and must not be here. Bounds over whole ranges stand with each warp's laws.
 
 #include <mc/check/oracle.h>
 #include <mc/random/pcg.h>
@@ -61,7 +61,8 @@ TEST(PeerDefects, CosineDirectionsNeverLieOnTheHorizon) {
   for (int i = 0; i <= 4096; ++i)
     for (const float edge : {0.0f, 0x1p-24f, last}) {
       const float t = std::min(static_cast<float>(i) / 4096, last);
-      for (const Vec2<float>& u : {Vec2<float>(edge, t), Vec2<float>(t, edge)}) ASSERT_GT(warp.pdf(warp.sample(u)), 0) << u.transpose();
+      for (const Vec2<float>& u : {Vec2<float>(edge, t), Vec2<float>(t, edge)})
+        ASSERT_GT(warp.pdf(warp.sample(u)), 0) << u.transpose();
     }
 }
 
@@ -78,7 +79,8 @@ TEST(PeerDefects, HenyeyGreensteinIsNeitherClampedNorRounded) {
   EXPECT_NEAR(mean_faint, 0.00099, 1e-6);
 }
 
-// M4. Mitsuba 3: kappa = 1e-9 has an infinite pdf and one direction; kappa = 1e8 integrates to 3 and knows three cosines.
+// M4. Mitsuba 3: kappa = 1e-9 has an infinite pdf and one direction; kappa = 1e8 integrates to 3 and knows three
+// cosines.
 TEST(PeerDefects, VonMisesFisherFromUniformToNeedle) {
   for (const float kappa : {1e-9f, 1e-7f, 1e-4f, 1.0f, 1e6f, 1e8f}) {
     const VonMisesFisher<float> warp(kappa);
@@ -96,8 +98,9 @@ TEST(PeerDefects, VonMisesFisherFromUniformToNeedle) {
   }
 }
 
-// D8, D9. pbrt-v4: at 4e-7 sr the pdf of a spherical triangle is 80 % off and 4 % of the samples have none; at 1e-6 sr that of a
-// rectangle is 30 % off, and at 2e-8 sr half of the samples have none. Solid angle to the second order: area / distance^2.
+// D8, D9. pbrt-v4: at 4e-7 sr the pdf of a spherical triangle is 80 % off and 4 % of the samples have none; at 1e-6 sr
+// that of a rectangle is 30 % off, and at 2e-8 sr half of the samples have none. Solid angle to the second order: area
+// / distance^2.
 TEST(PeerDefects, SphericalTrianglesAndRectanglesOf1e8Steradians) {
   for (const double edge : {1e-3, 1e-4}) {
     const auto e = static_cast<float>(edge);
@@ -115,8 +118,8 @@ TEST(PeerDefects, SphericalTrianglesAndRectanglesOf1e8Steradians) {
   }
 }
 
-// D10. pbrt-v4: at alpha = 1e-3 one of a hundred visible normals has a pdf 18 % off; at alpha = 1 and grazing incidence 1.7e-4 of
-// them have none; on the horizon it is infinite.
+// D10. pbrt-v4: at alpha = 1e-3 one of a hundred visible normals has a pdf 18 % off; at alpha = 1 and grazing incidence
+// 1.7e-4 of them have none; on the horizon it is infinite.
 TEST(PeerDefects, VisibleNormalsAtSmallRoughnessAndOnTheHorizon) {
   for (const float alpha : {1e-3f, 1.0f})
     for (const double degrees : {0.0, 45.0, 89.99, 90.0}) {
@@ -125,13 +128,14 @@ TEST(PeerDefects, VisibleNormalsAtSmallRoughnessAndOnTheHorizon) {
       Pcg random(2);
       for (int i = 0; i < 500; ++i) {
         const V m = warp.sample(random.point<float, 2>());
-        EXPECT_NEAR(double(Oracle(warp.pdf(m) / exact.pdf(cast_point<Oracle>(m)))), 1, 16 * eps) << alpha << ' ' << degrees;
+        EXPECT_NEAR(double(Oracle(warp.pdf(m) / exact.pdf(cast_point<Oracle>(m)))), 1, 16 * eps)
+            << alpha << ' ' << degrees;
       }
     }
 }
 
-// D10b. pbrt-v4: a frame that is not orthogonal near the pole biases the mean of atan(slope / alpha), which is alpha tan(theta) to first
-// order, at alpha = 0.01 and 24 degrees by 0.0015 of 0.0045.
+// D10b. pbrt-v4: a frame that is not orthogonal near the pole biases the mean of atan(slope / alpha), which is alpha
+// tan(theta) to first order, at alpha = 0.01 and 24 degrees by 0.0015 of 0.0045.
 TEST(PeerDefects, VisibleNormalsNearThePoleAreNotSkewed) {
   const double t = 24 * std::numbers::pi / 180;
   const TrowbridgeReitzVisibleNormals<double> warp({std::sin(t), 0, std::cos(t)}, 0.01);
@@ -145,7 +149,8 @@ TEST(PeerDefects, VisibleNormalsNearThePoleAreNotSkewed) {
   EXPECT_NEAR(mean, 0.01 * std::tan(t), 1e-4);
 }
 
-// M2. Mitsuba 3: Beckmann normals are NaN at u = (1/2, 1/2), and on the horizon with pdf 0 along the edges of the unit square.
+// M2. Mitsuba 3: Beckmann normals are NaN at u = (1/2, 1/2), and on the horizon with pdf 0 along the edges of the unit
+// square.
 TEST(PeerDefects, BeckmannAtTheMiddleAndTheEdges) {
   const BeckmannNormals<float> warp(0.3f);
   for (const float a : {0.0f, 0.25f, 0.5f, 0.75f, last})
@@ -154,8 +159,8 @@ TEST(PeerDefects, BeckmannAtTheMiddleAndTheEdges) {
   EXPECT_TRUE(std::isfinite(u[0]) && std::isfinite(u[1]));
 }
 
-// M1. Mitsuba 3: the concentric disk has points with |p| > 1, 6 % of them along the edge u0 = 0. Here beyond 1 by rounding only, and
-// those belong to the disk: none has pdf 0.
+// M1. Mitsuba 3: the concentric disk has points with |p| > 1, 6 % of them along the edge u0 = 0. Here beyond 1 by
+// rounding only, and those belong to the disk: none has pdf 0.
 TEST(PeerDefects, ConcentricDiskKeepsItsRim) {
   for (int i = 0; i < 65536; ++i) {
     const Vec2<float> p = UniformDisk<float>{}.sample({0, static_cast<float>(i) / 65536});
@@ -164,8 +169,8 @@ TEST(PeerDefects, ConcentricDiskKeepsItsRim) {
   }
 }
 
-// D18, M5. pbrt-v4, Mitsuba 3: a zero edge gives NaN at u1 = 0, weights of 1e30 NaN or a corner, of 1e-25 points outside; nearly equal
-// weights are off by 4e-4.
+// D18, M5. pbrt-v4, Mitsuba 3: a zero edge gives NaN at u1 = 0, weights of 1e30 NaN or a corner, of 1e-25 points
+// outside; nearly equal weights are off by 4e-4.
 TEST(PeerDefects, BilinearWithZeroEdgesAndExtremeWeights) {
   const auto expect_good = [](const Bilinear<float>& warp, const Vec2<float>& u) {
     const Vec2<float> p = warp.sample(u), back = warp.invert(p);
@@ -181,7 +186,8 @@ TEST(PeerDefects, BilinearWithZeroEdgesAndExtremeWeights) {
   EXPECT_THROW(Linear<float>(0, 0), Error);
 }
 
-// D11. pbrt-v4: the trimmed exponential knows 18 numbers at rate 1e-6, one at 1e-8, and is NaN at 0, where it is uniform.
+// D11. pbrt-v4: the trimmed exponential knows 18 numbers at rate 1e-6, one at 1e-8, and is NaN at 0, where it is
+// uniform.
 TEST(PeerDefects, TrimmedExponentialOfAnyRate) {
   for (const float rate : {0.0f, 1e-8f, 1e-6f, 1e-3f, 1.0f}) {
     const TrimmedExponential<float> warp(rate, 1);
@@ -212,7 +218,8 @@ TEST(PeerDefects, EndsOfTheUnitInterval) {
   }
 }
 
-// pbrt-v4 before 2025: Box and Muller's pair was NaN for three quarters of all u; at u = 1 it is infinite still, and -0 at u = 0.
+// pbrt-v4 before 2025: Box and Muller's pair was NaN for three quarters of all u; at u = 1 it is infinite still, and -0
+// at u = 0.
 TEST(PeerDefects, BoxMullerEverywhere) {
   for (const float a : {0.0f, 0x1p-24f, 0.5f, last})
     for (const float b : {0.0f, 0.25f, 0.5f, last}) {

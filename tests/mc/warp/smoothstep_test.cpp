@@ -9,7 +9,9 @@ template <class S> class SmoothstepOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(SmoothstepOver, Scalars);
 
-TYPED_TEST(SmoothstepOver, ObeysTheLaws) { EXPECT_WARP_LAWS(Smoothstep<TypeParam>{}, {.samples = 50'000, .invert_eps = 8, .pdf_eps = 16}); }
+TYPED_TEST(SmoothstepOver, ObeysTheLaws) {
+  EXPECT_WARP_LAWS(Smoothstep<TypeParam>{}, {.samples = 50'000, .invert_eps = 8, .pdf_eps = 16});
+}
 
 TEST(Smoothstep, KnownValues) {
   const Smoothstep<double> warp;

@@ -7,7 +7,8 @@ namespace {
 
 template <class S> Vec3<S> at(double degrees, double phi) {
   const double t = degrees * std::numbers::pi / 180;
-  return Vec3<double>(std::sin(t) * std::cos(phi), std::sin(t) * std::sin(phi), degrees == 90 ? 0.0 : std::cos(t)).cast<S>();
+  return Vec3<double>(std::sin(t) * std::cos(phi), std::sin(t) * std::sin(phi), degrees == 90 ? 0.0 : std::cos(t))
+      .cast<S>();
 }
 
 template <class S> class TrowbridgeReitz : public testing::Test {};
@@ -22,7 +23,8 @@ TYPED_TEST(TrowbridgeReitz, NormalsObeyTheLaws) {
   for (const double a : {1e-4, 1e-3, 0.1, 1.0}) {
     const double other = a < 1e-3 ? 1e-2 : 0.5 * a;
     const TrowbridgeReitzNormals<S> warp{S(a), S(other)};
-    EXPECT_WARP_LAWS(warp, {.name = fmt::format("alpha {}", a), .samples = a >= 0.1 ? few : 0, .invert_eps = 16, .pdf_eps = 16});
+    EXPECT_WARP_LAWS(
+        warp, {.name = fmt::format("alpha {}", a), .samples = a >= 0.1 ? few : 0, .invert_eps = 16, .pdf_eps = 16});
   }
 }
 
@@ -31,7 +33,11 @@ TYPED_TEST(TrowbridgeReitz, VisibleNormalsObeyTheLawsAtEveryIncidence) {
   for (const double a : {1e-4, 1e-3, 0.1, 1.0})
     for (const double degrees : {0.0, 0.01, 45.0, 89.9, 90.0}) {
       const TrowbridgeReitzVisibleNormals<S> warp(at<S>(degrees, 0.7), S(a), S(0.3 * a));
-      EXPECT_WARP_LAWS(warp, {.name = fmt::format("alpha {}, {} degrees", a, degrees), .samples = a == 1 ? few : 0, .invert_eps = 512, .sample_eps = 64, .pdf_eps = 16});
+      EXPECT_WARP_LAWS(warp, {.name = fmt::format("alpha {}, {} degrees", a, degrees),
+                              .samples = a == 1 ? few : 0,
+                              .invert_eps = 512,
+                              .sample_eps = 64,
+                              .pdf_eps = 16});
     }
 }
 

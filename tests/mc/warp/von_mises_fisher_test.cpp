@@ -14,7 +14,11 @@ TYPED_TEST(VonMisesFisherOver, ObeysTheLawsFromUniformToNeedle) {
   using S = TypeParam;
   for (const double kappa : {0.0, 1e-9, 1e-3, 1.0, 3.0, 5.0, 30.0, 1e4, 1e8}) {
     const VonMisesFisher<S> warp{S(kappa)};
-    EXPECT_WARP_LAWS(warp, {.name = fmt::format("kappa {}", kappa), .samples = kappa <= 30 ? 50'000u : 0u, .invert_eps = 16, .sample_eps = 16, .pdf_eps = 32});
+    EXPECT_WARP_LAWS(warp, {.name = fmt::format("kappa {}", kappa),
+                            .samples = kappa <= 30 ? 50'000u : 0u,
+                            .invert_eps = 16,
+                            .sample_eps = 16,
+                            .pdf_eps = 32});
   }
 }
 
@@ -27,7 +31,8 @@ TEST(VonMisesFisher, TinyKappaIsUniform) {
 }
 
 TEST(VonMisesFisher, RefusesNonsense) {
-  for (const double kappa : {-1.0, HUGE_VAL, std::numeric_limits<double>::quiet_NaN()}) EXPECT_THROW(VonMisesFisher<double>{kappa}, Error);
+  for (const double kappa : {-1.0, HUGE_VAL, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(VonMisesFisher<double>{kappa}, Error);
 }
 
 } // namespace

@@ -55,19 +55,25 @@ Solid ball(int levels, Float scale, const Vec3& center) {
   return s;
 }
 
-/// The nearest crossing by a test of every triangle in double; `clear` is false where a crossing is too near an edge, or the
-/// triangle too steep, for float coordinates to decide.
-struct Answer { double t = mc::infinity<double>; int prim = -1; bool clear = true; };
+/// The nearest crossing by a test of every triangle in double; `clear` is false where a crossing is too near an edge,
+/// or the triangle too steep, for float coordinates to decide.
+struct Answer {
+  double t = mc::infinity<double>;
+  int prim = -1;
+  bool clear = true;
+};
 
 Answer brute_force(const TriangleMesh& mesh, const Ray& ray) {
   Answer best;
   const Vec3d o = ray.o.cast<double>(), d = ray.d.cast<double>();
   for (std::size_t i = 0; i < mesh.size(); ++i) {
     const auto v = mesh.vertices(i);
-    const Vec3d a = v[0].cast<double>(), e1 = v[1].cast<double>() - a, e2 = v[2].cast<double>() - a, n = mc::cross<double>(e1, e2);
+    const Vec3d a = v[0].cast<double>(), e1 = v[1].cast<double>() - a, e2 = v[2].cast<double>() - a,
+                n = mc::cross<double>(e1, e2);
     const double det = -n.dot(d);
     const Vec3d s = o - a, q = mc::cross<double>(s, d);
-    const double t = n.dot(s) / det, b1 = e2.dot(q) / det, b2 = -e1.dot(q) / det, inside = std::min({b1, b2, 1 - b1 - b2});
+    const double t = n.dot(s) / det, b1 = e2.dot(q) / det, b2 = -e1.dot(q) / det,
+                 inside = std::min({b1, b2, 1 - b1 - b2});
     if (inside < -1e-3 || t < -1e-3) continue;
     if (std::abs(det) < 1e-3 * n.norm() || inside < 1e-3 || std::abs(t) < 1e-3) best.clear = false;
     if (t > 0 && t < best.t) best.t = t, best.prim = static_cast<int>(i);
@@ -94,7 +100,8 @@ TEST(Bvh, FindsWhatTestingEveryTriangleFinds) {
       ++hits;
       EXPECT_EQ(hit->prim, truth.prim) << n << " triangles, ray " << i;
       // One rounding to Float, and the roundings of both double evaluations, which a slope of 1e-3 magnifies.
-      EXPECT_LE(std::abs(double(hit->t) - truth.t), std::numeric_limits<Float>::epsilon() * truth.t + 0x1p-52 * 1e3 * 16);
+      EXPECT_LE(std::abs(double(hit->t) - truth.t),
+                std::numeric_limits<Float>::epsilon() * truth.t + 0x1p-52 * 1e3 * 16);
       // t is rounded once; the weights meet the ray up to the rounding of float differences.
       const Vec3 p = shape.surface_point(ray, *hit).p;
       EXPECT_LE((p - ray.at(hit->t)).norm(), 1e-5);
@@ -203,15 +210,18 @@ TEST(Bvh, EmptyDegenerateAndRepeatedTriangles) {
 
 TEST(Bvh, SpheresAndCapsAgreeWithTheShapesThemselves) {
   mc::Pcg random(12);
-  std::vector<Shape> shapes = {Sphere(Vec3d(0, -1e5 - 1, 0), 1e5), Sphere::cap(Vec3d(0, 601, 0), 600, Vec3d(0, -1, 0), 0.3)};
-  for (int i = 0; i < 200; ++i) shapes.push_back(Sphere(in_cube(random).cast<double>(), 0.01 + 0.1 * random.uniform<double>(), i % 2 == 0));
+  std::vector<Shape> shapes = {Sphere(Vec3d(0, -1e5 - 1, 0), 1e5),
+                               Sphere::cap(Vec3d(0, 601, 0), 600, Vec3d(0, -1, 0), 0.3)};
+  for (int i = 0; i < 200; ++i)
+    shapes.push_back(Sphere(in_cube(random).cast<double>(), 0.01 + 0.1 * random.uniform<double>(), i % 2 == 0));
   shapes.push_back(soup(100, Float(0.2), 13));
   const Bvh bvh(shapes);
   int hits = 0;
   for (int i = 0; i < 4000; ++i) {
     const Ray ray{2 * in_cube(random), direction(random)};
     double t = mc::infinity<double>;
-    for (std::size_t k = 0; k + 1 < shapes.size(); ++k) t = std::min(t, std::get<Sphere>(shapes[k]).intersect(ray).value_or(t));
+    for (std::size_t k = 0; k + 1 < shapes.size(); ++k)
+      t = std::min(t, std::get<Sphere>(shapes[k]).intersect(ray).value_or(t));
     t = std::min(t, brute_force(std::get<TriangleMesh>(shapes.back()), ray).t);
     const auto hit = bvh.intersect(ray);
     ASSERT_EQ(hit.has_value(), t < mc::infinity<double>) << i;

@@ -49,13 +49,15 @@ TEST(WideTree, VisitsEveryLeafWithABoxThatTheRayMeets) {
     std::set<std::uint32_t> visited;
     Float t_max = mc::infinity<Float>;
     tree.traverse(ray, t_max, [&](std::uint32_t leaf, Float&) {
-      for (std::uint32_t k = 0; k < tree.leaves()[leaf].count; ++k) visited.insert(tree.order()[tree.leaves()[leaf].first + k]);
+      for (std::uint32_t k = 0; k < tree.leaves()[leaf].count; ++k)
+        visited.insert(tree.order()[tree.leaves()[leaf].first + k]);
       return false;
     });
     for (std::uint32_t b = 0; b < boxes.size(); ++b) {
       double enter = 0, exit = mc::infinity<double>;
       for (int a = 0; a < 3; ++a) {
-        const double o = double(ray.o[a]), d = double(ray.d[a]), lo = double(boxes[b].lo[a]), hi = double(boxes[b].hi[a]);
+        const double o = double(ray.o[a]), d = double(ray.d[a]), lo = double(boxes[b].lo[a]),
+                     hi = double(boxes[b].hi[a]);
         if (d == 0) {
           if (o < lo || o > hi) enter = mc::infinity<double>, exit = 0;
           continue;

@@ -20,7 +20,8 @@ TEST(Fresnel, KnownValues) {
   EXPECT_EQ(total.cos_t, 0);
 }
 
-// The hemispherical reflectance of glass, 2 int R cos dcos (scene-catalogue G), which Schlick's fit with the wrong cosine misses.
+// The hemispherical reflectance of glass, 2 int R cos dcos (scene-catalogue G), which Schlick's fit with the wrong
+// cosine misses.
 TEST(Fresnel, HemisphericalReflectance) {
   const int n = 100'000;
   double outside = 0, inside = 0;
@@ -33,7 +34,8 @@ TEST(Fresnel, HemisphericalReflectance) {
   EXPECT_NEAR(inside, 0.59635, 1e-5);
 }
 
-// The way back meets cos_i again up to an ulp of sin^2, that is eps eta^2 / cos_i, and R is steep there: |dR/dcos| <= 6.
+// The way back meets cos_i again up to an ulp of sin^2, that is eps eta^2 / cos_i, and R is steep there: |dR/dcos| <=
+// 6.
 TEST(Fresnel, TheSameFromBothSides) {
   for (int i = 1; i <= 100; ++i) {
     const Float cos_i = Float(i) / 100;

@@ -29,13 +29,14 @@ TEST(Metal, WithoutFuzzIsAMirror) {
   }
 }
 
-// The closed-form density against the samples; absorbed ones are what the density lacks to 1. Eight cases at alpha = 1e-5.
+// The closed-form density against the samples; absorbed ones are what the density lacks to 1. Eight cases at alpha =
+// 1e-5.
 TEST(Metal, SamplesFollowTheChordDensity) {
   for (const double fuzz : {0.1, 1.0})
     for (const double angle : {0.0, 60.0, 85.0, 120.0}) {
       const Metal metal{Spectrum::Constant(Float(0.9)), Float(fuzz)};
-      const auto report = mc::check_bsdf<Float>(metal, at_angle(angle),
-                                                {.samples = 50'000, .alpha = 1e-5, .reciprocal = false, .mass_tolerance = 1e-4});
+      const auto report = mc::check_bsdf<Float>(
+          metal, at_angle(angle), {.samples = 50'000, .alpha = 1e-5, .reciprocal = false, .mass_tolerance = 1e-4});
       EXPECT_TRUE(report.passed()) << "fuzz " << fuzz << ", " << angle << " degrees\n" << report.to_string();
     }
 }
@@ -47,10 +48,12 @@ TEST(Metal, TendsToTheMirrorAsFuzzVanishes) {
       EXPECT_EQ(c.verdict, mc::Verdict::pass) << c.name << ": " << c.detail;
 }
 
-// Share of samples below the surface as measured from the book's own code (seed-slips P14). 4e5 samples: 5 standard errors are
-// below .004.
+// Share of samples below the surface as measured from the book's own code (seed-slips P14). 4e5 samples: 5 standard
+// errors are below .004.
 TEST(Metal, AbsorbsWhatTheBookSendsBelowTheSurface) {
-  struct Row { double fuzz, angle, below; };
+  struct Row {
+    double fuzz, angle, below;
+  };
   for (const Row& row : {Row{1, 45, .058}, {1, 75, .310}, {1, 85, .435}, {.3, 75, .014}, {.3, 85, .288}}) {
     const Metal metal{Spectrum::Ones(), Float(row.fuzz)};
     mc::Pcg random(5);

@@ -22,9 +22,16 @@ TEST(ThinLens, PinholeSpansItsFieldOfView) {
 TEST(ThinLens, TheFieldOfViewHasAnAxis) {
   ThinLens camera;
   using Axis = ThinLens::FovAxis;
-  struct Row { Axis axis; Float aspect, x, y; };
-  for (const Row& row : {Row{Axis::x, 2, 1, Float(0.5)}, {Axis::y, 2, 2, 1}, {Axis::smaller, 2, 2, 1}, {Axis::larger, 2, 1, Float(0.5)},
-                         {Axis::smaller, Float(0.5), 1, 2}, {Axis::larger, Float(0.5), Float(0.5), 1}}) {
+  struct Row {
+    Axis axis;
+    Float aspect, x, y;
+  };
+  for (const Row& row : {Row{Axis::x, 2, 1, Float(0.5)},
+                         {Axis::y, 2, 2, 1},
+                         {Axis::smaller, 2, 2, 1},
+                         {Axis::larger, 2, 1, Float(0.5)},
+                         {Axis::smaller, Float(0.5), 1, 2},
+                         {Axis::larger, Float(0.5), Float(0.5), 1}}) {
     camera.fov_axis = row.axis;
     EXPECT_EQ(camera.tan_half(row.aspect), Vec2(row.x, row.y)) << int(row.axis) << " at " << row.aspect;
   }
@@ -53,7 +60,8 @@ TEST(ThinLens, NearCutsByAPlane) {
   ThinLens camera;
   camera.near = 2;
   for (const Float x : {Float(0), Float(0.5), Float(1)})
-    EXPECT_NEAR((camera.ray(Vec2(x, x), camera.tan_half(1), Vec2::Zero()).o - camera.origin).dot(camera.forward), 2, 1e-6);
+    EXPECT_NEAR((camera.ray(Vec2(x, x), camera.tan_half(1), Vec2::Zero()).o - camera.origin).dot(camera.forward), 2,
+                1e-6);
 }
 
 } // namespace

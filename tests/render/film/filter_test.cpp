@@ -9,7 +9,9 @@ namespace {
 using namespace render;
 
 /// Mean, variance and largest |x| of the first axis, by the midpoint rule.
-struct Axis { double mean = 0, variance = 0, reach = 0, covariance = 0; };
+struct Axis {
+  double mean = 0, variance = 0, reach = 0, covariance = 0;
+};
 Axis axis(const Filter& filter, int n = 400) {
   Axis a;
   for (int i = 0; i < n; ++i)
@@ -23,8 +25,13 @@ Axis axis(const Filter& filter, int n = 400) {
 }
 
 TEST(Filter, VariancesAreThoseOfTheirShapes) {
-  struct Row { const char* name; Filter filter; double variance, reach, tolerance; };
-  for (const Row& row : {Row{"box", BoxFilter{Float(0.5)}, 1 / 12.0, 0.5, 1e-4}, {"wide box", BoxFilter{2}, 4 / 3.0, 2, 1e-4},
+  struct Row {
+    const char* name;
+    Filter filter;
+    double variance, reach, tolerance;
+  };
+  for (const Row& row : {Row{"box", BoxFilter{Float(0.5)}, 1 / 12.0, 0.5, 1e-4},
+                         {"wide box", BoxFilter{2}, 4 / 3.0, 2, 1e-4},
                          // Square roots at the ends: the midpoint rule is off by O(n^-1.5).
                          {"tent", TentFilter{1}, 1 / 6.0, 1, 5e-4},
                          // The midpoint rule cuts the tail of the logarithm: 2e-3 of the variance at n = 400.
@@ -39,9 +46,11 @@ TEST(Filter, VariancesAreThoseOfTheirShapes) {
 }
 
 TEST(Filter, FiniteAtTheEdgesOfTheUnitSquare) {
-  for (const Filter& filter : {Filter(BoxFilter{}), Filter(TentFilter{}), Filter(GaussianFilter{}), Filter(SubpixelTentFilter{})})
+  for (const Filter& filter :
+       {Filter(BoxFilter{}), Filter(TentFilter{}), Filter(GaussianFilter{}), Filter(SubpixelTentFilter{})})
     for (const Float a : {Float(0), Float(0.5), mc::one_minus_epsilon<Float>})
-      for (const Float b : {Float(0), Float(0.5), mc::one_minus_epsilon<Float>}) EXPECT_TRUE(filter.sample(Vec2(a, b)).allFinite()) << a << ", " << b;
+      for (const Float b : {Float(0), Float(0.5), mc::one_minus_epsilon<Float>})
+        EXPECT_TRUE(filter.sample(Vec2(a, b)).allFinite()) << a << ", " << b;
 }
 
 } // namespace

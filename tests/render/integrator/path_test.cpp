@@ -6,8 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-// Pictures known in closed form, traced by every strategy. Each comparison is a t-test at alpha = 1e-5; there are about fifty, so
-// right code fails for one seed in 2000, and the seeds are fixed.
+// Pictures known in closed form, traced by every strategy. Each comparison is a t-test at alpha = 1e-5; there are about
+// fifty, so right code fails for one seed in 2000, and the seeds are fixed.
 namespace {
 
 using namespace render;
@@ -21,7 +21,8 @@ Transform columns(const Vec3d& x, const Vec3d& y, const Vec3d& z, const Vec3d& o
 }
 /// Horizontal rectangle at height y about (cx, cz), normal up or down.
 Shape horizontal(double cx, double y, double cz, double half_x, double half_z, bool up) {
-  return TriangleMesh::rectangle(columns(Vec3d(half_x, 0, 0), Vec3d(0, 0, up ? -half_z : half_z), Vec3d(0, up ? 1 : -1, 0), Vec3d(cx, y, cz)));
+  return TriangleMesh::rectangle(
+      columns(Vec3d(half_x, 0, 0), Vec3d(0, 0, up ? -half_z : half_z), Vec3d(0, up ? 1 : -1, 0), Vec3d(cx, y, cz)));
 }
 
 mc::Moments trace(const Scene& scene, const Ray& ray, const PathOptions& options, int n, int channel = 0) {
@@ -67,8 +68,8 @@ TEST(Path, WhiteObjectsVanishInAWhiteSky) {
     scene.bsdfs.push_back(bsdf);
     scene.add(Sphere(Vec3d::Zero(), 1), 0);
     scene.prepare();
-    // Glass varies only where roulette ends one of the 2 in 1000 paths that reflect twice inside, too rarely for a t-test: the
-    // standard error is sqrt(.002 * .05 / n) = 7e-5.
+    // Glass varies only where roulette ends one of the 2 in 1000 paths that reflect twice inside, too rarely for a
+    // t-test: the standard error is sqrt(.002 * .05 / n) = 7e-5.
     for (const Strategy s : unbiased) {
       const mc::Moments m = trace(scene, {Vec3(Float(0.3), Float(0.4), 3), Vec3(0, 0, -1)}, {s}, 20'000);
       if (bsdf.is_delta()) EXPECT_NEAR(m.mean(), 1, 5e-4) << word(s);
@@ -90,7 +91,8 @@ Scene cornell_light() {
 TEST(Path, RectangleOverLambertPlane) {
   const Scene scene = cornell_light();
   const Ray down{Vec3(278, 100, Float(279.5)), Vec3(0, -1, 0)};
-  for (const Strategy s : {Strategy::bsdf, Strategy::hemisphere, Strategy::light, Strategy::mixture, Strategy::nee, Strategy::mis})
+  for (const Strategy s :
+       {Strategy::bsdf, Strategy::hemisphere, Strategy::light, Strategy::mixture, Strategy::nee, Strategy::mis})
     expect_mean(trace(scene, down, {s, 2}, 100'000), 15 * 0.73 * 0.013945466356, word(s));
 }
 
@@ -99,8 +101,10 @@ TEST(Path, LightsAreDarkFromBehind) {
   std::uint64_t rays = 0;
   for (const Strategy s : unbiased) {
     IndependentStream stream({1, 0}, 0);
-    EXPECT_TRUE(is_black(trace_path(scene, {Vec3(278, 700, Float(279.5)), Vec3(0, -1, 0)}, stream, {s, 1}, rays))) << word(s);
-    EXPECT_TRUE((trace_path(scene, {Vec3(278, 300, Float(279.5)), Vec3(0, 1, 0)}, stream, {s, 1}, rays) == 15).all()) << word(s);
+    EXPECT_TRUE(is_black(trace_path(scene, {Vec3(278, 700, Float(279.5)), Vec3(0, -1, 0)}, stream, {s, 1}, rays)))
+        << word(s);
+    EXPECT_TRUE((trace_path(scene, {Vec3(278, 300, Float(279.5)), Vec3(0, 1, 0)}, stream, {s, 1}, rays) == 15).all())
+        << word(s);
   }
 }
 
@@ -112,7 +116,8 @@ TEST(Path, SphereOverLambertPlane) {
   scene.add(Sphere(Vec3d(0, 4, 0), 1.5), 0, AreaLight{-1, Spectrum::Constant(3)});
   scene.prepare();
   const Ray down{Vec3(0, 1, 0), Vec3(0, -1, 0)};
-  for (const Strategy s : {Strategy::bsdf, Strategy::hemisphere, Strategy::light, Strategy::mixture, Strategy::nee, Strategy::mis})
+  for (const Strategy s :
+       {Strategy::bsdf, Strategy::hemisphere, Strategy::light, Strategy::mixture, Strategy::nee, Strategy::mis})
     expect_mean(trace(scene, down, {s, 2}, 100'000), 0.5 * 3 * 1.5 * 1.5 / 16, word(s));
 }
 
@@ -129,7 +134,8 @@ TEST(Path, LightsInMirrorsAndThroughGlass) {
   plate.add(TriangleMesh::box(columns(Vec3d(2, 0, 0), Vec3d(0, 0.5, 0), Vec3d(0, 0, 2), Vec3d(0, 2, 0))), 0);
   plate.add(horizontal(0, 5, 0, 1, 1, false), 1, AreaLight{-1, Spectrum::Constant(3)});
   plate.prepare();
-  for (const Strategy s : {Strategy::bsdf, Strategy::hemisphere, Strategy::light, Strategy::mixture, Strategy::nee, Strategy::mis}) {
+  for (const Strategy s :
+       {Strategy::bsdf, Strategy::hemisphere, Strategy::light, Strategy::mixture, Strategy::nee, Strategy::mis}) {
     expect_mean(trace(mirror, {Vec3(0, 2, 0), Vec3(Float(0.1), -2, 0).normalized()}, {s}, 10), 0.8 * 3, word(s));
     expect_mean(trace(plate, {Vec3(0, 0, 0), Vec3(0, 1, 0)}, {s}, 40'000), 3 * 0.96 / 1.04, word(s));
   }
@@ -138,7 +144,8 @@ TEST(Path, LightsInMirrorsAndThroughGlass) {
 // Everything at once: two lights, sky, glass, fuzzy metal. All agree with mis; light-only loses what surfaces reflect.
 TEST(Path, StrategiesAgree) {
   Scene scene;
-  scene.bsdfs = {Lambert{Spectrum(Float(0.8), Float(0.6), Float(0.4))}, Metal{Spectrum::Constant(Float(0.9)), Float(0.6)}, Dielectric{}};
+  scene.bsdfs = {Lambert{Spectrum(Float(0.8), Float(0.6), Float(0.4))},
+                 Metal{Spectrum::Constant(Float(0.9)), Float(0.6)}, Dielectric{}};
   scene.background = GradientBackground{};
   scene.add(horizontal(0, 0, 0, 4, 4, true), 0);
   scene.add(Sphere(Vec3d(1.2, 1, 0), 1), 1);
@@ -151,7 +158,8 @@ TEST(Path, StrategiesAgree) {
   for (const Strategy s : unbiased) {
     const mc::Moments other = trace(scene, ray, {s}, 60'000);
     const double error = std::hypot(mis.std_error(), other.std_error());
-    EXPECT_LE(std::abs(other.mean() - mis.mean()), 4.42 * error) << word(s) << ": " << other.mean() << " against " << mis.mean();
+    EXPECT_LE(std::abs(other.mean() - mis.mean()), 4.42 * error)
+        << word(s) << ": " << other.mean() << " against " << mis.mean();
   }
   const mc::Moments light = trace(scene, ray, {Strategy::light}, 60'000);
   EXPECT_LE(light.mean(), mis.mean() - 10 * std::hypot(mis.std_error(), light.std_error()));
@@ -167,7 +175,8 @@ TEST(Path, DepthCountsEdges) {
   for (const Strategy s : unbiased) EXPECT_EQ(trace(scene, ray, {s, 0}, 10).mean(), 0) << word(s);
   for (const int depth : {1, 2, 3, 40})
     for (const Strategy s : unbiased)
-      expect_mean(trace(scene, ray, {s, depth}, 10'000), (1 - std::pow(0.9, depth)) / 0.1, word(s) + " to depth " + std::to_string(depth), 2e-5);
+      expect_mean(trace(scene, ray, {s, depth}, 10'000), (1 - std::pow(0.9, depth)) / 0.1,
+                  word(s) + " to depth " + std::to_string(depth), 2e-5);
 }
 
 // A NaN throughput ends the path as an invalid sample, however long the path was: roulette must not swallow it.
@@ -176,7 +185,8 @@ TEST(Path, NonFiniteThroughputIsNeverQuiet) {
   scene.bsdfs = {Lambert{}};
   scene.add(Sphere(Vec3d::Zero(), 1, true), 0);
   scene.prepare();
-  scene.bsdfs = {Lambert{Spectrum(Float(0.5), std::numeric_limits<Float>::quiet_NaN(), Float(0.5))}}; // prepare would refuse it
+  scene.bsdfs = {
+      Lambert{Spectrum(Float(0.5), std::numeric_limits<Float>::quiet_NaN(), Float(0.5))}}; // prepare would refuse it
   std::uint64_t rays = 0;
   for (const Strategy s : unbiased)
     for (std::uint32_t i = 0; i < 100; ++i) {
@@ -186,7 +196,8 @@ TEST(Path, NonFiniteThroughputIsNeverQuiet) {
 }
 
 TEST(Strategy, NamesAndTheirSlips) {
-  for (const Strategy s : {Strategy::bsdf, Strategy::hemisphere, Strategy::light, Strategy::mixture, Strategy::nee, Strategy::mis})
+  for (const Strategy s :
+       {Strategy::bsdf, Strategy::hemisphere, Strategy::light, Strategy::mixture, Strategy::nee, Strategy::mis})
     EXPECT_EQ(strategy_from(name(s)), s);
   try {
     strategy_from("mist");

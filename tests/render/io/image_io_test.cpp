@@ -13,7 +13,8 @@ struct ImageIo : support::ScratchTest {
   static Image picture(bool with_variance) {
     Image image(7, 5);
     mc::Pcg random(1);
-    for (auto& p : image.pixels) p = render::Spectrum(random.uniform<float>() * 100, random.uniform<float>(), -random.uniform<float>());
+    for (auto& p : image.pixels)
+      p = render::Spectrum(random.uniform<float>() * 100, random.uniform<float>(), -random.uniform<float>());
     if (with_variance) image.variance.assign(image.pixels.size(), render::Spectrum(1e-8f, 2, 3e10f));
     image.metadata = {{"carlo.command", "carlo render \"a b\" --spp 4"}, {"carlo.seed", "7"}};
     return image;
@@ -22,7 +23,8 @@ struct ImageIo : support::ScratchTest {
     ASSERT_EQ(a.width, b.width);
     ASSERT_EQ(a.height, b.height);
     for (std::size_t i = 0; i < a.pixels.size(); ++i)
-      for (int c = 0; c < 3; ++c) EXPECT_EQ(static_cast<float>(a.pixels[i][c]), static_cast<float>(b.pixels[i][c])) << i;
+      for (int c = 0; c < 3; ++c)
+        EXPECT_EQ(static_cast<float>(a.pixels[i][c]), static_cast<float>(b.pixels[i][c])) << i;
   }
 };
 
@@ -33,7 +35,8 @@ TEST_F(ImageIo, ExrKeepsRadianceVarianceAndMetadata) {
   expect_equal(image, back);
   ASSERT_EQ(back.variance.size(), image.variance.size());
   for (std::size_t i = 0; i < image.variance.size(); ++i)
-    for (int c = 0; c < 3; ++c) EXPECT_EQ(static_cast<float>(back.variance[i][c]), static_cast<float>(image.variance[i][c]));
+    for (int c = 0; c < 3; ++c)
+      EXPECT_EQ(static_cast<float>(back.variance[i][c]), static_cast<float>(image.variance[i][c]));
   EXPECT_EQ(back.metadata.at("carlo.command"), "carlo render \"a b\" --spp 4");
   EXPECT_EQ(back.metadata.at("carlo.seed"), "7");
 
@@ -53,8 +56,10 @@ TEST_F(ImageIo, ExrOfLuminanceAloneIsGrey) {
   file += attribute("channels", "chlist", text("Y") + number(2) + number(0) + number(1) + number(1) + '\0');
   file += attribute("compression", "compression", std::string(1, '\0'));
   file += attribute("dataWindow", "box2i", box) + attribute("displayWindow", "box2i", box);
-  file += attribute("lineOrder", "lineOrder", std::string(1, '\0')) + attribute("pixelAspectRatio", "float", number(1.0f));
-  file += attribute("screenWindowCenter", "v2f", number(0.0f) + number(0.0f)) + attribute("screenWindowWidth", "float", number(1.0f)) + '\0';
+  file +=
+      attribute("lineOrder", "lineOrder", std::string(1, '\0')) + attribute("pixelAspectRatio", "float", number(1.0f));
+  file += attribute("screenWindowCenter", "v2f", number(0.0f) + number(0.0f)) +
+          attribute("screenWindowWidth", "float", number(1.0f)) + '\0';
   file += number(static_cast<std::uint64_t>(file.size() + 8)) + number(0) + number(8) + number(0.25f) + number(3.0f);
   const Image image = render::read_image(write("grey.exr", file));
   ASSERT_EQ(image.width, 2);
@@ -82,16 +87,22 @@ TEST_F(ImageIo, PngIsSrgbWithExposureAndText) {
   render::write_image(path("a.png"), image, 1);
   const std::string bytes = mc::read_file(path("a.png"));
   EXPECT_TRUE(bytes.starts_with("\x89PNG\r\n"));
-  EXPECT_NE(bytes.find(std::string("tEXtcarlo.seed\0" "7", 16)), std::string::npos);
+  EXPECT_NE(bytes.find(std::string("tEXtcarlo.seed\0"
+                                   "7",
+                                   16)),
+            std::string::npos);
 }
 
 TEST_F(ImageIo, RefusesWithOneLine) {
   const Image image = picture(false);
-  EXPECT_THAT(support::error_of([&] { render::write_image(path("a.jpg"), image); }), testing::HasSubstr("unknown image format '.jpg'; use .exr, .pfm or .png"));
-  EXPECT_THAT(support::error_of([&] { render::write_image(path("none/a.exr"), image); }), testing::HasSubstr("does not exist; create it first"));
+  EXPECT_THAT(support::error_of([&] { render::write_image(path("a.jpg"), image); }),
+              testing::HasSubstr("unknown image format '.jpg'; use .exr, .pfm or .png"));
+  EXPECT_THAT(support::error_of([&] { render::write_image(path("none/a.exr"), image); }),
+              testing::HasSubstr("does not exist; create it first"));
   EXPECT_THAT(support::error_of([&] { render::read_image(path("none.exr")); }), testing::HasSubstr("no such file"));
   write("broken.exr", "not an image");
-  EXPECT_THAT(support::error_of([&] { render::read_image(path("broken.exr")); }), testing::HasSubstr("cannot read EXR"));
+  EXPECT_THAT(support::error_of([&] { render::read_image(path("broken.exr")); }),
+              testing::HasSubstr("cannot read EXR"));
   write("broken.pfm", "P6\n1 1\n255\n");
   EXPECT_THAT(support::error_of([&] { render::read_image(path("broken.pfm")); }), testing::HasSubstr("not a PFM file"));
   write("short.pfm", "PF\n4 4\n-1.0\nabc");

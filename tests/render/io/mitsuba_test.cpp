@@ -10,7 +10,9 @@ namespace {
 const char* const sensor = "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor>";
 
 struct Mitsuba : support::ScratchTest {
-  std::string scene(const std::string& body) const { return write("s.xml", "<scene version=\"0.6.0\">\n" + body + "\n</scene>\n"); }
+  std::string scene(const std::string& body) const {
+    return write("s.xml", "<scene version=\"0.6.0\">\n" + body + "\n</scene>\n");
+  }
   std::string refusal(const std::string& body) const {
     const std::string file = scene(body);
     std::string message = support::error_of([&] { render::read_mitsuba(file); });
@@ -55,32 +57,57 @@ TEST_F(Mitsuba, EveryGallerySceneLoadsAndRenders) {
 }
 
 TEST_F(Mitsuba, NamesFileLineAndRemedy) {
-  EXPECT_THAT(support::error_of([&] { render::read_mitsuba(path("none.xml")); }), testing::HasSubstr("none.xml': no such file"));
-  EXPECT_THAT(support::error_of([&] { render::read_mitsuba(write("b.xml", "<scene>\n<shape\n</scene>")); }), testing::HasSubstr("b.xml:"));
+  EXPECT_THAT(support::error_of([&] { render::read_mitsuba(path("none.xml")); }),
+              testing::HasSubstr("none.xml': no such file"));
+  EXPECT_THAT(support::error_of([&] { render::read_mitsuba(write("b.xml", "<scene>\n<shape\n</scene>")); }),
+              testing::HasSubstr("b.xml:"));
   EXPECT_THAT(refusal(""), testing::HasSubstr("no <sensor>"));
   EXPECT_THAT(refusal(sensor), testing::HasSubstr("neither a shape nor a background"));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"spere\"/>"), testing::HasSubstr("s.xml:3: <shape>: unknown type 'spere'; did you mean 'sphere'?"));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"serialized\"/>"), testing::HasSubstr("s.xml:3: <shape>: unknown type 'serialized'"));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"difuse\" id=\"a\"/>"), testing::HasSubstr("did you mean 'diffuse'?"));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\" id=\"a\"/>"), testing::HasSubstr("s.xml:4: <bsdf>: a second BSDF with the id 'a'"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"spere\"/>"),
+              testing::HasSubstr("s.xml:3: <shape>: unknown type 'spere'; did you mean 'sphere'?"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"serialized\"/>"),
+              testing::HasSubstr("s.xml:3: <shape>: unknown type 'serialized'"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"difuse\" id=\"a\"/>"),
+              testing::HasSubstr("did you mean 'diffuse'?"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\" id=\"a\"/>"),
+              testing::HasSubstr("s.xml:4: <bsdf>: a second BSDF with the id 'a'"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<volume/>"), testing::HasSubstr("s.xml:3: <volume>: unknown element"));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"one\"/></shape>"), testing::HasSubstr("s.xml:3: <float>: 'one' is not a finite number"));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>"), testing::HasSubstr("s.xml:3: sphere: radius -1 must be finite and > 0"));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radus\" value=\"1\"/></shape>"), testing::HasSubstr("s.xml:3: <float name=\"radus\"> is not supported here; remove it"));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"obj\"><string name=\"filename\" value=\"gone.obj\"/></shape>"), testing::AllOf(testing::HasSubstr("s.xml:3"), testing::HasSubstr("gone.obj': no such file")));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><ref id=\"whte\"/></shape>\n<bsdf type=\"diffuse\" id=\"white\"/>"), testing::HasSubstr("no BSDF has the id 'whte'; did you mean 'white'?"));
-  EXPECT_THAT(refusal("<integrator type=\"volpath\"/>" + std::string(sensor)), testing::HasSubstr("unknown type 'volpath'"));
-  EXPECT_THAT(refusal("<sensor type=\"perspective\"><float name=\"fov\" value=\"180\"/></sensor>"), testing::HasSubstr("fov 180 must lie in (0, 180) degrees"));
-  EXPECT_THAT(refusal("<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/><sampler type=\"x\"><integer name=\"sampleCount\" value=\"0\"/></sampler></sensor>"), testing::HasSubstr("sampleCount 0 must be at least 1"));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"diffuse\" id=\"a\"><rgb name=\"reflectance\" value=\"1.5\"/></bsdf>"), testing::HasSubstr("reflectance 1.5 must lie in [0, 1]"));
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<emitter type=\"constant\"><rgb name=\"radiance\" value=\"-1\"/></emitter>"), testing::HasSubstr("must be finite and >= 0"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"one\"/></shape>"),
+              testing::HasSubstr("s.xml:3: <float>: 'one' is not a finite number"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"-1\"/></shape>"),
+              testing::HasSubstr("s.xml:3: sphere: radius -1 must be finite and > 0"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radus\" value=\"1\"/></shape>"),
+              testing::HasSubstr("s.xml:3: <float name=\"radus\"> is not supported here; remove it"));
+  EXPECT_THAT(
+      refusal(std::string(sensor) + "\n<shape type=\"obj\"><string name=\"filename\" value=\"gone.obj\"/></shape>"),
+      testing::AllOf(testing::HasSubstr("s.xml:3"), testing::HasSubstr("gone.obj': no such file")));
+  EXPECT_THAT(refusal(std::string(sensor) +
+                      "\n<shape type=\"sphere\"><ref id=\"whte\"/></shape>\n<bsdf type=\"diffuse\" id=\"white\"/>"),
+              testing::HasSubstr("no BSDF has the id 'whte'; did you mean 'white'?"));
+  EXPECT_THAT(refusal("<integrator type=\"volpath\"/>" + std::string(sensor)),
+              testing::HasSubstr("unknown type 'volpath'"));
+  EXPECT_THAT(refusal("<sensor type=\"perspective\"><float name=\"fov\" value=\"180\"/></sensor>"),
+              testing::HasSubstr("fov 180 must lie in (0, 180) degrees"));
+  EXPECT_THAT(refusal("<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/><sampler type=\"x\"><integer "
+                      "name=\"sampleCount\" value=\"0\"/></sampler></sensor>"),
+              testing::HasSubstr("sampleCount 0 must be at least 1"));
+  EXPECT_THAT(refusal(std::string(sensor) +
+                      "\n<bsdf type=\"diffuse\" id=\"a\"><rgb name=\"reflectance\" value=\"1.5\"/></bsdf>"),
+              testing::HasSubstr("reflectance 1.5 must lie in [0, 1]"));
+  EXPECT_THAT(
+      refusal(std::string(sensor) + "\n<emitter type=\"constant\"><rgb name=\"radiance\" value=\"-1\"/></emitter>"),
+      testing::HasSubstr("must be finite and >= 0"));
 }
 
 TEST_F(Mitsuba, MeshProblemsNameSceneAndMesh) {
   write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"obj\"><string name=\"filename\" value=\"nan.obj\"/></shape>"), testing::AllOf(testing::HasSubstr("s.xml:3"), testing::HasSubstr("nan.obj: line 2")));
+  EXPECT_THAT(
+      refusal(std::string(sensor) + "\n<shape type=\"obj\"><string name=\"filename\" value=\"nan.obj\"/></shape>"),
+      testing::AllOf(testing::HasSubstr("s.xml:3"), testing::HasSubstr("nan.obj: line 2")));
   write("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
-  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"obj\"><string name=\"filename\" value=\"flat.obj\"/><emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>"),
+  EXPECT_THAT(refusal(std::string(sensor) +
+                      "\n<shape type=\"obj\"><string name=\"filename\" value=\"flat.obj\"/><emitter "
+                      "type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter></shape>"),
               testing::HasSubstr("an emitting shape needs an area > 0"));
 }
 
@@ -93,9 +120,9 @@ TEST_F(Mitsuba, ASceneWithoutLightIsBlackNotAnError) {
   for (const auto& p : render::render(scene, options).image.pixels) EXPECT_TRUE((p == 0).all());
 }
 
-// Every 16x16 block within 4 combined standard errors plus 0.5 % of the reference; 64 samples per pixel of the sizes of the
-// references. Their README states their own noise, the mean of (x - truth)^2 / (truth^2 + .01): at 64 samples it is no longer
-// small against ours, above all where a channel is dark.
+// Every 16x16 block within 4 combined standard errors plus 0.5 % of the reference; 64 samples per pixel of the sizes of
+// the references. Their README states their own noise, the mean of (x - truth)^2 / (truth^2 + .01): at 64 samples it is
+// no longer small against ours, above all where a channel is dark.
 struct ReferenceImage {
   const char *scene, *file;
   double noise;
@@ -122,7 +149,8 @@ TEST_P(Reference, BlocksAgree) {
           for (int x = x0; x < std::min(x0 + 16, reference.width); ++x) {
             difference += double(result.image.at(x, y)[c]) - double(reference.at(x, y)[c]);
             sum += double(reference.at(x, y)[c]);
-            variance += double(result.image.variance[reference.index(x, y)][c]) + noise * (mc::sqr(double(reference.at(x, y)[c])) + 0.01);
+            variance += double(result.image.variance[reference.index(x, y)][c]) +
+                        noise * (mc::sqr(double(reference.at(x, y)[c])) + 0.01);
           }
         const double excess = std::abs(difference) - 0.005 * std::abs(sum);
         if (excess > 0) worst = std::max(worst, excess / std::sqrt(variance));

@@ -35,18 +35,24 @@ TEST_F(Obj, TransformAndNegativeIndices) {
 
 TEST_F(Obj, RefusesWithFileAndPlace) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  EXPECT_THAT(support::error_of([&] { render::read_obj(path("none.obj"), identity()); }), testing::HasSubstr("no such file"));
-  EXPECT_THAT(refusal(corners + "f 1 2 9\n"), testing::HasSubstr("bad.obj: line 4: a face names vertex 9, but there are only 3"));
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\nf 1 2 3 4\nf 1 2 3 4 5\n"), testing::HasSubstr("line 7: a face names vertex 5"));
+  EXPECT_THAT(support::error_of([&] { render::read_obj(path("none.obj"), identity()); }),
+              testing::HasSubstr("no such file"));
+  EXPECT_THAT(refusal(corners + "f 1 2 9\n"),
+              testing::HasSubstr("bad.obj: line 4: a face names vertex 9, but there are only 3"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\nf 1 2 3 4\nf 1 2 3 4 5\n"),
+              testing::HasSubstr("line 7: a face names vertex 5"));
   EXPECT_THAT(refusal(corners + "vn 0 0 1\nf 1//1 2//1 3//2\n"), testing::HasSubstr("line 5: a face names normal 2"));
-  EXPECT_THAT(refusal(corners + "f 1/1 2/1 3/1\n"), testing::HasSubstr("names texture coordinate 1, but there are only 0"));
+  EXPECT_THAT(refusal(corners + "f 1/1 2/1 3/1\n"),
+              testing::HasSubstr("names texture coordinate 1, but there are only 0"));
   EXPECT_THAT(refusal(corners + "f 0 1 2\n"), testing::HasSubstr("line 4: a face names vertex 0"));
   EXPECT_THAT(refusal(corners + "f 1 2 x\n"), testing::HasSubstr("line 4: 'x' is not the number of a vertex"));
   EXPECT_THAT(refusal(corners + "f 1 2 3/1/1/1\n"), testing::HasSubstr("line 4"));
   EXPECT_THAT(refusal(corners + "f 1 2\n"), testing::HasSubstr("line 4: a face of 2 corners"));
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n"), testing::HasSubstr("bad.obj: line 2: vertex 2 has y = nan, which is not finite"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n"),
+              testing::HasSubstr("bad.obj: line 2: vertex 2 has y = nan, which is not finite"));
   EXPECT_THAT(refusal("v 0 0 0\nv 1 0 inf\nv 0 1 0\nf 1 2 3\n"), testing::HasSubstr("line 2: vertex 2 has z = inf"));
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n"), testing::HasSubstr("line 2: vertex 2 has no number for y"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n"),
+              testing::HasSubstr("line 2: vertex 2 has no number for y"));
   EXPECT_THAT(refusal("v 0 0 0\n"), testing::HasSubstr("no triangle"));
 }
 

@@ -25,7 +25,10 @@ TEST(Spectrum, IsLinearAndInterpolates) {
 
 TEST(Spectrum, RefusesNonsense) {
   EXPECT_THAT(support::error_of([] { render::spectrum_to_rgb({}); }), testing::HasSubstr("no samples"));
-  EXPECT_THAT(support::error_of([] { render::spectrum_to_rgb({{500, 1}, {400, 1}}); }), testing::HasSubstr("sample 1 (400:1)"));
+  EXPECT_THAT(support::error_of([] {
+                render::spectrum_to_rgb({{500, 1}, {400, 1}});
+              }),
+              testing::HasSubstr("sample 1 (400:1)"));
   EXPECT_THAT(support::error_of([] { render::spectrum_to_rgb({{400, NAN}}); }), testing::HasSubstr("must be finite"));
 }
 

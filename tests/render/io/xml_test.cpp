@@ -7,7 +7,8 @@ namespace {
 struct Xml : support::ScratchTest {};
 
 TEST_F(Xml, KnowsItsLines) {
-  const auto root = render::read_xml(write("a.xml", "<scene version=\"0.6.0\">\n\n  <shape type=\"sphere\"/>\n</scene>\n"));
+  const auto root =
+      render::read_xml(write("a.xml", "<scene version=\"0.6.0\">\n\n  <shape type=\"sphere\"/>\n</scene>\n"));
   EXPECT_EQ(root.tag, "scene");
   EXPECT_EQ(root.attribute("version"), "0.6.0");
   ASSERT_EQ(root.children.size(), 1u);
@@ -16,20 +17,24 @@ TEST_F(Xml, KnowsItsLines) {
 }
 
 TEST_F(Xml, NamesWhatNobodyLookedAt) {
-  const auto root = render::read_xml(write("a.xml", "<scene>\n<shape type=\"x\" odd=\"1\"/>\n<film type=\"y\"/></scene>"));
+  const auto root =
+      render::read_xml(write("a.xml", "<scene>\n<shape type=\"x\" odd=\"1\"/>\n<film type=\"y\"/></scene>"));
   root.mark();
   root.children[0].mark();
   EXPECT_EQ(root.children[0].attribute("type"), "x");
-  EXPECT_EQ(support::error_of([&] { root.require_all_seen(); }), path("a.xml") + ":2: <shape>: attribute odd=\"1\" is not supported; remove it");
+  EXPECT_EQ(support::error_of([&] { root.require_all_seen(); }),
+            path("a.xml") + ":2: <shape>: attribute odd=\"1\" is not supported; remove it");
   EXPECT_EQ(root.children[0].attribute("odd"), "1");
-  EXPECT_EQ(support::error_of([&] { root.require_all_seen(); }), path("a.xml") + ":3: <film type=\"y\"> is not supported here; remove it");
+  EXPECT_EQ(support::error_of([&] { root.require_all_seen(); }),
+            path("a.xml") + ":3: <film type=\"y\"> is not supported here; remove it");
 }
 
 TEST_F(Xml, BrokenXmlNamesTheLine) {
   write("b.xml", "<scene>\n<shape>\n</scene>\n");
   EXPECT_THAT(support::error_of([&] { render::read_xml(path("b.xml")); }), testing::HasSubstr("b.xml:3: broken XML"));
   write("c.xml", "<scene>\n text </scene>");
-  EXPECT_THAT(support::error_of([&] { render::read_xml(path("c.xml")); }), testing::HasSubstr("<scene>: text between elements is not supported"));
+  EXPECT_THAT(support::error_of([&] { render::read_xml(path("c.xml")); }),
+              testing::HasSubstr("<scene>: text between elements is not supported"));
   write("d.xml", "");
   EXPECT_NE(support::error_of([&] { render::read_xml(path("d.xml")); }), "");
   EXPECT_THAT(support::error_of([&] { render::read_xml(path("none.xml")); }), testing::HasSubstr("no such file"));

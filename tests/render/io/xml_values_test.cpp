@@ -13,7 +13,8 @@ struct XmlValues : support::ScratchTest {
 };
 
 TEST_F(XmlValues, Scalars) {
-  const auto p = parse("<float name=\"a\" value=\" 1.5e2 \"/><integer name=\"b\" value=\"-3\"/><boolean name=\"c\" value=\"true\"/><string name=\"d\" value=\"x y\"/>");
+  const auto p = parse("<float name=\"a\" value=\" 1.5e2 \"/><integer name=\"b\" value=\"-3\"/><boolean name=\"c\" "
+                       "value=\"true\"/><string name=\"d\" value=\"x y\"/>");
   EXPECT_EQ(p.number("a"), 150);
   EXPECT_EQ(p.integer("b"), -3);
   EXPECT_TRUE(p.boolean("c", false));
@@ -33,8 +34,10 @@ TEST_F(XmlValues, BadNumbers) {
 }
 
 TEST_F(XmlValues, Colors) {
-  const auto p = parse("<rgb name=\"a\" value=\"0.1, 0.2 0.3\"/><rgb name=\"b\" value=\"0.5\"/><srgb name=\"c\" value=\"#ff0080\"/>"
-                       "<spectrum name=\"d\" value=\"400:1, 700:1\"/><spectrum name=\"e\" value=\"400:1, 700\"/><rgb name=\"f\" value=\"1 2\"/>");
+  const auto p = parse(
+      "<rgb name=\"a\" value=\"0.1, 0.2 0.3\"/><rgb name=\"b\" value=\"0.5\"/><srgb name=\"c\" value=\"#ff0080\"/>"
+      "<spectrum name=\"d\" value=\"400:1, 700:1\"/><spectrum name=\"e\" value=\"400:1, 700\"/><rgb name=\"f\" "
+      "value=\"1 2\"/>");
   EXPECT_FLOAT_EQ(static_cast<float>(p.color("a")[1]), 0.2f);
   EXPECT_FLOAT_EQ(static_cast<float>(p.color("b")[2]), 0.5f);
   EXPECT_FLOAT_EQ(static_cast<float>(p.color("c")[0]), 1);
@@ -45,7 +48,8 @@ TEST_F(XmlValues, Colors) {
 }
 
 TEST_F(XmlValues, TransformsApplyInOrder) {
-  const auto p = parse("<transform name=\"t\"><scale x=\"2\"/><rotate z=\"1\" angle=\"90\"/><translate x=\"5\" y=\"1\"/></transform>");
+  const auto p = parse(
+      "<transform name=\"t\"><scale x=\"2\"/><rotate z=\"1\" angle=\"90\"/><translate x=\"5\" y=\"1\"/></transform>");
   const render::Transform t = p.transform("t");
   const render::Vec3d q = t.leftCols<3>() * render::Vec3d(1, 0, 0) + t.col(3); // (2,0,0) -> (0,2,0) -> (5,3,0)
   EXPECT_NEAR((q - render::Vec3d(5, 3, 0)).norm(), 0, 1e-12);

@@ -15,7 +15,8 @@ TEST(AreaLight, ShinesFromTheSideOfItsNormal) {
 
 TEST(AreaLight, TwoSidedShinesFromBoth) {
   const AreaLight light{0, Spectrum(1, 2, 3), true};
-  for (const Float side : {Float(1), Float(-1)}) EXPECT_TRUE((light.emitted(Vec3::UnitY(), side * Vec3::UnitY()) == light.radiance).all());
+  for (const Float side : {Float(1), Float(-1)})
+    EXPECT_TRUE((light.emitted(Vec3::UnitY(), side * Vec3::UnitY()) == light.radiance).all());
 }
 
 TEST(Background, ConstantAndGradient) {

@@ -52,9 +52,11 @@ TEST(Scene, SaysWhatIsWrong) {
   EXPECT_THAT(message(flat), testing::HasSubstr("light 0 is shape 0 of area 0"));
 
   const Float nan = std::numeric_limits<Float>::quiet_NaN();
-  for (const Float bad : {Float(-1), nan, mc::infinity<Float>}) EXPECT_THAT(message(one_sphere(Spectrum(1, bad, 1))), testing::HasSubstr("light 0 has radiance"));
+  for (const Float bad : {Float(-1), nan, mc::infinity<Float>})
+    EXPECT_THAT(message(one_sphere(Spectrum(1, bad, 1))), testing::HasSubstr("light 0 has radiance"));
 
-  for (const Bsdf& wrong : {Bsdf(Lambert{Spectrum(1, nan, 1)}), Bsdf(Metal{Spectrum::Ones(), Float(1.5)}), Bsdf(Dielectric{0})}) {
+  for (const Bsdf& wrong :
+       {Bsdf(Lambert{Spectrum(1, nan, 1)}), Bsdf(Metal{Spectrum::Ones(), Float(1.5)}), Bsdf(Dielectric{0})}) {
     Scene s = one_sphere();
     s.bsdfs[0] = wrong;
     EXPECT_THAT(message(s), testing::HasSubstr("scene: BSDF 0: "));
@@ -76,7 +78,8 @@ TEST(Scene, LightsAreChosenByPower) {
   Scene scene;
   scene.bsdfs.push_back(Lambert{});
   const auto add = [&](Float radiance, bool two_sided = false) {
-    scene.add(Sphere(Vec3d(double(scene.shapes.size()), 0, 0), 1), 0, AreaLight{-1, Spectrum::Constant(radiance), two_sided});
+    scene.add(Sphere(Vec3d(double(scene.shapes.size()), 0, 0), 1), 0,
+              AreaLight{-1, Spectrum::Constant(radiance), two_sided});
   };
   add(1), add(0), add(3), add(2, true), add(0);
   scene.prepare();

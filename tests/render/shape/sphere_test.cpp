@@ -17,19 +17,24 @@ template <class S> double solid_angle(const S& shape, const Vec3& ref, int n = 5
   double sum = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
-      if (const auto s = shape.sample(ref, Vec2((Float(i) + Float(0.5)) / Float(n), (Float(j) + Float(0.5)) / Float(n)))) sum += 1 / double(s->pdf);
+      if (const auto s =
+              shape.sample(ref, Vec2((Float(i) + Float(0.5)) / Float(n), (Float(j) + Float(0.5)) / Float(n))))
+        sum += 1 / double(s->pdf);
   return sum / (double(n) * n);
 }
 
 TEST(Sphere, RejectsBadNumbers) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(Sphere(Vec3d(nan, 0, 0), 1), mc::Error);
-  for (const double radius : {0.0, -1.0, nan, mc::infinity<double>}) EXPECT_THROW(Sphere(Vec3d::Zero(), radius), mc::Error) << radius;
+  for (const double radius : {0.0, -1.0, nan, mc::infinity<double>})
+    EXPECT_THROW(Sphere(Vec3d::Zero(), radius), mc::Error) << radius;
   EXPECT_THROW(Sphere::cap(Vec3d::Zero(), 1, Vec3d::Zero(), 1), mc::Error);
-  for (const double height : {0.0, 2.1, nan}) EXPECT_THROW(Sphere::cap(Vec3d::Zero(), 1, Vec3d(0, 0, 1), height), mc::Error) << height;
+  for (const double height : {0.0, 2.1, nan})
+    EXPECT_THROW(Sphere::cap(Vec3d::Zero(), 1, Vec3d(0, 0, 1), height), mc::Error) << height;
 }
 
-// Float rays against spheres of every size, compared with long double. Tangent rays apart, double loses a few roundings of the
+// Float rays against spheres of every size, compared with long double. Tangent rays apart, double loses a few roundings
+// of the
 // coordinates: |dt| <= 2^-46 (|o| + radius + |centre|) / cos at the surface.
 TEST(Sphere, CrossingsAreAccurateUpToRadius1e5) {
   using L = long double;
@@ -46,11 +51,13 @@ TEST(Sphere, CrossingsAreAccurateUpToRadius1e5) {
       }
       const L discriminant = b * b - a * c;
       if (discriminant < 1e-4L * a * L(radius) * L(radius)) continue;
-      const L near = (b - std::sqrt(discriminant)) / a, far = (b + std::sqrt(discriminant)) / a, truth = near > 0 ? near : far;
+      const L near = (b - std::sqrt(discriminant)) / a, far = (b + std::sqrt(discriminant)) / a,
+              truth = near > 0 ? near : far;
       const auto t = Sphere(center, radius).intersect(ray);
       ASSERT_EQ(t.has_value(), truth > 0) << "radius " << radius;
       if (!t) continue;
-      EXPECT_LE(std::abs(double(L(*t) - truth)), 0x1p-46 * 100 * (o.cast<double>().norm() + radius + center.norm())) << "radius " << radius;
+      EXPECT_LE(std::abs(double(L(*t) - truth)), 0x1p-46 * 100 * (o.cast<double>().norm() + radius + center.norm()))
+          << "radius " << radius;
     }
 }
 
@@ -69,8 +76,9 @@ TEST(Sphere, FromInsideTheSolidAngleIsAll) {
 
 TEST(Sphere, SampleSaysWhatPdfSays) {
   mc::Pcg random(2);
-  for (const Sphere& s : {Sphere(Vec3d(1, 2, 3), 0.5), Sphere(Vec3d(0, 0, 0), 10, true), Sphere(Vec3d(0, -1e5 - 1, 0), 1e5),
-                          Sphere::cap(Vec3d(0, 605, 0), 600, Vec3d(0, -1, 0), 0.27)})
+  for (const Sphere& s :
+       {Sphere(Vec3d(1, 2, 3), 0.5), Sphere(Vec3d(0, 0, 0), 10, true), Sphere(Vec3d(0, -1e5 - 1, 0), 1e5),
+        Sphere::cap(Vec3d(0, 605, 0), 600, Vec3d(0, -1, 0), 0.27)})
     for (int i = 0; i < 2000; ++i) {
       Vec2 u = random.point<Float, 2>();
       if (i % 10 == 0) u[i % 20 == 0] = i % 40 < 20 ? Float(0) : mc::one_minus_epsilon<Float>;
@@ -105,7 +113,8 @@ TEST(Sphere, CapsHaveTheirOwnAreaAndAreHitOnlyThere) {
   const Sphere cap = Sphere::cap(Vec3d(50, 681.6 - 0.27, 81.6), 600, Vec3d(0, -1, 0), 0.27);
   EXPECT_NEAR(cap.area(), 1017.87601976, 1e-6);
   EXPECT_TRUE(cap.intersect({Vec3(50, 40, Float(81.6)), Vec3(0, 1, 0)}).has_value());
-  EXPECT_TRUE(cap.intersect({Vec3(Float(67.9), 40, Float(81.6)), Vec3(0, 1, 0)}).has_value()) << "radius of the rim is 17.998";
+  EXPECT_TRUE(cap.intersect({Vec3(Float(67.9), 40, Float(81.6)), Vec3(0, 1, 0)}).has_value())
+      << "radius of the rim is 17.998";
   EXPECT_EQ(cap.intersect({Vec3(Float(68.1), 40, Float(81.6)), Vec3(0, 1, 0)}), std::nullopt);
   EXPECT_EQ(Sphere(Vec3d::Zero(), 2).area(), 16 * mc::pi<double>);
 }

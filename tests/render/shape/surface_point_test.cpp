@@ -54,7 +54,8 @@ TEST(SurfacePoint, SpawnedRaysDoNotMeetTheirMesh) {
   for (const double half : {1e-3, 1.0, 1e3, 1e6})
     for (const double away : {0.0, 1.0, 10.0}) {
       const Vec3d center = away * half * Vec3d(1, -0.7, 0.3);
-      expect_no_self_hits(turned_box(half, center), center, half, fmt::format("box of half size {} at {} sizes", half, away));
+      expect_no_self_hits(turned_box(half, center), center, half,
+                          fmt::format("box of half size {} at {} sizes", half, away));
     }
 }
 
@@ -62,7 +63,8 @@ TEST(SurfacePoint, SpawnedRaysDoNotMeetTheirSphere) {
   for (const double radius : {1e-3, 1.0, 1e3, 1e5, 1e6})
     for (const double away : {0.0, 1.0, 10.0}) {
       const Vec3d center = away * radius * Vec3d(1, -0.7, 0.3);
-      expect_no_self_hits(Sphere(center, radius), center, radius, fmt::format("sphere of radius {} at {} radii", radius, away));
+      expect_no_self_hits(Sphere(center, radius), center, radius,
+                          fmt::format("sphere of radius {} at {} radii", radius, away));
     }
 }
 
@@ -73,7 +75,8 @@ TEST(SurfacePoint, SpawnedRaysDoNotMeetAHugeSphereNearby) {
   mc::Pcg random(4);
   int spawned = 0, self_hits = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Ray ray{100 * random.point<Float, 3>() + Vec3(0, 1, 0), Vec3(direction(random) - Vec3(0, Float(1.05), 0)).normalized()};
+    const Ray ray{100 * random.point<Float, 3>() + Vec3(0, 1, 0),
+                  Vec3(direction(random) - Vec3(0, Float(1.05), 0)).normalized()};
     const auto hit = bvh.intersect(ray);
     if (!hit) continue;
     const SurfacePoint s = shape.surface_point(ray, *hit);
@@ -84,17 +87,20 @@ TEST(SurfacePoint, SpawnedRaysDoNotMeetAHugeSphereNearby) {
   EXPECT_EQ(self_hits, 0) << "of " << spawned;
 }
 
-// The true surface lies within `error` of p in each coordinate: for a sphere the distance shows it, for a plane the normal.
+// The true surface lies within `error` of p in each coordinate: for a sphere the distance shows it, for a plane the
+// normal.
 TEST(SurfacePoint, ErrorBoundsHold) {
   mc::Pcg random(5);
   for (const double scale : {1e-3, 1.0, 1e6})
     for (int i = 0; i < 1000; ++i) {
       const Vec3d center = scale * random.point<double, 3>();
       const double radius = scale * (0.01 + random.uniform<double>());
-      const auto sphere = Sphere(center, radius).sample((center + 3 * radius * Vec3d(0, 0, 1)).cast<Float>(), random.point<Float, 2>());
+      const auto sphere =
+          Sphere(center, radius).sample((center + 3 * radius * Vec3d(0, 0, 1)).cast<Float>(), random.point<Float, 2>());
       ASSERT_TRUE(sphere.has_value());
       const Vec3d from_center = sphere->point.p.cast<double>() - center;
-      EXPECT_LE(std::abs(from_center.norm() - radius), double(sphere->point.error) * from_center.normalized().lpNorm<1>());
+      EXPECT_LE(std::abs(from_center.norm() - radius),
+                double(sphere->point.error) * from_center.normalized().lpNorm<1>());
 
       const TriangleMesh mesh = turned_box(radius, center);
       const auto box = mesh.sample((center + 3 * radius * Vec3d(0, 0, 1)).cast<Float>(), random.point<Float, 2>());

@@ -30,7 +30,10 @@ template <class F> std::string message_of(F&& f) {
 
 TEST(TriangleMesh, RejectsBadDataByNameAndValue) {
   EXPECT_THROW(TriangleMesh(corners, {}), mc::Error);
-  EXPECT_THAT(message_of([] { TriangleMesh(corners, {{0, 1, 2}, {0, 1, 4}}); }), testing::HasSubstr("triangle 1 names vertex 4"));
+  EXPECT_THAT(message_of([] {
+                TriangleMesh(corners, {{0, 1, 2}, {0, 1, 4}});
+              }),
+              testing::HasSubstr("triangle 1 names vertex 4"));
   for (const Float bad : {std::numeric_limits<Float>::quiet_NaN(), mc::infinity<Float>}) {
     auto positions = corners;
     positions[2].y() = bad;
@@ -54,15 +57,16 @@ TEST(TriangleMesh, SolidAngleOfTheCornellLight) {
   double sum = 0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const auto s = light.sample(Vec3(278, 0, Float(279.5)), Vec2((Float(i) + Float(0.5)) / n, (Float(j) + Float(0.5)) / n));
+      const auto s =
+          light.sample(Vec3(278, 0, Float(279.5)), Vec2((Float(i) + Float(0.5)) / n, (Float(j) + Float(0.5)) / n));
       ASSERT_TRUE(s.has_value());
       sum += 1 / double(s->pdf);
     }
   EXPECT_NEAR(sum / (n * n), 0.043975585816, 1e-7);
 }
 
-// A hair below a square light: by area, 1/pdf would be 1e-6 nearly always and 1e6 at times; by solid angle it is a hemisphere shared
-// by two triangles.
+// A hair below a square light: by area, 1/pdf would be 1e-6 nearly always and 1e6 at times; by solid angle it is a
+// hemisphere shared by two triangles.
 TEST(TriangleMesh, LightThatNearlyTouchesIsSampledBySolidAngle) {
   const TriangleMesh light = TriangleMesh::rectangle(scaled_at({1, 1, 1}, {0, 0, 0}));
   const Vec3 ref(Float(0.3), Float(-0.2), Float(-1e-3));
@@ -75,8 +79,8 @@ TEST(TriangleMesh, LightThatNearlyTouchesIsSampledBySolidAngle) {
     EXPECT_EQ(s->pdf, light.pdf(ref, s->wi, s->point));
     solid_angle.add(1 / double(s->pdf), std::uint64_t(i));
   }
-  // The sum of atan(a b / (h sqrt(a^2 + b^2 + h^2))) over the four rectangles from the foot of the height h; alpha = 1e-4 for one
-  // fixed seed.
+  // The sum of atan(a b / (h sqrt(a^2 + b^2 + h^2))) over the four rectangles from the foot of the height h; alpha =
+  // 1e-4 for one fixed seed.
   EXPECT_GE(mc::t_test(solid_angle, 2 * mc::pi<double> - 0.006153914).p, 1e-4);
 }
 
@@ -115,7 +119,8 @@ TEST(TriangleMesh, NormalsOfBoxesPointOutwardAlsoWhenMirrored) {
 }
 
 TEST(TriangleMesh, ShadingNormalsKeepToTheGeometricSide) {
-  const TriangleMesh mesh({corners[0], corners[1], corners[2]}, {{0, 1, 2}}, {Vec3(0, 0, -1), Vec3(0, 0, -1), Vec3(1, 0, -1).normalized()});
+  const TriangleMesh mesh({corners[0], corners[1], corners[2]}, {{0, 1, 2}},
+                          {Vec3(0, 0, -1), Vec3(0, 0, -1), Vec3(1, 0, -1).normalized()});
   const SurfacePoint s = mesh.surface_point({}, {1, 3, 0, Float(0.25), Float(0.5)});
   EXPECT_GT(s.ns.dot(s.ng), 0);
   EXPECT_LE(std::abs(s.ns.norm() - 1), 1e-6);
