@@ -2,7 +2,7 @@
 // it not. They stand in tools/slips_*.cpp, where carlo tells their story. The seeds are fixed; a slip runs with two,
 // with one where it takes many samples.
 
-#include "slips.h"
+#include <slips/slips.h>
 
 #include <gtest/gtest.h>
 

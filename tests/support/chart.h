@@ -1,7 +1,7 @@
 #pragma once
 // The laws of a domain: its chart is one-to-one, and its Jacobian is the ratio of the measures.
 
-#include <mc/check/oracle.h>
+#include <mc/check/laws/oracle.h>
 #include <mc/domain/concept.h>
 #include <mc/random/pcg.h>
 

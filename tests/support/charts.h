@@ -1,7 +1,7 @@
 #pragma once
 /// What every domain owes: a round trip of its chart, its Jacobian, and membership.
 
-#include <mc/check/oracle.h>
+#include <mc/check/laws/oracle.h>
 #include <mc/domain/concept.h>
 #include <mc/random/pcg.h>
 

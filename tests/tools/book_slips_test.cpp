@@ -1,8 +1,8 @@
 // carlo validate book-slips: every slip told, the right ones beside them, the Cornell boxes, JSON and bad input.
 
 #include "run_validate.h"
-#include "slips.h"
-#include "slips_cornell.h"
+#include <slips/cornell.h>
+#include <slips/slips.h>
 
 #include <mc/core/file.h>
 

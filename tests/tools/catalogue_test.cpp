@@ -1,6 +1,6 @@
 // Every sampler of the two libraries is in the catalogue, and every case obeys its laws.
 
-#include "catalogue.h"
+#include <catalogue/catalogue.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include "expression.h"
-#include "genz.h"
 #include "run_carlo.h"
+#include <integrands/expression.h>
+#include <integrands/genz.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>

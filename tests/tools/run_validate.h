@@ -1,7 +1,7 @@
 #pragma once
 // Calls carlo validate and keeps what it says.
 
-#include "commands.h"
+#include <cli/commands.h>
 
 #include <support/files.h>
 

@@ -1,12 +1,12 @@
 // The page of carlo validate: what it holds, and what a headless browser makes of it.
 
-#include "catalogue.h"
-#include "commands.h"
-#include "validate_output.h"
-#include "validate_page.h"
+#include <catalogue/catalogue.h>
+#include <cli/commands.h>
+#include <report/validate_output.h>
+#include <report/validate_page.h>
 
 #include <mc/check/check_subject.h>
-#include <mc/check/make_subject.h>
+#include <mc/check/subject/make_subject.h>
 #include <mc/core/error.h>
 #include <mc/core/file.h>
 #include <mc/domain/hemisphere.h>

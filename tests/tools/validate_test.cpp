@@ -1,7 +1,7 @@
 // carlo validate: selection, verdicts, files and bad input.
 
-#include "catalogue.h"
 #include "run_validate.h"
+#include <catalogue/catalogue.h>
 
 #include <mc/core/file.h>
 

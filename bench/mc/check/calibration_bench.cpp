@@ -9,7 +9,7 @@
 
 #include <mc/check/bsdf_laws.h>
 #include <mc/check/check_subject.h>
-#include <mc/check/make_subject.h>
+#include <mc/check/subject/make_subject.h>
 #include <mc/core/frame.h>
 #include <mc/core/parallel.h>
 #include <mc/domain/hemisphere.h>

@@ -2,7 +2,7 @@
 // of other renderers print for the same disturbance.
 // Usage: bench_mc_check_power [SEEDS [SAMPLES [ID]]]; 20 seeds of 1e6 samples unless told otherwise.
 
-#include "slips.h"
+#include <slips/slips.h>
 
 #include <mc/core/parallel.h>
 

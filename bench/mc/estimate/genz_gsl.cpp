@@ -3,7 +3,7 @@
 /// cost of a call: prints a table.
 /// Usage: bench_genz [CALLS [SEEDS [FIRST_SEED [NAME]]]]; NAME keeps the integrals that contain it
 
-#include "genz.h"
+#include <integrands/genz.h>
 
 #include <mc/core/error.h>
 #include <mc/estimate/integrate.h>

@@ -5,7 +5,7 @@
 /// integrals that contain it.
 /// Runs whose rounds disagree (`consistent` is false) are counted apart: shares are of the others.
 
-#include "genz.h"
+#include <integrands/genz.h>
 
 #include <mc/estimate/integrate.h>
 

@@ -2,11 +2,11 @@
 /// The laws of scattering functions.
 
 #include <mc/check/check_subject.h>
-#include <mc/check/law_ledger.h>
-#include <mc/check/make_subject.h>
-#include <mc/check/t_test.h>
-#include <mc/check/timing.h>
+#include <mc/check/laws/law_ledger.h>
+#include <mc/check/laws/timing.h>
+#include <mc/check/subject/make_subject.h>
 #include <mc/domain/sphere.h>
+#include <mc/stats/t_test.h>
 
 namespace mc {
 

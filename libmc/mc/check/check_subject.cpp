@@ -1,16 +1,16 @@
 #include <mc/check/check_subject.h>
 
-#include <mc/check/cell_tests.h>
-#include <mc/check/chi_square.h>
-#include <mc/check/cubature.h>
-#include <mc/check/multiple_testing.h>
-#include <mc/check/partition.h>
-#include <mc/check/rotation.h>
-#include <mc/check/slabs.h>
-#include <mc/check/uniformity.h>
+#include <mc/check/fit/cell_tests.h>
+#include <mc/check/fit/cubature.h>
+#include <mc/check/fit/partition.h>
+#include <mc/check/fit/slabs.h>
+#include <mc/check/fit/uniformity.h>
+#include <mc/check/subject/rotation.h>
 #include <mc/core/error.h>
 #include <mc/core/types.h>
 #include <mc/random/hash.h>
+#include <mc/stats/chi_square.h>
+#include <mc/stats/multiple_testing.h>
 
 #include <algorithm>
 #include <chrono>

@@ -1,8 +1,8 @@
 #pragma once
 /// The laws of anything that draws points with a claimed density.
 
-#include <mc/check/report.h>
-#include <mc/check/subject.h>
+#include <mc/check/report/report.h>
+#include <mc/check/subject/subject.h>
 
 namespace mc {
 

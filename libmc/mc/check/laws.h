@@ -2,12 +2,12 @@
 /// The laws that every warp obeys.
 
 #include <mc/check/check_subject.h>
-#include <mc/check/find_breaks.h>
-#include <mc/check/ks_test.h>
-#include <mc/check/law_ledger.h>
-#include <mc/check/make_subject.h>
-#include <mc/check/oracle.h>
-#include <mc/check/timing.h>
+#include <mc/check/fit/find_breaks.h>
+#include <mc/check/laws/law_ledger.h>
+#include <mc/check/laws/oracle.h>
+#include <mc/check/laws/timing.h>
+#include <mc/check/subject/make_subject.h>
+#include <mc/stats/ks_test.h>
 
 #include <chrono>
 #include <functional>

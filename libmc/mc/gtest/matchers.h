@@ -9,8 +9,8 @@
 
 #include <mc/check/bsdf_laws.h>
 #include <mc/check/laws.h>
-#include <mc/check/t_test.h>
 #include <mc/core/error.h>
+#include <mc/stats/t_test.h>
 
 #include <gtest/gtest.h>
 

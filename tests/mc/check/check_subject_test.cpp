@@ -1,6 +1,6 @@
 #include <mc/check/check_subject.h>
 
-#include <mc/check/make_subject.h>
+#include <mc/check/subject/make_subject.h>
 #include <mc/core/error.h>
 #include <mc/domain/hemisphere.h>
 #include <mc/domain/interval.h>

@@ -1,10 +1,10 @@
 // Where the statistics of renderers' test harnesses break, measured on their own code: each defect is named with what
 // it let pass, and must not pass here. Samplers that must be rejected are among the mutants.
 
-#include <mc/check/chi_square.h>
-#include <mc/check/t_test.h>
 #include <mc/core/error.h>
 #include <mc/random/pcg.h>
+#include <mc/stats/chi_square.h>
+#include <mc/stats/t_test.h>
 
 #include <gtest/gtest.h>
 

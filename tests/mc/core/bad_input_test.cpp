@@ -4,13 +4,9 @@
 #include "support/files.h"
 
 #include <mc/check/check_subject.h>
-#include <mc/check/chi_square.h>
-#include <mc/check/convergence.h>
-#include <mc/check/cubature.h>
-#include <mc/check/ks_test.h>
-#include <mc/check/make_subject.h>
-#include <mc/check/partition.h>
-#include <mc/check/t_test.h>
+#include <mc/check/fit/cubature.h>
+#include <mc/check/fit/partition.h>
+#include <mc/check/subject/make_subject.h>
 #include <mc/domain/annulus.h>
 #include <mc/domain/box.h>
 #include <mc/domain/cap.h>
@@ -25,6 +21,10 @@
 #include <mc/sampler/latin_hypercube.h>
 #include <mc/sampler/multi_jittered.h>
 #include <mc/sampler/stratified.h>
+#include <mc/stats/chi_square.h>
+#include <mc/stats/ks_test.h>
+#include <mc/stats/power_law.h>
+#include <mc/stats/t_test.h>
 #include <mc/table/alias_table.h>
 #include <mc/table/table_dist_1d.h>
 #include <mc/table/table_dist_2d.h>

@@ -1,7 +1,7 @@
 #include <render/integrator/path.h>
 
-#include <mc/check/t_test.h>
 #include <mc/core/error.h>
+#include <mc/stats/t_test.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 #include <render/shape/triangle_mesh.h>
 
-#include <mc/check/t_test.h>
 #include <mc/core/error.h>
 #include <mc/random/pcg.h>
+#include <mc/stats/t_test.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

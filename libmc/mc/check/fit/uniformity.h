@@ -1,0 +1,20 @@
+#pragma once
+/// Whether points are uniform in the unit cube: what inverted samples must be.
+
+#include <mc/check/report/report.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace mc {
+
+/// Tests points of [0,1)^dim, dim 1 to 3, as one Check that spends `share` of alpha: along each axis
+/// Kolmogorov-Smirnov, mean and mean square, and for each pair of axes their correlation; the smallest p by Sidak over
+/// the tests made.
+///   error : bound on the error of the coordinates, conceded to them; none when that would leave the tests no power
+///   throws : Error when there are no points, or one is not finite
+std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& points, int dim, double error,
+                                     double alpha, double share);
+
+} // namespace mc

@@ -1,0 +1,103 @@
+#include <mc/check/report/report.h>
+
+#include <mc/stats/multiple_testing.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace mc {
+
+std::string_view name(Verdict v) {
+  switch (v) {
+  case Verdict::pass: return "pass";
+  case Verdict::fail: return "fail";
+  case Verdict::inconclusive: return "inconclusive";
+  }
+  return "";
+}
+
+std::string_view name(Fault f) {
+  switch (f) {
+  case Fault::none: return "none";
+  case Fault::edge: return "edge: the ends of the unit cube break it";
+  case Fault::not_finite: return "not finite";
+  case Fault::outside: return "outside: points that are not in the domain";
+  case Fault::leak: return "leak: samples where the density is zero";
+  case Fault::mass: return "mass: the density does not integrate to one";
+  case Fault::weight: return "weight: the stated weight disagrees with eval and pdf";
+  case Fault::support: return "support: the integrand is positive where the density is zero";
+  case Fault::inverse: return "inverse: invert does not undo sample";
+  case Fault::jacobian: return "jacobian: pdf is not the density of sample";
+  case Fault::precision: return "precision: rounding error beyond the stated bound";
+  case Fault::atom: return "atom: many samples share one value of a coordinate";
+  case Fault::rotation: return "rotation: the samples follow the density turned about its pole";
+  case Fault::shape: return "shape: the samples follow another density";
+  case Fault::local: return "local: too many or too few samples in single cells";
+  case Fault::physics: return "physics: reciprocity, energy or sign";
+  case Fault::bias: return "bias: the mean of the estimates is another";
+  }
+  return "";
+}
+
+Verdict Report::verdict() const {
+  Verdict v = Verdict::pass;
+  for (const Check& c : checks) {
+    if (c.verdict == Verdict::fail) return Verdict::fail;
+    if (c.verdict == Verdict::inconclusive) v = Verdict::inconclusive;
+  }
+  return v;
+}
+
+double Report::p() const {
+  double least = 1;
+  for (const Check& c : checks)
+    if (c.p) least = std::min(least, sidak_share(*c.p, c.share));
+  return least;
+}
+
+Fault Report::fault() const {
+  for (const bool deterministic : {true, false})
+    for (const Check& c : checks)
+      if (c.verdict == Verdict::fail && c.p.has_value() != deterministic) return c.fault;
+  return Fault::none;
+}
+
+std::string Report::to_string() const {
+  std::string text =
+      fmt::format("{}: {}, p = {:.3g} of {} samples at alpha = {:g}", subject, name(verdict()), p(), samples, alpha);
+  if (fault() != Fault::none) text += fmt::format("\n  likely fault: {}", name(fault()));
+  for (const Check& c : checks) {
+    if (c.verdict == Verdict::pass) continue;
+    text += fmt::format("\n  {} {}: ", c.name, name(c.verdict));
+    text += c.p ? fmt::format("statistic {:.6g}, p = {:.3g}", c.statistic, *c.p)
+                : fmt::format("{:.6g}, limit {:.6g}", c.statistic, c.limit);
+    if (!c.detail.empty()) text += fmt::format("; {}", c.detail);
+  }
+  for (const Figure& f : figures)
+    text += fmt::format("\n  {}: {:.6g} +- {:.2g}{}", f.name, f.value, f.std_error,
+                        f.where.empty() ? "" : " at " + f.where);
+  if (verdict() == Verdict::pass) return text;
+  for (const WorstCell& w : worst) {
+    const bool outcome = w.lo == w.hi;
+    const std::string place = describe_cell(axes, w.lo, w.hi), cell = outcome         ? ""
+                                                                      : place.empty() ? "cell"
+                                                                                      : "cell " + place;
+    text += fmt::format("\n  {}{}{}: observed {:.0f}, expected {:.1f}, z = {:.1f}", cell,
+                        outcome || w.where.empty() ? "" : " at ", w.where, w.observed, w.expected, w.z);
+  }
+  return text;
+}
+
+std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo,
+                          const std::array<double, 3>& hi) {
+  std::string text;
+  for (std::size_t d = 0; d < std::min<std::size_t>(axes.size(), 3); ++d) {
+    const Axis& axis = axes[d];
+    text += fmt::format("{}{} {:.5g} to {:.5g}{}{}", d > 0 ? ", " : "", axis.name, axis.value(lo[d]), axis.value(hi[d]),
+                        axis.unit().empty() ? "" : " ", axis.unit());
+  }
+  return text;
+}
+
+} // namespace mc

@@ -1,0 +1,72 @@
+#pragma once
+/// The axes of every domain's chart.
+
+#include <mc/check/subject/axis.h>
+#include <mc/domain/annulus.h>
+#include <mc/domain/box.h>
+#include <mc/domain/cap.h>
+#include <mc/domain/disk.h>
+#include <mc/domain/hemisphere.h>
+#include <mc/domain/interval.h>
+#include <mc/domain/product.h>
+#include <mc/domain/rotated.h>
+#include <mc/domain/sphere.h>
+
+#include <fmt/format.h>
+
+#include <vector>
+
+namespace mc {
+
+/// Axes of directions about a pole, out to where 1 - cos is h.
+inline std::vector<Axis> polar_axes(double h) {
+  return {{"theta", Axis::Scale::polar, 0, h}, {"phi", Axis::Scale::azimuth, 0, 1}};
+}
+
+/// What the chart coordinates of a domain stand for; the coordinates themselves, named v0, v1, ..., where no single one
+/// has a meaning (triangles, patches, domains unknown here).
+template <Domain D> std::vector<Axis> chart_axes(const D&) {
+  std::vector<Axis> axes;
+  for (int i = 0; i < D::dim; ++i) axes.push_back({D::dim == 1 ? std::string("v") : fmt::format("v{}", i)});
+  return axes;
+}
+template <Real S> std::vector<Axis> chart_axes(const Interval<S>& d) {
+  return {{"x", Axis::Scale::linear, static_cast<double>(d.lo), static_cast<double>(d.hi)}};
+}
+template <Real S> std::vector<Axis> chart_axes(const HalfLine<S>& d) {
+  return {{"x", Axis::Scale::half_line, static_cast<double>(d.origin), static_cast<double>(d.scale)}};
+}
+template <Real S> std::vector<Axis> chart_axes(const RealLine<S>& d) {
+  return {{"x", Axis::Scale::real_line, static_cast<double>(d.center), static_cast<double>(d.scale)}};
+}
+template <Real S> std::vector<Axis> chart_axes(const Disk<S>&) {
+  return {{"r", Axis::Scale::radius, 0, 1}, {"phi", Axis::Scale::azimuth, 0, 1}};
+}
+template <Real S> std::vector<Axis> chart_axes(const Annulus<S>& d) {
+  return {{"r", Axis::Scale::radius, static_cast<double>(d.inner), static_cast<double>(d.outer)},
+          {"phi", Axis::Scale::azimuth, 0, 1}};
+}
+template <Real S> std::vector<Axis> chart_axes(const Sphere<S>&) { return polar_axes(2); }
+template <Real S> std::vector<Axis> chart_axes(const Hemisphere<S>&) { return polar_axes(1); }
+template <Real S> std::vector<Axis> chart_axes(const Cap<S>& d) { return polar_axes(static_cast<double>(d.h)); }
+template <Domain D> std::vector<Axis> chart_axes(const RotatedDomain<D>& d) { return chart_axes(d.inner); }
+template <Real S, int N> std::vector<Axis> chart_axes(const Box<S, N>& d) {
+  std::vector<Axis> axes;
+  for (int i = 0; i < d.dimension(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const std::string name = k < 3 ? std::string(1, "xyz"[k]) : fmt::format("x{}", i);
+    axes.push_back({name, Axis::Scale::linear, static_cast<double>(d.lo[i]), static_cast<double>(d.hi[i])});
+  }
+  return axes;
+}
+template <Domain A, Domain B> std::vector<Axis> chart_axes(const ProductDomain<A, B>& d) {
+  std::vector<Axis> axes = chart_axes(d.first);
+  for (Axis axis : chart_axes(d.second)) {
+    for (const Axis& other : std::vector<Axis>(axes))
+      if (other.name == axis.name) axis.name = axis.name == "x" ? "y" : axis.name + "'";
+    axes.push_back(std::move(axis));
+  }
+  return axes;
+}
+
+} // namespace mc

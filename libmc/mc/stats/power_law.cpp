@@ -1,0 +1,64 @@
+#include <mc/stats/power_law.h>
+
+#include <mc/core/error.h>
+#include <mc/core/types.h>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mc {
+
+RmsError rms_error(double n, std::span<const double> estimates, double truth) {
+  require(estimates.size() >= 2, "rms_error: {} estimates; at least 2 are needed", estimates.size());
+  require(std::isfinite(truth), "rms_error: truth {} must be finite", truth);
+  double sum = 0;
+  for (std::size_t i = 0; i < estimates.size(); ++i) {
+    require(std::isfinite(estimates[i]), "rms_error: estimates[{}] = {} is not finite", i, estimates[i]);
+    sum += sqr(estimates[i] - truth);
+  }
+  const double r = static_cast<double>(estimates.size());
+  const boost::math::chi_squared distribution(r);
+  RmsError result;
+  result.n = n;
+  result.rms = std::sqrt(sum / r);
+  result.lo = std::sqrt(sum / quantile(complement(distribution, 0.025)));
+  result.hi = std::sqrt(sum / quantile(distribution, 0.025));
+  return result;
+}
+
+PowerLaw fit_power_law(std::span<const RmsError> errors, std::uint32_t repetitions) {
+  require(errors.size() >= 3, "fit_power_law: {} points; at least 3 are needed", errors.size());
+  require(repetitions >= 1, "fit_power_law: {} repetitions; at least 1 is needed", repetitions);
+  const double count = static_cast<double>(errors.size());
+  double mean_x = 0, mean_y = 0;
+  for (const RmsError& e : errors) {
+    require(e.n > 0 && std::isfinite(e.n), "fit_power_law: N = {} must be finite and > 0", e.n);
+    require(e.rms > 0 && std::isfinite(e.rms), "fit_power_law: the error at N = {} is {}; it must be finite and > 0",
+            e.n, e.rms);
+    mean_x += std::log(e.n) / count;
+    mean_y += std::log(e.rms) / count;
+  }
+  double xx = 0, xy = 0;
+  for (const RmsError& e : errors) {
+    xx += sqr(std::log(e.n) - mean_x);
+    xy += (std::log(e.n) - mean_x) * (std::log(e.rms) - mean_y);
+  }
+  require(xx > 0, "fit_power_law: all {} points have N = {}; a slope needs two different N", errors.size(),
+          errors[0].n);
+  PowerLaw law;
+  law.slope = xy / xx;
+  law.constant = std::exp(mean_y - law.slope * mean_x);
+  double scatter = 0;
+  for (const RmsError& e : errors) scatter += sqr(std::log(e.rms) - mean_y - law.slope * (std::log(e.n) - mean_x));
+  const double dof = count - 2;
+  const double t = quantile(complement(boost::math::students_t(dof), 0.025));
+  const double half = std::max(1.96 * std::sqrt(1 / (2.0 * repetitions) / xx), t * std::sqrt(scatter / dof / xx));
+  law.lo = law.slope - half;
+  law.hi = law.slope + half;
+  return law;
+}
+
+} // namespace mc

@@ -1,0 +1,64 @@
+#include <mc/check/laws/roughness_limit.h>
+
+#include <mc/core/frame.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using V = mc::Vec3<double>;
+
+struct Sample {
+  V wi;
+  double f, pdf;
+  bool delta;
+};
+
+struct Mirror {
+  std::optional<Sample> sample(const V& wo, const mc::Vec2<double>&) const {
+    return Sample{V(-wo.x(), -wo.y(), wo.z()), 0.8 / wo.z(), 1, true};
+  }
+};
+
+// A uniform cone of half angle about `spread` around the mirror direction, of albedo 0.8.
+struct Cone {
+  double spread, albedo = 0.8, tilt = 0;
+  double height() const { return spread * spread / 2; } // 1 - cos
+  mc::Frame<double> frame(const V& wo) const {
+    return mc::Frame<double>::from_z(V(-wo.x() + tilt, -wo.y(), wo.z()).normalized());
+  }
+  double pdf(const V& wo, const V& wi) const {
+    return frame(wo).to_local(wi).z() >= 1 - height() ? 1 / (2 * mc::pi<double> * height()) : 0.0;
+  }
+  double eval(const V& wo, const V& wi) const { return albedo * pdf(wo, wi) / std::abs(wi.z()); }
+  std::optional<Sample> sample(const V& wo, const mc::Vec2<double>& u) const {
+    const double t = height() * u[0];
+    const V wi =
+        frame(wo).to_world(mc::spherical_direction<double>(std::sqrt(t * (2 - t)), 1 - t, 2 * mc::pi<double> * u[1]));
+    const double density = 1 / (2 * mc::pi<double> * height());
+    return Sample{wi, albedo * density / std::abs(wi.z()), density, false};
+  }
+};
+
+std::vector<mc::Check> check(const std::function<Cone(double)>& family) {
+  return mc::check_roughness_limit<double>(family, Mirror{}, V(0.6, 0, 0.8));
+}
+
+TEST(RoughnessLimit, ALobeThatNarrowsToAMirrorPasses) {
+  for (const mc::Check& c : check([](double r) { return Cone{r}; }))
+    EXPECT_EQ(c.verdict, mc::Verdict::pass) << c.detail;
+}
+
+TEST(RoughnessLimit, AnotherAlbedoOrDirectionInTheLimitFails) {
+  EXPECT_THAT(check([](double r) { return Cone{r, 0.78}; })[0].detail, testing::HasSubstr("mean weight"));
+  EXPECT_EQ(check([](double r) { return Cone{r, 0.8, 0.01}; })[0].verdict, mc::Verdict::fail);
+}
+
+TEST(RoughnessLimit, AJumpOfEvalFails) {
+  const auto checks = check([](double r) { return Cone{r < 0.99 ? r : 2 * r}; });
+  EXPECT_EQ(checks[0].verdict, mc::Verdict::pass) << checks[0].detail;
+  EXPECT_THAT(checks[1].detail, testing::HasSubstr("from roughness 1 to"));
+}
+
+} // namespace

@@ -1,0 +1,53 @@
+#include <mc/core/error.h>
+#include <mc/random/uniform.h>
+#include <mc/stats/power_law.h>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace {
+
+TEST(RmsError, OfKnownEstimates) {
+  const std::vector<double> estimates = {1, 3, 1, 3};
+  const mc::RmsError e = mc::rms_error(16, estimates, 2);
+  EXPECT_DOUBLE_EQ(e.rms, 1);
+  EXPECT_LT(e.lo, 1);
+  EXPECT_GT(e.hi, 1);
+  EXPECT_THROW(mc::rms_error(16, std::vector<double>{1}, 0), mc::Error);
+}
+
+TEST(PowerLaw, FindsAnExactOne) {
+  std::vector<mc::RmsError> errors;
+  for (double n = 16; n <= 4096; n *= 2) errors.push_back({n, 3 * std::pow(n, -0.75)});
+  const mc::PowerLaw law = mc::fit_power_law(errors, 128);
+  EXPECT_NEAR(law.slope, -0.75, 1e-12);
+  EXPECT_NEAR(law.constant, 3, 1e-10);
+  EXPECT_LE(law.lo, -0.75);
+  EXPECT_GE(law.hi, -0.75);
+}
+
+// Means of N uniforms: the 95 % interval of the slope holds -1/2. 60 fits; fewer than 50 hits has probability 1e-4.
+TEST(PowerLaw, IntervalHoldsTheSlope) {
+  int hits = 0;
+  for (std::uint64_t run = 0; run < 60; ++run) {
+    std::vector<mc::RmsError> errors;
+    for (std::uint64_t n = 8; n <= 256; n *= 2) {
+      std::vector<double> estimates(64);
+      for (std::uint64_t r = 0; r < estimates.size(); ++r)
+        for (std::uint64_t i = 0; i < n; ++i)
+          estimates[r] += mc::hash_uniform<double>(run, n, r, i) / static_cast<double>(n);
+      errors.push_back(mc::rms_error(static_cast<double>(n), estimates, 0.5));
+    }
+    const mc::PowerLaw law = mc::fit_power_law(errors, 64);
+    hits += law.lo <= -0.5 && law.hi >= -0.5;
+  }
+  EXPECT_GE(hits, 50);
+}
+
+TEST(PowerLaw, RefusesTooLittle) {
+  EXPECT_THROW(mc::fit_power_law(std::vector<mc::RmsError>{{1, 1}, {2, 1}}, 16), mc::Error);
+  EXPECT_THROW(mc::fit_power_law(std::vector<mc::RmsError>{{1, 1}, {2, 0}, {4, 1}}, 16), mc::Error);
+}
+
+} // namespace

@@ -1,0 +1,49 @@
+#include <mc/stats/t_test.h>
+
+#include <mc/core/error.h>
+#include <mc/random/pcg.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+TEST(TTest, ByHand) {
+  mc::Moments m;
+  for (const double x : {1.0, 2.0, 3.0}) m.add(x);
+  const mc::TTest r = mc::t_test(m, 1);
+  EXPECT_NEAR(r.t, std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(r.p, 0.22540333075851662, 1e-12); // dof 2: 1 - t / sqrt(t^2 + 2)
+  EXPECT_EQ(mc::t_test(m, 2).p, 1);
+}
+
+TEST(TTest, EqualValues) {
+  mc::Moments m;
+  m.add(0.5), m.add(0.5);
+  EXPECT_EQ(mc::t_test(m, 0.5).p, 1);
+  EXPECT_EQ(mc::t_test(m, 0.6).p, 0);
+}
+
+// 1000 runs at 5 %: [25, 80] holds with probability 0.9998. The detectable difference is then caught in most runs.
+TEST(TTest, RejectsAtTheRateOfAlphaAndCatchesWhatItSays) {
+  mc::Pcg random(7);
+  int rejected = 0, caught = 0;
+  for (int run = 0; run < 1000; ++run) {
+    mc::Moments m;
+    for (int i = 0; i < 50; ++i) m.add(random.uniform<double>());
+    rejected += mc::t_test(m, 0.5).p < 0.05;
+    const double detectable = mc::t_test(m, 0.5, 0.05).detectable;
+    caught += mc::t_test(m, 0.5 + detectable).p < 0.05;
+  }
+  EXPECT_GE(rejected, 25);
+  EXPECT_LE(rejected, 80);
+  EXPECT_GE(caught, 970);
+}
+
+TEST(TTest, RefusesNonsense) {
+  mc::Moments m;
+  EXPECT_THROW(mc::t_test(m, 0), mc::Error);
+  m.add(1), m.add(std::nan(""));
+  EXPECT_THROW(mc::t_test(m, 0), mc::Error);
+}
+
+} // namespace

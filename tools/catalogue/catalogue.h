@@ -1,0 +1,55 @@
+#pragma once
+/// Every sampler of libmc and librender with the parameters it is checked at.
+///
+/// A family adds its samplers in a file of its own, catalogue_<family>.cpp, one line per case:
+///   void add_spheres(Catalogue& c) {
+///     add_warp(c, "CosineHemisphere", "", [](auto s) { return mc::CosineHemisphere<decltype(s)>{}; }, {.invert_eps =
+///     8});
+///   }
+/// then declares that function below, calls it in catalogue.cpp and names the file in CMakeLists.txt. add_warp of
+/// catalogue_warp.h makes a float and a double case of the line, add_bsdf of catalogue_bsdf.h one case per direction.
+/// The test tools/catalogue_test.cpp fails when a warp, table, BSDF, shape, filter or camera of the headers is not in
+/// the list.
+
+#include <mc/check/report/report.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace carlo {
+
+struct CaseOptions {
+  std::uint64_t samples = 1'000'000;
+  std::uint64_t seed = 1;
+  double alpha = 0.001;
+  bool evidence = false; ///< keep what the page draws
+};
+
+/// One sampler at one set of parameters over one scalar.
+struct Case {
+  std::string name;       ///< the type's name
+  std::string parameters; ///< "alpha=0.1, theta=60"; empty without any
+  std::string scalar;     ///< "float" or "double"
+  std::function<mc::Report(const CaseOptions&)> check;
+  std::string again = {}; ///< what follows "carlo validate" to check it alone; empty: its name
+
+  std::string title() const { return name + (parameters.empty() ? "" : "(" + parameters + ")") + " " + scalar; }
+};
+
+using Catalogue = std::vector<Case>;
+
+/// All cases, families in order.
+const Catalogue& catalogue();
+
+void add_intervals(Catalogue& c);
+void add_planes(Catalogue& c);
+void add_spheres(Catalogue& c);
+void add_lobes(Catalogue& c);
+void add_lights(Catalogue& c);
+void add_tables(Catalogue& c);
+void add_bsdfs(Catalogue& c);
+void add_shapes(Catalogue& c);
+
+} // namespace carlo

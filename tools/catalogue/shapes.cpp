@@ -1,0 +1,249 @@
+// Points of shapes seen from a point, the choice of a light, offsets of filters, points of the lens: all in librender's
+// Float.
+#include <catalogue/catalogue.h>
+
+#include <render/scene/scene.h>
+
+#include <mc/check/check_subject.h>
+#include <mc/check/laws/timing.h>
+#include <mc/check/subject/make_subject.h>
+#include <mc/domain/parallelogram.h>
+#include <mc/domain/patch.h>
+#include <mc/warp/product.h>
+
+namespace carlo {
+namespace {
+
+using namespace render;
+using Number = std::function<double(const Vec2& u)>;
+
+constexpr Float eps = std::numeric_limits<Float>::epsilon(), nan = std::numeric_limits<Float>::quiet_NaN();
+
+// A sampler that is no warp; `number` takes the time of one sample.
+void add_subject(Catalogue& c, const std::string& name, const std::string& parameters, mc::Subject subject,
+                 const Number& number, double mass_tolerance = 64 * double(eps)) {
+  Case one{name, parameters, sizeof(Float) == 4 ? "float" : "double", {}};
+  subject.name = one.title();
+  subject.mass_tolerance = mass_tolerance;
+  one.check = [subject = std::move(subject), number](const CaseOptions& o) {
+    mc::Report report =
+        mc::check_subject(subject, {.samples = o.samples, .seed = o.seed, .alpha = o.alpha, .evidence = o.evidence});
+    std::vector<Vec2> inputs;
+    mc::Pcg random(3);
+    for (int i = 0; i < mc::timing_inputs; ++i) inputs.push_back(random.point<Float, 2>());
+    report.ns_per_sample = mc::ns_per_sample(inputs, number);
+    return report;
+  };
+  c.push_back(std::move(one));
+}
+
+Number time_of(const Shape& shape, const Vec3& ref) {
+  return [=](const Vec2& u) {
+    const auto s = shape.sample(ref, u);
+    return s ? double(s->pdf) : 0.0;
+  };
+}
+
+// The directions from ref to a shape, against the density of a direction. `domain` holds them all. One on the outline
+// may round out of the shape by 4 eps; it is moved back towards the middle.
+template <class D>
+void add_directions(Catalogue& c, const std::string& name, const std::string& parameters, const Shape& shape,
+                    const Vec3& ref, const D& domain, const Vec3& middle) {
+  const auto sample = [=](const Vec2& u) {
+    const auto s = shape.sample(ref, u);
+    if (!s) return Vec3(nan, nan, nan);
+    return domain.contains(s->wi) && shape.pdf(ref, s->wi) > 0
+               ? s->wi
+               : Vec3((s->wi + 4 * eps * (middle - s->wi).normalized()).normalized());
+  };
+  const auto pdf = [=](const Vec3& wi) { return shape.pdf(ref, wi); };
+  add_subject(c, name, parameters + ", directions", make_subject("", domain, sample, pdf), time_of(shape, ref));
+}
+
+// The points that a shape's sampler finds from ref, against the density of the direction to a point, per area of the
+// domain.
+//   domain : holds the images of all points;  image : SurfacePoint -> its point;  surface : that point -> SurfacePoint
+//   scale  : area of the shape per area of the domain
+template <class D, class Image, class Surface>
+void add_points(Catalogue& c, const std::string& name, const std::string& parameters, const Shape& shape,
+                const Vec3& ref, const D& domain, const Image& image, const Surface& surface, double scale,
+                double tolerance = 1e-3) {
+  struct Drawn {
+    Vec3 x;
+    Float weight, pdf;
+  };
+  // Per area; the weight of f = 1 under it holds what the sampler itself says of its density.
+  const auto per_area = [=](const SurfacePoint& p, Float pdf) {
+    const Vec3d between = (p.p - ref).template cast<double>();
+    return Float(double(pdf) * std::abs(p.ng.template cast<double>().dot(between.normalized())) /
+                 between.squaredNorm() * scale);
+  };
+  const auto sample = [=](const Vec2& u) {
+    const auto s = shape.sample(ref, u);
+    if (!s) return Drawn{Vec3(nan, nan, nan), 0, 0};
+    const Float pdf = per_area(s->point, s->pdf);
+    return Drawn{image(s->point), 1 / pdf, pdf};
+  };
+  const auto pdf = [=](const Vec3& x) {
+    const SurfacePoint p = surface(x);
+    return per_area(p, shape.pdf(ref, (p.p - ref).normalized(), p));
+  };
+  mc::Subject subject = make_subject("", domain, sample, pdf, [](const Vec3&) { return Float(1); });
+  subject.weight_tolerance = tolerance;
+  add_subject(c, name, parameters + ", points", std::move(subject), time_of(shape, ref), 1e-6);
+}
+
+mc::Cap<Float> cap_of(double one_minus_cos) { return mc::Cap<Float>(Float(one_minus_cos)); }
+
+void add_spheres_seen(Catalogue& c) {
+  const Vec3 center(Float(0.25), Float(-0.5), Float(0.75));
+  const Vec3d at = center.cast<double>();
+  for (const double ratio : {0.01, 0.5, 0.999}) {
+    const mc::RotatedDomain<mc::Cap<Float>> cone{cap_of(ratio * ratio / (1 + std::sqrt(1 - ratio * ratio))),
+                                                 mc::Frame<Float>::from_z(center.normalized())};
+    add_directions(c, "Sphere", fmt::format("radius/distance={:g}", ratio), Sphere(at, ratio * at.norm()), Vec3::Zero(),
+                   cone, center.normalized());
+  }
+  const auto add = [&](const std::string& where, const Sphere& sphere, const Vec3& ref, const auto& domain,
+                       double tolerance = 1e-3) {
+    const auto image = [=](const SurfacePoint& p) {
+      return Vec3(((p.p.cast<double>() - at) / sphere.radius()).normalized().cast<Float>());
+    };
+    const auto surface = [=](const Vec3& x) { return sphere.surface_point({center, x}, {Float(sphere.radius())}); };
+    add_points(c, "Sphere", where, sphere, ref, domain, image, surface, mc::sqr(sphere.radius()), tolerance);
+  };
+  const Sphere sphere(at, 2, true);
+  add("from inside", sphere, center + Vec3(Float(0.5), 1, Float(-1.25)), mc::Sphere<Float>{});
+  // Points next to ref have few digits of their distance.
+  add("from its surface", sphere, center + 2 * Vec3(Float(0.48), Float(0.6), Float(-0.64)), mc::Sphere<Float>{}, 0.1);
+  const Vec3d axis(-1, 2, 2);
+  const mc::RotatedDomain<mc::Cap<Float>> around{cap_of(0.25), mc::Frame<Float>::from_z((axis / 3).cast<Float>())};
+  add("cap of height 0.5", Sphere::cap(at, 2, axis, 0.5), center + Vec3(-2, 5, 4), around);
+}
+
+void add_meshes_seen(Catalogue& c) {
+  // A parallelogram cut into strips of growing width, each of two triangles.
+  const auto parallelogram = [&](const std::string& where, const Vec3& ref, std::uint32_t strips, bool points) {
+    const Vec3 corner(-1, Float(-0.5), 2), e1(2, 0, Float(0.5)), e2(Float(0.25), 1, 0);
+    const auto cut = [=](std::uint32_t i) { return mc::sqr(Float(i) / Float(strips)); };
+    std::vector<Vec3> positions;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t i = 0; i <= strips; ++i)
+      positions.push_back(corner + cut(i) * e1), positions.push_back(corner + cut(i) * e1 + e2);
+    for (std::uint32_t i = 0; i < 2 * strips; i += 2)
+      triangles.push_back({i, i + 2, i + 3}), triangles.push_back({i, i + 3, i + 1});
+    const TriangleMesh mesh(positions, triangles);
+    const mc::Parallelogram<Float> domain(corner, e1, e2);
+    const mc::Patch<Float, 4> directions(corner - ref, e1, e2);
+    add_directions(c, "TriangleMesh", where, mesh, ref, directions, directions.from_unit({Float(0.5), Float(0.5)}));
+    if (!points) return;
+    const auto surface = [=](const Vec3& x) {
+      const Vec2 v = domain.to_unit(x);
+      const auto strip = std::min(static_cast<std::uint32_t>(std::sqrt(v[0]) * Float(strips)), strips - 1);
+      const Float s = (v[0] - cut(strip)) / (cut(strip + 1) - cut(strip)), t = v[1];
+      const int first = 2 * static_cast<int>(strip);
+      return mesh.surface_point({}, s >= t ? Hit{0, 0, first, s - t, t} : Hit{0, 0, first + 1, s, t - s});
+    };
+    add_points(
+        c, "TriangleMesh", where, mesh, ref, domain, [](const SurfacePoint& p) { return p.p; }, surface, 1);
+  };
+  parallelogram("2 triangles from afar", {Float(0.25), Float(0.5), Float(-1.5)}, 1, true);
+  parallelogram("12 triangles from afar", {Float(0.25), Float(0.5), Float(-1.5)}, 6, true);
+  // Its density jumps at the diagonal, where the point does not tell whose sample it is.
+  parallelogram("2 triangles it nearly touches", {Float(0.25), Float(0.125), Float(2.25)}, 1, false);
+  // Two triangles that are one to the eye: directions meet both.
+  const Vec3 a(Float(0.5), -1, 2), b(1, 1, Float(0.5)), e(-1, Float(0.5), Float(0.25));
+  const mc::Patch<Float, 3> directions(a, b, e);
+  add_directions(c, "TriangleMesh", "one triangle behind another",
+                 TriangleMesh({a, a + b, a + e, 2 * a, 2 * (a + b), 2 * (a + e)}, {{0, 1, 2}, {3, 4, 5}}), Vec3::Zero(),
+                 directions, directions.from_unit({Float(0.5), Float(0.5)}));
+}
+
+// The choice of a light of a scene, by power.
+struct LightChoice {
+  using Scalar = Float;
+  std::shared_ptr<const Scene> scene;
+  mc::DiscreteSample<Float> sample_index(Float u) const {
+    const auto [light, pmf] = scene->choose_light(u);
+    return {static_cast<std::size_t>(light), pmf, u};
+  }
+  Float pmf(std::size_t i) const { return scene->light_pmf(static_cast<int>(i)); }
+  std::size_t size() const { return scene->lights.size(); }
+};
+
+void add_choice(Catalogue& c) {
+  auto scene = std::make_shared<Scene>();
+  scene->bsdfs.emplace_back(Lambert{});
+  for (const double radiance : {0.0, 1.0, 1e-3, 0.0, 20.0, 3.0, 0.0})
+    scene->add(Sphere(Vec3d(double(scene->shapes.size()), 0, 0), 0.1), 0,
+               AreaLight{-1, Spectrum::Constant(Float(radiance))});
+  scene->prepare();
+  const LightChoice choice{scene};
+  add_subject(c, "Scene", "choice of a light", mc::make_discrete_subject("", choice),
+              [=](const Vec2& u) { return double(choice.sample_index(u[0]).pmf); });
+}
+
+// Offsets of a filter against the density of its contract.
+template <class F, class W>
+void add_filter(Catalogue& c, const std::string& name, const std::string& parameters, const F& filter,
+                const W& density) {
+  const auto sample = [=](const Vec2& u) { return filter.sample(u); };
+  add_subject(c, name, parameters,
+              make_subject("", density.domain(), sample, [=](const Vec2& x) { return density.pdf(x); }),
+              [=](const Vec2& u) { return double(filter.sample(u).sum()); });
+}
+
+struct Uniform {
+  Float radius;
+  mc::ProductDomain<mc::Interval<Float>, mc::Interval<Float>> domain() const {
+    return {{-radius, radius}, {-radius, radius}};
+  }
+  Float pdf(const Vec2&) const { return 1 / mc::sqr<Float>(2 * radius); }
+};
+
+// The mean of tents of half width `radius` about the centres of n cells of [-1/2, 1/2], per axis.
+struct Tents {
+  int n;
+  Float radius;
+  mc::ProductDomain<mc::Interval<Float>, mc::Interval<Float>> domain() const {
+    const Float reach = Float(0.5) - Float(0.5) / Float(n) + radius;
+    return {{-reach, reach}, {-reach, reach}};
+  }
+  Float axis(Float x) const {
+    Float sum = 0;
+    for (int i = 0; i < n; ++i) sum += mc::Tent<Float>((Float(i) + Float(0.5)) / Float(n) - Float(0.5), radius).pdf(x);
+    return sum / Float(n);
+  }
+  Float pdf(const Vec2& x) const { return axis(x[0]) * axis(x[1]); }
+};
+
+void add_camera(Catalogue& c) {
+  for (const Float radius : {Float(0.5), Float(2)})
+    add_filter(c, "BoxFilter", fmt::format("radius={:g}", radius), BoxFilter{radius}, Uniform{radius});
+  add_filter(c, "TentFilter", "radius=1", TentFilter{1}, mc::Tent2D<Float>{});
+  const mc::Normal<Float> normal(0, Float(0.5));
+  add_filter(c, "GaussianFilter", "sigma=0.5", GaussianFilter{}, mc::Normal2D<Float>{normal, normal});
+  for (const int n : {2, 3})
+    add_filter(c, "SubpixelTentFilter", fmt::format("n={}, radius=0.5", n), SubpixelTentFilter{n, Float(0.5)},
+               Tents{n, Float(0.5)});
+
+  ThinLens lens;
+  lens.lens_radius = 1, lens.focus_distance = 3;
+  const auto sample = [=](const Vec2& u) {
+    return Vec2(lens.ray(Vec2(Float(0.3), Float(0.9)), lens.tan_half(1), u).o.head<2>());
+  };
+  add_subject(c, "ThinLens", "points of the lens",
+              make_subject("", mc::Disk<Float>{}, sample, [](const Vec2&) { return 1 / mc::pi<Float>; }),
+              [=](const Vec2& u) { return double(sample(u).sum()); });
+}
+
+} // namespace
+
+void add_shapes(Catalogue& c) {
+  add_spheres_seen(c);
+  add_meshes_seen(c);
+  add_choice(c);
+  add_camera(c);
+}
+
+} // namespace carlo

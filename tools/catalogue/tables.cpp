@@ -1,0 +1,88 @@
+#include <catalogue/warp_case.h>
+
+#include <mc/table/alias_table.h>
+#include <mc/table/table_dist_1d.h>
+#include <mc/table/table_dist_2d.h>
+
+namespace carlo {
+namespace {
+
+// Weights that jump and vanish, as those of real tables do.
+std::vector<double> jagged(std::size_t n) {
+  std::vector<double> w(n);
+  for (std::size_t i = 0; i < n; ++i) w[i] = i % 7 == 3 ? 0.0 : 1 + static_cast<double>((i * 37) % 11);
+  return w;
+}
+
+// A sky of width x height with a sun of 3 x 3 pixels that holds half of the light.
+std::vector<double> sky(std::size_t width, std::size_t height) {
+  std::vector<double> w(width * height);
+  double sum = 0;
+  for (std::size_t y = 0; y < height; ++y)
+    for (std::size_t x = 0; x < width; ++x)
+      sum += w[y * width + x] = 1 + std::cos(3.0 * static_cast<double>(y) / static_cast<double>(height));
+  for (std::size_t y = 0; y < 3; ++y)
+    for (std::size_t x = 0; x < 3; ++x) w[(height / 5 + y) * width + width / 3 + x] += sum / 9;
+  return w;
+}
+
+// Weights from 1e-30 to 1e30, with zeros.
+std::vector<double> extreme(std::size_t n) {
+  std::vector<double> w(n);
+  for (std::size_t i = 0; i < n; ++i) w[i] = i % 5 == 0 ? 0.0 : std::pow(10.0, static_cast<double>((i * 37) % 61) - 30);
+  return w;
+}
+
+template <class D>
+void add_discrete(Catalogue& c, const std::string& name, const std::string& parameters, const std::string& scalar,
+                  const D& table) {
+  Case one{name, parameters, scalar, {}};
+  one.check = [title = one.title(), table](const CaseOptions& o) {
+    mc::Report report =
+        mc::check_subject(mc::make_discrete_subject(title, table),
+                          {.samples = o.samples, .seed = o.seed, .alpha = o.alpha, .evidence = o.evidence});
+    std::vector<typename D::Scalar> u;
+    mc::Pcg random(3);
+    for (int i = 0; i < mc::timing_inputs; ++i) u.push_back(random.uniform<typename D::Scalar>());
+    report.ns_per_sample =
+        mc::ns_per_sample(u, [&](auto v) { return static_cast<double>(table.sample_index(v).index); });
+    return report;
+  };
+  c.push_back(std::move(one));
+}
+
+void add_alias(Catalogue& c, const std::string& parameters, const std::vector<double>& weights) {
+  add_discrete(c, "AliasTable", parameters, "double", mc::AliasTable(weights));
+}
+
+} // namespace
+
+void add_tables(Catalogue& c) {
+  for (const std::size_t n : {1, 64, 100, 1000})
+    add_warp(c, "TableDist1D", fmt::format("n={}", n), [n](auto s) { return mc::TableDist1D<decltype(s)>(jagged(n)); });
+  add_warp(c, "TableDist1D", "n=100 on [-3,7]", [](auto s) {
+    return mc::TableDist1D<decltype(s)>(jagged(100), {-3, 7});
+  });
+  add_warp(c, "TableDist1D", "from x^2, n=64",
+           [](auto s) { return mc::TableDist1D<decltype(s)>::from_function([](auto x) { return x * x; }, 64); });
+  for (const std::size_t n : {1, 1000, 100'000}) {
+    add_discrete(c, "TableDist1D", fmt::format("outcomes, n={}", n), "float", mc::TableDist1D<float>(jagged(n)));
+    add_discrete(c, "TableDist1D", fmt::format("outcomes, n={}", n), "double", mc::TableDist1D<double>(jagged(n)));
+  }
+  add_discrete(c, "TableDist1D", "outcomes of weight 1e-30 to 1e30, n=1000", "double",
+               mc::TableDist1D<double>(extreme(1000)));
+  add_warp(c, "TableDist2D", "24x10", [](auto s) { return mc::TableDist2D<decltype(s)>(jagged(240), 24, 10); });
+  add_warp(c, "TableDist2D", "128x64 with a sun",
+           [](auto s) { return mc::TableDist2D<decltype(s)>(sky(128, 64), 128, 64); });
+  add_warp(c, "TableDist2D", "64x32 by solid angle, with a sun",
+           [](auto s) { return mc::TableDist2D<decltype(s)>::from_lat_long(sky(64, 32), 64, 32); });
+  for (const std::size_t n : {1, 10, 1000, 100'000}) add_alias(c, fmt::format("n={}", n), jagged(n));
+  add_alias(c, "one outcome holds almost all, n=1000", [] {
+    std::vector<double> w(1000, 1e-9);
+    w[500] = 1;
+    return w;
+  }());
+  add_alias(c, "weights 1e-30 to 1e30, n=1000", extreme(1000));
+}
+
+} // namespace carlo

@@ -1,0 +1,201 @@
+#include <cli/commands.h>
+
+#include <render/io/image_io.h>
+
+#include <mc/core/error.h>
+
+#include <boost/math/distributions/students_t.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace carlo {
+
+namespace {
+
+using ::render::Image;
+
+struct Metric {
+  std::string_view name;
+  double value;
+};
+
+std::vector<Metric> metrics(const Image& a, const Image& b) {
+  double square = 0, absolute = 0, relative = 0, peak = 0, mean_a = 0, mean_b = 0;
+  const double n = 3.0 * double(a.pixels.size());
+  for (std::size_t i = 0; i < a.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const double x = double(a.pixels[i][c]), y = double(b.pixels[i][c]), d = x - y;
+      square += d * d;
+      absolute += std::abs(d);
+      relative += d * d / (y * y + 0.01);
+      peak = std::max(peak, std::abs(d));
+      mean_a += x;
+      mean_b += y;
+    }
+  return {{"mse", square / n}, {"rmse", std::sqrt(square / n)}, {"mae", absolute / n}, {"relmse", relative / n},
+          {"max", peak},       {"mean_ratio", mean_a / mean_b}};
+}
+
+// Variance of each mean, and the degrees of freedom behind it.
+struct Noise {
+  bool known;
+  double dof;
+  explicit Noise(const Image& image) : known(!image.variance.empty()), dof(0) {
+    const auto it = image.metadata.find("carlo.estimates_per_pixel");
+    if (it != image.metadata.end()) dof = std::max(0.0, std::atof(it->second.c_str()) - 1);
+    if (dof == 0) dof = 1;
+  }
+};
+
+struct Worst {
+  double p = 1, t = 0, difference = 0, error = 0;
+  int x = 0, y = 0, channel = 0;
+};
+
+struct Cell {
+  double difference = 0, reference = 0, variance_a = 0, variance_b = 0;
+};
+
+class Comparison {
+ public:
+  Comparison(const Image& a, const Image& b, double tolerance)
+      : a_(a), b_(b), noise_a_(a), noise_b_(b), tolerance_(tolerance) {}
+
+  bool possible() const { return noise_a_.known || noise_b_.known; }
+
+  // Pixels, each with the variance of its 3x3 surroundings: a pixel that missed a rare bright path underestimates its
+  // own. Blocks of 16x16 pixels see what is spread thinly.
+  void run() {
+    for (int c = 0; c < 3; ++c) {
+      // A pixel none of whose samples met a rare event looks noiseless: differences far below the typical noise are not
+      // judged.
+      const Cell whole = sum(0, 0, a_.width, a_.height, c);
+      floor_ = 1e-6 * (whole.variance_a + whole.variance_b) / double(a_.pixels.size());
+      for (int y = 0; y < a_.height; ++y)
+        for (int x = 0; x < a_.width; ++x) {
+          Cell cell = sum(x, y, x + 1, y + 1, c);
+          const int x0 = std::max(x - 1, 0), y0 = std::max(y - 1, 0), x1 = std::min(x + 2, a_.width),
+                    y1 = std::min(y + 2, a_.height);
+          const Cell around = sum(x0, y0, x1, y1, c);
+          const double n = double(x1 - x0) * double(y1 - y0);
+          // The surroundings lend their variance, not their degrees of freedom: noise is far from normal within a
+          // pixel, where one rare bright path decides. Student's t with at most 3 degrees of freedom has tails heavy
+          // enough for that.
+          cell.variance_a = around.variance_a / n;
+          cell.variance_b = around.variance_b / n;
+          test(cell, 1, 1, x, y, c, pixel);
+        }
+      for (int y = 0; y < a_.height; y += block_size)
+        for (int x = 0; x < a_.width; x += block_size) {
+          const int x1 = std::min(x + block_size, a_.width), y1 = std::min(y + block_size, a_.height);
+          const double n = double(x1 - x) * double(y1 - y);
+          test(sum(x, y, x1, y1, c), n, n, x, y, c, block);
+        }
+    }
+  }
+
+  double family_p() const {
+    return -std::expm1(tests * std::log1p(-std::min(std::min(pixel.p, block.p), 1 - 0x1p-53)));
+  }
+
+  Worst pixel, block;
+  double tests = 0;
+  static constexpr int block_size = 16;
+
+ private:
+  Cell sum(int x0, int y0, int x1, int y1, int c) const {
+    Cell cell;
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x) {
+        const std::size_t i = a_.index(x, y);
+        cell.difference += double(a_.pixels[i][c]) - double(b_.pixels[i][c]);
+        cell.reference += double(b_.pixels[i][c]);
+        if (noise_a_.known) cell.variance_a += double(a_.variance[i][c]);
+        if (noise_b_.known) cell.variance_b += double(b_.variance[i][c]);
+      }
+    return cell;
+  }
+
+  // Welch's t-test of the mean of n pixels; `pooled` pixels lie behind the variances.
+  void test(const Cell& cell, double n, double pooled, int x, int y, int c, Worst& worst) {
+    ++tests;
+    const double variance = std::max((cell.variance_a + cell.variance_b) / n, floor_) / n;
+    const double difference = cell.difference / n;
+    const double excess = std::max(0.0, std::abs(difference) - tolerance_ * std::abs(cell.reference / n));
+    if (excess == 0) return;
+    double p = 0, t = mc::infinity<double>;
+    if (variance > 0) {
+      t = excess / std::sqrt(variance);
+      const double va = cell.variance_a, vb = cell.variance_b;
+      const double welch =
+          va + vb > 0 ? pooled * mc::sqr(va + vb) / (va * va / noise_a_.dof + vb * vb / noise_b_.dof) : pooled;
+      const double dof = pooled > 1 ? welch : std::min(welch, 3.0);
+      p = 2 * cdf(complement(boost::math::students_t(dof), t));
+    }
+    if (p < worst.p || (p == worst.p && t > worst.t)) worst = {p, t, difference, std::sqrt(variance), x, y, c};
+  }
+
+  const Image &a_, &b_;
+  Noise noise_a_, noise_b_;
+  double tolerance_, floor_ = 0;
+};
+
+} // namespace
+
+int compare(const CompareOptions& options) {
+  mc::require(options.alpha > 0 && options.alpha < 1, "--alpha {} must lie in (0, 1)", options.alpha);
+  mc::require(options.tolerance >= 0, "--tolerance {} must be >= 0", options.tolerance);
+  const Image a = ::render::read_image(options.a), b = ::render::read_image(options.b);
+  mc::require(a.width == b.width && a.height == b.height, "'{}' is {}x{} but '{}' is {}x{}; the sizes must agree",
+              options.a, a.width, a.height, options.b, b.width, b.height);
+  for (const auto* image : {&a, &b})
+    for (std::size_t i = 0; i < image->pixels.size(); ++i)
+      mc::require(image->pixels[i].isFinite().all(), "'{}': pixel ({}, {}) is not finite",
+                  image == &a ? options.a : options.b, i % static_cast<std::size_t>(a.width),
+                  i / static_cast<std::size_t>(a.width));
+
+  const auto all = metrics(a, b);
+  bool found = options.metric.empty();
+  std::vector<std::string_view> names;
+  for (const Metric& m : all) {
+    names.push_back(m.name);
+    if (!options.metric.empty() && options.metric != m.name) continue;
+    found = true;
+    if (options.metric.empty()) std::printf("%-10s %.6g\n", std::string(m.name).c_str(), m.value);
+    else std::printf("%.6g\n", m.value);
+  }
+  mc::require(found, "unknown metric '{}'{}; use one of {}", options.metric, mc::did_you_mean(options.metric, names),
+              fmt::join(names, ", "));
+
+  if (!options.diff.empty()) {
+    Image difference(a.width, a.height);
+    for (std::size_t i = 0; i < a.pixels.size(); ++i) difference.pixels[i] = a.pixels[i] - b.pixels[i];
+    ::render::write_image(options.diff, difference);
+  }
+  if (!options.metric.empty()) return exit_ok;
+
+  Comparison comparison(a, b, options.tolerance);
+  if (!comparison.possible()) {
+    std::printf("verdict    none: neither image carries its variance; render to .exr to get it\n");
+    return exit_ok;
+  }
+  comparison.run();
+  static constexpr std::array channel = {"red", "green", "blue"};
+  const auto print = [&](const char* what, const Worst& w) {
+    std::printf("%-10s worst at (%d, %d) %s: difference %.3g, %.2f standard errors, p = %.2g\n", what, w.x, w.y,
+                channel[static_cast<std::size_t>(w.channel)], w.difference, w.t, w.p);
+  };
+  print("pixels", comparison.pixel);
+  print("blocks", comparison.block);
+  const double p = comparison.family_p();
+  const bool agree = p >= options.alpha;
+  std::printf("verdict    %s: family-wise p = %.3g over %.0f tests, alpha = %g%s\n", agree ? "agree" : "DIFFER", p,
+              comparison.tests, options.alpha,
+              options.tolerance > 0 ? fmt::format(", tolerance {} of the reference", options.tolerance).c_str() : "");
+  return agree ? exit_ok : exit_failed;
+}
+
+} // namespace carlo

@@ -1,0 +1,91 @@
+#include <cli/commands.h>
+#include <integrands/experiments.h>
+#include <integrands/expression.h>
+#include <integrands/genz.h>
+#include <terminal/interrupt.h>
+#include <terminal/progress.h>
+#include <terminal/version.h>
+
+#include <mc/core/error.h>
+#include <mc/core/file.h>
+#include <mc/estimate/integrate.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdio>
+
+namespace carlo {
+
+namespace {
+
+// A name of a list, or else an expression.
+Experiment integrand(const IntegrateOptions& o) {
+  if (!o.domain.empty()) return parse_expression(o.integrand, o.domain);
+  for (const Experiment& e : genz_integrals())
+    if (e.name == o.integrand) return e;
+  const bool a_name = o.integrand.find_first_not_of(
+                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
+  if (!a_name) return parse_expression(o.integrand, o.domain);
+  if (o.integrand.starts_with("genz")) {
+    std::vector<std::string_view> names;
+    for (const Experiment& e : genz_integrals()) names.push_back(e.name);
+    throw mc::Error(fmt::format("unknown integrand '{}'{}; --list shows them all", o.integrand,
+                                mc::did_you_mean(o.integrand, names)));
+  }
+  return experiment(o.integrand);
+}
+
+} // namespace
+
+int integrate(const IntegrateOptions& o) {
+  if (o.list) {
+    for (const auto* list : {&experiments(), &genz_integrals()})
+      for (const Experiment& e : *list) std::printf("%-26s %s\n", e.name.c_str(), e.title.c_str());
+    return exit_ok;
+  }
+  mc::require(!o.integrand.empty(), "integrate: name an integrand or give an expression; --list shows the names");
+  const Experiment e = integrand(o);
+
+  mc::IntegrateOptions settings;
+  settings.rel_error = o.rel_error;
+  settings.abs_error = o.abs_error;
+  settings.max_calls = o.max_calls;
+  settings.method = mc::method_from(o.method);
+  settings.seed = o.seed;
+  settings.threads = o.threads;
+  Progress progress;
+  settings.progress = [&](const mc::IntegrateProgress& p) {
+    progress.show(double(p.calls) / double(o.max_calls),
+                  fmt::format("{:.8g} ± {:.2g}", p.estimate.value, p.estimate.std_error));
+  };
+  const Interrupt interrupt;
+  settings.cancel = interrupt.flag();
+  const mc::Integral r = mc::integrate_unit(e.f, e.dim, settings);
+  progress.clear();
+
+  std::printf("%s = %.10g ± %.2g (standard error), 95 %% in [%.10g, %.10g]\n", e.title.c_str(), r.estimate.value,
+              r.estimate.std_error, r.interval.lo, r.interval.hi);
+  std::printf("%s calls in %s by %s; stopped: %s\n", format_count(double(r.calls)).c_str(),
+              format_seconds(r.seconds).c_str(), std::string(name(r.method)).c_str(),
+              std::string(name(r.stop)).c_str());
+  if (std::isfinite(e.truth))
+    std::printf("the true value is %.10g, %.2f standard errors away\n", e.truth,
+                r.estimate.std_error > 0 ? std::abs(r.estimate.value - e.truth) / r.estimate.std_error : 0.0);
+  if (!r.consistent)
+    std::printf("warning: the rounds disagree (chi-square %.3g for %.0f degrees of freedom): distrust the error\n",
+                r.chi2, r.chi2_dof);
+  if (!o.json.empty()) {
+    nlohmann::ordered_json j = {
+        {"command", o.command}, {"commit", commit},          {"seed", o.seed},
+        {"integrand", e.name},  {"value", r.estimate.value}, {"std_error", r.estimate.std_error},
+        {"lo", r.interval.lo},  {"hi", r.interval.hi},       {"calls", r.calls},
+        {"seconds", r.seconds}, {"method", name(r.method)},  {"stop", name(r.stop)},
+        {"chi2", r.chi2},       {"chi2_dof", r.chi2_dof},    {"consistent", r.consistent}};
+    if (std::isfinite(e.truth)) j["truth"] = e.truth;
+    mc::write_file(o.json, j.dump(1) + "\n");
+  }
+  return r.stop == mc::Stop::cancelled ? exit_interrupted : exit_ok;
+}
+
+} // namespace carlo

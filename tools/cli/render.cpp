@@ -1,0 +1,108 @@
+#include <cli/commands.h>
+#include <terminal/interrupt.h>
+#include <terminal/progress.h>
+#include <terminal/version.h>
+
+#include <render/io/image_io.h>
+#include <render/io/mitsuba.h>
+#include <render/render.h>
+
+#include <mc/core/error.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+
+namespace carlo {
+
+namespace {
+
+void parse_size(const std::string& text, int& width, int& height) {
+  char rest = 0;
+  mc::require(std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2 && width > 0 && height > 0,
+              "--size '{}' must be WIDTHxHEIGHT in pixels, e.g. 640x480", text);
+}
+
+// The folder is looked at before hours of rendering, not after.
+void check_output(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  mc::require(folder.empty() || std::filesystem::is_directory(folder),
+              "cannot write '{}': the folder '{}' does not exist; create it first", path, folder.string());
+  const std::string extension = std::filesystem::path(path).extension().string();
+  mc::require(extension == ".exr" || extension == ".pfm" || extension == ".png",
+              "cannot write '{}': unknown image format '{}'; use .exr, .pfm or .png", path, extension);
+}
+
+} // namespace
+
+int render(const RenderOptions& options) {
+  const std::string output =
+      options.output.empty() ? std::filesystem::path(options.scene).stem().string() + ".exr" : options.output;
+  check_output(output);
+
+  ::render::RenderOptions settings;
+  if (!options.size.empty()) parse_size(options.size, settings.width, settings.height);
+  settings.spp = options.spp;
+  settings.seconds = options.seconds;
+  settings.target_error = options.target_error;
+  if (!options.strategy.empty()) settings.strategy = ::render::strategy_from(options.strategy);
+  if (!options.sampler.empty()) settings.sampler = ::render::sampler_from(options.sampler);
+  mc::require(!options.max_depth || *options.max_depth == -1 || *options.max_depth >= 1,
+              "--max-depth {} must be -1 or at least 1", options.max_depth.value_or(0));
+  settings.max_depth = options.max_depth;
+  mc::require(options.threads >= 0, "--threads {} must be >= 0", options.threads);
+  settings.threads = options.threads;
+  settings.seed = options.seed;
+
+  const ::render::Scene scene = ::render::read_mitsuba(options.scene);
+  if (!scene.has_light())
+    std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", options.scene.c_str());
+
+  Progress progress;
+  std::mutex mutex;
+  settings.progress = [&](const ::render::Progress& p) {
+    const std::lock_guard lock(mutex);
+    progress.show(
+        p.fraction,
+        fmt::format("{}samples/s{}", format_count(double(p.samples) / p.seconds),
+                    std::isfinite(p.relative_error) ? fmt::format("  error {:.2f} %", 100 * p.relative_error) : ""));
+  };
+
+  const Interrupt interrupt;
+  settings.cancel = interrupt.flag();
+  ::render::RenderResult result = ::render::render(scene, settings);
+  progress.clear();
+
+  if (result.invalid > 0) {
+    const auto& w = result.first_invalid;
+    const std::string what =
+        fmt::format("{} of {} samples are not finite; the first: pixel ({}, {}), pass {}, sample {}, seed {}",
+                    result.invalid, result.samples, w.x, w.y, w.pass, w.index, options.seed);
+    mc::require(options.allow_invalid, "{}: {}; nothing was written (--allow-invalid writes the image without them)",
+                options.scene, what);
+    std::fprintf(stderr, "carlo: warning: %s\n", what.c_str());
+  }
+
+  auto& metadata = result.image.metadata;
+  metadata["carlo.command"] = options.command;
+  metadata["carlo.commit"] = fmt::format("{} ({})", version, commit);
+  metadata["carlo.seed"] = fmt::format("{}", options.seed);
+  metadata["carlo.samples_per_pixel"] = fmt::format("{:.6g}", result.spp);
+  metadata["carlo.estimates_per_pixel"] = fmt::format("{}", result.estimates);
+  metadata["carlo.invalid_samples"] = fmt::format("{}", result.invalid);
+  if (result.partial) metadata["carlo.partial"] = "interrupted before the end";
+  ::render::write_image(output, result.image, options.exposure);
+
+  std::printf("%s: %dx%d, %.4g samples/pixel in %s (%s CPU): %ssamples/s, %srays/s, mean standard error %s, %llu "
+              "invalid samples%s\n",
+              output.c_str(), result.image.width, result.image.height, result.spp,
+              format_seconds(result.seconds).c_str(), format_seconds(result.cpu_seconds).c_str(),
+              format_count(double(result.samples) / result.seconds).c_str(),
+              format_count(double(result.rays) / result.seconds).c_str(),
+              std::isfinite(result.relative_error) ? fmt::format("{:.2f} %", 100 * result.relative_error).c_str()
+                                                   : "unknown (one estimate per pixel)",
+              static_cast<unsigned long long>(result.invalid), result.partial ? ", PARTIAL: interrupted" : "");
+  return result.partial ? exit_interrupted : exit_ok;
+}
+
+} // namespace carlo

@@ -1,0 +1,276 @@
+#include <input/csv.h>
+#include <input/samples_file.h>
+#include <input/sides.h>
+
+#include <render/io/image_io.h>
+
+#include <mc/check/check_subject.h>
+#include <mc/core/error.h>
+#include <mc/core/sum.h>
+#include <mc/random/permute.h>
+#include <mc/random/uniform.h>
+#include <mc/table/table_dist_2d.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace carlo {
+
+namespace {
+
+using mc::Subject;
+using mc::Vec2;
+
+constexpr double unit_tolerance = 1e-5, mass_tolerance = 1e-4;
+constexpr double digits = 1e-6; // to which programs print numbers of order 1
+
+// The sphere as (azimuth, angle from +z), each over its range, or a rectangle, as the unit square of the grid.
+struct GridDomain {
+  bool sphere = false;
+  std::vector<Side> sides;
+
+  std::size_t columns() const { return sphere ? 3 : sides.size(); }
+
+  std::optional<Vec2<double>> to_square(const double* x) const {
+    if (sphere) {
+      const double length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+      if (!(std::abs(length - 1) <= unit_tolerance)) return {};
+      return Vec2<double>(mc::turn(x[0], x[1]), std::atan2(std::hypot(x[0], x[1]), x[2]) / mc::pi<double>);
+    }
+    Vec2<double> p(0, 0.5);
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      if (!(x[i] >= sides[i].lo && x[i] <= sides[i].hi)) return {};
+      p[static_cast<Eigen::Index>(i)] = (x[i] - sides[i].lo) / (sides[i].hi - sides[i].lo);
+    }
+    return p;
+  }
+  std::string describe(const Vec2<double>& p) const {
+    if (sphere) {
+      const double phi = 2 * mc::pi<double> * p[0], theta = mc::pi<double> * p[1];
+      return fmt::format("({:.6g}, {:.6g}, {:.6g})", std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                         std::cos(theta));
+    }
+    std::string text = "(";
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      text += fmt::format("{}{:.6g}", i ? ", " : "",
+                          sides[i].lo + (sides[i].hi - sides[i].lo) * p[static_cast<Eigen::Index>(i)]);
+    return text + ")";
+  }
+  // Of a cell in row j.
+  double measure(std::size_t j, std::size_t width, std::size_t height) const {
+    const double w = static_cast<double>(width), h = static_cast<double>(height);
+    if (sphere)
+      return 2 * mc::pi<double> / w * 2 * std::sin(mc::pi<double> * (static_cast<double>(j) + 0.5) / h) *
+             std::sin(mc::pi<double> / (2 * h));
+    double area = 1 / (w * h);
+    for (const Side& s : sides) area *= s.hi - s.lo;
+    return area;
+  }
+  std::string name() const {
+    if (sphere) return fmt::format("the unit sphere (to {:g})", unit_tolerance);
+    std::string text;
+    for (const Side& s : sides)
+      text += fmt::format("{}{} in [{:g}, {:g}]", text.empty() ? "" : ", ", s.name, s.lo, s.hi);
+    return text;
+  }
+};
+
+GridDomain domain_of(const SamplesFileOptions& o, std::size_t columns) {
+  GridDomain d;
+  if (o.domain == "sphere" || (o.domain.empty() && columns == 3)) d.sphere = true;
+  else if (!o.domain.empty()) d.sides = parse_sides(o.domain);
+  else if (columns == 1) d.sides = {{"x", 0, 1}};
+  else d.sides = {{"x", 0, 1}, {"y", 0, 1}};
+  mc::require(d.columns() <= 3 && (d.sphere || d.sides.size() <= 2),
+              "--domain: '{}' has {} variables; a grid has 1 or 2", o.domain, d.sides.size());
+  mc::require(columns == d.columns(), "{}: {} columns; {} {} needed on {}", o.samples, columns, d.columns(),
+              d.columns() == 1 ? "is" : "are", d.name());
+  return d;
+}
+
+struct Grid {
+  std::size_t width = 0, height = 0;
+  std::vector<double> density;
+};
+
+Grid read_grid(const std::string& file) {
+  Grid g;
+  if (!file.ends_with(".exr") && !file.ends_with(".pfm")) {
+    const CsvTable table = read_csv(file);
+    for (std::size_t i = 0; i < table.values.size(); ++i)
+      mc::require(table.values[i] >= 0, "{}:{}: number {} is {}; a density is >= 0", file,
+                  table.lines[i / table.columns], i % table.columns + 1, table.values[i]);
+    return {table.columns, table.rows(), table.values};
+  }
+  const render::Image image = mc::with_context(file, [&] { return render::read_image(file); });
+  g.width = static_cast<std::size_t>(image.width), g.height = static_cast<std::size_t>(image.height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const auto& p = image.pixels[i];
+    const double value = static_cast<double>(p[0]);
+    const auto where = [&] {
+      return fmt::format("{}: pixel ({}, {}) is ({:g}, {:g}, {:g})", file, i % g.width, i / g.width, p[0], p[1], p[2]);
+    };
+    if (!(value >= 0 && std::isfinite(value))) throw mc::Error(where() + "; a density is finite and >= 0");
+    if (!(p[0] == p[1] && p[1] == p[2])) throw mc::Error(where() + "; a density is grey, R = G = B");
+    g.density.push_back(value);
+  }
+  return g;
+}
+
+// Everything about the two files that the subject's functions share.
+struct SamplesFile {
+  std::string file;
+  CsvTable table;
+  GridDomain domain;
+  std::size_t width = 0, height = 0;
+  std::vector<double> weights; // of the cells
+  double mass = 1;
+  mc::TableDist2D<double> distribution;
+  std::vector<std::uint32_t> cells; // of the samples
+};
+
+std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
+  mc::require(!o.pdf.empty(), "validate: --samples-file needs the density to hold the samples against: --pdf-file");
+  CsvTable table = read_csv(o.samples);
+  mc::require(table.rows() >= 2000, "{}: {} samples; at least 2000 are needed", o.samples, table.rows());
+  mc::require(table.rows() < std::uint64_t{1} << 32, "{}: {} samples; fewer than 2^32 fit", o.samples, table.rows());
+  GridDomain domain = domain_of(o, table.columns);
+  Grid grid = read_grid(o.pdf);
+  mc::require(domain.columns() > 1 || grid.height == 1, "{}: {} rows; the density on an interval is one row", o.pdf,
+              grid.height);
+  mc::require(grid.density.size() < std::uint64_t{1} << 32, "{}: {} cells; fewer than 2^32 fit", o.pdf,
+              grid.density.size());
+
+  mc::CompensatedSum mass;
+  for (std::size_t i = 0; i < grid.density.size(); ++i) {
+    grid.density[i] *= domain.measure(i / grid.width, grid.width, grid.height);
+    mass.add(grid.density[i]);
+  }
+  mc::require(mass.value() > 0 && std::isfinite(mass.value()),
+              "{}: the density integrates to {}; some cell must be positive, and none beyond doubles", o.pdf,
+              mass.value());
+
+  const auto cell_of = [&](const double* x) -> std::optional<std::uint32_t> {
+    const auto index = [](double at, std::size_t n) {
+      return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1);
+    };
+    const auto p = domain.to_square(x);
+    if (!p) return {};
+    return static_cast<std::uint32_t>(index((*p)[1], grid.height) * grid.width + index((*p)[0], grid.width));
+  };
+  std::vector<std::uint32_t> cells;
+  cells.reserve(table.rows());
+  std::size_t off = 0, first_off = 0;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const double* x = table.row(i);
+    auto cell = cell_of(x);
+    if (!cell && off++ == 0) first_off = i;
+    // What rounding of the last printed digit carried across an edge of the support is no leak.
+    if (cell && grid.density[*cell] == 0)
+      for (std::size_t k = 0; k < table.columns; ++k)
+        for (const double sign : {-1.0, 1.0}) {
+          std::array<double, 3> moved{};
+          std::copy(x, x + table.columns, moved.begin());
+          moved[k] += sign * digits * (domain.sphere ? 1 : domain.sides[k].hi - domain.sides[k].lo);
+          if (const auto beside = cell_of(moved.data()); beside && grid.density[*beside] > 0) cell = beside;
+        }
+    cells.push_back(cell.value_or(0));
+  }
+  if (off > 0) {
+    const double* x = table.row(first_off);
+    std::string point;
+    for (std::size_t k = 0; k < table.columns; ++k) point += fmt::format("{}{}", k ? ", " : "", x[k]);
+    throw mc::Error(
+        fmt::format("{}:{}: ({}) is not covered by the grid of {}, {}; {} of {} samples are not (see --domain)",
+                    o.samples, table.lines[first_off], point, o.pdf, domain.name(), off, table.rows()));
+  }
+  mc::TableDist2D<double> distribution(grid.density, grid.width, grid.height);
+  return std::make_shared<const SamplesFile>(
+      SamplesFile{o.samples, std::move(table), std::move(domain), grid.width, grid.height, std::move(grid.density),
+                  o.unnormalized ? 1.0 : mass.value(), std::move(distribution), std::move(cells)});
+}
+
+// Deals the rows in an order that the seed chooses, each once: a stream that is new gets the next of them.
+class Deal {
+ public:
+  Deal(std::uint32_t rows, std::uint64_t seed) : rows_(rows), seed_(seed) {}
+  std::uint64_t open(std::uint64_t stream, std::size_t n) {
+    const auto [it, fresh] = first_.try_emplace(stream, next_);
+    if (fresh) next_ += n;
+    mc::require(it->second + n <= rows_, "the samples do not suffice");
+    return it->second;
+  }
+  std::uint32_t row(std::uint64_t i) const { return mc::permute(static_cast<std::uint32_t>(i), rows_, seed_); }
+
+ private:
+  std::uint32_t rows_;
+  std::uint64_t seed_, next_ = 0;
+  std::map<std::uint64_t, std::uint64_t> first_;
+};
+
+Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::string& title, std::uint64_t seed) {
+  Subject s;
+  s.name = title;
+  s.dim = f->domain.columns() == 1 ? 1 : 2;
+  s.mass_tolerance = mass_tolerance;
+  const std::string x = f->domain.sphere ? "azimuth" : f->domain.sides.front().name;
+  const std::string y = f->domain.sphere ? "theta" : f->domain.sides.back().name;
+  if (s.dim == 1) s.axes = {{.name = "quantile of " + x}};
+  else s.axes = {{.name = fmt::format("quantile of {} in its row", x)}, {.name = "quantile of " + y}};
+  const auto deal = std::make_shared<Deal>(static_cast<std::uint32_t>(f->table.rows()), seed);
+  s.draw = [f, deal, seed](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
+    const std::uint64_t first = deal->open(stream, n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::uint32_t row = deal->row(first + k), cell = f->cells[row];
+      const std::uint64_t bits = mc::hash(seed, row);
+      const Vec2<double> p((static_cast<double>(cell % f->width) + mc::uniform<double>(bits)) /
+                               static_cast<double>(f->width),
+                           (static_cast<double>(cell / f->width) + mc::uniform<double>(mc::mix64(bits))) /
+                               static_cast<double>(f->height));
+      Subject::Draw& d = out.emplace_back();
+      d.pdf_positive = f->weights[cell] > 0;
+      const Vec2<double> u = f->distribution.invert(p);
+      d.v = {u[0], u[1], 0};
+    }
+  };
+  s.density = [mass = f->mass](const Subject::Coordinates&) { return mass; };
+  s.describe_draw = [f, deal](std::uint64_t stream, std::uint64_t index) {
+    const std::uint32_t row = deal->row(deal->open(stream, 0) + index), cell = f->cells[row];
+    std::string point;
+    for (std::size_t k = 0; k < f->table.columns; ++k)
+      point += fmt::format("{}{}", k ? ", " : "", f->table.row(row)[k]);
+    return fmt::format("{}:{}: ({}) in cell ({}, {}) of the grid", f->file, f->table.lines[row], point, cell % f->width,
+                       cell / f->width);
+  };
+  s.describe_point = [f](const Subject::Coordinates& v) {
+    return f->domain.describe(f->distribution.sample({v[0], v[1]}));
+  };
+  return s;
+}
+
+} // namespace
+
+SamplesFileCase samples_file_case(const SamplesFileOptions& options) {
+  const std::shared_ptr<const SamplesFile> file = load(options);
+  SamplesFileCase c;
+  c.one.name = options.samples;
+  c.one.parameters = options.pdf;
+  c.one.scalar = "double";
+  c.one.again = fmt::format("--samples-file '{}' --pdf-file '{}'", options.samples, options.pdf);
+  if (!options.domain.empty()) c.one.again += fmt::format(" --domain '{}'", options.domain);
+  if (options.unnormalized) c.one.again += " --unnormalized";
+  const std::uint64_t rows = file->table.rows();
+  c.samples = rows - mc::pilot_samples(rows - rows / 9);
+  c.one.check = [file, title = c.one.title()](const CaseOptions& o) {
+    mc::SubjectOptions s;
+    s.samples = o.samples, s.seed = o.seed, s.alpha = o.alpha, s.evidence = o.evidence;
+    return mc::check_subject(subject_of(file, title, o.seed), s);
+  };
+  return c;
+}
+
+} // namespace carlo

@@ -1,0 +1,41 @@
+#include <input/sides.h>
+
+#include <mc/core/error.h>
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace carlo {
+
+namespace {
+
+double number(std::string_view text, std::string_view side) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  mc::require(error == std::errc() && end == text.data() + text.size() && std::isfinite(value),
+              "--domain: '{}' in '{}' is not a finite number", text, side);
+  return value;
+}
+
+} // namespace
+
+std::vector<Side> parse_sides(const std::string& box) {
+  std::vector<Side> sides;
+  for (std::size_t begin = 0; begin <= box.size();) {
+    const std::size_t end = std::min(box.find(',', begin), box.size());
+    const std::string side = box.substr(begin, end - begin);
+    const std::size_t equals = side.find('='), colon = side.find(':');
+    mc::require(equals != std::string::npos && equals > 0 && colon != std::string::npos && colon > equals,
+                "--domain: '{}' is not of the form name=lo:hi, as in \"x=0:1,y=-1:2\"", side);
+    Side s{side.substr(0, equals), number(std::string_view(side).substr(equals + 1, colon - equals - 1), side),
+           number(std::string_view(side).substr(colon + 1), side)};
+    mc::require(s.lo < s.hi, "--domain: '{}' has bounds {} and {}; lo < hi is needed", side, s.lo, s.hi);
+    for (const Side& other : sides) mc::require(other.name != s.name, "--domain: '{}' is bounded twice", s.name);
+    sides.push_back(s);
+    begin = end + 1;
+  }
+  return sides;
+}
+
+} // namespace carlo

@@ -1,0 +1,16 @@
+#pragma once
+/// Integrands from the command line.
+
+#include <integrands/experiments.h>
+
+namespace carlo {
+
+/// The integral of an expression such as "exp(-x*x)*cos(y)" over the box "x=0:1,y=-1:2", as one over the unit cube.
+/// Knows the functions and operators of muParser, and the constants _pi and _e. May be evaluated from several threads
+/// at once.
+///   truth  : NaN, nothing is known of it
+///   throws : mc::Error for an expression that does not parse, with the position; a variable without bounds or with
+///            two; bounds that are not finite numbers with lo < hi
+Experiment parse_expression(const std::string& expression, const std::string& box);
+
+} // namespace carlo

@@ -1,0 +1,14 @@
+#pragma once
+/// Genz's families of test integrals.
+
+#include <integrands/experiments.h>
+
+namespace carlo {
+
+/// The six families in 2, 5 and 8 dimensions, named genz_FAMILY_Dd: oscillatory, product_peak, corner_peak, gaussian,
+/// c0 and discontinuous, with fixed parameters of Genz's difficulties 6, 18, 2.2, 15.2, 16.1 and 16.4; true values in
+/// closed form.
+///   Source : [Genz87], difficulties of [Hahn05]
+const std::vector<Experiment>& genz_integrals();
+
+} // namespace carlo

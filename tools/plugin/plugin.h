@@ -1,0 +1,57 @@
+#pragma once
+/// Samplers compiled by the user against <mc/check/plugin.h>.
+
+#include <catalogue/catalogue.h>
+#include <plugin/isolated.h>
+
+#include <mc/check/plugin.h>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace carlo {
+
+/// A sampler of a loaded shared object with its parameters set: the functions of mc_sampler, each call noted in the
+/// watch. Lives in the child only.
+class PluginSampler {
+ public:
+  /// throws : Error when create refuses the parameters
+  PluginSampler(const mc_sampler& sampler, std::vector<double> parameters, Watch& watch);
+
+  const mc_sampler& operator*() const { return *sampler_; }
+  const mc_sampler* operator->() const { return sampler_; }
+  int coordinates() const; ///< of a point
+  int uniforms() const;    ///< of a sample
+
+  bool sample(const double* u, double* x) const;
+  double pdf(const double* x) const;
+  bool invert(const double* x, double* u) const;
+  double eval(const double* x) const;
+  double weight(const double* u, const double* x) const;
+
+ private:
+  const mc_sampler* sampler_;
+  std::shared_ptr<std::vector<double>> parameters_;
+  std::shared_ptr<void> self_;
+  Watch* watch_;
+};
+
+/// Loads the shared object and checks its table of samplers against the contracts of the header.
+///   throws : Error for a file that is no shared object, lacks mc_plugin or one that it needs itself, has another ABI,
+///            or a sampler without a function, or with a domain, a number or a parameter that means nothing
+std::span<const mc_sampler> load_plugin(const std::string& path, Watch& watch);
+
+/// Every law that the sampler's functions allow: those of check_subject, edges of the unit cube, weight = eval / pdf,
+/// pdf > 0 where eval > 0, invert(sample(u)) = u, |det d sample / d u| pdf = 1.
+mc::Report check_plugin(const PluginSampler& sampler, const std::string& title, const CaseOptions& options);
+
+/// One case per sampler of the shared object and per set of parameters, "alpha=0.1, n=3", that names only parameters of
+/// the sampler; where there is none, one at the defaults. Loading and checking run in processes of their own, see
+/// isolated.h.
+///   timeout : seconds per case
+///   throws  : Error for a plugin that load_plugin refuses, that crashes or hangs, or a set that no sampler can take
+Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& sets, double timeout);
+
+} // namespace carlo

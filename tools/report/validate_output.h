@@ -1,0 +1,34 @@
+#pragma once
+/// The results of carlo validate as files.
+
+#include <catalogue/catalogue.h>
+#include <cli/commands.h>
+
+#include <string>
+#include <vector>
+
+namespace carlo {
+
+/// A run of validate: a report for each case.
+struct Run {
+  const ValidateOptions& options;
+  const std::vector<const Case*>& cases;
+  const std::vector<mc::Report>& reports;
+};
+
+/// The command that repeats one case of a run over so many cases, as a user would type it.
+std::string command_again(const Case& c, const ValidateOptions& options, std::size_t cases);
+
+/// The schema is in notebooks-data/README.md; not finite numbers are null.
+void write_json(const std::string& file, const Run& run);
+
+/// One testsuite, one testcase per case with its figures as properties; the report of a case that did not pass is its
+/// failure.
+void write_junit(const std::string& file, const Run& run);
+
+/// A page that needs no other file and no network: the results, and for each case that kept its evidence the maps of
+/// observed and expected counts and of their residuals, and the way of its p-value. Cases that did not pass keep all of
+/// their cells, the others 1024.
+void write_page(const std::string& file, const Run& run);
+
+} // namespace carlo

@@ -1,0 +1,89 @@
+#include <validate_page_parts.h>
+#include <report/validate_page.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+namespace carlo {
+namespace {
+
+std::string base64(const std::vector<float>& numbers) {
+  static_assert(std::endian::native == std::endian::little);
+  static constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::uint8_t> bytes(4 * numbers.size());
+  if (!numbers.empty()) std::memcpy(bytes.data(), numbers.data(), bytes.size());
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t n = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < n ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= n ? digits[three >> (18 - 6 * k) & 63] : '=';
+  }
+  return text;
+}
+
+mc::CellCount join(const mc::CellCount& a, const mc::CellCount& b) {
+  mc::CellCount c{a.lo, a.hi, a.observed + b.observed, a.expected + b.expected};
+  for (std::size_t d = 0; d < 3; ++d) c.lo[d] = std::min(a.lo[d], b.lo[d]), c.hi[d] = std::max(a.hi[d], b.hi[d]);
+  return c;
+}
+
+std::string replaced(std::string text, std::string_view mark, std::string_view by) {
+  const std::size_t at = text.find(mark);
+  return at == std::string::npos ? text : text.replace(at, mark.size(), by);
+}
+
+} // namespace
+
+PackedTree pack_tree(const mc::Evidence& evidence, int dim, std::size_t most) {
+  const std::size_t n = evidence.cells.size();
+  if (n == 0) return {};
+  std::vector<mc::CellCount> nodes(2 * n); // heap order, root at 1
+  std::copy(evidence.cells.begin(), evidence.cells.end(), nodes.begin() + static_cast<std::ptrdiff_t>(n));
+  for (std::size_t i = n; i-- > 1;) nodes[i] = join(nodes[2 * i], nodes[2 * i + 1]);
+  const std::size_t kept = std::min(n, std::bit_floor(most));
+  PackedTree tree;
+  std::vector<float> numbers;
+  for (std::size_t i = 1; i < kept; ++i) {
+    const mc::CellCount &left = nodes[2 * i], &right = nodes[2 * i + 1];
+    std::size_t axis = 0;
+    while (axis + 1 < static_cast<std::size_t>(dim) &&
+           !(left.hi[axis] == right.lo[axis] && left.lo[axis] < right.lo[axis]))
+      ++axis;
+    tree.axes += static_cast<char>('0' + axis);
+    numbers.push_back(static_cast<float>(right.lo[axis]));
+  }
+  for (std::size_t i = kept; i < 2 * kept; ++i) numbers.push_back(static_cast<float>(nodes[i].observed));
+  for (std::size_t i = kept; i < 2 * kept; ++i) numbers.push_back(static_cast<float>(nodes[i].expected));
+  tree.numbers = base64(numbers);
+  return tree;
+}
+
+std::string pack_outcomes(const mc::Evidence& evidence, std::size_t most) {
+  const std::size_t n = evidence.outcomes.size(), kept = std::min(n, most);
+  std::vector<float> numbers(2 * kept);
+  for (std::size_t k = 0; k < kept; ++k) {
+    mc::CellCount sum;
+    for (std::size_t i = k * n / kept; i < (k + 1) * n / kept; ++i) sum = join(sum, evidence.outcomes[i]);
+    numbers[k] = static_cast<float>(sum.observed), numbers[kept + k] = static_cast<float>(sum.expected);
+  }
+  return base64(numbers);
+}
+
+std::string page(std::string_view data) {
+  // "</script>" in a string of the data would end its element.
+  std::string safe;
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    if (data[i] == '<') safe += "\\u003c";
+    else safe += data[i];
+  }
+  std::string text = replaced(page_html, "@CSS@", page_css);
+  text = replaced(std::move(text), "@MAPS@", page_maps_js);
+  text = replaced(std::move(text), "@JS@", page_js);
+  return replaced(std::move(text), "@DATA@", safe);
+}
+
+} // namespace carlo

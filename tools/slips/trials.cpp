@@ -1,0 +1,163 @@
+#include <slips/trials.h>
+
+#include <mc/check/bsdf_laws.h>
+#include <mc/warp/hemisphere.h>
+
+namespace carlo {
+namespace {
+
+using Kind = mc::Subject::Draw::Kind;
+
+mc::SubjectOptions options(const CaseOptions& c) { return {.samples = c.samples, .seed = c.seed, .alpha = c.alpha}; }
+
+template <class D> mc::Subject on(const D& domain, Directions sampler, Density pdf, Failures failures) {
+  mc::Subject s = make_subject("", domain, std::move(sampler), std::move(pdf));
+  s.may_fail = failures == Failures::allowed;
+  return s;
+}
+
+bool is_bad(const mc::Subject& s, const mc::Subject::Draw& d) {
+  switch (d.kind) {
+  case Kind::failed: return !s.may_fail;
+  case Kind::outside:
+  case Kind::not_finite: return true;
+  case Kind::atom:
+  case Kind::point: break;
+  }
+  return !d.pdf_positive || !(std::abs(d.weight - 1) <= s.weight_tolerance);
+}
+
+} // namespace
+
+mc::Subject on_hemisphere(Directions sampler, Density pdf, Failures failures) {
+  return on(mc::Hemisphere<double>{}, std::move(sampler), std::move(pdf), failures);
+}
+mc::Subject on_sphere(Directions sampler, Density pdf) {
+  return on(mc::Sphere<double>{}, std::move(sampler), std::move(pdf), Failures::never);
+}
+mc::Subject on_interval(double lo, double hi, Numbers sampler, std::function<double(double)> pdf) {
+  return make_subject("", mc::Interval<double>(lo, hi), std::move(sampler), std::move(pdf));
+}
+
+Trial trial(mc::Subject subject) {
+  Trial t;
+  t.first_bad = [subject](std::uint64_t seed, std::uint64_t most) -> std::uint64_t {
+    constexpr std::uint64_t chunk = 256;
+    std::vector<mc::Subject::Draw> draws;
+    for (std::uint64_t first = 0; first < most; first += chunk) {
+      draws.clear();
+      subject.draw(mc::hash(seed, first), chunk, draws);
+      for (std::size_t i = 0; i < draws.size(); ++i)
+        if (is_bad(subject, draws[i])) return first + i + 1;
+    }
+    return 0;
+  };
+  t.check = [subject = std::move(subject)](const CaseOptions& c) { return check_subject(subject, options(c)); };
+  return t;
+}
+
+Trial trial(const Inverted& warp, double tolerance) {
+  Trial t = trial(on_hemisphere([warp](mc::Pcg& r) { return warp.sample(r.point<double, 2>()); }, warp.pdf));
+  t.check = [counts = t.check, warp, tolerance](const CaseOptions& c) {
+    mc::Report report = counts(c);
+    mc::LawLedger inverse("invert(sample(u)) = u", tolerance, mc::Fault::inverse);
+    mc::Pcg random(c.seed, 11);
+    for (int i = 0; i < 1000; ++i) {
+      const mc::Vec2<double> u = random.point<double, 2>(), off = (warp.invert(warp.sample(u)) - u).cwiseAbs();
+      // The two sides of an azimuth's seam are one point.
+      const auto turned = [](double x) { return x > 0.5 ? 1 - x : x; };
+      inverse.note(std::max(turned(off[0]), turned(off[1])),
+                   [&] { return fmt::format("u = {}", mc::detail::format_point(u)); });
+    }
+    report.checks.insert(report.checks.begin(), inverse.check());
+    return report;
+  };
+  return t;
+}
+
+Trial trial(const Scattering& bsdf, double theta_o) {
+  const Direction wo = incident(theta_o);
+  Trial t = trial(mc::bsdf_subject<double>(bsdf, wo));
+  t.check = [bsdf, wo](const CaseOptions& c) {
+    mc::BsdfOptions o;
+    o.samples = c.samples, o.seed = c.seed, o.alpha = c.alpha;
+    return mc::check_bsdf<double>(bsdf, wo, o);
+  };
+  return t;
+}
+
+Trial mean_trial(double value, Numbers estimator) {
+  Trial t;
+  t.fewest = 16;
+  t.first_bad = [estimator](std::uint64_t seed, std::uint64_t most) -> std::uint64_t {
+    mc::Pcg random(seed);
+    for (std::uint64_t i = 1; i <= most; ++i)
+      if (!std::isfinite(estimator(random))) return i;
+    return 0;
+  };
+  t.check = [value, estimator](const CaseOptions& c) {
+    mc::Report report;
+    report.alpha = c.alpha;
+    report.samples = c.samples;
+    mc::Moments moments;
+    mc::Pcg random(c.seed);
+    for (std::uint64_t i = 0; i < c.samples; ++i) moments.add(estimator(random), i);
+    const auto bad = static_cast<double>(moments.non_finite());
+    report.checks.push_back({"finite",
+                             bad > 0 ? mc::Verdict::fail : mc::Verdict::pass,
+                             {},
+                             0,
+                             bad,
+                             0,
+                             mc::Fault::not_finite,
+                             bad > 0
+                                 ? fmt::format("{} of {} estimates, first number {}", bad, c.samples, moments.witness())
+                                 : std::string()});
+    if (bad > 0) return report;
+    const bool exact = std::abs(moments.mean() - value) <= 1e-12 * std::abs(value); // a perfect estimator has no spread
+    const mc::TTest test = exact ? mc::TTest{} : mc::t_test(moments, value, c.alpha);
+    mc::Check mean{
+        "mean", test.p <= c.alpha ? mc::Verdict::fail : mc::Verdict::pass, test.p, 1, test.t, 0, mc::Fault::bias, {}};
+    if (mean.verdict == mc::Verdict::fail)
+      mean.detail = fmt::format("{:.6g} +- {:.2g} instead of {:.6g}", moments.mean(), moments.std_error(), value);
+    report.checks.push_back(std::move(mean));
+    return report;
+  };
+  return t;
+}
+
+Trial law_trial(std::string law, double limit, mc::Fault fault, Numbers error) {
+  Trial t;
+  t.fewest = 16;
+  t.first_bad = [limit, error](std::uint64_t seed, std::uint64_t most) -> std::uint64_t {
+    mc::Pcg random(seed);
+    for (std::uint64_t i = 1; i <= most; ++i)
+      if (!(error(random) <= limit)) return i;
+    return 0;
+  };
+  t.check = [law, limit, fault, error](const CaseOptions& c) {
+    mc::Report report;
+    report.alpha = c.alpha;
+    report.samples = c.samples;
+    mc::LawLedger ledger(law, limit, fault);
+    mc::Pcg random(c.seed);
+    for (std::uint64_t i = 0; i < c.samples; ++i) {
+      const double off = error(random);
+      ledger.note(off, [&] { return fmt::format("off by {:.3g} at point {}", off, i); });
+    }
+    report.checks.push_back(ledger.check());
+    return report;
+  };
+  return t;
+}
+
+Direction cosine(mc::Pcg& r) { return mc::CosineHemisphere<double>{}.sample(r.point<double, 2>()); }
+
+Direction in_ball(mc::Pcg& r) {
+  for (;;) {
+    const Direction p(2 * r.uniform<double>() - 1, 2 * r.uniform<double>() - 1, 2 * r.uniform<double>() - 1);
+    if (p.squaredNorm() < 1) return p;
+  }
+}
+
+} // namespace carlo
