@@ -1,0 +1,65 @@
+#include <mc/estimate/integrate/methods.h>
+#include <mc/estimate/integrate/sequences.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace mc::detail {
+
+Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
+  Outcome out{{}, method == Method::vegas ? Method::vegas : Method::rqmc};
+  const auto affordable = [&](const Sequences& s) {
+    return std::min(std::bit_floor(s.length + run.left() / run.o.replicates), Sequences::longest);
+  };
+  const auto done = [&] {
+    run.report(out.means);
+    if (run.converged(out.means)) out.stop = Stop::converged;
+    last = out;
+    return out.stop == Stop::converged;
+  };
+  const auto next = [](const Sequences& s, std::uint64_t end) {
+    return std::max(std::min<std::uint64_t>(64, end), 2 * s.length);
+  };
+  const auto grow = [&](Sequences& s, std::uint64_t end) {
+    for (std::uint64_t to = next(s, end); to <= end; to *= 2) {
+      out.means = s.extend(run, to);
+      if (done()) return true;
+    }
+    return false;
+  };
+
+  Sequences chosen{.purpose = 0};
+  if (method == Method::rqmc && grow(chosen, affordable(chosen))) return out;
+  if (method == Method::automatic && grow(chosen, std::max<std::uint64_t>(affordable(chosen) / 16, 1))) return out;
+  std::optional<ImportanceGrid> grid;
+  if (method != Method::rqmc) {
+    std::vector<double> scale(run.outputs, 1.0);
+    grid = learn(run, scale);
+    Sequences guided{.purpose = 1, .grid = &*grid};
+    if (method == Method::vegas) chosen = std::move(guided);
+    else {
+      const std::uint64_t end = std::min(chosen.length, affordable(guided));
+      for (std::uint64_t to = next(guided, end); to <= end; to *= 2) guided.extend(run, to);
+      // Interlaced points may start worse and fall faster, so where there are any the two compete at the length they
+      // would end with.
+      const double doublings =
+          run.interlaced() ? std::log2(static_cast<double>(affordable(guided)) / static_cast<double>(end)) : 0;
+      if (advantage(chosen, guided, doublings) > 0) {
+        out.means = guided.history.back();
+        out.method = Method::vegas;
+        chosen = std::move(guided);
+        if (done()) return out;
+      } else run.rounds.clear();
+    }
+    if (grow(chosen, affordable(chosen))) return out;
+  }
+  // What is left is too little for twice the length, but may do for more replicates.
+  if (const auto more = static_cast<std::uint32_t>(run.left() / chosen.length); more > 0) {
+    out.means = chosen.widen(run, more);
+    done();
+  }
+  return out;
+}
+
+} // namespace mc::detail

@@ -1,0 +1,78 @@
+#pragma once
+/// A run of integrate(): evaluates the integrand on sets of points and sums what it gives.
+
+#include <mc/estimate/importance_grid.h>
+#include <mc/estimate/integrate.h>
+#include <mc/estimate/integrate/mean.h>
+#include <mc/estimate/moments.h>
+#include <mc/estimate/point_set.h>
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace mc::detail {
+
+/// Thrown by a run that was cancelled; never leaves integrate().
+struct Cancelled {};
+
+/// What one task adds up: moments of every output, and what the grid learns from.
+struct Sums {
+  std::vector<Moments> outputs;
+  std::vector<double> power;
+  void merge(const Sums& other);
+};
+
+/// One value or several, without a call through another for the one.
+struct Integrand {
+  const std::function<double(std::span<const double>)>* one = nullptr;
+  const VectorIntegrand* several = nullptr;
+  void operator()(std::span<const double> u, std::span<double> values) const {
+    if (one) values[0] = (*one)(u);
+    else (*several)(u, values);
+  }
+};
+
+/// The integrand, the budget, the clock.
+struct Run {
+  Integrand f;
+  std::size_t outputs;
+  int dim;
+  const IntegrateOptions& o;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  std::uint64_t calls = 0;
+  std::vector<Means> rounds = {}; ///< of learning: independent of each other and of the last means
+  std::vector<double> chi2 = std::vector<double>(outputs), chi2_dof = std::vector<double>(outputs);
+
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+  std::uint64_t left() const { return o.max_calls - calls; }
+
+  /// Points [first, first + count) of each set; one result per set, with the same bits for any number of threads.
+  ///   learn  : unless empty, what each output is multiplied by before it counts as power of the grid
+  ///   throws : Error where the integrand is not finite, with the point; Cancelled
+  std::vector<Sums> evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
+                                 const ImportanceGrid* grid = nullptr, std::span<const double> learn = {});
+
+  /// Whether the bare sequences, those of purpose 0, are interlaced. Under a grid they are not: smooth peaks would gain
+  /// by it, but integrands that jump would lose.
+  bool interlaced() const { return dim <= 2; }
+  /// Replicates [first, last) of the sequences for a purpose.
+  std::vector<PointSet> sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const;
+
+  /// The mean of the replicates' means, its variance from their spread.
+  Means means(const std::vector<Sums>& replicates) const;
+  /// Adds to chi2 how far two independent means lie apart.
+  void compare(const Means& a, const Means& b);
+
+  Estimate estimate(const Mean& m) const;
+  bool converged(const Means& all) const;
+  void report(const Means& all) const;
+
+ private:
+  Sums evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const ImportanceGrid* grid,
+                std::span<const double> learn) const;
+  void require_finite(const Moments& m, const PointSet& set, const ImportanceGrid* grid) const;
+};
+
+} // namespace mc::detail

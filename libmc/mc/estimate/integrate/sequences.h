@@ -1,0 +1,32 @@
+#pragma once
+/// Replicated Sobol' sequences that grow.
+
+#include <mc/estimate/integrate/run.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace mc::detail {
+
+/// Replicated Sobol' sequences, extended from step to step.
+struct Sequences {
+  std::uint64_t purpose; ///< those of different purposes are independent
+  const ImportanceGrid* grid = nullptr;
+  std::uint64_t length = 0;
+  std::vector<PointSet> sets = {};
+  std::vector<Sums> sums = {};
+  std::vector<Means> history = {}; ///< at each length
+
+  static constexpr std::uint64_t longest = std::uint64_t{1} << 32;
+
+  /// The means once every sequence has `to` points.
+  Means extend(Run& run, std::uint64_t to);
+  /// The means with `count` more sequences, as long as the others.
+  Means widen(Run& run, std::uint32_t count);
+};
+
+/// By how much the errors of a will exceed those of b, a mean logarithm, after so many more doublings, if they go on
+/// falling as they did over the last three.
+double advantage(const Sequences& a, const Sequences& b, double doublings);
+
+} // namespace mc::detail

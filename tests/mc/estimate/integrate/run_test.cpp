@@ -1,0 +1,51 @@
+#include <mc/estimate/integrate/run.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace detail = mc::detail;
+
+const std::function<double(std::span<const double>)> sum = [](std::span<const double> u) { return u[0] + 2 * u[1]; };
+
+TEST(Run, SumsEveryPointOnceInAnyCut) {
+  mc::IntegrateOptions o;
+  detail::Run run{{.one = &sum}, 1, 2, o};
+  const std::vector<mc::PointSet> sets = run.sobol_sets(1, 0, 3);
+  auto whole = run.evaluate_all(sets, 0, 10'000), parts = run.evaluate_all(sets, 0, 300);
+  const auto rest = run.evaluate_all(sets, 300, 9700);
+  EXPECT_EQ(run.calls, 60'000u);
+  for (std::size_t r = 0; r < sets.size(); ++r) {
+    parts[r].merge(rest[r]);
+    EXPECT_EQ(parts[r].outputs[0].count(), whole[r].outputs[0].count());
+    EXPECT_NEAR(parts[r].outputs[0].mean(), whole[r].outputs[0].mean(), 1e-14);
+    EXPECT_NEAR(parts[r].outputs[0].variance(), whole[r].outputs[0].variance(), 1e-13);
+  }
+}
+
+TEST(Run, MeansAreThoseOfTheReplicates) {
+  mc::IntegrateOptions o;
+  const detail::Run run{{.one = &sum}, 1, 2, o};
+  std::vector<mc::detail::Sums> replicates(2);
+  for (std::size_t r = 0; r < 2; ++r) {
+    replicates[r].outputs.resize(1);
+    for (const double x : {1.0, 3.0}) replicates[r].outputs[0].add(x + static_cast<double>(r));
+  }
+  const mc::detail::Means means = run.means(replicates); // of 2 and 3
+  EXPECT_EQ(means[0].value, 2.5);
+  EXPECT_EQ(means[0].variance, 0.25);
+  EXPECT_EQ(means[0].dof, 1);
+}
+
+TEST(Run, ReplicatesAndPurposesDiffer) {
+  mc::IntegrateOptions o;
+  detail::Run run{{.one = &sum}, 1, 2, o};
+  const auto a = run.evaluate_all(run.sobol_sets(1, 0, 2), 0, 100),
+             b = run.evaluate_all(run.sobol_sets(2, 0, 1), 0, 100);
+  EXPECT_NE(a[0].outputs[0].mean(), a[1].outputs[0].mean());
+  EXPECT_NE(a[0].outputs[0].mean(), b[0].outputs[0].mean());
+  const auto again = run.evaluate_all(run.sobol_sets(1, 1, 2), 0, 100);
+  EXPECT_EQ(a[1].outputs[0].mean(), again[0].outputs[0].mean());
+}
+
+} // namespace
