@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/parallel.h>
+#include <mc/core/text.h>
 
 #include <array>
 #include <chrono>

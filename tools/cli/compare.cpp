@@ -3,6 +3,7 @@
 #include <render/io/image_io.h>
 
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 
 #include <boost/math/distributions/students_t.hpp>
 

@@ -7,6 +7,7 @@
 #include <mc/core/file.h>
 #include <mc/core/parallel.h>
 #include <mc/core/sum.h>
+#include <mc/core/text.h>
 #include <mc/sampler/independent.h>
 #include <mc/sampler/sobol.h>
 #include <mc/sampler/stratified.h>

@@ -8,6 +8,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 #include <mc/estimate/integrate.h>
 
 #include <nlohmann/json.hpp>

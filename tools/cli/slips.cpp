@@ -8,6 +8,7 @@
 #include <mc/core/error.h>
 #include <mc/core/file.h>
 #include <mc/core/parallel.h>
+#include <mc/core/text.h>
 #include <mc/random/hash.h>
 #include <mc/stats/multiple_testing.h>
 

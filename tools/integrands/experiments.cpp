@@ -1,6 +1,7 @@
 #include <integrands/experiments.h>
 
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/sphere.h>
 

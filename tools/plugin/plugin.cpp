@@ -2,6 +2,7 @@
 #include <plugin/plugin.h>
 
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 
 #include <fmt/format.h>
 

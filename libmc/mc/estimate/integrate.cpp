@@ -1,4 +1,5 @@
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 #include <mc/estimate/integrate.h>
 #include <mc/estimate/integrate/methods.h>
 #include <mc/estimate/integrate/sequences.h>

@@ -1,6 +1,7 @@
 #include <render/integrator/path.h>
 
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 
 #include <array>
 

@@ -3,6 +3,7 @@
 #include <render/io/xml_values.h>
 
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 
 #include <cmath>
 #include <filesystem>

@@ -35,6 +35,14 @@ std::vector<Vec3> transformed(const std::vector<Vec3d>& points, const Transform&
   return result;
 }
 
+// Triangles whose geometric normal is the transformed one: a mirroring transform turns the winding, so turn it back.
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+Triangles wound(Triangles triangles, const Transform& to_world) {
+  if (to_world.leftCols<3>().determinant() < 0)
+    for (auto& t : triangles) std::swap(t[1], t[2]);
+  return triangles;
+}
+
 } // namespace
 
 TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& triangles,
@@ -73,13 +81,13 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
 
 TriangleMesh TriangleMesh::rectangle(const Transform& to_world) {
   const std::vector<Vec3d> corners = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-  return {transformed(corners, to_world), {{0, 1, 2}, {0, 2, 3}}};
+  return {transformed(corners, to_world), wound({{0, 1, 2}, {0, 2, 3}}, to_world)};
 }
 
 TriangleMesh TriangleMesh::box(const Transform& to_world) {
   std::vector<Vec3d> corners;
   for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  Triangles triangles;
   // Faces as quads, counter-clockwise seen from outside.
   for (const std::array<std::uint32_t, 4>& q : {std::array<std::uint32_t, 4>{0, 4, 6, 2},
                                                 {1, 3, 7, 5},
@@ -90,10 +98,7 @@ TriangleMesh TriangleMesh::box(const Transform& to_world) {
     triangles.push_back({q[0], q[1], q[2]});
     triangles.push_back({q[0], q[2], q[3]});
   }
-  // A mirroring transform turns the winding inside out; turn it back.
-  if (to_world.leftCols<3>().determinant() < 0)
-    for (auto& t : triangles) std::swap(t[1], t[2]);
-  return {transformed(corners, to_world), triangles};
+  return {transformed(corners, to_world), wound(std::move(triangles), to_world)};
 }
 
 SurfacePoint TriangleMesh::point(std::size_t triangle, double b1, double b2) const {

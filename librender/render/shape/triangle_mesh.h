@@ -27,7 +27,7 @@ class TriangleMesh {
   TriangleMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& triangles,
                std::vector<Vec3> normals = {});
 
-  /// The square [-1,1]^2 in the plane z = 0, normal +z, under `to_world`.
+  /// The square [-1,1]^2 in the plane z = 0 under `to_world`; its normal is the transformed (0, 0, 1), mirrored or not.
   static TriangleMesh rectangle(const Transform& to_world);
   /// The cube [-1,1]^3, normals outward, under `to_world`.
   static TriangleMesh box(const Transform& to_world);

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 namespace {
 
 TEST(Error, RequireFormatsOneLine) {
@@ -24,14 +22,6 @@ TEST(Error, ContextIsPutInFront) {
   } catch (const mc::Error& e) {
     EXPECT_STREQ(e.what(), "scene.xml:14: emitter: radiance -1 is negative");
   }
-}
-
-TEST(Error, NearestName) {
-  const std::array known{"independent", "stratified", "sobol"};
-  EXPECT_EQ(mc::did_you_mean("sobal", known), "; did you mean 'sobol'?");
-  EXPECT_EQ(mc::did_you_mean("xyzzyxyzzyxyzzy", known), "");
-  EXPECT_EQ(mc::edit_distance("kitten", "sitting"), 3u);
-  EXPECT_EQ(mc::edit_distance("", "abc"), 3u);
 }
 
 } // namespace

@@ -4,6 +4,8 @@
 #include <mc/random/pcg.h>
 #include <mc/stats/t_test.h>
 
+#include <Eigen/LU>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -116,6 +118,24 @@ TEST(TriangleMesh, NormalsOfBoxesPointOutwardAlsoWhenMirrored) {
       EXPECT_GT(s.ng.dot(s.p - Vec3(5, 6, 7)), 0) << i;
     }
   }
+}
+
+// Normals are mapped by the inverse transpose, mirrored or not: z = -1 turns the square over, x = -1 and y = -1 do not.
+TEST(TriangleMesh, NormalOfARectangleIsTheTransformedOne) {
+  mc::Pcg random(5);
+  int mirrored = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Transform m;
+    for (int i = 0; i < 12; ++i) m(i / 4, i % 4) = 2 * random.uniform<double>() - 1;
+    if (trial < 8) m = scaled_at({trial & 1 ? -1. : 1., trial & 2 ? -1. : 1., trial & 4 ? -1. : 1.}, {0, 0, 0});
+    const Eigen::Matrix3d linear = m.leftCols<3>();
+    mirrored += linear.determinant() < 0;
+    const Vec3 expected = (linear.inverse().transpose() * Vec3d::UnitZ()).normalized().cast<Float>();
+    const TriangleMesh square = TriangleMesh::rectangle(m);
+    for (int i = 0; i < 2; ++i)
+      EXPECT_LE((square.surface_point({}, {1, 0, i, Float(0.3), Float(0.3)}).ng - expected).norm(), 1e-4) << m;
+  }
+  EXPECT_GT(mirrored, 50);
 }
 
 TEST(TriangleMesh, ShadingNormalsKeepToTheGeometricSide) {

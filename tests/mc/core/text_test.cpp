@@ -1,0 +1,43 @@
+#include <mc/core/text.h>
+
+#include <mc/random/pcg.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace {
+
+TEST(Text, NearestName) {
+  const std::array known{"independent", "stratified", "sobol"};
+  EXPECT_EQ(mc::did_you_mean("sobal", known), "; did you mean 'sobol'?");
+  EXPECT_EQ(mc::did_you_mean("xyzzyxyzzyxyzzy", known), "");
+}
+
+TEST(Text, EditDistance) {
+  EXPECT_EQ(mc::edit_distance("kitten", "sitting"), 3u);
+  EXPECT_EQ(mc::edit_distance("", "abc"), 3u);
+}
+
+// A metric on words: symmetric, 0 for equal words only, and at most the number of edits that made one from the other.
+TEST(Text, EditDistanceIsAMetric) {
+  mc::Pcg random(7);
+  const auto letter = [&] { return static_cast<char>('a' + random.uniform<double>() * 3); };
+  const auto place = [&](std::size_t n) { return static_cast<std::ptrdiff_t>(random.uniform<double>() * double(n)); };
+  for (int trial = 0; trial < 300; ++trial) {
+    std::string a;
+    for (int i = 0; i < trial % 9; ++i) a += letter();
+    std::string b = a;
+    const std::size_t edits = static_cast<std::size_t>(trial % 4);
+    for (std::size_t i = 0; i < edits; ++i) b.insert(b.begin() + place(b.size() + 1), letter());
+    const std::size_t d = mc::edit_distance(a, b);
+    EXPECT_EQ(d, edits) << a << " " << b; // insertions alone: the lengths differ by as many
+    EXPECT_EQ(d, mc::edit_distance(b, a));
+    std::string c = b;
+    if (!c.empty()) c[static_cast<std::size_t>(place(c.size()))] = letter();
+    EXPECT_EQ(mc::edit_distance(b, c), c == b ? 0u : 1u);
+    EXPECT_LE(mc::edit_distance(a, c), d + 1);
+  }
+}
+
+} // namespace
