@@ -59,13 +59,13 @@ template <Real S> CosSin<S> cos_sin(const S& u) {
 }
 
 /// The point of the plane at radius r and azimuth u turns.
-template <Real S> Vec2<S> at_turn(const S& r, const S& u) {
+template <Real S> Vec2<S> polar_point(const S& r, const S& u) {
   const CosSin<S> a = cos_sin<S>(u);
   return {r * a.cos, r * a.sin};
 }
 
 /// The direction of the given sine and cosine of the polar angle, at azimuth u turns.
-template <Real S> Vec3<S> direction_at_turn(const S& sin_theta, const S& cos_theta, const S& u) {
+template <Real S> Vec3<S> polar_direction(const S& sin_theta, const S& cos_theta, const S& u) {
   const CosSin<S> a = cos_sin<S>(u);
   return {sin_theta * a.cos, sin_theta * a.sin, cos_theta};
 }

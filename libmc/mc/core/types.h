@@ -18,7 +18,16 @@ namespace mc {
 template <class S>
 concept Real = std::numeric_limits<S>::is_specialized && !std::numeric_limits<S>::is_integer;
 
-template <class S, int N> using Vec = Eigen::Matrix<S, N, 1>;
+namespace detail {
+// Eigen aligns vectors of a multiple of 32 bytes as the instruction set of each translation unit would like it. A
+// library and its user may be compiled for different ones, so these vectors keep the alignment of their components.
+template <class S, int N>
+inline constexpr int vec_options = N > 0 && N* static_cast<int>(sizeof(S)) % 32 == 0 ? Eigen::DontAlign
+                                                                                     : Eigen::AutoAlign;
+} // namespace detail
+
+/// A column vector. Its size and alignment are the same under all compiler flags.
+template <class S, int N> using Vec = Eigen::Matrix<S, N, 1, detail::vec_options<S, N>>;
 template <class S> using Vec2 = Vec<S, 2>;
 template <class S> using Vec3 = Vec<S, 3>;
 

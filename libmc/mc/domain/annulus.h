@@ -31,7 +31,7 @@ template <Real S> struct Annulus {
 
   S area() const { return pi<S> * (outer - inner) * (outer + inner); }
   Point from_unit(const UnitPoint& v) const {
-    return at_turn<S>(safe_sqrt<S>(inner * inner + v[0] * ((outer - inner) * (outer + inner))), v[1]);
+    return polar_point<S>(safe_sqrt<S>(inner * inner + v[0] * ((outer - inner) * (outer + inner))), v[1]);
   }
   UnitPoint to_unit(const Point& p) const {
     using std::max, std::min;

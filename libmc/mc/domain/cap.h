@@ -26,7 +26,7 @@ template <Real S> struct Cap {
 
   Point from_unit(const UnitPoint& v) const {
     const S t = v[0] * h; // 1 - z, so sin^2 = t (2 - t) without cancellation
-    return direction_at_turn<S>(safe_sqrt<S>(t * (2 - t)), 1 - t, v[1]);
+    return polar_direction<S>(safe_sqrt<S>(t * (2 - t)), 1 - t, v[1]);
   }
   UnitPoint to_unit(const Point& w) const { return {one_minus_z(w) / h, turn<S>(w.x(), w.y())}; }
   S jacobian(const UnitPoint&) const { return 2 * pi<S> * h; }

@@ -16,7 +16,7 @@ template <Real S> struct Hemisphere {
   static constexpr Measure measure = Measure::solid_angle;
 
   Point from_unit(const UnitPoint& v) const {
-    return direction_at_turn<S>(safe_sqrt<S>(v[0] * (2 - v[0])), 1 - v[0], v[1]);
+    return polar_direction<S>(safe_sqrt<S>(v[0] * (2 - v[0])), 1 - v[0], v[1]);
   }
   UnitPoint to_unit(const Point& w) const { return {one_minus_z(w), turn<S>(w.x(), w.y())}; }
   S jacobian(const UnitPoint&) const { return 2 * pi<S>; }

@@ -30,7 +30,7 @@ template <Real S> struct Sphere {
   static constexpr Measure measure = Measure::solid_angle;
 
   Point from_unit(const UnitPoint& v) const {
-    return direction_at_turn<S>(2 * safe_sqrt<S>(v[0] * (1 - v[0])), 1 - 2 * v[0], v[1]);
+    return polar_direction<S>(2 * safe_sqrt<S>(v[0] * (1 - v[0])), 1 - 2 * v[0], v[1]);
   }
   UnitPoint to_unit(const Point& w) const { return {one_minus_z(w) / 2, turn<S>(w.x(), w.y())}; }
   S jacobian(const UnitPoint&) const { return 4 * pi<S>; }

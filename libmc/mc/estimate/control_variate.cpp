@@ -1,47 +1,110 @@
 #include <mc/core/error.h>
+#include <mc/core/types.h>
 #include <mc/estimate/control_variate.h>
 
-#include <Eigen/QR>
-
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
+// Arrays of the standard library, not of Eigen: how Eigen allocates depends on the instruction set that each side of a
+// library's boundary is compiled for.
 namespace mc {
 
+namespace {
+
+struct Eigenvectors {
+  std::vector<double> values, vectors; ///< vectors: one per row
+};
+
+// Turns axes i and j of the symmetric matrix a, and of v, so that a(i, j) becomes 0.
+void rotate(std::vector<double>& a, std::vector<double>& v, std::size_t n, std::size_t i, std::size_t j) {
+  const double theta = (a[j * n + j] - a[i * n + i]) / (2 * a[i * n + j]);
+  const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(theta, 1.0));
+  const double c = 1 / std::hypot(t, 1.0), s = t * c;
+  const auto turn_pair = [&](double& x, double& y) {
+    const double old_x = x;
+    x = c * x - s * y;
+    y = s * old_x + c * y;
+  };
+  for (std::size_t k = 0; k < n; ++k) turn_pair(a[k * n + i], a[k * n + j]);
+  for (std::size_t k = 0; k < n; ++k) turn_pair(a[i * n + k], a[j * n + k]);
+  for (std::size_t k = 0; k < n; ++k) turn_pair(v[i * n + k], v[j * n + k]);
+}
+
+// Those of correlations, to an absolute error of some epsilon, by cyclic Jacobi: a handful of sweeps for any size.
+Eigenvectors symmetric_eigenvectors(std::vector<double> a, std::size_t n) {
+  std::vector<double> v(n * n);
+  for (std::size_t i = 0; i < n; ++i) v[i * n + i] = 1;
+  bool turned = true;
+  for (int sweep = 0; turned && sweep < 50; ++sweep) {
+    turned = false;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = i + 1; j < n; ++j) {
+        if (std::abs(a[i * n + j]) <= std::numeric_limits<double>::epsilon()) continue;
+        rotate(a, v, n, i, j);
+        turned = true;
+      }
+  }
+  std::vector<double> values(n);
+  for (std::size_t i = 0; i < n; ++i) values[i] = a[i * n + i];
+  return {std::move(values), std::move(v)};
+}
+
+// The shortest x of least |a x - b| for a matrix of correlations a; eigenvalues up to `noise` times the largest count
+// as 0.
+std::vector<double> shortest_solution(const std::vector<double>& a, const std::vector<double>& b, double noise) {
+  const std::size_t n = b.size();
+  const Eigenvectors eigen = symmetric_eigenvectors(a, n);
+  const double least = noise * *std::max_element(eigen.values.begin(), eigen.values.end());
+  std::vector<double> x(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (eigen.values[i] <= least) continue;
+    double along = 0;
+    for (std::size_t k = 0; k < n; ++k) along += eigen.vectors[i * n + k] * b[k];
+    for (std::size_t k = 0; k < n; ++k) x[k] += along / eigen.values[i] * eigen.vectors[i * n + k];
+  }
+  return x;
+}
+
+} // namespace
+
 ControlVariates::ControlVariates(std::span<const double> means)
-    : means_(Eigen::Map<const Eigen::VectorXd>(means.data(), static_cast<Eigen::Index>(means.size()))),
-      mean_(Eigen::VectorXd::Zero(means_.size() + 1)),
-      scatter_(Eigen::MatrixXd::Zero(means_.size() + 1, means_.size() + 1)) {
+    : means_(means.begin(), means.end()), mean_(means.size() + 1), scatter_(mean_.size() * mean_.size()) {
   require(!means.empty(), "ControlVariates: no controls; at least one is needed");
   for (std::size_t j = 0; j < means.size(); ++j)
     require(std::isfinite(means[j]), "ControlVariates: means[{}] = {} is not finite", j, means[j]);
 }
 
 void ControlVariates::add(double f, std::span<const double> g, std::uint64_t index) {
-  MC_ASSERT(static_cast<Eigen::Index>(g.size()) == means_.size());
-  Eigen::VectorXd x(mean_.size());
-  x[0] = f;
-  x.tail(means_.size()) = Eigen::Map<const Eigen::VectorXd>(g.data(), means_.size()) - means_;
-  if (!x.allFinite()) [[unlikely]] {
+  MC_ASSERT(g.size() == means_.size());
+  const std::size_t n = mean_.size();
+  std::vector<double> delta(n);
+  for (std::size_t i = 0; i < n; ++i) delta[i] = (i == 0 ? f : g[i - 1] - means_[i - 1]) - mean_[i];
+  if (!std::all_of(delta.begin(), delta.end(), [](double d) { return std::isfinite(d); })) [[unlikely]] {
     if (non_finite_++ == 0) witness_ = index;
     return;
   }
-  ++count_;
-  const Eigen::VectorXd delta = x - mean_;
-  mean_ += delta / static_cast<double>(count_);
-  scatter_ += delta * (x - mean_).transpose();
+  const double count = static_cast<double>(++count_);
+  for (std::size_t i = 0; i < n; ++i) mean_[i] += delta[i] / count;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) scatter_[i * n + j] += delta[i] * delta[j] * ((count - 1) / count);
 }
 
 void ControlVariates::merge(const ControlVariates& other) {
-  require(means_.size() == other.means_.size() && means_ == other.means_,
+  require(means_ == other.means_,
           "ControlVariates: merge of {} and {} controls of different means; they must be the same", means_.size(),
           other.means_.size());
   if (other.non_finite_ > 0 && non_finite_ == 0) witness_ = other.witness_;
   non_finite_ += other.non_finite_;
   if (other.count_ == 0) return;
-  const double a = static_cast<double>(count_), b = static_cast<double>(other.count_), n = a + b;
-  const Eigen::VectorXd delta = other.mean_ - mean_;
-  mean_ += delta * (b / n);
-  scatter_ += other.scatter_ + delta * delta.transpose() * (a * b / n);
+  const double a = static_cast<double>(count_), b = static_cast<double>(other.count_), total = a + b;
+  const std::size_t n = mean_.size();
+  std::vector<double> delta(n);
+  for (std::size_t i = 0; i < n; ++i) delta[i] = other.mean_[i] - mean_[i];
+  for (std::size_t i = 0; i < n; ++i) mean_[i] += delta[i] * (b / total);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      scatter_[i * n + j] += other.scatter_[i * n + j] + delta[i] * delta[j] * (a * b / total);
   count_ += other.count_;
 }
 
@@ -51,28 +114,45 @@ void ControlVariates::require_enough() const {
   require(count_ >= 2, "ControlVariates: {} values; at least 2 are needed", count_);
 }
 
-Eigen::VectorXd ControlVariates::coefficients() const {
+std::vector<double> ControlVariates::coefficients() const {
   require_enough();
   // In units of the standard deviations, so that the rank does not depend on how the controls are scaled.
-  const Eigen::Index k = means_.size();
-  const Eigen::VectorXd deviations = scatter_.diagonal().tail(k).cwiseSqrt();
-  const Eigen::VectorXd units = (deviations.array() > 0).select(deviations, 1.0).matrix();
-  const Eigen::MatrixXd correlations =
-      (units.cwiseInverse().asDiagonal() * scatter_.bottomRightCorner(k, k) * units.cwiseInverse().asDiagonal()).eval();
-  const Eigen::VectorXd with_f = scatter_.col(0).tail(k).cwiseQuotient(units);
-  return correlations.completeOrthogonalDecomposition().solve(with_f).cwiseQuotient(units);
+  const std::size_t n = mean_.size(), k = means_.size();
+  std::vector<double> units(k), correlations(k * k), with_f(k);
+  for (std::size_t i = 0; i < k; ++i) {
+    const double deviation = std::sqrt(scatter_[(i + 1) * n + i + 1]);
+    units[i] = deviation > 0 ? deviation : 1;
+  }
+  for (std::size_t i = 0; i < k; ++i) {
+    with_f[i] = scatter_[i + 1] / units[i];
+    for (std::size_t j = 0; j < k; ++j) correlations[i * k + j] = scatter_[(i + 1) * n + j + 1] / units[i] / units[j];
+  }
+  // A sum of `count` products is off by about epsilon sqrt(count).
+  const double noise =
+      static_cast<double>(k) * std::numeric_limits<double>::epsilon() * std::sqrt(static_cast<double>(count_));
+  std::vector<double> beta = shortest_solution(correlations, with_f, noise);
+  for (std::size_t i = 0; i < k; ++i) beta[i] /= units[i];
+  return beta;
 }
 
-Estimate ControlVariates::estimate(const Eigen::VectorXd& beta) const {
+Estimate ControlVariates::estimate(std::span<const double> beta) const {
   require_enough();
-  require(beta.size() == means_.size() && beta.allFinite(),
-          "ControlVariates: {} coefficients for {} controls; as many finite ones are needed", beta.size(),
-          means_.size());
-  Eigen::VectorXd c(mean_.size());
-  c << 1, -beta;
-  const double n = static_cast<double>(count_);
-  const double variance = std::max(0.0, c.dot(scatter_ * c)) / (n - 1);
-  return Estimate::student(c.dot(mean_), std::sqrt(variance / n), n - 1, count_);
+  require(
+      beta.size() == means_.size() && std::all_of(beta.begin(), beta.end(), [](double b) { return std::isfinite(b); }),
+      "ControlVariates: {} coefficients for {} controls; as many finite ones are needed", beta.size(), means_.size());
+  // The combination f - beta . g, in whose coordinates the variance is a quadratic form of the scatter.
+  const std::size_t size = mean_.size();
+  std::vector<double> c(size, 1.0);
+  std::transform(beta.begin(), beta.end(), c.begin() + 1, [](double b) { return -b; });
+  double value = 0, square = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    double row = 0;
+    for (std::size_t j = 0; j < size; ++j) row += scatter_[i * size + j] * c[j];
+    square += c[i] * row;
+    value += c[i] * mean_[i];
+  }
+  const double n = static_cast<double>(count_), variance = std::max(0.0, square) / (n - 1);
+  return Estimate::student(value, std::sqrt(variance / n), n - 1, count_);
 }
 
 Estimate cross_estimate(const ControlVariates& a, const ControlVariates& b) {

@@ -3,10 +3,9 @@
 
 #include <mc/estimate/estimate.h>
 
-#include <Eigen/Core>
-
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace mc {
 
@@ -29,16 +28,16 @@ class ControlVariates {
 
   std::uint64_t count() const { return count_; }
   std::uint64_t non_finite() const { return non_finite_; }
-  Eigen::VectorXd coefficients() const;
-  Estimate estimate(const Eigen::VectorXd& beta) const;
+  std::vector<double> coefficients() const;
+  Estimate estimate(std::span<const double> beta) const;
   /// Without controls, beta = 0.
-  Estimate plain() const { return estimate(Eigen::VectorXd::Zero(means_.size())); }
+  Estimate plain() const { return estimate(std::vector<double>(means_.size())); }
 
  private:
   void require_enough() const;
 
-  Eigen::VectorXd means_, mean_; ///< known means of g; sample means of (f, g - means_)
-  Eigen::MatrixXd scatter_;      ///< sum of products of deviations of (f, g)
+  std::vector<double> means_, mean_; ///< known means of g; sample means of (f, g - means_)
+  std::vector<double> scatter_;      ///< sums of products of deviations of (f, g): the symmetric matrix, row by row
   std::uint64_t count_ = 0, non_finite_ = 0, witness_ = 0;
 };
 

@@ -2,7 +2,6 @@
 /// Nested uniform scrambling.
 
 #include <cstdint>
-#include <type_traits>
 
 namespace mc {
 
@@ -14,19 +13,9 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
   return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
 }
 
-/// The same for 64 bits, or for two words of 32 at once, in few instructions: for one number at a time.
+/// The same for 64 bits, or for two words of 32 at once.
 constexpr std::uint64_t reverse_bits64(std::uint64_t x) {
   x = __builtin_bswap64(x);
-#ifdef __GFNI__
-  // A product by the 8x8 exchange matrix reverses each byte at once.
-  if (!std::is_constant_evaluated()) {
-    using Words [[gnu::vector_size(16)]] = long long;
-    using Bytes [[gnu::vector_size(16)]] = char;
-    const Words word{static_cast<long long>(x), 0}, exchange{static_cast<long long>(0x8040201008040201u), 0};
-    return static_cast<std::uint64_t>(reinterpret_cast<Words>(
-        __builtin_ia32_vgf2p8affineqb_v16qi(reinterpret_cast<Bytes>(word), reinterpret_cast<Bytes>(exchange), 0))[0]);
-  }
-#endif
   x = ((x & 0x0f0f0f0f0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0f0f0f0f0fu);
   x = ((x & 0x3333333333333333u) << 2) | ((x >> 2) & 0x3333333333333333u);
   return ((x & 0x5555555555555555u) << 1) | ((x >> 1) & 0x5555555555555555u);

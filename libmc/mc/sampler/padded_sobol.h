@@ -44,7 +44,7 @@ struct PaddedSobol {
   }
 
  private:
-  static std::uint32_t reversed(std::uint32_t x) { return static_cast<std::uint32_t>(reverse_bits64(x) >> 32); }
+  static std::uint32_t reversed(std::uint32_t x) { return reverse_bits(x); }
   static std::uint32_t shuffled(std::uint64_t index, std::uint64_t key) {
     return reversed(
         owen_scramble_reversed(reversed(static_cast<std::uint32_t>(index)), static_cast<std::uint32_t>(key)));

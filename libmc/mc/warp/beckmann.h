@@ -32,7 +32,7 @@ template <Real S> class BeckmannNormals {
   Domain domain() const { return {}; }
   Vec3<S> sample(const Vec2<S>& u) const {
     using std::log1p, std::sqrt;
-    const Vec2<S> slope = at_turn<S>(sqrt(S(-S(log1p(S(-u[0]))))), u[1]);
+    const Vec2<S> slope = polar_point<S>(sqrt(S(-S(log1p(S(-u[0]))))), u[1]);
     return Vec3<S>(alpha_x_ * slope.x(), alpha_y_ * slope.y(), S(1)).normalized();
   }
   S pdf(const Vec3<S>& m) const {

@@ -30,7 +30,7 @@ template <Real S> class BlinnPhong {
   Vec3<S> sample(const Vec2<S>& u) const {
     using std::exp, std::expm1, std::log1p, std::sqrt;
     const S log_cosine = S(log1p(S(-u[0]))) / (n_ + 1), t = -S(expm1(log_cosine));
-    return direction_at_turn<S>(S(sqrt(S(t * (2 - t)))), t < S(0.5) ? S(1 - t) : S(exp(log_cosine)), u[1]);
+    return polar_direction<S>(S(sqrt(S(t * (2 - t)))), t < S(0.5) ? S(1 - t) : S(exp(log_cosine)), u[1]);
   }
   S pdf(const Vec3<S>& w) const {
     using std::exp;

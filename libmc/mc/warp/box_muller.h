@@ -28,7 +28,7 @@ template <Real S> struct BoxMuller {
   Domain domain() const { return {{S(0), sigma}, {S(0), sigma}}; }
   Vec2<S> sample(const Vec2<S>& u) const {
     using std::log1p, std::sqrt;
-    return at_turn<S>(sigma * S(sqrt(S(-2 * S(log1p(S(-u[0])))))), u[1]);
+    return polar_point<S>(sigma * S(sqrt(S(-2 * S(log1p(S(-u[0])))))), u[1]);
   }
   S pdf(const Vec2<S>& p) const {
     using std::exp;

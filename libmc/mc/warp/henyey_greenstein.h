@@ -38,7 +38,7 @@ template <Real S> class HenyeyGreenstein {
     const S near = 2 * u[0] * sqr<S>(h_ * q) * (1 + g_ * v);    // 1 - cos
     const S far = 2 * v * sqr<S>((1 + g_) * q) * (h_ + g_ * v); // 1 + cos
     const S cosine = choose<S>(near < 1, 1 - near, far - 1);
-    return direction_at_turn<S>(S(sqrt(S(near * far))), front_ * cosine, u[1]);
+    return polar_direction<S>(S(sqrt(S(near * far))), front_ * cosine, u[1]);
   }
   S pdf(const Vec3<S>& w) const {
     using std::sqrt;

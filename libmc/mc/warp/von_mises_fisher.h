@@ -48,7 +48,7 @@ template <Real S> class VonMisesFisher {
       t = min(S(-S(log(S((1 - u[0]) + u[0] * tail_))) / kappa_), S(2));
       cosine = 1 - t;
     }
-    return direction_at_turn<S>(S(sqrt(S(t * (2 - t)))), cosine, u[1]);
+    return polar_direction<S>(S(sqrt(S(t * (2 - t)))), cosine, u[1]);
   }
   S pdf(const Vec3<S>& w) const {
     using std::exp;

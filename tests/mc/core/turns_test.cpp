@@ -58,8 +58,8 @@ TEST(Turns, QuartersAreExact) {
     EXPECT_EQ(cos_sin<double>(k / 4.0).cos, expected[k][0]) << k;
     EXPECT_EQ(cos_sin<double>(k / 4.0).sin, expected[k][1]) << k;
   }
-  EXPECT_EQ(at_turn<double>(3, 0.25), Vec2<double>(0, 3));
-  EXPECT_EQ(direction_at_turn<double>(0.6, 0.8, 0.5), Vec3<double>(-0.6, 0, 0.8));
+  EXPECT_EQ(polar_point<double>(3, 0.25), Vec2<double>(0, 3));
+  EXPECT_EQ(polar_direction<double>(0.6, 0.8, 0.5), Vec3<double>(-0.6, 0, 0.8));
 }
 
 } // namespace

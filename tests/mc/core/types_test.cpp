@@ -47,6 +47,15 @@ TEST(Types, DifferenceOfProductsDoesNotCancel) {
   EXPECT_LE(worst, 1.5);
 }
 
+// Whatever this file is compiled for: no vector asks for more than the 16 bytes that every x86-64 and ARM64 has.
+TEST(Types, VectorsAreLaidOutTheSameUnderAllFlags) {
+  static_assert(alignof(mc::Vec<double, 4>) == alignof(double) && sizeof(mc::Vec<double, 4>) == 32);
+  static_assert(alignof(mc::Vec<float, 8>) == alignof(float) && alignof(mc::Vec<double, 8>) == alignof(double));
+  static_assert(alignof(mc::Vec2<double>) <= 16 && alignof(mc::Vec<float, 4>) <= 16 &&
+                alignof(mc::Vec<double, 6>) <= 16);
+  static_assert(std::is_same_v<mc::Vec3<double>, Eigen::Vector3d>);
+}
+
 TEST(Types, TurnStaysInTheUnitInterval) {
   EXPECT_EQ(mc::turn(0.0f, 0.0f), 0.0f);
   EXPECT_EQ(mc::turn(0.0f, 1.0f), 0.25f);
