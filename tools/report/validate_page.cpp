@@ -1,5 +1,5 @@
-#include <validate_page_parts.h>
 #include <report/validate_page.h>
+#include <validate_page_parts.h>
 
 #include <algorithm>
 #include <bit>
