@@ -65,7 +65,7 @@ const Rooms allowed_rooms = closure({
     {"mc/core", {}},
     {"mc/random", {"mc/core"}},
     {"mc/domain", {"mc/core"}},
-    {"mc/warp", {"mc/domain", "mc/core"}},
+    {"mc/warp", {"mc/table", "mc/domain", "mc/core"}},
     {"mc/table", {"mc/domain", "mc/core"}},
     {"mc/sampler", {"mc/random"}},
     {"mc/stats", {"mc/core"}},

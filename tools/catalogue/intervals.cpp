@@ -7,10 +7,12 @@
 #include <mc/warp/power.h>
 #include <mc/warp/smoothstep.h>
 #include <mc/warp/tent.h>
+#include <mc/warp/uniform.h>
 
 namespace carlo {
 
 void add_intervals(Catalogue& c) {
+  add_warp(c, "UniformInterval", "lo=-3, hi=1", [](auto s) { return mc::UniformInterval<decltype(s)>(-3, 1); });
   for (const auto& [a, b] : {std::pair{0.0, 1.0}, {1.0, 0.0}, {1.0, 1.0}, {1e-6, 1.0}, {3.0, 2.0}})
     add_warp(c, "Linear", fmt::format("a={:g}, b={:g}", a, b),
              [a = a, b = b](auto s) {

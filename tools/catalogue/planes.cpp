@@ -1,12 +1,15 @@
 #include <catalogue/warp_case.h>
 
+#include <mc/table/discrete.h>
 #include <mc/warp/annulus.h>
 #include <mc/warp/bilinear.h>
 #include <mc/warp/box_muller.h>
 #include <mc/warp/disk.h>
+#include <mc/warp/mixture_n.h>
 #include <mc/warp/parallelogram.h>
 #include <mc/warp/product.h>
 #include <mc/warp/triangle.h>
+#include <mc/warp/uniform.h>
 
 namespace carlo {
 
@@ -27,6 +30,16 @@ void add_planes(Catalogue& c) {
       return mc::Bilinear<S>(S(w[0]), S(w[1]), S(w[2]), S(w[3]));
     });
   add_warp(c, "BoxMuller", "sigma=1", [](auto s) { return mc::BoxMuller<decltype(s)>{}; }, {.invert_eps = 8});
+  add_warp(c, "UniformBox", "a pixel", [](auto s) {
+    using S = decltype(s);
+    return mc::UniformBox<S, 2>(mc::Vec2<S>(S(-0.5), S(-0.5)), mc::Vec2<S>(S(0.5), S(0.5)));
+  });
+  add_warp(c, "Product", "2 x 2 tents", [](auto s) {
+    using S = decltype(s);
+    const mc::MixtureN axis(mc::Interval<S>(-1, 1), mc::UniformDiscrete<S>(2),
+                            std::vector<mc::Tent<S>>{{S(-0.25), S(0.5)}, {S(0.25), S(0.5)}});
+    return mc::Product(axis, axis);
+  });
   add_warp(c, "Product", "2-D tent", [](auto s) { return mc::Tent2D<decltype(s)>{}; }, {.invert_eps = 8});
   add_warp(c, "Product", "2-D normal", [](auto s) { return mc::Normal2D<decltype(s)>{}; });
 }

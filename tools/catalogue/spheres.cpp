@@ -1,8 +1,11 @@
 #include <catalogue/warp_case.h>
 
+#include <mc/table/table_dist_1d.h>
+#include <mc/warp/ball.h>
 #include <mc/warp/cone.h>
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/mixture.h>
+#include <mc/warp/mixture_n.h>
 #include <mc/warp/rotated.h>
 #include <mc/warp/sphere.h>
 
@@ -21,6 +24,14 @@ void add_spheres(Catalogue& c) {
       return mc::Mixture(std::array<S, 2>{S(weight), S(1 - weight)}, mc::UniformHemisphere<S>{},
                          mc::CosineHemisphere<S>{});
     });
+  add_warp(c, "MixtureN", "3 cones", [](auto s) {
+    using S = decltype(s);
+    std::vector<mc::Rotated<mc::UniformCone<S>>> parts;
+    for (const auto& axis : {mc::Vec3<S>(0, 0, 1), mc::Vec3<S>(S(0.6), S(-0.8), 0), mc::Vec3<S>(0, S(0.6), S(0.8))})
+      parts.emplace_back(mc::UniformCone<S>::from_angle(S(0.5)), axis);
+    return mc::MixtureN(mc::Sphere<S>{}, mc::TableDist1D<S>(std::vector<double>{1, 5, 2}), parts);
+  });
+  add_warp(c, "UniformBall", "", [](auto s) { return mc::UniformBall<decltype(s)>{}; }, {.invert_eps = 8});
   add_warp(c, "Rotated", "cosine about (0.6, -0.8, 0)",
            [](auto s) {
              using S = decltype(s);

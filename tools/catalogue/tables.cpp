@@ -1,6 +1,7 @@
 #include <catalogue/warp_case.h>
 
 #include <mc/table/alias_table.h>
+#include <mc/table/discrete.h>
 #include <mc/table/table_dist_1d.h>
 #include <mc/table/table_dist_2d.h>
 
@@ -71,6 +72,12 @@ void add_tables(Catalogue& c) {
   }
   add_discrete(c, "TableDist1D", "outcomes of weight 1e-30 to 1e30, n=1000", "double",
                mc::TableDist1D<double>(extreme(1000)));
+  for (const std::size_t n : {1, 3, 1000}) {
+    add_discrete(c, "UniformDiscrete", fmt::format("n={}", n), "float", mc::UniformDiscrete<float>(n));
+    add_discrete(c, "UniformDiscrete", fmt::format("n={}", n), "double", mc::UniformDiscrete<double>(n));
+  }
+  add_discrete(c, "Bernoulli", "p=0.3", "float", mc::Bernoulli<float>(0.3f));
+  add_discrete(c, "Bernoulli", "p=0.3", "double", mc::Bernoulli<double>(0.3));
   add_warp(c, "TableDist2D", "24x10", [](auto s) { return mc::TableDist2D<decltype(s)>(jagged(240), 24, 10); });
   add_warp(c, "TableDist2D", "128x64 with a sun",
            [](auto s) { return mc::TableDist2D<decltype(s)>(sky(128, 64), 128, 64); });

@@ -4,6 +4,7 @@
 #include <mc/core/error.h>
 #include <mc/warp/concept.h>
 
+#include <algorithm>
 #include <array>
 #include <tuple>
 
@@ -25,13 +26,15 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
   Mixture(const std::array<Scalar, size>& weights, First first, Rest... rest)
       : weights_(weights), warps_(std::move(first), std::move(rest)...) {
     using std::isfinite;
-    Scalar sum(0);
+    Scalar largest(0), sum(0);
     for (std::size_t i = 0; i < size; ++i) {
       require(isfinite(weights_[i]) && weights_[i] >= 0, "Mixture: weights[{}] = {} is not finite and >= 0", i,
               static_cast<double>(weights_[i]));
-      sum += weights_[i];
+      largest = std::max(largest, weights_[i]);
     }
-    require(sum > 0, "Mixture: all {} weights are 0; at least one must be > 0", size);
+    require(largest > 0, "Mixture: all {} weights are 0; at least one must be > 0", size);
+    // Relative to the largest first: the sum of weights near the largest number would overflow.
+    for (Scalar& w : weights_) sum += w /= largest;
     for (Scalar& w : weights_) w /= sum;
   }
 

@@ -28,11 +28,10 @@ template <Real S> struct Tent {
 
   Domain domain() const { return {center - radius, center + radius}; }
   S sample(S u) const {
-    using std::sqrt;
+    using std::copysign, std::min, std::sqrt;
     // Distance from the near end is radius sqrt(2 u): no cancellation, and never 0 at u = 0.
-    const S tail = u < S(0.5) ? u : S(1 - u);
-    const S r = radius * (1 - S(sqrt(S(2 * tail))));
-    return u < S(0.5) ? S(center - r) : S(center + r);
+    const S r = radius * (1 - S(sqrt(S(2 * min(u, S(1 - u))))));
+    return center + S(copysign(r, S(u - S(0.5)))); // by the sign: a jump on u is never predicted
   }
   S pdf(S x) const {
     using std::abs, std::max;

@@ -57,6 +57,30 @@ TYPED_TEST(Mis, WeightsOfAHundredTechniquesSumToOne) {
   }
 }
 
+// The closed forms for two techniques are the general weights: zeros, deltas and counts of 0 too, to 4 eps.
+TYPED_TEST(Mis, TwoTechniquesWeighAsManyDo) {
+  using S = TypeParam;
+  using H = mc::Heuristic<S>;
+  using Limits = std::numeric_limits<S>;
+  const S eps = Limits::epsilon();
+  std::vector<S> densities = {S(0), Limits::denorm_min(), S(1e-30), S(1), S(1e30), Limits::max(), Limits::infinity()};
+  mc::Pcg random(5);
+  for (int k = 0; k < 60; ++k) densities.push_back(S(std::pow(10.0, 60 * random.uniform<double>() - 30)));
+  for (const S f : densities)
+    for (const S g : densities)
+      for (const S n_f : {S(0), S(0.3), S(1), S(64)})
+        for (const S n_g : {S(0), S(0.7), S(1), S(16)}) {
+          const std::vector<S> p = {f, g}, n = {n_f, n_g};
+          const auto where = [&] { return fmt::format("f {} g {} n {} {}", f, g, n_f, n_g); };
+          EXPECT_LE(std::abs(mc::balance_heuristic(n_f, f, n_g, g) - mc::mis_weight<S>(0, p, n, H::balance())), 4 * eps)
+              << where();
+          EXPECT_LE(std::abs(mc::power_heuristic(n_f, f, n_g, g) - mc::mis_weight<S>(0, p, n, H::power(2))), 4 * eps)
+              << where();
+        }
+  EXPECT_NEAR(mc::power_heuristic(S(3), S(1)), S(0.9), eps);
+  EXPECT_EQ(mc::balance_heuristic(S(3), S(1)), S(0.75));
+}
+
 TYPED_TEST(Mis, HeuristicsAsVeachDefinesThem) {
   using S = TypeParam;
   using H = mc::Heuristic<S>;

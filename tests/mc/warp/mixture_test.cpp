@@ -31,6 +31,18 @@ TEST(Mixture, ThreeComponentsInOneDimension) {
   EXPECT_WARP_LAWS(mixture, {.samples = 50'000, .pdf_eps = 16});
 }
 
+TEST(Mixture, WeightsMayBeAsLargeOrSmallAsTheScalarGoes) {
+  const float huge = std::numeric_limits<float>::max(), tiny = std::numeric_limits<float>::denorm_min();
+  const Vec3<float> z(0, 0, 1);
+  for (const float w : {tiny, 1e-40f, 3e38f, huge}) {
+    const auto mixture = half_and_half(w, w);
+    EXPECT_EQ(mixture.pdf(z), half_and_half(1.0f, 1.0f).pdf(z)) << w;
+    EXPECT_TRUE(mixture.sample({one_minus_epsilon<float>, 0.5f}).allFinite()) << w;
+  }
+  for (const auto& mixture : {half_and_half(tiny, huge), half_and_half(huge, tiny)})
+    for (const float u : {0.0f, one_minus_epsilon<float>}) EXPECT_GT(mixture.pdf(mixture.sample({u, 0.5f})), 0);
+}
+
 TEST(Mixture, RefusesNonsense) {
   EXPECT_THROW(half_and_half(0.0, 0.0), Error);
   EXPECT_THROW(half_and_half(-1.0, 2.0), Error);

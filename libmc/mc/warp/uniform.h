@@ -1,0 +1,53 @@
+#pragma once
+/// Uniform distributions on intervals and boxes.
+
+#include <mc/domain/box.h>
+#include <mc/domain/interval.h>
+#include <mc/warp/concept.h>
+
+namespace mc {
+
+/// Uniform numbers of [lo, hi].
+///   sample : x = lo + u (hi - lo), never above hi
+///   pdf    : 1 / (hi - lo) [1/length]; 0 outside
+///   invert : |invert(sample(u)) - u| <= 4 eps max(|lo|, |hi|) / (hi - lo): the rounding of x
+///   throws : Error unless lo < hi, both finite, and hi - lo too
+template <Real S> struct UniformInterval {
+  using Scalar = S;
+  using Domain = Interval<S>;
+
+  Domain interval;
+
+  UniformInterval() = default;
+  UniformInterval(S lo, S hi) : interval(lo, hi) {}
+
+  Domain domain() const { return interval; }
+  S sample(S u) const { return interval.lo + u * (interval.hi - interval.lo); }
+  S pdf(S x) const { return interval.contains(x) ? S(1 / interval.jacobian(x)) : S(0); }
+  S invert(S x) const { return interval.to_unit(x); }
+  template <Real T> UniformInterval<T> cast() const { return {T(interval.lo), T(interval.hi)}; }
+};
+
+/// Uniform points of an axis-aligned box, the coordinates of u along its sides.
+///   sample : x = lo + u (hi - lo), never above hi
+///   pdf    : 1 / volume [1/area, 1/volume]; 0 outside
+///   invert : |invert(sample(u)) - u| <= 4 eps max(|lo|, |hi|) / (hi - lo) in each coordinate
+///   throws : Error unless lo < hi, both finite, in each coordinate, and the volume is positive and finite
+template <Real S, int N> struct UniformBox {
+  using Scalar = S;
+  using Domain = Box<S, N>;
+  using Point = Vec<S, N>;
+
+  Domain box;
+
+  UniformBox() = default;
+  UniformBox(const Point& lo, const Point& hi) : box(lo, hi) {}
+
+  Domain domain() const { return box; }
+  Point sample(const Point& u) const { return box.lo + u.cwiseProduct(box.hi - box.lo); }
+  S pdf(const Point& x) const { return box.contains(x) ? S(1 / box.jacobian(x)) : S(0); }
+  Point invert(const Point& x) const { return box.to_unit(x); }
+  template <Real T> UniformBox<T, N> cast() const { return {cast_point<T>(box.lo), cast_point<T>(box.hi)}; }
+};
+
+} // namespace mc
