@@ -4,8 +4,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/text.h>
-
-#include <boost/math/distributions/students_t.hpp>
+#include <mc/stats/t_test.h>
 
 #include <array>
 #include <cmath>
@@ -131,10 +130,9 @@ class Comparison {
     if (variance > 0) {
       t = excess / std::sqrt(variance);
       const double va = cell.variance_a, vb = cell.variance_b;
-      const double welch =
-          va + vb > 0 ? pooled * mc::sqr(va + vb) / (va * va / noise_a_.dof + vb * vb / noise_b_.dof) : pooled;
+      const double welch = va + vb > 0 ? pooled * mc::welch_dof(va, noise_a_.dof, vb, noise_b_.dof) : pooled;
       const double dof = pooled > 1 ? welch : std::min(welch, 3.0);
-      p = 2 * cdf(complement(boost::math::students_t(dof), t));
+      p = mc::student_tail(t, dof);
     }
     if (p < worst.p || (p == worst.p && t > worst.t)) worst = {p, t, difference, std::sqrt(variance), x, y, c};
   }

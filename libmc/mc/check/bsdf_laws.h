@@ -6,6 +6,7 @@
 #include <mc/check/laws/timing.h>
 #include <mc/check/subject/make_subject.h>
 #include <mc/domain/sphere.h>
+#include <mc/estimate/moments.h>
 #include <mc/stats/t_test.h>
 
 namespace mc {

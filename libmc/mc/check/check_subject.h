@@ -1,6 +1,7 @@
 #pragma once
 /// The laws of anything that draws points with a claimed density.
 
+#include <mc/check/fit/pilot.h>
 #include <mc/check/report/report.h>
 #include <mc/check/subject/subject.h>
 
@@ -21,15 +22,11 @@ struct SubjectOptions {
 ///                allowed)
 ///   counts     : all tests of cell_tests.h on cells adapted to the density
 ///   inverted   : the sampler's own inverse, where it has one, makes the first 131072 samples uniform (uniformity.h)
-///   atoms      : the narrowest crowd of pilot samples on each axis, counted anew, against the mass of its slab
+///   atoms      : the place on each axis where most pilot samples agree, counted anew, against the mass of its slab
 ///   gaps       : the widest gap between pilot samples inside each axis and at its ends, likewise
 ///   detection  : the report states the smallest errors it would have caught with probability .99
 ///   throws     : Error when samples < 1000, or alpha is not in (0, 1)
 Report check_subject(const Subject& subject, const SubjectOptions& options = {});
-
-/// Samples that make the bins: an eighth of those that are counted, at least 1000, at most 2^20, which is 256 for each
-/// of 4096 cells.
-std::uint64_t pilot_samples(std::uint64_t samples);
 
 /// Samples at which check_subject catches a density whose relative error is `error`, of random sign from cell to cell,
 /// with probability .99 at family-wise alpha. Throws Error unless 0 < error and 0 < alpha < 1.

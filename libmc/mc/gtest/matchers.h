@@ -10,6 +10,7 @@
 #include <mc/check/bsdf_laws.h>
 #include <mc/check/laws.h>
 #include <mc/core/error.h>
+#include <mc/estimate/moments.h>
 #include <mc/stats/t_test.h>
 
 #include <gtest/gtest.h>

@@ -19,9 +19,6 @@ double normal_quantile(double p);
 ///   error : 2 %; exact up to 20 degrees of freedom, beyond by Patnaik's approximation [Patnaik49]
 double chi_square_noncentrality(double dof, double level, double power);
 
-/// P(X <= k) and P(X >= k) doubled, the smaller of the two, at most 1: exact two-sided tail of X ~ Binomial(n, p).
-double binomial_tail(std::uint64_t k, std::uint64_t n, double p);
-
 struct ChiSquare {
   double statistic = 0;
   double dof = 0; ///< cells after pooling - 1

@@ -1,5 +1,8 @@
-#include <mc/core/error.h>
 #include <mc/stats/t_test.h>
+
+#include <mc/core/error.h>
+#include <mc/core/types.h>
+#include <mc/estimate/moments.h>
 
 #include <boost/math/distributions/students_t.hpp>
 
@@ -21,10 +24,19 @@ TTest t_test(const Moments& moments, double value, double alpha) {
     return result;
   }
   result.t = (e.value - value) / error;
-  result.p = 2 * boost::math::cdf(boost::math::complement(student, std::abs(result.t)));
+  result.p = student_tail(result.t, e.dof);
   result.detectable = error * (boost::math::quantile(boost::math::complement(student, alpha / 2)) +
                                boost::math::quantile(student, 0.99));
   return result;
+}
+
+double welch_dof(double variance_a, double dof_a, double variance_b, double dof_b) {
+  const double sum = variance_a + variance_b; // a share of it does not underflow when squared
+  return sum > 0 ? 1 / (sqr(variance_a / sum) / dof_a + sqr(variance_b / sum) / dof_b) : dof_a + dof_b;
+}
+
+double student_tail(double t, double dof) {
+  return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(dof), std::abs(t)));
 }
 
 } // namespace mc

@@ -1,9 +1,9 @@
 #pragma once
-/// Student's test of a mean against a known value.
-
-#include <mc/estimate/moments.h>
+/// Student's test of a mean against a known value, and Welch's degrees of freedom for the difference of two means.
 
 namespace mc {
+
+class Moments;
 
 struct TTest {
   double t = 0;          ///< (mean - value) / standard error
@@ -17,5 +17,13 @@ struct TTest {
 ///            1
 ///   Source : [Student08]
 TTest t_test(const Moments& moments, double value, double alpha = 0.01);
+
+/// Degrees of freedom behind the sum of two variances, each estimated with its own.
+///   error : that of Satterthwaite's approximation; exact where one variance is 0. dof_a + dof_b where both are
+///   Source : [Welch47]
+double welch_dof(double variance_a, double dof_a, double variance_b, double dof_b);
+
+/// P(|T| > |t|) for Student's T with `dof` degrees of freedom.
+double student_tail(double t, double dof);
 
 } // namespace mc

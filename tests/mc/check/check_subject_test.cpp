@@ -206,10 +206,4 @@ TEST(CheckSubject, OutcomesAreEvidenceToo) {
   EXPECT_THAT(r.to_string(), testing::HasSubstr("outcome 1: observed 5"));
 }
 
-TEST(CheckSubject, ThePilotIsAnEighthWithinBounds) {
-  EXPECT_EQ(mc::pilot_samples(2000), 1000u);
-  EXPECT_EQ(mc::pilot_samples(1'000'000), 125'000u);
-  EXPECT_EQ(mc::pilot_samples(100'000'000), 1u << 20);
-}
-
 } // namespace

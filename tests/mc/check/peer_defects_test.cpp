@@ -2,6 +2,7 @@
 // it let pass, and must not pass here. Samplers that must be rejected are among the mutants.
 
 #include <mc/core/error.h>
+#include <mc/estimate/moments.h>
 #include <mc/random/pcg.h>
 #include <mc/stats/chi_square.h>
 #include <mc/stats/t_test.h>

@@ -22,14 +22,6 @@ TEST(ChiSquare, NoncentralityOfTheWantedPower) {
   EXPECT_NEAR(mc::chi_square_noncentrality(1, 0.01, 0.99), 24.0, 0.02 * 24.0);
 }
 
-TEST(ChiSquare, BinomialTailsAreExact) {
-  EXPECT_NEAR(mc::binomial_tail(0, 10, 0.5), 2.0 / 1024, 1e-15);
-  EXPECT_NEAR(mc::binomial_tail(9, 10, 0.5), 22.0 / 1024, 1e-15);
-  EXPECT_EQ(mc::binomial_tail(5, 10, 0.5), 1);
-  EXPECT_EQ(mc::binomial_tail(1, 10, 0), 0);
-  EXPECT_EQ(mc::binomial_tail(0, 10, 0), 1);
-}
-
 TEST(ChiSquare, StatisticByHand) {
   const auto r = mc::chi_square({10, 20, 30}, {20, 20, 20});
   EXPECT_DOUBLE_EQ(r.statistic, 10);

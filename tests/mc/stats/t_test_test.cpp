@@ -1,6 +1,7 @@
 #include <mc/stats/t_test.h>
 
 #include <mc/core/error.h>
+#include <mc/estimate/moments.h>
 #include <mc/random/pcg.h>
 
 #include <gtest/gtest.h>
@@ -37,6 +38,15 @@ TEST(TTest, RejectsAtTheRateOfAlphaAndCatchesWhatItSays) {
   EXPECT_GE(rejected, 25);
   EXPECT_LE(rejected, 80);
   EXPECT_GE(caught, 970);
+}
+
+TEST(TTest, WelchsDegreesOfFreedom) {
+  EXPECT_NEAR(mc::welch_dof(1, 10, 1, 10), 20, 1e-12);
+  EXPECT_NEAR(mc::welch_dof(2, 7, 0, 99), 7, 1e-12);
+  EXPECT_NEAR(mc::welch_dof(1, 4, 3, 6), 16 / (1 / 4.0 + 9 / 6.0), 1e-12);
+  EXPECT_NEAR(mc::welch_dof(1e-300, 4, 3e-300, 6), 16 / (1 / 4.0 + 9 / 6.0), 1e-12);
+  EXPECT_EQ(mc::welch_dof(0, 4, 0, 6), 10);
+  EXPECT_NEAR(mc::student_tail(-1, 1), 0.5, 1e-12);
 }
 
 TEST(TTest, RefusesNonsense) {

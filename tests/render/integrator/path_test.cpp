@@ -1,6 +1,7 @@
 #include <render/integrator/path.h>
 
 #include <mc/core/error.h>
+#include <mc/estimate/moments.h>
 #include <mc/stats/t_test.h>
 
 #include <gmock/gmock.h>

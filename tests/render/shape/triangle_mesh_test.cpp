@@ -1,6 +1,7 @@
 #include <render/shape/triangle_mesh.h>
 
 #include <mc/core/error.h>
+#include <mc/estimate/moments.h>
 #include <mc/random/pcg.h>
 #include <mc/stats/t_test.h>
 

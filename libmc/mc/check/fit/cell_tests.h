@@ -22,8 +22,8 @@ struct CellTests {
   double detectable = 0, detectable_cell = 0; ///< see Report
 };
 
-/// Tests counts against probabilities, given their sum (atoms are cells of their own, at the end). Spends 0.91 of
-/// alpha.
+/// Tests counts against probabilities, given their sum (atoms are cells of their own, at the end). Spends the shares
+/// of alpha_shares.h.
 ///   chi-square : the cells form a binary tree in their order; at each node the split of its count between its halves
 ///   is
 ///                binomial and independent of all other nodes, so the levels give independent chi-squares, each
@@ -35,6 +35,6 @@ struct CellTests {
 /// The bound on the quadrature error moves each statistic in favour of the sampler before it may reject; where that
 /// matters, or the bound alone would be an effect worth finding, the verdict is inconclusive.
 ///   dim : axes with ranks, 0 to 3;  cells expecting less than 8 are pooled with their neighbours in order
-CellTests test_cells(std::vector<Cell> cells, int dim, double alpha);
+CellTests test_cells(const std::vector<Cell>& cells, int dim, double alpha);
 
 } // namespace mc

@@ -1,6 +1,11 @@
 #include <mc/check/fit/slabs.h>
 
+#include <mc/check/fit/alpha_shares.h>
 #include <mc/check/fit/cubature.h>
+#include <mc/stats/binomial.h>
+#include <mc/stats/multiple_testing.h>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,16 +15,19 @@ namespace mc {
 namespace {
 
 // The place on an axis where most samples share one value, up to rounding.
-bool find_crowd(const Subject& s, const std::vector<Subject::Coordinates>& pilot, const std::vector<double>& v,
-                Slab& slab) {
+bool find_atom(const Subject& s, const std::vector<Subject::Coordinates>& pilot, const std::vector<double>& v,
+               Slab& slab) {
   const std::size_t axis = slab.axis;
   const auto width = [&](double a) { return 64 * s.epsilon * std::abs(a) + 1e-300; };
   double at = 0;
   for (std::size_t i = 0, j = 0; i < v.size(); ++i) {
     while (j < v.size() && v[j] <= v[i] + width(v[i])) ++j;
-    if (j - i > slab.pilot) slab.pilot = j - i, at = v[i];
+    if (j - i > slab.pilot_count) {
+      slab.pilot_count = j - i;
+      at = v[i];
+    }
   }
-  if (slab.pilot < 4) return false;
+  if (slab.pilot_count < 4) return false;
   double blur = width(at);
   if (s.resolution) {
     int seen = 0;
@@ -96,19 +104,20 @@ std::vector<Slab> suspect_slabs(const Subject& s, const std::vector<Subject::Coo
     slabs.push_back(std::move(slab));
   };
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
-    Slab crowd;
-    crowd.axis = axis;
-    if (find_crowd(s, pilot, sorted[axis], crowd)) add(std::move(crowd));
+    Slab atom;
+    atom.axis = axis;
+    if (find_atom(s, pilot, sorted[axis], atom)) add(std::move(atom));
     for (const Place place : {Place::low_end, Place::inside, Place::high_end}) {
       Slab gap;
-      gap.kind = Slab::Kind::gap, gap.axis = axis;
+      gap.kind = Slab::Kind::gap;
+      gap.axis = axis;
       if (find_gap(s, sorted[axis], place, gap) && !is_rounding(s, pilot, gap)) add(std::move(gap));
     }
   }
   return slabs;
 }
 
-void weigh(const Subject& s, std::vector<Slab>& slabs, double n, std::size_t max_evaluations) {
+void integrate_slabs(const Subject& s, std::vector<Slab>& slabs, double n, std::size_t max_evaluations) {
   for (Slab& slab : slabs) {
     CubatureGoal goal;
     goal.total_error = 0.1 / n;
@@ -117,8 +126,46 @@ void weigh(const Subject& s, std::vector<Slab>& slabs, double n, std::size_t max
     };
     goal.max_evaluations = max_evaluations;
     const auto [value, error] = integrate_boxes(s.density, s.dim, slab.pieces, goal).total;
-    slab.mass = value, slab.error = error;
+    slab.mass = value;
+    slab.error = error;
   }
+}
+
+Check test_slabs(const Subject& s, Slab::Kind kind, const std::vector<Slab>& slabs, double n, double mass,
+                 double alpha) {
+  const bool atom = kind == Slab::Kind::atom;
+  Check c{atom ? "no atoms" : "no gaps",
+          Verdict::pass,
+          1.0,
+          alpha_share(atom ? FitTest::atoms : FitTest::gaps, s.dim),
+          0,
+          0,
+          atom ? Fault::atom : Fault::local,
+          {}};
+  const double family = atom ? s.dim : 3 * s.dim;
+  double least_sure = 1; // p where the error of the mass is conceded
+  for (const Slab& slab : slabs) {
+    if (slab.kind != kind) continue;
+    const double share = static_cast<double>(slab.observed) / n, claimed = atom ? slab.mass : slab.mass / mass;
+    if (atom ? share <= claimed : share >= claimed) continue;
+    const double conceded = atom ? std::min(claimed + slab.error, share) : std::max(claimed - slab.error, share);
+    const auto tail = [&](double p) {
+      return sidak(binomial_tail(slab.observed, static_cast<std::uint64_t>(n), std::min(p, 1.0)), family);
+    };
+    least_sure = std::min(least_sure, tail(conceded));
+    const bool material = n * slab.error > 0.5 * std::sqrt(std::max(n * claimed, 1.0));
+    const double p = tail(material ? claimed : conceded);
+    if (p >= *c.p) continue;
+    c.p = p;
+    c.statistic = static_cast<double>(slab.observed);
+    c.detail = fmt::format("{} samples, {:.3g} expected, with coordinate {} of the chart in [{:.17g}, {:.17g}]",
+                           slab.observed, n * claimed, slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis]);
+  }
+  const double level = sidak_level(alpha, c.share);
+  if (least_sure <= level) c.verdict = Verdict::fail;
+  else if (*c.p <= level) c.verdict = Verdict::inconclusive;
+  if (c.verdict == Verdict::pass) c.detail.clear();
+  return c;
 }
 
 } // namespace mc

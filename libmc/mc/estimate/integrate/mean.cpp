@@ -1,5 +1,6 @@
-#include <mc/core/types.h>
 #include <mc/estimate/integrate/mean.h>
+
+#include <mc/stats/t_test.h>
 
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -10,10 +11,7 @@
 
 namespace mc::detail {
 
-double welch(const Mean& a, const Mean& b) {
-  const double sum = a.variance + b.variance; // a share of it does not underflow when squared
-  return sum > 0 ? 1 / (sqr(a.variance / sum) / a.dof + sqr(b.variance / sum) / b.dof) : a.dof + b.dof;
-}
+double welch(const Mean& a, const Mean& b) { return welch_dof(a.variance, a.dof, b.variance, b.dof); }
 
 std::optional<double> deviate(const Mean& a, const Mean& b) {
   const double error = std::sqrt(a.variance + b.variance);

@@ -13,7 +13,7 @@ namespace {
 
 using Kind = mc::Slab::Kind;
 
-// The slabs of 20000 samples on [0,1], weighed by the uniform density.
+// The slabs of 20000 samples on [0,1], with the mass of the uniform density.
 template <class Sampler> std::vector<mc::Slab> slabs(Sampler sampler) {
   const mc::Subject s = make_subject("slabs", mc::Interval<double>(0, 1), sampler, [](double) { return 1.0; });
   std::vector<mc::Subject::Draw> draws;
@@ -23,7 +23,7 @@ template <class Sampler> std::vector<mc::Slab> slabs(Sampler sampler) {
   for (const auto& d : draws) pilot.push_back(d.v), sorted[0].push_back(d.v[0]);
   std::sort(sorted[0].begin(), sorted[0].end());
   std::vector<mc::Slab> found = suspect_slabs(s, pilot, sorted);
-  weigh(s, found, 1e6, 1'000'000);
+  integrate_slabs(s, found, 1e6, 1'000'000);
   return found;
 }
 
@@ -31,14 +31,14 @@ TEST(Slabs, UniformSamplesAreNotSuspect) {
   EXPECT_TRUE(slabs([](mc::Pcg& r) { return r.uniform<double>(); }).empty());
 }
 
-TEST(Slabs, AClampIsACrowd) {
+TEST(Slabs, AClampIsAnAtom) {
   const auto found = slabs([](mc::Pcg& r) { return std::max(r.uniform<double>(), 1e-3); });
-  const auto crowd = std::find_if(found.begin(), found.end(), [](const mc::Slab& s) { return s.kind == Kind::crowd; });
-  ASSERT_NE(crowd, found.end());
-  EXPECT_LE(crowd->box.lo[0], 1e-3);
-  EXPECT_GE(crowd->box.hi[0], 1e-3);
-  EXPECT_LE(crowd->mass, 1e-12);
-  EXPECT_GE(crowd->pilot, 8u); // 20 expected; fewer than 8 once in 1000 seeds
+  const auto atom = std::find_if(found.begin(), found.end(), [](const mc::Slab& s) { return s.kind == Kind::atom; });
+  ASSERT_NE(atom, found.end());
+  EXPECT_LE(atom->box.lo[0], 1e-3);
+  EXPECT_GE(atom->box.hi[0], 1e-3);
+  EXPECT_LE(atom->mass, 1e-12);
+  EXPECT_GE(atom->pilot_count, 8u); // 20 expected; fewer than 8 once in 1000 seeds
 }
 
 // Holes of 0.004, each 80 spacings wide.

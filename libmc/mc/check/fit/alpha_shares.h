@@ -1,0 +1,38 @@
+#pragma once
+/// How the tests of check_subject share the family-wise alpha.
+
+#include <algorithm>
+#include <array>
+
+namespace mc {
+
+/// The statistical tests of a subject. Where one is made several times (per axis, per level of the tree, per pair of
+/// axes) its share is divided evenly among them.
+enum class FitTest { chi_square, single_cells, tails, ks, correlation, atoms, gaps, failures, inverse };
+
+struct AlphaShare {
+  FitTest test;
+  double discrete, one_axis, more_axes; ///< share of alpha for subjects without axes, with one, with two or three
+};
+
+/// The scores (tails) are the most powerful against the faults that samplers have.
+inline constexpr std::array<AlphaShare, 9> alpha_shares{{
+    {FitTest::chi_square, 0.61, 0.26, 0.26},
+    {FitTest::single_cells, 0.30, 0.15, 0.15},
+    {FitTest::tails, 0, 0.30, 0.30},
+    {FitTest::ks, 0, 0.20, 0.14},
+    {FitTest::correlation, 0, 0, 0.06},
+    {FitTest::atoms, 0, 0.03, 0.03},
+    {FitTest::gaps, 0, 0.02, 0.02},
+    {FitTest::failures, 0.03, 0.03, 0.03},
+    {FitTest::inverse, 0, 0.01, 0.01},
+}};
+
+/// The share of alpha that a test spends on a subject with `dim` axes, all its repetitions together.
+constexpr double alpha_share(FitTest test, int dim) {
+  for (const AlphaShare& s : alpha_shares)
+    if (s.test == test) return dim == 0 ? s.discrete : dim == 1 ? s.one_axis : s.more_axes;
+  return 0;
+}
+
+} // namespace mc

@@ -1,0 +1,115 @@
+#include <mc/check/fit/draw_tally.h>
+
+#include <mc/core/error.h>
+#include <mc/random/hash.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mc {
+namespace {
+
+using Kind = Subject::Draw::Kind;
+
+constexpr std::size_t chunk = 1 << 15;
+
+void note(DrawTally::Broken& b, std::uint64_t seed, std::uint64_t index) {
+  if (b.count++ == 0) {
+    b.seed = seed;
+    b.index = index;
+  }
+}
+
+// Whether the draw is a point or an outcome at all.
+bool is_sample(const Subject::Draw& d, std::uint64_t seed, std::uint64_t index, DrawTally& tally) {
+  switch (d.kind) {
+  case Kind::failed: note(tally.failed, seed, index); return false;
+  case Kind::outside: note(tally.outside, seed, index); return false;
+  case Kind::not_finite: note(tally.not_finite, seed, index); return false;
+  case Kind::atom:
+    if (d.atom >= 0 && static_cast<std::size_t>(d.atom) < tally.atoms.size()) return true;
+    note(tally.outside, seed, index);
+    return false;
+  case Kind::point: return true;
+  }
+  return false;
+}
+
+} // namespace
+
+DrawTally draw_samples(const Subject& s, std::uint64_t seed, std::uint64_t n,
+                       const std::function<void(const Subject::Coordinates& v)>& point,
+                       const std::function<void(const DrawTally& so_far)>& before) {
+  DrawTally tally;
+  tally.atoms.assign(s.atoms.size(), 0);
+  std::vector<Subject::Draw> draws;
+  for (std::uint64_t first = 0; first < n; first += chunk) {
+    const std::uint64_t stream = hash(seed, first / chunk);
+    draws.clear();
+    s.draw(stream, static_cast<std::size_t>(std::min<std::uint64_t>(chunk, n - first)), draws);
+    require(!draws.empty(), "{}: it draws no samples", s.name);
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+      const Subject::Draw& d = draws[i];
+      if (before) before(tally);
+      ++tally.draws;
+      if (!is_sample(d, stream, i, tally)) continue;
+      if (!d.pdf_positive) note(tally.leak, stream, i);
+      const double off = std::abs(d.weight - 1);
+      if (!(off <= s.weight_tolerance)) note(tally.weight, stream, i);
+      if (!(off <= tally.worst_weight)) tally.worst_weight = off;
+      if (d.kind == Kind::atom) ++tally.atoms[static_cast<std::size_t>(d.atom)];
+      else point(d.v);
+    }
+  }
+  return tally;
+}
+
+DrawTally merged(DrawTally a, const DrawTally& b) {
+  const auto merge = [](DrawTally::Broken& x, const DrawTally::Broken& y) {
+    const std::uint64_t count = x.count + y.count;
+    if (x.count == 0) x = y;
+    x.count = count;
+  };
+  merge(a.failed, b.failed);
+  merge(a.outside, b.outside);
+  merge(a.not_finite, b.not_finite);
+  merge(a.leak, b.leak);
+  merge(a.weight, b.weight);
+  a.worst_weight = std::max(a.worst_weight, b.worst_weight);
+  a.draws += b.draws;
+  return a;
+}
+
+std::vector<Check> check_draws(const Subject& s, const DrawTally& tally) {
+  std::vector<Check> checks;
+  const auto add = [&](const char* name, const DrawTally::Broken& b, Fault fault, double statistic, double limit) {
+    Check c{name, b.count == 0 ? Verdict::pass : Verdict::fail, {}, 0, statistic, limit, fault, {}};
+    if (b.count > 0) {
+      c.detail = fmt::format("{} of {} samples", b.count, tally.draws);
+      if (s.describe_draw) c.detail += fmt::format(", first {}", s.describe_draw(b.seed, b.index));
+    }
+    checks.push_back(std::move(c));
+  };
+  const auto count = [](const DrawTally::Broken& b) { return static_cast<double>(b.count); };
+  add("finite", tally.not_finite, Fault::not_finite, count(tally.not_finite), 0);
+  add("in the domain", tally.outside, Fault::outside, count(tally.outside), 0);
+  add("pdf > 0 at samples", tally.leak, Fault::leak, count(tally.leak), 0);
+  add("weight = f / pdf", tally.weight, Fault::weight, tally.worst_weight, s.weight_tolerance);
+  if (!s.may_fail) add("never fails", tally.failed, Fault::leak, count(tally.failed), 0);
+  for (std::size_t i = 0; i < s.atoms.size(); ++i) {
+    if (s.atoms[i] > 0 || tally.atoms[i] == 0) continue;
+    checks.push_back({"outcomes of probability 0",
+                      Verdict::fail,
+                      {},
+                      0,
+                      static_cast<double>(tally.atoms[i]),
+                      0,
+                      Fault::leak,
+                      fmt::format("outcome {} came {} times", i, tally.atoms[i])});
+  }
+  return checks;
+}
+
+} // namespace mc

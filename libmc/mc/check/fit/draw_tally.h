@@ -1,0 +1,37 @@
+#pragma once
+/// Draws of a subject, and what single draws show.
+
+#include <mc/check/report/report.h>
+#include <mc/check/subject/subject.h>
+
+#include <functional>
+#include <vector>
+
+namespace mc {
+
+/// Counts of what single draws break, each with its first witness.
+struct DrawTally {
+  struct Broken {
+    std::uint64_t count = 0, seed = 0, index = 0; ///< the witness is draw `index` of stream `seed`
+  };
+  Broken failed, outside, not_finite, leak, weight;
+  double worst_weight = 0; ///< largest |weight - 1|
+  std::uint64_t draws = 0;
+  std::vector<std::uint64_t> atoms; ///< count of each discrete outcome
+};
+
+/// Draws n samples of streams that follow from `seed`. Calls point(v) for each point of the domain, and before(draws)
+/// before each draw; it may be empty.
+///   throws : Error when the subject draws nothing
+DrawTally draw_samples(const Subject& subject, std::uint64_t seed, std::uint64_t n,
+                       const std::function<void(const Subject::Coordinates& v)>& point,
+                       const std::function<void(const DrawTally& so_far)>& before = {});
+
+/// The draws of both; atoms are those of `a`.
+DrawTally merged(DrawTally a, const DrawTally& b);
+
+/// One Check for each law of single draws: finite, in the domain, pdf > 0, weight, never fails, and no outcome of
+/// probability 0 among `atoms`.
+std::vector<Check> check_draws(const Subject& subject, const DrawTally& tally);
+
+} // namespace mc

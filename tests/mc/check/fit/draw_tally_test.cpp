@@ -1,0 +1,71 @@
+#include <mc/check/fit/draw_tally.h>
+
+#include <mc/core/error.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using Draw = mc::Subject::Draw;
+
+// Every tenth draw is broken in one of five ways, in turn.
+mc::Subject broken_subject() {
+  mc::Subject s;
+  s.name = "broken", s.dim = 1, s.atoms = {0.5, 0};
+  s.draw = [](std::uint64_t, std::size_t n, std::vector<Draw>& out) {
+    for (std::size_t i = 0; i < n; ++i) {
+      Draw& d = out.emplace_back();
+      d.v[0] = 0.25;
+      if (i % 10 != 9) continue;
+      switch (i / 10 % 5) {
+      case 0: d.kind = Draw::Kind::failed; break;
+      case 1: d.kind = Draw::Kind::outside; break;
+      case 2: d.pdf_positive = false; break;
+      case 3: d.weight = 2; break;
+      default: d.kind = Draw::Kind::atom, d.atom = 1;
+      }
+    }
+  };
+  s.describe_draw = [](std::uint64_t, std::uint64_t index) { return "draw " + std::to_string(index); };
+  return s;
+}
+
+TEST(DrawTally, CountsWhatIsBrokenAndKeepsTheFirstWitness) {
+  const mc::Subject s = broken_subject();
+  std::size_t points = 0;
+  const mc::DrawTally t = draw_samples(s, 1, 1000, [&](const auto& v) { points += v[0] == 0.25; });
+  EXPECT_EQ(t.draws, 1000u);
+  EXPECT_EQ(points, 940u);
+  EXPECT_EQ(t.failed.count, 20u);
+  EXPECT_EQ(t.outside.count, 20u);
+  EXPECT_EQ(t.outside.index, 19u);
+  EXPECT_EQ(t.leak.count, 20u);
+  EXPECT_EQ(t.weight.count, 20u);
+  EXPECT_EQ(t.worst_weight, 1);
+  EXPECT_EQ(t.atoms[1], 20u);
+  const mc::DrawTally twice = merged(t, t);
+  EXPECT_EQ(twice.draws, 2000u);
+  EXPECT_EQ(twice.leak.count, 40u);
+  EXPECT_EQ(twice.leak.index, t.leak.index);
+}
+
+TEST(DrawTally, EveryLawOfSingleDrawsIsACheck) {
+  const mc::Subject s = broken_subject();
+  std::vector<std::string> failed;
+  for (const mc::Check& c : check_draws(s, draw_samples(s, 1, 1000, [](const auto&) {})))
+    if (c.verdict == mc::Verdict::fail) failed.push_back(c.name + ": " + c.detail);
+  EXPECT_THAT(failed, testing::ElementsAre("in the domain: 20 of 1000 samples, first draw 19",
+                                           "pdf > 0 at samples: 20 of 1000 samples, first draw 29",
+                                           "weight = f / pdf: 20 of 1000 samples, first draw 39",
+                                           "never fails: 20 of 1000 samples, first draw 9",
+                                           "outcomes of probability 0: outcome 1 came 20 times"));
+}
+
+TEST(DrawTally, RefusesASubjectThatDrawsNothing) {
+  mc::Subject s;
+  s.draw = [](std::uint64_t, std::size_t, std::vector<Draw>&) {};
+  EXPECT_THROW(draw_samples(s, 1, 10, [](const auto&) {}), mc::Error);
+}
+
+} // namespace
