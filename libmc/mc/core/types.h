@@ -21,9 +21,11 @@ concept Real = std::numeric_limits<S>::is_specialized && !std::numeric_limits<S>
 namespace detail {
 // Eigen aligns vectors of a multiple of 32 bytes as the instruction set of each translation unit would like it. A
 // library and its user may be compiled for different ones, so these vectors keep the alignment of their components.
+// Oracles stay within one translation unit.
 template <class S, int N>
-inline constexpr int vec_options = N > 0 && N* static_cast<int>(sizeof(S)) % 32 == 0 ? Eigen::DontAlign
-                                                                                     : Eigen::AutoAlign;
+inline constexpr int vec_options = (std::is_floating_point_v<S> && (N > 0) && (N * int(sizeof(S))) % 32 == 0)
+                                       ? Eigen::DontAlign
+                                       : Eigen::AutoAlign;
 } // namespace detail
 
 /// A column vector. Its size and alignment are the same under all compiler flags.
@@ -103,7 +105,7 @@ template <Real S> S turn(const S& x, const S& y) {
 
 /// Converts every component; a plain scalar converts as itself.
 template <class T, class P> auto cast_point(const P& p) {
-  if constexpr (requires { p.template cast<T>(); }) return p.template cast<T>().eval();
+  if constexpr (requires { p.template cast<T>(); }) return Vec<T, P::RowsAtCompileTime>(p.template cast<T>());
   else return T(p);
 }
 
