@@ -31,23 +31,24 @@ struct Pass {
 };
 
 template <class Stream>
-Tally render_row(const Scene& scene, const RenderOptions& options, const PathOptions& path, const Pass& pass, int y,
-                 Film& film) {
+Tally render_row(const Scene& scene, const PathIntegrator<Scene>& integrator, std::uint64_t seed, const Pass& pass,
+                 int y, Film& film) {
   Tally tally;
+  const ThinLens& camera = scene.camera();
   const Vec2 scale(1 / Float(film.width()), 1 / Float(film.height()));
-  const Vec2 tan_half = scene.camera.tan_half(Float(film.width()) / Float(film.height()));
+  const Vec2 tan_half = camera.tan_half(Float(film.width()) / Float(film.height()));
   for (int x = 0; x < film.width(); ++x) {
     const std::uint64_t key =
-        mc::hash(options.seed, static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x), pass.number);
+        mc::hash(seed, static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x), pass.number);
     const typename Stream::Points points(key, pass.count);
     Eigen::Array3d sum = Eigen::Array3d::Zero();
     std::uint32_t valid = 0;
     for (std::uint32_t i = 0; i < pass.count; ++i) {
       Stream stream(points, i);
-      const Vec2 offset = scene.filter.sample(stream.next2());
+      const Vec2 offset = scene.filter().sample(stream.next2());
       const Vec2 s = (Vec2(Float(x) + Float(0.5), Float(y) + Float(0.5)) + offset).cwiseProduct(scale);
-      const Ray ray = scene.camera.ray(s, tan_half, scene.camera.lens_radius > 0 ? stream.next2() : Vec2(Vec2::Zero()));
-      const Spectrum radiance = trace_path(scene, ray, stream, path, tally.rays);
+      const Ray ray = camera.ray(s, tan_half, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
+      const Spectrum radiance = integrator.radiance(ray, stream, tally.rays);
       ++tally.samples;
       if (!radiance.isFinite().all()) [[unlikely]] {
         if (tally.invalid++ == 0) tally.first = {x, y, pass.number, i};
@@ -62,7 +63,7 @@ Tally render_row(const Scene& scene, const RenderOptions& options, const PathOpt
   return tally;
 }
 
-using RowFunction = Tally (*)(const Scene&, const RenderOptions&, const PathOptions&, const Pass&, int, Film&);
+using RowFunction = Tally (*)(const Scene&, const PathIntegrator<Scene>&, std::uint64_t, const Pass&, int, Film&);
 
 RowFunction row_function(PixelSampler sampler) {
   switch (sampler) {
@@ -93,21 +94,21 @@ PixelSampler sampler_from(std::string_view word) {
 std::string_view name(PixelSampler sampler) { return sampler_names[static_cast<std::size_t>(sampler)]; }
 
 RenderResult render(const Scene& scene, const RenderOptions& options) {
-  const int width = options.width > 0 ? options.width : scene.defaults.width;
-  const int height = options.height > 0 ? options.height : scene.defaults.height;
+  const int width = options.width, height = options.height;
   const bool open_ended = options.seconds || options.target_error;
-  const int spp = options.spp.value_or(scene.defaults.spp);
-  mc::require(open_ended || spp > 0, "render: {} samples per pixel; at least 1 is needed", spp);
+  mc::require(open_ended || options.spp > 0, "render: {} samples per pixel; at least 1 is needed", options.spp);
   mc::require(!options.seconds || *options.seconds > 0, "render: a time of {} s; it must be > 0",
               options.seconds.value_or(0));
   mc::require(!options.target_error || *options.target_error > 0, "render: a target error of {}; it must be > 0",
               options.target_error.value_or(0));
 
-  const PathOptions path{options.strategy, options.max_depth.value_or(scene.defaults.max_depth)};
+  mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
+              options.max_depth);
+  const PathIntegrator<Scene> integrator(scene, {options.strategy, options.max_depth});
   const RowFunction render_one = row_function(options.sampler);
   const bool separate = options.sampler == PixelSampler::independent;
-  const std::uint32_t passes = open_ended ? ~0u : passes_for(static_cast<std::uint32_t>(spp));
-  const std::uint32_t count = open_ended ? 16 : static_cast<std::uint32_t>(spp) / passes;
+  const std::uint32_t passes = open_ended ? ~0u : passes_for(static_cast<std::uint32_t>(options.spp));
+  const std::uint32_t count = open_ended ? 16 : static_cast<std::uint32_t>(options.spp) / passes;
 
   Film film(width, height);
   RenderResult result;
@@ -126,7 +127,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
     std::atomic<std::uint64_t> rows_done = 0;
     mc::parallel_for(rows.size(), options.threads, [&](std::size_t y) {
       if (cancelled()) return;
-      rows[y] = render_one(scene, options, path, pass, static_cast<int>(y), film);
+      rows[y] = render_one(scene, integrator, options.seed, pass, static_cast<int>(y), film);
       ++rows_done;
       if (!options.progress) return;
       const double within = double(rows_done) / double(height), now = elapsed();

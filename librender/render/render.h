@@ -25,13 +25,13 @@ struct Progress {
 };
 
 struct RenderOptions {
-  int width = 0, height = 0;          ///< 0: the scene's
-  std::optional<int> spp;             ///< samples per pixel; none of the three: the scene's
+  int width = 256, height = 256;
+  int spp = 64;                       ///< samples per pixel, unless one of the next two is given
   std::optional<double> seconds;      ///< wall-clock budget [s]
   std::optional<double> target_error; ///< relative RMS standard error of the pixels
   Strategy strategy = Strategy::mis;
   PixelSampler sampler = PixelSampler::sobol;
-  std::optional<int> max_depth; ///< none: the scene's
+  int max_depth = -1; ///< longest path in edges; -1: no limit
   std::uint64_t seed = 0;
   int threads = 0;                               ///< 0: all of the machine's
   std::function<void(const Progress&)> progress; ///< called after every row, from any of the threads, also at once

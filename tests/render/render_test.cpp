@@ -1,8 +1,11 @@
 #include <render/render.h>
+#include <render/scene/builder.h>
 
 #include <mc/core/error.h>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace {
 
@@ -11,25 +14,31 @@ using namespace render;
 constexpr PixelSampler samplers[] = {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol};
 
 /// A lit sphere on a plane under a small sphere light and a dim sky.
-Scene small_scene() {
-  Scene scene;
-  scene.bsdfs = {Lambert{Spectrum(Float(0.8), Float(0.6), Float(0.4))}, Dielectric{}};
-  scene.background = ConstantBackground{Spectrum::Constant(Float(0.1))};
-  scene.add(Sphere(Vec3d(0, -101, 0), 100), 0);
-  scene.add(Sphere(Vec3d(-0.7, -0.4, 0), 0.6), 0);
-  scene.add(Sphere(Vec3d(0.7, -0.4, 0), 0.6), 1);
-  scene.add(Sphere(Vec3d(0, 2, 1), 0.4), 0, AreaLight{-1, Spectrum::Constant(10)});
-  scene.camera.origin = Vec3(0, 0, 5);
-  scene.camera.tan_half_fov = Float(0.4);
-  scene.defaults.width = 24, scene.defaults.height = 20;
-  scene.prepare();
-  return scene;
+Scene small_scene(Float sky = Float(0.1)) {
+  SceneBuilder builder;
+  const BsdfId tan = builder.add(Lambert(Spectrum(Float(0.8), Float(0.6), Float(0.4)))),
+               glass = builder.add(Dielectric());
+  builder.add(Light(ConstantBackground(Spectrum(Float(0.1), sky, Float(0.1)))));
+  builder.add(Sphere(Vec3d(0, -101, 0), 100), {tan});
+  builder.add(Sphere(Vec3d(-0.7, -0.4, 0), 0.6), {tan});
+  builder.add(Sphere(Vec3d(0.7, -0.4, 0), 0.6), {glass});
+  builder.add(Sphere(Vec3d(0, 2, 1), 0.4), {tan, Emission{Spectrum::Constant(10)}});
+  const double fov = 2 * std::atan(0.4) * 180 / mc::pi<double>;
+  const LensOptions lens{.fov_axis = FovAxis::y, .fov = fov};
+  builder.set(ThinLens(Transform::look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}), lens));
+  return builder.build();
+}
+
+RenderOptions small() {
+  RenderOptions options;
+  options.width = 24, options.height = 20;
+  return options;
 }
 
 TEST(Render, SameBitsForAnyNumberOfThreads) {
   const Scene scene = small_scene();
   for (const PixelSampler sampler : samplers) {
-    RenderOptions options;
+    RenderOptions options = small();
     options.spp = 16, options.sampler = sampler, options.threads = 1;
     const RenderResult one = render::render(scene, options);
     options.threads = 2;
@@ -55,7 +64,7 @@ TEST(Render, SameBitsForAnyNumberOfThreads) {
 TEST(Render, ErrorBarsAreHonest) {
   const Scene scene = small_scene();
   for (const PixelSampler sampler : samplers) {
-    RenderOptions options;
+    RenderOptions options = small();
     options.spp = 32, options.sampler = sampler;
     std::vector<double> scale(24 * 20, 1e-6);
     for (options.seed = 1000; options.seed < 1016; ++options.seed) {
@@ -82,7 +91,7 @@ TEST(Render, StratifiedAndSobolBeatIndependent) {
   const Scene scene = small_scene();
   double error[3];
   for (int i = 0; i < 3; ++i) {
-    RenderOptions options;
+    RenderOptions options = small();
     options.spp = 64, options.sampler = samplers[i];
     error[i] = render::render(scene, options).relative_error;
   }
@@ -91,9 +100,9 @@ TEST(Render, StratifiedAndSobolBeatIndependent) {
 }
 
 TEST(Render, CountsInvalidSamplesAndKeepsTheFirst) {
-  Scene scene = small_scene();
-  scene.bsdfs[0] = Lambert{Spectrum(Float(0.5), std::numeric_limits<Float>::quiet_NaN(), Float(0.5))};
-  RenderOptions options;
+  // Finite where it is seen directly; where both branches of a path meet it their sum overflows.
+  const Scene scene = small_scene(std::numeric_limits<Float>::max());
+  RenderOptions options = small();
   options.spp = 8;
   const RenderResult result = render::render(scene, options);
   EXPECT_GE(result.invalid, 1u);
@@ -111,20 +120,20 @@ TEST(Render, CountsInvalidSamplesAndKeepsTheFirst) {
 
 TEST(Render, StopsByTimeErrorOrCancel) {
   const Scene scene = small_scene();
-  RenderOptions options;
+  RenderOptions options = small();
   options.target_error = 0.05;
   const RenderResult exact = render::render(scene, options);
   EXPECT_LE(exact.relative_error, 0.05);
   EXPECT_GE(exact.estimates, 4u);
 
-  options = {};
+  options = small();
   options.seconds = 0.05;
   const RenderResult timed = render::render(scene, options);
   EXPECT_GE(timed.seconds, 0.05);
   EXPECT_FALSE(timed.partial);
 
   const std::atomic<bool> stop = true;
-  options = {};
+  options = small();
   options.cancel = &stop;
   const RenderResult cancelled = render::render(scene, options);
   EXPECT_TRUE(cancelled.partial);
@@ -133,7 +142,7 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   // Cancelled in the second pass: one whole estimate counts. Cancelled after the last: the picture is whole.
   for (const bool late : {false, true}) {
     std::atomic<bool> halt = false;
-    options = {};
+    options = small();
     options.spp = 16, options.threads = 1, options.cancel = &halt;
     options.progress = [&](const Progress& p) { halt = p.fraction > (late ? 0.999 : 0.3); };
     const RenderResult result = render::render(scene, options);
@@ -143,11 +152,10 @@ TEST(Render, StopsByTimeErrorOrCancel) {
 }
 
 TEST(Render, ASceneWithoutLightIsBlack) {
-  Scene scene;
-  scene.bsdfs.push_back(Lambert{});
-  scene.add(Sphere(Vec3d(0, 0, -3), 1), 0);
-  scene.prepare();
-  RenderOptions options;
+  SceneBuilder builder;
+  builder.add(Sphere(Vec3d(0, 0, -3), 1), {builder.add(Lambert())});
+  const Scene scene = builder.build();
+  RenderOptions options = small();
   options.width = 4, options.height = 3, options.spp = 4;
   const RenderResult result = render::render(scene, options);
   EXPECT_EQ(result.image.width, 4);
@@ -159,7 +167,7 @@ TEST(Render, ASceneWithoutLightIsBlack) {
 TEST(Render, RejectsBadOptions) {
   const Scene scene = small_scene();
   const auto with = [&](auto change) {
-    RenderOptions options;
+    RenderOptions options = small();
     change(options);
     return [&scene, options] { render::render(scene, options); };
   };

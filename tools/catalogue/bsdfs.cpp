@@ -8,12 +8,12 @@ void add_bsdfs(Catalogue& c) {
   add_bsdf(c, "Lambert", "", render::Lambert{}, {0, 60, 89.9, 120});
   // The book's fuzzy metal is not reciprocal, by its definition.
   add_bsdf(c, "Metal", "fuzz=0", render::Metal{}, {0, 60, 89.9}, {.reciprocal = false});
-  add_bsdf(c, "Metal", "fuzz=0.1", render::Metal{{0.9f, 0.8f, 0.7f}, render::Float(0.1)}, {0, 60, 85, 89.9},
+  add_bsdf(c, "Metal", "fuzz=0.1", render::Metal({0.9f, 0.8f, 0.7f}, render::Float(0.1)), {0, 60, 85, 89.9},
            {.reciprocal = false, .mass_tolerance = 1e-4});
-  add_bsdf(c, "Metal", "fuzz=1", render::Metal{{0.9f, 0.8f, 0.7f}, 1}, {0, 60, 85, 120}, {.reciprocal = false});
+  add_bsdf(c, "Metal", "fuzz=1", render::Metal({0.9f, 0.8f, 0.7f}, 1), {0, 60, 85, 120}, {.reciprocal = false});
   add_roughness_limit(c, "Metal", "fuzz -> 0",
                       [](render::Float fuzz) {
-                        return render::Metal{{0.9f, 0.8f, 0.7f}, fuzz};
+                        return render::Metal({0.9f, 0.8f, 0.7f}, fuzz);
                       },
                       {0, 60, 85, 120});
   add_bsdf(c, "Dielectric", "eta=1.5", render::Dielectric{}, {0, 60, 89.9, 130, 150}, {.eta = 1.5});

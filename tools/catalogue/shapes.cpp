@@ -1,8 +1,8 @@
-// Points of shapes seen from a point, the choice of a light, offsets of filters, points of the lens: all in librender's
+// Points of shapes and lights seen from a point, the choice of a light, offsets of filters, points of the lens: all in librender's
 // Float.
 #include <catalogue/catalogue.h>
 
-#include <render/scene/scene.h>
+#include <render/scene/builder.h>
 
 #include <mc/check/check_subject.h>
 #include <mc/check/laws/timing.h>
@@ -159,28 +159,33 @@ void add_meshes_seen(Catalogue& c) {
                  directions, directions.from_unit({Float(0.5), Float(0.5)}));
 }
 
-// The choice of a light of a scene, by power.
-struct LightChoice {
-  using Scalar = Float;
-  std::shared_ptr<const Scene> scene;
-  mc::DiscreteSample<Float> sample_index(Float u) const {
-    const auto [light, pmf] = scene->choose_light(u);
-    return {static_cast<std::size_t>(light), pmf, u};
-  }
-  Float pmf(std::size_t i) const { return scene->light_pmf(static_cast<int>(i)); }
-  std::size_t size() const { return scene->lights.size(); }
-};
-
 void add_choice(Catalogue& c) {
-  auto scene = std::make_shared<Scene>();
-  scene->bsdfs.emplace_back(Lambert{});
+  SceneBuilder builder;
+  const BsdfId gray = builder.add(Lambert());
   for (const double radiance : {0.0, 1.0, 1e-3, 0.0, 20.0, 3.0, 0.0})
-    scene->add(Sphere(Vec3d(double(scene->shapes.size()), 0, 0), 0.1), 0,
-               AreaLight{-1, Spectrum::Constant(Float(radiance))});
-  scene->prepare();
-  const LightChoice choice{scene};
+    builder.add(Sphere(Vec3d::Zero(), 0.1), {gray, Emission{Spectrum::Constant(Float(radiance))}});
+  const auto choice = builder.build().light_choice().value();
   add_subject(c, "Scene", "choice of a light", mc::make_discrete_subject("", choice),
               [=](const Vec2& u) { return double(choice.sample_index(u[0]).pmf); });
+}
+
+// The directions towards a light that is infinitely far away.
+template <class L> void add_background(Catalogue& c, const std::string& name, const std::string& what, const L& light) {
+  const auto sample = [=](const Vec2& u) { return light.sample(Vec3::Zero(), u)->wi; };
+  const auto pdf = [=](const Vec3& wi) { return light.pdf(Vec3::Zero(), wi, nullptr); };
+  add_subject(c, name, what, make_subject("", mc::Sphere<Float>{}, sample, pdf),
+              [=](const Vec2& u) { return double(light.sample(Vec3::Zero(), u)->pdf); });
+}
+
+void add_lights_seen(Catalogue& c) {
+  add_background(c, "ConstantBackground", "", ConstantBackground(Spectrum::Ones()));
+  add_background(c, "GradientBackground", "white to blue", GradientBackground());
+  add_background(c, "GradientBackground", "black below", GradientBackground(Spectrum::Zero(), Spectrum::Ones()));
+  const Vec3 ref(Float(0.25), Float(0.5), Float(-1.5));
+  const AreaLight light(std::make_shared<const Shape>(Sphere(Vec3d(0.25, 0.5, 1.5), 1)), Emission{});
+  const mc::RotatedDomain<mc::Cap<Float>> cone{cap_of((1 / 9.0) / (1 + std::sqrt(1 - 1 / 9.0))),
+                                               mc::Frame<Float>::from_z(Vec3::UnitZ())};
+  add_directions(c, "AreaLight", "a sphere", light.shape(), ref, cone, Vec3::UnitZ());
 }
 
 // Offsets of a filter against the density of its contract.
@@ -219,16 +224,15 @@ struct Tents {
 
 void add_camera(Catalogue& c) {
   for (const Float radius : {Float(0.5), Float(2)})
-    add_filter(c, "BoxFilter", fmt::format("radius={:g}", radius), BoxFilter{radius}, Uniform{radius});
-  add_filter(c, "TentFilter", "radius=1", TentFilter{1}, mc::Tent2D<Float>{});
+    add_filter(c, "BoxFilter", fmt::format("radius={:g}", radius), BoxFilter(radius), Uniform{radius});
+  add_filter(c, "TentFilter", "radius=1", TentFilter(1), mc::Tent2D<Float>{});
   const mc::Normal<Float> normal(0, Float(0.5));
   add_filter(c, "GaussianFilter", "sigma=0.5", GaussianFilter{}, mc::Normal2D<Float>{normal, normal});
   for (const int n : {2, 3})
-    add_filter(c, "SubpixelTentFilter", fmt::format("n={}, radius=0.5", n), SubpixelTentFilter{n, Float(0.5)},
+    add_filter(c, "SubpixelTentFilter", fmt::format("n={}, radius=0.5", n), SubpixelTentFilter(n, Float(0.5)),
                Tents{n, Float(0.5)});
 
-  ThinLens lens;
-  lens.lens_radius = 1, lens.focus_distance = 3;
+  const ThinLens lens({}, {.radius = 1, .focus_distance = 3});
   const auto sample = [=](const Vec2& u) {
     return Vec2(lens.ray(Vec2(Float(0.3), Float(0.9)), lens.tan_half(1), u).o.head<2>());
   };
@@ -243,6 +247,7 @@ void add_shapes(Catalogue& c) {
   add_spheres_seen(c);
   add_meshes_seen(c);
   add_choice(c);
+  add_lights_seen(c);
   add_camera(c);
 }
 

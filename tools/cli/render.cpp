@@ -40,23 +40,24 @@ int render(const RenderOptions& options) {
       options.output.empty() ? std::filesystem::path(options.scene).stem().string() + ".exr" : options.output;
   check_output(output);
 
+  const auto [scene, defaults] = ::render::read_mitsuba(options.scene);
+  if (scene.lights().empty())
+    std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", options.scene.c_str());
+
   ::render::RenderOptions settings;
+  settings.width = defaults.width, settings.height = defaults.height;
   if (!options.size.empty()) parse_size(options.size, settings.width, settings.height);
-  settings.spp = options.spp;
+  settings.spp = options.spp.value_or(defaults.spp);
   settings.seconds = options.seconds;
   settings.target_error = options.target_error;
   if (!options.strategy.empty()) settings.strategy = ::render::strategy_from(options.strategy);
   if (!options.sampler.empty()) settings.sampler = ::render::sampler_from(options.sampler);
   mc::require(!options.max_depth || *options.max_depth == -1 || *options.max_depth >= 1,
               "--max-depth {} must be -1 or at least 1", options.max_depth.value_or(0));
-  settings.max_depth = options.max_depth;
+  settings.max_depth = options.max_depth.value_or(defaults.max_depth);
   mc::require(options.threads >= 0, "--threads {} must be >= 0", options.threads);
   settings.threads = options.threads;
   settings.seed = options.seed;
-
-  const ::render::Scene scene = ::render::read_mitsuba(options.scene);
-  if (!scene.has_light())
-    std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", options.scene.c_str());
 
   Progress progress;
   std::mutex mutex;

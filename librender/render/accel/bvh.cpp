@@ -96,13 +96,20 @@ template <class F> WideTree build(const std::vector<Box>& boxes, std::uint32_t l
 
 } // namespace
 
-Bvh::Bvh(std::span<const Shape> shapes) {
+Bvh::Bvh(std::span<const Shape> shapes)
+    : Bvh([&] {
+        std::vector<const Shape*> all;
+        for (const Shape& shape : shapes) all.push_back(&shape);
+        return all;
+      }()) {}
+
+Bvh::Bvh(std::span<const Shape* const> shapes) {
   std::vector<Box> triangle_boxes, sphere_boxes;
   std::vector<std::array<Vec3, 3>> vertices;
   std::vector<Sphere> spheres;
   std::vector<int> sphere_ids;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    if (const auto* mesh = std::get_if<TriangleMesh>(&shapes[i])) {
+    if (const auto* mesh = std::get_if<TriangleMesh>(shapes[i])) {
       for (std::size_t t = 0; t < mesh->size(); ++t) {
         const auto v = mesh->vertices(t);
         const Vec3d a = v[0].cast<double>();
@@ -114,7 +121,7 @@ Bvh::Bvh(std::span<const Shape> shapes) {
         triangle_ids_.push_back({static_cast<int>(i), static_cast<int>(t)});
       }
     } else {
-      spheres.push_back(std::get<Sphere>(shapes[i]));
+      spheres.push_back(std::get<Sphere>(*shapes[i]));
       sphere_ids.push_back(static_cast<int>(i));
       sphere_boxes.push_back(sphere_box(spheres.back()));
     }

@@ -22,6 +22,7 @@ struct Line;
 class Bvh {
  public:
   Bvh() = default;
+  explicit Bvh(std::span<const Shape* const> shapes);
   explicit Bvh(std::span<const Shape> shapes);
 
   std::optional<Hit> intersect(const Ray& ray) const;

@@ -26,25 +26,34 @@ inline Fresnel fresnel_dielectric(Float cos_i, Float eta) {
 /// Smooth boundary to a medium of relative index eta (inside over outside, the normal points outside): two delta lobes,
 /// chosen by the Fresnel reflectance.
 ///   f      : radiance is divided by the squared relative index on refraction, so that etendue is conserved
+///   throws : Error unless eta is finite and > 0 and the colours lie in [0, 1]
 ///   Source : Fresnel's equations, [BornWolf99] section 1.5; exact, not Schlick's fit
-struct Dielectric {
-  Float eta = Float(1.5);
-  Spectrum reflectance = Spectrum::Ones();
-  Spectrum transmittance = Spectrum::Ones();
+class Dielectric {
+ public:
+  explicit Dielectric(Float eta = Float(1.5), const Spectrum& reflectance = Spectrum::Ones(),
+                      const Spectrum& transmittance = Spectrum::Ones())
+      : eta_(eta), reflectance_(checked_reflectance("dielectric: reflectance", reflectance)),
+        transmittance_(checked_reflectance("dielectric: transmittance", transmittance)) {
+    mc::require(eta > 0 && std::isfinite(eta), "dielectric: relative index {} must be finite and > 0", eta);
+  }
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2&) const {
     const Float cos_i = std::abs(wo.z());
     if (!(cos_i > 0)) return {};
-    const Float ratio = wo.z() > 0 ? eta : 1 / eta;
+    const Float ratio = wo.z() > 0 ? eta_ : 1 / eta_;
     const auto [r, cos_t] = fresnel_dielectric(cos_i, ratio);
-    if (uc < r) return BsdfSample{{-wo.x(), -wo.y(), wo.z()}, reflectance * (r / cos_i), r, true};
+    if (uc < r) return BsdfSample{{-wo.x(), -wo.y(), wo.z()}, reflectance_ * (r / cos_i), r, true};
     const Float t = 1 - r;
     const Vec3 wi(-wo.x() / ratio, -wo.y() / ratio, wo.z() > 0 ? -cos_t : cos_t);
-    return BsdfSample{wi.normalized(), transmittance * (t / (ratio * ratio * cos_t)), t, true, ratio};
+    return BsdfSample{wi.normalized(), transmittance_ * (t / (ratio * ratio * cos_t)), t, true, ratio};
   }
   Spectrum eval(const Vec3&, const Vec3&) const { return Spectrum::Zero(); }
   Float pdf(const Vec3&, const Vec3&) const { return 0; }
   bool is_delta() const { return true; }
+
+ private:
+  Float eta_;
+  Spectrum reflectance_, transmittance_;
 };
 
 } // namespace render

@@ -12,24 +12,29 @@ namespace render {
 /// Lambertian reflector, the same on both sides.
 ///   eval   : albedo / pi where wo and wi lie on the same side, else 0
 ///   sample : cosine hemisphere on the side of wo; pdf |cos wi| / pi [1/sr]
-struct Lambert {
-  Spectrum albedo = Spectrum::Constant(Float(0.5));
+///   throws : Error unless the albedo lies in [0, 1]
+class Lambert {
+ public:
+  explicit Lambert(const Spectrum& albedo = Spectrum::Constant(Float(0.5)))
+      : albedo_(checked_reflectance("diffuse: reflectance", albedo)) {}
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float, const Vec2& u) const {
     Vec3 wi = mc::CosineHemisphere<Float>{}.sample(u);
     const Float density = wi.z() * inv_pi;
     if (!(density > 0)) return {};
     if (wo.z() < 0) wi.z() = -wi.z();
-    return BsdfSample{wi, albedo * inv_pi, density};
+    return BsdfSample{wi, albedo_ * inv_pi, density};
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
-    return wo.z() * wi.z() > 0 ? Spectrum(albedo * inv_pi) : Spectrum(Spectrum::Zero());
+    return wo.z() * wi.z() > 0 ? Spectrum(albedo_ * inv_pi) : Spectrum(Spectrum::Zero());
   }
   Float pdf(const Vec3& wo, const Vec3& wi) const { return wo.z() * wi.z() > 0 ? std::abs(wi.z()) * inv_pi : Float(0); }
   bool is_delta() const { return false; }
+  const Spectrum& albedo() const { return albedo_; }
 
  private:
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
+  Spectrum albedo_;
 };
 
 } // namespace render

@@ -16,32 +16,35 @@ inline Vec3 reflect(const Vec3& wo) { return {-wo.x(), -wo.y(), wo.z()}; }
 ///   pdf    : the mass of the ball of radius fuzz about r along the ray t wi, (t2^3 - t1^3) / (4 pi fuzz^3) [1/sr],
 ///            where t1 <= t2 are the distances at which the ray enters and leaves it
 ///   eval   : albedo pdf / |cos wi|, so that a sample weighs exactly albedo; hence not reciprocal, as in the book
-///   throws : the scene reader refuses fuzz outside [0, 1]
+///   throws : Error unless the albedo and fuzz lie in [0, 1]
 ///   Source : the sampling is [Shirley16]'s; the density is derived here and checked by chi-square
-struct Metal {
-  Spectrum albedo = Spectrum::Constant(Float(0.9));
-  Float fuzz = 0;
+class Metal {
+ public:
+  explicit Metal(const Spectrum& albedo = Spectrum::Constant(Float(0.9)), Float fuzz = 0)
+      : albedo_(checked_reflectance("metal: albedo", albedo)), fuzz_(fuzz) {
+    mc::require(fuzz >= 0 && fuzz <= 1, "metal: fuzz {} must lie in [0, 1]", fuzz);
+  }
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
     if (wo.z() == 0) return {};
     const Vec3 r = reflect(wo);
-    if (is_delta()) return BsdfSample{r, albedo / std::abs(r.z()), 1, true};
+    if (is_delta()) return BsdfSample{r, albedo_ / std::abs(r.z()), 1, true};
     // Uniform point of the ball: radius from uc, direction from u.
     const Float z = 1 - 2 * u[0];
     const Vec3 direction =
         mc::spherical_direction<Float>(2 * mc::safe_sqrt<Float>(u[0] * (1 - u[0])), z, 2 * mc::pi<Float> * u[1]);
-    const Vec3 w = r + fuzz * std::cbrt(uc) * direction;
+    const Vec3 w = r + fuzz_ * std::cbrt(uc) * direction;
     const Float length = w.norm();
     if (!(length > 0)) return {};
     const Vec3 wi = w / length;
     const Float density = pdf(wo, wi);
     if (!(density > 0)) return {};
-    return BsdfSample{wi, albedo * (density / std::abs(wi.z())), density};
+    return BsdfSample{wi, albedo_ * (density / std::abs(wi.z())), density};
   }
 
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
     const Float density = pdf(wo, wi);
-    return density > 0 ? Spectrum(albedo * (density / std::abs(wi.z()))) : Spectrum(Spectrum::Zero());
+    return density > 0 ? Spectrum(albedo_ * (density / std::abs(wi.z()))) : Spectrum(Spectrum::Zero());
   }
 
   Float pdf(const Vec3& wo, const Vec3& wi) const {
@@ -49,7 +52,7 @@ struct Metal {
     const Vec3 r = reflect(wo);
     const Float middle = r.dot(wi);
     // The chord's half length squared; |r x wi|^2 keeps its precision where wi is close to r.
-    const Float chord2 = fuzz * fuzz - mc::cross<Float>(r, wi).squaredNorm();
+    const Float chord2 = fuzz_ * fuzz_ - mc::cross<Float>(r, wi).squaredNorm();
     if (!(chord2 > 0)) return 0;
     const Float half = std::sqrt(chord2);
     const Float t2 = middle + half;
@@ -57,9 +60,13 @@ struct Metal {
     const Float t1 = std::max(middle - half, Float(0));
     // t2^3 - t1^3 factored: the difference t2 - t1 is known exactly.
     const Float difference = t1 > 0 ? 2 * half : t2;
-    return difference * (t2 * t2 + t2 * t1 + t1 * t1) / (4 * mc::pi<Float> * fuzz * fuzz * fuzz);
+    return difference * (t2 * t2 + t2 * t1 + t1 * t1) / (4 * mc::pi<Float> * fuzz_ * fuzz_ * fuzz_);
   }
-  bool is_delta() const { return fuzz == 0; }
+  bool is_delta() const { return fuzz_ == 0; }
+
+ private:
+  Spectrum albedo_;
+  Float fuzz_;
 };
 
 } // namespace render

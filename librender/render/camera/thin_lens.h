@@ -2,44 +2,80 @@
 /// The camera.
 
 #include <render/core/ray.h>
+#include <render/core/transform.h>
 
 #include <mc/warp/disk.h>
 
 namespace render {
 
-/// A thin lens focused on a plane; lens_radius 0 is a pinhole.
-struct ThinLens {
-  /// Which side of the film the field of view spans.
-  enum class FovAxis { x, y, smaller, larger };
+/// Which side of the film the field of view spans.
+enum class FovAxis { x, y, smaller, larger };
 
-  Vec3 origin = Vec3::Zero();
-  Vec3 right = Vec3::UnitX(), up = Vec3::UnitY(), forward = -Vec3::UnitZ(); ///< orthonormal
-  FovAxis fov_axis = FovAxis::y;
-  Float tan_half_fov = 1; ///< tangent of half the field of view along fov_axis
-  Float lens_radius = 0, focus_distance = 1;
-  Float near = 0; ///< what stands closer before the lens is cut away [scene units]
+struct LensOptions {
+  FovAxis fov_axis = FovAxis::x;
+  double fov = 90;           ///< along fov_axis [degrees]
+  double radius = 0;         ///< of the lens [scene units]; 0: a pinhole
+  double focus_distance = 1; ///< to the plane in focus [scene units]
+  double near = 0;           ///< what stands closer before the lens is cut away [scene units]
+};
+
+/// A thin lens focused on a plane; of radius 0 a pinhole.
+///   to_world : its frame: x to the left, y up, z forward
+///   throws   : Error unless the frame is finite and its axes are not 0, 0 < fov < 180, radius and near are finite and
+///              >= 0, focus_distance is finite and > 0
+class ThinLens {
+ public:
+  explicit ThinLens(const Transform& to_world = {}, const LensOptions& options = {})
+      : origin_(to_world.translation.cast<Float>()), fov_axis_(options.fov_axis),
+        tan_half_fov_(Float(std::tan(options.fov * mc::pi<double> / 360))), radius_(Float(options.radius)),
+        focus_distance_(Float(options.focus_distance)), near_(Float(options.near)) {
+    const auto& axes = to_world.linear;
+    mc::require(axes.allFinite() && origin_.allFinite() && (axes.colwise().norm().array() > 0).all(),
+                "camera: toWorld must be finite, and none of its axes 0");
+    mc::require(options.fov > 0 && options.fov < 180, "camera: fov {} must lie in (0, 180) degrees", options.fov);
+    mc::require(options.radius >= 0 && std::isfinite(options.radius),
+                "camera: apertureRadius {} must be finite and >= 0", options.radius);
+    mc::require(options.focus_distance > 0 && std::isfinite(options.focus_distance),
+                "camera: focusDistance {} must be finite and > 0", options.focus_distance);
+    mc::require(options.near >= 0 && std::isfinite(options.near), "camera: nearClip {} must be finite and >= 0",
+                options.near);
+    right_ = -axes.col(0).normalized().cast<Float>();
+    up_ = axes.col(1).normalized().cast<Float>();
+    forward_ = axes.col(2).normalized().cast<Float>();
+  }
+
+  const Vec3& origin() const { return origin_; }
+  const Vec3& right() const { return right_; }
+  const Vec3& up() const { return up_; }
+  const Vec3& forward() const { return forward_; }
+  Float radius() const { return radius_; }
 
   /// Tangents of half the horizontal and vertical field of view for a film of width / height = aspect.
   Vec2 tan_half(Float aspect) const {
-    const bool along_x = fov_axis == FovAxis::x || (fov_axis == FovAxis::smaller && aspect < 1) ||
-                         (fov_axis == FovAxis::larger && aspect >= 1);
-    return along_x ? Vec2(tan_half_fov, tan_half_fov / aspect) : Vec2(tan_half_fov * aspect, tan_half_fov);
+    const bool along_x = fov_axis_ == FovAxis::x || (fov_axis_ == FovAxis::smaller && aspect < 1) ||
+                         (fov_axis_ == FovAxis::larger && aspect >= 1);
+    return along_x ? Vec2(tan_half_fov_, tan_half_fov_ / aspect) : Vec2(tan_half_fov_ * aspect, tan_half_fov_);
   }
 
   /// The ray through the film point s in [0,1]^2, (0,0) its top left corner; u in [0,1)^2 chooses the point of the
   /// lens.
   Ray ray(const Vec2& s, const Vec2& tan_half_xy, const Vec2& u) const {
-    const Vec3 toward = right * ((2 * s[0] - 1) * tan_half_xy[0]) + up * ((1 - 2 * s[1]) * tan_half_xy[1]) + forward;
-    Vec3 start = origin, d = toward;
-    if (lens_radius > 0) {
-      const Vec2 lens = lens_radius * mc::UniformDisk<Float>{}.sample(u);
-      const Vec3 offset = right * lens[0] + up * lens[1];
+    const Vec3 toward = right_ * ((2 * s[0] - 1) * tan_half_xy[0]) + up_ * ((1 - 2 * s[1]) * tan_half_xy[1]) + forward_;
+    Vec3 start = origin_, d = toward;
+    if (radius_ > 0) {
+      const Vec2 lens = radius_ * mc::UniformDisk<Float>{}.sample(u);
+      const Vec3 offset = right_ * lens[0] + up_ * lens[1];
       start += offset;
-      d = toward - offset / focus_distance;
+      d = toward - offset / focus_distance_;
     }
     // d.dot(forward) = 1, so `near` steps of d reach the near plane.
-    return {start + near * d, d.normalized()};
+    return {start + near_ * d, d.normalized()};
   }
+
+ private:
+  Vec3 origin_, right_, up_, forward_; ///< the axes orthonormal
+  FovAxis fov_axis_;
+  Float tan_half_fov_, radius_, focus_distance_, near_;
 };
 
 } // namespace render

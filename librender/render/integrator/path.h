@@ -7,8 +7,8 @@
 #include <mc/core/frame.h>
 #include <mc/warp/hemisphere.h>
 
-#include <span>
 #include <string_view>
+#include <vector>
 
 namespace render {
 
@@ -35,30 +35,23 @@ namespace detail {
 
 /// A choice of direction that aims at some shapes, each equally likely, as often as `share` says.
 struct Aim {
-  std::span<const int> shapes;
+  std::vector<const Shape*> shapes;
   Float share = 0;
 };
 
-inline Aim aim_of(const Scene& scene, Strategy strategy) {
-  switch (strategy) {
-  case Strategy::light: return {scene.targets(), scene.targets().empty() ? Float(0) : Float(1)};
-  case Strategy::mixture: return {scene.targets(), scene.targets().empty() ? Float(0) : Float(0.5)};
-  case Strategy::mis: return {scene.speculars(), scene.speculars().empty() ? Float(0) : Float(0.25)};
-  default: return {};
-  }
-}
+/// What a strategy aims at.
+Aim aim_of(const Scene& scene, Strategy strategy);
 
 /// Density [1/sr] of the direction wi from p under sample_aim.
-inline Float aim_pdf(const Scene& scene, const Aim& aim, const Vec3& p, const Vec3& wi) {
+inline Float aim_pdf(const Aim& aim, const Vec3& p, const Vec3& wi) {
   Float sum = 0;
-  for (const int shape : aim.shapes) sum += scene.shapes[static_cast<std::size_t>(shape)].pdf(p, wi);
+  for (const Shape* shape : aim.shapes) sum += shape->pdf(p, wi);
   return sum / Float(aim.shapes.size());
 }
 
-inline std::optional<Vec3> sample_aim(const Scene& scene, const Aim& aim, const Vec3& p, const Vec2& u) {
+inline std::optional<Vec3> sample_aim(const Aim& aim, const Vec3& p, const Vec2& u) {
   const Float n = Float(aim.shapes.size()), i = std::floor(u[0] * n);
-  const auto shape = static_cast<std::size_t>(aim.shapes[static_cast<std::size_t>(i)]);
-  const auto s = scene.shapes[shape].sample(p, {u[0] * n - i, u[1]});
+  const auto s = aim.shapes[static_cast<std::size_t>(i)]->sample(p, {u[0] * n - i, u[1]});
   return s ? std::optional(s->wi) : std::nullopt;
 }
 
@@ -79,18 +72,20 @@ struct Walk {
 };
 
 /// Where a path meets a surface.
-struct Vertex {
-  const Bsdf& bsdf;
+template <class B> struct Vertex {
+  const B& bsdf;
   const SurfacePoint& point;
   mc::Frame<Float> frame;
   Vec3 wo; ///< in the frame
 };
 
 /// Follows paths. `rays` counts the rays traced.
-class Tracer {
+template <class SceneType> class Tracer {
+  using At = Vertex<std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>>;
+
  public:
-  Tracer(const Scene& scene, const PathOptions& options, std::uint64_t& rays)
-      : scene_(scene), options_(options), aim_(aim_of(scene, options.strategy)), rays_(rays) {}
+  Tracer(const SceneType& scene, const PathOptions& options, const Aim& aim, std::uint64_t& rays)
+      : scene_(scene), options_(options), aim_(aim), rays_(rays) {}
 
   /// Radiance found along the rest of a path; `whole`: it has not split yet.
   template <class Stream> Spectrum follow(Walk walk, Stream& stream, bool whole) {
@@ -100,21 +95,21 @@ class Tracer {
         return walk.beta; // an invalid sample
       ++walk.edges;
       ++rays_;
-      const auto hit = scene_.bvh().intersect(walk.ray);
+      const auto hit = scene_.intersect(walk.ray);
       if (!hit) {
-        if (scene_.background) radiance += walk.beta * scene_.background->eval(walk.ray.d);
+        for (const std::uint32_t light : scene_.infinite_lights())
+          radiance += walk.beta * emission(light, nullptr, walk);
         return radiance;
       }
-      const auto shape = static_cast<std::size_t>(hit->shape);
-      const SurfacePoint point = scene_.shapes[shape].surface_point(walk.ray, *hit);
-      if (scene_.shape_light[shape] >= 0) radiance += walk.beta * emission(point, walk);
+      const Surface& surface = scene_.surface(*hit);
+      const SurfacePoint point = surface.shape->surface_point(walk.ray, *hit);
+      if (surface.light) radiance += walk.beta * emission(*surface.light, &point, walk);
       if (walk.edges == options_.max_depth) return radiance;
 
       const auto frame = mc::Frame<Float>::from_z(point.ns);
-      const Vertex vertex{scene_.bsdfs[static_cast<std::size_t>(scene_.shape_bsdf[shape])], point, frame,
-                          frame.to_local(-walk.ray.d)};
+      const At vertex{scene_.bsdf(surface), point, frame, frame.to_local(-walk.ray.d)};
       const bool delta = vertex.bsdf.is_delta();
-      if (connects() && !delta && !scene_.lights.empty()) radiance += walk.beta * connect(vertex, stream);
+      if (connects() && !delta && scene_.light_choice()) radiance += walk.beta * connect(vertex, stream);
       if (whole && !delta) {
         Spectrum sum = Spectrum::Zero();
         for (std::uint32_t i = 0; i < branches; ++i) {
@@ -134,45 +129,42 @@ class Tracer {
 
   bool connects() const { return options_.strategy == Strategy::nee || options_.strategy == Strategy::mis; }
 
-  // Light that the surface itself sends back along the path.
-  Spectrum emission(const SurfacePoint& point, const Walk& walk) const {
-    const int light = scene_.shape_light[static_cast<std::size_t>(point.shape)];
-    const Spectrum emitted = scene_.lights[static_cast<std::size_t>(light)].emitted(point.ng, -walk.ray.d);
-    if (is_black(emitted) || !connects() || walk.previous_pdf == 0) return emitted;
+  // Light that what was met itself sends back along the path.
+  Spectrum emission(std::uint32_t light, const SurfacePoint* met, const Walk& walk) const {
+    const Light& source = scene_.lights()[light];
+    const Spectrum emitted = source.emitted(walk.ray.d, met);
+    if (is_black(emitted) || !connects() || walk.previous_pdf == 0 || !source.is_sampled()) return emitted;
     if (options_.strategy == Strategy::nee) return Spectrum::Zero();
-    const Shape& shape = scene_.shapes[static_cast<std::size_t>(point.shape)];
-    return emitted *
-           power_weight(walk.previous_pdf, scene_.light_pmf(light) * shape.pdf(walk.previous, walk.ray.d, point));
+    return emitted * power_weight(walk.previous_pdf,
+                                  scene_.light_choice()->pmf(light) * source.pdf(walk.previous, walk.ray.d, met));
   }
 
-  // Light from one point of a light, reflected toward wo.
-  template <class Stream> Spectrum connect(const Vertex& vertex, Stream& stream) {
-    const auto [light, pmf] = scene_.choose_light(scene_.lights.size() > 1 ? stream.next() : Float(0));
-    const AreaLight& source = scene_.lights[static_cast<std::size_t>(light)];
-    const auto s = scene_.shapes[static_cast<std::size_t>(source.shape)].sample(vertex.point.p, stream.next2());
-    if (!s) return Spectrum::Zero();
-    const Spectrum emitted = source.emitted(s->point.ng, -s->wi);
-    if (is_black(emitted)) return emitted;
+  // Light from one direction towards a light, reflected toward wo.
+  template <class Stream> Spectrum connect(const At& vertex, Stream& stream) {
+    const auto choice = scene_.light_choice()->sample_index(scene_.lights().size() > 1 ? stream.next() : Float(0));
+    const Light& source = scene_.lights()[choice.index];
+    const auto s = source.sample(vertex.point.p, stream.next2());
+    if (!s || is_black(s->radiance)) return Spectrum::Zero();
     const Vec3 wi = vertex.frame.to_local(s->wi);
     const Spectrum f = vertex.bsdf.eval(vertex.wo, wi);
     if (is_black(f)) return f;
     ++rays_;
-    if (scene_.bvh().occluded(vertex.point.spawn_ray_to(s->point))) return Spectrum::Zero();
-    const Float pdf = pmf * s->pdf;
-    const Float weight =
-        options_.strategy == Strategy::mis ? power_weight(pdf, direction_pdf(vertex, wi, s->wi)) : Float(1);
-    return f * emitted * (std::abs(wi.z()) * weight / pdf);
+    if (scene_.occluded(s->end ? vertex.point.spawn_ray_to(*s->end) : vertex.point.spawn_ray(s->wi)))
+      return Spectrum::Zero();
+    const Float pdf = choice.pmf * s->pdf;
+    const bool shared = options_.strategy == Strategy::mis && !source.is_delta();
+    const Float weight = shared ? power_weight(pdf, direction_pdf(vertex, wi, s->wi)) : Float(1);
+    return f * s->radiance * (std::abs(wi.z()) * weight / pdf);
   }
 
   // Density with which scatter picks the direction wi (d in the world), where the strategy aims or follows the BSDF.
-  Float direction_pdf(const Vertex& vertex, const Vec3& wi, const Vec3& d) const {
+  Float direction_pdf(const At& vertex, const Vec3& wi, const Vec3& d) const {
     const Float density = vertex.bsdf.pdf(vertex.wo, wi);
-    return aim_.share > 0 ? (1 - aim_.share) * density + aim_.share * aim_pdf(scene_, aim_, vertex.point.p, d)
-                          : density;
+    return aim_.share > 0 ? (1 - aim_.share) * density + aim_.share * aim_pdf(aim_, vertex.point.p, d) : density;
   }
 
   // The next direction; false where the path ends.
-  template <class Stream> bool scatter(const Vertex& vertex, Walk& walk, Stream& stream) const {
+  template <class Stream> bool scatter(const At& vertex, Walk& walk, Stream& stream) const {
     const auto& [bsdf, point, frame, wo] = vertex;
     Vec3 d, wi;
     if (options_.strategy == Strategy::hemisphere && !bsdf.is_delta()) {
@@ -185,7 +177,7 @@ class Tracer {
       Vec2 u = stream.next2(); // u[0] also makes the choices, so that they are as well spread as the directions
       if (u[0] < aim_.share) {
         u[0] = std::min(u[0] / aim_.share, mc::one_minus_epsilon<Float>);
-        const auto target = sample_aim(scene_, aim_, point.p, u);
+        const auto target = sample_aim(aim_, point.p, u);
         if (!target) return false;
         d = *target;
         wi = frame.to_local(d);
@@ -220,15 +212,15 @@ class Tracer {
     return true;
   }
 
-  const Scene& scene_;
+  const SceneType& scene_;
   const PathOptions& options_;
-  const Aim aim_;
+  const Aim& aim_;
   std::uint64_t& rays_;
 };
 
 } // namespace detail
 
-/// Radiance that arrives along `ray`, one sample. `rays` counts the rays traced.
+/// Traces paths through a scene, which must outlive it. Immutable, so threads share it.
 ///   The background is met by following the BSDF only, in every strategy, and always counts fully.
 ///   Caustics cannot be reached by connecting to a light. Therefore `mis` aims a quarter of its directions at the
 ///   spheres of glass or mirror, where a scene has any: smallpt's box takes a quarter less time to a given error.
@@ -236,15 +228,24 @@ class Tracer {
 ///   of the variance come from the way there and the light straight from the lights: a tenth to a fifth less time to a
 ///   given error, no less with three or four branches. Source: [ArvoKirk90]
 ///   Russian roulette: from the fourth edge on a path survives with four times the largest component of its throughput,
-///                     corrected
-///   for the compression of radiance in glass, at most .99. The factor balances variance against cost: at one the
-///   Cornell box and smallpt's take about a third more time to a given error.
+///                     corrected for the compression of radiance in glass, at most .99. The factor balances variance
+///                     against cost: at one the Cornell box and smallpt's take about a third more time to a given error.
 /// Times to a given error are measured as CPU seconds of `carlo render` times the relmse of `carlo compare` between two
 /// seeds.
-template <class Stream>
-Spectrum trace_path(const Scene& scene, const Ray& ray, Stream& stream, const PathOptions& options,
-                    std::uint64_t& rays) {
-  return detail::Tracer(scene, options, rays).follow({ray, ray.o}, stream, true);
-}
+template <class SceneType> class PathIntegrator {
+ public:
+  PathIntegrator(const SceneType& scene, const PathOptions& options)
+      : scene_(scene), options_(options), aim_(detail::aim_of(scene, options.strategy)) {}
+
+  /// Radiance that arrives along `ray`, one sample. `rays` counts the rays traced.
+  template <class Stream> Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const {
+    return detail::Tracer(scene_, options_, aim_, rays).follow({ray, ray.o}, stream, true);
+  }
+
+ private:
+  const SceneType& scene_;
+  PathOptions options_;
+  detail::Aim aim_;
+};
 
 } // namespace render

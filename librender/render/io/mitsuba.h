@@ -4,11 +4,22 @@
 #include <render/scene/scene.h>
 
 #include <string>
-#include <vector>
 
 namespace render {
 
-/// Reads a scene file with its meshes and prepares it.
+/// How a scene file asks to be rendered.
+struct RenderDefaults {
+  int width = 256, height = 256;
+  int spp = 64;
+  int max_depth = -1; ///< longest path in edges; -1: no limit
+};
+
+struct SceneFile {
+  Scene scene;
+  RenderDefaults defaults;
+};
+
+/// Reads a scene file with its meshes.
 ///   integrator : path (maxDepth)
 ///   sensor     : perspective, thinlens (fov, fovAxis, toWorld, nearClip, apertureRadius, focusDistance), sampler
 ///                (sampleCount), film (width, height) with rfilter box, tent (radius), gaussian (stddev), subpixeltent
@@ -23,6 +34,6 @@ namespace render {
 ///   strictNormals, and the film's file format.
 ///   throws : Error "scene.xml:14: ..." for broken XML, an unknown plugin (naming the nearest), a parameter that is not
 ///            supported or cannot be read, a missing or broken mesh, an emitting shape without area, an empty scene
-Scene read_mitsuba(const std::string& path);
+SceneFile read_mitsuba(const std::string& path);
 
 } // namespace render

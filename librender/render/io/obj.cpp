@@ -106,8 +106,7 @@ TriangleMesh read_obj(const std::string& path, const Transform& to_world) {
     mc::require(parsed, "broken OBJ: {}", problem.empty() ? "unreadable" : problem);
 
     const tinyobj::attrib_t& attributes = reader.GetAttrib();
-    const Eigen::Matrix3d linear = to_world.leftCols<3>(), normal_map = linear.inverse().transpose();
-    const bool mirrored = linear.determinant() < 0;
+    const bool mirrored = to_world.mirrors();
     bool has_normals = true;
     for (const auto& shape : reader.GetShapes())
       for (const auto& corner : shape.mesh.indices) has_normals &= corner.normal_index >= 0;
@@ -127,10 +126,10 @@ TriangleMesh read_obj(const std::string& path, const Transform& to_world) {
               const auto j = static_cast<std::size_t>(index) * 3;
               return Vec3d(double(v[j]), double(v[j + 1]), double(v[j + 2]));
             };
-            positions.push_back(
-                (linear * at(attributes.vertices, corner.vertex_index) + to_world.col(3)).cast<Float>());
+            positions.push_back(to_world.point(at(attributes.vertices, corner.vertex_index)).cast<Float>());
             if (has_normals)
-              normals.push_back((normal_map * at(attributes.normals, corner.normal_index)).normalized().cast<Float>());
+              normals.push_back(
+                  to_world.normal(at(attributes.normals, corner.normal_index)).normalized().cast<Float>());
           }
           triangle[k] = it->second;
         }

@@ -23,57 +23,34 @@ Vec3d triple(const XmlElement& e, double fallback) {
   return {axis("x"), axis("y"), axis("z")};
 }
 
-Transform compose(const Transform& second, const Transform& first) {
-  Transform result;
-  result.leftCols<3>() = second.leftCols<3>() * first.leftCols<3>();
-  result.col(3) = second.leftCols<3>() * first.col(3) + second.col(3);
-  return result;
-}
-
-// Mitsuba's camera frame: columns left, up, forward.
 Transform look_at(const XmlElement& e) {
   const auto point = [&](const char* key) {
     const auto v = parse_numbers(e, e.attribute(key), 3);
     return Vec3d(v[0], v[1], v[2]);
   };
-  const Vec3d origin = point("origin"), forward = (point("target") - origin).normalized();
-  const Vec3d left = mc::cross<double>(point("up"), forward);
-  if (!(left.norm() > 0)) e.fail("lookAt: target - origin must not be 0 or parallel to up");
-  Transform t;
-  t.col(0) = left.normalized();
-  t.col(1) = mc::cross<double>(forward, left.normalized());
-  t.col(2) = forward;
-  t.col(3) = origin;
-  return t;
+  const Vec3d origin = point("origin"), target = point("target"), up = point("up");
+  return mc::with_context(e.where(), [&] { return Transform::look_at(origin, target, up); });
 }
 
-// Rodrigues' formula; the angle in degrees.
 Transform rotation(const XmlElement& e) {
   const Vec3d axis = triple(e, 0);
-  if (!(axis.norm() > 0)) e.fail("rotate: the axis must not be 0");
-  const Vec3d a = axis.normalized();
-  const double angle = parse_number(e, e.attribute("angle")) * mc::pi<double> / 180, s = std::sin(angle),
-               c = std::cos(angle);
-  Transform t = Transform::Zero();
-  for (int i = 0; i < 3; ++i)
-    t.col(i) = c * Vec3d::Unit(i) + s * mc::cross<double>(a, Vec3d::Unit(i)) + (1 - c) * a[i] * a;
-  return t;
+  const double degrees = parse_number(e, e.attribute("angle"));
+  return mc::with_context(e.where(), [&] { return Transform::rotate(axis, degrees); });
+}
+
+Transform matrix(const XmlElement& e) {
+  const auto m = parse_numbers(e, e.attribute("value"), 16);
+  if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) e.fail("matrix: the last row must be 0 0 0 1");
+  return Transform::columns({m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}, {m[3], m[7], m[11]});
 }
 
 Transform step(const XmlElement& e) {
-  Transform t = Transform::Zero();
-  t.leftCols<3>().setIdentity();
   if (e.tag == "lookAt" || e.tag == "lookat") return look_at(e);
   if (e.tag == "rotate") return rotation(e);
-  if (e.tag == "translate") t.col(3) = triple(e, 0);
-  else if (e.tag == "scale") t.leftCols<3>() = triple(e, 1).asDiagonal();
-  else if (e.tag == "matrix") {
-    const auto m = parse_numbers(e, e.attribute("value"), 16);
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 4; ++column) t(row, column) = m[static_cast<std::size_t>(4 * row + column)];
-    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1) e.fail("matrix: the last row must be 0 0 0 1");
-  } else e.fail("unknown transformation; use lookAt, translate, scale, rotate or matrix");
-  return t;
+  if (e.tag == "translate") return Transform::translate(triple(e, 0));
+  if (e.tag == "scale") return Transform::scale(triple(e, 1));
+  if (e.tag == "matrix") return matrix(e);
+  e.fail("unknown transformation; use lookAt, translate, scale, rotate or matrix");
 }
 
 double srgb_to_linear(double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); }
@@ -193,12 +170,11 @@ Spectrum Parameters::color(std::string_view name, std::optional<Spectrum> fallba
 }
 
 Transform Parameters::transform(std::string_view name) const {
-  Transform t = Transform::Zero();
-  t.leftCols<3>().setIdentity();
+  Transform t;
   if (const XmlElement* e = value_of(name, {"transform"}))
     for (const XmlElement& child : e->children) {
       child.mark();
-      t = compose(step(child), t);
+      t = step(child) * t;
     }
   return t;
 }

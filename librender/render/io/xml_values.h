@@ -1,8 +1,8 @@
 #pragma once
 /// Numbers, colours and transforms in Mitsuba's XML notation.
 
+#include <render/core/transform.h>
 #include <render/io/xml.h>
-#include <render/shape/triangle_mesh.h>
 
 #include <optional>
 #include <string>

@@ -1,43 +1,36 @@
 #pragma once
-/// Lights.
+/// The closed set of lights.
 
 #include <render/core/dispatch.h>
-#include <render/core/types.h>
+#include <render/light/area.h>
+#include <render/light/background.h>
 
 namespace render {
 
-/// A shape that emits the same radiance in every direction, from the side its normal points to unless two_sided.
-struct AreaLight {
-  int shape = -1;
-  Spectrum radiance = Spectrum::Zero();
-  bool two_sided = false;
-
-  /// Emitted radiance toward w (leaving the surface) where the light's geometric normal is ng.
-  Spectrum emitted(const Vec3& ng, const Vec3& w) const {
-    return two_sided || ng.dot(w) > 0 ? radiance : Spectrum(Spectrum::Zero());
-  }
-};
-
-/// The same radiance from every direction.
-struct ConstantBackground {
-  Spectrum radiance = Spectrum::Zero();
-  Spectrum eval(const Vec3&) const { return radiance; }
-};
-
-/// Linear in the height of the direction: `bottom` at -y, `top` at +y. The sky of [Shirley16] is white to (.5, .7, 1).
-struct GradientBackground {
-  Spectrum bottom = Spectrum::Ones(), top = Spectrum(Float(0.5), Float(0.7), 1);
-  Spectrum eval(const Vec3& d) const {
-    const Float t = (d.y() + 1) / 2;
-    return (1 - t) * bottom + t * top;
-  }
-};
-
-struct Background : std::variant<ConstantBackground, GradientBackground> {
+/// One of the lights; itself models LightLike.
+struct Light : std::variant<AreaLight, ConstantBackground, GradientBackground> {
   using variant::variant;
-  /// Radiance that arrives along the unit direction d away from the scene.
-  Spectrum eval(const Vec3& d) const {
-    return dispatch(*this, [&](const auto& b) { return b.eval(d); });
+
+  Spectrum emitted(const Vec3& wi, const SurfacePoint* met) const {
+    return dispatch(*this, [&](const auto& l) { return l.emitted(wi, met); });
+  }
+  std::optional<LightSample> sample(const Vec3& ref, const Vec2& u) const {
+    return dispatch(*this, [&](const auto& l) { return l.sample(ref, u); });
+  }
+  Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint* met) const {
+    return dispatch(*this, [&](const auto& l) { return l.pdf(ref, wi, met); });
+  }
+  double power(double radius) const {
+    return dispatch(*this, [&](const auto& l) { return l.power(radius); });
+  }
+  bool is_delta() const {
+    return dispatch(*this, [](const auto& l) { return l.is_delta(); });
+  }
+  bool is_infinite() const {
+    return dispatch(*this, [](const auto& l) { return l.is_infinite(); });
+  }
+  bool is_sampled() const {
+    return dispatch(*this, [](const auto& l) { return l.is_sampled(); });
   }
 };
 

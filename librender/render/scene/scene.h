@@ -1,5 +1,5 @@
 #pragma once
-/// Everything that a picture is made of.
+/// What a renderer sees of a scene.
 
 #include <render/accel/bvh.h>
 #include <render/bsdf/bsdf.h>
@@ -7,63 +7,64 @@
 #include <render/film/filter.h>
 #include <render/light/light.h>
 
+#include <mc/table/table_dist_1d.h>
+
+#include <memory>
 #include <optional>
-#include <string>
+#include <span>
 #include <vector>
 
 namespace render {
 
-/// What a scene file says about how to render it; the command line overrides it.
-struct RenderDefaults {
-  int width = 256, height = 256;
-  int spp = 64;
-  int max_depth = -1; ///< longest path in edges; -1: no limit
+/// A BSDF of a scene, as SceneBuilder::add names it.
+enum class BsdfId : std::uint32_t {};
+
+/// A shape with what covers it.
+struct Surface {
+  std::shared_ptr<const Shape> shape;
+  BsdfId bsdf;
+  std::optional<std::uint32_t> light; ///< the light that it is; none: it does not shine
+  bool guide = false;                 ///< the scene asks strategies that aim at lights to aim at it too
 };
 
-/// Shapes with their materials and lights, the background and the camera. Fill it, then call prepare().
-struct Scene {
-  std::vector<Shape> shapes;
-  std::vector<int> shape_bsdf;  ///< per shape, index into bsdfs
-  std::vector<int> shape_light; ///< per shape, index into lights, or -1
-  std::vector<Bsdf> bsdfs;
-  std::vector<AreaLight> lights;
-  std::vector<int> guides; ///< shapes that the `mixture` strategy also aims at, besides the lights
-  std::optional<Background> background;
-  ThinLens camera;
-  Filter filter;
-  RenderDefaults defaults;
+/// Surfaces, lights, camera and filter of a picture, and the tables to look them up. Made by SceneBuilder, immutable,
+/// so threads share it.
+class Scene {
+ public:
+  /// The nearest surface that a ray meets, and its point there.
+  std::optional<Hit> intersect(const Ray& ray) const { return bvh_.intersect(ray); }
+  SurfacePoint surface_point(const Ray& ray, const Hit& hit) const {
+    return surface(hit).shape->surface_point(ray, hit);
+  }
+  bool occluded(const Ray& ray) const { return bvh_.occluded(ray); }
 
-  /// Adds a shape, with a light when `radiance` is given; returns its index.
-  int add(Shape shape, int bsdf, std::optional<AreaLight> light = {});
+  std::span<const Surface> surfaces() const { return surfaces_; }
+  const Surface& surface(const Hit& hit) const { return surfaces_[static_cast<std::size_t>(hit.shape)]; }
+  const Bsdf& bsdf(const Surface& surface) const { return bsdfs_[static_cast<std::size_t>(surface.bsdf)]; }
 
-  /// Checks the scene, builds the BVH and the choice of lights.
-  ///   throws : Error for an empty scene, an emitting shape without area, a BSDF's parameter or an index out of range
-  void prepare();
+  std::span<const Light> lights() const { return lights_; }
+  /// Indices of the lights that shine where a ray leaves the scene.
+  std::span<const std::uint32_t> infinite_lights() const { return infinite_lights_; }
+  /// The lights to connect to, by power; none where no light is sampled. A light that is not sampled, or dark, has pmf
+  /// 0.
+  const std::optional<mc::TableDist1D<Float>>& light_choice() const { return light_choice_; }
 
-  bool has_light() const { return !lights.empty() || background.has_value(); }
-
-  /// A light chosen with probability proportional to its emitted power, and that probability.
-  struct LightChoice {
-    int light;
-    Float pmf;
-  };
-  LightChoice choose_light(Float uc) const;
-  Float light_pmf(int light) const { return light_pmf_[static_cast<std::size_t>(light)]; }
-
-  /// Shapes that the `mixture` strategy aims at: those of the lights, and the guides.
-  const std::vector<int>& targets() const { return targets_; }
-  /// Spheres of glass or mirror that may cast caustics of the lights; none where there are so many that aiming would
-  /// not pay.
-  const std::vector<int>& speculars() const { return speculars_; }
-
-  const Bvh& bvh() const { return bvh_; }
+  const ThinLens& camera() const { return camera_; }
+  const Filter& filter() const { return filter_; }
 
  private:
-  static constexpr std::size_t most_speculars = 8;
+  friend class SceneBuilder;
+  Scene(std::vector<Surface> surfaces, std::vector<Bsdf> bsdfs, std::vector<Light> lights, ThinLens camera,
+        Filter filter);
 
+  std::vector<Surface> surfaces_;
+  std::vector<Bsdf> bsdfs_;
+  std::vector<Light> lights_;
+  std::vector<std::uint32_t> infinite_lights_;
+  std::optional<mc::TableDist1D<Float>> light_choice_;
   Bvh bvh_;
-  std::vector<int> targets_, speculars_;
-  std::vector<Float> light_pmf_, light_cdf_;
+  ThinLens camera_;
+  Filter filter_;
 };
 
 } // namespace render

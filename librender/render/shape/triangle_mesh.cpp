@@ -3,8 +3,6 @@
 #include <mc/core/error.h>
 #include <mc/warp/triangle.h>
 
-#include <Eigen/LU>
-
 #include <algorithm>
 
 namespace render {
@@ -31,14 +29,14 @@ Crossing cross_plane(const std::array<Vec3, 3>& v, const Vec3d& o, const Vec3d& 
 
 std::vector<Vec3> transformed(const std::vector<Vec3d>& points, const Transform& to_world) {
   std::vector<Vec3> result;
-  for (const Vec3d& p : points) result.push_back((to_world.leftCols<3>() * p + to_world.col(3)).cast<Float>());
+  for (const Vec3d& p : points) result.push_back(to_world.point(p).cast<Float>());
   return result;
 }
 
 // Triangles whose geometric normal is the transformed one: a mirroring transform turns the winding, so turn it back.
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 Triangles wound(Triangles triangles, const Transform& to_world) {
-  if (to_world.leftCols<3>().determinant() < 0)
+  if (to_world.mirrors())
     for (auto& t : triangles) std::swap(t[1], t[2]);
   return triangles;
 }

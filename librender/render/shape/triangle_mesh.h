@@ -1,6 +1,7 @@
 #pragma once
 /// Triangle meshes; rectangles and boxes are meshes too.
 
+#include <render/core/transform.h>
 #include <render/shape/concept.h>
 
 #include <mc/warp/spherical_triangle.h>
@@ -10,9 +11,6 @@
 #include <vector>
 
 namespace render {
-
-/// Affine map of points: rows of a 3x4 matrix.
-using Transform = Eigen::Matrix<double, 3, 4>;
 
 /// Triangles over shared vertices. The geometric normal follows the winding (counter-clockwise seen from its side).
 ///   sample : a triangle by its area; of a far one a point uniform in area, of one that nearly touches ref a direction

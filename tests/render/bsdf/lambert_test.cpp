@@ -23,12 +23,17 @@ TEST(Lambert, ReflectsItsAlbedoAndTransmitsNothing) {
   const Lambert b{Spectrum(Float(0.1), Float(0.5), Float(0.9))};
   const Vec3 wo = Vec3(1, 0, 1).normalized(), wi = Vec3(0, 1, 2).normalized();
   for (int c = 0; c < 3; ++c) {
-    EXPECT_FLOAT_EQ(b.eval(wo, wi)[c], b.albedo[c] / mc::pi<Float>);
+    EXPECT_FLOAT_EQ(b.eval(wo, wi)[c], b.albedo()[c] / mc::pi<Float>);
     EXPECT_EQ(b.eval(wo, -wi)[c], 0);
     EXPECT_EQ(b.eval(-wo, -wi)[c], b.eval(wo, wi)[c]);
   }
   EXPECT_EQ(b.pdf(wo, -wi), 0);
   EXPECT_FALSE(b.is_delta());
+}
+
+TEST(Lambert, RefusesNonsense) {
+  for (const Float bad : {Float(-0.1), Float(1.1), std::numeric_limits<Float>::quiet_NaN()})
+    EXPECT_THROW(Lambert(Spectrum(1, bad, 1)), mc::Error);
 }
 
 // The book's in-ball slip has E[cos] = .8 (seed-slips P1).

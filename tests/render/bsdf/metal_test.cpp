@@ -67,6 +67,13 @@ TEST(Metal, AbsorbsWhatTheBookSendsBelowTheSurface) {
   }
 }
 
+TEST(Metal, RefusesNonsense) {
+  for (const Float bad : {Float(-0.1), Float(1.1), std::numeric_limits<Float>::quiet_NaN()}) {
+    EXPECT_THROW(Metal(Spectrum(1, bad, 1)), mc::Error);
+    EXPECT_THROW(Metal(Spectrum::Ones(), bad), mc::Error);
+  }
+}
+
 TEST(Metal, IsFiniteAtTheEdgesOfTheUnitCube) {
   const Float top = mc::one_minus_epsilon<Float>;
   for (const Float fuzz : {Float(1e-3), Float(1)})

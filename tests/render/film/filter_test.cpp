@@ -45,6 +45,16 @@ TEST(Filter, VariancesAreThoseOfTheirShapes) {
   }
 }
 
+TEST(Filter, RefusesNonsense) {
+  for (const Float bad : {Float(0), Float(-1), mc::infinity<Float>, std::numeric_limits<Float>::quiet_NaN()}) {
+    EXPECT_THROW(BoxFilter{bad}, mc::Error);
+    EXPECT_THROW(TentFilter{bad}, mc::Error);
+    EXPECT_THROW(GaussianFilter{bad}, mc::Error);
+    EXPECT_THROW(SubpixelTentFilter(2, bad), mc::Error);
+  }
+  EXPECT_THROW(SubpixelTentFilter(0), mc::Error);
+}
+
 TEST(Filter, FiniteAtTheEdgesOfTheUnitSquare) {
   for (const Filter& filter :
        {Filter(BoxFilter{}), Filter(TentFilter{}), Filter(GaussianFilter{}), Filter(SubpixelTentFilter{})})

@@ -1,4 +1,5 @@
 #include <render/integrator/path.h>
+#include <render/scene/builder.h>
 
 #include <mc/core/error.h>
 #include <mc/estimate/moments.h>
@@ -15,23 +16,20 @@ using namespace render;
 
 constexpr Strategy unbiased[] = {Strategy::bsdf, Strategy::hemisphere, Strategy::mixture, Strategy::nee, Strategy::mis};
 
-Transform columns(const Vec3d& x, const Vec3d& y, const Vec3d& z, const Vec3d& origin) {
-  Transform m;
-  m << x, y, z, origin;
-  return m;
-}
 /// Horizontal rectangle at height y about (cx, cz), normal up or down.
 Shape horizontal(double cx, double y, double cz, double half_x, double half_z, bool up) {
-  return TriangleMesh::rectangle(
-      columns(Vec3d(half_x, 0, 0), Vec3d(0, 0, up ? -half_z : half_z), Vec3d(0, up ? 1 : -1, 0), Vec3d(cx, y, cz)));
+  return TriangleMesh::rectangle(Transform::columns(Vec3d(half_x, 0, 0), Vec3d(0, 0, up ? -half_z : half_z),
+                                                    Vec3d(0, up ? 1 : -1, 0), Vec3d(cx, y, cz)));
 }
 
-mc::Moments trace(const Scene& scene, const Ray& ray, const PathOptions& options, int n, int channel = 0) {
+template <class S>
+mc::Moments trace(const S& scene, const Ray& ray, const PathOptions& options, int n, int channel = 0) {
+  const PathIntegrator<S> integrator(scene, options);
   mc::Moments moments;
   std::uint64_t rays = 0;
   for (int i = 0; i < n; ++i) {
     IndependentStream stream({2026, 0}, std::uint32_t(i));
-    moments.add(double(trace_path(scene, ray, stream, options, rays)[channel]), std::uint64_t(i));
+    moments.add(double(integrator.radiance(ray, stream, rays)[channel]), std::uint64_t(i));
   }
   EXPECT_EQ(moments.non_finite(), 0u);
   return moments;
@@ -51,10 +49,10 @@ std::string word(Strategy s) { return std::string(name(s)); }
 
 // Inside a closed white sphere that shines with e and reflects a, radiance is e / (1 - a) everywhere.
 TEST(Path, ClosedFurnace) {
-  Scene scene;
-  scene.bsdfs.push_back(Lambert{Spectrum(Float(0.2), Float(0.5), Float(0.8))});
-  scene.add(Sphere(Vec3d::Zero(), 1, true), 0, AreaLight{-1, Spectrum::Constant(2)});
-  scene.prepare();
+  SceneBuilder builder;
+  const BsdfId wall = builder.add(Lambert(Spectrum(Float(0.2), Float(0.5), Float(0.8))));
+  builder.add(Sphere(Vec3d::Zero(), 1, true), {wall, Emission{Spectrum::Constant(2)}});
+  const Scene scene = builder.build();
   const Ray ray{Vec3(Float(0.2), Float(0.1), Float(-0.3)), Vec3(1, 2, 3).normalized()};
   for (const Strategy s : unbiased)
     for (int channel = 0; channel < 3; ++channel)
@@ -63,12 +61,11 @@ TEST(Path, ClosedFurnace) {
 
 // An open sphere or plate in a constant sky of 1: what reflects or refracts all of it is invisible.
 TEST(Path, WhiteObjectsVanishInAWhiteSky) {
-  for (const Bsdf& bsdf : {Bsdf(Lambert{Spectrum::Ones()}), Bsdf(Metal{Spectrum::Ones(), 0}), Bsdf(Dielectric{})}) {
-    Scene scene;
-    scene.background = ConstantBackground{Spectrum::Ones()};
-    scene.bsdfs.push_back(bsdf);
-    scene.add(Sphere(Vec3d::Zero(), 1), 0);
-    scene.prepare();
+  for (const Bsdf& bsdf : {Bsdf(Lambert(Spectrum::Ones())), Bsdf(Metal(Spectrum::Ones())), Bsdf(Dielectric())}) {
+    SceneBuilder builder;
+    builder.add(Light(ConstantBackground(Spectrum::Ones())));
+    builder.add(Sphere(Vec3d::Zero(), 1), {builder.add(bsdf)});
+    const Scene scene = builder.build();
     // Glass varies only where roulette ends one of the 2 in 1000 paths that reflect twice inside, too rarely for a
     // t-test: the standard error is sqrt(.002 * .05 / n) = 7e-5.
     for (const Strategy s : unbiased) {
@@ -81,12 +78,11 @@ TEST(Path, WhiteObjectsVanishInAWhiteSky) {
 
 // The Cornell light over the middle of the floor: form factor 0.013945466356 (scene-catalogue G).
 Scene cornell_light() {
-  Scene scene;
-  scene.bsdfs.push_back(Lambert{Spectrum::Constant(Float(0.73))});
-  scene.add(horizontal(278, 0, 279.5, 1000, 1000, true), 0);
-  scene.add(horizontal(278, 554, 279.5, 65, 52.5, false), 0, AreaLight{-1, Spectrum::Constant(15)});
-  scene.prepare();
-  return scene;
+  SceneBuilder builder;
+  const BsdfId white = builder.add(Lambert(Spectrum::Constant(Float(0.73))));
+  builder.add(horizontal(278, 0, 279.5, 1000, 1000, true), {white});
+  builder.add(horizontal(278, 554, 279.5, 65, 52.5, false), {white, Emission{Spectrum::Constant(15)}});
+  return builder.build();
 }
 
 TEST(Path, RectangleOverLambertPlane) {
@@ -102,20 +98,20 @@ TEST(Path, LightsAreDarkFromBehind) {
   std::uint64_t rays = 0;
   for (const Strategy s : unbiased) {
     IndependentStream stream({1, 0}, 0);
-    EXPECT_TRUE(is_black(trace_path(scene, {Vec3(278, 700, Float(279.5)), Vec3(0, -1, 0)}, stream, {s, 1}, rays)))
-        << word(s);
-    EXPECT_TRUE((trace_path(scene, {Vec3(278, 300, Float(279.5)), Vec3(0, 1, 0)}, stream, {s, 1}, rays) == 15).all())
-        << word(s);
+    const PathIntegrator<Scene> integrator(scene, {s, 1});
+    const Ray above{Vec3(278, 700, Float(279.5)), Vec3(0, -1, 0)}, below{Vec3(278, 300, Float(279.5)), Vec3(0, 1, 0)};
+    EXPECT_TRUE(is_black(integrator.radiance(above, stream, rays))) << word(s);
+    EXPECT_TRUE((integrator.radiance(below, stream, rays) == 15).all()) << word(s);
   }
 }
 
 // A sphere of radius r and radiance L at height h over a plane gives irradiance pi L r^2 / h^2 below it.
 TEST(Path, SphereOverLambertPlane) {
-  Scene scene;
-  scene.bsdfs.push_back(Lambert{Spectrum::Constant(Float(0.5))});
-  scene.add(horizontal(0, 0, 0, 50, 50, true), 0);
-  scene.add(Sphere(Vec3d(0, 4, 0), 1.5), 0, AreaLight{-1, Spectrum::Constant(3)});
-  scene.prepare();
+  SceneBuilder builder;
+  const BsdfId gray = builder.add(Lambert());
+  builder.add(horizontal(0, 0, 0, 50, 50, true), {gray});
+  builder.add(Sphere(Vec3d(0, 4, 0), 1.5), {gray, Emission{Spectrum::Constant(3)}});
+  const Scene scene = builder.build();
   const Ray down{Vec3(0, 1, 0), Vec3(0, -1, 0)};
   for (const Strategy s :
        {Strategy::bsdf, Strategy::hemisphere, Strategy::light, Strategy::mixture, Strategy::nee, Strategy::mis})
@@ -124,17 +120,16 @@ TEST(Path, SphereOverLambertPlane) {
 
 // Light met after a delta lobe counts fully in every strategy (seed-slips P34), and once (P33).
 TEST(Path, LightsInMirrorsAndThroughGlass) {
-  Scene mirror;
-  mirror.bsdfs = {Metal{Spectrum::Constant(Float(0.8)), 0}, Lambert{Spectrum::Zero()}};
-  mirror.add(horizontal(0, 0, 0, 5, 5, true), 0);
-  mirror.add(horizontal(0, 5, 0, 1, 1, false), 1, AreaLight{-1, Spectrum::Constant(3)});
-  mirror.prepare();
+  const Emission light{Spectrum::Constant(3)};
+  SceneBuilder builder;
+  builder.add(horizontal(0, 0, 0, 5, 5, true), {builder.add(Metal(Spectrum::Constant(Float(0.8))))});
+  builder.add(horizontal(0, 5, 0, 1, 1, false), {builder.add(Lambert(Spectrum::Zero())), light});
+  const Scene mirror = builder.build();
   // A plate of glass seen straight on passes (1 - R) / (1 + R) with R = .04, all inner reflections counted.
-  Scene plate;
-  plate.bsdfs = {Dielectric{}, Lambert{Spectrum::Zero()}};
-  plate.add(TriangleMesh::box(columns(Vec3d(2, 0, 0), Vec3d(0, 0.5, 0), Vec3d(0, 0, 2), Vec3d(0, 2, 0))), 0);
-  plate.add(horizontal(0, 5, 0, 1, 1, false), 1, AreaLight{-1, Spectrum::Constant(3)});
-  plate.prepare();
+  const Transform flat = Transform::columns(Vec3d(2, 0, 0), Vec3d(0, 0.5, 0), Vec3d(0, 0, 2), Vec3d(0, 2, 0));
+  builder.add(TriangleMesh::box(flat), {builder.add(Dielectric())});
+  builder.add(horizontal(0, 5, 0, 1, 1, false), {builder.add(Lambert(Spectrum::Zero())), light});
+  const Scene plate = builder.build();
   for (const Strategy s :
        {Strategy::bsdf, Strategy::hemisphere, Strategy::light, Strategy::mixture, Strategy::nee, Strategy::mis}) {
     expect_mean(trace(mirror, {Vec3(0, 2, 0), Vec3(Float(0.1), -2, 0).normalized()}, {s}, 10), 0.8 * 3, word(s));
@@ -144,16 +139,17 @@ TEST(Path, LightsInMirrorsAndThroughGlass) {
 
 // Everything at once: two lights, sky, glass, fuzzy metal. All agree with mis; light-only loses what surfaces reflect.
 TEST(Path, StrategiesAgree) {
-  Scene scene;
-  scene.bsdfs = {Lambert{Spectrum(Float(0.8), Float(0.6), Float(0.4))},
-                 Metal{Spectrum::Constant(Float(0.9)), Float(0.6)}, Dielectric{}};
-  scene.background = GradientBackground{};
-  scene.add(horizontal(0, 0, 0, 4, 4, true), 0);
-  scene.add(Sphere(Vec3d(1.2, 1, 0), 1), 1);
-  scene.guides.push_back(scene.add(Sphere(Vec3d(-1.2, 1, 0), 1), 2));
-  scene.add(horizontal(0, 4, 0, 1.5, 1.5, false), 0, AreaLight{-1, Spectrum(4, 3, 2)});
-  scene.add(Sphere(Vec3d(0, 0.6, 1.5), 0.5), 0, AreaLight{-1, Spectrum(1, 2, 3)});
-  scene.prepare();
+  SceneBuilder builder;
+  const BsdfId tan = builder.add(Lambert(Spectrum(Float(0.8), Float(0.6), Float(0.4)))),
+               metal = builder.add(Metal(Spectrum::Constant(Float(0.9)), Float(0.6))),
+               glass = builder.add(Dielectric());
+  builder.add(Light(GradientBackground()));
+  builder.add(horizontal(0, 0, 0, 4, 4, true), {tan});
+  builder.add(Sphere(Vec3d(1.2, 1, 0), 1), {metal});
+  builder.add(Sphere(Vec3d(-1.2, 1, 0), 1), {.bsdf = glass, .guide = true});
+  builder.add(horizontal(0, 4, 0, 1.5, 1.5, false), {tan, Emission{Spectrum(4, 3, 2)}});
+  builder.add(Sphere(Vec3d(0, 0.6, 1.5), 0.5), {tan, Emission{Spectrum(1, 2, 3)}});
+  const Scene scene = builder.build();
   const Ray ray{Vec3(Float(0.1), 2, 5), Vec3(0, -2, -4).normalized()};
   const mc::Moments mis = trace(scene, ray, {Strategy::mis}, 60'000);
   for (const Strategy s : unbiased) {
@@ -168,10 +164,10 @@ TEST(Path, StrategiesAgree) {
 
 // Radiance over paths of at most `depth` edges is the partial sum of the series; 0 edges see nothing.
 TEST(Path, DepthCountsEdges) {
-  Scene scene;
-  scene.bsdfs.push_back(Lambert{Spectrum::Constant(Float(0.9))});
-  scene.add(Sphere(Vec3d::Zero(), 1, true), 0, AreaLight{-1, Spectrum::Ones()});
-  scene.prepare();
+  SceneBuilder builder;
+  const BsdfId wall = builder.add(Lambert(Spectrum::Constant(Float(0.9))));
+  builder.add(Sphere(Vec3d::Zero(), 1, true), {wall, Emission{}});
+  const Scene scene = builder.build();
   const Ray ray{Vec3::Zero(), Vec3::UnitX()};
   for (const Strategy s : unbiased) EXPECT_EQ(trace(scene, ray, {s, 0}, 10).mean(), 0) << word(s);
   for (const int depth : {1, 2, 3, 40})
@@ -180,20 +176,40 @@ TEST(Path, DepthCountsEdges) {
                   word(s) + " to depth " + std::to_string(depth), 2e-5);
 }
 
+// A scene whose surfaces have a BSDF of the test's own.
+template <class B> struct Recovered : Scene {
+  B own;
+  Recovered(Scene scene, B bsdf) : Scene(std::move(scene)), own(std::move(bsdf)) {}
+  const B& bsdf(const Surface&) const { return own; }
+};
+
+// Lambert's, with a component that is not a number.
+struct Broken : Lambert {
+  std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
+    auto s = Lambert::sample(wo, uc, u);
+    if (s) s->f[1] = std::numeric_limits<Float>::quiet_NaN();
+    return s;
+  }
+  Spectrum eval(const Vec3& wo, const Vec3& wi) const {
+    Spectrum f = Lambert::eval(wo, wi);
+    if (!is_black(f)) f[1] = std::numeric_limits<Float>::quiet_NaN();
+    return f;
+  }
+};
+
 // A NaN throughput ends the path as an invalid sample, however long the path was: roulette must not swallow it.
 TEST(Path, NonFiniteThroughputIsNeverQuiet) {
-  Scene scene;
-  scene.bsdfs = {Lambert{}};
-  scene.add(Sphere(Vec3d::Zero(), 1, true), 0);
-  scene.prepare();
-  scene.bsdfs = {
-      Lambert{Spectrum(Float(0.5), std::numeric_limits<Float>::quiet_NaN(), Float(0.5))}}; // prepare would refuse it
+  SceneBuilder builder;
+  builder.add(Sphere(Vec3d::Zero(), 1, true), {builder.add(Lambert())});
+  const Recovered<Broken> scene(builder.build(), Broken());
   std::uint64_t rays = 0;
-  for (const Strategy s : unbiased)
+  for (const Strategy s : unbiased) {
+    const PathIntegrator<Recovered<Broken>> integrator(scene, {s});
     for (std::uint32_t i = 0; i < 100; ++i) {
       IndependentStream stream({3, 0}, i);
-      EXPECT_FALSE(trace_path(scene, {Vec3::Zero(), Vec3::UnitX()}, stream, {s}, rays).isFinite().all()) << word(s);
+      EXPECT_FALSE(integrator.radiance({Vec3::Zero(), Vec3::UnitX()}, stream, rays).isFinite().all()) << word(s);
     }
+  }
 }
 
 TEST(Strategy, NamesAndTheirSlips) {

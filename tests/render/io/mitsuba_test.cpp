@@ -24,18 +24,18 @@ struct Mitsuba : support::ScratchTest {
 std::string gallery(const std::string& name) { return std::string(MC_SOURCE_DIR) + "/librender/scenes/" + name; }
 
 TEST_F(Mitsuba, ReadsTheCornellBoxAsItIs) {
-  const render::Scene scene = render::read_mitsuba(gallery("cbox.xml"));
-  EXPECT_EQ(scene.shapes.size(), 8u);
-  ASSERT_EQ(scene.lights.size(), 1u);
-  EXPECT_NEAR(scene.shapes[static_cast<std::size_t>(scene.lights[0].shape)].area(), 130 * 105, 1);
-  EXPECT_EQ(scene.defaults.width, 512);
-  EXPECT_EQ(scene.defaults.spp, 4);
-  EXPECT_EQ(scene.defaults.max_depth, -1);
-  EXPECT_TRUE(std::holds_alternative<render::GaussianFilter>(scene.filter));
-  EXPECT_NEAR(scene.camera.forward.z(), 1, 1e-6);
-  EXPECT_NEAR(scene.camera.right.x(), -1, 1e-6);
+  const auto [scene, defaults] = render::read_mitsuba(gallery("cbox.xml"));
+  EXPECT_EQ(scene.surfaces().size(), 8u);
+  ASSERT_EQ(scene.lights().size(), 1u);
+  const render::Shape& light = std::get<render::AreaLight>(scene.lights()[0]).shape();
+  EXPECT_NEAR(light.area(), 130 * 105, 1);
+  EXPECT_EQ(defaults.width, 512);
+  EXPECT_EQ(defaults.spp, 4);
+  EXPECT_EQ(defaults.max_depth, -1);
+  EXPECT_TRUE(std::holds_alternative<render::GaussianFilter>(scene.filter()));
+  EXPECT_NEAR(scene.camera().forward().z(), 1, 1e-6);
+  EXPECT_NEAR(scene.camera().right().x(), -1, 1e-6);
   // The light shines down, inside the room.
-  const auto& light = scene.shapes[static_cast<std::size_t>(scene.lights[0].shape)];
   EXPECT_LT(light.sample(render::Vec3(278, 0, 280), render::Vec2(0.3f, 0.6f))->point.ng.y(), -0.99);
 }
 
@@ -44,7 +44,7 @@ TEST_F(Mitsuba, EveryGallerySceneLoadsAndRenders) {
   for (const auto& entry : std::filesystem::directory_iterator(gallery(""))) {
     if (entry.path().extension() != ".xml") continue;
     ++scenes;
-    const render::Scene scene = render::read_mitsuba(entry.path().string());
+    const render::Scene scene = render::read_mitsuba(entry.path().string()).scene;
     render::RenderOptions options;
     options.width = 24, options.height = 18, options.spp = 8;
     const auto result = render::render(scene, options);
@@ -93,7 +93,7 @@ TEST_F(Mitsuba, NamesFileLineAndRemedy) {
               testing::HasSubstr("sampleCount 0 must be at least 1"));
   EXPECT_THAT(refusal(std::string(sensor) +
                       "\n<bsdf type=\"diffuse\" id=\"a\"><rgb name=\"reflectance\" value=\"1.5\"/></bsdf>"),
-              testing::HasSubstr("reflectance 1.5 must lie in [0, 1]"));
+              testing::HasSubstr("s.xml:3: diffuse: reflectance (1.5, 1.5, 1.5) must lie in [0, 1]"));
   EXPECT_THAT(
       refusal(std::string(sensor) + "\n<emitter type=\"constant\"><rgb name=\"radiance\" value=\"-1\"/></emitter>"),
       testing::HasSubstr("must be finite and >= 0"));
@@ -112,8 +112,8 @@ TEST_F(Mitsuba, MeshProblemsNameSceneAndMesh) {
 }
 
 TEST_F(Mitsuba, ASceneWithoutLightIsBlackNotAnError) {
-  const render::Scene scene = render::read_mitsuba(this->scene(std::string(sensor) + "<shape type=\"sphere\"/>"));
-  EXPECT_FALSE(scene.has_light());
+  const render::Scene scene = render::read_mitsuba(this->scene(std::string(sensor) + "<shape type=\"sphere\"/>")).scene;
+  EXPECT_TRUE(scene.lights().empty());
   render::RenderOptions options;
   options.width = options.height = 4;
   options.spp = 4;
@@ -133,7 +133,7 @@ TEST_P(Reference, BlocksAgree) {
   const auto [name, file, noise] = GetParam();
   if (!support::shared_present(file)) return;
   const render::Image reference = render::read_image(support::shared(file));
-  const render::Scene scene = render::read_mitsuba(gallery(name));
+  const render::Scene scene = render::read_mitsuba(gallery(name)).scene;
   render::RenderOptions options;
   options.width = reference.width, options.height = reference.height, options.spp = 64;
   options.seed = 3;

@@ -5,27 +5,22 @@
 namespace {
 
 struct Obj : support::ScratchTest {
-  static render::Transform identity() {
-    render::Transform t = render::Transform::Zero();
-    t.leftCols<3>().setIdentity();
-    return t;
-  }
   std::string refusal(const std::string& text) const {
     const std::string file = write("bad.obj", text);
-    return support::error_of([&] { render::read_obj(file, identity()); });
+    return support::error_of([&] { render::read_obj(file, render::Transform{}); });
   }
 };
 
 TEST_F(Obj, QuadBecomesTwoTriangles) {
-  const auto mesh = render::read_obj(write("quad.obj", "v 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\nf 1 2 3 4\n"), identity());
+  const auto mesh =
+      render::read_obj(write("quad.obj", "v 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\nf 1 2 3 4\n"), render::Transform{});
   EXPECT_EQ(mesh.size(), 2u);
   EXPECT_DOUBLE_EQ(mesh.area(), 6);
 }
 
 TEST_F(Obj, TransformAndNegativeIndices) {
-  render::Transform t = identity();
-  t(0, 0) = -2; // mirrors: the winding is turned so that the normal stays on its side
-  t(2, 3) = 5;
+  // Mirrors: the winding is turned so that the normal stays on its side.
+  const render::Transform t = render::Transform::translate({0, 0, 5}) * render::Transform::scale({-2, 1, 1});
   const auto mesh = render::read_obj(write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n"), t);
   EXPECT_DOUBLE_EQ(mesh.area(), 1);
   const auto v = mesh.vertices(0);
@@ -35,7 +30,7 @@ TEST_F(Obj, TransformAndNegativeIndices) {
 
 TEST_F(Obj, RefusesWithFileAndPlace) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  EXPECT_THAT(support::error_of([&] { render::read_obj(path("none.obj"), identity()); }),
+  EXPECT_THAT(support::error_of([&] { render::read_obj(path("none.obj"), render::Transform{}); }),
               testing::HasSubstr("no such file"));
   EXPECT_THAT(refusal(corners + "f 1 2 9\n"),
               testing::HasSubstr("bad.obj: line 4: a face names vertex 9, but there are only 3"));

@@ -51,16 +51,16 @@ TEST_F(XmlValues, TransformsApplyInOrder) {
   const auto p = parse(
       "<transform name=\"t\"><scale x=\"2\"/><rotate z=\"1\" angle=\"90\"/><translate x=\"5\" y=\"1\"/></transform>");
   const render::Transform t = p.transform("t");
-  const render::Vec3d q = t.leftCols<3>() * render::Vec3d(1, 0, 0) + t.col(3); // (2,0,0) -> (0,2,0) -> (5,3,0)
+  const render::Vec3d q = t.point({1, 0, 0}); // (2,0,0) -> (0,2,0) -> (5,3,0)
   EXPECT_NEAR((q - render::Vec3d(5, 3, 0)).norm(), 0, 1e-12);
 }
 
 TEST_F(XmlValues, LookAtIsMitsubasFrame) {
   const auto p = parse("<transform name=\"t\"><lookAt origin=\"0, 0, -5\" target=\"0,0,0\" up=\"0 1 0\"/></transform>");
   const render::Transform t = p.transform("t");
-  EXPECT_NEAR((t.col(2) - render::Vec3d(0, 0, 1)).norm(), 0, 1e-12) << "forward";
-  EXPECT_NEAR((t.col(0) - render::Vec3d(1, 0, 0)).norm(), 0, 1e-12) << "left";
-  EXPECT_NEAR((t.col(3) - render::Vec3d(0, 0, -5)).norm(), 0, 1e-12);
+  EXPECT_NEAR((t.linear.col(2) - render::Vec3d(0, 0, 1)).norm(), 0, 1e-12) << "forward";
+  EXPECT_NEAR((t.linear.col(0) - render::Vec3d(1, 0, 0)).norm(), 0, 1e-12) << "left";
+  EXPECT_NEAR((t.translation - render::Vec3d(0, 0, -5)).norm(), 0, 1e-12);
   const auto bad = parse("<transform name=\"t\"><lookAt origin=\"0 0 0\" target=\"0 1 0\" up=\"0 1 0\"/></transform>");
   EXPECT_THAT(support::error_of([&] { bad.transform("t"); }), testing::HasSubstr("parallel to up"));
 }

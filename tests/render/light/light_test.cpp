@@ -6,25 +6,18 @@ namespace {
 
 using namespace render;
 
-TEST(AreaLight, ShinesFromTheSideOfItsNormal) {
-  const AreaLight light{0, Spectrum(1, 2, 3)};
-  EXPECT_TRUE((light.emitted(Vec3::UnitY(), Vec3(1, 1, 0).normalized()) == light.radiance).all());
-  EXPECT_TRUE((light.emitted(Vec3::UnitY(), Vec3(1, -1, 0).normalized()) == 0).all());
-  EXPECT_TRUE((light.emitted(Vec3::UnitY(), Vec3::UnitX()) == 0).all());
-}
+static_assert(LightLike<Light> && LightLike<AreaLight> && LightLike<ConstantBackground> &&
+              LightLike<GradientBackground>);
 
-TEST(AreaLight, TwoSidedShinesFromBoth) {
-  const AreaLight light{0, Spectrum(1, 2, 3), true};
-  for (const Float side : {Float(1), Float(-1)})
-    EXPECT_TRUE((light.emitted(Vec3::UnitY(), side * Vec3::UnitY()) == light.radiance).all());
-}
-
-TEST(Background, ConstantAndGradient) {
-  EXPECT_TRUE((Background(ConstantBackground{Spectrum::Constant(2)}).eval(Vec3::UnitX()) == 2).all());
-  const Background sky = GradientBackground{Spectrum::Ones(), Spectrum(Float(0.5), Float(0.25), 0)};
-  EXPECT_TRUE((sky.eval(-Vec3::UnitY()) == 1).all());
-  EXPECT_TRUE((sky.eval(Vec3::UnitY()) == Spectrum(Float(0.5), Float(0.25), 0)).all());
-  EXPECT_TRUE((sky.eval(Vec3::UnitX()) == Spectrum(Float(0.75), Float(0.625), Float(0.5))).all());
+TEST(Light, AnswersAsItsMember) {
+  const GradientBackground sky;
+  const Light light = sky;
+  const Vec3 ref = Vec3::Zero(), wi = Vec3(1, 2, 3).normalized();
+  EXPECT_TRUE((light.emitted(wi, nullptr) == sky.emitted(wi, nullptr)).all());
+  EXPECT_EQ(light.pdf(ref, wi, nullptr), sky.pdf(ref, wi, nullptr));
+  EXPECT_EQ(light.sample(ref, Vec2(Float(0.3), Float(0.7)))->wi, sky.sample(ref, Vec2(Float(0.3), Float(0.7)))->wi);
+  EXPECT_EQ(light.power(2), sky.power(2));
+  EXPECT_TRUE(light.is_infinite() && !light.is_delta() && !light.is_sampled());
 }
 
 } // namespace

@@ -14,10 +14,9 @@ Vec3 direction(mc::Pcg& random) { return mc::UniformSphere<Float>{}.sample(rando
 
 /// A turned box of the given half size.
 TriangleMesh turned_box(double half, const Vec3d& center) {
-  Transform m;
-  m << 0.36, 0.48, -0.8, center.x(), -0.8, 0.6, 0, center.y(), 0.48, 0.64, 0.6, center.z();
-  m.leftCols<3>() *= half;
-  return TriangleMesh::box(m);
+  const Transform turn =
+      Transform::columns({0.36, -0.8, 0.48}, {0.48, 0.6, 0.64}, {-0.8, 0, 0.6}, center.cast<double>());
+  return TriangleMesh::box(turn * Transform::scale(Vec3d::Constant(half)));
 }
 
 /// Outward directions, every other one grazing: down to a slope of 1e-5, which a float normal still resolves.

@@ -16,11 +16,7 @@ using namespace render;
 
 const std::vector<Vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-Transform scaled_at(const Vec3d& scale, const Vec3d& at) {
-  Transform m;
-  m << scale.x(), 0, 0, at.x(), 0, scale.y(), 0, at.y(), 0, 0, scale.z(), at.z();
-  return m;
-}
+Transform scaled_at(const Vec3d& scale, const Vec3d& at) { return Transform::translate(at) * Transform::scale(scale); }
 
 template <class F> std::string message_of(F&& f) {
   try {
@@ -53,8 +49,8 @@ TEST(TriangleMesh, Areas) {
 
 // d^2 / (cos A) against the analytic solid angle of the Cornell light: the mean of 1/pdf on a grid of u.
 TEST(TriangleMesh, SolidAngleOfTheCornellLight) {
-  Transform m; // the square in xy, laid into the plane y = 554
-  m << 65, 0, 0, 278, 0, 0, 1, 554, 0, 52.5, 0, 279.5;
+  // The square in xy, laid into the plane y = 554.
+  const Transform m = Transform::columns({65, 0, 0}, {0, 0, 52.5}, {0, 1, 0}, {278, 554, 279.5});
   const TriangleMesh light = TriangleMesh::rectangle(m);
   const int n = 512;
   double sum = 0;
@@ -127,14 +123,15 @@ TEST(TriangleMesh, NormalOfARectangleIsTheTransformedOne) {
   int mirrored = 0;
   for (int trial = 0; trial < 200; ++trial) {
     Transform m;
-    for (int i = 0; i < 12; ++i) m(i / 4, i % 4) = 2 * random.uniform<double>() - 1;
+    for (int i = 0; i < 9; ++i) m.linear(i / 3, i % 3) = 2 * random.uniform<double>() - 1;
+    for (int i = 0; i < 3; ++i) m.translation[i] = 2 * random.uniform<double>() - 1;
     if (trial < 8) m = scaled_at({trial & 1 ? -1. : 1., trial & 2 ? -1. : 1., trial & 4 ? -1. : 1.}, {0, 0, 0});
-    const Eigen::Matrix3d linear = m.leftCols<3>();
+    const Eigen::Matrix3d linear = m.linear;
     mirrored += linear.determinant() < 0;
     const Vec3 expected = (linear.inverse().transpose() * Vec3d::UnitZ()).normalized().cast<Float>();
     const TriangleMesh square = TriangleMesh::rectangle(m);
     for (int i = 0; i < 2; ++i)
-      EXPECT_LE((square.surface_point({}, {1, 0, i, Float(0.3), Float(0.3)}).ng - expected).norm(), 1e-4) << m;
+      EXPECT_LE((square.surface_point({}, {1, 0, i, Float(0.3), Float(0.3)}).ng - expected).norm(), 1e-4) << m.linear;
   }
   EXPECT_GT(mirrored, 50);
 }

@@ -1,0 +1,56 @@
+#pragma once
+/// Shapes that shine.
+
+#include <render/light/concept.h>
+#include <render/shape/shape.h>
+
+#include <memory>
+
+namespace render {
+
+/// What an emitting surface sends out: the same radiance in every direction, from the side its normal points to unless
+/// two_sided.
+struct Emission {
+  Spectrum radiance = Spectrum::Ones();
+  bool two_sided = false;
+};
+
+/// A shape that emits.
+///   sample : a point of the shape, as it samples itself
+///   throws : Error unless the radiance is finite and >= 0 and the shape has an area
+class AreaLight {
+ public:
+  AreaLight(std::shared_ptr<const Shape> shape, const Emission& emission)
+      : shape_(std::move(shape)), radiance_(checked_radiance("area light: radiance", emission.radiance)),
+        two_sided_(emission.two_sided) {
+    mc::require(shape_->area() > 0, "area light: an emitting shape needs an area > 0, but this one has {}",
+                shape_->area());
+  }
+
+  Spectrum emitted(const Vec3& wi, const SurfacePoint* met) const {
+    return met && (two_sided_ || met->ng.dot(wi) < 0) ? radiance_ : Spectrum(Spectrum::Zero());
+  }
+  std::optional<LightSample> sample(const Vec3& ref, const Vec2& u) const {
+    const auto s = shape_->sample(ref, u);
+    if (!s) return {};
+    return LightSample{s->wi, emitted(s->wi, &s->point), s->pdf, s->point};
+  }
+  Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint* met) const {
+    return met ? shape_->pdf(ref, wi, *met) : Float(0);
+  }
+  double power(double) const {
+    return mc::pi<double> * shape_->area() * double(luminance(radiance_)) * (two_sided_ ? 2 : 1);
+  }
+  bool is_delta() const { return false; }
+  bool is_infinite() const { return false; }
+  bool is_sampled() const { return true; }
+
+  const Shape& shape() const { return *shape_; }
+
+ private:
+  std::shared_ptr<const Shape> shape_;
+  Spectrum radiance_;
+  bool two_sided_;
+};
+
+} // namespace render

@@ -1,0 +1,34 @@
+#include <render/scene/builder.h>
+
+#include <mc/core/error.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace render {
+
+BsdfId SceneBuilder::add(Bsdf bsdf) {
+  bsdfs_.push_back(std::move(bsdf));
+  return BsdfId(static_cast<std::uint32_t>(bsdfs_.size() - 1));
+}
+
+void SceneBuilder::add(Shape shape, const Cover& cover) {
+  const auto bsdf = static_cast<std::size_t>(cover.bsdf);
+  mc::require(bsdf < bsdfs_.size(), "scene: shape {} names BSDF {} of {}", surfaces_.size(), bsdf, bsdfs_.size());
+  Surface surface{std::make_shared<const Shape>(std::move(shape)), cover.bsdf, {}, cover.guide};
+  if (cover.emission) {
+    surface.light = static_cast<std::uint32_t>(lights_.size());
+    lights_.emplace_back(AreaLight(surface.shape, *cover.emission));
+  }
+  surfaces_.push_back(std::move(surface));
+}
+
+Scene SceneBuilder::build() {
+  mc::require(!surfaces_.empty() ||
+                  std::any_of(lights_.begin(), lights_.end(), [](const Light& l) { return l.is_infinite(); }),
+              "scene: it has neither a shape nor a background; add at least one");
+  SceneBuilder parts = std::exchange(*this, SceneBuilder());
+  return {std::move(parts.surfaces_), std::move(parts.bsdfs_), std::move(parts.lights_), parts.camera_, parts.filter_};
+}
+
+} // namespace render

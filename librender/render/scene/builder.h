@@ -1,0 +1,39 @@
+#pragma once
+/// How a scene is put together.
+
+#include <render/scene/scene.h>
+
+namespace render {
+
+/// Collects what a reader finds and makes the Scene of it. What is added is right by its own constructor.
+class SceneBuilder {
+ public:
+  BsdfId add(Bsdf bsdf);
+
+  struct Cover {
+    BsdfId bsdf;
+    std::optional<Emission> emission = {};
+    bool guide = false; ///< see Surface
+  };
+  /// throws : Error for a BSDF that was not added, or what AreaLight refuses
+  void add(Shape shape, const Cover& cover);
+
+  /// A light that is no surface.
+  void add(Light light) { lights_.push_back(std::move(light)); }
+
+  void set(const ThinLens& camera) { camera_ = camera; }
+  void set(const Filter& filter) { filter_ = filter; }
+
+  /// The scene of all that was added; the builder is empty afterwards.
+  ///   throws : Error when there is neither a shape nor an infinite light
+  Scene build();
+
+ private:
+  std::vector<Surface> surfaces_;
+  std::vector<Bsdf> bsdfs_;
+  std::vector<Light> lights_;
+  ThinLens camera_;
+  Filter filter_;
+};
+
+} // namespace render

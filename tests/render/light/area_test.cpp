@@ -1,0 +1,50 @@
+#include <render/light/area.h>
+
+#include <mc/core/error.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace render;
+
+std::shared_ptr<const Shape> square() { return std::make_shared<const Shape>(TriangleMesh::rectangle({})); }
+
+TEST(AreaLight, ShinesFromTheSideOfItsNormal) {
+  SurfacePoint p;
+  p.ng = Vec3::UnitY();
+  const Spectrum radiance(1, 2, 3), black = Spectrum::Zero();
+  const Vec3 above(0, -1, 0), below(0, 1, 0), beside(1, 0, 0); // directions toward the light
+  const AreaLight one(square(), {radiance}), both(square(), {radiance, true});
+  EXPECT_TRUE((one.emitted(above, &p) == radiance).all());
+  EXPECT_TRUE((one.emitted(below, &p) == black).all());
+  EXPECT_TRUE((one.emitted(beside, &p) == black).all());
+  for (const Vec3& wi : {above, below}) EXPECT_TRUE((both.emitted(wi, &p) == radiance).all());
+  EXPECT_TRUE((both.emitted(above, nullptr) == black).all()) << "where no surface is met, it does not shine";
+}
+
+// Two squares of area 4: power pi A L, seen from both sides twice that.
+TEST(AreaLight, Power) {
+  EXPECT_NEAR(AreaLight(square(), {Spectrum::Constant(3)}).power(1), 12 * mc::pi<double>, 1e-5);
+  EXPECT_NEAR(AreaLight(square(), {Spectrum::Constant(3), true}).power(1), 24 * mc::pi<double>, 1e-5);
+}
+
+TEST(AreaLight, SamplesItsShape) {
+  const AreaLight light(square(), {Spectrum::Ones()});
+  const Vec3 ref(Float(0.2), Float(0.1), 3);
+  const auto s = light.sample(ref, Vec2(Float(0.3), Float(0.7)));
+  ASSERT_TRUE(s && s->end);
+  EXPECT_NEAR(light.pdf(ref, s->wi, &*s->end) / s->pdf, 1, 1e-5);
+  EXPECT_TRUE((s->radiance == 1).all());
+  EXPECT_LE((ref + (s->end->p - ref).norm() * s->wi - s->end->p).norm(), 1e-5);
+}
+
+TEST(AreaLight, RefusesNonsense) {
+  const Float nan = std::numeric_limits<Float>::quiet_NaN();
+  for (const Float bad : {Float(-1), nan, mc::infinity<Float>})
+    EXPECT_THROW(AreaLight(square(), {Spectrum(1, bad, 1)}), mc::Error);
+  const auto flat = std::make_shared<const Shape>(TriangleMesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}));
+  EXPECT_THROW(AreaLight(flat, {}), mc::Error);
+}
+
+} // namespace
