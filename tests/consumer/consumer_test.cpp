@@ -1,10 +1,14 @@
-// A user's own test suite against the installed package.
+// A user's own test suite against the installed package, and the examples of libmc/README.md in the same program.
+
+#include <readme_examples.h>
 
 #include <mc/estimate/integrate.h>
 #include <mc/gtest/matchers.h>
 #include <mc/warp/hemisphere.h>
 
 #include <gtest/gtest.h>
+
+#include <string_view>
 
 namespace {
 
@@ -58,3 +62,12 @@ TEST(Consumer, Integrates) {
 }
 
 } // namespace
+
+int main(int argc, char** argv) {
+  if (argc == 2 && std::string_view(argv[1]) == "--readme") {
+    readme::print_examples();
+    return 0;
+  }
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,51 +1,15 @@
-// The layout of the house: who may include whom, every header has its test, no file grows beyond one idea.
+// The layout of the house: who may include whom, every header has its test, the READMEs show what is compiled.
+
+#include "house/source_tree.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <regex>
 #include <set>
-#include <sstream>
-#include <string>
-#include <vector>
-
-namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path root = MC_SOURCE_DIR;
-
-struct Include {
-  std::string file, header;
-  int line;
-};
-
-std::vector<fs::path> sources(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".h" || extension == ".cpp") files.push_back(fs::relative(entry.path(), root));
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::vector<Include> includes(const fs::path& folder) {
-  static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
-  std::vector<Include> found;
-  for (const fs::path& file : sources(folder)) {
-    std::ifstream in(root / file);
-    std::string text;
-    for (int line = 1; std::getline(in, text); ++line) {
-      std::smatch match;
-      if (std::regex_search(text, match, pattern)) found.push_back({file.string(), match[1], line});
-    }
-  }
-  return found;
-}
+using namespace house;
 
 using Rooms = std::map<std::string, std::set<std::string>>;
 
@@ -146,16 +110,6 @@ TEST(House, EveryPublicHeaderHasItsTest) {
   }
 }
 
-TEST(House, AFileIsOneIdea) {
-  for (const char* folder : {"libmc", "librender", "tools", "tests", "bench"}) {
-    for (const fs::path& file : sources(folder)) {
-      std::ifstream in(root / file);
-      const auto lines = std::count(std::istreambuf_iterator<char>(in), {}, '\n');
-      EXPECT_LE(lines, 500) << file;
-    }
-  }
-}
-
 TEST(House, TopLevelHoldsWhatTheDesignNames) {
   const std::set<std::string> known = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE",
                                        "libmc",          "librender",         "tools",     "tests",
@@ -164,13 +118,6 @@ TEST(House, TopLevelHoldsWhatTheDesignNames) {
     const std::string file = entry.path().filename().string();
     EXPECT_TRUE(file.starts_with(".") || known.contains(file)) << file;
   }
-}
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(root / file);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 // The README's BSDF and plugin are those that the consumer compiles and runs against the installed package.

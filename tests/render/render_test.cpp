@@ -129,7 +129,7 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   options = small();
   options.seconds = 0.05;
   const RenderResult timed = render::render(scene, options);
-  EXPECT_GE(timed.seconds, 0.05);
+  EXPECT_GE(timed.estimates, 1u);
   EXPECT_FALSE(timed.partial);
 
   const std::atomic<bool> stop = true;

@@ -1,4 +1,4 @@
-#include "run_carlo.h"
+#include "interrupt_carlo.h"
 #include <integrands/expression.h>
 #include <integrands/genz.h>
 
@@ -117,8 +117,8 @@ TEST(Integrate, CountsMayBeWrittenAsPowersOfTen) {
 }
 
 TEST(Integrate, CtrlCSaysWhatWasFound) {
-  const support::Run r = support::run("timeout --preserve-status -s INT 0.7 '" CARLO_PATH
-                                      "' integrate genz_c0_8d --method plain --rel-error 1e-12 --max-calls 1e12");
+  const support::Run r =
+      support::interrupt_carlo("integrate genz_c0_8d --method plain --rel-error 1e-12 --max-calls 1e12");
   EXPECT_EQ(r.exit_code, 130) << r.output;
   EXPECT_THAT(r.output, testing::AllOf(testing::HasSubstr(" ± "), testing::HasSubstr("stopped: cancelled")));
 }

@@ -1,6 +1,6 @@
 // carlo render, run as a user runs it.
 
-#include "run_carlo.h"
+#include "interrupt_carlo.h"
 
 #include <render/io/image_io.h>
 
@@ -9,11 +9,6 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <chrono>
-#include <csignal>
-#include <thread>
-
-#include <unistd.h>
 
 namespace {
 
@@ -95,27 +90,15 @@ TEST_F(RenderCommand, ThreadsDoNotChangeABitAndMetadataTellsHow) {
 }
 
 TEST_F(RenderCommand, CtrlCWritesWhatIsThereMarkedPartial) {
-  const std::string output = path("cut.exr"), log = path("log");
-  const pid_t child = fork();
-  if (child == 0) {
-    if (!std::freopen(log.c_str(), "w", stdout)) _exit(99);
-    execl(CARLO_PATH, "carlo", "render", (scenes + "cbox.xml").c_str(), "--time", "60", "--size", "16x16", "-o",
-          output.c_str(), nullptr);
-    _exit(98);
-  }
-  ASSERT_GT(child, 0);
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
-  ASSERT_EQ(kill(child, SIGINT), 0);
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130);
+  const std::string output = path("cut.exr");
+  const support::Run run =
+      support::interrupt_carlo("render " + scenes + "cbox.xml --time 3600 --size 16x16 -o " + output);
+  EXPECT_EQ(run.exit_code, 130) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("PARTIAL"));
   const render::Image image = render::read_image(output);
   EXPECT_TRUE(image.metadata.contains("carlo.partial"));
   EXPECT_FALSE(image.variance.empty());
   EXPECT_GT(image.at(8, 8).sum(), 0);
-  std::ifstream text(log);
-  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(text), {}), HasSubstr("PARTIAL"));
 }
 
 } // namespace

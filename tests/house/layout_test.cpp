@@ -1,0 +1,137 @@
+// What a reader meets: short files and functions, small folders, and a drawing of who includes whom without a circle.
+
+#include "house/source_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+namespace {
+
+using namespace house;
+
+const std::vector<const char*> everything = {"libmc", "librender", "tools", "tests", "bench"};
+
+struct Function {
+  std::size_t line, length; ///< of its first line, counted from 1
+};
+
+std::size_t indent(const std::string& line) { return line.find_first_not_of(' '); }
+
+// Functions of more than `longest` lines, in the format that clang-format gives: a body ends at the first line that
+// starts with a brace and is indented as the line with which the function starts.
+std::vector<Function> long_functions(const std::vector<std::string>& lines, std::size_t longest) {
+  static const std::regex other(R"(^\s*(template.*>\s*)?(namespace|struct|class|enum|union|extern|typedef)\b)");
+  const auto unclosed = [](const std::string& line) {
+    return std::count(line.begin(), line.end(), '(') - std::count(line.begin(), line.end(), ')');
+  };
+  std::vector<Function> found;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!lines[i].ends_with('{') || lines[i].find(')') == std::string::npos) continue;
+    std::size_t start = i;
+    for (auto open = unclosed(lines[i]); start > 0; open += unclosed(lines[start])) {
+      const bool initialiser = lines[start][indent(lines[start])] == ':' || lines[start - 1].ends_with(',');
+      if (open >= 0 && !initialiser) break;
+      --start;
+    }
+    if (std::regex_search(lines[start], other)) continue;
+    std::size_t end = i + 1;
+    while (end < lines.size() &&
+           (lines[end].empty() || indent(lines[end]) != indent(lines[start]) || lines[end][indent(lines[end])] != '}'))
+      ++end;
+    if (end - start + 1 > longest) found.push_back({start + 1, end - start + 1});
+  }
+  return found;
+}
+
+TEST(Layout, LongFunctionsAreSeen) {
+  const std::vector<std::string> lines = {"struct A {",      "  A(int a,",   "    int b)", "      : a_(a),",
+                                          "        b_(b) {", "    if (a) {", "    }",      "  }",
+                                          "  int f() {",     "  }",          "};"};
+  const std::vector<Function> found = long_functions(lines, 2);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].line, 2u);
+  EXPECT_EQ(found[0].length, 7u);
+}
+
+TEST(Layout, DISABLED_AFileIsOneIdea) {
+  for (const fs::path& file : sources(everything)) EXPECT_LE(lines_of(file).size(), 400u) << file;
+}
+
+TEST(Layout, DISABLED_AFunctionFitsOnTwoScreens) {
+  for (const fs::path& file : sources(everything))
+    for (const Function& f : long_functions(lines_of(file), 80))
+      ADD_FAILURE() << file.string() << ":" << f.line << ": a function of " << f.length << " lines; 80 are the most";
+}
+
+TEST(Layout, LinesFitTheScreen) {
+  for (const fs::path& file : sources(everything)) {
+    const std::vector<std::string> lines = lines_of(file);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      // Columns, not bytes: what continues a character of UTF-8 takes no room.
+      const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
+      const auto width =
+          lines[i].size() - static_cast<std::size_t>(std::count_if(lines[i].begin(), lines[i].end(), continues));
+      EXPECT_LE(width, 120u) << file.string() << ":" << i + 1;
+    }
+  }
+}
+
+// But for families of one kind, of which one is read and the others follow.
+TEST(Layout, DISABLED_AFolderHoldsAtMostFifteenSources) {
+  const std::set<std::string> families = {"libmc/mc/warp", "libmc/mc/domain", "tests/mc/warp", "tests/mc/domain",
+                                          "tools/catalogue"};
+  std::map<std::string, int> count;
+  for (const fs::path& file : sources(everything)) ++count[file.parent_path().string()];
+  for (const auto& [folder, n] : count) EXPECT_TRUE(n <= 15 || families.contains(folder)) << folder << ": " << n;
+}
+
+using Graph = std::map<std::string, std::map<std::string, std::string>>; ///< from, to, and the place of an include
+
+// A circle through `node`, or "".
+std::string circle(const Graph& graph, const std::string& node, std::vector<std::string>& path,
+                   std::set<std::string>& done) {
+  if (const auto it = std::find(path.begin(), path.end(), node); it != path.end()) {
+    std::string text;
+    for (auto from = it; from != path.end(); ++from)
+      text += graph.at(*from).at(from + 1 == path.end() ? node : *(from + 1)) + "\n";
+    return text;
+  }
+  if (!graph.contains(node) || done.contains(node)) return "";
+  path.push_back(node);
+  for (const auto& [to, place] : graph.at(node))
+    if (const std::string found = circle(graph, to, path, done); !found.empty()) return found;
+  path.pop_back();
+  done.insert(node);
+  return "";
+}
+
+// Folders are the nodes; in a folder with rooms below it, each file is one: its headers stand below the rooms, the
+// files that put the rooms together above them.
+TEST(Layout, DISABLED_NobodyIncludesInACircle) {
+  std::set<std::string> folders;
+  for (const char* base : {"libmc", "librender", "tools"})
+    for (const fs::path& file : sources(fs::path(base))) folders.insert(file.parent_path().string());
+  const auto node = [&](const fs::path& file) {
+    const std::string folder = file.parent_path().string();
+    const auto below = folders.lower_bound(folder + "/");
+    return below != folders.end() && below->starts_with(folder + "/") ? file.string() : folder;
+  };
+  Graph graph;
+  for (const char* base : {"libmc", "librender", "tools"})
+    for (const Include& i : includes(base))
+      for (const char* other : {"libmc", "librender", "tools"}) {
+        const fs::path header = fs::path(other) / i.header;
+        if (!fs::exists(root / header) || node(i.file) == node(header)) continue;
+        graph[node(i.file)].emplace(node(header), i.file + ":" + std::to_string(i.line) + ": <" + i.header + ">");
+      }
+  std::set<std::string> done;
+  for (const auto& [folder, edges] : graph) {
+    std::vector<std::string> path;
+    const std::string found = circle(graph, folder, path, done);
+    ASSERT_TRUE(found.empty()) << "folders include each other in a circle:\n" << found;
+  }
+}
+
+} // namespace

@@ -1,0 +1,35 @@
+#pragma once
+// Ctrl-C on a terminal, without waiting for a time.
+
+#include "run_carlo.h"
+
+#include <pty.h>
+#include <unistd.h>
+
+namespace support {
+
+/// Runs carlo on a terminal of its own and types Ctrl-C once it has drawn its progress there.
+inline Run interrupt_carlo(const std::string& arguments) {
+  int terminal = -1;
+  const std::string command = "exec '" CARLO_PATH "' " + arguments;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  if (child < 0) return {-1, "cannot start " + command};
+  std::string output;
+  bool typed = false;
+  std::array<char, 4096> buffer;
+  // At the end of the child, a read fails.
+  for (ssize_t n; (n = read(terminal, buffer.data(), buffer.size())) > 0;) {
+    output.append(buffer.data(), static_cast<std::size_t>(n));
+    if (!typed && output.find("\033[K") != std::string::npos) typed = write(terminal, "\003", 1) == 1;
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  close(terminal);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output};
+}
+
+} // namespace support
