@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Installs what is missing, refuses misformatted files, builds with warnings as errors, runs every test.
-# Usage: tools/test.sh [sanitize | thread | clang | PRESET]   (default: ci)
+# Usage: tools/test.sh [sanitize | thread | clang | portable | PRESET]   (default: ci)
 #   sanitize  address and undefined-behaviour sanitizers, assertions on
 #   thread    thread sanitizer
 #   clang     clang 14 instead of the system's compiler
+#   portable  only that carlo built for any machine of the architecture gives the same bits as one built for this one
 set -eu
 cd "$(dirname "$0")/.."
 case ${1:-ci} in
@@ -15,6 +16,13 @@ extra=()
 [ "$preset" != clang ] || extra=(clang-14)
 ./tools/bootstrap.sh "${extra[@]}"
 ./tools/format.sh --check
+if [ "$preset" = portable ]; then
+  for one in release portable; do
+    cmake --preset "$one"
+    cmake --build --preset "$one" --target carlo
+  done
+  exec ./tests/house/same_bits.sh build/release/tools/carlo build/portable/tools/carlo
+fi
 cmake --preset "$preset"
 cmake --build --preset "$preset"
 ctest --preset "$preset" -j "$(nproc)"

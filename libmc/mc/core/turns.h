@@ -39,14 +39,14 @@ template <Real S> CosSin<S> cos_sin_octant(const S& t) {
   }
 }
 
-/// Cosine and sine of u turns, u in [0, 1]: u less the nearest quarter is exact, where 2 pi u would be rounded first.
+/// Cosine and sine of u turns, u in [0, 1]: the nearest quarter is subtracted, which is exact; 2 pi u would be rounded.
 ///   error : 2 ulp for float and for double, next to the zeros too
 template <Real S> CosSin<S> cos_sin(const S& u) {
   if constexpr (std::floating_point<S>) {
     const auto quarter = static_cast<std::int32_t>(4 * u + S(0.5));
     const CosSin<S> q = cos_sin_octant<S>(u - S(0.25) * static_cast<S>(quarter));
-    // An odd quarter exchanges the two; signs by quarter. On the bits, since no jump on a random number is ever
-    // predicted.
+    // An odd quarter exchanges sine and cosine, and the quarter gives the signs. Done on the bits: jumps that depend
+    // on random numbers are mispredicted.
     using Bits = BitsOf<S>;
     const Bits k = static_cast<Bits>(quarter), c = std::bit_cast<Bits>(q.cos), s = std::bit_cast<Bits>(q.sin);
     const Bits exchange = (c ^ s) & (Bits{0} - (k & 1));

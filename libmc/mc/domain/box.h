@@ -32,7 +32,11 @@ template <Real S, int N> struct Box {
   int dimension() const { return static_cast<int>(lo.size()); }
   Point from_unit(const UnitPoint& v) const { return (lo.array() * (1 - v.array()) + hi.array() * v.array()).matrix(); }
   UnitPoint to_unit(const Point& x) const { return ((x - lo).array() / (hi - lo).array()).matrix(); }
-  S jacobian(const UnitPoint&) const { return (hi - lo).prod(); }
+  S jacobian(const UnitPoint&) const {
+    S volume = 1; // in order: Eigen multiplies as the instruction set suggests
+    for (Eigen::Index i = 0; i < lo.size(); ++i) volume *= hi[i] - lo[i];
+    return volume;
+  }
   bool contains(const Point& x) const { return (x.array() >= lo.array()).all() && (x.array() <= hi.array()).all(); }
   template <Real T> Box<T, N> cast() const { return {lo.template cast<T>().eval(), hi.template cast<T>().eval()}; }
 };

@@ -62,7 +62,7 @@ class Pcg {
     template <class S> std::size_t fill(std::span<S> out) {
       constexpr std::size_t draws = std::same_as<S, float> ? 1 : 2;
       const std::uint64_t factor = multiplier(), step = increment();
-      // `lanes` numbers ahead is an affine function of the state again; its values at 0 and 1 tell it.
+      // Skipping `lanes` numbers is again an affine map of the state; its values at 0 and 1 determine it.
       const std::uint64_t row_step = pcg32::advance(0, lanes * draws, factor, step);
       const std::uint64_t row_factor = pcg32::advance(1, lanes * draws, factor, step) - row_step;
       std::array<std::uint64_t, lanes> state;

@@ -27,7 +27,7 @@ class Sobol {
     const std::uint64_t key = hash(seed_, dim);
     const std::uint64_t low = mix64(key ^ index);
     if (dim >= dimensions) return low;
-    // Reversed, the word of 64 bits has the scrambled ones in its upper half.
+    // After the reversal of 64 bits, the scrambled word of 32 is the upper half.
     const std::uint32_t last_first = reversed(static_cast<std::uint32_t>(index), dim);
     const std::uint64_t x = reverse_bits64(owen_scramble_reversed(last_first, static_cast<std::uint32_t>(key >> 32)));
     return x | (low & 0xffffffffu);
@@ -42,7 +42,7 @@ class Sobol {
       for (std::size_t i = 0; i < out.size(); ++i) out[i] = uniform<S>(bits(first + i, dim));
       return;
     }
-    // An aligned block of indices is the point of its first, combined with the points of the offsets.
+    // Point i + k of an aligned block that starts at i is the exclusive or of points i and k.
     constexpr std::size_t block = 64;
     std::array<std::uint32_t, block> offsets;
     for (std::uint32_t i = 0; i < block; ++i) offsets[i] = reversed(i, dim);
@@ -62,8 +62,8 @@ class Sobol {
   }
 
  private:
-  // The point before scrambling with its leading bit last, as the scrambling wants it: the exclusive or of the columns
-  // that the bits of the index choose, all 32 of them without a jump.
+  // The point before scrambling, its leading bit last as the scrambling takes it: the exclusive or of the columns that
+  // the bits of the index choose. All 32 columns are read, since a jump per bit would be mispredicted.
   std::uint32_t reversed(std::uint32_t index, std::uint32_t dim) const {
     const std::uint32_t* column = columns_ + std::size_t{dim} * 32;
     std::uint32_t x = 0;

@@ -12,8 +12,7 @@ namespace mc {
 struct CdfView {
   static constexpr std::size_t window = 3; ///< outcomes that are looked at without a jump
 
-  const double*
-      cumulative; ///< ends(n) entries: n + 1 from 0 to 1, and above 1 as many as a look beyond the last may meet
+  const double* cumulative;   ///< ends(n) entries: n + 1 from 0 to 1, then padding above 1 that a look-up may read
   const std::uint32_t* guide; ///< cells(n) + 1 entries: the first outcome for the least u with u cells(n) >= k
   std::uint32_t n;
 

@@ -10,7 +10,7 @@
 
 namespace mc {
 
-/// [0,1], known to the compiler: of a table on it, all divisions by the width fall away.
+/// The interval [0,1] as a type: the code of a table on it needs no division by the width.
 struct UnitInterval {
   static constexpr int lo = 0, hi = 1;
 };
