@@ -150,7 +150,7 @@ RenderResult render(const Scene& scene, const RenderOptions& options) {
   result.samples = total.samples;
   result.rays = total.rays;
   result.spp = double(total.samples) / (double(width) * double(height));
-  result.estimates = separate ? done * count : done;
+  result.estimates = result.image.estimates = separate ? done * count : done;
   result.seconds = elapsed();
   result.cpu_seconds = double(std::clock() - cpu_start) / CLOCKS_PER_SEC;
   result.relative_error = error;

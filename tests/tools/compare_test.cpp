@@ -37,7 +37,7 @@ render::Image noisy(std::uint64_t seed, double mean) {
       image.pixels[i][c] = render::Float(m);
       image.variance[i][c] = render::Float((squares / replicates - m * m) / (replicates - 1));
     }
-  image.metadata["carlo.estimates_per_pixel"] = std::to_string(replicates);
+  image.estimates = static_cast<std::uint32_t>(replicates);
   return image;
 }
 

@@ -21,6 +21,8 @@ enum ExitCode : int {
 
 struct RenderOptions {
   std::string scene;
+  bool help_scene = false;            ///< print the reference of scene files, and stop
+  std::string dialect = "mitsuba";    ///< whose defaults hold in the scene
   std::string output;                 ///< empty: the scene's name with .exr in the current folder
   std::optional<int> spp;             ///< samples per pixel
   std::optional<double> seconds;      ///< wall-clock budget [s]

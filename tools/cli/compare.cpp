@@ -43,11 +43,8 @@ std::vector<Metric> metrics(const Image& a, const Image& b) {
 struct Noise {
   bool known;
   double dof;
-  explicit Noise(const Image& image) : known(!image.variance.empty()), dof(0) {
-    const auto it = image.metadata.find("carlo.estimates_per_pixel");
-    if (it != image.metadata.end()) dof = std::max(0.0, std::atof(it->second.c_str()) - 1);
-    if (dof == 0) dof = 1;
-  }
+  explicit Noise(const Image& image)
+      : known(!image.variance.empty()), dof(std::max(2.0, double(image.estimates)) - 1) {}
 };
 
 struct Worst {

@@ -42,7 +42,9 @@ const CLI::Validator count(
 void add_render(CLI::App& app, carlo::RenderOptions& o) {
   auto* c = app.add_subcommand("render", "Render a Mitsuba XML scene to EXR, PFM or PNG, with an error bar");
   c->footer(exit_codes);
-  c->add_option("SCENE", o.scene, "Scene file (Mitsuba XML)")->required();
+  c->add_option("SCENE", o.scene, "Scene file (Mitsuba XML)");
+  c->add_flag("--help-scene", o.help_scene, "Print what a scene file may hold, as Markdown, and stop");
+  c->add_option("--dialect", o.dialect, "Whose defaults hold in the scene: mitsuba or lajolla")->capture_default_str();
   c->add_option("-o,--output", o.output,
                 "Image to write: .exr (radiance and variance), .pfm or .png (sRGB) [SCENE.exr here]");
   auto* budget = c->add_option_group("budget", "How long (one of these; default: the scene's samples per pixel)");

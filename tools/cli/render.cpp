@@ -5,6 +5,7 @@
 
 #include <render/io/image_io.h>
 #include <render/io/mitsuba.h>
+#include <render/io/mitsuba/reference.h>
 #include <render/render.h>
 
 #include <mc/core/error.h>
@@ -36,11 +37,16 @@ void check_output(const std::string& path) {
 } // namespace
 
 int render(const RenderOptions& options) {
+  if (options.help_scene) {
+    std::fputs(::render::mitsuba::reference().c_str(), stdout);
+    return exit_ok;
+  }
+  mc::require(!options.scene.empty(), "render: SCENE is required (see carlo render --help)");
   const std::string output =
       options.output.empty() ? std::filesystem::path(options.scene).stem().string() + ".exr" : options.output;
   check_output(output);
 
-  const auto [scene, defaults] = ::render::read_mitsuba(options.scene);
+  const auto [scene, defaults] = ::render::read_mitsuba(options.scene, ::render::dialect_from(options.dialect));
   if (scene.lights().empty())
     std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", options.scene.c_str());
 
@@ -89,7 +95,6 @@ int render(const RenderOptions& options) {
   metadata["carlo.commit"] = fmt::format("{} ({})", version, commit);
   metadata["carlo.seed"] = fmt::format("{}", options.seed);
   metadata["carlo.samples_per_pixel"] = fmt::format("{:.6g}", result.spp);
-  metadata["carlo.estimates_per_pixel"] = fmt::format("{}", result.estimates);
   metadata["carlo.invalid_samples"] = fmt::format("{}", result.invalid);
   if (result.partial) metadata["carlo.partial"] = "interrupted before the end";
   ::render::write_image(output, result.image, options.exposure);

@@ -13,22 +13,24 @@ enum class FovAxis { x, y, smaller, larger };
 
 struct LensOptions {
   FovAxis fov_axis = FovAxis::x;
-  double fov = 90;           ///< along fov_axis [degrees]
-  double radius = 0;         ///< of the lens [scene units]; 0: a pinhole
-  double focus_distance = 1; ///< to the plane in focus [scene units]
-  double near = 0;           ///< what stands closer before the lens is cut away [scene units]
+  double fov = 90;                   ///< along fov_axis [degrees]
+  double radius = 0;                 ///< of the lens [scene units]; 0: a pinhole
+  double focus_distance = 1;         ///< to the plane in focus [scene units]
+  double near = 0;                   ///< what stands closer before the lens is cut away [scene units]
+  double far = mc::infinity<double>; ///< and what stands farther
 };
 
 /// A thin lens focused on a plane; of radius 0 a pinhole.
 ///   to_world : its frame: x to the left, y up, z forward
 ///   throws   : Error unless the frame is finite and its axes are not 0, 0 < fov < 180, radius and near are finite and
-///              >= 0, focus_distance is finite and > 0
+///              >= 0, focus_distance is finite and > 0, far > near
 class ThinLens {
  public:
   explicit ThinLens(const Transform& to_world = {}, const LensOptions& options = {})
       : origin_(to_world.translation.cast<Float>()), fov_axis_(options.fov_axis),
         tan_half_fov_(Float(std::tan(options.fov * mc::pi<double> / 360))), radius_(Float(options.radius)),
-        focus_distance_(Float(options.focus_distance)), near_(Float(options.near)) {
+        focus_distance_(Float(options.focus_distance)), near_(Float(options.near)),
+        depth_(Float(options.far - options.near)) {
     const auto& axes = to_world.linear;
     mc::require(axes.allFinite() && origin_.allFinite() && (axes.colwise().norm().array() > 0).all(),
                 "camera: toWorld must be finite, and none of its axes 0");
@@ -39,6 +41,7 @@ class ThinLens {
                 "camera: focusDistance {} must be finite and > 0", options.focus_distance);
     mc::require(options.near >= 0 && std::isfinite(options.near), "camera: nearClip {} must be finite and >= 0",
                 options.near);
+    mc::require(options.far > options.near, "camera: farClip {} must be beyond nearClip {}", options.far, options.near);
     right_ = -axes.col(0).normalized().cast<Float>();
     up_ = axes.col(1).normalized().cast<Float>();
     forward_ = axes.col(2).normalized().cast<Float>();
@@ -68,14 +71,14 @@ class ThinLens {
       start += offset;
       d = toward - offset / focus_distance_;
     }
-    // d.dot(forward) = 1, so `near` steps of d reach the near plane.
-    return {start + near_ * d, d.normalized()};
+    // d.dot(forward) = 1, so `near` steps of d reach the near plane, and `depth` more the far one.
+    return {start + near_ * d, d.normalized(), depth_ * d.norm()};
   }
 
  private:
   Vec3 origin_, right_, up_, forward_; ///< the axes orthonormal
   FovAxis fov_axis_;
-  Float tan_half_fov_, radius_, focus_distance_, near_;
+  Float tan_half_fov_, radius_, focus_distance_, near_, depth_;
 };
 
 } // namespace render

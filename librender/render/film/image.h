@@ -3,6 +3,7 @@
 
 #include <render/core/types.h>
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ struct Image {
   int width = 0, height = 0;
   std::vector<Spectrum> pixels;
   std::vector<Spectrum> variance;              ///< empty: unknown
+  std::uint32_t estimates = 0;                 ///< independent estimates per pixel behind the variance; 0: unknown
   std::map<std::string, std::string> metadata; ///< command, seed, samples, commit
 
   Image() = default;

@@ -6,10 +6,12 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 
 #include <array>
+#include <filesystem>
 #include <vector>
 
 namespace render::formats {
@@ -17,6 +19,14 @@ namespace render::formats {
 namespace {
 
 constexpr std::array<const char*, 6> channels = {"R", "G", "B", "variance.R", "variance.G", "variance.B"};
+constexpr const char* estimates_key = "estimatesPerPixel";
+
+// What a file of these many bytes may hold: no compression of the format packs 4096 bytes in one.
+void require_size(double width, double height, const std::string& path) {
+  const double bytes = double(std::filesystem::file_size(path));
+  mc::require(width >= 1 && height >= 1 && width * height * 2 <= 4096 * bytes,
+              "EXR says {}x{}, which its {} bytes cannot hold", width, height, bytes);
+}
 
 // One plane of floats per channel, as OpenEXR wants them.
 struct Planes {
@@ -47,6 +57,7 @@ void write_exr(const std::string& path, const Image& image) {
       frame.insert(channels[c], planes.slice(c, 0, 0));
     }
     for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
+    if (image.estimates > 0) header.insert(estimates_key, Imf::IntAttribute(static_cast<int>(image.estimates)));
     Imf::OutputFile file(path.c_str(), header);
     file.setFrameBuffer(frame);
     file.writePixels(image.height);
@@ -59,6 +70,7 @@ Image read_exr(const std::string& path) {
   try {
     Imf::InputFile file(path.c_str());
     const auto window = file.header().dataWindow();
+    require_size(double(window.max.x) - window.min.x + 1, double(window.max.y) - window.min.y + 1, path);
     const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
     const bool with_variance = file.header().channels().findChannel(channels[3]) != nullptr;
     const auto has = [&](const char* channel) { return file.header().channels().findChannel(channel) != nullptr; };
@@ -82,6 +94,9 @@ Image read_exr(const std::string& path) {
     for (auto it = file.header().begin(); it != file.header().end(); ++it)
       if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
         image.metadata[it.name()] = text->value();
+    if (const auto* count = file.header().findTypedAttribute<Imf::IntAttribute>(estimates_key);
+        count && count->value() > 0)
+      image.estimates = static_cast<std::uint32_t>(count->value());
     return image;
   } catch (const mc::Error&) {
     throw;

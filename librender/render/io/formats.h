@@ -12,5 +12,7 @@ Image read_exr(const std::string& path);
 void write_pfm(const std::string& path, const Image& image);
 Image read_pfm(const std::string& path);
 void write_png(const std::string& path, const Image& image, double exposure);
+Image read_png(const std::string& path);
+Image read_jpeg(const std::string& path);
 
 } // namespace render::formats

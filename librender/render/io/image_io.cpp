@@ -5,12 +5,34 @@
 #include <mc/core/file.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
+#include <vector>
 
 namespace render {
 
 namespace {
+
+using Read = Image (*)(const std::string& path);
+using Write = void (*)(const std::string& path, const Image& image, double exposure);
+
+struct Format {
+  std::string_view extension;
+  Read read;
+  Write write;
+};
+
+void write_exr(const std::string& path, const Image& image, double) { formats::write_exr(path, image); }
+void write_pfm(const std::string& path, const Image& image, double) { formats::write_pfm(path, image); }
+
+constexpr std::array<Format, 5> known_formats = {{
+    {".exr", formats::read_exr, write_exr},
+    {".pfm", formats::read_pfm, write_pfm},
+    {".png", formats::read_png, formats::write_png},
+    {".jpg", formats::read_jpeg, nullptr},
+    {".jpeg", formats::read_jpeg, nullptr},
+}};
 
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -19,28 +41,33 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
+template <class Can> const Format& format_of(const std::string& path, std::string_view verb, const Can& can) {
+  const std::string extension = extension_of(path);
+  std::vector<std::string_view> usable;
+  for (const Format& f : known_formats) {
+    if (!can(f)) continue;
+    if (f.extension == extension) return f;
+    usable.push_back(f.extension);
+  }
+  const std::string_view last = usable.back();
+  usable.pop_back();
+  throw mc::Error(fmt::format("cannot {} '{}': unknown image format '{}'; use {} or {}", verb, path, extension,
+                              fmt::join(usable, ", "), last));
+}
+
 } // namespace
 
 void write_image(const std::string& path, const Image& image, double exposure) {
-  const std::string extension = extension_of(path);
-  mc::require(extension == ".exr" || extension == ".pfm" || extension == ".png",
-              "cannot write '{}': unknown image format '{}'; use .exr, .pfm or .png", path, extension);
+  const Format& format = format_of(path, "write", [](const Format& f) { return f.write != nullptr; });
   mc::replace_file(path, [&](const std::string& temporary) {
-    mc::with_context(path, [&] {
-      if (extension == ".exr") formats::write_exr(temporary, image);
-      else if (extension == ".pfm") formats::write_pfm(temporary, image);
-      else formats::write_png(temporary, image, exposure);
-    });
+    mc::with_context(path, [&] { format.write(temporary, image, exposure); });
   });
 }
 
 Image read_image(const std::string& path) {
-  const std::string extension = extension_of(path);
-  mc::require(extension == ".exr" || extension == ".pfm",
-              "cannot read '{}': unknown image format '{}'; use .exr or .pfm", path, extension);
+  const Format& format = format_of(path, "read", [](const Format& f) { return f.read != nullptr; });
   mc::require(std::filesystem::exists(path), "cannot read '{}': no such file", path);
-  return mc::with_context(path,
-                          [&] { return extension == ".exr" ? formats::read_exr(path) : formats::read_pfm(path); });
+  return mc::with_context(path, [&] { return format.read(path); });
 }
 
 } // namespace render

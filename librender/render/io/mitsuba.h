@@ -19,21 +19,14 @@ struct SceneFile {
   RenderDefaults defaults;
 };
 
-/// Reads a scene file with its meshes.
-///   integrator : path (maxDepth)
-///   sensor     : perspective, thinlens (fov, fovAxis, toWorld, nearClip, apertureRadius, focusDistance), sampler
-///                (sampleCount), film (width, height) with rfilter box, tent (radius), gaussian (stddev), subpixeltent
-///                (n, radius)
-///   bsdf       : diffuse, conductor (a mirror: specularReflectance), fuzzymetal (albedo, fuzz), dielectric (intIOR,
-///                extIOR), twosided (all of ours are); inline, or by id and <ref>
-///   shape      : obj (filename), rectangle, cube, sphere (center, radius, flipNormals, capAxis, capHeight); toWorld,
-///                an area emitter (radiance, twoSided); guide: the mixture strategy also aims at it
-///   emitter    : constant (radiance), gradient (bottom, top)
-///   Ours, not Mitsuba's: fuzzymetal, subpixeltent, gradient, twoSided, guide, capAxis, capHeight.
-///   Accepted without effect, since they cannot change the picture: the sampler's type, farClip, rrDepth,
-///   strictNormals, and the film's file format.
-///   throws : Error "scene.xml:14: ..." for broken XML, an unknown plugin (naming the nearest), a parameter that is not
-///            supported or cannot be read, a missing or broken mesh, an emitting shape without area, an empty scene
-SceneFile read_mitsuba(const std::string& path);
+/// Whose defaults hold where a scene leaves a parameter out and the two differ.
+enum class Dialect { mitsuba, lajolla };
+/// Throws Error, naming the nearest, for an unknown name.
+Dialect dialect_from(std::string_view name);
+
+/// Reads a scene file with its meshes. What it may say: mitsuba/reference.h.
+///   throws : Error "scene.xml:14: ..." for broken XML, an unknown plugin or parameter (naming the nearest), a value
+///            that cannot be read or used, a reference to nothing, a missing or broken mesh, an empty scene
+SceneFile read_mitsuba(const std::string& path, Dialect dialect = Dialect::mitsuba);
 
 } // namespace render

@@ -93,7 +93,7 @@ void check_lines(std::string_view text) {
 
 } // namespace
 
-TriangleMesh read_obj(const std::string& path, const Transform& to_world) {
+TriangleMesh read_obj(const std::string& path, const Transform& to_world, bool face_normals) {
   const std::string text = mc::read_file(path);
   return mc::with_context(path, [&] {
     check_lines(text);
@@ -107,7 +107,7 @@ TriangleMesh read_obj(const std::string& path, const Transform& to_world) {
 
     const tinyobj::attrib_t& attributes = reader.GetAttrib();
     const bool mirrored = to_world.mirrors();
-    bool has_normals = true;
+    bool has_normals = !face_normals;
     for (const auto& shape : reader.GetShapes())
       for (const auto& corner : shape.mesh.indices) has_normals &= corner.normal_index >= 0;
 

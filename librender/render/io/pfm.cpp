@@ -39,9 +39,8 @@ Image read_pfm(const std::string& path) {
               height, scale);
   const int channels = magic == "PF" ? 3 : 1;
   const std::size_t start = static_cast<std::size_t>(header.tellg()) + 1;
-  const std::size_t needed =
-      static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels) * 4;
-  mc::require(bytes.size() >= start + needed, "PFM data ends early: {} bytes of {}",
+  const double needed = 4.0 * channels * width * height;
+  mc::require(double(bytes.size()) >= double(start) + needed, "PFM data ends early: {} bytes of {}",
               bytes.size() - std::min(start, bytes.size()), needed);
   Image image(width, height);
   const char* raw = bytes.data() + start;

@@ -29,6 +29,10 @@ class XmlElement {
   /// Throws Error for the first element or attribute below that was never looked at.
   void require_all_seen() const;
 
+  /// Gives every attribute the value f(old value).
+  template <class F> void replace_values(const F& f) {
+    for (auto& [key, attribute] : attributes_) attribute.value = f(attribute.value);
+  }
   void set(std::string key, std::string value) { attributes_[std::move(key)] = {std::move(value), false}; }
 
  private:

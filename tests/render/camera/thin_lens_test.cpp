@@ -44,6 +44,20 @@ TEST(ThinLens, TheFieldOfViewHasAnAxis) {
   }
 }
 
+// Rays end in the far plane, which is flat, wherever on the film they begin.
+TEST(ThinLens, NearAndFarPlanesCutRays) {
+  for (const double radius : {0.0, 0.3}) {
+    const ThinLens camera = facing({.radius = radius, .near = 2, .far = 7}, {1, 2, 3});
+    for (const Vec2& s : {Vec2(0, 0), Vec2(Float(0.5), Float(0.2)), Vec2(1, 1)}) {
+      const Ray ray = camera.ray(s, camera.tan_half(1), Vec2(Float(0.3), Float(0.9)));
+      EXPECT_NEAR(ray.o.z(), 1, 1e-5);
+      EXPECT_NEAR(ray.at(ray.t_max).z(), -4, 1e-5);
+    }
+  }
+  EXPECT_THROW(facing({.near = 2, .far = 2}), mc::Error);
+  EXPECT_EQ(facing({}).ray(Vec2(0, 0), Vec2(1, 1), Vec2(0, 0)).t_max, mc::infinity<Float>);
+}
+
 TEST(ThinLens, RaysOfOneFilmPointMeetInTheFocalPlane) {
   const ThinLens camera = facing({.radius = 0.3, .focus_distance = 5}, {1, 2, 3});
   const Vec2 s(Float(0.2), Float(0.7)), tangent = camera.tan_half(1);

@@ -1,4 +1,5 @@
 #include <render/io/image_io.h>
+#include <render/io/srgb.h>
 
 #include <mc/core/file.h>
 #include <mc/random/pcg.h>
@@ -15,7 +16,10 @@ struct ImageIo : support::ScratchTest {
     mc::Pcg random(1);
     for (auto& p : image.pixels)
       p = render::Spectrum(random.uniform<float>() * 100, random.uniform<float>(), -random.uniform<float>());
-    if (with_variance) image.variance.assign(image.pixels.size(), render::Spectrum(1e-8f, 2, 3e10f));
+    if (with_variance) {
+      image.variance.assign(image.pixels.size(), render::Spectrum(1e-8f, 2, 3e10f));
+      image.estimates = 4;
+    }
     image.metadata = {{"carlo.command", "carlo render \"a b\" --spp 4"}, {"carlo.seed", "7"}};
     return image;
   }
@@ -39,6 +43,7 @@ TEST_F(ImageIo, ExrKeepsRadianceVarianceAndMetadata) {
       EXPECT_EQ(static_cast<float>(back.variance[i][c]), static_cast<float>(image.variance[i][c]));
   EXPECT_EQ(back.metadata.at("carlo.command"), "carlo render \"a b\" --spp 4");
   EXPECT_EQ(back.metadata.at("carlo.seed"), "7");
+  EXPECT_EQ(back.estimates, 4u);
 
   render::write_image(path("b.exr"), picture(false));
   EXPECT_TRUE(render::read_image(path("b.exr")).variance.empty());
@@ -82,21 +87,79 @@ TEST_F(ImageIo, PfmKeepsRadianceBottomRowFirst) {
 
 TEST_F(ImageIo, PngIsSrgbWithExposureAndText) {
   Image image(2, 1);
-  image.at(0, 0).setConstant(0.25f);
-  image.metadata = {{"carlo.seed", "7"}};
+  image.at(0, 0) = render::Spectrum(0.25f, 0.0015f, 7);
+  image.metadata = {{"carlo.command", "carlo render \"\u00fc.xml\""}, {"carlo.seed", "7"}};
   render::write_image(path("a.png"), image, 1);
-  const std::string bytes = mc::read_file(path("a.png"));
-  EXPECT_TRUE(bytes.starts_with("\x89PNG\r\n"));
-  EXPECT_NE(bytes.find(std::string("tEXtcarlo.seed\0"
-                                   "7",
-                                   16)),
-            std::string::npos);
+  EXPECT_TRUE(mc::read_file(path("a.png")).starts_with("\x89PNG\r\n"));
+  const Image back = render::read_image(path("a.png"));
+  EXPECT_EQ(back.metadata, image.metadata);
+  EXPECT_NEAR(back.at(0, 0)[0], 0.5, 0.005); // doubled, and rounded to 8 bits of the encoded value
+  EXPECT_NEAR(back.at(0, 0)[1], 0.003, 0.0002);
+  EXPECT_EQ(back.at(0, 0)[2], 1);
+  EXPECT_TRUE((back.at(1, 0) == 0).all());
+}
+
+// All 256 codes of a grey ramp, there and back.
+TEST_F(ImageIo, PngKeepsEveryCode) {
+  Image image(256, 1);
+  for (int i = 0; i < 256; ++i) image.at(i, 0).setConstant(render::Float(render::srgb_to_linear(i / 255.0)));
+  render::write_image(path("ramp.png"), image);
+  expect_equal(image, render::read_image(path("ramp.png")));
+}
+
+// Truncated anywhere, a picture is read whole (what is lacking says nothing about pixels) or refused in one line.
+TEST_F(ImageIo, TruncatedAtAnyByte) {
+  for (const std::string extension : {".exr", ".pfm", ".png"}) {
+    const Image image = picture(extension == ".exr");
+    const std::string file = path("whole" + extension);
+    render::write_image(file, image);
+    const Image whole = render::read_image(file);
+    const std::string bytes = mc::read_file(file);
+    int refused = 0;
+    for (std::size_t n = 0; n < bytes.size(); n += n + 400 < bytes.size() ? 7 : 1) {
+      const std::string part = write("part" + extension, bytes.substr(0, n));
+      const std::string said = support::error_of([&] { expect_equal(whole, render::read_image(part)); });
+      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+      if (said.empty()) continue;
+      ++refused;
+      EXPECT_THAT(said, testing::HasSubstr("part" + extension)) << n;
+    }
+    EXPECT_GT(refused, 50) << extension;
+  }
+}
+
+TEST_F(ImageIo, SizesThatTheBytesCannotHold) {
+  // PFM: a product that overflows 64 bits.
+  write("huge.pfm", "PF\n2147483647 2147483647\n-1.0\n12345678");
+  EXPECT_THAT(support::error_of([&] { render::read_image(path("huge.pfm")); }), testing::HasSubstr("ends early"));
+  // PNG: the width in the header's bytes 16 to 19, its checksum made right.
+  render::write_image(path("small.png"), picture(false));
+  std::string png = mc::read_file(path("small.png"));
+  png.replace(16, 8, std::string("\x00\x0f\x42\x40\x00\x0f\x42\x40", 8));
+  std::uint32_t crc = 0xffffffff;
+  for (std::size_t i = 12; i < 29; ++i) {
+    crc ^= static_cast<unsigned char>(png[i]);
+    for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? crc >> 1 ^ 0xedb88320 : crc >> 1;
+  }
+  for (int i = 0; i < 4; ++i) png[29 + static_cast<std::size_t>(i)] = static_cast<char>(~crc >> (24 - 8 * i) & 0xff);
+  write("huge.png", png);
+  EXPECT_THAT(support::error_of([&] { render::read_image(path("huge.png")); }),
+              testing::HasSubstr("PNG says 1000000x1000000, which its"));
+  // EXR: the data window's far corner.
+  render::write_image(path("small.exr"), picture(false));
+  std::string exr = mc::read_file(path("small.exr"));
+  const std::size_t window = exr.find("dataWindow") + 11 + 6 + 4;
+  exr.replace(window + 8, 8, std::string("\xff\xff\xff\x3f\xff\xff\xff\x3f", 8));
+  write("huge.exr", exr);
+  EXPECT_NE(support::error_of([&] { render::read_image(path("huge.exr")); }), "");
 }
 
 TEST_F(ImageIo, RefusesWithOneLine) {
   const Image image = picture(false);
   EXPECT_THAT(support::error_of([&] { render::write_image(path("a.jpg"), image); }),
               testing::HasSubstr("unknown image format '.jpg'; use .exr, .pfm or .png"));
+  EXPECT_THAT(support::error_of([&] { render::read_image(path("a.gif")); }),
+              testing::HasSubstr("unknown image format '.gif'; use .exr, .pfm, .png, .jpg or .jpeg"));
   EXPECT_THAT(support::error_of([&] { render::write_image(path("none/a.exr"), image); }),
               testing::HasSubstr("does not exist; create it first"));
   EXPECT_THAT(support::error_of([&] { render::read_image(path("none.exr")); }), testing::HasSubstr("no such file"));

@@ -1,0 +1,64 @@
+#include <render/io/mitsuba/context.h>
+#include <render/io/mitsuba/plugins.h>
+
+#include <mc/core/text.h>
+
+#include <filesystem>
+
+namespace render::mitsuba {
+
+Context::Context(const XmlElement& root, Dialect dialect) : path_(root.file), dialect_(dialect) { collect_ids(root); }
+
+void Context::collect_ids(const XmlElement& element) {
+  for (const XmlElement& child : element.children) {
+    if (child.tag != "ref" && child.has("id")) {
+      const std::string& id = child.attribute("id");
+      const auto [first, added] = ids_.try_emplace(id, &child);
+      if (!added)
+        child.fail(
+            fmt::format("a second element with the id '{}', after line {}; ids must differ", id, first->second->line));
+    }
+    collect_ids(child);
+  }
+}
+
+std::string Context::file(const std::string& name) const {
+  return (std::filesystem::path(path_).parent_path() / name).string();
+}
+
+const XmlElement& Context::resolve(const XmlElement& element, std::string_view tag) const {
+  if (element.tag != "ref") return element;
+  const std::string& id = element.attribute("id");
+  const auto found = ids_.find(id);
+  if (found != ids_.end() && found->second->tag == tag) return *found->second;
+  std::vector<std::string_view> known;
+  for (const auto& [name, target] : ids_)
+    if (target->tag == tag) known.push_back(name);
+  element.fail(fmt::format("no <{}> has the id '{}'{}", tag, id, mc::did_you_mean(id, known)));
+}
+
+Bsdf Context::read_bsdf(const XmlElement& element) {
+  const XmlElement& target = resolve(element, "bsdf");
+  if (!being_read_.insert(&target).second)
+    element.fail(fmt::format("it leads back to the <bsdf> of line {}, in which it stands", target.line));
+  Bsdf bsdf = read_plugin(bsdf_plugins(), target, *this);
+  being_read_.erase(&target);
+  return bsdf;
+}
+
+BsdfId Context::bsdf(const XmlElement& element) {
+  const XmlElement& target = resolve(element, "bsdf");
+  const auto known = bsdfs_.find(&target);
+  if (known != bsdfs_.end()) return known->second;
+  const BsdfId id = builder.add(read_bsdf(element));
+  bsdfs_.emplace(&target, id);
+  return id;
+}
+
+BsdfId Context::default_bsdf() {
+  const auto known = bsdfs_.find(nullptr);
+  if (known != bsdfs_.end()) return known->second;
+  return bsdfs_[nullptr] = builder.add(Lambert());
+}
+
+} // namespace render::mitsuba

@@ -1,0 +1,51 @@
+#pragma once
+/// What the plugins of one scene file share: its folder, its dialect, and what has an id.
+
+#include <render/io/mitsuba.h>
+#include <render/io/xml.h>
+#include <render/scene/builder.h>
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace render::mitsuba {
+
+/// Filled while a scene is read. `root` must outlive it.
+class Context {
+ public:
+  /// throws : Error for two elements of the same id
+  Context(const XmlElement& root, Dialect dialect);
+
+  Dialect dialect() const { return dialect_; }
+
+  /// The path of a file that is named relative to the scene file.
+  std::string file(const std::string& name) const;
+
+  /// The element itself, or the one whose id a <ref> names.
+  ///   throws : Error for an unknown id, naming the nearest, or when it is no <tag>
+  const XmlElement& resolve(const XmlElement& element, std::string_view tag) const;
+
+  /// The BSDF that a <bsdf> describes or a <ref> names.
+  ///   throws : Error for what cannot be read and for references that lead in a circle
+  Bsdf read_bsdf(const XmlElement& element);
+  /// The same, added to the scene when first met.
+  BsdfId bsdf(const XmlElement& element);
+  /// The BSDF of shapes that name none.
+  BsdfId default_bsdf();
+
+  /// The scene as far as it is read.
+  SceneBuilder builder;
+
+ private:
+  void collect_ids(const XmlElement& element);
+
+  std::string path_;
+  Dialect dialect_;
+  std::map<std::string, const XmlElement*> ids_;
+  std::map<const XmlElement*, BsdfId> bsdfs_;
+  std::set<const XmlElement*> being_read_;
+};
+
+} // namespace render::mitsuba

@@ -1,0 +1,128 @@
+#include <render/io/mitsuba/parameter.h>
+
+#include <mc/core/text.h>
+
+#include <algorithm>
+
+namespace render::mitsuba {
+
+namespace {
+
+std::string text_of(const Vec3d& v) { return fmt::format("{}, {}, {}", v[0], v[1], v[2]); }
+std::string text_of(const Spectrum& s) {
+  // Colours are given in decimals: the shortest that is this float.
+  if (s[0] == s[1] && s[1] == s[2]) return fmt::format("{}", s[0]);
+  return fmt::format("{}, {}, {}", s[0], s[1], s[2]);
+}
+
+std::size_t word_of(const XmlElement& e, const std::vector<std::string>& words) {
+  const std::string& word = e.attribute("value");
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end())
+    e.fail(
+        fmt::format("'{}' is not known{}; use one of {}", word, mc::did_you_mean(word, words), fmt::join(words, ", ")));
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+} // namespace
+
+bool Declaration::names(const XmlElement& child) const {
+  if (nested()) return std::find(tags.begin(), tags.end(), child.tag) != tags.end();
+  return child.attribute_or("name", "") == name;
+}
+
+const XmlElement* Declaration::find(const XmlElement& plugin) const {
+  const XmlElement* found = nullptr;
+  for (const XmlElement& child : plugin.children) {
+    if (!names(child)) continue;
+    if (found) child.fail(fmt::format("a second {}, after line {}; only one is allowed here", name, found->line));
+    if (std::find(tags.begin(), tags.end(), child.tag) == tags.end())
+      child.fail(fmt::format("'{}' must be a <{}>", name, fmt::join(tags, "> or <")));
+    child.mark();
+    child.attribute_or("id", "");
+    child.attribute_or("name", ""); // a nested plugin may be named too
+    found = &child;
+  }
+  return found;
+}
+
+Parameter<double> number(std::string name, std::string unit, std::string meaning) {
+  return {{name, "number", unit, {"float", "integer"}, meaning},
+          [](const XmlElement& e, Context&) { return number_of(e); },
+          {},
+          {}};
+}
+Parameter<double> number(std::string name, std::string unit, double fallback, std::string meaning) {
+  return number(name, unit, meaning).otherwise(fallback, fmt::format("{}", fallback));
+}
+
+Parameter<int> integer(std::string name, std::string meaning, int fallback) {
+  const Parameter<int> p{
+      {name, "integer", "", {"integer"}, meaning}, [](const XmlElement& e, Context&) { return integer_of(e); }, {}, {}};
+  return p.otherwise(fallback, fmt::format("{}", fallback));
+}
+
+Parameter<bool> boolean(std::string name, std::string meaning, bool fallback) {
+  const Parameter<bool> p{
+      {name, "boolean", "", {"boolean"}, meaning}, [](const XmlElement& e, Context&) { return boolean_of(e); }, {}, {}};
+  return p.otherwise(fallback, fmt::format("{}", fallback));
+}
+
+Parameter<std::string> file(std::string name, std::string meaning) {
+  return {{name, "file", "", {"string"}, meaning},
+          [](const XmlElement& e, Context& context) { return context.file(e.attribute("value")); },
+          {},
+          {}};
+}
+
+Parameter<Vec3d> point(std::string name, std::string meaning, const Vec3d& fallback) {
+  const Parameter<Vec3d> p{{name, "point", "", {"point", "vector"}, meaning},
+                           [](const XmlElement& e, Context&) { return vector_of(e); },
+                           {},
+                           {}};
+  return p.otherwise(fallback, text_of(fallback));
+}
+
+Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning) {
+  return {{name, "colour", unit, {"rgb", "srgb", "spectrum"}, meaning},
+          [](const XmlElement& e, Context&) { return color_of(e); },
+          {},
+          {}};
+}
+Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning, const Spectrum& fallback) {
+  return color(name, unit, meaning).otherwise(fallback, text_of(fallback));
+}
+
+Parameter<Transform> transform(std::string name, std::string meaning) {
+  const Parameter<Transform> p{{name, "transform", "", {"transform"}, meaning},
+                               [](const XmlElement& e, Context&) { return transform_of(e); },
+                               {},
+                               {}};
+  return p.otherwise({}, "identity");
+}
+
+Parameter<std::size_t> choice(std::string name, std::vector<std::string> words, std::string meaning) {
+  const Parameter<std::size_t> p{{name, fmt::format("one of {}", fmt::join(words, ", ")), "", {"string"}, meaning},
+                                 [words](const XmlElement& e, Context&) { return word_of(e, words); },
+                                 {},
+                                 {}};
+  return p;
+}
+Parameter<std::size_t> choice(std::string name, std::vector<std::string> words, std::string meaning,
+                              std::size_t fallback) {
+  return choice(name, words, meaning).otherwise(fallback, words[fallback]);
+}
+
+Declaration no_effect(std::string name, std::string why) {
+  Declaration d{name, "any", "", {"boolean", "float", "integer", "string"}, why};
+  d.has_effect = false;
+  return d;
+}
+
+Declaration only(bool value, std::string name, std::string meaning) {
+  Declaration d{name, "boolean", "", {"boolean"}, meaning, fmt::format("{}", value)};
+  d.only = value;
+  return d;
+}
+
+} // namespace render::mitsuba

@@ -1,0 +1,89 @@
+#pragma once
+/// A parameter of a plugin, declared once: reading it, the errors about it and the reference all follow from that.
+
+#include <render/io/mitsuba/context.h>
+#include <render/io/mitsuba/values.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace render::mitsuba {
+
+/// How a parameter is written in a scene file, and what the reference says of it.
+struct Declaration {
+  std::string name;              ///< its name attribute, or "<film>" for a nested plugin, which needs no name
+  std::string type, unit;        ///< as the reference calls them
+  std::vector<std::string> tags; ///< the elements that it may be written as
+  std::string meaning;
+  std::string fallback = "-"; ///< where it is not given; "-": it must be
+  std::string lajolla = {};   ///< the same in lajolla's dialect; empty: no difference
+  bool has_effect = true;     ///< false: accepted, since it cannot change the picture
+  std::optional<bool> only{}; ///< a switch that may only be given as what it is by default
+
+  bool nested() const { return name.starts_with('<'); }
+  /// Whether a child of a plugin is this parameter.
+  bool names(const XmlElement& child) const;
+  /// The child of a plugin that is this parameter, or null.
+  ///   throws : Error for a second one and for another kind of element
+  const XmlElement* find(const XmlElement& plugin) const;
+};
+
+/// A parameter whose value is a T.
+template <class T> struct Parameter {
+  Declaration declared;
+  std::function<T(const XmlElement& given, Context& context)> parse;
+  std::optional<T> fallback, lajolla_fallback;
+
+  /// This value where the parameter is not given; `text` is what the reference says of it.
+  Parameter otherwise(T value, std::string text) const {
+    Parameter p = *this;
+    p.fallback = std::move(value);
+    p.declared.fallback = std::move(text);
+    return p;
+  }
+  /// The value in lajolla's dialect where it is not given.
+  Parameter in_lajolla(T value, std::string text) const {
+    Parameter p = *this;
+    p.lajolla_fallback = std::move(value);
+    p.declared.lajolla = std::move(text);
+    return p;
+  }
+
+  /// Its value for a plugin.
+  T read(const XmlElement& plugin, Context& context) const {
+    if (const XmlElement* given = declared.find(plugin)) return parse(*given, context);
+    if (context.dialect() == Dialect::lajolla && lajolla_fallback) return *lajolla_fallback;
+    if (!fallback) plugin.fail(fmt::format("parameter '{}' is missing: {}", declared.name, declared.meaning));
+    return *fallback;
+  }
+};
+
+/// Without a fallback a parameter must be given.
+Parameter<double> number(std::string name, std::string unit, std::string meaning);
+Parameter<double> number(std::string name, std::string unit, double fallback, std::string meaning);
+Parameter<int> integer(std::string name, std::string meaning, int fallback);
+Parameter<bool> boolean(std::string name, std::string meaning, bool fallback = false);
+Parameter<std::string> file(std::string name, std::string meaning);
+Parameter<Vec3d> point(std::string name, std::string meaning, const Vec3d& fallback);
+Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning);
+Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning, const Spectrum& fallback);
+Parameter<Transform> transform(std::string name, std::string meaning);
+
+/// One word of a list, as its place in the list.
+Parameter<std::size_t> choice(std::string name, std::vector<std::string> words, std::string meaning);
+Parameter<std::size_t> choice(std::string name, std::vector<std::string> words, std::string meaning,
+                              std::size_t fallback);
+
+/// A parameter that may be left out, without a value of its own then.
+template <class T> Parameter<std::optional<T>> optional(const Parameter<T>& p) {
+  return Parameter<std::optional<T>>{p.declared, p.parse, {}, {}}.otherwise(std::nullopt, "none");
+}
+
+/// Accepted without effect, since it cannot change the picture.
+Declaration no_effect(std::string name, std::string why);
+/// A switch of which only the default is supported.
+Declaration only(bool value, std::string name, std::string meaning);
+
+} // namespace render::mitsuba

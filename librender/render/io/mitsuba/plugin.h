@@ -1,0 +1,85 @@
+#pragma once
+/// A plugin of a scene file is one row: its name, what it is, its parameters, and the function that makes it.
+
+#include <render/io/mitsuba/parameter.h>
+
+#include <mc/core/error.h>
+
+#include <tuple>
+
+namespace render::mitsuba {
+
+/// What a row says without the type of what it makes.
+struct PluginText {
+  std::string name, meaning;
+  std::vector<Declaration> parameters;
+};
+
+/// A row of the table of one kind of plugin; T is what that kind is.
+template <class T> struct Plugin : PluginText {
+  std::function<T(const XmlElement&, Context&)> read;
+  /// The row that also accepts these without reading them.
+  Plugin accepting(const std::vector<Declaration>& more) && {
+    parameters.insert(parameters.end(), more.begin(), more.end());
+    return std::move(*this);
+  }
+};
+
+template <class T> using Plugins = std::vector<Plugin<T>>;
+
+namespace detail {
+
+template <class T, class Make, class... V> struct Reading {
+  Make make;
+  std::tuple<Parameter<V>...> parameters;
+
+  T operator()(const XmlElement& e, Context& context) const {
+    // Braces: read in order, so that the first wrong parameter is the one that is named.
+    std::tuple<V...> values =
+        std::apply([&](const auto&... p) { return std::tuple<V...>{p.read(e, context)...}; }, parameters);
+    return mc::with_context(fmt::format("{}: <{}>", e.where(), e.tag),
+                            [&]() -> T { return std::apply(make, std::move(values)); });
+  }
+};
+
+/// Throws Error unless every child is a parameter of the row.
+void require_known_children(const XmlElement& e, const PluginText& row);
+[[noreturn]] void fail_unknown_type(const XmlElement& e, const std::vector<std::string_view>& known);
+
+} // namespace detail
+
+/// The row of a plugin that `make` makes of the values of its parameters, in their order.
+template <class T, class Make, class... V>
+Plugin<T> plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
+  return {{std::move(name), std::move(meaning), {parameters.declared...}},
+          detail::Reading<T, Make, V...>{make, {parameters...}}};
+}
+
+/// What the element describes, by the row of its type.
+///   throws : Error "scene.xml:14: <bsdf>: ..." for a type or a child that no row has, naming the nearest, and for
+///            values that cannot be read or used
+template <class T> T read_plugin(const Plugins<T>& rows, const XmlElement& e, Context& context) {
+  e.mark();
+  e.attribute_or("id", "");
+  e.attribute_or("name", "");
+  const std::string& type = e.attribute("type");
+  std::vector<std::string_view> known;
+  for (const Plugin<T>& row : rows) {
+    if (row.name == type) {
+      detail::require_known_children(e, row);
+      return row.read(e, context);
+    }
+    known.push_back(row.name);
+  }
+  detail::fail_unknown_type(e, known);
+}
+
+/// A nested plugin as a parameter of another: <film> in <sensor>.
+template <class T> Parameter<T> nested(std::string tag, std::string meaning, const Plugins<T>& (*rows)()) {
+  return {{"<" + tag + ">", tag, "", {tag}, std::move(meaning)},
+          [rows](const XmlElement& e, Context& context) { return read_plugin(rows(), e, context); },
+          {},
+          {}};
+}
+
+} // namespace render::mitsuba

@@ -1,0 +1,44 @@
+#pragma once
+/// The tables of plugins, one for each kind. A new plugin is a row with its function in the kind's .cpp.
+
+#include <render/io/mitsuba/plugin.h>
+
+namespace render::mitsuba {
+
+/// A shape with what covers it.
+struct CoveredShape {
+  Shape shape;
+  std::optional<BsdfId> bsdf;
+  std::optional<Emission> emission;
+  bool guide;
+};
+
+struct FilmSettings {
+  int width, height;
+  Filter filter;
+};
+
+struct SensorSettings {
+  ThinLens camera;
+  FilmSettings film;
+  int spp;
+};
+
+const Plugins<int>& integrator_plugins(); ///< the longest path in edges, -1 for no limit
+const Plugins<SensorSettings>& sensor_plugins();
+const Plugins<FilmSettings>& film_plugins();
+const Plugins<Filter>& filter_plugins();
+const Plugins<int>& sampler_plugins(); ///< samples per pixel
+const Plugins<Bsdf>& bsdf_plugins();
+const Plugins<CoveredShape>& shape_plugins();
+const Plugins<Emission>& surface_emitter_plugins(); ///< inside a shape
+const Plugins<Light>& emitter_plugins();            ///< of the scene
+
+/// Every kind with its rows, in the order of the reference.
+struct Kind {
+  std::string tag, meaning;
+  std::vector<PluginText> rows;
+};
+std::vector<Kind> all_plugins();
+
+} // namespace render::mitsuba

@@ -1,0 +1,80 @@
+#include <render/io/mitsuba/plugins.h>
+#include <render/io/mitsuba/reference.h>
+
+namespace render::mitsuba {
+
+namespace {
+
+constexpr const char* introduction = R"(# Scene files
+
+Mitsuba's XML, versions 0.4 to 0.6, as `carlo render` reads it; `carlo render --help-scene` prints this. What is not
+listed here is refused with its file and line. What is marked (ours) is not Mitsuba's.
+
+- **Parameters** are written `<float name="fov" value="40"/>`: number `<float>` or `<integer>`, integer `<integer>`,
+  boolean `<boolean>`, file and words `<string>`, point `<point>` or `<vector>` with x, y, z or a value.
+- **Colours** are `<rgb>` (linear sRGB), `<srgb>` or `#rrggbb` (by the sRGB curve), or `<spectrum>` with one number or
+  `wavelength:value` pairs [nm]; three numbers, or one for all.
+- **Transforms** are `<transform>` with `<translate>`, `<scale>`, `<rotate>` (angle in degrees), `<lookAt>` and
+  `<matrix>` (16 numbers, row by row), applied in the order in which they stand.
+- **Variables**: `<default name="spp" value="16"/>` and then `$spp` in any value below it; of two defaults with one name
+  the first counts.
+- **References**: `<ref id="white"/>` stands for the element with this id, wherever that is.
+- "-" as default: the parameter must be given. Where lajolla's default differs, `--dialect lajolla` takes that one.
+)";
+
+std::string row_of(const Declaration& d) {
+  std::string fallback = d.fallback;
+  if (!d.lajolla.empty() && d.lajolla != d.fallback) fallback += fmt::format(" (lajolla: {})", d.lajolla);
+  std::string meaning = d.meaning;
+  if (!d.has_effect) {
+    fallback = "";
+    meaning = "no effect: " + meaning;
+  } else if (d.only) {
+    meaning = fmt::format("only {} is supported: {}", *d.only, meaning);
+  }
+  return fmt::format("| `{}` | {} | {} | {} | {} |\n", d.name, d.type, d.unit, fallback, meaning);
+}
+
+std::string body_of(const PluginText& row) {
+  std::string text = fmt::format(": {}\n", row.meaning);
+  if (row.parameters.empty()) return text;
+  text += "\n| parameter | type | unit | default | meaning |\n|---|---|---|---|---|\n";
+  for (const Declaration& d : row.parameters) text += row_of(d);
+  return text;
+}
+
+template <class T> std::vector<PluginText> texts(const Plugins<T>& rows) { return {rows.begin(), rows.end()}; }
+
+} // namespace
+
+std::vector<Kind> all_plugins() {
+  return {
+      {"integrator", "how paths are followed", texts(integrator_plugins())},
+      {"sensor", "the camera", texts(sensor_plugins())},
+      {"film", "inside a sensor", texts(film_plugins())},
+      {"rfilter", "inside a film", texts(filter_plugins())},
+      {"sampler", "inside a sensor", texts(sampler_plugins())},
+      {"bsdf", "what covers a shape; of the scene with an id, or inside a shape", texts(bsdf_plugins())},
+      {"shape", "what is seen", texts(shape_plugins())},
+      {"emitter in a shape", "what makes it shine", texts(surface_emitter_plugins())},
+      {"emitter", "of the scene: lights that are no shapes", texts(emitter_plugins())},
+  };
+}
+
+std::string reference() {
+  std::string text = introduction;
+  for (const Kind& kind : all_plugins()) {
+    text += fmt::format("\n## {}\n\nThe {}: {}.\n", kind.tag, kind.tag, kind.meaning);
+    std::string names;
+    for (std::size_t i = 0; i < kind.rows.size(); ++i) { // neighbours that say the same share a table
+      names += fmt::format("{}**{}**", names.empty() ? "\n" : ", ", kind.rows[i].name);
+      const std::string body = body_of(kind.rows[i]);
+      if (i + 1 < kind.rows.size() && body_of(kind.rows[i + 1]) == body) continue;
+      text += names + body;
+      names.clear();
+    }
+  }
+  return text;
+}
+
+} // namespace render::mitsuba

@@ -1,0 +1,36 @@
+#include <render/io/mitsuba/variables.h>
+
+#include "support/files.h"
+
+namespace {
+
+struct Variables : support::ScratchTest {
+  render::XmlElement element(const std::string& body) const {
+    auto root = render::read_xml(write("v.xml", "<scene>\n" + body + "\n</scene>"));
+    render::mitsuba::substitute_variables(root);
+    return root;
+  }
+};
+
+TEST_F(Variables, StandForTheirValues) {
+  const auto root = element("<default name=\"a\" value=\"1\"/><default name=\"ab\" value=\"$a, 2\"/>"
+                            "<default name=\"a\" value=\"9\"/><x v=\"$a\" w=\"[$ab.$a]\"><y v=\"$ab\"/></x>");
+  const auto& x = root.children.back();
+  EXPECT_EQ(x.attribute("v"), "1") << "the first default counts";
+  EXPECT_EQ(x.attribute("w"), "[1, 2.1]") << "the longest name that fits";
+  EXPECT_EQ(x.children[0].attribute("v"), "1, 2");
+}
+
+TEST_F(Variables, UnknownOnesAreNamed) {
+  EXPECT_THAT(support::error_of([&] { element("<default name=\"spp\" value=\"4\"/>\n<x v=\"$ssp\"/>"); }),
+              testing::HasSubstr("v.xml:3: <x>: no <default> above defines $ssp; did you mean 'spp'?"));
+  // A default counts from where it stands on, so that none can lead back to itself.
+  EXPECT_THAT(
+      support::error_of([&] { element("<default name=\"a\" value=\"$b\"/>\n<default name=\"b\" value=\"$a\"/>"); }),
+      testing::HasSubstr("v.xml:2: <default>: no <default> above defines $b"));
+  EXPECT_THAT(support::error_of([&] { element("<default name=\"\" value=\"4\"/>"); }),
+              testing::HasSubstr("must not be empty"));
+  EXPECT_THAT(support::error_of([&] { element("<x v=\"$\"/>"); }), testing::HasSubstr("defines $"));
+}
+
+} // namespace
