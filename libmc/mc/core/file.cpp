@@ -1,13 +1,17 @@
 #include <mc/core/error.h>
 #include <mc/core/file.h>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <system_error>
 
 namespace mc {
@@ -18,28 +22,82 @@ namespace {
 
 fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
 
-} // namespace
+// Where the bytes go.
+struct Place {
+  fs::path target;               // no link
+  std::optional<int> descriptor; // of this process: /dev/stdout is a link into /proc/self/fd
+  fs::file_type type = fs::file_type::not_found;
 
-void require_writable(const std::string& path) {
-  const fs::path target(path), folder = folder_of(target);
+  bool is_replaced() const {
+    return !descriptor && (type == fs::file_type::regular || type == fs::file_type::not_found);
+  }
+};
+
+Place follow(const std::string& path) {
+  Place place{path, {}};
+  for (int links = 0; links < 40; ++links) {
+    std::error_code error;
+    const fs::path folder = folder_of(place.target);
+    if (fs::canonical(folder, error) == fs::path("/proc") / std::to_string(getpid()) / "fd") {
+      const std::string name = place.target.filename().string();
+      int descriptor = -1;
+      std::from_chars(name.data(), name.data() + name.size(), descriptor);
+      require(fcntl(descriptor, F_GETFD) != -1, "cannot write '{}': descriptor {} is not open", path, name);
+      place.descriptor = descriptor;
+      return place;
+    }
+    place.type = fs::symlink_status(place.target, error).type();
+    if (place.type != fs::file_type::symlink) return place;
+    const fs::path next = fs::read_symlink(place.target, error);
+    place.target = next.is_absolute() ? next : folder / next;
+  }
+  throw Error(fmt::format("cannot write '{}': its links lead in a circle", path));
+}
+
+Place writable_place(const std::string& path) {
+  const Place place = follow(path);
+  if (place.descriptor) return place;
+  const fs::path folder = folder_of(place.target);
   std::error_code error;
-  require(!target.filename().empty() && !fs::is_directory(target, error),
+  require(!place.target.filename().empty() && place.type != fs::file_type::directory,
           "cannot write '{}': it is a folder; name a file in it", path);
   require(fs::is_directory(folder, error), "cannot write '{}': the folder '{}' does not exist; create it first", path,
           folder.string());
-  require(access(folder.c_str(), W_OK) == 0, "cannot write '{}': the folder '{}' is not writable", path,
-          folder.string());
+  require(place.type != fs::file_type::socket, "cannot write '{}': it is a socket", path);
+  require(place.type == fs::file_type::not_found || access(place.target.c_str(), W_OK) == 0,
+          "cannot write '{}': it is not writable", path);
+  require(!place.is_replaced() || access(folder.c_str(), W_OK) == 0,
+          "cannot write '{}': the folder '{}' is not writable", path, folder.string());
+  return place;
 }
 
-void replace_file(const std::string& path, const std::function<void(const std::string&)>& write) {
-  require_writable(path);
-  const fs::path target(path), folder = folder_of(target);
+void write_through(const Place& place, const std::string& path, std::string_view bytes) {
+  std::fflush(stdout); // what was printed before comes before
+  const int file =
+      place.descriptor ? dup(*place.descriptor) : open(place.target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  require(file >= 0, "cannot write '{}': {}", path, std::strerror(errno));
+  int failure = 0;
+  while (!bytes.empty() && failure == 0) {
+    const ssize_t n = write(file, bytes.data(), bytes.size());
+    if (n >= 0) bytes.remove_prefix(static_cast<std::size_t>(n));
+    else if (errno != EINTR) failure = errno;
+  }
+  if (close(file) != 0 && failure == 0) failure = errno;
+  require(failure == 0, "cannot write '{}': {}", path, std::strerror(failure));
+}
+
+std::string temporary_name(const fs::path& folder, const fs::path& path) {
+  return (folder / fmt::format(".{}.{}.tmp{}", path.stem().string(), getpid(), path.extension().string())).string();
+}
+
+void replace(const Place& place, const std::string& path, const std::function<void(const std::string&)>& write) {
+  const std::string temporary = temporary_name(folder_of(place.target), path);
   std::error_code error;
-  const std::string temporary =
-      (folder / fmt::format(".{}.{}.tmp{}", target.stem().string(), getpid(), target.extension().string())).string();
   try {
     write(temporary);
-    fs::rename(temporary, target, error);
+    if (place.type == fs::file_type::regular)
+      fs::permissions(temporary, fs::status(place.target, error).permissions(), error);
+    fs::rename(temporary, place.target, error);
     require(!error, "cannot write '{}': {}", path, error.message());
   } catch (...) {
     fs::remove(temporary, error);
@@ -47,15 +105,45 @@ void replace_file(const std::string& path, const std::function<void(const std::s
   }
 }
 
+// By way of a folder of our own, since not everything that writes a file can write a stream.
+void pass_on(const Place& place, const std::string& path, const std::function<void(const std::string&)>& write) {
+  std::string folder = (fs::temp_directory_path() / "mc.XXXXXX").string();
+  require(mkdtemp(folder.data()) != nullptr, "cannot make a temporary folder '{}': {}", folder, std::strerror(errno));
+  std::error_code error;
+  try {
+    const std::string temporary = temporary_name(folder, path);
+    write(temporary);
+    write_through(place, path, read_file(temporary));
+  } catch (...) {
+    fs::remove_all(folder, error);
+    throw;
+  }
+  fs::remove_all(folder, error);
+}
+
+void write_new(const std::string& file, const std::string& path, std::string_view bytes) {
+  std::FILE* out = std::fopen(file.c_str(), "wb");
+  require(out != nullptr, "cannot write '{}': {}", path, std::strerror(errno));
+  int failure = 0;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), out) != bytes.size()) failure = errno;
+  if (std::fclose(out) != 0 && failure == 0) failure = errno; // a full disk may show only here
+  require(failure == 0, "cannot write '{}': {}", path, std::strerror(failure));
+}
+
+} // namespace
+
+void require_writable(const std::string& path) { writable_place(path); }
+
+void replace_file(const std::string& path, const std::function<void(const std::string&)>& write) {
+  const Place place = writable_place(path);
+  if (place.is_replaced()) replace(place, path, write);
+  else pass_on(place, path, write);
+}
+
 void write_file(const std::string& path, std::string_view bytes) {
-  replace_file(path, [&](const std::string& temporary) {
-    std::FILE* file = std::fopen(temporary.c_str(), "wb");
-    require(file != nullptr, "cannot write '{}': {}", path, std::strerror(errno));
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-    const int write_error = errno;
-    const bool closed = std::fclose(file) == 0; // a full disk may show only here
-    require(written && closed, "cannot write '{}': {}", path, std::strerror(written ? errno : write_error));
-  });
+  const Place place = writable_place(path);
+  if (place.is_replaced()) replace(place, path, [&](const std::string& file) { write_new(file, path, bytes); });
+  else write_through(place, path, bytes);
 }
 
 std::string read_file(const std::string& path) {

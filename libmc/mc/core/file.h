@@ -1,5 +1,5 @@
 #pragma once
-/// Files that appear whole or not at all.
+/// Files that appear whole or not at all, and outputs that are no files.
 
 #include <functional>
 #include <string>
@@ -7,13 +7,17 @@
 
 namespace mc {
 
-/// Runs write(temporary) on a temporary name beside `path`, then renames it to `path`: an interrupted run leaves the
-/// old file or the new one, never half of one. The temporary file keeps the extension of `path` and is removed when
-/// write throws.
-///   throws : Error when the folder is missing or not writable, or `path` is a folder
+/// Runs write(temporary) on a temporary name with the extension of `path`, then puts what it wrote in the place of
+/// `path`. Links are followed.
+///   a regular file, or nothing yet : the temporary file stands beside it and is renamed over it, so that an
+///             interrupted run leaves the old file or the new one, never half of one. Permissions are kept
+///   a device, a named pipe, a descriptor of this process (/dev/stdout) : stays, and the bytes are written through to
+///   it
+///   throws  : Error when the folder is missing or not writable, `path` is a folder or a socket, or the disk is full.
+///             The old content and nothing else is left when it throws, or when write does
 void replace_file(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
-/// Writes the bytes by replace_file. Throws Error when the disk is full.
+/// Writes the bytes as replace_file does.
 void write_file(const std::string& path, std::string_view bytes);
 
 /// Refuses a place that replace_file would refuse, before the work for it is done. Changes nothing.

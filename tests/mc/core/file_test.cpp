@@ -4,6 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
+
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -82,6 +88,79 @@ TEST_F(FileTest, AFullDiskIsAnError) {
             }),
             "cannot write 'a.txt': disk full");
   EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(FileTest, ALinkIsFollowedAndStays) {
+  const std::string path = folder / "a.txt", link = folder / "link.txt", chain = folder / "chain.txt";
+  fs::create_directories(folder / "deep");
+  fs::create_symlink("a.txt", link);
+  fs::create_symlink("../link.txt", folder / "deep" / "up.txt");
+  fs::create_symlink("deep/up.txt", chain);
+  mc::write_file(chain, "through four names"); // the last does not exist yet
+  EXPECT_EQ(mc::read_file(path), "through four names");
+  EXPECT_FALSE(fs::is_symlink(path));
+  EXPECT_TRUE(fs::is_symlink(link) && fs::is_symlink(chain));
+  fs::create_symlink("circle", folder / "circle");
+  EXPECT_EQ(message([&] { mc::write_file(folder / "circle", "x"); }),
+            "cannot write '" + (folder / "circle").string() + "': its links lead in a circle");
+}
+
+TEST_F(FileTest, PermissionsStay) {
+  const std::string path = folder / "a.txt";
+  mc::write_file(path, "old");
+  fs::permissions(path, fs::perms(0640));
+  mc::write_file(path, "new");
+  EXPECT_EQ(fs::status(path).permissions(), fs::perms(0640));
+}
+
+TEST_F(FileTest, ANamedPipeStaysAndPassesTheBytesOn) {
+  const std::string path = folder / "pipe.txt";
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK); // so that no thread is needed: a pipe holds 64 KiB
+  ASSERT_GE(reader, 0);
+  std::array<char, 64> buffer{};
+  const auto received = [&] {
+    const ssize_t n = read(reader, buffer.data(), buffer.size());
+    return std::string(buffer.data(), n > 0 ? static_cast<std::size_t>(n) : 0);
+  };
+  mc::write_file(path, "bytes");
+  EXPECT_EQ(received(), "bytes");
+  mc::replace_file(path, [](const std::string& temporary) {
+    EXPECT_EQ(fs::path(temporary).extension(), ".txt");
+    std::ofstream(temporary) << "by name";
+  });
+  EXPECT_EQ(received(), "by name");
+  close(reader);
+  EXPECT_TRUE(fs::is_fifo(path));
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(FileTest, AnOpenDescriptorIsWrittenWhereItStands) {
+  const std::string path = folder / "log.txt";
+  const int log = open(path.c_str(), O_WRONLY | O_CREAT, 0600);
+  ASSERT_EQ(write(log, "before ", 7), 7);
+  mc::write_file("/dev/fd/" + std::to_string(log), "bytes");
+  ASSERT_EQ(write(log, " after", 6), 6);
+  close(log);
+  EXPECT_EQ(mc::read_file(path), "before bytes after");
+  EXPECT_EQ(message([&] { mc::write_file("/dev/fd/" + std::to_string(log), "x"); }),
+            fmt::format("cannot write '/dev/fd/{0}': descriptor {0} is not open", log));
+}
+
+// A node of our own like /dev/full, which takes the open and refuses the bytes. Making one needs root.
+TEST_F(FileTest, ADeviceStaysAndItsErrorIsSeen) {
+  const std::string full = folder / "full.txt", null = folder / "null.txt";
+  if (mknod(full.c_str(), S_IFCHR | 0666, makedev(1, 7)) != 0 ||
+      mknod(null.c_str(), S_IFCHR | 0666, makedev(1, 3)) != 0 || !std::ofstream(null).is_open())
+    GTEST_SKIP() << "device nodes cannot be made here";
+  const std::string refused = "cannot write '" + full + "': No space left on device";
+  EXPECT_EQ(message([&] { mc::write_file(full, "x"); }), refused);
+  EXPECT_EQ(
+      message([&] { mc::replace_file(full, [](const std::string& temporary) { std::ofstream(temporary) << "x"; }); }),
+      refused);
+  mc::write_file(null, "x");
+  EXPECT_TRUE(fs::is_character_file(full) && fs::is_character_file(null));
+  EXPECT_EQ(files(), 2u);
 }
 
 } // namespace
