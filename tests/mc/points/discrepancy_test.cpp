@@ -1,0 +1,135 @@
+#include "point_lists.h"
+
+#include <mc/points/discrepancy.h>
+#include <mc/random/hash.h>
+#include <mc/sampler/independent.h>
+#include <mc/sampler/sobol.h>
+#include <mc/sampler/stratified.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace {
+
+using mc::PointList;
+using test::scattered;
+
+struct Expected {
+  std::size_t n, dim;
+  double l2_star, wraparound_square, centered_square;
+};
+
+// scipy.stats.qmc.discrepancy of SciPy 1.10.1, methods L2-star (a root), WD and CD (squares), of scattered(n, dim).
+constexpr Expected of_scipy[] = {
+    {1, 1, 0.57480750789027713, 0.16666666666666674, 0.33040367112703106},
+    {2, 1, 0.5728986818442765, 0.16520183556351564, 0.32821289965890954},
+    {16, 2, 0.29168408053696304, 0.20769729053852481, 0.33395987641791813},
+    {100, 2, 0.2307700250972182, 0.11107178136252926, 0.17909861222227463},
+    {64, 3, 0.13823745453585393, 0.21043560296322417, 0.2709492807870002},
+    {257, 5, 0.016870801140725949, 0.036260508192508034, 0.029891796481128052},
+    {50, 8, 0.0093378315728581598, 1.3357034762701403, 0.61851581892577912},
+};
+
+TEST(Discrepancy, AgreesWithScipy) {
+  for (const Expected& e : of_scipy) {
+    const std::vector<double> x = scattered(e.n, e.dim);
+    const PointList p{x, e.dim};
+    EXPECT_NEAR(mc::l2_star_discrepancy(p), e.l2_star, 1e-12) << e.n << " " << e.dim;
+    EXPECT_NEAR(std::pow(mc::wraparound_discrepancy(p), 2), e.wraparound_square, 1e-12);
+    EXPECT_NEAR(std::pow(mc::centered_discrepancy(p), 2), e.centered_square, 1e-12);
+  }
+}
+
+// By hand, as fractions of the square; to the bound that the header states.
+TEST(Discrepancy, OfPointsThatAreKnown) {
+  const auto expect = [](double root, double square) { EXPECT_NEAR(root * root, square, 1e-13 / 9); };
+  const std::vector<double> middle = {0.5, 0.5}, four = {.25, .25, .25, .75, .75, .25, .75, .75};
+  expect(mc::l2_star_discrepancy({middle, 2}), 23.0 / 288);
+  expect(mc::l2_star_discrepancy({four, 2}), 71.0 / 4608);
+  const std::vector<double> net = test::hammersley(0), shifted = test::hammersley(1.0 / 16);
+  expect(mc::l2_star_discrepancy({net, 2}), 4499.0 / 294912);
+  expect(mc::l2_star_discrepancy({shifted, 2}), 5567.0 / 1179648);
+  expect(mc::centered_discrepancy({shifted, 2}), 7871.0 / 1179648);
+  expect(mc::wraparound_discrepancy({shifted, 2}), 1457.0 / 147456);
+  // One point: the share in a box is 1 with probability 1/2 on each axis; E (1_B - V)^2 = 2^-d - 3^-d.
+  expect(mc::periodic_l2_discrepancy({middle, 2}), 1.0 / 4 - 1.0 / 9);
+}
+
+// The mean over boxes with uniform corners and lengths, as it is defined, of 2e5 random boxes: to 2 %, five standard
+// errors or more.
+TEST(Discrepancy, PeriodicIsTheMeanOverBoxesThatWrap) {
+  const std::vector<double> x = scattered(40, 2);
+  const PointList p{x, 2};
+  const mc::Independent random{5};
+  double sum = 0;
+  constexpr std::uint64_t boxes = 200'000;
+  for (std::uint64_t b = 0; b < boxes; ++b) {
+    double inside = 0, volume = 1;
+    std::array<double, 2> start{}, length{};
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      start[k] = mc::coordinate<double>(random, b, 2 * k);
+      length[k] = mc::coordinate<double>(random, b, 2 * k + 1);
+      volume *= length[k];
+    }
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      bool in = true;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double t = p[i][k] - start[k];
+        in = in && (t < 0 ? t + 1 : t) < length[k];
+      }
+      inside += in;
+    }
+    const double off = inside / static_cast<double>(p.size()) - volume;
+    sum += off * off;
+  }
+  const double square = std::pow(mc::periodic_l2_discrepancy(p), 2);
+  EXPECT_NEAR(sum / boxes, square, 0.02 * square);
+}
+
+TEST(Discrepancy, AShiftChangesThePeriodicOnesByNothing) {
+  const std::vector<double> x = test::points_of(mc::Sobol(3), 64, 3);
+  std::vector<double> moved = x;
+  for (double& v : moved) v = v + 0.375 < 1 ? v + 0.375 : v + 0.375 - 1;
+  EXPECT_NEAR(mc::periodic_l2_discrepancy({x, 3}), mc::periodic_l2_discrepancy({moved, 3}), 1e-13);
+  EXPECT_NEAR(mc::wraparound_discrepancy({x, 3}), mc::wraparound_discrepancy({moved, 3}), 1e-13);
+  EXPECT_NEAR(mc::smallest_distance({x, 3}).periodic, mc::smallest_distance({moved, 3}).periodic, 1e-13);
+}
+
+// Means of 400 sets against the formulas, within five of their standard errors.
+TEST(Discrepancy, ExpectationsOfRandomAndJitteredPoints) {
+  struct Mean {
+    double sum = 0, squares = 0;
+    void add(double x) {
+      sum += x;
+      squares += x * x;
+    }
+    void expect(double truth, const char* what) const {
+      const double n = 400, mean = sum / n, error = std::sqrt((squares / n - mean * mean) / n);
+      EXPECT_NEAR(mean, truth, 5 * error) << what;
+    }
+  };
+  Mean star, periodic, jittered_star, jittered_periodic;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const std::vector<double> x = test::points_of(mc::Independent{mc::hash(1, seed)}, 36, 2),
+                              y = test::points_of(mc::Stratified(36, mc::hash(2, seed), 2), 36, 2);
+    star.add(std::pow(mc::l2_star_discrepancy({x, 2}), 2));
+    periodic.add(std::pow(mc::periodic_l2_discrepancy({x, 2}), 2));
+    jittered_star.add(std::pow(mc::l2_star_discrepancy({y, 2}), 2));
+    jittered_periodic.add(std::pow(mc::periodic_l2_discrepancy({y, 2}), 2));
+  }
+  star.expect(mc::random_mean_square(36, 2), "star");
+  periodic.expect(mc::random_mean_square(36, 2), "periodic");
+  jittered_star.expect(mc::jittered_star_mean_square(36, 2), "jittered, star");
+  jittered_periodic.expect(mc::jittered_periodic_mean_square(36, 2), "jittered, periodic");
+}
+
+TEST(SmallestDistance, PlainAndAroundTheFaces) {
+  const std::vector<double> x = {0.0625, 0.5, 0.5, 0.5, 0.9375, 0.5};
+  EXPECT_DOUBLE_EQ(mc::smallest_distance({x, 2}).plain, 0.4375);
+  EXPECT_DOUBLE_EQ(mc::smallest_distance({x, 2}).periodic, 0.125);
+  EXPECT_EQ(mc::smallest_distance({std::span(x).first(2), 2}).plain, HUGE_VAL);
+}
+
+} // namespace
