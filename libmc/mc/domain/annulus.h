@@ -11,7 +11,7 @@ namespace mc {
 ///   chart  : v = ((|p|^2 - inner^2) / (outer^2 - inner^2), phi / 2 pi); uniform in area, so the Jacobian is the
 ///            constant area
 ///   error  : v0 is known to about eps outer / (outer - inner), the rounding of p
-///   throws : Error unless 0 <= inner < outer, both finite
+///   throws : Error unless 0 <= inner < outer, both finite, and the area passes is_scale
 template <Real S> struct Annulus {
   using Scalar = S;
   using Point = Vec2<S>;
@@ -24,9 +24,11 @@ template <Real S> struct Annulus {
   Annulus() = default;
   Annulus(S inner_, S outer_) : inner(inner_), outer(outer_) {
     using std::isfinite;
-    require(inner >= 0 && inner < outer && isfinite(outer),
-            "Annulus: radii {} and {}; 0 <= inner < outer, both finite, are needed", static_cast<double>(inner),
-            static_cast<double>(outer));
+    require(
+        inner >= 0 && inner < outer && isfinite(outer) && is_scale(area()),
+        "Annulus: radii {} and {}; 0 <= inner < outer, both finite, and an area that is neither denormal nor next to "
+        "the largest number are needed",
+        static_cast<double>(inner), static_cast<double>(outer));
   }
 
   S area() const { return pi<S> * (outer - inner) * (outer + inner); }

@@ -6,10 +6,10 @@
 
 namespace mc {
 
-/// Unit vectors within an angle of +z, given by h = 1 - cos(angle) in (0, 2]: any angle from 1e-19 rad to pi keeps its
+/// Unit vectors within an angle of +z, given by h = 1 - cos(angle) in [1e-37, 2]: any angle from 5e-19 rad to pi keeps its
 /// precision.
 ///   chart  : v = ((1 - z) / h, phi / 2 pi); uniform in solid angle, so the Jacobian is the constant 2 pi h
-///   throws : Error unless 0 < h <= 2
+///   throws : Error unless 1e-37 <= h <= 2
 template <Real S> struct Cap {
   using Scalar = S;
   using Point = Vec3<S>;
@@ -21,7 +21,8 @@ template <Real S> struct Cap {
 
   Cap() = default;
   explicit Cap(S h_) : h(h_) {
-    require(h > 0 && h <= 2, "Cap: 1 - cos = {} must lie in (0, 2]", static_cast<double>(h));
+    require(h >= S(1e-37) && h <= 2, "Cap: 1 - cos = {} must lie in (0, 2], and not below 1e-37",
+            static_cast<double>(h));
   }
 
   Point from_unit(const UnitPoint& v) const {

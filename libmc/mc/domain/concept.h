@@ -20,6 +20,16 @@ constexpr std::string_view name(Measure m) {
   return "";
 }
 
+/// Whether a distribution may have the width (or area, or volume) `scale` about `center`: [min / eps, max eps] of the scalar, so that no density
+/// about 1 / scale overflows or vanishes, tails included; and at least 8 eps |center|, the distance between numbers
+/// there.
+template <Real S> bool is_scale(const S& scale, const S& center = S(0)) {
+  using Limits = std::numeric_limits<S>;
+  using std::abs;
+  return scale >= Limits::min() / Limits::epsilon() && scale <= Limits::max() * Limits::epsilon() &&
+         scale >= 8 * Limits::epsilon() * S(abs(center));
+}
+
 /// A set X with a chart: from_unit maps the open unit cube (0,1)^dim onto X up to a set of measure zero, and
 ///                       jacobian(v) is
 /// |dx/dv| in the measure of X, so  integral over X of f dx = integral over the cube of f(from_unit(v)) jacobian(v) dv.

@@ -8,7 +8,7 @@ namespace mc {
 
 /// The finite interval [lo, hi].
 ///   chart  : v = (x - lo) / (hi - lo); Jacobian hi - lo
-///   throws : Error unless lo < hi, both finite
+///   throws : Error unless lo < hi, both and hi - lo finite
 template <Real S> struct Interval {
   using Scalar = S;
   using Point = S;
@@ -21,8 +21,9 @@ template <Real S> struct Interval {
   Interval() = default;
   Interval(S lo_, S hi_) : lo(lo_), hi(hi_) {
     using std::isfinite;
-    require(isfinite(lo) && isfinite(hi) && lo < hi, "Interval: [{}, {}] needs finite bounds with lo < hi",
-            static_cast<double>(lo), static_cast<double>(hi));
+    require(isfinite(lo) && isfinite(hi) && lo < hi && isfinite(S(hi - lo)),
+            "Interval: [{}, {}] needs finite bounds and a finite width, with lo < hi", static_cast<double>(lo),
+            static_cast<double>(hi));
   }
 
   S from_unit(S v) const { return lo * (1 - v) + hi * v; }

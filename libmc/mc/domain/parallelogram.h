@@ -10,7 +10,7 @@ namespace mc {
 
 /// Points origin + v0 a + v1 b of R^3, v in [0,1]^2.
 ///   chart  : v; the Jacobian is the area |a x b|
-///   throws : Error unless all coordinates are finite and a, b span an area > 0
+///   throws : Error unless all coordinates are finite and the area^2 passes is_scale
 template <Real S> struct Parallelogram {
   using Scalar = S;
   using Point = Vec3<S>;
@@ -27,8 +27,11 @@ template <Real S> struct Parallelogram {
       require(isfinite(origin[i]) && isfinite(a[i]) && isfinite(b[i]),
               "Parallelogram: coordinate {} of the origin or of an edge is not finite: {}, {}, {}", i,
               static_cast<double>(origin[i]), static_cast<double>(a[i]), static_cast<double>(b[i]));
-    require(area() > 0 && isfinite(area()), "Parallelogram: the edges span an area of {}; it must be finite and > 0",
-            static_cast<double>(area()));
+    require(
+        is_scale(S(sqr<S>(area()))),
+        "Parallelogram: the edges span an area of {}; it must be finite and > 0, its square neither denormal nor next "
+        "to the largest number",
+        static_cast<double>(area()));
   }
 
   S area() const { return cross<S>(a, b).norm(); }

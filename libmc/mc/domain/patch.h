@@ -6,11 +6,18 @@
 
 namespace mc {
 
+namespace detail {
+/// What patches compute in: float corners as doubles, so that a viewer next to the plane does not cancel their digits.
+template <Real S> using Wide = std::conditional_t<std::same_as<S, float>, double, S>;
+} // namespace detail
+
 /// Directions through the planar triangle (origin + s edge1 + t edge2; s, t >= 0, s + t <= 1), or with Corners = 4
 /// through the whole parallelogram (s, t <= 1).
 ///   chart    : (s, t) = v for the parallelogram, v0 (1 - v1, v1) for the triangle; directions are normalized points
 ///   jacobian : area element * distance of the plane / |p|^3
 ///   contains : unit, and on the inner side of the planes through the edges up to 64 eps of distance
+///   error    : float computes in double; in double the chart loses a digit for each by which the size exceeds the height
+///              of the viewer over the plane
 ///   throws   : Error unless the triple product of origin, edge1, edge2 is finite and not 0: the patch must not be seen
 ///              edge-on
 template <Real S, int Corners> struct Patch {
@@ -30,21 +37,19 @@ template <Real S, int Corners> struct Patch {
             static_cast<double>(volume));
   }
 
-  S triple() const { return origin.dot(cross<S>(edge1, edge2)); }
+  S triple() const { return S(wide(origin).dot(cross<W>(wide(edge1), wide(edge2)))); }
   Vec3<S> point(const UnitPoint& v) const {
     if constexpr (Corners == 4) return origin + v[0] * edge1 + v[1] * edge2;
     else return origin + v[0] * ((1 - v[1]) * edge1 + v[1] * edge2);
   }
   Point from_unit(const UnitPoint& v) const { return point(v).normalized(); }
   UnitPoint to_unit(const Point& w) const {
-    // Cramer's rule for origin + s edge1 + t edge2 = r w, after subtracting the origin's own direction.
-    const Vec3<S> n = cross<S>(edge1, edge2);
-    const S distance = origin.dot(n), along = w.dot(n);
-    const Vec3<S> off = w * (distance / along) - origin;
-    const S n2 = n.squaredNorm();
-    const S s = n.dot(cross<S>(off, edge2)) / n2, t = n.dot(cross<S>(edge1, off)) / n2;
-    if constexpr (Corners == 4) return {s, t};
-    else return {s + t, s + t > 0 ? S(t / (s + t)) : S(0)};
+    // Cramer's rule for origin + s edge1 + t edge2 = r w.
+    const Vec3<W> o = wide(origin), e1 = wide(edge1), e2 = wide(edge2), d = wide(w), n = cross<W>(e1, e2);
+    const W along = d.dot(n);
+    const W s = d.dot(cross<W>(e2, o)) / along, t = d.dot(cross<W>(o, e1)) / along;
+    if constexpr (Corners == 4) return {S(s), S(t)};
+    else return {S(s + t), s + t > 0 ? S(t / (s + t)) : S(0)};
   }
   S jacobian(const UnitPoint& v) const {
     using std::abs, std::sqrt;
@@ -53,22 +58,24 @@ template <Real S, int Corners> struct Patch {
   }
   bool contains(const Point& w) const {
     if (!is_unit(w)) return false;
-    const Vec3<S> p1 = origin + edge1, p2 = origin + edge2;
-    const S sign = triple() > 0 ? S(1) : S(-1);
-    if constexpr (Corners == 4)
-      return inside(origin, edge1, w, sign) && inside(p1, edge2, w, sign) && inside(p2 + edge1, -edge1, w, sign) &&
-             inside(p2, -edge2, w, sign);
-    else return inside(origin, edge1, w, sign) && inside(p1, edge2 - edge1, w, sign) && inside(p2, -edge2, w, sign);
+    const Vec3<W> p0 = wide(origin), e1 = wide(edge1), e2 = wide(edge2), p1 = p0 + e1, p2 = p0 + e2, d = wide(w);
+    const W sign = triple() > 0 ? W(1) : W(-1), far = p0.norm() + e1.norm() + e2.norm();
+    const auto inside = [&](const Vec3<W>& p, const Vec3<W>& edge) {
+      const Vec3<W> n = cross<W>(p, edge);
+      const W rounding = W(std::numeric_limits<S>::epsilon()) * n.norm() + // and that of the corners themselves
+                         std::numeric_limits<W>::epsilon() * far * edge.norm();
+      return sign * n.dot(d) >= -64 * rounding;
+    };
+    if constexpr (Corners == 4) return inside(p0, e1) && inside(p1, e2) && inside(p2 + e1, -e1) && inside(p2, -e2);
+    else return inside(p0, e1) && inside(p1, e2 - e1) && inside(p2, -e2);
   }
   template <Real T> Patch<T, Corners> cast() const {
     return {cast_point<T>(origin), cast_point<T>(edge1), cast_point<T>(edge2)};
   }
 
  private:
-  static bool inside(const Vec3<S>& p, const Vec3<S>& edge, const Vec3<S>& w, S sign) {
-    const Vec3<S> n = cross<S>(p, edge);
-    return sign * n.dot(w) >= -64 * std::numeric_limits<S>::epsilon() * n.norm();
-  }
+  using W = detail::Wide<S>;
+  static Vec3<W> wide(const Vec3<S>& v) { return cast_point<W>(v); }
 };
 
 template <Real S> using TrianglePatch = Patch<S, 3>;

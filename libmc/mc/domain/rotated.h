@@ -24,8 +24,13 @@ template <Domain D> struct RotatedDomain {
     Point local = frame.to_local(w);
     if (!is_unit<Scalar>(w)) return local;
     local.normalize();
-    if (!inner.contains(local)) local.z() += 8 * std::numeric_limits<Scalar>::epsilon();
-    return local;
+    if (inner.contains(local)) return local;
+    // Turned by 8 eps toward the axis: of a narrow cap the rim lies in x and y, not in z.
+    using std::max, std::sqrt;
+    const Scalar turn = 8 * std::numeric_limits<Scalar>::epsilon();
+    const Scalar sine = sqrt(Scalar(local.x() * local.x() + local.y() * local.y()));
+    const Scalar factor = sine > 0 ? Scalar(max(Scalar(1 - turn * local.z() / sine), Scalar(0))) : Scalar(1);
+    return Point(local.x() * factor, local.y() * factor, local.z() + turn * sine).normalized();
   }
   Point from_unit(const UnitPoint& v) const { return to_world(inner.from_unit(v)); }
   UnitPoint to_unit(const Point& w) const { return inner.to_unit(to_local(w)); }

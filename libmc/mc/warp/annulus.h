@@ -11,7 +11,7 @@ namespace mc {
 ///            which distorts strata near the centre where UniformDisk does not
 ///   pdf    : 1 / (pi (outer - inner) (outer + inner)) [1/area]; 0 outside the ring, up to 4 eps outer
 ///   invert : |invert(sample(u)) - u| <= 8 eps outer / (outer - inner): p does not know a thin ring's u0 better
-///   throws : Error unless 0 <= inner < outer, both finite
+///   throws : Error unless 0 <= inner < outer, both finite, and the area passes is_scale
 ///   Source : [ShirleyWangZimmerman96]
 template <Real S> struct UniformAnnulus {
   using Scalar = S;

@@ -10,6 +10,7 @@ namespace mc {
 ///   sample : y from the linear marginal by u1, then x from the linear conditional at y by u0
 ///   pdf    : 4 w(x, y) / (w00 + w10 + w01 + w11) [1/area]; 0 outside
 ///   invert : |invert(sample(u)) - u| <= 16 eps
+///            Values below min / eps of the largest count as 0
 ///   throws : Error unless the values are finite, >= 0 and not all 0
 ///   Source : [PharrJakobHumphreys23] section A.5.1; scaled by the largest value, and an edge of zeros is never reached
 template <Real S> struct Bilinear {
@@ -26,7 +27,10 @@ template <Real S> struct Bilinear {
     require(good(w00) && good(w10) && good(w01) && good(w11) && largest > 0,
             "Bilinear: values {}, {}, {}, {} must be finite, >= 0 and not all 0", static_cast<double>(w00),
             static_cast<double>(w10), static_cast<double>(w01), static_cast<double>(w11));
-    w00 /= largest, w10 /= largest, w01 /= largest, w11 /= largest;
+    for (S* w : {&w00, &w10, &w01, &w11}) {
+      *w /= largest;
+      if (*w < std::numeric_limits<S>::min() / std::numeric_limits<S>::epsilon()) *w = 0; // its densities would vanish
+    }
   }
 
   Domain domain() const { return {}; }

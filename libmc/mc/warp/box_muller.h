@@ -11,7 +11,7 @@ namespace mc {
 ///   sample : r = sigma sqrt(-2 log(1 - u0)), phi = 2 pi u1. 1 - u0 is never 0, so r is finite for every u
 ///   pdf    : exp(-r^2 / (2 sigma^2)) / (2 pi sigma^2) [1/area]. Relative error (4 + (r / sigma)^2) eps
 ///   invert : |invert(sample(u)) - u| <= 8 eps
-///   throws : Error unless sigma is finite and > 0
+///   throws : Error unless sigma > 0 and sigma^2 passes is_scale
 ///   Source : [BoxMuller58]. Two independent normals by inverse CDF (Normal2D) distort strata less and cost more
 template <Real S> struct BoxMuller {
   using Scalar = S;
@@ -21,8 +21,9 @@ template <Real S> struct BoxMuller {
 
   BoxMuller() = default;
   explicit BoxMuller(S sigma_) : sigma(sigma_) {
-    using std::isfinite;
-    require(isfinite(sigma) && sigma > 0, "BoxMuller: sigma {} must be finite and > 0", static_cast<double>(sigma));
+    require(sigma > 0 && is_scale(S(sigma * sigma)),
+            "BoxMuller: sigma {} must be finite and > 0, its square neither denormal nor next to the largest number",
+            static_cast<double>(sigma));
   }
 
   Domain domain() const { return {{S(0), sigma}, {S(0), sigma}}; }

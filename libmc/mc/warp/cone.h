@@ -12,7 +12,7 @@ namespace mc {
 ///   sample    : u -> 1 - z = u0 (1 - cos), phi = 2 pi u1
 ///   pdf       : 1 / (2 pi (1 - cos)) [1/sr]; 0 outside the cone
 ///   invert    : |invert(sample(u)) - u| <= 16 eps, for any angle
-///   throws    : Error unless the angle lies in (0, pi]
+///   throws    : Error unless the angle lies in (0, pi] and 1 - cos is at least 1e-37
 ///   Source    : [ShirleyWangZimmerman96], in terms of 1 - cos so that nothing cancels
 template <Real S> class UniformCone {
  public:

@@ -13,7 +13,7 @@ namespace mc {
 ///   pdf    : rate exp(-rate x) [1/length]; 0 for x < 0. Relative error (2 + rate x) eps: the tail is ill-conditioned
 ///            in x
 ///   invert : |invert(sample(u)) - u| <= 8 eps
-///   throws : Error unless rate and 1 / rate are finite and > 0
+///   throws : Error unless rate > 0 and 1 / rate passes is_scale
 template <Real S> struct Exponential {
   using Scalar = S;
   using Domain = HalfLine<S>;
@@ -22,9 +22,10 @@ template <Real S> struct Exponential {
 
   Exponential() = default;
   explicit Exponential(S rate_) : rate(rate_) {
-    using std::isfinite;
-    require(rate > 0 && isfinite(rate) && isfinite(S(1 / rate)),
-            "Exponential: rate {} and its inverse must be finite and > 0", static_cast<double>(rate));
+    require(
+        rate > 0 && is_scale(S(1 / rate)),
+        "Exponential: rate {} and its inverse must be finite and > 0, neither denormal nor next to the largest number",
+        static_cast<double>(rate));
   }
 
   Domain domain() const { return {S(0), S(1 / rate)}; }
@@ -48,7 +49,7 @@ template <Real S> struct Exponential {
 ///            the logarithm is that of (1 - u) + u e^-k, which does not cancel
 ///   pdf    : |rate| exp(-|rate| t) / (1 - e^-k) [1/length], t the distance from the dense end; 0 outside
 ///   invert : |invert(sample(u)) - u| <= 16 eps; for rate < 0 max(16, k) eps, as the dense end is not at 0
-///   throws : Error unless rate is finite, length is finite and > 0, and k is finite
+///   throws : Error unless rate and k are finite, and length and, unless k vanishes, 1 / |rate| pass is_scale
 template <Real S> struct TrimmedExponential {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -58,9 +59,12 @@ template <Real S> struct TrimmedExponential {
   TrimmedExponential() = default;
   TrimmedExponential(S rate_, S length_) : rate(rate_), length(length_) {
     using std::isfinite;
-    require(isfinite(rate) && isfinite(length) && length > 0 && isfinite(S(rate * length)),
-            "TrimmedExponential: rate {}, length {}: both and their product must be finite, and length > 0",
-            static_cast<double>(rate), static_cast<double>(length));
+    require(
+        isfinite(rate) && is_scale(length) && isfinite(S(rate * length)) &&
+            (flat(magnitude() * length) || is_scale(S(1 / magnitude()))),
+        "TrimmedExponential: rate {}, length {}: both and their product must be finite, length > 0, and neither length "
+        "nor 1 / rate denormal or next to the largest number",
+        static_cast<double>(rate), static_cast<double>(length));
   }
 
   Domain domain() const { return {S(0), length}; }

@@ -15,7 +15,7 @@ namespace mc {
 ///               eps
 ///   invert    : |invert(sample(u)) - u| <= 16 eps for |g| <= 0.9, 16 eps / (1 - |g|) beyond, where u in the backward
 ///               half is packed into few bits of t
-///   throws    : Error unless |g| < 1
+///   throws    : Error unless |g| < 1, and (1 - |g|)^2 >= min / eps of the scalar: 3.2e-16 for float
 ///   Source    : [HenyeyGreenstein41]
 template <Real S> class HenyeyGreenstein {
  public:
@@ -26,7 +26,9 @@ template <Real S> class HenyeyGreenstein {
     require(g > -1 && g < 1, "HenyeyGreenstein: g = {} must lie in (-1, 1)", static_cast<double>(g));
   }
   static HenyeyGreenstein from_one_minus_abs_g(S h, bool backward = false) {
-    require(h > 0 && h <= 1, "HenyeyGreenstein: 1 - |g| = {} must lie in (0, 1]", static_cast<double>(h));
+    require(h * h >= std::numeric_limits<S>::min() / std::numeric_limits<S>::epsilon() && h <= 1,
+            "HenyeyGreenstein: 1 - |g| = {} must lie in (0, 1], and its square must not be denormal",
+            static_cast<double>(h));
     return HenyeyGreenstein(h, backward);
   }
 
@@ -43,13 +45,14 @@ template <Real S> class HenyeyGreenstein {
   S pdf(const Vec3<S>& w) const {
     using std::sqrt;
     const S d = h_ * h_ + 2 * g_ * from_pole(w);
-    return scale_ / (d * S(sqrt(d)));
+    return scale_ / d / S(sqrt(d)); // d^(3/2) itself may underflow
   }
   Vec2<S> invert(const Vec3<S>& w) const {
     using std::min, std::sqrt;
     const S t = from_pole(w), q = sqrt(S(h_ * h_ + 2 * g_ * t));
     return {min(S((1 + g_) * t / (q * (q + h_))), one_minus_epsilon<S>), turn<S>(w.x(), w.y())};
   }
+  S one_minus_abs_g() const { return h_; }
   template <Real T> HenyeyGreenstein<T> cast() const { return HenyeyGreenstein<T>(T(h_), front_ < 0); }
 
  private:

@@ -7,7 +7,8 @@
 namespace mc {
 
 /// Density on [0,1] that goes linearly from a at 0 to b at 1 (up to normalisation).
-///   sample : x = u (a + b) / (a + sqrt(a^2 (1-u) + b^2 u)), the stable root of the quadratic
+///   sample : x = (a + b) / (a w + sqrt((a w)^2 (1-u) + b^2 w)), w = 1 / u: the stable root of the quadratic in a form
+///            whose every operation goes one way with u, so that rounding keeps it monotone
 ///   pdf    : 2 ((1-x) a + x b) / (a + b) [1/length]; 0 outside
 ///   invert : |invert(sample(u)) - u| <= 8 eps
 ///   throws : Error unless a, b are finite, >= 0 and not both 0
@@ -36,7 +37,8 @@ template <Real S> struct Linear {
     // With a = 0 the density vanishes at 0: u = 0 stands for half its step.
     const S v = a == 0 ? S(max(u, S(std::numeric_limits<S>::epsilon() / 4))) : u;
     if (v == 0) return S(0);
-    return min(S(v * (a + b) / (a + S(sqrt(S(a * a * (1 - v) + b * b * v))))), one_minus_epsilon<S>);
+    const S w = 1 / max(v, std::numeric_limits<S>::min()), aw = a * w;
+    return min(S((a + b) / (aw + S(sqrt(S(aw * aw * (1 - v) + b * b * w))))), one_minus_epsilon<S>);
   }
   S pdf(S x) const { return x >= 0 && x <= 1 ? S(2 * ((1 - x) * a + x * b) / (a + b)) : S(0); }
   S invert(S x) const { return x * (a * (2 - x) + b * x) / (a + b); }

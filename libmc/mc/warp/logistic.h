@@ -33,7 +33,7 @@ template <Real S> S logistic_density(const S& t) {
 ///   sample : x = mean + scale log(u / (1 - u)); u = 0 stands for half its step, so x is finite
 ///   pdf    : e^-t / (scale (1 + e^-t)^2), t = (x - mean) / scale [1/length]. Relative error (4 + |t|) eps for mean = 0
 ///   invert : |invert(sample(u)) - u| <= 8 eps for mean = 0; a mean far from 0 costs its own rounding
-///   throws : Error unless mean is finite and scale is finite and > 0
+///   throws : Error unless mean is finite and scale passes is_scale
 template <Real S> struct Logistic {
   using Scalar = S;
   using Domain = RealLine<S>;
@@ -43,9 +43,11 @@ template <Real S> struct Logistic {
   Logistic() = default;
   Logistic(S mean_, S scale_) : mean(mean_), scale(scale_) {
     using std::isfinite;
-    require(isfinite(mean) && isfinite(scale) && scale > 0,
-            "Logistic: mean {}, scale {}: both must be finite and scale > 0", static_cast<double>(mean),
-            static_cast<double>(scale));
+    require(isfinite(mean) && is_scale(scale, mean),
+            "Logistic: mean {}, scale {}: both must be finite, scale > 0 and neither denormal, next to the largest "
+            "number nor "
+            "below 8 eps |mean|",
+            static_cast<double>(mean), static_cast<double>(scale));
   }
 
   Domain domain() const { return {mean, scale}; }
@@ -63,11 +65,11 @@ template <Real S> struct Logistic {
 
 /// Logistic distribution of mean 0 cut to [lo, hi].
 ///   sample : x = scale log(F / G) of the cut CDF F = F(lo) + u m and G = F(-hi) + (1 - u) m; the mass m of the
-///            interval is F(hi) F(-lo) (1 - e^((lo - hi) / scale)), so that nothing cancels, in the tails and on short
-///            intervals too
+///            interval is F(hi) F(-lo) (1 - e^((lo - hi) / scale)), so that nothing cancels in the tails. On intervals
+///            shorter than scale x - lo = scale log(1 + odds), the odds of F against F(lo)
 ///   pdf    : the logistic density / m [1/length]; 0 outside
-///   invert : |invert(sample(u)) - u| <= 8 eps max(1, max(scale, |lo|, |hi|) / (hi - lo))
-///   throws : Error unless lo < hi, both finite, scale is finite and > 0, and m does not underflow
+///   invert : |invert(sample(u)) - u| <= 8 eps max(1, max(|lo|, |hi|) / min(scale, hi - lo)): the rounding of x
+///   throws : Error unless lo < hi, both finite, scale and hi - lo pass is_scale, and m does not underflow
 template <Real S> struct TrimmedLogistic {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -77,22 +79,30 @@ template <Real S> struct TrimmedLogistic {
   TrimmedLogistic() = default;
   TrimmedLogistic(S scale_, S lo_, S hi_) : scale(scale_), lo(lo_), hi(hi_) {
     using std::isfinite;
-    require(isfinite(scale) && scale > 0, "TrimmedLogistic: scale {} must be finite and > 0",
+    require(is_scale(scale),
+            "TrimmedLogistic: scale {} must be finite and > 0, neither denormal nor next to the largest",
             static_cast<double>(scale));
-    require(isfinite(lo) && isfinite(hi) && lo < hi, "TrimmedLogistic: [{}, {}] needs finite bounds with lo < hi",
-            static_cast<double>(lo), static_cast<double>(hi));
+    require(
+        isfinite(lo) && isfinite(hi) && lo < hi && is_scale(S(hi - lo)),
+        "TrimmedLogistic: [{}, {}] needs finite bounds with lo < hi, neither denormally close nor next to the largest",
+        static_cast<double>(lo), static_cast<double>(hi));
     require(mass() >= std::numeric_limits<S>::min(), "TrimmedLogistic: the mass of [{}, {}] at scale {} underflows",
             static_cast<double>(lo), static_cast<double>(hi), static_cast<double>(scale));
   }
 
   Domain domain() const { return {lo, hi}; }
   S sample(S u) const {
-    using std::log, std::max, std::min;
+    using std::expm1, std::log, std::log1p, std::max, std::min;
     const S v = max(u, S(std::numeric_limits<S>::epsilon() / 4)), m = mass();
+    if (hi - lo <= scale) { // from the end: the logarithm below knows x only to scale eps
+      const S share = -S(expm1(S((lo - hi) / scale))), top = detail::sigmoid<S>(hi / scale);
+      const S odds = v * share * top / detail::sigmoid<S>(lo / scale) / (1 - v * share * top);
+      return min(S(lo + scale * S(log1p(odds))), hi);
+    }
     const S below = detail::sigmoid<S>(lo / scale) + v * m, above = detail::sigmoid<S>(-hi / scale) + (1 - v) * m;
     return min(max(S(scale * S(log(S(below / above)))), lo), hi);
   }
-  S pdf(S x) const { return x >= lo && x <= hi ? S(detail::logistic_density<S>(x / scale) / scale / mass()) : S(0); }
+  S pdf(S x) const { return x >= lo && x <= hi ? S(detail::logistic_density<S>(x / scale) / mass() / scale) : S(0); }
   S invert(S x) const {
     using std::expm1;
     return detail::sigmoid<S>(x / scale) / detail::sigmoid<S>(hi / scale) *

@@ -14,6 +14,7 @@ namespace mc {
 /// back to [0,1), so stratification survives.
 ///   pdf    : sum of w_i pdf_i(x); every component counts, whichever was sampled
 ///   invert : none, since several u reach the same x
+///            A weight that vanishes beside the largest counts as 0
 ///   throws : Error unless the weights are finite, >= 0 and not all 0
 ///   Source : one-sample combination [Veach97] section 9.2.4
 template <Warp First, Warp... Rest>

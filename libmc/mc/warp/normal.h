@@ -13,7 +13,7 @@ namespace mc {
 ///   pdf    : exp(-t^2 / 2) / (sigma sqrt(2 pi)), t = (x - mean) / sigma [1/length]. Relative error (1 + t^2) eps: the
 ///            density in the tail is ill-conditioned in x
 ///   invert : |invert(sample(u)) - u| <= 16 eps for mean = 0
-///   throws : Error unless mean is finite and sigma is finite and > 0
+///   throws : Error unless mean is finite and sigma passes is_scale
 ///   Source : erfc and its inverse from Boost.Math
 template <Real S> struct Normal {
   using Scalar = S;
@@ -24,9 +24,11 @@ template <Real S> struct Normal {
   Normal() = default;
   Normal(S mean_, S sigma_) : mean(mean_), sigma(sigma_) {
     using std::isfinite;
-    require(isfinite(mean) && isfinite(sigma) && sigma > 0,
-            "Normal: mean {}, sigma {}: both must be finite and sigma > 0", static_cast<double>(mean),
-            static_cast<double>(sigma));
+    require(isfinite(mean) && is_scale(sigma, mean),
+            "Normal: mean {}, sigma {}: both must be finite, sigma > 0 and neither denormal, next to the largest "
+            "number nor "
+            "below 8 eps |mean|",
+            static_cast<double>(mean), static_cast<double>(sigma));
   }
 
   Domain domain() const { return {mean, sigma}; }

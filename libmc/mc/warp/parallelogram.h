@@ -11,7 +11,7 @@ namespace mc {
 ///   pdf    : 1 / |a x b| [1/area]; 0 off the parallelogram, up to the rounding of a sample
 ///   invert : |invert(sample(u)) - u| <= 16 eps for a parallelogram at the origin with edges at a wide angle; a distant
 ///            origin or a narrow angle costs its own conditioning
-///   throws : Error unless the coordinates are finite and the area is > 0
+///   throws : Error unless the coordinates are finite and the area^2 passes is_scale
 template <Real S> struct UniformParallelogram {
   using Scalar = S;
   using Domain = Parallelogram<S>;

@@ -1,6 +1,7 @@
 #pragma once
 /// Directions towards a sphere.
 
+#include <mc/core/dot.h>
 #include <mc/core/frame.h>
 #include <mc/warp/cone.h>
 
@@ -8,22 +9,21 @@ namespace mc {
 
 /// Uniform directions, about +z, of the cone that a sphere fills; z points from the viewer to its centre (frame()).
 ///   made from : the centre relative to the viewer, and the radius; the viewer may be anywhere
-///   sample    : outside, the cone with 1 - cos = s^2 / (1 + cos), s = radius / distance, which no distance cancels; on
-///               the surface the hemisphere towards the centre; inside every direction
+///   sample    : outside, the cone with 1 - cos = s^2 / (1 + cos), s = radius / distance, which no distance cancels;
+///               next to the surface cos = sqrt(distance^2 - radius^2) / distance, from twice the digits; on the surface
+///               the hemisphere towards the centre; inside every direction
 ///   pdf       : 1 / (2 pi (1 - cos)) [1/sr]; 0 outside the cone. Relative error 16 eps in the local frame: a world
 ///               direction in S holds the offset from the axis only to eps, so narrower cones than eps need the local
 ///               form
 ///   invert    : |invert(sample(u)) - u| <= 16 eps
-///   throws    : Error unless the centre is finite, radius is finite and > 0, and radius / distance > 1e-18
+///   throws    : Error unless the centre is finite, radius passes is_scale, and radius / distance > 1e-18
 ///   Source    : [ShirleyWangZimmerman96]
 template <Real S> class SphereLight {
  public:
   using Scalar = S;
   using Domain = Cap<S>;
 
-  SphereLight(const Vec3<S>& center, S radius)
-      : SphereLight(center, radius, center.allFinite() ? S(center.stableNorm()) : std::numeric_limits<S>::quiet_NaN()) {
-  }
+  SphereLight(const Vec3<S>& center, S radius) : SphereLight(center, radius, length(center)) {}
 
   Domain domain() const { return cone_.domain(); }
   Vec3<S> sample(const Vec2<S>& u) const { return cone_.sample(u); }
@@ -36,18 +36,38 @@ template <Real S> class SphereLight {
  private:
   SphereLight(const Vec3<S>& center, S radius, S distance)
       : center_(center), radius_(radius),
-        frame_(Frame<S>::from_z(distance > 0 ? Vec3<S>(center / distance) : Vec3<S>(0, 0, 1))),
-        cone_(UniformCone<S>::from_one_minus_cos(filled(radius, distance))) {}
+        frame_(Frame<S>::from_z(distance > 0 ? Vec3<S>(center * (1 / distance)) : Vec3<S>(0, 0, 1))),
+        cone_(UniformCone<S>::from_one_minus_cos(filled(center, radius, distance))) {}
 
-  static S filled(const S& radius, const S& distance) {
-    using std::isfinite, std::sqrt;
-    require(isfinite(radius) && radius > 0 && isfinite(distance) && distance >= 0,
-            "SphereLight: radius {} must be finite and > 0, distance {} finite", static_cast<double>(radius),
-            static_cast<double>(distance));
-    if (distance < radius) return S(2);
-    const S s = radius / distance;
-    require(s > S(1e-18), "SphereLight: radius / distance = {} must exceed 1e-18", static_cast<double>(s));
-    return s * s / (1 + S(sqrt(S(((distance - radius) / distance) * (1 + s)))));
+  // Eigen's stableNorm costs more than all the rest, and only lengths far from 1 need it.
+  static S length(const Vec3<S>& v) {
+    using Limits = std::numeric_limits<S>;
+    using std::sqrt;
+    const S square = v.squaredNorm();
+    if (square > Limits::min() / Limits::epsilon() && square <= Limits::max()) return S(sqrt(square));
+    return v.allFinite() ? S(v.stableNorm()) : Limits::quiet_NaN();
+  }
+
+  // 1 - cosine of the angle that the sphere fills.
+  static S filled(const Vec3<S>& center, const S& radius, const S& distance) {
+    using std::frexp, std::isfinite, std::ldexp, std::sqrt;
+    require(
+        is_scale(radius) && isfinite(distance),
+        "SphereLight: radius {} must be finite and > 0, neither denormal nor next to the largest number, distance {} "
+        "finite",
+        static_cast<double>(radius), static_cast<double>(distance));
+    if (distance < radius / 2) return S(2);
+    const S sine = radius / distance;
+    require(sine > S(1e-18), "SphereLight: radius / distance = {} must exceed 1e-18", static_cast<double>(sine));
+    if (sine < S(0.75)) return sine * sine / (1 + S(sqrt(S(1 - sine * sine))));
+    // Grazing: the cosine is the root of distance^2 - radius^2, which cancels; a rounded distance does not know it.
+    int exponent;
+    frexp(radius, &exponent);
+    const auto scaled = [&](const S& x) { return S(ldexp(x, -exponent)); }; // squares stay in range and lose nothing
+    const Vec<S, 4> sum(scaled(center.x()), scaled(center.y()), scaled(center.z()), scaled(radius));
+    const Vec<S, 4> difference(sum[0], sum[1], sum[2], -sum[3]);
+    const S root2 = accurate_dot<S, 4>(sum, difference);
+    return root2 >= 0 ? S(1 - S(sqrt(root2)) / scaled(distance)) : S(2);
   }
 
   Vec3<S> center_;

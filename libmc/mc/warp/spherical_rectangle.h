@@ -10,7 +10,7 @@ namespace mc {
 ///   sample    : arcs from the corner sweep the patch, first the half between edge1 and the diagonal, then the other;
 ///               u0 is the share of the solid angle swept, along the arc 1 - cosine to the corner grows like u1.
 ///               Continuous in u
-///   pdf       : 1 / solid angle [1/sr], relative error 16 eps unless seen edge-on; 0 outside
+///   pdf       : 1 / solid angle [1/sr], relative error as SphericalTriangle; 0 outside
 ///   invert    : as SphericalTriangle
 ///   throws    : Error unless corner and edges span a finite volume > 0
 ///   Source    : a fan of two [Arvo95] triangles in the closed form of spherical_triangle.h. Rejected by measurement
@@ -24,35 +24,38 @@ template <Real S> class SphericalRectangle {
   using Domain = ParallelogramPatch<S>;
 
   SphericalRectangle(const Vec3<S>& corner, const Vec3<S>& edge1, const Vec3<S>& edge2)
-      : domain_(corner, edge1, edge2), first_(corner + edge1, -edge1, edge2),
-        second_(corner + edge1 + edge2, -(edge1 + edge2), -edge1),
+      : domain_(corner, edge1, edge2), first_(wide(corner) + wide(edge1), -wide(edge1), wide(edge2)),
+        second_(wide(corner) + wide(edge1) + wide(edge2), -(wide(edge1) + wide(edge2)), -wide(edge1)),
         share_(first_.angle / (first_.angle + second_.angle)) {}
 
   Domain domain() const { return domain_; }
-  S solid_angle() const { return first_.angle + second_.angle; }
+  S solid_angle() const { return S(first_.angle + second_.angle); }
   Vec3<S> sample(const Vec2<S>& u) const {
-    if (u[0] < share_) return first_.sample(u[0] / share_, u[1]).normalized();
-    return second_.sample((u[0] - share_) / (1 - share_), u[1]).normalized();
+    const W u0(u[0]), u1(u[1]);
+    return cast_point<S>(
+        (u0 < share_ ? first_.sample(u0 / share_, u1) : second_.sample((u0 - share_) / (1 - share_), u1)).normalized());
   }
   S pdf(const Vec3<S>& w) const { return domain_.contains(w) ? S(1 / solid_angle()) : S(0); }
-  Vec2<S> invert(const Vec3<S>& w) const {
+  Vec2<S> invert(const Vec3<S>& direction) const {
     // The side of the diagonal plane decides the half.
-    const Vec3<S> n = cross<S>(domain_.origin, domain_.edge1 + domain_.edge2);
-    if (n.dot(w) * n.dot(domain_.edge1) >= 0) {
-      const Vec2<S> v = first_.invert(w);
-      return {v[0] * share_, v[1]};
-    }
-    const Vec2<S> v = second_.invert(w);
-    return {share_ + v[0] * (1 - share_), v[1]};
+    const Vec3<W> w = wide(direction).normalized(), e1 = wide(domain_.edge1), e2 = wide(domain_.edge2);
+    const Vec3<W> n = cross<W>(wide(domain_.origin), Vec3<W>(e1 + e2));
+    const bool first = n.dot(w) * n.dot(e1) >= 0;
+    Vec2<W> v = first ? first_.invert(w) : second_.invert(w);
+    v[0] = first ? W(v[0] * share_) : W(share_ + v[0] * (1 - share_));
+    return cast_point<S>(v).cwiseMin(one_minus_epsilon<S>);
   }
   template <Real T> SphericalRectangle<T> cast() const {
     return {cast_point<T>(domain_.origin), cast_point<T>(domain_.edge1), cast_point<T>(domain_.edge2)};
   }
 
  private:
+  using W = detail::Wide<S>;
+  static Vec3<W> wide(const Vec3<S>& v) { return cast_point<W>(v); }
+
   Domain domain_;
-  detail::SphericalTriangleMap<S> first_, second_; ///< apex = the corner
-  S share_;
+  detail::SphericalTriangleMap<W> first_, second_; ///< apex = the corner
+  W share_;
 };
 
 } // namespace mc

@@ -11,7 +11,7 @@ namespace mc {
 ///   pdf    : (radius - |x - center|) / radius^2 [1/length]; 0 outside. At least the density half a step of u from the
 ///            end, so that samples that round to the end keep a positive density
 ///   invert : |invert(sample(u)) - u| <= 8 eps where center = 0; a centre far from 0 costs its own rounding
-///   throws : Error unless center is finite and radius is finite and > 0
+///   throws : Error unless center is finite and radius passes is_scale
 template <Real S> struct Tent {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -21,9 +21,11 @@ template <Real S> struct Tent {
   Tent() = default;
   Tent(S center_, S radius_) : center(center_), radius(radius_) {
     using std::isfinite;
-    require(isfinite(center) && isfinite(radius) && radius > 0,
-            "Tent: center {}, radius {}: both must be finite and radius > 0", static_cast<double>(center),
-            static_cast<double>(radius));
+    require(
+        isfinite(center) && is_scale(radius, center),
+        "Tent: center {}, radius {}: both must be finite, radius > 0 and neither denormal, next to the largest number "
+        "nor below 8 eps |center|",
+        static_cast<double>(center), static_cast<double>(radius));
   }
 
   Domain domain() const { return {center - radius, center + radius}; }
@@ -35,8 +37,8 @@ template <Real S> struct Tent {
   }
   S pdf(S x) const {
     using std::abs, std::max;
+    if (!domain().contains(x)) return S(0);
     const S distance = abs(S(x - center));
-    if (!(distance <= radius)) return S(0);
     return max(S((radius - distance) / radius), S(std::numeric_limits<S>::epsilon() / 4)) / radius;
   }
   S invert(S x) const {

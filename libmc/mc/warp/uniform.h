@@ -1,6 +1,7 @@
 #pragma once
 /// Uniform distributions on intervals and boxes.
 
+#include <mc/core/error.h>
 #include <mc/domain/box.h>
 #include <mc/domain/interval.h>
 #include <mc/warp/concept.h>
@@ -11,7 +12,7 @@ namespace mc {
 ///   sample : x = lo + u (hi - lo), never above hi
 ///   pdf    : 1 / (hi - lo) [1/length]; 0 outside
 ///   invert : |invert(sample(u)) - u| <= 4 eps max(|lo|, |hi|) / (hi - lo): the rounding of x
-///   throws : Error unless lo < hi, both finite, and hi - lo too
+///   throws : Error unless lo < hi, both finite, and hi - lo passes is_scale
 template <Real S> struct UniformInterval {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -19,7 +20,11 @@ template <Real S> struct UniformInterval {
   Domain interval;
 
   UniformInterval() = default;
-  UniformInterval(S lo, S hi) : interval(lo, hi) {}
+  UniformInterval(S lo, S hi) : interval(lo, hi) {
+    require(is_scale(S(hi - lo)),
+            "UniformInterval: [{}, {}] has a width that is denormal or next to the largest number",
+            static_cast<double>(lo), static_cast<double>(hi));
+  }
 
   Domain domain() const { return interval; }
   S sample(S u) const { return interval.lo + u * (interval.hi - interval.lo); }
@@ -32,7 +37,7 @@ template <Real S> struct UniformInterval {
 ///   sample : x = lo + u (hi - lo), never above hi
 ///   pdf    : 1 / volume [1/area, 1/volume]; 0 outside
 ///   invert : |invert(sample(u)) - u| <= 4 eps max(|lo|, |hi|) / (hi - lo) in each coordinate
-///   throws : Error unless lo < hi, both finite, in each coordinate, and the volume is positive and finite
+///   throws : Error unless lo < hi, both finite, in each coordinate, and hi - lo and the volume pass is_scale
 template <Real S, int N> struct UniformBox {
   using Scalar = S;
   using Domain = Box<S, N>;
@@ -41,7 +46,13 @@ template <Real S, int N> struct UniformBox {
   Domain box;
 
   UniformBox() = default;
-  UniformBox(const Point& lo, const Point& hi) : box(lo, hi) {}
+  UniformBox(const Point& lo, const Point& hi) : box(lo, hi) {
+    for (Eigen::Index i = 0; i < lo.size(); ++i)
+      require(is_scale(S(hi[i] - lo[i])), "UniformBox: side {} is denormal or next to the largest number",
+              static_cast<double>(hi[i] - lo[i]));
+    require(is_scale(box.jacobian(lo)), "UniformBox: the volume {} is denormal or next to the largest number",
+            static_cast<double>(box.jacobian(lo)));
+  }
 
   Domain domain() const { return box; }
   Point sample(const Point& u) const { return box.lo + u.cwiseProduct(box.hi - box.lo); }

@@ -13,7 +13,7 @@ namespace mc {
 ///   pdf    : kappa exp(-kappa t) / (2 pi (1 - exp(-2 kappa))) [1/sr], t from x^2 + y^2 near the pole. Relative error
 ///            (8 + 4 kappa t) eps: the tail is ill-conditioned in w; kappa t < 1 for 63 percent of the samples
 ///   invert : |invert(sample(u)) - u| <= 16 eps
-///   throws : Error unless kappa is finite and >= 0
+///   throws : Error unless 0 <= kappa <= max eps of the scalar
 ///   Source : [Jakob12], in terms of 1 - z. kappa = 0 is the uniform sphere
 template <Real S> class VonMisesFisher {
  public:
@@ -22,9 +22,11 @@ template <Real S> class VonMisesFisher {
 
   explicit VonMisesFisher(S kappa) : kappa_(kappa) {
     using std::exp, std::expm1, std::isfinite;
-    require(isfinite(kappa) && kappa >= 0, "VonMisesFisher: kappa = {} must be finite and >= 0",
+    using Limits = std::numeric_limits<S>;
+    require(isfinite(kappa) && kappa >= 0 && kappa <= Limits::max() * Limits::epsilon(),
+            "VonMisesFisher: kappa = {} must be finite and >= 0, and not next to the largest number",
             static_cast<double>(kappa));
-    mass_ = -S(expm1(S(-2 * kappa)));
+    mass_ = kappa > Limits::epsilon() / 8 ? S(-S(expm1(S(-2 * kappa)))) : S(0); // 0: uniform, to a rounding
     tail_ = S(exp(S(-2 * kappa)));
     peak_ = mass_ > 0 ? S(kappa / (2 * pi<S> * mass_)) : S(1 / (4 * pi<S>));
     growth_ = kappa <= 4 ? S(expm1(S(2 * kappa))) : S(0);
@@ -60,6 +62,7 @@ template <Real S> class VonMisesFisher {
     const S u = mass_ > 0 ? S(-S(expm1(S(-kappa_ * t))) / mass_) : S(t / 2);
     return {min(u, one_minus_epsilon<S>), turn<S>(w.x(), w.y())};
   }
+  S kappa() const { return kappa_; }
   template <Real T> VonMisesFisher<T> cast() const { return VonMisesFisher<T>(T(kappa_)); }
 
  private:

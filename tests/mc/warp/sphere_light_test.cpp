@@ -22,6 +22,22 @@ TYPED_TEST(SphereLightOver, ObeysTheLawsAtEveryDistance) {
   }
 }
 
+// Viewers next to the surface on all sides: the solid angle is that of 50 digits to 8 eps, for any scale.
+TYPED_TEST(SphereLightOver, GrazingViewersSeeTheRightAngle) {
+  using S = TypeParam;
+  Pcg random(3);
+  for (int k = 0; k < 2000; ++k) {
+    const double height = std::pow(10.0, -18 * random.uniform<double>()),
+                 scale = std::exp2(40 * random.uniform<double>() - 20);
+    const S radius = S(scale * (1 + random.uniform<double>()));
+    const Vec3<S> center = Sphere<S>{}.from_unit(random.point<S, 2>()) * S(radius * (1 + height));
+    const SphereLight<S> light(center, radius);
+    const double exact = static_cast<double>(light.template cast<Oracle>().solid_angle());
+    ASSERT_LE(std::abs(double(light.solid_angle()) / exact - 1), 8 * double(std::numeric_limits<S>::epsilon()))
+        << "height " << height << " radius " << radius;
+  }
+}
+
 TEST(SphereLight, SolidAngles) {
   EXPECT_NEAR(SphereLight<double>({0, 0, 2}, 2).solid_angle(), 2 * std::numbers::pi, 1e-15);
   EXPECT_NEAR(SphereLight<double>({0, 0, 0}, 2).solid_angle(), 4 * std::numbers::pi, 1e-15);

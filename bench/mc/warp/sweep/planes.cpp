@@ -1,0 +1,110 @@
+// Warps of the plane.
+#include "sweep.h"
+
+#include <mc/warp/annulus.h>
+#include <mc/warp/bilinear.h>
+#include <mc/warp/box_muller.h>
+#include <mc/warp/disk.h>
+#include <mc/warp/parallelogram.h>
+#include <mc/warp/triangle.h>
+#include <mc/warp/uniform.h>
+
+namespace sweep {
+namespace {
+
+double d(const auto& x) { return static_cast<double>(x); }
+
+template <class S> void add(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
+  const auto number = [](Draw& r) { return S(r.often(0.2) ? 0 : r.sign() * r.log(denormal<S>, largest<S>)); };
+  rows.push_back(run(
+      "UniformDisk " + scalar, effort, [](Draw&, std::string&) { return mc::UniformDisk<S>{}; },
+      constant({.invert = 8})));
+  rows.push_back(run(
+      "PolarDisk " + scalar, effort, [](Draw&, std::string&) { return mc::PolarDisk<S>{}; }, constant({.invert = 8})));
+  rows.push_back(run(
+      "UniformTriangle " + scalar, effort, [](Draw&, std::string&) { return mc::UniformTriangle<S>{}; },
+      constant({.invert = 4})));
+  rows.push_back(run(
+      "UniformAnnulus " + scalar, effort,
+      [&](Draw& r, std::string& p) {
+        const S outer = S(r.log(denormal<S>, largest<S>));
+        const S inner = r.often(0.2)   ? S(0)
+                        : r.often(0.5) ? S(outer * (1 - r.log(1e-18, 1)))
+                                       : S(d(outer) * r.log(1e-20, 1));
+        p = fmt::format("inner {} outer {}", inner, outer);
+        return mc::UniformAnnulus<S>(inner, outer);
+      },
+      [](const auto& w) {
+        const double inner = d(w.ring.inner), outer = d(w.ring.outer);
+        return [=](auto, auto) { return Bounds{.invert = 8 * outer / (outer - inner), .scale = outer}; };
+      }));
+  rows.push_back(run(
+      "UniformParallelogram " + scalar, effort,
+      [&](Draw& r, std::string& p) {
+        const double size = r.log(denormal<S>, largest<S>);
+        const auto vector = [&](double length) { return mc::Vec3<S>(r.direction<S>() * S(length)); };
+        const mc::Vec3<S> o =
+            r.often(0.5) ? mc::Vec3<S>(0, 0, 0) : vector(r.often(0.5) ? size : r.log(denormal<S>, largest<S>));
+        const mc::Vec3<S> a = vector(size), b = vector(size * r.log(1e-6, 1e6));
+        p = fmt::format("origin {} a {} b {}", detail::text(o), detail::text(a), detail::text(b));
+        return mc::UniformParallelogram<S>{mc::Parallelogram<S>(o, a, b)};
+      },
+      [](const auto& w) {
+        const auto& g = w.domain();
+        const double o = d(g.origin.stableNorm()), a = d(g.a.stableNorm()), b = d(g.b.stableNorm());
+        const double sine = d(g.area()) / a / b, scale = o + a + b;
+        return [=](auto, auto) { return Bounds{.invert = 16 * scale / std::min(a, b) / sine, .scale = scale}; };
+      }));
+  rows.push_back(run(
+      "UniformBox " + scalar, effort,
+      [&](Draw& r, std::string& p) {
+        const mc::Vec2<S> lo(number(r), number(r)), hi(number(r), number(r));
+        p = fmt::format("lo {} hi {}", detail::text(lo), detail::text(hi));
+        return mc::UniformBox<S, 2>(lo, hi);
+      },
+      [](const auto& w) {
+        const auto &lo = w.box.lo, &hi = w.box.hi;
+        double far = 0, stretch = 1;
+        for (int i = 0; i < 2; ++i) {
+          const double most = std::max(std::abs(d(lo[i])), std::abs(d(hi[i])));
+          far = std::max(far, most), stretch = std::max(stretch, most / (d(hi[i]) - d(lo[i])));
+        }
+        return [=](auto, auto) { return Bounds{.sample = 4, .pdf = 8, .invert = 4 * stretch, .scale = far}; };
+      }));
+  rows.push_back(run(
+      "Bilinear " + scalar, effort,
+      [&](Draw& r, std::string& p) {
+        std::array<S, 4> w;
+        for (S& x : w) x = r.often(0.2) ? S(0) : S(r.log(denormal<S>, largest<S>));
+        p = fmt::format("{} {} {} {}", w[0], w[1], w[2], w[3]);
+        return mc::Bilinear<S>(w[0], w[1], w[2], w[3]);
+      },
+      [](const auto&) {
+        // The conditional depends on y, whose own rounding moves x; the oracle has another y.
+        return [](auto, auto) { return Bounds{.sample = HUGE_VAL, .invert = 16}; };
+      }));
+  rows.push_back(run(
+      "BoxMuller " + scalar, effort,
+      [&](Draw& r, std::string& p) {
+        const S sigma = S(r.log(denormal<S>, largest<S>));
+        p = fmt::format("sigma {}", sigma);
+        return mc::BoxMuller<S>(sigma);
+      },
+      [](const auto& w) {
+        return [s = d(w.sigma)](auto, const auto& x) {
+          const double r = detail::size(x) / s;
+          return Bounds{.pdf = 8 + 2 * r * r, .invert = 8, .scale = s};
+        };
+      }));
+}
+
+} // namespace
+
+std::vector<Row> planes(const Effort& effort) {
+  std::vector<Row> rows;
+  add<float>(rows, "float", effort);
+  add<double>(rows, "double", effort);
+  return rows;
+}
+
+} // namespace sweep

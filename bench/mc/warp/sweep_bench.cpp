@@ -1,0 +1,40 @@
+// A table, not a timing: every warp and table at thousands of random parameters over its whole legal range, its worst
+// errors in epsilons and as multiples of the bounds it states. Arguments: trials per row, points per trial, seed,
+// family.
+#include "sweep/sweep.h"
+
+#include <cstdlib>
+#include <string_view>
+
+int main(int argc, char** argv) {
+  sweep::Effort effort;
+  if (argc > 1) effort.trials = std::atoi(argv[1]);
+  if (argc > 2) effort.points = std::atoi(argv[2]);
+  if (argc > 3) effort.seed = static_cast<std::uint64_t>(std::atoll(argv[3]));
+  const std::string_view wanted = argc > 4 ? argv[4] : "";
+  constexpr std::pair<std::string_view, std::vector<sweep::Row> (*)(const sweep::Effort&)> families[] = {
+      {"intervals", sweep::intervals}, {"planes", sweep::planes}, {"spheres", sweep::spheres},
+      {"lobes", sweep::lobes},         {"lights", sweep::lights},
+  };
+  int broken = 0;
+  fmt::print("{:<32} {:>7} {:>7} {:>20} {:>20} {:>20} {:>8} {:>8}\n", "worst error [eps], x bound", "trials", "refused",
+             "sample", "pdf", "invert", "edges", "falls");
+  for (const auto& [name, rows_of] : families) {
+    if (!wanted.empty() && wanted != name) continue;
+    for (const sweep::Row& row : rows_of(effort)) {
+      const auto law = [](const sweep::Law& l) {
+        return l.points ? fmt::format("{:.3g} ({:.2g}{})", l.eps, l.worst, l.broken ? " !" : "") : std::string("-");
+      };
+      fmt::print("{:<32} {:>7} {:>7} {:>20} {:>20} {:>20} {:>8} {:>8}\n", row.name, row.tried, row.refused,
+                 law(row.sample), law(row.pdf), law(row.invert), row.edges.broken, row.monotone.broken);
+      for (const auto& [law_name, l] : {std::pair("edges", &row.edges),
+                                        {"sample", &row.sample},
+                                        {"pdf", &row.pdf},
+                                        {"invert", &row.invert},
+                                        {"monotone", &row.monotone}})
+        if (l->broken)
+          fmt::print("    {} broken at {} of {}: {}\n", law_name, l->broken, l->points, l->witness), ++broken;
+    }
+  }
+  return broken > 0;
+}

@@ -1,0 +1,108 @@
+#include <render/io/formats.h>
+
+#include <mc/core/error.h>
+
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfInputFile.h>
+#include <ImfIntAttribute.h>
+#include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+namespace render::formats {
+
+namespace {
+
+constexpr std::array<const char*, 6> channels = {"R", "G", "B", "variance.R", "variance.G", "variance.B"};
+constexpr const char* estimates_key = "estimatesPerPixel";
+
+// What a file of these many bytes may hold: no compression of the format packs 4096 bytes in one.
+void require_size(double width, double height, const std::string& path) {
+  const double bytes = double(std::filesystem::file_size(path));
+  mc::require(width >= 1 && height >= 1 && width * height * 2 <= 4096 * bytes,
+              "EXR says {}x{}, which its {} bytes cannot hold", width, height, bytes);
+}
+
+// One plane of floats per channel, as OpenEXR wants them.
+struct Planes {
+  std::vector<std::vector<float>> plane;
+  int width;
+  Planes(std::size_t count, int w, int h)
+      : plane(count, std::vector<float>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h))), width(w) {}
+  Imf::Slice slice(std::size_t c, int x0, int y0) {
+    const std::ptrdiff_t origin = -(static_cast<std::ptrdiff_t>(y0) * width + x0);
+    return {Imf::FLOAT, reinterpret_cast<char*>(plane[c].data() + origin), sizeof(float),
+            sizeof(float) * static_cast<std::size_t>(width)};
+  }
+};
+
+} // namespace
+
+void write_exr(const std::string& path, const Image& image) {
+  try {
+    const std::size_t count = image.variance.empty() ? 3 : 6;
+    Imf::Header header(image.width, image.height);
+    Imf::FrameBuffer frame;
+    Planes planes(count, image.width, image.height);
+    for (std::size_t c = 0; c < count; ++c) {
+      header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
+      const auto& source = c < 3 ? image.pixels : image.variance;
+      for (std::size_t i = 0; i < source.size(); ++i)
+        planes.plane[c][i] = static_cast<float>(source[i][static_cast<int>(c % 3)]);
+      frame.insert(channels[c], planes.slice(c, 0, 0));
+    }
+    for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
+    if (image.estimates > 0) header.insert(estimates_key, Imf::IntAttribute(static_cast<int>(image.estimates)));
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height);
+  } catch (const std::exception& e) {
+    throw mc::Error(fmt::format("cannot write EXR: {}", e.what()));
+  }
+}
+
+Image read_exr(const std::string& path) {
+  try {
+    Imf::InputFile file(path.c_str());
+    const auto window = file.header().dataWindow();
+    require_size(double(window.max.x) - window.min.x + 1, double(window.max.y) - window.min.y + 1, path);
+    const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
+    const bool with_variance = file.header().channels().findChannel(channels[3]) != nullptr;
+    const auto has = [&](const char* channel) { return file.header().channels().findChannel(channel) != nullptr; };
+    const bool grey = has("Y") && !has("R") && !has("G") && !has("B");
+    for (std::size_t c = 0; c < 3; ++c)
+      mc::require(grey || has(channels[c]), "EXR has no channel {}; R, G and B, or Y alone, are needed", channels[c]);
+    Planes planes(with_variance ? 6 : 3, width, height);
+    Imf::FrameBuffer frame;
+    if (grey) frame.insert("Y", planes.slice(0, window.min.x, window.min.y));
+    for (std::size_t c = grey ? 3 : 0; c < planes.plane.size(); ++c)
+      frame.insert(channels[c], planes.slice(c, window.min.x, window.min.y));
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+    if (grey) planes.plane[1] = planes.plane[2] = planes.plane[0];
+    Image image(width, height);
+    if (with_variance) image.variance.resize(image.pixels.size());
+    for (std::size_t c = 0; c < planes.plane.size(); ++c) {
+      auto& target = c < 3 ? image.pixels : image.variance;
+      for (std::size_t i = 0; i < target.size(); ++i) target[i][static_cast<int>(c % 3)] = Float(planes.plane[c][i]);
+    }
+    for (auto it = file.header().begin(); it != file.header().end(); ++it)
+      if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
+        image.metadata[it.name()] = text->value();
+    if (const auto* count = file.header().findTypedAttribute<Imf::IntAttribute>(estimates_key);
+        count && count->value() > 0)
+      image.estimates = static_cast<std::uint32_t>(count->value());
+    return image;
+  } catch (const mc::Error&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw mc::Error(fmt::format("cannot read EXR: {}", e.what()));
+  }
+}
+
+} // namespace render::formats

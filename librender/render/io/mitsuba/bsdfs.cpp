@@ -1,0 +1,53 @@
+#include <render/io/mitsuba/plugins.h>
+
+namespace render::mitsuba {
+
+namespace {
+
+const std::string share = "share of light";
+
+Lambert make_diffuse(const Spectrum& reflectance) { return Lambert(reflectance); }
+
+Metal make_conductor(std::size_t, const Spectrum& reflectance) { return Metal(reflectance, 0); }
+
+Metal make_fuzzymetal(const Spectrum& albedo, double fuzz) { return Metal(albedo, Float(fuzz)); }
+
+Dielectric make_dielectric(double inside, double outside, const Spectrum& reflectance, const Spectrum& transmittance) {
+  mc::require(inside > 0 && outside > 0, "indices of refraction {} and {} must be > 0", inside, outside);
+  return Dielectric(Float(inside / outside), reflectance, transmittance);
+}
+
+Bsdf make_twosided(const Bsdf& inner) { return inner; }
+
+Parameter<Bsdf> inner_bsdf() {
+  return {{"<bsdf>", "bsdf", "", {"bsdf", "ref"}, "what covers both sides"},
+          [](const XmlElement& e, Context& context) { return context.read_bsdf(e); },
+          {},
+          {}};
+}
+
+} // namespace
+
+const Plugins<Bsdf>& bsdf_plugins() {
+  static const Spectrum half = Spectrum::Constant(Float(0.5)), one = Spectrum::Ones();
+  static const Plugins<Bsdf> rows = {
+      plugin<Bsdf>("diffuse", "perfectly diffuse reflection, alike on both sides", make_diffuse,
+                   color("reflectance", share, "what is reflected, in [0, 1]", half)),
+      plugin<Bsdf>("conductor", "a perfect mirror", make_conductor,
+                   choice("material", {"none"}, "all is reflected; metals by name are not supported"),
+                   color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one)),
+      plugin<Bsdf>("fuzzymetal", "the metal of [Shirley16]: mirrored directions moved by a point in a ball (ours)",
+                   make_fuzzymetal,
+                   color("albedo", share, "what is reflected, in [0, 1]", Spectrum::Constant(Float(0.9))),
+                   number("fuzz", "", 0, "radius of the ball, in [0, 1]")),
+      plugin<Bsdf>("dielectric", "smooth glass", make_dielectric,
+                   number("intIOR", "", 1.5046, "index of refraction inside, > 0"),
+                   number("extIOR", "", 1.000277, "index of refraction outside, > 0"),
+                   color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
+                   color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
+      plugin<Bsdf>("twosided", "the BSDF inside it, which all of ours are on both sides", make_twosided, inner_bsdf()),
+  };
+  return rows;
+}
+
+} // namespace render::mitsuba

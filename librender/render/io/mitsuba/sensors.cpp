@@ -1,0 +1,126 @@
+#include <render/io/mitsuba/plugins.h>
+
+namespace render::mitsuba {
+
+namespace {
+
+constexpr int default_spp = 4;
+
+SensorSettings make_thinlens(const Transform& to_world, double fov, std::size_t axis, double near, double far,
+                             double focus_distance, const FilmSettings& film, int spp, double radius) {
+  constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::smaller, FovAxis::larger};
+  return {ThinLens(to_world, {axes[axis], fov, radius, focus_distance, near, far}), film, spp};
+}
+
+SensorSettings make_perspective(const Transform& to_world, double fov, std::size_t axis, double near, double far,
+                                double focus_distance, const FilmSettings& film, int spp) {
+  return make_thinlens(to_world, fov, axis, near, far, focus_distance, film, spp, 0);
+}
+
+// A row for a camera, with the parameters that all cameras have.
+template <class Make, class... V>
+Plugin<SensorSettings> sensor_plugin(std::string name, std::string meaning, Make make,
+                                     const Parameter<V>&... parameters) {
+  const FilmSettings in_mitsuba{768, 576, GaussianFilter()}, in_lajolla{256, 256, BoxFilter()};
+  return plugin<SensorSettings>(
+      std::move(name), std::move(meaning), make,
+      transform("toWorld", "the camera's frame: x to the left, y up, z forward"),
+      number("fov", "degrees", "field of view along fovAxis, in (0, 180)").in_lajolla(45, "45"),
+      choice("fovAxis", {"x", "y", "smaller", "larger"}, "the side of the film that fov spans", 0),
+      number("nearClip", "scene units", 0, "what stands closer before the lens is cut away"),
+      number("farClip", "scene units", mc::infinity<double>, "what stands farther is cut away, > nearClip"),
+      number("focusDistance", "scene units", 1, "to the plane in focus; of no effect for a pinhole"),
+      nested("film", "the picture", film_plugins).otherwise(in_mitsuba, "hdrfilm").in_lajolla(in_lajolla, "hdrfilm"),
+      nested("sampler", "how many samples", sampler_plugins).otherwise(default_spp, "independent"), parameters...);
+}
+
+FilmSettings make_film(int width, int height, const Filter& filter) {
+  mc::require(width >= 1 && height >= 1, "size {}x{} needs at least one pixel", width, height);
+  return {width, height, filter};
+}
+
+Plugin<FilmSettings> film_plugin(std::string name) {
+  std::vector<Declaration> ignored;
+  for (const char* other :
+       {"fileFormat", "pixelFormat", "componentFormat", "banner", "attachLog", "gamma", "exposure", "filename"})
+    ignored.push_back(no_effect(other, "the command line says what is written"));
+  return plugin<FilmSettings>(std::move(name), "the size of the picture and its filter", make_film,
+                              integer("width", "pixels in a row", 768).in_lajolla(256, "256"),
+                              integer("height", "rows", 576).in_lajolla(256, "256"),
+                              nested("rfilter", "how samples make a pixel", filter_plugins)
+                                  .otherwise(GaussianFilter(), "gaussian")
+                                  .in_lajolla(BoxFilter(), "box"))
+      .accepting(ignored);
+}
+
+BoxFilter make_box(double radius) { return BoxFilter(Float(radius)); }
+TentFilter make_tent(double radius) { return TentFilter(Float(radius)); }
+GaussianFilter make_gaussian(double stddev) { return GaussianFilter(Float(stddev)); }
+SubpixelTentFilter make_subpixeltent(int n, double radius) { return SubpixelTentFilter(n, Float(radius)); }
+
+int make_sampler(int samples) {
+  mc::require(samples >= 1, "sampleCount {} must be at least 1", samples);
+  return samples;
+}
+
+Plugin<int> sampler_plugin(std::string name) {
+  return plugin<int>(std::move(name), "samples per pixel; which points they are, --sampler says", make_sampler,
+                     integer("sampleCount", "samples per pixel, >= 1", default_spp))
+      .accepting({no_effect("seed", "--seed says it"), no_effect("dimension", "our points have as many as are needed"),
+                  no_effect("scramble", "our points are always randomised")});
+}
+
+int make_path(int max_depth) {
+  mc::require(max_depth == -1 || max_depth >= 1, "maxDepth {} must be -1 or at least 1", max_depth);
+  return max_depth;
+}
+
+} // namespace
+
+const Plugins<SensorSettings>& sensor_plugins() {
+  static const Plugins<SensorSettings> rows = {
+      sensor_plugin("perspective", "a pinhole camera", make_perspective),
+      sensor_plugin("thinlens", "a lens with depth of field", make_thinlens,
+                    number("apertureRadius", "scene units", "radius of the lens, >= 0")),
+  };
+  return rows;
+}
+
+const Plugins<FilmSettings>& film_plugins() {
+  static const Plugins<FilmSettings> rows = {film_plugin("hdrfilm"), film_plugin("ldrfilm")};
+  return rows;
+}
+
+const Plugins<Filter>& filter_plugins() {
+  static const Plugins<Filter> rows = {
+      plugin<Filter>("box", "all of a square alike", make_box, number("radius", "pixels", 0.5, "half its side, > 0")),
+      plugin<Filter>("tent", "falls linearly from the centre, in x and in y", make_tent,
+                     number("radius", "pixels", 1, "half its side, > 0")),
+      plugin<Filter>("gaussian", "the normal distribution, not cut off", make_gaussian,
+                     number("stddev", "pixels", 0.5, "its standard deviation, > 0")),
+      plugin<Filter>("subpixeltent", "the mean of n x n tents about the centres of the subpixels, as in smallpt (ours)",
+                     make_subpixeltent, integer("n", "subpixels in a row, >= 1", 2),
+                     number("radius", "pixels", 0.5, "half the side of a tent, > 0")),
+  };
+  return rows;
+}
+
+const Plugins<int>& sampler_plugins() {
+  static const Plugins<int> rows = {sampler_plugin("independent"), sampler_plugin("stratified"),
+                                    sampler_plugin("ldsampler"),   sampler_plugin("halton"),
+                                    sampler_plugin("hammersley"),  sampler_plugin("sobol")};
+  return rows;
+}
+
+const Plugins<int>& integrator_plugins() {
+  static const Plugins<int> rows = {
+      plugin<int>("path", "paths from the camera; --strategy says how they find the lights", make_path,
+                  integer("maxDepth", "longest path in edges; -1: no limit", -1))
+          .accepting({no_effect("rrDepth", "Russian roulette follows the throughput"),
+                      only(false, "strictNormals", "shading normals are trusted"),
+                      only(false, "hideEmitters", "lights are seen")}),
+  };
+  return rows;
+}
+
+} // namespace render::mitsuba

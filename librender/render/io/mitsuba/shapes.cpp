@@ -1,0 +1,77 @@
+#include <render/io/mitsuba/plugins.h>
+#include <render/io/obj.h>
+
+namespace render::mitsuba {
+
+namespace {
+
+const std::string scene_units = "scene units";
+
+Shape make_obj(const std::string& path, const Transform& to_world, bool face_normals) {
+  return read_obj(path, to_world, face_normals);
+}
+
+Shape make_rectangle(const Transform& to_world) { return TriangleMesh::rectangle(to_world); }
+
+Shape make_cube(const Transform& to_world) { return TriangleMesh::box(to_world); }
+
+Shape make_sphere(const Transform& to_world, const Vec3d& center, double radius, bool flip,
+                  const std::optional<Vec3d>& cap_axis, const std::optional<double>& cap_height) {
+  const double scale = to_world.linear.col(0).norm();
+  mc::require(
+      (to_world.linear.transpose() * to_world.linear).isApprox(scale * scale * Eigen::Matrix3d::Identity(), 1e-9),
+      "toWorld of a sphere must scale all axes alike");
+  mc::require(cap_axis.has_value() == cap_height.has_value(),
+              "capAxis and capHeight belong together; give both or none");
+  const Vec3d at = to_world.point(center);
+  if (!cap_axis) return Sphere(at, scale * radius, flip);
+  return Sphere::cap(at, scale * radius, to_world.vector(*cap_axis), scale * *cap_height, flip);
+}
+
+Parameter<std::optional<BsdfId>> bsdf_of_shape() {
+  const Parameter<std::optional<BsdfId>> p{
+      {"<bsdf>", "bsdf, or ref to one", "", {"bsdf", "ref"}, "what covers it"},
+      [](const XmlElement& e, Context& context) { return std::optional(context.bsdf(e)); },
+      {},
+      {}};
+  return p.otherwise(std::nullopt, "diffuse");
+}
+
+template <class Make> struct Covered {
+  Make make;
+  template <class... Values>
+  CoveredShape operator()(const std::optional<BsdfId>& bsdf, const std::optional<Emission>& emission, bool guide,
+                          const Values&... values) const {
+    return {make(values...), bsdf, emission, guide};
+  }
+};
+
+// A row for a geometry, with the parameters that all shapes have.
+template <class Make, class... V>
+Plugin<CoveredShape> shape_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
+  return plugin<CoveredShape>(std::move(name), std::move(meaning), Covered<Make>{make}, bsdf_of_shape(),
+                              optional(nested("emitter", "makes it shine", surface_emitter_plugins)),
+                              boolean("guide", "whether the strategy `mixture` aims at it too (ours)"), parameters...);
+}
+
+} // namespace
+
+const Plugins<CoveredShape>& shape_plugins() {
+  static const Parameter<Transform> to_world = transform("toWorld", "from the shape's space to the scene's");
+  static const Plugins<CoveredShape> rows = {
+      shape_plugin("obj", "a mesh in Wavefront's format; its materials are ignored", make_obj,
+                   file("filename", "the mesh, relative to the scene file"), to_world,
+                   boolean("faceNormals", "whether the normals of the file are left out")),
+      shape_plugin("rectangle", "the square [-1, 1]^2 in the plane z = 0, normal +z", make_rectangle, to_world),
+      shape_plugin("cube", "the cube [-1, 1]^3, normals outward", make_cube, to_world),
+      shape_plugin(
+          "sphere", "a sphere, or the cap of one", make_sphere, to_world, point("center", "its centre", Vec3d::Zero()),
+          number("radius", scene_units, 1, "its radius, > 0"),
+          boolean("flipNormals", "whether the normals point inward"),
+          optional(point("capAxis", "direction of the cap's pole from the centre (ours)", Vec3d::Zero())),
+          optional(number("capHeight", scene_units, "how far the cap reaches from its pole, in (0, 2 radius] (ours)"))),
+  };
+  return rows;
+}
+
+} // namespace render::mitsuba

@@ -1,0 +1,144 @@
+#include <render/io/obj.h>
+
+#include <mc/core/error.h>
+#include <mc/core/file.h>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+#include <tiny_obj_loader.h>
+#pragma GCC diagnostic pop
+
+#include <Eigen/LU>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+namespace render {
+
+namespace {
+
+constexpr std::string_view blanks = " \t\r";
+
+/// Calls f(line number, keyword, rest of the line) for every line.
+template <class F> void for_each_line(std::string_view text, const F& f) {
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
+    line = line.substr(0, line.find('#'));
+    const std::string_view keyword = line.substr(0, line.find_first_of(blanks));
+    f(number, keyword, line.substr(keyword.size()));
+  }
+}
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> elements = {
+    {{"v", "vertex"}, {"vt", "texture coordinate"}, {"vn", "normal"}}};
+using Counts = std::array<long, elements.size()>;
+
+void check_position(std::size_t line, long vertex, std::string_view text) {
+  const std::string numbers(text); // ends in 0, as strtod needs
+  const char* cursor = numbers.c_str();
+  for (const char axis : {'x', 'y', 'z'}) {
+    char* after = nullptr;
+    const double value = std::strtod(cursor, &after);
+    mc::require(after != cursor, "line {}: vertex {} has no number for {}", line, vertex, axis);
+    mc::require(std::isfinite(static_cast<float>(value)), "line {}: vertex {} has {} = {}, which is not finite", line,
+                vertex, axis, value);
+    cursor = after;
+  }
+}
+
+/// A corner is v, v/vt, v//vn or v/vt/vn; negative numbers count from the last element.
+void check_corner(std::size_t line, std::string_view corner, const Counts& counts) {
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    const std::string_view field = corner.substr(0, corner.find('/'));
+    long index = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), index);
+    const bool number = error == std::errc() && end == field.data() + field.size();
+    mc::require(number || (k > 0 && field.empty()), "line {}: '{}' is not the number of a {}", line, field,
+                elements[k].second);
+    mc::require(!number || (index != 0 && std::abs(index) <= counts[k]),
+                "line {}: a face names {} {}, but there are only {}", line, elements[k].second, index, counts[k]);
+    if (field.size() == corner.size()) return;
+    corner.remove_prefix(field.size() + 1);
+  }
+  throw mc::Error(
+      fmt::format("line {}: a corner of a face ends in '/{}'; write v, v/vt, v//vn or v/vt/vn", line, corner));
+}
+
+// The library reads what is not a number as 0 and leaves out polygons with a bad index: look at the lines first.
+void check_lines(std::string_view text) {
+  Counts counts{};
+  for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
+    for (std::size_t k = 0; k < counts.size(); ++k)
+      if (keyword == elements[k].first) ++counts[k];
+    if (keyword == "v") check_position(line, counts[0], rest);
+  });
+  for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
+    if (keyword != "f") return;
+    int corners = 0;
+    for (;; ++corners) {
+      rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
+      if (rest.empty()) break;
+      const std::string_view corner = rest.substr(0, rest.find_first_of(blanks));
+      check_corner(line, corner, counts);
+      rest.remove_prefix(corner.size());
+    }
+    mc::require(corners >= 3, "line {}: a face of {} corners; at least 3 are needed", line, corners);
+  });
+}
+
+} // namespace
+
+TriangleMesh read_obj(const std::string& path, const Transform& to_world, bool face_normals) {
+  const std::string text = mc::read_file(path);
+  return mc::with_context(path, [&] {
+    check_lines(text);
+    tinyobj::ObjReader reader;
+    tinyobj::ObjReaderConfig config;
+    config.triangulate = true;
+    const bool parsed = reader.ParseFromString(text, "", config);
+    std::string problem = reader.Error();
+    while (!problem.empty() && std::isspace(static_cast<unsigned char>(problem.back()))) problem.pop_back();
+    mc::require(parsed, "broken OBJ: {}", problem.empty() ? "unreadable" : problem);
+
+    const tinyobj::attrib_t& attributes = reader.GetAttrib();
+    const bool mirrored = to_world.mirrors();
+    bool has_normals = !face_normals;
+    for (const auto& shape : reader.GetShapes())
+      for (const auto& corner : shape.mesh.indices) has_normals &= corner.normal_index >= 0;
+
+    std::vector<Vec3> positions, normals;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::map<std::pair<int, int>, std::uint32_t> known; // one vertex per distinct corner
+    for (const auto& shape : reader.GetShapes()) {
+      for (std::size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3) {
+        std::array<std::uint32_t, 3> triangle{};
+        for (std::size_t k = 0; k < 3; ++k) {
+          const auto& corner = shape.mesh.indices[i + k];
+          const std::pair key(corner.vertex_index, has_normals ? corner.normal_index : -1);
+          const auto [it, added] = known.try_emplace(key, static_cast<std::uint32_t>(positions.size()));
+          if (added) {
+            const auto at = [](const std::vector<tinyobj::real_t>& v, int index) {
+              const auto j = static_cast<std::size_t>(index) * 3;
+              return Vec3d(double(v[j]), double(v[j + 1]), double(v[j + 2]));
+            };
+            positions.push_back(to_world.point(at(attributes.vertices, corner.vertex_index)).cast<Float>());
+            if (has_normals)
+              normals.push_back(
+                  to_world.normal(at(attributes.normals, corner.normal_index)).normalized().cast<Float>());
+          }
+          triangle[k] = it->second;
+        }
+        if (mirrored) std::swap(triangle[1], triangle[2]);
+        triangles.push_back(triangle);
+      }
+    }
+    return TriangleMesh(std::move(positions), triangles, std::move(normals));
+  });
+}
+
+} // namespace render

@@ -1,0 +1,99 @@
+#include <render/io/mitsuba/plugins.h>
+
+#include "scene_text.h"
+
+#include <map>
+
+namespace {
+
+using namespace render::mitsuba;
+
+// Where an element of each kind stands in a scene.
+struct Place {
+  std::string before, after;
+};
+const std::string camera = "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>";
+const std::map<std::string, Place> places = {
+    {"integrator", {"", ""}},
+    {"sensor", {"", ""}},
+    {"film", {camera, "</sensor>"}},
+    {"rfilter", {camera + "<film type=\"hdrfilm\">", "</film></sensor>"}},
+    {"sampler", {camera, "</sensor>"}},
+    {"bsdf", {"<shape type=\"sphere\">", "</shape>"}},
+    {"shape", {"", ""}},
+    {"emitter in a shape", {"<shape type=\"sphere\">", "</shape>"}},
+    {"emitter", {"", ""}},
+};
+
+// The parameter as an element; `value` is an attribute or a child that only reading it notices.
+std::string element_of(const Declaration& d, const std::string& value) {
+  if (d.nested()) return "<" + d.tags[0] + " type=\"" + value + "\"/>";
+  if (d.type == "transform") return "<transform name=\"" + d.name + "\"><" + value + "/></transform>";
+  if (d.type == "file") return "<string name=\"" + d.name + "\"/>"; // any value is a name: leave it out
+  return "<" + d.tags[0] + " name=\"" + d.name + "\" value=\"" + value + "\"/>";
+}
+
+// What must be given besides one parameter, in one line.
+std::string needed_but(const std::string& name, const PluginText& row) {
+  std::string text;
+  for (const Declaration& d : row.parameters) {
+    if (d.fallback != "-" || d.nested() || d.name == name) continue;
+    const std::string words = "one of ", value = d.type.starts_with(words) ? d.type.substr(words.size()) : "1";
+    text += "<" + d.tags[0] + " name=\"" + d.name + "\" value=\"" + value.substr(0, value.find(',')) + "\"/>";
+  }
+  return text;
+}
+
+struct PluginsTest : support::SceneTest {
+  std::string said(const Kind& kind, const PluginText& row, const std::string& children) const {
+    const std::string tag = kind.tag.substr(0, kind.tag.find(' '));
+    const Place& place = places.at(kind.tag);
+    return refusal(place.before + "<" + tag + " type=\"" + row.name + "\">\n" + children + "</" + tag + ">" +
+                   place.after);
+  }
+};
+
+// The reference and the reading cannot disagree: every parameter that a row declares is read, since what is broken in
+// it is noticed in its line, and nothing that it does not declare is accepted.
+TEST_F(PluginsTest, EveryDeclaredParameterIsRead) {
+  int parameters = 0;
+  for (const Kind& kind : all_plugins())
+    for (const PluginText& row : kind.rows) {
+      for (const Declaration& d : row.parameters) {
+        if (!d.has_effect) continue;
+        ++parameters;
+        EXPECT_THAT(said(kind, row, needed_but(d.name, row) + "\n" + element_of(d, "broken")),
+                    testing::HasSubstr("s.xml:4: <"))
+            << kind.tag << " " << row.name << ": " << d.name;
+      }
+      EXPECT_THAT(said(kind, row, needed_but("", row) + "\n<float name=\"nonsense\" value=\"1\"/>"),
+                  testing::HasSubstr("s.xml:4: <float>: " + row.name + " has no 'nonsense'"));
+    }
+  EXPECT_GE(parameters, 60);
+}
+
+TEST_F(PluginsTest, NamesAndParametersDiffer) {
+  for (const Kind& kind : all_plugins()) {
+    std::map<std::string, int> names;
+    for (const PluginText& row : kind.rows) {
+      EXPECT_EQ(++names[row.name], 1) << kind.tag << " " << row.name;
+      std::map<std::string, int> parameters;
+      for (const Declaration& d : row.parameters) {
+        EXPECT_EQ(++parameters[d.name], 1) << row.name << " " << d.name;
+        EXPECT_NE(d.meaning, "") << row.name << " " << d.name;
+      }
+    }
+  }
+}
+
+TEST_F(PluginsTest, WhatIsNotDoneIsRefused) {
+  for (const char* name : {"strictNormals", "hideEmitters"}) {
+    const std::string start =
+        std::string(sensor) + "\n<integrator type=\"path\"><boolean name=\"" + name + "\" value=\"";
+    EXPECT_THAT(refusal(start + "true\"/></integrator>"),
+                testing::HasSubstr("s.xml:3: <boolean>: " + std::string(name) + " = true is not supported"));
+    EXPECT_NO_THROW(render::read_mitsuba(scene(start + "false\"/></integrator><shape type=\"cube\"/>")));
+  }
+}
+
+} // namespace
