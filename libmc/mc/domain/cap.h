@@ -6,8 +6,8 @@
 
 namespace mc {
 
-/// Unit vectors within an angle of +z, given by h = 1 - cos(angle) in [1e-37, 2]: any angle from 5e-19 rad to pi keeps its
-/// precision.
+/// Unit vectors within an angle of +z, given by h = 1 - cos(angle) in [1e-37, 2]: any angle from 5e-19 rad to pi keeps
+/// its precision.
 ///   chart  : v = ((1 - z) / h, phi / 2 pi); uniform in solid angle, so the Jacobian is the constant 2 pi h
 ///   throws : Error unless 1e-37 <= h <= 2
 template <Real S> struct Cap {

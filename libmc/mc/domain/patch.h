@@ -16,8 +16,8 @@ template <Real S> using Wide = std::conditional_t<std::same_as<S, float>, double
 ///   chart    : (s, t) = v for the parallelogram, v0 (1 - v1, v1) for the triangle; directions are normalized points
 ///   jacobian : area element * distance of the plane / |p|^3
 ///   contains : unit, and on the inner side of the planes through the edges up to 64 eps of distance
-///   error    : float computes in double; in double the chart loses a digit for each by which the size exceeds the height
-///              of the viewer over the plane
+///   error    : float computes in double; in double the chart loses a digit for each by which the size exceeds the
+///              height of the viewer over the plane
 ///   throws   : Error unless the triple product of origin, edge1, edge2 is finite and not 0: the patch must not be seen
 ///              edge-on
 template <Real S, int Corners> struct Patch {

@@ -10,8 +10,8 @@ namespace mc {
 /// Uniform directions, about +z, of the cone that a sphere fills; z points from the viewer to its centre (frame()).
 ///   made from : the centre relative to the viewer, and the radius; the viewer may be anywhere
 ///   sample    : outside, the cone with 1 - cos = s^2 / (1 + cos), s = radius / distance, which no distance cancels;
-///               next to the surface cos = sqrt(distance^2 - radius^2) / distance, from twice the digits; on the surface
-///               the hemisphere towards the centre; inside every direction
+///               next to the surface cos = sqrt(distance^2 - radius^2) / distance, from twice the digits; on the
+///               surface the hemisphere towards the centre; inside every direction
 ///   pdf       : 1 / (2 pi (1 - cos)) [1/sr]; 0 outside the cone. Relative error 16 eps in the local frame: a world
 ///               direction in S holds the offset from the axis only to eps, so narrower cones than eps need the local
 ///               form
