@@ -20,7 +20,7 @@ struct Function {
 std::size_t indent(const std::string& line) { return line.find_first_not_of(' '); }
 
 // Functions of more than `longest` lines, in the format that clang-format gives: a body ends at the first line that
-// starts with a brace and is indented as the line with which the function starts.
+// starts with a brace and is indented as the line with which the function, or the lambda, starts.
 std::vector<Function> long_functions(const std::vector<std::string>& lines, std::size_t longest) {
   static const std::regex other(R"(^\s*(template.*>\s*)?(namespace|struct|class|enum|union|extern|typedef)\b)");
   const auto unclosed = [](const std::string& line) {
@@ -30,11 +30,10 @@ std::vector<Function> long_functions(const std::vector<std::string>& lines, std:
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (!lines[i].ends_with('{') || lines[i].find(')') == std::string::npos) continue;
     std::size_t start = i;
-    for (auto open = unclosed(lines[i]); start > 0; open += unclosed(lines[start])) {
-      const bool initialiser = lines[start][indent(lines[start])] == ':' || lines[start - 1].ends_with(',');
-      if (open >= 0 && !initialiser) break;
-      --start;
-    }
+    auto open = unclosed(lines[i]);
+    while (start > 0 && (open < 0 || lines[start][indent(lines[start])] == ':' || lines[start - 1].ends_with(',')))
+      open += unclosed(lines[--start]);
+    if (open > 0) start = i; // a lambda among arguments
     if (std::regex_search(lines[start], other)) continue;
     std::size_t end = i + 1;
     while (end < lines.size() &&
@@ -46,13 +45,27 @@ std::vector<Function> long_functions(const std::vector<std::string>& lines, std:
 }
 
 TEST(Layout, LongFunctionsAreSeen) {
-  const std::vector<std::string> lines = {"struct A {",      "  A(int a,",   "    int b)", "      : a_(a),",
-                                          "        b_(b) {", "    if (a) {", "    }",      "  }",
-                                          "  int f() {",     "  }",          "};"};
+  const std::vector<std::string> lines = {"struct A {",
+                                          "  A(int a,",
+                                          "    int b)",
+                                          "      : a_(a),",
+                                          "        b_(b) {",
+                                          "    if (a) {",
+                                          "    }",
+                                          "  }",
+                                          "  int f() {",
+                                          "  }",
+                                          "};",
+                                          "  call(1,",
+                                          "       [](int) {",
+                                          "         go();",
+                                          "       });"};
   const std::vector<Function> found = long_functions(lines, 2);
-  ASSERT_EQ(found.size(), 1u);
+  ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].line, 2u);
   EXPECT_EQ(found[0].length, 7u);
+  EXPECT_EQ(found[1].line, 13u);
+  EXPECT_EQ(found[1].length, 3u);
 }
 
 TEST(Layout, DISABLED_AFileIsOneIdea) {

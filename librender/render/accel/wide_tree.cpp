@@ -23,11 +23,39 @@ struct Split {
   double cost = mc::infinity<double>;
 };
 
+struct Bins {
+  std::array<Box, bins> box;
+  std::array<std::uint32_t, bins> count{};
+};
+
+double blocks(std::uint32_t count, std::uint32_t lanes) { return double((count + lanes - 1) / lanes); }
+
+// The last bin on the left side of the cheapest border: areas times blocks, on both sides.
+Split cheapest_border(const Bins& b, int axis, std::uint32_t count, std::uint32_t lanes) {
+  std::array<double, bins> right{};
+  Box sweep;
+  std::uint32_t swept = 0;
+  for (std::size_t i = bins - 1; i > 0; --i) {
+    sweep.add(b.box[i]);
+    swept += b.count[i];
+    right[i] = double(sweep.half_area()) * blocks(swept, lanes);
+  }
+  Split best;
+  sweep = Box{};
+  swept = 0;
+  for (std::size_t i = 0; i + 1 < bins; ++i) {
+    sweep.add(b.box[i]);
+    swept += b.count[i];
+    const double cost = double(sweep.half_area()) * blocks(swept, lanes) + right[i + 1];
+    if (swept > 0 && swept < count && cost < best.cost) best = {axis, static_cast<int>(i), cost};
+  }
+  return best;
+}
+
 } // namespace
 
 WideTree::WideTree(const std::vector<Box>& boxes, std::uint32_t lanes) : order_(boxes.size()) {
   if (boxes.empty()) return;
-  const auto blocks = [lanes](std::uint32_t n) { return double((n + lanes - 1) / lanes); };
   std::iota(order_.begin(), order_.end(), 0u);
   std::vector<Binary> tree(1);
   tree[0].count = static_cast<std::uint32_t>(boxes.size());
@@ -58,28 +86,14 @@ WideTree::WideTree(const std::vector<Box>& boxes, std::uint32_t lanes) : order_(
     Split best;
     for (int axis = 0; axis < 3 && depth < deepest; ++axis) {
       if (!(centers.hi[axis] > centers.lo[axis])) continue;
-      std::array<Box, bins> box;
-      std::array<std::uint32_t, bins> n{};
+      Bins binned;
       for (auto it = begin; it != end; ++it) {
-        const int b = bin_of(*it, axis);
-        box[static_cast<std::size_t>(b)].add(boxes[*it]);
-        ++n[static_cast<std::size_t>(b)];
+        const auto b = static_cast<std::size_t>(bin_of(*it, axis));
+        binned.box[b].add(boxes[*it]);
+        ++binned.count[b];
       }
-      std::array<double, bins> right{};
-      Box sweep;
-      std::uint32_t swept = 0;
-      for (std::size_t b = bins - 1; b > 0; --b) {
-        sweep.add(box[b]);
-        right[b] = double(sweep.half_area()) * blocks(swept += n[b]);
-      }
-      sweep = Box{};
-      swept = 0;
-      for (std::size_t b = 0; b + 1 < bins; ++b) {
-        sweep.add(box[b]);
-        swept += n[b];
-        const double cost = double(sweep.half_area()) * blocks(swept) + right[b + 1];
-        if (swept > 0 && swept < count && cost < best.cost) best = {axis, static_cast<int>(b), cost};
-      }
+      const Split split = cheapest_border(binned, axis, count, lanes);
+      if (split.cost < best.cost) best = split;
     }
 
     auto middle = begin + count / 2; // identical centres, or too deep: halves by count
