@@ -2,7 +2,8 @@
 
 #include <readme_examples.h>
 
-#include <mc/estimate/integrate.h>
+#include "my_test.cpp" // the example of the README: one translation unit holds all of them
+
 #include <mc/gtest/matchers.h>
 #include <mc/warp/hemisphere.h>
 
@@ -11,24 +12,6 @@
 #include <string_view>
 
 namespace {
-
-// As the README has it.
-struct MyBsdf { // reflects half of the light, the same in all directions
-  using W = mc::Vec3<float>;
-  struct Sample {
-    W wi;
-    float f, pdf;
-  };
-  float eval(const W& wo, const W& wi) const { return wo.z() * wi.z() > 0 ? 0.5f / mc::pi<float> : 0; }
-  float pdf(const W& wo, const W& wi) const { return wo.z() * wi.z() > 0 ? std::abs(wi.z()) / mc::pi<float> : 0; }
-  std::optional<Sample> sample(const W& wo, const mc::Vec2<float>& u) const {
-    W wi = mc::CosineHemisphere<float>().sample(u);
-    if (wo.z() < 0) wi.z() = -wi.z();
-    return Sample{wi, eval(wo, wi), pdf(wo, wi)};
-  }
-};
-
-TEST(MyBsdf, IsRight) { EXPECT_BSDF_LAWS(MyBsdf(), mc::Vec3<float>(0.6f, 0, 0.8f)); }
 
 // A sampler of one's own, checked against its claimed density.
 mc::Vec3<double> my_sample(mc::Pcg& random) { return mc::CosineHemisphere<double>().sample(random.point<double, 2>()); }
@@ -53,12 +36,6 @@ TEST(Consumer, TheMeanOfItsHeightIsTwoThirds) {
   for (int i = 0; i < 10'000; ++i) heights.push_back(my_sample(random).z());
   EXPECT_MEAN(heights, 2.0 / 3);
   EXPECT_FALSE(mc::has_mean("heights", heights, 0.65));
-}
-
-TEST(Consumer, Integrates) {
-  const mc::Integral r =
-      mc::integrate([](const mc::Vec3<double>& w) { return w.z() * w.z() * w.z(); }, mc::CosineHemisphere<double>());
-  EXPECT_NEAR(r.estimate.value, mc::pi<double> / 2, 5 * r.estimate.std_error);
 }
 
 } // namespace

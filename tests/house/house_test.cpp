@@ -122,15 +122,27 @@ TEST(House, TopLevelHoldsWhatTheDesignNames) {
   }
 }
 
-// The README's BSDF and plugin are those that the consumer compiles and runs against the installed package.
-TEST(House, TheExamplesOfTheReadmeAreCompiled) {
-  const std::string readme = text_of("README.md"), consumer = text_of("tests/consumer/consumer_test.cpp");
-  const std::size_t from = readme.find("struct MyBsdf"), to = readme.find("```", from);
-  ASSERT_NE(to, std::string::npos);
-  EXPECT_NE(consumer.find(readme.substr(from, to - from)), std::string::npos)
-      << "README.md: MyBsdf is not that of tests/consumer/consumer_test.cpp";
-  EXPECT_NE(readme.find("```c\n" + text_of("tests/consumer/mine.c") + "```"), std::string::npos)
-      << "README.md: the plugin is not tests/consumer/mine.c";
+// The README's test and the plugin are those that the consumer compiles and runs against the installed package.
+TEST(House, TheExamplesOfTheReadmesAreCompiled) {
+  EXPECT_NE(text_of("README.md").find("```cpp\n" + text_of("tests/consumer/my_test.cpp") + "```"), std::string::npos)
+      << "README.md: the test is not tests/consumer/my_test.cpp";
+  EXPECT_NE(text_of("tools/plugin/README.md").find("```c\n" + text_of("tests/consumer/mine.c") + "```"),
+            std::string::npos)
+      << "tools/plugin/README.md: the plugin is not tests/consumer/mine.c";
 }
+
+// A link to a file of the project leads to one.
+TEST(House, LinksOfTheReadmesLead) {
+  static const std::regex link(R"(\]\(([\w./-]+)\))");
+  for (const fs::path file :
+       {"README.md", "libmc/README.md", "librender/scenes/README.md", "notebooks-data/README.md",
+        "tests/refs/README.md", "tools/input/README.md", "tools/plugin/README.md", "tools/report/README.md"}) {
+    const std::string text = text_of(file);
+    for (std::sregex_iterator match(text.begin(), text.end(), link), end; match != end; ++match)
+      EXPECT_TRUE(fs::exists(root / file.parent_path() / (*match)[1].str())) << file << ": " << (*match)[1];
+  }
+}
+
+TEST(House, TheReadmeIsForTheFirstTenMinutes) { EXPECT_LE(lines_of("README.md").size(), 160u); }
 
 } // namespace

@@ -123,11 +123,4 @@ TEST(Integrate, CtrlCSaysWhatWasFound) {
   EXPECT_THAT(r.output, testing::AllOf(testing::HasSubstr(" ± "), testing::HasSubstr("stopped: cancelled")));
 }
 
-TEST(Integrate, SaysWhatTheReadmeShows) {
-  const std::string readme = mc::read_file(MC_SOURCE_DIR "/README.md"), prompt = "$ carlo integrate ";
-  const std::size_t command = readme.find(prompt) + prompt.size(), answer = readme.find('\n', command) + 1;
-  const support::Run r = support::run_carlo("integrate " + readme.substr(command, answer - 1 - command));
-  EXPECT_EQ(r.output.substr(0, r.output.find('\n')), readme.substr(answer, readme.find('\n', answer) - answer));
-}
-
 } // namespace

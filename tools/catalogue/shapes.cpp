@@ -1,5 +1,5 @@
-// Points of shapes and lights seen from a point, the choice of a light, offsets of filters, points of the lens: all in librender's
-// Float.
+// Points of shapes and lights seen from a point, the choice of a light, offsets of filters, points of the lens: all in
+// librender's Float.
 #include <catalogue/catalogue.h>
 
 #include <render/scene/builder.h>

@@ -19,7 +19,7 @@ struct Run {
 /// The command that repeats one case of a run over so many cases, as a user would type it.
 std::string command_again(const Case& c, const ValidateOptions& options, std::size_t cases);
 
-/// The schema is in notebooks-data/README.md; not finite numbers are null.
+/// The schema is in tools/report/README.md; not finite numbers are null.
 void write_json(const std::string& file, const Run& run);
 
 /// One testsuite, one testcase per case with its figures as properties; the report of a case that did not pass is its

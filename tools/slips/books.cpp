@@ -66,9 +66,7 @@ double light_through_occluder(Pcg& r, bool unit) {
   return 0.3 / d.z() * (unit ? d.norm() : 1) > 0.001 ? 0 : 1;
 }
 
-} // namespace
-
-void add_shirley(Slips& s) {
+void add_one_density(Slips& s) {
   s.push_back({"P1", "in-ball Lambertian", "book, ch. 4; course, ch. 6-7",
                "normal + a point IN the unit ball has density 2 cos^3 / pi, not cos / pi; add a point ON the sphere",
                Fault::shape, 8000,
@@ -110,6 +108,9 @@ void add_shirley(Slips& s) {
                    0, 2, [](Pcg& r) { return 8 * std::cbrt(uniform(r)); }, [](double x) { return 3 * x * x / 8; })),
                trial(on_interval(
                    0, 2, [](Pcg& r) { return std::cbrt(8 * uniform(r)); }, [](double x) { return 3 * x * x / 8; }))});
+}
+
+void add_mixtures_and_numbers(Slips& s) {
   s.push_back({"P6", "light-only directions", "book, ch. 7-8",
                "density 0 on the lit walls: what they send is lost; f > 0 needs p > 0", Fault::bias, 1000,
                mean_trial(1, [](Pcg& r) { return cosine_pdf(to_light(r)) / light_pdf; }), mean_trial(1, [](Pcg& r) {
@@ -171,6 +172,13 @@ void add_shirley(Slips& s) {
                      return w.z() > 0 ? std::optional(w) : std::nullopt;
                    },
                    fuzzy_pdf, Failures::allowed))});
+}
+
+} // namespace
+
+void add_shirley(Slips& s) {
+  add_one_density(s);
+  add_mixtures_and_numbers(s);
 }
 
 } // namespace carlo

@@ -147,13 +147,10 @@ Trial rayleigh(Numbers sampler) {
                             [](double x) { return x * std::exp(-x * x / 2); }));
 }
 
-} // namespace
-
-void add_courses(Slips& s) {
+void add_tutorials(Slips& s) {
   using Horizon = CourseGgx::Horizon;
   using Diffuse = CourseGgx::Diffuse;
-  const std::string course = "course, ";
-  const std::string tutorial = course + "tutorial ";
+  const std::string tutorial = "course, tutorial ";
   s.push_back({"P15", "lens radius without root", tutorial + "8", "radius R u crowds the centre of the lens; R sqrt(u)",
                Fault::shape, 4000,
                trial(make_subject(
@@ -191,11 +188,14 @@ void add_courses(Slips& s) {
                "diffuse + specular returns 1.27 of 1; what the coat reflects never reaches the base", Fault::physics,
                8000, bsdf_trial({0.1, 0.04, 0.05, Horizon::rejected, Diffuse::added}, 0.2),
                bsdf_trial({0.1, 0.04, 0.05, Horizon::rejected, Diffuse::layered}, 0.2)});
-  s.push_back({"P24", "glass that eats blue", course + "ch. 8",
+}
+
+void add_chapters_and_lectures(Slips& s) {
+  s.push_back({"P24", "glass that eats blue", "course, ch. 8",
                "attenuation (1,1,0), and total reflection returns nothing; lossless glass returns 1", Fault::bias, 1000,
                mean_trial(1, [](Pcg&) { return 0.0; }), mean_trial(1, [](Pcg&) { return 1.0; })});
   const double inside = std::cos(40 * pi / 180);
-  s.push_back({"P25", "Schlick with n cos", course + "ch. 8",
+  s.push_back({"P25", "Schlick with n cos", "course, ch. 8",
                "leaving glass, the cosine is n cos > 1: .04 reflected at 40 degrees; the same path back says .245",
                Fault::shape, 1000, leaving_glass(schlick(0.04, 1.5 * inside)), leaving_glass(-1)});
   s.push_back({"P26", "Schlick with the inner cosine", "book v4, dielectric",
@@ -235,6 +235,13 @@ void add_courses(Slips& s) {
                "max(u, 1e-8) (here 1e-3) puts an atom where the tail was; 1 - u is never 0", Fault::local, 30'000,
                rayleigh([](Pcg& r) { return std::sqrt(-2 * std::log(std::max(uniform(r), 1e-3))); }),
                rayleigh([](Pcg& r) { return std::sqrt(-2 * std::log1p(-uniform(r))); })});
+}
+
+} // namespace
+
+void add_courses(Slips& s) {
+  add_tutorials(s);
+  add_chapters_and_lectures(s);
 }
 
 } // namespace carlo

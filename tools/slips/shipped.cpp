@@ -197,10 +197,7 @@ struct ReusedRemainder {
   }
 };
 
-} // namespace
-
-Slips slips_of_renderers() {
-  Slips s;
+void add_tables_weights_and_cones(Slips& s) {
   s.push_back({"R1", "unnormalised last CDF entry", "tables of renderers",
                "the sum's rounding error goes to one cell: it gains what another loses", Fault::shape, 40'000,
                trial(on_interval(
@@ -245,6 +242,9 @@ Slips slips_of_renderers() {
                      return mc::one_minus_z(w) <= 5e-7f ? 1 / (2 * mc::pi<float> * (1 - std::cos(1e-3f))) : 0;
                    })),
                trial(make_subject("", mc::UniformCone<float>::from_angle(1e-3f)))});
+}
+
+void add_edges_of_distributions(Slips& s) {
   s.push_back({"R9", "two normals under one root", "pbrt-v4 until 2025",
                "sqrt(-2 ln(u) cos phi) is NaN for three of four draws", Fault::not_finite, 1000,
                trial(make_subject(
@@ -282,6 +282,14 @@ Slips slips_of_renderers() {
                "the reused number is divided by another width than the one that was searched", Fault::not_finite, 8000,
                trial(mc::make_discrete_subject("", ReusedRemainder{})),
                trial(mc::make_discrete_subject("", mc::AliasTable(std::vector<double>{0.25, 0.25, 0.5})))});
+}
+
+} // namespace
+
+Slips slips_of_renderers() {
+  Slips s;
+  add_tables_weights_and_cones(s);
+  add_edges_of_distributions(s);
   return s;
 }
 

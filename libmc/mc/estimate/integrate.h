@@ -46,7 +46,7 @@ struct IntegrateOptions {
   const std::atomic<bool>* cancel = nullptr;
 };
 
-/// An integral with its error bar and how it was come by.
+/// An integral with its error bar and how it was found.
 struct Integral {
   Estimate estimate;
   Estimate::Interval interval{}; ///< two-sided, Student t for replicates

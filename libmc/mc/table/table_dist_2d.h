@@ -91,12 +91,12 @@ template <Real S> class TableDist2D {
  private:
   template <Real T> friend class TableDist2D;
   using Rows = ConditionalRows;
-  struct Made {
+  struct RowsWithSums {
     Rows rows;
     std::vector<double> sums;
   };
 
-  static Made make_rows(std::span<const double> weights, std::size_t width, std::size_t height) {
+  static RowsWithSums make_rows(std::span<const double> weights, std::size_t width, std::size_t height) {
     require(width > 0 && height > 0 && weights.size() == width * height,
             "TableDist2D: {} weights for {}x{} cells; {} are needed", weights.size(), width, height, width * height);
     double largest = 0;
@@ -111,21 +111,21 @@ template <Real S> class TableDist2D {
     int exponent;
     std::frexp(largest, &exponent);
     const std::size_t ends = CdfView::ends(width), guides = CdfView::cells(width) + 1;
-    Made made{{std::vector<double>(height * ends), std::vector<std::uint32_t>(height * guides), width}, {}};
+    RowsWithSums result{{std::vector<double>(height * ends), std::vector<std::uint32_t>(height * guides), width}, {}};
     std::vector<double> row(width);
     for (std::size_t y = 0; y < height; ++y) {
       bool empty = true;
       for (std::size_t x = 0; x < width; ++x) empty &= weights[y * width + x] == 0;
       // A row of weight 0 is never chosen; it gets a uniform placeholder.
       for (std::size_t x = 0; x < width; ++x) row[x] = empty ? 1 : weights[y * width + x];
-      Cdf::fill(row, &made.rows.cumulative[y * ends], &made.rows.guide[y * guides]);
+      Cdf::fill(row, &result.rows.cumulative[y * ends], &result.rows.guide[y * guides]);
       CompensatedSum scaled;
       for (std::size_t x = 0; x < width && !empty; ++x) scaled.add(std::ldexp(weights[y * width + x], -exponent));
-      made.sums.push_back(empty ? 0 : std::max(scaled.value(), std::numeric_limits<double>::denorm_min()));
+      result.sums.push_back(empty ? 0 : std::max(scaled.value(), std::numeric_limits<double>::denorm_min()));
     }
-    return made;
+    return result;
   }
-  explicit TableDist2D(Made made) : rows_(std::move(made.rows)), row_choice_(std::span<const double>(made.sums)) {}
+  explicit TableDist2D(RowsWithSums r) : rows_(std::move(r.rows)), row_choice_(std::span<const double>(r.sums)) {}
   TableDist2D(Rows rows, Cdf row_choice) : rows_(std::move(rows)), row_choice_(std::move(row_choice)) {}
 
   StepsView<S, UnitInterval> rows() const { return {row_choice_.view(), {}}; }

@@ -24,7 +24,7 @@ inline Float luminance(const Spectrum& s) { return Float(0.2126) * s[0] + Float(
 inline bool is_black(const Spectrum& s) { return s[0] == 0 && s[1] == 0 && s[2] == 0; }
 
 /// s itself, for initialisers.
-///   throws : Error naming `what` unless all components are finite and >= 0; of a reflectance, unless they are in [0, 1]
+///   throws : Error naming `what` unless all components are finite and >= 0, of a reflectance in [0, 1]
 inline const Spectrum& checked_radiance(std::string_view what, const Spectrum& s) {
   mc::require((s >= 0).all() && s.isFinite().all(), "{} ({}, {}, {}) must be finite and >= 0", what, s[0], s[1], s[2]);
   return s;

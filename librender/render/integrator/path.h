@@ -229,7 +229,7 @@ template <class SceneType> class Tracer {
 ///   given error, no less with three or four branches. Source: [ArvoKirk90]
 ///   Russian roulette: from the fourth edge on a path survives with four times the largest component of its throughput,
 ///                     corrected for the compression of radiance in glass, at most .99. The factor balances variance
-///                     against cost: at one the Cornell box and smallpt's take about a third more time to a given error.
+///                     against cost: at one the Cornell box and smallpt's take a third more time to a given error.
 /// Times to a given error are measured as CPU seconds of `carlo render` times the relmse of `carlo compare` between two
 /// seeds.
 template <class SceneType> class PathIntegrator {

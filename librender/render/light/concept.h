@@ -15,7 +15,7 @@ struct LightSample {
   std::optional<SurfacePoint> end; ///< the light's point; none: it is infinitely far away
 };
 
-/// Lights are a closed set (light.h). What a ray meets is a point of a surface, or nothing (null): infinitely far lights
+/// Lights are a closed set (light.h). What a ray meets is a point of a surface, or nothing (null): lights at infinity
 /// shine where nothing is met. Each models:
 ///   emitted(wi, met)   : radiance that arrives along wi (unit, leaving the reference point) from what was met
 ///   sample(ref, u)     : u in [0,1)^2 -> a direction from ref; nullopt where none can be found

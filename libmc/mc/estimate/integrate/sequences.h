@@ -25,7 +25,7 @@ struct Sequences {
   Means widen(Run& run, std::uint32_t count);
 };
 
-/// By how much the errors of a will exceed those of b, a mean logarithm, after so many more doublings, if they go on
+/// By how much the errors of a will exceed those of b, a mean logarithm, after `doublings` more, if they go on
 /// falling as they did over the last three.
 double advantage(const Sequences& a, const Sequences& b, double doublings);
 
