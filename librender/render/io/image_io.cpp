@@ -1,4 +1,4 @@
-#include <render/io/formats.h>
+#include <render/io/image/formats.h>
 #include <render/io/image_io.h>
 
 #include <mc/core/error.h>

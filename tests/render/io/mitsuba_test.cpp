@@ -3,7 +3,7 @@
 #include <render/io/image_io.h>
 #include <render/render.h>
 
-#include "mitsuba/scene_text.h"
+#include "render/io/mitsuba/scene_text.h"
 
 namespace {
 

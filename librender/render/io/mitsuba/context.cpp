@@ -1,5 +1,5 @@
 #include <render/io/mitsuba/context.h>
-#include <render/io/mitsuba/plugins.h>
+#include <render/io/mitsuba/plugins/plugins.h>
 
 #include <mc/core/text.h>
 

@@ -1,7 +1,7 @@
 #include <render/io/mitsuba/values.h>
 
+#include <render/io/image/srgb.h>
 #include <render/io/spectrum.h>
-#include <render/io/srgb.h>
 
 #include <mc/core/error.h>
 

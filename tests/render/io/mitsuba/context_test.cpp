@@ -1,6 +1,6 @@
 #include <render/io/mitsuba/context.h>
 
-#include "scene_text.h"
+#include "render/io/mitsuba/scene_text.h"
 
 namespace {
 

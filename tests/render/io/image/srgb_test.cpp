@@ -1,4 +1,4 @@
-#include <render/io/srgb.h>
+#include <render/io/image/srgb.h>
 
 #include <gtest/gtest.h>
 

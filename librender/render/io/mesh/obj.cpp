@@ -1,4 +1,4 @@
-#include <render/io/obj.h>
+#include <render/io/mesh/mesh.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
@@ -7,8 +7,6 @@
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 #include <tiny_obj_loader.h>
 #pragma GCC diagnostic pop
-
-#include <Eigen/LU>
 
 #include <array>
 #include <charconv>
@@ -91,9 +89,46 @@ void check_lines(std::string_view text) {
   });
 }
 
+// The file's groups as one mesh, with one vertex for each distinct corner. Normals and texture coordinates count where
+// every corner has them.
+MeshFile merged(const tinyobj::ObjReader& reader) {
+  const tinyobj::attrib_t& attributes = reader.GetAttrib();
+  bool has_normals = true, has_uvs = true;
+  for (const auto& shape : reader.GetShapes())
+    for (const auto& corner : shape.mesh.indices) {
+      has_normals &= corner.normal_index >= 0;
+      has_uvs &= corner.texcoord_index >= 0;
+    }
+  const auto triple = [](const std::vector<tinyobj::real_t>& v, int index) {
+    const auto j = static_cast<std::size_t>(index) * 3;
+    return Vec3d(double(v[j]), double(v[j + 1]), double(v[j + 2]));
+  };
+  MeshFile mesh;
+  std::map<std::array<int, 3>, std::uint32_t> known;
+  for (const auto& shape : reader.GetShapes())
+    for (std::size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3) {
+      std::array<std::uint32_t, 3> triangle{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto& corner = shape.mesh.indices[i + k];
+        const std::array key{corner.vertex_index, has_normals ? corner.normal_index : -1,
+                             has_uvs ? corner.texcoord_index : -1};
+        const auto [it, added] = known.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
+        triangle[k] = it->second;
+        if (!added) continue;
+        mesh.positions.push_back(triple(attributes.vertices, key[0]));
+        if (has_normals) mesh.normals.push_back(triple(attributes.normals, key[1]));
+        const auto t = static_cast<std::size_t>(key[2]) * 2;
+        // A file's t goes up, ours down, as Mitsuba's.
+        if (has_uvs) mesh.uvs.emplace_back(attributes.texcoords[t], 1 - attributes.texcoords[t + 1]);
+      }
+      mesh.triangles.push_back(triangle);
+    }
+  return mesh;
+}
+
 } // namespace
 
-TriangleMesh read_obj(const std::string& path, const Transform& to_world, bool face_normals) {
+MeshFile read_obj(const std::string& path) {
   const std::string text = mc::read_file(path);
   return mc::with_context(path, [&] {
     check_lines(text);
@@ -104,40 +139,7 @@ TriangleMesh read_obj(const std::string& path, const Transform& to_world, bool f
     std::string problem = reader.Error();
     while (!problem.empty() && std::isspace(static_cast<unsigned char>(problem.back()))) problem.pop_back();
     mc::require(parsed, "broken OBJ: {}", problem.empty() ? "unreadable" : problem);
-
-    const tinyobj::attrib_t& attributes = reader.GetAttrib();
-    const bool mirrored = to_world.mirrors();
-    bool has_normals = !face_normals;
-    for (const auto& shape : reader.GetShapes())
-      for (const auto& corner : shape.mesh.indices) has_normals &= corner.normal_index >= 0;
-
-    std::vector<Vec3> positions, normals;
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::map<std::pair<int, int>, std::uint32_t> known; // one vertex per distinct corner
-    for (const auto& shape : reader.GetShapes()) {
-      for (std::size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3) {
-        std::array<std::uint32_t, 3> triangle{};
-        for (std::size_t k = 0; k < 3; ++k) {
-          const auto& corner = shape.mesh.indices[i + k];
-          const std::pair key(corner.vertex_index, has_normals ? corner.normal_index : -1);
-          const auto [it, added] = known.try_emplace(key, static_cast<std::uint32_t>(positions.size()));
-          if (added) {
-            const auto at = [](const std::vector<tinyobj::real_t>& v, int index) {
-              const auto j = static_cast<std::size_t>(index) * 3;
-              return Vec3d(double(v[j]), double(v[j + 1]), double(v[j + 2]));
-            };
-            positions.push_back(to_world.point(at(attributes.vertices, corner.vertex_index)).cast<Float>());
-            if (has_normals)
-              normals.push_back(
-                  to_world.normal(at(attributes.normals, corner.normal_index)).normalized().cast<Float>());
-          }
-          triangle[k] = it->second;
-        }
-        if (mirrored) std::swap(triangle[1], triangle[2]);
-        triangles.push_back(triangle);
-      }
-    }
-    return TriangleMesh(std::move(positions), triangles, std::move(normals));
+    return merged(reader);
   });
 }
 

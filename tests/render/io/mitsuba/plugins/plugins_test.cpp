@@ -1,6 +1,6 @@
-#include <render/io/mitsuba/plugins.h>
+#include <render/io/mitsuba/plugins/plugins.h>
 
-#include "scene_text.h"
+#include "render/io/mitsuba/scene_text.h"
 
 #include <map>
 

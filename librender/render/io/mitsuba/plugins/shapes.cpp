@@ -1,5 +1,5 @@
-#include <render/io/mitsuba/plugins.h>
-#include <render/io/obj.h>
+#include <render/io/mesh/mesh.h>
+#include <render/io/mitsuba/plugins/plugins.h>
 
 namespace render::mitsuba {
 
@@ -8,7 +8,15 @@ namespace {
 const std::string scene_units = "scene units";
 
 Shape make_obj(const std::string& path, const Transform& to_world, bool face_normals) {
-  return read_obj(path, to_world, face_normals);
+  return to_shape(read_obj(path), to_world, face_normals);
+}
+
+Shape make_ply(const std::string& path, const Transform& to_world, bool face_normals) {
+  return to_shape(read_ply(path), to_world, face_normals);
+}
+
+Shape make_serialized(const std::string& path, const Transform& to_world, bool face_normals, int index) {
+  return to_shape(read_serialized(path, index), to_world, face_normals);
 }
 
 Shape make_rectangle(const Transform& to_world) { return TriangleMesh::rectangle(to_world); }
@@ -54,19 +62,30 @@ Plugin<CoveredShape> shape_plugin(std::string name, std::string meaning, Make ma
                               boolean("guide", "whether the strategy `mixture` aims at it too (ours)"), parameters...);
 }
 
+Parameter<Transform> to_world() { return transform("toWorld", "from the shape's space to the scene's"); }
+
+// A row for a mesh in a file, with the parameters that all of those have.
+template <class Make, class... V>
+Plugin<CoveredShape> mesh_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
+  return shape_plugin(std::move(name), std::move(meaning), make,
+                      file("filename", "the mesh, relative to the scene file"), to_world(),
+                      boolean("faceNormals", "whether the normals of the file are left out"), parameters...);
+}
+
 } // namespace
 
 const Plugins<CoveredShape>& shape_plugins() {
-  static const Parameter<Transform> to_world = transform("toWorld", "from the shape's space to the scene's");
   static const Plugins<CoveredShape> rows = {
-      shape_plugin("obj", "a mesh in Wavefront's format; its materials are ignored", make_obj,
-                   file("filename", "the mesh, relative to the scene file"), to_world,
-                   boolean("faceNormals", "whether the normals of the file are left out")),
-      shape_plugin("rectangle", "the square [-1, 1]^2 in the plane z = 0, normal +z", make_rectangle, to_world),
-      shape_plugin("cube", "the cube [-1, 1]^3, normals outward", make_cube, to_world),
+      mesh_plugin("obj", "a mesh in Wavefront's format; its materials are ignored", make_obj),
+      mesh_plugin("ply", "a mesh in Stanford's format, ascii or binary", make_ply),
+      mesh_plugin("serialized", "a mesh in Mitsuba's own format, versions 3 and 4", make_serialized,
+                  integer("shapeIndex", "which of the file's meshes, >= 0", 0))
+          .accepting({no_effect("maxSmoothAngle", "the file's normals count")}),
+      shape_plugin("rectangle", "the square [-1, 1]^2 in the plane z = 0, normal +z", make_rectangle, to_world()),
+      shape_plugin("cube", "the cube [-1, 1]^3, normals outward", make_cube, to_world()),
       shape_plugin(
-          "sphere", "a sphere, or the cap of one", make_sphere, to_world, point("center", "its centre", Vec3d::Zero()),
-          number("radius", scene_units, 1, "its radius, > 0"),
+          "sphere", "a sphere, or the cap of one", make_sphere, to_world(),
+          point("center", "its centre", Vec3d::Zero()), number("radius", scene_units, 1, "its radius, > 0"),
           boolean("flipNormals", "whether the normals point inward"),
           optional(point("capAxis", "direction of the cap's pole from the centre (ours)", Vec3d::Zero())),
           optional(number("capHeight", scene_units, "how far the cap reaches from its pole, in (0, 2 radius] (ours)"))),

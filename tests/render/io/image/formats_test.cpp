@@ -1,4 +1,4 @@
-#include <render/io/formats.h>
+#include <render/io/image/formats.h>
 
 #include "support/files.h"
 

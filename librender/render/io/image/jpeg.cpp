@@ -1,5 +1,5 @@
-#include <render/io/formats.h>
-#include <render/io/srgb.h>
+#include <render/io/image/formats.h>
+#include <render/io/image/srgb.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>

@@ -1,0 +1,44 @@
+#pragma once
+/// What the readers of mesh files have in common.
+
+#include <render/core/transform.h>
+#include <render/shape/triangle_mesh.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace render {
+
+/// A mesh as a file holds it. Normals and texture coordinates: one for each position, or none.
+struct MeshFile {
+  std::vector<Vec3d> positions, normals;
+  std::vector<mc::Vec2<float>> uvs;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// The shape of a mesh file under `to_world`, its triangles turned so that a mirroring transform keeps their normals on
+/// their side.
+///   flat   : the normals of the file are left out
+///   throws : Error for what TriangleMesh refuses
+TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat = false);
+
+/// All faces of a Wavefront OBJ file as one mesh, polygons cut into triangles; materials are ignored.
+///   throws : Error that names file and line for a missing or broken file, an index out of range, a vertex that is not
+///            finite
+MeshFile read_obj(const std::string& path);
+
+/// Stanford's PLY, ascii or binary of either byte order: the elements vertex (x, y, z, and where it has them nx, ny, nz
+/// and u, v or s, t) and face (vertex_indices or vertex_index), polygons cut into triangles; what else it holds is left
+/// out.
+///   throws : Error that names file and place for a missing or broken file, counts that its bytes cannot hold, an index
+///            out of range, a vertex that is not finite
+MeshFile read_ply(const std::string& path);
+
+/// Mesh number `index` of a file in Mitsuba's serialized format, versions 3 and 4.
+///   throws : Error that names the file for a missing or broken one, counts that its bytes cannot hold, an index out of
+///            range, a vertex that is not finite
+MeshFile read_serialized(const std::string& path, int index);
+
+} // namespace render

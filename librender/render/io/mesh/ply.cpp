@@ -1,0 +1,258 @@
+#include <render/io/mesh/mesh.h>
+
+#include <mc/core/error.h>
+#include <mc/core/file.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+namespace render {
+
+namespace {
+
+enum class Type { i8, u8, i16, u16, i32, u32, f32, f64 };
+struct TypeRow {
+  std::string_view name, other_name;
+  Type type;
+  std::size_t size;
+};
+constexpr std::array<TypeRow, 8> types = {{{"char", "int8", Type::i8, 1},
+                                           {"uchar", "uint8", Type::u8, 1},
+                                           {"short", "int16", Type::i16, 2},
+                                           {"ushort", "uint16", Type::u16, 2},
+                                           {"int", "int32", Type::i32, 4},
+                                           {"uint", "uint32", Type::u32, 4},
+                                           {"float", "float32", Type::f32, 4},
+                                           {"double", "float64", Type::f64, 8}}};
+
+struct Property {
+  std::string name;
+  TypeRow type;
+  std::optional<TypeRow> count; ///< of a list
+};
+struct Element {
+  std::string name;
+  std::size_t rows = 0;
+  std::vector<Property> properties;
+
+  std::optional<std::size_t> column(std::initializer_list<std::string_view> names, bool list) const {
+    for (std::size_t i = 0; i < properties.size(); ++i)
+      if (properties[i].count.has_value() == list &&
+          std::find(names.begin(), names.end(), properties[i].name) != names.end())
+        return i;
+    return {};
+  }
+};
+struct Header {
+  bool ascii = true, swap = false;
+  std::vector<Element> elements;
+};
+
+template <class T> T swapped(T value) {
+  auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  std::reverse(bytes.begin(), bytes.end());
+  return std::bit_cast<T>(bytes);
+}
+
+/// The numbers of a file's body, one after the other.
+class Numbers {
+ public:
+  Numbers(std::string_view bytes, const Header& header) : rest_(bytes), ascii_(header.ascii), swap_(header.swap) {}
+
+  std::size_t bytes_left() const { return rest_.size(); }
+  /// The fewest bytes that a number takes.
+  std::size_t least_size(const TypeRow& type) const { return ascii_ ? 2 : type.size; } // a digit and a blank
+
+  double next(const TypeRow& type) {
+    if (ascii_) return word();
+    switch (type.type) {
+    case Type::i8: return take<std::int8_t>();
+    case Type::u8: return take<std::uint8_t>();
+    case Type::i16: return take<std::int16_t>();
+    case Type::u16: return take<std::uint16_t>();
+    case Type::i32: return take<std::int32_t>();
+    case Type::u32: return take<std::uint32_t>();
+    case Type::f32: return double(take<float>());
+    case Type::f64: return take<double>();
+    }
+    return 0;
+  }
+
+ private:
+  template <class T> T take() {
+    mc::require(rest_.size() >= sizeof(T), "the file ends early");
+    T value;
+    std::memcpy(&value, rest_.data(), sizeof(T));
+    rest_.remove_prefix(sizeof(T));
+    return swap_ ? swapped(value) : value;
+  }
+  double word() {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size()));
+    mc::require(!rest_.empty(), "the file ends early");
+    const std::string_view text = rest_.substr(0, rest_.find_first_of(" \t\r\n"));
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    mc::require(error == std::errc() && end == text.data() + text.size(), "'{}' is not a number", text);
+    rest_.remove_prefix(text.size());
+    return value;
+  }
+
+  std::string_view rest_;
+  bool ascii_, swap_;
+};
+
+TypeRow type_of(const std::string& name, std::size_t line) {
+  for (const TypeRow& row : types)
+    if (row.name == name || row.other_name == name) return row;
+  throw mc::Error(fmt::format("line {}: '{}' is no type of a number", line, name));
+}
+
+/// Reads the header and leaves the body.
+Header read_header(std::string_view& bytes) {
+  Header header;
+  bool has_format = false;
+  for (std::size_t line = 1;; ++line) {
+    const std::size_t end = bytes.find('\n');
+    mc::require(end != std::string_view::npos, "not a PLY file: line {} does not end, and no end_header came before",
+                line);
+    std::istringstream words{std::string(bytes.substr(0, end))};
+    bytes.remove_prefix(end + 1);
+    std::string keyword, name, type;
+    words >> keyword;
+    mc::require(line > 1 || keyword == "ply", "not a PLY file: it does not begin with ply");
+    if (keyword == "end_header") break;
+    if (keyword == "format") {
+      words >> name;
+      header.ascii = name == "ascii";
+      header.swap = name == "binary_big_endian";
+      mc::require(header.ascii || header.swap || name == "binary_little_endian", "line {}: unknown format '{}'", line,
+                  name);
+      has_format = true;
+    } else if (keyword == "element") {
+      Element element;
+      mc::require(bool(words >> element.name >> element.rows), "line {}: an element needs a name and a number", line);
+      header.elements.push_back(element);
+    } else if (keyword == "property") {
+      mc::require(!header.elements.empty(), "line {}: a property before the first element", line);
+      std::optional<TypeRow> count;
+      words >> type;
+      if (type == "list") {
+        words >> type;
+        count = type_of(type, line);
+        words >> type;
+      }
+      mc::require(bool(words >> name), "line {}: a property needs a type and a name", line);
+      header.elements.back().properties.push_back({name, type_of(type, line), count});
+    }
+  }
+  mc::require(has_format, "not a PLY file: it states no format");
+  return header;
+}
+
+std::size_t list_length(double value) {
+  mc::require(value >= 0 && value <= 0xffffffff && value == std::floor(value), "a list of {} numbers", value);
+  return static_cast<std::size_t>(value);
+}
+
+/// Reads row by row: numbers by their place in the row, and the one list that is asked for.
+class Rows {
+ public:
+  Rows(const Element& element, Numbers& numbers, std::optional<std::size_t> wanted)
+      : element_(element), numbers_(numbers), list_(wanted) {
+    std::size_t least = 0;
+    for (const Property& p : element.properties) least += numbers.least_size(p.count ? *p.count : p.type);
+    // The last number of a text needs no blank.
+    mc::require(element.rows == 0 || (least > 0 && element.rows <= (numbers.bytes_left() + 1) / least),
+                "{} rows of {} do not fit in the {} bytes that follow", element.rows, element.name,
+                numbers.bytes_left());
+    values.resize(element.properties.size());
+  }
+  void next() {
+    for (std::size_t i = 0; i < element_.properties.size(); ++i) {
+      const Property& p = element_.properties[i];
+      if (!p.count) {
+        values[i] = numbers_.next(p.type);
+        continue;
+      }
+      const std::size_t n = list_length(numbers_.next(*p.count));
+      if (list_ == i) list.clear();
+      for (std::size_t k = 0; k < n; ++k) {
+        const double value = numbers_.next(p.type);
+        if (list_ == i) list.push_back(value);
+      }
+    }
+  }
+
+  std::vector<double> values, list;
+
+ private:
+  const Element& element_;
+  Numbers& numbers_;
+  std::optional<std::size_t> list_;
+};
+
+void read_vertices(const Element& element, Numbers& numbers, MeshFile& mesh) {
+  const auto number = [&](std::initializer_list<std::string_view> names) { return element.column(names, false); };
+  const auto x = number({"x"}), y = number({"y"}), z = number({"z"});
+  const auto nx = number({"nx"}), ny = number({"ny"}), nz = number({"nz"});
+  const auto s = number({"u", "s", "texture_u"}), t = number({"v", "t", "texture_v"});
+  mc::require(x && y && z, "vertices need x, y and z");
+  Rows rows(element, numbers, {});
+  for (std::size_t i = 0; i < element.rows; ++i) {
+    rows.next();
+    const auto at = [&](const std::optional<std::size_t>& column) { return rows.values[*column]; };
+    const Vec3d p(at(x), at(y), at(z));
+    mc::require(p.allFinite(), "vertex {} = ({}, {}, {}) is not finite", i, p[0], p[1], p[2]);
+    mesh.positions.push_back(p);
+    if (nx && ny && nz) mesh.normals.emplace_back(at(nx), at(ny), at(nz));
+    if (s && t) mesh.uvs.emplace_back(static_cast<float>(at(s)), static_cast<float>(at(t)));
+  }
+}
+
+void read_faces(const Element& element, Numbers& numbers, std::size_t vertices, MeshFile& mesh) {
+  const auto list = element.column({"vertex_indices", "vertex_index"}, true);
+  mc::require(list.has_value(), "faces need a list vertex_indices");
+  Rows rows(element, numbers, list);
+  for (std::size_t i = 0; i < element.rows; ++i) {
+    rows.next();
+    mc::require(rows.list.size() >= 3, "face {} has {} corners; at least 3 are needed", i, rows.list.size());
+    for (const double corner : rows.list)
+      mc::require(corner >= 0 && corner < double(vertices) && corner == std::floor(corner),
+                  "face {} names vertex {}, but there are only 0 to {}", i, corner, double(vertices) - 1);
+    const auto corner = [&](std::size_t k) { return static_cast<std::uint32_t>(rows.list[k]); };
+    for (std::size_t k = 2; k < rows.list.size(); ++k) mesh.triangles.push_back({corner(0), corner(k - 1), corner(k)});
+  }
+}
+
+} // namespace
+
+MeshFile read_ply(const std::string& path) {
+  const std::string file = mc::read_file(path);
+  return mc::with_context(path, [&] {
+    std::string_view bytes = file;
+    const Header header = read_header(bytes);
+    const auto vertex = std::find_if(header.elements.begin(), header.elements.end(),
+                                     [](const Element& e) { return e.name == "vertex"; });
+    mc::require(vertex != header.elements.end(), "the file has no element vertex");
+    MeshFile mesh;
+    Numbers numbers(bytes, header);
+    for (const Element& element : header.elements) {
+      if (element.name == "vertex") read_vertices(element, numbers, mesh);
+      else if (element.name == "face") read_faces(element, numbers, vertex->rows, mesh);
+      else {
+        Rows rows(element, numbers, {});
+        for (std::size_t i = 0; i < element.rows; ++i) rows.next();
+      }
+    }
+    mc::require(mesh.positions.size() == vertex->rows, "a second element vertex");
+    return mesh;
+  });
+}
+
+} // namespace render

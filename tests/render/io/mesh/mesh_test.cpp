@@ -1,0 +1,282 @@
+#include <render/io/mesh/mesh.h>
+
+#include <mc/core/file.h>
+#include <mc/random/pcg.h>
+
+#include "support/files.h"
+
+namespace {
+
+using namespace render;
+using testing::AllOf, testing::HasSubstr;
+
+struct Mesh : support::ScratchTest {
+  template <class Read>
+  void expect_refusals_when_truncated(const std::string& name, const std::string& bytes, const Read& read) const {
+    int refused = 0;
+    for (std::size_t n = 0; n < bytes.size(); ++n) {
+      const std::string file = write(name, bytes.substr(0, n));
+      const std::string said = support::error_of([&] { to_shape(read(file), {}); });
+      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+      refused += !said.empty();
+    }
+    EXPECT_GE(refused, static_cast<int>(bytes.size()) - 4) << "only the last number of a text may be cut";
+  }
+};
+
+template <class T> std::string raw(const std::vector<T>& values, bool swap = false) {
+  std::string bytes;
+  for (const T& value : values) {
+    std::string one(reinterpret_cast<const char*>(&value), sizeof value);
+    bytes += swap ? std::string(one.rbegin(), one.rend()) : one;
+  }
+  return bytes;
+}
+
+TEST_F(Mesh, ToShapeMovesPointsAndNormals) {
+  MeshFile file;
+  file.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  file.normals = {{0, 0, 2}, {0, 0, 2}, {1, 0, 1}};
+  file.triangles = {{0, 1, 2}};
+  const Transform mirrored = Transform::translate({0, 0, 5}) * Transform::scale({-2, 1, 1});
+  const TriangleMesh mesh = to_shape(file, mirrored);
+  EXPECT_DOUBLE_EQ(mesh.area(), 1);
+  const SurfacePoint corner = mesh.surface_point({}, {1, 0, 0, 1, 0}); // vertex 1 of the turned triangle: (0, 1, 0)
+  EXPECT_EQ(corner.ng, Vec3(0, 0, 1)) << "a mirroring transform keeps the normal on its side";
+  EXPECT_LE((corner.ns - Vec3(-0.5, 0, 1).normalized()).norm(), 1e-6);
+  EXPECT_EQ(to_shape(file, mirrored, true).surface_point({}, {1, 0, 0, 1, 0}).ns, Vec3(0, 0, 1));
+}
+
+// OBJ
+
+TEST_F(Mesh, ObjQuadBecomesTwoTriangles) {
+  const MeshFile file = read_obj(write("quad.obj", "v 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\nf -4 -3 -2 -1\n"));
+  EXPECT_EQ(file.triangles.size(), 2u);
+  EXPECT_DOUBLE_EQ(to_shape(file, {}).area(), 6);
+}
+
+TEST_F(Mesh, ObjTextureCoordinatesGoDown) {
+  const MeshFile file =
+      read_obj(write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 0.75\nf 1/1 2/2 3/3\n"));
+  ASSERT_EQ(file.uvs.size(), 3u);
+  EXPECT_EQ(file.uvs[0], mc::Vec2<float>(0, 1));
+  EXPECT_EQ(file.uvs[2], mc::Vec2<float>(0, 0.25f));
+  // Where only some corners have them, they do not count.
+  EXPECT_TRUE(read_obj(write("p.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2 3\n")).uvs.empty());
+}
+
+TEST_F(Mesh, ObjRefusesWithFileAndPlace) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+  const auto refusal = [&](const std::string& text) {
+    const std::string file = write("bad.obj", text);
+    return support::error_of([&] { to_shape(read_obj(file), {}); });
+  };
+  EXPECT_THAT(support::error_of([&] { read_obj(path("none.obj")); }), HasSubstr("no such file"));
+  EXPECT_THAT(refusal(corners + "f 1 2 9\n"),
+              HasSubstr("bad.obj: line 4: a face names vertex 9, but there are only 3"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\nf 1 2 3 4\nf 1 2 3 4 5\n"),
+              HasSubstr("line 7: a face names vertex 5"));
+  EXPECT_THAT(refusal(corners + "vn 0 0 1\nf 1//1 2//1 3//2\n"), HasSubstr("line 5: a face names normal 2"));
+  EXPECT_THAT(refusal(corners + "f 1/1 2/1 3/1\n"), HasSubstr("names texture coordinate 1, but there are only 0"));
+  EXPECT_THAT(refusal(corners + "f 0 1 2\n"), HasSubstr("line 4: a face names vertex 0"));
+  EXPECT_THAT(refusal(corners + "f -4 1 2\n"), HasSubstr("line 4: a face names vertex -4"));
+  EXPECT_THAT(refusal(corners + "f 1 2 x\n"), HasSubstr("line 4: 'x' is not the number of a vertex"));
+  EXPECT_THAT(refusal(corners + "f 1 2 99999999999999999999\n"), HasSubstr("line 4"));
+  EXPECT_THAT(refusal(corners + "f 1 2 3/1/1/1\n"), HasSubstr("line 4"));
+  EXPECT_THAT(refusal(corners + "f 1 2\n"), HasSubstr("line 4: a face of 2 corners"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n"),
+              HasSubstr("bad.obj: line 2: vertex 2 has y = nan, which is not finite"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 inf\nv 0 1 0\nf 1 2 3\n"), HasSubstr("line 2: vertex 2 has z = inf"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("line 2: vertex 2 has no number for y"));
+  EXPECT_THAT(refusal("v 0 0 0\n"), HasSubstr("no triangle"));
+}
+
+// PLY: the same pyramid in every format.
+
+struct PlyCase {
+  const char* format;
+  bool ascii, swap;
+};
+std::string pyramid(const PlyCase& c) {
+  std::string file =
+      std::string("ply\nformat ") + c.format +
+      " 1.0\ncomment made by hand\nelement vertex 4\n"
+      "property float x\nproperty double y\nproperty float z\nproperty uchar red\nproperty float s\nproperty float t\n"
+      "element face 2\nproperty list uchar int vertex_indices\nproperty float quality\nend_header\n";
+  for (int i = 0; i < 4; ++i) {
+    const float x = i == 1, z = i == 3, s = 0.25f * float(i), t = 0.5f;
+    const double y = i == 2;
+    if (c.ascii) file += fmt::format("{} {} {} 7 {} {}\n", x, y, z, s, t);
+    else
+      file += raw<float>({x}, c.swap) + raw<double>({y}, c.swap) + raw<float>({z}, c.swap) + "\7" +
+              raw<float>({s, t}, c.swap);
+  }
+  if (c.ascii) return file + "3 0 1 2 1.5\n4 0 3 2 1 1.5\n";
+  file += "\3" + raw<std::int32_t>({0, 1, 2}, c.swap) + raw<float>({1.5f}, c.swap);
+  return file + "\4" + raw<std::int32_t>({0, 3, 2, 1}, c.swap) + raw<float>({1.5f}, c.swap);
+}
+const PlyCase ply_cases[] = {
+    {"ascii", true, false}, {"binary_little_endian", false, false}, {"binary_big_endian", false, true}};
+
+TEST_F(Mesh, PlyInEveryFormat) {
+  for (const PlyCase& c : ply_cases) {
+    const MeshFile file = read_ply(write("p.ply", pyramid(c)));
+    ASSERT_EQ(file.positions.size(), 4u) << c.format;
+    EXPECT_EQ(file.positions[2], Vec3d(0, 1, 0));
+    EXPECT_EQ(file.positions[3], Vec3d(0, 0, 1));
+    EXPECT_EQ(file.uvs[3], mc::Vec2<float>(0.75f, 0.5f));
+    EXPECT_TRUE(file.normals.empty());
+    const std::vector<std::array<std::uint32_t, 3>> expected = {{0, 1, 2}, {0, 3, 2}, {0, 2, 1}};
+    EXPECT_EQ(file.triangles, expected) << c.format;
+  }
+}
+
+TEST_F(Mesh, PlyTruncatedAtAnyByte) {
+  for (const PlyCase& c : ply_cases) expect_refusals_when_truncated("t.ply", pyramid(c), read_ply);
+}
+
+TEST_F(Mesh, PlyRefusesWithFileAndPlace) {
+  const auto refusal = [&](std::string text, const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+    const std::string file = write("bad.ply", text);
+    return support::error_of([&] { read_ply(file); });
+  };
+  const std::string text = pyramid(ply_cases[0]), binary = pyramid(ply_cases[1]);
+  EXPECT_THAT(
+      refusal(text, "vertex 4", "vertex 4000000000000"),
+      AllOf(HasSubstr("bad.ply: 4000000000000 rows of vertex do not fit in the"), HasSubstr("bytes that follow")));
+  EXPECT_THAT(refusal(binary, "face 2", "face 18446744073709551615"), HasSubstr("rows of face do not fit"));
+  EXPECT_THAT(refusal(text, "vertex 4", "vertex -4"), HasSubstr("bad.ply"));
+  EXPECT_THAT(refusal(text, "3 0 1 2", "3 0 1 4"), HasSubstr("face 0 names vertex 4, but there are only 0 to 3"));
+  EXPECT_THAT(refusal(text, "3 0 1 2", "3 0 1 -1"), HasSubstr("face 0 names vertex -1"));
+  EXPECT_THAT(refusal(text, "3 0 1 2", "3 0 1 nan"), HasSubstr("face 0 names vertex nan"));
+  EXPECT_THAT(refusal(text, "3 0 1 2", "2 0 1 2"), HasSubstr("face 0 has 2 corners"));
+  EXPECT_THAT(refusal(text, "1 0 0", "1 nan 0"), HasSubstr("vertex 1 = (1, nan, 0) is not finite"));
+  EXPECT_THAT(refusal(text, "1 0 0", "1 one 0"), HasSubstr("'one' is not a number"));
+  EXPECT_THAT(refusal(text, "property float z", "property float w"), HasSubstr("vertices need x, y and z"));
+  EXPECT_THAT(refusal(text, "property float z", "property flat z"), HasSubstr("line 7: 'flat' is no type"));
+  EXPECT_THAT(refusal(text, "ascii", "ebcdic"), HasSubstr("line 2: unknown format 'ebcdic'"));
+  EXPECT_THAT(refusal(text, "vertex_indices", "edges"), HasSubstr("faces need a list vertex_indices"));
+  EXPECT_THAT(refusal(text, "ply", "plx"), HasSubstr("not a PLY file"));
+}
+
+// Mitsuba's serialized format.
+
+// A stream of zlib with one block that is stored as it is (RFC 1950 and 1951).
+std::string packed(const std::string& bytes) {
+  const auto size = static_cast<std::uint16_t>(bytes.size());
+  std::uint32_t a = 1, b = 0; // Adler's checksum
+  for (const char c : bytes) {
+    a = (a + static_cast<unsigned char>(c)) % 65521;
+    b = (b + a) % 65521;
+  }
+  return "\x78\x01\x01" + raw<std::uint16_t>({size, static_cast<std::uint16_t>(~size)}) + bytes +
+         raw<std::uint32_t>({b << 16 | a}, true);
+}
+
+struct SerializedMesh {
+  std::uint16_t version = 4;
+  bool in_double = false;
+  std::uint64_t vertices = 3, triangles = 1;
+  std::vector<std::uint32_t> corners = {0, 1, 2};
+  double height = 1;
+
+  template <class T> std::string body(std::uint32_t flags) const {
+    std::string bytes = raw<std::uint32_t>({flags});
+    if (version == 4) bytes += std::string("name\0", 5);
+    bytes += raw<std::uint64_t>({vertices, triangles});
+    bytes += raw<T>({0, 0, 0, 1, 0, 0, 0, static_cast<T>(height), 0});
+    bytes += raw<T>({0, 0, 1, 0, 0, 1, 0, 0, 1});
+    bytes += raw<T>({0, 0, 1, 0, 0.5, 1});
+    bytes += raw<T>({1, 1, 1, 1, 1, 1, 1, 1, 1});
+    return bytes + raw(corners);
+  }
+  std::string part() const {
+    const std::string inside = in_double ? body<double>(0x200b) : body<float>(0x100b);
+    return raw<std::uint16_t>({0x041c, version}) + packed(inside);
+  }
+};
+std::string serialized(const std::vector<SerializedMesh>& meshes) {
+  std::string file;
+  std::vector<std::uint64_t> offsets;
+  for (const SerializedMesh& m : meshes) {
+    offsets.push_back(file.size());
+    file += m.part();
+  }
+  for (const std::uint64_t offset : offsets)
+    file += meshes[0].version == 4 ? raw<std::uint64_t>({offset})
+                                   : raw<std::uint32_t>({static_cast<std::uint32_t>(offset)});
+  return file + raw<std::uint32_t>({static_cast<std::uint32_t>(meshes.size())});
+}
+
+TEST_F(Mesh, SerializedVersionsPrecisionsAndIndices) {
+  for (const std::uint16_t version : {3, 4})
+    for (const bool in_double : {false, true}) {
+      SerializedMesh first{version, in_double}, second{version, in_double};
+      second.height = 3;
+      const std::string file = write("m.serialized", serialized({first, second}));
+      const MeshFile mesh = read_serialized(file, 1);
+      EXPECT_EQ(mesh.positions[2], Vec3d(0, 3, 0)) << version << in_double;
+      EXPECT_EQ(mesh.normals[1], Vec3d(0, 0, 1));
+      EXPECT_EQ(mesh.uvs[2], mc::Vec2<float>(0.5f, 1));
+      EXPECT_EQ(read_serialized(file, 0).positions[2], Vec3d(0, 1, 0));
+      EXPECT_THAT(support::error_of([&] { read_serialized(file, 2); }),
+                  HasSubstr("mesh 2: there is no mesh 2; the file holds 0 to 1"));
+      EXPECT_THAT(support::error_of([&] { read_serialized(file, -1); }), HasSubstr("there is no mesh -1"));
+    }
+}
+
+TEST_F(Mesh, SerializedTruncatedAtAnyByte) {
+  const std::string whole = serialized({SerializedMesh{}});
+  for (std::size_t n = 0; n < whole.size(); ++n) {
+    const std::string file = write("t.serialized", whole.substr(0, n));
+    const std::string said = support::error_of([&] { read_serialized(file, 0); });
+    EXPECT_THAT(said, HasSubstr("t.serialized: mesh 0: ")) << n;
+    EXPECT_EQ(said.find('\n'), std::string::npos);
+  }
+}
+
+TEST_F(Mesh, SerializedCountsThatItsBytesCannotHold) {
+  for (const std::uint64_t huge : {std::uint64_t{1} << 31, std::uint64_t{1} << 40, ~std::uint64_t{0}}) {
+    SerializedMesh vertices, triangles;
+    vertices.vertices = huge;
+    triangles.triangles = huge;
+    for (const SerializedMesh& m : {vertices, triangles}) {
+      const std::string file = write("huge.serialized", serialized({m}));
+      EXPECT_NE(support::error_of([&] { read_serialized(file, 0); }), "") << huge;
+    }
+  }
+  SerializedMesh outside;
+  outside.corners = {0, 1, 3};
+  const std::string file = write("bad.serialized", serialized({outside}));
+  EXPECT_THAT(support::error_of([&] { to_shape(read_serialized(file, 0), {}); }),
+              HasSubstr("names vertex 3, but there are only 3"));
+  std::string many = serialized({SerializedMesh{}});
+  many.replace(many.size() - 4, 4, raw<std::uint32_t>({0xffffffff}));
+  const std::string counted = write("many.serialized", many);
+  EXPECT_THAT(support::error_of([&] { read_serialized(counted, 0); }),
+              HasSubstr("says that it holds 4294967295 meshes"));
+}
+
+// Random bytes changed in whole files: read, or refused in one line.
+TEST_F(Mesh, DamagedAnywhere) {
+  mc::Pcg random(9);
+  const std::vector<std::pair<std::string, MeshFile (*)(const std::string&)>> formats = {
+      {pyramid(ply_cases[0]), read_ply},
+      {pyramid(ply_cases[1]), read_ply},
+      {pyramid(ply_cases[2]), read_ply},
+      {serialized({SerializedMesh{}}), [](const std::string& p) { return read_serialized(p, 0); }},
+      {"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n", read_obj}};
+  for (const auto& [whole, read] : formats)
+    for (int trial = 0; trial < 400; ++trial) {
+      std::string bytes = whole;
+      for (int k = 0; k < 1 + trial % 3; ++k)
+        bytes[static_cast<std::size_t>(random.uniform<double>() * double(bytes.size()))] =
+            static_cast<char>(random.uniform<double>() * 256);
+      const std::string file = write("damaged", bytes);
+      const std::string said = support::error_of([&] { to_shape(read(file), {}); });
+      EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    }
+}
+
+} // namespace
