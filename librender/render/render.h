@@ -29,7 +29,7 @@ struct RenderOptions {
   int spp = 64;                       ///< samples per pixel, unless one of the next two is given
   std::optional<double> seconds;      ///< wall-clock budget [s]
   std::optional<double> target_error; ///< relative RMS standard error of the pixels
-  Strategy strategy = Strategy::mis;
+  Strategy strategy = strategy_from("mis");
   PixelSampler sampler = PixelSampler::sobol;
   int max_depth = -1; ///< longest path in edges; -1: no limit
   std::uint64_t seed = 0;

@@ -188,49 +188,21 @@ void add_lights_seen(Catalogue& c) {
   add_directions(c, "AreaLight", "a sphere", light.shape(), ref, cone, Vec3::UnitZ());
 }
 
-// Offsets of a filter against the density of its contract.
-template <class F, class W>
-void add_filter(Catalogue& c, const std::string& name, const std::string& parameters, const F& filter,
-                const W& density) {
+template <class F>
+void add_filter(Catalogue& c, const std::string& name, const std::string& parameters, const F& filter) {
   const auto sample = [=](const Vec2& u) { return filter.sample(u); };
   add_subject(c, name, parameters,
-              make_subject("", density.domain(), sample, [=](const Vec2& x) { return density.pdf(x); }),
+              make_subject("", filter.domain(), sample, [=](const Vec2& x) { return filter.pdf(x); }),
               [=](const Vec2& u) { return double(filter.sample(u).sum()); });
 }
 
-struct Uniform {
-  Float radius;
-  mc::ProductDomain<mc::Interval<Float>, mc::Interval<Float>> domain() const {
-    return {{-radius, radius}, {-radius, radius}};
-  }
-  Float pdf(const Vec2&) const { return 1 / mc::sqr<Float>(2 * radius); }
-};
-
-// The mean of tents of half width `radius` about the centres of n cells of [-1/2, 1/2], per axis.
-struct Tents {
-  int n;
-  Float radius;
-  mc::ProductDomain<mc::Interval<Float>, mc::Interval<Float>> domain() const {
-    const Float reach = Float(0.5) - Float(0.5) / Float(n) + radius;
-    return {{-reach, reach}, {-reach, reach}};
-  }
-  Float axis(Float x) const {
-    Float sum = 0;
-    for (int i = 0; i < n; ++i) sum += mc::Tent<Float>((Float(i) + Float(0.5)) / Float(n) - Float(0.5), radius).pdf(x);
-    return sum / Float(n);
-  }
-  Float pdf(const Vec2& x) const { return axis(x[0]) * axis(x[1]); }
-};
-
 void add_camera(Catalogue& c) {
   for (const Float radius : {Float(0.5), Float(2)})
-    add_filter(c, "BoxFilter", fmt::format("radius={:g}", radius), BoxFilter(radius), Uniform{radius});
-  add_filter(c, "TentFilter", "radius=1", TentFilter(1), mc::Tent2D<Float>{});
-  const mc::Normal<Float> normal(0, Float(0.5));
-  add_filter(c, "GaussianFilter", "sigma=0.5", GaussianFilter{}, mc::Normal2D<Float>{normal, normal});
+    add_filter(c, "BoxFilter", fmt::format("radius={:g}", radius), BoxFilter(radius));
+  add_filter(c, "TentFilter", "radius=1", TentFilter());
+  add_filter(c, "GaussianFilter", "sigma=0.5", GaussianFilter());
   for (const int n : {2, 3})
-    add_filter(c, "SubpixelTentFilter", fmt::format("n={}, radius=0.5", n), SubpixelTentFilter(n, Float(0.5)),
-               Tents{n, Float(0.5)});
+    add_filter(c, "SubpixelTentFilter", fmt::format("n={}, radius=0.5", n), SubpixelTentFilter(n));
 
   const ThinLens lens({}, {.radius = 1, .focus_distance = 3});
   const auto sample = [=](const Vec2& u) {

@@ -1,19 +1,13 @@
 #pragma once
 /// An 8-wide bounding volume hierarchy over boxes, traversed one ray at a time.
 
+#include <render/core/lanes.h>
 #include <render/core/ray.h>
 
 #include <cstdint>
 #include <vector>
 
-#if defined(__AVX__)
-#include <immintrin.h>
-#endif
-
 namespace render {
-
-/// Eight lanes of Float; the compiler maps them to the widest registers it may use.
-typedef Float Lanes __attribute__((vector_size(8 * sizeof(Float))));
 
 /// An axis-aligned box; empty until something is added.
 struct Box {
@@ -70,41 +64,6 @@ class WideTree {
   std::vector<Leaf> leaves_;
   std::vector<std::uint32_t> order_;
 };
-
-namespace detail {
-
-/// Bit i is set where lane i of the comparison a <= b holds.
-inline unsigned less_equal(const Lanes& a, const Lanes& b) {
-#if defined(__AVX__)
-  if constexpr (sizeof(Float) == 4) {
-    return static_cast<unsigned>(_mm256_movemask_ps(
-        _mm256_cmp_ps(reinterpret_cast<const __m256&>(a), reinterpret_cast<const __m256&>(b), _CMP_LE_OQ)));
-  }
-#endif
-  unsigned mask = 0;
-  for (int i = 0; i < 8; ++i) mask |= static_cast<unsigned>(a[i] <= b[i]) << i;
-  return mask;
-}
-
-/// The larger or smaller of t and old; old where t is NaN, which is what the instructions do.
-inline Lanes larger(const Lanes& t, const Lanes& old) {
-#if defined(__AVX__)
-  if constexpr (sizeof(Float) == 4)
-    return reinterpret_cast<const Lanes&>(static_cast<const __m256&>(
-        _mm256_max_ps(reinterpret_cast<const __m256&>(t), reinterpret_cast<const __m256&>(old))));
-#endif
-  return t > old ? t : old;
-}
-inline Lanes smaller(const Lanes& t, const Lanes& old) {
-#if defined(__AVX__)
-  if constexpr (sizeof(Float) == 4)
-    return reinterpret_cast<const Lanes&>(static_cast<const __m256&>(
-        _mm256_min_ps(reinterpret_cast<const __m256&>(t), reinterpret_cast<const __m256&>(old))));
-#endif
-  return t < old ? t : old;
-}
-
-} // namespace detail
 
 template <WideTree::Order order_wanted, class F> void WideTree::traverse(const Ray& ray, Float& t_max, F&& leaf) const {
   if (nodes_.empty()) return;

@@ -24,6 +24,9 @@ struct Bsdf : std::variant<Lambert, Metal, Dielectric> {
   bool is_delta() const {
     return dispatch(*this, [](const auto& b) { return b.is_delta(); });
   }
+  bool has_delta() const {
+    return dispatch(*this, [](const auto& b) { return b.has_delta(); });
+  }
 };
 
 } // namespace render

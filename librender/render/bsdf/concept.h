@@ -21,12 +21,14 @@ struct BsdfSample {
 ///   eval(wo, wi)      : f [1/sr], delta lobes excluded
 ///   pdf(wo, wi)       : density of wi [1/sr], delta lobes excluded
 ///   is_delta()        : it has delta lobes only, so light sampling is of no use
+///   has_delta()       : it has a delta lobe, perhaps besides others
 template <class T>
 concept BsdfLike = requires(const T b, Vec3 wo, Vec3 wi, Float uc, Vec2 u) {
   { b.sample(wo, uc, u) } -> std::same_as<std::optional<BsdfSample>>;
   { b.eval(wo, wi) } -> std::convertible_to<Spectrum>;
   { b.pdf(wo, wi) } -> std::convertible_to<Float>;
   { b.is_delta() } -> std::convertible_to<bool>;
+  { b.has_delta() } -> std::convertible_to<bool>;
 };
 
 } // namespace render

@@ -3,6 +3,9 @@
 
 #include <render/bsdf/concept.h>
 
+#include <mc/table/discrete.h>
+
+#include <algorithm>
 #include <cmath>
 
 namespace render {
@@ -20,7 +23,7 @@ inline Fresnel fresnel_dielectric(Float cos_i, Float eta) {
   const Float cos_t = std::sqrt(1 - sin2_t);
   const Float parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
   const Float perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-  return {(parallel * parallel + perpendicular * perpendicular) / 2, cos_t};
+  return {std::min((parallel * parallel + perpendicular * perpendicular) / 2, Float(1)), cos_t};
 }
 
 /// Smooth boundary to a medium of relative index eta (inside over outside, the normal points outside): two delta lobes,
@@ -42,14 +45,16 @@ class Dielectric {
     if (!(cos_i > 0)) return {};
     const Float ratio = wo.z() > 0 ? eta_ : 1 / eta_;
     const auto [r, cos_t] = fresnel_dielectric(cos_i, ratio);
-    if (uc < r) return BsdfSample{{-wo.x(), -wo.y(), wo.z()}, reflectance_ * (r / cos_i), r, true};
-    const Float t = 1 - r;
+    const auto lobe = mc::Bernoulli<Float>(r).sample_index(uc);
+    if (lobe.index == 1) return BsdfSample{{-wo.x(), -wo.y(), wo.z()}, reflectance_ * (r / cos_i), r, true};
+    const Float t = lobe.pmf;
     const Vec3 wi(-wo.x() / ratio, -wo.y() / ratio, wo.z() > 0 ? -cos_t : cos_t);
     return BsdfSample{wi.normalized(), transmittance_ * (t / (ratio * ratio * cos_t)), t, true, ratio};
   }
   Spectrum eval(const Vec3&, const Vec3&) const { return Spectrum::Zero(); }
   Float pdf(const Vec3&, const Vec3&) const { return 0; }
   bool is_delta() const { return true; }
+  bool has_delta() const { return true; }
 
  private:
   Float eta_;

@@ -3,6 +3,8 @@
 
 #include <render/bsdf/concept.h>
 
+#include <mc/warp/ball.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,11 +31,7 @@ class Metal {
     if (wo.z() == 0) return {};
     const Vec3 r = reflect(wo);
     if (is_delta()) return BsdfSample{r, albedo_ / std::abs(r.z()), 1, true};
-    // Uniform point of the ball: radius from uc, direction from u.
-    const Float z = 1 - 2 * u[0];
-    const Vec3 direction =
-        mc::spherical_direction<Float>(2 * mc::safe_sqrt<Float>(u[0] * (1 - u[0])), z, 2 * mc::pi<Float> * u[1]);
-    const Vec3 w = r + fuzz_ * std::cbrt(uc) * direction;
+    const Vec3 w = r + fuzz_ * mc::UniformBall<Float>{}.sample({uc, u[0], u[1]});
     const Float length = w.norm();
     if (!(length > 0)) return {};
     const Vec3 wi = w / length;
@@ -63,6 +61,7 @@ class Metal {
     return difference * (t2 * t2 + t2 * t1 + t1 * t1) / (4 * mc::pi<Float> * fuzz_ * fuzz_ * fuzz_);
   }
   bool is_delta() const { return fuzz_ == 0; }
+  bool has_delta() const { return is_delta(); }
 
  private:
   Spectrum albedo_;

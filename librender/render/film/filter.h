@@ -1,67 +1,63 @@
 #pragma once
-/// Pixel reconstruction filters, applied by importance sampling.
+/// Pixel reconstruction filters: warps on the plane.
 
 #include <render/core/dispatch.h>
 #include <render/core/types.h>
 
-#include <cmath>
+#include <mc/table/discrete.h>
+#include <mc/warp/box_muller.h>
+#include <mc/warp/mixture_n.h>
+#include <mc/warp/product.h>
+#include <mc/warp/uniform.h>
 
 namespace render {
 
-namespace detail {
-inline Float checked_width(std::string_view what, Float width) {
-  mc::require(std::isfinite(width) && width > 0, "{} {} must be finite and > 0", what, width);
-  return width;
-}
-} // namespace detail
+// Each filter is a warp; its point is the offset of a sample from the pixel's centre [pixels]. Samples belong to one
+// pixel each and weigh the same, so pixels stay independent estimates [ErnstEtAl06]. All throw Error unless their width
+// is finite and > 0.
 
-/// Offset of a sample from the pixel's centre [pixels], u in [0,1)^2. Samples belong to one pixel each and weigh the
-/// same, so pixels stay independent estimates [ErnstEtAl06]. All throw Error unless their width is finite and > 0.
-struct BoxFilter {
-  Float radius;
-  explicit BoxFilter(Float r = Float(0.5)) : radius(detail::checked_width("box filter: radius", r)) {}
-  Vec2 sample(const Vec2& u) const { return radius * (2 * u - Vec2::Ones()); }
+/// Uniform on the square of half width `radius`.
+struct BoxFilter : mc::UniformBox<Float, 2> {
+  explicit BoxFilter(Float radius = Float(0.5)) : UniformBox(Vec2::Constant(-radius), Vec2::Constant(radius)) {}
 };
 
 /// Triangle function of half width `radius`; variance radius^2 / 6 per axis.
-struct TentFilter {
-  Float radius;
-  explicit TentFilter(Float r = 1) : radius(detail::checked_width("tent filter: radius", r)) {}
-  static Float tent(Float u) { return u < Float(0.5) ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 - 2 * u); }
-  Vec2 sample(const Vec2& u) const { return {radius * tent(u[0]), radius * tent(u[1])}; }
+struct TentFilter : mc::Tent2D<Float> {
+  explicit TentFilter(Float radius = 1) : Product{{0, radius}, {0, radius}} {}
 };
 
-/// Normal distribution of standard deviation sigma [pixels], not truncated; by Box and Muller's transform. 1 - u is
-/// exact for the multiples of 2^-24 that u is.
-struct GaussianFilter {
-  Float sigma;
-  explicit GaussianFilter(Float s = Float(0.5)) : sigma(detail::checked_width("gaussian filter: stddev", s)) {}
-  Vec2 sample(const Vec2& u) const {
-    const Float r = sigma * std::sqrt(-2 * std::log(1 - u[0])), phi = 2 * mc::pi<Float> * u[1];
-    return {r * std::cos(phi), r * std::sin(phi)};
-  }
+/// Normal distribution of standard deviation sigma, not truncated.
+struct GaussianFilter : mc::BoxMuller<Float> {
+  explicit GaussianFilter(Float stddev = Float(0.5)) : BoxMuller(stddev) {}
 };
 
-/// The mean of n x n tents of half width `radius`, one about the centre of each subpixel: the filter of smallpt (n =
-/// 2).
-struct SubpixelTentFilter {
-  int n;
-  Float radius;
-  explicit SubpixelTentFilter(int subpixels = 2, Float r = Float(0.5))
-      : n(subpixels), radius(detail::checked_width("subpixel tent filter: radius", r)) {
+using TentRow = mc::MixtureN<mc::Interval<Float>, mc::Tent<Float>, mc::UniformDiscrete<Float>>;
+
+/// The mean of n x n tents of half width `radius`, one about the centre of each subpixel: smallpt's filter (n = 2).
+///   throws : Error unless n >= 1, too
+struct SubpixelTentFilter : mc::Product<TentRow, TentRow> {
+  explicit SubpixelTentFilter(int n = 2, Float radius = Float(0.5)) : Product{row(n, radius), row(n, radius)} {}
+
+ private:
+  static TentRow row(int n, Float radius) {
     mc::require(n >= 1, "subpixel tent filter: n {} must be at least 1", n);
+    std::vector<mc::Tent<Float>> tents;
+    for (int i = 0; i < n; ++i) tents.emplace_back((Float(i) + Float(0.5)) / Float(n) - Float(0.5), radius);
+    return {{tents.front().domain().lo, tents.back().domain().hi},
+            mc::UniformDiscrete<Float>(static_cast<std::size_t>(n)),
+            tents};
   }
-  Float axis(Float u) const {
-    const Float cell = std::min(std::floor(u * Float(n)), Float(n - 1));
-    return (cell + Float(0.5)) / Float(n) - Float(0.5) + radius * TentFilter::tent(u * Float(n) - cell);
-  }
-  Vec2 sample(const Vec2& u) const { return {axis(u[0]), axis(u[1])}; }
 };
 
+/// One of the filters; itself a warp.
 struct Filter : std::variant<BoxFilter, TentFilter, GaussianFilter, SubpixelTentFilter> {
   using variant::variant;
+
   Vec2 sample(const Vec2& u) const {
     return dispatch(*this, [&](const auto& f) { return f.sample(u); });
+  }
+  Float pdf(const Vec2& offset) const {
+    return dispatch(*this, [&](const auto& f) { return f.pdf(offset); });
   }
 };
 

@@ -1,4 +1,5 @@
 #include <render/shape/sphere.h>
+#include <render/shape/sphere_crossings.h>
 
 #include <mc/core/error.h>
 #include <mc/core/frame.h>
@@ -9,7 +10,7 @@ namespace render {
 
 namespace {
 
-Float cone_pdf(double one_minus_cos) { return Float(1 / (2 * mc::pi<double> * one_minus_cos)); }
+Float density(const mc::UniformCone<double>& cone) { return Float(1 / cone.domain().jacobian({})); }
 
 } // namespace
 
@@ -29,19 +30,16 @@ Sphere Sphere::cap(const Vec3d& center, double radius, const Vec3d& axis, double
   return s;
 }
 
+bool Sphere::holds(const Vec3d& offset) const { return !is_cap() || offset.dot(axis_) >= radius_ - height_; }
+
 std::optional<double> Sphere::intersect(const Ray& ray) const {
-  const Vec3d o = ray.o.cast<double>() - center_, d = ray.d.cast<double>();
-  const double a = d.squaredNorm(), b = -o.dot(d);
-  // Squared distance of the centre from the line, without the cancellation of b^2 - 4 a c
-  // [HainesGuntherAkenineMoller19].
-  const double discriminant = radius_ * radius_ - (o + d * (b / a)).squaredNorm();
-  if (!(discriminant >= 0)) return {};
-  const double q = b + std::copysign(std::sqrt(a * discriminant), b);
-  const double c = o.squaredNorm() - radius_ * radius_;
-  double t0 = q / a, t1 = q != 0 ? c / q : -1;
-  if (t0 > t1) std::swap(t0, t1);
-  for (const double t : {t0, t1})
-    if (t > 0 && t < double(ray.t_max) && (!is_cap() || (o + t * d).dot(axis_) >= radius_ - height_)) return t;
+  const Line line(ray.o.cast<double>(), ray.d.cast<double>());
+  const Vec3d o = line.o - center_;
+  const auto pass = sphere_pass(o.x(), o.y(), o.z(), line, radius_ * radius_);
+  if (!pass.crosses()) return {};
+  const auto at = sphere_crossings(pass, o.x(), o.y(), o.z(), line, radius_ * radius_);
+  for (const double t : {at.t0, at.t1})
+    if (t > 0 && t < double(ray.t_max) && holds(o + t * line.d)) return t;
   return {};
 }
 
@@ -67,38 +65,31 @@ SurfacePoint Sphere::surface_point(const Ray& ray, const Hit& hit) const {
 
 double Sphere::area() const { return 2 * mc::pi<double> * radius_ * height_; }
 
-std::optional<double> Sphere::cone(double d2) const {
+std::optional<mc::UniformCone<double>> Sphere::cone(double d2) const {
   // Points of the sphere itself round to either side of it. Taken for outside, their cone would hold nothing but
   // themselves.
   const double rounding =
       4 * double(std::numeric_limits<Float>::epsilon()) * (radius_ + center_.lpNorm<Eigen::Infinity>());
   if (is_cap() || !(d2 > mc::sqr(radius_ + rounding))) return {};
-  const double sin2 = radius_ * radius_ / d2;
-  return sin2 / (1 + std::sqrt(1 - sin2));
+  return mc::UniformCone<double>::from_sin2(radius_ * radius_ / d2);
 }
 
 std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const {
   const Vec3d toward = center_ - ref.cast<double>();
-  const double d2 = toward.squaredNorm();
-  // Any point of the circle of latitude will do, so its azimuth may be rounded to float.
-  const Float phi = 2 * mc::pi<Float> * u[1];
-  const auto direction = [c = double(std::cos(phi)), s = double(std::sin(phi))](double sine, double cosine) {
-    return Vec3d(sine * c, sine * s, cosine);
-  };
+  const mc::Vec2<double> v = u.cast<double>();
   ShapeSample s;
-  if (const auto one_minus_cos = cone(d2)) {
+  const double d2 = toward.squaredNorm();
+  if (const auto seen = cone(d2)) {
     // A direction of the cone, and the near point of the sphere along it.
-    const double v = double(u[0]) * *one_minus_cos, cosine = 1 - v, sin2 = v * (2 - v), d = std::sqrt(d2);
-    const auto frame = mc::Frame<double>::from_z(toward / d);
-    const Vec3d wi = frame.to_world(direction(std::sqrt(sin2), cosine));
-    const double t = d * cosine - mc::safe_sqrt<double>(radius_ * radius_ - d2 * sin2);
+    const double d = std::sqrt(d2);
+    const Vec3d local = seen->sample(v), wi = mc::Frame<double>::from_z(toward / d).to_world(local);
+    const double t = d * local.z() - mc::safe_sqrt<double>(radius_ * radius_ - d2 * local.head<2>().squaredNorm());
     s.point = point((t * wi - toward).normalized());
     s.wi = wi.cast<Float>();
-    s.pdf = cone_pdf(*one_minus_cos);
+    s.pdf = density(*seen);
   } else {
-    const double v = double(u[0]) * height_ / radius_; // 1 - cos of the angle from the axis
-    const auto frame = mc::Frame<double>::from_z(axis_);
-    s.point = point(frame.to_world(direction(mc::safe_sqrt<double>(v * (2 - v)), 1 - v)).normalized());
+    const auto cap = mc::UniformCone<double>::from_one_minus_cos(height_ / radius_);
+    s.point = point(mc::Frame<double>::from_z(axis_).to_world(cap.sample(v)).normalized());
     const Vec3 between = s.point.p - ref;
     if (!(between.squaredNorm() > 0)) return {};
     s.wi = between.normalized();
@@ -109,22 +100,22 @@ std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const 
 }
 
 Float Sphere::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {
-  if (const auto one_minus_cos = cone((center_ - ref.cast<double>()).squaredNorm())) return cone_pdf(*one_minus_cos);
+  if (const auto seen = cone((center_ - ref.cast<double>()).squaredNorm())) return density(*seen);
   const Float cosine = std::abs(hit.ng.dot(wi));
   return cosine > 0 ? (hit.p - ref).squaredNorm() / (cosine * Float(area())) : Float(0);
 }
 
 Float Sphere::pdf(const Vec3& ref, const Vec3& wi) const {
-  const Vec3d oc = ref.cast<double>() - center_, d = wi.cast<double>();
-  const double b = -oc.dot(d), discriminant = radius_ * radius_ - (oc + d * b).squaredNorm();
-  if (!(discriminant >= 0)) return 0;
-  if (const auto one_minus_cos = cone(oc.squaredNorm())) return b > 0 ? cone_pdf(*one_minus_cos) : Float(0);
+  const Line line(ref.cast<double>(), wi.cast<double>());
+  const Vec3d o = line.o - center_;
+  const auto pass = sphere_pass(o.x(), o.y(), o.z(), line, radius_ * radius_);
+  if (!pass.crosses()) return 0;
+  if (const auto seen = cone(o.squaredNorm())) return pass.b > 0 ? density(*seen) : Float(0);
+  const auto at = sphere_crossings(pass, o.x(), o.y(), o.z(), line, radius_ * radius_);
   Float sum = 0;
-  const double half = std::sqrt(discriminant);
-  for (const double t : {b - half, b + half}) {
-    const Vec3d direction = (oc + t * d) / radius_;
-    if (t > 0 && (!is_cap() || direction.dot(axis_) * radius_ >= radius_ - height_))
-      sum += pdf(ref, wi, point(direction));
+  for (const double t : {at.t0, at.t1}) {
+    const Vec3d offset = o + t * line.d;
+    if (t > 0 && holds(offset)) sum += pdf(ref, wi, point(offset.normalized()));
   }
   return sum;
 }

@@ -3,6 +3,8 @@
 
 #include <render/shape/concept.h>
 
+#include <mc/warp/cone.h>
+
 namespace render {
 
 /// A sphere, or the cap of it that lies within `height` of the pole `axis`. Intersected and sampled in double, so that
@@ -33,9 +35,10 @@ class Sphere {
 
  private:
   SurfacePoint point(const Vec3d& direction) const; ///< of the surface in the unit `direction` from the centre
-  /// 1 - cos of the cone that the sphere fills seen from squared distance d2; nullopt inside, on the surface, or for a
-  /// cap.
-  std::optional<double> cone(double d2) const;
+  bool holds(const Vec3d& offset) const; ///< whether the sphere's point at this offset from the centre is the shape's
+  /// The directions towards it, about the one to its centre, from squared distance d2; nullopt inside, on the surface,
+  /// or for a cap.
+  std::optional<mc::UniformCone<double>> cone(double d2) const;
 
   Vec3d center_;
   double radius_;

@@ -62,8 +62,13 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
     const Vec3 center = (v[0] + v[1] + v[2]) / 3;
     const Float radius2 =
         std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()});
-    faces_.push_back({vertices, n.stableNormalized().cast<Float>(), center, radius2, area_, n.norm() / 2});
+    faces_.push_back({vertices, n.stableNormalized().cast<Float>(), center, radius2, n.norm() / 2});
     area_ += faces_.back().area;
+  }
+  if (area_ > 0) {
+    std::vector<double> areas;
+    for (const Face& face : faces_) areas.push_back(face.area);
+    choice_.emplace(areas);
   }
   const auto agrees = [&](const Face& f, std::uint32_t v) {
     return normals_[v].dot(f.normal) > Float(1 - 1e-6) * normals_[v].norm();
@@ -124,22 +129,13 @@ SurfacePoint TriangleMesh::surface_point(const Ray&, const Hit& hit) const {
 }
 
 std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) const {
-  const double target = double(u[0]) * area_;
-  std::size_t triangle = 0;
-  if (size() <= 8) { // without branches that no predictor could guess
-    for (const Face& face : faces_) triangle += static_cast<std::size_t>(target >= face.before + face.area);
-  } else {
-    const auto ends_after = [](double t, const Face& face) { return t < face.before + face.area; };
-    triangle =
-        static_cast<std::size_t>(std::upper_bound(faces_.begin(), faces_.end(), target, ends_after) - faces_.begin());
-  }
-  if (triangle == size()) return {};
-  const double u0 = std::min((target - faces_[triangle].before) / faces_[triangle].area, 1 - 0x1p-53);
-  const mc::Vec2<double> v(u0, double(u[1]));
+  if (!choice_) return {};
+  const auto [triangle, pmf, u0] = choice_->sample_index(double(u[0]));
+  const mc::Vec2<double> inner(u0, double(u[1]));
   if (const auto directions = near_triangle(ref, triangle)) [[unlikely]]
-    return sample_near(ref, triangle, *directions, v);
+    return sample_near(ref, triangle, *directions, inner);
   ShapeSample s;
-  const mc::Vec2<double> b = mc::UniformTriangle<double>{}.sample(v);
+  const mc::Vec2<double> b = mc::UniformTriangle<double>{}.sample(inner);
   s.point = point(triangle, b[0], b[1]);
   const Vec3 between = s.point.p - ref;
   const Float distance2 = between.squaredNorm();

@@ -4,6 +4,7 @@
 #include <render/core/transform.h>
 #include <render/shape/concept.h>
 
+#include <mc/table/table_dist_1d.h>
 #include <mc/warp/spherical_triangle.h>
 
 #include <array>
@@ -55,13 +56,14 @@ class TriangleMesh {
 
   struct Face {
     std::array<std::uint32_t, 3> vertices;
-    Vec3 normal;         ///< unit; 0 for a degenerate triangle
-    Vec3 center;         ///< centroid
-    Float radius2;       ///< of the ball about it
-    double before, area; ///< area of the triangles before this one, and its own
+    Vec3 normal;   ///< unit; 0 for a degenerate triangle
+    Vec3 center;   ///< centroid
+    Float radius2; ///< of the ball about it
+    double area;
   };
   std::vector<Vec3> positions_, normals_; ///< per vertex; no normals: flat
   std::vector<Face> faces_;
+  std::optional<mc::TableDist1D<double>> choice_; ///< of a triangle by its area; none where all areas are 0
   double area_ = 0;
   Float error_ = 0; ///< of an interpolated point, per coordinate
 };

@@ -1,0 +1,83 @@
+#pragma once
+/// Spheres as leaves of the BVH.
+
+#include <render/accel/wide_tree.h>
+#include <render/core/ray.h>
+#include <render/shape/shape.h>
+#include <render/shape/sphere_crossings.h>
+
+#include <vector>
+
+namespace render {
+
+/// Eight spheres or caps, in double.
+class SphereBlock {
+ public:
+  static constexpr std::uint32_t few = 24;
+
+  struct Primitive {
+    const Sphere* sphere;
+    int shape;
+
+    /// Rounded outward, so that the float box holds the double sphere.
+    Box box() const {
+      Box b;
+      for (int a = 0; a < 3; ++a) {
+        b.lo[a] = std::nextafter(Float(sphere->center()[a] - sphere->radius()), -mc::infinity<Float>);
+        b.hi[a] = std::nextafter(Float(sphere->center()[a] + sphere->radius()), mc::infinity<Float>);
+      }
+      return b;
+    }
+  };
+  static void collect(const Shape& shape, int index, std::vector<Primitive>& found) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) found.push_back({sphere, index});
+  }
+
+  struct Prepared : Line {
+    explicit Prepared(const Ray& ray) : Line(ray.o.cast<double>(), ray.d.cast<double>()) {}
+  };
+
+  void set(std::uint32_t lane, const Primitive& p) {
+    const Sphere& s = *p.sphere;
+    for (int a = 0; a < 3; ++a) {
+      center_[a][lane] = s.center()[a];
+      axis_[a][lane] = s.axis()[a];
+    }
+    radius2_[lane] = s.radius() * s.radius();
+    cap_[lane] = s.is_cap() ? s.radius() - s.height() : -mc::infinity<double>;
+    caps_ |= s.is_cap();
+    shape_[lane] = p.shape;
+  }
+
+  template <bool any> bool intersect(const Ray&, const Prepared& line, Float& t_max, Hit& hit) const {
+    const EightDoubles ox = line.o.x() - center_[0], oy = line.o.y() - center_[1], oz = line.o.z() - center_[2];
+    const auto pass = sphere_pass(ox, oy, oz, line, radius2_);
+    const auto crossed = pass.crosses();
+    if (!detail::any_lane(crossed)) return false;
+    const auto at = sphere_crossings(pass, ox, oy, oz, line, radius2_);
+    const double limit = double(t_max);
+    auto hit0 = crossed & (at.t0 > 0) & (at.t0 < limit), hit1 = crossed & (at.t1 > 0) & (at.t1 < limit);
+    if (caps_) {
+      const Vec3d& d = line.d;
+      const EightDoubles along = axis_[0] * d.x() + axis_[1] * d.y() + axis_[2] * d.z();
+      const EightDoubles start = axis_[0] * ox + axis_[1] * oy + axis_[2] * oz;
+      hit0 &= start + at.t0 * along >= cap_;
+      hit1 &= start + at.t1 * along >= cap_;
+    }
+    if constexpr (any) return detail::any_lane(hit0 | hit1);
+    const EightDoubles t = hit0 ? at.t0 : hit1 ? at.t1 : EightDoubles{} + mc::infinity<double>;
+    const int lane = detail::lowest_lane(t);
+    if (!(t[lane] < limit)) return false;
+    t_max = Float(t[lane]);
+    hit = {t_max, shape_[lane], 0, 0, 0};
+    return true;
+  }
+
+ private:
+  EightDoubles center_[3], radius2_;
+  EightDoubles axis_[3], cap_; ///< a point at `offset` from the centre belongs to the shape where offset . axis >= cap
+  int shape_[8];
+  bool caps_ = false; ///< some lane is a cap
+};
+
+} // namespace render

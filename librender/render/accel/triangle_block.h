@@ -1,0 +1,112 @@
+#pragma once
+/// Triangles as leaves of the BVH.
+
+#include <render/accel/wide_tree.h>
+#include <render/core/lanes.h>
+#include <render/core/ray.h>
+#include <render/shape/shape.h>
+
+#include <array>
+#include <vector>
+
+namespace render {
+
+/// Eight triangles.
+///   inside or outside : watertight [WoopBenthinWald13], re-decided in double on an exact edge
+///   distance          : from the plane equation in double, since Woop's own is off by up to a percent
+///   Degenerate triangles are left out.
+class TriangleBlock {
+ public:
+  static constexpr std::uint32_t few = 48; ///< six blocks of triangles cost less than a node and its sorted children
+
+  struct Primitive {
+    std::array<Vec3, 3> v;
+    int shape, prim;
+
+    Box box() const {
+      Box b;
+      for (const Vec3& p : v) b.add(p);
+      return b;
+    }
+  };
+  static void collect(const Shape& shape, int index, std::vector<Primitive>& found);
+
+  /// The ray turned so that its longest axis is z and sheared to (0, 0, 1) [WoopBenthinWald13, section 3].
+  struct Prepared {
+    int kx, ky, kz;
+    Float sx, sy;
+
+    explicit Prepared(const Ray& ray) {
+      const Vec3& d = ray.d;
+      const Float ax = std::abs(d.x()), ay = std::abs(d.y());
+      kz = std::abs(d.z()) > std::max(ax, ay) ? 2 : int(ay > ax); // compiles to no branch
+      kx = (kz + 1) % 3, ky = (kz + 2) % 3;
+      sx = d[kx] / d[kz], sy = d[ky] / d[kz];
+    }
+  };
+
+  void set(std::uint32_t lane, const Primitive& p) {
+    for (std::size_t k = 0; k < 3; ++k)
+      for (int a = 0; a < 3; ++a) v_[k][a][lane] = p.v[k][a];
+    // Differences of floats and their products are all but exact in double; no compensated product is needed.
+    const Vec3d a = p.v[0].cast<double>(), n = mc::cross<double>(p.v[1].cast<double>() - a, p.v[2].cast<double>() - a);
+    for (int k = 0; k < 3; ++k) normal_[k][lane] = n[k];
+    plane_[lane] = n.dot(a);
+    shape_[lane] = p.shape;
+    prim_[lane] = p.prim;
+  }
+
+  template <bool any> bool intersect(const Ray& ray, const Prepared& shear, Float& t_max, Hit& hit) const;
+
+ private:
+  Lanes v_[3][3];                  ///< [vertex][axis]
+  EightDoubles normal_[3], plane_; ///< points p of the plane: normal . p = plane
+  int shape_[8], prim_[8];
+};
+
+// The signed areas opposite vertices 0, 1, 2 in the sheared frame are all of one sign: inside.
+template <bool any> bool TriangleBlock::intersect(const Ray& ray, const Prepared& shear, Float& t_max, Hit& hit) const {
+  Lanes x[3], y[3];
+  for (int k = 0; k < 3; ++k) {
+    const Lanes z = v_[k][shear.kz] - ray.o[shear.kz];
+    x[k] = (v_[k][shear.kx] - ray.o[shear.kx]) - shear.sx * z;
+    y[k] = (v_[k][shear.ky] - ray.o[shear.ky]) - shear.sy * z;
+  }
+  const Lanes areas0 = x[2] * y[1] - y[2] * x[1], areas1 = x[0] * y[2] - y[0] * x[2],
+              areas2 = x[1] * y[0] - y[1] * x[0];
+  const Lanes lowest = detail::smaller(areas0, detail::smaller(areas1, areas2)),
+              highest = detail::larger(areas0, detail::larger(areas1, areas2));
+  unsigned candidates = detail::less_equal(Lanes{}, lowest) | detail::less_equal(highest, Lanes{});
+  if (candidates == 0) return false;
+
+  const EightDoubles above =
+      plane_ - (normal_[0] * double(ray.o[0]) + normal_[1] * double(ray.o[1]) + normal_[2] * double(ray.o[2]));
+  const EightDoubles t8 =
+      above / (normal_[0] * double(ray.d[0]) + normal_[1] * double(ray.d[1]) + normal_[2] * double(ray.d[2]));
+  candidates &= detail::between(t8, double(t_max));
+  bool found = false;
+  for (; candidates != 0; candidates &= candidates - 1) {
+    const int lane = __builtin_ctz(candidates);
+    const double t = t8[lane];
+    if (!(t < double(t_max))) continue;
+    double area0 = double(areas0[lane]), area1 = double(areas1[lane]), area2 = double(areas2[lane]);
+    if (area0 == 0 || area1 == 0 || area2 == 0) [[unlikely]] {
+      // On an edge to float precision: products of floats are exact in double, so both neighbours decide alike.
+      const auto edge = [&](int a, int b) {
+        return double(x[a][lane]) * double(y[b][lane]) - double(y[a][lane]) * double(x[b][lane]);
+      };
+      area0 = edge(2, 1), area1 = edge(0, 2), area2 = edge(1, 0);
+      if ((area0 < 0 || area1 < 0 || area2 < 0) && (area0 > 0 || area1 > 0 || area2 > 0)) continue;
+    }
+    const double det = area0 + area1 + area2;
+    if (det == 0) continue;
+    if constexpr (any) return true;
+    t_max = Float(t);
+    const double inverse = 1 / det;
+    hit = {t_max, shape_[lane], prim_[lane], Float(area1 * inverse), Float(area2 * inverse)};
+    found = true;
+  }
+  return found;
+}
+
+} // namespace render

@@ -1,0 +1,91 @@
+#pragma once
+/// Eight numbers at once.
+
+#include <render/core/types.h>
+
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+namespace render {
+
+/// Eight lanes; the compiler maps them to the widest registers it may use.
+typedef Float Lanes __attribute__((vector_size(8 * sizeof(Float))));
+typedef double EightDoubles __attribute__((vector_size(8 * sizeof(double))));
+
+namespace detail {
+
+/// Bit i is set where lane i of the comparison a <= b holds.
+inline unsigned less_equal(const Lanes& a, const Lanes& b) {
+#if defined(__AVX__)
+  if constexpr (sizeof(Float) == 4) {
+    return static_cast<unsigned>(_mm256_movemask_ps(
+        _mm256_cmp_ps(reinterpret_cast<const __m256&>(a), reinterpret_cast<const __m256&>(b), _CMP_LE_OQ)));
+  }
+#endif
+  unsigned mask = 0;
+  for (int i = 0; i < 8; ++i) mask |= static_cast<unsigned>(a[i] <= b[i]) << i;
+  return mask;
+}
+
+/// The larger or smaller of t and old; old where t is NaN, which is what the instructions do.
+inline Lanes larger(const Lanes& t, const Lanes& old) {
+#if defined(__AVX__)
+  if constexpr (sizeof(Float) == 4)
+    return reinterpret_cast<const Lanes&>(static_cast<const __m256&>(
+        _mm256_max_ps(reinterpret_cast<const __m256&>(t), reinterpret_cast<const __m256&>(old))));
+#endif
+  return t > old ? t : old;
+}
+inline Lanes smaller(const Lanes& t, const Lanes& old) {
+#if defined(__AVX__)
+  if constexpr (sizeof(Float) == 4)
+    return reinterpret_cast<const Lanes&>(static_cast<const __m256&>(
+        _mm256_min_ps(reinterpret_cast<const __m256&>(t), reinterpret_cast<const __m256&>(old))));
+#endif
+  return t < old ? t : old;
+}
+
+inline double square_root(double x) { return std::sqrt(x); }
+inline EightDoubles square_root(const EightDoubles& x) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<const EightDoubles&>(static_cast<const __m512d&>(
+      _mm512_mask_sqrt_pd(reinterpret_cast<const __m512d&>(x), 0xff, reinterpret_cast<const __m512d&>(x))));
+#else
+  EightDoubles root;
+  for (int i = 0; i < 8; ++i) root[i] = std::sqrt(x[i]); // the compiler packs them
+  return root;
+#endif
+}
+
+/// Whether a comparison holds in some lane.
+inline bool any_lane(bool one) { return one; }
+template <class Mask>
+requires(sizeof(Mask) == sizeof(EightDoubles)) bool any_lane(const Mask& mask) {
+#if defined(__AVX512DQ__)
+  return _mm512_movepi64_mask(reinterpret_cast<const __m512i&>(mask)) != 0;
+#else
+  return (mask[0] | mask[1] | mask[2] | mask[3] | mask[4] | mask[5] | mask[6] | mask[7]) != 0;
+#endif
+}
+
+inline int lowest_lane(const EightDoubles& t) {
+  const auto lower = [&](int a, int b) { return t[b] < t[a] ? b : a; };
+  return lower(lower(lower(0, 1), lower(2, 3)), lower(lower(4, 5), lower(6, 7)));
+}
+
+/// Bit i is set where lane i of t lies in (0, t_max).
+inline unsigned between(const EightDoubles& t, double t_max) {
+#if defined(__AVX512F__)
+  const auto& x = reinterpret_cast<const __m512d&>(t);
+  return _mm512_cmp_pd_mask(x, _mm512_setzero_pd(), _CMP_GT_OQ) &
+         _mm512_cmp_pd_mask(x, _mm512_set1_pd(t_max), _CMP_LT_OQ);
+#else
+  unsigned mask = 0;
+  for (int i = 0; i < 8; ++i) mask |= static_cast<unsigned>(t[i] > 0 && t[i] < t_max) << i;
+  return mask;
+#endif
+}
+
+} // namespace detail
+} // namespace render

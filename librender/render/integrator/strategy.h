@@ -1,0 +1,50 @@
+#pragma once
+/// How a path chooses its directions and how the light that it finds counts.
+
+#include <render/core/types.h>
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace render {
+
+/// What a strategy aims directions at.
+enum class Target {
+  nothing,
+  hemisphere, ///< every direction on the side of the path
+  lights,     ///< the shapes of the lights, and the guides
+  speculars   ///< spheres of glass or mirror, which may cast caustics of the lights
+};
+
+/// How the light of sampled lights is found.
+enum class Finding {
+  by_chance,     ///< where a path meets it
+  by_connection, ///< by a point of a light at every vertex; what a path meets by chance does not count
+  by_both        ///< weighted by the power heuristic [Veach97]
+};
+
+/// A row of the table below; the integrator does what it says.
+struct Strategy {
+  std::string_view name;
+  Target target;
+  Float share; ///< of the directions go to the target, the others follow the BSDF. 1: none but its delta lobes do
+  Finding finding;
+};
+
+/// All but `light`, which misses what other surfaces reflect, are unbiased. Where nothing is to aim at, the BSDF is
+/// followed.
+///   light, mixture : as in [Shirley16], chapters 7 and 8
+inline constexpr std::array<Strategy, 6> strategies = {{
+    {"bsdf", Target::nothing, 0, Finding::by_chance},
+    {"hemisphere", Target::hemisphere, 1, Finding::by_chance},
+    {"light", Target::lights, 1, Finding::by_chance},
+    {"mixture", Target::lights, Float(0.5), Finding::by_chance},
+    {"nee", Target::nothing, 0, Finding::by_connection},
+    {"mis", Target::speculars, Float(0.25), Finding::by_both},
+}};
+
+/// Throws Error, naming the nearest strategy, for an unknown name.
+const Strategy& strategy_from(std::string_view name);
+
+} // namespace render

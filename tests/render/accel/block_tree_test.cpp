@@ -1,0 +1,68 @@
+#include <render/accel/block_tree.h>
+
+#include <mc/random/pcg.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace render;
+
+// A third kind of leaf, as a new shape would add one: planes z = const of a shape that is known by its area.
+class LevelBlock {
+ public:
+  static constexpr std::uint32_t few = 16;
+  struct Primitive {
+    Float z;
+    int shape;
+    Box box() const { return {Vec3(-1, -1, z), Vec3(1, 1, z)}; }
+  };
+  static void collect(const Shape& shape, int index, std::vector<Primitive>& found) {
+    found.push_back({Float(shape.area()), index});
+  }
+  struct Prepared {
+    Float inverse;
+    explicit Prepared(const Ray& ray) : inverse(1 / ray.d.z()) {}
+  };
+  void set(std::uint32_t lane, const Primitive& p) { levels_[lane] = p; }
+  template <bool any> bool intersect(const Ray& ray, const Prepared& prepared, Float& t_max, Hit& hit) const {
+    bool found = false;
+    for (const Primitive& p : levels_) {
+      const Float t = (p.z - ray.o.z()) * prepared.inverse;
+      if (!(t > 0 && t < t_max)) continue;
+      t_max = t;
+      hit = {t, p.shape, 0, 0, 0};
+      found = true;
+    }
+    return found;
+  }
+
+ private:
+  Primitive levels_[8] = {};
+};
+
+// With and without a tree the nearest of n levels is found, whose place is the area 4 pi r^2 of a sphere.
+TEST(BlockTree, FindsTheNearestOfFewAndMany) {
+  for (const int n : {1, 7, 16, 17, 200}) {
+    std::vector<Shape> shapes;
+    for (int i = 0; i < n; ++i) shapes.push_back(Sphere(Vec3d::Zero(), 1 + (i * 7 % n)));
+    std::vector<const Shape*> pointers;
+    for (const Shape& s : shapes) pointers.push_back(&s);
+    const BlockTree<LevelBlock> tree(pointers);
+    EXPECT_EQ(tree.bounds().lo.z(), Float(4 * mc::pi<double>));
+    Float t_max = mc::infinity<Float>;
+    Hit hit;
+    ASSERT_TRUE(tree.intersect<false>({Vec3::Zero(), Vec3::UnitZ()}, t_max, hit)) << n;
+    EXPECT_EQ(hit.shape, 0) << n;
+    EXPECT_EQ(t_max, hit.t);
+    EXPECT_FALSE(tree.intersect<true>({Vec3::Zero(), -Vec3::UnitZ()}, t_max, hit)) << n;
+  }
+}
+
+TEST(BlockTree, OfNothingIsNeverHit) {
+  Float t_max = mc::infinity<Float>;
+  Hit hit;
+  EXPECT_FALSE(BlockTree<LevelBlock>().intersect<false>({Vec3::Zero(), Vec3::UnitZ()}, t_max, hit));
+}
+
+} // namespace

@@ -1,0 +1,42 @@
+#include <render/accel/triangle_block.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace render;
+
+TEST(TriangleBlock, CollectsWhatCanBeHit) {
+  std::vector<TriangleBlock::Primitive> found;
+  TriangleBlock::collect(TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}}, {{0, 1, 2}, {0, 1, 3}, {1, 3, 2}}),
+                         7, found);
+  ASSERT_EQ(found.size(), 2u) << "the degenerate one is left out";
+  EXPECT_EQ(found[1].shape, 7);
+  EXPECT_EQ(found[1].prim, 2);
+  EXPECT_EQ(found[0].box().hi, Vec3(1, 1, 0));
+  TriangleBlock::collect(Sphere(Vec3d::Zero(), 1), 8, found);
+  EXPECT_EQ(found.size(), 2u);
+}
+
+TEST(TriangleBlock, TellsTheNearestOfItsLanes) {
+  TriangleBlock block;
+  for (std::uint32_t lane = 0; lane < 8; ++lane) {
+    const Float z = Float((lane * 5) % 8) + 1;
+    block.set(lane, {{Vec3(0, 0, z), Vec3(1, 0, z), Vec3(0, 1, z)}, int(lane), 3});
+  }
+  const Ray ray{Vec3(Float(0.25), Float(0.5), 0), Vec3::UnitZ()};
+  const TriangleBlock::Prepared prepared(ray);
+  Float t_max = ray.t_max;
+  Hit hit;
+  ASSERT_TRUE(block.intersect<false>(ray, prepared, t_max, hit));
+  EXPECT_EQ(hit.shape, 0);
+  EXPECT_EQ(hit.prim, 3);
+  EXPECT_EQ(hit.t, 1);
+  EXPECT_EQ(t_max, 1);
+  EXPECT_NEAR(hit.b1, 0.25, 1e-6);
+  EXPECT_NEAR(hit.b2, 0.5, 1e-6);
+  EXPECT_FALSE(block.intersect<false>(ray, prepared, t_max, hit)) << "nothing is nearer than the nearest";
+  EXPECT_FALSE(block.intersect<true>({Vec3(2, 2, 0), Vec3::UnitZ()}, prepared, t_max, hit));
+}
+
+} // namespace

@@ -1,0 +1,89 @@
+#include <render/integrator/directions.h>
+#include <render/integrator/path_stream.h>
+#include <render/scene/builder.h>
+
+#include <mc/estimate/moments.h>
+#include <mc/warp/sphere.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace render;
+
+// A floor under a lamp, a glass ball and a guide, none of which hides another.
+Scene small_scene() {
+  SceneBuilder builder;
+  const BsdfId gray = builder.add(Lambert()), glass = builder.add(Dielectric());
+  builder.add(Sphere(Vec3d(0, 3, 0), 1), {gray, Emission{}});
+  builder.add(Sphere(Vec3d(3, 1, 0), 0.8), {glass});
+  builder.add(Sphere(Vec3d(-3, 1, 0), 0.8), {.bsdf = gray, .guide = true});
+  return builder.build();
+}
+
+// Half mirror, half Lambert; the mirror says it enters a denser medium.
+class Coated {
+ public:
+  std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
+    if (mc::Bernoulli<Float>(Float(0.5)).sample_index(uc).index == 1)
+      return BsdfSample{reflect(wo), Spectrum::Constant(Float(0.5) / std::abs(wo.z())), Float(0.5), true, Float(1.5)};
+    auto s = base_.sample(wo, 0, u);
+    if (s) s->pdf /= 2;
+    return s;
+  }
+  Spectrum eval(const Vec3& wo, const Vec3& wi) const { return base_.eval(wo, wi); }
+  Float pdf(const Vec3& wo, const Vec3& wi) const { return base_.pdf(wo, wi) / 2; }
+  bool is_delta() const { return false; }
+  bool has_delta() const { return true; }
+
+ private:
+  Lambert base_;
+};
+
+// Of n choices: the share that are no delta lobe's, against the integral of pdf() over the sphere. The share's standard
+// error is below .5 / sqrt(n), the integral's below that of the balls' densities; 6 of both together. Every direction
+// that is no delta lobe's has the density that pdf() says, up to the rounding of a direction on an outline.
+template <class B> void expect_consistent(const B& bsdf, const Strategy& strategy, double delta_share) {
+  const Scene scene = small_scene();
+  const Directions directions(scene, strategy);
+  SurfacePoint point;
+  point.p = Vec3(0, 0, 0), point.ng = point.ns = Vec3::UnitY();
+  const auto frame = mc::Frame<Float>::from_z(point.ns);
+  const Vertex<B> at{bsdf, point, frame, Vec3(1, 0, 2).normalized()};
+  const int n = 20'000;
+  int rough = 0, delta = 0, other = 0;
+  for (int i = 0; i < n; ++i) {
+    IndependentStream stream({11, 0}, std::uint32_t(i));
+    const auto one = directions.choose(at, stream);
+    if (!one) continue;
+    if (one->pdf == 0) {
+      ++delta;
+      EXPECT_EQ(one->eta, Float(1.5)) << strategy.name;
+      continue;
+    }
+    ++rough;
+    other += std::abs(directions.pdf(at, frame.to_local(one->d), one->d) / one->pdf - 1) > Float(1e-3);
+  }
+  EXPECT_LE(other, n / 1000) << strategy.name;
+  EXPECT_NEAR(double(delta) / n, delta_share, 6 * 0.5 / std::sqrt(n)) << strategy.name;
+  mc::Moments integral;
+  mc::Pcg random(5);
+  for (int i = 0; i < 200'000; ++i) {
+    const Vec3 d = mc::UniformSphere<Float>{}.sample(random.point<Float, 2>());
+    integral.add(4 * mc::pi<double> * double(directions.pdf(at, frame.to_local(d), d)));
+  }
+  EXPECT_NEAR(double(rough) / n, integral.mean(), 6 * (0.5 / std::sqrt(n) + integral.std_error())) << strategy.name;
+}
+
+TEST(Directions, DensitiesIntegrateToTheShareThatIsChosen) {
+  for (const Strategy& s : strategies) expect_consistent(Lambert(), s, 0);
+}
+
+TEST(Directions, ADeltaLobeIsAlwaysFollowed) {
+  for (const Strategy& s : strategies) {
+    const double followed = s.target == Target::nothing ? 1 : 1 - std::min(double(s.share), 0.5);
+    expect_consistent(Coated(), s, 0.5 * followed);
+  }
+}
+
+} // namespace

@@ -1,0 +1,49 @@
+#include <render/shape/sphere_crossings.h>
+
+#include <mc/random/pcg.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace render;
+
+// Both crossings lie on the sphere, whatever the length of d; eight at a time find what one finds.
+TEST(SphereCrossings, LieOnTheSphere) {
+  mc::Pcg random(3);
+  int crossed = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3d o = 4 * random.point<double, 3>() - Vec3d::Constant(2);
+    const double length = std::exp(20 * random.uniform<double>() - 10);
+    const Line line(o, length * (random.point<double, 3>() - Vec3d::Constant(0.5)));
+    const auto pass = sphere_pass(o.x(), o.y(), o.z(), line, 1.0);
+    const EightDoubles zero = {}, x = zero + o.x(), y = zero + o.y(), z = zero + o.z(), r2 = zero + 1.0;
+    const auto passes = sphere_pass(x, y, z, line, r2);
+    ASSERT_EQ(pass.discriminant, passes.discriminant[5]);
+    if (!pass.crosses()) continue;
+    ++crossed;
+    const auto one = sphere_crossings(pass, o.x(), o.y(), o.z(), line, 1.0);
+    const auto eight = sphere_crossings(passes, x, y, z, line, r2);
+    EXPECT_EQ(one.t0, eight.t0[5]);
+    EXPECT_EQ(one.t1, eight.t1[5]);
+    EXPECT_LE(one.t0, one.t1);
+    // The root loses digits where the line is all but a tangent.
+    const double tolerance = 1e-14 / std::sqrt(std::max(pass.discriminant, 1e-14));
+    for (const double t : {one.t0, one.t1}) EXPECT_NEAR((o + t * line.d).norm(), 1, tolerance) << trial;
+  }
+  EXPECT_GE(crossed, 400);
+}
+
+// From the surface inward: one crossing is where the line starts. Far away nothing cancels.
+TEST(SphereCrossings, AtTheEdges) {
+  const auto along_x = [](double x, double d, double radius) {
+    const Line line({x, 0, 0}, {d, 0, 0});
+    return sphere_crossings(sphere_pass(x, 0.0, 0.0, line, radius * radius), x, 0.0, 0.0, line, radius * radius);
+  };
+  EXPECT_EQ(along_x(1, -1, 1).t0, 0);
+  EXPECT_EQ(along_x(1, -1, 1).t1, 2);
+  EXPECT_NEAR(1e8 - 2 * along_x(1e8, -2, 1e-3).t0, 1e-3, 2e-8);
+  EXPECT_FALSE(sphere_pass(0.0, 2.0, 0.0, Line({0, 2, 0}, {1, 0, 0}), 1.0).crosses());
+}
+
+} // namespace
