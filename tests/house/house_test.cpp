@@ -122,6 +122,27 @@ TEST(House, TopLevelHoldsWhatTheDesignNames) {
   }
 }
 
+// A consumer compiles with flags of its own: no installed header branches on the instruction set, nor includes one that
+// does (and that would not be found, since it is not installed).
+TEST(House, InstalledHeadersMeanTheSameUnderAllFlags) {
+  static const std::regex branch(R"(__(AVX|SSE|GFNI|BMI|FMA|ARM)|immintrin|_mm\d*_)"),
+      excluded(R"re(PATTERN "([\w.]+)" EXCLUDE)re");
+  const std::string cmake = text_of("librender/CMakeLists.txt");
+  std::set<std::string> inside;
+  for (std::sregex_iterator match(cmake.begin(), cmake.end(), excluded), end; match != end; ++match)
+    inside.insert((*match)[1]);
+  EXPECT_FALSE(inside.empty());
+  for (const char* folder : {"libmc/mc", "librender/render"}) {
+    for (const fs::path& file : sources(fs::path(folder)))
+      if (file.extension() == ".h" && !inside.contains(file.filename().string()))
+        EXPECT_FALSE(std::regex_search(text_of(file), branch)) << file;
+    for (const Include& i : includes(folder))
+      if (i.file.ends_with(".h") && !inside.contains(fs::path(i.file).filename().string()))
+        EXPECT_FALSE(is_ours(i.header) && inside.contains(fs::path(i.header).filename().string()))
+            << i.file << ":" << i.line << ": <" << i.header << "> is not installed";
+  }
+}
+
 // The README's test and the plugin are those that the consumer compiles and runs against the installed package.
 TEST(House, TheExamplesOfTheReadmesAreCompiled) {
   EXPECT_NE(text_of("README.md").find("```cpp\n" + text_of("tests/consumer/my_test.cpp") + "```"), std::string::npos)

@@ -1,7 +1,8 @@
 #pragma once
 /// Ray queries against all shapes of a scene.
 
-#include <render/accel/wide_tree.h>
+#include <render/core/box.h>
+#include <render/core/ray.h>
 #include <render/shape/shape.h>
 
 #include <memory>

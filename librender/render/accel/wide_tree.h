@@ -1,6 +1,7 @@
 #pragma once
 /// An 8-wide bounding volume hierarchy over boxes, traversed one ray at a time.
 
+#include <render/core/box.h>
 #include <render/core/lanes.h>
 #include <render/core/ray.h>
 
@@ -8,19 +9,6 @@
 #include <vector>
 
 namespace render {
-
-/// An axis-aligned box; empty until something is added.
-struct Box {
-  Vec3 lo = Vec3::Constant(mc::infinity<Float>), hi = Vec3::Constant(-mc::infinity<Float>);
-
-  void add(const Vec3& p) { lo = lo.cwiseMin(p), hi = hi.cwiseMax(p); }
-  void add(const Box& b) { lo = lo.cwiseMin(b.lo), hi = hi.cwiseMax(b.hi); }
-  /// Half the surface area; 0 when empty.
-  Float half_area() const {
-    const Vec3 e = hi - lo;
-    return e.x() >= 0 ? e.x() * e.y() + e.y() * e.z() + e.z() * e.x() : Float(0);
-  }
-};
 
 /// The hierarchy. Leaves are blocks of up to `lanes` primitives that the owner intersects.
 ///   build  : binned SAH [Wald07] with 32 bins, costs counted in blocks, collapsed to 8 children by opening the largest

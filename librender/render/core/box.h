@@ -1,0 +1,21 @@
+#pragma once
+/// Axis-aligned boxes.
+
+#include <render/core/types.h>
+
+namespace render {
+
+/// An axis-aligned box; empty until something is added.
+struct Box {
+  Vec3 lo = Vec3::Constant(mc::infinity<Float>), hi = Vec3::Constant(-mc::infinity<Float>);
+
+  void add(const Vec3& p) { lo = lo.cwiseMin(p), hi = hi.cwiseMax(p); }
+  void add(const Box& b) { lo = lo.cwiseMin(b.lo), hi = hi.cwiseMax(b.hi); }
+  /// Half the surface area; 0 when empty.
+  Float half_area() const {
+    const Vec3 e = hi - lo;
+    return e.x() >= 0 ? e.x() * e.y() + e.y() * e.z() + e.z() * e.x() : Float(0);
+  }
+};
+
+} // namespace render
