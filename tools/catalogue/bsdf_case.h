@@ -5,7 +5,8 @@
 
 #include <render/core/types.h>
 
-#include <mc/check/laws/roughness_limit.h>
+#include <mc/check/bsdf_laws.h>
+#include <mc/check/laws/bsdf/roughness_limit.h>
 
 #include <chrono>
 #include <numbers>
@@ -26,9 +27,8 @@ void add_bsdf(Catalogue& c, const std::string& name, const std::string& paramete
         render::Vec3d(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta))
             .cast<render::Float>();
     one.check = [bsdf, wo, bounds, title = one.title()](const CaseOptions& options) {
-      mc::BsdfOptions o = bounds;
-      o.name = title, o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha,
-      o.evidence = options.evidence;
+      mc::BsdfOptions o = mc::with_statistics(bounds, options);
+      o.name = title;
       return mc::check_bsdf<render::Float>(bsdf, wo, o);
     };
     c.push_back(std::move(one));

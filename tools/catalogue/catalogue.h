@@ -11,21 +11,15 @@
 /// The test tools/catalogue_test.cpp fails when a warp, table, BSDF, shape, filter or camera of the headers is not in
 /// the list.
 
-#include <mc/check/report/report.h>
+#include <mc/check/check_subject.h>
 
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace carlo {
 
-struct CaseOptions {
-  std::uint64_t samples = 1'000'000;
-  std::uint64_t seed = 1;
-  double alpha = 0.001;
-  bool evidence = false; ///< keep what the page draws
-};
+using CaseOptions = mc::SubjectOptions;
 
 /// One sampler at one set of parameters over one scalar.
 struct Case {

@@ -5,8 +5,8 @@
 #include <render/scene/builder.h>
 
 #include <mc/check/check_subject.h>
-#include <mc/check/laws/timing.h>
 #include <mc/check/subject/make_subject.h>
+#include <mc/check/subject/timing.h>
 #include <mc/domain/parallelogram.h>
 #include <mc/domain/patch.h>
 #include <mc/warp/product.h>
@@ -26,8 +26,7 @@ void add_subject(Catalogue& c, const std::string& name, const std::string& param
   subject.name = one.title();
   subject.mass_tolerance = mass_tolerance;
   one.check = [subject = std::move(subject), number](const CaseOptions& o) {
-    mc::Report report =
-        mc::check_subject(subject, {.samples = o.samples, .seed = o.seed, .alpha = o.alpha, .evidence = o.evidence});
+    mc::Report report = mc::check_subject(subject, o);
     std::vector<Vec2> inputs;
     mc::Pcg random(3);
     for (int i = 0; i < mc::timing_inputs; ++i) inputs.push_back(random.point<Float, 2>());

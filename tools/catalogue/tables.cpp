@@ -39,15 +39,7 @@ void add_discrete(Catalogue& c, const std::string& name, const std::string& para
                   const D& table) {
   Case one{name, parameters, scalar, {}};
   one.check = [title = one.title(), table](const CaseOptions& o) {
-    mc::Report report =
-        mc::check_subject(mc::make_discrete_subject(title, table),
-                          {.samples = o.samples, .seed = o.seed, .alpha = o.alpha, .evidence = o.evidence});
-    std::vector<typename D::Scalar> u;
-    mc::Pcg random(3);
-    for (int i = 0; i < mc::timing_inputs; ++i) u.push_back(random.uniform<typename D::Scalar>());
-    report.ns_per_sample =
-        mc::ns_per_sample(u, [&](auto v) { return static_cast<double>(table.sample_index(v).index); });
-    return report;
+    return mc::check_laws(mc::make_discrete_sampler(title, table), mc::with_statistics(mc::LawOptions{}, o));
   };
   c.push_back(std::move(one));
 }

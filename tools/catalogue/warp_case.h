@@ -13,9 +13,7 @@ void add_case(Catalogue& c, std::string name, std::string parameters, std::strin
   Case one{std::move(name), std::move(parameters), std::move(scalar), {}};
   bounds.name = one.title();
   one.check = [warp, bounds](const CaseOptions& options) {
-    mc::LawOptions o = bounds;
-    o.samples = options.samples, o.seed = options.seed, o.alpha = options.alpha, o.evidence = options.evidence;
-    return check_laws(warp, o);
+    return check_laws(warp, mc::with_statistics(bounds, options));
   };
   c.push_back(std::move(one));
 }

@@ -63,6 +63,7 @@ struct ValidateOptions {
   std::string samples_file, pdf_file;  ///< samples and the density on a grid, see samples_file.h
   std::string domain;                  ///< of the grid; empty: by the columns of the samples
   bool unnormalized = false;           ///< the grid is only proportional to the density
+  bool open_interval = false;          ///< accept samplers that break at u = 0
   std::string report;                  ///< folder for index.html; empty: none
   std::string command;
 };

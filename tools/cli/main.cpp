@@ -109,6 +109,7 @@ void add_validate(CLI::App& app, carlo::ValidateOptions& o) {
   c->add_option("--domain", o.domain,
                 "Of the grid: \"x=lo:hi\", \"x=lo:hi,y=lo:hi\" or sphere [by the columns: 1 or 2 in 0:1, 3 sphere]");
   c->add_flag("--unnormalized", o.unnormalized, "The grid is only proportional to the density");
+  c->add_flag("--open-interval", o.open_interval, "u lies in (0,1): accept samplers that break where a u is exactly 0");
 }
 
 void add_converge(CLI::App& app, carlo::ConvergeOptions& o) {

@@ -134,8 +134,12 @@ int validate(const ValidateOptions& options) {
   fmt::print("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>7} {:>6}\n", "sampler", width, "scalar", "verdict", "p",
              "detects", "in a cell", "ns", "s");
   mc::parallel_for(cases.size(), o.threads, [&](std::size_t i) {
-    const CaseOptions c{
-        .samples = o.samples, .seed = seed_of(*cases[i], o.seed), .alpha = alpha, .evidence = !page.empty()};
+    CaseOptions c;
+    c.samples = o.samples;
+    c.seed = seed_of(*cases[i], o.seed);
+    c.alpha = alpha;
+    c.evidence = !page.empty();
+    c.open_interval = o.open_interval;
     mc::Report report = mc::with_context(cases[i]->title(), [&] { return cases[i]->check(c); });
     const std::lock_guard lock(mutex);
     reports[i] = std::move(report);

@@ -266,9 +266,7 @@ SamplesFileCase samples_file_case(const SamplesFileOptions& options) {
   const std::uint64_t rows = file->table.rows();
   c.samples = rows - mc::pilot_samples(rows - rows / 9);
   c.one.check = [file, title = c.one.title()](const CaseOptions& o) {
-    mc::SubjectOptions s;
-    s.samples = o.samples, s.seed = o.seed, s.alpha = o.alpha, s.evidence = o.evidence;
-    return mc::check_subject(subject_of(file, title, o.seed), s);
+    return mc::check_subject(subject_of(file, title, o.seed), o);
   };
   return c;
 }

@@ -5,6 +5,7 @@
 #include <plugin/isolated.h>
 
 #include <mc/check/plugin.h>
+#include <mc/check/subject/any_sampler.h>
 
 #include <memory>
 #include <span>
@@ -43,8 +44,10 @@ class PluginSampler {
 ///            or a sampler without a function, or with a domain, a number or a parameter that means nothing
 std::span<const mc_sampler> load_plugin(const std::string& path, Watch& watch);
 
-/// Every law that the sampler's functions allow: those of check_subject, edges of the unit cube, weight = eval / pdf,
-/// pdf > 0 where eval > 0, invert(sample(u)) = u, |det d sample / d u| pdf = 1.
+/// The plugin's sampler as the laws see it. Charts of infinite intervals are centred on samples of `seed`.
+mc::AnySampler sampler_of(const PluginSampler& plugin, const std::string& title, std::uint64_t seed);
+
+/// Every law of check_laws that the sampler's functions allow.
 mc::Report check_plugin(const PluginSampler& sampler, const std::string& title, const CaseOptions& options);
 
 /// One case per sampler of the shared object and per set of parameters, "alpha=0.1, n=3", that names only parameters of

@@ -1,14 +1,15 @@
 #include <slips/trials.h>
 
 #include <mc/check/bsdf_laws.h>
+#include <mc/check/laws/law.h>
+#include <mc/estimate/moments.h>
+#include <mc/stats/t_test.h>
 #include <mc/warp/hemisphere.h>
 
 namespace carlo {
 namespace {
 
 using Kind = mc::Subject::Draw::Kind;
-
-mc::SubjectOptions options(const CaseOptions& c) { return {.samples = c.samples, .seed = c.seed, .alpha = c.alpha}; }
 
 template <class D> mc::Subject on(const D& domain, Directions sampler, Density pdf, Failures failures) {
   mc::Subject s = make_subject("", domain, std::move(sampler), std::move(pdf));
@@ -52,24 +53,21 @@ Trial trial(mc::Subject subject) {
     }
     return 0;
   };
-  t.check = [subject = std::move(subject)](const CaseOptions& c) { return check_subject(subject, options(c)); };
+  t.check = [subject = std::move(subject)](const CaseOptions& c) { return check_subject(subject, c); };
   return t;
 }
 
 Trial trial(const Inverted& warp, double tolerance) {
-  Trial t = trial(on_hemisphere([warp](mc::Pcg& r) { return warp.sample(r.point<double, 2>()); }, warp.pdf));
-  t.check = [counts = t.check, warp, tolerance](const CaseOptions& c) {
+  mc::AnySampler sampler = make_sampler("", mc::Hemisphere<double>{}, warp.sample, warp.pdf);
+  sampler.invert = [invert = warp.invert](const mc::Numbers& x) -> std::optional<mc::AnySampler::Uniforms> {
+    const mc::Vec2<double> u = invert({x[0], x[1], x[2]});
+    return mc::AnySampler::Uniforms{u[0], u[1]};
+  };
+  Trial t = trial(make_subject(sampler));
+  t.check = [counts = t.check, sampler, tolerance](const CaseOptions& c) {
     mc::Report report = counts(c);
-    mc::LawLedger inverse("invert(sample(u)) = u", tolerance, mc::Fault::inverse);
-    mc::Pcg random(c.seed, 11);
-    for (int i = 0; i < 1000; ++i) {
-      const mc::Vec2<double> u = random.point<double, 2>(), off = (warp.invert(warp.sample(u)) - u).cwiseAbs();
-      // The two sides of an azimuth's seam are one point.
-      const auto turned = [](double x) { return x > 0.5 ? 1 - x : x; };
-      inverse.note(std::max(turned(off[0]), turned(off[1])),
-                   [&] { return fmt::format("u = {}", mc::detail::format_point(u)); });
-    }
-    report.checks.insert(report.checks.begin(), inverse.check());
+    for (mc::Check& check : mc::inverse_law(sampler, {.seed = c.seed, .invert_eps = tolerance / sampler.epsilon()}))
+      report.checks.insert(report.checks.begin(), std::move(check));
     return report;
   };
   return t;
@@ -79,9 +77,7 @@ Trial trial(const Scattering& bsdf, double theta_o) {
   const Direction wo = incident(theta_o);
   Trial t = trial(mc::bsdf_subject<double>(bsdf, wo));
   t.check = [bsdf, wo](const CaseOptions& c) {
-    mc::BsdfOptions o;
-    o.samples = c.samples, o.seed = c.seed, o.alpha = c.alpha;
-    return mc::check_bsdf<double>(bsdf, wo, o);
+    return mc::check_bsdf<double>(bsdf, wo, mc::with_statistics(mc::BsdfOptions{}, c));
   };
   return t;
 }
@@ -139,13 +135,13 @@ Trial law_trial(std::string law, double limit, mc::Fault fault, Numbers error) {
     mc::Report report;
     report.alpha = c.alpha;
     report.samples = c.samples;
-    mc::LawLedger ledger(law, limit, fault);
+    mc::WorstError worst(law, limit, fault);
     mc::Pcg random(c.seed);
     for (std::uint64_t i = 0; i < c.samples; ++i) {
       const double off = error(random);
-      ledger.note(off, [&] { return fmt::format("off by {:.3g} at point {}", off, i); });
+      worst.note(off, [&] { return fmt::format("off by {:.3g} at point {}", off, i); });
     }
-    report.checks.push_back(ledger.check());
+    report.checks.push_back(worst.check());
     return report;
   };
   return t;

@@ -1,6 +1,6 @@
 // A table, not a timing alone: our fan of two triangles against the parametrisation of Urena et al. 2013
 // as published, float over 50 digits.
-#include <mc/check/laws/oracle.h>
+#include <mc/check/subject/oracle.h>
 #include <mc/random/pcg.h>
 #include <mc/warp/spherical_rectangle.h>
 

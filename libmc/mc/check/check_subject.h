@@ -14,7 +14,23 @@ struct SubjectOptions {
                         ///< lets a suite of a hundred samplers pass nine seeds in ten
   std::size_t max_evaluations = 12'000'000; ///< of the density, for the expected counts
   bool evidence = false;                    ///< keep all counts and the p-value's way, for pages and plots
+  bool open_interval = false; ///< of check_laws: u in (0,1), the sampler may break where a coordinate of u is 0
 };
+
+/// The statistical part of the options of laws and BSDFs, which stands flat in them so that users write {.samples = n}.
+template <class Options> SubjectOptions statistics(const Options& o) {
+  return {o.samples, o.seed, o.alpha, o.max_evaluations, o.evidence, o.open_interval};
+}
+/// Those options with another statistical part.
+template <class Options> Options with_statistics(Options o, const SubjectOptions& s) {
+  o.samples = s.samples;
+  o.seed = s.seed;
+  o.alpha = s.alpha;
+  o.max_evaluations = s.max_evaluations;
+  o.evidence = s.evidence;
+  o.open_interval = s.open_interval;
+  return o;
+}
 
 /// Draws and tests:
 ///   per sample : finite, in the domain, pdf positive and finite, stated weight = f / pdf; failures only where allowed

@@ -21,8 +21,7 @@ inline testing::AssertionResult assert_passed(const Report& report) {
   return report.passed() ? testing::AssertionSuccess() : testing::AssertionFailure() << report.to_string();
 }
 
-template <Samplable W>
-testing::AssertionResult obeys_laws(const char* expression, const W& warp, LawOptions options = {}) {
+template <class W> testing::AssertionResult obeys_laws(const char* expression, const W& warp, LawOptions options = {}) {
   if (options.name == LawOptions{}.name) options.name = expression;
   return assert_passed(check_laws(warp, options));
 }
@@ -37,7 +36,7 @@ testing::AssertionResult obeys_bsdf_laws(const char* expression, const Bsdf& bsd
 template <class Sampler, class Pdf, Domain D>
 testing::AssertionResult samples_match_pdf(const char* expression, Sampler sampler, Pdf pdf, const D& domain,
                                            const SubjectOptions& options = {}) {
-  return assert_passed(check_subject(make_subject(expression, domain, sampler, pdf), options));
+  return assert_passed(check_subject(make_subject(make_sampler(expression, domain, sampler, pdf)), options));
 }
 
 template <class Values>

@@ -33,9 +33,9 @@ template <Real S> struct Normal {
 
   Domain domain() const { return {mean, sigma}; }
   S sample(S u) const {
-    using std::max, std::sqrt;
+    using boost::math::erfc_inv, std::max, std::sqrt;
     const S tail = max(u < S(0.5) ? u : S(1 - u), S(std::numeric_limits<S>::epsilon() / 4));
-    const S t = S(sqrt(S(2))) * S(boost::math::erfc_inv(S(2 * tail)));
+    const S t = S(sqrt(S(2))) * S(erfc_inv(S(2 * tail)));
     return u < S(0.5) ? S(mean - sigma * t) : S(mean + sigma * t);
   }
   S pdf(S x) const {
@@ -44,8 +44,8 @@ template <Real S> struct Normal {
     return S(exp(S(-t * t / 2))) / (sigma * S(sqrt(S(2 * pi<S>))));
   }
   S invert(S x) const {
-    using std::sqrt;
-    return S(boost::math::erfc(S((mean - x) / (sigma * S(sqrt(S(2))))))) / 2;
+    using boost::math::erfc, std::sqrt;
+    return S(erfc(S((mean - x) / (sigma * S(sqrt(S(2))))))) / 2;
   }
   template <Real T> Normal<T> cast() const { return {T(mean), T(sigma)}; }
 };

@@ -1,6 +1,6 @@
 #include <mc/core/turns.h>
 
-#include <mc/check/laws/oracle.h>
+#include <mc/check/subject/oracle.h>
 #include <mc/random/pcg.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include <mc/domain/annulus.h>
 
-#include "support/charts.h"
+#include "support/chart.h"
 #include <mc/core/error.h>
 
 namespace mc {
@@ -10,9 +10,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Annulus, Chart) {
   for (const double inner : {0.0, 0.5, 0.99}) {
-    expect_round_trip(Annulus<float>(float(inner), 1), 8 / (1 - inner));
-    expect_round_trip(Annulus<double>(inner, 1), 8 / (1 - inner));
-    expect_jacobian(Annulus<Oracle>(Oracle(inner), 1));
+    support::expect_chart(Annulus<float>(float(inner), 1), 8 / (1 - inner));
+    support::expect_chart(Annulus<double>(inner, 1), 8 / (1 - inner));
   }
   EXPECT_FALSE((Annulus<double>(0.5, 1).contains({0.1, 0.1})));
   EXPECT_FALSE((Annulus<double>(0.5, 1).contains({nan, 0.7})));

@@ -1,7 +1,7 @@
 // Where samplers that renderers ship break, measured on their own code: each defect is named with the figure it gave
 // there, and must not be here. Bounds over whole ranges stand with each warp's laws.
 
-#include <mc/check/laws/oracle.h>
+#include <mc/check/subject/oracle.h>
 #include <mc/random/pcg.h>
 #include <mc/warp/beckmann.h>
 #include <mc/warp/bilinear.h>

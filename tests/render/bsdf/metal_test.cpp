@@ -1,7 +1,7 @@
 #include <render/bsdf/metal.h>
 
 #include <mc/check/bsdf_laws.h>
-#include <mc/check/laws/roughness_limit.h>
+#include <mc/check/laws/bsdf/roughness_limit.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Warps of random parameters over their whole legal range against the 50-digit oracle and the bounds they state.
 
-#include <mc/check/laws/oracle.h>
+#include <mc/check/subject/oracle.h>
 #include <mc/core/error.h>
 #include <mc/random/pcg.h>
 #include <mc/warp/concept.h>

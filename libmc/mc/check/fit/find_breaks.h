@@ -1,7 +1,7 @@
 #pragma once
 /// Where a map of the unit interval jumps or bends: beside its branches.
 
-#include <mc/check/laws/oracle.h>
+#include <mc/check/subject/oracle.h>
 
 #include <functional>
 #include <vector>

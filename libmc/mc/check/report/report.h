@@ -23,6 +23,8 @@ std::string_view name(Verdict v);
 enum class Fault {
   none,
   edge,
+  zero_edge,
+  impure,
   not_finite,
   outside,
   leak,

@@ -1,6 +1,6 @@
 #include <mc/check/fit/find_breaks.h>
 
-#include <mc/check/laws/oracle.h>
+#include <mc/check/subject/oracle.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

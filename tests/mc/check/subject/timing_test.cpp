@@ -1,4 +1,4 @@
-#include <mc/check/laws/timing.h>
+#include <mc/check/subject/timing.h>
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 namespace mc {
 
 /// Collects the errors of one law over many points.
-class LawLedger {
+class WorstError {
  public:
-  LawLedger(std::string law, double limit, Fault fault) : law_(std::move(law)), limit_(limit), fault_(fault) {}
+  WorstError(std::string law, double limit, Fault fault) : law_(std::move(law)), limit_(limit), fault_(fault) {}
 
   /// One point: its error, and a description that is only made for a new worst one beyond the limit. NaN is the worst
   ///            error.

@@ -1,4 +1,4 @@
-#include <mc/check/laws/oracle.h>
+#include <mc/check/subject/oracle.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <mc/check/laws/roughness_limit.h>
+#include <mc/check/laws/bsdf/roughness_limit.h>
 
 #include <mc/core/frame.h>
 

@@ -1,0 +1,134 @@
+#include <mc/check/laws/bsdf/bsdf_law.h>
+
+#include <mc/check/subject/make_sampler.h>
+#include <mc/domain/sphere.h>
+
+namespace mc {
+
+double disagreement(double a, double b) { return a == b ? 0.0 : b != 0 ? std::abs(a / b - 1) : HUGE_VAL; }
+
+double disagreement(const Channels& a, const Channels& b) {
+  double worst = 0;
+  for (int c = 0; c < a.count; ++c) {
+    const double off = disagreement(a[c], b[c]);
+    worst = off <= worst ? worst : off;
+  }
+  return worst;
+}
+
+Channels scaled(Channels f, double factor) {
+  for (int c = 0; c < f.count; ++c) f.value[static_cast<std::size_t>(c)] *= factor;
+  return f;
+}
+
+double cosine_factor(const AnyBsdf::Direction& wi, const BsdfOptions& options) {
+  return options.cosine ? std::abs(wi.z()) : 1.0;
+}
+
+std::array<double, 3> throughput(const AnyBsdf::Sample& d, const BsdfOptions& options) {
+  std::array<double, 3> t{};
+  if (d.weight.count == 0 && !(d.pdf > 0 && d.f.count > 0)) return t;
+  for (int c = 0; c < 3; ++c)
+    t[static_cast<std::size_t>(c)] = d.weight.count > 0 ? d.weight[c] : cosine_factor(d.wi, options) / d.pdf * d.f[c];
+  return t;
+}
+
+double squared_index(const AnyBsdf::Direction& w, const BsdfOptions& options) {
+  return w.z() > 0 ? 1.0 : options.eta * options.eta;
+}
+
+std::string describe(const BsdfView& view, const DirectionPair& pair) {
+  const AnyBsdf& b = view.bsdf;
+  return fmt::format("f(wo, wi) = {}, f(wi, wo) = {}, pdf = {:.9g}, wo = {}, wi = {}", b.format(pair.there),
+                     b.format(pair.back), pair.pdf, b.format(view.wo), b.format(pair.wi));
+}
+
+namespace {
+
+using Direction = AnyBsdf::Direction;
+
+// How far a sample's own f, weight and pdf are from eval and pdf.
+double sample_disagreement(const AnyBsdf& bsdf, const Direction& wo, const AnyBsdf::Sample& d, double density,
+                           const BsdfOptions& options) {
+  double off = disagreement(d.pdf, density);
+  if (d.f.count == 0 && d.weight.count == 0) return off;
+  const Channels f = bsdf.eval(wo, d.wi);
+  if (d.f.count > 0) off = std::max(off, disagreement(d.f, f));
+  if (d.weight.count > 0)
+    off = std::max(off, disagreement(scaled(d.weight, density), scaled(f, cosine_factor(d.wi, options))));
+  return off;
+}
+
+// Probabilities of the delta lobes as the first samples state them, and whether there is more than they.
+struct Lobes {
+  std::array<double, 2> probability{};
+  bool continuous = false;
+};
+Lobes find_lobes(const AnyBsdf& bsdf, const Direction& wo, const BsdfOptions& options) {
+  Lobes lobes;
+  Pcg random(options.seed, 21);
+  for (int i = 0; i < 4096; ++i) {
+    const auto d = bsdf.sample_next(wo, random);
+    if (!d) continue;
+    if (d->delta) lobes.probability[d->transmission ? 1 : 0] = d->pdf;
+    else lobes.continuous = true;
+  }
+  return lobes;
+}
+
+AnySampler::Drawn drawn_of(const AnyBsdf& bsdf, const AnyDomain& sphere, const Direction& wo, const AnyBsdf::Sample& d,
+                           const std::array<double, 2>& lobes, const BsdfOptions& options) {
+  AnySampler::Drawn drawn;
+  drawn.x = {d.wi.x(), d.wi.y(), d.wi.z()};
+  const auto scattered = throughput(d, options);
+  const bool finite = std::all_of(scattered.begin(), scattered.end(), [](double t) { return std::isfinite(t); });
+  if (!finite) drawn.x[0] = std::numeric_limits<double>::quiet_NaN();
+  if (!finite || !detail::all_finite(d.wi) || !sphere.contains(drawn.x)) return drawn;
+  if (d.delta) {
+    drawn.atom = d.transmission ? 1 : 0;
+    drawn.pdf = d.pdf;
+    drawn.weight = d.pdf / lobes[static_cast<std::size_t>(drawn.atom)];
+    return drawn;
+  }
+  const double density = bsdf.pdf(wo, d.wi);
+  drawn.pdf = d.pdf > 0 && std::isfinite(d.pdf) ? density : 0.0;
+  drawn.weight = 1 + sample_disagreement(bsdf, wo, d, density, options);
+  return drawn;
+}
+
+std::string describe_sample_at(const AnyBsdf& bsdf, const Direction& wo, const AnySampler::Uniforms& u) {
+  const auto d = bsdf.sample(wo, u[0], {u[1], u[2]});
+  std::string text = "wo = " + bsdf.format(wo);
+  if (!d) return text + ": absorbed";
+  text += fmt::format(": wi = {}, pdf = {:.9g}", bsdf.format(d->wi), d->pdf);
+  if (d->f.count > 0) text += ", f = " + bsdf.format(d->f);
+  if (d->weight.count > 0) text += ", weight = " + bsdf.format(d->weight);
+  if (!d->delta)
+    text += fmt::format("; eval = {}, pdf() = {:.9g}", bsdf.format(bsdf.eval(wo, d->wi)), bsdf.pdf(wo, d->wi));
+  return text;
+}
+
+} // namespace
+
+AnySampler seen_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options) {
+  const Lobes lobes = find_lobes(bsdf, wo, options);
+  AnySampler s = bsdf.is_float ? detail::sampler_on(options.name, Sphere<float>{})
+                               : detail::sampler_on(options.name, Sphere<double>{});
+  if (!lobes.continuous) s.domain.dim = 0;
+  s.may_fail = true;
+  s.open_interval = options.open_interval;
+  s.weight_tolerance = options.tolerance;
+  s.mass_tolerance = options.mass_tolerance;
+  if (lobes.probability[0] > 0 || lobes.probability[1] > 0) s.atoms = {lobes.probability[0], lobes.probability[1]};
+  s.uniforms = 3;
+  s.sample = [=, sphere = s.domain](const AnySampler::Uniforms& u) -> std::optional<AnySampler::Drawn> {
+    const auto d = bsdf.sample(wo, u[0], {u[1], u[2]});
+    if (!d) return {};
+    return drawn_of(bsdf, sphere, wo, *d, lobes.probability, options);
+  };
+  s.pdf = [=](const Numbers& x) { return bsdf.pdf(wo, Direction(x[0], x[1], x[2])); };
+  s.describe = [=](const AnySampler::Uniforms& u) { return describe_sample_at(bsdf, wo, u); };
+  return s;
+}
+
+} // namespace mc

@@ -1,0 +1,60 @@
+#pragma once
+/// What a law of BSDFs is: one function in a file of its own, one row of the table in bsdf_laws.cpp.
+
+#include <mc/check/laws/worst_error.h>
+#include <mc/check/report/report.h>
+#include <mc/check/subject/any_bsdf.h>
+#include <mc/check/subject/any_sampler.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mc {
+
+/// f, both ways where that means something, and the density of one pair of directions.
+struct DirectionPair {
+  AnyBsdf::Direction wi;
+  bool across = false;    ///< wo and wi lie on two sides of the surface
+  bool both_ways = false; ///< back is f(wi, wo)
+  Channels there, back;
+  double pdf = 0;
+};
+
+/// What the laws look at: one BSDF seen from one direction.
+struct BsdfView {
+  const AnyBsdf& bsdf;
+  AnyBsdf::Direction wo;
+  const BsdfOptions& options;
+  std::vector<DirectionPair> pairs; ///< at sampled wi and at uniform ones
+  bool through = false;             ///< light crosses the surface, so directions on its other side mean something
+};
+
+struct BsdfFindings {
+  std::vector<Check> checks;
+  std::vector<Figure> figures;
+};
+using BsdfLaw = BsdfFindings(const BsdfView& view);
+
+/// The largest |a / b - 1| over the channels, 0 where both are 0.
+double disagreement(double a, double b);
+double disagreement(const Channels& a, const Channels& b);
+Channels scaled(Channels f, double factor);
+
+/// |cos wi| where eval leaves it out.
+double cosine_factor(const AnyBsdf::Direction& wi, const BsdfOptions& options);
+/// What one sample stands for: f |cos| / pdf per channel, the last one repeated; 0 where pdf = 0.
+std::array<double, 3> throughput(const AnyBsdf::Sample& sample, const BsdfOptions& options);
+/// The squared index of the medium that w runs in, which radiance carries.
+double squared_index(const AnyBsdf::Direction& w, const BsdfOptions& options);
+/// "f(wo, wi) = ..., wo = ..., wi = ..."
+std::string describe(const BsdfView& view, const DirectionPair& pair);
+
+/// The BSDF with fixed wo as a sampler on the sphere of wi. Delta lobes, at most one on either side, become discrete
+/// outcomes: 0 reflection, 1 transmission.
+///   weight : 1 where the f, weight and pdf of a sample agree with eval and pdf, or a delta lobe repeats its
+///            probability
+AnySampler seen_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options);
+
+} // namespace mc

@@ -1,0 +1,69 @@
+// At most 1 of the light that comes from everywhere leaves, exactly 1 where nothing is absorbed.
+
+#include <mc/check/laws/bsdf/bsdf_law.h>
+
+#include <mc/core/types.h>
+#include <mc/estimate/moments.h>
+
+namespace mc {
+namespace {
+
+// The white furnace: the share of light from everywhere that leaves along wo, the mean of f |cos| / pdf, per channel.
+std::array<Moments, 3> white_furnace(const BsdfView& view, const AnyBsdf::Direction& wo, int n, std::uint64_t seed) {
+  std::array<Moments, 3> albedo;
+  Pcg random(seed, 22);
+  for (int i = 0; i < n; ++i) {
+    const auto drawn = view.bsdf.sample_next(wo, random);
+    std::array<double, 3> share{};
+    if (drawn) {
+      share = throughput(*drawn, view.options);
+      if (drawn->transmission)
+        for (double& x : share) x *= squared_index(drawn->wi, view.options) / squared_index(wo, view.options);
+    }
+    for (std::size_t c = 0; c < 3; ++c) albedo[c].add(share[c]);
+  }
+  return albedo;
+}
+
+// Judges the furnace at one wo; the figure is the greatest channel's.
+Figure judge(const BsdfView& view, const AnyBsdf::Direction& wo, int n, std::uint64_t seed, WorstError& energy) {
+  const BsdfOptions& options = view.options;
+  const std::string where = view.bsdf.format(wo);
+  Figure greatest{"white furnace", -1, 0, where};
+  for (const Moments& m : white_furnace(view, wo, n, seed)) {
+    const double slack = 5 * m.std_error() + options.tolerance, mean = m.non_finite() ? HUGE_VAL : m.mean();
+    if (mean > greatest.value) {
+      greatest.value = mean;
+      greatest.std_error = m.std_error();
+    }
+    const double off = options.lossless ? std::abs(mean - 1) - slack : mean - 1 - slack;
+    energy.note(std::max(off, 0.0),
+                [&] { return fmt::format("white furnace {:.6g} +- {:.2g} at wo = {}", mean, m.std_error(), where); });
+  }
+  return greatest;
+}
+
+} // namespace
+
+BsdfFindings bsdf_energy_law(const BsdfView& view) {
+  WorstError energy("energy <= 1", 0, Fault::physics);
+  const int n = static_cast<int>(std::min<std::uint64_t>(view.options.samples, 100'000));
+  const Figure here = judge(view, view.wo, n, view.options.seed, energy);
+  Figure most{"white furnace, greatest over wo", -1, 0, {}};
+  for (int k = 0; k < 32; ++k) {
+    constexpr std::array<double, 8> cosines{1, 0.9, 0.7, 0.5, 0.3, 0.1, 0.03, 0.003};
+    const bool other_side = k % 2 == 1;
+    if (other_side && !view.through) continue;
+    const double side = (view.wo.z() < 0) == other_side ? 1 : -1;
+    const double z = side * cosines[static_cast<std::size_t>(k / 2 % 8)], phi = k < 16 ? 0.4 : 2.3;
+    const AnyBsdf::Direction w = spherical_direction<double>(std::sqrt(1 - z * z), z, phi);
+    const Figure f = judge(view, w, 1000, view.options.seed + static_cast<std::uint64_t>(k) + 1, energy);
+    if (!(f.value > most.value)) continue;
+    most.value = f.value;
+    most.std_error = f.std_error;
+    most.where = f.where;
+  }
+  return {{energy.check()}, {here, most}};
+}
+
+} // namespace mc

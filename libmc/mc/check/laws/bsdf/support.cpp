@@ -1,0 +1,17 @@
+// pdf > 0 wherever f > 0, or the estimator would miss light.
+
+#include <mc/check/laws/bsdf/bsdf_law.h>
+
+namespace mc {
+
+BsdfFindings bsdf_support_law(const BsdfView& view) {
+  WorstError support("pdf > 0 where f > 0", 0, Fault::weight);
+  for (const DirectionPair& pair : view.pairs) {
+    const Channels& f = pair.there;
+    const bool bright = std::any_of(f.value.begin(), f.value.begin() + f.count, [](double x) { return x > 0; });
+    support.note(bright && !(pair.pdf > 0) ? 1 : 0, [&] { return describe(view, pair); });
+  }
+  return {{support.check()}, {}};
+}
+
+} // namespace mc

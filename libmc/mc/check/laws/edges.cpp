@@ -1,0 +1,148 @@
+// Samples at the ends of the unit cube and beside the sampler's branches.
+
+#include <mc/check/fit/find_breaks.h>
+#include <mc/check/laws/law.h>
+
+namespace mc {
+namespace {
+
+using Kind = Subject::Draw::Kind;
+using Uniforms = AnySampler::Uniforms;
+
+bool has_zero(const AnySampler& s, const Uniforms& u) {
+  return std::any_of(u.begin(), u.begin() + s.uniforms, [](double x) { return x == 0; });
+}
+
+// Tries single u; those with a coordinate of exactly 0, a set of measure zero, are judged apart.
+class Probe {
+ public:
+  explicit Probe(const AnySampler& s) : sampler_(s) {}
+
+  void operator()(const Uniforms& u) {
+    const bool at_zero = has_zero(sampler_, u);
+    if (at_zero && sampler_.open_interval) return;
+    const Placed p = place(sampler_, sampler_.sample(u));
+    const auto fault = fault_of(p);
+    (at_zero ? zero_ : inner_).note(fault.empty() ? 0 : 1, [&] {
+      return fmt::format("{} at {}", fault, describe_sample(sampler_, u));
+    });
+  }
+
+  // A fault that only u = 0 shows is no wrong density.
+  std::vector<Check> checks() const {
+    Check inner = inner_.check(), zero = zero_.check();
+    if (sampler_.open_interval) return {inner};
+    if (inner.verdict == Verdict::pass && zero.verdict == Verdict::fail)
+      zero.detail += "; only u with a coordinate of exactly 0 does this: take 1 - u instead, or accept it as measure "
+                     "zero by open_interval (carlo validate --open-interval)";
+    return {inner, zero};
+  }
+
+ private:
+  std::string_view fault_of(const Placed& p) const {
+    switch (p.draw.kind) {
+    case Kind::failed: return sampler_.may_fail ? "" : "fails";
+    case Kind::not_finite: return "not finite";
+    case Kind::outside: return "outside the domain";
+    case Kind::atom:
+    case Kind::point: return p.draw.pdf_positive ? "" : "pdf not positive and finite";
+    }
+    return "";
+  }
+
+  const AnySampler& sampler_;
+  WorstError inner_{"edges of the unit cube", 0, Fault::edge};
+  WorstError zero_{"u = 0, an edge of measure zero", 0, Fault::zero_edge};
+};
+
+// The places of a coordinate: ends, quarters, middle, with their neighbours.
+std::vector<double> places(const AnySampler& s) {
+  const double h = s.epsilon() / 2;
+  return {0, h, 0.25, 0.5 - h / 2, 0.5, 0.5 + h, 0.75, 1 - 0x1p-24, s.last()};
+}
+
+// Every combination of the places.
+void probe_corners(const AnySampler& s, Probe& probe) {
+  const std::vector<double> at = places(s);
+  std::size_t total = 1;
+  for (int i = 0; i < s.uniforms; ++i) total *= at.size();
+  for (std::size_t k = 0; k < total; ++k) {
+    Uniforms u{};
+    std::size_t rest = k;
+    for (int i = 0; i < s.uniforms; ++i, rest /= at.size()) u[static_cast<std::size_t>(i)] = at[rest % at.size()];
+    probe(u);
+  }
+}
+
+// The six nearest numbers about t, and t - h, t, t + h.
+template <class S> void probe_about(const AnySampler& s, const Uniforms& start, std::size_t axis, S t, Probe& probe) {
+  using std::nextafter;
+  const S h = std::numeric_limits<S>::epsilon() / 2, below = nextafter(t, S(0)), above = nextafter(t, S(1));
+  Uniforms u = start;
+  for (const S place : {S(t - h), nextafter(below, S(0)), below, t, above, nextafter(above, S(1)), S(t + h)}) {
+    u[axis] = std::clamp(static_cast<double>(place), 0.0, s.last());
+    probe(u);
+  }
+}
+
+// The numbers of the point at u; where the sampler fails, of the chart at `start`.
+Numbers point_at(const AnySampler& s, const Uniforms& u, const Uniforms& start) {
+  if (const auto drawn = s.sample(u)) return drawn->x;
+  return s.domain.from_unit ? s.domain.from_unit({start[0], start[1], start[2]}).x : Numbers{};
+}
+
+// Jumps and kinks of the sampler over S along one axis.
+template <class S> std::vector<S> breaks_along(const AnySampler& s, const Uniforms& start, std::size_t axis) {
+  const std::function<std::vector<S>(const S&)> map = [&](const S& t) {
+    Uniforms u = start;
+    u[axis] = static_cast<double>(t);
+    const Numbers x = point_at(s, u, start);
+    std::vector<S> numbers;
+    for (int i = 0; i < s.domain.numbers; ++i) numbers.push_back(static_cast<S>(x[static_cast<std::size_t>(i)]));
+    return numbers;
+  };
+  return find_breaks<S>(map, 256, 4);
+}
+
+// Those of the oracle: rounding hides a kink from its own scalar.
+std::vector<Oracle> exact_breaks_along(const AnySampler& s, const Uniforms& start, std::size_t axis) {
+  const Numbers centre = s.domain.from_unit({start[0], start[1], start[2]}).x;
+  const std::function<std::vector<Oracle>(const Oracle&)> map = [&](const Oracle& t) {
+    ExactSampler::Point u{start[0], start[1], start[2]};
+    u[axis] = t;
+    const auto x = s.exact->sample(u);
+    std::vector<Oracle> numbers;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.numbers); ++i)
+      numbers.push_back(x ? (*x)[i] : Oracle(centre[i]));
+    return numbers;
+  };
+  return find_breaks<Oracle>(map, 48, 2);
+}
+
+template <class S> void probe_breaks(const AnySampler& s, std::uint64_t seed, Probe& probe) {
+  Pcg random(seed, 14);
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.uniforms); ++axis) {
+    for (int line = 0; line < (s.uniforms == 1 ? 1 : 8); ++line) {
+      const Uniforms start = law_point(s, random);
+      for (const S t : breaks_along<S>(s, start, axis)) probe_about<S>(s, start, axis, t, probe);
+      if (line > 0 || !s.exact) continue;
+      for (const Oracle& t : exact_breaks_along(s, start, axis))
+        probe_about<S>(s, start, axis, static_cast<S>(t), probe);
+    }
+  }
+}
+
+} // namespace
+
+std::vector<Check> edges_law(const AnySampler& s, const LawOptions& options) {
+  if (!s.sample) return {};
+  Probe probe(s);
+  probe_corners(s, probe);
+  if (s.domain.dim > 0) {
+    if (s.is_float) probe_breaks<float>(s, options.seed, probe);
+    else probe_breaks<double>(s, options.seed, probe);
+  }
+  return probe.checks();
+}
+
+} // namespace mc

@@ -1,0 +1,43 @@
+// invert(sample(u)) = u.
+
+#include <mc/check/laws/law.h>
+
+namespace mc {
+namespace {
+
+double size_of(const Numbers& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
+
+// The same point but for rounding, as the two sides of an azimuth's seam are.
+bool same_point(const AnySampler& s, const AnySampler::Uniforms& back, const Numbers& x) {
+  const auto again = s.sample(back);
+  if (!again) return false;
+  const Numbers apart{again->x[0] - x[0], again->x[1] - x[1], again->x[2] - x[2]};
+  return size_of(apart) <= 64 * s.epsilon() * std::max(1.0, size_of(x));
+}
+
+} // namespace
+
+std::vector<Check> inverse_law(const AnySampler& s, const LawOptions& options) {
+  if (!s.sample || !s.invert) return {};
+  WorstError error("invert(sample(u)) = u [eps]", options.invert_eps, Fault::inverse);
+  Pcg random(options.seed, 11);
+  for (int k = 0; k < 20000; ++k) {
+    const AnySampler::Uniforms u = law_point(s, random);
+    const auto drawn = s.sample(u);
+    if (!drawn || drawn->atom >= 0) continue;
+    const auto back = s.invert(drawn->x);
+    double worst = back ? 0 : HUGE_VAL;
+    for (std::size_t i = 0; back && i < static_cast<std::size_t>(s.uniforms); ++i) {
+      double off = std::abs((*back)[i] - u[i]);
+      if (off > 0.5 && off <= 1 && same_point(s, *back, drawn->x)) off = 1 - off;
+      worst = off <= worst ? worst : off;
+    }
+    error.note(worst / s.epsilon(), [&] {
+      return fmt::format("u = {}{}", format_u(s, u),
+                         back ? ", invert(sample(u)) = " + format_u(s, *back) : ": invert fails");
+    });
+  }
+  return {error.check()};
+}
+
+} // namespace mc

@@ -1,0 +1,108 @@
+// |det d sample / d u| pdf = 1, by central differences: over 50 digits where the sampler has an oracle, else in double.
+
+#include <mc/check/laws/law.h>
+
+namespace mc {
+namespace {
+
+template <class T> using Matrix = std::array<std::array<T, 3>, 3>;
+
+// Of the leading n rows and columns.
+template <class T> T determinant(const Matrix<T>& j, std::size_t n) {
+  if (n == 1) return j[0][0];
+  if (n == 2) return j[0][0] * j[1][1] - j[0][1] * j[1][0];
+  return j[0][0] * (j[1][1] * j[2][2] - j[1][2] * j[2][1]) - j[0][1] * (j[1][0] * j[2][2] - j[1][2] * j[2][0]) +
+         j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
+}
+
+Check exact_jacobian(const AnySampler& s, const LawOptions& options) {
+  const Oracle h(1e-20);
+  const auto n = static_cast<std::size_t>(s.domain.dim);
+  WorstError error("|det| pdf = 1", 1e-20, Fault::jacobian);
+  Pcg random(options.seed, 12);
+  for (std::uint64_t k = 0; k < options.points / 4; ++k) {
+    const ExactSampler::Point u = wide_law_point(s, random);
+    Matrix<Oracle> j;
+    bool fails = false;
+    for (std::size_t axis = 0; axis < n && !fails; ++axis) {
+      ExactSampler::Point ahead = u, behind = u;
+      ahead[axis] += h;
+      behind[axis] -= h;
+      const auto a = s.exact->sample(ahead), b = s.exact->sample(behind);
+      fails = !a || !b;
+      if (fails) break;
+      const ExactSampler::Point va = s.exact->locate(*a).v, vb = s.exact->locate(*b).v;
+      for (std::size_t i = 0; i < n; ++i) j[i][axis] = (va[i] - vb[i]) / (2 * h);
+    }
+    const auto x = s.exact->sample(u);
+    if (fails || !x) continue;
+    const Oracle density = s.exact->pdf(*x) * s.exact->locate(*x).jacobian;
+    const double off = std::abs(static_cast<double>(abs(determinant(j, n) * density) - 1));
+    error.note(off, [&] {
+      const Numbers c{static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
+      return fmt::format("|det| pdf - 1 = {:.3g} at u = {}", off, format_numbers({c.data(), n}, 17));
+    });
+  }
+  return error.check();
+}
+
+// |det d v / d u| at u by differences of step h; NaN where the sampler fails.
+double determinant_at(const AnySampler& s, const AnySampler::Uniforms& u, double h) {
+  const auto n = static_cast<std::size_t>(s.domain.dim);
+  Matrix<double> j{};
+  for (std::size_t axis = 0; axis < n; ++axis) {
+    AnySampler::Uniforms ahead = u, behind = u;
+    ahead[axis] += h;
+    behind[axis] -= h;
+    const auto a = s.sample(ahead), b = s.sample(behind);
+    if (!a || !b) return std::numeric_limits<double>::quiet_NaN();
+    const Numbers va = s.domain.to_unit(a->x), vb = s.domain.to_unit(b->x);
+    for (std::size_t i = 0; i < n; ++i) j[i][axis] = (va[i] - vb[i]) / (2 * h);
+  }
+  return std::abs(determinant(j, n));
+}
+
+// Three steps bound the error of their own result, which is taken off; rounding of an ill-conditioned sampler may still
+// slip through at single points, so the upper quartile is judged.
+std::vector<Check> double_jacobian(const AnySampler& s, const LawOptions& options) {
+  constexpr double limit = 1e-6, first_step = 0x1p-12;
+  struct Point {
+    double off;
+    AnySampler::Uniforms u;
+  };
+  std::vector<Point> points;
+  Pcg random(options.seed, 33);
+  for (int k = 0; k < 1000; ++k) {
+    AnySampler::Uniforms u = law_point(s, random);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.dim); ++i)
+      u[i] = first_step + (1 - 2 * first_step - 0x1p-40) * u[i];
+    const auto x = s.sample(u);
+    if (!x || x->atom >= 0) continue;
+    const double claim = s.pdf(x->x) * s.domain.from_unit(s.domain.to_unit(x->x)).jacobian;
+    const double a = claim * determinant_at(s, u, first_step), b = claim * determinant_at(s, u, first_step / 2),
+                 c = claim * determinant_at(s, u, first_step / 4);
+    const double spread = std::max({a, b, c}) - std::min({a, b, c}), off = std::abs(c - 1) - 16 * spread;
+    points.push_back({off > 0 ? off : 0.0, u});
+  }
+  Check check{"|det| pdf = 1, upper quartile", Verdict::pass, {}, 0, 0, limit, Fault::jacobian, {}};
+  if (points.size() < 100) return {check};
+  const auto quartile = points.begin() + static_cast<std::ptrdiff_t>(points.size() * 3 / 4);
+  std::nth_element(points.begin(), quartile, points.end(),
+                   [](const Point& a, const Point& b) { return a.off < b.off; });
+  check.statistic = quartile->off;
+  if (!(check.statistic <= limit)) {
+    check.verdict = Verdict::fail;
+    check.detail = describe_sample(s, quartile->u);
+  }
+  return {check};
+}
+
+} // namespace
+
+std::vector<Check> jacobian_law(const AnySampler& s, const LawOptions& options) {
+  if (!s.sample || !s.invert || s.domain.dim == 0 || s.uniforms != s.domain.dim) return {};
+  if (s.exact) return {exact_jacobian(s, options)};
+  return s.is_float ? std::vector<Check>{} : double_jacobian(s, options);
+}
+
+} // namespace mc

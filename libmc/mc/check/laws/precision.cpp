@@ -1,0 +1,41 @@
+// sample and pdf against the 50-digit oracle.
+
+#include <mc/check/laws/law.h>
+
+namespace mc {
+namespace {
+
+double size_of(const ExactSampler::Point& x) {
+  return static_cast<double>(sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
+}
+
+} // namespace
+
+std::vector<Check> precision_law(const AnySampler& s, const LawOptions& options) {
+  if (!s.sample || !s.exact) return {};
+  WorstError sample("sample against 50 digits [eps]", options.sample_eps, Fault::precision);
+  WorstError pdf("pdf against 50 digits [eps]", options.pdf_eps, Fault::precision);
+  Pcg random(options.seed, 13);
+  for (std::uint64_t k = 0; k < options.points; ++k) {
+    const AnySampler::Uniforms u = law_point(s, random);
+    const auto drawn = s.sample(u);
+    const auto exact = s.exact->sample({u[0], u[1], u[2]});
+    // Where one fails and the other does not is a matter of rounding; the rate of failures is tested with the mass.
+    if (!drawn || !exact) continue;
+    const ExactSampler::Point x{drawn->x[0], drawn->x[1], drawn->x[2]};
+    const double off = size_of({x[0] - (*exact)[0], x[1] - (*exact)[1], x[2] - (*exact)[2]}) /
+                       std::max(1.0, size_of(*exact)) / s.epsilon();
+    sample.note(
+        off, [&] { return fmt::format("{:.3g} eps at u = {}: x = {}", off, format_u(s, u), format_x(s, drawn->x)); });
+    const Oracle density = s.exact->pdf(x);
+    // Rounding may carry x across the edge of the support, where the two sides differ and both are right.
+    if (!(density > 0)) continue;
+    const double claimed = s.pdf(drawn->x);
+    const double wrong = std::abs(static_cast<double>(claimed / density) - 1) / s.epsilon();
+    pdf.note(wrong,
+             [&] { return fmt::format("{:.3g} eps at x = {}: pdf = {:.9g}", wrong, format_x(s, drawn->x), claimed); });
+  }
+  return {sample.check(), pdf.check()};
+}
+
+} // namespace mc

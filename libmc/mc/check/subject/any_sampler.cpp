@@ -1,0 +1,174 @@
+#include <mc/check/subject/any_sampler.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace mc {
+
+using Kind = Subject::Draw::Kind;
+
+AnySampler::Uniforms random_uniforms(const AnySampler& s, Pcg& random) {
+  AnySampler::Uniforms u{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.uniforms); ++i) {
+    u[i] = s.is_float ? static_cast<double>(random.uniform<float>()) : random.uniform<double>();
+    if (s.open_interval && u[i] == 0) u[i] = s.epsilon() / 2;
+  }
+  return u;
+}
+
+Placed place(const AnySampler& s, const std::optional<AnySampler::Drawn>& drawn) {
+  Placed p;
+  Subject::Draw& d = p.draw;
+  if (!drawn) {
+    d.kind = Kind::failed;
+    return p;
+  }
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  if (!std::all_of(drawn->x.begin(), drawn->x.end(), is_finite)) {
+    d.kind = Kind::not_finite;
+    return p;
+  }
+  d.weight = drawn->weight;
+  if (drawn->atom >= 0) {
+    d.kind = Kind::atom;
+    d.atom = drawn->atom;
+    const auto i = static_cast<std::size_t>(d.atom);
+    p.pdf = !std::isnan(drawn->pdf) ? drawn->pdf : i < s.atoms.size() ? s.atoms[i] : 0.0;
+  } else {
+    if (!s.domain.contains || !s.domain.contains(drawn->x)) {
+      d.kind = Kind::outside;
+      return p;
+    }
+    d.v = s.domain.to_unit(drawn->x);
+    p.pdf = std::isnan(drawn->pdf) ? s.pdf(drawn->x) : drawn->pdf;
+  }
+  d.pdf_positive = p.pdf > 0 && std::isfinite(p.pdf);
+  return p;
+}
+
+std::string format_u(const AnySampler& s, const AnySampler::Uniforms& u) {
+  return format_numbers({u.data(), static_cast<std::size_t>(s.uniforms)}, s.digits());
+}
+
+std::string format_x(const AnySampler& s, const Numbers& x) {
+  return format_numbers({x.data(), static_cast<std::size_t>(s.domain.numbers)}, s.digits());
+}
+
+namespace {
+
+// "x = (0, 1), pdf = 2, eval = 3", or what else it is.
+std::string describe_drawn(const AnySampler& s, const AnySampler::Drawn& drawn) {
+  const Placed p = place(s, drawn);
+  std::string text;
+  if (p.draw.kind == Kind::atom)
+    return fmt::format("outcome {}, {} = {:.9g}", drawn.atom, s.domain.dim > 0 ? "probability" : "pmf", p.pdf);
+  text = "x = " + format_x(s, drawn.x);
+  if (p.draw.kind != Kind::point) return text;
+  text += fmt::format(", pdf = {:.9g}", p.pdf);
+  if (s.eval) text += fmt::format(", eval = {:.9g}", s.eval(drawn.x));
+  if (drawn.weight != 1) text += fmt::format(", stated weight = {:.9g} f / pdf", drawn.weight);
+  return text;
+}
+
+// "u = (0.25, 0.5)": the random numbers that a draw took from the stream; empty where it took none or too many.
+std::string format_taken(const AnySampler& s, Pcg before, const Pcg& after) {
+  constexpr int most = 64;
+  int words = 0;
+  for (Pcg probe = before; words < most && !(probe == after); ++words) probe.next32();
+  if (words == 0 || words == most) return {};
+  const bool wide = !s.is_float && words % 2 == 0;
+  std::vector<double> u;
+  for (int i = 0; i < (wide ? words / 2 : words); ++i)
+    u.push_back(wide ? before.uniform<double>() : static_cast<double>(before.uniform<float>()));
+  return "u = " + format_numbers(u, wide ? 17 : std::numeric_limits<float>::max_digits10) + ", ";
+}
+
+std::string describe_draw(const AnySampler& s, std::uint64_t seed, std::uint64_t index) {
+  Pcg random(seed);
+  std::string text;
+  std::optional<AnySampler::Drawn> drawn;
+  if (s.sample) {
+    random.advance(index * static_cast<std::uint64_t>(s.uniforms) * (s.is_float ? 1 : 2));
+    text = describe_sample(s, random_uniforms(s, random));
+  } else {
+    Pcg before = random;
+    for (std::uint64_t i = 0; i <= index; ++i) {
+      before = random;
+      drawn = s.sample_stream(random);
+    }
+    text = format_taken(s, before, random) + (drawn ? describe_drawn(s, *drawn) : "it fails");
+  }
+  return fmt::format("{}, draw {} of Pcg({})", text, index, seed);
+}
+
+// How far one unit in the last place of the point at v moves chart coordinate `axis`.
+double resolution(const AnySampler& s, const Numbers& v, std::size_t axis) {
+  const Numbers x = s.domain.from_unit(v).x;
+  double worst = s.epsilon() * v[axis];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.numbers); ++i) {
+    Numbers y = x;
+    y[i] *= 1 + s.epsilon();
+    worst = std::max(worst, std::abs(s.domain.to_unit(y)[axis] - v[axis]));
+  }
+  return worst;
+}
+
+Subject::Draw next_draw(const AnySampler& s, Pcg& random) {
+  return place(s, s.sample ? s.sample(random_uniforms(s, random)) : s.sample_stream(random)).draw;
+}
+
+} // namespace
+
+std::string describe_sample(const AnySampler& s, const AnySampler::Uniforms& u) {
+  if (s.describe) return "u = " + format_u(s, u) + ", " + s.describe(u);
+  const auto drawn = s.sample(u);
+  return "u = " + format_u(s, u) + (drawn ? ", " + describe_drawn(s, *drawn) : ": it fails");
+}
+
+Subject make_subject(const AnySampler& sampler) {
+  const auto shared = std::make_shared<const AnySampler>(sampler);
+  const AnySampler& s = *shared;
+  Subject subject;
+  subject.name = s.name;
+  subject.dim = s.domain.dim;
+  subject.axes = s.domain.axes;
+  subject.atoms = s.atoms;
+  subject.may_fail = s.may_fail;
+  subject.epsilon = s.epsilon();
+  subject.mass_tolerance = s.mass_tolerance > 0 ? s.mass_tolerance : 64 * s.epsilon();
+  subject.weight_tolerance = s.weight_tolerance;
+  subject.draw = [shared](std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
+    Pcg random(seed);
+    for (std::size_t i = 0; i < n; ++i) out.push_back(next_draw(*shared, random));
+  };
+  subject.describe_draw = [shared](std::uint64_t seed, std::uint64_t index) {
+    return describe_draw(*shared, seed, index);
+  };
+  if (s.domain.dim == 0) return subject;
+  subject.density = [shared](const Numbers& v) {
+    const AnyDomain::Image at = shared->domain.from_unit(v);
+    return shared->pdf(at.x) * at.jacobian;
+  };
+  subject.resolution = [shared](const Numbers& v, int axis) {
+    return resolution(*shared, v, static_cast<std::size_t>(axis));
+  };
+  subject.describe_point = [shared](const Numbers& v) {
+    const Numbers x = shared->domain.from_unit(v).x;
+    return format_numbers({x.data(), static_cast<std::size_t>(shared->domain.numbers)},
+                          std::numeric_limits<float>::max_digits10);
+  };
+  if (s.invert && s.invert_tolerance > 0) {
+    subject.invert_error = s.invert_tolerance;
+    subject.invert = [shared](const Numbers& v) {
+      const auto u = shared->invert(shared->domain.from_unit(v).x);
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      return u ? Numbers{(*u)[0], (*u)[1], (*u)[2]} : Numbers{nan, nan, nan};
+    };
+  }
+  return subject;
+}
+
+} // namespace mc

@@ -1,0 +1,110 @@
+#pragma once
+/// Any sampler with its claimed density, its types erased: what the laws run over.
+
+#include <mc/check/subject/numbers.h>
+#include <mc/check/subject/oracle.h>
+#include <mc/check/subject/subject.h>
+#include <mc/random/pcg.h>
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mc {
+
+/// A domain as functions of plain numbers. Its chart runs in double whatever the sampler computes in, so that bins lose
+/// no precision; membership is tested in the sampler's own scalar.
+struct AnyDomain {
+  struct Image {
+    Numbers x{};
+    double jacobian = 0;
+  };
+  int dim = 0;            ///< of its chart; 0: no domain, discrete outcomes only
+  int numbers = 0;        ///< of a point
+  std::vector<Axis> axes; ///< what the chart's coordinates stand for
+  std::function<bool(const Numbers& x)> contains;
+  std::function<Numbers(const Numbers& x)> to_unit;
+  std::function<Image(const Numbers& v)> from_unit;
+};
+
+/// The same sampler over 50 digits.
+struct ExactSampler {
+  using Point = std::array<Oracle, 3>;
+  struct Place {
+    Point v;         ///< in the chart
+    Oracle jacobian; ///< of the chart there
+  };
+  std::function<std::optional<Point>(const Point& u)> sample;
+  std::function<Oracle(const Point& x)> pdf;
+  std::function<Place(const Point& x)> locate;
+};
+
+/// One sampler with its claimed density, whatever it is made of. Adapters to it: make_sampler.h for warps, tables,
+/// discrete distributions and pairs of functions, bsdf.h for BSDFs. make_subject turns it into what the statistical
+/// tests see. Every function but name, domain and pdf may be missing.
+struct AnySampler {
+  static constexpr int most_uniforms = 6;
+  using Uniforms = std::array<double, most_uniforms>; ///< unused entries are 0
+
+  /// What one sample says.
+  struct Drawn {
+    Numbers x{};
+    int atom = -1; ///< index of a discrete outcome, which has no place in the domain; NaN in x still shows
+    double pdf = std::numeric_limits<double>::quiet_NaN(); ///< claimed, where the adapter knows it already
+    double weight = 1; ///< stated weight * pdf / f where a weight is stated; 1 when they agree
+  };
+
+  std::string name;
+  AnyDomain domain;
+  bool is_float = false; ///< computes in float: u and x are floats
+  bool may_fail = false;
+  bool open_interval = false; ///< sample wants u in (0,1): no u is 0
+  std::vector<double> atoms;  ///< claimed probabilities of the discrete outcomes
+
+  int uniforms = 0; ///< numbers that sample takes
+  /// The sample of u in [0,1)^uniforms; nothing where it fails.
+  std::function<std::optional<Drawn>(const Uniforms& u)> sample;
+  /// The next sample of a stream, for samplers that take as many random numbers as they like. One of the two is there.
+  std::function<std::optional<Drawn>(Pcg& random)> sample_stream;
+  std::function<double(const Numbers& x)> pdf;
+
+  std::function<std::optional<Uniforms>(const Numbers& x)> invert; ///< states that sample is one to one
+  std::function<double(const Numbers& x)> eval; ///< the integrand f >= 0 that it is meant for, its largest channel
+  std::optional<ExactSampler> exact;
+  std::function<double()> ns_per_sample;                  ///< measures it
+  std::function<std::string(const Uniforms& u)> describe; ///< what the sample at u says, where x and pdf are not all
+
+  double mass_tolerance = 0;      ///< see Subject; 0: 64 epsilons
+  double weight_tolerance = 1e-4; ///< see Subject
+  double invert_tolerance = 0;    ///< on |invert(sample(u)) - u| in the statistical tests
+
+  double epsilon() const {
+    return is_float ? static_cast<double>(std::numeric_limits<float>::epsilon())
+                    : std::numeric_limits<double>::epsilon();
+  }
+  int digits() const { return is_float ? std::numeric_limits<float>::max_digits10 : 17; }
+  double last() const { return 1 - epsilon() / 2; } ///< the largest u
+};
+
+/// The next point of the unit cube, in the sampler's scalar.
+AnySampler::Uniforms random_uniforms(const AnySampler& sampler, Pcg& random);
+
+/// One sample as the tests see it, in the chart.
+struct Placed {
+  Subject::Draw draw;
+  double pdf = 0; ///< claimed density there, or probability of the outcome; 0 where it is neither
+};
+Placed place(const AnySampler& sampler, const std::optional<AnySampler::Drawn>& drawn);
+
+/// "(0.25, 0.5)": the numbers of u and of x, in full.
+std::string format_u(const AnySampler& sampler, const AnySampler::Uniforms& u);
+std::string format_x(const AnySampler& sampler, const Numbers& x);
+/// "u = 0.5, x = 2, pdf = 1", or "u = 0.5: it fails".
+std::string describe_sample(const AnySampler& sampler, const AnySampler::Uniforms& u);
+
+/// The sampler as the statistical tests see it: a stream of draws in the chart.
+Subject make_subject(const AnySampler& sampler);
+
+} // namespace mc

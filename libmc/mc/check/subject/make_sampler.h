@@ -1,0 +1,229 @@
+#pragma once
+/// Warps, discrete distributions and functions as samplers without types.
+
+#include <mc/check/subject/any_sampler.h>
+#include <mc/check/subject/chart_axes.h>
+#include <mc/check/subject/timing.h>
+#include <mc/table/concept.h>
+#include <mc/warp/concept.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace mc {
+
+/// What the checkers ask of a sampler: a Warp without its change of scalar. sample may return an optional, empty where
+/// it fails.
+template <class W>
+concept Samplable = Domain<typename W::Domain> &&
+    requires(const W w, typename W::Domain::Point x, typename W::Domain::UnitPoint u) {
+  { w.domain() } -> std::convertible_to<typename W::Domain>;
+  w.sample(u);
+  { w.pdf(x) } -> std::convertible_to<typename W::Domain::Scalar>;
+};
+
+namespace detail {
+template <class W> constexpr bool has_domain = requires(const W w) {
+  typename W::Domain;
+  { w.domain() } -> std::convertible_to<typename W::Domain>;
+};
+template <class W> constexpr bool samples_u = requires(const W w, typename W::Domain::UnitPoint u) { w.sample(u); };
+template <class W> constexpr bool has_pdf = requires(const W w, typename W::Domain::Point x) {
+  { w.pdf(x) } -> std::convertible_to<typename W::Domain::Scalar>;
+};
+} // namespace detail
+
+/// A sampler that is its own oracle, and one with an inverse.
+template <class W>
+concept HasOracle = Samplable<W> && requires(const W w) {
+  w.template cast<Oracle>();
+};
+template <class W>
+concept Invertible = Samplable<W> && requires(const W w, typename W::Domain::Point x) {
+  { w.invert(x) } -> std::convertible_to<typename W::Domain::UnitPoint>;
+};
+
+namespace detail {
+
+template <class T> struct Unwrapped { using type = T; };
+template <class T> struct Unwrapped<std::optional<T>> { using type = T; };
+/// Whether a sampler's result is optional, and what it holds.
+template <class R>
+constexpr bool may_be_empty = !std::same_as<typename Unwrapped<std::remove_cvref_t<R>>::type, std::remove_cvref_t<R>>;
+template <class R> const auto& unwrapped(const R& r) {
+  if constexpr (may_be_empty<R>) return *r;
+  else return r;
+}
+template <class R> bool is_empty(const R& r) {
+  if constexpr (may_be_empty<R>) return !r.has_value();
+  else return false;
+}
+
+/// The largest |a / b - 1| over the channels, 0 where both are 0.
+template <class F> double disagreement(const F& a, const F& b) {
+  double worst = 0;
+  for (int i = 0; i < components(a); ++i) {
+    const double x = component(a, i), y = component(b, i);
+    const double off = x == y ? 0.0 : y != 0 ? std::abs(x / y - 1) : HUGE_VAL;
+    worst = off <= worst ? worst : off;
+  }
+  return worst;
+}
+
+/// A sampler of the domain that draws nothing yet.
+template <Domain D> AnySampler sampler_on(std::string name, const D& domain) {
+  using S = typename D::Scalar;
+  using Point = typename D::Point;
+  AnySampler s;
+  s.name = std::move(name);
+  s.is_float = std::same_as<S, float>;
+  s.domain.dim = D::dim;
+  s.domain.numbers = point_size<Point>();
+  s.domain.axes = chart_axes(domain);
+  s.domain.contains = [domain](const Numbers& x) { return domain.contains(to_point<Point>(x)); };
+  const auto chart = domain.template cast<double>();
+  using Chart = std::remove_const_t<decltype(chart)>;
+  s.domain.to_unit = [chart](const Numbers& x) {
+    return to_array<double>(typename Chart::UnitPoint(chart.to_unit(to_point<typename Chart::Point>(x))));
+  };
+  s.domain.from_unit = [chart](const Numbers& v) {
+    const auto p = to_point<typename Chart::UnitPoint>(v);
+    return AnyDomain::Image{to_array<double>(typename Chart::Point(chart.from_unit(p))), chart.jacobian(p)};
+  };
+  return s;
+}
+
+/// A warp over 50 digits, compiled once for its float and its double form.
+template <Samplable O> ExactSampler exact_sampler(const O& warp) {
+  using Point = PointOf<O>;
+  using UnitPoint = UnitPointOf<O>;
+  const auto oracle = std::make_shared<const O>(warp);
+  ExactSampler e;
+  e.sample = [oracle](const ExactSampler::Point& u) -> std::optional<ExactSampler::Point> {
+    const auto drawn = oracle->sample(to_point<UnitPoint>(u));
+    if (is_empty(drawn)) return {};
+    return to_array<Oracle>(Point(unwrapped(drawn)));
+  };
+  e.pdf = [oracle](const ExactSampler::Point& x) { return Oracle(oracle->pdf(to_point<Point>(x))); };
+  e.locate = [domain = oracle->domain()](const ExactSampler::Point& x) {
+    const UnitPoint v = domain.to_unit(to_point<Point>(x));
+    return ExactSampler::Place{to_array<Oracle>(v), Oracle(domain.jacobian(v))};
+  };
+  return e;
+}
+
+/// Turns what a sampler returns into AnySampler::Drawn: a point, or a struct of x, weight and perhaps pdf.
+template <Domain D, class Held, class Pdf, class F>
+AnySampler::Drawn drawn_of(const Held& held, const D& domain, const Pdf& pdf, const F& f) {
+  AnySampler::Drawn d;
+  if constexpr (requires { held.weight; }) {
+    const typename D::Point x = held.x;
+    d.x = to_array<double>(x);
+    if (!all_finite(x) || !domain.contains(x)) return d;
+    const auto density = static_cast<typename D::Scalar>(pdf(x));
+    d.pdf = static_cast<double>(density);
+    using Value = std::remove_cvref_t<decltype(held.weight)>;
+    double off = disagreement(Value(held.weight * density), Value(f(x)));
+    if constexpr (requires { held.pdf; }) off = std::max(off, disagreement(static_cast<double>(held.pdf), d.pdf));
+    d.weight = 1 + off;
+  } else {
+    d.x = to_array<double>(typename D::Point(held));
+  }
+  return d;
+}
+
+} // namespace detail
+
+/// A sampler on a domain, its claimed density and perhaps the f it is for.
+///   sampler : takes u, a point of the unit cube of the domain's dimension, or mc::Pcg& to draw from as it likes.
+///             Returns a point x; or a struct of x, weight and perhaps pdf, whose weight must be f / pdf (a light's
+///             radiance over its density, say); or an optional of either, empty where it fails
+///   pdf, f  : functions of x; f may return several channels as an Eigen array
+template <Domain D, class Draw, class Pdf, class F = std::nullptr_t>
+AnySampler make_sampler(std::string name, const D& domain, Draw draw, Pdf pdf, F f = nullptr) {
+  using S = typename D::Scalar;
+  constexpr bool streams = std::invocable<const Draw&, Pcg&>;
+  constexpr bool takes_u = std::invocable<const Draw&, typename D::UnitPoint>;
+  static_assert(streams || takes_u, "the sampler must take u, a point of the unit cube, or mc::Pcg&");
+  const auto convert = [domain, pdf, f](const auto& result) -> std::optional<AnySampler::Drawn> {
+    using Held = typename detail::Unwrapped<std::remove_cvref_t<decltype(result)>>::type;
+    static_assert(
+        !requires(const Held& held) { held.weight; } || !std::same_as<F, std::nullptr_t>,
+        "make_sampler: a sampler that states weights needs the f they are for");
+    if (detail::is_empty(result)) return {};
+    return detail::drawn_of(detail::unwrapped(result), domain, pdf, f);
+  };
+  AnySampler s = detail::sampler_on(std::move(name), domain);
+  if constexpr (streams) {
+    s.may_fail = detail::may_be_empty<std::invoke_result_t<const Draw&, Pcg&>>;
+    s.sample_stream = [draw, convert](Pcg& random) { return convert(draw(random)); };
+  } else if constexpr (takes_u) {
+    s.may_fail = detail::may_be_empty<std::invoke_result_t<const Draw&, typename D::UnitPoint>>;
+    s.uniforms = D::dim;
+    s.sample = [draw, convert](const AnySampler::Uniforms& u) {
+      return convert(draw(detail::to_point<typename D::UnitPoint>(u)));
+    };
+  }
+  s.pdf = [pdf](const Numbers& x) {
+    return static_cast<double>(static_cast<S>(pdf(detail::to_point<typename D::Point>(x))));
+  };
+  return s;
+}
+
+/// A warp, or any struct with domain, sample and pdf, with its inverse and its oracle where it has them.
+template <Samplable W> AnySampler make_sampler(std::string name, const W& warp) {
+  using S = typename W::Domain::Scalar;
+  const auto shared = std::make_shared<const W>(warp);
+  AnySampler s = make_sampler(
+      std::move(name), typename W::Domain(warp.domain()),
+      [shared](const UnitPointOf<W>& u) { return shared->sample(u); },
+      [shared](const PointOf<W>& x) { return shared->pdf(x); });
+  if constexpr (Invertible<W>)
+    s.invert = [shared](const Numbers& x) -> std::optional<AnySampler::Uniforms> {
+      const auto u = detail::to_array<double>(UnitPointOf<W>(shared->invert(detail::to_point<PointOf<W>>(x))));
+      return AnySampler::Uniforms{u[0], u[1], u[2]};
+    };
+  if constexpr (HasOracle<W>) s.exact = detail::exact_sampler(warp.template cast<Oracle>());
+  s.ns_per_sample = [shared] {
+    Pcg random(3);
+    std::vector<UnitPointOf<W>> u(timing_inputs);
+    for (auto& one : u) one = random.point<S, W::Domain::dim>();
+    return mc::ns_per_sample(u, [&](const UnitPointOf<W>& v) {
+      const auto x = shared->sample(v);
+      return detail::is_empty(x) ? 0.0 : detail::component(detail::unwrapped(x), 0);
+    });
+  };
+  return s;
+}
+
+/// A discrete distribution: its outcomes are atoms, its weight the ratio of stated and tabulated probability. An
+/// u_remapped outside [0,1) counts as not finite.
+template <DiscreteDistribution D> AnySampler make_discrete_sampler(std::string name, const D& distribution) {
+  using S = typename D::Scalar;
+  AnySampler s;
+  s.name = std::move(name);
+  s.is_float = std::same_as<S, float>;
+  s.uniforms = 1;
+  for (std::size_t i = 0; i < distribution.size(); ++i) s.atoms.push_back(static_cast<double>(distribution.pmf(i)));
+  const auto shared = std::make_shared<const D>(distribution);
+  s.sample = [shared](const AnySampler::Uniforms& u) -> std::optional<AnySampler::Drawn> {
+    const auto drawn = shared->sample_index(static_cast<S>(u[0]));
+    AnySampler::Drawn d;
+    d.atom = static_cast<int>(drawn.index);
+    d.pdf = static_cast<double>(drawn.pmf);
+    if (!(drawn.u_remapped >= 0 && drawn.u_remapped < 1)) d.x[0] = std::numeric_limits<double>::quiet_NaN();
+    d.weight = static_cast<double>(drawn.pmf / shared->pmf(drawn.index));
+    return d;
+  };
+  s.ns_per_sample = [shared] {
+    Pcg random(3);
+    std::vector<S> u(timing_inputs);
+    for (S& one : u) one = random.uniform<S>();
+    return mc::ns_per_sample(u, [&](S one) { return static_cast<double>(shared->sample_index(one).index); });
+  };
+  return s;
+}
+
+} // namespace mc

@@ -1,0 +1,77 @@
+// What the compiler says about programs that hand the checkers something else than a sampler: at most ten lines, one of
+// which says what is missing.
+
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+struct WrongProgram {
+  const char *name, *text, *said;
+};
+
+constexpr const char* bsdf_without_pdf = R"(
+struct MyBsdf {
+  struct Sample {
+    mc::Vec3<float> wi;
+    float f, pdf;
+  };
+  float eval(const mc::Vec3<float>&, const mc::Vec3<float>&) const { return 0; }
+  std::optional<Sample> sample(const mc::Vec3<float>&, const mc::Vec2<float>&) const { return {}; }
+};
+const mc::Vec3<float> up(0, 0, 1);
+)";
+
+const std::string check_of_it = std::string("#include <mc/check/bsdf_laws.h>") + bsdf_without_pdf +
+                                "const mc::Report report = mc::check_bsdf<float>(MyBsdf{}, up);\n";
+const std::string test_of_it = std::string("#include <mc/gtest/matchers.h>") + bsdf_without_pdf +
+                               "TEST(My, Bsdf) { EXPECT_BSDF_LAWS(MyBsdf{}, up); }\n";
+
+constexpr const char* generator_in_a_warp = R"(#include <mc/check/laws.h>
+#include <random>
+struct Mine {
+  using Domain = mc::Interval<double>;
+  Domain domain() const { return {}; }
+  double sample(std::mt19937& g) const { return std::generate_canonical<double, 53>(g); }
+  double pdf(double) const { return 1; }
+};
+const mc::Report report = mc::check_laws(Mine{});
+)";
+
+constexpr const char* generator_in_a_lambda = R"(#include <mc/gtest/matchers.h>
+#include <random>
+const auto sampler = [](std::mt19937& g) { return std::generate_canonical<double, 53>(g); };
+TEST(My, Sampler) { EXPECT_SAMPLES_MATCH_PDF(sampler, [](double) { return 1.0; }, mc::Interval<double>(0, 1)); }
+)";
+
+class CompileErrors : public testing::TestWithParam<WrongProgram> {};
+
+TEST_P(CompileErrors, AreShortAndSayWhatIsMissing) {
+  const std::string base = testing::TempDir() + "/wrong_" + GetParam().name, source = base + ".cpp",
+                    said = base + ".txt";
+  mc::write_file(source, GetParam().text);
+  const std::string command = "'" MC_CXX_COMPILER "' -std=c++20 -fsyntax-only -DBOOST_MATH_DISABLE_FLOAT128"
+                              " -I'" MC_SOURCE_DIR "/libmc' $(pkg-config --cflags eigen3) '" +
+                              source + "' > '" + said + "' 2>&1";
+  EXPECT_NE(std::system(command.c_str()), 0) << "it compiles";
+  const std::string text = mc::read_file(said);
+  EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 10) << text;
+  EXPECT_THAT(text, testing::HasSubstr(GetParam().said));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Checkers, CompileErrors,
+    testing::Values(WrongProgram{"BsdfWithoutPdf", check_of_it.c_str(), "a BSDF needs pdf(wo, wi) const, a number"},
+                    WrongProgram{"BsdfWithoutPdfInATest", test_of_it.c_str(),
+                                 "a BSDF needs pdf(wo, wi) const, a number"},
+                    WrongProgram{"GeneratorInAWarp", generator_in_a_warp, "sample(u) const must take u"},
+                    WrongProgram{"GeneratorInALambda", generator_in_a_lambda, "the sampler must take u"}),
+    [](const auto& wrong) { return std::string(wrong.param.name); });
+
+} // namespace

@@ -1,0 +1,40 @@
+#include <mc/check/laws/bsdf/bsdf_law.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+mc::Channels grey(double f) {
+  mc::Channels c;
+  c.count = 1;
+  c.value[0] = f;
+  return c;
+}
+
+TEST(BsdfLaw, TheThroughputOfASample) {
+  mc::AnyBsdf::Sample s;
+  s.wi = {0, 0, 0.5};
+  s.pdf = 2;
+  s.f = grey(4);
+  EXPECT_EQ(throughput(s, {})[0], 1);
+  EXPECT_EQ(throughput(s, {.cosine = false})[0], 2);
+  s.weight = grey(3);
+  EXPECT_EQ(throughput(s, {})[2], 3) << "a stated weight counts";
+  s.weight.count = 0;
+  s.pdf = 0;
+  EXPECT_EQ(throughput(s, {})[0], 0);
+}
+
+TEST(BsdfLaw, Disagreement) {
+  EXPECT_EQ(mc::disagreement(0, 0), 0);
+  EXPECT_EQ(mc::disagreement(3, 2), 0.5);
+  EXPECT_EQ(mc::disagreement(1, 0), HUGE_VAL);
+  EXPECT_EQ(mc::disagreement(grey(3), grey(2)), 0.5);
+}
+
+TEST(BsdfLaw, RadianceCarriesTheSquaredIndex) {
+  EXPECT_EQ(mc::squared_index({0, 0, 1}, {.eta = 1.5}), 1);
+  EXPECT_EQ(mc::squared_index({0, 0, -1}, {.eta = 1.5}), 2.25);
+}
+
+} // namespace

@@ -1,0 +1,111 @@
+// Laws over samplers made by hand: what the warps of laws_test.cpp cannot show.
+
+#include <mc/check/laws.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+namespace {
+
+using mc::Fault, mc::Numbers, mc::AnySampler;
+using testing::HasSubstr;
+
+// sample(u) on the unit square with density 1.
+AnySampler on_square(std::function<Numbers(double, double)> point) {
+  AnySampler s = mc::detail::sampler_on("mine", mc::Square<double>());
+  s.uniforms = 2;
+  s.sample = [point](const AnySampler::Uniforms& u) {
+    AnySampler::Drawn d;
+    d.x = point(u[0], u[1]);
+    return std::optional(d);
+  };
+  s.pdf = [](const Numbers&) { return 1.0; };
+  return s;
+}
+
+mc::Report laws(const AnySampler& s, bool open_interval = false) {
+  return check_laws(s, {.samples = 20'000, .open_interval = open_interval});
+}
+
+TEST(Law, AFunctionOfUPasses) {
+  const mc::Report r = laws(on_square([](double a, double b) { return Numbers{a, b}; }));
+  EXPECT_TRUE(r.passed()) << r.to_string();
+}
+
+TEST(Law, ASamplerThatIgnoresUIsImpure) {
+  const auto random = std::make_shared<mc::Pcg>(7);
+  const mc::Report r = laws(on_square([random](double, double) {
+    return Numbers{random->uniform<double>(), random->uniform<double>()};
+  }));
+  EXPECT_EQ(r.fault(), Fault::impure) << r.to_string();
+  EXPECT_THAT(r.to_string(), HasSubstr("same u, same point"));
+}
+
+TEST(Law, ASamplerThatReturnsThePointBeforeIsImpure) {
+  const auto before = std::make_shared<Numbers>(Numbers{0.5, 0.5});
+  const mc::Report r = laws(on_square([before](double a, double b) {
+    const Numbers last = *before;
+    *before = {a, b};
+    return last;
+  }));
+  EXPECT_EQ(r.fault(), Fault::impure) << r.to_string();
+}
+
+TEST(Law, ASamplerThatStandsStillIsImpure) {
+  const mc::Report r = laws(on_square([](double, double) { return Numbers{0.5, 0.5}; }));
+  EXPECT_EQ(r.fault(), Fault::impure) << r.to_string();
+  EXPECT_THAT(r.to_string(), HasSubstr("another u, another point"));
+}
+
+TEST(Law, AnEdgeOfMeasureZeroIsItsOwnFindingAndCanBeAccepted) {
+  const auto interval = [](auto sample, auto pdf, bool open) {
+    return mc::check_laws(mc::Interval<double>(0, 1), sample, pdf, {.samples = 20'000, .open_interval = open});
+  };
+  const auto root = [](double u) { return std::sqrt(u); };
+  const auto ramp = [](double x) { return 2 * x; };
+  const mc::Report closed = interval(root, ramp, false);
+  EXPECT_EQ(closed.fault(), Fault::zero_edge) << closed.to_string();
+  EXPECT_THAT(closed.to_string(), HasSubstr("--open-interval"));
+  EXPECT_TRUE(interval(root, ramp, true).passed()) << interval(root, ramp, true).to_string();
+  // A wrong density stays one, and an edge that is not of measure zero too.
+  EXPECT_NE(interval(
+                root, [](double) { return 1.0; }, true)
+                .verdict(),
+            mc::Verdict::pass);
+  const auto leaves = [](double u) { return u > 1 - 1e-15 ? 2.0 : u; };
+  EXPECT_EQ(interval(
+                leaves, [](double) { return 1.0; }, true)
+                .fault(),
+            Fault::edge);
+}
+
+// An inverse without an oracle: the Jacobian is judged in double.
+TEST(Law, AnInverseStatesTheDensity) {
+  const auto with = [](double slip, double inverse_slip) {
+    AnySampler s = on_square([](double a, double b) { return Numbers{1 - std::sqrt(1 - a), b}; });
+    s.pdf = [slip](const Numbers& x) { return slip * 2 * (1 - x[0]); };
+    s.invert = [inverse_slip](const Numbers& x) {
+      return std::optional(AnySampler::Uniforms{1 - (1 - x[0]) * (1 - x[0]), inverse_slip * x[1]});
+    };
+    return laws(s);
+  };
+  EXPECT_TRUE(with(1, 1).passed()) << with(1, 1).to_string();
+  EXPECT_THAT(with(1.0001, 1).to_string(), HasSubstr("|det| pdf = 1, upper quartile fail"));
+  EXPECT_EQ(with(1, 0.99).fault(), Fault::inverse);
+}
+
+TEST(Law, WhatTheSamplerIsForIsPositiveOnlyWhereThePdfIs) {
+  AnySampler s = on_square([](double a, double b) { return Numbers{a, b}; });
+  s.eval = [](const Numbers& x) { return x[0]; };
+  EXPECT_TRUE(laws(s).passed());
+  s.eval = [](const Numbers& x) { return x[0] - 0.5; };
+  EXPECT_EQ(laws(s).fault(), Fault::physics);
+  s = on_square([](double a, double b) { return Numbers{a / 2, b}; });
+  s.pdf = [](const Numbers& x) { return x[0] <= 0.5 ? 2.0 : 0.0; };
+  s.eval = [](const Numbers&) { return 1.0; };
+  EXPECT_EQ(laws(s).fault(), Fault::support);
+}
+
+} // namespace

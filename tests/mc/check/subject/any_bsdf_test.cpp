@@ -1,0 +1,46 @@
+#include <mc/check/subject/any_bsdf.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using V = mc::Vec3<float>;
+
+struct Half {
+  struct Sample {
+    V wi;
+    Eigen::Array3f f;
+    float pdf;
+  };
+  Eigen::Array3f eval(const V&, const V&) const { return {0.1f, 0.2f, 0.3f}; }
+  float pdf(const V&, const V& wi) const { return wi.z(); }
+  std::optional<Sample> sample(const V&, const mc::Vec2<float>& u) const {
+    if (u[0] < 0.5f) return {};
+    return Sample{V(0, 0, -1), eval({}, {}), u[1]};
+  }
+};
+
+TEST(AnyBsdf, SaysWhatTheBsdfSays) {
+  const mc::AnyBsdf b = mc::any_bsdf<float>(Half{});
+  const mc::AnyBsdf::Direction wo(0, 0, 1);
+  EXPECT_TRUE(b.is_float);
+  EXPECT_FALSE(b.sample(wo, 0, {0.25, 0.5}));
+  const auto d = b.sample(wo, 0, {0.75, 0.5});
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->pdf, 0.5);
+  EXPECT_TRUE(d->transmission) << "wi lies on the other side";
+  EXPECT_FALSE(d->delta);
+  EXPECT_EQ(d->f.count, 3);
+  EXPECT_EQ(d->weight.count, 0);
+  EXPECT_EQ(b.eval(wo, wo)[1], static_cast<double>(0.2f));
+  EXPECT_EQ(b.pdf(wo, wo), 1);
+}
+
+TEST(AnyBsdf, OneChannelRepeats) {
+  mc::Channels grey;
+  grey.count = 1;
+  grey.value[0] = 0.5;
+  EXPECT_EQ(grey[2], 0.5);
+}
+
+} // namespace

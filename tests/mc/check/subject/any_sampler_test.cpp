@@ -1,0 +1,66 @@
+#include <mc/check/subject/any_sampler.h>
+
+#include <mc/check/check_subject.h>
+#include <mc/check/subject/make_sampler.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using mc::Numbers, mc::AnySampler;
+using Kind = mc::Subject::Draw::Kind;
+
+AnySampler unit() {
+  return mc::make_sampler(
+      "u", mc::Interval<double>(), [](double u) { return u; }, [](double) { return 1.0; });
+}
+
+TEST(AnySampler, EverySampleHasItsPlaceOrAReason) {
+  const AnySampler s = unit();
+  AnySampler::Drawn d;
+  d.x = {0.25};
+  EXPECT_EQ(place(s, d).draw.kind, Kind::point);
+  EXPECT_EQ(place(s, d).draw.v[0], 0.25);
+  EXPECT_EQ(place(s, d).pdf, 1);
+  d.x = {2};
+  EXPECT_EQ(place(s, d).draw.kind, Kind::outside);
+  d.x = {NAN};
+  EXPECT_EQ(place(s, d).draw.kind, Kind::not_finite);
+  EXPECT_EQ(place(s, std::nullopt).draw.kind, Kind::failed);
+}
+
+TEST(AnySampler, UnitsAreThoseOfItsScalar) {
+  AnySampler s = unit();
+  s.is_float = true;
+  mc::Pcg random(1);
+  for (int i = 0; i < 100; ++i) {
+    const double u = random_uniforms(s, random)[0];
+    EXPECT_EQ(u, static_cast<double>(static_cast<float>(u)));
+  }
+}
+
+TEST(AnySampler, APointAndALobeAtOnce) {
+  AnySampler s = unit();
+  s.atoms = {0.25};
+  s.sample = [](const AnySampler::Uniforms& u) {
+    AnySampler::Drawn d;
+    if (u[0] < 0.25) d.atom = 0;
+    else d.x[0] = (u[0] - 0.25) / 0.75;
+    return std::optional(d);
+  };
+  s.pdf = [](const Numbers&) { return 0.75; };
+  const mc::Report right = check_subject(make_subject(s), {.samples = 50'000});
+  EXPECT_TRUE(right.passed()) << right.to_string();
+  s.atoms = {0.26};
+  EXPECT_EQ(check_subject(make_subject(s), {.samples = 50'000}).verdict(), mc::Verdict::fail);
+}
+
+TEST(AnySampler, TheWitnessIsTheDraw) {
+  const mc::Subject subject = make_subject(unit());
+  std::vector<mc::Subject::Draw> draws;
+  subject.draw(1, 5, draws);
+  EXPECT_THAT(subject.describe_draw(1, 4), testing::HasSubstr(fmt::format("x = {:.17g}, pdf = 1", draws[4].v[0])));
+}
+
+} // namespace
