@@ -1,0 +1,85 @@
+/// What the error bars of integrate() are worth on integrands made by machine: for each class and method the share of
+/// runs whose 95 % interval holds the truth, as CSV on stdout.
+/// Usage: bench_mc_estimate_truth [RUNS [CALLS [REL_ERROR [FIRST_SEED [METHODS [CLASSES]]]]]]; METHODS and CLASSES are
+/// lists with commas, or all.
+///   covered : of the runs with a bar whose rounds agree;  unknown : runs that gave no bar; flagged : rounds disagree
+
+#include <integrands/random_integrands.h>
+#include <terminal/version.h>
+
+#include <mc/core/error.h>
+#include <mc/estimate/integrate.h>
+#include <mc/random/hash.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+namespace {
+
+struct Shares {
+  int runs = 0, flagged = 0, unknown = 0, below = 0, above = 0, converged = 0;
+  double squares = 0, calls = 0, width = 0;
+
+  void add(const mc::Integral& r, double truth) {
+    ++runs;
+    converged += r.stop == mc::Stop::converged;
+    calls += static_cast<double>(r.calls);
+    if (!r.consistent) ++flagged;
+    else if (!std::isfinite(r.estimate.std_error)) ++unknown;
+    else {
+      below += r.interval.hi < truth;
+      above += r.interval.lo > truth;
+      width += r.estimate.std_error / std::abs(truth);
+    }
+    squares += mc::sqr(r.estimate.value / truth - 1);
+  }
+  void print(std::string_view name, mc::Method method, double rel_error) const {
+    const double n = runs - flagged - unknown;
+    fmt::print("{},{},{:g},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.3g},{:.3g},{:.0f}\n", name, mc::name(method),
+               rel_error, runs, n > 0 ? (n - below - above) / n : 0, below / std::max(n, 1.0), above / std::max(n, 1.0),
+               double(unknown) / runs, double(flagged) / runs, double(converged) / runs, std::sqrt(squares / runs),
+               width / std::max(n, 1.0), calls / runs);
+    std::fflush(stdout);
+  }
+};
+
+bool chosen(const std::string& list, std::string_view name) {
+  return list == "all" || ("," + list + ",").find(fmt::format(",{},", name)) != std::string::npos;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const int runs = argc > 1 ? std::atoi(argv[1]) : 200;
+  const auto calls = static_cast<std::uint64_t>(argc > 2 ? std::strtod(argv[2], nullptr) : 1e5);
+  const double rel_error = argc > 3 ? std::strtod(argv[3], nullptr) : 0;
+  const std::uint64_t first = argc > 4 ? std::strtoull(argv[4], nullptr, 10) : 1;
+  const std::string methods = argc > 5 ? argv[5] : "all", classes = argc > 6 ? argv[6] : "all";
+  std::string command = "bench_mc_estimate_truth";
+  for (int i = 1; i < argc; ++i) command += fmt::format(" {}", argv[i]);
+  fmt::print("# command: {}\n# commit: {}\n# seed: {}\n", command, carlo::commit, first);
+  fmt::print("class,method,rel_error,runs,covered,low,high,unknown,flagged,converged,rel_rms,rel_std_error,calls\n");
+  for (const carlo::IntegrandClass& kind : carlo::integrand_classes()) {
+    if (!chosen(classes, kind.name)) continue;
+    for (const mc::Method method :
+         {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas, mc::Method::automatic}) {
+      if (!chosen(methods, mc::name(method))) continue;
+      Shares shares;
+      for (int i = 0; i < runs; ++i) {
+        const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
+        const carlo::Experiment e = kind.draw(mc::hash(seed, 1));
+        mc::IntegrateOptions o;
+        o.method = method;
+        o.rel_error = rel_error;
+        o.max_calls = calls;
+        o.seed = mc::hash(seed, 2);
+        o.threads = 1;
+        shares.add(mc::integrate_unit(e.f, e.dim, o), e.truth);
+      }
+      shares.print(kind.name, method, rel_error);
+    }
+  }
+}

@@ -1,0 +1,220 @@
+#include <integrands/random_integrands.h>
+
+#include <mc/core/types.h>
+#include <mc/random/pcg.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <complex>
+#include <numeric>
+
+namespace carlo {
+
+namespace {
+
+using Unit = std::span<const double>;
+
+struct Draw {
+  mc::Pcg random;
+  int dim;
+  double scale;
+
+  Draw(std::uint64_t seed, int least, int most) : random(seed), dim(integer(least, most)), scale(1) {
+    scale = std::ldexp(1.0, integer(-40, 40));
+  }
+  double between(double lo, double hi) { return lo + (hi - lo) * random.uniform<double>(); }
+  int integer(int lo, int hi) { return std::min(hi, static_cast<int>(std::floor(between(lo, hi + 1)))); }
+  std::vector<double> each(double lo, double hi) {
+    std::vector<double> v(static_cast<std::size_t>(dim));
+    for (double& x : v) x = between(lo, hi);
+    return v;
+  }
+  Experiment made(const char* name, double truth, std::function<double(Unit)> f) const {
+    return {name,
+            fmt::format("{} in {} dimensions", name, dim),
+            "made by machine",
+            dim,
+            scale * truth,
+            0,
+            0,
+            [f = std::move(f), s = scale](Unit x) { return s * f(x); }};
+  }
+};
+
+template <class Term> double product(const std::vector<double>& a, Term&& term) {
+  double p = 1;
+  for (std::size_t i = 0; i < a.size(); ++i) p *= term(i);
+  return p;
+}
+
+Experiment step(std::uint64_t seed) {
+  Draw d(seed, 1, 3);
+  const std::vector<double> a = d.each(0.05, 0.95);
+  return d.made("step", product(a, [&](std::size_t i) { return a[i]; }), [a](Unit x) {
+    for (std::size_t i = 0; i < a.size(); ++i)
+      if (x[i] >= a[i]) return 0.0;
+    return 1.0;
+  });
+}
+
+Experiment box(std::uint64_t seed) {
+  Draw d(seed, 1, 3);
+  const std::vector<double> lo = d.each(0, 0.7), width = d.each(0.1, 0.3);
+  return d.made("box", product(lo, [&](std::size_t i) { return width[i]; }), [lo, width](Unit x) {
+    for (std::size_t i = 0; i < lo.size(); ++i)
+      if (x[i] < lo[i] || x[i] >= lo[i] + width[i]) return 0.0;
+    return 1.0;
+  });
+}
+
+Experiment jump(std::uint64_t seed) {
+  Draw d(seed, 2, 8);
+  const std::vector<double> c = d.each(0.2, 4), a = d.each(0.1, 0.9);
+  const auto truth = [&](std::size_t i) { return std::expm1(i < 2 ? c[i] * a[i] : c[i]) / c[i]; };
+  return d.made("jump", product(c, truth), [c, a](Unit x) {
+    if (x[0] > a[0] || x[1] > a[1]) return 0.0;
+    double s = 0;
+    for (std::size_t i = 0; i < c.size(); ++i) s += c[i] * x[i];
+    return std::exp(s);
+  });
+}
+
+Experiment kink(std::uint64_t seed) {
+  Draw d(seed, 1, 6);
+  const std::vector<double> c = d.each(0.5, 8), a = d.each(0.05, 0.95);
+  return d.made("kink", product(c, [&](std::size_t i) { return 1 + c[i] * (mc::sqr(a[i]) + mc::sqr(1 - a[i])) / 2; }),
+                [c, a](Unit x) { return product(c, [&](std::size_t i) { return 1 + c[i] * std::abs(x[i] - a[i]); }); });
+}
+
+Experiment shell(std::uint64_t seed) {
+  Draw d(seed, 2, 3);
+  const double outer = d.between(0.15, 0.35), inner = outer - d.between(0.01, 0.1);
+  const std::vector<double> c = d.each(0.36, 0.64);
+  const double pi = mc::pi<double>, power = d.dim == 2 ? pi : 4 * pi / 3;
+  return d.made("shell", power * (std::pow(outer, d.dim) - std::pow(inner, d.dim)), [=](Unit x) {
+    double r2 = 0;
+    for (std::size_t i = 0; i < c.size(); ++i) r2 += mc::sqr(x[i] - c[i]);
+    return r2 < outer * outer && r2 >= inner * inner ? 1.0 : 0.0;
+  });
+}
+
+Experiment power_law(const char* name, Draw d, double least, double most) {
+  const std::vector<double> p = d.each(least, most);
+  std::vector<double> a = d.each(0, 1);
+  if (d.between(0, 1) < 0.5) a.assign(a.size(), 0.0);
+  const auto side = [&](std::size_t i) {
+    return (std::pow(a[i], 1 - p[i]) + std::pow(1 - a[i], 1 - p[i])) / (1 - p[i]);
+  };
+  return d.made(name, product(p, side), [p, a](Unit x) {
+    // The point itself, met with probability 2^-53, stands for its neighbourhood.
+    return product(p, [&](std::size_t i) { return std::pow(std::max(std::abs(x[i] - a[i]), 0x1p-60), -p[i]); });
+  });
+}
+Experiment singular(std::uint64_t seed) { return power_law("singular", Draw(seed, 1, 3), 0.1, 0.4); }
+Experiment infinite(std::uint64_t seed) { return power_law("infinite", Draw(seed, 1, 2), 0.5, 0.95); }
+
+Experiment peaks(std::uint64_t seed) {
+  Draw d(seed, 2, 6);
+  struct Peak {
+    std::vector<double> centre;
+    double width, height;
+  };
+  std::vector<Peak> all;
+  double truth = 0;
+  for (int k = d.integer(1, 3); k > 0; --k) {
+    const Peak p{d.each(0.15, 0.85), d.between(0.06, 0.2), d.between(0.3, 3)};
+    const auto side = [&](std::size_t i) {
+      const double s = p.width * std::sqrt(2.0);
+      return std::sqrt(mc::pi<double>) / 2 * s * (std::erf((1 - p.centre[i]) / s) + std::erf(p.centre[i] / s));
+    };
+    truth += p.height * product(p.centre, side);
+    all.push_back(p);
+  }
+  return d.made("peaks", truth, [all](Unit x) {
+    double sum = 0;
+    for (const Peak& p : all) {
+      double r2 = 0;
+      for (std::size_t i = 0; i < x.size(); ++i) r2 += mc::sqr(x[i] - p.centre[i]);
+      sum += p.height * std::exp(-r2 / (2 * p.width * p.width));
+    }
+    return sum;
+  });
+}
+
+// Rows of unit length at right angles.
+std::vector<std::vector<double>> turned_axes(Draw& d) {
+  std::vector<std::vector<double>> rows;
+  for (int k = 0; k < d.dim; ++k) {
+    std::vector<double> row = d.each(-1, 1);
+    for (const std::vector<double>& other : rows) {
+      const double along = std::inner_product(row.begin(), row.end(), other.begin(), 0.0);
+      for (std::size_t i = 0; i < row.size(); ++i) row[i] -= along * other[i];
+    }
+    const double length = std::sqrt(std::inner_product(row.begin(), row.end(), row.begin(), 0.0));
+    for (double& x : row) x /= length;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// Five standard deviations fit on every side: 6e-7 of the mass is outside.
+Experiment ridge(std::uint64_t seed) {
+  Draw d(seed, 2, 3);
+  const std::vector<std::vector<double>> axes = turned_axes(d);
+  const std::vector<double> centre = d.each(0.42, 0.58), width = d.each(0.008, 0.08);
+  const double truth = product(width, [&](std::size_t i) { return std::sqrt(2 * mc::pi<double>) * width[i]; });
+  return d.made("ridge", truth, [axes, centre, width](Unit x) {
+    double sum = 0;
+    for (std::size_t k = 0; k < width.size(); ++k) {
+      double along = 0;
+      for (std::size_t i = 0; i < x.size(); ++i) along += axes[k][i] * (x[i] - centre[i]);
+      sum += mc::sqr(along / width[k]);
+    }
+    return std::exp(-sum / 2);
+  });
+}
+
+Experiment wave(std::uint64_t seed) {
+  using namespace std::complex_literals;
+  Draw d(seed, 1, 8);
+  const double phase = d.between(0, 2 * mc::pi<double>);
+  const std::vector<double> c = d.each(0.5, 20.0 / d.dim);
+  std::complex<double> p = std::exp(1i * phase);
+  for (const double a : c) p *= (std::exp(1i * a) - 1.0) / (1i * a);
+  return d.made("wave", p.real(), [phase, c](Unit x) {
+    double s = phase;
+    for (std::size_t i = 0; i < c.size(); ++i) s += c[i] * x[i];
+    return std::cos(s);
+  });
+}
+
+Experiment powers(std::uint64_t seed) {
+  Draw d(seed, 5, 20);
+  const double p = d.between(0.5, 1);
+  return d.made("product", std::pow(std::pow(2.0, p) / (1 + p), d.dim), [p](Unit x) {
+    double f = 1;
+    for (const double u : x) f *= std::abs(4 * u - 2);
+    return std::pow(f, p);
+  });
+}
+
+} // namespace
+
+const std::vector<IntegrandClass>& integrand_classes() {
+  static const std::vector<IntegrandClass> list = {
+      {"step", "1 below a place on each axis", true, step},
+      {"box", "1 in a box", true, box},
+      {"jump", "a step times an exponential", true, jump},
+      {"kink", "a product of 1 + c |x - a|", true, kink},
+      {"shell", "1 between two spheres", true, shell},
+      {"singular", "a product of |x - a|^-p, p up to .4", true, singular},
+      {"infinite", "a product of |x - a|^-p, p from .5 to .95", false, infinite},
+      {"peaks", "up to three Gaussians", true, peaks},
+      {"ridge", "a Gaussian with turned axes", true, ridge},
+      {"wave", "the cosine of a linear form", true, wave},
+      {"product", "a product of |4 x - 2|^p", true, powers}};
+  return list;
+}
+
+} // namespace carlo
