@@ -37,6 +37,26 @@ Experiment integrand(const IntegrateOptions& o) {
   return experiment(o.integrand);
 }
 
+// The value with its error bar, or, where there is none, why.
+void print_value(const Experiment& e, const mc::Integral& r) {
+  switch (r.error_bar) {
+  case mc::ErrorBar::known:
+    std::printf("%s = %.10g ± %.2g (standard error), 95 %% in [%.10g, %.10g]\n", e.title.c_str(), r.estimate.value,
+                r.estimate.std_error, r.interval.lo, r.interval.hi);
+    break;
+  case mc::ErrorBar::unseen:
+    std::printf("%s = 0, error not known yet: the integrand was 0 at every point. What is not 0 fills at most %.2g of "
+                "the volume (95 %%); raise --max-calls, or choose a --domain around it\n",
+                e.title.c_str(), 3 / double(r.calls));
+    break;
+  case mc::ErrorBar::infinite_variance:
+    std::printf("%s = %.10g, error not known: the variance is infinite (the largest values fall off with index %.2f; a "
+                "variance needs more than 2). Substitute a variable that removes the singularity\n",
+                e.title.c_str(), r.estimate.value, r.tail_index);
+    break;
+  }
+}
+
 } // namespace
 
 int integrate(const IntegrateOptions& o) {
@@ -65,24 +85,34 @@ int integrate(const IntegrateOptions& o) {
   const mc::Integral r = mc::integrate_unit(e.f, e.dim, settings);
   progress.clear();
 
-  std::printf("%s = %.10g ± %.2g (standard error), 95 %% in [%.10g, %.10g]\n", e.title.c_str(), r.estimate.value,
-              r.estimate.std_error, r.interval.lo, r.interval.hi);
+  print_value(e, r);
   std::printf("%s calls in %s by %s; stopped: %s\n", format_count(double(r.calls)).c_str(),
               format_seconds(r.seconds).c_str(), std::string(name(r.method)).c_str(),
               std::string(name(r.stop)).c_str());
-  if (std::isfinite(e.truth))
+  if (std::isfinite(e.truth) && r.error_bar != mc::ErrorBar::known) std::printf("the true value is %.10g\n", e.truth);
+  else if (std::isfinite(e.truth))
     std::printf("the true value is %.10g, %.2f standard errors away\n", e.truth,
                 r.estimate.std_error > 0 ? std::abs(r.estimate.value - e.truth) / r.estimate.std_error : 0.0);
   if (!r.consistent)
     std::printf("warning: the rounds disagree (chi-square %.3g for %.0f degrees of freedom): distrust the error\n",
                 r.chi2, r.chi2_dof);
   if (!o.json.empty()) {
-    nlohmann::ordered_json j = {
-        {"command", o.command}, {"commit", commit},          {"seed", o.seed},
-        {"integrand", e.name},  {"value", r.estimate.value}, {"std_error", r.estimate.std_error},
-        {"lo", r.interval.lo},  {"hi", r.interval.hi},       {"calls", r.calls},
-        {"seconds", r.seconds}, {"method", name(r.method)},  {"stop", name(r.stop)},
-        {"chi2", r.chi2},       {"chi2_dof", r.chi2_dof},    {"consistent", r.consistent}};
+    nlohmann::ordered_json j = {{"command", o.command},
+                                {"commit", commit},
+                                {"seed", o.seed},
+                                {"integrand", e.name},
+                                {"value", r.estimate.value},
+                                {"std_error", r.estimate.std_error},
+                                {"lo", r.interval.lo},
+                                {"hi", r.interval.hi},
+                                {"calls", r.calls},
+                                {"seconds", r.seconds},
+                                {"method", name(r.method)},
+                                {"stop", name(r.stop)},
+                                {"error_bar", name(r.error_bar)},
+                                {"chi2", r.chi2},
+                                {"chi2_dof", r.chi2_dof},
+                                {"consistent", r.consistent}};
     if (std::isfinite(e.truth)) j["truth"] = e.truth;
     mc::write_file(o.json, j.dump(1) + "\n");
   }

@@ -41,6 +41,15 @@ Method method_from(std::string_view word) {
                           fmt::join(method_names, ", ")));
 }
 
+std::string_view name(ErrorBar bar) {
+  switch (bar) {
+  case ErrorBar::known: return "known";
+  case ErrorBar::unseen: return "unseen";
+  case ErrorBar::infinite_variance: return "infinite_variance";
+  }
+  return "";
+}
+
 std::string_view name(Stop stop) {
   switch (stop) {
   case Stop::converged: return "converged";
@@ -77,8 +86,11 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
   VectorIntegral result;
   for (std::size_t k = 0; k < run.outputs; ++k) {
     Integral r;
-    r.estimate = run.estimate(outcome.means[k]);
-    r.interval = r.estimate.interval(o.confidence);
+    const detail::Mean& mean = outcome.means[k];
+    r.estimate = detail::estimate(mean, run.calls);
+    r.interval = detail::interval(mean, o.confidence);
+    r.error_bar = mean.bar;
+    r.tail_index = outcome.seen[k].tail_index();
     r.calls = run.calls;
     r.seconds = run.seconds();
     r.method = outcome.method;
@@ -113,9 +125,13 @@ Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f,
   require(count >= 1 && count <= detail::Sequences::longest,
           "integrate_rqmc: {} points; between 1 and 2^32 are possible", count);
   Run run{{.one = &f}, 1, dim, o};
+  detail::Sequences sequences{.purpose = 0};
+  const detail::Mean mean = sequences.extend(run, count).front();
   Integral result;
-  result.estimate = run.estimate(run.means(run.evaluate_all(run.sobol_sets(0, 0, replicates), 0, count)).front());
-  result.interval = result.estimate.interval();
+  result.estimate = detail::estimate(mean, run.calls);
+  result.interval = detail::interval(mean, o.confidence);
+  result.error_bar = mean.bar;
+  result.tail_index = sequences.seen().front().tail_index();
   result.calls = run.calls;
   result.method = Method::rqmc;
   result.stop = Stop::max_calls;

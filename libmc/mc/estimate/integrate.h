@@ -26,6 +26,14 @@ Method method_from(std::string_view name);
 enum class Stop { converged, max_calls, cancelled };
 std::string_view name(Stop stop);
 
+/// What is known of the error.
+enum class ErrorBar {
+  known,
+  unseen,           ///< every value was zero: nothing tells how large those are that were not met
+  infinite_variance ///< the largest values fall off so slowly that no error bar holds
+};
+std::string_view name(ErrorBar bar);
+
 struct IntegrateProgress {
   Estimate estimate;
   std::uint64_t calls;
@@ -48,8 +56,11 @@ struct IntegrateOptions {
 
 /// An integral with its error bar and how it was found.
 struct Integral {
-  Estimate estimate;
-  Estimate::Interval interval{}; ///< two-sided, Student t for replicates
+  Estimate estimate; ///< its std_error is infinite unless error_bar is known
+  /// Two-sided, Student t for replicates, longer on the side they are skewed to; all numbers unless error_bar is known.
+  Estimate::Interval interval{};
+  ErrorBar error_bar = ErrorBar::known;
+  double tail_index = 0; ///< of the largest values, see Magnitudes; infinite for a bounded integrand
   std::uint64_t calls = 0;
   double seconds = 0;
   Method method = Method::plain; ///< the one picked

@@ -56,6 +56,14 @@ class Moments {
     count_ += other.count_;
   }
 
+  /// What would be there had every value been multiplied by 2^power.
+  Moments scaled(int power) const {
+    Moments m = *this;
+    m.mean_ = std::ldexp(mean_, power);
+    m.m2_ = std::ldexp(m2_, 2 * power);
+    return m;
+  }
+
   std::uint64_t count() const { return count_; }
   double mean() const { return mean_; }
   /// Unbiased sample variance; 0 for fewer than two values.

@@ -74,6 +74,48 @@ TEST(Integrate, TheUnitDoesNotMatter) {
   }
 }
 
+TEST(Integrate, AnySizeOfValues) {
+  for (const Method method : methods)
+    for (const double size : {1e-300, 1e-170, 1e160, 1e300}) {
+      mc::IntegrateOptions o;
+      o.method = method;
+      const mc::Integral r = mc::integrate_unit([&](Unit u) { return size * std::exp(u[0]); }, 1, o);
+      EXPECT_EQ(r.stop, mc::Stop::converged) << name(method) << size;
+      EXPECT_GT(r.estimate.std_error, 0) << name(method) << size;
+      EXPECT_LE(std::abs(r.estimate.value / size - std::expm1(1.0)), 5 * r.estimate.std_error / size) << name(method);
+    }
+}
+
+TEST(Integrate, EqualReplicatesAreNoProof) {
+  for (const Method method : methods) {
+    mc::IntegrateOptions o;
+    o.method = method;
+    o.max_calls = 100'000;
+    const mc::Integral step = mc::integrate_unit([](Unit u) { return u[0] < 0.377 ? 1.0 : 0.0; }, 1, o);
+    EXPECT_EQ(step.error_bar, mc::ErrorBar::known);
+    EXPECT_LE(step.interval.lo, 0.377) << name(method);
+    EXPECT_GE(step.interval.hi, 0.377) << name(method);
+    const mc::Integral constant = mc::integrate_unit([](Unit) { return 3.0; }, 2, o);
+    EXPECT_EQ(constant.stop, mc::Stop::converged) << name(method);
+    EXPECT_GT(constant.interval.hi, 3) << name(method);
+    const mc::Integral zero = mc::integrate_unit([](Unit) { return 0.0; }, 2, o);
+    EXPECT_EQ(zero.stop, mc::Stop::max_calls) << name(method);
+    EXPECT_EQ(zero.error_bar, mc::ErrorBar::unseen) << name(method);
+    EXPECT_EQ(zero.estimate.std_error, std::numeric_limits<double>::infinity()) << name(method);
+  }
+}
+
+TEST(Integrate, InfiniteVarianceGetsNoBar) {
+  for (const Method method : {Method::plain, Method::stratified, Method::rqmc})
+    for (const double p : {0.5, 0.9}) {
+      mc::IntegrateOptions o = with(method, 100'000);
+      const mc::Integral r = mc::integrate_unit([&](Unit u) { return std::pow(1 - u[0], -p); }, 1, o);
+      EXPECT_EQ(r.error_bar, mc::ErrorBar::infinite_variance) << name(method) << p;
+      EXPECT_EQ(r.interval.hi, std::numeric_limits<double>::infinity());
+      EXPECT_NEAR(r.tail_index, 1 / p, 0.3 / p) << name(method);
+    }
+}
+
 TEST(Integrate, StopsAtTheWantedError) {
   for (const Method method : methods) {
     mc::IntegrateOptions o;

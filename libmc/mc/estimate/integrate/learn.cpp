@@ -16,14 +16,15 @@ ImportanceGrid learn(Run& run, std::vector<double>& scale) {
     const std::uint64_t points = budget / share[k] / r;
     if (points < 8) continue;
     const std::vector<Sums> sums = run.evaluate_all(run.sobol_sets(2 + k, 0, r), 0, points, &grid, scale);
-    run.rounds.push_back(run.means(sums));
+    std::vector<Evidence> evidence;
+    run.rounds.push_back(run.means(sums, points, evidence));
     run.report(run.rounds.back());
     Sums total;
     for (const Sums& s : sums) total.merge(s);
     grid.refine(total.power, points * r);
     // Outputs of different size count alike from the second round on.
     for (std::size_t j = 0; j < run.outputs; ++j) {
-      const double size = std::hypot(total.outputs[j].mean(), std::sqrt(total.outputs[j].variance()));
+      const double size = std::hypot(total.outputs[j].mean(), total.outputs[j].variation());
       scale[j] = size > 0 && std::isfinite(1 / size) ? 1 / size : 0;
     }
   }

@@ -1,5 +1,6 @@
+#include <mc/core/types.h>
 #include <mc/estimate/integrate/mean.h>
-
+#include <mc/estimate/moments.h>
 #include <mc/stats/t_test.h>
 
 #include <boost/math/distributions/normal.hpp>
@@ -11,16 +12,89 @@
 
 namespace mc::detail {
 
-double welch(const Mean& a, const Mean& b) { return welch_dof(a.variance, a.dof, b.variance, b.dof); }
+namespace {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr double jump_share = 0.6, unseen_share = 1.5; // of one step of one replicate, in standard errors
+constexpr std::size_t memory = 4;                      // lengths that a jump is remembered for
+
+// The jump that sets replicates apart: the widest gap between neighbours, if it is wider than those of a smooth
+// distribution or all of them lie in two narrow clusters.
+double widest_jump(std::vector<double> sorted, double deviation) {
+  std::sort(sorted.begin(), sorted.end());
+  double gap = 0;
+  for (std::size_t i = 1; i < sorted.size(); ++i) gap = std::max(gap, sorted[i] - sorted[i - 1]);
+  const double rest = sorted.back() - sorted.front() - gap;
+  return gap > 1.8 * deviation || rest < gap / 4 ? gap : 0.0;
+}
+} // namespace
+
+Estimate estimate(const Mean& m, std::uint64_t calls) {
+  return Estimate::student(m.value, m.bar == ErrorBar::known ? m.error : infinity, m.dof, calls);
+}
+
+Estimate::Interval interval(const Mean& m, double confidence) {
+  if (m.bar != ErrorBar::known) return {-infinity, infinity};
+  const Estimate e = Estimate::student(m.value, m.error, m.dof, 0);
+  const Estimate::Interval plain = e.interval(confidence);
+  if (!(m.error > 0)) return plain;
+  const double t = (plain.hi - plain.lo) / (2 * m.error), shift = m.skew * m.error * (1 + 2 * t * t);
+  return {plain.lo + std::min(shift, 0.0), plain.hi + std::max(shift, 0.0)};
+}
+
+double welch(const Mean& a, const Mean& b) {
+  const double largest = std::max(a.error, b.error); // squares of shares neither vanish nor overflow
+  return largest > 0 ? welch_dof(sqr(a.error / largest), a.dof, sqr(b.error / largest), b.dof) : a.dof + b.dof;
+}
+
+Mean combined(const Mean& a, const Mean& b, double share) {
+  const Mean mine{a.value, (1 - share) * a.error, a.dof, a.skew}, other{b.value, share * b.error, b.dof, b.skew};
+  const double error = std::hypot(mine.error, other.error);
+  const auto third = [&](const Mean& m) { return error > 0 ? m.skew * std::pow(m.error / error, 3) : 0.0; };
+  return {a.value + share * (b.value - a.value), error, welch(mine, other), third(mine) + third(other), b.bar};
+}
 
 std::optional<double> deviate(const Mean& a, const Mean& b) {
-  const double error = std::sqrt(a.variance + b.variance);
-  if (!(error > 0) || !std::isfinite(error)) return {};
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  const double error = std::hypot(a.error, b.error);
+  if (!(error > 0) || a.bar != ErrorBar::known || b.bar != ErrorBar::known) return {};
   const double t =
       std::abs(a.value - b.value) / std::hypot(error, rounding * std::max(std::abs(a.value), std::abs(b.value)));
   const double tail = cdf(complement(boost::math::students_t(welch(a, b)), t));
   return quantile(complement(boost::math::normal(), std::max(tail, 1e-300)));
+}
+
+Mean replicated(std::span<const double> means, double points, const Magnitudes& seen, Evidence& evidence) {
+  const double r = static_cast<double>(means.size());
+  double largest = 0;
+  for (const double x : means) largest = std::max(largest, std::abs(x));
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  std::vector<double> scaled; // so that no square overflows or vanishes
+  Moments m;
+  for (const double x : means) {
+    scaled.push_back(std::ldexp(x, -exponent));
+    m.add(scaled.back());
+  }
+  double third = 0;
+  for (const double x : scaled) third += std::pow(x - m.mean(), 3) / r;
+  const double deviation = std::sqrt(m.variance());
+  const bool apart = deviation > rounding;
+
+  evidence.jumps.push_back(apart ? std::ldexp(widest_jump(scaled, deviation), exponent) * points : 0.0);
+  double jump = 0;
+  for (std::size_t i = evidence.jumps.size(); i > 0 && i + memory > evidence.jumps.size(); --i)
+    jump = std::max(jump, evidence.jumps[i - 1]);
+  double step = jump_share * jump;
+  if (!apart) {
+    const double range = seen.hi() - seen.lo(), size = std::max(std::abs(seen.hi()), std::abs(seen.lo()));
+    if (size == 0) return {0, 0, r - 1, 0, ErrorBar::unseen};
+    step = std::max(step, range > 0 ? jump_share * range : unseen_share * size);
+  }
+  const double index = seen.tail_index(), beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
+  const double spread = std::ldexp(deviation, exponent) / std::sqrt(r * (1 - std::min(beyond, 0.9)));
+  const double unbiased = r * r / ((r - 1) * std::max(r - 2, 1.0));
+  return {std::ldexp(m.mean(), exponent), std::hypot(spread, step / points / r), r - 1,
+          apart ? third / (deviation * deviation * deviation) * unbiased / (6 * std::sqrt(r)) : 0.0,
+          seen.infinite_variance() ? ErrorBar::infinite_variance : ErrorBar::known};
 }
 
 } // namespace mc::detail

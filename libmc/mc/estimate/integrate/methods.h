@@ -13,6 +13,7 @@ struct Outcome {
   Means means;
   Method method;
   Stop stop = Stop::max_calls;
+  std::vector<Magnitudes> seen = {}; ///< the values behind the means, one per output
 };
 
 /// Independent points.

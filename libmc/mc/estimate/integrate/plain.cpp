@@ -1,8 +1,21 @@
 #include <mc/estimate/integrate/methods.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mc::detail {
+
+namespace {
+// Of independent values. What they share of a heavy tail, and what equal values leave unseen, as in replicated().
+Mean of_values(const ScaledMoments& m, const Magnitudes& seen) {
+  const double n = static_cast<double>(seen.count()), size = std::max(std::abs(seen.lo()), std::abs(seen.hi()));
+  if (size == 0) return {0, 0, n - 1, 0, ErrorBar::unseen};
+  const double index = seen.tail_index(), beyond = index < 20 ? std::pow(n, 2 / index - 1) : 0;
+  const double spread = m.std_error() / std::sqrt(1 - std::min(beyond, 0.9));
+  return {m.mean(), std::max(spread, seen.lo() == seen.hi() ? 1.5 * size / n : 0.0), n - 1, 0,
+          seen.infinite_variance() ? ErrorBar::infinite_variance : ErrorBar::known};
+}
+} // namespace
 
 Outcome plain(Run& run, std::optional<Outcome>& last) {
   Sums total;
@@ -10,8 +23,8 @@ Outcome plain(Run& run, std::optional<Outcome>& last) {
     count = std::min(count, run.left());
     total.merge(run.evaluate_all({Independent{run.o.seed}}, first, count).front());
     Outcome out{{}, Method::plain};
-    for (const Moments& m : total.outputs)
-      out.means.push_back({m.mean(), sqr(m.std_error()), static_cast<double>(m.count() - 1)});
+    for (std::size_t k = 0; k < run.outputs; ++k) out.means.push_back(of_values(total.outputs[k], total.magnitudes[k]));
+    out.seen = total.magnitudes;
     run.report(out.means);
     if (run.converged(out.means)) out.stop = Stop::converged;
     if (out.stop == Stop::converged || run.left() == 0) return out;

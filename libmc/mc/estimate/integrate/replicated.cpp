@@ -19,11 +19,12 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
     return out.stop == Stop::converged;
   };
   const auto next = [](const Sequences& s, std::uint64_t end) {
-    return std::max(std::min<std::uint64_t>(64, end), 2 * s.length);
+    return std::max(std::min<std::uint64_t>(16, end), 2 * s.length);
   };
   const auto grow = [&](Sequences& s, std::uint64_t end) {
     for (std::uint64_t to = next(s, end); to <= end; to *= 2) {
       out.means = s.extend(run, to);
+      out.seen = s.seen();
       if (done()) return true;
     }
     return false;
@@ -47,6 +48,7 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
           run.interlaced() ? std::log2(static_cast<double>(affordable(guided)) / static_cast<double>(end)) : 0;
       if (advantage(chosen, guided, doublings) > 0) {
         out.means = guided.history.back();
+        out.seen = guided.seen();
         out.method = Method::vegas;
         chosen = std::move(guided);
         if (done()) return out;
@@ -57,6 +59,7 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   // What is left is too little for twice the length, but may do for more replicates.
   if (const auto more = static_cast<std::uint32_t>(run.left() / chosen.length); more > 0) {
     out.means = chosen.widen(run, more);
+    out.seen = chosen.seen();
     done();
   }
   return out;

@@ -10,21 +10,15 @@ namespace mc::detail {
 namespace {
 constexpr std::uint64_t chunk = 4096; // points per task: fixed, so sums do not depend on the number of threads
 constexpr std::uint64_t block = 256;  // points drawn at once
+constexpr double thread_start = 5e-4; // seconds of work that are worth waking other threads
 } // namespace
-
-void Sums::merge(const Sums& other) {
-  if (outputs.empty()) *this = other;
-  else {
-    for (std::size_t k = 0; k < outputs.size(); ++k) outputs[k].merge(other.outputs[k]);
-    for (std::size_t i = 0; i < power.size(); ++i) power[i] += other.power[i];
-  }
-}
 
 Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const ImportanceGrid* grid,
                    std::span<const double> learn) const {
   if (o.cancel && o.cancel->load()) throw Cancelled{};
   const auto d = static_cast<std::size_t>(dim);
-  Sums sums{std::vector<Moments>(outputs), std::vector<double>(learn.empty() ? 0 : d * ImportanceGrid::bins)};
+  Sums sums{std::vector<ScaledMoments>(outputs), std::vector<Magnitudes>(outputs),
+            std::vector<double>(learn.empty() ? 0 : d * ImportanceGrid::bins)};
   std::vector<double> u(block * d), values(outputs), columns(outputs * block);
   std::vector<std::uint8_t> bins(grid ? d : 0);
   for (; first < last; first += block) {
@@ -43,7 +37,13 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
       if (!learn.empty())
         for (std::size_t j = 0; j < d; ++j) sums.power[j * ImportanceGrid::bins + bins[j]] += power;
     }
-    for (std::size_t k = 0; k < outputs; ++k) sums.outputs[k].add(std::span(columns).subspan(k * block, n), first);
+    for (std::size_t k = 0; k < outputs; ++k) {
+      const std::span<double> column = std::span(columns).subspan(k * block, n);
+      Magnitudes sizes;
+      sizes.add(column);
+      sums.magnitudes[k].merge(sizes);
+      sums.outputs[k].add(column, first, std::max(std::abs(sizes.lo()), std::abs(sizes.hi())));
+    }
   }
   return sums;
 }
@@ -52,13 +52,19 @@ std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint
                                     const ImportanceGrid* grid, std::span<const double> learn) {
   const std::uint64_t chunks = (count + chunk - 1) / chunk;
   std::vector<Sums> parts(sets.size() * chunks), results(sets.size());
-  parallel_for(parts.size(), o.threads, [&](std::size_t i) {
+  const auto task = [&](std::size_t i) {
     const std::uint64_t begin = first + i % chunks * chunk;
     parts[i] = evaluate(sets[i / chunks], begin, std::min(begin + chunk, first + count), grid, learn);
-  });
+  };
+  // Threads start when they pay: the first task is timed.
+  const auto begin = std::chrono::steady_clock::now();
+  task(0);
+  const std::chrono::duration<double> once = std::chrono::steady_clock::now() - begin;
+  const bool pays = once.count() * static_cast<double>(parts.size() - 1) > thread_start;
+  parallel_for(parts.size() - 1, pays ? o.threads : 1, [&](std::size_t i) { task(i + 1); });
   for (std::size_t i = 0; i < parts.size(); ++i) results[i / chunks].merge(parts[i]);
   for (std::size_t r = 0; r < sets.size(); ++r)
-    for (const Moments& m : results[r].outputs) require_finite(m, sets[r], grid);
+    for (const ScaledMoments& m : results[r].outputs) require_finite(m.moments(), sets[r], grid);
   calls += count * sets.size();
   return results;
 }
@@ -86,12 +92,17 @@ std::vector<PointSet> Run::sobol_sets(std::uint64_t purpose, std::uint32_t first
   return sets;
 }
 
-Means Run::means(const std::vector<Sums>& replicates) const {
+Means Run::means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence) const {
+  evidence.resize(outputs);
   Means all;
   for (std::size_t k = 0; k < outputs; ++k) {
-    Moments m;
-    for (const Sums& s : replicates) m.add(s.outputs[k].mean());
-    all.push_back({m.mean(), sqr(m.std_error()), static_cast<double>(replicates.size() - 1)});
+    std::vector<double> values;
+    Magnitudes seen;
+    for (const Sums& s : replicates) {
+      values.push_back(s.outputs[k].mean());
+      seen.merge(s.magnitudes[k]);
+    }
+    all.push_back(replicated(values, static_cast<double>(points), seen, evidence[k]));
   }
   return all;
 }
@@ -104,17 +115,16 @@ void Run::compare(const Means& a, const Means& b) {
     }
 }
 
-Estimate Run::estimate(const Mean& m) const { return Estimate::student(m.value, std::sqrt(m.variance), m.dof, calls); }
-
 bool Run::converged(const Means& all) const {
   for (const Mean& m : all)
-    if (const double error = estimate(m).std_error; !(error <= o.abs_error || error <= o.rel_error * std::abs(m.value)))
+    if (const double error = estimate(m, calls).std_error;
+        !std::isfinite(error) || !(error <= o.abs_error || error <= o.rel_error * std::abs(m.value)))
       return false;
   return true;
 }
 
 void Run::report(const Means& all) const {
-  if (o.progress) o.progress({estimate(all.front()), calls, seconds()});
+  if (o.progress) o.progress({estimate(all.front(), calls), calls, seconds()});
 }
 
 } // namespace mc::detail

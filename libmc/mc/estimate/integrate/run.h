@@ -4,7 +4,7 @@
 #include <mc/estimate/importance_grid.h>
 #include <mc/estimate/integrate.h>
 #include <mc/estimate/integrate/mean.h>
-#include <mc/estimate/moments.h>
+#include <mc/estimate/integrate/sums.h>
 #include <mc/estimate/point_set.h>
 
 #include <chrono>
@@ -16,13 +16,6 @@ namespace mc::detail {
 
 /// Thrown by a run that was cancelled; never leaves integrate().
 struct Cancelled {};
-
-/// What one task adds up: moments of every output, and what the grid learns from.
-struct Sums {
-  std::vector<Moments> outputs;
-  std::vector<double> power;
-  void merge(const Sums& other);
-};
 
 /// One value or several, without a call through another for the one.
 struct Integrand {
@@ -60,12 +53,11 @@ struct Run {
   /// Replicates [first, last) of the sequences for a purpose.
   std::vector<PointSet> sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const;
 
-  /// The mean of the replicates' means, its variance from their spread.
-  Means means(const std::vector<Sums>& replicates) const;
+  /// The means of replicates of so many points each; `evidence` holds one entry per output, or none at first.
+  Means means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence) const;
   /// Adds to chi2 how far two independent means lie apart.
   void compare(const Means& a, const Means& b);
 
-  Estimate estimate(const Mean& m) const;
   bool converged(const Means& all) const;
   void report(const Means& all) const;
 

@@ -16,11 +16,14 @@ struct Sequences {
   std::vector<PointSet> sets = {};
   std::vector<Sums> sums = {};
   std::vector<Means> history = {}; ///< at each length
+  std::vector<Evidence> evidence = {};
 
   static constexpr std::uint64_t longest = std::uint64_t{1} << 32;
 
   /// The means once every sequence has `to` points.
   Means extend(Run& run, std::uint64_t to);
+  /// The values behind the means, one per output.
+  std::vector<Magnitudes> seen() const;
   /// The means with `count` more sequences, as long as the others.
   Means widen(Run& run, std::uint32_t count);
 };

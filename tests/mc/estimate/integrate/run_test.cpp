@@ -17,24 +17,23 @@ TEST(Run, SumsEveryPointOnceInAnyCut) {
   EXPECT_EQ(run.calls, 60'000u);
   for (std::size_t r = 0; r < sets.size(); ++r) {
     parts[r].merge(rest[r]);
-    EXPECT_EQ(parts[r].outputs[0].count(), whole[r].outputs[0].count());
+    EXPECT_EQ(parts[r].outputs[0].moments().count(), whole[r].outputs[0].moments().count());
     EXPECT_NEAR(parts[r].outputs[0].mean(), whole[r].outputs[0].mean(), 1e-14);
-    EXPECT_NEAR(parts[r].outputs[0].variance(), whole[r].outputs[0].variance(), 1e-13);
+    EXPECT_NEAR(parts[r].outputs[0].variation(), whole[r].outputs[0].variation(), 1e-13);
   }
 }
 
 TEST(Run, MeansAreThoseOfTheReplicates) {
   mc::IntegrateOptions o;
-  const detail::Run run{{.one = &sum}, 1, 2, o};
-  std::vector<mc::detail::Sums> replicates(2);
-  for (std::size_t r = 0; r < 2; ++r) {
-    replicates[r].outputs.resize(1);
-    for (const double x : {1.0, 3.0}) replicates[r].outputs[0].add(x + static_cast<double>(r));
-  }
-  const mc::detail::Means means = run.means(replicates); // of 2 and 3
-  EXPECT_EQ(means[0].value, 2.5);
-  EXPECT_EQ(means[0].variance, 0.25);
-  EXPECT_EQ(means[0].dof, 1);
+  detail::Run run{{.one = &sum}, 1, 2, o};
+  const auto sums = run.evaluate_all(run.sobol_sets(1, 0, 24), 0, 100);
+  std::vector<mc::detail::Evidence> evidence;
+  const mc::detail::Mean mean = run.means(sums, 100, evidence)[0];
+  mc::Moments m;
+  for (const auto& s : sums) m.add(s.outputs[0].mean());
+  EXPECT_DOUBLE_EQ(mean.value, m.mean());
+  EXPECT_NEAR(mean.error, m.std_error(), 1e-2 * m.std_error());
+  EXPECT_EQ(mean.dof, 23);
 }
 
 TEST(Run, ReplicatesAndPurposesDiffer) {

@@ -1,0 +1,71 @@
+#include <mc/estimate/magnitudes.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace mc {
+
+void Magnitudes::raise(int top) {
+  if (top <= top_) return;
+  std::array<std::uint64_t, octaves> moved{};
+  for (int i = 0; i < octaves; ++i)
+    moved[static_cast<std::size_t>(std::min(i + (top - top_), octaves - 1))] += below_[static_cast<std::size_t>(i)];
+  below_ = moved;
+  top_ = top;
+}
+
+void Magnitudes::add(std::span<const double> values) {
+  for (const double x : values) {
+    const auto exponent = static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff);
+    if (exponent == 0x7ff) continue;
+    if (exponent > top_) [[unlikely]]
+      raise(exponent);
+    ++below_[static_cast<std::size_t>(std::min(top_ - exponent, octaves - 1))];
+    if (count_++ == 0) lo_ = hi_ = x;
+    lo_ = std::min(lo_, x);
+    hi_ = std::max(hi_, x);
+  }
+}
+
+void Magnitudes::merge(const Magnitudes& other) {
+  if (other.count_ == 0) return;
+  lo_ = count_ > 0 ? std::min(lo_, other.lo_) : other.lo_;
+  hi_ = count_ > 0 ? std::max(hi_, other.hi_) : other.hi_;
+  count_ += other.count_;
+  raise(other.top_);
+  for (int i = 0; i < octaves; ++i)
+    below_[static_cast<std::size_t>(std::min(i + (top_ - other.top_), octaves - 1))] +=
+        other.below_[static_cast<std::size_t>(i)];
+}
+
+double Magnitudes::tail_index(std::uint64_t largest) const {
+  std::uint64_t above = 0, weighed = 0; // values in the octaves so far, each weighed by its place
+  std::size_t i = 0;
+  for (; i < octaves && above < largest; ++i) {
+    above += below_[i];
+    weighed += i * below_[i];
+  }
+  if (i == octaves) return std::numeric_limits<double>::infinity(); // zeros, or all but zeros
+  const std::uint64_t steps = (i - 1) * above - weighed;            // octaves above the threshold, summed
+  if (above == 0 || steps == 0) return std::numeric_limits<double>::infinity();
+  return std::log2(1 + static_cast<double>(above) / static_cast<double>(steps));
+}
+
+double Magnitudes::tail_index() const {
+  const double few = tail_index(few_largest()), many = tail_index(many_largest());
+  return few > 1.3 * many ? std::numeric_limits<double>::infinity() : few;
+}
+
+bool Magnitudes::infinite_variance() const {
+  if (count_ < 8192) return false;
+  const double few = tail_index(), many = tail_index(many_largest());
+  const auto below_two = [](double index, std::uint64_t largest) {
+    return index < 2 * (1 + 1.5 * 1.1 / std::sqrt(static_cast<double>(largest)));
+  };
+  // A power law beside something larger shows only in the few.
+  return below_two(few, few_largest()) && (below_two(many, many_largest()) || (many > 4 && few < 1.5));
+}
+
+} // namespace mc
