@@ -53,6 +53,17 @@ double ImportanceGrid::map(std::span<double> u, std::span<std::uint8_t> bin) con
   return jacobian;
 }
 
+double ImportanceGrid::density(std::span<const double> x) const {
+  double density = 1;
+  const double* e = edges_.data();
+  for (const double coordinate : x) {
+    const auto i = static_cast<std::size_t>(std::upper_bound(e + 1, e + bins, coordinate) - e);
+    density /= bins * (e[i] - e[i - 1]);
+    e += bins + 1;
+  }
+  return density;
+}
+
 void ImportanceGrid::refine(std::span<const double> power, std::uint64_t points) {
   MC_ASSERT(power.size() == static_cast<std::size_t>(dim_) * bins);
   std::array<double, bins> mass;

@@ -81,8 +81,7 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
     outcome = *last;
     outcome.stop = Stop::cancelled;
   }
-  if (outcome.method == Method::vegas)
-    for (const detail::Means& round : run.rounds) run.compare(round, outcome.means);
+  for (const detail::Means& round : run.rounds) run.compare(round, outcome.means);
   VectorIntegral result;
   for (std::size_t k = 0; k < run.outputs; ++k) {
     Integral r;

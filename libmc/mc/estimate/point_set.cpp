@@ -58,7 +58,11 @@ void fill(const ScrambledSobol& set, std::uint64_t first, std::size_t dim, std::
       const auto dimension = static_cast<std::uint32_t>(d);
       if (dimension < Sobol::dimensions) {
         coordinates(sobol, set.seed, dimension, base, skip, count, x);
-        for (std::size_t i = 0; i < count; ++i) out[i * dim + d] = (static_cast<double>(x[skip + i]) + 0.5) * 0x1p-32;
+        const std::uint64_t key = hash(set.seed, dimension);
+        for (std::size_t i = 0; i < count; ++i) { // 52 bits, then the middle of their interval
+          const std::uint64_t low = mix64(key ^ (base + skip + i)) & 0xfffff;
+          out[i * dim + d] = (static_cast<double>(std::uint64_t{x[skip + i]} << 20 | low) + 0.5) * 0x1p-52;
+        }
       } else {
         for (std::size_t i = 0; i < count; ++i)
           out[i * dim + d] = coordinate<double>(sobol, base + skip + i, dimension);

@@ -26,6 +26,18 @@ template <class F> ImportanceGrid learned(F&& f, int rounds) {
   return grid;
 }
 
+TEST(ImportanceGrid, DensityIsTheInverseOfTheJacobian) {
+  const ImportanceGrid grid = learned([](double x) { return 1 / (1e-4 + mc::sqr(x - 0.3)); }, 4);
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    std::array<double, 1> u = {mc::coordinate<double>(mc::Independent{2}, i, 0)};
+    std::array<std::uint8_t, 1> bin;
+    const double jacobian = grid.map(u, bin);
+    EXPECT_NEAR(grid.density(u) * jacobian, 1, 1e-9);
+  }
+  EXPECT_GT(grid.density(std::array{0.0}), 0);
+  EXPECT_GT(grid.density(std::array{1 - 0x1p-53}), 0);
+}
+
 TEST(ImportanceGrid, StartsAsTheIdentity) {
   const ImportanceGrid grid(2);
   std::array u = {0.3, 0.9999};

@@ -138,6 +138,34 @@ TEST(Integrate, AutomaticPicksTheGridWhereItHelps) {
             Method::plain);
 }
 
+// What a product of axes cannot follow: automatic is never much worse than its own rqmc, and its interval holds.
+TEST(Integrate, AutomaticIsNotWorseThanRqmc) {
+  const auto two_peaks = [](Unit u) {
+    double a = 0, b = 0;
+    for (const double x : u) {
+      a += mc::sqr((x - 0.3) / 0.07);
+      b += mc::sqr((x - 0.7) / 0.07);
+    }
+    return std::exp(-a / 2) + std::exp(-b / 2);
+  };
+  double side = 1; // of one peak, by each axis
+  for (int d = 0; d < 5; ++d)
+    side *= 0.07 * std::sqrt(mc::pi<double> / 2) *
+            (std::erf(0.7 / 0.07 / std::sqrt(2.0)) + std::erf(0.3 / 0.07 / std::sqrt(2.0)));
+  double squares[2] = {};
+  int covered = 0;
+  constexpr int runs = 30;
+  for (std::uint64_t seed = 1; seed <= runs; ++seed)
+    for (const int k : {0, 1}) {
+      const mc::Integral r =
+          mc::integrate_unit(two_peaks, 5, with(k ? Method::automatic : Method::rqmc, 100'000, seed));
+      squares[k] += mc::sqr(r.estimate.value / (2 * side) - 1);
+      if (k) covered += r.interval.lo <= 2 * side && 2 * side <= r.interval.hi;
+    }
+  EXPECT_LE(std::sqrt(squares[1] / squares[0]), 1.3); // 30 errors know their size to 13 %
+  EXPECT_GE(covered, 24); // 28.5 expected; below 25 by chance in 5e-4 of the choices of seeds
+}
+
 TEST(Integrate, DomainsAndWarps) {
   const auto cos2 = [](const mc::Vec3<double>& w) { return w.z() * w.z(); };
   const mc::Integral sphere = mc::integrate(cos2, mc::Sphere<double>{}, with(Method::rqmc, 100'000));

@@ -19,7 +19,8 @@ TEST(PointSet, SobolBlocksAreTheSequence) {
     for (std::size_t i = 0; i < u.size(); ++i) {
       const auto bits =
           static_cast<std::uint32_t>(sobol.bits(first + i / dim, static_cast<std::uint32_t>(i % dim)) >> 32);
-      EXPECT_EQ(u[i], (bits + 0.5) * 0x1p-32);
+      EXPECT_EQ(std::floor(std::ldexp(u[i], 32)), bits);
+      EXPECT_EQ(std::ldexp(u[i], 52) - std::floor(std::ldexp(u[i], 52)), 0.5);
       EXPECT_GT(u[i], 0);
       EXPECT_LT(u[i], 1);
     }

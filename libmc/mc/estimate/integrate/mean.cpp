@@ -87,7 +87,7 @@ Mean replicated(std::span<const double> means, double points, const Magnitudes& 
   if (!apart) {
     const double range = seen.hi() - seen.lo(), size = std::max(std::abs(seen.hi()), std::abs(seen.lo()));
     if (size == 0) return {0, 0, r - 1, 0, ErrorBar::unseen};
-    step = std::max(step, range > 0 ? jump_share * range : unseen_share * size);
+    step = std::max(step, range > 1e-9 * size ? jump_share * range : unseen_share * size);
   }
   const double index = seen.tail_index(), beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
   const double spread = std::ldexp(deviation, exponent) / std::sqrt(r * (1 - std::min(beyond, 0.9)));

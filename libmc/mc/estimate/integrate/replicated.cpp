@@ -7,10 +7,23 @@
 
 namespace mc::detail {
 
+namespace {
+// What an advantage must exceed to be more than the chance of variances that few replicates estimate, the more the more
+// skewed they are: where few points met what counts, either may look good.
+double doubt(const Sequences& a, const Sequences& b) {
+  double sum = 0;
+  for (const Sequences* s : {&a, &b})
+    for (const Mean& m : s->history.back()) sum += 0.35 + 10 * std::abs(m.skew);
+  return sum;
+}
+} // namespace
+
 Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   Outcome out{{}, method == Method::vegas ? Method::vegas : Method::rqmc};
   const auto affordable = [&](const Sequences& s) {
-    return std::min(std::bit_floor(s.length + run.left() / run.o.replicates), Sequences::longest);
+    return std::min(std::bit_floor(s.length + static_cast<std::uint64_t>(
+                                                  static_cast<double>(run.left() / run.o.replicates) / s.cost())),
+                    Sequences::longest);
   };
   const auto done = [&] {
     run.report(out.means);
@@ -33,11 +46,10 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   Sequences chosen{.purpose = 0};
   if (method == Method::rqmc && grow(chosen, affordable(chosen))) return out;
   if (method == Method::automatic && grow(chosen, std::max<std::uint64_t>(affordable(chosen) / 16, 1))) return out;
-  std::optional<ImportanceGrid> grid;
+  std::optional<Learned> learned;
   if (method != Method::rqmc) {
-    std::vector<double> scale(run.outputs, 1.0);
-    grid = learn(run, scale);
-    Sequences guided{.purpose = 1, .grid = &*grid};
+    learned = learn(run);
+    Sequences guided{.purpose = 1, .proposal = {&learned->grid, learned->centre}};
     if (method == Method::vegas) chosen = std::move(guided);
     else {
       const std::uint64_t end = std::min(chosen.length, affordable(guided));
@@ -46,18 +58,22 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
       // would end with.
       const double doublings =
           run.interlaced() ? std::log2(static_cast<double>(affordable(guided)) / static_cast<double>(end)) : 0;
-      if (advantage(chosen, guided, doublings) > 0) {
+      if (!run.disagree(chosen.history.back(), guided.history.back()) &&
+          advantage(chosen, guided, doublings) > doubt(chosen, guided)) {
+        run.rounds.push_back(chosen.history.back());
         out.means = guided.history.back();
         out.seen = guided.seen();
         out.method = Method::vegas;
         chosen = std::move(guided);
         if (done()) return out;
-      } else run.rounds.clear();
+      } else run.rounds = {guided.history.back()};
     }
     if (grow(chosen, affordable(chosen))) return out;
   }
   // What is left is too little for twice the length, but may do for more replicates.
-  if (const auto more = static_cast<std::uint32_t>(run.left() / chosen.length); more > 0) {
+  if (const auto more = static_cast<std::uint32_t>(static_cast<double>(run.left()) /
+                                                   (static_cast<double>(chosen.length) * chosen.cost()));
+      more > 0) {
     out.means = chosen.widen(run, more);
     out.seen = chosen.seen();
     done();

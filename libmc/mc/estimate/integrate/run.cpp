@@ -13,48 +13,73 @@ constexpr std::uint64_t block = 256;  // points drawn at once
 constexpr double thread_start = 5e-4; // seconds of work that are worth waking other threads
 } // namespace
 
-Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const ImportanceGrid* grid,
-                   std::span<const double> learn) const {
+namespace {
+// How the values at one point count: value * factor - centre * shift.
+struct Weight {
+  double factor = 1, shift = 0;
+};
+
+// Moves the point to where the proposal wants it.
+Weight draw(const Proposal& proposal, std::span<double> point, std::span<std::uint8_t> bins) {
+  if (!proposal.grid) return {};
+  const bool uniform = proposal.part == Proposal::Part::of_uniform;
+  const double jacobian = uniform ? 1 / proposal.grid->density(point) : proposal.grid->map(point, bins);
+  if (proposal.part == Proposal::Part::all) return {jacobian, 0};
+  const double p_over_q = 1 / (Proposal::uniform_share * jacobian + (1 - Proposal::uniform_share));
+  return {jacobian * p_over_q, p_over_q};
+}
+
+double to_power(double x, double power) { return power == 2 ? x * x : std::pow(std::abs(x), power); }
+} // namespace
+
+Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const Proposal& proposal,
+                   const Learning* learn) const {
   if (o.cancel && o.cancel->load()) throw Cancelled{};
   const auto d = static_cast<std::size_t>(dim);
   Sums sums{std::vector<ScaledMoments>(outputs), std::vector<Magnitudes>(outputs),
-            std::vector<double>(learn.empty() ? 0 : d * ImportanceGrid::bins)};
-  std::vector<double> u(block * d), values(outputs), columns(outputs * block);
-  std::vector<std::uint8_t> bins(grid ? d : 0);
+            std::vector<double>(learn ? d * ImportanceGrid::bins : 0)};
+  std::vector<double> u(block * d), values(outputs), columns(outputs * block), shifts(block);
+  std::vector<std::uint8_t> bins(proposal.grid ? d : 0);
   for (; first < last; first += block) {
     const auto n = static_cast<std::size_t>(std::min(block, last - first));
     fill_points(set, first, dim, {u.data(), n * d});
     for (std::size_t i = 0; i < n; ++i) {
       const std::span<double> point(u.data() + i * d, d);
-      const double jacobian = grid ? grid->map(point, bins) : 1.0;
+      const Weight weight = draw(proposal, point, bins);
+      shifts[i] = weight.shift;
       f(point, values);
       double power = 0;
       for (std::size_t k = 0; k < outputs; ++k) {
-        const double x = values[k] * jacobian;
+        const double x = values[k] * weight.factor;
         columns[k * block + i] = x;
-        if (!learn.empty()) power += sqr(x * learn[k]);
+        if (learn) power += to_power(x * learn->scale[k], learn->power);
       }
-      if (!learn.empty())
+      if (learn)
         for (std::size_t j = 0; j < d; ++j) sums.power[j * ImportanceGrid::bins + bins[j]] += power;
     }
     for (std::size_t k = 0; k < outputs; ++k) {
       const std::span<double> column = std::span(columns).subspan(k * block, n);
-      Magnitudes sizes;
+      Magnitudes sizes; // of the values themselves: what is subtracted hides zeros and equal values
       sizes.add(column);
       sums.magnitudes[k].merge(sizes);
-      sums.outputs[k].add(column, first, std::max(std::abs(sizes.lo()), std::abs(sizes.hi())));
+      double largest = std::max(std::abs(sizes.lo()), std::abs(sizes.hi()));
+      if (!proposal.centre.empty()) {
+        for (std::size_t i = 0; i < n; ++i) column[i] -= proposal.centre[k] * shifts[i];
+        largest += 2 * std::abs(proposal.centre[k]); // no shift is above 8 / 7
+      }
+      sums.outputs[k].add(column, first, largest);
     }
   }
   return sums;
 }
 
 std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
-                                    const ImportanceGrid* grid, std::span<const double> learn) {
+                                    const Proposal& proposal, const Learning* learn) {
   const std::uint64_t chunks = (count + chunk - 1) / chunk;
   std::vector<Sums> parts(sets.size() * chunks), results(sets.size());
   const auto task = [&](std::size_t i) {
     const std::uint64_t begin = first + i % chunks * chunk;
-    parts[i] = evaluate(sets[i / chunks], begin, std::min(begin + chunk, first + count), grid, learn);
+    parts[i] = evaluate(sets[i / chunks], begin, std::min(begin + chunk, first + count), proposal, learn);
   };
   // Threads start when they pay: the first task is timed.
   const auto begin = std::chrono::steady_clock::now();
@@ -64,17 +89,17 @@ std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint
   parallel_for(parts.size() - 1, pays ? o.threads : 1, [&](std::size_t i) { task(i + 1); });
   for (std::size_t i = 0; i < parts.size(); ++i) results[i / chunks].merge(parts[i]);
   for (std::size_t r = 0; r < sets.size(); ++r)
-    for (const ScaledMoments& m : results[r].outputs) require_finite(m.moments(), sets[r], grid);
+    for (const ScaledMoments& m : results[r].outputs) require_finite(m.moments(), sets[r], proposal);
   calls += count * sets.size();
   return results;
 }
 
-void Run::require_finite(const Moments& m, const PointSet& set, const ImportanceGrid* grid) const {
+void Run::require_finite(const Moments& m, const PointSet& set, const Proposal& proposal) const {
   if (m.non_finite() == 0) return;
   std::vector<double> u(static_cast<std::size_t>(dim));
   std::vector<std::uint8_t> bins(u.size());
   fill_points(set, m.witness(), dim, u);
-  if (grid) grid->map(u, bins);
+  draw(proposal, u, bins);
   std::string point;
   for (const double x : u) point += fmt::format("{}{:.17g}", point.empty() ? "" : ", ", x);
   throw Error(fmt::format("integrate: the integrand is not finite at {} of {} points, the first at u = ({}); it must "
@@ -92,15 +117,22 @@ std::vector<PointSet> Run::sobol_sets(std::uint64_t purpose, std::uint32_t first
   return sets;
 }
 
-Means Run::means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence) const {
+Means Run::means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
+                 const std::vector<Sums>& uniform, const Proposal& proposal) const {
   evidence.resize(outputs);
   Means all;
   for (std::size_t k = 0; k < outputs; ++k) {
     std::vector<double> values;
     Magnitudes seen;
-    for (const Sums& s : replicates) {
-      values.push_back(s.outputs[k].mean());
-      seen.merge(s.magnitudes[k]);
+    for (std::size_t r = 0; r < replicates.size(); ++r) {
+      double value = replicates[r].outputs[k].mean();
+      seen.merge(replicates[r].magnitudes[k]);
+      if (!uniform.empty()) {
+        value = proposal.centre[k] + (1 - Proposal::uniform_share) * value +
+                Proposal::uniform_share * uniform[r].outputs[k].mean();
+        seen.merge(uniform[r].magnitudes[k]);
+      }
+      values.push_back(value);
     }
     all.push_back(replicated(values, static_cast<double>(points), seen, evidence[k]));
   }
@@ -113,6 +145,12 @@ void Run::compare(const Means& a, const Means& b) {
       chi2[k] += sqr(*z);
       chi2_dof[k] += 1;
     }
+}
+
+bool Run::disagree(const Means& a, const Means& b) const {
+  for (std::size_t k = 0; k < outputs; ++k)
+    if (const auto z = deviate(a[k], b[k]); z && *z > 3.72) return true;
+  return false;
 }
 
 bool Run::converged(const Means& all) const {

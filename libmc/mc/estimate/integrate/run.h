@@ -17,6 +17,26 @@ namespace mc::detail {
 /// Thrown by a run that was cancelled; never leaves integrate().
 struct Cancelled {};
 
+/// What points are drawn from.
+///   grid alone : the grid's density p; a value is f / p
+///   a part of the mixture q = p / 8 * 7 + 1 / 8 of the grid and the uniform density, so that no value exceeds 8 f where
+///   the grid is wrong: a value is (f - c p) / q, whose mean under q is that of f but for c. Near c p, where the grid is
+///   right, the mixture costs next to nothing [OwenZhou00].
+struct Proposal {
+  enum class Part { all, of_grid, of_uniform };
+  static constexpr double uniform_share = 0.125;
+
+  const ImportanceGrid* grid = nullptr;
+  std::vector<double> centre = {}; ///< c of each output
+  Part part = Part::all;
+};
+
+/// What the grid learns: the sums of |value scale|^power in each bin.
+struct Learning {
+  std::vector<double> scale; ///< of each output
+  double power = 2;
+};
+
 /// One value or several, without a call through another for the one.
 struct Integrand {
   const std::function<double(std::span<const double>)>* one = nullptr;
@@ -42,10 +62,10 @@ struct Run {
   std::uint64_t left() const { return o.max_calls - calls; }
 
   /// Points [first, first + count) of each set; one result per set, with the same bits for any number of threads.
-  ///   learn  : unless empty, what each output is multiplied by before it counts as power of the grid
+  ///   learn  : if any, what the grid learns goes to the power of the sums
   ///   throws : Error where the integrand is not finite, with the point; Cancelled
   std::vector<Sums> evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
-                                 const ImportanceGrid* grid = nullptr, std::span<const double> learn = {});
+                                 const Proposal& proposal = {}, const Learning* learn = nullptr);
 
   /// Whether the bare sequences, those of purpose 0, are interlaced. Under a grid they are not: smooth peaks would gain
   /// by it, but integrands that jump would lose.
@@ -54,17 +74,21 @@ struct Run {
   std::vector<PointSet> sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const;
 
   /// The means of replicates of so many points each; `evidence` holds one entry per output, or none at first.
-  Means means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence) const;
+  /// `uniform` are the sums of the uniform part where the replicates are those of the grid's part of a mixture.
+  Means means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
+              const std::vector<Sums>& uniform = {}, const Proposal& proposal = {}) const;
   /// Adds to chi2 how far two independent means lie apart.
   void compare(const Means& a, const Means& b);
 
+  /// Whether any output's independent means are too far apart for chance: probability 1e-4 each.
+  bool disagree(const Means& a, const Means& b) const;
   bool converged(const Means& all) const;
   void report(const Means& all) const;
 
  private:
-  Sums evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const ImportanceGrid* grid,
-                std::span<const double> learn) const;
-  void require_finite(const Moments& m, const PointSet& set, const ImportanceGrid* grid) const;
+  Sums evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const Proposal& proposal,
+                const Learning* learn) const;
+  void require_finite(const Moments& m, const PointSet& set, const Proposal& proposal) const;
 };
 
 } // namespace mc::detail

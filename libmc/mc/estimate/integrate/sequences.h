@@ -10,16 +10,20 @@ namespace mc::detail {
 
 /// Replicated Sobol' sequences, extended from step to step.
 struct Sequences {
-  std::uint64_t purpose; ///< those of different purposes are independent
-  const ImportanceGrid* grid = nullptr;
+  std::uint64_t purpose;  ///< those of different purposes are independent
+  Proposal proposal = {}; ///< with a grid, its part of the mixture
   std::uint64_t length = 0;
   std::vector<PointSet> sets = {};
   std::vector<Sums> sums = {};
+  std::vector<PointSet> uniform_sets = {}; ///< of the uniform part, an eighth as long
+  std::vector<Sums> uniform_sums = {};
   std::vector<Means> history = {}; ///< at each length
   std::vector<Evidence> evidence = {};
 
   static constexpr std::uint64_t longest = std::uint64_t{1} << 32;
 
+  /// Calls per point of a replicate.
+  double cost() const { return proposal.grid ? 1 + Proposal::uniform_share : 1.0; }
   /// The means once every sequence has `to` points.
   Means extend(Run& run, std::uint64_t to);
   /// The values behind the means, one per output.

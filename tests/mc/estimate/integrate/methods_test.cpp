@@ -40,12 +40,11 @@ TEST(Methods, LearnFindsThePeak) {
   mc::IntegrateOptions o;
   o.max_calls = 100'000;
   detail::Run run{{.one = &f}, 1, 2, o};
-  std::vector<double> scale(1, 1.0);
-  const mc::ImportanceGrid grid = learn(run, scale);
+  const Learned learned = learn(run);
   EXPECT_FALSE(run.rounds.empty());
   EXPECT_LE(run.calls, 100'000u / 4);
   int inside = 0; // of 129 edges, those within .1 of the peak, where 20 % of a uniform grid's would be
-  for (const double e : grid.edges(0)) inside += std::abs(e - 0.4) < 0.1;
+  for (const double e : learned.grid.edges(0)) inside += std::abs(e - 0.4) < 0.1;
   EXPECT_GE(inside, 60);
 }
 

@@ -36,6 +36,25 @@ TEST(Run, MeansAreThoseOfTheReplicates) {
   EXPECT_EQ(mean.dof, 23);
 }
 
+// Both parts of the mixture with their shares, and what was subtracted added again, are the integral, whatever the grid.
+TEST(Run, TheMixtureIsUnbiased) {
+  mc::ImportanceGrid grid(2);
+  std::vector<double> power(2 * mc::ImportanceGrid::bins, 1e-3);
+  for (std::size_t i = 0; i < 20; ++i) power[i] = power[200 + i] = 1; // where the integrand is not
+  grid.refine(power, 100'000);
+  mc::IntegrateOptions o;
+  detail::Run run{{.one = &sum}, 1, 2, o};
+  mc::detail::Proposal proposal{&grid, {0.7}, mc::detail::Proposal::Part::of_grid};
+  const auto of_grid = run.evaluate_all(run.sobol_sets(1, 0, 24), 0, 4096, proposal);
+  proposal.part = mc::detail::Proposal::Part::of_uniform;
+  const auto of_uniform = run.evaluate_all(run.sobol_sets(2, 0, 24), 0, 512, proposal);
+  std::vector<mc::detail::Evidence> evidence;
+  const mc::detail::Mean mean = run.means(of_grid, 4096, evidence, of_uniform, proposal)[0];
+  EXPECT_GT(mean.error, 0);
+  EXPECT_LE(mean.error, 0.01);
+  EXPECT_NEAR(mean.value, 1.5, 5 * mean.error);
+}
+
 TEST(Run, ReplicatesAndPurposesDiffer) {
   mc::IntegrateOptions o;
   detail::Run run{{.one = &sum}, 1, 2, o};
