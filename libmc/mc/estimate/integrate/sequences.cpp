@@ -29,7 +29,7 @@ Means grown(Run& run, Sequences& s, std::uint32_t first, std::uint32_t last, std
   add(run, s.purpose, first, last, from, to, part, s.sets, s.sums);
   if (part.grid) {
     part.part = Proposal::Part::of_uniform;
-    add(run, s.purpose + of_uniform, first, last, from / 8, to / 8, part, s.uniform_sets, s.uniform_sums);
+    add(run, s.purpose + of_uniform, first, last, (from + 7) / 8, (to + 7) / 8, part, s.uniform_sets, s.uniform_sums);
   }
   return run.means(s.sums, s.length, s.evidence, s.uniform_sums, s.proposal);
 }

@@ -15,7 +15,7 @@ struct Sequences {
   std::uint64_t length = 0;
   std::vector<PointSet> sets = {};
   std::vector<Sums> sums = {};
-  std::vector<PointSet> uniform_sets = {}; ///< of the uniform part, an eighth as long
+  std::vector<PointSet> uniform_sets = {}; ///< of the uniform part, an eighth as long, rounded up
   std::vector<Sums> uniform_sums = {};
   std::vector<Means> history = {}; ///< at each length
   std::vector<Evidence> evidence = {};
