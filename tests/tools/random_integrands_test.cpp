@@ -9,7 +9,7 @@
 
 namespace {
 
-// The closed forms: plain points agree with each within 6 standard errors, alpha = 2e-9 for each of 220 were they normal.
+// The closed forms: plain points agree with each within 6 standard errors, alpha = 2e-9 for each of 200.
 TEST(RandomIntegrands, TruthsAreTrue) {
   for (const carlo::IntegrandClass& kind : carlo::integrand_classes()) {
     if (!kind.finite_variance) continue;

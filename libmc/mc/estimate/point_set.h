@@ -31,8 +31,8 @@ using PointSet = std::variant<Independent, Stratified, ScrambledSobol, Interlace
 /// Writes points first, first + 1, ... to u, the dim coordinates of each side by side; u.size() is a multiple of dim.
 ///   Independent, Stratified : the bits of coordinate<double>(sampler, index, dim)
 ///   ScrambledSobol : the leading 32 bits of Sobol(seed), 20 hashed ones and the middle of their interval, so never 0
-///            or 1; a whole block at a time, since neighbours in the sequence share all but their low bits. Indices below
-///            2^32
+///            or 1; a whole block at a time, since neighbours in the sequence share all but their low bits. Indices
+///            below 2^32
 ///   InterlacedSobol : so too, with 26 bits each of its coordinates 2 d and 2 d + 1; dim at most 512
 void fill_points(const PointSet& set, std::uint64_t first, int dim, std::span<double> u);
 

@@ -31,7 +31,8 @@ double welch(const Mean& a, const Mean& b);
 /// share b + (1 - share) a, for independent means; the bar is that of b, which was told what a knew.
 Mean combined(const Mean& a, const Mean& b, double share);
 
-/// By how many standard deviations of a normal two independent means differ; nothing where both are exact or a bar is unknown.
+/// By how many standard deviations of a normal two independent means differ; nothing where both are exact or a bar is
+/// unknown.
 std::optional<double> deviate(const Mean& a, const Mean& b);
 
 /// What an integrand showed of itself at shorter lengths of the same replicates.
@@ -41,8 +42,8 @@ struct Evidence {
 
 /// The mean of independent replicates of `points` points each.
 ///   error : from their spread, and two things that it does not show:
-///           - a jump of height h moves a replicate by h / points or not at all, and replicates that agree say only that
-///             they could not differ: .6 h / points over their number is added in squares, about what makes 24 trials
+///           - a jump of height h moves a replicate by h / points or not at all, and replicates that agree say only
+///             that they could not differ: .6 h / points over their number is added in squares, about what makes 24 trials
 ///             with a random probability cover 95 %; h is what set them apart at one of the last lengths; where they
 ///             are equal, the range of all values; where those are equal too, their size, so that the rule of three
 ///             holds for what was not seen

@@ -19,9 +19,9 @@ struct Cancelled {};
 
 /// What points are drawn from.
 ///   grid alone : the grid's density p; a value is f / p
-///   a part of the mixture q = p / 8 * 7 + 1 / 8 of the grid and the uniform density, so that no value exceeds 8 f where
-///   the grid is wrong: a value is (f - c p) / q, whose mean under q is that of f but for c. Near c p, where the grid is
-///   right, the mixture costs next to nothing [OwenZhou00].
+///   a part of the mixture q = 7 / 8 p + 1 / 8 of the grid and the uniform density, so that no value exceeds 8 f where
+///   the grid is wrong: a value is (f - c p) / q, whose mean under q is that of f but for c. Near c p, where the grid
+///   is right, the mixture costs next to nothing [OwenZhou00].
 struct Proposal {
   enum class Part { all, of_grid, of_uniform };
   static constexpr double uniform_share = 0.125;

@@ -36,7 +36,7 @@ TEST(Run, MeansAreThoseOfTheReplicates) {
   EXPECT_EQ(mean.dof, 23);
 }
 
-// Both parts of the mixture with their shares, and what was subtracted added again, are the integral, whatever the grid.
+// Both parts of the mixture with their shares, and what was subtracted added again, are the integral for any grid.
 TEST(Run, TheMixtureIsUnbiased) {
   mc::ImportanceGrid grid(2);
   std::vector<double> power(2 * mc::ImportanceGrid::bins, 1e-3);
