@@ -45,8 +45,8 @@ struct Evidence {
 ///           - a jump of height h moves a replicate by h / points or not at all, and replicates that agree say only
 ///             that they could not differ: .6 h / points over their number is added in squares, about what makes 24
 ///             trials of a random probability cover 95 %; h is what set them apart at one of the last lengths; where
-///             they are equal, the range of all values; where those are equal too, their size, so that the rule of three
-///             holds for what was not seen
+///             they are equal, the range of all values; where those are equal too, their size, so that the rule of
+///             three holds for what was not seen
 ///           - of a tail of index a > 2 the share R^-(1 - 2/a) of the variance lies beyond the largest of R values
 ///   bar   : unseen where every value was zero, infinite_variance where `seen` says so
 ///   seen  : the values behind it
