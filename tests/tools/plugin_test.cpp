@@ -1,11 +1,15 @@
 // carlo validate --plugin: right samplers pass, wrong ones are rejected, and a plugin that misbehaves is one line.
 
-#include "run_validate.h"
+#include "run_in_process.h"
 
 #include <mc/core/file.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
 
 namespace {
 
@@ -125,6 +129,38 @@ TEST(Plugin, AHangEndsWithTheTimeout) {
               AllOf(HasSubstr("not done in 0.5 s, in sample"), HasSubstr("raise --timeout or lower --samples")));
   o.timeout = 0;
   EXPECT_THAT(refusal(o), HasSubstr("--timeout 0 must lie in"));
+}
+
+TEST(Plugin, ALimitIsOneLineThatNamesIt) {
+  ValidateOptions o = plugin("greedy");
+  o.memory = 1;
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  EXPECT_THAT(refusal(o), AllOf(HasSubstr("greedy.so: it wants more than 1 GiB of memory in sample at u = ("),
+                                HasSubstr("--memory")));
+#endif
+  EXPECT_THAT(refusal(plugin("files")), HasSubstr("files.so: it threw in sample at u = ("));
+  o.memory = 0;
+  EXPECT_THAT(refusal(o), HasSubstr("--memory 0 must lie in"));
+}
+
+// Even a process that left its group and lost its parent has ended when carlo says its verdict.
+TEST(Plugin, WhatItStartedEndsWithIt) {
+  const std::string file = testing::TempDir() + "/family";
+  setenv("FAMILY_FILE", file.c_str(), 1);
+  EXPECT_EQ(run(plugin("family")).code, carlo::exit_ok);
+  const std::string id = mc::read_file(file);
+  EXPECT_GT(std::stoi(id), 1);
+  EXPECT_EQ(kill(std::stoi(id), 0), -1) << id;
+  EXPECT_EQ(errno, ESRCH);
+}
+
+TEST(Plugin, ASweepIsEveryCombination) {
+  ValidateOptions o = plugin("samplers", {"Box"});
+  o.parameters = {"power=0:1:0.5,3", "tilt=0"};
+  o.list = true;
+  const std::string text = run(o).text;
+  EXPECT_THAT(text, AllOf(HasSubstr("Box(power=0) "), HasSubstr("Box(power=0.5)"), HasSubstr("Box(power=1)"),
+                          HasSubstr("Box(power=3)")));
 }
 
 TEST(Plugin, NothingIsWrittenWhenItCrashes) {

@@ -1,6 +1,6 @@
 // carlo validate --samples-file --pdf-file: densities on grids, smooth and stepped, right and wrong, and bad files.
 
-#include "run_validate.h"
+#include "run_in_process.h"
 
 #include <support/files.h>
 
@@ -11,6 +11,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <vector>
 
 namespace {
 
@@ -179,7 +186,7 @@ TEST_F(SamplesFile, ABadRowIsNamedByItsLine) {
   EXPECT_THAT(with("0.1,nan"), HasSubstr("b.csv:5: 'nan' is not a finite number"));
   EXPECT_THAT(with("0.1,1e999"), HasSubstr("b.csv:5: '1e999' is not a finite number"));
   EXPECT_THAT(with("0.1"), HasSubstr("b.csv:5: 1 numbers; the rows before have 2"));
-  EXPECT_THAT(with("0.1,"), HasSubstr("b.csv:5: an empty field"));
+  EXPECT_THAT(with("0.1,"), HasSubstr("b.csv:5: 1 numbers; the rows before have 2")) << "a comma may end a row";
   EXPECT_THAT(with("0.1,,0.2"), HasSubstr("b.csv:5: an empty field"));
   EXPECT_THAT(with("0.1,0.2x"), HasSubstr("b.csv:5: '0.2x' is not a number"));
   EXPECT_THAT(refusal(options(write("b.csv", "nan,1\n"), good)), HasSubstr("b.csv:1: 'nan'")) << "not a row of names";
@@ -190,7 +197,8 @@ TEST_F(SamplesFile, BadFilesAreOneLine) {
   const std::string file = samples(ramp), good = grid(16, 1, ramp_mean);
   EXPECT_THAT(refusal(options(path("none.csv"), good)), HasSubstr("none.csv': no such file"));
   EXPECT_THAT(refusal(options(file, path("none.exr"))), HasSubstr("none.exr"));
-  EXPECT_THAT(refusal(options(file, "")), HasSubstr("needs the density to hold the samples against: --pdf-file"));
+  EXPECT_THAT(refusal(options(file, "")),
+              HasSubstr("needs the density to hold the samples against: --pdf-file or --pdf"));
   EXPECT_THAT(refusal(options("", good)), HasSubstr("--pdf-file needs the samples"));
   EXPECT_THAT(refusal(options(samples(ramp, "few.csv", 1999), good)),
               HasSubstr("few.csv: 1999 samples; at least 2000 are needed"));
@@ -221,6 +229,140 @@ TEST_F(SamplesFile, SamplesOffTheGridAreOneLine) {
   };
   EXPECT_THAT(refusal(options(samples(long_vector), grid(8, 32, cosine_mean))),
               HasSubstr("is not covered by the grid"));
+}
+
+// As spreadsheets and their users write it: quoted, with a comma at the end, with comments; all one table.
+TEST_F(SamplesFile, WhatSpreadsheetsWriteIsRead) {
+  const std::string file = samples(ramp), pdf = grid(16, 1, ramp_mean);
+  std::string quoted = "\"x\",\"y\",\r\n";
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with('#')) continue;
+    const std::size_t comma = line.find(',');
+    quoted += "\"" + line.substr(0, comma) + "\", \"" + line.substr(comma + 1) + "\",  # drawn\r\n";
+  }
+  const std::string plain = run(options(file, pdf)).text;
+  const std::string same = run(options(write("s.csv", quoted), pdf)).text;
+  EXPECT_EQ(same.substr(same.find("double"), 40), plain.substr(plain.find("double"), 40));
+  EXPECT_THAT(refusal(options(write("b.csv", "0.1,0.1\n\"0.5,0.5\n"), pdf)),
+              HasSubstr("b.csv:2: a quotation mark without its other"));
+}
+
+TEST_F(SamplesFile, GarbageIsRefusedInPlainText) {
+  const std::string pdf = grid(16, 1, ramp_mean);
+  const std::string refused = refusal(options(write("b.csv", std::string("0.5\n\x7f\x45\x4c\x46\x00\x01", 10)), pdf));
+  EXPECT_THAT(refused, HasSubstr("b.csv: it is no text: byte 8 is 0x00; rows of numbers are needed"));
+  const std::string word = refusal(options(write("b.csv", "0.5\n\xc3\xa9\xff\n"), pdf));
+  EXPECT_THAT(word, HasSubstr("b.csv:2: '\?\?\?' is not a number"));
+}
+
+TEST_F(SamplesFile, WhereItStandsChangesNothing) {
+  const std::string pdf = grid(16, 1, ramp_mean), a = samples(ramp);
+  std::filesystem::create_directories(folder / "elsewhere");
+  std::filesystem::copy(a, folder / "elsewhere" / "t.csv");
+  const auto figures = [&](const std::string& file) {
+    const std::string text = run(options(file, pdf)).text;
+    return text.substr(text.find("double"), 40);
+  };
+  EXPECT_EQ(figures(a), figures(path("elsewhere/t.csv")));
+}
+
+// A density as an expression: right and wrong samples of every kind of domain, 40000 rows of six digits.
+struct Expression {
+  const char *name, *domain, *pdf, *wrong;
+  std::function<std::string(mc::Pcg&)> draw;
+};
+
+double normal(mc::Pcg& random) {
+  return std::sqrt(-2 * std::log(1 - random.uniform<double>())) * std::cos(2 * pi * random.uniform<double>());
+}
+std::string uniform_ball(mc::Pcg& random, int dim, double inner = 0) {
+  for (;;) {
+    std::array<double, 3> p{};
+    double square = 0;
+    for (int k = 0; k < dim; ++k) {
+      p[static_cast<std::size_t>(k)] = 2 * random.uniform<double>() - 1;
+      square += p[static_cast<std::size_t>(k)] * p[static_cast<std::size_t>(k)];
+    }
+    if (square > 1 || square < inner * inner) continue;
+    return fmt::format("{:.6f}", fmt::join(p.begin(), p.begin() + dim, ","));
+  }
+}
+
+const std::vector<Expression> expressions = {
+    {"line", "x=-inf:inf", "exp(-x*x/2)/sqrt(2*_pi)", "exp(-x*x/2.4)/sqrt(2.4*_pi)",
+     [](mc::Pcg& r) { return fmt::format("{:.6g}", normal(r)); }},
+    {"half_line", "x=0:inf", "exp(-x)", "2*exp(-2*x)",
+     [](mc::Pcg& r) { return fmt::format("{:.6g}", -std::log(1 - r.uniform<double>())); }},
+    {"plane", "x=-inf:inf,y=-inf:inf", "exp(-(x*x+y*y)/2)/(2*_pi)", "exp(-(x*x+y*y-x*y)/1.5)/(2*_pi)*2/sqrt(3)",
+     [](mc::Pcg& r) { return fmt::format("{:.6g},{:.6g}", normal(r), normal(r)); }},
+    {"space", "x=-inf:inf,y=-inf:inf,z=-inf:inf", "exp(-(x*x+y*y+z*z)/2)/(2*_pi)^1.5",
+     "exp(-(x*x+y*y+z*z)/2.4)/(2.4*_pi)^1.5",
+     [](mc::Pcg& r) { return fmt::format("{:.6g},{:.6g},{:.6g}", normal(r), normal(r), normal(r)); }},
+    {"disk", "disk", "1/_pi", "2*(x*x+y*y)/_pi", [](mc::Pcg& r) { return uniform_ball(r, 2); }},
+    {"annulus", "annulus=0.5", "1/(0.75*_pi)", "(1+x)/(0.75*_pi)", [](mc::Pcg& r) { return uniform_ball(r, 2, 0.5); }},
+    {"ball", "ball", "0.75/_pi", "0.75/_pi*(1+z/2)", [](mc::Pcg& r) { return uniform_ball(r, 3); }},
+    {"triangle", "triangle", "2", "6*x",
+     [](mc::Pcg& r) {
+       double x = r.uniform<double>(), y = r.uniform<double>();
+       if (x + y > 1) {
+         x = 1 - x;
+         y = 1 - y;
+       }
+       return fmt::format("{:.6f},{:.6f}", x, y);
+     }},
+    {"hemisphere", "hemisphere", "z/_pi", "1/(2*_pi)", cosine},
+    {"sphere_and_interval", "sphere,t=0:2", "(z>0 ? z/_pi : 0)*t/2", "(z>0 ? z/_pi : 0)/2",
+     [](mc::Pcg& r) {
+       std::string w = cosine(r);
+       std::replace(w.begin(), w.end(), ' ', ',');
+       return fmt::format("{},{:.6f}", w, 2 * std::sqrt(r.uniform<double>()));
+     }},
+    {"discrete", "discrete=4", "(i+1)/10", "0.25",
+     [](mc::Pcg& r) {
+       const double u = 10 * r.uniform<double>();
+       return fmt::format("{}", u < 1 ? 0 : u < 3 ? 1 : u < 6 ? 2 : 3);
+     }},
+};
+
+struct ByExpression : SamplesFile, testing::WithParamInterface<Expression> {};
+
+TEST_P(ByExpression, RightOnesPassAndWrongOnesFail) {
+  ValidateOptions o = options(samples(GetParam().draw), "");
+  o.domain = GetParam().domain;
+  o.pdf = GetParam().pdf;
+  const Output right = run(o);
+  EXPECT_EQ(right.code, carlo::exit_ok) << right.text;
+  o.pdf = std::string("7*(") + GetParam().pdf + ")";
+  EXPECT_EQ(run(o).code, carlo::exit_failed);
+  o.unnormalized = true;
+  EXPECT_EQ(run(o).code, carlo::exit_ok);
+  o.unnormalized = false;
+  o.pdf = GetParam().wrong;
+  EXPECT_EQ(run(o).code, carlo::exit_failed);
+}
+
+INSTANTIATE_TEST_SUITE_P(SamplesFile, ByExpression, testing::ValuesIn(expressions),
+                         [](const auto& one) { return std::string(one.param.name); });
+
+TEST_F(SamplesFile, BadDomainsAndExpressionsAreOneLine) {
+  const std::string file = samples(ramp);
+  const auto with = [&](const std::string& domain, const std::string& pdf) {
+    ValidateOptions o = options(file, "");
+    o.domain = domain;
+    o.pdf = pdf;
+    return refusal(o);
+  };
+  EXPECT_THAT(with("dick", "1"), HasSubstr("did you mean 'disk'?"));
+  EXPECT_THAT(with("x=0:1,x=0:1", "1"), HasSubstr("'x' is bounded twice"));
+  EXPECT_THAT(with("x=1:0,y=0:1", "1"), HasSubstr("lo < hi is needed"));
+  EXPECT_THAT(with("x=0:1", "1"), HasSubstr("s.csv: 2 columns; 1 is needed on x in [0, 1]"));
+  EXPECT_THAT(with("sphere", "1"), HasSubstr("2 columns; 3 are needed on the unit sphere"));
+  EXPECT_THAT(with("x=0:0.5,y=0:1", "1"), HasSubstr("is not in x in [0, 0.5], y in [0, 1]; "));
+  EXPECT_THAT(with("x=0:1,y=0:1", "2*q"), HasSubstr("expression '2*q', position"));
+  EXPECT_THAT(with("annulus=2", "1"), HasSubstr("needs a radius in (0, 1)"));
+  EXPECT_THAT(with("discrete=0", "1"), HasSubstr("1 to 2^24 outcomes"));
+  EXPECT_THAT(with("disk", ""), HasSubstr("needs the density to hold the samples against: --pdf-file or --pdf"));
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // The page of carlo validate: what it holds, and what a headless browser makes of it.
 
 #include <catalogue/catalogue.h>
-#include <cli/commands.h>
+#include <cli/validate.h>
 #include <report/validate_output.h>
 #include <report/validate_page.h>
 

@@ -1,6 +1,6 @@
 // carlo validate: selection, verdicts, files and bad input.
 
-#include "run_validate.h"
+#include "run_in_process.h"
 #include <catalogue/catalogue.h>
 
 #include <mc/core/file.h>

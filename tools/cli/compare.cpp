@@ -1,4 +1,4 @@
-#include <cli/commands.h>
+#include <cli/subcommand.h>
 
 #include <render/io/image_io.h>
 
@@ -14,6 +14,14 @@
 namespace carlo {
 
 namespace {
+
+struct CompareOptions {
+  std::string a, b;
+  std::string metric;   ///< empty: all
+  std::string diff;     ///< file for the difference image; empty: none
+  double alpha = 0.01;  ///< family-wise
+  double tolerance = 0; ///< relative difference that still counts as agreement
+};
 
 using ::render::Image;
 
@@ -139,7 +147,17 @@ class Comparison {
   double tolerance_, floor_ = 0;
 };
 
-} // namespace
+std::vector<Option> rows(CompareOptions& o) {
+  return {
+      {"A", "FILE", &o.a, "Image", true},
+      {"B", "FILE", &o.b, "Image, the reference of relative metrics", true},
+      {"--metric", "NAME", &o.metric,
+       "Print only this: mse, rmse, mae, relmse, max or mean_ratio [all, and the verdict]"},
+      {"--diff", "FILE", &o.diff, "Write the difference image to this file"},
+      {"--alpha", "PROBABILITY", &o.alpha, "Chance that two correct images are called different, over all tests"},
+      {"--tolerance", "RATIO", &o.tolerance, "Difference, relative to B, that still counts as agreement"},
+  };
+}
 
 int compare(const CompareOptions& options) {
   mc::require(options.alpha > 0 && options.alpha < 1, "--alpha {} must lie in (0, 1)", options.alpha);
@@ -192,6 +210,14 @@ int compare(const CompareOptions& options) {
               comparison.tests, options.alpha,
               options.tolerance > 0 ? fmt::format(", tolerance {} of the reference", options.tolerance).c_str() : "");
   return agree ? exit_ok : exit_failed;
+}
+
+} // namespace
+
+Subcommand compare_subcommand() {
+  return make_subcommand<CompareOptions>(
+      "compare", "Say whether two images agree: error metrics, and Welch's t-tests where variance is known", rows,
+      compare);
 }
 
 } // namespace carlo

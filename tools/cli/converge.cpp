@@ -1,5 +1,7 @@
-#include <cli/commands.h>
+#include <cli/subcommand.h>
 #include <integrands/experiments.h>
+#include <report/plot.h>
+#include <terminal/interrupt.h>
 #include <terminal/progress.h>
 #include <terminal/version.h>
 
@@ -17,15 +19,27 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <filesystem>
 
 namespace carlo {
 
 namespace {
+
+struct ConvergeOptions {
+  std::vector<std::string> experiments; ///< empty: all
+  bool list = false;
+  std::string samplers = "random,stratified,sobol";
+  std::uint64_t max_n = 1 << 18;
+  int replicates = 128;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::string output = "out/convergence";
+  std::string command;
+};
 
 constexpr std::array<std::string_view, 3> known_samplers = {"random", "stratified", "sobol"};
 
@@ -62,8 +76,9 @@ double estimate(const Experiment& e, std::string_view sampler, std::uint64_t n, 
   return mean(e, mc::Sobol(seed), n);
 }
 
-Curve measure(const Experiment& e, const std::string& sampler, const ConvergeOptions& o,
-              const std::function<void(double)>& progress) {
+// Nothing when it was interrupted.
+std::optional<Curve> measure(const Experiment& e, const std::string& sampler, const ConvergeOptions& o,
+                             const std::atomic<bool>* cancel, const std::function<void(double)>& progress) {
   Curve curve;
   curve.sampler = sampler;
   curve.theory = sampler == "random" ? -0.5 : sampler == "stratified" ? e.stratified_slope : 0;
@@ -73,10 +88,12 @@ Curve measure(const Experiment& e, const std::string& sampler, const ConvergeOpt
   for (std::uint64_t n = 16; n <= o.max_n; n *= 2) {
     std::vector<double> estimates(r), seconds(r);
     mc::parallel_for(r, o.threads, [&](std::size_t i) {
+      if (*cancel) return;
       const double start = thread_cpu_seconds();
       estimates[i] = estimate(e, sampler, n, mc::hash(o.seed, n, i));
       seconds[i] = thread_cpu_seconds() - start;
     });
+    if (*cancel) return {};
     mc::RmsError error = mc::rms_error(double(n), estimates, e.truth);
     std::nth_element(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(r / 2), seconds.end());
     error.seconds = seconds[r / 2]; // the median: the first repetition also fills caches and tables
@@ -136,21 +153,13 @@ std::string json(const Experiment& e, const std::vector<Curve>& curves, const Co
 // Two panels: error against N and against CPU time. Colour-blind safe colours, labels at the ends of the curves.
 std::string script(const Experiment& e, const std::vector<Curve>& curves) {
   static constexpr std::array colors = {"#4477aa", "#ee6677", "#228833"};
-  std::string s = fmt::format(R"(# gnuplot {0}.gp writes {0}.svg and {0}.png
-if (!exists("kind")) kind = "svg"
-if (kind eq "svg") set terminal svg size 1000,440 font "sans-serif,13" background "white"; set output "{0}.svg"
-if (kind eq "png") set terminal pngcairo size 1000,440 font "sans-serif,11" background "white"; set output "{0}.png"
-set datafile separator ","
-set multiplot layout 1,2 title "{1}" font ",15"
+  std::string s = plot_head(e.name, 1000, 440) + fmt::format(R"(set multiplot layout 1,2 title "{}" font ",15"
 set logscale xy
 set format y "10^{{%L}}"
-set border 3 lc rgb "#666666"
-set tics nomirror out
-set grid lc rgb "#e6e6e6" lt 1
 set key left bottom Left reverse samplen 2 spacing 1.2 tc rgb "#333333"
 set ylabel "root-mean-square error"
 )",
-                              e.name, e.title);
+                                                             e.title);
   const auto panel = [&](const char* column, bool with_guides) {
     std::string plot = "plot ";
     for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -179,16 +188,6 @@ set ylabel "root-mean-square error"
   return s + "unset multiplot\n";
 }
 
-bool draw(const std::filesystem::path& folder, const std::string& name) {
-  for (const char* kind : {"svg", "png"}) {
-    const std::string command =
-        fmt::format("cd '{}' && gnuplot -e 'kind=\"{}\"' {}.gp 2>{}.log", folder.string(), kind, name, name);
-    if (std::system(command.c_str()) != 0) return false;
-  }
-  std::filesystem::remove(folder / (name + ".log"));
-  return true;
-}
-
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> words;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -199,7 +198,35 @@ std::vector<std::string> split(const std::string& text) {
   return words;
 }
 
-} // namespace
+// Writes and prints the curves of an experiment. Returns whether gnuplot is there, which is not asked again without.
+bool write(const Experiment& e, const std::vector<Curve>& curves, const ConvergeOptions& o,
+           const std::filesystem::path& folder, bool can_draw) {
+  const std::string base = (folder / e.name).string();
+  mc::write_file(base + ".csv", csv(e, curves));
+  mc::write_file(base + ".json", json(e, curves, o));
+  mc::write_file(base + ".gp", script(e, curves));
+  std::printf("%s: %s\n", e.name.c_str(), e.title.c_str());
+  for (const Curve& c : curves)
+    std::printf("  %-11s RMS error %.3g at N = %.0f, %s\n", c.sampler.c_str(), c.errors.back().rms, c.errors.back().n,
+                slope_text(c).c_str());
+  const bool anything = std::any_of(curves.begin(), curves.end(), [](const Curve& c) { return !c.exact; });
+  if (!can_draw || !anything || draw_plot(folder, e.name)) return can_draw;
+  std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
+  return false;
+}
+
+std::vector<Option> rows(ConvergeOptions& o) {
+  return {
+      {"EXPERIMENT", "", &o.experiments, "Experiments by name [all]"},
+      {"--list", "", &o.list, "List the experiments, and stop"},
+      {"--samplers", "NAMES", &o.samplers, "Comma-separated: random, stratified, sobol"},
+      {"--max-n", "N", &o.max_n, "Largest number of samples"},
+      {"--replicates", "N", &o.replicates, "Independent repetitions behind each RMS error"},
+      {"--seed", "N", &o.seed, "Seed"},
+      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
+      {"-o,--output", "FOLDER", &o.output, "Folder for CSV, JSON, gnuplot script, SVG and PNG"},
+  };
+}
 
 int converge(const ConvergeOptions& o) {
   if (o.list) {
@@ -223,9 +250,8 @@ int converge(const ConvergeOptions& o) {
   std::filesystem::create_directories(folder, failed);
   mc::require(!failed, "cannot create the folder '{}': {}", o.output, failed.message());
 
-  const bool can_draw = std::system("command -v gnuplot >/dev/null 2>&1") == 0;
-  if (!can_draw)
-    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
+  const Interrupt interrupt;
+  bool can_draw = true;
   Progress progress;
   // Work grows with N: the last N takes half of a curve's time.
   const double total = double(chosen.size() * samplers.size());
@@ -233,25 +259,29 @@ int converge(const ConvergeOptions& o) {
   for (const Experiment* e : chosen) {
     std::vector<Curve> curves;
     for (const std::string& sampler : samplers) {
-      curves.push_back(measure(*e, sampler, o, [&](double n) {
+      std::optional<Curve> curve = measure(*e, sampler, o, interrupt.flag(), [&](double n) {
         progress.show((done + n / double(o.max_n)) / total, fmt::format("{} {} N = {:.0f}", e->name, sampler, n));
-      }));
+      });
+      if (!curve) break;
+      curves.push_back(std::move(*curve));
       ++done;
     }
-    const std::string base = (folder / e->name).string();
-    mc::write_file(base + ".csv", csv(*e, curves));
-    mc::write_file(base + ".json", json(*e, curves, o));
-    mc::write_file(base + ".gp", script(*e, curves));
     progress.clear();
-    std::printf("%s: %s\n", e->name.c_str(), e->title.c_str());
-    for (const Curve& c : curves)
-      std::printf("  %-11s RMS error %.3g at N = %.0f, %s\n", c.sampler.c_str(), c.errors.back().rms, c.errors.back().n,
-                  slope_text(c).c_str());
-    const bool anything = std::any_of(curves.begin(), curves.end(), [](const Curve& c) { return !c.exact; });
-    if (can_draw && anything) mc::require(draw(folder, e->name), "gnuplot failed on {}.gp; see {}.log", base, base);
+    if (!curves.empty()) can_draw = write(*e, curves, o, folder, can_draw);
+    if (!*interrupt.flag()) continue;
+    std::printf("interrupted: %.0f of %.0f curves were finished\ndata and plots: %s\n", done, total,
+                folder.string().c_str());
+    return exit_interrupted;
   }
   std::printf("data and plots: %s\n", folder.string().c_str());
   return exit_ok;
+}
+
+} // namespace
+
+Subcommand converge_subcommand() {
+  return make_subcommand<ConvergeOptions>(
+      "converge", "Measure how error falls with samples and with seconds; write data and plots", rows, converge);
 }
 
 } // namespace carlo

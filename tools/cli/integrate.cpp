@@ -1,7 +1,8 @@
-#include <cli/commands.h>
+#include <cli/subcommand.h>
 #include <integrands/experiments.h>
 #include <integrands/expression.h>
 #include <integrands/genz.h>
+#include <report/report_json.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 #include <terminal/version.h>
@@ -19,6 +20,19 @@
 namespace carlo {
 
 namespace {
+
+struct IntegrateOptions {
+  std::string integrand; ///< a name, or an expression
+  std::string domain;    ///< "x=0:1,y=-1:2" for an expression
+  bool list = false;
+  double rel_error = 1e-3, abs_error = 0;
+  std::uint64_t max_calls = 10'000'000;
+  std::string method = "auto";
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::string json;
+  std::string command;
+};
 
 // A name of a list, or else an expression.
 Experiment integrand(const IntegrateOptions& o) {
@@ -57,7 +71,20 @@ void print_value(const Experiment& e, const mc::Integral& r) {
   }
 }
 
-} // namespace
+std::vector<Option> rows(IntegrateOptions& o) {
+  return {
+      {"INTEGRAND", "", &o.integrand, "Name (see --list) or expression, e.g. \"exp(-x*x)*cos(y)\""},
+      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:1,y=-1:2\""},
+      {"--list", "", &o.list, "List the named integrands, and stop"},
+      {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach"},
+      {"--abs-error", "ERROR", &o.abs_error, "Absolute standard error that also suffices"},
+      {"--max-calls", "N", &o.max_calls, "Most evaluations of the integrand"},
+      {"--method", "NAME", &o.method, "auto, plain, stratified, rqmc or vegas"},
+      {"--seed", "N", &o.seed, "Seed"},
+      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
+      {"--json", "FILE", &o.json, "Write the result to this file"},
+  };
+}
 
 int integrate(const IntegrateOptions& o) {
   if (o.list) {
@@ -66,6 +93,7 @@ int integrate(const IntegrateOptions& o) {
     return exit_ok;
   }
   mc::require(!o.integrand.empty(), "integrate: name an integrand or give an expression; --list shows the names");
+  if (!o.json.empty()) mc::require_writable(o.json);
   const Experiment e = integrand(o);
 
   mc::IntegrateOptions settings;
@@ -97,26 +125,33 @@ int integrate(const IntegrateOptions& o) {
     std::printf("warning: the rounds disagree (chi-square %.3g for %.0f degrees of freedom): distrust the error\n",
                 r.chi2, r.chi2_dof);
   if (!o.json.empty()) {
-    nlohmann::ordered_json j = {{"command", o.command},
-                                {"commit", commit},
-                                {"seed", o.seed},
-                                {"integrand", e.name},
-                                {"value", r.estimate.value},
-                                {"std_error", r.estimate.std_error},
-                                {"lo", r.interval.lo},
-                                {"hi", r.interval.hi},
-                                {"calls", r.calls},
-                                {"seconds", r.seconds},
-                                {"method", name(r.method)},
-                                {"stop", name(r.stop)},
-                                {"error_bar", name(r.error_bar)},
-                                {"chi2", r.chi2},
-                                {"chi2_dof", r.chi2_dof},
-                                {"consistent", r.consistent}};
+    nlohmann::json j = {{"command", o.command},
+                        {"commit", commit},
+                        {"seed", o.seed},
+                        {"integrand", e.name},
+                        {"value", r.estimate.value},
+                        {"std_error", r.estimate.std_error},
+                        {"lo", r.interval.lo},
+                        {"hi", r.interval.hi},
+                        {"calls", r.calls},
+                        {"seconds", r.seconds},
+                        {"method", name(r.method)},
+                        {"stop", name(r.stop)},
+                        {"error_bar", name(r.error_bar)},
+                        {"chi2", r.chi2},
+                        {"chi2_dof", r.chi2_dof},
+                        {"consistent", r.consistent}};
     if (std::isfinite(e.truth)) j["truth"] = e.truth;
-    mc::write_file(o.json, j.dump(1) + "\n");
+    mc::write_file(o.json, json_text(j));
   }
   return r.stop == mc::Stop::cancelled ? exit_interrupted : exit_ok;
+}
+
+} // namespace
+
+Subcommand integrate_subcommand() {
+  return make_subcommand<IntegrateOptions>(
+      "integrate", "Integrate a named integrand or an expression, with an error bar", rows, integrate);
 }
 
 } // namespace carlo

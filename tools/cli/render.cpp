@@ -1,4 +1,4 @@
-#include <cli/commands.h>
+#include <cli/subcommand.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 #include <terminal/version.h>
@@ -18,6 +18,24 @@ namespace carlo {
 
 namespace {
 
+struct RenderOptions {
+  std::string scene;
+  bool help_scene = false;            ///< print the reference of scene files, and stop
+  std::string dialect = "mitsuba";    ///< whose defaults hold in the scene
+  std::string output;                 ///< empty: the scene's name with .exr in the current folder
+  std::optional<int> spp;             ///< samples per pixel
+  std::optional<double> seconds;      ///< wall-clock budget [s]
+  std::optional<double> target_error; ///< mean relative standard error to reach
+  std::string size;                   ///< "WxH"; empty: the scene's
+  std::string strategy, sampler;      ///< empty: mis, sobol
+  std::optional<int> max_depth;       ///< longest path in edges; -1: unlimited
+  std::uint64_t seed = 0;
+  int threads = 0;            ///< 0: all
+  double exposure = 0;        ///< stops, PNG only
+  bool allow_invalid = false; ///< write the image although samples were not finite
+  std::string command;        ///< the command line, for the metadata
+};
+
 void parse_size(const std::string& text, int& width, int& height) {
   char rest = 0;
   mc::require(std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2 && width > 0 && height > 0,
@@ -34,7 +52,32 @@ void check_output(const std::string& path) {
               "cannot write '{}': unknown image format '{}'; use .exr, .pfm or .png", path, extension);
 }
 
-} // namespace
+std::vector<Option> rows(RenderOptions& o) {
+  return {
+      {"SCENE", "FILE", &o.scene, "Scene file (Mitsuba XML)"},
+      {"--help-scene", "", &o.help_scene, "Print what a scene file may hold, as Markdown, and stop"},
+      {"--dialect", "NAME", &o.dialect, "Whose defaults hold in the scene: mitsuba or lajolla"},
+      {"-o,--output", "FILE", &o.output,
+       "Image to write: .exr (radiance and variance), .pfm or .png (sRGB) [SCENE.exr here]"},
+      {"--spp", "N", &o.spp, "Samples per pixel; this, --time or --target-error [the scene's]"},
+      {"--time", "SECONDS", &o.seconds, "Wall-clock time to spend", false, {"--spp"}},
+      {"--target-error",
+       "RATIO",
+       &o.target_error,
+       "Mean relative standard error of the pixels to reach",
+       false,
+       {"--spp", "--time"}},
+      {"--size", "WxH", &o.size, "Image size in pixels [the scene's]"},
+      {"--strategy", "NAME", &o.strategy, "bsdf, hemisphere, light, mixture, nee or mis [mis]"},
+      {"--sampler", "NAME", &o.sampler, "independent, stratified or sobol [sobol]"},
+      {"--max-depth", "N", &o.max_depth,
+       "Longest path in edges (1: light seen directly), -1 for no limit [the scene's]"},
+      {"--seed", "N", &o.seed, "Seed; same seed, same bits, whatever the number of threads"},
+      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
+      {"--exposure", "STOPS", &o.exposure, "Brightness added before a PNG is written"},
+      {"--allow-invalid", "", &o.allow_invalid, "Write the image although some samples were not finite"},
+  };
+}
 
 int render(const RenderOptions& options) {
   if (options.help_scene) {
@@ -109,6 +152,13 @@ int render(const RenderOptions& options) {
                                                    : "unknown (one estimate per pixel)",
               static_cast<unsigned long long>(result.invalid), result.partial ? ", PARTIAL: interrupted" : "");
   return result.partial ? exit_interrupted : exit_ok;
+}
+
+} // namespace
+
+Subcommand render_subcommand() {
+  return make_subcommand<RenderOptions>("render", "Render a Mitsuba XML scene to EXR, PFM or PNG, with an error bar",
+                                        rows, render);
 }
 
 } // namespace carlo

@@ -1,5 +1,5 @@
-// carlo validate book-slips: what the checkers make of the samplers that the books print.
-#include <cli/commands.h>
+#include <cli/slips.h>
+#include <report/report_json.h>
 #include <slips/cornell.h>
 #include <slips/slips.h>
 #include <terminal/progress.h>
@@ -24,25 +24,24 @@ namespace {
 
 using nlohmann::json;
 
-std::vector<Slip> select(const std::vector<std::string>& names) {
+Slips select(const std::vector<std::string>& names) {
   Slips all = slips_of_books(), chosen;
-  if (names.size() < 2) return all;
-  for (auto name = names.begin() + 1; name != names.end(); ++name) {
-    const auto found = std::find_if(
-        all.begin(), all.end(), [&](const Slip& s) { return *name == s.id || *name == s.name || *name == s.title(); });
+  if (names.empty()) return all;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const Slip& s) { return name == s.id || name == s.name || name == s.title(); });
     if (found == all.end()) {
       std::vector<std::string> known;
-      for (const Slip& s : all) known.push_back(s.id), known.push_back(s.name);
-      throw mc::Error(
-          fmt::format("validate book-slips: unknown slip '{}'{} (carlo validate book-slips --list names them all)",
-                      *name, mc::did_you_mean(*name, known)));
+      for (const Slip& s : all) known.insert(known.end(), {s.id, s.name});
+      throw mc::Error(fmt::format("slips: unknown slip '{}'{} (carlo slips --list names them all)", name,
+                                  mc::did_you_mean(name, known)));
     }
     chosen.push_back(*found);
   }
   return chosen;
 }
 
-struct Told {
+struct Judged {
   mc::Report wrong, right;
   std::string test;          ///< the check that rejected the wrong one
   std::uint64_t samples = 0; ///< after which it did; 0: without any
@@ -50,14 +49,14 @@ struct Told {
 };
 
 // Doubles the samples until the wrong one is rejected; all looks together reject a right one with probability alpha.
-Told tell(const Slip& slip, const ValidateOptions& o) {
-  std::uint64_t seed = o.seed; // its own numbers, whichever slips are told beside it
+Judged judge(const Slip& slip, const SlipsOptions& o) {
+  std::uint64_t seed = o.seed; // its own numbers, whichever slips are judged beside it
   for (const char letter : slip.id)
     seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
   double looks = 1;
   for (std::uint64_t n = slip.wrong.fewest; n < o.samples; n *= 2) looks += 1;
   const double alpha = mc::sidak_level(o.alpha, 1 / looks);
-  Told t;
+  Judged t;
   for (std::uint64_t n = slip.wrong.fewest;; n = std::min(2 * n, o.samples)) {
     t.wrong = slip.wrong.check({.samples = n, .seed = seed, .alpha = alpha});
     t.samples = n;
@@ -80,13 +79,13 @@ Told tell(const Slip& slip, const ValidateOptions& o) {
   return t;
 }
 
-std::string samples_text(const Slip& s, const Told& t) {
+std::string samples_text(const Slip& s, const Judged& t) {
   if (!t.caught) return "missed";
   if (t.samples == 0) return "none";
   return fmt::format("{}{}", t.samples == s.wrong.fewest ? "<= " : "", t.samples);
 }
 
-json to_json(const Slip& s, const Told& t) {
+json to_json(const Slip& s, const Judged& t) {
   return {{"id", s.id},
           {"name", s.name},
           {"where", s.where},
@@ -99,41 +98,28 @@ json to_json(const Slip& s, const Told& t) {
           {"right", {{"verdict", name(t.right.verdict())}, {"p", t.right.p()}, {"samples", t.right.samples}}}};
 }
 
-} // namespace
-
-int book_slips(const ValidateOptions& o) {
-  const Slips slips = select(o.names);
-  if (o.list) {
-    for (const Slip& s : slips) fmt::print("{:<4} {:<34} {}\n", s.id, s.name, s.where);
-    return exit_ok;
-  }
-  mc::require(o.alpha > 0 && o.alpha < 1, "validate book-slips: --alpha {} must lie in (0, 1)", o.alpha);
-  mc::require(o.samples >= 8000 && o.samples <= 1'000'000'000,
-              "validate book-slips: --samples {} must lie in [8000, 1e9]", o.samples);
-  mc::require(o.junit.empty() && o.scalar.empty() && !o.detect && !o.all && o.plugin.empty() && o.samples_file.empty(),
-              "validate book-slips: takes names, --list, --alpha, --samples, --seed, --threads and --json only");
-  if (!o.json.empty()) mc::write_file(o.json, "{}\n");
-
+// Every slip, its line printed as soon as those before it are printed.
+std::vector<Judged> judge_all(const Slips& slips, const SlipsOptions& o) {
   fmt::print(
       "book: Ray Tracing: The Rest of Your Life, 2016; course: Introduction to Real-Time Ray Tracing, SIGGRAPH 2019;\n"
       "lecture: CMU 15-468, 2021, with smallpt; lajolla: its design notes, UCSD CSE 272\n\n"
       "{:<4} {:<34} {:<29} {:<27} {:>8}  {}\n",
       "slip", "", "where", "caught by", "samples", "the right one");
-  std::vector<Told> told(slips.size());
+  std::vector<Judged> judged(slips.size());
   std::vector<char> done(slips.size(), 0);
   std::size_t printed = 0, finished = 0;
   std::mutex mutex;
   Progress progress;
   mc::parallel_for(slips.size(), o.threads, [&](std::size_t i) {
-    Told t = mc::with_context(slips[i].title(), [&] { return tell(slips[i], o); });
+    Judged one = mc::with_context(slips[i].title(), [&] { return judge(slips[i], o); });
     const std::lock_guard lock(mutex);
-    told[i] = std::move(t);
+    judged[i] = std::move(one);
     done[i] = 1;
     ++finished;
     if (printed < slips.size() && done[printed]) progress.clear();
     for (; printed < slips.size() && done[printed]; ++printed) {
       const Slip& s = slips[printed];
-      const Told& r = told[printed];
+      const Judged& r = judged[printed];
       fmt::print("{:<4} {:<34} {:<29} {:<27} {:>8}  {}, p = {:.2g}\n", s.id, s.name, s.where, r.test,
                  samples_text(s, r), name(r.right.verdict()), r.right.p());
     }
@@ -141,50 +127,91 @@ int book_slips(const ValidateOptions& o) {
     progress.show(static_cast<double>(finished) / static_cast<double>(slips.size()),
                   fmt::format("{} of {} slips", finished, slips.size()));
   });
-  progress.clear();
+  return judged;
+}
 
+void print_stories(const Slips& slips, const std::vector<Judged>& judged) {
+  for (std::size_t i = 0; i < slips.size(); ++i) {
+    fmt::print("\n{}, {}\n  {}\n  wrong{}\n", slips[i].title(), slips[i].where, slips[i].story,
+               judged[i].wrong.to_string());
+    if (!judged[i].right.passed()) fmt::print("  right{}\n", judged[i].right.to_string());
+  }
+}
+
+// Prints the boxes and appends them to `all`; whether each agrees, or not, as the books say.
+bool judge_boxes(const SlipsOptions& o, json& all) {
+  const std::uint64_t paths = o.samples / 4;
+  fmt::print("\nWhich Cornell box was right? Mean radiance of the picture, {} paths each.\n", paths);
+  const std::vector<CornellBox> boxes = cornell_boxes(paths, o.seed, o.threads);
+  const double level = mc::sidak_level(o.alpha, 1 / static_cast<double>(boxes.size() - 1));
+  bool as_claimed = true;
+  for (const CornellBox& b : boxes) {
+    const bool agrees = b.p > level;
+    as_claimed = as_claimed && agrees == b.claimed_right;
+    const std::string off = &b == &boxes.front() ? fmt::format("{:.4f}", b.mean)
+                                                 : fmt::format("{:+.1f} % +- {:.1f}", 100 * b.off, 100 * b.off_error);
+    fmt::print("  {:<34} {:<12} {:<16} {}  {}\n", b.name, b.where, off, agrees ? "right" : "wrong", b.story);
+    all.push_back({{"name", b.name},
+                   {"where", b.where},
+                   {"story", b.story},
+                   {"mean", b.mean},
+                   {"std_error", b.std_error},
+                   {"off", b.off},
+                   {"off_error", b.off_error},
+                   {"p", b.p},
+                   {"agrees", agrees}});
+  }
+  return as_claimed;
+}
+
+std::vector<Option> rows(SlipsOptions& o) {
+  return {
+      {"SLIP", "", &o.names, "Slips by id or name, for their stories [all, and the Cornell boxes]"},
+      {"--list", "", &o.list, "List the slips, and stop"},
+      {"--alpha", "PROBABILITY", &o.alpha, "Chance of a false rejection, over all looks at one slip"},
+      {"--samples", "N", &o.samples, "Samples per slip at most"},
+      {"--seed", "N", &o.seed, "Seed"},
+      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
+      {"--json", "FILE", &o.json, "Write the results to this file"},
+  };
+}
+
+} // namespace
+
+int slips(const SlipsOptions& o) {
+  const Slips slips = select(o.names);
+  if (o.list) {
+    for (const Slip& s : slips) fmt::print("{:<4} {:<34} {}\n", s.id, s.name, s.where);
+    return exit_ok;
+  }
+  mc::require(o.alpha > 0 && o.alpha < 1, "slips: --alpha {} must lie in (0, 1)", o.alpha);
+  mc::require(o.samples >= 8000 && o.samples <= 1'000'000'000, "slips: --samples {} must lie in [8000, 1e9]",
+              o.samples);
+  if (!o.json.empty()) mc::require_writable(o.json);
+
+  const std::vector<Judged> judged = judge_all(slips, o);
   json all = {{"command", o.command}, {"commit", commit},       {"seed", o.seed},
               {"alpha", o.alpha},     {"slips", json::array()}, {"boxes", json::array()}};
   std::size_t caught = 0, right = 0;
   for (std::size_t i = 0; i < slips.size(); ++i) {
-    caught += told[i].caught, right += told[i].right.passed();
-    all["slips"].push_back(to_json(slips[i], told[i]));
+    caught += judged[i].caught;
+    right += judged[i].right.passed();
+    all["slips"].push_back(to_json(slips[i], judged[i]));
   }
   bool boxes_as_claimed = true;
-  if (o.names.size() > 1) {
-    for (std::size_t i = 0; i < slips.size(); ++i) {
-      fmt::print("\n{}, {}\n  {}\n  wrong{}\n", slips[i].title(), slips[i].where, slips[i].story,
-                 told[i].wrong.to_string());
-      if (!told[i].right.passed()) fmt::print("  right{}\n", told[i].right.to_string());
-    }
-  } else {
-    const std::uint64_t paths = o.samples / 4;
-    fmt::print("\nWhich Cornell box was right? Mean radiance of the picture, {} paths each.\n", paths);
-    const std::vector<CornellBox> boxes = cornell_boxes(paths, o.seed, o.threads);
-    const double level = mc::sidak_level(o.alpha, 1 / static_cast<double>(boxes.size() - 1));
-    for (const CornellBox& b : boxes) {
-      const bool agrees = b.p > level;
-      boxes_as_claimed = boxes_as_claimed && agrees == b.claimed_right;
-      const std::string off = &b == &boxes.front() ? fmt::format("{:.4f}", b.mean)
-                                                   : fmt::format("{:+.1f} % +- {:.1f}", 100 * b.off, 100 * b.off_error);
-      fmt::print("  {:<34} {:<12} {:<16} {}  {}\n", b.name, b.where, off, agrees ? "right" : "wrong", b.story);
-      all["boxes"].push_back({{"name", b.name},
-                              {"where", b.where},
-                              {"story", b.story},
-                              {"mean", b.mean},
-                              {"std_error", b.std_error},
-                              {"off", b.off},
-                              {"off_error", b.off_error},
-                              {"p", b.p},
-                              {"agrees", agrees}});
-    }
-  }
+  if (o.names.empty()) boxes_as_claimed = judge_boxes(o, all["boxes"]);
+  else print_stories(slips, judged);
   fmt::print("\n{} of {} slips rejected, {} of {} right ones passed, at alpha {:g} over all looks of a slip, seed {}\n",
              caught, slips.size(), right, slips.size(), o.alpha, o.seed);
   const bool passed = caught == slips.size() && right == slips.size() && boxes_as_claimed;
   all["passed"] = passed;
-  if (!o.json.empty()) mc::write_file(o.json, all.dump(1) + "\n");
+  if (!o.json.empty()) mc::write_file(o.json, json_text(all));
   return passed ? exit_ok : exit_failed;
+}
+
+Subcommand slips_subcommand() {
+  return make_subcommand<SlipsOptions>(
+      "slips", "Tell what the checkers make of the wrong samplers that books and courses print", rows, slips);
 }
 
 } // namespace carlo

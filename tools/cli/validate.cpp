@@ -1,9 +1,10 @@
-// carlo validate: every sampler against its laws.
 #include <catalogue/catalogue.h>
-#include <cli/commands.h>
+#include <cli/validate.h>
 #include <input/samples_file.h>
+#include <plugin/command.h>
 #include <plugin/plugin.h>
 #include <report/validate_output.h>
+#include <terminal/interrupt.h>
 #include <terminal/progress.h>
 
 #include <mc/check/check_subject.h>
@@ -46,7 +47,6 @@ std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catal
     if (known) continue;
     std::set<std::string> names;
     for (const Case& c : catalogue) names.insert(c.name);
-    if (!brought) names.insert("book-slips");
     throw mc::Error(
         fmt::format("validate: unknown sampler '{}'{} ({})", name, mc::did_you_mean(name, names),
                     brought ? "--list shows what your file brings" : "carlo validate --list names them all"));
@@ -59,9 +59,10 @@ std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catal
   return unique;
 }
 
-// Every case draws its own numbers, the same ones whichever cases run beside it.
-std::uint64_t seed_of(const Case& c, std::uint64_t seed) {
-  for (const char letter : c.title())
+// Every case draws its own numbers, the same ones whichever cases run beside it and wherever its file stands.
+std::uint64_t seed_of(const Case& c, const ValidateOptions& o) {
+  std::uint64_t seed = o.seed;
+  for (const char letter : o.samples_file.empty() ? c.title() : std::string("samples"))
     seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
   return seed;
 }
@@ -86,30 +87,102 @@ std::string line_of(std::size_t width, const Case& c, const mc::Report& r) {
                      name(r.verdict()), r.p(), error_text(r.detectable), error_text(r.detectable_cell), ns, r.seconds);
 }
 
-} // namespace
+constexpr const char* file_formats =
+    "--samples-file: one sample a row, numbers separated by commas or blanks; # begins a comment, a first row of names "
+    "is left out.\n"
+    "--domain: parts separated by commas, in the order of the columns, of three dimensions at most:\n"
+    "  NAME=LO:HI, also -inf and inf; disk, annulus=INNER (x, y); triangle (x, y >= 0, x + y <= 1); ball, sphere,\n"
+    "  hemisphere (x, y, z; unit vectors to 1e-5); or discrete=N, outcomes 0 to N-1 (i), whose probabilities --pdf or\n"
+    "  the numbers of --pdf-file give. A grid lies on x=LO:HI, x=LO:HI,y=LO:HI or the sphere.\n"
+    "--pdf-file: W numbers in each of H rows; cell (column i, row j) holds the mean of the density over\n"
+    "  x in lo + (hi-lo) [i,i+1]/W, y in lo + (hi-lo) [j,j+1]/H, the first row at the least y; an interval has one "
+    "row;\n"
+    "  on the sphere azimuth 2 pi [i,i+1]/W from +x toward +y, angle pi [j,j+1]/H from +z, per steradian.\n"
+    "  An image is grey (R = G = B), its top row first. The integral is 1 to 1e-4, or any with --unnormalized.\n"
+    "--command: questions \"sample N K\\n\" with N K doubles u, and \"pdf N C\\n\" with N C doubles x, on the "
+    "program's\n"
+    "  input; the answers, N C doubles x (not finite: it fails) or N densities, on its output, flushed; "
+    "little-endian.\n"
+    "--pdf: an expression of muParser with _pi and _e, against length, area, volume or solid angle.\n";
 
-int validate(const ValidateOptions& options) {
-  if (!options.names.empty() && options.names.front() == "book-slips") return book_slips(options);
-  ValidateOptions o = options;
-  mc::require(o.plugin.empty() || o.samples_file.empty(), "validate: give --plugin or --samples-file, not both");
+std::vector<Option> rows(ValidateOptions& o) {
+  return {
+      {"NAME", "", &o.names, "Samplers to check, by name (see --list)"},
+      {"--all", "", &o.all, "Check every sampler"},
+      {"--list", "", &o.list, "List every sampler with its parameters, and stop"},
+      {"--alpha", "PROBABILITY", &o.alpha, "Chance of a false rejection, over all tests of the run"},
+      {"--samples", "N", &o.samples, "Samples per case"},
+      {"--detect",
+       "RATIO",
+       &o.detect,
+       "Choose the samples that catch this relative error of a density (0.003: 0.3 %) with probability .99",
+       false,
+       {"--samples"}},
+      {"--seed", "N", &o.seed, "Seed"},
+      {"--scalar", "TYPE", &o.scalar, "float or double [both]"},
+      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
+      {"--json", "FILE", &o.json, "Write the results to this file"},
+      {"--junit", "FILE", &o.junit, "Write the results to this file as JUnit XML"},
+      {"--report", "FOLDER", &o.report, "Write a page with maps and curves of every case to this folder (index.html)"},
+      {"--plugin", "FILE", &o.plugin, "Check the samplers of this shared object, compiled against <mc/check/plugin.h>"},
+      {"--params", "NAME=VALUE,...", &o.parameters,
+       "Parameters of the plugin's samplers: \"alpha=0.1,n=3\", every one of a list \"alpha=0.1,0.2\" or of a range "
+       "\"alpha=0.1:0.5:0.1\"; each --params is a case or more"},
+      {"--command", "PROGRAM", &o.sampler_command,
+       "Check the sampler of this program, which answers over pipes: \"python3 mine.py\", see below"},
+      {"--uniforms", "N", &o.uniforms, "Numbers that one sample of --command takes [the dimensions of --domain]"},
+      {"--timeout", "SECONDS", &o.timeout, "Time that a plugin or program may take per case"},
+      {"--memory", "GIB", &o.memory, "Memory that a plugin or program may take"},
+      {"--samples-file",
+       "FILE",
+       &o.samples_file,
+       "Check these samples against a density, --pdf-file or --pdf; all of them count",
+       false,
+       {"--samples"}},
+      {"--pdf-file", "FILE", &o.pdf_file, "Density on a grid: .csv, .exr or .pfm"},
+      {"--pdf", "EXPRESSION", &o.pdf, "Density in the variables of --domain: \"exp(-x*x/2)/sqrt(2*_pi)\""},
+      {"--domain", "DOMAIN", &o.domain,
+       "Of the samples or of --command, see below [by the columns: 1 or 2 in 0:1, 3 sphere]"},
+      {"--unnormalized", "", &o.unnormalized, "The density is given up to a factor"},
+      {"--open-interval", "", &o.open_interval, "u lies in (0,1): accept samplers that break where a u is exactly 0"},
+  };
+}
+
+// What the user brought, to be checked instead of the catalogue.
+struct Brought {
+  Catalogue cases;
+  std::uint64_t samples = 0; ///< of a file; 0: as many as are asked for
+};
+
+Brought bring(const ValidateOptions& o, const std::atomic<bool>* cancel) {
+  mc::require(int(!o.plugin.empty()) + int(!o.samples_file.empty()) + int(!o.sampler_command.empty()) <= 1,
+              "validate: give one of --plugin, --command and --samples-file");
+  mc::require(o.sampler_command.empty() || !o.domain.empty(), "validate: --command needs the --domain it draws from");
+  mc::require(o.uniforms >= 0 && (o.uniforms == 0 || !o.sampler_command.empty()),
+              "validate: --uniforms {} is for a --command, and >= 1", o.uniforms);
   mc::require(o.parameters.empty() || !o.plugin.empty(), "validate: --params sets parameters of a --plugin");
-  mc::require(o.pdf_file.empty() || !o.samples_file.empty(),
-              "validate: --pdf-file needs the samples to hold against it: --samples-file");
-  Catalogue brought;
-  if (!o.plugin.empty()) brought = plugin_cases(o.plugin, o.parameters, o.timeout);
-  std::uint64_t available = 0; // samples of a file
+  mc::require((o.pdf_file.empty() && o.pdf.empty()) || !o.samples_file.empty(),
+              "validate: {} needs the samples to hold against it: --samples-file",
+              o.pdf.empty() ? "--pdf-file" : "--pdf");
+  mc::require(o.pdf_file.empty() || o.pdf.empty(), "validate: give --pdf-file or --pdf, not both");
+  mc::require(o.timeout > 0 && o.timeout <= 1e6, "validate: --timeout {} must lie in (0, 1e6] seconds", o.timeout);
+  mc::require(o.memory >= 0.25 && o.memory <= 1e6, "validate: --memory {} must lie in [0.25, 1e6] GiB", o.memory);
+  Brought brought;
+  const WorkerOptions worker{
+      .limits = {.seconds = o.timeout, .gigabytes = o.memory}, .program = o.worker, .cancel = cancel};
+  if (!o.plugin.empty()) brought.cases = plugin_cases(o.plugin, o.parameters, worker);
+  if (!o.sampler_command.empty())
+    brought.cases.push_back(command_case({o.sampler_command, o.domain, o.uniforms}, worker));
   if (!o.samples_file.empty()) {
-    const SamplesFileCase file = samples_file_case({o.samples_file, o.pdf_file, o.domain, o.unnormalized});
-    brought.push_back(file.one);
-    o.samples = available = file.samples;
+    const SamplesFileCase file = samples_file_case({o.samples_file, o.pdf_file, o.pdf, o.domain, o.unnormalized});
+    brought.cases.push_back(file.one);
+    brought.samples = file.samples;
   }
-  const std::vector<const Case*> cases = select(o, brought.empty() ? catalogue() : brought, !brought.empty());
-  if (o.list) {
-    for (const Case* c : cases) fmt::print("{:<44} {}\n", plain(*c), c->scalar);
-    return exit_ok;
-  }
-  mc::require(o.alpha > 0 && o.alpha < 1, "validate: --alpha {} must lie in (0, 1)", o.alpha);
-  const double alpha = mc::sidak_level(o.alpha, 1 / static_cast<double>(cases.size()));
+  return brought;
+}
+
+// Sets the samples, and refuses what cannot be done before the work begins.
+void require_possible(ValidateOptions& o, double alpha, std::uint64_t available) {
   if (o.detect) {
     mc::require(*o.detect >= 1e-4 && *o.detect <= 1, "validate: --detect {} must lie in [0.0001, 1]", *o.detect);
     o.samples = mc::samples_to_detect(*o.detect, alpha);
@@ -119,13 +192,20 @@ int validate(const ValidateOptions& options) {
               "{}: it holds {} samples to count beside those for the bins; --detect {} needs {}", o.samples_file,
               available, o.detect.value_or(0), o.samples);
   mc::require(o.samples >= 1000, "validate: --samples {}; at least 1000 are needed", o.samples);
-  // An unwritable place is refused before the work, not after it.
   for (const std::string& file : {o.json, o.junit})
     if (!file.empty()) mc::require_writable(file);
-  const std::string page = o.report.empty() ? "" : page_in(o.report);
+}
 
-  std::vector<mc::Report> reports(cases.size());
-  std::vector<char> done(cases.size(), 0);
+// The cases that finished, with their reports.
+struct Finished {
+  std::vector<const Case*> cases;
+  std::vector<mc::Report> reports;
+};
+
+// Prints the line of each case as soon as those before it are printed.
+Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions& o, double alpha,
+                   const std::atomic<bool>* cancel) {
+  std::vector<std::optional<mc::Report>> reports(cases.size());
   std::size_t printed = 0, finished = 0;
   std::mutex mutex;
   Progress progress;
@@ -133,46 +213,94 @@ int validate(const ValidateOptions& options) {
   for (const Case* c : cases) width = std::max(width, plain(*c).size());
   fmt::print("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>7} {:>6}\n", "sampler", width, "scalar", "verdict", "p",
              "detects", "in a cell", "ns", "s");
+  const auto print = [&](std::size_t i) { fmt::print("{}", line_of(width, *cases[i], *reports[i])); };
   mc::parallel_for(cases.size(), o.threads, [&](std::size_t i) {
+    if (*cancel) return;
     CaseOptions c;
     c.samples = o.samples;
-    c.seed = seed_of(*cases[i], o.seed);
+    c.seed = seed_of(*cases[i], o);
     c.alpha = alpha;
-    c.evidence = !page.empty();
+    c.evidence = !o.report.empty();
     c.open_interval = o.open_interval;
-    mc::Report report = mc::with_context(cases[i]->title(), [&] { return cases[i]->check(c); });
+    mc::Report report;
+    try {
+      report = mc::with_context(cases[i]->title(), [&] { return cases[i]->check(c); });
+    } catch (const Interrupted&) {
+      return;
+    }
     const std::lock_guard lock(mutex);
     reports[i] = std::move(report);
-    done[i] = 1;
     ++finished;
-    if (printed < cases.size() && done[printed]) progress.clear();
-    for (; printed < cases.size() && done[printed]; ++printed)
-      fmt::print("{}", line_of(width, *cases[printed], reports[printed]));
+    if (printed < cases.size() && reports[printed]) progress.clear();
+    for (; printed < cases.size() && reports[printed]; ++printed) print(printed);
     std::fflush(stdout);
     progress.show(static_cast<double>(finished) / static_cast<double>(cases.size()),
                   fmt::format("{} of {} cases", finished, cases.size()));
   });
   progress.clear();
-
-  std::size_t passed = 0, inconclusive = 0;
+  Finished all;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    passed += reports[i].passed();
-    inconclusive += reports[i].verdict() == mc::Verdict::inconclusive;
+    if (!reports[i]) continue;
+    if (i >= printed) print(i);
+    all.cases.push_back(cases[i]);
+    all.reports.push_back(std::move(*reports[i]));
   }
-  for (std::size_t i = 0; i < cases.size(); ++i)
-    if (!reports[i].passed())
-      fmt::print("\n{}\n  again: {}\n", reports[i].to_string(), command_again(*cases[i], o, cases.size()));
-  fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed, cases.size(),
-             inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(), o.alpha, o.samples,
-             o.seed);
-  const Run run{o, cases, reports};
+  return all;
+}
+
+// What did not pass, then how many did.
+void print_summary(const ValidateOptions& o, const Run& run, std::size_t asked) {
+  std::size_t passed = 0, inconclusive = 0;
+  for (std::size_t i = 0; i < run.cases.size(); ++i) {
+    const mc::Report& r = run.reports[i];
+    passed += r.passed();
+    inconclusive += r.verdict() == mc::Verdict::inconclusive;
+    if (!r.passed()) fmt::print("\n{}\n  again: {}\n", r.to_string(), command_again(*run.cases[i], o, asked));
+  }
+  fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed,
+             run.cases.size(), inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(),
+             o.alpha, o.samples, o.seed);
+  if (run.interrupted) fmt::print("interrupted: {} of {} cases were finished\n", run.cases.size(), asked);
+}
+
+} // namespace
+
+int validate(const ValidateOptions& options) {
+  mc::require(options.names.empty() || options.names.front() != "book-slips",
+              "validate: book-slips is a subcommand of its own: carlo slips [SLIP...]");
+  ValidateOptions o = options;
+  const Interrupt interrupt;
+  const Brought brought = bring(o, interrupt.flag());
+  if (brought.samples > 0) o.samples = brought.samples;
+  const std::vector<const Case*> cases =
+      select(o, brought.cases.empty() ? catalogue() : brought.cases, !brought.cases.empty());
+  if (o.list) {
+    for (const Case* c : cases) fmt::print("{:<44} {}\n", plain(*c), c->scalar);
+    return exit_ok;
+  }
+  mc::require(o.alpha > 0 && o.alpha < 1, "validate: --alpha {} must lie in (0, 1)", o.alpha);
+  const double alpha = mc::sidak_level(o.alpha, 1 / static_cast<double>(cases.size()));
+  require_possible(o, alpha, brought.samples);
+  const std::string page = o.report.empty() ? "" : page_in(o.report);
+
+  const Finished finished = check_all(cases, o, alpha, interrupt.flag());
+  const Run run{o, finished.cases, finished.reports, finished.cases.size() < cases.size()};
+  print_summary(o, run, cases.size());
   if (!o.junit.empty()) write_junit(o.junit, run);
   if (!o.json.empty()) write_json(o.json, run);
   if (!page.empty()) {
     write_page(page, run);
     fmt::print("page: {}\n", page);
   }
-  return passed == cases.size() ? exit_ok : exit_failed;
+  if (run.interrupted) return exit_interrupted;
+  const bool passed = std::all_of(run.reports.begin(), run.reports.end(), [](const auto& r) { return r.passed(); });
+  return passed ? exit_ok : exit_failed;
+}
+
+Subcommand validate_subcommand() {
+  return make_subcommand<ValidateOptions>(
+      "validate", "Check samplers against their laws: chi-square, KS, mass, Jacobian, inverse, oracle", rows, validate,
+      file_formats);
 }
 
 } // namespace carlo

@@ -4,7 +4,6 @@
 #include <mc/core/file.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -14,47 +13,103 @@ namespace carlo {
 
 namespace {
 
-void skip_blanks(std::string_view& text) { text.remove_prefix(std::min(text.find_first_not_of(" \t\r"), text.size())); }
+constexpr std::string_view blanks = " \t\r", ends = ",; \t\r\"";
 
-// One number off the front. What stands there instead, as far as the next separator, when it is none.
-double take_number(std::string_view& text) {
-  const std::string_view word = text.substr(0, text.find_first_of(",; \t\r"));
-  const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
+void skip_blanks(std::string_view& text) { text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size())); }
+
+bool skip(std::string_view& text, char c) {
+  if (!text.starts_with(c)) return false;
+  text.remove_prefix(1);
+  return true;
+}
+
+// A number, and what 10 is raised to in its last digit.
+struct Number {
   double value = 0;
-  const auto [end, error] = std::from_chars(first, word.data() + word.size(), value);
+  int digit = 0;
+  bool whole = false; // the word is a number and nothing else
+  bool finite = false;
+};
+
+Number parse(std::string_view word) {
+  Number n;
+  const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(first, word.data() + word.size(), n.value);
+  n.whole = !word.empty() && end == word.data() + word.size() && error != std::errc::invalid_argument;
+  n.finite = n.whole && error == std::errc() && std::isfinite(n.value);
+  if (!n.finite) return n;
+  const std::size_t exponent = word.find_first_of("eE");
+  const std::string_view mantissa = word.substr(0, exponent);
+  if (const std::size_t point = mantissa.find('.'); point != std::string_view::npos)
+    n.digit = -static_cast<int>(mantissa.size() - point - 1);
+  if (exponent != std::string_view::npos) {
+    int power = 0;
+    const char* from = word.data() + exponent + 1;
+    std::from_chars(from + (*from == '+' ? 1 : 0), word.data() + word.size(), power);
+    n.digit += power;
+  }
+  return n;
+}
+
+// One number off the front, quoted or not.
+Number take_number(std::string_view& text) {
+  const bool quoted = skip(text, '"');
+  if (quoted) skip_blanks(text);
+  const std::string_view word = text.substr(0, text.find_first_of(ends));
+  const Number n = parse(word);
   mc::require(!word.empty(), "an empty field");
-  mc::require(end == word.data() + word.size() && error != std::errc::invalid_argument, "'{}' is not a number",
-              word.substr(0, 40));
-  mc::require(error == std::errc() && std::isfinite(value), "'{}' is not a finite number", word.substr(0, 40));
+  mc::require(n.whole, "'{}' is not a number", word.substr(0, 40));
+  mc::require(n.finite, "'{}' is not a finite number", word.substr(0, 40));
   text.remove_prefix(word.size());
-  return value;
+  if (quoted) skip_blanks(text);
+  mc::require(skip(text, '"') == quoted, "a quotation mark without its other");
+  return n;
 }
 
 // The names of columns; nan and inf are numbers, though not of ours.
 bool is_header(std::string_view text) {
-  const std::string_view word = text.substr(0, text.find_first_of(",; \t\r"));
-  double value = 0;
-  const char* last = word.data() + word.size();
-  return (std::isalpha(static_cast<unsigned char>(text[0])) || text[0] == '_' || text[0] == '"') &&
-         std::from_chars(word.data(), last, value).ptr != last;
+  const bool quoted = skip(text, '"');
+  const std::string_view word = text.substr(0, text.find_first_of(quoted ? "\"" : ends));
+  const bool begins =
+      quoted || (!text.empty() && (std::isalpha(static_cast<unsigned char>(text[0])) || text[0] == '_'));
+  return begins && !parse(word).whole;
 }
 
 void parse_row(std::string_view text, CsvTable& table) {
   for (bool more = true; more;) {
-    table.values.push_back(take_number(text));
+    const Number n = take_number(text);
+    table.values.push_back(n.value);
+    table.digits.push_back(static_cast<std::int16_t>(std::clamp(n.digit, -1000, 1000)));
     skip_blanks(text);
     more = !text.empty();
-    if (text.starts_with(',') || text.starts_with(';')) {
-      text.remove_prefix(1);
+    if (skip(text, ',') || skip(text, ';')) {
       skip_blanks(text);
+      more = !text.empty(); // a separator may end the row
     }
   }
+}
+
+// What no editor or spreadsheet writes into a table: an image, an archive, UTF-16.
+void require_text(const std::string& file, const std::string& bytes) {
+  const auto control = [](unsigned char c) { return c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f'; };
+  const auto bad = std::find_if(bytes.begin(), bytes.end(), control);
+  if (bad == bytes.end()) return;
+  throw mc::Error(fmt::format("{}: it is no text: byte {} is 0x{:02x}; rows of numbers are needed", file,
+                              bad - bytes.begin(), static_cast<unsigned>(static_cast<unsigned char>(*bad))));
+}
+
+// Non-ASCII bytes of a word that is quoted in a message.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) >= 0x7f) c = '?';
+  return text;
 }
 
 } // namespace
 
 CsvTable read_csv(const std::string& file) {
   const std::string bytes = mc::read_file(file);
+  require_text(file, bytes);
   CsvTable table;
   std::uint32_t line = 0;
   bool first = true;
@@ -63,16 +118,19 @@ CsvTable read_csv(const std::string& file) {
     rest.remove_prefix(std::min(text.size() + 1, rest.size()));
     ++line;
     if (line == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    text = text.substr(0, text.find('#'));
     skip_blanks(text);
-    if (text.empty() || text.starts_with('#')) continue;
+    if (text.empty()) continue;
     if (std::exchange(first, false) && is_header(text)) continue;
     const std::size_t before = table.values.size();
-    mc::with_context(fmt::format("{}:{}", file, line), [&] {
+    try {
       parse_row(text, table);
       const std::size_t found = table.values.size() - before;
       if (table.lines.empty()) table.columns = found;
       mc::require(found == table.columns, "{} numbers; the rows before have {}", found, table.columns);
-    });
+    } catch (const mc::Error& e) {
+      throw mc::Error(fmt::format("{}:{}: {}", file, line, printable(e.what())));
+    }
     table.lines.push_back(line);
   }
   mc::require(!table.lines.empty(), "{}: it holds no numbers", file);

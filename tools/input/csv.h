@@ -11,16 +11,18 @@ namespace carlo {
 struct CsvTable {
   std::size_t columns = 0;
   std::vector<double> values;       ///< row by row
+  std::vector<std::int16_t> digits; ///< of each value: its last printed digit stands for 10^this
   std::vector<std::uint32_t> lines; ///< of the file, from 1, that each row stands in
 
   std::size_t rows() const { return lines.size(); }
   const double* row(std::size_t i) const { return values.data() + i * columns; }
 };
 
-/// Numbers separated by commas, semicolons or blanks; empty lines and lines that begin with # are left out, and so is a
-/// first line that begins with a letter or a quotation mark: the names of the columns.
+/// Numbers separated by commas, semicolons or blanks, in quotation marks or not. Left out are empty lines, what follows
+/// a # to the end of the line, a comma at the end of a row, and a first line that begins with a letter or a quotation
+/// mark and no number: the names of the columns.
 ///   throws : Error "file:line: ..." for what is no finite number, an empty field or a row of another length; "file:
-///            ..." for a file that is missing or holds no numbers
+///            ..." for a file that is missing, is no text or holds no numbers
 CsvTable read_csv(const std::string& file);
 
 } // namespace carlo

@@ -1,4 +1,6 @@
 #include <input/csv.h>
+#include <input/deal.h>
+#include <input/samples_density.h>
 #include <input/samples_file.h>
 #include <input/sides.h>
 
@@ -7,14 +9,12 @@
 #include <mc/check/check_subject.h>
 #include <mc/core/error.h>
 #include <mc/core/sum.h>
-#include <mc/random/permute.h>
 #include <mc/random/uniform.h>
 #include <mc/table/table_dist_2d.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -82,6 +82,8 @@ struct GridDomain {
 GridDomain domain_of(const SamplesFileOptions& o, std::size_t columns) {
   GridDomain d;
   if (o.domain == "sphere" || (o.domain.empty() && columns == 3)) d.sphere = true;
+  else if (!o.domain.empty() && o.domain.find('=') == std::string::npos)
+    throw mc::Error(fmt::format("--domain: on '{}' the density is an expression: --pdf", o.domain));
   else if (!o.domain.empty()) d.sides = parse_sides(o.domain);
   else if (columns == 1) d.sides = {{"x", 0, 1}};
   else d.sides = {{"x", 0, 1}, {"y", 0, 1}};
@@ -134,7 +136,8 @@ struct SamplesFile {
 };
 
 std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
-  mc::require(!o.pdf.empty(), "validate: --samples-file needs the density to hold the samples against: --pdf-file");
+  mc::require(!o.pdf.empty(), "validate: --samples-file needs the density to hold the samples against: --pdf-file or "
+                              "--pdf");
   CsvTable table = read_csv(o.samples);
   mc::require(table.rows() >= 2000, "{}: {} samples; at least 2000 are needed", o.samples, table.rows());
   mc::require(table.rows() < std::uint64_t{1} << 32, "{}: {} samples; fewer than 2^32 fit", o.samples, table.rows());
@@ -194,24 +197,6 @@ std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
                   o.unnormalized ? 1.0 : mass.value(), std::move(distribution), std::move(cells)});
 }
 
-// Deals the rows in an order that the seed chooses, each once: a stream that is new gets the next of them.
-class Deal {
- public:
-  Deal(std::uint32_t rows, std::uint64_t seed) : rows_(rows), seed_(seed) {}
-  std::uint64_t open(std::uint64_t stream, std::size_t n) {
-    const auto [it, fresh] = first_.try_emplace(stream, next_);
-    if (fresh) next_ += n;
-    mc::require(it->second + n <= rows_, "the samples do not suffice");
-    return it->second;
-  }
-  std::uint32_t row(std::uint64_t i) const { return mc::permute(static_cast<std::uint32_t>(i), rows_, seed_); }
-
- private:
-  std::uint32_t rows_;
-  std::uint64_t seed_, next_ = 0;
-  std::map<std::uint64_t, std::uint64_t> first_;
-};
-
 Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::string& title, std::uint64_t seed) {
   Subject s;
   s.name = title;
@@ -255,6 +240,7 @@ Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::strin
 } // namespace
 
 SamplesFileCase samples_file_case(const SamplesFileOptions& options) {
+  if (!options.density.empty() || options.domain.starts_with("discrete=")) return samples_density_case(options);
   const std::shared_ptr<const SamplesFile> file = load(options);
   SamplesFileCase c;
   c.one.name = options.samples;

@@ -1,5 +1,5 @@
 #pragma once
-/// Samples drawn by anything, against a density on a grid.
+/// Samples drawn by anything, against a density on a grid or one that is an expression.
 
 #include <catalogue/catalogue.h>
 
@@ -11,9 +11,11 @@ namespace carlo {
 struct SamplesFileOptions {
   std::string samples; ///< CSV
   std::string pdf;     ///< CSV, .exr or .pfm
-  std::string
-      domain; ///< "x=lo:hi", "x=lo:hi,y=lo:hi" or "sphere"; empty: by the columns, 1 or 2 in [0,1], 3 the sphere
-  bool unnormalized = false; ///< the grid is only proportional to the density
+  std::string density; ///< or an expression in the names of the columns
+  /// Of the grid: "x=lo:hi", "x=lo:hi,y=lo:hi" or "sphere"; with an expression, any of parse_domain. Empty: by the
+  /// columns, 1 or 2 in [0,1], 3 the sphere.
+  std::string domain;
+  bool unnormalized = false; ///< what is given is only proportional to the density
 };
 
 /// A case and the most samples that it can count.

@@ -7,6 +7,8 @@
 
 #include <muParser.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 #include <memory>
@@ -20,12 +22,12 @@ struct Instance {
   mu::Parser parser;
   std::vector<double> values;
 
-  Instance(const std::string& expression, const std::vector<Side>& sides) : values(sides.size()) {
+  Instance(const std::string& expression, const std::vector<std::string>& names) : values(names.size()) {
     try {
       parser.ClearConst(); // muParser's own pi and e have 13 digits
       parser.DefineConst("_pi", 3.14159265358979323846);
       parser.DefineConst("_e", 2.71828182845904523536);
-      for (std::size_t i = 0; i < sides.size(); ++i) parser.DefineVar(sides[i].name, &values[i]);
+      for (std::size_t i = 0; i < names.size(); ++i) parser.DefineVar(names[i], &values[i]);
       parser.SetExpr(expression);
       parser.Eval();
     } catch (const mu::Parser::exception_type& e) {
@@ -38,17 +40,36 @@ struct Instance {
 
 } // namespace
 
+std::function<double(std::span<const double>)> parse_function(const std::string& expression,
+                                                              const std::vector<std::string>& variables) {
+  const Instance checked(expression, variables);
+  static std::atomic<std::uint64_t> ids = 0;
+  const std::uint64_t id = ++ids;
+  return [=](std::span<const double> x) {
+    thread_local std::uint64_t owner = 0;
+    thread_local std::unique_ptr<Instance> mine;
+    if (owner != id) {
+      mine = std::make_unique<Instance>(expression, variables);
+      owner = id;
+    }
+    std::copy(x.begin(), x.end(), mine->values.begin());
+    return mine->parser.Eval();
+  };
+}
+
 Experiment parse_expression(const std::string& expression, const std::string& box) {
   mc::require(!box.empty(), "'{}' is not a name of --list; for an expression give --domain, as in \"x=0:1,y=-1:2\"",
               expression);
   const std::vector<Side> sides = parse_sides(box);
-  const Instance checked(expression, sides);
+  mc::require(sides.size() <= 32, "--domain: {} variables; at most 32 are possible", sides.size());
+  std::vector<std::string> names;
   double volume = 1;
-  for (const Side& s : sides) volume *= s.hi - s.lo;
+  for (const Side& s : sides) {
+    names.push_back(s.name);
+    volume *= s.hi - s.lo;
+  }
   mc::require(std::isfinite(volume), "--domain: the volume of '{}' overflows", box);
 
-  static std::atomic<std::uint64_t> ids = 0;
-  const std::uint64_t id = ++ids;
   Experiment e;
   e.name = expression;
   e.title = expression;
@@ -56,12 +77,10 @@ Experiment parse_expression(const std::string& expression, const std::string& bo
   e.dim = static_cast<int>(sides.size());
   e.truth = std::numeric_limits<double>::quiet_NaN();
   e.stratified_slope = e.fit_from = 0;
-  e.f = [=](std::span<const double> u) {
-    thread_local std::uint64_t owner = 0;
-    thread_local std::unique_ptr<Instance> mine;
-    if (owner != id) mine = std::make_unique<Instance>(expression, sides), owner = id;
-    for (std::size_t i = 0; i < sides.size(); ++i) mine->values[i] = sides[i].lo * (1 - u[i]) + sides[i].hi * u[i];
-    return volume * mine->parser.Eval();
+  e.f = [sides, volume, f = parse_function(expression, names)](std::span<const double> u) {
+    std::array<double, 32> x;
+    for (std::size_t i = 0; i < sides.size(); ++i) x[i] = sides[i].lo * (1 - u[i]) + sides[i].hi * u[i];
+    return volume * f(std::span(x).first(sides.size()));
   };
   return e;
 }

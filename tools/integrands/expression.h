@@ -5,9 +5,14 @@
 
 namespace carlo {
 
-/// The integral of an expression such as "exp(-x*x)*cos(y)" over the box "x=0:1,y=-1:2", as one over the unit cube.
-/// Knows the functions and operators of muParser, and the constants _pi and _e. May be evaluated from several threads
-/// at once.
+/// An expression as a function of the variables' values, in their order; may be called from several threads at once.
+/// Knows the functions and operators of muParser, and the constants _pi and _e.
+///   throws : mc::Error for an expression that does not parse, with the position
+std::function<double(std::span<const double>)> parse_function(const std::string& expression,
+                                                              const std::vector<std::string>& variables);
+
+/// The integral of an expression such as "exp(-x*x)*cos(y)" over the box "x=0:1,y=-1:2", as one over the unit cube; see
+/// parse_function.
 ///   truth  : NaN, nothing is known of it
 ///   throws : mc::Error for an expression that does not parse, with the position; a variable without bounds or with
 ///            two; bounds that are not finite numbers with lo < hi

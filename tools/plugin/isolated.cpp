@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -10,12 +11,16 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <thread>
@@ -30,16 +35,32 @@ struct Unmap {
   void operator()(Watch* w) const { munmap(w, sizeof(Watch)); }
 };
 
-// What the child sends: how the work ended, then its result or the error's text. Length first, so that a cut message
-//                       shows.
-enum Ending : char { returned = 'r', refused = 'e', threw = 't' };
+// What the child sends: how the work ended, the length of the text, so that a cut message shows, and the text: its
+// result, or what is wrong.
+enum Ending : char { returned = 'r', refused = 'e', threw = 't', exhausted = 'm' };
 
-[[noreturn]] void run_child(int pipe, Watch& watch, const std::function<std::string(Watch&)>& work) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
+void limit(int resource, double most) {
+  const auto value = static_cast<rlim_t>(most);
+  const rlimit both{value, value};
+  setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
+}
+
+[[noreturn]] void run_child(int pipe, const Limits& limits, Watch& watch,
+                            const std::function<std::string(Watch&)>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_NOFILE, limits.files);
+  if (!sanitized) limit(RLIMIT_AS, limits.gigabytes * 0x1p30);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM, SIGPIPE}) std::signal(signal, SIG_DFL);
   dup2(STDERR_FILENO, STDOUT_FILENO);
+  const int nothing = open("/dev/null", O_RDONLY);
+  dup2(nothing, STDIN_FILENO);
   // The pipes of children beside this one would keep their ends open.
   if (pipe != 3) dup2(pipe, 3);
   close_range(4, ~0u, 0);
@@ -48,6 +69,8 @@ enum Ending : char { returned = 'r', refused = 'e', threw = 't' };
   char ending = returned;
   try {
     text = work(watch);
+  } catch (const std::bad_alloc&) {
+    ending = exhausted;
   } catch (const std::exception& e) {
     ending = watch.inside() ? threw : refused;
     text = e.what();
@@ -64,6 +87,32 @@ enum Ending : char { returned = 'r', refused = 'e', threw = 't' };
     if (n > 0) sent += static_cast<std::size_t>(n);
   }
   _exit(0);
+}
+
+pid_t parent_of(const std::filesystem::path& process) {
+  std::ifstream in(process / "stat");
+  const std::string stat(std::istreambuf_iterator<char>(in), {});
+  const std::size_t name_end = stat.rfind(')'); // the name may hold anything
+  long parent = -1;
+  if (name_end != std::string::npos) std::sscanf(stat.c_str() + name_end, ") %*c %ld", &parent);
+  return static_cast<pid_t>(parent);
+}
+
+// The orphans of the work are our children (PR_SET_CHILD_SUBREAPER), those of the killed ones become so in turn.
+void end_descendants() {
+  for (;;) {
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+      const std::string name = entry.path().filename().string();
+      if (std::isdigit(static_cast<unsigned char>(name[0])) && parent_of(entry.path()) == getpid())
+        kill(static_cast<pid_t>(std::stol(name)), SIGKILL);
+    }
+    if (waitpid(-1, nullptr, 0) < 0 && errno == ECHILD) return;
+  }
+}
+
+bool hung_up(int descriptor) {
+  pollfd p{descriptor, 0, 0};
+  return poll(&p, 1, 0) > 0 && (p.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0;
 }
 
 bool whole(const std::string& message) {
@@ -84,7 +133,70 @@ std::string Watch::where() const {
   return n_ > 0 ? text + ")" : text;
 }
 
-std::string run_isolated(const std::string& who, double timeout, const std::function<std::string(Watch&)>& work) {
+namespace {
+
+// How the child ended, as far as it was waited for.
+struct Ended {
+  std::string message;
+  bool dead = false; // by itself, not by us
+  bool given_up = false;
+  int status = 0;
+  double stalled = 0; // seconds since the count of calls last grew
+};
+
+Ended wait_for(pid_t child, int pipe, const Watch& watch, double timeout, int hangup) {
+  const auto start = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  Ended e;
+  std::uint64_t calls = 0;
+  double moved = 0;
+  bool open = true;
+  while (!e.dead && !whole(e.message) && elapsed() < timeout && !e.given_up) {
+    if (open) {
+      pollfd p{pipe, POLLIN, 0};
+      if (poll(&p, 1, static_cast<int>(std::clamp(1000 * (timeout - elapsed()), 1.0, 50.0))) > 0) {
+        char buffer[1 << 16];
+        const ssize_t n = read(pipe, buffer, sizeof buffer);
+        if (n > 0) e.message.append(buffer, static_cast<std::size_t>(n));
+        else if (n == 0) open = false;
+      }
+    } else {
+      e.dead = waitpid(child, &e.status, WNOHANG) == child;
+      if (!e.dead) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    if (watch.calls() != calls) {
+      calls = watch.calls();
+      moved = elapsed();
+    }
+    e.given_up = hung_up(hangup);
+  }
+  e.stalled = elapsed() - moved;
+  if (!e.dead) {
+    kill(child, SIGKILL);
+    while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  return e;
+}
+
+[[noreturn]] void complain(const std::string& who, const Limits& limits, const Watch& watch, const Ended& e) {
+  if (e.given_up) throw mc::Error(fmt::format("{}: interrupted", who));
+  if (!e.dead && watch.inside() && e.stalled > 0.5 * limits.seconds)
+    throw mc::Error(fmt::format("{}: it hangs{}: no answer in {:g} s (--timeout)", who, watch.where(), limits.seconds));
+  if (!e.dead)
+    throw mc::Error(fmt::format("{}: not done in {:g} s,{}; raise --timeout or lower --samples", who, limits.seconds,
+                                watch.where()));
+  if (WIFSIGNALED(e.status))
+    throw mc::Error(fmt::format("{}: it crashed{}: {} (signal {})", who, watch.where(), strsignal(WTERMSIG(e.status)),
+                                WTERMSIG(e.status)));
+  throw mc::Error(fmt::format("{}: it ended the process{} with exit code {}; it must return", who, watch.where(),
+                              WEXITSTATUS(e.status)));
+}
+
+} // namespace
+
+std::string run_isolated(const std::string& who, const Limits& limits, int hangup,
+                         const std::function<std::string(Watch&)>& work) {
   const auto system_error = [&](const char* what) {
     return mc::Error(fmt::format("{}: {}: {}", who, what, std::strerror(errno)));
   };
@@ -93,60 +205,25 @@ std::string run_isolated(const std::string& who, double timeout, const std::func
   const std::unique_ptr<Watch, Unmap> watch(new (memory) Watch);
   int ends[2];
   if (pipe(ends) != 0) throw system_error("no pipe");
-  std::fflush(nullptr);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
   const pid_t child = fork();
-  if (child < 0) {
-    close(ends[0]), close(ends[1]);
-    throw system_error("no child process");
-  }
-  if (child == 0) run_child(ends[1], *watch, work);
+  if (child < 0) throw system_error("no child process");
+  if (child == 0) run_child(ends[1], limits, *watch, work);
   close(ends[1]);
-
-  const auto start = Clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
-  std::string message;
-  std::uint64_t calls = 0;
-  double moved = 0; // when the count of calls was last seen to grow
-  bool open = true, dead = false;
-  int status = 0;
-  while (!dead && !whole(message) && elapsed() < timeout) {
-    if (open) {
-      pollfd p{ends[0], POLLIN, 0};
-      if (poll(&p, 1, static_cast<int>(std::clamp(1000 * (timeout - elapsed()), 1.0, 50.0))) > 0) {
-        char buffer[1 << 16];
-        const ssize_t n = read(ends[0], buffer, sizeof buffer);
-        if (n > 0) message.append(buffer, static_cast<std::size_t>(n));
-        else if (n == 0) open = false;
-      }
-      if (watch->calls() != calls) calls = watch->calls(), moved = elapsed();
-    } else {
-      dead = waitpid(child, &status, WNOHANG) == child;
-      if (!dead) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-  }
-  if (!dead) {
-    kill(child, SIGKILL);
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-  }
+  const Ended ended = wait_for(child, ends[0], *watch, limits.seconds, hangup);
   close(ends[0]);
+  end_descendants();
 
-  if (!whole(message)) {
-    if (!dead && watch->inside() && elapsed() - moved > 0.5 * timeout)
-      throw mc::Error(fmt::format("{}: it hangs{}: no answer in {:g} s (--timeout)", who, watch->where(), timeout));
-    if (!dead)
-      throw mc::Error(
-          fmt::format("{}: not done in {:g} s,{}; raise --timeout or lower --samples", who, timeout, watch->where()));
-    if (WIFSIGNALED(status))
-      throw mc::Error(fmt::format("{}: it crashed{}: {} (signal {})", who, watch->where(), strsignal(WTERMSIG(status)),
-                                  WTERMSIG(status)));
-    throw mc::Error(fmt::format("{}: it ended the process{} with exit code {}; it must return", who, watch->where(),
-                                WEXITSTATUS(status)));
+  if (!whole(ended.message)) complain(who, limits, *watch, ended);
+  std::string text = ended.message.substr(1 + sizeof(std::uint64_t));
+  switch (ended.message[0]) {
+  case returned: return text;
+  case threw: throw mc::Error(fmt::format("{}: it threw{}: {}", who, watch->where(), text));
+  case exhausted:
+    throw mc::Error(
+        fmt::format("{}: it wants more than {:g} GiB of memory{} (--memory)", who, limits.gigabytes, watch->where()));
+  default: throw mc::Error(fmt::format("{}: {}", who, text));
   }
-  std::string text = message.substr(1 + sizeof(std::uint64_t));
-  if (message[0] == returned) return text;
-  if (message[0] == threw) throw mc::Error(fmt::format("{}: it threw{}: {}", who, watch->where(), text));
-  throw mc::Error(fmt::format("{}: {}", who, text));
 }
 
 } // namespace carlo

@@ -13,8 +13,7 @@ class Watch {
  public:
   static constexpr int max_arguments = 6;
 
-  /// Around every call: enter before, leave after it. `function` is a string literal, `argument` one too ("u", "x",
-  ///                    "").
+  /// Around every call: enter before, leave after it. `function` and `argument` ("u", "x", "") are string literals.
   void enter(const char* function, const char* argument = "", const double* values = nullptr, int n = 0) {
     argument_ = argument;
     n_ = n;
@@ -39,10 +38,20 @@ class Watch {
   double values_[max_arguments] = {};
 };
 
-/// Runs work in a forked child and returns what it returned. Its standard output goes to standard error.
-///   timeout : wall-clock seconds, then the child is killed
-///   throws  : Error "who: ..." in one line when the work throws, crashes, ends the process or takes too long, saying
-///             where
-std::string run_isolated(const std::string& who, double timeout, const std::function<std::string(Watch&)>& work);
+/// What foreign code may use before it is ended.
+struct Limits {
+  double seconds = 60;  ///< wall-clock
+  double gigabytes = 4; ///< address space, 2^30 bytes each; not under a sanitizer, which reserves terabytes
+  int files = 256;      ///< open at once
+};
+
+/// Runs work in a forked child and returns what it returned. Its standard output goes to standard error. When it
+/// returns, the child and every process that it started have ended.
+///   needs  : a process with a single thread, see worker.h
+///   hangup : a descriptor whose other end is open as long as anyone waits for the result; closed, the work is ended
+///   throws : Error "who: ..." in one line when the work throws, crashes, ends the process or goes beyond a limit,
+///            saying where
+std::string run_isolated(const std::string& who, const Limits& limits, int hangup,
+                         const std::function<std::string(Watch&)>& work);
 
 } // namespace carlo

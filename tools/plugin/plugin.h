@@ -2,7 +2,7 @@
 /// Samplers compiled by the user against <mc/check/plugin.h>.
 
 #include <catalogue/catalogue.h>
-#include <plugin/isolated.h>
+#include <plugin/worker.h>
 
 #include <mc/check/plugin.h>
 #include <mc/check/subject/any_sampler.h>
@@ -50,11 +50,14 @@ mc::AnySampler sampler_of(const PluginSampler& plugin, const std::string& title,
 /// Every law of check_laws that the sampler's functions allow.
 mc::Report check_plugin(const PluginSampler& sampler, const std::string& title, const CaseOptions& options);
 
-/// One case per sampler of the shared object and per set of parameters, "alpha=0.1, n=3", that names only parameters of
-/// the sampler; where there is none, one at the defaults. Loading and checking run in processes of their own, see
-/// isolated.h.
-///   timeout : seconds per case
-///   throws  : Error for a plugin that load_plugin refuses, that crashes or hangs, or a set that no sampler can take
-Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& sets, double timeout);
+/// One case per sampler of the shared object and per set of parameters that names only parameters of the sampler; where
+/// there is none, one at the defaults. Loading and checking run in processes of their own, see worker.h.
+///   sets   : "alpha=0.1, n=3"; lists and ranges stand for every combination, see parameters.h
+///   throws : Error for a plugin that load_plugin refuses, that crashes or goes beyond a limit, or a set that no
+///            sampler can take
+Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& sets, const WorkerOptions& worker);
+
+/// What the worker does with a request of plugin_cases.
+nlohmann::json run_plugin_task(const nlohmann::json& request, Watch& watch);
 
 } // namespace carlo

@@ -2,18 +2,19 @@
 /// The results of carlo validate as files.
 
 #include <catalogue/catalogue.h>
-#include <cli/commands.h>
+#include <cli/validate.h>
 
 #include <string>
 #include <vector>
 
 namespace carlo {
 
-/// A run of validate: a report for each case.
+/// A run of validate: a report for each case that finished.
 struct Run {
   const ValidateOptions& options;
   const std::vector<const Case*>& cases;
   const std::vector<mc::Report>& reports;
+  bool interrupted = false;
 };
 
 /// The command that repeats one case of a run over so many cases, as a user would type it.

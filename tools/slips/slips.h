@@ -1,7 +1,7 @@
 #pragma once
 /// Known-wrong samplers, densities, weights and estimators, each with the right one beside it.
 ///
-/// They stand here in our own words because two readers need them: `carlo validate book-slips`, which tells what the
+/// They stand here in our own words because two readers need them: `carlo slips`, which tells what the
 /// checkers make of the code that the books print, and the tests, which demand that every one of them is rejected.
 /// A family adds its slips in a file of its own, slips_<family>.cpp.
 

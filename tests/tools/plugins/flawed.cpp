@@ -1,6 +1,10 @@
 // A plugin in C++ with one flaw, chosen by a macro; without any it is right.
 #include <mc/check/plugin.h>
 
+#include <signal.h>
+#include <stdio.h>
+#include <unistd.h>
+
 #include <cstdlib>
 #include <stdexcept>
 
@@ -11,6 +15,27 @@ namespace {
 std::int32_t sample(const void*, const double* u, double* x) {
 #if defined(FLAW_throws)
   if (u[0] > 0.5) throw std::runtime_error("no square root today");
+#elif defined(FLAW_greedy)
+  static char* volatile taken; // an allocation that nobody sees may be left out
+  for (;;) taken = new char[1 << 28];
+#elif defined(FLAW_files)
+  while (dup(2) >= 0) {
+  }
+  throw std::runtime_error("no descriptor is left");
+#elif defined(FLAW_family)
+  // A grandchild in a session of its own that would outlive everyone; its id goes where the test looks.
+  static bool born = false;
+  if (!born && fork() == 0) {
+    setsid();
+    if (fork() == 0) {
+      FILE* out = fopen(getenv("FAMILY_FILE"), "w");
+      fprintf(out, "%d\n", static_cast<int>(getpid()));
+      fclose(out);
+      for (;;) pause();
+    }
+    _exit(0);
+  }
+  born = true;
 #elif defined(FLAW_undefined)
   nobody_defines_this();
 #endif

@@ -1,6 +1,6 @@
-// carlo validate book-slips: every slip told, the right ones beside them, the Cornell boxes, JSON and bad input.
+// carlo slips: every slip judged, the right ones beside them, the Cornell boxes, JSON and bad input.
 
-#include "run_validate.h"
+#include "run_in_process.h"
 #include <slips/cornell.h>
 #include <slips/slips.h>
 
@@ -13,21 +13,20 @@
 
 namespace {
 
-using carlo::ValidateOptions;
+using carlo::SlipsOptions;
 using support::Output, support::refusal, support::run;
 using testing::AllOf;
 using testing::HasSubstr;
 
-ValidateOptions slips(std::vector<std::string> names, std::uint64_t samples) {
-  ValidateOptions o;
-  o.names = {"book-slips"};
-  o.names.insert(o.names.end(), names.begin(), names.end());
+SlipsOptions slips(std::vector<std::string> names, std::uint64_t samples) {
+  SlipsOptions o;
+  o.names = std::move(names);
   o.samples = samples;
   return o;
 }
 
-TEST(BookSlips, AllAreRejectedAndTheirRemediesPass) {
-  ValidateOptions o = slips({}, 100'000);
+TEST(Slips, AllAreRejectedAndTheirRemediesPass) {
+  SlipsOptions o = slips({}, 100'000);
   o.json = (std::filesystem::path(testing::TempDir()) / "slips.json").string();
   const Output out = run(o);
   const std::size_t n = carlo::slips_of_books().size();
@@ -39,7 +38,7 @@ TEST(BookSlips, AllAreRejectedAndTheirRemediesPass) {
               AllOf(HasSubstr("\"id\": \"P36\""), HasSubstr("\"boxes\""), HasSubstr("\"commit\"")));
 }
 
-TEST(BookSlips, ANamedSlipTellsItsStory) {
+TEST(Slips, ANamedSlipTellsItsStory) {
   for (const char* name : {"P5", "eight cube roots"}) {
     const Output out = run(slips({name}, 20'000));
     EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
@@ -49,32 +48,41 @@ TEST(BookSlips, ANamedSlipTellsItsStory) {
 }
 
 // A wrong sampler that so few samples cannot tell is reported as missed, and the exit code says so.
-TEST(BookSlips, AMissedSlipFails) {
+TEST(Slips, AMissedSlipFails) {
   const Output out = run(slips({"P36"}, 8000));
   EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
   EXPECT_THAT(out.text, AllOf(HasSubstr("missed"), HasSubstr("0 of 1 slips rejected")));
 }
 
-TEST(BookSlips, ListNamesEverySlip) {
-  ValidateOptions o = slips({}, 8000);
+TEST(Slips, ListNamesEverySlip) {
+  SlipsOptions o = slips({}, 8000);
   o.list = true;
   const std::string text = run(o).text;
   for (const carlo::Slip& s : carlo::slips_of_books()) EXPECT_THAT(text, AllOf(HasSubstr(s.name), HasSubstr(s.where)));
 }
 
-TEST(BookSlips, BadInputIsOneLine) {
+TEST(Slips, BadInputIsOneLine) {
   EXPECT_THAT(refusal(slips({"in-ball Lambertain"}, 8000)),
               HasSubstr("unknown slip 'in-ball Lambertain'; did you mean 'in-ball Lambertian'?"));
   EXPECT_THAT(refusal(slips({}, 10)), HasSubstr("--samples 10 must lie in"));
-  ValidateOptions o = slips({"P1"}, 8000);
+  SlipsOptions o = slips({"P1"}, 8000);
   o.alpha = 0;
   EXPECT_THAT(refusal(o), HasSubstr("--alpha 0 must lie in (0, 1)"));
-  o = slips({"P1"}, 8000), o.junit = "slips.xml";
-  EXPECT_THAT(refusal(o), HasSubstr("--json only"));
   o = slips({"P1"}, 8000), o.json = "/nonexistent/folder/file.json";
   EXPECT_THAT(refusal(o), HasSubstr("/nonexistent/folder"));
-  o = {}, o.names = {"book-slip"};
-  EXPECT_THAT(refusal(o), HasSubstr("did you mean 'book-slips'?"));
+  carlo::ValidateOptions old;
+  old.names = {"book-slips"};
+  EXPECT_THAT(refusal(old), HasSubstr("carlo slips [SLIP...]"));
+}
+
+// What cannot be finished leaves the user's file as it was.
+TEST(Slips, TheOldResultsStayUntilTheNewOnesAreWhole) {
+  SlipsOptions o = slips({"P1"}, 8000);
+  o.json = testing::TempDir() + "/kept.json";
+  mc::write_file(o.json, "old");
+  o.samples = 10;
+  refusal(o);
+  EXPECT_EQ(mc::read_file(o.json), "old");
 }
 
 // The right boxes agree with the reference within five standard errors; the wrong ones are as far off as when each was

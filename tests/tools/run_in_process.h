@@ -1,7 +1,8 @@
 #pragma once
-// Calls carlo validate and keeps what it says.
+// Calls a subcommand's function and keeps what it says.
 
-#include <cli/commands.h>
+#include <cli/slips.h>
+#include <cli/validate.h>
 
 #include <support/files.h>
 
@@ -16,17 +17,24 @@ struct Output {
   int code;
   std::string text;
 };
-inline Output run(const carlo::ValidateOptions& o) {
+
+inline int call(carlo::ValidateOptions o) {
+  o.worker = CARLO_PATH; // a test is no carlo
+  return carlo::validate(o);
+}
+inline int call(const carlo::SlipsOptions& o) { return carlo::slips(o); }
+
+template <class Options> Output run(const Options& o) {
   testing::internal::CaptureStdout();
-  const int code = carlo::validate(o);
+  const int code = call(o);
   std::fflush(stdout);
   return {code, testing::internal::GetCapturedStdout()};
 }
 
 /// What carlo complains about, a single line; "" when it does not.
-inline std::string refusal(const carlo::ValidateOptions& o) {
+template <class Options> std::string refusal(const Options& o) {
   testing::internal::CaptureStdout();
-  const std::string text = error_of([&] { carlo::validate(o); });
+  const std::string text = error_of([&] { call(o); });
   std::fflush(stdout);
   testing::internal::GetCapturedStdout();
   EXPECT_EQ(text.find('\n'), std::string::npos) << text;

@@ -1,0 +1,87 @@
+// carlo validate --command: a sampler in Python, right and wrong, and programs that misbehave.
+
+#include "run_in_process.h"
+
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+
+namespace {
+
+using carlo::ValidateOptions;
+using support::Output, support::refusal, support::run;
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string script = MC_SOURCE_DIR "/tests/tools/commands/sampler.py";
+
+struct Command : support::ScratchTest {
+  static ValidateOptions options(const std::string& command, const std::string& domain = "disk") {
+    ValidateOptions o;
+    o.sampler_command = command;
+    o.domain = domain;
+    o.samples = 20'000;
+    return o;
+  }
+  // The script with a piece of it replaced.
+  ValidateOptions changed(const std::string& from, const std::string& to) const {
+    std::string text = mc::read_file(script);
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return options("python3 '" + write("changed.py", text.replace(at, from.size(), to)) + "'");
+  }
+};
+
+TEST_F(Command, ARightOnePasses) {
+  const Output out = run(options("python3 '" + script + "'"));
+  EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
+  EXPECT_THAT(out.text, HasSubstr("1 of 1 cases passed"));
+}
+
+TEST_F(Command, WrongOnesAreRejected) {
+  Output out = run(changed("math.sqrt(u[0])", "u[0]"));
+  EXPECT_EQ(out.code, carlo::exit_failed);
+  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: "), HasSubstr("again: carlo validate --command 'python3 ")));
+  out = run(changed("(1 / math.pi,)", "(1.01 / math.pi,)"));
+  EXPECT_THAT(out.text, HasSubstr("the density integrates to 1.01"));
+  out = run(changed("math.sqrt(u[0])", "math.nan"));
+  EXPECT_THAT(out.text, HasSubstr("likely fault: edge"));
+  out = run(changed("math.sqrt(u[0])", "math.sqrt(__import__('random').random())"));
+  EXPECT_THAT(out.text, HasSubstr("same u, same sample fail"));
+}
+
+// Ends, hangs and half answers are one line of ours behind what the program itself says.
+TEST_F(Command, WhatMisbehavesIsOneLine) {
+  EXPECT_THAT(refusal(options("exit 3")),
+              HasSubstr("exit 3: the program ended with code 3 instead of answering 'sample'"));
+  EXPECT_THAT(refusal(options("read line; printf 12345678")), HasSubstr("instead of answering 'sample'"));
+  EXPECT_THAT(refusal(options("no-such-program-here 2>/dev/null")), HasSubstr("ended with code 127"));
+  ValidateOptions o = options("sleep 1000");
+  o.timeout = 0.5;
+  EXPECT_THAT(refusal(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("--timeout")));
+}
+
+TEST_F(Command, WhatItStartedEndsWithIt) {
+  ValidateOptions o = options("sh -c 'echo $$ > \"" + path("id") + "\"; exec sleep 1000' & sleep 1000");
+  o.timeout = 0.5;
+  refusal(o);
+  EXPECT_EQ(kill(std::stoi(mc::read_file(path("id"))), 0), -1);
+  EXPECT_EQ(errno, ESRCH);
+}
+
+TEST_F(Command, BadOptionsAreOneLine) {
+  EXPECT_THAT(refusal(options("true", "")), HasSubstr("--command needs the --domain"));
+  EXPECT_THAT(refusal(options("true", "discrete=3")), HasSubstr("continuous domain"));
+  EXPECT_THAT(refusal(options("true", "dsk")), HasSubstr("did you mean 'disk'"));
+  ValidateOptions o = options("true");
+  o.uniforms = 7;
+  EXPECT_THAT(refusal(o), HasSubstr("--uniforms 7; at most 6"));
+  o.plugin = "a.so";
+  EXPECT_THAT(refusal(o), HasSubstr("give one of --plugin, --command and --samples-file"));
+}
+
+} // namespace

@@ -1,0 +1,113 @@
+// What carlo does when an output cannot take what it writes, and when it is no file.
+
+#include "interrupt_carlo.h"
+#include "run_carlo.h"
+
+#include <support/files.h>
+
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace {
+
+using Ran = support::Run;
+using testing::AllOf;
+using testing::HasSubstr;
+
+struct OutputTest : support::ScratchTest {
+  static constexpr const char* integral = "' integrate 'x*x' -d x=0:1 --max-calls 1000 ";
+  std::string carlo(const std::string& arguments) const { return "'" CARLO_PATH + (integral + arguments); }
+  void expect_one_line(const Ran& run, const std::string& words) const {
+    EXPECT_EQ(run.exit_code, 2) << run.output;
+    EXPECT_THAT(run.output, AllOf(testing::StartsWith("carlo: "), HasSubstr(words)));
+    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+  }
+};
+
+TEST_F(OutputTest, AFullStandardOutputIsAnError) {
+  expect_one_line(support::run("(" + carlo("3>&1 1>/dev/full 2>&3") + ")"),
+                  "cannot write to standard output: No space left on device");
+  for (const char* words : {"--help", "--version", "integrate --list", "slips --list"})
+    expect_one_line(support::run(std::string("('" CARLO_PATH "' ") + words + " 3>&1 1>/dev/full 2>&3)"),
+                    "cannot write to standard output");
+}
+
+TEST_F(OutputTest, AClosedStandardOutputIsAnErrorAndTouchesNoFile) {
+  const std::string json = write("kept.json", "");
+  expect_one_line(support::run("(" + carlo("--json '" + json + "' 3>&1 1>&- 2>&3") + ")"),
+                  "cannot write to standard output");
+  EXPECT_THAT(mc::read_file(json), HasSubstr("\"value\"")) << "the file has its content and no line of the output";
+}
+
+// The reader is gone before carlo writes: it waits for the end of its input first.
+TEST_F(OutputTest, AClosedPipeIsAnError) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  const std::string script = "exec 3<>'" + path("pipe") + "' 4>'" + path("pipe") + "' 3<&-; " + carlo("1>&4 2>'") +
+                             path("error") + "'; echo $? > '" + path("code") + "'";
+  support::run(script);
+  EXPECT_EQ(mc::read_file(path("code")), "2\n");
+  EXPECT_THAT(mc::read_file(path("error")), HasSubstr("cannot write to standard output: Broken pipe"));
+}
+
+TEST_F(OutputTest, StandardOutputIsAPlaceForJson) {
+  const Ran run = support::run(carlo("--json /dev/stdout"));
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_LT(run.output.find("calls in"), run.output.find("\"commit\"")) << run.output;
+  support::run(carlo("--json /dev/stdout > '" + path("both") + "'"));
+  EXPECT_THAT(mc::read_file(path("both")), AllOf(HasSubstr("calls in"), HasSubstr("\"commit\"")));
+}
+
+TEST_F(OutputTest, ADeviceStaysADevice) {
+  const std::string full = path("full.json");
+  if (mknod(full.c_str(), S_IFCHR | 0666, makedev(1, 7)) != 0 || !std::ofstream(full).is_open())
+    GTEST_SKIP() << "device nodes cannot be made here";
+  const Ran run = support::run(carlo("--json '" + full + "'"));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.output, HasSubstr("full.json': No space left on device"));
+  EXPECT_TRUE(std::filesystem::is_character_file(full));
+}
+
+TEST_F(OutputTest, AFolderWithQuotesIsDrawnIn) {
+  const std::string out = path("it's \"$(here)\"");
+  const Ran run =
+      support::run_carlo("converge pi --max-n 64 --replicates 8 -o \"" + path("it's \\\"\\$(here)\\\"") + "\"");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_TRUE(std::filesystem::exists(out + "/pi.csv")) << run.output;
+  if (support::run("command -v gnuplot").exit_code != 0) GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_TRUE(std::filesystem::exists(out + "/pi.svg")) << run.output;
+  EXPECT_TRUE(std::filesystem::exists(out + "/pi.png"));
+  EXPECT_FALSE(std::filesystem::exists(out + "/pi.log"));
+}
+
+TEST_F(OutputTest, CtrlCWritesWhatIsFinished) {
+  const Ran run =
+      support::interrupt_carlo("validate --all --threads 1 --samples 400000 --json '" + path("v.json") + "'");
+  EXPECT_EQ(run.exit_code, 130) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("interrupted: "));
+  EXPECT_THAT(mc::read_file(path("v.json")),
+              AllOf(HasSubstr("\"interrupted\": true"), HasSubstr("\"passed\": false"), HasSubstr("\"name\": ")));
+  const Ran curves = support::interrupt_carlo("converge --max-n 4e6 --threads 1 -o '" + path("c") + "'");
+  EXPECT_EQ(curves.exit_code, 130) << curves.output;
+  EXPECT_THAT(curves.output, HasSubstr("interrupted: "));
+}
+
+TEST_F(OutputTest, EverySubcommandHasItsHelp) {
+  for (const char* name : {"validate", "slips", "converge", "integrate", "render", "compare"}) {
+    const Ran run = support::run_carlo(std::string(name) + " --help");
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.output, AllOf(HasSubstr("Usage: "), HasSubstr("Exit codes: ")));
+  }
+  EXPECT_THAT(support::run_carlo("--help").output, testing::Not(HasSubstr("worker")));
+  EXPECT_THAT(support::run_carlo("render a.xml --spp 1 --time 2").output, HasSubstr("--spp excludes --time"));
+  EXPECT_THAT(support::run_carlo("validate UniformDisk --samples 1e3 --scalar double").output,
+              HasSubstr("; 1000 samples each"));
+}
+
+} // namespace

@@ -1,0 +1,84 @@
+// carlo points: sets by name and from a file, what is written, bad input.
+
+#include "run_carlo.h"
+
+#include <support/files.h>
+
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace {
+
+using Ran = support::Run;
+using support::run_carlo;
+using testing::AllOf;
+using testing::HasSubstr;
+
+struct Points : support::ScratchTest {
+  void expect_refused(const std::string& arguments, const std::string& words) const {
+    const Ran run = run_carlo("points " + arguments + " -o '" + path("out") + "'");
+    EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.output;
+    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+    EXPECT_THAT(run.output, HasSubstr(words));
+  }
+};
+
+TEST_F(Points, ASetByName) {
+  const Ran run = run_carlo("points sobol -n 64 -d 3 --randomisations 4 -o '" + path("out") + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, AllOf(HasSubstr("sobol: 64 points in 3 dimensions"), HasSubstr("L2-star discrepancy"),
+                                HasSubstr("RMS of 4"), HasSubstr("-net in base 2")));
+  const std::string csv = mc::read_file(path("out/points.csv"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 64);
+  EXPECT_THAT(mc::read_file(path("out/quality.csv")),
+              AllOf(HasSubstr("\n16,"), HasSubstr("\n32,"), HasSubstr("\n64,")));
+  EXPECT_THAT(mc::read_file(path("out/quality.json")), HasSubstr("\"star_upper\""));
+  const std::string svg = mc::read_file(path("out/points.svg"));
+  std::size_t paths = 0;
+  for (std::size_t at = svg.find("<path"); at != std::string::npos; at = svg.find("<path", at + 1)) ++paths;
+  EXPECT_EQ(paths, 3u) << "a square for each pair of axes";
+}
+
+// What points.csv holds is the set: read back, it has the same figures.
+TEST_F(Points, AFileIsLookedAtAsItIs) {
+  run_carlo("points halton -n 50 --randomisations 1 -o '" + path("a") + "'");
+  const Ran run = run_carlo("points --points-file '" + path("a/points.csv") + "' -o '" + path("b") + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, AllOf(HasSubstr("50 points in 2 dimensions"), HasSubstr("no power of 2")));
+  const auto last = [&](const std::string& name) {
+    const std::string text = mc::read_file(path(name + "/quality.csv"));
+    return text.substr(text.rfind('\n', text.size() - 2) + 1);
+  };
+  EXPECT_EQ(last("a"), last("b"));
+}
+
+TEST_F(Points, ThreadsChangeNothing) {
+  for (const char* threads : {"1", "2"})
+    run_carlo(std::string("points lattice -n 40 --randomisations 3 --threads ") + threads + " -o '" + path(threads) +
+              "'");
+  EXPECT_EQ(mc::read_file(path("1/quality.csv")), mc::read_file(path("2/quality.csv")));
+  EXPECT_EQ(mc::read_file(path("1/spectrum.csv")), mc::read_file(path("2/spectrum.csv")));
+}
+
+TEST_F(Points, BadInputIsOneLine) {
+  expect_refused("sobl", "unknown point set 'sobl'; did you mean 'sobol'?");
+  expect_refused("", "give a point set (see --list) or --points-file");
+  expect_refused("sobol -n 1", "-n 1 must lie in [2, 32768]");
+  expect_refused("sobol -d 0", "-d 0 must lie in [1, 16]");
+  expect_refused("sobol --randomisations 0", "--randomisations 0");
+  expect_refused("--points-file '" + path("none.csv") + "'", "no such file");
+  expect_refused("--points-file '" + write("one.csv", "0.5,0.5\n") + "'", "one.csv: 1 points; 2 to 32768 are needed");
+  expect_refused("--points-file '" + write("off.csv", "x,y\n0.5,0.5\n0.25,1\n") + "'",
+                 "off.csv:3: coordinate 2 is 1; it must lie in [0, 1)");
+  expect_refused("--points-file '" + write("bad.csv", "0.5,0.5\n0.25\n") + "'", "bad.csv:2: 1 numbers");
+  write("file", "");
+  const Ran run = run_carlo("points sobol -o '" + path("file") + "'");
+  EXPECT_EQ(run.exit_code, 2) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("cannot"));
+}
+
+} // namespace

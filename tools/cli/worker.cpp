@@ -1,0 +1,31 @@
+/// carlo worker: started by carlo itself, see plugin/worker.h.
+
+#include <cli/subcommand.h>
+#include <plugin/command.h>
+#include <plugin/plugin.h>
+#include <plugin/worker.h>
+
+#include <nlohmann/json.hpp>
+
+namespace carlo {
+
+namespace {
+
+nlohmann::json run_task(const nlohmann::json& request, Watch& watch) {
+  return request["task"] == "command" ? run_command_task(request, watch) : run_plugin_task(request, watch);
+}
+
+} // namespace
+
+Subcommand worker_subcommand() {
+  Subcommand c{
+      .name = "worker", .help = "Runs foreign code for carlo, which starts it itself", .options = {}, .run = {}};
+  c.run = [](const std::string&) {
+    serve(run_task);
+    return static_cast<int>(exit_ok);
+  };
+  c.hidden = true;
+  return c;
+}
+
+} // namespace carlo

@@ -1,0 +1,215 @@
+#include <input/any_domain.h>
+#include <input/csv.h>
+#include <input/deal.h>
+#include <input/samples_density.h>
+#include <integrands/expression.h>
+
+#include <mc/check/check_subject.h>
+#include <mc/check/fit/cubature.h>
+#include <mc/core/error.h>
+#include <mc/core/sum.h>
+#include <mc/random/hash.h>
+#include <mc/random/uniform.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+namespace carlo {
+
+namespace {
+
+using mc::Subject;
+using Density = std::function<double(std::span<const double>)>;
+
+// Everything that the subject's functions share.
+struct Samples {
+  std::string file;
+  CsvTable table;
+  AnyDomain domain;
+  Density density;
+  double mass_tolerance = 1e-12;
+
+  std::size_t columns() const { return table.columns; }
+
+  // The row with each number moved within its last digit, unless that leads off the domain.
+  std::vector<double> point(std::uint32_t row, std::uint64_t seed) const {
+    std::vector<double> x(table.row(row), table.row(row) + columns());
+    if (domain.outcomes() > 0) return x;
+    std::vector<double> moved = x;
+    for (std::size_t k = 0; k < columns(); ++k) {
+      const double last = std::pow(10.0, table.digits[row * columns() + k]);
+      moved[k] += last * (mc::uniform<double>(mc::hash(seed, row, k)) - 0.5);
+    }
+    return domain.contains(moved.data()) ? moved : x;
+  }
+  std::string text(std::uint32_t row) const {
+    std::string all;
+    for (std::size_t k = 0; k < columns(); ++k) all += fmt::format("{}{}", k ? ", " : "", table.row(row)[k]);
+    return fmt::format("{}:{}: ({})", file, table.lines[row], all);
+  }
+};
+
+std::array<double, 3> quartiles(const CsvTable& table, std::size_t column) {
+  mc::require(column < table.columns, "--domain has more columns than the samples, which have {}", table.columns);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < table.rows(); ++i) values.push_back(table.row(i)[column]);
+  std::sort(values.begin(), values.end());
+  return {values[values.size() / 4], values[values.size() / 2], values[values.size() * 3 / 4]};
+}
+
+std::string default_domain(std::size_t columns) {
+  return columns == 1 ? "x=0:1" : columns == 2 ? "x=0:1,y=0:1" : "sphere";
+}
+
+double checked(double value, const std::string& where) {
+  mc::require(value >= 0 && std::isfinite(value), "--pdf is {} at {}; a density is finite and >= 0", value, where);
+  return value;
+}
+
+// The probabilities of the outcomes: an expression's, or the numbers of a file.
+std::vector<double> probabilities(const SamplesFileOptions& o, int outcomes) {
+  std::vector<double> p;
+  if (!o.pdf.empty()) {
+    p = read_csv(o.pdf).values;
+    mc::require(p.size() == static_cast<std::size_t>(outcomes), "{}: {} numbers; {} outcomes are named", o.pdf,
+                p.size(), outcomes);
+  } else {
+    mc::require(!o.density.empty(), "validate: --samples-file needs the probabilities: --pdf-file or --pdf");
+    const Density f = parse_function(o.density, {"i"});
+    for (double i = 0; i < outcomes; ++i) p.push_back(f(std::span(&i, 1)));
+  }
+  mc::CompensatedSum sum;
+  for (std::size_t i = 0; i < p.size(); ++i) sum.add(checked(p[i], fmt::format("outcome {}", i)));
+  mc::require(sum.value() > 0, "the probabilities are all 0");
+  if (o.unnormalized)
+    for (double& one : p) one /= sum.value();
+  return p;
+}
+
+// What an unnormalised density is to be divided by, and the relative error of that.
+std::pair<double, double> total(const AnyDomain& domain, const Density& density) {
+  const auto f = [&](const AnyDomain::Coordinates& v) {
+    const double value = density(domain.from_unit(v)) * domain.jacobian(v);
+    return std::isfinite(value) ? value : 0.0; // the ends of infinite intervals
+  };
+  const mc::CubatureResult r = mc::integrate_boxes(f, domain.dim(), {mc::UnitBox()});
+  mc::require(r.total.value > 0, "--pdf: the expression is 0 wherever it was looked at");
+  mc::require(r.total.error <= 1e-3 * r.total.value,
+              "--pdf: its integral is {:.6g} to within {:.2g} only; give a density that integrates to 1 instead of "
+              "--unnormalized",
+              r.total.value, r.total.error);
+  return {r.total.value, r.total.error / r.total.value};
+}
+
+std::shared_ptr<const Samples> load(const SamplesFileOptions& o) {
+  CsvTable table = read_csv(o.samples);
+  mc::require(table.rows() >= 2000, "{}: {} samples; at least 2000 are needed", o.samples, table.rows());
+  mc::require(table.rows() < std::uint64_t{1} << 32, "{}: {} samples; fewer than 2^32 fit", o.samples, table.rows());
+  AnyDomain domain = parse_domain(o.domain.empty() ? default_domain(table.columns) : o.domain,
+                                  [&](std::size_t column) { return quartiles(table, column); });
+  const std::vector<std::string> names = domain.names();
+  mc::require(names.size() == table.columns, "{}: {} columns; {} {} needed on {}", o.samples, table.columns,
+              names.size(), names.size() == 1 ? "is" : "are", domain.text());
+  std::size_t off = 0, first_off = 0;
+  for (std::size_t i = table.rows(); i-- > 0;)
+    if (!domain.contains(table.row(i))) {
+      ++off;
+      first_off = i;
+    }
+  Samples s{o.samples, std::move(table), std::move(domain), {}};
+  mc::require(off == 0, "{} is not in {}; {} of {} samples are not (see --domain)",
+              s.text(static_cast<std::uint32_t>(first_off)), s.domain.text(), off, s.table.rows());
+  if (s.domain.outcomes() > 0) return std::make_shared<const Samples>(std::move(s));
+  s.density = parse_function(o.density, names);
+  if (o.unnormalized) {
+    const auto [mass, error] = total(s.domain, s.density);
+    s.density = [f = s.density, mass = mass](std::span<const double> x) { return f(x) / mass; };
+    s.mass_tolerance = std::max(1e-12, 2 * error);
+  }
+  return std::make_shared<const Samples>(std::move(s));
+}
+
+Subject discrete_subject(const std::shared_ptr<const Samples>& f, const std::vector<double>& probabilities,
+                         std::uint64_t seed) {
+  Subject s;
+  s.mass_tolerance = 1e-4; // printed probabilities
+  s.atoms = probabilities;
+  const auto deal = std::make_shared<Deal>(static_cast<std::uint32_t>(f->table.rows()), seed);
+  s.draw = [f, deal, probabilities](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
+    const std::uint64_t first = deal->open(stream, n);
+    for (std::size_t k = 0; k < n; ++k) {
+      Subject::Draw& d = out.emplace_back();
+      d.kind = Subject::Draw::Kind::atom;
+      d.atom = static_cast<int>(f->table.row(deal->row(first + k))[0]);
+      d.pdf_positive = probabilities[static_cast<std::size_t>(d.atom)] > 0;
+    }
+  };
+  s.describe_draw = [f, deal](std::uint64_t stream, std::uint64_t index) {
+    return f->text(deal->row(deal->open(stream, 0) + index));
+  };
+  return s;
+}
+
+Subject continuous_subject(const std::shared_ptr<const Samples>& f, std::uint64_t seed) {
+  Subject s;
+  s.dim = f->domain.dim();
+  s.axes = f->domain.axes();
+  s.mass_tolerance = f->mass_tolerance;
+  const auto deal = std::make_shared<Deal>(static_cast<std::uint32_t>(f->table.rows()), seed);
+  s.draw = [f, deal, seed](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
+    const std::uint64_t first = deal->open(stream, n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::vector<double> x = f->point(deal->row(first + k), seed);
+      const double density = f->density(x);
+      Subject::Draw& d = out.emplace_back();
+      d.pdf_positive = density > 0 && std::isfinite(density);
+      d.v = f->domain.to_unit(x.data());
+    }
+  };
+  s.density = [f](const Subject::Coordinates& v) {
+    const std::vector<double> x = f->domain.from_unit(v);
+    return f->density(x) * f->domain.jacobian(v);
+  };
+  s.describe_draw = [f, deal](std::uint64_t stream, std::uint64_t index) {
+    const std::uint32_t row = deal->row(deal->open(stream, 0) + index);
+    return fmt::format("{}, pdf = {:.9g}", f->text(row), f->density({f->table.row(row), f->columns()}));
+  };
+  s.describe_point = [f](const Subject::Coordinates& v) {
+    return fmt::format("({:.6g})", fmt::join(f->domain.from_unit(v), ", "));
+  };
+  return s;
+}
+
+} // namespace
+
+SamplesFileCase samples_density_case(const SamplesFileOptions& o) {
+  const std::shared_ptr<const Samples> file = load(o);
+  std::vector<double> atoms;
+  if (file->domain.outcomes() > 0) atoms = probabilities(o, file->domain.outcomes());
+  SamplesFileCase c;
+  c.one.name = o.samples;
+  c.one.parameters = o.density.empty() ? o.pdf : o.density;
+  c.one.scalar = "double";
+  c.one.again = fmt::format("--samples-file '{}' {} '{}'", o.samples, o.density.empty() ? "--pdf-file" : "--pdf",
+                            c.one.parameters);
+  if (!o.domain.empty()) c.one.again += fmt::format(" --domain '{}'", o.domain);
+  if (o.unnormalized) c.one.again += " --unnormalized";
+  const std::uint64_t rows = file->table.rows();
+  c.samples = rows - mc::pilot_samples(rows - rows / 9);
+  c.one.check = [file, atoms, title = c.one.title()](const CaseOptions& options) {
+    mc::SubjectOptions s;
+    s.samples = options.samples;
+    s.seed = options.seed;
+    s.alpha = options.alpha;
+    s.evidence = options.evidence;
+    Subject subject =
+        atoms.empty() ? continuous_subject(file, options.seed) : discrete_subject(file, atoms, options.seed);
+    subject.name = title;
+    return mc::check_subject(subject, s);
+  };
+  return c;
+}
+
+} // namespace carlo

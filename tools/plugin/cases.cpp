@@ -1,0 +1,149 @@
+/// Both ends of the requests about a plugin: carlo's, and the worker's.
+
+#include <plugin/parameters.h>
+#include <plugin/plugin.h>
+#include <report/report_json.h>
+
+#include <mc/core/error.h>
+#include <mc/core/text.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace carlo {
+
+using nlohmann::json;
+
+namespace {
+
+// What carlo learns about a sampler.
+struct Parameter {
+  std::string name;
+  double value, lo, hi;
+};
+struct Description {
+  std::string name, scalar;
+  std::vector<Parameter> parameters;
+};
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Parameter, name, value, lo, hi)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Description, name, scalar, parameters)
+
+std::vector<Description> describe(const std::string& path, Watch& watch) {
+  std::vector<Description> all;
+  for (const mc_sampler& s : load_plugin(path, watch)) {
+    Description& d = all.emplace_back(Description{s.name, s.scalar == MC_FLOAT ? "float" : "double", {}});
+    for (int i = 0; i < s.parameter_count; ++i)
+      d.parameters.push_back({s.parameters[i].name, s.parameters[i].value, s.parameters[i].lo, s.parameters[i].hi});
+  }
+  return all;
+}
+
+Parameter* find(std::vector<Parameter>& parameters, const std::string& name) {
+  const auto it =
+      std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == name; });
+  return it == parameters.end() ? nullptr : &*it;
+}
+
+// A set with the text that it came from.
+struct Asked {
+  ParameterSet values;
+  std::string text;
+};
+
+std::vector<Asked> asked_sets(const std::string& path, const std::vector<std::string>& texts,
+                              const std::vector<Description>& samplers) {
+  std::set<std::string> known;
+  for (const Description& d : samplers)
+    for (const Parameter& p : d.parameters) known.insert(p.name);
+  std::vector<Asked> all;
+  for (const std::string& text : texts)
+    for (ParameterSet& set : parse_parameters(text)) {
+      for (const auto& [name, value] : set)
+        mc::require(known.contains(name), "{}: --params: no sampler has a parameter '{}'{}", path, name,
+                    mc::did_you_mean(name, known));
+      all.push_back({std::move(set), text});
+    }
+  return all;
+}
+
+// The sampler's parameters with those of the set in their places; nothing when it lacks one of them.
+std::optional<std::vector<double>> values_of(const std::string& path, const Description& d, const ParameterSet& set) {
+  std::vector<Parameter> parameters = d.parameters;
+  for (const auto& [name, value] : set)
+    if (!find(parameters, name)) return {};
+  for (const auto& [name, value] : set) {
+    Parameter& p = *find(parameters, name);
+    mc::require(value >= p.lo && value <= p.hi, "{}: --params: {} = {} of {} must lie in [{}, {}]", path, name, value,
+                d.name, p.lo, p.hi);
+    p.value = value;
+  }
+  std::vector<double> values;
+  for (const Parameter& p : parameters) values.push_back(p.value);
+  return values;
+}
+
+Case make_case(const std::string& path, std::size_t index, const Description& d, const ParameterSet& set,
+               const std::vector<double>& values, const WorkerOptions& worker) {
+  Case c;
+  c.name = d.name;
+  c.scalar = d.scalar;
+  for (const auto& [name, value] : set)
+    c.parameters += fmt::format("{}{}={}", c.parameters.empty() ? "" : ", ", name, value);
+  c.again = fmt::format("--plugin '{}' {}", path, d.name);
+  if (!set.empty()) c.again += fmt::format(" --params '{}'", c.parameters);
+  c.check = [=, title = c.title()](const CaseOptions& o) {
+    return report_from_json(call_worker({{"task", "check"},
+                                         {"who", path},
+                                         {"index", index},
+                                         {"parameters", values},
+                                         {"title", title},
+                                         {"samples", o.samples},
+                                         {"seed", o.seed},
+                                         {"alpha", o.alpha},
+                                         {"evidence", o.evidence}},
+                                        worker));
+  };
+  return c;
+}
+
+} // namespace
+
+json run_plugin_task(const json& request, Watch& watch) {
+  const std::string path = request["who"];
+  if (request["task"] == "describe") return describe(path, watch);
+  CaseOptions options;
+  options.samples = request["samples"];
+  options.seed = request["seed"];
+  options.alpha = request["alpha"];
+  options.evidence = request["evidence"];
+  const mc_sampler& sampler = load_plugin(path, watch)[request["index"].get<std::size_t>()];
+  return to_json(check_plugin(PluginSampler(sampler, request["parameters"], watch), request["title"], options));
+}
+
+Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& texts, const WorkerOptions& worker) {
+  std::error_code error;
+  mc::require(std::filesystem::exists(path, error), "cannot read '{}': no such file", path);
+  const std::vector<Description> samplers = call_worker({{"task", "describe"}, {"who", path}}, worker);
+  const std::vector<Asked> asked = asked_sets(path, texts, samplers);
+  std::set<std::string> used;
+  Catalogue cases;
+  for (std::size_t index = 0; index < samplers.size(); ++index) {
+    const Description& d = samplers[index];
+    const std::size_t before = cases.size();
+    for (const Asked& set : asked)
+      if (const auto values = values_of(path, d, set.values)) {
+        cases.push_back(make_case(path, index, d, set.values, *values, worker));
+        used.insert(set.text);
+      }
+    if (cases.size() == before) cases.push_back(make_case(path, index, d, {}, *values_of(path, d, {}), worker));
+  }
+  for (const Asked& set : asked)
+    mc::require(used.contains(set.text), "{}: no sampler has all the parameters of --params '{}'", path, set.text);
+  return cases;
+}
+
+} // namespace carlo

@@ -1,0 +1,143 @@
+#include <process/child.h>
+
+#include <mc/core/error.h>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+extern char** environ;
+
+namespace carlo {
+
+namespace {
+
+struct NotStarted {
+  int error;
+};
+
+struct Pipe {
+  int read = -1, write = -1;
+  Pipe() {
+    int ends[2];
+    mc::require(pipe2(ends, O_CLOEXEC) == 0, "no pipe: {}", std::strerror(errno)); // no other child inherits it
+    read = ends[0];
+    write = ends[1];
+  }
+};
+
+// posix_spawn's two records, which must be destroyed.
+struct Setup {
+  posix_spawn_file_actions_t files;
+  posix_spawnattr_t attributes;
+  Setup() {
+    posix_spawn_file_actions_init(&files);
+    posix_spawnattr_init(&attributes);
+  }
+  ~Setup() {
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+  }
+  Setup(const Setup&) = delete;
+  Setup& operator=(const Setup&) = delete;
+};
+
+pid_t spawn(const Launch& launch, int input, int output) {
+  Setup setup;
+  if (!launch.folder.empty()) posix_spawn_file_actions_addchdir_np(&setup.files, launch.folder.c_str());
+  posix_spawn_file_actions_adddup2(&setup.files, input, STDIN_FILENO);
+  if (output >= 0) {
+    posix_spawn_file_actions_adddup2(&setup.files, output, STDOUT_FILENO);
+  } else {
+    posix_spawn_file_actions_addopen(&setup.files, STDOUT_FILENO, launch.output_file.c_str(),
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    posix_spawn_file_actions_adddup2(&setup.files, STDOUT_FILENO, STDERR_FILENO);
+  }
+  sigset_t all, none;
+  sigfillset(&all);
+  sigemptyset(&none);
+  posix_spawnattr_setsigdefault(&setup.attributes, &all);
+  posix_spawnattr_setsigmask(&setup.attributes, &none);
+  posix_spawnattr_setpgroup(&setup.attributes, 0);
+  posix_spawnattr_setflags(&setup.attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+  std::vector<char*> arguments;
+  for (const std::string& one : launch.arguments) arguments.push_back(const_cast<char*>(one.c_str()));
+  arguments.push_back(nullptr);
+  pid_t id = -1;
+  const int error = posix_spawnp(&id, arguments[0], &setup.files, &setup.attributes, arguments.data(), environ);
+  if (error != 0) throw NotStarted{error};
+  return id;
+}
+
+} // namespace
+
+Child::Child(const Launch& launch) {
+  const bool piped = launch.output_file.empty();
+  const Pipe in, out;
+  input_ = in.write;
+  output_ = piped ? out.read : -1;
+  int error = 0;
+  try {
+    id_ = spawn(launch, in.read, piped ? out.write : -1);
+  } catch (const NotStarted& e) {
+    error = e.error;
+  }
+  close(in.read);
+  close(out.write);
+  if (!piped) close(out.read);
+  if (error == 0) return;
+  close(in.write);
+  if (piped) close(out.read);
+  throw mc::Error(fmt::format("cannot start '{}': {}", launch.arguments[0], std::strerror(error)));
+}
+
+Child::~Child() {
+  close_input();
+  if (id_ > 0) {
+    kill(-id_, SIGKILL);
+    wait();
+  }
+  if (output_ >= 0) close(output_);
+}
+
+void Child::close_input() {
+  if (input_ >= 0) close(input_);
+  input_ = -1;
+}
+
+int Child::wait() {
+  int status = 0;
+  while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+  }
+  id_ = -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::optional<int> run_program(const Launch& launch) {
+  try {
+    Child child(launch);
+    child.close_input();
+    return child.wait();
+  } catch (const mc::Error&) {
+    return {};
+  }
+}
+
+bool write_all(int file, const void* bytes, std::size_t size) {
+  const char* at = static_cast<const char*>(bytes);
+  while (size > 0) {
+    const ssize_t n = write(file, at, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n;
+    size -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+} // namespace carlo

@@ -1,0 +1,80 @@
+/// The only file of tools that includes pugixml.
+
+#include <report/validate_output.h>
+
+#include <mc/core/file.h>
+
+#include <fmt/format.h>
+#include <pugixml.hpp>
+
+#include <sstream>
+
+namespace carlo {
+
+namespace {
+
+// XML has no words for control characters.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = '?';
+  return text;
+}
+
+void add_case(pugi::xml_node suite, const Case& one, const mc::Report& r, const std::string& again) {
+  pugi::xml_node node = suite.append_child("testcase");
+  node.append_attribute("classname") = printable(one.name).c_str();
+  node.append_attribute("name") = printable(one.title()).c_str();
+  node.append_attribute("time") = fmt::format("{:.3f}", r.seconds).c_str();
+  pugi::xml_node properties = node.append_child("properties");
+  const auto property = [&](const char* key, const auto& value) {
+    pugi::xml_node p = properties.append_child("property");
+    p.append_attribute("name") = key;
+    p.append_attribute("value") = printable(fmt::format("{}", value)).c_str();
+  };
+  property("parameters", one.parameters);
+  property("scalar", one.scalar);
+  property("verdict", name(r.verdict()));
+  property("p", r.p());
+  property("alpha", r.alpha);
+  property("samples", r.samples);
+  property("mass", r.mass);
+  property("mass_error", r.mass_error);
+  property("detectable", r.detectable);
+  property("detectable_cell", r.detectable_cell);
+  property("ns_per_sample", r.ns_per_sample);
+  property("fault", name(r.fault()));
+  property("again", again);
+  if (r.passed()) return;
+  pugi::xml_node failure = node.append_child("failure");
+  failure.append_attribute("message") = fmt::format("{}, {}", name(r.verdict()), name(r.fault())).c_str();
+  failure.text() = printable(r.to_string()).c_str();
+}
+
+} // namespace
+
+void write_junit(const std::string& file, const Run& run) {
+  const auto& [options, cases, reports, interrupted] = run;
+  std::size_t failures = 0;
+  double seconds = 0;
+  for (const mc::Report& r : reports) {
+    failures += !r.passed();
+    seconds += r.seconds;
+  }
+  pugi::xml_document document;
+  pugi::xml_node declaration = document.append_child(pugi::node_declaration);
+  declaration.append_attribute("version") = "1.0";
+  declaration.append_attribute("encoding") = "UTF-8";
+  pugi::xml_node suite = document.append_child("testsuite");
+  suite.append_attribute("name") = "carlo validate";
+  suite.append_attribute("tests") = static_cast<unsigned>(cases.size());
+  suite.append_attribute("failures") = static_cast<unsigned>(failures);
+  suite.append_attribute("time") = fmt::format("{:.3f}", seconds).c_str();
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    add_case(suite, *cases[i], reports[i], command_again(*cases[i], options, cases.size()));
+  if (interrupted) suite.append_child("system-err").text() = "interrupted: the cases that finished";
+  std::ostringstream text;
+  document.save(text, "  ");
+  mc::write_file(file, text.str());
+}
+
+} // namespace carlo

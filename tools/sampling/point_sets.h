@@ -1,0 +1,24 @@
+#pragma once
+/// The point sets of libmc by name.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace carlo {
+
+/// A way to make points of the unit cube. Another seed is an independent randomisation.
+struct PointSet {
+  std::string name;
+  std::string title; ///< one line
+  /// Coordinate k of point i at i * dim + k.
+  std::function<std::vector<double>(std::uint32_t count, std::uint32_t dim, std::uint64_t seed)> make;
+};
+
+const std::vector<PointSet>& point_sets();
+
+/// The one of that name. Throws Error naming the nearest for an unknown one.
+const PointSet& point_set(const std::string& name);
+
+} // namespace carlo
