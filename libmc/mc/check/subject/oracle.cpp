@@ -91,7 +91,6 @@ Oracle floor(const Oracle& x) { return pack(floor(unpack(x))); }
 Oracle fma(const Oracle& a, const Oracle& b, const Oracle& c) { return pack(fma(unpack(a), unpack(b), unpack(c))); }
 Oracle fmod(const Oracle& x, const Oracle& y) { return pack(fmod(unpack(x), unpack(y))); }
 Oracle frexp(const Oracle& x, int* exponent) { return pack(frexp(unpack(x), exponent)); }
-Oracle frexp(const Oracle& x, int* exponent) { return pack(frexp(unpack(x), exponent)); }
 Oracle hypot(const Oracle& x, const Oracle& y) { return pack(hypot(unpack(x), unpack(y))); }
 Oracle ldexp(const Oracle& x, int power) { return pack(ldexp(unpack(x), power)); }
 Oracle log(const Oracle& x) { return pack(log(unpack(x))); }

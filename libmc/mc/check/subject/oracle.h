@@ -70,7 +70,6 @@ Oracle floor(const Oracle& x);
 Oracle fma(const Oracle& a, const Oracle& b, const Oracle& c);
 Oracle fmod(const Oracle& x, const Oracle& y);
 Oracle frexp(const Oracle& x, int* exponent);
-Oracle frexp(const Oracle& x, int* exponent);
 Oracle hypot(const Oracle& x, const Oracle& y);
 Oracle ldexp(const Oracle& x, int power);
 Oracle log(const Oracle& x);
