@@ -104,7 +104,8 @@ Case make_case(const std::string& path, std::size_t index, const Description& d,
                                          {"samples", o.samples},
                                          {"seed", o.seed},
                                          {"alpha", o.alpha},
-                                         {"evidence", o.evidence}},
+                                         {"evidence", o.evidence},
+                                         {"open_interval", o.open_interval}},
                                         worker));
   };
   return c;
@@ -120,6 +121,7 @@ json run_plugin_task(const json& request, Watch& watch) {
   options.seed = request["seed"];
   options.alpha = request["alpha"];
   options.evidence = request["evidence"];
+  options.open_interval = request["open_interval"];
   const mc_sampler& sampler = load_plugin(path, watch)[request["index"].get<std::size_t>()];
   return to_json(check_plugin(PluginSampler(sampler, request["parameters"], watch), request["title"], options));
 }

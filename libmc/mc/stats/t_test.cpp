@@ -2,7 +2,6 @@
 
 #include <mc/core/error.h>
 #include <mc/core/types.h>
-#include <mc/estimate/moments.h>
 
 #include <boost/math/distributions/students_t.hpp>
 
@@ -10,21 +9,19 @@
 
 namespace mc {
 
-TTest t_test(const Moments& moments, double value, double alpha) {
+TTest t_test(double mean, double error, double dof, double value, double alpha) {
   require(std::isfinite(value), "t_test: value {} must be finite", value);
   require(alpha > 0 && alpha < 1, "t_test: alpha {} must lie in (0, 1)", alpha);
-  const Estimate e = moments.estimate();
-  const double error = moments.std_error();
-  const boost::math::students_t student(e.dof);
   TTest result;
   // Equal values have no standard error: they agree or they do not.
   if (!(error > 0)) {
-    result.t = e.value == value ? 0.0 : std::copysign(HUGE_VAL, e.value - value);
-    result.p = e.value == value ? 1.0 : 0.0;
+    result.t = mean == value ? 0.0 : std::copysign(HUGE_VAL, mean - value);
+    result.p = mean == value ? 1.0 : 0.0;
     return result;
   }
-  result.t = (e.value - value) / error;
-  result.p = student_tail(result.t, e.dof);
+  result.t = (mean - value) / error;
+  result.p = student_tail(result.t, dof);
+  const boost::math::students_t student(dof);
   result.detectable = error * (boost::math::quantile(boost::math::complement(student, alpha / 2)) +
                                boost::math::quantile(student, 0.99));
   return result;

@@ -3,20 +3,25 @@
 
 namespace mc {
 
-class Moments;
-
 struct TTest {
   double t = 0;          ///< (mean - value) / standard error
   double p = 1;          ///< two-sided
   double detectable = 0; ///< smallest |E[x] - value| that the test would have caught at `alpha` with probability .99
 };
 
-/// Tests whether the mean of the values is `value`.
+/// Tests whether a mean with a standard error that was estimated with `dof` degrees of freedom is `value`.
 ///   error  : exact for normal values; else as good as the central limit theorem
-///   throws : Error when a value was not finite, or there are fewer than two; unless `value` is finite and 0 < alpha <
-///            1
+///   throws : Error unless `value` is finite and 0 < alpha < 1
 ///   Source : [Student08]
-TTest t_test(const Moments& moments, double value, double alpha = 0.01);
+TTest t_test(double mean, double error, double dof, double value, double alpha);
+
+/// The same for mc::Moments. Throws Error when a value was not finite, or there are fewer than two.
+template <class M>
+requires requires(const M& m) { m.estimate().dof; }
+TTest t_test(const M& moments, double value, double alpha = 0.01) {
+  const auto e = moments.estimate();
+  return t_test(e.value, moments.std_error(), e.dof, value, alpha);
+}
 
 /// Degrees of freedom behind the sum of two variances, each estimated with its own.
 ///   error : that of Satterthwaite's approximation; exact where one variance is 0. dof_a + dof_b where both are
