@@ -333,7 +333,7 @@ TEST_P(ByExpression, RightOnesPassAndWrongOnesFail) {
   o.pdf = GetParam().pdf;
   const Output right = run(o);
   EXPECT_EQ(right.code, carlo::exit_ok) << right.text;
-  o.pdf = std::string("7*(") + GetParam().pdf + ")";
+  o.pdf = std::string("0.7*(") + GetParam().pdf + ")"; // a probability above 1 would be refused
   EXPECT_EQ(run(o).code, carlo::exit_failed);
   o.unnormalized = true;
   EXPECT_EQ(run(o).code, carlo::exit_ok);

@@ -26,7 +26,7 @@ template <Real S> class HenyeyGreenstein {
     require(g > -1 && g < 1, "HenyeyGreenstein: g = {} must lie in (-1, 1)", static_cast<double>(g));
   }
   static HenyeyGreenstein from_one_minus_abs_g(S h, bool backward = false) {
-    require(h * h >= std::numeric_limits<S>::min() / std::numeric_limits<S>::epsilon() && h <= 1,
+    require(h > 0 && h * h >= std::numeric_limits<S>::min() / std::numeric_limits<S>::epsilon() && h <= 1,
             "HenyeyGreenstein: 1 - |g| = {} must lie in (0, 1], and its square must not be denormal",
             static_cast<double>(h));
     return HenyeyGreenstein(h, backward);

@@ -29,7 +29,8 @@ TEST(RealLine, TailsDoNotCancel) {
 }
 
 TEST(Interval, RefusesNonsense) {
-  EXPECT_EQ(support::error_of([] { mc::Interval<double>(1, 1); }), "Interval: [1, 1] needs finite bounds with lo < hi");
+  EXPECT_EQ(support::error_of([] { mc::Interval<double>(1, 1); }),
+            "Interval: [1, 1] needs finite bounds and a finite width, with lo < hi");
   EXPECT_NE(support::error_of([] { mc::Interval<double>(0, INFINITY); }), "");
   EXPECT_NE(support::error_of([] { mc::Interval<double>(NAN, 1); }), "");
   EXPECT_NE(support::error_of([] { mc::HalfLine<double>(0, 0); }), "");

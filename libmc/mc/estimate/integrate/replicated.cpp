@@ -53,6 +53,7 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
     if (method == Method::vegas) chosen = std::move(guided);
     else {
       const std::uint64_t end = std::min(chosen.length, affordable(guided));
+      if (end == 0) return out; // nothing is left to hold the grid against the bare sequences with
       for (std::uint64_t to = next(guided, end); to <= end; to *= 2) guided.extend(run, to);
       // Interlaced points may start worse and fall faster, so where there are any the two compete at the length they
       // would end with.
@@ -71,10 +72,8 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
     if (grow(chosen, affordable(chosen))) return out;
   }
   // What is left is too little for twice the length, but may do for more replicates.
-  if (const auto more = static_cast<std::uint32_t>(static_cast<double>(run.left()) /
-                                                   (static_cast<double>(chosen.length) * chosen.cost()));
-      more > 0) {
-    out.means = chosen.widen(run, more);
+  if (const std::uint64_t more = run.left() / std::max<std::uint64_t>(chosen.calls_each(), 1); more > 0) {
+    out.means = chosen.widen(run, static_cast<std::uint32_t>(more));
     out.seen = chosen.seen();
     done();
   }

@@ -24,6 +24,8 @@ struct Sequences {
 
   /// Calls per point of a replicate.
   double cost() const { return proposal.grid ? 1 + Proposal::uniform_share : 1.0; }
+  /// Calls of a replicate as long as it is now.
+  std::uint64_t calls_each() const { return length + (proposal.grid ? (length + 7) / 8 : 0); }
   /// The means once every sequence has `to` points.
   Means extend(Run& run, std::uint64_t to);
   /// The values behind the means, one per output.
