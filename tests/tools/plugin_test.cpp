@@ -147,6 +147,7 @@ TEST(Plugin, ALimitIsOneLineThatNamesIt) {
 TEST(Plugin, WhatItStartedEndsWithIt) {
   const std::string file = testing::TempDir() + "/family";
   setenv("FAMILY_FILE", file.c_str(), 1);
+  std::filesystem::remove(file);
   EXPECT_EQ(run(plugin("family")).code, carlo::exit_ok);
   const std::string id = mc::read_file(file);
   EXPECT_GT(std::stoi(id), 1);

@@ -69,6 +69,7 @@ class Program {
     out.resize(before + count);
     char* to = reinterpret_cast<char*>(out.data() + before);
     for (std::size_t left = count * sizeof(double); left > 0;) {
+      if (!child_.has_output()) ended(what);
       const ssize_t n = ::read(child_.output(), to, left);
       if (n < 0 && errno == EINTR) continue;
       if (n <= 0) ended(what);

@@ -3,6 +3,7 @@
 #include <mc/core/error.h>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -108,6 +109,18 @@ Child::~Child() {
 void Child::close_input() {
   if (input_ >= 0) close(input_);
   input_ = -1;
+}
+
+bool Child::has_output() const {
+  pollfd p{output_, POLLIN, 0};
+  constexpr int interval = 50; // ms between two looks at the program
+  while (poll(&p, 1, interval) <= 0) {
+    siginfo_t info{};
+    const bool ended =
+        waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == id_;
+    if (ended) return poll(&p, 1, 0) > 0;
+  }
+  return true;
 }
 
 int Child::wait() {

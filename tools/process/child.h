@@ -28,6 +28,9 @@ class Child {
   int input() const { return input_; }   ///< what we write to
   int output() const { return output_; } ///< what we read from; -1 where the output goes to a file
   void close_input();
+  /// Waits until there is something to read or nobody is left to write it. Returns false when the program itself has
+  /// ended and left nothing, though a process that it started may still hold its end of the pipe.
+  bool has_output() const;
   /// Its exit code once it has ended; 128 + the number of the signal that ended it.
   int wait();
 

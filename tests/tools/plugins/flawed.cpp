@@ -23,17 +23,24 @@ std::int32_t sample(const void*, const double* u, double* x) {
   }
   throw std::runtime_error("no descriptor is left");
 #elif defined(FLAW_family)
-  // A grandchild in a session of its own that would outlive everyone; its id goes where the test looks.
+  // A grandchild in a session of its own that would outlive everyone; its id goes where the test looks, and we go on
+  // when it is there.
   static bool born = false;
-  if (!born && fork() == 0) {
-    setsid();
+  int written[2];
+  if (!born && pipe(written) == 0) {
     if (fork() == 0) {
-      FILE* out = fopen(getenv("FAMILY_FILE"), "w");
-      fprintf(out, "%d\n", static_cast<int>(getpid()));
-      fclose(out);
-      for (;;) pause();
+      setsid();
+      if (fork() == 0) {
+        FILE* out = fopen(getenv("FAMILY_FILE"), "w");
+        fprintf(out, "%d\n", static_cast<int>(getpid()));
+        fclose(out);
+        if (write(written[1], "", 1) != 1) _exit(1);
+        for (;;) pause();
+      }
+      _exit(0);
     }
-    _exit(0);
+    char one;
+    if (read(written[0], &one, 1) != 1) throw std::runtime_error("no grandchild");
   }
   born = true;
 #elif defined(FLAW_undefined)
