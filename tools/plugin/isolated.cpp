@@ -20,7 +20,6 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <new>
 #include <thread>
@@ -91,7 +90,8 @@ void limit(int resource, double most) {
 
 pid_t parent_of(const std::filesystem::path& process) {
   std::ifstream in(process / "stat");
-  const std::string stat(std::istreambuf_iterator<char>(in), {});
+  std::string stat;
+  std::getline(in, stat, '\0'); // as far as it goes: the process may end between opening and reading
   const std::size_t name_end = stat.rfind(')'); // the name may hold anything
   long parent = -1;
   if (name_end != std::string::npos) std::sscanf(stat.c_str() + name_end, ") %*c %ld", &parent);

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <exception>
 #include <vector>
 
 namespace carlo {
@@ -92,7 +93,7 @@ void serve(json (*run)(const json& request, Watch& watch)) {
       return std::string(cbor.begin(), cbor.end());
     });
     answer["result"] = json::from_cbor(result);
-  } catch (const mc::Error& e) {
+  } catch (const std::exception& e) {
     answer["error"] = e.what();
   }
   send(STDOUT_FILENO, answer);
