@@ -1,7 +1,7 @@
 #pragma once
 // Ctrl-C on a terminal, without waiting for a time.
 
-#include "run_carlo.h"
+#include <tools/run_carlo.h>
 
 #include <pty.h>
 #include <unistd.h>

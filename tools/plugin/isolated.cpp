@@ -22,6 +22,7 @@
 #include <fstream>
 #include <memory>
 #include <new>
+#include <optional>
 #include <thread>
 
 namespace carlo {
@@ -91,7 +92,7 @@ void limit(int resource, double most) {
 pid_t parent_of(const std::filesystem::path& process) {
   std::ifstream in(process / "stat");
   std::string stat;
-  std::getline(in, stat, '\0'); // as far as it goes: the process may end between opening and reading
+  std::getline(in, stat, '\0');                 // as far as it goes: the process may end between opening and reading
   const std::size_t name_end = stat.rfind(')'); // the name may hold anything
   long parent = -1;
   if (name_end != std::string::npos) std::sscanf(stat.c_str() + name_end, ") %*c %ld", &parent);
@@ -141,7 +142,8 @@ struct Ended {
   bool dead = false; // by itself, not by us
   bool given_up = false;
   int status = 0;
-  double stalled = 0; // seconds since the count of calls last grew
+  double active = 0;  // seconds since the first call began
+  double stalled = 0; // since the count of calls last grew
 };
 
 Ended wait_for(pid_t child, int pipe, const Watch& watch, double timeout, int hangup) {
@@ -149,6 +151,7 @@ Ended wait_for(pid_t child, int pipe, const Watch& watch, double timeout, int ha
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   Ended e;
   std::uint64_t calls = 0;
+  std::optional<double> began; // when the first call was seen: a busy machine may take its time until then
   double moved = 0;
   bool open = true;
   while (!e.dead && !whole(e.message) && elapsed() < timeout && !e.given_up) {
@@ -164,12 +167,14 @@ Ended wait_for(pid_t child, int pipe, const Watch& watch, double timeout, int ha
       e.dead = waitpid(child, &e.status, WNOHANG) == child;
       if (!e.dead) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+    if (!began && (watch.inside() || watch.calls() > 0)) began = moved = elapsed();
     if (watch.calls() != calls) {
       calls = watch.calls();
       moved = elapsed();
     }
     e.given_up = hung_up(hangup);
   }
+  e.active = began ? elapsed() - *began : 0;
   e.stalled = elapsed() - moved;
   if (!e.dead) {
     kill(child, SIGKILL);
@@ -181,7 +186,7 @@ Ended wait_for(pid_t child, int pipe, const Watch& watch, double timeout, int ha
 
 [[noreturn]] void complain(const std::string& who, const Limits& limits, const Watch& watch, const Ended& e) {
   if (e.given_up) throw mc::Error(fmt::format("{}: interrupted", who));
-  if (!e.dead && watch.inside() && e.stalled > 0.5 * limits.seconds)
+  if (!e.dead && watch.inside() && e.stalled > 0.5 * e.active)
     throw mc::Error(fmt::format("{}: it hangs{}: no answer in {:g} s (--timeout)", who, watch.where(), limits.seconds));
   if (!e.dead)
     throw mc::Error(fmt::format("{}: not done in {:g} s,{}; raise --timeout or lower --samples", who, limits.seconds,

@@ -1,6 +1,6 @@
 // carlo compare: what it must accept and what it must reject.
 
-#include "run_carlo.h"
+#include <tools/run_carlo.h>
 
 #include <render/io/image_io.h>
 

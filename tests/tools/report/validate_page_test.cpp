@@ -19,7 +19,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "run_carlo.h"
+#include <tools/run_carlo.h>
 
 namespace {
 

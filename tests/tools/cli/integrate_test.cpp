@@ -1,6 +1,6 @@
-#include "interrupt_carlo.h"
 #include <integrands/expression.h>
 #include <integrands/genz.h>
+#include <tools/interrupt_carlo.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>

@@ -1,6 +1,6 @@
 // carlo points: sets by name and from a file, what is written, bad input.
 
-#include "run_carlo.h"
+#include <tools/run_carlo.h>
 
 #include <support/files.h>
 

@@ -1,8 +1,8 @@
 // carlo slips: every slip judged, the right ones beside them, the Cornell boxes, JSON and bad input.
 
-#include "run_in_process.h"
 #include <slips/cornell.h>
 #include <slips/slips.h>
+#include <tools/run_in_process.h>
 
 #include <mc/core/file.h>
 

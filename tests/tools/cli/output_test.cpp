@@ -1,7 +1,7 @@
 // What carlo does when an output cannot take what it writes, and when it is no file.
 
-#include "interrupt_carlo.h"
-#include "run_carlo.h"
+#include <tools/interrupt_carlo.h>
+#include <tools/run_carlo.h>
 
 #include <support/files.h>
 

@@ -1,6 +1,6 @@
 // What the README shows is what its commands print, but for what the clock says.
 
-#include "run_carlo.h"
+#include <tools/run_carlo.h>
 
 #include <mc/core/file.h>
 

@@ -1,6 +1,6 @@
 // carlo render, run as a user runs it.
 
-#include "interrupt_carlo.h"
+#include <tools/interrupt_carlo.h>
 
 #include <render/io/image_io.h>
 

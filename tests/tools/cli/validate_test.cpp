@@ -1,7 +1,7 @@
 // carlo validate: selection, verdicts, files and bad input.
 
-#include "run_in_process.h"
 #include <catalogue/catalogue.h>
+#include <tools/run_in_process.h>
 
 #include <mc/core/file.h>
 

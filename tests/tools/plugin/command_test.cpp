@@ -1,6 +1,6 @@
 // carlo validate --command: a sampler in Python, right and wrong, and programs that misbehave.
 
-#include "run_in_process.h"
+#include <tools/run_in_process.h>
 
 #include <mc/core/file.h>
 

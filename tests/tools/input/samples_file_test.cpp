@@ -1,6 +1,6 @@
 // carlo validate --samples-file --pdf-file: densities on grids, smooth and stepped, right and wrong, and bad files.
 
-#include "run_in_process.h"
+#include <tools/run_in_process.h>
 
 #include <support/files.h>
 
