@@ -17,6 +17,13 @@ void add_bsdfs(Catalogue& c) {
                       },
                       {0, 60, 85, 120});
   add_bsdf(c, "Dielectric", "eta=1.5", render::Dielectric{}, {0, 60, 89.9, 130, 150}, {.eta = 1.5});
+  const render::Spectrum paint(0.1f, 0.5f, 0.3f), one = render::Spectrum::Ones();
+  for (const double alpha : {0.02, 0.3, 1.0})
+    add_bsdf(c, "RoughPlastic", fmt::format("alpha={}", alpha),
+             render::RoughPlastic(render::Float(1.49), render::Float(alpha), paint, one), {0, 60, 85, 120});
+  for (const double alpha : {0.1, 0.5})
+    add_bsdf(c, "RoughDielectric", fmt::format("alpha={}", alpha),
+             render::RoughDielectric(render::Float(1.5), render::Float(alpha)), {0, 60, 85, 120, 150}, {.eta = 1.5});
 }
 
 } // namespace carlo

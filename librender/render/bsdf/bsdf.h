@@ -4,12 +4,14 @@
 #include <render/bsdf/dielectric.h>
 #include <render/bsdf/lambert.h>
 #include <render/bsdf/metal.h>
+#include <render/bsdf/rough_dielectric.h>
+#include <render/bsdf/rough_plastic.h>
 #include <render/core/dispatch.h>
 
 namespace render {
 
 /// One of the BSDFs; itself models BsdfLike.
-struct Bsdf : std::variant<Lambert, Metal, Dielectric> {
+struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic, RoughDielectric> {
   using variant::variant;
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {

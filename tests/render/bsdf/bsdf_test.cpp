@@ -6,7 +6,8 @@ namespace {
 
 using namespace render;
 
-static_assert(BsdfLike<Lambert> && BsdfLike<Metal> && BsdfLike<Dielectric> && BsdfLike<Bsdf>);
+static_assert(BsdfLike<Lambert> && BsdfLike<Metal> && BsdfLike<Dielectric> && BsdfLike<RoughPlastic> &&
+              BsdfLike<RoughDielectric> && BsdfLike<Bsdf>);
 
 TEST(Bsdf, SaysWhatItsMemberSays) {
   const Metal metal{Spectrum::Constant(Float(0.7)), Float(0.5)};

@@ -7,7 +7,7 @@ namespace {
 using namespace render;
 
 static_assert(LightLike<Light> && LightLike<AreaLight> && LightLike<ConstantBackground> &&
-              LightLike<GradientBackground>);
+              LightLike<GradientBackground> && LightLike<Environment>);
 
 TEST(Light, AnswersAsItsMember) {
   const GradientBackground sky;

@@ -1,3 +1,4 @@
+#include <render/io/image_io.h>
 #include <render/io/mitsuba/context.h>
 #include <render/io/mitsuba/plugins/plugins.h>
 
@@ -53,6 +54,15 @@ BsdfId Context::bsdf(const XmlElement& element) {
   const BsdfId id = builder.add(read_bsdf(element));
   bsdfs_.emplace(&target, id);
   return id;
+}
+
+std::shared_ptr<const Texels> Context::picture(const std::string& path) {
+  std::shared_ptr<const Texels>& picture = pictures_[path];
+  if (!picture) {
+    Image image = read_image(path);
+    picture = std::make_shared<const Texels>(image.width, image.height, std::move(image.pixels));
+  }
+  return picture;
 }
 
 BsdfId Context::default_bsdf() {

@@ -6,6 +6,7 @@
 #include <render/scene/builder.h>
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
@@ -35,6 +36,10 @@ class Context {
   /// The BSDF of shapes that name none.
   BsdfId default_bsdf();
 
+  /// The picture in a file, read when first asked for.
+  ///   throws : what read_image throws
+  std::shared_ptr<const Texels> picture(const std::string& path);
+
   /// The scene as far as it is read.
   SceneBuilder builder;
 
@@ -46,6 +51,7 @@ class Context {
   std::map<std::string, const XmlElement*> ids_;
   std::map<const XmlElement*, BsdfId> bsdfs_;
   std::set<const XmlElement*> being_read_;
+  std::map<std::string, std::shared_ptr<const Texels>> pictures_;
 };
 
 } // namespace render::mitsuba

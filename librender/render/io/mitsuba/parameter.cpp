@@ -15,6 +15,11 @@ std::string text_of(const Spectrum& s) {
   return fmt::format("{}, {}, {}", s[0], s[1], s[2]);
 }
 
+std::shared_ptr<const Texels> picture_of(const XmlElement& e, Context& context) {
+  const std::string path = context.file(e.attribute("value"));
+  return mc::with_context(e.where(), [&] { return context.picture(path); });
+}
+
 std::size_t word_of(const XmlElement& e, const std::vector<std::string>& words) {
   const std::string& word = e.attribute("value");
   const auto found = std::find(words.begin(), words.end(), word);
@@ -91,6 +96,10 @@ Parameter<Spectrum> color(std::string name, std::string unit, std::string meanin
 }
 Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning, const Spectrum& fallback) {
   return color(name, unit, meaning).otherwise(fallback, text_of(fallback));
+}
+
+Parameter<std::shared_ptr<const Texels>> picture(std::string name, std::string meaning) {
+  return {{name, "file", "", {"string"}, meaning}, picture_of, {}, {}};
 }
 
 Parameter<Transform> transform(std::string name, std::string meaning) {

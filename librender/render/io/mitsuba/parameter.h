@@ -69,6 +69,8 @@ Parameter<std::string> file(std::string name, std::string meaning);
 Parameter<Vec3d> point(std::string name, std::string meaning, const Vec3d& fallback);
 Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning);
 Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning, const Spectrum& fallback);
+/// A file with a picture, relative to the scene file.
+Parameter<std::shared_ptr<const Texels>> picture(std::string name, std::string meaning);
 Parameter<Transform> transform(std::string name, std::string meaning);
 
 /// One word of a list, as its place in the list.

@@ -17,6 +17,20 @@ Dielectric make_dielectric(double inside, double outside, const Spectrum& reflec
   return Dielectric(Float(inside / outside), reflectance, transmittance);
 }
 
+Bsdf make_roughplastic(double inside, double outside, double alpha, std::size_t, const Spectrum& diffuse,
+                       const Spectrum& specular) {
+  mc::require(inside > 0 && outside > 0, "indices of refraction {} and {} must be > 0", inside, outside);
+  return RoughPlastic(Float(inside / outside), Float(alpha), diffuse, specular);
+}
+
+Bsdf make_roughdielectric(double inside, double outside, double alpha, std::size_t, const Spectrum& reflectance,
+                          const Spectrum& transmittance) {
+  mc::require(inside > 0 && outside > 0, "indices of refraction {} and {} must be > 0", inside, outside);
+  const Float eta = Float(inside / outside);
+  if (alpha == 0) return Dielectric(eta, reflectance, transmittance);
+  return RoughDielectric(eta, Float(alpha), reflectance, transmittance);
+}
+
 Bsdf make_twosided(const Bsdf& inner) { return inner; }
 
 Parameter<Bsdf> inner_bsdf() {
@@ -24,6 +38,14 @@ Parameter<Bsdf> inner_bsdf() {
           [](const XmlElement& e, Context& context) { return context.read_bsdf(e); },
           {},
           {}};
+}
+
+Parameter<double> alpha(const std::string& range) {
+  return number("alpha", "", 0.1, "root mean square slope of the facets, " + range).in_lajolla(0.01, "0.01");
+}
+
+Parameter<std::size_t> distribution() {
+  return choice("distribution", {"ggx"}, "of the facets; Mitsuba's default, beckmann, is not supported", 0);
 }
 
 } // namespace
@@ -43,6 +65,18 @@ const Plugins<Bsdf>& bsdf_plugins() {
       plugin<Bsdf>("dielectric", "smooth glass", make_dielectric,
                    number("intIOR", "", 1.5046, "index of refraction inside, > 0"),
                    number("extIOR", "", 1.000277, "index of refraction outside, > 0"),
+                   color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
+                   color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
+      plugin<Bsdf>("roughplastic", "glossy paint: a rough clear coat over a diffuse base, without inner scattering",
+                   make_roughplastic, number("intIOR", "", 1.49, "index of refraction inside, > 0"),
+                   number("extIOR", "", 1.000277, "index of refraction outside, > 0"), alpha("in [0.0001, 1]"),
+                   distribution(), color("diffuseReflectance", share, "of the base, in [0, 1]", half),
+                   color("specularReflectance", share, "factor of what the coat reflects, in [0, 1]", one))
+          .accepting({only(false, "nonlinear", "the base keeps its colour")}),
+      plugin<Bsdf>("roughdielectric", "ground glass", make_roughdielectric,
+                   number("intIOR", "", 1.5046, "index of refraction inside, > 0"),
+                   number("extIOR", "", 1.000277, "index of refraction outside, > 0"),
+                   alpha("0 for smooth glass, or in [0.0001, 1]"), distribution(),
                    color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
                    color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
       plugin<Bsdf>("twosided", "the BSDF inside it, which all of ours are on both sides", make_twosided, inner_bsdf()),

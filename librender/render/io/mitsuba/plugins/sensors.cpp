@@ -70,6 +70,8 @@ Plugin<int> sampler_plugin(std::string name) {
                   no_effect("scramble", "our points are always randomised")});
 }
 
+int make_direct() { return 2; }
+
 int make_path(int max_depth) {
   mc::require(max_depth == -1 || max_depth >= 1, "maxDepth {} must be -1 or at least 1", max_depth);
   return max_depth;
@@ -117,6 +119,11 @@ const Plugins<int>& integrator_plugins() {
       plugin<int>("path", "paths from the camera; --strategy says how they find the lights", make_path,
                   integer("maxDepth", "longest path in edges; -1: no limit", -1))
           .accepting({no_effect("rrDepth", "Russian roulette follows the throughput"),
+                      only(false, "strictNormals", "shading normals are trusted"),
+                      only(false, "hideEmitters", "lights are seen")}),
+      plugin<int>("direct", "what lights send by way of one surface: paths of at most two edges", make_direct)
+          .accepting({no_effect("shadingSamples", "--spp says it"), no_effect("emitterSamples", "--spp says it"),
+                      no_effect("bsdfSamples", "--spp says it"),
                       only(false, "strictNormals", "shading normals are trusted"),
                       only(false, "hideEmitters", "lights are seen")}),
   };

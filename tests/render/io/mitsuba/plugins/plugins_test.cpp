@@ -69,7 +69,7 @@ TEST_F(PluginsTest, EveryDeclaredParameterIsRead) {
       EXPECT_THAT(said(kind, row, needed_but("", row) + "\n<float name=\"nonsense\" value=\"1\"/>"),
                   testing::HasSubstr("s.xml:4: <float>: " + row.name + " has no 'nonsense'"));
     }
-  EXPECT_GE(parameters, 60);
+  EXPECT_GE(parameters, 75);
 }
 
 TEST_F(PluginsTest, NamesAndParametersDiffer) {

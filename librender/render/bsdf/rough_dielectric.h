@@ -1,0 +1,119 @@
+#pragma once
+/// Ground glass.
+
+#include <render/bsdf/microfacet.h>
+
+#include <mc/table/discrete.h>
+
+namespace render {
+
+/// Rough boundary to a medium of relative index eta (inside over outside, the normal points outside): facets of GGX
+/// that reflect and refract as Dielectric does.
+///   eval   : reflection Ks F D G / (4 |cos wo cos wi|); refraction Kt (1 - F) D G |wo.h wi.h| / (|cos wo cos wi|
+///            (wo.h + e wi.h)^2), e the index on the side of wi over that on the side of wo, radiance being divided
+///            by e^2. 0 where wo or wi sees the back of the facet. Light that would meet a second facet is lost.
+///   sample : a visible normal, reflected about with probability F, else refracted through; nullopt where that ends on
+///            the wrong side
+///   throws : Error unless eta is finite, > 0 and at least 1e-4 off 1, alpha in [1e-4, 1] and the colours in [0, 1]
+///   Source : [WalterEtAl07] equations 19-21
+class RoughDielectric {
+ public:
+  RoughDielectric(Float eta, Float alpha, const Spectrum& reflectance = Spectrum::Ones(),
+                  const Spectrum& transmittance = Spectrum::Ones())
+      : eta_(eta), facets_(checked_alpha("rough dielectric: alpha", alpha)),
+        reflectance_(checked_reflectance("rough dielectric: specularReflectance", reflectance)),
+        transmittance_(checked_reflectance("rough dielectric: specularTransmittance", transmittance)) {
+    mc::require(eta > 0 && std::isfinite(eta) && std::abs(eta - 1) >= Float(1e-4),
+                "rough dielectric: relative index {} must be finite, > 0 and not 1, where nothing would be refracted",
+                eta);
+  }
+
+  std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
+    const View view(wo, eta_);
+    if (!(view.wo.z() > 0)) return {};
+    const auto normals = facets_.seen_from(view.wo);
+    const Vec3 m = normals.sample(u);
+    const Float cosine = std::min(view.wo.dot(m), Float(1));
+    if (!(cosine > 0)) return {};
+    const auto [f, cos_t] = fresnel_dielectric(cosine, view.ratio);
+    const mc::Bernoulli<Float> mirrors(std::min(f, Float(1)));
+    const bool reflects = mirrors.sample_index(uc).index == 1;
+    const Vec3 wi =
+        reflects ? Vec3(2 * cosine * m - view.wo) : Vec3((cosine / view.ratio - cos_t) * m - view.wo / view.ratio);
+    const Facet at{view.wo, wi.normalized(), m, cosine, reflects ? cosine : cos_t, view.ratio, reflects};
+    if (!(reflects ? at.wi.z() > 0 : at.wi.z() < 0)) return {};
+    const Float density = density_of(at);
+    if (!(density > 0) || !std::isfinite(density)) return {};
+    return BsdfSample{view.turn(at.wi), value_of(at), density, false, reflects ? Float(1) : view.ratio};
+  }
+  Spectrum eval(const Vec3& wo, const Vec3& wi) const {
+    const auto at = facet_between(wo, wi);
+    return at ? value_of(*at) : Spectrum(Spectrum::Zero());
+  }
+  Float pdf(const Vec3& wo, const Vec3& wi) const {
+    const auto at = facet_between(wo, wi);
+    return at ? density_of(*at) : Float(0);
+  }
+  bool is_delta() const { return false; }
+  bool has_delta() const { return false; }
+
+ private:
+  /// The surface seen with wo above it, and the index on the far side over that on the side of wo.
+  struct View {
+    Vec3 wo;
+    Float ratio;
+    bool flipped;
+    View(const Vec3& w, Float eta) : wo(w), ratio(w.z() < 0 ? 1 / eta : eta), flipped(w.z() < 0) { wo = turn(w); }
+    Vec3 turn(const Vec3& w) const { return flipped ? Vec3(w.x(), w.y(), -w.z()) : w; }
+  };
+
+  /// The facet that sends light between two directions, and the cosines of both, > 0. Nothing is taken from Snell's
+  /// law, which near the critical angle turns the rounding of one cosine into a large error of the other.
+  struct Facet {
+    Vec3 wo, wi, m;
+    Float cos_o, cos_i, ratio;
+    bool reflects;
+
+    /// 1 - F of [BornWolf99] without the difference, the same from both sides.
+    Float transmitted() const {
+      const Float c = ratio * cos_i, s = cos_o + c, p = ratio * cos_o + cos_i;
+      return 2 * cos_o * c * (1 / mc::sqr(s) + 1 / mc::sqr(p));
+    }
+    /// Solid angle of normals over that of refracted directions: e^2 cos_i / (cos_o - e cos_i)^2, where the difference
+    /// is (1 - e^2) / (cos_o + e cos_i).
+    Float jacobian() const {
+      return mc::sqr(ratio) * cos_i * mc::sqr((cos_o + ratio * cos_i) / ((ratio - 1) * (ratio + 1)));
+    }
+    Float reflected() const { return fresnel_dielectric(cos_o, ratio).reflectance; }
+  };
+  std::optional<Facet> facet_between(const Vec3& wo, const Vec3& wi_given) const {
+    const View view(wo, eta_);
+    const Vec3 wi = view.turn(wi_given);
+    if (!(view.wo.z() > 0) || wi.z() == 0) return {};
+    const bool reflects = wi.z() > 0;
+    // In double: grazing facets have cosines that are small differences, and wo and wi exchanged give the same ones.
+    const double ratio = reflects ? 1 : (wo.z() < 0 ? 1 / double(eta_) : double(eta_));
+    const Vec3d o = view.wo.cast<double>(), i = wi.cast<double>(), sum = o + ratio * i;
+    const Vec3d m = (sum.z() < 0 ? Vec3d(-sum) : sum).normalized();
+    const auto cos_o = Float(std::min(o.dot(m), 1.0)), cos_i = Float(reflects ? i.dot(m) : -i.dot(m));
+    if (!(cos_o > 0 && cos_i > 0)) return {};
+    return Facet{view.wo, wi, m.cast<Float>(), cos_o, cos_i, view.ratio, reflects};
+  }
+
+  Spectrum value_of(const Facet& at) const {
+    const Float shape = facets_.d(at.m) * facets_.g1_over_cos(at.wo) * facets_.g1_over_cos(at.wi);
+    if (at.reflects) return reflectance_ * (at.reflected() * shape / 4);
+    return transmittance_ * (at.transmitted() * shape * at.cos_o * at.jacobian() / mc::sqr(at.ratio));
+  }
+  Float density_of(const Facet& at) const {
+    const auto normals = facets_.seen_from(at.wo);
+    if (at.reflects) return at.reflected() * normals.pdf_reflected(at.m);
+    return at.transmitted() * normals.pdf(at.m) * at.jacobian();
+  }
+
+  Float eta_;
+  Microfacets facets_;
+  Spectrum reflectance_, transmittance_;
+};
+
+} // namespace render

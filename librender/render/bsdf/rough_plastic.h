@@ -1,0 +1,86 @@
+#pragma once
+/// Glossy paint: a rough dielectric layer over a diffuse base.
+
+#include <render/bsdf/microfacet.h>
+
+#include <mc/table/discrete.h>
+#include <mc/warp/hemisphere.h>
+
+#include <numbers>
+
+namespace render {
+
+/// The plastic of lajolla, the same on both sides.
+///   eta    : index of refraction of the layer over that of the outside
+///   eval   : Ks F D G / (4 cos wo cos wi) + Kd (1 - F)^2 / pi, F that of wo about the half vector, D and G of GGX; 0
+///            where wo and wi lie on different sides. What happens inside the layer is left out, so it loses light.
+///   sample : mirrored about a visible normal, or a cosine hemisphere, by what each gives at mirror reflection; the pdf
+///            is that of the mixture [1/sr]
+///   throws : Error unless eta is finite and > 0, alpha in [1e-4, 1] and the colours in [0, 1]
+class RoughPlastic {
+ public:
+  RoughPlastic(Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
+      : eta_(eta), facets_(checked_alpha("rough plastic: alpha", alpha)),
+        diffuse_(checked_reflectance("rough plastic: diffuseReflectance", diffuse)),
+        specular_(checked_reflectance("rough plastic: specularReflectance", specular)), diffuse_y_(luminance(diffuse)),
+        specular_y_(luminance(specular)) {
+    mc::require(eta > 0 && std::isfinite(eta), "rough plastic: relative index {} must be finite and > 0", eta);
+  }
+
+  std::optional<BsdfSample> sample(const Vec3& wo_given, Float uc, const Vec2& u) const {
+    const Vec3 wo = upward(wo_given, wo_given);
+    if (!(wo.z() > 0)) return {};
+    const auto normals = facets_.seen_from(wo);
+    const Float share = specular_share(wo);
+    Vec3 wi, m;
+    if (mc::Bernoulli<Float>(share).sample_index(uc).index == 1) {
+      m = normals.sample(u);
+      wi = (2 * wo.dot(m) * m - wo).normalized();
+    } else {
+      wi = mc::CosineHemisphere<Float>{}.sample(u);
+      m = (wo + wi).normalized();
+    }
+    if (!(wi.z() > 0)) return {};
+    const Float density = share * normals.pdf_reflected(m) + (1 - share) * wi.z() * inv_pi;
+    if (!(density > 0)) return {};
+    return BsdfSample{upward(wi, wo_given), value(wo, wi, m), density};
+  }
+  Spectrum eval(const Vec3& wo, const Vec3& wi) const {
+    if (!(wo.z() * wi.z() > 0)) return Spectrum::Zero();
+    const Vec3 o = upward(wo, wo), i = upward(wi, wo);
+    return value(o, i, (o + i).normalized());
+  }
+  Float pdf(const Vec3& wo, const Vec3& wi) const {
+    if (!(wo.z() * wi.z() > 0)) return 0;
+    const Vec3 o = upward(wo, wo), i = upward(wi, wo);
+    const Float share = specular_share(o);
+    return share * facets_.seen_from(o).pdf_reflected((o + i).normalized()) + (1 - share) * i.z() * inv_pi;
+  }
+  bool is_delta() const { return false; }
+  bool has_delta() const { return false; }
+
+ private:
+  static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
+
+  /// w as it is seen with wo above the surface.
+  static Vec3 upward(const Vec3& w, const Vec3& wo) { return wo.z() < 0 ? Vec3(w.x(), w.y(), -w.z()) : w; }
+
+  /// How often the specular lobe is sampled: by what both lobes would give if the surface were smooth.
+  Float specular_share(const Vec3& wo) const {
+    const Float f = fresnel_dielectric(std::min(wo.z(), Float(1)), eta_).reflectance;
+    const Float specular = specular_y_ * f, diffuse = diffuse_y_ * (1 - f);
+    return specular + diffuse > 0 ? specular / (specular + diffuse) : Float(0.5);
+  }
+  Spectrum value(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
+    const Float f = fresnel_dielectric(std::min(std::abs(wo.dot(m)), Float(1)), eta_).reflectance;
+    const Float lobe = f * facets_.d(m) * facets_.g1_over_cos(wo) * facets_.g1_over_cos(wi) / 4;
+    return specular_ * lobe + diffuse_ * (mc::sqr(1 - f) * inv_pi);
+  }
+
+  Float eta_;
+  Microfacets facets_;
+  Spectrum diffuse_, specular_;
+  Float diffuse_y_, specular_y_;
+};
+
+} // namespace render

@@ -1,0 +1,47 @@
+#pragma once
+/// A picture of everything that is far away.
+
+#include <render/core/transform.h>
+#include <render/light/concept.h>
+#include <render/texture/texels.h>
+
+#include <mc/table/table_dist_2d.h>
+
+#include <memory>
+
+namespace render {
+
+/// Radiance from a latitude-longitude picture. Of the local direction d the picture shows v = acos(d_y) / pi, +y being
+/// the top row, and u = atan2(d_x, -d_z) / 2 pi: -z lies at the left edge, +x a quarter to the right.
+///   emitted : bilinear between texel centres, u repeats, v ends at the poles
+///   sample  : a texel by the mean of its luminance times its solid angle, uniform in (u, v) within
+///   pdf     : of the texel over 2 pi^2 sin(theta) [1/sr]
+///   throws  : Error unless all texels are finite and >= 0 and one is not black, scale is finite and > 0, and to_world
+///             is a rotation, a mirroring one too, to 1e-3
+class Environment {
+ public:
+  Environment(std::shared_ptr<const Texels> texels, const Transform& to_world = {}, double scale = 1);
+
+  Spectrum emitted(const Vec3& wi, const SurfacePoint* met) const {
+    return met ? Spectrum(Spectrum::Zero()) : radiance(place(wi));
+  }
+  std::optional<LightSample> sample(const Vec3&, const Vec2& u) const;
+  Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* met) const { return met ? Float(0) : density(place(wi)); }
+  double power(double radius) const { return mc::pi<double> * mc::sqr(radius) * flux_; }
+  bool is_delta() const { return false; }
+  bool is_infinite() const { return true; }
+  bool is_sampled() const { return true; }
+
+ private:
+  Vec2 place(const Vec3& wi) const; ///< (u, v) of a direction
+  Spectrum radiance(const Vec2& uv) const;
+  Float density(const Vec2& uv) const; ///< [1/sr]
+
+  std::shared_ptr<const Texels> texels_;
+  Eigen::Matrix<Float, 3, 3> to_local_;
+  Float scale_;
+  std::shared_ptr<const mc::TableDist2D<Float>> table_; ///< shared by copies
+  double flux_ = 0;                                     ///< luminance over the sphere
+};
+
+} // namespace render
