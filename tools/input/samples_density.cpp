@@ -1,6 +1,6 @@
-#include <input/any_domain.h>
 #include <input/csv.h>
 #include <input/deal.h>
+#include <input/parsed_domain.h>
 #include <input/samples_density.h>
 #include <integrands/expression.h>
 
@@ -27,7 +27,7 @@ using Density = std::function<double(std::span<const double>)>;
 struct Samples {
   std::string file;
   CsvTable table;
-  AnyDomain domain;
+  ParsedDomain domain;
   Density density;
   double mass_tolerance = 1e-12;
 
@@ -36,7 +36,7 @@ struct Samples {
   // The row with each number moved within its last digit, unless that leads off the domain.
   std::vector<double> point(std::uint32_t row, std::uint64_t seed) const {
     std::vector<double> x(table.row(row), table.row(row) + columns());
-    if (domain.outcomes() > 0) return x;
+    if (domain.outcomes > 0) return x;
     std::vector<double> moved = x;
     for (std::size_t k = 0; k < columns(); ++k) {
       const double last = std::pow(10.0, table.digits[row * columns() + k]);
@@ -52,11 +52,10 @@ struct Samples {
 };
 
 std::array<double, 3> quartiles(const CsvTable& table, std::size_t column) {
-  mc::require(column < table.columns, "--domain has more columns than the samples, which have {}", table.columns);
+  mc::require(column < table.columns, "it has more columns than the samples, which have {}", table.columns);
   std::vector<double> values;
   for (std::size_t i = 0; i < table.rows(); ++i) values.push_back(table.row(i)[column]);
-  std::sort(values.begin(), values.end());
-  return {values[values.size() / 4], values[values.size() / 2], values[values.size() * 3 / 4]};
+  return quartiles_of(std::move(values));
 }
 
 std::string default_domain(std::size_t columns) {
@@ -88,13 +87,19 @@ std::vector<double> probabilities(const SamplesFileOptions& o, int outcomes) {
   return p;
 }
 
+// The numbers of a point, as many as there are columns.
+std::span<const double> numbers(const ParsedDomain& domain, const mc::Numbers& x) {
+  return std::span(x).first(domain.columns.size());
+}
+
 // What an unnormalised density is to be divided by, and the relative error of that.
-std::pair<double, double> total(const AnyDomain& domain, const Density& density) {
-  const auto f = [&](const AnyDomain::Coordinates& v) {
-    const double value = density(domain.from_unit(v)) * domain.jacobian(v);
+std::pair<double, double> total(const ParsedDomain& domain, const Density& density) {
+  const auto f = [&](const mc::AnyDomain::Chart& v) {
+    const mc::AnyDomain::Image at = domain.chart.from_unit(v);
+    const double value = density(numbers(domain, at.x)) * at.jacobian;
     return std::isfinite(value) ? value : 0.0; // the ends of infinite intervals
   };
-  const mc::CubatureResult r = mc::integrate_boxes(f, domain.dim(), {mc::UnitBox()});
+  const mc::CubatureResult r = mc::integrate_boxes(f, domain.chart.dim, {mc::UnitBox()});
   mc::require(r.total.value > 0, "--pdf: the expression is 0 wherever it was looked at");
   mc::require(r.total.error <= 1e-3 * r.total.value,
               "--pdf: its integral is {:.6g} to within {:.2g} only; give a density that integrates to 1 instead of "
@@ -107,11 +112,13 @@ std::shared_ptr<const Samples> load(const SamplesFileOptions& o) {
   CsvTable table = read_csv(o.samples);
   mc::require(table.rows() >= 2000, "{}: {} samples; at least 2000 are needed", o.samples, table.rows());
   mc::require(table.rows() < std::uint64_t{1} << 32, "{}: {} samples; fewer than 2^32 fit", o.samples, table.rows());
-  AnyDomain domain = parse_domain(o.domain.empty() ? default_domain(table.columns) : o.domain,
-                                  [&](std::size_t column) { return quartiles(table, column); });
-  const std::vector<std::string> names = domain.names();
+  ParsedDomain domain = mc::with_context("--domain", [&] {
+    return parse_domain(o.domain.empty() ? default_domain(table.columns) : o.domain,
+                        [&](std::size_t column) { return quartiles(table, column); });
+  });
+  const std::vector<std::string> names = domain.columns;
   mc::require(names.size() == table.columns, "{}: {} columns; {} {} needed on {}", o.samples, table.columns,
-              names.size(), names.size() == 1 ? "is" : "are", domain.text());
+              names.size(), names.size() == 1 ? "is" : "are", domain.text);
   std::size_t off = 0, first_off = 0;
   for (std::size_t i = table.rows(); i-- > 0;)
     if (!domain.contains(table.row(i))) {
@@ -120,8 +127,8 @@ std::shared_ptr<const Samples> load(const SamplesFileOptions& o) {
     }
   Samples s{o.samples, std::move(table), std::move(domain), {}};
   mc::require(off == 0, "{} is not in {}; {} of {} samples are not (see --domain)",
-              s.text(static_cast<std::uint32_t>(first_off)), s.domain.text(), off, s.table.rows());
-  if (s.domain.outcomes() > 0) return std::make_shared<const Samples>(std::move(s));
+              s.text(static_cast<std::uint32_t>(first_off)), s.domain.text, off, s.table.rows());
+  if (s.domain.outcomes > 0) return std::make_shared<const Samples>(std::move(s));
   s.density = parse_function(o.density, names);
   if (o.unnormalized) {
     const auto [mass, error] = total(s.domain, s.density);
@@ -154,8 +161,8 @@ Subject discrete_subject(const std::shared_ptr<const Samples>& f, const std::vec
 
 Subject continuous_subject(const std::shared_ptr<const Samples>& f, std::uint64_t seed) {
   Subject s;
-  s.dim = f->domain.dim();
-  s.axes = f->domain.axes();
+  s.dim = f->domain.chart.dim;
+  s.axes = f->domain.chart.axes;
   s.mass_tolerance = f->mass_tolerance;
   const auto deal = std::make_shared<Deal>(static_cast<std::uint32_t>(f->table.rows()), seed);
   s.draw = [f, deal, seed](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
@@ -165,19 +172,21 @@ Subject continuous_subject(const std::shared_ptr<const Samples>& f, std::uint64_
       const double density = f->density(x);
       Subject::Draw& d = out.emplace_back();
       d.pdf_positive = density > 0 && std::isfinite(density);
-      d.v = f->domain.to_unit(x.data());
+      mc::Numbers point{};
+      std::copy(x.begin(), x.end(), point.begin());
+      d.v = f->domain.chart.to_unit(point);
     }
   };
   s.density = [f](const Subject::Coordinates& v) {
-    const std::vector<double> x = f->domain.from_unit(v);
-    return f->density(x) * f->domain.jacobian(v);
+    const mc::AnyDomain::Image at = f->domain.chart.from_unit(v);
+    return f->density(numbers(f->domain, at.x)) * at.jacobian;
   };
   s.describe_draw = [f, deal](std::uint64_t stream, std::uint64_t index) {
     const std::uint32_t row = deal->row(deal->open(stream, 0) + index);
     return fmt::format("{}, pdf = {:.9g}", f->text(row), f->density({f->table.row(row), f->columns()}));
   };
   s.describe_point = [f](const Subject::Coordinates& v) {
-    return fmt::format("({:.6g})", fmt::join(f->domain.from_unit(v), ", "));
+    return fmt::format("({:.6g})", fmt::join(numbers(f->domain, f->domain.chart.from_unit(v).x), ", "));
   };
   return s;
 }
@@ -187,7 +196,7 @@ Subject continuous_subject(const std::shared_ptr<const Samples>& f, std::uint64_
 SamplesFileCase samples_density_case(const SamplesFileOptions& o) {
   const std::shared_ptr<const Samples> file = load(o);
   std::vector<double> atoms;
-  if (file->domain.outcomes() > 0) atoms = probabilities(o, file->domain.outcomes());
+  if (file->domain.outcomes > 0) atoms = probabilities(o, file->domain.outcomes);
   SamplesFileCase c;
   c.one.name = o.samples;
   c.one.parameters = o.density.empty() ? o.pdf : o.density;

@@ -34,7 +34,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Description, name, scalar, parameters)
 
 std::vector<Description> describe(const std::string& path, Watch& watch) {
   std::vector<Description> all;
-  for (const mc_sampler& s : load_plugin(path, watch)) {
+  for (const mc_sampler& s : load_plugin(path, watch).samplers) {
     Description& d = all.emplace_back(Description{s.name, s.scalar == MC_FLOAT ? "float" : "double", {}});
     for (int i = 0; i < s.parameter_count; ++i)
       d.parameters.push_back({s.parameters[i].name, s.parameters[i].value, s.parameters[i].lo, s.parameters[i].hi});
@@ -122,7 +122,7 @@ json run_plugin_task(const json& request, Watch& watch) {
   options.alpha = request["alpha"];
   options.evidence = request["evidence"];
   options.open_interval = request["open_interval"];
-  const mc_sampler& sampler = load_plugin(path, watch)[request["index"].get<std::size_t>()];
+  const mc_sampler sampler = load_plugin(path, watch).samplers[request["index"].get<std::size_t>()];
   return to_json(check_plugin(PluginSampler(sampler, request["parameters"], watch), request["title"], options));
 }
 
@@ -130,6 +130,7 @@ Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& 
   std::error_code error;
   mc::require(std::filesystem::exists(path, error), "cannot read '{}': no such file", path);
   const std::vector<Description> samplers = call_worker({{"task", "describe"}, {"who", path}}, worker);
+  mc::require(!samplers.empty(), "{}: it holds integrands and no samplers; see carlo converge --plugin", path);
   const std::vector<Asked> asked = asked_sets(path, texts, samplers);
   std::set<std::string> used;
   Catalogue cases;

@@ -1,9 +1,9 @@
-#include <input/any_domain.h>
+#include <input/parsed_domain.h>
 #include <plugin/command.h>
 #include <process/child.h>
 #include <report/report_json.h>
 
-#include <mc/check/check_subject.h>
+#include <mc/check/laws.h>
 #include <mc/core/error.h>
 #include <mc/random/pcg.h>
 
@@ -24,12 +24,12 @@
 
 namespace carlo {
 
-using mc::Subject;
+using mc::AnySampler;
 using nlohmann::json;
 
 namespace {
 
-using Numbers = std::vector<double>;
+using Rows = std::vector<double>;
 
 // The program, asked in batches of rows.
 class Program {
@@ -40,15 +40,15 @@ class Program {
   std::size_t uniforms() const { return uniforms_; }
   std::size_t columns() const { return columns_; }
 
-  Numbers sample(const Numbers& u) { return ask("sample", "u", u, uniforms_, columns_); }
-  Numbers pdf(const Numbers& x) { return ask("pdf", "x", x, columns_, 1); }
+  Rows sample(const Rows& u) { return ask("sample", "u", u, uniforms_, columns_); }
+  Rows pdf(const Rows& x) { return ask("pdf", "x", x, columns_, 1); }
 
  private:
   static constexpr std::size_t batch = 4096; // rows: neither side waits with a full pipe for the other
 
-  Numbers ask(const char* what, const char* argument, const Numbers& in, std::size_t width, std::size_t answer_width) {
+  Rows ask(const char* what, const char* argument, const Rows& in, std::size_t width, std::size_t answer_width) {
     static_assert(std::endian::native == std::endian::little);
-    Numbers out;
+    Rows out;
     out.reserve(in.size() / width * answer_width);
     for (std::size_t at = 0; at < in.size(); at += batch * width) {
       const std::size_t n = std::min(batch, (in.size() - at) / width);
@@ -64,7 +64,7 @@ class Program {
     return out;
   }
 
-  void read(const char* what, Numbers& out, std::size_t count) {
+  void read(const char* what, Rows& out, std::size_t count) {
     const std::size_t before = out.size();
     out.resize(before + count);
     char* to = reinterpret_cast<char*>(out.data() + before);
@@ -88,143 +88,109 @@ class Program {
   Watch& watch_;
 };
 
-Numbers random_rows(std::uint64_t seed, std::size_t n, std::size_t width) {
-  mc::Pcg random(seed);
-  Numbers u(n * width);
-  for (double& one : u) one = random.uniform<double>();
-  return u;
+// The leading `width` numbers of each as one row.
+template <class Arrays> Rows rows_of(const Arrays& arrays, std::size_t width) {
+  Rows rows;
+  rows.reserve(arrays.size() * width);
+  for (const auto& a : arrays) rows.insert(rows.end(), a.begin(), a.begin() + static_cast<std::ptrdiff_t>(width));
+  return rows;
 }
 
-std::string row_text(const Numbers& rows, std::size_t row, std::size_t width) {
-  const auto first = rows.begin() + static_cast<std::ptrdiff_t>(row * width);
-  return fmt::format("({:.17g})", fmt::join(first, first + static_cast<std::ptrdiff_t>(width), ", "));
-}
+// The program's sampler on a domain, for its samples asked in batches.
+class CommandOnDomain {
+ public:
+  CommandOnDomain(const std::shared_ptr<Program>& program, const ParsedDomain& domain)
+      : program_(program), domain_(domain) {}
 
-std::array<double, 3> quartiles(const Numbers& rows, std::size_t width, std::size_t column) {
-  Numbers values;
-  for (std::size_t i = column; i < rows.size(); i += width)
-    if (std::isfinite(rows[i])) values.push_back(rows[i]);
-  if (values.empty() || column >= width) return {-1, 0, 1};
-  std::sort(values.begin(), values.end());
-  return {values[values.size() / 4], values[values.size() / 2], values[values.size() * 3 / 4]};
-}
-
-// The same question twice.
-mc::Check purity(Program& p, std::uint64_t seed) {
-  constexpr std::size_t n = 1000;
-  const Numbers u = random_rows(mc::hash(seed, 41), n, p.uniforms()), x = p.sample(u), again = p.sample(u);
-  mc::Check check{"same u, same sample", mc::Verdict::pass, {}, 0, 0, 0, mc::Fault::precision, {}};
-  for (std::size_t i = n; i-- > 0;) {
-    const auto at = static_cast<std::ptrdiff_t>(i * p.columns()), end = at + static_cast<std::ptrdiff_t>(p.columns());
-    const auto same = [](double a, double b) {
-      return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-    };
-    if (std::equal(x.begin() + at, x.begin() + end, again.begin() + at, same)) continue;
-    check.verdict = mc::Verdict::fail;
-    check.statistic += 1;
-    check.detail = fmt::format("u = {}: x = {}, then {}", row_text(u, i, p.uniforms()), row_text(x, i, p.columns()),
-                               row_text(again, i, p.columns()));
+  std::vector<std::optional<AnySampler::Drawn>> sample(std::span<const AnySampler::Uniforms> u) const {
+    const Rows x = program_->sample(rows_of(u, program_->uniforms()));
+    std::vector<std::optional<AnySampler::Drawn>> drawn(u.size(), AnySampler::Drawn{});
+    std::vector<mc::Numbers> points;
+    std::vector<std::size_t> owners;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      AnySampler::Drawn& d = *drawn[i];
+      std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(i * program_->columns()), program_->columns(), d.x.begin());
+      const bool inside = domain_.chart.contains(d.x);
+      if (domain_.outcomes > 0 && inside) d.atom = static_cast<int>(d.x[0]);
+      if (domain_.outcomes > 0 || !inside) continue;
+      points.push_back(d.x);
+      owners.push_back(i);
+    }
+    const std::vector<double> density = pdf(points);
+    for (std::size_t k = 0; k < owners.size(); ++k) drawn[owners[k]]->pdf = density[k];
+    return drawn;
   }
-  return check;
-}
-
-// What one row of samples is.
-Subject::Draw draw_of(const AnyDomain& domain, const double* x, std::size_t columns, double density) {
-  Subject::Draw d;
-  if (!std::all_of(x, x + columns, [](double one) { return std::isfinite(one); })) {
-    d.kind = Subject::Draw::Kind::not_finite;
-  } else if (!domain.contains(x)) {
-    d.kind = Subject::Draw::Kind::outside;
-  } else {
-    d.pdf_positive = density > 0 && std::isfinite(density);
-    d.v = domain.to_unit(x);
+  std::vector<double> pdf(std::span<const mc::Numbers> x) const {
+    return program_->pdf(rows_of(x, program_->columns()));
   }
-  return d;
+
+ private:
+  std::shared_ptr<Program> program_;
+  ParsedDomain domain_;
+};
+
+double time_of(const CommandOnDomain& command, const AnySampler& s) {
+  mc::Pcg random(3);
+  std::vector<AnySampler::Uniforms> u(mc::timing_inputs);
+  for (AnySampler::Uniforms& one : u) one = random_uniforms(s, random);
+  const auto start = std::chrono::steady_clock::now();
+  command.sample(u);
+  return 1e9 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
+         static_cast<double>(u.size());
 }
 
-mc::Check edges(Program& p, const AnyDomain& domain) {
-  constexpr double places[] = {0, 0x1p-24, 0.5, 1 - 0x1p-24, 1 - 0x1p-53};
-  Numbers u;
-  const auto rows = static_cast<std::size_t>(std::pow(5, p.uniforms()));
-  for (std::size_t k = 0; k < rows; ++k)
-    for (std::size_t i = 0, rest = k; i < p.uniforms(); ++i, rest /= 5) u.push_back(places[rest % 5]);
-  const Numbers x = p.sample(u), density = p.pdf(x);
-  mc::Check check{"edges of the unit cube", mc::Verdict::pass, {}, 0, 0, 0, mc::Fault::edge, {}};
-  for (std::size_t k = 0; k < rows; ++k) {
-    const Subject::Draw d = draw_of(domain, x.data() + k * p.columns(), p.columns(), density[k]);
-    if (d.kind == Subject::Draw::Kind::point && d.pdf_positive) continue;
-    if (check.detail.empty())
-      check.detail = fmt::format("not a point of the domain with a positive, finite pdf: u = {}, x = {}, pdf = {:.9g}",
-                                 row_text(u, k, p.uniforms()), row_text(x, k, p.columns()), density[k]);
-    check.verdict = mc::Verdict::fail;
-    check.statistic += 1;
-  }
-  return check;
-}
-
-Subject subject_of(Program& p, const AnyDomain& domain) {
-  Subject s;
-  s.dim = domain.dim();
-  s.axes = domain.axes();
-  s.mass_tolerance = 64 * 0x1p-52;
-  s.draw = [&](std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
-    const Numbers x = p.sample(random_rows(seed, n, p.uniforms())), density = p.pdf(x);
-    for (std::size_t i = 0; i < n; ++i)
-      out.push_back(draw_of(domain, x.data() + i * p.columns(), p.columns(), density[i]));
-  };
-  s.density = [&](const Subject::Coordinates& v) { return p.pdf(domain.from_unit(v))[0] * domain.jacobian(v); };
-  s.describe_draw = [&](std::uint64_t seed, std::uint64_t index) {
-    const Numbers u = random_rows(seed, index + 1, p.uniforms());
-    const Numbers last(u.end() - static_cast<std::ptrdiff_t>(p.uniforms()), u.end());
-    const Numbers x = p.sample(last);
-    return fmt::format("u = {}, x = {}, pdf = {:.9g}", row_text(last, 0, p.uniforms()), row_text(x, 0, p.columns()),
-                       p.pdf(x)[0]);
-  };
-  s.describe_point = [&](const Subject::Coordinates& v) {
-    return fmt::format("({:.6g})", fmt::join(domain.from_unit(v), ", "));
-  };
+AnySampler sampler_of(const std::shared_ptr<Program>& program, const ParsedDomain& domain) {
+  const CommandOnDomain command(program, domain);
+  AnySampler s;
+  s.domain = domain.chart;
+  s.uniforms = static_cast<int>(program->uniforms());
+  s.sample = [command](const AnySampler::Uniforms& u) { return command.sample(std::span(&u, 1))[0]; };
+  s.sample_many = [command](std::span<const AnySampler::Uniforms> u) { return command.sample(u); };
+  s.pdf = [command](const mc::Numbers& x) { return command.pdf(std::span(&x, 1))[0]; };
+  s.ns_per_sample = [command, s] { return time_of(command, s); };
+  std::vector<mc::Numbers> outcomes(static_cast<std::size_t>(domain.outcomes));
+  for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i][0] = static_cast<double>(i);
+  if (!outcomes.empty()) s.atoms = command.pdf(outcomes);
   return s;
 }
 
-AnyDomain domain_of(const std::string& text, const Quartiles& quartiles) {
-  AnyDomain domain = parse_domain(text, quartiles);
-  mc::require(domain.outcomes() == 0, "--domain: a --command draws from a continuous domain");
-  return domain;
+// The domain, its infinite intervals charted on samples.
+ParsedDomain charted(Program& program, const std::string& text, std::uint64_t seed) {
+  mc::Pcg random(mc::hash(seed, 42));
+  Rows u(1000 * program.uniforms());
+  for (double& one : u) one = random.uniform<double>();
+  const auto quartiles = [&](std::size_t column) {
+    const Rows x = program.sample(u);
+    std::vector<double> numbers;
+    for (std::size_t i = column; i < x.size(); i += program.columns()) numbers.push_back(x[i]);
+    return quartiles_of(std::move(numbers));
+  };
+  return parse_domain(text, quartiles, Rounding::doubles);
 }
 
 } // namespace
 
 json run_command_task(const json& request, Watch& watch) {
   std::signal(SIGPIPE, SIG_IGN); // a program that ended is an error of the write
-  const auto start = std::chrono::steady_clock::now();
   const std::string text = request["domain"];
-  const std::size_t columns = domain_of(text,
-                                        [](std::size_t) {
-                                          return std::array<double, 3>{-1, 0, 1};
-                                        })
-                                  .names()
-                                  .size();
-  Program program(request["who"], request["uniforms"], columns, watch);
-  const Numbers pilot =
-      program.sample(random_rows(mc::hash(request["seed"].get<std::uint64_t>(), 42), 1000, program.uniforms()));
-  const AnyDomain domain = domain_of(text, [&](std::size_t column) { return quartiles(pilot, columns, column); });
-  mc::SubjectOptions o;
+  const auto program =
+      std::make_shared<Program>(request["who"].get<std::string>(), request["uniforms"].get<std::size_t>(),
+                                parse_domain(text).columns.size(), watch);
+  mc::LawOptions o;
   o.samples = request["samples"];
   o.seed = request["seed"];
   o.alpha = request["alpha"];
   o.evidence = request["evidence"];
+  o.open_interval = request["open_interval"];
   o.max_evaluations = 1'000'000; // each is an exchange with the program
-  Subject subject = subject_of(program, domain);
-  subject.name = request["title"];
-  mc::Report report = mc::check_subject(subject, o);
-  report.checks.insert(report.checks.begin(), {purity(program, o.seed), edges(program, domain)});
-  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return to_json(report);
+  AnySampler sampler = sampler_of(program, charted(*program, text, o.seed));
+  sampler.name = request["title"];
+  return to_json(check_laws(sampler, o));
 }
 
 Case command_case(const CommandSampler& sampler, const WorkerOptions& worker) {
-  const AnyDomain domain = domain_of(sampler.domain, [](std::size_t) { return std::array<double, 3>{-1, 0, 1}; });
-  const int uniforms = sampler.uniforms > 0 ? sampler.uniforms : domain.dim();
+  const ParsedDomain domain = mc::with_context("--domain", [&] { return parse_domain(sampler.domain); });
+  const int uniforms = sampler.uniforms > 0 ? sampler.uniforms : std::max(domain.chart.dim, 1);
   mc::require(uniforms <= Watch::max_arguments, "validate: --uniforms {}; at most {} are possible", uniforms,
               Watch::max_arguments);
   Case c;
@@ -242,7 +208,8 @@ Case command_case(const CommandSampler& sampler, const WorkerOptions& worker) {
                                          {"samples", o.samples},
                                          {"seed", o.seed},
                                          {"alpha", o.alpha},
-                                         {"evidence", o.evidence}},
+                                         {"evidence", o.evidence},
+                                         {"open_interval", o.open_interval}},
                                         worker));
   };
   return c;

@@ -4,8 +4,9 @@
 /// Protocol: carlo writes questions to the program's standard input, each a line and then numbers, and reads the
 /// answer, numbers alone, from its standard output. Numbers are IEEE doubles of 8 bytes, least significant byte first.
 ///   "sample N K\n" and N K numbers : N points u of [0,1)^K. Answer: N C numbers, the samples x, C being the columns of
-///                                    --domain; not finite where a sample fails
-///   "pdf N C\n" and N C numbers    : N points x of the domain. Answer: N numbers, the densities
+///                                    --domain
+///   "pdf N C\n" and N C numbers    : N points x of the domain. Answer: N numbers, the densities; probabilities of
+///                                    outcomes
 /// The program answers each question before it reads the next, flushes, and ends when its input does. The same question
 /// has the same answer. tests/tools/commands/sampler.py is one in 30 lines.
 
@@ -19,12 +20,12 @@ namespace carlo {
 
 struct CommandSampler {
   std::string command; ///< for /bin/sh
-  std::string domain;  ///< see parse_domain; continuous
+  std::string domain;  ///< see parse_domain
   int uniforms = 0;    ///< K; 0: as many as the domain has dimensions
 };
 
-/// The program's sampler as one case: the laws of check_subject, edges of the unit cube, and the same answer twice. It
-/// runs like a plugin, in a process of its own under limits, and everything it started ends with it.
+/// The program's sampler as one case: every law of check_laws that needs no more than sample and pdf. It runs like a
+/// plugin, in a process of its own under limits, and everything it started ends with it.
 ///   throws : Error for a domain that means nothing; when it runs, Error for a program that cannot be started, ends,
 ///            hangs, or answers with too few numbers
 Case command_case(const CommandSampler& sampler, const WorkerOptions& worker);

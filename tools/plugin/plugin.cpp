@@ -1,3 +1,4 @@
+#include <input/parsed_domain.h>
 #include <plugin/plugin.h>
 
 #include <mc/core/error.h>
@@ -9,16 +10,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <filesystem>
 #include <string_view>
 
 namespace carlo {
 
 namespace {
-
-int dimension(const mc_sampler& s) {
-  return s.domain == MC_INTERVAL || s.domain == MC_DISCRETE ? 1 : s.domain == MC_BOX ? s.dim : 2;
-}
 
 bool is_word(const char* text) {
   if (!text || !*text) return false;
@@ -29,7 +28,7 @@ bool is_word(const char* text) {
 void require_sound(const mc_sampler& s, std::size_t index) {
   mc::require(is_word(s.name), "sampler {} has no name of letters, digits and _", index);
   mc::with_context(fmt::format("sampler {}", s.name), [&] {
-    mc::require(s.domain >= MC_INTERVAL && s.domain <= MC_DISCRETE, "domain = {} is none of mc_domain, 1 to 7",
+    mc::require(s.domain >= MC_INTERVAL && s.domain <= MC_PRODUCT, "domain = {} is none of mc_domain, 1 to 8",
                 s.domain);
     mc::require(s.domain != MC_BOX || (s.dim >= 1 && s.dim <= 3), "dim = {}; a box has 1 to 3 dimensions", s.dim);
     mc::require(s.domain != MC_INTERVAL || s.lo[0] < s.hi[0] || (s.lo[0] == 0 && s.hi[0] == 0),
@@ -37,15 +36,23 @@ void require_sound(const mc_sampler& s, std::size_t index) {
     mc::require(s.domain != MC_DISCRETE || (s.hi[0] >= 1 && s.hi[0] <= 1 << 24 && s.hi[0] == std::floor(s.hi[0])),
                 "hi[0] = {} outcomes; 1 to 2^24 are needed", s.hi[0]);
     mc::require(s.domain != MC_DISCRETE || (!s.invert && !s.eval), "discrete outcomes have neither invert nor eval");
+    mc::require(s.domain != MC_PRODUCT || s.parts, "domain is MC_PRODUCT, but parts is NULL");
+    const ParsedDomain domain = parse_domain(domain_text(s));
+    mc::require(s.domain != MC_PRODUCT || domain.outcomes == 0, "parts = '{}'; outcomes alone are MC_DISCRETE",
+                s.parts);
+    mc::require(s.outcomes >= 0 && s.outcomes <= 1000, "outcomes = {} must lie in 0 to 1000", s.outcomes);
+    mc::require(s.outcomes == 0 || s.domain != MC_DISCRETE, "outcomes beside a density, but domain is MC_DISCRETE");
+    mc::require((s.outcomes > 0) == (s.probability != nullptr), "outcomes = {}, but probability is {}", s.outcomes,
+                s.probability ? "given" : "NULL");
     mc::require(s.uniforms >= 0 && s.uniforms <= Watch::max_arguments, "uniforms = {} must lie in 0 to {}", s.uniforms,
                 Watch::max_arguments);
     mc::require(s.scalar == MC_DOUBLE || s.scalar == MC_FLOAT, "scalar = {} is none of mc_scalar, 0 or 1", s.scalar);
     mc::require(s.sample, "it has no function sample");
     mc::require(s.pdf, "it has no function pdf");
     mc::require(!s.weight || s.eval, "it states a weight, but no eval to hold it against");
-    mc::require(!s.invert || s.uniforms == 0 || s.uniforms == dimension(s),
+    mc::require(!s.invert || s.uniforms == 0 || s.uniforms == domain.chart.dim,
                 "it has invert, but takes {} uniforms in {} dimensions; invert needs as many", s.uniforms,
-                dimension(s));
+                domain.chart.dim);
     for (const double t : {s.pdf_tolerance, s.weight_tolerance, s.invert_tolerance})
       mc::require(t >= 0 && t < 1, "a tolerance is {}; it must lie in [0, 1)", t);
     mc::require(s.parameter_count >= 0 && s.parameter_count <= 64, "parameter_count = {} must lie in 0 to 64",
@@ -60,10 +67,68 @@ void require_sound(const mc_sampler& s, std::size_t index) {
   });
 }
 
+void require_sound(const mc_integrand& f, std::size_t index) {
+  mc::require(is_word(f.name), "integrand {} has no name of letters, digits and _", index);
+  mc::with_context(fmt::format("integrand {}", f.name), [&] {
+    mc::require(f.dim >= 1 && f.dim <= 64, "dim = {} must lie in 1 to 64", f.dim);
+    mc::require(f.eval, "it has no function eval");
+    mc::require(!f.has_truth || std::isfinite(f.truth), "truth = {} is not finite", f.truth);
+    mc::require(!f.lo == !f.hi, "give both lo and hi, or neither");
+    for (int i = 0; f.lo && i < f.dim; ++i)
+      mc::require(std::isfinite(f.lo[i]) && std::isfinite(f.hi[i]) && f.lo[i] < f.hi[i],
+                  "bounds [{}, {}] of axis {} must be finite, with lo < hi", f.lo[i], f.hi[i], i);
+  });
+}
+
+// An array of structs that were compiled with `size` bytes each, perhaps before the last fields came.
+template <class T> std::vector<T> grown(const T* first, std::size_t count, std::size_t size) {
+  std::vector<T> all(count);
+  for (std::size_t i = 0; i < count; ++i) std::memcpy(&all[i], reinterpret_cast<const char*>(first) + i * size, size);
+  return all;
+}
+
+template <class T>
+std::vector<T> table(const char* what, const T* first, std::size_t count, std::size_t size, std::size_t expected) {
+  mc::require(size == expected, "its mc_{} has {} bytes, that of its version of <mc/check/plugin.h> {}", what, size,
+              expected);
+  mc::require(count <= 1000 && (count == 0 || first), "it lists {} {}s; at most 1000 are possible", count, what);
+  std::vector<T> all = grown(first, count, size);
+  for (std::size_t i = 0; i < count; ++i) require_sound(all[i], i);
+  return all;
+}
+
+std::string side(const char* name, double lo, double hi) { return fmt::format("{}={:.17g}:{:.17g}", name, lo, hi); }
+
+std::string box_text(const mc_sampler& s) {
+  const auto is_zero = [](double x) { return x == 0; };
+  const bool unit = std::all_of(s.lo, s.lo + 3, is_zero) && std::all_of(s.hi, s.hi + 3, is_zero);
+  constexpr const char* names[] = {"x", "y", "z"};
+  std::string text;
+  for (int i = 0; i < (s.domain == MC_INTERVAL ? 1 : s.dim); ++i)
+    text += (i > 0 ? "," : "") + side(names[i], s.lo[i], unit ? 1 : s.hi[i]);
+  return text;
+}
+
 } // namespace
 
+std::string domain_text(const mc_sampler& s) {
+  switch (s.domain) {
+  case MC_INTERVAL:
+  case MC_BOX: return box_text(s);
+  case MC_DISK: return "disk";
+  case MC_TRIANGLE: return "triangle";
+  case MC_SPHERE: return "sphere";
+  case MC_HEMISPHERE: return "hemisphere";
+  case MC_DISCRETE: return fmt::format("discrete={:.0f}", s.hi[0]);
+  default: return s.parts;
+  }
+}
+
 PluginSampler::PluginSampler(const mc_sampler& sampler, std::vector<double> parameters, Watch& watch)
-    : sampler_(&sampler), parameters_(std::make_shared<std::vector<double>>(std::move(parameters))), watch_(&watch) {
+    : sampler_(sampler), parameters_(std::make_shared<std::vector<double>>(std::move(parameters))), watch_(&watch) {
+  const ParsedDomain domain = parse_domain(domain_text(sampler));
+  coordinates_ = static_cast<int>(domain.columns.size());
+  uniforms_ = sampler.uniforms > 0 ? sampler.uniforms : std::max(domain.chart.dim, 1);
   if (!sampler.create) {
     self_ = {parameters_, parameters_->data()};
     return;
@@ -80,55 +145,61 @@ PluginSampler::PluginSampler(const mc_sampler& sampler, std::vector<double> para
            }};
 }
 
-int PluginSampler::coordinates() const {
-  switch (sampler_->domain) {
-  case MC_INTERVAL:
-  case MC_DISCRETE: return 1;
-  case MC_BOX: return sampler_->dim;
-  case MC_DISK:
-  case MC_TRIANGLE: return 2;
-  default: return 3;
-  }
-}
-
-int PluginSampler::uniforms() const { return sampler_->uniforms > 0 ? sampler_->uniforms : dimension(*sampler_); }
-
-bool PluginSampler::sample(const double* u, double* x) const {
+int PluginSampler::sample(const double* u, double* x) const {
   watch_->enter("sample", "u", u, uniforms());
-  const bool ok = sampler_->sample(self_.get(), u, x) != 0;
+  const int drawn = sampler_.sample(self_.get(), u, x);
   watch_->leave();
-  return ok;
+  mc::require(drawn >= 0, "sample returned {}; it is MC_FAILED, MC_POINT or MC_OUTCOME + k", drawn);
+  return drawn;
 }
 
 double PluginSampler::pdf(const double* x) const {
   watch_->enter("pdf", "x", x, coordinates());
-  const double density = sampler_->pdf(self_.get(), x);
+  const double density = sampler_.pdf(self_.get(), x);
   watch_->leave();
   return density;
 }
 
 bool PluginSampler::invert(const double* x, double* u) const {
   watch_->enter("invert", "x", x, coordinates());
-  const bool ok = sampler_->invert(self_.get(), x, u) != 0;
+  const bool ok = sampler_.invert(self_.get(), x, u) != 0;
   watch_->leave();
   return ok;
 }
 
 double PluginSampler::eval(const double* x) const {
   watch_->enter("eval", "x", x, coordinates());
-  const double f = sampler_->eval(self_.get(), x);
+  const double f = sampler_.eval(self_.get(), x);
   watch_->leave();
   return f;
 }
 
 double PluginSampler::weight(const double* u, const double* x) const {
   watch_->enter("weight", "u", u, uniforms());
-  const double w = sampler_->weight(self_.get(), u, x);
+  const double w = sampler_.weight(self_.get(), u, x);
   watch_->leave();
   return w;
 }
 
-std::span<const mc_sampler> load_plugin(const std::string& path, Watch& watch) {
+double PluginSampler::probability(int outcome) const {
+  watch_->enter("probability");
+  const double p = sampler_.probability(self_.get(), outcome);
+  watch_->leave();
+  return p;
+}
+
+std::vector<double> PluginSampler::breaks(int axis) const {
+  if (!sampler_.breaks) return {};
+  const double* places = nullptr;
+  watch_->enter("breaks");
+  const int count = sampler_.breaks(self_.get(), axis, &places);
+  watch_->leave();
+  mc::require(count >= 0 && count <= 1 << 24 && (count == 0 || places), "breaks returned {} places of axis {}", count,
+              axis);
+  return {places, places + count};
+}
+
+Plugin load_plugin(const std::string& path, Watch& watch) {
   // A name without a slash would be searched for among the system's libraries.
   const std::string file = std::filesystem::absolute(path).string();
   watch.enter("loading");
@@ -146,16 +217,18 @@ std::span<const mc_sampler> load_plugin(const std::string& path, Watch& watch) {
   const mc_plugin_info* const info = entry();
   watch.leave();
   mc::require(info != nullptr, "mc_plugin returned NULL");
-  mc::require(info->abi == MC_PLUGIN_ABI,
-              "it is made for version {} of <mc/check/plugin.h>, this carlo for {}; compile it again", info->abi,
-              MC_PLUGIN_ABI);
-  mc::require(info->sampler_size == sizeof(mc_sampler), "its mc_sampler has {} bytes, that of <mc/check/plugin.h> {}",
-              info->sampler_size, sizeof(mc_sampler));
-  mc::require(info->sampler_count >= 1 && info->sampler_count <= 1000 && info->samplers,
-              "it lists {} samplers; 1 to 1000 are needed", info->sampler_count);
-  const std::span<const mc_sampler> samplers(info->samplers, info->sampler_count);
-  for (std::size_t i = 0; i < samplers.size(); ++i) require_sound(samplers[i], i);
-  return samplers;
+  mc::require(info->abi >= 1 && info->abi <= MC_PLUGIN_ABI,
+              "it is made for version {} of <mc/check/plugin.h>, this carlo for 1 to {}; use the header of this carlo",
+              info->abi, MC_PLUGIN_ABI);
+  const bool first = info->abi == 1;
+  Plugin plugin;
+  plugin.samplers = table("sampler", info->samplers, info->sampler_count, info->sampler_size,
+                          first ? offsetof(mc_sampler, parts) : sizeof(mc_sampler));
+  if (!first)
+    plugin.integrands =
+        table("integrand", info->integrands, info->integrand_count, info->integrand_size, sizeof(mc_integrand));
+  mc::require(!plugin.samplers.empty() || !plugin.integrands.empty(), "it lists no samplers and no integrands");
+  return plugin;
 }
 
 } // namespace carlo

@@ -1,5 +1,5 @@
 #pragma once
-/// Samplers compiled by the user against <mc/check/plugin.h>.
+/// Samplers and integrands compiled by the user against <mc/check/plugin.h>.
 
 #include <catalogue/catalogue.h>
 #include <plugin/worker.h>
@@ -21,28 +21,41 @@ class PluginSampler {
   /// throws : Error when create refuses the parameters
   PluginSampler(const mc_sampler& sampler, std::vector<double> parameters, Watch& watch);
 
-  const mc_sampler& operator*() const { return *sampler_; }
-  const mc_sampler* operator->() const { return sampler_; }
-  int coordinates() const; ///< of a point
-  int uniforms() const;    ///< of a sample
+  const mc_sampler& operator*() const { return sampler_; }
+  const mc_sampler* operator->() const { return &sampler_; }
+  int coordinates() const { return coordinates_; } ///< of a point
+  int uniforms() const { return uniforms_; }       ///< of a sample
 
-  bool sample(const double* u, double* x) const;
+  int sample(const double* u, double* x) const; ///< one of mc_drawn
   double pdf(const double* x) const;
   bool invert(const double* x, double* u) const;
   double eval(const double* x) const;
   double weight(const double* u, const double* x) const;
+  double probability(int outcome) const;
+  std::vector<double> breaks(int axis) const; ///< in the quantity of the axis
 
  private:
-  const mc_sampler* sampler_;
+  mc_sampler sampler_;
+  int coordinates_, uniforms_;
   std::shared_ptr<std::vector<double>> parameters_;
   std::shared_ptr<void> self_;
   Watch* watch_;
 };
 
-/// Loads the shared object and checks its table of samplers against the contracts of the header.
-///   throws : Error for a file that is no shared object, lacks mc_plugin or one that it needs itself, has another ABI,
-///            or a sampler without a function, or with a domain, a number or a parameter that means nothing
-std::span<const mc_sampler> load_plugin(const std::string& path, Watch& watch);
+/// What a shared object holds; its functions and texts live as long as the process.
+struct Plugin {
+  std::vector<mc_sampler> samplers;
+  std::vector<mc_integrand> integrands;
+};
+
+/// Loads the shared object and checks its tables against the contracts of the header.
+///   throws : Error for a file that is no shared object, lacks mc_plugin or one that it needs itself, is made for a
+///            later version of the header, or holds a sampler or an integrand without a function, or with a domain, a
+///            number or a parameter that means nothing
+Plugin load_plugin(const std::string& path, Watch& watch);
+
+/// The sampler's domain in the words of parse_domain.
+std::string domain_text(const mc_sampler& sampler);
 
 /// The plugin's sampler as the laws see it. Charts of infinite intervals are centred on samples of `seed`.
 mc::AnySampler sampler_of(const PluginSampler& plugin, const std::string& title, std::uint64_t seed);

@@ -1,5 +1,7 @@
 #include <mc/check/laws.h>
 
+#include <mc/check/subject/float_steps.h>
+
 #include <chrono>
 
 namespace mc {
@@ -21,6 +23,20 @@ AnySampler within(AnySampler sampler, const LawOptions& options) {
   return sampler;
 }
 
+namespace {
+
+// Where counts are wrong since something is rounded to float, the first of them says so.
+void name_float(const AnySampler& sampler, std::uint64_t seed, Report& report) {
+  for (Check& c : report.checks) {
+    if (c.verdict != Verdict::fail || !c.p) continue;
+    const std::string cause = float_steps(sampler, seed);
+    if (!cause.empty()) c.detail += (c.detail.empty() ? "" : "; ") + cause;
+    return;
+  }
+}
+
+} // namespace
+
 Report check_laws(const AnySampler& original, const LawOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   AnySampler sampler = original;
@@ -28,6 +44,7 @@ Report check_laws(const AnySampler& original, const LawOptions& options) {
   Report report;
   if (options.samples > 0) {
     report = check_subject(make_subject(sampler), statistics(options));
+    name_float(sampler, options.seed, report);
   } else {
     report.subject = sampler.name;
     report.alpha = options.alpha;

@@ -49,9 +49,32 @@ TEST_F(Command, WrongOnesAreRejected) {
   out = run(changed("(1 / math.pi,)", "(1.01 / math.pi,)"));
   EXPECT_THAT(out.text, HasSubstr("the density integrates to 1.01"));
   out = run(changed("math.sqrt(u[0])", "math.nan"));
-  EXPECT_THAT(out.text, HasSubstr("likely fault: edge"));
+  EXPECT_THAT(out.text, HasSubstr("likely fault: not finite"));
   out = run(changed("math.sqrt(u[0])", "math.sqrt(__import__('random').random())"));
-  EXPECT_THAT(out.text, HasSubstr("same u, same sample fail"));
+  EXPECT_THAT(out.text, HasSubstr("same u, same point fail"));
+}
+
+TEST_F(Command, EveryLawIsTried) {
+  // The point of the u before: only a law that compares neighbouring questions sees it.
+  const Output stuck = run(changed("    r, phi = math.sqrt(u[0]), 2 * math.pi * u[1]\n", "    r, phi = 0.5, 0.25\n"));
+  EXPECT_THAT(stuck.text, HasSubstr("another u, another point fail"));
+  // A logarithm of 0, accepted where u lies in (0,1).
+  ValidateOptions o = changed("math.sqrt(u[0])", "math.exp(0.5 * math.log(u[0]))");
+  EXPECT_THAT(refusal(o), HasSubstr("ended with code 1"));
+  o.open_interval = true;
+  EXPECT_EQ(run(o).code, carlo::exit_ok);
+}
+
+TEST_F(Command, OutcomesAndProducts) {
+  ValidateOptions o = changed("def sample(u):\n", "def sample(u):\n    return (float(int(4 * u[0])),)\n");
+  o.domain = "discrete=4";
+  EXPECT_EQ(run(o).code, carlo::exit_failed); // 1 / pi each
+  o = changed("def sample(u):\n", "def sample(u):\n    return (float(int(math.pi * u[0])),)\n");
+  o.domain = "discrete=3";
+  EXPECT_EQ(run(o).code, carlo::exit_failed);
+  o = changed("return r * math.cos(phi), r * math.sin(phi)", "return r * math.cos(phi), r * math.sin(phi), u[2]");
+  o.domain = "disk,t=0:1";
+  EXPECT_EQ(run(o).code, carlo::exit_ok);
 }
 
 // Ends, hangs and half answers are one line of ours behind what the program itself says.
@@ -75,7 +98,6 @@ TEST_F(Command, WhatItStartedEndsWithIt) {
 
 TEST_F(Command, BadOptionsAreOneLine) {
   EXPECT_THAT(refusal(options("true", "")), HasSubstr("--command needs the --domain"));
-  EXPECT_THAT(refusal(options("true", "discrete=3")), HasSubstr("continuous domain"));
   EXPECT_THAT(refusal(options("true", "dsk")), HasSubstr("did you mean 'disk'"));
   ValidateOptions o = options("true");
   o.uniforms = 7;

@@ -35,12 +35,22 @@ ValidateOptions cosine(const std::string& fault) {
 }
 
 TEST(Plugin, RightSamplersPassInEveryKindOfDomain) {
-  // Nine cases at a family-wise alpha of 0.01, one fixed seed.
+  // Fifteen cases at a family-wise alpha of 0.01, one fixed seed.
   const Output out = run(plugin("samplers"));
   EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
-  EXPECT_THAT(out.text, HasSubstr("9 of 9 cases passed"));
+  EXPECT_THAT(out.text, HasSubstr("15 of 15 cases passed"));
   EXPECT_THAT(out.text, HasSubstr("float   pass")) << "the tail computes in float";
 }
+
+TEST(Plugin, AnotherDensityIsRejectedOnEveryDomain) {
+  for (const char* name : {"Ball", "Annulus", "Plane", "Flight", "Glossy"}) {
+    ValidateOptions o = plugin("samplers", {name});
+    o.parameters = {"wrong=1"};
+    EXPECT_EQ(run(o).code, carlo::exit_failed) << name;
+  }
+}
+
+TEST(Plugin, OneCompiledBeforeTheStructsGrewWorksOn) { EXPECT_EQ(run(plugin("first_version")).code, carlo::exit_ok); }
 
 TEST(Plugin, OneWrittenInCppPasses) { EXPECT_EQ(run(plugin("right")).code, carlo::exit_ok); }
 
@@ -182,10 +192,15 @@ TEST(Plugin, WhatCannotBeLoadedSaysWhy) {
               AllOf(HasSubstr("text.so: it cannot be loaded: "), Not(HasSubstr("text.so: it cannot be loaded: /"))));
   EXPECT_THAT(refusal(plugin("no_entry")), HasSubstr("no_entry.so: it has no function mc_plugin"));
   EXPECT_THAT(refusal(plugin("undefined")), AllOf(HasSubstr("it cannot be loaded"), HasSubstr("nobody_defines_this")));
-  EXPECT_THAT(refusal(plugin("wrong_abi")), HasSubstr("made for version 77 of <mc/check/plugin.h>, this carlo for 1"));
+  EXPECT_THAT(refusal(plugin("wrong_abi")),
+              HasSubstr("made for version 77 of <mc/check/plugin.h>, this carlo for 1 to 2"));
   EXPECT_THAT(refusal(plugin("wrong_size")), HasSubstr("its mc_sampler has 8 bytes"));
   EXPECT_THAT(refusal(plugin("no_pdf")), HasSubstr("sampler Uniform: it has no function pdf"));
   EXPECT_THAT(refusal(plugin("unknown_domain")), HasSubstr("domain = 9"));
+  EXPECT_THAT(refusal(plugin("no_parts")), HasSubstr("domain is MC_PRODUCT, but parts is NULL"));
+  EXPECT_THAT(refusal(plugin("bad_parts")), HasSubstr("sampler Uniform: 'dsk' is not of the form name=lo:hi"));
+  EXPECT_THAT(refusal(plugin("wide_parts")), HasSubstr("4 dimensions in 5 columns; at most 3 in 4"));
+  EXPECT_THAT(refusal(plugin("no_probability")), HasSubstr("outcomes = 2, but probability is NULL"));
   EXPECT_THAT(refusal(plugin("no_name")), HasSubstr("sampler 0 has no name"));
   EXPECT_THAT(refusal(plugin("weight_alone")), HasSubstr("states a weight, but no eval"));
   EXPECT_THAT(refusal(plugin("reversed")), HasSubstr("interval [2, 1]"));

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -67,6 +68,19 @@ mc_sampler uniform() {
   s.name = "a b";
 #elif defined(FLAW_weight_alone)
   s.weight = [](const void*, const double*, const double*) { return 1.0; };
+#elif defined(FLAW_first_version)
+  s.parts = reinterpret_cast<const char*>(1);
+  s.outcomes = -1;
+#elif defined(FLAW_no_parts)
+  s.domain = MC_PRODUCT;
+#elif defined(FLAW_bad_parts)
+  s.domain = MC_PRODUCT;
+  s.parts = "sphere,dsk";
+#elif defined(FLAW_wide_parts)
+  s.domain = MC_PRODUCT;
+  s.parts = "sphere,disk";
+#elif defined(FLAW_no_probability)
+  s.outcomes = 2;
 #elif defined(FLAW_reversed)
   s.lo[0] = 2, s.hi[0] = 1;
 #endif
@@ -85,6 +99,12 @@ extern "C" const mc_plugin_info* mc_plugin() {
 #elif defined(FLAW_wrong_size)
 extern "C" const mc_plugin_info* mc_plugin() {
   static const mc_plugin_info info = {MC_PLUGIN_ABI, 8, 1, samplers};
+  return &info;
+}
+#elif defined(FLAW_first_version)
+// As a plugin that was compiled before the structs grew: what follows in memory is no part of them.
+extern "C" const mc_plugin_info* mc_plugin() {
+  static mc_plugin_info info = {1, offsetof(mc_sampler, parts), 1, samplers, 77, 77, nullptr};
   return &info;
 }
 #elif !defined(FLAW_no_entry)

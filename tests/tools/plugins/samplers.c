@@ -175,12 +175,86 @@ static double pdf_halves(const void* self, const double* x) {
   return (x[2] > 0 ? 0.25 : 0.75) / (2 * pi);
 }
 
+/* Uniform in the ball; in an annulus; a normal point of the plane; a cosine lobe beside an exponential on [0, inf). With
+   `wrong` the density is that of another sampler. */
+static int wrong(const void* self) { return *(const double*)self != 0; }
+static void polar(double r, double u, double* x) {
+  x[0] = r * cos(2 * pi * u);
+  x[1] = r * sin(2 * pi * u);
+}
+static int32_t sample_ball(const void* self, const double* u, double* x) {
+  const double r = cbrt(u[2]), z = 1 - 2 * u[0];
+  (void)self;
+  polar(r * sqrt(1 - z * z), u[1], x);
+  x[2] = r * z;
+  return MC_POINT;
+}
+static double pdf_ball(const void* self, const double* x) {
+  return wrong(self) ? 1 / (2 * pi * (x[0] * x[0] + x[1] * x[1] + x[2] * x[2])) / 2 : 0.75 / pi;
+}
+static int32_t sample_annulus(const void* self, const double* u, double* x) {
+  (void)self;
+  polar(sqrt(0.25 + 0.75 * u[0]), u[1], x);
+  return MC_POINT;
+}
+static double pdf_annulus(const void* self, const double* x) {
+  return wrong(self) ? 1 / (pi * hypot(x[0], x[1])) : 1 / (0.75 * pi);
+}
+static int32_t sample_plane(const void* self, const double* u, double* x) {
+  (void)self;
+  polar(sqrt(-2 * log(1 - u[0])), u[1], x);
+  return MC_POINT;
+}
+static double pdf_plane(const void* self, const double* x) {
+  const double s = wrong(self) ? 1.1 : 1;
+  return exp(-(x[0] * x[0] + x[1] * x[1]) / (2 * s)) / (2 * pi * s);
+}
+static int32_t sample_flight(const void* self, const double* u, double* x) {
+  (void)self;
+  polar(sqrt(u[0]), u[1], x);
+  x[2] = sqrt(1 - u[0]);
+  x[3] = -log(1 - u[2]);
+  return MC_POINT;
+}
+static double pdf_flight(const void* self, const double* x) {
+  return x[2] < 0 ? 0 : wrong(self) ? x[2] / pi * 1.1 * exp(-1.1 * x[3]) : x[2] / pi * exp(-x[3]);
+}
+
+/* A mirror that is hit with probability 0.3 and a second with 0.1, beside a cosine lobe. */
+static int32_t sample_glossy(const void* self, const double* u, double* x) {
+  (void)self;
+  if (u[2] < 0.3) return MC_OUTCOME;
+  if (u[2] < 0.4) return MC_OUTCOME + 1;
+  polar(sqrt(u[0]), u[1], x);
+  x[2] = sqrt(1 - u[0]);
+  return MC_POINT;
+}
+static double pdf_glossy(const void* self, const double* x) {
+  (void)self;
+  return x[2] > 0 ? 0.6 * x[2] / pi : 0;
+}
+static double probability_glossy(const void* self, int32_t k) {
+  return k == 0 ? (wrong(self) ? 0.29 : 0.3) : wrong(self) ? 0.11 : 0.1;
+}
+
+/* Breaks where u is 0. */
+static int32_t sample_open(const void* self, const double* u, double* x) {
+  (void)self;
+  x[0] = -log(u[0]);
+  return MC_POINT;
+}
+static double pdf_open(const void* self, const double* x) {
+  (void)self;
+  return x[0] >= 0 ? exp(-x[0]) : 0;
+}
+
 static const mc_parameter faults[] = {
     {"pdf_high", 0, 0, 1}, {"weight_low", 0, 0, 1}, {"nan_sample", 0, 0, 1},    {"nan_pdf", 0, 0, 1},
     {"crash", 0, 0, 1},    {"hang", 0, 0, 1},       {"quit", 0, 0, 1},          {"leak", 0, 0, 1},
     {"not_unit", 0, 0, 1}, {"silent", 0, 0, 1},     {"wrong_inverse", 0, 0, 1}, {"tilted_pdf", 0, 0, 1},
     {"hole", 0, 0, 1},     {"slow", 0, 0, 1},
 };
+static const mc_parameter another[] = {{"wrong", 0, 0, 1}};
 static const mc_parameter forgets[] = {{"forgets", 0, 0, 1}};
 static const mc_parameter tilt[] = {{"tilt", 0, -90, 90}};
 static const mc_parameter power[] = {{"power", 2, 0, 20}};
@@ -234,6 +308,49 @@ static const mc_sampler samplers[] = {
      .parameter_count = 1,
      .sample = sample_halves,
      .pdf = pdf_halves},
+    {.name = "Ball",
+     .domain = MC_PRODUCT,
+     .parts = "ball",
+     .parameters = another,
+     .parameter_count = 1,
+     .sample = sample_ball,
+     .pdf = pdf_ball},
+    {.name = "Annulus",
+     .domain = MC_PRODUCT,
+     .parts = "annulus=0.5",
+     .parameters = another,
+     .parameter_count = 1,
+     .sample = sample_annulus,
+     .pdf = pdf_annulus},
+    {.name = "Plane",
+     .domain = MC_PRODUCT,
+     .parts = "x=-inf:inf,y=-inf:inf",
+     .parameters = another,
+     .parameter_count = 1,
+     .sample = sample_plane,
+     .pdf = pdf_plane},
+    {.name = "Flight",
+     .domain = MC_PRODUCT,
+     .parts = "sphere,t=0:inf",
+     .parameters = another,
+     .parameter_count = 1,
+     .sample = sample_flight,
+     .pdf = pdf_flight},
+    {.name = "Glossy",
+     .domain = MC_HEMISPHERE,
+     .uniforms = 3,
+     .outcomes = 2,
+     .parameters = another,
+     .parameter_count = 1,
+     .sample = sample_glossy,
+     .pdf = pdf_glossy,
+     .probability = probability_glossy},
+    {.name = "Open",
+     .domain = MC_INTERVAL,
+     .hi = {INFINITY},
+     .open_interval = 1,
+     .sample = sample_open,
+     .pdf = pdf_open},
 };
 
 MC_PLUGIN(samplers)

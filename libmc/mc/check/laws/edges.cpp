@@ -86,7 +86,9 @@ template <class S> void probe_about(const AnySampler& s, const Uniforms& start, 
 }
 
 // The numbers of the point at u; where the sampler fails, of the chart at `start`.
-Numbers point_at(const AnySampler& s, const Uniforms& u, const Uniforms& start) {
+Numbers point_at(const AnySampler& s, Uniforms u, const Uniforms& start) {
+  if (s.open_interval)
+    for (double& one : u) one = std::max(one, s.epsilon() / 2);
   if (const auto drawn = s.sample(u)) return drawn->x;
   return s.domain.from_unit ? s.domain.from_unit({start[0], start[1], start[2]}).x : Numbers{};
 }

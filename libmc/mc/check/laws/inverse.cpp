@@ -2,16 +2,19 @@
 
 #include <mc/check/laws/law.h>
 
+#include <numeric>
+
 namespace mc {
 namespace {
 
-double size_of(const Numbers& x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); }
+double size_of(const Numbers& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); }
 
 // The same point but for rounding, as the two sides of an azimuth's seam are.
 bool same_point(const AnySampler& s, const AnySampler::Uniforms& back, const Numbers& x) {
   const auto again = s.sample(back);
   if (!again) return false;
-  const Numbers apart{again->x[0] - x[0], again->x[1] - x[1], again->x[2] - x[2]};
+  Numbers apart;
+  for (std::size_t i = 0; i < apart.size(); ++i) apart[i] = again->x[i] - x[i];
   return size_of(apart) <= 64 * s.epsilon() * std::max(1.0, size_of(x));
 }
 

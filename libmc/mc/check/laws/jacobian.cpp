@@ -39,7 +39,7 @@ Check exact_jacobian(const AnySampler& s, const LawOptions& options) {
     const Oracle density = s.exact->pdf(*x) * s.exact->locate(*x).jacobian;
     const double off = std::abs(static_cast<double>(abs(determinant(j, n) * density) - 1));
     error.note(off, [&] {
-      const Numbers c{static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
+      const std::array<double, 3> c{static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
       return fmt::format("|det| pdf - 1 = {:.3g} at u = {}", off, format_numbers({c.data(), n}, 17));
     });
   }
@@ -56,7 +56,7 @@ double determinant_at(const AnySampler& s, const AnySampler::Uniforms& u, double
     behind[axis] -= h;
     const auto a = s.sample(ahead), b = s.sample(behind);
     if (!a || !b) return std::numeric_limits<double>::quiet_NaN();
-    const Numbers va = s.domain.to_unit(a->x), vb = s.domain.to_unit(b->x);
+    const AnyDomain::Chart va = s.domain.to_unit(a->x), vb = s.domain.to_unit(b->x);
     for (std::size_t i = 0; i < n; ++i) j[i][axis] = (va[i] - vb[i]) / (2 * h);
   }
   return std::abs(determinant(j, n));

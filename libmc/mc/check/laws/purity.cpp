@@ -7,11 +7,12 @@
 namespace mc {
 namespace {
 
+using Bits = std::array<std::uint64_t, std::tuple_size_v<Numbers>>;
+
 // The same bits; NaN equals itself.
 bool same(const std::optional<AnySampler::Drawn>& a, const std::optional<AnySampler::Drawn>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
-  return a->atom == b->atom &&
-         std::bit_cast<std::array<std::uint64_t, 3>>(a->x) == std::bit_cast<std::array<std::uint64_t, 3>>(b->x);
+  return a->atom == b->atom && std::bit_cast<Bits>(a->x) == std::bit_cast<Bits>(b->x);
 }
 
 std::string describe(const AnySampler& s, const std::optional<AnySampler::Drawn>& drawn) {

@@ -9,11 +9,11 @@ std::vector<Check> support_law(const AnySampler& s, const LawOptions& options) {
   WorstError sign("eval finite and >= 0", 0, Fault::physics), support("pdf > 0 where eval > 0", 0, Fault::support);
   Pcg random(options.seed, 31);
   for (int k = 0; k < 20000; ++k) {
-    Numbers v{};
+    AnyDomain::Chart v{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.dim); ++i)
       v[i] = s.is_float ? static_cast<double>(random.uniform<float>()) : random.uniform<double>();
     const Numbers x = s.domain.from_unit(v).x;
-    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !std::isfinite(x[2])) continue;
+    if (!std::all_of(x.begin(), x.end(), [](double one) { return std::isfinite(one); })) continue;
     const double f = s.eval(x), density = s.pdf(x);
     const auto where = [&] { return fmt::format("x = {}, eval = {:.9g}, pdf = {:.9g}", format_x(s, x), f, density); };
     sign.note(f >= 0 && std::isfinite(f) ? 0 : 1, where);

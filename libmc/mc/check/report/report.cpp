@@ -79,7 +79,11 @@ std::string Report::to_string() const {
   for (const Figure& f : figures)
     text += fmt::format("\n  {}: {:.6g} +- {:.2g}{}", f.name, f.value, f.std_error,
                         f.where.empty() ? "" : " at " + f.where);
-  if (verdict() == Verdict::pass) return text;
+  const auto of_shape = [](const Check& c) {
+    return c.verdict == Verdict::fail &&
+           (c.fault == Fault::shape || c.fault == Fault::local || c.fault == Fault::rotation);
+  };
+  if (std::none_of(checks.begin(), checks.end(), of_shape)) return text;
   for (const WorstCell& w : worst) {
     const bool outcome = w.lo == w.hi;
     const std::string place = describe_cell(axes, w.lo, w.hi), cell = outcome         ? ""

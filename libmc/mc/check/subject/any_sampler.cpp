@@ -105,7 +105,7 @@ std::string describe_draw(const AnySampler& s, std::uint64_t seed, std::uint64_t
 }
 
 // How far one unit in the last place of the point at v moves chart coordinate `axis`.
-double resolution(const AnySampler& s, const Numbers& v, std::size_t axis) {
+double resolution(const AnySampler& s, const Subject::Coordinates& v, std::size_t axis) {
   const Numbers x = s.domain.from_unit(v).x;
   double worst = s.epsilon() * v[axis];
   for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.numbers); ++i) {
@@ -142,30 +142,36 @@ Subject make_subject(const AnySampler& sampler) {
   subject.weight_tolerance = s.weight_tolerance;
   subject.draw = [shared](std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
     Pcg random(seed);
-    for (std::size_t i = 0; i < n; ++i) out.push_back(next_draw(*shared, random));
+    if (!shared->sample_many) {
+      for (std::size_t i = 0; i < n; ++i) out.push_back(next_draw(*shared, random));
+      return;
+    }
+    std::vector<AnySampler::Uniforms> u(n);
+    for (AnySampler::Uniforms& one : u) one = random_uniforms(*shared, random);
+    for (const auto& drawn : shared->sample_many(u)) out.push_back(place(*shared, drawn).draw);
   };
   subject.describe_draw = [shared](std::uint64_t seed, std::uint64_t index) {
     return describe_draw(*shared, seed, index);
   };
   if (s.domain.dim == 0) return subject;
-  subject.density = [shared](const Numbers& v) {
+  subject.density = [shared](const Subject::Coordinates& v) {
     const AnyDomain::Image at = shared->domain.from_unit(v);
     return shared->pdf(at.x) * at.jacobian;
   };
-  subject.resolution = [shared](const Numbers& v, int axis) {
+  subject.resolution = [shared](const Subject::Coordinates& v, int axis) {
     return resolution(*shared, v, static_cast<std::size_t>(axis));
   };
-  subject.describe_point = [shared](const Numbers& v) {
+  subject.describe_point = [shared](const Subject::Coordinates& v) {
     const Numbers x = shared->domain.from_unit(v).x;
     return format_numbers({x.data(), static_cast<std::size_t>(shared->domain.numbers)},
                           std::numeric_limits<float>::max_digits10);
   };
   if (s.invert && s.invert_tolerance > 0) {
     subject.invert_error = s.invert_tolerance;
-    subject.invert = [shared](const Numbers& v) {
+    subject.invert = [shared](const Subject::Coordinates& v) {
       const auto u = shared->invert(shared->domain.from_unit(v).x);
       constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-      return u ? Numbers{(*u)[0], (*u)[1], (*u)[2]} : Numbers{nan, nan, nan};
+      return u ? Subject::Coordinates{(*u)[0], (*u)[1], (*u)[2]} : Subject::Coordinates{nan, nan, nan};
     };
   }
   return subject;

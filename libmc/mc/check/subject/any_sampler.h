@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ namespace mc {
 /// A domain as functions of plain numbers. Its chart runs in double whatever the sampler computes in, so that bins lose
 /// no precision; membership is tested in the sampler's own scalar.
 struct AnyDomain {
+  using Chart = Subject::Coordinates;
   struct Image {
     Numbers x{};
     double jacobian = 0;
@@ -25,8 +27,8 @@ struct AnyDomain {
   int numbers = 0;        ///< of a point
   std::vector<Axis> axes; ///< what the chart's coordinates stand for
   std::function<bool(const Numbers& x)> contains;
-  std::function<Numbers(const Numbers& x)> to_unit;
-  std::function<Image(const Numbers& v)> from_unit;
+  std::function<Chart(const Numbers& x)> to_unit;
+  std::function<Image(const Chart& v)> from_unit;
 };
 
 /// The same sampler over 50 digits.
@@ -66,6 +68,9 @@ struct AnySampler {
   int uniforms = 0; ///< numbers that sample takes
   /// The sample of u in [0,1)^uniforms; nothing where it fails.
   std::function<std::optional<Drawn>(const Uniforms& u)> sample;
+  /// Those of several u, each with its pdf, for a sampler that answers many at once far faster than one by one; beside
+  /// `sample`, and with its results.
+  std::function<std::vector<std::optional<Drawn>>(std::span<const Uniforms> u)> sample_many;
   /// The next sample of a stream, for samplers that take as many random numbers as they like. One of the two is there.
   std::function<std::optional<Drawn>(Pcg& random)> sample_stream;
   std::function<double(const Numbers& x)> pdf;

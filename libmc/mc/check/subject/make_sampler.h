@@ -86,9 +86,9 @@ template <Domain D> AnySampler sampler_on(std::string name, const D& domain) {
   const auto chart = domain.template cast<double>();
   using Chart = std::remove_const_t<decltype(chart)>;
   s.domain.to_unit = [chart](const Numbers& x) {
-    return to_array<double>(typename Chart::UnitPoint(chart.to_unit(to_point<typename Chart::Point>(x))));
+    return to_array<double, 3>(typename Chart::UnitPoint(chart.to_unit(to_point<typename Chart::Point>(x))));
   };
-  s.domain.from_unit = [chart](const Numbers& v) {
+  s.domain.from_unit = [chart](const AnyDomain::Chart& v) {
     const auto p = to_point<typename Chart::UnitPoint>(v);
     return AnyDomain::Image{to_array<double>(typename Chart::Point(chart.from_unit(p))), chart.jacobian(p)};
   };
@@ -104,12 +104,12 @@ template <Samplable O> ExactSampler exact_sampler(const O& warp) {
   e.sample = [oracle](const ExactSampler::Point& u) -> std::optional<ExactSampler::Point> {
     const auto drawn = oracle->sample(to_point<UnitPoint>(u));
     if (is_empty(drawn)) return {};
-    return to_array<Oracle>(Point(unwrapped(drawn)));
+    return to_array<Oracle, 3>(Point(unwrapped(drawn)));
   };
   e.pdf = [oracle](const ExactSampler::Point& x) { return Oracle(oracle->pdf(to_point<Point>(x))); };
   e.locate = [domain = oracle->domain()](const ExactSampler::Point& x) {
     const UnitPoint v = domain.to_unit(to_point<Point>(x));
-    return ExactSampler::Place{to_array<Oracle>(v), Oracle(domain.jacobian(v))};
+    return ExactSampler::Place{to_array<Oracle, 3>(v), Oracle(domain.jacobian(v))};
   };
   return e;
 }

@@ -11,8 +11,8 @@
 
 namespace mc {
 
-/// The numbers of a point, a vector or a chart coordinate; unused entries are 0. Doubles hold floats exactly.
-using Numbers = std::array<double, 3>;
+/// The numbers of a point; unused entries are 0. Doubles hold floats exactly. A direction and a number take four.
+using Numbers = std::array<double, 4>;
 
 /// "0.25" or "(0.25, 0.5)", each number with so many digits.
 inline std::string format_numbers(std::span<const double> numbers, int digits) {
@@ -40,8 +40,9 @@ template <class P> constexpr int point_size() {
 }
 
 /// The numbers of a point over S as T; a plain scalar is the first.
-template <class T, class P> std::array<T, 3> to_array(const P& x) {
-  std::array<T, 3> a{};
+template <class T, std::size_t N = std::tuple_size_v<Numbers>, class P> std::array<T, N> to_array(const P& x) {
+  static_assert(point_size<P>() <= static_cast<int>(N));
+  std::array<T, N> a{};
   if constexpr (point_size<P>() == 1) a[0] = static_cast<T>(x);
   else
     for (int i = 0; i < point_size<P>(); ++i) a[static_cast<std::size_t>(i)] = static_cast<T>(x[i]);

@@ -26,7 +26,7 @@ TEST(MakeSampler, AWarpBringsAllItHas) {
 
 TEST(MakeSampler, TheChartOfTheDomainIsInDouble) {
   const AnySampler s = mc::make_sampler("disk", mc::UniformDisk<float>());
-  const Numbers v{0.3, 0.7};
+  const mc::AnyDomain::Chart v{0.3, 0.7};
   const mc::AnyDomain::Image image = s.domain.from_unit(v);
   EXPECT_NEAR(s.domain.to_unit(image.x)[0], v[0], 1e-15);
   EXPECT_NEAR(image.jacobian, mc::pi<double>, 1e-14);

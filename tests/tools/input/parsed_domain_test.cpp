@@ -1,0 +1,101 @@
+// Every domain that a text can name: who is in it, its chart there and back, and its measure.
+
+#include <input/parsed_domain.h>
+
+#include <mc/random/pcg.h>
+
+#include <support/files.h>
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+namespace {
+
+using carlo::parse_domain, carlo::ParsedDomain, carlo::Rounding;
+using support::error_of;
+using testing::HasSubstr;
+
+struct Named {
+  const char* text;
+  int dim;
+  std::size_t columns;
+  double measure; ///< infinite: not tried
+  mc::Numbers outside;
+};
+
+constexpr double pi = std::numbers::pi, infinity = HUGE_VAL;
+
+class EveryDomain : public testing::TestWithParam<Named> {};
+
+TEST_P(EveryDomain, HasAChartThereAndBack) {
+  const Named& named = GetParam();
+  for (const Rounding rounding : {Rounding::printed, Rounding::doubles, Rounding::floats}) {
+    const ParsedDomain d = parse_domain(named.text, carlo::unknown_quartiles, rounding);
+    EXPECT_EQ(d.chart.dim, named.dim);
+    EXPECT_EQ(d.columns.size(), named.columns);
+    EXPECT_EQ(d.chart.axes.size(), static_cast<std::size_t>(named.dim));
+    EXPECT_FALSE(d.chart.contains(named.outside));
+    EXPECT_FALSE(d.chart.contains({NAN, NAN, NAN, NAN}));
+    mc::Pcg random(5);
+    double measure = 0;
+    for (int i = 0; i < 1000; ++i) {
+      mc::AnyDomain::Chart v{};
+      for (std::size_t k = 0; k < static_cast<std::size_t>(named.dim); ++k) v[k] = random.uniform<double>();
+      const mc::AnyDomain::Image at = d.chart.from_unit(v);
+      measure += at.jacobian / 1000;
+      EXPECT_TRUE(rounding == Rounding::floats || d.chart.contains(at.x)) << named.text;
+      const mc::AnyDomain::Chart back = d.chart.to_unit(at.x);
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], v[k], 1e-12) << named.text;
+    }
+    // The charts of bounded domains have constant Jacobians, but for the triangle's.
+    if (std::isfinite(named.measure)) {
+      EXPECT_NEAR(measure, named.measure, 0.1 * named.measure) << named.text;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    ParsedDomain, EveryDomain,
+    testing::Values(Named{"x=-1:3", 1, 1, 4, {3.1}}, Named{"x=2:inf", 1, 1, infinity, {1.9}},
+                    Named{"x=-inf:2", 1, 1, infinity, {2.1}}, Named{"x=-inf:inf", 1, 1, infinity, {infinity}},
+                    Named{"x=-inf:inf,y=-inf:inf,z=-inf:inf", 3, 3, infinity, {0, 0, infinity}},
+                    Named{"disk", 2, 2, pi, {1, 0.1}}, Named{"annulus=0.5", 2, 2, 0.75 * pi, {0.3, 0.3}},
+                    Named{"triangle", 2, 2, 0.5, {0.6, 0.5}}, Named{"ball", 3, 3, 4 * pi / 3, {1, 0.1, 0}},
+                    Named{"sphere", 2, 3, 4 * pi, {1, 0.1, 0}}, Named{"hemisphere", 2, 3, 2 * pi, {0, 0, -1}},
+                    Named{"sphere,t=0:2", 3, 4, 8 * pi, {0, 0, 1, 2.1}},
+                    Named{"t=0:2,sphere", 3, 4, 8 * pi, {2.1, 0, 0, 1}}));
+
+TEST(ParsedDomain, PrintedPointsMayBeRounded) {
+  const mc::Numbers w{0.6, 0.8, 1e-6};
+  EXPECT_TRUE(parse_domain("sphere").chart.contains({0.600001, 0.8, 0}));
+  EXPECT_FALSE(parse_domain("sphere", carlo::unknown_quartiles, Rounding::floats).chart.contains({0.600001, 0.8, 0}));
+  EXPECT_TRUE(parse_domain("sphere", carlo::unknown_quartiles, Rounding::floats).chart.contains(w));
+  EXPECT_TRUE(parse_domain("x=0:0.1", carlo::unknown_quartiles, Rounding::floats).chart.contains({0.1f}));
+  EXPECT_FALSE(parse_domain("x=0:0.1", carlo::unknown_quartiles, Rounding::doubles).chart.contains({0.1f}));
+}
+
+TEST(ParsedDomain, OutcomesAreWholeNumbers) {
+  const ParsedDomain d = parse_domain("discrete=3");
+  EXPECT_EQ(d.outcomes, 3);
+  EXPECT_EQ(d.chart.dim, 0);
+  EXPECT_TRUE(d.chart.contains({2}));
+  EXPECT_FALSE(d.chart.contains({3}));
+  EXPECT_FALSE(d.chart.contains({0.5}));
+}
+
+TEST(ParsedDomain, BadTextsAreOneLine) {
+  const auto refused = [](const char* text) { return error_of([&] { parse_domain(text); }); };
+  EXPECT_THAT(refused(""), HasSubstr("'' is not of the form name=lo:hi"));
+  EXPECT_THAT(refused("sphere,disk"), HasSubstr("4 dimensions in 5 columns"));
+  EXPECT_THAT(refused("disk,x=0:1"), HasSubstr("'x' is bounded twice"));
+  EXPECT_THAT(refused("x=0:nan"), HasSubstr("'nan' in 'x=0:nan' is not a number"));
+  EXPECT_THAT(refused("x=0:1,discrete=3"), HasSubstr("'discrete=3' stands alone"));
+}
+
+TEST(ParsedDomain, QuartilesLeaveOutWhatIsNotFinite) {
+  EXPECT_EQ(carlo::quartiles_of({4, NAN, 1, 2, 3, HUGE_VAL}), (std::array<double, 3>{2, 3, 4}));
+  EXPECT_EQ(carlo::quartiles_of({NAN}), carlo::unknown_quartiles(0));
+}
+
+} // namespace

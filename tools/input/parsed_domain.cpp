@@ -1,0 +1,219 @@
+#include <input/parsed_domain.h>
+
+#include <mc/check/subject/make_sampler.h>
+#include <mc/core/error.h>
+#include <mc/core/text.h>
+#include <mc/domain/annulus.h>
+#include <mc/domain/ball.h>
+#include <mc/domain/disk.h>
+#include <mc/domain/hemisphere.h>
+#include <mc/domain/interval.h>
+#include <mc/domain/sphere.h>
+#include <mc/domain/triangle.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+namespace carlo {
+
+using mc::AnyDomain, mc::Numbers;
+
+namespace {
+
+constexpr double unit_tolerance = 1e-5, edge_tolerance = 1e-6;
+
+// A factor of a domain.
+using Part = ParsedDomain;
+using Contains = std::function<bool(const Numbers& x)>;
+
+double norm(const Numbers& x, int n) {
+  double sum = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) sum += x[i] * x[i];
+  return std::sqrt(sum);
+}
+
+// A domain of libmc over double as a part; printed points are in it where `near` says so.
+template <mc::Domain D>
+Part part(std::string text, std::vector<std::string> columns, const D& d, Rounding rounding, Contains near) {
+  const mc::AnySampler on = rounding == Rounding::floats ? mc::detail::sampler_on("", d.template cast<float>())
+                                                         : mc::detail::sampler_on("", d);
+  Part p{on.domain, std::move(columns), std::move(text)};
+  if (rounding != Rounding::printed) return p;
+  p.chart.contains = std::move(near);
+  p.chart.to_unit = [to_unit = p.chart.to_unit](const Numbers& x) {
+    AnyDomain::Chart v = to_unit(x);
+    for (double& one : v) one = std::clamp(one, 0.0, 1.0);
+    return v;
+  };
+  return p;
+}
+
+// Printed directions are brought to length 1 first.
+template <mc::Domain D> Part directions(std::string text, const D& d, Rounding rounding, Contains near) {
+  Part p = part(std::move(text), {"x", "y", "z"}, d, rounding, std::move(near));
+  if (rounding != Rounding::printed) return p;
+  p.text += fmt::format(" (to {:g})", unit_tolerance);
+  p.chart.to_unit = [to_unit = p.chart.to_unit](const Numbers& x) {
+    const double length = norm(x, 3);
+    return to_unit({x[0] / length, x[1] / length, std::max(x[2], -1.0) / length});
+  };
+  return p;
+}
+
+double number(std::string_view word, std::string_view whole) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  mc::require(error == std::errc() && end == word.data() + word.size() && !std::isnan(value),
+              "'{}' in '{}' is not a number", word, whole);
+  return value;
+}
+
+Part interval(const std::string& name, std::string_view bounds, std::string_view whole, const Quartiles& quartiles,
+              std::size_t column, Rounding rounding) {
+  const std::size_t colon = bounds.find(':');
+  mc::require(!name.empty() && colon != std::string_view::npos,
+              "'{}' is not of the form name=lo:hi, as in \"x=0:1,y=-1:2\"", whole);
+  const double lo = number(bounds.substr(0, colon), whole), hi = number(bounds.substr(colon + 1), whole);
+  mc::require(lo < hi, "'{}' has bounds {} and {}; lo < hi is needed", whole, lo, hi);
+  const std::string text = fmt::format("{} in [{:g}, {:g}]", name, lo, hi);
+  const auto inside = [lo, hi](const Numbers& x) { return x[0] >= lo && x[0] <= hi && std::isfinite(x[0]); };
+  const auto scale = [](double size) { return size > 0 ? size : 1.0; };
+  const auto on = [&](const auto& domain) { return part(text, {name}, domain, rounding, inside); };
+  Part p;
+  if (std::isfinite(lo) && std::isfinite(hi)) p = on(mc::Interval<double>(lo, hi));
+  else {
+    const auto [low, middle, high] = quartiles(column);
+    if (std::isinf(lo) && std::isinf(hi)) p = on(mc::RealLine<double>(middle, scale(high - low)));
+    else if (std::isinf(hi)) p = on(mc::HalfLine<double>(lo, scale(middle - lo)));
+    else p = on(mc::HalfLine<double>(hi, -scale(hi - middle)));
+  }
+  p.chart.axes[0].name = name;
+  return p;
+}
+
+Part annulus(std::string_view radius, Rounding rounding) {
+  const double inner = number(radius, radius);
+  mc::require(inner > 0 && inner < 1, "annulus={} needs a radius in (0, 1)", radius);
+  return part(
+      fmt::format("the annulus {} <= r <= 1", inner), {"x", "y"}, mc::Annulus<double>(inner, 1), rounding,
+      [inner](const Numbers& x) { return std::abs(norm(x, 2) - 0.5 - inner / 2) <= 0.5 - inner / 2 + edge_tolerance; });
+}
+
+Part named(const std::string& name, Rounding rounding) {
+  const auto is_unit = [](const Numbers& x) { return std::abs(norm(x, 3) - 1) <= unit_tolerance; };
+  if (name == "sphere") return directions("the unit sphere", mc::Sphere<double>(), rounding, is_unit);
+  if (name == "hemisphere")
+    return directions("the unit hemisphere", mc::Hemisphere<double>(), rounding,
+                      [is_unit](const Numbers& x) { return is_unit(x) && x[2] >= -unit_tolerance; });
+  if (name == "disk")
+    return part("the unit disk", {"x", "y"}, mc::Disk<double>(), rounding,
+                [](const Numbers& x) { return norm(x, 2) <= 1 + edge_tolerance; });
+  if (name == "ball")
+    return part("the unit ball", {"x", "y", "z"}, mc::Ball<double>(), rounding,
+                [](const Numbers& x) { return norm(x, 3) <= 1 + edge_tolerance; });
+  if (name == "triangle")
+    return part("the triangle x, y >= 0, x + y <= 1", {"x", "y"}, mc::Triangle<double>(), rounding,
+                [](const Numbers& x) {
+                  return x[0] >= -edge_tolerance && x[1] >= -edge_tolerance && x[0] + x[1] <= 1 + edge_tolerance;
+                });
+  static const std::vector<std::string> known = {"sphere", "hemisphere", "disk",    "annulus",
+                                                 "ball",   "triangle",   "discrete"};
+  throw mc::Error(fmt::format("'{}' is not of the form name=lo:hi, as in \"x=0:1,y=-1:2\", nor one of {}{}", name,
+                              fmt::join(known, ", "), mc::did_you_mean(name, known)));
+}
+
+Part discrete(int outcomes) {
+  Part p{{}, {"i"}, fmt::format("outcomes 0 to {}", outcomes - 1), outcomes};
+  p.chart.numbers = 1;
+  p.chart.contains = [outcomes](const Numbers& x) { return x[0] >= 0 && x[0] < outcomes && x[0] == std::floor(x[0]); };
+  return p;
+}
+
+// The numbers [first, first + count) of a longer array, the first of another.
+template <std::size_t N> std::array<double, N> slice(const std::array<double, N>& x, std::size_t first, int count) {
+  std::array<double, N> part{};
+  std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(first), count, part.begin());
+  return part;
+}
+template <std::size_t N>
+void put(std::array<double, N>& x, std::size_t first, int count, const std::array<double, N>& part) {
+  std::copy_n(part.begin(), count, x.begin() + static_cast<std::ptrdiff_t>(first));
+}
+
+Part product(const Part& a, const Part& b) {
+  Part p{{}, a.columns, a.text + ", " + b.text};
+  p.columns.insert(p.columns.end(), b.columns.begin(), b.columns.end());
+  mc::require(p.columns.size() <= std::tuple_size_v<Numbers> && a.chart.dim + b.chart.dim <= 3,
+              "{} has {} dimensions in {} columns; at most 3 in {} can be checked", p.text, a.chart.dim + b.chart.dim,
+              p.columns.size(), std::tuple_size_v<Numbers>);
+  p.chart.dim = a.chart.dim + b.chart.dim;
+  p.chart.numbers = a.chart.numbers + b.chart.numbers;
+  p.chart.axes = a.chart.axes;
+  p.chart.axes.insert(p.chart.axes.end(), b.chart.axes.begin(), b.chart.axes.end());
+  const auto x_split = static_cast<std::size_t>(a.chart.numbers), v_split = static_cast<std::size_t>(a.chart.dim);
+  p.chart.contains = [a = a.chart, b = b.chart, x_split](const Numbers& x) {
+    return a.contains(slice(x, 0, a.numbers)) && b.contains(slice(x, x_split, b.numbers));
+  };
+  p.chart.to_unit = [a = a.chart, b = b.chart, x_split, v_split](const Numbers& x) {
+    AnyDomain::Chart v = a.to_unit(slice(x, 0, a.numbers));
+    put(v, v_split, b.dim, b.to_unit(slice(x, x_split, b.numbers)));
+    return v;
+  };
+  p.chart.from_unit = [a = a.chart, b = b.chart, x_split, v_split](const AnyDomain::Chart& v) {
+    AnyDomain::Image image = a.from_unit(slice(v, 0, a.dim));
+    const AnyDomain::Image second = b.from_unit(slice(v, v_split, b.dim));
+    put(image.x, x_split, b.numbers, second.x);
+    image.jacobian *= second.jacobian;
+    return image;
+  };
+  return p;
+}
+
+} // namespace
+
+bool ParsedDomain::contains(const double* x) const {
+  Numbers numbers{};
+  std::copy_n(x, columns.size(), numbers.begin());
+  return chart.contains(numbers);
+}
+
+std::array<double, 3> unknown_quartiles(std::size_t) { return {-1, 0, 1}; }
+
+std::array<double, 3> quartiles_of(std::vector<double> column) {
+  std::erase_if(column, [](double x) { return !std::isfinite(x); });
+  if (column.empty()) return unknown_quartiles(0);
+  std::sort(column.begin(), column.end());
+  return {column[column.size() / 4], column[column.size() / 2], column[column.size() * 3 / 4]};
+}
+
+ParsedDomain parse_domain(const std::string& text, const Quartiles& quartiles, Rounding rounding) {
+  std::optional<ParsedDomain> whole;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string one = text.substr(begin, end - begin), name = one.substr(0, one.find('='));
+    begin = end + 1;
+    const std::string_view value = std::string_view(one).substr(std::min(name.size() + 1, one.size()));
+    if (name == "discrete") {
+      const double n = number(value, one);
+      mc::require(n >= 1 && n <= 1 << 24 && n == std::floor(n), "'{}'; 1 to 2^24 outcomes are possible", one);
+      mc::require(one.size() == text.size(), "'{}' stands alone", one);
+      return discrete(static_cast<int>(n));
+    }
+    const std::size_t column = whole ? whole->columns.size() : 0;
+    Part next;
+    if (name == "annulus") next = annulus(value, rounding);
+    else if (one.find('=') != std::string::npos) next = interval(name, value, one, quartiles, column, rounding);
+    else next = named(one, rounding);
+    whole = whole ? product(*whole, next) : std::move(next);
+  }
+  std::vector<std::string> names = whole->columns;
+  std::sort(names.begin(), names.end());
+  const auto twice = std::adjacent_find(names.begin(), names.end());
+  mc::require(twice == names.end(), "'{}' is bounded twice in '{}'", twice == names.end() ? "" : *twice, text);
+  return std::move(*whole);
+}
+
+} // namespace carlo
