@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Writes the meshes and pictures of librender/scenes that are computed: run it in any folder of the project.
 
+tiles.png    64x64 glazed tiles
 sky.exr      64x32 lat-long sky with a sun
 torus.ply    smooth torus, binary
 knot.serialized  trefoil knot in Mitsuba's format
@@ -11,6 +12,25 @@ import struct
 import zlib
 
 scenes = pathlib.Path(__file__).resolve().parent.parent / "librender" / "scenes"
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def write_png(path, width, height, pixel):
+    rows = b"".join(b"\0" + b"".join(bytes(pixel(x, y)) for x in range(width)) for y in range(height))
+    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+
+
+def tile(x, y):
+    if x % 16 == 0 or y % 16 == 0:
+        return 90, 84, 78  # grout
+    if (x // 16 + y // 16) % 4 == 0:
+        return 40, 92, 150
+    shade = (x * 7 + y * 13) % 12
+    return 216 - shade, 208 - shade, 190 - shade
 
 
 def attribute(name, kind, value):
@@ -116,6 +136,7 @@ def trefoil(t):
 
 for folder in ("textures", "meshes"):
     (scenes / folder).mkdir(exist_ok=True)
+write_png(scenes / "textures" / "tiles.png", 64, 64, tile)
 write_exr(scenes / "textures" / "sky.exr", 64, 32, sky)
 write_ply(scenes / "meshes" / "torus.ply", outward(tube(torus, 0.35, 48, 24, 1)))
 write_serialized(scenes / "meshes" / "knot.serialized", outward(tube(trefoil, 0.3, 160, 20, 1)))

@@ -69,7 +69,8 @@ template <class SceneType> class PathIntegrator {
       if (walk.edges == options_.max_depth) return radiance;
 
       const auto frame = mc::Frame<Float>::from_z(point.ns);
-      const At at{scene_.bsdf(surface), point, frame, frame.to_local(-walk.ray.d)};
+      std::optional<Bsdf> varied;
+      const At at{scene_.bsdf(surface, *hit, varied), point, frame, frame.to_local(-walk.ray.d)};
       const bool rough = !at.bsdf.is_delta();
       if (rough && connects() && scene_.light_choice()) radiance += walk.beta * connect(at, stream, rays);
       if (whole && rough) return radiance + branch(at, walk, stream, rays);

@@ -33,8 +33,10 @@ class Reader {
     else if (e.tag == "sensor") only_one(e, sensor_) = read_plugin(sensor_plugins(), e, context_);
     else if (e.tag == "emitter") emitter(e);
     else if (e.tag == "bsdf") named_bsdf(e);
+    else if (e.tag == "texture") named_texture(e);
     else if (e.tag == "shape") shape(e);
-    else if (e.tag != "default") e.fail("unknown element; use default, integrator, sensor, bsdf, shape or emitter");
+    else if (e.tag != "default")
+      e.fail("unknown element; use default, integrator, sensor, bsdf, texture, shape or emitter");
   }
 
   template <class T> std::optional<T>& only_one(const XmlElement& e, std::optional<T>& place) {
@@ -51,6 +53,11 @@ class Reader {
   void named_bsdf(const XmlElement& e) {
     e.attribute("id"); // without one nothing could use it
     context_.bsdf(e);
+  }
+
+  void named_texture(const XmlElement& e) {
+    e.attribute("id");
+    context_.texture(e);
   }
 
   void shape(const XmlElement& e) {

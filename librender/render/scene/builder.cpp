@@ -7,14 +7,19 @@
 
 namespace render {
 
-BsdfId SceneBuilder::add(Bsdf bsdf) {
-  bsdfs_.push_back(std::move(bsdf));
-  return BsdfId(static_cast<std::uint32_t>(bsdfs_.size() - 1));
+BsdfId SceneBuilder::add(Material material) {
+  materials_.push_back(std::move(material));
+  return BsdfId(static_cast<std::uint32_t>(materials_.size() - 1));
 }
 
 void SceneBuilder::add(Shape shape, const Cover& cover) {
   const auto bsdf = static_cast<std::size_t>(cover.bsdf);
-  mc::require(bsdf < bsdfs_.size(), "scene: shape {} names BSDF {} of {}", surfaces_.size(), bsdf, bsdfs_.size());
+  mc::require(bsdf < materials_.size(), "scene: shape {} names BSDF {} of {}", surfaces_.size(), bsdf,
+              materials_.size());
+  const bool textured = materials_[bsdf].texture != nullptr;
+  mc::require(!textured || shape.has_uv(), "scene: shape {} has no texture coordinates, which its texture needs",
+              surfaces_.size());
+  if (!textured) shape.forget_uvs();
   Surface surface{std::make_shared<const Shape>(std::move(shape)), cover.bsdf, {}, cover.guide};
   if (cover.emission) {
     surface.light = static_cast<std::uint32_t>(lights_.size());
@@ -28,7 +33,8 @@ Scene SceneBuilder::build() {
                   std::any_of(lights_.begin(), lights_.end(), [](const Light& l) { return l.is_infinite(); }),
               "scene: it has neither a shape nor a background; add at least one");
   SceneBuilder parts = std::exchange(*this, SceneBuilder());
-  return {std::move(parts.surfaces_), std::move(parts.bsdfs_), std::move(parts.lights_), parts.camera_, parts.filter_};
+  return {std::move(parts.surfaces_), std::move(parts.materials_), std::move(parts.lights_), parts.camera_,
+          parts.filter_};
 }
 
 } // namespace render

@@ -8,14 +8,18 @@ namespace render {
 /// Collects what a reader finds and makes the Scene of it. What is added is right by its own constructor.
 class SceneBuilder {
  public:
-  BsdfId add(Bsdf bsdf);
+  BsdfId add(Bsdf bsdf) { return add(Material{std::move(bsdf), nullptr}); }
+  BsdfId add(TexturedLambert diffuse) {
+    return add(Material{Lambert(), std::make_shared<const TexturedLambert>(std::move(diffuse))});
+  }
 
   struct Cover {
     BsdfId bsdf;
     std::optional<Emission> emission = {};
     bool guide = false; ///< see Surface
   };
-  /// throws : Error for a BSDF that was not added, or what AreaLight refuses
+  /// throws : Error for a BSDF that was not added, a texture on a shape that has no texture coordinates, or what
+  ///          AreaLight refuses
   void add(Shape shape, const Cover& cover);
 
   /// A light that is no surface.
@@ -29,8 +33,10 @@ class SceneBuilder {
   Scene build();
 
  private:
+  BsdfId add(Material material);
+
   std::vector<Surface> surfaces_;
-  std::vector<Bsdf> bsdfs_;
+  std::vector<Material> materials_;
   std::vector<Light> lights_;
   ThinLens camera_;
   Filter filter_;

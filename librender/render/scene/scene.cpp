@@ -4,9 +4,9 @@
 
 namespace render {
 
-Scene::Scene(std::vector<Surface> surfaces, std::vector<Bsdf> bsdfs, std::vector<Light> lights, ThinLens camera,
+Scene::Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std::vector<Light> lights, ThinLens camera,
              Filter filter)
-    : surfaces_(std::move(surfaces)), bsdfs_(std::move(bsdfs)), lights_(std::move(lights)), camera_(camera),
+    : surfaces_(std::move(surfaces)), materials_(std::move(materials)), lights_(std::move(lights)), camera_(camera),
       filter_(filter) {
   std::vector<const Shape*> shapes;
   for (const Surface& s : surfaces_) shapes.push_back(s.shape.get());

@@ -3,6 +3,7 @@
 
 #include <render/accel/bvh.h>
 #include <render/bsdf/bsdf.h>
+#include <render/bsdf/textured_lambert.h>
 #include <render/camera/thin_lens.h>
 #include <render/film/filter.h>
 #include <render/light/light.h>
@@ -18,6 +19,12 @@ namespace render {
 
 /// A BSDF of a scene, as SceneBuilder::add names it.
 enum class BsdfId : std::uint32_t {};
+
+/// A BSDF, or one that varies.
+struct Material {
+  Bsdf bsdf;                                      ///< where a texture varies it, one of its kind
+  std::shared_ptr<const TexturedLambert> texture; ///< null: it is the same everywhere
+};
 
 /// A shape with what covers it.
 struct Surface {
@@ -40,7 +47,15 @@ class Scene {
 
   std::span<const Surface> surfaces() const { return surfaces_; }
   const Surface& surface(const Hit& hit) const { return surfaces_[static_cast<std::size_t>(hit.shape)]; }
-  const Bsdf& bsdf(const Surface& surface) const { return bsdfs_[static_cast<std::size_t>(surface.bsdf)]; }
+  /// What covers a surface; of a texture only its kind, the rest varies.
+  const Bsdf& bsdf(const Surface& surface) const { return materials_[static_cast<std::size_t>(surface.bsdf)].bsdf; }
+  /// What covers it where it was hit; made in `room` where a texture varies it.
+  const Bsdf& bsdf(const Surface& surface, const Hit& hit, std::optional<Bsdf>& room) const {
+    const Material& m = materials_[static_cast<std::size_t>(surface.bsdf)];
+    if (!m.texture) [[likely]]
+      return m.bsdf;
+    return room.emplace(m.texture->at(surface.shape->uv(hit)));
+  }
 
   std::span<const Light> lights() const { return lights_; }
   /// Indices of the lights that shine where a ray leaves the scene.
@@ -54,11 +69,11 @@ class Scene {
 
  private:
   friend class SceneBuilder;
-  Scene(std::vector<Surface> surfaces, std::vector<Bsdf> bsdfs, std::vector<Light> lights, ThinLens camera,
+  Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std::vector<Light> lights, ThinLens camera,
         Filter filter);
 
   std::vector<Surface> surfaces_;
-  std::vector<Bsdf> bsdfs_;
+  std::vector<Material> materials_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> infinite_lights_;
   std::optional<mc::TableDist1D<Float>> light_choice_;

@@ -45,6 +45,7 @@ struct ShapeSample {
 ///   pdf(ref, wi)      : density [1/sr] of the direction wi: the sum over all points where it meets the shape
 ///   area()            : total area
 ///   surface_point     : the point of a Hit
+///   has_uv(), uv(hit) : texture coordinates, where it has them;  forget_uvs() : not any more
 template <class T>
 concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint hit, Ray ray, Hit h) {
   { s.sample(ref, u) } -> std::same_as<std::optional<ShapeSample>>;

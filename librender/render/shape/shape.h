@@ -26,6 +26,15 @@ struct Shape : std::variant<TriangleMesh, Sphere> {
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const {
     return dispatch(*this, [&](const auto& s) { return s.surface_point(ray, hit); });
   }
+  bool has_uv() const {
+    return dispatch(*this, [](const auto& s) { return s.has_uv(); });
+  }
+  mc::Vec2<double> uv(const Hit& hit) const {
+    return dispatch(*this, [&](const auto& s) { return s.uv(hit); });
+  }
+  void forget_uvs() {
+    std::visit([](auto& s) { s.forget_uvs(); }, static_cast<variant&>(*this));
+  }
 };
 
 } // namespace render

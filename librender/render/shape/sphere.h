@@ -27,6 +27,11 @@ class Sphere {
   double area() const;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
+  /// No texture lies on spheres yet.
+  bool has_uv() const { return false; }
+  mc::Vec2<double> uv(const Hit&) const { return {0, 0}; }
+  void forget_uvs() {}
+
   const Vec3d& center() const { return center_; }
   double radius() const { return radius_; }
   const Vec3d& axis() const { return axis_; }

@@ -44,8 +44,8 @@ Triangles wound(Triangles triangles, const Transform& to_world) {
 } // namespace
 
 TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                           std::vector<Vec3> normals)
-    : positions_(std::move(positions)), normals_(std::move(normals)) {
+                           std::vector<Vec3> normals, std::vector<mc::Vec2<float>> uvs)
+    : positions_(std::move(positions)), normals_(std::move(normals)), uvs_(std::move(uvs)) {
   mc::require(!triangles.empty(), "mesh: no triangle; at least one is needed");
   for (std::size_t i = 0; i < positions_.size(); ++i)
     mc::require(positions_[i].allFinite(), "mesh: vertex {} = ({}, {}, {}) is not finite", i, positions_[i].x(),
@@ -54,6 +54,11 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
     for (const std::uint32_t v : triangles[i])
       mc::require(v < positions_.size(), "mesh: triangle {} names vertex {}, but there are only {}", i, v,
                   positions_.size());
+  mc::require(uvs_.empty() || uvs_.size() == positions_.size(),
+              "mesh: {} texture coordinates for {} vertices; give one each or none", uvs_.size(), positions_.size());
+  for (std::size_t i = 0; i < uvs_.size(); ++i)
+    mc::require(uvs_[i].allFinite(), "mesh: texture coordinate {} = ({}, {}) is not finite", i, uvs_[i].x(),
+                uvs_[i].y());
   mc::require(normals_.empty() || normals_.size() == positions_.size(),
               "mesh: {} normals for {} vertices; give one each or none", normals_.size(), positions_.size());
   for (const auto& vertices : triangles) {
@@ -84,7 +89,8 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
 
 TriangleMesh TriangleMesh::rectangle(const Transform& to_world) {
   const std::vector<Vec3d> corners = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-  return {transformed(corners, to_world), wound({{0, 1, 2}, {0, 2, 3}}, to_world)};
+  return {
+      transformed(corners, to_world), wound({{0, 1, 2}, {0, 2, 3}}, to_world), {}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 }
 
 TriangleMesh TriangleMesh::box(const Transform& to_world) {
@@ -120,6 +126,12 @@ SurfacePoint TriangleMesh::point(std::size_t triangle, double b1, double b2) con
   }
   s.prim = static_cast<int>(triangle);
   return s;
+}
+
+mc::Vec2<double> TriangleMesh::uv(const Hit& hit) const {
+  const auto& [i, j, k] = faces_[static_cast<std::size_t>(hit.prim)].vertices;
+  const double b1 = double(hit.b1), b2 = double(hit.b2);
+  return (1 - b1 - b2) * uvs_[i].cast<double>() + b1 * uvs_[j].cast<double>() + b2 * uvs_[k].cast<double>();
 }
 
 SurfacePoint TriangleMesh::surface_point(const Ray&, const Hit& hit) const {

@@ -22,9 +22,10 @@ namespace render {
 ///            is allowed: it is never hit and never sampled.
 class TriangleMesh {
  public:
+  /// uvs     : texture coordinates, one per vertex, or none
   /// normals : one per vertex, or none; where all agree with their triangles, the mesh is flat and needs none
   TriangleMesh(std::vector<Vec3> positions, const std::vector<std::array<std::uint32_t, 3>>& triangles,
-               std::vector<Vec3> normals = {});
+               std::vector<Vec3> normals = {}, std::vector<mc::Vec2<float>> uvs = {});
 
   /// The square [-1,1]^2 in the plane z = 0 under `to_world`; its normal is the transformed (0, 0, 1), mirrored or not.
   static TriangleMesh rectangle(const Transform& to_world);
@@ -36,6 +37,11 @@ class TriangleMesh {
   Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const { return area_; }
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
+
+  bool has_uv() const { return !uvs_.empty(); }
+  mc::Vec2<double> uv(const Hit& hit) const;
+  /// Gives back the memory of texture coordinates that nothing reads.
+  void forget_uvs() { uvs_ = {}; }
 
   std::size_t size() const { return faces_.size(); }
   std::array<Vec3, 3> vertices(std::size_t triangle) const {
@@ -62,6 +68,7 @@ class TriangleMesh {
     double area;
   };
   std::vector<Vec3> positions_, normals_; ///< per vertex; no normals: flat
+  std::vector<mc::Vec2<float>> uvs_;
   std::vector<Face> faces_;
   std::optional<mc::TableDist1D<double>> choice_; ///< of a triangle by its area; none where all areas are 0
   double area_ = 0;

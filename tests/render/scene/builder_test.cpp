@@ -33,10 +33,27 @@ TEST(SceneBuilder, SaysWhatIsWrong) {
   builder.add(ball, {gray});
   EXPECT_THAT(message([&] { builder.add(ball, {BsdfId(3)}); }), testing::HasSubstr("shape 1 names BSDF 3 of 1"));
   EXPECT_THAT(message([&] { builder.add(flat, {gray, Emission{}}); }), testing::HasSubstr("needs an area > 0"));
+  const BsdfId board = builder.add(TexturedLambert(Checkerboard(Spectrum::Zero(), Spectrum::Ones())));
+  EXPECT_THAT(message([&] { builder.add(ball, {board}); }), testing::HasSubstr("shape 1 has no texture coordinates"));
   // What was refused has left nothing behind.
   const Scene scene = builder.build();
   EXPECT_EQ(scene.surfaces().size(), 1u);
   EXPECT_TRUE(scene.lights().empty());
+}
+
+TEST(SceneBuilder, ATextureLiesWhereTheCoordinatesSay) {
+  SceneBuilder builder;
+  const Spectrum dark = Spectrum::Constant(Float(0.25)), light = Spectrum::Constant(Float(0.75));
+  builder.add(TriangleMesh::rectangle({}), {builder.add(TexturedLambert(Checkerboard(dark, light)))});
+  const Scene scene = builder.build();
+  for (const double x : {-0.9, -0.3, 0.2, 0.7})
+    for (const double y : {-0.8, -0.1, 0.4, 0.6}) {
+      const auto hit = scene.intersect({Vec3(Float(x), Float(y), 1), Vec3(0, 0, -1)});
+      ASSERT_TRUE(hit);
+      std::optional<Bsdf> varied;
+      const Bsdf& here = scene.bsdf(scene.surface(*hit), *hit, varied);
+      EXPECT_EQ(std::get<Lambert>(here).albedo()[0], ((x < 0) == (y < 0) ? dark : light)[0]) << x << ", " << y;
+    }
 }
 
 } // namespace

@@ -16,7 +16,7 @@ TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat
   auto triangles = file.triangles;
   if (to_world.mirrors())
     for (auto& t : triangles) std::swap(t[1], t[2]);
-  return TriangleMesh(std::move(positions), triangles, std::move(normals));
+  return TriangleMesh(std::move(positions), triangles, std::move(normals), file.uvs);
 }
 
 } // namespace render

@@ -38,22 +38,29 @@ const XmlElement& Context::resolve(const XmlElement& element, std::string_view t
   element.fail(fmt::format("no <{}> has the id '{}'{}", tag, id, mc::did_you_mean(id, known)));
 }
 
-Bsdf Context::read_bsdf(const XmlElement& element) {
+MaterialText Context::read_bsdf(const XmlElement& element) {
   const XmlElement& target = resolve(element, "bsdf");
   if (!being_read_.insert(&target).second)
     element.fail(fmt::format("it leads back to the <bsdf> of line {}, in which it stands", target.line));
-  Bsdf bsdf = read_plugin(bsdf_plugins(), target, *this);
+  MaterialText material = read_plugin(bsdf_plugins(), target, *this);
   being_read_.erase(&target);
-  return bsdf;
+  return material;
 }
 
 BsdfId Context::bsdf(const XmlElement& element) {
   const XmlElement& target = resolve(element, "bsdf");
   const auto known = bsdfs_.find(&target);
   if (known != bsdfs_.end()) return known->second;
-  const BsdfId id = builder.add(read_bsdf(element));
+  const BsdfId id = std::visit([&](auto&& material) { return builder.add(std::move(material)); }, read_bsdf(element));
   bsdfs_.emplace(&target, id);
   return id;
+}
+
+Texture Context::texture(const XmlElement& element) {
+  const XmlElement& target = resolve(element, "texture");
+  const auto known = textures_.find(&target);
+  if (known != textures_.end()) return known->second;
+  return textures_.emplace(&target, read_plugin(texture_plugins(), target, *this)).first->second;
 }
 
 std::shared_ptr<const Texels> Context::picture(const std::string& path) {

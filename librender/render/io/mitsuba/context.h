@@ -10,8 +10,12 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <variant>
 
 namespace render::mitsuba {
+
+/// What a <bsdf> describes.
+using MaterialText = std::variant<Bsdf, TexturedLambert>;
 
 /// Filled while a scene is read. `root` must outlive it.
 class Context {
@@ -30,12 +34,14 @@ class Context {
 
   /// The BSDF that a <bsdf> describes or a <ref> names.
   ///   throws : Error for what cannot be read and for references that lead in a circle
-  Bsdf read_bsdf(const XmlElement& element);
+  MaterialText read_bsdf(const XmlElement& element);
   /// The same, added to the scene when first met.
   BsdfId bsdf(const XmlElement& element);
   /// The BSDF of shapes that name none.
   BsdfId default_bsdf();
 
+  /// The texture that a <texture> describes or a <ref> names.
+  Texture texture(const XmlElement& element);
   /// The picture in a file, read when first asked for.
   ///   throws : what read_image throws
   std::shared_ptr<const Texels> picture(const std::string& path);
@@ -51,6 +57,7 @@ class Context {
   std::map<std::string, const XmlElement*> ids_;
   std::map<const XmlElement*, BsdfId> bsdfs_;
   std::set<const XmlElement*> being_read_;
+  std::map<const XmlElement*, Texture> textures_;
   std::map<std::string, std::shared_ptr<const Texels>> pictures_;
 };
 

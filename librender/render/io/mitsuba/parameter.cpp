@@ -98,6 +98,17 @@ Parameter<Spectrum> color(std::string name, std::string unit, std::string meanin
   return color(name, unit, meaning).otherwise(fallback, text_of(fallback));
 }
 
+Parameter<Reflectance> color_or_texture(std::string name, std::string unit, std::string meaning,
+                                        const Spectrum& fallback) {
+  const auto parse = [](const XmlElement& e, Context& context) -> Reflectance {
+    if (e.tag == "texture" || e.tag == "ref") return context.texture(e);
+    return color_of(e);
+  };
+  const Parameter<Reflectance> p{
+      {name, "colour or texture", unit, {"rgb", "srgb", "spectrum", "texture", "ref"}, meaning}, parse, {}, {}};
+  return p.otherwise(fallback, text_of(fallback));
+}
+
 Parameter<std::shared_ptr<const Texels>> picture(std::string name, std::string meaning) {
   return {{name, "file", "", {"string"}, meaning}, picture_of, {}, {}};
 }

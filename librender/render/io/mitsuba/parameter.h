@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace render::mitsuba {
@@ -69,6 +70,10 @@ Parameter<std::string> file(std::string name, std::string meaning);
 Parameter<Vec3d> point(std::string name, std::string meaning, const Vec3d& fallback);
 Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning);
 Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning, const Spectrum& fallback);
+/// A colour, or a texture where it varies.
+using Reflectance = std::variant<Spectrum, Texture>;
+Parameter<Reflectance> color_or_texture(std::string name, std::string unit, std::string meaning,
+                                        const Spectrum& fallback);
 /// A file with a picture, relative to the scene file.
 Parameter<std::shared_ptr<const Texels>> picture(std::string name, std::string meaning);
 Parameter<Transform> transform(std::string name, std::string meaning);

@@ -55,6 +55,7 @@ std::vector<Kind> all_plugins() {
       {"rfilter", "inside a film", texts(filter_plugins())},
       {"sampler", "inside a sensor", texts(sampler_plugins())},
       {"bsdf", "what covers a shape; of the scene with an id, or inside a shape", texts(bsdf_plugins())},
+      {"texture", "a colour that varies; of the scene with an id, or a parameter", texts(texture_plugins())},
       {"shape", "what is seen", texts(shape_plugins())},
       {"emitter in a shape", "what makes it shine", texts(surface_emitter_plugins())},
       {"emitter", "of the scene: lights that are no shapes", texts(emitter_plugins())},

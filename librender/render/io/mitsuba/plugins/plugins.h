@@ -29,7 +29,8 @@ const Plugins<SensorSettings>& sensor_plugins();
 const Plugins<FilmSettings>& film_plugins();
 const Plugins<Filter>& filter_plugins();
 const Plugins<int>& sampler_plugins(); ///< samples per pixel
-const Plugins<Bsdf>& bsdf_plugins();
+const Plugins<MaterialText>& bsdf_plugins();
+const Plugins<Texture>& texture_plugins();
 const Plugins<CoveredShape>& shape_plugins();
 const Plugins<Emission>& surface_emitter_plugins(); ///< inside a shape
 const Plugins<Light>& emitter_plugins();            ///< of the scene

@@ -1,0 +1,43 @@
+#include <render/texture/bitmap.h>
+
+namespace render {
+
+Bitmap::Bitmap(std::shared_ptr<const Texels> texels, const UvMap& map) : texels_(std::move(texels)), map_(map) {
+  const Texels& t = *texels_;
+  largest_ = smallest_ = t.values[0];
+  for (std::size_t i = 0; i < t.values.size(); ++i) {
+    const Spectrum& s = t.values[i];
+    mc::require(s.isFinite().all(), "bitmap: texel ({}, {}) = ({}, {}, {}) is not finite",
+                i % static_cast<std::size_t>(t.width), i / static_cast<std::size_t>(t.width), s[0], s[1], s[2]);
+    largest_ = largest_.max(s);
+    smallest_ = smallest_.min(s);
+  }
+}
+
+namespace {
+
+// The texels on both sides of a place in [0, n), which wraps, and how near the second one is.
+struct Neighbours {
+  std::size_t first, second;
+  Float weight;
+  Neighbours(double place, int n) {
+    const double shifted = place - 0.5, below = std::floor(shifted);
+    weight = Float(shifted - below);
+    first = static_cast<std::size_t>(below < 0 ? n - 1 : static_cast<int>(below));
+    second = first + 1 == static_cast<std::size_t>(n) ? 0 : first + 1;
+  }
+};
+
+} // namespace
+
+Spectrum Bitmap::eval(const Vec2d& uv) const {
+  const Vec2d p = map_(uv);
+  const Neighbours x(p[0] * texels_->width, texels_->width), y(p[1] * texels_->height, texels_->height);
+  const auto row = [&](std::size_t j) -> Spectrum {
+    const Spectrum* texels = &texels_->values[j * static_cast<std::size_t>(texels_->width)];
+    return (1 - x.weight) * texels[x.first] + x.weight * texels[x.second];
+  };
+  return (1 - y.weight) * row(y.first) + y.weight * row(y.second);
+}
+
+} // namespace render

@@ -1,0 +1,26 @@
+#pragma once
+/// Squares of two colours.
+
+#include <render/texture/uv_map.h>
+
+namespace render {
+
+/// A period of [0,1)^2 holds two squares of each colour; color0 lies at (0, 0) and at (1/2, 1/2).
+class Checkerboard {
+ public:
+  Checkerboard(const Spectrum& color0, const Spectrum& color1, const UvMap& map = UvMap())
+      : color0_(color0), color1_(color1), map_(map) {}
+
+  Spectrum eval(const Vec2d& uv) const {
+    const Vec2d p = map_(uv);
+    return (p[0] < 0.5) == (p[1] < 0.5) ? color0_ : color1_;
+  }
+  Spectrum largest() const { return color0_.max(color1_); }
+  Spectrum smallest() const { return color0_.min(color1_); }
+
+ private:
+  Spectrum color0_, color1_;
+  UvMap map_;
+};
+
+} // namespace render

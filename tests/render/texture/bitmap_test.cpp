@@ -1,0 +1,66 @@
+#include <render/texture/bitmap.h>
+
+#include <mc/random/pcg.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using render::Bitmap, render::Float, render::Spectrum, render::Texels;
+
+std::shared_ptr<const Texels> texels(int width, int height, std::vector<Spectrum> values) {
+  return std::make_shared<const Texels>(width, height, std::move(values));
+}
+Spectrum grey(double x) { return Spectrum::Constant(Float(x)); }
+
+TEST(BitmapTexture, CentresAreTheTexelsAndTheRestIsBilinear) {
+  const Bitmap b(texels(2, 2, {grey(1), grey(2), grey(3), grey(5)}));
+  EXPECT_EQ(b.eval({0.25, 0.25})[0], 1);
+  EXPECT_EQ(b.eval({0.75, 0.25})[0], 2);
+  EXPECT_EQ(b.eval({0.25, 0.75})[0], 3);
+  EXPECT_EQ(b.eval({0.75, 0.75})[0], 5);
+  EXPECT_EQ(b.eval({0.5, 0.25})[1], Float(1.5));
+  EXPECT_EQ(b.eval({0.5, 0.5})[2], Float(2.75));
+  // It wraps: half way between the last column and the first.
+  EXPECT_EQ(b.eval({0, 0.25})[0], Float(1.5));
+  EXPECT_EQ(b.eval({1, 0.25})[0], Float(1.5));
+  EXPECT_EQ(b.eval({0.25, 0})[0], 2);
+}
+
+// Continuous everywhere, also across the seam, never outside the texels' range, and its mean is theirs.
+TEST(BitmapTexture, ContinuousBoundedAndOfTheTexelsMean) {
+  mc::Pcg random(2);
+  for (const auto& [width, height] : {std::pair(1, 1), {1, 3}, {3, 1}, {7, 5}}) {
+    std::vector<Spectrum> values;
+    double mean = 0;
+    for (int i = 0; i < width * height; ++i) {
+      values.push_back(grey(random.uniform<double>()));
+      mean += double(values.back()[0]) / (width * height);
+    }
+    const Bitmap b(texels(width, height, values));
+    double sum = 0;
+    constexpr int n = 210;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const render::Vec2d p((i + 0.5) / n, (j + 0.5) / n);
+        const Spectrum s = b.eval(p);
+        sum += double(s[0]) / (n * n);
+        EXPECT_TRUE(s[0] >= b.smallest()[0] - Float(1e-6) && s[0] <= b.largest()[0] + Float(1e-6));
+        EXPECT_LE(std::abs(s[0] - b.eval({p[0] + 1e-6, p[1] - 1e-6})[0]), 2e-5);
+      }
+    EXPECT_NEAR(sum, mean, 1e-4);
+    EXPECT_NEAR(b.eval({1 - 1e-9, 0.3})[0], b.eval({1e-9, 0.3})[0], 1e-6);
+  }
+}
+
+TEST(BitmapTexture, RefusesWhatIsNoPicture) {
+  try {
+    Bitmap(texels(2, 2, {grey(0), grey(0), grey(0), grey(NAN)}));
+    FAIL();
+  } catch (const mc::Error& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("bitmap: texel (1, 1) = (nan, nan, nan) is not finite"));
+  }
+}
+
+} // namespace
