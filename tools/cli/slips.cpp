@@ -2,6 +2,7 @@
 #include <report/report_json.h>
 #include <slips/cornell.h>
 #include <slips/slips.h>
+#include <terminal/interrupt.h>
 #include <terminal/progress.h>
 #include <terminal/version.h>
 
@@ -98,43 +99,48 @@ json to_json(const Slip& s, const Judged& t) {
           {"right", {{"verdict", name(t.right.verdict())}, {"p", t.right.p()}, {"samples", t.right.samples}}}};
 }
 
-// Every slip, its line printed as soon as those before it are printed.
-std::vector<Judged> judge_all(const Slips& slips, const SlipsOptions& o) {
+// Every slip that was finished before `cancel`, its line printed as soon as those before it are printed.
+std::vector<std::optional<Judged>> judge_all(const Slips& slips, const SlipsOptions& o,
+                                             const std::atomic<bool>* cancel) {
   fmt::print(
       "book: Ray Tracing: The Rest of Your Life, 2016; course: Introduction to Real-Time Ray Tracing, SIGGRAPH 2019;\n"
       "lecture: CMU 15-468, 2021, with smallpt; lajolla: its design notes, UCSD CSE 272\n\n"
       "{:<4} {:<34} {:<29} {:<27} {:>8}  {}\n",
       "slip", "", "where", "caught by", "samples", "the right one");
-  std::vector<Judged> judged(slips.size());
-  std::vector<char> done(slips.size(), 0);
+  std::vector<std::optional<Judged>> judged(slips.size());
   std::size_t printed = 0, finished = 0;
   std::mutex mutex;
   Progress progress;
+  const auto print = [&](std::size_t i) {
+    const Slip& s = slips[i];
+    const Judged& r = *judged[i];
+    fmt::print("{:<4} {:<34} {:<29} {:<27} {:>8}  {}, p = {:.2g}\n", s.id, s.name, s.where, r.test, samples_text(s, r),
+               name(r.right.verdict()), r.right.p());
+  };
   mc::parallel_for(slips.size(), o.threads, [&](std::size_t i) {
+    if (*cancel) return;
     Judged one = mc::with_context(slips[i].title(), [&] { return judge(slips[i], o); });
     const std::lock_guard lock(mutex);
     judged[i] = std::move(one);
-    done[i] = 1;
     ++finished;
-    if (printed < slips.size() && done[printed]) progress.clear();
-    for (; printed < slips.size() && done[printed]; ++printed) {
-      const Slip& s = slips[printed];
-      const Judged& r = judged[printed];
-      fmt::print("{:<4} {:<34} {:<29} {:<27} {:>8}  {}, p = {:.2g}\n", s.id, s.name, s.where, r.test,
-                 samples_text(s, r), name(r.right.verdict()), r.right.p());
-    }
+    if (printed < slips.size() && judged[printed]) progress.clear();
+    for (; printed < slips.size() && judged[printed]; ++printed) print(printed);
     std::fflush(stdout);
     progress.show(static_cast<double>(finished) / static_cast<double>(slips.size()),
                   fmt::format("{} of {} slips", finished, slips.size()));
   });
+  progress.clear();
+  for (std::size_t i = printed; i < slips.size(); ++i)
+    if (judged[i]) print(i);
   return judged;
 }
 
-void print_stories(const Slips& slips, const std::vector<Judged>& judged) {
+void print_stories(const Slips& slips, const std::vector<std::optional<Judged>>& judged) {
   for (std::size_t i = 0; i < slips.size(); ++i) {
+    if (!judged[i]) continue;
     fmt::print("\n{}, {}\n  {}\n  wrong{}\n", slips[i].title(), slips[i].where, slips[i].story,
-               judged[i].wrong.to_string());
-    if (!judged[i].right.passed()) fmt::print("  right{}\n", judged[i].right.to_string());
+               judged[i]->wrong.to_string());
+    if (!judged[i]->right.passed()) fmt::print("  right{}\n", judged[i]->right.to_string());
   }
 }
 
@@ -189,23 +195,30 @@ int slips(const SlipsOptions& o) {
               o.samples);
   if (!o.json.empty()) mc::require_writable(o.json);
 
-  const std::vector<Judged> judged = judge_all(slips, o);
+  const Interrupt interrupt;
+  const std::vector<std::optional<Judged>> judged = judge_all(slips, o, interrupt.flag());
   json all = {{"command", o.command}, {"commit", commit},       {"seed", o.seed},
               {"alpha", o.alpha},     {"slips", json::array()}, {"boxes", json::array()}};
-  std::size_t caught = 0, right = 0;
+  std::size_t finished = 0, caught = 0, right = 0;
   for (std::size_t i = 0; i < slips.size(); ++i) {
-    caught += judged[i].caught;
-    right += judged[i].right.passed();
-    all["slips"].push_back(to_json(slips[i], judged[i]));
+    if (!judged[i]) continue;
+    ++finished;
+    caught += judged[i]->caught;
+    right += judged[i]->right.passed();
+    all["slips"].push_back(to_json(slips[i], *judged[i]));
   }
+  const bool interrupted = *interrupt.flag();
   bool boxes_as_claimed = true;
-  if (o.names.empty()) boxes_as_claimed = judge_boxes(o, all["boxes"]);
-  else print_stories(slips, judged);
+  if (!o.names.empty()) print_stories(slips, judged);
+  else if (!interrupted) boxes_as_claimed = judge_boxes(o, all["boxes"]);
   fmt::print("\n{} of {} slips rejected, {} of {} right ones passed, at alpha {:g} over all looks of a slip, seed {}\n",
-             caught, slips.size(), right, slips.size(), o.alpha, o.seed);
-  const bool passed = caught == slips.size() && right == slips.size() && boxes_as_claimed;
+             caught, finished, right, finished, o.alpha, o.seed);
+  if (interrupted) fmt::print("interrupted: {} of {} slips were finished\n", finished, slips.size());
+  const bool passed = caught == slips.size() && right == slips.size() && boxes_as_claimed && !interrupted;
   all["passed"] = passed;
+  if (interrupted) all["interrupted"] = true;
   if (!o.json.empty()) mc::write_file(o.json, json_text(all));
+  if (interrupted) return exit_interrupted;
   return passed ? exit_ok : exit_failed;
 }
 

@@ -50,8 +50,10 @@ Subject bsdf_subject(const AnyBsdf& bsdf, const Vec3<double>& wo, const BsdfOpti
   return s;
 }
 
-Report check_bsdf(const AnyBsdf& bsdf, const Vec3<double>& wo, const BsdfOptions& options) {
+Report check_bsdf(const AnyBsdf& given, const Vec3<double>& wo, const BsdfOptions& options) {
   const auto start = std::chrono::steady_clock::now();
+  AnyBsdf bsdf = given;
+  bsdf.open_interval = bsdf.open_interval || options.open_interval;
   Report report = check_subject(bsdf_subject(bsdf, wo, options), statistics(options));
   for (Check& check : purity_law(seen_from(bsdf, wo, options), {.seed = options.seed}))
     report.checks.push_back(std::move(check));

@@ -93,6 +93,10 @@ TEST_F(OutputTest, CtrlCWritesWhatIsFinished) {
   EXPECT_THAT(run.output, HasSubstr("interrupted: "));
   EXPECT_THAT(mc::read_file(path("v.json")),
               AllOf(HasSubstr("\"interrupted\": true"), HasSubstr("\"passed\": false"), HasSubstr("\"name\": ")));
+  const Ran slips = support::interrupt_carlo("slips --threads 1 --json '" + path("s.json") + "'");
+  EXPECT_EQ(slips.exit_code, 130) << slips.output;
+  EXPECT_THAT(slips.output, HasSubstr("interrupted: "));
+  EXPECT_THAT(mc::read_file(path("s.json")), AllOf(HasSubstr("\"interrupted\": true"), HasSubstr("\"passed\": false")));
   const Ran curves = support::interrupt_carlo("converge --max-n 4e6 --threads 1 -o '" + path("c") + "'");
   EXPECT_EQ(curves.exit_code, 130) << curves.output;
   EXPECT_THAT(curves.output, HasSubstr("interrupted: "));

@@ -3,7 +3,10 @@
 namespace mc {
 
 std::optional<AnyBsdf::Sample> AnyBsdf::sample_next(const Direction& wo, Pcg& random) const {
-  const auto next = [&] { return is_float ? static_cast<double>(random.uniform<float>()) : random.uniform<double>(); };
+  const auto next = [&] {
+    const double u = is_float ? static_cast<double>(random.uniform<float>()) : random.uniform<double>();
+    return open_interval && u == 0 ? epsilon() / 2 : u;
+  };
   const double uc = next(), u0 = next(), u1 = next();
   return sample(wo, uc, {u0, u1});
 }

@@ -51,6 +51,7 @@ struct AnyBsdf {
   };
 
   bool is_float = false;
+  bool open_interval = false; ///< sample wants numbers in (0,1), none of them 0
   std::function<std::optional<Sample>(const Direction& wo, double uc, const Vec2<double>& u)> sample;
   std::function<Channels(const Direction& wo, const Direction& wi)> eval;
   std::function<double(const Direction& wo, const Direction& wi)> pdf;

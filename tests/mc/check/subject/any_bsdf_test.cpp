@@ -36,6 +36,24 @@ TEST(AnyBsdf, SaysWhatTheBsdfSays) {
   EXPECT_EQ(b.pdf(wo, wo), 1);
 }
 
+TEST(AnyBsdf, AnOpenIntervalHoldsNoZero) {
+  mc::Pcg random(1), before = random;
+  while (random.uniform<float>() != 0) before = random;
+  mc::AnyBsdf b;
+  b.is_float = true;
+  double uc = 1;
+  b.sample = [&uc](const mc::AnyBsdf::Direction&, double first, const mc::Vec2<double>&) {
+    uc = first;
+    return std::optional<mc::AnyBsdf::Sample>();
+  };
+  for (const bool open : {false, true}) {
+    b.open_interval = open;
+    mc::Pcg again = before;
+    b.sample_next({0, 0, 1}, again);
+    EXPECT_EQ(uc, open ? b.epsilon() / 2 : 0.0);
+  }
+}
+
 TEST(AnyBsdf, OneChannelRepeats) {
   mc::Channels grey;
   grey.count = 1;
