@@ -180,6 +180,10 @@ void add_lights_seen(Catalogue& c) {
   add_background(c, "ConstantBackground", "", ConstantBackground(Spectrum::Ones()));
   add_background(c, "GradientBackground", "white to blue", GradientBackground());
   add_background(c, "GradientBackground", "black below", GradientBackground(Spectrum::Zero(), Spectrum::Ones()));
+  std::vector<Spectrum> texels;
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 8; ++x) texels.push_back(Spectrum::Constant(Float(x == 1 && y == 1 ? 20 : (x + 3 * y) % 4)));
+  add_background(c, "Environment", "8x4 with a sun", Environment(std::make_shared<const Texels>(8, 4, texels)));
   const Vec3 ref(Float(0.25), Float(0.5), Float(-1.5));
   const AreaLight light(std::make_shared<const Shape>(Sphere(Vec3d(0.25, 0.5, 1.5), 1)), Emission{});
   const mc::RotatedDomain<mc::Cap<Float>> cone{cap_of((1 / 9.0) / (1 + std::sqrt(1 - 1 / 9.0))),
