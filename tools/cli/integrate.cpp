@@ -1,7 +1,5 @@
 #include <cli/subcommand.h>
-#include <integrands/experiments.h>
-#include <integrands/expression.h>
-#include <integrands/genz.h>
+#include <integrands/find.h>
 #include <report/report_json.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
@@ -9,7 +7,6 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
-#include <mc/core/text.h>
 #include <mc/estimate/integrate.h>
 
 #include <nlohmann/json.hpp>
@@ -33,23 +30,6 @@ struct IntegrateOptions {
   std::string json;
   std::string command;
 };
-
-// A name of a list, or else an expression.
-Experiment integrand(const IntegrateOptions& o) {
-  if (!o.domain.empty()) return parse_expression(o.integrand, o.domain);
-  for (const Experiment& e : genz_integrals())
-    if (e.name == o.integrand) return e;
-  const bool a_name = o.integrand.find_first_not_of(
-                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") == std::string::npos;
-  if (!a_name) return parse_expression(o.integrand, o.domain);
-  if (o.integrand.starts_with("genz")) {
-    std::vector<std::string_view> names;
-    for (const Experiment& e : genz_integrals()) names.push_back(e.name);
-    throw mc::Error(fmt::format("unknown integrand '{}'{}; --list shows them all", o.integrand,
-                                mc::did_you_mean(o.integrand, names)));
-  }
-  return experiment(o.integrand);
-}
 
 // The value with its error bar, or, where there is none, why.
 void print_value(const Experiment& e, const mc::Integral& r) {
@@ -88,13 +68,12 @@ std::vector<Option> rows(IntegrateOptions& o) {
 
 int integrate(const IntegrateOptions& o) {
   if (o.list) {
-    for (const auto* list : {&experiments(), &genz_integrals()})
-      for (const Experiment& e : *list) std::printf("%-26s %s\n", e.name.c_str(), e.title.c_str());
+    for (const Experiment* e : named_integrands()) std::printf("%-26s %s\n", e->name.c_str(), e->title.c_str());
     return exit_ok;
   }
   mc::require(!o.integrand.empty(), "integrate: name an integrand or give an expression; --list shows the names");
   if (!o.json.empty()) mc::require_writable(o.json);
-  const Experiment e = integrand(o);
+  const Experiment e = find_integrand(o.integrand, o.domain);
 
   mc::IntegrateOptions settings;
   settings.rel_error = o.rel_error;

@@ -1,5 +1,5 @@
 #include <cli/subcommand.h>
-#include <input/csv.h>
+#include <input/points_file.h>
 #include <report/plot.h>
 #include <report/projections.h>
 #include <report/report_json.h>
@@ -91,19 +91,6 @@ Sets randomised(const PointSet& set, std::uint64_t n, const PointsOptions& o) {
     sets.push_back(set.make(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(o.dim),
                             r == 0 ? o.seed : mc::hash(o.seed, static_cast<std::uint64_t>(r))));
   return sets;
-}
-
-std::vector<double> read_points(const PointsOptions& o, int& dim) {
-  const CsvTable table = read_csv(o.file);
-  mc::require(table.columns <= most_dimensions, "{}: {} columns; at most {} dimensions are looked at", o.file,
-              table.columns, most_dimensions);
-  mc::require(table.rows() >= 2 && table.rows() <= most_points, "{}: {} points; 2 to {} are needed", o.file,
-              table.rows(), most_points);
-  for (std::size_t i = 0; i < table.values.size(); ++i)
-    mc::require(table.values[i] >= 0 && table.values[i] < 1, "{}:{}: coordinate {} is {}; it must lie in [0, 1)",
-                o.file, table.lines[i / table.columns], i % table.columns + 1, table.values[i]);
-  dim = static_cast<int>(table.columns);
-  return table.values;
 }
 
 double root(double x) { return std::sqrt(x); }
@@ -209,7 +196,9 @@ Measured measure_all(const PointsOptions& o, int& dim) {
   constexpr std::uint64_t quick = 100'000'000, thorough = 1'000'000'000;
   Measured m;
   if (!o.file.empty()) {
-    m.sets = {read_points(o, dim)};
+    const CsvTable table = read_points(o.file, 2, most_points, most_dimensions);
+    dim = static_cast<int>(table.columns);
+    m.sets = {table.values};
     m.rows = {measure(m.sets, static_cast<std::size_t>(dim), o.threads, thorough)};
     return m;
   }

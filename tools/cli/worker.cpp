@@ -2,6 +2,7 @@
 
 #include <cli/subcommand.h>
 #include <plugin/command.h>
+#include <plugin/integrands.h>
 #include <plugin/plugin.h>
 #include <plugin/worker.h>
 
@@ -12,7 +13,10 @@ namespace carlo {
 namespace {
 
 nlohmann::json run_task(const nlohmann::json& request, Watch& watch) {
-  return request["task"] == "command" ? run_command_task(request, watch) : run_plugin_task(request, watch);
+  const std::string task = request["task"];
+  if (task == "command") return run_command_task(request, watch);
+  if (task == "integrand" || task == "describe integrands") return run_integrand_task(request, watch);
+  return run_plugin_task(request, watch);
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 #include <integrands/experiments.h>
 
 #include <mc/core/error.h>
-#include <mc/core/text.h>
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/sphere.h>
 
@@ -26,42 +25,86 @@ std::vector<Experiment> make() {
   const double pi = mc::pi<double>;
   const std::string week3 = "Ray Tracing: The Rest of Your Life (P. Shirley)";
   const std::string codex = "The Graphics Codex (M. McGuire)";
+  using Class = Smoothness::Class;
   std::vector<Experiment> list;
-  list.push_back({"pi", "pi by darts at a square", week3 + ", chapter 2", 2, pi, -0.75, 64, ball});
-  list.push_back({"x2_uniform", "x^2 on [0,2], uniform density", week3 + ", chapter 3", 1, 8.0 / 3, -1.5, 16,
+  list.push_back({"pi", "pi by darts at a square", week3 + ", chapter 2", 2, pi, {Class::jump}, 64, ball});
+  list.push_back({"x2_uniform",
+                  "x^2 on [0,2], uniform density",
+                  week3 + ", chapter 3",
+                  1,
+                  8.0 / 3,
+                  {Class::smooth},
+                  16,
                   [](Unit u) { return 2 * mc::sqr(2 * u[0]); }});
-  list.push_back({"x2_linear", "x^2 on [0,2], density x/2", week3 + ", chapter 3", 1, 8.0 / 3, 0, 16, [](Unit u) {
+  list.push_back({"x2_linear", "x^2 on [0,2], density x/2", week3 + ", chapter 3", 1, 8.0 / 3, {}, 16, [](Unit u) {
                     const double x = 2 * std::sqrt(u[0]);
                     return 2 * x; // x^2 / (x / 2)
                   }});
-  list.push_back({"x2_quadratic", "x^2 on [0,2], density 3 x^2 / 8: no error at all", week3 + ", chapter 3", 1, 8.0 / 3,
-                  0, 16, [](Unit u) {
+  list.push_back({"x2_quadratic",
+                  "x^2 on [0,2], density 3 x^2 / 8: no error at all",
+                  week3 + ", chapter 3",
+                  1,
+                  8.0 / 3,
+                  {},
+                  16,
+                  [](Unit u) {
                     const double x = 2 * std::cbrt(1 - u[0]); // 1 - u, so that x > 0
                     return x * x / (3 * x * x / 8);
                   }});
-  list.push_back({"cos2_sphere", "cos^2 over the sphere", week3 + ", chapter 4", 2, 4 * pi / 3, -1.0, 64, [](Unit u) {
-                    const mc::UniformSphere<double> warp;
-                    const auto w = warp.sample(pair(u));
-                    return mc::sqr(w.z()) / warp.pdf(w);
-                  }});
-  list.push_back({"cos3_hemisphere_uniform", "cos^3 over the hemisphere, uniform density", week3 + ", chapter 7", 2,
-                  pi / 2, -1.0, 64, [](Unit u) {
+  list.push_back(
+      {"cos2_sphere", "cos^2 over the sphere", week3 + ", chapter 4", 2, 4 * pi / 3, {Class::additive}, 64, [](Unit u) {
+         const mc::UniformSphere<double> warp;
+         const auto w = warp.sample(pair(u));
+         return mc::sqr(w.z()) / warp.pdf(w);
+       }});
+  list.push_back({"cos3_hemisphere_uniform",
+                  "cos^3 over the hemisphere, uniform density",
+                  week3 + ", chapter 7",
+                  2,
+                  pi / 2,
+                  {Class::additive},
+                  64,
+                  [](Unit u) {
                     const mc::UniformHemisphere<double> warp;
                     const auto w = warp.sample(pair(u));
                     return w.z() * w.z() * w.z() / warp.pdf(w);
                   }});
-  list.push_back({"cos3_hemisphere_cosine", "cos^3 over the hemisphere, density cos/pi", week3 + ", chapter 7", 2,
-                  pi / 2, -1.0, 64, [](Unit u) {
+  list.push_back({"cos3_hemisphere_cosine",
+                  "cos^3 over the hemisphere, density cos/pi",
+                  week3 + ", chapter 7",
+                  2,
+                  pi / 2,
+                  {Class::additive},
+                  64,
+                  [](Unit u) {
                     const mc::CosineHemisphere<double> warp;
                     const auto w = warp.sample(pair(u));
                     return w.z() * w.z() * w.z() / warp.pdf(w);
                   }});
-  list.push_back({"ball_3d", "volume of the ball in 3 dimensions by darts", week3 + ", chapter 2", 3, 4 * pi / 3,
-                  -0.5 - 1.0 / 6, 64, ball});
-  list.push_back({"ball_5d", "volume of the ball in 5 dimensions by darts", week3 + ", chapter 2", 5, 8 * pi * pi / 15,
-                  -0.6, 64, ball});
-  list.push_back({"adversarial", "-cos(2 pi x) on [0,100]: a regular grid sees only the crests", codex, 1, 0, -1.5,
-                  1024, [](Unit u) { return -100 * std::cos(200 * mc::pi<double> * u[0]); }});
+  list.push_back({"ball_3d",
+                  "volume of the ball in 3 dimensions by darts",
+                  week3 + ", chapter 2",
+                  3,
+                  4 * pi / 3,
+                  {Class::jump},
+                  64,
+                  ball});
+  list.push_back({"ball_5d",
+                  "volume of the ball in 5 dimensions by darts",
+                  week3 + ", chapter 2",
+                  5,
+                  8 * pi * pi / 15,
+                  {Class::jump},
+                  64,
+                  ball});
+  list.push_back({"adversarial",
+                  "-cos(2 pi x) on [0,100]: a regular grid sees only the crests",
+                  codex,
+                  1,
+                  0,
+                  {Class::periodic},
+                  1024,
+                  [](Unit u) { return -100 * std::cos(200 * mc::pi<double> * u[0]); }});
   return list;
 }
 
@@ -72,13 +115,34 @@ const std::vector<Experiment>& experiments() {
   return list;
 }
 
-const Experiment& experiment(const std::string& name) {
-  std::vector<std::string_view> names;
-  for (const Experiment& e : experiments()) {
-    if (e.name == name) return e;
-    names.push_back(e.name);
+std::string_view name(Smoothness::Class c) {
+  using Class = Smoothness::Class;
+  switch (c) {
+  case Class::unknown: return "unknown";
+  case Class::smooth: return "smooth";
+  case Class::additive: return "additive";
+  case Class::periodic: return "periodic";
+  case Class::axis_kink: return "kink along axes";
+  case Class::kink: return "kink";
+  case Class::axis_jump: return "jump along axes";
+  case Class::jump: return "jump";
+  case Class::corner: return "singular";
   }
-  throw mc::Error(fmt::format("unknown experiment '{}'{}; --list shows them all", name, mc::did_you_mean(name, names)));
+  return "";
+}
+
+void evaluate(const Experiment& e, Experiment::Unit points, std::span<double> values) {
+  const auto dim = static_cast<std::size_t>(e.dim);
+  const auto point = [&](std::size_t i) { return points.subspan(i * dim, dim); };
+  if (e.many) e.many(points, values);
+  else
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = e.f(point(i));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isfinite(values[i])) continue;
+    const std::string place = e.place ? e.place(point(i)) : fmt::format("u = ({})", fmt::join(point(i), ", "));
+    throw mc::Error(fmt::format("{}: the integrand is {} at {}", e.name,
+                                std::isnan(values[i]) ? std::string("nan") : fmt::format("{}", values[i]), place));
+  }
 }
 
 } // namespace carlo

@@ -4,27 +4,44 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace carlo {
 
+/// How smooth an integrand is, which decides how fast samplers converge.
+///   additive  : smooth, a sum of functions of one coordinate each
+///   axis_kink : Lipschitz, its bends parallel to the axes; kink: in any other surface
+///   axis_jump : jumps at faces parallel to the axes; jump: at any other surface
+///   corner    : product of x^-a
+struct Smoothness {
+  enum class Class { unknown, smooth, additive, periodic, axis_kink, kink, axis_jump, jump, corner };
+  Class of = Class::unknown;
+  double a = 0;
+};
+std::string_view name(Smoothness::Class c);
+
 /// An integral over the unit cube.
 struct Experiment {
+  using Unit = std::span<const double>;
+
   std::string name;
   std::string title; ///< one line, for lists and plots
   std::string source;
   int dim;
-  double truth;
-  /// Exponent with which the RMS error of jittered sampling falls: -1/2 - 1/d for a smooth integrand, -1/2 - 1/(2 d)
-  /// for the indicator of a body [MitchellA96]; 0: none stated, since there is no error, or a derivative is infinite.
-  double stratified_slope;
-  double fit_from;                                  ///< smallest N in the asymptotic range
-  std::function<double(std::span<const double>)> f; ///< of u in [0,1)^dim; its mean is the integral
+  double truth; ///< NaN: unknown
+  Smoothness smoothness;
+  double fit_from;                 ///< smallest N in the asymptotic range; 0: unknown
+  std::function<double(Unit u)> f; ///< of u in [0,1)^dim; its mean is the integral
+  /// Several at once, points one after another; may be empty.
+  std::function<void(Unit points, std::span<double> values)> many = {};
+  std::function<std::string(Unit u)> place = {}; ///< "x = 0.5, y = 1", the point of its own domain; may be empty
 };
 
-const std::vector<Experiment>& experiments();
+/// The integrand at each of the points.
+///   throws : Error with the first place where it is not finite
+void evaluate(const Experiment& e, Experiment::Unit points, std::span<double> values);
 
-/// The experiment of that name. Throws mc::Error naming the nearest for an unknown one.
-const Experiment& experiment(const std::string& name);
+const std::vector<Experiment>& experiments();
 
 } // namespace carlo

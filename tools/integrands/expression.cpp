@@ -76,11 +76,18 @@ Experiment parse_expression(const std::string& expression, const std::string& bo
   e.source = box;
   e.dim = static_cast<int>(sides.size());
   e.truth = std::numeric_limits<double>::quiet_NaN();
-  e.stratified_slope = e.fit_from = 0;
+  e.fit_from = 0;
   e.f = [sides, volume, f = parse_function(expression, names)](std::span<const double> u) {
     std::array<double, 32> x;
     for (std::size_t i = 0; i < sides.size(); ++i) x[i] = sides[i].lo * (1 - u[i]) + sides[i].hi * u[i];
     return volume * f(std::span(x).first(sides.size()));
+  };
+  e.place = [sides](std::span<const double> u) {
+    std::string text;
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      text +=
+          fmt::format("{}{} = {:.9g}", i > 0 ? ", " : "", sides[i].name, sides[i].lo * (1 - u[i]) + sides[i].hi * u[i]);
+    return text;
   };
   return e;
 }

@@ -19,6 +19,7 @@ struct Family {
   const char* name;
   double (*f)(Unit x, Unit c, Unit w);
   double (*truth)(Unit c, Unit w);
+  Smoothness::Class smoothness;
 };
 
 template <class Term> double product(Unit c, Unit w, Term&& term) {
@@ -87,12 +88,12 @@ double discontinuous_truth(Unit c, Unit w) {
   return product(c, w, [](double a, double b, std::size_t i) { return std::expm1(i < 2 ? a * b : a) / a; });
 }
 
-constexpr Family families[] = {{"oscillatory", oscillatory, oscillatory_truth},
-                               {"product_peak", product_peak, product_peak_truth},
-                               {"corner_peak", corner_peak, corner_peak_truth},
-                               {"gaussian", gaussian, gaussian_truth},
-                               {"c0", c0, c0_truth},
-                               {"discontinuous", discontinuous, discontinuous_truth}};
+constexpr Family families[] = {{"oscillatory", oscillatory, oscillatory_truth, Smoothness::Class::smooth},
+                               {"product_peak", product_peak, product_peak_truth, Smoothness::Class::smooth},
+                               {"corner_peak", corner_peak, corner_peak_truth, Smoothness::Class::smooth},
+                               {"gaussian", gaussian, gaussian_truth, Smoothness::Class::smooth},
+                               {"c0", c0, c0_truth, Smoothness::Class::axis_kink},
+                               {"discontinuous", discontinuous, discontinuous_truth, Smoothness::Class::axis_jump}};
 
 // Drawn once: w uniform in [.1, .9], c uniform and scaled to the family's difficulty.
 const Parameters parameters[][2] = {
@@ -129,8 +130,13 @@ std::vector<Experiment> make() {
     const Parameters &c = parameters[k][0], &w = parameters[k][1];
     const int dim = static_cast<int>(c.size());
     list.push_back({fmt::format("genz_{}_{}d", family.name, dim),
-                    fmt::format("Genz: {} in {} dimensions", family.name, dim), "A. Genz 1987", dim, family.truth(c, w),
-                    0, 0, [&family, &c, &w](Unit x) { return family.f(x, c, w); }});
+                    fmt::format("Genz: {} in {} dimensions", family.name, dim),
+                    "A. Genz 1987",
+                    dim,
+                    family.truth(c, w),
+                    {family.smoothness},
+                    256,
+                    [&family, &c, &w](Unit x) { return family.f(x, c, w); }});
   }
   return list;
 }

@@ -36,7 +36,7 @@ struct Draw {
             "made by machine",
             dim,
             scale * truth,
-            0,
+            {},
             0,
             [f = std::move(f), s = scale](Unit x) { return s * f(x); }};
   }

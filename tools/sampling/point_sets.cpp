@@ -1,6 +1,7 @@
 #include <sampling/point_sets.h>
 
 #include <mc/core/error.h>
+#include <mc/core/sum.h>
 #include <mc/core/text.h>
 #include <mc/sampler/halton.h>
 #include <mc/sampler/independent.h>
@@ -18,16 +19,28 @@ namespace carlo {
 
 namespace {
 
+// Points first, first + 1, ... of the sampler, as many as there is room for.
+template <mc::Sampler T> void fill(const T& sampler, std::uint64_t first, std::size_t dim, std::span<double> points) {
+  for (std::size_t i = 0; i < points.size() / dim; ++i)
+    for (std::size_t k = 0; k < dim; ++k)
+      points[i * dim + k] = mc::coordinate<double>(sampler, first + i, static_cast<std::uint32_t>(k));
+}
+
 // The points of a sampler made for (count, dim, seed).
 template <class Make> PointSet row(std::string name, std::string title, Make make) {
-  return {std::move(name), std::move(title), [make](std::uint32_t count, std::uint32_t dim, std::uint64_t seed) {
-            const auto sampler = make(count, dim, seed);
-            std::vector<double> points;
-            points.reserve(std::size_t{count} * dim);
-            for (std::uint32_t i = 0; i < count; ++i)
-              for (std::uint32_t k = 0; k < dim; ++k) points.push_back(mc::coordinate<double>(sampler, i, k));
-            return points;
-          }};
+  PointSet set{std::move(name), std::move(title), {}, {}};
+  set.make = [make](std::uint32_t count, std::uint32_t dim, std::uint64_t seed) {
+    std::vector<double> points(std::size_t{count} * dim);
+    fill(make(count, dim, seed), 0, dim, points);
+    return points;
+  };
+  set.mean = [make](const Experiment& e, std::uint32_t count, std::uint64_t seed) {
+    const auto dim = static_cast<std::uint32_t>(e.dim);
+    const auto sampler = make(count, dim, seed);
+    return mean_over(e, count,
+                     [&](std::uint64_t first, std::span<double> points) { fill(sampler, first, dim, points); });
+  };
+  return set;
 }
 
 } // namespace
@@ -52,6 +65,22 @@ const std::vector<PointSet>& point_sets() {
           [](Count, Count, Seed seed) { return mc::PaddedSobol4D(seed); }),
   };
   return all;
+}
+
+double mean_over(const Experiment& e, std::uint64_t n,
+                 const std::function<void(std::uint64_t first, std::span<double> points)>& fill) {
+  constexpr std::uint64_t block = 256;
+  const auto dim = static_cast<std::size_t>(e.dim);
+  std::vector<double> points(block * dim), values(block);
+  mc::CompensatedSum sum;
+  for (std::uint64_t first = 0; first < n; first += block) {
+    const auto count = static_cast<std::size_t>(std::min(block, n - first));
+    const std::span<double> some = std::span(points).first(count * dim);
+    fill(first, some);
+    evaluate(e, some, std::span(values).first(count));
+    for (std::size_t i = 0; i < count; ++i) sum.add(values[i]);
+  }
+  return sum.value() / static_cast<double>(n);
 }
 
 const PointSet& point_set(const std::string& name) {

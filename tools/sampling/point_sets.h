@@ -1,6 +1,8 @@
 #pragma once
 /// The point sets of libmc by name.
 
+#include <integrands/experiments.h>
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -14,7 +16,14 @@ struct PointSet {
   std::string title; ///< one line
   /// Coordinate k of point i at i * dim + k.
   std::function<std::vector<double>(std::uint32_t count, std::uint32_t dim, std::uint64_t seed)> make;
+  /// The mean of the integrand over them.
+  std::function<double(const Experiment& e, std::uint32_t count, std::uint64_t seed)> mean;
 };
+
+/// The mean of the integrand over n points; fill(first, points) writes those from `first` on, one after another.
+///   throws : what evaluate throws
+double mean_over(const Experiment& e, std::uint64_t n,
+                 const std::function<void(std::uint64_t first, std::span<double> points)>& fill);
 
 const std::vector<PointSet>& point_sets();
 

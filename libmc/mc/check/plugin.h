@@ -18,8 +18,8 @@
 ///               that
 /// A field that is left out is 0, and 0 is its default.
 ///
-/// Structs grow at their end only, and carlo is told their sizes: a plugin that was compiled against an older version of
-/// this header works on.
+/// Structs grow at their end only, and carlo is told their sizes: a plugin that was compiled against an older version
+/// of this header works on.
 
 #include <stdint.h>
 

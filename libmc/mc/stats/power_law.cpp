@@ -14,18 +14,22 @@ namespace mc {
 RmsError rms_error(double n, std::span<const double> estimates, double truth) {
   require(estimates.size() >= 2, "rms_error: {} estimates; at least 2 are needed", estimates.size());
   require(std::isfinite(truth), "rms_error: truth {} must be finite", truth);
-  double sum = 0;
+  const double r = static_cast<double>(estimates.size());
+  double squares = 0, fourths = 0;
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     require(std::isfinite(estimates[i]), "rms_error: estimates[{}] = {} is not finite", i, estimates[i]);
-    sum += sqr(estimates[i] - truth);
+    squares += sqr(estimates[i] - truth) / r;
+    fourths += sqr(sqr(estimates[i] - truth)) / r;
   }
-  const double r = static_cast<double>(estimates.size());
-  const boost::math::chi_squared distribution(r);
+  // The mean of r squares of kurtosis k has the relative variance (k - 1) / r, that of chi-square 2 / degrees.
+  const double excess = squares > 0 ? fourths / sqr(squares) - 1 : 0;
+  const double degrees = excess > 2 ? std::max(1.0, 2 * r / excess) : r;
+  const boost::math::chi_squared distribution(degrees);
   RmsError result;
   result.n = n;
-  result.rms = std::sqrt(sum / r);
-  result.lo = std::sqrt(sum / quantile(complement(distribution, 0.025)));
-  result.hi = std::sqrt(sum / quantile(distribution, 0.025));
+  result.rms = std::sqrt(squares);
+  result.lo = std::sqrt(squares * degrees / quantile(complement(distribution, 0.025)));
+  result.hi = std::sqrt(squares * degrees / quantile(distribution, 0.025));
   return result;
 }
 

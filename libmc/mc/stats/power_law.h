@@ -16,7 +16,8 @@ struct RmsError {
 };
 
 /// RMS error of `estimates` against `truth`.
-///   interval : from the chi-square distribution of R mean squared errors, for errors that are close to normal
+///   interval : from the chi-square distribution, with R degrees of freedom, or fewer where the fourth moment of the
+///              errors is that of a longer tail than the normal one
 ///   throws   : Error for fewer than 2 estimates, or when one or the truth is not finite
 RmsError rms_error(double n, std::span<const double> estimates, double truth);
 

@@ -1,0 +1,154 @@
+// carlo converge: integrands of every kind, ways to sample them, what is written, and bad input.
+
+#include <tools/run_carlo.h>
+
+#include <support/files.h>
+
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace {
+
+using Ran = support::Run;
+using support::run_carlo;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Converge : support::ScratchTest {
+  Ran run(const std::string& arguments) const {
+    return run_carlo("converge " + arguments + " --threads 1 -o '" + path("out") + "'");
+  }
+  void expect_refused(const std::string& arguments, const std::string& words) const {
+    const Ran refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2) << arguments << "\n" << refused.output;
+    EXPECT_EQ(std::count(refused.output.begin(), refused.output.end(), '\n'), 1) << refused.output;
+    EXPECT_THAT(refused.output, HasSubstr(words));
+  }
+  std::string out(const std::string& file) const { return mc::read_file(path("out/" + file)); }
+};
+
+const std::string plugin = std::string("--plugin '") + PLUGIN_DIR + "/integrands.so' ";
+
+TEST_F(Converge, AnExpressionNeedsNoTruth) {
+  const Ran r = run("'exp(-x*x)*cos(y)' -d x=0:1,y=-1:2 --max-n 1024 --report '" + path("page") + "'");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  // 0.5 sqrt(pi) erf(1) (sin 2 + sin 1)
+  EXPECT_THAT(r.output, AllOf(HasSubstr("truth unknown; errors are from 1.3075"), HasSubstr("sobol       RMS error ")));
+  EXPECT_THAT(out("exp_-x_x__cos_y_.json"), AllOf(HasSubstr("\"truth_error\": "), HasSubstr("\"replicates\": ")));
+  EXPECT_THAT(out("slopes.csv"), HasSubstr("exp(-x*x)*cos(y),unknown,2,sobol,"));
+  const std::string page = mc::read_file(path("page/index.html"));
+  EXPECT_THAT(page, AllOf(HasSubstr("<polyline"), HasSubstr("reference 1.3075"), Not(HasSubstr("http"))));
+}
+
+TEST_F(Converge, EveryWayIsMeasuredBesideTheory) {
+  const Ran r = run("rate_smooth_2d --all --max-n 4096 --replicates 64");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  for (const char* name :
+       {"random ", "stratified ", "latin_hypercube ", "multi_jittered ", "halton ", "lattice ", "sobol ",
+        "padded_sobol ", "padded_sobol_4d ", "stratified_rounds ", "rqmc ", "vegas ", "auto "})
+    EXPECT_THAT(r.output, HasSubstr(std::string("  ") + name));
+  EXPECT_THAT(out("rate_smooth_2d.json"),
+              AllOf(HasSubstr("\"class\": \"smooth\""), HasSubstr("\"source\": \"Owen 1997\""),
+                    HasSubstr("\"slope_at_these_n\": "), HasSubstr("\"within_interval\": true")));
+}
+
+TEST_F(Converge, ReplicatesFollowTheTail) {
+  // A value in sixteen: an RMS error is known to 10 % after more replicates than for normal errors.
+  run("'x<0.0625 ? 1 : 0' -d x=0:1 --samplers random --max-n 64");
+  EXPECT_THAT(out("x_0_0625___1___0.json"), Not(HasSubstr("\"replicates\": 64,")));
+}
+
+TEST_F(Converge, PointsOfAFile) {
+  std::string halton;
+  for (int i = 1; i <= 200; ++i) {
+    double a = 0, b = 0, f = 0.5, g = 1 / 3.0;
+    for (int k = i; k > 0; k /= 2, f /= 2) a += f * (k % 2);
+    for (int k = i; k > 0; k /= 3, g /= 3) b += g * (k % 3);
+    halton += fmt::format("{:.12f},{:.12f}\n", a, b);
+  }
+  const std::string good = write("p.csv", halton);
+  const Ran r = run("pi --points-file '" + good + "' --samplers random --max-n 4096");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(r.output, HasSubstr("p.csv       RMS error "));
+  EXPECT_THAT(r.output, HasSubstr("at N = 128, ")) << "the largest power of two that the file holds";
+  expect_refused("ball_3d --points-file '" + good + "'", "p.csv: 2 columns; ball_3d has 3 dimensions");
+  expect_refused("pi --points-file '" + write("few.csv", "0.5,0.5\n") + "'", "few.csv: 1 points; 64 to ");
+  expect_refused("pi --points-file '" + write("off.csv", halton + "0.5,1\n") + "'",
+                 "off.csv:201: coordinate 2 is 1; it must lie in [0, 1)");
+  expect_refused("pi --points-file '" + write("bad.csv", halton + "0.5,zero\n") + "'",
+                 "bad.csv:201: 'zero' is not a number");
+}
+
+TEST_F(Converge, IntegrandsOfAPlugin) {
+  const Ran r = run(plugin + "Sum Batch --max-n 256");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(r.output, AllOf(HasSubstr("x + y over a box"), HasSubstr("Batch\n")));
+  // The same integrand one by one and in batches.
+  const auto errors = [&](const std::string& name) {
+    std::string text = out(name + ".csv");
+    std::string column;
+    for (std::size_t at = text.find("random,"); at != std::string::npos; at = text.find("random,", at + 1))
+      column += text.substr(at, 30);
+    return column;
+  };
+  EXPECT_EQ(errors("Sum"), errors("Batch"));
+  EXPECT_NE(errors("Sum"), "");
+}
+
+TEST_F(Converge, AWrongTruthIsNamed) {
+  const Ran r = run(plugin + "WrongTruth --max-n 1024");
+  EXPECT_EQ(r.exit_code, 1) << r.output;
+  EXPECT_THAT(r.output, HasSubstr("the stated truth 1.01 is wrong, or the integrand is: errors stop falling at 0.01"));
+  EXPECT_EQ(run(plugin + "Sum --max-n 1024").exit_code, 0);
+}
+
+TEST_F(Converge, APluginThatMisbehavesIsOneLine) {
+  expect_refused(plugin + "Crash --max-n 64", "it crashed in eval at x = (");
+  expect_refused(plugin + "NaN --max-n 64", "NaN: the integrand is nan at x = (");
+  expect_refused(plugin + "Hang --max-n 64 --timeout 1", "it hangs in eval at x = (");
+  expect_refused(plugin + "Smu --max-n 64", "unknown integrand 'Smu'; did you mean 'Sum'?");
+  expect_refused(std::string("--plugin '") + PLUGIN_DIR + "/right.so'", "it holds samplers and no integrands");
+}
+
+TEST_F(Converge, BadInputIsOneLine) {
+  expect_refused("'sin(q)' -d x=0:1", "expression 'sin(q)', position");
+  expect_refused("'sin(x)'", "is not a name of --list; for an expression give --domain");
+  expect_refused("'x' -d x=1:0", "lo < hi is needed");
+  expect_refused("'1/(x-x)' -d x=0:1 --max-n 64", "1/(x-x): the integrand is inf at x = 0.");
+  expect_refused("'0*x' -d x=0:1 --max-n 64", "0*x: the integrand was 0 at every point; choose bounds around");
+  expect_refused("pie", "unknown integrand 'pie'; did you mean 'pi'?");
+  expect_refused("pi --samplers sobl", "unknown sampler 'sobl'; did you mean 'sobol'?");
+  expect_refused("pi --time 0", "--time 0 must lie in (0, 1e7] seconds");
+  expect_refused("pi --replicates 3", "--replicates 3 must lie in [8, 100000], or be 0");
+  expect_refused("pi -d x=0:1 pi", "--domain belongs to one expression");
+  EXPECT_THAT(run_carlo("converge pi -o /proc/none").output, HasSubstr("cannot create the folder '/proc/none'"));
+  EXPECT_FALSE(std::filesystem::exists(path("out/pi.csv")));
+}
+
+TEST_F(Converge, ABudgetOfSecondsStopsAtSmallerN) {
+  const Ran r = run("genz_oscillatory_5d --max-n 1e8 --time 0.3");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(out("genz_oscillatory_5d.csv"), AllOf(HasSubstr("sobol,64,"), Not(HasSubstr(",67108864,"))));
+}
+
+TEST_F(Converge, ThreadsChangeNothing) {
+  const auto errors = [&](const std::string& threads) {
+    run_carlo("converge pi --samplers sobol,vegas --max-n 4096 --replicates 16 --threads " + threads + " -o '" +
+              path("t" + threads) + "'");
+    std::string text = mc::read_file(path("t" + threads + "/pi.csv")), kept;
+    for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+      end = text.find('\n', begin);
+      const std::string line = text.substr(begin, end - begin);
+      kept += line.substr(0, line.rfind(',')) + "\n"; // without the seconds
+    }
+    return kept;
+  };
+  EXPECT_EQ(errors("1"), errors("2"));
+}
+
+} // namespace

@@ -1,0 +1,33 @@
+/* Integrands of a plugin: right ones, and what can be wrong with them. */
+#include <mc/check/plugin.h>
+
+#include <math.h>
+
+static double sum(const double* x) { return x[0] + x[1]; }
+static void sums(int64_t count, const double* x, double* values) {
+  int64_t i;
+  for (i = 0; i < count; ++i) values[i] = x[2 * i] + x[2 * i + 1];
+}
+static double crash(const double* x) {
+  volatile int* nowhere = 0;
+  if (x[0] > 0.5) *nowhere = 1;
+  return x[0];
+}
+static double not_a_number(const double* x) { return x[0] > 0.9 ? sqrt(-x[0]) : 1; }
+static double hang(const double* x) {
+  volatile unsigned spin = 0;
+  if (x[0] > 0.5)
+    for (;;) ++spin;
+  return x[0];
+}
+
+static const double lo[] = {0, -1}, hi[] = {1, 2};
+static const mc_integrand integrands[] = {
+    {.name = "Sum", .title = "x + y over a box", .dim = 2, .has_truth = 1, .truth = 3, .lo = lo, .hi = hi, .eval = sum},
+    {.name = "Batch", .dim = 2, .has_truth = 1, .truth = 3, .lo = lo, .hi = hi, .eval = sum, .eval_many = sums},
+    {.name = "WrongTruth", .dim = 2, .has_truth = 1, .truth = 1.01, .eval = sum},
+    {.name = "Crash", .dim = 1, .eval = crash},
+    {.name = "NaN", .dim = 1, .eval = not_a_number},
+    {.name = "Hang", .dim = 1, .eval = hang},
+};
+MC_INTEGRANDS(integrands)

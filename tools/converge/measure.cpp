@@ -1,0 +1,224 @@
+#include <converge/measure.h>
+
+#include <mc/core/error.h>
+#include <mc/core/types.h>
+#include <mc/random/hash.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <tuple>
+
+namespace carlo {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t first_replicates = 64, most_replicates = 512, reference_replicates = 128;
+
+double mean_of(const std::vector<double>& x) {
+  double sum = 0;
+  for (const double one : x) sum += one / static_cast<double>(x.size());
+  return sum;
+}
+
+// Standard error of the mean.
+double error_of_mean(const std::vector<double>& x) {
+  const double mean = mean_of(x), n = static_cast<double>(x.size());
+  double sum = 0;
+  for (const double one : x) sum += mc::sqr(one - mean);
+  return std::sqrt(sum / (n - 1) / n);
+}
+
+// How many replicates make an RMS error known to 10 %: its relative variance is (kurtosis - 1) / (4 R).
+double replicates_needed(const std::vector<double>& values, double centre) {
+  double squares = 0, fourths = 0;
+  const double n = static_cast<double>(values.size());
+  for (const double x : values) {
+    squares += mc::sqr(x - centre) / n;
+    fourths += mc::sqr(mc::sqr(x - centre)) / n;
+  }
+  return squares > 0 ? (fourths / mc::sqr(squares) - 1) / (4 * 0.01) : 0;
+}
+
+void append(Replicates& all, const Replicates& more) {
+  all.values.insert(all.values.end(), more.values.begin(), more.values.end());
+  all.calls.insert(all.calls.end(), more.calls.begin(), more.calls.end());
+  all.seconds.insert(all.seconds.end(), more.seconds.begin(), more.seconds.end());
+}
+
+Replicates replicate(const Target& target, const Way& way, std::uint64_t n, const MeasureOptions& o) {
+  const auto run = [&](std::uint64_t first, std::uint64_t count) {
+    return target.run({&way, n, o.seed, first, count, o.threads, o.cancel});
+  };
+  if (o.replicates > 0) return run(0, static_cast<std::uint64_t>(o.replicates));
+  Replicates all = run(0, first_replicates);
+  const double truth = target.integral.truth;
+  const double needed = replicates_needed(all.values, std::isfinite(truth) ? truth : mean_of(all.values));
+  const auto count = static_cast<std::uint64_t>(std::clamp(needed, 0.0, double(most_replicates)));
+  if (count > first_replicates && !*o.cancel) append(all, run(first_replicates, count - first_replicates));
+  return all;
+}
+
+// The errors come later, when the truth is known. Nothing when it was interrupted.
+std::optional<Curve> run_curve(const Target& target, const Way& way, double seconds, const MeasureOptions& o,
+                               const std::function<void(std::uint64_t n)>& progress) {
+  Curve curve;
+  curve.way = &way;
+  curve.theory = theory(way.name, target.integral.smoothness, target.integral.dim);
+  const auto start = Clock::now();
+  const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
+  double last = 0;
+  for (std::uint64_t n = 16; n <= std::min(o.max_n, way.most); n *= 2) {
+    if (n < way.least) continue;
+    const double before = elapsed();
+    if (seconds > 0 && before + 2 * last > seconds && curve.replicates.size() >= 3) break;
+    curve.replicates.push_back(replicate(target, way, n, o));
+    if (*o.cancel) return {};
+    last = elapsed() - before;
+    progress(n);
+  }
+  return curve;
+}
+
+double median(std::vector<double> x) {
+  std::nth_element(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2), x.end());
+  return x[x.size() / 2];
+}
+
+// The error of the reference may stand on either side.
+void widen(mc::RmsError& e, double truth_error) {
+  const double most = mc::sqr(2 * truth_error);
+  e.lo = std::sqrt(std::max(0.0, mc::sqr(e.lo) - most));
+  e.hi = std::sqrt(mc::sqr(e.hi) + most);
+}
+
+void judge(Curve& curve, const Experiment& e, double truth, double truth_error) {
+  const double floor = 1e-12 * std::max(1.0, std::abs(truth));
+  double worst = 0;
+  for (const Replicates& r : curve.replicates) {
+    mc::RmsError error = mc::rms_error(mean_of(r.calls), r.values, truth);
+    if (truth_error > 0) widen(error, truth_error);
+    error.seconds = median(r.seconds);
+    worst = std::max(worst, error.rms);
+    curve.errors.push_back(error);
+  }
+  curve.exact = worst <= floor;
+  if (curve.exact) return;
+  // Where the asymptotic range is unknown, the upper half of the doublings.
+  const std::size_t half = curve.errors.size() / 2;
+  std::vector<mc::RmsError> fitted;
+  std::size_t fewest = most_replicates;
+  double logs = 0;
+  for (std::size_t i = 0; i < curve.errors.size(); ++i) {
+    const mc::RmsError& one = curve.errors[i];
+    if (one.rms <= floor || (e.fit_from > 0 ? one.n < e.fit_from : i < half)) continue;
+    fitted.push_back(one);
+    fewest = std::min(fewest, curve.replicates[i].values.size());
+    logs += std::log(one.n);
+  }
+  if (fitted.size() < 3) return;
+  curve.law = mc::fit_power_law(fitted, static_cast<std::uint32_t>(fewest));
+  curve.middle = std::exp(logs / static_cast<double>(fitted.size()));
+}
+
+// The curve whose largest N has the smallest spread, of those that do not adapt.
+const Curve* steadiest(const std::vector<Curve>& curves) {
+  const Curve* best = nullptr;
+  const auto spread = [](const Curve& c) { return error_of_mean(c.replicates.back().values); };
+  for (const Curve& c : curves)
+    if (!c.way->adapts && !c.replicates.empty() && (!best || spread(c) < spread(*best))) best = &c;
+  return best;
+}
+
+std::pair<double, double> reference(const Target& target, const std::vector<Curve>& curves, const MeasureOptions& o) {
+  const Curve* best = steadiest(curves);
+  mc::require(best, "{}: its truth is unknown, and no way without adapting is there to find it; add one to --samplers",
+              target.integral.name);
+  const Replicates& last = best->replicates.back();
+  if (*o.cancel) return {mean_of(last.values), error_of_mean(last.values)};
+  const auto largest = static_cast<std::uint64_t>(last.calls[0]);
+  const Replicates r =
+      target.run({best->way, largest, mc::hash(o.seed, 77), 0, reference_replicates, o.threads, o.cancel});
+  return {mean_of(r.values), error_of_mean(r.values)};
+}
+
+// Why the truth must be wrong; empty without a reason.
+std::string doubt_of(const Experiment& e, const std::vector<Curve>& curves) {
+  const Curve* best = nullptr;
+  double value = 0, error = HUGE_VAL;
+  int agree = 0, unbiased = 0;
+  for (const Curve& c : curves) {
+    if (c.way->adapts || c.exact || c.replicates.empty()) continue;
+    const std::vector<double>& last = c.replicates.back().values;
+    const double mean = mean_of(last), own = error_of_mean(last);
+    ++unbiased;
+    if (!(std::abs(mean - e.truth) > 6 * own + 1e-12 * std::abs(e.truth))) continue;
+    if (!best || own < error) {
+      best = &c;
+      value = mean;
+      error = own;
+    }
+  }
+  if (!best) return {};
+  for (const Curve& c : curves) {
+    if (c.way->adapts || c.replicates.empty()) continue;
+    const std::vector<double>& last = c.replicates.back().values;
+    agree += std::abs(mean_of(last) - value) <= 4 * std::hypot(error_of_mean(last), error);
+  }
+  if (agree < std::min(unbiased, 2)) return {};
+  return fmt::format("the stated truth {:.12g} is wrong, or the integrand is: errors stop falling at {:.2g}, where {} "
+                     "settles at {:.12g} +- {:.2g}",
+                     e.truth, std::abs(value - e.truth), best->way->name, value, error);
+}
+
+bool all_zero(const std::vector<Curve>& curves) {
+  for (const Curve& c : curves)
+    for (const Replicates& r : c.replicates)
+      if (std::any_of(r.values.begin(), r.values.end(), [](double x) { return x != 0; })) return false;
+  return true;
+}
+
+} // namespace
+
+bool Curve::agrees() const {
+  if (!law || !theory) return false;
+  const double expected = -theory->local(middle);
+  return (law->lo <= expected || theory->at_most) && expected <= law->hi;
+}
+
+Measurement measure(const Target& target, const std::vector<Way>& ways, const MeasureOptions& options) {
+  static const std::atomic<bool> never = false;
+  MeasureOptions o = options;
+  if (!o.cancel) o.cancel = &never;
+  Measurement m;
+  const auto start = Clock::now();
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const double gone = std::chrono::duration<double>(Clock::now() - start).count();
+    const double share = o.seconds > 0 ? std::max(1e-3, o.seconds - gone) / static_cast<double>(ways.size() - i) : 0;
+    const auto progress = [&](std::uint64_t n) {
+      // Work grows with N: the last N takes half of a curve's time.
+      const double done = (static_cast<double>(i) + static_cast<double>(n) / static_cast<double>(o.max_n)) /
+                          static_cast<double>(ways.size());
+      if (o.progress) o.progress(done, fmt::format("{} {} N = {}", target.integral.name, ways[i].name, n));
+    };
+    std::optional<Curve> curve = run_curve(target, ways[i], share, o, progress);
+    m.interrupted = !curve;
+    if (!curve) break;
+    if (!curve->replicates.empty()) m.curves.push_back(std::move(*curve));
+  }
+  m.truth = target.integral.truth;
+  const bool known = std::isfinite(m.truth);
+  if (m.curves.empty()) return m;
+  mc::require(known || !all_zero(m.curves),
+              "{}: the integrand was 0 at every point; choose bounds around where it is not", target.integral.name);
+  if (!known) std::tie(m.truth, m.truth_error) = reference(target, m.curves, o);
+  for (Curve& c : m.curves) judge(c, target.integral, m.truth, m.truth_error);
+  if (known) m.doubt = doubt_of(target.integral, m.curves);
+  return m;
+}
+
+} // namespace carlo

@@ -1,0 +1,55 @@
+#pragma once
+/// Error against samples and seconds, for one integral and several ways to sample it.
+
+#include <converge/target.h>
+#include <sampling/theory.h>
+
+#include <mc/stats/power_law.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carlo {
+
+struct MeasureOptions {
+  std::uint64_t max_n = 1 << 18;
+  int replicates = 0; ///< behind each RMS error; 0: as many as make it known to 10 %, 64 to 512
+  double seconds = 0; ///< wall-clock, shared by the ways; 0: until max_n
+  std::uint64_t seed = 1;
+  int threads = 0;
+  const std::atomic<bool>* cancel = nullptr;
+  /// Called after each N with the share of the work that is done, and where it is.
+  std::function<void(double done, const std::string& where)> progress = {};
+};
+
+/// How the error of one way falls.
+struct Curve {
+  const Way* way = nullptr;
+  std::vector<mc::RmsError> errors;   ///< N is the evaluations really made
+  std::vector<Replicates> replicates; ///< behind each
+  bool exact = false;                 ///< no error beyond rounding, so no slope
+  std::optional<mc::PowerLaw> law;    ///< of N in the asymptotic range, where there are three or more
+  std::optional<Rate> theory;
+  double middle = 0; ///< geometric mean of the N of the law
+
+  /// Whether the interval of the slope holds what theory says about these N, or a slower one where that is the fastest.
+  bool agrees() const;
+};
+
+struct Measurement {
+  std::vector<Curve> curves; ///< of the ways that were finished
+  double truth = 0;          ///< what errors are measured from
+  double truth_error = 0;    ///< standard error of a reference; 0: the truth is known
+  std::string doubt;         ///< one line that says why the stated truth is wrong; empty: no doubt
+  bool interrupted = false;
+};
+
+/// Every way on N = 16, 32, ... max_n, from the fewest that the way works with.
+///   truth  : where the integral has none, the mean of 128 more replicates of the way with the smallest error at its
+///            largest N: its standard error is under a tenth of the smallest error shown, and widens every interval
+///   doubt  : unbiased ways whose means agree with each other and not with the truth, by six standard errors
+///   throws : Error for an integrand that is not finite somewhere, or of unknown truth and 0 at every point
+Measurement measure(const Target& target, const std::vector<Way>& ways, const MeasureOptions& options);
+
+} // namespace carlo

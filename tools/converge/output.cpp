@@ -1,0 +1,176 @@
+#include <converge/output.h>
+#include <report/plot.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace carlo {
+
+using nlohmann::ordered_json;
+
+std::string color(std::size_t i) {
+  static constexpr std::array colors = {"#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#bbbbbb",
+                                        "#332288", "#ddaa33", "#44aa99", "#882255", "#117733", "#cc6677", "#88ccee"};
+  return colors[i % colors.size()];
+}
+
+std::string slope_text(const Curve& c) {
+  if (c.exact) return "exact to rounding";
+  if (!c.law) return "too few N for a slope";
+  std::string text = fmt::format("slope {:+.3f} [{:+.3f}, {:+.3f}]", c.law->slope, c.law->lo, c.law->hi);
+  if (!c.theory) return text;
+  text += fmt::format(", theory {}{:+.3f}", c.theory->at_most ? "at most " : "", -c.theory->exponent);
+  if (c.theory->log_power > 0) text += fmt::format(" ({:+.3f} at these N)", -c.theory->local(c.middle));
+  return text;
+}
+
+std::string summary(const Target& target, const Measurement& m) {
+  const Experiment& e = target.integral;
+  std::string text = e.title == e.name ? e.name + "\n" : fmt::format("{}: {}\n", e.name, e.title);
+  std::size_t width = 11;
+  for (const Curve& c : m.curves) width = std::max(width, c.way->name.size());
+  for (const Curve& c : m.curves)
+    text += fmt::format("  {:<{}} RMS error {:.3g} at N = {:.0f}, {}\n", c.way->name, width, c.errors.back().rms,
+                        c.errors.back().n, slope_text(c));
+  if (m.truth_error > 0)
+    text += fmt::format("  truth unknown; errors are from {:.12g} +- {:.2g}, by replicates of their own\n", m.truth,
+                        m.truth_error);
+  if (!m.doubt.empty()) text += fmt::format("  warning: {}\n", m.doubt);
+  return text;
+}
+
+namespace {
+
+std::string field(const std::string& text) { return text.find(',') == std::string::npos ? text : "\"" + text + "\""; }
+
+} // namespace
+
+std::string slopes_header() {
+  return "experiment,class,dimension,sampler,fitted_around_n,slope,slope_lo,slope_hi,theory,theory_at_these_n,"
+         "within_interval,source\n";
+}
+
+std::string slopes_csv(const Target& target, const Measurement& m) {
+  const Experiment& e = target.integral;
+  std::string text;
+  for (const Curve& c : m.curves) {
+    text += fmt::format("{},{},{},{},", field(e.name), name(e.smoothness.of), e.dim, field(c.way->name));
+    text += c.law ? fmt::format("{:.0f},{:.4f},{:.4f},{:.4f},", c.middle, c.law->slope, c.law->lo, c.law->hi) : ",,,,";
+    text += c.theory ? fmt::format("{}{:.4f},", c.theory->at_most ? "at most " : "", -c.theory->exponent) : ",";
+    text += c.theory && c.law ? fmt::format("{:.4f},{},", -c.theory->local(c.middle), c.agrees() ? "yes" : "no") : ",,";
+    text += c.theory ? field(std::string(c.theory->source)) + "\n" : "\n";
+  }
+  return text;
+}
+
+std::string to_csv(const Target& target, const Measurement& m) {
+  std::string text = "experiment,sampler,n,rms_error,rms_lo,rms_hi,cpu_seconds\n";
+  const std::string name = field(target.integral.name);
+  for (const Curve& c : m.curves)
+    for (const mc::RmsError& p : c.errors)
+      text += fmt::format("{},{},{:.0f},{:.9g},{:.9g},{:.9g},{:.6g}\n", name, field(c.way->name), p.n, p.rms, p.lo,
+                          p.hi, p.seconds);
+  return text;
+}
+
+namespace {
+
+ordered_json to_json(const Curve& c) {
+  ordered_json points = ordered_json::array();
+  for (std::size_t i = 0; i < c.errors.size(); ++i) {
+    const mc::RmsError& p = c.errors[i];
+    points.push_back({{"n", p.n},
+                      {"rms_error", p.rms},
+                      {"rms_lo", p.lo},
+                      {"rms_hi", p.hi},
+                      {"cpu_seconds", p.seconds},
+                      {"replicates", c.replicates[i].values.size()}});
+  }
+  ordered_json k = {{"sampler", c.way->name}, {"exact", c.exact}, {"points", points}};
+  if (c.law)
+    k["slope"] = {{"value", c.law->slope}, {"lo", c.law->lo}, {"hi", c.law->hi}, {"constant", c.law->constant}};
+  if (c.theory)
+    k["theory"] = {{"slope", -c.theory->exponent},
+                   {"log_power", c.theory->log_power},
+                   {"at_most", c.theory->at_most},
+                   {"source", c.theory->source}};
+  if (c.theory && c.law) {
+    k["theory"]["slope_at_these_n"] = -c.theory->local(c.middle);
+    k["theory"]["within_interval"] = c.agrees();
+  }
+  return k;
+}
+
+} // namespace
+
+ordered_json to_json(const Target& target, const Measurement& m, const ordered_json& about) {
+  const Experiment& e = target.integral;
+  ordered_json j = about;
+  j["experiment"] = e.name;
+  j["title"] = e.title;
+  j["source"] = e.source;
+  j["dimension"] = e.dim;
+  j["class"] = name(e.smoothness.of);
+  j["truth"] = m.truth;
+  j["truth_error"] = m.truth_error;
+  j["fit_from"] = e.fit_from;
+  if (!m.doubt.empty()) j["warning"] = m.doubt;
+  if (m.interrupted) j["interrupted"] = true;
+  j["curves"] = ordered_json::array();
+  for (const Curve& c : m.curves) j["curves"].push_back(to_json(c));
+  return j;
+}
+
+namespace {
+
+// A text between gnuplot's double quotes.
+std::string gnuplot_text(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '"' || c == '\\') safe += '\\';
+    safe += c;
+  }
+  return safe;
+}
+
+std::string curve_lines(const Measurement& m, const std::string& name, const char* column, bool with_slopes) {
+  std::string plot = "plot ";
+  for (std::size_t i = 0; i < m.curves.size(); ++i) {
+    const Curve& c = m.curves[i];
+    if (c.exact) continue;
+    const std::string pick = fmt::format("(strcol(2) eq \"{}\" ? ${} : NaN)", gnuplot_text(c.way->name), column);
+    std::string label = with_slopes && c.law ? fmt::format("{}: N^{{{:.2f} ± {:.2f}}}", c.way->name, c.law->slope,
+                                                           (c.law->hi - c.law->lo) / 2)
+                                             : c.way->name;
+    std::replace(label.begin(), label.end(), '_', ' '); // which gnuplot would take for a subscript
+    plot += fmt::format("\"{0}.csv\" skip 1 using {1}:5:6 with filledcurves fs solid 0.18 noborder lc rgb \"{2}\" "
+                        "notitle, \\\n     \"{0}.csv\" skip 1 using {1}:4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "
+                        "\"{2}\" title \"{3}\", \\\n     ",
+                        name, pick, color(i), gnuplot_text(label));
+    if (with_slopes && c.theory)
+      plot += fmt::format("{0:.6g} * x**({1:.6g}) with lines dt 3 lw 1 lc rgb \"{2}\" notitle, \\\n     ",
+                          c.errors.back().rms * std::pow(c.errors.back().n, c.theory->exponent), -c.theory->exponent,
+                          color(i));
+  }
+  return plot + "NaN notitle\n";
+}
+
+} // namespace
+
+std::string to_script(const Target& target, const Measurement& m, const std::string& name) {
+  const bool many = m.curves.size() > 5; // then the key would hide them
+  std::string s = plot_head(name, 1000, many ? 860 : 440);
+  s += fmt::format("set multiplot layout 1,2 title \"{}\" noenhanced font \",15\"\nset logscale xy\nset format y "
+                   "\"10^{{%L}}\"\nset key {} Left reverse samplen 2 spacing 1.2 tc rgb \"#333333\"\nset "
+                   "ylabel \"root-mean-square error\"\n",
+                   gnuplot_text(target.integral.title), many ? "below" : "left bottom");
+  s += "set xlabel \"samples N\"\nset format x \"10^{%L}\"\n" + curve_lines(m, name, "3", true);
+  s += "set xlabel \"CPU seconds\"\nset format x \"10^{%L}\"\n" + curve_lines(m, name, "7", false);
+  return s + "unset multiplot\n";
+}
+
+} // namespace carlo

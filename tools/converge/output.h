@@ -1,0 +1,33 @@
+#pragma once
+/// Measured curves as text, tables and pictures.
+
+#include <converge/measure.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace carlo {
+
+/// "slope -0.501 [-0.512, -0.490], theory -0.500".
+std::string slope_text(const Curve& curve);
+
+/// The title, a line for each curve, and what is to be said of the truth.
+std::string summary(const Target& target, const Measurement& m);
+
+std::string to_csv(const Target& target, const Measurement& m);
+
+/// A row for each curve: its slope beside theory. The first line names the columns.
+std::string slopes_header();
+std::string slopes_csv(const Target& target, const Measurement& m);
+
+/// All that was measured; `about` holds what else there is to say: command, commit, seed.
+nlohmann::ordered_json to_json(const Target& target, const Measurement& m, const nlohmann::ordered_json& about);
+
+/// The gnuplot script of NAME.csv: error against N, and against CPU seconds.
+std::string to_script(const Target& target, const Measurement& m, const std::string& name);
+
+/// The colour of the i-th curve, for colour-blind eyes too.
+std::string color(std::size_t i);
+
+} // namespace carlo

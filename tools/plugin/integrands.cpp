@@ -1,0 +1,148 @@
+#include <plugin/integrands.h>
+#include <plugin/plugin.h>
+
+#include <mc/core/error.h>
+#include <mc/core/text.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace carlo {
+
+using nlohmann::json;
+
+namespace {
+
+// The box of an integrand.
+struct Box {
+  std::vector<double> lo, hi;
+
+  explicit Box(const mc_integrand& f)
+      : lo(static_cast<std::size_t>(f.dim), 0.0), hi(static_cast<std::size_t>(f.dim), 1.0) {
+    if (f.lo) lo.assign(f.lo, f.lo + f.dim);
+    if (f.hi) hi.assign(f.hi, f.hi + f.dim);
+  }
+  double volume() const {
+    double product = 1;
+    for (std::size_t k = 0; k < lo.size(); ++k) product *= hi[k] - lo[k];
+    return product;
+  }
+  double at(std::size_t k, double u) const { return lo[k] * (1 - u) + hi[k] * u; }
+};
+
+// In the child only. Every call is noted in the watch.
+Experiment experiment_of(const mc_integrand& f, Watch& watch) {
+  const Box box(f);
+  Experiment e;
+  e.name = f.name;
+  e.dim = f.dim;
+  e.truth = f.has_truth ? f.truth : std::numeric_limits<double>::quiet_NaN();
+  e.place = [box](Experiment::Unit u) {
+    std::string text;
+    for (std::size_t k = 0; k < u.size(); ++k) text += fmt::format("{}{:.17g}", k ? ", " : "", box.at(k, u[k]));
+    return "x = (" + text + ")";
+  };
+  e.many = [f, box, &watch](Experiment::Unit points, std::span<double> values) {
+    const std::size_t dim = box.lo.size();
+    std::vector<double> x(points.begin(), points.end());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = box.at(i % dim, x[i]);
+    const int shown = std::min(f.dim, Watch::max_arguments);
+    if (f.eval_many) {
+      watch.enter("eval_many", "x", x.data(), shown);
+      f.eval_many(static_cast<std::int64_t>(values.size()), x.data(), values.data());
+      watch.leave();
+    } else {
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        watch.enter("eval", "x", x.data() + i * dim, shown);
+        values[i] = f.eval(x.data() + i * dim);
+        watch.leave();
+      }
+    }
+    for (double& value : values) value *= box.volume();
+  };
+  e.f = [many = e.many](Experiment::Unit u) {
+    double value = 0;
+    many(u, std::span(&value, 1));
+    return value;
+  };
+  return e;
+}
+
+json describe(const std::vector<mc_integrand>& integrands) {
+  json all = json::array();
+  for (const mc_integrand& f : integrands)
+    all.push_back({{"name", f.name},
+                   {"title", f.title ? f.title : f.name},
+                   {"dim", f.dim},
+                   {"truth", f.has_truth ? json(f.truth) : json()}});
+  return all;
+}
+
+Replicates run(const std::string& path, std::size_t index, const Task& task, WorkerOptions worker) {
+  worker.cancel = task.cancel;
+  json r;
+  try {
+    r = call_worker({{"task", "integrand"},
+                     {"who", path},
+                     {"index", index},
+                     {"way", task.way->name},
+                     {"n", task.n},
+                     {"seed", task.seed},
+                     {"first", task.first},
+                     {"count", task.count}},
+                    worker);
+  } catch (const Interrupted&) {
+    const std::vector<double> nothing(task.count, 0.0);
+    return {nothing, nothing, nothing};
+  }
+  return {r["values"], r["calls"], r["seconds"]};
+}
+
+} // namespace
+
+json run_integrand_task(const json& request, Watch& watch) {
+  const Plugin plugin = load_plugin(request["who"], watch);
+  if (request["task"] == "describe integrands") return describe(plugin.integrands);
+  const Experiment e = experiment_of(plugin.integrands[request["index"].get<std::size_t>()], watch);
+  Task task;
+  task.way = &way(request["way"]);
+  task.n = request["n"];
+  task.seed = request["seed"];
+  task.first = request["first"];
+  task.count = request["count"];
+  task.threads = 1;
+  const Replicates r = run_here(e, task);
+  return {{"values", r.values}, {"calls", r.calls}, {"seconds", r.seconds}};
+}
+
+std::vector<Target> plugin_targets(const std::string& path, const std::vector<std::string>& names,
+                                   const WorkerOptions& worker) {
+  const json all = call_worker({{"task", "describe integrands"}, {"who", path}}, worker);
+  mc::require(!all.empty(), "{}: it holds samplers and no integrands; see carlo validate --plugin", path);
+  std::vector<std::string> known;
+  for (const json& one : all) known.push_back(one["name"]);
+  for (const std::string& name : names)
+    mc::require(std::find(known.begin(), known.end(), name) != known.end(), "{}: unknown integrand '{}'{}; it holds {}",
+                path, name, mc::did_you_mean(name, known), fmt::join(known, ", "));
+  std::vector<Target> targets;
+  for (std::size_t index = 0; index < known.size(); ++index) {
+    if (!names.empty() && std::find(names.begin(), names.end(), known[index]) == names.end()) continue;
+    const json& one = all[index];
+    Target t;
+    t.integral.name = known[index];
+    t.integral.title = one["title"];
+    t.integral.source = path;
+    t.integral.dim = one["dim"];
+    t.integral.truth = one["truth"].is_null() ? std::numeric_limits<double>::quiet_NaN() : one["truth"].get<double>();
+    t.integral.fit_from = 0;
+    t.run = [path, index, worker](const Task& task) { return run(path, index, task, worker); };
+    targets.push_back(std::move(t));
+  }
+  return targets;
+}
+
+} // namespace carlo

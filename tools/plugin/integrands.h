@@ -1,0 +1,23 @@
+#pragma once
+/// Integrands of plugins, measured in a process of their own.
+
+#include <converge/target.h>
+#include <plugin/isolated.h>
+#include <plugin/worker.h>
+
+#include <string>
+#include <vector>
+
+namespace carlo {
+
+/// The integrands of the shared object, those named or all. Their replicates run like plugins' samplers, a task at a
+/// time, under the worker's limits.
+///   throws : Error for a plugin that load_plugin refuses or that misbehaves, one without integrands, or an unknown
+///            name; when it runs, Error that says where it crashed, threw or hung
+std::vector<Target> plugin_targets(const std::string& path, const std::vector<std::string>& names,
+                                   const WorkerOptions& worker);
+
+/// What the worker does with the requests of plugin_targets.
+nlohmann::json run_integrand_task(const nlohmann::json& request, Watch& watch);
+
+} // namespace carlo

@@ -1,0 +1,99 @@
+#include <sampling/point_sets.h>
+#include <sampling/ways.h>
+
+#include <mc/core/error.h>
+#include <mc/core/text.h>
+#include <mc/estimate/integrate.h>
+#include <mc/random/hash.h>
+#include <mc/random/uniform.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace carlo {
+
+namespace {
+
+Way of_set(const PointSet& set) {
+  Way w;
+  w.name = set.name;
+  w.title = set.title;
+  w.estimate = [mean = set.mean](const Experiment& e, std::uint64_t n, std::uint64_t seed) {
+    return Sampled{mean(e, static_cast<std::uint32_t>(n), seed), static_cast<double>(n)};
+  };
+  return w;
+}
+
+Way of_method(std::string name, std::string title, mc::Method method, std::uint64_t least) {
+  Way w;
+  w.name = std::move(name);
+  w.title = std::move(title);
+  w.least = least;
+  w.adapts = method == mc::Method::vegas || method == mc::Method::automatic;
+  w.estimate = [method](const Experiment& e, std::uint64_t n, std::uint64_t seed) {
+    mc::IntegrateOptions o;
+    o.rel_error = 0;
+    o.max_calls = n;
+    o.method = method;
+    o.seed = seed;
+    o.threads = 1;
+    const auto f = [&](std::span<const double> u) {
+      double value = 0;
+      evaluate(e, u, std::span(&value, 1));
+      return value;
+    };
+    const mc::Integral r = mc::integrate_unit(f, e.dim, o);
+    return Sampled{r.estimate.value, static_cast<double>(r.calls)};
+  };
+  return w;
+}
+
+std::vector<Way> make() {
+  std::vector<Way> all;
+  for (const PointSet& set : point_sets()) all.push_back(of_set(set));
+  all.push_back(of_method("stratified_rounds", "integrate(): rounds of jittered grids", mc::Method::stratified, 1024));
+  all.push_back(of_method("rqmc", "integrate(): replicated scrambled Sobol' sequences", mc::Method::rqmc, 1024));
+  all.push_back(of_method("vegas", "integrate(): the same through a learned importance grid", mc::Method::vegas, 2048));
+  all.push_back(of_method("auto", "integrate(): the better of the two", mc::Method::automatic, 2048));
+  return all;
+}
+
+} // namespace
+
+const std::vector<Way>& ways() {
+  static const std::vector<Way> all = make();
+  return all;
+}
+
+const Way& way(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Way& w : ways()) {
+    if (w.name == name) return w;
+    names.push_back(w.name);
+  }
+  throw mc::Error(
+      fmt::format("unknown sampler '{}'{}; use {}", name, mc::did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+Way way_of_points(const std::string& name, CsvTable table) {
+  Way w;
+  w.name = name;
+  w.title = "the points of this file, shifted at random";
+  w.most = table.rows();
+  w.dimensions = static_cast<int>(table.columns);
+  const auto points = std::make_shared<const CsvTable>(std::move(table));
+  w.estimate = [points](const Experiment& e, std::uint64_t n, std::uint64_t seed) {
+    const auto dim = static_cast<std::size_t>(e.dim);
+    const auto shifted = [&](std::uint64_t first, std::span<double> u) {
+      for (std::size_t i = 0; i < u.size(); ++i) {
+        const double moved = points->row(first + i / dim)[i % dim] + mc::uniform<double>(mc::hash(seed, i % dim));
+        u[i] = std::min(moved - std::floor(moved), 1 - 0x1p-53);
+      }
+    };
+    return Sampled{mean_over(e, n, shifted), static_cast<double>(n)};
+  };
+  return w;
+}
+
+} // namespace carlo
