@@ -27,3 +27,5 @@ if(MC_TSAN)
   target_compile_options(mc_options INTERFACE -fsanitize=thread)
   set(MC_SANITIZER -fsanitize=thread)
 endif()
+# What nearly every source reads, for a precompiled header of each library.
+set(MC_PRECOMPILED <Eigen/Core> <fmt/format.h> <algorithm> <array> <cmath> <functional> <optional> <span> <string> <vector>)

@@ -3,6 +3,7 @@
 #include <mc/core/error.h>
 #include <mc/core/parallel.h>
 #include <mc/core/text.h>
+#include <mc/sampler/walk_stream.h>
 
 #include <array>
 #include <chrono>
@@ -67,9 +68,9 @@ using RowFunction = Tally (*)(const Scene&, const PathIntegrator<Scene>&, std::u
 
 RowFunction row_function(PixelSampler sampler) {
   switch (sampler) {
-  case PixelSampler::independent: return render_row<IndependentStream>;
-  case PixelSampler::stratified: return render_row<StratifiedStream>;
-  case PixelSampler::sobol: return render_row<SobolStream>;
+  case PixelSampler::independent: return render_row<mc::IndependentWalk<Float>>;
+  case PixelSampler::stratified: return render_row<mc::StratifiedWalk<Float>>;
+  case PixelSampler::sobol: return render_row<mc::SobolWalk<Float>>;
   }
   return nullptr;
 }

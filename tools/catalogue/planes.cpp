@@ -3,8 +3,8 @@
 #include <mc/table/discrete.h>
 #include <mc/warp/annulus.h>
 #include <mc/warp/bilinear.h>
-#include <mc/warp/box_muller.h>
 #include <mc/warp/disk.h>
+#include <mc/warp/isotropic_normal.h>
 #include <mc/warp/mixture_n.h>
 #include <mc/warp/parallelogram.h>
 #include <mc/warp/product.h>
@@ -15,7 +15,7 @@ namespace carlo {
 
 void add_planes(Catalogue& c) {
   add_warp(c, "UniformDisk", "", [](auto s) { return mc::UniformDisk<decltype(s)>{}; }, {.invert_eps = 8});
-  add_warp(c, "PolarDisk", "", [](auto s) { return mc::PolarDisk<decltype(s)>{}; }, {.invert_eps = 8});
+  add_warp(c, "UniformDiskPolar", "", [](auto s) { return mc::UniformDiskPolar<decltype(s)>{}; }, {.invert_eps = 8});
   add_warp(c, "UniformTriangle", "", [](auto s) { return mc::UniformTriangle<decltype(s)>{}; }, {.invert_eps = 4});
   for (const double inner : {0.0, 0.5})
     add_warp(c, "UniformAnnulus", fmt::format("inner={:g}, outer=1", inner),
@@ -29,7 +29,8 @@ void add_planes(Catalogue& c) {
       using S = decltype(s);
       return mc::Bilinear<S>(S(w[0]), S(w[1]), S(w[2]), S(w[3]));
     });
-  add_warp(c, "BoxMuller", "sigma=1", [](auto s) { return mc::BoxMuller<decltype(s)>{}; }, {.invert_eps = 8});
+  add_warp(c, "IsotropicNormal", "sigma=1", [](auto s) { return mc::IsotropicNormal<decltype(s)>{}; },
+           {.invert_eps = 8});
   add_warp(c, "UniformBox", "a pixel", [](auto s) {
     using S = decltype(s);
     return mc::UniformBox<S, 2>(mc::Vec2<S>(S(-0.5), S(-0.5)), mc::Vec2<S>(S(0.5), S(0.5)));

@@ -6,11 +6,11 @@
 #include <mc/table/alias_table.h>
 #include <mc/table/table_dist_1d.h>
 #include <mc/warp/beckmann.h>
-#include <mc/warp/box_muller.h>
 #include <mc/warp/cone.h>
 #include <mc/warp/exponential.h>
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/henyey_greenstein.h>
+#include <mc/warp/isotropic_normal.h>
 #include <mc/warp/linear.h>
 #include <mc/warp/smoothstep.h>
 #include <mc/warp/trowbridge_reitz.h>
@@ -248,13 +248,13 @@ void add_edges_of_distributions(Slips& s) {
   s.push_back({"R9", "two normals under one root", "pbrt-v4 until 2025",
                "sqrt(-2 ln(u) cos phi) is NaN for three of four draws", Fault::not_finite, 1000,
                trial(make_subject(
-                   "", mc::BoxMuller<double>{}.domain(),
+                   "", mc::IsotropicNormal<double>{}.domain(),
                    [](Pcg& r) {
                      const double r2 = -2 * std::log1p(-uniform(r)), phi = 2 * pi * uniform(r);
                      return V2(std::sqrt(r2 * std::cos(phi)), std::sqrt(r2 * std::sin(phi)));
                    },
-                   [](const V2& p) { return mc::BoxMuller<double>{}.pdf(p); })),
-               trial(make_subject("", mc::BoxMuller<double>{}))});
+                   [](const V2& p) { return mc::IsotropicNormal<double>{}.pdf(p); })),
+               trial(make_subject("", mc::IsotropicNormal<double>{}))});
   s.push_back({"R10", "phase function clamped to g = .99", "pbrt-v4",
                "asked for g = .995 it scatters as .99: sample and pdf agree, the mean cosine does not", Fault::bias,
                4000, mean_cosine(0.99), mean_cosine(0.995)});

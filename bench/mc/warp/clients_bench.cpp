@@ -5,7 +5,7 @@
 #include <mc/table/discrete.h>
 #include <mc/table/table_dist_1d.h>
 #include <mc/warp/ball.h>
-#include <mc/warp/box_muller.h>
+#include <mc/warp/isotropic_normal.h>
 #include <mc/warp/mixture_n.h>
 #include <mc/warp/product.h>
 #include <mc/warp/sphere_light.h>
@@ -47,9 +47,9 @@ void filters() {
   const mc::Tent2D<float> tents{{0, 1.5f}, {0, 1.5f}};
   measure("Tent2D", [tents](const Vec2<float>& u) { return tents.sample(u); });
   measure("Tent2D, by hand", [r = 1.5f](const Vec2<float>& u) { return Vec2<float>(r * tent(u[0]), r * tent(u[1])); });
-  const mc::BoxMuller<float> gaussian(0.5f);
-  measure("BoxMuller", [gaussian](const Vec2<float>& u) { return gaussian.sample(u); });
-  measure("BoxMuller, by hand", [sigma = 0.5f](const Vec2<float>& u) {
+  const mc::IsotropicNormal<float> gaussian(0.5f);
+  measure("IsotropicNormal", [gaussian](const Vec2<float>& u) { return gaussian.sample(u); });
+  measure("IsotropicNormal, by hand", [sigma = 0.5f](const Vec2<float>& u) {
     const float r = sigma * std::sqrt(-2 * std::log(1 - u[0])), phi = 2 * pi * u[1];
     return Vec2<float>(r * std::cos(phi), r * std::sin(phi));
   });

@@ -16,11 +16,19 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+namespace detail {
+template <class... Args>
+[[noreturn, gnu::cold, gnu::noinline]] void refuse(fmt::format_string<Args...> message, Args&&... args) {
+  throw Error(fmt::format(message, std::forward<Args>(args)...));
+}
+} // namespace detail
+
 /// Throws Error with the formatted message unless `ok`. Write the condition so that NaN fails it: `x >= 0`, never `!(x
 /// < 0)`.
-template <class... Args> void require(bool ok, fmt::format_string<Args...> message, Args&&... args) {
+template <class... Args>
+[[gnu::always_inline]] inline void require(bool ok, fmt::format_string<Args...> message, Args&&... args) {
   if (!ok) [[unlikely]]
-    throw Error(fmt::format(message, std::forward<Args>(args)...));
+    detail::refuse(message, std::forward<Args>(args)...); // out of line: callers are hot and small
 }
 
 /// Runs f; an Error that leaves it gains "where: " in front.

@@ -26,15 +26,20 @@ struct CdfView {
 
   /// The outcome whose interval holds u in [0,1): the first whose upper end exceeds u.
   std::size_t find(double u) const {
+    if (n <= window) return passed(0, u); // a shorter chain of dependent steps than by the guide
     const auto cell = static_cast<std::size_t>(static_cast<std::int64_t>(u * cells(n)));
-    const std::size_t lo = guide[cell];
-    // Most cells hold no more candidates than these: counted, without a jump to mispredict.
-    std::size_t passed = 0;
-    for (std::size_t k = 1; k <= window; ++k) passed += cumulative[lo + k] <= u;
-    return passed < window ? lo + passed : find_beyond(lo + window, cell, u);
+    const std::size_t lo = guide[cell], more = passed(lo, u);
+    return more < window ? lo + more : find_beyond(lo + window, cell, u);
   }
 
  private:
+  // How many of the outcomes from lo on end at u or below. Most cells hold no more candidates than these: counted,
+  // without a jump to mispredict.
+  std::size_t passed(std::size_t lo, double u) const {
+    std::size_t count = 0;
+    for (std::size_t k = 1; k <= window; ++k) count += cumulative[lo + k] <= u;
+    return count;
+  }
   std::size_t find_beyond(std::size_t lo, std::size_t cell, double u) const {
     std::size_t hi = guide[cell + 1];
     for (int step = 0; lo < hi; ++step) {

@@ -12,7 +12,7 @@ namespace mc {
 ///   sample : u in [0,1)^2 -> p in R^2, |p| <= 1
 ///   pdf    : 1 / pi [1/area]; 0 for |p| > 1
 ///   invert : |invert(sample(u)) - u| <= 8 eps
-///   Source : [ShirleyChiu97]. PolarDisk distorts strata near the centre.
+///   Source : [ShirleyChiu97]. UniformDiskPolar distorts strata near the centre.
 template <Real S> struct UniformDisk {
   using Scalar = S;
   using Domain = Disk<S>;
@@ -56,7 +56,7 @@ template <Real S> struct UniformDisk {
 ///   sample : r = sqrt(u0), phi = 2 pi u1, so that u0 = |p|^2
 ///   pdf    : 1 / pi [1/area]; 0 for |p| > 1
 ///   invert : |invert(sample(u)) - u| <= 8 eps
-template <Real S> struct PolarDisk {
+template <Real S> struct UniformDiskPolar {
   using Scalar = S;
   using Domain = Disk<S>;
 
@@ -67,7 +67,7 @@ template <Real S> struct PolarDisk {
     const Vec2<S> v = domain().to_unit(p);
     return {std::min(v[0], one_minus_epsilon<S>), v[1]};
   }
-  template <Real T> PolarDisk<T> cast() const { return {}; }
+  template <Real T> UniformDiskPolar<T> cast() const { return {}; }
 };
 
 } // namespace mc

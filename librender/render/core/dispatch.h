@@ -9,7 +9,7 @@ namespace render {
 /// f(alternative) for a struct that inherits from its variant, which must hold a value. As std::visit, but by
 /// comparisons instead of a table of functions, so that the calls are inlined.
 template <std::size_t i = 0, class... Kinds, class F>
-decltype(auto) dispatch(const std::variant<Kinds...>& kinds, F&& f) {
+[[gnu::always_inline]] inline decltype(auto) dispatch(const std::variant<Kinds...>& kinds, F&& f) {
   if constexpr (i + 1 < sizeof...(Kinds)) {
     if (kinds.index() != i) return dispatch<i + 1>(kinds, std::forward<F>(f));
   }

@@ -5,7 +5,7 @@
 #include <render/core/types.h>
 
 #include <mc/table/discrete.h>
-#include <mc/warp/box_muller.h>
+#include <mc/warp/isotropic_normal.h>
 #include <mc/warp/mixture_n.h>
 #include <mc/warp/product.h>
 #include <mc/warp/uniform.h>
@@ -27,8 +27,8 @@ struct TentFilter : mc::Tent2D<Float> {
 };
 
 /// Normal distribution of standard deviation sigma, not truncated.
-struct GaussianFilter : mc::BoxMuller<Float> {
-  explicit GaussianFilter(Float stddev = Float(0.5)) : BoxMuller(stddev) {}
+struct GaussianFilter : mc::IsotropicNormal<Float> {
+  explicit GaussianFilter(Float stddev = Float(0.5)) : IsotropicNormal(stddev) {}
 };
 
 using TentRow = mc::MixtureN<mc::Interval<Float>, mc::Tent<Float>, mc::UniformDiscrete<Float>>;

@@ -44,26 +44,14 @@ class Directions {
     if (!targets_ || at.bsdf.is_delta()) return followed(at, stream);
     const Vec2 u = stream.next2(); // u[0] also makes the choices, which are then as well spread as the directions
     const auto part = aimed(at.bsdf).sample_index(u[0]);
-    if (part.index == 0) return mixed_follow(at, Vec2(part.u_remapped, u[1]), part.pmf, stream.next());
-    if (shapes_.empty()) {
-      Vec3 wi = mc::UniformHemisphere<Float>{}.sample({part.u_remapped, u[1]});
-      if (at.wo.z() < 0) wi.z() = -wi.z();
-      return weighted(at, wi, at.frame.to_world(wi), 0);
-    }
-    const auto target = targets_->sample_index(part.u_remapped);
-    const auto s = shapes_[target.index]->sample(at.point.p, {target.u_remapped, u[1]});
-    if (!s) return {};
-    return weighted(at, at.frame.to_local(s->wi), s->wi, part.pmf * target.pmf * s->pdf);
+    return part.index == 0 ? mixed_follow(at, Vec2(part.u_remapped, u[1]), part.pmf, stream.next())
+                           : aim(at, Vec2(part.u_remapped, u[1]));
   }
 
   /// wi in the frame, d the same in the world.
   template <class B> Float pdf(const Vertex<B>& at, const Vec3& wi, const Vec3& d) const {
     if (!targets_) return at.bsdf.pdf(at.wo, wi);
-    const auto& aims = aimed(at.bsdf);
-    const Float own = follows_ ? aims.pmf(0) * at.bsdf.pdf(at.wo, wi) : Float(0);
-    if (shapes_.empty()) return own + (wi.z() * at.wo.z() >= 0 ? aims.pmf(1) / (2 * mc::pi<Float>) : Float(0));
-    return own +
-           aims.pmf(1) * mc::mixture_pdf(*targets_, [&](std::size_t i) { return shapes_[i]->pdf(at.point.p, d); });
+    return mixed(at, follows_ ? at.bsdf.pdf(at.wo, wi) : Float(0), targets_pdf(at, wi, d));
   }
 
  private:
@@ -88,18 +76,39 @@ class Directions {
     const Vec3 d = at.frame.to_world(s->wi);
     if (s->delta) return Direction{d, s->f * (std::abs(s->wi.z()) / (s->pdf * pmf)), 0, s->eta};
     if (!follows_) return {};
-    auto direction = weighted(at, s->wi, d, 0);
-    if (direction) direction->eta = s->eta;
-    return direction;
+    const Float density = mixed(at, s->pdf, targets_pdf(at, s->wi, d));
+    return Direction{d, s->f * (std::abs(s->wi.z()) / density), density, s->eta};
   }
 
-  // `least`: what the technique that found the direction knows of its density. Rounding may carry a direction off the
-  // shape that it aims at, as pdf() sees it.
+  // The targets' part.
+  template <class B> std::optional<Direction> aim(const Vertex<B>& at, const Vec2& u) const {
+    if (shapes_.empty()) {
+      Vec3 wi = mc::UniformHemisphere<Float>{}.sample(u);
+      if (at.wo.z() < 0) wi.z() = -wi.z();
+      const Vec3 d = at.frame.to_world(wi);
+      return aimed_at(at, wi, d, targets_pdf(at, wi, d));
+    }
+    const auto target = targets_->sample_index(u[0]);
+    const auto s = shapes_[target.index]->sample_direction(at.point.p, {target.u_remapped, u[1]});
+    if (!s) return {};
+    const Float density = mc::mixture_pdf(
+        *targets_, [&](std::size_t i) { return i == target.index ? s->pdf : shapes_[i]->pdf(at.point.p, s->wi); });
+    return aimed_at(at, at.frame.to_local(s->wi), s->wi, density);
+  }
   template <class B>
-  std::optional<Direction> weighted(const Vertex<B>& at, const Vec3& wi, const Vec3& d, Float least) const {
-    const Float density = std::max(pdf(at, wi, d), least);
-    if (!(density > 0)) return {};
+  std::optional<Direction> aimed_at(const Vertex<B>& at, const Vec3& wi, const Vec3& d, Float targets) const {
+    const Float density = mixed(at, follows_ ? at.bsdf.pdf(at.wo, wi) : Float(0), targets);
     return Direction{d, at.bsdf.eval(at.wo, wi) * (std::abs(wi.z()) / density), density, 1};
+  }
+
+  // The density of the mixture, from those of its parts.
+  template <class B> Float mixed(const Vertex<B>& at, Float own, Float targets) const {
+    const auto& aims = aimed(at.bsdf);
+    return (follows_ ? aims.pmf(0) * own : Float(0)) + aims.pmf(1) * targets;
+  }
+  template <class B> Float targets_pdf(const Vertex<B>& at, const Vec3& wi, const Vec3& d) const {
+    if (shapes_.empty()) return wi.z() * at.wo.z() >= 0 ? 1 / (2 * mc::pi<Float>) : Float(0);
+    return mc::mixture_pdf(*targets_, [&](std::size_t i) { return shapes_[i]->pdf(at.point.p, d); });
   }
 
   std::vector<const Shape*> shapes_;                  ///< to aim at; none: the hemisphere, if there is a target

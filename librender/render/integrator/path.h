@@ -2,7 +2,6 @@
 /// Path tracing from the camera, by any of the strategies of the books.
 
 #include <render/integrator/directions.h>
-#include <render/integrator/path_stream.h>
 
 #include <mc/estimate/mis.h>
 #include <mc/estimate/russian_roulette.h>

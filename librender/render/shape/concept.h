@@ -39,16 +39,25 @@ struct ShapeSample {
   Float pdf = 0; ///< density of wi [1/sr] as seen from the reference point
 };
 
+/// A direction towards a shape.
+struct DirectionSample {
+  Vec3 wi;       ///< unit
+  Float pdf = 0; ///< density of wi [1/sr], whichever point of the shape it meets
+};
+
 /// Shapes are a closed set (shape.h). Each models:
 ///   sample(ref, u)    : u in [0,1)^2 -> a point of the shape as seen from ref, nullopt where none can be seen
 ///   pdf(ref, wi, hit) : density [1/sr] with which sample(ref, .) picks wi, as far as it is due to the point `hit`
 ///   pdf(ref, wi)      : density [1/sr] of the direction wi: the sum over all points where it meets the shape
+///   sample_direction(ref, u) : a direction towards a point of sample(ref, u), with its density pdf(ref, wi), whatever
+///                       rounding makes of the direction; nullopt where none leads there
 ///   area()            : total area
 ///   surface_point     : the point of a Hit
 ///   has_uv(), uv(hit) : texture coordinates, where it has them;  forget_uvs() : not any more
 template <class T>
 concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint hit, Ray ray, Hit h) {
   { s.sample(ref, u) } -> std::same_as<std::optional<ShapeSample>>;
+  { s.sample_direction(ref, u) } -> std::same_as<std::optional<DirectionSample>>;
   { s.pdf(ref, wi, hit) } -> std::convertible_to<Float>;
   { s.pdf(ref, wi) } -> std::convertible_to<Float>;
   { s.area() } -> std::convertible_to<double>;

@@ -15,7 +15,9 @@ Float density(const mc::UniformCone<double>& cone) { return Float(1 / cone.domai
 } // namespace
 
 Sphere::Sphere(const Vec3d& center, double radius, bool inside_out)
-    : center_(center), radius_(radius), height_(2 * radius), inside_out_(inside_out) {
+    : center_(center), radius_(radius), height_(2 * radius), inside_out_(inside_out),
+      extent_(radius + center.lpNorm<Eigen::Infinity>()),
+      outside2_(mc::sqr(radius + 4 * double(std::numeric_limits<Float>::epsilon()) * extent_)) {
   mc::require(center.allFinite(), "sphere: centre ({}, {}, {}) is not finite", center.x(), center.y(), center.z());
   mc::require(std::isfinite(radius) && radius > 0, "sphere: radius {} must be finite and > 0", radius);
 }
@@ -48,8 +50,7 @@ SurfacePoint Sphere::point(const Vec3d& direction) const {
   const Vec3d p = center_ + radius_ * direction;
   s.p = p.cast<Float>();
   // Rounded once from double; double itself resolves the sphere to 2^-52 of its extent.
-  s.error = std::numeric_limits<Float>::epsilon() * s.p.lpNorm<Eigen::Infinity>() +
-            Float(0x1p-50 * (radius_ + center_.lpNorm<Eigen::Infinity>()));
+  s.error = std::numeric_limits<Float>::epsilon() * s.p.lpNorm<Eigen::Infinity>() + Float(0x1p-50 * extent_);
   s.ng = (inside_out_ ? Vec3d(-direction) : direction).cast<Float>();
   s.ns = s.ng;
   s.prim = 0;
@@ -68,9 +69,7 @@ double Sphere::area() const { return 2 * mc::pi<double> * radius_ * height_; }
 std::optional<mc::UniformCone<double>> Sphere::cone(double d2) const {
   // Points of the sphere itself round to either side of it. Taken for outside, their cone would hold nothing but
   // themselves.
-  const double rounding =
-      4 * double(std::numeric_limits<Float>::epsilon()) * (radius_ + center_.lpNorm<Eigen::Infinity>());
-  if (is_cap() || !(d2 > mc::sqr(radius_ + rounding))) return {};
+  if (is_cap() || !(d2 > outside2_)) return {};
   return mc::UniformCone<double>::from_sin2(radius_ * radius_ / d2);
 }
 
@@ -97,6 +96,17 @@ std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const 
   }
   if (!(s.pdf > 0) || !std::isfinite(s.pdf)) return {};
   return s;
+}
+
+std::optional<DirectionSample> Sphere::sample_direction(const Vec3& ref, const Vec2& u) const {
+  const Vec3d toward = center_ - ref.cast<double>();
+  if (const auto seen = cone(toward.squaredNorm())) {
+    const auto frame = mc::Frame<double>::from_z(toward.normalized());
+    return DirectionSample{frame.to_world(seen->sample(u.cast<double>())).cast<Float>(), density(*seen)};
+  }
+  const auto s = sample(ref, u);
+  if (!s) return {};
+  return DirectionSample{s->wi, std::max(s->pdf, pdf(ref, s->wi))}; // the direction may pass the cap by rounding
 }
 
 Float Sphere::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {

@@ -22,6 +22,7 @@ class Sphere {
   std::optional<double> intersect(const Ray& ray) const;
 
   std::optional<ShapeSample> sample(const Vec3& ref, const Vec2& u) const;
+  std::optional<DirectionSample> sample_direction(const Vec3& ref, const Vec2& u) const;
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const;
   Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const;
@@ -50,6 +51,8 @@ class Sphere {
   Vec3d axis_ = Vec3d::UnitZ();
   double height_;
   bool inside_out_;
+  double extent_;   ///< its largest coordinate is at most this
+  double outside2_; ///< squared distance from the centre of points that rounding cannot have put outside
 };
 
 } // namespace render

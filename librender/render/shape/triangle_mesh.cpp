@@ -140,6 +140,10 @@ SurfacePoint TriangleMesh::surface_point(const Ray&, const Hit& hit) const {
   return s;
 }
 
+Float TriangleMesh::area_pdf(Float cosine, Float distance2) const {
+  return cosine > 0 ? distance2 / (cosine * Float(area_)) : Float(0);
+}
+
 std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) const {
   if (!choice_) return {};
   const auto [triangle, pmf, u0] = choice_->sample_index(double(u[0]));
@@ -158,6 +162,12 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
   return s;
 }
 
+std::optional<DirectionSample> TriangleMesh::sample_direction(const Vec3& ref, const Vec2& u) const {
+  const auto s = sample(ref, u);
+  if (!s) return {};
+  return DirectionSample{s->wi, std::max(s->pdf, pdf(ref, s->wi))}; // the direction may pass the triangle by rounding
+}
+
 ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle,
                                       const mc::SphericalTriangle<double>& directions,
                                       const mc::Vec2<double>& u) const {
@@ -165,10 +175,6 @@ ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle,
   const Crossing at = cross_plane(vertices(triangle), ref.cast<double>(), d);
   const double b1 = std::clamp(at.b1, 0.0, 1.0);
   return {point(triangle, b1, std::clamp(at.b2, 0.0, 1 - b1)), d.cast<Float>(), near_pdf(triangle, directions)};
-}
-
-Float TriangleMesh::area_pdf(Float cosine, Float distance2) const {
-  return cosine > 0 ? distance2 / (cosine * Float(area_)) : Float(0);
 }
 
 std::optional<mc::SphericalTriangle<double>> TriangleMesh::near_triangle(const Vec3& ref, std::size_t triangle) const {

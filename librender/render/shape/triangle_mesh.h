@@ -33,6 +33,7 @@ class TriangleMesh {
   static TriangleMesh box(const Transform& to_world);
 
   std::optional<ShapeSample> sample(const Vec3& ref, const Vec2& u) const;
+  std::optional<DirectionSample> sample_direction(const Vec3& ref, const Vec2& u) const;
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const;
   Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const { return area_; }

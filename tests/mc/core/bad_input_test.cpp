@@ -32,12 +32,12 @@
 #include <mc/warp/beckmann.h>
 #include <mc/warp/bilinear.h>
 #include <mc/warp/blinn_phong.h>
-#include <mc/warp/box_muller.h>
 #include <mc/warp/cone.h>
 #include <mc/warp/exponential.h>
 #include <mc/warp/half_vector.h>
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/henyey_greenstein.h>
+#include <mc/warp/isotropic_normal.h>
 #include <mc/warp/linear.h>
 #include <mc/warp/logistic.h>
 #include <mc/warp/mixture.h>
@@ -105,7 +105,7 @@ TEST(BadInput, WarpsOnTheLine) {
 TEST(BadInput, WarpsOnThePlaneAndTheSphere) {
   std::vector<Row> rows;
   add(rows, "Bilinear", "finite, >= 0 and not all 0", {nan, inf, -1, 0}, [](S x) { Bilinear<S>(0, 0, x, 0); });
-  add(rows, "BoxMuller", "finite and > 0", {nan, inf, 0, -1}, [](S x) { BoxMuller<S>{x}; });
+  add(rows, "IsotropicNormal", "finite and > 0", {nan, inf, 0, -1}, [](S x) { IsotropicNormal<S>{x}; });
   add(rows, "Annulus", "0 <= inner < outer", {nan, inf, 0.5, -1}, [](S x) { UniformAnnulus<S>(0.5, x); });
   add(rows, "Annulus", "0 <= inner < outer", {nan, -1}, [](S x) { UniformAnnulus<S>(x, 1); });
   add(rows, "UniformCone", "(0, pi]", {nan, inf, 0, -1, 3.2}, [](S x) { UniformCone<S>::from_angle(x); });

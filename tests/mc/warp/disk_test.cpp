@@ -11,14 +11,14 @@ TEST(UniformDisk, ObeysTheLaws) {
   EXPECT_WARP_LAWS(UniformDisk<double>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
 }
 
-TEST(PolarDisk, ObeysTheLaws) {
-  EXPECT_WARP_LAWS(PolarDisk<float>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
-  EXPECT_WARP_LAWS(PolarDisk<double>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
+TEST(UniformDiskPolar, ObeysTheLaws) {
+  EXPECT_WARP_LAWS(UniformDiskPolar<float>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
+  EXPECT_WARP_LAWS(UniformDiskPolar<double>{}, {.samples = 50'000, .invert_eps = 8, .sample_eps = 4, .pdf_eps = 2});
 }
 
 // Why it is only for comparison: at the rim a side of one of 16 x 16 cells becomes 2 pi / 16 long, concentrically 0.16
 // at most.
-TEST(PolarDisk, StretchesStrataMoreThanTheConcentricMap) {
+TEST(UniformDiskPolar, StretchesStrataMoreThanTheConcentricMap) {
   const auto stretch = [](const auto& disk) {
     double longest = 0;
     for (int i = 0; i < 16; ++i)
@@ -28,7 +28,7 @@ TEST(PolarDisk, StretchesStrataMoreThanTheConcentricMap) {
             (disk.sample({(i + 0.999) / 16, (j + 0.999) / 16}) - disk.sample({(i + 0.999) / 16, j / 16.0})).norm());
     return longest;
   };
-  EXPECT_GT(stretch(PolarDisk<double>{}), 2 * stretch(UniformDisk<double>{}));
+  EXPECT_GT(stretch(UniformDiskPolar<double>{}), 2 * stretch(UniformDisk<double>{}));
 }
 
 TEST(UniformDisk, CentreAndCorners) {

@@ -1,8 +1,8 @@
 #include <render/integrator/directions.h>
-#include <render/integrator/path_stream.h>
 #include <render/scene/builder.h>
 
 #include <mc/estimate/moments.h>
+#include <mc/sampler/walk_stream.h>
 #include <mc/warp/sphere.h>
 
 #include <gtest/gtest.h>
@@ -53,7 +53,8 @@ template <class B> void expect_consistent(const B& bsdf, const Strategy& strateg
   const int n = 20'000;
   int rough = 0, delta = 0, other = 0;
   for (int i = 0; i < n; ++i) {
-    IndependentStream stream({11, 0}, std::uint32_t(i));
+    const mc::NoPairs numbers(11, 0);
+    mc::IndependentWalk<Float> stream(numbers, std::uint32_t(i));
     const auto one = directions.choose(at, stream);
     if (!one) continue;
     if (one->pdf == 0) {

@@ -3,6 +3,7 @@
 
 #include <mc/core/error.h>
 #include <mc/estimate/moments.h>
+#include <mc/sampler/walk_stream.h>
 #include <mc/stats/t_test.h>
 
 #include <gmock/gmock.h>
@@ -34,7 +35,8 @@ mc::Moments trace(const S& scene, const Ray& ray, const PathOptions& options, in
   mc::Moments moments;
   std::uint64_t rays = 0;
   for (int i = 0; i < n; ++i) {
-    IndependentStream stream({2026, 0}, std::uint32_t(i));
+    const mc::NoPairs numbers(2026, 0);
+    mc::IndependentWalk<Float> stream(numbers, std::uint32_t(i));
     moments.add(double(integrator.radiance(ray, stream, rays)[channel]), std::uint64_t(i));
   }
   EXPECT_EQ(moments.non_finite(), 0u);
@@ -102,7 +104,8 @@ TEST(Path, LightsAreDarkFromBehind) {
   const Scene scene = cornell_light();
   std::uint64_t rays = 0;
   for (const Strategy& s : unbiased) {
-    IndependentStream stream({1, 0}, 0);
+    const mc::NoPairs numbers(1, 0);
+    mc::IndependentWalk<Float> stream(numbers, 0);
     const PathIntegrator<Scene> integrator(scene, {s, 1});
     const Ray above{Vec3(278, 700, Float(279.5)), Vec3(0, -1, 0)}, below{Vec3(278, 300, Float(279.5)), Vec3(0, 1, 0)};
     EXPECT_TRUE(is_black(integrator.radiance(above, stream, rays))) << word(s);
@@ -210,7 +213,8 @@ TEST(Path, NonFiniteThroughputIsNeverQuiet) {
   for (const Strategy& s : unbiased) {
     const PathIntegrator<Recovered<Broken>> integrator(scene, {s});
     for (std::uint32_t i = 0; i < 100; ++i) {
-      IndependentStream stream({3, 0}, i);
+      const mc::NoPairs numbers(3, 0);
+      mc::IndependentWalk<Float> stream(numbers, i);
       EXPECT_FALSE(integrator.radiance({Vec3::Zero(), Vec3::UnitX()}, stream, rays).isFinite().all()) << word(s);
     }
   }

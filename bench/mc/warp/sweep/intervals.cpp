@@ -15,14 +15,14 @@ namespace {
 
 double d(const auto& x) { return static_cast<double>(x); }
 
-template <class S> void add(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
-  const auto number = [](Draw& r) { return S(r.often(0.2) ? 0 : r.sign() * r.log(denormal<S>, largest<S>)); };
-  const auto positive = [](Draw& r) { return S(r.log(denormal<S>, largest<S>)); };
+template <class S> S number(Draw& r) { return S(r.often(0.2) ? 0 : r.sign() * r.log(denormal<S>, largest<S>)); }
+template <class S> S positive(Draw& r) { return S(r.log(denormal<S>, largest<S>)); }
 
+template <class S> void add_polynomials(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
   rows.push_back(run(
       "UniformInterval " + scalar, effort,
       [&](Draw& r, std::string& p) {
-        const S lo = number(r), hi = number(r);
+        const S lo = number<S>(r), hi = number<S>(r);
         p = fmt::format("lo {} hi {}", lo, hi);
         return mc::UniformInterval<S>(lo, hi);
       },
@@ -37,7 +37,7 @@ template <class S> void add(std::vector<Row>& rows, const std::string& scalar, c
   rows.push_back(run(
       "Linear " + scalar, effort,
       [&](Draw& r, std::string& p) {
-        const S a = r.often(0.1) ? S(0) : positive(r), b = r.often(0.1) ? S(0) : positive(r);
+        const S a = r.often(0.1) ? S(0) : positive<S>(r), b = r.often(0.1) ? S(0) : positive<S>(r);
         p = fmt::format("a {} b {}", a, b);
         return mc::Linear<S>(a, b);
       },
@@ -45,7 +45,7 @@ template <class S> void add(std::vector<Row>& rows, const std::string& scalar, c
   rows.push_back(run(
       "Tent " + scalar, effort,
       [&](Draw& r, std::string& p) {
-        const S c = r.often(0.5) ? S(0) : number(r), h = positive(r);
+        const S c = r.often(0.5) ? S(0) : number<S>(r), h = positive<S>(r);
         p = fmt::format("center {} radius {}", c, h);
         return mc::Tent<S>(c, h);
       },
@@ -60,23 +60,23 @@ template <class S> void add(std::vector<Row>& rows, const std::string& scalar, c
         };
       }));
   rows.push_back(run(
-      "Normal " + scalar, effort,
+      "Smoothstep " + scalar, effort, [](Draw&, std::string&) { return mc::Smoothstep<S>{}; },
+      constant({.invert = 8})));
+  rows.push_back(run(
+      "Power " + scalar, effort,
       [&](Draw& r, std::string& p) {
-        const S m = r.often(0.5) ? S(0) : number(r), s = positive(r);
-        p = fmt::format("mean {} sigma {}", m, s);
-        return mc::Normal<S>(m, s);
+        const S n = r.often(0.1) ? S(0) : positive<S>(r);
+        p = fmt::format("n {}", n);
+        return mc::Power<S>(n);
       },
-      [](const auto& w) {
-        return [=](auto, auto x) {
-          const double t = (d(x) - d(w.mean)) / d(w.sigma), far = std::abs(d(w.mean)) / d(w.sigma);
-          return Bounds{
-              .sample = 16, .pdf = 16 + 4 * t * t + 4 * std::abs(t) * far, .invert = 16 + 4 * far, .scale = d(w.sigma)};
-        };
-      }));
+      [](const auto& w) { return [=](auto, auto) { return Bounds{.pdf = 16 + d(w.n), .invert = 8 + d(w.n) / 2}; }; }));
+}
+
+template <class S> void add_exponentials(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
   rows.push_back(run(
       "Exponential " + scalar, effort,
       [&](Draw& r, std::string& p) {
-        const S rate = positive(r);
+        const S rate = positive<S>(r);
         p = fmt::format("rate {}", rate);
         return mc::Exponential<S>(rate);
       },
@@ -88,7 +88,7 @@ template <class S> void add(std::vector<Row>& rows, const std::string& scalar, c
   rows.push_back(run(
       "TrimmedExponential " + scalar, effort,
       [&](Draw& r, std::string& p) {
-        const S rate = number(r), length = positive(r);
+        const S rate = number<S>(r), length = positive<S>(r);
         p = fmt::format("rate {} length {}", rate, length);
         return mc::TrimmedExponential<S>(rate, length);
       },
@@ -103,10 +103,27 @@ template <class S> void add(std::vector<Row>& rows, const std::string& scalar, c
                         .scale = w.rate < 0 ? d(w.length) : std::min(d(w.length), 1 / std::max(d(w.rate), 1e-300))};
         };
       }));
+}
+
+template <class S> void add_bells(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
+  rows.push_back(run(
+      "Normal " + scalar, effort,
+      [&](Draw& r, std::string& p) {
+        const S m = r.often(0.5) ? S(0) : number<S>(r), s = positive<S>(r);
+        p = fmt::format("mean {} sigma {}", m, s);
+        return mc::Normal<S>(m, s);
+      },
+      [](const auto& w) {
+        return [=](auto, auto x) {
+          const double t = (d(x) - d(w.mean)) / d(w.sigma), far = std::abs(d(w.mean)) / d(w.sigma);
+          return Bounds{
+              .sample = 16, .pdf = 16 + 4 * t * t + 4 * std::abs(t) * far, .invert = 16 + 4 * far, .scale = d(w.sigma)};
+        };
+      }));
   rows.push_back(run(
       "Logistic " + scalar, effort,
       [&](Draw& r, std::string& p) {
-        const S m = r.often(0.5) ? S(0) : number(r), s = positive(r);
+        const S m = r.often(0.5) ? S(0) : number<S>(r), s = positive<S>(r);
         p = fmt::format("mean {} scale {}", m, s);
         return mc::Logistic<S>(m, s);
       },
@@ -119,7 +136,7 @@ template <class S> void add(std::vector<Row>& rows, const std::string& scalar, c
   rows.push_back(run(
       "TrimmedLogistic " + scalar, effort,
       [&](Draw& r, std::string& p) {
-        const S s = positive(r);
+        const S s = positive<S>(r);
         const double around = r.often(0.5) ? d(s) * 100 : largest<S>;
         const auto end = [&] { return S(r.often(0.1) ? 0 : r.sign() * r.log(std::min(d(s) * 1e-9, around), around)); };
         const S lo = end(), hi = r.often(0.2) ? S(lo + std::abs(d(lo)) * r.log(1e-18, 1)) : end();
@@ -134,17 +151,12 @@ template <class S> void add(std::vector<Row>& rows, const std::string& scalar, c
               .sample = 16, .pdf = 64 + 4 * std::abs(d(x)) / d(w.scale), .invert = 8 * stretch, .scale = least};
         };
       }));
-  rows.push_back(run(
-      "Smoothstep " + scalar, effort, [](Draw&, std::string&) { return mc::Smoothstep<S>{}; },
-      constant({.invert = 8})));
-  rows.push_back(run(
-      "Power " + scalar, effort,
-      [&](Draw& r, std::string& p) {
-        const S n = r.often(0.1) ? S(0) : positive(r);
-        p = fmt::format("n {}", n);
-        return mc::Power<S>(n);
-      },
-      [](const auto& w) { return [=](auto, auto) { return Bounds{.pdf = 16 + d(w.n), .invert = 8 + d(w.n) / 2}; }; }));
+}
+
+template <class S> void add(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
+  add_polynomials<S>(rows, scalar, effort);
+  add_exponentials<S>(rows, scalar, effort);
+  add_bells<S>(rows, scalar, effort);
 }
 
 } // namespace

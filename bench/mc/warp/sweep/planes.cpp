@@ -3,8 +3,8 @@
 
 #include <mc/warp/annulus.h>
 #include <mc/warp/bilinear.h>
-#include <mc/warp/box_muller.h>
 #include <mc/warp/disk.h>
+#include <mc/warp/isotropic_normal.h>
 #include <mc/warp/parallelogram.h>
 #include <mc/warp/triangle.h>
 #include <mc/warp/uniform.h>
@@ -14,13 +14,14 @@ namespace {
 
 double d(const auto& x) { return static_cast<double>(x); }
 
-template <class S> void add(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
+template <class S> void add_uniform(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
   const auto number = [](Draw& r) { return S(r.often(0.2) ? 0 : r.sign() * r.log(denormal<S>, largest<S>)); };
   rows.push_back(run(
       "UniformDisk " + scalar, effort, [](Draw&, std::string&) { return mc::UniformDisk<S>{}; },
       constant({.invert = 8})));
   rows.push_back(run(
-      "PolarDisk " + scalar, effort, [](Draw&, std::string&) { return mc::PolarDisk<S>{}; }, constant({.invert = 8})));
+      "UniformDiskPolar " + scalar, effort, [](Draw&, std::string&) { return mc::UniformDiskPolar<S>{}; },
+      constant({.invert = 8})));
   rows.push_back(run(
       "UniformTriangle " + scalar, effort, [](Draw&, std::string&) { return mc::UniformTriangle<S>{}; },
       constant({.invert = 4})));
@@ -71,6 +72,9 @@ template <class S> void add(std::vector<Row>& rows, const std::string& scalar, c
         }
         return [=](auto, auto) { return Bounds{.sample = 4, .pdf = 8, .invert = 4 * stretch, .scale = far}; };
       }));
+}
+
+template <class S> void add_densities(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
   rows.push_back(run(
       "Bilinear " + scalar, effort,
       [&](Draw& r, std::string& p) {
@@ -84,11 +88,11 @@ template <class S> void add(std::vector<Row>& rows, const std::string& scalar, c
         return [](auto, auto) { return Bounds{.sample = HUGE_VAL, .invert = 16}; };
       }));
   rows.push_back(run(
-      "BoxMuller " + scalar, effort,
+      "IsotropicNormal " + scalar, effort,
       [&](Draw& r, std::string& p) {
         const S sigma = S(r.log(denormal<S>, largest<S>));
         p = fmt::format("sigma {}", sigma);
-        return mc::BoxMuller<S>(sigma);
+        return mc::IsotropicNormal<S>(sigma);
       },
       [](const auto& w) {
         return [s = d(w.sigma)](auto, const auto& x) {
@@ -96,6 +100,11 @@ template <class S> void add(std::vector<Row>& rows, const std::string& scalar, c
           return Bounds{.pdf = 8 + 2 * r * r, .invert = 8, .scale = s};
         };
       }));
+}
+
+template <class S> void add(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
+  add_uniform<S>(rows, scalar, effort);
+  add_densities<S>(rows, scalar, effort);
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-#include <render/integrator/path_stream.h>
+#include <mc/sampler/walk_stream.h>
 
 #include <gtest/gtest.h>
 
@@ -6,25 +6,25 @@
 
 namespace {
 
-using namespace render;
+using namespace mc;
 
-template <class Stream> class PathStream : public testing::Test {};
-using Streams = testing::Types<IndependentStream, SobolStream, StratifiedStream>;
-TYPED_TEST_SUITE(PathStream, Streams);
+template <class Stream> class WalkStreamOf : public testing::Test {};
+using Streams = testing::Types<IndependentWalk<float>, SobolWalk<float>, StratifiedWalk<float>>;
+TYPED_TEST_SUITE(WalkStreamOf, Streams);
 
-TYPED_TEST(PathStream, IsAFunctionOfKeyAndIndex) {
-  std::set<Float> firsts;
+TYPED_TEST(WalkStreamOf, IsAFunctionOfKeyAndIndex) {
+  std::set<float> firsts;
   for (std::uint32_t index = 0; index < 16; ++index) {
     const typename TypeParam::Points points(7, 16), others(8, 16);
     TypeParam a(points, index), b(points, index), other(others, index);
     int same = 0;
     for (int i = 0; i < 40; ++i) {
-      const Vec2 u = a.next2();
+      const Vec2<float> u = a.next2();
       EXPECT_EQ(u, b.next2());
       same += u == other.next2();
       EXPECT_TRUE((u.array() >= 0).all() && (u.array() < 1).all());
       if (i == 0) firsts.insert(u[0]);
-      const Float x = a.next();
+      const float x = a.next();
       EXPECT_EQ(x, b.next());
       EXPECT_TRUE(x >= 0 && x < 1);
     }
@@ -40,7 +40,7 @@ template <class Stream> void fills_cells() {
     for (std::uint32_t index = 0; index < 16; ++index) {
       const typename Stream::Points points(99, 16);
       Stream stream(points, index);
-      Vec2 u = stream.next2();
+      Vec2<float> u = stream.next2();
       for (std::uint32_t k = 0; k < pair; ++k) {
         if (index % 2) stream.next();
         u = stream.next2();
@@ -54,13 +54,13 @@ template <class Stream> void fills_cells() {
 template <class Stream> void branches_fill_cells() {
   const typename Stream::Points points(99, 8);
   std::set<int> cells;
-  std::set<Float> singles;
+  std::set<float> singles;
   for (std::uint32_t index = 0; index < 8; ++index) {
     Stream stream(points, index);
     stream.next2();
     for (std::uint32_t i = 0; i < 2; ++i) {
       Stream branch = stream.branch(i, 2);
-      const Vec2 u = branch.next2();
+      const Vec2<float> u = branch.next2();
       cells.insert(int(4 * u[0]) * 4 + int(4 * u[1]));
       singles.insert(branch.next());
     }
@@ -69,9 +69,9 @@ template <class Stream> void branches_fill_cells() {
   EXPECT_EQ(cells.size(), 16u);
   EXPECT_EQ(singles.size(), 24u);
 }
-TEST(PathStreamPairs, BranchesOfSobolFillCells) { branches_fill_cells<SobolStream>(); }
-TEST(PathStreamPairs, BranchesOfStratifiedFillCells) { branches_fill_cells<StratifiedStream>(); }
-TEST(PathStreamPairs, SobolFillsCells) { fills_cells<SobolStream>(); }
-TEST(PathStreamPairs, StratifiedFillsCells) { fills_cells<StratifiedStream>(); }
+TEST(WalkStreamPairs, BranchesOfSobolFillCells) { branches_fill_cells<SobolWalk<float>>(); }
+TEST(WalkStreamPairs, BranchesOfStratifiedFillCells) { branches_fill_cells<StratifiedWalk<float>>(); }
+TEST(WalkStreamPairs, SobolFillsCells) { fills_cells<SobolWalk<float>>(); }
+TEST(WalkStreamPairs, StratifiedFillsCells) { fills_cells<StratifiedWalk<float>>(); }
 
 } // namespace

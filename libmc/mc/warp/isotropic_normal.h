@@ -13,17 +13,18 @@ namespace mc {
 ///   invert : |invert(sample(u)) - u| <= 8 eps
 ///   throws : Error unless sigma > 0 and sigma^2 passes is_scale
 ///   Source : [BoxMuller58]. Two independent normals by inverse CDF (Normal2D) distort strata less and cost more
-template <Real S> struct BoxMuller {
+template <Real S> struct IsotropicNormal {
   using Scalar = S;
   using Domain = Plane<S>;
 
   S sigma = 1;
 
-  BoxMuller() = default;
-  explicit BoxMuller(S sigma_) : sigma(sigma_) {
-    require(sigma > 0 && is_scale(S(sigma * sigma)),
-            "BoxMuller: sigma {} must be finite and > 0, its square neither denormal nor next to the largest number",
-            static_cast<double>(sigma));
+  IsotropicNormal() = default;
+  explicit IsotropicNormal(S sigma_) : sigma(sigma_) {
+    require(
+        sigma > 0 && is_scale(S(sigma * sigma)),
+        "IsotropicNormal: sigma {} must be finite and > 0, its square neither denormal nor next to the largest number",
+        static_cast<double>(sigma));
   }
 
   Domain domain() const { return {{S(0), sigma}, {S(0), sigma}}; }
@@ -39,7 +40,7 @@ template <Real S> struct BoxMuller {
     using std::expm1;
     return {-S(expm1(S(-half_square(p)))), turn<S>(p.x(), p.y())};
   }
-  template <Real T> BoxMuller<T> cast() const { return BoxMuller<T>(T(sigma)); }
+  template <Real T> IsotropicNormal<T> cast() const { return IsotropicNormal<T>(T(sigma)); }
 
  private:
   // log(1 - u) for small u too: the rounding of 1 - u is undone by a factor. Half the time of log1p.

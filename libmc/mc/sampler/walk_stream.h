@@ -1,0 +1,84 @@
+#pragma once
+/// The numbers of one random walk of unknown length, a light path say, that may split.
+
+#include <mc/random/pcg.h>
+#include <mc/sampler/padded_sobol.h>
+#include <mc/sampler/stratified.h>
+
+#include <array>
+#include <cstdint>
+
+namespace mc {
+
+/// Walk `index` of `count`: its first pairs come from a well-spread set of `count` points in pairs of dimensions, which
+/// is where spreading pays; single numbers and later pairs are independent, at the price of a generator's step.
+///   made from : Pairs, which holds what all walks of a set share and must outlive them, and the index
+///   next      : one number in [0,1);  next2 : two
+///   branch(i, n) : the stream of branch i of n where the walk splits. The branches of all walks share one point set,
+///               n times as large.
+/// A pure function of (seed of the set, index, branches taken).
+template <Real S, class Pairs> class WalkStream {
+ public:
+  using Points = Pairs;
+  static constexpr std::uint32_t pairs = Pairs::pairs;
+
+  WalkStream(const Points& points, std::uint32_t index) : WalkStream(points, hash(points.seed, index), index, 0, 1) {}
+  WalkStream branch(std::uint32_t i, std::uint32_t n) const {
+    return WalkStream(*points_, hash(seed_, i), index_ * n + i, pair_, scale_ * n);
+  }
+  S next() { return random_.uniform<S>(); }
+  Vec2<S> next2() {
+    if constexpr (pairs > 0)
+      if (pair_ < pairs) return points_->template pair<S>(index_, pair_++, scale_);
+    return random_.point<S, 2>();
+  }
+
+ private:
+  WalkStream(const Points& points, std::uint64_t seed, std::uint32_t index, std::uint32_t pair, std::uint32_t scale)
+      : seed_(seed), random_(seed), points_(&points), index_(index), pair_(pair), scale_(scale) {}
+
+  std::uint64_t seed_;
+  Pcg random_;
+  const Points* points_;
+  std::uint32_t index_, pair_;
+  std::uint32_t scale_; ///< how many times as large as at first the point set is
+};
+
+/// No pairs: all numbers are independent.
+struct NoPairs {
+  static constexpr std::uint32_t pairs = 0;
+  std::uint64_t seed;
+  NoPairs(std::uint64_t s, std::uint32_t) : seed(s) {}
+};
+
+/// The first pairs of PaddedSobol, for any count.
+struct SobolPairs {
+  static constexpr std::uint32_t pairs = 6;
+  std::uint64_t seed;
+  std::array<PaddedSobol::PairKey, pairs> keys;
+
+  SobolPairs(std::uint64_t s, std::uint32_t) : seed(s) {
+    for (std::uint32_t i = 0; i < pairs; ++i) keys[i] = PaddedSobol{seed}.pair_key(i);
+  }
+  template <Real S> Vec2<S> pair(std::uint32_t index, std::uint32_t number, std::uint32_t) const {
+    return keys[number].point<S>(index);
+  }
+};
+
+/// The first pairs of Stratified, for sets of `count` points.
+struct StratifiedPairs {
+  static constexpr std::uint32_t pairs = 6;
+  std::uint64_t seed;
+  std::uint32_t count;
+
+  StratifiedPairs(std::uint64_t s, std::uint32_t n) : seed(s), count(n) {}
+  template <Real S> Vec2<S> pair(std::uint32_t index, std::uint32_t number, std::uint32_t scale) const {
+    return point<S, 2>(Stratified(count * scale, seed), index, 2 * number);
+  }
+};
+
+template <Real S> using IndependentWalk = WalkStream<S, NoPairs>;
+template <Real S> using SobolWalk = WalkStream<S, SobolPairs>;
+template <Real S> using StratifiedWalk = WalkStream<S, StratifiedPairs>;
+
+} // namespace mc
