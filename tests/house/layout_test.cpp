@@ -20,11 +20,14 @@ struct Function {
 std::size_t indent(const std::string& line) { return line.find_first_not_of(' '); }
 
 // Functions of more than `longest` lines, in the format that clang-format gives: a body ends at the first line that
-// starts with a brace and is indented as the line with which the function, or the lambda, starts.
+// starts with a brace and is indented as the line with which the function starts, or where a lambda's braces close.
 std::vector<Function> long_functions(const std::vector<std::string>& lines, std::size_t longest) {
   static const std::regex other(R"(^\s*(template.*>\s*)?(namespace|struct|class|enum|union|extern|typedef|concept)\b)");
   const auto unclosed = [](const std::string& line) {
     return std::count(line.begin(), line.end(), '(') - std::count(line.begin(), line.end(), ')');
+  };
+  const auto braces = [](const std::string& line) {
+    return std::count(line.begin(), line.end(), '{') - std::count(line.begin(), line.end(), '}');
   };
   std::vector<Function> found;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -32,14 +35,18 @@ std::vector<Function> long_functions(const std::vector<std::string>& lines, std:
     std::size_t start = i;
     auto open = unclosed(lines[i]);
     while (start > 0 && (open < 0 || lines[start][indent(lines[start])] == ':' || lines[start - 1].ends_with(',') ||
-                         lines[start - 1].ends_with('=')))
+                         lines[start - 1].ends_with('=') || lines[start - 1].ends_with("&&")))
       open += unclosed(lines[--start]);
-    if (open > 0) start = i; // a lambda among arguments
-    if (std::regex_search(lines[start], other)) continue;
     std::size_t end = i + 1;
-    while (end < lines.size() &&
-           (lines[end].empty() || indent(lines[end]) != indent(lines[start]) || lines[end][indent(lines[end])] != '}'))
-      ++end;
+    if (open > 0) { // a lambda among arguments, which may start anywhere on its line
+      start = i;
+      for (auto depth = 1 + braces(lines[end]); end + 1 < lines.size() && depth > 0; depth += braces(lines[end])) ++end;
+    } else {
+      if (std::regex_search(lines[start], other)) continue;
+      while (end < lines.size() && (lines[end].empty() || indent(lines[end]) != indent(lines[start]) ||
+                                    lines[end][indent(lines[end])] != '}'))
+        ++end;
+    }
     if (end - start + 1 > longest) found.push_back({start + 1, end - start + 1});
   }
   return found;
@@ -61,17 +68,24 @@ TEST(Layout, LongFunctionsAreSeen) {
                                           "       [](int) {",
                                           "         go();",
                                           "       });",
+                                          "  call(1, [](int) {",
+                                          "         if (a) {",
+                                          "         }",
+                                          "       });",
+                                          "}",
                                           "template <class T>",
-                                          "concept Named =",
+                                          "concept Named = Any<T> &&",
                                           "    requires(T t) {",
                                           "  t.name();",
                                           "};"};
   const std::vector<Function> found = long_functions(lines, 2);
-  ASSERT_EQ(found.size(), 2u);
+  ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found[0].line, 2u);
   EXPECT_EQ(found[0].length, 7u);
   EXPECT_EQ(found[1].line, 13u);
   EXPECT_EQ(found[1].length, 3u);
+  EXPECT_EQ(found[2].line, 16u);
+  EXPECT_EQ(found[2].length, 4u);
 }
 
 TEST(Layout, AFileIsOneIdea) {

@@ -21,91 +21,80 @@ double ball(Unit u) {
 
 mc::Vec2<double> pair(Unit u) { return {u[0], u[1]}; }
 
+double x2_uniform(Unit u) { return 2 * mc::sqr(2 * u[0]); }
+double x2_linear(Unit u) {
+  const double x = 2 * std::sqrt(u[0]);
+  return 2 * x; // x^2 / (x / 2)
+}
+double x2_quadratic(Unit u) {
+  const double x = 2 * std::cbrt(1 - u[0]); // 1 - u, so that x > 0
+  return x * x / (3 * x * x / 8);
+}
+double cos2_sphere(Unit u) {
+  const mc::UniformSphere<double> warp;
+  const auto w = warp.sample(pair(u));
+  return mc::sqr(w.z()) / warp.pdf(w);
+}
+template <class Warp> double cos3(Unit u) {
+  const auto w = Warp{}.sample(pair(u));
+  return w.z() * w.z() * w.z() / Warp{}.pdf(w);
+}
+double adversarial(Unit u) { return -100 * std::cos(200 * mc::pi<double> * u[0]); }
+
 std::vector<Experiment> make() {
   const double pi = mc::pi<double>;
-  const std::string week3 = "Ray Tracing: The Rest of Your Life (P. Shirley)";
+  const std::string week3 = "Ray Tracing: The Rest of Your Life (P. Shirley), chapter ";
   const std::string codex = "The Graphics Codex (M. McGuire)";
   using Class = Smoothness::Class;
-  std::vector<Experiment> list;
-  list.push_back({"pi", "pi by darts at a square", week3 + ", chapter 2", 2, pi, {Class::jump}, 64, ball});
-  list.push_back({"x2_uniform",
-                  "x^2 on [0,2], uniform density",
-                  week3 + ", chapter 3",
-                  1,
-                  8.0 / 3,
-                  {Class::smooth},
-                  16,
-                  [](Unit u) { return 2 * mc::sqr(2 * u[0]); }});
-  list.push_back({"x2_linear", "x^2 on [0,2], density x/2", week3 + ", chapter 3", 1, 8.0 / 3, {}, 16, [](Unit u) {
-                    const double x = 2 * std::sqrt(u[0]);
-                    return 2 * x; // x^2 / (x / 2)
-                  }});
-  list.push_back({"x2_quadratic",
-                  "x^2 on [0,2], density 3 x^2 / 8: no error at all",
-                  week3 + ", chapter 3",
-                  1,
-                  8.0 / 3,
-                  {},
-                  16,
-                  [](Unit u) {
-                    const double x = 2 * std::cbrt(1 - u[0]); // 1 - u, so that x > 0
-                    return x * x / (3 * x * x / 8);
-                  }});
-  list.push_back(
-      {"cos2_sphere", "cos^2 over the sphere", week3 + ", chapter 4", 2, 4 * pi / 3, {Class::additive}, 64, [](Unit u) {
-         const mc::UniformSphere<double> warp;
-         const auto w = warp.sample(pair(u));
-         return mc::sqr(w.z()) / warp.pdf(w);
-       }});
-  list.push_back({"cos3_hemisphere_uniform",
-                  "cos^3 over the hemisphere, uniform density",
-                  week3 + ", chapter 7",
-                  2,
-                  pi / 2,
-                  {Class::additive},
-                  64,
-                  [](Unit u) {
-                    const mc::UniformHemisphere<double> warp;
-                    const auto w = warp.sample(pair(u));
-                    return w.z() * w.z() * w.z() / warp.pdf(w);
-                  }});
-  list.push_back({"cos3_hemisphere_cosine",
-                  "cos^3 over the hemisphere, density cos/pi",
-                  week3 + ", chapter 7",
-                  2,
-                  pi / 2,
-                  {Class::additive},
-                  64,
-                  [](Unit u) {
-                    const mc::CosineHemisphere<double> warp;
-                    const auto w = warp.sample(pair(u));
-                    return w.z() * w.z() * w.z() / warp.pdf(w);
-                  }});
-  list.push_back({"ball_3d",
-                  "volume of the ball in 3 dimensions by darts",
-                  week3 + ", chapter 2",
-                  3,
-                  4 * pi / 3,
-                  {Class::jump},
-                  64,
-                  ball});
-  list.push_back({"ball_5d",
-                  "volume of the ball in 5 dimensions by darts",
-                  week3 + ", chapter 2",
-                  5,
-                  8 * pi * pi / 15,
-                  {Class::jump},
-                  64,
-                  ball});
-  list.push_back({"adversarial",
-                  "-cos(2 pi x) on [0,100]: a regular grid sees only the crests",
-                  codex,
-                  1,
-                  0,
-                  {Class::periodic},
-                  1024,
-                  [](Unit u) { return -100 * std::cos(200 * mc::pi<double> * u[0]); }});
-  return list;
+  const auto cos3_uniform = cos3<mc::UniformHemisphere<double>>;
+  const auto cos3_cosine = cos3<mc::CosineHemisphere<double>>;
+  return {
+      {"pi", "pi by darts at a square", week3 + "2", 2, pi, {Class::jump}, 64, ball},
+      {"x2_uniform", "x^2 on [0,2], uniform density", week3 + "3", 1, 8.0 / 3, {Class::smooth}, 16, x2_uniform},
+      {"x2_linear", "x^2 on [0,2], density x/2", week3 + "3", 1, 8.0 / 3, {}, 16, x2_linear},
+      {"x2_quadratic",
+       "x^2 on [0,2], density 3 x^2 / 8: no error at all",
+       week3 + "3",
+       1,
+       8.0 / 3,
+       {},
+       16,
+       x2_quadratic},
+      {"cos2_sphere", "cos^2 over the sphere", week3 + "4", 2, 4 * pi / 3, {Class::additive}, 64, cos2_sphere},
+      {"cos3_hemisphere_uniform",
+       "cos^3 over the hemisphere, uniform density",
+       week3 + "7",
+       2,
+       pi / 2,
+       {Class::additive},
+       64,
+       cos3_uniform},
+      {"cos3_hemisphere_cosine",
+       "cos^3 over the hemisphere, density cos/pi",
+       week3 + "7",
+       2,
+       pi / 2,
+       {Class::additive},
+       64,
+       cos3_cosine},
+      {"ball_3d", "volume of the ball in 3 dimensions by darts", week3 + "2", 3, 4 * pi / 3, {Class::jump}, 64, ball},
+      {"ball_5d",
+       "volume of the ball in 5 dimensions by darts",
+       week3 + "2",
+       5,
+       8 * pi * pi / 15,
+       {Class::jump},
+       64,
+       ball},
+      {"adversarial",
+       "-cos(2 pi x) on [0,100]: a regular grid sees only the crests",
+       codex,
+       1,
+       0,
+       {Class::periodic},
+       1024,
+       adversarial},
+  };
 }
 
 } // namespace

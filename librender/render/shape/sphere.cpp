@@ -8,12 +8,6 @@
 
 namespace render {
 
-namespace {
-
-Float density(const mc::UniformCone<double>& cone) { return Float(1 / cone.domain().jacobian({})); }
-
-} // namespace
-
 Sphere::Sphere(const Vec3d& center, double radius, bool inside_out)
     : center_(center), radius_(radius), height_(2 * radius), inside_out_(inside_out),
       extent_(radius + center.lpNorm<Eigen::Infinity>()),
@@ -66,11 +60,16 @@ SurfacePoint Sphere::surface_point(const Ray& ray, const Hit& hit) const {
 
 double Sphere::area() const { return 2 * mc::pi<double> * radius_ * height_; }
 
-std::optional<mc::UniformCone<double>> Sphere::cone(double d2) const {
+bool Sphere::is_cone(double d2) const {
   // Points of the sphere itself round to either side of it. Taken for outside, their cone would hold nothing but
   // themselves.
-  if (is_cap() || !(d2 > outside2_)) return {};
-  return mc::UniformCone<double>::from_sin2(radius_ * radius_ / d2);
+  return !is_cap() && d2 > outside2_;
+}
+
+// That of UniformCone, with 1 - cos = sin^2 / (1 + cos): one division less.
+Float Sphere::cone_pdf(double d2) const {
+  const double sin2 = radius_ * radius_ / d2;
+  return Float((1 + std::sqrt(1 - sin2)) / (2 * mc::pi<double> * sin2));
 }
 
 std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const {
@@ -78,14 +77,15 @@ std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const 
   const mc::Vec2<double> v = u.cast<double>();
   ShapeSample s;
   const double d2 = toward.squaredNorm();
-  if (const auto seen = cone(d2)) {
+  if (is_cone(d2)) {
     // A direction of the cone, and the near point of the sphere along it.
     const double d = std::sqrt(d2);
-    const Vec3d local = seen->sample(v), wi = mc::Frame<double>::from_z(toward / d).to_world(local);
+    const Vec3d local = mc::UniformCone<double>::from_sin2(radius_ * radius_ / d2).sample(v),
+                wi = mc::Frame<double>::from_z(toward / d).to_world(local);
     const double t = d * local.z() - mc::safe_sqrt<double>(radius_ * radius_ - d2 * local.head<2>().squaredNorm());
     s.point = point((t * wi - toward).normalized());
     s.wi = wi.cast<Float>();
-    s.pdf = density(*seen);
+    s.pdf = cone_pdf(d2);
   } else {
     const auto cap = mc::UniformCone<double>::from_one_minus_cos(height_ / radius_);
     s.point = point(mc::Frame<double>::from_z(axis_).to_world(cap.sample(v)).normalized());
@@ -100,9 +100,11 @@ std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const 
 
 std::optional<DirectionSample> Sphere::sample_direction(const Vec3& ref, const Vec2& u) const {
   const Vec3d toward = center_ - ref.cast<double>();
-  if (const auto seen = cone(toward.squaredNorm())) {
-    const auto frame = mc::Frame<double>::from_z(toward.normalized());
-    return DirectionSample{frame.to_world(seen->sample(u.cast<double>())).cast<Float>(), density(*seen)};
+  const double d2 = toward.squaredNorm();
+  if (is_cone(d2)) {
+    const auto frame = mc::Frame<double>::from_z(toward / std::sqrt(d2));
+    const auto cone = mc::UniformCone<double>::from_sin2(radius_ * radius_ / d2);
+    return DirectionSample{frame.to_world(cone.sample(u.cast<double>())).cast<Float>(), cone_pdf(d2)};
   }
   const auto s = sample(ref, u);
   if (!s) return {};
@@ -110,7 +112,7 @@ std::optional<DirectionSample> Sphere::sample_direction(const Vec3& ref, const V
 }
 
 Float Sphere::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {
-  if (const auto seen = cone((center_ - ref.cast<double>()).squaredNorm())) return density(*seen);
+  if (const double d2 = (center_ - ref.cast<double>()).squaredNorm(); is_cone(d2)) return cone_pdf(d2);
   const Float cosine = std::abs(hit.ng.dot(wi));
   return cosine > 0 ? (hit.p - ref).squaredNorm() / (cosine * Float(area())) : Float(0);
 }
@@ -120,7 +122,7 @@ Float Sphere::pdf(const Vec3& ref, const Vec3& wi) const {
   const Vec3d o = line.o - center_;
   const auto pass = sphere_pass(o.x(), o.y(), o.z(), line, radius_ * radius_);
   if (!pass.crosses()) return 0;
-  if (const auto seen = cone(o.squaredNorm())) return pass.b > 0 ? density(*seen) : Float(0);
+  if (const double d2 = o.squaredNorm(); is_cone(d2)) return pass.b > 0 ? cone_pdf(d2) : Float(0);
   const auto at = sphere_crossings(pass, o.x(), o.y(), o.z(), line, radius_ * radius_);
   Float sum = 0;
   for (const double t : {at.t0, at.t1}) {

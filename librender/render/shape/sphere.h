@@ -42,9 +42,8 @@ class Sphere {
  private:
   SurfacePoint point(const Vec3d& direction) const; ///< of the surface in the unit `direction` from the centre
   bool holds(const Vec3d& offset) const; ///< whether the sphere's point at this offset from the centre is the shape's
-  /// The directions towards it, about the one to its centre, from squared distance d2; nullopt inside, on the surface,
-  /// or for a cap.
-  std::optional<mc::UniformCone<double>> cone(double d2) const;
+  bool is_cone(double d2) const;         ///< seen from squared distance d2: a whole sphere from outside
+  Float cone_pdf(double d2) const;
 
   Vec3d center_;
   double radius_;
