@@ -1,12 +1,7 @@
-#include <cli/subcommand.h>
+#include <cli/integral_options.h>
 #include <converge/measure.h>
 #include <converge/output.h>
 #include <converge/page.h>
-#include <input/points_file.h>
-#include <integrands/find.h>
-#include <integrands/genz.h>
-#include <integrands/rate_integrals.h>
-#include <plugin/integrands.h>
 #include <report/plot.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
@@ -31,68 +26,25 @@ namespace carlo {
 namespace {
 
 struct ConvergeOptions {
-  std::vector<std::string> integrands; ///< names, groups, or an expression; empty: those of the books
-  std::string domain;                  ///< of an expression
-  std::string plugin;                  ///< or the integrands of this shared object
-  bool list = false, all = false;
+  IntegralOptions integral;
+  bool all = false;
   std::string samplers = "random,stratified,sobol";
   std::string points; ///< a file of points, as one more sampler
   std::uint64_t max_n = 1 << 18;
   int replicates = 0;
   std::optional<double> time; ///< seconds for everything
-  double timeout = 60, memory = 4;
   std::uint64_t seed = 1;
   int threads = 0;
   std::string output = "out/convergence", report;
   std::string command;
 };
 
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    words.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return words;
-}
-
-struct Group {
-  const char *name, *title;
-  const std::vector<Experiment>& (*list)();
-};
-constexpr Group groups[] = {{"books", "the integrals of the books", experiments},
-                            {"genz", "Genz's families", genz_integrals},
-                            {"rates", "each class of smoothness in 1 to 8 dimensions", rate_integrals}};
-
-std::vector<Target> targets_of(const ConvergeOptions& o) {
-  if (!o.plugin.empty()) {
-    mc::require(o.domain.empty(), "converge: a plugin states its own bounds; --domain is for an expression");
-    return plugin_targets(o.plugin, o.integrands, {.limits = {.seconds = o.timeout, .gigabytes = o.memory}});
-  }
-  mc::require(o.domain.empty() || o.integrands.size() == 1, "converge: --domain belongs to one expression");
-  std::vector<Target> targets;
-  const std::vector<std::string> words = o.integrands.empty() ? std::vector<std::string>{"books"} : o.integrands;
-  for (const std::string& word : words) {
-    const Group* group = nullptr;
-    for (const Group& g : groups)
-      if (word == g.name) group = &g;
-    if (!group) targets.push_back(here(find_integrand(word, o.domain)));
-    else
-      for (const Experiment& e : group->list()) targets.push_back(here(e));
-  }
-  return targets;
-}
-
 std::vector<Way> ways_of(const ConvergeOptions& o) {
   std::vector<Way> chosen;
   if (o.all) chosen = ways();
   else if (!o.samplers.empty())
     for (const std::string& name : split(o.samplers)) chosen.push_back(way(name));
-  if (!o.points.empty()) {
-    const std::string name = std::filesystem::path(o.points).filename().string();
-    chosen.push_back(way_of_points(name, read_points(o.points, 64, std::size_t{1} << 28, 64)));
-  }
+  if (!o.points.empty()) chosen.push_back(way_of_points(o.points));
   mc::require(!chosen.empty(), "converge: name one of --samplers, or give --points-file");
   return chosen;
 }
@@ -103,14 +55,6 @@ std::string file_name(const std::string& name) {
   for (char& c : safe)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
   return safe;
-}
-
-std::filesystem::path folder_of(const std::string& name, const char* first_file) {
-  std::error_code failed;
-  std::filesystem::create_directories(name, failed);
-  mc::require(!failed, "cannot create the folder '{}': {}", name, failed.message());
-  mc::require_writable((std::filesystem::path(name) / first_file).string());
-  return name;
 }
 
 // Writes and prints one target. Returns whether gnuplot is there, which is not asked again without.
@@ -162,17 +106,8 @@ Run measure_all(const std::vector<Target>& targets, const std::vector<Way>& chos
 }
 
 std::vector<Option> rows(ConvergeOptions& o) {
-  return {
-      {"INTEGRAND", "", &o.integrands,
-       "Names (see --list), groups (books, genz, rates), or an expression, e.g. \"exp(-x*x)*cos(y)\" [books]"},
-      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:1,y=-1:2\""},
-      {"--plugin",
-       "FILE",
-       &o.plugin,
-       "Integrands of this shared object, compiled against <mc/check/plugin.h>",
-       false,
-       {"--domain"}},
-      {"--list", "", &o.list, "List the integrands and the samplers, and stop"},
+  std::vector<Option> all = integral_rows(o.integral);
+  const std::vector<Option> own = {
       {"--samplers", "NAMES", &o.samplers, "Comma-separated, see --list"},
       {"--all", "", &o.all, "Every sampler", false, {"--samplers"}},
       {"--points-file", "FILE", &o.points, "These points as one more sampler: a row each, coordinates in [0, 1)"},
@@ -180,36 +115,24 @@ std::vector<Option> rows(ConvergeOptions& o) {
       {"--replicates", "N", &o.replicates,
        "Independent repetitions behind each RMS error, 0: as many as make it known to 10 %"},
       {"--time", "SECONDS", &o.time, "Stop at smaller N where this runs out"},
-      {"--timeout", "SECONDS", &o.timeout, "Time that a plugin may take for the repetitions at one N"},
-      {"--memory", "GIB", &o.memory, "Memory that a plugin may take"},
       {"--seed", "N", &o.seed, "Seed"},
       {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
       {"-o,--output", "FOLDER", &o.output, "Folder for CSV, JSON, gnuplot script, SVG and PNG, and slopes.csv"},
       {"--report", "FOLDER", &o.report, "Write a page with all curves to this folder (index.html)"},
   };
-}
-
-int list() {
-  for (const Group& g : groups) {
-    fmt::print("{}: {}\n", g.name, g.title);
-    for (const Experiment& e : g.list()) fmt::print("  {:<24} {}\n", e.name, e.title);
-  }
-  fmt::print("samplers:\n");
-  for (const Way& w : ways()) fmt::print("  {:<24} {}\n", w.name, w.title);
-  return exit_ok;
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
 }
 
 int converge(const ConvergeOptions& o) {
-  if (o.list) return list();
+  if (o.integral.list) return list_integrals();
   mc::require(o.replicates == 0 || (o.replicates >= 8 && o.replicates <= 100'000),
               "--replicates {} must lie in [8, 100000], or be 0", o.replicates);
   mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
-  mc::require(o.timeout > 0 && o.timeout <= 1e6, "--timeout {} must lie in (0, 1e6] seconds", o.timeout);
-  mc::require(o.memory >= 0.25 && o.memory <= 1e6, "--memory {} must lie in [0.25, 1e6] GiB", o.memory);
   const Interrupt interrupt;
   const std::vector<Way> chosen = ways_of(o);
-  const std::vector<Target> targets = targets_of(o);
+  const std::vector<Target> targets = targets_of(o.integral);
   for (const Way& w : chosen)
     for (const Target& t : targets)
       mc::require(w.dimensions == 0 || w.dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions", w.name,

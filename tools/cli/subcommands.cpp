@@ -8,6 +8,7 @@ namespace carlo {
   row(slips);                                                                                                          \
   row(points);                                                                                                         \
   row(converge);                                                                                                       \
+  row(trade);                                                                                                          \
   row(integrate);                                                                                                      \
   row(render);                                                                                                         \
   row(compare);                                                                                                        \

@@ -63,6 +63,21 @@ Replicates replicate(const Target& target, const Way& way, std::uint64_t n, cons
   return all;
 }
 
+double median(std::vector<double> x) {
+  std::nth_element(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2), x.end());
+  return x[x.size() / 2];
+}
+
+// Whether the goals are passed with room to spare.
+bool is_enough(const Replicates& r, const Experiment& e, const MeasureOptions& o) {
+  if (o.cpu_goal > 0 && median(r.seconds) > o.cpu_goal) return true;
+  if (!(o.error_goal > 0)) return false;
+  const double centre = std::isfinite(e.truth) ? e.truth : mean_of(r.values);
+  double squares = 0;
+  for (const double x : r.values) squares += mc::sqr(x - centre) / static_cast<double>(r.values.size());
+  return std::sqrt(squares) < 0.7 * o.error_goal;
+}
+
 // The errors come later, when the truth is known. Nothing when it was interrupted.
 std::optional<Curve> run_curve(const Target& target, const Way& way, double seconds, const MeasureOptions& o,
                                const std::function<void(std::uint64_t n)>& progress) {
@@ -80,13 +95,10 @@ std::optional<Curve> run_curve(const Target& target, const Way& way, double seco
     if (*o.cancel) return {};
     last = elapsed() - before;
     progress(n);
+    const Replicates& r = curve.replicates.back();
+    if (curve.replicates.size() >= 3 && is_enough(r, target.integral, o)) break;
   }
   return curve;
-}
-
-double median(std::vector<double> x) {
-  std::nth_element(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2), x.end());
-  return x[x.size() / 2];
 }
 
 // The error of the reference may stand on either side.

@@ -14,8 +14,10 @@ namespace carlo {
 
 struct MeasureOptions {
   std::uint64_t max_n = 1 << 18;
-  int replicates = 0; ///< behind each RMS error; 0: as many as make it known to 10 %, 64 to 512
-  double seconds = 0; ///< wall-clock, shared by the ways; 0: until max_n
+  int replicates = 0;    ///< behind each RMS error; 0: as many as make it known to 10 %, 64 to 512
+  double error_goal = 0; ///< no larger N where the RMS error is this small; 0: until max_n
+  double cpu_goal = 0;   ///< nor where one estimate takes so many CPU seconds
+  double seconds = 0;    ///< wall-clock, shared by the ways; 0: until max_n
   std::uint64_t seed = 1;
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;

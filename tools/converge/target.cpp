@@ -18,7 +18,9 @@ double thread_cpu_seconds() {
 
 } // namespace
 
-Replicates run_here(const Experiment& e, const Task& task) {
+Replicates run_here(const Experiment& given, const Task& task) {
+  Experiment e = given;
+  if (task.way->one_by_one) e.many = {};
   Replicates r;
   for (auto* numbers : {&r.values, &r.calls, &r.seconds}) numbers->resize(task.count);
   mc::parallel_for(task.count, task.threads, [&](std::size_t i) {
@@ -34,7 +36,8 @@ Replicates run_here(const Experiment& e, const Task& task) {
 
 Target here(Experiment integral) {
   const auto shared = std::make_shared<const Experiment>(integral);
-  return {std::move(integral), [shared](const Task& task) { return run_here(*shared, task); }};
+  const bool has_batch = integral.many != nullptr;
+  return {std::move(integral), [shared](const Task& task) { return run_here(*shared, task); }, has_batch};
 }
 
 } // namespace carlo

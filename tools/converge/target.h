@@ -28,6 +28,7 @@ struct Task {
 struct Target {
   Experiment integral;
   std::function<Replicates(const Task& task)> run;
+  bool has_batch = false; ///< the integrand takes many points at once, too
 };
 
 /// One that runs in this process.

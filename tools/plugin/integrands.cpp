@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,6 +17,8 @@ namespace carlo {
 using nlohmann::json;
 
 namespace {
+
+constexpr std::size_t most_dimensions = 64; // load_plugin sees to it
 
 // The box of an integrand.
 struct Box {
@@ -46,28 +49,22 @@ Experiment experiment_of(const mc_integrand& f, Watch& watch) {
     for (std::size_t k = 0; k < u.size(); ++k) text += fmt::format("{}{:.17g}", k ? ", " : "", box.at(k, u[k]));
     return "x = (" + text + ")";
   };
-  e.many = [f, box, &watch](Experiment::Unit points, std::span<double> values) {
-    const std::size_t dim = box.lo.size();
-    std::vector<double> x(points.begin(), points.end());
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = box.at(i % dim, x[i]);
-    const int shown = std::min(f.dim, Watch::max_arguments);
-    if (f.eval_many) {
-      watch.enter("eval_many", "x", x.data(), shown);
-      f.eval_many(static_cast<std::int64_t>(values.size()), x.data(), values.data());
-      watch.leave();
-    } else {
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        watch.enter("eval", "x", x.data() + i * dim, shown);
-        values[i] = f.eval(x.data() + i * dim);
-        watch.leave();
-      }
-    }
-    for (double& value : values) value *= box.volume();
+  e.f = [f, box, &watch](Experiment::Unit u) {
+    std::array<double, most_dimensions> x;
+    for (std::size_t k = 0; k < u.size(); ++k) x[k] = box.at(k, u[k]);
+    watch.enter("eval", "x", x.data(), std::min(f.dim, Watch::max_arguments));
+    const double value = f.eval(x.data());
+    watch.leave();
+    return box.volume() * value;
   };
-  e.f = [many = e.many](Experiment::Unit u) {
-    double value = 0;
-    many(u, std::span(&value, 1));
-    return value;
+  if (!f.eval_many) return e;
+  e.many = [f, box, &watch](Experiment::Unit points, std::span<double> values) {
+    std::vector<double> x(points.begin(), points.end());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = box.at(i % box.lo.size(), x[i]);
+    watch.enter("eval_many", "x", x.data(), std::min(f.dim, Watch::max_arguments));
+    f.eval_many(static_cast<std::int64_t>(values.size()), x.data(), values.data());
+    watch.leave();
+    for (double& value : values) value *= box.volume();
   };
   return e;
 }
@@ -78,6 +75,7 @@ json describe(const std::vector<mc_integrand>& integrands) {
     all.push_back({{"name", f.name},
                    {"title", f.title ? f.title : f.name},
                    {"dim", f.dim},
+                   {"batch", f.eval_many != nullptr},
                    {"truth", f.has_truth ? json(f.truth) : json()}});
   return all;
 }
@@ -90,6 +88,8 @@ Replicates run(const std::string& path, std::size_t index, const Task& task, Wor
                      {"who", path},
                      {"index", index},
                      {"way", task.way->name},
+                     {"file", task.way->file},
+                     {"one_by_one", task.way->one_by_one},
                      {"n", task.n},
                      {"seed", task.seed},
                      {"first", task.first},
@@ -109,7 +109,10 @@ json run_integrand_task(const json& request, Watch& watch) {
   if (request["task"] == "describe integrands") return describe(plugin.integrands);
   const Experiment e = experiment_of(plugin.integrands[request["index"].get<std::size_t>()], watch);
   Task task;
-  task.way = &way(request["way"]);
+  const std::string file = request["file"];
+  Way chosen = file.empty() ? way(request["way"]) : way_of_points(file);
+  chosen.one_by_one = request["one_by_one"];
+  task.way = &chosen;
   task.n = request["n"];
   task.seed = request["seed"];
   task.first = request["first"];
@@ -139,6 +142,7 @@ std::vector<Target> plugin_targets(const std::string& path, const std::vector<st
     t.integral.dim = one["dim"];
     t.integral.truth = one["truth"].is_null() ? std::numeric_limits<double>::quiet_NaN() : one["truth"].get<double>();
     t.integral.fit_from = 0;
+    t.has_batch = one["batch"];
     t.run = [path, index, worker](const Task& task) { return run(path, index, task, worker); };
     targets.push_back(std::move(t));
   }

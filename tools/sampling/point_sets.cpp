@@ -20,26 +20,32 @@ namespace carlo {
 namespace {
 
 // Points first, first + 1, ... of the sampler, as many as there is room for.
-template <mc::Sampler T> void fill(const T& sampler, std::uint64_t first, std::size_t dim, std::span<double> points) {
+template <mc::Real S, mc::Sampler T>
+void fill(const T& sampler, std::uint64_t first, std::size_t dim, std::span<double> points) {
   for (std::size_t i = 0; i < points.size() / dim; ++i)
     for (std::size_t k = 0; k < dim; ++k)
-      points[i * dim + k] = mc::coordinate<double>(sampler, first + i, static_cast<std::uint32_t>(k));
+      points[i * dim + k] = static_cast<double>(mc::coordinate<S>(sampler, first + i, static_cast<std::uint32_t>(k)));
+}
+
+template <mc::Real S, class Make> PointSet::Mean mean_of(Make make) {
+  return [make](const Experiment& e, std::uint32_t count, std::uint64_t seed) {
+    const auto dim = static_cast<std::uint32_t>(e.dim);
+    const auto sampler = make(count, dim, seed);
+    return mean_over(e, count,
+                     [&](std::uint64_t first, std::span<double> points) { fill<S>(sampler, first, dim, points); });
+  };
 }
 
 // The points of a sampler made for (count, dim, seed).
 template <class Make> PointSet row(std::string name, std::string title, Make make) {
-  PointSet set{std::move(name), std::move(title), {}, {}};
+  PointSet set{std::move(name), std::move(title), {}, {}, {}};
   set.make = [make](std::uint32_t count, std::uint32_t dim, std::uint64_t seed) {
     std::vector<double> points(std::size_t{count} * dim);
-    fill(make(count, dim, seed), 0, dim, points);
+    fill<double>(make(count, dim, seed), 0, dim, points);
     return points;
   };
-  set.mean = [make](const Experiment& e, std::uint32_t count, std::uint64_t seed) {
-    const auto dim = static_cast<std::uint32_t>(e.dim);
-    const auto sampler = make(count, dim, seed);
-    return mean_over(e, count,
-                     [&](std::uint64_t first, std::span<double> points) { fill(sampler, first, dim, points); });
-  };
+  set.mean = mean_of<double>(make);
+  set.mean_in_float = mean_of<float>(make);
   return set;
 }
 

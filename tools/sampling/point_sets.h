@@ -16,8 +16,9 @@ struct PointSet {
   std::string title; ///< one line
   /// Coordinate k of point i at i * dim + k.
   std::function<std::vector<double>(std::uint32_t count, std::uint32_t dim, std::uint64_t seed)> make;
-  /// The mean of the integrand over them.
-  std::function<double(const Experiment& e, std::uint32_t count, std::uint64_t seed)> mean;
+  /// The mean of the integrand over them, and over them rounded to float.
+  using Mean = std::function<double(const Experiment& e, std::uint32_t count, std::uint64_t seed)>;
+  Mean mean, mean_in_float;
 };
 
 /// The mean of the integrand over n points; fill(first, points) writes those from `first` on, one after another.

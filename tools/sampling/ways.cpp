@@ -1,3 +1,4 @@
+#include <input/points_file.h>
 #include <sampling/point_sets.h>
 #include <sampling/ways.h>
 
@@ -9,17 +10,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 namespace carlo {
 
 namespace {
 
-Way of_set(const PointSet& set) {
+Way of_set(const std::string& name, const std::string& title, const PointSet::Mean& mean) {
   Way w;
-  w.name = set.name;
-  w.title = set.title;
-  w.estimate = [mean = set.mean](const Experiment& e, std::uint64_t n, std::uint64_t seed) {
+  w.name = name;
+  w.title = title;
+  w.estimate = [mean](const Experiment& e, std::uint64_t n, std::uint64_t seed) {
     return Sampled{mean(e, static_cast<std::uint32_t>(n), seed), static_cast<double>(n)};
   };
   return w;
@@ -51,7 +53,7 @@ Way of_method(std::string name, std::string title, mc::Method method, std::uint6
 
 std::vector<Way> make() {
   std::vector<Way> all;
-  for (const PointSet& set : point_sets()) all.push_back(of_set(set));
+  for (const PointSet& set : point_sets()) all.push_back(of_set(set.name, set.title, set.mean));
   all.push_back(of_method("stratified_rounds", "integrate(): rounds of jittered grids", mc::Method::stratified, 1024));
   all.push_back(of_method("rqmc", "integrate(): replicated scrambled Sobol' sequences", mc::Method::rqmc, 1024));
   all.push_back(of_method("vegas", "integrate(): the same through a learned importance grid", mc::Method::vegas, 2048));
@@ -59,7 +61,19 @@ std::vector<Way> make() {
   return all;
 }
 
+std::vector<Way> make_float() {
+  std::vector<Way> all;
+  for (const PointSet& set : point_sets())
+    all.push_back(of_set(set.name + "_float", set.title + "; coordinates in float", set.mean_in_float));
+  return all;
+}
+
 } // namespace
+
+const std::vector<Way>& float_ways() {
+  static const std::vector<Way> all = make_float();
+  return all;
+}
 
 const std::vector<Way>& ways() {
   static const std::vector<Way> all = make();
@@ -68,21 +82,23 @@ const std::vector<Way>& ways() {
 
 const Way& way(const std::string& name) {
   std::vector<std::string> names;
-  for (const Way& w : ways()) {
-    if (w.name == name) return w;
-    names.push_back(w.name);
-  }
+  for (const auto* list : {&ways(), &float_ways()})
+    for (const Way& w : *list) {
+      if (w.name == name) return w;
+      names.push_back(w.name);
+    }
   throw mc::Error(
       fmt::format("unknown sampler '{}'{}; use {}", name, mc::did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-Way way_of_points(const std::string& name, CsvTable table) {
+Way way_of_points(const std::string& file) {
+  const auto points = std::make_shared<const CsvTable>(read_points(file, 64, std::size_t{1} << 28, 64));
   Way w;
-  w.name = name;
+  w.name = std::filesystem::path(file).filename().string();
   w.title = "the points of this file, shifted at random";
-  w.most = table.rows();
-  w.dimensions = static_cast<int>(table.columns);
-  const auto points = std::make_shared<const CsvTable>(std::move(table));
+  w.file = std::filesystem::absolute(file).string();
+  w.most = points->rows();
+  w.dimensions = static_cast<int>(points->columns);
   w.estimate = [points](const Experiment& e, std::uint64_t n, std::uint64_t seed) {
     const auto dim = static_cast<std::size_t>(e.dim);
     const auto shifted = [&](std::uint64_t first, std::span<double> u) {

@@ -1,7 +1,6 @@
 #pragma once
 /// Every way of libmc to estimate an integral over the unit cube, by name.
 
-#include <input/csv.h>
 #include <integrands/experiments.h>
 
 #include <cstdint>
@@ -23,8 +22,10 @@ struct Way {
   std::string title;        ///< one line
   std::uint64_t least = 16; ///< fewest evaluations it can work with
   std::uint64_t most = 1 << 28;
-  int dimensions = 0;  ///< how many it has at most; 0: any
-  bool adapts = false; ///< its estimate depends on what it measured before
+  int dimensions = 0;      ///< how many it has at most; 0: any
+  bool adapts = false;     ///< its estimate depends on what it measured before
+  std::string file;        ///< of its points; empty: none
+  bool one_by_one = false; ///< integrands that take many points at once are given one
   /// An estimate from about n evaluations.
   ///   throws : Error with the place for an integrand that is not finite
   std::function<Sampled(const Experiment& e, std::uint64_t n, std::uint64_t seed)> estimate;
@@ -33,11 +34,15 @@ struct Way {
 /// The point sets of point_sets.h, then integrate() by its methods: stratified_rounds, rqmc, vegas, auto.
 const std::vector<Way>& ways();
 
+/// The point sets again, their coordinates rounded to float: NAME_float.
+const std::vector<Way>& float_ways();
+
 /// The way of that name. Throws Error naming the nearest for an unknown one.
 const Way& way(const std::string& name);
 
 /// The points of a file, a row each, moved round the cube by a random vector for each seed (Cranley-Patterson), which
 /// keeps their distances on the torus. n of them are its first n.
-Way way_of_points(const std::string& name, CsvTable points);
+///   throws : Error for a file that read_points refuses
+Way way_of_points(const std::string& file);
 
 } // namespace carlo

@@ -103,7 +103,7 @@ TEST_F(OutputTest, CtrlCWritesWhatIsFinished) {
 }
 
 TEST_F(OutputTest, EverySubcommandHasItsHelp) {
-  for (const char* name : {"validate", "slips", "converge", "integrate", "render", "compare"}) {
+  for (const char* name : {"validate", "slips", "points", "converge", "trade", "integrate", "render", "compare"}) {
     const Ran run = support::run_carlo(std::string(name) + " --help");
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.output, AllOf(HasSubstr("Usage: "), HasSubstr("Exit codes: ")));

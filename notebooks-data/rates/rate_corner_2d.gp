@@ -1,0 +1,30 @@
+# gnuplot rate_corner_2d.gp writes rate_corner_2d.svg and rate_corner_2d.png
+if (!exists("kind")) kind = "svg"
+if (kind eq "svg") set terminal svg size 1000,440 font "sans-serif,13" background "white"; set output "rate_corner_2d.svg"
+if (kind eq "png") set terminal pngcairo size 1000,440 font "sans-serif,11" background "white"; set output "rate_corner_2d.png"
+set datafile separator ","
+set border 3 lc rgb "#666666"
+set tics nomirror out
+set grid lc rgb "#e6e6e6" lt 1
+set multiplot layout 1,2 title "product of x^-0.15, 2 dimensions" noenhanced font ",15"
+set logscale xy
+set format y "10^{%L}"
+set key left bottom Left reverse samplen 2 spacing 1.2 tc rgb "#333333"
+set ylabel "root-mean-square error"
+set xlabel "samples N"
+set format x "10^{%L}"
+plot "rate_corner_2d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#4477aa" notitle, \
+     "rate_corner_2d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.49 ± 0.03}", \
+     0.355249 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
+     "rate_corner_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
+     "rate_corner_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.67 ± 0.03}", \
+     0.36014 * x**(-0.675) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
+     NaN notitle
+set xlabel "CPU seconds"
+set format x "10^{%L}"
+plot "rate_corner_2d.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#4477aa" notitle, \
+     "rate_corner_2d.csv" skip 1 using (strcol(2) eq "random" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random", \
+     "rate_corner_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
+     "rate_corner_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $7 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified", \
+     NaN notitle
+unset multiplot

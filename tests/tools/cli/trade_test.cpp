@@ -1,0 +1,64 @@
+// carlo trade: errors, budgets, what is written, and bad input. Times are not asserted.
+
+#include <tools/run_carlo.h>
+
+#include <support/files.h>
+
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+namespace {
+
+using Ran = support::Run;
+using testing::AllOf;
+using testing::HasSubstr;
+
+struct TradeCommand : support::ScratchTest {
+  Ran run(const std::string& arguments) const {
+    return support::run_carlo("trade " + arguments + " -o '" + path("out") + "'");
+  }
+  void expect_refused(const std::string& arguments, const std::string& words) const {
+    const Ran refused = run(arguments);
+    EXPECT_EQ(refused.exit_code, 2) << arguments << "\n" << refused.output;
+    EXPECT_EQ(std::count(refused.output.begin(), refused.output.end(), '\n'), 1) << refused.output;
+    EXPECT_THAT(refused.output, HasSubstr(words));
+  }
+};
+
+TEST_F(TradeCommand, TheCheapestWayToEachError) {
+  const Ran r = run("rate_smooth_2d --error 0.1,0.01 --max-n 2048");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(r.output, AllOf(HasSubstr("22 ways"), HasSubstr("  error 0.1: "), HasSubstr("  error 0.01: "),
+                              HasSubstr("times faster than plain Monte Carlo")));
+  const std::string json = mc::read_file(path("out/trade.json"));
+  EXPECT_THAT(json, AllOf(HasSubstr("\"way\": \"sobol_float\""), HasSubstr("\"gain_over_plain\""),
+                          HasSubstr("\"front\": "), HasSubstr("\"seed\": 1")));
+  EXPECT_THAT(mc::read_file(path("out/front.csv")), HasSubstr("way,n,cpu_seconds,rms_error"));
+}
+
+TEST_F(TradeCommand, AnErrorThatNoneReachesSaysHowFarEachCame) {
+  const Ran r = run("rate_jump_2d --error 1e-9 --max-n 1024");
+  EXPECT_EQ(r.exit_code, 1) << r.output;
+  EXPECT_THAT(r.output, AllOf(HasSubstr("  error 1e-09: no way came there; nearest: "), HasSubstr(" at N = 1024")));
+}
+
+TEST_F(TradeCommand, BatchesAgainstOneByOne) {
+  const Ran r = run(std::string("--plugin '") + PLUGIN_DIR + "/integrands.so' Batch --error 0.1 --max-n 64");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"way\": \"sobol (one by one)\""));
+}
+
+TEST_F(TradeCommand, BadInputIsOneLine) {
+  expect_refused("", "trade: name one integrand");
+  expect_refused("genz", "trade: name one integrand");
+  expect_refused("pi --error 0", "--error: '0' in '0' must be a number above 0");
+  expect_refused("pi --error 1e-2,,1e-3", "--error: '' in '1e-2,,1e-3'");
+  expect_refused("pi --seconds 0", "--seconds: '0' in '0' must be a number above 0");
+  expect_refused("pi --time 0", "--time 0 must lie in (0, 1e7] seconds");
+  expect_refused("'0*x' -d x=0:1 --max-n 64", "the integrand was 0 at every point");
+}
+
+} // namespace

@@ -1,0 +1,105 @@
+// What is chosen, on curves and clocks that are known.
+
+#include <converge/trade.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using carlo::Curve, carlo::Measurement, carlo::Offer, carlo::Ranged;
+
+// RMS = c N^-e with a band of 10 %, N = 16 to 4096.
+Curve power_law(const char* name, double c, double e) {
+  Curve curve;
+  curve.way = &carlo::way(name);
+  for (double n = 16; n <= 4096; n *= 2) {
+    const double rms = c * std::pow(n, -e);
+    curve.errors.push_back({n, rms, 0.9 * rms, 1.1 * rms, 1e-8 * n});
+  }
+  return curve;
+}
+
+// 10 ns for each evaluation, or 40 of a lattice; known to 5 %.
+Ranged clock(const Curve& c, double) {
+  const double t = c.way->name == "lattice" ? 40e-9 : 10e-9;
+  return {t, 0.95 * t, 1.05 * t};
+}
+
+Measurement measured() {
+  Measurement m;
+  m.curves = {power_law("random", 1, 0.5), power_law("sobol", 1, 1), power_law("halton", 1.02, 1),
+              power_law("lattice", 1, 1)};
+  return m;
+}
+
+TEST(Trade, EvaluationsAreWhereTheCurveComesBelow) {
+  const Curve c = power_law("sobol", 1, 1);
+  const auto n = evaluations_for(c, 1e-3);
+  ASSERT_TRUE(n);
+  EXPECT_NEAR(n->value, 1000, 1e-6);
+  EXPECT_NEAR(n->lo, 900, 1e-6);
+  EXPECT_NEAR(n->hi, 1100, 1e-6);
+  EXPECT_FALSE(evaluations_for(c, 1e-4));
+  EXPECT_EQ(evaluations_for(c, 1)->value, 16) << "it cannot take fewer";
+  // A dip that does not last is no arrival.
+  Curve dips = c;
+  dips.errors[2].rms = 1e-9;
+  EXPECT_NEAR(evaluations_for(dips, 1e-3)->value, 1000, 1e-6);
+  // The upper edge that never comes so low goes on as slowly as plain Monte Carlo.
+  const auto last = evaluations_for(c, 1.05 / 4096);
+  EXPECT_GE(last->hi, 4096);
+  EXPECT_LE(last->lo, last->value);
+}
+
+TEST(Trade, TheCheapestForAnError) {
+  const Measurement m = measured();
+  const carlo::ForError f = offers_for_error(m, 1e-3, clock);
+  ASSERT_EQ(f.offers.size(), 3u);
+  EXPECT_EQ(label(*f.offers[0].curve), "sobol");
+  EXPECT_EQ(label(*f.offers[1].curve), "halton");
+  EXPECT_EQ(label(*f.offers[2].curve), "lattice");
+  EXPECT_NEAR(f.offers[0].seconds.value, 1e-5, 1e-10);
+  EXPECT_NEAR(f.offers[0].seconds.lo, 1e-5 * 0.9 * 0.95, 1e-10);
+  EXPECT_NEAR(f.offers[0].seconds.hi, 1e-5 * 1.1 * 1.05, 1e-10);
+  EXPECT_EQ(as_good(f.offers, &Offer::seconds), 2u) << "2 % apart, known to 15 %";
+  // Plain Monte Carlo needs 1e6 evaluations, beyond what was measured: 1000 times as many.
+  ASSERT_EQ(f.nearest.size(), 1u);
+  EXPECT_NEAR(f.gain->value, 1000, 1e-6);
+  EXPECT_LT(f.gain->lo, 1000);
+  EXPECT_GT(f.gain->hi, 1000);
+}
+
+TEST(Trade, WhereNoneArrivesTheNearestAreNamed) {
+  const carlo::ForError f = offers_for_error(measured(), 1e-6, clock);
+  EXPECT_TRUE(f.offers.empty());
+  EXPECT_FALSE(f.gain);
+  ASSERT_EQ(f.nearest.size(), 4u);
+  EXPECT_EQ(f.nearest.back().curve->way->name, "random");
+}
+
+TEST(Trade, TheMostAccurateInATime) {
+  const carlo::ForSeconds f = offers_for_seconds(measured(), 1e-5, clock);
+  ASSERT_EQ(f.offers.size(), 4u);
+  EXPECT_EQ(f.offers[0].curve->way->name, "sobol");
+  EXPECT_NEAR(f.offers[0].error.value, 1e-3, 1e-9);
+  EXPECT_LT(f.offers[0].error.lo, 0.9e-3);
+  EXPECT_GT(f.offers[0].error.hi, 1.1e-3);
+  EXPECT_NEAR(f.gain->value, std::sqrt(1000), 1e-6);
+  EXPECT_TRUE(offers_for_seconds(measured(), 1e-9, clock).offers.empty());
+}
+
+TEST(Trade, TheFrontHoldsWhatNothingBeats) {
+  const Measurement m = measured();
+  const std::vector<Offer> front = pareto_front(m);
+  for (std::size_t i = 0; i < front.size(); ++i) {
+    EXPECT_TRUE(i == 0 || front[i].seconds.value > front[i - 1].seconds.value);
+    for (const Curve& c : m.curves)
+      for (const mc::RmsError& e : c.errors)
+        EXPECT_FALSE(e.seconds < front[i].seconds.value && e.rms < front[i].error.value);
+  }
+  EXPECT_EQ(front.size(), 9u) << "sobol at every N";
+}
+
+} // namespace

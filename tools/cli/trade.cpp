@@ -1,0 +1,297 @@
+#include <cli/integral_options.h>
+#include <cli/subcommand.h>
+#include <converge/output.h>
+#include <converge/trade.h>
+#include <report/plot.h>
+#include <report/report_json.h>
+#include <terminal/interrupt.h>
+#include <terminal/progress.h>
+#include <terminal/version.h>
+
+#include <mc/core/error.h>
+#include <mc/core/file.h>
+#include <mc/random/hash.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+
+namespace carlo {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct TradeOptions {
+  IntegralOptions integral;
+  std::string errors, seconds; ///< lists of numbers
+  std::uint64_t max_n = 1 << 18;
+  std::optional<double> time;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::string output = "out/trade";
+  std::string command;
+};
+
+std::vector<double> numbers(const char* option, const std::string& text) {
+  std::vector<double> all;
+  for (const std::string& word : split(text)) {
+    char* end = nullptr;
+    const double x = std::strtod(word.c_str(), &end);
+    mc::require(!word.empty() && *end == '\0' && x > 0 && std::isfinite(x), "{}: '{}' in '{}' must be a number above 0",
+                option, word, text);
+    all.push_back(x);
+  }
+  return all;
+}
+
+// Seconds of one evaluation near n as they were measured, one way after another: the median of the replicates, and the
+// order statistics that hold it with 95 %.
+Ranged as_measured(const Curve& c, double n) {
+  std::size_t i = 0;
+  while (i + 1 < c.errors.size() && c.errors[i].n < n) ++i;
+  std::vector<double> seconds = c.replicates[i].seconds;
+  std::sort(seconds.begin(), seconds.end());
+  const double count = static_cast<double>(seconds.size()), half = 0.98 * std::sqrt(count);
+  const auto at = [&](double rank) {
+    return seconds[static_cast<std::size_t>(std::clamp(rank, 0.0, count - 1))] / c.errors[i].n;
+  };
+  return {at(count / 2), at(count / 2 - half), at(count / 2 + half)};
+}
+
+// Runs the contenders in turn near their N, so that a busy moment falls on all of them.
+class TakenInTurn {
+ public:
+  TakenInTurn(const Target& target, const std::vector<Offer>& contenders, std::uint64_t seed,
+              const std::atomic<bool>* cancel) {
+    std::map<const Curve*, std::vector<double>> seconds;
+    for (std::uint64_t round = 0; round < rounds; ++round)
+      for (const Offer& o : contenders) {
+        const std::vector<mc::RmsError>& errors = o.curve->errors;
+        const double n = std::clamp(std::exp2(std::round(std::log2(o.n))), errors.front().n, errors.back().n);
+        const Replicates r =
+            target.run({o.curve->way, static_cast<std::uint64_t>(n), mc::hash(seed, 5), 3 * round, 3, 1, cancel});
+        seconds[o.curve].push_back(r.seconds[2] / std::max(r.calls[2], 1.0)); // the first fills caches
+      }
+    // The second and the eighth of nine hold the median with 96 % confidence.
+    for (auto& [curve, all] : seconds) {
+      std::sort(all.begin(), all.end());
+      medians_[curve] = {all[4], all[1], all[7]};
+    }
+  }
+
+  Ranged operator()(const Curve& curve, double n) const {
+    const auto it = medians_.find(&curve);
+    return it == medians_.end() ? as_measured(curve, n) : it->second;
+  }
+
+ private:
+  static constexpr std::uint64_t rounds = 9;
+  std::map<const Curve*, Ranged> medians_;
+};
+
+// The first offers, and plain Monte Carlo where it is one.
+std::vector<Offer> contenders(const std::vector<Offer>& offers) {
+  constexpr std::size_t most = 6;
+  std::vector<Offer> chosen(offers.begin(),
+                            offers.begin() + static_cast<std::ptrdiff_t>(std::min(most, offers.size())));
+  for (std::size_t i = most; i < offers.size(); ++i)
+    if (offers[i].curve->way->name == "random") chosen.push_back(offers[i]);
+  return chosen;
+}
+
+std::string text_of(const Ranged& r, const char* unit) {
+  return fmt::format("{:.3g}{} [{:.3g}, {:.3g}]", r.value, unit, r.lo, r.hi);
+}
+
+// "  as good: a, b" of those that cannot be told from the first.
+void print_ties(const std::vector<Offer>& offers, Ranged Offer::*by, const char* unit) {
+  const std::size_t count = as_good(offers, by);
+  for (std::size_t i = 1; i < count; ++i)
+    fmt::print("{}{} {}", i == 1 ? "      not told from it: " : ", ", label(*offers[i].curve),
+               text_of(offers[i].*by, unit));
+  if (count > 1) fmt::print("\n");
+}
+
+void print(const ForError& f) {
+  if (f.offers.empty()) {
+    fmt::print("  error {:g}: no way came there", f.wanted);
+    for (std::size_t i = 0; i < std::min<std::size_t>(f.nearest.size(), 4); ++i)
+      fmt::print("{} {} {:.3g} at N = {:.0f}", i == 0 ? "; nearest:" : ",", label(*f.nearest[i].curve),
+                 f.nearest[i].error.value, f.nearest[i].n);
+    fmt::print("; raise --max-n\n");
+    return;
+  }
+  const Offer& best = f.offers.front();
+  fmt::print("  error {:g}: {} in {} of CPU, N about {:.0f}", f.wanted, label(*best.curve), text_of(best.seconds, " s"),
+             best.n);
+  if (f.gain) fmt::print("; {} times faster than plain Monte Carlo", text_of(*f.gain, ""));
+  fmt::print("\n");
+  print_ties(f.offers, &Offer::seconds, " s");
+}
+
+void print(const ForSeconds& f) {
+  if (f.offers.empty()) {
+    fmt::print("  {:g} s: no way can begin in that time\n", f.wanted);
+    return;
+  }
+  const Offer& best = f.offers.front();
+  fmt::print("  {:g} s: {} with an error of {}, N about {:.0f}", f.wanted, label(*best.curve), text_of(best.error, ""),
+             best.n);
+  if (f.gain) fmt::print("; {} times smaller than plain Monte Carlo's", text_of(*f.gain, ""));
+  fmt::print("\n");
+  print_ties(f.offers, &Offer::error, "");
+}
+
+ordered_json to_json(const Ranged& r) { return {{"value", r.value}, {"lo", r.lo}, {"hi", r.hi}}; }
+ordered_json to_json(const std::vector<Offer>& offers) {
+  ordered_json all = ordered_json::array();
+  for (const Offer& o : offers)
+    all.push_back(
+        {{"way", label(*o.curve)}, {"n", o.n}, {"cpu_seconds", to_json(o.seconds)}, {"rms_error", to_json(o.error)}});
+  return all;
+}
+template <class For> ordered_json to_json(const For& f, Ranged Offer::*by) {
+  ordered_json j = {{"wanted", f.wanted}, {"as_good", f.offers.empty() ? 0 : as_good(f.offers, by)}};
+  if (f.gain) j["gain_over_plain"] = to_json(*f.gain);
+  j["offers"] = to_json(f.offers);
+  return j;
+}
+
+// All points, and the front drawn through the best of them.
+std::string script(const std::string& title, const Measurement& m) {
+  std::string s = plot_head("trade", 900, 640);
+  s += fmt::format("set title \"{}\" noenhanced\nset logscale xy\nset format xy \"10^{{%L}}\"\nset key outside right "
+                   "Left reverse samplen 1\nset xlabel \"CPU seconds of one estimate\"\nset ylabel \"root-mean-square "
+                   "error\"\nplot \"front.csv\" skip 1 using 3:4 with lines lw 6 lc rgb \"#dddddd\" title \"best\"",
+                   title);
+  for (std::size_t i = 0; i < m.curves.size(); ++i) {
+    std::string name = label(m.curves[i]);
+    s +=
+        fmt::format(", \\\n     \"trade.csv\" skip 1 using (strcol(1) eq \"{}\" ? $3 : NaN):4 with linespoints pt 7 ps "
+                    "0.4 lc rgb \"{}\" title \"{}\" noenhanced",
+                    name, color(i), name);
+  }
+  return s + "\n";
+}
+
+std::string csv(const std::vector<Offer>& offers) {
+  std::string text = "way,n,cpu_seconds,rms_error,rms_lo,rms_hi\n";
+  for (const Offer& o : offers)
+    text += fmt::format("{},{:.0f},{:.6g},{:.9g},{:.9g},{:.9g}\n", label(*o.curve), o.n, o.seconds.value, o.error.value,
+                        o.error.lo, o.error.hi);
+  return text;
+}
+
+std::vector<Offer> all_points(const Measurement& m) {
+  std::vector<Offer> all;
+  for (const Curve& c : m.curves)
+    for (const mc::RmsError& e : c.errors)
+      all.push_back({&c, e.n, {e.seconds, e.seconds, e.seconds}, {e.rms, e.lo, e.hi}});
+  return all;
+}
+
+// Every point set over double and float, every estimator; one point at a time, too, where the integrand takes many.
+std::vector<Way> configurations(const Target& target) {
+  std::vector<Way> all = ways();
+  all.insert(all.end(), float_ways().begin(), float_ways().end());
+  if (!target.has_batch) return all;
+  const std::size_t count = all.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    all.push_back(all[i]);
+    all.back().one_by_one = true;
+  }
+  return all;
+}
+
+std::vector<Option> rows(TradeOptions& o) {
+  std::vector<Option> all = integral_rows(o.integral);
+  const std::vector<Option> own = {
+      {"--error", "LIST", &o.errors, "RMS errors to reach, absolute: \"1e-2,1e-3\" [three decades below the integral]"},
+      {"--seconds", "LIST", &o.seconds, "Or CPU seconds to spend: \"0.001,0.01\"", false, {"--error"}},
+      {"--max-n", "N", &o.max_n, "Largest number of evaluations"},
+      {"--time", "SECONDS", &o.time, "Stop at smaller N where this runs out"},
+      {"--seed", "N", &o.seed, "Seed"},
+      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
+      {"-o,--output", "FOLDER", &o.output, "Folder for trade.json, .csv, .gp, .svg, .png and front.csv"},
+  };
+  all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
+int trade(const TradeOptions& o) {
+  if (o.integral.list) return list_integrals();
+  mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
+  mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
+  std::vector<double> errors = o.errors.empty() ? std::vector<double>() : numbers("--error", o.errors);
+  const std::vector<double> seconds = o.seconds.empty() ? std::vector<double>() : numbers("--seconds", o.seconds);
+  const Interrupt interrupt;
+  const std::vector<Target> targets = targets_of(o.integral);
+  mc::require(targets.size() == 1 && !o.integral.integrands.empty(), "trade: name one integrand; --list shows them");
+  const Target& target = targets.front();
+  const std::filesystem::path folder = folder_of(o.output, "trade.json");
+
+  const std::vector<Way> chosen = configurations(target);
+  Progress progress;
+  MeasureOptions options{.max_n = o.max_n, .seed = o.seed, .threads = o.threads, .cancel = interrupt.flag()};
+  options.seconds = o.time.value_or(0);
+  if (!errors.empty()) options.error_goal = *std::min_element(errors.begin(), errors.end());
+  if (!seconds.empty()) options.cpu_goal = *std::max_element(seconds.begin(), seconds.end());
+  options.progress = [&](double done, const std::string& where) { progress.show(done, where); };
+  const Measurement m = measure(target, chosen, options);
+  progress.clear();
+  if (m.interrupted) {
+    fmt::print("interrupted: {} of {} ways were measured, too few to choose from\n", m.curves.size(), chosen.size());
+    return exit_interrupted;
+  }
+  if (errors.empty() && seconds.empty())
+    for (const double share : {1e-2, 1e-3, 1e-4}) errors.push_back(share * (m.truth != 0 ? std::abs(m.truth) : 1.0));
+
+  const auto in_turn = [&](const std::vector<Offer>& offers) {
+    return TakenInTurn(target, contenders(offers), o.seed, interrupt.flag());
+  };
+  ordered_json j = {{"command", o.command}, {"commit", commit},
+                    {"seed", o.seed},       {"integrand", target.integral.name},
+                    {"truth", m.truth},     {"truth_error", m.truth_error}};
+  j["errors"] = j["seconds"] = ordered_json::array();
+  fmt::print("{}: {} ways, RMS errors to 10 %, CPU seconds of one estimate\n", target.integral.title, m.curves.size());
+  bool reached = true;
+  for (const double error : errors) {
+    const ForError f = offers_for_error(m, error, in_turn(offers_for_error(m, error, as_measured).offers));
+    reached = reached && !f.offers.empty();
+    print(f);
+    j["errors"].push_back(to_json(f, &Offer::seconds));
+    if (f.offers.empty()) j["errors"].back()["nearest"] = to_json(f.nearest);
+  }
+  for (const double budget : seconds) {
+    const ForSeconds f = offers_for_seconds(m, budget, in_turn(offers_for_seconds(m, budget, as_measured).offers));
+    reached = reached && !f.offers.empty();
+    print(f);
+    j["seconds"].push_back(to_json(f, &Offer::error));
+  }
+  if (!m.doubt.empty()) fmt::print("  warning: {}\n", m.doubt);
+  const std::vector<Offer> front = pareto_front(m);
+  j["front"] = to_json(front);
+  mc::write_file((folder / "trade.csv").string(), csv(all_points(m)));
+  mc::write_file((folder / "front.csv").string(), csv(front));
+  mc::write_file((folder / "trade.json").string(), j.dump(1) + "\n");
+  mc::write_file((folder / "trade.gp").string(), script(target.integral.title, m));
+  if (!draw_plot(folder, "trade"))
+    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
+  fmt::print("data and plots: {}\n", folder.string());
+  return reached && m.doubt.empty() ? exit_ok : exit_failed;
+}
+
+} // namespace
+
+Subcommand trade_subcommand() {
+  return make_subcommand<TradeOptions>(
+      "trade", "Tell the cheapest way to a wanted error, or the most accurate in a given time", rows, trade);
+}
+
+} // namespace carlo

@@ -1,0 +1,138 @@
+#include <converge/trade.h>
+
+#include <mc/core/types.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carlo {
+
+namespace {
+
+using Edge = double mc::RmsError::*;
+
+// The first N from which an edge of the band stays below the error; between two N a straight line in the logarithms.
+std::optional<double> crossing(const std::vector<mc::RmsError>& errors, Edge edge, double error) {
+  std::optional<std::size_t> first;
+  for (std::size_t i = errors.size(); i-- > 0 && errors[i].*edge <= error;) first = i;
+  if (!first) return {};
+  const mc::RmsError& below = errors[*first];
+  if (*first == 0) return below.n;
+  const mc::RmsError& above = errors[*first - 1];
+  if (!(below.*edge > 0)) return below.n;
+  const double t = std::log(above.*edge / error) / std::log(above.*edge / (below.*edge));
+  return above.n * std::pow(below.n / above.n, t);
+}
+
+// The error at n, by straight lines in the logarithms; at the ends those of the first and last two points.
+double error_at(const std::vector<mc::RmsError>& errors, Edge edge, double n) {
+  if (errors.size() < 2) return errors.front().*edge;
+  std::size_t i = 1;
+  while (i + 1 < errors.size() && errors[i].n < n) ++i;
+  const mc::RmsError &a = errors[i - 1], &b = errors[i];
+  if (!(a.*edge > 0 && b.*edge > 0)) return b.*edge;
+  return a.*edge * std::pow(b.*edge / (a.*edge), std::log(n / a.n) / std::log(b.n / a.n));
+}
+
+Offer offer_at(const Curve& c, const Ranged& n, const SecondsOfOne& seconds_of_one) {
+  const Ranged one = seconds_of_one(c, n.value);
+  Offer offer;
+  offer.curve = &c;
+  offer.n = n.value;
+  offer.seconds = {n.value * one.value, n.lo * one.lo, n.hi * one.hi};
+  offer.error = {error_at(c.errors, &mc::RmsError::rms, n.value), error_at(c.errors, &mc::RmsError::lo, n.value),
+                 error_at(c.errors, &mc::RmsError::hi, n.value)};
+  return offer;
+}
+
+Offer last_of(const Curve& c) {
+  const mc::RmsError& e = c.errors.back();
+  return {&c, e.n, {e.seconds, e.seconds, e.seconds}, {e.rms, e.lo, e.hi}};
+}
+
+const Curve* plain(const Measurement& m) {
+  for (const Curve& c : m.curves)
+    if (c.way->name == "random" && !c.way->one_by_one && !c.exact) return &c;
+  return nullptr;
+}
+
+Ranged ratio(const Ranged& a, const Ranged& b) { return {a.value / b.value, a.lo / b.hi, a.hi / b.lo}; }
+
+} // namespace
+
+std::string label(const Curve& c) { return c.way->name + (c.way->one_by_one ? " (one by one)" : ""); }
+
+std::optional<Ranged> evaluations_for(const Curve& c, double error) {
+  const auto n = crossing(c.errors, &mc::RmsError::rms, error);
+  if (!n) return {};
+  const double last = c.errors.back().n, above = c.errors.back().hi;
+  const auto lo = crossing(c.errors, &mc::RmsError::lo, error), hi = crossing(c.errors, &mc::RmsError::hi, error);
+  // Where the upper edge does not come so low, it goes on no slower than that of plain Monte Carlo.
+  return Ranged{*n, std::min(lo.value_or(*n), *n), std::max(hi.value_or(last * mc::sqr(above / error)), *n)};
+}
+
+std::size_t as_good(const std::vector<Offer>& offers, Ranged Offer::*by) {
+  std::size_t count = 1;
+  while (count < offers.size() && (offers[count].*by).lo <= (offers.front().*by).hi) ++count;
+  return std::min(count, offers.size());
+}
+
+ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne& seconds_of_one) {
+  ForError result{error, {}, {}, {}};
+  for (const Curve& c : m.curves) {
+    if (const auto n = evaluations_for(c, error)) result.offers.push_back(offer_at(c, *n, seconds_of_one));
+    else result.nearest.push_back(last_of(c));
+  }
+  std::sort(result.offers.begin(), result.offers.end(),
+            [](const Offer& a, const Offer& b) { return a.seconds.value < b.seconds.value; });
+  std::sort(result.nearest.begin(), result.nearest.end(),
+            [](const Offer& a, const Offer& b) { return a.error.value < b.error.value; });
+  if (const Curve* random = plain(m); random && !result.offers.empty()) {
+    const mc::RmsError& e = random->errors.back();
+    const Ranged n{e.n * mc::sqr(e.rms / error), e.n * mc::sqr(e.lo / error), e.n * mc::sqr(e.hi / error)};
+    const Ranged one = seconds_of_one(*random, std::min(n.value, e.n));
+    result.gain = ratio({n.value * one.value, n.lo * one.lo, n.hi * one.hi}, result.offers.front().seconds);
+  }
+  return result;
+}
+
+ForSeconds offers_for_seconds(const Measurement& m, double seconds, const SecondsOfOne& seconds_of_one) {
+  ForSeconds result{seconds, {}, {}};
+  for (const Curve& c : m.curves) {
+    double n = c.errors.back().n;
+    Ranged one = seconds_of_one(c, n);
+    n = std::min(n, seconds / one.value);
+    if (n < c.errors.front().n) continue; // it cannot even begin
+    one = seconds_of_one(c, n);
+    const Ranged range{seconds / one.value, seconds / one.hi, seconds / one.lo};
+    Offer offer = offer_at(c, {std::min(range.value, c.errors.back().n), range.lo, range.hi}, seconds_of_one);
+    // Fewer evaluations where they take longer than their median.
+    offer.error.lo =
+        std::min(offer.error.lo, error_at(c.errors, &mc::RmsError::lo, std::min(range.hi, c.errors.back().n)));
+    offer.error.hi = std::max(offer.error.hi, error_at(c.errors, &mc::RmsError::hi, range.lo));
+    result.offers.push_back(offer);
+  }
+  std::sort(result.offers.begin(), result.offers.end(),
+            [](const Offer& a, const Offer& b) { return a.error.value < b.error.value; });
+  for (const Offer& o : result.offers)
+    if (o.curve == plain(m)) result.gain = ratio(o.error, result.offers.front().error);
+  return result;
+}
+
+std::vector<Offer> pareto_front(const Measurement& m) {
+  std::vector<Offer> all;
+  for (const Curve& c : m.curves)
+    for (const mc::RmsError& e : c.errors)
+      all.push_back({&c, e.n, {e.seconds, e.seconds, e.seconds}, {e.rms, e.lo, e.hi}});
+  std::sort(all.begin(), all.end(), [](const Offer& a, const Offer& b) {
+    return std::pair(a.seconds.value, a.error.value) < std::pair(b.seconds.value, b.error.value);
+  });
+  std::vector<Offer> front;
+  for (const Offer& o : all)
+    if (front.empty() || o.error.value < front.back().error.value) front.push_back(o);
+  return front;
+}
+
+} // namespace carlo

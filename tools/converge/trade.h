@@ -1,0 +1,61 @@
+#pragma once
+/// Which way to take: the cheapest for an error, the most accurate for a time.
+
+#include <converge/measure.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace carlo {
+
+/// A figure with its 95 % interval.
+struct Ranged {
+  double value = 0, lo = 0, hi = 0;
+};
+
+/// What a way needs, or gives.
+struct Offer {
+  const Curve* curve = nullptr;
+  double n = 0;   ///< evaluations
+  Ranged seconds; ///< CPU, of one estimate
+  Ranged error;   ///< RMS
+};
+
+/// Every way that reaches an error, cheapest first.
+struct ForError {
+  double wanted = 0;
+  std::vector<Offer> offers;
+  std::vector<Offer> nearest; ///< where none reaches it: how far each came, best first
+  /// Plain Monte Carlo's seconds over those of the first; beyond its largest N by its law N^-1/2, which holds exactly.
+  std::optional<Ranged> gain;
+};
+
+/// Every way within a time, most accurate first.
+struct ForSeconds {
+  double wanted = 0;
+  std::vector<Offer> offers;
+  std::optional<Ranged> gain; ///< plain Monte Carlo's error over that of the first
+};
+
+/// Seconds of one evaluation of a curve near n: the median of runs that were taken in turn with those of the other
+/// ways, with its interval.
+using SecondsOfOne = std::function<Ranged(const Curve& curve, double n)>;
+
+/// The N at which the curve and the two edges of its band come below an error, between the measured N by straight lines
+/// in the logarithms. Nothing where the curve does not.
+std::optional<Ranged> evaluations_for(const Curve& curve, double error);
+
+ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne& seconds_of_one);
+ForSeconds offers_for_seconds(const Measurement& m, double seconds, const SecondsOfOne& seconds_of_one);
+
+/// How many of the first offers cannot be told from the best: their intervals overlap.
+std::size_t as_good(const std::vector<Offer>& offers, Ranged Offer::*by);
+
+/// Points that no other is both cheaper and more accurate than, cheapest first.
+std::vector<Offer> pareto_front(const Measurement& m);
+
+/// The name of a curve's way, and whether it was given one point at a time.
+std::string label(const Curve& curve);
+
+} // namespace carlo
