@@ -9,6 +9,13 @@ namespace mc {
 
 namespace {
 
+// Where the library is made for any machine, its loader chooses among clones of the loops that run over many points.
+#if defined(MC_ANY_MACHINE) && defined(__x86_64__) && !defined(__clang__)
+#define MC_CLONES [[gnu::target_clones("default", "avx2", "arch=skylake-avx512", "arch=icelake-server")]]
+#else
+#define MC_CLONES
+#endif
+
 constexpr std::uint64_t window = 256; // points whose index differs in the low bits only
 
 template <Sampler T> void fill(const T& sampler, std::uint64_t first, std::size_t dim, std::span<double> u) {
@@ -18,8 +25,8 @@ template <Sampler T> void fill(const T& sampler, std::uint64_t first, std::size_
 }
 
 // Scrambled coordinates of the points base + skip, ..., base + skip + count - 1, to the same places of x.
-void coordinates(const Sobol& sobol, std::uint64_t seed, std::uint32_t dim, std::uint64_t base, std::size_t skip,
-                 std::size_t count, std::array<std::uint32_t, window>& x) {
+MC_CLONES void coordinates(const Sobol& sobol, std::uint64_t seed, std::uint32_t dim, std::uint64_t base,
+                           std::size_t skip, std::size_t count, std::array<std::uint32_t, window>& x) {
   // Points base .. base + 2^k - 1 from the first half of them, their bits in reverse order.
   x[0] = reverse_bits(sobol.unscrambled(static_cast<std::uint32_t>(base), dim));
   for (std::uint32_t half = 1; half < skip + count; half *= 2) {
@@ -37,6 +44,24 @@ std::uint64_t spread(std::uint64_t x) {
   x = (x | x << 4) & 0x0f0f0f0f0f0f0f0fu;
   x = (x | x << 2) & 0x3333333333333333u;
   return (x | x << 1) & 0x5555555555555555u;
+}
+
+// Numbers of 52 bits, the middle of their interval: those of x, then hashed ones. To every dim-th place of out.
+MC_CLONES void extended(const std::uint32_t* x, std::uint64_t key, std::uint64_t index, std::size_t count,
+                        std::size_t dim, double* out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t low = mix64(key ^ (index + i)) & 0xfffff;
+    out[i * dim] = (static_cast<double>(std::uint64_t{x[i]} << 20 | low) + 0.5) * 0x1p-52;
+  }
+}
+
+// The same from the 26 leading bits of x and y in turn, put behind the point of 1.x.
+MC_CLONES void interlaced(const std::uint32_t* x, const std::uint32_t* y, std::size_t count, std::size_t dim,
+                          double* out) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t bits = spread(x[i] >> 6) << 1 | spread(y[i] >> 6);
+    out[i * dim] = std::bit_cast<double>(bits | 0x3ff0000000000000u) - (1 - 0x1p-53);
+  }
 }
 
 // Calls visit(base, skip, count, out) for windows of points that cover u.
@@ -58,11 +83,7 @@ void fill(const ScrambledSobol& set, std::uint64_t first, std::size_t dim, std::
       const auto dimension = static_cast<std::uint32_t>(d);
       if (dimension < Sobol::dimensions) {
         coordinates(sobol, set.seed, dimension, base, skip, count, x);
-        const std::uint64_t key = hash(set.seed, dimension);
-        for (std::size_t i = 0; i < count; ++i) { // 52 bits, then the middle of their interval
-          const std::uint64_t low = mix64(key ^ (base + skip + i)) & 0xfffff;
-          out[i * dim + d] = (static_cast<double>(std::uint64_t{x[skip + i]} << 20 | low) + 0.5) * 0x1p-52;
-        }
+        extended(&x[skip], hash(set.seed, dimension), base + skip, count, dim, out + d);
       } else {
         for (std::size_t i = 0; i < count; ++i)
           out[i * dim + d] = coordinate<double>(sobol, base + skip + i, dimension);
@@ -79,10 +100,7 @@ void fill(const InterlacedSobol& set, std::uint64_t first, std::size_t dim, std:
     for (std::size_t d = 0; d < dim; ++d) {
       coordinates(sobol, set.seed, static_cast<std::uint32_t>(2 * d), base, skip, count, x);
       coordinates(sobol, set.seed, static_cast<std::uint32_t>(2 * d + 1), base, skip, count, y);
-      for (std::size_t i = 0; i < count; ++i) { // 52 bits after the point of 1.x, then the middle of their interval
-        const std::uint64_t bits = spread(x[skip + i] >> 6) << 1 | spread(y[skip + i] >> 6);
-        out[i * dim + d] = std::bit_cast<double>(bits | 0x3ff0000000000000u) - (1 - 0x1p-53);
-      }
+      interlaced(&x[skip], &y[skip], count, dim, out + d);
     }
   });
 }

@@ -1,29 +1,26 @@
-#include <render/accel/block_tree.h>
 #include <render/accel/bvh.h>
-#include <render/accel/sphere_block.h>
-#include <render/accel/triangle_block.h>
+#include <render/accel/trees.h>
 
-#include <tuple>
 #include <vector>
 
 namespace render {
 
-/// The kinds of leaf, in the order in which a ray tries them.
-struct Bvh::Trees : std::tuple<BlockTree<TriangleBlock>, BlockTree<SphereBlock>> {
-  using tuple::tuple;
-  Trees() = default;
-  explicit Trees(std::span<const Shape* const> shapes)
-      : tuple(BlockTree<TriangleBlock>(shapes), BlockTree<SphereBlock>(shapes)) {}
+namespace {
 
-  template <bool any> bool trace(const Ray& ray, Hit& hit) const {
-    Float t_max = ray.t_max;
-    bool found = false;
-    const auto one = [&](const auto& tree) { found |= tree.template intersect<any>(ray, t_max, hit); };
-    std::apply([&](const auto&... tree) { ((any && found ? void() : one(tree)), ...); }, kinds());
-    return found;
-  }
-  const tuple& kinds() const { return *this; }
-};
+#if defined(RENDER_TRACE_CHOSEN)
+const Bvh::Trace& best_trace() {
+  __builtin_cpu_init();
+  const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi");
+  const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
+  return avx2 && avx512 ? trace_avx512 : avx2 ? trace_avx2 : trace_baseline;
+}
+const Bvh::Trace trace = best_trace();
+#else
+constexpr const Bvh::Trace& trace = trace_native;
+#endif
+
+} // namespace
 
 Bvh::Bvh() : Bvh(std::span<const Shape* const>{}) {}
 
@@ -40,12 +37,12 @@ Bvh::Bvh(std::span<const Shape> shapes)
 
 std::optional<Hit> Bvh::intersect(const Ray& ray) const {
   Hit hit;
-  return trees_->trace<false>(ray, hit) ? std::optional(hit) : std::nullopt;
+  return trace.nearest(*trees_, ray, hit) ? std::optional(hit) : std::nullopt;
 }
 
 bool Bvh::occluded(const Ray& ray) const {
   Hit hit;
-  return trees_->trace<true>(ray, hit);
+  return trace.any(*trees_, ray, hit);
 }
 
 } // namespace render

@@ -24,8 +24,10 @@ class Bvh {
   /// Box of everything; empty for an empty scene.
   const Box& bounds() const { return bounds_; }
 
- private:
   struct Trees;
+  struct Trace;
+
+ private:
   std::shared_ptr<const Trees> trees_;
   Box bounds_;
 };

@@ -3,15 +3,16 @@
 
 #include <render/core/types.h>
 
-#if defined(__AVX__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
 namespace render {
 
-/// Eight lanes; the compiler maps them to the widest registers it may use.
-typedef Float Lanes __attribute__((vector_size(8 * sizeof(Float))));
-typedef double EightDoubles __attribute__((vector_size(8 * sizeof(double))));
+/// Eight lanes; the compiler maps them to the widest registers it may use. Aligned for these whichever they are, since
+/// code for one instruction set reads what code for another wrote.
+typedef Float Lanes __attribute__((vector_size(8 * sizeof(Float)), aligned(8 * sizeof(Float))));
+typedef double EightDoubles __attribute__((vector_size(8 * sizeof(double)), aligned(8 * sizeof(double))));
 
 namespace detail {
 
@@ -21,6 +22,12 @@ inline unsigned less_equal(const Lanes& a, const Lanes& b) {
   if constexpr (sizeof(Float) == 4) {
     return static_cast<unsigned>(_mm256_movemask_ps(
         _mm256_cmp_ps(reinterpret_cast<const __m256&>(a), reinterpret_cast<const __m256&>(b), _CMP_LE_OQ)));
+  }
+#elif defined(__SSE2__)
+  if constexpr (sizeof(Float) == 4) {
+    const auto *four_a = reinterpret_cast<const __m128*>(&a), *four_b = reinterpret_cast<const __m128*>(&b);
+    return static_cast<unsigned>(_mm_movemask_ps(_mm_cmple_ps(four_a[0], four_b[0])) |
+                                 _mm_movemask_ps(_mm_cmple_ps(four_a[1], four_b[1])) << 4);
   }
 #endif
   unsigned mask = 0;
