@@ -100,7 +100,7 @@ typedef struct mc_sampler {
   int32_t open_interval; ///< 1: sample wants u in (0,1)^uniforms, no u is 0
   /// With outcomes: the probability of outcome k. The pdf integrates to what they leave of 1.
   double (*probability)(const void* self, int32_t k);
-  /// Optional: where the density jumps along axis k of the domain, k < its dimensions; expected counts then are exact.
+  /// Optional: where the density jumps along axis k of the domain, k < its dimensions. Not looked at yet.
   ///           An axis is a coordinate of an interval or box; radius and azimuth in degrees (disk, annulus); angle from
   ///           +z and azimuth in degrees (sphere, hemisphere). Sets *places to ascending numbers that stay valid as
   ///           long as self, and returns how many.
