@@ -1,0 +1,158 @@
+#include <mc/check/fit/tests/slabs.h>
+
+#include <mc/check/fit/alpha_shares.h>
+#include <mc/stats/binomial.h>
+#include <mc/stats/multiple_testing.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mc {
+namespace {
+
+double count_between(const std::vector<double>& sorted, double lo, double hi) {
+  return static_cast<double>(std::upper_bound(sorted.begin(), sorted.end(), hi) -
+                             std::lower_bound(sorted.begin(), sorted.end(), lo));
+}
+
+// The place on an axis where most samples share one value, up to rounding.
+bool find_atom(const Subject& s, const Pilot& pilot, const std::vector<double>& v, Slab& slab) {
+  const std::size_t axis = slab.axis;
+  const auto width = [&](double a) { return 64 * s.epsilon * std::abs(a) + 1e-300; };
+  double at = 0;
+  std::size_t most = 0;
+  for (std::size_t i = 0, j = 0; i < v.size(); ++i) {
+    while (j < v.size() && v[j] <= v[i] + width(v[i])) ++j;
+    if (j - i <= most) continue;
+    most = j - i;
+    at = v[i];
+  }
+  if (most < 3) return false;
+  double blur = width(at);
+  if (s.resolution) {
+    for (Subject::Coordinates p : pilot.nearest(axis, at)) {
+      p[axis] = at;
+      blur = std::max(blur, 8 * s.resolution(p, static_cast<int>(axis)));
+    }
+  }
+  slab.box.lo[axis] = std::max(at - blur, 0.0);
+  slab.box.hi[axis] = std::min(at + 2 * blur, 1.0);
+  slab.count = count_between(v, slab.box.lo[axis], slab.box.hi[axis]);
+  return slab.box.hi[axis] > slab.box.lo[axis];
+}
+
+// The widest gap of a place on an axis, in spacings of the 64 samples around it. Exponential spacings are seldom more
+// than 16 times their mean, so that a right sampler rarely pays for the test.
+enum class Place : std::uint8_t { low_end, inside, high_end };
+
+bool find_gap(const Subject& s, const std::vector<double>& v, Place place, Slab& slab) {
+  constexpr std::ptrdiff_t around = 32;
+  const auto n = static_cast<std::ptrdiff_t>(v.size());
+  if (n < 4 * around) return false;
+  const std::ptrdiff_t from = place == Place::low_end ? -1 : place == Place::inside ? 0 : n - 1;
+  const std::ptrdiff_t to = place == Place::low_end ? -1 : place == Place::inside ? n - 2 : n - 1;
+  const auto at = [&](std::ptrdiff_t i) { return i < 0 ? 0.0 : i >= n ? 1.0 : v[static_cast<std::size_t>(i)]; };
+  double widest = 16;
+  std::ptrdiff_t below = -2;
+  for (std::ptrdiff_t i = from; i <= to; ++i) {
+    const std::ptrdiff_t first = std::max<std::ptrdiff_t>(i - around, 0), last = std::min(i + 1 + around, n - 1);
+    // Rounding may carry samples just out of the chart, where nothing is claimed.
+    if (at(i) < 0 || at(i + 1) > 1) continue;
+    const double gap = at(i + 1) - at(i), inside = i >= 0 && i + 1 < n ? gap : 0;
+    const double spacing = (at(last) - at(first) - inside) / static_cast<double>(last - first - (inside > 0 ? 1 : 0));
+    if (gap > widest * spacing && gap > 1e4 * s.epsilon) widest = gap / spacing, below = i;
+  }
+  if (below < -1) return false;
+  const double margin = (at(below + 1) - at(below)) / 64; // the samples at its edges are not of the gap
+  slab.box.lo[slab.axis] = below < 0 ? 0.0 : at(below) + margin;
+  slab.box.hi[slab.axis] = below + 1 >= n ? 1.0 : at(below + 1) - margin;
+  return true;
+}
+
+// Whether the points beside a gap are rounded to steps as wide as it is.
+bool is_rounding(const Subject& s, const Pilot& pilot, const Slab& gap) {
+  const double lo = gap.box.lo[gap.axis], hi = gap.box.hi[gap.axis];
+  double step = 0;
+  for (const Subject::Coordinates& p : pilot.nearest(gap.axis, (lo + hi) / 2))
+    step = std::max(step, rounding(s, p, gap.axis));
+  return hi - lo <= rounded_steps * step;
+}
+
+} // namespace
+
+EstimatedMass slab_mass(const Subject& s, const Pilot& pilot, std::size_t axis, const UnitBox& box,
+                        std::uint64_t seed) {
+  std::vector<UnitBox> pieces{box};
+  const std::size_t cuts = s.dim == 2 ? 64 : 16;
+  for (std::size_t other = 0; other < static_cast<std::size_t>(s.dim); ++other) {
+    if (other == axis) continue;
+    std::vector<UnitBox> finer;
+    for (UnitBox piece : pieces) {
+      for (std::size_t k = 1; k < cuts; ++k) {
+        const double cut = pilot.sorted[other][k * pilot.sorted[other].size() / cuts];
+        if (!(cut > piece.lo[other] && cut < piece.hi[other])) continue;
+        finer.push_back(piece);
+        finer.back().hi[other] = piece.lo[other] = cut;
+      }
+      finer.push_back(piece);
+    }
+    pieces = std::move(finer);
+  }
+  return estimate_mass(s, pieces, s.dim == 1 ? 1024 : s.dim == 2 ? 6 : 2, seed);
+}
+
+std::vector<Slab> find_slabs(const Subject& s, const Pilot& pilot, const std::array<std::vector<double>, 3>& sorted) {
+  std::vector<Slab> slabs;
+  const auto add = [&](Slab slab) {
+    slab.mass = slab_mass(s, pilot, slab.axis, slab.box, slabs.size() + 1);
+    slabs.push_back(std::move(slab));
+  };
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
+    Slab atom;
+    atom.axis = axis;
+    if (find_atom(s, pilot, sorted[axis], atom)) add(std::move(atom));
+    for (const Place place : {Place::low_end, Place::inside, Place::high_end}) {
+      Slab gap;
+      gap.kind = Slab::Kind::gap;
+      gap.axis = axis;
+      if (find_gap(s, sorted[axis], place, gap) && !is_rounding(s, pilot, gap)) add(std::move(gap));
+    }
+  }
+  return slabs;
+}
+
+Check test_slabs(const Subject& s, Slab::Kind kind, const std::vector<Slab>& slabs, double n, double mass,
+                 double alpha) {
+  const bool atom = kind == Slab::Kind::atom;
+  Check c{atom ? "no atoms" : "no gaps",
+          Verdict::pass,
+          1.0,
+          alpha_share(atom ? FitTest::atoms : FitTest::gaps, s.dim),
+          0,
+          0,
+          atom ? Fault::atom : Fault::local,
+          {}};
+  const double family = n * s.dim;
+  for (const Slab& slab : slabs) {
+    if (slab.kind != kind) continue;
+    const double slack = 4 * std::sqrt(slab.mass.safe_variance()), share = slab.count / n;
+    // Rounding moves samples by whole steps: twice as many as expected are no atom yet.
+    const double claimed = atom ? 2 * (slab.mass.value + slack) : (slab.mass.value - slack) / mass;
+    if (atom ? share <= claimed : share >= claimed) continue;
+    // The slab lies where one sample is, or between two: that much is given.
+    const double p = sidak(binomial_tail(atom ? slab.count - 1 : 0, n, std::min(claimed, 1.0)), family);
+    if (p >= *c.p) continue;
+    c.p = p;
+    c.statistic = slab.count;
+    c.detail = fmt::format("{} samples, {:.3g} expected, with coordinate {} of the chart in [{:.17g}, {:.17g}]",
+                           slab.count, n * slab.mass.value, slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis]);
+  }
+  if (*c.p <= sidak_level(alpha, c.share)) c.verdict = Verdict::fail;
+  else c.detail.clear();
+  return c;
+}
+
+} // namespace mc

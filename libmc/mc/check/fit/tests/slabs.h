@@ -1,0 +1,49 @@
+#pragma once
+/// Thin slabs of the unit cube that hold more or fewer samples than any right sampler puts there.
+
+#include <mc/check/fit/expected/reference.h>
+#include <mc/check/fit/pilot.h>
+#include <mc/check/report/report.h>
+
+#include <array>
+#include <vector>
+
+namespace mc {
+
+/// How far rounding moves a coordinate of points near v: Subject::resolution, or what it says of subjects without one.
+inline double rounding(const Subject& s, const Subject::Coordinates& v, std::size_t axis) {
+  return s.resolution ? s.resolution(v, static_cast<int>(axis)) : s.epsilon * v[axis];
+}
+
+/// What is narrower than so many steps of rounding is not tested: a sampler rounds on the way, too.
+inline constexpr double rounded_steps = 64;
+
+/// A slab across one axis, between two values of its coordinate.
+///   atom : a few units in the last place wide, where the most samples are: a clamp or a fallback value puts an atom
+///          there that no cell is small enough to see
+///   gap  : empty, and wide against the spacing of the samples beside it: a wrong constant or a clamp leaves a hole
+///          there
+struct Slab {
+  enum class Kind : std::uint8_t { atom, gap } kind = Kind::atom;
+  std::size_t axis = 0;
+  UnitBox box;
+  double count = 0;   ///< samples in it
+  EstimatedMass mass; ///< claimed by the density
+};
+
+/// The integral of the density over a slab, cut at the pilot's quantiles of the other axes so that no lobe is missed.
+EstimatedMass slab_mass(const Subject& s, const Pilot& pilot, std::size_t axis, const UnitBox& box, std::uint64_t seed);
+
+/// Per axis the place where most samples share one value up to rounding, and the gaps that are widest in spacings of
+/// the samples beside them: the widest inside, and those at both ends. `sorted` holds the coordinates of the samples by
+/// axis.
+std::vector<Slab> find_slabs(const Subject& s, const Pilot& pilot, const std::array<std::vector<double>, 3>& sorted);
+
+/// The slabs of one kind against their mass, on the side that the kind suspects: too many at an atom, none in a gap. A
+/// slab was chosen among as many as there are samples, which the p-value takes into account; four standard deviations
+/// of the mass are conceded. Spends alpha_share(atoms) or alpha_share(gaps).
+///   n, mass : samples drawn; what the density integrates to, 1 where samples may fail
+Check test_slabs(const Subject& s, Slab::Kind kind, const std::vector<Slab>& slabs, double n, double mass,
+                 double alpha);
+
+} // namespace mc
