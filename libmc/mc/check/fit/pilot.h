@@ -10,14 +10,11 @@ namespace mc {
 
 struct Pilot {
   std::vector<Subject::Coordinates> points;
-  std::vector<double> densities;             ///< claimed at the points
   std::array<std::vector<double>, 3> sorted; ///< the coordinates of the points, by axis
   DrawTally tally;
 
   /// The share of the pilot below v on an axis.
   double rank(std::size_t axis, double v) const;
-  /// The 16 points that are nearest to v on an axis.
-  std::vector<Subject::Coordinates> nearest(std::size_t axis, double v) const;
 };
 
 /// pilot_samples(samples) draws.
@@ -26,8 +23,5 @@ Pilot draw_pilot(const Subject& subject, std::uint64_t seed, std::uint64_t sampl
 /// Samples that make the cells: an eighth of those that are counted, at least 1000, at most 2^20, which is 256 for each
 /// of 4096 cells.
 std::uint64_t pilot_samples(std::uint64_t samples);
-
-/// Sorts numbers that are not NaN; in linear time where they are many.
-void sort_numbers(std::vector<double>& values);
 
 } // namespace mc

@@ -24,15 +24,4 @@ TEST(Pilot, RanksAreSharesOfItsPoints) {
   EXPECT_NEAR(pilot.rank(0, 0.25), 0.5, 0.025); // 5 standard deviations
 }
 
-TEST(Pilot, NumbersAreSorted) {
-  mc::Pcg random(3);
-  std::vector<double> values;
-  for (int i = 0; i < 40'000; ++i) values.push_back((random.uniform<double>() - 0.25) * std::exp2(-i % 60));
-  values.insert(values.end(), {0.0, -0.0, 1.0, -1.0});
-  std::vector<double> expected = values;
-  std::sort(expected.begin(), expected.end());
-  mc::sort_numbers(values);
-  EXPECT_EQ(values, expected);
-}
-
 } // namespace

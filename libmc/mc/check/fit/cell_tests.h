@@ -1,0 +1,40 @@
+#pragma once
+/// Every statistical test that can be made of counts in cells, under one family-wise alpha.
+
+#include <mc/check/report/report.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace mc {
+
+/// A bin with the probability that the claimed density gives it.
+struct Cell {
+  double p = 0;
+  double error = 0; ///< bound on the quadrature error of p
+  std::uint64_t observed = 0;
+  std::array<double, 3> rank_lo{}, rank_hi{1, 1, 1}; ///< the cell's extent in the ranks of a pilot sample, per axis
+};
+
+struct CellTests {
+  std::vector<Check> checks;
+  double detectable = 0, detectable_cell = 0; ///< see Report
+};
+
+/// Tests counts against probabilities, given their sum (atoms are cells of their own, at the end). Spends the shares
+/// of alpha_shares.h.
+///   chi-square : the cells form a binary tree in their order; at each node the split of its count between its halves
+///   is
+///                binomial and independent of all other nodes, so the levels give independent chi-squares, each
+///                sensitive to errors of its own size
+///   tails      : per axis, the mean of ln r and ln(1 - r) over the ranks r of the samples, a score with two degrees of
+///                freedom: powerful against wrong exponents, roughness, rotations and shifts
+///   KS         : along each axis in turn, on the cells (conservative)
+///   cells      : exact binomial tails of single cells and of tree nodes, the smallest p of all
+/// The bound on the quadrature error moves each statistic in favour of the sampler before it may reject; where that
+/// matters, or the bound alone would be an effect worth finding, the verdict is inconclusive.
+///   dim : axes with ranks, 0 to 3;  cells expecting less than 8 are pooled with their neighbours in order
+CellTests test_cells(const std::vector<Cell>& cells, int dim, double alpha);
+
+} // namespace mc

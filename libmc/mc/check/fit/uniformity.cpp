@@ -1,0 +1,56 @@
+#include <mc/check/fit/uniformity.h>
+
+#include <mc/stats/chi_square.h>
+#include <mc/stats/ks_test.h>
+#include <mc/stats/multiple_testing.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mc {
+
+std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& points, int dim, double error,
+                                     double alpha, double share) {
+  const double n = static_cast<double>(points.size()), root = std::sqrt(n);
+  // What the error could add to each statistic, in standard deviations: at most 6 e sqrt(n) for the least of them.
+  if (root * error > 0.05) return {};
+  Check c{"inverted samples are uniform", Verdict::pass, 1.0, share, 0, 0, Fault::inverse, {}};
+  double family = 0;
+  const auto note = [&](double p, double statistic, const std::string& what) {
+    family += 1;
+    if (p >= *c.p) return;
+    c.p = p, c.statistic = statistic, c.detail = what;
+  };
+  const auto moment = [&](double sum, double mean, double variance, double slope, const std::string& what) {
+    const double z = (sum / n - mean) / std::sqrt(variance / n), bias = slope * error / std::sqrt(variance / n);
+    note(normal_tail(std::max(std::abs(z) - bias, 0.0)), z,
+         fmt::format("{} is {:.6g}, {:.6g} expected", what, sum / n, mean));
+  };
+  for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
+    std::vector<double> values;
+    values.reserve(points.size());
+    double mean = 0, square = 0;
+    for (const auto& u : points) {
+      values.push_back(u[a]);
+      mean += u[a], square += u[a] * u[a];
+    }
+    const KsTest ks = ks_test(std::move(values), [](double x) { return std::clamp(x, 0.0, 1.0); });
+    note(kolmogorov_tail(std::max(ks.d - error, 0.0) * (root + 0.12 + 0.11 / root)), ks.d,
+         fmt::format("axis {}: D = {:.3g} at u = {:.6g}", a, ks.d, ks.at));
+    moment(mean, 1.0 / 2, 1.0 / 12, 1, fmt::format("axis {}: mean", a));
+    moment(square, 1.0 / 3, 4.0 / 45, 2, fmt::format("axis {}: mean square", a));
+    for (std::size_t b = 0; b < a; ++b) {
+      double product = 0;
+      for (const auto& u : points) product += (u[a] - 0.5) * (u[b] - 0.5);
+      moment(product, 0, 1.0 / 144, 1, fmt::format("axes {} and {}: covariance", b, a));
+    }
+  }
+  c.p = sidak(*c.p, family);
+  if (*c.p <= sidak_level(alpha, share)) c.verdict = Verdict::fail;
+  else c.detail.clear();
+  return c;
+}
+
+} // namespace mc

@@ -1,0 +1,25 @@
+#pragma once
+/// Counts in cells as a report shows them.
+
+#include <mc/check/fit/cell_tests.h>
+#include <mc/check/fit/partition.h>
+#include <mc/check/report/report.h>
+#include <mc/check/subject/subject.h>
+
+#include <vector>
+
+namespace mc {
+
+/// The five cells or outcomes whose counts are farthest from what the density claims, worst first. The first cells lie
+/// in `boxes`, the others are outcomes.
+///   scale : what a cell's p is multiplied by to give its expected count
+std::vector<WorstCell> worst_cells(const Subject& subject, const std::vector<UnitBox>& boxes,
+                                   const std::vector<Cell>& cells, double scale);
+
+/// All counts, of cells and of outcomes.
+void add_counts(const std::vector<UnitBox>& boxes, const std::vector<Cell>& cells, double scale, Evidence& evidence);
+
+/// The subject's axes, named v0, v1, ... where it names none.
+std::vector<Axis> named_axes(const Subject& subject);
+
+} // namespace mc

@@ -1,0 +1,97 @@
+#include <mc/check/subject/rotation.h>
+
+#include <mc/core/types.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mc {
+namespace {
+
+// What a turn takes off a chi-square is no chance, and what remains is, or is little beside it.
+bool explains(double before, double after, double dof, double least_gain) {
+  const double gain = before - after;
+  return gain >= least_gain && after - dof <= std::max(3 * std::sqrt(2 * dof), 0.25 * gain);
+}
+
+// Integral of the density over the face of a box on the axis, by Gauss's rule in the other axes.
+double face(const Subject& s, const UnitBox& box, std::size_t axis, double at) {
+  static constexpr double node = 0.3872983346207417; // sqrt(3/5) / 2
+  double sum = 0, area = 1;
+  std::array<std::size_t, 2> others{};
+  std::size_t n = 0;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
+    if (d != axis) area *= box.hi[d] - box.lo[d], others[n++] = d;
+  const auto value = [&](double a, double b) {
+    Subject::Coordinates v{};
+    v[axis] = std::min(at, 1 - 1e-12);
+    const std::array<double, 2> t{a, b};
+    for (std::size_t k = 0; k < n; ++k)
+      v[others[k]] = box.lo[others[k]] + (0.5 + t[k]) * (box.hi[others[k]] - box.lo[others[k]]);
+    return s.density(v);
+  };
+  for (const auto& [a, wa] : {std::pair{-node, 5.0}, {0.0, 8.0}, {node, 5.0}}) {
+    if (n < 2) sum += wa * value(a, 0) / 18;
+    else
+      for (const auto& [b, wb] : {std::pair{-node, 5.0}, {0.0, 8.0}, {node, 5.0}}) sum += wa * wb * value(a, b) / 324;
+  }
+  return area * sum;
+}
+
+} // namespace
+
+std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Partition& partition,
+                                    const std::vector<Cell>& cells, const std::vector<Partition::Coordinates>& pilot) {
+  const auto size = static_cast<std::size_t>(partition.size());
+  double n = 0, mass = 0;
+  for (std::size_t i = 0; i < size; ++i) n += static_cast<double>(cells[i].observed), mass += cells[i].p;
+  if (!(mass > 0) || n == 0 || size < 8) return {};
+
+  double before = 0, dof = 0, score = 0, information = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const double expected = n * cells[i].p / mass;
+    if (!(expected >= 5)) continue;
+    const UnitBox box = partition.box(static_cast<int>(i));
+    const double off = static_cast<double>(cells[i].observed) - expected;
+    const double rate = n / mass * (face(s, box, axis, box.lo[axis]) - face(s, box, axis, box.hi[axis]));
+    dof += 1, before += off * off / expected;
+    score += rate * off / expected, information += rate * rate / expected;
+  }
+  const double turn_of_score = score / information; // NaN when no turn changes the density
+  if (std::isfinite(information) && std::abs(turn_of_score) < 0.01 &&
+      explains(before, before - score * turn_of_score, dof, 25))
+    return turn_of_score;
+
+  // Runs of cells that 16 thousand points of the pilot fill.
+  const std::size_t stride = std::max<std::size_t>(1, pilot.size() / 16384);
+  std::size_t run = 1;
+  while (run < size && size / run > pilot.size() / stride / 64) run *= 2;
+  std::vector<double> p(size / run);
+  for (std::size_t i = 0; i < size; ++i) p[i / run] += cells[i].p / mass;
+  const auto chi_square = [&](double turn) {
+    std::vector<double> count(p.size());
+    double m = 0;
+    for (std::size_t i = 0; i < pilot.size(); i += stride) {
+      Partition::Coordinates v = pilot[i];
+      v[axis] = std::min(v[axis] - turn - std::floor(v[axis] - turn), 1 - 0x1p-53);
+      ++count[static_cast<std::size_t>(partition.cell(v)) / run], ++m;
+    }
+    double sum = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) sum += sqr(count[i] - m * p[i]) / std::max(m * p[i], 1.0);
+    return sum;
+  };
+  const double unturned = chi_square(0);
+  double best = unturned, turn = 0;
+  const auto try_turn = [&](double t) {
+    if (const double c = chi_square(t); c < best) best = c, turn = t;
+  };
+  for (int k = 1; k < 72; ++k) try_turn(k / 72.0);
+  for (const double step : {1 / 216.0, 1 / 648.0, 1 / 1944.0})
+    for (const double t : {turn - step, turn + step}) try_turn(t);
+  // Two chi-squares of the same points differ by 2 sqrt(dof) by chance, and the best of many turns by three times that.
+  const double groups = static_cast<double>(p.size());
+  if (!explains(unturned, best, groups, 25 + 10 * std::sqrt(groups))) return {};
+  return turn > 0.5 ? turn - 1 : turn;
+}
+
+} // namespace mc

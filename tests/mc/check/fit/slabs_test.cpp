@@ -1,0 +1,79 @@
+#include <mc/check/fit/slabs.h>
+
+#include <mc/check/subject/make_subject.h>
+#include <mc/domain/interval.h>
+#include <mc/warp/spherical_triangle.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace {
+
+using Kind = mc::Slab::Kind;
+
+// The slabs of 20000 samples on [0,1], with the mass of the uniform density.
+template <class Sampler> std::vector<mc::Slab> slabs(Sampler sampler) {
+  const mc::Subject s = make_subject("slabs", mc::Interval<double>(0, 1), sampler, [](double) { return 1.0; });
+  std::vector<mc::Subject::Draw> draws;
+  s.draw(5, 20'000, draws);
+  std::vector<mc::Subject::Coordinates> pilot;
+  std::array<std::vector<double>, 3> sorted;
+  for (const auto& d : draws) pilot.push_back(d.v), sorted[0].push_back(d.v[0]);
+  std::sort(sorted[0].begin(), sorted[0].end());
+  std::vector<mc::Slab> found = suspect_slabs(s, pilot, sorted);
+  integrate_slabs(s, found, 1e6, 1'000'000);
+  return found;
+}
+
+TEST(Slabs, UniformSamplesAreNotSuspect) {
+  EXPECT_TRUE(slabs([](mc::Pcg& r) { return r.uniform<double>(); }).empty());
+}
+
+TEST(Slabs, AClampIsAnAtom) {
+  const auto found = slabs([](mc::Pcg& r) { return std::max(r.uniform<double>(), 1e-3); });
+  const auto atom = std::find_if(found.begin(), found.end(), [](const mc::Slab& s) { return s.kind == Kind::atom; });
+  ASSERT_NE(atom, found.end());
+  EXPECT_LE(atom->box.lo[0], 1e-3);
+  EXPECT_GE(atom->box.hi[0], 1e-3);
+  EXPECT_LE(atom->mass, 1e-12);
+  EXPECT_GE(atom->pilot_count, 8u); // 20 expected; fewer than 8 once in 1000 seeds
+}
+
+// Holes of 0.004, each 80 spacings wide.
+TEST(Slabs, HolesAreGapsInsideAndAtBothEnds) {
+  const auto found = slabs([](mc::Pcg& r) {
+    for (;;) {
+      const double x = r.uniform<double>();
+      if (x > 0.004 && !(x > 0.5 && x < 0.504) && x < 0.996) return x;
+    }
+  });
+  std::vector<double> middles;
+  for (const mc::Slab& s : found) {
+    EXPECT_EQ(s.kind, Kind::gap);
+    EXPECT_NEAR(s.mass, 0.004, 5e-4);
+    middles.push_back((s.box.lo[0] + s.box.hi[0]) / 2);
+  }
+  EXPECT_THAT(middles, testing::ElementsAre(testing::DoubleNear(0.002, 1e-3), testing::DoubleNear(0.502, 1e-3),
+                                            testing::DoubleNear(0.998, 1e-3)));
+}
+
+// A triangle of 1e-4 seen in float: its points are rounded to steps of 1e-3 of its chart, and some lie just outside.
+TEST(Slabs, RoundingIsNoGap) {
+  const mc::SphericalTriangle<float> triangle(mc::Vec3<float>(0.3f, -0.2f, 0.9f), mc::Vec3<float>(1e-4f, 1e-5f, -2e-5f),
+                                              mc::Vec3<float>(3e-5f, 1e-4f, 5e-6f));
+  const mc::Subject s = make_subject("tiny triangle", triangle);
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    std::vector<mc::Subject::Draw> draws;
+    s.draw(seed, 100'000, draws);
+    std::vector<mc::Subject::Coordinates> pilot;
+    std::array<std::vector<double>, 3> sorted;
+    for (const auto& d : draws) pilot.push_back(d.v), sorted[0].push_back(d.v[0]), sorted[1].push_back(d.v[1]);
+    for (auto& axis : sorted) std::sort(axis.begin(), axis.end());
+    for (const mc::Slab& slab : suspect_slabs(s, pilot, sorted))
+      EXPECT_NE(slab.kind, Kind::gap) << slab.box.lo[slab.axis] << " to " << slab.box.hi[slab.axis];
+  }
+}
+
+} // namespace
