@@ -6,6 +6,14 @@
 #include <mc/estimate/mis.h>
 #include <mc/estimate/russian_roulette.h>
 
+// g++ gives up inlining where three kinds of streams share a file, and calls of a few instructions cost a twentieth of
+// the time. Under the sanitizers flat functions would take half an hour to compile.
+#if defined(NDEBUG)
+#define RENDER_FLAT [[gnu::flatten]]
+#else
+#define RENDER_FLAT
+#endif
+
 namespace render {
 
 struct PathOptions {
@@ -102,9 +110,8 @@ template <class SceneType> class PathIntegrator {
     return emitted * mc::power_heuristic(walk.previous_pdf, other);
   }
 
-  // Light from one direction towards a light, reflected toward wo. Flat, as scatter: g++ gives up inlining where three
-  // kinds of streams share a file, and calls of a few instructions cost a twentieth of the time.
-  template <class Stream> [[gnu::flatten]] Spectrum connect(const At& at, Stream& stream, std::uint64_t& rays) const {
+  // Light from one direction towards a light, reflected toward wo.
+  template <class Stream> RENDER_FLAT Spectrum connect(const At& at, Stream& stream, std::uint64_t& rays) const {
     const auto choice = scene_.light_choice()->sample_index(scene_.lights().size() > 1 ? stream.next() : Float(0));
     const Light& source = scene_.lights()[choice.index];
     const auto s = source.sample(at.point.p, stream.next2());
@@ -121,7 +128,7 @@ template <class SceneType> class PathIntegrator {
   }
 
   // The next direction; false where the path ends.
-  template <class Stream> [[gnu::flatten]] bool scatter(const At& at, Walk& walk, Stream& stream) const {
+  template <class Stream> RENDER_FLAT bool scatter(const At& at, Walk& walk, Stream& stream) const {
     const auto next = directions_.choose(at, stream);
     if (!next) return false;
     walk.beta *= next->weight;
