@@ -16,10 +16,10 @@ struct Ranged {
 
 /// What a way needs, or gives.
 struct Offer {
-  const Curve* curve = nullptr;
-  double n = 0;   ///< evaluations
-  Ranged seconds; ///< CPU, of one estimate
-  Ranged error;   ///< RMS
+  const Curve* curve = nullptr; ///< of the measurement, which must outlive the offer
+  double n = 0;                 ///< evaluations
+  Ranged seconds;               ///< CPU, of one estimate
+  Ranged error;                 ///< RMS
 };
 
 /// Every way that reaches an error, cheapest first.

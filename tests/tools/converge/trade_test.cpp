@@ -27,11 +27,15 @@ Ranged clock(const Curve& c, double) {
   return {t, 0.95 * t, 1.05 * t};
 }
 
-Measurement measured() {
-  Measurement m;
-  m.curves = {power_law("random", 1, 0.5), power_law("sobol", 1, 1), power_law("halton", 1.02, 1),
-              power_law("lattice", 1, 1)};
-  return m;
+// Outlives the offers, which point into it.
+const Measurement& measured() {
+  static const Measurement all = [] {
+    Measurement m;
+    m.curves = {power_law("random", 1, 0.5), power_law("sobol", 1, 1), power_law("halton", 1.02, 1),
+                power_law("lattice", 1, 1)};
+    return m;
+  }();
+  return all;
 }
 
 TEST(Trade, EvaluationsAreWhereTheCurveComesBelow) {
@@ -54,7 +58,7 @@ TEST(Trade, EvaluationsAreWhereTheCurveComesBelow) {
 }
 
 TEST(Trade, TheCheapestForAnError) {
-  const Measurement m = measured();
+  const Measurement& m = measured();
   const carlo::ForError f = offers_for_error(m, 1e-3, clock);
   ASSERT_EQ(f.offers.size(), 3u);
   EXPECT_EQ(label(*f.offers[0].curve), "sobol");
@@ -91,7 +95,7 @@ TEST(Trade, TheMostAccurateInATime) {
 }
 
 TEST(Trade, TheFrontHoldsWhatNothingBeats) {
-  const Measurement m = measured();
+  const Measurement& m = measured();
   const std::vector<Offer> front = pareto_front(m);
   for (std::size_t i = 0; i < front.size(); ++i) {
     EXPECT_TRUE(i == 0 || front[i].seconds.value > front[i - 1].seconds.value);
