@@ -112,7 +112,7 @@ TEST(Layout, LinesFitTheScreen) {
 }
 
 // But for families of one kind, of which one is read and the others follow.
-TEST(Layout, DISABLED_AFolderHoldsAtMostFifteenSources) {
+TEST(Layout, AFolderHoldsAtMostFifteenSources) {
   const std::set<std::string> families = {"libmc/mc/warp",   "libmc/mc/domain", "tests/mc/warp",
                                           "tests/mc/domain", "tools/catalogue", "librender/render/io/mitsuba"};
   std::map<std::string, int> count;
@@ -142,7 +142,7 @@ std::string circle(const Graph& graph, const std::string& node, std::vector<std:
 
 // Folders are the nodes; in a folder with rooms below it, each file is one: its headers stand below the rooms, the
 // files that put the rooms together above them.
-TEST(Layout, DISABLED_NobodyIncludesInACircle) {
+TEST(Layout, NobodyIncludesInACircle) {
   std::set<std::string> folders;
   for (const char* base : {"libmc", "librender", "tools"})
     for (const fs::path& file : sources(fs::path(base))) folders.insert(file.parent_path().string());

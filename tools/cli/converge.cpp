@@ -2,6 +2,7 @@
 #include <converge/measure.h>
 #include <converge/output.h>
 #include <converge/page.h>
+#include <input/words.h>
 #include <report/plot.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
@@ -43,7 +44,7 @@ std::vector<Way> ways_of(const ConvergeOptions& o) {
   std::vector<Way> chosen;
   if (o.all) chosen = ways();
   else if (!o.samplers.empty())
-    for (const std::string& name : split(o.samplers)) chosen.push_back(way(name));
+    for (const std::string_view name : split(o.samplers, ',')) chosen.push_back(way(std::string(name)));
   if (!o.points.empty()) chosen.push_back(way_of_points(o.points));
   mc::require(!chosen.empty(), "converge: name one of --samplers, or give --points-file");
   return chosen;
@@ -137,8 +138,8 @@ int converge(const ConvergeOptions& o) {
     for (const Target& t : targets)
       mc::require(w.dimensions == 0 || w.dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions", w.name,
                   w.dimensions, t.integral.name, t.integral.dim);
-  const std::filesystem::path folder = folder_of(o.output, "slopes.csv");
-  const std::filesystem::path page = o.report.empty() ? "" : folder_of(o.report, "index.html") / "index.html";
+  const std::filesystem::path folder = mc::output_folder(o.output, "slopes.csv");
+  const std::filesystem::path page = o.report.empty() ? "" : mc::output_folder(o.report, "index.html") / "index.html";
 
   const Run run = measure_all(targets, chosen, o, folder, interrupt.flag());
   std::string slopes = slopes_header();

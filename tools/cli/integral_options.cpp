@@ -73,22 +73,4 @@ int list_integrals() {
   return exit_ok;
 }
 
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> words;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    words.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return words;
-}
-
-std::filesystem::path folder_of(const std::string& name, const char* first_file) {
-  std::error_code failed;
-  std::filesystem::create_directories(name, failed);
-  mc::require(!failed, "cannot create the folder '{}': {}", name, failed.message());
-  mc::require_writable((std::filesystem::path(name) / first_file).string());
-  return name;
-}
-
 } // namespace carlo

@@ -4,7 +4,6 @@
 #include <cli/subcommand.h>
 #include <converge/target.h>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -26,11 +25,5 @@ std::vector<Target> targets_of(const IntegralOptions& o);
 
 /// Prints the integrands and the ways to sample them.
 int list_integrals();
-
-/// The words between commas.
-std::vector<std::string> split(const std::string& text);
-
-/// The folder, made where it is missing. Throws Error where `first_file` cannot be written in it.
-std::filesystem::path folder_of(const std::string& name, const char* first_file);
 
 } // namespace carlo

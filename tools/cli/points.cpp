@@ -220,14 +220,6 @@ Measured measure_all(const PointsOptions& o, int& dim) {
   return m;
 }
 
-std::filesystem::path made_folder(const std::string& name) {
-  std::error_code failed;
-  std::filesystem::create_directories(name, failed);
-  mc::require(!failed, "cannot create the folder '{}': {}", name, failed.message());
-  mc::require_writable((std::filesystem::path(name) / "points.csv").string());
-  return name;
-}
-
 void write(const PointsOptions& o, const std::filesystem::path& folder, const Measured& m, int dim,
            std::optional<int> t) {
   const mc::PointList first{m.sets[0], static_cast<std::size_t>(dim)};
@@ -289,7 +281,7 @@ int points(const PointsOptions& o) {
   mc::require(o.randomisations >= 1 && o.randomisations <= 1000, "points: --randomisations {} must lie in [1, 1000]",
               o.randomisations);
   if (o.file.empty()) point_set(o.set);
-  const std::filesystem::path folder = made_folder(o.output);
+  const std::filesystem::path folder = mc::output_folder(o.output, "points.csv");
   int dim = o.dim;
   const Measured m = measure_all(o, dim);
   if (m.rows.empty()) return exit_interrupted;

@@ -2,6 +2,7 @@
 #include <cli/subcommand.h>
 #include <converge/output.h>
 #include <converge/trade.h>
+#include <input/words.h>
 #include <report/plot.h>
 #include <report/report_json.h>
 #include <terminal/interrupt.h>
@@ -40,7 +41,8 @@ struct TradeOptions {
 
 std::vector<double> numbers(const char* option, const std::string& text) {
   std::vector<double> all;
-  for (const std::string& word : split(text)) {
+  for (const std::string_view part : split(text, ',')) {
+    const std::string word(part);
     char* end = nullptr;
     const double x = std::strtod(word.c_str(), &end);
     mc::require(!word.empty() && *end == '\0' && x > 0 && std::isfinite(x), "{}: '{}' in '{}' must be a number above 0",
@@ -234,7 +236,7 @@ int trade(const TradeOptions& o) {
   const std::vector<Target> targets = targets_of(o.integral);
   mc::require(targets.size() == 1 && !o.integral.integrands.empty(), "trade: name one integrand; --list shows them");
   const Target& target = targets.front();
-  const std::filesystem::path folder = folder_of(o.output, "trade.json");
+  const std::filesystem::path folder = mc::output_folder(o.output, "trade.json");
 
   const std::vector<Way> chosen = configurations(target);
   Progress progress;

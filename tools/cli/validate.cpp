@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <mutex>
 #include <set>
 
@@ -65,18 +64,6 @@ std::uint64_t seed_of(const Case& c, const ValidateOptions& o) {
   for (const char letter : o.samples_file.empty() ? c.title() : std::string("samples"))
     seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
   return seed;
-}
-
-// The page's file in that folder, which is created where it is missing.
-std::string page_in(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  mc::require(!error && std::filesystem::is_directory(folder),
-              "validate: --report '{}' is no folder and cannot be made one{}; name another", folder,
-              error ? fmt::format(" ({})", error.message()) : std::string());
-  const std::string file = (std::filesystem::path(folder) / "index.html").string();
-  mc::require_writable(file);
-  return file;
 }
 
 std::string error_text(double e) { return e > 0 ? fmt::format("{:.2g} %", 100 * e) : std::string("-"); }
@@ -249,17 +236,18 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
 }
 
 // What did not pass, then how many did.
-void print_summary(const ValidateOptions& o, const Run& run, std::size_t asked) {
+void print_summary(const Run& run, std::size_t asked) {
   std::size_t passed = 0, inconclusive = 0;
   for (std::size_t i = 0; i < run.cases.size(); ++i) {
     const mc::Report& r = run.reports[i];
     passed += r.passed();
     inconclusive += r.verdict() == mc::Verdict::inconclusive;
-    if (!r.passed()) fmt::print("\n{}\n  again: {}\n", r.to_string(), command_again(*run.cases[i], o, asked));
+    if (!r.passed())
+      fmt::print("\n{}\n  again: {}\n", r.to_string(), command_again(*run.cases[i], run.settings, asked));
   }
   fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed,
              run.cases.size(), inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(),
-             o.alpha, o.samples, o.seed);
+             run.settings.alpha, run.settings.samples, run.settings.seed);
   if (run.interrupted) fmt::print("interrupted: {} of {} cases were finished\n", run.cases.size(), asked);
 }
 
@@ -281,11 +269,14 @@ int validate(const ValidateOptions& options) {
   mc::require(o.alpha > 0 && o.alpha < 1, "validate: --alpha {} must lie in (0, 1)", o.alpha);
   const double alpha = mc::sidak_level(o.alpha, 1 / static_cast<double>(cases.size()));
   require_possible(o, alpha, brought.samples);
-  const std::string page = o.report.empty() ? "" : page_in(o.report);
+  const std::string page = o.report.empty() ? "" : (mc::output_folder(o.report, "index.html") / "index.html").string();
 
   const Finished finished = check_all(cases, o, alpha, interrupt.flag());
-  const Run run{o, finished.cases, finished.reports, finished.cases.size() < cases.size()};
-  print_summary(o, run, cases.size());
+  const Run run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty()},
+                finished.cases,
+                finished.reports,
+                finished.cases.size() < cases.size()};
+  print_summary(run, cases.size());
   if (!o.junit.empty()) write_junit(o.junit, run);
   if (!o.json.empty()) write_json(o.json, run);
   if (!page.empty()) {

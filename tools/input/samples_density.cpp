@@ -5,7 +5,7 @@
 #include <integrands/expression.h>
 
 #include <mc/check/check_subject.h>
-#include <mc/check/fit/cubature.h>
+#include <mc/check/fit/expected/cubature.h>
 #include <mc/core/error.h>
 #include <mc/core/sum.h>
 #include <mc/random/hash.h>

@@ -2,7 +2,7 @@
 #include <input/deal.h>
 #include <input/samples_density.h>
 #include <input/samples_file.h>
-#include <input/sides.h>
+#include <integrands/sides.h>
 
 #include <render/io/image_io.h>
 

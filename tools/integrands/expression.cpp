@@ -1,7 +1,7 @@
 /// The only file that includes muParser.
 
-#include <input/sides.h>
 #include <integrands/expression.h>
+#include <integrands/sides.h>
 
 #include <mc/core/error.h>
 

@@ -1,6 +1,7 @@
 /// Both ends of the requests about a plugin: carlo's, and the worker's.
 
-#include <plugin/parameters.h>
+#include <input/parameters.h>
+#include <plugin/check_request.h>
 #include <plugin/plugin.h>
 #include <report/report_json.h>
 
@@ -96,17 +97,10 @@ Case make_case(const std::string& path, std::size_t index, const Description& d,
   c.again = fmt::format("--plugin '{}' {}", path, d.name);
   if (!set.empty()) c.again += fmt::format(" --params '{}'", c.parameters);
   c.check = [=, title = c.title()](const CaseOptions& o) {
-    return report_from_json(call_worker({{"task", "check"},
-                                         {"who", path},
-                                         {"index", index},
-                                         {"parameters", values},
-                                         {"title", title},
-                                         {"samples", o.samples},
-                                         {"seed", o.seed},
-                                         {"alpha", o.alpha},
-                                         {"evidence", o.evidence},
-                                         {"open_interval", o.open_interval}},
-                                        worker));
+    json request = check_request("check", path, title, o);
+    request["index"] = index;
+    request["parameters"] = values;
+    return report_from_json(call_worker(std::move(request), worker));
   };
   return c;
 }
@@ -116,14 +110,9 @@ Case make_case(const std::string& path, std::size_t index, const Description& d,
 json run_plugin_task(const json& request, Watch& watch) {
   const std::string path = request["who"];
   if (request["task"] == "describe") return describe(path, watch);
-  CaseOptions options;
-  options.samples = request["samples"];
-  options.seed = request["seed"];
-  options.alpha = request["alpha"];
-  options.evidence = request["evidence"];
-  options.open_interval = request["open_interval"];
   const mc_sampler sampler = load_plugin(path, watch).samplers[request["index"].get<std::size_t>()];
-  return to_json(check_plugin(PluginSampler(sampler, request["parameters"], watch), request["title"], options));
+  return to_json(
+      check_plugin(PluginSampler(sampler, request["parameters"], watch), request["title"], requested_options(request)));
 }
 
 Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& texts, const WorkerOptions& worker) {

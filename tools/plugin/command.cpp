@@ -1,4 +1,5 @@
 #include <input/parsed_domain.h>
+#include <plugin/check_request.h>
 #include <plugin/command.h>
 #include <process/child.h>
 #include <report/report_json.h>
@@ -176,12 +177,7 @@ json run_command_task(const json& request, Watch& watch) {
   const auto program =
       std::make_shared<Program>(request["who"].get<std::string>(), request["uniforms"].get<std::size_t>(),
                                 parse_domain(text).columns.size(), watch);
-  mc::LawOptions o;
-  o.samples = request["samples"];
-  o.seed = request["seed"];
-  o.alpha = request["alpha"];
-  o.evidence = request["evidence"];
-  o.open_interval = request["open_interval"];
+  auto o = mc::with_statistics(mc::LawOptions(), requested_options(request));
   o.max_evaluations = 1'000'000; // each is an exchange with the program
   AnySampler sampler = sampler_of(program, charted(*program, text, o.seed));
   sampler.name = request["title"];
@@ -200,17 +196,10 @@ Case command_case(const CommandSampler& sampler, const WorkerOptions& worker) {
   c.again = fmt::format("--command '{}' --domain '{}'", sampler.command, sampler.domain);
   if (sampler.uniforms > 0) c.again += fmt::format(" --uniforms {}", sampler.uniforms);
   c.check = [=, title = c.title()](const CaseOptions& o) {
-    return report_from_json(call_worker({{"task", "command"},
-                                         {"who", sampler.command},
-                                         {"domain", sampler.domain},
-                                         {"uniforms", uniforms},
-                                         {"title", title},
-                                         {"samples", o.samples},
-                                         {"seed", o.seed},
-                                         {"alpha", o.alpha},
-                                         {"evidence", o.evidence},
-                                         {"open_interval", o.open_interval}},
-                                        worker));
+    json request = check_request("command", sampler.command, title, o);
+    request["domain"] = sampler.domain;
+    request["uniforms"] = uniforms;
+    return report_from_json(call_worker(std::move(request), worker));
   };
   return c;
 }

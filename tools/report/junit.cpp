@@ -53,7 +53,7 @@ void add_case(pugi::xml_node suite, const Case& one, const mc::Report& r, const 
 } // namespace
 
 void write_junit(const std::string& file, const Run& run) {
-  const auto& [options, cases, reports, interrupted] = run;
+  const auto& [settings, cases, reports, interrupted] = run;
   std::size_t failures = 0;
   double seconds = 0;
   for (const mc::Report& r : reports) {
@@ -70,7 +70,7 @@ void write_junit(const std::string& file, const Run& run) {
   suite.append_attribute("failures") = static_cast<unsigned>(failures);
   suite.append_attribute("time") = fmt::format("{:.3f}", seconds).c_str();
   for (std::size_t i = 0; i < cases.size(); ++i)
-    add_case(suite, *cases[i], reports[i], command_again(*cases[i], options, cases.size()));
+    add_case(suite, *cases[i], reports[i], command_again(*cases[i], settings, cases.size()));
   if (interrupted) suite.append_child("system-err").text() = "interrupted: the cases that finished";
   std::ostringstream text;
   document.save(text, "  ");

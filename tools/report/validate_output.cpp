@@ -37,13 +37,13 @@ json result(const Case& c, const mc::Report& r, const std::string& again) {
 }
 
 json results(const Run& run) {
-  const auto& [options, cases, reports, interrupted] = run;
-  json all = {{"command", options.command}, {"commit", commit},       {"seed", options.seed},
-              {"samples", options.samples}, {"alpha", options.alpha}, {"cases", json::array()}};
+  const auto& [settings, cases, reports, interrupted] = run;
+  json all = {{"command", settings.command}, {"commit", commit},        {"seed", settings.seed},
+              {"samples", settings.samples}, {"alpha", settings.alpha}, {"cases", json::array()}};
   bool passed = !interrupted;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     passed = passed && reports[i].passed();
-    all["cases"].push_back(result(*cases[i], reports[i], command_again(*cases[i], options, cases.size())));
+    all["cases"].push_back(result(*cases[i], reports[i], command_again(*cases[i], settings, cases.size())));
   }
   all["passed"] = passed;
   if (interrupted) all["interrupted"] = true;
@@ -52,19 +52,18 @@ json results(const Run& run) {
 
 } // namespace
 
-std::string command_again(const Case& c, const ValidateOptions& options, std::size_t cases) {
-  const double alpha = mc::sidak_level(options.alpha, 1 / static_cast<double>(cases));
+std::string command_again(const Case& c, const RunSettings& settings, std::size_t cases) {
+  const double alpha = mc::sidak_level(settings.alpha, 1 / static_cast<double>(cases));
   const std::string parameters = c.parameters.empty() ? "" : "(" + c.parameters + ")";
   const std::string what = c.again.empty() ? fmt::format("'{}{}' --scalar {}", c.name, parameters, c.scalar) : c.again;
-  return fmt::format("carlo validate {} --seed {}{} --alpha {:.6g}", what, options.seed,
-                     options.samples_file.empty() ? fmt::format(" --samples {}", options.samples) : std::string(),
-                     alpha);
+  return fmt::format("carlo validate {} --seed {}{} --alpha {:.6g}", what, settings.seed,
+                     settings.of_file ? std::string() : fmt::format(" --samples {}", settings.samples), alpha);
 }
 
 void write_json(const std::string& file, const Run& run) { mc::write_file(file, json_text(results(run))); }
 
 void write_page(const std::string& file, const Run& run) {
-  const auto& [options, cases, reports, interrupted] = run;
+  const auto& [settings, cases, reports, interrupted] = run;
   json all = results(run);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const mc::Report& r = reports[i];

@@ -2,23 +2,30 @@
 /// The results of carlo validate as files.
 
 #include <catalogue/catalogue.h>
-#include <cli/validate.h>
-
 #include <string>
 #include <vector>
 
 namespace carlo {
 
+/// What a run of validate was asked for, as far as its results name it.
+struct RunSettings {
+  std::string command;
+  std::uint64_t seed = 1;
+  std::uint64_t samples = 0; ///< per case
+  double alpha = 0.01;       ///< family-wise
+  bool of_file = false;      ///< the samples come from a file, which says how many there are
+};
+
 /// A run of validate: a report for each case that finished.
 struct Run {
-  const ValidateOptions& options;
+  RunSettings settings;
   const std::vector<const Case*>& cases;
   const std::vector<mc::Report>& reports;
   bool interrupted = false;
 };
 
-/// The command that repeats one case of a run over so many cases, as a user would type it.
-std::string command_again(const Case& c, const ValidateOptions& options, std::size_t cases);
+/// The command that repeats one case of a run of so many cases, as a user would type it.
+std::string command_again(const Case& c, const RunSettings& settings, std::size_t cases);
 
 /// The schema is in tools/report/README.md; not finite numbers are null.
 void write_json(const std::string& file, const Run& run);

@@ -1,11 +1,11 @@
 #include <mc/check/check_subject.h>
 
 #include <mc/check/fit/alpha_shares.h>
-#include <mc/check/fit/cell_masses.h>
-#include <mc/check/fit/slabs.h>
-#include <mc/check/fit/uniformity.h>
-#include <mc/check/report/summary.h>
-#include <mc/check/subject/rotation.h>
+#include <mc/check/fit/tests/cell_masses.h>
+#include <mc/check/fit/tests/rotation.h>
+#include <mc/check/fit/tests/slabs.h>
+#include <mc/check/fit/tests/uniformity.h>
+#include <mc/check/summary.h>
 #include <mc/core/error.h>
 #include <mc/random/hash.h>
 #include <mc/stats/binomial.h>

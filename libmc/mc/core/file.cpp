@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -133,6 +132,16 @@ void write_new(const std::string& file, const std::string& path, std::string_vie
 } // namespace
 
 void require_writable(const std::string& path) { writable_place(path); }
+
+fs::path output_folder(const std::string& name, const std::string& first_file) {
+  std::error_code failed;
+  fs::create_directories(name, failed);
+  require(!failed && fs::is_directory(name), "'{}' is no folder and cannot be made one{}; name another", name,
+          failed ? fmt::format(" ({})", failed.message()) : std::string());
+  const fs::path folder = name;
+  require_writable((folder / first_file).string());
+  return folder;
+}
 
 void replace_file(const std::string& path, const std::function<void(const std::string&)>& write) {
   const Place place = writable_place(path);

@@ -1,6 +1,7 @@
 #pragma once
 /// Files that appear whole or not at all, and outputs that are no files.
 
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -22,6 +23,10 @@ void write_file(const std::string& path, std::string_view bytes);
 
 /// Refuses a place that replace_file would refuse, before the work for it is done. Changes nothing.
 void require_writable(const std::string& path);
+
+/// The folder, made with those above it where it is missing.
+///   throws  : Error where it cannot be made, or where `first_file` could not be written in it
+std::filesystem::path output_folder(const std::string& name, const std::string& first_file);
 
 /// The whole file. Throws Error when it is missing or cannot be read.
 std::string read_file(const std::string& path);

@@ -4,8 +4,8 @@
 #include "support/files.h"
 
 #include <mc/check/check_subject.h>
-#include <mc/check/fit/cubature.h>
-#include <mc/check/fit/partition.h>
+#include <mc/check/fit/expected/cubature.h>
+#include <mc/check/fit/expected/partition.h>
 #include <mc/check/subject/make_subject.h>
 #include <mc/domain/annulus.h>
 #include <mc/domain/box.h>

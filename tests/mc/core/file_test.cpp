@@ -75,6 +75,19 @@ TEST_F(FileTest, AskingWhetherAPlaceIsWritableLeavesNoTrace) {
   EXPECT_EQ(message([&] { mc::require_writable(missing); }), message([&] { mc::write_file(missing, "x"); }));
 }
 
+TEST_F(FileTest, AnOutputFolderIsMade) {
+  const fs::path made = mc::output_folder(folder / "a" / "b", "c.txt");
+  EXPECT_EQ(made, folder / "a" / "b");
+  EXPECT_TRUE(fs::is_directory(made));
+  mc::write_file(made / "c.txt", "x");
+  EXPECT_EQ(mc::output_folder(made, "c.txt"), made);
+  EXPECT_EQ(message([&] { mc::output_folder(made / "c.txt", "d.txt"); }),
+            "'" + (made / "c.txt").string() + "' is no folder and cannot be made one; name another");
+  fs::create_directory(made / "d.txt");
+  EXPECT_EQ(message([&] { mc::output_folder(made, "d.txt"); }),
+            "cannot write '" + (made / "d.txt").string() + "': it is a folder; name a file in it");
+}
+
 // /dev/full accepts the open and refuses the bytes, as a full disk does.
 TEST_F(FileTest, AFullDiskIsAnError) {
   const std::string path = folder / "a.txt";

@@ -126,7 +126,8 @@ TEST_F(Converge, BadInputIsOneLine) {
   expect_refused("pi --time 0", "--time 0 must lie in (0, 1e7] seconds");
   expect_refused("pi --replicates 3", "--replicates 3 must lie in [8, 100000], or be 0");
   expect_refused("pi -d x=0:1 pi", "--domain belongs to one expression");
-  EXPECT_THAT(run_carlo("converge pi -o /proc/none").output, HasSubstr("cannot create the folder '/proc/none'"));
+  EXPECT_THAT(run_carlo("converge pi -o /proc/none").output,
+              HasSubstr("'/proc/none' is no folder and cannot be made one"));
   EXPECT_FALSE(std::filesystem::exists(path("out/pi.csv")));
 }
 

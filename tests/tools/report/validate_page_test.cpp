@@ -32,7 +32,7 @@ constexpr std::uint64_t samples = 60'000;
 struct Results {
   std::vector<carlo::Case> cases;
   std::vector<mc::Report> reports;
-  carlo::ValidateOptions options;
+  carlo::RunSettings settings;
 
   std::vector<const carlo::Case*> pointers() const {
     std::vector<const carlo::Case*> p;
@@ -49,7 +49,8 @@ const Results& results() {
   static const Results made = [] {
     using V = mc::Vec3<double>;
     Results r;
-    r.options.command = "carlo validate </script> & \"quotes\"", r.options.samples = samples;
+    r.settings.command = "carlo validate </script> & \"quotes\"";
+    r.settings.samples = samples;
     const mc::Hemisphere<double> hemisphere;
     const auto cosine = [](double exponent) {
       return [exponent](mc::Pcg& random) {
@@ -85,7 +86,7 @@ struct Page : testing::Test {
   void SetUp() override {
     fs::create_directories(folder);
     const std::vector<const carlo::Case*> cases = results().pointers();
-    carlo::write_page(file, {results().options, cases, results().reports});
+    carlo::write_page(file, {results().settings, cases, results().reports});
   }
   void TearDown() override { fs::remove_all(folder); }
 

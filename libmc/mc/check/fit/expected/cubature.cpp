@@ -1,4 +1,4 @@
-#include <mc/check/fit/cubature.h>
+#include <mc/check/fit/expected/cubature.h>
 
 #include <mc/core/error.h>
 #include <mc/core/sum.h>

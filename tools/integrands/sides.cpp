@@ -1,4 +1,4 @@
-#include <input/sides.h>
+#include <integrands/sides.h>
 
 #include <mc/core/error.h>
 

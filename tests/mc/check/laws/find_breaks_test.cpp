@@ -1,4 +1,4 @@
-#include <mc/check/fit/find_breaks.h>
+#include <mc/check/laws/find_breaks.h>
 
 #include <mc/check/subject/oracle.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Counts in cells as a report shows them.
 
-#include <mc/check/fit/cell_tests.h>
-#include <mc/check/fit/partition.h>
+#include <mc/check/fit/expected/partition.h>
+#include <mc/check/fit/tests/cell_tests.h>
 #include <mc/check/report/report.h>
 #include <mc/check/subject/subject.h>
 

@@ -1,7 +1,7 @@
-#include <mc/check/fit/slabs.h>
+#include <mc/check/fit/tests/slabs.h>
 
 #include <mc/check/fit/alpha_shares.h>
-#include <mc/check/fit/cubature.h>
+#include <mc/check/fit/expected/cubature.h>
 #include <mc/stats/binomial.h>
 #include <mc/stats/multiple_testing.h>
 

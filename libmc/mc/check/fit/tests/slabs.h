@@ -1,7 +1,7 @@
 #pragma once
 /// Thin slabs of the unit cube that a pilot makes suspect.
 
-#include <mc/check/fit/partition.h>
+#include <mc/check/fit/expected/partition.h>
 #include <mc/check/report/report.h>
 #include <mc/check/subject/subject.h>
 

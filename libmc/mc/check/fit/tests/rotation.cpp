@@ -1,4 +1,4 @@
-#include <mc/check/subject/rotation.h>
+#include <mc/check/fit/tests/rotation.h>
 
 #include <mc/core/types.h>
 

@@ -1,4 +1,4 @@
-#include <mc/check/fit/uniformity.h>
+#include <mc/check/fit/tests/uniformity.h>
 
 #include <mc/stats/chi_square.h>
 #include <mc/stats/ks_test.h>

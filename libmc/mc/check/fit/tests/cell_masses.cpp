@@ -1,4 +1,4 @@
-#include <mc/check/fit/cell_masses.h>
+#include <mc/check/fit/tests/cell_masses.h>
 
 #include <algorithm>
 #include <cmath>

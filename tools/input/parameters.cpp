@@ -1,4 +1,5 @@
-#include <plugin/parameters.h>
+#include <input/parameters.h>
+#include <input/words.h>
 
 #include <mc/core/error.h>
 
@@ -13,20 +14,6 @@ namespace carlo {
 namespace {
 
 constexpr double most_sets = 10000;
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  for (bool more = true; more;) {
-    const std::size_t end = text.find(separator);
-    std::string_view part = text.substr(0, end);
-    part.remove_prefix(std::min(part.find_first_not_of(' '), part.size()));
-    part = part.substr(0, part.find_last_not_of(' ') + 1);
-    parts.push_back(part);
-    more = end != std::string_view::npos;
-    if (more) text.remove_prefix(end + 1);
-  }
-  return parts;
-}
 
 double number(std::string_view word, std::string_view part, std::string_view text) {
   double value = 0;

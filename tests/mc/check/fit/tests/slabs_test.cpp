@@ -1,4 +1,4 @@
-#include <mc/check/fit/slabs.h>
+#include <mc/check/fit/tests/slabs.h>
 
 #include <mc/check/subject/make_subject.h>
 #include <mc/domain/interval.h>

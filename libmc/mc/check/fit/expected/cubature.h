@@ -1,7 +1,7 @@
 #pragma once
 /// Adaptive cubature over boxes, with error bounds that the tests of goodness of fit take into account.
 
-#include <mc/check/fit/partition.h>
+#include <mc/check/fit/expected/partition.h>
 
 #include <cstddef>
 #include <functional>

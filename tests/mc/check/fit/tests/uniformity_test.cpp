@@ -1,4 +1,4 @@
-#include <mc/check/fit/uniformity.h>
+#include <mc/check/fit/tests/uniformity.h>
 
 #include <mc/random/pcg.h>
 

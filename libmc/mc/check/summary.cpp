@@ -1,4 +1,4 @@
-#include <mc/check/report/summary.h>
+#include <mc/check/summary.h>
 
 #include <fmt/format.h>
 

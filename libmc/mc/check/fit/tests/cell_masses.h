@@ -1,9 +1,9 @@
 #pragma once
 /// Cells adapted to a pilot, and the probability that the claimed density gives each.
 
-#include <mc/check/fit/cell_tests.h>
-#include <mc/check/fit/cubature.h>
+#include <mc/check/fit/expected/cubature.h>
 #include <mc/check/fit/pilot.h>
+#include <mc/check/fit/tests/cell_tests.h>
 
 #include <vector>
 

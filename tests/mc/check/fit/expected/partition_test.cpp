@@ -1,4 +1,4 @@
-#include <mc/check/fit/partition.h>
+#include <mc/check/fit/expected/partition.h>
 
 #include <mc/core/error.h>
 #include <mc/random/pcg.h>

@@ -1,4 +1,4 @@
-#include <mc/check/fit/cell_tests.h>
+#include <mc/check/fit/tests/cell_tests.h>
 
 #include <mc/random/pcg.h>
 

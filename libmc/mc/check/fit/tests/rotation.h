@@ -1,8 +1,8 @@
 #pragma once
 /// Whether a density was merely turned about its pole.
 
-#include <mc/check/fit/cell_tests.h>
-#include <mc/check/fit/partition.h>
+#include <mc/check/fit/expected/partition.h>
+#include <mc/check/fit/tests/cell_tests.h>
 #include <mc/check/subject/subject.h>
 
 #include <optional>

@@ -1,6 +1,6 @@
 // Sets of parameters and sweeps over them.
 
-#include <plugin/parameters.h>
+#include <input/parameters.h>
 
 #include <support/files.h>
 
