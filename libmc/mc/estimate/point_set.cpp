@@ -11,7 +11,7 @@ namespace {
 
 // Where the library is made for any machine, its loader chooses among clones of the loops that run over many points.
 #if defined(MC_ANY_MACHINE) && defined(__x86_64__) && !defined(__clang__)
-#define MC_CLONES [[gnu::target_clones("default", "avx2", "arch=skylake-avx512", "arch=icelake-server")]]
+#define MC_CLONES [[gnu::target_clones("default", "avx2", "arch=skylake-avx512")]]
 #else
 #define MC_CLONES
 #endif
