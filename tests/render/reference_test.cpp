@@ -20,7 +20,8 @@ TEST_P(Gallery, AgreesWithItsReference) {
   const render::Image reference = render::read_image(MC_SOURCE_DIR "/tests/refs/" + name + ".exr");
   const render::SceneFile file = render::read_mitsuba(MC_SOURCE_DIR "/librender/scenes/" + name + ".xml");
   render::RenderOptions options;
-  options.width = reference.width, options.height = reference.height;
+  options.width = reference.width;
+  options.height = reference.height;
   options.spp = 256;
   options.max_depth = file.defaults.max_depth;
   options.sampler = render::PixelSampler::independent;

@@ -46,7 +46,8 @@ void add_roughness_limit(Catalogue& c, const std::string& name, const std::strin
     one.check = [family, theta, title = one.title()](const CaseOptions& options) {
       const auto start = std::chrono::steady_clock::now();
       mc::Report report;
-      report.subject = title, report.alpha = options.alpha;
+      report.subject = title;
+      report.alpha = options.alpha;
       const render::Vec3 wo = render::Vec3d(std::sin(theta), 0, std::cos(theta)).cast<render::Float>();
       report.checks = mc::check_roughness_limit<render::Float>(family, family(0), wo, {.bsdf = {.seed = options.seed}});
       report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -109,7 +109,8 @@ Grid read_grid(const std::string& file) {
     return {table.columns, table.rows(), table.values};
   }
   const render::Image image = mc::with_context(file, [&] { return render::read_image(file); });
-  g.width = static_cast<std::size_t>(image.width), g.height = static_cast<std::size_t>(image.height);
+  g.width = static_cast<std::size_t>(image.width);
+  g.height = static_cast<std::size_t>(image.height);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const auto& p = image.pixels[i];
     const double value = static_cast<double>(p[0]);

@@ -27,7 +27,10 @@ std::string base64(const std::vector<float>& numbers) {
 
 mc::CellCount join(const mc::CellCount& a, const mc::CellCount& b) {
   mc::CellCount c{a.lo, a.hi, a.observed + b.observed, a.expected + b.expected};
-  for (std::size_t d = 0; d < 3; ++d) c.lo[d] = std::min(a.lo[d], b.lo[d]), c.hi[d] = std::max(a.hi[d], b.hi[d]);
+  for (std::size_t d = 0; d < 3; ++d) {
+    c.lo[d] = std::min(a.lo[d], b.lo[d]);
+    c.hi[d] = std::max(a.hi[d], b.hi[d]);
+  }
   return c;
 }
 
@@ -68,7 +71,8 @@ std::string pack_outcomes(const mc::Evidence& evidence, std::size_t most) {
   for (std::size_t k = 0; k < kept; ++k) {
     mc::CellCount sum;
     for (std::size_t i = k * n / kept; i < (k + 1) * n / kept; ++i) sum = join(sum, evidence.outcomes[i]);
-    numbers[k] = static_cast<float>(sum.observed), numbers[kept + k] = static_cast<float>(sum.expected);
+    numbers[k] = static_cast<float>(sum.observed);
+    numbers[kept + k] = static_cast<float>(sum.expected);
   }
   return base64(numbers);
 }

@@ -37,7 +37,10 @@ struct Block {
     int axis = -1;
     for (int i = 0; i < 3; ++i) {
       const double a = -lo[i] / ld[i], b = (size[i] - lo[i]) / ld[i];
-      if (std::min(a, b) > near) near = std::min(a, b), axis = i;
+      if (std::min(a, b) > near) {
+        near = std::min(a, b);
+        axis = i;
+      }
       far = std::min(far, std::max(a, b));
     }
     if (axis < 0 || !(near < far)) return;
@@ -61,7 +64,11 @@ Hit intersect(const V& o, const V& d) {
     n[axis] = d[axis] > 0 ? -1 : 1;
     hit = {t, p, n, albedo, false};
   };
-  wall(0, 0, red), wall(0, 555, green), wall(1, 0, white), wall(1, 555, white), wall(2, 555, white);
+  wall(0, 0, red);
+  wall(0, 555, green);
+  wall(1, 0, white);
+  wall(1, 555, white);
+  wall(2, 555, white);
   for (const Block& b : blocks) b.intersect(o, d, hit);
   const double t = (light_y - o.y()) / d.y();
   if (t > 1e-3 && t < hit.t) {
@@ -144,7 +151,8 @@ double path(Strategy bounce, Pcg& r) {
     const Bounce b = bounce(hit, r);
     if (!(b.weight > 0)) return 0;
     beta = beta.cwiseProduct(hit.albedo) * b.weight;
-    o = hit.p, d = b.w;
+    o = hit.p;
+    d = b.w;
   }
   return 0;
 }
@@ -185,7 +193,8 @@ std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, i
     const bool reference = boxes.empty();
     const mc::Moments m = render(way.strategy, reference ? 4 * paths : paths, mc::hash(seed, boxes.size()), threads);
     CornellBox b = way.box;
-    b.mean = direct + m.mean(), b.std_error = m.std_error();
+    b.mean = direct + m.mean();
+    b.std_error = m.std_error();
     if (!reference) {
       const CornellBox& r = boxes.front();
       b.off = b.mean / r.mean - 1;

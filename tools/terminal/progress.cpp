@@ -48,7 +48,10 @@ std::string format_count(double count) {
   if (count < 999.5) return fmt::format("{:.0f}", count);
   constexpr const char* units[] = {"k", "M", "G", "T"};
   int unit = -1;
-  while (count >= 999.5 && unit < 3) count /= 1000, ++unit;
+  while (count >= 999.5 && unit < 3) {
+    count /= 1000;
+    ++unit;
+  }
   return fmt::format("{:.3g} {}", count, units[unit]);
 }
 

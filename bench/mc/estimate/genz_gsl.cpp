@@ -190,7 +190,10 @@ int main(int argc, char** argv) {
     const double alone = (cpu_seconds() - start) / seeds / double(calls) * 1e9 + 0 * sink;
     double best = peers[0].rms;
     std::printf("%-22s", e.name.c_str());
-    for (const Column& p : peers) std::printf(" %8.1e", p.rms), best = std::min(best, p.rms);
+    for (const Column& p : peers) {
+      std::printf(" %8.1e", p.rms);
+      best = std::min(best, p.rms);
+    }
     won += ours.rms <= best;
     light += ours.nanoseconds - alone <= 0.5 * (peers[2].nanoseconds - alone);
     std::printf(" | %8.1e %-5s %6.3f | %6.1f %6.1f\n", ours.rms, std::string(name(picked)).c_str(), ours.rms / best,

@@ -95,11 +95,15 @@ void choices() {
     std::vector<double> weights(n);
     std::vector<float> ends(n), pmf(n);
     double sum = 0;
-    for (std::size_t i = 0; i < n; ++i) weights[i] = 1 + double(i % 3), sum += weights[i];
+    for (std::size_t i = 0; i < n; ++i) {
+      weights[i] = 1 + double(i % 3);
+      sum += weights[i];
+    }
     double below = 0;
     for (std::size_t i = 0; i < n; ++i) {
       below += weights[i];
-      ends[i] = float(below / sum), pmf[i] = float(weights[i] / sum);
+      ends[i] = float(below / sum);
+      pmf[i] = float(weights[i] / sum);
     }
     const mc::TableDist1D<float> table(weights);
     measure(fmt::format("TableDist1D {}, index + pmf", n), [table](const Vec2<float>& u) {

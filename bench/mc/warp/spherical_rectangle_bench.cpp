@@ -21,13 +21,20 @@ template <class S> class Urena {
       : x_(edge1.normalized()), y_(edge2.normalized()), z_(cross<S>(x_, y_)) {
     using std::acos;
     z0_ = corner.dot(z_);
-    if (z0_ > 0) z_ = -z_, z0_ = -z0_;
-    x0_ = corner.dot(x_), x1_ = x0_ + edge1.norm(), y0_ = corner.dot(y_), y1_ = y0_ + edge2.norm();
+    if (z0_ > 0) {
+      z_ = -z_;
+      z0_ = -z0_;
+    }
+    x0_ = corner.dot(x_);
+    x1_ = x0_ + edge1.norm();
+    y0_ = corner.dot(y_);
+    y1_ = y0_ + edge2.norm();
     const Vec3<S> v00(x0_, y0_, z0_), v01(x0_, y1_, z0_), v10(x1_, y0_, z0_), v11(x1_, y1_, z0_);
     const Vec3<S> n0 = cross<S>(v00, v10).normalized(), n1 = cross<S>(v10, v11).normalized(),
                   n2 = cross<S>(v11, v01).normalized(), n3 = cross<S>(v01, v00).normalized();
     const auto angle = [](const Vec3<S>& a, const Vec3<S>& b) { return S(acos(S(-a.dot(b)))); };
-    b0_ = n0.z(), b1_ = n2.z();
+    b0_ = n0.z();
+    b1_ = n2.z();
     k_ = 2 * pi<S> - angle(n2, n3) - angle(n3, n0);
     solid_angle_ = angle(n0, n1) + angle(n1, n2) - k_;
   }

@@ -32,8 +32,10 @@ int main(int argc, char** argv) {
                                         {"pdf", &row.pdf},
                                         {"invert", &row.invert},
                                         {"monotone", &row.monotone}})
-        if (l->broken)
-          fmt::print("    {} broken at {} of {}: {}\n", law_name, l->broken, l->points, l->witness), ++broken;
+        if (l->broken) {
+          fmt::print("    {} broken at {} of {}: {}\n", law_name, l->broken, l->points, l->witness);
+          ++broken;
+        }
     }
   }
   return broken > 0;

@@ -44,7 +44,10 @@ template <class W> void with_batch(const std::string& name, double aim, const W&
     const auto points = bench::points<S>();
     std::array<std::vector<S>, 5> columns;
     for (auto& column : columns) column.resize(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) columns[0][i] = points[i][0], columns[1][i] = points[i][1];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      columns[0][i] = points[i][0];
+      columns[1][i] = points[i][1];
+    }
     mc::PointColumns<W> x;
     for (std::size_t k = 0; k < x.size(); ++k) x[k] = columns[2 + k];
     for (auto _ : state) {

@@ -124,10 +124,18 @@ RTCScene embree() {
     const RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* p = static_cast<float*>(
         rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, world().positions.size()));
-    for (const Vec3& v : world().positions) *p++ = v.x(), *p++ = v.y(), *p++ = v.z();
+    for (const Vec3& v : world().positions) {
+      *p++ = v.x();
+      *p++ = v.y();
+      *p++ = v.z();
+    }
     auto* t = static_cast<unsigned*>(
         rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, world().triangles.size()));
-    for (const auto& v : world().triangles) *t++ = v[0], *t++ = v[1], *t++ = v[2];
+    for (const auto& v : world().triangles) {
+      *t++ = v[0];
+      *t++ = v[1];
+      *t++ = v[2];
+    }
     rtcCommitGeometry(g);
     rtcAttachGeometry(s, g);
     rtcCommitScene(s);

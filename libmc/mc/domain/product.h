@@ -45,12 +45,14 @@ struct ProductDomain {
   }
   static Point join(const typename A::Point& a, const typename B::Point& b) {
     Point x;
-    detail::put(x, 0, a), detail::put(x, split, b);
+    detail::put(x, 0, a);
+    detail::put(x, split, b);
     return x;
   }
   static UnitPoint join_unit(const typename A::UnitPoint& a, const typename B::UnitPoint& b) {
     UnitPoint v;
-    detail::put(v, 0, a), detail::put(v, A::dim, b);
+    detail::put(v, 0, a);
+    detail::put(v, A::dim, b);
     return v;
   }
 

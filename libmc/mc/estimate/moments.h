@@ -37,7 +37,10 @@ class Moments {
       for (std::size_t i = 0; i < values.size(); ++i) block.add(values[i], first + i);
     } else if (!values.empty()) {
       double squares = 0, rest = 0;
-      for (const double x : values) squares += (x - mean) * (x - mean), rest += x - mean;
+      for (const double x : values) {
+        squares += (x - mean) * (x - mean);
+        rest += x - mean;
+      }
       block.count_ = values.size();
       block.mean_ = mean + rest / n;
       block.m2_ = std::max(0.0, squares - rest * rest / n);

@@ -73,8 +73,10 @@ ChiSquare chi_square(const std::vector<std::uint64_t>& observed, const std::vect
   ChiSquare result;
   result.dof = static_cast<double>(cells.size() - 1);
   for (const auto& [o, e] : cells) result.statistic += e > 0 ? sqr(o - e) / e : 0.0;
-  if (impossible) result.statistic = HUGE_VAL, result.p = 0;
-  else result.p = chi_square_tail(result.statistic, result.dof);
+  if (impossible) {
+    result.statistic = HUGE_VAL;
+    result.p = 0;
+  } else result.p = chi_square_tail(result.statistic, result.dof);
   if (result.dof > 0) result.detectable = std::sqrt(chi_square_noncentrality(result.dof, alpha, 0.99) / total_observed);
   return result;
 }

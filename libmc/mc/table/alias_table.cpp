@@ -17,7 +17,8 @@ AliasTable::AliasTable(std::span<const double> weights) {
   while (!small.empty() && !large.empty()) {
     const std::uint32_t s = small.back(), l = large.back();
     small.pop_back();
-    bins_[s].threshold = share[s], bins_[s].alias = l;
+    bins_[s].threshold = share[s];
+    bins_[s].alias = l;
     share[l] -= 1 - share[s];
     if (share[l] < 1) {
       large.pop_back();
@@ -29,8 +30,14 @@ AliasTable::AliasTable(std::span<const double> weights) {
   std::uint32_t likely = 0;
   for (std::uint32_t i = 0; i < n; ++i)
     if (pmf(i) > pmf(likely)) likely = i;
-  for (const std::uint32_t i : large) bins_[i].threshold = 1, bins_[i].alias = i;
-  for (const std::uint32_t i : small) bins_[i].threshold = pmf(i) > 0, bins_[i].alias = pmf(i) > 0 ? i : likely;
+  for (const std::uint32_t i : large) {
+    bins_[i].threshold = 1;
+    bins_[i].alias = i;
+  }
+  for (const std::uint32_t i : small) {
+    bins_[i].threshold = pmf(i) > 0;
+    bins_[i].alias = pmf(i) > 0 ? i : likely;
+  }
 }
 
 } // namespace mc

@@ -55,7 +55,8 @@ template <Real S> struct Bilinear {
   /// The values at the ends of a row, not scaled.
   Linear<S> at(const S& y) const {
     Linear<S> row;
-    row.a = (1 - y) * w00 + y * w01, row.b = (1 - y) * w10 + y * w11;
+    row.a = (1 - y) * w00 + y * w01;
+    row.b = (1 - y) * w10 + y * w11;
     return row;
   }
 };

@@ -44,7 +44,8 @@ template <Real S> struct Linear {
   S invert(S x) const { return x * (a * (2 - x) + b * x) / (a + b); }
   template <Real T> Linear<T> cast() const {
     Linear<T> other;
-    other.a = T(a), other.b = T(b);
+    other.a = T(a);
+    other.b = T(b);
     return other;
   }
 };

@@ -32,7 +32,8 @@ template <Real S> struct HalfExcess {
   HalfExcess(const Arc<S>& b, const Arc<S>& c, const S& sin_angle, const S& cos_angle) {
     using std::sqrt;
     const S across = sqrt(S(b.far * c.far)), along = sqrt(S(b.near * c.near));
-    sin = across * sin_angle, cos = along + across * cos_angle;
+    sin = across * sin_angle;
+    cos = along + across * cos_angle;
   }
   S square() const { return sin * sin + cos * cos; }
 };
@@ -93,7 +94,8 @@ template <Real S> struct SphericalTriangleMap {
         side(k.a.dot(k.b), k.lx, k.la * k.lb) {
     using std::abs, std::atan2;
     const S volume = abs(k.volume);
-    sin_a = volume * k.la / (k.lx * k.ly), cos_a = k.x.dot(k.y) / (k.lx * k.ly);
+    sin_a = volume * k.la / (k.lx * k.ly);
+    cos_a = k.x.dot(k.y) / (k.lx * k.ly);
     const Arc<S> ac(k.a.dot(k.c), k.ly, k.la * k.lc), bc(k.b.dot(k.c), k.lz, k.lb * k.lc);
     // Of the three corners the one whose sum cancels least.
     HalfExcess<S> half(side, ac, sin_a, cos_a);

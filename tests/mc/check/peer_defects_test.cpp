@@ -27,7 +27,10 @@ TEST(PeerDefects, SmallVariancesAreNotFloored) {
 TEST(PeerDefects, StraySamplesInPooledCellsCount) {
   std::vector<double> expected(5000, 1000 - 1.0 / 5000);
   std::vector<std::uint64_t> observed(5000, 980);
-  for (int i = 0; i < 100; ++i) expected.push_back(0.01), observed.push_back(1000);
+  for (int i = 0; i < 100; ++i) {
+    expected.push_back(0.01);
+    observed.push_back(1000);
+  }
   EXPECT_LT(mc::chi_square(observed, expected).p, 1e-300);
 }
 

@@ -34,7 +34,8 @@ void expect_moments(const char* what, int dim, const std::function<double(Unit)>
                     double variance = NAN) {
   mc::IntegrateOptions o;
   o.method = mc::Method::rqmc;
-  o.rel_error = 0, o.max_calls = 200'000;
+  o.rel_error = 0;
+  o.max_calls = 200'000;
   const mc::VectorIntegrand both = [&](Unit u, std::span<double> y) {
     y[0] = f(u);
     y[1] = mc::sqr(y[0] - mean);
@@ -147,7 +148,10 @@ TEST(BooksExperiments, RegularGridsAgainstChance) {
   expect_moments(
       "x^2 on [1,2]", 1, [](Unit u) { return mc::sqr(1 + u[0]); }, 7.0 / 3, mc::sqr(0.869226987360));
   double midpoint = 0, blind = 0;
-  for (int i = 0; i < 100; ++i) midpoint += mc::sqr(1 + (i + 0.5) / 100) / 100, blind += -std::cos(2 * pi * (i + 0.5));
+  for (int i = 0; i < 100; ++i) {
+    midpoint += mc::sqr(1 + (i + 0.5) / 100) / 100;
+    blind += -std::cos(2 * pi * (i + 0.5));
+  }
   EXPECT_NEAR(midpoint, 2.333325, 1e-12);
   EXPECT_NEAR(blind, 100, 1e-9); // the integral of -cos(2 pi x) over [0,100] is 0
   expect_moments(

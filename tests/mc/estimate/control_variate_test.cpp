@@ -129,7 +129,8 @@ TEST(CrossEstimate, ErrorBarIsCalibrated) {
     const ControlVariates a = drawn(random, 100), b = drawn(random, 100);
     const Estimate e = cross_estimate(a, b);
     const double z = std::abs(e.value - truth) / e.std_error;
-    within1 += z <= 1, within2 += z <= 2;
+    within1 += z <= 1;
+    within2 += z <= 2;
   }
   EXPECT_THAT(within1 / 2000.0, testing::AllOf(testing::Ge(0.652), testing::Le(0.714)));
   EXPECT_THAT(within2 / 2000.0, testing::AllOf(testing::Ge(0.940), testing::Le(0.968)));

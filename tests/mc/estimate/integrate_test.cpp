@@ -180,7 +180,11 @@ TEST(Integrate, DomainsAndWarps) {
 }
 
 TEST(Integrate, VectorsShareTheirCalls) {
-  const mc::VectorIntegrand f = [](Unit u, std::span<double> y) { y[0] = u[0], y[1] = 1e6 * u[0] * u[1], y[2] = 3; };
+  const mc::VectorIntegrand f = [](Unit u, std::span<double> y) {
+    y[0] = u[0];
+    y[1] = 1e6 * u[0] * u[1];
+    y[2] = 3;
+  };
   for (const Method method : methods) {
     const mc::VectorIntegral r = mc::integrate_unit(f, 3, 2, with(method, 50'000));
     ASSERT_EQ(r.outputs.size(), 3u);

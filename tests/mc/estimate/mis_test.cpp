@@ -48,8 +48,10 @@ TYPED_TEST(Mis, WeightsSumToOneOverTheWholeRange) {
 TYPED_TEST(Mis, WeightsOfAHundredTechniquesSumToOne) {
   using S = TypeParam;
   std::vector<S> p, n;
-  for (int j = 0; j < 100; ++j)
-    p.push_back(static_cast<S>(std::pow(10.0, 0.7 * j - 35))), n.push_back(static_cast<S>(1 + j % 7));
+  for (int j = 0; j < 100; ++j) {
+    p.push_back(static_cast<S>(std::pow(10.0, 0.7 * j - 35)));
+    n.push_back(static_cast<S>(1 + j % 7));
+  }
   for (const mc::Heuristic<S>& h : heuristics<S>()) {
     S sum(0);
     for (std::size_t i = 0; i < p.size(); ++i) sum += mc::mis_weight<S>(i, p, n, h);

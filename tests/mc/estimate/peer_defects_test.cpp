@@ -35,7 +35,8 @@ TEST(PeerDefects, ErrorsAreThoseOfTheMean) {
 // D16. pbrt-v4 counts in float: from 2^24 on a count stands still. Moments of 2^25 values, by merging.
 TEST(PeerDefects, CountsGoBeyond2To24) {
   mc::Moments m;
-  m.add(1), m.add(2);
+  m.add(1);
+  m.add(2);
   for (int i = 0; i < 24; ++i) m.merge(mc::Moments(m));
   EXPECT_EQ(m.count(), std::uint64_t{1} << 25);
   EXPECT_NEAR(m.mean(), 1.5, 1e-12);

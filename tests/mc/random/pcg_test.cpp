@@ -41,7 +41,8 @@ TEST(Pcg, UniformMoments) {
   for (int i = 0; i < n; ++i) {
     const double u = i % 2 ? double(r.uniform<float>()) : r.uniform<double>();
     EXPECT_LT(u, 1);
-    sum += u, squares += u * u;
+    sum += u;
+    squares += u * u;
   }
   EXPECT_LE(std::abs(sum / n - 0.5), 5 * std::sqrt(1.0 / 12 / n));
   EXPECT_LE(std::abs(squares / n - 1.0 / 3), 5 * std::sqrt(4.0 / 45 / n));

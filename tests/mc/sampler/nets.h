@@ -58,7 +58,9 @@ template <class Make> double seed_moments(const Make& make, std::uint64_t index,
   for (int seed = 0; seed < seeds; ++seed) {
     const auto s = make(mc::hash(77, seed));
     const double u = mc::coordinate<double>(s, index, dim), v = mc::coordinate<double>(s, index, dim + 1);
-    first += u - 0.5, second += u * u - 1.0 / 3, cross += (u - 0.5) * (v - 0.5);
+    first += u - 0.5;
+    second += u * u - 1.0 / 3;
+    cross += (u - 0.5) * (v - 0.5);
   }
   const double n = seeds;
   return std::max({std::abs(first) / std::sqrt(n / 12), std::abs(second) / std::sqrt(n * 4 / 45),

@@ -19,7 +19,8 @@ TEST(TTest, ByHand) {
 
 TEST(TTest, EqualValues) {
   mc::Moments m;
-  m.add(0.5), m.add(0.5);
+  m.add(0.5);
+  m.add(0.5);
   EXPECT_EQ(mc::t_test(m, 0.5).p, 1);
   EXPECT_EQ(mc::t_test(m, 0.6).p, 0);
 }
@@ -52,7 +53,8 @@ TEST(TTest, WelchsDegreesOfFreedom) {
 TEST(TTest, RefusesNonsense) {
   mc::Moments m;
   EXPECT_THROW(mc::t_test(m, 0), mc::Error);
-  m.add(1), m.add(std::nan(""));
+  m.add(1);
+  m.add(std::nan(""));
   EXPECT_THROW(mc::t_test(m, 0), mc::Error);
 }
 

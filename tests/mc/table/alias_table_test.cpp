@@ -47,8 +47,9 @@ TEST(AliasTable, RemappedIsUniformAndIndependent) {
   constexpr int n = 200'000;
   for (int k = 0; k < n; ++k) {
     const auto s = table.sample_index(mc::hash_uniform<double>(8, k));
-    first += s.u_remapped - 0.5, second += mc::sqr(s.u_remapped) - 1.0 / 3,
-        cross += (s.u_remapped - 0.5) * (static_cast<double>(s.index) - 3.5);
+    first += s.u_remapped - 0.5;
+    second += mc::sqr(s.u_remapped) - 1.0 / 3;
+    cross += (s.u_remapped - 0.5) * (static_cast<double>(s.index) - 3.5);
   }
   EXPECT_LE(std::abs(first), 5 * std::sqrt(n / 12.0));
   EXPECT_LE(std::abs(second), 5 * std::sqrt(n * 4 / 45.0));

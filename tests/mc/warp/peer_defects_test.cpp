@@ -73,7 +73,8 @@ TEST(PeerDefects, HenyeyGreensteinIsNeitherClampedNorRounded) {
   double mean_peaked = 0, mean_faint = 0;
   for (int i = 0; i < 100'000; ++i) {
     const Vec2<float> u((static_cast<float>(i) + 0.5f) / 100'000, 0);
-    mean_peaked += one_minus_z(peaked.sample(u)) / 1e5, mean_faint += faint.sample(u).z() / 1e5;
+    mean_peaked += one_minus_z(peaked.sample(u)) / 1e5;
+    mean_faint += faint.sample(u).z() / 1e5;
   }
   EXPECT_NEAR(mean_peaked, 1e-4, 1e-6); // of 1 - cos
   EXPECT_NEAR(mean_faint, 0.00099, 1e-6);

@@ -59,7 +59,10 @@ TEST(WideTree, VisitsEveryLeafWithABoxThatTheRayMeets) {
         const double o = double(ray.o[a]), d = double(ray.d[a]), lo = double(boxes[b].lo[a]),
                      hi = double(boxes[b].hi[a]);
         if (d == 0) {
-          if (o < lo || o > hi) enter = mc::infinity<double>, exit = 0;
+          if (o < lo || o > hi) {
+            enter = mc::infinity<double>;
+            exit = 0;
+          }
           continue;
         }
         enter = std::max(enter, std::min((lo - o) / d, (hi - o) / d));

@@ -17,7 +17,8 @@ Axis axis(const Filter& filter, int n = 400) {
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       const Vec2 p = filter.sample(Vec2((Float(i) + Float(0.5)) / Float(n), (Float(j) + Float(0.5)) / Float(n)));
-      a.mean += double(p[0]) / (n * n), a.variance += double(p[0] * p[0]) / (n * n);
+      a.mean += double(p[0]) / (n * n);
+      a.variance += double(p[0] * p[0]) / (n * n);
       a.covariance += double(p[0] * p[1]) / (n * n);
       a.reach = std::max(a.reach, double(std::abs(p[0])));
     }

@@ -47,7 +47,8 @@ template <class B> void expect_consistent(const B& bsdf, const Strategy& strateg
   const Scene scene = small_scene();
   const Directions directions(scene, strategy);
   SurfacePoint point;
-  point.p = Vec3(0, 0, 0), point.ng = point.ns = Vec3::UnitY();
+  point.p = Vec3(0, 0, 0);
+  point.ng = point.ns = Vec3::UnitY();
   const auto frame = mc::Frame<Float>::from_z(point.ns);
   const Vertex<B> at{bsdf, point, frame, Vec3(1, 0, 2).normalized()};
   const int n = 20'000;

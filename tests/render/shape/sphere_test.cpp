@@ -47,7 +47,9 @@ TEST(Sphere, CrossingsAreAccurateUpToRadius1e5) {
       L oc[3], a = 0, b = 0, c = -L(radius) * L(radius);
       for (int k = 0; k < 3; ++k) {
         oc[k] = L(o[k]) - L(center[k]);
-        a += L(ray.d[k]) * L(ray.d[k]), b -= oc[k] * L(ray.d[k]), c += oc[k] * oc[k];
+        a += L(ray.d[k]) * L(ray.d[k]);
+        b -= oc[k] * L(ray.d[k]);
+        c += oc[k] * oc[k];
       }
       const L discriminant = b * b - a * c;
       if (discriminant < 1e-4L * a * L(radius) * L(radius)) continue;

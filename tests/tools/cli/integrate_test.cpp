@@ -93,7 +93,10 @@ TEST(Genz, ErrorBarsAreCalibrated) {
         const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
         const double sigmas = std::abs(r.estimate.value - e.truth) / r.estimate.std_error;
         if (!r.consistent) ++flagged;
-        else within1 += sigmas <= 1, within2 += sigmas <= 2;
+        else {
+          within1 += sigmas <= 1;
+          within2 += sigmas <= 2;
+        }
       }
     const auto slack = [&](double p) { return 3.5 * std::sqrt(p * (1 - p) / runs); };
     const double share1 = double(within1) / (runs - flagged), share2 = double(within2) / (runs - flagged);

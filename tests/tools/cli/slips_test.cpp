@@ -68,7 +68,8 @@ TEST(Slips, BadInputIsOneLine) {
   SlipsOptions o = slips({"P1"}, 8000);
   o.alpha = 0;
   EXPECT_THAT(refusal(o), HasSubstr("--alpha 0 must lie in (0, 1)"));
-  o = slips({"P1"}, 8000), o.json = "/nonexistent/folder/file.json";
+  o = slips({"P1"}, 8000);
+  o.json = "/nonexistent/folder/file.json";
   EXPECT_THAT(refusal(o), HasSubstr("/nonexistent/folder"));
   carlo::ValidateOptions old;
   old.names = {"book-slips"};

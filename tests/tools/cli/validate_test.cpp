@@ -45,10 +45,13 @@ TEST(Validate, ListNamesEveryCase) {
 
 TEST(Validate, ResultsDoNotDependOnThreads) {
   ValidateOptions one = few({"UniformDisk"}), two = one;
-  one.threads = 1, two.threads = 2;
+  one.threads = 1;
+  two.threads = 2;
   const std::filesystem::path folder = testing::TempDir();
-  one.json = (folder / "one.json").string(), two.json = (folder / "two.json").string();
-  run(one), run(two);
+  one.json = (folder / "one.json").string();
+  two.json = (folder / "two.json").string();
+  run(one);
+  run(two);
   const auto p = [](const std::string& file) {
     const std::string text = mc::read_file(file);
     return text.substr(text.find("\"p\""), 40);
@@ -85,13 +88,17 @@ TEST(Validate, BadInputIsOneLine) {
   ValidateOptions o = few({"UniformDisk"});
   o.alpha = 2;
   EXPECT_THAT(refusal(o), HasSubstr("--alpha 2 must lie in (0, 1)"));
-  o = few({"UniformDisk"}), o.samples = 3;
+  o = few({"UniformDisk"});
+  o.samples = 3;
   EXPECT_THAT(refusal(o), HasSubstr("--samples 3"));
-  o = few({"UniformDisk"}), o.scalar = "half";
+  o = few({"UniformDisk"});
+  o.scalar = "half";
   EXPECT_THAT(refusal(o), HasSubstr("--scalar 'half' must be float or double"));
-  o = few({"UniformDisk"}), o.json = "/nonexistent/folder/file.json";
+  o = few({"UniformDisk"});
+  o.json = "/nonexistent/folder/file.json";
   EXPECT_THAT(refusal(o), HasSubstr("/nonexistent/folder"));
-  o = few({"UniformDisk"}), o.detect = -1;
+  o = few({"UniformDisk"});
+  o.detect = -1;
   EXPECT_THAT(refusal(o), HasSubstr("--detect"));
 }
 

@@ -82,7 +82,8 @@ mc_sampler uniform() {
 #elif defined(FLAW_no_probability)
   s.outcomes = 2;
 #elif defined(FLAW_reversed)
-  s.lo[0] = 2, s.hi[0] = 1;
+  s.lo[0] = 2;
+  s.hi[0] = 1;
 #endif
   return s;
 }

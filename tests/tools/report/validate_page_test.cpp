@@ -66,7 +66,8 @@ const Results& results() {
     r.add("Tent", "on [-1,1]",
           make_subject("tent", mc::Interval<double>{-1, 1}, tent, [](double x) { return 1 - std::abs(x); }));
     mc::Subject dice;
-    dice.name = "dice", dice.atoms.assign(6, 1.0 / 6);
+    dice.name = "dice";
+    dice.atoms.assign(6, 1.0 / 6);
     dice.draw = [](std::uint64_t seed, std::size_t n, std::vector<mc::Subject::Draw>& out) {
       mc::Pcg random(seed);
       for (std::size_t i = 0; i < n; ++i) {

@@ -31,7 +31,9 @@ template <class S> struct RandomPatch {
     const auto place = [&](const Vec3d& v) {
       return mc::Vec3<S>((turned ? frame.to_world(v) : v).eval().template cast<S>());
     };
-    corner = place(o), edge1 = place(e1), edge2 = place(e2);
+    corner = place(o);
+    edge1 = place(e1);
+    edge2 = place(e2);
   }
   std::string text() const {
     return fmt::format("{} {} {}", detail::text(corner), detail::text(edge1), detail::text(edge2));

@@ -68,7 +68,8 @@ template <class S> void add_uniform(std::vector<Row>& rows, const std::string& s
         double far = 0, stretch = 1;
         for (int i = 0; i < 2; ++i) {
           const double most = std::max(std::abs(d(lo[i])), std::abs(d(hi[i])));
-          far = std::max(far, most), stretch = std::max(stretch, most / (d(hi[i]) - d(lo[i])));
+          far = std::max(far, most);
+          stretch = std::max(stretch, most / (d(hi[i]) - d(lo[i])));
         }
         return [=](auto, auto) { return Bounds{.sample = 4, .pdf = 8, .invert = 4 * stretch, .scale = far}; };
       }));

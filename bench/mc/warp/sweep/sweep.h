@@ -40,7 +40,8 @@ struct Law {
     broken += holds ? 0 : 1;
     if (ratio <= worst) return;
     if (!holds && worst != worst) return; // NaN is the worst
-    worst = ratio, eps = error;
+    worst = ratio;
+    eps = error;
     if (!holds) witness = describe();
   }
 };
