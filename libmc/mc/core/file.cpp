@@ -136,8 +136,8 @@ void require_writable(const std::string& path) { writable_place(path); }
 fs::path output_folder(const std::string& name, const std::string& first_file) {
   std::error_code failed;
   fs::create_directories(name, failed);
-  require(!failed && fs::is_directory(name), "'{}' is no folder and cannot be made one{}; name another", name,
-          failed ? fmt::format(" ({})", failed.message()) : std::string());
+  require(!failed && fs::is_directory(name), "'{}' is no folder and cannot be made one ({}); name another", name,
+          failed ? failed.message() : "it is a file");
   const fs::path folder = name;
   require_writable((folder / first_file).string());
   return folder;

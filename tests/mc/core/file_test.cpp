@@ -82,7 +82,7 @@ TEST_F(FileTest, AnOutputFolderIsMade) {
   mc::write_file(made / "c.txt", "x");
   EXPECT_EQ(mc::output_folder(made, "c.txt"), made);
   EXPECT_EQ(message([&] { mc::output_folder(made / "c.txt", "d.txt"); }),
-            "'" + (made / "c.txt").string() + "' is no folder and cannot be made one; name another");
+            "'" + (made / "c.txt").string() + "' is no folder and cannot be made one (Not a directory); name another");
   fs::create_directory(made / "d.txt");
   EXPECT_EQ(message([&] { mc::output_folder(made, "d.txt"); }),
             "cannot write '" + (made / "d.txt").string() + "': it is a folder; name a file in it");

@@ -9,8 +9,8 @@ namespace {
 
 using namespace render;
 
-// Whatever instruction set it is compiled for, a ray meets the nearest of the points at which it meets each shape alone,
-// to the bit.
+// Whatever instruction set it is compiled for, a ray meets the nearest of the points at which it meets each shape
+// alone, to the bit.
 TEST(Trees, EveryInstructionSetGivesTheSameBits) {
 #if defined(RENDER_TRACE_CHOSEN)
   std::vector<const Bvh::Trace*> sets = {&trace_baseline};
