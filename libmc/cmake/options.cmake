@@ -20,7 +20,9 @@ if(MC_NATIVE)
 endif()
 # Who links a library that is built for a sanitizer must link the sanitizer too: mc passes this on.
 if(MC_CHECKED)
-  target_compile_options(mc_options INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  # Null pointers and sizes of objects are the address sanitizer's, nothing is virtual: a quarter less to compile.
+  target_compile_options(mc_options INTERFACE -fsanitize=address,undefined -fno-sanitize=null,object-size,vptr
+    -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   set(MC_SANITIZER -fsanitize=address,undefined)
 endif()
 if(MC_TSAN)

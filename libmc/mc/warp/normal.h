@@ -1,10 +1,9 @@
 #pragma once
 /// The normal distribution.
 
+#include <mc/core/erf.h>
 #include <mc/domain/interval.h>
 #include <mc/warp/concept.h>
-
-#include <boost/math/special_functions/erf.hpp>
 
 namespace mc {
 
@@ -33,7 +32,7 @@ template <Real S> struct Normal {
 
   Domain domain() const { return {mean, sigma}; }
   S sample(S u) const {
-    using boost::math::erfc_inv, std::max, std::sqrt;
+    using std::max, std::sqrt;
     const S tail = max(u < S(0.5) ? u : S(1 - u), S(std::numeric_limits<S>::epsilon() / 4));
     const S t = S(sqrt(S(2))) * S(erfc_inv(S(2 * tail)));
     return u < S(0.5) ? S(mean - sigma * t) : S(mean + sigma * t);
@@ -44,7 +43,7 @@ template <Real S> struct Normal {
     return S(exp(S(-t * t / 2))) / (sigma * S(sqrt(S(2 * pi<S>))));
   }
   S invert(S x) const {
-    using boost::math::erfc, std::sqrt;
+    using std::sqrt;
     return S(erfc(S((mean - x) / (sigma * S(sqrt(S(2))))))) / 2;
   }
   template <Real T> Normal<T> cast() const { return {T(mean), T(sigma)}; }
