@@ -46,7 +46,8 @@ template <Real S> class TableDist2D {
   static TableDist2D from_lat_long(std::span<const double> weights, std::size_t width, std::size_t height) {
     std::vector<double> scaled(weights.begin(), weights.end());
     for (std::size_t i = 0; i < scaled.size(); ++i) {
-      const double y = static_cast<double>(i / std::max<std::size_t>(width, 1)), h = static_cast<double>(height);
+      const std::size_t row = i / std::max<std::size_t>(width, 1);
+      const double y = static_cast<double>(row), h = static_cast<double>(height);
       scaled[i] *= 2 * std::sin(pi<double> * (y + 0.5) / h) * std::sin(pi<double> / (2 * h));
     }
     return TableDist2D(scaled, width, height);

@@ -42,6 +42,7 @@ struct SubpixelTentFilter : mc::Product<TentRow, TentRow> {
   static TentRow row(int n, Float radius) {
     mc::require(n >= 1, "subpixel tent filter: n {} must be at least 1", n);
     std::vector<mc::Tent<Float>> tents;
+    tents.reserve(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i) tents.emplace_back((Float(i) + Float(0.5)) / Float(n) - Float(0.5), radius);
     return {{tents.front().domain().lo, tents.back().domain().hi},
             mc::UniformDiscrete<Float>(static_cast<std::size_t>(n)),
