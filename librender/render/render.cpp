@@ -5,9 +5,12 @@
 #include <mc/core/text.h>
 #include <mc/sampler/walk_stream.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <ctime>
+#include <span>
+#include <tuple>
 
 namespace render {
 
@@ -15,25 +18,42 @@ namespace {
 
 constexpr std::array<std::string_view, 3> sampler_names = {"independent", "stratified", "sobol"};
 
+bool is_before(const InvalidSample& a, const InvalidSample& b) {
+  return std::tie(a.pass, a.y, a.x, a.index) < std::tie(b.pass, b.y, b.x, b.index);
+}
+
 struct Tally {
   std::uint64_t samples = 0, rays = 0, invalid = 0;
   InvalidSample first;
+  void add(const InvalidSample& sample) {
+    if (invalid++ == 0 || is_before(sample, first)) first = sample;
+  }
   void merge(const Tally& other) {
     samples += other.samples;
     rays += other.rays;
-    if (invalid == 0) first = other.first;
+    if (other.invalid > 0 && (invalid == 0 || is_before(other.first, first))) first = other.first;
     invalid += other.invalid;
   }
 };
 
+/// A randomised point set of every pixel, and which of its points are due.
 struct Pass {
   std::uint32_t number, count; ///< count: points per pixel
-  bool separate;               ///< every sample is an estimate of its own
+  std::uint32_t begin, end;
+  bool separate; ///< every sample is an estimate of its own
 };
 
+/// The sum of a pixel's samples of one pass.
+struct PassSum {
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  std::uint32_t valid = 0;
+};
+
+// Adds the samples that are due in the row y to `sums`, one for each of its pixels, or where they are separate to the
+// film.
 template <class Stream>
 Tally render_row(const Scene& scene, const PathIntegrator<Scene>& integrator, std::uint64_t seed, const Pass& pass,
-                 int y, Film& film) {
+                 int y, Film& film, std::span<PassSum> sums) {
   Tally tally;
   const ThinLens& camera = scene.camera();
   const Vec2 scale(1 / Float(film.width()), 1 / Float(film.height()));
@@ -42,9 +62,10 @@ Tally render_row(const Scene& scene, const PathIntegrator<Scene>& integrator, st
     const std::uint64_t key =
         mc::hash(seed, static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x), pass.number);
     const typename Stream::Points points(key, pass.count);
-    Eigen::Array3d sum = Eigen::Array3d::Zero();
-    std::uint32_t valid = 0;
-    for (std::uint32_t i = 0; i < pass.count; ++i) {
+    PassSum own;
+    PassSum& pixel = pass.separate ? own : sums[static_cast<std::size_t>(x)];
+    SampleSums luminances;
+    for (std::uint32_t i = pass.begin; i < pass.end; ++i) {
       Stream stream(points, i);
       const Vec2 offset = scene.filter().sample(stream.next2());
       const Vec2 s = (Vec2(Float(x) + Float(0.5), Float(y) + Float(0.5)) + offset).cwiseProduct(scale);
@@ -52,19 +73,21 @@ Tally render_row(const Scene& scene, const PathIntegrator<Scene>& integrator, st
       const Spectrum radiance = integrator.radiance(ray, stream, tally.rays);
       ++tally.samples;
       if (!radiance.isFinite().all()) [[unlikely]] {
-        if (tally.invalid++ == 0) tally.first = {x, y, pass.number, i};
+        tally.add({x, y, pass.number, i});
         continue;
       }
+      luminances.add(double(luminance(radiance)));
       if (pass.separate) film.add(x, y, radiance.cast<double>());
-      sum += radiance.cast<double>();
-      ++valid;
+      pixel.sum += radiance.cast<double>();
+      ++pixel.valid;
     }
-    if (!pass.separate && valid > 0) film.add(x, y, sum / double(valid));
+    film.note(x, y, luminances);
   }
   return tally;
 }
 
-using RowFunction = Tally (*)(const Scene&, const PathIntegrator<Scene>&, std::uint64_t, const Pass&, int, Film&);
+using RowFunction = Tally (*)(const Scene&, const PathIntegrator<Scene>&, std::uint64_t, const Pass&, int, Film&,
+                              std::span<PassSum>);
 
 RowFunction row_function(PixelSampler sampler) {
   switch (sampler) {
@@ -94,71 +117,144 @@ PixelSampler sampler_from(std::string_view word) {
 
 std::string_view name(PixelSampler sampler) { return sampler_names[static_cast<std::size_t>(sampler)]; }
 
-RenderResult render(const Scene& scene, const RenderOptions& options) {
-  const int width = options.width, height = options.height;
-  const bool open_ended = options.seconds || options.target_error;
-  mc::require(open_ended || options.spp > 0, "render: {} samples per pixel; at least 1 is needed", options.spp);
+namespace {
+
+void check(const RenderOptions& options) {
+  mc::require(options.seconds || options.target_error || options.spp > 0,
+              "render: {} samples per pixel; at least 1 is needed", options.spp);
   mc::require(!options.seconds || *options.seconds > 0, "render: a time of {} s; it must be > 0",
               options.seconds.value_or(0));
   mc::require(!options.target_error || *options.target_error > 0, "render: a target error of {}; it must be > 0",
               options.target_error.value_or(0));
-
   mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
               options.max_depth);
-  const PathIntegrator<Scene> integrator(scene, {options.strategy, options.max_depth});
-  const RowFunction render_one = row_function(options.sampler);
-  const bool separate = options.sampler == PixelSampler::independent;
-  const std::uint32_t passes = open_ended ? ~0u : passes_for(static_cast<std::uint32_t>(options.spp));
-  const std::uint32_t count = open_ended ? 16 : static_cast<std::uint32_t>(options.spp) / passes;
+}
 
-  Film film(width, height);
-  RenderResult result;
-  Tally total;
-  const auto start = std::chrono::steady_clock::now();
-  const std::clock_t cpu_start = std::clock();
-  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const auto cancelled = [&] { return options.cancel && options.cancel->load(std::memory_order_relaxed); };
+/// A render under way.
+class Work {
+ public:
+  Work(const Scene& scene, const RenderOptions& options)
+      : scene_(scene), options_(options), integrator_(scene, {options.strategy, options.max_depth}),
+        render_row_(row_function(options.sampler)), separate_(options.sampler == PixelSampler::independent),
+        film_(options.width, options.height) {}
 
-  std::uint32_t done = 0; // whole passes
-  bool complete = false;
-  double error = mc::infinity<double>;
-  while (!complete && !cancelled()) {
-    const Pass pass{done, count, separate};
-    std::vector<Tally> rows(static_cast<std::size_t>(height));
-    std::atomic<std::uint64_t> rows_done = 0;
-    mc::parallel_for(rows.size(), options.threads, [&](std::size_t y) {
-      if (cancelled()) return;
-      rows[y] = render_one(scene, integrator, options.seed, pass, static_cast<int>(y), film);
-      ++rows_done;
-      if (!options.progress) return;
-      const double within = double(rows_done) / double(height), now = elapsed();
-      const double fraction = options.seconds ? now / *options.seconds
-                              : options.target_error
-                                  ? (std::isfinite(error) ? mc::sqr(*options.target_error / error) : 0.0)
-                                  : (done + within) / passes;
-      options.progress(
-          {fraction, total.samples + rows_done * static_cast<std::uint64_t>(width) * count, total.rays, now, error});
-    });
-    for (const Tally& row : rows) total.merge(row);
-    error = film.relative_error();
-    if (rows_done < rows.size()) break;
-    ++done;
-    complete = done == passes || (options.seconds && elapsed() >= *options.seconds) ||
-               (options.target_error && done >= 4 && error <= *options.target_error);
+  RenderResult run() {
+    if (options_.seconds || options_.target_error) until_enough();
+    else in_rounds();
+    RenderResult result;
+    result.image = film_.image();
+    result.samples = total_.samples;
+    result.rays = total_.rays;
+    result.spp = double(total_.samples) / (double(film_.width()) * double(film_.height()));
+    result.estimates = result.image.estimates = estimates_;
+    result.seconds = elapsed();
+    result.cpu_seconds = double(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
+    result.relative_error = film_.relative_error();
+    result.undecided = film_.undecided();
+    result.invalid = total_.invalid;
+    result.first_invalid = total_.first;
+    result.partial = partial_;
+    return result;
   }
 
-  result.image = film.image();
-  result.samples = total.samples;
-  result.rays = total.rays;
-  result.spp = double(total.samples) / (double(width) * double(height));
-  result.estimates = result.image.estimates = separate ? done * count : done;
-  result.seconds = elapsed();
-  result.cpu_seconds = double(std::clock() - cpu_start) / CLOCKS_PER_SEC;
-  result.relative_error = error;
-  result.invalid = total.invalid;
-  result.first_invalid = total.first;
-  result.partial = !complete;
-  return result;
+ private:
+  double elapsed() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  bool cancelled() const { return options_.cancel && options_.cancel->load(std::memory_order_relaxed); }
+  std::size_t height() const { return static_cast<std::size_t>(film_.height()); }
+  std::size_t width() const { return static_cast<std::size_t>(film_.width()); }
+
+  // All rows, unless it is cancelled; `row` renders one. How many were done.
+  template <class Row> std::uint64_t for_rows(Row&& row, const std::function<double(double rows)>& fraction) {
+    std::vector<Tally> tallies(height());
+    std::atomic<std::uint64_t> done = 0, samples = total_.samples;
+    mc::parallel_for(height(), options_.threads, [&](std::size_t y) {
+      if (cancelled()) return;
+      tallies[y] = row(y);
+      ++done;
+      samples += tallies[y].samples;
+      if (options_.progress)
+        options_.progress({fraction(double(done) / double(height())), samples, total_.rays, elapsed(), error_});
+    });
+    for (const Tally& tally : tallies) total_.merge(tally);
+    return done;
+  }
+
+  // A given number of samples.
+  void in_rounds() {
+    const auto spp = static_cast<std::uint32_t>(options_.spp), passes = passes_for(spp), count = spp / passes;
+    std::vector<PassSum> sums(separate_ ? 0 : width() * height() * passes);
+    std::vector<std::uint32_t> row_points(height(), 0); // done of every pass
+    std::uint32_t begin = 0;
+    for (; begin < count && !cancelled(); begin = std::min(count, std::max(1u, 4 * begin))) {
+      const std::uint32_t end = std::min(count, std::max(1u, 4 * begin));
+      const auto row = [&](std::size_t y) {
+        Tally tally;
+        for (std::uint32_t p = 0; p < passes; ++p) {
+          const std::size_t first = (y * passes + p) * width();
+          const std::span<PassSum> own = separate_ ? std::span<PassSum>() : std::span(sums).subspan(first, width());
+          tally.merge(render_row_(scene_, integrator_, options_.seed, {p, count, begin, end, separate_},
+                                  static_cast<int>(y), film_, own));
+        }
+        row_points[y] = end;
+        return tally;
+      };
+      if (for_rows(row, [&](double rows) { return (begin + rows * (end - begin)) / count; }) < height()) break;
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      if (sums[i].valid > 0)
+        film_.add(static_cast<int>(i % width()), static_cast<int>(i / width() / passes), sums[i].sum / sums[i].valid);
+    const std::uint32_t least = *std::min_element(row_points.begin(), row_points.end());
+    partial_ = least < count;
+    estimates_ = least == 0 ? 0 : separate_ ? passes * least : passes;
+  }
+
+  // Passes, until time or error suffice.
+  void until_enough() {
+    constexpr std::uint32_t count = 16;
+    std::vector<PassSum> sums;
+    for (std::uint32_t done = 0; !cancelled(); ++done) {
+      sums.assign(separate_ ? 0 : width() * height(), PassSum());
+      const auto row = [&](std::size_t y) {
+        const std::span<PassSum> own = separate_ ? std::span<PassSum>() : std::span(sums).subspan(y * width(), width());
+        const Tally tally = render_row_(scene_, integrator_, options_.seed, {done, count, 0, count, separate_},
+                                        static_cast<int>(y), film_, own);
+        for (std::size_t x = 0; x < own.size(); ++x)
+          if (own[x].valid > 0) film_.add(static_cast<int>(x), static_cast<int>(y), own[x].sum / own[x].valid);
+        return tally;
+      };
+      const auto fraction = [&](double) {
+        if (options_.seconds) return elapsed() / *options_.seconds;
+        return std::isfinite(error_) ? mc::sqr(*options_.target_error / error_) : 0.0;
+      };
+      if (for_rows(row, fraction) < height()) return;
+      estimates_ = (done + 1) * (separate_ ? count : 1);
+      error_ = film_.relative_error();
+      partial_ =
+          !(options_.seconds ? elapsed() >= *options_.seconds
+                             : done >= 3 && error_ <= *options_.target_error && film_.undecided() <= most_undecided);
+      if (!partial_) return;
+    }
+  }
+
+  const Scene& scene_;
+  const RenderOptions& options_;
+  PathIntegrator<Scene> integrator_;
+  RowFunction render_row_;
+  bool separate_;
+  Film film_;
+  Tally total_;
+  double error_ = mc::infinity<double>; ///< when it was last looked at
+  std::uint32_t estimates_ = 0;
+  bool partial_ = true;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_start_ = std::clock();
+};
+
+} // namespace
+
+RenderResult render(const Scene& scene, const RenderOptions& options) {
+  check(options);
+  return Work(scene, options).run();
 }
 
 } // namespace render

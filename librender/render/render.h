@@ -24,11 +24,14 @@ struct Progress {
   double relative_error = 0; ///< infinite while unknown
 };
 
+/// While a larger share of the pixels is undecided, a picture has not reached a target error.
+inline constexpr double most_undecided = 0.05;
+
 struct RenderOptions {
   int width = 256, height = 256;
   int spp = 64;                       ///< samples per pixel, unless one of the next two is given
   std::optional<double> seconds;      ///< wall-clock budget [s]
-  std::optional<double> target_error; ///< relative RMS standard error of the pixels
+  std::optional<double> target_error; ///< relative RMS standard error of the pixels, at most most_undecided of them
   Strategy strategy = strategy_from("mis");
   PixelSampler sampler = PixelSampler::sobol;
   int max_depth = -1; ///< longest path in edges; -1: no limit
@@ -45,6 +48,7 @@ struct RenderResult {
   std::uint32_t estimates = 0; ///< independent estimates per pixel behind the variance
   double seconds = 0, cpu_seconds = 0;
   double relative_error = 0; ///< see Film::relative_error
+  double undecided = 0;      ///< share of the pixels whose error bar is not known yet, see Film::undecided
   std::uint64_t invalid = 0; ///< samples that were not finite; they are left out of the image
   InvalidSample first_invalid;
   bool partial = false; ///< cancelled before the end
@@ -52,7 +56,9 @@ struct RenderResult {
 
 /// Renders in passes. A pass gives every pixel one estimate from an independently randomised point set, so the variance
 /// between passes is honest for low-discrepancy points too; with the independent sampler every sample is an estimate of
-/// its own. The result depends on the seed, not on the number of threads.
+/// its own. A given number of samples is taken in rounds that grow from one sample of every pass to all of them, so
+/// that a picture interrupted after the first is whole and has its variance. The result depends on the seed, not on the
+/// number of threads.
 ///   throws : Error for a non-positive size, sample count, time or error
 RenderResult render(const Scene& scene, const RenderOptions& options);
 

@@ -140,16 +140,41 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   EXPECT_TRUE(cancelled.partial);
   EXPECT_EQ(cancelled.samples, 0u);
 
-  // Cancelled in the second pass: one whole estimate counts. Cancelled after the last: the picture is whole.
-  for (const bool late : {false, true}) {
-    std::atomic<bool> halt = false;
-    options = small();
-    options.spp = 16, options.threads = 1, options.cancel = &halt;
-    options.progress = [&](const Progress& p) { halt = p.fraction > (late ? 0.999 : 0.3); };
-    const RenderResult result = render::render(scene, options);
-    EXPECT_EQ(result.partial, !late);
-    EXPECT_EQ(result.estimates, late ? 4u : 1u);
-  }
+  // Cancelled in the second round: a whole picture with variance. Cancelled after the last: it is not partial.
+  for (const PixelSampler sampler : samplers)
+    for (const bool late : {false, true}) {
+      std::atomic<bool> halt = false;
+      options = small();
+      options.spp = 64, options.threads = 1, options.sampler = sampler, options.cancel = &halt;
+      options.progress = [&](const Progress& p) { halt = p.fraction > (late ? 0.999 : 0.1); };
+      const RenderResult result = render::render(scene, options);
+      EXPECT_EQ(result.partial, !late);
+      EXPECT_GE(result.estimates, 4u);
+      EXPECT_EQ(result.image.variance.size(), result.image.pixels.size());
+      EXPECT_TRUE(std::isfinite(result.relative_error));
+    }
+}
+
+// One sample of the rare bright kind leaves most pixels undecided; many of them few.
+TEST(Render, ATargetIsNotReachedWhilePixelsAreUndecided) {
+  SceneBuilder builder;
+  const BsdfId black = builder.add(Lambert(Spectrum::Zero()));
+  // Lamps of a thousandth of a pixel each.
+  for (int x = -4; x < 4; ++x)
+    for (int y = -4; y < 4; ++y)
+      builder.add(Sphere(Vec3d(x + 0.5, y + 0.5, -8), 0.02), {black, Emission{Spectrum::Constant(100)}});
+  builder.set(ThinLens(Transform::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}), LensOptions{.fov = 53}));
+  const Scene scene = builder.build();
+  RenderOptions options;
+  options.width = options.height = 8;
+  options.sampler = PixelSampler::independent;
+  options.target_error = 0.4;
+  const RenderResult result = render::render(scene, options);
+  EXPECT_LE(result.undecided, most_undecided);
+  EXPECT_LE(result.relative_error, 0.4);
+  options.target_error = {};
+  options.spp = 256;
+  EXPECT_GE(render::render(scene, options).undecided, 0.1);
 }
 
 TEST(Render, ASceneWithoutLightIsBlack) {

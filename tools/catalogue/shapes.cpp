@@ -140,8 +140,8 @@ void add_meshes_seen(Catalogue& c) {
       const Vec2 v = domain.to_unit(x);
       const auto strip = std::min(static_cast<std::uint32_t>(std::sqrt(v[0]) * Float(strips)), strips - 1);
       const Float s = (v[0] - cut(strip)) / (cut(strip + 1) - cut(strip)), t = v[1];
-      const int first = 2 * static_cast<int>(strip);
-      return mesh.surface_point({}, s >= t ? Hit{0, 0, first, s - t, t} : Hit{0, 0, first + 1, s, t - s});
+      const std::size_t first = 2 * strip;
+      return s >= t ? mesh.point(first, double(s - t), double(t)) : mesh.point(first + 1, double(s), double(t - s));
     };
     add_points(
         c, "TriangleMesh", where, mesh, ref, domain, [](const SurfacePoint& p) { return p.p; }, surface, 1);
@@ -158,13 +158,24 @@ void add_meshes_seen(Catalogue& c) {
                  directions, directions.from_unit({Float(0.5), Float(0.5)}));
 }
 
+// The choice of a light at a point.
+struct LightsSeen {
+  using Scalar = Float;
+  std::shared_ptr<const Scene> scene;
+  Vec3 ref;
+
+  mc::DiscreteSample<Float> sample_index(Float u) const { return scene->sample_light(ref, u); }
+  Float pmf(std::size_t i) const { return scene->light_pmf(ref, i); }
+  std::size_t size() const { return scene->lights().size(); }
+};
+
 void add_choice(Catalogue& c) {
   SceneBuilder builder;
   const BsdfId gray = builder.add(Lambert());
   for (const double radiance : {0.0, 1.0, 1e-3, 0.0, 20.0, 3.0, 0.0})
     builder.add(Sphere(Vec3d::Zero(), 0.1), {gray, Emission{Spectrum::Constant(Float(radiance))}});
-  const auto choice = builder.build().light_choice().value();
-  add_subject(c, "Scene", "choice of a light", mc::make_discrete_subject("", choice),
+  const LightsSeen choice{std::make_shared<const Scene>(builder.build()), Vec3(1, 2, 3)};
+  add_subject(c, "LightChoice", "spheres of one size and place", mc::make_discrete_subject("", choice),
               [=](const Vec2& u) { return double(choice.sample_index(u[0]).pmf); });
 }
 

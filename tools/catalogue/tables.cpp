@@ -70,6 +70,8 @@ void add_tables(Catalogue& c) {
   }
   add_discrete(c, "Bernoulli", "p=0.3", "float", mc::Bernoulli<float>(0.3f));
   add_discrete(c, "Bernoulli", "p=0.3", "double", mc::Bernoulli<double>(0.3));
+  add_discrete(c, "ShortDiscrete", "n=5", "float", mc::ShortDiscrete<float, 8>(std::array{0.f, 3.f, 1e-3f, 20.f, 0.f}));
+  add_discrete(c, "ShortDiscrete", "n=5", "double", mc::ShortDiscrete<double, 8>(std::array{0., 3., 1e-3, 20., 0.}));
   add_warp(c, "TableDist2D", "24x10", [](auto s) { return mc::TableDist2D<decltype(s)>(jagged(240), 24, 10); });
   add_warp(c, "TableDist2D", "128x64 with a sun",
            [](auto s) { return mc::TableDist2D<decltype(s)>(sky(128, 64), 128, 64); });

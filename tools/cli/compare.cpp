@@ -69,7 +69,7 @@ class Comparison {
   Comparison(const Image& a, const Image& b, double tolerance)
       : a_(a), b_(b), noise_a_(a), noise_b_(b), tolerance_(tolerance) {}
 
-  bool possible() const { return noise_a_.known || noise_b_.known; }
+  bool possible() const { return noise_a_.known && noise_b_.known; }
 
   // Pixels, each with the variance of its 3x3 surroundings: a pixel that missed a rare bright path underestimates its
   // own. Blocks of 16x16 pixels see what is spread thinly.
@@ -193,7 +193,10 @@ int compare(const CompareOptions& options) {
 
   Comparison comparison(a, b, options.tolerance);
   if (!comparison.possible()) {
-    std::printf("verdict    none: neither image carries its variance; render to .exr to get it\n");
+    std::printf("verdict    none: %s no variance; render to .exr to get it\n",
+                a.variance.empty() && b.variance.empty()
+                    ? "the images carry"
+                    : fmt::format("'{}' carries", a.variance.empty() ? options.a : options.b).c_str());
     return exit_ok;
   }
   comparison.run();

@@ -64,7 +64,9 @@ std::vector<Option> rows(RenderOptions& o) {
       {"--target-error",
        "RATIO",
        &o.target_error,
-       "Mean relative standard error of the pixels to reach",
+       "Mean relative standard error of the pixels to reach, in at most 5 % of which one sample carries over half of "
+       "the "
+       "variance",
        false,
        {"--spp", "--time"}},
       {"--size", "WxH", &o.size, "Image size in pixels [the scene's]"},
@@ -143,14 +145,18 @@ int render(const RenderOptions& options) {
   ::render::write_image(output, result.image, options.exposure);
 
   std::printf("%s: %dx%d, %.4g samples/pixel in %s (%s CPU): %ssamples/s, %srays/s, mean standard error %s, %llu "
-              "invalid samples%s\n",
+              "invalid samples%s%s\n",
               output.c_str(), result.image.width, result.image.height, result.spp,
               format_seconds(result.seconds).c_str(), format_seconds(result.cpu_seconds).c_str(),
               format_count(double(result.samples) / result.seconds).c_str(),
               format_count(double(result.rays) / result.seconds).c_str(),
               std::isfinite(result.relative_error) ? fmt::format("{:.2f} %", 100 * result.relative_error).c_str()
                                                    : "unknown (one estimate per pixel)",
-              static_cast<unsigned long long>(result.invalid), result.partial ? ", PARTIAL: interrupted" : "");
+              static_cast<unsigned long long>(result.invalid),
+              result.undecided > 0
+                  ? fmt::format(", {:.1f} % of the pixels decided by one sample", 100 * result.undecided).c_str()
+                  : "",
+              result.partial ? ", PARTIAL: interrupted" : "");
   return result.partial ? exit_interrupted : exit_ok;
 }
 

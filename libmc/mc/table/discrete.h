@@ -4,7 +4,10 @@
 #include <mc/core/error.h>
 #include <mc/table/concept.h>
 
+#include <array>
 #include <cstdint>
+#include <limits>
+#include <span>
 
 namespace mc {
 
@@ -57,6 +60,49 @@ template <Real S> class Bernoulli {
 
  private:
   S p_;
+};
+
+/// Up to N outcomes with probabilities in proportion to their weights, found by walking along these: for a choice that
+/// is made once.
+///   error  : the share of u that meets an outcome differs from its pmf by at most 2 (size + 1) eps
+///   throws : Error unless there are 1 to N weights, finite and >= 0, with a finite sum > 0
+template <Real S, std::size_t N> class ShortDiscrete {
+ public:
+  using Scalar = S;
+
+  explicit ShortDiscrete(std::span<const S> weights) : size_(weights.size()) {
+    require(size_ >= 1 && size_ <= N, "ShortDiscrete: {} weights; 1 to {} are supported", size_, N);
+    S least = 0;
+    for (std::size_t i = 0; i < size_; ++i) {
+      weights_[i] = weights[i];
+      least = weights[i] < least ? weights[i] : least;
+      sum_ += weights[i];
+    }
+    require(least == 0 && sum_ > 0 && sum_ <= std::numeric_limits<S>::max(),
+            "ShortDiscrete: the weights must be finite and >= 0 and their sum, {}, finite and > 0",
+            static_cast<double>(sum_));
+  }
+
+  DiscreteSample<S> sample_index(S u) const {
+    S rest = u * sum_;
+    std::size_t last = 0;
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (rest < weights_[i]) {
+        const S again = rest / weights_[i];
+        return {i, pmf(i), again < 1 ? again : one_minus_epsilon<S>};
+      }
+      rest -= weights_[i];
+      if (weights_[i] > 0) last = i;
+    }
+    return {last, pmf(last), one_minus_epsilon<S>}; // rounding may leave a little of the last u
+  }
+  S pmf(std::size_t i) const { return weights_[i] / sum_; }
+  std::size_t size() const { return size_; }
+
+ private:
+  std::array<S, N> weights_; ///< the first size_ of them
+  std::size_t size_;
+  S sum_ = 0;
 };
 
 } // namespace mc

@@ -69,7 +69,7 @@ class SphereBlock {
     const int lane = detail::lowest_lane(t);
     if (!(t[lane] < limit)) return false;
     t_max = Float(t[lane]);
-    hit = {t_max, shape_[lane], 0, 0, 0};
+    hit = {t[lane], shape_[lane], 0, 0, 0};
     return true;
   }
 

@@ -103,7 +103,7 @@ template <bool any> bool TriangleBlock::intersect(const Ray& ray, const Prepared
     if constexpr (any) return true;
     t_max = Float(t);
     const double inverse = 1 / det;
-    hit = {t_max, shape_[lane], prim_[lane], Float(area1 * inverse), Float(area2 * inverse)};
+    hit = {t, shape_[lane], prim_[lane], Float(area1 * inverse), Float(area2 * inverse)};
     found = true;
   }
   return found;

@@ -6,13 +6,28 @@
 
 namespace render {
 
+void SampleSums::merge(const SampleSums& other) {
+  count += other.count;
+  sum += other.sum;
+  squares += other.squares;
+  largest = std::max(largest, other.largest);
+}
+
+bool SampleSums::is_undecided() const {
+  if (count < 2) return false;
+  const double mean = sum / double(count), deviations = squares - mean * sum;
+  // Below: equal samples, whose deviations are rounding.
+  return deviations > 1e-12 * squares && mc::sqr(largest - mean) > deviations / 2;
+}
+
 Film::Film(int width, int height) : width_(width), height_(height) {
   mc::require(width > 0 && height > 0, "film: size {}x{} needs at least one pixel", width, height);
   pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  samples_.resize(pixels_.size());
 }
 
 void Film::add(int x, int y, const Eigen::Array3d& estimate) {
-  Pixel& pixel = pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+  Pixel& pixel = pixels_[index(x, y)];
   for (std::size_t c = 0; c < 3; ++c) pixel[c].add(estimate[static_cast<int>(c)]);
 }
 
@@ -39,6 +54,11 @@ double Film::relative_error() const {
     }
   const double n = 3.0 * double(pixels_.size());
   return variance > 0 ? std::sqrt(variance / n) / (std::abs(mean) / n) : 0.0;
+}
+
+double Film::undecided() const {
+  const auto n = std::count_if(samples_.begin(), samples_.end(), [](const SampleSums& s) { return s.is_undecided(); });
+  return double(n) / double(samples_.size());
 }
 
 } // namespace render

@@ -20,7 +20,7 @@ std::vector<const Shape*> lights_and_guides(const Scene& scene) {
 std::vector<const Shape*> speculars(const Scene& scene) {
   std::vector<const Shape*> found;
   for (const Surface& s : scene.surfaces())
-    if (scene.light_choice() && std::holds_alternative<Sphere>(*s.shape) && scene.bsdf(s).is_delta())
+    if (scene.has_light_choice() && std::holds_alternative<Sphere>(*s.shape) && scene.bsdf(s).is_delta())
       found.push_back(s.shape.get());
   if (found.size() > most_speculars) found.clear();
   return found;

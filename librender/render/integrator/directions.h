@@ -22,6 +22,14 @@ template <class B> struct Vertex {
   Vec3 wo;                ///< in the frame
 };
 
+/// Whether the direction (wi in the frame, d in the world) lies on the same side of the true surface as of the one that
+/// the shading normal pretends: light must not leak through, nor be lost, where the two disagree.
+template <class B> bool is_real(const Vertex<B>& at, const Vec3& wi, const Vec3& d) {
+  if (at.point.ns == at.point.ng) return true;
+  const Float seen_from = at.frame.to_world(at.wo).dot(at.point.ng);
+  return (seen_from * d.dot(at.point.ng) > 0) == (at.wo.z() * wi.z() > 0);
+}
+
 /// A chosen direction.
 struct Direction {
   Vec3 d;          ///< in the world
@@ -64,8 +72,9 @@ class Directions {
     const Float uc = stream.next();
     const auto s = at.bsdf.sample(at.wo, uc, stream.next2());
     if (!s) return {};
-    return Direction{at.frame.to_world(s->wi), s->f * (std::abs(s->wi.z()) / s->pdf), s->delta ? Float(0) : s->pdf,
-                     s->eta};
+    const Vec3 d = at.frame.to_world(s->wi);
+    if (!is_real(at, s->wi, d)) return {};
+    return Direction{d, s->f * (std::abs(s->wi.z()) / s->pdf), s->delta ? Float(0) : s->pdf, s->eta};
   }
 
   // The BSDF's part of the mixture, of probability pmf.
@@ -74,6 +83,7 @@ class Directions {
     const auto s = at.bsdf.sample(at.wo, uc, u);
     if (!s) return {};
     const Vec3 d = at.frame.to_world(s->wi);
+    if (!is_real(at, s->wi, d)) return {};
     if (s->delta) return Direction{d, s->f * (std::abs(s->wi.z()) / (s->pdf * pmf)), 0, s->eta};
     if (!follows_) return {};
     const Float density = mixed(at, s->pdf, targets_pdf(at, s->wi, d));
@@ -97,6 +107,7 @@ class Directions {
   }
   template <class B>
   std::optional<Direction> aimed_at(const Vertex<B>& at, const Vec3& wi, const Vec3& d, Float targets) const {
+    if (!is_real(at, wi, d)) return {};
     const Float density = mixed(at, follows_ ? at.bsdf.pdf(at.wo, wi) : Float(0), targets);
     return Direction{d, at.bsdf.eval(at.wo, wi) * (std::abs(wi.z()) / density), density, 1};
   }

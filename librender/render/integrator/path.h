@@ -79,7 +79,7 @@ template <class SceneType> class PathIntegrator {
       std::optional<Bsdf> varied;
       const At at{scene_.bsdf(surface, *hit, varied), point, frame, frame.to_local(-walk.ray.d)};
       const bool rough = !at.bsdf.is_delta();
-      if (rough && connects() && scene_.light_choice()) radiance += walk.beta * connect(at, stream, rays);
+      if (rough && connects() && scene_.has_light_choice()) radiance += walk.beta * connect(at, stream, rays);
       if (whole && rough) return radiance + branch(at, walk, stream, rays);
       if (!scatter(at, walk, stream)) return radiance;
     }
@@ -106,17 +106,18 @@ template <class SceneType> class PathIntegrator {
     const Spectrum emitted = source.emitted(walk.ray.d, met);
     if (is_black(emitted) || !connects() || walk.previous_pdf == 0 || !source.is_sampled()) return emitted;
     if (options_.strategy.finding == Finding::by_connection) return Spectrum::Zero();
-    const Float other = scene_.light_choice()->pmf(light) * source.pdf(walk.previous, walk.ray.d, met);
+    const Float other = scene_.light_pmf(walk.previous, light) * source.pdf(walk.previous, walk.ray.d, met);
     return emitted * mc::power_heuristic(walk.previous_pdf, other);
   }
 
   // Light from one direction towards a light, reflected toward wo.
   template <class Stream> RENDER_FLAT Spectrum connect(const At& at, Stream& stream, std::uint64_t& rays) const {
-    const auto choice = scene_.light_choice()->sample_index(scene_.lights().size() > 1 ? stream.next() : Float(0));
+    const auto choice = scene_.sample_light(at.point.p, scene_.lights().size() > 1 ? stream.next() : Float(0));
     const Light& source = scene_.lights()[choice.index];
     const auto s = source.sample(at.point.p, stream.next2());
     if (!s || is_black(s->radiance)) return Spectrum::Zero();
     const Vec3 wi = at.frame.to_local(s->wi);
+    if (!is_real(at, wi, s->wi)) return Spectrum::Zero();
     const Spectrum f = at.bsdf.eval(at.wo, wi);
     if (is_black(f)) return f;
     ++rays;

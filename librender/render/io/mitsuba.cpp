@@ -16,7 +16,14 @@ using namespace mitsuba;
 
 class Reader {
  public:
-  Reader(const XmlElement& root, Dialect dialect) : root_(root), context_(root, dialect) {}
+  Reader(const XmlElement& root, Dialect dialect, const Vec3d& origin) : root_(root), context_(root, dialect, origin) {}
+
+  /// Where the camera stands, by the <sensor> alone.
+  Vec3d eye() {
+    for (const XmlElement& e : root_.children)
+      if (e.tag == "sensor") return read_plugin(sensor_plugins(), e, context_).camera.origin().cast<double>();
+    return Vec3d::Zero();
+  }
 
   SceneFile read() {
     for (const XmlElement& e : root_.children) read(e);
@@ -73,6 +80,32 @@ class Reader {
   bool has_background_ = false;
 };
 
+// Where the scene's shapes are, unless that is at the origin to within some of their size. Coordinates are floats
+// there, too coarse for what lies far away.
+Vec3d middle_of(const Scene& scene) {
+  if (scene.surfaces().empty()) return Vec3d::Zero();
+  const Vec3d lo = scene.bounds().lo.cast<double>(), hi = scene.bounds().hi.cast<double>(), middle = (lo + hi) / 2;
+  return middle.norm() > 8 * (hi - lo).norm() ? middle : Vec3d(Vec3d::Zero());
+}
+
+SceneFile read_about(const XmlElement& root, Dialect dialect, const Vec3d& origin) {
+  return Reader(root, dialect, origin).read();
+}
+
+// About the origin of the file, or about the scene where that is far from there.
+SceneFile read_where_it_stands(const XmlElement& root, Dialect dialect) {
+  std::optional<SceneFile> file;
+  try {
+    file = read_about(root, dialect, Vec3d::Zero());
+  } catch (const mc::Error&) { // far away a small lamp has lost its area
+    const Vec3d eye = Reader(root, dialect, Vec3d::Zero()).eye();
+    if (eye.isZero()) throw;
+    return read_about(root, dialect, eye);
+  }
+  const Vec3d middle = middle_of(file->scene);
+  return middle.isZero() ? std::move(*file) : read_about(root, dialect, middle);
+}
+
 } // namespace
 
 Dialect dialect_from(std::string_view name) {
@@ -89,7 +122,7 @@ SceneFile read_mitsuba(const std::string& path, Dialect dialect) {
   if (root.tag != "scene") root.fail("the document must be a <scene>");
   root.attribute_or("version", "");
   substitute_variables(root);
-  SceneFile file = Reader(root, dialect).read();
+  SceneFile file = read_where_it_stands(root, dialect);
   root.require_all_seen();
   return file;
 }

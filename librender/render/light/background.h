@@ -25,6 +25,7 @@ class ConstantBackground {
     return met ? Float(0) : mc::UniformSphere<Float>{}.pdf(wi);
   }
   double power(double radius) const { return 4 * mc::sqr(mc::pi<double> * radius) * double(luminance(radiance_)); }
+  double irradiance(const Vec3&) const { return mc::pi<double> * double(luminance(radiance_)); }
   bool is_delta() const { return false; }
   bool is_infinite() const { return true; }
   bool is_sampled() const { return false; }
@@ -63,6 +64,9 @@ class GradientBackground {
   }
   double power(double radius) const {
     return 2 * mc::sqr(mc::pi<double> * radius) * (double(luminance(bottom_)) + double(luminance(top_)));
+  }
+  double irradiance(const Vec3&) const {
+    return mc::pi<double> * double(std::max(luminance(bottom_), luminance(top_)));
   }
   bool is_delta() const { return false; }
   bool is_infinite() const { return true; }

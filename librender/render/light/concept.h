@@ -22,6 +22,7 @@ struct LightSample {
 ///   pdf(ref, wi, met)  : density [1/sr] with which sample(ref, .) picks wi, as far as it is due to what was met; 0 for
 ///                        a delta light
 ///   power(radius)      : luminous power [W] into a scene that a ball of this radius holds
+///   irradiance(ref)    : about the most luminous irradiance [W/m^2] that it can cause at ref, > 0 unless it is dark
 ///   is_delta()         : no ray can meet it, only sample() finds it
 ///   is_infinite()      : it shines where a ray leaves the scene
 ///   is_sampled()       : sampling it beats meeting it by chance, so integrators connect to it
@@ -31,6 +32,7 @@ concept LightLike = requires(const T l, Vec3 ref, Vec3 wi, Vec2 u, const Surface
   { l.sample(ref, u) } -> std::same_as<std::optional<LightSample>>;
   { l.pdf(ref, wi, met) } -> std::convertible_to<Float>;
   { l.power(radius) } -> std::convertible_to<double>;
+  { l.irradiance(ref) } -> std::convertible_to<double>;
   { l.is_delta() } -> std::convertible_to<bool>;
   { l.is_infinite() } -> std::convertible_to<bool>;
   { l.is_sampled() } -> std::convertible_to<bool>;

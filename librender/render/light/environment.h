@@ -28,6 +28,7 @@ class Environment {
   std::optional<LightSample> sample(const Vec3&, const Vec2& u) const;
   Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* met) const { return met ? Float(0) : density(place(wi)); }
   double power(double radius) const { return mc::pi<double> * mc::sqr(radius) * flux_; }
+  double irradiance(const Vec3&) const { return flux_; }
   bool is_delta() const { return false; }
   bool is_infinite() const { return true; }
   bool is_sampled() const { return true; }

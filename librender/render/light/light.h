@@ -24,6 +24,9 @@ struct Light : std::variant<AreaLight, ConstantBackground, GradientBackground, E
   double power(double radius) const {
     return dispatch(*this, [&](const auto& l) { return l.power(radius); });
   }
+  double irradiance(const Vec3& ref) const {
+    return dispatch(*this, [&](const auto& l) { return l.irradiance(ref); });
+  }
   bool is_delta() const {
     return dispatch(*this, [](const auto& l) { return l.is_delta(); });
   }

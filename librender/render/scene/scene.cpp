@@ -1,7 +1,5 @@
 #include <render/scene/scene.h>
 
-#include <algorithm>
-
 namespace render {
 
 Scene::Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std::vector<Light> lights, ThinLens camera,
@@ -14,12 +12,9 @@ Scene::Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std
 
   const Box& bounds = bvh_.bounds();
   const double radius = surfaces_.empty() ? 1.0 : (bounds.hi - bounds.lo).cast<double>().norm() / 2;
-  std::vector<double> power;
-  for (std::uint32_t i = 0; i < lights_.size(); ++i) {
+  for (std::uint32_t i = 0; i < lights_.size(); ++i)
     if (lights_[i].is_infinite()) infinite_lights_.push_back(i);
-    power.push_back(lights_[i].is_sampled() ? lights_[i].power(radius) : 0.0);
-  }
-  if (std::any_of(power.begin(), power.end(), [](double p) { return p > 0; })) light_choice_.emplace(power);
+  light_choice_ = LightChoice::of(lights_, radius);
 }
 
 } // namespace render

@@ -6,9 +6,7 @@
 #include <render/bsdf/textured_lambert.h>
 #include <render/camera/thin_lens.h>
 #include <render/film/filter.h>
-#include <render/light/light.h>
-
-#include <mc/table/table_dist_1d.h>
+#include <render/light/choice.h>
 
 #include <memory>
 #include <optional>
@@ -44,6 +42,8 @@ class Scene {
     return surface(hit).shape->surface_point(ray, hit);
   }
   bool occluded(const Ray& ray) const { return bvh_.occluded(ray); }
+  /// Box of all surfaces; empty where there are none.
+  const Box& bounds() const { return bvh_.bounds(); }
 
   std::span<const Surface> surfaces() const { return surfaces_; }
   const Surface& surface(const Hit& hit) const { return surfaces_[static_cast<std::size_t>(hit.shape)]; }
@@ -60,9 +60,12 @@ class Scene {
   std::span<const Light> lights() const { return lights_; }
   /// Indices of the lights that shine where a ray leaves the scene.
   std::span<const std::uint32_t> infinite_lights() const { return infinite_lights_; }
-  /// The lights to connect to, by power; none where no light is sampled. A light that is not sampled, or dark, has pmf
-  /// 0.
-  const std::optional<mc::TableDist1D<Float>>& light_choice() const { return light_choice_; }
+  /// Whether there are lights to connect to. Then sample_light picks one for the point ref, as LightChoice says.
+  bool has_light_choice() const { return light_choice_.has_value(); }
+  mc::DiscreteSample<Float> sample_light(const Vec3& ref, Float u) const {
+    return light_choice_->sample_index(lights_, ref, u);
+  }
+  Float light_pmf(const Vec3& ref, std::size_t light) const { return light_choice_->pmf(lights_, ref, light); }
 
   const ThinLens& camera() const { return camera_; }
   const Filter& filter() const { return filter_; }
@@ -76,7 +79,7 @@ class Scene {
   std::vector<Material> materials_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> infinite_lights_;
-  std::optional<mc::TableDist1D<Float>> light_choice_;
+  std::optional<LightChoice> light_choice_;
   Bvh bvh_;
   ThinLens camera_;
   Filter filter_;

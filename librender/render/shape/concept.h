@@ -9,7 +9,7 @@ namespace render {
 
 /// The nearest crossing of a ray: which primitive of which shape, and where on it.
 struct Hit {
-  Float t = 0;
+  double t = 0;         ///< in double, so that large triangles and far spheres are met at a point of theirs
   int shape = -1;       ///< index into the scene's shapes
   int prim = -1;        ///< triangle of a mesh; 0 for a sphere
   Float b1 = 0, b2 = 0; ///< barycentric weights of vertices 1 and 2 (mesh only)
@@ -52,6 +52,8 @@ struct DirectionSample {
 ///   sample_direction(ref, u) : a direction towards a point of sample(ref, u), with its density pdf(ref, wi), whatever
 ///                       rounding makes of the direction; nullopt where none leads there
 ///   area()            : total area
+///   spread(ref)       : more than the projected solid angle that it can fill at ref, at most pi, by less than
+///                       4 times where it is far away
 ///   surface_point     : the point of a Hit
 ///   has_uv(), uv(hit) : texture coordinates, where it has them;  forget_uvs() : not any more
 template <class T>
@@ -61,6 +63,7 @@ concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint 
   { s.pdf(ref, wi, hit) } -> std::convertible_to<Float>;
   { s.pdf(ref, wi) } -> std::convertible_to<Float>;
   { s.area() } -> std::convertible_to<double>;
+  { s.spread(ref) } -> std::convertible_to<double>;
   { s.surface_point(ray, h) } -> std::same_as<SurfacePoint>;
 };
 

@@ -26,6 +26,9 @@ struct Shape : std::variant<TriangleMesh, Sphere> {
   double area() const {
     return dispatch(*this, [](const auto& s) { return s.area(); });
   }
+  double spread(const Vec3& ref) const {
+    return dispatch(*this, [&](const auto& s) { return s.spread(ref); });
+  }
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const {
     return dispatch(*this, [&](const auto& s) { return s.surface_point(ray, hit); });
   }

@@ -52,10 +52,14 @@ SurfacePoint Sphere::point(const Vec3d& direction) const {
 }
 
 SurfacePoint Sphere::surface_point(const Ray& ray, const Hit& hit) const {
-  // In double and projected: the float t moves the point along the surface by an ulp of the distance, but not off it.
-  SurfacePoint s = point((ray.o.cast<double>() + double(hit.t) * ray.d.cast<double>() - center_).normalized());
+  // Projected, since t may be off by more than the error of a point of the sphere, which matters off it, not along it.
+  SurfacePoint s = point((ray.o.cast<double>() + hit.t * ray.d.cast<double>() - center_).normalized());
   s.shape = hit.shape;
   return s;
+}
+
+double Sphere::spread(const Vec3& ref) const {
+  return mc::pi<double> * std::min(1.0, mc::sqr(radius_) / (center_ - ref.cast<double>()).squaredNorm());
 }
 
 double Sphere::area() const { return 2 * mc::pi<double> * radius_ * height_; }

@@ -26,6 +26,7 @@ class Sphere {
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const;
   Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const;
+  double spread(const Vec3& ref) const;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
   /// No texture lies on spheres yet.

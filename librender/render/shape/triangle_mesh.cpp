@@ -69,6 +69,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
         std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()});
     faces_.push_back({vertices, n.stableNormalized().cast<Float>(), center, radius2, n.norm() / 2});
     area_ += faces_.back().area;
+    for (const Vec3& p : v) box_.add(p);
   }
   if (area_ > 0) {
     std::vector<double> areas;
@@ -82,9 +83,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
         return std::all_of(f.vertices.begin(), f.vertices.end(), [&](std::uint32_t v) { return agrees(f, v); });
       }))
     normals_.clear();
-  // Points are interpolated in double and rounded once: half an ulp of the largest coordinate, doubled for safety.
-  for (const Vec3& p : positions_)
-    error_ = std::max(error_, std::numeric_limits<Float>::epsilon() * p.lpNorm<Eigen::Infinity>());
+  for (const Vec3& p : positions_) error_ = std::max(error_, Float(0x1p-49) * p.lpNorm<Eigen::Infinity>());
 }
 
 TriangleMesh TriangleMesh::rectangle(const Transform& to_world) {
@@ -110,22 +109,27 @@ TriangleMesh TriangleMesh::box(const Transform& to_world) {
   return {transformed(corners, to_world), wound(std::move(triangles), to_world)};
 }
 
-SurfacePoint TriangleMesh::point(std::size_t triangle, double b1, double b2) const {
+// Computed in double and rounded once: half an ulp of the point, doubled for safety.
+SurfacePoint TriangleMesh::at(const Vec3d& p, std::size_t triangle, Float b1, Float b2) const {
   const Face& face = faces_[triangle];
-  const auto v = vertices(triangle);
-  const double b0 = 1 - b1 - b2;
   SurfacePoint s;
-  s.p = (b0 * v[0].cast<double>() + b1 * v[1].cast<double>() + b2 * v[2].cast<double>()).cast<Float>();
-  s.error = error_;
+  s.p = p.cast<Float>();
+  s.error = std::numeric_limits<Float>::epsilon() * s.p.lpNorm<Eigen::Infinity>() + error_;
   s.ng = s.ns = face.normal;
   if (!normals_.empty()) {
     const auto& [i, j, k] = face.vertices;
-    const Vec3 n = Float(b0) * normals_[i] + Float(b1) * normals_[j] + Float(b2) * normals_[k];
+    const Vec3 n = (1 - b1 - b2) * normals_[i] + b1 * normals_[j] + b2 * normals_[k];
     if (n.squaredNorm() > 0) s.ns = n.normalized();
     if (s.ns.dot(s.ng) < 0) s.ns = -s.ns;
   }
   s.prim = static_cast<int>(triangle);
   return s;
+}
+
+SurfacePoint TriangleMesh::point(std::size_t triangle, double b1, double b2) const {
+  const auto v = vertices(triangle);
+  return at((1 - b1 - b2) * v[0].cast<double>() + b1 * v[1].cast<double>() + b2 * v[2].cast<double>(), triangle,
+            Float(b1), Float(b2));
 }
 
 mc::Vec2<double> TriangleMesh::uv(const Hit& hit) const {
@@ -134,8 +138,15 @@ mc::Vec2<double> TriangleMesh::uv(const Hit& hit) const {
   return (1 - b1 - b2) * uvs_[i].cast<double>() + b1 * uvs_[j].cast<double>() + b2 * uvs_[k].cast<double>();
 }
 
-SurfacePoint TriangleMesh::surface_point(const Ray&, const Hit& hit) const {
-  SurfacePoint s = point(static_cast<std::size_t>(hit.prim), double(hit.b1), double(hit.b2));
+// Not by the weights of the hit, of floats, which would slide the point along a large triangle. Rounding could carry a
+// point near an edge behind the triangle that joins there: a few errors towards the middle keep it before both.
+SurfacePoint TriangleMesh::surface_point(const Ray& ray, const Hit& hit) const {
+  const auto triangle = static_cast<std::size_t>(hit.prim);
+  const Vec3d p = ray.o.cast<double>() + hit.t * ray.d.cast<double>(),
+              inward = faces_[triangle].center.cast<double>() - p;
+  const double error = double(std::numeric_limits<Float>::epsilon()) * p.lpNorm<Eigen::Infinity>() + double(error_);
+  const double step = std::min(0.5, 4 * error / inward.lpNorm<Eigen::Infinity>());
+  SurfacePoint s = at(p + step * inward, triangle, hit.b1, hit.b2);
   s.shape = hit.shape;
   return s;
 }
@@ -175,6 +186,11 @@ ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle,
   const Crossing at = cross_plane(vertices(triangle), ref.cast<double>(), d);
   const double b1 = std::clamp(at.b1, 0.0, 1.0);
   return {point(triangle, b1, std::clamp(at.b2, 0.0, 1 - b1)), d.cast<Float>(), near_pdf(triangle, directions)};
+}
+
+double TriangleMesh::spread(const Vec3& ref) const {
+  const Vec3d to_box = (box_.lo - ref).cwiseMax(ref - box_.hi).cwiseMax(Float(0)).template cast<double>();
+  return std::min(mc::pi<double>, area_ / to_box.squaredNorm());
 }
 
 std::optional<mc::SphericalTriangle<double>> TriangleMesh::near_triangle(const Vec3& ref, std::size_t triangle) const {

@@ -1,6 +1,7 @@
 #pragma once
 /// Triangle meshes; rectangles and boxes are meshes too.
 
+#include <render/core/box.h>
 #include <render/core/transform.h>
 #include <render/shape/concept.h>
 
@@ -37,7 +38,10 @@ class TriangleMesh {
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const;
   Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const { return area_; }
+  double spread(const Vec3& ref) const;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
+  /// The point of barycentric weights b1 and b2 of vertices 1 and 2.
+  SurfacePoint point(std::size_t triangle, double b1, double b2) const;
 
   bool has_uv() const { return !uvs_.empty(); }
   mc::Vec2<double> uv(const Hit& hit) const;
@@ -51,7 +55,7 @@ class TriangleMesh {
   }
 
  private:
-  SurfacePoint point(std::size_t triangle, double b1, double b2) const;
+  SurfacePoint at(const Vec3d& p, std::size_t triangle, Float b1, Float b2) const;
   /// The directions from ref through a triangle that ref nearly touches: it lies less than a quarter of the triangle's
   /// radius from the plane, and beside the triangle. Else nullopt, as for a triangle that is seen edge-on.
   std::optional<mc::SphericalTriangle<double>> near_triangle(const Vec3& ref, std::size_t triangle) const;
@@ -73,7 +77,8 @@ class TriangleMesh {
   std::vector<Face> faces_;
   std::optional<mc::TableDist1D<double>> choice_; ///< of a triangle by its area; none where all areas are 0
   double area_ = 0;
-  Float error_ = 0; ///< of an interpolated point, per coordinate
+  Box box_;
+  Float error_ = 0; ///< of an interpolated point before it is rounded to Float, per coordinate
 };
 
 } // namespace render

@@ -49,6 +49,26 @@ TYPED_TEST(DiscreteOver, UniformIsExactForEveryN) {
   check(1u << 24, one_minus_epsilon<S>);
 }
 
+TYPED_TEST(DiscreteOver, ShortObeysItsLaws) {
+  using S = TypeParam;
+  const S tiny = std::numeric_limits<S>::min(), huge = std::numeric_limits<S>::max() / 4;
+  for (const std::vector<S>& weights : {std::vector<S>{1},
+                                        {0, 0, 2, 0},
+                                        {1, 2, 3, 4, 5, 6, 7, 8},
+                                        {S(1e-3), 0, 20, S(0.5)},
+                                        {tiny, 2 * tiny},
+                                        {huge, huge}})
+    expect_laws(ShortDiscrete<S, 8>(weights));
+}
+
+TYPED_TEST(DiscreteOver, ShortRefusesNonsense) {
+  using S = TypeParam;
+  const S inf = infinity<S>, nan = std::numeric_limits<S>::quiet_NaN(), max = std::numeric_limits<S>::max();
+  for (const std::vector<S>& weights :
+       {std::vector<S>{}, {0, 0}, {1, -1, 2}, {inf}, {1, nan}, {max, max}, {1, 1, 1, 1}})
+    EXPECT_THROW((ShortDiscrete<S, 3>(weights)), Error);
+}
+
 TYPED_TEST(DiscreteOver, BernoulliObeysItsLaws) {
   using S = TypeParam;
   for (const double p : {0.0, 0.25, 0.3, 0.5, 0.999, 1.0}) expect_laws(Bernoulli<S>(S(p)));

@@ -121,10 +121,10 @@ TEST(Bvh, HitsEndBeforeTMax) {
     const auto hit = bvh.intersect(ray);
     if (!hit) continue;
     ++hits;
-    ray.t_max = std::nextafter(std::nextafter(hit->t, Float(0)), Float(0));
+    ray.t_max = std::nextafter(std::nextafter(Float(hit->t), Float(0)), Float(0));
     EXPECT_FALSE(bvh.occluded(ray)) << i;
     EXPECT_EQ(bvh.intersect(ray), std::nullopt) << i;
-    ray.t_max = std::nextafter(hit->t, mc::infinity<Float>);
+    ray.t_max = std::nextafter(Float(hit->t), mc::infinity<Float>);
     EXPECT_TRUE(bvh.occluded(ray)) << i;
   }
   EXPECT_GE(hits, 200);

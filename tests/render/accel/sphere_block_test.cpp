@@ -43,9 +43,9 @@ TEST(SphereBlock, FindsWhatTheSpheresFind) {
     ASSERT_EQ(block.intersect<true>(ray, prepared, t_max, hit), nearest < mc::infinity<double>);
     if (!block.intersect<false>(ray, prepared, t_max, hit)) continue;
     ++hits;
-    EXPECT_EQ(hit.t, Float(nearest));
-    EXPECT_EQ(t_max, hit.t);
-    EXPECT_EQ(Float(spheres[std::size_t(hit.shape)].intersect(ray).value()), hit.t);
+    EXPECT_EQ(Float(hit.t), Float(nearest));
+    EXPECT_EQ(t_max, Float(hit.t));
+    EXPECT_EQ(Float(spheres[std::size_t(hit.shape)].intersect(ray).value()), Float(hit.t));
   }
   EXPECT_GE(hits, 300);
 }

@@ -31,6 +31,22 @@ TEST(Film, OneEstimateHasNoVariance) {
   EXPECT_EQ(film.relative_error(), mc::infinity<double>);
 }
 
+TEST(Film, TellsWhichPixelsOneSampleDecides) {
+  Film film(4, 1);
+  const auto note = [&](int x, const std::vector<double>& luminances) {
+    for (const double y : luminances) { // merging says the same as adding
+      SampleSums one;
+      one.add(y);
+      film.note(x, 0, one);
+    }
+  };
+  note(0, {1, 1, 1, 1, 1, 1, 1, 100});
+  note(1, {1, 2, 3, 4, 5, 6, 7, 8});
+  note(2, {0.1, 0.1, 0.1, 0.1});
+  note(3, {0, 0, 0, 1, 1, 1});
+  EXPECT_EQ(film.undecided(), 0.25);
+}
+
 TEST(Film, NeedsAPixel) {
   EXPECT_THROW(Film(0, 4), mc::Error);
   EXPECT_THROW(Film(4, -1), mc::Error);

@@ -111,7 +111,7 @@ TEST(TriangleMesh, NormalsOfBoxesPointOutwardAlsoWhenMirrored) {
   for (const double mirror : {1.0, -1.0}) {
     const TriangleMesh box = TriangleMesh::box(scaled_at({mirror, 2, 3}, {5, 6, 7}));
     for (int i = 0; i < static_cast<int>(box.size()); ++i) {
-      const SurfacePoint s = box.surface_point({}, {1, 0, i, Float(0.3), Float(0.3)});
+      const SurfacePoint s = box.point(static_cast<std::size_t>(i), 0.3, 0.3);
       EXPECT_GT(s.ng.dot(s.p - Vec3(5, 6, 7)), 0) << i;
     }
   }
@@ -131,7 +131,7 @@ TEST(TriangleMesh, NormalOfARectangleIsTheTransformedOne) {
     const Vec3 expected = (linear.inverse().transpose() * Vec3d::UnitZ()).normalized().cast<Float>();
     const TriangleMesh square = TriangleMesh::rectangle(m);
     for (int i = 0; i < 2; ++i)
-      EXPECT_LE((square.surface_point({}, {1, 0, i, Float(0.3), Float(0.3)}).ng - expected).norm(), 1e-4) << m.linear;
+      EXPECT_LE((square.point(static_cast<std::size_t>(i), 0.3, 0.3).ng - expected).norm(), 1e-4) << m.linear;
   }
   EXPECT_GT(mirrored, 50);
 }
@@ -139,11 +139,10 @@ TEST(TriangleMesh, NormalOfARectangleIsTheTransformedOne) {
 TEST(TriangleMesh, ShadingNormalsKeepToTheGeometricSide) {
   const TriangleMesh mesh({corners[0], corners[1], corners[2]}, {{0, 1, 2}},
                           {Vec3(0, 0, -1), Vec3(0, 0, -1), Vec3(1, 0, -1).normalized()});
-  const SurfacePoint s = mesh.surface_point({}, {1, 3, 0, Float(0.25), Float(0.5)});
+  const SurfacePoint s = mesh.point(0, 0.25, 0.5);
   EXPECT_GT(s.ns.dot(s.ng), 0);
   EXPECT_LE(std::abs(s.ns.norm() - 1), 1e-6);
   EXPECT_EQ(s.p, Vec3(Float(0.25), Float(0.5), 0));
-  EXPECT_EQ(s.shape, 3);
 }
 
 } // namespace

@@ -90,6 +90,19 @@ TEST_F(Compare, MetricsAndDifferenceImage) {
   EXPECT_EQ(render::read_image(path("d.pfm")).at(3, 1)[2], render::Float(0.25));
 }
 
+// What one image's noise may be is no verdict on two.
+TEST_F(Compare, GivesNoVerdictWithoutBothVariances) {
+  render::Image bare = noisy(2, 0.9);
+  bare.variance.clear();
+  save("a.exr", noisy(1, 0.5));
+  save("b.exr", bare);
+  const support::Run run = compare("");
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.output, HasSubstr("verdict    none: '" + path("b.exr") + "' carries no variance"));
+  save("a.exr", bare);
+  EXPECT_THAT(compare("").output, HasSubstr("the images carry no variance"));
+}
+
 TEST_F(Compare, BadInputIsOneLine) {
   save("a.exr", noisy(1, 0.5));
   save("b.exr", render::Image(4, 4));

@@ -8,7 +8,10 @@
 
 namespace render::mitsuba {
 
-Context::Context(const XmlElement& root, Dialect dialect) : path_(root.file), dialect_(dialect) { collect_ids(root); }
+Context::Context(const XmlElement& root, Dialect dialect, const Vec3d& origin)
+    : path_(root.file), dialect_(dialect), origin_(origin) {
+  collect_ids(root);
+}
 
 void Context::collect_ids(const XmlElement& element) {
   for (const XmlElement& child : element.children) {

@@ -20,10 +20,12 @@ using MaterialText = std::variant<Bsdf, TexturedLambert>;
 /// Filled while a scene is read. `root` must outlive it.
 class Context {
  public:
+  /// origin : the point of the file that becomes the origin of the scene
   /// throws : Error for two elements of the same id
-  Context(const XmlElement& root, Dialect dialect);
+  Context(const XmlElement& root, Dialect dialect, const Vec3d& origin);
 
   Dialect dialect() const { return dialect_; }
+  const Vec3d& origin() const { return origin_; }
 
   /// The path of a file that is named relative to the scene file.
   std::string file(const std::string& name) const;
@@ -54,6 +56,7 @@ class Context {
 
   std::string path_;
   Dialect dialect_;
+  Vec3d origin_;
   std::map<std::string, const XmlElement*> ids_;
   std::map<const XmlElement*, BsdfId> bsdfs_;
   std::set<const XmlElement*> being_read_;

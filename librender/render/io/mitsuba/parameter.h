@@ -31,6 +31,13 @@ struct Declaration {
   const XmlElement* find(const XmlElement& plugin) const;
 };
 
+/// What is read, in the coordinates of the scene: a transform leads to these, nothing else depends on them.
+template <class T> T in_scene(T value, const Context&) { return value; }
+inline Transform in_scene(Transform t, const Context& context) {
+  t.translation -= context.origin();
+  return t;
+}
+
 /// A parameter whose value is a T.
 template <class T> struct Parameter {
   Declaration declared;
@@ -54,10 +61,10 @@ template <class T> struct Parameter {
 
   /// Its value for a plugin.
   T read(const XmlElement& plugin, Context& context) const {
-    if (const XmlElement* given = declared.find(plugin)) return parse(*given, context);
-    if (context.dialect() == Dialect::lajolla && lajolla_fallback) return *lajolla_fallback;
+    if (const XmlElement* given = declared.find(plugin)) return in_scene(parse(*given, context), context);
+    if (context.dialect() == Dialect::lajolla && lajolla_fallback) return in_scene(*lajolla_fallback, context);
     if (!fallback) plugin.fail(fmt::format("parameter '{}' is missing: {}", declared.name, declared.meaning));
-    return *fallback;
+    return in_scene(*fallback, context);
   }
 };
 

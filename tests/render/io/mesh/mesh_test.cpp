@@ -41,10 +41,10 @@ TEST_F(Mesh, ToShapeMovesPointsAndNormals) {
   const Transform mirrored = Transform::translate({0, 0, 5}) * Transform::scale({-2, 1, 1});
   const TriangleMesh mesh = to_shape(file, mirrored);
   EXPECT_DOUBLE_EQ(mesh.area(), 1);
-  const SurfacePoint corner = mesh.surface_point({}, {1, 0, 0, 1, 0}); // vertex 1 of the turned triangle: (0, 1, 0)
+  const SurfacePoint corner = mesh.point(0, 1, 0); // vertex 1 of the turned triangle: (0, 1, 0)
   EXPECT_EQ(corner.ng, Vec3(0, 0, 1)) << "a mirroring transform keeps the normal on its side";
   EXPECT_LE((corner.ns - Vec3(-0.5, 0, 1).normalized()).norm(), 1e-6);
-  EXPECT_EQ(to_shape(file, mirrored, true).surface_point({}, {1, 0, 0, 1, 0}).ns, Vec3(0, 0, 1));
+  EXPECT_EQ(to_shape(file, mirrored, true).point(0, 1, 0).ns, Vec3(0, 0, 1));
 }
 
 // OBJ

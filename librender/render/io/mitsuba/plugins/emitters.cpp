@@ -39,7 +39,7 @@ const Plugins<Light>& emitter_plugins() {
                     transform("toWorld", "a rotation; where it moves things is of no effect"),
                     number("scale", "", 1, "factor of the picture's values, > 0"),
                     picture("filename", "the picture: .exr, .pfm, .png or .jpg"))
-          .accepting({no_effect("samplingWeight", "lights are chosen by their power")}),
+          .accepting({no_effect("samplingWeight", "lights are chosen by what they give where light is sought")}),
       plugin<Light>("gradient", "a sky that is linear in the height of the direction (ours)", make_gradient,
                     color("bottom", radiance_unit, "what arrives from -y, >= 0", Spectrum::Ones()),
                     color("top", radiance_unit, "what arrives from +y, >= 0", Spectrum(Float(0.5), Float(0.7), 1))),

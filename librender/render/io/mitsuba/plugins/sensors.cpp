@@ -119,12 +119,12 @@ const Plugins<int>& integrator_plugins() {
       plugin<int>("path", "paths from the camera; --strategy says how they find the lights", make_path,
                   integer("maxDepth", "longest path in edges; -1: no limit", -1))
           .accepting({no_effect("rrDepth", "Russian roulette follows the throughput"),
-                      only(false, "strictNormals", "shading normals are trusted"),
+                      no_effect("strictNormals", "the geometry always decides on which side light is"),
                       only(false, "hideEmitters", "lights are seen")}),
       plugin<int>("direct", "what lights send by way of one surface: paths of at most two edges", make_direct)
           .accepting({no_effect("shadingSamples", "--spp says it"), no_effect("emitterSamples", "--spp says it"),
                       no_effect("bsdfSamples", "--spp says it"),
-                      only(false, "strictNormals", "shading normals are trusted"),
+                      no_effect("strictNormals", "the geometry always decides on which side light is"),
                       only(false, "hideEmitters", "lights are seen")}),
   };
   return rows;

@@ -88,7 +88,7 @@ TEST_F(PluginsTest, NamesAndParametersDiffer) {
 }
 
 TEST_F(PluginsTest, WhatIsNotDoneIsRefused) {
-  for (const char* name : {"strictNormals", "hideEmitters"}) {
+  for (const char* name : {"hideEmitters"}) {
     const std::string start =
         std::string(sensor) + "\n<integrator type=\"path\"><boolean name=\"" + name + "\" value=\"";
     EXPECT_THAT(refusal(start + "true\"/></integrator>"),

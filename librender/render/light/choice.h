@@ -1,0 +1,39 @@
+#pragma once
+/// Which light to connect to.
+
+#include <render/light/light.h>
+
+#include <mc/table/discrete.h>
+#include <mc/table/table_dist_1d.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace render {
+
+/// Chooses among the lights that are sampled and not dark, as it suits the point that is lit: nine times of ten by
+/// Light::irradiance there, or where there are more than `few`, by their power; else all alike, since what could give
+/// most may stand behind a wall. So none of n lights has a probability below .1 / n, wherever it stands.
+///   Source : the uniform part is a defensive mixture [Hesterberg95]
+class LightChoice {
+ public:
+  static constexpr std::size_t few = 16;
+
+  /// None where no light can be chosen. The lights must outlive it; a ball of `radius` holds the scene.
+  static std::optional<LightChoice> of(std::span<const Light> lights, double radius);
+
+  /// An index into the lights.
+  mc::DiscreteSample<Float> sample_index(std::span<const Light> lights, const Vec3& ref, Float u) const;
+  /// Its probability; 0 of lights that are never chosen.
+  Float pmf(std::span<const Light> lights, const Vec3& ref, std::size_t light) const;
+
+ private:
+  mc::ShortDiscrete<Float, few> seen_from(std::span<const Light> lights, const Vec3& ref) const;
+
+  std::vector<std::uint32_t> candidates_;
+  std::vector<std::int32_t> place_;                ///< of a light among the candidates; -1: it is none
+  std::optional<mc::TableDist1D<Float>> by_power_; ///< where they are many
+};
+
+} // namespace render

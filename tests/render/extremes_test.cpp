@@ -1,0 +1,216 @@
+// Pictures of one point whose radiance is known, where sizes and places are extreme. Each mean is held against the
+// closed form by a t-test at alpha = 1e-5; there are below forty, and the seeds are fixed.
+
+#include <render/integrator/path.h>
+#include <render/io/mitsuba.h>
+#include <render/scene/builder.h>
+
+#include <mc/estimate/moments.h>
+#include <mc/sampler/walk_stream.h>
+#include <mc/stats/t_test.h>
+
+#include <gtest/gtest.h>
+
+#include "support/files.h"
+
+namespace {
+
+using namespace render;
+
+mc::Moments trace(const Scene& scene, const Ray& ray, const PathOptions& options, int n) {
+  const PathIntegrator<Scene> integrator(scene, options);
+  mc::Moments moments;
+  std::uint64_t rays = 0;
+  for (int i = 0; i < n; ++i) {
+    mc::IndependentWalk<Float> stream({2027, 0}, std::uint32_t(i));
+    moments.add(double(integrator.radiance(ray, stream, rays)[0]), std::uint64_t(i));
+  }
+  return moments;
+}
+
+void expect_mean(const mc::Moments& m, double value, double rounding, const std::string& what) {
+  if (std::abs(m.mean() - value) <= rounding * value) return;
+  EXPECT_GE(mc::t_test(m, value).p, 1e-5)
+      << what << ": " << m.mean() << " +- " << m.std_error() << ", expected " << value;
+}
+
+/// Horizontal rectangle, normal up or down.
+Shape horizontal(const Vec3d& center, double half, bool up) {
+  return TriangleMesh::rectangle(
+      Transform::columns(Vec3d(half, 0, 0), Vec3d(0, 0, up ? -half : half), Vec3d(0, up ? 1 : -1, 0), center));
+}
+
+std::vector<std::string> unbiased() { return {"bsdf", "hemisphere", "mixture", "nee", "mis"}; }
+
+// A light of half size h and radiance 1 / h^2: 4 cos^2 / (pi d^2) up to h^2 / d^2. Aimed directions that rounding
+// carries past a light of a few thousand ulps must not be weighed as if nobody had aimed.
+TEST(Extremes, SmallLightsUnderStrategiesThatAimOrConnect) {
+  const Vec3d place(0.5, 0.7, 0.3);
+  const double d2 = place.squaredNorm(), expected = 4 * 0.49 / (mc::pi<double> * d2 * d2);
+  for (const double h : {3e-3, 1e-3, 1e-4}) {
+    SceneBuilder builder;
+    const BsdfId white = builder.add(Lambert(Spectrum::Ones()));
+    builder.add(horizontal(Vec3d::Zero(), 5, true), {white});
+    builder.add(horizontal(place, h, false), {white, Emission{Spectrum::Constant(Float(1 / (h * h)))}});
+    const Scene scene = builder.build();
+    for (const char* strategy : {"mixture", "nee", "mis"})
+      expect_mean(trace(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from(strategy), 2}, 20'000), expected, 1e-4,
+                  fmt::format("{}, half size {}", strategy, h));
+  }
+}
+
+// In a furnace of 1 a glass sphere of radius 1 far away changes nothing, whoever aims at it.
+TEST(Extremes, AFurnaceWithFarGlass) {
+  for (const double distance : {1e4, 1e6, 1e7, 1e8}) {
+    SceneBuilder builder;
+    const BsdfId white = builder.add(Lambert(Spectrum::Ones())), glass = builder.add(Dielectric());
+    builder.add(Light(ConstantBackground(Spectrum::Ones())));
+    builder.add(horizontal(Vec3d::Zero(), 0.5, true), {white});
+    builder.add(Sphere(Vec3d(0, distance, 0), 1), {glass});
+    builder.add(Sphere(Vec3d(0, -100, 0), 1), {white, Emission{}});
+    const Scene scene = builder.build();
+    expect_mean(trace(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from("mis")}, 20'000), 1, 1e-4,
+                fmt::format("at {}", distance));
+  }
+}
+
+// A black sphere of radius 1 on a white ground, sky 1: beside it the ground sees 1 - (1 + x^2)^-3/2 of the sky (the
+// sphere's form factor), however large the ground is.
+TEST(Extremes, ABlackSphereOnALargeGround) {
+  const double x = 0.3, expected = 1 - std::pow(1 + x * x, -1.5);
+  for (const double half : {1e2, 1e4, 1e6}) {
+    SceneBuilder builder;
+    const BsdfId white = builder.add(Lambert(Spectrum::Ones())), black = builder.add(Lambert(Spectrum::Zero()));
+    builder.add(Light(ConstantBackground(Spectrum::Ones())));
+    builder.add(horizontal(Vec3d::Zero(), half, true), {white});
+    builder.add(Sphere(Vec3d(0, 1, 0), 1), {black});
+    const Scene scene = builder.build();
+    // Under the sphere's overhang, from the side.
+    const Vec3 eye(3, Float(0.01), 0), at(Float(x), 0, 0);
+    for (const std::string& strategy : unbiased())
+      expect_mean(trace(scene, {eye, (at - eye).normalized()}, {strategy_from(strategy), 2}, 20'000), expected, 1e-4,
+                  fmt::format("{}, ground of {}", strategy, half));
+  }
+}
+
+// No light comes through a closed icosahedron, whatever its shading normals pretend.
+TEST(Extremes, SmoothNormalsLetNoLightThrough) {
+  const Float g = (1 + std::sqrt(Float(5))) / 2;
+  std::vector<Vec3> corners, normals;
+  for (const Float a : {Float(-1), Float(1)})
+    for (const Float b : {-g, g}) {
+      corners.emplace_back(0, a, b);
+      corners.emplace_back(a, b, 0);
+      corners.emplace_back(b, 0, a);
+    }
+  for (const Vec3& c : corners) normals.push_back(c.normalized());
+  std::vector<std::array<std::uint32_t, 3>> faces;
+  for (std::uint32_t i = 0; i < 12; ++i)
+    for (std::uint32_t j = i + 1; j < 12; ++j)
+      for (std::uint32_t k = j + 1; k < 12; ++k) {
+        const Vec3 &p = corners[i], &q = corners[j], &r = corners[k];
+        const auto is_edge = [](const Vec3& from, const Vec3& to) { return (from - to).squaredNorm() < Float(4.1); };
+        if (!is_edge(p, q) || !is_edge(q, r) || !is_edge(p, r)) continue;
+        if (mc::cross<Float>(q - p, r - p).dot(p) > 0) faces.push_back({i, j, k});
+        else faces.push_back({i, k, j});
+      }
+  ASSERT_EQ(faces.size(), 20u);
+  SceneBuilder builder;
+  const BsdfId white = builder.add(Lambert(Spectrum::Ones()));
+  builder.add(TriangleMesh(corners, faces, normals), {white});
+  builder.add(Sphere(Vec3d(0, 5, 0), 1), {white, Emission{Spectrum::Constant(100)}});
+  builder.add(Light(ConstantBackground(Spectrum::Ones())));
+  const Scene scene = builder.build();
+  for (const std::string& strategy : unbiased()) {
+    const mc::Moments m = trace(scene, {Vec3::Zero(), Vec3(1, 2, 3).normalized()}, {strategy_from(strategy), 4}, 5'000);
+    EXPECT_EQ(m.mean(), 0) << strategy;
+  }
+}
+
+// The same of a sphere, of radius r and radiance 1 / r^2: cos / d^2.
+TEST(Extremes, SmallSpheresUnderStrategiesThatAimOrConnect) {
+  const Vec3d place(0.5, 0.7, 0.3);
+  const double d2 = place.squaredNorm(), expected = 0.7 / (d2 * std::sqrt(d2));
+  for (const double r : {1e-2, 1e-3, 1e-4}) {
+    SceneBuilder builder;
+    const BsdfId white = builder.add(Lambert(Spectrum::Ones()));
+    builder.add(horizontal(Vec3d::Zero(), 5, true), {white});
+    builder.add(Sphere(place, r), {white, Emission{Spectrum::Constant(Float(1 / (r * r)))}});
+    const Scene scene = builder.build();
+    for (const char* strategy : {"mixture", "nee", "mis"})
+      expect_mean(trace(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from(strategy), 2}, 20'000), expected, 1e-4,
+                  fmt::format("{}, radius {}", strategy, r));
+  }
+}
+
+// A scene file moved far away is the same scene.
+struct Moved : support::ScratchTest {};
+TEST_F(Moved, IsTheSameScene) {
+  const Vec3d place(0.5, 0.7, 0.3);
+  const double d2 = place.squaredNorm(), expected = 0.7 / (d2 * std::sqrt(d2)), r = 0.1;
+  for (const double distance : {0.0, 1e4, 1e5, 1e6, 1e9}) {
+    const Vec3d m(distance, -0.3 * distance, 0.7 * distance);
+    const auto text = [&](double x, double y, double z) {
+      return fmt::format("{:.17g}, {:.17g}, {:.17g}", m.x() + x, m.y() + y, m.z() + z);
+    };
+    const std::string file = write(
+        "moved.xml",
+        fmt::format(
+            "<scene version=\"0.6.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"1\"/>"
+            "<transform name=\"toWorld\"><lookAt origin=\"{}\" target=\"{}\" up=\"0, 0, 1\"/></transform></sensor>"
+            "<bsdf type=\"diffuse\" id=\"white\"><rgb name=\"reflectance\" value=\"1\"/></bsdf>"
+            "<shape type=\"rectangle\"><transform name=\"toWorld\"><rotate x=\"1\" angle=\"-90\"/><scale value=\"5\"/>"
+            "<translate x=\"{:.17g}\" y=\"{:.17g}\" z=\"{:.17g}\"/></transform><ref id=\"white\"/></shape>"
+            "<shape type=\"sphere\"><transform name=\"toWorld\"><translate x=\"{:.17g}\" y=\"{:.17g}\" z=\"{:.17g}\"/>"
+            "</transform><float name=\"radius\" value=\"{}\"/><emitter type=\"area\"><rgb name=\"radiance\" "
+            "value=\"{}\"/>"
+            "</emitter></shape></scene>",
+            text(0, 1, 0), text(0, 0, 0), m.x(), m.y(), m.z(), m.x() + 0.5, m.y() + 0.7, m.z() + 0.3, r, 1 / (r * r)));
+    const Scene scene = read_mitsuba(file).scene;
+    const Ray ray = scene.camera().ray(Vec2(Float(0.5), Float(0.5)), scene.camera().tan_half(1), Vec2(0, 0));
+    // Numbers of 16 digits resolve places to 1e-7 at 1e9.
+    for (const std::string& strategy : unbiased())
+      expect_mean(trace(scene, ray, {strategy_from(strategy), 2}, 20'000), expected, 1e-4,
+                  fmt::format("{}, moved by {}", strategy, distance));
+  }
+}
+
+// A lamp beside the floor and a sun of a million times its power, so far away that the lamp gives almost all. The error
+// is that of a picture lit by the lamp alone.
+TEST(Extremes, AFarSunDoesNotHideALamp) {
+  const Vec3d place(0.5, 0.7, 0.3);
+  const double d2 = place.squaredNorm(), lamp = 0.7 / (d2 * std::sqrt(d2)), r = 0.1, far = 1e5;
+  SceneBuilder builder;
+  const BsdfId white = builder.add(Lambert(Spectrum::Ones()));
+  builder.add(horizontal(Vec3d::Zero(), 5, true), {white});
+  builder.add(Sphere(place, r), {white, Emission{Spectrum::Constant(Float(1 / (r * r)))}});
+  builder.add(Sphere(Vec3d(0, far, 0), 1), {white, Emission{Spectrum::Constant(Float(1e6))}});
+  const Scene scene = builder.build();
+  for (const char* strategy : {"nee", "mis"}) {
+    const mc::Moments m = trace(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from(strategy), 2}, 20'000);
+    expect_mean(m, lamp + 1e6 / (far * far), 1e-4, strategy);
+    EXPECT_LE(m.std_error(), 0.01 * lamp) << strategy;
+  }
+}
+
+// Nothing of what shines outside comes into a closed box, wherever it stands.
+TEST(Extremes, AClosedCubeIsDarkInside) {
+  for (const double distance : {0.0, 1e4, 1e6}) {
+    const Vec3d middle(distance, 0.3 * distance, -0.7 * distance);
+    SceneBuilder builder;
+    builder.add(TriangleMesh::box(Transform::translate(middle)),
+                {builder.add(Lambert(Spectrum::Constant(Float(0.8))))});
+    builder.add(Light(ConstantBackground(Spectrum::Constant(1000))));
+    const Scene scene = builder.build();
+    const PathIntegrator<Scene> integrator(scene, {});
+    std::uint64_t rays = 0;
+    const Vec3 eye = middle.cast<Float>();
+    for (std::uint32_t i = 0; i < 20'000; ++i) {
+      mc::IndependentWalk<Float> stream({2028, 0}, i);
+      const Vec3 d = mc::UniformSphere<Float>{}.sample(stream.next2());
+      ASSERT_TRUE(is_black(integrator.radiance({eye, d}, stream, rays))) << "moved by " << distance << ", path " << i;
+    }
+  }
+}
+
+} // namespace
