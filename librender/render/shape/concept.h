@@ -3,6 +3,7 @@
 
 #include <render/core/ray.h>
 
+#include <algorithm>
 #include <optional>
 
 namespace render {
@@ -52,8 +53,8 @@ struct DirectionSample {
 ///   sample_direction(ref, u) : a direction towards a point of sample(ref, u), with its density pdf(ref, wi), whatever
 ///                       rounding makes of the direction; nullopt where none leads there
 ///   area()            : total area
-///   spread(ref)       : more than the projected solid angle that it can fill at ref, at most pi, by less than
-///                       4 times where it is far away
+///   spread(ref)       : a bound of the projected solid angle [sr] that it fills at ref, however that faces; at most
+///                       pi, and close where it is far away and faces ref
 ///   surface_point     : the point of a Hit
 ///   has_uv(), uv(hit) : texture coordinates, where it has them;  forget_uvs() : not any more
 template <class T>
@@ -66,5 +67,12 @@ concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint 
   { s.spread(ref) } -> std::convertible_to<double>;
   { s.surface_point(ray, h) } -> std::same_as<SurfacePoint>;
 };
+
+/// The direction towards the point that the shape samples: its sample_direction, where it knows none better.
+template <class S> std::optional<DirectionSample> toward_sample(const S& shape, const Vec3& ref, const Vec2& u) {
+  const auto s = shape.sample(ref, u);
+  if (!s) return {};
+  return DirectionSample{s->wi, std::max(s->pdf, shape.pdf(ref, s->wi))}; // rounding may carry it past the shape
+}
 
 } // namespace render

@@ -70,10 +70,8 @@ bool Sphere::is_cone(double d2) const {
   return !is_cap() && d2 > outside2_;
 }
 
-// That of UniformCone, with 1 - cos = sin^2 / (1 + cos): one division less.
 Float Sphere::cone_pdf(double d2) const {
-  const double sin2 = radius_ * radius_ / d2;
-  return Float((1 + std::sqrt(1 - sin2)) / (2 * mc::pi<double> * sin2));
+  return Float(mc::UniformCone<double>::pdf_from_sin2(radius_ * radius_ / d2));
 }
 
 std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const {
@@ -110,9 +108,7 @@ std::optional<DirectionSample> Sphere::sample_direction(const Vec3& ref, const V
     const auto cone = mc::UniformCone<double>::from_sin2(radius_ * radius_ / d2);
     return DirectionSample{frame.to_world(cone.sample(u.cast<double>())).cast<Float>(), cone_pdf(d2)};
   }
-  const auto s = sample(ref, u);
-  if (!s) return {};
-  return DirectionSample{s->wi, std::max(s->pdf, pdf(ref, s->wi))}; // the direction may pass the cap by rounding
+  return toward_sample(*this, ref, u);
 }
 
 Float Sphere::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {

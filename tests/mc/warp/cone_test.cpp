@@ -25,6 +25,15 @@ TYPED_TEST(ConeOver, NarrowConesKeepTheirSolidAngle) {
   EXPECT_NEAR(double(same.pdf({S(0), S(0), S(1)})) / double(cone.pdf({S(0), S(0), S(1)})), 1, 1e-6);
 }
 
+TYPED_TEST(ConeOver, PdfWithoutACone) {
+  using S = TypeParam;
+  const Vec3<S> z(S(0), S(0), S(1));
+  for (S sin2 = 1; sin2 > S(1e-36); sin2 *= S(0.37)) {
+    const S pdf = UniformCone<S>::from_sin2(sin2).pdf(z);
+    EXPECT_LE(std::abs(UniformCone<S>::pdf_from_sin2(sin2) - pdf), 4 * std::numeric_limits<S>::epsilon() * pdf) << sin2;
+  }
+}
+
 TEST(UniformCone, FormsAgree) {
   const Vec3<double> z(0, 0, 1);
   const double angle = 0.7, pdf = UniformCone<double>::from_angle(angle).pdf(z);
