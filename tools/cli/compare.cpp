@@ -60,7 +60,8 @@ struct Worst {
   int x = 0, y = 0, channel = 0;
 };
 
-struct Cell {
+/// Sums over a rectangle of pixels, which may be a single one.
+struct Block {
   double difference = 0, reference = 0, variance_a = 0, variance_b = 0;
 };
 
@@ -77,21 +78,21 @@ class Comparison {
     for (int c = 0; c < 3; ++c) {
       // A pixel none of whose samples met a rare event looks noiseless: differences far below the typical noise are not
       // judged.
-      const Cell whole = sum(0, 0, a_.width, a_.height, c);
+      const Block whole = sum(0, 0, a_.width, a_.height, c);
       floor_ = 1e-6 * (whole.variance_a + whole.variance_b) / double(a_.pixels.size());
       for (int y = 0; y < a_.height; ++y)
         for (int x = 0; x < a_.width; ++x) {
-          Cell cell = sum(x, y, x + 1, y + 1, c);
+          Block sums = sum(x, y, x + 1, y + 1, c);
           const int x0 = std::max(x - 1, 0), y0 = std::max(y - 1, 0), x1 = std::min(x + 2, a_.width),
                     y1 = std::min(y + 2, a_.height);
-          const Cell around = sum(x0, y0, x1, y1, c);
+          const Block around = sum(x0, y0, x1, y1, c);
           const double n = double(x1 - x0) * double(y1 - y0);
           // The surroundings lend their variance, not their degrees of freedom: noise is far from normal within a
           // pixel, where one rare bright path decides. Student's t with at most 3 degrees of freedom has tails heavy
           // enough for that.
-          cell.variance_a = around.variance_a / n;
-          cell.variance_b = around.variance_b / n;
-          test(cell, 1, 1, x, y, c, pixel);
+          sums.variance_a = around.variance_a / n;
+          sums.variance_b = around.variance_b / n;
+          test(sums, 1, 1, x, y, c, pixel);
         }
       for (int y = 0; y < a_.height; y += block_size)
         for (int x = 0; x < a_.width; x += block_size) {
@@ -111,30 +112,30 @@ class Comparison {
   static constexpr int block_size = 16;
 
  private:
-  Cell sum(int x0, int y0, int x1, int y1, int c) const {
-    Cell cell;
+  Block sum(int x0, int y0, int x1, int y1, int c) const {
+    Block sums;
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x) {
         const std::size_t i = a_.index(x, y);
-        cell.difference += double(a_.pixels[i][c]) - double(b_.pixels[i][c]);
-        cell.reference += double(b_.pixels[i][c]);
-        if (noise_a_.known) cell.variance_a += double(a_.variance[i][c]);
-        if (noise_b_.known) cell.variance_b += double(b_.variance[i][c]);
+        sums.difference += double(a_.pixels[i][c]) - double(b_.pixels[i][c]);
+        sums.reference += double(b_.pixels[i][c]);
+        sums.variance_a += double(a_.variance[i][c]);
+        sums.variance_b += double(b_.variance[i][c]);
       }
-    return cell;
+    return sums;
   }
 
   // Welch's t-test of the mean of n pixels; `pooled` pixels lie behind the variances.
-  void test(const Cell& cell, double n, double pooled, int x, int y, int c, Worst& worst) {
+  void test(const Block& sums, double n, double pooled, int x, int y, int c, Worst& worst) {
     ++tests;
-    const double variance = std::max((cell.variance_a + cell.variance_b) / n, floor_) / n;
-    const double difference = cell.difference / n;
-    const double excess = std::max(0.0, std::abs(difference) - tolerance_ * std::abs(cell.reference / n));
+    const double variance = std::max((sums.variance_a + sums.variance_b) / n, floor_) / n;
+    const double difference = sums.difference / n;
+    const double excess = std::max(0.0, std::abs(difference) - tolerance_ * std::abs(sums.reference / n));
     if (excess == 0) return;
     double p = 0, t = mc::infinity<double>;
     if (variance > 0) {
       t = excess / std::sqrt(variance);
-      const double va = cell.variance_a, vb = cell.variance_b;
+      const double va = sums.variance_a, vb = sums.variance_b;
       const double welch = va + vb > 0 ? pooled * mc::welch_dof(va, noise_a_.dof, vb, noise_b_.dof) : pooled;
       const double dof = pooled > 1 ? welch : std::min(welch, 3.0);
       p = mc::student_tail(t, dof);

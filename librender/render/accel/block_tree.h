@@ -13,7 +13,7 @@
 namespace render {
 
 /// A kind of leaf, Block, holds eight primitives of some shapes, spare lanes repeating the last one. It says
-///   Block::Primitive             : a primitive, as collect() finds it, with its box()
+///   Block::Primitive             : a primitive, as collect() finds it, with its bounds()
 ///   Block::collect(shape, index, found) : appends the primitives of a shape, if they are of this kind
 ///   Block::few                   : up to so many, every ray tries all blocks: they cost less than a tree
 ///   Block::Prepared(ray)         : what the blocks need of a ray, computed once
@@ -26,9 +26,9 @@ template <class Block> class BlockTree {
   explicit BlockTree(std::span<const Shape* const> shapes) {
     std::vector<typename Block::Primitive> primitives;
     for (std::size_t i = 0; i < shapes.size(); ++i) Block::collect(*shapes[i], static_cast<int>(i), primitives);
-    std::vector<Box> boxes;
-    for (const auto& p : primitives) boxes.push_back(p.box());
-    for (const Box& b : boxes) bounds_.add(b);
+    std::vector<Bounds> boxes;
+    for (const auto& p : primitives) boxes.push_back(p.bounds());
+    for (const Bounds& b : boxes) bounds_.add(b);
     const auto add = [&](const std::vector<std::uint32_t>& order, std::uint32_t first, std::uint32_t count) {
       Block& block = blocks_.emplace_back();
       for (std::uint32_t lane = 0; lane < lanes; ++lane)
@@ -45,7 +45,7 @@ template <class Block> class BlockTree {
     }
   }
 
-  const Box& bounds() const { return bounds_; }
+  const Bounds& bounds() const { return bounds_; }
 
   /// As Block's intersect.
   template <bool any> bool intersect(const Ray& ray, Float& t_max, Hit& hit) const {
@@ -72,7 +72,7 @@ template <class Block> class BlockTree {
 
   WideTree tree_;             ///< none for few
   std::vector<Block> blocks_; ///< one per leaf, or all
-  Box bounds_;
+  Bounds bounds_;
 };
 
 } // namespace render

@@ -1,7 +1,7 @@
 #pragma once
 /// Ray queries against all shapes of a scene.
 
-#include <render/core/box.h>
+#include <render/core/bounds.h>
 #include <render/core/ray.h>
 #include <render/shape/shape.h>
 
@@ -21,15 +21,15 @@ class Bvh {
 
   std::optional<Hit> intersect(const Ray& ray) const;
   bool occluded(const Ray& ray) const;
-  /// Box of everything; empty for an empty scene.
-  const Box& bounds() const { return bounds_; }
+  /// Of everything; empty for an empty scene.
+  const Bounds& bounds() const { return bounds_; }
 
   struct Trees;
   struct Trace;
 
  private:
   std::shared_ptr<const Trees> trees_;
-  Box bounds_;
+  Bounds bounds_;
 };
 
 } // namespace render

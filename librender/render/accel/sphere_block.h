@@ -20,8 +20,8 @@ class SphereBlock {
     int shape;
 
     /// Rounded outward, so that the float box holds the double sphere.
-    Box box() const {
-      Box b;
+    Bounds bounds() const {
+      Bounds b;
       for (int a = 0; a < 3; ++a) {
         b.lo[a] = std::nextafter(Float(sphere->center()[a] - sphere->radius()), -mc::infinity<Float>);
         b.hi[a] = std::nextafter(Float(sphere->center()[a] + sphere->radius()), mc::infinity<Float>);

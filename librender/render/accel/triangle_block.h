@@ -23,8 +23,8 @@ class TriangleBlock {
     std::array<Vec3, 3> v;
     int shape, prim;
 
-    Box box() const {
-      Box b;
+    Bounds bounds() const {
+      Bounds b;
       for (const Vec3& p : v) b.add(p);
       return b;
     }

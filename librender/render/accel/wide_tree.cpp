@@ -8,7 +8,7 @@ namespace render {
 
 /// A node of the binary tree that is collapsed afterwards. count > 0: a leaf over order[first, first + count).
 struct WideTree::Binary {
-  Box box;
+  Bounds box;
   std::uint32_t first = 0, count = 0, left = 0, right = 0;
 };
 
@@ -24,7 +24,7 @@ struct Split {
 };
 
 struct Bins {
-  std::array<Box, bins> box;
+  std::array<Bounds, bins> box;
   std::array<std::uint32_t, bins> count{};
 };
 
@@ -33,7 +33,7 @@ double blocks(std::uint32_t count, std::uint32_t lanes) { return double((count +
 // The last bin on the left side of the cheapest border: areas times blocks, on both sides.
 Split cheapest_border(const Bins& b, int axis, std::uint32_t count, std::uint32_t lanes) {
   std::array<double, bins> right{};
-  Box sweep;
+  Bounds sweep;
   std::uint32_t swept = 0;
   for (std::size_t i = bins - 1; i > 0; --i) {
     sweep.add(b.box[i]);
@@ -41,7 +41,7 @@ Split cheapest_border(const Bins& b, int axis, std::uint32_t count, std::uint32_
     right[i] = double(sweep.half_area()) * blocks(swept, lanes);
   }
   Split best;
-  sweep = Box{};
+  sweep = Bounds{};
   swept = 0;
   for (std::size_t i = 0; i + 1 < bins; ++i) {
     sweep.add(b.box[i]);
@@ -54,12 +54,12 @@ Split cheapest_border(const Bins& b, int axis, std::uint32_t count, std::uint32_
 
 } // namespace
 
-WideTree::WideTree(const std::vector<Box>& boxes, std::uint32_t lanes) : order_(boxes.size()) {
+WideTree::WideTree(const std::vector<Bounds>& boxes, std::uint32_t lanes) : order_(boxes.size()) {
   if (boxes.empty()) return;
   std::iota(order_.begin(), order_.end(), 0u);
   std::vector<Binary> tree(1);
   tree[0].count = static_cast<std::uint32_t>(boxes.size());
-  for (const Box& b : boxes) tree[0].box.add(b);
+  for (const Bounds& b : boxes) tree[0].box.add(b);
 
   const auto center = [&](std::uint32_t i, int axis) {
     return Float(0.5) * boxes[i].lo[axis] + Float(0.5) * boxes[i].hi[axis];
@@ -76,7 +76,7 @@ WideTree::WideTree(const std::vector<Box>& boxes, std::uint32_t lanes) : order_(
     if (count <= lanes) continue;
     const auto begin = order_.begin() + first, end = begin + count;
 
-    Box centers;
+    Bounds centers;
     for (auto it = begin; it != end; ++it) centers.add(Vec3(center(*it, 0), center(*it, 1), center(*it, 2)));
     const auto bin_of = [&](std::uint32_t i, int axis) {
       const Float extent = centers.hi[axis] - centers.lo[axis];
@@ -145,7 +145,7 @@ std::uint32_t WideTree::collapse(const std::vector<Binary>& binary, std::uint32_
   }
   Node node;
   for (std::size_t i = 0; i < 8; ++i) {
-    const Box box = i < n ? binary[open[i]].box : Box{}; // an empty box is never entered
+    const Bounds box = i < n ? binary[open[i]].box : Bounds{}; // an empty box is never entered
     for (int a = 0; a < 3; ++a) {
       node.bounds[a][i] = box.lo[a];
       node.bounds[a + 3][i] = box.hi[a];

@@ -1,7 +1,7 @@
 #pragma once
 /// An 8-wide bounding volume hierarchy over boxes, traversed one ray at a time.
 
-#include <render/core/box.h>
+#include <render/core/bounds.h>
 #include <render/core/lanes.h>
 #include <render/core/ray.h>
 
@@ -20,7 +20,7 @@ class WideTree {
   static constexpr std::uint32_t block = 4;
 
   /// Builds over the boxes; order()[first .. first + count) are then the boxes of a leaf.
-  explicit WideTree(const std::vector<Box>& boxes, std::uint32_t lanes = block);
+  explicit WideTree(const std::vector<Bounds>& boxes, std::uint32_t lanes = block);
   WideTree() = default;
 
   const std::vector<std::uint32_t>& order() const { return order_; }

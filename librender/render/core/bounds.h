@@ -6,14 +6,14 @@
 namespace render {
 
 /// An axis-aligned box; empty until something is added.
-struct Box {
+struct Bounds {
   Vec3 lo = Vec3::Constant(mc::infinity<Float>), hi = Vec3::Constant(-mc::infinity<Float>);
 
   void add(const Vec3& p) {
     lo = lo.cwiseMin(p);
     hi = hi.cwiseMax(p);
   }
-  void add(const Box& b) {
+  void add(const Bounds& b) {
     lo = lo.cwiseMin(b.lo);
     hi = hi.cwiseMax(b.hi);
   }

@@ -10,7 +10,7 @@ Scene::Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std
   for (const Surface& s : surfaces_) shapes.push_back(s.shape.get());
   bvh_ = Bvh(shapes);
 
-  const Box& bounds = bvh_.bounds();
+  const Bounds& bounds = bvh_.bounds();
   const double radius = surfaces_.empty() ? 1.0 : (bounds.hi - bounds.lo).cast<double>().norm() / 2;
   for (std::uint32_t i = 0; i < lights_.size(); ++i)
     if (lights_[i].is_infinite()) infinite_lights_.push_back(i);

@@ -42,8 +42,8 @@ class Scene {
     return surface(hit).shape->surface_point(ray, hit);
   }
   bool occluded(const Ray& ray) const { return bvh_.occluded(ray); }
-  /// Box of all surfaces; empty where there are none.
-  const Box& bounds() const { return bvh_.bounds(); }
+  /// Of all surfaces; empty where there are none.
+  const Bounds& bounds() const { return bvh_.bounds(); }
 
   std::span<const Surface> surfaces() const { return surfaces_; }
   const Surface& surface(const Hit& hit) const { return surfaces_[static_cast<std::size_t>(hit.shape)]; }

@@ -69,7 +69,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
         std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()});
     faces_.push_back({vertices, n.stableNormalized().cast<Float>(), center, radius2, n.norm() / 2});
     area_ += faces_.back().area;
-    for (const Vec3& p : v) box_.add(p);
+    for (const Vec3& p : v) bounds_.add(p);
   }
   if (area_ > 0) {
     std::vector<double> areas;
@@ -174,9 +174,7 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
 }
 
 std::optional<DirectionSample> TriangleMesh::sample_direction(const Vec3& ref, const Vec2& u) const {
-  const auto s = sample(ref, u);
-  if (!s) return {};
-  return DirectionSample{s->wi, std::max(s->pdf, pdf(ref, s->wi))}; // the direction may pass the triangle by rounding
+  return toward_sample(*this, ref, u);
 }
 
 ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle,
@@ -189,8 +187,8 @@ ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle,
 }
 
 double TriangleMesh::spread(const Vec3& ref) const {
-  const Vec3d to_box = (box_.lo - ref).cwiseMax(ref - box_.hi).cwiseMax(Float(0)).template cast<double>();
-  return std::min(mc::pi<double>, area_ / to_box.squaredNorm());
+  const Vec3d away = (bounds_.lo - ref).cwiseMax(ref - bounds_.hi).cwiseMax(Float(0)).cast<double>();
+  return std::min(mc::pi<double>, area_ / away.squaredNorm());
 }
 
 std::optional<mc::SphericalTriangle<double>> TriangleMesh::near_triangle(const Vec3& ref, std::size_t triangle) const {

@@ -1,7 +1,7 @@
 #pragma once
 /// Triangle meshes; rectangles and boxes are meshes too.
 
-#include <render/core/box.h>
+#include <render/core/bounds.h>
 #include <render/core/transform.h>
 #include <render/shape/concept.h>
 
@@ -77,7 +77,7 @@ class TriangleMesh {
   std::vector<Face> faces_;
   std::optional<mc::TableDist1D<double>> choice_; ///< of a triangle by its area; none where all areas are 0
   double area_ = 0;
-  Box box_;
+  Bounds bounds_;
   Float error_ = 0; ///< of an interpolated point before it is rounded to Float, per coordinate
 };
 

@@ -15,7 +15,7 @@ class LevelBlock {
   struct Primitive {
     Float z;
     int shape;
-    Box box() const { return {Vec3(-1, -1, z), Vec3(1, 1, z)}; }
+    Bounds bounds() const { return {Vec3(-1, -1, z), Vec3(1, 1, z)}; }
   };
   static void collect(const Shape& shape, int index, std::vector<Primitive>& found) {
     found.push_back({Float(shape.area()), index});

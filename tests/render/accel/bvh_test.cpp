@@ -241,9 +241,9 @@ TEST(Bvh, SpheresAndCapsAgreeWithTheShapesThemselves) {
 
 TEST(Bvh, BoundsHoldEverything) {
   const std::vector<Shape> shapes = {Sphere(Vec3d(3, 0, 0), 1), soup(10, Float(0.1), 14)};
-  const Box box = Bvh(shapes).bounds();
-  EXPECT_GE(box.hi.x(), 4);
-  EXPECT_LE(box.lo.y(), -1);
+  const Bounds bounds = Bvh(shapes).bounds();
+  EXPECT_GE(bounds.hi.x(), 4);
+  EXPECT_LE(bounds.lo.y(), -1);
 }
 
 } // namespace

@@ -16,8 +16,8 @@ TEST(SphereBlock, CollectsSpheresInBoxesThatHoldThem) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].shape, 1);
   for (int a = 0; a < 3; ++a) {
-    EXPECT_LE(double(found[0].box().lo[a]), 0.1 * (a + 1) - 0.7);
-    EXPECT_GE(double(found[0].box().hi[a]), 0.1 * (a + 1) + 0.7);
+    EXPECT_LE(double(found[0].bounds().lo[a]), 0.1 * (a + 1) - 0.7);
+    EXPECT_GE(double(found[0].bounds().hi[a]), 0.1 * (a + 1) + 0.7);
   }
 }
 

@@ -13,7 +13,7 @@ TEST(TriangleBlock, CollectsWhatCanBeHit) {
   ASSERT_EQ(found.size(), 2u) << "the degenerate one is left out";
   EXPECT_EQ(found[1].shape, 7);
   EXPECT_EQ(found[1].prim, 2);
-  EXPECT_EQ(found[0].box().hi, Vec3(1, 1, 0));
+  EXPECT_EQ(found[0].bounds().hi, Vec3(1, 1, 0));
   TriangleBlock::collect(Sphere(Vec3d::Zero(), 1), 8, found);
   EXPECT_EQ(found.size(), 2u);
 }

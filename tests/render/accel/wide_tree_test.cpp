@@ -11,11 +11,11 @@ namespace {
 
 using namespace render;
 
-std::vector<Box> random_boxes(int n, Float size) {
+std::vector<Bounds> random_boxes(int n, Float size) {
   mc::Pcg random(1);
-  std::vector<Box> boxes;
+  std::vector<Bounds> boxes;
   for (int i = 0; i < n; ++i) {
-    Box box;
+    Bounds box;
     const Vec3 p = random.point<Float, 3>();
     box.add(p);
     box.add(p + size * Vec3(random.point<Float, 3>()));
@@ -84,9 +84,9 @@ TEST(WideTree, StopsWhenALeafSaysSo) {
 }
 
 TEST(WideTree, EmptyTreesAndBoxes) {
-  const WideTree tree{std::vector<Box>{}};
+  const WideTree tree{std::vector<Bounds>{}};
   EXPECT_TRUE(tree.empty());
-  EXPECT_EQ(Box{}.half_area(), Float(0));
+  EXPECT_EQ(Bounds{}.half_area(), Float(0));
 }
 
 } // namespace
