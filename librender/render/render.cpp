@@ -182,30 +182,35 @@ class Work {
   // A given number of samples.
   void in_rounds() {
     const auto spp = static_cast<std::uint32_t>(options_.spp), passes = passes_for(spp), count = spp / passes;
-    std::vector<PassSum> sums(separate_ ? 0 : width() * height() * passes);
-    std::vector<std::uint32_t> row_points(height(), 0); // done of every pass
-    std::uint32_t begin = 0;
-    for (; begin < count && !cancelled(); begin = std::min(count, std::max(1u, 4 * begin))) {
-      const std::uint32_t end = std::min(count, std::max(1u, 4 * begin));
+    // Passes of one point, since spp has no small divisor, are estimates as they come, and the rounds grow by passes.
+    const bool single = count == 1, separate = separate_ || single;
+    const std::uint32_t steps = single ? passes : count;
+    std::vector<PassSum> sums(separate ? 0 : width() * height() * passes);
+    std::vector<std::uint32_t> row_steps(height(), 0); // done
+    std::uint32_t begin = 0, end = single ? std::min(steps, 4u) : 1;
+    while (begin < steps && !cancelled()) {
       const auto row = [&](std::size_t y) {
         Tally tally;
-        for (std::uint32_t p = 0; p < passes; ++p) {
+        for (std::uint32_t p = single ? begin : 0; p < (single ? end : passes); ++p) {
+          const Pass pass{p, count, single ? 0 : begin, single ? 1 : end, separate};
           const std::size_t first = (y * passes + p) * width();
-          const std::span<PassSum> own = separate_ ? std::span<PassSum>() : std::span(sums).subspan(first, width());
-          tally.merge(render_row_(scene_, integrator_, options_.seed, {p, count, begin, end, separate_},
-                                  static_cast<int>(y), film_, own));
+          const std::span<PassSum> own = separate ? std::span<PassSum>() : std::span(sums).subspan(first, width());
+          tally.merge(render_row_(scene_, integrator_, options_.seed, pass, static_cast<int>(y), film_, own));
         }
-        row_points[y] = end;
+        row_steps[y] = end;
         return tally;
       };
-      if (for_rows(row, [&](double rows) { return (begin + rows * (end - begin)) / count; }) < height()) break;
+      if (for_rows(row, [&](double rows) { return (begin + rows * (end - begin)) / steps; }) < height()) break;
+      begin = end;
+      end = std::min(steps, 4 * end);
     }
     for (std::size_t i = 0; i < sums.size(); ++i)
       if (sums[i].valid > 0)
         film_.add(static_cast<int>(i % width()), static_cast<int>(i / width() / passes), sums[i].sum / sums[i].valid);
-    const std::uint32_t least = *std::min_element(row_points.begin(), row_points.end());
-    partial_ = least < count;
-    estimates_ = least == 0 ? 0 : separate_ ? passes * least : passes;
+    const std::uint32_t least = *std::min_element(row_steps.begin(), row_steps.end());
+    partial_ = least < steps;
+    if (separate) estimates_ = spp / steps * least;
+    else if (least > 0) estimates_ = passes;
   }
 
   // Passes, until time or error suffice.

@@ -141,11 +141,15 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   EXPECT_EQ(cancelled.samples, 0u);
 
   // Cancelled in the second round: a whole picture with variance. Cancelled after the last: it is not partial.
-  for (const PixelSampler sampler : samplers)
+  const std::pair<PixelSampler, int> cases[] = {{PixelSampler::independent, 64},
+                                                {PixelSampler::stratified, 64},
+                                                {PixelSampler::sobol, 64},
+                                                {PixelSampler::sobol, 61}}; // passes of one point
+  for (const auto& [sampler, spp] : cases)
     for (const bool late : {false, true}) {
       std::atomic<bool> halt = false;
       options = small();
-      options.spp = 64, options.threads = 1, options.sampler = sampler, options.cancel = &halt;
+      options.spp = spp, options.threads = 1, options.sampler = sampler, options.cancel = &halt;
       options.progress = [&](const Progress& p) { halt = p.fraction > (late ? 0.999 : 0.1); };
       const RenderResult result = render::render(scene, options);
       EXPECT_EQ(result.partial, !late);
