@@ -80,30 +80,31 @@ class Reader {
   bool has_background_ = false;
 };
 
-// Where the scene's shapes are, unless that is at the origin to within some of their size. Coordinates are floats
-// there, too coarse for what lies far away.
+// Where the scene's shapes are, unless that is at the origin to within some of their size: coordinates are floats, too
+// coarse for what lies far away. Where nothing is left of the shapes in these, it is where the camera stands.
 Vec3d middle_of(const Scene& scene) {
   if (scene.surfaces().empty()) return Vec3d::Zero();
   const Vec3d lo = scene.bounds().lo.cast<double>(), hi = scene.bounds().hi.cast<double>(), middle = (lo + hi) / 2;
+  if (!middle.allFinite()) return scene.camera().origin().cast<double>();
   return middle.norm() > 8 * (hi - lo).norm() ? middle : Vec3d(Vec3d::Zero());
 }
 
-SceneFile read_about(const XmlElement& root, Dialect dialect, const Vec3d& origin) {
-  return Reader(root, dialect, origin).read();
-}
-
-// About the origin of the file, or about the scene where that is far from there.
+// About the origin of the file, or about the scene where that is far from there. From afar its middle is seen vaguely,
+// from there well.
 SceneFile read_where_it_stands(const XmlElement& root, Dialect dialect) {
-  std::optional<SceneFile> file;
-  try {
-    file = read_about(root, dialect, Vec3d::Zero());
-  } catch (const mc::Error&) { // far away a small lamp has lost its area
-    const Vec3d eye = Reader(root, dialect, Vec3d::Zero()).eye();
-    if (eye.isZero()) throw;
-    return read_about(root, dialect, eye);
+  Vec3d origin = Vec3d::Zero();
+  for (int looks = 1;; ++looks) {
+    Vec3d step;
+    try {
+      SceneFile file = Reader(root, dialect, origin).read();
+      step = middle_of(file.scene);
+      if (step.isZero() || looks == 4) return file;
+    } catch (const mc::Error&) { // far away a small lamp has lost its area
+      step = looks == 1 ? Reader(root, dialect, origin).eye() : Vec3d(Vec3d::Zero());
+      if (step.isZero()) throw;
+    }
+    origin += step;
   }
-  const Vec3d middle = middle_of(file->scene);
-  return middle.isZero() ? std::move(*file) : read_about(root, dialect, middle);
 }
 
 } // namespace
