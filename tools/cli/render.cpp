@@ -64,9 +64,8 @@ std::vector<Option> rows(RenderOptions& o) {
       {"--target-error",
        "RATIO",
        &o.target_error,
-       "Mean relative standard error of the pixels to reach, in at most 5 % of which one sample carries over half of "
-       "the "
-       "variance",
+       "Mean relative standard error of the pixels to reach, while one sample carries over half of the variance in at "
+       "most 5 % of them",
        false,
        {"--spp", "--time"}},
       {"--size", "WxH", &o.size, "Image size in pixels [the scene's]"},

@@ -133,7 +133,7 @@ TEST_F(Mitsuba, FaceNormalsLeaveOutTheNormalsOfTheFile) {
         render::read_mitsuba(scene(fmt::format("{}<shape type=\"obj\"><string name=\"filename\" "
                                                "value=\"m.obj\"/><boolean name=\"faceNormals\" value=\"{}\"/></shape>",
                                                sensor, faces)));
-    const auto point = std::get<TriangleMesh>(*file.scene.surfaces()[0].shape).point(0, 0, 0);
+    const auto point = std::get<render::TriangleMesh>(*file.scene.surfaces()[0].shape).point(0, 0, 0);
     EXPECT_EQ(point.ns == point.ng, faces);
   }
 }

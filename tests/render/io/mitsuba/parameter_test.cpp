@@ -11,7 +11,7 @@ struct ParameterTest : support::ScratchTest {
   template <class T>
   T read(const Parameter<T>& p, const std::string& children, Dialect dialect = Dialect::mitsuba) const {
     const auto root = render::read_xml(write("p.xml", "<bsdf>\n" + children + "</bsdf>"));
-    Context context(root, dialect);
+    Context context(root, dialect, render::Vec3d::Zero());
     return p.read(root, context);
   }
 };

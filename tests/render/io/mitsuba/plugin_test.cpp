@@ -24,7 +24,7 @@ const Plugins<int>& rows() {
 struct PluginTest : support::ScratchTest {
   int read(const std::string& text) const {
     const auto root = render::read_xml(write("p.xml", text));
-    Context context(root, render::Dialect::mitsuba);
+    Context context(root, render::Dialect::mitsuba, render::Vec3d::Zero());
     const int value = read_plugin(rows(), root, context);
     root.require_all_seen();
     return value;
