@@ -149,7 +149,10 @@ TEST(Render, StopsByTimeErrorOrCancel) {
     for (const bool late : {false, true}) {
       std::atomic<bool> halt = false;
       options = small();
-      options.spp = spp, options.threads = 1, options.sampler = sampler, options.cancel = &halt;
+      options.spp = spp;
+      options.threads = 1;
+      options.sampler = sampler;
+      options.cancel = &halt;
       options.progress = [&](const Progress& p) { halt = p.fraction > (late ? 0.999 : 0.1); };
       const RenderResult result = render::render(scene, options);
       EXPECT_EQ(result.partial, !late);
