@@ -39,7 +39,7 @@ void add_planes(Catalogue& c) {
     using S = decltype(s);
     const mc::MixtureN axis(mc::Interval<S>(-1, 1), mc::UniformDiscrete<S>(2),
                             std::vector<mc::Tent<S>>{{S(-0.25), S(0.5)}, {S(0.25), S(0.5)}});
-    return mc::Product(axis, axis);
+    return mc::Product{axis, axis};
   });
   add_warp(c, "Product", "2-D tent", [](auto s) { return mc::Tent2D<decltype(s)>{}; }, {.invert_eps = 8});
   add_warp(c, "Product", "2-D normal", [](auto s) { return mc::Normal2D<decltype(s)>{}; });
