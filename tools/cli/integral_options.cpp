@@ -29,7 +29,7 @@ std::vector<Option> integral_rows(IntegralOptions& o) {
   return {
       {"INTEGRAND", "", &o.integrands,
        "Names (see --list), groups (books, genz, rates), or an expression, e.g. \"exp(-x*x)*cos(y)\" [books]"},
-      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:1,y=-1:2\""},
+      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:1,y=-inf:inf\""},
       {"--plugin",
        "FILE",
        &o.plugin,

@@ -31,30 +31,20 @@ struct IntegrateOptions {
   std::string command;
 };
 
-// The value with its error bar, or, where there is none, why.
-void print_value(const Experiment& e, const mc::Integral& r) {
-  switch (r.error_bar) {
-  case mc::ErrorBar::known:
-    std::printf("%s = %.10g ± %.2g (standard error), 95 %% in [%.10g, %.10g]\n", e.title.c_str(), r.estimate.value,
-                r.estimate.std_error, r.interval.lo, r.interval.hi);
-    break;
-  case mc::ErrorBar::unseen:
-    std::printf("%s = 0, error not known yet: the integrand was 0 at every point. What is not 0 fills at most %.2g of "
-                "the volume (95 %%); raise --max-calls, or choose a --domain around it\n",
-                e.title.c_str(), 3 / double(r.calls));
-    break;
-  case mc::ErrorBar::infinite_variance:
-    std::printf("%s = %.10g, error not known: the variance is infinite (the largest values fall off with index %.2f; a "
-                "variance needs more than 2). Substitute a variable that removes the singularity\n",
-                e.title.c_str(), r.estimate.value, r.tail_index);
-    break;
+// What a user can do where there is no error bar.
+const char* remedy(mc::ErrorBar bar) {
+  switch (bar) {
+  case mc::ErrorBar::known: return "";
+  case mc::ErrorBar::unseen: return "; raise --max-calls, or choose a --domain around it";
+  case mc::ErrorBar::infinite_variance: return ". Substitute a variable that removes the singularity";
   }
+  return "";
 }
 
 std::vector<Option> rows(IntegrateOptions& o) {
   return {
       {"INTEGRAND", "", &o.integrand, "Name (see --list) or expression, e.g. \"exp(-x*x)*cos(y)\""},
-      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:1,y=-1:2\""},
+      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:1,y=-inf:inf\""},
       {"--list", "", &o.list, "List the named integrands, and stop"},
       {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach"},
       {"--abs-error", "ERROR", &o.abs_error, "Absolute standard error that also suffices"},
@@ -92,7 +82,7 @@ int integrate(const IntegrateOptions& o) {
   const mc::Integral r = mc::integrate_unit(e.f, e.dim, settings);
   progress.clear();
 
-  print_value(e, r);
+  fmt::print("{} = {}{}\n", e.title, r.to_string(), remedy(r.error_bar));
   std::printf("%s calls in %s by %s; stopped: %s\n", format_count(double(r.calls)).c_str(),
               format_seconds(r.seconds).c_str(), std::string(name(r.method)).c_str(),
               std::string(name(r.stop)).c_str());
@@ -100,9 +90,6 @@ int integrate(const IntegrateOptions& o) {
   else if (std::isfinite(e.truth))
     std::printf("the true value is %.10g, %.2f standard errors away\n", e.truth,
                 r.estimate.std_error > 0 ? std::abs(r.estimate.value - e.truth) / r.estimate.std_error : 0.0);
-  if (!r.consistent)
-    std::printf("warning: the rounds disagree (chi-square %.3g for %.0f degrees of freedom): distrust the error\n",
-                r.chi2, r.chi2_dof);
   if (!o.json.empty()) {
     nlohmann::json j = {{"command", o.command},
                         {"commit", commit},

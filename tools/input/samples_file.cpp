@@ -79,12 +79,20 @@ struct GridDomain {
   }
 };
 
+std::vector<Side> finite_sides(const std::string& box) {
+  std::vector<Side> sides = parse_sides(box);
+  for (const Side& s : sides)
+    mc::require(s.is_finite(), "--domain: '{}' has no end in '{}'; a grid needs one: give the density as --pdf", s.name,
+                box);
+  return sides;
+}
+
 GridDomain domain_of(const SamplesFileOptions& o, std::size_t columns) {
   GridDomain d;
   if (o.domain == "sphere" || (o.domain.empty() && columns == 3)) d.sphere = true;
   else if (!o.domain.empty() && o.domain.find('=') == std::string::npos)
     throw mc::Error(fmt::format("--domain: on '{}' the density is an expression: --pdf", o.domain));
-  else if (!o.domain.empty()) d.sides = parse_sides(o.domain);
+  else if (!o.domain.empty()) d.sides = finite_sides(o.domain);
   else if (columns == 1) d.sides = {{"x", 0, 1}};
   else d.sides = {{"x", 0, 1}, {"y", 0, 1}};
   mc::require(d.columns() <= 3 && (d.sphere || d.sides.size() <= 2),

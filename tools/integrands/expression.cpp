@@ -17,6 +17,11 @@ namespace carlo {
 
 namespace {
 
+double both(double a, double b) { return a != 0 && b != 0; }
+double either(double a, double b) { return a != 0 || b != 0; }
+double negated(double a) { return a == 0; }
+double chosen(double condition, double yes, double no) { return condition != 0 ? yes : no; }
+
 // A parser with its variables: muParser evaluates in place, so each thread needs its own.
 struct Instance {
   mu::Parser parser;
@@ -27,6 +32,10 @@ struct Instance {
       parser.ClearConst(); // muParser's own pi and e have 13 digits
       parser.DefineConst("_pi", 3.14159265358979323846);
       parser.DefineConst("_e", 2.71828182845904523536);
+      parser.DefineOprt("and", both, mu::prLAND);
+      parser.DefineOprt("or", either, mu::prLOR);
+      parser.DefineFun("not", negated);
+      parser.DefineFun("if", chosen);
       for (std::size_t i = 0; i < names.size(); ++i) parser.DefineVar(names[i], &values[i]);
       parser.SetExpr(expression);
       parser.Eval();
@@ -66,7 +75,7 @@ Experiment parse_expression(const std::string& expression, const std::string& bo
   double volume = 1;
   for (const Side& s : sides) {
     names.push_back(s.name);
-    volume *= s.hi - s.lo;
+    if (s.is_finite()) volume *= s.hi - s.lo;
   }
   mc::require(std::isfinite(volume), "--domain: the volume of '{}' overflows", box);
 
@@ -79,14 +88,19 @@ Experiment parse_expression(const std::string& expression, const std::string& bo
   e.fit_from = 0;
   e.f = [sides, volume, f = parse_function(expression, names)](std::span<const double> u) {
     std::array<double, 32> x;
-    for (std::size_t i = 0; i < sides.size(); ++i) x[i] = sides[i].lo * (1 - u[i]) + sides[i].hi * u[i];
-    return volume * f(std::span(x).first(sides.size()));
+    double scale = volume;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      const Placed at = place_on(sides[i], u[i]);
+      if (!std::isfinite(at.x)) return 0.0; // an end at infinity: no point of the domain
+      x[i] = at.x;
+      if (!sides[i].is_finite()) scale *= at.slope;
+    }
+    return scale * f(std::span(x).first(sides.size()));
   };
   e.place = [sides](std::span<const double> u) {
     std::string text;
     for (std::size_t i = 0; i < sides.size(); ++i)
-      text +=
-          fmt::format("{}{} = {:.9g}", i > 0 ? ", " : "", sides[i].name, sides[i].lo * (1 - u[i]) + sides[i].hi * u[i]);
+      text += fmt::format("{}{} = {:.9g}", i > 0 ? ", " : "", sides[i].name, place_on(sides[i], u[i]).x);
     return text;
   };
   return e;

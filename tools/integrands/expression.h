@@ -6,16 +6,17 @@
 namespace carlo {
 
 /// An expression as a function of the variables' values, in their order; may be called from several threads at once.
-/// Knows the functions and operators of muParser, and the constants _pi and _e.
+/// Knows the functions and operators of muParser, the constants _pi and _e, "a and b", "a or b", not(a) and
+/// if(condition, yes, no).
 ///   throws : mc::Error for an expression that does not parse, with the position
 std::function<double(std::span<const double>)> parse_function(const std::string& expression,
                                                               const std::vector<std::string>& variables);
 
-/// The integral of an expression such as "exp(-x*x)*cos(y)" over the box "x=0:1,y=-1:2", as one over the unit cube; see
-/// parse_function.
+/// The integral of an expression such as "exp(-x*x)*cos(y)" over the box "x=0:1,y=-1:2", whose sides may be
+/// infinite, as one over the unit cube; see parse_function and place_on.
 ///   truth  : NaN, nothing is known of it
 ///   throws : mc::Error for an expression that does not parse, with the position; a variable without bounds or with
-///            two; bounds that are not finite numbers with lo < hi
+///            two; bounds that are not numbers with lo < hi
 Experiment parse_expression(const std::string& expression, const std::string& box);
 
 } // namespace carlo

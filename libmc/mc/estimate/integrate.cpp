@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <ostream>
 
 namespace mc {
 
@@ -50,6 +51,32 @@ std::string_view name(ErrorBar bar) {
   return "";
 }
 
+std::string Integral::to_string() const {
+  std::string text;
+  switch (error_bar) {
+  case ErrorBar::known:
+    text = fmt::format("{:.10g} ± {:.2g} (standard error), {:g} % in [{:.10g}, {:.10g}]", estimate.value,
+                       estimate.std_error, 100 * confidence, interval.lo, interval.hi);
+    break;
+  case ErrorBar::unseen:
+    text = fmt::format("0, error not known yet: the integrand was 0 at every point. What is not 0 fills at most {:.2g} "
+                       "of the volume (95 %)",
+                       3 / static_cast<double>(calls));
+    break;
+  case ErrorBar::infinite_variance:
+    text = fmt::format("{:.10g}, error not known: the variance is infinite (the largest values fall off with index "
+                       "{:.2f}; a variance needs more than 2)",
+                       estimate.value, tail_index);
+    break;
+  }
+  if (!consistent)
+    text += fmt::format("; the rounds disagree (chi-square {:.3g} for {:.0f} degrees of freedom): distrust the error",
+                        chi2, chi2_dof);
+  return text;
+}
+
+std::ostream& operator<<(std::ostream& out, const Integral& r) { return out << r.to_string(); }
+
 std::string_view name(Stop stop) {
   switch (stop) {
   case Stop::converged: return "converged";
@@ -88,6 +115,7 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
     const detail::Mean& mean = outcome.means[k];
     r.estimate = detail::estimate(mean, run.calls);
     r.interval = detail::interval(mean, o.confidence);
+    r.confidence = o.confidence;
     r.error_bar = mean.bar;
     r.tail_index = outcome.seen[k].tail_index();
     r.calls = run.calls;
@@ -129,6 +157,7 @@ Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f,
   Integral result;
   result.estimate = detail::estimate(mean, run.calls);
   result.interval = detail::interval(mean, o.confidence);
+  result.confidence = o.confidence;
   result.error_bar = mean.bar;
   result.tail_index = sequences.seen().front().tail_index();
   result.calls = run.calls;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <string_view>
@@ -71,7 +72,13 @@ struct Integral {
   double chi2 = 0, chi2_dof = 0;
   /// Whether the rounds agree: chi2 is exceeded by chance with probability over 1e-4. False: distrust the error bar.
   bool consistent = true;
+  double confidence = 0.95; ///< of the interval
+
+  /// "1.3075 ± 0.00013 (standard error), 95 % in [1.3073, 1.3078]", or why there is no error bar; and a warning where the
+  /// rounds disagree.
+  std::string to_string() const;
 };
+std::ostream& operator<<(std::ostream& out, const Integral& r);
 
 /// Several integrals from the same calls.
 struct VectorIntegral {

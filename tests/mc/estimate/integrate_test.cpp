@@ -254,6 +254,26 @@ TEST(Integrate, RefusesNonsense) {
   EXPECT_THROW(mc::integrate_rqmc(peak, 2, 0), mc::Error);
 }
 
+TEST(Integral, PrintsItself) {
+  mc::Integral r;
+  r.estimate.value = 1.5;
+  r.estimate.std_error = 0.01;
+  r.interval = {1.4804, 1.5196};
+  EXPECT_EQ(testing::PrintToString(r), "1.5 ± 0.01 (standard error), 95 % in [1.4804, 1.5196]");
+  r.consistent = false;
+  r.chi2 = 50;
+  r.chi2_dof = 3;
+  EXPECT_TRUE(
+      r.to_string().ends_with("the rounds disagree (chi-square 50 for 3 degrees of freedom): distrust the error"));
+  const auto zero = [](std::span<const double>) { return 0.0; };
+  mc::IntegrateOptions o;
+  o.max_calls = 3000;
+  EXPECT_TRUE(mc::integrate_unit(zero, 1, o).to_string().starts_with("0, error not known yet: "));
+  const auto endless = [](std::span<const double> u) { return std::pow(1 - u[0], -0.9); };
+  o.max_calls = 1 << 16;
+  EXPECT_NE(mc::integrate_unit(endless, 1, o).to_string().find("the variance is infinite"), std::string::npos);
+}
+
 TEST(IntegrateRqmc, IsWithinItsError) {
   const mc::Integral r = mc::integrate_rqmc(peak, 2, 4096);
   EXPECT_LE(std::abs(r.estimate.value - peak_truth()), 5 * r.estimate.std_error);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ostream>
 
 namespace mc {
 
@@ -105,5 +106,7 @@ std::string describe_cell(const std::vector<Axis>& axes, const std::array<double
   }
   return text;
 }
+
+std::ostream& operator<<(std::ostream& out, const Report& r) { return out << r.to_string(); }
 
 } // namespace mc

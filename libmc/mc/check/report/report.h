@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -116,5 +117,6 @@ struct Report {
   /// Several lines: the verdict, then each check that did not pass with its detail, then the worst cells.
   std::string to_string() const;
 };
+std::ostream& operator<<(std::ostream& out, const Report& r);
 
 } // namespace mc

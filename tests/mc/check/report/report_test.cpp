@@ -27,6 +27,7 @@ TEST(Report, TextSaysWhereAndByHowMuch) {
   r.subject = "Cone";
   r.checks.push_back({"mass", Verdict::fail, {}, 0, 0.003, 1e-6, Fault::mass, "integrates to 1.003"});
   r.worst.push_back({{0, 0.25, 0}, {0.5, 0.5, 1}, 120, 64, 7, "(0, 0, 1)"});
+  EXPECT_EQ(testing::PrintToString(r), r.to_string());
   EXPECT_THAT(r.to_string(),
               testing::AllOf(testing::HasSubstr("Cone: fail"),
                              testing::HasSubstr("mass fail: 0.003, limit 1e-06; integrates to 1.003"),
