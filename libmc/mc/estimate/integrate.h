@@ -74,8 +74,8 @@ struct Integral {
   bool consistent = true;
   double confidence = 0.95; ///< of the interval
 
-  /// "1.3075 ± 0.00013 (standard error), 95 % in [1.3073, 1.3078]", or why there is no error bar; and a warning where the
-  /// rounds disagree.
+  /// "1.3075 ± 0.00013 (standard error), 95 % in [1.3073, 1.3078]", or why there is no error bar; and a warning where
+  /// the rounds disagree.
   std::string to_string() const;
 };
 std::ostream& operator<<(std::ostream& out, const Integral& r);
