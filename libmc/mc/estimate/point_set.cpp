@@ -24,6 +24,10 @@ template <Sampler T> void fill(const T& sampler, std::uint64_t first, std::size_
       u[i + d] = coordinate<double>(sampler, first + i / dim, static_cast<std::uint32_t>(d));
 }
 
+void fill(const Stratified& sampler, std::uint64_t first, std::size_t dim, std::span<double> u) {
+  for (std::size_t i = 0; i < u.size(); i += dim) sampler.point(first + i / dim, u.subspan(i, dim));
+}
+
 // Scrambled coordinates of the points base + skip, ..., base + skip + count - 1, to the same places of x.
 MC_CLONES void coordinates(const Sobol& sobol, std::uint64_t seed, std::uint32_t dim, std::uint64_t base,
                            std::size_t skip, std::size_t count, std::array<std::uint32_t, window>& x) {

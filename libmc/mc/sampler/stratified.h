@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace mc {
 
@@ -27,23 +28,21 @@ class Stratified {
   }
 
   std::uint64_t bits(std::uint64_t index, std::uint32_t dim) const {
-    const std::uint64_t set = index / count_;
-    const std::uint32_t first = dim / group_;
-    std::uint32_t box = permute(static_cast<std::uint32_t>(index % count_), count_, hash(seed_, set, first));
-    const std::uint64_t jitter = hash(seed_, index, dim);
-    // Box number -> one slab after another, until the dimension asked for.
-    std::uint32_t n = count_;
-    for (std::uint32_t left = group_ - dim % group_, d = group_; d > left; --d) {
-      const Slab s = slab(box, n, d);
-      box -= s.start;
-      n = s.size;
-    }
-    const std::uint32_t d = group_ - dim % group_;
-    const Slab s = slab(box, n, d);
-    // The slab [start, start + size) of n boxes, jittered: exact 64-bit fractions, so never 1.
-    __extension__ using Wide = unsigned __int128;
-    const Wide offset = Wide{s.size} * jitter;
-    return static_cast<std::uint64_t>(((Wide{s.start} << 64) + offset) / n);
+    std::uint64_t result = 0;
+    descend(index, dim / group_, dim % group_, [&](std::uint32_t axis, const Slab& s, std::uint32_t n) {
+      if (axis == dim % group_) result = inside(s, n, hash(seed_, index, dim));
+    });
+    return result;
+  }
+
+  /// The first u.size() coordinates of a point, those of bits(): its boxes are looked for once.
+  void point(std::uint64_t index, std::span<double> u) const {
+    const auto dims = static_cast<std::uint32_t>(u.size());
+    for (std::uint32_t first = 0; first < dims; first += group_)
+      descend(index, first / group_, std::min(group_, dims - first) - 1,
+              [&](std::uint32_t axis, const Slab& s, std::uint32_t n) {
+                u[first + axis] = uniform<double>(inside(s, n, hash(seed_, index, first + axis)));
+              });
   }
 
   std::uint32_t count() const { return count_; }
@@ -53,13 +52,43 @@ class Stratified {
     std::uint32_t start, size;
   };
 
+  // Calls visit(axis, slab, n) for the axes 0 to `last` of a group: the slab of the point's box, of those of n boxes.
+  template <class Visit>
+  void descend(std::uint64_t index, std::uint32_t group, std::uint32_t last, Visit&& visit) const {
+    std::uint32_t box = permute(static_cast<std::uint32_t>(index % count_), count_, hash(seed_, index / count_, group));
+    std::uint32_t n = count_;
+    for (std::uint32_t axis = 0;; ++axis) {
+      const Slab s = slab(box, n, group_ - axis);
+      visit(axis, s, n);
+      if (axis == last) return;
+      box -= s.start;
+      n = s.size;
+    }
+  }
+
   // The slab that holds `box` when n boxes are cut along the first of d remaining dimensions.
   static Slab slab(std::uint32_t box, std::uint32_t n, std::uint32_t d) {
     if (d == 1) return {box, 1};
-    const auto slabs = std::clamp(static_cast<std::uint32_t>(std::lround(std::pow(double(n), 1.0 / d))), 1u, n);
+    const auto slabs = std::clamp(static_cast<std::uint32_t>(root(n, d) + 0.5), 1u, n);
     const auto start_of = [&](std::uint64_t i) { return static_cast<std::uint32_t>((i * n + slabs - 1) / slabs); };
     const auto i = static_cast<std::uint32_t>(std::uint64_t{box} * slabs / n);
     return {start_of(i), start_of(i + 1) - start_of(i)};
+  }
+
+  // The d-th root. No integer is the d-th power of half an odd number, so rounding it is safe however it is found.
+  static double root(double n, std::uint32_t d) {
+    switch (d) {
+    case 2: return std::sqrt(n);
+    case 3: return std::cbrt(n);
+    case 4: return std::sqrt(std::sqrt(n));
+    default: return std::pow(n, 1.0 / d);
+    }
+  }
+
+  // The slab [start, start + size) of n boxes, jittered: exact 64-bit fractions, so never 1.
+  static std::uint64_t inside(const Slab& s, std::uint32_t n, std::uint64_t jitter) {
+    __extension__ using Wide = unsigned __int128;
+    return static_cast<std::uint64_t>(((Wide{s.start} << 64) + Wide{s.size} * jitter) / n);
   }
 
   std::uint32_t count_, group_;

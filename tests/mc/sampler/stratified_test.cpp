@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <set>
 
 namespace {
@@ -48,6 +49,19 @@ TEST(Stratified, AnyCountKeepsItsSlabs) {
       EXPECT_EQ(rows.size(), boxes) << "count " << n << ", slab " << k;
     }
   }
+}
+
+TEST(Stratified, AWholePointIsThatOfItsCoordinates) {
+  for (const std::uint32_t count : {1u, 2u, 97u, 4096u, 1u << 31})
+    for (const std::uint32_t group : {1u, 2u, 3u, 5u, 8u, 40u}) {
+      const mc::Stratified s(count, 3, group);
+      std::array<double, 19> u;
+      for (const std::uint64_t index : {std::uint64_t{0}, std::uint64_t{count - 1}, std::uint64_t{count} + 5}) {
+        s.point(index, u);
+        for (std::uint32_t d = 0; d < u.size(); ++d)
+          ASSERT_EQ(u[d], mc::coordinate<double>(s, index, d)) << count << ", " << group << ", " << d;
+      }
+    }
 }
 
 // The quarter disk: its boundary crosses about n^1/2 of the cells, so the error falls as n^-3/4: 64 times the points,
