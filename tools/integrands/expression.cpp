@@ -91,9 +91,10 @@ Experiment parse_expression(const std::string& expression, const std::string& bo
     double scale = volume;
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const Placed at = place_on(sides[i], u[i]);
-      if (!std::isfinite(at.x)) return 0.0; // an end at infinity: no point of the domain
       x[i] = at.x;
-      if (!sides[i].is_finite()) scale *= at.slope;
+      if (sides[i].is_finite()) continue;
+      if (std::isinf(at.x)) return 0.0; // an end at infinity: no point of the domain
+      scale *= at.slope;
     }
     return scale * f(std::span(x).first(sides.size()));
   };

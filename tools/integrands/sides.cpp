@@ -4,7 +4,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 namespace carlo {
@@ -20,16 +19,6 @@ double number(std::string_view text, std::string_view side) {
 }
 
 } // namespace
-
-bool Side::is_finite() const { return std::isfinite(lo) && std::isfinite(hi); }
-
-Placed place_on(const Side& s, double u) {
-  if (s.is_finite()) return {s.lo * (1 - u) + s.hi * u, s.hi - s.lo};
-  if (std::isfinite(s.lo)) return {s.lo + u / (1 - u), 1 / ((1 - u) * (1 - u))};
-  if (std::isfinite(s.hi)) return {s.hi - (1 - u) / u, 1 / (u * u)};
-  const double t = 2 * u - 1, rest = 4 * u * (1 - u); // 1 - t^2
-  return {t / rest, 2 * (1 + t * t) / (rest * rest)};
-}
 
 std::vector<Side> parse_sides(const std::string& box) {
   std::vector<Side> sides;

@@ -1,6 +1,7 @@
 #pragma once
 /// Boxes on the command line.
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@ struct Side {
   std::string name;
   double lo, hi;
 
-  bool is_finite() const;
+  bool is_finite() const { return std::isfinite(lo) && std::isfinite(hi); }
 };
 
 /// "x=0:1,y=-1:2,z=0:inf". Throws Error that names --domain for anything else.
@@ -23,6 +24,12 @@ std::vector<Side> parse_sides(const std::string& box);
 struct Placed {
   double x, slope;
 };
-Placed place_on(const Side& side, double u);
+inline Placed place_on(const Side& s, double u) {
+  if (s.is_finite()) return {s.lo * (1 - u) + s.hi * u, s.hi - s.lo};
+  if (std::isfinite(s.lo)) return {s.lo + u / (1 - u), 1 / ((1 - u) * (1 - u))};
+  if (std::isfinite(s.hi)) return {s.hi - (1 - u) / u, 1 / (u * u)};
+  const double t = 2 * u - 1, rest = 4 * u * (1 - u); // 1 - t^2
+  return {t / rest, 2 * (1 + t * t) / (rest * rest)};
+}
 
 } // namespace carlo
