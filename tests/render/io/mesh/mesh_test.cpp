@@ -16,7 +16,7 @@ struct Mesh : support::ScratchTest {
     int refused = 0;
     for (std::size_t n = 0; n < bytes.size(); ++n) {
       const std::string file = write(name, bytes.substr(0, n));
-      const std::string said = support::error_of([&] { to_shape(read(file), {}); });
+      const std::string said = support::error_of([&] { to_shape(format.second(file), {}); });
       EXPECT_EQ(said.find('\n'), std::string::npos) << said;
       refused += !said.empty();
     }
@@ -267,14 +267,14 @@ TEST_F(Mesh, DamagedAnywhere) {
       {pyramid(ply_cases[2]), read_ply},
       {serialized({SerializedMesh{}}), [](const std::string& p) { return read_serialized(p, 0); }},
       {"v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1/1/1 2/1/1 3/1/1\n", read_obj}};
-  for (const auto& [whole, read] : formats)
+  for (const auto& format : formats)
     for (int trial = 0; trial < 400; ++trial) {
-      std::string bytes = whole;
+      std::string bytes = format.first;
       for (int k = 0; k < 1 + trial % 3; ++k)
         bytes[static_cast<std::size_t>(random.uniform<double>() * double(bytes.size()))] =
             static_cast<char>(random.uniform<double>() * 256);
       const std::string file = write("damaged", bytes);
-      const std::string said = support::error_of([&] { to_shape(read(file), {}); });
+      const std::string said = support::error_of([&] { to_shape(format.second(file), {}); });
       EXPECT_EQ(said.find('\n'), std::string::npos) << said;
     }
 }
