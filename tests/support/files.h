@@ -11,6 +11,8 @@
 #include <functional>
 #include <string>
 
+#include <unistd.h>
+
 namespace support {
 
 /// A test with a folder of its own that is removed at the end.
@@ -19,7 +21,8 @@ struct ScratchTest : testing::Test {
 
   void SetUp() override {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder = std::filesystem::path(testing::TempDir()) / (std::string(info->test_suite_name()) + "." + info->name());
+    folder = std::filesystem::path(testing::TempDir()) /
+             (std::string(info->test_suite_name()) + "." + info->name() + "." + std::to_string(::getpid()));
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
   }

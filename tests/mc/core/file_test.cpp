@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 namespace {
 
 struct FileTest : testing::Test {
-  fs::path folder = fs::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  fs::path folder = fs::path(testing::TempDir()) /
+                    fmt::format("{}.{}", testing::UnitTest::GetInstance()->current_test_info()->name(), ::getpid());
   void SetUp() override { fs::create_directories(folder); }
   void TearDown() override { fs::remove_all(folder); }
   std::size_t files() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {})); }

@@ -71,10 +71,8 @@ class Writer {
 
 class Reader {
  public:
-  explicit Reader(const std::string& bytes)
-      : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &problem_, on_error, on_warning)), rest_(bytes) {
-    mc::require(png_, "no memory to read a PNG");
-    info_ = png_create_info_struct(png_);
+  // The second constructor has finished when the header is read, so that the destructor runs where that throws.
+  explicit Reader(const std::string& bytes) : Reader(std::string_view(bytes)) {
     mc::require(read_header(), "broken PNG: {}", problem_.text);
   }
   ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
@@ -99,6 +97,12 @@ class Reader {
   }
 
  private:
+  explicit Reader(std::string_view bytes)
+      : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &problem_, on_error, on_warning)), rest_(bytes) {
+    mc::require(png_, "no memory to read a PNG");
+    info_ = png_create_info_struct(png_);
+  }
+
   static void take(png_structp png, png_bytep to, png_size_t size) {
     auto* rest = static_cast<std::string_view*>(png_get_io_ptr(png));
     if (size > rest->size()) png_error(png, "the file ends early");
