@@ -169,6 +169,9 @@ Part product(const Part& a, const Part& b) {
     image.jacobian *= second.jacobian;
     return image;
   };
+  p.chart.jacobian = [a = a.chart, b = b.chart, v_split](const AnyDomain::Chart& v) {
+    return a.jacobian(slice(v, 0, a.dim)) * b.jacobian(slice(v, v_split, b.dim));
+  };
   return p;
 }
 

@@ -1,59 +1,111 @@
 #include <mc/check/check_subject.h>
 
 #include <mc/check/fit/alpha_shares.h>
-#include <mc/check/fit/tests/cell_masses.h>
+#include <mc/check/fit/expected/mass.h>
+#include <mc/check/fit/tests/density_levels.h>
 #include <mc/check/fit/tests/rotation.h>
 #include <mc/check/fit/tests/slabs.h>
+#include <mc/check/fit/tests/spectrum.h>
+#include <mc/check/fit/tests/strips.h>
 #include <mc/check/fit/tests/uniformity.h>
 #include <mc/check/summary.h>
 #include <mc/core/error.h>
 #include <mc/random/hash.h>
 #include <mc/stats/binomial.h>
 #include <mc/stats/multiple_testing.h>
+#include <mc/stats/sort_numbers.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 namespace mc {
 namespace {
 
 constexpr std::size_t most_inverted = 1 << 17;
 
+constexpr std::size_t most_kept = 1 << 22;
+
 // Where the samples will be counted, and how many the density claims there.
 struct Layout {
-  std::optional<Partition> partition; ///< of subjects with axes
-  std::vector<UnitBox> boxes;         ///< of its cells; the cells beyond them are discrete outcomes
+  std::optional<PilotCells> pilot_cells; ///< of subjects with axes
+  std::optional<Reference> reference;
+  std::vector<UnitBox> boxes; ///< of its cells; the cells beyond them are discrete outcomes
   std::vector<Cell> cells;
-  std::vector<Slab> slabs;
-  CubatureResult integrals;
-  double mass = 0; ///< of density and outcomes
+  std::optional<Strips> strips;
+  std::optional<FineGrid> grid;
+  DensityLevels levels;
+  WeightedCounts all; ///< samples and random points, wherever they lie
+  Reference::Masses masses;
+  CubatureResult cubature;
 };
 
-// What was counted there.
+// Sums over the samples in a cell: of their weights, and of the squares of those.
+struct WeightSums {
+  double sum = 0, squares = 0;
+  void add(double weight) {
+    sum += weight;
+    squares += weight * weight;
+  }
+};
+
+// What was counted.
 struct Counts {
   DrawTally tally;
-  std::vector<Subject::Coordinates> inverted; ///< the first samples, through the subject's own inverse
+  std::vector<WeightSums> cells;
+  SampleWeights weights;
+  std::array<std::vector<double>, 3> coordinates; ///< of the first samples, by axis
+  double kept = 0;                                ///< draws that these come from
+  std::vector<Subject::Coordinates> inverted;     ///< the first samples, through the subject's own inverse
 };
+
+// At least 200 samples to a cell, at most 4096 cells.
+int tree_depth(double samples) { return std::clamp(static_cast<int>(std::log2(std::max(samples, 1.0) / 200)), 0, 12); }
+
+Cell cell_of(const Subject& s, const Pilot& pilot, const UnitBox& box, const EstimatedMass& mass) {
+  Cell c;
+  c.p = mass.value;
+  c.variance = mass.variance_with_jumps();
+  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
+    c.rank_lo[d] = pilot.rank(d, box.lo[d]);
+    c.rank_hi[d] = box.hi[d] < 1 ? pilot.rank(d, box.hi[d]) : 1.0;
+  }
+  return c;
+}
+
+void lay_out_cells(const Subject& s, const Pilot& pilot, const SubjectOptions& options, Layout& layout) {
+  const double n = static_cast<double>(options.samples), draws = static_cast<double>(pilot.tally.draws);
+  layout.pilot_cells.emplace(pilot, s.dim, tree_depth(n * static_cast<double>(pilot.points.size()) / draws));
+  layout.reference.emplace(s, pilot, *layout.pilot_cells, hash(options.seed, 3));
+  Reference::Goal goal;
+  goal.samples = n;
+  goal.most = std::max<std::size_t>(options.max_evaluations / 3, 1 << 15);
+  layout.strips.emplace(pilot, s.dim);
+  layout.grid.emplace(s.dim, n, mean_step(s, pilot, 1 / std::sqrt(n)));
+  layout.masses = layout.reference->integrate(
+      s, goal, hash(options.seed, 4),
+      [&](const Subject::Coordinates& v, const Reference::Place& place, double density, double share) {
+        layout.strips->add_expected(v, share);
+        layout.grid->add_expected(v, share);
+        layout.levels.add_expected(density / place.density, share);
+        layout.all.add_expected(share);
+      });
+  layout.cubature = integrate_density(s, pilot, *layout.pilot_cells, n, options.max_evaluations / 12);
+  const Partition& partition = layout.pilot_cells->partition;
+  for (int i = 0; i < partition.size(); ++i) {
+    layout.boxes.push_back(partition.box(i));
+    layout.cells.push_back(cell_of(s, pilot, layout.boxes.back(), layout.masses.cells[static_cast<std::size_t>(i)]));
+  }
+}
 
 Layout lay_out(const Subject& s, const Pilot& pilot, const SubjectOptions& options) {
   Layout layout;
-  const double n = static_cast<double>(options.samples);
-  if (s.dim > 0) {
-    CellMasses masses = integrate_cells(s, pilot, n, options.max_evaluations);
-    layout.slabs = suspect_slabs(s, pilot.points, pilot.sorted);
-    integrate_slabs(s, layout.slabs, n, options.max_evaluations / 8);
-    for (int i = 0; i < masses.partition.size(); ++i) layout.boxes.push_back(masses.partition.box(i));
-    layout.partition = std::move(masses.partition);
-    layout.cells = std::move(masses.cells);
-    layout.integrals = std::move(masses.integrals);
-  }
-  layout.mass = layout.integrals.total.value;
+  if (s.dim > 0) lay_out_cells(s, pilot, options, layout);
   for (std::size_t i = 0; i < s.atoms.size(); ++i) {
     require(s.atoms[i] >= 0 && s.atoms[i] <= 1 + 1e-6, "{}: probability of outcome {} = {} must lie in [0, 1]", s.name,
             i, s.atoms[i]);
     layout.cells.emplace_back().p = s.atoms[i];
-    layout.mass += s.atoms[i];
   }
   return layout;
 }
@@ -69,7 +121,7 @@ Check test_failures(const Subject& s, const DrawTally& t, double mass, double ma
   const double expected = std::clamp(1 - mass, 0.0, 1.0), slack = mass_error + s.mass_tolerance;
   const double rate = static_cast<double>(t.failed.count) / static_cast<double>(t.draws);
   const double conceded = rate > expected ? std::min(expected + slack, rate) : std::max(expected - slack, rate);
-  c.p = binomial_tail(t.failed.count, t.draws, conceded);
+  c.p = binomial_tail(static_cast<double>(t.failed.count), static_cast<double>(t.draws), conceded);
   if (*c.p > sidak_level(alpha, c.share)) return c;
   c.verdict = Verdict::fail;
   c.detail = fmt::format("{} of {} samples failed, {:.1f} expected of a density of mass {:.8g} +- {:.2g}",
@@ -78,60 +130,136 @@ Check test_failures(const Subject& s, const DrawTally& t, double mass, double ma
 }
 
 // Every test of the counts so far.
-CellTests judge_counts(const Subject& s, Layout& layout, const DrawTally& tally, double alpha) {
-  for (std::size_t i = 0; i < s.atoms.size(); ++i) layout.cells[layout.boxes.size() + i].observed = tally.atoms[i];
-  CellTests tests = test_cells(layout.cells, s.dim, alpha);
-  if (s.dim > 0) {
-    const double n = static_cast<double>(tally.draws), total = claimed_total(s, layout.mass);
-    tests.checks.insert(tests.checks.begin(), {test_slabs(s, Slab::Kind::atom, layout.slabs, n, total, alpha),
-                                               test_slabs(s, Slab::Kind::gap, layout.slabs, n, total, alpha)});
+CellTests judge_counts(const Subject& s, Layout& layout, const std::vector<WeightSums>& cells, const DrawTally& tally,
+                       double alpha) {
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    layout.cells[i].observed = cells[i].sum;
+    layout.cells[i].squares = cells[i].squares;
   }
-  if (s.may_fail) tests.checks.push_back(test_failures(s, tally, layout.mass, layout.integrals.total.error, alpha));
-  return tests;
+  for (std::size_t i = 0; i < s.atoms.size(); ++i) {
+    const double count = static_cast<double>(tally.atoms[i]);
+    layout.cells[layout.boxes.size() + i].observed = layout.cells[layout.boxes.size() + i].squares = count;
+  }
+  return test_cells(layout.cells, s.dim, alpha);
 }
 
-// Draws and counts; `so_far` is called with the tally after 1024, 2048, ... draws.
-Counts count_samples(const Subject& s, const SubjectOptions& options, Layout& layout,
-                     const std::function<void(const DrawTally&)>& so_far) {
+// Counts points, each test's in a loop of its own: they share little memory.
+void count_points(const Subject& s, const std::vector<Subject::Coordinates>& points,
+                  const std::vector<double>& densities, Layout& layout, Counts& counts) {
+  if (points.empty()) return;
+  const std::vector<const Reference::Place*> places = layout.reference->places(points);
+  std::vector<double> weights(points.size()), shares(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    weights[i] = places[i]->weight(densities[i]);
+    shares[i] = places[i]->share(densities[i]);
+    counts.cells[places[i]->cell].add(weights[i]);
+    counts.weights.points += 1;
+    counts.weights.sum += weights[i];
+    counts.weights.squares += sqr(weights[i]);
+    layout.all.add_sample(weights[i], shares[i]);
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    layout.levels.add_sample(densities[i] / places[i]->density, weights[i], shares[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) layout.strips->add_sample(points[i], weights[i], shares[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) layout.grid->add_sample(points[i], weights[i]);
+  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
+    for (std::size_t i = 0; i < points.size() && counts.coordinates[d].size() < most_kept; ++i)
+      counts.coordinates[d].push_back(points[i][d]);
+  for (std::size_t i = 0; s.invert && i < points.size() && counts.inverted.size() < most_inverted; ++i)
+    counts.inverted.push_back(s.invert(points[i]));
+}
+
+// Draws and counts; `so_far` is called with what there is after 1024, 2048, ... draws.
+using SoFar = std::function<void(const std::vector<WeightSums>& cells, const DrawTally& tally)>;
+
+Counts count_samples(const Subject& s, const Pilot& pilot, const SubjectOptions& options, Layout& layout,
+                     const SoFar& so_far) {
   Counts counts;
-  const auto count = [&](const Subject::Coordinates& v) {
-    ++layout.cells[static_cast<std::size_t>(layout.partition->cell(v))].observed;
-    if (s.invert && counts.inverted.size() < most_inverted) counts.inverted.push_back(s.invert(v));
-    for (Slab& slab : layout.slabs)
-      slab.observed += v[slab.axis] >= slab.box.lo[slab.axis] && v[slab.axis] <= slab.box.hi[slab.axis];
+  counts.cells.resize(layout.boxes.size());
+  std::vector<Subject::Coordinates> points;
+  std::vector<double> densities;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
+    counts.coordinates[d].reserve(std::min<std::size_t>(options.samples, most_kept));
+  const auto flush = [&] {
+    count_points(s, points, densities, layout, counts);
+    points.clear();
+    densities.clear();
+  };
+  const auto count = [&](const Subject::Coordinates& v, double density) {
+    points.push_back(v);
+    densities.push_back(density);
+    if (points.size() == 4096) flush();
   };
   std::uint64_t milestone = 1024;
   const auto before = [&](const DrawTally& tally) {
     if (tally.draws != milestone) return;
-    so_far(tally);
+    flush();
+    so_far(counts.cells, tally);
     milestone *= 2;
   };
   counts.tally = draw_samples(s, hash(options.seed, 2), options.samples, count,
                               so_far ? std::function<void(const DrawTally&)>(before) : nullptr);
+  flush();
+  SampleWeights& weights = counts.weights;
+  weights.draws = static_cast<double>(counts.tally.draws);
+  weights.seen = weights.points + static_cast<double>(pilot.points.size());
+  counts.kept = weights.draws * static_cast<double>(counts.coordinates[0].size()) / std::max(weights.points, 1.0);
+  for (std::vector<double>& axis : counts.coordinates) sort_numbers(axis);
   return counts;
 }
 
-std::vector<Check> judge_mass(const Subject& s, const Layout& layout, double samples) {
+std::vector<Check> judge_density(const Subject& s, const Layout& layout) {
+  const auto& bad = layout.masses.bad ? layout.masses.bad : layout.cubature.bad;
+  if (!bad) return {};
+  return {{"pdf finite and >= 0",
+           Verdict::fail,
+           {},
+           0,
+           1,
+           0,
+           Fault::not_finite,
+           fmt::format("at chart coordinates ({:.17g}, {:.17g}, {:.17g}){}", (*bad)[0], (*bad)[1], (*bad)[2],
+                       s.describe_point ? ", " + s.describe_point(*bad) : std::string())}};
+}
+
+void append(std::vector<Check>& all, std::vector<Check> more) {
+  for (Check& c : more) all.push_back(std::move(c));
+}
+
+// The samples through the subject's own inverse.
+std::vector<Check> judge_inverse(const Subject& s, const Counts& counts, double alpha) {
+  if (counts.inverted.empty()) return {};
   std::vector<Check> checks;
-  if (const auto& bad = layout.integrals.bad)
-    checks.push_back({"pdf finite and >= 0",
-                      Verdict::fail,
-                      {},
-                      0,
-                      1,
-                      0,
-                      Fault::not_finite,
-                      fmt::format("at chart coordinates ({:.17g}, {:.17g}, {:.17g}){}", (*bad)[0], (*bad)[1], (*bad)[2],
-                                  s.describe_point ? ", " + s.describe_point(*bad) : std::string())});
-  const double excess = layout.mass - 1, off = s.may_fail ? std::max(excess, 0.0) : std::abs(excess);
-  const double error = layout.integrals.total.error;
-  Check c{"mass", Verdict::pass, {}, 0, off, error + s.mass_tolerance, Fault::mass, {}};
-  if (!(off <= c.limit)) c.verdict = Verdict::fail;
-  else if (error > 1 / std::sqrt(samples)) c.verdict = Verdict::inconclusive;
-  if (c.verdict != Verdict::pass)
-    c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}; {} evaluations", layout.mass, error,
-                           layout.integrals.evaluations);
-  checks.push_back(std::move(c));
+  if (auto c = test_uniformity(counts.inverted, s.dim, s.invert_error, alpha, alpha_share(FitTest::inverse, s.dim)))
+    checks.push_back(std::move(*c));
+  FineGrid grid(s.dim, static_cast<double>(counts.inverted.size()), s.invert_error);
+  grid.expect_uniform();
+  WeightedCounts all;
+  for (const Subject::Coordinates& u : counts.inverted) {
+    grid.add_sample(u, 1);
+    all.add_sample(1, 0);
+  }
+  append(checks, grid.test(all, alpha_share(FitTest::waves, s.dim) / 2, alpha, "inverted samples"));
+  return checks;
+}
+
+std::vector<Check> judge_slabs(const Subject& s, const Pilot& pilot, const Counts& counts, double total, double alpha) {
+  std::vector<Check> checks;
+  const std::vector<Slab> slabs = find_slabs(s, pilot, counts.coordinates);
+  for (const Slab::Kind kind : {Slab::Kind::atom, Slab::Kind::gap})
+    checks.push_back(test_slabs(s, kind, slabs, counts.kept, total, alpha));
+  return checks;
+}
+
+// What is thinner or finer than any cell.
+std::vector<Check> judge_detail(const Subject& s, const Pilot& pilot, const Layout& layout, const Counts& counts,
+                                double mass, double alpha) {
+  const double points = std::max(mass - std::accumulate(s.atoms.begin(), s.atoms.end(), 0.0), 1e-300);
+  std::vector<Check> checks{
+      layout.strips->test(s, pilot, counts.weights.points, points, alpha_share(FitTest::strips, s.dim), alpha),
+      layout.levels.test(alpha_share(FitTest::levels, s.dim), alpha)};
+  append(checks,
+         layout.grid->test(layout.all, alpha_share(FitTest::waves, s.dim) / (s.invert ? 2 : 1), alpha, "the chart"));
   return checks;
 }
 
@@ -145,16 +273,12 @@ void recognise_rotation(const Subject& s, const std::vector<Axis>& axes, const L
   if (first == checks.end() || s.dim < 2) return;
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
     if (axes[d].scale != Axis::Scale::azimuth) continue;
-    const std::optional<double> turn = find_rotation(s, d, *layout.partition, layout.cells, pilot.points);
+    const std::optional<double> turn = find_rotation(s, d, layout.pilot_cells->partition, layout.cells, pilot.points);
     if (!turn) continue;
     first->detail += fmt::format("; as if {} were turned by {:.3g} deg", axes[d].name, 360 * *turn);
     for (Check& c : checks)
       if (of_shape(c)) c.fault = Fault::rotation;
   }
-}
-
-void append(std::vector<Check>& all, std::vector<Check> more) {
-  for (Check& c : more) all.push_back(std::move(c));
 }
 
 } // namespace
@@ -173,32 +297,35 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
 
   const Pilot pilot = s.dim > 0 ? draw_pilot(s, hash(options.seed, 1), options.samples) : Pilot{};
   Layout layout = lay_out(s, pilot, options);
-  report.mass = layout.mass;
-  report.mass_error = layout.integrals.total.error;
-
-  std::function<void(const DrawTally&)> so_far;
+  SoFar so_far;
   if (options.evidence)
-    so_far = [&](const DrawTally& tally) {
+    so_far = [&](const std::vector<WeightSums>& cells, const DrawTally& tally) {
       Report then;
-      then.checks = judge_counts(s, layout, tally, options.alpha).checks;
+      then.checks = judge_counts(s, layout, cells, tally, options.alpha).checks;
       report.evidence->p_after.push_back({tally.draws, then.p()});
     };
-  const Counts counts = count_samples(s, options, layout, so_far);
+  const Counts counts = count_samples(s, pilot, options, layout, so_far);
+  const ClaimedMass mass = claimed_mass(s, layout.cubature, layout.masses.total, layout.masses.whole, counts.weights);
+  report.mass = mass.value;
+  report.mass_error = mass.error;
 
   // The pilot's draws obey the same laws.
   append(report.checks, check_draws(s, merged(counts.tally, pilot.tally)));
-  append(report.checks, judge_mass(s, layout, n));
-  if (!counts.inverted.empty())
-    if (auto c = test_uniformity(counts.inverted, s.dim, s.invert_error, options.alpha,
-                                 alpha_share(FitTest::inverse, s.dim)))
-      report.checks.push_back(std::move(*c));
-  CellTests tests = judge_counts(s, layout, counts.tally, options.alpha);
+  append(report.checks, judge_density(s, layout));
+  report.checks.push_back(test_mass(s, mass, options.alpha));
+  append(report.checks, judge_inverse(s, counts, options.alpha));
+  if (s.dim > 0) append(report.checks, judge_slabs(s, pilot, counts, claimed_total(s, mass.value), options.alpha));
+  CellTests tests = judge_counts(s, layout, counts.cells, counts.tally, options.alpha);
   recognise_rotation(s, report.axes, layout, pilot, tests.checks);
   append(report.checks, std::move(tests.checks));
+  if (s.dim > 0) append(report.checks, judge_detail(s, pilot, layout, counts, mass.value, options.alpha));
+  if (s.may_fail) report.checks.push_back(test_failures(s, counts.tally, mass.value, mass.error, options.alpha));
   report.detectable = tests.detectable;
   report.detectable_cell = tests.detectable_cell;
 
-  const double scale = n / claimed_total(s, layout.mass);
+  double claimed = 0;
+  for (const Cell& c : layout.cells) claimed += c.p;
+  const double scale = n / claimed_total(s, claimed);
   report.worst = worst_cells(s, layout.boxes, layout.cells, scale);
   if (report.evidence) {
     add_counts(layout.boxes, layout.cells, scale, *report.evidence);
@@ -216,7 +343,8 @@ std::uint64_t samples_to_detect(double error, double alpha) {
     std::vector<Cell> cells(std::size_t{1} << tree_depth(n));
     for (Cell& c : cells) {
       c.p = 1 / static_cast<double>(cells.size());
-      c.observed = static_cast<std::uint64_t>(n / static_cast<double>(cells.size()));
+      c.variance = 0.25 * c.p / n; // of a smooth density, as the random points of the reference leave it
+      c.observed = c.squares = n / static_cast<double>(cells.size());
     }
     return test_cells(cells, 1, alpha).detectable;
   };

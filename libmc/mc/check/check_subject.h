@@ -12,7 +12,7 @@ struct SubjectOptions {
   std::uint64_t seed = 1;
   double alpha = 0.001; ///< chance that a correct subject is rejected, over all its statistical tests. The default
                         ///< lets a suite of a hundred samplers pass nine seeds in ten
-  std::size_t max_evaluations = 12'000'000; ///< of the density, for the expected counts
+  std::size_t max_evaluations = 12'000'000; ///< of the density; a third of it at most for the expected counts
   bool evidence = false;                    ///< keep all counts and the p-value's way, for pages and plots
   bool open_interval = false; ///< of check_laws: u in (0,1), the sampler may break where a coordinate of u is 0
 };
@@ -35,16 +35,22 @@ template <class Options> Options with_statistics(Options o, const SubjectOptions
 /// Draws and tests:
 ///   per sample : finite, in the domain, pdf positive and finite, stated weight = f / pdf; failures only where allowed
 ///   mass       : the claimed density and atoms integrate to 1 (to at most 1, the rest failing, where failures are
-///                allowed)
-///   counts     : all tests of cell_tests.h on cells adapted to the density
+///                allowed): by cubature where random points and the samples agree with it, to the error of the cubature
+///                and what 4.6 samples would not have seen; else to the error of the random points
+///   counts     : all tests of cell_tests.h on cells adapted to the density, whose probabilities are known with their
+///                variance (reference.h), so that no density makes a right sampler fail
+///   strips     : thin layers along each axis, down to a few samples at the ends (strips.h)
+///   levels     : how many samples lie where the density is high or low against its surroundings (density_levels.h)
+///   waves      : Fourier coefficients of the counts on a fine grid of the chart, and of the inverted samples
+///                (spectrum.h)
 ///   inverted   : the sampler's own inverse, where it has one, makes the first 131072 samples uniform (uniformity.h)
-///   atoms      : the place on each axis where most pilot samples agree, counted anew, against the mass of its slab
-///   gaps       : the widest gap between pilot samples inside each axis and at its ends, likewise
+///   atoms      : the place on each axis where most samples agree, against the mass of its slab (slabs.h)
+///   gaps       : the widest gap between samples inside each axis and at its ends, likewise
 ///   detection  : the report states the smallest errors it would have caught with probability .99
 ///   throws     : Error when samples < 1000, or alpha is not in (0, 1)
 Report check_subject(const Subject& subject, const SubjectOptions& options = {});
 
-/// Samples at which check_subject catches a density whose relative error is `error`, of random sign from cell to cell,
+/// Samples at which check_subject catches a density whose relative error is `error`, of random sign (see Report),
 /// with probability .99 at family-wise alpha. Throws Error unless 0 < error and 0 < alpha < 1.
 std::uint64_t samples_to_detect(double error, double alpha);
 

@@ -12,7 +12,7 @@ std::vector<WorstCell> worst_cells(const Subject& s, const std::vector<UnitBox>&
                                    double scale) {
   const auto z = [&](std::size_t i) {
     const double expected = scale * cells[i].p;
-    return (static_cast<double>(cells[i].observed) - expected) / std::sqrt(std::max(expected, 0.5));
+    return (cells[i].observed - expected) / std::sqrt(std::max(expected, 0.5));
   };
   std::vector<std::size_t> order(cells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -21,7 +21,7 @@ std::vector<WorstCell> worst_cells(const Subject& s, const std::vector<UnitBox>&
                     [&](std::size_t a, std::size_t b) { return std::abs(z(a)) > std::abs(z(b)); });
   std::vector<WorstCell> worst;
   for (auto i = order.begin(); i != five; ++i) {
-    WorstCell w{{}, {}, static_cast<double>(cells[*i].observed), scale * cells[*i].p, z(*i), {}};
+    WorstCell w{{}, {}, cells[*i].observed, scale * cells[*i].p, z(*i), {}};
     if (*i < boxes.size()) {
       w.lo = boxes[*i].lo;
       w.hi = boxes[*i].hi;
@@ -38,7 +38,7 @@ std::vector<WorstCell> worst_cells(const Subject& s, const std::vector<UnitBox>&
 
 void add_counts(const std::vector<UnitBox>& boxes, const std::vector<Cell>& cells, double scale, Evidence& evidence) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    CellCount c{{}, {}, static_cast<double>(cells[i].observed), scale * cells[i].p};
+    CellCount c{{}, {}, cells[i].observed, scale * cells[i].p};
     if (i < boxes.size()) {
       c.lo = boxes[i].lo;
       c.hi = boxes[i].hi;

@@ -1,6 +1,7 @@
 #include <mc/stats/ks_test.h>
 
 #include <mc/core/error.h>
+#include <mc/stats/sort_numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,7 @@ KsTest ks_test(std::vector<double> samples, const std::function<double(double)>&
   require(!samples.empty(), "ks_test: no samples");
   for (std::size_t i = 0; i < samples.size(); ++i)
     require(std::isfinite(samples[i]), "ks_test: samples[{}] = {} is not finite", i, samples[i]);
-  std::sort(samples.begin(), samples.end());
+  sort_numbers(samples);
   KsTest result;
   const double n = static_cast<double>(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {

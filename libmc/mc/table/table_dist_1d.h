@@ -6,7 +6,9 @@
 #include <mc/table/concept.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace mc {
 
@@ -14,6 +16,13 @@ namespace mc {
 struct UnitInterval {
   static constexpr int lo = 0, hi = 1;
 };
+
+/// The ends between n cells of equal width on [0,1].
+inline std::vector<double> even_breaks(std::size_t n) {
+  std::vector<double> breaks;
+  for (std::size_t i = 1; i < n; ++i) breaks.push_back(static_cast<double>(i) / static_cast<double>(n));
+  return breaks;
+}
 
 /// The geometry of TableDist1D over a cumulative table that lives elsewhere: n cells of equal width on an interval.
 template <Real S, class I = Interval<S>> struct StepsView {
@@ -108,6 +117,8 @@ template <Real S> class TableDist1D {
   S invert(S x) const { return view().invert(x); }
   /// The cell that holds x; the outermost one beyond the ends.
   std::size_t cell(S x) const { return view().cell(x); }
+  /// Where the density may jump, in coordinates of the chart.
+  std::array<std::vector<double>, 1> breaks() const { return {even_breaks(size())}; }
   template <Real T> TableDist1D<T> cast() const { return TableDist1D<T>(cdf_, interval_.template cast<T>()); }
 
   const Cdf& cdf() const { return cdf_; }

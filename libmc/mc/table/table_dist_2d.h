@@ -87,6 +87,8 @@ template <Real S> class TableDist2D {
     return marginal == 0 ? S(0) : S(marginal * columns.density(columns.cell(p[0])));
   }
   Vec2<S> invert(const Vec2<S>& p) const { return {row(rows().cell(p[1])).invert(p[0]), rows().invert(p[1])}; }
+  /// Where the density may jump along x and y.
+  std::array<std::vector<double>, 2> breaks() const { return {even_breaks(width()), even_breaks(height())}; }
   template <Real T> TableDist2D<T> cast() const { return TableDist2D<T>(rows_, row_choice_); }
 
  private:

@@ -4,7 +4,7 @@
 
 namespace {
 
-mc::Cell cell(double p, std::uint64_t observed) {
+mc::Cell cell(double p, double observed) {
   mc::Cell c;
   c.p = p, c.observed = observed;
   return c;

@@ -12,4 +12,9 @@ TEST(Binomial, TailsAreExact) {
   EXPECT_EQ(mc::binomial_tail(0, 10, 0), 1);
 }
 
+TEST(Binomial, TailsOfFractionsLieBetweenThoseOfWholeNumbers) {
+  EXPECT_LT(mc::binomial_tail(91, 1000, 0.1), mc::binomial_tail(91.5, 1000, 0.1));
+  EXPECT_GT(mc::binomial_tail(92, 1000, 0.1), mc::binomial_tail(91.5, 1000, 0.1));
+}
+
 } // namespace

@@ -47,9 +47,11 @@ TEST(Slips, ANamedSlipTellsItsStory) {
   }
 }
 
-// A wrong sampler that so few samples cannot tell is reported as missed, and the exit code says so.
+// A wrong sampler that no test rejects at so small an alpha is reported as missed, and the exit code says so.
 TEST(Slips, AMissedSlipFails) {
-  const Output out = run(slips({"P36"}, 8000));
+  SlipsOptions o = slips({"P36"}, 8000);
+  o.alpha = 1e-200;
+  const Output out = run(o);
   EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
   EXPECT_THAT(out.text, AllOf(HasSubstr("missed"), HasSubstr("0 of 1 slips rejected")));
 }

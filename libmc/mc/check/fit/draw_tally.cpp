@@ -40,7 +40,7 @@ bool is_sample(const Subject::Draw& d, std::uint64_t seed, std::uint64_t index, 
 } // namespace
 
 DrawTally draw_samples(const Subject& s, std::uint64_t seed, std::uint64_t n,
-                       const std::function<void(const Subject::Coordinates& v)>& point,
+                       const std::function<void(const Subject::Coordinates& v, double density)>& point,
                        const std::function<void(const DrawTally& so_far)>& before) {
   DrawTally tally;
   tally.atoms.assign(s.atoms.size(), 0);
@@ -60,7 +60,7 @@ DrawTally draw_samples(const Subject& s, std::uint64_t seed, std::uint64_t n,
       if (!(off <= s.weight_tolerance)) note(tally.weight, stream, i);
       if (!(off <= tally.worst_weight)) tally.worst_weight = off;
       if (d.kind == Kind::atom) ++tally.atoms[static_cast<std::size_t>(d.atom)];
-      else point(d.v);
+      else point(d.v, d.density >= 0 ? d.density : s.density(d.v));
     }
   }
   return tally;

@@ -20,11 +20,11 @@ struct DrawTally {
   std::vector<std::uint64_t> atoms; ///< count of each discrete outcome
 };
 
-/// Draws n samples of streams that follow from `seed`. Calls point(v) for each point of the domain, and before(draws)
-/// before each draw; it may be empty.
+/// Draws n samples of streams that follow from `seed`. Calls point(v, density) for each point of the domain, and
+/// before(so_far) before each draw; that may be empty.
 ///   throws : Error when the subject draws nothing
 DrawTally draw_samples(const Subject& subject, std::uint64_t seed, std::uint64_t n,
-                       const std::function<void(const Subject::Coordinates& v)>& point,
+                       const std::function<void(const Subject::Coordinates& v, double density)>& point,
                        const std::function<void(const DrawTally& so_far)>& before = {});
 
 /// The draws of both; atoms are those of `a`.

@@ -1,6 +1,9 @@
 #include <mc/check/fit/pilot.h>
 
+#include <mc/stats/sort_numbers.h>
+
 #include <algorithm>
+#include <cmath>
 
 namespace mc {
 
@@ -10,13 +13,29 @@ double Pilot::rank(std::size_t axis, double v) const {
   return static_cast<double>(below) / static_cast<double>(std::max<std::size_t>(s.size(), 1));
 }
 
+std::vector<Subject::Coordinates> Pilot::nearest(std::size_t axis, double v) const {
+  const std::vector<double>& s = sorted[axis];
+  std::size_t hi = static_cast<std::size_t>(std::lower_bound(s.begin(), s.end(), v) - s.begin()), lo = hi;
+  while (hi - lo < std::min<std::size_t>(16, s.size())) {
+    const bool down = hi == s.size() || (lo > 0 && v - s[lo - 1] < s[hi] - v);
+    if (down) --lo;
+    else ++hi;
+  }
+  std::vector<Subject::Coordinates> found;
+  for (const Subject::Coordinates& p : points)
+    if (found.size() < hi - lo && p[axis] >= s[lo] && p[axis] <= s[hi - 1]) found.push_back(p);
+  return found;
+}
+
 Pilot draw_pilot(const Subject& s, std::uint64_t seed, std::uint64_t samples) {
   Pilot pilot;
-  pilot.tally =
-      draw_samples(s, seed, pilot_samples(samples), [&](const Subject::Coordinates& v) { pilot.points.push_back(v); });
+  pilot.tally = draw_samples(s, seed, pilot_samples(samples), [&](const Subject::Coordinates& v, double density) {
+    pilot.points.push_back(v);
+    pilot.densities.push_back(density);
+  });
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
     for (const Subject::Coordinates& v : pilot.points) pilot.sorted[d].push_back(v[d]);
-    std::sort(pilot.sorted[d].begin(), pilot.sorted[d].end());
+    sort_numbers(pilot.sorted[d]);
   }
   return pilot;
 }

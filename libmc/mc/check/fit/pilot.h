@@ -8,13 +8,24 @@
 
 namespace mc {
 
+/// How far rounding moves a coordinate of points near v: Subject::resolution, or what it says of subjects without one.
+inline double rounding(const Subject& s, const Subject::Coordinates& v, std::size_t axis) {
+  return s.resolution ? s.resolution(v, static_cast<int>(axis)) : s.epsilon * v[axis];
+}
+
+/// What is narrower than so many steps of rounding is not tested: a sampler rounds on the way, too.
+inline constexpr double rounded_steps = 64;
+
 struct Pilot {
   std::vector<Subject::Coordinates> points;
+  std::vector<double> densities;             ///< claimed at the points
   std::array<std::vector<double>, 3> sorted; ///< the coordinates of the points, by axis
   DrawTally tally;
 
   /// The share of the pilot below v on an axis.
   double rank(std::size_t axis, double v) const;
+  /// The 16 points that are nearest to v on an axis.
+  std::vector<Subject::Coordinates> nearest(std::size_t axis, double v) const;
 };
 
 /// pilot_samples(samples) draws.

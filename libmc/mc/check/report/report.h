@@ -98,10 +98,10 @@ struct Report {
   double alpha = 0.01;
   std::uint64_t samples = 0;
   double mass = 1, mass_error = 0; ///< integral of the claimed density, atoms included, and its error bound
-  double detectable =
-      0; ///< relative error of the density, of random sign from cell to cell, caught with probability .99
-  double detectable_cell =
-      0; ///< relative error in a single one of the checker's cells, of average mass, caught with probability .99
+  /// Relative error of the density that is caught with probability .99: of random sign over patches of any place and
+  /// shape that each hold the share of four of the checker's cells or more, a thousandth of 1e6 samples.
+  double detectable = 0;
+  double detectable_cell = 0; ///< the same in a single compact region of that share or more
   double seconds = 0;
   double ns_per_sample = 0;
   std::vector<Check> checks;

@@ -44,6 +44,7 @@ Placed place(const AnySampler& s, const std::optional<AnySampler::Drawn>& drawn)
     }
     d.v = s.domain.to_unit(drawn->x);
     p.pdf = std::isnan(drawn->pdf) ? s.pdf(drawn->x) : drawn->pdf;
+    d.density = p.pdf * s.domain.jacobian(d.v);
   }
   d.pdf_positive = p.pdf > 0 && std::isfinite(p.pdf);
   return p;
@@ -136,6 +137,7 @@ Subject make_subject(const AnySampler& sampler) {
   subject.dim = s.domain.dim;
   subject.axes = s.domain.axes;
   subject.atoms = s.atoms;
+  subject.breaks = s.breaks;
   subject.may_fail = s.may_fail;
   subject.epsilon = s.epsilon();
   subject.mass_tolerance = s.mass_tolerance > 0 ? s.mass_tolerance : 64 * s.epsilon();

@@ -29,6 +29,7 @@ struct AnyDomain {
   std::function<bool(const Numbers& x)> contains;
   std::function<Chart(const Numbers& x)> to_unit;
   std::function<Image(const Chart& v)> from_unit;
+  std::function<double(const Chart& v)> jacobian; ///< that of from_unit alone
 };
 
 /// The same sampler over 50 digits.
@@ -62,8 +63,9 @@ struct AnySampler {
   AnyDomain domain;
   bool is_float = false; ///< computes in float: u and x are floats
   bool may_fail = false;
-  bool open_interval = false; ///< sample wants u in (0,1): no u is 0
-  std::vector<double> atoms;  ///< claimed probabilities of the discrete outcomes
+  bool open_interval = false;                ///< sample wants u in (0,1): no u is 0
+  std::vector<double> atoms;                 ///< claimed probabilities of the discrete outcomes
+  std::array<std::vector<double>, 3> breaks; ///< see Subject
 
   int uniforms = 0; ///< numbers that sample takes
   /// The sample of u in [0,1)^uniforms; nothing where it fails.

@@ -92,6 +92,9 @@ template <Domain D> AnySampler sampler_on(std::string name, const D& domain) {
     const auto p = to_point<typename Chart::UnitPoint>(v);
     return AnyDomain::Image{to_array<double>(typename Chart::Point(chart.from_unit(p))), chart.jacobian(p)};
   };
+  s.domain.jacobian = [chart](const AnyDomain::Chart& v) {
+    return chart.jacobian(to_point<typename Chart::UnitPoint>(v));
+  };
   return s;
 }
 
@@ -172,7 +175,8 @@ AnySampler make_sampler(std::string name, const D& domain, Draw draw, Pdf pdf, F
   return s;
 }
 
-/// A warp, or any struct with domain, sample and pdf, with its inverse and its oracle where it has them.
+/// A warp, or any struct with domain, sample and pdf, with its inverse and its oracle where it has them. A warp whose
+/// density jumps names the places: breaks()[axis], ascending chart coordinates.
 template <Samplable W> AnySampler make_sampler(std::string name, const W& warp) {
   using S = typename W::Domain::Scalar;
   const auto shared = std::make_shared<const W>(warp);
@@ -185,6 +189,10 @@ template <Samplable W> AnySampler make_sampler(std::string name, const W& warp) 
       const auto u = detail::to_array<double>(UnitPointOf<W>(shared->invert(detail::to_point<PointOf<W>>(x))));
       return AnySampler::Uniforms{u[0], u[1], u[2]};
     };
+  if constexpr (requires { warp.breaks(); }) {
+    std::size_t axis = 0;
+    for (std::vector<double>& places : warp.breaks()) s.breaks[axis++] = std::move(places);
+  }
   if constexpr (HasOracle<W>) s.exact = detail::exact_sampler(warp.template cast<Oracle>());
   s.ns_per_sample = [shared] {
     Pcg random(3);

@@ -12,7 +12,7 @@ Subject make_subject(std::string name, const D& domain, Draw sampler, Pdf pdf, F
 }
 
 /// A warp, or any struct with domain, sample and pdf. Float points are mapped to the chart in double, so the bins lose
-/// no precision.
+/// no precision. A warp whose density jumps names the places: breaks()[axis], ascending chart coordinates.
 template <Samplable W> Subject make_subject(std::string name, const W& warp) {
   return make_subject(make_sampler(std::move(name), warp));
 }

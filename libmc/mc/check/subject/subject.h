@@ -31,13 +31,18 @@ struct Subject {
     bool pdf_positive = true; ///< the claimed density at the drawn point is positive and finite
     int atom = -1;            ///< index of a discrete outcome (delta lobe, table index)
     Coordinates v{};
-    double weight = 1; ///< claimed weight * pdf / f where the sampler states a weight; 1 when they agree
+    double weight = 1;   ///< claimed weight * pdf / f where the sampler states a weight; 1 when they agree
+    double density = -1; ///< Subject::density at v where the draw knows it, else negative
   };
   /// Appends n draws of the stream `seed` to `out`. Same seed, same draws.
   std::function<void(std::uint64_t seed, std::size_t n, std::vector<Draw>& out)> draw;
 
   /// Claimed density in chart coordinates, pdf(from_unit(v)) * jacobian(v): integrates to 1 - P(atom) - P(failure).
   std::function<double(const Coordinates& v)> density;
+
+  /// Chart coordinates, ascending, where the density may jump along each axis, as between the bins of a table: between
+  /// them its integral is found from few points, and exactly where it is constant. May be empty.
+  std::array<std::vector<double>, 3> breaks;
 
   /// Claimed probabilities of the discrete outcomes; empty for a continuous subject.
   std::vector<double> atoms;

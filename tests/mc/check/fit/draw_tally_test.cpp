@@ -27,6 +27,7 @@ mc::Subject broken_subject() {
       }
     }
   };
+  s.density = [](const auto&) { return 1.0; };
   s.describe_draw = [](std::uint64_t, std::uint64_t index) { return "draw " + std::to_string(index); };
   return s;
 }
@@ -34,7 +35,7 @@ mc::Subject broken_subject() {
 TEST(DrawTally, CountsWhatIsBrokenAndKeepsTheFirstWitness) {
   const mc::Subject s = broken_subject();
   std::size_t points = 0;
-  const mc::DrawTally t = draw_samples(s, 1, 1000, [&](const auto& v) { points += v[0] == 0.25; });
+  const mc::DrawTally t = draw_samples(s, 1, 1000, [&](const auto& v, double) { points += v[0] == 0.25; });
   EXPECT_EQ(t.draws, 1000u);
   EXPECT_EQ(points, 940u);
   EXPECT_EQ(t.failed.count, 20u);
@@ -53,7 +54,7 @@ TEST(DrawTally, CountsWhatIsBrokenAndKeepsTheFirstWitness) {
 TEST(DrawTally, EveryLawOfSingleDrawsIsACheck) {
   const mc::Subject s = broken_subject();
   std::vector<std::string> failed;
-  for (const mc::Check& c : check_draws(s, draw_samples(s, 1, 1000, [](const auto&) {})))
+  for (const mc::Check& c : check_draws(s, draw_samples(s, 1, 1000, [](const auto&, double) {})))
     if (c.verdict == mc::Verdict::fail) failed.push_back(c.name + ": " + c.detail);
   EXPECT_THAT(failed, testing::ElementsAre("in the domain: 20 of 1000 samples, first draw 19",
                                            "pdf > 0 at samples: 20 of 1000 samples, first draw 29",
@@ -65,7 +66,7 @@ TEST(DrawTally, EveryLawOfSingleDrawsIsACheck) {
 TEST(DrawTally, RefusesASubjectThatDrawsNothing) {
   mc::Subject s;
   s.draw = [](std::uint64_t, std::size_t, std::vector<Draw>&) {};
-  EXPECT_THROW(draw_samples(s, 1, 10, [](const auto&) {}), mc::Error);
+  EXPECT_THROW(draw_samples(s, 1, 10, [](const auto&, double) {}), mc::Error);
 }
 
 } // namespace

@@ -24,4 +24,21 @@ TEST(Pilot, RanksAreSharesOfItsPoints) {
   EXPECT_NEAR(pilot.rank(0, 0.25), 0.5, 0.025); // 5 standard deviations
 }
 
+TEST(Pilot, NearestPointsOfAnAxis) {
+  mc::Pcg random(5);
+  mc::Pilot pilot;
+  for (int i = 0; i < 500; ++i) pilot.points.push_back({std::floor(100 * random.uniform<double>()) / 100, 0, 0});
+  for (const auto& p : pilot.points) pilot.sorted[0].push_back(p[0]);
+  std::sort(pilot.sorted[0].begin(), pilot.sorted[0].end());
+  for (const double v : {-1.0, 0.0, 0.314, 0.5, 0.999, 2.0}) {
+    std::vector<double> distances, found;
+    for (const auto& p : pilot.points) distances.push_back(std::abs(p[0] - v));
+    std::sort(distances.begin(), distances.end());
+    for (const auto& p : pilot.nearest(0, v)) found.push_back(std::abs(p[0] - v));
+    ASSERT_EQ(found.size(), 16u);
+    // Of points at one place any may be left out: the farthest found is no farther than the 16th.
+    EXPECT_LE(*std::max_element(found.begin(), found.end()), distances[15] + 1e-12) << v;
+  }
+}
+
 } // namespace

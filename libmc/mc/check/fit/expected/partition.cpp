@@ -27,18 +27,22 @@ void Partition::split(int node, const UnitBox& box, Coordinates* begin, Coordina
   if (level == depth_) return;
   // The place for a split of this axis; none when the pilot cannot be divided there.
   const auto place = [&](std::uint32_t axis) -> std::optional<double> {
-    const auto n = end - begin;
-    if (n < 2) return {};
-    const auto less = [axis](const Coordinates& a, const Coordinates& b) { return a[axis] < b[axis]; };
+    if (end - begin < 2) return {};
+    // A thousand of the points place the quantiles well enough.
+    const std::ptrdiff_t every = std::max<std::ptrdiff_t>((end - begin) / 1024, 1);
+    std::vector<double> values;
+    for (std::ptrdiff_t i = 0; i < end - begin; i += every) values.push_back(begin[i][axis]);
+    const auto n = static_cast<std::ptrdiff_t>(values.size());
     const auto k_lo = std::min(static_cast<std::ptrdiff_t>(0.45 * static_cast<double>(n)), n - 2);
     const auto k_hi = std::max(k_lo + 1, static_cast<std::ptrdiff_t>(0.55 * static_cast<double>(n)));
-    std::nth_element(begin, begin + k_lo, end, less);
-    const double lo = begin[k_lo][axis];
-    std::nth_element(begin + k_lo + 1, begin + k_hi, end, less);
-    const double hi = begin[k_hi][axis];
+    const auto at = values.begin();
+    std::nth_element(at, at + k_lo, values.end());
+    const double lo = at[k_lo];
+    std::nth_element(at + k_lo + 1, at + k_hi, values.end());
+    const double hi = at[k_hi];
     if (lo < hi) return shortest_binary_fraction(lo, hi);
     // A tenth of the pilot on one value: cut the atom off, below it or just above.
-    const bool below = std::any_of(begin, begin + k_lo, [&](const Coordinates& v) { return v[axis] < lo; });
+    const bool below = std::any_of(begin, end, [&](const Coordinates& v) { return v[axis] < lo; });
     if (below) return lo;
     const double above = std::nextafter(hi, 2.0);
     if (above < box.hi[axis]) return above;
@@ -64,11 +68,22 @@ void Partition::split(int node, const UnitBox& box, Coordinates* begin, Coordina
   split(2 * node + 1, right, middle, end, level + 1);
 }
 
-UnitBox Partition::box(int cell) const {
+std::vector<std::uint32_t> Partition::find_cells(const std::vector<Coordinates>& points) const {
+  std::vector<std::uint32_t> cells(points.size(), 1);
+  for (int level = 0; level < depth_; ++level)
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Split& s = splits_[cells[i]];
+      cells[i] = 2 * cells[i] + (points[i][s.axis] >= s.at);
+    }
+  for (std::uint32_t& c : cells) c -= static_cast<std::uint32_t>(size());
+  return cells;
+}
+
+UnitBox Partition::box(int run, int depth) const {
   UnitBox b;
-  for (int level = 0, node = 1; level < depth_; ++level) {
+  for (int level = 0, node = 1; level < depth; ++level) {
     const Split& s = splits_[static_cast<std::size_t>(node)];
-    const bool right = (cell >> (depth_ - 1 - level)) & 1;
+    const bool right = (run >> (depth - 1 - level)) & 1;
     (right ? b.lo : b.hi)[s.axis] = s.at;
     node = 2 * node + right;
   }

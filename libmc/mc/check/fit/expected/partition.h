@@ -26,7 +26,11 @@ class Partition {
 
   int size() const { return 1 << depth_; }
   int depth() const { return depth_; }
-  UnitBox box(int cell) const;
+  UnitBox box(int cell) const { return box(cell, depth_); }
+  /// The box of a run of cells: run i of the 2^depth aligned ones.
+  UnitBox box(int run, int depth) const;
+  /// The cells of many points at once, which is faster: no descent waits for another.
+  std::vector<std::uint32_t> find_cells(const std::vector<Coordinates>& points) const;
   int cell(const Coordinates& v) const {
     int node = 1;
     for (int level = 0; level < depth_; ++level) {
@@ -36,11 +40,15 @@ class Partition {
     return node - size();
   }
 
- private:
+  /// Where an inner node is cut: node i of 1 .. size() - 1 in heap order, root 1, children 2 i and 2 i + 1; the cells
+  /// follow as size() + cell.
   struct Split {
     double at;
     std::uint32_t axis;
   };
+  const Split& split(int node) const { return splits_[static_cast<std::size_t>(node)]; }
+
+ private:
   void split(int node, const UnitBox& box, Coordinates* begin, Coordinates* end, int level);
 
   int dim_, depth_;

@@ -18,17 +18,30 @@ namespace {
 
 constexpr double least_expected = 8;
 
+// Errors do not keep to the cells: how much larger they must be where patches, or a region, of four cells' share lie
+// across them anyhow. With these factors `bench_mc_check_truth promise 400 1 1e5` finds 399 of 400 errors of the stated
+// size, half of them on patches or in a region as small as that; see notebooks-data/truth.
+constexpr double across_cells_signs = 1.4, across_cells_region = 1.25;
+
 /// Cells that expect at least 8 samples each, given their sum.
 struct PooledCells {
   std::vector<Cell> cells;
   double n = 0;
-  std::vector<double> p{0}, error{0}, observed{0}; // prefix sums
+  std::vector<double> p{0}, variance{0}, observed{0}, squares{0}; // prefix sums
+
+  // Of the sum of the weights over the cells [lo, hi), for each unit of its expectation.
+  double dispersion(std::size_t lo, std::size_t hi) const {
+    const double count = observed[hi] - observed[lo];
+    return count > 0 ? (squares[hi] - squares[lo]) / count : 1.0;
+  }
+  double dispersion() const { return dispersion(0, cells.size()); }
 };
 
 void join(Cell& a, const Cell& b) {
   a.p += b.p;
-  a.error += b.error;
+  a.variance += b.variance;
   a.observed += b.observed;
+  a.squares += b.squares;
   for (std::size_t d = 0; d < 3; ++d) {
     a.rank_lo[d] = std::min(a.rank_lo[d], b.rank_lo[d]);
     a.rank_hi[d] = std::max(a.rank_hi[d], b.rank_hi[d]);
@@ -40,7 +53,7 @@ PooledCells pool(const std::vector<Cell>& cells) {
   double total = 0;
   for (const Cell& c : cells) {
     total += c.p;
-    pooled.n += static_cast<double>(c.observed);
+    pooled.n += c.observed;
   }
   Cell next;
   bool empty = true;
@@ -56,45 +69,40 @@ PooledCells pool(const std::vector<Cell>& cells) {
   for (Cell& c : pooled.cells) {
     if (total > 0) {
       c.p /= total;
-      c.error /= total;
+      c.variance /= total * total;
     }
     pooled.p.push_back(pooled.p.back() + c.p);
-    pooled.error.push_back(pooled.error.back() + c.error);
-    pooled.observed.push_back(pooled.observed.back() + static_cast<double>(c.observed));
+    pooled.variance.push_back(pooled.variance.back() + c.variance);
+    pooled.observed.push_back(pooled.observed.back() + c.observed);
+    pooled.squares.push_back(pooled.squares.back() + c.squares);
   }
   return pooled;
 }
 
-// A test of a chi-square statistic of which the quadrature error may be a part: `bias` is what it could add to a
-// standard normal (dof 1) or to the root of a chi-square.
-Check chi_square_check(std::string name, double statistic, double dof, double bias, double share, double alpha,
+Check chi_square_check(std::string name, double statistic, double dof, double share, double alpha,
                        const std::string& detail) {
-  const auto tail = [&](double root) { return chi_square_tail(sqr(std::max(root, 0.0)), dof); };
-  const double root = std::sqrt(statistic);
-  const bool blunt = sqr(bias) > 0.15 * std::sqrt(2 * dof);
-  // An immaterial error is simply conceded to the sampler, in p as in the verdict.
-  Check c{std::move(name), Verdict::pass, tail(blunt ? root : root - bias), share, statistic, 0, Fault::shape, {}};
-  if (tail(root - bias) <= sidak_level(alpha, share)) c.verdict = Verdict::fail;
-  else if (blunt) c.verdict = Verdict::inconclusive;
-  if (c.verdict != Verdict::pass) c.detail = detail;
-  if (c.verdict == Verdict::inconclusive) c.detail += fmt::format("; quadrature error could add {:.2g} sigma", bias);
+  Check c{std::move(name), Verdict::pass, chi_square_tail(statistic, dof), share, statistic, 0, Fault::shape, {}};
+  if (*c.p > sidak_level(alpha, share)) return c;
+  c.verdict = Verdict::fail;
+  c.detail = detail;
   return c;
 }
 
 // The chi-square of two levels of the tree.
 struct TreeLevels {
-  double statistic = 0, dof = 0, bias = 0;
+  double statistic = 0, dof = 0, noise = 0; ///< noise: how much the probabilities add to the variances of the counts
 };
 
 void add_split(const PooledCells& cells, std::size_t lo, std::size_t mid, std::size_t hi, TreeLevels& levels) {
   const double whole = cells.p[hi] - cells.p[lo], q = (cells.p[mid] - cells.p[lo]) / whole;
   const double count = cells.observed[hi] - cells.observed[lo], left = cells.observed[mid] - cells.observed[lo];
-  const double variance = count * q * (1 - q);
-  if (!(whole > 0 && variance >= 2)) return;
-  const double e_left = cells.error[mid] - cells.error[lo], e_right = cells.error[hi] - cells.error[mid];
-  levels.statistic += sqr(left - count * q) / variance;
+  const double counted = count * q * (1 - q) * cells.dispersion(lo, hi);
+  if (!(whole > 0 && counted >= 2)) return;
+  const double v_left = cells.variance[mid] - cells.variance[lo], v_right = cells.variance[hi] - cells.variance[mid];
+  const double estimated = sqr(count / whole) * (v_left * sqr(1 - q) + v_right * sqr(q));
+  levels.statistic += sqr(left - count * q) / (counted + estimated);
   levels.dof += 1;
-  levels.bias += sqr(count * (e_left * (1 - q) + e_right * q) / whole) / variance;
+  levels.noise += estimated / counted;
 }
 
 // From the coarsest.
@@ -129,13 +137,14 @@ void chi_squares(const PooledCells& cells, double share, double alpha, CellTests
   for (const TreeLevels& g : groups) {
     const double fine = coarse + g.dof;
     result.checks.push_back(chi_square_check(fmt::format("chi-square, {:.0f} to {:.0f} cells", coarse, fine),
-                                             g.statistic, g.dof, std::sqrt(g.bias), each, alpha,
-                                             fmt::format("{:.0f} expected", g.dof)));
+                                             g.statistic, g.dof, each, alpha, fmt::format("{:.0f} expected", g.dof)));
     coarse = fine;
   }
   // A random sign per cell puts the share dof / cells of its noncentrality n e^2 into the finest group.
   const double dof = groups.back().dof, lambda = chi_square_noncentrality(dof, sidak_level(alpha, each), 0.99);
-  result.detectable = std::sqrt(lambda * static_cast<double>(cells.cells.size()) / dof / cells.n);
+  const double noise = 1 + groups.back().noise / dof;
+  result.detectable =
+      across_cells_signs * std::sqrt(lambda * noise * static_cast<double>(cells.cells.size()) / dof / cells.n);
 }
 
 // Means over [a, b] of ln r, ln(1 - r).
@@ -146,51 +155,53 @@ double mean_log(double a, double b) {
 
 // Nothing where there are too few cells, or too few samples for normality.
 void tails(const PooledCells& cells, std::size_t axis, double share, double alpha, CellTests& result) {
-  // Score functions and their covariance under the claimed probabilities.
-  std::array<double, 2> mean{}, sum{}, bias{};
-  std::array<double, 3> second{};
+  std::vector<std::array<double, 2>> scores;
+  std::array<double, 2> mean{}, sum{};
   double extreme = 0;
   for (const Cell& c : cells.cells) {
     const std::array<double, 2> s{mean_log(c.rank_lo[axis], c.rank_hi[axis]),
                                   mean_log(1 - c.rank_hi[axis], 1 - c.rank_lo[axis])};
     for (std::size_t i = 0; i < 2; ++i) {
       mean[i] += c.p * s[i];
-      sum[i] += static_cast<double>(c.observed) * s[i];
-      bias[i] += c.error * std::abs(s[i]);
+      sum[i] += c.observed * s[i];
     }
-    second[0] += c.p * s[0] * s[0];
-    second[1] += c.p * s[0] * s[1];
-    second[2] += c.p * s[1] * s[1];
     extreme = std::max({extreme, -s[0], -s[1]});
+    scores.push_back(s);
   }
-  const double n = cells.n;
-  const double v00 = n * (second[0] - mean[0] * mean[0]), v01 = n * (second[1] - mean[0] * mean[1]),
-               v11 = n * (second[2] - mean[1] * mean[1]);
-  const double det = v00 * v11 - v01 * v01;
-  if (!(det > 1e-9 * v00 * v11) || !(v00 > sqr(4 * extreme))) return;
+  // Their covariance under the claimed probabilities.
+  const double n = cells.n, dispersion = cells.dispersion();
+  std::array<double, 3> v{};
+  for (std::size_t k = 0; k < scores.size(); ++k) {
+    const double a = scores[k][0] - mean[0], b = scores[k][1] - mean[1];
+    const double variance = n * dispersion * cells.cells[k].p + n * n * cells.cells[k].variance;
+    v[0] += variance * a * a;
+    v[1] += variance * a * b;
+    v[2] += variance * b * b;
+  }
+  const double det = v[0] * v[2] - v[1] * v[1];
+  if (!(det > 1e-9 * v[0] * v[2]) || !(v[0] > sqr(4 * extreme))) return;
   const double x = sum[0] - n * mean[0], y = sum[1] - n * mean[1];
-  const double statistic = (v11 * x * x - 2 * v01 * x * y + v00 * y * y) / det;
-  const double shift = n * (bias[0] / std::sqrt(v00) + bias[1] / std::sqrt(v11));
   result.checks.push_back(
-      chi_square_check(fmt::format("tails, axis {}", axis), statistic, 2, shift, share, alpha,
-                       fmt::format("mean ln r off by {:.3g}, mean ln(1-r) by {:.3g}", x / n, y / n)));
+      chi_square_check(fmt::format("tails, axis {}", axis), (v[2] * x * x - 2 * v[1] * x * y + v[0] * y * y) / det, 2,
+                       share, alpha, fmt::format("mean ln r off by {:.3g}, mean ln(1-r) by {:.3g}", x / n, y / n)));
 }
 
 void correlation(const PooledCells& cells, std::size_t a, std::size_t b, double share, double alpha,
                  CellTests& result) {
-  double mean = 0, second = 0, sum = 0, bias = 0;
+  const auto score = [&](const Cell& c) {
+    return (c.rank_lo[a] + c.rank_hi[a] - 1) * (c.rank_lo[b] + c.rank_hi[b] - 1);
+  };
+  double mean = 0, sum = 0, variance = 0;
   for (const Cell& c : cells.cells) {
-    const double s = (c.rank_lo[a] + c.rank_hi[a] - 1) * (c.rank_lo[b] + c.rank_hi[b] - 1);
-    mean += c.p * s;
-    second += c.p * s * s;
-    sum += static_cast<double>(c.observed) * s;
-    bias += c.error * std::abs(s);
+    mean += c.p * score(c);
+    sum += c.observed * score(c);
   }
-  const double n = cells.n, variance = n * (second - mean * mean);
+  const double n = cells.n, dispersion = cells.dispersion();
+  for (const Cell& c : cells.cells) variance += (n * dispersion * c.p + n * n * c.variance) * sqr(score(c) - mean);
   if (!(variance > 16)) return;
   result.checks.push_back(chi_square_check(fmt::format("correlation, axes {} and {}", a, b),
-                                           sqr(sum - n * mean) / variance, 1, n * bias / std::sqrt(variance), share,
-                                           alpha, fmt::format("off by {:.3g}", (sum - n * mean) / n)));
+                                           sqr(sum - n * mean) / variance, 1, share, alpha,
+                                           fmt::format("off by {:.3g}", (sum - n * mean) / n)));
 }
 
 void ks(const PooledCells& cells, std::size_t axis, double share, double alpha, CellTests& result) {
@@ -198,31 +209,33 @@ void ks(const PooledCells& cells, std::size_t axis, double share, double alpha, 
   std::vector<std::size_t> order(cells.cells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return place(i) < place(j); });
-  double excess = 0, drift = 0, worst = 0, drift_at = 0;
+  double excess = 0, worst = 0;
   const double n = cells.n;
   for (const std::size_t i : order) {
-    excess += static_cast<double>(cells.cells[i].observed) - n * cells.cells[i].p;
-    drift += cells.cells[i].error;
-    if (std::abs(excess) <= std::abs(worst)) continue;
-    worst = excess;
-    drift_at = n * drift;
+    excess += cells.cells[i].observed - n * cells.cells[i].p;
+    if (std::abs(excess) > std::abs(worst)) worst = excess;
   }
-  const double lambda = std::abs(worst) / std::sqrt(n), bias = drift_at / std::sqrt(n);
-  const double conceded = kolmogorov_tail(std::max(lambda - bias, 0.0));
-  Check c{fmt::format("KS, axis {}", axis), Verdict::pass, conceded, share, lambda / std::sqrt(n), 0, Fault::shape, {}};
-  if (conceded <= sidak_level(alpha, share)) c.verdict = Verdict::fail;
-  else if (bias > 0.3) c.verdict = Verdict::inconclusive;
-  if (c.verdict != Verdict::pass) {
-    c.p = kolmogorov_tail(lambda);
+  const double lambda = std::abs(worst) / std::sqrt(n * cells.dispersion() + n * n * cells.variance.back());
+  Check c{fmt::format("KS, axis {}", axis),
+          Verdict::pass,
+          kolmogorov_tail(lambda),
+          share,
+          std::abs(worst) / n,
+          0,
+          Fault::shape,
+          {}};
+  if (*c.p <= sidak_level(alpha, share)) {
+    c.verdict = Verdict::fail;
     c.detail = fmt::format("D = {:.3g}", worst / n);
   }
   result.checks.push_back(std::move(c));
 }
 
-// A run of cells that is far off.
+// A run of cells that is far off. A count whose variance is s times smaller than its expectation is compared as s times
+// the count with s times the expectation, which keeps the skewness of small counts; s = 1 for plain counts.
 struct Run {
-  double z, p, error, count;
-  std::size_t lo, hi;
+  double z = 0, p = 0, count = 0, s = 1;
+  std::size_t lo = 0, hi = 0;
 };
 
 // Single cells and aligned runs of 4, 16, ... of them; of the runs only the 64 farthest off.
@@ -235,9 +248,15 @@ std::vector<Run> farthest_runs(const PooledCells& cells, double& family) {
       const double q = cells.p[hi] - cells.p[lo], count = cells.observed[hi] - cells.observed[lo];
       if (q >= 1) continue;
       family += 1;
-      double z = count > 0 ? HUGE_VAL : 0.0;
-      if (q > 0) z = (count - cells.n * q) / std::sqrt(cells.n * q * (1 - q));
-      if (std::abs(z) > 2.5) runs.push_back({z, q, cells.error[hi] - cells.error[lo], count, lo, hi});
+      Run run{count > 0 ? HUGE_VAL : 0.0, q, count, 1, lo, hi};
+      if (q > 0) {
+        const double plain = cells.n * q * (1 - q);
+        const double variance =
+            plain * cells.dispersion(lo, hi) + sqr(cells.n) * (cells.variance[hi] - cells.variance[lo]);
+        run.z = (count - cells.n * q) / std::sqrt(variance);
+        run.s = plain / variance;
+      }
+      if (std::abs(run.z) > 2.5) runs.push_back(run);
     }
   std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return std::abs(a.z) > std::abs(b.z); });
   if (runs.size() > 64) runs.resize(64);
@@ -245,34 +264,27 @@ std::vector<Run> farthest_runs(const PooledCells& cells, double& family) {
 }
 
 void single_cells(const PooledCells& cells, double share, double alpha, CellTests& result) {
-  double family = 0, least = 1, least_sure = 1;
+  double family = 0, least = 1;
   const std::vector<Run> runs = farthest_runs(cells, family);
   if (family == 0) return;
   const double n = cells.n, level = sidak_level(alpha, share);
-  const auto tail = [&](double count, double q) {
-    return binomial_tail(static_cast<std::uint64_t>(count), static_cast<std::uint64_t>(n), std::clamp(q, 0.0, 1.0));
-  };
-  Run worst{};
+  Run worst;
   for (const Run& r : runs) {
-    // The error bound moves the expected count towards the observed one, at most all the way.
-    const double observed = r.count / n;
-    const double conceded = r.z > 0 ? std::min(r.p + r.error, observed) : std::max(r.p - r.error, observed);
-    least_sure = std::min(least_sure, tail(r.count, conceded));
-    const double p = tail(r.count, r.p);
+    const double p = binomial_tail(r.s * r.count, r.s * n, std::clamp(r.p, 0.0, 1.0));
     if (p >= least) continue;
     least = p;
     worst = r;
   }
-  const double bias = worst.error * std::sqrt(n / std::max(worst.p, 1 / n));
   Check c{"cells", Verdict::pass, sidak(least, family), share, worst.z, 0, Fault::local, {}};
-  if (sidak(least_sure, family) <= level) c.verdict = Verdict::fail;
-  else if (*c.p <= level && bias > 0.5) c.verdict = Verdict::inconclusive;
-  else c.p = sidak(least_sure, family);
-  if (c.verdict != Verdict::pass)
+  if (*c.p <= level) {
+    c.verdict = Verdict::fail;
     c.detail = fmt::format("a run of {} cells is {:.2g} sigma off", worst.hi - worst.lo, worst.z);
+  }
   result.checks.push_back(std::move(c));
-  result.detectable_cell = (normal_quantile(1 - std::pow(1 - level, 1 / family)) + 2.326) /
-                           std::sqrt(n / static_cast<double>(cells.cells.size()));
+  const double expected = n / static_cast<double>(cells.cells.size());
+  const double variance = cells.dispersion() + n * cells.variance.back();
+  const double sigmas = normal_quantile(1 - std::pow(1 - level, 1 / family)) + 2.326;
+  result.detectable_cell = across_cells_region * sigmas * std::sqrt(variance / expected);
 }
 
 } // namespace

@@ -9,13 +9,18 @@
 
 namespace mc {
 
-/// A bin with the probability that the claimed density gives it.
+/// A bin with the probability that the claimed density gives it, and what was counted there.
 struct Cell {
   double p = 0;
-  double error = 0; ///< bound on the quadrature error of p
-  std::uint64_t observed = 0;
+  double variance = 0;              ///< of p, where it was itself estimated
+  double observed = 0, squares = 0; ///< sums of the weights of the samples, nearly all 1, and of their squares
   std::array<double, 3> rank_lo{}, rank_hi{1, 1, 1}; ///< the cell's extent in the ranks of a pilot sample, per axis
 };
+
+inline void count_in(Cell& cell, double weight) {
+  cell.observed += weight;
+  cell.squares += weight * weight;
+}
 
 struct CellTests {
   std::vector<Check> checks;
@@ -32,8 +37,8 @@ struct CellTests {
 ///                freedom: powerful against wrong exponents, roughness, rotations and shifts
 ///   KS         : along each axis in turn, on the cells (conservative)
 ///   cells      : exact binomial tails of single cells and of tree nodes, the smallest p of all
-/// The bound on the quadrature error moves each statistic in favour of the sampler before it may reject; where that
-/// matters, or the bound alone would be an effect worth finding, the verdict is inconclusive.
+/// The variance of the probabilities counts like that of the samples, so an estimated probability makes a test weaker,
+/// never wrong.
 ///   dim : axes with ranks, 0 to 3;  cells expecting less than 8 are pooled with their neighbours in order
 CellTests test_cells(const std::vector<Cell>& cells, int dim, double alpha);
 

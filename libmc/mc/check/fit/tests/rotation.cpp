@@ -44,7 +44,7 @@ std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Pa
                                     const std::vector<Cell>& cells, const std::vector<Partition::Coordinates>& pilot) {
   const auto size = static_cast<std::size_t>(partition.size());
   double n = 0, mass = 0;
-  for (std::size_t i = 0; i < size; ++i) n += static_cast<double>(cells[i].observed), mass += cells[i].p;
+  for (std::size_t i = 0; i < size; ++i) n += cells[i].observed, mass += cells[i].p;
   if (!(mass > 0) || n == 0 || size < 8) return {};
 
   double before = 0, dof = 0, score = 0, information = 0;
@@ -52,7 +52,7 @@ std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Pa
     const double expected = n * cells[i].p / mass;
     if (!(expected >= 5)) continue;
     const UnitBox box = partition.box(static_cast<int>(i));
-    const double off = static_cast<double>(cells[i].observed) - expected;
+    const double off = cells[i].observed - expected;
     const double rate = n / mass * (face(s, box, axis, box.lo[axis]) - face(s, box, axis, box.hi[axis]));
     dof += 1, before += off * off / expected;
     score += rate * off / expected, information += rate * rate / expected;

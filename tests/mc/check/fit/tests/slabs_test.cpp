@@ -13,18 +13,11 @@ namespace {
 
 using Kind = mc::Slab::Kind;
 
-// The slabs of 20000 samples on [0,1], with the mass of the uniform density.
+// The slabs of 20000 samples on [0,1] that claim to be uniform.
 template <class Sampler> std::vector<mc::Slab> slabs(Sampler sampler) {
   const mc::Subject s = make_subject("slabs", mc::Interval<double>(0, 1), sampler, [](double) { return 1.0; });
-  std::vector<mc::Subject::Draw> draws;
-  s.draw(5, 20'000, draws);
-  std::vector<mc::Subject::Coordinates> pilot;
-  std::array<std::vector<double>, 3> sorted;
-  for (const auto& d : draws) pilot.push_back(d.v), sorted[0].push_back(d.v[0]);
-  std::sort(sorted[0].begin(), sorted[0].end());
-  std::vector<mc::Slab> found = suspect_slabs(s, pilot, sorted);
-  integrate_slabs(s, found, 1e6, 1'000'000);
-  return found;
+  const mc::Pilot pilot = draw_pilot(s, 5, 160'000);
+  return find_slabs(s, pilot, pilot.sorted);
 }
 
 TEST(Slabs, UniformSamplesAreNotSuspect) {
@@ -37,8 +30,8 @@ TEST(Slabs, AClampIsAnAtom) {
   ASSERT_NE(atom, found.end());
   EXPECT_LE(atom->box.lo[0], 1e-3);
   EXPECT_GE(atom->box.hi[0], 1e-3);
-  EXPECT_LE(atom->mass, 1e-12);
-  EXPECT_GE(atom->pilot_count, 8u); // 20 expected; fewer than 8 once in 1000 seeds
+  EXPECT_LE(atom->mass.value, 1e-12);
+  EXPECT_GE(atom->count, 8); // 20 expected; fewer than 8 once in 1000 seeds
 }
 
 // Holes of 0.004, each 80 spacings wide.
@@ -52,7 +45,8 @@ TEST(Slabs, HolesAreGapsInsideAndAtBothEnds) {
   std::vector<double> middles;
   for (const mc::Slab& s : found) {
     EXPECT_EQ(s.kind, Kind::gap);
-    EXPECT_NEAR(s.mass, 0.004, 5e-4);
+    EXPECT_NEAR(s.mass.value, 0.004, 5e-4);
+    EXPECT_EQ(s.count, 0);
     middles.push_back((s.box.lo[0] + s.box.hi[0]) / 2);
   }
   EXPECT_THAT(middles, testing::ElementsAre(testing::DoubleNear(0.002, 1e-3), testing::DoubleNear(0.502, 1e-3),
@@ -65,13 +59,8 @@ TEST(Slabs, RoundingIsNoGap) {
                                               mc::Vec3<float>(3e-5f, 1e-4f, 5e-6f));
   const mc::Subject s = make_subject("tiny triangle", triangle);
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-    std::vector<mc::Subject::Draw> draws;
-    s.draw(seed, 100'000, draws);
-    std::vector<mc::Subject::Coordinates> pilot;
-    std::array<std::vector<double>, 3> sorted;
-    for (const auto& d : draws) pilot.push_back(d.v), sorted[0].push_back(d.v[0]), sorted[1].push_back(d.v[1]);
-    for (auto& axis : sorted) std::sort(axis.begin(), axis.end());
-    for (const mc::Slab& slab : suspect_slabs(s, pilot, sorted))
+    const mc::Pilot pilot = draw_pilot(s, seed, 800'000);
+    for (const mc::Slab& slab : find_slabs(s, pilot, pilot.sorted))
       EXPECT_NE(slab.kind, Kind::gap) << slab.box.lo[slab.axis] << " to " << slab.box.hi[slab.axis];
   }
 }

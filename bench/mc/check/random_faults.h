@@ -1,0 +1,240 @@
+#pragma once
+/// Faults of random place, shape and scale, put into right samplers; see random_subjects.h.
+
+#include <mc/check/random_subjects.h>
+
+#include <mc/check/report/report.h>
+
+#include <mc/random/hash.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace truth {
+
+/// A wrong sampler.
+///   size : relative error of the density, share of the samples that are wrong, or cells of a lattice
+struct Faulty {
+  std::string kind;
+  double size = 0;
+  Subject subject;
+};
+
+using Draw = Subject::Draw;
+using Coordinates = Subject::Coordinates;
+
+/// The draws of a right sampler, each changed, or left out where `change` says false.
+inline Subject changed(Subject right, std::function<bool(Pcg&, Draw&)> change) {
+  right.draw = [draw = right.draw, change](std::uint64_t seed, std::size_t n, std::vector<Draw>& out) {
+    Pcg random(seed, 91);
+    std::vector<Draw> draws;
+    const std::size_t wanted = out.size() + n;
+    for (std::uint64_t part = 0; out.size() < wanted; ++part) {
+      draws.clear();
+      draw(mc::hash(seed, part), n, draws);
+      for (Draw& d : draws) {
+        if (out.size() == wanted) break;
+        if (d.kind != Draw::Kind::point || change(random, d)) out.push_back(d);
+      }
+    }
+  };
+  right.describe_draw = nullptr;
+  right.invert = nullptr;
+  return right;
+}
+
+/// The density of the samples is (1 + error(v)) times the claimed one; |error| <= most.
+inline Subject reweighted(const Subject& right, double most, std::function<double(const Coordinates&)> error) {
+  return changed(right, [=](Pcg& r, Draw& d) { return uniform(r) * (1 + most) < 1 + error(d.v); });
+}
+
+/// Ranks of chart coordinates among samples, axis by axis: a scale on which any density is about even.
+struct Ranks {
+  std::array<std::vector<double>, 3> sorted;
+  std::vector<Coordinates> points;
+
+  Ranks(const Subject& s, std::uint64_t seed, std::size_t n) {
+    std::vector<Draw> draws;
+    s.draw(seed, n, draws);
+    for (const Draw& d : draws)
+      if (d.kind == Draw::Kind::point) points.push_back(d.v);
+    for (std::size_t a = 0; a < static_cast<std::size_t>(s.dim); ++a) {
+      for (const Coordinates& v : points) sorted[a].push_back(v[a]);
+      std::sort(sorted[a].begin(), sorted[a].end());
+    }
+  }
+  Coordinates operator()(const Coordinates& v) const {
+    Coordinates r{};
+    for (std::size_t a = 0; a < 3 && !sorted[a].empty(); ++a) {
+      const auto above = std::upper_bound(sorted[a].begin(), sorted[a].end(), v[a]);
+      const auto i = static_cast<std::size_t>(above - sorted[a].begin());
+      const double lo = i > 0 ? sorted[a][i - 1] : 0.0, hi = i < sorted[a].size() ? sorted[a][i] : 1.0;
+      const double within = hi > lo ? (v[a] - lo) / (hi - lo) : 0.0;
+      r[a] = (static_cast<double>(i) + within) / static_cast<double>(sorted[a].size() + 1);
+    }
+    return r;
+  }
+};
+
+/// A turned and stretched frame of the ranks.
+struct Frame {
+  std::array<std::array<double, 3>, 3> axes{};
+  Frame(Pcg& r, int dim) {
+    for (std::size_t a = 0; a < 3; ++a) axes[a][a] = 1;
+    for (std::size_t a = 0; a + 1 < static_cast<std::size_t>(dim); ++a) {
+      const double t = one_of(r, 2) == 0 ? 0.0 : 2 * mc::pi<double> * uniform(r), c = std::cos(t), s = std::sin(t);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double x = axes[k][a], y = axes[k][a + 1];
+        axes[k][a] = c * x + s * y;
+        axes[k][a + 1] = c * y - s * x;
+      }
+    }
+    for (auto& axis : axes) {
+      const double stretch = log_uniform(r, 0.6, 1.7);
+      for (double& x : axis) x *= stretch;
+    }
+  }
+  Coordinates operator()(const Coordinates& v, const Coordinates& centre = {}) const {
+    Coordinates x{};
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t k = 0; k < 3; ++k) x[a] += axes[a][k] * (v[k] - centre[k]);
+    return x;
+  }
+};
+
+/// Random signs on a lattice of random offset and direction with about `patches` cells.
+inline Faulty random_signs(const Subject& right, Pcg& r, double size, double patches) {
+  const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 14);
+  const Frame frame(r, right.dim);
+  const double scale = std::pow(patches, 1.0 / right.dim);
+  const std::uint64_t seed = r.next64();
+  const Coordinates offset{uniform(r), uniform(r), uniform(r)};
+  return {"random signs", size, reweighted(right, size, [=](const Coordinates& v) {
+            const Coordinates x = frame((*ranks)(v));
+            std::uint64_t cell = seed;
+            for (std::size_t a = 0; a < 3; ++a)
+              cell = mc::hash(cell, static_cast<std::uint64_t>(
+                                        static_cast<std::int64_t>(std::floor(scale * x[a] + offset[a]) + 1000)));
+            return cell & 1 ? size : -size;
+          })};
+}
+
+/// One region of this share of the samples, an ellipsoid or a box of the ranks, with more or fewer samples.
+inline Faulty one_region(const Subject& right, Pcg& r, double size, double share) {
+  const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 17);
+  const Frame frame(r, right.dim);
+  const bool box = one_of(r, 2) == 0;
+  const Coordinates centre = (*ranks)(ranks->points[r.next64() % ranks->points.size()]);
+  const auto distance = [=](const Coordinates& v) {
+    const Coordinates x = frame((*ranks)(v), centre);
+    return box ? std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])}) : std::hypot(x[0], x[1], x[2]);
+  };
+  std::vector<double> distances;
+  for (const Coordinates& v : ranks->points) distances.push_back(distance(v));
+  const auto at = distances.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(distances.size()));
+  std::nth_element(distances.begin(), at, distances.end());
+  const double sign = size < 1 && one_of(r, 2) == 0 ? -size : size;
+  return {"one region", size, reweighted(right, size, [=, radius = *at](const Coordinates& v) {
+            return distance(v) <= radius ? sign : 0.0;
+          })};
+}
+
+/// A smooth error: of the exponent along an axis, a tilt along it, or a correlation of two axes; the sampler's ranks
+/// are (1 + size) times too bent.
+inline Faulty smooth(const Subject& right, Pcg& r, double size) {
+  const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 16);
+  const auto axis = static_cast<std::size_t>(one_of(r, right.dim)), other = (axis + 1) % 3;
+  const int form = one_of(r, right.dim > 1 ? 3 : 2);
+  const char* names[] = {"exponent", "tilt", "correlation"};
+  const double sign = one_of(r, 2) == 0 ? size : -size;
+  return {names[form], size, reweighted(right, 3 * size, [=](const Coordinates& v) {
+            const Coordinates at = (*ranks)(v);
+            if (form == 0) return std::clamp(sign * (1 + std::log(at[axis])), -0.9, 3 * size);
+            if (form == 1) return sign * (2 * at[axis] - 1);
+            return sign * (2 * at[axis] - 1) * (2 * at[right.dim == 2 ? 1 - axis : other] - 1);
+          })};
+}
+
+/// A wave of up to 100 periods an axis.
+inline Faulty wave(const Subject& right, Pcg& r, double size) {
+  const double k = between(r, -100, 100), l = between(r, -100, 100), m = between(r, -15, 15), phase = uniform(r);
+  const bool space = right.dim == 3;
+  return {"wave", size, reweighted(right, size, [=](const Coordinates& v) {
+            const double turns = space ? 0.15 * (k * v[0] + l * v[1]) + m * v[2] : k * v[0] + l * v[1];
+            return size * std::cos(2 * mc::pi<double> * (turns + phase));
+          })};
+}
+
+/// Values of a coordinate that belong to a share of the samples are left out, or become one value.
+inline Faulty gap_or_clamp(const Subject& right, Pcg& r, double share) {
+  const Ranks ranks(right, r.next64(), 1 << 19);
+  const auto axis = static_cast<std::size_t>(one_of(r, right.dim));
+  const std::vector<double>& v = ranks.sorted[axis];
+  const double n = static_cast<double>(v.size());
+  const auto width = static_cast<std::size_t>(std::max(1.0, share * n));
+  const std::size_t first =
+      one_of(r, 3) == 0 ? 0 : static_cast<std::size_t>(uniform(r) * (n - static_cast<double>(width)));
+  const double lo = first == 0 ? 0.0 : v[first], hi = v[std::min(first + width, v.size() - 1)];
+  if (one_of(r, 2) == 0)
+    return {"gap", share, changed(right, [=](Pcg&, Draw& d) { return !(d.v[axis] >= lo && d.v[axis] < hi); })};
+  return {"clamp", share, changed(right, [=](Pcg&, Draw& d) {
+            if (d.v[axis] >= lo && d.v[axis] < hi) {
+              d.v[axis] = first == 0 ? hi : lo;
+              d.density = -1;
+            }
+            return true;
+          })};
+}
+
+/// Coordinates that share the digits beyond a lattice, or lack them.
+inline Faulty lattice(const Subject& right, Pcg& r) {
+  const double n = std::floor(log_uniform(r, 16, 400));
+  const bool shared = one_of(r, 2) == 0 && right.dim > 1;
+  return {shared ? "one offset for two axes" : "coarse coordinate", n, changed(right, [=](Pcg&, Draw& d) {
+            const double fraction = shared ? n * d.v[1] - std::floor(n * d.v[1]) : 0.5;
+            d.v[0] = std::min((std::floor(n * d.v[0]) + fraction) / n, 1 - 0x1p-53);
+            d.density = -1;
+            return true;
+          })};
+}
+
+/// A share of the samples moved into a small box around one of them.
+inline Faulty spike(const Subject& right, Pcg& r, double share) {
+  const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 12);
+  const Coordinates centre = ranks->points[r.next64() % ranks->points.size()];
+  const double radius = log_uniform(r, 1e-7, 3e-3);
+  return {"spike", share, changed(right, [=, dim = right.dim](Pcg& random, Draw& d) {
+            if (uniform(random) >= share) return true;
+            for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
+              d.v[a] = std::clamp(centre[a] + radius * (uniform(random) - 0.5), 1e-12, 1 - 1e-12);
+            d.density = -1;
+            return true;
+          })};
+}
+
+inline Faulty wrong_mass(Subject right, double size) {
+  right.density = [density = right.density, size](const Coordinates& v) { return (1 + size) * density(v); };
+  return {"mass", size, changed(right, [](Pcg&, Draw& d) {
+            d.density = -1;
+            return true;
+          })};
+}
+
+/// An error of the size that the report of the right sampler states, of any shape that the statement is about: on
+/// patches that hold the share of four of the checker's cells or more, or in one such region; one in two as small as
+/// that.
+inline Faulty stated_fault(const Subject& right, const mc::Report& stated, std::uint64_t seed) {
+  Pcg r(mc::hash(seed, 79));
+  const double cells = std::exp2(std::floor(std::log2(static_cast<double>(stated.samples) / 200)));
+  const bool small = one_of(r, 2) == 0;
+  if (one_of(r, 2) == 0)
+    return random_signs(right, r, stated.detectable, small ? cells / 4 : log_uniform(r, 16, cells / 4));
+  return one_region(right, r, stated.detectable_cell, small ? 4 / cells : log_uniform(r, 4 / cells, 0.3));
+}
+
+} // namespace truth

@@ -1,0 +1,148 @@
+#include <mc/check/fit/expected/mass.h>
+
+#include <mc/check/fit/alpha_shares.h>
+#include <mc/core/types.h>
+#include <mc/stats/chi_square.h>
+#include <mc/stats/multiple_testing.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mc {
+namespace {
+
+// Where a box is cut along an axis when the pilot fills only [lo, hi] of it: in steps that grow by a factor of four, so
+// that a lobe far narrower than the box cannot slip between the nodes.
+std::vector<double> cuts_beside(double lo, double hi, const UnitBox& box, std::size_t axis) {
+  std::vector<double> cuts;
+  const double size = hi - lo;
+  if (!(size > 0)) return cuts;
+  double step = size;
+  for (double at = lo - size; at > box.lo[axis] + step; at -= step) {
+    cuts.push_back(at);
+    step *= 4;
+  }
+  std::reverse(cuts.begin(), cuts.end());
+  step = size;
+  for (double at = hi + size; at < box.hi[axis] - step; at += step) {
+    cuts.push_back(at);
+    step *= 4;
+  }
+  return cuts;
+}
+
+// Boxes cut along an axis, at the ascending cuts that lie inside each.
+std::vector<UnitBox> cut_boxes(const std::vector<UnitBox>& boxes, std::size_t axis, const std::vector<double>& cuts) {
+  std::vector<UnitBox> finer;
+  for (UnitBox box : boxes) {
+    for (const double at : cuts) {
+      if (!(at > box.lo[axis] && at < box.hi[axis])) continue;
+      finer.push_back(box);
+      finer.back().hi[axis] = box.lo[axis] = at;
+    }
+    finer.push_back(box);
+  }
+  return finer;
+}
+
+// The smallest box around the pilot's points in each aligned run of 2^level cells.
+std::vector<UnitBox> extents(const PilotCells& cells, const Pilot& pilot, int level) {
+  std::vector<UnitBox> extent(static_cast<std::size_t>(cells.partition.size() >> level),
+                              UnitBox{{2, 2, 2}, {-1, -1, -1}});
+  for (std::size_t i = 0; i < pilot.points.size(); ++i) {
+    UnitBox& e = extent[cells.of_points[i] >> level];
+    for (std::size_t d = 0; d < 3; ++d) {
+      e.lo[d] = std::min(e.lo[d], pilot.points[i][d]);
+      e.hi[d] = std::max(e.hi[d], pilot.points[i][d]);
+    }
+  }
+  return extent;
+}
+
+} // namespace
+
+CubatureResult integrate_density(const Subject& s, const Pilot& pilot, const PilotCells& cells, double n,
+                                 std::size_t max_evaluations) {
+  // Few boxes: the cubature itself halves those where it has to.
+  const int depth = std::min(cells.partition.depth(), 6);
+  const std::vector<UnitBox> extent = extents(cells, pilot, cells.partition.depth() - depth);
+  std::vector<UnitBox> pieces;
+  for (std::size_t i = 0; i < extent.size(); ++i) {
+    const UnitBox box = cells.partition.box(static_cast<int>(i), depth);
+    std::vector<UnitBox> parts{box};
+    for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
+      parts = cut_boxes(parts, d, cuts_beside(extent[i].lo[d], extent[i].hi[d], box, d));
+    pieces.insert(pieces.end(), parts.begin(), parts.end());
+  }
+  CubatureGoal goal;
+  goal.total_error = 0.01 / std::sqrt(n);
+  goal.max_evaluations = max_evaluations;
+  const double each = goal.total_error / static_cast<double>(pieces.size());
+  goal.box_error = [each](double value) { return std::max(each, 1e-3 * value); };
+  return integrate_boxes([&s](const Subject::Coordinates& v) { return density_inside(s, v); }, s.dim, pieces, goal);
+}
+
+ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const EstimatedMass& reference,
+                         const EstimatedMass& whole, const SampleWeights& samples) {
+  ClaimedMass mass;
+  const double n = samples.draws;
+  double outcomes = 0;
+  for (const double p : s.atoms) outcomes += p;
+  // What exceeds the caps of the reference is estimated by the samples themselves.
+  const double clipped = (samples.points - samples.sum) / n;
+  const double clipped_variance = (samples.points - 2 * samples.sum + samples.squares) / (n * n);
+  const double sampled = (samples.squares - sqr(samples.sum) / n) / (n * n);
+  mass.estimated = reference.value + clipped + outcomes;
+  mass.estimated_error = std::sqrt(std::max(sampled, 0.0) + reference.safe_variance() + sqr(s.mass_tolerance));
+  mass.z = (samples.sum / n - reference.value) / std::max(mass.estimated_error, 1e-300);
+  if (s.dim == 0) {
+    mass.value = outcomes;
+    return mass;
+  }
+  // Cubature that missed a jump or a lobe is off by more than it says. It may be off by `conceded` standard deviations
+  // of an estimate, and is only believed within `agreed` of them: a right density fails where the estimate is off by
+  // the difference, 3.5, and the cubature wrong besides. A jump that no pair of random points shows moves the estimate
+  // by a pair at most, seldom by half of one. What lies where the samples are not only the points see; a lobe that they
+  // miss the samples see.
+  constexpr double conceded = 5, agreed = 1.5;
+  const double by_points = std::sqrt(whole.shown_variance());
+  const double by_samples = std::sqrt(reference.shown_variance() + std::max(clipped_variance, 0.0));
+  const double rounding = std::max(s.mass_tolerance, 1e-12); // of sums of many terms
+  const double total = cubature.total.value + outcomes, bound = cubature.total.error + rounding;
+  mass.integrated = !cubature.bad && cubature.total.error <= 1 / std::sqrt(n) &&
+                    std::abs(total - outcomes - whole.value) <= bound + agreed * by_points + whole.jump / 2 &&
+                    mass.estimated - total <= bound + agreed * by_samples + reference.jump / 2;
+  mass.value = mass.integrated ? total : mass.estimated;
+  if (!mass.integrated) {
+    mass.error = 4 * mass.estimated_error;
+    return mass;
+  }
+  mass.error = cubature.total.error + conceded * by_points + std::max(whole.jump, reference.jump);
+  // A lobe that no point met adds mass and takes none off. It fits into one box, below its cap, or no sample met it:
+  // then it holds at most 4.6 of them, with probability .99.
+  if (total < 1)
+    mass.error = std::max(mass.error, cubature.total.error + conceded * by_samples + reference.jump) +
+                 reference.largest + 4.6 / samples.seen;
+  return mass;
+}
+
+Check test_mass(const Subject& s, const ClaimedMass& mass, double alpha) {
+  const double excess = mass.value - 1, off = s.may_fail ? std::max(excess, 0.0) : std::abs(excess);
+  Check c{"mass", Verdict::pass, {}, 0, off, mass.error + s.mass_tolerance, Fault::mass, {}};
+  if (mass.integrated) {
+    if (!(off <= c.limit)) c.verdict = Verdict::fail;
+  } else {
+    c.p = normal_tail(mass.z);
+    c.share = alpha_share(FitTest::mass, s.dim);
+    c.statistic = mass.z;
+    if (*c.p <= sidak_level(alpha, c.share)) c.verdict = Verdict::fail;
+    else if (!(mass.estimated_error <= 0.03)) c.verdict = Verdict::inconclusive;
+  }
+  if (c.verdict != Verdict::pass)
+    c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}", mass.value, mass.error);
+  return c;
+}
+
+} // namespace mc

@@ -1,0 +1,324 @@
+#include <mc/check/fit/expected/reference.h>
+
+#include <mc/core/types.h>
+#include <mc/random/pcg.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace mc {
+namespace {
+
+constexpr std::size_t points_of_stratum = 16; // of the pilot, at most
+constexpr std::size_t most_strata = 1 << 18;
+constexpr double samples_to_a_point = 8; // random point
+constexpr double cap_over_pilot = 16, cap_over_seen = 4, lobe_over_pilot = 4;
+
+} // namespace
+
+// Splits cells into strata; points are indices into the pilot.
+struct Reference::Builder {
+  const Subject& subject;
+  const Pilot& pilot;
+  Reference& reference;
+  Pcg random;
+  struct Point {
+    Subject::Coordinates v;
+    double density;
+  };
+  using Points = std::span<Point>;
+  std::vector<Point> all;        ///< points of the pilot, by cells
+  std::vector<std::size_t> ends; ///< of the cells among them
+
+  Builder(const Subject& s, const Pilot& p, const PilotCells& cells, Reference& r, std::uint64_t seed)
+      : subject(s), pilot(p), reference(r), random(seed), all(p.points.size()),
+        ends(static_cast<std::size_t>(cells.partition.size()) + 1) {
+    for (const std::uint32_t c : cells.of_points) ++ends[c + 1];
+    for (std::size_t c = 1; c < ends.size(); ++c) ends[c] += ends[c - 1];
+    for (std::size_t i = all.size(); i-- > 0;) all[--ends[cells.of_points[i] + 1]] = {p.points[i], p.densities[i]};
+    // Each end has come down to where its cell begins.
+    ends.erase(ends.begin());
+    ends.push_back(all.size());
+  }
+  Points of_cell(std::size_t cell) { return Points(all).subspan(ends[cell], ends[cell + 1] - ends[cell]); }
+
+  // Halfway through the points, at the shortest binary fraction.
+  std::optional<double> middle(Points points, const UnitBox& box, std::size_t axis) const {
+    const auto n = static_cast<std::ptrdiff_t>(points.size());
+    const auto upper = points.begin() + n / 2;
+    const auto less = [&](const Point& a, const Point& b) { return a.v[axis] < b.v[axis]; };
+    std::nth_element(points.begin(), upper, points.end(), less);
+    const double lo = std::max_element(points.begin(), upper, less)->v[axis], hi = upper->v[axis];
+    if (!(lo < hi)) return {};
+    const double place = shortest_binary_fraction(lo, hi);
+    return may_cut(box, axis, place, *upper) ? std::optional(place) : std::nullopt;
+  }
+
+  // Whether the parts are boxes, and wide enough to be met by samples of a coarser scalar as they are by random points.
+  bool may_cut(const UnitBox& box, std::size_t axis, double place, const Point& beside) const {
+    const double least = std::min(place - box.lo[axis], box.hi[axis] - place);
+    return least > 0 && least >= rounded_steps * rounding(subject, beside.v, axis);
+  }
+
+  // The point of the pilot whose density says that the box should have held far more of them.
+  const Point* hidden_lobe(Points points, const UnitBox& box) const {
+    if (points.empty()) return nullptr;
+    const auto lower = [](const Point& a, const Point& b) { return a.density < b.density; };
+    const Point& top = *std::max_element(points.begin(), points.end(), lower);
+    const double claimed = top.density * volume(box, subject.dim) * static_cast<double>(pilot.tally.draws);
+    return claimed > lobe_over_pilot * static_cast<double>(points.size() + 1) ? &top : nullptr;
+  }
+
+  // The axis of the box along which a lobe is narrowest: where the density falls most beside its point.
+  std::size_t narrowest(const Point& lobe, const UnitBox& box, std::size_t first) {
+    const auto dim = static_cast<std::size_t>(subject.dim);
+    std::size_t axis = first;
+    double least = HUGE_VAL;
+    for (std::size_t i = 0; i < dim; ++i) {
+      const std::size_t d = (first + i) % dim;
+      double seen = 0;
+      for (int k = 0; k < 2; ++k) {
+        Subject::Coordinates v = lobe.v;
+        v[d] = box.lo[d] + (box.hi[d] - box.lo[d]) * random.uniform<double>();
+        seen += density_inside(subject, v);
+      }
+      if (seen < least) {
+        least = seen;
+        axis = d;
+      }
+    }
+    return axis;
+  }
+
+  // Whether the box is so narrow that samples of a coarser scalar meet it by chance.
+  bool is_rounded(const UnitBox& box, const Subject::Coordinates& inside) const {
+    bool rounded = false;
+    for (std::size_t d = 0; d < static_cast<std::size_t>(subject.dim); ++d)
+      rounded = rounded || box.hi[d] - box.lo[d] < rounded_steps * rounding(subject, inside, d);
+    return rounded;
+  }
+
+  void add_stratum(std::size_t node, std::uint32_t cell, Points points, const UnitBox& box) {
+    double seen = HUGE_VAL;
+    for (int k = 0; k < 2; ++k) {
+      const double density = density_inside(subject, random_point(box, subject.dim, random));
+      seen = density >= 0 ? std::min(seen, density) : 0.0;
+    }
+    const double draws = static_cast<double>(pilot.tally.draws);
+    const double density = static_cast<double>(points.size() + 1) / (draws * volume(box, subject.dim));
+    const double cap = std::max(cap_over_pilot * density, cap_over_seen * seen);
+    reference.nodes_[node].axis = -1;
+    reference.nodes_[node].index = static_cast<std::uint32_t>(reference.places_.size());
+    reference.boxes_.push_back(box);
+    Subject::Coordinates middle{};
+    for (std::size_t d = 0; d < 3; ++d) middle[d] = 0.5 * (box.lo[d] + box.hi[d]);
+    const bool narrow = is_rounded(box, points.empty() ? middle : points.front().v);
+    reference.places_.push_back({cell, reference.nodes_[node].index, cap, narrow ? 0.0 : density, 0});
+  }
+
+  void split(std::size_t node, std::uint32_t cell, Points points, const UnitBox& box, int level) {
+    const auto first = static_cast<std::size_t>(level % subject.dim), dim = static_cast<std::size_t>(subject.dim);
+    std::optional<double> place;
+    std::size_t axis = first;
+    const bool room = reference.places_.size() < most_strata && level < 256;
+    if (room && points.size() >= points_of_stratum)
+      for (std::size_t i = 0; i < dim && !place; ++i) place = middle(points, box, axis = (first + i) % dim);
+    if (const Point* lobe = room && !place ? hidden_lobe(points, box) : nullptr) {
+      axis = narrowest(*lobe, box, first);
+      place = 0.5 * (box.lo[axis] + box.hi[axis]);
+      if (!may_cut(box, axis, *place, *lobe)) place.reset();
+    }
+    if (!place) return add_stratum(node, cell, points, box);
+    const auto middle =
+        std::partition(points.begin(), points.end(), [&](const Point& p) { return p.v[axis] < *place; });
+    const auto below = static_cast<std::size_t>(middle - points.begin());
+    const std::size_t children = reference.nodes_.size();
+    reference.nodes_[node] = {*place, static_cast<int>(axis), static_cast<std::uint32_t>(children)};
+    reference.nodes_.resize(children + 2);
+    UnitBox left = box, right = box;
+    left.hi[axis] = right.lo[axis] = *place;
+    split(children, cell, points.first(below), left, level + 1);
+    split(children + 1, cell, points.subspan(below), right, level + 1);
+  }
+};
+
+Reference::Reference(const Subject& s, const Pilot& pilot, const PilotCells& cells, std::uint64_t seed)
+    : dim_(s.dim), cells_(static_cast<std::size_t>(cells.partition.size())), nodes_(1) {
+  Builder builder(s, pilot, cells, *this, seed);
+  add_cells(cells.partition, 1, 0, UnitBox{}, builder);
+  // About four bins to a stratum.
+  const double bits = std::log2(4 * static_cast<double>(places_.size())) / dim_;
+  guide_size_ = std::size_t{1} << static_cast<int>(bits);
+  Bin hi{1, 1, 1};
+  std::size_t bins = 1;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dim_); ++d, bins *= guide_size_)
+    hi[d] = static_cast<std::uint32_t>(guide_size_);
+  guide_.resize(bins);
+  fill_guide(0, {}, hi);
+}
+
+// The nodes below a split of the cells, in the order of the cells.
+void Reference::add_cells(const Partition& cells, int split, std::size_t node, const UnitBox& box, Builder& builder) {
+  if (split >= cells.size()) {
+    const int cell = split - cells.size();
+    return builder.split(node, static_cast<std::uint32_t>(cell), builder.of_cell(static_cast<std::size_t>(cell)), box,
+                         0);
+  }
+  const auto [at, axis] = cells.split(split);
+  const std::size_t children = nodes_.size();
+  nodes_[node] = {at, static_cast<int>(axis), static_cast<std::uint32_t>(children)};
+  nodes_.resize(children + 2);
+  UnitBox left = box, right = box;
+  left.hi[axis] = right.lo[axis] = at;
+  add_cells(cells, 2 * split, children, left, builder);
+  add_cells(cells, 2 * split + 1, children + 1, right, builder);
+}
+
+// Of the bins from lo to hi, which the node holds.
+void Reference::fill_guide(std::size_t node, Bin lo, Bin hi) {
+  Bin left = hi, right = lo; // what the children hold; between them lie the bins that the split cuts
+  const Node& n = nodes_[node];
+  if (n.axis >= 0) {
+    const auto axis = static_cast<std::size_t>(n.axis);
+    const double at = n.at * static_cast<double>(guide_size_);
+    const auto bounded = [&](double b) { return std::clamp(static_cast<std::uint32_t>(b), lo[axis], hi[axis]); };
+    left[axis] = bounded(std::floor(at));
+    right[axis] = bounded(std::ceil(at));
+    if (lo[axis] < left[axis]) fill_guide(n.index, lo, left);
+    if (right[axis] < hi[axis]) fill_guide(n.index + 1, right, hi);
+    lo[axis] = left[axis];
+    hi[axis] = right[axis];
+  }
+  for (std::size_t i = lo[0]; i < hi[0]; ++i)
+    for (std::size_t j = lo[1]; j < hi[1]; ++j)
+      for (std::size_t k = lo[2]; k < hi[2]; ++k) {
+        const std::size_t index = dim_ == 1   ? i
+                                  : dim_ == 2 ? i * guide_size_ + j
+                                              : (i * guide_size_ + j) * guide_size_ + k;
+        guide_[index] = static_cast<std::uint32_t>(node);
+      }
+}
+
+std::vector<const Reference::Place*> Reference::places(std::span<const Subject::Coordinates> points) const {
+  std::vector<std::uint32_t> at(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) at[i] = guide_[bin(points[i])];
+  // Those that have not arrived at a stratum come first; no branch depends on where they go.
+  std::vector<std::uint32_t> under_way(points.size());
+  std::iota(under_way.begin(), under_way.end(), 0u);
+  for (std::size_t left = points.size(), now = left; now > 0; now = left) {
+    left = 0;
+    for (std::size_t k = 0; k < now; ++k) {
+      const std::uint32_t i = under_way[k];
+      const Node& node = nodes_[at[i]];
+      const bool inner = node.axis >= 0;
+      at[i] = node.index + (inner & (points[i][inner ? static_cast<std::size_t>(node.axis) : 0] >= node.at));
+      under_way[left] = i;
+      left += inner;
+    }
+  }
+  std::vector<const Place*> found(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) found[i] = &places_[at[i]];
+  return found;
+}
+
+namespace {
+
+// What the points of one cell do not show those of the cells beside it do: each takes the largest jump of an aligned
+// run of them.
+void share_jumps(std::vector<EstimatedMass>& cells) {
+  constexpr std::size_t beside = 64;
+  for (std::size_t lo = 0; lo < cells.size(); lo += beside) {
+    const std::size_t hi = std::min(lo + beside, cells.size());
+    double jump = 0;
+    for (std::size_t i = lo; i < hi; ++i) jump = std::max(jump, cells[i].jump);
+    for (std::size_t i = lo; i < hi; ++i) cells[i].jump = jump;
+  }
+}
+
+} // namespace
+
+Reference::Masses Reference::integrate(const Subject& s, const Goal& goal, std::uint64_t seed, const Visit& visit) {
+  Masses result;
+  result.cells.resize(cells_);
+  const double most = static_cast<double>(goal.most),
+               points =
+                   std::max(static_cast<double>(goal.least), std::min(most / 8, goal.samples / samples_to_a_point));
+  const double each = points / static_cast<double>(4 * places_.size());
+  const auto per_axis = static_cast<std::size_t>(std::max(1.0, std::floor(std::pow(each, 1.0 / dim_) + 1e-9)));
+  std::array<std::vector<double>, 3> breaks = s.breaks;
+  double boxes = 1;
+  for (const std::vector<double>& axis : breaks) boxes *= static_cast<double>(axis.size() + 1);
+  if (4 * boxes > most) breaks = {};
+
+  Pcg random(seed);
+  constexpr std::uint32_t fitted_together = 4; // cells
+  LinearFit fit(static_cast<std::size_t>(dim_));
+  const auto pass = [&] {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      Place& place = places_[i];
+      const auto evaluate = [&](const Subject::Coordinates& v, double part) {
+        double density = density_inside(s, v);
+        ++result.evaluations;
+        if (!(density >= 0 && density <= std::numeric_limits<double>::max())) {
+          if (!result.bad) result.bad = v;
+          density = 0;
+        }
+        const double capped = std::min(density, place.cap);
+        place.volume = std::max(place.volume, part);
+        fit.add(v, capped, part);
+        if (visit) visit(v, place, density, capped * part);
+        return std::array{capped, density};
+      };
+      add_pairs<2>(boxes_[i], dim_, breaks, per_axis, random, evaluate, {&result.cells[place.cell], &result.whole});
+      const bool last =
+          i + 1 == places_.size() || places_[i + 1].cell / fitted_together != place.cell / fitted_together;
+      if (last) result.cells[place.cell].jump = std::max(result.cells[place.cell].jump, fit.largest_residual());
+    }
+  };
+  // The mass of few samples' density is still wanted to a thousandth.
+  const double samples = std::max(goal.samples, 1e5);
+  // Passes until both variances of all cells together are a tenth of that of their counts: what the points show falls
+  // with the passes, what they may have missed with their square. All passes count alike, and
+  // only the sum over all cells decides how many there are, so that the choice biases nothing.
+  double wanted = 1;
+  while (static_cast<double>(result.passes) < wanted) {
+    pass();
+    if (++result.passes > 1) continue;
+    share_jumps(result.cells);
+    double shown = 0, jumps = 0; // over the variances of the counts
+    for (const EstimatedMass& m : result.cells) {
+      if (!(m.value > 0)) continue;
+      shown += samples * m.variance / m.value / static_cast<double>(result.cells.size());
+      jumps += samples * sqr(m.jump) / m.value / static_cast<double>(result.cells.size());
+    }
+    const double evaluations = static_cast<double>(result.evaluations);
+    wanted = std::clamp(std::ceil(std::max(10 * shown, std::sqrt(10 * jumps))),
+                        std::max(1.0, std::round(points / evaluations)), std::max(1.0, most / evaluations));
+  }
+  share_jumps(result.cells);
+  result.take_means();
+  return result;
+}
+
+void Reference::Masses::take_means() {
+  const double n = static_cast<double>(passes);
+  const auto average = [n](EstimatedMass& m) {
+    m.value /= n;
+    m.variance /= sqr(n);
+    m.variance_square /= sqr(sqr(n));
+    m.largest /= n;
+    m.jump /= n;
+  };
+  average(whole);
+  for (EstimatedMass& m : cells) {
+    average(m);
+    total.largest = std::max(total.largest, m.largest);
+    total.jump = std::max(total.jump, m.jump);
+    total.value += m.value;
+    total.variance += m.variance;
+    total.variance_square += m.variance_square;
+  }
+}
+
+} // namespace mc

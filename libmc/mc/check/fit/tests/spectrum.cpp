@@ -1,0 +1,226 @@
+#include <mc/check/fit/tests/spectrum.h>
+
+#include <mc/check/fit/tests/slabs.h>
+#include <mc/core/types.h>
+#include <mc/stats/chi_square.h>
+#include <mc/stats/multiple_testing.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace mc {
+namespace {
+
+// Periods along an axis: the upper half of the coefficients are negative ones.
+int periods(std::size_t k, std::size_t size) {
+  return k <= size / 2 ? static_cast<int>(k) : static_cast<int>(k) - static_cast<int>(size);
+}
+
+struct Wave {
+  double exponent = 0; ///< minus the logarithm of its p-value
+  std::array<int, 3> periods{};
+};
+
+struct Band {
+  double sum = 0, coefficients = 0;
+};
+
+struct Spectrum {
+  std::size_t dim, size;
+  Wave largest;
+  std::vector<Band> bands;
+
+  // The Fourier coefficient of k periods along the axes.
+  void add(const std::array<int, 3>& k, double power) {
+    const int nyquist = static_cast<int>(size / 2);
+    int most = 0;
+    bool real = true;
+    for (std::size_t d = 0; d < dim; ++d) {
+      most = std::max(most, std::abs(k[d]));
+      real = real && (k[d] == 0 || std::abs(k[d]) == nyquist);
+    }
+    if (most == 0) return;
+    if (power > largest.exponent) {
+      // Coefficients that are their own conjugates are real: chi-square of one degree of freedom.
+      const double exponent = real ? -std::log(std::max(std::erfc(std::sqrt(power / 2)), 1e-300)) : power;
+      if (exponent > largest.exponent) largest = {exponent, k};
+    }
+    if (most == nyquist) return;
+    // At 0 periods of the last axis the conjugates are among the coefficients.
+    const double each = k[dim - 1] == 0 ? 0.5 : 1.0;
+    Band& band = bands[static_cast<std::size_t>(std::bit_width(static_cast<unsigned>(most)) - 1)];
+    band.sum += each * power;
+    band.coefficients += each;
+  }
+};
+
+// The half of the coefficients of a grid that is not conjugate to the other half, by periods of the last axis.
+std::vector<std::complex<float>> transform(const std::vector<float>& grid, std::size_t dim, std::size_t size) {
+  std::vector<std::complex<float>> x = fourier_transform(grid, size);
+  // Rows along the last axis followed each other; along the others they lie side by side, in blocks.
+  for (std::size_t d = 1, stride = size / 2 + 1; d < dim; ++d, stride *= size)
+    for (std::size_t first = 0; first < x.size(); first += stride * size)
+      fourier_transform(&x[first], size, stride, stride, 1);
+  return x;
+}
+
+} // namespace
+
+FineGrid::FineGrid(int dim, double samples, double step) : dim_(dim) {
+  const int most = dim == 1 ? 16 : dim == 2 ? 10 : 6;
+  int bits = std::clamp(static_cast<int>(std::log2(8 * std::max(samples, 1.0)) / dim), 2, most);
+  // A lattice of steps is a wave whose amplitude in bins of width w is step / (pi w): a third of what samples show.
+  while (bits > 2 && std::ldexp(step, bits) * std::sqrt(samples) > 1) --bits;
+  size_ = std::size_t{1} << bits;
+  observed_.resize(std::size_t{1} << (bits * dim));
+  expected_.resize(observed_.size());
+}
+
+std::vector<Check> FineGrid::test(const WeightedCounts& all, double share, double alpha,
+                                  const char* coordinates) const {
+  double observed = 0, expected = 0, collisions = 0;
+  for (const float o : observed_) observed += static_cast<double>(o);
+  for (const float e : expected_) expected += static_cast<double>(e);
+  if (!(observed > 0 && expected > 0 && size_ >= 8)) return {};
+  const double scale = observed / expected, bins = static_cast<double>(observed_.size());
+  std::vector<float> off(observed_.size());
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    off[i] = static_cast<float>(static_cast<double>(observed_[i]) - scale * static_cast<double>(expected_[i]));
+    collisions += sqr(static_cast<double>(expected_[i]));
+  }
+  const double variance = all.observed_squares + sqr(scale) * std::max(all.expected_squares, all.shares / scale);
+  // Correlated neighbours: the variance of a sum of squares is so many times that of independent ones.
+  const double correlated = std::max(1.0, collisions / sqr(expected) * bins);
+  const auto dim = static_cast<std::size_t>(dim_);
+  const std::vector<std::complex<float>> x = transform(off, dim, size_);
+  Spectrum spectrum{dim, size_, {}, std::vector<Band>(static_cast<std::size_t>(std::countr_zero(size_)))};
+  const std::size_t half = size_ / 2 + 1;
+  for (std::size_t row = 0; row < x.size() / half; ++row) {
+    std::array<int, 3> k{};
+    for (std::size_t d = dim - 1, rest = row; d-- > 0; rest /= size_) k[d] = periods(rest % size_, size_);
+    for (k[dim - 1] = 0; k[dim - 1] < static_cast<int>(half); ++k[dim - 1])
+      spectrum.add(k, static_cast<double>(std::norm(x[row * half + static_cast<std::size_t>(k[dim - 1])])) / variance);
+  }
+
+  std::vector<Check> checks;
+  const auto add = [&](std::string name, double p, double statistic, const std::string& detail) {
+    Check c{std::move(name), Verdict::pass, p, share / 2, statistic, 0, Fault::local, {}};
+    if (p <= sidak_level(alpha, c.share)) {
+      c.verdict = Verdict::fail;
+      c.detail = detail;
+    }
+    checks.push_back(std::move(c));
+  };
+  const Wave& largest = spectrum.largest;
+  add(fmt::format("waves in {}", coordinates), sidak(std::exp(-largest.exponent), 0.5 * (bins - 1)), largest.exponent,
+      fmt::format("({}, {}, {}) periods along the axes", largest.periods[0], largest.periods[1], largest.periods[2]));
+  double least = 1, family = 0, excess = 0, at = 0;
+  for (std::size_t b = 0; b < spectrum.bands.size(); ++b) {
+    const double dof = 2 * spectrum.bands[b].coefficients / correlated;
+    if (!(dof >= 8)) continue;
+    family += 1;
+    const double p = chi_square_tail(2 * spectrum.bands[b].sum / correlated, dof);
+    if (p >= least) continue;
+    least = p;
+    excess = spectrum.bands[b].sum / spectrum.bands[b].coefficients - 1;
+    at = std::exp2(static_cast<double>(b));
+  }
+  if (family > 0)
+    add(fmt::format("bands of waves in {}", coordinates), sidak(least, family), 1 + excess,
+        fmt::format("waves of {:.0f} to {:.0f} periods are {:.3g} % too strong", at, 2 * at - 1, 100 * excess));
+  return checks;
+}
+
+double mean_step(const Subject& s, const Pilot& pilot, double most) {
+  if (pilot.points.empty()) return 0;
+  const std::size_t every = std::max<std::size_t>(pilot.points.size() / 256, 1);
+  double largest = 0;
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
+    double sum = 0, points = 0;
+    for (std::size_t i = 0; i < pilot.points.size(); i += every, points += 1)
+      sum += std::min(rounding(s, pilot.points[i], axis), most);
+    largest = std::max(largest, sum / points);
+  }
+  return largest;
+}
+
+namespace {
+
+// One number of each of several rows: they are transformed side by side.
+template <std::size_t L> struct Lanes { std::array<float, L> re, im; };
+
+template <std::size_t L> void butterfly(Lanes<L>& a, Lanes<L>& b, std::complex<float> w) {
+  for (std::size_t l = 0; l < L; ++l) {
+    const float re = b.re[l] * w.real() - b.im[l] * w.imag(), im = b.re[l] * w.imag() + b.im[l] * w.real();
+    b.re[l] = a.re[l] - re;
+    b.im[l] = a.im[l] - im;
+    a.re[l] += re;
+    a.im[l] += im;
+  }
+}
+
+template <std::size_t L>
+void transform_lanes(std::complex<float>* x, std::size_t n, std::size_t stride, std::size_t distance,
+                     const std::vector<std::complex<float>>& roots, std::vector<Lanes<L>>& row) {
+  const int bits = std::countr_zero(n);
+  row.resize(n);
+  // Gathered first: columns of a grid lie far apart.
+  for (std::size_t i = 0; i < n; ++i) {
+    std::size_t reversed = 0;
+    for (int b = 0; b < bits; ++b) reversed |= (i >> b & 1) << (bits - 1 - b);
+    for (std::size_t l = 0; l < L; ++l) {
+      row[reversed].re[l] = x[i * stride + l * distance].real();
+      row[reversed].im[l] = x[i * stride + l * distance].imag();
+    }
+  }
+  for (std::size_t half = 1; half < n; half *= 2)
+    for (std::size_t first = 0; first < n; first += 2 * half)
+      for (std::size_t i = 0; i < half; ++i)
+        butterfly(row[first + i], row[first + half + i], roots[i * (n / 2 / half)]);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t l = 0; l < L; ++l) x[i * stride + l * distance] = {row[i].re[l], row[i].im[l]};
+}
+
+} // namespace
+
+void fourier_transform(std::complex<float>* x, std::size_t n, std::size_t stride, std::size_t count,
+                       std::size_t distance) {
+  std::vector<std::complex<float>> roots;
+  for (std::size_t i = 0; i < n / 2; ++i) {
+    const double angle = -2 * pi<double> * static_cast<double>(i) / static_cast<double>(n);
+    roots.emplace_back(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
+  }
+  constexpr std::size_t many = 16;
+  std::vector<Lanes<many>> rows;
+  std::vector<Lanes<1>> row;
+  std::size_t done = 0;
+  for (; done + many <= count; done += many) transform_lanes(x + done * distance, n, stride, distance, roots, rows);
+  for (; done < count; ++done) transform_lanes(x + done * distance, n, stride, distance, roots, row);
+}
+
+std::vector<std::complex<float>> fourier_transform(const std::vector<float>& x, std::size_t n) {
+  const std::size_t rows = x.size() / n, half = n / 2 + 1;
+  // Two rows at a time, as the real and the imaginary part of one.
+  std::vector<std::complex<float>> pairs((rows + 1) / 2 * n), result(rows * half);
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < n; ++i) {
+      std::complex<float>& z = pairs[row / 2 * n + i];
+      if (row % 2 == 0) z = x[row * n + i];
+      else z = {z.real(), x[row * n + i]};
+    }
+  fourier_transform(pairs.data(), n, 1, pairs.size() / n, n);
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t k = 0; k < half; ++k) {
+      const std::complex<float> z = pairs[row / 2 * n + k], w = std::conj(pairs[row / 2 * n + (n - k) % n]);
+      const std::complex<float> sum = 0.5f * (z + w), difference = 0.5f * (z - w);
+      if (row % 2 == 0) result[row * half + k] = sum;
+      else result[row * half + k] = {difference.imag(), -difference.real()};
+    }
+  return result;
+}
+
+} // namespace mc

@@ -1,0 +1,53 @@
+#pragma once
+/// Samples in a bin against random points that say how many belong there.
+
+#include <mc/core/types.h>
+
+#include <algorithm>
+
+namespace mc {
+
+/// Sums of the weights of both in one bin. The random points stand for equal or very different numbers of samples;
+/// where the heavy ones are rare no point may have met the bin, so the samples in it say, too, what each point there
+/// would have stood for.
+struct WeightedCounts {
+  double observed = 0, observed_squares = 0;
+  double expected = 0, expected_squares = 0;
+  double shares = 0; ///< of the samples: weight times the share that a random point at its place has
+
+  void add_sample(double weight, double share) {
+    observed += weight;
+    observed_squares += weight * weight;
+    shares += weight * share;
+  }
+  void add_expected(double share) {
+    expected += share;
+    expected_squares += share * share;
+  }
+  void join(const WeightedCounts& other) {
+    observed += other.observed;
+    observed_squares += other.observed_squares;
+    expected += other.expected;
+    expected_squares += other.expected_squares;
+    shares += other.shares;
+  }
+};
+
+/// Both as counts of the same bin: that many samples, each with its variance, were expected.
+struct CountsCompared {
+  double excess = 0;                              ///< observed - expected, in samples
+  double mean = 0;                                ///< of what both say, each by its precision
+  double spread = 1;                              ///< variance of the excess is spread times mean
+  double sample_variance = 1, point_variance = 1; ///< spread is their sum
+  double observed = 0, expected = 0;
+  double z() const;
+  /// How many samples the comparison is worth: the excess is nearly normal where this is large.
+  double information() const { return mean / spread; }
+  /// Two-sided: given both counts together, the samples among them are binomial.
+  ///   Source : [PrzyborowskiWilenski40]
+  double p() const;
+};
+/// scale : samples for each unit of expectation
+CountsCompared compare(const WeightedCounts& bin, double scale);
+
+} // namespace mc

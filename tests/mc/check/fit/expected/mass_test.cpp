@@ -1,0 +1,102 @@
+#include <mc/check/fit/expected/mass.h>
+
+#include <mc/check/subject/make_subject.h>
+#include <mc/domain/interval.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using mc::Pcg, mc::Verdict;
+
+mc::Subject flat(double height) {
+  return make_subject(
+      "flat", mc::Interval<double>(0, 1), [](Pcg& r) { return r.uniform<double>(); },
+      [height](double) { return height; });
+}
+
+// The mass where no density exceeds the caps: what the points say of it is what they say under the caps.
+mc::ClaimedMass claimed(const mc::Subject& s, const mc::CubatureResult& c, const mc::EstimatedMass& points,
+                        const mc::SampleWeights& samples) {
+  return claimed_mass(s, c, points, points, samples);
+}
+
+mc::SampleWeights plain(double n) { return {.draws = n, .points = n, .sum = n, .squares = n, .seen = n}; }
+
+TEST(Mass, CubatureIsBelievedWhereTheReferenceAgrees) {
+  const mc::Subject s = flat(1);
+  const mc::Pilot pilot = draw_pilot(s, 1, 100'000);
+  const mc::CubatureResult c = integrate_density(s, pilot, {pilot, 1, 6}, 1e5, 100'000);
+  EXPECT_NEAR(c.total.value, 1, 1e-12);
+  const mc::ClaimedMass m = claimed(s, c, {.value = 1, .variance = 1e-12, .variance_square = 1e-30}, plain(1e5));
+  EXPECT_TRUE(m.integrated);
+  EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::pass);
+}
+
+TEST(Mass, AWrongConstantFails) {
+  const mc::Subject s = flat(1.001);
+  const mc::Pilot pilot = draw_pilot(s, 1, 100'000);
+  const mc::CubatureResult c = integrate_density(s, pilot, {pilot, 1, 6}, 1e5, 100'000);
+  const mc::ClaimedMass m = claimed(s, c, {.value = 1.001, .variance = 1e-12, .variance_square = 1e-30}, plain(1e5));
+  EXPECT_TRUE(m.integrated);
+  EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::fail);
+}
+
+// What the cubature missed the reference has seen: then the samples decide.
+TEST(Mass, CubatureThatIsRefutedIsNotBelieved) {
+  const mc::Subject s = flat(1);
+  mc::CubatureResult c;
+  c.total = {0.999, 1e-15};
+  const mc::ClaimedMass m = claimed(s, c, {.value = 1, .variance = 1e-10, .variance_square = 1e-23}, plain(1e5));
+  EXPECT_FALSE(m.integrated);
+  EXPECT_EQ(m.value, 1);
+  EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::pass);
+  const mc::ClaimedMass off = claimed(s, c, {.value = 1.001, .variance = 1e-10, .variance_square = 1e-23}, plain(1e5));
+  EXPECT_EQ(test_mass(s, off, 0.01).verdict, Verdict::fail);
+}
+
+// A tenth of the draws clipped to almost nothing: what they stand for is added to the mass.
+TEST(Mass, WhatIsClippedIsEstimatedByTheSamples) {
+  const mc::Subject s = flat(1);
+  mc::CubatureResult c;
+  c.total = {0.9, 1e-15};
+  mc::SampleWeights w{.draws = 1e5, .points = 1e5, .sum = 9e4, .squares = 9e4, .seen = 1e5};
+  const mc::ClaimedMass m = claimed(s, c, {.value = 0.9, .variance = 1e-10, .variance_square = 1e-23}, w);
+  EXPECT_NEAR(m.estimated, 1, 1e-12);
+  EXPECT_FALSE(m.integrated);
+  EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::pass);
+}
+
+// Cubature that is off by 1 to 8 standard deviations of the estimate, and says that it is exact: a right density fails
+// at most once in 1000 however far off it is. 4000 runs each: at most 13 with probability 0.999.
+TEST(Mass, CubatureThatIsWronglySureFailsNoRightDensity) {
+  const mc::Subject s = flat(1);
+  const double sigma = 1e-3;
+  Pcg random(1);
+  for (double off = 1; off <= 8; off += 0.5) {
+    int failed = 0;
+    for (int run = 0; run < 4000; ++run) {
+      const double normal = std::sqrt(-2 * std::log1p(-random.uniform<double>())) *
+                            std::cos(2 * mc::pi<double> * random.uniform<double>());
+      mc::CubatureResult c;
+      c.total = {1 - off * sigma, 1e-15};
+      const mc::EstimatedMass reference{.value = 1 + sigma * normal, .variance = mc::sqr(sigma)};
+      failed += test_mass(s, claimed(s, c, reference, plain(1e6)), 0.001).verdict == Verdict::fail;
+    }
+    EXPECT_LE(failed, 13) << off;
+  }
+}
+
+TEST(Mass, OutcomesAddUpExactly) {
+  mc::Subject s;
+  s.atoms = {0.25, 0.75};
+  const mc::ClaimedMass m = claimed(s, {}, {}, plain(1e5));
+  EXPECT_EQ(m.value, 1);
+  EXPECT_EQ(m.error, 0);
+  s.atoms = {0.25, 0.74};
+  EXPECT_EQ(test_mass(s, claimed(s, {}, {}, plain(1e5)), 0.01).verdict, Verdict::fail);
+}
+
+} // namespace

@@ -1,0 +1,55 @@
+// Samplers that nobody here chose: small runs of bench/mc/check/truth_bench.cpp with fixed seeds.
+
+#include <mc/check/foreign_samplers.h>
+#include <mc/check/random_faults.h>
+
+#include <mc/check/check_subject.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using mc::Verdict;
+
+// Each is rejected by chance once in 10000 runs.
+TEST(Truth, RandomRightSamplersPass) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const mc::Report r = check_subject(truth::random_right(seed), {.samples = 50'000, .seed = seed, .alpha = 1e-4});
+    EXPECT_TRUE(r.passed()) << seed << ": " << r.to_string();
+  }
+}
+
+// Each is missed at most once in 100: more than 3 of 60 with probability 0.003.
+TEST(Truth, FaultsOfTheStatedSizeAreFound) {
+  int missed = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const mc::SubjectOptions options{.samples = 50'000, .seed = seed, .alpha = 0.01};
+    const mc::Subject right = truth::random_shape(seed);
+    const truth::Faulty wrong = truth::stated_fault(right, check_subject(right, options), seed);
+    missed += check_subject(wrong.subject, options).verdict() != Verdict::fail;
+  }
+  EXPECT_LE(missed, 3);
+}
+
+// The right ones are rejected by chance once in 10000 runs each. The wrong ones need a million samples to show; the
+// clamped exponential has 6 equal ones among them, fewer than the 3 that are needed once in 17 seeds.
+TEST(Truth, ForeignSamplersAreJudged) {
+  for (const truth::Foreign& f : truth::foreign_samplers()) {
+    const mc::Report r = check_subject(
+        f.subject, {.samples = f.right ? 300'000u : 1'000'000u, .seed = 3, .alpha = f.right ? 1e-4 : 0.01});
+    EXPECT_EQ(r.verdict(), f.right ? Verdict::pass : Verdict::fail) << r.to_string();
+  }
+}
+
+// What a table says of its breaks is exact.
+TEST(Truth, TheMassOfATableWithBreaksIsExact) {
+  mc::Pcg random(1);
+  std::vector<double> weights;
+  for (int i = 0; i < 100 * 50; ++i) weights.push_back(random.uniform<double>());
+  const mc::Subject s = truth::of_table("table", weights, 100, 50, true);
+  EXPECT_EQ(s.breaks[0].size(), 99u);
+  EXPECT_EQ(s.breaks[1].size(), 49u);
+  EXPECT_NEAR(check_subject(s, {.samples = 100'000}).mass, 1, 1e-9);
+}
+
+} // namespace
