@@ -111,6 +111,17 @@ TEST(Layout, LinesFitTheScreen) {
   }
 }
 
+TEST(Layout, NoCommaBetweenAssignments) {
+  static const std::regex two(R"(^\s*[\w.\[\]>-]+ [-+*/|&]?= [^;"]*, [\w.\[\]>-]+ [-+*/|&]?= .*;$)");
+  EXPECT_TRUE(std::regex_match("  a.b = 1, c[i] += 2;", two));
+  EXPECT_FALSE(std::regex_match("  const int a = 1, b = 2;", two));
+  for (const fs::path& file : sources(everything)) {
+    const std::vector<std::string> lines = lines_of(file);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      EXPECT_FALSE(std::regex_match(lines[i], two)) << file.string() << ":" << i + 1 << ": " << lines[i];
+  }
+}
+
 // But for families of one kind, of which one is read and the others follow.
 TEST(Layout, AFolderHoldsAtMostFifteenSources) {
   const std::set<std::string> families = {"libmc/mc/warp",   "libmc/mc/domain", "tests/mc/warp",

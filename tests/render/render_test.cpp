@@ -31,7 +31,8 @@ Scene small_scene(Float sky = Float(0.1)) {
 
 RenderOptions small() {
   RenderOptions options;
-  options.width = 24, options.height = 20;
+  options.width = 24;
+  options.height = 20;
   return options;
 }
 
@@ -39,7 +40,9 @@ TEST(Render, SameBitsForAnyNumberOfThreads) {
   const Scene scene = small_scene();
   for (const PixelSampler sampler : samplers) {
     RenderOptions options = small();
-    options.spp = 16, options.sampler = sampler, options.threads = 1;
+    options.spp = 16;
+    options.sampler = sampler;
+    options.threads = 1;
     const RenderResult one = render::render(scene, options);
     options.threads = 2;
     const RenderResult two = render::render(scene, options);
@@ -66,7 +69,8 @@ TEST(Render, ErrorBarsAreHonest) {
   const Scene scene = small_scene();
   for (const PixelSampler sampler : samplers) {
     RenderOptions options = small();
-    options.spp = 32, options.sampler = sampler;
+    options.spp = 32;
+    options.sampler = sampler;
     std::vector<double> scale(24 * 20, 1e-6);
     for (options.seed = 1000; options.seed < 1016; ++options.seed) {
       const RenderResult r = render::render(scene, options);
@@ -93,7 +97,8 @@ TEST(Render, StratifiedAndSobolBeatIndependent) {
   double error[3];
   for (int i = 0; i < 3; ++i) {
     RenderOptions options = small();
-    options.spp = 64, options.sampler = samplers[i];
+    options.spp = 64;
+    options.sampler = samplers[i];
     error[i] = render::render(scene, options).relative_error;
   }
   EXPECT_LE(error[1], error[0]);
@@ -189,7 +194,9 @@ TEST(Render, ASceneWithoutLightIsBlack) {
   builder.add(Sphere(Vec3d(0, 0, -3), 1), {builder.add(Lambert())});
   const Scene scene = builder.build();
   RenderOptions options = small();
-  options.width = 4, options.height = 3, options.spp = 4;
+  options.width = 4;
+  options.height = 3;
+  options.spp = 4;
   const RenderResult result = render::render(scene, options);
   EXPECT_EQ(result.image.width, 4);
   EXPECT_EQ(result.image.height, 3);

@@ -127,10 +127,14 @@ void add_meshes_seen(Catalogue& c) {
     const auto cut = [=](std::uint32_t i) { return mc::sqr(Float(i) / Float(strips)); };
     std::vector<Vec3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    for (std::uint32_t i = 0; i <= strips; ++i)
-      positions.push_back(corner + cut(i) * e1), positions.push_back(corner + cut(i) * e1 + e2);
-    for (std::uint32_t i = 0; i < 2 * strips; i += 2)
-      triangles.push_back({i, i + 2, i + 3}), triangles.push_back({i, i + 3, i + 1});
+    for (std::uint32_t i = 0; i <= strips; ++i) {
+      positions.push_back(corner + cut(i) * e1);
+      positions.push_back(corner + cut(i) * e1 + e2);
+    }
+    for (std::uint32_t i = 0; i < 2 * strips; i += 2) {
+      triangles.push_back({i, i + 2, i + 3});
+      triangles.push_back({i, i + 3, i + 1});
+    }
     const TriangleMesh mesh(positions, triangles);
     const mc::Parallelogram<Float> domain(corner, e1, e2);
     const mc::Patch<Float, 4> directions(corner - ref, e1, e2);

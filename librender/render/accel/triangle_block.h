@@ -40,8 +40,10 @@ class TriangleBlock {
       const Vec3& d = ray.d;
       const Float ax = std::abs(d.x()), ay = std::abs(d.y());
       kz = std::abs(d.z()) > std::max(ax, ay) ? 2 : int(ay > ax); // compiles to no branch
-      kx = (kz + 1) % 3, ky = (kz + 2) % 3;
-      sx = d[kx] / d[kz], sy = d[ky] / d[kz];
+      kx = (kz + 1) % 3;
+      ky = (kz + 2) % 3;
+      sx = d[kx] / d[kz];
+      sy = d[ky] / d[kz];
     }
   };
 
@@ -95,7 +97,9 @@ template <bool any> bool TriangleBlock::intersect(const Ray& ray, const Prepared
       const auto edge = [&](int a, int b) {
         return double(x[a][lane]) * double(y[b][lane]) - double(y[a][lane]) * double(x[b][lane]);
       };
-      area0 = edge(2, 1), area1 = edge(0, 2), area2 = edge(1, 0);
+      area0 = edge(2, 1);
+      area1 = edge(0, 2);
+      area2 = edge(1, 0);
       if ((area0 < 0 || area1 < 0 || area2 < 0) && (area0 > 0 || area1 > 0 || area2 > 0)) continue;
     }
     const double det = area0 + area1 + area2;

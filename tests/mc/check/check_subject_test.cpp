@@ -162,7 +162,8 @@ TEST(CheckSubject, EvidenceIsAllTheCountsAndTheWayOfP) {
   EXPECT_EQ(plain.axes.size(), 2u);
   double observed = 0, expected = 0, volume = 0;
   for (const mc::CellCount& c : r.evidence->cells) {
-    observed += c.observed, expected += c.expected;
+    observed += c.observed;
+    expected += c.expected;
     volume += (c.hi[0] - c.lo[0]) * (c.hi[1] - c.lo[1]);
   }
   EXPECT_EQ(observed, 50'000);
@@ -190,7 +191,8 @@ TEST(CheckSubject, TheWayOfPFallsForAWrongSampler) {
 
 TEST(CheckSubject, OutcomesAreEvidenceToo) {
   mc::Subject s;
-  s.name = "coin", s.atoms = {0.5, 0.5};
+  s.name = "coin";
+  s.atoms = {0.5, 0.5};
   s.draw = [](std::uint64_t seed, std::size_t n, std::vector<mc::Subject::Draw>& out) {
     Pcg random(seed);
     for (std::size_t i = 0; i < n; ++i) {

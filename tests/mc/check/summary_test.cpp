@@ -6,7 +6,8 @@ namespace {
 
 mc::Cell cell(double p, double observed) {
   mc::Cell c;
-  c.p = p, c.observed = observed;
+  c.p = p;
+  c.observed = observed;
   return c;
 }
 
@@ -32,7 +33,8 @@ TEST(Summary, WorstCellsComeFirstAndOutcomesHaveNames) {
 
 TEST(Summary, AxesWithoutNamesAreNumbered) {
   mc::Subject s;
-  s.dim = 2, s.axes = {{"r"}};
+  s.dim = 2;
+  s.axes = {{"r"}};
   const auto axes = named_axes(s);
   ASSERT_EQ(axes.size(), 2u);
   EXPECT_EQ(axes[0].name, "r");

@@ -208,8 +208,10 @@ TEST(BadInput, Integrate) {
   }
   for (const Method method : {Method::plain, Method::stratified, Method::rqmc, Method::vegas, Method::automatic})
     for (const std::uint64_t calls : {0, 1})
-      refuses({fmt::format("max_calls {}", calls), "at least"},
-              [&](IntegrateOptions& o) { o.method = method, o.max_calls = calls; });
+      refuses({fmt::format("max_calls {}", calls), "at least"}, [&](IntegrateOptions& o) {
+        o.method = method;
+        o.max_calls = calls;
+      });
   for (const double bad : {0.0, 1.0, -1.0, nan})
     refuses({fmt::format("confidence {}", bad), "(0, 1)"}, [&](IntegrateOptions& o) { o.confidence = bad; });
   for (const std::uint32_t bad : {0u, 1u, 2000000u})
@@ -249,7 +251,9 @@ TEST(BadInput, Estimators) {
   rows.push_back({[] { ImportanceGrid(0); }, {"ImportanceGrid:", "dimension 0", "at least 1"}});
   Moments one, bad;
   one.add(1);
-  bad.add(1), bad.add(2), bad.add(nan, 17);
+  bad.add(1);
+  bad.add(2);
+  bad.add(nan, 17);
   rows.push_back({[=] { one.estimate(); }, {"Moments:", "1 values", "at least 2"}});
   rows.push_back({[=] { bad.estimate(); }, {"Moments:", "1 of 3 values", "first at index 17"}});
   expect_refused(rows);
@@ -258,7 +262,8 @@ TEST(BadInput, Estimators) {
 TEST(BadInput, Checkers) {
   std::vector<Row> rows;
   Moments two;
-  two.add(1), two.add(2);
+  two.add(1);
+  two.add(2);
   add(rows, "t_test", "finite", {nan, inf}, [=](S x) { t_test(two, x); });
   add(rows, "t_test", "(0, 1)", {nan, 0, 1}, [=](S x) { t_test(two, 1, x); });
   rows.push_back({[] { chi_square({1, 2}, {3}); }, {"chi_square:", "2 counts for 1"}});

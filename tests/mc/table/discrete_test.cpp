@@ -43,7 +43,8 @@ TYPED_TEST(DiscreteOver, UniformIsExactForEveryN) {
     ASSERT_LE(std::abs((double(s.index) + double(s.u_remapped)) / double(n) - double(u)), 2 * eps) << n;
   };
   for (std::size_t n = 1; n <= 5000; ++n) {
-    check(n, S(0)), check(n, one_minus_epsilon<S>);
+    check(n, S(0));
+    check(n, one_minus_epsilon<S>);
     for (int k = 0; k < 20; ++k) check(n, random.uniform<S>());
   }
   check(1u << 24, one_minus_epsilon<S>);

@@ -76,7 +76,10 @@ Answer brute_force(const TriangleMesh& mesh, const Ray& ray) {
                  inside = std::min({b1, b2, 1 - b1 - b2});
     if (inside < -1e-3 || t < -1e-3) continue;
     if (std::abs(det) < 1e-3 * n.norm() || inside < 1e-3 || std::abs(t) < 1e-3) best.clear = false;
-    if (t > 0 && t < best.t) best.t = t, best.prim = static_cast<int>(i);
+    if (t > 0 && t < best.t) {
+      best.t = t;
+      best.prim = static_cast<int>(i);
+    }
   }
   return best;
 }
@@ -164,7 +167,8 @@ TEST(Bvh, AxisParallelRaysThroughVerticesHit) {
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j) {
         Vec3 p = Vec3::Zero();
-        p[(axis + 1) % 3] = Float(i - n / 2), p[(axis + 2) % 3] = Float(j - n / 2);
+        p[(axis + 1) % 3] = Float(i - n / 2);
+        p[(axis + 2) % 3] = Float(j - n / 2);
         positions.push_back(p);
         if (i == n || j == n) continue;
         const auto a = static_cast<std::uint32_t>(i * (n + 1) + j), b = a + n + 1;
@@ -178,8 +182,10 @@ TEST(Bvh, AxisParallelRaysThroughVerticesHit) {
         for (int i = 0; i <= 2 * n; ++i)
           for (int j = 0; j <= 2 * n; ++j) {
             Ray ray{Vec3::Zero(), Vec3::Constant(zero)};
-            ray.o[axis] = side, ray.d[axis] = -side;
-            ray.o[(axis + 1) % 3] = Float(i - n) / 2, ray.o[(axis + 2) % 3] = Float(j - n) / 2;
+            ray.o[axis] = side;
+            ray.d[axis] = -side;
+            ray.o[(axis + 1) % 3] = Float(i - n) / 2;
+            ray.o[(axis + 2) % 3] = Float(j - n) / 2;
             const auto hit = bvh.intersect(ray);
             ASSERT_TRUE(hit.has_value()) << "axis " << axis << " from " << ray.o.transpose();
             EXPECT_EQ(hit->t, Float(1));

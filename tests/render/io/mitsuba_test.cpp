@@ -34,7 +34,9 @@ TEST_F(Mitsuba, EveryGallerySceneLoadsAndRenders) {
     ++scenes;
     const render::Scene scene = render::read_mitsuba(entry.path().string()).scene;
     render::RenderOptions options;
-    options.width = 24, options.height = 18, options.spp = 8;
+    options.width = 24;
+    options.height = 18;
+    options.spp = 8;
     const auto result = render::render(scene, options);
     EXPECT_EQ(result.invalid, 0u) << entry.path();
     double sum = 0;
@@ -162,7 +164,9 @@ TEST_P(Reference, BlocksAgree) {
   const render::Image reference = render::read_image(support::shared(file));
   const render::Scene scene = render::read_mitsuba(gallery(name)).scene;
   render::RenderOptions options;
-  options.width = reference.width, options.height = reference.height, options.spp = 64;
+  options.width = reference.width;
+  options.height = reference.height;
+  options.spp = 64;
   options.seed = 3;
   const auto result = render::render(scene, options);
   ASSERT_EQ(result.invalid, 0u);

@@ -47,7 +47,8 @@ struct SamplesFile : support::ScratchTest {
   }
   ValidateOptions options(const std::string& samples, const std::string& pdf) const {
     ValidateOptions o;
-    o.samples_file = samples, o.pdf_file = pdf;
+    o.samples_file = samples;
+    o.pdf_file = pdf;
     return o;
   }
 };

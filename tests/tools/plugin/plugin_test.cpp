@@ -176,7 +176,8 @@ TEST(Plugin, ASweepIsEveryCombination) {
 
 TEST(Plugin, NothingIsWrittenWhenItCrashes) {
   ValidateOptions o = cosine("crash");
-  o.json = testing::TempDir() + "/crash.json", o.junit = testing::TempDir() + "/crash.xml";
+  o.json = testing::TempDir() + "/crash.json";
+  o.junit = testing::TempDir() + "/crash.xml";
   mc::write_file(o.json, "old");
   refusal(o);
   EXPECT_EQ(mc::read_file(o.json), "old");

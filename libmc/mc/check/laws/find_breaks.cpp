@@ -58,8 +58,13 @@ std::vector<S> find_breaks(const std::function<std::vector<S>(const S&)>& map, i
       const S m = (a + b) / 2;
       if (!(m > a && m < b) || S(b - a) < least) break;
       const P fm = map(m);
-      if (step(fa, fm) > step(fm, fb)) b = m, fb = fm;
-      else a = m, fa = fm;
+      if (step(fa, fm) > step(fm, fb)) {
+        b = m;
+        fb = fm;
+      } else {
+        a = m;
+        fa = fm;
+      }
     }
     breaks.push_back(b);
   }
@@ -73,9 +78,22 @@ std::vector<S> find_breaks(const std::function<std::vector<S>(const S&)>& map, i
       const P fl = map(l), fr = map(r);
       // The half with the sharpest bend: left, middle or right.
       const double left = bend(fa, fl, fm), middle = bend(fl, fm, fr), right = bend(fm, fr, fb);
-      if (middle >= left && middle >= right) a = l, fa = fl, b = r, fb = fr;
-      else if (left > right) b = m, fb = fm, m = l, fm = fl;
-      else a = m, fa = fm, m = r, fm = fr;
+      if (middle >= left && middle >= right) {
+        a = l;
+        fa = fl;
+        b = r;
+        fb = fr;
+      } else if (left > right) {
+        b = m;
+        fb = fm;
+        m = l;
+        fm = fl;
+      } else {
+        a = m;
+        fa = fm;
+        m = r;
+        fm = fr;
+      }
     }
     breaks.push_back(m);
   }

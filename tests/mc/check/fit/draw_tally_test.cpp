@@ -12,7 +12,9 @@ using Draw = mc::Subject::Draw;
 // Every tenth draw is broken in one of five ways, in turn.
 mc::Subject broken_subject() {
   mc::Subject s;
-  s.name = "broken", s.dim = 1, s.atoms = {0.5, 0};
+  s.name = "broken";
+  s.dim = 1;
+  s.atoms = {0.5, 0};
   s.draw = [](std::uint64_t, std::size_t n, std::vector<Draw>& out) {
     for (std::size_t i = 0; i < n; ++i) {
       Draw& d = out.emplace_back();
@@ -23,7 +25,7 @@ mc::Subject broken_subject() {
       case 1: d.kind = Draw::Kind::outside; break;
       case 2: d.pdf_positive = false; break;
       case 3: d.weight = 2; break;
-      default: d.kind = Draw::Kind::atom, d.atom = 1;
+      default: d.kind = Draw::Kind::atom; d.atom = 1;
       }
     }
   };

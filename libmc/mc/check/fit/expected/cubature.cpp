@@ -41,7 +41,8 @@ struct Rule {
       }
     }
     // Just inside the faces: what holds on the far side of a face is another box's business.
-    x.front() = 0x1p-24, x.back() = 1 - 0x1p-24;
+    x.front() = 0x1p-24;
+    x.back() = 1 - 0x1p-24;
   }
 
  private:
@@ -74,7 +75,10 @@ class Integrator {
     const int n = rule.nodes;
     std::array<double, 3> width{1, 1, 1};
     double volume = 1;
-    for (int d = 0; d < dim_; ++d) width[ix(d)] = r.box.hi[ix(d)] - r.box.lo[ix(d)], volume *= width[ix(d)];
+    for (int d = 0; d < dim_; ++d) {
+      width[ix(d)] = r.box.hi[ix(d)] - r.box.lo[ix(d)];
+      volume *= width[ix(d)];
+    }
     const std::array<int, 3> count{n, dim_ > 1 ? n : 1, dim_ > 2 ? n : 1};
     values_.clear();
     std::array<double, 3> v{};
@@ -89,7 +93,8 @@ class Integrator {
             if (!bad) bad = v;
             value = 0;
           }
-          largest = std::max(largest, value), least = std::min(least, value);
+          largest = std::max(largest, value);
+          least = std::min(least, value);
           values_.push_back(value);
         }
     evaluations += values_.size();
@@ -116,11 +121,16 @@ class Integrator {
               d[level] += w * s.weight * std::abs(line[static_cast<int>(s.node) * step] - expected);
             }
         }
-      e1 += d[0], e2 += d[1];
-      if (d[0] > worst) worst = d[0], r.axis = axis;
+      e1 += d[0];
+      e2 += d[1];
+      if (d[0] > worst) {
+        worst = d[0];
+        r.axis = axis;
+      }
     }
     r.value = integral * volume;
-    e1 *= volume, e2 *= volume;
+    e1 *= volume;
+    e2 *= volume;
     // Geometric convergence: the next surplus would be about e1 (e1 / e2); ten times that is the bound.
     const double ratio = e2 > 0 ? e1 / e2 : 0.0;
     r.error = ratio < 0.1 ? 10 * e1 * ratio : e1;
@@ -140,7 +150,10 @@ class Integrator {
     evaluate(other);
     // A bound that its own halves refute says that theirs are too small as well.
     const double change = std::abs(r.value + other.value - claimed);
-    if (change > bound) r.error = std::max(r.error, change / 4), other.error = std::max(other.error, change / 4);
+    if (change > bound) {
+      r.error = std::max(r.error, change / 4);
+      other.error = std::max(other.error, change / 4);
+    }
     return other;
   }
   static bool divisible(const Region& r) {
@@ -188,7 +201,10 @@ CubatureResult integrate_boxes(const std::function<double(const std::array<doubl
     regions.push_back(whole);
     for (;;) {
       double value = 0, error = 0;
-      for (std::size_t r = first; r < regions.size(); ++r) value += regions[r].value, error += regions[r].error;
+      for (std::size_t r = first; r < regions.size(); ++r) {
+        value += regions[r].value;
+        error += regions[r].error;
+      }
       const double allowed = goal.box_error ? goal.box_error(value) : goal.total_error;
       if (error <= allowed) break;
       if (integrator.evaluations >= goal.max_evaluations) {
@@ -225,8 +241,10 @@ CubatureResult integrate_boxes(const std::function<double(const std::array<doubl
   CompensatedSum value, bound;
   for (const Region& r : regions) {
     auto& box = result.boxes[static_cast<std::size_t>(r.owner)];
-    box.value += r.value, box.error += r.error;
-    value.add(r.value), bound.add(r.error);
+    box.value += r.value;
+    box.error += r.error;
+    value.add(r.value);
+    bound.add(r.error);
   }
   result.total = {value.value(), bound.value()};
   result.converged = result.converged && result.total.error <= goal.total_error;

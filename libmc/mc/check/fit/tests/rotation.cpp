@@ -21,7 +21,10 @@ double face(const Subject& s, const UnitBox& box, std::size_t axis, double at) {
   std::array<std::size_t, 2> others{};
   std::size_t n = 0;
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
-    if (d != axis) area *= box.hi[d] - box.lo[d], others[n++] = d;
+    if (d != axis) {
+      area *= box.hi[d] - box.lo[d];
+      others[n++] = d;
+    }
   const auto value = [&](double a, double b) {
     Subject::Coordinates v{};
     v[axis] = std::min(at, 1 - 1e-12);
@@ -44,7 +47,10 @@ std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Pa
                                     const std::vector<Cell>& cells, const std::vector<Partition::Coordinates>& pilot) {
   const auto size = static_cast<std::size_t>(partition.size());
   double n = 0, mass = 0;
-  for (std::size_t i = 0; i < size; ++i) n += cells[i].observed, mass += cells[i].p;
+  for (std::size_t i = 0; i < size; ++i) {
+    n += cells[i].observed;
+    mass += cells[i].p;
+  }
   if (!(mass > 0) || n == 0 || size < 8) return {};
 
   double before = 0, dof = 0, score = 0, information = 0;
@@ -54,8 +60,10 @@ std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Pa
     const UnitBox box = partition.box(static_cast<int>(i));
     const double off = cells[i].observed - expected;
     const double rate = n / mass * (face(s, box, axis, box.lo[axis]) - face(s, box, axis, box.hi[axis]));
-    dof += 1, before += off * off / expected;
-    score += rate * off / expected, information += rate * rate / expected;
+    dof += 1;
+    before += off * off / expected;
+    score += rate * off / expected;
+    information += rate * rate / expected;
   }
   const double turn_of_score = score / information; // NaN when no turn changes the density
   if (std::isfinite(information) && std::abs(turn_of_score) < 0.01 &&
@@ -74,7 +82,8 @@ std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Pa
     for (std::size_t i = 0; i < pilot.size(); i += stride) {
       Partition::Coordinates v = pilot[i];
       v[axis] = std::min(v[axis] - turn - std::floor(v[axis] - turn), 1 - 0x1p-53);
-      ++count[static_cast<std::size_t>(partition.cell(v)) / run], ++m;
+      ++count[static_cast<std::size_t>(partition.cell(v)) / run];
+      ++m;
     }
     double sum = 0;
     for (std::size_t i = 0; i < p.size(); ++i) sum += sqr(count[i] - m * p[i]) / std::max(m * p[i], 1.0);
@@ -83,7 +92,10 @@ std::optional<double> find_rotation(const Subject& s, std::size_t axis, const Pa
   const double unturned = chi_square(0);
   double best = unturned, turn = 0;
   const auto try_turn = [&](double t) {
-    if (const double c = chi_square(t); c < best) best = c, turn = t;
+    if (const double c = chi_square(t); c < best) {
+      best = c;
+      turn = t;
+    }
   };
   for (int k = 1; k < 72; ++k) try_turn(k / 72.0);
   for (const double step : {1 / 216.0, 1 / 648.0, 1 / 1944.0})

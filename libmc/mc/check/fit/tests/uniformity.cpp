@@ -21,7 +21,9 @@ std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& p
   const auto note = [&](double p, double statistic, const std::string& what) {
     family += 1;
     if (p >= *c.p) return;
-    c.p = p, c.statistic = statistic, c.detail = what;
+    c.p = p;
+    c.statistic = statistic;
+    c.detail = what;
   };
   const auto moment = [&](double sum, double mean, double variance, double slope, const std::string& what) {
     const double z = (sum / n - mean) / std::sqrt(variance / n), bias = slope * error / std::sqrt(variance / n);
@@ -34,7 +36,8 @@ std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& p
     double mean = 0, square = 0;
     for (const auto& u : points) {
       values.push_back(u[a]);
-      mean += u[a], square += u[a] * u[a];
+      mean += u[a];
+      square += u[a] * u[a];
     }
     const KsTest ks = ks_test(std::move(values), [](double x) { return std::clamp(x, 0.0, 1.0); });
     note(kolmogorov_tail(std::max(ks.d - error, 0.0) * (root + 0.12 + 0.11 / root)), ks.d,

@@ -93,9 +93,13 @@ TEST(Cubature, TheBoundHoldsForRandomProducts) {
     const int dim = k % 10 == 0 ? 3 : 1 + k % 2;
     std::vector<Factor> factors;
     double exact = 1;
-    for (int d = 0; d < dim; ++d) factors.push_back(random_factor(random)), exact *= factors.back().integral;
+    for (int d = 0; d < dim; ++d) {
+      factors.push_back(random_factor(random));
+      exact *= factors.back().integral;
+    }
     mc::CubatureGoal goal;
-    goal.total_error = 1e-4 * exact, goal.max_evaluations = 200'000;
+    goal.total_error = 1e-4 * exact;
+    goal.max_evaluations = 200'000;
     const auto r = mc::integrate_boxes(
         [&](const Point& v) {
           double product = 1;
@@ -109,8 +113,10 @@ TEST(Cubature, TheBoundHoldsForRandomProducts) {
 
 TEST(Cubature, BoxesAddUpToTheWhole) {
   std::vector<mc::UnitBox> boxes(4);
-  for (std::size_t i = 0; i < 4; ++i)
-    boxes[i].lo[0] = static_cast<double>(i) / 4, boxes[i].hi[0] = static_cast<double>(i + 1) / 4;
+  for (std::size_t i = 0; i < 4; ++i) {
+    boxes[i].lo[0] = static_cast<double>(i) / 4;
+    boxes[i].hi[0] = static_cast<double>(i + 1) / 4;
+  }
   const auto r = mc::integrate_boxes([](const Point& v) { return 3 * v[0] * v[0]; }, 2, boxes);
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_NEAR(r.boxes[i].value,
@@ -120,7 +126,8 @@ TEST(Cubature, BoxesAddUpToTheWhole) {
 
 TEST(Cubature, SaysWhenItDidNotConverge) {
   mc::CubatureGoal g;
-  g.total_error = 1e-9, g.max_evaluations = 1000;
+  g.total_error = 1e-9;
+  g.max_evaluations = 1000;
   const auto r = mc::integrate_boxes([](const Point& v) { return v[0] * v[0] + v[1] * v[1] < 1 ? 1.0 : 0.0; }, 2,
                                      {mc::UnitBox{}}, g);
   EXPECT_FALSE(r.converged);

@@ -37,8 +37,10 @@ TEST(Partition, CellsTileTheCubeAndHoldEqualShares) {
         const mc::UnitBox b = partition.box(i);
         double v = 1;
         Point middle{};
-        for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d)
-          v *= b.hi[d] - b.lo[d], middle[d] = 0.5 * (b.lo[d] + b.hi[d]);
+        for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) {
+          v *= b.hi[d] - b.lo[d];
+          middle[d] = 0.5 * (b.lo[d] + b.hi[d]);
+        }
         volume += v;
         EXPECT_EQ(partition.cell(middle), i);
         EXPECT_EQ(partition.cell(b.lo), i);
