@@ -16,7 +16,7 @@ struct Mesh : support::ScratchTest {
     int refused = 0;
     for (std::size_t n = 0; n < bytes.size(); ++n) {
       const std::string file = write(name, bytes.substr(0, n));
-      const std::string said = support::error_of([&] { to_shape(format.second(file), {}); });
+      const std::string said = support::error_of([&] { to_shape(read(file), {}); });
       EXPECT_EQ(said.find('\n'), std::string::npos) << said;
       refused += !said.empty();
     }
