@@ -173,7 +173,8 @@ class Work {
       ++done;
       samples += tallies[y].samples;
       if (options_.progress)
-        options_.progress({fraction(double(done) / double(height())), samples, total_.rays, elapsed(), error_});
+        options_.progress(
+            {fraction(double(done) / double(height())), samples, total_.rays, elapsed(), error_, undecided_});
     });
     for (const Tally& tally : tallies) total_.merge(tally);
     return done;
@@ -234,9 +235,9 @@ class Work {
       if (for_rows(row, fraction) < height()) return;
       estimates_ = (done + 1) * (separate_ ? count : 1);
       error_ = film_.relative_error();
-      partial_ =
-          !(options_.seconds ? elapsed() >= *options_.seconds
-                             : done >= 3 && error_ <= *options_.target_error && film_.undecided() <= most_undecided);
+      undecided_ = film_.undecided();
+      partial_ = !(options_.seconds ? elapsed() >= *options_.seconds
+                                    : done >= 3 && error_ <= *options_.target_error && undecided_ <= most_undecided);
       if (!partial_) return;
     }
   }
@@ -249,6 +250,7 @@ class Work {
   Film film_;
   Tally total_;
   double error_ = mc::infinity<double>; ///< when it was last looked at
+  double undecided_ = 0;                ///< at the same time
   std::uint32_t estimates_ = 0;
   bool partial_ = true;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -22,6 +22,7 @@ struct Progress {
   std::uint64_t samples = 0, rays = 0;
   double seconds = 0;
   double relative_error = 0; ///< infinite while unknown
+  double undecided = 0;      ///< as in RenderResult, when the error was last known
 };
 
 /// While a larger share of the pixels is undecided, a picture has not reached a target error.

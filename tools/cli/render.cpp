@@ -3,10 +3,12 @@
 #include <terminal/progress.h>
 #include <terminal/version.h>
 
+#include <render/film/interval.h>
 #include <render/io/image_io.h>
 #include <render/io/mitsuba.h>
 #include <render/io/mitsuba/reference.h>
 #include <render/render.h>
+#include <render/scene/resolution.h>
 
 #include <mc/core/error.h>
 
@@ -26,6 +28,7 @@ struct RenderOptions {
   std::optional<int> spp;             ///< samples per pixel
   std::optional<double> seconds;      ///< wall-clock budget [s]
   std::optional<double> target_error; ///< mean relative standard error to reach
+  std::string intervals;              ///< file for the half widths of 95 % intervals; empty: none
   std::string size;                   ///< "WxH"; empty: the scene's
   std::string strategy, sampler;      ///< empty: mis, sobol
   std::optional<int> max_depth;       ///< longest path in edges; -1: unlimited
@@ -68,6 +71,7 @@ std::vector<Option> rows(RenderOptions& o) {
        "most 5 % of them",
        false,
        {"--spp", "--time"}},
+      {"--intervals", "FILE", &o.intervals, "Write half the widths of the pixels' 95 % intervals to this image"},
       {"--size", "WxH", &o.size, "Image size in pixels [the scene's]"},
       {"--strategy", "NAME", &o.strategy, "bsdf, hemisphere, light, mixture, nee or mis [mis]"},
       {"--sampler", "NAME", &o.sampler, "independent, stratified or sobol [sobol]"},
@@ -80,22 +84,21 @@ std::vector<Option> rows(RenderOptions& o) {
   };
 }
 
-int render(const RenderOptions& options) {
-  if (options.help_scene) {
-    std::fputs(::render::mitsuba::reference().c_str(), stdout);
-    return exit_ok;
-  }
-  mc::require(!options.scene.empty(), "render: SCENE is required (see carlo render --help)");
-  const std::string output =
-      options.output.empty() ? std::filesystem::path(options.scene).stem().string() + ".exr" : options.output;
-  check_output(output);
+void warn_where_coarse(const std::string& path, const ::render::Scene& scene) {
+  const ::render::Coarseness c = ::render::coarsest(scene);
+  if (c.ratio <= ::render::too_coarse) return;
+  std::fprintf(
+      stderr,
+      "carlo: warning: %s: a surface %.3g across has coordinates of %.3g, where the next number is %.2g further; "
+      "its light and shadow may be wrong. Bring what lies far apart closer together\n",
+      path.c_str(), c.size, c.distance, c.step);
+}
 
-  const auto [scene, defaults] = ::render::read_mitsuba(options.scene, ::render::dialect_from(options.dialect));
-  if (scene.lights().empty())
-    std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", options.scene.c_str());
-
+// What the scene asks for, where the command does not say otherwise.
+::render::RenderOptions settings_of(const RenderOptions& options, const ::render::RenderDefaults& defaults) {
   ::render::RenderOptions settings;
-  settings.width = defaults.width, settings.height = defaults.height;
+  settings.width = defaults.width;
+  settings.height = defaults.height;
   if (!options.size.empty()) parse_size(options.size, settings.width, settings.height);
   settings.spp = options.spp.value_or(defaults.spp);
   settings.seconds = options.seconds;
@@ -108,15 +111,38 @@ int render(const RenderOptions& options) {
   mc::require(options.threads >= 0, "--threads {} must be >= 0", options.threads);
   settings.threads = options.threads;
   settings.seed = options.seed;
+  mc::require(options.intervals.empty() || settings.spp > 1 || settings.seconds || settings.target_error,
+              "--intervals: one sample per pixel has no error bar; take two or more");
+  return settings;
+}
 
+int render(const RenderOptions& options) {
+  if (options.help_scene) {
+    std::fputs(::render::mitsuba::reference().c_str(), stdout);
+    return exit_ok;
+  }
+  mc::require(!options.scene.empty(), "render: SCENE is required (see carlo render --help)");
+  const std::string output =
+      options.output.empty() ? std::filesystem::path(options.scene).stem().string() + ".exr" : options.output;
+  check_output(output);
+  if (!options.intervals.empty()) check_output(options.intervals);
+
+  const auto [scene, defaults] = ::render::read_mitsuba(options.scene, ::render::dialect_from(options.dialect));
+  if (scene.lights().empty())
+    std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", options.scene.c_str());
+
+  warn_where_coarse(options.scene, scene);
+
+  ::render::RenderOptions settings = settings_of(options, defaults);
   Progress progress;
   std::mutex mutex;
   settings.progress = [&](const ::render::Progress& p) {
     const std::lock_guard lock(mutex);
-    progress.show(
-        p.fraction,
-        fmt::format("{}samples/s{}", format_count(double(p.samples) / p.seconds),
-                    std::isfinite(p.relative_error) ? fmt::format("  error {:.2f} %", 100 * p.relative_error) : ""));
+    progress.show(p.fraction, fmt::format("{}samples/s{}", format_count(double(p.samples) / p.seconds),
+                                          std::isfinite(p.relative_error)
+                                              ? fmt::format("  error {:.2f} %, {:.1f} % of the pixels undecided",
+                                                            100 * p.relative_error, 100 * p.undecided)
+                                              : ""));
   };
 
   const Interrupt interrupt;
@@ -142,6 +168,8 @@ int render(const RenderOptions& options) {
   metadata["carlo.invalid_samples"] = fmt::format("{}", result.invalid);
   if (result.partial) metadata["carlo.partial"] = "interrupted before the end";
   ::render::write_image(output, result.image, options.exposure);
+  if (!options.intervals.empty() && !result.image.variance.empty())
+    ::render::write_image(options.intervals, ::render::half_widths(result.image, 0.95));
 
   std::printf("%s: %dx%d, %.4g samples/pixel in %s (%s CPU): %ssamples/s, %srays/s, mean standard error %s, %llu "
               "invalid samples%s%s\n",

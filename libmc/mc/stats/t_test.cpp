@@ -36,4 +36,8 @@ double student_tail(double t, double dof) {
   return 2 * boost::math::cdf(boost::math::complement(boost::math::students_t(dof), std::abs(t)));
 }
 
+double student_quantile(double p, double dof) {
+  return boost::math::quantile(boost::math::complement(boost::math::students_t(dof), p / 2));
+}
+
 } // namespace mc

@@ -31,4 +31,7 @@ double welch_dof(double variance_a, double dof_a, double variance_b, double dof_
 /// P(|T| > |t|) for Student's T with `dof` degrees of freedom.
 double student_tail(double t, double dof);
 
+/// t with P(|T| > t) = p, 0 < p <= 1.
+double student_quantile(double p, double dof);
+
 } // namespace mc

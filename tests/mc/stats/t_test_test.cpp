@@ -48,6 +48,8 @@ TEST(TTest, WelchsDegreesOfFreedom) {
   EXPECT_NEAR(mc::welch_dof(1e-300, 4, 3e-300, 6), 16 / (1 / 4.0 + 9 / 6.0), 1e-12);
   EXPECT_EQ(mc::welch_dof(0, 4, 0, 6), 10);
   EXPECT_NEAR(mc::student_tail(-1, 1), 0.5, 1e-12);
+  EXPECT_NEAR(mc::student_quantile(0.5, 1), 1, 1e-12);
+  EXPECT_NEAR(mc::student_tail(mc::student_quantile(0.05, 8), 8), 0.05, 1e-12);
 }
 
 TEST(TTest, RefusesNonsense) {

@@ -41,6 +41,7 @@ TEST_F(RenderCommand, RefusesBadInputInOneLine) {
   expect_refused(cbox() + " --sampler sobl", {"'sobl'", "did you mean 'sobol'"});
   expect_refused(cbox() + " --strategy mess", {"'mess'", "did you mean 'mis'"});
   expect_refused(cbox() + " --max-depth 0", {"--max-depth 0"});
+  expect_refused(cbox() + " --spp 1 --intervals " + path("w.pfm"), {"--intervals", "two or more"});
   expect_refused(cbox() + " --threads -2", {"--threads -2"});
   expect_refused(scenes + "cbox.xml --size 8 -o " + path("out.pfm"), {"--size '8'", "WIDTHxHEIGHT"});
   expect_refused(scenes + "cbox.xml -o " + path("no/such/out.pfm"), {"no/such", "does not exist"});
@@ -54,6 +55,34 @@ TEST_F(RenderCommand, OutputThatCannotBeWrittenIsOneLine) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.output, HasSubstr("taken.pfm"));
   EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+}
+
+TEST_F(RenderCommand, WritesIntervals) {
+  const support::Run run = run_carlo("render " + cbox() + " --spp 8 --intervals " + path("w.pfm"));
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  const render::Image image = render::read_image(path("out.pfm")), widths = render::read_image(path("w.pfm"));
+  ASSERT_EQ(widths.pixels.size(), image.pixels.size());
+  double sum = 0;
+  for (const render::Spectrum& w : widths.pixels) {
+    EXPECT_TRUE((w >= 0).all());
+    sum += double(w.sum());
+  }
+  EXPECT_GT(sum, 0);
+}
+
+// A pebble in a scene a thousand kilometres wide is more than floats can hold.
+TEST_F(RenderCommand, WarnsWhereFloatsCannotHoldAScene) {
+  const std::string start = R"(<scene version="0.5.0"><sensor type="perspective"/><emitter type="constant"/>
+    <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape><shape type="sphere"><point name="center")";
+  const auto render_with = [&](const std::string& place) {
+    return run_carlo("render " + write("pebble.xml", start + place + "</shape></scene>") + " --spp 2 --size 4x4 -o " +
+                     path("out.pfm"));
+  };
+  const support::Run coarse = render_with(R"( x="1e6" y="0" z="0"/><float name="radius" value="0.01"/>)");
+  EXPECT_EQ(coarse.exit_code, 0) << coarse.output;
+  EXPECT_THAT(coarse.output, HasSubstr("carlo: warning: " + path("pebble.xml") + ": a surface 0.0346 across"));
+  const support::Run fine = render_with(R"( x="1e6" y="0" z="0"/><float name="radius" value="1000"/>)");
+  EXPECT_THAT(fine.output, Not(HasSubstr("warning")));
 }
 
 TEST_F(RenderCommand, SceneWithoutLightIsBlackWithAWarning) {
