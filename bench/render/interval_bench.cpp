@@ -1,0 +1,72 @@
+/// What the error bars of pixels are worth: the share of 95 % intervals that hold the truth, as CSV on stdout.
+/// Usage: bench_render_interval SCENE.xml... [-- SEEDS [SIZE [REFERENCE_SPP]]]
+///   alone  : by the pixel's own variance, Student's t with 3 degrees of freedom
+///   shared : half_widths
+///   low, high : intervals that lie below and above the truth
+
+#include <render/film/interval.h>
+#include <render/io/mitsuba.h>
+#include <render/render.h>
+
+#include <mc/stats/t_test.h>
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace {
+
+using namespace render;
+
+struct Coverage {
+  double n = 0, low = 0, high = 0;
+  void add(double off, double half_width) {
+    ++n;
+    low += off < -half_width;
+    high += off > half_width;
+  }
+  std::string text() const { return fmt::format("{:.4f},{:.4f},{:.4f}", 1 - (low + high) / n, low / n, high / n); }
+};
+
+void show(const std::string& path, int seeds, int size, int reference_spp) {
+  const SceneFile file = read_mitsuba(path);
+  RenderOptions options;
+  options.width = options.height = size;
+  options.spp = reference_spp;
+  options.seed = 1'000'000;
+  const Image truth = render::render(file.scene, options).image;
+  const double q = mc::student_quantile(0.05, 3);
+  for (const int spp : {4, 16, 64, 256}) {
+    Coverage alone, shared;
+    double undecided = 0;
+    options.spp = spp;
+    for (options.seed = 0; options.seed < std::uint64_t(seeds); ++options.seed) {
+      const RenderResult result = render::render(file.scene, options);
+      const Image widths = half_widths(result.image, 0.95);
+      undecided += result.undecided / seeds;
+      for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+          const double off = double(result.image.pixels[i][c]) - double(truth.pixels[i][c]);
+          alone.add(off, q * std::sqrt(double(result.image.variance[i][c])));
+          shared.add(off, double(widths.pixels[i][c]));
+        }
+    }
+    fmt::print("{},{},{},{:.4f},{},{}\n", std::filesystem::path(path).stem().string(), spp, seeds, undecided,
+               alone.text(), shared.text());
+    std::fflush(stdout);
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  int scenes = 1;
+  while (scenes < argc && std::strcmp(argv[scenes], "--") != 0) ++scenes;
+  const auto number = [&](int place, int fallback) {
+    return scenes + place < argc ? std::atoi(argv[scenes + place]) : fallback;
+  };
+  fmt::print("scene,spp,seeds,undecided,alone,alone_low,alone_high,shared,shared_low,shared_high\n");
+  for (int i = 1; i < scenes; ++i) show(argv[i], number(1, 200), number(2, 16), number(3, 100'000));
+}

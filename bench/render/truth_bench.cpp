@@ -1,0 +1,100 @@
+/// Pictures of scenes made by machine, by every unbiased strategy and sampler, against what they should be: a row of
+/// CSV for each on stdout; on stderr how often the z-scores are as large as chance makes them.
+/// Usage: bench_render_truth [FAMILIES [SEED [SETS [POINTS]]]]
+///   should : the closed form; where its error is not 0 the mean of the family's first picture by mis, of eight times
+///            as many sets
+///   z      : see z_score in measure.h
+///   state  : decided; undecided; dark where no light was found; rare where a strategy that meets lights by chance
+///            expects to meet the smallest less than 100 times
+
+#include "truth/measure.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+namespace {
+
+using namespace render;
+using namespace render::truth;
+
+struct Scores {
+  int rows = 0, others = 0, above_2 = 0, above_3 = 0;
+  double squares = 0, largest = 0;
+
+  void add(std::string_view state, double z) {
+    ++rows;
+    if (state != "decided") ++others;
+    else {
+      above_2 += std::abs(z) > 1.96;
+      above_3 += std::abs(z) > 2.576;
+      squares += z * z;
+      largest = std::max(largest, std::abs(z));
+    }
+  }
+  void print(const std::string& name) const {
+    const double n = rows - others;
+    fmt::print(stderr, "{:<32} {:5} {:7} {:8.4f} {:8.4f} {:8.3f} {:8.2f}\n", name, rows, n, above_2 / n, above_3 / n,
+               std::sqrt(squares / n), largest);
+  }
+};
+
+struct Run {
+  std::uint64_t seed;
+  std::uint32_t sets, points;
+  std::uint64_t estimates = 0;
+  std::map<std::string, Scores> scores = {};
+
+  std::string_view state_of(const Family& family, const Strategy& strategy, const Measured& m) const {
+    const bool by_chance = strategy.finding == Finding::by_chance && strategy.target != Target::lights;
+    if (by_chance && family.rarest * sets * points < 100) return "rare";
+    if (m.means.mean() == 0) return "dark";
+    return m.undecided ? "undecided" : "decided";
+  }
+
+  void show(int number, const Family& family) {
+    double should = family.truth.value_or(0), error = 0, dof = mc::infinity<double>;
+    if (!family.truth) {
+      const auto m = measure(family.pictures[0], strategy_from("mis"), PixelSampler::sobol, seed + 1, 8 * sets, points);
+      should = m.means.mean();
+      error = m.means.std_error();
+      dof = double(m.means.count() - 1);
+    }
+    std::size_t turn = static_cast<std::size_t>(number);
+    for (const Picture& picture : family.pictures)
+      for (const Strategy& strategy : strategies) {
+        if (strategy.name == "light") continue;
+        for (const auto sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
+          // Of what must look like the first, each strategy meets one sampler in turn.
+          if (&picture != &family.pictures[0] && ++turn % 3 != 0) continue;
+          const Measured m = measure(picture, strategy, sampler, mc::hash(seed, estimates++), sets, points);
+          const double z = z_score(m, should, error, dof, family.rounding * should);
+          const std::string_view state = state_of(family, strategy, m);
+          fmt::print("{},{},{},{},{},{:.9g},{:.3g},{:.9g},{:.3g},{:.3f},{}\n", number, family.kind, picture.variant,
+                     strategy.name, name(sampler), m.means.mean(), m.means.std_error(), should, error, z, state);
+          for (const std::string& key :
+               {family.kind + ": " + picture.variant, "strategy: " + std::string(strategy.name),
+                "sampler: " + std::string(name(sampler)), std::string("all")})
+            scores[key].add(state, z);
+        }
+      }
+  }
+};
+
+} // namespace
+
+int main(int argc, char** argv) {
+  const int families = argc > 1 ? std::atoi(argv[1]) : 300;
+  const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
+  Run run{seed, argc > 3 ? std::uint32_t(std::atoi(argv[3])) : 32, argc > 4 ? std::uint32_t(std::atoi(argv[4])) : 256};
+  fmt::print("family,kind,variant,strategy,sampler,mean,std_error,should,should_error,z,state\n");
+  for (int i = 0; i < families; ++i) {
+    mc::Pcg random(seed, std::uint64_t(i));
+    run.show(i, any(random));
+  }
+  fmt::print(stderr, "{:<32} {:>5} {:>7} {:>8} {:>8} {:>8} {:>8}\n", "", "rows", "decided", "|z|>1.96", "|z|>2.58",
+             "rms z", "largest");
+  for (const auto& [name, scores] : run.scores) scores.print(name);
+}
