@@ -72,8 +72,9 @@ TEST_F(RenderCommand, WritesIntervals) {
 
 // A pebble in a scene a thousand kilometres wide is more than floats can hold.
 TEST_F(RenderCommand, WarnsWhereFloatsCannotHoldAScene) {
-  const std::string start = R"(<scene version="0.5.0"><sensor type="perspective"/><emitter type="constant"/>
-    <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape><shape type="sphere"><point name="center")";
+  const std::string start = R"(<scene version="0.5.0"><sensor type="perspective"><float name="fov" value="40"/></sensor>
+    <emitter type="constant"/><shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape>
+    <shape type="sphere"><point name="center")";
   const auto render_with = [&](const std::string& place) {
     return run_carlo("render " + write("pebble.xml", start + place + "</shape></scene>") + " --spp 2 --size 4x4 -o " +
                      path("out.pfm"));
