@@ -12,7 +12,7 @@ namespace render {
 /// What a strategy aims directions at.
 enum class Target {
   nothing,
-  hemisphere, ///< every direction on the side of the path
+  hemisphere, ///< every direction on the side of the path; on both where light goes through the surface
   lights,     ///< the shapes of the lights, and the guides
   speculars   ///< spheres of glass or mirror, which may cast caustics of the lights
 };

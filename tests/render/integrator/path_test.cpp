@@ -143,6 +143,22 @@ TEST(Path, LightsInMirrorsAndThroughGlass) {
   }
 }
 
+// Ground glass sends light to both sides, and so must every strategy: 5 standard errors, alpha = 6e-7.
+TEST(Path, EveryStrategySeesThroughGroundGlass) {
+  SceneBuilder builder;
+  builder.add(Light(ConstantBackground(Spectrum::Ones())));
+  builder.add(horizontal(0, 0, 0, 5, 5, true), {builder.add(RoughDielectric(Float(1.5), Float(0.5)))});
+  builder.add(horizontal(0, 9, 0, 1, 1, false), {builder.add(Lambert()), Emission{}});
+  const Scene scene = builder.build();
+  const Ray ray{Vec3(1, 2, 0), Vec3(Float(-0.5), -1, 0).normalized()};
+  const mc::Moments followed = trace(scene, ray, {strategy_from("bsdf"), 2}, 100'000);
+  EXPECT_GT(followed.mean(), 0.5);
+  for (const Strategy& s : unbiased) {
+    const mc::Moments m = trace(scene, ray, {s, 2}, 100'000);
+    EXPECT_LE(std::abs(m.mean() - followed.mean()), 5 * std::hypot(m.std_error(), followed.std_error())) << word(s);
+  }
+}
+
 // Everything at once: two lights, sky, glass, fuzzy metal. All agree with mis; light-only loses what surfaces reflect.
 TEST(Path, StrategiesAgree) {
   SceneBuilder builder;
