@@ -152,7 +152,7 @@ TEST(Path, EveryStrategySeesThroughGroundGlass) {
   const Scene scene = builder.build();
   const Ray ray{Vec3(1, 2, 0), Vec3(Float(-0.5), -1, 0).normalized()};
   const mc::Moments followed = trace(scene, ray, {strategy_from("bsdf"), 2}, 100'000);
-  EXPECT_GT(followed.mean(), 0.5);
+  EXPECT_GT(followed.mean(), 0.3); // radiance falls by 1.5^2 on its way through
   for (const Strategy& s : unbiased) {
     const mc::Moments m = trace(scene, ray, {s, 2}, 100'000);
     EXPECT_LE(std::abs(m.mean() - followed.mean()), 5 * std::hypot(m.std_error(), followed.std_error())) << word(s);
