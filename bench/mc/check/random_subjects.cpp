@@ -149,11 +149,11 @@ template <mc::Real S> Subject shapes(Pcg& r) {
   case 8: return plain("bilinear", mc::Bilinear<S>(real(0.01, 1), real(0.01, 1), real(0.01, 1), real(0.01, 1)));
   case 9: {
     const mc::Normal<S> x(static_cast<S>(between(r, -1, 1)), real(0.1, 2)), y(S(0), real(0.1, 2));
-    return plain("normal in the plane", mc::Product(x, y));
+    return plain("normal in the plane", mc::Product{x, y});
   }
   default: {
     const mc::Tent<S> x(S(0), real(0.1, 3)), y(static_cast<S>(between(r, -1, 1)), real(0.1, 3));
-    return plain("tent in the plane", mc::Product(x, y));
+    return plain("tent in the plane", mc::Product{x, y});
   }
   }
 }
