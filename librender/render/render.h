@@ -32,7 +32,7 @@ struct RenderOptions {
   int width = 256, height = 256;
   int spp = 64;                       ///< samples per pixel, unless one of the next two is given
   std::optional<double> seconds;      ///< wall-clock budget [s]
-  std::optional<double> target_error; ///< relative RMS standard error of the pixels, at most most_undecided of them
+  std::optional<double> target_error; ///< relative RMS standard error of the pixels, see most_undecided
   Strategy strategy = strategy_from("mis");
   PixelSampler sampler = PixelSampler::sobol;
   int max_depth = -1; ///< longest path in edges; -1: no limit

@@ -20,7 +20,7 @@ std::vector<Side> parse_sides(const std::string& box);
 
 /// Where u in [0,1] lies on a side: x, increasing in u, and dx/du.
 ///   finite : x = lo (1 - u) + hi u
-///   lo:inf : x = lo + u / (1 - u); -inf:hi mirrored; -inf:inf : x = t / (1 - t^2), t = 2 u - 1 [PiessensEtAl83]
+///   lo:inf : x = lo + u / (1 - u) [PiessensEtAl83]; -inf:hi mirrored; -inf:inf : x = t / (1 - t^2), t = 2 u - 1
 struct Placed {
   double x, slope;
 };

@@ -29,6 +29,9 @@ struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic, RoughDielec
   bool has_delta() const {
     return dispatch(*this, [](const auto& b) { return b.has_delta(); });
   }
+  bool transmits() const {
+    return dispatch(*this, [](const auto& b) { return b.transmits(); });
+  }
 };
 
 } // namespace render

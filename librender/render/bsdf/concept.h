@@ -22,6 +22,7 @@ struct BsdfSample {
 ///   pdf(wo, wi)       : density of wi [1/sr], delta lobes excluded
 ///   is_delta()        : it has delta lobes only, so light sampling is of no use
 ///   has_delta()       : it has a delta lobe, perhaps besides others
+///   transmits()       : light goes through it, in other directions than a delta lobe's
 template <class T>
 concept BsdfLike = requires(const T b, Vec3 wo, Vec3 wi, Float uc, Vec2 u) {
   { b.sample(wo, uc, u) } -> std::same_as<std::optional<BsdfSample>>;
@@ -29,6 +30,7 @@ concept BsdfLike = requires(const T b, Vec3 wo, Vec3 wi, Float uc, Vec2 u) {
   { b.pdf(wo, wi) } -> std::convertible_to<Float>;
   { b.is_delta() } -> std::convertible_to<bool>;
   { b.has_delta() } -> std::convertible_to<bool>;
+  { b.transmits() } -> std::convertible_to<bool>;
 };
 
 } // namespace render

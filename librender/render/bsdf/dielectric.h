@@ -55,6 +55,7 @@ class Dielectric {
   Float pdf(const Vec3&, const Vec3&) const { return 0; }
   bool is_delta() const { return true; }
   bool has_delta() const { return true; }
+  bool transmits() const { return false; }
 
  private:
   Float eta_;

@@ -62,6 +62,7 @@ class Metal {
   }
   bool is_delta() const { return fuzz_ == 0; }
   bool has_delta() const { return is_delta(); }
+  bool transmits() const { return false; }
 
  private:
   Spectrum albedo_;

@@ -56,6 +56,7 @@ class RoughDielectric {
   }
   bool is_delta() const { return false; }
   bool has_delta() const { return false; }
+  bool transmits() const { return true; }
 
  private:
   /// The surface seen with wo above it, and the index on the far side over that on the side of wo.

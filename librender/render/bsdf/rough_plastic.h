@@ -58,6 +58,7 @@ class RoughPlastic {
   }
   bool is_delta() const { return false; }
   bool has_delta() const { return false; }
+  bool transmits() const { return false; }
 
  private:
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;

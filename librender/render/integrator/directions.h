@@ -64,12 +64,6 @@ class Directions {
   }
 
  private:
-  // Whether light goes through in other directions than a delta lobe's: then a hemisphere is not all there is.
-  template <class B> static bool transmits(const B& bsdf) {
-    if constexpr (std::same_as<B, Bsdf>) return std::holds_alternative<RoughDielectric>(bsdf);
-    else return false;
-  }
-
   // Outcome 1 aims, 0 follows the BSDF.
   template <class B> const mc::Bernoulli<Float>& aimed(const B& bsdf) const {
     return bsdf.has_delta() ? aims_for_delta_ : aims_;
@@ -100,7 +94,7 @@ class Directions {
   // The targets' part.
   template <class B> std::optional<Direction> aim(const Vertex<B>& at, const Vec2& u) const {
     if (shapes_.empty()) {
-      const bool through = transmits(at.bsdf);
+      const bool through = at.bsdf.transmits();
       Vec3 wi = through ? mc::UniformSphere<Float>{}.sample(u) : mc::UniformHemisphere<Float>{}.sample(u);
       if (!through && at.wo.z() < 0) wi.z() = -wi.z();
       const Vec3 d = at.frame.to_world(wi);
@@ -126,7 +120,7 @@ class Directions {
     return (follows_ ? aims.pmf(0) * own : Float(0)) + aims.pmf(1) * targets;
   }
   template <class B> Float targets_pdf(const Vertex<B>& at, const Vec3& wi, const Vec3& d) const {
-    if (shapes_.empty() && transmits(at.bsdf)) return 1 / (4 * mc::pi<Float>);
+    if (shapes_.empty() && at.bsdf.transmits()) return 1 / (4 * mc::pi<Float>);
     if (shapes_.empty()) return wi.z() * at.wo.z() >= 0 ? 1 / (2 * mc::pi<Float>) : Float(0);
     return mc::mixture_pdf(*targets_, [&](std::size_t i) { return shapes_[i]->pdf(at.point.p, d); });
   }

@@ -1,7 +1,5 @@
 #include <render/scene/resolution.h>
 
-#include <render/core/bounds.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -25,10 +23,7 @@ Coarseness coarseness(const Sphere& s) {
 }
 
 Coarseness coarseness(const TriangleMesh& mesh) {
-  Bounds bounds;
-  for (std::size_t i = 0; i < mesh.size(); ++i)
-    for (const Vec3& p : mesh.vertices(i)) bounds.add(p);
-  return coarseness(bounds.lo.cast<double>(), bounds.hi.cast<double>());
+  return coarseness(mesh.bounds().lo.cast<double>(), mesh.bounds().hi.cast<double>());
 }
 
 } // namespace

@@ -16,8 +16,8 @@ struct Coarseness {
 /// Of the coarsest surface of a scene; all 0 where there is none.
 Coarseness coarsest(const Scene& scene);
 
-/// From this ratio on rounding may change the light or the shadow of a surface by a per cent: the light of a lamp moved
-/// away with its floor was off by .7 to 1.2 % at four times this ratio, the mean of thirty, and by 2.6 % at most.
+/// From this ratio on carlo warns: rounding moves the corners of a surface by a thousandth of its size, and so what it
+/// lights or shades by about as much.
 inline constexpr double too_coarse = 1e-3;
 
 } // namespace render

@@ -49,6 +49,8 @@ class TriangleMesh {
   void forget_uvs() { uvs_ = {}; }
 
   std::size_t size() const { return faces_.size(); }
+  /// Of all triangles; empty without any.
+  const Bounds& bounds() const { return bounds_; }
   std::array<Vec3, 3> vertices(std::size_t triangle) const {
     const auto& t = faces_[triangle].vertices;
     return {positions_[t[0]], positions_[t[1]], positions_[t[2]]};

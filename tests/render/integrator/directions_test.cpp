@@ -35,6 +35,7 @@ class Coated {
   Float pdf(const Vec3& wo, const Vec3& wi) const { return base_.pdf(wo, wi) / 2; }
   bool is_delta() const { return false; }
   bool has_delta() const { return true; }
+  bool transmits() const { return false; }
 
  private:
   Lambert base_;

@@ -251,6 +251,7 @@ class Coated {
   Float pdf(const Vec3& wo, const Vec3& wi) const { return Float(0.7) * base_.pdf(wo, wi); }
   bool is_delta() const { return false; }
   bool has_delta() const { return true; }
+  bool transmits() const { return false; }
 
  private:
   Lambert base_{Spectrum::Constant(Float(0.35))};

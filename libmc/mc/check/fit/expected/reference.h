@@ -29,7 +29,7 @@ struct PilotCells {
 ///            exceeds the cap could hide between the points, so it is left out on both sides: the density counts as
 ///            min(pdf, cap), and a sample as min(1, cap / pdf), which has the same mean. No point and no sample then
 ///            weighs much, and both sums have errors that their own values show
-///   Source : truncated importance weights [Ionides08]; stratified sampling with two points each [Cochran77]
+///   Source : truncated importance weights [Ionides08]; stratified sampling, with two mirrored pairs each [Cochran77]
 class Reference {
  public:
   Reference(const Subject& subject, const Pilot& pilot, const PilotCells& cells, std::uint64_t seed);
