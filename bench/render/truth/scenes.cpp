@@ -2,6 +2,8 @@
 
 #include <render/scene/builder.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 

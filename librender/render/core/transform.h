@@ -3,10 +3,6 @@
 
 #include <render/core/types.h>
 
-#include <mc/core/error.h>
-
-#include <Eigen/LU>
-
 namespace render {
 
 /// Points p -> linear p + translation, in double; the identity by default.
@@ -15,48 +11,25 @@ struct Transform {
   Vec3d translation = Vec3d::Zero();
 
   /// The images of the axes and of the origin.
-  static Transform columns(const Vec3d& x, const Vec3d& y, const Vec3d& z, const Vec3d& origin) {
-    Transform t;
-    t.linear << x, y, z;
-    t.translation = origin;
-    return t;
-  }
-  static Transform translate(const Vec3d& v) { return columns(Vec3d::UnitX(), Vec3d::UnitY(), Vec3d::UnitZ(), v); }
-  static Transform scale(const Vec3d& s) { return columns({s.x(), 0, 0}, {0, s.y(), 0}, {0, 0, s.z()}, Vec3d::Zero()); }
+  static Transform columns(const Vec3d& x, const Vec3d& y, const Vec3d& z, const Vec3d& origin);
+  static Transform translate(const Vec3d& v);
+  static Transform scale(const Vec3d& s);
   /// About `axis` through the origin, by Rodrigues' formula.
   ///   throws : Error for an axis of length 0
-  static Transform rotate(const Vec3d& axis, double degrees) {
-    mc::require(axis.norm() > 0, "rotate: the axis must not be 0");
-    const Vec3d a = axis.normalized();
-    const double angle = degrees * mc::pi<double> / 180, s = std::sin(angle), c = std::cos(angle);
-    Transform t;
-    for (int i = 0; i < 3; ++i)
-      t.linear.col(i) = c * Vec3d::Unit(i) + s * mc::cross<double>(a, Vec3d::Unit(i)) + (1 - c) * a[i] * a;
-    return t;
-  }
+  static Transform rotate(const Vec3d& axis, double degrees);
   /// The frame of a camera, x to its left, y up and z forward, as in Mitsuba.
   ///   throws : Error where target - origin is 0 or parallel to up
-  static Transform look_at(const Vec3d& origin, const Vec3d& target, const Vec3d& up) {
-    const Vec3d forward = (target - origin).normalized(), left = mc::cross<double>(up, forward);
-    mc::require(left.norm() > 0, "lookAt: target - origin must not be 0 or parallel to up");
-    const Vec3d x = left.normalized();
-    return columns(x, mc::cross<double>(forward, x), forward, origin);
-  }
+  static Transform look_at(const Vec3d& origin, const Vec3d& target, const Vec3d& up);
 
-  Vec3d point(const Vec3d& p) const { return linear * p + translation; }
-  Vec3d vector(const Vec3d& v) const { return linear * v; }
+  Vec3d point(const Vec3d& p) const;
+  Vec3d vector(const Vec3d& v) const;
   /// Outward normals stay outward, under mirroring too; not unit.
-  Vec3d normal(const Vec3d& n) const { return linear.inverse().transpose() * n; }
+  Vec3d normal(const Vec3d& n) const;
   /// Whether it turns a right hand into a left one.
-  bool mirrors() const { return linear.determinant() < 0; }
+  bool mirrors() const;
 
   /// First `first`, then this.
-  Transform operator*(const Transform& first) const {
-    Transform t;
-    t.linear = linear * first.linear;
-    t.translation = point(first.translation);
-    return t;
-  }
+  Transform operator*(const Transform& first) const;
 };
 
 } // namespace render

@@ -7,6 +7,12 @@
 
 namespace render {
 
+BsdfId SceneBuilder::add(Bsdf bsdf) { return add(Material{std::move(bsdf), nullptr}); }
+
+BsdfId SceneBuilder::add(TexturedLambert diffuse) {
+  return add(Material{Lambert(), std::make_shared<const TexturedLambert>(std::move(diffuse))});
+}
+
 BsdfId SceneBuilder::add(Material material) {
   materials_.push_back(std::move(material));
   return BsdfId(static_cast<std::uint32_t>(materials_.size() - 1));
@@ -27,6 +33,8 @@ void SceneBuilder::add(Shape shape, const Cover& cover) {
   }
   surfaces_.push_back(std::move(surface));
 }
+
+void SceneBuilder::add(Light light) { lights_.push_back(std::move(light)); }
 
 Scene SceneBuilder::build() {
   mc::require(!surfaces_.empty() ||

@@ -8,10 +8,8 @@ namespace render {
 /// Collects what a reader finds and makes the Scene of it. What is added is right by its own constructor.
 class SceneBuilder {
  public:
-  BsdfId add(Bsdf bsdf) { return add(Material{std::move(bsdf), nullptr}); }
-  BsdfId add(TexturedLambert diffuse) {
-    return add(Material{Lambert(), std::make_shared<const TexturedLambert>(std::move(diffuse))});
-  }
+  BsdfId add(Bsdf bsdf);
+  BsdfId add(TexturedLambert diffuse);
 
   struct Cover {
     BsdfId bsdf;
@@ -23,7 +21,7 @@ class SceneBuilder {
   void add(Shape shape, const Cover& cover);
 
   /// A light that is no surface.
-  void add(Light light) { lights_.push_back(std::move(light)); }
+  void add(Light light);
 
   void set(const ThinLens& camera) { camera_ = camera; }
   void set(const Filter& filter) { filter_ = filter; }

@@ -5,12 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numeric>
 
 namespace {
-
-constexpr double inf = std::numeric_limits<double>::infinity();
 
 // Every outcome of positive weight owns an interval, found at both its ends; the others own none.
 void expect_consistent(const std::vector<double>& w) {
@@ -106,7 +105,7 @@ TEST(Cdf, RejectsNonsense) {
   expect_error({}, "table: no weights; at least one is needed");
   expect_error({1, -2}, "table: weights[1] = -2 is not finite and >= 0");
   expect_error({std::nan("")}, "table: weights[0] = nan is not finite and >= 0");
-  expect_error({0, inf}, "table: weights[1] = inf is not finite and >= 0");
+  expect_error({0, HUGE_VAL}, "table: weights[1] = inf is not finite and >= 0");
   expect_error({0, 0}, "table: all 2 weights are 0; at least one must be > 0");
 }
 

@@ -2,14 +2,14 @@
 
 #include <mc/gtest/matchers.h>
 
+#include <cmath>
+
 namespace mc {
 namespace {
 
 template <class S> class ExponentialOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(ExponentialOver, Scalars);
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TYPED_TEST(ExponentialOver, ObeysTheLaws) {
   using S = TypeParam;
@@ -36,9 +36,10 @@ TEST(TrimmedExponential, IsTheExponentialGivenTheInterval) {
 }
 
 TEST(Exponential, RefusesNonsense) {
-  for (const double rate : {0.0, -1.0, HUGE_VAL, 1e-310, nan}) EXPECT_THROW(Exponential<double>{rate}, Error);
-  for (const double length : {0.0, -1.0, HUGE_VAL, nan}) EXPECT_THROW((TrimmedExponential<double>(1, length)), Error);
-  for (const double rate : {HUGE_VAL, nan}) EXPECT_THROW((TrimmedExponential<double>(rate, 1)), Error);
+  for (const double rate : {0.0, -1.0, HUGE_VAL, 1e-310, std::nan("")}) EXPECT_THROW(Exponential<double>{rate}, Error);
+  for (const double length : {0.0, -1.0, HUGE_VAL, std::nan("")})
+    EXPECT_THROW((TrimmedExponential<double>(1, length)), Error);
+  for (const double rate : {HUGE_VAL, std::nan("")}) EXPECT_THROW((TrimmedExponential<double>(rate, 1)), Error);
 }
 
 } // namespace

@@ -2,14 +2,14 @@
 
 #include <mc/gtest/matchers.h>
 
+#include <cmath>
+
 namespace mc {
 namespace {
 
 template <class S> class LogisticOver : public testing::Test {};
 using Scalars = testing::Types<float, double>;
 TYPED_TEST_SUITE(LogisticOver, Scalars);
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TYPED_TEST(LogisticOver, ObeysTheLaws) {
   using S = TypeParam;
@@ -37,13 +37,13 @@ TYPED_TEST(LogisticOver, TrimmedObeysTheLawsInTailsAndOnShortIntervals) {
 }
 
 TEST(Logistic, RefusesNonsense) {
-  for (const double scale : {0.0, -1.0, HUGE_VAL, nan}) {
+  for (const double scale : {0.0, -1.0, HUGE_VAL, std::nan("")}) {
     EXPECT_THROW((Logistic<double>(0, scale)), Error);
     EXPECT_THROW((TrimmedLogistic<double>(scale, 0, 1)), Error);
   }
-  EXPECT_THROW((Logistic<double>(nan, 1)), Error);
+  EXPECT_THROW((Logistic<double>(std::nan(""), 1)), Error);
   EXPECT_THROW((TrimmedLogistic<double>(1, 1, 1)), Error);
-  EXPECT_THROW((TrimmedLogistic<double>(1, nan, 1)), Error);
+  EXPECT_THROW((TrimmedLogistic<double>(1, std::nan(""), 1)), Error);
   EXPECT_THROW((TrimmedLogistic<double>(1, 1000, 1001)), Error) << "its mass underflows";
 }
 

@@ -22,7 +22,7 @@ Scene small_scene() {
 }
 
 // Half mirror, half Lambert; the mirror says it enters a denser medium.
-class Coated {
+class HalfMirror {
  public:
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
     if (mc::Bernoulli<Float>(Float(0.5)).sample_index(uc).index == 1)
@@ -85,7 +85,7 @@ TEST(Directions, DensitiesIntegrateToTheShareThatIsChosen) {
 TEST(Directions, ADeltaLobeIsAlwaysFollowed) {
   for (const Strategy& s : strategies) {
     const double followed = s.target == Target::nothing ? 1 : 1 - std::min(double(s.share), 0.5);
-    expect_consistent(Coated(), s, 0.5 * followed);
+    expect_consistent(HalfMirror(), s, 0.5 * followed);
   }
 }
 

@@ -1,5 +1,7 @@
 #include <render/shape/sphere.h>
 
+#include "support/random_direction.h"
+
 #include <mc/core/error.h>
 #include <mc/random/pcg.h>
 #include <mc/warp/sphere.h>
@@ -9,8 +11,6 @@
 namespace {
 
 using namespace render;
-
-Vec3 direction(mc::Pcg& random) { return mc::UniformSphere<Float>{}.sample(random.point<Float, 2>()); }
 
 /// Mean of 1/pdf over a grid of u: the solid angle that the shape fills, when the pdf is true.
 template <class S> double solid_angle(const S& shape, const Vec3& ref, int n = 512) {
@@ -42,8 +42,11 @@ TEST(Sphere, CrossingsAreAccurateUpToRadius1e5) {
   for (const double radius : {1e-3, 1.0, 600.0, 1e5})
     for (int i = 0; i < 2000; ++i) {
       const Vec3d center = radius * (random.point<double, 3>() - Vec3d::Constant(0.5));
-      const Vec3 o = (center + (i % 2 ? 1.001 : 3.0) * radius * direction(random).cast<double>()).cast<Float>();
-      const Ray ray{o, Vec3(center.cast<Float>() + Float(radius) * Float(0.9) * direction(random) - o).normalized()};
+      const Vec3 o =
+          (center + (i % 2 ? 1.001 : 3.0) * radius * support::random_direction(random).cast<double>()).cast<Float>();
+      const Ray ray{
+          o,
+          Vec3(center.cast<Float>() + Float(radius) * Float(0.9) * support::random_direction(random) - o).normalized()};
       L oc[3], a = 0, b = 0, c = -L(radius) * L(radius);
       for (int k = 0; k < 3; ++k) {
         oc[k] = L(o[k]) - L(center[k]);
@@ -138,7 +141,7 @@ TEST(Sphere, SeenFromItsOwnSurfaceIsSampledByArea) {
   for (const Vec3d& center : {Vec3d(0, 0, 0), Vec3d(30, -7, 2)}) {
     const Sphere sphere(center, 1, true);
     for (int i = 0; i < 2000; ++i) {
-      const Vec3 ref = (center + direction(random).cast<double>().normalized()).cast<Float>();
+      const Vec3 ref = (center + support::random_direction(random).cast<double>().normalized()).cast<Float>();
       const auto s = sphere.sample(ref, random.point<Float, 2>());
       ASSERT_TRUE(s.has_value()) << i;
       // Density 1 / (4 pi) of area: distance^2 / cos = 2 distance on a unit sphere, so pdf = distance / (2 pi).

@@ -1,5 +1,7 @@
 #include <render/accel/bvh.h>
 
+#include "support/random_direction.h"
+
 #include <mc/random/pcg.h>
 #include <mc/warp/sphere.h>
 
@@ -10,8 +12,6 @@ namespace {
 
 using namespace render;
 
-Vec3 direction(mc::Pcg& random) { return mc::UniformSphere<Float>{}.sample(random.point<Float, 2>()); }
-
 /// A turned box of the given half size.
 TriangleMesh turned_box(double half, const Vec3d& center) {
   const Transform turn =
@@ -21,7 +21,7 @@ TriangleMesh turned_box(double half, const Vec3d& center) {
 
 /// Outward directions, every other one grazing: down to a slope of 1e-5, which a float normal still resolves.
 Vec3 outward(const SurfacePoint& s, mc::Pcg& random, bool grazing) {
-  Vec3 d = direction(random);
+  Vec3 d = support::random_direction(random);
   if (d.dot(s.ng) < 0) d = -d;
   if (!grazing) return d;
   const Float slope = std::pow(Float(10), -5 * random.uniform<Float>());
@@ -36,8 +36,8 @@ void expect_no_self_hits(const Shape& shape, const Vec3d& center, double size, c
   for (int i = 0; i < 4000; ++i) {
     // From near, from far and from very far: the error of the point does not grow with the ray.
     const double far = size * (i % 3 == 0 ? 3 : i % 3 == 1 ? 100 : 1e4);
-    const Vec3 o = (center + far * direction(random).cast<double>()).cast<Float>();
-    const Vec3 target = (center + 0.5 * size * direction(random).cast<double>()).cast<Float>();
+    const Vec3 o = (center + far * support::random_direction(random).cast<double>()).cast<Float>();
+    const Vec3 target = (center + 0.5 * size * support::random_direction(random).cast<double>()).cast<Float>();
     const Ray ray{o, Vec3(target - o).normalized()};
     const auto hit = bvh.intersect(ray);
     if (!hit) continue;
@@ -75,7 +75,7 @@ TEST(SurfacePoint, SpawnedRaysDoNotMeetAHugeSphereNearby) {
   int spawned = 0, self_hits = 0;
   for (int i = 0; i < 20000; ++i) {
     const Ray ray{100 * random.point<Float, 3>() + Vec3(0, 1, 0),
-                  Vec3(direction(random) - Vec3(0, Float(1.05), 0)).normalized()};
+                  Vec3(support::random_direction(random) - Vec3(0, Float(1.05), 0)).normalized()};
     const auto hit = bvh.intersect(ray);
     if (!hit) continue;
     const SurfacePoint s = shape.surface_point(ray, *hit);

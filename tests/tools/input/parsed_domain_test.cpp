@@ -24,7 +24,8 @@ struct Named {
   mc::Numbers outside;
 };
 
-constexpr double pi = std::numbers::pi, infinity = HUGE_VAL;
+using std::numbers::pi;
+constexpr double infinity = HUGE_VAL;
 
 class EveryDomain : public testing::TestWithParam<Named> {};
 

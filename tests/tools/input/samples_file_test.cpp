@@ -26,7 +26,7 @@ using support::Output, support::refusal, support::run;
 using testing::AllOf;
 using testing::HasSubstr;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 struct SamplesFile : support::ScratchTest {
   static constexpr int n = 40'000;

@@ -2,6 +2,8 @@
 
 #include <mc/core/error.h>
 
+#include <Eigen/LU>
+
 namespace render {
 
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat) {

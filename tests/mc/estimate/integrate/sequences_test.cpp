@@ -9,14 +9,14 @@ namespace {
 namespace detail = mc::detail;
 using mc::detail::Sequences;
 
-const std::function<double(std::span<const double>)> f = [](std::span<const double> u) {
+const std::function<double(std::span<const double>)> exponential = [](std::span<const double> u) {
   return std::exp(u[0] + u[1] * u[2]);
 };
 
 TEST(Sequences, GrowToTheSameSums) {
   mc::IntegrateOptions o;
   o.replicates = 5;
-  detail::Run run{{.one = &f}, 1, 3, o};
+  detail::Run run{{.one = &exponential}, 1, 3, o};
   Sequences steps{.purpose = 0}, once{.purpose = 0};
   steps.extend(run, 64);
   steps.extend(run, 128);

@@ -5,9 +5,9 @@
 namespace {
 
 using testing::HasSubstr;
-struct Context : support::SceneTest {};
+struct SceneContext : support::SceneTest {};
 
-TEST_F(Context, ReferencesMayStandBeforeWhatTheyName) {
+TEST_F(SceneContext, ReferencesMayStandBeforeWhatTheyName) {
   const auto file = render::read_mitsuba(scene(std::string(sensor) + R"(
     <shape type="sphere"><ref id="b"/></shape> <shape type="sphere"><ref name="bsdf" id="b"/></shape>
     <bsdf type="twosided" id="b"><ref id="c"/></bsdf> <bsdf type="diffuse" id="c"/>
@@ -18,7 +18,7 @@ TEST_F(Context, ReferencesMayStandBeforeWhatTheyName) {
   EXPECT_EQ(surfaces[2].bsdf, surfaces[3].bsdf) << "the default too";
 }
 
-TEST_F(Context, BadReferences) {
+TEST_F(SceneContext, BadReferences) {
   const std::string start = std::string(sensor) + "\n";
   EXPECT_THAT(
       refusal(start + "<shape type=\"sphere\"><ref id=\"whte\"/></shape>\n<bsdf type=\"diffuse\" id=\"white\"/>"),

@@ -1,0 +1,28 @@
+#include <render/camera/thin_lens.h>
+
+#include <mc/core/error.h>
+
+namespace render {
+
+ThinLens::ThinLens(const Transform& to_world, const LensOptions& options)
+    : origin_(to_world.translation.cast<Float>()), fov_axis_(options.fov_axis),
+      tan_half_fov_(Float(std::tan(options.fov * mc::pi<double> / 360))), radius_(Float(options.radius)),
+      focus_distance_(Float(options.focus_distance)), near_(Float(options.near)),
+      depth_(Float(options.far - options.near)) {
+  const auto& axes = to_world.linear;
+  mc::require(axes.allFinite() && origin_.allFinite() && (axes.colwise().norm().array() > 0).all(),
+              "camera: toWorld must be finite, and none of its axes 0");
+  mc::require(options.fov > 0 && options.fov < 180, "camera: fov {} must lie in (0, 180) degrees", options.fov);
+  mc::require(options.radius >= 0 && std::isfinite(options.radius), "camera: apertureRadius {} must be finite and >= 0",
+              options.radius);
+  mc::require(options.focus_distance > 0 && std::isfinite(options.focus_distance),
+              "camera: focusDistance {} must be finite and > 0", options.focus_distance);
+  mc::require(options.near >= 0 && std::isfinite(options.near), "camera: nearClip {} must be finite and >= 0",
+              options.near);
+  mc::require(options.far > options.near, "camera: farClip {} must be beyond nearClip {}", options.far, options.near);
+  right_ = -axes.col(0).normalized().cast<Float>();
+  up_ = axes.col(1).normalized().cast<Float>();
+  forward_ = axes.col(2).normalized().cast<Float>();
+}
+
+} // namespace render
