@@ -1,10 +1,11 @@
 #pragma once
 /// The checkers as GoogleTest assertions, for users' own suites.
-///   EXPECT_WARP_LAWS(warp) or (warp, options)     : all laws of laws.h, options = mc::LawOptions
-///   EXPECT_BSDF_LAWS(bsdf, wo) or (.., options)   : all laws of bsdf_laws.h seen from wo, a mc::Vec3; options =
-///   mc::BsdfOptions EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain): sampler(u) or sampler(mc::Pcg&) -> point or
-///   optional point; pdf(point) EXPECT_MEAN(values, value)                    : Student's t at alpha 0.001, values any
-///   range of numbers
+///   EXPECT_WARP_LAWS(warp[, mc::LawOptions])        : all laws of laws.h
+///   EXPECT_BSDF_LAWS(bsdf, wo[, mc::BsdfOptions])   : all laws of bsdf_laws.h seen from wo, a mc::Vec3
+///   EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain[, mc::SubjectOptions])
+///                                                   : the chi-square tests; sampler(u) or sampler(mc::Pcg&) gives a
+///                                                     point or an optional point
+///   EXPECT_MEAN(values, value[, alpha = 0.001])     : Student's t; values are any range of numbers
 /// Failures say which law broke, where and by how much. Seeds are fixed, so a test that passes keeps passing.
 
 #include <mc/check/bsdf_laws.h>
