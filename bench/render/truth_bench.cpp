@@ -1,6 +1,6 @@
 /// Pictures of scenes made by machine, by every unbiased strategy and sampler, against what they should be: a row of
 /// CSV for each on stdout; on stderr how often the z-scores are as large as chance makes them.
-/// Usage: bench_render_truth [FAMILIES [SEED [SETS [POINTS]]]]
+/// Usage: bench_render_truth [FAMILIES [SEED [SETS [POINTS [FIRST]]]]], the families from FIRST on
 ///   should : the closed form; where its error is not 0 the mean of the family's first picture by mis, of eight times
 ///            as many sets
 ///   z      : see z_score in measure.h
@@ -90,7 +90,8 @@ int main(int argc, char** argv) {
   const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   Run run{seed, argc > 3 ? std::uint32_t(std::atoi(argv[3])) : 32, argc > 4 ? std::uint32_t(std::atoi(argv[4])) : 256};
   fmt::print("family,kind,variant,strategy,sampler,mean,std_error,should,should_error,z,state\n");
-  for (int i = 0; i < families; ++i) {
+  const int first = argc > 5 ? std::atoi(argv[5]) : 0;
+  for (int i = first; i < first + families; ++i) {
     mc::Pcg random(seed, std::uint64_t(i));
     run.show(i, any(random));
   }

@@ -2,8 +2,7 @@
 // Usage: bench_mc_check_calibration [SEEDS [SAMPLES [right|promise [FIRST_SEED [NAME]]]]]; NAME keeps the rows that
 //        contain it.
 // Prints per density: runs, rejections with the 95 % interval of their rate (Clopper-Pearson), inconclusive runs. The
-//                     tests are
-// conservative (discrete counts, KS on cells), so right samplers are rejected at most at the rate of alpha.
+// tests are conservative (discrete counts, KS on cells), so right samplers are rejected at most at the rate of alpha.
 // With `promise` as the kind: how often the errors that a report calls detectable are caught, which should be .99 of
 // the runs.
 
