@@ -120,8 +120,10 @@ template <class SceneType> class PathIntegrator {
     if (!is_real(at, wi, s->wi)) return Spectrum::Zero();
     const Spectrum f = at.bsdf.eval(at.wo, wi);
     if (is_black(f)) return f;
+    const std::optional<Ray> ray = s->end ? at.point.spawn_ray_to(*s->end, s->wi) : at.point.spawn_ray(s->wi);
+    if (!ray) return Spectrum::Zero();
     ++rays;
-    if (scene_.occluded(s->end ? at.point.spawn_ray_to(*s->end) : at.point.spawn_ray(s->wi))) return Spectrum::Zero();
+    if (scene_.occluded(*ray)) return Spectrum::Zero();
     const Float pdf = choice.pmf * s->pdf;
     const bool shared = options_.strategy.finding == Finding::by_both && !source.is_delta();
     const Float weight = shared ? mc::power_heuristic(pdf, directions_.pdf(at, wi, s->wi)) : Float(1);

@@ -29,8 +29,9 @@ struct SurfacePoint {
   /// meets this surface again only where it truly does. No scene-scale epsilon.
   Vec3 offset_origin(const Vec3& d) const;
   Ray spawn_ray(const Vec3& d) const { return {offset_origin(d), d}; }
-  /// Ray to another surface point that stops before it.
-  Ray spawn_ray_to(const SurfacePoint& target) const;
+  /// Ray to another surface point, which lies in direction d, that stops before it. None where the two are so close to
+  /// the plane of one that rounding turns the ray around: they do not see each other.
+  std::optional<Ray> spawn_ray_to(const SurfacePoint& target, const Vec3& d) const;
 };
 
 /// A point of a shape chosen to illuminate a reference point.

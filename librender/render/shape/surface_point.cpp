@@ -13,11 +13,11 @@ Vec3 SurfacePoint::offset_origin(const Vec3& d) const {
   return p + std::copysign(distance, d.dot(ng)) * ng;
 }
 
-Ray SurfacePoint::spawn_ray_to(const SurfacePoint& target) const {
-  const Vec3 between = target.p - p;
-  const Vec3 start = offset_origin(between), end = target.offset_origin(-between);
+std::optional<Ray> SurfacePoint::spawn_ray_to(const SurfacePoint& target, const Vec3& d) const {
+  const Vec3 start = offset_origin(d), end = target.offset_origin(-d), between = end - start;
+  if (!(between.dot(ng) * d.dot(ng) > 0) || !(between.dot(target.ng) * d.dot(target.ng) > 0)) return {};
   // The difference is rounded relative to its length: stop a few such roundings before the end.
-  return {start, end - start, 1 - 8 * std::numeric_limits<Float>::epsilon()};
+  return Ray{start, between, 1 - 8 * std::numeric_limits<Float>::epsilon()};
 }
 
 } // namespace render

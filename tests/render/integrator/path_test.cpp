@@ -220,6 +220,21 @@ struct Broken : Lambert {
   }
 };
 
+// The back of a flat light that shines to one side is black, however rounding places its points.
+TEST(Path, AFlatLightDoesNotLightItsBack) {
+  mc::Pcg random(3);
+  const auto direction = [&] { return mc::UniformSphere<double>{}.sample(random.point<double, 2>()); };
+  for (int i = 0; i < 200; ++i) {
+    SceneBuilder builder;
+    const Transform world = Transform::translate(10 * direction()) * Transform::rotate(direction(), 77);
+    builder.add(TriangleMesh::rectangle(world), {builder.add(Lambert(Spectrum::Constant(Float(0.5)))), Emission{}});
+    const Scene scene = builder.build();
+    const Vec3d from = world.point({0.1, 0.2, -3}), to = world.point({-0.3, 0.4, 0});
+    const Ray ray{from.cast<Float>(), (to - from).normalized().cast<Float>()};
+    for (const Strategy& s : unbiased) EXPECT_EQ(trace(scene, ray, {s}, 16).mean(), 0) << word(s) << ", turn " << i;
+  }
+}
+
 // A NaN throughput ends the path as an invalid sample, however long the path was: roulette must not swallow it.
 TEST(Path, NonFiniteThroughputIsNeverQuiet) {
   SceneBuilder builder;

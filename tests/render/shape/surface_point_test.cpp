@@ -122,6 +122,23 @@ TEST(SurfacePoint, OriginsMoveToTheSideOfTheRay) {
   EXPECT_EQ(s.offset_origin(Vec3(0, 0, 1)).x(), 1);
 }
 
+// Rounding moves a sample of a flat shape to either side of another point of it: no direction leads there. Only between
+// its two triangles, whose normals differ by rounding, one may, along which no light to speak of goes.
+TEST(SurfacePoint, PointsOfOnePlaneDoNotSeeEachOther) {
+  mc::Pcg random(7);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d axis = support::random_direction(random).cast<double>(),
+                to = support::random_direction(random).cast<double>();
+    const auto square = TriangleMesh::rectangle(Transform::translate(10 * to) * Transform::rotate(axis, 77));
+    const auto a = square.sample(Vec3::Zero(), random.point<Float, 2>());
+    ASSERT_TRUE(a);
+    const auto b = square.sample(a->point.p, random.point<Float, 2>());
+    if (!b || !a->point.spawn_ray_to(b->point, b->wi)) continue;
+    EXPECT_NE(a->point.ng, b->point.ng) << i;
+    EXPECT_LE(std::abs(b->wi.dot(a->point.ng)) / b->pdf, 1e-10) << i;
+  }
+}
+
 // A shadow ray between two convex shapes that face each other meets neither.
 TEST(SurfacePoint, ShadowRaysStopBeforeTheirTarget) {
   mc::Pcg random(6);
@@ -138,7 +155,9 @@ TEST(SurfacePoint, ShadowRaysStopBeforeTheirTarget) {
       // Both ends must truly face each other; the last 1e-4 of slope is left to rounding.
       if (a->point.ng.dot(b->wi) < Float(1e-4) || b->point.ng.dot(b->wi) > Float(-1e-4)) continue;
       ++tried;
-      blocked += bvh.occluded(a->point.spawn_ray_to(b->point)) || bvh.occluded(b->point.spawn_ray_to(a->point));
+      const auto there = a->point.spawn_ray_to(b->point, b->wi), back = b->point.spawn_ray_to(a->point, -b->wi);
+      ASSERT_TRUE(there && back);
+      blocked += bvh.occluded(*there) || bvh.occluded(*back);
     }
     EXPECT_GE(tried, 1000);
     EXPECT_EQ(blocked, 0) << "scale " << scale << ", of " << tried;
