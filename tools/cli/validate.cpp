@@ -130,6 +130,9 @@ std::vector<Option> rows(ValidateOptions& o) {
       {"--pdf", "EXPRESSION", &o.pdf, "Density in the variables of --domain: \"exp(-x*x/2)/sqrt(2*_pi)\""},
       {"--domain", "DOMAIN", &o.domain,
        "Of the samples or of --command, see below [by the columns: 1 or 2 in 0:1, 3 sphere]"},
+      {"--breaks", "AXIS=PLACES,...", &o.breaks,
+       "Where the density of --pdf or --command jumps along the axes of the domain: \"x=0.25,0.5\", \"r=0.5\", "
+       "\"theta=0:90:15\" in degrees; what is constant between is then exact"},
       {"--unnormalized", "", &o.unnormalized, "The density is given up to a factor"},
       {"--open-interval", "", &o.open_interval, "u lies in (0,1): accept samplers that break where a u is exactly 0"},
   };
@@ -152,6 +155,8 @@ Brought bring(const ValidateOptions& o, const std::atomic<bool>* cancel) {
               "validate: {} needs the samples to hold against it: --samples-file",
               o.pdf.empty() ? "--pdf-file" : "--pdf");
   mc::require(o.pdf_file.empty() || o.pdf.empty(), "validate: give --pdf-file or --pdf, not both");
+  mc::require(o.breaks.empty() || !o.pdf.empty() || !o.sampler_command.empty(),
+              "validate: --breaks is for a --pdf or a --command");
   mc::require(o.timeout > 0 && o.timeout <= 1e6, "validate: --timeout {} must lie in (0, 1e6] seconds", o.timeout);
   mc::require(o.memory >= 0.25 && o.memory <= 1e6, "validate: --memory {} must lie in [0.25, 1e6] GiB", o.memory);
   Brought brought;
@@ -159,9 +164,10 @@ Brought bring(const ValidateOptions& o, const std::atomic<bool>* cancel) {
       .limits = {.seconds = o.timeout, .gigabytes = o.memory}, .program = o.worker, .cancel = cancel};
   if (!o.plugin.empty()) brought.cases = plugin_cases(o.plugin, o.parameters, worker);
   if (!o.sampler_command.empty())
-    brought.cases.push_back(command_case({o.sampler_command, o.domain, o.uniforms}, worker));
+    brought.cases.push_back(command_case({o.sampler_command, o.domain, o.breaks, o.uniforms}, worker));
   if (!o.samples_file.empty()) {
-    const SamplesFileCase file = samples_file_case({o.samples_file, o.pdf_file, o.pdf, o.domain, o.unnormalized});
+    const SamplesFileCase file =
+        samples_file_case({o.samples_file, o.pdf_file, o.pdf, o.domain, o.breaks, o.unnormalized});
     brought.cases.push_back(file.one);
     brought.samples = file.samples;
   }

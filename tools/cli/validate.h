@@ -24,6 +24,7 @@ struct ValidateOptions {
   std::string samples_file, pdf_file;  ///< samples and the density on a grid, see samples_file.h
   std::string pdf;                     ///< or the density as an expression
   std::string domain;                  ///< of the samples; empty: by their columns
+  std::string breaks;                  ///< where the density jumps along the axes of the domain, see parse_breaks
   bool open_interval = false;          ///< u in (0,1): a sampler may break where a u is exactly 0
   bool unnormalized = false;           ///< what is given is only proportional to the density
   std::string report;                  ///< folder for index.html; empty: none

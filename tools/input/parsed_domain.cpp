@@ -1,3 +1,4 @@
+#include <input/parameters.h>
 #include <input/parsed_domain.h>
 
 #include <mc/check/subject/make_sampler.h>
@@ -190,6 +191,49 @@ std::array<double, 3> quartiles_of(std::vector<double> column) {
   if (column.empty()) return unknown_quartiles(0);
   std::sort(column.begin(), column.end());
   return {column[column.size() / 4], column[column.size() / 2], column[column.size() * 3 / 4]};
+}
+
+namespace {
+
+// The chart coordinate where a monotone axis reads x.
+double place_on(const mc::Axis& axis, double x) {
+  const double at_0 = axis.value(0), at_1 = axis.value(1);
+  mc::require(std::isfinite(x) && x >= std::min(at_0, at_1) && x <= std::max(at_0, at_1),
+              "a break of {} at {} lies outside of the domain", axis.name, x);
+  if (axis.scale == mc::Axis::Scale::linear) return (x - axis.a) / (axis.b - axis.a);
+  double lo = 0, hi = 1;
+  for (double middle = 0.5; middle > lo && middle < hi; middle = 0.5 * (lo + hi))
+    ((axis.value(middle) < x) == (at_0 < at_1) ? lo : hi) = middle;
+  return hi;
+}
+
+} // namespace
+
+Breaks chart_breaks(const AnyDomain& domain, const Breaks& places) {
+  Breaks breaks;
+  for (std::size_t k = 0; k < domain.axes.size(); ++k) {
+    for (const double x : places[k]) {
+      const double v = place_on(domain.axes[k], x);
+      if (v > 0 && v < 1) breaks[k].push_back(v);
+    }
+    std::sort(breaks[k].begin(), breaks[k].end());
+    breaks[k].erase(std::unique(breaks[k].begin(), breaks[k].end()), breaks[k].end());
+  }
+  return breaks;
+}
+
+Breaks parse_breaks(const std::string& text, const AnyDomain& domain) {
+  Breaks places;
+  if (text.empty()) return places;
+  std::vector<std::string> names;
+  for (const mc::Axis& axis : domain.axes) names.push_back(axis.name);
+  for (const auto& [name, values] : parse_lists(text, "--breaks")) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    mc::require(found != names.end(), "--breaks: '{}' is no axis of the domain; it has {}", name,
+                fmt::join(names, ", "));
+    places[static_cast<std::size_t>(found - names.begin())] = values;
+  }
+  return mc::with_context("--breaks", [&] { return chart_breaks(domain, places); });
 }
 
 ParsedDomain parse_domain(const std::string& text, const Quartiles& quartiles, Rounding rounding) {

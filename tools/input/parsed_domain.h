@@ -34,6 +34,16 @@ std::array<double, 3> unknown_quartiles(std::size_t column);
 /// Those of a column of rows, leaving out what is not finite; unknown_quartiles where nothing is left.
 std::array<double, 3> quartiles_of(std::vector<double> column);
 
+/// Where a density jumps along each axis of a domain, in the quantity of the axis, as chart coordinates.
+///   throws : Error for places that the axis does not have
+using Breaks = std::array<std::vector<double>, 3>;
+Breaks chart_breaks(const mc::AnyDomain& domain, const Breaks& places);
+
+/// Places by the names of the axes, "x=0.25,0.5,theta=0:90:15": lists and ranges as in parameters.h. Axes are the
+/// columns of intervals; r and phi of disk and annulus; theta and phi of sphere and hemisphere; angles in degrees.
+///   throws : Error that names --breaks for anything else, or an axis that the domain does not have
+Breaks parse_breaks(const std::string& text, const mc::AnyDomain& domain);
+
 /// Parts separated by commas, in the order of the columns:
 ///   NAME=LO:HI        : an interval; either end may be -inf or inf
 ///   disk, annulus=R   : x^2 + y^2 <= 1, and from R^2; columns x, y

@@ -30,6 +30,7 @@ struct Samples {
   ParsedDomain domain;
   Density density;
   double mass_tolerance = 1e-12;
+  Breaks breaks = {};
 
   std::size_t columns() const { return table.columns; }
 
@@ -130,6 +131,7 @@ std::shared_ptr<const Samples> load(const SamplesFileOptions& o) {
               s.text(static_cast<std::uint32_t>(first_off)), s.domain.text, off, s.table.rows());
   if (s.domain.outcomes > 0) return std::make_shared<const Samples>(std::move(s));
   s.density = parse_function(o.density, names);
+  s.breaks = parse_breaks(o.breaks, s.domain.chart);
   if (o.unnormalized) {
     const auto [mass, error] = total(s.domain, s.density);
     s.density = [f = s.density, mass = mass](std::span<const double> x) { return f(x) / mass; };
@@ -164,6 +166,7 @@ Subject continuous_subject(const std::shared_ptr<const Samples>& f, std::uint64_
   s.dim = f->domain.chart.dim;
   s.axes = f->domain.chart.axes;
   s.mass_tolerance = f->mass_tolerance;
+  s.breaks = f->breaks;
   const auto deal = std::make_shared<Deal>(static_cast<std::uint32_t>(f->table.rows()), seed);
   s.draw = [f, deal, seed](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
     const std::uint64_t first = deal->open(stream, n);
@@ -204,6 +207,7 @@ SamplesFileCase samples_density_case(const SamplesFileOptions& o) {
   c.one.again = fmt::format("--samples-file '{}' {} '{}'", o.samples, o.density.empty() ? "--pdf-file" : "--pdf",
                             c.one.parameters);
   if (!o.domain.empty()) c.one.again += fmt::format(" --domain '{}'", o.domain);
+  if (!o.breaks.empty()) c.one.again += fmt::format(" --breaks '{}'", o.breaks);
   if (o.unnormalized) c.one.again += " --unnormalized";
   const std::uint64_t rows = file->table.rows();
   c.samples = rows - mc::pilot_samples(rows - rows / 9);

@@ -15,6 +15,7 @@ struct SamplesFileOptions {
   /// Of the grid: "x=lo:hi", "x=lo:hi,y=lo:hi" or "sphere"; with an expression, any of parse_domain. Empty: by the
   /// columns, 1 or 2 in [0,1], 3 the sphere.
   std::string domain;
+  std::string breaks;        ///< of an expression, see parse_breaks; may be empty
   bool unnormalized = false; ///< what is given is only proportional to the density
 };
 

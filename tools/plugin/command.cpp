@@ -179,13 +179,16 @@ json run_command_task(const json& request, Watch& watch) {
                                 parse_domain(text).columns.size(), watch);
   auto o = mc::with_statistics(mc::LawOptions(), requested_options(request));
   o.max_evaluations = 1'000'000; // each is an exchange with the program
-  AnySampler sampler = sampler_of(program, charted(*program, text, o.seed));
+  const ParsedDomain domain = charted(*program, text, o.seed);
+  AnySampler sampler = sampler_of(program, domain);
+  sampler.breaks = parse_breaks(request["breaks"], domain.chart);
   sampler.name = request["title"];
   return to_json(check_laws(sampler, o));
 }
 
 Case command_case(const CommandSampler& sampler, const WorkerOptions& worker) {
   const ParsedDomain domain = mc::with_context("--domain", [&] { return parse_domain(sampler.domain); });
+  parse_breaks(sampler.breaks, domain.chart);
   const int uniforms = sampler.uniforms > 0 ? sampler.uniforms : std::max(domain.chart.dim, 1);
   mc::require(uniforms <= Watch::max_arguments, "validate: --uniforms {}; at most {} are possible", uniforms,
               Watch::max_arguments);
@@ -194,10 +197,12 @@ Case command_case(const CommandSampler& sampler, const WorkerOptions& worker) {
   c.parameters = sampler.domain;
   c.scalar = "double";
   c.again = fmt::format("--command '{}' --domain '{}'", sampler.command, sampler.domain);
+  if (!sampler.breaks.empty()) c.again += fmt::format(" --breaks '{}'", sampler.breaks);
   if (sampler.uniforms > 0) c.again += fmt::format(" --uniforms {}", sampler.uniforms);
   c.check = [=, title = c.title()](const CaseOptions& o) {
     json request = check_request("command", sampler.command, title, o);
     request["domain"] = sampler.domain;
+    request["breaks"] = sampler.breaks;
     request["uniforms"] = uniforms;
     return report_from_json(call_worker(std::move(request), worker));
   };

@@ -21,6 +21,7 @@ namespace carlo {
 struct CommandSampler {
   std::string command; ///< for /bin/sh
   std::string domain;  ///< see parse_domain
+  std::string breaks;  ///< see parse_breaks; may be empty
   int uniforms = 0;    ///< K; 0: as many as the domain has dimensions
 };
 

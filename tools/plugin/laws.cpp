@@ -96,6 +96,9 @@ mc::AnySampler sampler_of(const PluginSampler& plugin, const std::string& title,
   s.domain = domain.chart;
   s.is_float = plugin->scalar == MC_FLOAT;
   s.open_interval = plugin->open_interval != 0;
+  Breaks places;
+  for (int axis = 0; axis < domain.chart.dim; ++axis) places[static_cast<std::size_t>(axis)] = plugin.breaks(axis);
+  s.breaks = chart_breaks(domain.chart, places);
   for (double i = 0; i < domain.outcomes; ++i) s.atoms.push_back(plugin.pdf(&i));
   for (int k = 0; k < plugin->outcomes; ++k) s.atoms.push_back(plugin.probability(k));
   s.uniforms = plugin.uniforms();

@@ -140,7 +140,7 @@ CellTests judge_counts(const Subject& s, Layout& layout, const std::vector<Weigh
     const double count = static_cast<double>(tally.atoms[i]);
     layout.cells[layout.boxes.size() + i].observed = layout.cells[layout.boxes.size() + i].squares = count;
   }
-  return test_cells(layout.cells, s.dim, alpha);
+  return test_cells(layout.cells, s.dim, alpha, s.axes);
 }
 
 // Counts points, each test's in a loop of its own: they share little memory.
@@ -218,8 +218,9 @@ std::vector<Check> judge_density(const Subject& s, const Layout& layout) {
            1,
            0,
            Fault::not_finite,
-           fmt::format("at chart coordinates ({:.17g}, {:.17g}, {:.17g}){}", (*bad)[0], (*bad)[1], (*bad)[2],
-                       s.describe_point ? ", " + s.describe_point(*bad) : std::string())}};
+           s.describe_point
+               ? "at x = " + s.describe_point(*bad)
+               : fmt::format("at chart coordinates ({:.17g}, {:.17g}, {:.17g})", (*bad)[0], (*bad)[1], (*bad)[2])}};
 }
 
 void append(std::vector<Check>& all, std::vector<Check> more) {

@@ -94,6 +94,24 @@ TEST(ParsedDomain, BadTextsAreOneLine) {
   EXPECT_THAT(refused("x=0:1,discrete=3"), HasSubstr("'discrete=3' stands alone"));
 }
 
+TEST(ParsedDomain, BreaksAreGivenInTheQuantityOfTheAxis) {
+  const auto breaks = [](const char* domain, const char* text) {
+    return carlo::parse_breaks(text, parse_domain(domain).chart);
+  };
+  EXPECT_EQ(breaks("x=0:4,y=-1:1", "x=1,3,y=0")[0], (std::vector<double>{0.25, 0.75}));
+  EXPECT_EQ(breaks("x=0:4,y=-1:1", "x=1,3,y=0")[1], (std::vector<double>{0.5}));
+  EXPECT_EQ(breaks("x=0:1", "x=0:1:0.25")[0], (std::vector<double>{0.25, 0.5, 0.75}));
+  EXPECT_NEAR(breaks("disk", "r=0.5")[0][0], 0.25, 1e-15);
+  EXPECT_NEAR(breaks("hemisphere", "theta=60,phi=90")[0][0], 0.5, 1e-15);
+  EXPECT_NEAR(breaks("hemisphere", "theta=60,phi=90")[1][0], 0.25, 1e-15);
+  EXPECT_NEAR(breaks("x=-inf:5", "x=4")[0][0], parse_domain("x=-inf:5").chart.to_unit({4})[0], 1e-12);
+  EXPECT_NEAR(breaks("x=-inf:inf", "x=-3")[0][0], parse_domain("x=-inf:inf").chart.to_unit({-3})[0], 1e-12);
+  const auto refused = [&](const char* text) { return error_of([&] { breaks("disk", text); }); };
+  EXPECT_THAT(refused("x=1"), HasSubstr("--breaks: 'x' is no axis of the domain; it has r, phi"));
+  EXPECT_THAT(refused("r=2"), HasSubstr("--breaks: a break of r at 2 lies outside of the domain"));
+  EXPECT_THAT(refused("r"), HasSubstr("--breaks: 'r' in 'r' is not of the form name=number"));
+}
+
 TEST(ParsedDomain, QuartilesLeaveOutWhatIsNotFinite) {
   EXPECT_EQ(carlo::quartiles_of({4, NAN, 1, 2, 3, HUGE_VAL}), (std::array<double, 3>{2, 3, 4}));
   EXPECT_EQ(carlo::quartiles_of({NAN}), carlo::unknown_quartiles(0));

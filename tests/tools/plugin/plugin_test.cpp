@@ -35,15 +35,15 @@ ValidateOptions cosine(const std::string& fault) {
 }
 
 TEST(Plugin, RightSamplersPassInEveryKindOfDomain) {
-  // Fifteen cases at a family-wise alpha of 0.01, one fixed seed.
+  // Sixteen cases at a family-wise alpha of 0.01, one fixed seed.
   const Output out = run(plugin("samplers"));
   EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
-  EXPECT_THAT(out.text, HasSubstr("15 of 15 cases passed"));
+  EXPECT_THAT(out.text, HasSubstr("16 of 16 cases passed"));
   EXPECT_THAT(out.text, HasSubstr("float   pass")) << "the tail computes in float";
 }
 
 TEST(Plugin, AnotherDensityIsRejectedOnEveryDomain) {
-  for (const char* name : {"Ball", "Annulus", "Plane", "Flight", "Glossy"}) {
+  for (const char* name : {"Ball", "Annulus", "Plane", "Flight", "Glossy", "Steps"}) {
     ValidateOptions o = plugin("samplers", {name});
     o.parameters = {"wrong=1"};
     EXPECT_EQ(run(o).code, carlo::exit_failed) << name;

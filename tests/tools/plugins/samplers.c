@@ -237,6 +237,23 @@ static double probability_glossy(const void* self, int32_t k) {
   return k == 0 ? (wrong(self) ? 0.29 : 0.3) : wrong(self) ? 0.11 : 0.1;
 }
 
+/* Four steps, of 0.4, 1.6, 0.4 and 1.6. */
+static int32_t sample_steps(const void* self, const double* u, double* x) {
+  const double half = floor(2 * u[0]), rest = 2 * u[0] - half;
+  (void)self;
+  x[0] = (half + (rest < 0.2 ? 0.5 * rest / 0.2 : 0.5 + 0.5 * (rest - 0.2) / 0.8)) / 2;
+  return MC_POINT;
+}
+static double pdf_steps(const void* self, const double* x) {
+  return fmod(4 * x[0], 2) < 1 ? (wrong(self) ? 0.5 : 0.4) : (wrong(self) ? 1.5 : 1.6);
+}
+static int32_t breaks_of_steps(const void* self, int32_t axis, const double** places) {
+  static const double quarters[] = {0.25, 0.5, 0.75};
+  (void)self, (void)axis;
+  *places = quarters;
+  return 3;
+}
+
 /* Breaks where u is 0. */
 static int32_t sample_open(const void* self, const double* u, double* x) {
   (void)self;
@@ -345,6 +362,13 @@ static const mc_sampler samplers[] = {
      .sample = sample_glossy,
      .pdf = pdf_glossy,
      .probability = probability_glossy},
+    {.name = "Steps",
+     .domain = MC_INTERVAL,
+     .parameters = another,
+     .parameter_count = 1,
+     .sample = sample_steps,
+     .pdf = pdf_steps,
+     .breaks = breaks_of_steps},
     {.name = "Open",
      .domain = MC_INTERVAL,
      .hi = {INFINITY},

@@ -96,6 +96,12 @@ std::string Report::to_string() const {
   return text;
 }
 
+std::string describe_range(const std::vector<Axis>& axes, std::size_t axis, double lo, double hi) {
+  const Axis own = axis < axes.size() ? axes[axis] : Axis{axis_name(axes, axis)};
+  return fmt::format("{} in [{:.12g}, {:.12g}]{}{}", own.name, own.value(lo), own.value(hi),
+                     own.unit().empty() ? "" : " ", own.unit());
+}
+
 std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo,
                           const std::array<double, 3>& hi) {
   std::string text;

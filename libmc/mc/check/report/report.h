@@ -81,6 +81,9 @@ struct Evidence {
   std::vector<After> p_after; ///< Report::p() had the run stopped there: after 1024, 2048, 4096, ... and all samples
 };
 
+/// "theta in [1.5, 3] deg": a range of a chart coordinate as one of the domain.
+std::string describe_range(const std::vector<Axis>& axes, std::size_t axis, double lo, double hi);
+
 /// "theta 1.5 to 3 deg, phi 0 to 90 deg".
 std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo,
                           const std::array<double, 3>& hi);

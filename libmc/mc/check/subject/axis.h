@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mc {
 
@@ -36,6 +37,11 @@ struct Axis {
   }
   std::string_view unit() const { return scale == Scale::polar || scale == Scale::azimuth ? "deg" : ""; }
 };
+
+/// The name of an axis; "v0" and so on where it has none.
+inline std::string axis_name(const std::vector<Axis>& axes, std::size_t axis) {
+  return axis < axes.size() ? axes[axis].name : "v" + std::to_string(axis);
+}
 
 constexpr std::string_view name(Axis::Scale s) {
   switch (s) {

@@ -154,7 +154,8 @@ double mean_log(double a, double b) {
 }
 
 // Nothing where there are too few cells, or too few samples for normality.
-void tails(const PooledCells& cells, std::size_t axis, double share, double alpha, CellTests& result) {
+void tails(const PooledCells& cells, const std::vector<Axis>& named, std::size_t axis, double share, double alpha,
+           CellTests& result) {
   std::vector<std::array<double, 2>> scores;
   std::array<double, 2> mean{}, sum{};
   double extreme = 0;
@@ -182,12 +183,12 @@ void tails(const PooledCells& cells, std::size_t axis, double share, double alph
   if (!(det > 1e-9 * v[0] * v[2]) || !(v[0] > sqr(4 * extreme))) return;
   const double x = sum[0] - n * mean[0], y = sum[1] - n * mean[1];
   result.checks.push_back(
-      chi_square_check(fmt::format("tails, axis {}", axis), (v[2] * x * x - 2 * v[1] * x * y + v[0] * y * y) / det, 2,
+      chi_square_check("tails, " + axis_name(named, axis), (v[2] * x * x - 2 * v[1] * x * y + v[0] * y * y) / det, 2,
                        share, alpha, fmt::format("mean ln r off by {:.3g}, mean ln(1-r) by {:.3g}", x / n, y / n)));
 }
 
-void correlation(const PooledCells& cells, std::size_t a, std::size_t b, double share, double alpha,
-                 CellTests& result) {
+void correlation(const PooledCells& cells, const std::vector<Axis>& named, std::size_t a, std::size_t b, double share,
+                 double alpha, CellTests& result) {
   const auto score = [&](const Cell& c) {
     return (c.rank_lo[a] + c.rank_hi[a] - 1) * (c.rank_lo[b] + c.rank_hi[b] - 1);
   };
@@ -199,12 +200,13 @@ void correlation(const PooledCells& cells, std::size_t a, std::size_t b, double 
   const double n = cells.n, dispersion = cells.dispersion();
   for (const Cell& c : cells.cells) variance += (n * dispersion * c.p + n * n * c.variance) * sqr(score(c) - mean);
   if (!(variance > 16)) return;
-  result.checks.push_back(chi_square_check(fmt::format("correlation, axes {} and {}", a, b),
-                                           sqr(sum - n * mean) / variance, 1, share, alpha,
-                                           fmt::format("off by {:.3g}", (sum - n * mean) / n)));
+  result.checks.push_back(chi_square_check(
+      fmt::format("correlation, {} and {}", axis_name(named, a), axis_name(named, b)), sqr(sum - n * mean) / variance,
+      1, share, alpha, fmt::format("off by {:.3g}", (sum - n * mean) / n)));
 }
 
-void ks(const PooledCells& cells, std::size_t axis, double share, double alpha, CellTests& result) {
+void ks(const PooledCells& cells, const std::vector<Axis>& named, std::size_t axis, double share, double alpha,
+        CellTests& result) {
   const auto place = [&](std::size_t i) { return cells.cells[i].rank_lo[axis] + cells.cells[i].rank_hi[axis]; };
   std::vector<std::size_t> order(cells.cells.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -216,7 +218,7 @@ void ks(const PooledCells& cells, std::size_t axis, double share, double alpha, 
     if (std::abs(excess) > std::abs(worst)) worst = excess;
   }
   const double lambda = std::abs(worst) / std::sqrt(n * cells.dispersion() + n * n * cells.variance.back());
-  Check c{fmt::format("KS, axis {}", axis),
+  Check c{"KS, " + axis_name(named, axis),
           Verdict::pass,
           kolmogorov_tail(lambda),
           share,
@@ -289,7 +291,7 @@ void single_cells(const PooledCells& cells, double share, double alpha, CellTest
 
 } // namespace
 
-CellTests test_cells(const std::vector<Cell>& counted, int dim, double alpha) {
+CellTests test_cells(const std::vector<Cell>& counted, int dim, double alpha, const std::vector<Axis>& named) {
   const PooledCells cells = pool(counted);
   CellTests result;
   if (cells.cells.size() < 2 || cells.n == 0) return result;
@@ -298,10 +300,10 @@ CellTests test_cells(const std::vector<Cell>& counted, int dim, double alpha) {
   single_cells(cells, share(FitTest::single_cells), alpha, result);
   const double axes = std::max(dim, 1), pairs = std::max(axes * (axes - 1) / 2, 1.0);
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(dim); ++axis) {
-    tails(cells, axis, share(FitTest::tails) / axes, alpha, result);
-    ks(cells, axis, share(FitTest::ks) / axes, alpha, result);
+    tails(cells, named, axis, share(FitTest::tails) / axes, alpha, result);
+    ks(cells, named, axis, share(FitTest::ks) / axes, alpha, result);
     for (std::size_t other = 0; other < axis; ++other)
-      correlation(cells, other, axis, share(FitTest::correlation) / pairs, alpha, result);
+      correlation(cells, named, other, axis, share(FitTest::correlation) / pairs, alpha, result);
   }
   return result;
 }

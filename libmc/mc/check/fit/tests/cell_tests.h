@@ -40,6 +40,6 @@ struct CellTests {
 /// The variance of the probabilities counts like that of the samples, so an estimated probability makes a test weaker,
 /// never wrong.
 ///   dim : axes with ranks, 0 to 3;  cells expecting less than 8 are pooled with their neighbours in order
-CellTests test_cells(const std::vector<Cell>& cells, int dim, double alpha);
+CellTests test_cells(const std::vector<Cell>& cells, int dim, double alpha, const std::vector<Axis>& named = {});
 
 } // namespace mc

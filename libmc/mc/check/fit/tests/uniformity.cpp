@@ -41,13 +41,13 @@ std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& p
     }
     const KsTest ks = ks_test(std::move(values), [](double x) { return std::clamp(x, 0.0, 1.0); });
     note(kolmogorov_tail(std::max(ks.d - error, 0.0) * (root + 0.12 + 0.11 / root)), ks.d,
-         fmt::format("axis {}: D = {:.3g} at u = {:.6g}", a, ks.d, ks.at));
-    moment(mean, 1.0 / 2, 1.0 / 12, 1, fmt::format("axis {}: mean", a));
-    moment(square, 1.0 / 3, 4.0 / 45, 2, fmt::format("axis {}: mean square", a));
+         fmt::format("u[{}]: D = {:.3g} at {:.6g}", a, ks.d, ks.at));
+    moment(mean, 1.0 / 2, 1.0 / 12, 1, fmt::format("u[{}]: mean", a));
+    moment(square, 1.0 / 3, 4.0 / 45, 2, fmt::format("u[{}]: mean square", a));
     for (std::size_t b = 0; b < a; ++b) {
       double product = 0;
       for (const auto& u : points) product += (u[a] - 0.5) * (u[b] - 0.5);
-      moment(product, 0, 1.0 / 144, 1, fmt::format("axes {} and {}: covariance", b, a));
+      moment(product, 0, 1.0 / 144, 1, fmt::format("u[{}] and u[{}]: covariance", b, a));
     }
   }
   c.p = sidak(*c.p, family);

@@ -3,6 +3,7 @@
 #include <mc/check/subject/make_subject.h>
 #include <mc/domain/interval.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace {
@@ -35,7 +36,7 @@ TEST(Strips, ThinLayersAreFound) {
       return r.uniform<double>() < 3e-3 ? at + 2e-3 * x : x;
     });
     EXPECT_EQ(layer.verdict, mc::Verdict::fail) << at;
-    EXPECT_NE(layer.detail.find("coordinate 0"), std::string::npos);
+    EXPECT_THAT(layer.detail, testing::HasSubstr(" in ["));
   }
 }
 
