@@ -134,7 +134,7 @@ void check(const RenderOptions& options) {
 class Work {
  public:
   Work(const Scene& scene, const RenderOptions& options)
-      : scene_(scene), options_(options), integrator_(scene, {options.strategy, options.max_depth}),
+      : scene_(scene), options_(options), integrator_(scene, {options.strategy, options.max_depth, options.shown}),
         render_row_(row_function(options.sampler)), separate_(options.sampler == PixelSampler::independent),
         film_(options.width, options.height) {}
 

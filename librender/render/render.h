@@ -36,6 +36,7 @@ struct RenderOptions {
   Strategy strategy = strategy_from("mis");
   PixelSampler sampler = PixelSampler::sobol;
   int max_depth = -1; ///< longest path in edges; -1: no limit
+  Shown shown = Shown::radiance;
   std::uint64_t seed = 0;
   int threads = 0;                               ///< 0: all of the machine's
   std::function<void(const Progress&)> progress; ///< called after every row, from any of the threads, also at once

@@ -58,7 +58,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Gallery,
                          testing::Values("cbox", "book3-cornell-aluminium", "book3-cornell-first",
                                          "book3-cornell-glass", "book3-cornell-glass-guided", "book3-cornell-white",
                                          "smallpt", "book1-diffuse", "book1-fuzzy-metal", "book1-glass",
-                                         "book1-hollow-glass", "book1-metal"),
+                                         "book1-hollow-glass", "book1-metal", "book1-wide", "book1-distant",
+                                         "book1-zoomed", "book1-defocus", "book1-cover", "filter-box", "filter-tent",
+                                         "filter-gaussian", "mesh-formats"),
                          [](const auto& scene) {
                            std::string name = scene.param; // of a test: without hyphens
                            std::replace(name.begin(), name.end(), '-', '_');

@@ -61,7 +61,7 @@ std::vector<Option> rows(GalleryOptions& o) {
 }
 
 int list_scenes() {
-  for (const GalleryScene& scene : gallery()) fmt::print("{:<28} {} ({})\n", scene.name, scene.title, scene.source);
+  for (const GalleryScene& scene : gallery()) fmt::print("{:<32} {} ({})\n", scene.name, scene.title, scene.source);
   return exit_ok;
 }
 
@@ -79,8 +79,9 @@ Asked read(const GalleryScene& scene, const GalleryOptions& o, const std::atomic
   Asked a{&scene, ::render::read_mitsuba(scene_file(scene)), {}};
   a.settings.width = scaled(a.file.defaults.width, o.scale);
   a.settings.height = scaled(a.file.defaults.height, o.scale);
-  a.settings.spp = o.spp.value_or(a.file.defaults.spp);
+  a.settings.spp = o.spp.value_or(scene.spp > 0 ? scene.spp : a.file.defaults.spp);
   a.settings.max_depth = a.file.defaults.max_depth;
+  a.settings.shown = a.file.defaults.shown;
   a.settings.seconds = o.seconds;
   a.settings.target_error = o.target_error;
   a.settings.seed = o.seed;
@@ -109,7 +110,7 @@ RenderedScene report(const Asked& a, const ::render::RenderResult& result) {
   return r;
 }
 
-constexpr int thumbnail_side = 88, thumbnails_in_a_row = 8;
+constexpr int thumbnail_side = 64, thumbnails_in_a_row = 12;
 
 /// Renders one scene after the other.
 class Run {
@@ -158,8 +159,8 @@ class Run {
     if (cancel_->load()) return false;
     keep_thumbnail(a, result.image);
     progress_.clear();
-    fmt::print("{:<28} {}x{}, {:.4g} samples/pixel in {}: {}, mean standard error {:.2f} %\n", title, r.width, r.height,
-               r.spp, format_seconds(r.seconds), samples_per_second(result), 100 * r.relative_error);
+    fmt::print("{:<32} {}x{}, {:.4g} samples/pixel in {}: {}, mean standard error {}\n", title, r.width, r.height,
+               r.spp, format_seconds(r.seconds), samples_per_second(result), format_error(r.relative_error));
     std::fflush(stdout);
     rendered_.push_back(std::move(r));
     return true;
@@ -168,7 +169,8 @@ class Run {
   // Once for all scenes of a file.
   const std::vector<StrategyResult>& strategies(const Asked& a) {
     const auto [place, is_new] = strategies_.try_emplace(scene_file(*a.scene));
-    if (is_new) place->second = compare_strategies(a.file.scene, a.settings, 64, std::min(64, a.settings.spp));
+    if (is_new && a.settings.shown == ::render::Shown::radiance)
+      place->second = compare_strategies(a.file.scene, a.settings, 64, std::min(64, a.settings.spp));
     return place->second;
   }
 

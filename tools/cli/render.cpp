@@ -6,6 +6,7 @@
 
 #include <render/film/interval.h>
 #include <render/io/image_io.h>
+#include <render/io/mesh_scene.h>
 #include <render/io/mitsuba.h>
 #include <render/io/mitsuba/reference.h>
 #include <render/render.h>
@@ -57,7 +58,8 @@ void check_output(const std::string& path) {
 
 std::vector<Option> rows(RenderOptions& o) {
   return {
-      {"SCENE", "FILE", &o.scene, "Scene file (Mitsuba XML), or a name that carlo gallery --list shows"},
+      {"SCENE", "FILE", &o.scene,
+       "Scene file (Mitsuba XML), mesh alone (.obj, .ply, .serialized), or a name that carlo gallery --list shows"},
       {"--help-scene", "", &o.help_scene, "Print what a scene file may hold, as Markdown, and stop"},
       {"--dialect", "NAME", &o.dialect, "Whose defaults hold in the scene: mitsuba or lajolla"},
       {"-o,--output", "FILE", &o.output,
@@ -73,7 +75,7 @@ std::vector<Option> rows(RenderOptions& o) {
        {"--spp", "--time"}},
       {"--intervals", "FILE", &o.intervals, "Write half the widths of the pixels' 95 % intervals to this image"},
       {"--size", "WxH", &o.size, "Image size in pixels [the scene's]"},
-      {"--strategy", "NAME", &o.strategy, "bsdf, hemisphere, light, mixture, nee or mis [mis]"},
+      {"--strategy", "NAME", &o.strategy, "bsdf, hemisphere, light, mixture, guides, nee or mis [mis]"},
       {"--sampler", "NAME", &o.sampler, "independent, stratified or sobol [sobol]"},
       {"--max-depth", "N", &o.max_depth,
        "Longest path in edges (1: light seen directly), -1 for no limit [the scene's]"},
@@ -99,7 +101,7 @@ const GalleryScene* named_scene(const std::string& word) {
   settings.width = defaults.width;
   settings.height = defaults.height;
   if (!options.size.empty()) parse_size(options.size, settings.width, settings.height);
-  settings.spp = options.spp.value_or(defaults.spp);
+  settings.spp = options.spp.value_or(named && named->spp > 0 ? named->spp : defaults.spp);
   settings.seconds = options.seconds;
   settings.target_error = options.target_error;
   if (!options.strategy.empty()) settings.strategy = ::render::strategy_from(options.strategy);
@@ -107,6 +109,7 @@ const GalleryScene* named_scene(const std::string& word) {
   mc::require(!options.max_depth || *options.max_depth == -1 || *options.max_depth >= 1,
               "--max-depth {} must be -1 or at least 1", options.max_depth.value_or(0));
   settings.max_depth = options.max_depth.value_or(defaults.max_depth);
+  settings.shown = defaults.shown;
   mc::require(options.threads >= 0, "--threads {} must be >= 0", options.threads);
   settings.threads = options.threads;
   settings.seed = options.seed;
@@ -128,7 +131,9 @@ int render(const RenderOptions& options) {
 
   const GalleryScene* named = named_scene(options.scene);
   const std::string file = named ? scene_file(*named) : options.scene;
-  const auto [scene, defaults] = ::render::read_mitsuba(file, ::render::dialect_from(options.dialect));
+  const auto [scene, defaults] = ::render::is_mesh_file(file)
+                                     ? ::render::read_mesh_scene(file)
+                                     : ::render::read_mitsuba(file, ::render::dialect_from(options.dialect));
   if (scene.lights().empty())
     std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", file.c_str());
 
@@ -162,15 +167,12 @@ int render(const RenderOptions& options) {
   if (!options.intervals.empty() && !result.image.variance.empty())
     ::render::write_image(options.intervals, ::render::half_widths(result.image, 0.95));
 
-  std::printf("%s: %dx%d, %.4g samples/pixel in %s (%s CPU): %ssamples/s, %srays/s, mean standard error %s, %llu "
+  std::printf("%s: %dx%d, %.4g samples/pixel in %s (%s CPU): %s, %srays/s, mean standard error %s, %llu "
               "invalid samples%s%s\n",
               output.c_str(), result.image.width, result.image.height, result.spp,
               format_seconds(result.seconds).c_str(), format_seconds(result.cpu_seconds).c_str(),
-              format_count(double(result.samples) / result.seconds).c_str(),
-              format_count(double(result.rays) / result.seconds).c_str(),
-              std::isfinite(result.relative_error) ? fmt::format("{:.2f} %", 100 * result.relative_error).c_str()
-                                                   : "unknown (one estimate per pixel)",
-              static_cast<unsigned long long>(result.invalid),
+              samples_per_second(result).c_str(), format_count(double(result.rays) / result.seconds).c_str(),
+              format_error(result.relative_error).c_str(), static_cast<unsigned long long>(result.invalid),
               result.undecided > 0
                   ? fmt::format(", {:.1f} % of the pixels decided by one sample", 100 * result.undecided).c_str()
                   : "",

@@ -36,14 +36,23 @@ template <class At>::render::Spectrum mean_of(int i, int m, int n, const At& at)
 
 ::render::Image contact_sheet(const std::vector<::render::Image>& thumbnails, int columns, int side) {
   const int n = static_cast<int>(thumbnails.size()), rows = (n + columns - 1) / columns;
-  ::render::Image sheet(std::min(columns, n) * (side + gap) + gap, rows * (side + gap) + gap);
+  std::vector<int> top(static_cast<std::size_t>(rows) + 1, gap); // of each row
+  for (int row = 0; row < rows; ++row) {
+    int highest = 0;
+    for (int i = row * columns; i < std::min(n, (row + 1) * columns); ++i)
+      highest = std::max(highest, thumbnails[static_cast<std::size_t>(i)].height);
+    top[static_cast<std::size_t>(row) + 1] = top[static_cast<std::size_t>(row)] + highest + gap;
+  }
+  ::render::Image sheet(std::min(columns, n) * (side + gap) + gap, top.back());
   std::fill(sheet.pixels.begin(), sheet.pixels.end(), ground);
   for (int i = 0; i < n; ++i) {
     const ::render::Image& picture = thumbnails[static_cast<std::size_t>(i)];
+    const auto row = static_cast<std::size_t>(i / columns);
+    const int cell_height = top[row + 1] - gap - top[row];
     const int left = gap + i % columns * (side + gap) + (side - picture.width) / 2,
-              top = gap + i / columns * (side + gap) + (side - picture.height) / 2;
+              up = top[row] + (cell_height - picture.height) / 2;
     for (int y = 0; y < picture.height; ++y)
-      for (int x = 0; x < picture.width; ++x) sheet.at(left + x, top + y) = picture.at(x, y);
+      for (int x = 0; x < picture.width; ++x) sheet.at(left + x, up + y) = picture.at(x, y);
   }
   return sheet;
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
 namespace carlo {
@@ -39,6 +40,11 @@ void warn_where_coarse(const std::string& path, const ::render::Scene& scene) {
 
 std::string samples_per_second(const ::render::RenderResult& result) {
   return format_count(double(result.samples) / result.seconds) + "samples/s";
+}
+
+std::string format_error(double relative_error) {
+  if (!std::isfinite(relative_error)) return "unknown (one estimate per pixel)";
+  return fmt::format("{:.2f} %", 100 * relative_error);
 }
 
 } // namespace carlo

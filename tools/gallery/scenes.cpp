@@ -11,26 +11,70 @@ namespace carlo {
 
 namespace {
 
-constexpr std::string_view book1 = "P. Shirley, Ray Tracing in One Weekend",
-                           book3 = "P. Shirley, The Rest of Your Life", ours = "ours";
+constexpr std::string_view ours = "ours";
 
+// Members that a row leaves out are those of carlo render.
 constexpr auto scenes = std::to_array<GalleryScene>({
-    {"book1-diffuse", "Diffuse spheres that reflect half of the light", book1},
-    {"book1-metal", "Mirrors", book1},
-    {"book1-fuzzy-metal", "Fuzzy metal", book1},
-    {"book1-glass", "Glass", book1},
-    {"book1-hollow-glass", "Hollow glass", book1},
-    {"book3-cornell-first", "Cornell box, its light shines up too", book3},
-    {"book3-cornell-white", "Cornell box, its light faces down", book3},
-    {"book3-cornell-aluminium", "A box of aluminium", book3},
-    {"book3-cornell-glass", "A glass sphere", book3},
-    {"book3-cornell-glass-guided", "A glass sphere, aimed at beside the light", book3, "", "mixture"},
-    {"smallpt", "Mirror and glass ball between walls that are spheres", "K. Beason, smallpt"},
-    {"cbox", "Cornell box with measured spectra", "Cornell Program of Computer Graphics, by way of Mitsuba", "", "", "",
-     1},
-    {"veach-mi", "Plates of four roughnesses, lights of five sizes", "after E. Veach, by way of lajolla"},
+    // P. Shirley, Ray Tracing in One Weekend
+    {"book1-gradient", "Red and green grow along the axes", "In One Weekend, ch. 1"},
+    {"book1-sky", "A sky from white to blue", "In One Weekend, ch. 2"},
+    {"book1-red-sphere", "A red sphere, a ray for each pixel", "In One Weekend, ch. 3"},
+    {"book1-normals", "Normals as colours, a ray for each pixel", "In One Weekend, ch. 4"},
+    {"book1-antialiased", "Normals as colours, antialiased", "In One Weekend, ch. 5"},
+    {"book1-diffuse", "Diffuse spheres that reflect half of the light", "In One Weekend, ch. 6"},
+    {"book1-metal", "Mirrors", "In One Weekend, ch. 7"},
+    {"book1-fuzzy-metal", "Fuzzy metal", "In One Weekend, ch. 7"},
+    {"book1-glass", "Glass", "In One Weekend, ch. 8"},
+    {"book1-hollow-glass", "Hollow glass", "In One Weekend, ch. 8"},
+    {"book1-wide", "A field of view of 90 degrees", "In One Weekend, ch. 9"},
+    {"book1-distant", "A view from afar", "In One Weekend, ch. 9"},
+    {"book1-zoomed", "The same, zoomed in", "In One Weekend, ch. 9"},
+    {"book1-defocus", "Depth of field", "In One Weekend, ch. 10"},
+    {"book1-cover", "The cover: 487 spheres", "In One Weekend, cover"},
+
+    // P. Shirley, The Rest of Your Life
+    {"book3-cornell-first", "Cornell box, its light shines to both sides", "The Rest of Your Life, ch. 4",
+     "book3-cornell-first", "bsdf"},
+    {"book3-cornell-hemisphere", "The same by uniform directions", "The Rest of Your Life, ch. 4",
+     "book3-cornell-first", "hemisphere"},
+    {"book3-cornell-light", "The same by directions to the light alone: what other surfaces reflect is missed",
+     "The Rest of Your Life, ch. 7", "book3-cornell-first", "light"},
+    {"book3-cornell-light-down", "The light faces down; its directions alone", "The Rest of Your Life, ch. 7",
+     "book3-cornell-white", "light"},
+    {"book3-cornell-cosine", "The light faces down; cosine directions", "The Rest of Your Life, ch. 8",
+     "book3-cornell-white", "bsdf"},
+    {"book3-cornell-white", "The light faces down; a mixture of both", "The Rest of Your Life, ch. 8",
+     "book3-cornell-white", "mixture"},
+    {"book3-cornell-aluminium", "A box of aluminium", "The Rest of Your Life, ch. 10", "book3-cornell-aluminium",
+     "mixture"},
+    {"book3-cornell-glass-sphere-only", "A glass sphere, which half of the directions aim at",
+     "The Rest of Your Life, ch. 10", "book3-cornell-glass-guided", "guides"},
+    {"book3-cornell-glass-guided", "A glass sphere, which the mixture aims at beside the light",
+     "The Rest of Your Life, ch. 10", "book3-cornell-glass-guided", "mixture"},
+    {"book3-cornell-glass", "The same by what carlo does", "The Rest of Your Life, ch. 10"},
+    {"book3-pixels-random", "64 random samples a pixel", "The Rest of Your Life, its later edition",
+     "book3-cornell-first", "bsdf", "independent", 0, 64},
+    {"book3-pixels-stratified", "64 samples a pixel, four times stratified 4x4",
+     "The Rest of Your Life, its later edition", "book3-cornell-first", "bsdf", "stratified", 0, 64},
+
+    // K. Beason's 99 lines, and the lecture that explains them
+    {"smallpt", "Mirror and glass ball between walls that are spheres", "smallpt"},
+    {"smallpt-naive", "The same by chance alone", "smallpt", "smallpt", "bsdf"},
+    {"smallpt-nee", "The same by connections to the light alone", "smallpt", "smallpt", "nee"},
+
+    // lajolla's document: its scenes, and for each of its figures one of ours
+    {"cbox", "Cornell box with measured spectra", "Cornell Program of Computer Graphics, by way of Mitsuba", "cbox", "",
+     "", 1},
+    {"veach-mi", "Plates of four roughnesses, lights of five sizes", "E. Veach, by way of lajolla"},
+    {"sphere-light", "A ball of light above a floor", ours},
+    {"arcade", "A courtyard between arches", ours, "arcade", "", "", -1},
+    {"materials", "Diffuse, rough plastic, rough glass", ours, "materials", "", "", -0.5},
+    {"filter-box", "Squares to the horizon, box filter", ours},
+    {"filter-tent", "Squares to the horizon, tent filter", ours},
+    {"filter-gaussian", "Squares to the horizon, Gaussian filter", ours},
     {"textures", "Chequered floor, tiled wall", ours},
-    {"ground-glass", "Rough glass, smooth glass and gloss under the picture of a sky", ours},
+    {"ground-glass", "Rough glass, smooth glass and gloss under the picture of a sky", ours, "ground-glass", "", "",
+     -2},
     {"mesh-formats", "Torus and trefoil knot", ours},
 });
 

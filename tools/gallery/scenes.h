@@ -16,6 +16,7 @@ struct GalleryScene {
   std::string_view strategy = {}; ///< empty: carlo render's
   std::string_view sampler = {};  ///< empty: carlo render's
   double exposure = 0;            ///< of its PNG [stops]
+  int spp = 0;                    ///< samples per pixel; 0: the file's
 };
 
 /// All of them, by source in the order of the text.

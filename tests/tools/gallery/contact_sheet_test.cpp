@@ -42,19 +42,19 @@ TEST(ContactSheet, AThumbnailKeepsTheMean) {
 
 TEST(ContactSheet, EveryPictureHasItsCell) {
   std::vector<Image> pictures;
-  for (int i = 0; i < 5; ++i) {
-    pictures.emplace_back(i == 4 ? 2 : 6, 6);
+  for (int i = 0; i < 5; ++i) { // the last is narrow, and the second row lower
+    pictures.emplace_back(i == 4 ? 2 : 6, i < 3 ? 6 : 4);
     for (Spectrum& p : pictures.back().pixels) p.setConstant(Float(i + 1));
   }
   const Image sheet = carlo::contact_sheet(pictures, 3, 6);
   EXPECT_EQ(sheet.width, 4 + 3 * 10);
-  EXPECT_EQ(sheet.height, 4 + 2 * 10);
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(sheet.at(4 + i % 3 * 10 + 3, 4 + i / 3 * 10 + 3)[0], Float(i + 1)) << i;
-  EXPECT_LT(sheet.at(14, 14)[0], Float(0.5)) << "beside the narrow one is the ground";
+  EXPECT_EQ(sheet.height, 4 + 10 + 8);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(sheet.at(4 + i % 3 * 10 + 3, 4 + i / 3 * 10 + 2)[0], Float(i + 1)) << i;
+  EXPECT_LT(sheet.at(14, 15)[0], Float(0.5)) << "beside the narrow one is the ground";
   double sum = 0;
   for (const Spectrum& p : sheet.pixels)
     if (p[0] >= 1) sum += double(p[0]);
-  EXPECT_EQ(sum, 36 * (1 + 2 + 3 + 4) + 12 * 5);
+  EXPECT_EQ(sum, 36 * (1 + 2 + 3) + 24 * 4 + 8 * 5);
 }
 
 } // namespace

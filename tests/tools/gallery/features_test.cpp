@@ -15,6 +15,14 @@ TEST(GalleryFeatures, ASceneHasThoseOfItsFile) {
                                              "shape sphere", "emitter area", "strategy mis"));
 }
 
+TEST(GalleryFeatures, EachIsRequiredByAScene) {
+  std::set<carlo::Feature> required;
+  for (const carlo::GalleryScene& scene : carlo::gallery())
+    for (const carlo::Feature& f : carlo::features_of(scene)) required.insert(f);
+  for (const carlo::Feature& f : carlo::all_features()) EXPECT_TRUE(required.contains(f)) << f;
+  EXPECT_GT(required.size(), 30u);
+}
+
 TEST(GalleryFeatures, TheTableIsUpToDate) {
   EXPECT_EQ(mc::read_file(MC_SOURCE_DIR "/librender/scenes/GALLERY.md"), carlo::gallery_text())
       << "run: carlo gallery --table > librender/scenes/GALLERY.md";
