@@ -31,6 +31,7 @@ struct RenderOptions {
   std::optional<double> target_error; ///< mean relative standard error to reach
   std::string intervals;              ///< file for the half widths of 95 % intervals; empty: none
   std::string size;                   ///< "WxH"; empty: the scene's
+  std::string crop;                   ///< "X,Y,W,H"; empty: all of it
   std::string strategy, sampler;      ///< empty: mis, sobol
   std::optional<int> max_depth;       ///< longest path in edges; -1: unlimited
   std::uint64_t seed = 0;
@@ -44,6 +45,15 @@ void parse_size(const std::string& text, int& width, int& height) {
   char rest = 0;
   mc::require(std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2 && width > 0 && height > 0,
               "--size '{}' must be WIDTHxHEIGHT in pixels, e.g. 640x480", text);
+}
+
+// Whether it lies inside the picture is for the renderer to say.
+::render::Crop parse_crop(const std::string& text) {
+  ::render::Crop c;
+  char rest = 0;
+  mc::require(std::sscanf(text.c_str(), "%d,%d,%d,%d%c", &c.x, &c.y, &c.width, &c.height, &rest) == 4,
+              "--crop '{}' must be X,Y,WIDTH,HEIGHT in pixels, e.g. 100,50,64,64", text);
+  return c;
 }
 
 // The folder is looked at before hours of rendering, not after.
@@ -75,6 +85,9 @@ std::vector<Option> rows(RenderOptions& o) {
        {"--spp", "--time"}},
       {"--intervals", "FILE", &o.intervals, "Write half the widths of the pixels' 95 % intervals to this image"},
       {"--size", "WxH", &o.size, "Image size in pixels [the scene's]"},
+      {"--crop", "X,Y,W,H", &o.crop,
+       "Only this part of the picture, from the pixel X, Y counted from the upper left corner: with --spp the same "
+       "pixels, bit for bit"},
       {"--strategy", "NAME", &o.strategy, "bsdf, hemisphere, light, mixture, guides, nee or mis [mis]"},
       {"--sampler", "NAME", &o.sampler, "independent, stratified or sobol [sobol]"},
       {"--max-depth", "N", &o.max_depth,
@@ -101,6 +114,7 @@ const GalleryScene* named_scene(const std::string& word) {
   settings.width = defaults.width;
   settings.height = defaults.height;
   if (!options.size.empty()) parse_size(options.size, settings.width, settings.height);
+  if (!options.crop.empty()) settings.crop = parse_crop(options.crop);
   settings.spp = options.spp.value_or(named && named->spp > 0 ? named->spp : defaults.spp);
   settings.seconds = options.seconds;
   settings.target_error = options.target_error;

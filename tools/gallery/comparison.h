@@ -18,6 +18,7 @@ struct StrategyResult {
   double work = 0;               ///< CPU seconds times the square of that: what a given error costs
   double undecided = 0;          ///< see RenderResult
   mc::Estimate mean;             ///< luminance, mean of the picture
+  bool misses_light = false;     ///< so that it is wrong, however cheap
 };
 
 /// Every strategy with the same samples, on the picture that `settings` describes made so small that its longer side

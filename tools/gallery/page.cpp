@@ -30,16 +30,16 @@ std::string strategies_of(const RenderedScene& r) {
   if (!best || !(best->mean.value > 0)) return {};
   double least = HUGE_VAL;
   for (const StrategyResult& s : r.strategies)
-    if (s.work > 0) least = std::min(least, s.work);
+    if (s.work > 0 && !s.misses_light) least = std::min(least, s.work);
   std::string text =
       "<details><summary>Strategies compared</summary><div class=\"scroll\"><table><tr><th>strategy"
       "<th class=\"n\">work<th class=\"n\">error<th class=\"n\">undecided<th class=\"n\">brightness</tr>";
   for (const StrategyResult& s : r.strategies) {
     const std::string work = s.work > 0 ? fmt::format("{:.3g}&times;", s.work / least) : "0";
-    text += fmt::format("<tr><td>{}{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-                        "<td class=\"n\">{:.2f} &plusmn; {:.2f} %</td></tr>",
-                        s.name, s.name == r.strategy ? " <small>used</small>" : "", work, percent(s.relative_error),
-                        percent(s.undecided), 100 * s.mean.value / best->mean.value,
+    text += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+                        "<td class=\"n\">{:.1f} &plusmn; {:.1f} %</td></tr>",
+                        s.name == r.strategy ? fmt::format("<b>{}</b>", s.name) : std::string(s.name), work,
+                        percent(s.relative_error), percent(s.undecided), 100 * s.mean.value / best->mean.value,
                         100 * s.mean.std_error / best->mean.value);
   }
   return text + "</table></div></details>";
@@ -75,7 +75,8 @@ section h2 { font-size: 1.05rem; line-height: 1.3; }
 .features { list-style: none; display: flex; flex-wrap: wrap; gap: .3rem; margin: .6rem 0; font-size: .8em; }
 .features li { background: var(--quiet); border-radius: 6px; padding: .05rem .45rem; overflow-wrap: anywhere; }
 details { margin-top: .5rem; }
-td small { color: var(--soft); }
+details td, details th { padding: .2rem .4rem .2rem 0; }
+details table { font-size: .84em; }
 a { color: var(--link); }
 .doubt { color: var(--fail); }
 )";
@@ -96,9 +97,9 @@ std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t
   s += "</main>\n<footer><p><b>Mean standard error</b>: the root of the mean variance of pixels and channels, relative "
        "to the mean radiance; the EXR beside each picture has the variance of every pixel. Where one sample carries "
        "over half of a pixel's variance, its error is not known yet. <b>Strategies</b> are compared on small pictures "
-       "with equal samples: <b>work</b> is what the same error costs in CPU time, relative to the cheapest; "
-       "<b>brightness</b> is the mean luminance relative to the strategy that knows it best. <b>light</b> misses what "
-       "other surfaces reflect.</p></footer>\n</body>\n</html>\n";
+       "with equal samples, the one of the picture in bold: <b>work</b> is what the same error costs in CPU time, "
+       "relative to the cheapest that is right; <b>brightness</b> is the mean luminance relative to the strategy that "
+       "knows it best. <b>light</b> misses what other surfaces reflect.</p></footer>\n</body>\n</html>\n";
   return s;
 }
 
