@@ -26,7 +26,7 @@ set -o pipefail
 
 run cbox $carlo render librender/scenes/cbox.xml -o out/cbox.exr --size 256x256 --spp 256
 run cbox_png $carlo render librender/scenes/cbox.xml -o out/cbox.png --size 512x512 --spp 64 --exposure 1
-run glass $carlo render librender/scenes/cornell_glass.xml -o out/cornell_glass.png --size 400x400 --spp 144
+run glass $carlo render librender/scenes/book3-cornell-glass.xml -o out/cornell_glass.png --size 400x400 --spp 144
 run validate $carlo validate --all --json out/validate.json --report out/validate
 run converge $carlo converge pi -o out/convergence
 

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 """Writes the meshes and pictures of librender/scenes that are computed: run it in any folder of the project.
 
-tiles.png    64x64 glazed tiles
-sky.exr      64x32 lat-long sky with a sun
-torus.ply    smooth torus, binary
-knot.serialized  trefoil knot in Mitsuba's format
+textures/tiles.png        64x64 glazed tiles
+textures/sky.exr          64x32 lat-long sky with a sun
+textures/gradient.pfm     the four corners of book1-gradient
+meshes/torus.ply          smooth torus, binary
+meshes/knot.serialized    trefoil knot in Mitsuba's format
+meshes/arcade.ply         walls, floor and arches of an open courtyard
+book1-cover.xml           the spheres of a book's cover
 """
 import math
 import pathlib
@@ -66,6 +69,12 @@ def sky(x, y):
         return 900.0, 780.0, 600.0
     t = y / 16
     return 0.25 + 0.5 * t, 0.45 + 0.4 * t, 0.9 + 0.05 * t
+
+
+def write_pfm(path, rows):
+    """Rows of colours, the bottom one first, as the format has it."""
+    values = [c for row in rows for color in row for c in color]
+    path.write_bytes(f"PF\n{len(rows[0])} {len(rows)}\n-1\n".encode() + struct.pack(f"<{len(values)}f", *values))
 
 
 def tube(center, radius, segments, sides, closed_turns):
@@ -134,9 +143,162 @@ def trefoil(t):
     return [0.5 * (math.sin(t) + 2 * math.sin(2 * t)), 0.5 * (math.cos(t) - 2 * math.cos(2 * t)), -0.5 * math.sin(3 * t)]
 
 
+def arch(x, z, width, height, depth, pillar):
+    """A wall in the plane of constant z from x to x + width, `depth` thick, with a round arch on two pillars in it."""
+    steps, left, right = 16, x + pillar, x + width - pillar
+    radius, middle = (right - left) / 2, (left + right) / 2
+    spring = height - radius - 0.35
+    curve = [(left, 0.0)] + [(middle - radius * math.cos(math.pi * i / steps), spring + radius * math.sin(math.pi * i / steps))
+                             for i in range(steps + 1)] + [(right, 0.0)]
+    outer = [(x, 0.0)] + [(x if i <= steps // 4 else x + width if i >= 3 * steps // 4 else px, height if steps // 4 <= i <= 3 * steps // 4
+                           else py) for i, (px, py) in enumerate(curve[1:-1])] + [(x + width, 0.0)]
+    points, triangles = [], []
+
+    def quad(*corners):
+        triangles.extend([(len(points), len(points) + 1, len(points) + 2), (len(points), len(points) + 2, len(points) + 3)])
+        points.extend(corners)
+
+    for (a, b), (c, d) in zip(zip(curve, curve[1:]), zip(outer, outer[1:])):
+        for side in (0, depth):
+            quad((*a, z + side), (*b, z + side), (*d, z + side), (*c, z + side))
+        quad((*a, z), (*b, z), (*b, z + depth), (*a, z + depth))
+    return points, triangles
+
+
+def courtyard():
+    """Five arches on each of two sides, a wall behind them, and what is above: one mesh without normals and uvs."""
+    points, triangles = [], []
+    for turn in (1, -1):
+        for i in range(5):
+            p, t = arch(-7.5 + 3 * i, 3, 3, 4, 0.5, 0.35)
+            triangles += [tuple(len(points) + k for k in abc) for abc in t]
+            points += [(x, y, turn * z) for x, y, z in p]
+        for corners in (((-8, 0, 6), (8, 0, 6), (8, 4, 6), (-8, 4, 6)), ((-8, 4, 3), (8, 4, 3), (8, 4, 6), (-8, 4, 6)),
+                        ((-8, 4, 3), (8, 4, 3), (8, 7, 3), (-8, 7, 3))):
+            n = len(points)
+            triangles += [(n, n + 1, n + 2), (n, n + 2, n + 3)]
+            points += [(x, y, turn * z) for x, y, z in corners]
+    n = len(points)
+    triangles += [(n, n + 1, n + 2), (n, n + 2, n + 3)]
+    points += [(8, 0, -6), (8, 0, 6), (8, 7, 6), (8, 7, -6)]
+    return points, triangles
+
+
+def write_plain_ply(path, points, triangles):
+    header = (f"ply\nformat binary_little_endian 1.0\ncomment tools/make_assets.py\nelement vertex {len(points)}\n"
+              "property float x\nproperty float y\nproperty float z\n"
+              f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
+    path.write_bytes(header.encode() + b"".join(struct.pack("<3f", *p) for p in points)
+                     + b"".join(struct.pack("<B3i", 3, *t) for t in triangles))
+
+
+def glibc_random():
+    """rand() of glibc, not seeded, over 2^31: what the book's program draws on most machines."""
+    r = [1]
+    for i in range(1, 31):
+        r.append(16807 * r[-1] % 2147483647)
+    for i in range(31, 34):
+        r.append(r[i - 31])
+    while True:
+        r.append((r[-3] + r[-31]) & 0xFFFFFFFF)
+        if len(r) > 344:
+            yield (r[-1] >> 1) / 2147483648
+
+
+def cover_spheres():
+    """Centre, radius and BSDF of [Shirley16]'s cover, as g++ compiles the book's program: it draws the last argument of
+    a call first."""
+    draw = glibc_random()
+
+    def color(lo, hi):
+        return [lo + (hi - lo) * next(draw) for _ in range(3)][::-1]
+
+    yield (0, -1000, 0), 1000, ("diffuse", [0.5] * 3, 0)
+    for a in range(-11, 11):
+        for b in range(-11, 11):
+            choose = next(draw)
+            z = b + 0.9 * next(draw)
+            x = a + 0.9 * next(draw)
+            if math.dist((x, 0.2, z), (4, 0.2, 0)) <= 0.9:
+                continue
+            if choose < 0.8:
+                yield (x, 0.2, z), 0.2, ("diffuse", [p * q for p, q in zip(color(0, 1), color(0, 1))], 0)
+            elif choose < 0.95:
+                albedo = color(0.5, 1)
+                yield (x, 0.2, z), 0.2, ("metal", albedo, 0.5 * next(draw))
+            else:
+                yield (x, 0.2, z), 0.2, ("glass", None, 0)
+    yield (0, 1, 0), 1, ("glass", None, 0)
+    yield (-4, 1, 0), 1, ("diffuse", [0.4, 0.2, 0.1], 0)
+    yield (4, 1, 0), 1, ("metal", [0.7, 0.6, 0.5], 0)
+
+
+def number(x):
+    return f"{x:.9g}"
+
+
+def cover_bsdf(kind, albedo, fuzz):
+    if kind == "glass":
+        return '<ref id="glass"/>'
+    rgb = ", ".join(number(c) for c in albedo)
+    if kind == "diffuse":
+        return f'<bsdf type="diffuse"><rgb name="reflectance" value="{rgb}"/></bsdf>'
+    return f'<bsdf type="fuzzymetal"><rgb name="albedo" value="{rgb}"/><float name="fuzz" value="{number(fuzz)}"/></bsdf>'
+
+
+def write_cover(path):
+    shapes = "".join(
+        f'\t<shape type="sphere"><point name="center" x="{number(x)}" y="{number(y)}" z="{number(z)}"/>'
+        f'<float name="radius" value="{number(radius)}"/>{cover_bsdf(*bsdf)}</shape>\n'
+        for (x, y, z), radius, bsdf in cover_spheres())
+    path.write_text(COVER.replace("@SPHERES@", shapes))
+
+
+COVER = """<?xml version="1.0" encoding="utf-8"?>
+<!-- Ray Tracing in One Weekend (P. Shirley), its cover: written by tools/make_assets.py, which draws the spheres as the program of the
+     book's later edition does under glibc when g++ has compiled it -->
+<scene version="0.6.0">
+	<integrator type="path">
+		<integer name="maxDepth" value="50"/>
+	</integrator>
+
+	<sensor type="thinlens">
+		<string name="fovAxis" value="y"/>
+		<float name="fov" value="20"/>
+		<float name="apertureRadius" value="0.0523604"/>
+		<float name="focusDistance" value="10"/>
+		<transform name="toWorld">
+			<lookAt origin="13, 2, 3" target="0, 0, 0" up="0, 1, 0"/>
+		</transform>
+		<sampler type="sobol">
+			<integer name="sampleCount" value="64"/>
+		</sampler>
+		<film type="hdrfilm">
+			<integer name="width" value="1200"/>
+			<integer name="height" value="675"/>
+			<rfilter type="box"/>
+		</film>
+	</sensor>
+
+	<emitter type="gradient">
+		<rgb name="bottom" value="1, 1, 1"/>
+		<rgb name="top" value="0.5, 0.7, 1"/>
+	</emitter>
+
+	<bsdf type="dielectric" id="glass">
+		<float name="intIOR" value="1.5"/>
+		<float name="extIOR" value="1"/>
+	</bsdf>
+
+@SPHERES@</scene>
+"""
+
 for folder in ("textures", "meshes"):
     (scenes / folder).mkdir(exist_ok=True)
 write_png(scenes / "textures" / "tiles.png", 64, 64, tile)
 write_exr(scenes / "textures" / "sky.exr", 64, 32, sky)
+write_pfm(scenes / "textures" / "gradient.pfm", [[(0, 0, 0.2), (1, 0, 0.2)], [(0, 1, 0.2), (1, 1, 0.2)]])
 write_ply(scenes / "meshes" / "torus.ply", outward(tube(torus, 0.35, 48, 24, 1)))
 write_serialized(scenes / "meshes" / "knot.serialized", outward(tube(trefoil, 0.3, 160, 20, 1)))
+write_plain_ply(scenes / "meshes" / "arcade.ply", *courtyard())
+write_cover(scenes / "book1-cover.xml")

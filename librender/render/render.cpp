@@ -43,24 +43,32 @@ struct Pass {
   bool separate; ///< every sample is an estimate of its own
 };
 
+/// The picture that a film shows the part of.
+struct Whole {
+  int width, height;
+  Crop part;
+};
+
 /// The sum of a pixel's samples of one pass.
 struct PassSum {
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   std::uint32_t valid = 0;
 };
 
-// Adds the samples that are due in the row y to `sums`, one for each of its pixels, or where they are separate to the
-// film.
+// Adds the samples that are due in the row y of the film to `sums`, one for each of its pixels, or where they are
+// separate to the film.
 template <class Stream>
 Tally render_row(const Scene& scene, const PathIntegrator<Scene>& integrator, std::uint64_t seed, const Pass& pass,
-                 int y, Film& film, std::span<PassSum> sums) {
+                 const Whole& whole, int y, Film& film, std::span<PassSum> sums) {
   Tally tally;
   const ThinLens& camera = scene.camera();
-  const Vec2 scale(1 / Float(film.width()), 1 / Float(film.height()));
-  const Vec2 tan_half = camera.tan_half(Float(film.width()) / Float(film.height()));
+  const Vec2 scale(1 / Float(whole.width), 1 / Float(whole.height));
+  const Vec2 tan_half = camera.tan_half(Float(whole.width) / Float(whole.height));
+  const int whole_y = whole.part.y + y;
   for (int x = 0; x < film.width(); ++x) {
+    const int whole_x = whole.part.x + x;
     const std::uint64_t key =
-        mc::hash(seed, static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x), pass.number);
+        mc::hash(seed, static_cast<std::uint64_t>(whole_y) << 32 | static_cast<std::uint64_t>(whole_x), pass.number);
     const typename Stream::Points points(key, pass.count);
     PassSum own;
     PassSum& pixel = pass.separate ? own : sums[static_cast<std::size_t>(x)];
@@ -68,12 +76,12 @@ Tally render_row(const Scene& scene, const PathIntegrator<Scene>& integrator, st
     for (std::uint32_t i = pass.begin; i < pass.end; ++i) {
       Stream stream(points, i);
       const Vec2 offset = scene.filter().sample(stream.next2());
-      const Vec2 s = (Vec2(Float(x) + Float(0.5), Float(y) + Float(0.5)) + offset).cwiseProduct(scale);
+      const Vec2 s = (Vec2(Float(whole_x) + Float(0.5), Float(whole_y) + Float(0.5)) + offset).cwiseProduct(scale);
       const Ray ray = camera.ray(s, tan_half, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
       const Spectrum radiance = integrator.radiance(ray, stream, tally.rays);
       ++tally.samples;
       if (!radiance.isFinite().all()) [[unlikely]] {
-        tally.add({x, y, pass.number, i});
+        tally.add({whole_x, whole_y, pass.number, i});
         continue;
       }
       luminances.add(double(luminance(radiance)));
@@ -86,8 +94,8 @@ Tally render_row(const Scene& scene, const PathIntegrator<Scene>& integrator, st
   return tally;
 }
 
-using RowFunction = Tally (*)(const Scene&, const PathIntegrator<Scene>&, std::uint64_t, const Pass&, int, Film&,
-                              std::span<PassSum>);
+using RowFunction = Tally (*)(const Scene&, const PathIntegrator<Scene>&, std::uint64_t, const Pass&, const Whole&, int,
+                              Film&, std::span<PassSum>);
 
 RowFunction row_function(PixelSampler sampler) {
   switch (sampler) {
@@ -130,13 +138,24 @@ void check(const RenderOptions& options) {
               options.max_depth);
 }
 
+Crop part_of(const RenderOptions& options) {
+  const Crop c = options.crop.value_or(Crop{0, 0, options.width, options.height});
+  mc::require(c.x >= 0 && c.y >= 0 && c.width >= 1 && c.height >= 1 && c.x <= options.width - c.width &&
+                  c.y <= options.height - c.height,
+              "render: a crop of {}x{} pixels at ({}, {}) is not inside a picture of {}x{}", c.width, c.height, c.x,
+              c.y, options.width, options.height);
+  return c;
+}
+
 /// A render under way.
 class Work {
  public:
   Work(const Scene& scene, const RenderOptions& options)
-      : scene_(scene), options_(options), integrator_(scene, {options.strategy, options.max_depth}),
-        render_row_(row_function(options.sampler)), separate_(options.sampler == PixelSampler::independent),
-        film_(options.width, options.height) {}
+      : scene_(scene), options_(options), integrator_(scene, {options.strategy, options.max_depth, options.shown}),
+        render_row_(row_function(options.sampler)),
+        separate_(options.sampler == PixelSampler::independent), whole_{options.width, options.height,
+                                                                        part_of(options)},
+        film_(whole_.part.width, whole_.part.height) {}
 
   RenderResult run() {
     if (options_.seconds || options_.target_error) until_enough();
@@ -196,7 +215,7 @@ class Work {
           const Pass pass{p, count, single ? 0 : begin, single ? 1 : end, separate};
           const std::size_t first = (y * passes + p) * width();
           const std::span<PassSum> own = separate ? std::span<PassSum>() : std::span(sums).subspan(first, width());
-          tally.merge(render_row_(scene_, integrator_, options_.seed, pass, static_cast<int>(y), film_, own));
+          tally.merge(render_row_(scene_, integrator_, options_.seed, pass, whole_, static_cast<int>(y), film_, own));
         }
         row_steps[y] = end;
         return tally;
@@ -222,7 +241,7 @@ class Work {
       sums.assign(separate_ ? 0 : width() * height(), PassSum());
       const auto row = [&](std::size_t y) {
         const std::span<PassSum> own = separate_ ? std::span<PassSum>() : std::span(sums).subspan(y * width(), width());
-        const Tally tally = render_row_(scene_, integrator_, options_.seed, {done, count, 0, count, separate_},
+        const Tally tally = render_row_(scene_, integrator_, options_.seed, {done, count, 0, count, separate_}, whole_,
                                         static_cast<int>(y), film_, own);
         for (std::size_t x = 0; x < own.size(); ++x)
           if (own[x].valid > 0) film_.add(static_cast<int>(x), static_cast<int>(y), own[x].sum / own[x].valid);
@@ -247,6 +266,7 @@ class Work {
   PathIntegrator<Scene> integrator_;
   RowFunction render_row_;
   bool separate_;
+  Whole whole_;
   Film film_;
   Tally total_;
   double error_ = mc::infinity<double>; ///< when it was last looked at

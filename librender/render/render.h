@@ -28,14 +28,22 @@ struct Progress {
 /// While a larger share of the pixels is undecided, a picture has not reached a target error.
 inline constexpr double most_undecided = 0.05;
 
+/// A part of a picture, from the pixel (x, y), counted from the upper left corner.
+struct Crop {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
 struct RenderOptions {
   int width = 256, height = 256;
-  int spp = 64;                       ///< samples per pixel, unless one of the next two is given
+  std::optional<Crop>
+      crop;     ///< only this part: of a given number of samples, the pixels of the whole picture, bit for bit
+  int spp = 64; ///< samples per pixel, unless one of the next two is given
   std::optional<double> seconds;      ///< wall-clock budget [s]
   std::optional<double> target_error; ///< relative RMS standard error of the pixels, see most_undecided
   Strategy strategy = strategy_from("mis");
   PixelSampler sampler = PixelSampler::sobol;
   int max_depth = -1; ///< longest path in edges; -1: no limit
+  Shown shown = Shown::radiance;
   std::uint64_t seed = 0;
   int threads = 0;                               ///< 0: all of the machine's
   std::function<void(const Progress&)> progress; ///< called after every row, from any of the threads, also at once
@@ -60,7 +68,7 @@ struct RenderResult {
 /// its own. A given number of samples is taken in rounds that grow from one sample of every pass to all of them, so
 /// that a picture interrupted after the first is whole and has its variance. The result depends on the seed, not on the
 /// number of threads.
-///   throws : Error for a non-positive size, sample count, time or error
+///   throws : Error for a non-positive size, sample count, time or error, and a crop that reaches beyond the picture
 RenderResult render(const Scene& scene, const RenderOptions& options);
 
 } // namespace render

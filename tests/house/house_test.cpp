@@ -157,9 +157,9 @@ TEST(House, TheExamplesOfTheReadmesAreCompiled) {
 // A link to a file of the project leads to one.
 TEST(House, LinksOfTheReadmesLead) {
   static const std::regex link(R"(\]\(([\w./-]+)\))");
-  for (const fs::path file :
-       {"README.md", "libmc/README.md", "librender/scenes/README.md", "notebooks-data/README.md",
-        "tests/refs/README.md", "tools/input/README.md", "tools/plugin/README.md", "tools/report/README.md"}) {
+  for (const fs::path file : {"README.md", "libmc/README.md", "librender/scenes/README.md",
+                              "librender/scenes/GALLERY.md", "notebooks-data/README.md", "tests/refs/README.md",
+                              "tools/input/README.md", "tools/plugin/README.md", "tools/report/README.md"}) {
     const std::string text = text_of(file);
     for (std::sregex_iterator match(text.begin(), text.end(), link), end; match != end; ++match)
       EXPECT_TRUE(fs::exists(root / file.parent_path() / (*match)[1].str())) << file << ": " << (*match)[1];

@@ -220,4 +220,39 @@ TEST(Render, RejectsBadOptions) {
   for (const PixelSampler s : samplers) EXPECT_EQ(sampler_from(name(s)), s);
 }
 
+// The pixels of a part are those of the whole picture, with their variance, by every sampler.
+TEST(Render, ACropIsAPartOfTheWhole) {
+  const Scene scene = small_scene();
+  for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
+    RenderOptions options;
+    options.width = 20;
+    options.height = 14;
+    options.spp = 12;
+    options.sampler = sampler;
+    options.seed = 4;
+    const Image whole = render::render(scene, options).image;
+    options.crop = Crop{7, 3, 13, 5};
+    const Image part = render::render(scene, options).image;
+    ASSERT_EQ(part.width, 13);
+    ASSERT_EQ(part.height, 5);
+    for (int y = 0; y < part.height; ++y)
+      for (int x = 0; x < part.width; ++x) {
+        EXPECT_TRUE((part.at(x, y) == whole.at(x + 7, y + 3)).all()) << x << " " << y;
+        EXPECT_TRUE((part.variance[part.index(x, y)] == whole.variance[whole.index(x + 7, y + 3)]).all());
+      }
+  }
+}
+
+TEST(Render, ACropLiesInsideThePicture) {
+  const Scene scene = small_scene();
+  RenderOptions options;
+  options.width = 20;
+  options.height = 14;
+  for (const Crop& c : {Crop{-1, 0, 2, 2}, Crop{0, -1, 2, 2}, Crop{0, 0, 0, 2}, Crop{0, 0, 2, -2}, Crop{19, 0, 2, 2},
+                        Crop{0, 13, 2, 2}, Crop{2147483647, 0, 2147483647, 1}}) {
+    options.crop = c;
+    EXPECT_THROW(render::render(scene, options), mc::Error) << c.x << " " << c.y << " " << c.width << " " << c.height;
+  }
+}
+
 } // namespace

@@ -8,8 +8,8 @@
 
 namespace support {
 
-/// Runs carlo on a terminal of its own and types Ctrl-C once it has drawn its progress there.
-inline Run interrupt_carlo(const std::string& arguments) {
+/// Runs carlo on a terminal of its own and types Ctrl-C once it has written `sign` there: by default, its progress.
+inline Run interrupt_carlo(const std::string& arguments, const std::string& sign = "\033[K") {
   int terminal = -1;
   const std::string command = "exec '" CARLO_PATH "' " + arguments;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
@@ -24,7 +24,7 @@ inline Run interrupt_carlo(const std::string& arguments) {
   // At the end of the child, a read fails.
   for (ssize_t n; (n = read(terminal, buffer.data(), buffer.size())) > 0;) {
     output.append(buffer.data(), static_cast<std::size_t>(n));
-    if (!typed && output.find("\033[K") != std::string::npos) typed = write(terminal, "\003", 1) == 1;
+    if (!typed && output.find(sign) != std::string::npos) typed = write(terminal, "\003", 1) == 1;
   }
   int status = 0;
   waitpid(child, &status, 0);

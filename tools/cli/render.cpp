@@ -1,14 +1,15 @@
 #include <cli/subcommand.h>
+#include <gallery/picture.h>
+#include <gallery/scenes.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
-#include <terminal/version.h>
 
 #include <render/film/interval.h>
 #include <render/io/image_io.h>
+#include <render/io/mesh_scene.h>
 #include <render/io/mitsuba.h>
 #include <render/io/mitsuba/reference.h>
 #include <render/render.h>
-#include <render/scene/resolution.h>
 
 #include <mc/core/error.h>
 
@@ -21,7 +22,7 @@ namespace carlo {
 namespace {
 
 struct RenderOptions {
-  std::string scene;
+  std::string scene;                  ///< a file, or the name of a scene of the gallery
   bool help_scene = false;            ///< print the reference of scene files, and stop
   std::string dialect = "mitsuba";    ///< whose defaults hold in the scene
   std::string output;                 ///< empty: the scene's name with .exr in the current folder
@@ -30,19 +31,29 @@ struct RenderOptions {
   std::optional<double> target_error; ///< mean relative standard error to reach
   std::string intervals;              ///< file for the half widths of 95 % intervals; empty: none
   std::string size;                   ///< "WxH"; empty: the scene's
+  std::string crop;                   ///< "X,Y,W,H"; empty: all of it
   std::string strategy, sampler;      ///< empty: mis, sobol
   std::optional<int> max_depth;       ///< longest path in edges; -1: unlimited
   std::uint64_t seed = 0;
-  int threads = 0;            ///< 0: all
-  double exposure = 0;        ///< stops, PNG only
-  bool allow_invalid = false; ///< write the image although samples were not finite
-  std::string command;        ///< the command line, for the metadata
+  int threads = 0;                ///< 0: all
+  std::optional<double> exposure; ///< stops, PNG only; none: the gallery's, or 0
+  bool allow_invalid = false;     ///< write the image although samples were not finite
+  std::string command;            ///< the command line, for the metadata
 };
 
 void parse_size(const std::string& text, int& width, int& height) {
   char rest = 0;
   mc::require(std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2 && width > 0 && height > 0,
               "--size '{}' must be WIDTHxHEIGHT in pixels, e.g. 640x480", text);
+}
+
+// Whether it lies inside the picture is for the renderer to say.
+::render::Crop parse_crop(const std::string& text) {
+  ::render::Crop c;
+  char rest = 0;
+  mc::require(std::sscanf(text.c_str(), "%d,%d,%d,%d%c", &c.x, &c.y, &c.width, &c.height, &rest) == 4,
+              "--crop '{}' must be X,Y,WIDTH,HEIGHT in pixels, e.g. 100,50,64,64", text);
+  return c;
 }
 
 // The folder is looked at before hours of rendering, not after.
@@ -57,7 +68,8 @@ void check_output(const std::string& path) {
 
 std::vector<Option> rows(RenderOptions& o) {
   return {
-      {"SCENE", "FILE", &o.scene, "Scene file (Mitsuba XML)"},
+      {"SCENE", "FILE", &o.scene,
+       "Scene file (Mitsuba XML), mesh alone (.obj, .ply, .serialized), or a name that carlo gallery --list shows"},
       {"--help-scene", "", &o.help_scene, "Print what a scene file may hold, as Markdown, and stop"},
       {"--dialect", "NAME", &o.dialect, "Whose defaults hold in the scene: mitsuba or lajolla"},
       {"-o,--output", "FILE", &o.output,
@@ -73,34 +85,37 @@ std::vector<Option> rows(RenderOptions& o) {
        {"--spp", "--time"}},
       {"--intervals", "FILE", &o.intervals, "Write half the widths of the pixels' 95 % intervals to this image"},
       {"--size", "WxH", &o.size, "Image size in pixels [the scene's]"},
-      {"--strategy", "NAME", &o.strategy, "bsdf, hemisphere, light, mixture, nee or mis [mis]"},
+      {"--crop", "X,Y,W,H", &o.crop,
+       "Only this part of the picture, from the pixel X, Y counted from the upper left corner: with --spp the same "
+       "pixels, bit for bit"},
+      {"--strategy", "NAME", &o.strategy, "bsdf, hemisphere, light, mixture, guides, nee or mis [mis]"},
       {"--sampler", "NAME", &o.sampler, "independent, stratified or sobol [sobol]"},
       {"--max-depth", "N", &o.max_depth,
        "Longest path in edges (1: light seen directly), -1 for no limit [the scene's]"},
       {"--seed", "N", &o.seed, "Seed; same seed, same bits, whatever the number of threads"},
       {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
-      {"--exposure", "STOPS", &o.exposure, "Brightness added before a PNG is written"},
+      {"--exposure", "STOPS", &o.exposure, "Brightness added before a PNG is written [0; a gallery scene's own]"},
       {"--allow-invalid", "", &o.allow_invalid, "Write the image although some samples were not finite"},
   };
 }
 
-void warn_where_coarse(const std::string& path, const ::render::Scene& scene) {
-  const ::render::Coarseness c = ::render::coarsest(scene);
-  if (c.ratio <= ::render::too_coarse) return;
-  std::fprintf(
-      stderr,
-      "carlo: warning: %s: a surface %.3g across has coordinates of %.3g, where the next number is %.2g further; "
-      "its light and shadow may be wrong. Bring what lies far apart closer together\n",
-      path.c_str(), c.size, c.distance, c.step);
+// A word that is neither a file nor looks like one is a scene of the gallery.
+const GalleryScene* named_scene(const std::string& word) {
+  const bool is_file = word.find_first_of("./") != std::string::npos || std::filesystem::exists(word);
+  return is_file ? nullptr : &gallery_scene(word);
 }
 
 // What the scene asks for, where the command does not say otherwise.
-::render::RenderOptions settings_of(const RenderOptions& options, const ::render::RenderDefaults& defaults) {
+::render::RenderOptions settings_of(const RenderOptions& options, const ::render::RenderDefaults& defaults,
+                                    const GalleryScene* named) {
   ::render::RenderOptions settings;
+  if (named && !named->strategy.empty()) settings.strategy = ::render::strategy_from(named->strategy);
+  if (named && !named->sampler.empty()) settings.sampler = ::render::sampler_from(named->sampler);
   settings.width = defaults.width;
   settings.height = defaults.height;
   if (!options.size.empty()) parse_size(options.size, settings.width, settings.height);
-  settings.spp = options.spp.value_or(defaults.spp);
+  if (!options.crop.empty()) settings.crop = parse_crop(options.crop);
+  settings.spp = options.spp.value_or(named && named->spp > 0 ? named->spp : defaults.spp);
   settings.seconds = options.seconds;
   settings.target_error = options.target_error;
   if (!options.strategy.empty()) settings.strategy = ::render::strategy_from(options.strategy);
@@ -108,6 +123,7 @@ void warn_where_coarse(const std::string& path, const ::render::Scene& scene) {
   mc::require(!options.max_depth || *options.max_depth == -1 || *options.max_depth >= 1,
               "--max-depth {} must be -1 or at least 1", options.max_depth.value_or(0));
   settings.max_depth = options.max_depth.value_or(defaults.max_depth);
+  settings.shown = defaults.shown;
   mc::require(options.threads >= 0, "--threads {} must be >= 0", options.threads);
   settings.threads = options.threads;
   settings.seed = options.seed;
@@ -127,13 +143,17 @@ int render(const RenderOptions& options) {
   check_output(output);
   if (!options.intervals.empty()) check_output(options.intervals);
 
-  const auto [scene, defaults] = ::render::read_mitsuba(options.scene, ::render::dialect_from(options.dialect));
+  const GalleryScene* named = named_scene(options.scene);
+  const std::string file = named ? scene_file(*named) : options.scene;
+  const auto [scene, defaults] = ::render::is_mesh_file(file)
+                                     ? ::render::read_mesh_scene(file)
+                                     : ::render::read_mitsuba(file, ::render::dialect_from(options.dialect));
   if (scene.lights().empty())
-    std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", options.scene.c_str());
+    std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", file.c_str());
 
-  warn_where_coarse(options.scene, scene);
+  warn_where_coarse(file, scene);
 
-  ::render::RenderOptions settings = settings_of(options, defaults);
+  ::render::RenderOptions settings = settings_of(options, defaults, named);
   Progress progress;
   std::mutex mutex;
   settings.progress = [&](const ::render::Progress& p) {
@@ -150,36 +170,23 @@ int render(const RenderOptions& options) {
   ::render::RenderResult result = ::render::render(scene, settings);
   progress.clear();
 
-  if (result.invalid > 0) {
-    const auto& w = result.first_invalid;
-    const std::string what =
-        fmt::format("{} of {} samples are not finite; the first: pixel ({}, {}), pass {}, sample {}, seed {}",
-                    result.invalid, result.samples, w.x, w.y, w.pass, w.index, options.seed);
+  const Provenance from{file, options.command, options.seed};
+  if (const std::string invalid = invalid_samples(result, from); !invalid.empty()) {
     mc::require(options.allow_invalid, "{}: {}; nothing was written (--allow-invalid writes the image without them)",
-                options.scene, what);
-    std::fprintf(stderr, "carlo: warning: %s\n", what.c_str());
+                file, invalid);
+    std::fprintf(stderr, "carlo: warning: %s\n", invalid.c_str());
   }
-
-  auto& metadata = result.image.metadata;
-  metadata["carlo.command"] = options.command;
-  metadata["carlo.commit"] = fmt::format("{} ({})", version, commit);
-  metadata["carlo.seed"] = fmt::format("{}", options.seed);
-  metadata["carlo.samples_per_pixel"] = fmt::format("{:.6g}", result.spp);
-  metadata["carlo.invalid_samples"] = fmt::format("{}", result.invalid);
-  if (result.partial) metadata["carlo.partial"] = "interrupted before the end";
-  ::render::write_image(output, result.image, options.exposure);
+  sign(result, from);
+  ::render::write_image(output, result.image, options.exposure.value_or(named ? named->exposure : 0));
   if (!options.intervals.empty() && !result.image.variance.empty())
     ::render::write_image(options.intervals, ::render::half_widths(result.image, 0.95));
 
-  std::printf("%s: %dx%d, %.4g samples/pixel in %s (%s CPU): %ssamples/s, %srays/s, mean standard error %s, %llu "
+  std::printf("%s: %dx%d, %.4g samples/pixel in %s (%s CPU): %s, %srays/s, mean standard error %s, %llu "
               "invalid samples%s%s\n",
               output.c_str(), result.image.width, result.image.height, result.spp,
               format_seconds(result.seconds).c_str(), format_seconds(result.cpu_seconds).c_str(),
-              format_count(double(result.samples) / result.seconds).c_str(),
-              format_count(double(result.rays) / result.seconds).c_str(),
-              std::isfinite(result.relative_error) ? fmt::format("{:.2f} %", 100 * result.relative_error).c_str()
-                                                   : "unknown (one estimate per pixel)",
-              static_cast<unsigned long long>(result.invalid),
+              samples_per_second(result).c_str(), format_count(double(result.rays) / result.seconds).c_str(),
+              format_error(result.relative_error).c_str(), static_cast<unsigned long long>(result.invalid),
               result.undecided > 0
                   ? fmt::format(", {:.1f} % of the pixels decided by one sample", 100 * result.undecided).c_str()
                   : "",

@@ -11,6 +11,7 @@ namespace carlo {
   row(trade);                                                                                                          \
   row(integrate);                                                                                                      \
   row(render);                                                                                                         \
+  row(gallery);                                                                                                        \
   row(compare);                                                                                                        \
   row(worker)
 

@@ -10,6 +10,12 @@
 
 namespace render {
 
+/// What the pixels of a picture show.
+enum class Shown {
+  radiance,
+  normals ///< of what is seen: the shading normal n as the colour (n + 1) / 2; beyond all surfaces radiance
+};
+
 /// Row-major pixels, the top row first, linear sRGB radiance; optionally the variance of each pixel's mean, per
 /// channel.
 struct Image {

@@ -11,8 +11,8 @@ namespace render {
 ///   A pixel alone does not know its error where rare bright paths decide: until it meets one it is too dark and says
 ///   that it is sure. Its neighbours have met some, so they share; and a pixel's variance counts as one observation,
 ///   however many estimates lie behind it.
-///   error  : in scenes with caustics, cornell_glass and smallpt, 95 % intervals held 94 to 97 % of the pixels at 4 to
-///            256 samples, missing as often above as below; with the variance of the pixel alone it is 85 to 93 %,
+///   error  : in scenes with caustics, book3-cornell-glass and smallpt, 95 % intervals held 94 to 97 % of the pixels at
+///            4 to 256 samples, missing as often above as below; with the variance of the pixel alone it is 85 to 93 %,
 ///            nearly all too low (notebooks-data/truth/pixel_intervals.csv). Where noise changes within three
 ///            pixels, the quiet ones get wider intervals than they need and the noisy ones narrower.
 ///   throws : Error unless the image carries its variance and 0 < confidence < 1

@@ -8,12 +8,18 @@ namespace {
 
 constexpr std::size_t most_speculars = 8; // aiming at more would not pay
 
+std::vector<const Shape*> guides(const Scene& scene) {
+  std::vector<const Shape*> found;
+  for (const Surface& s : scene.surfaces())
+    if (s.guide) found.push_back(s.shape.get());
+  return found;
+}
+
 std::vector<const Shape*> lights_and_guides(const Scene& scene) {
   std::vector<const Shape*> found;
   for (const Surface& s : scene.surfaces())
     if (s.light) found.push_back(s.shape.get());
-  for (const Surface& s : scene.surfaces())
-    if (s.guide) found.push_back(s.shape.get());
+  for (const Shape* guide : guides(scene)) found.push_back(guide);
   return found;
 }
 
@@ -31,6 +37,7 @@ std::vector<const Shape*> speculars(const Scene& scene) {
 Directions::Directions(const Scene& scene, const Strategy& strategy)
     : aims_(strategy.share), aims_for_delta_(std::min(strategy.share, Float(0.5))), follows_(strategy.share < 1) {
   if (strategy.target == Target::lights) shapes_ = lights_and_guides(scene);
+  if (strategy.target == Target::guides) shapes_ = guides(scene);
   if (strategy.target == Target::speculars) shapes_ = speculars(scene);
   const std::size_t targets = strategy.target == Target::hemisphere ? 1 : shapes_.size();
   if (targets > 0) targets_.emplace(targets);

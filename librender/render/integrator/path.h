@@ -1,6 +1,7 @@
 #pragma once
 /// Path tracing from the camera, by any of the strategies of the books.
 
+#include <render/film/image.h>
 #include <render/integrator/directions.h>
 
 #include <mc/estimate/mis.h>
@@ -19,6 +20,7 @@ namespace render {
 struct PathOptions {
   Strategy strategy = strategy_from("mis");
   int max_depth = -1; ///< longest path in edges (1: light seen directly); -1: no limit
+  Shown shown = Shown::radiance;
 };
 
 /// Traces paths through a scene, which must outlive it. Immutable, so threads share it.
@@ -38,8 +40,9 @@ template <class SceneType> class PathIntegrator {
   PathIntegrator(const SceneType& scene, const PathOptions& options)
       : scene_(scene), options_(options), directions_(scene, options.strategy) {}
 
-  /// Radiance that arrives along `ray`, one sample. `rays` counts the rays traced.
+  /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
   template <class Stream> Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const {
+    if (options_.shown == Shown::normals) return normal(ray, rays);
     return follow({ray, ray.o}, stream, rays, true);
   }
 
@@ -55,6 +58,17 @@ template <class SceneType> class PathIntegrator {
     Float eta_scale = 1;    ///< undoes the compression of radiance in glass
     int edges = 0;          ///< traced so far
   };
+
+  // The normal of what a ray meets, as a colour.
+  Spectrum normal(const Ray& ray, std::uint64_t& rays) const {
+    ++rays;
+    if (const auto hit = scene_.intersect(ray))
+      return (scene_.surface(*hit).shape->surface_point(ray, *hit).ns.array() + 1) / 2;
+    Spectrum radiance = Spectrum::Zero();
+    for (const std::uint32_t light : scene_.infinite_lights())
+      radiance += scene_.lights()[light].emitted(ray.d, nullptr);
+    return radiance;
+  }
 
   // Radiance found along the rest of a path; `whole`: it has not split yet.
   template <class Stream> Spectrum follow(Walk walk, Stream& stream, std::uint64_t& rays, bool whole) const {

@@ -14,6 +14,7 @@ enum class Target {
   nothing,
   hemisphere, ///< every direction on the side of the path; on both where light goes through the surface
   lights,     ///< the shapes of the lights, and the guides
+  guides,     ///< the shapes that the scene marks as such
   speculars   ///< spheres of glass or mirror, which may cast caustics of the lights
 };
 
@@ -34,12 +35,13 @@ struct Strategy {
 
 /// All but `light`, which misses what other surfaces reflect, are unbiased. Where nothing is to aim at, the BSDF is
 /// followed.
-///   light, mixture : as in [Shirley16], chapters 7 and 8
-inline constexpr std::array<Strategy, 6> strategies = {{
+///   light, mixture, guides : as in [Shirley16], chapters 7, 8 and 10
+inline constexpr std::array<Strategy, 7> strategies = {{
     {"bsdf", Target::nothing, 0, Finding::by_chance},
     {"hemisphere", Target::hemisphere, 1, Finding::by_chance},
     {"light", Target::lights, 1, Finding::by_chance},
     {"mixture", Target::lights, Float(0.5), Finding::by_chance},
+    {"guides", Target::guides, Float(0.5), Finding::by_chance},
     {"nee", Target::nothing, 0, Finding::by_connection},
     {"mis", Target::speculars, Float(0.25), Finding::by_both},
 }};

@@ -30,13 +30,14 @@ class Reader {
     if (!sensor_) root_.fail("there is no <sensor>; a camera is needed");
     context_.builder.set(sensor_->camera);
     context_.builder.set(sensor_->film.filter);
+    const IntegratorSettings integrator = integrator_.value_or(IntegratorSettings());
     return {mc::with_context(root_.file, [&] { return context_.builder.build(); }),
-            {sensor_->film.width, sensor_->film.height, sensor_->spp, max_depth_.value_or(-1)}};
+            {sensor_->film.width, sensor_->film.height, sensor_->spp, integrator.max_depth, integrator.shown}};
   }
 
  private:
   void read(const XmlElement& e) {
-    if (e.tag == "integrator") only_one(e, max_depth_) = read_plugin(integrator_plugins(), e, context_);
+    if (e.tag == "integrator") only_one(e, integrator_) = read_plugin(integrator_plugins(), e, context_);
     else if (e.tag == "sensor") only_one(e, sensor_) = read_plugin(sensor_plugins(), e, context_);
     else if (e.tag == "emitter") emitter(e);
     else if (e.tag == "bsdf") named_bsdf(e);
@@ -75,7 +76,7 @@ class Reader {
 
   const XmlElement& root_;
   Context context_;
-  std::optional<int> max_depth_;
+  std::optional<IntegratorSettings> integrator_;
   std::optional<SensorSettings> sensor_;
   bool has_background_ = false;
 };

@@ -1,6 +1,7 @@
 #pragma once
 /// Scenes in Mitsuba's XML format, versions 0.4 to 0.6.
 
+#include <render/film/image.h>
 #include <render/scene/scene.h>
 
 #include <string>
@@ -12,6 +13,7 @@ struct RenderDefaults {
   int width = 256, height = 256;
   int spp = 64;
   int max_depth = -1; ///< longest path in edges; -1: no limit
+  Shown shown = Shown::radiance;
 };
 
 struct SceneFile {

@@ -30,7 +30,7 @@ TEST(HalfWidths, ShareTheVarianceOfTheNeighbours) {
 // whose truth errs by a twentieth of their error, so two per cent either way are not told from 95 %. The pixel alone is
 // sure of too much, the defect that this is for.
 TEST(HalfWidths, HoldTheTruthUnderCaustics) {
-  const SceneFile file = read_mitsuba(MC_SOURCE_DIR "/librender/scenes/cornell_glass.xml");
+  const SceneFile file = read_mitsuba(MC_SOURCE_DIR "/librender/scenes/book3-cornell-glass.xml");
   RenderOptions options;
   options.width = options.height = 16;
   options.spp = 8192;

@@ -67,6 +67,20 @@ TEST(Path, ClosedFurnace) {
       expect_mean(trace(scene, ray, {s}, 5'000, channel), 2 / (1 - (0.2 + 0.3 * channel)), word(s));
 }
 
+// Instead of light, the shading normal as a colour; beyond it the sky.
+TEST(Path, ShowsNormals) {
+  SceneBuilder builder;
+  builder.add(Light(ConstantBackground(Spectrum::Constant(Float(0.3)))));
+  builder.add(Sphere(Vec3d::Zero(), 1), {builder.add(Lambert()), Emission{}});
+  const Scene scene = builder.build();
+  const PathOptions options{.shown = Shown::normals};
+  const Vec3 n = Vec3(1, -2, 3).normalized();
+  for (int channel = 0; channel < 3; ++channel) {
+    expect_mean(trace(scene, {Vec3(5 * n), Vec3(-n)}, options, 10, channel), (double(n[channel]) + 1) / 2, "normal");
+    expect_mean(trace(scene, {Vec3(5 * n), n}, options, 10, channel), 0.3, "sky");
+  }
+}
+
 // An open sphere or plate in a constant sky of 1: what reflects or refracts all of it is invisible.
 TEST(Path, WhiteObjectsVanishInAWhiteSky) {
   for (const Bsdf& bsdf : {Bsdf(Lambert(Spectrum::Ones())), Bsdf(Metal(Spectrum::Ones())), Bsdf(Dielectric())}) {

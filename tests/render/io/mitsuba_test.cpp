@@ -192,7 +192,8 @@ TEST_P(Reference, BlocksAgree) {
 
 INSTANTIATE_TEST_SUITE_P(Mitsuba, Reference,
                          testing::Values(ReferenceImage{"cbox.xml", "refs/cbox_lajolla_256.pfm", 4.9e-5},
-                                         ReferenceImage{"cornell_white.xml", "refs/book3_cornell_300.pfm", 3.7e-4},
+                                         ReferenceImage{"book3-cornell-white.xml", "refs/book3_cornell_300.pfm",
+                                                        3.7e-4},
                                          ReferenceImage{"smallpt.xml", "refs/smallpt_256x192.pfm", 4.4e-4}));
 
 } // namespace

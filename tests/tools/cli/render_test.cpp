@@ -43,6 +43,11 @@ TEST_F(RenderCommand, RefusesBadInputInOneLine) {
   expect_refused(cbox() + " --max-depth 0", {"--max-depth 0"});
   expect_refused(cbox() + " --spp 1 --intervals " + path("w.pfm"), {"--intervals", "two or more"});
   expect_refused(cbox() + " --threads -2", {"--threads -2"});
+  expect_refused(cbox() + " --crop 1,2,3", {"--crop '1,2,3'", "X,Y,WIDTH,HEIGHT"});
+  expect_refused(cbox() + " --crop 6,0,3,3", {"crop of 3x3 pixels at (6, 0)", "8x8"});
+  expect_refused("nothing.obj -o " + path("out.pfm"), {"nothing.obj"});
+  expect_refused(write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n") + " -o " + path("out.pfm"),
+                 {"line.obj", "none of its 1 triangles has an area"});
   expect_refused(scenes + "cbox.xml --size 8 -o " + path("out.pfm"), {"--size '8'", "WIDTHxHEIGHT"});
   expect_refused(scenes + "cbox.xml -o " + path("no/such/out.pfm"), {"no/such", "does not exist"});
   expect_refused(scenes + "cbox.xml -o " + path("out.gif"), {".gif", ".exr, .pfm or .png"});
@@ -68,6 +73,19 @@ TEST_F(RenderCommand, WritesIntervals) {
     sum += double(w.sum());
   }
   EXPECT_GT(sum, 0);
+}
+
+// A mesh needs no scene file; a part of its picture is that of the whole.
+TEST_F(RenderCommand, TakesAMeshAloneAndAPartOfThePicture) {
+  const std::string mesh = scenes + "meshes/torus.ply --size 24x16 --spp 8 -o ";
+  ASSERT_EQ(run_carlo("render " + mesh + path("whole.exr")).exit_code, 0);
+  const support::Run run = run_carlo("render " + mesh + path("part.exr") + " --crop 5,2,9,10");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("9x10"));
+  const render::Image whole = render::read_image(path("whole.exr")), part = render::read_image(path("part.exr"));
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 9; ++x) EXPECT_TRUE((part.at(x, y) == whole.at(x + 5, y + 2)).all()) << x << " " << y;
+  EXPECT_GT(whole.at(12, 8).sum(), 0);
 }
 
 // A pebble in a scene a thousand kilometres wide is more than floats can hold.

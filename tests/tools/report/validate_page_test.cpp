@@ -19,11 +19,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include <tools/run_carlo.h>
+#include <tools/browser.h>
 
 namespace {
 
 namespace fs = std::filesystem;
+using support::logged;
 using testing::HasSubstr, testing::Not;
 
 constexpr std::uint64_t samples = 60'000;
@@ -91,26 +92,8 @@ struct Page : testing::Test {
   }
   void TearDown() override { fs::remove_all(folder); }
 
-  // What the browser made of the page at the address file#hash, and what it logged; empty without a browser.
-  std::string browse(const std::string& hash) const {
-    for (const char* browser : {"chromium", "chromium-browser", "google-chrome"}) {
-      if (std::system(fmt::format("command -v {} >/dev/null 2>&1", browser).c_str()) != 0) continue;
-      const std::string command = fmt::format(
-          "timeout 60 {} --headless --no-sandbox --disable-gpu --disable-background-networking --disable-dev-shm-usage "
-          "--user-data-dir='{}' --enable-logging=stderr --virtual-time-budget=3000 --dump-dom 'file://{}#{}'",
-          browser, (folder / "profile").string(), file, hash);
-      return support::run(command).output;
-    }
-    fmt::print("no chromium here: the page was not looked at in a browser\n");
-    return {};
-  }
+  std::string browse(const std::string& hash) const { return support::browse(file, hash); }
 };
-
-// What the page complained of on the browser's console.
-std::string logged(const std::string& dom) {
-  const std::size_t at = dom.find("CONSOLE");
-  return at == std::string::npos ? "" : dom.substr(at, 500);
-}
 
 // Says which text is missing without printing the whole page.
 bool has(const std::string& dom, const std::string& text) { return dom.find(text) != std::string::npos; }

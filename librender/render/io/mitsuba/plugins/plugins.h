@@ -18,13 +18,18 @@ struct FilmSettings {
   Filter filter;
 };
 
+struct IntegratorSettings {
+  int max_depth = -1; ///< longest path in edges, -1 for no limit
+  Shown shown = Shown::radiance;
+};
+
 struct SensorSettings {
   ThinLens camera;
   FilmSettings film;
   int spp;
 };
 
-const Plugins<int>& integrator_plugins(); ///< the longest path in edges, -1 for no limit
+const Plugins<IntegratorSettings>& integrator_plugins();
 const Plugins<SensorSettings>& sensor_plugins();
 const Plugins<FilmSettings>& film_plugins();
 const Plugins<Filter>& filter_plugins();

@@ -70,11 +70,13 @@ Plugin<int> sampler_plugin(std::string name) {
                   no_effect("scramble", "our points are always randomised")});
 }
 
-int make_direct() { return 2; }
+IntegratorSettings make_direct() { return {.max_depth = 2}; }
 
-int make_path(int max_depth) {
+IntegratorSettings make_normals() { return {.shown = Shown::normals}; }
+
+IntegratorSettings make_path(int max_depth) {
   mc::require(max_depth == -1 || max_depth >= 1, "maxDepth {} must be -1 or at least 1", max_depth);
-  return max_depth;
+  return {.max_depth = max_depth};
 }
 
 } // namespace
@@ -114,18 +116,21 @@ const Plugins<int>& sampler_plugins() {
   return rows;
 }
 
-const Plugins<int>& integrator_plugins() {
-  static const Plugins<int> rows = {
-      plugin<int>("path", "paths from the camera; --strategy says how they find the lights", make_path,
-                  integer("maxDepth", "longest path in edges; -1: no limit", -1))
+const Plugins<IntegratorSettings>& integrator_plugins() {
+  static const Plugins<IntegratorSettings> rows = {
+      plugin<IntegratorSettings>("path", "paths from the camera; --strategy says how they find the lights", make_path,
+                                 integer("maxDepth", "longest path in edges; -1: no limit", -1))
           .accepting({no_effect("rrDepth", "Russian roulette follows the throughput"),
                       no_effect("strictNormals", "the geometry always decides on which side light is"),
                       only(false, "hideEmitters", "lights are seen")}),
-      plugin<int>("direct", "what lights send by way of one surface: paths of at most two edges", make_direct)
+      plugin<IntegratorSettings>("direct", "what lights send by way of one surface: paths of at most two edges",
+                                 make_direct)
           .accepting({no_effect("shadingSamples", "--spp says it"), no_effect("emitterSamples", "--spp says it"),
                       no_effect("bsdfSamples", "--spp says it"),
                       no_effect("strictNormals", "the geometry always decides on which side light is"),
                       only(false, "hideEmitters", "lights are seen")}),
+      plugin<IntegratorSettings>(
+          "normals", "the normal n of what is seen, as the colour (n + 1) / 2; beyond it the sky (ours)", make_normals),
   };
   return rows;
 }

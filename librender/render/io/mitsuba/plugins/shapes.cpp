@@ -59,7 +59,8 @@ template <class Make, class... V>
 Plugin<CoveredShape> shape_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
   return plugin<CoveredShape>(std::move(name), std::move(meaning), Covered<Make>{make}, bsdf_of_shape(),
                               optional(nested("emitter", "makes it shine", surface_emitter_plugins)),
-                              boolean("guide", "whether the strategy `mixture` aims at it too (ours)"), parameters...);
+                              boolean("guide", "whether the strategies `mixture` and `guides` aim at it (ours)"),
+                              parameters...);
 }
 
 Parameter<Transform> to_world() { return transform("toWorld", "from the shape's space to the scene's"); }

@@ -1,0 +1,86 @@
+#include <render/io/mesh_scene.h>
+
+#include <render/io/mesh/mesh.h>
+#include <render/scene/builder.h>
+
+#include <filesystem>
+
+namespace render {
+
+namespace {
+
+constexpr double fov = 35;      // degrees, along the smaller side of the film
+constexpr double margin = 0.95; // share of the picture, from its middle, that the mesh fills at most
+
+MeshFile read_mesh(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".obj") return read_obj(path);
+  if (extension == ".ply") return read_ply(path);
+  return read_serialized(path, 0);
+}
+
+// The corners of a box, as far as triangles reach.
+struct Box {
+  Vec3d lo = Vec3d::Constant(mc::infinity<double>), hi = -lo;
+};
+
+Box box_of(const MeshFile& mesh) {
+  Box box;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t i : triangle) {
+      box.lo = box.lo.cwiseMin(mesh.positions[i]);
+      box.hi = box.hi.cwiseMax(mesh.positions[i]);
+    }
+  return box;
+}
+
+// Far enough away that every corner is inside the picture, however far it lies before or behind the middle.
+ThinLens camera_for(const MeshFile& mesh, const Vec3d& middle, double size) {
+  const Vec3d forward = Vec3d(-0.5, -0.35, -1).normalized();
+  const Transform frame = Transform::look_at(-forward, Vec3d::Zero(), Vec3d::UnitY());
+  const double tan_half = margin * std::tan(fov * mc::pi<double> / 360);
+  double distance = 0;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t i : triangle) {
+      const Vec3d p = frame.linear.transpose() * (mesh.positions[i] - middle); // left, up, away
+      const double aside = std::max({std::abs(p.x()), std::abs(p.y()), 0.1 * size});
+      distance = std::max(distance, aside / tan_half - p.z());
+    }
+  LensOptions options;
+  options.fov_axis = FovAxis::smaller;
+  options.fov = fov;
+  return ThinLens(Transform::look_at(-distance * forward, Vec3d::Zero(), Vec3d::UnitY()), options);
+}
+
+// A square of the ground a thousandth of the mesh's size below it, so that a flat mesh does not lie in it.
+Shape ground_below(const Box& box, double size) {
+  const double y = (box.lo.y() - box.hi.y()) / 2 - 1e-3 * size, half = 50 * size;
+  return TriangleMesh::rectangle(
+      Transform::columns(half * Vec3d::UnitX(), -half * Vec3d::UnitZ(), Vec3d::UnitY(), {0, y, 0}));
+}
+
+} // namespace
+
+bool is_mesh_file(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  return extension == ".obj" || extension == ".ply" || extension == ".serialized";
+}
+
+SceneFile read_mesh_scene(const std::string& path) {
+  const MeshFile mesh = read_mesh(path);
+  const Box box = box_of(mesh);
+  const Vec3d middle = (box.lo + box.hi) / 2;
+  const double size = (box.hi - box.lo).norm() / 2;
+  SceneBuilder builder;
+  return mc::with_context(path, [&] {
+    TriangleMesh shape = to_shape(mesh, Transform::translate(-middle));
+    mc::require(shape.area() > 0, "none of its {} triangles has an area: nothing would be seen", shape.size());
+    builder.add(std::move(shape), {builder.add(Lambert(Spectrum::Constant(Float(0.6))))});
+    builder.add(ground_below(box, size), {builder.add(Lambert(Spectrum::Constant(Float(0.4))))});
+    builder.add(Light(GradientBackground()));
+    builder.set(camera_for(mesh, middle, size));
+    return SceneFile{builder.build(), {.width = 640, .height = 480, .spp = 64}};
+  });
+}
+
+} // namespace render

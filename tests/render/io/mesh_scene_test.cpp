@@ -1,0 +1,87 @@
+#include <render/io/mesh_scene.h>
+#include <render/render.h>
+
+#include <support/files.h>
+
+#include <mc/random/pcg.h>
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using namespace render;
+using testing::HasSubstr;
+
+struct MeshScene : support::ScratchTest {
+  // Triangles between random corners in a box of random sides, of some size, far from the origin for its size or not.
+  std::string random_obj(mc::Pcg& random, double size, double distance) const {
+    const Vec3d sides(random.uniform<double>(), random.uniform<double>(), random.uniform<double>());
+    std::string text;
+    const int corners = 3 + static_cast<int>(20 * random.uniform<double>());
+    for (int i = 0; i < corners; ++i) {
+      text += "v";
+      for (int k = 0; k < 3; ++k)
+        text += fmt::format(" {:.17g}", size * (sides[k] * random.uniform<double>() + distance * (k == 1 ? -1 : 1)));
+      text += "\n";
+    }
+    for (int i = 3; i <= corners; ++i) text += fmt::format("f 1 {} {}\n", i - 1, i);
+    return write("random.obj", text + "v 1e30 1e30 1e30\n"); // no triangle goes there
+  }
+};
+
+// In shapes made by machine, of 1e-12 to 1e12 and up to 1000 times their size away: all corners are in the picture
+// whatever its shape, above the ground, and one comes near an edge of a square picture.
+TEST_F(MeshScene, TheCameraSeesAllOfIt) {
+  mc::Pcg random(7);
+  for (int trial = 0; trial < 200; ++trial) {
+    const double size = std::pow(10, 24 * random.uniform<double>() - 12), distance = trial % 2 ? 1000 : 0;
+    const SceneFile file = read_mesh_scene(random_obj(random, size, distance));
+    const ThinLens& camera = file.scene.camera();
+    const auto& mesh = std::get<TriangleMesh>(*file.scene.surfaces()[0].shape);
+    const Bounds ground = std::get<TriangleMesh>(*file.scene.surfaces()[1].shape).bounds();
+    Float widest = 0;
+    for (std::size_t i = 0; i < mesh.size(); ++i)
+      for (const Vec3& corner : mesh.vertices(i)) {
+        const Vec3 d = corner - camera.origin();
+        const Float depth = d.dot(camera.forward()), x = std::abs(d.dot(camera.right())) / depth,
+                    y = std::abs(d.dot(camera.up())) / depth;
+        ASSERT_GT(depth, 0) << trial;
+        for (const Float aspect : {Float(0.1), Float(1), Float(4) / 3, Float(8)}) {
+          const Vec2 tan_half = camera.tan_half(aspect);
+          ASSERT_LT(x, tan_half[0]) << trial;
+          ASSERT_LT(y, tan_half[1]) << trial;
+        }
+        widest = std::max({widest, x / camera.tan_half(1)[0], y / camera.tan_half(1)[1]});
+        ASSERT_GT(corner.y(), ground.hi.y()) << trial;
+      }
+    EXPECT_GT(widest, 0.6) << trial;
+  }
+}
+
+TEST_F(MeshScene, IsLitAndOfEveryFormat) {
+  for (const std::string name : {"cbox_smallbox.obj", "torus.ply", "knot.serialized"}) {
+    EXPECT_TRUE(is_mesh_file(name));
+    const SceneFile file = read_mesh_scene(MC_SOURCE_DIR "/librender/scenes/meshes/" + name);
+    RenderOptions options;
+    options.width = options.height = 24;
+    options.spp = 16;
+    const RenderResult result = render::render(file.scene, options);
+    EXPECT_EQ(result.invalid, 0u);
+    // The middle is the mesh, or what is seen through it: no more than six tenths of the sky's light.
+    const Spectrum middle = result.image.at(12, 12);
+    EXPECT_TRUE((middle > Float(0.05)).all() && (middle < Float(0.62)).all()) << name;
+    EXPECT_GT(result.image.at(12, 0)[2], Float(0.62)) << name << ": above it is the sky";
+  }
+  EXPECT_FALSE(is_mesh_file("cbox.xml"));
+}
+
+TEST_F(MeshScene, RefusesWhatCannotBeSeen) {
+  EXPECT_THAT(support::error_of([&] { read_mesh_scene(path("none.obj")); }), HasSubstr("none.obj"));
+  const std::string line = write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  EXPECT_THAT(support::error_of([&] { read_mesh_scene(line); }),
+              testing::AllOf(HasSubstr("line.obj"), HasSubstr("none of its 1 triangles has an area")));
+  const std::string empty = write("empty.obj", "v 0 0 0\n");
+  EXPECT_THAT(support::error_of([&] { read_mesh_scene(empty); }), HasSubstr("empty.obj"));
+}
+
+} // namespace

@@ -1,0 +1,60 @@
+#include <gallery/contact_sheet.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using render::Image, render::Spectrum, render::Float;
+
+Image ramp(int width, int height) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image.at(x, y) = Spectrum(Float(x + 0.5), Float(y + 0.5), 1);
+  return image;
+}
+
+// To the rounding of sums of up to 15 values.
+TEST(ContactSheet, AThumbnailPixelIsTheMeanOfWhatItCovers) {
+  const Image small = carlo::thumbnail(ramp(150, 70), 10);
+  ASSERT_EQ(small.width, 10);
+  ASSERT_EQ(small.height, 5);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      EXPECT_NEAR(small.at(x, y)[0], (x + 0.5) * 15, 2e-4);
+      EXPECT_NEAR(small.at(x, y)[1], (y + 0.5) * 14, 2e-4);
+      EXPECT_NEAR(small.at(x, y)[2], 1, 1e-6);
+    }
+  EXPECT_EQ(carlo::thumbnail(ramp(4, 3), 11).width, 4) << "nothing grows";
+  EXPECT_EQ(carlo::thumbnail(ramp(1000, 1), 11).height, 1);
+}
+
+// Where edges cut pixels, each part counts where it lies.
+TEST(ContactSheet, AThumbnailKeepsTheMean) {
+  for (const int side : {7, 11, 13, 64}) {
+    const Image small = carlo::thumbnail(ramp(150, 70), side);
+    Spectrum sum = Spectrum::Zero();
+    for (const Spectrum& p : small.pixels) sum += p;
+    sum /= Float(small.pixels.size());
+    EXPECT_NEAR(sum[0], 75, 1e-3) << side;
+    EXPECT_NEAR(sum[1], 35, 1e-3) << side;
+  }
+}
+
+TEST(ContactSheet, EveryPictureHasItsCell) {
+  std::vector<Image> pictures;
+  for (int i = 0; i < 5; ++i) { // the last is narrow, and the second row lower
+    pictures.emplace_back(i == 4 ? 2 : 6, i < 3 ? 6 : 4);
+    for (Spectrum& p : pictures.back().pixels) p.setConstant(Float(i + 1));
+  }
+  const Image sheet = carlo::contact_sheet(pictures, 3, 6);
+  EXPECT_EQ(sheet.width, 4 + 3 * 10);
+  EXPECT_EQ(sheet.height, 4 + 10 + 8);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(sheet.at(4 + i % 3 * 10 + 3, 4 + i / 3 * 10 + 2)[0], Float(i + 1)) << i;
+  EXPECT_LT(sheet.at(14, 15)[0], Float(0.5)) << "beside the narrow one is the ground";
+  double sum = 0;
+  for (const Spectrum& p : sheet.pixels)
+    if (p[0] >= 1) sum += double(p[0]);
+  EXPECT_EQ(sum, 36 * (1 + 2 + 3) + 24 * 4 + 8 * 5);
+}
+
+} // namespace

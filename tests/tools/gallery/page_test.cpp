@@ -1,0 +1,78 @@
+// The page of carlo gallery: what it holds, and what a headless browser makes of it.
+
+#include <gallery/page.h>
+
+#include <support/files.h>
+#include <tools/browser.h>
+
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using testing::HasSubstr, testing::Not;
+
+constexpr carlo::GalleryScene strange{"a-long-name-of-a-scene-with-a-picture", "A < B & \"C\"", "somebody's book"};
+
+std::vector<carlo::RenderedScene> two_scenes() {
+  carlo::RenderedScene r;
+  r.scene = &carlo::gallery_scene("smallpt");
+  r.width = 1024;
+  r.height = 768;
+  r.spp = 64;
+  r.seconds = 12;
+  r.samples_per_second = 3e6;
+  r.relative_error = 0.0123;
+  r.undecided = 0.02;
+  r.strategy = "mis";
+  r.sampler = "sobol";
+  r.features = carlo::features_of(*r.scene);
+  r.strategies = {{"bsdf", 1e6, 0.2, 0.4, 0.3, {1.01, 0.02, 99, 100}}, {"mis", 1e6, 0.1, 0.1, 0, {1, 0.01, 99, 100}}};
+  carlo::RenderedScene bare = r;
+  bare.scene = &strange;
+  bare.strategies.clear();
+  bare.relative_error = HUGE_VAL;
+  return {r, bare};
+}
+
+struct GalleryPage : support::ScratchTest {};
+
+TEST_F(GalleryPage, SaysWhatWasFoundAndLoadsNothing) {
+  const std::string page = carlo::gallery_page(two_scenes(), 3, "carlo gallery '<x>'");
+  EXPECT_THAT(page, HasSubstr("1024&times;768, 64 samples/pixel, <b>3 Msamples/s</b>, 12.0 s, mean standard error "
+                              "<b>1.2 %</b>, 2 % of the pixels decided by one sample"));
+  EXPECT_THAT(page, HasSubstr("<td><b>mis</b></td><td class=\"n\">1&times;</td>"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"n\">4&times;</td>"));
+  EXPECT_THAT(page, HasSubstr("101.0 &plusmn; 2.0 %"));
+  EXPECT_THAT(page, HasSubstr("<li>bsdf dielectric</li>"));
+  EXPECT_THAT(page, HasSubstr("A &lt; B &amp; &quot;C&quot;"));
+  EXPECT_THAT(page, HasSubstr("Interrupted: 2 of 3 scenes"));
+  EXPECT_THAT(page, HasSubstr("error <b>unknown</b>"));
+  for (const char* loaded : {"http", "<script", "@import", "url("}) EXPECT_THAT(page, Not(HasSubstr(loaded)));
+  EXPECT_THAT(carlo::gallery_page(two_scenes(), 2, ""), Not(HasSubstr("Interrupted")));
+}
+
+TEST_F(GalleryPage, NothingOverflowsOnAPhone) {
+  // A frame of 390 pixels, since a browser's own window is never as narrow; the page in it says how wide it came out.
+  std::string text = carlo::gallery_page(two_scenes(), 2, std::string(200, 'x'));
+  for (std::size_t at = 0; (at = text.find("<details>", at)) != std::string::npos; ++at)
+    text.replace(at, 9, "<details open>");
+  text.insert(text.find("</body>"),
+              "<script>parent.postMessage(document.documentElement.scrollWidth + ' of ' + innerWidth, '*');</script>");
+  write("phone.html", text);
+  const std::string dom = support::browse(
+      write("index.html",
+            "<body><script>addEventListener('message', e => { document.title = 'width ' + e.data; });</script>"
+            "<iframe src='phone.html' style='width: 390px; height: 844px; border: 0'></iframe></body>"),
+      "");
+  if (dom.empty()) return;
+  int wide = 0, of = 0;
+  const std::size_t at = dom.find("<title>width");
+  ASSERT_NE(at, std::string::npos) << dom.substr(0, 1000);
+  ASSERT_EQ(std::sscanf(dom.c_str() + at, "<title>width %d of %d", &wide, &of), 2) << dom.substr(at, 100);
+  EXPECT_LE(of, 390);
+  EXPECT_LE(wide, of);
+}
+
+} // namespace

@@ -1,0 +1,45 @@
+#include <gallery/scenes.h>
+
+#include <support/files.h>
+
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <set>
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(GalleryScenes, EachNameIsThereOnceAndHasItsFile) {
+  std::set<std::string_view> names;
+  for (const carlo::GalleryScene& scene : carlo::gallery()) {
+    EXPECT_TRUE(names.insert(scene.name).second) << scene.name;
+    EXPECT_EQ(&carlo::gallery_scene(scene.name), &scene);
+    EXPECT_TRUE(fs::exists(carlo::scene_file(scene))) << scene.name;
+    EXPECT_FALSE(scene.title.empty() || scene.source.empty()) << scene.name;
+  }
+}
+
+TEST(GalleryScenes, EachFileBelongsToTheGalleryAndNamesItsSource) {
+  std::set<std::string> known;
+  for (const carlo::GalleryScene& scene : carlo::gallery())
+    known.insert(fs::path(carlo::scene_file(scene)).filename().string());
+  for (const auto& entry : fs::directory_iterator(MC_SOURCE_DIR "/librender/scenes")) {
+    if (entry.path().extension() != ".xml") continue;
+    EXPECT_TRUE(known.contains(entry.path().filename().string())) << entry.path();
+    const std::string text = mc::read_file(entry.path().string());
+    EXPECT_LT(text.find("<!--"), text.find("<scene")) << entry.path() << " begins with a comment that names its source";
+  }
+}
+
+TEST(GalleryScenes, AnUnknownNameGivesTheNearest) {
+  EXPECT_THAT(support::error_of([] { carlo::gallery_scene("book3-cornel-glass"); }),
+              HasSubstr("did you mean 'book3-cornell-glass'"));
+  EXPECT_THAT(support::error_of([] { carlo::gallery_scene(""); }), HasSubstr("carlo gallery --list"));
+}
+
+} // namespace

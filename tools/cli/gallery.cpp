@@ -1,0 +1,231 @@
+#include <cli/subcommand.h>
+#include <gallery/contact_sheet.h>
+#include <gallery/page.h>
+#include <gallery/picture.h>
+#include <terminal/interrupt.h>
+#include <terminal/progress.h>
+
+#include <render/io/image_io.h>
+#include <render/io/mitsuba.h>
+
+#include <mc/core/error.h>
+#include <mc/core/file.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <mutex>
+
+namespace carlo {
+
+namespace {
+
+struct GalleryOptions {
+  std::vector<std::string> names; ///< empty: all
+  std::string output = "out/gallery";
+  bool list = false, table = false;
+  std::optional<int> spp;
+  std::optional<double> seconds, target_error; ///< of each scene
+  double scale = 1;                            ///< of the pictures' sides
+  std::uint64_t seed = 0;
+  int threads = 0;
+  std::string command;
+};
+
+/// A scene that was read, before it is rendered.
+struct Asked {
+  const GalleryScene* scene;
+  ::render::SceneFile file;
+  ::render::RenderOptions settings;
+  double work = 0; ///< samples, or where their number is not known 1
+};
+
+std::vector<Option> rows(GalleryOptions& o) {
+  return {
+      {"NAME", "NAME", &o.names, "Scenes, see --list [all]"},
+      {"-o,--output", "FOLDER", &o.output, "Folder for the pictures (EXR and PNG), index.html and sheet.png"},
+      {"--list", "", &o.list, "List the scenes and stop"},
+      {"--table", "", &o.table, "Print which scene requires which feature, as Markdown, and stop"},
+      {"--spp", "N", &o.spp, "Samples per pixel; this, --time or --target-error [each scene's]"},
+      {"--time", "SECONDS", &o.seconds, "Wall-clock time for each scene", false, {"--spp"}},
+      {"--target-error",
+       "RATIO",
+       &o.target_error,
+       "Mean relative standard error of the pixels to reach, see carlo render",
+       false,
+       {"--spp", "--time"}},
+      {"--scale", "RATIO", &o.scale, "Size of the pictures beside that of their scenes, in (0, 4]"},
+      {"--seed", "N", &o.seed, "Seed"},
+      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
+  };
+}
+
+int list_scenes() {
+  for (const GalleryScene& scene : gallery()) fmt::print("{:<32} {} ({})\n", scene.name, scene.title, scene.source);
+  return exit_ok;
+}
+
+std::vector<const GalleryScene*> chosen(const GalleryOptions& o) {
+  std::vector<const GalleryScene*> scenes;
+  for (const std::string& name : o.names) scenes.push_back(&gallery_scene(name));
+  if (o.names.empty())
+    for (const GalleryScene& scene : gallery()) scenes.push_back(&scene);
+  return scenes;
+}
+
+int scaled(int pixels, double scale) { return std::max(1, static_cast<int>(std::lround(pixels * scale))); }
+
+Asked read(const GalleryScene& scene, const GalleryOptions& o, const std::atomic<bool>* cancel) {
+  Asked a{&scene, ::render::read_mitsuba(scene_file(scene)), {}};
+  a.settings.width = scaled(a.file.defaults.width, o.scale);
+  a.settings.height = scaled(a.file.defaults.height, o.scale);
+  a.settings.spp = o.spp.value_or(scene.spp > 0 ? scene.spp : a.file.defaults.spp);
+  a.settings.max_depth = a.file.defaults.max_depth;
+  a.settings.shown = a.file.defaults.shown;
+  a.settings.seconds = o.seconds;
+  a.settings.target_error = o.target_error;
+  a.settings.seed = o.seed;
+  a.settings.threads = o.threads;
+  a.settings.cancel = cancel;
+  if (!scene.strategy.empty()) a.settings.strategy = ::render::strategy_from(scene.strategy);
+  if (!scene.sampler.empty()) a.settings.sampler = ::render::sampler_from(scene.sampler);
+  const bool counted = !o.seconds && !o.target_error;
+  a.work = counted ? double(a.settings.width) * a.settings.height * a.settings.spp : 1;
+  return a;
+}
+
+RenderedScene report(const Asked& a, const ::render::RenderResult& result) {
+  RenderedScene r;
+  r.scene = a.scene;
+  r.width = result.image.width;
+  r.height = result.image.height;
+  r.spp = result.spp;
+  r.seconds = result.seconds;
+  r.samples_per_second = double(result.samples) / result.seconds;
+  r.relative_error = result.relative_error;
+  r.undecided = result.undecided;
+  r.strategy = a.settings.strategy.name;
+  r.sampler = name(a.settings.sampler);
+  r.features = features_of(*a.scene);
+  return r;
+}
+
+constexpr int thumbnail_side = 64, thumbnails_in_a_row = 12;
+
+/// Renders one scene after the other.
+class Run {
+ public:
+  Run(const GalleryOptions& options, std::filesystem::path folder, const std::atomic<bool>* cancel)
+      : options_(options), folder_(std::move(folder)), cancel_(cancel) {}
+
+  void all(const std::vector<const GalleryScene*>& scenes) {
+    asked_ = scenes.size();
+    std::vector<Asked> asked; // reading is quick: what cannot be read is known before the first is rendered
+    for (const GalleryScene* scene : scenes) {
+      asked.push_back(read(*scene, options_, cancel_));
+      work_ += asked.back().work;
+    }
+    for (Asked& a : asked) {
+      if (!one(a)) break;
+      done_ += a.work;
+    }
+    progress_.clear();
+  }
+
+  const std::vector<RenderedScene>& rendered() const { return rendered_; }
+  const std::vector<::render::Image>& thumbnails() const { return thumbnails_; }
+
+ private:
+  // False when it was interrupted: what is half done is not kept.
+  bool one(Asked& a) {
+    const std::string title(a.scene->name);
+    std::mutex mutex;
+    a.settings.progress = [&](const ::render::Progress& p) {
+      const std::lock_guard lock(mutex);
+      progress_.show((done_ + p.fraction * a.work) / work_,
+                     fmt::format("{} of {}: {}", rendered_.size() + 1, asked_, title));
+    };
+    ::render::RenderResult result = ::render::render(a.file.scene, a.settings);
+    if (result.partial) return false;
+    const Provenance from{title, options_.command, options_.seed};
+    const std::string invalid = invalid_samples(result, from);
+    mc::require(invalid.empty(), "{}: {}", title, invalid);
+    sign(result, from);
+    const std::string path = (folder_ / title).string();
+    ::render::write_image(path + ".exr", result.image);
+    ::render::write_image(path + ".png", result.image, a.scene->exposure);
+    RenderedScene r = report(a, result);
+    r.strategies = strategies(a);
+    if (cancel_->load()) return false;
+    keep_thumbnail(a, result.image);
+    progress_.clear();
+    fmt::print("{:<32} {}x{}, {:.4g} samples/pixel in {}: {}, mean standard error {}\n", title, r.width, r.height,
+               r.spp, format_seconds(r.seconds), samples_per_second(result), format_error(r.relative_error));
+    std::fflush(stdout);
+    rendered_.push_back(std::move(r));
+    return true;
+  }
+
+  // Once for all scenes of a file.
+  const std::vector<StrategyResult>& strategies(const Asked& a) {
+    const auto [place, is_new] = strategies_.try_emplace(scene_file(*a.scene));
+    if (is_new && a.settings.shown == ::render::Shown::radiance)
+      place->second = compare_strategies(a.file.scene, a.settings, 64, std::min(64, a.settings.spp));
+    return place->second;
+  }
+
+  void keep_thumbnail(const Asked& a, ::render::Image image) {
+    const auto exposure = ::render::Float(std::exp2(a.scene->exposure));
+    for (::render::Spectrum& p : image.pixels) p = (p * exposure).min(::render::Float(1)); // as the PNG shows them
+    thumbnails_.push_back(thumbnail(image, thumbnail_side));
+  }
+
+  const GalleryOptions& options_;
+  std::filesystem::path folder_;
+  const std::atomic<bool>* cancel_;
+  Progress progress_;
+  std::size_t asked_ = 0;
+  double work_ = 0, done_ = 0;
+  std::vector<RenderedScene> rendered_;
+  std::vector<::render::Image> thumbnails_;
+  std::map<std::string, std::vector<StrategyResult>> strategies_;
+};
+
+int gallery_command(const GalleryOptions& o) {
+  if (o.list) return list_scenes();
+  if (o.table) {
+    fmt::print("{}", gallery_text());
+    return exit_ok;
+  }
+  mc::require(o.scale > 0 && o.scale <= 4, "--scale {} must lie in (0, 4]", o.scale);
+  mc::require(o.threads >= 0, "--threads {} must be >= 0", o.threads);
+  mc::require(!o.spp || *o.spp >= 1, "--spp {} must be at least 1", o.spp.value_or(0));
+  mc::require(!o.seconds || *o.seconds > 0, "--time {} must be > 0", o.seconds.value_or(0));
+  mc::require(!o.target_error || *o.target_error > 0, "--target-error {} must be > 0", o.target_error.value_or(0));
+  const std::vector<const GalleryScene*> scenes = chosen(o);
+  const std::filesystem::path folder = mc::output_folder(o.output, "index.html");
+
+  const Interrupt interrupt;
+  Run run(o, folder, interrupt.flag());
+  run.all(scenes);
+  const std::size_t finished = run.rendered().size();
+  if (finished > 0) {
+    ::render::write_image((folder / "sheet.png").string(),
+                          contact_sheet(run.thumbnails(), thumbnails_in_a_row, thumbnail_side));
+    const std::string page = (folder / "index.html").string();
+    mc::write_file(page, gallery_page(run.rendered(), scenes.size(), o.command));
+    fmt::print("page: {}\n", page);
+  }
+  if (finished == scenes.size()) return exit_ok;
+  fmt::print("interrupted: {} of {} scenes were finished\n", finished, scenes.size());
+  return exit_interrupted;
+}
+
+} // namespace
+
+Subcommand gallery_subcommand() {
+  return make_subcommand<GalleryOptions>("gallery", "Render the scenes of the books and courses, with a page of them",
+                                         rows, gallery_command);
+}
+
+} // namespace carlo

@@ -1,0 +1,58 @@
+#include <gallery/comparison.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carlo {
+
+namespace {
+
+// The mean luminance of a picture. Its pixels are independent; its channels are not, so their errors add up at worst.
+mc::Estimate mean_luminance(const ::render::Image& image, std::uint32_t estimates) {
+  double sum = 0, variance = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    sum += double(::render::luminance(image.pixels[i]));
+    if (image.variance.empty()) continue;
+    const ::render::Spectrum deviation = image.variance[i].sqrt();
+    const double error = double(::render::luminance(deviation));
+    variance += error * error;
+  }
+  const auto n = double(image.pixels.size());
+  return mc::Estimate::student(sum / n, std::sqrt(variance) / n, n * (estimates - 1.0), image.pixels.size());
+}
+
+// Where all directions go to the lights, what other surfaces reflect is not found.
+bool misses_light(const ::render::Strategy& s) { return s.target == ::render::Target::lights && s.share == 1; }
+
+} // namespace
+
+std::vector<StrategyResult> compare_strategies(const ::render::Scene& scene, ::render::RenderOptions settings, int side,
+                                               int spp) {
+  const double shrink = std::min(1.0, double(side) / std::max(settings.width, settings.height));
+  settings.width = std::max(1, static_cast<int>(std::lround(shrink * settings.width)));
+  settings.height = std::max(1, static_cast<int>(std::lround(shrink * settings.height)));
+  settings.spp = spp;
+  settings.seconds.reset();
+  settings.target_error.reset();
+  settings.progress = nullptr;
+  std::vector<StrategyResult> all;
+  if (spp < 2) return all; // no error bars
+  for (const ::render::Strategy& strategy : ::render::strategies) {
+    settings.strategy = strategy;
+    const ::render::RenderResult r = ::render::render(scene, settings);
+    if (r.partial) break;
+    all.push_back({strategy.name, double(r.samples) / r.cpu_seconds, r.relative_error,
+                   r.cpu_seconds * r.relative_error * r.relative_error, r.undecided,
+                   mean_luminance(r.image, r.estimates), misses_light(strategy)});
+  }
+  return all;
+}
+
+const StrategyResult* best_known(const std::vector<StrategyResult>& all) {
+  const StrategyResult* best = nullptr;
+  for (const StrategyResult& s : all)
+    if (!s.misses_light && (!best || s.mean.std_error < best->mean.std_error)) best = &s;
+  return best;
+}
+
+} // namespace carlo

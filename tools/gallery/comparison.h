@@ -1,0 +1,32 @@
+#pragma once
+/// The strategies side by side on one scene.
+
+#include <render/render.h>
+
+#include <mc/estimate/estimate.h>
+
+#include <string_view>
+#include <vector>
+
+namespace carlo {
+
+/// What one strategy makes of a small picture.
+struct StrategyResult {
+  std::string_view name;
+  double samples_per_second = 0; ///< per CPU second
+  double relative_error = 0;     ///< mean standard error of the pixels, see Film::relative_error
+  double work = 0;               ///< CPU seconds times the square of that: what a given error costs
+  double undecided = 0;          ///< see RenderResult
+  mc::Estimate mean;             ///< luminance, mean of the picture
+  bool misses_light = false;     ///< so that it is wrong, however cheap
+};
+
+/// Every strategy with the same samples, on the picture that `settings` describes made so small that its longer side
+/// has `side` pixels. Stops early when settings.cancel is set: then there are fewer.
+std::vector<StrategyResult> compare_strategies(const ::render::Scene& scene, ::render::RenderOptions settings, int side,
+                                               int spp);
+
+/// The strategy whose mean is known best, of those that miss no light; null where there is none.
+const StrategyResult* best_known(const std::vector<StrategyResult>& all);
+
+} // namespace carlo

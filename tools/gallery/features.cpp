@@ -1,0 +1,104 @@
+#include <gallery/features.h>
+
+#include <render/integrator/strategy.h>
+#include <render/io/mitsuba/plugins/plugins.h>
+#include <render/io/xml.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace carlo {
+
+namespace {
+
+namespace mitsuba = ::render::mitsuba;
+
+/// A plugin as a scene file names it.
+struct Named {
+  std::string kind, plugin;
+  auto operator<=>(const Named&) const = default;
+};
+
+struct Row {
+  Feature feature;
+  std::set<Named> names;
+};
+
+std::vector<Row> rows() {
+  std::vector<Row> all;
+  for (const mitsuba::Kind& kind : mitsuba::all_plugins()) {
+    const std::string tag = kind.tag.substr(0, kind.tag.find(' ')); // of "emitter in a shape"
+    const bool alike = std::all_of(kind.rows.begin(), kind.rows.end(),
+                                   [&](const auto& plugin) { return plugin.meaning == kind.rows.front().meaning; });
+    if (alike && kind.rows.size() > 1) all.push_back({tag, {}});
+    for (const mitsuba::PluginText& plugin : kind.rows) {
+      if (!alike || kind.rows.size() == 1) all.push_back({tag + " " + plugin.name, {}});
+      all.back().names.insert({tag, plugin.name});
+    }
+  }
+  for (const ::render::Strategy& s : ::render::strategies)
+    all.push_back({fmt::format("strategy {}", s.name), {{"strategy", std::string(s.name)}}});
+  return all;
+}
+
+void collect(const ::render::XmlElement& e, std::set<Named>& found) {
+  if (e.has("type")) found.insert({e.tag, e.attribute("type")});
+  for (const ::render::XmlElement& child : e.children) collect(child, found);
+}
+
+constexpr const char* introduction = R"(# The gallery
+
+`carlo gallery -o DIR` renders these scenes and writes a page of them; `carlo gallery NAME -o DIR` and
+`carlo render NAME` take one. Where no strategy is named it is `mis`. `carlo gallery --table` prints this text.
+
+)";
+
+} // namespace
+
+std::vector<Feature> all_features() {
+  std::vector<Feature> all;
+  for (const Row& row : rows()) all.push_back(row.feature);
+  return all;
+}
+
+std::vector<Feature> features_of(const GalleryScene& scene) {
+  std::set<Named> found;
+  collect(::render::read_xml(scene_file(scene)), found);
+  found.insert({"strategy", scene.strategy.empty() ? "mis" : std::string(scene.strategy)});
+  std::vector<Feature> features;
+  for (const Row& row : rows())
+    for (const Named& name : row.names)
+      if (found.contains(name)) {
+        features.push_back(row.feature);
+        break;
+      }
+  return features;
+}
+
+std::string gallery_text() {
+  std::string text = introduction;
+  text += "| scene | picture | strategy | source |\n|---|---|---|---|\n";
+  std::vector<std::pair<std::string_view, std::vector<Feature>>> required;
+  for (const GalleryScene& scene : gallery()) {
+    text += fmt::format("| [{}]({}.xml) | {} | {} | {} |\n", scene.name, scene.file.empty() ? scene.name : scene.file,
+                        scene.title, scene.strategy, scene.source);
+    required.emplace_back(scene.name, features_of(scene));
+  }
+  text += "\n## Which scene requires which feature\n\nA feature that no scene requires does not belong here.\n\n"
+          "| feature | required by |\n|---|---|\n";
+  for (const Feature& feature : all_features()) {
+    std::vector<std::string_view> by;
+    for (const auto& [name, features] : required)
+      if (std::find(features.begin(), features.end(), feature) != features.end()) by.push_back(name);
+    constexpr std::size_t shown = 6;
+    const std::size_t more = by.size() > shown ? by.size() - shown : 0;
+    by.resize(by.size() - more);
+    text +=
+        fmt::format("| {} | {}{} |\n", feature, fmt::join(by, ", "), more > 0 ? fmt::format(" and {} more", more) : "");
+  }
+  return text;
+}
+
+} // namespace carlo

@@ -1,0 +1,106 @@
+#include <gallery/page.h>
+#include <terminal/progress.h>
+#include <validate_page_parts.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace carlo {
+
+namespace {
+
+std::string escaped(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '<') safe += "&lt;";
+    else if (c == '>') safe += "&gt;";
+    else if (c == '&') safe += "&amp;";
+    else if (c == '"') safe += "&quot;";
+    else safe += c;
+  }
+  return safe;
+}
+
+std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.2g} %", 100 * share) : "unknown"; }
+
+// Means are told relative to the one that is known best, work relative to the least.
+std::string strategies_of(const RenderedScene& r) {
+  const StrategyResult* best = best_known(r.strategies);
+  if (!best || !(best->mean.value > 0)) return {};
+  double least = HUGE_VAL;
+  for (const StrategyResult& s : r.strategies)
+    if (s.work > 0 && !s.misses_light) least = std::min(least, s.work);
+  std::string text =
+      "<details><summary>Strategies compared</summary><div class=\"scroll\"><table><tr><th>strategy"
+      "<th class=\"n\">work<th class=\"n\">error<th class=\"n\">undecided<th class=\"n\">brightness</tr>";
+  for (const StrategyResult& s : r.strategies) {
+    const std::string work = s.work > 0 ? fmt::format("{:.3g}&times;", s.work / least) : "0";
+    text += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+                        "<td class=\"n\">{:.1f} &plusmn; {:.1f} %</td></tr>",
+                        s.name == r.strategy ? fmt::format("<b>{}</b>", s.name) : std::string(s.name), work,
+                        percent(s.relative_error), percent(s.undecided), 100 * s.mean.value / best->mean.value,
+                        100 * s.mean.std_error / best->mean.value);
+  }
+  return text + "</table></div></details>";
+}
+
+std::string section(const RenderedScene& r) {
+  const GalleryScene& scene = *r.scene;
+  std::string s = fmt::format(
+      "<section id=\"{0}\"><a href=\"{0}.png\"><img src=\"{0}.png\" width=\"{1}\" height=\"{2}\" loading=\"lazy\" "
+      "alt=\"{3}\"></a><h2>{3}</h2><p class=\"source\"><code>{0}</code> {4}</p>",
+      scene.name, r.width, r.height, escaped(scene.title), escaped(scene.source));
+  s += fmt::format("<p class=\"facts\">{}&times;{}, {:.4g} samples/pixel, <b>{}samples/s</b>, {}, mean standard error "
+                   "<b>{}</b>{}; {}, {}; <a href=\"{}.exr\">EXR</a></p>",
+                   r.width, r.height, r.spp, format_count(r.samples_per_second), format_seconds(r.seconds),
+                   percent(r.relative_error),
+                   r.undecided > 0 ? fmt::format(", {} of the pixels decided by one sample", percent(r.undecided)) : "",
+                   r.strategy, r.sampler, scene.name);
+  s += "<ul class=\"features\">";
+  for (const Feature& f : r.features) s += fmt::format("<li>{}</li>", escaped(f));
+  return s + "</ul>" + strategies_of(r) + "</section>";
+}
+
+constexpr std::string_view style = R"(
+main { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 22rem), 1fr)); gap: 1.2rem; }
+main { align-items: start; }
+section { background: var(--card); border: 1px solid var(--line); border-radius: 12px; padding: .9rem; min-width: 0; }
+section img { width: 100%; height: auto; display: block; border-radius: 6px; background: #000; margin-bottom: .7rem; }
+section h2 { font-size: 1.05rem; line-height: 1.3; }
+.source, .facts, footer { color: var(--soft); }
+.source code { color: var(--ink); }
+.facts { margin-top: .4rem; font-size: .92em; }
+.facts b { color: var(--ink); }
+.features { list-style: none; display: flex; flex-wrap: wrap; gap: .3rem; margin: .6rem 0; font-size: .8em; }
+.features li { background: var(--quiet); border-radius: 6px; padding: .05rem .45rem; overflow-wrap: anywhere; }
+details { margin-top: .5rem; }
+details td, details th { padding: .2rem .4rem .2rem 0; }
+details table { font-size: .84em; }
+a { color: var(--link); }
+.doubt { color: var(--fail); }
+)";
+
+} // namespace
+
+std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t asked, const std::string& command) {
+  std::string s =
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+      "content=\"width=device-width,initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n"
+      "<title>carlo gallery</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n";
+  s += std::string(page_css) + std::string(style);
+  s += "</style>\n</head>\n<body>\n<header>\n<p class=\"tool\">carlo gallery</p>\n<h1>Scenes with error bars</h1>\n";
+  if (rendered.size() < asked)
+    s += fmt::format("<p class=\"doubt\">Interrupted: {} of {} scenes were finished.</p>\n", rendered.size(), asked);
+  s += fmt::format("<p class=\"command\"><code>{}</code></p>\n</header>\n<main>\n", escaped(command));
+  for (const RenderedScene& r : rendered) s += section(r) + "\n";
+  s += "</main>\n<footer><p><b>Mean standard error</b>: the root of the mean variance of pixels and channels, relative "
+       "to the mean radiance; the EXR beside each picture has the variance of every pixel. Where one sample carries "
+       "over half of a pixel's variance, its error is not known yet. <b>Strategies</b> are compared on small pictures "
+       "with equal samples, the one of the picture in bold: <b>work</b> is what the same error costs in CPU time, "
+       "relative to the cheapest that is right; <b>brightness</b> is the mean luminance relative to the strategy that "
+       "knows it best. <b>light</b> misses what other surfaces reflect.</p></footer>\n</body>\n</html>\n";
+  return s;
+}
+
+} // namespace carlo

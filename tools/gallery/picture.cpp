@@ -1,0 +1,50 @@
+#include <gallery/picture.h>
+#include <terminal/progress.h>
+#include <terminal/version.h>
+
+#include <render/scene/resolution.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace carlo {
+
+std::string invalid_samples(const ::render::RenderResult& result, const Provenance& from) {
+  if (result.invalid == 0) return {};
+  const ::render::InvalidSample& w = result.first_invalid;
+  return fmt::format("{} of {} samples are not finite; the first: pixel ({}, {}), pass {}, sample {}, seed {}",
+                     result.invalid, result.samples, w.x, w.y, w.pass, w.index, from.seed);
+}
+
+void sign(::render::RenderResult& result, const Provenance& from) {
+  auto& metadata = result.image.metadata;
+  metadata["carlo.command"] = from.command;
+  metadata["carlo.commit"] = fmt::format("{} ({})", version, commit);
+  metadata["carlo.seed"] = fmt::format("{}", from.seed);
+  metadata["carlo.samples_per_pixel"] = fmt::format("{:.6g}", result.spp);
+  metadata["carlo.invalid_samples"] = fmt::format("{}", result.invalid);
+  if (result.partial) metadata["carlo.partial"] = "interrupted before the end";
+}
+
+void warn_where_coarse(const std::string& path, const ::render::Scene& scene) {
+  const ::render::Coarseness c = ::render::coarsest(scene);
+  if (c.ratio <= ::render::too_coarse) return;
+  std::fprintf(
+      stderr,
+      "carlo: warning: %s: a surface %.3g across has coordinates of %.3g, where the next number is %.2g further; "
+      "its light and shadow may be wrong. Bring what lies far apart closer together\n",
+      path.c_str(), c.size, c.distance, c.step);
+}
+
+std::string samples_per_second(const ::render::RenderResult& result) {
+  return format_count(double(result.samples) / result.seconds) + "samples/s";
+}
+
+std::string format_error(double relative_error) {
+  if (!std::isfinite(relative_error)) return "unknown (one estimate per pixel)";
+  return fmt::format("{:.2f} %", 100 * relative_error);
+}
+
+} // namespace carlo

@@ -1,0 +1,33 @@
+#pragma once
+/// What carlo does to every picture that it rendered.
+
+#include <render/render.h>
+
+#include <cstdint>
+#include <string>
+
+namespace carlo {
+
+/// Where a picture comes from.
+struct Provenance {
+  std::string scene;   ///< its file, or what else it is of
+  std::string command; ///< the command line
+  std::uint64_t seed = 0;
+};
+
+/// "" where every sample was finite; otherwise how many were not, and how to trace the first one again.
+std::string invalid_samples(const ::render::RenderResult& result, const Provenance& from);
+
+/// Writes command, commit, seed and samples into the picture's metadata.
+void sign(::render::RenderResult& result, const Provenance& from);
+
+/// A line on stderr where Float is too coarse for the scene.
+void warn_where_coarse(const std::string& path, const ::render::Scene& scene);
+
+/// "881 ksamples/s" of a render.
+std::string samples_per_second(const ::render::RenderResult& result);
+
+/// "1.23 %", or "unknown (one estimate per pixel)".
+std::string format_error(double relative_error);
+
+} // namespace carlo
