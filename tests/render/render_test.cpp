@@ -2,6 +2,8 @@
 #include <render/scene/builder.h>
 
 #include <mc/core/error.h>
+#include <mc/estimate/moments.h>
+#include <mc/stats/chi_square.h>
 
 #include <gtest/gtest.h>
 
@@ -13,17 +15,17 @@ using namespace render;
 
 constexpr PixelSampler samplers[] = {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol};
 
-/// A lit sphere on a plane under a small sphere light and a dim sky.
-Scene small_scene(Float sky = Float(0.1)) {
+/// Two spheres, the right one of glass unless given, on a plane under a small sphere light and a dim sky. The light is
+/// not in view where the tangent of half the field of view is .25.
+Scene small_scene(Float sky = Float(0.1), double tan_half = 0.4, const Bsdf& right = Dielectric()) {
   SceneBuilder builder;
-  const BsdfId tan = builder.add(Lambert(Spectrum(Float(0.8), Float(0.6), Float(0.4)))),
-               glass = builder.add(Dielectric());
+  const BsdfId tan = builder.add(Lambert(Spectrum(Float(0.8), Float(0.6), Float(0.4)))), glass = builder.add(right);
   builder.add(Light(ConstantBackground(Spectrum(Float(0.1), sky, Float(0.1)))));
   builder.add(Sphere(Vec3d(0, -101, 0), 100), {tan});
   builder.add(Sphere(Vec3d(-0.7, -0.4, 0), 0.6), {tan});
   builder.add(Sphere(Vec3d(0.7, -0.4, 0), 0.6), {glass});
   builder.add(Sphere(Vec3d(0, 2, 1), 0.4), {tan, Emission{Spectrum::Constant(10)}});
-  const double fov = 2 * std::atan(0.4) * 180 / mc::pi<double>;
+  const double fov = 2 * std::atan(tan_half) * 180 / mc::pi<double>;
   const LensOptions lens{.fov_axis = FovAxis::y, .fov = fov};
   builder.set(ThinLens(Transform::look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}), lens));
   return builder.build();
@@ -92,8 +94,83 @@ TEST(Render, ErrorBarsAreHonest) {
   }
 }
 
+/// Many seeds of one way to spend samples: of the picture's sums and of its pixels, in green.
+struct Seeds {
+  mc::Moments z, sums; ///< z: of the sum against `truth`, by its own error bar
+  std::vector<mc::Moments> pixels;
+
+  Seeds(const Scene& scene, RenderOptions options, std::uint64_t first, double truth) {
+    pixels.resize(std::size_t(options.width) * std::size_t(options.height));
+    for (options.seed = first; options.seed < first + 200; ++options.seed) {
+      const RenderResult r = render::render(scene, options);
+      double sum = 0, variance = 0;
+      for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const auto value = double(r.image.pixels[i][1]);
+        pixels[i].add(value);
+        sum += value;
+        variance += double(r.image.variance[i][1]);
+      }
+      sums.add(sum);
+      z.add((sum - truth) / std::sqrt(variance));
+    }
+  }
+};
+
+// Samples where the error is: the mean of 200 pictures is the even one's, and their error bars say how far each is off.
+// Sums of 120 pixels are nearly normal: alpha is 0.1 % for each of the three bounds.
+TEST(Render, AdaptivePicturesAreUnbiasedWithHonestErrorBars) {
+  const Scene scene = small_scene(Float(0.1), 0.25, Lambert());
+  RenderOptions options = small();
+  options.width = 12;
+  options.height = 10;
+  options.spp = 64;
+  const Seeds even(scene, options, 0, 0);
+  options.adaptive = true;
+  const double truth = even.sums.mean();
+  const Seeds adaptive(scene, options, 1000, truth);
+  // The truth is as uncertain as their mean.
+  const double off = (adaptive.sums.mean() - truth) / std::hypot(adaptive.sums.std_error(), even.sums.std_error());
+  EXPECT_LE(std::abs(off), 3.29);
+  EXPECT_GE(adaptive.z.variance(), 0.70);
+  EXPECT_LE(adaptive.z.variance(), 1.36); // chi-square of 199 degrees of freedom
+  double squares = 0, compared = 0;
+  for (std::size_t i = 0; i < 120; ++i) {
+    const mc::Moments &a = adaptive.pixels[i], &e = even.pixels[i];
+    if (a.variance() == 0 && a.mean() == e.mean()) continue; // the sky alone
+    squares += mc::sqr(a.mean() - e.mean()) / (mc::sqr(a.std_error()) + mc::sqr(e.std_error()));
+    ++compared;
+  }
+  EXPECT_GE(compared, 50);
+  EXPECT_GE(mc::chi_square_tail(squares, compared), 0.001);
+}
+
+TEST(Render, AdaptiveSpendsWhatIsAskedForWhereTheErrorIs) {
+  const Scene scene = small_scene(Float(0.1), 0.25);
+  for (const PixelSampler sampler : samplers) {
+    RenderOptions options = small();
+    options.sampler = sampler;
+    options.spp = 128;
+    options.threads = 1;
+    const RenderResult even = render::render(scene, options);
+    options.adaptive = true;
+    const RenderResult one = render::render(scene, options);
+    EXPECT_NEAR(one.spp, 128, 0.5);
+    EXPECT_LE(one.relative_error, even.relative_error);
+    options.error_of = ErrorOf::worst;
+    const RenderResult worst = render::render(scene, options);
+    EXPECT_LE(worst.worst_error, one.worst_error);
+    options.threads = 2;
+    const RenderResult two = render::render(scene, options);
+    EXPECT_EQ(worst.rays, two.rays);
+    for (std::size_t i = 0; i < two.image.pixels.size(); ++i) {
+      EXPECT_TRUE((worst.image.pixels[i] == two.image.pixels[i]).all());
+      EXPECT_TRUE((worst.image.variance[i] == two.image.variance[i]).all());
+    }
+  }
+}
+
 TEST(Render, StratifiedAndSobolBeatIndependent) {
-  const Scene scene = small_scene();
+  const Scene scene = small_scene(Float(0.1), 0.25, Lambert());
   double error[3];
   for (int i = 0; i < 3; ++i) {
     RenderOptions options = small();
@@ -130,13 +207,24 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   options.target_error = 0.05;
   const RenderResult exact = render::render(scene, options);
   EXPECT_LE(exact.relative_error, 0.05);
-  EXPECT_GE(exact.estimates, 4u);
+  EXPECT_EQ(exact.estimates, 4u);
+  options.error_of = ErrorOf::worst;
+  const RenderResult worst = render::render(scene, options);
+  EXPECT_LE(worst.worst_error, 0.05);
+  EXPECT_GT(worst.samples, exact.samples);
+  options.error_of = ErrorOf::picture;
+  options.adaptive = false;
+  EXPECT_GT(render::render(scene, options).samples, exact.samples);
 
   options = small();
   options.seconds = 0.05;
   const RenderResult timed = render::render(scene, options);
-  EXPECT_GE(timed.estimates, 1u);
+  EXPECT_EQ(timed.estimates, 4u);
   EXPECT_FALSE(timed.partial);
+  options.seconds = 1e-9; // the first round is whole
+  const RenderResult least = render::render(scene, options);
+  EXPECT_EQ(least.samples, 4u * 24 * 20);
+  EXPECT_FALSE(least.partial);
 
   const std::atomic<bool> stop = true;
   options = small();
@@ -216,8 +304,6 @@ TEST(Render, RejectsBadOptions) {
     EXPECT_THROW(with([&](RenderOptions& o) { o.seconds = bad; })(), mc::Error);
     EXPECT_THROW(with([&](RenderOptions& o) { o.target_error = bad; })(), mc::Error);
   }
-  EXPECT_THROW(sampler_from("sobel"), mc::Error);
-  for (const PixelSampler s : samplers) EXPECT_EQ(sampler_from(name(s)), s);
 }
 
 // The pixels of a part are those of the whole picture, with their variance, by every sampler.

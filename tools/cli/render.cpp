@@ -29,6 +29,8 @@ struct RenderOptions {
   std::optional<int> spp;             ///< samples per pixel
   std::optional<double> seconds;      ///< wall-clock budget [s]
   std::optional<double> target_error; ///< mean relative standard error to reach
+  std::string error_of;               ///< of what; empty: picture
+  std::string adaptive;               ///< on or off; empty: on with --time and --target-error
   std::string intervals;              ///< file for the half widths of 95 % intervals; empty: none
   std::string size;                   ///< "WxH"; empty: the scene's
   std::string crop;                   ///< "X,Y,W,H"; empty: all of it
@@ -79,10 +81,15 @@ std::vector<Option> rows(RenderOptions& o) {
       {"--target-error",
        "RATIO",
        &o.target_error,
-       "Mean relative standard error of the pixels to reach, while one sample carries over half of the variance in at "
-       "most 5 % of them",
+       "Mean relative standard error to reach: the pixels' standard errors relative to the radiance about them, in the "
+       "dark to half of the picture's mean, root mean square; while one sample carries over half of the variance in at "
+       "most 5 % of the pixels",
        false,
        {"--spp", "--time"}},
+      {"--error-of", "WHAT", &o.error_of,
+       "The error that counts: of the picture, or of its worst 16x16 block [picture]"},
+      {"--adaptive", "on|off", &o.adaptive,
+       "Samples where the error is, as a first quarter has seen it, or evenly [off with --spp, else on]"},
       {"--intervals", "FILE", &o.intervals, "Write half the widths of the pixels' 95 % intervals to this image"},
       {"--size", "WxH", &o.size, "Image size in pixels [the scene's]"},
       {"--crop", "X,Y,W,H", &o.crop,
@@ -105,6 +112,11 @@ const GalleryScene* named_scene(const std::string& word) {
   return is_file ? nullptr : &gallery_scene(word);
 }
 
+std::string format_error(const ::render::RenderResult& result) {
+  if (!std::isfinite(result.relative_error)) return "unknown (one sample per pixel)";
+  return fmt::format("{:.2f} % (worst block {:.2f} %)", 100 * result.relative_error, 100 * result.worst_error);
+}
+
 // What the scene asks for, where the command does not say otherwise.
 ::render::RenderOptions settings_of(const RenderOptions& options, const ::render::RenderDefaults& defaults,
                                     const GalleryScene* named) {
@@ -118,6 +130,12 @@ const GalleryScene* named_scene(const std::string& word) {
   settings.spp = options.spp.value_or(named && named->spp > 0 ? named->spp : defaults.spp);
   settings.seconds = options.seconds;
   settings.target_error = options.target_error;
+  mc::require(options.error_of.empty() || options.error_of == "picture" || options.error_of == "worst",
+              "--error-of '{}' must be picture or worst", options.error_of);
+  if (options.error_of == "worst") settings.error_of = ::render::ErrorOf::worst;
+  mc::require(options.adaptive.empty() || options.adaptive == "on" || options.adaptive == "off",
+              "--adaptive '{}' must be on or off", options.adaptive);
+  if (!options.adaptive.empty()) settings.adaptive = options.adaptive == "on";
   if (!options.strategy.empty()) settings.strategy = ::render::strategy_from(options.strategy);
   if (!options.sampler.empty()) settings.sampler = ::render::sampler_from(options.sampler);
   mc::require(!options.max_depth || *options.max_depth == -1 || *options.max_depth >= 1,
@@ -181,12 +199,14 @@ int render(const RenderOptions& options) {
   if (!options.intervals.empty() && !result.image.variance.empty())
     ::render::write_image(options.intervals, ::render::half_widths(result.image, 0.95));
 
-  std::printf("%s: %dx%d, %.4g samples/pixel in %s (%s CPU): %s, %srays/s, mean standard error %s, %llu "
-              "invalid samples%s%s\n",
-              output.c_str(), result.image.width, result.image.height, result.spp,
-              format_seconds(result.seconds).c_str(), format_seconds(result.cpu_seconds).c_str(),
-              samples_per_second(result).c_str(), format_count(double(result.rays) / result.seconds).c_str(),
-              format_error(result.relative_error).c_str(), static_cast<unsigned long long>(result.invalid),
+  std::printf("%s: %dx%d, %.4g samples/pixel in %s (%s CPU): %s, %srays/s, mean relative standard error %s, %llu "
+              "invalid samples%s%s
+              ",
+              output.c_str(),
+              result.image.width, result.image.height, result.spp, format_seconds(result.seconds).c_str(),
+              format_seconds(result.cpu_seconds).c_str(), samples_per_second(result).c_str(),
+              format_count(double(result.rays) / result.seconds).c_str(), format_error(result).c_str(),
+              static_cast<unsigned long long>(result.invalid),
               result.undecided > 0
                   ? fmt::format(", {:.1f} % of the pixels decided by one sample", 100 * result.undecided).c_str()
                   : "",

@@ -20,40 +20,96 @@ bool SampleSums::is_undecided() const {
   return deviations > 1e-12 * squares && mc::sqr(largest - mean) > deviations / 2;
 }
 
-Film::Film(int width, int height) : width_(width), height_(height) {
+Film::Film(int width, int height, int sets) : width_(width), height_(height), sets_(sets) {
   mc::require(width > 0 && height > 0, "film: size {}x{} needs at least one pixel", width, height);
-  pixels_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  samples_.resize(pixels_.size());
+  mc::require(sets > 0, "film: {} point sets; at least 1 is needed", sets);
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  sums_.resize(pixels * static_cast<std::size_t>(sets), Eigen::Array3d::Zero());
+  counts_.resize(sums_.size());
+  samples_.resize(pixels);
+  rays_.resize(pixels);
 }
 
-void Film::add(int x, int y, const Eigen::Array3d& estimate) {
-  Pixel& pixel = pixels_[index(x, y)];
-  for (std::size_t c = 0; c < 3; ++c) pixel[c].add(estimate[static_cast<int>(c)]);
+void Film::add(int x, int y, int set, const Eigen::Array3d& sum, std::uint32_t count) {
+  const std::size_t i = index(x, y) * static_cast<std::size_t>(sets_) + static_cast<std::size_t>(set);
+  sums_[i] += sum;
+  counts_[i] += count;
+}
+
+void Film::note(int x, int y, const SampleSums& samples, std::uint64_t rays) {
+  samples_[index(x, y)].merge(samples);
+  rays_[index(x, y)] += rays;
+}
+
+PixelEstimate Film::estimate(int x, int y) const {
+  const auto sets = static_cast<std::size_t>(sets_), first = index(x, y) * sets;
+  PixelEstimate pixel;
+  for (std::size_t i = first; i < first + sets; ++i) {
+    pixel.mean += sums_[i];
+    pixel.samples += counts_[i];
+    pixel.sets += counts_[i] > 0;
+  }
+  if (pixel.samples == 0) return pixel;
+  const auto n = double(pixel.samples);
+  pixel.mean /= n;
+  if (pixel.sets < 2) return pixel;
+  for (std::size_t i = first; i < first + sets; ++i)
+    if (counts_[i] > 0) pixel.variance += counts_[i] * (sums_[i] / counts_[i] - pixel.mean).square();
+  pixel.variance /= (pixel.sets - 1) * n;
+  return pixel;
 }
 
 Image Film::image() const {
   Image image(width_, height_);
+  image.variance.resize(image.pixels.size());
   bool known = true;
-  for (const Pixel& p : pixels_) known &= p[0].count() >= 2;
-  if (known) image.variance.resize(pixels_.size());
-  for (std::size_t i = 0; i < pixels_.size(); ++i)
-    for (std::size_t c = 0; c < 3; ++c) {
-      image.pixels[i][static_cast<int>(c)] = Float(pixels_[i][c].mean());
-      if (known) image.variance[i][static_cast<int>(c)] = Float(mc::sqr(pixels_[i][c].std_error()));
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const PixelEstimate pixel = estimate(x, y);
+      image.at(x, y) = pixel.mean.cast<Float>();
+      image.variance[image.index(x, y)] = pixel.variance.cast<Float>();
+      known = known && pixel.sets >= 2;
     }
+  if (!known) image.variance.clear();
   return image;
 }
 
-double Film::relative_error() const {
-  double mean = 0, variance = 0;
-  for (const Pixel& p : pixels_)
-    for (const mc::Moments& m : p) {
-      if (m.count() < 2) return mc::infinity<double>;
-      mean += m.mean();
-      variance += mc::sqr(m.std_error());
+double Film::relative_error(ErrorOf of) const {
+  std::vector<Eigen::Array3d> means;
+  means.reserve(samples_.size());
+  double mean = 0;
+  for (int y = 0; y < height_; ++y)
+    for (int x = 0; x < width_; ++x) {
+      const PixelEstimate pixel = estimate(x, y);
+      if (pixel.sets < 2) return mc::infinity<double>;
+      means.push_back(pixel.mean);
+      mean += pixel.mean.sum() / (3.0 * double(samples_.size()));
     }
-  const double n = 3.0 * double(pixels_.size());
-  return variance > 0 ? std::sqrt(variance / n) / (std::abs(mean) / n) : 0.0;
+  const int block = of == ErrorOf::worst ? 16 : std::max(width_, height_);
+  double worst = 0;
+  for (int top = 0; top < height_; top += block)
+    for (int left = 0; left < width_; left += block) {
+      const int bottom = std::min(top + block, height_), right = std::min(left + block, width_);
+      double sum = 0;
+      for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x) {
+          const Eigen::Array3d variance = estimate(x, y).variance;
+          if ((variance > 0).any()) sum += (variance / around(means, x, y).max(mean / 2).square()).sum();
+        }
+      worst = std::max(worst, sum / (3.0 * (bottom - top) * (right - left)));
+    }
+  return std::sqrt(worst);
+}
+
+Eigen::Array3d Film::around(const std::vector<Eigen::Array3d>& means, int x, int y) const {
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  int n = 0;
+  for (int j = std::max(y - 1, 0); j < std::min(y + 2, height_); ++j)
+    for (int i = std::max(x - 1, 0); i < std::min(x + 2, width_); ++i) {
+      sum += means[index(i, j)];
+      ++n;
+    }
+  return sum / n;
 }
 
 double Film::undecided() const {

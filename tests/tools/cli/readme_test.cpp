@@ -19,7 +19,7 @@ namespace {
 // become one word each.
 std::string without_times(const std::string& line) {
   static const std::regex times(R"([0-9.]+ (ms|s|min)\b)"), rates(R"([0-9.]+ [kM]?(samples|rays)/s)"),
-      columns(R"((%|-) +[0-9.-]+ +[0-9.]+$)"), noise(R"(mean standard error [0-9.]+ %)");
+      columns(R"((%|-) +[0-9.-]+ +[0-9.]+$)"), noise(R"(error [0-9.]+ % \(worst block [0-9.]+ %\))");
   const std::string a = std::regex_replace(std::regex_replace(line, rates, "RATE"), noise, "NOISE");
   return std::regex_replace(std::regex_replace(a, times, "TIME"), columns, "$1 TIMES");
 }

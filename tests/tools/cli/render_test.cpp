@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <regex>
 
 namespace {
 
@@ -38,6 +39,8 @@ TEST_F(RenderCommand, RefusesBadInputInOneLine) {
   expect_refused(cbox() + " --spp -3", {"-3 samples per pixel", "at least 1"});
   expect_refused(cbox() + " --time -1", {"-1", "> 0"});
   expect_refused(cbox() + " --target-error 0", {"target error of 0"});
+  expect_refused(cbox() + " --target-error 0.1 --error-of wurst", {"--error-of 'wurst'", "picture or worst"});
+  expect_refused(cbox() + " --adaptive perhaps", {"--adaptive 'perhaps'", "on or off"});
   expect_refused(cbox() + " --sampler sobl", {"'sobl'", "did you mean 'sobol'"});
   expect_refused(cbox() + " --strategy mess", {"'mess'", "did you mean 'mis'"});
   expect_refused(cbox() + " --max-depth 0", {"--max-depth 0"});
@@ -60,6 +63,18 @@ TEST_F(RenderCommand, OutputThatCannotBeWrittenIsOneLine) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.output, HasSubstr("taken.pfm"));
   EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+}
+
+TEST_F(RenderCommand, ReachesTheErrorThatItIsAskedFor) {
+  const std::string target = " --target-error 0.1 --size 32x32 -o ";
+  for (const std::string more : {"", " --adaptive off", " --error-of worst"}) {
+    const support::Run run = run_carlo("render " + scenes + "cbox.xml" + more + target + path("a.exr"));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    std::smatch errors;
+    ASSERT_TRUE(std::regex_search(run.output, errors, std::regex("error ([0-9.]+) % .worst block ([0-9.]+) %")))
+        << run.output;
+    EXPECT_LE(std::stod(errors[more == " --error-of worst" ? 2 : 1]), 10.0);
+  }
 }
 
 TEST_F(RenderCommand, WritesIntervals) {
@@ -119,8 +134,8 @@ TEST_F(RenderCommand, ThreadsDoNotChangeABitAndMetadataTellsHow) {
     const support::Run run = run_carlo("render " + scenes + "cbox.xml --spp 4 --size 24x16 --seed 5 --threads " +
                                        threads + " -o " + path(threads) + ".exr");
     ASSERT_EQ(run.exit_code, 0) << run.output;
-    EXPECT_THAT(run.output, AllOf(HasSubstr("samples/s"), HasSubstr("rays/s"), HasSubstr("mean standard error"),
-                                  HasSubstr(" 0 invalid samples")));
+    EXPECT_THAT(run.output, AllOf(HasSubstr("samples/s"), HasSubstr("rays/s"),
+                                  HasSubstr("mean relative standard error"), HasSubstr(" 0 invalid samples")));
     EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1)
         << "no progress bar without a terminal: " << run.output;
   }

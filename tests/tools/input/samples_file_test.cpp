@@ -170,6 +170,25 @@ TEST_F(SamplesFile, AGreyExrIsAGrid) {
   EXPECT_THAT(refusal(o), HasSubstr("torn.exr"));
 }
 
+TEST_F(SamplesFile, StepsMayBeNamed) {
+  const auto steps = [](mc::Pcg& r) { // density 0.4, 1.6, 0.4, 1.6, ... on 64 bins
+    const double u = 32 * r.uniform<double>(), bin = std::floor(u), x = u - bin;
+    return fmt::format("{:.9f}", (2 * bin + (x < 0.2 ? x / 0.2 : 1 + (x - 0.2) / 0.8)) / 64);
+  };
+  ValidateOptions o = options(samples(steps), "");
+  o.domain = "x=0:1";
+  o.pdf = "64*x - 2*rint(32*x-0.5) < 1 ? 0.4 : 1.6";
+  o.breaks = "x=0:1:0.015625";
+  const Output right = run(o);
+  EXPECT_EQ(right.code, carlo::exit_ok) << right.text;
+  o.pdf = "64*x - 2*rint(32*x-0.5) < 1 ? 0.5 : 1.5";
+  EXPECT_EQ(run(o).code, carlo::exit_failed);
+  o.breaks = "y=0.5";
+  EXPECT_THAT(refusal(o), HasSubstr("--breaks: 'y' is no axis of the domain; it has x"));
+  o.pdf = "";
+  EXPECT_THAT(refusal(o), HasSubstr("--breaks is for a --pdf or a --command"));
+}
+
 TEST_F(SamplesFile, DetectNeedsEnoughSamples) {
   ValidateOptions o = options(samples(ramp), grid(16, 1, ramp_mean));
   o.detect = 0.2;
@@ -345,25 +364,6 @@ TEST_P(ByExpression, RightOnesPassAndWrongOnesFail) {
 
 INSTANTIATE_TEST_SUITE_P(SamplesFile, ByExpression, testing::ValuesIn(expressions),
                          [](const auto& one) { return std::string(one.param.name); });
-
-TEST_F(SamplesFile, StepsMayBeNamed) {
-  const auto steps = [](mc::Pcg& r) { // density 0.4, 1.6, 0.4, 1.6, ... on 64 bins
-    const double u = 32 * r.uniform<double>(), bin = std::floor(u), x = u - bin;
-    return fmt::format("{:.9f}", (2 * bin + (x < 0.2 ? x / 0.2 : 1 + (x - 0.2) / 0.8)) / 64);
-  };
-  ValidateOptions o = options(samples(steps), "");
-  o.domain = "x=0:1";
-  o.pdf = "64*x - 2*rint(32*x-0.5) < 1 ? 0.4 : 1.6";
-  o.breaks = "x=0:1:0.015625";
-  const Output right = run(o);
-  EXPECT_EQ(right.code, carlo::exit_ok) << right.text;
-  o.pdf = "64*x - 2*rint(32*x-0.5) < 1 ? 0.5 : 1.5";
-  EXPECT_EQ(run(o).code, carlo::exit_failed);
-  o.breaks = "y=0.5";
-  EXPECT_THAT(refusal(o), HasSubstr("--breaks: 'y' is no axis of the domain; it has x"));
-  o.pdf = "";
-  EXPECT_THAT(refusal(o), HasSubstr("--breaks is for a --pdf or a --command"));
-}
 
 TEST_F(SamplesFile, BadDomainsAndExpressionsAreOneLine) {
   const std::string file = samples(ramp);

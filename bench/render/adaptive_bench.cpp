@@ -1,0 +1,127 @@
+/// What samples where the error is gain, and whether they stay true: even and adaptive spending in turn, as CSV on
+/// stdout.
+/// Usage: bench_render_adaptive SCENE.xml... [-- SEEDS [SIZE [SPP [REFERENCE_SPP]]]]
+///   relmse     : mean of (x - reference)^2 / (reference^2 + 0.01) over pixels, channels and seeds, less what the
+///                noise of the reference adds
+///   relative_error: root of the mean square over seeds of what the pictures say of theirs, see Film
+///   gain       : CPU seconds times relmse of even spending over those of adaptive, and its standard error
+///   z_mean, z_sd: of the pictures' mean radiance against the reference's, by their own error bars; a standard error
+///                of z_mean is 1 / sqrt(SEEDS), and sqrt(SPP / REFERENCE_SPP) of it is the reference's, of z_sd
+///                1 / sqrt(2 SEEDS)
+///   picture    : mean over pixels of the squared difference of the mean pictures of both, in green, over its variance:
+///                1 where they show the same
+///   held       : share of 95 % intervals of pixels that hold the reference
+
+#include <render/film/interval.h>
+#include <render/io/mitsuba.h>
+#include <render/render.h>
+
+#include <mc/estimate/moments.h>
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+namespace {
+
+using namespace render;
+
+double square_error(const Image& image, const Image& truth) {
+  double sum = 0;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const double y = double(truth.pixels[i][c]), noise = double(truth.variance[i][c]);
+      sum += (mc::sqr(double(image.pixels[i][c]) - y) - noise) / (y * y + 0.01);
+    }
+  return sum / (3.0 * double(truth.pixels.size()));
+}
+
+// Of the mean over all pixels and channels.
+double z_score(const Image& image, const Image& truth) {
+  double off = 0, variance = 0;
+  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
+    off += (image.pixels[i] - truth.pixels[i]).cast<double>().sum();
+    // Channels of a pixel vary together: the standard error of their sum is at most the sum of theirs, and nearly so.
+    variance +=
+        mc::sqr(image.variance[i].cast<double>().sqrt().sum()) + mc::sqr(truth.variance[i].cast<double>().sqrt().sum());
+  }
+  return off / std::sqrt(variance);
+}
+
+struct Spending {
+  const char* name;
+  mc::Moments relmse = {}, seconds = {}, error = {}, z = {}, spp = {};
+  std::vector<mc::Moments> green = {};
+  double held = 0, intervals = 0;
+
+  void add(const RenderResult& result, const Image& truth) {
+    relmse.add(square_error(result.image, truth));
+    seconds.add(result.cpu_seconds);
+    error.add(mc::sqr(result.relative_error));
+    z.add(z_score(result.image, truth));
+    spp.add(result.spp);
+    green.resize(truth.pixels.size());
+    for (std::size_t i = 0; i < green.size(); ++i) green[i].add(double(result.image.pixels[i][1]));
+    const Image widths = half_widths(result.image, 0.95);
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+      for (int c = 0; c < 3; ++c) {
+        held += std::abs(double(result.image.pixels[i][c]) - double(truth.pixels[i][c])) <= double(widths.pixels[i][c]);
+        ++intervals;
+      }
+  }
+  double cost() const { return relmse.mean() * seconds.mean(); }
+  double relative_variance() const { return mc::sqr(relmse.std_error() / relmse.mean()); }
+};
+
+double difference(const Spending& a, const Spending& b) {
+  mc::Moments squares;
+  for (std::size_t i = 0; i < a.green.size(); ++i) {
+    const double variance = mc::sqr(a.green[i].std_error()) + mc::sqr(b.green[i].std_error());
+    if (variance > 0) squares.add(mc::sqr(a.green[i].mean() - b.green[i].mean()) / variance);
+  }
+  return squares.mean();
+}
+
+void show(const std::string& path, int seeds, int size, int spp, int reference_spp) {
+  const SceneFile file = read_mitsuba(path);
+  RenderOptions options;
+  options.width = size;
+  options.height = size * file.defaults.height / file.defaults.width;
+  options.max_depth = file.defaults.max_depth;
+  options.spp = reference_spp;
+  options.seed = 1'000'000;
+  options.adaptive = true;
+  const Image truth = render::render(file.scene, options).image;
+  options.spp = spp;
+  Spending even{"even"}, adaptive{"adaptive"};
+  for (int i = 0; i < 2 * seeds; ++i) { // in turn, each with its own seeds
+    Spending& spending = i % 2 == 0 ? even : adaptive;
+    options.seed = std::uint64_t(i);
+    options.adaptive = &spending == &adaptive;
+    spending.add(render::render(file.scene, options), truth);
+  }
+  for (const Spending* s : {&even, &adaptive}) {
+    const double gain = even.cost() / s->cost(),
+                 gain_error = s == &even ? 0 : gain * std::sqrt(even.relative_variance() + s->relative_variance());
+    fmt::print("{},{},{:.2f},{:.4f},{:.3g},{:.3g},{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.4f},{:.3f}\n",
+               std::filesystem::path(path).stem().string(), s->name, s->spp.mean(), s->seconds.mean(), s->relmse.mean(),
+               s->relmse.std_error(), std::sqrt(s->error.mean()), gain, gain_error, s->z.mean(),
+               std::sqrt(s->z.variance()), s->held / s->intervals, difference(even, adaptive));
+  }
+  std::fflush(stdout);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  int scenes = 1;
+  while (scenes < argc && std::strcmp(argv[scenes], "--") != 0) ++scenes;
+  const auto number = [&](int place, int fallback) {
+    return scenes + place < argc ? std::atoi(argv[scenes + place]) : fallback;
+  };
+  fmt::print(
+      "scene,spending,spp,cpu_seconds,relmse,relmse_error,relative_error,gain,gain_error,z_mean,z_sd,held,picture\n");
+  for (int i = 1; i < scenes; ++i) show(argv[i], number(1, 20), number(2, 64), number(3, 64), number(4, 65536));
+}

@@ -1,0 +1,102 @@
+#include <render/pixel_sampler.h>
+
+#include <mc/core/error.h>
+#include <mc/core/text.h>
+#include <mc/sampler/walk_stream.h>
+
+#include <array>
+#include <tuple>
+
+namespace render {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> sampler_names = {"independent", "stratified", "sobol"};
+
+bool is_before(const InvalidSample& a, const InvalidSample& b) {
+  return std::tie(a.pass, a.y, a.x, a.index) < std::tie(b.pass, b.y, b.x, b.index);
+}
+
+} // namespace
+
+PixelSampler sampler_from(std::string_view word) {
+  for (std::size_t i = 0; i < sampler_names.size(); ++i)
+    if (sampler_names[i] == word) return static_cast<PixelSampler>(i);
+  throw mc::Error(fmt::format("unknown sampler '{}'{}; use one of {}", word, mc::did_you_mean(word, sampler_names),
+                              fmt::join(sampler_names, ", ")));
+}
+
+std::string_view name(PixelSampler sampler) { return sampler_names[static_cast<std::size_t>(sampler)]; }
+
+void Tally::add(const InvalidSample& sample) {
+  if (invalid++ == 0 || is_before(sample, first)) first = sample;
+}
+
+void Tally::merge(const Tally& other) {
+  samples += other.samples;
+  rays += other.rays;
+  if (other.invalid > 0 && (invalid == 0 || is_before(other.first, first))) first = other.first;
+  invalid += other.invalid;
+}
+
+SampleTaker::SampleTaker(const Scene& scene, const PathOptions& path, PixelSampler sampler, std::uint64_t seed,
+                         std::uint32_t stratum, const Whole& whole)
+    : scene_(scene), integrator_(scene, path), seed_(seed),
+      stratum_(sampler == PixelSampler::stratified ? stratum : 1u << 31), whole_(whole), take_(take_of(sampler)) {}
+
+SampleTaker::Take SampleTaker::take_of(PixelSampler sampler) {
+  switch (sampler) {
+  case PixelSampler::independent: return &SampleTaker::take_by<mc::IndependentWalk<Float>>;
+  case PixelSampler::stratified: return &SampleTaker::take_by<mc::StratifiedWalk<Float>>;
+  case PixelSampler::sobol: return &SampleTaker::take_by<mc::SobolWalk<Float>>;
+  }
+  return nullptr;
+}
+
+template <class Stream>
+Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                           Film& film) const {
+  Tally tally;
+  const ThinLens& camera = scene_.camera();
+  const Vec2 scale(1 / Float(whole_.width), 1 / Float(whole_.height));
+  const Vec2 tan_half = camera.tan_half(Float(whole_.width) / Float(whole_.height));
+  const int whole_y = whole_.part.y + y;
+  const auto sets = static_cast<std::uint32_t>(film.sets());
+  for (int x = 0; x < film.width(); ++x) {
+    const std::uint32_t first = from[static_cast<std::size_t>(x)], last = to[static_cast<std::size_t>(x)];
+    const int whole_x = whole_.part.x + x;
+    const std::uint64_t pixel = static_cast<std::uint64_t>(whole_y) << 32 | static_cast<std::uint64_t>(whole_x);
+    const std::uint64_t rays_before = tally.rays;
+    SampleSums luminances;
+    for (std::uint32_t set = 0; set < sets; ++set) {
+      Eigen::Array3d sum = Eigen::Array3d::Zero();
+      std::uint32_t valid = 0, point = (first + sets - 1 - set) / sets;
+      const std::uint32_t end = (last + sets - 1 - set) / sets;
+      while (point < end) {
+        const std::uint32_t block = point / stratum_, pass = set + sets * block;
+        const std::uint32_t stop = std::min(end, (block + 1) * stratum_);
+        const typename Stream::Points points(mc::hash(seed_, pixel, pass), stratum_);
+        for (; point < stop; ++point) {
+          Stream stream(points, point - block * stratum_);
+          const Vec2 offset = scene_.filter().sample(stream.next2());
+          const Vec2 s = (Vec2(Float(whole_x) + Float(0.5), Float(whole_y) + Float(0.5)) + offset).cwiseProduct(scale);
+          const Ray ray = camera.ray(s, tan_half, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
+          const Spectrum radiance = integrator_.radiance(ray, stream, tally.rays);
+          ++tally.samples;
+          if (!radiance.isFinite().all()) [[unlikely]] {
+            tally.add({whole_x, whole_y, pass, point - block * stratum_});
+            continue;
+          }
+          luminances.add(double(luminance(radiance)));
+          sum += radiance.cast<double>();
+          ++valid;
+        }
+      }
+      film.add(x, y, static_cast<int>(set), sum, valid);
+    }
+    film.note(x, y, luminances, tally.rays - rays_before);
+  }
+  return tally;
+}
+
+} // namespace render

@@ -1,0 +1,99 @@
+#include <render/film/sampling_plan.h>
+
+#include <mc/core/error.h>
+#include <mc/random/pcg.h>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace {
+
+using namespace render;
+
+// A film whose pixels have the radiance 1, a relative standard error of `noise(x, y)` per sample and `rays(x, y)` rays.
+template <class Noise, class Rays> Film film_of(int width, int height, Noise&& noise, Rays&& rays) {
+  Film film(width, height, 2);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      for (const int set : {0, 1})
+        film.add(x, y, set, Eigen::Array3d::Constant(8 * (1 + (2 * set - 1) * noise(x, y) / 4)), 8);
+      film.note(x, y, {}, 16 * std::uint64_t(rays(x, y)));
+    }
+  return film;
+}
+
+double mean(const std::vector<float>& rates) {
+  return std::accumulate(rates.begin(), rates.end(), 0.0) / double(rates.size());
+}
+
+// Left and right half differ: far from where they meet rates are as the formula says.
+TEST(SamplingPlan, SpendsWhereTheErrorIsByItsCost) {
+  const auto noise = [](int x, int) { return x < 24 ? 0.1 : 0.3; };
+  const auto rays = [](int x, int) { return x < 24 ? 1 : 4; };
+  const Film film = film_of(48, 8, noise, rays);
+  const SamplingPlan plan = adaptive_plan(film, 0.1);
+  EXPECT_NEAR(mean(plan.rates), 1, 1e-5);
+  const std::size_t quiet = 3 * 48 + 5, noisy = 3 * 48 + 43;
+  EXPECT_NEAR(plan.rates[noisy] / plan.rates[quiet], 3 / 2.0, 1e-4); // noise / sqrt(rays)
+  const SamplingPlan worst = adaptive_plan(film, 0.01, ErrorOf::worst);
+  EXPECT_NEAR(worst.rates[noisy] / worst.rates[quiet], 9, 1e-3);
+  EXPECT_NEAR(mean(worst.rates), 1, 1e-5);
+  const SamplingPlan least = adaptive_plan(film, 0.9);
+  EXPECT_NEAR(least.rates[quiet], 0.9, 1e-6);
+  EXPECT_NEAR(mean(least.rates), 1, 1e-5);
+  EXPECT_EQ(plan.samples(quiet, 100), std::uint32_t(std::lround(100 * plan.rates[quiet])));
+  EXPECT_EQ(SamplingPlan().samples(quiet, 7), 7u);
+}
+
+// A pixel's own samples change its rate only by its share in the mean of all.
+TEST(SamplingPlan, AsksTheNeighboursNotThePixel) {
+  const auto rays = [](int, int) { return 3; };
+  std::vector<double> noise(40 * 40);
+  for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = i % 40 < 20 ? 0.1 : 1;
+  const auto at = [&](int x, int y) { return noise[std::size_t(y * 40 + x)]; };
+  const SamplingPlan before = adaptive_plan(film_of(40, 40, at, rays), 0.01);
+  const std::size_t pixel = 17 * 40 + 21, neighbour = pixel + 1, far = pixel + 12;
+  noise[pixel] = 3;
+  const SamplingPlan after = adaptive_plan(film_of(40, 40, at, rays), 0.01);
+  const auto ratio = [&](std::size_t i) { return double(after.rates[i]) / double(before.rates[i]); };
+  EXPECT_NEAR(ratio(pixel), ratio(far), 1e-6);
+  EXPECT_GE(ratio(neighbour), 1.2);
+  EXPECT_NEAR(ratio(far), 1, 0.02);
+}
+
+// One noisy pixel, of which its neighbours know nothing: even spending is best for all the others that it makes noisy.
+TEST(SamplingPlan, IsEvenWhereNeighboursTellNothing) {
+  mc::Pcg random(2);
+  std::vector<double> noise(30 * 30);
+  for (double& n : noise) n = random.uniform<double>() < 0.01 ? 5 : 0.01;
+  const auto at = [&](int x, int y) { return noise[std::size_t(y * 30 + x)]; };
+  const SamplingPlan plan = adaptive_plan(film_of(30, 30, at, [](int, int) { return 2; }), 0.1);
+  double even = 0, spent = 0;
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    even += mc::sqr(noise[i]);
+    spent += mc::sqr(noise[i]) / double(plan.rates[i]);
+  }
+  EXPECT_LE(spent, 1.01 * even);
+}
+
+TEST(SamplingPlan, ThreadsDoNotChangeIt) {
+  const auto noise = [](int x, int y) { return 0.01 * (x * y % 7); };
+  const Film film = film_of(33, 21, noise, [](int x, int) { return 1 + x; });
+  EXPECT_EQ(adaptive_plan(film, 0.2, ErrorOf::picture, 1).rates, adaptive_plan(film, 0.2, ErrorOf::picture, 3).rates);
+}
+
+TEST(SamplingPlan, NothingToTellIsEven) {
+  const auto one = [](int, int) { return 1; };
+  const SamplingPlan quiet = adaptive_plan(film_of(
+                                               5, 4, [](int, int) { return 0; }, one),
+                                           0.25);
+  EXPECT_EQ(quiet.samples(3, 12), 12u);
+  const SamplingPlan alone = adaptive_plan(film_of(1, 1, one, one), 0.25); // no neighbours
+  EXPECT_EQ(alone.samples(0, 12), 12u);
+  EXPECT_EQ(adaptive_plan(Film(3, 3, 4), 0.25).samples(0, 5), 5u); // no samples
+  for (const double least : {0.0, -1.0, 1.5, std::nan("")})
+    EXPECT_THROW(adaptive_plan(Film(3, 3, 4), least), mc::Error) << least;
+}
+
+} // namespace
