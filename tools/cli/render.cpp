@@ -200,13 +200,11 @@ int render(const RenderOptions& options) {
     ::render::write_image(options.intervals, ::render::half_widths(result.image, 0.95));
 
   std::printf("%s: %dx%d, %.4g samples/pixel in %s (%s CPU): %s, %srays/s, mean relative standard error %s, %llu "
-              "invalid samples%s%s
-              ",
-              output.c_str(),
-              result.image.width, result.image.height, result.spp, format_seconds(result.seconds).c_str(),
-              format_seconds(result.cpu_seconds).c_str(), samples_per_second(result).c_str(),
-              format_count(double(result.rays) / result.seconds).c_str(), format_error(result).c_str(),
-              static_cast<unsigned long long>(result.invalid),
+              "invalid samples%s%s\n",
+              output.c_str(), result.image.width, result.image.height, result.spp,
+              format_seconds(result.seconds).c_str(), format_seconds(result.cpu_seconds).c_str(),
+              samples_per_second(result).c_str(), format_count(double(result.rays) / result.seconds).c_str(),
+              format_error(result).c_str(), static_cast<unsigned long long>(result.invalid),
               result.undecided > 0
                   ? fmt::format(", {:.1f} % of the pixels decided by one sample", 100 * result.undecided).c_str()
                   : "",
