@@ -46,7 +46,7 @@ class SampleTaker {
   SampleTaker(const Scene& scene, const PathOptions& path, PixelSampler sampler, std::uint64_t seed,
               std::uint32_t stratum, const Whole& whole);
 
-  /// Adds to the film the samples [from[x], to[x]) of every pixel x of the film's row y; what is not finite is left out.
+  /// Adds to the film the samples [from[x], to[x]) of every pixel x of its row y; what is not finite is left out.
   Tally take(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, Film& film) const {
     return (this->*take_)(y, from, to, film);
   }
