@@ -49,8 +49,9 @@ struct IntegrateOptions {
   std::uint64_t seed = 1;
   int threads = 0;          ///< 0: all of the machine's; the result has the same bits for any number
   double confidence = 0.95; ///< of the interval
-  std::uint32_t replicates =
-      24; ///< number of independent randomisations behind the error of stratified, rqmc, vegas and tree
+  /// Independent randomisations behind the error of stratified, rqmc, vegas and tree; of sequences more, or up to a
+  /// sixth fewer, where that uses up the calls.
+  std::uint32_t replicates = 24;
   std::function<void(const IntegrateProgress&)> progress = {};
   const std::atomic<bool>* cancel = nullptr;
 };

@@ -30,12 +30,13 @@ class Growth {
       if (adopt(s, s.extend(run, to))) return true;
     return false;
   }
-  // What is left is too little for all at twice the length: for some of them, or for more replicates.
+  // What is left is too little for all at twice the length. Nearly all of them at that are as good for independent
+  // points and better for smooth integrands; else more replicates.
   void use_up(Sequences& s) {
     const auto more = run.left() / std::max<std::uint64_t>(s.calls_each(), 1);
     const auto longer = static_cast<std::uint32_t>(std::min<std::uint64_t>(more, run.o.replicates));
     if (longer == 0 || s.length == 0) return;
-    if (3 * longer >= run.o.replicates && 2 * s.length <= Sequences::longest) adopt(s, s.lengthen(run, longer));
+    if (6 * longer >= 5 * run.o.replicates && 2 * s.length <= Sequences::longest) adopt(s, s.lengthen(run, longer));
     else adopt(s, s.widen(run, longer));
   }
   // Takes what a sequence says for the outcome; whether that is good enough.

@@ -49,28 +49,13 @@ Means Sequences::widen(Run& run, std::uint32_t count) {
 }
 
 Means Sequences::lengthen(Run& run, std::uint32_t count) {
-  const auto split = [&](std::vector<PointSet>& points, std::vector<Sums>& s, Sequences& rest, bool uniform) {
-    auto& their_points = uniform ? rest.uniform_sets : rest.sets;
-    auto& their_sums = uniform ? rest.uniform_sums : rest.sums;
-    if (s.size() <= count) return;
-    their_points.assign(points.begin() + count, points.end());
-    their_sums.assign(s.begin() + count, s.end());
-    points.resize(count, points.front());
-    s.resize(count);
-  };
-  Sequences rest{.purpose = purpose, .proposal = proposal, .length = length, .evidence = evidence};
-  split(sets, sums, rest, false);
-  split(uniform_sets, uniform_sums, rest, true);
+  for (auto* points : {&sets, &uniform_sets})
+    if (points->size() > count) points->erase(points->begin() + count, points->end());
+  for (auto* all : {&sums, &uniform_sums})
+    if (all->size() > count) all->resize(count);
   const std::uint64_t from = length;
   length *= 2;
-  Means longer = grown(run, *this, 0, count, from, length);
-  if (rest.sums.size() < 4) return longer;
-  const Means shorter = run.means(rest.sums, from, rest.evidence, rest.uniform_sums, proposal);
-  // By their number times n^3/2: between what points that are no better than independent ones deserve, and smooth ones.
-  const double weight = std::sqrt(8.0) * count;
-  for (std::size_t k = 0; k < longer.size(); ++k)
-    longer[k] = combined(shorter[k], longer[k], weight / (weight + static_cast<double>(rest.sums.size())));
-  return longer;
+  return grown(run, *this, 0, count, from, length);
 }
 
 void Sequences::forget() {

@@ -33,7 +33,7 @@ struct Sequences {
   std::vector<Magnitudes> seen() const;
   /// The means with `count` more sequences, as long as the others.
   Means widen(Run& run, std::uint32_t count);
-  /// The means once the first `count` sequences have twice the length; no more can follow.
+  /// The means of the first `count` sequences alone, at twice the length; the others are let go.
   Means lengthen(Run& run, std::uint32_t count);
   /// Lets go of what was recorded.
   void forget();
