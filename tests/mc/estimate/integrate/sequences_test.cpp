@@ -36,7 +36,7 @@ TEST(Sequences, LengthenSome) {
   for (std::uint64_t seed = 0; seed < runs; ++seed) {
     mc::IntegrateOptions o;
     o.seed = seed;
-    detail::Run run{{.one = &f}, 1, 3, o};
+    detail::Run run{{.one = &exponential}, 1, 3, o};
     Sequences s{.purpose = 0};
     s.extend(run, 64);
     const auto longer = s.lengthen(run, 20);
