@@ -4,6 +4,7 @@
 #include <mc/table/discrete.h>
 #include <mc/table/table_dist_1d.h>
 #include <mc/table/table_dist_2d.h>
+#include <mc/table/table_dist_tree.h>
 
 namespace carlo {
 namespace {
@@ -32,6 +33,18 @@ std::vector<double> extreme(std::size_t n) {
   std::vector<double> w(n);
   for (std::size_t i = 0; i < n; ++i) w[i] = i % 5 == 0 ? 0.0 : std::pow(10.0, static_cast<double>((i * 37) % 61) - 30);
   return w;
+}
+
+// A ridge that follows no axis, in the tree of boxes that is drawn from it, and a part that is empty.
+template <int N> void add_tree(Catalogue& c, std::size_t leaves) {
+  add_warp(c, "TableDistTree", fmt::format("{} dimensions, {} boxes", N, leaves), [leaves](auto s) {
+    return mc::TableDistTree<decltype(s), N>::from_function(
+        [](const mc::Vec<double, N>& x) {
+          const double off = (x.array() - x.mean()).matrix().norm();
+          return off < 0.45 ? std::exp(-8 * off) : 0.0;
+        },
+        leaves);
+  });
 }
 
 template <class D>
@@ -77,6 +90,9 @@ void add_tables(Catalogue& c) {
            [](auto s) { return mc::TableDist2D<decltype(s)>(sky(128, 64), 128, 64); });
   add_warp(c, "TableDist2D", "64x32 by solid angle, with a sun",
            [](auto s) { return mc::TableDist2D<decltype(s)>::from_lat_long(sky(64, 32), 64, 32); });
+  add_tree<2>(c, 1);
+  add_tree<2>(c, 200);
+  add_tree<3>(c, 300);
   for (const std::size_t n : {1, 10, 1000, 100'000}) add_alias(c, fmt::format("n={}", n), jagged(n));
   add_alias(c, "one outcome holds almost all, n=1000", [] {
     std::vector<double> w(1000, 1e-9);

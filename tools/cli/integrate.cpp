@@ -49,7 +49,7 @@ std::vector<Option> rows(IntegrateOptions& o) {
       {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach"},
       {"--abs-error", "ERROR", &o.abs_error, "Absolute standard error that also suffices"},
       {"--max-calls", "N", &o.max_calls, "Most evaluations of the integrand"},
-      {"--method", "NAME", &o.method, "auto, plain, stratified, rqmc or vegas"},
+      {"--method", "NAME", &o.method, "auto, plain, stratified, rqmc, vegas or tree"},
       {"--seed", "N", &o.seed, "Seed"},
       {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
       {"--json", "FILE", &o.json, "Write the result to this file"},

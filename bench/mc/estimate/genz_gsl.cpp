@@ -3,6 +3,8 @@
 /// cost of a call: prints a table.
 /// Usage: bench_genz [CALLS [SEEDS [FIRST_SEED [NAME]]]]; NAME keeps the integrals that contain it
 
+#include "gsl_peers.h"
+
 #include <integrands/genz.h>
 
 #include <mc/core/error.h>
@@ -10,11 +12,6 @@
 #include <mc/estimate/moments.h>
 #include <mc/sampler/independent.h>
 #include <mc/sampler/padded_sobol_4d.h>
-
-#include <gsl/gsl_monte_miser.h>
-#include <gsl/gsl_monte_plain.h>
-#include <gsl/gsl_monte_vegas.h>
-#include <gsl/gsl_qrng.h>
 
 #include <algorithm>
 #include <array>
@@ -31,86 +28,6 @@ namespace {
 using carlo::Experiment;
 
 double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
-
-double call(double* x, std::size_t dim, void* data) {
-  return static_cast<const Experiment*>(data)->f(std::span<const double>(x, dim));
-}
-
-struct Gsl {
-  const Experiment& e;
-  std::size_t dim, calls;
-  gsl_monte_function f;
-  std::array<double, 8> lo{}, hi{};
-  gsl_rng* rng;
-
-  Gsl(const Experiment& experiment, std::size_t calls_, unsigned long seed)
-      : e(experiment), dim(static_cast<std::size_t>(e.dim)), calls(calls_), f{call, dim, const_cast<Experiment*>(&e)},
-        rng(gsl_rng_alloc(gsl_rng_mt19937)) {
-    hi.fill(1);
-    gsl_rng_set(rng, seed);
-  }
-  ~Gsl() { gsl_rng_free(rng); }
-  Gsl(const Gsl&) = delete;
-  Gsl& operator=(const Gsl&) = delete;
-
-  double plain() {
-    double value, error;
-    auto* s = gsl_monte_plain_alloc(dim);
-    gsl_monte_plain_integrate(&f, lo.data(), hi.data(), dim, calls, rng, s, &value, &error);
-    gsl_monte_plain_free(s);
-    return value;
-  }
-  double miser() {
-    double value, error;
-    auto* s = gsl_monte_miser_alloc(dim);
-    gsl_monte_miser_integrate(&f, lo.data(), hi.data(), dim, calls, rng, s, &value, &error);
-    gsl_monte_miser_free(s);
-    return value;
-  }
-  // Five iterations of a fifth each, as the manual does.
-  double vegas() {
-    double value, error;
-    auto* s = gsl_monte_vegas_alloc(dim);
-    gsl_monte_vegas_integrate(&f, lo.data(), hi.data(), dim, calls / 5, rng, s, &value, &error);
-    gsl_monte_vegas_free(s);
-    return value;
-  }
-  // Two warm-up iterations on a fifth of the calls, four on the rest.
-  double vegas_warm() {
-    double value, error;
-    auto* s = gsl_monte_vegas_alloc(dim);
-    gsl_monte_vegas_params p;
-    gsl_monte_vegas_params_get(s, &p);
-    p.iterations = 2;
-    gsl_monte_vegas_params_set(s, &p);
-    gsl_monte_vegas_integrate(&f, lo.data(), hi.data(), dim, calls / 10, rng, s, &value, &error);
-    gsl_monte_vegas_params_get(s, &p);
-    p.iterations = 4;
-    p.stage = 1;
-    gsl_monte_vegas_params_set(s, &p);
-    gsl_monte_vegas_integrate(&f, lo.data(), hi.data(), dim, calls / 5, rng, s, &value, &error);
-    gsl_monte_vegas_free(s);
-    return value;
-  }
-  // Sixteen Cranley-Patterson shifts of GSL's Sobol' sequence.
-  double shifted_sobol() {
-    mc::Moments means;
-    for (int r = 0; r < 16; ++r) {
-      std::array<double, 8> shift{}, x{};
-      for (double& s : shift) s = gsl_rng_uniform(rng);
-      auto* q = gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(dim));
-      double sum = 0;
-      for (std::size_t i = 0; i < calls / 16; ++i) {
-        gsl_qrng_get(q, x.data());
-        for (std::size_t d = 0; d < dim; ++d) x[d] += shift[d] - (x[d] + shift[d] >= 1 ? 1.0 : 0.0);
-        sum += call(x.data(), dim, f.params);
-      }
-      means.add(sum / double(calls / 16));
-      gsl_qrng_free(q);
-    }
-    return means.mean();
-  }
-};
 
 // Sixteen randomisations of the longest power of two that fits, padded by fours, as OpenQMC's users take them.
 double padded_sobol(const Experiment& e, std::uint64_t calls, std::uint64_t seed) {
@@ -156,16 +73,16 @@ int main(int argc, char** argv) {
   for (const Experiment& e : carlo::genz_integrals()) {
     if (e.name.find(only) == std::string::npos) continue;
     ++cells;
-    const auto gsl = [&](double (Gsl::*method)()) {
+    const auto gsl = [&](double (bench::Gsl::*method)()) {
       return measure(e, calls, seeds, first,
-                     [&](int s) { return (Gsl(e, calls, static_cast<unsigned long>(s)).*method)(); });
+                     [&](int s) { return (bench::Gsl(e, calls, static_cast<unsigned long>(s)).*method)(); });
     };
     const std::array peers = {
-        gsl(&Gsl::plain),
-        gsl(&Gsl::miser),
-        gsl(&Gsl::vegas),
-        gsl(&Gsl::vegas_warm),
-        gsl(&Gsl::shifted_sobol),
+        gsl(&bench::Gsl::plain),
+        gsl(&bench::Gsl::miser),
+        gsl(&bench::Gsl::vegas),
+        gsl(&bench::Gsl::vegas_warm),
+        gsl(&bench::Gsl::shifted_sobol),
         measure(e, calls, seeds, first, [&](int s) { return padded_sobol(e, calls, static_cast<std::uint64_t>(s)); })};
     mc::Method picked{};
     const Column ours = measure(e, calls, seeds, first, [&](int s) {

@@ -64,8 +64,8 @@ int main(int argc, char** argv) {
              runs, calls, first);
   fmt::print("{:<11} {:<22} {:>6} {:>7} {:>7} {:>7} {:>8} {:>8} {:>9}\n", "method", "integral", "runs", "1 sigma",
              "2 sigma", "95 %", "flagged", "err/rms", "rel. rms");
-  for (const mc::Method method :
-       {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas, mc::Method::automatic}) {
+  for (const mc::Method method : {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas,
+                                  mc::Method::tree, mc::Method::automatic}) {
     if (!only.empty() && only != name(method)) continue;
     Shares all;
     std::uint64_t seed = first; // another one for each integral: those of one dimension would share their points

@@ -64,8 +64,8 @@ int main(int argc, char** argv) {
   fmt::print("class,method,rel_error,runs,covered,low,high,unknown,flagged,converged,rel_rms,rel_std_error,calls\n");
   for (const carlo::IntegrandClass& kind : carlo::integrand_classes()) {
     if (!chosen(classes, kind.name)) continue;
-    for (const mc::Method method :
-         {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas, mc::Method::automatic}) {
+    for (const mc::Method method : {mc::Method::plain, mc::Method::stratified, mc::Method::rqmc, mc::Method::vegas,
+                                    mc::Method::tree, mc::Method::automatic}) {
       if (!chosen(methods, mc::name(method))) continue;
       Shares shares;
       for (int i = 0; i < runs; ++i) {

@@ -4,6 +4,7 @@
 
 #include <mc/table/alias_table.h>
 #include <mc/table/table_dist_2d.h>
+#include <mc/table/table_dist_tree.h>
 
 namespace {
 
@@ -29,6 +30,18 @@ void alias(benchmark::State& state) {
   bench::note(state, 1, 0);
 }
 BENCHMARK(alias)->Name("AliasTable 524288, index + pmf");
+
+void table_tree(benchmark::State& state) {
+  const auto table = mc::TableDistTree<float, 3>::from_function(
+      [](const mc::Vec3<double>& x) { return std::exp(-10 * (x.array() - x.mean()).matrix().norm()); }, 1000);
+  mc::Pcg random(1);
+  for (auto _ : state) {
+    const mc::Vec3<float> x = table.sample(random.point<float, 3>());
+    benchmark::DoNotOptimize(table.pdf(x));
+  }
+  bench::note(state, 1, 50);
+}
+BENCHMARK(table_tree)->Name("TableDistTree 1000 boxes in 3 dimensions, sample + pdf");
 
 void table_2d(benchmark::State& state) {
   const mc::TableDist2D<float> table(sky(524288), 1024, 512);

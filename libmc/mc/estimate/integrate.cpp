@@ -18,7 +18,7 @@ using detail::Run;
 
 namespace {
 
-constexpr std::array<std::string_view, 5> method_names = {"auto", "plain", "stratified", "rqmc", "vegas"};
+constexpr std::array<std::string_view, 6> method_names = {"auto", "plain", "stratified", "rqmc", "vegas", "tree"};
 
 void require_sane(int outputs, int dim, const IntegrateOptions& o) {
   require(dim >= 1, "integrate: dimension {} must be at least 1", dim);

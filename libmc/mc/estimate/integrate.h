@@ -16,9 +16,9 @@
 
 namespace mc {
 
-/// How points are placed. `automatic` starts with rqmc, tries the importance grid when that has not converged by a 16th
-/// of the calls and keeps the better of the two; plain above 1024 dimensions.
-enum class Method { automatic, plain, stratified, rqmc, vegas };
+/// How points are placed. `automatic` starts with rqmc, tries what vegas and tree learn when that has not converged by
+/// a 16th of the calls, and keeps the best of the three; plain above 1024 dimensions.
+enum class Method { automatic, plain, stratified, rqmc, vegas, tree };
 std::string_view name(Method method);
 /// Throws Error, naming the nearest method, for an unknown name.
 Method method_from(std::string_view name);
@@ -49,8 +49,9 @@ struct IntegrateOptions {
   std::uint64_t seed = 1;
   int threads = 0;          ///< 0: all of the machine's; the result has the same bits for any number
   double confidence = 0.95; ///< of the interval
-  std::uint32_t replicates =
-      24; ///< least number of independent randomisations behind the error of stratified, rqmc and vegas
+  /// Independent randomisations behind the error of stratified, rqmc, vegas and tree; of sequences more, or up to a
+  /// sixth fewer, where that uses up the calls.
+  std::uint32_t replicates = 24;
   std::function<void(const IntegrateProgress&)> progress = {};
   const std::atomic<bool>* cancel = nullptr;
 };
@@ -66,7 +67,8 @@ struct Integral {
   double seconds = 0;
   Method method = Method::plain; ///< the one picked
   Stop stop = Stop::converged;
-  /// stratified and vegas: how well independent rounds agree, each difference turned from Student's t into a normal
+  /// stratified, vegas and tree: how well independent rounds agree, each difference turned from Student's t into a
+  /// normal
   ///                       deviate and
   /// squared; near its dof. plain and rqmc: 0
   double chi2 = 0, chi2_dof = 0;
@@ -94,11 +96,13 @@ using VectorIntegrand = std::function<void(std::span<const double> u, std::span<
 ///   rqmc       : independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions,
 ///                error from replicates
 ///   vegas      : rqmc through an ImportanceGrid learned on a 32nd of the calls, or up to a quarter where those are
-///                few; the rounds it was learned on are the consistency check. The grid is frozen before the sequences
-///                start, so the estimate is unbiased; a ninth of the points are uniform, so that no value exceeds 8
-///                times the integrand's, and the grid's own integral is subtracted, so that they cost little
-///                [OwenZhou00]
-///   automatic  : holds the grid's result against the uniform one, and keeps the uniform where they disagree
+///                few, and up to a fifth where values are spread widely; the rounds it was learned on are the
+///                consistency check. The grid is frozen before the sequences start, so the estimate is unbiased; a
+///                ninth of the points are uniform, so that no value exceeds 8 times the integrand's, and the grid's own
+///                integral is subtracted, so that they cost little [OwenZhou00]
+///   tree       : the same with a BoxTree within the grid, for what is no product of axes
+///   automatic  : learns from the points of rqmc that were made anyway, and gives up where rqmc is clearly ahead; else
+///                holds the error of vegas and tree against that of rqmc at the same length
 ///   error      : without a tolerance, 66 to 71 % of runs lie within 1 std_error of the truth and 94 to 96.5 % within
 ///                2, for every method over Genz's families [Genz87]; with and without a tolerance, 93 to 97 % of the
 ///                95 % intervals of rqmc hold the truth on steps, kinks, shells and singularities of finite variance at

@@ -12,8 +12,8 @@
 #include <mc/domain/cap.h>
 #include <mc/domain/interval.h>
 #include <mc/domain/parallelogram.h>
+#include <mc/estimate/adapt/importance_grid.h>
 #include <mc/estimate/control_variate.h>
-#include <mc/estimate/importance_grid.h>
 #include <mc/estimate/integrate.h>
 #include <mc/estimate/mis.h>
 #include <mc/estimate/moments.h>
@@ -28,6 +28,7 @@
 #include <mc/table/alias_table.h>
 #include <mc/table/table_dist_1d.h>
 #include <mc/table/table_dist_2d.h>
+#include <mc/table/table_dist_tree.h>
 #include <mc/warp/annulus.h>
 #include <mc/warp/beckmann.h>
 #include <mc/warp/bilinear.h>
@@ -183,6 +184,9 @@ TEST(BadInput, TablesAndSamplers) {
   rows.push_back({[] { TableDist1D<double>::from_function([](double) { return 1.0; }, 0); }, {"table:", "no weights"}});
   rows.push_back({[] { TableDist1D<double>::from_function([](double x) { return x - 1; }, 2); },
                   {"weights[0] = -0.75", "not finite and >= 0"}});
+  rows.push_back({[] { BoxTree(0); }, {"BoxTree:", "dimension 0", "at least 1"}});
+  rows.push_back({[] { BoxTree(2, std::vector<TreeNode>{{TreeNode::leaf, nan}}); }, {"BoxTree:", "node 0", "nan"}});
+  rows.push_back({[] { TableDistTree<float, 3>(BoxTree(2)); }, {"TableDistTree:", "2 dimensions", "3 are needed"}});
   rows.push_back({[] { Stratified(0, 1, 2); }, {"Stratified:", "count 0", "at least 1"}});
   rows.push_back({[] { Stratified(4, 1, 0); }, {"Stratified:", "group 0", "at least 1"}});
   rows.push_back({[] { LatinHypercube(0, 1); }, {"LatinHypercube:", "count 0", "at least 1"}});

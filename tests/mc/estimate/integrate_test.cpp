@@ -12,7 +12,8 @@ namespace {
 
 using Unit = std::span<const double>;
 using mc::Method;
-constexpr Method methods[] = {Method::plain, Method::stratified, Method::rqmc, Method::vegas, Method::automatic};
+constexpr Method methods[] = {Method::plain, Method::stratified, Method::rqmc,
+                              Method::vegas, Method::tree,       Method::automatic};
 
 double peak(Unit u) { // a product of two Lorentzians, 1 / (c^-2 + (u - w)^2)
   return 1 / ((1e-2 + mc::sqr(u[0] - 0.4)) * (1e-2 + mc::sqr(u[1] - 0.7)));
@@ -138,8 +139,8 @@ TEST(Integrate, AutomaticPicksTheGridWhereItHelps) {
             Method::plain);
 }
 
-// What a product of axes cannot follow: automatic is never much worse than its own rqmc, and its interval holds.
-TEST(Integrate, AutomaticIsNotWorseThanRqmc) {
+// What a product of axes cannot follow, a tree can: automatic finds it, and its interval holds.
+TEST(Integrate, AutomaticFollowsADiagonal) {
   const auto two_peaks = [](Unit u) {
     double a = 0, b = 0;
     for (const double x : u) {
@@ -162,7 +163,7 @@ TEST(Integrate, AutomaticIsNotWorseThanRqmc) {
       squares[k] += mc::sqr(r.estimate.value / (2 * side) - 1);
       if (k) covered += r.interval.lo <= 2 * side && 2 * side <= r.interval.hi;
     }
-  EXPECT_LE(std::sqrt(squares[1] / squares[0]), 1.3); // 30 errors know their size to 13 %
+  EXPECT_LE(std::sqrt(squares[1] / squares[0]), 0.2); // measured .03; 30 errors know their size to 13 %
   EXPECT_GE(covered, 24); // 28.5 expected; below 25 by chance in 5e-4 of the choices of seeds
 }
 

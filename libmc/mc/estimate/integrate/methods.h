@@ -2,6 +2,7 @@
 /// The methods of integrate().
 
 #include <mc/estimate/integrate/run.h>
+#include <mc/estimate/integrate/sequences.h>
 
 #include <optional>
 #include <vector>
@@ -22,16 +23,18 @@ Outcome plain(Run& run, std::optional<Outcome>& last);
 /// Jittered grids in independent rounds of doubling size.
 Outcome stratified(Run& run, std::optional<Outcome>& last);
 
-/// The grid, learned in rounds of growing size on a 32nd of the calls, or, where those are few, on up to a quarter, and
-/// the integrals as the last round saw them. Of an integrand whose values are spread widely only a root is learned at
-/// first, since few of the largest would speak for all; what is left is less wide.
+/// A density, and the integrals as the last round saw them.
 struct Learned {
-  ImportanceGrid grid;
-  std::vector<double> centre;
+  AdaptedDensity density{ImportanceGrid(1)};
+  std::vector<double> centre = {};
 };
-Learned learn(Run& run);
 
-/// Sequences that double in length: rqmc, vegas, or, for automatic, the better of the two.
+/// Learned in rounds of growing size: a 32nd of the calls, or where those are few up to a quarter; up to a fifth where
+/// that helps. `bare`, if any, are recorded sequences to begin with, and to be better than: nothing where they are
+/// ahead.
+std::optional<Learned> learn(Run& run, const Sequences* bare);
+
+/// Sequences that double in length: rqmc, vegas, tree, or, for automatic, the best of them.
 Outcome sequences(Run& run, Method method, std::optional<Outcome>& last);
 
 } // namespace mc::detail

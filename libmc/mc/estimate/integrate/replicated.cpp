@@ -8,76 +8,145 @@
 namespace mc::detail {
 
 namespace {
-// What an advantage must exceed to be more than the chance of variances that few replicates estimate, the more the more
-// skewed they are: where few points met what counts, either may look good.
-double doubt(const Sequences& a, const Sequences& b) {
-  double sum = 0;
-  for (const Sequences* s : {&a, &b})
-    for (const Mean& m : s->history.back()) sum += 0.35 + 10 * std::abs(m.skew);
-  return sum;
-}
-} // namespace
 
-Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
-  Outcome out{{}, method == Method::vegas ? Method::vegas : Method::rqmc};
-  const auto affordable = [&](const Sequences& s) {
+// Sequences that grow, and what they say on the way.
+class Growth {
+ public:
+  Growth(Run& r, Method method, std::optional<Outcome>& l) : out{{}, method}, run(r), last(l) {}
+
+  Outcome out;
+
+  // The longest power of two that all replicates can reach.
+  std::uint64_t affordable(const Sequences& s) const {
     return std::min(std::bit_floor(s.length + static_cast<std::uint64_t>(
                                                   static_cast<double>(run.left() / run.o.replicates) / s.cost())),
                     Sequences::longest);
-  };
-  const auto done = [&] {
+  }
+  static std::uint64_t next(const Sequences& s, std::uint64_t end) {
+    return std::max(std::min<std::uint64_t>(16, end), 2 * s.length);
+  }
+  bool grow(Sequences& s, std::uint64_t end) {
+    for (std::uint64_t to = next(s, end); to <= end; to *= 2)
+      if (adopt(s, s.extend(run, to))) return true;
+    return false;
+  }
+  // What is left is too little for all at twice the length. Nearly all of them at that are as good for independent
+  // points and better for smooth integrands; else more replicates.
+  void use_up(Sequences& s) {
+    const auto more = run.left() / std::max<std::uint64_t>(s.calls_each(), 1);
+    const auto longer = static_cast<std::uint32_t>(std::min<std::uint64_t>(more, run.o.replicates));
+    if (longer == 0 || s.length == 0) return;
+    if (6 * longer >= 5 * run.o.replicates && 2 * s.length <= Sequences::longest) adopt(s, s.lengthen(run, longer));
+    else adopt(s, s.widen(run, longer));
+  }
+  // Takes what a sequence says for the outcome; whether that is good enough.
+  bool adopt(const Sequences& s, const Means& means) {
+    out.means = means;
+    out.seen = s.seen();
     run.report(out.means);
     if (run.converged(out.means)) out.stop = Stop::converged;
     last = out;
     return out.stop == Stop::converged;
-  };
-  const auto next = [](const Sequences& s, std::uint64_t end) {
-    return std::max(std::min<std::uint64_t>(16, end), 2 * s.length);
-  };
-  const auto grow = [&](Sequences& s, std::uint64_t end) {
-    for (std::uint64_t to = next(s, end); to <= end; to *= 2) {
-      out.means = s.extend(run, to);
-      out.seen = s.seen();
-      if (done()) return true;
-    }
-    return false;
-  };
+  }
 
-  Sequences chosen{.purpose = 0};
-  if (method == Method::rqmc && grow(chosen, affordable(chosen))) return out;
-  if (method == Method::automatic && grow(chosen, std::max<std::uint64_t>(affordable(chosen) / 16, 1))) return out;
-  std::optional<Learned> learned;
-  if (method != Method::rqmc) {
-    learned = learn(run);
-    Sequences guided{.purpose = 1, .proposal = {&learned->grid, learned->centre}};
-    if (method == Method::vegas) chosen = std::move(guided);
-    else {
-      const std::uint64_t end = std::min(chosen.length, affordable(guided));
-      if (end == 0) return out; // nothing is left to hold the grid against the bare sequences with
-      for (std::uint64_t to = next(guided, end); to <= end; to *= 2) guided.extend(run, to);
-      // Interlaced points may start worse and fall faster, so where there are any the two compete at the length they
-      // would end with.
-      const double doublings =
-          run.interlaced() ? std::log2(static_cast<double>(affordable(guided)) / static_cast<double>(end)) : 0;
-      if (!run.disagree(chosen.history.back(), guided.history.back()) &&
-          advantage(chosen, guided, doublings) > doubt(chosen, guided)) {
-        run.rounds.push_back(chosen.history.back());
-        out.means = guided.history.back();
-        out.seen = guided.seen();
-        out.method = Method::vegas;
-        chosen = std::move(guided);
-        if (done()) return out;
-      } else run.rounds = {guided.history.back()};
+ private:
+  Run& run;
+  std::optional<Outcome>& last;
+};
+
+struct Candidate {
+  Method method;
+  Sequences sequences;
+};
+
+// Lets what was learned run against the bare sequences as far as these went, and against each other: whoever falls
+// behind by more than chance is out, and the bare sequences or the grid only make way for what is better by more than
+// chance. Interlaced points may start worse and fall faster than others, and all others than those behind a tree, whose
+// boxes are jumps: these compete at the length they would end with.
+class Contest {
+  static constexpr double chance = 0.5; // what may lie between two that are equal
+
+ public:
+  Contest(Run& r, const Sequences& b, std::uint64_t l) : run(r), bare(b), last(l) {}
+
+  std::optional<Candidate> best_of(std::vector<Candidate>& all) {
+    for (std::uint64_t to = std::min<std::uint64_t>(16, bare.length); to <= bare.length && !all.empty(); to *= 2) {
+      for (Candidate& c : all) c.sequences.extend(run, to);
+      doublings = std::max(std::log2(static_cast<double>(last) / static_cast<double>(to)), 0.0);
+      if (to < 128) continue;
+      std::vector<Candidate> left;
+      for (Candidate& c : all)
+        if (beaten(c, all)) run.rounds.push_back(c.sequences.history.back());
+        else left.push_back(c);
+      all = std::move(left);
     }
-    if (grow(chosen, affordable(chosen))) return out;
+    if (all.empty()) return {};
+    const bool second = all.size() > 1 && worse(all.front().sequences, all.back().sequences, doublings, margin());
+    if (all.size() > 1) run.rounds.push_back(all[second ? 0 : 1].sequences.history.back());
+    Candidate& best = all[second ? 1 : 0];
+    if (worse(bare, best.sequences, between(best), run.interlaced() ? 2 * margin() : 0)) {
+      run.rounds.push_back(bare.history.back());
+      return std::move(best);
+    }
+    run.rounds = {best.sequences.history.back()};
+    return {};
   }
-  // What is left is too little for twice the length, but may do for more replicates.
-  if (const std::uint64_t more = run.left() / std::max<std::uint64_t>(chosen.calls_each(), 1); more > 0) {
-    out.means = chosen.widen(run, static_cast<std::uint32_t>(more));
-    out.seen = chosen.seen();
-    done();
+
+ private:
+  // What extrapolation is not trusted with: a quarter of the variance for each doubling, twice that beside interlaced
+  // points.
+  double margin() const { return 0.25 * doublings; }
+  double between(const Candidate& c) const { return run.interlaced() || c.method == Method::tree ? doublings : 0; }
+  bool beaten(const Candidate& c, const std::vector<Candidate>& all) const {
+    const auto by = [&](const Candidate& o) { return worse(c.sequences, o.sequences, doublings, chance + margin()); };
+    return worse(c.sequences, bare, between(c), chance + margin()) || std::any_of(all.begin(), all.end(), by);
   }
-  return out;
+
+  Run& run;
+  const Sequences& bare;
+  std::uint64_t last; // the length that they would end with
+  double doublings = 0;
+};
+
+std::vector<Candidate> candidates(const Learned& learned) {
+  std::vector<Candidate> all;
+  const auto propose = [&](Method method, std::uint64_t purpose, const AdaptedDensity& density) {
+    const Proposal proposal{std::make_shared<AdaptedDensity>(density), learned.centre};
+    all.push_back({method, {.purpose = purpose, .proposal = proposal}});
+  };
+  propose(Method::vegas, 1, {learned.density.grid});
+  if (learned.density.tree && learned.density.tree->leaves() > 1) propose(Method::tree, 30, learned.density);
+  return all;
+}
+
+} // namespace
+
+Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
+  Growth growth(run, method == Method::automatic ? Method::rqmc : method, last);
+  Sequences bare{.purpose = 0, .record = method == Method::automatic};
+  const auto finish = [&](Sequences& s) {
+    if (!growth.grow(s, growth.affordable(s))) growth.use_up(s);
+    return std::move(growth.out);
+  };
+  if (method == Method::rqmc) return finish(bare);
+  if (method == Method::automatic && growth.grow(bare, std::max<std::uint64_t>(growth.affordable(bare) / 16, 1)))
+    return std::move(growth.out);
+
+  const std::optional<Learned> learned = learn(run, method == Method::automatic ? &bare : nullptr);
+  bare.forget();
+  if (!learned) return finish(bare);
+  std::vector<Candidate> all = candidates(*learned);
+  if (method != Method::automatic) {
+    Candidate& c = method == Method::vegas ? all.front() : all.back();
+    return finish(c.sequences);
+  }
+  const std::uint64_t reach = growth.affordable(all.front().sequences);
+  if (bare.length > reach) return finish(bare); // nothing is left to hold what was learned against
+  std::optional<Candidate> best = Contest(run, bare, reach).best_of(all);
+  if (!best) return finish(bare);
+  growth.out.method = best->method;
+  if (growth.adopt(best->sequences, best->sequences.history.back())) return std::move(growth.out);
+  return finish(best->sequences);
 }
 
 } // namespace mc::detail

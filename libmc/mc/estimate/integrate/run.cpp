@@ -20,42 +20,36 @@ struct Weight {
 };
 
 // Moves the point to where the proposal wants it.
-Weight draw(const Proposal& proposal, std::span<double> point, std::span<std::uint8_t> bins) {
-  if (!proposal.grid) return {};
+Weight draw(const Proposal& proposal, std::span<double> point, std::span<double> scratch) {
+  if (!proposal.density) return {};
+  const AdaptedDensity& p = *proposal.density;
   const bool uniform = proposal.part == Proposal::Part::of_uniform;
-  const double jacobian = uniform ? 1 / proposal.grid->density(point) : proposal.grid->map(point, bins);
+  const double jacobian = uniform ? 1 / p.density(point, scratch) : p.map(point);
   if (proposal.part == Proposal::Part::all) return {jacobian, 0};
   const double p_over_q = 1 / (Proposal::uniform_share * jacobian + (1 - Proposal::uniform_share));
   return {jacobian * p_over_q, p_over_q};
 }
-
-double to_power(double x, double power) { return power == 2 ? x * x : std::pow(std::abs(x), power); }
 } // namespace
 
 Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const Proposal& proposal,
-                   const Learning* learn) const {
+                   bool record) const {
   if (o.cancel && o.cancel->load()) throw Cancelled{};
   const auto d = static_cast<std::size_t>(dim);
-  Sums sums{std::vector<ScaledMoments>(outputs), std::vector<Magnitudes>(outputs),
-            std::vector<double>(learn ? d * ImportanceGrid::bins : 0)};
-  std::vector<double> u(block * d), values(outputs), columns(outputs * block), shifts(block);
-  std::vector<std::uint8_t> bins(proposal.grid ? d : 0);
+  Sums sums{std::vector<ScaledMoments>(outputs), std::vector<Magnitudes>(outputs)};
+  std::vector<double> u(block * d), values(outputs), columns(outputs * block), shifts(block), scratch(d);
   for (; first < last; first += block) {
     const auto n = static_cast<std::size_t>(std::min(block, last - first));
     fill_points(set, first, dim, {u.data(), n * d});
     for (std::size_t i = 0; i < n; ++i) {
       const std::span<double> point(u.data() + i * d, d);
-      const Weight weight = draw(proposal, point, bins);
+      const Weight weight = draw(proposal, point, scratch);
       shifts[i] = weight.shift;
       f(point, values);
-      double power = 0;
-      for (std::size_t k = 0; k < outputs; ++k) {
-        const double x = values[k] * weight.factor;
-        columns[k * block + i] = x;
-        if (learn) power += to_power(x * learn->scale[k], learn->power);
+      for (std::size_t k = 0; k < outputs; ++k) columns[k * block + i] = values[k] * weight.factor;
+      if (record) {
+        sums.points.insert(sums.points.end(), point.begin(), point.end());
+        sums.values.insert(sums.values.end(), values.begin(), values.end());
       }
-      if (learn)
-        for (std::size_t j = 0; j < d; ++j) sums.power[j * ImportanceGrid::bins + bins[j]] += power;
     }
     for (std::size_t k = 0; k < outputs; ++k) {
       const std::span<double> column = std::span(columns).subspan(k * block, n);
@@ -74,12 +68,12 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
 }
 
 std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
-                                    const Proposal& proposal, const Learning* learn) {
+                                    const Proposal& proposal, bool record) {
   const std::uint64_t chunks = (count + chunk - 1) / chunk;
   std::vector<Sums> parts(sets.size() * chunks), results(sets.size());
   const auto task = [&](std::size_t i) {
     const std::uint64_t begin = first + i % chunks * chunk;
-    parts[i] = evaluate(sets[i / chunks], begin, std::min(begin + chunk, first + count), proposal, learn);
+    parts[i] = evaluate(sets[i / chunks], begin, std::min(begin + chunk, first + count), proposal, record);
   };
   // Threads start when they pay: the first task is timed.
   const auto begin = std::chrono::steady_clock::now();
@@ -97,9 +91,9 @@ std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint
 void Run::require_finite(const Moments& m, const PointSet& set, const Proposal& proposal) const {
   if (m.non_finite() == 0) return;
   std::vector<double> u(static_cast<std::size_t>(dim));
-  std::vector<std::uint8_t> bins(u.size());
+  std::vector<double> scratch(u.size());
   fill_points(set, m.witness(), dim, u);
-  draw(proposal, u, bins);
+  draw(proposal, u, scratch);
   std::string point;
   for (const double x : u) point += fmt::format("{}{:.17g}", point.empty() ? "" : ", ", x);
   throw Error(fmt::format("integrate: the integrand is not finite at {} of {} points, the first at u = ({}); it must "
@@ -145,12 +139,6 @@ void Run::compare(const Means& a, const Means& b) {
       chi2[k] += sqr(*z);
       chi2_dof[k] += 1;
     }
-}
-
-bool Run::disagree(const Means& a, const Means& b) const {
-  for (std::size_t k = 0; k < outputs; ++k)
-    if (const auto z = deviate(a[k], b[k]); z && *z > 3.72) return true;
-  return false;
 }
 
 bool Run::converged(const Means& all) const {

@@ -1,7 +1,7 @@
 #pragma once
 /// A run of integrate(): evaluates the integrand on sets of points and sums what it gives.
 
-#include <mc/estimate/importance_grid.h>
+#include <mc/estimate/adapt/adapted_density.h>
 #include <mc/estimate/integrate.h>
 #include <mc/estimate/integrate/mean.h>
 #include <mc/estimate/integrate/sums.h>
@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,23 +19,17 @@ namespace mc::detail {
 struct Cancelled {};
 
 /// What points are drawn from.
-///   grid alone : the grid's density p; a value is f / p
-///   a part of the mixture q = 7 / 8 p + 1 / 8 of the grid and the uniform density, so that no value exceeds 8 f where
-///   the grid is wrong: a value is (f - c p) / q, whose mean under q is that of f but for c. Near c p, where the grid
-///   is right, the mixture costs next to nothing [OwenZhou00].
+///   all : the density p that was learned; a value is f / p
+///   a part of the mixture q = 7 / 8 p + 1 / 8 of that and the uniform density, so that no value exceeds 8 f where p is
+///   wrong: a value is (f - c p) / q, whose mean under q is that of f but for c. Near c p, where p is right, the
+///   mixture costs next to nothing [OwenZhou00].
 struct Proposal {
-  enum class Part { all, of_grid, of_uniform };
+  enum class Part { all, of_density, of_uniform };
   static constexpr double uniform_share = 0.125;
 
-  const ImportanceGrid* grid = nullptr;
-  std::vector<double> centre = {}; ///< c of each output
+  std::shared_ptr<const AdaptedDensity> density = {}; ///< none: uniform
+  std::vector<double> centre = {};                    ///< c of each output
   Part part = Part::all;
-};
-
-/// What the grid learns: the sums of |value scale|^power in each bin.
-struct Learning {
-  std::vector<double> scale; ///< of each output
-  double power = 2;
 };
 
 /// One value or several, without a call through another for the one.
@@ -60,12 +55,14 @@ struct Run {
 
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
   std::uint64_t left() const { return o.max_calls - calls; }
+  /// Calls that may be recorded: 128 MB of points and values.
+  std::uint64_t recordable() const { return (std::uint64_t{1} << 24) / (static_cast<std::uint64_t>(dim) + outputs); }
 
   /// Points [first, first + count) of each set; one result per set, with the same bits for any number of threads.
-  ///   learn  : if any, what the grid learns goes to the power of the sums
+  ///   record : keeps the points and values with the sums
   ///   throws : Error where the integrand is not finite, with the point; Cancelled
   std::vector<Sums> evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
-                                 const Proposal& proposal = {}, const Learning* learn = nullptr);
+                                 const Proposal& proposal = {}, bool record = false);
 
   /// Whether the bare sequences, those of purpose 0, are interlaced. Under a grid they are not: smooth peaks would gain
   /// by it, but integrands that jump would lose.
@@ -74,20 +71,18 @@ struct Run {
   std::vector<PointSet> sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const;
 
   /// The means of replicates of so many points each; `evidence` holds one entry per output, or none at first.
-  /// `uniform` are the sums of the uniform part where the replicates are those of the grid's part of a mixture.
+  /// `uniform` are the sums of the uniform part where the replicates are those of the other part of a mixture.
   Means means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
               const std::vector<Sums>& uniform = {}, const Proposal& proposal = {}) const;
   /// Adds to chi2 how far two independent means lie apart.
   void compare(const Means& a, const Means& b);
 
-  /// Whether any output's independent means are too far apart for chance: probability 1e-4 each.
-  bool disagree(const Means& a, const Means& b) const;
   bool converged(const Means& all) const;
   void report(const Means& all) const;
 
  private:
   Sums evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const Proposal& proposal,
-                const Learning* learn) const;
+                bool record) const;
   void require_finite(const Moments& m, const PointSet& set, const Proposal& proposal) const;
 };
 

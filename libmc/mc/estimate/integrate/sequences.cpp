@@ -10,26 +10,27 @@ constexpr std::uint64_t of_uniform = 1000; // added to the purpose
 
 // Sets [first, last) of a purpose with their points [from, to).
 void add(Run& run, std::uint64_t purpose, std::uint32_t first, std::uint32_t last, std::uint64_t from, std::uint64_t to,
-         const Proposal& proposal, std::vector<PointSet>& sets, std::vector<Sums>& sums) {
+         const Proposal& proposal, bool record, std::vector<PointSet>& sets, std::vector<Sums>& sums) {
   if (sets.size() < last) {
     const std::vector<PointSet> more = run.sobol_sets(purpose, static_cast<std::uint32_t>(sets.size()), last);
     sets.insert(sets.end(), more.begin(), more.end());
     sums.resize(sets.size());
   }
   if (from == to) return;
-  const std::vector<Sums> more =
-      run.evaluate_all({sets.begin() + first, sets.begin() + last}, from, to - from, proposal);
+  const std::vector<Sums> more = run.evaluate_all({sets.begin() + first, sets.begin() + last}, from, to - from,
+                                                  proposal, record && to * last <= run.recordable() / 2);
   for (std::uint32_t r = first; r < last; ++r) sums[r].merge(more[r - first]);
 }
 
 // Both parts of the mixture, or the one there is.
 Means grown(Run& run, Sequences& s, std::uint32_t first, std::uint32_t last, std::uint64_t from, std::uint64_t to) {
   Proposal part = s.proposal;
-  if (part.grid) part.part = Proposal::Part::of_grid;
-  add(run, s.purpose, first, last, from, to, part, s.sets, s.sums);
-  if (part.grid) {
+  if (part.density) part.part = Proposal::Part::of_density;
+  add(run, s.purpose, first, last, from, to, part, s.record, s.sets, s.sums);
+  if (part.density) {
     part.part = Proposal::Part::of_uniform;
-    add(run, s.purpose + of_uniform, first, last, (from + 7) / 8, (to + 7) / 8, part, s.uniform_sets, s.uniform_sums);
+    add(run, s.purpose + of_uniform, first, last, (from + 7) / 8, (to + 7) / 8, part, false, s.uniform_sets,
+        s.uniform_sums);
   }
   return run.means(s.sums, s.length, s.evidence, s.uniform_sums, s.proposal);
 }
@@ -47,24 +48,61 @@ Means Sequences::widen(Run& run, std::uint32_t count) {
   return grown(run, *this, have, have + count, 0, length);
 }
 
+Means Sequences::lengthen(Run& run, std::uint32_t count) {
+  for (auto* points : {&sets, &uniform_sets})
+    if (points->size() > count) points->erase(points->begin() + count, points->end());
+  for (auto* all : {&sums, &uniform_sums})
+    if (all->size() > count) all->resize(count);
+  const std::uint64_t from = length;
+  length *= 2;
+  return grown(run, *this, 0, count, from, length);
+}
+
+void Sequences::forget() {
+  record = false;
+  for (Sums& s : sums) {
+    s.points = {};
+    s.values = {};
+  }
+}
+
 std::vector<Magnitudes> Sequences::seen() const {
-  Sums total;
-  for (const Sums& s : sums) total.merge(s);
-  for (const Sums& s : uniform_sums) total.merge(s);
-  return total.magnitudes;
+  std::vector<Magnitudes> total;
+  for (const auto* all : {&sums, &uniform_sums})
+    for (const Sums& s : *all) {
+      total.resize(s.magnitudes.size());
+      for (std::size_t k = 0; k < total.size(); ++k) total[k].merge(s.magnitudes[k]);
+    }
+  return total;
+}
+
+double log_ratio(const Means& a, const Means& b) {
+  double sum = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const auto z = deviate(a[k], b[k]);
+    const bool apart = z && *z > 3.72; // in 1e-4 by chance
+    const auto size = [&](const Mean& m) { return m.error / (apart ? std::abs(m.value) + m.error : 1.0) + 1e-300; };
+    sum += 2 * std::log(size(a[k]) / size(b[k]));
+  }
+  return sum;
+}
+
+double doubt(const Means& m) {
+  double sum = 0;
+  for (const Mean& x : m) sum += 0.2 + 10 * std::abs(x.skew);
+  return sum;
 }
 
 double advantage(const Sequences& a, const Sequences& b, double doublings) {
-  const std::size_t steps = std::min<std::size_t>(std::min(a.history.size(), b.history.size()) - 1, 3);
-  const auto error = [](const Sequences& s, std::size_t back, std::size_t k) {
-    return 2 * std::log(s.history[s.history.size() - 1 - back][k].error + 1e-300);
-  };
-  double sum = 0;
-  for (std::size_t k = 0; k < a.history.back().size(); ++k) {
-    const double now = error(a, 0, k) - error(b, 0, k), then = error(a, steps, k) - error(b, steps, k);
-    sum += now + (steps > 0 ? (now - then) * doublings / static_cast<double>(steps) : 0);
-  }
-  return sum;
+  const std::size_t end = std::min(a.history.size(), b.history.size()) - 1, steps = std::min<std::size_t>(end, 3);
+  const auto difference = [&](std::size_t at) { return log_ratio(a.history[at], b.history[at]); };
+  const double now = difference(end);
+  return now + (steps > 0 ? (now - difference(end - steps)) * doublings / static_cast<double>(steps) : 0);
+}
+
+bool worse(const Sequences& a, const Sequences& b, double doublings, double margin) {
+  const std::size_t end = std::min(a.history.size(), b.history.size()) - 1;
+  return advantage(a, b, doublings) > doubt(b.history[end]) + margin;
 }
 
 } // namespace mc::detail

@@ -11,7 +11,8 @@ namespace mc::detail {
 /// Replicated Sobol' sequences, extended from step to step.
 struct Sequences {
   std::uint64_t purpose;  ///< those of different purposes are independent
-  Proposal proposal = {}; ///< with a grid, its part of the mixture
+  Proposal proposal = {}; ///< with a density, its part of the mixture
+  bool record = false;    ///< keeps what was seen with the sums
   std::uint64_t length = 0;
   std::vector<PointSet> sets = {};
   std::vector<Sums> sums = {};
@@ -23,19 +24,34 @@ struct Sequences {
   static constexpr std::uint64_t longest = std::uint64_t{1} << 32;
 
   /// Calls per point of a replicate.
-  double cost() const { return proposal.grid ? 1 + Proposal::uniform_share : 1.0; }
+  double cost() const { return proposal.density ? 1 + Proposal::uniform_share : 1.0; }
   /// Calls of a replicate as long as it is now.
-  std::uint64_t calls_each() const { return length + (proposal.grid ? (length + 7) / 8 : 0); }
+  std::uint64_t calls_each() const { return length + (proposal.density ? (length + 7) / 8 : 0); }
   /// The means once every sequence has `to` points.
   Means extend(Run& run, std::uint64_t to);
   /// The values behind the means, one per output.
   std::vector<Magnitudes> seen() const;
   /// The means with `count` more sequences, as long as the others.
   Means widen(Run& run, std::uint32_t count);
+  /// The means of the first `count` sequences alone, at twice the length; the others are let go.
+  Means lengthen(Run& run, std::uint32_t count);
+  /// Lets go of what was recorded.
+  void forget();
 };
 
-/// By how much the errors of a will exceed those of b, a mean logarithm, after `doublings` more, if they go on
-/// falling as they did over the last three.
+/// The logarithm of the variances of a over those of b, summed over the outputs. Of means that lie too far apart for
+/// chance the relative errors count: one of them has not met what counts, and knows neither its value nor its error.
+double log_ratio(const Means& a, const Means& b);
+
+/// What such a logarithm must exceed for b to be the better: more the more skewed b is, since it looks too good where
+/// few points met what counts.
+double doubt(const Means& b);
+
+/// By how much log_ratio(a, b) will be after `doublings` more, if the errors go on falling as they did over the last
+/// three; from the longest length that both have reached.
 double advantage(const Sequences& a, const Sequences& b, double doublings);
+
+/// Whether that exceeds the doubt and a margin.
+bool worse(const Sequences& a, const Sequences& b, double doublings, double margin);
 
 } // namespace mc::detail

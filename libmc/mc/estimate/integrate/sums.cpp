@@ -48,7 +48,8 @@ void Sums::merge(const Sums& other) {
     outputs[k].merge(other.outputs[k]);
     magnitudes[k].merge(other.magnitudes[k]);
   }
-  for (std::size_t i = 0; i < power.size(); ++i) power[i] += other.power[i];
+  points.insert(points.end(), other.points.begin(), other.points.end());
+  values.insert(values.end(), other.values.begin(), other.values.end());
 }
 
 } // namespace mc::detail

@@ -30,11 +30,11 @@ class ScaledMoments {
   int exponent_ = 0;
 };
 
-/// Moments and magnitudes of every output, and what the grid learns from.
+/// Moments and magnitudes of every output, and, where they are recorded, the points and the integrand's values there.
 struct Sums {
   std::vector<ScaledMoments> outputs;
   std::vector<Magnitudes> magnitudes;
-  std::vector<double> power;
+  std::vector<double> points = {}, values = {};
   void merge(const Sums& other);
 };
 

@@ -33,6 +33,7 @@ TEST(Methods, KeepToTheCalls) {
     expect(stratified, mc::Method::stratified);
     expect([](detail::Run& run, auto& last) { return sequences(run, mc::Method::rqmc, last); }, mc::Method::rqmc);
     expect([](detail::Run& run, auto& last) { return sequences(run, mc::Method::vegas, last); }, mc::Method::vegas);
+    expect([](detail::Run& run, auto& last) { return sequences(run, mc::Method::tree, last); }, mc::Method::tree);
   }
 }
 
@@ -40,12 +41,26 @@ TEST(Methods, LearnFindsThePeak) {
   mc::IntegrateOptions o;
   o.max_calls = 100'000;
   detail::Run run{{.one = &f}, 1, 2, o};
-  const Learned learned = learn(run);
+  const Learned learned = learn(run, nullptr).value();
   EXPECT_FALSE(run.rounds.empty());
   EXPECT_LE(run.calls, 100'000u / 4);
   int inside = 0; // of 129 edges, those within .1 of the peak, where 20 % of a uniform grid's would be
-  for (const double e : learned.grid.edges(0)) inside += std::abs(e - 0.4) < 0.1;
+  for (const double e : learned.density.grid.edges(0)) inside += std::abs(e - 0.4) < 0.1;
   EXPECT_GE(inside, 60);
+}
+
+// Of a smooth wave there is nothing to learn that points do not do better.
+TEST(Methods, LearnGivesUp) {
+  const std::function<double(std::span<const double>)> wave = [](std::span<const double> u) {
+    return std::cos(0.97 + 2.76 * u[0] + 3.24 * u[1]);
+  };
+  mc::IntegrateOptions o;
+  o.max_calls = 100'000;
+  detail::Run run{{.one = &wave}, 1, 2, o};
+  Sequences bare{.purpose = 0, .record = true};
+  for (std::uint64_t to = 16; to <= 256; to *= 2) bare.extend(run, to);
+  EXPECT_FALSE(learn(run, &bare).has_value());
+  EXPECT_LE(run.calls, 24u * 256 + 5000);
 }
 
 } // namespace

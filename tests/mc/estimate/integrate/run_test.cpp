@@ -38,21 +38,37 @@ TEST(Run, MeansAreThoseOfTheReplicates) {
 
 // Both parts of the mixture with their shares, and what was subtracted added again, are the integral for any grid.
 TEST(Run, TheMixtureIsUnbiased) {
-  mc::ImportanceGrid grid(2);
+  mc::AdaptedDensity density{mc::ImportanceGrid(2)};
   std::vector<double> power(2 * mc::ImportanceGrid::bins, 1e-3);
   for (std::size_t i = 0; i < 20; ++i) power[i] = power[200 + i] = 1; // where the integrand is not
-  grid.refine(power, 100'000);
+  density.grid.refine(power, 100'000);
+  const std::vector<mc::TreeNode> nodes = {
+      {0, 0.3}, {mc::TreeNode::leaf, 5}, {1, 0.6}, {mc::TreeNode::leaf, 1}, {mc::TreeNode::leaf, 2}};
+  density.tree = mc::BoxTree(2, nodes);
   mc::IntegrateOptions o;
   detail::Run run{{.one = &sum}, 1, 2, o};
-  mc::detail::Proposal proposal{&grid, {0.7}, mc::detail::Proposal::Part::of_grid};
-  const auto of_grid = run.evaluate_all(run.sobol_sets(1, 0, 24), 0, 4096, proposal);
+  mc::detail::Proposal proposal{
+      std::make_shared<mc::AdaptedDensity>(density), {0.7}, mc::detail::Proposal::Part::of_density};
+  const auto of_density = run.evaluate_all(run.sobol_sets(1, 0, 24), 0, 4096, proposal);
   proposal.part = mc::detail::Proposal::Part::of_uniform;
   const auto of_uniform = run.evaluate_all(run.sobol_sets(2, 0, 24), 0, 512, proposal);
   std::vector<mc::detail::Evidence> evidence;
-  const mc::detail::Mean mean = run.means(of_grid, 4096, evidence, of_uniform, proposal)[0];
+  const mc::detail::Mean mean = run.means(of_density, 4096, evidence, of_uniform, proposal)[0];
   EXPECT_GT(mean.error, 0);
   EXPECT_LE(mean.error, 0.01);
   EXPECT_NEAR(mean.value, 1.5, 5 * mean.error);
+}
+
+TEST(Run, RecordsPointsAndValues) {
+  mc::IntegrateOptions o;
+  detail::Run run{{.one = &sum}, 1, 2, o};
+  const auto sums = run.evaluate_all(run.sobol_sets(1, 0, 2), 0, 5000, {}, true);
+  for (const auto& s : sums) {
+    ASSERT_EQ(s.points.size(), 10'000u);
+    ASSERT_EQ(s.values.size(), 5000u);
+    for (std::size_t i = 0; i < s.values.size(); ++i) ASSERT_EQ(s.values[i], s.points[2 * i] + 2 * s.points[2 * i + 1]);
+  }
+  EXPECT_TRUE(run.evaluate_all(run.sobol_sets(1, 0, 1), 0, 10)[0].points.empty());
 }
 
 TEST(Run, ReplicatesAndPurposesDiffer) {

@@ -28,6 +28,26 @@ TEST(Sequences, GrowToTheSameSums) {
   EXPECT_EQ(run.calls, 5u * 1024 + 5u * 1024 + 3u * 1024);
 }
 
+// Some twice as long, the rest let go.
+TEST(Sequences, LengthenSome) {
+  double squares = 0, errors = 0;
+  constexpr int runs = 200;
+  const double truth = std::expm1(1.0) * 1.317902151454404; // (e - 1) and the sum of 1 / (k! (k + 1)^2)
+  for (std::uint64_t seed = 0; seed < runs; ++seed) {
+    mc::IntegrateOptions o;
+    o.seed = seed;
+    detail::Run run{{.one = &exponential}, 1, 3, o};
+    Sequences s{.purpose = 0};
+    s.extend(run, 64);
+    const auto longer = s.lengthen(run, 20);
+    ASSERT_EQ(run.calls, 24u * 64 + 20u * 64);
+    ASSERT_EQ(longer[0].dof, 19);
+    squares += mc::sqr(longer[0].value - truth) / runs;
+    errors += mc::sqr(longer[0].error) / runs;
+  }
+  EXPECT_NEAR(errors / squares, 1, 0.4); // 200 squares of a normal know their mean to 10 %, the errors theirs to 3 %
+}
+
 TEST(Sequences, AdvantageContinuesTheFallOfTheErrors) {
   const auto history = [](std::initializer_list<double> variances) {
     Sequences s{.purpose = 0};
@@ -38,6 +58,18 @@ TEST(Sequences, AdvantageContinuesTheFallOfTheErrors) {
   EXPECT_NEAR(mc::detail::advantage(slow, fast, 0), 0, 1e-12);
   EXPECT_NEAR(mc::detail::advantage(slow, fast, 3), 3 * std::log(2), 1e-12); // a half against a quarter, thrice
   EXPECT_NEAR(mc::detail::advantage(fast, slow, 3), -3 * std::log(2), 1e-12);
+  EXPECT_TRUE(mc::detail::worse(slow, fast, 3, 1));
+  EXPECT_FALSE(mc::detail::worse(slow, fast, 3, 2));
+  // At the longest length that both have reached.
+  EXPECT_NEAR(mc::detail::advantage(history({1, 0.5}), fast, 0), std::log(0.25), 1e-12);
+}
+
+// Ten times the error, but a hundredth of the relative one: the other has met next to nothing of the integrand.
+TEST(Sequences, WhoMetNothingIsNotAhead) {
+  const mc::detail::Means nothing = {{1e-4, 1e-4, 23}}, much = {{1, 1e-3, 23}}, like_it = {{1.0001, 1e-4, 23}};
+  EXPECT_LT(mc::detail::log_ratio(much, nothing), -10);
+  EXPECT_NEAR(mc::detail::log_ratio(much, like_it), std::log(100), 1e-9);
+  EXPECT_GT(mc::detail::doubt({{1, 1, 23, 0.2}}), mc::detail::doubt(much) + 1.9);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include <mc/core/error.h>
 #include <mc/core/types.h>
-#include <mc/estimate/importance_grid.h>
+#include <mc/estimate/adapt/importance_grid.h>
 
 #include <algorithm>
 #include <array>
@@ -39,7 +39,7 @@ std::span<const double> ImportanceGrid::edges(int d) const {
   return {edges_.data() + static_cast<std::size_t>(d) * (bins + 1), bins + 1};
 }
 
-double ImportanceGrid::map(std::span<double> u, std::span<std::uint8_t> bin) const {
+double ImportanceGrid::map(std::span<double> u) const {
   double jacobian = 1;
   const double* e = edges_.data();
   for (std::size_t d = 0; d < u.size(); ++d, e += bins + 1) {
@@ -47,7 +47,6 @@ double ImportanceGrid::map(std::span<double> u, std::span<std::uint8_t> bin) con
     const auto i = static_cast<std::size_t>(scaled);
     const double width = e[i + 1] - e[i];
     u[d] = std::min(e[i] + (scaled - static_cast<double>(i)) * width, one_minus_epsilon<double>);
-    bin[d] = static_cast<std::uint8_t>(i);
     jacobian *= bins * width;
   }
   return jacobian;
@@ -59,6 +58,20 @@ double ImportanceGrid::density(std::span<const double> x) const {
   for (const double coordinate : x) {
     const auto i = static_cast<std::size_t>(std::upper_bound(e + 1, e + bins, coordinate) - e);
     density /= bins * (e[i] - e[i - 1]);
+    e += bins + 1;
+  }
+  return density;
+}
+
+double ImportanceGrid::unmap(std::span<double> x) const {
+  double density = 1;
+  const double* e = edges_.data();
+  for (double& coordinate : x) {
+    const auto i = static_cast<std::size_t>(std::upper_bound(e + 1, e + bins, coordinate) - e);
+    const double width = e[i] - e[i - 1];
+    coordinate =
+        std::min((static_cast<double>(i - 1) + (coordinate - e[i - 1]) / width) / bins, one_minus_epsilon<double>);
+    density /= bins * width;
     e += bins + 1;
   }
   return density;

@@ -1,0 +1,93 @@
+#include <mc/core/parallel.h>
+#include <mc/estimate/integrate/learner.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mc::detail {
+
+Learner::Learner(const Run& run)
+    : run_(run), dim_(static_cast<std::size_t>(run.dim)), density_{ImportanceGrid(run.dim)} {}
+
+void Learner::learn(const std::vector<Sums>& round) {
+  for (const Sums& s : round) {
+    points_.insert(points_.end(), s.points.begin(), s.points.end());
+    values_.insert(values_.end(), s.values.begin(), s.values.end());
+  }
+  weigh();
+  measure();
+  adapt_grid();
+  if (rounds_.size() > 1) adapt_tree();
+}
+
+// Calls f(i, scratch) for every point, in chunks.
+template <class F> void Learner::each(F&& f) const {
+  constexpr std::size_t chunk = 4096;
+  parallel_for((size() + chunk - 1) / chunk, size() > 4 * chunk ? run_.o.threads : 1, [&](std::size_t c) {
+    std::vector<double> scratch(dim_);
+    for (std::size_t i = c * chunk; i < std::min(size(), (c + 1) * chunk); ++i) f(i, scratch);
+  });
+}
+
+void Learner::weigh() {
+  const std::size_t before = mixture_.size(), now = values_.size() / run_.outputs;
+  mixture_.resize(now);
+  rounds_.push_back({static_cast<double>(now - before), density_});
+  each([&](std::size_t i, std::span<double> scratch) {
+    for (std::size_t r = i < before ? rounds_.size() - 1 : 0; r < rounds_.size(); ++r)
+      mixture_[i] += rounds_[r].points * rounds_[r].density.density(point(i), scratch);
+  });
+}
+
+void Learner::measure() {
+  std::vector<double> largest(run_.outputs), mean(run_.outputs), square(run_.outputs), scratch(dim_);
+  for (std::size_t i = 0; i < values_.size(); ++i)
+    largest[i % run_.outputs] = std::max(largest[i % run_.outputs], std::abs(values_[i]));
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double p = density_.density(point(i), scratch);
+    for (std::size_t k = 0; k < run_.outputs; ++k) {
+      const double x = largest[k] > 0 ? values_[i * run_.outputs + k] / largest[k] : 0;
+      mean[k] += x / mixture_[i];
+      square[k] += x * x / (p * mixture_[i]);
+    }
+  }
+  // Outputs of different size count alike.
+  scale_.assign(run_.outputs, 0);
+  width_ = 0;
+  for (std::size_t k = 0; k < run_.outputs; ++k) {
+    if (const double size = largest[k] * std::sqrt(square[k]); std::isfinite(1 / size)) scale_[k] = 1 / size;
+    if (mean[k] != 0) width_ = std::max(width_, std::log(std::max(square[k] / sqr(mean[k]), 1.0)));
+  }
+}
+
+// The points as the grid sees them, and there the root of the squares of all outputs, or the one with its sign.
+WeightedValues Learner::within_grid() const {
+  WeightedValues seen{run_.dim, points_, std::vector<double>(size()), std::vector<double>(size())};
+  each([&](std::size_t i, std::span<double>) {
+    const double of_grid = density_.grid.unmap({seen.points.data() + i * dim_, dim_});
+    seen.weights[i] = of_grid / mixture_[i];
+    for (std::size_t k = 0; k < run_.outputs; ++k) {
+      const double x = values_[i * run_.outputs + k] * scale_[k] / of_grid;
+      seen.values[i] = run_.outputs == 1 ? x : std::hypot(seen.values[i], x);
+    }
+  });
+  return seen;
+}
+
+// Of an integrand whose values are spread widely only a root is learned at first, since few of the largest would speak
+// for all; what is left is less wide.
+void Learner::adapt_grid() {
+  const WeightedValues seen = within_grid();
+  const double exponent = std::min(2.0, std::sqrt(8 / std::max(width_, 1e-3)));
+  std::vector<double> power(dim_ * ImportanceGrid::bins);
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double x = std::pow(std::abs(seen.values[i]), exponent) * seen.weights[i];
+    for (std::size_t j = 0; j < dim_; ++j)
+      power[j * ImportanceGrid::bins + static_cast<std::size_t>(seen.points[i * dim_ + j] * ImportanceGrid::bins)] += x;
+  }
+  density_.grid.refine(power, size());
+}
+
+void Learner::adapt_tree() { density_.tree = importance_tree(within_grid()); }
+
+} // namespace mc::detail

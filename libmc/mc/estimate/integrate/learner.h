@@ -1,0 +1,53 @@
+#pragma once
+/// What the rounds of a run teach of where the integrand is.
+
+#include <mc/estimate/adapt/adapted_density.h>
+#include <mc/estimate/integrate/run.h>
+
+#include <span>
+#include <vector>
+
+namespace mc::detail {
+
+/// Everything that was seen so far, each point weighed by all the densities that might have drawn it, so that nothing
+/// is forgotten and no rare point counts too much; and the density that follows from it.
+///   Source : the balance heuristic [Veach97]
+class Learner {
+ public:
+  explicit Learner(const Run& run);
+
+  /// Takes in a round that was recorded, its points drawn from density(), and adapts that: the grid, and from the
+  /// second round on the tree within it.
+  void learn(const std::vector<Sums>& round);
+
+  const AdaptedDensity& density() const { return density_; }
+  /// The logarithm of the mean square over the squared mean of the values under the density before the last round: the
+  /// variance of their logarithm, were they log-normal. Of the widest output.
+  double width() const { return width_; }
+
+ private:
+  struct Round {
+    double points;
+    AdaptedDensity density;
+  };
+
+  std::size_t size() const { return mixture_.size(); }
+  std::span<const double> point(std::size_t i) const { return {points_.data() + i * dim_, dim_}; }
+  template <class F> void each(F&& f) const;
+  void weigh();
+  void measure();
+  WeightedValues within_grid() const;
+  void adapt_grid();
+  void adapt_tree();
+
+  const Run& run_;
+  std::size_t dim_;
+  AdaptedDensity density_;
+  std::vector<Round> rounds_;
+  std::vector<double> points_, values_,
+      mixture_;               // mixture: of each point, the density of all rounds times their points
+  std::vector<double> scale_; // of each output
+  double width_ = 0;
+};
+
+} // namespace mc::detail

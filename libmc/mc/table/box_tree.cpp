@@ -1,0 +1,189 @@
+#include <mc/core/error.h>
+#include <mc/core/types.h>
+#include <mc/table/box_tree.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mc {
+
+// Walks the nodes once, a stack of sides behind it.
+struct BoxTree::Builder {
+  BoxTree& tree;
+  std::vector<double> weight;     // of each node: the sum of its leaves
+  std::vector<std::size_t> after; // index of the first node that is not below it
+  std::vector<Side> path = {};    // the sides that are cut, of the box so far
+
+  std::uint32_t build(std::size_t node) {
+    const TreeNode& n = tree.nodes_[node];
+    if (n.axis == TreeNode::leaf) return finish();
+    const auto plane = static_cast<std::uint32_t>(tree.planes_.size());
+    const auto side = std::find_if(path.begin(), path.end(), [&](const Side& s) { return s.axis == n.axis; });
+    const auto place = static_cast<std::size_t>(side - path.begin());
+    const bool fresh = side == path.end();
+    const Side whole = fresh ? Side{n.axis, 0, 1, 0, 1} : *side;
+    require(n.value > whole.x_lo && n.value < whole.x_hi, "BoxTree: node {} cuts axis {} at {}; its box spans ({}, {})",
+            node, n.axis, n.value, whole.x_lo, whole.x_hi);
+    const double below = weight[node + 1], above = weight[after[node + 1]];
+    // 0 / 0 where no point comes from: any share will do.
+    const double share = below + above > 0 ? below / (below + above) : 0.5;
+    const double cut = std::clamp(whole.u_lo + share * (whole.u_hi - whole.u_lo), whole.u_lo, whole.u_hi);
+    tree.planes_.push_back({n.axis, {0, 0}, cut, n.value});
+    if (fresh) path.push_back(whole);
+    path[place] = {n.axis, whole.x_lo, n.value, whole.u_lo, cut};
+    const std::uint32_t lower = build(node + 1);
+    path[place] = {n.axis, n.value, whole.x_hi, cut, whole.u_hi};
+    const std::uint32_t upper = build(after[node + 1]);
+    if (fresh) path.pop_back();
+    else path[place] = whole;
+    tree.planes_[plane].next[1] = lower;
+    tree.planes_[plane].next[0] = upper;
+    return plane;
+  }
+
+  std::uint32_t finish() {
+    double density = 1;
+    for (const Side& s : path) density *= (s.u_hi - s.u_lo) / (s.x_hi - s.x_lo);
+    tree.sides_.insert(tree.sides_.end(), path.begin(), path.end());
+    tree.first_.push_back(tree.sides_.size());
+    tree.density_.push_back(density);
+    return ~static_cast<std::uint32_t>(tree.density_.size() - 1);
+  }
+};
+
+BoxTree::BoxTree(int dim, std::span<const TreeNode> nodes) : dim_(dim), nodes_(nodes.begin(), nodes.end()), first_{0} {
+  require(dim >= 1, "BoxTree: dimension {} must be at least 1", dim);
+  require(!nodes.empty() && nodes.size() < 1u << 31, "BoxTree: {} nodes; between 1 and 2^31 are possible",
+          nodes.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const TreeNode& n = nodes[i];
+    if (n.axis == TreeNode::leaf) {
+      require(std::isfinite(n.value) && n.value >= 0, "BoxTree: node {} has the weight {}; it must be finite and >= 0",
+              i, n.value);
+      largest = std::max(largest, n.value);
+    } else require(n.axis < static_cast<std::uint32_t>(dim), "BoxTree: node {} cuts axis {} of {}", i, n.axis, dim);
+  }
+  require(largest > 0, "BoxTree: the weights of all leaves are 0; at least one must be > 0");
+  int exponent;
+  std::frexp(largest, &exponent); // so that no sum overflows
+  std::vector<double> weight(nodes.size());
+  std::vector<std::size_t> after(nodes.size()), open; // open: nodes whose parent has not been met
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    if (nodes[i].axis == TreeNode::leaf) {
+      weight[i] = std::ldexp(nodes[i].value, -exponent);
+      after[i] = i + 1;
+    } else {
+      require(open.size() >= 2, "BoxTree: node {} needs two parts below it", i);
+      const std::size_t below = open.back(), above = open[open.size() - 2];
+      open.resize(open.size() - 2);
+      weight[i] = weight[below] + weight[above];
+      after[i] = after[above];
+    }
+    open.push_back(i);
+  }
+  require(open.size() == 1, "BoxTree: {} nodes make {} trees; one is needed", nodes.size(), open.size());
+  root_ = Builder{*this, std::move(weight), std::move(after)}.build(0);
+}
+
+namespace {
+struct Cell {
+  std::vector<double> lo, hi;
+  double mean = 0, gain = 0; // gain: what is not flat in it
+  std::uint32_t axis = 0;
+  std::size_t below = 0; // the first of its halves; 0: none
+
+  double volume() const {
+    double v = 1;
+    for (std::size_t a = 0; a < lo.size(); ++a) v *= hi[a] - lo[a];
+    return v;
+  }
+  double middle() const { return (lo[axis] + hi[axis]) / 2; }
+};
+
+// Points k = 1, 2, ... of a rank-1 sequence whose steps are powers of the root of x^(d + 1) = x + 1: spread over the
+// cube in any dimension, so that what lies off the middle is met as well.
+std::vector<double> steps(std::size_t dim) {
+  double root = 2;
+  for (int i = 0; i < 60; ++i) root = std::pow(1 + root, 1 / static_cast<double>(dim + 1));
+  std::vector<double> step(dim);
+  for (std::size_t a = 0; a < dim; ++a) step[a] = std::pow(root, -static_cast<double>(a + 1));
+  return step;
+}
+
+Cell measured(const std::function<double(std::span<const double>)>& f, std::vector<double> lo, std::vector<double> hi) {
+  constexpr int points = 32;
+  Cell c{std::move(lo), std::move(hi)};
+  const std::size_t d = c.lo.size();
+  const std::vector<double> step = steps(d);
+  std::vector<double> at(d), below(d), above(d), counted(d);
+  double square = 0;
+  for (int k = 1; k <= points; ++k) {
+    for (std::size_t a = 0; a < d; ++a) {
+      const double v = 0.5 + k * step[a] - std::floor(0.5 + k * step[a]);
+      at[a] = c.lo[a] + (c.hi[a] - c.lo[a]) * v;
+      counted[a] = v;
+    }
+    const double value = f(at);
+    require(std::isfinite(value) && value >= 0, "BoxTree: the function is {}; it must be finite and >= 0", value);
+    c.mean += value / points;
+    square += value * value / points;
+    for (std::size_t a = 0; a < d; ++a) (counted[a] < 0.5 ? below : above)[a] += value / points;
+  }
+  c.gain = c.volume() * std::sqrt(std::max(square - c.mean * c.mean, 0.0));
+  // The axis that tells most apart, of equal ones the longest.
+  double most = -1;
+  for (std::size_t a = 0; a < d; ++a) {
+    const double apart = std::abs(above[a] - below[a]) + 1e-3 * c.mean * (c.hi[a] - c.lo[a]);
+    if (apart > most) {
+      most = apart;
+      c.axis = static_cast<std::uint32_t>(a);
+    }
+  }
+  return c;
+}
+} // namespace
+
+BoxTree BoxTree::from_function(int dim, const std::function<double(std::span<const double>)>& f, std::size_t leaves) {
+  require(dim >= 1, "BoxTree: dimension {} must be at least 1", dim);
+  require(leaves >= 1, "BoxTree: 0 leaves; at least 1 is needed");
+  const auto d = static_cast<std::size_t>(dim);
+  std::vector<Cell> cells = {measured(f, std::vector<double>(d, 0.0), std::vector<double>(d, 1.0))};
+  const auto less = [&](std::size_t a, std::size_t b) { return cells[a].gain < cells[b].gain; };
+  for (std::vector<std::size_t> open = {0}; open.size() < leaves;) { // a heap by gain
+    std::pop_heap(open.begin(), open.end(), less);
+    const std::size_t at = open.back();
+    open.pop_back();
+    std::vector<double> lo = cells[at].lo, hi = cells[at].hi;
+    lo[cells[at].axis] = hi[cells[at].axis] = cells[at].middle();
+    cells[at].below = cells.size();
+    Cell below = measured(f, cells[at].lo, std::move(hi)), above = measured(f, std::move(lo), cells[at].hi);
+    for (Cell* half : {&below, &above}) {
+      open.push_back(cells.size());
+      cells.push_back(std::move(*half));
+      std::push_heap(open.begin(), open.end(), less);
+    }
+  }
+  std::vector<TreeNode> nodes;
+  for (std::vector<std::size_t> next = {0}; !next.empty();) {
+    const Cell& c = cells[next.back()];
+    next.pop_back();
+    if (c.below == 0) nodes.push_back({TreeNode::leaf, c.mean * c.volume()});
+    else {
+      nodes.push_back({c.axis, c.middle()});
+      next.insert(next.end(), {c.below + 1, c.below});
+    }
+  }
+  return BoxTree(dim, nodes);
+}
+
+double BoxTree::map(std::span<double> u) const {
+  const std::size_t leaf = leaf_of_u(u);
+  for (const Side& s : sides(leaf)) {
+    const double x = s.x_lo + (u[s.axis] - s.u_lo) / (s.u_hi - s.u_lo) * (s.x_hi - s.x_lo);
+    u[s.axis] = std::min(x, std::nextafter(s.x_hi, 0.0));
+  }
+  return 1 / density_[leaf];
+}
+
+} // namespace mc

@@ -1,0 +1,54 @@
+#include <mc/estimate/adapt/importance_tree.h>
+#include <mc/random/uniform.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace {
+
+// Values at independent uniform points.
+template <class F> mc::WeightedValues seen(int dim, std::size_t n, F&& f) {
+  mc::WeightedValues s{dim, {}, {}, std::vector<double>(n, 1.0 / static_cast<double>(n))};
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int d = 0; d < dim; ++d) s.points.push_back(mc::hash_uniform<double>(1, i, d));
+    s.values.push_back(f(s.point(i)));
+  }
+  return s;
+}
+
+// Either axis alone shows nothing of it: the first cuts gain nothing.
+TEST(ImportanceTree, FindsWhatNoAxisShows) {
+  const auto checks = [](std::span<const double> x) { return (x[0] < 0.5) == (x[1] < 0.5) ? x[2] : 0.0; };
+  const mc::BoxTree tree = mc::importance_tree(seen(3, 8000, checks));
+  EXPECT_GT(tree.leaves(), 3u);
+  const auto density = [&](double x, double y) { return tree.density(tree.leaf_of_x(std::array{x, y, 0.8})); };
+  EXPECT_GT(density(0.2, 0.3), 4 * density(0.2, 0.8));
+  EXPECT_GT(density(0.7, 0.9), 4 * density(0.7, 0.2));
+}
+
+// Of noise there is nothing to learn: what one half of the points promises the other does not confirm.
+TEST(ImportanceTree, FollowsNoNoise) {
+  std::size_t leaves = 0;
+  for (std::uint64_t k = 0; k < 20; ++k) {
+    std::uint64_t i = 0;
+    const auto noise = [&](std::span<const double>) { return 1 + mc::hash_uniform<double>(2, k, i++); };
+    leaves += mc::importance_tree(seen(4, 3000, noise)).leaves();
+  }
+  EXPECT_LE(leaves, 100u); // of 20 trees with up to 90 boxes each
+}
+
+TEST(ImportanceTree, ATenthStaysUniform) {
+  const auto corner = [](std::span<const double> x) { return x[0] < 0.1 && x[1] < 0.1 ? 1.0 : 0.0; };
+  const mc::BoxTree tree = mc::importance_tree(seen(2, 20'000, corner));
+  for (std::size_t leaf = 0; leaf < tree.leaves(); ++leaf) EXPECT_GE(tree.density(leaf), 0.1 - 1e-12);
+  EXPECT_GT(tree.density(tree.leaf_of_x(std::array{0.05, 0.05})), 5);
+}
+
+TEST(ImportanceTree, OfNothingOneBox) {
+  EXPECT_EQ(mc::importance_tree(seen(2, 0, [](std::span<const double>) { return 0.0; })).leaves(), 1u);
+  EXPECT_EQ(mc::importance_tree(seen(2, 5000, [](std::span<const double>) { return 0.0; })).leaves(), 1u);
+}
+
+} // namespace

@@ -1,0 +1,122 @@
+#include <mc/core/error.h>
+#include <mc/random/uniform.h>
+#include <mc/table/box_tree.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+namespace {
+
+using mc::BoxTree;
+using mc::TreeNode;
+
+// A random tree: planes anywhere in their boxes, weights over many orders of magnitude, zeros among them.
+std::vector<TreeNode> random_nodes(std::uint64_t seed, int dim, int depth, std::vector<double> lo,
+                                   std::vector<double> hi) {
+  const auto random = [&](std::uint64_t k) { return mc::hash_uniform<double>(seed, k); };
+  if (depth == 0 || random(1) < 0.1)
+    return {{TreeNode::leaf, random(2) < 0.2 ? 0 : std::pow(10.0, 20 * random(3) - 10)}};
+  const auto axis = static_cast<std::uint32_t>(random(4) * dim);
+  const double at = lo[axis] + (hi[axis] - lo[axis]) * (0.05 + 0.9 * random(5));
+  std::vector<TreeNode> nodes = {{axis, at}};
+  std::vector<double> middle = hi;
+  middle[axis] = at;
+  for (const TreeNode& n : random_nodes(mc::hash(seed, 6), dim, depth - 1, lo, middle)) nodes.push_back(n);
+  lo[axis] = at;
+  for (const TreeNode& n : random_nodes(mc::hash(seed, 7), dim, depth - 1, lo, hi)) nodes.push_back(n);
+  return nodes;
+}
+BoxTree random_tree(std::uint64_t seed, int dim, int depth) {
+  std::vector<TreeNode> nodes = random_nodes(seed, dim, depth, std::vector<double>(static_cast<std::size_t>(dim), 0.0),
+                                             std::vector<double>(static_cast<std::size_t>(dim), 1.0));
+  nodes.back().value = 1; // not all of them are 0
+  return BoxTree(dim, nodes);
+}
+
+double volume(const BoxTree& tree, std::size_t leaf) {
+  double v = 1;
+  for (const BoxTree::Side& s : tree.sides(leaf)) v *= s.x_hi - s.x_lo;
+  return v;
+}
+
+TEST(BoxTree, BoxesFillTheCubeAndProbabilitiesFollowTheWeights) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const BoxTree tree = random_tree(seed, 1 + static_cast<int>(seed % 6), 8);
+    double total = 0, filled = 0, mass = 0;
+    for (const TreeNode& n : tree.nodes()) total += n.axis == TreeNode::leaf ? n.value : 0;
+    std::size_t leaf = 0;
+    for (const TreeNode& n : tree.nodes())
+      if (n.axis == TreeNode::leaf) {
+        const double p = tree.density(leaf) * volume(tree, leaf);
+        // Each plane rounds its share to an ulp of u.
+        EXPECT_NEAR(p, n.value / total, 16 * 0x1p-52) << seed;
+        if (n.value == 0) {
+          EXPECT_EQ(tree.density(leaf), 0);
+        }
+        filled += volume(tree, leaf++);
+        mass += p;
+      }
+    EXPECT_EQ(leaf, tree.leaves());
+    EXPECT_NEAR(filled, 1, 1e-12);
+    EXPECT_NEAR(mass, 1, 1e-12);
+  }
+}
+
+// Both ways down meet the same leaf, and the Jacobian is the inverse of the density; every edge of u is legal.
+TEST(BoxTree, MapKeepsToTheLeaf) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const BoxTree tree = random_tree(seed, 3, 9);
+    for (std::uint64_t i = 0; i < 500; ++i) {
+      std::array<double, 3> u;
+      for (std::size_t d = 0; d < 3; ++d) {
+        const double ends[] = {0, mc::one_minus_epsilon<double>, mc::hash_uniform<double>(seed, i, d), 0.5};
+        u[d] = ends[mc::hash(seed, i, 10 + d) % 4];
+      }
+      const std::size_t leaf = tree.leaf_of_u(u);
+      const double jacobian = tree.map(u);
+      for (const double x : u) ASSERT_TRUE(x >= 0 && x < 1);
+      ASSERT_EQ(tree.leaf_of_x(u), leaf);
+      ASSERT_GT(tree.density(leaf), 0);
+      ASSERT_DOUBLE_EQ(jacobian * tree.density(leaf), 1);
+    }
+  }
+}
+
+TEST(BoxTree, FollowsAFunction) {
+  const auto f = [](std::span<const double> x) { return x[0] > 0.75 && x[1] < 0.25 ? 1.0 : 0.01; };
+  const BoxTree tree = BoxTree::from_function(2, f, 64);
+  EXPECT_EQ(tree.leaves(), 64u);
+  EXPECT_NEAR(tree.density(tree.leaf_of_x(std::array{0.8, 0.2})), 1 / (0.01 + 0.99 / 16), 0.2);
+  EXPECT_NEAR(tree.density(tree.leaf_of_x(std::array{0.2, 0.2})), 0.01 / (0.01 + 0.99 / 16), 0.02);
+  EXPECT_EQ(BoxTree(4).leaves(), 1u);
+  EXPECT_EQ(BoxTree(4).density(0), 1);
+}
+
+TEST(BoxTree, RefusesNonsense) {
+  constexpr std::uint32_t leaf = TreeNode::leaf;
+  const auto make = [](std::vector<TreeNode> nodes) { return BoxTree(2, nodes); };
+  EXPECT_THROW(make({}), mc::Error);
+  EXPECT_THROW(make({{leaf, 0}}), mc::Error);
+  EXPECT_THROW(make({{leaf, std::nan("")}}), mc::Error);
+  EXPECT_THROW(make({{leaf, -1}}), mc::Error);
+  EXPECT_THROW(make({{leaf, 1}, {leaf, 1}}), mc::Error);
+  EXPECT_THROW(make({{0, 0.5}, {leaf, 1}}), mc::Error);
+  EXPECT_THROW(make({{2, 0.5}, {leaf, 1}, {leaf, 1}}), mc::Error);
+  EXPECT_THROW(make({{0, 1.0}, {leaf, 1}, {leaf, 1}}), mc::Error);
+  EXPECT_THROW(make({{0, std::nan("")}, {leaf, 1}, {leaf, 1}}), mc::Error);
+  EXPECT_THROW(make({{0, 0.5}, {0, 0.7}, {leaf, 1}, {leaf, 1}, {leaf, 1}}), mc::Error);
+  EXPECT_THROW(BoxTree(0), mc::Error);
+  EXPECT_THROW(BoxTree::from_function(
+                   2, [](std::span<const double>) { return -1.0; }, 4),
+               mc::Error);
+  EXPECT_THROW(BoxTree::from_function(
+                   2, [](std::span<const double>) { return 0.0; }, 4),
+               mc::Error);
+  EXPECT_THROW(BoxTree::from_function(
+                   2, [](std::span<const double>) { return 1.0; }, 0),
+               mc::Error);
+}
+
+} // namespace
