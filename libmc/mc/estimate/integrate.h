@@ -68,9 +68,7 @@ struct Integral {
   Method method = Method::plain; ///< the one picked
   Stop stop = Stop::converged;
   /// stratified, vegas and tree: how well independent rounds agree, each difference turned from Student's t into a
-  /// normal
-  ///                       deviate and
-  /// squared; near its dof. plain and rqmc: 0
+  /// normal deviate and squared; near its dof. plain and rqmc: 0
   double chi2 = 0, chi2_dof = 0;
   /// Whether the rounds agree: chi2 is exceeded by chance with probability over 1e-4. False: distrust the error bar.
   bool consistent = true;
