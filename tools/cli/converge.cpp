@@ -28,9 +28,10 @@ namespace {
 
 struct ConvergeOptions {
   IntegralOptions integral;
+  SceneOptions scene;
   bool all = false;
-  std::string samplers = "random,stratified,sobol";
-  std::string points; ///< a file of points, as one more sampler
+  std::string samplers; ///< empty: random,stratified,sobol; of a scene all
+  std::string points;   ///< a file of points, as one more sampler
   std::uint64_t max_n = 1 << 18;
   int replicates = 0;
   std::optional<double> time; ///< seconds for everything
@@ -43,10 +44,10 @@ struct ConvergeOptions {
 std::vector<Way> ways_of(const ConvergeOptions& o) {
   std::vector<Way> chosen;
   if (o.all) chosen = ways();
-  else if (!o.samplers.empty())
-    for (const std::string_view name : split(o.samplers, ',')) chosen.push_back(way(std::string(name)));
+  const std::string samplers = o.samplers.empty() ? "random,stratified,sobol" : o.samplers;
+  if (!o.all)
+    for (const std::string_view name : split(samplers, ',')) chosen.push_back(way(std::string(name)));
   if (!o.points.empty()) chosen.push_back(way_of_points(o.points));
-  mc::require(!chosen.empty(), "converge: name one of --samplers, or give --points-file");
   return chosen;
 }
 
@@ -109,7 +110,8 @@ Run measure_all(const std::vector<Target>& targets, const std::vector<Way>& chos
 std::vector<Option> rows(ConvergeOptions& o) {
   std::vector<Option> all = integral_rows(o.integral);
   const std::vector<Option> own = {
-      {"--samplers", "NAMES", &o.samplers, "Comma-separated, see --list"},
+      {"--samplers", "NAMES", &o.samplers,
+       "Comma-separated, see --list; of a scene those of carlo render [random,stratified,sobol; of a scene all]"},
       {"--all", "", &o.all, "Every sampler", false, {"--samplers"}},
       {"--points-file", "FILE", &o.points, "These points as one more sampler: a row each, coordinates in [0, 1)"},
       {"--max-n", "N", &o.max_n, "Largest number of evaluations"},
@@ -122,7 +124,32 @@ std::vector<Option> rows(ConvergeOptions& o) {
       {"--report", "FOLDER", &o.report, "Write a page with all curves to this folder (index.html)"},
   };
   all.insert(all.end(), own.begin(), own.end());
+  const std::vector<Option> scene = scene_rows(o.scene);
+  all.insert(all.end(), scene.begin(), scene.end());
   return all;
+}
+
+int converge_scene(const ConvergeOptions& o) {
+  mc::require(o.points.empty() && o.report.empty() && !o.time && !o.all,
+              "converge: --points-file, --report, --time and --all are not for scenes");
+  const Interrupt interrupt;
+  const Target target = scene_target(o.integral.integrands[0]);
+  const std::filesystem::path folder = mc::output_folder(o.output, "slopes.csv");
+  const Pictures pictures = measure_scene(o.scene, {.path = target.integral.source,
+                                                    .samplers = o.samplers,
+                                                    .pictures = o.replicates,
+                                                    .seed = o.seed,
+                                                    .threads = o.threads,
+                                                    .cancel = interrupt.flag()});
+  if (pictures.measurement.interrupted) {
+    fmt::print("interrupted: nothing is known yet without the reference, which comes last\n");
+    return exit_interrupted;
+  }
+  write(target, pictures.measurement, o, folder, true);
+  fmt::print("{}", about_pictures(pictures));
+  mc::write_file((folder / "slopes.csv").string(), slopes_header() + slopes_csv(target, pictures.measurement));
+  fmt::print("data and plots: {}\n", folder.string());
+  return exit_ok;
 }
 
 int converge(const ConvergeOptions& o) {
@@ -131,6 +158,7 @@ int converge(const ConvergeOptions& o) {
               "--replicates {} must lie in [8, 100000], or be 0", o.replicates);
   mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
+  if (is_scene(o.integral.integrands)) return converge_scene(o);
   const Interrupt interrupt;
   const std::vector<Way> chosen = ways_of(o);
   const std::vector<Target> targets = targets_of(o.integral);

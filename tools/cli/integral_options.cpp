@@ -1,8 +1,10 @@
 #include <cli/integral_options.h>
+#include <input/words.h>
 #include <integrands/find.h>
 #include <integrands/genz.h>
 #include <integrands/rate_integrals.h>
 #include <plugin/integrands.h>
+#include <terminal/progress.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
@@ -10,6 +12,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
 
 namespace carlo {
 
@@ -23,12 +29,39 @@ constexpr Group groups[] = {{"books", "the integrals of the books", experiments}
                             {"genz", "Genz's families", genz_integrals},
                             {"rates", "each class of smoothness in 1 to 8 dimensions", rate_integrals}};
 
+std::vector<int> depths_of(const std::string& text, int own) {
+  if (text.empty()) return {own};
+  std::vector<int> depths;
+  for (const std::string_view word : split(text, ',')) {
+    int depth = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), depth);
+    mc::require(error == std::errc() && end == word.data() + word.size() && (depth == -1 || depth >= 1),
+                "--max-depths: '{}' in '{}' must be -1 or at least 1", word, text);
+    depths.push_back(depth);
+  }
+  return depths;
+}
+
+std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, int own_depth) {
+  const std::string samplers = run.samplers.empty() ? "independent,stratified,sobol" : run.samplers;
+  std::vector<PictureWay> ways;
+  for (const bool adaptive : {false, true}) {
+    if (adaptive && !run.adaptive) continue;
+    for (const int depth : depths_of(o.depths, own_depth))
+      for (const std::string_view strategy : split(o.strategies, ','))
+        for (const std::string_view sampler : split(samplers, ','))
+          ways.push_back({::render::strategy_from(strategy), ::render::sampler_from(sampler), depth, adaptive});
+  }
+  return ways;
+}
+
 } // namespace
 
 std::vector<Option> integral_rows(IntegralOptions& o) {
   return {
       {"INTEGRAND", "", &o.integrands,
-       "Names (see --list), groups (books, genz, rates), or an expression, e.g. \"exp(-x*x)*cos(y)\" [books]"},
+       "Names (see --list), groups (books, genz, rates), an expression, e.g. \"exp(-x*x)*cos(y)\", or a scene file "
+       "(.xml) [books]"},
       {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:1,y=-inf:inf\""},
       {"--plugin",
        "FILE",
@@ -71,6 +104,63 @@ int list_integrals() {
   fmt::print("samplers:\n");
   for (const Way& w : ways()) fmt::print("  {:<24} {}\n", w.name, w.title);
   return exit_ok;
+}
+
+std::vector<Option> scene_rows(SceneOptions& o) {
+  return {
+      {"--strategies", "NAMES", &o.strategies, "Of a scene: comma-separated, see carlo render"},
+      {"--max-depths", "LIST", &o.depths, "Of a scene: longest paths in edges, -1 for no limit [the scene's]"},
+      {"--size", "WxH", &o.size, "Of a scene's pictures, in pixels [48 wide]"},
+      {"--max-spp", "N", &o.max_spp, "Of a scene: most samples per pixel"},
+      {"--cost", "WHAT", &o.cost, "Of a scene: cpu, or rays, a million for a second, the same on every machine"},
+  };
+}
+
+bool is_scene(const std::vector<std::string>& words) { return words.size() == 1 && words[0].ends_with(".xml"); }
+
+Target scene_target(const std::string& path) {
+  Target target;
+  target.integral.name = target.integral.title = std::filesystem::path(path).stem().string();
+  target.integral.source = path;
+  target.integral.dim = 0;
+  target.integral.truth = 0;
+  target.integral.fit_from = 0;
+  return target;
+}
+
+Pictures measure_scene(const SceneOptions& o, const SceneRun& run) {
+  mc::require(o.cost == "cpu" || o.cost == "rays", "--cost '{}' must be cpu or rays", o.cost);
+  mc::require(o.max_spp >= 16, "--max-spp {} must be at least 16", o.max_spp);
+  mc::require(!run.adaptive || o.max_spp >= 32, "--max-spp {} must be at least 32 for adaptive spending", o.max_spp);
+  const ::render::SceneFile file = ::render::read_mitsuba(run.path);
+  const ::render::RenderDefaults& own = file.defaults;
+  PictureOptions p{.width = 48, .height = std::max(1, 48 * own.height / own.width), .max_spp = o.max_spp};
+  char rest = 0;
+  mc::require(o.size.empty() || (std::sscanf(o.size.c_str(), "%dx%d%c", &p.width, &p.height, &rest) == 2 &&
+                                 p.width > 0 && p.height > 0),
+              "--size '{}' must be WIDTHxHEIGHT in pixels, e.g. 64x48", o.size);
+  if (run.pictures > 0) p.replicates = run.pictures;
+  p.cost_rays = o.cost == "rays";
+  p.seed = run.seed;
+  p.threads = run.threads;
+  p.cancel = run.cancel;
+  Progress progress;
+  p.progress = [&](double done, const std::string& where) { progress.show(done, where); };
+  return mc::with_context(run.path, [&] { return measure_pictures(file, ways_of(o, run, own.max_depth), p); });
+}
+
+std::string about_pictures(const Pictures& pictures) {
+  std::string text = fmt::format("  errors are roots of relmse, from a reference of {:.0f} samples per pixel with an "
+                                 "error of {:.2g}\n",
+                                 pictures.reference_spp, pictures.reference_error);
+  for (std::size_t i = 0; i < pictures.biases.size(); ++i) {
+    const Bias& b = pictures.biases[i];
+    if (!(b.bias.lo > 0)) continue;
+    text += fmt::format("  {}: bias {:.3g} [{:.3g}, {:.3g}], noise {:.3g} at N = {:.0f}", pictures.ways[i].name,
+                        b.bias.value, b.bias.lo, b.bias.hi, b.noise, b.n);
+    text += b.pays_above ? fmt::format("; pays for errors above {:.3g}\n", *b.pays_above) : "; never pays\n";
+  }
+  return text;
 }
 
 } // namespace carlo

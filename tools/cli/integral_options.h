@@ -1,8 +1,8 @@
 #pragma once
-/// What the subcommands that measure integrals are asked for alike.
+/// What the subcommands that measure integrals and scenes are asked for alike.
 
 #include <cli/subcommand.h>
-#include <converge/target.h>
+#include <converge/pictures.h>
 
 #include <string>
 #include <vector>
@@ -25,5 +25,39 @@ std::vector<Target> targets_of(const IntegralOptions& o);
 
 /// Prints the integrands and the ways to sample them.
 int list_integrals();
+
+struct SceneOptions {
+  std::string strategies = "mixture,nee,mis";
+  std::string depths; ///< longest paths; empty: the scene's
+  std::string size;   ///< "WxH"; empty: 48 pixels wide
+  int max_spp = 64;
+  std::string cost = "cpu"; ///< or rays
+};
+
+std::vector<Option> scene_rows(SceneOptions& o);
+
+/// Whether the one word that stands for a target is a scene file: it ends in .xml.
+bool is_scene(const std::vector<std::string>& words);
+
+/// Everything of a run that is not the scene's own.
+struct SceneRun {
+  std::string path;
+  std::string samplers;  ///< comma-separated; empty: all
+  bool adaptive = false; ///< every way with adaptive spending, too
+  int pictures = 0;      ///< behind each error; 0: eight
+  std::uint64_t seed = 1;
+  int threads = 0;
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+/// What summary and the tables call the scene.
+Target scene_target(const std::string& path);
+
+/// Measures every strategy, sampler and longest path, with progress on a terminal.
+///   throws : Error for a scene that cannot be read or is black, an unknown name, or a bad number
+Pictures measure_scene(const SceneOptions& o, const SceneRun& run);
+
+/// "  reference: ..." and a line for each way whose bias is told from 0.
+std::string about_pictures(const Pictures& pictures);
 
 } // namespace carlo

@@ -30,6 +30,8 @@ using nlohmann::ordered_json;
 
 struct TradeOptions {
   IntegralOptions integral;
+  SceneOptions scene;
+  std::string samplers;        ///< of a scene; empty: all
   std::string errors, seconds; ///< lists of numbers
   std::uint64_t max_n = 1 << 18;
   std::optional<double> time;
@@ -126,7 +128,7 @@ void print(const ForError& f) {
     for (std::size_t i = 0; i < std::min<std::size_t>(f.nearest.size(), 4); ++i)
       fmt::print("{} {} {:.3g} at N = {:.0f}", i == 0 ? "; nearest:" : ",", label(*f.nearest[i].curve),
                  f.nearest[i].error.value, f.nearest[i].n);
-    fmt::print("; raise --max-n\n");
+    fmt::print("; raise --max-n, of a scene --max-spp\n");
     return;
   }
   const Offer& best = f.offers.front();
@@ -214,7 +216,8 @@ std::vector<Way> configurations(const Target& target) {
 std::vector<Option> rows(TradeOptions& o) {
   std::vector<Option> all = integral_rows(o.integral);
   const std::vector<Option> own = {
-      {"--error", "LIST", &o.errors, "RMS errors to reach, absolute: \"1e-2,1e-3\" [three decades below the integral]"},
+      {"--error", "LIST", &o.errors,
+       "RMS errors to reach, absolute: \"1e-2,1e-3\" [three decades below the integral; of a scene 0.2,0.1,0.05]"},
       {"--seconds", "LIST", &o.seconds, "Or CPU seconds to spend: \"0.001,0.01\"", false, {"--error"}},
       {"--max-n", "N", &o.max_n, "Largest number of evaluations"},
       {"--time", "SECONDS", &o.time, "Stop at smaller N where this runs out"},
@@ -223,7 +226,69 @@ std::vector<Option> rows(TradeOptions& o) {
       {"-o,--output", "FOLDER", &o.output, "Folder for trade.json, .csv, .gp, .svg, .png and front.csv"},
   };
   all.insert(all.end(), own.begin(), own.end());
+  all.push_back({"--samplers", "NAMES", &o.samplers, "Of a scene: comma-separated, see carlo render [all]"});
+  const std::vector<Option> scene = scene_rows(o.scene);
+  all.insert(all.end(), scene.begin(), scene.end());
   return all;
+}
+
+// What is asked for, printed and written; `seconds_of_one` takes offers and measures them again.
+template <class Seconds>
+int offer(const TradeOptions& o, const Target& target, const Measurement& m, const std::vector<double>& errors,
+          const std::vector<double>& seconds, const std::filesystem::path& folder, const Seconds& seconds_of_one) {
+  ordered_json j = {{"command", o.command}, {"commit", commit},
+                    {"seed", o.seed},       {"integrand", target.integral.name},
+                    {"truth", m.truth},     {"truth_error", m.truth_error}};
+  j["errors"] = j["seconds"] = ordered_json::array();
+  bool reached = true;
+  for (const double error : errors) {
+    const ForError f = offers_for_error(m, error, seconds_of_one(offers_for_error(m, error, as_measured).offers));
+    reached = reached && !f.offers.empty();
+    print(f);
+    j["errors"].push_back(to_json(f, &Offer::seconds));
+    if (f.offers.empty()) j["errors"].back()["nearest"] = to_json(f.nearest);
+  }
+  for (const double budget : seconds) {
+    const ForSeconds f =
+        offers_for_seconds(m, budget, seconds_of_one(offers_for_seconds(m, budget, as_measured).offers));
+    reached = reached && !f.offers.empty();
+    print(f);
+    j["seconds"].push_back(to_json(f, &Offer::error));
+  }
+  if (!m.doubt.empty()) fmt::print("  warning: {}\n", m.doubt);
+  const std::vector<Offer> front = pareto_front(m);
+  j["front"] = to_json(front);
+  mc::write_file((folder / "trade.csv").string(), csv(all_points(m)));
+  mc::write_file((folder / "front.csv").string(), csv(front));
+  mc::write_file((folder / "trade.json").string(), j.dump(1) + "\n");
+  mc::write_file((folder / "trade.gp").string(), script(target.integral.title, m));
+  if (!draw_plot(folder, "trade"))
+    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
+  fmt::print("data and plots: {}\n", folder.string());
+  return reached && m.doubt.empty() ? exit_ok : exit_failed;
+}
+
+int trade_scene(const TradeOptions& o, std::vector<double> errors, const std::vector<double>& seconds) {
+  const Interrupt interrupt;
+  const Target target = scene_target(o.integral.integrands[0]);
+  const std::filesystem::path folder = mc::output_folder(o.output, "trade.json");
+  const Pictures pictures = measure_scene(o.scene, {.path = target.integral.source,
+                                                    .samplers = o.samplers,
+                                                    .adaptive = true,
+                                                    .seed = o.seed,
+                                                    .threads = o.threads,
+                                                    .cancel = interrupt.flag()});
+  const Measurement& m = pictures.measurement;
+  if (m.interrupted) {
+    fmt::print("interrupted: nothing is known yet without the reference, which comes last\n");
+    return exit_interrupted;
+  }
+  if (errors.empty() && seconds.empty()) errors = {0.2, 0.1, 0.05};
+  fmt::print("{}: {} ways, {} of one picture\n", target.integral.title, m.curves.size(),
+             o.scene.cost == "rays" ? "millions of rays for seconds" : "CPU seconds");
+  fmt::print("{}", about_pictures(pictures));
+  // The pictures were taken in turn already.
+  return offer(o, target, m, errors, seconds, folder, [](const std::vector<Offer>&) { return as_measured; });
 }
 
 int trade(const TradeOptions& o) {
@@ -232,6 +297,7 @@ int trade(const TradeOptions& o) {
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
   std::vector<double> errors = o.errors.empty() ? std::vector<double>() : numbers("--error", o.errors);
   const std::vector<double> seconds = o.seconds.empty() ? std::vector<double>() : numbers("--seconds", o.seconds);
+  if (is_scene(o.integral.integrands)) return trade_scene(o, errors, seconds);
   const Interrupt interrupt;
   const std::vector<Target> targets = targets_of(o.integral);
   mc::require(targets.size() == 1 && !o.integral.integrands.empty(), "trade: name one integrand; --list shows them");
@@ -257,36 +323,8 @@ int trade(const TradeOptions& o) {
   const auto in_turn = [&](const std::vector<Offer>& offers) {
     return TakenInTurn(target, contenders(offers), o.seed, interrupt.flag());
   };
-  ordered_json j = {{"command", o.command}, {"commit", commit},
-                    {"seed", o.seed},       {"integrand", target.integral.name},
-                    {"truth", m.truth},     {"truth_error", m.truth_error}};
-  j["errors"] = j["seconds"] = ordered_json::array();
   fmt::print("{}: {} ways, RMS errors to 10 %, CPU seconds of one estimate\n", target.integral.title, m.curves.size());
-  bool reached = true;
-  for (const double error : errors) {
-    const ForError f = offers_for_error(m, error, in_turn(offers_for_error(m, error, as_measured).offers));
-    reached = reached && !f.offers.empty();
-    print(f);
-    j["errors"].push_back(to_json(f, &Offer::seconds));
-    if (f.offers.empty()) j["errors"].back()["nearest"] = to_json(f.nearest);
-  }
-  for (const double budget : seconds) {
-    const ForSeconds f = offers_for_seconds(m, budget, in_turn(offers_for_seconds(m, budget, as_measured).offers));
-    reached = reached && !f.offers.empty();
-    print(f);
-    j["seconds"].push_back(to_json(f, &Offer::error));
-  }
-  if (!m.doubt.empty()) fmt::print("  warning: {}\n", m.doubt);
-  const std::vector<Offer> front = pareto_front(m);
-  j["front"] = to_json(front);
-  mc::write_file((folder / "trade.csv").string(), csv(all_points(m)));
-  mc::write_file((folder / "front.csv").string(), csv(front));
-  mc::write_file((folder / "trade.json").string(), j.dump(1) + "\n");
-  mc::write_file((folder / "trade.gp").string(), script(target.integral.title, m));
-  if (!draw_plot(folder, "trade"))
-    std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
-  fmt::print("data and plots: {}\n", folder.string());
-  return reached && m.doubt.empty() ? exit_ok : exit_failed;
+  return offer(o, target, m, errors, seconds, folder, in_turn);
 }
 
 } // namespace

@@ -45,6 +45,19 @@ TEST_F(Converge, AnExpressionNeedsNoTruth) {
   EXPECT_THAT(page, AllOf(HasSubstr("<polyline"), HasSubstr("reference 1.3075"), Not(HasSubstr("http"))));
 }
 
+TEST_F(Converge, ASceneHasNoTruthButAReference) {
+  const Ran r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --strategies mis --max-spp 16");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(r.output, AllOf(HasSubstr("  mis stratified  RMS error "), HasSubstr("  mis sobol       RMS error "),
+                              HasSubstr("from a reference of ")));
+  EXPECT_THAT(out("cbox.csv"), HasSubstr("cbox,mis independent,16,"));
+  const std::string dark = write("dark.xml", R"(<scene version="0.5.0"><sensor type="perspective">
+    <float name="fov" value="40"/></sensor>
+    <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape></scene>)");
+  expect_refused(dark + " --size 4x4 --max-spp 16", "the picture is black");
+  expect_refused(dark + " --all", "--all are not for scenes");
+}
+
 TEST_F(Converge, EveryWayIsMeasuredBesideTheory) {
   const Ran r = run("rate_smooth_2d --all --max-n 4096 --replicates 64");
   EXPECT_EQ(r.exit_code, 0) << r.output;

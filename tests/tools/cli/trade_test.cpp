@@ -51,6 +51,20 @@ TEST_F(TradeCommand, BatchesAgainstOneByOne) {
   EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"way\": \"sobol (one by one)\""));
 }
 
+TEST_F(TradeCommand, AScene) {
+  const std::string cbox = MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --samplers sobol --strategies ";
+  const Ran r = run(cbox + "light,mis --max-spp 32 --cost rays --error 0.5,1e-6");
+  EXPECT_EQ(r.exit_code, 1) << r.output;
+  EXPECT_THAT(r.output, AllOf(HasSubstr("cbox: 4 ways, millions of rays"), HasSubstr("  light sobol: bias "),
+                              HasSubstr("  error 0.5: "), HasSubstr("  error 1e-06: no way came there; nearest: ")));
+  EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"way\": \"mis sobol adaptive\""));
+  expect_refused(cbox + "mess", "did you mean 'mis'");
+  expect_refused(cbox + "mis --max-spp 16", "--max-spp 16 must be at least 32");
+  expect_refused(cbox + "mis --max-depths 0", "--max-depths: '0' in '0'");
+  expect_refused(cbox + "mis --cost money", "--cost 'money' must be cpu or rays");
+  expect_refused("nowhere.xml", "nowhere.xml");
+}
+
 TEST_F(TradeCommand, BadInputIsOneLine) {
   expect_refused("", "trade: name one integrand");
   expect_refused("genz", "trade: name one integrand");

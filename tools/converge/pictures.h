@@ -1,0 +1,62 @@
+#pragma once
+/// Error of a scene's pictures against samples and seconds, for several ways to render it.
+
+#include <converge/trade.h>
+
+#include <render/io/mitsuba.h>
+#include <render/render.h>
+
+#include <deque>
+
+namespace carlo {
+
+/// One way to render.
+struct PictureWay {
+  render::Strategy strategy = render::strategy_from("mis");
+  render::PixelSampler sampler = render::PixelSampler::sobol;
+  int max_depth = -1;    ///< longest path in edges; -1: no limit
+  bool adaptive = false; ///< samples where the error is
+
+  /// "mis sobol", "nee independent depth 4 adaptive".
+  std::string name() const;
+};
+
+struct PictureOptions {
+  int width = 64, height = 64;
+  int max_spp = 64;
+  int replicates = 8;     ///< pictures behind each error
+  bool cost_rays = false; ///< a second is a million rays: the same on every machine
+  std::uint64_t seed = 1;
+  int threads = 0;
+  const std::atomic<bool>* cancel = nullptr;
+  std::function<void(double done, const std::string& where)> progress = {};
+};
+
+/// What a way errs by however long it runs: paths that are too short, light that a strategy does not look for.
+struct Bias {
+  Ranged bias;      ///< root of the relmse of its expectation; the interval holds for all ways at once with 95 %
+  double noise = 0; ///< root of the relmse of one picture's noise
+  double n = 0;     ///< samples per pixel, the most
+  /// Where it is told from 0: the error above which it still costs less than the best way without; nothing: nowhere.
+  std::optional<double> pays_above;
+};
+
+/// What was measured: N is samples per pixel, the error of a picture the root of its relmse, the mean over pixels and
+/// channels of (x - reference)^2 / (reference^2 + 0.01), less what the noise of the reference adds.
+struct Pictures {
+  std::deque<Way> ways;       ///< that the curves point to
+  Measurement measurement;    ///< its truth is an error of 0
+  std::vector<Bias> biases;   ///< of the ways
+  double reference_error = 0; ///< root of the relmse that the reference's noise is
+  double reference_spp = 0;
+};
+
+/// Every way on 4, 8, ... max_spp samples per pixel (adaptive ones from 32), taken in turn, so that a busy moment falls
+/// on all of them. 95 % intervals of the errors by Student's t over the pictures.
+///   reference : by mis, sobol and the scene's longest path, as many samples as bring its error to a tenth of the
+///               smallest error by noise
+///   throws    : Error for a black scene, no ways, fewer than 3 pictures, or max_spp below 16
+Pictures measure_pictures(const render::SceneFile& file, const std::vector<PictureWay>& ways,
+                          const PictureOptions& options);
+
+} // namespace carlo
