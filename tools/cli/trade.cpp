@@ -269,6 +269,7 @@ int offer(const TradeOptions& o, const Target& target, const Measurement& m, con
 }
 
 int trade_scene(const TradeOptions& o, std::vector<double> errors, const std::vector<double>& seconds) {
+  mc::require(!o.time, "trade: --time is not for scenes; --size and --max-spp bound what they take");
   const Interrupt interrupt;
   const Target target = scene_target(o.integral.integrands[0]);
   const std::filesystem::path folder = mc::output_folder(o.output, "trade.json");
