@@ -12,6 +12,8 @@
 ///                1 where they show the same
 ///   held       : share of 95 % intervals of pixels that hold the reference
 
+#include "arguments.h"
+
 #include <render/film/interval.h>
 #include <render/io/mitsuba.h>
 #include <render/render.h>
@@ -20,8 +22,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 
 namespace {
@@ -116,12 +116,9 @@ void show(const std::string& path, int seeds, int size, int spp, int reference_s
 } // namespace
 
 int main(int argc, char** argv) {
-  int scenes = 1;
-  while (scenes < argc && std::strcmp(argv[scenes], "--") != 0) ++scenes;
-  const auto number = [&](int place, int fallback) {
-    return scenes + place < argc ? std::atoi(argv[scenes + place]) : fallback;
-  };
+  const bench::Arguments arguments(argc, argv);
   fmt::print(
       "scene,spending,spp,cpu_seconds,relmse,relmse_error,relative_error,gain,gain_error,z_mean,z_sd,held,picture\n");
-  for (int i = 1; i < scenes; ++i) show(argv[i], number(1, 20), number(2, 64), number(3, 64), number(4, 65536));
+  for (const std::string& scene : arguments.scenes)
+    show(scene, arguments.number(0, 20), arguments.number(1, 64), arguments.number(2, 64), arguments.number(3, 65536));
 }

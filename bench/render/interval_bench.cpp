@@ -4,6 +4,8 @@
 ///   shared : half_widths
 ///   low, high : intervals that lie below and above the truth
 
+#include "arguments.h"
+
 #include <render/film/interval.h>
 #include <render/io/mitsuba.h>
 #include <render/render.h>
@@ -12,8 +14,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 
 namespace {
@@ -62,11 +62,8 @@ void show(const std::string& path, int seeds, int size, int reference_spp) {
 } // namespace
 
 int main(int argc, char** argv) {
-  int scenes = 1;
-  while (scenes < argc && std::strcmp(argv[scenes], "--") != 0) ++scenes;
-  const auto number = [&](int place, int fallback) {
-    return scenes + place < argc ? std::atoi(argv[scenes + place]) : fallback;
-  };
+  const bench::Arguments arguments(argc, argv);
   fmt::print("scene,spp,seeds,undecided,alone,alone_low,alone_high,shared,shared_low,shared_high\n");
-  for (int i = 1; i < scenes; ++i) show(argv[i], number(1, 200), number(2, 16), number(3, 100'000));
+  for (const std::string& scene : arguments.scenes)
+    show(scene, arguments.number(0, 200), arguments.number(1, 16), arguments.number(2, 100'000));
 }

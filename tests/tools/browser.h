@@ -3,8 +3,12 @@
 
 #include <tools/run_carlo.h>
 
-#include <fmt/format.h>
+#include <mc/core/file.h>
 
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -29,6 +33,28 @@ inline std::string browse(const std::filesystem::path& file, const std::string& 
 inline std::string logged(const std::string& dom) {
   const std::size_t at = dom.find("CONSOLE");
   return at == std::string::npos ? "" : dom.substr(at, 500);
+}
+
+/// Nothing of the page at file#hash is wider than a phone. A frame of 390 pixels, since a browser's own window is never
+/// as narrow; the page in it says how wide it came out.
+inline void expect_fits_a_phone(const std::filesystem::path& file, const std::string& hash = {}) {
+  std::string text = mc::read_file(file.string());
+  text.insert(text.find("</body>"),
+              "<script>parent.postMessage(document.documentElement.scrollWidth + ' of ' + innerWidth, '*');</script>");
+  mc::write_file((file.parent_path() / "phone.html").string(), text);
+  const std::filesystem::path frame = file.parent_path() / "frame.html";
+  mc::write_file(frame.string(),
+                 "<body><script>addEventListener('message', e => { document.title = 'width ' + e.data; });</script>"
+                 "<iframe src='phone.html#" +
+                     hash + "' style='width: 390px; height: 844px; border: 0'></iframe></body>");
+  const std::string dom = browse(frame, "");
+  if (dom.empty()) return;
+  int wide = 0, of = 0;
+  const std::size_t at = dom.find("<title>width");
+  ASSERT_NE(at, std::string::npos) << dom.substr(0, 1000);
+  ASSERT_EQ(std::sscanf(dom.c_str() + at, "<title>width %d of %d", &wide, &of), 2) << dom.substr(at, 100);
+  EXPECT_LE(of, 390);
+  EXPECT_LE(wide, of);
 }
 
 } // namespace support

@@ -159,8 +159,8 @@ class Run {
     if (cancel_->load()) return false;
     keep_thumbnail(a, result.image);
     progress_.clear();
-    fmt::print("{:<32} {}x{}, {:.4g} samples/pixel in {}: {}, mean standard error {}\n", title, r.width, r.height,
-               r.spp, format_seconds(r.seconds), samples_per_second(result), format_error(r.relative_error));
+    fmt::print("{:<32} {}x{}, {:.4g} samples/pixel in {}: {}, mean relative standard error {}\n", title, r.width,
+               r.height, r.spp, format_seconds(r.seconds), samples_per_second(result), format_error(result));
     std::fflush(stdout);
     rendered_.push_back(std::move(r));
     return true;

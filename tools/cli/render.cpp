@@ -112,11 +112,6 @@ const GalleryScene* named_scene(const std::string& word) {
   return is_file ? nullptr : &gallery_scene(word);
 }
 
-std::string format_error(const ::render::RenderResult& result) {
-  if (!std::isfinite(result.relative_error)) return "unknown (one sample per pixel)";
-  return fmt::format("{:.2f} % (worst block {:.2f} %)", 100 * result.relative_error, 100 * result.worst_error);
-}
-
 // What the scene asks for, where the command does not say otherwise.
 ::render::RenderOptions settings_of(const RenderOptions& options, const ::render::RenderDefaults& defaults,
                                     const GalleryScene* named) {

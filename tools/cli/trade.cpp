@@ -122,7 +122,13 @@ void print_ties(const std::vector<Offer>& offers, Ranged Offer::*by, const char*
   if (count > 1) fmt::print("\n");
 }
 
-void print(const ForError& f) {
+/// The words after a figure of cost.
+struct Cost {
+  const char *unit, *of;
+};
+Cost cost_of(const SceneOptions& o) { return o.cost == "rays" ? Cost{" Mray", ""} : Cost{" s", " of CPU"}; }
+
+void print(const ForError& f, const Cost& cost) {
   if (f.offers.empty()) {
     fmt::print("  error {:g}: no way came there", f.wanted);
     for (std::size_t i = 0; i < std::min<std::size_t>(f.nearest.size(), 4); ++i)
@@ -132,21 +138,21 @@ void print(const ForError& f) {
     return;
   }
   const Offer& best = f.offers.front();
-  fmt::print("  error {:g}: {} in {} of CPU, N about {:.0f}", f.wanted, label(*best.curve), text_of(best.seconds, " s"),
-             best.n);
+  fmt::print("  error {:g}: {} in {}{}, N about {:.0f}", f.wanted, label(*best.curve), text_of(best.seconds, cost.unit),
+             cost.of, best.n);
   if (f.gain) fmt::print("; {} times faster than plain Monte Carlo", text_of(*f.gain, ""));
   fmt::print("\n");
-  print_ties(f.offers, &Offer::seconds, " s");
+  print_ties(f.offers, &Offer::seconds, cost.unit);
 }
 
-void print(const ForSeconds& f) {
+void print(const ForSeconds& f, const Cost& cost) {
   if (f.offers.empty()) {
-    fmt::print("  {:g} s: no way can begin in that time\n", f.wanted);
+    fmt::print("  {:g}{}: no way can begin in that time\n", f.wanted, cost.unit);
     return;
   }
   const Offer& best = f.offers.front();
-  fmt::print("  {:g} s: {} with an error of {}, N about {:.0f}", f.wanted, label(*best.curve), text_of(best.error, ""),
-             best.n);
+  fmt::print("  {:g}{}: {} with an error of {}, N about {:.0f}", f.wanted, cost.unit, label(*best.curve),
+             text_of(best.error, ""), best.n);
   if (f.gain) fmt::print("; {} times smaller than plain Monte Carlo's", text_of(*f.gain, ""));
   fmt::print("\n");
   print_ties(f.offers, &Offer::error, "");
@@ -238,13 +244,14 @@ int offer(const TradeOptions& o, const Target& target, const Measurement& m, con
           const std::vector<double>& seconds, const std::filesystem::path& folder, const Seconds& seconds_of_one) {
   ordered_json j = {{"command", o.command}, {"commit", commit},
                     {"seed", o.seed},       {"integrand", target.integral.name},
-                    {"truth", m.truth},     {"truth_error", m.truth_error}};
+                    {"truth", m.truth},     {"truth_error", m.truth_error},
+                    {"cost", o.scene.cost}};
   j["errors"] = j["seconds"] = ordered_json::array();
   bool reached = true;
   for (const double error : errors) {
     const ForError f = offers_for_error(m, error, seconds_of_one(offers_for_error(m, error, as_measured).offers));
     reached = reached && !f.offers.empty();
-    print(f);
+    print(f, cost_of(o.scene));
     j["errors"].push_back(to_json(f, &Offer::seconds));
     if (f.offers.empty()) j["errors"].back()["nearest"] = to_json(f.nearest);
   }
@@ -252,7 +259,7 @@ int offer(const TradeOptions& o, const Target& target, const Measurement& m, con
     const ForSeconds f =
         offers_for_seconds(m, budget, seconds_of_one(offers_for_seconds(m, budget, as_measured).offers));
     reached = reached && !f.offers.empty();
-    print(f);
+    print(f, cost_of(o.scene));
     j["seconds"].push_back(to_json(f, &Offer::error));
   }
   if (!m.doubt.empty()) fmt::print("  warning: {}\n", m.doubt);

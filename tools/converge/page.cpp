@@ -1,5 +1,6 @@
 #include <converge/output.h>
 #include <converge/page.h>
+#include <report/html.h>
 #include <validate_page_parts.h>
 
 #include <fmt/format.h>
@@ -12,18 +13,6 @@ namespace carlo {
 namespace {
 
 constexpr double width = 560, height = 380, left = 58, right = 12, top = 12, bottom = 44;
-
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<') safe += "&lt;";
-    else if (c == '>') safe += "&gt;";
-    else if (c == '&') safe += "&amp;";
-    else if (c == '"') safe += "&quot;";
-    else safe += c;
-  }
-  return safe;
-}
 
 // log10 of a range, to whole decades.
 struct Decades {

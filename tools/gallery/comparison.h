@@ -14,7 +14,7 @@ namespace carlo {
 struct StrategyResult {
   std::string_view name;
   double samples_per_second = 0; ///< per CPU second
-  double relative_error = 0;     ///< mean standard error of the pixels, see Film::relative_error
+  double relative_error = 0;     ///< see Film::relative_error
   double work = 0;               ///< CPU seconds times the square of that: what a given error costs
   double undecided = 0;          ///< see RenderResult
   mc::Estimate mean;             ///< luminance, mean of the picture

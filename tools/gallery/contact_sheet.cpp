@@ -7,34 +7,36 @@ namespace carlo {
 
 namespace {
 
+using ::render::Float, ::render::Image, ::render::Spectrum;
+
 constexpr int gap = 4; // pixels between cells
-const ::render::Spectrum ground = ::render::Spectrum::Constant(::render::Float(0.01));
+const Spectrum ground = Spectrum::Constant(Float(0.01));
 
 // The weighted mean of a row or column of `n` values over the interval [i, i + 1) of `m`.
-template <class At>::render::Spectrum mean_of(int i, int m, int n, const At& at) {
+template <class At> Spectrum mean_of(int i, int m, int n, const At& at) {
   const double lo = double(i) * n / m, hi = double(i + 1) * n / m;
-  ::render::Spectrum sum = ::render::Spectrum::Zero();
+  Spectrum sum = Spectrum::Zero();
   for (int k = static_cast<int>(lo); k < n && k < hi; ++k)
-    sum += at(k) * ::render::Float(std::min(hi, k + 1.0) - std::max(lo, double(k)));
-  return sum / ::render::Float(hi - lo);
+    sum += at(k) * Float(std::min(hi, k + 1.0) - std::max(lo, double(k)));
+  return sum / Float(hi - lo);
 }
 
 } // namespace
 
-::render::Image thumbnail(const ::render::Image& image, int side) {
+Image thumbnail(const Image& image, int side) {
   const double shrink = std::min(1.0, double(side) / std::max(image.width, image.height));
-  ::render::Image narrow(std::max(1, static_cast<int>(std::lround(shrink * image.width))), image.height);
+  Image narrow(std::max(1, static_cast<int>(std::lround(shrink * image.width))), image.height);
   for (int y = 0; y < narrow.height; ++y)
     for (int x = 0; x < narrow.width; ++x)
       narrow.at(x, y) = mean_of(x, narrow.width, image.width, [&](int k) { return image.at(k, y); });
-  ::render::Image small(narrow.width, std::max(1, static_cast<int>(std::lround(shrink * image.height))));
+  Image small(narrow.width, std::max(1, static_cast<int>(std::lround(shrink * image.height))));
   for (int y = 0; y < small.height; ++y)
     for (int x = 0; x < small.width; ++x)
       small.at(x, y) = mean_of(y, small.height, image.height, [&](int k) { return narrow.at(x, k); });
   return small;
 }
 
-::render::Image contact_sheet(const std::vector<::render::Image>& thumbnails, int columns, int side) {
+Image contact_sheet(const std::vector<Image>& thumbnails, int columns, int side) {
   const int n = static_cast<int>(thumbnails.size()), rows = (n + columns - 1) / columns;
   std::vector<int> top(static_cast<std::size_t>(rows) + 1, gap); // of each row
   for (int row = 0; row < rows; ++row) {
@@ -43,10 +45,10 @@ template <class At>::render::Spectrum mean_of(int i, int m, int n, const At& at)
       highest = std::max(highest, thumbnails[static_cast<std::size_t>(i)].height);
     top[static_cast<std::size_t>(row) + 1] = top[static_cast<std::size_t>(row)] + highest + gap;
   }
-  ::render::Image sheet(std::min(columns, n) * (side + gap) + gap, top.back());
+  Image sheet(std::min(columns, n) * (side + gap) + gap, top.back());
   std::fill(sheet.pixels.begin(), sheet.pixels.end(), ground);
   for (int i = 0; i < n; ++i) {
-    const ::render::Image& picture = thumbnails[static_cast<std::size_t>(i)];
+    const Image& picture = thumbnails[static_cast<std::size_t>(i)];
     const auto row = static_cast<std::size_t>(i / columns);
     const int cell_height = top[row + 1] - gap - top[row];
     const int left = gap + i % columns * (side + gap) + (side - picture.width) / 2,

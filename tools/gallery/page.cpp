@@ -1,4 +1,5 @@
 #include <gallery/page.h>
+#include <report/html.h>
 #include <terminal/progress.h>
 #include <validate_page_parts.h>
 
@@ -9,18 +10,6 @@
 namespace carlo {
 
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<') safe += "&lt;";
-    else if (c == '>') safe += "&gt;";
-    else if (c == '&') safe += "&amp;";
-    else if (c == '"') safe += "&quot;";
-    else safe += c;
-  }
-  return safe;
-}
 
 std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.2g} %", 100 * share) : "unknown"; }
 
@@ -51,12 +40,13 @@ std::string section(const RenderedScene& r) {
       "<section id=\"{0}\"><a href=\"{0}.png\"><img src=\"{0}.png\" width=\"{1}\" height=\"{2}\" loading=\"lazy\" "
       "alt=\"{3}\"></a><h2>{3}</h2><p class=\"source\"><code>{0}</code> {4}</p>",
       scene.name, r.width, r.height, escaped(scene.title), escaped(scene.source));
-  s += fmt::format("<p class=\"facts\">{}&times;{}, {:.4g} samples/pixel, <b>{}samples/s</b>, {}, mean standard error "
-                   "<b>{}</b>{}; {}, {}; <a href=\"{}.exr\">EXR</a></p>",
-                   r.width, r.height, r.spp, format_count(r.samples_per_second), format_seconds(r.seconds),
-                   percent(r.relative_error),
-                   r.undecided > 0 ? fmt::format(", {} of the pixels decided by one sample", percent(r.undecided)) : "",
-                   r.strategy, r.sampler, scene.name);
+  s += fmt::format(
+      "<p class=\"facts\">{}&times;{}, {:.4g} samples/pixel, <b>{}samples/s</b>, {}, mean relative standard error "
+      "<b>{}</b>{}; {}, {}; <a href=\"{}.exr\">EXR</a></p>",
+      r.width, r.height, r.spp, format_count(r.samples_per_second), format_seconds(r.seconds),
+      percent(r.relative_error),
+      r.undecided > 0 ? fmt::format(", {} of the pixels decided by one sample", percent(r.undecided)) : "", r.strategy,
+      r.sampler, scene.name);
   s += "<ul class=\"features\">";
   for (const Feature& f : r.features) s += fmt::format("<li>{}</li>", escaped(f));
   return s + "</ul>" + strategies_of(r) + "</section>";
@@ -94,8 +84,9 @@ std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t
     s += fmt::format("<p class=\"doubt\">Interrupted: {} of {} scenes were finished.</p>\n", rendered.size(), asked);
   s += fmt::format("<p class=\"command\"><code>{}</code></p>\n</header>\n<main>\n", escaped(command));
   for (const RenderedScene& r : rendered) s += section(r) + "\n";
-  s += "</main>\n<footer><p><b>Mean standard error</b>: the root of the mean variance of pixels and channels, relative "
-       "to the mean radiance; the EXR beside each picture has the variance of every pixel. Where one sample carries "
+  s += "</main>\n<footer><p><b>Mean relative standard error</b>: the root mean square of the pixels' standard errors "
+       "relative to the radiance about them, in the dark to half of the picture's mean; the EXR beside each picture "
+       "has the variance of every pixel. Where one sample carries "
        "over half of a pixel's variance, its error is not known yet. <b>Strategies</b> are compared on small pictures "
        "with equal samples, the one of the picture in bold: <b>work</b> is what the same error costs in CPU time, "
        "relative to the cheapest that is right; <b>brightness</b> is the mean luminance relative to the strategy that "

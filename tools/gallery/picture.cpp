@@ -42,9 +42,9 @@ std::string samples_per_second(const ::render::RenderResult& result) {
   return format_count(double(result.samples) / result.seconds) + "samples/s";
 }
 
-std::string format_error(double relative_error) {
-  if (!std::isfinite(relative_error)) return "unknown (one estimate per pixel)";
-  return fmt::format("{:.2f} %", 100 * relative_error);
+std::string format_error(const ::render::RenderResult& result) {
+  if (!std::isfinite(result.relative_error)) return "unknown (one sample per pixel)";
+  return fmt::format("{:.2f} % (worst block {:.2f} %)", 100 * result.relative_error, 100 * result.worst_error);
 }
 
 } // namespace carlo

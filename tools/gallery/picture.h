@@ -27,7 +27,7 @@ void warn_where_coarse(const std::string& path, const ::render::Scene& scene);
 /// "881 ksamples/s" of a render.
 std::string samples_per_second(const ::render::RenderResult& result);
 
-/// "1.23 %", or "unknown (one estimate per pixel)".
-std::string format_error(double relative_error);
+/// "1.23 % (worst block 2.34 %)", or "unknown (one sample per pixel)".
+std::string format_error(const ::render::RenderResult& result);
 
 } // namespace carlo

@@ -1,8 +1,7 @@
 /// How honest the error bars of integrate() are on Genz's integrals: the shares of runs within 1 and 2 standard errors
 /// of the truth, and within the 95 % interval, for each method; prints a table.
 /// Usage: bench_mc_estimate_calibration [RUNS [CALLS [FIRST_SEED [METHOD [NAME]]]]]; runs are per integral; NAME keeps
-///        the
-/// integrals that contain it.
+///        the integrals that contain it.
 /// Runs whose rounds disagree (`consistent` is false) are counted apart: shares are of the others.
 
 #include <integrands/genz.h>

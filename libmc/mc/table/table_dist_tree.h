@@ -13,10 +13,10 @@ namespace mc {
 
 /// Boxes cut from the unit cube by planes, one after the other (a kd-tree), each chosen with probability proportional
 /// to its weight, uniform within: cells that are small where the density is.
-///   sample : each plane leaves a share of its axis of u to either side, the box of x that is met is mapped linearly
+///   sample : each plane leaves a share of its axis of u to either side, the box of x that is met is mapped linearly;
+///            points keep to their box where it is wider than 4 eps
 ///   pdf    : p / volume of the box that holds x [1/volume, in two dimensions 1/area]; 0 outside and in boxes of weight
 ///            0. p is exactly the volume of u that the box is met for
-///            Points keep to their box where it is wider than 4 eps.
 ///   invert : |invert(sample(u)) - u| <= 4 eps + eps p' / x' for sides that are a share p' of u and x' of x: the
 ///            rounding of x, magnified where boxes are narrow
 ///   reach  : a box less likely than the spacing of u (2^-24 float, 2^-53 double along an axis) is met only by a finer

@@ -74,7 +74,6 @@ class Film {
   /// The mean relative standard error: root of the mean over pixels and channels of variance / radiance^2. Radiance is
   /// that of the pixel and its neighbours, 3x3, so that a rare bright sample is not divided by itself; in the dark it
   /// is half of the picture's mean. Infinite while a pixel does not know its variance.
-  ///   error : its square is a tenth too small at 16 samples a pixel under caustics, a fiftieth at 64
   double relative_error(ErrorOf of = ErrorOf::picture) const;
 
   /// Share of the pixels that are undecided, see SampleSums.

@@ -19,19 +19,19 @@ MeshFile read_mesh(const std::string& path) {
   return read_serialized(path, 0);
 }
 
-// The corners of a box, as far as triangles reach.
-struct Box {
+// The corners of a box about all triangles.
+struct Extent {
   Vec3d lo = Vec3d::Constant(mc::infinity<double>), hi = -lo;
 };
 
-Box box_of(const MeshFile& mesh) {
-  Box box;
+Extent extent_of(const MeshFile& mesh) {
+  Extent extent;
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t i : triangle) {
-      box.lo = box.lo.cwiseMin(mesh.positions[i]);
-      box.hi = box.hi.cwiseMax(mesh.positions[i]);
+      extent.lo = extent.lo.cwiseMin(mesh.positions[i]);
+      extent.hi = extent.hi.cwiseMax(mesh.positions[i]);
     }
-  return box;
+  return extent;
 }
 
 // Far enough away that every corner is inside the picture, however far it lies before or behind the middle.
@@ -53,8 +53,8 @@ ThinLens camera_for(const MeshFile& mesh, const Vec3d& middle, double size) {
 }
 
 // A square of the ground a thousandth of the mesh's size below it, so that a flat mesh does not lie in it.
-Shape ground_below(const Box& box, double size) {
-  const double y = (box.lo.y() - box.hi.y()) / 2 - 1e-3 * size, half = 50 * size;
+Shape ground_below(const Extent& extent, double size) {
+  const double y = (extent.lo.y() - extent.hi.y()) / 2 - 1e-3 * size, half = 50 * size;
   return TriangleMesh::rectangle(
       Transform::columns(half * Vec3d::UnitX(), -half * Vec3d::UnitZ(), Vec3d::UnitY(), {0, y, 0}));
 }
@@ -68,15 +68,15 @@ bool is_mesh_file(const std::string& path) {
 
 SceneFile read_mesh_scene(const std::string& path) {
   const MeshFile mesh = read_mesh(path);
-  const Box box = box_of(mesh);
-  const Vec3d middle = (box.lo + box.hi) / 2;
-  const double size = (box.hi - box.lo).norm() / 2;
+  const Extent extent = extent_of(mesh);
+  const Vec3d middle = (extent.lo + extent.hi) / 2;
+  const double size = (extent.hi - extent.lo).norm() / 2;
   SceneBuilder builder;
   return mc::with_context(path, [&] {
     TriangleMesh shape = to_shape(mesh, Transform::translate(-middle));
     mc::require(shape.area() > 0, "none of its {} triangles has an area: nothing would be seen", shape.size());
     builder.add(std::move(shape), {builder.add(Lambert(Spectrum::Constant(Float(0.6))))});
-    builder.add(ground_below(box, size), {builder.add(Lambert(Spectrum::Constant(Float(0.4))))});
+    builder.add(ground_below(extent, size), {builder.add(Lambert(Spectrum::Constant(Float(0.4))))});
     builder.add(Light(GradientBackground()));
     builder.set(camera_for(mesh, middle, size));
     return SceneFile{builder.build(), {.width = 640, .height = 480, .spp = 64}};

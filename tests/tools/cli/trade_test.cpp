@@ -63,6 +63,7 @@ TEST_F(TradeCommand, AScene) {
   expect_refused(cbox + "mis --max-depths 0", "--max-depths: '0' in '0'");
   expect_refused(cbox + "mis --cost money", "--cost 'money' must be cpu or rays");
   expect_refused("nowhere.xml", "nowhere.xml");
+  expect_refused(cbox + "mis --time 3", "--time is not for scenes");
 }
 
 TEST_F(TradeCommand, BadInputIsOneLine) {

@@ -155,24 +155,7 @@ TEST_F(Page, ColumnsSortAndEveryKindOpens) {
   EXPECT_TRUE(has(dom, "6 cells")) << "the dice";
 }
 
-TEST_F(Page, NothingOverflowsOnAPhone) {
-  // A frame of 390 pixels, since a browser's own window is never as narrow; the page in it says how wide it came out.
-  std::string text = mc::read_file(file);
-  text.insert(text.find("</body>"),
-              "<script>parent.postMessage(document.documentElement.scrollWidth + ' of ' + innerWidth, '*');</script>");
-  mc::write_file((folder / "phone.html").string(), text);
-  mc::write_file(
-      file, "<body><script>addEventListener('message', e => { document.title = 'width ' + e.data; });</script>"
-            "<iframe src='phone.html#open=0,1,2,3' style='width: 390px; height: 844px; border: 0'></iframe></body>");
-  const std::string dom = browse("");
-  if (dom.empty()) return;
-  int wide = 0, of = 0;
-  const std::size_t at = dom.find("<title>width");
-  ASSERT_NE(at, std::string::npos) << dom.substr(0, 1000);
-  ASSERT_EQ(std::sscanf(dom.c_str() + at, "<title>width %d of %d", &wide, &of), 2) << dom.substr(at, 100);
-  EXPECT_LE(of, 390);
-  EXPECT_LE(wide, of);
-}
+TEST_F(Page, NothingOverflowsOnAPhone) { support::expect_fits_a_phone(file, "open=0,1,2,3"); }
 
 TEST(ValidateReport, AnUnwritableFolderIsRefusedBeforeTheWork) {
   carlo::ValidateOptions o;

@@ -44,9 +44,9 @@ class Learner {
   std::size_t dim_;
   AdaptedDensity density_;
   std::vector<Round> rounds_;
-  std::vector<double> points_, values_,
-      mixture_;               // mixture: of each point, the density of all rounds times their points
-  std::vector<double> scale_; // of each output
+  std::vector<double> points_, values_;
+  std::vector<double> mixture_; // of each point, the density of all rounds times their points
+  std::vector<double> scale_;   // of each output
   double width_ = 0;
 };
 

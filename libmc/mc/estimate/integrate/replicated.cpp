@@ -12,14 +12,14 @@ namespace {
 // Sequences that grow, and what they say on the way.
 class Growth {
  public:
-  Growth(Run& r, Method method, std::optional<Outcome>& l) : out{{}, method}, run(r), last(l) {}
+  Growth(Run& r, Method method, std::optional<Outcome>& l) : out{{}, method}, run_(r), last_(l) {}
 
   Outcome out;
 
   // The longest power of two that all replicates can reach.
   std::uint64_t affordable(const Sequences& s) const {
     return std::min(std::bit_floor(s.length + static_cast<std::uint64_t>(
-                                                  static_cast<double>(run.left() / run.o.replicates) / s.cost())),
+                                                  static_cast<double>(run_.left() / run_.o.replicates) / s.cost())),
                     Sequences::longest);
   }
   static std::uint64_t next(const Sequences& s, std::uint64_t end) {
@@ -27,31 +27,31 @@ class Growth {
   }
   bool grow(Sequences& s, std::uint64_t end) {
     for (std::uint64_t to = next(s, end); to <= end; to *= 2)
-      if (adopt(s, s.extend(run, to))) return true;
+      if (adopt(s, s.extend(run_, to))) return true;
     return false;
   }
   // What is left is too little for all at twice the length. Nearly all of them at that are as good for independent
   // points and better for smooth integrands; else more replicates.
   void use_up(Sequences& s) {
-    const auto more = run.left() / std::max<std::uint64_t>(s.calls_each(), 1);
-    const auto longer = static_cast<std::uint32_t>(std::min<std::uint64_t>(more, run.o.replicates));
+    const auto more = run_.left() / std::max<std::uint64_t>(s.calls_each(), 1);
+    const auto longer = static_cast<std::uint32_t>(std::min<std::uint64_t>(more, run_.o.replicates));
     if (longer == 0 || s.length == 0) return;
-    if (6 * longer >= 5 * run.o.replicates && 2 * s.length <= Sequences::longest) adopt(s, s.lengthen(run, longer));
-    else adopt(s, s.widen(run, longer));
+    if (6 * longer >= 5 * run_.o.replicates && 2 * s.length <= Sequences::longest) adopt(s, s.lengthen(run_, longer));
+    else adopt(s, s.widen(run_, longer));
   }
   // Takes what a sequence says for the outcome; whether that is good enough.
   bool adopt(const Sequences& s, const Means& means) {
     out.means = means;
     out.seen = s.seen();
-    run.report(out.means);
-    if (run.converged(out.means)) out.stop = Stop::converged;
-    last = out;
+    run_.report(out.means);
+    if (run_.converged(out.means)) out.stop = Stop::converged;
+    last_ = out;
     return out.stop == Stop::converged;
   }
 
  private:
-  Run& run;
-  std::optional<Outcome>& last;
+  Run& run_;
+  std::optional<Outcome>& last_;
 };
 
 struct Candidate {
@@ -67,45 +67,45 @@ class Contest {
   static constexpr double chance = 0.5; // what may lie between two that are equal
 
  public:
-  Contest(Run& r, const Sequences& b, std::uint64_t l) : run(r), bare(b), last(l) {}
+  Contest(Run& r, const Sequences& b, std::uint64_t l) : run_(r), bare_(b), last_(l) {}
 
   std::optional<Candidate> best_of(std::vector<Candidate>& all) {
-    for (std::uint64_t to = std::min<std::uint64_t>(16, bare.length); to <= bare.length && !all.empty(); to *= 2) {
-      for (Candidate& c : all) c.sequences.extend(run, to);
-      doublings = std::max(std::log2(static_cast<double>(last) / static_cast<double>(to)), 0.0);
+    for (std::uint64_t to = std::min<std::uint64_t>(16, bare_.length); to <= bare_.length && !all.empty(); to *= 2) {
+      for (Candidate& c : all) c.sequences.extend(run_, to);
+      doublings_ = std::max(std::log2(static_cast<double>(last_) / static_cast<double>(to)), 0.0);
       if (to < 128) continue;
       std::vector<Candidate> left;
       for (Candidate& c : all)
-        if (beaten(c, all)) run.rounds.push_back(c.sequences.history.back());
+        if (beaten(c, all)) run_.rounds.push_back(c.sequences.history.back());
         else left.push_back(c);
       all = std::move(left);
     }
     if (all.empty()) return {};
-    const bool second = all.size() > 1 && worse(all.front().sequences, all.back().sequences, doublings, margin());
-    if (all.size() > 1) run.rounds.push_back(all[second ? 0 : 1].sequences.history.back());
+    const bool second = all.size() > 1 && worse(all.front().sequences, all.back().sequences, doublings_, margin());
+    if (all.size() > 1) run_.rounds.push_back(all[second ? 0 : 1].sequences.history.back());
     Candidate& best = all[second ? 1 : 0];
-    if (worse(bare, best.sequences, between(best), run.interlaced() ? 2 * margin() : 0)) {
-      run.rounds.push_back(bare.history.back());
+    if (worse(bare_, best.sequences, between(best), run_.interlaced() ? 2 * margin() : 0)) {
+      run_.rounds.push_back(bare_.history.back());
       return std::move(best);
     }
-    run.rounds = {best.sequences.history.back()};
+    run_.rounds = {best.sequences.history.back()};
     return {};
   }
 
  private:
   // What extrapolation is not trusted with: a quarter of the variance for each doubling, twice that beside interlaced
   // points.
-  double margin() const { return 0.25 * doublings; }
-  double between(const Candidate& c) const { return run.interlaced() || c.method == Method::tree ? doublings : 0; }
+  double margin() const { return 0.25 * doublings_; }
+  double between(const Candidate& c) const { return run_.interlaced() || c.method == Method::tree ? doublings_ : 0; }
   bool beaten(const Candidate& c, const std::vector<Candidate>& all) const {
-    const auto by = [&](const Candidate& o) { return worse(c.sequences, o.sequences, doublings, chance + margin()); };
-    return worse(c.sequences, bare, between(c), chance + margin()) || std::any_of(all.begin(), all.end(), by);
+    const auto by = [&](const Candidate& o) { return worse(c.sequences, o.sequences, doublings_, chance + margin()); };
+    return worse(c.sequences, bare_, between(c), chance + margin()) || std::any_of(all.begin(), all.end(), by);
   }
 
-  Run& run;
-  const Sequences& bare;
-  std::uint64_t last; // the length that they would end with
-  double doublings = 0;
+  Run& run_;
+  const Sequences& bare_;
+  std::uint64_t last_; // the length that they would end with
+  double doublings_ = 0;
 };
 
 std::vector<Candidate> candidates(const Learned& learned) {
@@ -114,6 +114,7 @@ std::vector<Candidate> candidates(const Learned& learned) {
     const Proposal proposal{std::make_shared<AdaptedDensity>(density), learned.centre};
     all.push_back({method, {.purpose = purpose, .proposal = proposal}});
   };
+  // The rounds of learning have the purposes between.
   propose(Method::vegas, 1, {learned.density.grid});
   if (learned.density.tree && learned.density.tree->leaves() > 1) propose(Method::tree, 30, learned.density);
   return all;
