@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# clang-tidy with the checks of .clang-tidy over every source, or over the named ones. Usage: tools/lint.sh [FILE.cpp...]
+# What is read without being run: clang-tidy with the checks of .clang-tidy over every source, and whether each public
+# header compiles alone; or clang-tidy over the named sources. Usage: tools/lint.sh [FILE.cpp...]
 set -eu
 cd "$(dirname "$0")/.."
 ./tools/bootstrap.sh clang-14 clang-tidy-14
@@ -7,6 +8,8 @@ cmake --preset lint >/dev/null
 cmake --build build/lint --target carlo_generated
 if [ $# -eq 0 ]; then
   mapfile -t files < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | grep "^$PWD/[lt]" | sort -u)
+  ./tests/house/headers_compile_alone.sh clang++-14 "$PWD" "$PWD/libmc" "$PWD/librender" \
+    "$(pkg-config --cflags-only-I eigen3 | sed 's/-I//; s/ *$//')"
 else
   files=("$@")
 fi
