@@ -1,4 +1,3 @@
-#include <mc/estimate/integrate.h>
 #include <mc/gtest/matchers.h>
 #include <mc/warp/hemisphere.h>
 
@@ -19,9 +18,3 @@ struct MyBsdf {
 };
 
 TEST(MyBsdf, IsRight) { EXPECT_BSDF_LAWS(MyBsdf(), mc::Vec3<float>(0.6f, 0, 0.8f)); }
-
-TEST(MyIntegral, IsPi) {
-  const auto height = [](const mc::Vec3<double>& w) { return w.z(); };
-  const mc::Integral r = mc::integrate(height, mc::UniformHemisphere<double>(), {.rel_error = 1e-3});
-  EXPECT_NEAR(r.estimate.value, mc::pi<double>, 5 * r.estimate.std_error);
-}

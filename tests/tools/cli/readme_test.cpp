@@ -70,7 +70,7 @@ struct Readme : support::ScratchTest {};
 
 TEST_F(Readme, ShowsWhatItsCommandsPrint) {
   const std::vector<Shown> all = commands(mc::read_file(MC_SOURCE_DIR "/README.md"));
-  EXPECT_GE(all.size(), 7u);
+  EXPECT_GE(all.size(), 8u);
   std::filesystem::create_directory_symlink(MC_SOURCE_DIR "/librender", folder / "librender");
   for (const Shown& shown : all) {
     const support::Run run = support::run("cd '" + folder.string() + "' && '" CARLO_PATH "' " + shown.command);
