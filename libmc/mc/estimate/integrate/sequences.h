@@ -1,6 +1,7 @@
 #pragma once
 /// Replicated Sobol' sequences that grow.
 
+#include <mc/estimate/integrate/correlation.h>
 #include <mc/estimate/integrate/run.h>
 
 #include <cstdint>
@@ -18,7 +19,8 @@ struct Sequences {
   std::vector<Sums> sums = {};
   std::vector<PointSet> uniform_sets = {}; ///< of the uniform part, an eighth as long, rounded up
   std::vector<Sums> uniform_sums = {};
-  std::vector<Means> history = {}; ///< at each length
+  std::vector<Means> history = {}; ///< at each length, of the outputs that are not only watched
+  Means means = {};                ///< the latest, of all
   std::vector<Evidence> evidence = {};
 
   static constexpr std::uint64_t longest = std::uint64_t{1} << 32;
@@ -31,6 +33,8 @@ struct Sequences {
   Means extend(Run& run, std::uint64_t to);
   /// The values behind the means, one per output.
   std::vector<Magnitudes> seen() const;
+  /// Correlations of the means' errors.
+  Correlations correlations(const Run& run) const;
   /// The means with `count` more sequences, as long as the others.
   Means widen(Run& run, std::uint32_t count);
   /// The means of the first `count` sequences alone, at twice the length; the others are let go.
