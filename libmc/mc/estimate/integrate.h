@@ -51,8 +51,8 @@ struct IntegrateOptions {
   std::uint64_t seed = 1;
   int threads = 0;          ///< 0: all of the machine's; the result has the same bits for any number
   double confidence = 0.95; ///< of the interval
-  /// Independent randomisations behind the error of stratified, rqmc, vegas and tree; of sequences more, or up to a
-  /// sixth fewer, where that uses up the calls.
+  /// Independent randomisations behind the error of stratified, rqmc, vegas and tree; of sequences more, or as few as
+  /// half of them at twice the length, where that uses up the calls.
   std::uint32_t replicates = 24;
   /// Of an earlier run, or read from a file (see load_density): vegas, tree and automatic take it for what they would
   /// have learned, after one short round that measures the integral with it. As unbiased for any density.
@@ -132,7 +132,7 @@ struct BatchIntegrand {
 ///   rqmc       : independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions,
 ///                error from replicates
 ///   vegas      : rqmc through an ImportanceGrid learned on a 32nd of the calls, or up to a quarter where those are
-///                few, and up to a fifth where values are spread widely; the rounds it was learned on are the
+///                few, and up to a fifth where values are spread widely; the last round it was learned on is the
 ///                consistency check. The grid is frozen before the sequences start, so the estimate is unbiased; a
 ///                ninth of the points are uniform, so that no value exceeds 8 times the integrand's, and the grid's own
 ///                integral is subtracted, so that they cost little [OwenZhou00]

@@ -30,14 +30,17 @@ class Growth {
       if (adopt(s, s.extend(run_, to))) return true;
     return false;
   }
-  // What is left is too little for all at twice the length. Nearly all of them at that are as good for independent
-  // points and better for smooth integrands; else more replicates.
+  // What is left is too little for all at twice the length. Fewer of them at that, or more of them as they are: what
+  // leaves less variance, if it goes on falling as it did.
   void use_up(Sequences& s) {
     const auto more = run_.left() / std::max<std::uint64_t>(s.calls_each(), 1);
-    const auto longer = static_cast<std::uint32_t>(std::min<std::uint64_t>(more, run_.o.replicates));
-    if (longer == 0 || s.length == 0) return;
-    if (6 * longer >= 5 * run_.o.replicates && 2 * s.length <= Sequences::longest) adopt(s, s.lengthen(run_, longer));
-    else adopt(s, s.widen(run_, longer));
+    const auto count = static_cast<std::uint32_t>(std::min<std::uint64_t>(more, run_.o.replicates));
+    if (count == 0 || s.length == 0) return;
+    const double all = run_.o.replicates, longer = std::log(all / count) - fall(s),
+                 wider = std::log(all / (all + count));
+    const bool enough = 2 * count >= run_.o.replicates && 2 * s.length <= Sequences::longest;
+    if (enough && longer < wider) adopt(s, s.lengthen(run_, count));
+    else adopt(s, s.widen(run_, count));
   }
   // Takes what a sequence says for the outcome; whether that is good enough.
   bool adopt(const Sequences& s, const Means& means) {

@@ -138,12 +138,13 @@ std::vector<std::vector<double>> Run::replicate_means(const std::vector<Sums>& r
 }
 
 Means Run::means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
-                 const std::vector<Sums>& uniform, const Proposal& proposal) const {
+                 const std::vector<Sums>& uniform, const Proposal& proposal,
+                 const std::vector<Magnitudes>& let_go) const {
   evidence.resize(outputs);
   const std::vector<std::vector<double>> values = replicate_means(replicates, uniform, proposal);
   Means all;
   for (std::size_t k = 0; k < outputs; ++k) {
-    Magnitudes seen;
+    Magnitudes seen = let_go.empty() ? Magnitudes() : let_go[k];
     for (const auto* part : {&replicates, &uniform})
       for (const Sums& s : *part) seen.merge(s.magnitudes[k]);
     all.push_back(replicated(values[k], static_cast<double>(points), seen, evidence[k]));

@@ -92,9 +92,11 @@ struct Run {
   std::vector<std::vector<double>> replicate_means(const std::vector<Sums>& replicates,
                                                    const std::vector<Sums>& uniform = {},
                                                    const Proposal& proposal = {}) const;
-  /// The means of replicates of so many points each; `evidence` holds one entry per output, or none at first.
+  /// The means of replicates of so many points each; `evidence` holds one entry per output, or none at first;
+  /// `let_go` are values of replicates that are no more: of each output the tail is that of all values.
   Means means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
-              const std::vector<Sums>& uniform = {}, const Proposal& proposal = {}) const;
+              const std::vector<Sums>& uniform = {}, const Proposal& proposal = {},
+              const std::vector<Magnitudes>& let_go = {}) const;
   /// Takes down a round, and reports it.
   void record(Method method, const Means& means, bool learning = false);
   /// That the last round of a method is independent of the answer.

@@ -28,6 +28,9 @@ Means seen_through(Run& run, std::shared_ptr<const AdaptedDensity> density, std:
                                                   learner ? Keep::points : Keep::sums);
   if (learner) learner->learn(sums);
   std::vector<Evidence> evidence;
+  // Of all rounds the last knew best where the integrand is: earlier ones may have met too little of it to know their
+  // own error.
+  for (Round& r : run.rounds) r.independent = false;
   run.record(proposal.density->tree ? Method::tree : Method::vegas, run.means(sums, points, evidence), true);
   return run.rounds.back().means;
 }
