@@ -1,49 +1,46 @@
+#include <cli/integrate_output.h>
 #include <cli/subcommand.h>
+#include <input/words.h>
 #include <integrands/find.h>
-#include <report/report_json.h>
+#include <integrands/sides.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
-#include <terminal/version.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
-#include <mc/estimate/integrate.h>
+#include <mc/estimate/adapt/density_file.h>
+#include <mc/estimate/values/histogram.h>
 
-#include <nlohmann/json.hpp>
-
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace carlo {
 
 namespace {
 
 struct IntegrateOptions {
-  std::string integrand; ///< a name, or an expression
-  std::string domain;    ///< "x=0:1,y=-1:2" for an expression
+  std::vector<std::string> integrands; ///< names, or expressions
+  std::string domain;                  ///< "x=0:1,y=-1:2" for an expression
   bool list = false;
   double rel_error = 1e-3, abs_error = 0;
   std::uint64_t max_calls = 10'000'000;
   std::string method = "auto";
   std::uint64_t seed = 1;
   int threads = 0;
+  bool rounds = false;
+  std::string histogram, quantiles;
+  std::string save_density, load_density;
   std::string json;
   std::string command;
 };
 
-// What a user can do where there is no error bar.
-const char* remedy(mc::ErrorBar bar) {
-  switch (bar) {
-  case mc::ErrorBar::known: return "";
-  case mc::ErrorBar::unseen: return "; raise --max-calls, or choose a --domain around it";
-  case mc::ErrorBar::infinite_variance: return ". Substitute a variable that removes the singularity";
-  }
-  return "";
-}
-
 std::vector<Option> rows(IntegrateOptions& o) {
   return {
-      {"INTEGRAND", "", &o.integrand, "Name (see --list) or expression, e.g. \"exp(-x*x)*cos(y)\""},
+      {"INTEGRAND", "", &o.integrands,
+       "Name (see --list) or expression, e.g. \"exp(-x*x)*cos(y)\"; several share their calls"},
       {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:1,y=-inf:inf\""},
       {"--list", "", &o.list, "List the named integrands, and stop"},
       {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach"},
@@ -52,19 +49,141 @@ std::vector<Option> rows(IntegrateOptions& o) {
       {"--method", "NAME", &o.method, "auto, plain, stratified, rqmc, vegas or tree"},
       {"--seed", "N", &o.seed, "Seed"},
       {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
-      {"--json", "FILE", &o.json, "Write the result to this file"},
+      {"--rounds", "", &o.rounds, "Show what every round said, and how well they agree"},
+      {"--histogram", "AXIS=BINS", &o.histogram,
+       "Show where the integral comes from: along a variable (u0, u1, ... of a named integrand), or value=BINS: from "
+       "values of which size, in powers of 2"},
+      {"--quantiles", "LIST", &o.quantiles,
+       "Show quantiles of the integrand over its domain, e.g. 0.05,0.5,0.95, by as many calls again, at least 98 k"},
+      {"--save-density", "FILE", &o.save_density, "Keep the density that vegas, tree or auto learned"},
+      {"--load-density", "FILE", &o.load_density,
+       "Start from a density that was kept, of this integrand or one like it"},
+      {"--json", "FILE", &o.json, "Write the result to this file, with the rounds"},
   };
 }
 
-int integrate(const IntegrateOptions& o) {
-  if (o.list) {
-    for (const Experiment* e : named_integrands()) std::printf("%-26s %s\n", e->name.c_str(), e->title.c_str());
-    return exit_ok;
-  }
-  mc::require(!o.integrand.empty(), "integrate: name an integrand or give an expression; --list shows the names");
-  if (!o.json.empty()) mc::require_writable(o.json);
-  const Experiment e = find_integrand(o.integrand, o.domain);
+double number(std::string_view word, const char* option) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  mc::require(error == std::errc() && end == word.data() + word.size(), "{}: '{}' is not a number", option, word);
+  return value;
+}
 
+std::vector<Side> sides_of(const IntegrateOptions& o, int dim) {
+  if (!o.domain.empty()) return parse_sides(o.domain);
+  std::vector<Side> sides;
+  for (int d = 0; d < dim; ++d) sides.push_back({fmt::format("u{}", d), 0, 1});
+  return sides;
+}
+
+// Bins, and which of them a point with its value is in.
+struct Bins {
+  std::vector<Bin> bins;
+  mc::BinOf of;
+};
+
+// Of equal length in u: of an infinite side they are the longer the farther out.
+Bins along(const std::vector<Side>& sides, const std::string& variable, std::size_t count) {
+  const auto side = std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return s.name == variable; });
+  mc::require(side != sides.end(), "--histogram: there is no variable '{}'; use one of the domain's, or value",
+              variable);
+  const auto axis = static_cast<std::size_t>(side - sides.begin());
+  const auto n = static_cast<double>(count);
+  Bins all{{}, [=](std::span<const double> u, double) { return static_cast<std::size_t>(u[axis] * n); }};
+  for (std::size_t k = 0; k < count; ++k) {
+    const double lo = place_on(*side, static_cast<double>(k) / n).x,
+                 hi = place_on(*side, static_cast<double>(k + 1) / n).x;
+    all.bins.push_back({fmt::format("{} in [{:.4g}, {:.4g})", variable, lo, hi), lo, hi, {}});
+  }
+  return all;
+}
+
+// Powers of 2 below the largest of 4096 values. They are those of the integrand times `volume`, that of the domain.
+Bins by_value(const Experiment& e, double volume, std::size_t count, std::uint64_t seed) {
+  const double top_quantile[] = {1 - 1e-9};
+  const double largest = mc::quantiles([&](std::span<const double> u) { return std::abs(e.f(u)); }, e.dim, top_quantile,
+                                       {.calls = 4096, .seed = seed})
+                             .front()
+                             .value;
+  mc::require(largest > 0, "--histogram: the integrand was 0 at 4096 points; there is no size to start from");
+  const double top = std::ldexp(volume, std::ilogb(largest / volume));
+  Bins all{{}, [=](std::span<const double>, double value) { return mc::octave_below(top, value, count); }};
+  for (std::size_t k = 0; k < count; ++k) {
+    const double lo = k + 1 < count ? std::ldexp(top / volume, -static_cast<int>(k)) : 0.0;
+    const double hi =
+        k > 0 ? std::ldexp(top / volume, 1 - static_cast<int>(k)) : std::numeric_limits<double>::infinity();
+    all.bins.push_back({fmt::format("|value| in [{:.4g}, {:.4g})", lo, hi), lo, hi, {}});
+  }
+  return all;
+}
+
+// By what the values of Experiment::f exceed those of the expression.
+double volume_of(const std::vector<Side>& sides, const char* option) {
+  double volume = 1;
+  for (const Side& s : sides) {
+    mc::require(s.is_finite(), "{}: the domain is infinite along {}; values need a finite volume", option, s.name);
+    volume *= s.hi - s.lo;
+  }
+  return volume;
+}
+
+Bins bins_of(const IntegrateOptions& o, const Experiment& e) {
+  const std::size_t equals = o.histogram.find('=');
+  mc::require(equals != std::string::npos, "--histogram '{}' must be AXIS=BINS, e.g. x=20", o.histogram);
+  const std::string axis = o.histogram.substr(0, equals);
+  const double count = number(std::string_view(o.histogram).substr(equals + 1), "--histogram");
+  mc::require(count >= 2 && count <= 1000 && count == std::floor(count),
+              "--histogram: {} bins; a whole number between 2 and 1000 is needed", count);
+  const std::vector<Side> sides = sides_of(o, e.dim);
+  const bool a_variable = std::any_of(sides.begin(), sides.end(), [&](const Side& s) { return s.name == axis; });
+  const auto bins = static_cast<std::size_t>(count);
+  return axis == "value" && !a_variable ? by_value(e, volume_of(sides, "--histogram"), bins, o.seed)
+                                        : along(sides, axis, bins);
+}
+
+std::vector<double> probabilities(const std::string& list) {
+  std::vector<double> all;
+  if (!list.empty())
+    for (const std::string_view word : split(list, ',')) all.push_back(number(word, "--quantiles"));
+  for (const double p : all) mc::require(p > 0 && p < 1, "--quantiles: {} must lie between 0 and 1", p);
+  return all;
+}
+
+std::vector<mc::Quantile> quantiles_of(const Experiment& e, const std::vector<double>& wanted,
+                                       const IntegrateOptions& o, std::uint64_t calls) {
+  const double volume = volume_of(sides_of(o, e.dim), "--quantiles");
+  const std::uint64_t most = std::min<std::uint64_t>(o.max_calls, (1u << 24) / static_cast<unsigned>(e.dim + 1));
+  return mc::quantiles([&](std::span<const double> u) { return e.f(u) / volume; }, e.dim, wanted,
+                       {.calls = std::clamp<std::uint64_t>(calls, std::min<std::uint64_t>(98'304, most), most),
+                        .seed = o.seed,
+                        .threads = o.threads});
+}
+
+// All integrands at once, or the one with its histogram.
+mc::VectorIntegral results_of(const std::vector<Experiment>& all, const Bins& bins, const mc::IntegrateOptions& o) {
+  const Experiment& e = all.front();
+  if (!bins.bins.empty()) return mc::integrate_histogram(e.f, e.dim, bins.bins.size(), bins.of, o);
+  if (all.size() == 1) return {{mc::integrate_unit(e.f, e.dim, o)}, {1}};
+  const mc::VectorIntegrand f = [&](std::span<const double> u, std::span<double> values) {
+    for (std::size_t i = 0; i < all.size(); ++i) values[i] = all[i].f(u);
+  };
+  return mc::integrate_unit(f, static_cast<int>(all.size()), e.dim, o);
+}
+
+std::vector<Experiment> integrands_of(const IntegrateOptions& o) {
+  mc::require(!o.integrands.empty(), "integrate: name an integrand or give an expression; --list shows the names");
+  std::vector<Experiment> all;
+  for (const std::string& text : o.integrands) {
+    all.push_back(find_integrand(text, o.domain));
+    mc::require(all.back().dim == all.front().dim, "integrate: '{}' has {} dimensions, '{}' {}; they must be the same",
+                all.back().name, all.back().dim, all.front().name, all.front().dim);
+  }
+  mc::require(all.size() == 1 || (o.histogram.empty() && o.quantiles.empty()),
+              "integrate: --histogram and --quantiles are of one integrand; {} were given", all.size());
+  return all;
+}
+
+mc::IntegrateOptions settings_of(const IntegrateOptions& o) {
   mc::IntegrateOptions settings;
   settings.rel_error = o.rel_error;
   settings.abs_error = o.abs_error;
@@ -72,6 +191,25 @@ int integrate(const IntegrateOptions& o) {
   settings.method = mc::method_from(o.method);
   settings.seed = o.seed;
   settings.threads = o.threads;
+  if (!o.load_density.empty())
+    settings.density = std::make_shared<mc::AdaptedDensity>(mc::load_density(o.load_density));
+  return settings;
+}
+
+int integrate(const IntegrateOptions& o) {
+  if (o.list) {
+    for (const Experiment* e : named_integrands()) std::printf("%-26s %s\n", e->name.c_str(), e->title.c_str());
+    return exit_ok;
+  }
+  for (const std::string& file : {o.json, o.save_density})
+    if (!file.empty()) mc::require_writable(file);
+  Integrals found{.integrands = integrands_of(o), .results = {}};
+  const Experiment& first = found.integrands.front();
+  const std::vector<double> wanted = probabilities(o.quantiles);
+  if (!wanted.empty()) volume_of(sides_of(o, first.dim), "--quantiles");
+  mc::IntegrateOptions settings = settings_of(o);
+  Bins bins;
+  if (!o.histogram.empty()) bins = bins_of(o, first);
   Progress progress;
   settings.progress = [&](const mc::IntegrateProgress& p) {
     progress.show(double(p.calls) / double(o.max_calls),
@@ -79,38 +217,26 @@ int integrate(const IntegrateOptions& o) {
   };
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
-  const mc::Integral r = mc::integrate_unit(e.f, e.dim, settings);
+  found.results = results_of(found.integrands, bins, settings);
   progress.clear();
-
-  fmt::print("{} = {}{}\n", e.title, r.to_string(), remedy(r.error_bar));
-  std::printf("%s calls in %s by %s; stopped: %s\n", format_count(double(r.calls)).c_str(),
-              format_seconds(r.seconds).c_str(), std::string(name(r.method)).c_str(),
-              std::string(name(r.stop)).c_str());
-  if (std::isfinite(e.truth) && r.error_bar != mc::ErrorBar::known) std::printf("the true value is %.10g\n", e.truth);
-  else if (std::isfinite(e.truth))
-    std::printf("the true value is %.10g, %.2f standard errors away\n", e.truth,
-                r.estimate.std_error > 0 ? std::abs(r.estimate.value - e.truth) / r.estimate.std_error : 0.0);
-  if (!o.json.empty()) {
-    nlohmann::json j = {{"command", o.command},
-                        {"commit", commit},
-                        {"seed", o.seed},
-                        {"integrand", e.name},
-                        {"value", r.estimate.value},
-                        {"std_error", r.estimate.std_error},
-                        {"lo", r.interval.lo},
-                        {"hi", r.interval.hi},
-                        {"calls", r.calls},
-                        {"seconds", r.seconds},
-                        {"method", name(r.method)},
-                        {"stop", name(r.stop)},
-                        {"error_bar", name(r.error_bar)},
-                        {"chi2", r.chi2},
-                        {"chi2_dof", r.chi2_dof},
-                        {"consistent", r.consistent}};
-    if (std::isfinite(e.truth)) j["truth"] = e.truth;
-    mc::write_file(o.json, json_text(j));
+  const mc::Integral r = found.results.outputs.front();
+  for (std::size_t k = 0; k < bins.bins.size(); ++k) {
+    found.histogram.push_back(bins.bins[k]);
+    found.histogram.back().part = found.results.outputs[1 + k];
   }
-  return r.stop == mc::Stop::cancelled ? exit_interrupted : exit_ok;
+  const bool cancelled = r.stop == mc::Stop::cancelled;
+  if (!wanted.empty() && !cancelled) found.quantiles = quantiles_of(first, wanted, o, r.calls);
+
+  fmt::print("{}{}{}{}", about(found), o.rounds ? round_table(r) : "", histogram_table(found), quantile_table(found));
+  if (!o.json.empty()) mc::write_file(o.json, integrals_json(found, o.command, o.seed));
+  if (!o.save_density.empty()) {
+    mc::require(r.density != nullptr,
+                "--save-density: nothing was learned by {} in {} calls, and {} is not written; "
+                "--method vegas or tree always learns",
+                name(r.method), r.calls, o.save_density);
+    mc::save_density(o.save_density, *r.density);
+  }
+  return cancelled ? exit_interrupted : exit_ok;
 }
 
 } // namespace

@@ -55,11 +55,14 @@ std::function<double(std::span<const double>)> parse_function(const std::string&
   static std::atomic<std::uint64_t> ids = 0;
   const std::uint64_t id = ++ids;
   return [=](std::span<const double> x) {
-    thread_local std::uint64_t owner = 0;
-    thread_local std::unique_ptr<Instance> mine;
-    if (owner != id) {
+    // A few, for several that are evaluated in turn.
+    thread_local std::array<std::uint64_t, 16> owners{};
+    thread_local std::array<std::unique_ptr<Instance>, 16> instances;
+    const std::size_t place = id % owners.size();
+    std::unique_ptr<Instance>& mine = instances[place];
+    if (owners[place] != id) {
       mine = std::make_unique<Instance>(expression, variables);
-      owner = id;
+      owners[place] = id;
     }
     std::copy(x.begin(), x.end(), mine->values.begin());
     return mine->parser.Eval();

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <ostream>
 
 namespace mc {
@@ -27,8 +28,14 @@ void require_sane(int outputs, int dim, const IntegrateOptions& o) {
           "integrate: tolerances {} (relative) and {} (absolute) must be finite and >= 0", o.rel_error, o.abs_error);
   require(o.threads >= 0, "integrate: threads {} must be >= 0; 0 stands for all of the machine's", o.threads);
   require(o.confidence > 0 && o.confidence < 1, "integrate: confidence {} must lie in (0, 1)", o.confidence);
+  require(o.watched < static_cast<std::size_t>(outputs), "integrate: {} of {} outputs are watched; 1 must not be",
+          o.watched, outputs);
   require(o.replicates >= 2 && o.replicates <= 1u << 20,
           "integrate: {} replicates; between 2 and 2^20 are needed for an error", o.replicates);
+  if (!o.density) return;
+  require(o.method == Method::automatic || o.method == Method::vegas || o.method == Method::tree,
+          "integrate: {} uses no density; vegas, tree and auto do", name(o.method));
+  require(o.density->dim() == dim, "integrate: the density has {} dimensions, the integrand {}", o.density->dim(), dim);
 }
 
 } // namespace
@@ -87,10 +94,20 @@ std::string_view name(Stop stop) {
 }
 
 namespace {
+// What the rounds said of one output.
+std::vector<IntegrateRound> told(const Run& run, std::size_t output) {
+  std::vector<IntegrateRound> all;
+  for (const detail::Round& r : run.rounds) {
+    const detail::Mean& mean = r.means[output];
+    const double chi2 = r.chi2.empty() ? std::numeric_limits<double>::quiet_NaN() : r.chi2[output];
+    all.push_back({r.method, r.learning, r.calls, detail::estimate(mean, r.calls), mean.bar, chi2});
+  }
+  return all;
+}
+
 VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const IntegrateOptions& o) {
   require_sane(outputs, dim, o);
-  require(f.one ? *f.one != nullptr : *f.several != nullptr,
-          "integrate: the integrand is an empty function; it must be callable");
+  require(!f.empty(), "integrate: the integrand is an empty function; it must be callable");
   const Method method =
       o.method == Method::automatic && static_cast<std::uint32_t>(dim) > Sobol::dimensions ? Method::plain : o.method;
   const std::uint64_t least = method == Method::plain ? 2 : 2 * std::uint64_t{o.replicates};
@@ -108,8 +125,9 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
     outcome = *last;
     outcome.stop = Stop::cancelled;
   }
-  for (const detail::Means& round : run.rounds) run.compare(round, outcome.means);
-  VectorIntegral result;
+  for (detail::Round& round : run.rounds)
+    if (round.independent) run.compare(round, outcome.means);
+  VectorIntegral result{.outputs = {}, .correlations = outcome.correlations};
   for (std::size_t k = 0; k < run.outputs; ++k) {
     Integral r;
     const detail::Mean& mean = outcome.means[k];
@@ -124,6 +142,8 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
     r.stop = outcome.stop;
     r.chi2 = run.chi2[k];
     r.chi2_dof = run.chi2_dof[k];
+    r.density = outcome.density;
+    r.rounds = told(run, k);
     r.consistent = !(r.chi2_dof > 0) || cdf(complement(boost::math::chi_squared(r.chi2_dof), r.chi2)) > 1e-4;
     result.outputs.push_back(r);
   }
@@ -138,6 +158,14 @@ VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, co
 
 Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim, const IntegrateOptions& o) {
   return integrate_unit(Integrand{.one = &f}, 1, dim, o).outputs.front();
+}
+
+VectorIntegral integrate_unit(const BatchIntegrand& f, int outputs, int dim, const IntegrateOptions& o) {
+  return integrate_unit(Integrand{.batch = &f}, outputs, dim, o);
+}
+
+Integral integrate_unit(const BatchIntegrand& f, int dim, const IntegrateOptions& o) {
+  return integrate_unit(Integrand{.batch = &f}, 1, dim, o).outputs.front();
 }
 
 Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count,

@@ -2,6 +2,7 @@
 /// Integration to a wanted error.
 
 #include <mc/domain/concept.h>
+#include <mc/estimate/adapt/adapted_density.h>
 #include <mc/estimate/estimate.h>
 #include <mc/warp/concept.h>
 
@@ -9,6 +10,7 @@
 #include <atomic>
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -49,11 +51,28 @@ struct IntegrateOptions {
   std::uint64_t seed = 1;
   int threads = 0;          ///< 0: all of the machine's; the result has the same bits for any number
   double confidence = 0.95; ///< of the interval
-  /// Independent randomisations behind the error of stratified, rqmc, vegas and tree; of sequences more, or up to a
-  /// sixth fewer, where that uses up the calls.
+  /// Independent randomisations behind the error of stratified, rqmc, vegas and tree; of sequences more, or as few as
+  /// half of them at twice the length, where that uses up the calls.
   std::uint32_t replicates = 24;
+  /// Of an earlier run, or read from a file (see load_density): vegas, tree and automatic take it for what they would
+  /// have learned, after one short round that measures the integral with it. As unbiased for any density.
+  std::shared_ptr<const AdaptedDensity> density = {};
+  /// Of the last so many outputs nothing is asked: they neither end the run nor say where points go.
+  std::size_t watched = 0;
   std::function<void(const IntegrateProgress&)> progress = {};
   const std::atomic<bool>* cancel = nullptr;
+};
+
+/// What a run saw at one point of its way.
+struct IntegrateRound {
+  Method method = Method::plain; ///< whose points these are
+  bool learning = false;         ///< a round that a density was learned from, or measured with
+  std::uint64_t calls = 0;       ///< so far, of the whole run
+  Estimate estimate = {};
+  ErrorBar error_bar = ErrorBar::known;
+  /// The square of the normal deviate by which it differs from the answer (of stratified: from the rounds before), as
+  /// added to Integral::chi2; not a number where the two share points.
+  double chi2 = 0;
 };
 
 /// An integral with its error bar and how it was found.
@@ -73,6 +92,9 @@ struct Integral {
   /// Whether the rounds agree: chi2 is exceeded by chance with probability over 1e-4. False: distrust the error bar.
   bool consistent = true;
   double confidence = 0.95; ///< of the interval
+  std::vector<IntegrateRound> rounds = {};
+  /// What was learned, whether it was used in the end or not; none where nothing was.
+  std::shared_ptr<const AdaptedDensity> density = {};
 
   /// "1.3075 ± 0.00013 (standard error), 95 % in [1.3073, 1.3078]", or why there is no error bar; and a warning where
   /// the rounds disagree.
@@ -82,11 +104,27 @@ std::ostream& operator<<(std::ostream& out, const Integral& r);
 
 /// Several integrals from the same calls.
 struct VectorIntegral {
-  std::vector<Integral> outputs; ///< all fields but the estimates, intervals and chi2 are common
+  std::vector<Integral> outputs; ///< all fields but what is said of an integral and its error are common
+  /// Of the errors, row by row; from the values of plain in 32 batches, from the replicates of the other methods: off
+  /// by about (1 - c^2) / sqrt(23) for 24 of them.
+  std::vector<double> correlations = {};
+
+  double correlation(std::size_t i, std::size_t j) const { return correlations[i * outputs.size() + j]; }
+  /// Of the errors: the squared std_error for i = j, not finite where an error is not known.
+  double covariance(std::size_t i, std::size_t j) const {
+    return correlation(i, j) * outputs[i].estimate.std_error * outputs[j].estimate.std_error;
+  }
 };
 
 /// f(u, values) fills `values`, one per output, for a point u of the unit cube.
 using VectorIntegrand = std::function<void(std::span<const double> u, std::span<double> values)>;
+
+/// Many points at a time, for what is faster in a loop of its own: f(points, values) is given up to 256 points, their
+/// coordinates one point after the other, and fills `values` likewise, as many for each point as there are outputs. The
+/// result has the same bits as that of one point at a time.
+struct BatchIntegrand {
+  std::function<void(std::span<const double> points, std::span<double> values)> f;
+};
 
 /// The integral over the unit cube of f(u) du, f evaluated at points of [0,1)^dim, from several threads at once.
 ///   plain      : independent points, error from the sample variance
@@ -94,7 +132,7 @@ using VectorIntegrand = std::function<void(std::span<const double> u, std::span<
 ///   rqmc       : independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions,
 ///                error from replicates
 ///   vegas      : rqmc through an ImportanceGrid learned on a 32nd of the calls, or up to a quarter where those are
-///                few, and up to a fifth where values are spread widely; the rounds it was learned on are the
+///                few, and up to a fifth where values are spread widely; the last round it was learned on is the
 ///                consistency check. The grid is frozen before the sequences start, so the estimate is unbiased; a
 ///                ninth of the points are uniform, so that no value exceeds 8 times the integrand's, and the grid's own
 ///                integral is subtracted, so that they cost little [OwenZhou00]
@@ -107,7 +145,8 @@ using VectorIntegrand = std::function<void(std::span<const double> u, std::span<
 ///                random places. No error is 0 because replicates agree: what they could not see has a bound; where
 ///                every value was 0, or the variance is infinite, error_bar says so, and nothing converges
 ///   throws     : Error for an empty f, dim < 1, a tolerance that is negative or not finite, max_calls too small for
-///                one round, confidence outside (0,1), threads < 0; what the integrand throws, after all threads have
+///                one round, confidence outside (0,1), threads < 0, a density of another dimension or for a method that
+///                has none, no output that is not watched; what the integrand throws, after all threads have
 ///                stopped; and for an integrand that is not finite, with the point where it first was; and when
 ///                cancelled before anything was estimated
 Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim,
@@ -115,6 +154,9 @@ Integral integrate_unit(const std::function<double(std::span<const double>)>& f,
 
 /// The same for `outputs` integrands at once; converged when each of them is.
 VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, const IntegrateOptions& options = {});
+
+Integral integrate_unit(const BatchIntegrand& f, int dim, const IntegrateOptions& options = {});
+VectorIntegral integrate_unit(const BatchIntegrand& f, int outputs, int dim, const IntegrateOptions& options = {});
 
 /// Replicated randomised quasi-Monte Carlo with `count` points in each of `replicates` randomisations, without a
 /// tolerance.

@@ -4,16 +4,18 @@
 #include <mc/estimate/integrate.h>
 #include <mc/warp/hemisphere.h>
 
+#include <mc/estimate/settings.h>
+
 #include <gmock/gmock.h>
 
 #include <limits>
 
 namespace {
 
+using support::with;
 using Unit = std::span<const double>;
 using mc::Method;
-constexpr Method methods[] = {Method::plain, Method::stratified, Method::rqmc,
-                              Method::vegas, Method::tree,       Method::automatic};
+constexpr auto& methods = support::all_methods;
 
 double peak(Unit u) { // a product of two Lorentzians, 1 / (c^-2 + (u - w)^2)
   return 1 / ((1e-2 + mc::sqr(u[0] - 0.4)) * (1e-2 + mc::sqr(u[1] - 0.7)));
@@ -21,15 +23,6 @@ double peak(Unit u) { // a product of two Lorentzians, 1 / (c^-2 + (u - w)^2)
 double peak_truth() {
   const auto side = [](double w) { return 10 * (std::atan(10 * (1 - w)) + std::atan(10 * w)); };
   return side(0.4) * side(0.7);
-}
-
-mc::IntegrateOptions with(Method method, std::uint64_t calls, std::uint64_t seed = 1) {
-  mc::IntegrateOptions o;
-  o.method = method;
-  o.max_calls = calls;
-  o.rel_error = 0;
-  o.seed = seed;
-  return o;
 }
 
 TEST(Integrate, EveryMethodIsWithinItsError) {

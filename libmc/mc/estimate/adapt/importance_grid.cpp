@@ -35,6 +35,19 @@ ImportanceGrid::ImportanceGrid(int dim) : dim_(dim), edges_(static_cast<std::siz
   for (std::size_t i = 0; i < edges_.size(); ++i) edges_[i] = static_cast<double>(i % (bins + 1)) / bins;
 }
 
+ImportanceGrid::ImportanceGrid(std::vector<double> edges)
+    : dim_(static_cast<int>(edges.size() / (bins + 1))), edges_(std::move(edges)) {
+  require(!edges_.empty() && edges_.size() % (bins + 1) == 0, "ImportanceGrid: {} edges; {} are needed for each axis",
+          edges_.size(), bins + 1);
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    const std::size_t axis = i / (bins + 1), at = i % (bins + 1);
+    require(at > 0 ? edges_[i] >= edges_[i - 1] : edges_[i] == 0,
+            "ImportanceGrid: edge {} of axis {} is {}; they must go from 0 to 1 without falling", at, axis, edges_[i]);
+    require(at < bins || edges_[i] == 1, "ImportanceGrid: the last edge of axis {} is {}; it must be 1", axis,
+            edges_[i]);
+  }
+}
+
 std::span<const double> ImportanceGrid::edges(int d) const {
   return {edges_.data() + static_cast<std::size_t>(d) * (bins + 1), bins + 1};
 }

@@ -22,6 +22,9 @@ class ImportanceGrid {
   static constexpr std::size_t bins = 128;
 
   explicit ImportanceGrid(int dim);
+  /// With the edges of each dimension, one after the other.
+  ///   throws : Error unless there are bins + 1 for each, from 0 to 1 without falling
+  explicit ImportanceGrid(std::vector<double> edges);
 
   int dim() const { return dim_; }
   /// Maps one point in place, and returns the Jacobian.

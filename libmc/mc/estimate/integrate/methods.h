@@ -1,6 +1,7 @@
 #pragma once
 /// The methods of integrate().
 
+#include <mc/estimate/integrate/correlation.h>
 #include <mc/estimate/integrate/run.h>
 #include <mc/estimate/integrate/sequences.h>
 
@@ -14,7 +15,9 @@ struct Outcome {
   Means means;
   Method method;
   Stop stop = Stop::max_calls;
-  std::vector<Magnitudes> seen = {}; ///< the values behind the means, one per output
+  std::vector<Magnitudes> seen = {};                  ///< the values behind the means, one per output
+  Correlations correlations = {};                     ///< of the means' errors
+  std::shared_ptr<const AdaptedDensity> density = {}; ///< that was learned
 };
 
 /// Independent points.
@@ -25,13 +28,13 @@ Outcome stratified(Run& run, std::optional<Outcome>& last);
 
 /// A density, and the integrals as the last round saw them.
 struct Learned {
-  AdaptedDensity density{ImportanceGrid(1)};
+  std::shared_ptr<const AdaptedDensity> density;
   std::vector<double> centre = {};
 };
 
 /// Learned in rounds of growing size: a 32nd of the calls, or where those are few up to a quarter; up to a fifth where
 /// that helps. `bare`, if any, are recorded sequences to begin with, and to be better than: nothing where they are
-/// ahead.
+/// ahead. Of a density that is given nothing is learned: one round measures the integrals.
 std::optional<Learned> learn(Run& run, const Sequences* bare);
 
 /// Sequences that double in length: rqmc, vegas, tree, or, for automatic, the best of them.

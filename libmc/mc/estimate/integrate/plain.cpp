@@ -15,17 +15,27 @@ Mean of_values(const ScaledMoments& m, const Magnitudes& seen) {
   return {m.mean(), std::max(spread, seen.lo() == seen.hi() ? 1.5 * size / n : 0.0), n - 1, 0,
           seen.infinite_variance() ? ErrorBar::infinite_variance : ErrorBar::known};
 }
+
+// Of those batches that have values.
+std::vector<std::vector<double>> batch_means(const Sums& total) {
+  std::vector<std::vector<double>> means(total.outputs.size());
+  for (std::size_t i = 0; i < total.batches.size(); ++i)
+    if (total.batches[i].moments().count() > 0) means[i / Sums::batch_count].push_back(total.batches[i].mean());
+  return means;
+}
 } // namespace
 
 Outcome plain(Run& run, std::optional<Outcome>& last) {
+  const Keep keep = run.outputs > 1 ? Keep::batches : Keep::sums;
   Sums total;
   for (std::uint64_t first = 0, count = 1024;; first += count, count = first) {
     count = std::min(count, run.left());
-    total.merge(run.evaluate_all({Independent{run.o.seed}}, first, count).front());
+    total.merge(run.evaluate_all({Independent{run.o.seed}}, first, count, {}, keep).front());
     Outcome out{{}, Method::plain};
     for (std::size_t k = 0; k < run.outputs; ++k) out.means.push_back(of_values(total.outputs[k], total.magnitudes[k]));
     out.seen = total.magnitudes;
-    run.report(out.means);
+    out.correlations = correlations(batch_means(total));
+    run.record(Method::plain, out.means);
     if (run.converged(out.means)) out.stop = Stop::converged;
     if (out.stop == Stop::converged || run.left() == 0) return out;
     last = out;

@@ -30,20 +30,24 @@ class Growth {
       if (adopt(s, s.extend(run_, to))) return true;
     return false;
   }
-  // What is left is too little for all at twice the length. Nearly all of them at that are as good for independent
-  // points and better for smooth integrands; else more replicates.
+  // What is left is too little for all at twice the length. Fewer of them at that, or more of them as they are: what
+  // leaves less variance, if it goes on falling as it did.
   void use_up(Sequences& s) {
     const auto more = run_.left() / std::max<std::uint64_t>(s.calls_each(), 1);
-    const auto longer = static_cast<std::uint32_t>(std::min<std::uint64_t>(more, run_.o.replicates));
-    if (longer == 0 || s.length == 0) return;
-    if (6 * longer >= 5 * run_.o.replicates && 2 * s.length <= Sequences::longest) adopt(s, s.lengthen(run_, longer));
-    else adopt(s, s.widen(run_, longer));
+    const auto count = static_cast<std::uint32_t>(std::min<std::uint64_t>(more, run_.o.replicates));
+    if (count == 0 || s.length == 0) return;
+    const double all = run_.o.replicates, longer = std::log(all / count) - fall(s),
+                 wider = std::log(all / (all + count));
+    const bool enough = 2 * count >= run_.o.replicates && 2 * s.length <= Sequences::longest;
+    if (enough && longer < wider) adopt(s, s.lengthen(run_, count));
+    else adopt(s, s.widen(run_, count));
   }
   // Takes what a sequence says for the outcome; whether that is good enough.
   bool adopt(const Sequences& s, const Means& means) {
     out.means = means;
     out.seen = s.seen();
-    run_.report(out.means);
+    out.correlations = s.correlations(run_);
+    run_.record(out.method, means);
     if (run_.converged(out.means)) out.stop = Stop::converged;
     last_ = out;
     return out.stop == Stop::converged;
@@ -76,23 +80,29 @@ class Contest {
       if (to < 128) continue;
       std::vector<Candidate> left;
       for (Candidate& c : all)
-        if (beaten(c, all)) run_.rounds.push_back(c.sequences.history.back());
+        if (beaten(c, all)) tell(c);
         else left.push_back(c);
       all = std::move(left);
     }
     if (all.empty()) return {};
     const bool second = all.size() > 1 && worse(all.front().sequences, all.back().sequences, doublings_, margin());
-    if (all.size() > 1) run_.rounds.push_back(all[second ? 0 : 1].sequences.history.back());
+    if (all.size() > 1) tell(all[second ? 0 : 1]);
     Candidate& best = all[second ? 1 : 0];
     if (worse(bare_, best.sequences, between(best), run_.interlaced() ? 2 * margin() : 0)) {
-      run_.rounds.push_back(bare_.history.back());
+      run_.independent(Method::rqmc);
       return std::move(best);
     }
-    run_.rounds = {best.sequences.history.back()};
+    for (Round& r : run_.rounds) r.independent = false;
+    tell(best);
     return {};
   }
 
  private:
+  // Of one that is out: the answer is independent of it.
+  void tell(const Candidate& c) {
+    run_.record(c.method, c.sequences.means);
+    run_.rounds.back().independent = true;
+  }
   // What extrapolation is not trusted with: a quarter of the variance for each doubling, twice that beside interlaced
   // points.
   double margin() const { return 0.25 * doublings_; }
@@ -110,13 +120,13 @@ class Contest {
 
 std::vector<Candidate> candidates(const Learned& learned) {
   std::vector<Candidate> all;
-  const auto propose = [&](Method method, std::uint64_t purpose, const AdaptedDensity& density) {
-    const Proposal proposal{std::make_shared<AdaptedDensity>(density), learned.centre};
-    all.push_back({method, {.purpose = purpose, .proposal = proposal}});
+  const auto propose = [&](Method method, std::uint64_t purpose, std::shared_ptr<const AdaptedDensity> density) {
+    all.push_back({method, {.purpose = purpose, .proposal = {std::move(density), learned.centre}}});
   };
   // The rounds of learning have the purposes between.
-  propose(Method::vegas, 1, {learned.density.grid});
-  if (learned.density.tree && learned.density.tree->leaves() > 1) propose(Method::tree, 30, learned.density);
+  const AdaptedDensity& density = *learned.density;
+  propose(Method::vegas, 1, std::make_shared<AdaptedDensity>(density.grid));
+  if (density.tree && density.tree->leaves() > 1) propose(Method::tree, 30, learned.density);
   return all;
 }
 
@@ -136,6 +146,7 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   const std::optional<Learned> learned = learn(run, method == Method::automatic ? &bare : nullptr);
   bare.forget();
   if (!learned) return finish(bare);
+  growth.out.density = learned->density;
   std::vector<Candidate> all = candidates(*learned);
   if (method != Method::automatic) {
     Candidate& c = method == Method::vegas ? all.front() : all.back();
@@ -146,7 +157,7 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   std::optional<Candidate> best = Contest(run, bare, reach).best_of(all);
   if (!best) return finish(bare);
   growth.out.method = best->method;
-  if (growth.adopt(best->sequences, best->sequences.history.back())) return std::move(growth.out);
+  if (growth.adopt(best->sequences, best->sequences.means)) return std::move(growth.out);
   return finish(best->sequences);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mc::detail {
 
@@ -25,42 +26,53 @@ Weight draw(const Proposal& proposal, std::span<double> point, std::span<double>
   const AdaptedDensity& p = *proposal.density;
   const bool uniform = proposal.part == Proposal::Part::of_uniform;
   const double jacobian = uniform ? 1 / p.density(point, scratch) : p.map(point);
+  if (std::isinf(jacobian)) return {1 / Proposal::uniform_share, 0}; // where only the uniform part comes
   if (proposal.part == Proposal::Part::all) return {jacobian, 0};
   const double p_over_q = 1 / (Proposal::uniform_share * jacobian + (1 - Proposal::uniform_share));
   return {jacobian * p_over_q, p_over_q};
 }
 } // namespace
 
+void Integrand::operator()(std::span<const double> points, std::size_t dim, std::span<double> values) const {
+  if (batch) return batch->f(points, values);
+  const std::size_t n = points.size() / dim, outputs = values.size() / n;
+  if (one)
+    for (std::size_t i = 0; i < n; ++i) values[i] = (*one)(points.subspan(i * dim, dim));
+  else
+    for (std::size_t i = 0; i < n; ++i) (*several)(points.subspan(i * dim, dim), values.subspan(i * outputs, outputs));
+}
+
+void Run::keep_points(Sums& sums, std::span<const double> points, std::span<const double> values) const {
+  sums.points.insert(sums.points.end(), points.begin(), points.end());
+  for (auto at = values.begin(); at != values.end(); at += static_cast<std::ptrdiff_t>(outputs))
+    sums.values.insert(sums.values.end(), at, at + static_cast<std::ptrdiff_t>(leading()));
+}
+
 Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const Proposal& proposal,
-                   bool record) const {
+                   Keep keep) const {
   if (o.cancel && o.cancel->load()) throw Cancelled{};
   const auto d = static_cast<std::size_t>(dim);
   Sums sums{std::vector<ScaledMoments>(outputs), std::vector<Magnitudes>(outputs)};
-  std::vector<double> u(block * d), values(outputs), columns(outputs * block), shifts(block), scratch(d);
+  std::vector<double> u(block * d), values(outputs * block), columns(block), scratch(d);
+  std::vector<Weight> weights(block);
   for (; first < last; first += block) {
     const auto n = static_cast<std::size_t>(std::min(block, last - first));
-    fill_points(set, first, dim, {u.data(), n * d});
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::span<double> point(u.data() + i * d, d);
-      const Weight weight = draw(proposal, point, scratch);
-      shifts[i] = weight.shift;
-      f(point, values);
-      for (std::size_t k = 0; k < outputs; ++k) columns[k * block + i] = values[k] * weight.factor;
-      if (record) {
-        sums.points.insert(sums.points.end(), point.begin(), point.end());
-        sums.values.insert(sums.values.end(), values.begin(), values.end());
-      }
-    }
+    const std::span<double> points(u.data(), n * d), all(values.data(), n * outputs), column(columns.data(), n);
+    fill_points(set, first, dim, points);
+    for (std::size_t i = 0; i < n; ++i) weights[i] = draw(proposal, points.subspan(i * d, d), scratch);
+    f(points, d, all);
+    if (keep == Keep::points) keep_points(sums, points, all);
     for (std::size_t k = 0; k < outputs; ++k) {
-      const std::span<double> column = std::span(columns).subspan(k * block, n);
+      for (std::size_t i = 0; i < n; ++i) column[i] = all[i * outputs + k] * weights[i].factor;
       Magnitudes sizes; // of the values themselves: what is subtracted hides zeros and equal values
       sizes.add(column);
       sums.magnitudes[k].merge(sizes);
       double largest = std::max(std::abs(sizes.lo()), std::abs(sizes.hi()));
       if (!proposal.centre.empty()) {
-        for (std::size_t i = 0; i < n; ++i) column[i] -= proposal.centre[k] * shifts[i];
+        for (std::size_t i = 0; i < n; ++i) column[i] -= proposal.centre[k] * weights[i].shift;
         largest += 2 * std::abs(proposal.centre[k]); // no shift is above 8 / 7
       }
+      if (keep == Keep::batches) sums.add_to_batches(k, column, first, largest);
       sums.outputs[k].add(column, first, largest);
     }
   }
@@ -68,12 +80,12 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
 }
 
 std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
-                                    const Proposal& proposal, bool record) {
+                                    const Proposal& proposal, Keep keep) {
   const std::uint64_t chunks = (count + chunk - 1) / chunk;
   std::vector<Sums> parts(sets.size() * chunks), results(sets.size());
   const auto task = [&](std::size_t i) {
     const std::uint64_t begin = first + i % chunks * chunk;
-    parts[i] = evaluate(sets[i / chunks], begin, std::min(begin + chunk, first + count), proposal, record);
+    parts[i] = evaluate(sets[i / chunks], begin, std::min(begin + chunk, first + count), proposal, keep);
   };
   // Threads start when they pay: the first task is timed.
   const auto begin = std::chrono::steady_clock::now();
@@ -111,46 +123,61 @@ std::vector<PointSet> Run::sobol_sets(std::uint64_t purpose, std::uint32_t first
   return sets;
 }
 
+std::vector<std::vector<double>> Run::replicate_means(const std::vector<Sums>& replicates,
+                                                      const std::vector<Sums>& uniform,
+                                                      const Proposal& proposal) const {
+  std::vector<std::vector<double>> means(outputs);
+  for (std::size_t k = 0; k < outputs; ++k)
+    for (std::size_t r = 0; r < replicates.size(); ++r) {
+      const double mean = replicates[r].outputs[k].mean();
+      means[k].push_back(uniform.empty() ? mean
+                                         : proposal.centre[k] + (1 - Proposal::uniform_share) * mean +
+                                               Proposal::uniform_share * uniform[r].outputs[k].mean());
+    }
+  return means;
+}
+
 Means Run::means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
-                 const std::vector<Sums>& uniform, const Proposal& proposal) const {
+                 const std::vector<Sums>& uniform, const Proposal& proposal,
+                 const std::vector<Magnitudes>& let_go) const {
   evidence.resize(outputs);
+  const std::vector<std::vector<double>> values = replicate_means(replicates, uniform, proposal);
   Means all;
   for (std::size_t k = 0; k < outputs; ++k) {
-    std::vector<double> values;
-    Magnitudes seen;
-    for (std::size_t r = 0; r < replicates.size(); ++r) {
-      double value = replicates[r].outputs[k].mean();
-      seen.merge(replicates[r].magnitudes[k]);
-      if (!uniform.empty()) {
-        value = proposal.centre[k] + (1 - Proposal::uniform_share) * value +
-                Proposal::uniform_share * uniform[r].outputs[k].mean();
-        seen.merge(uniform[r].magnitudes[k]);
-      }
-      values.push_back(value);
-    }
-    all.push_back(replicated(values, static_cast<double>(points), seen, evidence[k]));
+    Magnitudes seen = let_go.empty() ? Magnitudes() : let_go[k];
+    for (const auto* part : {&replicates, &uniform})
+      for (const Sums& s : *part) seen.merge(s.magnitudes[k]);
+    all.push_back(replicated(values[k], static_cast<double>(points), seen, evidence[k]));
   }
   return all;
 }
 
-void Run::compare(const Means& a, const Means& b) {
+void Run::record(Method method, const Means& means, bool learning) {
+  rounds.push_back({method, learning, calls, means, learning});
+  if (o.progress) o.progress({estimate(means.front(), calls), calls, seconds()});
+}
+
+void Run::independent(Method method) {
+  const auto last = std::find_if(rounds.rbegin(), rounds.rend(), [&](const Round& r) { return r.method == method; });
+  MC_ASSERT(last != rounds.rend());
+  last->independent = true;
+}
+
+void Run::compare(Round& round, const Means& means) {
+  round.chi2.assign(outputs, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < outputs; ++k)
-    if (const auto z = deviate(a[k], b[k])) {
+    if (const auto z = deviate(round.means[k], means[k])) {
+      round.chi2[k] = sqr(*z);
       chi2[k] += sqr(*z);
       chi2_dof[k] += 1;
     }
 }
 
 bool Run::converged(const Means& all) const {
-  for (const Mean& m : all)
-    if (const double error = estimate(m, calls).std_error;
-        !std::isfinite(error) || !(error <= o.abs_error || error <= o.rel_error * std::abs(m.value)))
-      return false;
-  return true;
-}
-
-void Run::report(const Means& all) const {
-  if (o.progress) o.progress({estimate(all.front(), calls), calls, seconds()});
+  return std::all_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(leading()), [&](const Mean& m) {
+    const double error = estimate(m, calls).std_error;
+    return std::isfinite(error) && (error <= o.abs_error || error <= o.rel_error * std::abs(m.value));
+  });
 }
 
 } // namespace mc::detail

@@ -32,14 +32,30 @@ struct Proposal {
   Part part = Part::all;
 };
 
-/// One value or several, without a call through another for the one.
+/// One value or several, of one point or many.
 struct Integrand {
   const std::function<double(std::span<const double>)>* one = nullptr;
   const VectorIntegrand* several = nullptr;
-  void operator()(std::span<const double> u, std::span<double> values) const {
-    if (one) values[0] = (*one)(u);
-    else (*several)(u, values);
-  }
+  const BatchIntegrand* batch = nullptr;
+
+  bool empty() const { return one ? !*one : several ? !*several : !batch->f; }
+  /// The values at points, both one after the other.
+  void operator()(std::span<const double> points, std::size_t dim, std::span<double> values) const;
+};
+
+/// What is kept of an evaluation beside the sums.
+///   points  : every point, with the values that are not only watched
+///   batches : the moments of 32 batches of the values, whose means correlate as the errors do
+enum class Keep { sums, points, batches };
+
+/// What is told of a round.
+struct Round {
+  Method method;
+  bool learning;
+  std::uint64_t calls; ///< of the run, so far
+  Means means;
+  bool independent = false;      ///< of the answer
+  std::vector<double> chi2 = {}; ///< of each output; not a number where nothing was compared
 };
 
 /// The integrand, the budget, the clock.
@@ -50,19 +66,20 @@ struct Run {
   const IntegrateOptions& o;
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   std::uint64_t calls = 0;
-  std::vector<Means> rounds = {}; ///< of learning: independent of each other and of the last means
+  std::vector<Round> rounds = {};
   std::vector<double> chi2 = std::vector<double>(outputs), chi2_dof = std::vector<double>(outputs);
 
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
   std::uint64_t left() const { return o.max_calls - calls; }
+  /// Outputs that are not only watched.
+  std::size_t leading() const { return outputs - o.watched; }
   /// Calls that may be recorded: 128 MB of points and values.
-  std::uint64_t recordable() const { return (std::uint64_t{1} << 24) / (static_cast<std::uint64_t>(dim) + outputs); }
+  std::uint64_t recordable() const { return (std::uint64_t{1} << 24) / (static_cast<std::uint64_t>(dim) + leading()); }
 
   /// Points [first, first + count) of each set; one result per set, with the same bits for any number of threads.
-  ///   record : keeps the points and values with the sums
   ///   throws : Error where the integrand is not finite, with the point; Cancelled
   std::vector<Sums> evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
-                                 const Proposal& proposal = {}, bool record = false);
+                                 const Proposal& proposal = {}, Keep keep = Keep::sums);
 
   /// Whether the bare sequences, those of purpose 0, are interlaced. Under a grid they are not: smooth peaks would gain
   /// by it, but integrands that jump would lose.
@@ -70,19 +87,29 @@ struct Run {
   /// Replicates [first, last) of the sequences for a purpose.
   std::vector<PointSet> sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const;
 
-  /// The means of replicates of so many points each; `evidence` holds one entry per output, or none at first.
-  /// `uniform` are the sums of the uniform part where the replicates are those of the other part of a mixture.
+  /// For each output the mean of every replicate. `uniform` are the sums of the uniform part where the replicates are
+  /// those of the other part of a mixture.
+  std::vector<std::vector<double>> replicate_means(const std::vector<Sums>& replicates,
+                                                   const std::vector<Sums>& uniform = {},
+                                                   const Proposal& proposal = {}) const;
+  /// The means of replicates of so many points each; `evidence` holds one entry per output, or none at first;
+  /// `let_go` are values of replicates that are no more: of each output the tail is that of all values.
   Means means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
-              const std::vector<Sums>& uniform = {}, const Proposal& proposal = {}) const;
-  /// Adds to chi2 how far two independent means lie apart.
-  void compare(const Means& a, const Means& b);
+              const std::vector<Sums>& uniform = {}, const Proposal& proposal = {},
+              const std::vector<Magnitudes>& let_go = {}) const;
+  /// Takes down a round, and reports it.
+  void record(Method method, const Means& means, bool learning = false);
+  /// That the last round of a method is independent of the answer.
+  void independent(Method method);
+  /// Adds to chi2 how far a round lies from means that are independent of it.
+  void compare(Round& round, const Means& means);
 
   bool converged(const Means& all) const;
-  void report(const Means& all) const;
 
  private:
   Sums evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const Proposal& proposal,
-                bool record) const;
+                Keep keep) const;
+  void keep_points(Sums& sums, std::span<const double> points, std::span<const double> values) const;
   void require_finite(const Moments& m, const PointSet& set, const Proposal& proposal) const;
 };
 

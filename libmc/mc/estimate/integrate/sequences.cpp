@@ -17,8 +17,9 @@ void add(Run& run, std::uint64_t purpose, std::uint32_t first, std::uint32_t las
     sums.resize(sets.size());
   }
   if (from == to) return;
-  const std::vector<Sums> more = run.evaluate_all({sets.begin() + first, sets.begin() + last}, from, to - from,
-                                                  proposal, record && to * last <= run.recordable() / 2);
+  const std::vector<Sums> more =
+      run.evaluate_all({sets.begin() + first, sets.begin() + last}, from, to - from, proposal,
+                       record && to * last <= run.recordable() / 2 ? Keep::points : Keep::sums);
   for (std::uint32_t r = first; r < last; ++r) sums[r].merge(more[r - first]);
 }
 
@@ -32,15 +33,16 @@ Means grown(Run& run, Sequences& s, std::uint32_t first, std::uint32_t last, std
     add(run, s.purpose + of_uniform, first, last, (from + 7) / 8, (to + 7) / 8, part, false, s.uniform_sets,
         s.uniform_sums);
   }
-  return run.means(s.sums, s.length, s.evidence, s.uniform_sums, s.proposal);
+  return s.means = run.means(s.sums, s.length, s.evidence, s.uniform_sums, s.proposal, s.let_go);
 }
 } // namespace
 
 Means Sequences::extend(Run& run, std::uint64_t to) {
   const std::uint64_t from = length;
   length = to;
-  history.push_back(grown(run, *this, 0, run.o.replicates, from, to));
-  return history.back();
+  grown(run, *this, 0, run.o.replicates, from, to);
+  history.emplace_back(means.begin(), means.begin() + static_cast<std::ptrdiff_t>(run.leading()));
+  return means;
 }
 
 Means Sequences::widen(Run& run, std::uint32_t count) {
@@ -49,6 +51,10 @@ Means Sequences::widen(Run& run, std::uint32_t count) {
 }
 
 Means Sequences::lengthen(Run& run, std::uint32_t count) {
+  let_go.resize(run.outputs);
+  for (const auto* all : {&sums, &uniform_sums})
+    for (std::size_t r = count; r < all->size(); ++r)
+      for (std::size_t k = 0; k < run.outputs; ++k) let_go[k].merge((*all)[r].magnitudes[k]);
   for (auto* points : {&sets, &uniform_sets})
     if (points->size() > count) points->erase(points->begin() + count, points->end());
   for (auto* all : {&sums, &uniform_sums})
@@ -67,13 +73,17 @@ void Sequences::forget() {
 }
 
 std::vector<Magnitudes> Sequences::seen() const {
-  std::vector<Magnitudes> total;
+  std::vector<Magnitudes> total = let_go;
   for (const auto* all : {&sums, &uniform_sums})
     for (const Sums& s : *all) {
       total.resize(s.magnitudes.size());
       for (std::size_t k = 0; k < total.size(); ++k) total[k].merge(s.magnitudes[k]);
     }
   return total;
+}
+
+Correlations Sequences::correlations(const Run& run) const {
+  return detail::correlations(run.replicate_means(sums, uniform_sums, proposal));
 }
 
 double log_ratio(const Means& a, const Means& b) {
@@ -91,6 +101,12 @@ double doubt(const Means& m) {
   double sum = 0;
   for (const Mean& x : m) sum += 0.2 + 10 * std::abs(x.skew);
   return sum;
+}
+
+double fall(const Sequences& s) {
+  const std::size_t end = s.history.size() - 1, steps = std::min<std::size_t>(end, 3);
+  if (steps == 0) return 0;
+  return log_ratio(s.history[end - steps], s.history[end]) / static_cast<double>(steps * s.history[end].size());
 }
 
 double advantage(const Sequences& a, const Sequences& b, double doublings) {

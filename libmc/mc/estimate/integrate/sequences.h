@@ -1,6 +1,7 @@
 #pragma once
 /// Replicated Sobol' sequences that grow.
 
+#include <mc/estimate/integrate/correlation.h>
 #include <mc/estimate/integrate/run.h>
 
 #include <cstdint>
@@ -18,7 +19,9 @@ struct Sequences {
   std::vector<Sums> sums = {};
   std::vector<PointSet> uniform_sets = {}; ///< of the uniform part, an eighth as long, rounded up
   std::vector<Sums> uniform_sums = {};
-  std::vector<Means> history = {}; ///< at each length
+  std::vector<Means> history = {};     ///< at each length, of the outputs that are not only watched
+  Means means = {};                    ///< the latest, of all
+  std::vector<Magnitudes> let_go = {}; ///< the values of sequences that are no more
   std::vector<Evidence> evidence = {};
 
   static constexpr std::uint64_t longest = std::uint64_t{1} << 32;
@@ -29,8 +32,10 @@ struct Sequences {
   std::uint64_t calls_each() const { return length + (proposal.density ? (length + 7) / 8 : 0); }
   /// The means once every sequence has `to` points.
   Means extend(Run& run, std::uint64_t to);
-  /// The values behind the means, one per output.
+  /// All values that were seen, those of sequences that were let go too, one per output.
   std::vector<Magnitudes> seen() const;
+  /// Correlations of the means' errors.
+  Correlations correlations(const Run& run) const;
   /// The means with `count` more sequences, as long as the others.
   Means widen(Run& run, std::uint32_t count);
   /// The means of the first `count` sequences alone, at twice the length; the others are let go.
@@ -46,6 +51,9 @@ double log_ratio(const Means& a, const Means& b);
 /// What such a logarithm must exceed for b to be the better: more the more skewed b is, since it looks too good where
 /// few points met what counts.
 double doubt(const Means& b);
+
+/// By how much the logarithm of the variances fell for each doubling, over the last three; the mean of the outputs.
+double fall(const Sequences& s);
 
 /// By how much log_ratio(a, b) will be after `doublings` more, if the errors go on falling as they did over the last
 /// three; from the longest length that both have reached.

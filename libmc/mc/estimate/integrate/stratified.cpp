@@ -17,21 +17,25 @@ Outcome stratified(Run& run, std::optional<Outcome>& last) {
                                    static_cast<std::uint32_t>(std::min(run.dim, 8))));
     const std::vector<Sums> sums = run.evaluate_all(sets, 0, points);
     const Means now = run.means(sums, points, evidence);
+    run.record(Method::stratified, now);
     out.seen.resize(run.outputs);
     for (const Sums& s : sums)
       for (std::size_t k = 0; k < run.outputs; ++k) out.seen[k].merge(s.magnitudes[k]);
     const double square = sqr(static_cast<double>(points)), share = square / (weight + square);
     weight += square;
-    if (round == 0) out.means = now;
-    else {
-      run.compare(now, out.means);
+    const Correlations together = correlations(run.replicate_means(sums));
+    if (round == 0) {
+      out.means = now;
+      out.correlations = together;
+    } else {
+      run.compare(run.rounds.back(), out.means);
+      out.correlations = combined(out.correlations, out.means, together, now, share);
       for (std::size_t k = 0; k < run.outputs; ++k) {
         // Rounds of zeros only: once something is seen, their error is that of half as many points.
         if (out.means[k].bar == ErrorBar::unseen) out.means[k].error = 2 * now[k].error;
         out.means[k] = combined(out.means[k], now[k], share);
       }
     }
-    run.report(out.means);
     if (run.converged(out.means)) out.stop = Stop::converged;
     // The last round takes all that is left rather than leave a rest that is too small for another doubling.
     const std::uint64_t left = std::min<std::uint64_t>(run.left() / run.o.replicates, 0xffffffffu);

@@ -39,6 +39,16 @@ double ScaledMoments::mean() const { return std::ldexp(moments_.mean(), exponent
 double ScaledMoments::std_error() const { return std::ldexp(moments_.std_error(), exponent_); }
 double ScaledMoments::variation() const { return std::ldexp(std::sqrt(moments_.variance()), exponent_); }
 
+void Sums::add_to_batches(std::size_t output, std::span<const double> added, std::uint64_t first, double largest) {
+  constexpr std::size_t length = 32;
+  batches.resize(outputs.size() * batch_count);
+  for (std::size_t i = 0; i < added.size(); i += length) {
+    const std::span<const double> part = added.subspan(i, std::min(length, added.size() - i));
+    std::vector<double> copy(part.begin(), part.end());
+    batches[output * batch_count + (first + i) / length % batch_count].add(copy, first + i, largest);
+  }
+}
+
 void Sums::merge(const Sums& other) {
   if (outputs.empty()) {
     *this = other;
@@ -48,6 +58,8 @@ void Sums::merge(const Sums& other) {
     outputs[k].merge(other.outputs[k]);
     magnitudes[k].merge(other.magnitudes[k]);
   }
+  batches.resize(std::max(batches.size(), other.batches.size()));
+  for (std::size_t i = 0; i < other.batches.size(); ++i) batches[i].merge(other.batches[i]);
   points.insert(points.end(), other.points.begin(), other.points.end());
   values.insert(values.end(), other.values.begin(), other.values.end());
 }

@@ -30,11 +30,18 @@ class ScaledMoments {
   int exponent_ = 0;
 };
 
-/// Moments and magnitudes of every output, and, where they are recorded, the points and the integrand's values there.
+/// Moments and magnitudes of every output, and, where they are kept, the points and the integrand's values there, and
+/// the moments of batches of the values.
 struct Sums {
+  static constexpr std::size_t batch_count = 32;
+
   std::vector<ScaledMoments> outputs;
   std::vector<Magnitudes> magnitudes;
   std::vector<double> points = {}, values = {};
+  std::vector<ScaledMoments> batches = {}; ///< batch_count for each output
+
+  /// Values of an output whose indices start at `first`: 32 to a batch, in turn.
+  void add_to_batches(std::size_t output, std::span<const double> values, std::uint64_t first, double largest);
   void merge(const Sums& other);
 };
 

@@ -45,7 +45,7 @@ TEST(Methods, LearnFindsThePeak) {
   EXPECT_FALSE(run.rounds.empty());
   EXPECT_LE(run.calls, 100'000u / 4);
   int inside = 0; // of 129 edges, those within .1 of the peak, where 20 % of a uniform grid's would be
-  for (const double e : learned.density.grid.edges(0)) inside += std::abs(e - 0.4) < 0.1;
+  for (const double e : learned.density->grid.edges(0)) inside += std::abs(e - 0.4) < 0.1;
   EXPECT_GE(inside, 60);
 }
 

@@ -62,7 +62,7 @@ TEST(Run, TheMixtureIsUnbiased) {
 TEST(Run, RecordsPointsAndValues) {
   mc::IntegrateOptions o;
   detail::Run run{{.one = &sum}, 1, 2, o};
-  const auto sums = run.evaluate_all(run.sobol_sets(1, 0, 2), 0, 5000, {}, true);
+  const auto sums = run.evaluate_all(run.sobol_sets(1, 0, 2), 0, 5000, {}, detail::Keep::points);
   for (const auto& s : sums) {
     ASSERT_EQ(s.points.size(), 10'000u);
     ASSERT_EQ(s.values.size(), 5000u);

@@ -48,6 +48,32 @@ TEST(Sequences, LengthenSome) {
   EXPECT_NEAR(errors / squares, 1, 0.4); // 200 squares of a normal know their mean to 10 %, the errors theirs to 3 %
 }
 
+// What the others saw of a heavy tail is not forgotten with them.
+TEST(Sequences, RememberTheTailOfThoseLetGo) {
+  const std::function<double(std::span<const double>)> heavy = [](std::span<const double> u) {
+    return std::pow(1 - u[0], -0.9);
+  };
+  mc::IntegrateOptions o;
+  detail::Run run{{.one = &heavy}, 1, 1, o};
+  Sequences s{.purpose = 0};
+  s.extend(run, 4096);
+  const mc::Magnitudes before = s.seen()[0];
+  ASSERT_EQ(s.means[0].bar, mc::ErrorBar::infinite_variance);
+  const detail::Mean after = s.lengthen(run, 12)[0];
+  EXPECT_EQ(s.seen()[0].count(), 24u * 4096 + 12u * 4096);
+  EXPECT_GE(s.seen()[0].hi(), before.hi());
+  EXPECT_EQ(after.bar, mc::ErrorBar::infinite_variance);
+  EXPECT_EQ(after.dof, 11);
+}
+
+TEST(Sequences, FallIsThatOfTheVariance) {
+  Sequences s{.purpose = 0};
+  s.history.push_back({{0, 1, 23}});
+  EXPECT_EQ(detail::fall(s), 0);
+  for (const double v : {1.0, 0.25, 0.0625, 0.0625 / 4}) s.history.push_back({{0, std::sqrt(v), 23}});
+  EXPECT_NEAR(detail::fall(s), std::log(4.0), 1e-12); // of the last three doublings
+}
+
 TEST(Sequences, AdvantageContinuesTheFallOfTheErrors) {
   const auto history = [](std::initializer_list<double> variances) {
     Sequences s{.purpose = 0};

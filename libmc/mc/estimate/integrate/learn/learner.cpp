@@ -1,5 +1,5 @@
 #include <mc/core/parallel.h>
-#include <mc/estimate/integrate/learner.h>
+#include <mc/estimate/integrate/learn/learner.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ template <class F> void Learner::each(F&& f) const {
 }
 
 void Learner::weigh() {
-  const std::size_t before = mixture_.size(), now = values_.size() / run_.outputs;
+  const std::size_t before = mixture_.size(), now = values_.size() / run_.leading();
   mixture_.resize(now);
   rounds_.push_back({static_cast<double>(now - before), density_});
   each([&](std::size_t i, std::span<double> scratch) {
@@ -40,21 +40,22 @@ void Learner::weigh() {
 }
 
 void Learner::measure() {
-  std::vector<double> largest(run_.outputs), mean(run_.outputs), square(run_.outputs), scratch(dim_);
+  const std::size_t outputs = run_.leading();
+  std::vector<double> largest(outputs), mean(outputs), square(outputs), scratch(dim_);
   for (std::size_t i = 0; i < values_.size(); ++i)
-    largest[i % run_.outputs] = std::max(largest[i % run_.outputs], std::abs(values_[i]));
+    largest[i % outputs] = std::max(largest[i % outputs], std::abs(values_[i]));
   for (std::size_t i = 0; i < size(); ++i) {
     const double p = density_.density(point(i), scratch);
-    for (std::size_t k = 0; k < run_.outputs; ++k) {
-      const double x = largest[k] > 0 ? values_[i * run_.outputs + k] / largest[k] : 0;
+    for (std::size_t k = 0; k < outputs; ++k) {
+      const double x = largest[k] > 0 ? values_[i * outputs + k] / largest[k] : 0;
       mean[k] += x / mixture_[i];
       square[k] += x * x / (p * mixture_[i]);
     }
   }
   // Outputs of different size count alike.
-  scale_.assign(run_.outputs, 0);
+  scale_.assign(outputs, 0);
   width_ = 0;
-  for (std::size_t k = 0; k < run_.outputs; ++k) {
+  for (std::size_t k = 0; k < outputs; ++k) {
     if (const double size = largest[k] * std::sqrt(square[k]); std::isfinite(1 / size)) scale_[k] = 1 / size;
     if (mean[k] != 0) width_ = std::max(width_, std::log(std::max(square[k] / sqr(mean[k]), 1.0)));
   }
@@ -62,13 +63,14 @@ void Learner::measure() {
 
 // The points as the grid sees them, and there the root of the squares of all outputs, or the one with its sign.
 WeightedValues Learner::within_grid() const {
+  const std::size_t outputs = run_.leading();
   WeightedValues seen{run_.dim, points_, std::vector<double>(size()), std::vector<double>(size())};
   each([&](std::size_t i, std::span<double>) {
     const double of_grid = density_.grid.unmap({seen.points.data() + i * dim_, dim_});
     seen.weights[i] = of_grid / mixture_[i];
-    for (std::size_t k = 0; k < run_.outputs; ++k) {
-      const double x = values_[i * run_.outputs + k] * scale_[k] / of_grid;
-      seen.values[i] = run_.outputs == 1 ? x : std::hypot(seen.values[i], x);
+    for (std::size_t k = 0; k < outputs; ++k) {
+      const double x = values_[i * outputs + k] * scale_[k] / of_grid;
+      seen.values[i] = outputs == 1 ? x : std::hypot(seen.values[i], x);
     }
   });
   return seen;

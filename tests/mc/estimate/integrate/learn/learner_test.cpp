@@ -1,4 +1,4 @@
-#include <mc/estimate/integrate/learner.h>
+#include <mc/estimate/integrate/learn/learner.h>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ TEST(Learner, FollowsWhatIsNoProduct) {
   double widths[4];
   for (std::uint64_t k = 0; k < 4; ++k) {
     const detail::Proposal proposal{.density = std::make_shared<mc::AdaptedDensity>(learner.density())};
-    learner.learn(run.evaluate_all(run.sobol_sets(2 + k, 0, 24), 0, 128, proposal, true));
+    learner.learn(run.evaluate_all(run.sobol_sets(2 + k, 0, 24), 0, 128, proposal, detail::Keep::points));
     widths[k] = learner.width();
   }
   EXPECT_LT(widths[3], 0.3 * widths[0]);
@@ -37,7 +37,8 @@ TEST(Learner, NothingSeenNothingLearned) {
   mc::IntegrateOptions o;
   detail::Run run{{.one = &zero}, 1, 2, o};
   detail::Learner learner(run);
-  for (std::uint64_t k = 0; k < 2; ++k) learner.learn(run.evaluate_all(run.sobol_sets(k, 0, 24), 0, 64, {}, true));
+  for (std::uint64_t k = 0; k < 2; ++k)
+    learner.learn(run.evaluate_all(run.sobol_sets(k, 0, 24), 0, 64, {}, detail::Keep::points));
   std::vector<double> scratch(2);
   EXPECT_NEAR(learner.density().density(std::array{0.3, 0.6}, scratch), 1, 1e-12);
 }

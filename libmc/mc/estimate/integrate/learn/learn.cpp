@@ -1,4 +1,4 @@
-#include <mc/estimate/integrate/learner.h>
+#include <mc/estimate/integrate/learn/learner.h>
 #include <mc/estimate/integrate/methods.h>
 
 #include <algorithm>
@@ -15,21 +15,30 @@ double ahead(const Means& round, std::uint64_t points, const Sequences& bare) {
   for (std::uint64_t length = 16; 2 * length <= points && at + 1 < bare.history.size(); length *= 2) ++at;
   const auto by = [&](std::size_t k) {
     const double more = std::log(static_cast<double>(points) / std::ldexp(16.0, static_cast<int>(k)));
-    return log_ratio(bare.history[k], round) - more * static_cast<double>(round.size());
+    return log_ratio(bare.history[k], round) - more * static_cast<double>(bare.history[k].size());
   };
   return std::max(by(at), by(bare.history.size() - 1));
 }
 
-// A round of learning from so many points of each replicate.
-Means learn_round(Run& run, Learner& learner, std::uint64_t purpose, std::uint64_t points) {
-  const Proposal proposal{.density = std::make_shared<AdaptedDensity>(learner.density())};
-  const std::vector<Sums> sums =
-      run.evaluate_all(run.sobol_sets(purpose, 0, run.o.replicates), 0, points, proposal, true);
-  learner.learn(sums);
+// A round through a density, of so many points of each replicate.
+Means seen_through(Run& run, std::shared_ptr<const AdaptedDensity> density, std::uint64_t purpose, std::uint64_t points,
+                   Learner* learner) {
+  const Proposal proposal{.density = std::move(density)};
+  const std::vector<Sums> sums = run.evaluate_all(run.sobol_sets(purpose, 0, run.o.replicates), 0, points, proposal,
+                                                  learner ? Keep::points : Keep::sums);
+  if (learner) learner->learn(sums);
   std::vector<Evidence> evidence;
-  run.rounds.push_back(run.means(sums, points, evidence));
-  run.report(run.rounds.back());
-  return run.rounds.back();
+  // Of all rounds the last knew best where the integrand is: earlier ones may have met too little of it to know their
+  // own error.
+  for (Round& r : run.rounds) r.independent = false;
+  run.record(proposal.density->tree ? Method::tree : Method::vegas, run.means(sums, points, evidence), true);
+  return run.rounds.back().means;
+}
+
+std::vector<double> values(const Means& means) {
+  std::vector<double> all;
+  for (const Mean& m : means) all.push_back(m.value);
+  return all;
 }
 } // namespace
 
@@ -37,18 +46,22 @@ std::optional<Learned> learn(Run& run, const Sequences* bare) {
   const std::uint64_t least = std::min<std::uint64_t>(run.o.max_calls / 4, 1 << 13), room = run.recordable();
   const std::uint64_t budget = std::clamp<std::uint64_t>(run.o.max_calls / 32, least, std::max(room / 4, least));
   const std::uint64_t most = std::min(run.o.max_calls / 5, room);
+  if (run.o.density) {
+    const std::uint64_t points = budget / 4 / run.o.replicates;
+    if (points == 0) return Learned{run.o.density, std::vector<double>(run.outputs)};
+    return Learned{run.o.density, values(seen_through(run, run.o.density, 2, points, nullptr))};
+  }
   Learner learner(run);
   if (bare) learner.learn(bare->sums);
-  Learned learned;
+  std::vector<double> centre(run.outputs);
   // Rounds of a quarter, a quarter and a half of the budget; after that of twice the calls, as long as the values are
   // spread widely and it helps.
   std::uint64_t calls = budget / 4, spent = 0;
   for (std::uint64_t k = 0; calls / run.o.replicates >= 8; ++k) {
     const std::uint64_t points = calls / run.o.replicates;
     const double before = learner.width();
-    const Means round = learn_round(run, learner, 2 + k, points);
-    learned.centre.clear();
-    for (const Mean& m : round) learned.centre.push_back(m.value);
+    const Means round = seen_through(run, std::make_shared<AdaptedDensity>(learner.density()), 2 + k, points, &learner);
+    centre = values(round);
     spent += calls;
     const double by = bare ? ahead(round, points, *bare) : 0;
     // Hopeless: worse than the bare sequences although no rare large values are left to be found.
@@ -57,9 +70,7 @@ std::optional<Learned> learn(Run& run, const Sequences* bare) {
     const bool helps = learner.width() < 0.85 * before || by > 0.7;
     if (k >= 2 && (learner.width() < 0.5 || !helps || spent + calls > most)) break;
   }
-  learned.centre.resize(run.outputs);
-  learned.density = learner.density();
-  return learned;
+  return Learned{std::make_shared<AdaptedDensity>(learner.density()), std::move(centre)};
 }
 
 } // namespace mc::detail

@@ -1,0 +1,112 @@
+// What carlo integrate says beyond one number.
+
+#include <tools/run_carlo.h>
+
+#include <mc/core/file.h>
+
+#include <support/files.h>
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace {
+
+using testing::HasSubstr;
+const std::string peak = "integrate '1/((1e-2+(x-.4)^2)*(1e-2+(y-.7)^2))' -d x=0:1,y=0:1 ";
+
+struct IntegrateOutput : support::ScratchTest {
+  nlohmann::json run(const std::string& arguments) const {
+    const support::Run r = support::run_carlo(arguments + " --json " + path("r.json"));
+    EXPECT_EQ(r.exit_code, 0) << r.output;
+    return nlohmann::json::parse(mc::read_file(path("r.json")));
+  }
+};
+
+TEST_F(IntegrateOutput, SeveralShareTheirCalls) {
+  const nlohmann::json j = run("integrate 'x*y' 'x*y + 1e-3*x' -d x=0:1,y=0:2 --rel-error 1e-3 --method plain");
+  ASSERT_EQ(j["outputs"].size(), 2u);
+  EXPECT_GT(j["correlation"][0][1], 0.99);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double error = j["outputs"][i]["std_error"];
+    EXPECT_NEAR(j["covariance"][i][i].get<double>(), error * error, 1e-12 * error * error);
+    EXPECT_EQ(j["correlation"][i][i], 1);
+  }
+  const support::Run r = support::run_carlo("integrate genz_c0_2d genz_gaussian_2d --rel-error 1e-2");
+  EXPECT_THAT(r.output, testing::AllOf(HasSubstr("Genz: c0 in 2"), HasSubstr("Genz: gaussian in 2"),
+                                       HasSubstr("correlations of the errors\n  1.000")));
+  EXPECT_THAT(support::run_carlo("integrate genz_c0_2d genz_c0_5d").output, HasSubstr("must be the same"));
+}
+
+TEST_F(IntegrateOutput, RoundsAreTheRun) {
+  const nlohmann::json j = run(peak + "--rel-error 1e-5 --method vegas");
+  double chi2 = 0;
+  std::uint64_t learning = 0;
+  for (const nlohmann::json& round : j["rounds"]) {
+    learning += round["learning"].get<bool>();
+    if (!round["chi2"].is_null()) chi2 += round["chi2"].get<double>();
+  }
+  EXPECT_GE(learning, 3u);
+  EXPECT_NEAR(chi2, j["chi2"].get<double>(), 1e-9 * chi2);
+  EXPECT_EQ(j["rounds"].back()["calls"], j["calls"]);
+  EXPECT_THAT(support::run_carlo(peak + "--rounds --method vegas").output,
+              testing::AllOf(HasSubstr("vegas, learning"), HasSubstr("sum of chi2: ")));
+}
+
+TEST_F(IntegrateOutput, ADensityIsKeptAndReused) {
+  const std::string file = path("density");
+  const nlohmann::json first = run(peak + "--rel-error 1e-5 --method vegas --save-density " + file),
+                       second = run(peak + "--rel-error 1e-5 --method vegas --seed 2 --load-density " + file);
+  int learning = 0;
+  for (const nlohmann::json& round : second["rounds"]) learning += round["learning"].get<bool>();
+  EXPECT_EQ(learning, 1);
+  EXPECT_LE(second["calls"], first["calls"]);
+  const double difference = first["value"].get<double>() - second["value"].get<double>();
+  // Two errors of 23 degrees of freedom: beyond 5 in 5e-5 of the choices of seeds.
+  EXPECT_LE(std::abs(difference), 5 * std::hypot(first["std_error"].get<double>(), second["std_error"].get<double>()));
+  mc::write_file(path("cut"), mc::read_file(file).substr(0, 1000));
+  const support::Run cut = support::run_carlo(peak + "--load-density " + path("cut"));
+  EXPECT_EQ(cut.exit_code, 2);
+  EXPECT_THAT(cut.output, HasSubstr("cut: density: the checksum at the end is missing"));
+  EXPECT_THAT(support::run_carlo("integrate x -d x=0:1 --load-density " + file).output, HasSubstr("has 2 dimensions"));
+  const support::Run none = support::run_carlo("integrate x -d x=0:1 --method rqmc --save-density " + path("none"));
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_THAT(none.output, testing::AllOf(HasSubstr("x = 0.5"), HasSubstr("nothing was learned by rqmc")));
+}
+
+TEST_F(IntegrateOutput, HistogramsAddUp) {
+  for (const char* axis : {"x=10", "y=7", "value=6"}) {
+    const nlohmann::json j = run(peak + "--histogram " + axis);
+    double sum = 0;
+    for (const nlohmann::json& bin : j["histogram"]) sum += bin["value"].get<double>();
+    EXPECT_NEAR(sum, j["value"].get<double>(), 1e-9 * sum) << axis;
+  }
+  // e^x over x < 1: a third of the domain to each side, infinite below.
+  const nlohmann::json j = run("integrate 'exp(x)' -d x=-inf:1 --histogram x=4");
+  EXPECT_TRUE(j["histogram"][0]["lo"].is_null());
+  for (const nlohmann::json& bin : j["histogram"]) {
+    const double below = bin["lo"].is_null() ? 0 : std::exp(bin["lo"].get<double>());
+    EXPECT_NEAR(bin["value"].get<double>(), std::exp(bin["hi"].get<double>()) - below,
+                5 * bin["std_error"].get<double>());
+  }
+  EXPECT_THAT(support::run_carlo(peak + "--histogram z=10").output, HasSubstr("there is no variable 'z'"));
+  EXPECT_THAT(support::run_carlo(peak + "--histogram x").output, HasSubstr("must be AXIS=BINS"));
+  EXPECT_THAT(support::run_carlo("integrate 'exp(x)' -d x=-inf:1 --histogram value=9").output,
+              HasSubstr("infinite along x"));
+}
+
+TEST_F(IntegrateOutput, QuantilesOfTheExpression) {
+  const nlohmann::json j = run("integrate 'x*x' -d x=1:3 --quantiles 0.25,0.5");
+  ASSERT_EQ(j["quantiles"].size(), 2u);
+  for (const nlohmann::json& q : j["quantiles"]) {
+    const double x = 1 + 2 * q["probability"].get<double>();
+    EXPECT_NEAR(q["value"].get<double>(), x * x, 1e-3);
+    EXPECT_LE(q["lo"], q["value"]);
+    EXPECT_GE(q["hi"], q["value"]);
+  }
+  EXPECT_THAT(support::run_carlo(peak + "--quantiles 0.5,1").output, HasSubstr("must lie between 0 and 1"));
+  EXPECT_THAT(support::run_carlo(peak + "--quantiles x").output, HasSubstr("'x' is not a number"));
+}
+
+} // namespace

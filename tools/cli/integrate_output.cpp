@@ -1,0 +1,151 @@
+#include <cli/integrate_output.h>
+#include <report/report_json.h>
+#include <terminal/progress.h>
+#include <terminal/version.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carlo {
+
+namespace {
+
+// What a user can do where there is no error bar.
+const char* remedy(mc::ErrorBar bar) {
+  switch (bar) {
+  case mc::ErrorBar::known: return "";
+  case mc::ErrorBar::unseen: return "; raise --max-calls, or choose a --domain around it";
+  case mc::ErrorBar::infinite_variance: return ". Substitute a variable that removes the singularity";
+  }
+  return "";
+}
+
+std::string value_with_error(const mc::Estimate& e, mc::ErrorBar bar) {
+  return bar == mc::ErrorBar::known ? fmt::format("{:<14.8g} ± {:<8.2g}", e.value, e.std_error)
+                                    : fmt::format("{:<14.8g} ± {:<8}", e.value, "?");
+}
+
+std::string about_truth(const Experiment& e, const mc::Integral& r) {
+  if (!std::isfinite(e.truth)) return "";
+  if (r.error_bar != mc::ErrorBar::known) return fmt::format("the true value is {:.10g}\n", e.truth);
+  const double sigmas = r.estimate.std_error > 0 ? std::abs(r.estimate.value - e.truth) / r.estimate.std_error : 0.0;
+  return fmt::format("the true value is {:.10g}, {:.2f} standard errors away\n", e.truth, sigmas);
+}
+
+std::string correlation_table(const mc::VectorIntegral& r) {
+  std::string text = "correlations of the errors\n";
+  for (std::size_t i = 0; i < r.outputs.size(); ++i) {
+    for (std::size_t j = 0; j < r.outputs.size(); ++j) text += fmt::format(" {:>6.3f}", r.correlation(i, j));
+    text += "\n";
+  }
+  return text;
+}
+
+nlohmann::json as_json(const mc::Integral& r, const Experiment& e) {
+  nlohmann::json j = {{"integrand", e.name}, {"value", r.estimate.value}, {"std_error", r.estimate.std_error},
+                      {"lo", r.interval.lo}, {"hi", r.interval.hi},       {"error_bar", name(r.error_bar)},
+                      {"chi2", r.chi2},      {"chi2_dof", r.chi2_dof},    {"consistent", r.consistent}};
+  if (std::isfinite(e.truth)) j["truth"] = e.truth;
+  for (const mc::IntegrateRound& round : r.rounds)
+    j["rounds"].push_back({{"method", name(round.method)},
+                           {"learning", round.learning},
+                           {"calls", round.calls},
+                           {"value", round.estimate.value},
+                           {"std_error", round.estimate.std_error},
+                           {"error_bar", name(round.error_bar)},
+                           {"chi2", round.chi2}});
+  return j;
+}
+
+} // namespace
+
+std::string about(const Integrals& found) {
+  std::string text;
+  for (std::size_t i = 0; i < found.integrands.size(); ++i) {
+    const mc::Integral& r = found.results.outputs[i];
+    text += fmt::format("{} = {}{}\n", found.integrands[i].title, r.to_string(), remedy(r.error_bar));
+  }
+  const mc::Integral& first = found.results.outputs.front();
+  text += fmt::format("{} calls in {} by {}; stopped: {}\n", format_count(double(first.calls)),
+                      format_seconds(first.seconds), name(first.method), name(first.stop));
+  for (std::size_t i = 0; i < found.integrands.size(); ++i)
+    text += about_truth(found.integrands[i], found.results.outputs[i]);
+  if (found.integrands.size() > 1) text += correlation_table(found.results);
+  return text;
+}
+
+std::string round_table(const mc::Integral& r) {
+  std::string text = fmt::format("{:<17} {:>8}  {:<25}  {}\n", "round", "calls", "estimate", "chi2 to the answer");
+  for (const mc::IntegrateRound& round : r.rounds)
+    text += fmt::format("{:<17} {:>8}  {}  {}\n",
+                        fmt::format("{}{}", name(round.method), round.learning ? ", learning" : ""),
+                        format_count(double(round.calls)), value_with_error(round.estimate, round.error_bar),
+                        std::isfinite(round.chi2) ? fmt::format("{:.2f}", round.chi2) : "-");
+  return text + fmt::format("sum of chi2: {:.2f} of {:.0f}\n", r.chi2, r.chi2_dof);
+}
+
+std::string histogram_table(const Integrals& found) {
+  double largest = 0;
+  std::size_t width = 0;
+  for (const Bin& b : found.histogram) {
+    largest = std::max(largest, std::abs(b.part.estimate.value));
+    width = std::max(width, b.name.size());
+  }
+  const double whole = found.results.outputs.front().estimate.value;
+  std::string text;
+  for (const Bin& b : found.histogram) {
+    const double value = b.part.estimate.value;
+    const auto length = static_cast<std::size_t>(largest > 0 ? std::lround(30 * std::abs(value) / largest) : 0);
+    text +=
+        fmt::format("{:<{}}  {}  {:>6.2f} % {}\n", b.name, width, value_with_error(b.part.estimate, b.part.error_bar),
+                    whole != 0 ? 100 * value / whole : 0.0, std::string(length, value < 0 ? '-' : '#'));
+  }
+  return text;
+}
+
+std::string quantile_table(const Integrals& found) {
+  std::string text;
+  for (const mc::Quantile& q : found.quantiles)
+    text += fmt::format("quantile {:g}: {:.8g}, 95 % in [{:.8g}, {:.8g}]\n", q.probability, q.value, q.interval.lo,
+                        q.interval.hi);
+  return text;
+}
+
+std::string integrals_json(const Integrals& found, const std::string& command, std::uint64_t seed) {
+  const mc::Integral& first = found.results.outputs.front();
+  const std::size_t n = found.integrands.size();
+  nlohmann::json j = n == 1 ? as_json(first, found.integrands.front()) : nlohmann::json::object();
+  j.update({{"command", command},
+            {"commit", commit},
+            {"seed", seed},
+            {"calls", first.calls},
+            {"seconds", first.seconds},
+            {"method", name(first.method)},
+            {"stop", name(first.stop)}});
+  for (std::size_t i = 0; n > 1 && i < n; ++i) {
+    j["outputs"].push_back(as_json(found.results.outputs[i], found.integrands[i]));
+    nlohmann::json correlations, covariances;
+    for (std::size_t k = 0; k < n; ++k) {
+      correlations.push_back(found.results.correlation(i, k));
+      covariances.push_back(found.results.covariance(i, k));
+    }
+    j["correlation"].push_back(correlations);
+    j["covariance"].push_back(covariances);
+  }
+  for (const Bin& b : found.histogram)
+    j["histogram"].push_back({{"bin", b.name},
+                              {"lo", b.lo},
+                              {"hi", b.hi},
+                              {"value", b.part.estimate.value},
+                              {"std_error", b.part.estimate.std_error},
+                              {"error_bar", name(b.part.error_bar)}});
+  for (const mc::Quantile& q : found.quantiles)
+    j["quantiles"].push_back(
+        {{"probability", q.probability}, {"value", q.value}, {"lo", q.interval.lo}, {"hi", q.interval.hi}});
+  return json_text(j);
+}
+
+} // namespace carlo
