@@ -3,6 +3,8 @@
 
 textures/tiles.png        64x64 glazed tiles
 textures/sky.exr          64x32 lat-long sky with a sun
+textures/dusk.hdr         64x32 lat-long evening sky, in Radiance's format
+textures/map.png          128x64 map of a small planet
 textures/gradient.pfm     the four corners of book1-gradient
 meshes/torus.ply          smooth torus, binary
 meshes/knot.serialized    trefoil knot in Mitsuba's format
@@ -71,20 +73,72 @@ def sky(x, y):
     return 0.25 + 0.5 * t, 0.45 + 0.4 * t, 0.9 + 0.05 * t
 
 
+def dusk(x, y):
+    """A low sun in the west, a red horizon under a dark sky, dark ground."""
+    height = math.cos(math.pi * (y + 0.5) / 32)
+    away = math.hypot((x + 0.5) / 64 - 0.75, 0.5 * height - 0.07) * 2 * math.pi
+    sun = 60 * math.exp(-((away / 0.12) ** 2)) + 1.5 * math.exp(-away)
+    if height < 0:
+        return 0.06, 0.05, 0.05
+    glow = math.exp(-height / 0.2)
+    return sun + 0.5 * glow + 0.05, 0.6 * sun + 0.2 * glow + 0.08, 0.25 * sun + 0.12 * glow + 0.2
+
+
+def rgbe(color):
+    mantissa, exponent = math.frexp(max(color))
+    return [int(c * mantissa * 256 / max(color)) for c in color] + [exponent + 128]
+
+
+def runs(values):
+    """Bytes as counted runs and as counted others."""
+    out, i = b"", 0
+    while i < len(values):
+        n = 1
+        while i + n < len(values) and n < 127 and values[i + n] == values[i]:
+            n += 1
+        if n > 2:
+            out += bytes([128 + n, values[i]])
+        else:
+            n = min(len(values) - i, 2)
+            out += bytes([n]) + bytes(values[i : i + n])
+        i += n
+    return out
+
+
+def write_hdr(path, width, height, pixel):
+    data = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + f"-Y {height} +X {width}\n".encode()
+    for y in range(height):
+        row = [rgbe(pixel(x, y)) for x in range(width)]
+        data += bytes([2, 2, width // 256, width % 256]) + b"".join(runs([p[c] for p in row]) for c in range(4))
+    path.write_bytes(data)
+
+
+def planet(x, y):
+    """Land and sea by waves, ice about the poles; whole waves, so that the edges meet."""
+    u, v = 2 * math.pi * (x + 0.5) / 128, math.pi * (y + 0.5) / 64
+    land = math.sin(2 * u) * math.sin(2 * v) + 0.7 * math.sin(3 * u + 1) * math.sin(v) ** 2 + 0.5 * math.cos(5 * v + u)
+    if abs(math.cos(v)) > 0.93 + 0.02 * math.sin(7 * u):
+        return 236, 240, 244
+    if land > 0.35:
+        return (150, 128, 84) if land > 0.9 else (86, 128, 62)
+    return 30, 66, 122
+
+
 def write_pfm(path, rows):
     """Rows of colours, the bottom one first, as the format has it."""
     values = [c for row in rows for color in row for c in color]
     path.write_bytes(f"PF\n{len(rows[0])} {len(rows)}\n-1\n".encode() + struct.pack(f"<{len(values)}f", *values))
 
 
-def tube(center, radius, segments, sides, closed_turns):
-    """A tube about a closed curve: positions, normals, uvs and triangles; the seams have vertices of their own."""
+def tube(center, aside, radius, segments, sides):
+    """A tube about a closed curve: positions, normals, uvs and triangles; the seams have vertices of their own. `aside`
+    of a point must never be along the curve: where it were the tube would be twisted by half a turn."""
     points, normals, uvs, triangles = [], [], [], []
     for i in range(segments + 1):
-        t = 2 * math.pi * closed_turns * i / segments
+        t = 2 * math.pi * i / segments
         p, q = center(t), center(t + 1e-4)
         tangent = unit([b - a for a, b in zip(p, q)])
-        across = unit(cross(tangent, [p[0], p[1], p[2] + 3]))
+        across = unit(cross(tangent, aside(p)))
         up = cross(across, tangent)
         for j in range(sides + 1):
             a = 2 * math.pi * j / sides
@@ -297,8 +351,10 @@ for folder in ("textures", "meshes"):
     (scenes / folder).mkdir(exist_ok=True)
 write_png(scenes / "textures" / "tiles.png", 64, 64, tile)
 write_exr(scenes / "textures" / "sky.exr", 64, 32, sky)
+write_hdr(scenes / "textures" / "dusk.hdr", 64, 32, dusk)
+write_png(scenes / "textures" / "map.png", 128, 64, planet)
 write_pfm(scenes / "textures" / "gradient.pfm", [[(0, 0, 0.2), (1, 0, 0.2)], [(0, 1, 0.2), (1, 1, 0.2)]])
-write_ply(scenes / "meshes" / "torus.ply", outward(tube(torus, 0.35, 48, 24, 1)))
-write_serialized(scenes / "meshes" / "knot.serialized", outward(tube(trefoil, 0.3, 160, 20, 1)))
+write_ply(scenes / "meshes" / "torus.ply", outward(tube(torus, lambda p: (0, 1, 0), 0.35, 48, 24)))
+write_serialized(scenes / "meshes" / "knot.serialized", outward(tube(trefoil, lambda p: (p[0], p[1], p[2] + 3), 0.3, 160, 20)))
 write_plain_ply(scenes / "meshes" / "arcade.ply", *courtyard())
 write_cover(scenes / "book1-cover.xml")

@@ -14,7 +14,12 @@ namespace render {
 
 namespace {
 
-void check(const RenderOptions& options) {
+void check(const Scene& scene, const RenderOptions& options) {
+  mc::require(
+      finds_all_lights(scene, options.strategy) || options.shown.what != Shown::radiance,
+      "render: the strategy {} finds lights by chance, which never meets the scene's point or directional light; "
+      "use nee or mis",
+      options.strategy.name);
   mc::require(options.seconds || options.target_error || options.spp > 0,
               "render: {} samples per pixel; at least 1 is needed", options.spp);
   mc::require(!options.seconds || *options.seconds > 0, "render: a time of {} s; it must be > 0",
@@ -162,7 +167,7 @@ class Work {
 } // namespace
 
 RenderResult render(const Scene& scene, const RenderOptions& options) {
-  check(options);
+  check(scene, options);
   return Work(scene, options).run();
 }
 

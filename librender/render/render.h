@@ -58,7 +58,8 @@ struct RenderResult {
 /// Where samples go where the error is, about the first quarter is a pilot, spent evenly, which alone decides about the
 /// rest: see adaptive_plan.
 /// The result depends on the seed, not on the number of threads; with `seconds` it depends on the machine's speed.
-///   throws : Error for a non-positive size, sample count, time or error, and a crop that reaches beyond the picture
+///   throws : Error for a non-positive size, sample count, time or error, and a crop that reaches beyond the picture,
+///            and for a strategy that cannot find every light of the scene, see finds_all_lights
 RenderResult render(const Scene& scene, const RenderOptions& options);
 
 } // namespace render

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Gallery,
                                          "smallpt", "book1-diffuse", "book1-fuzzy-metal", "book1-glass",
                                          "book1-hollow-glass", "book1-metal", "book1-wide", "book1-distant",
                                          "book1-zoomed", "book1-defocus", "book1-cover", "filter-box", "filter-tent",
-                                         "filter-gaussian", "mesh-formats"),
+                                         "filter-gaussian", "mesh-formats", "hard-shadows", "one-bounce", "globe"),
                          [](const auto& scene) {
                            std::string name = scene.param; // of a test: without hyphens
                            std::replace(name.begin(), name.end(), '-', '_');

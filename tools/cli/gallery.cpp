@@ -153,7 +153,7 @@ class Run {
     sign(result, from);
     const std::string path = (folder_ / title).string();
     ::render::write_image(path + ".exr", result.image);
-    ::render::write_image(path + ".png", result.image, a.scene->exposure);
+    ::render::write_image(path + ".png", result.image, tone_of(*a.scene));
     RenderedScene r = report(a, result);
     r.strategies = strategies(a);
     if (cancel_->load()) return false;
@@ -169,14 +169,14 @@ class Run {
   // Once for all scenes of a file.
   const std::vector<StrategyResult>& strategies(const Asked& a) {
     const auto [place, is_new] = strategies_.try_emplace(scene_file(*a.scene));
-    if (is_new && a.settings.shown == ::render::Shown::radiance)
+    if (is_new && a.settings.shown.what == ::render::Shown::radiance)
       place->second = compare_strategies(a.file.scene, a.settings, 64, std::min(64, a.settings.spp));
     return place->second;
   }
 
   void keep_thumbnail(const Asked& a, ::render::Image image) {
-    const auto exposure = ::render::Float(std::exp2(a.scene->exposure));
-    for (::render::Spectrum& p : image.pixels) p = (p * exposure).min(::render::Float(1)); // as the PNG shows them
+    const ::render::Tone tone = tone_of(*a.scene);
+    for (::render::Spectrum& p : image.pixels) p = toned(p, tone).cast<::render::Float>();
     thumbnails_.push_back(thumbnail(image, thumbnail_side));
   }
 

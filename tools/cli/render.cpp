@@ -1,18 +1,25 @@
 #include <cli/subcommand.h>
 #include <gallery/picture.h>
 #include <gallery/scenes.h>
+#include <gallery/strategy_strip.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 
+#include <render/film/accumulate.h>
 #include <render/film/interval.h>
 #include <render/io/image_io.h>
 #include <render/io/mesh_scene.h>
 #include <render/io/mitsuba.h>
 #include <render/io/mitsuba/reference.h>
+#include <render/layers.h>
 #include <render/render.h>
 
 #include <mc/core/error.h>
+#include <mc/random/hash.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <mutex>
@@ -37,10 +44,14 @@ struct RenderOptions {
   std::string strategy, sampler;      ///< empty: mis, sobol
   std::optional<int> max_depth;       ///< longest path in edges; -1: unlimited
   std::uint64_t seed = 0;
-  int threads = 0;                ///< 0: all
-  std::optional<double> exposure; ///< stops, PNG only; none: the gallery's, or 0
-  bool allow_invalid = false;     ///< write the image although samples were not finite
-  std::string command;            ///< the command line, for the metadata
+  int threads = 0;      ///< 0: all
+  std::string tone;     ///< of a PNG; empty: the gallery's, or clamp
+  std::string exposure; ///< of a PNG: stops, or auto; empty: the gallery's, or 0
+  bool layers = false;  ///< EXR only: more channels
+  bool resume = false;  ///< add to the picture that is there
+  bool compare_strategies = false;
+  bool allow_invalid = false; ///< write the image although samples were not finite
+  std::string command;        ///< the command line, for the metadata
 };
 
 void parse_size(const std::string& text, int& width, int& height) {
@@ -99,11 +110,80 @@ std::vector<Option> rows(RenderOptions& o) {
       {"--sampler", "NAME", &o.sampler, "independent, stratified or sobol [sobol]"},
       {"--max-depth", "N", &o.max_depth,
        "Longest path in edges (1: light seen directly), -1 for no limit [the scene's]"},
+      {"--resume",
+       "",
+       &o.resume,
+       "Add to the EXR that is there, by the numbers of samples: --spp and --time are of what is added",
+       false,
+       {"--target-error", "--intervals"}},
       {"--seed", "N", &o.seed, "Seed; same seed, same bits, whatever the number of threads"},
       {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
-      {"--exposure", "STOPS", &o.exposure, "Brightness added before a PNG is written [0; a gallery scene's own]"},
+      {"--layers", "", &o.layers,
+       "Add channels to an EXR: normal N, position P, depth Z, albedo, shape id, each where the middle of the pixel "
+       "is"},
+      {"--tone", "CURVE", &o.tone,
+       "What a PNG does with bright light: clamp, reinhard or filmic [a gallery scene's own]"},
+      {"--exposure", "STOPS", &o.exposure,
+       "Brightness added before a PNG is written, or auto: middle grey in the middle [0; a gallery scene's own]"},
+      {"--compare-strategies", "", &o.compare_strategies,
+       "Print every strategy's error with the same samples and in the same --time (or the mean of what those samples "
+       "took), and write a PNG of their pictures with 1, 4, 16, 64, 256 and 1024 samples per pixel, a row for each; "
+       "small, unless there is --size"},
       {"--allow-invalid", "", &o.allow_invalid, "Write the image although some samples were not finite"},
   };
+}
+
+// How a PNG is made, but for an exposure that the picture decides.
+::render::Tone tone_of(const RenderOptions& options, const GalleryScene* named) {
+  ::render::Tone tone = named ? tone_of(*named) : ::render::Tone();
+  if (!options.tone.empty()) tone.curve = ::render::tone_curve_from(options.tone);
+  if (options.exposure.empty() || options.exposure == "auto") return tone;
+  char rest = 0;
+  mc::require(std::sscanf(options.exposure.c_str(), "%lf%c", &tone.exposure, &rest) == 1 &&
+                  std::abs(tone.exposure) <= 100,
+              "--exposure '{}' must be a number of stops in [-100, 100], or auto", options.exposure);
+  return tone;
+}
+
+// The pixels that are asked for.
+::render::Crop part_of(const ::render::RenderOptions& settings) {
+  return settings.crop.value_or(::render::Crop{0, 0, settings.width, settings.height});
+}
+
+/// A picture that goes on.
+struct Begun {
+  ::render::Image image;
+  double spp;
+  int runs;
+};
+
+// What --resume adds to, as sign() has signed it.
+Begun begun_picture(const std::string& path, const std::string& scene_file, const ::render::RenderOptions& settings) {
+  const std::string scene = std::filesystem::path(scene_file).filename().string();
+  mc::require(std::filesystem::exists(path), "--resume: there is no '{}'; leave --resume out the first time", path);
+  Begun begun{::render::read_image(path), 0, 1};
+  const auto text = [&](const char* key) {
+    const auto found = begun.image.metadata.find(key);
+    return found == begun.image.metadata.end() ? std::string() : found->second;
+  };
+  begun.spp = std::strtod(text("carlo.samples_per_pixel").c_str(), nullptr);
+  mc::require(begun.spp > 0, "--resume: '{}' does not say its samples per pixel; carlo render has not written it",
+              path);
+  mc::require(text("carlo.scene") == scene, "--resume: '{}' is a picture of '{}', not of '{}'", path,
+              text("carlo.scene"), scene);
+  begun.runs = std::max(1, std::atoi(text("carlo.runs").c_str()));
+  const ::render::Crop part = part_of(settings);
+  mc::require(begun.image.width == part.width && begun.image.height == part.height,
+              "--resume: '{}' holds {}x{} pixels, but {}x{} are asked for", path, begun.image.width, begun.image.height,
+              part.width, part.height);
+  return begun;
+}
+
+// The picture that was begun with what a run has added.
+void add_to(const Begun& begun, ::render::RenderResult& result) {
+  result.image = accumulated(begun.image, begun.spp, result.image, result.spp);
+  result.image.metadata["carlo.samples_per_pixel"] = fmt::format("{:.17g}", begun.spp + result.spp);
+  result.image.metadata["carlo.runs"] = fmt::format("{}", begun.runs + 1);
 }
 
 // A word that is neither a file nor looks like one is a scene of the gallery.
@@ -145,6 +225,33 @@ const GalleryScene* named_scene(const std::string& word) {
   return settings;
 }
 
+constexpr int compared_side = 96; // pixels
+
+int compare_all(const RenderOptions& options, const ::render::Scene& scene, ::render::RenderOptions settings,
+                const ::render::Tone& tone) {
+  if (options.size.empty()) settings = shrunk(settings, compared_side);
+  const int side = std::max(settings.width, settings.height);
+  mc::require(settings.spp >= 2, "--compare-strategies: one sample per pixel has no error; take two or more");
+  mc::require(options.exposure != "auto", "--exposure auto is for one picture; give stops to --compare-strategies");
+  const std::string output = options.output.empty()
+                                 ? std::filesystem::path(options.scene).stem().string() + "-strategies.png"
+                                 : options.output;
+  const Interrupt interrupt;
+  settings.cancel = interrupt.flag();
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<StrategyResult> same_samples = compare_strategies(scene, settings, side, settings.spp);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+  const double seconds = settings.seconds.value_or(spent.count() / double(same_samples.size()));
+  const std::vector<StrategyResult> same_time = compare_strategies_in(scene, settings, seconds);
+  const ::render::Image strip = strategy_strip(scene, settings, tone);
+  if (interrupt.flag()->load()) return exit_interrupted;
+  ::render::write_image(output, strip);
+  fmt::print("{}x{}, {} samples per pixel; {:.3g} s\n{}{}: a row for each, with {} samples per pixel\n", settings.width,
+             settings.height, settings.spp, seconds, strategy_table(same_samples, same_time), output,
+             fmt::join(strip_spp, ", "));
+  return exit_ok;
+}
+
 int render(const RenderOptions& options) {
   if (options.help_scene) {
     std::fputs(::render::mitsuba::reference().c_str(), stdout);
@@ -155,18 +262,22 @@ int render(const RenderOptions& options) {
       options.output.empty() ? std::filesystem::path(options.scene).stem().string() + ".exr" : options.output;
   check_output(output);
   if (!options.intervals.empty()) check_output(options.intervals);
+  mc::require(!options.layers || std::filesystem::path(output).extension() == ".exr",
+              "--layers: '{}' has no place for them; write an .exr", output);
 
   const GalleryScene* named = named_scene(options.scene);
   const std::string file = named ? scene_file(*named) : options.scene;
-  const auto [scene, defaults] = ::render::is_mesh_file(file)
-                                     ? ::render::read_mesh_scene(file)
-                                     : ::render::read_mitsuba(file, ::render::dialect_from(options.dialect));
-  if (scene.lights().empty())
+  const auto [scene, defaults, origin] = ::render::is_mesh_file(file)
+                                             ? ::render::read_mesh_scene(file)
+                                             : ::render::read_mitsuba(file, ::render::dialect_from(options.dialect));
+  if (scene.lights().empty() && defaults.shown.what == ::render::Shown::radiance)
     std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", file.c_str());
 
   warn_where_coarse(file, scene);
 
   ::render::RenderOptions settings = settings_of(options, defaults, named);
+  ::render::Tone tone = tone_of(options, named);
+  if (options.compare_strategies) return compare_all(options, scene, settings, tone);
   Progress progress;
   std::mutex mutex;
   settings.progress = [&](const ::render::Progress& p) {
@@ -178,6 +289,11 @@ int render(const RenderOptions& options) {
                                               : ""));
   };
 
+  std::optional<Begun> begun;
+  if (options.resume) {
+    begun = begun_picture(output, file, settings);
+    settings.seed = mc::hash(options.seed, std::uint64_t(begun->runs)); // other samples than those that are there
+  }
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
   ::render::RenderResult result = ::render::render(scene, settings);
@@ -190,7 +306,13 @@ int render(const RenderOptions& options) {
     std::fprintf(stderr, "carlo: warning: %s\n", invalid.c_str());
   }
   sign(result, from);
-  ::render::write_image(output, result.image, options.exposure.value_or(named ? named->exposure : 0));
+  if (begun) add_to(*begun, result);
+  if (options.layers) {
+    const ::render::Whole whole{settings.width, settings.height, part_of(settings)};
+    result.image.layers = layers(scene, whole, origin, settings.threads);
+  }
+  if (options.exposure == "auto") tone.exposure = auto_exposure(result.image);
+  ::render::write_image(output, result.image, tone);
   if (!options.intervals.empty() && !result.image.variance.empty())
     ::render::write_image(options.intervals, ::render::half_widths(result.image, 0.95));
 
@@ -204,6 +326,8 @@ int render(const RenderOptions& options) {
                   ? fmt::format(", {:.1f} % of the pixels decided by one sample", 100 * result.undecided).c_str()
                   : "",
               result.partial ? ", PARTIAL: interrupted" : "");
+  if (begun)
+    fmt::print("with what was there: {:.4g} samples/pixel of {} runs\n", begun->spp + result.spp, begun->runs + 1);
   return result.partial ? exit_interrupted : exit_ok;
 }
 

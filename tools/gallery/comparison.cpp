@@ -24,34 +24,53 @@ mc::Estimate mean_luminance(const ::render::Image& image, std::uint32_t estimate
 // Where all directions go to the lights, what other surfaces reflect is not found.
 bool misses_light(const ::render::Strategy& s) { return s.target == ::render::Target::lights && s.share == 1; }
 
-} // namespace
-
-std::vector<StrategyResult> compare_strategies(const ::render::Scene& scene, ::render::RenderOptions settings, int side,
-                                               int spp) {
-  const double shrink = std::min(1.0, double(side) / std::max(settings.width, settings.height));
-  settings.width = std::max(1, static_cast<int>(std::lround(shrink * settings.width)));
-  settings.height = std::max(1, static_cast<int>(std::lround(shrink * settings.height)));
-  settings.spp = spp;
-  settings.seconds.reset();
-  settings.target_error.reset();
-  settings.progress = nullptr;
+std::vector<StrategyResult> each_strategy(const ::render::Scene& scene, ::render::RenderOptions settings) {
   std::vector<StrategyResult> all;
-  if (spp < 2) return all; // no error bars
   for (const ::render::Strategy& strategy : ::render::strategies) {
+    if (!finds_all_lights(scene, strategy)) continue;
     settings.strategy = strategy;
     const ::render::RenderResult r = ::render::render(scene, settings);
     if (r.partial) break;
-    all.push_back({strategy.name, double(r.samples) / r.cpu_seconds, r.relative_error,
+    all.push_back({strategy.name, double(r.samples) / r.cpu_seconds, r.spp, r.relative_error,
                    r.cpu_seconds * r.relative_error * r.relative_error, r.undecided,
                    mean_luminance(r.image, r.estimates), misses_light(strategy)});
   }
   return all;
 }
 
+} // namespace
+
+::render::RenderOptions shrunk(::render::RenderOptions settings, int side) {
+  const double shrink = std::min(1.0, double(side) / std::max(settings.width, settings.height));
+  settings.width = std::max(1, static_cast<int>(std::lround(shrink * settings.width)));
+  settings.height = std::max(1, static_cast<int>(std::lround(shrink * settings.height)));
+  return settings;
+}
+
+std::vector<StrategyResult> compare_strategies(const ::render::Scene& scene, ::render::RenderOptions settings, int side,
+                                               int spp) {
+  if (spp < 2) return {}; // no error bars
+  settings = shrunk(settings, side);
+  settings.spp = spp;
+  settings.seconds.reset();
+  settings.target_error.reset();
+  settings.progress = nullptr;
+  return each_strategy(scene, settings);
+}
+
+std::vector<StrategyResult> compare_strategies_in(const ::render::Scene& scene, ::render::RenderOptions settings,
+                                                  double seconds) {
+  settings.seconds = seconds;
+  settings.target_error.reset();
+  settings.adaptive = false;
+  settings.progress = nullptr;
+  return each_strategy(scene, settings);
+}
+
 const StrategyResult* best_known(const std::vector<StrategyResult>& all) {
   const StrategyResult* best = nullptr;
   for (const StrategyResult& s : all)
-    if (!s.misses_light && (!best || s.mean.std_error < best->mean.std_error)) best = &s;
+    if (!s.misses_light && s.mean.value > 0 && (!best || s.mean.std_error < best->mean.std_error)) best = &s;
   return best;
 }
 

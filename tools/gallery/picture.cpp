@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 namespace carlo {
 
@@ -20,10 +21,11 @@ std::string invalid_samples(const ::render::RenderResult& result, const Provenan
 
 void sign(::render::RenderResult& result, const Provenance& from) {
   auto& metadata = result.image.metadata;
+  metadata["carlo.scene"] = std::filesystem::path(from.scene).filename().string();
   metadata["carlo.command"] = from.command;
   metadata["carlo.commit"] = fmt::format("{} ({})", version, commit);
   metadata["carlo.seed"] = fmt::format("{}", from.seed);
-  metadata["carlo.samples_per_pixel"] = fmt::format("{:.6g}", result.spp);
+  metadata["carlo.samples_per_pixel"] = fmt::format("{:.17g}", result.spp);
   metadata["carlo.invalid_samples"] = fmt::format("{}", result.invalid);
   if (result.partial) metadata["carlo.partial"] = "interrupted before the end";
 }

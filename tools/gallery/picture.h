@@ -18,7 +18,7 @@ struct Provenance {
 /// "" where every sample was finite; otherwise how many were not, and how to trace the first one again.
 std::string invalid_samples(const ::render::RenderResult& result, const Provenance& from);
 
-/// Writes command, commit, seed and samples into the picture's metadata.
+/// Writes scene, command, commit, seed and samples into the picture's metadata.
 void sign(::render::RenderResult& result, const Provenance& from);
 
 /// A line on stderr where Float is too coarse for the scene.

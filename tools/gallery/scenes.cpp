@@ -76,6 +76,13 @@ constexpr auto scenes = std::to_array<GalleryScene>({
     {"ground-glass", "Rough glass, smooth glass and gloss under the picture of a sky", ours, "ground-glass", "", "",
      -2},
     {"mesh-formats", "Torus and trefoil knot", ours},
+    {"globe", "A map about a ball, tiles about a box, under an evening sky", ours},
+
+    // The stages of real-time ray tracing courses, in a room of ours
+    {"hard-shadows", "A room lit by two points and by the sun", ours},
+    {"ambient-occlusion", "The room by what is near", ours},
+    {"one-bounce", "The room under a sky, light reflected once; a film's tone curve", ours, "one-bounce", "", "", 1, 0,
+     ::render::ToneCurve::filmic},
 });
 
 } // namespace

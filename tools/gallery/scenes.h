@@ -1,6 +1,8 @@
 #pragma once
 /// The gallery: the scenes that carlo knows by name.
 
+#include <render/film/tone.h>
+
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +19,7 @@ struct GalleryScene {
   std::string_view sampler = {};  ///< empty: carlo render's
   double exposure = 0;            ///< of its PNG [stops]
   int spp = 0;                    ///< samples per pixel; 0: the file's
+  ::render::ToneCurve tone = ::render::ToneCurve::clamp;
 };
 
 /// All of them, by source in the order of the text.
@@ -24,6 +27,9 @@ std::span<const GalleryScene> gallery();
 
 /// Throws Error, naming the nearest, for an unknown name.
 const GalleryScene& gallery_scene(std::string_view name);
+
+/// How its PNG is made.
+inline ::render::Tone tone_of(const GalleryScene& scene) { return {scene.tone, scene.exposure}; }
 
 /// The path of its file: of an installed carlo beside its other data, of one in its build tree in the project.
 ///   throws : Error that names both places where the scenes are at neither

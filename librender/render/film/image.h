@@ -11,9 +11,18 @@
 namespace render {
 
 /// What the pixels of a picture show.
-enum class Shown {
-  radiance,
-  normals ///< of what is seen: the shading normal n as the colour (n + 1) / 2; beyond all surfaces radiance
+struct Shown {
+  enum What {
+    radiance,
+    normals,          ///< of what is seen: the shading normal n as the colour (n + 1) / 2; beyond all surfaces radiance
+    ambient_occlusion ///< of what is seen: the share of a uniform sky's light that nothing within `reach` keeps from
+                      ///< it; beyond all surfaces 1
+  };
+  What what;
+  double reach; ///< [scene units]
+
+  constexpr Shown(What w = radiance, double r = mc::infinity<double>) : what(w), reach(r) {}
+  bool operator==(const Shown&) const = default;
 };
 
 /// Row-major pixels, the top row first, linear sRGB radiance; optionally the variance of each pixel's mean, per
@@ -21,9 +30,10 @@ enum class Shown {
 struct Image {
   int width = 0, height = 0;
   std::vector<Spectrum> pixels;
-  std::vector<Spectrum> variance;              ///< empty: unknown
-  std::uint32_t estimates = 0;                 ///< independent estimates per pixel behind the variance; 0: unknown
-  std::map<std::string, std::string> metadata; ///< command, seed, samples, commit
+  std::vector<Spectrum> variance;                   ///< empty: unknown
+  std::map<std::string, std::vector<float>> layers; ///< further channels, by their names in OpenEXR, see layers.h
+  std::uint32_t estimates = 0;                      ///< independent estimates per pixel behind the variance; 0: unknown
+  std::map<std::string, std::string> metadata;      ///< command, seed, samples, commit
 
   Image() = default;
   Image(int w, int h)

@@ -25,14 +25,23 @@ std::vector<const Shape*> lights_and_guides(const Scene& scene) {
 
 std::vector<const Shape*> speculars(const Scene& scene) {
   std::vector<const Shape*> found;
+  const auto& lights = scene.lights();
+  const bool can_shine_through = // on a path that meets it; nothing meets a delta light
+      std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.is_sampled() && !l.is_delta(); });
   for (const Surface& s : scene.surfaces())
-    if (scene.has_light_choice() && std::holds_alternative<Sphere>(*s.shape) && scene.bsdf(s).is_delta())
+    if (can_shine_through && std::holds_alternative<Sphere>(*s.shape) && scene.bsdf(s).is_delta())
       found.push_back(s.shape.get());
   if (found.size() > most_speculars) found.clear();
   return found;
 }
 
 } // namespace
+
+bool finds_all_lights(const Scene& scene, const Strategy& strategy) {
+  const auto& lights = scene.lights();
+  return strategy.finding != Finding::by_chance ||
+         std::none_of(lights.begin(), lights.end(), [](const Light& l) { return l.is_delta(); });
+}
 
 Directions::Directions(const Scene& scene, const Strategy& strategy)
     : aims_(strategy.share), aims_for_delta_(std::min(strategy.share, Float(0.5))), follows_(strategy.share < 1) {

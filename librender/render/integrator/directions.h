@@ -39,6 +39,9 @@ struct Direction {
   Float eta;       ///< see BsdfSample
 };
 
+/// Whether the strategy finds every light of the scene: chance never meets a point light or a directional one.
+bool finds_all_lights(const Scene& scene, const Strategy& strategy);
+
 /// A mixture of the BSDF and the targets of a strategy, each equally likely.
 ///   choose : a direction, and its weight under the density of the whole mixture
 ///   pdf    : that density [1/sr], delta lobes excluded: sum of share / n pdf_i(wi) over the targets, and

@@ -42,7 +42,8 @@ template <class SceneType> class PathIntegrator {
 
   /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
   template <class Stream> Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const {
-    if (options_.shown == Shown::normals) return normal(ray, rays);
+    if (options_.shown.what == Shown::normals) return normal(ray, rays);
+    if (options_.shown.what == Shown::ambient_occlusion) return openness(ray, stream, rays);
     return follow({ray, ray.o}, stream, rays, true);
   }
 
@@ -70,6 +71,21 @@ template <class SceneType> class PathIntegrator {
     return radiance;
   }
 
+  // Whether one direction from what a ray meets is open, of those that a uniform sky lights it from.
+  template <class Stream> Spectrum openness(const Ray& ray, Stream& stream, std::uint64_t& rays) const {
+    ++rays;
+    const auto hit = scene_.intersect(ray);
+    if (!hit) return Spectrum::Ones();
+    const SurfacePoint point = scene_.surface(*hit).shape->surface_point(ray, *hit);
+    const auto frame = mc::Frame<Float>::from_z(point.ns.dot(ray.d) < 0 ? point.ns : Vec3(-point.ns));
+    const Vec3 d = frame.to_world(mc::CosineHemisphere<Float>{}.sample(stream.next2()));
+    if (d.dot(point.ng) * ray.d.dot(point.ng) >= 0) return Spectrum::Zero(); // into the true surface
+    Ray shadow = point.spawn_ray(d);
+    shadow.t_max = Float(options_.shown.reach);
+    ++rays;
+    return scene_.occluded(shadow) ? Spectrum::Zero() : Spectrum::Ones();
+  }
+
   // Radiance found along the rest of a path; `whole`: it has not split yet.
   template <class Stream> Spectrum follow(Walk walk, Stream& stream, std::uint64_t& rays, bool whole) const {
     Spectrum radiance = Spectrum::Zero();
@@ -91,7 +107,7 @@ template <class SceneType> class PathIntegrator {
 
       const auto frame = mc::Frame<Float>::from_z(point.ns);
       std::optional<Bsdf> varied;
-      const At at{scene_.bsdf(surface, *hit, varied), point, frame, frame.to_local(-walk.ray.d)};
+      const At at{scene_.bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-walk.ray.d)};
       const bool rough = !at.bsdf.is_delta();
       if (rough && connects() && scene_.has_light_choice()) radiance += walk.beta * connect(at, stream, rays);
       if (whole && rough) return radiance + branch(at, walk, stream, rays);

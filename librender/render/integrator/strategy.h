@@ -33,8 +33,9 @@ struct Strategy {
   Finding finding;
 };
 
-/// All but `light`, which misses what other surfaces reflect, are unbiased. Where nothing is to aim at, the BSDF is
-/// followed.
+/// All but `light`, which misses what other surfaces reflect, are unbiased, those that find by chance where no light is
+/// a point or a direction; of such lights none finds what comes by way of smooth glass or a mirror. Where nothing is to
+/// aim at, the BSDF is followed.
 ///   light, mixture, guides : as in [Shirley16], chapters 7, 8 and 10
 inline constexpr std::array<Strategy, 7> strategies = {{
     {"bsdf", Target::nothing, 0, Finding::by_chance},

@@ -15,7 +15,7 @@ namespace render {
 namespace {
 
 using Read = Image (*)(const std::string& path);
-using Write = void (*)(const std::string& path, const Image& image, double exposure);
+using Write = void (*)(const std::string& path, const Image& image, const Tone& tone);
 
 struct Format {
   std::string_view extension;
@@ -23,12 +23,13 @@ struct Format {
   Write write;
 };
 
-void write_exr(const std::string& path, const Image& image, double) { formats::write_exr(path, image); }
-void write_pfm(const std::string& path, const Image& image, double) { formats::write_pfm(path, image); }
+void write_exr(const std::string& path, const Image& image, const Tone&) { formats::write_exr(path, image); }
+void write_pfm(const std::string& path, const Image& image, const Tone&) { formats::write_pfm(path, image); }
 
-constexpr std::array<Format, 5> known_formats = {{
+constexpr std::array<Format, 6> known_formats = {{
     {".exr", formats::read_exr, write_exr},
     {".pfm", formats::read_pfm, write_pfm},
+    {".hdr", formats::read_hdr, nullptr},
     {".png", formats::read_png, formats::write_png},
     {".jpg", formats::read_jpeg, nullptr},
     {".jpeg", formats::read_jpeg, nullptr},
@@ -57,10 +58,10 @@ template <class Can> const Format& format_of(const std::string& path, std::strin
 
 } // namespace
 
-void write_image(const std::string& path, const Image& image, double exposure) {
+void write_image(const std::string& path, const Image& image, const Tone& tone) {
   const Format& format = format_of(path, "write", [](const Format& f) { return f.write != nullptr; });
   mc::replace_file(path, [&](const std::string& temporary) {
-    mc::with_context(path, [&] { format.write(temporary, image, exposure); });
+    mc::with_context(path, [&] { format.write(temporary, image, tone); });
   });
 }
 

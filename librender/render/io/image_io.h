@@ -2,6 +2,7 @@
 /// Images to and from files; the extension chooses the format.
 
 #include <render/film/image.h>
+#include <render/film/tone.h>
 
 #include <string>
 
@@ -9,14 +10,17 @@ namespace render {
 
 /// Writes by a temporary name, so that `path` holds the old image or the new one.
 ///   .exr : linear radiance R, G, B; where known, the variance of each pixel's mean as variance.R, .G, .B; 32-bit
-///          float, with the metadata as string attributes and the number of estimates
+///          float, with the metadata as string attributes and the number of estimates; further layers by their names
 ///   .pfm : linear radiance only, 32-bit float, no metadata (the format has no place for it)
-///   .png : sRGB, 8 bit, after multiplication by 2^exposure; metadata as text
+///   .png : sRGB, 8 bit, of what `tone` makes of the radiance; metadata as text
 ///   throws : Error for another extension, a folder that is missing or not writable, a full disk
-void write_image(const std::string& path, const Image& image, double exposure = 0);
+void write_image(const std::string& path, const Image& image, const Tone& tone = {});
 
-/// Linear radiance of .exr (channels R, G and B, or Y alone when it is grey), .pfm, .png or .jpg; the last two are
-/// decoded by the curve of sRGB, and transparency is left out.
+/// Linear radiance of .exr (channels R, G and B, or Y alone when it is grey; others are layers), .hdr, .pfm, .png or
+/// .jpg.
+///   .hdr : over the exposures and colour corrections of its header; mantissas are values, not the middles of what they
+///          stand for; primaries are not looked at
+///   .png, .jpg : decoded by the curve of sRGB; transparency is left out
 ///   throws : Error for a missing, damaged or truncated file, for a size that its bytes cannot hold, and for another
 ///            extension
 Image read_image(const std::string& path);

@@ -73,13 +73,13 @@ SceneFile read_mesh_scene(const std::string& path) {
   const double size = (extent.hi - extent.lo).norm() / 2;
   SceneBuilder builder;
   return mc::with_context(path, [&] {
-    TriangleMesh shape = to_shape(mesh, Transform::translate(-middle));
+    TriangleMesh shape = to_shape(mesh, Transform::translate(-middle), mesh.normals.empty());
     mc::require(shape.area() > 0, "none of its {} triangles has an area: nothing would be seen", shape.size());
     builder.add(std::move(shape), {builder.add(Lambert(Spectrum::Constant(Float(0.6))))});
     builder.add(ground_below(extent, size), {builder.add(Lambert(Spectrum::Constant(Float(0.4))))});
     builder.add(Light(GradientBackground()));
     builder.set(camera_for(mesh, middle, size));
-    return SceneFile{builder.build(), {.width = 640, .height = 480, .spp = 64}};
+    return SceneFile{builder.build(), {.width = 640, .height = 480, .spp = 64}, middle};
   });
 }
 

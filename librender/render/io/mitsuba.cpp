@@ -32,7 +32,8 @@ class Reader {
     context_.builder.set(sensor_->film.filter);
     const IntegratorSettings integrator = integrator_.value_or(IntegratorSettings());
     return {mc::with_context(root_.file, [&] { return context_.builder.build(); }),
-            {sensor_->film.width, sensor_->film.height, sensor_->spp, integrator.max_depth, integrator.shown}};
+            {sensor_->film.width, sensor_->film.height, sensor_->spp, integrator.max_depth, integrator.shown},
+            context_.origin()};
   }
 
  private:

@@ -19,6 +19,7 @@ struct RenderDefaults {
 struct SceneFile {
   Scene scene;
   RenderDefaults defaults;
+  Vec3d origin = Vec3d::Zero(); ///< the point of the file that is the origin of the scene
 };
 
 /// Whose defaults hold where a scene leaves a parameter out and the two differ.

@@ -4,12 +4,14 @@
 #include <render/core/dispatch.h>
 #include <render/light/area.h>
 #include <render/light/background.h>
+#include <render/light/delta.h>
 #include <render/light/environment.h>
 
 namespace render {
 
 /// One of the lights; itself models LightLike.
-struct Light : std::variant<AreaLight, ConstantBackground, GradientBackground, Environment> {
+struct Light
+    : std::variant<AreaLight, ConstantBackground, GradientBackground, Environment, PointLight, DirectionalLight> {
   using variant::variant;
 
   Spectrum emitted(const Vec3& wi, const SurfacePoint* met) const {

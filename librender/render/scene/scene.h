@@ -49,12 +49,12 @@ class Scene {
   const Surface& surface(const Hit& hit) const { return surfaces_[static_cast<std::size_t>(hit.shape)]; }
   /// What covers a surface; of a texture only its kind, the rest varies.
   const Bsdf& bsdf(const Surface& surface) const { return materials_[static_cast<std::size_t>(surface.bsdf)].bsdf; }
-  /// What covers it where it was hit; made in `room` where a texture varies it.
-  const Bsdf& bsdf(const Surface& surface, const Hit& hit, std::optional<Bsdf>& room) const {
+  /// What covers it where it was hit, at `point`; made in `room` where a texture varies it.
+  const Bsdf& bsdf(const Surface& surface, const Hit& hit, const SurfacePoint& point, std::optional<Bsdf>& room) const {
     const Material& m = materials_[static_cast<std::size_t>(surface.bsdf)];
     if (!m.texture) [[likely]]
       return m.bsdf;
-    return room.emplace(m.texture->at(surface.shape->uv(hit)));
+    return room.emplace(m.texture->at(surface.shape->uv(hit, point)));
   }
 
   std::span<const Light> lights() const { return lights_; }

@@ -57,7 +57,7 @@ struct DirectionSample {
 ///   spread(ref)       : a bound of the projected solid angle [sr] that it fills at ref, however that faces; at most
 ///                       pi, and close where it is far away and faces ref
 ///   surface_point     : the point of a Hit
-///   has_uv(), uv(hit) : texture coordinates, where it has them;  forget_uvs() : not any more
+///   has_uv(), uv(hit, its point) : texture coordinates, where it has them;  forget_uvs() : not any more
 template <class T>
 concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint hit, Ray ray, Hit h) {
   { s.sample(ref, u) } -> std::same_as<std::optional<ShapeSample>>;

@@ -35,8 +35,8 @@ struct Shape : std::variant<TriangleMesh, Sphere> {
   bool has_uv() const {
     return dispatch(*this, [](const auto& s) { return s.has_uv(); });
   }
-  mc::Vec2<double> uv(const Hit& hit) const {
-    return dispatch(*this, [&](const auto& s) { return s.uv(hit); });
+  mc::Vec2<double> uv(const Hit& hit, const SurfacePoint& point) const {
+    return dispatch(*this, [&](const auto& s) { return s.uv(hit, point); });
   }
   void forget_uvs() {
     std::visit([](auto& s) { s.forget_uvs(); }, static_cast<variant&>(*this));

@@ -12,11 +12,17 @@ namespace render {
 ///   normal : outward; inward when `inside_out`
 ///   sample : a whole sphere seen from outside: uniform in the cone that it fills; otherwise uniform in area
 ///   pdf    : 1 / (2 pi (1 - cos theta_max)), or distance^2 / (|cos| area) [1/sr]
+///   uv     : v the angle from the pole of its axes [pi], u the one about it [2 pi]
 ///   throws : Error unless centre and radius are finite, radius > 0, axis is not 0 and 0 < height <= 2 radius
 class Sphere {
  public:
   Sphere(const Vec3d& center, double radius, bool inside_out = false);
   static Sphere cap(const Vec3d& center, double radius, const Vec3d& axis, double height, bool inside_out = false);
+
+  /// The same sphere with its texture turned: the columns are where u = 0 and u = 1/4 cross the equator, and the pole
+  /// v = 0. At first they are x, y and z.
+  ///   throws : Error unless they are orthonormal, to 1e-6
+  Sphere with_uv_axes(const Eigen::Matrix3d& axes) const;
 
   /// The nearest crossing with 0 < t < t_max.
   std::optional<double> intersect(const Ray& ray) const;
@@ -29,9 +35,8 @@ class Sphere {
   double spread(const Vec3& ref) const;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
-  /// No texture lies on spheres yet.
-  bool has_uv() const { return false; }
-  mc::Vec2<double> uv(const Hit&) const { return {0, 0}; }
+  bool has_uv() const { return true; }
+  mc::Vec2<double> uv(const Hit&, const SurfacePoint& point) const;
   void forget_uvs() {}
 
   const Vec3d& center() const { return center_; }
@@ -49,6 +54,7 @@ class Sphere {
   Vec3d center_;
   double radius_;
   Vec3d axis_ = Vec3d::UnitZ();
+  Eigen::Matrix3d uv_axes_ = Eigen::Matrix3d::Identity();
   double height_;
   bool inside_out_;
   double extent_;   ///< its largest coordinate is at most this

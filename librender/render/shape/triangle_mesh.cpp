@@ -94,19 +94,18 @@ TriangleMesh TriangleMesh::rectangle(const Transform& to_world) {
 
 TriangleMesh TriangleMesh::box(const Transform& to_world) {
   std::vector<Vec3d> corners;
-  for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
   Triangles triangles;
-  // Faces as quads, counter-clockwise seen from outside.
-  for (const std::array<std::uint32_t, 4>& q : {std::array<std::uint32_t, 4>{0, 4, 6, 2},
-                                                {1, 3, 7, 5},
-                                                {0, 1, 5, 4},
-                                                {2, 6, 7, 3},
-                                                {0, 2, 3, 1},
-                                                {4, 5, 7, 6}}) {
-    triangles.push_back({q[0], q[1], q[2]});
-    triangles.push_back({q[0], q[2], q[3]});
+  std::vector<mc::Vec2<float>> uvs;
+  // Faces as quads, counter-clockwise seen from outside; bit k of a corner tells the sign of its coordinate k.
+  for (const std::array<int, 4>& q :
+       {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+    const auto first = static_cast<std::uint32_t>(corners.size());
+    for (const int i : q) corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    uvs.insert(uvs.end(), {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    triangles.push_back({first, first + 1, first + 2});
+    triangles.push_back({first, first + 2, first + 3});
   }
-  return {transformed(corners, to_world), wound(std::move(triangles), to_world)};
+  return {transformed(corners, to_world), wound(std::move(triangles), to_world), {}, std::move(uvs)};
 }
 
 // Computed in double and rounded once: half an ulp of the point, doubled for safety.
@@ -132,7 +131,7 @@ SurfacePoint TriangleMesh::point(std::size_t triangle, double b1, double b2) con
             Float(b1), Float(b2));
 }
 
-mc::Vec2<double> TriangleMesh::uv(const Hit& hit) const {
+mc::Vec2<double> TriangleMesh::uv(const Hit& hit, const SurfacePoint&) const {
   const auto& [i, j, k] = faces_[static_cast<std::size_t>(hit.prim)].vertices;
   const double b1 = double(hit.b1), b2 = double(hit.b2);
   return (1 - b1 - b2) * uvs_[i].cast<double>() + b1 * uvs_[j].cast<double>() + b2 * uvs_[k].cast<double>();

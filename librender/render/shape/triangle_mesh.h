@@ -30,7 +30,7 @@ class TriangleMesh {
 
   /// The square [-1,1]^2 in the plane z = 0 under `to_world`; its normal is the transformed (0, 0, 1), mirrored or not.
   static TriangleMesh rectangle(const Transform& to_world);
-  /// The cube [-1,1]^3, normals outward, under `to_world`.
+  /// The cube [-1,1]^3, normals outward, under `to_world`; texture coordinates fill [0,1]^2 on each side.
   static TriangleMesh box(const Transform& to_world);
 
   std::optional<ShapeSample> sample(const Vec3& ref, const Vec2& u) const;
@@ -44,7 +44,7 @@ class TriangleMesh {
   SurfacePoint point(std::size_t triangle, double b1, double b2) const;
 
   bool has_uv() const { return !uvs_.empty(); }
-  mc::Vec2<double> uv(const Hit& hit) const;
+  mc::Vec2<double> uv(const Hit& hit, const SurfacePoint&) const;
   /// Gives back the memory of texture coordinates that nothing reads.
   void forget_uvs() { uvs_ = {}; }
 

@@ -217,7 +217,7 @@ template <class B> struct Recovered : Scene {
   B own;
   Recovered(Scene scene, B bsdf) : Scene(std::move(scene)), own(std::move(bsdf)) {}
   const B& bsdf(const Surface&) const { return own; }
-  const B& bsdf(const Surface&, const Hit&, std::optional<Bsdf>&) const { return own; }
+  const B& bsdf(const Surface&, const Hit&, const SurfacePoint&, std::optional<Bsdf>&) const { return own; }
 };
 
 // Lambert's, with a component that is not a number.

@@ -49,6 +49,19 @@ TEST_F(ImageIo, ExrKeepsRadianceVarianceAndMetadata) {
   EXPECT_TRUE(render::read_image(path("b.exr")).variance.empty());
 }
 
+TEST_F(ImageIo, ExrKeepsLayers) {
+  Image image = picture(true);
+  mc::Pcg random(3);
+  for (const char* name : {"Z", "N.X", "albedo.B", "id"})
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) image.layers[name].push_back(random.uniform<float>());
+  image.layers["Z"][3] = mc::infinity<float>;
+  render::write_image(path("layers.exr"), image);
+  const Image back = render::read_image(path("layers.exr"));
+  expect_equal(image, back);
+  EXPECT_EQ(back.variance.size(), image.variance.size());
+  EXPECT_EQ(back.layers, image.layers);
+}
+
 // A grey image as other programs write it: 2x1 pixels, the one channel Y.
 TEST_F(ImageIo, ExrOfLuminanceAloneIsGrey) {
   const auto number = [](auto x) { return std::string(reinterpret_cast<const char*>(&x), sizeof x); };
@@ -89,7 +102,7 @@ TEST_F(ImageIo, PngIsSrgbWithExposureAndText) {
   Image image(2, 1);
   image.at(0, 0) = render::Spectrum(0.25f, 0.0015f, 7);
   image.metadata = {{"carlo.command", "carlo render \"\u00fc.xml\""}, {"carlo.seed", "7"}};
-  render::write_image(path("a.png"), image, 1);
+  render::write_image(path("a.png"), image, {.exposure = 1});
   EXPECT_TRUE(mc::read_file(path("a.png")).starts_with("\x89PNG\r\n"));
   const Image back = render::read_image(path("a.png"));
   EXPECT_EQ(back.metadata, image.metadata);
@@ -159,7 +172,7 @@ TEST_F(ImageIo, RefusesWithOneLine) {
   EXPECT_THAT(support::error_of([&] { render::write_image(path("a.jpg"), image); }),
               testing::HasSubstr("unknown image format '.jpg'; use .exr, .pfm or .png"));
   EXPECT_THAT(support::error_of([&] { render::read_image(path("a.gif")); }),
-              testing::HasSubstr("unknown image format '.gif'; use .exr, .pfm, .png, .jpg or .jpeg"));
+              testing::HasSubstr("unknown image format '.gif'; use .exr, .pfm, .hdr, .png, .jpg or .jpeg"));
   EXPECT_THAT(support::error_of([&] { render::write_image(path("none/a.exr"), image); }),
               testing::HasSubstr("does not exist; create it first"));
   EXPECT_THAT(support::error_of([&] { render::read_image(path("none.exr")); }), testing::HasSubstr("no such file"));

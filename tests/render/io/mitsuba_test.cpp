@@ -12,7 +12,8 @@ struct Mitsuba : support::SceneTest {};
 std::string gallery(const std::string& name) { return std::string(MC_SOURCE_DIR) + "/librender/scenes/" + name; }
 
 TEST_F(Mitsuba, ReadsTheCornellBoxAsItIs) {
-  const auto [scene, defaults] = render::read_mitsuba(gallery("cbox.xml"));
+  const auto [scene, defaults, origin] = render::read_mitsuba(gallery("cbox.xml"));
+  EXPECT_TRUE(origin.isZero());
   EXPECT_EQ(scene.surfaces().size(), 8u);
   ASSERT_EQ(scene.lights().size(), 1u);
   const render::Shape& light = std::get<render::AreaLight>(scene.lights()[0]).shape();
@@ -32,8 +33,9 @@ TEST_F(Mitsuba, EveryGallerySceneLoadsAndRenders) {
   for (const auto& entry : std::filesystem::directory_iterator(gallery(""))) {
     if (entry.path().extension() != ".xml") continue;
     ++scenes;
-    const render::Scene scene = render::read_mitsuba(entry.path().string()).scene;
+    const auto [scene, defaults, origin] = render::read_mitsuba(entry.path().string());
     render::RenderOptions options;
+    options.shown = defaults.shown;
     options.width = 24;
     options.height = 18;
     options.spp = 8;

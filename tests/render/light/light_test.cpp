@@ -7,7 +7,8 @@ namespace {
 using namespace render;
 
 static_assert(LightLike<Light> && LightLike<AreaLight> && LightLike<ConstantBackground> &&
-              LightLike<GradientBackground> && LightLike<Environment>);
+              LightLike<GradientBackground> && LightLike<Environment> && LightLike<PointLight> &&
+              LightLike<DirectionalLight>);
 
 TEST(Light, AnswersAsItsMember) {
   const GradientBackground sky;

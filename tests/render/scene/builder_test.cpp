@@ -34,7 +34,8 @@ TEST(SceneBuilder, SaysWhatIsWrong) {
   EXPECT_THAT(message([&] { builder.add(ball, {BsdfId(3)}); }), testing::HasSubstr("shape 1 names BSDF 3 of 1"));
   EXPECT_THAT(message([&] { builder.add(flat, {gray, Emission{}}); }), testing::HasSubstr("needs an area > 0"));
   const BsdfId board = builder.add(TexturedLambert(Checkerboard(Spectrum::Zero(), Spectrum::Ones())));
-  EXPECT_THAT(message([&] { builder.add(ball, {board}); }), testing::HasSubstr("shape 1 has no texture coordinates"));
+  const Shape bare = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  EXPECT_THAT(message([&] { builder.add(bare, {board}); }), testing::HasSubstr("shape 1 has no texture coordinates"));
   // What was refused has left nothing behind.
   const Scene scene = builder.build();
   EXPECT_EQ(scene.surfaces().size(), 1u);
@@ -48,10 +49,11 @@ TEST(SceneBuilder, ATextureLiesWhereTheCoordinatesSay) {
   const Scene scene = builder.build();
   for (const double x : {-0.9, -0.3, 0.2, 0.7})
     for (const double y : {-0.8, -0.1, 0.4, 0.6}) {
-      const auto hit = scene.intersect({Vec3(Float(x), Float(y), 1), Vec3(0, 0, -1)});
+      const Ray ray{Vec3(Float(x), Float(y), 1), Vec3(0, 0, -1)};
+      const auto hit = scene.intersect(ray);
       ASSERT_TRUE(hit);
       std::optional<Bsdf> varied;
-      const Bsdf& here = scene.bsdf(scene.surface(*hit), *hit, varied);
+      const Bsdf& here = scene.bsdf(scene.surface(*hit), *hit, scene.surface_point(ray, *hit), varied);
       EXPECT_EQ(std::get<Lambert>(here).albedo()[0], ((x < 0) == (y < 0) ? dark : light)[0]) << x << ", " << y;
     }
 }

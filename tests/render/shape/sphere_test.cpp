@@ -3,6 +3,7 @@
 #include "support/random_direction.h"
 
 #include <mc/core/error.h>
+#include <mc/core/frame.h>
 #include <mc/random/pcg.h>
 #include <mc/warp/sphere.h>
 
@@ -31,6 +32,35 @@ TEST(Sphere, RejectsBadNumbers) {
   EXPECT_THROW(Sphere::cap(Vec3d::Zero(), 1, Vec3d::Zero(), 1), mc::Error);
   for (const double height : {0.0, 2.1, nan})
     EXPECT_THROW(Sphere::cap(Vec3d::Zero(), 1, Vec3d(0, 0, 1), height), mc::Error) << height;
+}
+
+// Angles about the axes, to the rounding of a point; turned and mirrored axes too. The poles have any u.
+TEST(Sphere, TextureCoordinatesAreAngles) {
+  mc::Pcg random(9);
+  for (int trial = 0; trial < 500; ++trial) {
+    const auto direction = [&] { return mc::UniformSphere<double>{}.sample(random.point<double, 2>()); };
+    const auto frame = mc::Frame<double>::from_z(direction());
+    Eigen::Matrix3d axes;
+    axes << frame.x, frame.y, frame.z;
+    if (trial % 2 == 0) axes.col(0) *= -1;
+    const double radius = std::pow(10, 6 * random.uniform<double>() - 3);
+    const Vec3d center = radius * direction();
+    const Sphere s = Sphere(center, radius, trial % 3 == 0).with_uv_axes(axes);
+    const double u = random.uniform<double>(), v = 0.001 + 0.998 * random.uniform<double>(),
+                 sine = std::sin(v * mc::pi<double>);
+    const Vec3d d = axes * Vec3d(sine * std::cos(2 * mc::pi<double> * u), sine * std::sin(2 * mc::pi<double> * u),
+                                 std::cos(v * mc::pi<double>));
+    const Ray ray{(center + 3 * radius * d).cast<Float>(), (-d).cast<Float>()};
+    const auto t = s.intersect(ray);
+    ASSERT_TRUE(t);
+    const Hit hit{*t, 0, 0, 0, 0};
+    const auto uv = s.uv(hit, s.surface_point(ray, hit));
+    EXPECT_GE(uv[0], 0);
+    EXPECT_LE(uv[0], 1);
+    EXPECT_NEAR(std::remainder(uv[0] - u, 1.0) * sine, 0, 1e-6);
+    EXPECT_NEAR(uv[1], v, 1e-6);
+  }
+  EXPECT_THROW(Sphere(Vec3d::Zero(), 1).with_uv_axes(2 * Eigen::Matrix3d::Identity()), mc::Error);
 }
 
 // Float rays against spheres of every size, compared with long double. Tangent rays apart, double loses a few roundings

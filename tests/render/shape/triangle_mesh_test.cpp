@@ -107,6 +107,26 @@ TEST(TriangleMesh, DirectionPdfSumsTheCrossings) {
   EXPECT_EQ(box.pdf(ref, Vec3(0, 0, 1)), 0);
 }
 
+// Each side of a box shows the whole of [0,1]^2 once, not mirrored: u, v and the normal make a right hand.
+TEST(TriangleMesh, TextureCoordinatesFillTheSidesOfABox) {
+  const TriangleMesh box = TriangleMesh::box(scaled_at({1, 2, 3}, {5, 6, 7}));
+  ASSERT_TRUE(box.has_uv());
+  for (int side = 0; side < 6; ++side) {
+    double area = 0;
+    for (const int triangle : {2 * side, 2 * side + 1}) {
+      const auto at = [&](Float b1, Float b2) { return box.uv({0, 0, triangle, b1, b2}, SurfacePoint()); };
+      const auto p = [&](double b1, double b2) {
+        return Vec3d(box.point(static_cast<std::size_t>(triangle), b1, b2).p.cast<double>());
+      };
+      const mc::Vec2<double> du = at(1, 0) - at(0, 0), dv = at(0, 1) - at(0, 0);
+      EXPECT_GT(du[0] * dv[1] - du[1] * dv[0], 0);
+      area += (du[0] * dv[1] - du[1] * dv[0]) / 2;
+      EXPECT_GT(mc::cross<double>(p(1, 0) - p(0, 0), p(0, 1) - p(0, 0)).dot(p(0.3, 0.3) - Vec3d(5, 6, 7)), 0);
+    }
+    EXPECT_EQ(area, 1) << side;
+  }
+}
+
 TEST(TriangleMesh, NormalsOfBoxesPointOutwardAlsoWhenMirrored) {
   for (const double mirror : {1.0, -1.0}) {
     const TriangleMesh box = TriangleMesh::box(scaled_at({mirror, 2, 3}, {5, 6, 7}));

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <regex>
 
 namespace {
@@ -48,6 +49,14 @@ TEST_F(RenderCommand, RefusesBadInputInOneLine) {
   expect_refused(cbox() + " --threads -2", {"--threads -2"});
   expect_refused(cbox() + " --crop 1,2,3", {"--crop '1,2,3'", "X,Y,WIDTH,HEIGHT"});
   expect_refused(cbox() + " --crop 6,0,3,3", {"crop of 3x3 pixels at (6, 0)", "8x8"});
+  expect_refused(cbox() + " --layers", {"--layers", "out.pfm", ".exr"});
+  expect_refused(cbox() + " --tone filmc", {"'filmc'", "did you mean 'filmic'"});
+  for (const char* stops : {"bright", "1e3", "nan", "1x"})
+    expect_refused(cbox() + " --exposure " + stops, {"--exposure '" + std::string(stops) + "'", "or auto"});
+  expect_refused(cbox() + " --resume", {"--resume", "there is no", "the first time"});
+  expect_refused(cbox() + " --compare-strategies --exposure auto", {"--exposure auto is for one picture"});
+  expect_refused(scenes + "hard-shadows.xml --strategy bsdf -o " + path("out.pfm"),
+                 {"the strategy bsdf", "point or directional light", "use nee or mis"});
   expect_refused("nothing.obj -o " + path("out.pfm"), {"nothing.obj"});
   expect_refused(write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n") + " -o " + path("out.pfm"),
                  {"line.obj", "none of its 1 triangles has an area"});
@@ -75,6 +84,81 @@ TEST_F(RenderCommand, ReachesTheErrorThatItIsAskedFor) {
         << run.output;
     EXPECT_LE(std::stod(errors[more == " --error-of worst" ? 2 : 1]), 10.0);
   }
+}
+
+TEST_F(RenderCommand, WritesLayers) {
+  const support::Run run =
+      run_carlo("render " + scenes + "sphere-light.xml --size 16x12 --spp 2 --layers -o " + path("l.exr"));
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  const auto layers = render::read_image(path("l.exr")).layers;
+  EXPECT_EQ(layers.size(), 11u);
+  const std::size_t low = 11 * 16 + 8; // the floor
+  EXPECT_NEAR(layers.at("N.Y")[low], 1, 1e-6);
+  EXPECT_NEAR(layers.at("P.Y")[low], 0, 1e-5);
+  EXPECT_NEAR(layers.at("albedo.G")[low], 0.5, 1e-6);
+  EXPECT_EQ(layers.at("id")[low], 1);
+  EXPECT_EQ(layers.at("id")[0], 0) << "the corner sees beyond the floor";
+  EXPECT_EQ(layers.at("Z")[0], HUGE_VALF);
+}
+
+// As bright as it is: middle grey where the picture's middle is.
+TEST_F(RenderCommand, TonesAPng) {
+  const std::string start = "render " + scenes + "sphere-light.xml --size 8x8 --spp 4 -o ";
+  for (const char* tone : {"", " --tone reinhard", " --tone filmic --exposure auto", " --exposure auto"}) {
+    ASSERT_EQ(run_carlo(start + path("a.png") + tone).exit_code, 0) << tone;
+    ASSERT_EQ(run_carlo(start + path("a.pfm")).exit_code, 0);
+    const render::Image shown = render::read_image(path("a.png")), radiance = render::read_image(path("a.pfm"));
+    const std::string words = tone;
+    render::Tone by;
+    if (words.find("reinhard") != std::string::npos) by.curve = render::ToneCurve::reinhard;
+    if (words.find("filmic") != std::string::npos) by.curve = render::ToneCurve::filmic;
+    if (words.find("auto") != std::string::npos) by.exposure = auto_exposure(radiance);
+    for (std::size_t i = 0; i < shown.pixels.size(); ++i)
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(shown.pixels[i][c], toned(radiance.pixels[i], by)[c], 0.01) << tone << " " << i;
+  }
+}
+
+// Two runs of 8 samples are a picture of 16: other samples than the first, and the variance of them all.
+TEST_F(RenderCommand, GoesOnWhereItStopped) {
+  const std::string line = "render " + scenes + "sphere-light.xml --size 16x12 --spp 8 -o " + path("r.exr");
+  ASSERT_EQ(run_carlo(line).exit_code, 0);
+  const render::Image first = render::read_image(path("r.exr"));
+  const support::Run run = run_carlo(line + " --resume");
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("16 samples/pixel of 2 runs"));
+  const render::Image second = render::read_image(path("r.exr"));
+  EXPECT_EQ(second.metadata.at("carlo.samples_per_pixel"), "16");
+  EXPECT_EQ(second.metadata.at("carlo.runs"), "2");
+  int changed = 0;
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < first.pixels.size(); ++i) {
+    changed += (first.pixels[i] != second.pixels[i]).any();
+    before += double(first.variance[i].sum());
+    after += double(second.variance[i].sum());
+  }
+  EXPECT_GT(changed, 100);
+  EXPECT_LT(after, 0.8 * before);
+  const support::Run third = run_carlo(line + " --resume");
+  EXPECT_THAT(third.output, HasSubstr("24 samples/pixel of 3 runs"));
+  const auto refused = [&](const std::string& arguments, const char* word) {
+    const support::Run wrong = run_carlo("render " + arguments);
+    EXPECT_EQ(wrong.exit_code, 2) << wrong.output;
+    EXPECT_THAT(wrong.output, HasSubstr(word));
+  };
+  refused(scenes + "cbox.xml --size 16x12 --spp 8 --resume -o " + path("r.exr"), "a picture of 'sphere-light.xml'");
+  refused(scenes + "sphere-light.xml --size 8x8 --spp 8 --resume -o " + path("r.exr"), "holds 16x12 pixels");
+}
+
+TEST_F(RenderCommand, ComparesStrategies) {
+  const support::Run run = run_carlo("render " + scenes +
+                                     "sphere-light.xml --size 4x3 --spp 4 "
+                                     "--compare-strategies -o " +
+                                     path("s.png"));
+  ASSERT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("same samples"));
+  EXPECT_THAT(run.output, HasSubstr("1, 4, 16, 64, 256, 1024 samples per pixel"));
+  EXPECT_EQ(render::read_image(path("s.png")).width, 52);
 }
 
 TEST_F(RenderCommand, WritesIntervals) {

@@ -28,7 +28,8 @@ std::vector<carlo::RenderedScene> two_scenes() {
   r.strategy = "mis";
   r.sampler = "sobol";
   r.features = carlo::features_of(*r.scene);
-  r.strategies = {{"bsdf", 1e6, 0.2, 0.4, 0.3, {1.01, 0.02, 99, 100}}, {"mis", 1e6, 0.1, 0.1, 0, {1, 0.01, 99, 100}}};
+  r.strategies = {{"bsdf", 1e6, 64, 0.2, 0.4, 0.3, {1.01, 0.02, 99, 100}},
+                  {"mis", 1e6, 64, 0.1, 0.1, 0, {1, 0.01, 99, 100}}};
   carlo::RenderedScene bare = r;
   bare.scene = &strange;
   bare.strategies.clear();

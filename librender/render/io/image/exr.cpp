@@ -10,8 +10,10 @@
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace render::formats {
@@ -22,10 +24,20 @@ constexpr std::array<const char*, 6> channels = {"R", "G", "B", "variance.R", "v
 constexpr const char* estimates_key = "estimatesPerPixel";
 
 // What a file of these many bytes may hold: no compression of the format packs 4096 bytes in one.
-void require_size(double width, double height, const std::string& path) {
+void require_size(double width, double height, std::size_t planes, const std::string& path) {
   const double bytes = double(std::filesystem::file_size(path));
-  mc::require(width >= 1 && height >= 1 && width * height * 2 <= 4096 * bytes,
-              "EXR says {}x{}, which its {} bytes cannot hold", width, height, bytes);
+  mc::require(width >= 1 && height >= 1 && width * height * 2 * double(planes) <= 4096 * bytes,
+              "EXR says {}x{} in {} channels, which its {} bytes cannot hold", width, height, planes, bytes);
+}
+
+// The channels of a file that are none of the picture's own; those of fewer pixels are left out.
+std::vector<std::string> layers_of(const Imf::ChannelList& list) {
+  std::vector<std::string> names;
+  for (auto c = list.begin(); c != list.end(); ++c)
+    if (c.channel().xSampling == 1 && c.channel().ySampling == 1 &&
+        std::find(channels.begin(), channels.end(), std::string_view(c.name())) == channels.end())
+      names.emplace_back(c.name());
+  return names;
 }
 
 // One plane of floats per channel, as OpenEXR wants them.
@@ -56,6 +68,13 @@ void write_exr(const std::string& path, const Image& image) {
         planes.plane[c][i] = static_cast<float>(source[i][static_cast<int>(c % 3)]);
       frame.insert(channels[c], planes.slice(c, 0, 0));
     }
+    Planes layers(image.layers.size(), image.width, image.height);
+    std::size_t layer = 0;
+    for (const auto& [name, values] : image.layers) {
+      header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+      layers.plane[layer] = values;
+      frame.insert(name, layers.slice(layer++, 0, 0));
+    }
     for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
     if (image.estimates > 0) header.insert(estimates_key, Imf::IntAttribute(static_cast<int>(image.estimates)));
     Imf::OutputFile file(path.c_str(), header);
@@ -70,11 +89,13 @@ Image read_exr(const std::string& path) {
   try {
     Imf::InputFile file(path.c_str());
     const auto window = file.header().dataWindow();
-    require_size(double(window.max.x) - window.min.x + 1, double(window.max.y) - window.min.y + 1, path);
-    const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
-    const bool with_variance = file.header().channels().findChannel(channels[3]) != nullptr;
     const auto has = [&](const char* channel) { return file.header().channels().findChannel(channel) != nullptr; };
-    const bool grey = has("Y") && !has("R") && !has("G") && !has("B");
+    const bool grey = has("Y") && !has("R") && !has("G") && !has("B"), with_variance = has(channels[3]);
+    std::vector<std::string> names = layers_of(file.header().channels());
+    if (grey) std::erase(names, "Y");
+    require_size(double(window.max.x) - window.min.x + 1, double(window.max.y) - window.min.y + 1, names.size() + 1,
+                 path);
+    const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
     for (std::size_t c = 0; c < 3; ++c)
       mc::require(grey || has(channels[c]), "EXR has no channel {}; R, G and B, or Y alone, are needed", channels[c]);
     Planes planes(with_variance ? 6 : 3, width, height);
@@ -82,6 +103,8 @@ Image read_exr(const std::string& path) {
     if (grey) frame.insert("Y", planes.slice(0, window.min.x, window.min.y));
     for (std::size_t c = grey ? 3 : 0; c < planes.plane.size(); ++c)
       frame.insert(channels[c], planes.slice(c, window.min.x, window.min.y));
+    Planes layers(names.size(), width, height);
+    for (std::size_t i = 0; i < names.size(); ++i) frame.insert(names[i], layers.slice(i, window.min.x, window.min.y));
     file.setFrameBuffer(frame);
     file.readPixels(window.min.y, window.max.y);
     if (grey) planes.plane[1] = planes.plane[2] = planes.plane[0];
@@ -91,6 +114,7 @@ Image read_exr(const std::string& path) {
       auto& target = c < 3 ? image.pixels : image.variance;
       for (std::size_t i = 0; i < target.size(); ++i) target[i][static_cast<int>(c % 3)] = Float(planes.plane[c][i]);
     }
+    for (std::size_t i = 0; i < names.size(); ++i) image.layers[names[i]] = std::move(layers.plane[i]);
     for (auto it = file.header().begin(); it != file.header().end(); ++it)
       if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
         image.metadata[it.name()] = text->value();

@@ -2,6 +2,7 @@
 /// One reader or writer per image format, each with its outside library behind one .cpp. Called through image_io.h.
 
 #include <render/film/image.h>
+#include <render/film/tone.h>
 
 #include <string>
 
@@ -11,8 +12,9 @@ void write_exr(const std::string& path, const Image& image);
 Image read_exr(const std::string& path);
 void write_pfm(const std::string& path, const Image& image);
 Image read_pfm(const std::string& path);
-void write_png(const std::string& path, const Image& image, double exposure);
+void write_png(const std::string& path, const Image& image, const Tone& tone);
 Image read_png(const std::string& path);
 Image read_jpeg(const std::string& path);
+Image read_hdr(const std::string& path);
 
 } // namespace render::formats

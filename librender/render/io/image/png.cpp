@@ -139,7 +139,7 @@ class Reader {
 };
 
 std::uint8_t encode(double linear) {
-  const double encoded = 255 * linear_to_srgb(std::clamp(linear, 0.0, 1.0));
+  const double encoded = 255 * linear_to_srgb(linear);
   return std::isfinite(encoded) ? static_cast<std::uint8_t>(std::lround(encoded)) : std::uint8_t{0}; // NaN
 }
 
@@ -160,12 +160,11 @@ png_text text_of(const std::string& key, const std::string& value) {
 
 } // namespace
 
-void write_png(const std::string& path, const Image& image, double exposure) {
-  const double gain = std::exp2(exposure);
+void write_png(const std::string& path, const Image& image, const Tone& tone) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(image.pixels.size() * 3);
   for (const Spectrum& p : image.pixels)
-    for (int c = 0; c < 3; ++c) bytes.push_back(encode(gain * double(p[c])));
+    for (const double value : toned(p, tone)) bytes.push_back(encode(value));
   auto rows = rows_of(bytes, 3 * static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height));
   std::vector<png_text> texts;
   for (const auto& [key, value] : image.metadata) texts.push_back(text_of(key, value));

@@ -4,13 +4,44 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+#include <cmath>
+
 namespace render {
 
+namespace {
+
+// The sum of the normals of the triangles about each vertex, by their angles there, so that it does not matter how a
+// polygon was cut.
+std::vector<Vec3> smooth_normals(const std::vector<Vec3d>& positions,
+                                 const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  std::vector<Vec3d> sums(positions.size(), Vec3d::Zero());
+  for (const auto& t : triangles) {
+    const Vec3d normal =
+        mc::cross<double>(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]).stableNormalized();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3d &at = positions[t[i]], a = positions[t[(i + 1) % 3]] - at, b = positions[t[(i + 2) % 3]] - at;
+      sums[t[i]] += std::atan2(mc::cross<double>(a, b).stableNorm(), a.dot(b)) * normal;
+    }
+  }
+  std::vector<Vec3> normals;
+  normals.reserve(sums.size());
+  for (const Vec3d& n : sums) normals.push_back(n.stableNormalized().cast<Float>());
+  return normals;
+}
+
+} // namespace
+
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat) {
+  std::vector<Vec3d> placed;
   std::vector<Vec3> positions, normals;
+  placed.reserve(file.positions.size());
   positions.reserve(file.positions.size());
-  for (const Vec3d& p : file.positions) positions.push_back(to_world.point(p).cast<Float>());
-  if (!flat) {
+  for (const Vec3d& p : file.positions) {
+    placed.push_back(to_world.point(p));
+    positions.push_back(placed.back().cast<Float>());
+  }
+  if (!flat && !file.normals.empty()) {
     const Eigen::Matrix3d normal_map = to_world.linear.inverse().transpose();
     normals.reserve(file.normals.size());
     for (const Vec3d& n : file.normals) normals.push_back((normal_map * n).stableNormalized().cast<Float>());
@@ -18,6 +49,11 @@ TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat
   auto triangles = file.triangles;
   if (to_world.mirrors())
     for (auto& t : triangles) std::swap(t[1], t[2]);
+  const auto in_range = [&](std::uint32_t i) { return i < placed.size(); };
+  if (!flat && file.normals.empty() && std::all_of(triangles.begin(), triangles.end(), [&](const auto& t) {
+        return std::all_of(t.begin(), t.end(), in_range);
+      }))
+    normals = smooth_normals(placed, triangles);
   return TriangleMesh(std::move(positions), triangles, std::move(normals), file.uvs);
 }
 

@@ -20,7 +20,8 @@ struct MeshFile {
 
 /// The shape of a mesh file under `to_world`, its triangles turned so that a mirroring transform keeps their normals on
 /// their side.
-///   flat   : the normals of the file are left out
+///   flat   : without normals; else those of the file, or where it has none the mean of the faces about each vertex, by
+///            their angles there [ThuermerWuethrich98]
 ///   throws : Error for what TriangleMesh refuses
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat = false);
 

@@ -47,6 +47,31 @@ TEST_F(Mesh, ToShapeMovesPointsAndNormals) {
   EXPECT_EQ(to_shape(file, mirrored, true).point(0, 1, 0).ns, Vec3(0, 0, 1));
 }
 
+// A box of eight shared corners, its sides cut along either diagonal: the normal of every corner leans alike to its
+// three sides, mirrored or not. Where a file has normals, those are taken, and a flat one has none.
+TEST_F(Mesh, MissingNormalsAreSmooth) {
+  mc::Pcg random(4);
+  for (int trial = 0; trial < 50; ++trial) {
+    MeshFile file;
+    for (int i = 0; i < 8; ++i) file.positions.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    for (const auto& q : std::vector<std::array<std::uint32_t, 4>>{
+             {0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+      const std::size_t s = random.uniform<double>() < 0.5 ? 0 : 1;
+      file.triangles.push_back({q[s], q[s + 1], q[s + 2]});
+      file.triangles.push_back({q[s], q[s + 2], q[(s + 3) % 4]});
+    }
+    const Vec3d size(trial % 2 == 0 ? 1 : -1, 2, 3);
+    const TriangleMesh mesh = to_shape(file, Transform::translate({5, 6, 7}) * Transform::scale(size));
+    for (std::size_t t = 0; t < mesh.size(); ++t)
+      for (const auto& [b1, b2] : {std::pair(0, 0), std::pair(1, 0), std::pair(0, 1)}) {
+        const SurfacePoint corner = mesh.point(t, b1, b2);
+        const Vec3 signs = (corner.p - Vec3(5, 6, 7)).array().sign();
+        EXPECT_LE((corner.ns - signs / std::sqrt(Float(3))).norm(), 1e-6);
+      }
+    EXPECT_EQ(to_shape(file, {}, true).point(0, 0, 0).ns, Vec3(-1, 0, 0));
+  }
+}
+
 // OBJ
 
 TEST_F(Mesh, ObjQuadBecomesTwoTriangles) {

@@ -20,6 +20,18 @@ Environment make_envmap(const Transform& to_world, double scale, const std::shar
   return Environment(texels, turn, scale);
 }
 
+PointLight make_point(const Transform& to_world, const Vec3d& position, const Spectrum& intensity) {
+  return {to_world.point(position), intensity};
+}
+
+DirectionalLight make_directional(const Transform& to_world, const Vec3d& direction, const Spectrum& irradiance) {
+  return {to_world.vector(direction), irradiance};
+}
+
+Declaration sampling_weight() {
+  return no_effect("samplingWeight", "lights are chosen by what they give where light is sought");
+}
+
 } // namespace
 
 const Plugins<Emission>& surface_emitter_plugins() {
@@ -38,11 +50,21 @@ const Plugins<Light>& emitter_plugins() {
       plugin<Light>("envmap", "a latitude-longitude picture of everything far away, +y its top row", make_envmap,
                     transform("toWorld", "a rotation; where it moves things is of no effect"),
                     number("scale", "", 1, "factor of the picture's values, > 0"),
-                    picture("filename", "the picture: .exr, .pfm, .png or .jpg"))
-          .accepting({no_effect("samplingWeight", "lights are chosen by what they give where light is sought")}),
+                    picture("filename", "the picture: .exr, .hdr, .pfm, .png or .jpg"))
+          .accepting({sampling_weight()}),
       plugin<Light>("gradient", "a sky that is linear in the height of the direction (ours)", make_gradient,
                     color("bottom", radiance_unit, "what arrives from -y, >= 0", Spectrum::Ones()),
                     color("top", radiance_unit, "what arrives from +y, >= 0", Spectrum(Float(0.5), Float(0.7), 1))),
+      plugin<Light>("point", "a point that shines alike in all directions; only nee and mis find it", make_point,
+                    transform("toWorld", "from the light's space to the scene's"),
+                    point("position", "where it is", Vec3d::Zero()),
+                    color("intensity", "W/sr", "what is emitted, >= 0", Spectrum::Ones()))
+          .accepting({sampling_weight()}),
+      plugin<Light>("directional", "parallel light from far away; only nee and mis find it", make_directional,
+                    transform("toWorld", "turns the direction; where it moves things is of no effect"),
+                    point("direction", "in which the light goes, of any length", Vec3d::UnitZ()),
+                    color("irradiance", "W/m^2", "of what it meets head-on, >= 0", Spectrum::Ones()))
+          .accepting({sampling_weight()}),
   };
   return rows;
 }

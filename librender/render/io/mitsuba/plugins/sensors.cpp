@@ -74,6 +74,11 @@ IntegratorSettings make_direct() { return {.max_depth = 2}; }
 
 IntegratorSettings make_normals() { return {.shown = Shown::normals}; }
 
+IntegratorSettings make_ao(double ray_length) {
+  mc::require(ray_length > 0, "rayLength {} must be > 0; Mitsuba's automatic length, -1, is not supported", ray_length);
+  return {.shown = {Shown::ambient_occlusion, ray_length}};
+}
+
 IntegratorSettings make_path(int max_depth) {
   mc::require(max_depth == -1 || max_depth >= 1, "maxDepth {} must be -1 or at least 1", max_depth);
   return {.max_depth = max_depth};
@@ -129,6 +134,10 @@ const Plugins<IntegratorSettings>& integrator_plugins() {
                       no_effect("bsdfSamples", "--spp says it"),
                       no_effect("strictNormals", "the geometry always decides on which side light is"),
                       only(false, "hideEmitters", "lights are seen")}),
+      plugin<IntegratorSettings>(
+          "ao", "ambient occlusion: the share of a uniform sky's light that nothing near keeps away", make_ao,
+          number("rayLength", "scene units", "what stands farther away counts as sky, > 0"))
+          .accepting({no_effect("shadingSamples", "--spp says it")}),
       plugin<IntegratorSettings>(
           "normals", "the normal n of what is seen, as the colour (n + 1) / 2; beyond it the sky (ours)", make_normals),
   };

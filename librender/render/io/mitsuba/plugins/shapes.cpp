@@ -23,7 +23,7 @@ Shape make_rectangle(const Transform& to_world) { return TriangleMesh::rectangle
 
 Shape make_cube(const Transform& to_world) { return TriangleMesh::box(to_world); }
 
-Shape make_sphere(const Transform& to_world, const Vec3d& center, double radius, bool flip,
+Shape make_sphere(const Transform& to_world, const Vec3d& center, double radius, bool flip, std::size_t pole,
                   const std::optional<Vec3d>& cap_axis, const std::optional<double>& cap_height) {
   const double scale = to_world.linear.col(0).norm();
   mc::require(
@@ -32,8 +32,11 @@ Shape make_sphere(const Transform& to_world, const Vec3d& center, double radius,
   mc::require(cap_axis.has_value() == cap_height.has_value(),
               "capAxis and capHeight belong together; give both or none");
   const Vec3d at = to_world.point(center);
-  if (!cap_axis) return Sphere(at, scale * radius, flip);
-  return Sphere::cap(at, scale * radius, to_world.vector(*cap_axis), scale * *cap_height, flip);
+  const Eigen::Matrix3d turn = to_world.linear / scale;
+  Eigen::Matrix3d axes = turn;
+  if (pole == 1) axes << turn.col(0), turn.col(2), turn.col(1);
+  if (!cap_axis) return Sphere(at, scale * radius, flip).with_uv_axes(axes);
+  return Sphere::cap(at, scale * radius, to_world.vector(*cap_axis), scale * *cap_height, flip).with_uv_axes(axes);
 }
 
 Parameter<std::optional<BsdfId>> bsdf_of_shape() {
@@ -68,9 +71,10 @@ Parameter<Transform> to_world() { return transform("toWorld", "from the shape's 
 // A row for a mesh in a file, with the parameters that all of those have.
 template <class Make, class... V>
 Plugin<CoveredShape> mesh_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
-  return shape_plugin(std::move(name), std::move(meaning), make,
-                      file("filename", "the mesh, relative to the scene file"), to_world(),
-                      boolean("faceNormals", "whether the normals of the file are left out"), parameters...);
+  return shape_plugin(
+      std::move(name), std::move(meaning), make, file("filename", "the mesh, relative to the scene file"), to_world(),
+      boolean("faceNormals", "whether it is flat: without the file's normals, or smooth ones where it has none"),
+      parameters...);
 }
 
 } // namespace
@@ -88,6 +92,8 @@ const Plugins<CoveredShape>& shape_plugins() {
           "sphere", "a sphere, or the cap of one", make_sphere, to_world(),
           point("center", "its centre", Vec3d::Zero()), number("radius", scene_units, 1, "its radius, > 0"),
           boolean("flipNormals", "whether the normals point inward"),
+          choice("pole", {"z", "y"}, "where v is 0; u turns from x to y about z, from x to z about y (ours)", 0)
+              .in_lajolla(1, "y"),
           optional(point("capAxis", "direction of the cap's pole from the centre (ours)", Vec3d::Zero())),
           optional(number("capHeight", scene_units, "how far the cap reaches from its pole, in (0, 2 radius] (ours)"))),
   };

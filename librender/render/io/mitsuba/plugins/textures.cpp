@@ -28,7 +28,7 @@ Plugin<Texture> texture_plugin(std::string name, std::string meaning, Make make,
 const Plugins<Texture>& texture_plugins() {
   static const Plugins<Texture> rows = {
       texture_plugin("bitmap", "a picture, bilinear between its texels, repeated; 8 bits are decoded by the sRGB curve",
-                     make_bitmap, picture("filename", "the picture: .png, .jpg, .exr or .pfm")),
+                     make_bitmap, picture("filename", "the picture: .png, .jpg, .exr, .hdr or .pfm")),
       texture_plugin("checkerboard", "two by two squares in a period", make_checkerboard,
                      color("color0", "", "of the squares at (0, 0) and (1/2, 1/2)", Spectrum::Constant(Float(0.4))),
                      color("color1", "", "of the other two", Spectrum::Constant(Float(0.2)))),

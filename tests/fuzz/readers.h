@@ -1,0 +1,29 @@
+#pragma once
+// The readers of files that come from anywhere, but for those that leave all to a library.
+
+#include <render/io/image/formats.h>
+#include <render/io/mesh/mesh.h>
+#include <render/io/mitsuba.h>
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace fuzz {
+
+struct Reader {
+  std::string_view format; ///< a folder of the corpus, and the ending of its files
+  void (*read)(const std::string& path);
+};
+
+inline constexpr std::array<Reader, 7> readers = {{
+    {"hdr", [](const std::string& p) { render::formats::read_hdr(p); }},
+    {"obj", [](const std::string& p) { render::to_shape(render::read_obj(p), {}); }},
+    {"pfm", [](const std::string& p) { render::formats::read_pfm(p); }},
+    {"ply", [](const std::string& p) { render::to_shape(render::read_ply(p), {}); }},
+    {"png", [](const std::string& p) { render::formats::read_png(p); }},
+    {"serialized", [](const std::string& p) { render::to_shape(render::read_serialized(p, 0), {}); }},
+    {"xml", [](const std::string& p) { render::read_mitsuba(p); }},
+}};
+
+} // namespace fuzz

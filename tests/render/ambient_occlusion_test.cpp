@@ -1,0 +1,83 @@
+// Ambient occlusion where it is known in closed form. t-tests at alpha = 1e-6, about twenty, fixed seeds.
+
+#include <render/integrator/path.h>
+#include <render/scene/builder.h>
+
+#include <mc/estimate/moments.h>
+#include <mc/sampler/walk_stream.h>
+#include <mc/stats/t_test.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace render;
+
+constexpr double everywhere = HUGE_VAL;
+
+void expect_open(const Scene& scene, const Ray& ray, double reach, double expected, const std::string& what) {
+  const PathIntegrator<Scene> integrator(scene, {.shown = {Shown::ambient_occlusion, reach}});
+  mc::Moments moments;
+  std::uint64_t rays = 0;
+  const mc::NoPairs numbers(2031, 0);
+  for (std::uint32_t i = 0; i < 20'000; ++i) {
+    mc::IndependentWalk<Float> stream(numbers, i);
+    moments.add(double(integrator.radiance(ray, stream, rays)[0]), i);
+  }
+  if (moments.std_error() == 0) EXPECT_EQ(moments.mean(), expected) << what;
+  else EXPECT_GE(mc::t_test(moments, expected).p, 1e-6) << what << ": " << moments.mean() << " for " << expected;
+}
+
+// A floor y = 0 and a wall x = 0 of height h, so wide that its ends are not seen, at any scale.
+Scene corner(double h, double scale) {
+  const double far = 3e3 * scale;
+  SceneBuilder builder;
+  const BsdfId gray = builder.add(Lambert());
+  builder.add(TriangleMesh::rectangle(Transform::columns({far, 0, 0}, {0, 0, -far}, Vec3d::UnitY(), {far, 0, 0})),
+              {gray});
+  builder.add(TriangleMesh::rectangle(
+                  Transform::columns({0, 0, -far}, {0, h * scale / 2, 0}, Vec3d::UnitX(), {0, h * scale / 2, 0})),
+              {gray});
+  return builder.build();
+}
+
+Ray down_to(double x, double scale) { return {Vec3d(x * scale, 0.01 * scale, 0).cast<Float>(), Vec3(0, -1, 0)}; }
+
+// At x from a wall of height h the floor misses (1 - x / sqrt(x^2 + h^2)) / 2: the wall's form factor.
+TEST(AmbientOcclusion, AWallBesideAFloor) {
+  for (const double scale : {1e-10, 1.0, 1e10})
+    for (const double x : {0.1, 1.0, 5.0})
+      expect_open(corner(2, scale), down_to(x, scale), everywhere, 1 - (1 - x / std::hypot(x, 2.0)) / 2,
+                  fmt::format("{} at {}", x, scale));
+}
+
+// Of a wall that ends nowhere within reach r the floor misses the directions that meet it sooner: half of a cone about
+// the wall's normal, whose cosine is c = x / r, on the floor a segment of the unit disk: (acos c - c sqrt(1 - c^2)) /
+// pi.
+TEST(AmbientOcclusion, OnlyWhatIsNear) {
+  for (const double scale : {1e-10, 1.0, 1e10})
+    for (const double x : {0.1, 0.5, 0.9, 1.1}) {
+      const double c = std::min(x, 1.0);
+      expect_open(corner(2, scale), down_to(x, scale), scale,
+                  1 - (std::acos(c) - c * std::sqrt(1 - c * c)) / mc::pi<double>, fmt::format("{} at {}", x, scale));
+    }
+}
+
+// In a ball of radius 1 the other side is 2 cos away: farther than r for 1 - r^2 / 4 of the sky's light. From outside
+// all is open, on either side of the normals, and where nothing is seen.
+TEST(AmbientOcclusion, InAndOnABall) {
+  for (const bool inside_out : {false, true}) {
+    SceneBuilder builder;
+    builder.add(Sphere(Vec3d(1, 2, 3), 1, inside_out), {builder.add(Lambert())});
+    const Scene scene = builder.build();
+    const Vec3 middle(1, 2, 3), d = Vec3(1, -2, 3).normalized();
+    for (const double r : {0.5, 1.0, 1.9}) expect_open(scene, {middle, d}, r, 1 - r * r / 4, fmt::format("{}", r));
+    expect_open(scene, {middle, d}, everywhere, 0, "in a closed ball");
+    expect_open(scene, {Vec3(middle - 5 * d), d}, everywhere, 1, "on a ball");
+    expect_open(scene, {Vec3(middle + 5 * d), d}, everywhere, 1, "beyond");
+  }
+}
+
+} // namespace

@@ -1,0 +1,77 @@
+#include <gallery/strategy_strip.h>
+
+#include <render/scene/builder.h>
+
+#include <support/files.h>
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+
+namespace {
+
+using testing::HasSubstr, testing::Not;
+
+render::Scene lit_floor(bool with_point) {
+  render::SceneBuilder builder;
+  const render::BsdfId gray = builder.add(render::Lambert());
+  builder.add(render::TriangleMesh::rectangle(render::Transform::translate({0, 0, 3})), {gray});
+  builder.add(render::Sphere({0, 0, -2}, 1.5), {gray, render::Emission{}});
+  if (with_point) builder.add(render::Light(render::PointLight({0, 1, 0}, render::Spectrum::Ones())));
+  return builder.build();
+}
+
+render::RenderOptions tiny() {
+  render::RenderOptions settings;
+  settings.width = 4;
+  settings.height = 3;
+  settings.max_depth = 2;
+  return settings;
+}
+
+// Seven strategies, or the two that find a point of light; six pictures each, whose sides and gaps are 4 pixels.
+TEST(StrategyStrip, ARowForEachStrategy) {
+  const render::Image all = carlo::strategy_strip(lit_floor(false), tiny(), {});
+  EXPECT_EQ(all.width, 6 * 8 + 4);
+  EXPECT_EQ(all.height, 7 * 7 + 4);
+  const render::Image two = carlo::strategy_strip(lit_floor(true), tiny(), {});
+  EXPECT_EQ(two.width, 6 * 8 + 4);
+  EXPECT_EQ(two.height, 2 * 7 + 4);
+  render::RenderOptions settings = tiny();
+  const std::atomic<bool> cancel = true;
+  settings.cancel = &cancel;
+  EXPECT_EQ(carlo::strategy_strip(lit_floor(false), settings, {}).width, 0);
+}
+
+TEST(StrategyStrip, TheTableComparesSamplesAndTime) {
+  const render::Scene scene = lit_floor(false);
+  const auto samples = carlo::compare_strategies(scene, tiny(), 4, 64);
+  const auto time = carlo::compare_strategies_in(scene, tiny(), 0.005);
+  ASSERT_EQ(samples.size(), 7u);
+  ASSERT_EQ(time.size(), 7u);
+  for (const auto& s : samples) EXPECT_EQ(s.spp, 64) << s.name;
+  for (const auto& t : time) EXPECT_GE(t.spp, 4) << t.name;
+  const std::string text = carlo::strategy_table(samples, time);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 8);
+  for (const auto& s : samples) EXPECT_THAT(text, HasSubstr("\n" + std::string(s.name) + " "));
+  EXPECT_THAT(text, HasSubstr("100.00 +- "));
+  EXPECT_THAT(text, HasSubstr("misses light"));
+  EXPECT_THAT(text, Not(HasSubstr("nan")));
+  // What has found no light knows nothing, however little its pixels vary.
+  auto blind = samples;
+  blind[0].mean = {0, 0, 99, 100};
+  blind[0].relative_error = blind[0].work = 0;
+  EXPECT_THAT(carlo::strategy_table(blind, time), HasSubstr("100.00 +- "));
+  EXPECT_THAT(support::error_of([&] { carlo::strategy_table(samples, {}); }), HasSubstr("7 with the same samples"));
+}
+
+TEST(StrategyStrip, ShrinksNothingThatIsSmall) {
+  render::RenderOptions settings;
+  settings.width = 600;
+  settings.height = 300;
+  EXPECT_EQ(carlo::shrunk(settings, 96).width, 96);
+  EXPECT_EQ(carlo::shrunk(settings, 96).height, 48);
+  EXPECT_EQ(carlo::shrunk(settings, 1000).width, 600);
+}
+
+} // namespace
