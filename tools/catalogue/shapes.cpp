@@ -173,14 +173,28 @@ struct LightsSeen {
   std::size_t size() const { return scene->lights().size(); }
 };
 
-void add_choice(Catalogue& c) {
-  SceneBuilder builder;
-  const BsdfId gray = builder.add(Lambert());
-  for (const double radiance : {0.0, 1.0, 1e-3, 0.0, 20.0, 3.0, 0.0})
-    builder.add(Sphere(Vec3d::Zero(), 0.1), {gray, Emission{Spectrum::Constant(Float(radiance))}});
+void add_choice(Catalogue& c, const std::string& name, const std::string& parameters, SceneBuilder builder) {
   const LightsSeen choice{std::make_shared<const Scene>(builder.build()), Vec3(1, 2, 3)};
-  add_subject(c, "LightChoice", "spheres of one size and place", mc::make_discrete_subject("", choice),
+  add_subject(c, name, parameters, mc::make_discrete_subject("", choice),
               [=](const Vec2& u) { return double(choice.sample_index(u[0]).pmf); });
+}
+
+void add_choices(Catalogue& c) {
+  SceneBuilder spheres;
+  const BsdfId gray = spheres.add(Lambert());
+  for (const double radiance : {0.0, 1.0, 1e-3, 0.0, 20.0, 3.0, 0.0})
+    spheres.add(Sphere(Vec3d::Zero(), 0.1), {gray, Emission{Spectrum::Constant(Float(radiance))}});
+  add_choice(c, "LightChoice", "spheres of one size and place", std::move(spheres));
+  // Of lights that no ray meets only the choice is random.
+  for (const bool with_sun : {false, true}) {
+    SceneBuilder points;
+    points.add(Sphere(Vec3d::Zero(), 0.1), {points.add(Lambert())});
+    for (const double distance : {0.0, 1e-3, 1.0, 10.0}) // from where it is lit
+      points.add(Light(PointLight(Vec3d(1, 2, 3 + distance), Spectrum::Ones())));
+    if (with_sun) points.add(Light(DirectionalLight(Vec3d(0, -1, 0), Spectrum::Constant(Float(1e6)))));
+    if (with_sun) add_choice(c, "DirectionalLight", "chosen beside points", std::move(points));
+    else add_choice(c, "PointLight", "chosen by its distance", std::move(points));
+  }
 }
 
 // The directions towards a light that is infinitely far away.
@@ -236,7 +250,7 @@ void add_camera(Catalogue& c) {
 void add_shapes(Catalogue& c) {
   add_spheres_seen(c);
   add_meshes_seen(c);
-  add_choice(c);
+  add_choices(c);
   add_lights_seen(c);
   add_camera(c);
 }

@@ -32,19 +32,22 @@ template <class F> void for_each_line(std::string_view text, const F& f) {
   }
 }
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 3> elements = {
-    {{"v", "vertex"}, {"vt", "texture coordinate"}, {"vn", "normal"}}};
+struct Element {
+  std::string_view keyword, name, axes; ///< axes that must be given
+};
+constexpr std::array<Element, 3> elements = {
+    {{"v", "vertex", "xyz"}, {"vt", "texture coordinate", "u"}, {"vn", "normal", "xyz"}}};
 using Counts = std::array<long, elements.size()>;
 
-void check_position(std::size_t line, long vertex, std::string_view text) {
+void check_numbers(std::size_t line, std::size_t kind, long index, std::string_view text) {
   const std::string numbers(text); // ends in 0, as strtod needs
   const char* cursor = numbers.c_str();
-  for (const char axis : {'x', 'y', 'z'}) {
+  for (const char axis : elements[kind].axes) {
     char* after = nullptr;
     const double value = std::strtod(cursor, &after);
-    mc::require(after != cursor, "line {}: vertex {} has no number for {}", line, vertex, axis);
-    mc::require(std::isfinite(static_cast<float>(value)), "line {}: vertex {} has {} = {}, which is not finite", line,
-                vertex, axis, value);
+    mc::require(after != cursor, "line {}: {} {} has no number for {}", line, elements[kind].name, index, axis);
+    mc::require(std::isfinite(static_cast<float>(value)), "line {}: {} {} has {} = {}, which is not finite", line,
+                elements[kind].name, index, axis, value);
     cursor = after;
   }
 }
@@ -57,9 +60,9 @@ void check_corner(std::size_t line, std::string_view corner, const Counts& count
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), index);
     const bool number = error == std::errc() && end == field.data() + field.size();
     mc::require(number || (k > 0 && field.empty()), "line {}: '{}' is not the number of a {}", line, field,
-                elements[k].second);
+                elements[k].name);
     mc::require(!number || (index != 0 && std::abs(index) <= counts[k]),
-                "line {}: a face names {} {}, but there are only {}", line, elements[k].second, index, counts[k]);
+                "line {}: a face names {} {}, but there are only {}", line, elements[k].name, index, counts[k]);
     if (field.size() == corner.size()) return;
     corner.remove_prefix(field.size() + 1);
   }
@@ -72,8 +75,7 @@ void check_lines(std::string_view text) {
   Counts counts{};
   for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
     for (std::size_t k = 0; k < counts.size(); ++k)
-      if (keyword == elements[k].first) ++counts[k];
-    if (keyword == "v") check_position(line, counts[0], rest);
+      if (keyword == elements[k].keyword) check_numbers(line, k, ++counts[k], rest);
   });
   for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
     if (keyword != "f") return;
@@ -99,8 +101,15 @@ MeshFile merged(const tinyobj::ObjReader& reader) {
       has_normals &= corner.normal_index >= 0;
       has_uvs &= corner.texcoord_index >= 0;
     }
-  const auto triple = [](const std::vector<tinyobj::real_t>& v, int index) {
-    const auto j = static_cast<std::size_t>(index) * 3;
+  // What the library counts is not quite what the lines say: of a keyword without a blank behind it, say.
+  const auto place = [](const std::vector<tinyobj::real_t>& v, int index, std::size_t size) {
+    const auto j = static_cast<std::size_t>(index) * size;
+    mc::require(index >= 0 && j + size <= v.size(), "a face names element {}, but only {} of its kind could be read",
+                index + 1, v.size() / size);
+    return j;
+  };
+  const auto triple = [&](const std::vector<tinyobj::real_t>& v, int index) {
+    const std::size_t j = place(v, index, 3);
     return Vec3d(double(v[j]), double(v[j + 1]), double(v[j + 2]));
   };
   MeshFile mesh;
@@ -117,9 +126,10 @@ MeshFile merged(const tinyobj::ObjReader& reader) {
         if (!added) continue;
         mesh.positions.push_back(triple(attributes.vertices, key[0]));
         if (has_normals) mesh.normals.push_back(triple(attributes.normals, key[1]));
-        const auto t = static_cast<std::size_t>(key[2]) * 2;
-        // A file's t goes up, ours down, as Mitsuba's.
-        if (has_uvs) mesh.uvs.emplace_back(attributes.texcoords[t], 1 - attributes.texcoords[t + 1]);
+        if (!has_uvs) continue;
+        const std::size_t t = place(attributes.texcoords, key[2], 2);
+        mesh.uvs.emplace_back(attributes.texcoords[t],
+                              1 - attributes.texcoords[t + 1]); // up there, down here, as Mitsuba
       }
       mesh.triangles.push_back(triangle);
     }

@@ -113,6 +113,10 @@ TEST_F(Mesh, ObjRefusesWithFileAndPlace) {
               HasSubstr("bad.obj: line 2: vertex 2 has y = nan, which is not finite"));
   EXPECT_THAT(refusal("v 0 0 0\nv 1 0 inf\nv 0 1 0\nf 1 2 3\n"), HasSubstr("line 2: vertex 2 has z = inf"));
   EXPECT_THAT(refusal("v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("line 2: vertex 2 has no number for y"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn\nf 1//1 2//1 3//1\n"),
+              HasSubstr("line 4: normal 1 has no number for x"));
+  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt nan\nf 1/1 2/1 3/1\n"),
+              HasSubstr("line 4: texture coordinate 1 has u = nan, which is not finite"));
   EXPECT_THAT(refusal("v 0 0 0\n"), HasSubstr("no triangle"));
 }
 
