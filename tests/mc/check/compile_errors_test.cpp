@@ -52,9 +52,9 @@ TEST(My, Sampler) { EXPECT_SAMPLES_MATCH_PDF(sampler, [](double) { return 1.0; }
 )";
 
 #ifdef __clang__
-constexpr const char* without_quotations = " -fno-caret-diagnostics";
+const std::string without_quotations = " -fno-caret-diagnostics";
 #else
-constexpr const char* without_quotations = "";
+const std::string without_quotations;
 #endif
 
 class CompileErrors : public testing::TestWithParam<WrongProgram> {};
