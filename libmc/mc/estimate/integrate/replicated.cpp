@@ -38,7 +38,7 @@ class Growth {
     if (count == 0 || s.length == 0) return;
     const double all = run_.o.replicates, longer = std::log(all / count) - fall(s),
                  wider = std::log(all / (all + count));
-    const bool enough = 2 * count >= run_.o.replicates && 2 * s.length <= Sequences::longest;
+    const bool enough = 3 * count >= run_.o.replicates && 2 * s.length <= Sequences::longest;
     if (enough && longer < wider) adopt(s, s.lengthen(run_, count));
     else adopt(s, s.widen(run_, count));
   }
