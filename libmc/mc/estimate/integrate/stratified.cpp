@@ -16,7 +16,7 @@ Outcome stratified(Run& run, std::optional<Outcome>& last) {
       sets.emplace_back(Stratified(static_cast<std::uint32_t>(points), hash(run.o.seed, round, r),
                                    static_cast<std::uint32_t>(std::min(run.dim, 8))));
     const std::vector<Sums> sums = run.evaluate_all(sets, 0, points);
-    const Means now = run.means(sums, points, evidence);
+    const Means now = run.means(sums, points, evidence, {}, {}, out.seen); // a tail is that of all rounds
     run.record(Method::stratified, now);
     out.seen.resize(run.outputs);
     for (const Sums& s : sums)
