@@ -80,6 +80,7 @@ constexpr auto scenes = std::to_array<GalleryScene>({
 
     // The stages of real-time ray tracing courses, in a room of ours
     {"hard-shadows", "A room lit by two points and by the sun", ours},
+    {"fast-lens", "The room through a lens of f/1.4, focused on the ball", ours},
     {"ambient-occlusion", "The room by what is near", ours},
     {"one-bounce", "The room under a sky, light reflected once; a film's tone curve", ours, "one-bounce", "", "", 1, 0,
      ::render::ToneCurve::filmic},

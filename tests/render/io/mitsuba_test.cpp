@@ -92,6 +92,45 @@ TEST_F(Mitsuba, NamesFileLineAndRemedy) {
       testing::HasSubstr("must be finite and >= 0"));
 }
 
+TEST_F(Mitsuba, LightsAndLensesNameWhatIsWrong) {
+  const auto said = [&](const std::string& element) { return refusal(std::string(sensor) + "\n" + element); };
+  EXPECT_THAT(
+      said("<emitter type=\"directional\"><vector name=\"direction\" value=\"0\"/></emitter>"),
+      testing::HasSubstr("s.xml:3: <emitter>: directional light: direction (0, 0, 0) must be finite and not 0"));
+  EXPECT_THAT(said("<emitter type=\"point\"><rgb name=\"intensity\" value=\"-1\"/></emitter>"),
+              testing::HasSubstr("s.xml:3: <emitter>: point light: intensity (-1, -1, -1) must be finite and >= 0"));
+  EXPECT_THAT(said("<integrator type=\"ao\"><float name=\"rayLength\" value=\"-1\"/></integrator>"),
+              testing::HasSubstr("s.xml:3: <integrator>: rayLength -1 must be > 0"));
+  const auto lens = [&](const std::string& parameters) {
+    return "<sensor type=\"thinlens\"><float name=\"fov\" value=\"40\"/>" + parameters + "</sensor>";
+  };
+  const std::string radius = "<float name=\"apertureRadius\" value=\"1\"/>",
+                    number = "<float name=\"fNumber\" value=\"", length = "<float name=\"focalLength\" value=\"1\"/>";
+  for (const std::string& wrong : {std::string(), radius + number + "32\"/>" + length, number + "32\"/>", length})
+    EXPECT_THAT(refusal(lens(wrong)), testing::HasSubstr("give apertureRadius, or fNumber and focalLength together"));
+  EXPECT_THAT(refusal(lens(number + "0\"/>" + length)), testing::HasSubstr("fNumber 0 must be > 0"));
+  const std::string file = scene(lens(number + "32\"/>" + length) + "<shape type=\"cube\"/>");
+  EXPECT_EQ(render::read_mitsuba(file).scene.camera().radius(), render::Float(1.0 / 64));
+}
+
+// v is 0 at +z in Mitsuba and at +y in lajolla; u is 0 at +x in both, and turns towards y or z.
+TEST_F(Mitsuba, TheTextureOfASphereIsTheDialects) {
+  const std::string file = scene(std::string(sensor) + "<shape type=\"sphere\"/>");
+  for (const bool lajolla : {false, true}) {
+    const auto read = render::read_mitsuba(file, lajolla ? render::Dialect::lajolla : render::Dialect::mitsuba);
+    const render::Shape& ball = *read.scene.surfaces()[0].shape;
+    const auto uv = [&](double x, double y, double z) {
+      render::SurfacePoint p;
+      p.p = render::Vec3d(x, y, z).cast<render::Float>();
+      return ball.uv({}, p);
+    };
+    EXPECT_EQ(uv(0, 0, 1)[1], lajolla ? 0.5 : 0);
+    EXPECT_EQ(uv(0, 1, 0)[1], lajolla ? 0 : 0.5);
+    EXPECT_EQ(uv(1, 0, 0)[0], 0);
+    EXPECT_NEAR((lajolla ? uv(0.6, 0, 0.8) : uv(0.6, 0.8, 0))[0], std::acos(0.6) / (2 * mc::pi<double>), 1e-6);
+  }
+}
+
 TEST_F(Mitsuba, MeshProblemsNameSceneAndMesh) {
   write("nan.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_THAT(

@@ -122,7 +122,7 @@ TEST_F(RenderCommand, TonesAPng) {
 // Two runs of 8 samples are a picture of 16: other samples than the first, and the variance of them all.
 TEST_F(RenderCommand, GoesOnWhereItStopped) {
   const std::string line = "render " + scenes + "sphere-light.xml --size 16x12 --spp 8 -o " + path("r.exr");
-  ASSERT_EQ(run_carlo(line).exit_code, 0);
+  ASSERT_EQ(run_carlo(line + " --layers").exit_code, 0);
   const render::Image first = render::read_image(path("r.exr"));
   const support::Run run = run_carlo(line + " --resume");
   ASSERT_EQ(run.exit_code, 0) << run.output;
@@ -130,6 +130,7 @@ TEST_F(RenderCommand, GoesOnWhereItStopped) {
   const render::Image second = render::read_image(path("r.exr"));
   EXPECT_EQ(second.metadata.at("carlo.samples_per_pixel"), "16");
   EXPECT_EQ(second.metadata.at("carlo.runs"), "2");
+  EXPECT_EQ(second.layers, first.layers);
   int changed = 0;
   double before = 0, after = 0;
   for (std::size_t i = 0; i < first.pixels.size(); ++i) {

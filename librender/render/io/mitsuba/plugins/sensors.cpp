@@ -6,15 +6,26 @@ namespace {
 
 constexpr int default_spp = 4;
 
-SensorSettings make_thinlens(const Transform& to_world, double fov, std::size_t axis, double near, double far,
-                             double focus_distance, const FilmSettings& film, int spp, double radius) {
+SensorSettings make_sensor(const Transform& to_world, double fov, std::size_t axis, double near, double far,
+                           double focus_distance, const FilmSettings& film, int spp, double radius) {
   constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::smaller, FovAxis::larger};
   return {ThinLens(to_world, {axes[axis], fov, radius, focus_distance, near, far}), film, spp};
 }
 
 SensorSettings make_perspective(const Transform& to_world, double fov, std::size_t axis, double near, double far,
                                 double focus_distance, const FilmSettings& film, int spp) {
-  return make_thinlens(to_world, fov, axis, near, far, focus_distance, film, spp, 0);
+  return make_sensor(to_world, fov, axis, near, far, focus_distance, film, spp, 0);
+}
+
+SensorSettings make_thinlens(const Transform& to_world, double fov, std::size_t axis, double near, double far,
+                             double focus_distance, const FilmSettings& film, int spp,
+                             const std::optional<double>& radius, const std::optional<double>& f_number,
+                             const std::optional<double>& focal_length) {
+  mc::require(radius.has_value() != f_number.has_value() && f_number.has_value() == focal_length.has_value(),
+              "thinlens: give apertureRadius, or fNumber and focalLength together");
+  mc::require(!f_number || *f_number > 0, "thinlens: fNumber {} must be > 0", f_number.value_or(0));
+  return make_sensor(to_world, fov, axis, near, far, focus_distance, film, spp,
+                     radius ? *radius : *focal_length / (2 * *f_number));
 }
 
 // A row for a camera, with the parameters that all cameras have.
@@ -89,8 +100,11 @@ IntegratorSettings make_path(int max_depth) {
 const Plugins<SensorSettings>& sensor_plugins() {
   static const Plugins<SensorSettings> rows = {
       sensor_plugin("perspective", "a pinhole camera", make_perspective),
-      sensor_plugin("thinlens", "a lens with depth of field", make_thinlens,
-                    number("apertureRadius", "scene units", "radius of the lens, >= 0")),
+      sensor_plugin(
+          "thinlens", "a lens with depth of field", make_thinlens,
+          optional(number("apertureRadius", "scene units", "radius of the lens, >= 0")),
+          optional(number("fNumber", "", "focalLength over the lens's diameter, > 0, instead of the radius (ours)")),
+          optional(number("focalLength", "scene units", "of the lens; fov says how much is seen (ours)"))),
   };
   return rows;
 }
