@@ -33,3 +33,22 @@ if(MC_TSAN)
 endif()
 # What nearly every source reads, for a precompiled header of each library.
 set(MC_PRECOMPILED <Eigen/Core> <fmt/format.h> <algorithm> <array> <cmath> <functional> <optional> <span> <string> <vector>)
+
+# Files of a target that are compiled together: those of a folder in four groups by their first letter, so that a new
+# file does not move others. In half of the time, for what no time is spent in when it runs.
+option(MC_UNITY "Compile tests, readers and commands in groups" ON)
+function(mc_compile_in_groups target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${MC_UNITY} UNITY_BUILD_MODE GROUP)
+  foreach(file ${ARGN})
+    cmake_path(ABSOLUTE_PATH file)
+    cmake_path(RELATIVE_PATH file OUTPUT_VARIABLE group)
+    cmake_path(GET group FILENAME stem)
+    cmake_path(GET group PARENT_PATH group)
+    foreach(letters a-c d-l m-r s-z)
+      if(stem MATCHES "^[${letters}]")
+        string(MAKE_C_IDENTIFIER "${group}_${letters}" group)
+      endif()
+    endforeach()
+    set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${group})
+  endforeach()
+endfunction()
