@@ -8,6 +8,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <render/integrator/directions.h>
 
 #include <fmt/format.h>
 
@@ -42,15 +43,27 @@ std::vector<int> depths_of(const std::string& text, int own) {
   return depths;
 }
 
-std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, int own_depth) {
+// Those that are named; else those of three that find every light.
+std::vector<::render::Strategy> strategies_of(const SceneOptions& o, const ::render::SceneFile& file) {
+  std::vector<::render::Strategy> strategies;
+  for (const std::string_view name : split(o.strategies.empty() ? "mixture,nee,mis" : o.strategies, ',')) {
+    const ::render::Strategy& strategy = ::render::strategy_from(name);
+    if (!o.strategies.empty() || file.defaults.shown.what != ::render::Shown::radiance ||
+        finds_all_lights(file.scene, strategy))
+      strategies.push_back(strategy);
+  }
+  return strategies;
+}
+
+std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, const ::render::SceneFile& file) {
   const std::string samplers = run.samplers.empty() ? "independent,stratified,sobol" : run.samplers;
   std::vector<PictureWay> ways;
   for (const bool adaptive : {false, true}) {
     if (adaptive && !run.adaptive) continue;
-    for (const int depth : depths_of(o.depths, own_depth))
-      for (const std::string_view strategy : split(o.strategies, ','))
+    for (const int depth : depths_of(o.depths, file.defaults.max_depth))
+      for (const ::render::Strategy& strategy : strategies_of(o, file))
         for (const std::string_view sampler : split(samplers, ','))
-          ways.push_back({::render::strategy_from(strategy), ::render::sampler_from(sampler), depth, adaptive});
+          ways.push_back({strategy, ::render::sampler_from(sampler), depth, adaptive});
   }
   return ways;
 }
@@ -108,7 +121,8 @@ int list_integrals() {
 
 std::vector<Option> scene_rows(SceneOptions& o) {
   return {
-      {"--strategies", "NAMES", &o.strategies, "Of a scene: comma-separated, see carlo render"},
+      {"--strategies", "NAMES", &o.strategies,
+       "Of a scene: comma-separated, see carlo render [of mixture, nee and mis what finds every light]"},
       {"--max-depths", "LIST", &o.depths, "Of a scene: longest paths in edges, -1 for no limit [the scene's]"},
       {"--size", "WxH", &o.size, "Of a scene's pictures, in pixels [48 wide]"},
       {"--max-spp", "N", &o.max_spp, "Of a scene: most samples per pixel"},
@@ -146,7 +160,7 @@ Pictures measure_scene(const SceneOptions& o, const SceneRun& run) {
   p.cancel = run.cancel;
   Progress progress;
   p.progress = [&](double done, const std::string& where) { progress.show(done, where); };
-  return mc::with_context(run.path, [&] { return measure_pictures(file, ways_of(o, run, own.max_depth), p); });
+  return mc::with_context(run.path, [&] { return measure_pictures(file, ways_of(o, run, file), p); });
 }
 
 std::string about_pictures(const Pictures& pictures) {

@@ -66,6 +66,14 @@ TEST_F(TradeCommand, AScene) {
   expect_refused(cbox + "mis --time 3", "--time is not for scenes");
 }
 
+TEST_F(TradeCommand, OfASceneOnlyWhatFindsItsLights) {
+  const std::string hard = MC_SOURCE_DIR "/librender/scenes/hard-shadows.xml --size 4x3 --samplers sobol --max-spp 32 ";
+  const Ran r = run(hard + "--cost rays --error 0.5");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(r.output, HasSubstr("hard-shadows: 4 ways")); // nee and mis, even and adaptive
+  expect_refused(hard + "--strategies mixture", "mixture");
+}
+
 TEST_F(TradeCommand, BadInputIsOneLine) {
   expect_refused("", "trade: name one integrand");
   expect_refused("genz", "trade: name one integrand");
