@@ -157,6 +157,7 @@ class Session {
     o.strategy = way.strategy;
     o.sampler = way.sampler;
     o.max_depth = way.max_depth;
+    o.shown = file_.defaults.shown;
     o.adaptive = way.adaptive;
     o.seed = seed;
     o.threads = options_.threads;

@@ -74,6 +74,13 @@ TEST_F(TradeCommand, OfASceneOnlyWhatFindsItsLights) {
   expect_refused(hard + "--strategies mixture", "mixture");
 }
 
+TEST_F(TradeCommand, OfWhatASceneShows) {
+  // Without any light: in the dark if it were not ambient occlusion.
+  const Ran r = run(MC_SOURCE_DIR "/librender/scenes/ambient-occlusion.xml --size 4x3 --samplers sobol --max-spp 32 "
+                                  "--strategies mis --cost rays --error 0.5");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+}
+
 TEST_F(TradeCommand, BadInputIsOneLine) {
   expect_refused("", "trade: name one integrand");
   expect_refused("genz", "trade: name one integrand");
