@@ -19,6 +19,9 @@ struct Function {
 
 std::size_t indent(const std::string& line) { return line.find_first_not_of(' '); }
 
+// ": a(b)" after a constructor, and not "::a b()".
+bool is_initializer(const std::string& line) { return line.compare(indent(line), 2, ": ") == 0; }
+
 // Functions of more than `longest` lines, in the format that clang-format gives: a body ends at the first line that
 // starts with a brace and is indented as the line with which the function starts, or where a lambda's braces close.
 std::vector<Function> long_functions(const std::vector<std::string>& lines, std::size_t longest) {
@@ -34,7 +37,7 @@ std::vector<Function> long_functions(const std::vector<std::string>& lines, std:
     if (!lines[i].ends_with('{') || lines[i].find(')') == std::string::npos) continue;
     std::size_t start = i;
     auto open = unclosed(lines[i]);
-    while (start > 0 && (open < 0 || lines[start][indent(lines[start])] == ':' || lines[start - 1].ends_with(',') ||
+    while (start > 0 && (open < 0 || is_initializer(lines[start]) || lines[start - 1].ends_with(',') ||
                          lines[start - 1].ends_with('=') || lines[start - 1].ends_with("&&")))
       open += unclosed(lines[--start]);
     std::size_t end = i + 1;
@@ -63,6 +66,8 @@ TEST(Layout, LongFunctionsAreSeen) {
                                           "  }",
                                           "  int f() {",
                                           "  }",
+                                          "  ::b f() {",
+                                          "  }",
                                           "};",
                                           "  call(1,",
                                           "       [](int) {",
@@ -82,9 +87,9 @@ TEST(Layout, LongFunctionsAreSeen) {
   ASSERT_EQ(found.size(), 3u);
   EXPECT_EQ(found[0].line, 2u);
   EXPECT_EQ(found[0].length, 7u);
-  EXPECT_EQ(found[1].line, 13u);
+  EXPECT_EQ(found[1].line, 15u);
   EXPECT_EQ(found[1].length, 3u);
-  EXPECT_EQ(found[2].line, 16u);
+  EXPECT_EQ(found[2].line, 18u);
   EXPECT_EQ(found[2].length, 4u);
 }
 
