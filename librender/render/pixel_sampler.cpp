@@ -20,10 +20,7 @@ bool is_before(const InvalidSample& a, const InvalidSample& b) {
 } // namespace
 
 PixelSampler sampler_from(std::string_view word) {
-  for (std::size_t i = 0; i < sampler_names.size(); ++i)
-    if (sampler_names[i] == word) return static_cast<PixelSampler>(i);
-  throw mc::Error(fmt::format("unknown sampler '{}'{}; use one of {}", word, mc::did_you_mean(word, sampler_names),
-                              fmt::join(sampler_names, ", ")));
+  return static_cast<PixelSampler>(mc::index_of("sampler", word, sampler_names));
 }
 
 std::string_view name(PixelSampler sampler) { return sampler_names[static_cast<std::size_t>(sampler)]; }

@@ -1,15 +1,14 @@
 // Ambient occlusion where it is known in closed form. t-tests at alpha = 1e-6, about twenty, fixed seeds.
 
-#include <render/integrator/path.h>
 #include <render/scene/builder.h>
 
-#include <mc/estimate/moments.h>
-#include <mc/sampler/walk_stream.h>
 #include <mc/stats/t_test.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "support/traced.h"
 
 namespace {
 
@@ -18,14 +17,7 @@ using namespace render;
 constexpr double everywhere = HUGE_VAL;
 
 void expect_open(const Scene& scene, const Ray& ray, double reach, double expected, const std::string& what) {
-  const PathIntegrator<Scene> integrator(scene, {.shown = {Shown::ambient_occlusion, reach}});
-  mc::Moments moments;
-  std::uint64_t rays = 0;
-  const mc::NoPairs numbers(2031, 0);
-  for (std::uint32_t i = 0; i < 20'000; ++i) {
-    mc::IndependentWalk<Float> stream(numbers, i);
-    moments.add(double(integrator.radiance(ray, stream, rays)[0]), i);
-  }
+  const mc::Moments moments = support::traced(scene, ray, {.shown = {Shown::ambient_occlusion, reach}}, 20'000);
   if (moments.std_error() == 0) EXPECT_EQ(moments.mean(), expected) << what;
   else EXPECT_GE(mc::t_test(moments, expected).p, 1e-6) << what << ": " << moments.mean() << " for " << expected;
 }

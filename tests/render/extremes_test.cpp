@@ -12,22 +12,11 @@
 #include <gtest/gtest.h>
 
 #include "support/files.h"
+#include "support/traced.h"
 
 namespace {
 
 using namespace render;
-
-mc::Moments trace(const Scene& scene, const Ray& ray, const PathOptions& options, int n) {
-  const PathIntegrator<Scene> integrator(scene, options);
-  mc::Moments moments;
-  std::uint64_t rays = 0;
-  const mc::NoPairs numbers(2027, 0);
-  for (int i = 0; i < n; ++i) {
-    mc::IndependentWalk<Float> stream(numbers, std::uint32_t(i));
-    moments.add(double(integrator.radiance(ray, stream, rays)[0]), std::uint64_t(i));
-  }
-  return moments;
-}
 
 void expect_mean(const mc::Moments& m, double value, double rounding, const std::string& what) {
   if (std::abs(m.mean() - value) <= rounding * value) return;
@@ -55,8 +44,8 @@ TEST(Extremes, SmallLightsUnderStrategiesThatAimOrConnect) {
     builder.add(horizontal(place, h, false), {white, Emission{Spectrum::Constant(Float(1 / (h * h)))}});
     const Scene scene = builder.build();
     for (const char* strategy : {"mixture", "nee", "mis"})
-      expect_mean(trace(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from(strategy), 2}, 20'000), expected, 1e-4,
-                  fmt::format("{}, half size {}", strategy, h));
+      expect_mean(support::traced(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from(strategy), 2}, 20'000),
+                  expected, 1e-4, fmt::format("{}, half size {}", strategy, h));
   }
 }
 
@@ -72,7 +61,7 @@ TEST(Extremes, AFurnaceWithFarGlass) {
     builder.add(Sphere(Vec3d(0, -100, 0), 1), {white, Emission{}});
     const Scene scene = builder.build();
     for (const std::string& strategy : unbiased())
-      expect_mean(trace(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from(strategy)}, 20'000), 1, 1e-4,
+      expect_mean(support::traced(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from(strategy)}, 20'000), 1, 1e-4,
                   fmt::format("{} at {}", strategy, distance));
   }
 }
@@ -91,8 +80,8 @@ TEST(Extremes, ABlackSphereOnALargeGround) {
     // Under the sphere's overhang, from the side.
     const Vec3 eye(3, Float(0.01), 0), at(Float(x), 0, 0);
     for (const std::string& strategy : unbiased())
-      expect_mean(trace(scene, {eye, (at - eye).normalized()}, {strategy_from(strategy), 2}, 20'000), expected, 1e-4,
-                  fmt::format("{}, ground of {}", strategy, half));
+      expect_mean(support::traced(scene, {eye, (at - eye).normalized()}, {strategy_from(strategy), 2}, 20'000),
+                  expected, 1e-4, fmt::format("{}, ground of {}", strategy, half));
   }
 }
 
@@ -125,7 +114,8 @@ TEST(Extremes, SmoothNormalsLetNoLightThrough) {
   builder.add(Light(ConstantBackground(Spectrum::Ones())));
   const Scene scene = builder.build();
   for (const std::string& strategy : unbiased()) {
-    const mc::Moments m = trace(scene, {Vec3::Zero(), Vec3(1, 2, 3).normalized()}, {strategy_from(strategy), 4}, 5'000);
+    const mc::Moments m =
+        support::traced(scene, {Vec3::Zero(), Vec3(1, 2, 3).normalized()}, {strategy_from(strategy), 4}, 5'000);
     EXPECT_EQ(m.mean(), 0) << strategy;
   }
 }
@@ -141,8 +131,8 @@ TEST(Extremes, SmallSpheresUnderStrategiesThatAimOrConnect) {
     builder.add(Sphere(place, r), {white, Emission{Spectrum::Constant(Float(1 / (r * r)))}});
     const Scene scene = builder.build();
     for (const char* strategy : {"mixture", "nee", "mis"})
-      expect_mean(trace(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from(strategy), 2}, 20'000), expected, 1e-4,
-                  fmt::format("{}, radius {}", strategy, r));
+      expect_mean(support::traced(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from(strategy), 2}, 20'000),
+                  expected, 1e-4, fmt::format("{}, radius {}", strategy, r));
   }
 }
 
@@ -173,7 +163,7 @@ TEST_F(Moved, IsTheSameScene) {
     const Ray ray = scene.camera().ray(Vec2(Float(0.5), Float(0.5)), scene.camera().tan_half(1), Vec2(0, 0));
     // Numbers of 16 digits resolve places to 1e-7 at 1e9.
     for (const std::string& strategy : unbiased())
-      expect_mean(trace(scene, ray, {strategy_from(strategy), 2}, 20'000), expected, 1e-4,
+      expect_mean(support::traced(scene, ray, {strategy_from(strategy), 2}, 20'000), expected, 1e-4,
                   fmt::format("{}, moved by {}", strategy, distance));
   }
 }
@@ -190,7 +180,7 @@ TEST(Extremes, AFarSunDoesNotHideALamp) {
   builder.add(Sphere(Vec3d(0, far, 0), 1), {white, Emission{Spectrum::Constant(Float(1e6))}});
   const Scene scene = builder.build();
   for (const char* strategy : {"nee", "mis"}) {
-    const mc::Moments m = trace(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from(strategy), 2}, 20'000);
+    const mc::Moments m = support::traced(scene, {Vec3(0, 1, 0), Vec3(0, -1, 0)}, {strategy_from(strategy), 2}, 20'000);
     expect_mean(m, lamp + 1e6 / (far * far), 1e-4, strategy);
     EXPECT_LE(m.std_error(), 0.01 * lamp) << strategy;
   }

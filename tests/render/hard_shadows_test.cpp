@@ -4,29 +4,18 @@
 #include <render/render.h>
 #include <render/scene/builder.h>
 
-#include <mc/estimate/moments.h>
-#include <mc/sampler/walk_stream.h>
 #include <mc/stats/t_test.h>
 
+#include <gtest/gtest.h>
+
 #include "support/files.h"
+#include "support/traced.h"
 
 namespace {
 
 using namespace render;
 
 constexpr double rho = 0.6;
-
-mc::Moments traced(const Scene& scene, const Ray& ray, const PathOptions& options, int n) {
-  const PathIntegrator<Scene> integrator(scene, options);
-  mc::Moments moments;
-  std::uint64_t rays = 0;
-  const mc::NoPairs numbers(2030, 0);
-  for (int i = 0; i < n; ++i) {
-    mc::IndependentWalk<Float> stream(numbers, std::uint32_t(i));
-    moments.add(double(integrator.radiance(ray, stream, rays)[0]), std::uint64_t(i));
-  }
-  return moments;
-}
 
 Vec3d random_direction(mc::Pcg& random) { return mc::UniformSphere<double>{}.sample(random.point<double, 2>()); }
 
@@ -64,7 +53,7 @@ TEST(HardShadows, APointOverAFloor) {
     // The ray looks from above: from below the floor is dark.
     const double expected = at.y() > 0 ? rho / mc::pi<double> * at.y() / std::pow(at.norm(), 3) : 0;
     for (const char* strategy : {"nee", "mis"})
-      EXPECT_NEAR(traced(scene, floor.ray_to(Vec3d::Zero()), {strategy_from(strategy), 2}, 4).mean(), expected,
+      EXPECT_NEAR(support::traced(scene, floor.ray_to(Vec3d::Zero()), {strategy_from(strategy), 2}, 4).mean(), expected,
                   1e-4 / at.squaredNorm())
           << i << " " << strategy << ", scale " << floor.scale;
   }
@@ -78,7 +67,7 @@ TEST(HardShadows, ParallelLightOnAFloor) {
     floor.builder.add(Light(DirectionalLight(floor.space.vector(-w), Spectrum::Ones())));
     const Scene scene = floor.builder.build();
     for (const char* strategy : {"nee", "mis"})
-      EXPECT_NEAR(traced(scene, floor.ray_to(Vec3d::Zero()), {strategy_from(strategy), 2}, 4).mean(),
+      EXPECT_NEAR(support::traced(scene, floor.ray_to(Vec3d::Zero()), {strategy_from(strategy), 2}, 4).mean(),
                   rho / mc::pi<double> * std::max(w.y(), 0.0), 1e-4)
           << i << " " << strategy << ", scale " << floor.scale;
   }
@@ -107,7 +96,7 @@ TEST(HardShadows, HaveNoPenumbra) {
     const double full = rho / mc::pi<double> * to.y() / (parallel ? 1 : (light - p).squaredNorm());
     const double expected = miss < radius ? 0 : full;
     (miss < radius ? dark : lit)++;
-    EXPECT_NEAR(traced(scene, ray, {strategy_from("mis"), 2}, 2).mean(), expected, 1e-4 * full) << i;
+    EXPECT_NEAR(support::traced(scene, ray, {strategy_from("mis"), 2}, 2).mean(), expected, 1e-4 * full) << i;
   }
   EXPECT_GT(lit, 50);
   EXPECT_GT(dark, 30);
@@ -136,7 +125,7 @@ TEST(HardShadows, ManyLights) {
     expected += rho * 1e6 * mc::sqr(1e-2 / 40);
     const Scene scene = floor.builder.build();
     for (const char* strategy : {"nee", "mis"}) {
-      const mc::Moments m = traced(scene, floor.ray_to(Vec3d::Zero()), {strategy_from(strategy), 2}, 20'000);
+      const mc::Moments m = support::traced(scene, floor.ray_to(Vec3d::Zero()), {strategy_from(strategy), 2}, 20'000);
       EXPECT_GE(mc::t_test(m, expected).p, 1e-6)
           << n << " " << strategy << ": " << m.mean() << " +- " << m.std_error() << ", expected " << expected;
     }
@@ -153,7 +142,7 @@ TEST(HardShadows, APointInAFurnace) {
     const double expected = a * 5 / (mc::pi<double> * 4 * (1 - a));
     for (const char* strategy : {"nee", "mis"}) {
       const mc::Moments m =
-          traced(scene, {Vec3(2, 2, 3), Vec3(1, 2, 3).normalized()}, {strategy_from(strategy)}, 20'000);
+          support::traced(scene, {Vec3(2, 2, 3), Vec3(1, 2, 3).normalized()}, {strategy_from(strategy)}, 20'000);
       // Only roulette makes it vary.
       EXPECT_NEAR(m.mean(), expected, 1e-4 * expected + 5 * m.std_error()) << strategy << ", albedo " << a;
     }
@@ -178,7 +167,7 @@ TEST_F(MovedLights, AreTheSame) {
     const Ray ray = scene.camera().ray(Vec2(Float(0.5), Float(0.5)), scene.camera().tan_half(1), Vec2(0, 0));
     // The point's 2 / 5^1.5 and the sun's 1, which falls straight down, of the default reflectance .5; one of two
     // lights a sample, each with its part of nine tenths by what it gives and of a tenth.
-    const mc::Moments mean = traced(scene, ray, {strategy_from("nee"), 2}, 20'000);
+    const mc::Moments mean = support::traced(scene, ray, {strategy_from("nee"), 2}, 20'000);
     EXPECT_NEAR(mean.mean(), 0.5 / mc::pi<double> * (1 + 2 / std::pow(5, 1.5)), 5 * mean.std_error()) << m;
     EXPECT_GT(mean.std_error(), 0);
   }

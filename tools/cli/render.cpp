@@ -125,13 +125,19 @@ std::vector<Option> rows(RenderOptions& o) {
        "What a PNG does with bright light: clamp, reinhard or filmic [a gallery scene's own]"},
       {"--exposure", "STOPS", &o.exposure,
        "Brightness added before a PNG is written, or auto: middle grey in the middle [0; a gallery scene's own]"},
-      {"--compare-strategies", "", &o.compare_strategies,
+      {"--compare-strategies",
+       "",
+       &o.compare_strategies,
        "Print every strategy's error with the same samples and in the same --time (or the mean of what those samples "
        "took), and write a PNG of their pictures with 1, 4, 16, 64, 256 and 1024 samples per pixel, a row for each; "
-       "small, unless there is --size"},
+       "small, unless there is --size",
+       false,
+       {"--resume", "--layers", "--intervals", "--target-error"}},
       {"--allow-invalid", "", &o.allow_invalid, "Write the image although some samples were not finite"},
   };
 }
+
+bool is(const std::string& path, const char* extension) { return std::filesystem::path(path).extension() == extension; }
 
 // How a PNG is made, but for an exposure that the picture decides.
 ::render::Tone tone_of(const RenderOptions& options, const GalleryScene* named) {
@@ -229,23 +235,25 @@ const GalleryScene* named_scene(const std::string& word) {
 constexpr int compared_side = 96; // pixels
 
 int compare_all(const RenderOptions& options, const ::render::Scene& scene, ::render::RenderOptions settings,
-                const ::render::Tone& tone) {
+                const ::render::Tone& tone, const std::string& output) {
   if (options.size.empty()) settings = shrunk(settings, compared_side);
   const int side = std::max(settings.width, settings.height);
   mc::require(settings.spp >= 2, "--compare-strategies: one sample per pixel has no error; take two or more");
   mc::require(options.exposure != "auto", "--exposure auto is for one picture; give stops to --compare-strategies");
-  const std::string output = options.output.empty()
-                                 ? std::filesystem::path(options.scene).stem().string() + "-strategies.png"
-                                 : options.output;
+  mc::require(is(output, ".png"), "--compare-strategies: cannot write '{}'; name a .png", output);
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
   const auto start = std::chrono::steady_clock::now();
   const std::vector<StrategyResult> same_samples = compare_strategies(scene, settings, side, settings.spp);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-  const double seconds = settings.seconds.value_or(spent.count() / double(same_samples.size()));
+  const auto count = double(std::max<std::size_t>(same_samples.size(), 1)); // none: interrupted
+  const double seconds = settings.seconds.value_or(spent.count() / count);
   const std::vector<StrategyResult> same_time = compare_strategies_in(scene, settings, seconds);
   const ::render::Image strip = strategy_strip(scene, settings, tone);
-  if (interrupt.flag()->load()) return exit_interrupted;
+  if (interrupt.flag()->load()) {
+    fmt::print("interrupted: nothing was written\n");
+    return exit_interrupted;
+  }
   ::render::write_image(output, strip);
   fmt::print("{}x{}, {} samples per pixel; {:.3g} s\n{}{}: a row for each, with {} samples per pixel\n", settings.width,
              settings.height, settings.spp, seconds, strategy_table(same_samples, same_time), output,
@@ -259,12 +267,12 @@ int render(const RenderOptions& options) {
     return exit_ok;
   }
   mc::require(!options.scene.empty(), "render: SCENE is required (see carlo render --help)");
-  const std::string output =
-      options.output.empty() ? std::filesystem::path(options.scene).stem().string() + ".exr" : options.output;
+  const std::string output = !options.output.empty() ? options.output
+                                                     : std::filesystem::path(options.scene).stem().string() +
+                                                           (options.compare_strategies ? "-strategies.png" : ".exr");
   check_output(output);
   if (!options.intervals.empty()) check_output(options.intervals);
-  mc::require(!options.layers || std::filesystem::path(output).extension() == ".exr",
-              "--layers: '{}' has no place for them; write an .exr", output);
+  mc::require(!options.layers || is(output, ".exr"), "--layers: '{}' has no place for them; write an .exr", output);
 
   const GalleryScene* named = named_scene(options.scene);
   const std::string file = named ? scene_file(*named) : options.scene;
@@ -278,7 +286,9 @@ int render(const RenderOptions& options) {
 
   ::render::RenderOptions settings = settings_of(options, defaults, named);
   ::render::Tone tone = tone_of(options, named);
-  if (options.compare_strategies) return compare_all(options, scene, settings, tone);
+  if (options.compare_strategies) return compare_all(options, scene, settings, tone, output);
+  mc::require(is(output, ".png") || (options.tone.empty() && options.exposure.empty()),
+              "{}: '{}' keeps radiance as it is; write a .png", options.tone.empty() ? "--exposure" : "--tone", output);
   Progress progress;
   std::mutex mutex;
   settings.progress = [&](const ::render::Progress& p) {

@@ -91,12 +91,8 @@ double mean_over(const Experiment& e, std::uint64_t n,
 
 const PointSet& point_set(const std::string& name) {
   std::vector<std::string> names;
-  for (const PointSet& s : point_sets()) {
-    if (s.name == name) return s;
-    names.push_back(s.name);
-  }
-  throw mc::Error(fmt::format("unknown point set '{}'{}; use one of {}", name, mc::did_you_mean(name, names),
-                              fmt::join(names, ", ")));
+  for (const PointSet& s : point_sets()) names.push_back(s.name);
+  return point_sets()[mc::index_of("point set", name, names)];
 }
 
 } // namespace carlo

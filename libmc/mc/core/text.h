@@ -1,5 +1,7 @@
 #pragma once
-/// What a message says about a name that is not known.
+/// Names, and what a message says about one that is not known.
+
+#include <mc/core/error.h>
 
 #include <fmt/format.h>
 
@@ -23,6 +25,18 @@ template <class Range> std::string did_you_mean(std::string_view word, const Ran
     }
   }
   return best.empty() ? std::string() : fmt::format("; did you mean '{}'?", best);
+}
+
+/// The place of `word` among the names of a kind of thing.
+///   throws : Error "unknown sampler 'sobal'; did you mean 'sobol'?; use one of independent, stratified, sobol"
+template <class Range> std::size_t index_of(std::string_view kind, std::string_view word, const Range& names) {
+  std::size_t i = 0;
+  for (const auto& name : names) {
+    if (name == word) return i;
+    ++i;
+  }
+  throw Error(
+      fmt::format("unknown {} '{}'{}; use one of {}", kind, word, did_you_mean(word, names), fmt::join(names, ", ")));
 }
 
 } // namespace mc

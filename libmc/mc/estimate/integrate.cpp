@@ -42,12 +42,7 @@ void require_sane(int outputs, int dim, const IntegrateOptions& o) {
 
 std::string_view name(Method method) { return method_names[static_cast<std::size_t>(method)]; }
 
-Method method_from(std::string_view word) {
-  for (std::size_t i = 0; i < method_names.size(); ++i)
-    if (method_names[i] == word) return static_cast<Method>(i);
-  throw Error(fmt::format("unknown method '{}'{}; use one of {}", word, did_you_mean(word, method_names),
-                          fmt::join(method_names, ", ")));
-}
+Method method_from(std::string_view word) { return static_cast<Method>(index_of("method", word, method_names)); }
 
 std::string_view name(ErrorBar bar) {
   switch (bar) {

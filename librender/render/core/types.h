@@ -20,7 +20,9 @@ using Vec3d = mc::Vec3<double>;
 using Spectrum = Eigen::Array<Float, 3, 1>;
 
 /// Luminance Y of linear sRGB (IEC 61966-2-1).
-inline Float luminance(const Spectrum& s) { return Float(0.2126) * s[0] + Float(0.7152) * s[1] + Float(0.0722) * s[2]; }
+template <class S> S luminance(const Eigen::Array<S, 3, 1>& s) {
+  return S(0.2126) * s[0] + S(0.7152) * s[1] + S(0.0722) * s[2];
+}
 inline bool is_black(const Spectrum& s) { return s[0] == 0 && s[1] == 0 && s[2] == 0; }
 
 /// s itself, for initialisers.

@@ -1,6 +1,5 @@
 #include <render/film/tone.h>
 
-#include <mc/core/error.h>
 #include <mc/core/text.h>
 
 #include <cmath>
@@ -12,7 +11,7 @@ namespace {
 using Color = Eigen::Array3d;
 
 Color reinhard(const Color& c) {
-  const double y = 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+  const double y = luminance(c);
   return y > 0 && std::isfinite(y) ? Color(c / (1 + y)) : c;
 }
 
@@ -31,10 +30,7 @@ Color filmic(const Color& c) {
 } // namespace
 
 ToneCurve tone_curve_from(std::string_view name) {
-  for (std::size_t i = 0; i < tone_curves.size(); ++i)
-    if (tone_curves[i] == name) return static_cast<ToneCurve>(i);
-  throw mc::Error(fmt::format("unknown tone curve '{}'{}; use one of {}", name, mc::did_you_mean(name, tone_curves),
-                              fmt::join(tone_curves, ", ")));
+  return static_cast<ToneCurve>(mc::index_of("tone curve", name, tone_curves));
 }
 
 Eigen::Array3d toned(const Spectrum& radiance, const Tone& tone) {

@@ -113,10 +113,7 @@ SceneFile read_where_it_stands(const XmlElement& root, Dialect dialect) {
 
 Dialect dialect_from(std::string_view name) {
   constexpr std::array<std::string_view, 2> names = {"mitsuba", "lajolla"};
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (names[i] == name) return static_cast<Dialect>(i);
-  throw mc::Error(fmt::format("unknown dialect '{}'{}; use one of {}", name, mc::did_you_mean(name, names),
-                              fmt::join(names, ", ")));
+  return static_cast<Dialect>(mc::index_of("dialect", name, names));
 }
 
 SceneFile read_mitsuba(const std::string& path, Dialect dialect) {

@@ -35,6 +35,12 @@ double value_at(const std::vector<SpectralSample>& s, double wavelength) {
 
 } // namespace
 
+Eigen::Array3d xyz_to_rgb(const Vec3d& xyz) {
+  Eigen::Matrix3d to_rgb;
+  to_rgb << 3.240479, -1.537150, -0.498535, -0.969256, 1.875991, 0.041556, 0.055648, -0.204043, 1.057311;
+  return (to_rgb * xyz).array();
+}
+
 Spectrum spectrum_to_rgb(const std::vector<SpectralSample>& samples) {
   mc::require(!samples.empty(), "spectrum: no samples; give wavelength:value pairs");
   for (std::size_t i = 0; i < samples.size(); ++i)
@@ -45,10 +51,7 @@ Spectrum spectrum_to_rgb(const std::vector<SpectralSample>& samples) {
   Vec3d xyz = Vec3d::Zero();
   for (int w = 400; w <= 700; ++w) xyz += value_at(samples, w) * matching_functions(w);
   xyz /= cie_y_integral;
-  // XYZ to linear sRGB, IEC 61966-2-1.
-  Eigen::Matrix3d to_rgb;
-  to_rgb << 3.240479, -1.537150, -0.498535, -0.969256, 1.875991, 0.041556, 0.055648, -0.204043, 1.057311;
-  return (to_rgb * xyz).cast<Float>().array();
+  return xyz_to_rgb(xyz).cast<Float>();
 }
 
 } // namespace render

@@ -7,6 +7,9 @@
 
 namespace render {
 
+/// CIE XYZ to linear sRGB, IEC 61966-2-1.
+Eigen::Array3d xyz_to_rgb(const Vec3d& xyz);
+
 /// A value at a wavelength [nm].
 struct SpectralSample {
   double wavelength, value;
@@ -14,8 +17,7 @@ struct SpectralSample {
 
 /// Linear sRGB of a spectrum that is piecewise linear between samples of increasing wavelength and constant beyond
 /// them: the sum over 400..700 nm in 1 nm steps against the CIE 1931 colour matching functions, normalised so that the
-///       constant 1 has
-/// Y = 1, then the sRGB matrix.
+/// constant 1 has Y = 1, then xyz_to_rgb.
 ///   error  : the analytic fit of the matching functions is good to about 1 %
 ///   throws : Error unless the wavelengths increase and all numbers are finite
 ///   Source : [WymanSloanShirley13], multi-lobe fit

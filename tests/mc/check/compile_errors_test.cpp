@@ -1,6 +1,5 @@
 // What the compiler says about programs that hand the checkers something else than a sampler: at most ten lines, one of
-// which says what is missing. clang quotes the source at each step from a macro to the assertion, 15 lines in all: of
-// clang the quotations are not counted.
+// which says what is missing.
 
 #include <mc/core/file.h>
 
@@ -51,12 +50,6 @@ const auto sampler = [](std::mt19937& g) { return std::generate_canonical<double
 TEST(My, Sampler) { EXPECT_SAMPLES_MATCH_PDF(sampler, [](double) { return 1.0; }, mc::Interval<double>(0, 1)); }
 )";
 
-#ifdef __clang__
-const std::string without_quotations = " -fno-caret-diagnostics";
-#else
-const std::string without_quotations;
-#endif
-
 class CompileErrors : public testing::TestWithParam<WrongProgram> {};
 
 TEST_P(CompileErrors, AreShortAndSayWhatIsMissing) {
@@ -64,8 +57,8 @@ TEST_P(CompileErrors, AreShortAndSayWhatIsMissing) {
                     said = base + ".txt";
   mc::write_file(source, GetParam().text);
   const std::string command = "'" MC_CXX_COMPILER "' -std=c++20 -fsyntax-only"
-                              " -I'" MC_SOURCE_DIR "/libmc' $(pkg-config --cflags eigen3)" +
-                              without_quotations + " '" + source + "' > '" + said + "' 2>&1";
+                              " -I'" MC_SOURCE_DIR "/libmc' $(pkg-config --cflags eigen3) '" +
+                              source + "' > '" + said + "' 2>&1";
   EXPECT_NE(std::system(command.c_str()), 0) << "it compiles";
   const std::string text = mc::read_file(said);
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 10) << text;

@@ -14,6 +14,18 @@ TEST(Text, NearestName) {
   EXPECT_EQ(mc::did_you_mean("xyzzyxyzzyxyzzy", known), "");
 }
 
+TEST(Text, IndexOfANameOrWhichThereAre) {
+  const std::array<std::string_view, 3> known{"independent", "stratified", "sobol"};
+  EXPECT_EQ(mc::index_of("sampler", "independent", known), 0u);
+  EXPECT_EQ(mc::index_of("sampler", "sobol", known), 2u);
+  try {
+    mc::index_of("sampler", "sobal", known);
+    FAIL() << "found";
+  } catch (const mc::Error& e) {
+    EXPECT_STREQ(e.what(), "unknown sampler 'sobal'; did you mean 'sobol'?; use one of independent, stratified, sobol");
+  }
+}
+
 TEST(Text, EditDistance) {
   EXPECT_EQ(mc::edit_distance("kitten", "sitting"), 3u);
   EXPECT_EQ(mc::edit_distance("", "abc"), 3u);

@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/traced.h"
+
 // Pictures known in closed form, traced by every strategy. Each comparison is a t-test at alpha = 1e-5; there are about
 // fifty, so right code fails for one seed in 2000, and the seeds are fixed.
 namespace {
@@ -27,20 +29,6 @@ const std::vector<Strategy> unbiased = unbiased_strategies();
 Shape horizontal(double cx, double y, double cz, double half_x, double half_z, bool up) {
   return TriangleMesh::rectangle(Transform::columns(Vec3d(half_x, 0, 0), Vec3d(0, 0, up ? -half_z : half_z),
                                                     Vec3d(0, up ? 1 : -1, 0), Vec3d(cx, y, cz)));
-}
-
-template <class S>
-mc::Moments trace(const S& scene, const Ray& ray, const PathOptions& options, int n, int channel = 0) {
-  const PathIntegrator<S> integrator(scene, options);
-  mc::Moments moments;
-  std::uint64_t rays = 0;
-  for (int i = 0; i < n; ++i) {
-    const mc::NoPairs numbers(2026, 0);
-    mc::IndependentWalk<Float> stream(numbers, std::uint32_t(i));
-    moments.add(double(integrator.radiance(ray, stream, rays)[channel]), std::uint64_t(i));
-  }
-  EXPECT_EQ(moments.non_finite(), 0u);
-  return moments;
 }
 
 // A mean that never varies must be right to float rounding; any other is tested.
@@ -64,7 +52,7 @@ TEST(Path, ClosedFurnace) {
   const Ray ray{Vec3(Float(0.2), Float(0.1), Float(-0.3)), Vec3(1, 2, 3).normalized()};
   for (const Strategy& s : unbiased)
     for (int channel = 0; channel < 3; ++channel)
-      expect_mean(trace(scene, ray, {s}, 5'000, channel), 2 / (1 - (0.2 + 0.3 * channel)), word(s));
+      expect_mean(support::traced(scene, ray, {s}, 5'000, channel), 2 / (1 - (0.2 + 0.3 * channel)), word(s));
 }
 
 // Instead of light, the shading normal as a colour; beyond it the sky.
@@ -76,8 +64,9 @@ TEST(Path, ShowsNormals) {
   const PathOptions options{.shown = Shown::normals};
   const Vec3 n = Vec3(1, -2, 3).normalized();
   for (int channel = 0; channel < 3; ++channel) {
-    expect_mean(trace(scene, {Vec3(5 * n), Vec3(-n)}, options, 10, channel), (double(n[channel]) + 1) / 2, "normal");
-    expect_mean(trace(scene, {Vec3(5 * n), n}, options, 10, channel), 0.3, "sky");
+    expect_mean(support::traced(scene, {Vec3(5 * n), Vec3(-n)}, options, 10, channel), (double(n[channel]) + 1) / 2,
+                "normal");
+    expect_mean(support::traced(scene, {Vec3(5 * n), n}, options, 10, channel), 0.3, "sky");
   }
 }
 
@@ -91,7 +80,7 @@ TEST(Path, WhiteObjectsVanishInAWhiteSky) {
     // Glass varies only where roulette ends one of the 2 in 1000 paths that reflect twice inside, too rarely for a
     // t-test: the standard error is sqrt(.002 * .05 / n) = 7e-5.
     for (const Strategy& s : unbiased) {
-      const mc::Moments m = trace(scene, {Vec3(Float(0.3), Float(0.4), 3), Vec3(0, 0, -1)}, {s}, 20'000);
+      const mc::Moments m = support::traced(scene, {Vec3(Float(0.3), Float(0.4), 3), Vec3(0, 0, -1)}, {s}, 20'000);
       if (bsdf.is_delta()) EXPECT_NEAR(m.mean(), 1, 5e-4) << word(s);
       else expect_mean(m, 1, word(s), 1e-4);
     }
@@ -111,7 +100,7 @@ TEST(Path, RectangleOverLambertPlane) {
   const Scene scene = cornell_light();
   const Ray down{Vec3(278, 100, Float(279.5)), Vec3(0, -1, 0)};
   for (const Strategy& s : strategies)
-    expect_mean(trace(scene, down, {s, 2}, 100'000), 15 * 0.73 * 0.013945466356, word(s));
+    expect_mean(support::traced(scene, down, {s, 2}, 100'000), 15 * 0.73 * 0.013945466356, word(s));
 }
 
 TEST(Path, LightsAreDarkFromBehind) {
@@ -136,7 +125,7 @@ TEST(Path, SphereOverLambertPlane) {
   const Scene scene = builder.build();
   const Ray down{Vec3(0, 1, 0), Vec3(0, -1, 0)};
   for (const Strategy& s : strategies)
-    expect_mean(trace(scene, down, {s, 2}, 100'000), 0.5 * 3 * 1.5 * 1.5 / 16, word(s));
+    expect_mean(support::traced(scene, down, {s, 2}, 100'000), 0.5 * 3 * 1.5 * 1.5 / 16, word(s));
 }
 
 // Light met after a delta lobe counts fully in every strategy (seed-slips P34), and once (P33).
@@ -152,8 +141,9 @@ TEST(Path, LightsInMirrorsAndThroughGlass) {
   builder.add(horizontal(0, 5, 0, 1, 1, false), {builder.add(Lambert(Spectrum::Zero())), light});
   const Scene plate = builder.build();
   for (const Strategy& s : strategies) {
-    expect_mean(trace(mirror, {Vec3(0, 2, 0), Vec3(Float(0.1), -2, 0).normalized()}, {s}, 10), 0.8 * 3, word(s));
-    expect_mean(trace(plate, {Vec3(0, 0, 0), Vec3(0, 1, 0)}, {s}, 40'000), 3 * 0.96 / 1.04, word(s));
+    expect_mean(support::traced(mirror, {Vec3(0, 2, 0), Vec3(Float(0.1), -2, 0).normalized()}, {s}, 10), 0.8 * 3,
+                word(s));
+    expect_mean(support::traced(plate, {Vec3(0, 0, 0), Vec3(0, 1, 0)}, {s}, 40'000), 3 * 0.96 / 1.04, word(s));
   }
 }
 
@@ -165,10 +155,10 @@ TEST(Path, EveryStrategySeesThroughGroundGlass) {
   builder.add(horizontal(0, 9, 0, 1, 1, false), {builder.add(Lambert()), Emission{}});
   const Scene scene = builder.build();
   const Ray ray{Vec3(1, 2, 0), Vec3(Float(-0.5), -1, 0).normalized()};
-  const mc::Moments followed = trace(scene, ray, {strategy_from("bsdf"), 2}, 100'000);
+  const mc::Moments followed = support::traced(scene, ray, {strategy_from("bsdf"), 2}, 100'000);
   EXPECT_GT(followed.mean(), 0.3); // radiance falls by 1.5^2 on its way through
   for (const Strategy& s : unbiased) {
-    const mc::Moments m = trace(scene, ray, {s, 2}, 100'000);
+    const mc::Moments m = support::traced(scene, ray, {s, 2}, 100'000);
     EXPECT_LE(std::abs(m.mean() - followed.mean()), 5 * std::hypot(m.std_error(), followed.std_error())) << word(s);
   }
 }
@@ -187,14 +177,14 @@ TEST(Path, StrategiesAgree) {
   builder.add(Sphere(Vec3d(0, 0.6, 1.5), 0.5), {tan, Emission{Spectrum(1, 2, 3)}});
   const Scene scene = builder.build();
   const Ray ray{Vec3(Float(0.1), 2, 5), Vec3(0, -2, -4).normalized()};
-  const mc::Moments mis = trace(scene, ray, {strategy_from("mis")}, 60'000);
+  const mc::Moments mis = support::traced(scene, ray, {strategy_from("mis")}, 60'000);
   for (const Strategy& s : unbiased) {
-    const mc::Moments other = trace(scene, ray, {s}, 60'000);
+    const mc::Moments other = support::traced(scene, ray, {s}, 60'000);
     const double error = std::hypot(mis.std_error(), other.std_error());
     EXPECT_LE(std::abs(other.mean() - mis.mean()), 4.42 * error)
         << word(s) << ": " << other.mean() << " against " << mis.mean();
   }
-  const mc::Moments light = trace(scene, ray, {strategy_from("light")}, 60'000);
+  const mc::Moments light = support::traced(scene, ray, {strategy_from("light")}, 60'000);
   EXPECT_LE(light.mean(), mis.mean() - 10 * std::hypot(mis.std_error(), light.std_error()));
 }
 
@@ -205,10 +195,10 @@ TEST(Path, DepthCountsEdges) {
   builder.add(Sphere(Vec3d::Zero(), 1, true), {wall, Emission{}});
   const Scene scene = builder.build();
   const Ray ray{Vec3::Zero(), Vec3::UnitX()};
-  for (const Strategy& s : unbiased) EXPECT_EQ(trace(scene, ray, {s, 0}, 10).mean(), 0) << word(s);
+  for (const Strategy& s : unbiased) EXPECT_EQ(support::traced(scene, ray, {s, 0}, 10).mean(), 0) << word(s);
   for (const int depth : {1, 2, 3, 40})
     for (const Strategy& s : unbiased)
-      expect_mean(trace(scene, ray, {s, depth}, 10'000), (1 - std::pow(0.9, depth)) / 0.1,
+      expect_mean(support::traced(scene, ray, {s, depth}, 10'000), (1 - std::pow(0.9, depth)) / 0.1,
                   word(s) + " to depth " + std::to_string(depth), 2e-5);
 }
 
@@ -245,7 +235,8 @@ TEST(Path, AFlatLightDoesNotLightItsBack) {
     const Scene scene = builder.build();
     const Vec3d from = world.point({0.1, 0.2, -3}), to = world.point({-0.3, 0.4, 0});
     const Ray ray{from.cast<Float>(), (to - from).normalized().cast<Float>()};
-    for (const Strategy& s : unbiased) EXPECT_EQ(trace(scene, ray, {s}, 16).mean(), 0) << word(s) << ", turn " << i;
+    for (const Strategy& s : unbiased)
+      EXPECT_EQ(support::traced(scene, ray, {s}, 16).mean(), 0) << word(s) << ", turn " << i;
   }
 }
 
@@ -293,7 +284,7 @@ TEST(Path, ADeltaLobeBesideARoughOneInAFurnace) {
   builder.add(Sphere(Vec3d::Zero(), 1, true), {builder.add(Lambert()), Emission{Spectrum::Constant(2)}});
   const Recovered<Coated> scene(builder.build(), Coated());
   const Ray ray{Vec3(Float(0.2), Float(0.1), Float(-0.3)), Vec3(1, 2, 3).normalized()};
-  for (const Strategy& s : unbiased) expect_mean(trace(scene, ray, {s}, 20'000), 2 / (1 - 0.59), word(s));
+  for (const Strategy& s : unbiased) expect_mean(support::traced(scene, ray, {s}, 20'000), 2 / (1 - 0.59), word(s));
 }
 
 // Two lights, a ball that `mis` aims at, a guide: all agree with the BSDF's own directions.
@@ -308,9 +299,9 @@ TEST(Path, ADeltaLobeBesideARoughOneUnderAllStrategies) {
   builder.add(Sphere(Vec3d(0, 0.6, 1.5), 0.5), {any, Emission{}});
   const Recovered<Coated> scene(builder.build(), Coated());
   const Ray ray{Vec3(Float(0.1), 2, 5), Vec3(0, -2, -4).normalized()};
-  const mc::Moments expected = trace(scene, ray, {strategy_from("bsdf")}, 100'000);
+  const mc::Moments expected = support::traced(scene, ray, {strategy_from("bsdf")}, 100'000);
   for (const Strategy& s : unbiased) {
-    const mc::Moments m = trace(scene, ray, {s}, 50'000);
+    const mc::Moments m = support::traced(scene, ray, {s}, 50'000);
     EXPECT_LE(std::abs(m.mean() - expected.mean()), 4.42 * std::hypot(m.std_error(), expected.std_error()))
         << word(s) << ": " << m.mean() << " against " << expected.mean();
   }

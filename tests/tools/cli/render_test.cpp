@@ -54,6 +54,10 @@ TEST_F(RenderCommand, RefusesBadInputInOneLine) {
   for (const char* stops : {"bright", "1e3", "nan", "1x"})
     expect_refused(cbox() + " --exposure " + stops, {"--exposure '" + std::string(stops) + "'", "or auto"});
   expect_refused(cbox() + " --resume", {"--resume", "there is no", "the first time"});
+  expect_refused(cbox() + " --tone filmic", {"--tone", "out.pfm", ".png"});
+  expect_refused(cbox() + " --exposure 1", {"--exposure", "out.pfm", ".png"});
+  expect_refused(cbox() + " --compare-strategies", {"--compare-strategies", "out.pfm", ".png"});
+  expect_refused(cbox() + " --compare-strategies --resume", {"--resume excludes --compare-strategies"});
   expect_refused(cbox() + " --compare-strategies --exposure auto", {"--exposure auto is for one picture"});
   expect_refused(scenes + "hard-shadows.xml --strategy bsdf -o " + path("out.pfm"),
                  {"the strategy bsdf", "point or directional light", "use nee or mis"});

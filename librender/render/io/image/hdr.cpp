@@ -1,4 +1,5 @@
 #include <render/io/image/formats.h>
+#include <render/io/spectrum.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
@@ -130,11 +131,7 @@ void read_line(Rest& rest, std::vector<Rgbe>& line) {
 Spectrum radiance(const Rgbe& p, const Header& header) {
   if (p[3] == 0) return Spectrum::Zero();
   Eigen::Array3d c = std::ldexp(1.0, p[3] - 136) * Eigen::Array3d(p[0], p[1], p[2]) * header.scale;
-  if (header.is_xyz) { // to linear sRGB [IEC 61966-2-1]
-    Eigen::Matrix3d m;
-    m << 3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570;
-    c = m * c.matrix();
-  }
+  if (header.is_xyz) c = xyz_to_rgb(c.matrix());
   return c.cast<Float>();
 }
 
