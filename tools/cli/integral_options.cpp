@@ -45,8 +45,9 @@ std::vector<int> depths_of(const std::string& text, int own) {
 
 // Those that are named; else those of three that find every light.
 std::vector<::render::Strategy> strategies_of(const SceneOptions& o, const ::render::SceneFile& file) {
+  const std::string_view names = o.strategies.empty() ? "mixture,nee,mis" : std::string_view(o.strategies);
   std::vector<::render::Strategy> strategies;
-  for (const std::string_view name : split(o.strategies.empty() ? "mixture,nee,mis" : o.strategies, ',')) {
+  for (const std::string_view name : split(names, ',')) {
     const ::render::Strategy& strategy = ::render::strategy_from(name);
     if (!o.strategies.empty() || file.defaults.shown.what != ::render::Shown::radiance ||
         finds_all_lights(file.scene, strategy))

@@ -12,12 +12,16 @@ namespace render {
 
 static_assert(alignof(TriangleBlock) == 64 && alignof(SphereBlock) == 64);
 
+/// A tree for each kind of leaf.
+template <class... Block> struct TreeOfEach : std::tuple<BlockTree<Block>...> {
+  TreeOfEach() = default;
+  explicit TreeOfEach(std::span<const Shape* const> shapes)
+      : std::tuple<BlockTree<Block>...>(BlockTree<Block>(shapes)...) {}
+};
+
 /// The kinds of leaf, in the order in which a ray tries them.
-struct Bvh::Trees : std::tuple<BlockTree<TriangleBlock>, BlockTree<SphereBlock>> {
-  using tuple::tuple;
-  Trees() = default;
-  explicit Trees(std::span<const Shape* const> shapes)
-      : tuple(BlockTree<TriangleBlock>(shapes), BlockTree<SphereBlock>(shapes)) {}
+struct Bvh::Trees : TreeOfEach<TriangleBlock, SphereBlock> {
+  using TreeOfEach::TreeOfEach;
 
   template <bool any> bool trace(const Ray& ray, Hit& hit) const {
     Float t_max = ray.t_max;

@@ -37,7 +37,7 @@ struct Strategy {
 /// a point or a direction; of such lights none finds what comes by way of smooth glass or a mirror. Where nothing is to
 /// aim at, the BSDF is followed.
 ///   light, mixture, guides : as in [Shirley16], chapters 7, 8 and 10
-inline constexpr std::array<Strategy, 7> strategies = {{
+inline constexpr auto strategies = std::to_array<Strategy>({
     {"bsdf", Target::nothing, 0, Finding::by_chance},
     {"hemisphere", Target::hemisphere, 1, Finding::by_chance},
     {"light", Target::lights, 1, Finding::by_chance},
@@ -45,7 +45,7 @@ inline constexpr std::array<Strategy, 7> strategies = {{
     {"guides", Target::guides, Float(0.5), Finding::by_chance},
     {"nee", Target::nothing, 0, Finding::by_connection},
     {"mis", Target::speculars, Float(0.25), Finding::by_both},
-}};
+});
 
 /// Throws Error, naming the nearest strategy, for an unknown name.
 const Strategy& strategy_from(std::string_view name);
