@@ -1,15 +1,13 @@
 #pragma once
 /// Every sampler of libmc and librender with the parameters it is checked at.
 ///
-/// A family adds its samplers in a file of its own, catalogue_<family>.cpp, one line per case:
+/// A family adds its samplers in a file of its own, one line per case:
 ///   void add_spheres(Catalogue& c) {
-///     add_warp(c, "CosineHemisphere", "", [](auto s) { return mc::CosineHemisphere<decltype(s)>{}; }, {.invert_eps =
-///     8});
+///     add_warp(c, "CosineHemisphere", "", [](auto s) { return mc::CosineHemisphere<decltype(s)>{}; });
 ///   }
 /// then declares that function below, calls it in catalogue.cpp and names the file in CMakeLists.txt. add_warp of
-/// catalogue_warp.h makes a float and a double case of the line, add_bsdf of catalogue_bsdf.h one case per direction.
-/// The test tools/catalogue_test.cpp fails when a warp, table, BSDF, shape, filter or camera of the headers is not in
-/// the list.
+/// warp_case.h makes a float and a double case of the line, add_bsdf of bsdf_case.h one case per direction. The test
+/// catalogue_test.cpp fails when a warp, table, BSDF, shape, filter or camera of the headers is not in the list.
 
 #include <mc/check/check_subject.h>
 

@@ -47,18 +47,22 @@ template <int N> void add_tree(Catalogue& c, std::size_t leaves) {
   });
 }
 
-template <class D>
+// make() gives the table.
+template <class Make>
 void add_discrete(Catalogue& c, const std::string& name, const std::string& parameters, const std::string& scalar,
-                  const D& table) {
+                  Make make) {
   Case one{name, parameters, scalar, {}};
-  one.check = [title = one.title(), table](const CaseOptions& o) {
-    return mc::check_laws(mc::make_discrete_sampler(title, table), mc::with_statistics(mc::LawOptions{}, o));
+  one.check = [title = one.title(), make](const CaseOptions& o) {
+    return mc::check_laws(mc::make_discrete_sampler(title, make()), mc::with_statistics(mc::LawOptions{}, o));
   };
   c.push_back(std::move(one));
 }
 
-void add_alias(Catalogue& c, const std::string& parameters, const std::vector<double>& weights) {
-  add_discrete(c, "AliasTable", parameters, "double", mc::AliasTable(weights));
+// The table make(S{}) over float and double.
+template <class Make>
+void add_outcomes(Catalogue& c, const std::string& name, const std::string& parameters, Make make) {
+  add_discrete(c, name, parameters, "float", [make] { return make(0.0f); });
+  add_discrete(c, name, parameters, "double", [make] { return make(0.0); });
 }
 
 } // namespace
@@ -71,20 +75,19 @@ void add_tables(Catalogue& c) {
   });
   add_warp(c, "TableDist1D", "from x^2, n=64",
            [](auto s) { return mc::TableDist1D<decltype(s)>::from_function([](auto x) { return x * x; }, 64); });
-  for (const std::size_t n : {1, 1000, 100'000}) {
-    add_discrete(c, "TableDist1D", fmt::format("outcomes, n={}", n), "float", mc::TableDist1D<float>(jagged(n)));
-    add_discrete(c, "TableDist1D", fmt::format("outcomes, n={}", n), "double", mc::TableDist1D<double>(jagged(n)));
-  }
+  for (const std::size_t n : {1, 1000, 100'000})
+    add_outcomes(c, "TableDist1D", fmt::format("outcomes, n={}", n),
+                 [n](auto s) { return mc::TableDist1D<decltype(s)>(jagged(n)); });
   add_discrete(c, "TableDist1D", "outcomes of weight 1e-30 to 1e30, n=1000", "double",
-               mc::TableDist1D<double>(extreme(1000)));
-  for (const std::size_t n : {1, 3, 1000}) {
-    add_discrete(c, "UniformDiscrete", fmt::format("n={}", n), "float", mc::UniformDiscrete<float>(n));
-    add_discrete(c, "UniformDiscrete", fmt::format("n={}", n), "double", mc::UniformDiscrete<double>(n));
-  }
-  add_discrete(c, "Bernoulli", "p=0.3", "float", mc::Bernoulli<float>(0.3f));
-  add_discrete(c, "Bernoulli", "p=0.3", "double", mc::Bernoulli<double>(0.3));
-  add_discrete(c, "ShortDiscrete", "n=5", "float", mc::ShortDiscrete<float, 8>(std::array{0.f, 3.f, 1e-3f, 20.f, 0.f}));
-  add_discrete(c, "ShortDiscrete", "n=5", "double", mc::ShortDiscrete<double, 8>(std::array{0., 3., 1e-3, 20., 0.}));
+               [] { return mc::TableDist1D<double>(extreme(1000)); });
+  for (const std::size_t n : {1, 3, 1000})
+    add_outcomes(c, "UniformDiscrete", fmt::format("n={}", n),
+                 [n](auto s) { return mc::UniformDiscrete<decltype(s)>(n); });
+  add_outcomes(c, "Bernoulli", "p=0.3", [](auto s) { return mc::Bernoulli<decltype(s)>(decltype(s)(0.3)); });
+  add_outcomes(c, "ShortDiscrete", "n=5", [](auto s) {
+    using S = decltype(s);
+    return mc::ShortDiscrete<S, 8>(std::array{S(0), S(3), S(1e-3), S(20), S(0)});
+  });
   add_warp(c, "TableDist2D", "24x10", [](auto s) { return mc::TableDist2D<decltype(s)>(jagged(240), 24, 10); });
   add_warp(c, "TableDist2D", "128x64 with a sun",
            [](auto s) { return mc::TableDist2D<decltype(s)>(sky(128, 64), 128, 64); });
@@ -93,13 +96,15 @@ void add_tables(Catalogue& c) {
   add_tree<2>(c, 1);
   add_tree<2>(c, 200);
   add_tree<3>(c, 300);
-  for (const std::size_t n : {1, 10, 1000, 100'000}) add_alias(c, fmt::format("n={}", n), jagged(n));
-  add_alias(c, "one outcome holds almost all, n=1000", [] {
+  for (const std::size_t n : {1, 10, 1000, 100'000})
+    add_discrete(c, "AliasTable", fmt::format("n={}", n), "double", [n] { return mc::AliasTable(jagged(n)); });
+  add_discrete(c, "AliasTable", "one outcome holds almost all, n=1000", "double", [] {
     std::vector<double> w(1000, 1e-9);
     w[500] = 1;
-    return w;
-  }());
-  add_alias(c, "weights 1e-30 to 1e30, n=1000", extreme(1000));
+    return mc::AliasTable(w);
+  });
+  add_discrete(c, "AliasTable", "weights 1e-30 to 1e30, n=1000", "double",
+               [] { return mc::AliasTable(extreme(1000)); });
 }
 
 } // namespace carlo
