@@ -35,7 +35,8 @@ endif()
 set(MC_PRECOMPILED <Eigen/Core> <fmt/format.h> <algorithm> <array> <cmath> <functional> <optional> <span> <string> <vector>)
 
 # Files of a target that are compiled together: those of a folder in four groups by their first letter, so that a new
-# file does not move others. That halves the time to compile. Hot loops stay apart: inlining depends on the file.
+# file does not move others. That halves the time to compile; names that are local to a file must differ from those of
+# its group. Hot loops stay apart: inlining depends on the file.
 option(MC_UNITY "Compile tests, readers and commands in groups" ON)
 function(mc_compile_in_groups target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${MC_UNITY} UNITY_BUILD_MODE GROUP)
