@@ -11,7 +11,7 @@
 
 namespace render {
 
-/// Nearest and any hit of single rays: one tree for each kind of leaf (bvh.cpp lists them). Immutable after
+/// Nearest and any hit of single rays: one tree for each kind of leaf (trees.h lists them). Immutable after
 /// construction, so threads share it. It copies what it needs: the shapes need not outlive it.
 class Bvh {
  public:

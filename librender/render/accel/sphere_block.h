@@ -22,9 +22,10 @@ class SphereBlock {
     /// Rounded outward, so that the float box holds the double sphere.
     Bounds bounds() const {
       Bounds b;
+      const auto box = sphere->box();
       for (int a = 0; a < 3; ++a) {
-        b.lo[a] = std::nextafter(Float(sphere->center()[a] - sphere->radius()), -mc::infinity<Float>);
-        b.hi[a] = std::nextafter(Float(sphere->center()[a] + sphere->radius()), mc::infinity<Float>);
+        b.lo[a] = std::nextafter(Float(box.min()[a]), -mc::infinity<Float>);
+        b.hi[a] = std::nextafter(Float(box.max()[a]), mc::infinity<Float>);
       }
       return b;
     }

@@ -7,23 +7,14 @@ namespace render {
 
 namespace {
 
-Coarseness coarseness(const Vec3d& lo, const Vec3d& hi) {
+Coarseness coarseness(const Eigen::AlignedBox3d& box) {
   Coarseness c;
-  c.size = (hi - lo).norm();
-  c.distance = std::max(lo.lpNorm<Eigen::Infinity>(), hi.lpNorm<Eigen::Infinity>());
+  c.size = box.diagonal().norm();
+  c.distance = std::max(box.min().lpNorm<Eigen::Infinity>(), box.max().lpNorm<Eigen::Infinity>());
   const Float there = Float(c.distance);
   c.step = double(std::nextafter(there, mc::infinity<Float>)) - double(there);
   c.ratio = c.size > 0 ? c.step / c.size : mc::infinity<double>;
   return c;
-}
-
-Coarseness coarseness(const Sphere& s) {
-  const Vec3d half = Vec3d::Constant(s.radius());
-  return coarseness(s.center() - half, s.center() + half);
-}
-
-Coarseness coarseness(const TriangleMesh& mesh) {
-  return coarseness(mesh.bounds().lo.cast<double>(), mesh.bounds().hi.cast<double>());
 }
 
 } // namespace
@@ -31,7 +22,7 @@ Coarseness coarseness(const TriangleMesh& mesh) {
 Coarseness coarsest(const Scene& scene) {
   Coarseness worst;
   for (const Surface& s : scene.surfaces()) {
-    const Coarseness own = dispatch(*s.shape, [](const auto& shape) { return coarseness(shape); });
+    const Coarseness own = coarseness(s.shape->box());
     if (own.ratio > worst.ratio) worst = own;
   }
   return worst;

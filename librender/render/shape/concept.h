@@ -3,6 +3,8 @@
 
 #include <render/core/ray.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <optional>
 
@@ -54,6 +56,7 @@ struct DirectionSample {
 ///   sample_direction(ref, u) : a direction towards a point of sample(ref, u), with its density pdf(ref, wi), whatever
 ///                       rounding makes of the direction; nullopt where none leads there
 ///   area()            : total area
+///   box()             : the axis-aligned box around it
 ///   spread(ref)       : a bound of the projected solid angle [sr] that it fills at ref, however that faces; at most
 ///                       pi, and close where it is far away and faces ref
 ///   surface_point     : the point of a Hit
@@ -65,6 +68,7 @@ concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint 
   { s.pdf(ref, wi, hit) } -> std::convertible_to<Float>;
   { s.pdf(ref, wi) } -> std::convertible_to<Float>;
   { s.area() } -> std::convertible_to<double>;
+  { s.box() } -> std::same_as<Eigen::AlignedBox3d>;
   { s.spread(ref) } -> std::convertible_to<double>;
   { s.surface_point(ray, h) } -> std::same_as<SurfacePoint>;
 };

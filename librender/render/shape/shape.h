@@ -26,6 +26,9 @@ struct Shape : std::variant<TriangleMesh, Sphere> {
   double area() const {
     return dispatch(*this, [](const auto& s) { return s.area(); });
   }
+  Eigen::AlignedBox3d box() const {
+    return dispatch(*this, [](const auto& s) { return s.box(); });
+  }
   double spread(const Vec3& ref) const {
     return dispatch(*this, [&](const auto& s) { return s.spread(ref); });
   }

@@ -32,6 +32,8 @@ class Sphere {
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const;
   Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const;
+  /// Of the whole sphere, of a cap too.
+  Eigen::AlignedBox3d box() const { return {center_.array() - radius_, center_.array() + radius_}; }
   double spread(const Vec3& ref) const;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 

@@ -51,6 +51,7 @@ class TriangleMesh {
   std::size_t size() const { return faces_.size(); }
   /// Of all triangles; empty without any.
   const Bounds& bounds() const { return bounds_; }
+  Eigen::AlignedBox3d box() const { return {bounds_.lo.cast<double>(), bounds_.hi.cast<double>()}; }
   std::array<Vec3, 3> vertices(std::size_t triangle) const {
     const auto& t = faces_[triangle].vertices;
     return {positions_[t[0]], positions_[t[1]], positions_[t[2]]};

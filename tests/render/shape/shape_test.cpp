@@ -23,9 +23,9 @@ TEST(Shape, AnswersAsItsMember) {
   EXPECT_EQ(shape.pdf(ref, a->wi, a->point), a->pdf);
 }
 
-// Lights are chosen by it. The projected solid angle towards the shape's middle is estimated by its samples: five
+// Lights are chosen by its spread. The projected solid angle towards the shape's middle is estimated by its samples: five
 // standard errors for 400 shapes, and a thousandth, since just inside a sphere all but a few samples say the same.
-TEST(Shape, FillsNoMoreThanItsSpread) {
+TEST(Shape, FillsItsBoxAndNoMoreThanItsSpread) {
   mc::Pcg random(12);
   const auto number = [&] { return 4 * random.uniform<double>() - 2; };
   for (int trial = 0; trial < 400; ++trial) {
@@ -42,6 +42,8 @@ TEST(Shape, FillsNoMoreThanItsSpread) {
       const auto s = shape.sample(ref, {random.uniform<Float>(), random.uniform<Float>()});
       // A box shows half of its sides, the others lie behind.
       const double shares = trial % 4 == 3 ? 0.5 : 1;
+      const double outside = s ? shape.box().exteriorDistance(s->point.p.cast<double>()) : 0;
+      EXPECT_LE(outside, s ? 2 * double(s->point.error) : 0) << trial;
       filled.add(s ? shares * double(std::max(Float(0), s->wi.dot(n)) / s->pdf) : 0.0, i);
     }
     EXPECT_LE(filled.mean() - 5 * filled.std_error(), 1.001 * shape.spread(ref)) << trial;
