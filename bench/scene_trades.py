@@ -27,7 +27,7 @@ def rows(carlo, scene, folder):
         wanted = json.load(file)["errors"]
     for error in wanted:
         best = (error["offers"] or error["nearest"])[0]
-        cost, reached = best["cpu_seconds"], best["rms_error"]["value"]
+        cost, reached = best["million_rays"], best["rms_error"]["value"]
         as_good = [offer["way"] for offer in error["offers"][1:error["as_good"]]]
         yield [name, error["wanted"], best["way"], f"{best['n']:.3g}", f"{reached:.3g}",
                *(f"{cost[end]:.3g}" for end in ("value", "lo", "hi")), "; ".join(as_good)]

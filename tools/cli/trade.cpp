@@ -109,24 +109,18 @@ std::vector<Offer> contenders(const std::vector<Offer>& offers) {
   return chosen;
 }
 
-std::string text_of(const Ranged& r, const char* unit) {
+std::string text_of(const Ranged& r, std::string_view unit) {
   return fmt::format("{:.3g}{} [{:.3g}, {:.3g}]", r.value, unit, r.lo, r.hi);
 }
 
 // "  as good: a, b" of those that cannot be told from the first.
-void print_ties(const std::vector<Offer>& offers, Ranged Offer::*by, const char* unit) {
+void print_ties(const std::vector<Offer>& offers, Ranged Offer::*by, std::string_view unit) {
   const std::size_t count = as_good(offers, by);
   for (std::size_t i = 1; i < count; ++i)
     fmt::print("{}{} {}", i == 1 ? "      not told from it: " : ", ", label(*offers[i].curve),
                text_of(offers[i].*by, unit));
   if (count > 1) fmt::print("\n");
 }
-
-/// The words after a figure of cost.
-struct Cost {
-  const char *unit, *of;
-};
-Cost cost_of(const SceneOptions& o) { return o.cost == "rays" ? Cost{" Mray", ""} : Cost{" s", " of CPU"}; }
 
 void print(const ForError& f, const Cost& cost) {
   if (f.offers.empty()) {
@@ -159,17 +153,19 @@ void print(const ForSeconds& f, const Cost& cost) {
 }
 
 ordered_json to_json(const Ranged& r) { return {{"value", r.value}, {"lo", r.lo}, {"hi", r.hi}}; }
-ordered_json to_json(const std::vector<Offer>& offers) {
+ordered_json to_json(const std::vector<Offer>& offers, const Cost& cost) {
   ordered_json all = ordered_json::array();
   for (const Offer& o : offers)
-    all.push_back(
-        {{"way", label(*o.curve)}, {"n", o.n}, {"cpu_seconds", to_json(o.seconds)}, {"rms_error", to_json(o.error)}});
+    all.push_back({{"way", label(*o.curve)},
+                   {"n", o.n},
+                   {std::string(cost.column), to_json(o.seconds)},
+                   {"rms_error", to_json(o.error)}});
   return all;
 }
-template <class For> ordered_json to_json(const For& f, Ranged Offer::*by) {
+template <class For> ordered_json to_json(const For& f, Ranged Offer::*by, const Cost& cost) {
   ordered_json j = {{"wanted", f.wanted}, {"as_good", f.offers.empty() ? 0 : as_good(f.offers, by)}};
   if (f.gain) j["gain_over_plain"] = to_json(*f.gain);
-  j["offers"] = to_json(f.offers);
+  j["offers"] = to_json(f.offers, cost);
   return j;
 }
 
@@ -177,9 +173,9 @@ template <class For> ordered_json to_json(const For& f, Ranged Offer::*by) {
 std::string script(const std::string& title, const Measurement& m) {
   std::string s = plot_head("trade", 900, 640);
   s += fmt::format("set title \"{}\" noenhanced\nset logscale xy\nset format xy \"10^{{%L}}\"\nset key outside right "
-                   "Left reverse samplen 1\nset xlabel \"CPU seconds of one estimate\"\nset ylabel \"root-mean-square "
+                   "Left reverse samplen 1\nset xlabel \"{} of one estimate\"\nset ylabel \"root-mean-square "
                    "error\"\nplot \"front.csv\" skip 1 using 3:4 with lines lw 6 lc rgb \"#dddddd\" title \"best\"",
-                   title);
+                   title, m.cost.axis);
   for (std::size_t i = 0; i < m.curves.size(); ++i) {
     std::string name = label(m.curves[i]);
     s +=
@@ -190,8 +186,8 @@ std::string script(const std::string& title, const Measurement& m) {
   return s + "\n";
 }
 
-std::string csv(const std::vector<Offer>& offers) {
-  std::string text = "way,n,cpu_seconds,rms_error,rms_lo,rms_hi\n";
+std::string csv(const std::vector<Offer>& offers, const Cost& cost) {
+  std::string text = fmt::format("way,n,{},rms_error,rms_lo,rms_hi\n", cost.column);
   for (const Offer& o : offers)
     text += fmt::format("{},{:.0f},{:.6g},{:.9g},{:.9g},{:.9g}\n", label(*o.curve), o.n, o.seconds.value, o.error.value,
                         o.error.lo, o.error.hi);
@@ -251,22 +247,22 @@ int offer(const TradeOptions& o, const Target& target, const Measurement& m, con
   for (const double error : errors) {
     const ForError f = offers_for_error(m, error, seconds_of_one(offers_for_error(m, error, as_measured).offers));
     reached = reached && !f.offers.empty();
-    print(f, cost_of(o.scene));
-    j["errors"].push_back(to_json(f, &Offer::seconds));
-    if (f.offers.empty()) j["errors"].back()["nearest"] = to_json(f.nearest);
+    print(f, m.cost);
+    j["errors"].push_back(to_json(f, &Offer::seconds, m.cost));
+    if (f.offers.empty()) j["errors"].back()["nearest"] = to_json(f.nearest, m.cost);
   }
   for (const double budget : seconds) {
     const ForSeconds f =
         offers_for_seconds(m, budget, seconds_of_one(offers_for_seconds(m, budget, as_measured).offers));
     reached = reached && !f.offers.empty();
-    print(f, cost_of(o.scene));
-    j["seconds"].push_back(to_json(f, &Offer::error));
+    print(f, m.cost);
+    j["seconds"].push_back(to_json(f, &Offer::error, m.cost));
   }
   if (!m.doubt.empty()) fmt::print("  warning: {}\n", m.doubt);
   const std::vector<Offer> front = pareto_front(m);
-  j["front"] = to_json(front);
-  mc::write_file((folder / "trade.csv").string(), csv(all_points(m)));
-  mc::write_file((folder / "front.csv").string(), csv(front));
+  j["front"] = to_json(front, m.cost);
+  mc::write_file((folder / "trade.csv").string(), csv(all_points(m), m.cost));
+  mc::write_file((folder / "front.csv").string(), csv(front, m.cost));
   mc::write_file((folder / "trade.json").string(), j.dump(1) + "\n");
   mc::write_file((folder / "trade.gp").string(), script(target.integral.title, m));
   if (!draw_plot(folder, "trade"))

@@ -39,12 +39,21 @@ struct Curve {
   bool agrees() const;
 };
 
+/// What an estimate costs, in words.
+struct Cost {
+  std::string_view column, axis; ///< of tables, of plots
+  std::string_view unit, of;     ///< behind a figure
+};
+inline constexpr Cost cpu_cost{"cpu_seconds", "CPU seconds", " s", " of CPU"};
+inline constexpr Cost ray_cost{"million_rays", "millions of rays", " Mray", ""};
+
 struct Measurement {
   std::vector<Curve> curves; ///< of the ways that were finished
   double truth = 0;          ///< what errors are measured from
   double truth_error = 0;    ///< standard error of a reference; 0: the truth is known
   std::string doubt;         ///< one line that says why the stated truth is wrong; empty: no doubt
   bool interrupted = false;
+  Cost cost = cpu_cost; ///< what its seconds are
 };
 
 /// Every way on N = 16, 32, ... max_n, from the fewest that the way works with.

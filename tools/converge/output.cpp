@@ -68,7 +68,7 @@ std::string slopes_csv(const Target& target, const Measurement& m) {
 }
 
 std::string to_csv(const Target& target, const Measurement& m) {
-  std::string text = "experiment,sampler,n,rms_error,rms_lo,rms_hi,cpu_seconds\n";
+  std::string text = fmt::format("experiment,sampler,n,rms_error,rms_lo,rms_hi,{}\n", m.cost.column);
   const std::string name = field(target.integral.name);
   for (const Curve& c : m.curves)
     for (const mc::RmsError& p : c.errors)
@@ -79,7 +79,7 @@ std::string to_csv(const Target& target, const Measurement& m) {
 
 namespace {
 
-ordered_json to_json(const Curve& c) {
+ordered_json to_json(const Curve& c, const Cost& cost) {
   ordered_json points = ordered_json::array();
   for (std::size_t i = 0; i < c.errors.size(); ++i) {
     const mc::RmsError& p = c.errors[i];
@@ -87,7 +87,7 @@ ordered_json to_json(const Curve& c) {
                       {"rms_error", p.rms},
                       {"rms_lo", p.lo},
                       {"rms_hi", p.hi},
-                      {"cpu_seconds", p.seconds},
+                      {std::string(cost.column), p.seconds},
                       {"replicates", c.replicates[i].values.size()}});
   }
   ordered_json k = {{"sampler", c.way->name}, {"exact", c.exact}, {"points", points}};
@@ -121,7 +121,7 @@ ordered_json to_json(const Target& target, const Measurement& m, const ordered_j
   if (!m.doubt.empty()) j["warning"] = m.doubt;
   if (m.interrupted) j["interrupted"] = true;
   j["curves"] = ordered_json::array();
-  for (const Curve& c : m.curves) j["curves"].push_back(to_json(c));
+  for (const Curve& c : m.curves) j["curves"].push_back(to_json(c, m.cost));
   return j;
 }
 
@@ -169,7 +169,7 @@ std::string to_script(const Target& target, const Measurement& m, const std::str
                    "ylabel \"root-mean-square error\"\n",
                    gnuplot_text(target.integral.title), many ? "below" : "left bottom");
   s += "set xlabel \"samples N\"\nset format x \"10^{%L}\"\n" + curve_lines(m, name, "3", true);
-  s += "set xlabel \"CPU seconds\"\nset format x \"10^{%L}\"\n" + curve_lines(m, name, "7", false);
+  s += fmt::format("set xlabel \"{}\"\nset format x \"10^{{%L}}\"\n", m.cost.axis) + curve_lines(m, name, "7", false);
   return s + "unset multiplot\n";
 }
 

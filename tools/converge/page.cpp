@@ -135,9 +135,10 @@ std::string section(const Measured& one) {
   const auto n = [](const mc::RmsError& p) { return p.n; };
   const auto seconds = [](const mc::RmsError& p) { return p.seconds; };
   s += "<div class=\"panels\">" + Panel(m.curves, n).svg("evaluations N", true) +
-       Panel(m.curves, seconds).svg("CPU seconds", false) +
+       Panel(m.curves, seconds).svg(std::string(m.cost.axis), false) +
        "</div><div class=\"scroll\"><table><tr><th>sampler<th>N<th>"
-       "RMS error, 95 %<th>CPU s<th>slope, 95 %<th>theory<th>agrees</tr>";
+       "RMS error, 95 %<th>" +
+       std::string(m.cost.axis) + "<th>slope, 95 %<th>theory<th>agrees</tr>";
   for (std::size_t i = 0; i < m.curves.size(); ++i) s += row(m.curves[i], i);
   return s + "</table></div></section>";
 }

@@ -128,6 +128,7 @@ class Session {
 
   Pictures run() {
     Pictures result;
+    if (options_.cost_rays) result.measurement.cost = ray_cost;
     for (int spp = 4; spp <= options_.max_spp; spp *= 2)
       if (!take(spp)) {
         result.measurement.interrupted = true;

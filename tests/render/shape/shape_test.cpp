@@ -23,8 +23,8 @@ TEST(Shape, AnswersAsItsMember) {
   EXPECT_EQ(shape.pdf(ref, a->wi, a->point), a->pdf);
 }
 
-// Lights are chosen by its spread. The projected solid angle towards the shape's middle is estimated by its samples: five
-// standard errors for 400 shapes, and a thousandth, since just inside a sphere all but a few samples say the same.
+// Lights are chosen by its spread. The projected solid angle towards the shape's middle is estimated by its samples:
+// five standard errors for 400 shapes, and a thousandth, since just inside a sphere all but a few samples say the same.
 TEST(Shape, FillsItsBoxAndNoMoreThanItsSpread) {
   mc::Pcg random(12);
   const auto number = [&] { return 4 * random.uniform<double>() - 2; };

@@ -15,6 +15,7 @@ namespace {
 using Ran = support::Run;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 struct TradeCommand : support::ScratchTest {
   Ran run(const std::string& arguments) const {
@@ -57,7 +58,10 @@ TEST_F(TradeCommand, AScene) {
   EXPECT_EQ(r.exit_code, 1) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("cbox: 4 ways, millions of rays"), HasSubstr("  light sobol: bias "),
                               HasSubstr("  error 0.5: "), HasSubstr("  error 1e-06: no way came there; nearest: ")));
-  EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"way\": \"mis sobol adaptive\""));
+  EXPECT_THAT(mc::read_file(path("out/trade.json")),
+              AllOf(HasSubstr("\"way\": \"mis sobol adaptive\""), HasSubstr("\"million_rays\""),
+                    Not(HasSubstr("cpu_seconds"))));
+  EXPECT_THAT(mc::read_file(path("out/trade.csv")), HasSubstr("way,n,million_rays,rms_error"));
   expect_refused(cbox + "mess", "did you mean 'mis'");
   expect_refused(cbox + "mis --max-spp 16", "--max-spp 16 must be at least 32");
   expect_refused(cbox + "mis --max-depths 0", "--max-depths: '0' in '0'");
