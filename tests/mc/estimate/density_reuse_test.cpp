@@ -115,7 +115,7 @@ TEST(DensityReuse, MayBeZeroWhereTheIntegrandIsNot) {
 TEST(DensityReuse, RefusesWhatDoesNotFit) {
   const auto f = [](Unit u) { return u[0]; };
   mc::IntegrateOptions o = with(Method::vegas, 10'000, 1);
-  o.density = std::make_shared<mc::AdaptedDensity>(mc::ImportanceGrid(3));
+  o.density = std::make_shared<mc::AdaptedDensity>(mc::AdaptedDensity{mc::ImportanceGrid(3)});
   EXPECT_THROW(mc::integrate_unit(f, 2, o), mc::Error);
   EXPECT_NO_THROW(mc::integrate_unit(f, 3, o));
   o.method = Method::rqmc;

@@ -125,7 +125,7 @@ std::vector<Candidate> candidates(const Learned& learned) {
   };
   // The rounds of learning have the purposes between.
   const AdaptedDensity& density = *learned.density;
-  propose(Method::vegas, 1, std::make_shared<AdaptedDensity>(density.grid));
+  propose(Method::vegas, 1, std::make_shared<AdaptedDensity>(AdaptedDensity{density.grid}));
   if (density.tree && density.tree->leaves() > 1) propose(Method::tree, 30, learned.density);
   return all;
 }
