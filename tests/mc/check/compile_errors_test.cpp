@@ -1,5 +1,5 @@
 // What the compiler says about programs that hand the checkers something else than a sampler: at most ten lines, one of
-// which says what is missing. clang names each step from a macro to the assertion in three lines, 15 in all.
+// which says what is missing. clang names each step from a macro to the assertion in three lines, up to 16 in all.
 
 #include <mc/core/file.h>
 
@@ -17,7 +17,7 @@ struct WrongProgram {
 };
 
 #ifdef __clang__
-constexpr int lines_in_a_macro = 15;
+constexpr int lines_in_a_macro = 16;
 #else
 constexpr int lines_in_a_macro = 10;
 #endif
