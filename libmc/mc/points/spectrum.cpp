@@ -32,8 +32,8 @@ std::vector<double> radial_power_spectrum(PointList p, int rings) {
   require(p.dim >= 2 && rings >= 1, "radial_power_spectrum: {} dimensions and {} rings; 2 and 1 are needed", p.dim,
           rings);
   using Complex = std::complex<double>;
-  const auto side = static_cast<std::size_t>(2 * rings + 1);
-  std::vector<Complex> wave(static_cast<std::size_t>(rings + 1) * side), along_y(side);
+  const std::size_t radius = static_cast<std::size_t>(rings), side = 2 * radius + 1;
+  std::vector<Complex> wave((radius + 1) * side), along_y(side);
   for (std::size_t i = 0; i < p.size(); ++i) {
     for (int y = -rings; y <= rings; ++y)
       along_y[static_cast<std::size_t>(y + rings)] = std::polar(1.0, -2 * pi<double> * y * p[i][1]);

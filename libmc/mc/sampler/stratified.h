@@ -69,7 +69,7 @@ class Stratified {
   // The slab that holds `box` when n boxes are cut along the first of d remaining dimensions.
   static Slab slab(std::uint32_t box, std::uint32_t n, std::uint32_t d) {
     if (d == 1) return {box, 1};
-    const auto slabs = std::clamp(static_cast<std::uint32_t>(root(n, d) + 0.5), 1u, n);
+    const auto slabs = std::clamp(static_cast<std::uint32_t>(std::lround(root(n, d))), 1u, n);
     const auto start_of = [&](std::uint64_t i) { return static_cast<std::uint32_t>((i * n + slabs - 1) / slabs); };
     const auto i = static_cast<std::uint32_t>(std::uint64_t{box} * slabs / n);
     return {start_of(i), start_of(i + 1) - start_of(i)};

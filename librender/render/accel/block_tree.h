@@ -26,8 +26,8 @@ template <class Block> class BlockTree {
   explicit BlockTree(std::span<const Shape* const> shapes) {
     std::vector<typename Block::Primitive> primitives;
     for (std::size_t i = 0; i < shapes.size(); ++i) Block::collect(*shapes[i], static_cast<int>(i), primitives);
-    std::vector<Bounds> boxes;
-    for (const auto& p : primitives) boxes.push_back(p.bounds());
+    std::vector<Bounds> boxes(primitives.size());
+    std::transform(primitives.begin(), primitives.end(), boxes.begin(), [](const auto& p) { return p.bounds(); });
     for (const Bounds& b : boxes) bounds_.add(b);
     const auto add = [&](const std::vector<std::uint32_t>& order, std::uint32_t first, std::uint32_t count) {
       Block& block = blocks_.emplace_back();

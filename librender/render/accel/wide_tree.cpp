@@ -28,7 +28,10 @@ struct Bins {
   std::array<std::uint32_t, bins> count{};
 };
 
-double blocks(std::uint32_t count, std::uint32_t lanes) { return double((count + lanes - 1) / lanes); }
+double blocks(std::uint32_t count, std::uint32_t lanes) {
+  const std::uint32_t whole = (count + lanes - 1) / lanes;
+  return whole;
+}
 
 // The last bin on the left side of the cheapest border: areas times blocks, on both sides.
 Split cheapest_border(const Bins& b, int axis, std::uint32_t count, std::uint32_t lanes) {

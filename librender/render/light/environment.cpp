@@ -39,8 +39,10 @@ Environment::Environment(std::shared_ptr<const Texels> texels, const Transform& 
   const std::vector<double> means = texel_means(t);
   const auto w = static_cast<std::size_t>(t.width), h = static_cast<std::size_t>(t.height);
   for (std::size_t i = 0; i < means.size(); ++i) {
-    const double row = double(i / w), band = mc::pi<double> / double(h);
-    flux_ += scale * means[i] * (std::cos(row * band) - std::cos((row + 1) * band)) * 2 * mc::pi<double> / double(w);
+    const std::size_t row = i / w;
+    const double band = mc::pi<double> / double(h), above = std::cos(double(row) * band),
+                 below = std::cos(double(row + 1) * band);
+    flux_ += scale * means[i] * (above - below) * 2 * mc::pi<double> / double(w);
   }
   mc::require(flux_ > 0, "environment: every texel is black; leave the emitter out");
   table_ = std::make_shared<const mc::TableDist2D<Float>>(mc::TableDist2D<Float>::from_lat_long(means, w, h));

@@ -244,7 +244,7 @@ TEST_F(RenderCommand, ThreadsDoNotChangeABitAndMetadataTellsHow) {
 TEST_F(RenderCommand, CtrlCWritesWhatIsThereMarkedPartial) {
   const std::string output = path("cut.exr");
   const support::Run run =
-      support::interrupt_carlo("render " + scenes + "cbox.xml --spp 100000000 --size 16x16 -o " + output);
+      support::interrupt_carlo("render " + scenes + "cbox.xml --spp 100000000 --size 16x16 -o " + output, "  error ");
   EXPECT_EQ(run.exit_code, 130) << run.output;
   EXPECT_THAT(run.output, HasSubstr("PARTIAL"));
   const render::Image image = render::read_image(output);

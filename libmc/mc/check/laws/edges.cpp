@@ -99,8 +99,9 @@ template <class S> std::vector<S> breaks_along(const AnySampler& s, const Unifor
     Uniforms u = start;
     u[axis] = static_cast<double>(t);
     const Numbers x = point_at(s, u, start);
-    std::vector<S> numbers;
-    for (int i = 0; i < s.domain.numbers; ++i) numbers.push_back(static_cast<S>(x[static_cast<std::size_t>(i)]));
+    std::vector<S> numbers(static_cast<std::size_t>(s.domain.numbers));
+    std::transform(x.begin(), x.begin() + s.domain.numbers, numbers.begin(),
+                   [](double v) { return static_cast<S>(v); });
     return numbers;
   };
   return find_breaks<S>(map, 256, 4);

@@ -81,9 +81,8 @@ std::string format_taken(const AnySampler& s, Pcg before, const Pcg& after) {
   for (Pcg probe = before; words < most && !(probe == after); ++words) probe.next32();
   if (words == 0 || words == most) return {};
   const bool wide = !s.is_float && words % 2 == 0;
-  std::vector<double> u;
-  for (int i = 0; i < (wide ? words / 2 : words); ++i)
-    u.push_back(wide ? before.uniform<double>() : static_cast<double>(before.uniform<float>()));
+  std::vector<double> u(static_cast<std::size_t>(wide ? words / 2 : words));
+  for (double& x : u) x = wide ? before.uniform<double>() : static_cast<double>(before.uniform<float>());
   return "u = " + format_numbers(u, wide ? 17 : std::numeric_limits<float>::max_digits10) + ", ";
 }
 

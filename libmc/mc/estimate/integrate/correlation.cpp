@@ -27,8 +27,8 @@ std::vector<double> direction(std::vector<double> x) {
 
 Correlations correlations(const std::vector<std::vector<double>>& means) {
   const std::size_t n = means.size();
-  std::vector<std::vector<double>> directions;
-  for (const std::vector<double>& m : means) directions.push_back(direction(m));
+  std::vector<std::vector<double>> directions(n);
+  std::transform(means.begin(), means.end(), directions.begin(), direction);
   Correlations all(n * n, 1);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < i; ++j) {

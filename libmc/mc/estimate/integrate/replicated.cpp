@@ -18,8 +18,8 @@ class Growth {
 
   // The longest power of two that all replicates can reach.
   std::uint64_t affordable(const Sequences& s) const {
-    return std::min(std::bit_floor(s.length + static_cast<std::uint64_t>(
-                                                  static_cast<double>(run_.left() / run_.o.replicates) / s.cost())),
+    const auto each = run_.left() / run_.o.replicates;
+    return std::min(std::bit_floor(s.length + static_cast<std::uint64_t>(static_cast<double>(each) / s.cost())),
                     Sequences::longest);
   }
   static std::uint64_t next(const Sequences& s, std::uint64_t end) {

@@ -45,17 +45,17 @@ template <class T> struct Parameter {
   std::optional<T> fallback, lajolla_fallback;
 
   /// This value where the parameter is not given; `text` is what the reference says of it.
-  Parameter otherwise(T value, std::string text) const {
+  Parameter otherwise(T value, const std::string& text) const {
     Parameter p = *this;
     p.fallback = std::move(value);
-    p.declared.fallback = std::move(text);
+    p.declared.fallback = text;
     return p;
   }
   /// The value in lajolla's dialect where it is not given.
-  Parameter in_lajolla(T value, std::string text) const {
+  Parameter in_lajolla(T value, const std::string& text) const {
     Parameter p = *this;
     p.lajolla_fallback = std::move(value);
-    p.declared.lajolla = std::move(text);
+    p.declared.lajolla = text;
     return p;
   }
 

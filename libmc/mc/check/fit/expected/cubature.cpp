@@ -46,13 +46,13 @@ struct Rule {
   }
 
  private:
-  std::vector<double> weights(int m, int stride) const {
+  std::vector<double> weights(int m, std::size_t stride) const {
     std::vector<double> result(x.size(), 0.0);
     for (int j = 0; j <= m; ++j) {
       double sum = 1;
       for (int k = 1; 2 * k <= m; ++k)
         sum -= (2 * k == m ? 1.0 : 2.0) / (4.0 * k * k - 1) * std::cos(2 * pi<double> * k * j / m);
-      result[static_cast<std::size_t>(j * stride)] = (j == 0 || j == m ? 0.5 : 1.0) * sum / m;
+      result[static_cast<std::size_t>(j) * stride] = (j == 0 || j == m ? 0.5 : 1.0) * sum / m;
     }
     return result;
   }

@@ -19,16 +19,19 @@ std::vector<double> cuts_beside(double lo, double hi, const UnitBox& box, std::s
   std::vector<double> cuts;
   const double size = hi - lo;
   if (!(size > 0)) return cuts;
-  double step = size;
-  for (double at = lo - size; at > box.lo[axis] + step; at -= step) {
+  double step = size, at = lo - size;
+  while (at > box.lo[axis] + step) {
     cuts.push_back(at);
     step *= 4;
+    at -= step;
   }
   std::reverse(cuts.begin(), cuts.end());
   step = size;
-  for (double at = hi + size; at < box.hi[axis] - step; at += step) {
+  at = hi + size;
+  while (at < box.hi[axis] - step) {
     cuts.push_back(at);
     step *= 4;
+    at += step;
   }
   return cuts;
 }

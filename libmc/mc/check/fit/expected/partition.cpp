@@ -9,9 +9,11 @@
 namespace mc {
 
 double shortest_binary_fraction(double a, double b) {
-  for (double step = 1; step > 0; step /= 2) {
+  double step = 1;
+  while (step > 0) {
     const double candidate = std::floor(b / step) * step;
     if (candidate > a) return candidate;
+    step /= 2;
   }
   return b;
 }

@@ -117,17 +117,17 @@ std::vector<Slab> find_slabs(const Subject& s, const Pilot& pilot, const std::ar
   std::vector<Slab> slabs;
   const auto add = [&](Slab slab) {
     slab.mass = slab_mass(s, pilot, slab.axis, slab.box, slabs.size() + 1);
-    slabs.push_back(std::move(slab));
+    slabs.push_back(slab);
   };
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
     Slab atom;
     atom.axis = axis;
-    if (find_atom(s, pilot, sorted[axis], atom)) add(std::move(atom));
+    if (find_atom(s, pilot, sorted[axis], atom)) add(atom);
     for (const Place place : {Place::low_end, Place::inside, Place::high_end}) {
       Slab gap;
       gap.kind = Slab::Kind::gap;
       gap.axis = axis;
-      if (find_gap(s, sorted[axis], place, gap) && !is_rounding(s, pilot, gap)) add(std::move(gap));
+      if (find_gap(s, sorted[axis], place, gap) && !is_rounding(s, pilot, gap)) add(gap);
     }
   }
   return slabs;
