@@ -5,6 +5,7 @@ textures/tiles.png        64x64 glazed tiles
 textures/sky.exr          64x32 lat-long sky with a sun
 textures/dusk.hdr         64x32 lat-long evening sky, in Radiance's format
 textures/map.png          128x64 map of a small planet
+textures/leaf.png         64x64 outline of a leaf, white on black
 textures/gradient.pfm     the four corners of book1-gradient
 meshes/torus.ply          smooth torus, binary
 meshes/knot.serialized    trefoil knot in Mitsuba's format
@@ -122,6 +123,15 @@ def planet(x, y):
     if land > 0.35:
         return (150, 128, 84) if land > 0.9 else (86, 128, 62)
     return 30, 66, 122
+
+
+def leaf(x, y):
+    """Its tip at the top, a toothed edge, and a stalk."""
+    along, across = (y + 0.5) / 64, abs((x + 0.5) / 64 - 0.5)
+    t = along / 0.85
+    teeth = 0.03 * ((9 * t) % 1)
+    blade = t < 1 and across < 0.3 * math.sin(math.pi * t**0.75) ** 0.9 - teeth
+    return (255,) * 3 if blade or (along > 0.8 and across < 0.025) else (0,) * 3
 
 
 def write_pfm(path, rows):
@@ -353,6 +363,7 @@ write_png(scenes / "textures" / "tiles.png", 64, 64, tile)
 write_exr(scenes / "textures" / "sky.exr", 64, 32, sky)
 write_hdr(scenes / "textures" / "dusk.hdr", 64, 32, dusk)
 write_png(scenes / "textures" / "map.png", 128, 64, planet)
+write_png(scenes / "textures" / "leaf.png", 64, 64, leaf)
 write_pfm(scenes / "textures" / "gradient.pfm", [[(0, 0, 0.2), (1, 0, 0.2)], [(0, 1, 0.2), (1, 1, 0.2)]])
 write_ply(scenes / "meshes" / "torus.ply", outward(tube(torus, lambda p: (0, 1, 0), 0.35, 48, 24)))
 write_serialized(scenes / "meshes" / "knot.serialized", outward(tube(trefoil, lambda p: (p[0], p[1], p[2] + 3), 0.3, 160, 20)))

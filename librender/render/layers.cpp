@@ -1,4 +1,5 @@
 #include <render/layers.h>
+#include <render/scene/visibility.h>
 
 #include <mc/core/frame.h>
 #include <mc/core/parallel.h>
@@ -41,9 +42,11 @@ Spectrum albedo(const Bsdf& bsdf, const Vec3& wo) {
   return sum / Float(n);
 }
 
-Met meet(const Scene& scene, const Ray& ray, const Vec3d& origin) {
+// Of a surface with a mask, where at least half of it is there.
+Met look(const Scene& scene, Ray ray, const Vec3d& origin) {
   Met m;
-  const auto hit = scene.intersect(ray);
+  std::uint64_t rays = 0;
+  const auto hit = meet(scene, ray, rays, [](Float opacity) { return opacity < Float(0.5); });
   if (!hit) return m;
   const Surface& surface = scene.surface(*hit);
   const SurfacePoint point = surface.shape->surface_point(ray, *hit);
@@ -72,7 +75,7 @@ std::map<std::string, std::vector<float>> layers(const Scene& scene, const Whole
     for (std::size_t x = 0; x < width; ++x) {
       const Vec2 s((Float(x) + Float(whole.part.x) + Float(0.5)) / Float(whole.width),
                    (Float(y) + Float(whole.part.y) + Float(0.5)) / Float(whole.height));
-      const auto v = values(meet(scene, camera.ray(s, tan_half, middle), origin));
+      const auto v = values(look(scene, camera.ray(s, tan_half, middle), origin));
       for (std::size_t i = 0; i < names.size(); ++i) planes[i][y * width + x] = static_cast<float>(v[i]);
     }
   });

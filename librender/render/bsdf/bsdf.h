@@ -4,6 +4,7 @@
 #include <render/bsdf/dielectric.h>
 #include <render/bsdf/lambert.h>
 #include <render/bsdf/metal.h>
+#include <render/bsdf/rough_conductor.h>
 #include <render/bsdf/rough_dielectric.h>
 #include <render/bsdf/rough_plastic.h>
 #include <render/core/dispatch.h>
@@ -11,7 +12,8 @@
 namespace render {
 
 /// One of the BSDFs; itself models BsdfLike.
-struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic, RoughDielectric> {
+struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic, RoughDielectric, RoughConductor<Microfacets>,
+                           RoughConductor<BlinnPhongFacets>> {
   using variant::variant;
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {

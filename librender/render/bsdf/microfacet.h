@@ -1,8 +1,9 @@
 #pragma once
-/// What rough plastic and rough glass share: facets of the Trowbridge-Reitz (GGX) distribution.
+/// What rough surfaces share: facets, and how they hide each other.
 
 #include <render/bsdf/dielectric.h>
 
+#include <mc/warp/blinn_phong.h>
 #include <mc/warp/trowbridge_reitz.h>
 
 namespace render {
@@ -13,7 +14,11 @@ inline Float checked_alpha(std::string_view what, Float alpha) {
   return alpha;
 }
 
-/// Facets of roughness alpha. Shadowing and masking are separable: G = G1(wo) G1(wi). Source: [WalterEtAl07]
+/// w as it is seen with wo above the surface, and back.
+inline Vec3 upward(const Vec3& w, const Vec3& wo) { return wo.z() < 0 ? Vec3(w.x(), w.y(), -w.z()) : w; }
+
+/// Facets of the Trowbridge-Reitz (GGX) distribution of roughness alpha. Shadowing and masking are separable:
+/// G = G1(wo) G1(wi). Source: [WalterEtAl07]
 class Microfacets {
  public:
   explicit Microfacets(Float alpha) : surface_(alpha, alpha) {}
@@ -22,6 +27,8 @@ class Microfacets {
   Float d(const Vec3& m) const { return surface_.d(m); }
   /// G1(w) / |cos w|: finite at the horizon too.
   Float g1_over_cos(const Vec3& w) const { return 2 / (std::abs(w.z()) + surface_.stretch(w).norm()); }
+  /// D G / |cos wo cos wi| of facets with the normal m.
+  Float shape(const Vec3& wo, const Vec3& wi, const Vec3& m) const { return d(m) * g1_over_cos(wo) * g1_over_cos(wi); }
   /// Normals seen from wo, which lies above the surface.
   mc::TrowbridgeReitzVisibleNormals<Float> seen_from(const Vec3& wo) const {
     return {wo.normalized(), surface_.alpha_x}; // rotations leave lengths a few ulps off, which the warp refuses
@@ -29,6 +36,37 @@ class Microfacets {
 
  private:
   mc::TrowbridgeReitzSurface<Float> surface_;
+};
+
+/// Facets of Blinn-Phong's distribution D(m) = (n + 2) / (2 pi) cos^n, of which the integral of D cos is 1. They are
+/// the sides of V-shaped grooves: G = min(1, 2 cos m cos wo / wo.m, 2 cos m cos wi / wo.m).
+///   n      : 2 / alpha^2 - 2, so that small slopes are distributed as Beckmann's of roughness alpha [WalterEtAl07]
+///   Source : [Blinn77]
+class BlinnPhongFacets {
+ public:
+  explicit BlinnPhongFacets(Float alpha) : normals_(2 / (alpha * alpha) - 1) {}
+
+  Float d(const Vec3& m) const { return normals_.pdf(m) / m.z(); }
+  /// D G / |cos wo cos wi| of facets with the normal m, which bisects wo and wi, both above the surface.
+  Float shape(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
+    const Float groove = 2 * m.z() / wo.dot(m);
+    return d(m) * std::min({1 / (wo.z() * wi.z()), groove / wi.z(), groove / wo.z()});
+  }
+  /// All normals, by D cos, of those who are looked at from wo.
+  struct SeenFrom {
+    mc::BlinnPhong<Float> normals;
+    Vec3 wo;
+    Vec3 sample(const Vec2& u) const { return normals.sample(u); }
+    /// Density of the direction that wo is mirrored to; 0 for a normal that faces away.
+    Float pdf_reflected(const Vec3& m) const {
+      const Float cosine = wo.dot(m);
+      return cosine > 0 ? normals.pdf(m) / (4 * cosine) : Float(0);
+    }
+  };
+  SeenFrom seen_from(const Vec3& wo) const { return {normals_, wo}; }
+
+ private:
+  mc::BlinnPhong<Float> normals_; ///< of density D cos
 };
 
 } // namespace render

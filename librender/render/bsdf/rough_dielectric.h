@@ -102,7 +102,7 @@ class RoughDielectric {
   }
 
   Spectrum value_of(const Facet& at) const {
-    const Float shape = facets_.d(at.m) * facets_.g1_over_cos(at.wo) * facets_.g1_over_cos(at.wi);
+    const Float shape = facets_.shape(at.wo, at.wi, at.m);
     if (at.reflects) return reflectance_ * (at.reflected() * shape / 4);
     return transmittance_ * (at.transmitted() * shape * at.cos_o * at.jacobian() / mc::sqr(at.ratio));
   }

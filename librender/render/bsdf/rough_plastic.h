@@ -63,9 +63,6 @@ class RoughPlastic {
  private:
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
 
-  /// w as it is seen with wo above the surface.
-  static Vec3 upward(const Vec3& w, const Vec3& wo) { return wo.z() < 0 ? Vec3(w.x(), w.y(), -w.z()) : w; }
-
   /// How often the specular lobe is sampled: by what both lobes would give if the surface were smooth.
   Float specular_share(const Vec3& wo) const {
     const Float f = fresnel_dielectric(std::min(wo.z(), Float(1)), eta_).reflectance;
@@ -74,7 +71,7 @@ class RoughPlastic {
   }
   Spectrum value(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
     const Float f = fresnel_dielectric(std::min(std::abs(wo.dot(m)), Float(1)), eta_).reflectance;
-    const Float lobe = f * facets_.d(m) * facets_.g1_over_cos(wo) * facets_.g1_over_cos(wi) / 4;
+    const Float lobe = f * facets_.shape(wo, wi, m) / 4;
     return specular_ * lobe + diffuse_ * (mc::sqr(1 - f) * inv_pi);
   }
 

@@ -3,6 +3,7 @@
 
 #include <render/film/image.h>
 #include <render/integrator/directions.h>
+#include <render/scene/visibility.h>
 
 #include <mc/estimate/mis.h>
 #include <mc/estimate/russian_roulette.h>
@@ -42,13 +43,25 @@ template <class SceneType> class PathIntegrator {
 
   /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
   template <class Stream> Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const {
-    if (options_.shown.what == Shown::normals) return normal(ray, rays);
+    if (options_.shown.what == Shown::normals) return normal(ray, stream, rays);
     if (options_.shown.what == Shown::ambient_occlusion) return openness(ray, stream, rays);
     return follow({ray, ray.o}, stream, rays, true);
   }
 
  private:
-  using At = Vertex<std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>>;
+  using Own = std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>;
+
+  /// Where a path meets a surface.
+  struct At : Vertex<Own> {
+    const Surface& surface;
+    const HomogeneousMedium* before; ///< through what the path came
+
+    /// Through what it leaves in the direction d.
+    const HomogeneousMedium* medium(const Vec3& d) const {
+      if (!surface.interior) return before;
+      return d.dot(this->point.ng) < 0 ? &*surface.interior : nullptr;
+    }
+  };
 
   /// A path under way.
   struct Walk {
@@ -58,12 +71,12 @@ template <class SceneType> class PathIntegrator {
     Float previous_pdf = 0; ///< of its direction; 0: camera or delta lobe, which no light sampling could have chosen
     Float eta_scale = 1;    ///< undoes the compression of radiance in glass
     int edges = 0;          ///< traced so far
+    const HomogeneousMedium* medium = nullptr; ///< that the ray goes through; null: nothing absorbs it
   };
 
   // The normal of what a ray meets, as a colour.
-  Spectrum normal(const Ray& ray, std::uint64_t& rays) const {
-    ++rays;
-    if (const auto hit = scene_.intersect(ray))
+  template <class Stream> Spectrum normal(Ray ray, Stream& stream, std::uint64_t& rays) const {
+    if (const auto hit = meet(ray, stream, rays))
       return (scene_.surface(*hit).shape->surface_point(ray, *hit).ns.array() + 1) / 2;
     Spectrum radiance = Spectrum::Zero();
     for (const std::uint32_t light : scene_.infinite_lights())
@@ -72,9 +85,8 @@ template <class SceneType> class PathIntegrator {
   }
 
   // Whether one direction from what a ray meets is open, of those that a uniform sky lights it from.
-  template <class Stream> Spectrum openness(const Ray& ray, Stream& stream, std::uint64_t& rays) const {
-    ++rays;
-    const auto hit = scene_.intersect(ray);
+  template <class Stream> Spectrum openness(Ray ray, Stream& stream, std::uint64_t& rays) const {
+    const auto hit = meet(ray, stream, rays);
     if (!hit) return Spectrum::Ones();
     const SurfacePoint point = scene_.surface(*hit).shape->surface_point(ray, *hit);
     const auto frame = mc::Frame<Float>::from_z(point.ns.dot(ray.d) < 0 ? point.ns : Vec3(-point.ns));
@@ -82,8 +94,14 @@ template <class SceneType> class PathIntegrator {
     if (d.dot(point.ng) * ray.d.dot(point.ng) >= 0) return Spectrum::Zero(); // into the true surface
     Ray shadow = point.spawn_ray(d);
     shadow.t_max = Float(options_.shown.reach);
-    ++rays;
-    return scene_.occluded(shadow) ? Spectrum::Zero() : Spectrum::Ones();
+    return Spectrum::Constant(open_share(scene_, shadow, {}, rays));
+  }
+
+  // See visibility.h: a mask is there or not, as chance has it.
+  template <class Stream> std::optional<Hit> meet(Ray& ray, Stream& stream, std::uint64_t& rays) const {
+    return render::meet(scene_, ray, rays, [&](Float opacity) {
+      return opacity == 0 || mc::Bernoulli<Float>(opacity).sample_index(stream.next()).index == 0;
+    });
   }
 
   // Radiance found along the rest of a path; `whole`: it has not split yet.
@@ -93,21 +111,25 @@ template <class SceneType> class PathIntegrator {
       if (!walk.beta.isFinite().all()) [[unlikely]]
         return walk.beta; // an invalid sample
       ++walk.edges;
-      ++rays;
-      const auto hit = scene_.intersect(walk.ray);
+      const auto hit = meet(walk.ray, stream, rays);
       if (!hit) {
+        if (walk.medium) [[unlikely]]
+          walk.beta *= walk.medium->transmittance(mc::infinity<Float>);
         for (const std::uint32_t light : scene_.infinite_lights())
           radiance += walk.beta * emission(light, nullptr, walk);
         return radiance;
       }
       const Surface& surface = scene_.surface(*hit);
       const SurfacePoint point = surface.shape->surface_point(walk.ray, *hit);
+      if (walk.medium) [[unlikely]]
+        walk.beta *= walk.medium->transmittance((point.p - walk.previous).norm());
       if (surface.light) radiance += walk.beta * emission(*surface.light, &point, walk);
       if (walk.edges == options_.max_depth) return radiance;
 
       const auto frame = mc::Frame<Float>::from_z(point.ns);
       std::optional<Bsdf> varied;
-      const At at{scene_.bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-walk.ray.d)};
+      const At at{
+          {scene_.bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-walk.ray.d)}, surface, walk.medium};
       const bool rough = !at.bsdf.is_delta();
       if (rough && connects() && scene_.has_light_choice()) radiance += walk.beta * connect(at, stream, rays);
       if (whole && rough) return radiance + branch(at, walk, stream, rays);
@@ -152,12 +174,15 @@ template <class SceneType> class PathIntegrator {
     if (is_black(f)) return f;
     const std::optional<Ray> ray = s->end ? at.point.spawn_ray_to(*s->end, s->wi) : at.point.spawn_ray(s->wi);
     if (!ray) return Spectrum::Zero();
-    ++rays;
-    if (scene_.occluded(*ray)) return Spectrum::Zero();
+    const Float open = open_share(scene_, *ray, s->end, rays);
+    if (open == 0) return Spectrum::Zero();
+    Spectrum arriving = open * s->radiance;
+    if (const HomogeneousMedium* medium = at.medium(s->wi)) [[unlikely]]
+      arriving *= medium->transmittance(s->end ? (s->end->p - at.point.p).norm() : mc::infinity<Float>);
     const Float pdf = choice.pmf * s->pdf;
     const bool shared = options_.strategy.finding == Finding::by_both && !source.is_delta();
     const Float weight = shared ? mc::power_heuristic(pdf, directions_.pdf(at, wi, s->wi)) : Float(1);
-    return f * s->radiance * (std::abs(wi.z()) * weight / pdf);
+    return f * arriving * (std::abs(wi.z()) * weight / pdf);
   }
 
   // The next direction; false where the path ends.
@@ -177,6 +202,7 @@ template <class SceneType> class PathIntegrator {
     }
     walk.previous = at.point.p;
     walk.ray = at.point.spawn_ray(next->d);
+    walk.medium = at.medium(next->d);
     return true;
   }
 

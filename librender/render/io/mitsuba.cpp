@@ -72,7 +72,9 @@ class Reader {
   void shape(const XmlElement& e) {
     CoveredShape s = read_plugin(shape_plugins(), e, context_);
     const BsdfId bsdf = s.bsdf ? *s.bsdf : context_.default_bsdf();
-    mc::with_context(e.where(), [&] { context_.builder.add(std::move(s.shape), {bsdf, s.emission, s.guide}); });
+    mc::with_context(e.where(), [&] {
+      context_.builder.add(std::move(s.shape), {bsdf, s.emission, s.guide, s.interior});
+    });
   }
 
   const XmlElement& root_;

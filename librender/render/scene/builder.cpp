@@ -7,12 +7,6 @@
 
 namespace render {
 
-BsdfId SceneBuilder::add(Bsdf bsdf) { return add(Material{std::move(bsdf), nullptr}); }
-
-BsdfId SceneBuilder::add(TexturedLambert diffuse) {
-  return add(Material{Lambert(), std::make_shared<const TexturedLambert>(std::move(diffuse))});
-}
-
 BsdfId SceneBuilder::add(Material material) {
   materials_.push_back(std::move(material));
   return BsdfId(static_cast<std::uint32_t>(materials_.size() - 1));
@@ -22,11 +16,13 @@ void SceneBuilder::add(Shape shape, const Cover& cover) {
   const auto bsdf = static_cast<std::size_t>(cover.bsdf);
   mc::require(bsdf < materials_.size(), "scene: shape {} names BSDF {} of {}", surfaces_.size(), bsdf,
               materials_.size());
-  const bool textured = materials_[bsdf].texture != nullptr;
+  const bool textured = materials_[bsdf].needs_uv();
   mc::require(!textured || shape.has_uv(), "scene: shape {} has no texture coordinates, which its texture needs",
               surfaces_.size());
+  mc::require(!cover.emission || !materials_[bsdf].mask,
+              "scene: shape {} shines through a mask, which is not supported; remove one of them", surfaces_.size());
   if (!textured) shape.forget_uvs();
-  Surface surface{std::make_shared<const Shape>(std::move(shape)), cover.bsdf, {}, cover.guide};
+  Surface surface{std::make_shared<const Shape>(std::move(shape)), cover.bsdf, {}, cover.guide, cover.interior};
   if (cover.emission) {
     surface.light = static_cast<std::uint32_t>(lights_.size());
     lights_.emplace_back(AreaLight(surface.shape, *cover.emission));

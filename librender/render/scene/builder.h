@@ -8,16 +8,17 @@ namespace render {
 /// Collects what a reader finds and makes the Scene of it. What is added is right by its own constructor.
 class SceneBuilder {
  public:
-  BsdfId add(Bsdf bsdf);
-  BsdfId add(TexturedLambert diffuse);
+  BsdfId add(Bsdf bsdf) { return add(Material(std::move(bsdf))); }
+  BsdfId add(Material material);
 
   struct Cover {
     BsdfId bsdf;
     std::optional<Emission> emission = {};
     bool guide = false; ///< see Surface
+    std::optional<HomogeneousMedium> interior = {};
   };
-  /// throws : Error for a BSDF that was not added, a texture on a shape that has no texture coordinates, or what
-  ///          AreaLight refuses
+  /// throws : Error for a BSDF that was not added, a texture on a shape that has no texture coordinates, a mask on one
+  ///          that shines, or what AreaLight refuses
   void add(Shape shape, const Cover& cover);
 
   /// A light that is no surface.
@@ -31,8 +32,6 @@ class SceneBuilder {
   Scene build();
 
  private:
-  BsdfId add(Material material);
-
   std::vector<Surface> surfaces_;
   std::vector<Material> materials_;
   std::vector<Light> lights_;

@@ -1,5 +1,7 @@
 #include <render/scene/scene.h>
 
+#include <algorithm>
+
 namespace render {
 
 Scene::Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std::vector<Light> lights, ThinLens camera,
@@ -9,6 +11,8 @@ Scene::Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std
   std::vector<const Shape*> shapes;
   for (const Surface& s : surfaces_) shapes.push_back(s.shape.get());
   bvh_ = Bvh(shapes);
+  has_masks_ =
+      std::any_of(surfaces_.begin(), surfaces_.end(), [&](const Surface& s) { return material(s).mask != nullptr; });
 
   const Bounds& bounds = bvh_.bounds();
   const double radius = surfaces_.empty() ? 1.0 : (bounds.hi - bounds.lo).cast<double>().norm() / 2;

@@ -7,6 +7,8 @@
 #include <render/camera/thin_lens.h>
 #include <render/film/filter.h>
 #include <render/light/choice.h>
+#include <render/scene/medium.h>
+#include <render/texture/mask.h>
 
 #include <memory>
 #include <optional>
@@ -18,18 +20,24 @@ namespace render {
 /// A BSDF of a scene, as SceneBuilder::add names it.
 enum class BsdfId : std::uint32_t {};
 
-/// A BSDF, or one that varies.
+/// A BSDF, or one that varies, and how much of it is there.
 struct Material {
   Bsdf bsdf;                                      ///< where a texture varies it, one of its kind
   std::shared_ptr<const TexturedLambert> texture; ///< null: it is the same everywhere
+  std::shared_ptr<const Mask> mask;               ///< null: all of it is there
+
+  Material(Bsdf b) : bsdf(std::move(b)) {}
+  Material(TexturedLambert t) : bsdf(Lambert()), texture(std::make_shared<const TexturedLambert>(std::move(t))) {}
+  bool needs_uv() const { return texture || (mask && mask->varies()); }
 };
 
 /// A shape with what covers it.
 struct Surface {
   std::shared_ptr<const Shape> shape;
   BsdfId bsdf;
-  std::optional<std::uint32_t> light; ///< the light that it is; none: it does not shine
-  bool guide = false;                 ///< the scene asks strategies that aim at lights to aim at it too
+  std::optional<std::uint32_t> light;             ///< the light that it is; none: it does not shine
+  bool guide = false;                             ///< the scene asks strategies that aim at lights to aim at it too
+  std::optional<HomogeneousMedium> interior = {}; ///< on the side that its normals do not point to; none on the other
 };
 
 /// Surfaces, lights, camera and filter of a picture, and the tables to look them up. Made by SceneBuilder, immutable,
@@ -48,13 +56,22 @@ class Scene {
   std::span<const Surface> surfaces() const { return surfaces_; }
   const Surface& surface(const Hit& hit) const { return surfaces_[static_cast<std::size_t>(hit.shape)]; }
   /// What covers a surface; of a texture only its kind, the rest varies.
-  const Bsdf& bsdf(const Surface& surface) const { return materials_[static_cast<std::size_t>(surface.bsdf)].bsdf; }
+  const Bsdf& bsdf(const Surface& surface) const { return material(surface).bsdf; }
   /// What covers it where it was hit, at `point`; made in `room` where a texture varies it.
   const Bsdf& bsdf(const Surface& surface, const Hit& hit, const SurfacePoint& point, std::optional<Bsdf>& room) const {
-    const Material& m = materials_[static_cast<std::size_t>(surface.bsdf)];
+    const Material& m = material(surface);
     if (!m.texture) [[likely]]
       return m.bsdf;
     return room.emplace(m.texture->at(surface.shape->uv(hit, point)));
+  }
+  /// Whether rays pass through parts of surfaces; visibility.h follows them.
+  bool has_masks() const { return has_masks_; }
+  /// How much of a surface is there where it was hit, at `point`, in [0, 1].
+  Float opacity(const Hit& hit, const SurfacePoint& point) const {
+    const Surface& s = surface(hit);
+    const auto& mask = material(s).mask;
+    if (!mask) return 1;
+    return mask->opacity(mask->varies() ? s.shape->uv(hit, point) : Vec2d::Zero());
   }
 
   std::span<const Light> lights() const { return lights_; }
@@ -74,12 +91,14 @@ class Scene {
   friend class SceneBuilder;
   Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std::vector<Light> lights, ThinLens camera,
         Filter filter);
+  const Material& material(const Surface& surface) const { return materials_[static_cast<std::size_t>(surface.bsdf)]; }
 
   std::vector<Surface> surfaces_;
   std::vector<Material> materials_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> infinite_lights_;
   std::optional<LightChoice> light_choice_;
+  bool has_masks_;
   Bvh bvh_;
   ThinLens camera_;
   Filter filter_;

@@ -7,7 +7,8 @@ namespace {
 using namespace render;
 
 static_assert(BsdfLike<Lambert> && BsdfLike<Metal> && BsdfLike<Dielectric> && BsdfLike<RoughPlastic> &&
-              BsdfLike<RoughDielectric> && BsdfLike<Bsdf>);
+              BsdfLike<RoughDielectric> && BsdfLike<RoughConductor<Microfacets>> &&
+              BsdfLike<RoughConductor<BlinnPhongFacets>> && BsdfLike<Bsdf>);
 
 TEST(Bsdf, SaysWhatItsMemberSays) {
   const Metal metal{Spectrum::Constant(Float(0.7)), Float(0.5)};

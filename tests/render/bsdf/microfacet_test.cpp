@@ -16,6 +16,37 @@ TEST(Microfacets, MaskingIsThatOfTheTangent) {
     }
 }
 
+// The integral of D cos over the hemisphere by the midpoint rule in 1 - cos = t^4, which spreads the peak.
+TEST(BlinnPhongFacets, FillTheSurface) {
+  for (const double alpha : {0.01, 0.1, 0.5, 1.0}) {
+    const BlinnPhongFacets facets{Float(alpha)};
+    const double n = 2 / (alpha * alpha) - 2;
+    constexpr int steps = 20'000;
+    double sum = 0;
+    for (int i = 0; i < steps; ++i) {
+      const double t = (i + 0.5) / steps, z = 1 - std::pow(t, 4);
+      const Vec3 m = Vec3d(std::sqrt((1 - z) * (1 + z)), 0, z).cast<Float>();
+      sum += double(facets.d(m)) * z * 2 * mc::pi<double> * 4 * std::pow(t, 3) / steps;
+      const double d = (n + 2) / (2 * mc::pi<double>)*std::pow(z, n);
+      EXPECT_NEAR(facets.d(m) / (d + 1e-15), d / (d + 1e-15), 1e-3) << alpha << " " << z;
+    }
+    EXPECT_NEAR(sum, 1, 1e-4) << alpha;
+  }
+}
+
+// Grooves hide nothing head-on, and what is seen of a facet that faces away goes to 0.
+TEST(BlinnPhongFacets, HideEachOtherInGrooves) {
+  const BlinnPhongFacets facets{Float(0.5)};
+  const Vec3 z = Vec3::UnitZ();
+  EXPECT_NEAR(facets.shape(z, z, z), facets.d(z), 1e-6);
+  for (const double theta : {0.3, 0.9, 1.4, 1.57}) {
+    const Vec3 w = Vec3d(std::sin(theta), 0, std::cos(theta)).cast<Float>(), m = (w + z).normalized();
+    const double g = std::min(1.0, 2 * double(m.z()) * double(w.z()) / double(w.dot(m)));
+    EXPECT_NEAR(facets.shape(w, z, m) / (double(facets.d(m)) * g / double(w.z())), 1, 1e-4) << theta;
+    EXPECT_NEAR(facets.shape(z, w, m) / facets.shape(w, z, m), 1, 1e-6);
+  }
+}
+
 TEST(Microfacets, RoughnessHasARange) {
   EXPECT_EQ(checked_alpha("x", Float(0.5)), Float(0.5));
   for (const Float bad : {Float(0), Float(-1), Float(1.5), std::numeric_limits<Float>::quiet_NaN()})

@@ -92,6 +92,71 @@ TEST_F(Mitsuba, NamesFileLineAndRemedy) {
       testing::HasSubstr("must be finite and >= 0"));
 }
 
+TEST_F(Mitsuba, MasksNameWhatIsWrong) {
+  const auto said = [&](const std::string& inside, const std::string& beside = "") {
+    return refusal(std::string(sensor) + "\n<shape type=\"sphere\">" + beside + "<bsdf type=\"mask\">" + inside +
+                   "</bsdf></shape>");
+  };
+  const std::string diffuse = "<bsdf type=\"diffuse\"/>", opacity = "<rgb name=\"opacity\" value=\"";
+  EXPECT_EQ(said(diffuse), "");
+  EXPECT_THAT(said(opacity + "1.5\"/>" + diffuse),
+              testing::HasSubstr("s.xml:3: <bsdf>: mask: opacity 1.5 must lie in [0, 1]"));
+  EXPECT_THAT(said(opacity + "-1\"/>" + diffuse), testing::HasSubstr("mask: opacity -1 must lie in [0, 1]"));
+  EXPECT_THAT(said(opacity + "0.5, 0.5, 1\"/>" + diffuse),
+              testing::HasSubstr("s.xml:3: <bsdf>: opacity (0.5, 0.5, 1) must be the same for all colours"));
+  EXPECT_THAT(said(opacity + "1\"/>"), testing::HasSubstr("parameter '<bsdf>' is missing: what covers the rest"));
+  EXPECT_THAT(said("<bsdf type=\"mask\">" + diffuse + "</bsdf>"),
+              testing::HasSubstr("s.xml:3: <bsdf>: a mask inside another; make one of both"));
+  EXPECT_THAT(said(diffuse, "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter>"),
+              testing::HasSubstr("s.xml:3: scene: shape 0 shines through a mask, which is not supported"));
+  EXPECT_THAT(
+      said("<texture type=\"checkerboard\" name=\"opacity\"><rgb name=\"color0\" value=\"2\"/></texture>" + diffuse),
+      testing::HasSubstr("mask: the largest of the opacity's texture (2, 2, 2) must lie in [0, 1]"));
+}
+
+TEST_F(Mitsuba, MetalsNameWhatIsWrong) {
+  const auto said = [&](const std::string& more, const std::string& eta = "0.2", const std::string& k = "3") {
+    return refusal(std::string(sensor) + "\n<shape type=\"sphere\"><bsdf type=\"roughconductor\"><rgb name=\"eta\" " +
+                   "value=\"" + eta + "\"/><rgb name=\"k\" value=\"" + k + "\"/>" + more + "</bsdf></shape>");
+  };
+  for (const char* facets : {"ggx", "phong"}) {
+    const std::string distribution = "<string name=\"distribution\" value=\"" + std::string(facets) + "\"/>";
+    EXPECT_EQ(said(distribution), "");
+    for (const char* bad : {"-1", "0", "1.5"}) // phong: an exponent below 0, or none
+      EXPECT_THAT(said(distribution + "<float name=\"alpha\" value=\"" + bad + "\"/>"),
+                  testing::HasSubstr("s.xml:3: <bsdf>: rough conductor: alpha " + std::string(bad) + " must lie in"));
+    EXPECT_THAT(said(distribution, "0", "0"), testing::HasSubstr("and k must not both be 0"));
+    EXPECT_THAT(said(distribution, "-1"), testing::HasSubstr("rough conductor: eta (-"));
+  }
+  EXPECT_THAT(said("<string name=\"distribution\" value=\"beckmann\"/>"),
+              testing::HasSubstr("'beckmann' is not known; use one of ggx, phong"));
+  EXPECT_THAT(said("<float name=\"extEta\" value=\"0\"/>"),
+              testing::HasSubstr("s.xml:3: <bsdf>: index of refraction 0 must be > 0"));
+}
+
+TEST_F(Mitsuba, MediaNameWhatIsWrong) {
+  const auto said = [&](const std::string& attributes, const std::string& inside) {
+    return refusal(std::string(sensor) + "\n<shape type=\"sphere\"><medium " + attributes + ">" + inside +
+                   "</medium></shape>");
+  };
+  const std::string homogeneous = "type=\"homogeneous\"", interior = homogeneous + " name=\"interior\"";
+  const auto sigma = [](const std::string& which, const std::string& value) {
+    return "<rgb name=\"sigma" + which + "\" value=\"" + value + "\"/>";
+  };
+  EXPECT_EQ(said(interior, sigma("A", "0, 1, 2") + sigma("S", "0")), "");
+  EXPECT_EQ(said(homogeneous, sigma("A", "1")), "");
+  EXPECT_THAT(said(interior, sigma("A", "0, -1, 2")),
+              testing::HasSubstr("s.xml:3: <medium>: medium: sigmaA (0, -1, 2) must be finite and >= 0"));
+  EXPECT_THAT(
+      said(interior, sigma("A", "1") + sigma("S", "0.5")),
+      testing::HasSubstr("s.xml:3: <medium>: sigmaS (0.5, 0.5, 0.5) must be 0: what scatters is not supported"));
+  EXPECT_THAT(said(interior, ""), testing::HasSubstr("s.xml:3: <medium>: parameter 'sigmaA' is missing"));
+  EXPECT_THAT(said(homogeneous + " name=\"exterior\"", sigma("A", "1")),
+              testing::HasSubstr("s.xml:3: <medium>: only a medium named 'interior' is supported"));
+  EXPECT_THAT(said("type=\"heterogeneous\"", ""),
+              testing::HasSubstr("s.xml:3: <medium>: unknown type 'heterogeneous'; did you mean 'homogeneous'?"));
+}
+
 TEST_F(Mitsuba, LightsAndLensesNameWhatIsWrong) {
   const auto said = [&](const std::string& element) { return refusal(std::string(sensor) + "\n" + element); };
   EXPECT_THAT(

@@ -41,13 +41,13 @@ std::set<std::string> types_with(const fs::path& folder, const std::vector<std::
   return types;
 }
 
-// The kinds that a closed set lists: struct Bsdf : std::variant<Lambert, ...>.
+// The kinds that a closed set lists: struct Bsdf : std::variant<Lambert, ...>; of a template its name.
 std::set<std::string> members_of(const fs::path& header) {
   const std::string text = text_of(header);
   std::smatch list;
   std::set<std::string> types;
-  if (!std::regex_search(text, list, std::regex(R"(: std::variant<([^>]*)>)"))) return types;
-  const std::string names = list[1];
+  if (!std::regex_search(text, list, std::regex(R"(: std::variant<((?:[^<>]|<[^<>]*>)*)>)"))) return types;
+  const std::string names = std::regex_replace(list[1].str(), std::regex("<[^<>]*>"), "");
   static const std::regex word(R"(\w+)");
   for (auto it = std::sregex_iterator(names.begin(), names.end(), word); it != std::sregex_iterator(); ++it)
     types.insert(it->str());

@@ -41,11 +41,11 @@ const XmlElement& Context::resolve(const XmlElement& element, std::string_view t
   element.fail(fmt::format("no <{}> has the id '{}'{}", tag, id, mc::did_you_mean(id, known)));
 }
 
-MaterialText Context::read_bsdf(const XmlElement& element) {
+Material Context::read_bsdf(const XmlElement& element) {
   const XmlElement& target = resolve(element, "bsdf");
   if (!being_read_.insert(&target).second)
     element.fail(fmt::format("it leads back to the <bsdf> of line {}, in which it stands", target.line));
-  MaterialText material = read_plugin(bsdf_plugins(), target, *this);
+  Material material = read_plugin(bsdf_plugins(), target, *this);
   being_read_.erase(&target);
   return material;
 }
@@ -54,7 +54,7 @@ BsdfId Context::bsdf(const XmlElement& element) {
   const XmlElement& target = resolve(element, "bsdf");
   const auto known = bsdfs_.find(&target);
   if (known != bsdfs_.end()) return known->second;
-  const BsdfId id = std::visit([&](auto&& material) { return builder.add(std::move(material)); }, read_bsdf(element));
+  const BsdfId id = builder.add(read_bsdf(element));
   bsdfs_.emplace(&target, id);
   return id;
 }

@@ -10,12 +10,8 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <variant>
 
 namespace render::mitsuba {
-
-/// What a <bsdf> describes.
-using MaterialText = std::variant<Bsdf, TexturedLambert>;
 
 /// Filled while a scene is read. `root` must outlive it.
 class Context {
@@ -36,7 +32,7 @@ class Context {
 
   /// The BSDF that a <bsdf> describes or a <ref> names.
   ///   throws : Error for what cannot be read and for references that lead in a circle
-  MaterialText read_bsdf(const XmlElement& element);
+  Material read_bsdf(const XmlElement& element);
   /// The same, added to the scene when first met.
   BsdfId bsdf(const XmlElement& element);
   /// The BSDF of shapes that name none.

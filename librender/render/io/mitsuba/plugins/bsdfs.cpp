@@ -6,16 +6,16 @@ namespace {
 
 const std::string share = "share of light";
 
-MaterialText make_diffuse(const Reflectance& reflectance) {
+Material make_diffuse(const Reflectance& reflectance) {
   if (const auto* texture = std::get_if<Texture>(&reflectance)) return TexturedLambert(*texture);
-  return Lambert(std::get<Spectrum>(reflectance));
+  return Bsdf(Lambert(std::get<Spectrum>(reflectance)));
 }
 
-Metal make_conductor(std::size_t, const Spectrum& reflectance) { return Metal(reflectance, 0); }
+Bsdf make_conductor(std::size_t, const Spectrum& reflectance) { return Metal(reflectance, 0); }
 
-Metal make_fuzzymetal(const Spectrum& albedo, double fuzz) { return Metal(albedo, Float(fuzz)); }
+Bsdf make_fuzzymetal(const Spectrum& albedo, double fuzz) { return Metal(albedo, Float(fuzz)); }
 
-Dielectric make_dielectric(double inside, double outside, const Spectrum& reflectance, const Spectrum& transmittance) {
+Bsdf make_dielectric(double inside, double outside, const Spectrum& reflectance, const Spectrum& transmittance) {
   mc::require(inside > 0 && outside > 0, "indices of refraction {} and {} must be > 0", inside, outside);
   return Dielectric(Float(inside / outside), reflectance, transmittance);
 }
@@ -34,10 +34,32 @@ Bsdf make_roughdielectric(double inside, double outside, double alpha, std::size
   return RoughDielectric(eta, Float(alpha), reflectance, transmittance);
 }
 
-MaterialText make_twosided(const MaterialText& inner) { return inner; }
+Material make_twosided(const Material& inner) { return inner; }
 
-Parameter<MaterialText> inner_bsdf() {
-  return {{"<bsdf>", "bsdf", "", {"bsdf", "ref"}, "what covers both sides"},
+Bsdf make_roughconductor(const Spectrum& eta, const Spectrum& k, double outside, double alpha, std::size_t distribution,
+                         const Spectrum& reflectance) {
+  mc::require(outside > 0, "index of refraction {} must be > 0", outside);
+  const Spectrum inner = eta / Float(outside), inner_k = k / Float(outside);
+  const Float a = checked_alpha("rough conductor: alpha", Float(alpha));
+  if (distribution == 1) return RoughConductor(inner, inner_k, BlinnPhongFacets(a), reflectance);
+  return RoughConductor(inner, inner_k, Microfacets(a), reflectance);
+}
+
+Material make_mask(const Reflectance& opacity, Material inner) {
+  mc::require(!inner.mask, "a mask inside another; make one of both");
+  if (const auto* texture = std::get_if<Texture>(&opacity)) {
+    inner.mask = std::make_shared<const Mask>(*texture);
+  } else {
+    const Spectrum& c = std::get<Spectrum>(opacity);
+    mc::require(c[0] == c[1] && c[1] == c[2], "opacity ({}, {}, {}) must be the same for all colours", c[0], c[1],
+                c[2]);
+    inner.mask = std::make_shared<const Mask>(c[0]);
+  }
+  return inner;
+}
+
+Parameter<Material> inner_bsdf(std::string meaning) {
+  return {{"<bsdf>", "bsdf", "", {"bsdf", "ref"}, std::move(meaning)},
           [](const XmlElement& e, Context& context) { return context.read_bsdf(e); },
           {},
           {}};
@@ -47,44 +69,55 @@ Parameter<double> alpha(const std::string& range) {
   return number("alpha", "", 0.1, "root mean square slope of the facets, " + range).in_lajolla(0.01, "0.01");
 }
 
-Parameter<std::size_t> distribution() {
-  return choice("distribution", {"ggx"}, "of the facets; Mitsuba's default, beckmann, is not supported", 0);
+Parameter<std::size_t> distribution(std::vector<std::string> names) {
+  return choice("distribution", std::move(names), "of the facets; Mitsuba's default, beckmann, is not supported", 0);
 }
 
 } // namespace
 
-const Plugins<MaterialText>& bsdf_plugins() {
+const Plugins<Material>& bsdf_plugins() {
   static const Spectrum half = Spectrum::Constant(Float(0.5)), one = Spectrum::Ones();
-  static const Plugins<MaterialText> rows = {
-      plugin<MaterialText>("diffuse", "perfectly diffuse reflection, alike on both sides", make_diffuse,
-                           color_or_texture("reflectance", share, "what is reflected, in [0, 1]", half)),
-      plugin<MaterialText>("conductor", "a perfect mirror", make_conductor,
-                           choice("material", {"none"}, "all is reflected; metals by name are not supported"),
-                           color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one)),
-      plugin<MaterialText>(
-          "fuzzymetal", "the metal of [Shirley16]: mirrored directions moved by a point in a ball (ours)",
-          make_fuzzymetal, color("albedo", share, "what is reflected, in [0, 1]", Spectrum::Constant(Float(0.9))),
-          number("fuzz", "", 0, "radius of the ball, in [0, 1]")),
-      plugin<MaterialText>("dielectric", "smooth glass", make_dielectric,
-                           number("intIOR", "", 1.5046, "index of refraction inside, > 0"),
-                           number("extIOR", "", 1.000277, "index of refraction outside, > 0"),
-                           color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
-                           color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
-      plugin<MaterialText>("roughplastic",
-                           "glossy paint: a rough clear coat over a diffuse base, without inner scattering",
-                           make_roughplastic, number("intIOR", "", 1.49, "index of refraction inside, > 0"),
-                           number("extIOR", "", 1.000277, "index of refraction outside, > 0"), alpha("in [0.0001, 1]"),
-                           distribution(), color("diffuseReflectance", share, "of the base, in [0, 1]", half),
-                           color("specularReflectance", share, "factor of what the coat reflects, in [0, 1]", one))
+  static const Plugins<Material> rows = {
+      plugin<Material>("diffuse", "perfectly diffuse reflection, alike on both sides", make_diffuse,
+                       color_or_texture("reflectance", share, "what is reflected, in [0, 1]", half)),
+      plugin<Material>("conductor", "a perfect mirror", make_conductor,
+                       choice("material", {"none"}, "all is reflected; metals by name are not supported"),
+                       color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one)),
+      plugin<Material>("fuzzymetal", "the metal of [Shirley16]: mirrored directions moved by a point in a ball (ours)",
+                       make_fuzzymetal,
+                       color("albedo", share, "what is reflected, in [0, 1]", Spectrum::Constant(Float(0.9))),
+                       number("fuzz", "", 0, "radius of the ball, in [0, 1]")),
+      plugin<Material>("dielectric", "smooth glass", make_dielectric,
+                       number("intIOR", "", 1.5046, "index of refraction inside, > 0"),
+                       number("extIOR", "", 1.000277, "index of refraction outside, > 0"),
+                       color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
+                       color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
+      plugin<Material>("roughplastic", "glossy paint: a rough clear coat over a diffuse base, without inner scattering",
+                       make_roughplastic, number("intIOR", "", 1.49, "index of refraction inside, > 0"),
+                       number("extIOR", "", 1.000277, "index of refraction outside, > 0"), alpha("in [0.0001, 1]"),
+                       distribution({"ggx"}), color("diffuseReflectance", share, "of the base, in [0, 1]", half),
+                       color("specularReflectance", share, "factor of what the coat reflects, in [0, 1]", one))
           .accepting({only(false, "nonlinear", "the base keeps its colour")}),
-      plugin<MaterialText>("roughdielectric", "ground glass", make_roughdielectric,
-                           number("intIOR", "", 1.5046, "index of refraction inside, > 0"),
-                           number("extIOR", "", 1.000277, "index of refraction outside, > 0"),
-                           alpha("0 for smooth glass, or in [0.0001, 1]"), distribution(),
-                           color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
-                           color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
-      plugin<MaterialText>("twosided", "the BSDF inside it, which all of ours are on both sides", make_twosided,
-                           inner_bsdf()),
+      plugin<Material>("roughdielectric", "ground glass", make_roughdielectric,
+                       number("intIOR", "", 1.5046, "index of refraction inside, > 0"),
+                       number("extIOR", "", 1.000277, "index of refraction outside, > 0"),
+                       alpha("0 for smooth glass, or in [0.0001, 1]"), distribution({"ggx"}),
+                       color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
+                       color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
+      plugin<Material>("roughconductor",
+                       "metal with facets of GGX, or of Blinn-Phong with the exponent 2 / alpha^2 - 2",
+                       make_roughconductor, color("eta", "", "index of refraction, >= 0"),
+                       color("k", "", "extinction coefficient, >= 0; not 0 where eta is"),
+                       number("extEta", "", 1.000277, "index of refraction outside, > 0"), alpha("in [0.0001, 1]"),
+                       distribution({"ggx", "phong"}),
+                       color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one)),
+      plugin<Material>("twosided", "the BSDF inside it, which all of ours are on both sides", make_twosided,
+                       inner_bsdf("what covers both sides")),
+      plugin<Material>("mask", "the BSDF inside it, with holes", make_mask,
+                       color_or_texture("opacity", "share of light",
+                                        "what the surface stops, in [0, 1]; a gray, or of a texture the channels' mean",
+                                        half),
+                       inner_bsdf("what covers the rest")),
   };
   return rows;
 }

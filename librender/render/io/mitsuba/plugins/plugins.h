@@ -11,6 +11,7 @@ struct CoveredShape {
   std::optional<BsdfId> bsdf;
   std::optional<Emission> emission;
   bool guide;
+  std::optional<HomogeneousMedium> interior;
 };
 
 struct FilmSettings {
@@ -34,10 +35,11 @@ const Plugins<SensorSettings>& sensor_plugins();
 const Plugins<FilmSettings>& film_plugins();
 const Plugins<Filter>& filter_plugins();
 const Plugins<int>& sampler_plugins(); ///< samples per pixel
-const Plugins<MaterialText>& bsdf_plugins();
+const Plugins<Material>& bsdf_plugins();
 const Plugins<Texture>& texture_plugins();
 const Plugins<CoveredShape>& shape_plugins();
 const Plugins<Emission>& surface_emitter_plugins(); ///< inside a shape
+const Plugins<HomogeneousMedium>& medium_plugins(); ///< inside a shape
 const Plugins<Light>& emitter_plugins();            ///< of the scene
 
 /// Every kind with its rows, in the order of the reference.

@@ -48,12 +48,29 @@ Parameter<std::optional<BsdfId>> bsdf_of_shape() {
   return p.otherwise(std::nullopt, "diffuse");
 }
 
+Parameter<std::optional<HomogeneousMedium>> medium_of_shape() {
+  const Parameter<std::optional<HomogeneousMedium>> p{
+      {"<medium>",
+       "medium",
+       "",
+       {"medium"},
+       "what fills it: where its normals do not point to, up to the next surface"},
+      [](const XmlElement& e, Context& context) {
+        if (e.attribute_or("name", "interior") != "interior")
+          e.fail("only a medium named 'interior' is supported; beyond a shape nothing absorbs");
+        return std::optional(read_plugin(medium_plugins(), e, context));
+      },
+      {},
+      {}};
+  return p.otherwise(std::nullopt, "none");
+}
+
 template <class Make> struct Covered {
   Make make;
   template <class... Values>
-  CoveredShape operator()(const std::optional<BsdfId>& bsdf, const std::optional<Emission>& emission, bool guide,
-                          const Values&... values) const {
-    return {make(values...), bsdf, emission, guide};
+  CoveredShape operator()(const std::optional<BsdfId>& bsdf, const std::optional<Emission>& emission,
+                          const std::optional<HomogeneousMedium>& interior, bool guide, const Values&... values) const {
+    return {make(values...), bsdf, emission, guide, interior};
   }
 };
 
@@ -61,9 +78,15 @@ template <class Make> struct Covered {
 template <class Make, class... V>
 Plugin<CoveredShape> shape_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
   return plugin<CoveredShape>(std::move(name), std::move(meaning), Covered<Make>{make}, bsdf_of_shape(),
-                              optional(nested("emitter", "makes it shine", surface_emitter_plugins)),
+                              optional(nested("emitter", "makes it shine", surface_emitter_plugins)), medium_of_shape(),
                               boolean("guide", "whether the strategies `mixture` and `guides` aim at it (ours)"),
                               parameters...);
+}
+
+HomogeneousMedium make_homogeneous(const Spectrum& absorption, const Spectrum& scattering) {
+  mc::require(is_black(scattering), "sigmaS ({}, {}, {}) must be 0: what scatters is not supported", scattering[0],
+              scattering[1], scattering[2]);
+  return HomogeneousMedium(absorption);
 }
 
 Parameter<Transform> to_world() { return transform("toWorld", "from the shape's space to the scene's"); }
@@ -78,6 +101,15 @@ Plugin<CoveredShape> mesh_plugin(std::string name, std::string meaning, Make mak
 }
 
 } // namespace
+
+const Plugins<HomogeneousMedium>& medium_plugins() {
+  static const Plugins<HomogeneousMedium> rows = {
+      plugin<HomogeneousMedium>("homogeneous", "absorbs alike everywhere, by Beer's law", make_homogeneous,
+                                color("sigmaA", "1 / scene unit", "what is absorbed, >= 0"),
+                                color("sigmaS", "1 / scene unit", "what is scattered: only 0", Spectrum::Zero())),
+  };
+  return rows;
+}
 
 const Plugins<CoveredShape>& shape_plugins() {
   static const Plugins<CoveredShape> rows = {

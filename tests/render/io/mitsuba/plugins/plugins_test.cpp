@@ -22,6 +22,7 @@ const std::map<std::string, Place> places = {
     {"bsdf", {"<shape type=\"sphere\">", "</shape>"}},
     {"texture", {"", ""}},
     {"shape", {"", ""}},
+    {"medium", {"<shape type=\"sphere\">", "</shape>"}},
     {"emitter in a shape", {"<shape type=\"sphere\">", "</shape>"}},
     {"emitter", {"", ""}},
 };

@@ -1,0 +1,80 @@
+#pragma once
+/// Metal.
+
+#include <render/bsdf/microfacet.h>
+
+namespace render {
+
+/// Fresnel reflectance of a metal for unpolarised light, per channel.
+///   cos_i  : cosine of incidence in [0,1]
+///   eta, k : index of refraction and extinction coefficient of the metal over the index of the outside
+///   error  : 1e-5
+///   Source : [BornWolf99] section 14.2
+inline Spectrum fresnel_conductor(Float cos_i, const Spectrum& eta, const Spectrum& k) {
+  const Float cos2 = cos_i * cos_i, sin2 = 1 - cos2;
+  // (a + ib)^2 = (eta + ik)^2 - sin^2, whose imaginary part is 2 eta k.
+  const Spectrum real = eta * eta - k * k - sin2;
+  const Spectrum modulus = (real * real + 4 * eta * eta * k * k).sqrt();
+  const Spectrum half = (modulus + real.abs()) / 2; // the larger of a^2 and b^2, the other without a difference
+  const Spectrum twice_a_cos = 2 * cos_i * (real >= 0).select(half, (eta * k).square() / half).sqrt();
+  const Spectrum perpendicular = (modulus + cos2 - twice_a_cos) / (modulus + cos2 + twice_a_cos);
+  const Spectrum even = cos2 * modulus + sin2 * sin2, odd = twice_a_cos * sin2;
+  return (perpendicular * (1 + (even - odd) / (even + odd)) / 2).min(Float(1));
+}
+
+/// Metal with facets of a distribution, the same on both sides.
+///   eta, k : its index of refraction and extinction coefficient over the index of the outside, per channel
+///   eval   : Ks F D G / (4 cos wo cos wi), F that of wo about the half vector; 0 where wo and wi lie on different
+///            sides. Light that would meet a second facet is lost: of F = 1 at a cosine of .9 and alpha .1, .3, .6, 1
+///            GGX's keep .99, .87, .59, .32, Blinn-Phong's 1, .98, .74, .41
+///   sample : mirrored about one of the normals that the distribution draws; nullopt where that ends below the surface.
+///            The pdf is that of the mirrored directions [1/sr]
+///   throws : Error unless eta and k are finite and >= 0 and never both 0, and the colour lies in [0, 1]
+///   Source : [WalterEtAl07] equation 20
+template <class Facets> class RoughConductor {
+ public:
+  RoughConductor(const Spectrum& eta, const Spectrum& k, const Facets& facets,
+                 const Spectrum& reflectance = Spectrum::Ones())
+      : eta_(checked_radiance("rough conductor: eta", eta)), k_(checked_radiance("rough conductor: k", k)),
+        facets_(facets), reflectance_(checked_reflectance("rough conductor: specularReflectance", reflectance)) {
+    mc::require((eta + k > 0).all(), "rough conductor: eta ({}, {}, {}) and k must not both be 0", eta[0], eta[1],
+                eta[2]);
+  }
+
+  std::optional<BsdfSample> sample(const Vec3& wo_given, Float, const Vec2& u) const {
+    const Vec3 wo = upward(wo_given, wo_given);
+    if (!(wo.z() > 0)) return {};
+    const auto normals = facets_.seen_from(wo);
+    const Vec3 m = normals.sample(u);
+    const Vec3 wi = (2 * wo.dot(m) * m - wo).normalized();
+    if (!(wi.z() > 0)) return {};
+    const Float density = normals.pdf_reflected(m);
+    if (!(density > 0)) return {};
+    return BsdfSample{upward(wi, wo_given), value(wo, wi, m), density};
+  }
+  Spectrum eval(const Vec3& wo, const Vec3& wi) const {
+    if (!(wo.z() * wi.z() > 0)) return Spectrum::Zero();
+    const Vec3 o = upward(wo, wo), i = upward(wi, wo);
+    return value(o, i, (o + i).normalized());
+  }
+  Float pdf(const Vec3& wo, const Vec3& wi) const {
+    if (!(wo.z() * wi.z() > 0)) return 0;
+    const Vec3 o = upward(wo, wo), i = upward(wi, wo);
+    return facets_.seen_from(o).pdf_reflected((o + i).normalized());
+  }
+  bool is_delta() const { return false; }
+  bool has_delta() const { return false; }
+  bool transmits() const { return false; }
+
+ private:
+  Spectrum value(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
+    const Float cosine = std::clamp(wo.dot(m), Float(0), Float(1));
+    return reflectance_ * fresnel_conductor(cosine, eta_, k_) * (facets_.shape(wo, wi, m) / 4);
+  }
+
+  Spectrum eta_, k_;
+  Facets facets_;
+  Spectrum reflectance_;
+};
+
+} // namespace render

@@ -1,0 +1,175 @@
+// What glass absorbs, known in closed form.
+
+#include <render/scene/builder.h>
+
+#include <mc/random/pcg.h>
+#include <mc/stats/t_test.h>
+#include <mc/warp/sphere.h>
+
+#include "support/files.h"
+#include "support/traced.h"
+
+namespace {
+
+using namespace render;
+
+const Spectrum one = Spectrum::Ones();
+
+Vec3d random_direction(mc::Pcg& random) { return mc::UniformSphere<double>{}.sample(random.point<double, 2>()); }
+
+/// A unit that a scene is measured in, and where it is.
+struct Space {
+  double scale;
+  Transform world;
+
+  explicit Space(mc::Pcg& random)
+      : scale(std::pow(10, 20 * random.uniform<double>() - 10)),
+        world(Transform::translate(3 * scale * random_direction(random)) *
+              Transform::rotate(random_direction(random), 360 * random.uniform<double>()) *
+              Transform::scale(Vec3d::Constant(scale))) {}
+  Ray ray(const Vec3d& from, const Vec3d& to) const {
+    const Vec3d o = world.point(from), e = world.point(to);
+    return {o.cast<Float>(), (e - o).normalized().cast<Float>()};
+  }
+  HomogeneousMedium medium(const Vec3d& sigma) const {
+    return HomogeneousMedium((sigma.array() / scale).cast<Float>());
+  }
+};
+
+TEST(HomogeneousMedium, BeersLaw) {
+  const HomogeneousMedium medium(Spectrum(0, Float(0.5), 2));
+  for (const double d : {0.0, 1e-6, 0.3, 7.0}) {
+    const Spectrum t = medium.transmittance(Float(d));
+    EXPECT_EQ(t[0], 1);
+    EXPECT_NEAR(t[1], std::exp(-0.5 * d), 1e-6);
+    EXPECT_NEAR(t[2], std::exp(-2 * d), 1e-6);
+  }
+  const Spectrum nothing = medium.transmittance(mc::infinity<Float>);
+  EXPECT_EQ(nothing[0], 1);
+  EXPECT_EQ(nothing[1], 0);
+  EXPECT_EQ(nothing[2], 0);
+  for (const Float bad : {Float(-1), mc::infinity<Float>, std::numeric_limits<Float>::quiet_NaN()})
+    EXPECT_THAT(support::error_of([&] { HomogeneousMedium(Spectrum(0, bad, 0)); }),
+                testing::StartsWith("medium: sigmaA (0, " + fmt::format("{}", bad)));
+}
+
+// Boundaries of index 1 bend nothing and reflect nothing: exp(-sigma t), t the way inside, under every strategy, of any
+// size, at any place. To the rounding of coordinates that are up to four times as large as the scene.
+TEST(HomogeneousMedium, AChordOfABall) {
+  mc::Pcg random(1);
+  for (int i = 0; i < 100; ++i) {
+    const Space space(random);
+    SceneBuilder builder;
+    builder.add(Light(ConstantBackground(one)));
+    const Vec3d sigma(0, random.uniform<double>(), 3 * random.uniform<double>());
+    builder.add(Sphere(space.world.point(Vec3d::Zero()), space.scale),
+                {.bsdf = builder.add(Dielectric(1)), .interior = space.medium(sigma)});
+    const Scene scene = builder.build();
+    const double off = 0.99 * random.uniform<double>(), chord = 2 * std::sqrt(1 - off * off);
+    for (const Strategy& s : strategies)
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(support::traced(scene, space.ray({-2, off, 0}, {0, off, 0}), {s}, 2, c).mean(),
+                    std::exp(-sigma[c] * chord), 2e-5)
+            << i << " " << s.name << " " << c;
+  }
+}
+
+// Through a plate of thickness d and reflectance R of its faces, head-on: with e = exp(-sigma d), what goes to and fro
+// inside sums to T = (1 - R)^2 e / (1 - R^2 e^2); R + R e T comes back. Behind it the sky is 1, before it too. t-tests
+// of 30 x 7 means at alpha = 1e-6, fixed seeds.
+TEST(HomogeneousMedium, APlateOfGlass) {
+  mc::Pcg random(2);
+  for (int i = 0; i < 30; ++i) {
+    const Space space(random);
+    SceneBuilder builder;
+    builder.add(Light(ConstantBackground(one)));
+    const double eta = 1.1 + 2 * random.uniform<double>(), thickness = 0.1 + random.uniform<double>(),
+                 sigma = 2 * random.uniform<double>();
+    builder.add(TriangleMesh::box(space.world * Transform::scale({50, 50, thickness / 2})),
+                {.bsdf = builder.add(Dielectric(Float(eta))), .interior = space.medium(Vec3d::Constant(sigma))});
+    const Scene scene = builder.build();
+    const double r = mc::sqr((eta - 1) / (eta + 1)), e = std::exp(-sigma * thickness);
+    const double through = mc::sqr(1 - r) * e / (1 - mc::sqr(r * e));
+    const double expected = through + r + r * e * through;
+    for (const Strategy& s : strategies) {
+      const mc::Moments m = support::traced(scene, space.ray({0.1, 0.2, 3}, {0.1, 0.2, 0}), {s}, 4000);
+      EXPECT_GE(mc::t_test(m, expected).p, 1e-6)
+          << i << " " << s.name << ": " << m.mean() << " +- " << m.std_error() << ", expected " << expected;
+    }
+  }
+}
+
+// A shell: only between its two surfaces, which both name the medium, is anything absorbed. Roulette makes it vary:
+// t-tests of 20 means at alpha = 1e-6, fixed seeds.
+TEST(HomogeneousMedium, AHollowBall) {
+  mc::Pcg random(3);
+  for (int i = 0; i < 20; ++i) {
+    const Space space(random);
+    const double inner = 0.3 + 0.6 * random.uniform<double>(), off = random.uniform<double>() * 0.95;
+    SceneBuilder builder;
+    builder.add(Light(ConstantBackground(one)));
+    const BsdfId glass = builder.add(Dielectric(1));
+    const auto medium = space.medium(Vec3d::Constant(1.5));
+    builder.add(Sphere(space.world.point(Vec3d::Zero()), space.scale), {.bsdf = glass, .interior = medium});
+    builder.add(Sphere(space.world.point(Vec3d::Zero()), inner * space.scale, true),
+                {.bsdf = glass, .interior = medium});
+    const Scene scene = builder.build();
+    if (std::abs(off / inner - 1) < 0.01) continue;
+    const double hole = off < inner ? 2 * std::sqrt(inner * inner - off * off) : 0;
+    const double expected = std::exp(-1.5 * (2 * std::sqrt(1 - off * off) - hole));
+    const mc::Moments m = support::traced(scene, space.ray({-2, off, 0}, {0, off, 0}), {}, 4000);
+    EXPECT_TRUE(std::abs(m.mean() - expected) <= 5e-5 || mc::t_test(m, expected).p >= 1e-6)
+        << i << ": " << m.mean() << " +- " << m.std_error() << ", expected " << expected;
+  }
+}
+
+// A floor and a point of light in a ball of it: along the shadow ray and along the eye's something is lost.
+TEST(HomogeneousMedium, AbsorbsAlongShadowRays) {
+  mc::Pcg random(4);
+  for (int i = 0; i < 100; ++i) {
+    const Space space(random);
+    SceneBuilder builder;
+    const double sigma = random.uniform<double>();
+    const Vec3d at = Vec3d(random.uniform<double>(), 1 + random.uniform<double>(), random.uniform<double>());
+    builder.add(Sphere(space.world.point(Vec3d::Zero()), 4 * space.scale),
+                {.bsdf = builder.add(Dielectric(1)), .interior = space.medium(Vec3d::Constant(sigma))});
+    builder.add(TriangleMesh::rectangle(space.world * Transform::rotate(Vec3d::UnitX(), -90)),
+                {builder.add(Lambert(Spectrum::Constant(Float(0.6))))});
+    builder.add(
+        Light(PointLight(space.world.point(at), Spectrum::Constant(Float(1)) * Float(space.scale * space.scale))));
+    const Scene scene = builder.build();
+    const double expected = 0.6 / mc::pi<double> * at.y() / std::pow(at.norm(), 3) * std::exp(-sigma * (at.norm() + 4));
+    for (const char* strategy : {"nee", "mis"})
+      EXPECT_NEAR(support::traced(scene, space.ray({3, 5, 2}, Vec3d::Zero()), {strategy_from(strategy), 3}, 4).mean(),
+                  expected, 1e-4 * expected)
+          << i << " " << strategy;
+  }
+}
+
+// A ball of light above a floor, both inside: whether light is met by chance or connected to, the same is lost.
+// Welch's tests of 4 pairs at alpha = 1e-6.
+TEST(HomogeneousMedium, StrategiesAgree) {
+  SceneBuilder builder;
+  builder.add(Sphere(Vec3d::Zero(), 4), {.bsdf = builder.add(RoughDielectric(Float(1.5), Float(0.4))),
+                                         .interior = HomogeneousMedium(Spectrum::Constant(Float(0.4)))});
+  const BsdfId gray = builder.add(Lambert(Spectrum::Constant(Float(0.6))));
+  builder.add(TriangleMesh::rectangle(Transform::rotate(Vec3d::UnitX(), -90) * Transform::scale({2, 2, 1})), {gray});
+  builder.add(Sphere(Vec3d(0.3, 1.5, 0), 0.5), {gray, Emission{}});
+  builder.add(TriangleMesh::rectangle(Transform::translate({0, 9, 0}) * Transform::rotate(Vec3d::UnitX(), 90) *
+                                      Transform::scale({4, 4, 1})),
+              {gray, Emission{}});
+  const Scene scene = builder.build();
+  const Ray ray{Vec3(2, 7, 3), Vec3(-2, -7, -3).normalized()};
+  const mc::Moments plain = support::traced(scene, ray, {strategy_from("bsdf")}, 100'000);
+  EXPECT_GT(plain.mean(), 0);
+  for (const char* name : {"hemisphere", "mixture", "nee", "mis"}) {
+    const mc::Moments m = support::traced(scene, ray, {strategy_from(name)}, 100'000);
+    const double va = mc::sqr(plain.std_error()), vb = mc::sqr(m.std_error());
+    const double dof = mc::welch_dof(va, plain.estimate().dof, vb, m.estimate().dof);
+    EXPECT_GE(mc::t_test(m.mean() - plain.mean(), std::sqrt(va + vb), dof, 0, 1e-6).p, 1e-6)
+        << name << ": " << m.mean() << " +- " << m.std_error() << ", bsdf " << plain.mean() << " +- "
+        << plain.std_error();
+  }
+}
+
+} // namespace
