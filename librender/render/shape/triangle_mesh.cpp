@@ -28,8 +28,9 @@ Crossing cross_plane(const std::array<Vec3, 3>& v, const Vec3d& o, const Vec3d& 
 }
 
 std::vector<Vec3> transformed(const std::vector<Vec3d>& points, const Transform& to_world) {
-  std::vector<Vec3> result;
-  for (const Vec3d& p : points) result.push_back(to_world.point(p).cast<Float>());
+  std::vector<Vec3> result(points.size());
+  std::transform(points.begin(), points.end(), result.begin(),
+                 [&](const Vec3d& p) { return Vec3(to_world.point(p).cast<Float>()); });
   return result;
 }
 

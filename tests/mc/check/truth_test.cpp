@@ -44,8 +44,8 @@ TEST(Truth, ForeignSamplersAreJudged) {
 // What a table says of its breaks is exact.
 TEST(Truth, TheMassOfATableWithBreaksIsExact) {
   mc::Pcg random(1);
-  std::vector<double> weights;
-  for (int i = 0; i < 100 * 50; ++i) weights.push_back(random.uniform<double>());
+  std::vector<double> weights(100 * 50);
+  for (double& w : weights) w = random.uniform<double>();
   const mc::Subject s = truth::of_table("table", weights, 100, 50, true);
   EXPECT_EQ(s.breaks[0].size(), 99u);
   EXPECT_EQ(s.breaks[1].size(), 49u);

@@ -26,8 +26,8 @@ inline std::vector<Axis> polar_axes(double h) {
 /// What the chart coordinates of a domain stand for; the coordinates themselves, named v0, v1, ..., where no single one
 /// has a meaning (triangles, patches, domains unknown here).
 template <Domain D> std::vector<Axis> chart_axes(const D&) {
-  std::vector<Axis> axes;
-  for (int i = 0; i < D::dim; ++i) axes.push_back({D::dim == 1 ? std::string("v") : fmt::format("v{}", i)});
+  std::vector<Axis> axes(std::size_t{D::dim});
+  for (std::size_t i = 0; i < axes.size(); ++i) axes[i].name = D::dim == 1 ? std::string("v") : fmt::format("v{}", i);
   return axes;
 }
 template <Real S> std::vector<Axis> chart_axes(const Interval<S>& d) {

@@ -51,36 +51,37 @@ const XmlElement* Declaration::find(const XmlElement& plugin) const {
   return found;
 }
 
-Parameter<double> number(std::string name, std::string unit, std::string meaning) {
+Parameter<double> number(const std::string& name, const std::string& unit, const std::string& meaning) {
   return {{name, "number", unit, {"float", "integer"}, meaning},
           [](const XmlElement& e, Context&) { return number_of(e); },
           {},
           {}};
 }
-Parameter<double> number(std::string name, std::string unit, double fallback, std::string meaning) {
+Parameter<double> number(const std::string& name, const std::string& unit, double fallback,
+                         const std::string& meaning) {
   return number(name, unit, meaning).otherwise(fallback, fmt::format("{}", fallback));
 }
 
-Parameter<int> integer(std::string name, std::string meaning, int fallback) {
+Parameter<int> integer(const std::string& name, const std::string& meaning, int fallback) {
   const Parameter<int> p{
       {name, "integer", "", {"integer"}, meaning}, [](const XmlElement& e, Context&) { return integer_of(e); }, {}, {}};
   return p.otherwise(fallback, fmt::format("{}", fallback));
 }
 
-Parameter<bool> boolean(std::string name, std::string meaning, bool fallback) {
+Parameter<bool> boolean(const std::string& name, const std::string& meaning, bool fallback) {
   const Parameter<bool> p{
       {name, "boolean", "", {"boolean"}, meaning}, [](const XmlElement& e, Context&) { return boolean_of(e); }, {}, {}};
   return p.otherwise(fallback, fmt::format("{}", fallback));
 }
 
-Parameter<std::string> file(std::string name, std::string meaning) {
+Parameter<std::string> file(const std::string& name, const std::string& meaning) {
   return {{name, "file", "", {"string"}, meaning},
           [](const XmlElement& e, Context& context) { return context.file(e.attribute("value")); },
           {},
           {}};
 }
 
-Parameter<Vec3d> point(std::string name, std::string meaning, const Vec3d& fallback) {
+Parameter<Vec3d> point(const std::string& name, const std::string& meaning, const Vec3d& fallback) {
   const Parameter<Vec3d> p{{name, "point", "", {"point", "vector"}, meaning},
                            [](const XmlElement& e, Context&) { return vector_of(e); },
                            {},
@@ -88,17 +89,18 @@ Parameter<Vec3d> point(std::string name, std::string meaning, const Vec3d& fallb
   return p.otherwise(fallback, text_of(fallback));
 }
 
-Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning) {
+Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning) {
   return {{name, "colour", unit, {"rgb", "srgb", "spectrum"}, meaning},
           [](const XmlElement& e, Context&) { return color_of(e); },
           {},
           {}};
 }
-Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning, const Spectrum& fallback) {
+Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning,
+                          const Spectrum& fallback) {
   return color(name, unit, meaning).otherwise(fallback, text_of(fallback));
 }
 
-Parameter<Reflectance> color_or_texture(std::string name, std::string unit, std::string meaning,
+Parameter<Reflectance> color_or_texture(const std::string& name, const std::string& unit, const std::string& meaning,
                                         const Spectrum& fallback) {
   const auto parse = [](const XmlElement& e, Context& context) -> Reflectance {
     if (e.tag == "texture" || e.tag == "ref") return context.texture(e);
@@ -109,11 +111,11 @@ Parameter<Reflectance> color_or_texture(std::string name, std::string unit, std:
   return p.otherwise(fallback, text_of(fallback));
 }
 
-Parameter<std::shared_ptr<const Texels>> picture(std::string name, std::string meaning) {
+Parameter<std::shared_ptr<const Texels>> picture(const std::string& name, const std::string& meaning) {
   return {{name, "file", "", {"string"}, meaning}, picture_of, {}, {}};
 }
 
-Parameter<Transform> transform(std::string name, std::string meaning) {
+Parameter<Transform> transform(const std::string& name, const std::string& meaning) {
   const Parameter<Transform> p{{name, "transform", "", {"transform"}, meaning},
                                [](const XmlElement& e, Context&) { return transform_of(e); },
                                {},
@@ -121,25 +123,26 @@ Parameter<Transform> transform(std::string name, std::string meaning) {
   return p.otherwise({}, "identity");
 }
 
-Parameter<std::size_t> choice(std::string name, std::vector<std::string> words, std::string meaning) {
+Parameter<std::size_t> choice(const std::string& name, const std::vector<std::string>& words,
+                              const std::string& meaning) {
   const Parameter<std::size_t> p{{name, fmt::format("one of {}", fmt::join(words, ", ")), "", {"string"}, meaning},
                                  [words](const XmlElement& e, Context&) { return word_of(e, words); },
                                  {},
                                  {}};
   return p;
 }
-Parameter<std::size_t> choice(std::string name, std::vector<std::string> words, std::string meaning,
-                              std::size_t fallback) {
+Parameter<std::size_t> choice(const std::string& name, const std::vector<std::string>& words,
+                              const std::string& meaning, std::size_t fallback) {
   return choice(name, words, meaning).otherwise(fallback, words[fallback]);
 }
 
-Declaration no_effect(std::string name, std::string why) {
+Declaration no_effect(const std::string& name, const std::string& why) {
   Declaration d{name, "any", "", {"boolean", "float", "integer", "string"}, why};
   d.has_effect = false;
   return d;
 }
 
-Declaration only(bool value, std::string name, std::string meaning) {
+Declaration only(bool value, const std::string& name, const std::string& meaning) {
   Declaration d{name, "boolean", "", {"boolean"}, meaning, fmt::format("{}", value)};
   d.only = value;
   return d;

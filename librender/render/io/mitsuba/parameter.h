@@ -69,26 +69,28 @@ template <class T> struct Parameter {
 };
 
 /// Without a fallback a parameter must be given.
-Parameter<double> number(std::string name, std::string unit, std::string meaning);
-Parameter<double> number(std::string name, std::string unit, double fallback, std::string meaning);
-Parameter<int> integer(std::string name, std::string meaning, int fallback);
-Parameter<bool> boolean(std::string name, std::string meaning, bool fallback = false);
-Parameter<std::string> file(std::string name, std::string meaning);
-Parameter<Vec3d> point(std::string name, std::string meaning, const Vec3d& fallback);
-Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning);
-Parameter<Spectrum> color(std::string name, std::string unit, std::string meaning, const Spectrum& fallback);
+Parameter<double> number(const std::string& name, const std::string& unit, const std::string& meaning);
+Parameter<double> number(const std::string& name, const std::string& unit, double fallback, const std::string& meaning);
+Parameter<int> integer(const std::string& name, const std::string& meaning, int fallback);
+Parameter<bool> boolean(const std::string& name, const std::string& meaning, bool fallback = false);
+Parameter<std::string> file(const std::string& name, const std::string& meaning);
+Parameter<Vec3d> point(const std::string& name, const std::string& meaning, const Vec3d& fallback);
+Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning);
+Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning,
+                          const Spectrum& fallback);
 /// A colour, or a texture where it varies.
 using Reflectance = std::variant<Spectrum, Texture>;
-Parameter<Reflectance> color_or_texture(std::string name, std::string unit, std::string meaning,
+Parameter<Reflectance> color_or_texture(const std::string& name, const std::string& unit, const std::string& meaning,
                                         const Spectrum& fallback);
 /// A file with a picture, relative to the scene file.
-Parameter<std::shared_ptr<const Texels>> picture(std::string name, std::string meaning);
-Parameter<Transform> transform(std::string name, std::string meaning);
+Parameter<std::shared_ptr<const Texels>> picture(const std::string& name, const std::string& meaning);
+Parameter<Transform> transform(const std::string& name, const std::string& meaning);
 
 /// One word of a list, as its place in the list.
-Parameter<std::size_t> choice(std::string name, std::vector<std::string> words, std::string meaning);
-Parameter<std::size_t> choice(std::string name, std::vector<std::string> words, std::string meaning,
-                              std::size_t fallback);
+Parameter<std::size_t> choice(const std::string& name, const std::vector<std::string>& words,
+                              const std::string& meaning);
+Parameter<std::size_t> choice(const std::string& name, const std::vector<std::string>& words,
+                              const std::string& meaning, std::size_t fallback);
 
 /// A parameter that may be left out, without a value of its own then.
 template <class T> Parameter<std::optional<T>> optional(const Parameter<T>& p) {
@@ -96,8 +98,8 @@ template <class T> Parameter<std::optional<T>> optional(const Parameter<T>& p) {
 }
 
 /// Accepted without effect, since it cannot change the picture.
-Declaration no_effect(std::string name, std::string why);
+Declaration no_effect(const std::string& name, const std::string& why);
 /// A switch of which only the default is supported.
-Declaration only(bool value, std::string name, std::string meaning);
+Declaration only(bool value, const std::string& name, const std::string& meaning);
 
 } // namespace render::mitsuba

@@ -5,7 +5,7 @@
 
 namespace {
 
-using mc::Check, mc::Fault, mc::Report, mc::Verdict;
+using mc::Fault, mc::Report, mc::Verdict;
 
 TEST(Report, FailBeatsInconclusiveBeatsPass) {
   Report r;

@@ -69,8 +69,8 @@ Parameter<double> alpha(const std::string& range) {
   return number("alpha", "", 0.1, "root mean square slope of the facets, " + range).in_lajolla(0.01, "0.01");
 }
 
-Parameter<std::size_t> distribution(std::vector<std::string> names) {
-  return choice("distribution", std::move(names), "of the facets; Mitsuba's default, beckmann, is not supported", 0);
+Parameter<std::size_t> distribution(const std::vector<std::string>& names) {
+  return choice("distribution", names, "of the facets; Mitsuba's default, beckmann, is not supported", 0);
 }
 
 } // namespace
