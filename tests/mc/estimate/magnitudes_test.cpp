@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -26,8 +27,8 @@ TEST(Magnitudes, IndexOfAPowerLawWithinItsError) {
 TEST(Magnitudes, MergedAsAddedAndOfAnySize) {
   const std::vector<double> x = powers(4, 10'000, 0.8);
   for (const int power : {-900, 0, 900}) {
-    std::vector<double> scaled;
-    for (const double v : x) scaled.push_back(-std::ldexp(v, power));
+    std::vector<double> scaled(x.size());
+    std::transform(x.begin(), x.end(), scaled.begin(), [&](double v) { return -std::ldexp(v, power); });
     mc::Magnitudes whole, parts;
     whole.add(scaled);
     for (std::size_t i = 0; i < 10; ++i) {

@@ -31,7 +31,8 @@ template <mc::Sampler T> std::vector<double> points_of(const T& sampler, std::ui
 inline std::vector<double> hammersley(double shift) {
   std::vector<double> points;
   for (const int i : {0, 4, 2, 6, 1, 5, 3, 7}) {
-    points.push_back(static_cast<double>(points.size() / 2) / 8 + shift);
+    const std::size_t place = points.size() / 2;
+    points.push_back(static_cast<double>(place) / 8 + shift);
     points.push_back(i / 8.0 + shift);
   }
   return points;

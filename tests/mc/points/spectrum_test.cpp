@@ -21,7 +21,8 @@ TEST(Spectrum, OfOnePointIsOne) {
 // four points (+-4, 0), (0, +-4) among 32.
 TEST(Spectrum, OfAGridIsItsDual) {
   std::vector<double> x;
-  for (int i = 0; i < 16; ++i) x.insert(x.end(), {(i % 4) / 4.0, (i / 4) / 4.0});
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) x.insert(x.end(), {j / 4.0, i / 4.0});
   const std::vector<double> power = mc::radial_power_spectrum({x, 2}, 5);
   int in_ring = 0;
   for (int a = -5; a <= 5; ++a)

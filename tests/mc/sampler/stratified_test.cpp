@@ -33,16 +33,16 @@ TEST(Stratified, AnyCountKeepsItsSlabs) {
   for (const std::uint32_t n : {2u, 3u, 5u, 6u, 7u, 12u, 50u, 997u}) {
     const mc::Stratified s(n, 4);
     const auto slabs = static_cast<std::uint32_t>(std::lround(std::sqrt(n)));
+    const auto end_of = [&](std::uint32_t k) { return (std::uint64_t{k + 1} * n + slabs - 1) / slabs; };
     std::vector<std::vector<double>> ys(slabs);
     for (std::uint32_t i = 0; i < n; ++i) {
       const double box = mc::coordinate<double>(s, i, 0) * n;
       std::uint32_t slab = 0;
-      while ((std::uint64_t{slab + 1} * n + slabs - 1) / slabs <= box) ++slab;
+      while (static_cast<double>(end_of(slab)) <= box) ++slab;
       ys[slab].push_back(mc::coordinate<double>(s, i, 1));
     }
     for (std::uint32_t k = 0; k < slabs; ++k) {
-      const std::size_t boxes =
-          (std::uint64_t{k + 1} * n + slabs - 1) / slabs - (std::uint64_t{k} * n + slabs - 1) / slabs;
+      const std::size_t boxes = end_of(k) - (k > 0 ? end_of(k - 1) : 0);
       std::set<std::size_t> rows;
       for (const double y : ys[k]) rows.insert(static_cast<std::size_t>(y * static_cast<double>(boxes)));
       EXPECT_EQ(ys[k].size(), boxes);
