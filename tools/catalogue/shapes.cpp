@@ -27,9 +27,9 @@ void add_subject(Catalogue& c, const std::string& name, const std::string& param
   subject.mass_tolerance = mass_tolerance;
   one.check = [subject = std::move(subject), number](const CaseOptions& o) {
     mc::Report report = mc::check_subject(subject, o);
-    std::vector<Vec2> inputs;
+    std::vector<Vec2> inputs(mc::timing_inputs);
     mc::Pcg random(3);
-    for (int i = 0; i < mc::timing_inputs; ++i) inputs.push_back(random.point<Float, 2>());
+    for (Vec2& u : inputs) u = random.point<Float, 2>();
     report.ns_per_sample = mc::ns_per_sample(inputs, number);
     return report;
   };

@@ -6,6 +6,7 @@
 #include <mc/core/text.h>
 #include <mc/stats/t_test.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -176,8 +177,8 @@ int compare(const CompareOptions& options) {
   if (options.metric.empty())
     for (const Metric& m : all) std::printf("%-10s %.6g\n", std::string(m.name).c_str(), m.value);
   else {
-    std::vector<std::string_view> names;
-    for (const Metric& m : all) names.push_back(m.name);
+    std::vector<std::string_view> names(all.size());
+    std::transform(all.begin(), all.end(), names.begin(), [](const Metric& m) { return m.name; });
     std::printf("%.6g\n", all[mc::index_of("metric", options.metric, names)].value);
   }
 

@@ -71,8 +71,8 @@ double number(std::string_view word, const char* option) {
 
 std::vector<Side> sides_of(const IntegrateOptions& o, int dim) {
   if (!o.domain.empty()) return parse_sides(o.domain);
-  std::vector<Side> sides;
-  for (int d = 0; d < dim; ++d) sides.push_back({fmt::format("u{}", d), 0, 1});
+  std::vector<Side> sides(static_cast<std::size_t>(dim));
+  for (std::size_t d = 0; d < sides.size(); ++d) sides[d] = {fmt::format("u{}", d), 0, 1};
   return sides;
 }
 
