@@ -17,6 +17,17 @@ inline Float checked_alpha(std::string_view what, Float alpha) {
 /// w as it is seen with wo above the surface, and back.
 inline Vec3 upward(const Vec3& w, const Vec3& wo) { return wo.z() < 0 ? Vec3(w.x(), w.y(), -w.z()) : w; }
 
+/// Directions of one side as they are seen from above it, and the normal that mirrors one to the other.
+struct Reflection {
+  Vec3 wo, wi, m;
+};
+/// None where wo and wi lie on different sides.
+inline std::optional<Reflection> reflection(const Vec3& wo, const Vec3& wi) {
+  if (!(wo.z() * wi.z() > 0)) return {};
+  const Vec3 o = upward(wo, wo), i = upward(wi, wo);
+  return Reflection{o, i, (o + i).normalized()};
+}
+
 /// Facets of the Trowbridge-Reitz (GGX) distribution of roughness alpha. Shadowing and masking are separable:
 /// G = G1(wo) G1(wi). Source: [WalterEtAl07]
 class Microfacets {

@@ -50,26 +50,24 @@ template <class Facets> class RoughConductor {
     if (!(wi.z() > 0)) return {};
     const Float density = normals.pdf_reflected(m);
     if (!(density > 0)) return {};
-    return BsdfSample{upward(wi, wo_given), value(wo, wi, m), density};
+    return BsdfSample{upward(wi, wo_given), value({wo, wi, m}), density};
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
-    if (!(wo.z() * wi.z() > 0)) return Spectrum::Zero();
-    const Vec3 o = upward(wo, wo), i = upward(wi, wo);
-    return value(o, i, (o + i).normalized());
+    const auto r = reflection(wo, wi);
+    return r ? value(*r) : Spectrum(Spectrum::Zero());
   }
   Float pdf(const Vec3& wo, const Vec3& wi) const {
-    if (!(wo.z() * wi.z() > 0)) return 0;
-    const Vec3 o = upward(wo, wo), i = upward(wi, wo);
-    return facets_.seen_from(o).pdf_reflected((o + i).normalized());
+    const auto r = reflection(wo, wi);
+    return r ? facets_.seen_from(r->wo).pdf_reflected(r->m) : Float(0);
   }
   bool is_delta() const { return false; }
   bool has_delta() const { return false; }
   bool transmits() const { return false; }
 
  private:
-  Spectrum value(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
-    const Float cosine = std::clamp(wo.dot(m), Float(0), Float(1));
-    return reflectance_ * fresnel_conductor(cosine, eta_, k_) * (facets_.shape(wo, wi, m) / 4);
+  Spectrum value(const Reflection& r) const {
+    const Float cosine = std::clamp(r.wo.dot(r.m), Float(0), Float(1));
+    return reflectance_ * fresnel_conductor(cosine, eta_, k_) * (facets_.shape(r.wo, r.wi, r.m) / 4);
   }
 
   Spectrum eta_, k_;

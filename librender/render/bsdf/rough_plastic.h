@@ -43,18 +43,17 @@ class RoughPlastic {
     if (!(wi.z() > 0)) return {};
     const Float density = share * normals.pdf_reflected(m) + (1 - share) * wi.z() * inv_pi;
     if (!(density > 0)) return {};
-    return BsdfSample{upward(wi, wo_given), value(wo, wi, m), density};
+    return BsdfSample{upward(wi, wo_given), value({wo, wi, m}), density};
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
-    if (!(wo.z() * wi.z() > 0)) return Spectrum::Zero();
-    const Vec3 o = upward(wo, wo), i = upward(wi, wo);
-    return value(o, i, (o + i).normalized());
+    const auto r = reflection(wo, wi);
+    return r ? value(*r) : Spectrum(Spectrum::Zero());
   }
   Float pdf(const Vec3& wo, const Vec3& wi) const {
-    if (!(wo.z() * wi.z() > 0)) return 0;
-    const Vec3 o = upward(wo, wo), i = upward(wi, wo);
-    const Float share = specular_share(o);
-    return share * facets_.seen_from(o).pdf_reflected((o + i).normalized()) + (1 - share) * i.z() * inv_pi;
+    const auto r = reflection(wo, wi);
+    if (!r) return 0;
+    const Float share = specular_share(r->wo);
+    return share * facets_.seen_from(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
   }
   bool is_delta() const { return false; }
   bool has_delta() const { return false; }
@@ -69,9 +68,9 @@ class RoughPlastic {
     const Float specular = specular_y_ * f, diffuse = diffuse_y_ * (1 - f);
     return specular + diffuse > 0 ? specular / (specular + diffuse) : Float(0.5);
   }
-  Spectrum value(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
-    const Float f = fresnel_dielectric(std::min(std::abs(wo.dot(m)), Float(1)), eta_).reflectance;
-    const Float lobe = f * facets_.shape(wo, wi, m) / 4;
+  Spectrum value(const Reflection& r) const {
+    const Float f = fresnel_dielectric(std::min(std::abs(r.wo.dot(r.m)), Float(1)), eta_).reflectance;
+    const Float lobe = f * facets_.shape(r.wo, r.wi, r.m) / 4;
     return specular_ * lobe + diffuse_ * (mc::sqr(1 - f) * inv_pi);
   }
 
