@@ -35,8 +35,8 @@ std::vector<double> radial_power_spectrum(PointList p, int rings) {
   const std::size_t radius = static_cast<std::size_t>(rings), side = 2 * radius + 1;
   std::vector<Complex> wave((radius + 1) * side), along_y(side);
   for (std::size_t i = 0; i < p.size(); ++i) {
-    for (int y = -rings; y <= rings; ++y)
-      along_y[static_cast<std::size_t>(y + rings)] = std::polar(1.0, -2 * pi<double> * y * p[i][1]);
+    for (std::size_t y = 0; y < side; ++y)
+      along_y[y] = std::polar(1.0, -2 * pi<double> * (static_cast<double>(y) - rings) * p[i][1]);
     for (int x = 0; x <= rings; ++x) {
       const Complex along_x = std::polar(1.0, -2 * pi<double> * x * p[i][0]);
       Complex* row = wave.data() + static_cast<std::size_t>(x) * side;
