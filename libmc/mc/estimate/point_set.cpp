@@ -9,16 +9,17 @@ namespace mc {
 
 namespace {
 
-// Where the library is made for any machine, its loader chooses among clones of the loops that run over many points.
+// Where the library is made for any machine, its loader chooses among clones of the loops that run over many points: by
+// levels of the instruction set, since the name of a processor would ask for that very one.
 #if defined(MC_ANY_MACHINE) && defined(__x86_64__) && !defined(__clang__)
-#define MC_CLONES [[gnu::target_clones("default", "avx2", "arch=skylake-avx512")]]
+#define MC_CLONES [[gnu::target_clones("default", "avx2", "arch=x86-64-v4")]]
 #else
 #define MC_CLONES
 #endif
 
 constexpr std::uint64_t window = 256; // points whose index differs in the low bits only
 
-template <Sampler T> void fill(const T& sampler, std::uint64_t first, std::size_t dim, std::span<double> u) {
+MC_CLONES void fill(const Independent& sampler, std::uint64_t first, std::size_t dim, std::span<double> u) {
   for (std::size_t i = 0; i < u.size(); i += dim)
     for (std::size_t d = 0; d < dim; ++d)
       u[i + d] = coordinate<double>(sampler, first + i / dim, static_cast<std::uint32_t>(d));
