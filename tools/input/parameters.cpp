@@ -42,7 +42,7 @@ std::vector<double> values_of(std::string_view words, const Part& of) {
   mc::require(steps < most_sets, "{}: '{}' has {:.0f} values; at most {:.0f} are taken", of.option, of.part, steps + 1,
               most_sets);
   std::vector<double> values;
-  for (double k = 0; k <= steps + 1e-9; ++k)
+  for (int k = 0; k <= steps + 1e-9; ++k)
     values.push_back(std::strtod(fmt::format("{:.12g}", first + k * step).c_str(), nullptr));
   return values;
 }

@@ -78,7 +78,10 @@ std::vector<double> probabilities(const SamplesFileOptions& o, int outcomes) {
   } else {
     mc::require(!o.density.empty(), "validate: --samples-file needs the probabilities: --pdf-file or --pdf");
     const Density f = parse_function(o.density, {"i"});
-    for (double i = 0; i < outcomes; ++i) p.push_back(f(std::span(&i, 1)));
+    for (int i = 0; i < outcomes; ++i) {
+      const double outcome = i;
+      p.push_back(f(std::span(&outcome, 1)));
+    }
   }
   mc::CompensatedSum sum;
   for (std::size_t i = 0; i < p.size(); ++i) sum.add(checked(p[i], fmt::format("outcome {}", i)));

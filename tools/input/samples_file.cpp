@@ -220,10 +220,10 @@ Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::strin
     const std::uint64_t first = deal->open(stream, n);
     for (std::size_t k = 0; k < n; ++k) {
       const std::uint32_t row = deal->row(first + k), cell = f->cells[row];
+      const std::size_t i = cell % f->width, j = cell / f->width;
       const std::uint64_t bits = mc::hash(seed, row);
-      const Vec2<double> p((static_cast<double>(cell % f->width) + mc::uniform<double>(bits)) /
-                               static_cast<double>(f->width),
-                           (static_cast<double>(cell / f->width) + mc::uniform<double>(mc::mix64(bits))) /
+      const Vec2<double> p((static_cast<double>(i) + mc::uniform<double>(bits)) / static_cast<double>(f->width),
+                           (static_cast<double>(j) + mc::uniform<double>(mc::mix64(bits))) /
                                static_cast<double>(f->height));
       Subject::Draw& d = out.emplace_back();
       d.pdf_positive = f->weights[cell] > 0;

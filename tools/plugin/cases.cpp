@@ -82,8 +82,8 @@ std::optional<std::vector<double>> values_of(const std::string& path, const Desc
                 d.name, p.lo, p.hi);
     p.value = value;
   }
-  std::vector<double> values;
-  for (const Parameter& p : parameters) values.push_back(p.value);
+  std::vector<double> values(parameters.size());
+  std::ranges::transform(parameters, values.begin(), &Parameter::value);
   return values;
 }
 

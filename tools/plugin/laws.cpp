@@ -99,7 +99,10 @@ mc::AnySampler sampler_of(const PluginSampler& plugin, const std::string& title,
   Breaks places;
   for (int axis = 0; axis < domain.chart.dim; ++axis) places[static_cast<std::size_t>(axis)] = plugin.breaks(axis);
   s.breaks = chart_breaks(domain.chart, places);
-  for (double i = 0; i < domain.outcomes; ++i) s.atoms.push_back(plugin.pdf(&i));
+  for (int i = 0; i < domain.outcomes; ++i) {
+    const double outcome = i;
+    s.atoms.push_back(plugin.pdf(&outcome));
+  }
   for (int k = 0; k < plugin->outcomes; ++k) s.atoms.push_back(plugin.probability(k));
   s.uniforms = plugin.uniforms();
   s.may_fail = plugin->may_fail != 0;

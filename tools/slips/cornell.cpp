@@ -136,7 +136,8 @@ V view(double x, double y) {
 double light_in_view() {
   constexpr int n = 1000;
   std::uint64_t seen = 0;
-  for (int i = 0; i < n * n; ++i) seen += intersect(eye, view((i % n + 0.5) / n, (i / n + 0.5) / n)).light;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) seen += intersect(eye, view((x + 0.5) / n, (y + 0.5) / n)).light;
   return radiance * static_cast<double>(seen) / (n * n);
 }
 

@@ -17,10 +17,10 @@ V rotated(const V& w, double degrees) {
 }
 
 // A share of the samples of one sampler replaced by those of another.
-Directions replaced(Directions sampler, double share, Directions other) {
+Directions replaced(const Directions& sampler, double share, const Directions& other) {
   return [=](Pcg& r) { return uniform(r) < share ? other(r) : sampler(r); };
 }
-Directions below(Directions sampler) {
+Directions below(const Directions& sampler) {
   return [=](Pcg& r) {
     V w = *sampler(r);
     w.z() = -w.z();

@@ -32,7 +32,7 @@ double table_sample(double u, double third) {
 }
 
 // invert(sample(u)) = u on [0,1], as a law.
-Trial smoothstep_inverse(std::function<double(double)> invert) {
+Trial smoothstep_inverse(const std::function<double(double)>& invert) {
   return law_trial("invert(sample(u)) = u", 1e-12, Fault::inverse, [invert](Pcg& r) {
     const double u = uniform(r);
     return std::abs(invert(mc::Smoothstep<double>{}.sample(u)) - u);

@@ -82,7 +82,7 @@ Trial trial(const Scattering& bsdf, double theta_o) {
   return t;
 }
 
-Trial mean_trial(double value, Numbers estimator) {
+Trial mean_trial(double value, const Numbers& estimator) {
   Trial t;
   t.fewest = 16;
   t.first_bad = [estimator](std::uint64_t seed, std::uint64_t most) -> std::uint64_t {
@@ -122,7 +122,7 @@ Trial mean_trial(double value, Numbers estimator) {
   return t;
 }
 
-Trial law_trial(std::string law, double limit, mc::Fault fault, Numbers error) {
+Trial law_trial(const std::string& law, double limit, mc::Fault fault, const Numbers& error) {
   Trial t;
   t.fewest = 16;
   t.first_bad = [limit, error](std::uint64_t seed, std::uint64_t most) -> std::uint64_t {

@@ -51,10 +51,10 @@ struct Scattering {
 Trial trial(const Scattering& bsdf, double theta_o);
 
 /// An estimator whose mean must be `value`: finite, and by Student's test.
-Trial mean_trial(double value, Numbers estimator);
+Trial mean_trial(double value, const Numbers& estimator);
 
 /// A law without counts: error(random) <= limit at every point. NaN breaks it.
-Trial law_trial(std::string law, double limit, mc::Fault fault, Numbers error);
+Trial law_trial(const std::string& law, double limit, mc::Fault fault, const Numbers& error);
 
 constexpr double pi = std::numbers::pi;
 inline double uniform(mc::Pcg& r) { return r.uniform<double>(); }
