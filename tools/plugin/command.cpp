@@ -76,6 +76,7 @@ class Program {
       if (n <= 0) ended(what);
       to += n;
       left -= static_cast<std::size_t>(n);
+      watch_.answered(count - left / sizeof(double), count);
     }
   }
 

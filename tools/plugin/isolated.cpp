@@ -131,7 +131,9 @@ std::string Watch::where() const {
   std::string text = fmt::format(" in {}", function);
   for (int i = 0; i < n_; ++i)
     text += i == 0 ? fmt::format(" at {} = ({:.17g}", argument_, values_[0]) : fmt::format(", {:.17g}", values_[i]);
-  return n_ > 0 ? text + ")" : text;
+  if (n_ > 0) text += ")";
+  if (wanted_ > 0) text += fmt::format(", where {} of {} numbers have come", answered_, wanted_);
+  return text;
 }
 
 namespace {

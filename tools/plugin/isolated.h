@@ -2,6 +2,7 @@
 /// Code that is not ours, run in a process of its own.
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -17,8 +18,14 @@ class Watch {
   void enter(const char* function, const char* argument = "", const double* values = nullptr, int n = 0) {
     argument_ = argument;
     n_ = n;
+    wanted_ = 0;
     for (int i = 0; i < n; ++i) values_[i] = values[i];
     function_.store(function, std::memory_order_relaxed);
+  }
+  /// Of an answer that comes in parts: how many of its numbers have come.
+  void answered(std::size_t numbers, std::size_t wanted) {
+    answered_ = numbers;
+    wanted_ = wanted;
   }
   void leave() {
     function_.store(nullptr, std::memory_order_relaxed);
@@ -27,7 +34,8 @@ class Watch {
 
   std::uint64_t calls() const { return calls_.load(std::memory_order_relaxed); }
   bool inside() const { return function_.load(std::memory_order_relaxed) != nullptr; }
-  /// " in sample at u = (0.25, 0.5)", or " after 12 calls" outside of any.
+  /// " in sample at u = (0.25, 0.5)", to which ", where 2 of 3 numbers have come" is added when a part of the answer has;
+  /// outside of any call " after 12 calls".
   std::string where() const;
 
  private:
@@ -35,6 +43,7 @@ class Watch {
   const char* argument_ = "";
   std::atomic<std::uint64_t> calls_{0};
   int n_ = 0;
+  std::size_t answered_ = 0, wanted_ = 0;
   double values_[max_arguments] = {};
 };
 

@@ -86,6 +86,9 @@ TEST_F(Command, WhatMisbehavesIsOneLine) {
   ValidateOptions o = options("sleep 1000");
   o.timeout = 2;
   EXPECT_THAT(refusal(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("--timeout")));
+  o = options("read line; printf 1234567812345678; sleep 1000", "hemisphere"); // two columns for three
+  o.timeout = 1;
+  EXPECT_THAT(refusal(o), testing::ContainsRegex("at u = .*, where 2 of [0-9]+ numbers have come: no answer in 1 s"));
 }
 
 TEST_F(Command, WhatItStartedEndsWithIt) {
