@@ -13,7 +13,7 @@ using mc::Fault, mc::Numbers, mc::AnySampler;
 using testing::HasSubstr;
 
 // sample(u) on the unit square with density 1.
-AnySampler on_square(std::function<Numbers(double, double)> point) {
+AnySampler on_square(const std::function<Numbers(double, double)>& point) {
   AnySampler s = mc::detail::sampler_on("mine", mc::Square<double>());
   s.uniforms = 2;
   s.sample = [point](const AnySampler::Uniforms& u) {
