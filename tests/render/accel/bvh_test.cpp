@@ -160,15 +160,15 @@ TEST(Bvh, ClosedMeshesDoNotLeak) {
 
 // Axis-parallel rays that run in the planes of boxes: 0 * inf appears in the slab test.
 TEST(Bvh, AxisParallelRaysThroughVerticesHit) {
-  const int n = 24;
+  constexpr int n = 24, middle = n / 2;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<Vec3> positions;
     std::vector<Triangle> triangles;
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j) {
         Vec3 p = Vec3::Zero();
-        p[(axis + 1) % 3] = Float(i - n / 2);
-        p[(axis + 2) % 3] = Float(j - n / 2);
+        p[(axis + 1) % 3] = Float(i - middle);
+        p[(axis + 2) % 3] = Float(j - middle);
         positions.push_back(p);
         if (i == n || j == n) continue;
         const auto a = static_cast<std::uint32_t>(i * (n + 1) + j), b = a + n + 1;
