@@ -30,17 +30,16 @@ class Growth {
       if (adopt(s, s.extend(run_, to))) return true;
     return false;
   }
-  // What is left is too little for all at twice the length. Fewer of them at that, or more of them as they are: what
-  // leaves less variance, if it goes on falling as it did.
-  void use_up(Sequences& s) {
-    const auto more = run_.left() / std::max<std::uint64_t>(s.calls_each(), 1);
-    const auto count = static_cast<std::uint32_t>(std::min<std::uint64_t>(more, run_.o.replicates));
-    if (count == 0 || s.length == 0) return;
-    const double all = run_.o.replicates, longer = std::log(all / count) - fall(s),
-                 wider = std::log(all / (all + count));
-    const bool enough = 3 * count >= run_.o.replicates && 2 * s.length <= Sequences::longest;
-    if (enough && longer < wider) adopt(s, s.lengthen(run_, count));
-    else adopt(s, s.widen(run_, count));
+  // To the end of the calls: all replicates, until a third of them could go on to eight times the length.
+  Outcome finish(Sequences& s) {
+    const double all = run_.o.replicates, points = static_cast<double>(run_.left()) / s.cost();
+    const double reach = (points + all * static_cast<double>(s.length)) / (all / 8 + fewest() * 7 / 8);
+    const auto shared = std::min(static_cast<std::uint64_t>(reach) / 8, affordable(s));
+    if (grow(s, std::max(std::bit_floor(shared), std::min<std::uint64_t>(16, affordable(s))))) return std::move(out);
+    const End end = best_end(s);
+    if (end.count < run_.o.replicates) s.keep(end.count);
+    if (!grow(s, end.length)) use_up(s);
+    return std::move(out);
   }
   // Takes what a sequence says for the outcome; whether that is good enough.
   bool adopt(const Sequences& s, const Means& means) {
@@ -54,6 +53,37 @@ class Growth {
   }
 
  private:
+  struct End {
+    std::uint64_t length;
+    std::uint32_t count;
+  };
+  double fewest() const { return std::ceil(run_.o.replicates / 3.0); }
+
+  // How long sequences should get, and how many of them, for the calls that are left: what leaves least variance, should
+  // it go on falling as it did, and no slower than that of independent points.
+  End best_end(const Sequences& s) const {
+    End best{s.length, run_.o.replicates};
+    double least = 0;
+    const double all = run_.o.replicates, points = static_cast<double>(run_.left()) / s.cost();
+    for (std::uint64_t length = s.length; s.length > 0 && length <= Sequences::longest; length *= 2) {
+      const double longer = static_cast<double>(length - s.length), size = static_cast<double>(length);
+      const double count = longer > 0 ? std::min(std::floor(points / longer), all) : all;
+      if (count < fewest()) break;
+      const double more = count < all ? 0 : std::floor((points - all * longer) / size); // as long as the others
+      const double falls = std::max(fall(s), std::log(2.0)) * std::log2(size / static_cast<double>(s.length));
+      const double variance = -falls - std::log(count + more);
+      if (variance > least) continue;
+      least = variance;
+      best = {length, static_cast<std::uint32_t>(count)};
+    }
+    return best;
+  }
+  // More replicates, as long as those there are.
+  void use_up(Sequences& s) {
+    const std::uint64_t more = run_.left() / std::max<std::uint64_t>(s.calls_each(), 1);
+    if (more > 0 && s.length > 0) adopt(s, s.widen(run_, static_cast<std::uint32_t>(more)));
+  }
+
   Run& run_;
   std::optional<Outcome>& last_;
 };
@@ -135,30 +165,26 @@ std::vector<Candidate> candidates(const Learned& learned) {
 Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   Growth growth(run, method == Method::automatic ? Method::rqmc : method, last);
   Sequences bare{.purpose = 0, .record = method == Method::automatic};
-  const auto finish = [&](Sequences& s) {
-    if (!growth.grow(s, growth.affordable(s))) growth.use_up(s);
-    return std::move(growth.out);
-  };
-  if (method == Method::rqmc) return finish(bare);
+  if (method == Method::rqmc) return growth.finish(bare);
   if (method == Method::automatic && growth.grow(bare, std::max<std::uint64_t>(growth.affordable(bare) / 16, 1)))
     return std::move(growth.out);
 
   const std::optional<Learned> learned = learn(run, method == Method::automatic ? &bare : nullptr);
   bare.forget();
-  if (!learned) return finish(bare);
+  if (!learned) return growth.finish(bare);
   growth.out.density = learned->density;
   std::vector<Candidate> all = candidates(*learned);
   if (method != Method::automatic) {
     Candidate& c = method == Method::vegas ? all.front() : all.back();
-    return finish(c.sequences);
+    return growth.finish(c.sequences);
   }
   const std::uint64_t reach = growth.affordable(all.front().sequences);
-  if (bare.length > reach) return finish(bare); // nothing is left to hold what was learned against
+  if (bare.length > reach) return growth.finish(bare); // nothing is left to hold what was learned against
   std::optional<Candidate> best = Contest(run, bare, reach).best_of(all);
-  if (!best) return finish(bare);
+  if (!best) return growth.finish(bare);
   growth.out.method = best->method;
   if (growth.adopt(best->sequences, best->sequences.means)) return std::move(growth.out);
-  return finish(best->sequences);
+  return growth.finish(best->sequences);
 }
 
 } // namespace mc::detail

@@ -40,7 +40,7 @@ Means grown(Run& run, Sequences& s, std::uint32_t first, std::uint32_t last, std
 Means Sequences::extend(Run& run, std::uint64_t to) {
   const std::uint64_t from = length;
   length = to;
-  grown(run, *this, 0, run.o.replicates, from, to);
+  grown(run, *this, 0, sets.empty() ? run.o.replicates : static_cast<std::uint32_t>(sets.size()), from, to);
   history.emplace_back(means.begin(), means.begin() + static_cast<std::ptrdiff_t>(run.leading()));
   return means;
 }
@@ -50,18 +50,15 @@ Means Sequences::widen(Run& run, std::uint32_t count) {
   return grown(run, *this, have, have + count, 0, length);
 }
 
-Means Sequences::lengthen(Run& run, std::uint32_t count) {
-  let_go.resize(run.outputs);
+void Sequences::keep(std::uint32_t count) {
+  let_go.resize(means.size());
   for (const auto* all : {&sums, &uniform_sums})
     for (std::size_t r = count; r < all->size(); ++r)
-      for (std::size_t k = 0; k < run.outputs; ++k) let_go[k].merge((*all)[r].magnitudes[k]);
+      for (std::size_t k = 0; k < let_go.size(); ++k) let_go[k].merge((*all)[r].magnitudes[k]);
   for (auto* points : {&sets, &uniform_sets})
     if (points->size() > count) points->erase(points->begin() + count, points->end());
   for (auto* all : {&sums, &uniform_sums})
     if (all->size() > count) all->resize(count);
-  const std::uint64_t from = length;
-  length *= 2;
-  return grown(run, *this, 0, count, from, length);
 }
 
 void Sequences::forget() {

@@ -38,8 +38,8 @@ struct Sequences {
   Correlations correlations(const Run& run) const;
   /// The means with `count` more sequences, as long as the others.
   Means widen(Run& run, std::uint32_t count);
-  /// The means of the first `count` sequences alone, at twice the length; the others are let go.
-  Means lengthen(Run& run, std::uint32_t count);
+  /// Lets go of all but the first `count` sequences, not of the sizes of what they saw.
+  void keep(std::uint32_t count);
   /// Lets go of what was recorded.
   void forget();
 };

@@ -29,7 +29,7 @@ TEST(Sequences, GrowToTheSameSums) {
 }
 
 // Some twice as long, the rest let go.
-TEST(Sequences, LengthenSome) {
+TEST(Sequences, KeepSome) {
   double squares = 0, errors = 0;
   constexpr int runs = 200;
   const double truth = std::expm1(1.0) * 1.317902151454404; // (e - 1) and the sum of 1 / (k! (k + 1)^2)
@@ -39,7 +39,8 @@ TEST(Sequences, LengthenSome) {
     detail::Run run{{.one = &exponential}, 1, 3, o};
     Sequences s{.purpose = 0};
     s.extend(run, 64);
-    const auto longer = s.lengthen(run, 20);
+    s.keep(20);
+    const auto longer = s.extend(run, 128);
     ASSERT_EQ(run.calls, 24u * 64 + 20u * 64);
     ASSERT_EQ(longer[0].dof, 19);
     squares += mc::sqr(longer[0].value - truth) / runs;
@@ -59,7 +60,8 @@ TEST(Sequences, RememberTheTailOfThoseLetGo) {
   s.extend(run, 4096);
   const mc::Magnitudes before = s.seen()[0];
   ASSERT_EQ(s.means[0].bar, mc::ErrorBar::infinite_variance);
-  const detail::Mean after = s.lengthen(run, 12)[0];
+  s.keep(12);
+  const detail::Mean after = s.extend(run, 8192)[0];
   EXPECT_EQ(s.seen()[0].count(), 24u * 4096 + 12u * 4096);
   EXPECT_GE(s.seen()[0].hi(), before.hi());
   EXPECT_EQ(after.bar, mc::ErrorBar::infinite_variance);
