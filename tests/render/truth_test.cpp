@@ -44,7 +44,8 @@ void expect_right(Family (*make)(mc::Pcg&), int families) {
                                   << truth.value;
       }
   }
-  EXPECT_LE(beyond, tried / 20 + 4 * std::sqrt(tried / 20.0));
+  const double expected = 0.05 * tried;
+  EXPECT_LE(beyond, expected + 4 * std::sqrt(expected));
 }
 
 TEST(Truth, OfFurnaces) { expect_right(furnace, 30); }

@@ -17,7 +17,7 @@ template <class Noise, class Rays> Film film_of(int width, int height, Noise&& n
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       for (const int set : {0, 1})
-        film.add(x, y, set, Eigen::Array3d::Constant(8 * (1 + (2 * set - 1) * noise(x, y) / 4)), 8);
+        film.add(x, y, set, Eigen::Array3d::Constant(8 * (1 + (set - 0.5) * noise(x, y) / 2)), 8);
       film.note(x, y, {}, 16 * std::uint64_t(rays(x, y)));
     }
   return film;
@@ -51,7 +51,7 @@ TEST(SamplingPlan, AsksTheNeighboursNotThePixel) {
   const auto rays = [](int, int) { return 3; };
   std::vector<double> noise(40 * 40);
   for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = i % 40 < 20 ? 0.1 : 1;
-  const auto at = [&](int x, int y) { return noise[std::size_t(y * 40 + x)]; };
+  const auto at = [&](int x, int y) { return noise[40 * std::size_t(y) + std::size_t(x)]; };
   const SamplingPlan before = adaptive_plan(film_of(40, 40, at, rays), 0.01);
   const std::size_t pixel = 17 * 40 + 21, neighbour = pixel + 1, far = pixel + 12;
   noise[pixel] = 3;
@@ -67,7 +67,7 @@ TEST(SamplingPlan, IsEvenWhereNeighboursTellNothing) {
   mc::Pcg random(2);
   std::vector<double> noise(30 * 30);
   for (double& n : noise) n = random.uniform<double>() < 0.01 ? 5 : 0.01;
-  const auto at = [&](int x, int y) { return noise[std::size_t(y * 30 + x)]; };
+  const auto at = [&](int x, int y) { return noise[30 * std::size_t(y) + std::size_t(x)]; };
   const SamplingPlan plan = adaptive_plan(film_of(30, 30, at, [](int, int) { return 2; }), 0.1);
   double even = 0, spent = 0;
   for (std::size_t i = 0; i < noise.size(); ++i) {

@@ -167,14 +167,16 @@ TEST_F(Mitsuba, LightsAndLensesNameWhatIsWrong) {
   EXPECT_THAT(said("<integrator type=\"ao\"><float name=\"rayLength\" value=\"-1\"/></integrator>"),
               testing::HasSubstr("s.xml:3: <integrator>: rayLength -1 must be > 0"));
   const auto lens = [&](const std::string& parameters) {
-    return "<sensor type=\"thinlens\"><float name=\"fov\" value=\"40\"/>" + parameters + "</sensor>";
+    return fmt::format(R"(<sensor type="thinlens"><float name="fov" value="40"/>{}</sensor>)", parameters);
   };
-  const std::string radius = "<float name=\"apertureRadius\" value=\"1\"/>",
-                    number = "<float name=\"fNumber\" value=\"", length = "<float name=\"focalLength\" value=\"1\"/>";
-  for (const std::string& wrong : {std::string(), radius + number + "32\"/>" + length, number + "32\"/>", length})
+  const std::string radius = R"(<float name="apertureRadius" value="1"/>)",
+                    stop = R"(<float name="fNumber" value="32"/>)", length = R"(<float name="focalLength" value="1"/>)",
+                    stop_and_length = stop + length;
+  for (const std::string& wrong : {std::string(), fmt::format("{}{}", radius, stop_and_length), stop, length})
     EXPECT_THAT(refusal(lens(wrong)), testing::HasSubstr("give apertureRadius, or fNumber and focalLength together"));
-  EXPECT_THAT(refusal(lens(number + "0\"/>" + length)), testing::HasSubstr("fNumber 0 must be > 0"));
-  const std::string file = scene(lens(number + "32\"/>" + length) + "<shape type=\"cube\"/>");
+  EXPECT_THAT(refusal(lens(R"(<float name="fNumber" value="0"/>)" + length)),
+              testing::HasSubstr("fNumber 0 must be > 0"));
+  const std::string file = scene(lens(stop_and_length) + "<shape type=\"cube\"/>");
   EXPECT_EQ(render::read_mitsuba(file).scene.camera().radius(), render::Float(1.0 / 64));
 }
 

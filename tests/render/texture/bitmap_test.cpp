@@ -56,7 +56,7 @@ TEST(BitmapTexture, ContinuousBoundedAndOfTheTexelsMean) {
 
 TEST(BitmapTexture, RefusesWhatIsNoPicture) {
   try {
-    Bitmap(texels(2, 2, {grey(0), grey(0), grey(0), grey(NAN)}));
+    const Bitmap refused(texels(2, 2, {grey(0), grey(0), grey(0), grey(NAN)}));
     FAIL();
   } catch (const mc::Error& e) {
     EXPECT_THAT(e.what(), testing::HasSubstr("bitmap: texel (1, 1) = (nan, nan, nan) is not finite"));

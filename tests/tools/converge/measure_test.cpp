@@ -9,7 +9,7 @@
 
 namespace {
 
-using carlo::Experiment, carlo::Measurement, carlo::MeasureOptions, carlo::Target;
+using carlo::Experiment, carlo::Measurement;
 
 Experiment ramp(double truth) {
   Experiment e;
