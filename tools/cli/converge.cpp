@@ -15,7 +15,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -49,14 +48,6 @@ std::vector<Way> ways_of(const ConvergeOptions& o) {
     for (const std::string_view name : split(samplers, ',')) chosen.push_back(way(std::string(name)));
   if (!o.points.empty()) chosen.push_back(way_of_points(o.points));
   return chosen;
-}
-
-// What a file may be called that is about `name`.
-std::string file_name(const std::string& name) {
-  std::string safe = name.substr(0, 60);
-  for (char& c : safe)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
-  return safe;
 }
 
 // Writes and prints one target. Returns whether gnuplot is there, which is not asked again without.
@@ -129,12 +120,23 @@ std::vector<Option> rows(ConvergeOptions& o) {
   return all;
 }
 
+// Where the page will be, looked at before any work; empty where none is wanted.
+std::filesystem::path page_folder(const ConvergeOptions& o) {
+  return o.report.empty() ? "" : mc::output_folder(o.report, "index.html");
+}
+
+void write_report(const std::filesystem::path& folder, const ConvergeOptions& o, const std::vector<Measured>& all) {
+  if (folder.empty()) return;
+  write_page(folder, converge_head(o.command), all);
+  fmt::print("page: {}\n", (folder / "index.html").string());
+}
+
 int converge_scene(const ConvergeOptions& o) {
-  mc::require(o.points.empty() && o.report.empty() && !o.time && !o.all,
-              "converge: --points-file, --report, --time and --all are not for scenes");
+  mc::require(o.points.empty() && !o.time && !o.all, "converge: --points-file, --time and --all are not for scenes");
   const Interrupt interrupt;
   const Target target = scene_target(o.integral.integrands[0]);
   const std::filesystem::path folder = mc::output_folder(o.output, "slopes.csv");
+  const std::filesystem::path page = page_folder(o);
   const Pictures pictures = measure_scene(o.scene, {.path = target.integral.source,
                                                     .samplers = o.samplers,
                                                     .pictures = o.replicates,
@@ -149,6 +151,7 @@ int converge_scene(const ConvergeOptions& o) {
   fmt::print("{}", about_pictures(pictures));
   mc::write_file((folder / "slopes.csv").string(), slopes_header() + slopes_csv(target, pictures.measurement));
   fmt::print("data and plots: {}\n", folder.string());
+  write_report(page, o, {{&target, &pictures.measurement, &pictures}});
   return exit_ok;
 }
 
@@ -159,6 +162,7 @@ int converge(const ConvergeOptions& o) {
   mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
   if (is_scene(o.integral.integrands)) return converge_scene(o);
+  refuse_scene_options(o.scene);
   const Interrupt interrupt;
   const std::vector<Way> chosen = ways_of(o);
   const std::vector<Target> targets = targets_of(o.integral);
@@ -167,7 +171,7 @@ int converge(const ConvergeOptions& o) {
       mc::require(w.dimensions == 0 || w.dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions", w.name,
                   w.dimensions, t.integral.name, t.integral.dim);
   const std::filesystem::path folder = mc::output_folder(o.output, "slopes.csv");
-  const std::filesystem::path page = o.report.empty() ? "" : mc::output_folder(o.report, "index.html") / "index.html";
+  const std::filesystem::path page = page_folder(o);
 
   const Run run = measure_all(targets, chosen, o, folder, interrupt.flag());
   std::string slopes = slopes_header();
@@ -180,11 +184,10 @@ int converge(const ConvergeOptions& o) {
     doubted = doubted || !run.measurements[i].doubt.empty();
   }
   mc::write_file((folder / "slopes.csv").string(), slopes);
-  if (!page.empty()) mc::write_file(page.string(), convergence_page(measured, o.command));
   if (run.interrupted)
     fmt::print("interrupted: {} of {} curves were finished\n", run.curves, targets.size() * chosen.size());
   fmt::print("data and plots: {}\n", folder.string());
-  if (!page.empty()) fmt::print("page: {}\n", page.string());
+  write_report(page, o, measured);
   if (run.interrupted) return exit_interrupted;
   return doubted ? exit_failed : exit_ok;
 }

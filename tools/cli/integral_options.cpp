@@ -131,6 +131,10 @@ std::vector<Option> scene_rows(SceneOptions& o) {
   };
 }
 
+void refuse_scene_options(const SceneOptions& o) {
+  mc::require(o == SceneOptions(), "--strategies, --max-depths, --size, --max-spp and --cost are for a scene (.xml)");
+}
+
 bool is_scene(const std::vector<std::string>& words) { return words.size() == 1 && words[0].ends_with(".xml"); }
 
 Target scene_target(const std::string& path) {

@@ -32,9 +32,13 @@ struct SceneOptions {
   std::string size;       ///< "WxH"; empty: 48 pixels wide
   int max_spp = 64;
   std::string cost = "cpu"; ///< or rays
+  bool operator==(const SceneOptions&) const = default;
 };
 
 std::vector<Option> scene_rows(SceneOptions& o);
+
+/// Throws Error where one of them is given for an integral.
+void refuse_scene_options(const SceneOptions& o);
 
 /// Whether the one word that stands for a target is a scene file: it ends in .xml.
 bool is_scene(const std::vector<std::string>& words);

@@ -1,6 +1,7 @@
 #include <cli/integral_options.h>
 #include <cli/subcommand.h>
 #include <converge/output.h>
+#include <converge/page.h>
 #include <converge/trade.h>
 #include <input/words.h>
 #include <report/plot.h>
@@ -37,7 +38,7 @@ struct TradeOptions {
   std::optional<double> time;
   std::uint64_t seed = 1;
   int threads = 0;
-  std::string output = "out/trade";
+  std::string output = "out/trade", report;
   std::string command;
 };
 
@@ -141,7 +142,7 @@ void print(const ForError& f, const Cost& cost) {
 
 void print(const ForSeconds& f, const Cost& cost) {
   if (f.offers.empty()) {
-    fmt::print("  {:g}{}: no way can begin in that time\n", f.wanted, cost.unit);
+    fmt::print("  {:g}{}: no way can begin with so little\n", f.wanted, cost.unit);
     return;
   }
   const Offer& best = f.offers.front();
@@ -220,12 +221,18 @@ std::vector<Option> rows(TradeOptions& o) {
   const std::vector<Option> own = {
       {"--error", "LIST", &o.errors,
        "RMS errors to reach, absolute: \"1e-2,1e-3\" [three decades below the integral; of a scene 0.2,0.1,0.05]"},
-      {"--seconds", "LIST", &o.seconds, "Or CPU seconds to spend: \"0.001,0.01\"", false, {"--error"}},
+      {"--seconds",
+       "LIST",
+       &o.seconds,
+       "Or CPU seconds to spend: \"0.001,0.01\"; with --cost rays millions of rays",
+       false,
+       {"--error"}},
       {"--max-n", "N", &o.max_n, "Largest number of evaluations"},
       {"--time", "SECONDS", &o.time, "Stop at smaller N where this runs out"},
       {"--seed", "N", &o.seed, "Seed"},
       {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
       {"-o,--output", "FOLDER", &o.output, "Folder for trade.json, .csv, .gp, .svg, .png and front.csv"},
+      {"--report", "FOLDER", &o.report, "Write a page with the choice and all curves to this folder (index.html)"},
   };
   all.insert(all.end(), own.begin(), own.end());
   all.push_back({"--samplers", "NAMES", &o.samplers, "Of a scene: comma-separated, see carlo render [all]"});
@@ -234,48 +241,79 @@ std::vector<Option> rows(TradeOptions& o) {
   return all;
 }
 
-// What is asked for, printed and written; `seconds_of_one` takes offers and measures them again.
-template <class Seconds>
-int offer(const TradeOptions& o, const Target& target, const Measurement& m, const std::vector<double>& errors,
-          const std::vector<double>& seconds, const std::filesystem::path& folder, const Seconds& seconds_of_one) {
+/// What is wanted of a target.
+struct Wanted {
+  std::vector<double> errors, seconds;
+};
+
+/// Where the results go; looked at before any work.
+struct Folders {
+  std::filesystem::path data, page; ///< page: empty where none is wanted
+
+  explicit Folders(const TradeOptions& o) : data(mc::output_folder(o.output, "trade.json")) {
+    if (!o.report.empty()) page = mc::output_folder(o.report, "index.html");
+  }
+};
+
+// `seconds_of_one` takes offers and measures them again.
+template <class Seconds> Answers answers_of(const Measurement& m, const Wanted& wanted, const Seconds& seconds_of_one) {
+  Answers a;
+  for (const double error : wanted.errors)
+    a.errors.push_back(offers_for_error(m, error, seconds_of_one(offers_for_error(m, error, as_measured).offers)));
+  for (const double budget : wanted.seconds)
+    a.seconds.push_back(
+        offers_for_seconds(m, budget, seconds_of_one(offers_for_seconds(m, budget, as_measured).offers)));
+  a.front = pareto_front(m);
+  return a;
+}
+
+ordered_json to_json(const TradeOptions& o, const Measured& one) {
+  const Measurement& m = *one.measurement;
+  const Answers& a = *one.answers;
   ordered_json j = {{"command", o.command}, {"commit", commit},
-                    {"seed", o.seed},       {"integrand", target.integral.name},
+                    {"seed", o.seed},       {"integrand", one.target->integral.name},
                     {"truth", m.truth},     {"truth_error", m.truth_error},
                     {"cost", o.scene.cost}};
   j["errors"] = j["seconds"] = ordered_json::array();
-  bool reached = true;
-  for (const double error : errors) {
-    const ForError f = offers_for_error(m, error, seconds_of_one(offers_for_error(m, error, as_measured).offers));
-    reached = reached && !f.offers.empty();
-    print(f, m.cost);
+  for (const ForError& f : a.errors) {
     j["errors"].push_back(to_json(f, &Offer::seconds, m.cost));
     if (f.offers.empty()) j["errors"].back()["nearest"] = to_json(f.nearest, m.cost);
   }
-  for (const double budget : seconds) {
-    const ForSeconds f =
-        offers_for_seconds(m, budget, seconds_of_one(offers_for_seconds(m, budget, as_measured).offers));
-    reached = reached && !f.offers.empty();
-    print(f, m.cost);
-    j["seconds"].push_back(to_json(f, &Offer::error, m.cost));
-  }
+  for (const ForSeconds& f : a.seconds) j["seconds"].push_back(to_json(f, &Offer::error, m.cost));
+  j["front"] = to_json(a.front, m.cost);
+  return j;
+}
+
+// Prints and writes what was found. Returns the exit code.
+int tell(const TradeOptions& o, const Measured& one, const Folders& folders) {
+  const Measurement& m = *one.measurement;
+  const Answers& a = *one.answers;
+  for (const ForError& f : a.errors) print(f, m.cost);
+  for (const ForSeconds& f : a.seconds) print(f, m.cost);
   if (!m.doubt.empty()) fmt::print("  warning: {}\n", m.doubt);
-  const std::vector<Offer> front = pareto_front(m);
-  j["front"] = to_json(front, m.cost);
+  const std::filesystem::path& folder = folders.data;
   mc::write_file((folder / "trade.csv").string(), csv(all_points(m), m.cost));
-  mc::write_file((folder / "front.csv").string(), csv(front, m.cost));
-  mc::write_file((folder / "trade.json").string(), j.dump(1) + "\n");
-  mc::write_file((folder / "trade.gp").string(), script(target.integral.title, m));
+  mc::write_file((folder / "front.csv").string(), csv(a.front, m.cost));
+  mc::write_file((folder / "trade.json").string(), to_json(o, one).dump(1) + "\n");
+  mc::write_file((folder / "trade.gp").string(), script(one.target->integral.title, m));
   if (!draw_plot(folder, "trade"))
     std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
   fmt::print("data and plots: {}\n", folder.string());
+  if (!folders.page.empty()) {
+    write_page(folders.page, trade_head(o.command), {one});
+    fmt::print("page: {}\n", (folders.page / "index.html").string());
+  }
+  const auto is_reached = [](const auto& f) { return !f.offers.empty(); };
+  const bool reached = std::all_of(a.errors.begin(), a.errors.end(), is_reached) &&
+                       std::all_of(a.seconds.begin(), a.seconds.end(), is_reached);
   return reached && m.doubt.empty() ? exit_ok : exit_failed;
 }
 
-int trade_scene(const TradeOptions& o, std::vector<double> errors, const std::vector<double>& seconds) {
+int trade_scene(const TradeOptions& o, Wanted wanted) {
   mc::require(!o.time, "trade: --time is not for scenes; --size and --max-spp bound what they take");
   const Interrupt interrupt;
   const Target target = scene_target(o.integral.integrands[0]);
-  const std::filesystem::path folder = mc::output_folder(o.output, "trade.json");
+  const Folders folders(o);
   const Pictures pictures = measure_scene(o.scene, {.path = target.integral.source,
                                                     .samplers = o.samplers,
                                                     .adaptive = true,
@@ -287,31 +325,35 @@ int trade_scene(const TradeOptions& o, std::vector<double> errors, const std::ve
     fmt::print("interrupted: nothing is known yet without the reference, which comes last\n");
     return exit_interrupted;
   }
-  if (errors.empty() && seconds.empty()) errors = {0.2, 0.1, 0.05};
-  fmt::print("{}: {} ways, {} of one picture\n", target.integral.title, m.curves.size(),
-             o.scene.cost == "rays" ? "millions of rays for seconds" : "CPU seconds");
+  if (wanted.errors.empty() && wanted.seconds.empty()) wanted.errors = {0.2, 0.1, 0.05};
+  fmt::print("{}: {} ways, {} of one picture\n", target.integral.title, m.curves.size(), m.cost.axis);
   fmt::print("{}", about_pictures(pictures));
   // The pictures were taken in turn already.
-  return offer(o, target, m, errors, seconds, folder, [](const std::vector<Offer>&) { return as_measured; });
+  const Answers answers = answers_of(m, wanted, [](const std::vector<Offer>&) { return as_measured; });
+  return tell(o, {&target, &m, &pictures, &answers}, folders);
 }
 
 int trade(const TradeOptions& o) {
   if (o.integral.list) return list_integrals();
   mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
-  std::vector<double> errors = o.errors.empty() ? std::vector<double>() : numbers("--error", o.errors);
-  const std::vector<double> seconds = o.seconds.empty() ? std::vector<double>() : numbers("--seconds", o.seconds);
-  if (is_scene(o.integral.integrands)) return trade_scene(o, errors, seconds);
+  Wanted wanted;
+  if (!o.errors.empty()) wanted.errors = numbers("--error", o.errors);
+  if (!o.seconds.empty()) wanted.seconds = numbers("--seconds", o.seconds);
+  if (is_scene(o.integral.integrands)) return trade_scene(o, wanted);
+  refuse_scene_options(o.scene);
+  mc::require(o.samplers.empty(), "trade: --samplers is for a scene (.xml); an integral has all");
   const Interrupt interrupt;
   const std::vector<Target> targets = targets_of(o.integral);
   mc::require(targets.size() == 1 && !o.integral.integrands.empty(), "trade: name one integrand; --list shows them");
   const Target& target = targets.front();
-  const std::filesystem::path folder = mc::output_folder(o.output, "trade.json");
+  const Folders folders(o);
 
   const std::vector<Way> chosen = configurations(target);
   Progress progress;
   MeasureOptions options{.max_n = o.max_n, .seed = o.seed, .threads = o.threads, .cancel = interrupt.flag()};
   options.seconds = o.time.value_or(0);
+  std::vector<double>&errors = wanted.errors, &seconds = wanted.seconds;
   if (!errors.empty()) options.error_goal = *std::min_element(errors.begin(), errors.end());
   if (!seconds.empty()) options.cpu_goal = *std::max_element(seconds.begin(), seconds.end());
   options.progress = [&](double done, const std::string& where) { progress.show(done, where); };
@@ -327,8 +369,10 @@ int trade(const TradeOptions& o) {
   const auto in_turn = [&](const std::vector<Offer>& offers) {
     return TakenInTurn(target, contenders(offers), o.seed, interrupt.flag());
   };
-  fmt::print("{}: {} ways, RMS errors to 10 %, CPU seconds of one estimate\n", target.integral.title, m.curves.size());
-  return offer(o, target, m, errors, seconds, folder, in_turn);
+  fmt::print("{}: {} ways, RMS errors to 10 %, {} of one estimate\n", target.integral.title, m.curves.size(),
+             m.cost.axis);
+  const Answers answers = answers_of(m, wanted, in_turn);
+  return tell(o, {&target, &m, nullptr, &answers}, folders);
 }
 
 } // namespace

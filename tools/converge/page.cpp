@@ -1,112 +1,53 @@
 #include <converge/output.h>
 #include <converge/page.h>
+#include <converge/panel.h>
 #include <report/html.h>
-#include <validate_page_parts.h>
+
+#include <mc/core/file.h>
+#include <render/io/image_io.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 
 namespace carlo {
 
 namespace {
 
-constexpr double width = 560, height = 380, left = 58, right = 12, top = 12, bottom = 44;
+std::string ranged(double value, double lo, double hi) {
+  return fmt::format("{:.3g} <small>[{:.3g}, {:.3g}]</small>", value, lo, hi);
+}
+std::string ranged(const Ranged& r) { return ranged(r.value, r.lo, r.hi); }
 
-// log10 of a range, to whole decades.
-struct Decades {
-  double lo = HUGE_VAL, hi = -HUGE_VAL;
+std::string table(const std::vector<std::string>& head, const std::string& rows) {
+  std::string s = "<div class=\"scroll\"><table><tr>";
+  for (const std::string& h : head) s += fmt::format("<th>{}</th>", h);
+  return s + "</tr>" + rows + "</table></div>";
+}
 
-  void hold(double x) {
-    if (!(x > 0)) return;
-    lo = std::min(lo, std::floor(std::log10(x) + 1e-9));
-    hi = std::max(hi, std::ceil(std::log10(x) - 1e-9));
-  }
-  double at(double x) const { return (std::log10(x) - lo) / std::max(1.0, hi - lo); }
+std::string cells(const std::vector<std::string>& all) {
+  std::string s = "<tr>";
+  for (const std::string& c : all) s += fmt::format("<td>{}</td>", c);
+  return s + "</tr>";
+}
+
+// A mark in the colour of the curve, and its name.
+std::string named(const Curve& c, const Measurement& m) {
+  const auto i = static_cast<std::size_t>(&c - m.curves.data());
+  return fmt::format("<i style=\"background:{}\"></i>{}", color(i), escaped(label(c)));
+}
+
+/// How the words of integrals and of scenes differ.
+struct Words {
+  std::string way, n, estimate;
 };
+Words words_of(const Measured& one) {
+  if (one.pictures) return {"way", "samples per pixel", "picture"};
+  return {one.answers ? "way" : "sampler", "evaluations N", "estimate"};
+}
 
-// Error against N or against seconds, both axes logarithmic.
-class Panel {
- public:
-  using Abscissa = double (*)(const mc::RmsError& e);
-
-  Panel(const std::vector<Curve>& curves, Abscissa abscissa) : curves_(curves), abscissa_(abscissa) {
-    for (const Curve& c : curves)
-      for (const mc::RmsError& e : c.errors)
-        if (is_drawn(c, e)) {
-          x_.hold(abscissa(e));
-          y_.hold(e.rms);
-        }
-  }
-
-  std::string svg(const std::string& label, bool with_theory) const {
-    if (!(x_.lo < HUGE_VAL)) return {};
-    std::string s = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"RMS error against {}\">", width,
-                                height, label);
-    s += grid() + fmt::format("<text class=\"axis\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>", (left + width - right) / 2,
-                              height - 8, label);
-    for (std::size_t i = 0; i < curves_.size(); ++i) s += curve(curves_[i], color(i), with_theory);
-    return s + "</svg>";
-  }
-
- private:
-  bool is_drawn(const Curve& c, const mc::RmsError& e) const { return !c.exact && e.rms > 0 && abscissa_(e) > 0; }
-  double px(double x) const { return left + (width - left - right) * x_.at(x); }
-  double py(double y) const { return std::clamp(top + (height - top - bottom) * (1 - y_.at(y)), top, height - bottom); }
-  static std::string line(const char* kind, double x0, double y0, double x1, double y1) {
-    return fmt::format("<line class=\"{}\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\"/>", kind, x0, y0, x1,
-                       y1);
-  }
-  static std::string tick(double x, double y, const char* anchor, double exponent) {
-    return fmt::format("<text class=\"tick\" text-anchor=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">10<tspan dy=\"-5\" "
-                       "font-size=\"8\">{:.0f}</tspan></text>",
-                       anchor, x, y, exponent);
-  }
-  std::string grid() const {
-    std::string s;
-    const double x_step = std::ceil((x_.hi - x_.lo) / 8), y_step = std::ceil((y_.hi - y_.lo) / 8);
-    for (double e = x_.lo; e <= x_.hi; e += std::max(1.0, x_step)) {
-      const double x = px(std::pow(10, e));
-      s += line("grid", x, top, x, height - bottom) + tick(x, height - bottom + 18, "middle", e);
-    }
-    for (double e = y_.lo; e <= y_.hi; e += std::max(1.0, y_step)) {
-      const double y = py(std::pow(10, e));
-      s += line("grid", left, y, width - right, y) + tick(left - 8, y + 4, "end", e);
-    }
-    return s;
-  }
-  std::string curve(const Curve& c, const std::string& color, bool with_theory) const {
-    std::string line, upper, lower;
-    double last_x = 0, last_y = 0, first_x = 0;
-    for (const mc::RmsError& e : c.errors) {
-      if (!is_drawn(c, e)) continue;
-      const double x = px(abscissa_(e));
-      line += fmt::format("{:.1f},{:.1f} ", x, py(e.rms));
-      upper += fmt::format("{:.1f},{:.1f} ", x, py(e.hi));
-      lower = fmt::format("{:.1f},{:.1f} ", x, py(std::max(e.lo, 1e-300))) + lower;
-      if (first_x == 0) first_x = abscissa_(e);
-      last_x = abscissa_(e);
-      last_y = e.rms;
-    }
-    std::string s = fmt::format("<polygon points=\"{}{}\" fill=\"{}\" fill-opacity=\".16\"/>", upper, lower, color);
-    s += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"/>", line, color);
-    if (with_theory && c.theory && last_x > 0) {
-      const double first_y = last_y * std::pow(first_x / last_x, -c.theory->exponent);
-      s += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
-                       "stroke-dasharray=\"1 4\" stroke-width=\"1.4\"/>",
-                       px(first_x), py(first_y), px(last_x), py(last_y), color);
-    }
-    return s;
-  }
-
-  const std::vector<Curve>& curves_;
-  Abscissa abscissa_;
-  Decades x_, y_;
-};
-
-std::string row(const Curve& c, std::size_t i) {
-  const mc::RmsError& last = c.errors.back();
+std::vector<std::string> theory_cells(const Curve& c) {
   std::string slope = c.exact ? "exact" : "-", theory = "-", agrees = "-";
   if (c.law) slope = fmt::format("{:.3f} <small>[{:.3f}, {:.3f}]</small>", c.law->slope, c.law->lo, c.law->hi);
   if (c.theory) {
@@ -116,69 +57,218 @@ std::string row(const Curve& c, std::size_t i) {
     theory = fmt::format("<span title=\"{}\">{}</span>", escaped(c.theory->source), theory);
     if (c.law) agrees = c.agrees() ? "yes" : "no";
   }
-  return fmt::format("<tr><td><i style=\"background:{}\"></i>{}</td><td>{:.0f}</td><td>{:.3g} <small>[{:.3g}, "
-                     "{:.3g}]</small></td><td>{:.3g}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
-                     color(i), escaped(c.way->name), last.n, last.rms, last.lo, last.hi, last.seconds, slope, theory,
-                     agrees);
+  return {slope, theory, agrees};
 }
 
-std::string section(const Measured& one) {
+std::string curve_table(const Measured& one) {
+  const Measurement& m = *one.measurement;
+  const Words words = words_of(one);
+  std::vector<std::string> head = {words.way,     words.n,  "RMS error, 95 %", std::string(m.cost.axis),
+                                   "slope, 95 %", "theory", "agrees"};
+  if (one.pictures) head.insert(head.end(), {"bias, 95 %", "pays above"});
+  std::string rows;
+  for (std::size_t i = 0; i < m.curves.size(); ++i) {
+    const Curve& c = m.curves[i];
+    const mc::RmsError& last = c.errors.back();
+    std::vector<std::string> row = {named(c, m), fmt::format("{:.0f}", last.n), ranged(last.rms, last.lo, last.hi),
+                                    fmt::format("{:.3g}", last.seconds)};
+    for (std::string& cell : theory_cells(c)) row.push_back(std::move(cell));
+    if (one.pictures) {
+      const Bias& b = one.pictures->biases[i];
+      const bool is_biased = b.bias.lo > 0;
+      row.push_back(is_biased ? ranged(b.bias) : "-");
+      row.push_back(!is_biased ? "-" : b.pays_above ? fmt::format("{:.3g}", *b.pays_above) : "never");
+    }
+    rows += cells(row);
+  }
+  return table(head, rows);
+}
+
+// The ways that cannot be told from the first.
+std::string ties(const std::vector<Offer>& offers, Ranged Offer::*by) {
+  const std::size_t count = as_good(offers, by);
+  std::string s = count > 1 ? "" : "-";
+  for (std::size_t i = 1; i < count; ++i) s += (i == 1 ? "" : ", ") + escaped(label(*offers[i].curve));
+  return "<span class=\"ties\">" + s + "</span>";
+}
+
+/// Rows of what was asked for; the gain over plain Monte Carlo is a column where one is known.
+class Choices {
+ public:
+  Choices(const Measured& one, bool has_gain) : m_(*one.measurement), n_(words_of(one).n), has_gain_(has_gain) {}
+
+  void add(const std::string& wanted, const std::vector<Offer>& offers, Ranged Offer::*by,
+           const std::optional<Ranged>& gain) {
+    const Offer& o = offers.front();
+    std::vector<std::string> row = {wanted, named(*o.curve, m_), ranged(o.*by), fmt::format("{:.3g}", o.n)};
+    if (has_gain_) row.push_back(gain ? ranged(*gain) + " &times;" : "-");
+    row.push_back(ties(offers, by));
+    rows_ += cells(row);
+  }
+  void add(const std::string& wanted, const std::string& why_not) {
+    rows_ += fmt::format("<tr><td>{}</td><td class=\"none\" colspan=\"5\">{}</td></tr>", wanted, why_not);
+  }
+  std::string table(const std::string& wanted, const std::string& way, std::string_view shown,
+                    const std::string& gain) const {
+    if (rows_.empty()) return {};
+    std::vector<std::string> head = {wanted, way, std::string(shown), n_};
+    if (has_gain_) head.push_back(gain);
+    head.emplace_back("<span class=\"ties\">not told from it</span>");
+    return carlo::table(head, rows_);
+  }
+
+ private:
+  const Measurement& m_;
+  std::string n_;
+  bool has_gain_;
+  std::string rows_;
+};
+
+std::string nearest(const ForError& f, const Measurement& m) {
+  if (f.nearest.empty()) return "no way came there";
+  const Offer& o = f.nearest.front();
+  return fmt::format("no way came there; nearest {}: {:.3g}", named(*o.curve, m), o.error.value);
+}
+
+std::string answers(const Measured& one) {
+  const Measurement& m = *one.measurement;
+  const Answers& a = *one.answers;
+  const auto gains = [](const auto& f) { return f.gain.has_value(); };
+  Choices by_error(one, std::any_of(a.errors.begin(), a.errors.end(), gains)),
+      by_cost(one, std::any_of(a.seconds.begin(), a.seconds.end(), gains));
+  for (const ForError& f : a.errors) {
+    const std::string wanted = fmt::format("{:g}", f.wanted);
+    if (f.offers.empty()) by_error.add(wanted, nearest(f, m));
+    else by_error.add(wanted, f.offers, &Offer::seconds, f.gain);
+  }
+  for (const ForSeconds& f : a.seconds) {
+    const std::string wanted = fmt::format("{:g}", f.wanted);
+    if (f.offers.empty()) by_cost.add(wanted, "no way can begin with so little");
+    else by_cost.add(wanted, f.offers, &Offer::error, f.gain);
+  }
+  return by_error.table("wanted error", "cheapest way", m.cost.axis, "plain Monte Carlo costs") +
+         by_cost.table(std::string(m.cost.axis), "most accurate way", "RMS error", "plain Monte Carlo errs by");
+}
+
+std::string facts(const Measured& one) {
   const Experiment& e = one.target->integral;
   const Measurement& m = *one.measurement;
-  std::string s = fmt::format("<section><h2>{}</h2><p class=\"facts\">{}{} dimension{}", escaped(e.title),
-                              e.source.empty() ? "" : escaped(e.source) + "; ", e.dim, e.dim == 1 ? "" : "s");
+  if (one.pictures)
+    return fmt::format("{}; {}&times;{} pixels; reference of {:.0f} samples per pixel with an error of {:.2g}",
+                       escaped(e.source), one.pictures->reference.width, one.pictures->reference.height,
+                       one.pictures->reference_spp, one.pictures->reference_error);
+  std::string s =
+      fmt::format("{}{} dimension{}", e.source.empty() ? "" : escaped(e.source) + "; ", e.dim, e.dim == 1 ? "" : "s");
   s += m.truth_error > 0 ? fmt::format("; reference {:.12g} &plusmn; {:.2g}", m.truth, m.truth_error)
                          : fmt::format("; truth {:.12g}", m.truth);
   if (e.smoothness.of != Smoothness::Class::unknown) s += fmt::format("; {}", name(e.smoothness.of));
-  s += "</p>";
-  if (!m.doubt.empty()) s += fmt::format("<p class=\"doubt\">{}</p>", escaped(m.doubt));
+  return s;
+}
+
+/// A picture of a scene, the file beside the page that holds it, and what stands below it.
+struct Thumbnail {
+  const ::render::Image& image;
+  std::string file, caption;
+};
+
+std::vector<Thumbnail> thumbnails(const Measured& one) {
+  if (!one.pictures) return {};
+  const Pictures& p = *one.pictures;
+  const std::string name = file_name(one.target->integral.name);
+  std::vector<Thumbnail> all = {{p.reference, name + "-reference.png", "reference"}};
+  for (std::size_t i = 0; i < p.pictures.size(); ++i)
+    all.push_back(
+        {p.pictures[i], fmt::format("{}-{}.png", name, i + 1),
+         fmt::format("{} <span>{:.0f}</span>", named(one.measurement->curves[i], *one.measurement), p.biases[i].n)});
+  return all;
+}
+
+std::string pictures(const Measured& one) {
+  std::string s;
+  for (const Thumbnail& t : thumbnails(one))
+    s += fmt::format("<figure><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"\"><figcaption>{}</figcaption></figure>",
+                     t.file, t.image.width, t.image.height, t.caption);
+  return s.empty() ? s : "<div class=\"pictures\">" + s + "</div>";
+}
+
+std::string section(const Measured& one) {
+  const Measurement& m = *one.measurement;
+  const Words words = words_of(one);
   const auto n = [](const mc::RmsError& p) { return p.n; };
   const auto seconds = [](const mc::RmsError& p) { return p.seconds; };
-  s += "<div class=\"panels\">" + Panel(m.curves, n).svg("evaluations N", true) +
-       Panel(m.curves, seconds).svg(std::string(m.cost.axis), false) +
-       "</div><div class=\"scroll\"><table><tr><th>sampler<th>N<th>"
-       "RMS error, 95 %<th>" +
-       std::string(m.cost.axis) + "<th>slope, 95 %<th>theory<th>agrees</tr>";
-  for (std::size_t i = 0; i < m.curves.size(); ++i) s += row(m.curves[i], i);
-  return s + "</table></div></section>";
+  std::string s =
+      fmt::format("<section><h2>{}</h2><p class=\"facts\">{}</p>", escaped(one.target->integral.title), facts(one));
+  if (!m.doubt.empty()) s += fmt::format("<p class=\"doubt\">{}</p>", escaped(m.doubt));
+  if (one.answers) s += answers(one);
+  s += "<div class=\"panels\">" + error_panel(m.curves, {.axis = words.n, .x = n, .theory = true});
+  s += error_panel(
+      m.curves, {.axis = m.cost.axis, .x = seconds, .best = one.answers ? one.answers->front : std::vector<Offer>()});
+  return s + "</div>" + curve_table(one) + pictures(one) + "</section>";
+}
+
+std::string footer(const Measured& one) {
+  std::string s = fmt::format(
+      "Bands and brackets hold the root-mean-square error, and the slope, with 95 % confidence. Dotted lines fall as "
+      "theory says{}. The {} are those of one {}.",
+      one.pictures ? "" : "; <b>here</b> is the slope that its logarithms leave at these N", one.measurement->cost.axis,
+      words_of(one).estimate);
+  if (one.answers) s += " No other way is both cheaper and more accurate than those on the broad line.";
+  if (one.pictures)
+    s += " The <b>error</b> of a picture is the root of its relmse: the mean over pixels and channels of (x - "
+         "reference)&sup2; / (reference&sup2; + 0.01). A <b>bias</b> is what a way errs by however long it runs; where "
+         "it costs less than every way without, it <b>pays</b> for errors above the one named. The pictures are one of "
+         "each way, with so many samples per pixel.";
+  return s;
 }
 
 constexpr std::string_view style = R"(
 h2 { font-size: 1.15rem; margin-top: 1.6rem; }
 .facts, footer { color: var(--soft); }
+.facts { overflow-wrap: anywhere; }
 .doubt { color: var(--fail); }
 .panels { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 22rem), 1fr)); gap: .8rem; }
 .panels { margin: .8rem 0; }
 .panels svg { width: 100%; height: auto; background: var(--card); border: 1px solid var(--line); border-radius: 12px; }
 .grid { stroke: var(--line); stroke-width: 1; }
-.tick, .axis { fill: var(--soft); font-size: 12px; }
-.axis { text-anchor: middle; }
-.scroll { overflow-x: auto; }
-table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; background: var(--card); }
-th, td { text-align: right; padding: .3rem .7rem; border-bottom: 1px solid var(--line); white-space: nowrap; }
-th { font-weight: 400; color: var(--soft); }
+.best { fill: none; stroke: var(--line); stroke-width: 9; stroke-linejoin: round; stroke-linecap: round; }
+.tick, .label { fill: var(--soft); font-size: 12px; }
+.label { text-anchor: middle; }
+.scroll { margin-top: .8rem; }
+table { background: var(--card); }
+th, td { text-align: right; padding: .3rem .7rem; white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; }
-td i { display: inline-block; width: .8rem; height: .8rem; border-radius: 3px; margin-right: .5rem; }
-td i { vertical-align: -.08rem; }
+td i, figcaption i { display: inline-block; width: .8rem; height: .8rem; border-radius: 3px; margin-right: .5rem; }
+td i, figcaption i { vertical-align: -.08rem; }
 td small { color: var(--soft); }
+th:last-child, td:last-child { padding-right: .7rem; }
+td.none { text-align: left; color: var(--soft); }
+.ties { display: block; min-width: 14rem; white-space: normal; text-align: left; }
+.ties { color: var(--soft); }
+.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(9rem, 1fr)); gap: .8rem; margin-top: .8rem; }
+.pictures img { width: 100%; height: auto; display: block; image-rendering: pixelated; border-radius: 6px; }
+figcaption { display: block; font-size: .84em; overflow-wrap: anywhere; }
 )";
 
 } // namespace
 
-std::string convergence_page(const std::vector<Measured>& all, const std::string& command) {
-  std::string s =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width,initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n"
-      "<title>carlo converge</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n";
-  s += std::string(page_css) + std::string(style);
-  s += "</style>\n</head>\n<body>\n<header>\n<p class=\"tool\">carlo converge</p>\n<h1>What more samples buy</h1>\n";
-  s += fmt::format("<p class=\"command\"><code>{}</code></p>\n</header>\n<main>\n", escaped(command));
-  for (const Measured& one : all) s += section(one) + "\n";
-  s += "</main>\n<footer><p>Bands and brackets hold the root-mean-square error, and the slope, with 95 % confidence. "
-       "Dotted lines fall as theory says; <b>here</b> is the slope that its logarithms leave at these N. CPU seconds "
-       "are "
-       "those of one estimate.</p></footer>\n</body>\n</html>\n";
-  return s;
+PageHead converge_head(const std::string& command) { return {"carlo converge", "What more samples buy", command}; }
+PageHead trade_head(const std::string& command) { return {"carlo trade", "Which way to take", command}; }
+
+std::string file_name(const std::string& text) {
+  std::string safe = text.substr(0, 60);
+  for (char& c : safe)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
+  return safe;
+}
+
+void write_page(const std::filesystem::path& folder, const PageHead& head, const std::vector<Measured>& all) {
+  Page page{.tool = head.tool, .title = head.title, .style = style, .command = head.command};
+  for (const Measured& one : all) {
+    page.main += section(one) + "\n";
+    for (const Thumbnail& t : thumbnails(one)) ::render::write_image((folder / t.file).string(), t.image);
+  }
+  if (!all.empty()) page.footer = footer(all.front());
+  mc::write_file((folder / "index.html").string(), html(page));
 }
 
 } // namespace carlo

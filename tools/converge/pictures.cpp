@@ -134,16 +134,21 @@ class Session {
         result.measurement.interrupted = true;
         return result;
       }
-    const Image reference = this->reference(result);
+    result.reference = reference(result);
     if (result.measurement.interrupted) return result;
-    const double its_noise = noise(reference);
+    const double its_noise = noise(result.reference);
     result.reference_error = std::sqrt(its_noise);
     for (std::size_t i = 0; i < ways_.size(); ++i) {
       Way way;
       way.name = way.title = ways_[i].name();
       result.ways.push_back(way);
-      result.measurement.curves.push_back(curve_of(result.ways.back(), series_[i], reference, its_noise));
-      result.biases.push_back(bias_of(series_[i].back(), reference, its_noise, ways_.size()));
+      Curve curve = curve_of(result.ways.back(), series_[i], result.reference, its_noise);
+      const Bias bias = bias_of(series_[i].back(), result.reference, its_noise, ways_.size());
+      const bool is_plain = ways_[i].sampler == ::render::PixelSampler::independent && !ways_[i].adaptive;
+      if (is_plain && !(bias.bias.lo > 0)) curve.theory = Rate{0.5, 0, "independent samples"};
+      result.measurement.curves.push_back(std::move(curve));
+      result.biases.push_back(bias);
+      result.pictures.push_back(series_[i].back().images.front());
     }
     tell_where_they_pay(result.biases, result.measurement.curves);
     return result;

@@ -44,15 +44,18 @@ struct Bias {
 /// What was measured: N is samples per pixel, the error of a picture the root of its relmse, the mean over pixels and
 /// channels of (x - reference)^2 / (reference^2 + 0.01), less what the noise of the reference adds.
 struct Pictures {
-  std::deque<Way> ways;       ///< that the curves point to
-  Measurement measurement;    ///< its truth is an error of 0
-  std::vector<Bias> biases;   ///< of the ways
-  double reference_error = 0; ///< root of the relmse that the reference's noise is
+  std::deque<Way> ways;     ///< that the curves point to
+  Measurement measurement;  ///< its truth is an error of 0
+  std::vector<Bias> biases; ///< of the ways
+  ::render::Image reference;
+  std::vector<::render::Image> pictures; ///< one of each way, of its most samples
+  double reference_error = 0;            ///< root of the relmse that the reference's noise is
   double reference_spp = 0;
 };
 
 /// Every way on 4, 8, ... max_spp samples per pixel (adaptive ones from 32), taken in turn, so that a busy moment falls
 /// on all of them. 95 % intervals of the errors by Student's t over the pictures.
+///   theory    : N^-1/2 for independent samples, spent evenly, whose bias is not told from 0
 ///   reference : by mis, sobol and the scene's longest path, as many samples as bring its error to a tenth of the
 ///               smallest error by noise
 ///   throws    : Error for a black scene, no ways, fewer than 3 pictures, or max_spp below 16

@@ -38,6 +38,13 @@ struct ForSeconds {
   std::optional<Ranged> gain; ///< plain Monte Carlo's error over that of the first
 };
 
+/// What was asked for, and the ways to it.
+struct Answers {
+  std::vector<ForError> errors;
+  std::vector<ForSeconds> seconds;
+  std::vector<Offer> front; ///< as pareto_front
+};
+
 /// Seconds of one evaluation of a curve near n: the median of runs that were taken in turn with those of the other
 /// ways, with its interval.
 using SecondsOfOne = std::function<Ranged(const Curve& curve, double n)>;

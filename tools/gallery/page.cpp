@@ -1,7 +1,6 @@
 #include <gallery/page.h>
 #include <report/html.h>
 #include <terminal/progress.h>
-#include <validate_page_parts.h>
 
 #include <fmt/format.h>
 
@@ -74,24 +73,20 @@ a { color: var(--link); }
 } // namespace
 
 std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t asked, const std::string& command) {
-  std::string s =
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-      "content=\"width=device-width,initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n"
-      "<title>carlo gallery</title>\n<link rel=\"icon\" href=\"data:,\">\n<style>\n";
-  s += std::string(page_css) + std::string(style);
-  s += "</style>\n</head>\n<body>\n<header>\n<p class=\"tool\">carlo gallery</p>\n<h1>Scenes with error bars</h1>\n";
+  Page page{.tool = "carlo gallery", .title = "Scenes with error bars", .style = style, .command = command};
   if (rendered.size() < asked)
-    s += fmt::format("<p class=\"doubt\">Interrupted: {} of {} scenes were finished.</p>\n", rendered.size(), asked);
-  s += fmt::format("<p class=\"command\"><code>{}</code></p>\n</header>\n<main>\n", escaped(command));
-  for (const RenderedScene& r : rendered) s += section(r) + "\n";
-  s += "</main>\n<footer><p><b>Mean relative standard error</b>: the root mean square of the pixels' standard errors "
-       "relative to the radiance about them, in the dark to half of the picture's mean; the EXR beside each picture "
-       "has the variance of every pixel. Where one sample carries "
-       "over half of a pixel's variance, its error is not known yet. <b>Strategies</b> are compared on small pictures "
-       "with equal samples, the one of the picture in bold: <b>work</b> is what the same error costs in CPU time, "
-       "relative to the cheapest that is right; <b>brightness</b> is the mean luminance relative to the strategy that "
-       "knows it best. <b>light</b> misses what other surfaces reflect.</p></footer>\n</body>\n</html>\n";
-  return s;
+    page.note =
+        fmt::format("<p class=\"doubt\">Interrupted: {} of {} scenes were finished.</p>\n", rendered.size(), asked);
+  for (const RenderedScene& r : rendered) page.main += section(r) + "\n";
+  page.footer =
+      "<b>Mean relative standard error</b>: the root mean square of the pixels' standard errors "
+      "relative to the radiance about them, in the dark to half of the picture's mean; the EXR beside each picture "
+      "has the variance of every pixel. Where one sample carries "
+      "over half of a pixel's variance, its error is not known yet. <b>Strategies</b> are compared on small pictures "
+      "with equal samples, the one of the picture in bold: <b>work</b> is what the same error costs in CPU time, "
+      "relative to the cheapest that is right; <b>brightness</b> is the mean luminance relative to the strategy that "
+      "knows it best. <b>light</b> misses what other surfaces reflect.";
+  return html(page);
 }
 
 } // namespace carlo

@@ -46,11 +46,17 @@ TEST_F(Converge, AnExpressionNeedsNoTruth) {
 }
 
 TEST_F(Converge, ASceneHasNoTruthButAReference) {
-  const Ran r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --strategies mis --max-spp 16");
+  const Ran r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --strategies mis --max-spp 16 --report '" +
+                    path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("  mis stratified  RMS error "), HasSubstr("  mis sobol       RMS error "),
                               HasSubstr("from a reference of ")));
   EXPECT_THAT(out("cbox.csv"), HasSubstr("cbox,mis independent,16,"));
+  EXPECT_THAT(out("slopes.csv"), HasSubstr(",independent samples\n"));
+  const std::string page = mc::read_file(path("page/index.html"));
+  EXPECT_THAT(page, AllOf(HasSubstr("8&times;8 pixels; reference of "), HasSubstr("src=\"cbox-reference.png\""),
+                          HasSubstr("The CPU seconds are those of one picture.")));
+  EXPECT_TRUE(std::filesystem::exists(path("page/cbox-3.png")));
   const std::string dark = write("dark.xml", R"(<scene version="0.5.0"><sensor type="perspective">
     <float name="fov" value="40"/></sensor>
     <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape></scene>)");
@@ -135,6 +141,7 @@ TEST_F(Converge, BadInputIsOneLine) {
   expect_refused("'1/(x-x)' -d x=0:1 --max-n 64", "1/(x-x): the integrand is inf at x = 0.");
   expect_refused("'0*x' -d x=0:1 --max-n 64", "0*x: the integrand was 0 at every point; choose bounds around");
   expect_refused("pie", "unknown integrand 'pie'; did you mean 'pi'?");
+  expect_refused("pi --cost rays", "--cost are for a scene (.xml)");
   expect_refused("pi --samplers sobl", "unknown sampler 'sobl'; did you mean 'sobol'?");
   expect_refused("pi --time 0", "--time 0 must lie in (0, 1e7] seconds");
   expect_refused("pi --replicates 3", "--replicates 3 must lie in [8, 100000], or be 0");

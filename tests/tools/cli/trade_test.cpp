@@ -30,7 +30,7 @@ struct TradeCommand : support::ScratchTest {
 };
 
 TEST_F(TradeCommand, TheCheapestWayToEachError) {
-  const Ran r = run("rate_smooth_2d --error 0.1,0.01 --max-n 2048");
+  const Ran r = run("rate_smooth_2d --error 0.1,0.01 --max-n 2048 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("22 ways"), HasSubstr("  error 0.1: "), HasSubstr("  error 0.01: "),
                               HasSubstr("times faster than plain Monte Carlo")));
@@ -38,6 +38,8 @@ TEST_F(TradeCommand, TheCheapestWayToEachError) {
   EXPECT_THAT(json, AllOf(HasSubstr("\"way\": \"sobol_float\""), HasSubstr("\"gain_over_plain\""),
                           HasSubstr("\"front\": "), HasSubstr("\"seed\": 1")));
   EXPECT_THAT(mc::read_file(path("out/front.csv")), HasSubstr("way,n,cpu_seconds,rms_error"));
+  EXPECT_THAT(mc::read_file(path("page/index.html")),
+              AllOf(HasSubstr("<th>plain Monte Carlo costs</th>"), HasSubstr("The CPU seconds are those of one est")));
 }
 
 TEST_F(TradeCommand, AnErrorThatNoneReachesSaysHowFarEachCame) {
@@ -54,7 +56,7 @@ TEST_F(TradeCommand, BatchesAgainstOneByOne) {
 
 TEST_F(TradeCommand, AScene) {
   const std::string cbox = MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --samplers sobol --strategies ";
-  const Ran r = run(cbox + "light,mis --max-spp 32 --cost rays --error 0.5,1e-6");
+  const Ran r = run(cbox + "light,mis --max-spp 32 --cost rays --error 0.5,1e-6 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 1) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("cbox: 4 ways, millions of rays"), HasSubstr("  light sobol: bias "),
                               HasSubstr("  error 0.5: "), HasSubstr("  error 1e-06: no way came there; nearest: ")));
@@ -62,6 +64,9 @@ TEST_F(TradeCommand, AScene) {
               AllOf(HasSubstr("\"way\": \"mis sobol adaptive\""), HasSubstr("\"million_rays\""),
                     Not(HasSubstr("cpu_seconds"))));
   EXPECT_THAT(mc::read_file(path("out/trade.csv")), HasSubstr("way,n,million_rays,rms_error"));
+  EXPECT_THAT(mc::read_file(path("page/index.html")),
+              AllOf(HasSubstr("<th>millions of rays</th>"), HasSubstr("no way came there; nearest "),
+                    HasSubstr("cbox-4.png"), Not(HasSubstr("CPU"))));
   expect_refused(cbox + "mess", "did you mean 'mis'");
   expect_refused(cbox + "mis --max-spp 16", "--max-spp 16 must be at least 32");
   expect_refused(cbox + "mis --max-depths 0", "--max-depths: '0' in '0'");
@@ -90,6 +95,9 @@ TEST_F(TradeCommand, BadInputIsOneLine) {
   expect_refused("genz", "trade: name one integrand");
   expect_refused("pi --error 0", "--error: '0' in '0' must be a number above 0");
   expect_refused("pi --error 1e-2,,1e-3", "--error: '' in '1e-2,,1e-3'");
+  expect_refused("pi --max-spp 32", "--cost are for a scene (.xml)");
+  expect_refused("pi --samplers sobol", "--samplers is for a scene (.xml)");
+  expect_refused("pi --report /proc/none", "'/proc/none' is no folder and cannot be made one");
   expect_refused("pi --seconds 0", "--seconds: '0' in '0' must be a number above 0");
   expect_refused("pi --time 0", "--time 0 must lie in (0, 1e7] seconds");
   expect_refused("'0*x' -d x=0:1 --max-n 64", "the integrand was 0 at every point");

@@ -1,0 +1,123 @@
+// The page of carlo converge and carlo trade: integrals and scenes, and what a headless browser makes of it.
+
+#include <converge/page.h>
+
+#include <support/files.h>
+#include <tools/browser.h>
+
+#include <mc/core/file.h>
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+namespace {
+
+using namespace carlo;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+mc::RmsError error(double n, double rms, double seconds) { return {n, rms, 0.9 * rms, 1.1 * rms, seconds}; }
+
+Way named(const char* name) {
+  Way way;
+  way.name = name;
+  return way;
+}
+
+/// Two ways to render a scene of 4x3 pixels, the second a biased one.
+struct PictureExample {
+  Target target;
+  Pictures pictures;
+  Answers answers;
+
+  PictureExample() {
+    target.integral = {"a <room>", "a <room>", "rooms/a.xml", 0, 0, {}, 0, {}};
+    for (const char* name : {"mis independent", "light sobol"}) pictures.ways.push_back(named(name));
+    Measurement& m = pictures.measurement;
+    m.cost = ray_cost;
+    for (const Way& w : pictures.ways) {
+      Curve c;
+      c.way = &w;
+      c.errors = {error(4, 0.2, 0.01), error(16, 0.1, 0.04), error(64, 0.05, 0.16)};
+      m.curves.push_back(c);
+      pictures.pictures.emplace_back(4, 3);
+    }
+    m.curves[0].law = mc::PowerLaw{.slope = -0.5, .lo = -0.52, .hi = -0.48};
+    m.curves[0].theory = Rate{0.5, 0, "independent samples"};
+    pictures.biases = {{{0, 0, 0.01}, 0.05, 64, {}}, {{0.3, 0.29, 0.31}, 0.02, 64, 0.45}};
+    pictures.reference = render::Image(4, 3);
+    pictures.reference_spp = 6400;
+    pictures.reference_error = 0.004;
+    const Offer cheap{&m.curves[0], 16, {0.04, 0.035, 0.045}, {0.1, 0.09, 0.11}},
+        as_cheap{&m.curves[1], 16, {0.041, 0.036, 0.046}, {0.1, 0.09, 0.11}};
+    answers.errors = {{0.1, {cheap, as_cheap}, {}, {}}, {1e-6, {}, {cheap}, {}}};
+    answers.seconds = {{0.04, {cheap}, Ranged{3, 2, 4}}, {1e-9, {}, {}}};
+    answers.front = {cheap};
+  }
+  Measured measured() const { return {&target, &pictures.measurement, &pictures, &answers}; }
+};
+
+struct MeasuredPage : support::ScratchTest {
+  std::string page(const PageHead& head, const std::vector<Measured>& all) const {
+    write_page(path("."), head, all);
+    return mc::read_file(path("index.html"));
+  }
+};
+
+TEST_F(MeasuredPage, OfASceneSaysWhichWayToTakeAndShowsThePictures) {
+  const PictureExample e;
+  const std::string page = this->page(trade_head("carlo trade 'a <room>.xml' --cost rays"), {e.measured()});
+  EXPECT_THAT(page, AllOf(HasSubstr("<title>carlo trade</title>"), HasSubstr("Which way to take"),
+                          HasSubstr("4&times;3 pixels; reference of 6400 samples per pixel with an error of 0.004")));
+  EXPECT_THAT(page, AllOf(HasSubstr("0.04 <small>[0.035, 0.045]</small>"),
+                          HasSubstr("<span class=\"ties\">light sobol</span>"),
+                          HasSubstr("colspan=\"5\">no way came there; nearest <i"),
+                          HasSubstr("no way can begin with so little"), HasSubstr("3 <small>[2, 4]</small> &times;")));
+  EXPECT_THAT(page, AllOf(HasSubstr("-0.500 <small>[-0.520, -0.480]</small>"), HasSubstr("<td>yes</td>"),
+                          HasSubstr("0.3 <small>[0.29, 0.31]</small></td><td>0.45</td>"), HasSubstr("class=\"best\""),
+                          HasSubstr("stroke-dasharray")));
+  EXPECT_THAT(page, AllOf(HasSubstr("The millions of rays are those of one picture."), Not(HasSubstr("CPU"))));
+  for (const char* file : {"a__room_-reference.png", "a__room_-1.png", "a__room_-2.png"}) {
+    EXPECT_THAT(page, HasSubstr(std::string("src=\"") + file + "\""));
+    EXPECT_TRUE(std::filesystem::exists(path(file))) << file;
+  }
+  for (const char* loaded : {"http", "<script", "@import", "url("}) EXPECT_THAT(page, Not(HasSubstr(loaded)));
+}
+
+TEST_F(MeasuredPage, OfIntegralsHasNoPicturesAndNoBias) {
+  Target target;
+  target.integral = {"pi", "Area of the disk", "a book", 2, 3.14159, {}, 0, {}};
+  const Way way = named("random");
+  Measurement m;
+  Curve c;
+  c.way = &way;
+  c.errors = {error(64, 0.2, 1e-6), error(65536, 2e-3, 1e-3), error(1 << 20, 5e-4, 2e-2)};
+  m.curves = {c};
+  m.truth = 3.14159;
+  const std::string page = this->page(converge_head("carlo converge pi"), {{&target, &m}});
+  EXPECT_THAT(page, AllOf(HasSubstr("a book; 2 dimensions; truth 3.14159"), HasSubstr("<th>sampler</th>"),
+                          HasSubstr("The CPU seconds are those of one estimate."), Not(HasSubstr("bias")),
+                          Not(HasSubstr("<figure")), Not(HasSubstr("class=\"best\""))));
+  EXPECT_THAT(page, HasSubstr("10<tspan dy=\"-5\" font-size=\"8\">-6</tspan>"));
+  m.curves[0].exact = true; // nothing to draw
+  EXPECT_THAT(this->page(converge_head("carlo converge pi"), {{&target, &m}}),
+              AllOf(Not(HasSubstr("<svg")), HasSubstr("<td>exact</td>")));
+}
+
+// 1, 2 and 5 stand on an axis that spans a decade or two.
+TEST_F(MeasuredPage, ShortAxesHaveTicksWithinADecade) {
+  const PictureExample e;
+  const std::string page = this->page(converge_head("carlo converge a.xml"), {e.measured()});
+  for (const char* tick : {">0.05</text>", ">0.1</text>", ">0.2</text>", ">5</text>", ">10</text>", ">50</text>"})
+    EXPECT_THAT(page, HasSubstr(tick));
+}
+
+TEST_F(MeasuredPage, NothingOverflowsOnAPhone) {
+  const PictureExample e;
+  page(trade_head(std::string(200, 'x')), {e.measured()});
+  support::expect_fits_a_phone(path("index.html"));
+}
+
+} // namespace
