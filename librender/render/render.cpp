@@ -76,6 +76,7 @@ class Work {
     result.relative_error = film_.relative_error();
     result.worst_error = film_.relative_error(ErrorOf::worst);
     result.undecided = film_.undecided();
+    result.unsure_from = unsure_from_;
     result.invalid = total_.invalid;
     result.first_invalid = total_.first;
     result.partial = partial_;
@@ -146,6 +147,8 @@ class Work {
       mean_ = mean;
       error_ = film_.relative_error(options_.error_of);
       undecided_ = film_.undecided();
+      const bool is_there = options_.target_error && error_ <= *options_.target_error;
+      if (is_there && mean_ >= least_pilot && undecided_ > most_undecided && unsure_from_ == 0) unsure_from_ = mean_;
     }
   }
 
@@ -159,6 +162,7 @@ class Work {
   Tally total_;
   double error_ = mc::infinity<double>; ///< after the last round
   double undecided_ = 0;                ///< at the same time
+  double unsure_from_ = 0;              ///< see RenderResult
   bool partial_ = true;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::clock_t cpu_start_ = std::clock();

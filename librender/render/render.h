@@ -47,6 +47,7 @@ struct RenderResult {
   double relative_error = 0; ///< see Film::relative_error
   double worst_error = 0;    ///< the same of the worst block
   double undecided = 0;      ///< share of the pixels whose error bar is not known yet, see Film::undecided
+  double unsure_from = 0;    ///< samples per pixel with the target error, but too many pixels undecided; 0: never so
   std::uint64_t invalid = 0; ///< samples that were not finite; they are left out of the image
   InvalidSample first_invalid;
   bool partial = false; ///< cancelled before the end

@@ -272,9 +272,16 @@ TEST(Render, ATargetIsNotReachedWhilePixelsAreUndecided) {
   const RenderResult result = render::render(scene, options);
   EXPECT_LE(result.undecided, most_undecided);
   EXPECT_LE(result.relative_error, 0.4);
+  options.target_error = 2;
+  const RenderResult early = render::render(scene, options);
+  EXPECT_LE(early.undecided, most_undecided);
+  EXPECT_GT(early.unsure_from, 0); // by that error alone it would have stopped
+  EXPECT_LT(early.unsure_from, early.spp);
   options.target_error = {};
   options.spp = 256;
-  EXPECT_GE(render::render(scene, options).undecided, 0.1);
+  const RenderResult counted = render::render(scene, options);
+  EXPECT_GE(counted.undecided, 0.1);
+  EXPECT_EQ(counted.unsure_from, 0);
 }
 
 TEST(Render, ASceneWithoutLightIsBlack) {

@@ -93,8 +93,8 @@ std::vector<Option> rows(RenderOptions& o) {
        "RATIO",
        &o.target_error,
        "Mean relative standard error to reach: the pixels' standard errors relative to the radiance about them, in the "
-       "dark to half of the picture's mean, root mean square; while one sample carries over half of the variance in at "
-       "most 5 % of the pixels",
+       "dark to half of the picture's mean, root mean square; it goes on below that while in more than 5 % of the "
+       "pixels one sample carries over half of the variance, so that their errors are not known yet",
        false,
        {"--spp", "--time"}},
       {"--error-of", "WHAT", &o.error_of,
@@ -232,6 +232,14 @@ const GalleryScene* named_scene(const std::string& word) {
   return settings;
 }
 
+std::string where_it_is(const ::render::Progress& p, const std::optional<double>& target_error) {
+  std::string text = format_count(double(p.samples) / p.seconds) + "samples/s";
+  if (!std::isfinite(p.relative_error)) return text;
+  text += fmt::format("  error {:.2f} %, {:.1f} % of the pixels undecided", 100 * p.relative_error, 100 * p.undecided);
+  const bool goes_on = target_error && p.relative_error <= *target_error && p.undecided > ::render::most_undecided;
+  return goes_on ? text + fmt::format(": on to {:.0f} %", 100 * ::render::most_undecided) : text;
+}
+
 constexpr int compared_side = 96; // pixels
 
 int compare_all(const RenderOptions& options, const ::render::Scene& scene, ::render::RenderOptions settings,
@@ -259,6 +267,21 @@ int compare_all(const RenderOptions& options, const ::render::Scene& scene, ::re
              settings.height, settings.spp, seconds, strategy_table(same_samples, same_time), output,
              fmt::join(strip_spp, ", "));
   return exit_ok;
+}
+
+std::string summary_of(const ::render::RenderResult& r, const std::optional<double>& target_error) {
+  std::string text = fmt::format(
+      "{}x{}, {:.4g} samples/pixel in {} ({} CPU): {}, {}rays/s, mean relative standard error {}, {} invalid samples",
+      r.image.width, r.image.height, r.spp, format_seconds(r.seconds), format_seconds(r.cpu_seconds),
+      samples_per_second(r), format_count(double(r.rays) / r.seconds), format_error(r), r.invalid);
+  if (r.undecided > 0) text += fmt::format(", {:.1f} % of the pixels decided by one sample", 100 * r.undecided);
+  if (r.partial) text += ", PARTIAL: interrupted";
+  if (r.unsure_from > 0)
+    text +=
+        fmt::format("\nthe error of {:g} % was there with {:.4g} samples/pixel; more were taken while over {:.0f} % "
+                    "of the pixels were decided by one sample (--time or --spp end sooner)",
+                    100 * target_error.value_or(0), r.unsure_from, 100 * ::render::most_undecided);
+  return text + "\n";
 }
 
 int render(const RenderOptions& options) {
@@ -293,11 +316,7 @@ int render(const RenderOptions& options) {
   std::mutex mutex;
   settings.progress = [&](const ::render::Progress& p) {
     const std::lock_guard lock(mutex);
-    progress.show(p.fraction, fmt::format("{}samples/s{}", format_count(double(p.samples) / p.seconds),
-                                          std::isfinite(p.relative_error)
-                                              ? fmt::format("  error {:.2f} %, {:.1f} % of the pixels undecided",
-                                                            100 * p.relative_error, 100 * p.undecided)
-                                              : ""));
+    progress.show(p.fraction, where_it_is(p, options.target_error));
   };
 
   std::optional<Begun> begun;
@@ -327,16 +346,7 @@ int render(const RenderOptions& options) {
   if (!options.intervals.empty() && !result.image.variance.empty())
     ::render::write_image(options.intervals, ::render::half_widths(result.image, 0.95));
 
-  std::printf("%s: %dx%d, %.4g samples/pixel in %s (%s CPU): %s, %srays/s, mean relative standard error %s, %llu "
-              "invalid samples%s%s\n",
-              output.c_str(), result.image.width, result.image.height, result.spp,
-              format_seconds(result.seconds).c_str(), format_seconds(result.cpu_seconds).c_str(),
-              samples_per_second(result).c_str(), format_count(double(result.rays) / result.seconds).c_str(),
-              format_error(result).c_str(), static_cast<unsigned long long>(result.invalid),
-              result.undecided > 0
-                  ? fmt::format(", {:.1f} % of the pixels decided by one sample", 100 * result.undecided).c_str()
-                  : "",
-              result.partial ? ", PARTIAL: interrupted" : "");
+  fmt::print("{}: {}", output, summary_of(result, options.target_error));
   if (begun)
     fmt::print("with what was there: {:.4g} samples/pixel of {} runs\n", begun->spp + result.spp, begun->runs + 1);
   return result.partial ? exit_interrupted : exit_ok;
