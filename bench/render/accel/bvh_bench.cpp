@@ -1,193 +1,186 @@
-/// Closest-hit and any-hit rates of our BVH, and of Embree 3 (rtcIntersect1, rtcOccluded1) where it was found: single
-/// thread, one ray per call, the same rays and the same mesh of 105k triangles, in one run.
+/// Our rays beside those of Embree 3 (rtcIntersect1, rtcOccluded1, default build, fast mode): one thread, one ray per
+/// call, the same rays, in turn in one run. A table on stdout.
+/// Usage: bench_render_accel_bvh [SCENE.xml...] [-- SIDE [ROUNDS]], pictures of SIDE x SIDE pixels
+///   Mrays/s : of ours, by the thread's CPU time, the median of the rounds
+///   /Embree : our rate over Embree's, the median of the rounds' ratios
+///   build   : CPU ns per primitive of both, ours by one thread
+///   bytes   : per primitive, of tree and of shapes
 
-#include <render/accel/bvh.h>
+#include "../arguments.h"
+#include "worlds.h"
 
-#include <mc/random/pcg.h>
-#include <mc/warp/sphere.h>
-
-#include <benchmark/benchmark.h>
-
-#if defined(MC_WITH_EMBREE)
 #include <embree3/rtcore.h>
-#endif
+#include <fmt/format.h>
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
 
 namespace {
 
-using namespace render;
+using namespace bench;
 
-struct World {
-  std::vector<Vec3> positions;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+double cpu_seconds(clockid_t clock) {
+  timespec t;
+  clock_gettime(clock, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
 
-  void quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-    const auto first = static_cast<std::uint32_t>(positions.size());
-    positions.insert(positions.end(), {a, b, c, d});
-    triangles.push_back({first, first + 1, first + 2});
-    triangles.push_back({first, first + 2, first + 3});
+std::size_t allocated() {
+  const auto m = mallinfo2();
+  return m.uordblks + m.hblkhd;
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+/// Embree's scene of a world.
+class Peer {
+ public:
+  explicit Peer(const World& world)
+      : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)),
+        geometry_(rtcNewGeometry(device_,
+                                 world.spheres.empty() ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_SPHERE_POINT)) {
+    if (world.spheres.empty()) fill_triangles(world);
+    else fill_spheres(world);
+    rtcCommitGeometry(geometry_);
+    rtcAttachGeometry(scene_, geometry_);
+    const double start = cpu_seconds(CLOCK_PROCESS_CPUTIME_ID);
+    rtcCommitScene(scene_);
+    build_seconds = cpu_seconds(CLOCK_PROCESS_CPUTIME_ID) - start;
+  }
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+  ~Peer() {
+    rtcReleaseGeometry(geometry_);
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+
+  bool intersect(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query;
+    query.ray = of(ray);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context, &query);
+    return query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+  }
+  bool occluded(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay query = of(ray);
+    rtcOccluded1(scene_, &context, &query);
+    return query.tfar < 0;
+  }
+
+  double build_seconds;
+
+ private:
+  static RTCRay of(const Ray& r) {
+    return {float(r.o.x()),
+            float(r.o.y()),
+            float(r.o.z()),
+            0,
+            float(r.d.x()),
+            float(r.d.y()),
+            float(r.d.z()),
+            0,
+            float(r.t_max),
+            ~0u,
+            0,
+            0};
+  }
+  void fill_triangles(const World& world) {
+    auto* p = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, world.positions.size()));
+    for (const Vec3& v : world.positions)
+      for (int a = 0; a < 3; ++a) *p++ = float(v[a]);
+    auto* t = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, world.triangles.size()));
+    for (const auto& v : world.triangles) t = std::copy(v.begin(), v.end(), t);
+  }
+  void fill_spheres(const World& world) {
+    auto* p = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry_, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, world.spheres.size()));
+    for (const auto& s : world.spheres) {
+      for (int a = 0; a < 3; ++a) *p++ = float(s.center[a]);
+      *p++ = float(s.radius);
+    }
+  }
+
+  RTCDevice device_;
+  RTCScene scene_;
+  RTCGeometry geometry_;
+};
+
+/// CPU seconds of `trace` on all rays, and how many of them it says yes to.
+template <class Trace> double seconds_of(const std::vector<Ray>& rays, std::size_t& hits, const Trace& trace) {
+  hits = 0;
+  const double start = cpu_seconds(CLOCK_THREAD_CPUTIME_ID);
+  for (const Ray& ray : rays) hits += trace(ray);
+  return cpu_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
+}
+
+struct Table {
+  int rounds;
+  std::vector<double> ratios = {};
+
+  template <class Ours, class Theirs>
+  void row(const World& world, const char* kind, const std::vector<Ray>& rays, const Ours& ours, const Theirs& theirs) {
+    std::vector<double> rates, ratio;
+    std::size_t hits = 0, their_hits = 0;
+    for (int i = 0; i < rounds; ++i) {
+      const double t = seconds_of(rays, hits, ours), their_t = seconds_of(rays, their_hits, theirs);
+      rates.push_back(double(rays.size()) / t / 1e6);
+      ratio.push_back(their_t / t);
+    }
+    ratios.push_back(median(ratio));
+    fmt::print("{:<16} {:<8} {:8.2f} {:8.2f} {:9.4f} {:9.4f}\n", world.name, kind, median(rates), ratios.back(),
+               double(hits) / double(rays.size()), double(their_hits) / double(rays.size()));
+    std::fflush(stdout);
+  }
+
+  void measure(const World& world, int side) {
+    const std::size_t at_first = allocated();
+    const auto shapes = world.shapes();
+    const double start = cpu_seconds(CLOCK_THREAD_CPUTIME_ID);
+    const render::Bvh bvh{std::span(shapes)};
+    const double build = cpu_seconds(CLOCK_THREAD_CPUTIME_ID) - start;
+    const double bytes = double(allocated() - at_first), n = double(world.size());
+    const Peer peer(world);
+    fmt::print("{:<16} {} primitives: build {:.0f} ns, Embree's {:.0f} ns; {:.0f} bytes\n", world.name, world.size(),
+               1e9 * build / n, 1e9 * peer.build_seconds / n, bytes / n);
+    const Rays rays(world, shapes, bvh, side);
+    const auto ours = [&](const Ray& r) { return bvh.intersect(r).has_value(); };
+    const auto theirs = [&](const Ray& r) { return peer.intersect(r); };
+    row(world, "primary", rays.primary, ours, theirs);
+    row(world, "bounce", rays.bounce, ours, theirs);
+    row(
+        world, "shadow", rays.shadow, [&](const Ray& r) { return bvh.occluded(r); },
+        [&](const Ray& r) { return peer.occluded(r); });
   }
 };
 
-/// A bumpy sphere of 230 x 230 quads less the poles in an enclosure of five walls.
-const World& world() {
-  static const World built = [] {
-    World w;
-    const int n = 230;
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j) {
-        const double theta = mc::pi<double> * (i + 0.02) / (n + 0.04), phi = 2 * mc::pi<double> * j / n;
-        const double r = 1 + 0.08 * std::sin(17 * theta) * std::cos(13 * phi) + 0.02 * std::sin(61 * theta + 47 * phi);
-        w.positions.push_back(Vec3(Float(r * std::sin(theta) * std::cos(phi)),
-                                   Float(r * std::sin(theta) * std::sin(phi)), Float(r * std::cos(theta))));
-      }
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        const auto a = static_cast<std::uint32_t>(i * (n + 1) + j), b = a + n + 1;
-        w.triangles.push_back({a, b, b + 1});
-        w.triangles.push_back({a, b + 1, a + 1});
-      }
-    const Float s = 2;
-    w.quad({-s, -s, -s}, {s, -s, -s}, {s, -s, s}, {-s, -s, s});
-    w.quad({-s, s, -s}, {-s, s, s}, {s, s, s}, {s, s, -s});
-    w.quad({-s, -s, -s}, {-s, -s, s}, {-s, s, s}, {-s, s, -s});
-    w.quad({s, -s, -s}, {s, s, -s}, {s, s, s}, {s, -s, s});
-    w.quad({-s, -s, s}, {s, -s, s}, {s, s, s}, {-s, s, s});
-    return w;
-  }();
-  return built;
-}
-
-const Bvh& ours() {
-  static const Bvh bvh = [] {
-    const Shape shape = TriangleMesh(world().positions, world().triangles);
-    return Bvh(std::span(&shape, 1));
-  }();
-  return bvh;
-}
-
-enum Kind { primary, bounce, shadow };
-
-/// primary: pinhole, scanline order; bounce: from its hits into the hemisphere; shadow: from its hits toward a small
-///          light.
-const std::vector<Ray>& rays(Kind kind) {
-  static const std::array<std::vector<Ray>, 3> built = [] {
-    std::array<std::vector<Ray>, 3> r;
-    const Shape shape = TriangleMesh(world().positions, world().triangles);
-    mc::Pcg random(1);
-    const int n = 512;
-    for (int y = 0; y < n; ++y)
-      for (int x = 0; x < n; ++x) {
-        const Ray ray{Vec3(0, 0, -5), Vec3(Float(x - n / 2) / n, Float(y - n / 2) / n, 1).normalized()};
-        r[primary].push_back(ray);
-        const auto hit = ours().intersect(ray);
-        if (!hit) continue;
-        const SurfacePoint p = shape.surface_point(ray, *hit);
-        const Vec3 side = p.ng.dot(ray.d) < 0 ? p.ng : Vec3(-p.ng);
-        const Vec3 d = side + mc::UniformSphere<Float>{}.sample(random.point<Float, 2>());
-        r[bounce].push_back(p.spawn_ray(d.normalized()));
-        const Vec3 light(random.uniform<Float>() - Float(0.5), Float(1.9), random.uniform<Float>() - Float(0.5));
-        const Vec3 o = p.offset_origin(light - p.p);
-        r[shadow].push_back({o, Vec3(light - o), Float(0.9999)});
-      }
-    return r;
-  }();
-  return built[kind];
-}
-
-void ours_closest(benchmark::State& state, Kind kind) {
-  const auto& batch = rays(kind);
-  for (auto _ : state)
-    for (const Ray& ray : batch) benchmark::DoNotOptimize(ours().intersect(ray));
-  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * batch.size()));
-}
-
-void ours_any(benchmark::State& state, Kind kind) {
-  const auto& batch = rays(kind);
-  for (auto _ : state)
-    for (const Ray& ray : batch) benchmark::DoNotOptimize(ours().occluded(ray));
-  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * batch.size()));
-}
-
-void ours_build(benchmark::State& state) {
-  const Shape shape = TriangleMesh(world().positions, world().triangles);
-  for (auto _ : state) benchmark::DoNotOptimize(Bvh(std::span(&shape, 1)));
-  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * world().triangles.size()));
-}
-
-BENCHMARK_CAPTURE(ours_closest, primary, primary);
-#if defined(MC_WITH_EMBREE)
-
-RTCScene embree() {
-  static const RTCScene scene = [] {
-    const RTCDevice device = rtcNewDevice("threads=1");
-    const RTCScene s = rtcNewScene(device);
-    const RTCGeometry g = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* p = static_cast<float*>(
-        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, world().positions.size()));
-    for (const Vec3& v : world().positions) {
-      *p++ = v.x();
-      *p++ = v.y();
-      *p++ = v.z();
-    }
-    auto* t = static_cast<unsigned*>(
-        rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, world().triangles.size()));
-    for (const auto& v : world().triangles) {
-      *t++ = v[0];
-      *t++ = v[1];
-      *t++ = v[2];
-    }
-    rtcCommitGeometry(g);
-    rtcAttachGeometry(s, g);
-    rtcCommitScene(s);
-    return s;
-  }();
-  return scene;
-}
-
-void fill(RTCRay& to, const Ray& from) {
-  to = {from.o.x(), from.o.y(), from.o.z(), 0, from.d.x(), from.d.y(), from.d.z(), 0, from.t_max, ~0u, 0, 0};
-}
-
-void embree_closest(benchmark::State& state, Kind kind) {
-  const auto& batch = rays(kind);
-  const RTCScene scene = embree();
-  for (auto _ : state)
-    for (const Ray& ray : batch) {
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      RTCRayHit query;
-      fill(query.ray, ray);
-      query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      rtcIntersect1(scene, &context, &query);
-      benchmark::DoNotOptimize(query);
-    }
-  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * batch.size()));
-}
-
-void embree_any(benchmark::State& state, Kind kind) {
-  const auto& batch = rays(kind);
-  const RTCScene scene = embree();
-  for (auto _ : state)
-    for (const Ray& ray : batch) {
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      RTCRay query;
-      fill(query, ray);
-      rtcOccluded1(scene, &context, &query);
-      benchmark::DoNotOptimize(query);
-    }
-  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations() * batch.size()));
-}
-
-BENCHMARK_CAPTURE(embree_closest, primary, primary);
-BENCHMARK_CAPTURE(ours_closest, bounce, bounce);
-BENCHMARK_CAPTURE(embree_closest, bounce, bounce);
-BENCHMARK_CAPTURE(ours_any, shadow, shadow);
-BENCHMARK_CAPTURE(embree_any, shadow, shadow);
-#else
-BENCHMARK_CAPTURE(ours_closest, bounce, bounce);
-BENCHMARK_CAPTURE(ours_any, shadow, shadow);
-#endif
-BENCHMARK(ours_build);
-
 } // namespace
+
+int main(int argc, char** argv) {
+  const Arguments arguments(argc, argv);
+  const int side = arguments.number(0, 512);
+  Table table{arguments.number(1, 7)};
+  fmt::print("{:<16} {:<8} {:>8} {:>8} {:>9} {:>9}\n", "world", "rays", "Mrays/s", "/Embree", "hit", "Embree's");
+  for (const std::string& path : arguments.scenes) table.measure(scene_file(path), side);
+  table.measure(bumpy_sphere("bumpy 10k", 70), side);
+  table.measure(bumpy_sphere("bumpy 100k", 230), side);
+  table.measure(bumpy_sphere("bumpy 1M", 707), side);
+  table.measure(needles(100000), side);
+  table.measure(balls(5000), side);
+  double logs = 0;
+  for (const double r : table.ratios) logs += std::log(r);
+  fmt::print("geometric mean of our rate over Embree's {:.3f}, least {:.3f}\n",
+             std::exp(logs / double(table.ratios.size())), *std::min_element(table.ratios.begin(), table.ratios.end()));
+}

@@ -37,6 +37,7 @@ template <class Block> class BlockTree {
     const auto count = static_cast<std::uint32_t>(boxes.size());
     if (count > Block::few) {
       tree_ = WideTree(boxes, lanes);
+      blocks_.reserve(tree_.leaves().size());
       for (const auto& leaf : tree_.leaves()) add(tree_.order(), leaf.first, leaf.count);
     } else {
       std::vector<std::uint32_t> order(count);

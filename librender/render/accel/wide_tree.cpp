@@ -126,6 +126,8 @@ WideTree::WideTree(const std::vector<Bounds>& boxes, std::uint32_t lanes) : orde
     tasks.push_back({children + 1, depth + 1});
   }
   collapse(tree, 0);
+  nodes_.shrink_to_fit();
+  leaves_.shrink_to_fit();
 }
 
 std::uint32_t WideTree::collapse(const std::vector<Binary>& binary, std::uint32_t root) {

@@ -62,6 +62,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
                 uvs_[i].y());
   mc::require(normals_.empty() || normals_.size() == positions_.size(),
               "mesh: {} normals for {} vertices; give one each or none", normals_.size(), positions_.size());
+  faces_.reserve(triangles.size());
   for (const auto& vertices : triangles) {
     const std::array<Vec3, 3> v = {positions_[vertices[0]], positions_[vertices[1]], positions_[vertices[2]]};
     const Vec3d n = normal_of(v);
