@@ -28,6 +28,9 @@ struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic, RoughDielec
   bool is_delta() const {
     return dispatch(*this, [](const auto& b) { return b.is_delta(); });
   }
+  bool is_narrow() const {
+    return dispatch(*this, [](const auto& b) { return b.is_narrow(); });
+  }
   bool has_delta() const {
     return dispatch(*this, [](const auto& b) { return b.has_delta(); });
   }

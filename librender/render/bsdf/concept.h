@@ -20,7 +20,9 @@ struct BsdfSample {
 ///   sample(wo, uc, u) : uc chooses a lobe, u in [0,1)^2 a direction in it; nullopt: absorbed
 ///   eval(wo, wi)      : f [1/sr], delta lobes excluded
 ///   pdf(wo, wi)       : density of wi [1/sr], delta lobes excluded
-///   is_delta()        : it has delta lobes only, so light sampling is of no use
+///   is_delta()        : it has delta lobes only
+///   is_narrow()       : its lobes are deltas or narrower than lights are, so sampling lights is of no use but for those
+///                       that no ray meets
 ///   has_delta()       : it has a delta lobe, perhaps besides others
 ///   transmits()       : light goes through it, in other directions than a delta lobe's
 template <class T>
@@ -29,6 +31,7 @@ concept BsdfLike = requires(const T b, Vec3 wo, Vec3 wi, Float uc, Vec2 u) {
   { b.eval(wo, wi) } -> std::convertible_to<Spectrum>;
   { b.pdf(wo, wi) } -> std::convertible_to<Float>;
   { b.is_delta() } -> std::convertible_to<bool>;
+  { b.is_narrow() } -> std::convertible_to<bool>;
   { b.has_delta() } -> std::convertible_to<bool>;
   { b.transmits() } -> std::convertible_to<bool>;
 };

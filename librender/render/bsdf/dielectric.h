@@ -54,6 +54,7 @@ class Dielectric {
   Spectrum eval(const Vec3&, const Vec3&) const { return Spectrum::Zero(); }
   Float pdf(const Vec3&, const Vec3&) const { return 0; }
   bool is_delta() const { return true; }
+  bool is_narrow() const { return true; }
   bool has_delta() const { return true; }
   bool transmits() const { return false; }
 

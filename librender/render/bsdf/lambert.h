@@ -30,6 +30,7 @@ class Lambert {
   }
   Float pdf(const Vec3& wo, const Vec3& wi) const { return wo.z() * wi.z() > 0 ? std::abs(wi.z()) * inv_pi : Float(0); }
   bool is_delta() const { return false; }
+  bool is_narrow() const { return false; }
   bool has_delta() const { return false; }
   bool transmits() const { return false; }
   const Spectrum& albedo() const { return albedo_; }

@@ -14,6 +14,9 @@ inline Float checked_alpha(std::string_view what, Float alpha) {
   return alpha;
 }
 
+/// Lobes of a smaller alpha are narrow: they fill less than about 1e-6 sr, the sun 7e-5 sr.
+inline constexpr Float narrow_alpha = Float(2e-4);
+
 /// w as it is seen with wo above the surface, and back.
 inline Vec3 upward(const Vec3& w, const Vec3& wo) { return wo.z() < 0 ? Vec3(w.x(), w.y(), -w.z()) : w; }
 
@@ -55,8 +58,9 @@ class Microfacets {
 ///   Source : [Blinn77]
 class BlinnPhongFacets {
  public:
-  explicit BlinnPhongFacets(Float alpha) : normals_(2 / (alpha * alpha) - 1) {}
+  explicit BlinnPhongFacets(Float alpha) : alpha_(alpha), normals_(2 / (alpha * alpha) - 1) {}
 
+  Float alpha() const { return alpha_; }
   Float d(const Vec3& m) const { return normals_.pdf(m) / m.z(); }
   /// D G / |cos wo cos wi| of facets with the normal m, which bisects wo and wi, both above the surface.
   Float shape(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
@@ -77,6 +81,7 @@ class BlinnPhongFacets {
   SeenFrom seen_from(const Vec3& wo) const { return {normals_, wo}; }
 
  private:
+  Float alpha_;
   mc::BlinnPhong<Float> normals_; ///< of density D cos
 };
 

@@ -55,6 +55,7 @@ class RoughDielectric {
     return at ? density_of(*at) : Float(0);
   }
   bool is_delta() const { return false; }
+  bool is_narrow() const { return facets_.alpha() < narrow_alpha; }
   bool has_delta() const { return false; }
   bool transmits() const { return true; }
 

@@ -56,6 +56,7 @@ class RoughPlastic {
     return share * facets_.seen_from(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
   }
   bool is_delta() const { return false; }
+  bool is_narrow() const { return false; }
   bool has_delta() const { return false; }
   bool transmits() const { return false; }
 

@@ -35,7 +35,7 @@ template <class B> bool is_real(const Vertex<B>& at, const Vec3& wi, const Vec3&
 struct Direction {
   Vec3 d;          ///< in the world
   Spectrum weight; ///< f |cos| / density
-  Float pdf;       ///< [1/sr] among the directions that are no delta lobe's; 0: of a delta lobe, met by nothing else
+  Float pdf;       ///< [1/sr] among the directions that are no narrow lobe's; 0: of a narrow lobe, met by nothing else
   Float eta;       ///< see BsdfSample
 };
 
@@ -46,6 +46,7 @@ bool finds_all_lights(const Scene& scene, const Strategy& strategy);
 ///   choose : a direction, and its weight under the density of the whole mixture
 ///   pdf    : that density [1/sr], delta lobes excluded: sum of share / n pdf_i(wi) over the targets, and
 ///            (1 - share) pdf_bsdf(wi) where share < 1
+///   A narrow BSDF is always followed.
 ///   A delta lobe is only ever found by following the BSDF, so a BSDF with such a lobe is followed by half of the
 ///   directions at least; where share = 1 its other lobes are left to the targets.
 class Directions {
@@ -53,7 +54,7 @@ class Directions {
   Directions(const Scene& scene, const Strategy& strategy);
 
   template <class B, class Stream> std::optional<Direction> choose(const Vertex<B>& at, Stream& stream) const {
-    if (!targets_ || at.bsdf.is_delta()) return followed(at, stream);
+    if (!targets_ || at.bsdf.is_narrow()) return followed(at, stream);
     const Vec2 u = stream.next2(); // u[0] also makes the choices, which are then as well spread as the directions
     const auto part = aimed(at.bsdf).sample_index(u[0]);
     return part.index == 0 ? mixed_follow(at, Vec2(part.u_remapped, u[1]), part.pmf, stream.next())
@@ -78,7 +79,8 @@ class Directions {
     if (!s) return {};
     const Vec3 d = at.frame.to_world(s->wi);
     if (!is_real(at, s->wi, d)) return {};
-    return Direction{d, s->f * (std::abs(s->wi.z()) / s->pdf), s->delta ? Float(0) : s->pdf, s->eta};
+    const bool is_narrow = s->delta || at.bsdf.is_narrow();
+    return Direction{d, s->f * (std::abs(s->wi.z()) / s->pdf), is_narrow ? Float(0) : s->pdf, s->eta};
   }
 
   // The BSDF's part of the mixture, of probability pmf.

@@ -68,7 +68,7 @@ template <class SceneType> class PathIntegrator {
     Ray ray;                          ///< to trace next
     Vec3 previous;                    ///< where it comes from
     Spectrum beta = Spectrum::Ones(); ///< what light found along it counts
-    Float previous_pdf = 0; ///< of its direction; 0: camera or delta lobe, which no light sampling could have chosen
+    Float previous_pdf = 0; ///< of its direction; 0: camera or narrow lobe, which no light sampling could have chosen
     Float eta_scale = 1;    ///< undoes the compression of radiance in glass
     int edges = 0;          ///< traced so far
     const HomogeneousMedium* medium = nullptr; ///< that the ray goes through; null: nothing absorbs it
@@ -164,9 +164,11 @@ template <class SceneType> class PathIntegrator {
 
   // Light from one direction towards a light, reflected toward wo.
   template <class Stream> RENDER_FLAT Spectrum connect(const At& at, Stream& stream, std::uint64_t& rays) const {
-    const auto choice = scene_.sample_light(at.point.p, scene_.lights().size() > 1 ? stream.next() : Float(0));
+    const Vec2 u = stream.next2(); // u[0] also chooses the light, so that the choice is as well spread as the points
+    const auto choice = scene_.sample_light(at.point.p, u[0]);
     const Light& source = scene_.lights()[choice.index];
-    const auto s = source.sample(at.point.p, stream.next2());
+    if (at.bsdf.is_narrow() && !source.is_delta()) return Spectrum::Zero();
+    const auto s = source.sample(at.point.p, {choice.u_remapped, u[1]});
     if (!s || is_black(s->radiance)) return Spectrum::Zero();
     const Vec3 wi = at.frame.to_local(s->wi);
     if (!is_real(at, wi, s->wi)) return Spectrum::Zero();

@@ -7,10 +7,10 @@ namespace render {
 
 namespace {
 
-// Adds a uniform part of a tenth.
+// Adds a uniform part of a third.
 void defend(std::span<double> weights) {
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  for (double& w : weights) w += sum / (9 * double(weights.size()));
+  for (double& w : weights) w += sum / (2 * double(weights.size()));
 }
 
 } // namespace

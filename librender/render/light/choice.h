@@ -12,9 +12,11 @@
 
 namespace render {
 
-/// Chooses among the lights that are sampled and not dark, as it suits the point that is lit: nine times of ten by
+/// Chooses among the lights that are sampled and not dark, as it suits the point that is lit: two times of three by
 /// Light::irradiance there, or where there are more than `few`, by their power; else all alike, since what could give
-/// most may stand behind a wall. So none of n lights has a probability below .1 / n, wherever it stands.
+/// most may stand behind a wall, or beside what a glossy surface mirrors. So none of n lights has a probability below
+/// 1 / (3 n), wherever it stands. With a uniform part of a tenth veach-mi, metals and tinted-glass take half as much
+/// time again to a given error, and no scene of the gallery takes clearly less.
 ///   Source : the uniform part is a defensive mixture [Hesterberg95]
 class LightChoice {
  public:

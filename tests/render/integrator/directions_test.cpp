@@ -34,6 +34,7 @@ class HalfMirror {
   Spectrum eval(const Vec3& wo, const Vec3& wi) const { return base_.eval(wo, wi); }
   Float pdf(const Vec3& wo, const Vec3& wi) const { return base_.pdf(wo, wi) / 2; }
   bool is_delta() const { return false; }
+  bool is_narrow() const { return is_delta(); }
   bool has_delta() const { return true; }
   bool transmits() const { return false; }
 

@@ -163,6 +163,30 @@ TEST(Path, EveryStrategySeesThroughGroundGlass) {
   }
 }
 
+// Narrow glass is not connected to lights that rays meet, whatever the strategy; what only a connection finds, it shows.
+TEST(Path, ANarrowLobeFindsEveryLight) {
+  const RoughDielectric narrow(Float(1.5), Float(1e-4));
+  ASSERT_TRUE(narrow.is_narrow());
+  const Ray down{Vec3(0, 2, 0), Vec3(0, -1, 0)};
+  SceneBuilder sky;
+  sky.add(Light(ConstantBackground(Spectrum::Constant(Float(0.5)))));
+  sky.add(horizontal(0, 5, 0, 1, 1, false), {sky.add(Lambert()), Emission{Spectrum::Constant(3)}});
+  sky.add(horizontal(0, 0, 0, 9, 9, true), {sky.add(narrow)});
+  const Scene open = sky.build();
+  // Seen straight on, the light above is mirrored by ((1.5 - 1) / (1.5 + 1))^2; the sky below shines through, denser.
+  for (const Strategy& s : unbiased)
+    expect_mean(support::traced(open, down, {s, 2}, 20'000), 3 * 0.04 + 0.5 * 0.96 / (1.5 * 1.5), word(s), 1e-4);
+
+  SceneBuilder dark;
+  dark.add(Light(PointLight(Vec3d(0, 5, 0), Spectrum::Constant(1))));
+  dark.add(horizontal(0, 0, 0, 9, 9, true), {dark.add(narrow)});
+  const Scene lamp = dark.build();
+  // D of facets straight on is 1 / (pi alpha^2): F D / 4 times 1 / 5^2.
+  const double peak = 0.04 / (4 * mc::pi<double> * 1e-8) / 25;
+  for (const char* s : {"nee", "mis"})
+    expect_mean(support::traced(lamp, down, {strategy_from(s), 2}, 10), peak, s, 1e-3);
+}
+
 // Everything at once: two lights, sky, glass, fuzzy metal. All agree with mis; light-only loses what surfaces reflect.
 TEST(Path, StrategiesAgree) {
   SceneBuilder builder;
@@ -270,6 +294,7 @@ class Coated {
   Spectrum eval(const Vec3& wo, const Vec3& wi) const { return base_.eval(wo, wi); }
   Float pdf(const Vec3& wo, const Vec3& wi) const { return Float(0.7) * base_.pdf(wo, wi); }
   bool is_delta() const { return false; }
+  bool is_narrow() const { return is_delta(); }
   bool has_delta() const { return true; }
   bool transmits() const { return false; }
 

@@ -45,8 +45,8 @@ TEST(PointLight, AtItsOwnPlace) {
   EXPECT_FALSE(lights[0].sample(there, Vec2(0, 0)));
   const auto choice = LightChoice::of(lights, 1);
   ASSERT_TRUE(choice);
-  EXPECT_NEAR(choice->pmf(lights, there, 0), 0.95, 1e-6);
-  EXPECT_NEAR(choice->pmf(lights, there, 1), 0.05, 1e-6);
+  EXPECT_NEAR(choice->pmf(lights, there, 0), 5.0 / 6, 1e-6);
+  EXPECT_NEAR(choice->pmf(lights, there, 1), 1.0 / 6, 1e-6);
   EXPECT_EQ(choice->pmf(lights, there, 2), 0) << "it is dark";
 }
 
