@@ -14,6 +14,8 @@ namespace {
 
 struct WrongProgram {
   const char *name, *text, *said;
+
+  friend void PrintTo(const WrongProgram& program, std::ostream* out) { *out << program.said; }
 };
 
 #ifdef __clang__

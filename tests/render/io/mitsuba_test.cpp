@@ -269,6 +269,7 @@ struct ReferenceImage {
     const bool is_users = std::string_view(scene).find('/') != std::string_view::npos;
     return is_users ? support::shared(scene) : gallery(scene);
   }
+  friend void PrintTo(const ReferenceImage& image, std::ostream* out) { *out << image.file; }
 };
 struct Reference : testing::TestWithParam<ReferenceImage> {};
 

@@ -56,6 +56,8 @@ TEST(Plugin, OneWrittenInCppPasses) { EXPECT_EQ(run(plugin("right")).code, carlo
 
 struct Wrong {
   const char *fault, *found;
+
+  friend void PrintTo(const Wrong& wrong, std::ostream* out) { *out << wrong.found; }
 };
 struct WrongPlugin : testing::TestWithParam<Wrong> {};
 
