@@ -22,15 +22,19 @@ void add_bsdfs(Catalogue& c) {
     add_bsdf(c, "RoughPlastic", fmt::format("alpha={}", alpha),
              render::RoughPlastic(render::Float(1.49), render::Float(alpha), paint, one), {0, 60, 85, 120});
   const render::Spectrum gold(0.143f, 0.375f, 1.442f), gold_k(3.983f, 2.386f, 1.603f);
-  for (const double alpha : {0.02, 0.3, 1.0}) {
+  // At alpha 1e-4 and 89.9 degrees the lobe is as wide as six steps of a float direction.
+  const auto grazing = [](double alpha) { return alpha < 1e-3 ? 89 : 89.9; };
+  for (const double alpha : {1e-4, 1e-3, 0.02, 0.3, 1.0}) {
+    const std::vector<double> angles = {0, 60, grazing(alpha), 120};
     add_bsdf(c, "RoughConductor", fmt::format("ggx, alpha={}", alpha),
-             render::RoughConductor(gold, gold_k, render::Microfacets(render::Float(alpha))), {0, 60, 85, 120});
+             render::RoughConductor(gold, gold_k, render::Microfacets(render::Float(alpha))), angles);
     add_bsdf(c, "RoughConductor", fmt::format("phong, alpha={}", alpha),
-             render::RoughConductor(gold, gold_k, render::BlinnPhongFacets(render::Float(alpha))), {0, 60, 85, 120});
+             render::RoughConductor(gold, gold_k, render::BlinnPhongFacets(render::Float(alpha))), angles);
   }
-  for (const double alpha : {0.1, 0.5})
+  for (const double alpha : {1e-4, 1e-3, 0.1, 0.5})
     add_bsdf(c, "RoughDielectric", fmt::format("alpha={}", alpha),
-             render::RoughDielectric(render::Float(1.5), render::Float(alpha)), {0, 60, 85, 120, 150}, {.eta = 1.5});
+             render::RoughDielectric(render::Float(1.5), render::Float(alpha)), {0, 60, grazing(alpha), 120, 150},
+             {.eta = 1.5});
 }
 
 } // namespace carlo

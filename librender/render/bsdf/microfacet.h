@@ -20,15 +20,36 @@ inline constexpr Float narrow_alpha = Float(2e-4);
 /// w as it is seen with wo above the surface, and back.
 inline Vec3 upward(const Vec3& w, const Vec3& wo) { return wo.z() < 0 ? Vec3(w.x(), w.y(), -w.z()) : w; }
 
+/// The unit vector nearest to w, whose length is 1 but for rounding: of its height and its part along the surface the
+/// smaller stays and gives the larger.
+inline Vec3d unit_in_double(const Vec3& w) {
+  Vec3d v = w.cast<double>();
+  const double height2 = v.z() * v.z(), flat2 = v.x() * v.x() + v.y() * v.y();
+  if (height2 > flat2) v.z() = std::copysign(std::sqrt(1 - flat2), v.z());
+  else v.head<2>() *= std::sqrt((1 - height2) / flat2);
+  return v;
+}
+
+/// The normal of the facet that mirrors o to i. What nearly cancels, as at grazing angles, leaves a small difference:
+/// it is taken in double, of lengths that are 1 in double.
+inline Vec3 half_vector(const Vec3& o, const Vec3& i) {
+  const Vec3 sum = o + i;
+  if (sum.squaredNorm() > Float(0.25)) [[likely]]
+    return sum.normalized();
+  return (unit_in_double(o) + unit_in_double(i)).normalized().cast<Float>();
+}
+
 /// Directions of one side as they are seen from above it, and the normal that mirrors one to the other.
 struct Reflection {
   Vec3 wo, wi, m;
+
+  /// m is of the two directions alone, so that everyone who knows them has the same.
+  Reflection(const Vec3& o, const Vec3& i) : wo(o), wi(i), m(half_vector(o, i)) {}
 };
 /// None where wo and wi lie on different sides.
 inline std::optional<Reflection> reflection(const Vec3& wo, const Vec3& wi) {
   if (!(wo.z() * wi.z() > 0)) return {};
-  const Vec3 o = upward(wo, wo), i = upward(wi, wo);
-  return Reflection{o, i, (o + i).normalized()};
+  return Reflection(upward(wo, wo), upward(wi, wo));
 }
 
 /// Facets of the Trowbridge-Reitz (GGX) distribution of roughness alpha. Shadowing and masking are separable:

@@ -48,9 +48,10 @@ template <class Facets> class RoughConductor {
     const Vec3 m = normals.sample(u);
     const Vec3 wi = (2 * wo.dot(m) * m - wo).normalized();
     if (!(wi.z() > 0)) return {};
-    const Float density = normals.pdf_reflected(m);
+    const Reflection r(wo, wi); // the rounded wi has a normal of its own
+    const Float density = normals.pdf_reflected(r.m);
     if (!(density > 0)) return {};
-    return BsdfSample{upward(wi, wo_given), value({wo, wi, m}), density};
+    return BsdfSample{upward(wi, wo_given), value(r), density};
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
     const auto r = reflection(wo, wi);

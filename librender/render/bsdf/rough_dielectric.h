@@ -40,11 +40,13 @@ class RoughDielectric {
     const bool reflects = mirrors.sample_index(uc).index == 1;
     const Vec3 wi =
         reflects ? Vec3(2 * cosine * m - view.wo) : Vec3((cosine / view.ratio - cos_t) * m - view.wo / view.ratio);
-    const Facet at{view.wo, wi.normalized(), m, cosine, reflects ? cosine : cos_t, view.ratio, reflects};
-    if (!(reflects ? at.wi.z() > 0 : at.wi.z() < 0)) return {};
-    const Float density = density_of(at);
+    if (!(reflects ? wi.z() > 0 : wi.z() < 0)) return {};
+    const Vec3 given = view.turn(wi.normalized());
+    const auto at = facet_between(wo, given); // the rounded wi has a facet of its own
+    if (!at) return {};
+    const Float density = density_of(*at);
     if (!(density > 0) || !std::isfinite(density)) return {};
-    return BsdfSample{view.turn(at.wi), value_of(at), density, false, reflects ? Float(1) : view.ratio};
+    return BsdfSample{given, value_of(*at), density, false, reflects ? Float(1) : view.ratio};
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
     const auto at = facet_between(wo, wi);
@@ -95,7 +97,9 @@ class RoughDielectric {
     const bool reflects = wi.z() > 0;
     // In double: grazing facets have cosines that are small differences, and wo and wi exchanged give the same ones.
     const double ratio = reflects ? 1 : (wo.z() < 0 ? 1 / double(eta_) : double(eta_));
-    const Vec3d o = view.wo.cast<double>(), i = wi.cast<double>(), sum = o + ratio * i;
+    const bool cancel = view.wo.z() + wi.z() < Float(0.5) && reflects; // as in half_vector
+    const Vec3d o = cancel ? unit_in_double(view.wo) : Vec3d(view.wo.cast<double>());
+    const Vec3d i = cancel ? unit_in_double(wi) : Vec3d(wi.cast<double>()), sum = o + ratio * i;
     const Vec3d m = (sum.z() < 0 ? Vec3d(-sum) : sum).normalized();
     const auto cos_o = Float(std::min(o.dot(m), 1.0)), cos_i = Float(reflects ? i.dot(m) : -i.dot(m));
     if (!(cos_o > 0 && cos_i > 0)) return {};

@@ -13,7 +13,9 @@ namespace render {
 /// The plastic of lajolla, the same on both sides.
 ///   eta    : index of refraction of the layer over that of the outside
 ///   eval   : Ks F D G / (4 cos wo cos wi) + Kd (1 - F)^2 / pi, F that of wo about the half vector, D and G of GGX; 0
-///            where wo and wi lie on different sides. What happens inside the layer is left out, so it loses light.
+///            where wo and wi lie on different sides. What happens inside the layer is left out, so it loses light;
+///            but at grazing wo the base gets what the coat has reflected, since F is that of the half vector: with
+///            Kd = .5, Ks = 1 and alpha = 1e-4 the albedo is 1.27 at 88.3 degrees and 1.4 at 89.9
 ///   sample : mirrored about a visible normal, or a cosine hemisphere, by what each gives at mirror reflection; the pdf
 ///            is that of the mixture [1/sr]
 ///   throws : Error unless eta is finite and > 0, alpha in [1e-4, 1] and the colours in [0, 1]
@@ -32,18 +34,18 @@ class RoughPlastic {
     if (!(wo.z() > 0)) return {};
     const auto normals = facets_.seen_from(wo);
     const Float share = specular_share(wo);
-    Vec3 wi, m;
+    Vec3 wi;
     if (mc::Bernoulli<Float>(share).sample_index(uc).index == 1) {
-      m = normals.sample(u);
+      const Vec3 m = normals.sample(u);
       wi = (2 * wo.dot(m) * m - wo).normalized();
     } else {
       wi = mc::CosineHemisphere<Float>{}.sample(u);
-      m = (wo + wi).normalized();
     }
     if (!(wi.z() > 0)) return {};
-    const Float density = share * normals.pdf_reflected(m) + (1 - share) * wi.z() * inv_pi;
+    const Reflection r(wo, wi); // the rounded wi has a normal of its own
+    const Float density = share * normals.pdf_reflected(r.m) + (1 - share) * wi.z() * inv_pi;
     if (!(density > 0)) return {};
-    return BsdfSample{upward(wi, wo_given), value({wo, wi, m}), density};
+    return BsdfSample{upward(wi, wo_given), value(r), density};
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
     const auto r = reflection(wo, wi);

@@ -1,6 +1,10 @@
 #include <render/bsdf/bsdf.h>
 
+#include <mc/random/pcg.h>
+
 #include <gtest/gtest.h>
+
+#include "render/bsdf/albedo.h"
 
 namespace {
 
@@ -22,6 +26,26 @@ TEST(Bsdf, SaysWhatItsMemberSays) {
   EXPECT_TRUE(Bsdf(Dielectric{}).is_delta());
   EXPECT_TRUE(Bsdf(Metal{}).is_delta());
   EXPECT_FALSE(Bsdf(Lambert{}).is_delta());
+}
+
+// To the last bit, also where one step of the direction changes both: narrow lobes at grazing angles.
+TEST(Bsdf, ASampleSaysWhatEvalAndPdfSayOfItsDirection) {
+  const Spectrum half = Spectrum::Constant(Float(0.5)), one = Spectrum::Ones();
+  mc::Pcg random(7);
+  for (const Float alpha : {Float(1e-4), Float(0.01), Float(1)})
+    for (const Bsdf& bsdf :
+         {Bsdf(RoughConductor(half, one, Microfacets(alpha))), Bsdf(RoughConductor(half, one, BlinnPhongFacets(alpha))),
+          Bsdf(RoughPlastic(Float(1.5), alpha, half, one)), Bsdf(RoughDielectric(Float(1.5), alpha))})
+      for (const double angle : {0.0, 60.0, 89.0, 89.9, 89.99, 91.0, 120.0}) {
+        const Vec3 wo = support::at_degrees(angle);
+        for (int i = 0; i < 200; ++i) {
+          const Vec2 u(random.uniform<Float>(), random.uniform<Float>());
+          const auto s = bsdf.sample(wo, random.uniform<Float>(), u);
+          if (!s) continue;
+          EXPECT_EQ(s->pdf, bsdf.pdf(wo, s->wi)) << alpha << ", " << angle << " degrees";
+          EXPECT_TRUE((s->f == bsdf.eval(wo, s->wi)).all()) << alpha << ", " << angle << " degrees";
+        }
+      }
 }
 
 } // namespace

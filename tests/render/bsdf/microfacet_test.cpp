@@ -1,5 +1,8 @@
 #include <render/bsdf/microfacet.h>
 
+#include <mc/random/pcg.h>
+#include <mc/warp/sphere.h>
+
 #include <gtest/gtest.h>
 
 namespace {
@@ -45,6 +48,27 @@ TEST(BlinnPhongFacets, HideEachOtherInGrooves) {
     EXPECT_NEAR(facets.shape(w, z, m) / (double(facets.d(m)) * g / double(w.z())), 1, 1e-4) << theta;
     EXPECT_NEAR(facets.shape(z, w, m) / facets.shape(w, z, m), 1, 1e-6);
   }
+}
+
+// The same direction, of length 1 in double, whichever of its parts is small.
+TEST(UnitInDouble, KeepsTheSmallerPart) {
+  mc::Pcg random(3);
+  for (int i = 0; i < 1000; ++i) {
+    Vec3d v = mc::UniformSphere<double>{}.sample({random.uniform<double>(), random.uniform<double>()});
+    const double flat = std::pow(10, -6 * random.uniform<double>());
+    if (i % 2) v.z() *= flat;
+    else v.head<2>() *= flat;
+    const Vec3 w = v.normalized().cast<Float>();
+    const Vec3d n = unit_in_double(w);
+    EXPECT_NEAR(n.norm(), 1, 1e-15);
+    EXPECT_LE((n - w.cast<double>()).norm(), 4 * double(std::numeric_limits<Float>::epsilon()));
+    if (std::abs(w.z()) < 0.5) {
+      EXPECT_EQ(n.z(), double(w.z()));
+    } else if (std::abs(w.z()) > 0.8) {
+      EXPECT_EQ(n.x(), double(w.x()));
+    }
+  }
+  EXPECT_EQ(unit_in_double(Vec3(0, 0, -1)), Vec3d(0, 0, -1));
 }
 
 TEST(Microfacets, RoughnessHasARange) {

@@ -38,6 +38,13 @@ TEST(RoughPlastic, DirectionalAlbedos) {
   }
 }
 
+// What the contract says of its gain: light for the base is not kept away by a coat that reflects all.
+TEST(RoughPlastic, GainsAtGrazingAngles) {
+  const RoughPlastic paint(Float(1.49), Float(1e-4), Spectrum::Constant(Float(0.5)), Spectrum::Ones());
+  EXPECT_NEAR(support::albedo(paint, 0.03), 1.27, 0.01);
+  EXPECT_NEAR(support::albedo(paint, 0.00174533), 1.4, 0.05);
+}
+
 TEST(RoughPlastic, RefusesNonsense) {
   const Spectrum one = Spectrum::Ones();
   EXPECT_THROW(RoughPlastic(0, Float(0.1), one, one), mc::Error);
