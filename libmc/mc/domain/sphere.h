@@ -12,16 +12,19 @@ template <Real S> bool is_unit(const Vec3<S>& w) {
   return abs(w.squaredNorm() - 1) <= 8 * std::numeric_limits<S>::epsilon();
 }
 
-/// 1 - cos(theta) of a unit vector, without cancellation at the pole.
-template <Real S> S one_minus_z(const Vec3<S>& w) {
+/// 1 - |cos(theta)| of a unit vector, without cancellation at the poles.
+template <Real S> S one_minus_abs_z(const Vec3<S>& w) {
   using std::abs;
-  const S far = 1 + S(abs(w.z())), near = (w.x() * w.x() + w.y() * w.y()) / far;
-  return choose<S>(w.z() > 0, near, far);
+  return (w.x() * w.x() + w.y() * w.y()) / (1 + S(abs(w.z())));
 }
+
+/// 1 - cos(theta) of a unit vector, without cancellation at the pole.
+template <Real S> S one_minus_z(const Vec3<S>& w) { return choose<S>(w.z() > 0, one_minus_abs_z(w), S(1 - w.z())); }
 
 /// Unit vectors.
 ///   chart : v = ((1 - z) / 2, phi / 2 pi); uniform in solid angle, so the Jacobian is the constant 4 pi
-///   error : v keeps its relative precision at the +z pole
+///   error : v keeps its relative precision at the +z pole; so does 1 - v at the other where S is finer than what the
+///           direction was rounded to, as z alone would not
 template <Real S> struct Sphere {
   using Scalar = S;
   using Point = Vec3<S>;
@@ -32,7 +35,10 @@ template <Real S> struct Sphere {
   Point from_unit(const UnitPoint& v) const {
     return polar_direction<S>(2 * safe_sqrt<S>(v[0] * (1 - v[0])), 1 - 2 * v[0], v[1]);
   }
-  UnitPoint to_unit(const Point& w) const { return {one_minus_z(w) / 2, turn<S>(w.x(), w.y())}; }
+  UnitPoint to_unit(const Point& w) const {
+    const S near = one_minus_abs_z(w) / 2;
+    return {choose<S>(w.z() > 0, near, S(1 - near)), turn<S>(w.x(), w.y())};
+  }
   S jacobian(const UnitPoint&) const { return 4 * pi<S>; }
   bool contains(const Point& w) const { return is_unit(w); }
   template <Real T> Sphere<T> cast() const { return {}; }
