@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """What float costs in accuracy and double in time, as CSV.
 
-Usage: bench/precision.py CARLO CARLO_IN_DOUBLE FOLDER      (the presets release and double)
+Usage: bench/precision.py CARLO CARLO_IN_DOUBLE FOLDER [SCENE...]      (the presets release and double)
+
+With scenes only their rows of scenes.csv are measured; the others stay.
 
   warps.csv   every case of `carlo validate --all`: the worst error of sample and pdf against 50 digits, in epsilons of
               the scalar, and nanoseconds a sample
@@ -47,11 +49,20 @@ def seconds_of(carlo, scene, seed, picture):
     return float(value) * {"ms": 1e-3, "s": 1, "min": 60}[unit]
 
 
-def scenes(carlo, in_double, scratch):
+def rows_of(path):
+    with open(path, newline="") as file:
+        return {row[0]: row for row in csv.reader(file)}
+
+
+def scenes(carlo, in_double, scratch, known, wanted):
     yield "scene float_seconds double_over_float float_over_double_brightness its_error".split()
     a, b = os.path.join(scratch, "float.exr"), os.path.join(scratch, "double.exr")
     for line in run(carlo, "gallery", "--list").splitlines():
         scene = line.split()[0]
+        if wanted and scene not in wanted:
+            if scene in known:
+                yield known[scene]
+            continue
         times, slower, brighter = [], [], []
         for seed in map(str, range(SEEDS)):
             times.append(seconds_of(carlo, scene, seed, a))
@@ -68,10 +79,12 @@ def write(path, rows):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 4:
+    if len(sys.argv) < 4:
         sys.exit(__doc__)
-    carlo, in_double, folder = sys.argv[1:]
+    carlo, in_double, folder, *wanted = sys.argv[1:]
     os.makedirs(folder, exist_ok=True)
+    table = os.path.join(folder, "scenes.csv")
     with tempfile.TemporaryDirectory() as scratch:
-        write(os.path.join(folder, "warps.csv"), warps(carlo, scratch))
-        write(os.path.join(folder, "scenes.csv"), scenes(carlo, in_double, scratch))
+        if not wanted:
+            write(os.path.join(folder, "warps.csv"), warps(carlo, scratch))
+        write(table, list(scenes(carlo, in_double, scratch, rows_of(table) if wanted else {}, wanted)))

@@ -36,6 +36,15 @@ TEST(GalleryScenes, EachFileBelongsToTheGalleryAndNamesItsSource) {
   }
 }
 
+// The committed table of the ways to take; bench/scene_trades.py measures them.
+TEST(GalleryScenes, EachFileHasItsTrades) {
+  const std::string trades = mc::read_file(MC_SOURCE_DIR "/notebooks-data/trade/scenes.csv");
+  for (const carlo::GalleryScene& scene : carlo::gallery()) {
+    const std::string file = fs::path(carlo::scene_file(scene)).stem().string();
+    EXPECT_NE(trades.find("\n" + file + ","), std::string::npos) << file;
+  }
+}
+
 TEST(GalleryScenes, AnUnknownNameGivesTheNearest) {
   EXPECT_THAT(support::error_of([] { carlo::gallery_scene("book3-cornel-glass"); }),
               HasSubstr("did you mean 'book3-cornell-glass'"));
