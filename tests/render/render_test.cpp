@@ -144,6 +144,25 @@ TEST(Render, AdaptivePicturesAreUnbiasedWithHonestErrorBars) {
   EXPECT_GE(mc::chi_square_tail(squares, compared), 0.001);
 }
 
+// The logarithm of the errors' ratio is -.07 on average, of 72 pictures, and its standard deviation .25, since errors
+// are themselves estimated: that of 24 pictures lies above .08 for one set of seeds in 700.
+TEST(Render, AdaptiveErrsNoMoreThanEven) {
+  const Scene scene = small_scene(Float(0.1), 0.25);
+  mc::Moments logarithms;
+  for (const PixelSampler sampler : samplers) {
+    RenderOptions options = small();
+    options.sampler = sampler;
+    options.spp = 128;
+    for (options.seed = 0; options.seed < 8; ++options.seed) {
+      options.adaptive = false;
+      const double even = render::render(scene, options).relative_error;
+      options.adaptive = true;
+      logarithms.add(std::log(render::render(scene, options).relative_error / even));
+    }
+  }
+  EXPECT_LE(logarithms.mean(), 0.08);
+}
+
 TEST(Render, AdaptiveSpendsWhatIsAskedForWhereTheErrorIs) {
   const Scene scene = small_scene(Float(0.1), 0.25);
   for (const PixelSampler sampler : samplers) {
@@ -151,11 +170,9 @@ TEST(Render, AdaptiveSpendsWhatIsAskedForWhereTheErrorIs) {
     options.sampler = sampler;
     options.spp = 128;
     options.threads = 1;
-    const RenderResult even = render::render(scene, options);
     options.adaptive = true;
     const RenderResult one = render::render(scene, options);
     EXPECT_NEAR(one.spp, 128, 0.5);
-    EXPECT_LE(one.relative_error, even.relative_error);
     options.error_of = ErrorOf::worst;
     const RenderResult worst = render::render(scene, options);
     EXPECT_LE(worst.worst_error, one.worst_error);

@@ -21,8 +21,7 @@ struct BsdfSample {
 ///   eval(wo, wi)      : f [1/sr], delta lobes excluded
 ///   pdf(wo, wi)       : density of wi [1/sr], delta lobes excluded
 ///   is_delta()        : it has delta lobes only
-///   is_narrow()       : its lobes are deltas or narrower than lights are, so sampling lights is of no use but for those
-///                       that no ray meets
+///   is_narrow()       : its lobes are deltas or narrower than lights: these are sampled only if no ray meets them
 ///   has_delta()       : it has a delta lobe, perhaps besides others
 ///   transmits()       : light goes through it, in other directions than a delta lobe's
 template <class T>

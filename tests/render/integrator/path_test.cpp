@@ -163,7 +163,7 @@ TEST(Path, EveryStrategySeesThroughGroundGlass) {
   }
 }
 
-// Narrow glass is not connected to lights that rays meet, whatever the strategy; what only a connection finds, it shows.
+// Narrow glass is not connected to lights that rays meet, by any strategy; what only a connection finds, it shows.
 TEST(Path, ANarrowLobeFindsEveryLight) {
   const RoughDielectric narrow(Float(1.5), Float(1e-4));
   ASSERT_TRUE(narrow.is_narrow());
