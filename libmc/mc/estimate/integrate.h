@@ -51,8 +51,8 @@ struct IntegrateOptions {
   std::uint64_t seed = 1;
   int threads = 0;          ///< 0: all of the machine's; the result has the same bits for any number
   double confidence = 0.95; ///< of the interval
-  /// Independent randomisations behind the error of stratified, rqmc, vegas and tree. Where the calls end, sequences are
-  /// more, or as few as a third and the longer for it: what leaves less variance.
+  /// Independent randomisations behind the error of stratified, rqmc, vegas and tree. Where the calls end sequences are
+  /// more, or as few as a third and longer: what leaves less variance.
   std::uint32_t replicates = 24;
   /// Of an earlier run, or read from a file (see load_density): vegas, tree and automatic take it for what they would
   /// have learned, after one short round that measures the integral with it. As unbiased for any density.

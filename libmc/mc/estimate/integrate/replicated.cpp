@@ -59,8 +59,8 @@ class Growth {
   };
   double fewest() const { return std::ceil(run_.o.replicates / 3.0); }
 
-  // How long sequences should get, and how many of them, for the calls that are left: what leaves least variance, should
-  // it go on falling as it did, and no slower than that of independent points.
+  // How long sequences should get, and how many of them, for the calls that are left: what leaves least variance, if it
+  // goes on falling as it did, and no slower than that of independent points.
   End best_end(const Sequences& s) const {
     End best{s.length, run_.o.replicates};
     double least = 0;
