@@ -1,13 +1,14 @@
 #include <render/scene/scene.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace render {
 
 Scene::Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std::vector<Light> lights, ThinLens camera,
              Filter filter)
-    : surfaces_(std::move(surfaces)), materials_(std::move(materials)), lights_(std::move(lights)), camera_(camera),
-      filter_(filter) {
+    : surfaces_(std::move(surfaces)), materials_(std::move(materials)), lights_(std::move(lights)),
+      camera_(std::move(camera)), filter_(std::move(filter)) {
   std::vector<const Shape*> shapes;
   for (const Surface& s : surfaces_) shapes.push_back(s.shape.get());
   bvh_ = Bvh(shapes);
