@@ -44,7 +44,7 @@ bool finds_all_lights(const Scene& scene, const Strategy& strategy);
 
 /// A mixture of the BSDF and the targets of a strategy, each equally likely.
 ///   choose : a direction, and its weight under the density of the whole mixture
-///   pdf    : that density [1/sr], delta lobes excluded: sum of share / n pdf_i(wi) over the targets, and
+///   pdf    : that density [1/sr], narrow lobes excluded: sum of share / n pdf_i(wi) over the targets, and
 ///            (1 - share) pdf_bsdf(wi) where share < 1
 ///   A narrow BSDF is always followed.
 ///   A delta lobe is only ever found by following the BSDF, so a BSDF with such a lobe is followed by half of the

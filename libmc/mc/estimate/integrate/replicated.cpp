@@ -22,6 +22,8 @@ class Growth {
     return std::min(std::bit_floor(s.length + static_cast<std::uint64_t>(static_cast<double>(each) / s.cost())),
                     Sequences::longest);
   }
+  // Points of all replicates that the calls left are enough for.
+  double points_left(const Sequences& s) const { return static_cast<double>(run_.left()) / s.cost(); }
   static std::uint64_t next(const Sequences& s, std::uint64_t end) {
     return std::max(std::min<std::uint64_t>(16, end), 2 * s.length);
   }
@@ -30,12 +32,12 @@ class Growth {
       if (adopt(s, s.extend(run_, to))) return true;
     return false;
   }
-  // To the end of the calls: all replicates, until a third of them could go on to eight times the length.
+  // To the end of the calls: all replicates, until the fewest of them could go on to eight times the length.
   Outcome finish(Sequences& s) {
-    const double all = run_.o.replicates, points = static_cast<double>(run_.left()) / s.cost();
-    const double reach = (points + all * static_cast<double>(s.length)) / (all / 8 + fewest() * 7 / 8);
-    const auto shared = std::min(static_cast<std::uint64_t>(reach) / 8, affordable(s));
-    if (grow(s, std::max(std::bit_floor(shared), std::min<std::uint64_t>(16, affordable(s))))) return std::move(out);
+    const double all = run_.o.replicates, points = points_left(s) + all * static_cast<double>(s.length);
+    const double reach = points / (all / 8 + fewest() * 7 / 8);
+    const std::uint64_t shared = std::bit_floor(static_cast<std::uint64_t>(reach / 8)), most = affordable(s);
+    if (grow(s, std::clamp(shared, std::min<std::uint64_t>(16, most), most))) return std::move(out);
     const End end = best_end(s);
     if (end.count < run_.o.replicates) s.keep(end.count);
     if (!grow(s, end.length)) use_up(s);
@@ -57,21 +59,24 @@ class Growth {
     std::uint64_t length;
     std::uint32_t count;
   };
-  double fewest() const { return std::ceil(run_.o.replicates / 3.0); }
+  // Eight at least, where there are as many: fewer know their own error too badly.
+  double fewest() const {
+    const double all = run_.o.replicates;
+    return std::max(std::ceil(all / 3), std::min(all, 8.0));
+  }
 
   // How long sequences should get, and how many of them, for the calls that are left: what leaves least variance, if it
   // goes on falling as it did, and no slower than that of independent points.
   End best_end(const Sequences& s) const {
     End best{s.length, run_.o.replicates};
     double least = 0;
-    const double all = run_.o.replicates, points = static_cast<double>(run_.left()) / s.cost();
+    const double all = run_.o.replicates, points = points_left(s), fallen = std::max(fall(s), std::log(2.0));
     for (std::uint64_t length = s.length; s.length > 0 && length <= Sequences::longest; length *= 2) {
       const double longer = static_cast<double>(length - s.length), size = static_cast<double>(length);
       const double count = longer > 0 ? std::min(std::floor(points / longer), all) : all;
       if (count < fewest()) break;
       const double more = count < all ? 0 : std::floor((points - all * longer) / size); // as long as the others
-      const double falls = std::max(fall(s), std::log(2.0)) * std::log2(size / static_cast<double>(s.length));
-      const double variance = -falls - std::log(count + more);
+      const double variance = -fallen * std::log2(size / static_cast<double>(s.length)) - std::log(count + more);
       if (variance > least) continue;
       least = variance;
       best = {length, static_cast<std::uint32_t>(count)};

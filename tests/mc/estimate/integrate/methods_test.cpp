@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <string>
 
 namespace {
 
@@ -35,6 +37,59 @@ TEST(Methods, KeepToTheCalls) {
     expect([](detail::Run& run, auto& last) { return sequences(run, mc::Method::vegas, last); }, mc::Method::vegas);
     expect([](detail::Run& run, auto& last) { return sequences(run, mc::Method::tree, last); }, mc::Method::tree);
   }
+}
+
+// Whatever the calls and the replicates: no call too many, and fewer left over than are spent; of up to eight
+// replicates none is missing in the end, of more a third is left.
+TEST(Methods, SpendTheCallsWhateverTheirNumber) {
+  std::mt19937_64 random(20261122);
+  for (int i = 0; i < 60; ++i) {
+    mc::IntegrateOptions o;
+    o.max_calls = static_cast<std::uint64_t>(std::exp(std::uniform_real_distribution<>(5, 12)(random)));
+    o.replicates = std::uniform_int_distribution<std::uint32_t>(2, 30)(random);
+    o.rel_error = 0;
+    for (const mc::Method method : {mc::Method::rqmc, mc::Method::vegas, mc::Method::tree, mc::Method::automatic}) {
+      SCOPED_TRACE(std::string(mc::name(method)) + ", " + std::to_string(o.max_calls) + " calls, " +
+                   std::to_string(o.replicates) + " replicates");
+      detail::Run run{{.one = &f}, 1, 2, o};
+      std::optional<Outcome> last;
+      const Outcome out = sequences(run, method, last);
+      EXPECT_LE(run.calls, o.max_calls);
+      EXPECT_GE(run.calls, o.max_calls / 2);
+      EXPECT_GE(out.means[0].dof + 1, std::max<double>(std::min(o.replicates, 8u), std::ceil(o.replicates / 3.0)));
+    }
+  }
+}
+
+// The end of sequences: where the error falls faster than that of independent points fewer and longer ones leave less
+// of it; where it does not, all replicates stay, but for the few seeds where it seems to by chance.
+TEST(Methods, EndWithFewerAndLongerSequencesWhereThatLeavesLess) {
+  const std::function<double(std::span<const double>)> smooth = [](std::span<const double> u) {
+    return std::exp(u[0] - 0.3 * u[1]);
+  };
+  const std::function<double(std::span<const double>)> rough = [](std::span<const double> u) {
+    return std::fmod(1e6 * std::sin(1e6 * u[0] + 3e5 * u[1]), 1.0); // no two points have to do with each other
+  };
+  const double truth = (std::exp(1) - 1) * (1 - std::exp(-0.3)) / 0.3;
+  double ended = 0, even = 0;
+  int stay = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    mc::IntegrateOptions o;
+    o.max_calls = 100'000; // 24 sequences of 2^12 points, or 12 of 2^13
+    o.rel_error = 0;
+    o.method = mc::Method::rqmc;
+    o.seed = seed;
+    const mc::Integral fewer = mc::integrate_unit(smooth, 2, o);
+    EXPECT_LT(fewer.estimate.dof, 23);
+    EXPECT_GE(fewer.estimate.dof, 7);
+    ended += mc::sqr(fewer.estimate.value - truth);
+    even += mc::sqr(mc::integrate_rqmc(smooth, 2, 4096, 24, seed).estimate.value - truth);
+    stay += mc::integrate_unit(rough, 2, o).estimate.dof >= 23;
+  }
+  EXPECT_GE(stay, 20);
+  // Both sums know themselves to a quarter (30 squares of a normal); of interlaced points in two dimensions the
+  // variance falls by up to 32 for each doubling.
+  EXPECT_LT(ended, even / 2);
 }
 
 TEST(Methods, LearnFindsThePeak) {
