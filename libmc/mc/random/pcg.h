@@ -43,7 +43,7 @@ class Pcg {
   template <std::floating_point S> void fill(std::span<S> out) {
     std::size_t done = 0;
     if (out.size() >= 2 * lanes) done = engine_.fill(out);
-    for (; done < out.size(); ++done) out[done] = uniform<S>();
+    for (S& u : out.subspan(done)) u = uniform<S>();
   }
 
   /// Skips n 32-bit draws in O(log n).
