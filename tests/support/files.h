@@ -30,6 +30,7 @@ struct ScratchTest : testing::Test {
 
   std::string path(const std::string& name) const { return (folder / name).string(); }
   std::string write(const std::string& name, const std::string& text) const {
+    std::filesystem::remove(folder / name); // file systems write through to the disk what truncates a file
     std::ofstream(folder / name, std::ios::binary) << text;
     return path(name);
   }

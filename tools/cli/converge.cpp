@@ -31,7 +31,6 @@ struct ConvergeOptions {
   bool all = false;
   std::string samplers; ///< empty: random,stratified,sobol; of a scene all
   std::string points;   ///< a file of points, as one more sampler
-  std::uint64_t max_n = 1 << 18;
   int replicates = 0;
   std::optional<double> time; ///< seconds for everything
   std::uint64_t seed = 1;
@@ -82,7 +81,7 @@ Run measure_all(const std::vector<Target>& targets, const std::vector<Way>& chos
   bool can_draw = true;
   for (std::size_t i = 0; i < targets.size() && !run.interrupted; ++i) {
     MeasureOptions m{
-        .max_n = o.max_n, .replicates = o.replicates, .seed = o.seed, .threads = o.threads, .cancel = cancel};
+        .max_n = o.integral.max_n, .replicates = o.replicates, .seed = o.seed, .threads = o.threads, .cancel = cancel};
     const double gone = std::chrono::duration<double>(Clock::now() - start).count();
     if (o.time) m.seconds = std::max(1e-3, *o.time - gone) / static_cast<double>(targets.size() - i);
     m.progress = [&](double done, const std::string& where) {
@@ -105,7 +104,6 @@ std::vector<Option> rows(ConvergeOptions& o) {
        "Comma-separated, see --list; of a scene those of carlo render [random,stratified,sobol; of a scene all]"},
       {"--all", "", &o.all, "Every sampler", false, {"--samplers"}},
       {"--points-file", "FILE", &o.points, "These points as one more sampler: a row each, coordinates in [0, 1)"},
-      {"--max-n", "N", &o.max_n, "Largest number of evaluations"},
       {"--replicates", "N", &o.replicates,
        "Independent repetitions behind each RMS error, 0: as many as make it known to 10 %"},
       {"--time", "SECONDS", &o.time, "Stop at smaller N where this runs out"},
@@ -133,6 +131,7 @@ void write_report(const std::filesystem::path& folder, const ConvergeOptions& o,
 
 int converge_scene(const ConvergeOptions& o) {
   mc::require(o.points.empty() && !o.time && !o.all, "converge: --points-file, --time and --all are not for scenes");
+  refuse_integral_options(o.integral);
   const Interrupt interrupt;
   const Target target = scene_target(o.integral.integrands[0]);
   const std::filesystem::path folder = mc::output_folder(o.output, "slopes.csv");
@@ -159,7 +158,6 @@ int converge(const ConvergeOptions& o) {
   if (o.integral.list) return list_integrals();
   mc::require(o.replicates == 0 || (o.replicates >= 8 && o.replicates <= 100'000),
               "--replicates {} must lie in [8, 100000], or be 0", o.replicates);
-  mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
   if (is_scene(o.integral.integrands)) return converge_scene(o);
   refuse_scene_options(o.scene);

@@ -60,12 +60,15 @@ std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, cons
   const std::string samplers = run.samplers.empty() ? "independent,stratified,sobol" : run.samplers;
   std::vector<PictureWay> ways;
   for (const bool adaptive : {false, true}) {
-    if (adaptive && !run.adaptive) continue;
+    if (adaptive && !run.to_choose) continue;
     for (const int depth : depths_of(o.depths, file.defaults.max_depth))
       for (const ::render::Strategy& strategy : strategies_of(o, file))
         for (const std::string_view sampler : split(samplers, ','))
           ways.push_back({strategy, ::render::sampler_from(sampler), depth, adaptive});
   }
+  const std::optional<PictureWay> plain = run.to_choose ? plain_way(file) : std::nullopt;
+  const auto is_plain = [&](const PictureWay& way) { return way.name() == plain->name(); };
+  if (plain && std::none_of(ways.begin(), ways.end(), is_plain)) ways.push_back(*plain);
   return ways;
 }
 
@@ -85,11 +88,13 @@ std::vector<Option> integral_rows(IntegralOptions& o) {
        {"--domain"}},
       {"--timeout", "SECONDS", &o.timeout, "Time that a plugin may take for the repetitions at one N"},
       {"--memory", "GIB", &o.memory, "Memory that a plugin may take"},
+      {"--max-n", "N", &o.max_n, "Largest number of evaluations of an integrand"},
       {"--list", "", &o.list, "List the integrands and the samplers, and stop"},
   };
 }
 
 std::vector<Target> targets_of(const IntegralOptions& o) {
+  mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
   mc::require(o.timeout > 0 && o.timeout <= 1e6, "--timeout {} must lie in (0, 1e6] seconds", o.timeout);
   mc::require(o.memory >= 0.25 && o.memory <= 1e6, "--memory {} must lie in [0.25, 1e6] GiB", o.memory);
   if (!o.plugin.empty()) {
@@ -135,6 +140,13 @@ void refuse_scene_options(const SceneOptions& o) {
   mc::require(o == SceneOptions(), "--strategies, --max-depths, --size, --max-spp and --cost are for a scene (.xml)");
 }
 
+void refuse_integral_options(const IntegralOptions& o) {
+  IntegralOptions none;
+  none.integrands = o.integrands;
+  mc::require(o == none, "--domain, --plugin, --timeout, --memory and --max-n are not for a scene (.xml), which has "
+                         "--max-spp and --size");
+}
+
 bool is_scene(const std::vector<std::string>& words) { return words.size() == 1 && words[0].ends_with(".xml"); }
 
 Target scene_target(const std::string& path) {
@@ -150,7 +162,7 @@ Target scene_target(const std::string& path) {
 Pictures measure_scene(const SceneOptions& o, const SceneRun& run) {
   mc::require(o.cost == "cpu" || o.cost == "rays", "--cost '{}' must be cpu or rays", o.cost);
   mc::require(o.max_spp >= 16, "--max-spp {} must be at least 16", o.max_spp);
-  mc::require(!run.adaptive || o.max_spp >= 32, "--max-spp {} must be at least 32 for adaptive spending", o.max_spp);
+  mc::require(!run.to_choose || o.max_spp >= 32, "--max-spp {} must be at least 32 for adaptive spending", o.max_spp);
   const ::render::SceneFile file = ::render::read_mitsuba(run.path);
   const ::render::RenderDefaults& own = file.defaults;
   PictureOptions p{.width = 48, .height = std::max(1, 48 * own.height / own.width), .max_spp = o.max_spp};

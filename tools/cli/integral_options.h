@@ -14,13 +14,15 @@ struct IntegralOptions {
   std::string domain;                  ///< of an expression
   std::string plugin;                  ///< or the integrands of this shared object
   double timeout = 60, memory = 4;     ///< of its process
+  std::uint64_t max_n = 1 << 18;       ///< evaluations at most
   bool list = false;
+  bool operator==(const IntegralOptions&) const = default;
 };
 
 std::vector<Option> integral_rows(IntegralOptions& o);
 
 /// The integrands asked for; those of the books when none is.
-///   throws : Error for what means nothing, and for what find_integrand and plugin_targets refuse
+///   throws : Error for what means nothing, a bad number, and for what find_integrand and plugin_targets refuse
 std::vector<Target> targets_of(const IntegralOptions& o);
 
 /// Prints the integrands and the ways to sample them.
@@ -40,15 +42,18 @@ std::vector<Option> scene_rows(SceneOptions& o);
 /// Throws Error where one of them is given for an integral.
 void refuse_scene_options(const SceneOptions& o);
 
+/// Throws Error where any other of them than the target is given, for a scene.
+void refuse_integral_options(const IntegralOptions& o);
+
 /// Whether the one word that stands for a target is a scene file: it ends in .xml.
 bool is_scene(const std::vector<std::string>& words);
 
 /// Everything of a run that is not the scene's own.
 struct SceneRun {
   std::string path;
-  std::string samplers;  ///< comma-separated; empty: all
-  bool adaptive = false; ///< every way with adaptive spending, too
-  int pictures = 0;      ///< behind each error; 0: eight
+  std::string samplers;   ///< comma-separated; empty: all
+  bool to_choose = false; ///< every way with adaptive spending, too, and plain_way
+  int pictures = 0;       ///< behind each error; 0: eight
   std::uint64_t seed = 1;
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;

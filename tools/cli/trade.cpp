@@ -34,7 +34,6 @@ struct TradeOptions {
   SceneOptions scene;
   std::string samplers;        ///< of a scene; empty: all
   std::string errors, seconds; ///< lists of numbers
-  std::uint64_t max_n = 1 << 18;
   std::optional<double> time;
   std::uint64_t seed = 1;
   int threads = 0;
@@ -101,12 +100,12 @@ class TakenInTurn {
 };
 
 // The first offers, and plain Monte Carlo where it is one.
-std::vector<Offer> contenders(const std::vector<Offer>& offers) {
+std::vector<Offer> contenders(const std::vector<Offer>& offers, const std::string& plain) {
   constexpr std::size_t most = 6;
   std::vector<Offer> chosen(offers.begin(),
                             offers.begin() + static_cast<std::ptrdiff_t>(std::min(most, offers.size())));
   for (std::size_t i = most; i < offers.size(); ++i)
-    if (offers[i].curve->way->name == "random") chosen.push_back(offers[i]);
+    if (offers[i].curve->way->name == plain) chosen.push_back(offers[i]);
   return chosen;
 }
 
@@ -227,7 +226,6 @@ std::vector<Option> rows(TradeOptions& o) {
        "Or CPU seconds to spend: \"0.001,0.01\"; with --cost rays millions of rays",
        false,
        {"--error"}},
-      {"--max-n", "N", &o.max_n, "Largest number of evaluations"},
       {"--time", "SECONDS", &o.time, "Stop at smaller N where this runs out"},
       {"--seed", "N", &o.seed, "Seed"},
       {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
@@ -311,12 +309,13 @@ int tell(const TradeOptions& o, const Measured& one, const Folders& folders) {
 
 int trade_scene(const TradeOptions& o, Wanted wanted) {
   mc::require(!o.time, "trade: --time is not for scenes; --size and --max-spp bound what they take");
+  refuse_integral_options(o.integral);
   const Interrupt interrupt;
   const Target target = scene_target(o.integral.integrands[0]);
   const Folders folders(o);
   const Pictures pictures = measure_scene(o.scene, {.path = target.integral.source,
                                                     .samplers = o.samplers,
-                                                    .adaptive = true,
+                                                    .to_choose = true,
                                                     .seed = o.seed,
                                                     .threads = o.threads,
                                                     .cancel = interrupt.flag()});
@@ -335,7 +334,6 @@ int trade_scene(const TradeOptions& o, Wanted wanted) {
 
 int trade(const TradeOptions& o) {
   if (o.integral.list) return list_integrals();
-  mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
   Wanted wanted;
   if (!o.errors.empty()) wanted.errors = numbers("--error", o.errors);
@@ -351,7 +349,7 @@ int trade(const TradeOptions& o) {
 
   const std::vector<Way> chosen = configurations(target);
   Progress progress;
-  MeasureOptions options{.max_n = o.max_n, .seed = o.seed, .threads = o.threads, .cancel = interrupt.flag()};
+  MeasureOptions options{.max_n = o.integral.max_n, .seed = o.seed, .threads = o.threads, .cancel = interrupt.flag()};
   options.seconds = o.time.value_or(0);
   std::vector<double>&errors = wanted.errors, &seconds = wanted.seconds;
   if (!errors.empty()) options.error_goal = *std::min_element(errors.begin(), errors.end());
@@ -367,7 +365,7 @@ int trade(const TradeOptions& o) {
     for (const double share : {1e-2, 1e-3, 1e-4}) errors.push_back(share * (m.truth != 0 ? std::abs(m.truth) : 1.0));
 
   const auto in_turn = [&](const std::vector<Offer>& offers) {
-    return TakenInTurn(target, contenders(offers), o.seed, interrupt.flag());
+    return TakenInTurn(target, contenders(offers, m.plain), o.seed, interrupt.flag());
   };
   fmt::print("{}: {} ways, RMS errors to 10 %, {} of one estimate\n", target.integral.title, m.curves.size(),
              m.cost.axis);

@@ -53,7 +53,8 @@ struct Measurement {
   double truth_error = 0;    ///< standard error of a reference; 0: the truth is known
   std::string doubt;         ///< one line that says why the stated truth is wrong; empty: no doubt
   bool interrupted = false;
-  Cost cost = cpu_cost; ///< what its seconds are
+  Cost cost = cpu_cost;         ///< what its seconds are
+  std::string plain = "random"; ///< the name of the way that is plain Monte Carlo
 };
 
 /// Every way on N = 16, 32, ... max_n, from the fewest that the way works with.

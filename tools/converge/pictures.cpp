@@ -4,6 +4,7 @@
 #include <mc/estimate/moments.h>
 #include <mc/random/hash.h>
 #include <mc/stats/t_test.h>
+#include <render/integrator/directions.h>
 
 #include <fmt/format.h>
 
@@ -129,6 +130,8 @@ class Session {
   Pictures run() {
     Pictures result;
     if (options_.cost_rays) result.measurement.cost = ray_cost;
+    const auto plain = plain_way(file_);
+    result.measurement.plain = plain ? plain->name() : "";
     for (int spp = 4; spp <= options_.max_spp; spp *= 2)
       if (!take(spp)) {
         result.measurement.interrupted = true;
@@ -223,6 +226,12 @@ std::string PictureWay::name() const {
   std::string text = fmt::format("{} {}", strategy.name, ::render::name(sampler));
   if (max_depth > 0) text += fmt::format(" depth {}", max_depth);
   return adaptive ? text + " adaptive" : text;
+}
+
+std::optional<PictureWay> plain_way(const ::render::SceneFile& file) {
+  const ::render::Strategy& strategy = ::render::strategy_from("bsdf");
+  if (!finds_all_lights(file.scene, strategy)) return {};
+  return PictureWay{strategy, ::render::PixelSampler::independent, file.defaults.max_depth};
 }
 
 Pictures measure_pictures(const ::render::SceneFile& file, const std::vector<PictureWay>& ways,

@@ -21,6 +21,10 @@ struct PictureWay {
   std::string name() const;
 };
 
+/// Plain Monte Carlo: independent samples of paths that follow the surfaces and meet the lights by chance. Nothing
+/// where chance does not meet every light.
+std::optional<PictureWay> plain_way(const render::SceneFile& file);
+
 struct PictureOptions {
   int width = 64, height = 64;
   int max_spp = 64;

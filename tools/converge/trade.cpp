@@ -54,7 +54,7 @@ Offer last_of(const Curve& c) {
 
 const Curve* plain(const Measurement& m) {
   for (const Curve& c : m.curves)
-    if (c.way->name == "random" && !c.way->one_by_one && !c.exact) return &c;
+    if (c.way->name == m.plain && !c.way->one_by_one && !c.exact) return &c;
   return nullptr;
 }
 

@@ -62,6 +62,7 @@ TEST_F(Converge, ASceneHasNoTruthButAReference) {
     <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape></scene>)");
   expect_refused(dark + " --size 4x4 --max-spp 16", "the picture is black");
   expect_refused(dark + " --all", "--all are not for scenes");
+  expect_refused(dark + " --max-n 64", "--memory and --max-n are not for a scene (.xml)");
 }
 
 TEST_F(Converge, EveryWayIsMeasuredBesideTheory) {
