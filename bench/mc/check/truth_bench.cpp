@@ -1,9 +1,10 @@
 // How often the checker rejects random right samplers, and how often it misses random faults, by their kind and size.
-// Usage: bench_mc_check_truth right|faults|promise|foreign [CASES [FIRST_SEED [SAMPLES]]]
+// Usage: bench_mc_check_truth right|faults|promise|foreign [CASES [FIRST_SEED [SAMPLES [NAME]]]]
 //   right   : random right samplers, see random_subjects.h
 //   faults  : random faults in them, of sizes around what can be found, see random_faults.h
 //   promise : random faults of the size that the report of the right sampler says it detects
 //   foreign : CASES seeds of each of the samplers of foreign_samplers.h
+//   NAME    : only subjects in whose name this stands
 // Prints CSV with a first line that holds the command; a summary on the standard error. alpha = 1 %.
 
 #include <mc/check/foreign_samplers.h>
@@ -22,6 +23,7 @@ struct Options {
   std::string what = "right";
   std::uint64_t cases = 100, first = 1;
   double samples = 1e6;
+  std::string name;
 };
 
 mc::Report check(const Subject& subject, std::uint64_t seed, const Options& o) {
@@ -58,11 +60,12 @@ void print(std::uint64_t seed, const Faulty& one, const mc::Report& report, doub
 }
 
 void run(const Options& o) {
-  fmt::print("# bench_mc_check_truth {} {} {} {:g}\nseed,kind,size,name,verdict,p,check,detects,in_a_cell,seconds\n",
-             o.what, o.cases, o.first, o.samples);
+  fmt::print("# bench_mc_check_truth {} {} {} {:g} {}\nseed,kind,size,name,verdict,p,check,detects,in_a_cell,seconds\n",
+             o.what, o.cases, o.first, o.samples, o.name);
   std::map<std::string, std::map<std::string, int>> verdicts;
   double seconds = 0, checked = 0;
   const auto one_case = [&](std::uint64_t seed, const Faulty& one) {
+    if (one.subject.name.find(o.name) == std::string::npos) return;
     const std::clock_t start = std::clock();
     const mc::Report report = check(one.subject, seed, o);
     const double used = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -79,6 +82,7 @@ void run(const Options& o) {
       one_case(seed, {"right", 0, random_right(seed)});
     } else {
       const Subject right = random_shape(seed);
+      if (right.name.find(o.name) == std::string::npos) continue;
       if (o.what == "promise") one_case(seed, stated_fault(right, check(right, seed, o), seed));
       else one_case(seed, random_fault(right, seed, o.samples));
     }
@@ -96,5 +100,6 @@ int main(int argc, char** argv) {
   if (argc > 2) o.cases = static_cast<std::uint64_t>(std::atof(argv[2]));
   if (argc > 3) o.first = static_cast<std::uint64_t>(std::atof(argv[3]));
   if (argc > 4) o.samples = std::atof(argv[4]);
+  if (argc > 5) o.name = argv[5];
   truth::run(o);
 }

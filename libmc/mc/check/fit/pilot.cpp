@@ -13,17 +13,17 @@ double Pilot::rank(std::size_t axis, double v) const {
   return static_cast<double>(below) / static_cast<double>(std::max<std::size_t>(s.size(), 1));
 }
 
-std::vector<Subject::Coordinates> Pilot::nearest(std::size_t axis, double v) const {
+std::vector<std::uint32_t> Pilot::nearest(std::size_t axis, double v, std::size_t count) const {
   const std::vector<double>& s = sorted[axis];
   std::size_t hi = static_cast<std::size_t>(std::lower_bound(s.begin(), s.end(), v) - s.begin()), lo = hi;
-  while (hi - lo < std::min<std::size_t>(16, s.size())) {
+  while (hi - lo < std::min(count, s.size())) {
     const bool down = hi == s.size() || (lo > 0 && v - s[lo - 1] < s[hi] - v);
     if (down) --lo;
     else ++hi;
   }
-  std::vector<Subject::Coordinates> found;
-  for (const Subject::Coordinates& p : points)
-    if (found.size() < hi - lo && p[axis] >= s[lo] && p[axis] <= s[hi - 1]) found.push_back(p);
+  std::vector<std::uint32_t> found;
+  for (std::size_t i = 0; i < points.size() && found.size() < hi - lo; ++i)
+    if (points[i][axis] >= s[lo] && points[i][axis] <= s[hi - 1]) found.push_back(static_cast<std::uint32_t>(i));
   return found;
 }
 

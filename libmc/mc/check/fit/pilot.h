@@ -24,8 +24,8 @@ struct Pilot {
 
   /// The share of the pilot below v on an axis.
   double rank(std::size_t axis, double v) const;
-  /// The 16 points that are nearest to v on an axis.
-  std::vector<Subject::Coordinates> nearest(std::size_t axis, double v) const;
+  /// The indices of the `count` points that are nearest to v on an axis.
+  std::vector<std::uint32_t> nearest(std::size_t axis, double v, std::size_t count) const;
 };
 
 /// pilot_samples(samples) draws.

@@ -34,7 +34,7 @@ TEST(Pilot, NearestPointsOfAnAxis) {
     std::vector<double> distances, found;
     for (const auto& p : pilot.points) distances.push_back(std::abs(p[0] - v));
     std::sort(distances.begin(), distances.end());
-    for (const auto& p : pilot.nearest(0, v)) found.push_back(std::abs(p[0] - v));
+    for (const std::uint32_t i : pilot.nearest(0, v, 16)) found.push_back(std::abs(pilot.points[i][0] - v));
     ASSERT_EQ(found.size(), 16u);
     // Of points at one place any may be left out: the farthest found is no farther than the 16th.
     EXPECT_LE(*std::max_element(found.begin(), found.end()), distances[15] + 1e-12) << v;

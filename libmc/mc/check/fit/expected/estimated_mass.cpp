@@ -42,16 +42,17 @@ std::vector<double> cut_axis(double lo, double hi, const std::vector<double>& br
   return finer;
 }
 
-EstimatedMass estimate_mass(const Subject& s, const std::vector<UnitBox>& boxes, std::size_t per_axis,
-                            std::uint64_t seed) {
-  Pcg random(seed);
-  EstimatedMass mass;
-  const auto evaluate = [&](const Subject::Coordinates& v, double) {
+Seen add_box(const Subject& s, const UnitBox& box, std::size_t per_axis, Pcg& random, EstimatedMass& mass) {
+  Seen seen;
+  const auto evaluate = [&](const Subject::Coordinates& v, double stands_for) {
     const double density = density_inside(s, v);
-    return std::array{density >= 0 && density <= std::numeric_limits<double>::max() ? density : 0.0};
+    const double finite = density >= 0 && density <= std::numeric_limits<double>::max() ? density : 0.0;
+    seen.density = std::max(seen.density, finite);
+    seen.volume = std::max(seen.volume, stands_for);
+    return std::array{finite};
   };
-  for (const UnitBox& box : boxes) add_pairs<1>(box, s.dim, s.breaks, per_axis, random, evaluate, {&mass});
-  return mass;
+  add_pairs<1>(box, s.dim, s.breaks, per_axis, random, evaluate, {&mass});
+  return seen;
 }
 
 double density_inside(const Subject& s, Subject::Coordinates v) {

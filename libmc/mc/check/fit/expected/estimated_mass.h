@@ -28,11 +28,6 @@ struct EstimatedMass {
   double variance_with_jumps() const { return shown_variance() + jump * jump; }
 };
 
-/// The integral of the density over boxes, each cut at the breaks of the subject and evenly into at least `per_axis`
-/// parts along each axis.
-EstimatedMass estimate_mass(const Subject& subject, const std::vector<UnitBox>& boxes, std::size_t per_axis,
-                            std::uint64_t seed);
-
 /// The claimed density at v, moved off the faces of the cube by 2^-60 at 0 and by 2^-53 at 1, where charts of infinite
 /// domains have no point.
 double density_inside(const Subject& subject, Subject::Coordinates v);
@@ -76,6 +71,15 @@ void add_pairs(const UnitBox& whole, int dim, const std::array<std::vector<doubl
         }
       }
 }
+
+/// What the points of a box saw: the largest density, and the largest volume that one of them stood for.
+struct Seen {
+  double density = 0, volume = 0;
+};
+
+/// Adds the integral of the density over a box, cut at the breaks of the subject and evenly into at least `per_axis`
+/// parts along each axis.
+Seen add_box(const Subject& subject, const UnitBox& box, std::size_t per_axis, Pcg& random, EstimatedMass& mass);
 
 /// How far the points of boxes are from one linear function over all of them.
 class LinearFit {

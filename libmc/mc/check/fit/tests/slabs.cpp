@@ -32,7 +32,8 @@ bool find_atom(const Subject& s, const Pilot& pilot, const std::vector<double>& 
   if (most < 3) return false;
   double blur = width(at);
   if (s.resolution) {
-    for (Subject::Coordinates p : pilot.nearest(axis, at)) {
+    for (const std::uint32_t i : pilot.nearest(axis, at, 16)) {
+      Subject::Coordinates p = pilot.points[i];
       p[axis] = at;
       blur = std::max(blur, 8 * s.resolution(p, static_cast<int>(axis)));
     }
@@ -78,45 +79,31 @@ bool find_gap(const Subject& s, const std::vector<double>& v, Place place, Slab&
 bool is_rounding(const Subject& s, const Pilot& pilot, const Slab& gap) {
   const double lo = gap.box.lo[gap.axis], hi = gap.box.hi[gap.axis];
   double step = 0;
-  for (const Subject::Coordinates& p : pilot.nearest(gap.axis, (lo + hi) / 2))
-    step = std::max(step, rounding(s, p, gap.axis));
+  for (const std::uint32_t i : pilot.nearest(gap.axis, (lo + hi) / 2, 16))
+    step = std::max(step, rounding(s, pilot.points[i], gap.axis));
   return hi - lo <= rounded_steps * step;
+}
+
+// What the pilot beside a slab says that it would hold, were it no exception.
+Layer layer_around(const Pilot& pilot, const Slab& slab) {
+  Layer layer{slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis], {}, 0};
+  layer.near = pilot.nearest(slab.axis, 0.5 * (layer.lo + layer.hi), 64);
+  double lo = layer.lo, hi = layer.hi;
+  for (const std::uint32_t i : layer.near) {
+    lo = std::min(lo, pilot.points[i][slab.axis]);
+    hi = std::max(hi, pilot.points[i][slab.axis]);
+  }
+  const double share = static_cast<double>(layer.near.size()) / static_cast<double>(pilot.points.size());
+  layer.mass = share * (layer.hi - layer.lo) / (hi - lo);
+  return layer;
 }
 
 } // namespace
 
-EstimatedMass slab_mass(const Subject& s, const Pilot& pilot, std::size_t axis, const UnitBox& box, std::uint64_t seed,
-                        Effort effort) {
-  std::vector<UnitBox> pieces{box};
-  const std::size_t less = effort == Effort::full ? 1 : 4;
-  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
-    // Where the slab is thick, what it holds may lie in a thin layer of it.
-    const std::size_t cuts = (s.dim == 1 ? 256 : d == axis ? 8 : s.dim == 2 ? 64 : 16) / less;
-    const auto first = std::lower_bound(pilot.sorted[d].begin(), pilot.sorted[d].end(), box.lo[d]);
-    const auto last = std::upper_bound(first, pilot.sorted[d].end(), box.hi[d]);
-    const auto inside = static_cast<std::size_t>(last - first);
-    if (inside < cuts) continue;
-    std::vector<UnitBox> finer;
-    for (UnitBox piece : pieces) {
-      for (std::size_t k = 0; k < cuts; ++k) {
-        const double cut = first[static_cast<std::ptrdiff_t>(k * inside / cuts)];
-        if (!(cut > piece.lo[d] && cut < piece.hi[d])) continue;
-        finer.push_back(piece);
-        finer.back().hi[d] = piece.lo[d] = cut;
-      }
-      finer.push_back(piece);
-    }
-    pieces = std::move(finer);
-  }
-  const double boxes = (s.dim == 1 ? 512.0 : s.dim == 2 ? 1024.0 : 2048.0) / static_cast<double>(less * less);
-  const double per_axis = std::pow(boxes / static_cast<double>(pieces.size()), 1.0 / s.dim);
-  return estimate_mass(s, pieces, static_cast<std::size_t>(std::max(1.0, per_axis)), seed);
-}
-
 std::vector<Slab> find_slabs(const Subject& s, const Pilot& pilot, const std::array<std::vector<double>, 3>& sorted) {
   std::vector<Slab> slabs;
   const auto add = [&](Slab slab) {
-    slab.mass = slab_mass(s, pilot, slab.axis, slab.box, slabs.size() + 1);
+    slab.mass = slab_mass(s, pilot, layer_around(pilot, slab), slabs.size() + 1);
     slabs.push_back(slab);
   };
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {

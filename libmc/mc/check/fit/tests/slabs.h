@@ -1,7 +1,7 @@
 #pragma once
 /// Thin slabs of the unit cube that hold more or fewer samples than any right sampler puts there.
 
-#include <mc/check/fit/expected/reference.h>
+#include <mc/check/fit/expected/slab_mass.h>
 #include <mc/check/fit/pilot.h>
 #include <mc/check/report/report.h>
 
@@ -22,12 +22,6 @@ struct Slab {
   double count = 0;   ///< samples in it
   EstimatedMass mass; ///< claimed by the density
 };
-
-/// The integral of the density over a slab, cut at the pilot's quantiles of the other axes so that no lobe is missed.
-///   quick : from a sixteenth of the points or less
-enum class Effort : std::uint8_t { quick, full };
-EstimatedMass slab_mass(const Subject& s, const Pilot& pilot, std::size_t axis, const UnitBox& box, std::uint64_t seed,
-                        Effort effort = Effort::full);
 
 /// Per axis the place where most samples share one value up to rounding, and the gaps that are widest in spacings of
 /// the samples beside them: the widest inside, and those at both ends. `sorted` holds the coordinates of the samples by

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace mc {
 namespace {
@@ -17,8 +18,8 @@ constexpr int halvings = 6; // of the strips at both ends
 // Whether rounding may explain the count of a strip.
 bool is_rounded(const Subject& s, const Pilot& pilot, std::size_t axis, double lo, double hi, double count) {
   double step = 0;
-  for (const Subject::Coordinates& p : pilot.nearest(axis, 0.5 * (lo + hi)))
-    step = std::max(step, rounding(s, p, axis));
+  for (const std::uint32_t i : pilot.nearest(axis, 0.5 * (lo + hi), 16))
+    step = std::max(step, rounding(s, pilot.points[i], axis));
   return step * std::max(rounded_steps, 2 * std::sqrt(count)) > hi - lo;
 }
 
@@ -46,8 +47,38 @@ Strips::Strips(const Pilot& pilot, int dim) {
       axis.guide.push_back(
           static_cast<std::uint32_t>(std::upper_bound(axis.ends.begin(), axis.ends.end(), v) - axis.ends.begin()));
     }
+    sort_points(pilot, axis);
     axes_.push_back(std::move(axis));
   }
+}
+
+void Strips::sort_points(const Pilot& pilot, Layers& axis) {
+  std::vector<std::uint32_t> strip;
+  axis.first_points.resize(axis.strips.size() + 1);
+  for (const Subject::Coordinates& v : pilot.points) {
+    strip.push_back(static_cast<std::uint32_t>(axis.find(v[axis.index])));
+    ++axis.first_points[strip.back() + 1];
+  }
+  std::partial_sum(axis.first_points.begin(), axis.first_points.end(), axis.first_points.begin());
+  std::vector<std::uint32_t> next = axis.first_points;
+  axis.points.resize(pilot.points.size());
+  for (std::size_t i = 0; i < strip.size(); ++i) axis.points[next[strip[i]]++] = static_cast<std::uint32_t>(i);
+}
+
+Layer Strips::layer(const Run& run) const {
+  constexpr std::size_t least = 64;
+  const Layers& axis = axes_[run.axis];
+  std::size_t first = run.first, last = run.last;
+  const auto count = [&] { return axis.first_points[last] - axis.first_points[first]; };
+  while (count() < std::min(least, axis.points.size())) {
+    if (first > 0) --first;
+    if (last < axis.strips.size()) ++last;
+  }
+  return {run.axis,
+          run.lo,
+          run.hi,
+          {axis.points.begin() + axis.first_points[first], axis.points.begin() + axis.first_points[last]},
+          0};
 }
 
 std::vector<Strips::Run> Strips::farthest_runs(double& family) const {
@@ -61,6 +92,8 @@ std::vector<Strips::Run> Strips::farthest_runs(double& family) const {
     for (std::size_t length = 1; 2 * length <= size; length *= 2)
       for (std::size_t lo = 0; lo + length <= size; lo += std::max<std::size_t>(length / 2, 1)) {
         Run run{axis.index,
+                lo,
+                lo + length,
                 lo > 0 ? axis.ends[lo - 1] : 0.0,
                 lo + length < size ? axis.ends[lo + length - 1] : 1.0,
                 {},
@@ -81,21 +114,21 @@ std::vector<Strips::Run> Strips::farthest_runs(double& family) const {
   return runs;
 }
 
-// The p-value of a run's count against an integral of its own, whose error is conceded, where all its samples count 1;
-// else against the random points.
-void Strips::Run::judge(const Subject& s, const Pilot& pilot, double n, double mass, Effort effort) {
+// The p-value of a run's count against an integral of its own, whose error is conceded; against the random points where
+// not all its samples count 1, and where these know better.
+void Strips::Run::judge(const Subject& s, const Pilot& pilot, Layer layer, double n, double mass, Effort effort) {
   p = compared.p();
+  expected = compared.expected;
   if (counts.observed_squares != counts.observed) return;
-  UnitBox box;
-  box.lo[axis] = lo;
-  box.hi[axis] = hi;
-  const EstimatedMass own = slab_mass(s, pilot, axis, box, 1, effort);
-  const double integrated = n * own.value / mass, slack = 4 * n * std::sqrt(own.safe_variance()) / mass;
+  layer.mass = mass * counts.observed / n;
+  const EstimatedMass own = slab_mass(s, pilot, layer, 1, effort);
+  const double integrated = n * own.value / mass, error = n * std::sqrt(own.safe_variance()) / mass;
+  const double error_of_points = std::sqrt(compared.point_variance * std::max(compared.observed, compared.expected));
   // An integral that met nothing, or that the random points contradict, missed where the mass lies.
-  const double by_points = 3 * std::sqrt(compared.point_variance * std::max(compared.observed, compared.expected));
-  if (!(own.value > 0 && std::abs(integrated - compared.expected) <= slack + by_points)) return;
+  const double off = std::abs(integrated - compared.expected);
+  if (!(own.value > 0 && error <= error_of_points && off <= 4 * error + 3 * error_of_points)) return;
   expected = integrated;
-  const double excess = counts.observed - expected;
+  const double slack = 4 * error, excess = counts.observed - expected;
   const double conceded =
       excess > 0 ? std::min(expected + slack, counts.observed) : std::max(expected - slack, counts.observed);
   p = binomial_tail(counts.observed, n, std::min(conceded / n, 1.0));
@@ -105,13 +138,13 @@ Check Strips::test(const Subject& s, const Pilot& pilot, double n, double mass, 
   Check c{"strips", Verdict::pass, 1.0, share, 0, 0, Fault::local, {}};
   double least = 1, family = 0;
   std::vector<Run> runs = farthest_runs(family);
-  for (Run& run : runs) run.judge(s, pilot, n, mass, Effort::quick);
+  for (Run& run : runs) run.judge(s, pilot, layer(run), n, mass, Effort::quick);
   std::stable_sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.p < b.p; });
   std::size_t integrated = 0;
   for (Run& run : runs) {
     if (integrated == most_integrated) break;
     if (is_rounded(s, pilot, run.axis, run.lo, run.hi, run.compared.mean)) continue;
-    run.judge(s, pilot, n, mass, Effort::full);
+    run.judge(s, pilot, layer(run), n, mass, Effort::full);
     ++integrated;
     if (run.p >= least) continue;
     least = run.p;

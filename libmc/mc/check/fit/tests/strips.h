@@ -1,8 +1,8 @@
 #pragma once
 /// Strips across single axes: caps at a pole, rims, thin layers that every cell sees only a corner of.
 
+#include <mc/check/fit/expected/slab_mass.h>
 #include <mc/check/fit/pilot.h>
-#include <mc/check/fit/tests/slabs.h>
 #include <mc/check/fit/weighted_counts.h>
 #include <mc/check/report/report.h>
 
@@ -27,10 +27,10 @@ class Strips {
   }
 
   /// One Check: the run of 1, 2, 4, ... neighbouring strips whose count is farthest off. The 64 runs that look worst
-  /// against the random points, and those at the ends, are held against a quick integral of their own where all their
-  /// samples count 1, and the worst four of those against a better one; the others against the points
-  /// (weighted_counts.h). Left out are runs whose samples the scalar rounds to fewer than 64 steps,
-  /// or whose count a step at each end would move by half a standard deviation.
+  /// against the random points, and those at the ends, are held against a quick integral of their own, and the worst
+  /// four of those against a better one; against the points (weighted_counts.h) where not all their samples count 1, and
+  /// where the points state a smaller error than the integral does. Left out are runs whose samples the scalar rounds to
+  /// fewer than 64 steps, or whose count a step at each end would move by half a standard deviation.
   ///   subject, pilot : whose samples were counted
   ///   n, mass        : samples that were points; what the density integrates to
   Check test(const Subject& subject, const Pilot& pilot, double n, double mass, double share, double alpha) const;
@@ -40,6 +40,7 @@ class Strips {
     std::size_t index = 0;    ///< of the axis
     std::vector<double> ends; ///< ascending, from the second strip's lower end
     std::vector<WeightedCounts> strips;
+    std::vector<std::uint32_t> points, first_points; ///< of the pilot, by strips, and where those of each begin
     static constexpr std::size_t buckets = 1 << 14;
     std::vector<std::uint32_t> guide; ///< the first strip that may hold v, by floor(buckets v), and the last
     std::size_t find(double v) const {
@@ -56,15 +57,18 @@ class Strips {
       return i;
     }
   };
+  static void sort_points(const Pilot& pilot, Layers& axis);
   /// Neighbouring strips whose count is off.
   struct Run {
-    std::size_t axis;
+    std::size_t axis, first, last; ///< strips, and the one after them
     double lo, hi;
     WeightedCounts counts;
     CountsCompared compared;
     double expected = 0, p = 1;
-    void judge(const Subject& s, const Pilot& pilot, double n, double mass, Effort effort);
+    void judge(const Subject& s, const Pilot& pilot, Layer layer, double n, double mass, Effort effort);
   };
+  /// With the points of the pilot in a run, or in it and the strips beside it, at least 64.
+  Layer layer(const Run& run) const;
   std::vector<Run> farthest_runs(double& family) const;
 
   std::vector<Layers> axes_;

@@ -10,11 +10,18 @@ namespace {
 
 using mc::Pcg;
 
+mc::EstimatedMass mass_of(const mc::Subject& s, const mc::UnitBox& box, std::size_t per_axis, std::uint64_t seed) {
+  Pcg random(seed);
+  mc::EstimatedMass mass;
+  add_box(s, box, per_axis, random, mass);
+  return mass;
+}
+
 TEST(EstimatedMass, OfABox) {
   const mc::Subject s = make_subject(
       "plane", mc::Square<double>{}, [](const mc::Vec2<double>& u) { return u; },
       [](const mc::Vec2<double>& p) { return p[0] + p[1]; });
-  const mc::EstimatedMass m = estimate_mass(s, {{{0, 0, 0}, {0.5, 1, 1}}}, 32, 1);
+  const mc::EstimatedMass m = mass_of(s, {{0, 0, 0}, {0.5, 1, 1}}, 32, 1);
   EXPECT_NEAR(m.value, 0.375, 5 * std::sqrt(m.safe_variance()));
   EXPECT_LE(m.variance, 1e-7);
 }
@@ -24,7 +31,7 @@ TEST(EstimatedMass, LinearDensitiesAreExact) {
   const mc::Subject s = make_subject(
       "ramp", mc::Interval<double>(0, 1), [](Pcg& r) { return std::sqrt(r.uniform<double>()); },
       [](double x) { return 2 * x; });
-  const mc::EstimatedMass m = estimate_mass(s, {{{0, 0, 0}, {1, 1, 1}}}, 4, 7);
+  const mc::EstimatedMass m = mass_of(s, {{0, 0, 0}, {1, 1, 1}}, 4, 7);
   EXPECT_NEAR(m.value, 1, 1e-15);
   EXPECT_LE(m.variance_with_jumps(), 1e-30);
   EXPECT_NEAR(m.largest, 0.4375, 1e-15);
@@ -40,7 +47,7 @@ TEST(EstimatedMass, JumpsStayWithinTheStatedError) {
     const mc::Subject s = make_subject(
         "jump", mc::Interval<double>(0, 1), [](Pcg& r) { return r.uniform<double>(); },
         [=](double x) { return x < at ? 1.0 : 3.0; });
-    const mc::EstimatedMass m = estimate_mass(s, {{{0, 0, 0}, {1, 1, 1}}}, 50, static_cast<std::uint64_t>(run));
+    const mc::EstimatedMass m = mass_of(s, {{0, 0, 0}, {1, 1, 1}}, 50, static_cast<std::uint64_t>(run));
     const double off = m.value - (3 - 2 * at);
     EXPECT_LE(std::abs(off), 5 * std::sqrt(m.safe_variance())) << at;
     sum += off;

@@ -1,0 +1,120 @@
+#include <mc/check/fit/expected/slab_mass.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace mc {
+namespace {
+
+constexpr std::size_t points_of_box = 4, most_near = 1024, most_pieces = 2048;
+constexpr double over_samples = 4, over_seen = 4; // densities that say that something was missed
+constexpr int most_halvings = 64;                 // one after the other
+
+struct NearPoint {
+  Subject::Coordinates v; // moved into the layer
+  double density;
+};
+using NearPoints = std::span<NearPoint>;
+
+struct Piece {
+  UnitBox box;
+  NearPoints points;
+};
+
+// The near points. What those beside the layer claim is what it would hold of them, as the samples thin out or crowd
+// towards it.
+std::vector<NearPoint> near_points(const Pilot& pilot, const Layer& layer) {
+  std::vector<NearPoint> points;
+  double lo = layer.lo, hi = layer.hi;
+  const std::size_t stride = (layer.near.size() + most_near - 1) / most_near;
+  for (std::size_t i = 0; i < layer.near.size(); i += stride) {
+    NearPoint p{pilot.points[layer.near[i]], pilot.densities[layer.near[i]]};
+    lo = std::min(lo, p.v[layer.axis]);
+    hi = std::max(hi, p.v[layer.axis]);
+    p.v[layer.axis] = std::clamp(p.v[layer.axis], layer.lo, layer.hi);
+    points.push_back(p);
+  }
+  if (hi - lo > layer.hi - layer.lo) {
+    const double share = static_cast<double>(layer.near.size()) / static_cast<double>(pilot.points.size());
+    const double crowded = layer.mass / (layer.hi - layer.lo) * (hi - lo) / share;
+    for (NearPoint& p : points) p.density *= crowded;
+  }
+  return points;
+}
+
+// Cuts the layer. The axis is the one along which a box is widest in ranks of the pilot.
+struct Cutter {
+  const Pilot& pilot;
+  std::size_t dim;
+  double mass_of_point;
+  std::vector<Piece> pieces{};
+
+  void cut(const UnitBox& box, const UnitBox& ranks, NearPoints points, int halvings) {
+    std::size_t axis = 0;
+    for (std::size_t d = 1; d < dim; ++d)
+      if (ranks.hi[d] - ranks.lo[d] > ranks.hi[axis] - ranks.lo[axis]) axis = d;
+    const auto inside = [&](double at) { return at > box.lo[axis] && at < box.hi[axis]; };
+    double at = points.size() > points_of_box ? middle(points, axis) : box.lo[axis];
+    if (!inside(at) && halvings < most_halvings && pieces.size() < most_pieces && is_hidden(box, points)) {
+      at = 0.5 * (box.lo[axis] + box.hi[axis]);
+      ++halvings;
+    }
+    if (!inside(at)) {
+      pieces.push_back({box, points});
+      return;
+    }
+    const auto upper = std::partition(points.begin(), points.end(), [&](const NearPoint& p) { return p.v[axis] < at; });
+    const auto below = static_cast<std::size_t>(upper - points.begin());
+    UnitBox left = box, right = box, left_ranks = ranks, right_ranks = ranks;
+    left.hi[axis] = right.lo[axis] = at;
+    left_ranks.hi[axis] = right_ranks.lo[axis] = pilot.rank(axis, at);
+    cut(left, left_ranks, points.first(below), halvings);
+    cut(right, right_ranks, points.subspan(below), halvings);
+  }
+
+  static double middle(NearPoints points, std::size_t axis) {
+    const auto less = [&](const NearPoint& a, const NearPoint& b) { return a.v[axis] < b.v[axis]; };
+    const auto upper = points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
+    std::nth_element(points.begin(), upper, points.end(), less);
+    return 0.5 * (std::max_element(points.begin(), upper, less)->v[axis] + upper->v[axis]);
+  }
+
+  // Whether a point claims far more for the box than the points in it stand for.
+  bool is_hidden(const UnitBox& box, NearPoints points) const {
+    double claimed = 0;
+    for (const NearPoint& p : points) claimed = std::max(claimed, p.density);
+    return claimed * volume(box, static_cast<int>(dim)) >
+           over_samples * mass_of_point * static_cast<double>(points.size() + 1);
+  }
+};
+
+} // namespace
+
+EstimatedMass slab_mass(const Subject& s, const Pilot& pilot, const Layer& layer, std::uint64_t seed, Effort effort) {
+  UnitBox whole, ranks;
+  whole.lo[layer.axis] = layer.lo;
+  whole.hi[layer.axis] = layer.hi;
+  ranks.lo[layer.axis] = pilot.rank(layer.axis, layer.lo);
+  ranks.hi[layer.axis] = pilot.rank(layer.axis, layer.hi);
+  std::vector<NearPoint> points = near_points(pilot, layer);
+  const double mass_of_point = layer.mass / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+  Cutter cutter{pilot, static_cast<std::size_t>(s.dim), mass_of_point};
+  cutter.cut(whole, ranks, points, 0);
+
+  const double less = effort == Effort::full ? 1 : 16;
+  const double boxes = (s.dim == 1 ? 512.0 : s.dim == 2 ? 1024.0 : 2048.0) / less;
+  const double per_axis = std::max(1.0, std::pow(boxes / static_cast<double>(cutter.pieces.size()), 1.0 / s.dim));
+  Pcg random(seed);
+  EstimatedMass mass;
+  double missed = 0;
+  for (const Piece& piece : cutter.pieces) {
+    const Seen seen = add_box(s, piece.box, static_cast<std::size_t>(per_axis), random, mass);
+    for (const NearPoint& p : piece.points)
+      if (p.density > over_seen * seen.density) missed += mass_of_point * p.density * seen.volume;
+  }
+  mass.variance += missed;
+  return mass;
+}
+
+} // namespace mc
