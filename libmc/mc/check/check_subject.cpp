@@ -55,7 +55,7 @@ struct Counts {
   DrawTally tally;
   std::vector<WeightSums> cells;
   SampleWeights weights;
-  std::array<std::vector<double>, 3> coordinates; ///< of the first samples, by axis
+  std::array<std::vector<double>, 3> coordinates; ///< of the pilot and the first samples, by axis, ascending
   double kept = 0;                                ///< draws that these come from
   std::vector<Subject::Coordinates> inverted;     ///< the first samples, through the subject's own inverse
 };
@@ -178,8 +178,10 @@ Counts count_samples(const Subject& s, const Pilot& pilot, const SubjectOptions&
   counts.cells.resize(layout.boxes.size());
   std::vector<Subject::Coordinates> points;
   std::vector<double> densities;
-  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
-    counts.coordinates[d].reserve(std::min<std::size_t>(options.samples, most_kept));
+  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
+    counts.coordinates[d].reserve(std::min<std::size_t>(pilot.points.size() + options.samples, most_kept));
+    counts.coordinates[d] = pilot.sorted[d];
+  }
   const auto flush = [&] {
     count_points(s, points, densities, layout, counts);
     points.clear();
@@ -203,7 +205,8 @@ Counts count_samples(const Subject& s, const Pilot& pilot, const SubjectOptions&
   SampleWeights& weights = counts.weights;
   weights.draws = static_cast<double>(counts.tally.draws);
   weights.seen = weights.points + static_cast<double>(pilot.points.size());
-  counts.kept = weights.draws * static_cast<double>(counts.coordinates[0].size()) / std::max(weights.points, 1.0);
+  const double draws = weights.draws + static_cast<double>(pilot.tally.draws);
+  counts.kept = draws * static_cast<double>(counts.coordinates[0].size()) / std::max(weights.seen, 1.0);
   for (std::vector<double>& axis : counts.coordinates) sort_numbers(axis);
   return counts;
 }

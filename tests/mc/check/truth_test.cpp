@@ -41,7 +41,7 @@ TEST(Truth, FaultsOfTheStatedSizeAreFound) {
 }
 
 // The right ones are rejected by chance once in 10000 runs each. The wrong ones need a million samples to show; the
-// clamped exponential has 6 equal ones among them, fewer than the 3 that are needed once in 17 seeds.
+// clamped exponential has 7 equal ones among these and the pilot's, fewer than the 2 that are needed once in 100 seeds.
 TEST(Truth, ForeignSamplersAreJudged) {
   for (const truth::Foreign& f : truth::foreign_samplers()) {
     const mc::Report r = check_subject(

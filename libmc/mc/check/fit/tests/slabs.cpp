@@ -18,30 +18,51 @@ double count_between(const std::vector<double>& sorted, double lo, double hi) {
                              std::lower_bound(sorted.begin(), sorted.end(), lo));
 }
 
-// The place on an axis where most samples share one value, up to rounding.
-bool find_atom(const Subject& s, const Pilot& pilot, const std::vector<double>& v, Slab& slab) {
-  const std::size_t axis = slab.axis;
-  const auto width = [&](double a) { return 64 * s.epsilon * std::abs(a) + 1e-300; };
-  double at = 0;
-  std::size_t most = 0;
-  for (std::size_t i = 0; i + most < v.size(); ++i) {
-    if (v[i + most] > v[i] + width(v[i])) continue; // nearly always
-    at = v[i];
-    while (i + most < v.size() && v[i + most] <= v[i] + width(v[i])) ++most;
+// Where samples share one value, up to rounding: the place on an axis where most of them do, and both its ends.
+void add_atoms(const Subject& s, const Pilot& pilot, const std::vector<double>& v, std::size_t axis,
+               std::vector<Slab>& atoms) {
+  const auto beyond = [&](double a) { return a + 64 * s.epsilon * std::abs(a) + 1e-300; };
+  const std::size_t n = v.size();
+  std::size_t most = 1, place = 0, pairs = 0;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double end = beyond(v[i]);
+    if (v[i + 1] > end) continue; // nearly always
+    ++pairs;
+    for (; i + most < n && v[i + most] <= end; ++most) place = i;
   }
-  if (most < 3) return false;
-  double blur = width(at);
-  if (s.resolution) {
-    for (const std::uint32_t i : pilot.nearest(axis, at, 16)) {
+  const auto add = [&](std::size_t first, std::size_t count, bool end) {
+    Slab atom;
+    atom.axis = axis;
+    atom.at_end = end;
+    atom.equal = static_cast<double>(count);
+    atom.pairs_elsewhere = static_cast<double>(pairs + 1 - count);
+    const double at = v[first];
+    double blur = beyond(at) - at;
+    for (const std::uint32_t i : s.resolution ? pilot.nearest(axis, at, 16) : std::vector<std::uint32_t>{}) {
       Subject::Coordinates p = pilot.points[i];
       p[axis] = at;
       blur = std::max(blur, 8 * s.resolution(p, static_cast<int>(axis)));
     }
-  }
-  slab.box.lo[axis] = std::max(at - blur, 0.0);
-  slab.box.hi[axis] = std::min(at + 2 * blur, 1.0);
-  slab.count = count_between(v, slab.box.lo[axis], slab.box.hi[axis]);
-  return slab.box.hi[axis] > slab.box.lo[axis];
+    atom.box.lo[axis] = std::max(at - blur, 0.0);
+    atom.box.hi[axis] = std::min(at + 2 * blur, 1.0);
+    atom.count = count_between(v, atom.box.lo[axis], atom.box.hi[axis]);
+    if (atom.box.hi[axis] > atom.box.lo[axis]) atoms.push_back(atom);
+  };
+  std::size_t low = 0, high = 0; // how many
+  while (low < n && v[low] <= beyond(v[0])) ++low;
+  while (high < n && v[n - 1] <= beyond(v[n - 1 - high])) ++high;
+  if (most >= 3) add(place, most, false);
+  if (low >= 2) add(0, low, true);
+  if (high >= 2) add(n - high, high, true);
+}
+
+// How often as many of n samples are equal at some place, or at one of the two ends, were all of them rounded to steps
+// so coarse that as many pairs are equal elsewhere as there are, and one more. Fewer than 31 random bits, or those of
+// the scalar, are no excuse.
+double chance_of_steps(const Subject& s, const Slab& atom, double n) {
+  const double equal_to_one = std::min(2 * (atom.pairs_elsewhere + 1) / n, n * std::max(0x1p-31, s.epsilon));
+  const double at_a_place = (atom.equal - 1) * std::log(equal_to_one);
+  return std::exp(at_a_place + (atom.at_end ? std::log(2.0) : std::log(n) - std::lgamma(atom.equal + 1)));
 }
 
 // The widest gap of a place on an axis, in spacings of the 64 samples around it. Exponential spacings are seldom more
@@ -107,9 +128,9 @@ std::vector<Slab> find_slabs(const Subject& s, const Pilot& pilot, const std::ar
     slabs.push_back(slab);
   };
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
-    Slab atom;
-    atom.axis = axis;
-    if (find_atom(s, pilot, sorted[axis], atom)) add(atom);
+    std::vector<Slab> atoms;
+    add_atoms(s, pilot, sorted[axis], axis, atoms);
+    for (const Slab& atom : atoms) add(atom);
     for (const Place place : {Place::low_end, Place::inside, Place::high_end}) {
       Slab gap;
       gap.kind = Slab::Kind::gap;
@@ -131,15 +152,16 @@ Check test_slabs(const Subject& s, Slab::Kind kind, const std::vector<Slab>& sla
           0,
           atom ? Fault::atom : Fault::local,
           {}};
-  const double family = n * s.dim;
   for (const Slab& slab : slabs) {
     if (slab.kind != kind) continue;
     const double slack = 4 * std::sqrt(slab.mass.safe_variance()), share = slab.count / n;
     // Rounding moves samples by whole steps: twice as many as expected are no atom yet.
     const double claimed = atom ? 2 * (slab.mass.value + slack) : (slab.mass.value - slack) / mass;
     if (atom ? share <= claimed : share >= claimed) continue;
-    // The slab lies where one sample is, or between two: that much is given.
-    const double p = sidak(binomial_tail(atom ? slab.count - 1 : 0, n, std::min(claimed, 1.0)), family);
+    // The slab lies where one sample is, or between two: that much is given. That sample is one of all, or one of two.
+    const double family = (slab.at_end ? 2 : n) * s.dim;
+    const double by_density = sidak(binomial_tail(atom ? slab.count - 1 : 0, n, std::min(claimed, 1.0)), family);
+    const double p = std::min(by_density + (atom ? s.dim * chance_of_steps(s, slab, n) : 0.0), 1.0);
     if (p >= *c.p) continue;
     c.p = p;
     c.statistic = slab.count;

@@ -28,9 +28,9 @@ class Strips {
 
   /// One Check: the run of 1, 2, 4, ... neighbouring strips whose count is farthest off. The 64 runs that look worst
   /// against the random points, and those at the ends, are held against a quick integral of their own, and the worst
-  /// four of those against a better one; against the points (weighted_counts.h) where not all their samples count 1, and
-  /// where the points state a smaller error than the integral does. Left out are runs whose samples the scalar rounds to
-  /// fewer than 64 steps, or whose count a step at each end would move by half a standard deviation.
+  /// four of those against a better one; against the points (weighted_counts.h) where not all their samples count 1,
+  /// and where the points state a smaller error than the integral does. Left out are runs whose samples the scalar
+  /// rounds to fewer than 64 steps, or whose count a step at each end would move by half a standard deviation.
   ///   subject, pilot : whose samples were counted
   ///   n, mass        : samples that were points; what the density integrates to
   Check test(const Subject& subject, const Pilot& pilot, double n, double mass, double share, double alpha) const;
