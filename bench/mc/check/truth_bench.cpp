@@ -60,8 +60,8 @@ void print(std::uint64_t seed, const Faulty& one, const mc::Report& report, doub
 }
 
 void run(const Options& o) {
-  fmt::print("# bench_mc_check_truth {} {} {} {:g} {}\nseed,kind,size,name,verdict,p,check,detects,in_a_cell,seconds\n",
-             o.what, o.cases, o.first, o.samples, o.name);
+  fmt::print("# bench_mc_check_truth {} {} {} {:g}{}\nseed,kind,size,name,verdict,p,check,detects,in_a_cell,seconds\n",
+             o.what, o.cases, o.first, o.samples, o.name.empty() ? "" : " " + o.name);
   std::map<std::string, std::map<std::string, int>> verdicts;
   double seconds = 0, checked = 0;
   const auto one_case = [&](std::uint64_t seed, const Faulty& one) {

@@ -5,8 +5,8 @@
 
 namespace mc {
 
-/// Sorts numbers that are not NaN, ascending: in linear time where they spread evenly over their range, in n log n
-/// where they crowd.
+/// Sorts numbers that are not NaN, ascending: in linear time where they spread evenly over their range, and once more
+/// for each 24 bits below it at which many crowd.
 void sort_numbers(std::vector<double>& values);
 
 } // namespace mc

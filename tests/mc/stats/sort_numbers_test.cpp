@@ -24,6 +24,8 @@ template <class F> void expect_sorted(const char* what, F number) {
 TEST(SortNumbers, Ascending) {
   expect_sorted("even", [](Pcg& r, int) { return r.uniform<double>(); });
   expect_sorted("crowded at 0", [](Pcg& r, int i) { return (r.uniform<double>() - 0.25) * std::exp2(-i % 60); });
+  expect_sorted("crowded at two scales",
+                [](Pcg& r, int i) { return i % 9 == 0 ? r.uniform<double>() : 0.3 + 1e-12 * r.uniform<double>(); });
   expect_sorted("zeros of both signs", [](Pcg&, int i) { return i % 3 == 0 ? -0.0 : i % 3 - 1.0; });
   expect_sorted("all equal", [](Pcg&, int) { return 0.3; });
   expect_sorted("infinite", [](Pcg&, int i) { return i == 7 ? HUGE_VAL : i == 9 ? -HUGE_VAL : 1.0 / i; });

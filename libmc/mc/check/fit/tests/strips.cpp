@@ -54,6 +54,7 @@ Strips::Strips(const Pilot& pilot, int dim) {
 
 void Strips::sort_points(const Pilot& pilot, Layers& axis) {
   std::vector<std::uint32_t> strip;
+  strip.reserve(pilot.points.size());
   axis.first_points.resize(axis.strips.size() + 1);
   for (const Subject::Coordinates& v : pilot.points) {
     strip.push_back(static_cast<std::uint32_t>(axis.find(v[axis.index])));

@@ -48,12 +48,14 @@ class Strips {
       const std::size_t bucket = place < static_cast<double>(buckets - 1)
                                      ? static_cast<std::size_t>(static_cast<std::int64_t>(place))
                                      : buckets - 1;
-      std::size_t i = guide[bucket], beyond = guide[bucket + 1];
-      while (i < beyond) { // seldom: there are eight times as many buckets as strips
-        const std::size_t middle = (i + beyond) / 2;
-        if (ends[middle] <= v) i = middle + 1;
-        else beyond = middle;
+      std::size_t i = guide[bucket], left = guide[bucket + 1] - i;
+      // No branch depends on v: where the samples crowd, one bucket holds most strips.
+      while (left > 1) {
+        const std::size_t half = left / 2;
+        i += static_cast<std::size_t>(ends[i + half - 1] <= v) * half;
+        left -= half;
       }
+      if (left == 1) i += static_cast<std::size_t>(ends[i] <= v);
       return i;
     }
   };
