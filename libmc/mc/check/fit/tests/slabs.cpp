@@ -108,7 +108,9 @@ bool is_rounding(const Subject& s, const Pilot& pilot, const Slab& gap) {
 // What the pilot beside a slab says that it would hold, were it no exception.
 Layer layer_around(const Pilot& pilot, const Slab& slab) {
   Layer layer{slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis], {}, 0};
-  layer.near = pilot.nearest(slab.axis, 0.5 * (layer.lo + layer.hi), 64);
+  constexpr double least = 64;
+  const double inside = count_between(pilot.sorted[slab.axis], layer.lo, layer.hi);
+  layer.near = pilot.nearest(slab.axis, 0.5 * (layer.lo + layer.hi), static_cast<std::size_t>(std::max(least, inside)));
   double lo = layer.lo, hi = layer.hi;
   for (const std::uint32_t i : layer.near) {
     lo = std::min(lo, pilot.points[i][slab.axis]);

@@ -1,6 +1,7 @@
 #include <mc/check/fit/tests/slabs.h>
 
 #include <mc/check/subject/make_subject.h>
+#include <mc/domain/box.h>
 #include <mc/domain/interval.h>
 #include <mc/warp/spherical_triangle.h>
 
@@ -58,6 +59,28 @@ TEST(Slabs, FewBitsAreNoAtom) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed)
     for (const int bits : {32, 53})
       EXPECT_EQ(atoms(seed, 100'000, bits, HUGE_VAL), mc::Verdict::pass) << seed << ", " << bits;
+}
+
+// All samples lie within a few steps of the scalar: the slab holds the lobe, and its claimed mass is the lobe's.
+TEST(Slabs, ALobeThinnerThanTheSlabIsNoAtom) {
+  for (const float width : {1e-7f, 2e-7f, 5e-7f})
+    for (const float decay : {1e-2f, 1e-4f, 1e-6f}) {
+      const float lo = 0.3f, hi = lo + width;
+      const mc::Subject s = make_subject(
+          "lobe", mc::Box<float, 2>({0, 0}, {1, 1}),
+          [=](const mc::Vec2<float>& u) {
+            return mc::Vec2<float>(static_cast<float>(lo + double{hi - lo} * double{u[0]}),
+                                   std::min(-decay * std::log1p(-u[1]), 1.f));
+          },
+          [=](const mc::Vec2<float>& x) {
+            return x[0] >= lo && x[0] <= hi ? std::exp(-x[1] / decay) / decay / (hi - lo) : 0.f;
+          });
+      for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const mc::Pilot pilot = draw_pilot(s, seed, 160'000);
+        const mc::Check c = test_slabs(s, Kind::atom, find_slabs(s, pilot, pilot.sorted), 20'000, 1, 0.01);
+        EXPECT_EQ(c.verdict, mc::Verdict::pass) << width << ", " << decay << ", seed " << seed << ": p = " << *c.p;
+      }
+    }
 }
 
 // Holes of 0.004, each 80 spacings wide.
