@@ -86,10 +86,11 @@ void lay_out_cells(const Subject& s, const Pilot& pilot, const SubjectOptions& o
   layout.masses = layout.reference->integrate(
       s, goal, hash(options.seed, 4),
       [&](const Subject::Coordinates& v, const Reference::Place& place, double density, double share) {
-        layout.strips->add_expected(v, share);
+        const double weight = place.weight(density);
+        layout.strips->add_expected(v, share, weight);
         layout.grid->add_expected(v, share);
-        layout.levels.add_expected(density / place.density, share);
-        layout.all.add_expected(share);
+        layout.levels.add_expected(density / place.density, share, weight);
+        layout.all.add_expected(share, weight);
       });
   layout.cubature = integrate_density(s, pilot, *layout.pilot_cells, n, options.max_evaluations / 12);
   const Partition& partition = layout.pilot_cells->partition;

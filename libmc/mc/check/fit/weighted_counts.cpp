@@ -22,7 +22,7 @@ CountsCompared compare(const WeightedCounts& bin, double scale) {
   const double larger = std::max(c.observed, c.expected);
   if (!(larger > 0)) return c;
   const double variance = sqr(scale) * std::max(bin.expected_squares, bin.shares / scale);
-  c.sample_variance = c.observed > 0 ? bin.observed_squares / c.observed : 1.0;
+  c.sample_variance = std::max(bin.observed_squares, scale * bin.weights) / larger;
   c.point_variance = variance / larger;
   c.spread = c.sample_variance + c.point_variance;
   c.mean = (c.observed * c.point_variance + c.expected * c.sample_variance) / c.spread;

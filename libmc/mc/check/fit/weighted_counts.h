@@ -9,20 +9,23 @@ namespace mc {
 
 /// Sums of the weights of both in one bin. The random points stand for equal or very different numbers of samples;
 /// where the heavy ones are rare no point may have met the bin, so the samples in it say, too, what each point there
-/// would have stood for.
+/// would have stood for. Nor may a sample have met what is left of the bin beside many of little weight, so the points
+/// say, too, what each sample there would have weighed.
 struct WeightedCounts {
   double observed = 0, observed_squares = 0;
   double expected = 0, expected_squares = 0;
-  double shares = 0; ///< of the samples: weight times the share that a random point at its place has
+  double shares = 0;  ///< of the samples: weight times the share that a random point at its place has
+  double weights = 0; ///< of the random points: share times the weight that a sample at its place has
 
   void add_sample(double weight, double share) {
     observed += weight;
     observed_squares += weight * weight;
     shares += weight * share;
   }
-  void add_expected(double share) {
+  void add_expected(double share, double weight = 1) {
     expected += share;
     expected_squares += share * share;
+    weights += share * weight;
   }
   void join(const WeightedCounts& other) {
     observed += other.observed;
@@ -30,6 +33,7 @@ struct WeightedCounts {
     expected += other.expected;
     expected_squares += other.expected_squares;
     shares += other.shares;
+    weights += other.weights;
   }
 };
 

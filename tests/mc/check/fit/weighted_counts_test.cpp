@@ -20,13 +20,14 @@ TEST(WeightedCounts, JoinedAreAddedUp) {
   mc::WeightedCounts a, b;
   a.add_sample(0.5, 2);
   b.add_sample(1, 3);
-  b.add_expected(4);
+  b.add_expected(4, 0.5);
   a.join(b);
   EXPECT_EQ(a.observed, 1.5);
   EXPECT_EQ(a.observed_squares, 1.25);
   EXPECT_EQ(a.shares, 4);
   EXPECT_EQ(a.expected, 4);
   EXPECT_EQ(a.expected_squares, 16);
+  EXPECT_EQ(a.weights, 2);
 }
 
 TEST(CountsCompared, HasBothVariances) {
@@ -68,6 +69,26 @@ TEST(CountsCompared, RarePointsOfGreatWeightAreNoFault) {
     rejected += compare(bin, 1).p() <= 1e-3;
     // What the random points alone would have said.
     bin.shares = 0;
+    blind += compare(bin, 1).p() <= 1e-3;
+  }
+  EXPECT_LE(rejected, 35);
+  EXPECT_GE(blind, 200);
+}
+
+// The other way round: bins in which three samples of weight 1 are expected, and thirty of weight 0.01; one in 20 has
+// only the light ones.
+TEST(CountsCompared, RareSamplesOfGreatWeightAreNoFault) {
+  Pcg random(2);
+  int rejected = 0, blind = 0;
+  for (int run = 0; run < 20'000; ++run) {
+    mc::WeightedCounts bin;
+    for (const auto& [mass, weight] : {std::pair(3.0, 1.0), std::pair(0.3, 0.01)}) {
+      for (int i = poisson(random, mass / weight); i > 0; --i) bin.add_sample(weight, 0.1);
+      for (int i = poisson(random, mass / 0.1); i > 0; --i) bin.add_expected(0.1, weight);
+    }
+    rejected += compare(bin, 1).p() <= 1e-3;
+    // What the samples alone would have said.
+    bin.weights = 0;
     blind += compare(bin, 1).p() <= 1e-3;
   }
   EXPECT_LE(rejected, 35);

@@ -17,8 +17,8 @@ class DensityLevels {
  public:
   /// share : what a random point at its place stands for
   void add_sample(double ratio, double weight, double share) { levels_[index(ratio)].add_sample(weight, share); }
-  /// A random point that stands for a share of the expected samples.
-  void add_expected(double ratio, double share) { levels_[index(ratio)].add_expected(share); }
+  /// A random point that stands for a share of the expected samples; weight : what a sample at its place counts.
+  void add_expected(double ratio, double share, double weight) { levels_[index(ratio)].add_expected(share, weight); }
 
   /// A chi-square over the levels that say enough, the others joined to them, given the sum of the samples; see
   /// weighted_counts.h.

@@ -21,9 +21,9 @@ class Strips {
   void add_sample(const Subject::Coordinates& v, double weight, double share) {
     for (Layers& axis : axes_) axis.strips[axis.find(v[axis.index])].add_sample(weight, share);
   }
-  /// A random point that stands for a share of the expected samples.
-  void add_expected(const Subject::Coordinates& v, double share) {
-    for (Layers& axis : axes_) axis.strips[axis.find(v[axis.index])].add_expected(share);
+  /// A random point that stands for a share of the expected samples; weight : what a sample at v counts.
+  void add_expected(const Subject::Coordinates& v, double share, double weight) {
+    for (Layers& axis : axes_) axis.strips[axis.find(v[axis.index])].add_expected(share, weight);
   }
 
   /// One Check: the run of 1, 2, 4, ... neighbouring strips whose count is farthest off. The 64 runs that look worst

@@ -20,7 +20,7 @@ mc::Check levels(std::uint64_t seed, bool right, double alpha) {
   }
   for (int i = 0; i < 5000; ++i) {
     const double x = random.uniform<double>();
-    levels.add_expected(density(x), density(x));
+    levels.add_expected(density(x), density(x), 1);
   }
   return levels.test(1, alpha);
 }

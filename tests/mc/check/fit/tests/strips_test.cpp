@@ -17,7 +17,7 @@ mc::Check strips(std::uint64_t seed, double alpha, const std::function<double(Pc
   mc::Strips strips(pilot, 1);
   Pcg random(seed, 3);
   for (int i = 0; i < 100'000; ++i) strips.add_sample({sample(random), 0, 0}, 1, 1);
-  for (int i = 0; i < 50'000; ++i) strips.add_expected({random.uniform<double>(), 0, 0}, 1);
+  for (int i = 0; i < 50'000; ++i) strips.add_expected({random.uniform<double>(), 0, 0}, 1, 1);
   return strips.test(s, pilot, 100'000, 1, 1, alpha);
 }
 
