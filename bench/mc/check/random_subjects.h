@@ -22,6 +22,8 @@ inline int one_of(Pcg& r, int n) { return static_cast<int>(r.next32() % static_c
 Subject random_right(std::uint64_t seed);
 /// One with axes.
 Subject random_shape(std::uint64_t seed);
+/// Narrow features on an even ground, which random points easily miss: a ring, a spot, a ridge or a skew tube.
+Subject random_narrow(std::uint64_t seed);
 
 /// Tables of random size and texture, one in two naming its breaks; a narrow lobe in a uniform sphere; heavy tails;
 /// singular powers in a box; uniform inside a strip, a disk or on a checkerboard; uniform in a ball in a box; broad and

@@ -1,6 +1,7 @@
 // How often the checker rejects random right samplers, and how often it misses random faults, by their kind and size.
-// Usage: bench_mc_check_truth right|faults|promise|foreign [CASES [FIRST_SEED [SAMPLES [NAME]]]]
+// Usage: bench_mc_check_truth right|narrow|faults|promise|foreign [CASES [FIRST_SEED [SAMPLES [NAME]]]]
 //   right   : random right samplers, see random_subjects.h
+//   narrow  : right ones with narrow features, likewise
 //   faults  : random faults in them, of sizes around what can be found, see random_faults.h
 //   promise : random faults of the size that the report of the right sampler says it detects
 //   foreign : CASES seeds of each of the samplers of foreign_samplers.h
@@ -80,6 +81,8 @@ void run(const Options& o) {
       for (const Foreign& f : foreign) one_case(seed, {f.right ? "right" : "wrong", 0, f.subject});
     } else if (o.what == "right") {
       one_case(seed, {"right", 0, random_right(seed)});
+    } else if (o.what == "narrow") {
+      one_case(seed, {"right", 0, random_narrow(seed)});
     } else {
       const Subject right = random_shape(seed);
       if (right.name.find(o.name) == std::string::npos) continue;

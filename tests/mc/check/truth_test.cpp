@@ -28,6 +28,15 @@ TEST(Truth, WhatThinLayersHoldIsNotMissed) {
   }
 }
 
+// Narrow features, and thin layers beside them in which few samples speak. Each is rejected by chance once in 10000
+// runs.
+TEST(Truth, NarrowFeaturesPass) {
+  for (const std::uint64_t seed : {33u, 128u, 178u, 200u, 255u}) {
+    const mc::Report r = check_subject(truth::random_narrow(seed), {.samples = 50'000, .seed = seed, .alpha = 1e-4});
+    EXPECT_TRUE(r.passed()) << seed << ": " << r.to_string();
+  }
+}
+
 // Each is missed at most once in 100: more than 3 of 60 with probability 0.003.
 TEST(Truth, FaultsOfTheStatedSizeAreFound) {
   int missed = 0;
