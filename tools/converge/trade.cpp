@@ -91,7 +91,9 @@ ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne
             [](const Offer& a, const Offer& b) { return a.error.value < b.error.value; });
   if (const Curve* random = plain(m); random && !result.offers.empty()) {
     const mc::RmsError& e = random->errors.back();
-    const Ranged n{e.n * mc::sqr(e.rms / error), e.n * mc::sqr(e.lo / error), e.n * mc::sqr(e.hi / error)};
+    const double fewest = random->errors.front().n;
+    const auto needed = [&](double rms) { return std::max(e.n * mc::sqr(rms / error), fewest); };
+    const Ranged n{needed(e.rms), needed(e.lo), needed(e.hi)};
     const Ranged one = seconds_of_one(*random, std::min(n.value, e.n));
     result.gain = ratio({n.value * one.value, n.lo * one.lo, n.hi * one.hi}, result.offers.front().seconds);
   }

@@ -27,7 +27,8 @@ struct ForError {
   double wanted = 0;
   std::vector<Offer> offers;
   std::vector<Offer> nearest; ///< where none reaches it: how far each came, best first
-  /// Plain Monte Carlo's seconds over those of the first; beyond its largest N by its law N^-1/2, which holds exactly.
+  /// Plain Monte Carlo's seconds over those of the first; by its law N^-1/2, which holds exactly, from its largest N
+  /// down to its fewest and beyond.
   std::optional<Ranged> gain;
 };
 

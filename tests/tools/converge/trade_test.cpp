@@ -75,6 +75,15 @@ TEST(Trade, TheCheapestForAnError) {
   EXPECT_GT(f.gain->hi, 1000);
 }
 
+// Each takes its fewest evaluations, 16: plain Monte Carlo no fewer.
+TEST(Trade, AnErrorThatAllReachAtOnceIsNoGain) {
+  const carlo::ForError f = offers_for_error(measured(), 2, clock);
+  ASSERT_EQ(f.offers.size(), 4u);
+  EXPECT_NEAR(f.gain->value, 1, 1e-9);
+  EXPECT_LE(f.gain->lo, 1);
+  EXPECT_GE(f.gain->hi, 1);
+}
+
 TEST(Trade, WhereNoneArrivesTheNearestAreNamed) {
   const carlo::ForError f = offers_for_error(measured(), 1e-6, clock);
   EXPECT_TRUE(f.offers.empty());
