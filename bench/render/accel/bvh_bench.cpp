@@ -7,6 +7,7 @@
 ///   bytes   : per primitive, of tree and of shapes
 
 #include "../arguments.h"
+#include "../timing.h"
 #include "worlds.h"
 
 #include <embree3/rtcore.h>
@@ -16,26 +17,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 namespace {
 
 using namespace bench;
 
-double cpu_seconds(clockid_t clock) {
-  timespec t;
-  clock_gettime(clock, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
 std::size_t allocated() {
   const auto m = mallinfo2();
   return m.uordblks + m.hblkhd;
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
 }
 
 /// Embree's scene of a world.

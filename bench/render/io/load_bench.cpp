@@ -5,6 +5,7 @@
 ///   MB/s  : of the file, by the reader's seconds
 
 #include "../arguments.h"
+#include "../timing.h"
 
 #include <render/io/mesh/mesh.h>
 
@@ -23,18 +24,10 @@
 
 namespace {
 
+using bench::cpu_seconds, bench::median;
 using Clock = std::chrono::steady_clock;
 
-double cpu_seconds() {
-  timespec t;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
+constexpr clockid_t process = CLOCK_PROCESS_CPUTIME_ID;
 
 struct Grid {
   std::vector<float> positions, normals;
@@ -125,14 +118,14 @@ template <class Read> void row(const char* format, const std::string& path, int 
   std::size_t triangles = 0;
   for (int i = 0; i < rounds; ++i) {
     const auto start = Clock::now();
-    const double cpu_start = cpu_seconds();
+    const double cpu_start = cpu_seconds(process);
     const render::MeshFile file = read(path);
     seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
-    cpu.push_back(cpu_seconds() - cpu_start);
-    const double shape_start = cpu_seconds();
+    cpu.push_back(cpu_seconds(process) - cpu_start);
+    const double shape_start = cpu_seconds(process);
     triangles = file.triangles.size();
     const render::TriangleMesh mesh = to_shape(file, render::Transform{});
-    shape.push_back(cpu_seconds() - shape_start);
+    shape.push_back(cpu_seconds(process) - shape_start);
   }
   const double bytes = double(std::filesystem::file_size(path));
   fmt::print("{:12}{:>10}{:>8.1f}{:>8.2f}{:>8.2f}{:>8.2f}{:>8.0f}\n", format, triangles, 1e-6 * bytes, median(seconds),

@@ -52,7 +52,7 @@ struct IntegrateOptions {
   int threads = 0;          ///< 0: all of the machine's; the result has the same bits for any number
   double confidence = 0.95; ///< of the interval
   /// Independent randomisations behind the error of stratified, rqmc, vegas and tree. Where the calls end sequences are
-  /// more, or as few as a third (of 8 or fewer none is missing) and longer: what leaves less variance.
+  /// more, or fewer and longer, whichever leaves less variance: a third of them at least, and eight, or all of fewer.
   std::uint32_t replicates = 24;
   /// Of an earlier run, or read from a file (see load_density): vegas, tree and automatic take it for what they would
   /// have learned, after one short round that measures the integral with it. As unbiased for any density.

@@ -19,7 +19,7 @@ TEST(RoughPlastic, ObeysTheLaws) {
   for (const double alpha : {0.02, 0.3, 1.0})
     for (const double angle : {0.0, 60.0, 85.0, 120.0}) {
       const Vec3 wo = support::at_degrees(angle);
-      const auto report = mc::check_bsdf<Float>(plastic(alpha), wo, {.samples = 20'000, .alpha = 1e-5});
+      const auto report = mc::check_bsdf<Float>(plastic(alpha), wo, {.samples = 50'000, .alpha = 1e-5});
       EXPECT_TRUE(report.passed()) << alpha << ", " << angle << " degrees\n" << report.to_string();
     }
 }

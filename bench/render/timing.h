@@ -1,0 +1,23 @@
+#pragma once
+/// What tables of render's speed are made with.
+
+#include <algorithm>
+#include <cstddef>
+#include <ctime>
+#include <vector>
+
+namespace bench {
+
+/// CPU seconds so far, of the process or of this thread: CLOCK_PROCESS_CPUTIME_ID or CLOCK_THREAD_CPUTIME_ID.
+inline double cpu_seconds(clockid_t clock) {
+  timespec t;
+  clock_gettime(clock, &t);
+  return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+inline double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+} // namespace bench
