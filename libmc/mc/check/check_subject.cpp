@@ -74,23 +74,31 @@ Cell cell_of(const Subject& s, const Pilot& pilot, const UnitBox& box, const Est
   return c;
 }
 
+// Counts what points of the reference stand for, each test's in a loop of its own: they share little memory.
+void count_expected(std::span<const Reference::Evaluated> points, Layout& layout) {
+  std::vector<double> weights(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) weights[i] = points[i].place->weight(points[i].density);
+  for (std::size_t i = 0; i < points.size(); ++i) layout.strips->add_expected(points[i].v, points[i].share, weights[i]);
+  for (const Reference::Evaluated& p : points) layout.grid->add_expected(p.v, p.share);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Reference::Evaluated& p = points[i];
+    layout.levels.add_expected(p.density / p.place->density, p.share, weights[i]);
+    layout.all.add_expected(p.share, weights[i]);
+  }
+}
+
 void lay_out_cells(const Subject& s, const Pilot& pilot, const SubjectOptions& options, Layout& layout) {
   const double n = static_cast<double>(options.samples), draws = static_cast<double>(pilot.tally.draws);
-  layout.pilot_cells.emplace(pilot, s.dim, tree_depth(n * static_cast<double>(pilot.points.size()) / draws));
+  layout.pilot_cells.emplace(s, pilot, tree_depth(n * static_cast<double>(pilot.points.size()) / draws));
   layout.reference.emplace(s, pilot, *layout.pilot_cells, hash(options.seed, 3));
   Reference::Goal goal;
   goal.samples = n;
   goal.most = std::max<std::size_t>(options.max_evaluations / 3, 1 << 15);
   layout.strips.emplace(pilot, s.dim);
   layout.grid.emplace(s.dim, n, mean_step(s, pilot, 1 / std::sqrt(n)));
-  layout.masses = layout.reference->integrate(
-      s, goal, hash(options.seed, 4),
-      [&](const Subject::Coordinates& v, const Reference::Place& place, double density, double share) {
-        const double weight = place.weight(density);
-        layout.strips->add_expected(v, share, weight);
-        layout.grid->add_expected(v, share);
-        layout.levels.add_expected(density / place.density, share, weight);
-        layout.all.add_expected(share, weight);
+  layout.masses =
+      layout.reference->integrate(s, goal, hash(options.seed, 4), [&](std::span<const Reference::Evaluated> points) {
+        count_expected(points, layout);
       });
   layout.cubature = integrate_density(s, pilot, *layout.pilot_cells, n, options.max_evaluations / 12);
   const Partition& partition = layout.pilot_cells->partition;
@@ -144,7 +152,7 @@ CellTests judge_counts(const Subject& s, Layout& layout, const std::vector<Weigh
   return test_cells(layout.cells, s.dim, alpha, s.axes);
 }
 
-// Counts points, each test's in a loop of its own: they share little memory.
+// Counts samples that are points, in the same way.
 void count_points(const Subject& s, const std::vector<Subject::Coordinates>& points,
                   const std::vector<double>& densities, Layout& layout, Counts& counts) {
   if (points.empty()) return;

@@ -4,7 +4,9 @@
 #include <mc/core/error.h>
 #include <mc/domain/hemisphere.h>
 #include <mc/domain/interval.h>
+#include <mc/domain/sphere.h>
 #include <mc/warp/hemisphere.h>
+#include <mc/warp/normal.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,6 +33,26 @@ TEST(CheckSubject, AcceptsTheRightSamplerAtTheRateOfAlpha) {
   }
   EXPECT_LE(rejected, 48);
   EXPECT_GE(rejected, 8);
+}
+
+// A normal lobe of unit vectors, its deviation 15 steps of a float: cells as narrow as a step would count the steps.
+TEST(CheckSubject, LobesOfFewFloatSteps) {
+  using F = mc::Vec3<float>;
+  const mc::Normal<double> offset(0, 9e-7);
+  for (const double azimuth : {0.4, 2.0, 4.0}) {
+    const V x(-std::sin(azimuth), std::cos(azimuth), 0);
+    const V z = V(std::cos(azimuth), std::sin(azimuth), 0.0175).normalized(), y = mc::cross(z, x);
+    const auto sampler = [=](Pcg& r) -> F {
+      const double a = offset.sample(r.uniform<double>()), b = offset.sample(r.uniform<double>());
+      return (z + a * x + b * y).normalized().cast<float>();
+    };
+    const auto pdf = [=](const F& w) {
+      const V d = w.cast<double>().normalized();
+      return d.dot(z) > 0 ? static_cast<float>(offset.pdf(d.dot(x)) * offset.pdf(d.dot(y))) : 0.0f;
+    };
+    const mc::Report r = check_subject(make_subject("few steps", mc::Sphere<float>{}, sampler, pdf), {});
+    EXPECT_EQ(r.verdict(), Verdict::pass) << r.to_string();
+  }
 }
 
 TEST(CheckSubject, SharpLobesAreAsEasyAsCosines) {

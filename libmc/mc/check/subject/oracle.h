@@ -9,8 +9,8 @@
 
 namespace mc {
 
-/// A number of 168 binary digits, rounded to nearest, with the functions that a warp calls. Its arithmetic is Boost's
-/// cpp_bin_float<50>, compiled in oracle.cpp alone: what is instantiated over Oracle compiles as fast as over double.
+/// A number of 168 binary digits, rounded to nearest, with the functions that a warp calls. Its arithmetic is MPFR's,
+/// correctly rounded, and called in oracle.cpp alone: what is instantiated over Oracle compiles as fast as over double.
 class Oracle {
  public:
   Oracle() = default; ///< 0
@@ -39,16 +39,16 @@ class Oracle {
   friend std::ostream& operator<<(std::ostream& out, const Oracle& x); ///< all digits that the stream asks for
 
  private:
-  friend struct OracleNumber;
+  friend class OracleView;
   long long truncated() const;
   static Oracle from(double x);
   static Oracle from_signed(long long i);
   static Oracle from_unsigned(unsigned long long i);
 
-  static constexpr int zero_exponent = 2147483312;
-  std::array<std::uint64_t, 3> mantissa_{};
-  int exponent_ = zero_exponent; ///< beyond those of numbers: 0, infinity, NaN
-  bool negative_ = false;
+  // As MPFR says it: +-3 is a number, significand * 2^exponent, +-2 is 0, +-1 is infinity, 0 is NaN.
+  std::array<std::uint64_t, 3> significand_{};
+  std::int64_t exponent_ = 0;
+  int kind_ = 2;
 };
 
 Oracle abs(const Oracle& x);
@@ -94,7 +94,7 @@ template <> class std::numeric_limits<mc::Oracle> {
   static constexpr bool has_infinity = true, has_quiet_NaN = true, has_signaling_NaN = false;
   static constexpr bool is_iec559 = false, is_bounded = true, is_modulo = false;
   static constexpr int radix = 2, digits = 168, digits10 = 50, max_digits10 = 53;
-  static constexpr int min_exponent = -2147483312, max_exponent = 2147483311;
+  static constexpr int min_exponent = -1073741823, max_exponent = 1073741823;
   static mc::Oracle min();
   static mc::Oracle max();
   static mc::Oracle lowest();

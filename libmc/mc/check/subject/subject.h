@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct Subject {
 
   /// Claimed density in chart coordinates, pdf(from_unit(v)) * jacobian(v): integrates to 1 - P(atom) - P(failure).
   std::function<double(const Coordinates& v)> density;
+  /// The same at many points, for a subject that answers many at once faster than one by one; may be empty.
+  std::function<void(std::span<const Coordinates> v, std::span<double> densities)> densities;
 
   /// Chart coordinates, ascending, where the density may jump along each axis, as between the bins of a table: between
   /// them its integral is found from few points, and exactly where it is constant. May be empty.

@@ -68,7 +68,7 @@ struct Region {
 
 class Integrator {
  public:
-  Integrator(const std::function<double(const std::array<double, 3>&)>& f, int dim) : f_(f), dim_(dim) {}
+  Integrator(const IntegrandOfMany& f, int dim) : f_(f), dim_(dim) {}
 
   void evaluate(Region& r) {
     const Rule& rule = r.rough && dim_ == 3 ? coarse() : fine();
@@ -80,23 +80,27 @@ class Integrator {
       volume *= width[ix(d)];
     }
     const std::array<int, 3> count{n, dim_ > 1 ? n : 1, dim_ > 2 ? n : 1};
-    values_.clear();
+    points_.clear();
     std::array<double, 3> v{};
-    double largest = 0, least = HUGE_VAL;
     for (int k = 0; k < count[2]; ++k)
       for (int j = 0; j < count[1]; ++j)
         for (int i = 0; i < count[0]; ++i) {
           const std::array<int, 3> index{i, j, k};
           for (int d = 0; d < dim_; ++d) v[ix(d)] = r.box.lo[ix(d)] + width[ix(d)] * rule.x[ix(index[ix(d)])];
-          double value = f_(v);
-          if (!(value >= 0 && value <= std::numeric_limits<double>::max())) {
-            if (!bad) bad = v;
-            value = 0;
-          }
-          largest = std::max(largest, value);
-          least = std::min(least, value);
-          values_.push_back(value);
+          points_.push_back(v);
         }
+    values_.resize(points_.size());
+    f_(points_, values_);
+    double largest = 0, least = HUGE_VAL;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      double& value = values_[i];
+      if (!(value >= 0 && value <= std::numeric_limits<double>::max())) {
+        if (!bad) bad = points_[i];
+        value = 0;
+      }
+      largest = std::max(largest, value);
+      least = std::min(least, value);
+    }
     evaluations += values_.size();
 
     // What each new node differs from the interpolant of the coarser rule, in absolute value, so that neither nodes nor
@@ -175,8 +179,9 @@ class Integrator {
     static const Rule rule(4);
     return rule;
   }
-  const std::function<double(const std::array<double, 3>&)>& f_;
+  const IntegrandOfMany& f_;
   int dim_;
+  std::vector<std::array<double, 3>> points_;
   std::vector<double> values_;
 };
 
@@ -184,6 +189,14 @@ class Integrator {
 
 CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim,
                                const std::vector<UnitBox>& boxes, const CubatureGoal& goal) {
+  const IntegrandOfMany many = [&f](std::span<std::array<double, 3>> v, std::span<double> values) {
+    std::transform(v.begin(), v.end(), values.begin(), f);
+  };
+  return integrate_boxes(many, dim, boxes, goal);
+}
+
+CubatureResult integrate_boxes(const IntegrandOfMany& f, int dim, const std::vector<UnitBox>& boxes,
+                               const CubatureGoal& goal) {
   require(dim >= 1 && dim <= 3, "integrate_boxes: dim {} must lie in 1..3", dim);
   Integrator integrator(f, dim);
   CubatureResult result;

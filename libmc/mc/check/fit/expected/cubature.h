@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace mc {
@@ -39,5 +40,9 @@ struct CubatureGoal {
 ///   Source : [ClenshawCurtis60]; global adaptivity as in [GenzMalik80]
 CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim,
                                const std::vector<UnitBox>& boxes, const CubatureGoal& goal = {});
+/// The same of an f that is evaluated at many points at once. It may move them.
+using IntegrandOfMany = std::function<void(std::span<std::array<double, 3>> v, std::span<double> values)>;
+CubatureResult integrate_boxes(const IntegrandOfMany& f, int dim, const std::vector<UnitBox>& boxes,
+                               const CubatureGoal& goal = {});
 
 } // namespace mc

@@ -1,10 +1,31 @@
 #include <mc/check/fit/expected/estimated_mass.h>
 
+#include <mc/check/fit/expected/density_inside.h>
+#include <mc/check/fit/pilot.h>
+#include <mc/core/types.h>
+
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace mc {
 
 double EstimatedMass::shown_variance() const { return variance + 3 * std::sqrt(2 * variance_square); }
+
+void EstimatedMass::add_part(double volume, std::span<const double, 4> density) {
+  const double a = 0.5 * (density[0] + density[1]), b = 0.5 * (density[2] + density[3]);
+  const double off = volume * (a - b), mean = 0.5 * volume * (a + b), square = sqr(0.5 * off);
+  value += mean;
+  variance += square;
+  variance_square += sqr(square);
+  largest = std::max(largest, mean);
+  jump = std::max(jump, std::abs(off));
+}
+
+bool may_cut(const Subject& s, const UnitBox& box, std::size_t axis, double place, const Subject::Coordinates& beside) {
+  const double least = std::min(place - box.lo[axis], box.hi[axis] - place);
+  return least > 0 && least >= rounded_steps * rounding(s, beside, axis);
+}
 
 double volume(const UnitBox& box, int dim) {
   double product = 1;
@@ -26,7 +47,6 @@ Subject::Coordinates mirrored(const Subject::Coordinates& v, const UnitBox& box,
   return w;
 }
 
-// Where an axis of a box is cut: at the breaks inside, and evenly between them until there are `least` intervals.
 std::vector<double> cut_axis(double lo, double hi, const std::vector<double>& breaks, std::size_t least) {
   std::vector<double> ends{lo};
   for (auto b = std::upper_bound(breaks.begin(), breaks.end(), lo); b != breaks.end() && *b < hi; ++b)
@@ -42,52 +62,64 @@ std::vector<double> cut_axis(double lo, double hi, const std::vector<double>& br
   return finer;
 }
 
+void PairedPoints::add(const UnitBox& whole, int dim, const std::array<std::vector<double>, 3>& breaks,
+                       std::size_t per_axis, Pcg& random) {
+  std::array<std::vector<double>, 3> ends{{{0, 1}, {0, 1}, {0, 1}}};
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d)
+    ends[d] = cut_axis(whole.lo[d], whole.hi[d], breaks[d], per_axis);
+  for (std::size_t i = 0; i + 1 < ends[0].size(); ++i)
+    for (std::size_t j = 0; j + 1 < ends[1].size(); ++j)
+      for (std::size_t k = 0; k + 1 < ends[2].size(); ++k) {
+        const UnitBox box{{ends[0][i], ends[1][j], ends[2][k]}, {ends[0][i + 1], ends[1][j + 1], ends[2][k + 1]}};
+        volumes.push_back(volume(box, dim));
+        for (int pair = 0; pair < 2; ++pair) {
+          points.push_back(random_point(box, dim, random));
+          points.push_back(mirrored(points.back(), box, dim));
+        }
+      }
+}
+
 Seen add_box(const Subject& s, const UnitBox& box, std::size_t per_axis, Pcg& random, EstimatedMass& mass) {
+  PairedPoints paired;
+  paired.add(box, s.dim, s.breaks, per_axis, random);
+  std::vector<double> densities(paired.points.size());
+  densities_inside(s, paired.points, densities);
   Seen seen;
-  const auto evaluate = [&](const Subject::Coordinates& v, double stands_for) {
-    const double density = density_inside(s, v);
-    const double finite = density >= 0 && density <= std::numeric_limits<double>::max() ? density : 0.0;
-    seen.density = std::max(seen.density, finite);
-    seen.volume = std::max(seen.volume, stands_for);
-    return std::array{finite};
-  };
-  add_pairs<1>(box, s.dim, s.breaks, per_axis, random, evaluate, {&mass});
+  for (double& d : densities) {
+    d = d >= 0 && d <= std::numeric_limits<double>::max() ? d : 0.0;
+    seen.density = std::max(seen.density, d);
+  }
+  for (std::size_t i = 0; i < paired.volumes.size(); ++i) {
+    seen.volume = std::max(seen.volume, paired.volumes[i] / 4);
+    mass.add_part(paired.volumes[i], std::span<const double, 4>(&densities[4 * i], 4));
+  }
   return seen;
 }
 
-double density_inside(const Subject& s, Subject::Coordinates v) {
-  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) v[d] = std::clamp(v[d], 0x1p-60, 1 - 0x1p-53);
-  return s.density(v);
-}
-
 void LinearFit::add(const Subject::Coordinates& v, double density, double part) {
-  std::array<double, 4>& d = differences_.emplace_back();
   const double size = 4 * part; // of the box
-  for (std::size_t i = 0; i < dim_; ++i) d[i] = size * v[i];
-  d[3] = size * density;
-  if (++points_ % 2 != 0) return;
-  const std::array<double, 4> mirrored = differences_.back();
-  differences_.pop_back();
-  for (std::size_t i = 0; i < 4; ++i) differences_.back()[i] -= mirrored[i];
+  const Difference point{size * v[0], size * v[1], size * v[2], size * density};
+  half_ = !half_;
+  if (half_) return differences_.push_back(point);
+  Difference& d = differences_.back();
+  for (std::size_t i = 0; i < 4; ++i) d[i] -= point[i];
+  for (std::size_t i = 0; i < dim_; ++i)
+    for (std::size_t j = 0; j < 4; ++j) products_[i][j] += d[i] * d[j];
 }
 
 double LinearFit::largest_residual() {
+  // Gauss and Seidel's iteration, which needs no rank.
   std::array<double, 3> slope{};
-  const auto residual = [&](const std::array<double, 4>& d) {
-    return d[3] - slope[0] * d[0] - slope[1] * d[1] - slope[2] * d[2];
-  };
   for (int sweep = 0; sweep < 16; ++sweep)
     for (std::size_t i = 0; i < dim_; ++i) {
-      double product = 0, square = 0;
-      for (const std::array<double, 4>& d : differences_) {
-        product += d[i] * residual(d);
-        square += d[i] * d[i];
-      }
-      if (square > 0) slope[i] += product / square;
+      const Difference& p = products_[i];
+      if (p[i] > 0) slope[i] += (p[3] - slope[0] * p[0] - slope[1] * p[1] - slope[2] * p[2]) / p[i];
     }
   double largest = 0;
-  for (const std::array<double, 4>& d : differences_) largest = std::max(largest, std::abs(residual(d)));
+  for (const Difference& d : differences_)
+    largest = std::max(largest, std::abs(d[3] - slope[0] * d[0] - slope[1] * d[1] - slope[2] * d[2]));
   differences_.clear();
+  products_ = {};
   return largest;
 }
 

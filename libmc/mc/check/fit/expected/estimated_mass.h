@@ -4,11 +4,9 @@
 
 #include <mc/check/fit/expected/partition.h>
 #include <mc/check/subject/subject.h>
-#include <mc/core/types.h>
 #include <mc/random/pcg.h>
 
-#include <algorithm>
-#include <cmath>
+#include <span>
 #include <vector>
 
 namespace mc {
@@ -26,11 +24,14 @@ struct EstimatedMass {
   double safe_variance() const { return shown_variance() + largest * largest; }
   /// And that of the largest jump: one that no pair here sees is seen beside it.
   double variance_with_jumps() const { return shown_variance() + jump * jump; }
+  /// Adds a part of a box, by its volume and the density at its four points: a point, its mirror image, and so again.
+  void add_part(double volume, std::span<const double, 4> density);
 };
 
-/// The claimed density at v, moved off the faces of the cube by 2^-60 at 0 and by 2^-53 at 1, where charts of infinite
-/// domains have no point.
-double density_inside(const Subject& subject, Subject::Coordinates v);
+/// Whether the parts of a box that is cut at a place are boxes, and so wide that rounded samples meet them as random
+/// points do; beside : a sample nearby.
+bool may_cut(const Subject& subject, const UnitBox& box, std::size_t axis, double place,
+             const Subject::Coordinates& beside);
 
 /// Its volume in the cube.
 double volume(const UnitBox& box, int dim);
@@ -41,36 +42,15 @@ Subject::Coordinates mirrored(const Subject::Coordinates& v, const UnitBox& box,
 /// Where an axis of a box is cut: at the breaks inside, and evenly between them until there are `least` intervals.
 std::vector<double> cut_axis(double lo, double hi, const std::vector<double>& breaks, std::size_t least);
 
-/// Two random points in each part of a box, each with its mirror image through the middle: the mean over such a pair is
-/// exact where the density is linear. f(v, volume) returns several densities at v, a point that stands for that volume;
-/// each is integrated.
-template <std::size_t N, class F>
-void add_pairs(const UnitBox& whole, int dim, const std::array<std::vector<double>, 3>& breaks, std::size_t per_axis,
-               Pcg& random, F&& f, const std::array<EstimatedMass*, N>& masses) {
-  std::array<std::vector<double>, 3> ends{{{0, 1}, {0, 1}, {0, 1}}};
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d)
-    ends[d] = cut_axis(whole.lo[d], whole.hi[d], breaks[d], per_axis);
-  for (std::size_t i = 0; i + 1 < ends[0].size(); ++i)
-    for (std::size_t j = 0; j + 1 < ends[1].size(); ++j)
-      for (std::size_t k = 0; k + 1 < ends[2].size(); ++k) {
-        const UnitBox box{{ends[0][i], ends[1][j], ends[2][k]}, {ends[0][i + 1], ends[1][j + 1], ends[2][k + 1]}};
-        const double size = volume(box, dim);
-        std::array<std::array<double, N>, 2> pairs{};
-        for (std::array<double, N>& pair : pairs) {
-          const Subject::Coordinates v = random_point(box, dim, random);
-          const std::array<double, N> a = f(v, size / 4), b = f(mirrored(v, box, dim), size / 4);
-          for (std::size_t m = 0; m < N; ++m) pair[m] = 0.5 * (a[m] + b[m]);
-        }
-        for (std::size_t m = 0; m < N; ++m) {
-          const double off = size * (pairs[0][m] - pairs[1][m]), variance = sqr(0.5 * off);
-          masses[m]->value += 0.5 * size * (pairs[0][m] + pairs[1][m]);
-          masses[m]->variance += variance;
-          masses[m]->variance_square += sqr(variance);
-          masses[m]->largest = std::max(masses[m]->largest, 0.5 * size * (pairs[0][m] + pairs[1][m]));
-          masses[m]->jump = std::max(masses[m]->jump, std::abs(off));
-        }
-      }
-}
+/// Random points in boxes: two in each part of a box, each with its mirror image through the middle. The mean over such
+/// a pair is exact where the density is linear.
+struct PairedPoints {
+  std::vector<Subject::Coordinates> points; ///< four to a part, as EstimatedMass::add_part takes them
+  std::vector<double> volumes;              ///< of the parts
+  /// The box is cut as by cut_axis.
+  void add(const UnitBox& box, int dim, const std::array<std::vector<double>, 3>& breaks, std::size_t per_axis,
+           Pcg& random);
+};
 
 /// What the points of a box saw: the largest density, and the largest volume that one of them stood for.
 struct Seen {
@@ -86,14 +66,18 @@ class LinearFit {
  public:
   explicit LinearFit(std::size_t dim) : dim_(dim) {}
 
-  /// Points in the order of add_pairs, each followed by its mirror image.
+  /// Points, each followed by its mirror image; part : the volume that one stands for.
   void add(const Subject::Coordinates& v, double density, double part);
   /// The largest that a difference is off after the least squares fit of a slope; begins anew.
   double largest_residual();
 
  private:
-  std::size_t dim_, points_ = 0;
-  std::vector<std::array<double, 4>> differences_; ///< of mirrored points, times the size of their box
+  using Difference = std::array<double, 4>; ///< of mirrored points along the axes, then of their densities
+
+  std::size_t dim_;
+  bool half_ = false;                    ///< a point waits for its mirror image
+  std::vector<Difference> differences_;  ///< times the size of their box
+  std::array<Difference, 3> products_{}; ///< sums of products of one along an axis with all
 };
 
 } // namespace mc

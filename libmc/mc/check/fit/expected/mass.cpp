@@ -1,6 +1,7 @@
 #include <mc/check/fit/expected/mass.h>
 
 #include <mc/check/fit/alpha_shares.h>
+#include <mc/check/fit/expected/density_inside.h>
 #include <mc/core/types.h>
 #include <mc/stats/chi_square.h>
 #include <mc/stats/multiple_testing.h>
@@ -84,7 +85,10 @@ CubatureResult integrate_density(const Subject& s, const Pilot& pilot, const Pil
   goal.max_evaluations = max_evaluations;
   const double each = goal.total_error / static_cast<double>(pieces.size());
   goal.box_error = [each](double value) { return std::max(each, 1e-3 * value); };
-  return integrate_boxes([&s](const Subject::Coordinates& v) { return density_inside(s, v); }, s.dim, pieces, goal);
+  const IntegrandOfMany density = [&s](std::span<Subject::Coordinates> v, std::span<double> densities) {
+    densities_inside(s, v, densities);
+  };
+  return integrate_boxes(density, s.dim, pieces, goal);
 }
 
 ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const EstimatedMass& reference,

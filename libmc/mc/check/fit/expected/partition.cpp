@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 namespace mc {
 
@@ -18,22 +19,19 @@ double shortest_binary_fraction(double a, double b) {
   return b;
 }
 
-Partition::Partition(std::vector<Coordinates> pilot, int dim, int depth) : dim_(dim), depth_(depth) {
-  require(dim >= 1 && dim <= 3, "Partition: dim {} must lie in 1..3", dim);
-  require(depth >= 0 && depth <= 24, "Partition: depth {} must lie in 0..24", depth);
-  splits_.resize(static_cast<std::size_t>(size()));
-  split(1, UnitBox{}, pilot.data(), pilot.data() + pilot.size(), 0);
-}
+// Splits nodes; points are those of the pilot in a node.
+struct Partition::Builder {
+  Partition& partition;
+  const MayCut& may_cut;
+  using Points = std::span<Coordinates>;
 
-void Partition::split(int node, const UnitBox& box, Coordinates* begin, Coordinates* end, int level) {
-  if (level == depth_) return;
   // The place for a split of this axis; none when the pilot cannot be divided there.
-  const auto place = [&](std::uint32_t axis) -> std::optional<double> {
-    if (end - begin < 2) return {};
+  static std::optional<double> quantile(Points points, const UnitBox& box, std::size_t axis) {
+    if (points.size() < 2) return {};
     // A thousand of the points place the quantiles well enough.
-    const std::ptrdiff_t every = std::max<std::ptrdiff_t>((end - begin) / 1024, 1);
+    const std::size_t every = std::max<std::size_t>(points.size() / 1024, 1);
     std::vector<double> values;
-    for (std::ptrdiff_t i = 0; i < end - begin; i += every) values.push_back(begin[i][axis]);
+    for (std::size_t i = 0; i < points.size(); i += every) values.push_back(points[i][axis]);
     const auto n = static_cast<std::ptrdiff_t>(values.size());
     const auto k_lo = std::min(static_cast<std::ptrdiff_t>(0.45 * static_cast<double>(n)), n - 2);
     const auto k_hi = std::max(k_lo + 1, static_cast<std::ptrdiff_t>(0.55 * static_cast<double>(n)));
@@ -44,30 +42,50 @@ void Partition::split(int node, const UnitBox& box, Coordinates* begin, Coordina
     const double hi = at[k_hi];
     if (lo < hi) return shortest_binary_fraction(lo, hi);
     // A tenth of the pilot on one value: cut the atom off, below it or just above.
-    const bool below = std::any_of(begin, end, [&](const Coordinates& v) { return v[axis] < lo; });
-    if (below) return lo;
+    if (std::any_of(points.begin(), points.end(), [&](const Coordinates& v) { return v[axis] < lo; })) return lo;
     const double above = std::nextafter(hi, 2.0);
     if (above < box.hi[axis]) return above;
     return {};
-  };
-
-  const auto first = static_cast<std::uint32_t>(level % dim_);
-  Split& s = splits_[static_cast<std::size_t>(node)];
-  s = {0.5 * (box.lo[first] + box.hi[first]), first};
-  for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(dim_); ++i) {
-    const std::uint32_t axis = (first + i) % static_cast<std::uint32_t>(dim_);
-    if (const auto at = place(axis); at && *at > box.lo[axis] && *at < box.hi[axis]) {
-      s = {*at, axis};
-      break;
-    }
   }
-  const double at = s.at;
-  const std::uint32_t axis = s.axis;
-  Coordinates* middle = std::partition(begin, end, [&](const Coordinates& v) { return v[axis] < at; });
-  UnitBox left = box, right = box;
-  left.hi[axis] = right.lo[axis] = at;
-  split(2 * node, left, begin, middle, level + 1);
-  split(2 * node + 1, right, middle, end, level + 1);
+
+  // Axes take turns, but for those along which the box cannot be cut.
+  Split place(const UnitBox& box, Points points, int level) const {
+    const auto dim = static_cast<std::uint32_t>(partition.dim_), first = static_cast<std::uint32_t>(level) % dim;
+    bool refused = false;
+    for (std::uint32_t i = 0; i < dim; ++i) {
+      const std::uint32_t axis = (first + i) % dim;
+      const auto at = quantile(points, box, axis);
+      if (!at || !(*at > box.lo[axis] && *at < box.hi[axis])) continue;
+      if (!may_cut || may_cut(box, axis, *at, points[points.size() / 2])) return {*at, axis};
+      refused = true;
+    }
+    return {refused ? never : 0.5 * (box.lo[first] + box.hi[first]), first};
+  }
+
+  void split(int node, const UnitBox& box, Points points, int level) {
+    if (level == partition.depth_) return;
+    const Split s = partition.splits_[static_cast<std::size_t>(node)] = place(box, points, level);
+    const auto upper =
+        std::partition(points.begin(), points.end(), [&](const Coordinates& v) { return v[s.axis] < s.at; });
+    const auto below = static_cast<std::size_t>(upper - points.begin());
+    const auto [left, right] = halves(box, s);
+    split(2 * node, left, points.first(below), level + 1);
+    split(2 * node + 1, right, points.subspan(below), level + 1);
+  }
+};
+
+Partition::Partition(std::vector<Coordinates> pilot, int dim, int depth, const MayCut& may_cut)
+    : dim_(dim), depth_(depth) {
+  require(dim >= 1 && dim <= 3, "Partition: dim {} must lie in 1..3", dim);
+  require(depth >= 0 && depth <= 24, "Partition: depth {} must lie in 0..24", depth);
+  splits_.resize(static_cast<std::size_t>(size()));
+  Builder{*this, may_cut}.split(1, UnitBox{}, pilot, 0);
+}
+
+std::array<UnitBox, 2> Partition::halves(const UnitBox& box, const Split& s) {
+  std::array<UnitBox, 2> half{box, box};
+  half[0].hi[s.axis] = half[1].lo[s.axis] = std::min(s.at, box.hi[s.axis]);
+  return half;
 }
 
 std::vector<std::uint32_t> Partition::find_cells(const std::vector<Coordinates>& points) const {
@@ -84,10 +102,9 @@ std::vector<std::uint32_t> Partition::find_cells(const std::vector<Coordinates>&
 UnitBox Partition::box(int run, int depth) const {
   UnitBox b;
   for (int level = 0, node = 1; level < depth; ++level) {
-    const Split& s = splits_[static_cast<std::size_t>(node)];
-    const bool right = (run >> (depth - 1 - level)) & 1;
-    (right ? b.lo : b.hi)[s.axis] = s.at;
-    node = 2 * node + right;
+    const bool upper = (run >> (depth - 1 - level)) & 1;
+    b = halves(b, splits_[static_cast<std::size_t>(node)])[upper];
+    node = 2 * node + upper;
   }
   return b;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace mc {
@@ -21,8 +22,12 @@ class Partition {
  public:
   using Coordinates = std::array<double, 3>;
 
-  /// The pilot must be independent of the samples that are counted later. Reorders `pilot`.
-  Partition(std::vector<Coordinates> pilot, int dim, int depth);
+  /// Whether a box may be cut at a place on an axis, where `beside` is a point of the pilot in it.
+  using MayCut = std::function<bool(const UnitBox& box, std::size_t axis, double place, const Coordinates& beside)>;
+
+  /// The pilot must be independent of the samples that are counted later. A box that may not be cut along any axis is
+  /// all in the lower of its halves; the upper one is empty and begins where it ends. may_cut : any place if empty
+  Partition(std::vector<Coordinates> pilot, int dim, int depth, const MayCut& may_cut = {});
 
   int size() const { return 1 << depth_; }
   int depth() const { return depth_; }
@@ -43,13 +48,16 @@ class Partition {
   /// Where an inner node is cut: node i of 1 .. size() - 1 in heap order, root 1, children 2 i and 2 i + 1; the cells
   /// follow as size() + cell.
   struct Split {
-    double at;
+    double at; ///< `never` where all of the box is in the lower half
     std::uint32_t axis;
   };
+  static constexpr double never = 2;
   const Split& split(int node) const { return splits_[static_cast<std::size_t>(node)]; }
+  /// The two parts of a box that is split so.
+  static std::array<UnitBox, 2> halves(const UnitBox& box, const Split& split);
 
  private:
-  void split(int node, const UnitBox& box, Coordinates* begin, Coordinates* end, int level);
+  struct Builder;
 
   int dim_, depth_;
   std::vector<Split> splits_; ///< heap order, root at 1

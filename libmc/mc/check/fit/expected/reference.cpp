@@ -1,5 +1,6 @@
 #include <mc/check/fit/expected/reference.h>
 
+#include <mc/check/fit/expected/density_inside.h>
 #include <mc/core/types.h>
 #include <mc/random/pcg.h>
 
@@ -16,6 +17,13 @@ constexpr double samples_to_a_point = 8; // random point
 constexpr double cap_over_pilot = 16, cap_over_seen = 4, lobe_over_pilot = 4;
 
 } // namespace
+
+PilotCells::PilotCells(const Subject& s, const Pilot& pilot, int depth)
+    : partition(pilot.points, s.dim, depth,
+                [&s](const UnitBox& box, std::size_t axis, double place, const Subject::Coordinates& beside) {
+                  return may_cut(s, box, axis, place, beside);
+                }),
+      of_points(partition.find_cells(pilot.points)) {}
 
 // Splits cells into strata; points are indices into the pilot.
 struct Reference::Builder {
@@ -52,13 +60,7 @@ struct Reference::Builder {
     const double lo = std::max_element(points.begin(), upper, less)->v[axis], hi = upper->v[axis];
     if (!(lo < hi)) return {};
     const double place = shortest_binary_fraction(lo, hi);
-    return may_cut(box, axis, place, *upper) ? std::optional(place) : std::nullopt;
-  }
-
-  // Whether the parts are boxes, and wide enough to be met by samples of a coarser scalar as they are by random points.
-  bool may_cut(const UnitBox& box, std::size_t axis, double place, const Point& beside) const {
-    const double least = std::min(place - box.lo[axis], box.hi[axis] - place);
-    return least > 0 && least >= rounded_steps * rounding(subject, beside.v, axis);
+    return may_cut(subject, box, axis, place, upper->v) ? std::optional(place) : std::nullopt;
   }
 
   // The point of the pilot whose density says that the box should have held far more of them.
@@ -127,7 +129,7 @@ struct Reference::Builder {
     if (const Point* lobe = room && !place ? hidden_lobe(points, box) : nullptr) {
       axis = narrowest(*lobe, box, first);
       place = 0.5 * (box.lo[axis] + box.hi[axis]);
-      if (!may_cut(box, axis, *place, *lobe)) place.reset();
+      if (!may_cut(subject, box, axis, *place, lobe->v)) place.reset();
     }
     if (!place) return add_stratum(node, cell, points, box);
     const auto middle =
@@ -166,11 +168,11 @@ void Reference::add_cells(const Partition& cells, int split, std::size_t node, c
                          0);
   }
   const auto [at, axis] = cells.split(split);
+  if (at == Partition::never) return add_cells(cells, 2 * split, node, box, builder);
   const std::size_t children = nodes_.size();
   nodes_[node] = {at, static_cast<int>(axis), static_cast<std::uint32_t>(children)};
   nodes_.resize(children + 2);
-  UnitBox left = box, right = box;
-  left.hi[axis] = right.lo[axis] = at;
+  const auto [left, right] = Partition::halves(box, cells.split(split));
   add_cells(cells, 2 * split, children, left, builder);
   add_cells(cells, 2 * split + 1, children + 1, right, builder);
 }
@@ -238,44 +240,88 @@ void share_jumps(std::vector<EstimatedMass>& cells) {
 
 } // namespace
 
+// One integral, in passes over the strata.
+struct Reference::Integration {
+  const Subject& subject;
+  Reference& reference;
+  const Visit& visit;
+  Pcg random;
+  std::array<std::vector<double>, 3> breaks{};
+  std::size_t per_axis = 1;
+  Masses result{};
+  LinearFit fit{static_cast<std::size_t>(subject.dim)};
+  PairedPoints paired{};
+  std::vector<std::uint32_t> strata{}; ///< of the parts
+  std::vector<double> densities{};
+  std::vector<Evaluated> evaluated{};
+  std::uint32_t fitted = 0; ///< cell whose points the fit holds
+
+  static constexpr std::size_t together = 2048;       // points are evaluated at once
+  static constexpr std::uint32_t fitted_together = 4; // cells
+
+  void pass() {
+    for (std::uint32_t i = 0; i < reference.places_.size(); ++i) {
+      paired.add(reference.boxes_[i], subject.dim, breaks, per_axis, random);
+      strata.resize(paired.volumes.size(), i);
+      if (paired.points.size() >= together) evaluate();
+    }
+    evaluate();
+    close_fit();
+    ++result.passes;
+  }
+
+  void close_fit() {
+    double& jump = result.cells[fitted].jump;
+    jump = std::max(jump, fit.largest_residual());
+  }
+
+  void evaluate() {
+    densities.resize(paired.points.size());
+    densities_inside(subject, paired.points, densities);
+    result.evaluations += densities.size();
+    evaluated.clear();
+    for (std::size_t i = 0; i < strata.size(); ++i) add_part(reference.places_[strata[i]], i);
+    if (visit) visit(evaluated);
+    paired.points.clear();
+    paired.volumes.clear();
+    strata.clear();
+  }
+
+  void add_part(Place& place, std::size_t part) {
+    if (place.cell / fitted_together != fitted / fitted_together) close_fit();
+    fitted = place.cell;
+    const double volume = paired.volumes[part] / 4;
+    place.volume = std::max(place.volume, volume);
+    const std::span<double, 4> all(&densities[4 * part], 4);
+    std::array<double, 4> capped{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Subject::Coordinates& v = paired.points[4 * part + k];
+      if (!(all[k] >= 0 && all[k] <= std::numeric_limits<double>::max())) {
+        if (!result.bad) result.bad = v;
+        all[k] = 0;
+      }
+      capped[k] = std::min(all[k], place.cap);
+      fit.add(v, capped[k], volume);
+      evaluated.push_back({v, &place, all[k], capped[k] * volume});
+    }
+    result.cells[place.cell].add_part(4 * volume, capped);
+    result.whole.add_part(4 * volume, all);
+  }
+};
+
 Reference::Masses Reference::integrate(const Subject& s, const Goal& goal, std::uint64_t seed, const Visit& visit) {
-  Masses result;
+  Integration integration{s, *this, visit, Pcg(seed)};
+  Masses& result = integration.result;
   result.cells.resize(cells_);
   const double most = static_cast<double>(goal.most),
                points =
                    std::max(static_cast<double>(goal.least), std::min(most / 8, goal.samples / samples_to_a_point));
   const double each = points / static_cast<double>(4 * places_.size());
-  const auto per_axis = static_cast<std::size_t>(std::max(1.0, std::floor(std::pow(each, 1.0 / dim_) + 1e-9)));
-  std::array<std::vector<double>, 3> breaks = s.breaks;
+  integration.per_axis = static_cast<std::size_t>(std::max(1.0, std::floor(std::pow(each, 1.0 / dim_) + 1e-9)));
   double boxes = 1;
-  for (const std::vector<double>& axis : breaks) boxes *= static_cast<double>(axis.size() + 1);
-  if (4 * boxes > most) breaks = {};
+  for (const std::vector<double>& axis : s.breaks) boxes *= static_cast<double>(axis.size() + 1);
+  if (4 * boxes <= most) integration.breaks = s.breaks;
 
-  Pcg random(seed);
-  constexpr std::uint32_t fitted_together = 4; // cells
-  LinearFit fit(static_cast<std::size_t>(dim_));
-  const auto pass = [&] {
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      Place& place = places_[i];
-      const auto evaluate = [&](const Subject::Coordinates& v, double part) {
-        double density = density_inside(s, v);
-        ++result.evaluations;
-        if (!(density >= 0 && density <= std::numeric_limits<double>::max())) {
-          if (!result.bad) result.bad = v;
-          density = 0;
-        }
-        const double capped = std::min(density, place.cap);
-        place.volume = std::max(place.volume, part);
-        fit.add(v, capped, part);
-        if (visit) visit(v, place, density, capped * part);
-        return std::array{capped, density};
-      };
-      add_pairs<2>(boxes_[i], dim_, breaks, per_axis, random, evaluate, {&result.cells[place.cell], &result.whole});
-      const bool last =
-          i + 1 == places_.size() || places_[i + 1].cell / fitted_together != place.cell / fitted_together;
-      if (last) result.cells[place.cell].jump = std::max(result.cells[place.cell].jump, fit.largest_residual());
-    }
-  };
   // The mass of few samples' density is still wanted to a thousandth.
   const double samples = std::max(goal.samples, 1e5);
   // Passes until both variances of all cells together are a tenth of that of their counts: what the points show falls
@@ -283,8 +329,8 @@ Reference::Masses Reference::integrate(const Subject& s, const Goal& goal, std::
   // only the sum over all cells decides how many there are, so that the choice biases nothing.
   double wanted = 1;
   while (static_cast<double>(result.passes) < wanted) {
-    pass();
-    if (++result.passes > 1) continue;
+    integration.pass();
+    if (result.passes > 1) continue;
     share_jumps(result.cells);
     double shown = 0, jumps = 0; // over the variances of the counts
     for (const EstimatedMass& m : result.cells) {
@@ -298,7 +344,7 @@ Reference::Masses Reference::integrate(const Subject& s, const Goal& goal, std::
   }
   share_jumps(result.cells);
   result.take_means();
-  return result;
+  return std::move(result);
 }
 
 void Reference::Masses::take_means() {

@@ -18,8 +18,8 @@ namespace mc {
 struct PilotCells {
   Partition partition;
   std::vector<std::uint32_t> of_points;
-  PilotCells(const Pilot& pilot, int dim, int depth)
-      : partition(pilot.points, dim, depth), of_points(partition.find_cells(pilot.points)) {}
+  /// Cells are as wide as rounding leaves them.
+  PilotCells(const Subject& subject, const Pilot& pilot, int depth);
 };
 
 /// The cube in strata, each with a cap on the density.
@@ -59,8 +59,14 @@ class Reference {
     std::size_t least = 1 << 15; ///< points
     std::size_t most = 1 << 22;
   };
-  /// Called with each point, its density and its share of the integral; shares add up to the integral times the passes.
-  using Visit = std::function<void(const Subject::Coordinates& v, const Place& place, double density, double share)>;
+  /// A point with its share of the integral: the shares add up to the integral times the passes.
+  struct Evaluated {
+    Subject::Coordinates v;
+    const Place* place;
+    double density, share;
+  };
+  /// Called with all points, many at a time.
+  using Visit = std::function<void(std::span<const Evaluated> points)>;
 
   struct Masses {
     std::vector<EstimatedMass> cells; ///< integrals of min(pdf, cap)
@@ -81,6 +87,7 @@ class Reference {
     std::uint32_t index = 0; ///< of the lower child (the upper follows), or of the stratum
   };
   struct Builder;
+  struct Integration;
   using Bin = std::array<std::uint32_t, 3>;
   void add_cells(const Partition& cells, int split, std::size_t node, const UnitBox& box, Builder& builder);
   void fill_guide(std::size_t node, Bin lo, Bin hi);

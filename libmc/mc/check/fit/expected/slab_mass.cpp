@@ -1,6 +1,7 @@
 #include <mc/check/fit/expected/slab_mass.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -43,27 +44,35 @@ std::vector<NearPoint> near_points(const Pilot& pilot, const Layer& layer) {
   return points;
 }
 
-// Cuts the layer. The axis is the one along which a box is widest in ranks of the pilot.
+// Cuts the layer. The axis is the one along which a box is widest in ranks of the pilot, of those along which it may be.
 struct Cutter {
+  const Subject& subject;
   const Pilot& pilot;
-  std::size_t dim;
   double mass_of_point;
   std::vector<Piece> pieces{};
 
   void cut(const UnitBox& box, const UnitBox& ranks, NearPoints points, int halvings) {
-    std::size_t axis = 0;
-    for (std::size_t d = 1; d < dim; ++d)
-      if (ranks.hi[d] - ranks.lo[d] > ranks.hi[axis] - ranks.lo[axis]) axis = d;
-    const auto inside = [&](double at) { return at > box.lo[axis] && at < box.hi[axis]; };
-    double at = points.size() > points_of_box ? middle(points, axis) : box.lo[axis];
-    if (!inside(at) && halvings < most_halvings && pieces.size() < most_pieces && is_hidden(box, points)) {
-      at = 0.5 * (box.lo[axis] + box.hi[axis]);
-      ++halvings;
+    std::array<std::size_t, 3> axes{0, 1, 2};
+    const auto width = [&](std::size_t axis) { return ranks.hi[axis] - ranks.lo[axis]; };
+    std::stable_sort(axes.begin(), axes.begin() + subject.dim,
+                     [&](std::size_t a, std::size_t b) { return width(a) > width(b); });
+    const bool many = points.size() > points_of_box;
+    const bool halve = halvings < most_halvings && pieces.size() < most_pieces && is_hidden(box, points);
+    for (std::size_t i = 0; (many || halve) && i < static_cast<std::size_t>(subject.dim); ++i) {
+      const std::size_t axis = axes[i];
+      if (const double at = many ? middle(points, axis) : box.lo[axis]; may_cut_at(box, axis, at, points))
+        return cut_at(box, ranks, points, axis, at, halvings);
+      if (const double at = 0.5 * (box.lo[axis] + box.hi[axis]); halve && may_cut_at(box, axis, at, points))
+        return cut_at(box, ranks, points, axis, at, halvings + 1);
     }
-    if (!inside(at)) {
-      pieces.push_back({box, points});
-      return;
-    }
+    pieces.push_back({box, points});
+  }
+
+  bool may_cut_at(const UnitBox& box, std::size_t axis, double at, NearPoints points) const {
+    return at > box.lo[axis] && at < box.hi[axis] && may_cut(subject, box, axis, at, points[points.size() / 2].v);
+  }
+
+  void cut_at(const UnitBox& box, const UnitBox& ranks, NearPoints points, std::size_t axis, double at, int halvings) {
     const auto upper = std::partition(points.begin(), points.end(), [&](const NearPoint& p) { return p.v[axis] < at; });
     const auto below = static_cast<std::size_t>(upper - points.begin());
     UnitBox left = box, right = box, left_ranks = ranks, right_ranks = ranks;
@@ -84,8 +93,7 @@ struct Cutter {
   bool is_hidden(const UnitBox& box, NearPoints points) const {
     double claimed = 0;
     for (const NearPoint& p : points) claimed = std::max(claimed, p.density);
-    return claimed * volume(box, static_cast<int>(dim)) >
-           over_samples * mass_of_point * static_cast<double>(points.size() + 1);
+    return claimed * volume(box, subject.dim) > over_samples * mass_of_point * static_cast<double>(points.size() + 1);
   }
 };
 
@@ -99,7 +107,7 @@ EstimatedMass slab_mass(const Subject& s, const Pilot& pilot, const Layer& layer
   ranks.hi[layer.axis] = pilot.rank(layer.axis, layer.hi);
   std::vector<NearPoint> points = near_points(pilot, layer);
   const double mass_of_point = layer.mass / static_cast<double>(std::max<std::size_t>(points.size(), 1));
-  Cutter cutter{pilot, static_cast<std::size_t>(s.dim), mass_of_point};
+  Cutter cutter{s, pilot, mass_of_point};
   cutter.cut(whole, ranks, points, 0);
 
   const double less = effort == Effort::full ? 1 : 16;

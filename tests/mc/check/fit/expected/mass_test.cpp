@@ -28,7 +28,7 @@ mc::SampleWeights plain(double n) { return {.draws = n, .points = n, .sum = n, .
 TEST(Mass, CubatureIsBelievedWhereTheReferenceAgrees) {
   const mc::Subject s = flat(1);
   const mc::Pilot pilot = draw_pilot(s, 1, 100'000);
-  const mc::CubatureResult c = integrate_density(s, pilot, {pilot, 1, 6}, 1e5, 100'000);
+  const mc::CubatureResult c = integrate_density(s, pilot, {s, pilot, 6}, 1e5, 100'000);
   EXPECT_NEAR(c.total.value, 1, 1e-12);
   const mc::ClaimedMass m = claimed(s, c, {.value = 1, .variance = 1e-12, .variance_square = 1e-30}, plain(1e5));
   EXPECT_TRUE(m.integrated);
@@ -38,7 +38,7 @@ TEST(Mass, CubatureIsBelievedWhereTheReferenceAgrees) {
 TEST(Mass, AWrongConstantFails) {
   const mc::Subject s = flat(1.001);
   const mc::Pilot pilot = draw_pilot(s, 1, 100'000);
-  const mc::CubatureResult c = integrate_density(s, pilot, {pilot, 1, 6}, 1e5, 100'000);
+  const mc::CubatureResult c = integrate_density(s, pilot, {s, pilot, 6}, 1e5, 100'000);
   const mc::ClaimedMass m = claimed(s, c, {.value = 1.001, .variance = 1e-12, .variance_square = 1e-30}, plain(1e5));
   EXPECT_TRUE(m.integrated);
   EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::fail);

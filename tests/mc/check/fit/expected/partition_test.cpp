@@ -70,4 +70,36 @@ TEST(Partition, SurvivesDegeneratePilots) {
   EXPECT_THROW(mc::Partition({}, 2, 40), mc::Error);
 }
 
+// Where no box may be narrower than 1/20 the cells that are left tile the cube, and the others are empty.
+TEST(Partition, BoxesThatMayNotBeCutStayWhole) {
+  const auto may_cut = [](const mc::UnitBox& box, std::size_t axis, double place, const Point& beside) {
+    EXPECT_TRUE(beside[axis] >= box.lo[axis] && beside[axis] <= box.hi[axis]);
+    return std::min(place - box.lo[axis], box.hi[axis] - place) >= 0.05;
+  };
+  for (int dim = 1; dim <= 3; ++dim) {
+    const mc::Partition partition(draw(dim, 65536, 5, 3), dim, 12, may_cut);
+    double whole = 0;
+    int empty = 0;
+    for (int i = 0; i < partition.size(); ++i) {
+      const mc::UnitBox b = partition.box(i);
+      double volume = 1, narrowest = 1;
+      for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) {
+        volume *= b.hi[d] - b.lo[d];
+        narrowest = std::min(narrowest, b.hi[d] - b.lo[d]);
+      }
+      EXPECT_TRUE(narrowest == 0 || narrowest >= 0.05) << i;
+      if (volume > 0) {
+        EXPECT_EQ(partition.cell(b.lo), i);
+      }
+      empty += volume == 0;
+      whole += volume;
+    }
+    EXPECT_GE(empty, partition.size() / 8);
+    EXPECT_NEAR(whole, 1, 1e-12);
+    const std::vector<Point> points = draw(dim, 4096, 6, 3);
+    const std::vector<std::uint32_t> cells = partition.find_cells(points);
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(static_cast<int>(cells[i]), partition.cell(points[i]));
+  }
+}
+
 } // namespace

@@ -1,0 +1,20 @@
+#include <mc/check/fit/expected/density_inside.h>
+
+#include <algorithm>
+
+namespace mc {
+
+Subject::Coordinates moved_inside(Subject::Coordinates v, int dim) {
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) v[d] = std::clamp(v[d], 0x1p-60, 1 - 0x1p-53);
+  return v;
+}
+
+double density_inside(const Subject& s, const Subject::Coordinates& v) { return s.density(moved_inside(v, s.dim)); }
+
+void densities_inside(const Subject& s, std::span<Subject::Coordinates> v, std::span<double> densities) {
+  for (Subject::Coordinates& one : v) one = moved_inside(one, s.dim);
+  if (s.densities) return s.densities(v, densities);
+  for (std::size_t i = 0; i < v.size(); ++i) densities[i] = s.density(v[i]);
+}
+
+} // namespace mc
