@@ -175,7 +175,7 @@ Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f,
   require(count >= 1 && count <= detail::Sequences::longest,
           "integrate_rqmc: {} points; between 1 and 2^32 are possible", count);
   Run run{{.one = &f}, 1, dim, o};
-  detail::Sequences sequences{.purpose = 0};
+  detail::Sequences sequences{.purpose = 0, .count = replicates};
   const detail::Mean mean = sequences.extend(run, count).front();
   Integral result;
   result.estimate = detail::estimate(mean, run.calls);

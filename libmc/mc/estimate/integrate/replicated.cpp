@@ -18,7 +18,7 @@ class Growth {
 
   // The longest power of two that all replicates can reach.
   std::uint64_t affordable(const Sequences& s) const {
-    const auto each = run_.left() / run_.o.replicates;
+    const auto each = run_.left() / s.count;
     return std::min(std::bit_floor(s.length + static_cast<std::uint64_t>(static_cast<double>(each) / s.cost())),
                     Sequences::longest);
   }
@@ -32,14 +32,12 @@ class Growth {
       if (adopt(s, s.extend(run_, to))) return true;
     return false;
   }
-  // To the end of the calls: all replicates, until the fewest of them could go on to eight times the length.
+  // To the end of the calls: all replicates at first, then as many as best_end says.
   Outcome finish(Sequences& s) {
-    const double all = run_.o.replicates, points = points_left(s) + all * static_cast<double>(s.length);
-    const double reach = points / (all / 8 + fewest() * 7 / 8);
-    const std::uint64_t shared = std::bit_floor(static_cast<std::uint64_t>(reach / 8)), most = affordable(s);
-    if (grow(s, std::clamp(shared, std::min<std::uint64_t>(16, most), most))) return std::move(out);
+    const std::uint64_t most = affordable(s);
+    if (grow(s, std::clamp(shared(s), std::min<std::uint64_t>(16, most), most))) return std::move(out);
     const End end = best_end(s);
-    if (end.count < run_.o.replicates) s.keep(end.count);
+    if (end.count < s.count) s.keep(end.count);
     if (!grow(s, end.length)) use_up(s);
     return std::move(out);
   }
@@ -65,12 +63,24 @@ class Growth {
     return std::max(std::ceil(all / 3), std::min(all, 8.0));
   }
 
+  // How long all replicates get so that the fewest still reach the greatest length that the calls allow; an eighth of
+  // that at most, a 32nd at least, to see how the error falls.
+  std::uint64_t shared(const Sequences& s) const {
+    const double all = s.count, points = points_left(s) + all * static_cast<double>(s.length);
+    const double fewer = std::min(fewest(), all);
+    double longest = std::exp2(std::floor(std::log2(static_cast<double>(s.length) + points_left(s) / fewer)));
+    const auto affords = [&](double length) { return all * length + fewer * (longest - length) <= points; };
+    if (!affords(std::max(longest / 32, static_cast<double>(s.length)))) longest /= 2;
+    double length = longest / 8;
+    while (length > 1 && !affords(length)) length /= 2;
+    return static_cast<std::uint64_t>(length);
+  }
   // How long sequences should get, and how many of them, for the calls that are left: what leaves least variance, if it
   // goes on falling as it did, and no slower than that of independent points.
   End best_end(const Sequences& s) const {
-    End best{s.length, run_.o.replicates};
+    End best{s.length, s.count};
     double least = 0;
-    const double all = run_.o.replicates, points = points_left(s), fallen = std::max(fall(s), std::log(2.0));
+    const double all = s.count, points = points_left(s), fallen = std::max(fall(s), std::log(2.0));
     for (std::uint64_t length = s.length; s.length > 0 && length <= Sequences::longest; length *= 2) {
       const double longer = static_cast<double>(length - s.length), size = static_cast<double>(length);
       const double count = longer > 0 ? std::min(std::floor(points / longer), all) : all;
@@ -98,53 +108,61 @@ struct Candidate {
   Sequences sequences;
 };
 
-// Lets what was learned run against the bare sequences as far as these went, and against each other: whoever falls
-// behind by more than chance is out, and the bare sequences or the grid only make way for what is better by more than
-// chance. Interlaced points may start worse and fall faster than others, and all others than those behind a tree, whose
-// boxes are jumps: these compete at the length they would end with.
+// Lets what was learned run against the bare sequences as far as these went, and against each other, at the length that
+// they would end with. Half of the replicates race, since what wins ends with fewer and longer ones as a rule; where
+// they leave it open, all do.
 class Contest {
   static constexpr double chance = 0.5; // what may lie between two that are equal
+  static constexpr double open = 1.5;   // a decision by less than this is asked of all replicates
+  static constexpr double clear = 3;    // one by more than this is made on the way
+  // By how much more the logarithm of the variance falls for each doubling: of interlaced points than of others, of
+  // bare ones than of those behind a grid, of these than of those behind a tree, whose boxes are jumps.
+  static constexpr double of_interlacing = 0.6, without_grid = 0.1, without_boxes = 0.25;
 
  public:
   Contest(Run& r, const Sequences& b, std::uint64_t l) : run_(r), bare_(b), last_(l) {}
 
+  static std::uint32_t replicates(std::uint32_t all) { return std::max((all + 1) / 2, std::min(all, 8u)); }
+
   std::optional<Candidate> best_of(std::vector<Candidate>& all) {
-    for (std::uint64_t to = std::min<std::uint64_t>(16, bare_.length); to <= bare_.length && !all.empty(); to *= 2) {
+    for (std::uint64_t to = std::min<std::uint64_t>(16, bare_.length); to <= bare_.length; to *= 2) {
       for (Candidate& c : all) c.sequences.extend(run_, to);
       doublings_ = std::max(std::log2(static_cast<double>(last_) / static_cast<double>(to)), 0.0);
-      if (to < 128) continue;
-      std::vector<Candidate> left;
-      for (Candidate& c : all)
-        if (beaten(c, all)) tell(c);
-        else left.push_back(c);
-      all = std::move(left);
+      if (to >= 64 && all.size() > 1 && std::abs(over_grid(all)) > clear) drop(all, 1 - best(all));
     }
+    if (undecided(all))
+      for (Candidate& c : all) c.sequences.widen(run_, run_.o.replicates - c.sequences.count);
+    const bool any = std::any_of(all.begin(), all.end(), [&](const Candidate& c) { return over_bare(c) > 0; });
+    for (Round& r : run_.rounds) r.independent &= any;
+    if (any) run_.independent(Method::rqmc);
+    for (std::size_t i = all.size(); i-- > 0;)
+      if (over_bare(all[i]) <= 0) drop(all, i);
+    if (all.size() > 1) drop(all, 1 - best(all));
     if (all.empty()) return {};
-    const bool second = all.size() > 1 && worse(all.front().sequences, all.back().sequences, doublings_, margin());
-    if (all.size() > 1) tell(all[second ? 0 : 1]);
-    Candidate& best = all[second ? 1 : 0];
-    if (worse(bare_, best.sequences, between(best), run_.interlaced() ? 2 * margin() : 0)) {
-      run_.independent(Method::rqmc);
-      return std::move(best);
-    }
-    for (Round& r : run_.rounds) r.independent = false;
-    tell(best);
-    return {};
+    return std::move(all.front());
   }
 
  private:
-  // Of one that is out: the answer is independent of it.
-  void tell(const Candidate& c) {
-    run_.record(c.method, c.sequences.means);
+  // The answer is independent of one that is out.
+  void drop(std::vector<Candidate>& all, std::size_t i) {
+    run_.record(all[i].method, all[i].sequences.means);
     run_.rounds.back().independent = true;
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  // What extrapolation is not trusted with: a quarter of the variance for each doubling, twice that beside interlaced
-  // points.
-  double margin() const { return 0.25 * doublings_; }
-  double between(const Candidate& c) const { return run_.interlaced() || c.method == Method::tree ? doublings_ : 0; }
-  bool beaten(const Candidate& c, const std::vector<Candidate>& all) const {
-    const auto by = [&](const Candidate& o) { return worse(c.sequences, o.sequences, doublings_, chance + margin()); };
-    return worse(c.sequences, bare_, between(c), chance + margin()) || std::any_of(all.begin(), all.end(), by);
+  // By how much one is ahead, beyond doubt, in the logarithm of the variance.
+  double over_bare(const Candidate& c) const {
+    return advantage(bare_, c.sequences, doublings_, run_.interlaced() ? of_interlacing : without_grid) -
+           doubt(c.sequences.history.back());
+  }
+  double over_grid(const std::vector<Candidate>& all) const {
+    return advantage(all[0].sequences, all[1].sequences, doublings_, without_boxes) -
+           doubt(all[1].sequences.history.back()) - chance;
+  }
+  std::size_t best(const std::vector<Candidate>& all) const { return all.size() > 1 && over_grid(all) > 0 ? 1 : 0; }
+  bool undecided(const std::vector<Candidate>& all) const {
+    const auto close = [&](const Candidate& c) { return std::abs(over_bare(c)) < open; };
+    return all[0].sequences.count < run_.o.replicates &&
+           ((all.size() > 1 && std::abs(over_grid(all)) < open) || std::any_of(all.begin(), all.end(), close));
   }
 
   Run& run_;
@@ -153,10 +171,10 @@ class Contest {
   double doublings_ = 0;
 };
 
-std::vector<Candidate> candidates(const Learned& learned) {
+std::vector<Candidate> candidates(const Learned& learned, std::uint32_t count) {
   std::vector<Candidate> all;
   const auto propose = [&](Method method, std::uint64_t purpose, std::shared_ptr<const AdaptedDensity> density) {
-    all.push_back({method, {.purpose = purpose, .proposal = {std::move(density), learned.centre}}});
+    all.push_back({method, {.purpose = purpose, .count = count, .proposal = {std::move(density), learned.centre}}});
   };
   // The rounds of learning have the purposes between.
   const AdaptedDensity& density = *learned.density;
@@ -169,7 +187,7 @@ std::vector<Candidate> candidates(const Learned& learned) {
 
 Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   Growth growth(run, method == Method::automatic ? Method::rqmc : method, last);
-  Sequences bare{.purpose = 0, .record = method == Method::automatic};
+  Sequences bare{.purpose = 0, .count = run.o.replicates, .record = method == Method::automatic};
   if (method == Method::rqmc) return growth.finish(bare);
   if (method == Method::automatic && growth.grow(bare, std::max<std::uint64_t>(growth.affordable(bare) / 16, 1)))
     return std::move(growth.out);
@@ -178,7 +196,8 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   bare.forget();
   if (!learned) return growth.finish(bare);
   growth.out.density = learned->density;
-  std::vector<Candidate> all = candidates(*learned);
+  const bool contest = method == Method::automatic;
+  std::vector<Candidate> all = candidates(*learned, contest ? Contest::replicates(run.o.replicates) : run.o.replicates);
   if (method != Method::automatic) {
     Candidate& c = method == Method::vegas ? all.front() : all.back();
     return growth.finish(c.sequences);

@@ -40,17 +40,20 @@ Means grown(Run& run, Sequences& s, std::uint32_t first, std::uint32_t last, std
 Means Sequences::extend(Run& run, std::uint64_t to) {
   const std::uint64_t from = length;
   length = to;
-  grown(run, *this, 0, sets.empty() ? run.o.replicates : static_cast<std::uint32_t>(sets.size()), from, to);
+  grown(run, *this, 0, count, from, to);
   history.emplace_back(means.begin(), means.begin() + static_cast<std::ptrdiff_t>(run.leading()));
   return means;
 }
 
-Means Sequences::widen(Run& run, std::uint32_t count) {
-  const auto have = static_cast<std::uint32_t>(sets.size());
-  return grown(run, *this, have, have + count, 0, length);
+Means Sequences::widen(Run& run, std::uint32_t more) {
+  count += more;
+  grown(run, *this, count - more, count, 0, length);
+  history.back().assign(means.begin(), means.begin() + static_cast<std::ptrdiff_t>(run.leading()));
+  return means;
 }
 
-void Sequences::keep(std::uint32_t count) {
+void Sequences::keep(std::uint32_t first) {
+  count = first;
   let_go.resize(means.size());
   for (const auto* all : {&sums, &uniform_sums})
     for (std::size_t r = count; r < all->size(); ++r)
@@ -96,7 +99,7 @@ double log_ratio(const Means& a, const Means& b) {
 
 double doubt(const Means& m) {
   double sum = 0;
-  for (const Mean& x : m) sum += 0.2 + 10 * std::abs(x.skew);
+  for (const Mean& x : m) sum += 0.2 + 2.5 * std::abs(x.skew);
   return sum;
 }
 
@@ -106,16 +109,13 @@ double fall(const Sequences& s) {
   return log_ratio(s.history[end - steps], s.history[end]) / static_cast<double>(steps * s.history[end].size());
 }
 
-double advantage(const Sequences& a, const Sequences& b, double doublings) {
+double advantage(const Sequences& a, const Sequences& b, double doublings, double expected) {
+  constexpr double shown = 0.15;
   const std::size_t end = std::min(a.history.size(), b.history.size()) - 1, steps = std::min<std::size_t>(end, 3);
   const auto difference = [&](std::size_t at) { return log_ratio(a.history[at], b.history[at]); };
-  const double now = difference(end);
-  return now + (steps > 0 ? (now - difference(end - steps)) * doublings / static_cast<double>(steps) : 0);
-}
-
-bool worse(const Sequences& a, const Sequences& b, double doublings, double margin) {
-  const std::size_t end = std::min(a.history.size(), b.history.size()) - 1;
-  return advantage(a, b, doublings) > doubt(b.history[end]) + margin;
+  const double now = difference(end), all = -expected * static_cast<double>(b.history[end].size());
+  const double each = steps > 0 ? (now - difference(end - steps)) / static_cast<double>(steps) : all;
+  return now + doublings * (all + shown * (each - all));
 }
 
 } // namespace mc::detail

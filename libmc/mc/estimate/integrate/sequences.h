@@ -12,6 +12,7 @@ namespace mc::detail {
 /// Replicated Sobol' sequences, extended from step to step.
 struct Sequences {
   std::uint64_t purpose;  ///< those of different purposes are independent
+  std::uint32_t count;    ///< of replicates
   Proposal proposal = {}; ///< with a density, its part of the mixture
   bool record = false;    ///< keeps what was seen with the sums
   std::uint64_t length = 0;
@@ -36,10 +37,10 @@ struct Sequences {
   std::vector<Magnitudes> seen() const;
   /// Correlations of the means' errors.
   Correlations correlations(const Run& run) const;
-  /// The means with `count` more sequences, as long as the others.
-  Means widen(Run& run, std::uint32_t count);
-  /// Lets go of all but the first `count` sequences, not of the sizes of what they saw.
-  void keep(std::uint32_t count);
+  /// The means with so many more sequences, as long as the others.
+  Means widen(Run& run, std::uint32_t more);
+  /// Lets go of all but the first sequences, not of the sizes of what they saw.
+  void keep(std::uint32_t first);
   /// Lets go of what was recorded.
   void forget();
 };
@@ -55,11 +56,9 @@ double doubt(const Means& b);
 /// By how much the logarithm of the variances fell for each doubling, over the last three; the mean of the outputs.
 double fall(const Sequences& s);
 
-/// By how much log_ratio(a, b) will be after `doublings` more, if the errors go on falling as they did over the last
-/// three; from the longest length that both have reached.
-double advantage(const Sequences& a, const Sequences& b, double doublings);
-
-/// Whether that exceeds the doubt and a margin.
-bool worse(const Sequences& a, const Sequences& b, double doublings, double margin);
+/// What log_ratio(a, b) will be after `doublings` more, from the longest length that both have reached. The variance of a
+/// is `expected` to fall by so much more for each doubling, in logarithms; what the last three doublings showed of that
+/// counts little, since few points say little of how an error falls.
+double advantage(const Sequences& a, const Sequences& b, double doublings, double expected = 0);
 
 } // namespace mc::detail

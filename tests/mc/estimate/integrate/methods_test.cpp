@@ -112,7 +112,7 @@ TEST(Methods, LearnGivesUp) {
   mc::IntegrateOptions o;
   o.max_calls = 100'000;
   detail::Run run{{.one = &wave}, 1, 2, o};
-  Sequences bare{.purpose = 0, .record = true};
+  Sequences bare{.purpose = 0, .count = 24, .record = true};
   for (std::uint64_t to = 16; to <= 256; to *= 2) bare.extend(run, to);
   EXPECT_FALSE(learn(run, &bare).has_value());
   EXPECT_LE(run.calls, 24u * 256 + 5000);

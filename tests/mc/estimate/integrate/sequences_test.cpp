@@ -17,7 +17,7 @@ TEST(Sequences, GrowToTheSameSums) {
   mc::IntegrateOptions o;
   o.replicates = 5;
   detail::Run run{{.one = &exponential}, 1, 3, o};
-  Sequences steps{.purpose = 0}, once{.purpose = 0};
+  Sequences steps{.purpose = 0, .count = 5}, once{.purpose = 0, .count = 5};
   steps.extend(run, 64);
   steps.extend(run, 128);
   const auto grown = steps.extend(run, 1024), at_once = once.extend(run, 1024);
@@ -37,7 +37,7 @@ TEST(Sequences, KeepSome) {
     mc::IntegrateOptions o;
     o.seed = seed;
     detail::Run run{{.one = &exponential}, 1, 3, o};
-    Sequences s{.purpose = 0};
+    Sequences s{.purpose = 0, .count = 24};
     s.extend(run, 64);
     s.keep(20);
     const auto longer = s.extend(run, 128);
@@ -56,7 +56,7 @@ TEST(Sequences, RememberTheTailOfThoseLetGo) {
   };
   mc::IntegrateOptions o;
   detail::Run run{{.one = &heavy}, 1, 1, o};
-  Sequences s{.purpose = 0};
+  Sequences s{.purpose = 0, .count = 24};
   s.extend(run, 4096);
   const mc::Magnitudes before = s.seen()[0];
   ASSERT_EQ(s.means[0].bar, mc::ErrorBar::infinite_variance);
@@ -69,7 +69,7 @@ TEST(Sequences, RememberTheTailOfThoseLetGo) {
 }
 
 TEST(Sequences, FallIsThatOfTheVariance) {
-  Sequences s{.purpose = 0};
+  Sequences s{.purpose = 0, .count = 24};
   s.history.push_back({{0, 1, 23}});
   EXPECT_EQ(detail::fall(s), 0);
   for (const double v : {1.0, 0.25, 0.0625, 0.0625 / 4}) s.history.push_back({{0, std::sqrt(v), 23}});
@@ -78,18 +78,31 @@ TEST(Sequences, FallIsThatOfTheVariance) {
 
 TEST(Sequences, AdvantageContinuesTheFallOfTheErrors) {
   const auto history = [](std::initializer_list<double> variances) {
-    Sequences s{.purpose = 0};
+    Sequences s{.purpose = 0, .count = 24};
     for (const double v : variances) s.history.push_back({{0, std::sqrt(v), 23}});
     return s;
   };
   const Sequences slow = history({1, 0.5, 0.25, 0.125}), fast = history({8, 2, 0.5, 0.125});
   EXPECT_NEAR(mc::detail::advantage(slow, fast, 0), 0, 1e-12);
-  EXPECT_NEAR(mc::detail::advantage(slow, fast, 3), 3 * std::log(2), 1e-12); // a half against a quarter, thrice
-  EXPECT_NEAR(mc::detail::advantage(fast, slow, 3), -3 * std::log(2), 1e-12);
-  EXPECT_TRUE(mc::detail::worse(slow, fast, 3, 1));
-  EXPECT_FALSE(mc::detail::worse(slow, fast, 3, 2));
-  // At the longest length that both have reached.
+  EXPECT_NEAR(mc::detail::advantage(slow, fast, 3), 0.15 * 3 * std::log(2), 1e-12); // a half against a quarter, thrice
+  EXPECT_NEAR(mc::detail::advantage(fast, slow, 3), -0.15 * 3 * std::log(2), 1e-12);
+  EXPECT_NEAR(mc::detail::advantage(slow, fast, 3, 0.2), 3 * (0.15 * std::log(2) - 0.85 * 0.2), 1e-12);
+  // At the longest length that both have reached; what was expected where nothing was shown.
   EXPECT_NEAR(mc::detail::advantage(history({1, 0.5}), fast, 0), std::log(0.25), 1e-12);
+  EXPECT_NEAR(mc::detail::advantage(history({1}), fast, 2, 0.5), -std::log(8) - 1, 1e-12);
+}
+
+TEST(Sequences, WidenedOnesSayWhatAllOfThemSaw) {
+  const std::function<double(std::span<const double>)> f = [](std::span<const double> u) { return u[0] * u[0]; };
+  mc::IntegrateOptions o;
+  detail::Run run{{.one = &f}, 1, 1, o};
+  Sequences half{.purpose = 0, .count = 12}, all{.purpose = 0, .count = 24};
+  half.extend(run, 64);
+  all.extend(run, 64);
+  EXPECT_EQ(half.widen(run, 12)[0].error, all.means[0].error);
+  EXPECT_EQ(half.count, 24u);
+  ASSERT_EQ(half.history.size(), 1u);
+  EXPECT_EQ(half.history[0][0].error, all.means[0].error);
 }
 
 // Ten times the error, but a hundredth of the relative one: the other has met next to nothing of the integrand.
@@ -97,7 +110,7 @@ TEST(Sequences, WhoMetNothingIsNotAhead) {
   const mc::detail::Means nothing = {{1e-4, 1e-4, 23}}, much = {{1, 1e-3, 23}}, like_it = {{1.0001, 1e-4, 23}};
   EXPECT_LT(mc::detail::log_ratio(much, nothing), -10);
   EXPECT_NEAR(mc::detail::log_ratio(much, like_it), std::log(100), 1e-9);
-  EXPECT_GT(mc::detail::doubt({{1, 1, 23, 0.2}}), mc::detail::doubt(much) + 1.9);
+  EXPECT_GT(mc::detail::doubt({{1, 1, 23, 0.2}}), mc::detail::doubt(much) + 0.45);
 }
 
 } // namespace

@@ -7,6 +7,8 @@
 namespace mc::detail {
 
 namespace {
+constexpr double wide = 2; // of values: the rare large ones may not have been met yet
+
 // By how much the logarithm of the variance of a round lies below that of the bare sequences, for as many points, at
 // the length next to it or at their last, whichever says more for the round: what few points met looks too good in
 // either.
@@ -54,10 +56,11 @@ std::optional<Learned> learn(Run& run, const Sequences* bare) {
   Learner learner(run);
   if (bare) learner.learn(bare->sums);
   std::vector<double> centre(run.outputs);
-  // Rounds of a quarter, a quarter and a half of the budget; after that of twice the calls, as long as the values are
-  // spread widely and it helps.
+  // Rounds of a quarter, a quarter and a half of the budget, the first of which the bare sequences may stand for; after
+  // that of twice the calls, as long as the values are spread widely and it helps.
   std::uint64_t calls = budget / 4, spent = 0;
-  for (std::uint64_t k = 0; calls / run.o.replicates >= 8; ++k) {
+  for (std::uint64_t k = bare && run.calls >= calls && learner.width() < wide ? 1 : 0; calls / run.o.replicates >= 8;
+       ++k) {
     const std::uint64_t points = calls / run.o.replicates;
     const double before = learner.width();
     const Means round = seen_through(run, std::make_shared<AdaptedDensity>(learner.density()), 2 + k, points, &learner);
@@ -65,7 +68,7 @@ std::optional<Learned> learn(Run& run, const Sequences* bare) {
     spent += calls;
     const double by = bare ? ahead(round, points, *bare) : 0;
     // Hopeless: worse than the bare sequences although no rare large values are left to be found.
-    if (bare && k > 0 && learner.width() < 2 && by < -doubt(bare->history.back()) - 0.5) return {};
+    if (bare && k > 0 && learner.width() < wide && by < -doubt(bare->history.back()) - 0.5) return {};
     if (k >= 1) calls *= 2;
     const bool helps = learner.width() < 0.85 * before || by > 0.7;
     if (k >= 2 && (learner.width() < 0.5 || !helps || spent + calls > most)) break;
