@@ -64,13 +64,14 @@ class Growth {
   }
 
   // How long all replicates get so that the fewest still reach the greatest length that the calls allow; an eighth of
-  // that at most, a 32nd at least, to see how the error falls.
+  // that at most, a 32nd at least, and 64 points, to see how the error falls.
   std::uint64_t shared(const Sequences& s) const {
     const double all = s.count, points = points_left(s) + all * static_cast<double>(s.length);
     const double fewer = std::min(fewest(), all);
     double longest = std::exp2(std::floor(std::log2(static_cast<double>(s.length) + points_left(s) / fewer)));
     const auto affords = [&](double length) { return all * length + fewer * (longest - length) <= points; };
-    if (!affords(std::max(longest / 32, static_cast<double>(s.length)))) longest /= 2;
+    const double least = std::min(std::max(longest / 32, 64.0), longest / 8); // shorter ones hardly show the fall
+    if (!affords(std::max(least, static_cast<double>(s.length)))) longest /= 2;
     double length = longest / 8;
     while (length > 1 && !affords(length)) length /= 2;
     return static_cast<std::uint64_t>(length);
