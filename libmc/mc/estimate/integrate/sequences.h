@@ -56,8 +56,8 @@ double doubt(const Means& b);
 /// By how much the logarithm of the variances fell for each doubling, over the last three; the mean of the outputs.
 double fall(const Sequences& s);
 
-/// What log_ratio(a, b) will be after `doublings` more, from the longest length that both have reached. The variance of a
-/// is `expected` to fall by so much more for each doubling, in logarithms; what the last three doublings showed of that
+/// What log_ratio(a, b) will be after `doublings` more, from the longest length that both have reached. The logarithm
+/// of the variance of a is `expected` to fall by so much more for each doubling; what the last three showed of that
 /// counts little, since few points say little of how an error falls.
 double advantage(const Sequences& a, const Sequences& b, double doublings, double expected = 0);
 
