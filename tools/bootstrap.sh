@@ -15,8 +15,8 @@ packages=(
 if ! command -v dpkg-query >/dev/null; then
   cat >&2 <<'TEXT'
 bootstrap.sh: this is not a Debian system. Please install: a C++20 compiler (g++ 12 or clang 14), CMake 3.25, Ninja, git,
-Eigen 3.4, fmt 9, pcg-cpp, Boost 1.74 (headers), MPFR 4, oneTBB, GoogleTest, pugixml, tinyobjloader, zlib, libpng, OpenEXR 3, stb,
-CLI11 2, nlohmann-json 3.11, muparser, gnuplot and clang-format 14; then run tools/test.sh again.
+Eigen 3.4, fmt 9, pcg-cpp, Boost 1.74 (headers), MPFR 4, oneTBB, GoogleTest, pugixml, tinyobjloader, zlib, libpng,
+OpenEXR 3, stb, CLI11 2, nlohmann-json 3.11, muparser, gnuplot and clang-format 14; then run tools/test.sh again.
 TEXT
   exit 2
 fi

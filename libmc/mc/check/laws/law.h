@@ -20,7 +20,7 @@ struct LawOptions {
   double alpha = 0.001;       ///< see SubjectOptions
   std::uint64_t points = 256; ///< random points of the deterministic laws over the 50-digit oracle
   double invert_eps = 16;     ///< |invert(sample(u)) - u|
-  double sample_eps = 16;     ///< |sample(u) - exact|, relative to max(1, |exact|)
+  double sample_eps = 16;     ///< |sample(u) - exact| beyond what 4 steps of u make, relative to max(1, |exact|)
   double pdf_eps = 64;        ///< |pdf(x) / exact - 1|
   double mass_eps = 64;       ///< |mass - 1| beyond the bound on the quadrature error
   std::size_t max_evaluations = 12'000'000;

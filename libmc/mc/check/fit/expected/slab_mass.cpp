@@ -44,7 +44,7 @@ std::vector<NearPoint> near_points(const Pilot& pilot, const Layer& layer) {
   return points;
 }
 
-// Cuts the layer. The axis is the one along which a box is widest in ranks of the pilot, of those along which it may be.
+// Cuts the layer, of the axes that rounding leaves along the one on which a box is widest in ranks of the pilot.
 struct Cutter {
   const Subject& subject;
   const Pilot& pilot;

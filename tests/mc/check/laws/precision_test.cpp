@@ -1,0 +1,34 @@
+#include <mc/check/laws.h>
+#include <mc/warp/hemisphere.h>
+#include <mc/warp/mixture.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace {
+
+std::string of_sample(const mc::Report& report) {
+  for (const mc::Check& c : report.checks)
+    if (c.name.starts_with("sample against 50 digits")) return c.verdict == mc::Verdict::pass ? "pass" : c.detail;
+  return "no check";
+}
+
+// Near the rim a step of u moves z by a hundred: what a mixture makes of u is rounded once more, which is no fault.
+TEST(PrecisionLaw, RoundingOfUIsConceded) {
+  const mc::Mixture mixture(std::array<double, 2>{1e-4, 1 - 1e-4}, mc::UniformHemisphere<double>{},
+                            mc::CosineHemisphere<double>{});
+  for (std::uint64_t seed = 1; seed <= 50; ++seed)
+    EXPECT_EQ(of_sample(check_laws(mixture, {.samples = 0, .seed = seed})), "pass") << seed;
+}
+
+// Off by 64 steps where the sample moves as fast as u does.
+struct Shifted : mc::UniformInterval<double> {
+  using mc::UniformInterval<double>::UniformInterval;
+  double sample(double u) const { return u + 64 * 0x1p-52; }
+  template <mc::Real T> mc::UniformInterval<T> cast() const { return {T(0), T(1)}; }
+};
+
+TEST(PrecisionLaw, MoreThanRoundingIsNot) { EXPECT_NE(of_sample(check_laws(Shifted(0, 1), {.samples = 0})), "pass"); }
+
+} // namespace
