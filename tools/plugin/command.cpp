@@ -149,6 +149,7 @@ AnySampler sampler_of(const std::shared_ptr<Program>& program, const ParsedDomai
   s.sample = [command](const AnySampler::Uniforms& u) { return command.sample(std::span(&u, 1))[0]; };
   s.sample_many = [command](std::span<const AnySampler::Uniforms> u) { return command.sample(u); };
   s.pdf = [command](const mc::Numbers& x) { return command.pdf(std::span(&x, 1))[0]; };
+  s.pdf_many = [command](std::span<const mc::Numbers> x) { return command.pdf(x); };
   s.ns_per_sample = [command, s] { return time_of(command, s); };
   std::vector<mc::Numbers> outcomes(static_cast<std::size_t>(domain.outcomes));
   for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i][0] = static_cast<double>(i);

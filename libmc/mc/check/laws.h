@@ -17,8 +17,8 @@ namespace mc {
 ///   inverse   : invert(sample(u)) = u at 20000 random u, within invert_eps               (with invert)
 ///   jacobian  : |det d sample / d u| pdf = 1 to 1e-20 by differences over 50 digits, or without an oracle to 1e-6 in
 ///               double                                                                   (with invert)
-///   precision : sample and pdf against the 50-digit oracle, within sample_eps beyond what rounding u makes, and pdf_eps
-///               (with an oracle)
+///   precision : sample and pdf against the 50-digit oracle, within pdf_eps, and sample_eps beyond what rounding u
+///               makes (with an oracle)
 std::vector<Check> check_deterministic(const AnySampler& sampler, const LawOptions& options);
 
 /// The sampler with the bounds of its contract set for the statistical tests too.

@@ -159,6 +159,18 @@ Subject make_subject(const AnySampler& sampler) {
     const AnyDomain::Image at = shared->domain.from_unit(v);
     return shared->pdf(at.x) * at.jacobian;
   };
+  if (s.pdf_many)
+    subject.densities = [shared](std::span<const Subject::Coordinates> v, std::span<double> densities) {
+      std::vector<Numbers> x;
+      std::vector<double> jacobians;
+      for (const Subject::Coordinates& one : v) {
+        const AnyDomain::Image at = shared->domain.from_unit(one);
+        x.push_back(at.x);
+        jacobians.push_back(at.jacobian);
+      }
+      const std::vector<double> pdf = shared->pdf_many(x);
+      for (std::size_t i = 0; i < v.size(); ++i) densities[i] = pdf[i] * jacobians[i];
+    };
   subject.resolution = [shared](const Subject::Coordinates& v, int axis) {
     return resolution(*shared, v, static_cast<std::size_t>(axis));
   };

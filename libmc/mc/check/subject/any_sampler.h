@@ -76,6 +76,8 @@ struct AnySampler {
   /// The next sample of a stream, for samplers that take as many random numbers as they like. One of the two is there.
   std::function<std::optional<Drawn>(Pcg& random)> sample_stream;
   std::function<double(const Numbers& x)> pdf;
+  /// The densities at several x, likewise beside `pdf`.
+  std::function<std::vector<double>(std::span<const Numbers> x)> pdf_many;
 
   std::function<std::optional<Uniforms>(const Numbers& x)> invert; ///< states that sample is one to one
   std::function<double(const Numbers& x)> eval; ///< the integrand f >= 0 that it is meant for, its largest channel

@@ -1,6 +1,7 @@
 #include <mc/check/laws.h>
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/mixture.h>
+#include <mc/warp/uniform.h>
 
 #include <gtest/gtest.h>
 

@@ -56,6 +56,26 @@ TEST(AnySampler, APointAndALobeAtOnce) {
   EXPECT_EQ(check_subject(make_subject(s), {.samples = 50'000}).verdict(), mc::Verdict::fail);
 }
 
+// Where densities are answered many at a time nearly all of the checker's questions come so, with the same results.
+TEST(AnySampler, DensitiesAreAskedTogether) {
+  AnySampler s = mc::make_sampler(
+      "e", mc::HalfLine<double>(0, 2), [](double u) { return -std::log1p(-u); }, [](double x) { return std::exp(-x); });
+  const mc::Report one_by_one = check_subject(make_subject(s), {.samples = 20'000});
+  int questions = 0, asked = 0;
+  s.pdf_many = [&, pdf = s.pdf](std::span<const Numbers> x) {
+    ++questions;
+    asked += static_cast<int>(x.size());
+    std::vector<double> densities;
+    for (const Numbers& one : x) densities.push_back(pdf(one));
+    return densities;
+  };
+  const mc::Report together = check_subject(make_subject(s), {.samples = 20'000});
+  EXPECT_EQ(together.p(), one_by_one.p());
+  EXPECT_EQ(together.mass, one_by_one.mass);
+  EXPECT_GT(asked, 30'000);
+  EXPECT_LT(questions, asked / 32);
+}
+
 TEST(AnySampler, TheWitnessIsTheDraw) {
   const mc::Subject subject = make_subject(unit());
   std::vector<mc::Subject::Draw> draws;
