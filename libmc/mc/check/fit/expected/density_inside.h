@@ -7,12 +7,10 @@
 
 namespace mc {
 
-/// v, moved off the faces of the cube by 2^-60 at 0 and by 2^-53 at 1, where charts of infinite domains have no point.
-Subject::Coordinates moved_inside(Subject::Coordinates v, int dim);
-
-/// The claimed density at v, moved inside.
+/// The claimed density at v, moved off the faces of the cube by 2^-60 at 0 and by 2^-53 at 1, where charts of infinite
+/// domains have no point.
 double density_inside(const Subject& subject, const Subject::Coordinates& v);
-/// Those at many points, which it moves inside: one question where the subject answers many at once.
+/// Those at many points, which it moves likewise: one question where the subject answers many at once.
 void densities_inside(const Subject& subject, std::span<Subject::Coordinates> v, std::span<double> densities);
 
 } // namespace mc

@@ -325,8 +325,8 @@ Reference::Masses Reference::integrate(const Subject& s, const Goal& goal, std::
   // The mass of few samples' density is still wanted to a thousandth.
   const double samples = std::max(goal.samples, 1e5);
   // Passes until both variances of all cells together are a tenth of that of their counts: what the points show falls
-  // with the passes, what they may have missed with their square. All passes count alike, and
-  // only the sum over all cells decides how many there are, so that the choice biases nothing.
+  // with the passes, what they may have missed with their square. All passes count alike, and only the sum over all
+  // cells decides how many there are, so that the choice biases nothing.
   double wanted = 1;
   while (static_cast<double>(result.passes) < wanted) {
     integration.pass();
