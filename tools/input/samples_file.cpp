@@ -9,6 +9,7 @@
 #include <mc/check/check_subject.h>
 #include <mc/core/error.h>
 #include <mc/core/sum.h>
+#include <mc/core/turns.h>
 #include <mc/random/uniform.h>
 #include <mc/table/table_dist_2d.h>
 

@@ -1,6 +1,7 @@
 // R1 ...: faults that renderers shipped, each in our own words.
 #include <slips/trials.h>
 
+#include <mc/core/turns.h>
 #include <mc/domain/product.h>
 #include <mc/estimate/mis.h>
 #include <mc/table/alias_table.h>

@@ -95,14 +95,6 @@ template <Real S> Vec3<S> spherical_direction(const S& sin_theta, const S& cos_t
   return {sin_theta * S(cos(phi)), sin_theta * S(sin(phi)), cos_theta};
 }
 
-/// Azimuth of (x, y) as a fraction of a full turn, in [0,1); 0 at the origin.
-template <Real S> S turn(const S& x, const S& y) {
-  using std::atan2;
-  const S t = S(atan2(y, x)) / (2 * pi<S>);
-  const S wrapped = t < 0 ? S(t + 1) : t;
-  return wrapped < 1 ? wrapped : S(0);
-}
-
 /// Converts every component; a plain scalar converts as itself.
 template <class T, class P> auto cast_point(const P& p) {
   if constexpr (requires { p.template cast<T>(); }) return Vec<T, P::RowsAtCompileTime>(p.template cast<T>());

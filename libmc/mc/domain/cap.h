@@ -2,6 +2,7 @@
 /// Spherical caps.
 
 #include <mc/core/error.h>
+#include <mc/core/turns.h>
 #include <mc/domain/sphere.h>
 
 namespace mc {

@@ -1,6 +1,7 @@
 #pragma once
 /// The upper unit hemisphere.
 
+#include <mc/core/turns.h>
 #include <mc/domain/sphere.h>
 
 namespace mc {

@@ -2,6 +2,7 @@
 /// The power-cosine lobe.
 
 #include <mc/core/error.h>
+#include <mc/core/turns.h>
 #include <mc/domain/hemisphere.h>
 #include <mc/warp/concept.h>
 

@@ -3,6 +3,7 @@
 
 #include <mc/core/dot.h>
 #include <mc/core/error.h>
+#include <mc/core/turns.h>
 #include <mc/warp/concept.h>
 #include <mc/warp/hemisphere.h>
 

@@ -2,6 +2,7 @@
 /// The von Mises-Fisher distribution.
 
 #include <mc/core/error.h>
+#include <mc/core/turns.h>
 #include <mc/domain/sphere.h>
 #include <mc/warp/concept.h>
 

@@ -62,5 +62,42 @@ TEST(Turns, QuartersAreExact) {
   EXPECT_EQ(polar_direction<double>(0.6, 0.8, 0.5), Vec3<double>(-0.6, 0, 0.8));
 }
 
+TEST(Turns, TurnStaysInTheUnitInterval) {
+  EXPECT_EQ(turn(0.0f, 0.0f), 0.0f);
+  EXPECT_EQ(turn(0.0f, 1.0f), 0.25f);
+  const float below = turn(1.0f, -std::numeric_limits<float>::denorm_min());
+  EXPECT_TRUE(below >= 0 && below < 1) << below;
+  EXPECT_LT(turn(-1.0, -1e-300), 1.0);
+  EXPECT_EQ(turn(0.0, -1.0), 0.75);
+  EXPECT_TRUE(std::isnan(turn(std::nan(""), 1.0)));
+  EXPECT_EQ(turn(-infinity<double>, infinity<double>), 0.375);
+}
+
+// Points of every octant, of sizes from denormal to the largest number; many near the axes and the diagonals.
+template <class S> double worst_ulps_of_turn() {
+  Pcg random(13);
+  double worst = 0;
+  for (int i = 0; i < 15'000; ++i) {
+    const auto size = [&] {
+      return std::ldexp(random.uniform<S>() + S(0.5), static_cast<int>(random.next32() % 60) - 60);
+    };
+    const S a = size(), b = i % 3 == 0 ? size() : i % 3 == 1 ? a * (1 + size()) : a * (random.uniform<S>() + S(0.1));
+    const int range = std::numeric_limits<S>::max_exponent - 8;
+    const int move = i % 5 == 0 ? static_cast<int>(random.next32() % static_cast<std::uint32_t>(2 * range)) - range : 0;
+    const auto sign = [&] { return random.next32() % 2 ? S(1) : S(-1); };
+    const bool swapped = random.next32() % 2;
+    const S x = sign() * std::ldexp(swapped ? a : b, move), y = sign() * std::ldexp(swapped ? b : a, move);
+    const Oracle exact = turn<Oracle>(Oracle(x), Oracle(y));
+    if (static_cast<S>(exact) < 1) worst = std::max(worst, ulps<S>(turn(x, y), exact));
+    else EXPECT_EQ(turn(x, y), S(0));
+  }
+  return worst;
+}
+
+TEST(Turns, TurnIsWithinTwoUlpsOfFiftyDigits) {
+  EXPECT_LE(worst_ulps_of_turn<float>(), 2);
+  EXPECT_LE(worst_ulps_of_turn<double>(), 2);
+}
+
 } // namespace
 } // namespace mc

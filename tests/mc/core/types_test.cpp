@@ -56,13 +56,4 @@ TEST(Types, VectorsAreLaidOutTheSameUnderAllFlags) {
   static_assert(std::is_same_v<mc::Vec3<double>, Eigen::Vector3d>);
 }
 
-TEST(Types, TurnStaysInTheUnitInterval) {
-  EXPECT_EQ(mc::turn(0.0f, 0.0f), 0.0f);
-  EXPECT_EQ(mc::turn(0.0f, 1.0f), 0.25f);
-  const float below = mc::turn(1.0f, -std::numeric_limits<float>::denorm_min());
-  EXPECT_TRUE(below >= 0 && below < 1) << below;
-  EXPECT_LT(mc::turn(-1.0, -1e-300), 1.0);
-  EXPECT_NEAR(mc::turn(0.0, -1.0), 0.75, 1e-15);
-}
-
 } // namespace
