@@ -7,22 +7,20 @@
 
 namespace carlo {
 
-template <class S, class Make>
-void add_case(Catalogue& c, const std::string& name, const std::string& parameters, Make make, mc::LawOptions bounds) {
-  Case one{name, parameters, sizeof(S) == sizeof(float) ? "float" : "double", {}};
-  bounds.name = one.title();
-  one.check = [make, bounds](const CaseOptions& options) {
-    return check_laws(make(S(0)), mc::with_statistics(bounds, options));
-  };
-  c.push_back(std::move(one));
-}
+/// A sampler over one scalar with the bounds of its contract. make(its title) makes it when it is checked.
+void add_case(Catalogue& c, std::string name, std::string parameters, std::string scalar,
+              std::function<mc::AnySampler(std::string)> make, mc::LawOptions bounds);
 
 /// The warp make(S{}) over float and double, with the bounds of its contract. It is made when it is checked.
 template <class Make>
 void add_warp(Catalogue& c, const std::string& name, const std::string& parameters, Make make,
               const mc::LawOptions& bounds = {}) {
-  add_case<float>(c, name, parameters, make, bounds);
-  add_case<double>(c, name, parameters, make, bounds);
+  add_case(
+      c, name, parameters, "float",
+      [make](std::string title) { return mc::make_sampler(std::move(title), make(0.0f)); }, bounds);
+  add_case(
+      c, name, parameters, "double",
+      [make](std::string title) { return mc::make_sampler(std::move(title), make(0.0)); }, bounds);
 }
 
 } // namespace carlo

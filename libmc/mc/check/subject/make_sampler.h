@@ -72,49 +72,79 @@ template <class F> double disagreement(const F& a, const F& b) {
   return worst;
 }
 
-/// A sampler of the domain that draws nothing yet. What makes a sampler runs once: [[gnu::cold]] has it compiled for
-/// size, in a tenth less time.
+/// A function of something that several functions share. They differ in `call` alone: what makes, copies and destroys
+/// them is compiled once per signature, not once per sampler.
+template <class Signature> struct SharedCall;
+template <class R, class... Args> struct SharedCall<R(Args...)> {
+  std::shared_ptr<const void> held;
+  R (*call)(const void* held, Args... args);
+  R operator()(Args... args) const { return call(held.get(), std::forward<Args>(args)...); }
+};
+/// Sets `function` to f(*held, arguments), f a lambda that captures nothing.
+template <class R, class... Args, class T, class F>
+void set_shared(std::function<R(Args...)>& function, const std::shared_ptr<const T>& held, F) {
+  function = SharedCall<R(Args...)>{held, [](const void* t, Args... args) -> R {
+                                      return F()(*static_cast<const T*>(t), std::forward<Args>(args)...);
+                                    }};
+}
+
+/// A chart over double as functions of numbers; a domain over float and one over double share it. What makes a sampler
+/// runs once: [[gnu::cold]] has it compiled for size, in a tenth less time.
+template <Domain Chart> [[gnu::cold]] AnyDomain domain_of(const Chart& chart) {
+  using Point = typename Chart::Point;
+  using UnitPoint = typename Chart::UnitPoint;
+  AnyDomain d;
+  d.dim = Chart::dim;
+  d.numbers = point_size<Point>();
+  d.axes = chart_axes(chart);
+  const auto shared = std::make_shared<const Chart>(chart);
+  set_shared(d.to_unit, shared, [](const Chart& c, const Numbers& x) {
+    return to_array<double, 3>(UnitPoint(c.to_unit(to_point<Point>(x))));
+  });
+  set_shared(d.from_unit, shared, [](const Chart& c, const AnyDomain::Chart& v) {
+    const auto p = to_point<UnitPoint>(v);
+    return AnyDomain::Image{to_array<double>(Point(c.from_unit(p))), c.jacobian(p)};
+  });
+  set_shared(d.jacobian, shared,
+             [](const Chart& c, const AnyDomain::Chart& v) { return c.jacobian(to_point<UnitPoint>(v)); });
+  return d;
+}
+
+/// A sampler of the domain that draws nothing yet.
 template <Domain D> [[gnu::cold]] AnySampler sampler_on(std::string name, const D& domain) {
-  using S = typename D::Scalar;
-  using Point = typename D::Point;
   AnySampler s;
   s.name = std::move(name);
-  s.is_float = std::same_as<S, float>;
-  s.domain.dim = D::dim;
-  s.domain.numbers = point_size<Point>();
-  s.domain.axes = chart_axes(domain);
-  s.domain.contains = [domain](const Numbers& x) { return domain.contains(to_point<Point>(x)); };
-  const auto chart = domain.template cast<double>();
-  using Chart = std::remove_const_t<decltype(chart)>;
-  s.domain.to_unit = [chart](const Numbers& x) {
-    return to_array<double, 3>(typename Chart::UnitPoint(chart.to_unit(to_point<typename Chart::Point>(x))));
-  };
-  s.domain.from_unit = [chart](const AnyDomain::Chart& v) {
-    const auto p = to_point<typename Chart::UnitPoint>(v);
-    return AnyDomain::Image{to_array<double>(typename Chart::Point(chart.from_unit(p))), chart.jacobian(p)};
-  };
-  s.domain.jacobian = [chart](const AnyDomain::Chart& v) {
-    return chart.jacobian(to_point<typename Chart::UnitPoint>(v));
-  };
+  s.is_float = std::same_as<typename D::Scalar, float>;
+  s.domain = domain_of(domain.template cast<double>());
+  set_shared(s.domain.contains, std::make_shared<const D>(domain),
+             [](const D& d, const Numbers& x) { return d.contains(to_point<typename D::Point>(x)); });
   return s;
 }
+
+/// A warp with its domain, which need not be made for each point anew.
+template <class W> struct WarpOnDomain {
+  W warp;
+  typename W::Domain domain;
+};
 
 /// A warp over 50 digits, compiled once for its float and its double form.
 template <Samplable O> [[gnu::cold]] ExactSampler exact_sampler(const O& warp) {
   using Point = PointOf<O>;
   using UnitPoint = UnitPointOf<O>;
-  const auto oracle = std::make_shared<const O>(warp);
+  using Held = WarpOnDomain<O>;
+  const auto oracle = std::make_shared<const Held>(Held{warp, warp.domain()});
   ExactSampler e;
-  e.sample = [oracle](const ExactSampler::Point& u) -> std::optional<ExactSampler::Point> {
-    const auto drawn = oracle->sample(to_point<UnitPoint>(u));
+  set_shared(e.sample, oracle, [](const Held& o, const ExactSampler::Point& u) -> std::optional<ExactSampler::Point> {
+    const auto drawn = o.warp.sample(to_point<UnitPoint>(u));
     if (is_empty(drawn)) return {};
     return to_array<Oracle, 3>(Point(unwrapped(drawn)));
-  };
-  e.pdf = [oracle](const ExactSampler::Point& x) { return Oracle(oracle->pdf(to_point<Point>(x))); };
-  e.locate = [domain = oracle->domain()](const ExactSampler::Point& x) {
-    const UnitPoint v = domain.to_unit(to_point<Point>(x));
-    return ExactSampler::Place{to_array<Oracle, 3>(v), Oracle(domain.jacobian(v))};
-  };
+  });
+  set_shared(e.pdf, oracle,
+             [](const Held& o, const ExactSampler::Point& x) { return Oracle(o.warp.pdf(to_point<Point>(x))); });
+  set_shared(e.locate, oracle, [](const Held& o, const ExactSampler::Point& x) {
+    const UnitPoint v = o.domain.to_unit(to_point<Point>(x));
+    return ExactSampler::Place{to_array<Oracle, 3>(v), Oracle(o.domain.jacobian(v))};
+  });
   return e;
 }
 
@@ -138,6 +168,22 @@ AnySampler::Drawn drawn_of(const Held& held, const D& domain, const Pdf& pdf, co
   return d;
 }
 
+/// What a sampler on a domain is made of; see make_sampler.
+template <Domain D, class Draw, class Pdf, class F> struct FunctionsOn {
+  D domain;
+  Draw draw;
+  Pdf pdf;
+  F f;
+  template <class Result> std::optional<AnySampler::Drawn> drawn(const Result& result) const {
+    using Held = typename Unwrapped<Result>::type;
+    static_assert(
+        !requires(const Held& held) { held.weight; } || !std::same_as<F, std::nullptr_t>,
+        "make_sampler: a sampler that states weights needs the f they are for");
+    if (is_empty(result)) return {};
+    return drawn_of(unwrapped(result), domain, pdf, f);
+  }
+};
+
 } // namespace detail
 
 /// A sampler on a domain, its claimed density and perhaps the f it is for.
@@ -147,63 +193,57 @@ AnySampler::Drawn drawn_of(const Held& held, const D& domain, const Pdf& pdf, co
 ///   pdf, f  : functions of x; f may return several channels as an Eigen array
 template <Domain D, class Draw, class Pdf, class F = std::nullptr_t>
 [[gnu::cold]] AnySampler make_sampler(std::string name, const D& domain, Draw draw, Pdf pdf, F f = nullptr) {
-  using S = typename D::Scalar;
   constexpr bool streams = std::invocable<const Draw&, Pcg&>;
   constexpr bool takes_u = std::invocable<const Draw&, typename D::UnitPoint>;
   static_assert(streams || takes_u, "the sampler must take u, a point of the unit cube, or mc::Pcg&");
-  const auto convert = [domain, pdf, f](const auto& result) -> std::optional<AnySampler::Drawn> {
-    using Held = typename detail::Unwrapped<std::remove_cvref_t<decltype(result)>>::type;
-    static_assert(
-        !requires(const Held& held) { held.weight; } || !std::same_as<F, std::nullptr_t>,
-        "make_sampler: a sampler that states weights needs the f they are for");
-    if (detail::is_empty(result)) return {};
-    return detail::drawn_of(detail::unwrapped(result), domain, pdf, f);
-  };
+  using Functions = detail::FunctionsOn<D, Draw, Pdf, F>;
   AnySampler s = detail::sampler_on(std::move(name), domain);
+  const auto shared =
+      std::make_shared<const Functions>(Functions{domain, std::move(draw), std::move(pdf), std::move(f)});
   if constexpr (streams) {
     s.may_fail = detail::may_be_empty<std::invoke_result_t<const Draw&, Pcg&>>;
-    s.sample_stream = [draw, convert](Pcg& random) { return convert(draw(random)); };
+    detail::set_shared(s.sample_stream, shared,
+                       [](const Functions& g, Pcg& random) { return g.drawn(g.draw(random)); });
   } else if constexpr (takes_u) {
     s.may_fail = detail::may_be_empty<std::invoke_result_t<const Draw&, typename D::UnitPoint>>;
     s.uniforms = D::dim;
-    s.sample = [draw, convert](const AnySampler::Uniforms& u) {
-      return convert(draw(detail::to_point<typename D::UnitPoint>(u)));
-    };
+    detail::set_shared(s.sample, shared, [](const Functions& g, const AnySampler::Uniforms& u) {
+      return g.drawn(g.draw(detail::to_point<typename D::UnitPoint>(u)));
+    });
   }
-  s.pdf = [pdf](const Numbers& x) {
-    return static_cast<double>(static_cast<S>(pdf(detail::to_point<typename D::Point>(x))));
-  };
+  detail::set_shared(s.pdf, shared, [](const Functions& g, const Numbers& x) {
+    return static_cast<double>(static_cast<typename D::Scalar>(g.pdf(detail::to_point<typename D::Point>(x))));
+  });
   return s;
 }
 
 /// A warp, or any struct with domain, sample and pdf, with its inverse and its oracle where it has them. A warp whose
 /// density jumps names the places: breaks()[axis], ascending chart coordinates.
 template <Samplable W> [[gnu::cold]] AnySampler make_sampler(std::string name, const W& warp) {
-  using S = typename W::Domain::Scalar;
   const auto shared = std::make_shared<const W>(warp);
   AnySampler s = make_sampler(
       std::move(name), typename W::Domain(warp.domain()),
       [shared](const UnitPointOf<W>& u) { return shared->sample(u); },
       [shared](const PointOf<W>& x) { return shared->pdf(x); });
   if constexpr (Invertible<W>)
-    s.invert = [shared](const Numbers& x) -> std::optional<AnySampler::Uniforms> {
-      const auto u = detail::to_array<double>(UnitPointOf<W>(shared->invert(detail::to_point<PointOf<W>>(x))));
+    detail::set_shared(s.invert, shared, [](const W& w, const Numbers& x) -> std::optional<AnySampler::Uniforms> {
+      const auto u = detail::to_array<double>(UnitPointOf<W>(w.invert(detail::to_point<PointOf<W>>(x))));
       return AnySampler::Uniforms{u[0], u[1], u[2]};
-    };
+    });
   if constexpr (requires { warp.breaks(); }) {
     std::size_t axis = 0;
     for (std::vector<double>& places : warp.breaks()) s.breaks[axis++] = std::move(places);
   }
   if constexpr (HasOracle<W>) s.exact = detail::exact_sampler(warp.template cast<Oracle>());
-  s.ns_per_sample = [shared] {
+  detail::set_shared(s.ns_per_sample, shared, [](const W& w) {
     Pcg random(3);
     std::vector<UnitPointOf<W>> u(timing_inputs);
-    for (auto& one : u) one = random.point<S, W::Domain::dim>();
+    for (auto& one : u) one = random.point<typename W::Domain::Scalar, W::Domain::dim>();
     return mc::ns_per_sample(u, [&](const UnitPointOf<W>& v) {
-      const auto x = shared->sample(v);
+      const auto x = w.sample(v);
       return detail::is_empty(x) ? 0.0 : detail::component(detail::unwrapped(x), 0);
     });
-  };
+  });
   return s;
 }
 
