@@ -34,20 +34,25 @@ endif()
 # What nearly every source reads, for a precompiled header of each library.
 set(MC_PRECOMPILED <Eigen/Core> <fmt/format.h> <algorithm> <array> <cmath> <functional> <optional> <span> <string> <vector>)
 
-# Files of a target that are compiled together: those of a folder in four groups by their first letter, so that a new
-# file does not move others. That halves the time to compile; names that are local to a file must differ from those of
-# its group. Hot loops stay apart: inlining depends on the file.
+# Files of a target that are compiled together: most of the time goes into reading and instantiating the same headers,
+# and what a header instantiates is not precompiled. Up to 8 files are one group, up to 16 two, more are four, by the
+# first letter of their names, so that a new file does not move others. Names that are local to a file must differ from
+# those of its group. Hot loops stay apart: inlining depends on the file.
 option(MC_UNITY "Compile tests, readers and commands in groups" ON)
-function(mc_compile_in_groups target)
+function(mc_compile_in_groups target name)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${MC_UNITY} UNITY_BUILD_MODE GROUP)
+  list(LENGTH ARGN count)
+  set(groups a-z)
+  if(count GREATER 16)
+    set(groups a-c d-l m-r s-z)
+  elseif(count GREATER 8)
+    set(groups a-l m-z)
+  endif()
   foreach(file ${ARGN})
-    cmake_path(ABSOLUTE_PATH file)
-    cmake_path(RELATIVE_PATH file OUTPUT_VARIABLE group)
-    cmake_path(GET group FILENAME stem)
-    cmake_path(GET group PARENT_PATH group)
-    foreach(letters a-c d-l m-r s-z)
+    cmake_path(GET file FILENAME stem)
+    foreach(letters ${groups})
       if(stem MATCHES "^[${letters}]")
-        string(MAKE_C_IDENTIFIER "${group}_${letters}" group)
+        string(MAKE_C_IDENTIFIER "${name}_${letters}" group)
       endif()
     endforeach()
     set_source_files_properties(${file} PROPERTIES UNITY_GROUP ${group})

@@ -1,5 +1,5 @@
 #pragma once
-// Directions for tests of shapes.
+// Directions for tests of shapes and scenes.
 
 #include <render/core/types.h>
 
@@ -10,6 +10,10 @@ namespace support {
 
 inline render::Vec3 random_direction(mc::Pcg& random) {
   return mc::UniformSphere<render::Float>{}.sample(random.point<render::Float, 2>());
+}
+
+inline render::Vec3d random_axis(mc::Pcg& random) {
+  return mc::UniformSphere<double>{}.sample(random.point<double, 2>());
 }
 
 } // namespace support

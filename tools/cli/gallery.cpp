@@ -113,9 +113,9 @@ RenderedScene report(const Asked& a, const ::render::RenderResult& result) {
 constexpr int thumbnail_side = 64, thumbnails_in_a_row = 12;
 
 /// Renders one scene after the other.
-class Run {
+class GalleryRun {
  public:
-  Run(const GalleryOptions& options, std::filesystem::path folder, const std::atomic<bool>* cancel)
+  GalleryRun(const GalleryOptions& options, std::filesystem::path folder, const std::atomic<bool>* cancel)
       : options_(options), folder_(std::move(folder)), cancel_(cancel) {}
 
   void all(const std::vector<const GalleryScene*>& scenes) {
@@ -206,7 +206,7 @@ int gallery_command(const GalleryOptions& o) {
   const std::filesystem::path folder = mc::output_folder(o.output, "index.html");
 
   const Interrupt interrupt;
-  Run run(o, folder, interrupt.flag());
+  GalleryRun run(o, folder, interrupt.flag());
   run.all(scenes);
   const std::size_t finished = run.rendered().size();
   if (finished > 0) {

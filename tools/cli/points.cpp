@@ -186,15 +186,15 @@ std::string points_csv(mc::PointList p) {
 }
 
 // The rows of the curves, fewest points first, and the sets of the last.
-struct Measured {
+struct MeasuredSets {
   std::vector<Row> rows;
   Sets sets;
   bool interrupted = false;
 };
 
-Measured measure_all(const PointsOptions& o, int& dim) {
+MeasuredSets measure_all(const PointsOptions& o, int& dim) {
   constexpr std::uint64_t quick = 100'000'000, thorough = 1'000'000'000;
-  Measured m;
+  MeasuredSets m;
   if (!o.file.empty()) {
     const CsvTable table = read_points(o.file, 2, most_points, most_dimensions);
     dim = static_cast<int>(table.columns);
@@ -220,7 +220,7 @@ Measured measure_all(const PointsOptions& o, int& dim) {
   return m;
 }
 
-void write(const PointsOptions& o, const std::filesystem::path& folder, const Measured& m, int dim,
+void write(const PointsOptions& o, const std::filesystem::path& folder, const MeasuredSets& m, int dim,
            std::optional<int> t) {
   const mc::PointList first{m.sets[0], static_cast<std::size_t>(dim)};
   const std::string title = fmt::format("{}, {} dimensions", o.file.empty() ? o.set : std::string("points"), dim);
@@ -283,7 +283,7 @@ int points(const PointsOptions& o) {
   if (o.file.empty()) point_set(o.set);
   const std::filesystem::path folder = mc::output_folder(o.output, "points.csv");
   int dim = o.dim;
-  const Measured m = measure_all(o, dim);
+  const MeasuredSets m = measure_all(o, dim);
   if (m.rows.empty()) return exit_interrupted;
   const std::optional<int> t = mc::net_quality({m.sets[0], static_cast<std::size_t>(dim)});
   fmt::print("{}: {} points in {} dimension{}\n", o.file.empty() ? o.set : o.file, m.rows.back().n, dim,

@@ -10,7 +10,9 @@ namespace carlo {
 
 namespace {
 
-std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.3g} %", 100 * share) : "unknown"; }
+std::string error_percent(double share) {
+  return std::isfinite(share) ? fmt::format("{:.3g} %", 100 * share) : "unknown";
+}
 
 std::string brightness(const StrategyResult& s, const StrategyResult* best) {
   if (!best || !(best->mean.value > 0)) return "0";
@@ -54,9 +56,9 @@ std::string strategy_table(const std::vector<StrategyResult>& same_samples,
   for (std::size_t i = 0; i < same_samples.size(); ++i) {
     const StrategyResult &s = same_samples[i], &t = same_time[i];
     mc::require(s.name == t.name, "strategies: {} with the same samples, {} in the same time", s.name, t.name);
-    text += fmt::format("{:<12}{:>14}{:>10}{:>12}{:>14.4g}  {}\n", s.name, percent(s.relative_error),
+    text += fmt::format("{:<12}{:>14}{:>10}{:>12}{:>14.4g}  {}\n", s.name, error_percent(s.relative_error),
                         s.work > 0 && std::isfinite(least) ? fmt::format("{:.3g}x", s.work / least) : "0",
-                        percent(t.relative_error), t.spp, brightness(s, best));
+                        error_percent(t.relative_error), t.spp, brightness(s, best));
   }
   return text;
 }

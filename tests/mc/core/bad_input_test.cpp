@@ -59,9 +59,8 @@
 namespace mc {
 namespace {
 
-using S = double;
-constexpr S nan = std::numeric_limits<S>::quiet_NaN(), inf = std::numeric_limits<S>::infinity();
-using V = Vec3<S>;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+using V = Vec3<double>;
 using Weights = std::vector<double>;
 
 // A call that must fail, what its message must hold: the subject, the value, the need.
@@ -80,63 +79,67 @@ void expect_refused(const std::vector<Row>& rows) {
 
 // A parameter of one number: each bad value must be in the message.
 template <class Make>
-void add(std::vector<Row>& rows, const std::string& subject, const std::string& need, std::initializer_list<S> bad,
+void add(std::vector<Row>& rows, const std::string& subject, const std::string& need, std::initializer_list<double> bad,
          Make make) {
-  for (const S x : bad) rows.push_back({[=] { make(x); }, {subject + ":", fmt::format("{}", x), need}});
+  for (const double x : bad) rows.push_back({[=] { make(x); }, {subject + ":", fmt::format("{}", x), need}});
 }
 
 TEST(BadInput, WarpsOnTheLine) {
   std::vector<Row> rows;
-  add(rows, "Linear", "finite, >= 0 and not both 0", {nan, inf, -1}, [](S x) { Linear<S>(x, 1); });
-  add(rows, "Linear", "finite, >= 0 and not both 0", {nan, inf, -1, 0}, [](S x) { Linear<S>(0, x); });
-  add(rows, "Tent", "finite", {nan, inf}, [](S x) { Tent<S>(x, 1); });
-  add(rows, "Tent", "radius > 0", {nan, inf, 0, -1}, [](S x) { Tent<S>(0, x); });
-  add(rows, "Exponential", "finite and > 0", {nan, inf, 0, -1, 1e-320}, [](S x) { Exponential<S>{x}; });
-  add(rows, "TrimmedExponential", "finite", {nan, inf, -inf}, [](S x) { TrimmedExponential<S>(x, 1); });
-  add(rows, "TrimmedExponential", "finite", {nan, inf, 0, -1}, [](S x) { TrimmedExponential<S>(1, x); });
-  add(rows, "Normal", "finite", {nan, inf}, [](S x) { Normal<S>(x, 1); });
-  add(rows, "Normal", "sigma > 0", {nan, inf, 0, -1}, [](S x) { Normal<S>(0, x); });
-  add(rows, "Logistic", "scale > 0", {nan, inf, 0, -1}, [](S x) { Logistic<S>(0, x); });
-  add(rows, "TrimmedLogistic", "finite and > 0", {nan, inf, 0, -1}, [](S x) { TrimmedLogistic<S>(x, 0, 1); });
-  add(rows, "TrimmedLogistic", "lo < hi", {nan, inf, 0, -1}, [](S x) { TrimmedLogistic<S>(1, 0, x); });
-  add(rows, "Power", "finite and >= 0", {nan, inf, -0.5}, [](S x) { Power<S>{x}; });
+  add(rows, "Linear", "finite, >= 0 and not both 0", {nan, inf, -1}, [](double x) { Linear<double>(x, 1); });
+  add(rows, "Linear", "finite, >= 0 and not both 0", {nan, inf, -1, 0}, [](double x) { Linear<double>(0, x); });
+  add(rows, "Tent", "finite", {nan, inf}, [](double x) { Tent<double>(x, 1); });
+  add(rows, "Tent", "radius > 0", {nan, inf, 0, -1}, [](double x) { Tent<double>(0, x); });
+  add(rows, "Exponential", "finite and > 0", {nan, inf, 0, -1, 1e-320}, [](double x) { Exponential<double>{x}; });
+  add(rows, "TrimmedExponential", "finite", {nan, inf, -inf}, [](double x) { TrimmedExponential<double>(x, 1); });
+  add(rows, "TrimmedExponential", "finite", {nan, inf, 0, -1}, [](double x) { TrimmedExponential<double>(1, x); });
+  add(rows, "Normal", "finite", {nan, inf}, [](double x) { Normal<double>(x, 1); });
+  add(rows, "Normal", "sigma > 0", {nan, inf, 0, -1}, [](double x) { Normal<double>(0, x); });
+  add(rows, "Logistic", "scale > 0", {nan, inf, 0, -1}, [](double x) { Logistic<double>(0, x); });
+  add(rows, "TrimmedLogistic", "finite and > 0", {nan, inf, 0, -1}, [](double x) { TrimmedLogistic<double>(x, 0, 1); });
+  add(rows, "TrimmedLogistic", "lo < hi", {nan, inf, 0, -1}, [](double x) { TrimmedLogistic<double>(1, 0, x); });
+  add(rows, "Power", "finite and >= 0", {nan, inf, -0.5}, [](double x) { Power<double>{x}; });
   expect_refused(rows);
 }
 
 TEST(BadInput, WarpsOnThePlaneAndTheSphere) {
   std::vector<Row> rows;
-  add(rows, "Bilinear", "finite, >= 0 and not all 0", {nan, inf, -1, 0}, [](S x) { Bilinear<S>(0, 0, x, 0); });
-  add(rows, "IsotropicNormal", "finite and > 0", {nan, inf, 0, -1}, [](S x) { IsotropicNormal<S>{x}; });
-  add(rows, "Annulus", "0 <= inner < outer", {nan, inf, 0.5, -1}, [](S x) { UniformAnnulus<S>(0.5, x); });
-  add(rows, "Annulus", "0 <= inner < outer", {nan, -1}, [](S x) { UniformAnnulus<S>(x, 1); });
-  add(rows, "UniformCone", "(0, pi]", {nan, inf, 0, -1, 3.2}, [](S x) { UniformCone<S>::from_angle(x); });
-  add(rows, "UniformCone", "[-1, 1)", {nan, 1, -1.5}, [](S x) { UniformCone<S>::from_cos(x); });
-  add(rows, "UniformCone", "(0, 1]", {nan, 0, -1, 1.5}, [](S x) { UniformCone<S>::from_sin2(x); });
-  add(rows, "Cap", "(0, 2]", {nan, 0, -1, 2.5}, [](S x) { UniformCone<S>::from_one_minus_cos(x); });
-  add(rows, "BlinnPhong", "finite and >= 0", {nan, inf, -1}, [](S x) { BlinnPhong<S>{x}; });
-  add(rows, "HenyeyGreenstein", "(-1, 1)", {nan, 1, -1, 1.5}, [](S x) { HenyeyGreenstein<S>{x}; });
-  add(rows, "VonMisesFisher", "finite and >= 0", {nan, inf, -1}, [](S x) { VonMisesFisher<S>{x}; });
-  add(rows, "BeckmannNormals", "[1e-6, 1000]", {nan, inf, 0, -1, 2000}, [](S x) { BeckmannNormals<S>(0.1, x); });
-  add(rows, "TrowbridgeReitz", "[1e-6, 1000]", {nan, inf, 0, -1, 2000}, [](S x) { TrowbridgeReitzNormals<S>(x, 0.1); });
+  add(rows, "Bilinear", "finite, >= 0 and not all 0", {nan, inf, -1, 0},
+      [](double x) { Bilinear<double>(0, 0, x, 0); });
+  add(rows, "IsotropicNormal", "finite and > 0", {nan, inf, 0, -1}, [](double x) { IsotropicNormal<double>{x}; });
+  add(rows, "Annulus", "0 <= inner < outer", {nan, inf, 0.5, -1}, [](double x) { UniformAnnulus<double>(0.5, x); });
+  add(rows, "Annulus", "0 <= inner < outer", {nan, -1}, [](double x) { UniformAnnulus<double>(x, 1); });
+  add(rows, "UniformCone", "(0, pi]", {nan, inf, 0, -1, 3.2}, [](double x) { UniformCone<double>::from_angle(x); });
+  add(rows, "UniformCone", "[-1, 1)", {nan, 1, -1.5}, [](double x) { UniformCone<double>::from_cos(x); });
+  add(rows, "UniformCone", "(0, 1]", {nan, 0, -1, 1.5}, [](double x) { UniformCone<double>::from_sin2(x); });
+  add(rows, "Cap", "(0, 2]", {nan, 0, -1, 2.5}, [](double x) { UniformCone<double>::from_one_minus_cos(x); });
+  add(rows, "BlinnPhong", "finite and >= 0", {nan, inf, -1}, [](double x) { BlinnPhong<double>{x}; });
+  add(rows, "HenyeyGreenstein", "(-1, 1)", {nan, 1, -1, 1.5}, [](double x) { HenyeyGreenstein<double>{x}; });
+  add(rows, "VonMisesFisher", "finite and >= 0", {nan, inf, -1}, [](double x) { VonMisesFisher<double>{x}; });
+  add(rows, "BeckmannNormals", "[1e-6, 1000]", {nan, inf, 0, -1, 2000},
+      [](double x) { BeckmannNormals<double>(0.1, x); });
+  add(rows, "TrowbridgeReitz", "[1e-6, 1000]", {nan, inf, 0, -1, 2000},
+      [](double x) { TrowbridgeReitzNormals<double>(x, 0.1); });
   add(rows, "TrowbridgeReitzVisibleNormals", "unit vector with z >= 0", {nan, -1, 2},
-      [](S x) { TrowbridgeReitzVisibleNormals<S>(V(0, 0, x), 0.1); });
-  add(rows, "Reflected", "unit vector", {nan, inf, 0, 2}, [](S x) { Reflected(V(0, 0, x), BeckmannNormals<S>(0.1)); });
+      [](double x) { TrowbridgeReitzVisibleNormals<double>(V(0, 0, x), 0.1); });
+  add(rows, "Reflected", "unit vector", {nan, inf, 0, 2},
+      [](double x) { Reflected(V(0, 0, x), BeckmannNormals<double>(0.1)); });
   add(rows, "RefractedIn", "[1.0001, 10000]", {nan, inf, 0.5, 1, -2},
-      [](S x) { RefractedIn(V(0, 0, 1), BeckmannNormals<S>(0.1), x); });
+      [](double x) { RefractedIn(V(0, 0, 1), BeckmannNormals<double>(0.1), x); });
   add(rows, "RefractedOut", "[0.0001, 0.9999]", {nan, 0, 1, 1.5, -2},
-      [](S x) { RefractedOut(V(0, 0, 1), BeckmannNormals<S>(0.1), x); });
-  add(rows, "SphereLight", "finite and > 0", {nan, inf, 0, -1}, [](S x) { SphereLight<S>(V(0, 0, 1), x); });
-  rows.push_back({[] { SphereLight<S>(V(0, nan, 1), 1); }, {"SphereLight:", "nan"}});
-  rows.push_back({[] { Rotated(CosineHemisphere<S>{}, V(0, 0, 2)); }, {"Rotated:", "length^2 4", "unit vector"}});
-  rows.push_back({[] { Rotated(CosineHemisphere<S>{}, V(nan, 0, 1)); }, {"Rotated:", "nan", "unit vector"}});
+      [](double x) { RefractedOut(V(0, 0, 1), BeckmannNormals<double>(0.1), x); });
+  add(rows, "SphereLight", "finite and > 0", {nan, inf, 0, -1}, [](double x) { SphereLight<double>(V(0, 0, 1), x); });
+  rows.push_back({[] { SphereLight<double>(V(0, nan, 1), 1); }, {"SphereLight:", "nan"}});
+  rows.push_back({[] { Rotated(CosineHemisphere<double>{}, V(0, 0, 2)); }, {"Rotated:", "length^2 4", "unit vector"}});
+  rows.push_back({[] { Rotated(CosineHemisphere<double>{}, V(nan, 0, 1)); }, {"Rotated:", "nan", "unit vector"}});
   rows.push_back(
-      {[] { SphericalTriangle<S>(V(0, 0, nan), V(1, 0, 0), V(0, 1, 0)); }, {"Patch:", "nan", "finite and > 0"}});
-  rows.push_back(
-      {[] { SphericalTriangle<S>(V(0, 0, 0), V(1, 0, 0), V(0, 1, 0)); }, {"Patch:", "volume of 0", "finite and > 0"}});
-  rows.push_back(
-      {[] { SphericalRectangle<S>(V(0, 0, 1), V(1, 0, 0), V(2, 0, 0)); }, {"Patch:", "volume of 0", "finite and > 0"}});
-  const auto mixture = [](S a, S b) {
-    return [=] { Mixture(std::array{a, b}, UniformHemisphere<S>{}, CosineHemisphere<S>{}); };
+      {[] { SphericalTriangle<double>(V(0, 0, nan), V(1, 0, 0), V(0, 1, 0)); }, {"Patch:", "nan", "finite and > 0"}});
+  rows.push_back({[] { SphericalTriangle<double>(V(0, 0, 0), V(1, 0, 0), V(0, 1, 0)); },
+                  {"Patch:", "volume of 0", "finite and > 0"}});
+  rows.push_back({[] { SphericalRectangle<double>(V(0, 0, 1), V(1, 0, 0), V(2, 0, 0)); },
+                  {"Patch:", "volume of 0", "finite and > 0"}});
+  const auto mixture = [](double a, double b) {
+    return [=] { Mixture(std::array{a, b}, UniformHemisphere<double>{}, CosineHemisphere<double>{}); };
   };
   rows.push_back({mixture(1, nan), {"Mixture:", "weights[1] = nan", "finite and >= 0"}});
   rows.push_back({mixture(-1, 1), {"Mixture:", "weights[0] = -1", "finite and >= 0"}});
@@ -146,19 +149,19 @@ TEST(BadInput, WarpsOnThePlaneAndTheSphere) {
 
 TEST(BadInput, Domains) {
   std::vector<Row> rows;
-  add(rows, "Interval", "lo < hi", {nan, inf, 0, -1}, [](S x) { Interval<S>(0, x); });
-  add(rows, "Interval", "lo < hi", {nan, -inf, 1, 2}, [](S x) { Interval<S>(x, 1); });
-  add(rows, "HalfLine", "finite", {nan, inf, 0}, [](S x) { HalfLine<S>(0, x); });
-  add(rows, "RealLine", "scale > 0", {nan, inf, 0, -1}, [](S x) { RealLine<S>(0, x); });
-  add(rows, "Box", "lo < hi", {nan, inf, 0, -1}, [](S x) { Box<S, 2>({0, 0}, {1, x}); });
-  rows.push_back(
-      {[] { Box<S, Eigen::Dynamic>(Eigen::VectorXd(0), Eigen::VectorXd(0)); }, {"Box:", "dimension 0", "at least 1"}});
-  rows.push_back({[] { Box<S, Eigen::Dynamic>(Eigen::VectorXd::Zero(2), Eigen::VectorXd::Ones(3)); },
+  add(rows, "Interval", "lo < hi", {nan, inf, 0, -1}, [](double x) { Interval<double>(0, x); });
+  add(rows, "Interval", "lo < hi", {nan, -inf, 1, 2}, [](double x) { Interval<double>(x, 1); });
+  add(rows, "HalfLine", "finite", {nan, inf, 0}, [](double x) { HalfLine<double>(0, x); });
+  add(rows, "RealLine", "scale > 0", {nan, inf, 0, -1}, [](double x) { RealLine<double>(0, x); });
+  add(rows, "Box", "lo < hi", {nan, inf, 0, -1}, [](double x) { Box<double, 2>({0, 0}, {1, x}); });
+  rows.push_back({[] { Box<double, Eigen::Dynamic>(Eigen::VectorXd(0), Eigen::VectorXd(0)); },
+                  {"Box:", "dimension 0", "at least 1"}});
+  rows.push_back({[] { Box<double, Eigen::Dynamic>(Eigen::VectorXd::Zero(2), Eigen::VectorXd::Ones(3)); },
                   {"Box:", "2 and 3", "the same"}});
-  rows.push_back({[] { Parallelogram<S>(V(0, 0, 0), V(1, 0, 0), V(2, 0, 0)); },
+  rows.push_back({[] { Parallelogram<double>(V(0, 0, 0), V(1, 0, 0), V(2, 0, 0)); },
                   {"Parallelogram:", "area of 0", "finite and > 0"}});
   rows.push_back(
-      {[] { Parallelogram<S>(V(0, nan, 0), V(1, 0, 0), V(0, 1, 0)); }, {"Parallelogram:", "coordinate 1", "nan"}});
+      {[] { Parallelogram<double>(V(0, nan, 0), V(1, 0, 0), V(0, 1, 0)); }, {"Parallelogram:", "coordinate 1", "nan"}});
   expect_refused(rows);
 }
 
@@ -226,7 +229,8 @@ TEST(BadInput, Integrate) {
                   {"integrate:", "empty function", "callable"}});
   rows.push_back({[] { integrate_unit(VectorIntegrand(), 1, 2); }, {"integrate:", "empty function", "callable"}});
   rows.push_back({[] { integrate_unit([](auto, auto) {}, 0, 2); }, {"integrate:", "0 outputs", "at least 1"}});
-  rows.push_back({[] { integrate([](S x) { return x; }, Interval<S>(0, nan)); }, {"Interval:", "nan", "lo < hi"}});
+  rows.push_back(
+      {[] { integrate([](double x) { return x; }, Interval<double>(0, nan)); }, {"Interval:", "nan", "lo < hi"}});
   rows.push_back({[=] { integrate_rqmc(f, 2, 0); }, {"integrate_rqmc:", "0 points", "between 1 and 2^32"}});
   rows.push_back({[=] { integrate_rqmc(f, 0, 64); }, {"integrate:", "dimension 0"}});
   rows.push_back({[=] { integrate_rqmc(f, 2, 64, 1); }, {"integrate:", "1 replicates"}});
@@ -243,15 +247,16 @@ TEST(BadInput, Integrate) {
 
 TEST(BadInput, Estimators) {
   std::vector<Row> rows;
-  add(rows, "russian_roulette", "(0, 1]", {nan, 0, -1, 1.5}, [](S x) { russian_roulette(x, 0.5); });
-  add(rows, "split", "(0, 2^20]", {nan, inf, 0, -1}, [](S x) { split(x, 0.5); });
-  add(rows, "Heuristic", "> 0", {nan, 0, -1}, [](S x) { Heuristic<S>::power(x); });
-  add(rows, "Heuristic", "[0, 1]", {nan, -1, 1.5}, [](S x) { Heuristic<S>::cutoff(x); });
-  add(rows, "MultipleImportance", "finite and >= 0", {nan, inf, -1}, [](S x) {
-    MultipleImportance(std::array{1.0, x}, Heuristic<S>{}, UniformHemisphere<S>{}, CosineHemisphere<S>{});
+  add(rows, "russian_roulette", "(0, 1]", {nan, 0, -1, 1.5}, [](double x) { russian_roulette(x, 0.5); });
+  add(rows, "split", "(0, 2^20]", {nan, inf, 0, -1}, [](double x) { split(x, 0.5); });
+  add(rows, "Heuristic", "> 0", {nan, 0, -1}, [](double x) { Heuristic<double>::power(x); });
+  add(rows, "Heuristic", "[0, 1]", {nan, -1, 1.5}, [](double x) { Heuristic<double>::cutoff(x); });
+  add(rows, "MultipleImportance", "finite and >= 0", {nan, inf, -1}, [](double x) {
+    MultipleImportance(std::array{1.0, x}, Heuristic<double>{}, UniformHemisphere<double>{},
+                       CosineHemisphere<double>{});
   });
-  add(rows, "ControlVariates", "finite", {nan, inf}, [](S x) { ControlVariates(std::array{x}); });
-  add(rows, "Estimate", "(0, 1)", {nan, 0, 1, -1}, [](S x) { Estimate{}.interval(x); });
+  add(rows, "ControlVariates", "finite", {nan, inf}, [](double x) { ControlVariates(std::array{x}); });
+  add(rows, "Estimate", "(0, 1)", {nan, 0, 1, -1}, [](double x) { Estimate{}.interval(x); });
   rows.push_back({[] { ImportanceGrid(0); }, {"ImportanceGrid:", "dimension 0", "at least 1"}});
   Moments one, bad;
   one.add(1);
@@ -268,8 +273,8 @@ TEST(BadInput, Checkers) {
   Moments two;
   two.add(1);
   two.add(2);
-  add(rows, "t_test", "finite", {nan, inf}, [=](S x) { t_test(two, x); });
-  add(rows, "t_test", "(0, 1)", {nan, 0, 1}, [=](S x) { t_test(two, 1, x); });
+  add(rows, "t_test", "finite", {nan, inf}, [=](double x) { t_test(two, x); });
+  add(rows, "t_test", "(0, 1)", {nan, 0, 1}, [=](double x) { t_test(two, 1, x); });
   rows.push_back({[] { chi_square({1, 2}, {3}); }, {"chi_square:", "2 counts for 1"}});
   rows.push_back({[] { chi_square({1, 2}, {1, nan}); }, {"chi_square:", "expected[1] = nan", "finite and >= 0"}});
   rows.push_back({[] { chi_square({1, 2}, {10, 10}); }, {"chi_square:", "3 observed, 20 expected", "must agree"}});
@@ -294,7 +299,7 @@ TEST(BadInput, Checkers) {
                   {"ks_test:", "samples[1] = nan", "not finite"}});
   rows.push_back(
       {[] { integrate_boxes([](const auto&) { return 1.0; }, 4, {}); }, {"integrate_boxes:", "dim 4", "1..3"}});
-  const Subject subject = make_subject("cosine", CosineHemisphere<S>{});
+  const Subject subject = make_subject("cosine", CosineHemisphere<double>{});
   rows.push_back(
       {[=] { check_subject(subject, {.samples = 10}); }, {"check_subject:", "samples = 10", "at least 1000"}});
   rows.push_back({[=] { check_subject(subject, {.alpha = nan}); }, {"check_subject:", "alpha = nan", "(0, 1)"}});

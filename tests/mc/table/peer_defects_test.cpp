@@ -13,11 +13,11 @@
 
 namespace {
 
-constexpr std::size_t width = 1024, height = 512, n = width * height;
+constexpr std::size_t sky_width = 1024, sky_height = 512, sky_cells = sky_width * sky_height;
 
 std::vector<double> sky(std::size_t sun, double radiance) {
-  std::vector<double> w(n);
-  for (std::size_t i = 0; i < n; ++i) w[i] = 0.5 + mc::hash_uniform<double>(4, i);
+  std::vector<double> w(sky_cells);
+  for (std::size_t i = 0; i < sky_cells; ++i) w[i] = 0.5 + mc::hash_uniform<double>(4, i);
   w[sun] = radiance;
   return w;
 }
@@ -31,11 +31,11 @@ double total(const std::vector<double>& w) {
 // D5. pbrt-v4, a sky of 1024 x 512 with a sun in one table: 424287 of 524288 cells are never sampled with the sun in
 // the middle, and 524277 with the sun at cell 10.
 TEST(PeerDefects, EveryCellBesideTheSunIsReached) {
-  for (const std::size_t sun : {std::size_t{10}, n / 2}) {
+  for (const std::size_t sun : {std::size_t{10}, sky_cells / 2}) {
     const std::vector<double> w = sky(sun, 1e8);
     const double sum = total(w);
     const mc::TableDist1D<double> table(w);
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < sky_cells; ++i) {
       ASSERT_EQ(table.sample_index(table.cdf().cdf(i)).index, i);
       ASSERT_NEAR(table.pmf(i) / (w[i] / sum), 1, 1e-6) << i;
     }
@@ -45,11 +45,12 @@ TEST(PeerDefects, EveryCellBesideTheSunIsReached) {
 // D5b. pbrt-v4, the same sky in two dimensions: in the row of the sun the cells to its right get 8 % too much or too
 // little, up to 74 %.
 TEST(PeerDefects, CellsInTheRowOfTheSunHaveTheirMass) {
-  const std::size_t row = 100, sun = row * width + 10;
+  const std::size_t row = 100, sun = row * sky_width + 10;
   const std::vector<double> w = sky(sun, 1e8);
   const double sum = total(w);
-  const mc::TableDist2D<double> table(w, width, height);
-  for (std::size_t x = 0; x < width; ++x) ASSERT_NEAR(table.pmf(x, row) / (w[row * width + x] / sum), 1, 1e-6) << x;
+  const mc::TableDist2D<double> table(w, sky_width, sky_height);
+  for (std::size_t x = 0; x < sky_width; ++x)
+    ASSERT_NEAR(table.pmf(x, row) / (w[row * sky_width + x] / sum), 1, 1e-6) << x;
 }
 
 // D5. pbrt-v4: all zeros are sampled with pdf NaN or 0, one infinity makes everything NaN, a negative weight is taken

@@ -4,18 +4,16 @@
 
 #include <mc/random/pcg.h>
 #include <mc/stats/t_test.h>
-#include <mc/warp/sphere.h>
 
 #include "support/files.h"
+#include "support/random_direction.h"
 #include "support/traced.h"
 
 namespace {
 
 using namespace render;
 
-const Spectrum one = Spectrum::Ones();
-
-Vec3d random_direction(mc::Pcg& random) { return mc::UniformSphere<double>{}.sample(random.point<double, 2>()); }
+const Spectrum white = Spectrum::Ones();
 
 /// A unit that a scene is measured in, and where it is.
 struct Space {
@@ -24,8 +22,8 @@ struct Space {
 
   explicit Space(mc::Pcg& random)
       : scale(std::pow(10, 20 * random.uniform<double>() - 10)),
-        world(Transform::translate(3 * scale * random_direction(random)) *
-              Transform::rotate(random_direction(random), 360 * random.uniform<double>()) *
+        world(Transform::translate(3 * scale * support::random_axis(random)) *
+              Transform::rotate(support::random_axis(random), 360 * random.uniform<double>()) *
               Transform::scale(Vec3d::Constant(scale))) {}
   Ray ray(const Vec3d& from, const Vec3d& to) const {
     const Vec3d o = world.point(from), e = world.point(to);
@@ -60,7 +58,7 @@ TEST(HomogeneousMedium, AChordOfABall) {
   for (int i = 0; i < 100; ++i) {
     const Space space(random);
     SceneBuilder builder;
-    builder.add(Light(ConstantBackground(one)));
+    builder.add(Light(ConstantBackground(white)));
     const Vec3d sigma(0, random.uniform<double>(), 3 * random.uniform<double>());
     builder.add(Sphere(space.world.point(Vec3d::Zero()), space.scale),
                 {.bsdf = builder.add(Dielectric(1)), .interior = space.medium(sigma)});
@@ -82,7 +80,7 @@ TEST(HomogeneousMedium, APlateOfGlass) {
   for (int i = 0; i < 30; ++i) {
     const Space space(random);
     SceneBuilder builder;
-    builder.add(Light(ConstantBackground(one)));
+    builder.add(Light(ConstantBackground(white)));
     const double eta = 1.1 + 2 * random.uniform<double>(), thickness = 0.1 + random.uniform<double>(),
                  sigma = 2 * random.uniform<double>();
     builder.add(TriangleMesh::box(space.world * Transform::scale({50, 50, thickness / 2})),
@@ -107,7 +105,7 @@ TEST(HomogeneousMedium, AHollowBall) {
     const Space space(random);
     const double inner = 0.3 + 0.6 * random.uniform<double>(), off = random.uniform<double>() * 0.95;
     SceneBuilder builder;
-    builder.add(Light(ConstantBackground(one)));
+    builder.add(Light(ConstantBackground(white)));
     const BsdfId glass = builder.add(Dielectric(1));
     const auto medium = space.medium(Vec3d::Constant(1.5));
     builder.add(Sphere(space.world.point(Vec3d::Zero()), space.scale), {.bsdf = glass, .interior = medium});

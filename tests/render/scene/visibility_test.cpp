@@ -6,9 +6,9 @@
 
 #include <mc/random/pcg.h>
 #include <mc/stats/t_test.h>
-#include <mc/warp/sphere.h>
 
 #include "support/files.h"
+#include "support/random_direction.h"
 #include "support/traced.h"
 
 namespace {
@@ -22,8 +22,6 @@ Material masked(const Bsdf& bsdf, Mask mask) {
 }
 Bsdf gray(double albedo) { return Lambert(Spectrum::Constant(Float(albedo))); }
 
-Vec3d random_direction(mc::Pcg& random) { return mc::UniformSphere<double>{}.sample(random.point<double, 2>()); }
-
 // Plates of random opacities, turned at random, across the axis from y = 1 to y = 3, in a space of any scale and place.
 struct Plates {
   double scale;
@@ -33,8 +31,8 @@ struct Plates {
 
   Plates(mc::Pcg& random, int n, double albedo, double most_opaque = 1) {
     scale = std::pow(10, 10 * random.uniform<double>() - 5);
-    space = Transform::translate(3 * scale * random_direction(random)) *
-            Transform::rotate(random_direction(random), 360 * random.uniform<double>()) *
+    space = Transform::translate(3 * scale * support::random_axis(random)) *
+            Transform::rotate(support::random_axis(random), 360 * random.uniform<double>()) *
             Transform::scale(Vec3d::Constant(scale));
     for (int i = 0; i < n; ++i) {
       const double opacity = most_opaque * random.uniform<double>();

@@ -4,19 +4,19 @@
 
 namespace {
 
-using V = mc::Vec3<float>;
+using Direction = mc::Vec3<float>;
 
 struct Half {
   struct Sample {
-    V wi;
+    Direction wi;
     Eigen::Array3f f;
     float pdf;
   };
-  Eigen::Array3f eval(const V&, const V&) const { return {0.1f, 0.2f, 0.3f}; }
-  float pdf(const V&, const V& wi) const { return wi.z(); }
-  std::optional<Sample> sample(const V&, const mc::Vec2<float>& u) const {
+  Eigen::Array3f eval(const Direction&, const Direction&) const { return {0.1f, 0.2f, 0.3f}; }
+  float pdf(const Direction&, const Direction& wi) const { return wi.z(); }
+  std::optional<Sample> sample(const Direction&, const mc::Vec2<float>& u) const {
     if (u[0] < 0.5f) return {};
-    return Sample{V(0, 0, -1), eval({}, {}), u[1]};
+    return Sample{Direction(0, 0, -1), eval({}, {}), u[1]};
   }
 };
 

@@ -11,7 +11,7 @@ namespace {
 using namespace mc::detail;
 namespace detail = mc::detail;
 
-const std::function<double(std::span<const double>)> f = [](std::span<const double> u) {
+const std::function<double(std::span<const double>)> near_pole = [](std::span<const double> u) {
   return 1 / (1e-3 + mc::sqr(u[0] - 0.4));
 };
 
@@ -22,7 +22,7 @@ TEST(Methods, KeepToTheCalls) {
     o.max_calls = calls;
     o.rel_error = 0;
     const auto expect = [&](auto method, mc::Method name) {
-      detail::Run run{{.one = &f}, 1, 2, o};
+      detail::Run run{{.one = &near_pole}, 1, 2, o};
       std::optional<Outcome> last;
       const Outcome out = method(run, last);
       EXPECT_LE(run.calls, calls);
@@ -51,7 +51,7 @@ TEST(Methods, SpendTheCallsWhateverTheirNumber) {
     for (const mc::Method method : {mc::Method::rqmc, mc::Method::vegas, mc::Method::tree, mc::Method::automatic}) {
       SCOPED_TRACE(std::string(mc::name(method)) + ", " + std::to_string(o.max_calls) + " calls, " +
                    std::to_string(o.replicates) + " replicates");
-      detail::Run run{{.one = &f}, 1, 2, o};
+      detail::Run run{{.one = &near_pole}, 1, 2, o};
       std::optional<Outcome> last;
       const Outcome out = sequences(run, method, last);
       EXPECT_LE(run.calls, o.max_calls);
@@ -95,7 +95,7 @@ TEST(Methods, EndWithFewerAndLongerSequencesWhereThatLeavesLess) {
 TEST(Methods, LearnFindsThePeak) {
   mc::IntegrateOptions o;
   o.max_calls = 100'000;
-  detail::Run run{{.one = &f}, 1, 2, o};
+  detail::Run run{{.one = &near_pole}, 1, 2, o};
   const Learned learned = learn(run, nullptr).value();
   EXPECT_FALSE(run.rounds.empty());
   EXPECT_LE(run.calls, 100'000u / 4);

@@ -6,11 +6,13 @@ namespace {
 
 namespace detail = mc::detail;
 
-const std::function<double(std::span<const double>)> sum = [](std::span<const double> u) { return u[0] + 2 * u[1]; };
+const std::function<double(std::span<const double>)> weighted_sum = [](std::span<const double> u) {
+  return u[0] + 2 * u[1];
+};
 
 TEST(Run, SumsEveryPointOnceInAnyCut) {
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &sum}, 1, 2, o};
+  detail::Run run{{.one = &weighted_sum}, 1, 2, o};
   const std::vector<mc::PointSet> sets = run.sobol_sets(1, 0, 3);
   auto whole = run.evaluate_all(sets, 0, 10'000), parts = run.evaluate_all(sets, 0, 300);
   const auto rest = run.evaluate_all(sets, 300, 9700);
@@ -25,7 +27,7 @@ TEST(Run, SumsEveryPointOnceInAnyCut) {
 
 TEST(Run, MeansAreThoseOfTheReplicates) {
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &sum}, 1, 2, o};
+  detail::Run run{{.one = &weighted_sum}, 1, 2, o};
   const auto sums = run.evaluate_all(run.sobol_sets(1, 0, 24), 0, 100);
   std::vector<mc::detail::Evidence> evidence;
   const mc::detail::Mean mean = run.means(sums, 100, evidence)[0];
@@ -46,7 +48,7 @@ TEST(Run, TheMixtureIsUnbiased) {
       {0, 0.3}, {mc::TreeNode::leaf, 5}, {1, 0.6}, {mc::TreeNode::leaf, 1}, {mc::TreeNode::leaf, 2}};
   density.tree = mc::BoxTree(2, nodes);
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &sum}, 1, 2, o};
+  detail::Run run{{.one = &weighted_sum}, 1, 2, o};
   mc::detail::Proposal proposal{
       std::make_shared<mc::AdaptedDensity>(density), {0.7}, mc::detail::Proposal::Part::of_density};
   const auto of_density = run.evaluate_all(run.sobol_sets(1, 0, 24), 0, 4096, proposal);
@@ -61,7 +63,7 @@ TEST(Run, TheMixtureIsUnbiased) {
 
 TEST(Run, RecordsPointsAndValues) {
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &sum}, 1, 2, o};
+  detail::Run run{{.one = &weighted_sum}, 1, 2, o};
   const auto sums = run.evaluate_all(run.sobol_sets(1, 0, 2), 0, 5000, {}, detail::Keep::points);
   for (const auto& s : sums) {
     ASSERT_EQ(s.points.size(), 10'000u);
@@ -73,7 +75,7 @@ TEST(Run, RecordsPointsAndValues) {
 
 TEST(Run, ReplicatesAndPurposesDiffer) {
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &sum}, 1, 2, o};
+  detail::Run run{{.one = &weighted_sum}, 1, 2, o};
   const auto a = run.evaluate_all(run.sobol_sets(1, 0, 2), 0, 100),
              b = run.evaluate_all(run.sobol_sets(2, 0, 1), 0, 100);
   EXPECT_NE(a[0].outputs[0].mean(), a[1].outputs[0].mean());
