@@ -18,12 +18,13 @@ void add_bsdfs(Catalogue& c) {
                       {0, 60, 85, 120});
   add_bsdf(c, "Dielectric", "eta=1.5", render::Dielectric{}, {0, 60, 89.9, 130, 150}, {.eta = 1.5});
   const render::Spectrum paint(0.1f, 0.5f, 0.3f), one = render::Spectrum::Ones();
-  for (const double alpha : {0.02, 0.3, 1.0})
-    add_bsdf(c, "RoughPlastic", fmt::format("alpha={}", alpha),
-             render::RoughPlastic(render::Float(1.49), render::Float(alpha), paint, one), {0, 60, 85, 120});
-  const render::Spectrum gold(0.143f, 0.375f, 1.442f), gold_k(3.983f, 2.386f, 1.603f);
   // At alpha 1e-4 and 89.9 degrees the lobe is as wide as six steps of a float direction.
   const auto grazing = [](double alpha) { return alpha < 1e-3 ? 89 : 89.9; };
+  for (const double alpha : {1e-4, 1e-3, 0.02, 0.3, 1.0})
+    add_bsdf(c, "RoughPlastic", fmt::format("alpha={}", alpha),
+             render::RoughPlastic(render::Float(1.49), render::Float(alpha), paint, one),
+             {0, 60, 85, grazing(alpha), 120});
+  const render::Spectrum gold(0.143f, 0.375f, 1.442f), gold_k(3.983f, 2.386f, 1.603f);
   for (const double alpha : {1e-4, 1e-3, 0.02, 0.3, 1.0}) {
     const std::vector<double> angles = {0, 60, grazing(alpha), 120};
     add_bsdf(c, "RoughConductor", fmt::format("ggx, alpha={}", alpha),

@@ -12,8 +12,8 @@
 namespace render {
 
 /// One of the BSDFs; itself models BsdfLike.
-struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic, RoughDielectric, RoughConductor<Microfacets>,
-                           RoughConductor<BlinnPhongFacets>> {
+struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic<LayeredBase>, RoughPlastic<LajollaBase>,
+                           RoughDielectric, RoughConductor<Microfacets>, RoughConductor<BlinnPhongFacets>> {
   using variant::variant;
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {

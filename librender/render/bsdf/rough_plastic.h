@@ -1,6 +1,7 @@
 #pragma once
 /// Glossy paint: a rough dielectric layer over a diffuse base.
 
+#include <render/bsdf/coat_shares.h>
 #include <render/bsdf/microfacet.h>
 
 #include <mc/table/discrete.h>
@@ -10,24 +11,60 @@
 
 namespace render {
 
-/// The plastic of lajolla, the same on both sides.
+/// A white base that is lit through the coat and seen through it, as Mitsuba has it with nonlinear = false.
+///   value  : T(wo) T(wi) / (pi mean T) [1/sr], T what the rough coat lets through. The mean stands for the light that
+///            the coat sends back down as often as it takes: the base gives off T(wo), all that it got
+///   Source : Mitsuba 0.6, roughplastic
+class LayeredBase {
+ public:
+  LayeredBase(Float eta, Float alpha) : coat_(eta, alpha) {
+    if (coat_.mean_transmitted() > 0) scale_ = std::numbers::inv_pi_v<Float> / coat_.mean_transmitted();
+  }
+
+  Float value(const Reflection& r, Float) const {
+    return scale_ * coat_.of(r.wo.z()).transmitted * coat_.of(r.wi.z()).transmitted;
+  }
+  /// Shares of the light from wo that a white coat and a white base reflect.
+  CoatShares::Shares shares(const Vec3& wo) const { return coat_.of(std::min(wo.z(), Float(1))); }
+
+ private:
+  CoatShares coat_;
+  Float scale_ = 0;
+};
+
+/// A white base as lajolla has it, without a coat that could keep light away or back.
+///   value  : (1 - F)^2 / pi [1/sr], F that of wo about the half vector. It is no physics: towards the horizon the base
+///            reflects what the coat has reflected already. The albedo of white paint is 1.84 at 89.9 degrees with
+///            eta = 1.49 and alpha = 1e-4, and above 1 from 70 degrees on for alpha up to .1
+class LajollaBase {
+ public:
+  LajollaBase(Float eta, Float) : eta_(eta) {}
+
+  Float value(const Reflection&, Float f) const { return mc::sqr(1 - f) * std::numbers::inv_pi_v<Float>; }
+  CoatShares::Shares shares(const Vec3& wo) const {
+    const Float f = fresnel_dielectric(std::min(wo.z(), Float(1)), eta_).reflectance;
+    return {f, 1 - f};
+  }
+
+ private:
+  Float eta_;
+};
+
+/// A coat with facets of GGX over a diffuse base, the same on both sides.
 ///   eta    : index of refraction of the layer over that of the outside
-///   eval   : Ks F D G / (4 cos wo cos wi) + Kd (1 - F)^2 / pi, F that of wo about the half vector, D and G of GGX; 0
-///            where wo and wi lie on different sides. What happens inside the layer is left out, so it loses light;
-///            but at grazing wo the base gets what the coat has reflected, since F is that of the half vector: with
-///            Kd = .5, Ks = 1 and alpha = 1e-4 the albedo is 1.27 at 88.3 degrees and 1.4 at 89.9
-///   sample : mirrored about a visible normal, or a cosine hemisphere, by what each gives at mirror reflection; the pdf
-///            is that of the mixture [1/sr]
+///   eval   : Ks F D G / (4 cos wo cos wi) + Kd Base, F that of wo about the half vector; 0 where wo and wi lie on
+///            different sides. Light that would meet a second facet is lost: white paint over LayeredBase has an albedo
+///            of at most 1, notebooks-data/single-scattering says of how much less
+///   sample : mirrored about a visible normal, or a cosine hemisphere, by what each reflects; the pdf is that of the
+///            mixture [1/sr]
 ///   throws : Error unless eta is finite and > 0, alpha in [1e-4, 1] and the colours in [0, 1]
-class RoughPlastic {
+template <class Base = LayeredBase> class RoughPlastic {
  public:
   RoughPlastic(Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
-      : eta_(eta), facets_(checked_alpha("rough plastic: alpha", alpha)),
+      : eta_(checked_index(eta)), facets_(checked_alpha("rough plastic: alpha", alpha)), base_(eta, alpha),
         diffuse_(checked_reflectance("rough plastic: diffuseReflectance", diffuse)),
         specular_(checked_reflectance("rough plastic: specularReflectance", specular)), diffuse_y_(luminance(diffuse)),
-        specular_y_(luminance(specular)) {
-    mc::require(eta > 0 && std::isfinite(eta), "rough plastic: relative index {} must be finite and > 0", eta);
-  }
+        specular_y_(luminance(specular)) {}
 
   std::optional<BsdfSample> sample(const Vec3& wo_given, Float uc, const Vec2& u) const {
     const Vec3 wo = upward(wo_given, wo_given);
@@ -65,20 +102,25 @@ class RoughPlastic {
  private:
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
 
-  /// How often the specular lobe is sampled: by what both lobes would give if the surface were smooth.
+  static Float checked_index(Float eta) {
+    mc::require(eta > 0 && std::isfinite(eta), "rough plastic: relative index {} must be finite and > 0", eta);
+    return eta;
+  }
+  /// How often the specular lobe is sampled: by what both lobes reflect.
   Float specular_share(const Vec3& wo) const {
-    const Float f = fresnel_dielectric(std::min(wo.z(), Float(1)), eta_).reflectance;
-    const Float specular = specular_y_ * f, diffuse = diffuse_y_ * (1 - f);
+    const auto [reflected, transmitted] = base_.shares(wo);
+    const Float specular = specular_y_ * reflected, diffuse = diffuse_y_ * transmitted;
     return specular + diffuse > 0 ? specular / (specular + diffuse) : Float(0.5);
   }
   Spectrum value(const Reflection& r) const {
     const Float f = fresnel_dielectric(std::min(std::abs(r.wo.dot(r.m)), Float(1)), eta_).reflectance;
     const Float lobe = f * facets_.shape(r.wo, r.wi, r.m) / 4;
-    return specular_ * lobe + diffuse_ * (mc::sqr(1 - f) * inv_pi);
+    return specular_ * lobe + diffuse_ * base_.value(r, f);
   }
 
   Float eta_;
   Microfacets facets_;
+  Base base_;
   Spectrum diffuse_, specular_;
   Float diffuse_y_, specular_y_;
 };

@@ -10,11 +10,10 @@ inline render::Vec3 at_degrees(double angle) {
   return render::Vec3d(std::sin(theta), 0, std::cos(theta)).cast<render::Float>();
 }
 
-// Mean of f |cos| eta^2 / pdf over 2^18 points: the share of light that leaves, so that 1 is all.
-template <class B> double albedo(const B& bsdf, double cosine) {
+// Mean of f |cos| eta^2 / pdf over n points: the share of light that leaves, so that 1 is all.
+template <class B> double albedo(const B& bsdf, double cosine, int n = 1 << 18) {
   using namespace render;
   const Vec3 wo = Vec3d(std::sqrt(1 - cosine * cosine), 0, cosine).cast<Float>();
-  constexpr int n = 1 << 18;
   double sum = 0;
   // Multiples of the inverse powers of the root of x^4 = x + 1, which fill three dimensions evenly.
   std::uint32_t a = 0, b = 0, c = 0;

@@ -10,9 +10,9 @@ namespace {
 
 using namespace render;
 
-static_assert(BsdfLike<Lambert> && BsdfLike<Metal> && BsdfLike<Dielectric> && BsdfLike<RoughPlastic> &&
-              BsdfLike<RoughDielectric> && BsdfLike<RoughConductor<Microfacets>> &&
-              BsdfLike<RoughConductor<BlinnPhongFacets>> && BsdfLike<Bsdf>);
+static_assert(BsdfLike<Lambert> && BsdfLike<Metal> && BsdfLike<Dielectric> && BsdfLike<RoughPlastic<>> &&
+              BsdfLike<RoughPlastic<LajollaBase>> && BsdfLike<RoughDielectric> &&
+              BsdfLike<RoughConductor<Microfacets>> && BsdfLike<RoughConductor<BlinnPhongFacets>> && BsdfLike<Bsdf>);
 
 TEST(Bsdf, SaysWhatItsMemberSays) {
   const Metal metal{Spectrum::Constant(Float(0.7)), Float(0.5)};
@@ -35,7 +35,8 @@ TEST(Bsdf, ASampleSaysWhatEvalAndPdfSayOfItsDirection) {
   for (const Float alpha : {Float(1e-4), Float(0.01), Float(1)})
     for (const Bsdf& bsdf :
          {Bsdf(RoughConductor(half, one, Microfacets(alpha))), Bsdf(RoughConductor(half, one, BlinnPhongFacets(alpha))),
-          Bsdf(RoughPlastic(Float(1.5), alpha, half, one)), Bsdf(RoughDielectric(Float(1.5), alpha))})
+          Bsdf(RoughPlastic(Float(1.5), alpha, half, one)),
+          Bsdf(RoughPlastic<LajollaBase>(Float(1.5), alpha, half, one)), Bsdf(RoughDielectric(Float(1.5), alpha))})
       for (const double angle : {0.0, 60.0, 89.0, 89.9, 89.99, 91.0, 120.0}) {
         const Vec3 wo = support::at_degrees(angle);
         for (int i = 0; i < 200; ++i) {

@@ -210,6 +210,22 @@ TEST_F(Mitsuba, MeshProblemsNameSceneAndMesh) {
               testing::HasSubstr("an emitting shape needs an area > 0"));
 }
 
+TEST_F(Mitsuba, ThePaintIsTheDialects) {
+  const auto base_of = [&](const std::string& parameters, const char* dialect) {
+    const auto read =
+        render::read_mitsuba(scene("<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor>"
+                                   "<shape type=\"cube\"><bsdf type=\"roughplastic\">" +
+                                   parameters + "</bsdf></shape>"),
+                             render::dialect_from(dialect));
+    const render::Bsdf& paint = read.scene.bsdf(read.scene.surfaces()[0]);
+    if (std::holds_alternative<render::RoughPlastic<render::LayeredBase>>(paint)) return "layered";
+    return std::holds_alternative<render::RoughPlastic<render::LajollaBase>>(paint) ? "lajolla" : "none";
+  };
+  EXPECT_STREQ(base_of("", "mitsuba"), "layered");
+  EXPECT_STREQ(base_of("", "lajolla"), "lajolla");
+  EXPECT_STREQ(base_of("<string name=\"base\" value=\"lajolla\"/>", "mitsuba"), "lajolla");
+}
+
 TEST_F(Mitsuba, DefaultsAreTheDialects) {
   const std::string file =
       scene("<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor><shape type=\"cube\"/>");

@@ -21,9 +21,11 @@ Bsdf make_dielectric(double inside, double outside, const Spectrum& reflectance,
 }
 
 Bsdf make_roughplastic(double inside, double outside, double alpha, std::size_t, const Spectrum& diffuse,
-                       const Spectrum& specular) {
+                       const Spectrum& specular, std::size_t base) {
   mc::require(inside > 0 && outside > 0, "indices of refraction {} and {} must be > 0", inside, outside);
-  return RoughPlastic(Float(inside / outside), Float(alpha), diffuse, specular);
+  const Float eta = Float(inside / outside);
+  if (base == 1) return RoughPlastic<LajollaBase>(eta, Float(alpha), diffuse, specular);
+  return RoughPlastic(eta, Float(alpha), diffuse, specular);
 }
 
 Bsdf make_roughdielectric(double inside, double outside, double alpha, std::size_t, const Spectrum& reflectance,
@@ -92,11 +94,16 @@ const Plugins<Material>& bsdf_plugins() {
                        number("extIOR", "", 1.000277, "index of refraction outside, > 0"),
                        color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
                        color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
-      plugin<Material>("roughplastic", "glossy paint: a rough clear coat over a diffuse base, without inner scattering",
-                       make_roughplastic, number("intIOR", "", 1.49, "index of refraction inside, > 0"),
+      plugin<Material>("roughplastic", "glossy paint: a rough clear coat over a diffuse base", make_roughplastic,
+                       number("intIOR", "", 1.49, "index of refraction inside, > 0"),
                        number("extIOR", "", 1.000277, "index of refraction outside, > 0"), alpha("in [0.0001, 1]"),
                        distribution({"ggx"}), color("diffuseReflectance", share, "of the base, in [0, 1]", half),
-                       color("specularReflectance", share, "factor of what the coat reflects, in [0, 1]", one))
+                       color("specularReflectance", share, "factor of what the coat reflects, in [0, 1]", one),
+                       choice("base", {"layered", "lajolla"},
+                              "(ours) what the base gets: what the coat lets through, or lajolla's (1 - F)^2 of the "
+                              "half vector, which near the horizon is more than there is",
+                              0)
+                           .in_lajolla(1, "lajolla"))
           .accepting({only(false, "nonlinear", "the base keeps its colour")}),
       plugin<Material>("roughdielectric", "ground glass", make_roughdielectric,
                        number("intIOR", "", 1.5046, "index of refraction inside, > 0"),
