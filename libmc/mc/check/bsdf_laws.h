@@ -22,7 +22,8 @@ Subject bsdf_subject(const Bsdf& bsdf, const Vec3<S>& wo, const BsdfOptions& opt
 ///   reciprocity : f(wo, wi) = f(wi, wo), with the squared index across the surface; delta lobes by their shares of the
 ///                 energy
 ///   energy      : at most 1 (exactly 1 where lossless) in every channel, at wo and at 16 more directions a side,
-///                 one-sided at five standard errors; the white furnace values are figures of the report
+///                 one-sided at five standard errors, and once more with all samples where these find the most; the
+///                 white furnace values are figures of the report
 /// Directions on the other side than wo are only looked from where samples cross the surface: a BSDF of one side may be
 /// undefined there.
 Report check_bsdf(const AnyBsdf& bsdf, const Vec3<double>& wo, const BsdfOptions& options = {});

@@ -49,7 +49,8 @@ BsdfFindings bsdf_energy_law(const BsdfView& view) {
   WorstError energy("energy <= 1", 0, Fault::physics);
   const int n = static_cast<int>(std::min<std::uint64_t>(view.options.samples, 100'000));
   const Figure here = judge(view, view.wo, n, view.options.seed, energy);
-  Figure most{"white furnace, greatest over wo", -1, 0, {}};
+  double most = -1;
+  AnyBsdf::Direction brightest = view.wo;
   for (int k = 0; k < 32; ++k) {
     constexpr std::array<double, 8> cosines{1, 0.9, 0.7, 0.5, 0.3, 0.1, 0.03, 0.003};
     const bool other_side = k % 2 == 1;
@@ -58,12 +59,14 @@ BsdfFindings bsdf_energy_law(const BsdfView& view) {
     const double z = side * cosines[static_cast<std::size_t>(k / 2 % 8)], phi = k < 16 ? 0.4 : 2.3;
     const AnyBsdf::Direction w = spherical_direction<double>(std::sqrt(1 - z * z), z, phi);
     const Figure f = judge(view, w, 1000, view.options.seed + static_cast<std::uint64_t>(k) + 1, energy);
-    if (!(f.value > most.value)) continue;
-    most.value = f.value;
-    most.std_error = f.std_error;
-    most.where = f.where;
+    if (!(f.value > most)) continue;
+    most = f.value;
+    brightest = w;
   }
-  return {{energy.check()}, {here, most}};
+  // A thousand samples miss an albedo of 1.27 where they seldom draw the lobe that gains.
+  Figure again = judge(view, brightest, n, view.options.seed + 33, energy);
+  again.name = "white furnace, greatest over wo";
+  return {{energy.check()}, {here, again}};
 }
 
 } // namespace mc
