@@ -58,14 +58,4 @@ double Magnitudes::tail_index() const {
   return few > 1.3 * many ? std::numeric_limits<double>::infinity() : few;
 }
 
-bool Magnitudes::infinite_variance() const {
-  if (count_ < 8192) return false;
-  const double few = tail_index(), many = tail_index(many_largest());
-  const auto below_two = [](double index, std::uint64_t largest) {
-    return index < 2 * (1 + 1.5 * 1.1 / std::sqrt(static_cast<double>(largest)));
-  };
-  // A power law beside something larger shows only in the few.
-  return below_two(few, few_largest()) && (below_two(many, many_largest()) || (many > 4 && few < 1.5));
-}
-
 } // namespace mc

@@ -100,7 +100,7 @@ TEST(Integrate, EqualReplicatesAreNoProof) {
 }
 
 TEST(Integrate, InfiniteVarianceGetsNoBar) {
-  for (const Method method : {Method::plain, Method::stratified, Method::rqmc})
+  for (const Method method : methods)
     for (const double p : {0.5, 0.9}) {
       mc::IntegrateOptions o = with(method, 100'000);
       const mc::Integral r = mc::integrate_unit([&](Unit u) { return std::pow(1 - u[0], -p); }, 1, o);

@@ -63,7 +63,7 @@ std::optional<double> deviate(const Mean& a, const Mean& b) {
   return quantile(complement(boost::math::normal(), std::max(tail, 1e-300)));
 }
 
-Mean replicated(std::span<const double> means, double points, const Magnitudes& seen, Evidence& evidence) {
+Mean replicated(std::span<const double> means, double points, const Seen& seen, Evidence& evidence) {
   const double r = static_cast<double>(means.size());
   double largest = 0;
   for (const double x : means) largest = std::max(largest, std::abs(x));
@@ -85,11 +85,12 @@ Mean replicated(std::span<const double> means, double points, const Magnitudes& 
     jump = std::max(jump, evidence.jumps[i - 1]);
   double step = jump_share * jump;
   if (!apart) {
-    const double range = seen.hi() - seen.lo(), size = std::max(std::abs(seen.hi()), std::abs(seen.lo()));
+    const Magnitudes& all = seen.values;
+    const double range = all.hi() - all.lo(), size = std::max(std::abs(all.hi()), std::abs(all.lo()));
     if (size == 0) return {0, 0, r - 1, 0, ErrorBar::unseen};
     step = std::max(step, range > 1e-9 * size ? jump_share * range : unseen_share * size);
   }
-  const double index = seen.tail_index(), beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
+  const double index = seen.values.tail_index(), beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
   const double spread = std::ldexp(deviation, exponent) / std::sqrt(r * (1 - std::min(beyond, 0.9)));
   const double unbiased = r * r / ((r - 1) * std::max(r - 2, 1.0));
   return {std::ldexp(m.mean(), exponent), std::hypot(spread, step / points / r), r - 1,

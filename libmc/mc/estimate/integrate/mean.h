@@ -2,7 +2,7 @@
 /// Means whose error was estimated, and what two of them say of each other.
 
 #include <mc/estimate/integrate.h>
-#include <mc/estimate/magnitudes.h>
+#include <mc/estimate/tail.h>
 
 #include <optional>
 #include <span>
@@ -49,7 +49,7 @@ struct Evidence {
 ///             three holds for what was not seen
 ///           - of a tail of index a > 2 the share R^-(1 - 2/a) of the variance lies beyond the largest of R values
 ///   bar   : unseen where every value was zero, infinite_variance where `seen` says so
-///   seen  : the values behind it
-Mean replicated(std::span<const double> means, double points, const Magnitudes& seen, Evidence& evidence);
+///   seen  : the values behind it, and the tail of the integrand
+Mean replicated(std::span<const double> means, double points, const Seen& seen, Evidence& evidence);
 
 } // namespace mc::detail

@@ -15,7 +15,7 @@ struct Outcome {
   Means means;
   Method method;
   Stop stop = Stop::max_calls;
-  std::vector<Magnitudes> seen = {};                  ///< the values behind the means, one per output
+  std::vector<Seen> seen = {};                        ///< the values behind the means, one per output
   Correlations correlations = {};                     ///< of the means' errors
   std::shared_ptr<const AdaptedDensity> density = {}; ///< that was learned
 };

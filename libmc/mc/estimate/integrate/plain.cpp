@@ -7,12 +7,13 @@ namespace mc::detail {
 
 namespace {
 // Of independent values. What they share of a heavy tail, and what equal values leave unseen, as in replicated().
-Mean of_values(const ScaledMoments& m, const Magnitudes& seen) {
-  const double n = static_cast<double>(seen.count()), size = std::max(std::abs(seen.lo()), std::abs(seen.hi()));
+Mean of_values(const ScaledMoments& m, const Seen& seen) {
+  const Magnitudes& all = seen.values;
+  const double n = static_cast<double>(all.count()), size = std::max(std::abs(all.lo()), std::abs(all.hi()));
   if (size == 0) return {0, 0, n - 1, 0, ErrorBar::unseen};
-  const double index = seen.tail_index(), beyond = index < 20 ? std::pow(n, 2 / index - 1) : 0;
+  const double index = all.tail_index(), beyond = index < 20 ? std::pow(n, 2 / index - 1) : 0;
   const double spread = m.std_error() / std::sqrt(1 - std::min(beyond, 0.9));
-  return {m.mean(), std::max(spread, seen.lo() == seen.hi() ? 1.5 * size / n : 0.0), n - 1, 0,
+  return {m.mean(), std::max(spread, all.lo() == all.hi() ? 1.5 * size / n : 0.0), n - 1, 0,
           seen.infinite_variance() ? ErrorBar::infinite_variance : ErrorBar::known};
 }
 
@@ -32,8 +33,8 @@ Outcome plain(Run& run, std::optional<Outcome>& last) {
     count = std::min(count, run.left());
     total.merge(run.evaluate_all({Independent{run.o.seed}}, first, count, {}, keep).front());
     Outcome out{{}, Method::plain};
-    for (std::size_t k = 0; k < run.outputs; ++k) out.means.push_back(of_values(total.outputs[k], total.magnitudes[k]));
-    out.seen = total.magnitudes;
+    for (std::size_t k = 0; k < run.outputs; ++k) out.means.push_back(of_values(total.outputs[k], total.seen[k]));
+    out.seen = total.seen;
     out.correlations = correlations(batch_means(total));
     run.record(Method::plain, out.means);
     if (run.converged(out.means)) out.stop = Stop::converged;

@@ -52,24 +52,31 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
                    Keep keep) const {
   if (o.cancel && o.cancel->load()) throw Cancelled{};
   const auto d = static_cast<std::size_t>(dim);
-  Sums sums{std::vector<ScaledMoments>(outputs), std::vector<Magnitudes>(outputs)};
-  std::vector<double> u(block * d), values(outputs * block), columns(block), scratch(d);
-  std::vector<Weight> weights(block);
+  Sums sums{std::vector<ScaledMoments>(outputs), std::vector<Seen>(outputs)};
+  std::vector<double> u(block * d), values(outputs * block), columns(block), factors(block), shifts(block), scratch(d);
   for (; first < last; first += block) {
     const auto n = static_cast<std::size_t>(std::min(block, last - first));
     const std::span<double> points(u.data(), n * d), all(values.data(), n * outputs), column(columns.data(), n);
     fill_points(set, first, dim, points);
-    for (std::size_t i = 0; i < n; ++i) weights[i] = draw(proposal, points.subspan(i * d, d), scratch);
+    for (std::size_t i = 0; i < n; ++i) {
+      const Weight weight = draw(proposal, points.subspan(i * d, d), scratch);
+      factors[i] = weight.factor;
+      shifts[i] = weight.shift;
+    }
     f(points, d, all);
     if (keep == Keep::points) keep_points(sums, points, all);
     for (std::size_t k = 0; k < outputs; ++k) {
-      for (std::size_t i = 0; i < n; ++i) column[i] = all[i * outputs + k] * weights[i].factor;
+      for (std::size_t i = 0; i < n; ++i) column[i] = all[i * outputs + k];
+      if (proposal.density) {
+        sums.seen[k].tail.add(column, {factors.data(), n});
+        for (std::size_t i = 0; i < n; ++i) column[i] *= factors[i];
+      }
       Magnitudes sizes; // of the values themselves: what is subtracted hides zeros and equal values
       sizes.add(column);
-      sums.magnitudes[k].merge(sizes);
+      sums.seen[k].values.merge(sizes);
       double largest = std::max(std::abs(sizes.lo()), std::abs(sizes.hi()));
       if (!proposal.centre.empty()) {
-        for (std::size_t i = 0; i < n; ++i) column[i] -= proposal.centre[k] * weights[i].shift;
+        for (std::size_t i = 0; i < n; ++i) column[i] -= proposal.centre[k] * shifts[i];
         largest += 2 * std::abs(proposal.centre[k]); // no shift is above 8 / 7
       }
       if (keep == Keep::batches) sums.add_to_batches(k, column, first, largest);
@@ -138,15 +145,14 @@ std::vector<std::vector<double>> Run::replicate_means(const std::vector<Sums>& r
 }
 
 Means Run::means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
-                 const std::vector<Sums>& uniform, const Proposal& proposal,
-                 const std::vector<Magnitudes>& let_go) const {
+                 const std::vector<Sums>& uniform, const Proposal& proposal, const std::vector<Seen>& let_go) const {
   evidence.resize(outputs);
   const std::vector<std::vector<double>> values = replicate_means(replicates, uniform, proposal);
   Means all;
   for (std::size_t k = 0; k < outputs; ++k) {
-    Magnitudes seen = let_go.empty() ? Magnitudes() : let_go[k];
+    Seen seen = let_go.empty() ? Seen() : let_go[k];
     for (const auto* part : {&replicates, &uniform})
-      for (const Sums& s : *part) seen.merge(s.magnitudes[k]);
+      for (const Sums& s : *part) seen.merge(s.seen[k]);
     all.push_back(replicated(values[k], static_cast<double>(points), seen, evidence[k]));
   }
   return all;

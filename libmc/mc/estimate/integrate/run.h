@@ -96,7 +96,7 @@ struct Run {
   /// `let_go` are values of replicates that are no more: of each output the tail is that of all values.
   Means means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
               const std::vector<Sums>& uniform = {}, const Proposal& proposal = {},
-              const std::vector<Magnitudes>& let_go = {}) const;
+              const std::vector<Seen>& let_go = {}) const;
   /// Takes down a round, and reports it.
   void record(Method method, const Means& means, bool learning = false);
   /// That the last round of a method is independent of the answer.

@@ -57,7 +57,7 @@ void Sequences::keep(std::uint32_t first) {
   let_go.resize(means.size());
   for (const auto* all : {&sums, &uniform_sums})
     for (std::size_t r = count; r < all->size(); ++r)
-      for (std::size_t k = 0; k < let_go.size(); ++k) let_go[k].merge((*all)[r].magnitudes[k]);
+      for (std::size_t k = 0; k < let_go.size(); ++k) let_go[k].merge((*all)[r].seen[k]);
   for (auto* points : {&sets, &uniform_sets})
     if (points->size() > count) points->erase(points->begin() + count, points->end());
   for (auto* all : {&sums, &uniform_sums})
@@ -72,12 +72,12 @@ void Sequences::forget() {
   }
 }
 
-std::vector<Magnitudes> Sequences::seen() const {
-  std::vector<Magnitudes> total = let_go;
+std::vector<Seen> Sequences::seen() const {
+  std::vector<Seen> total = let_go;
   for (const auto* all : {&sums, &uniform_sums})
     for (const Sums& s : *all) {
-      total.resize(s.magnitudes.size());
-      for (std::size_t k = 0; k < total.size(); ++k) total[k].merge(s.magnitudes[k]);
+      total.resize(s.seen.size());
+      for (std::size_t k = 0; k < total.size(); ++k) total[k].merge(s.seen[k]);
     }
   return total;
 }

@@ -20,9 +20,9 @@ struct Sequences {
   std::vector<Sums> sums = {};
   std::vector<PointSet> uniform_sets = {}; ///< of the uniform part, an eighth as long, rounded up
   std::vector<Sums> uniform_sums = {};
-  std::vector<Means> history = {};     ///< at each length, of the outputs that are not only watched
-  Means means = {};                    ///< the latest, of all
-  std::vector<Magnitudes> let_go = {}; ///< the values of sequences that are no more
+  std::vector<Means> history = {}; ///< at each length, of the outputs that are not only watched
+  Means means = {};                ///< the latest, of all
+  std::vector<Seen> let_go = {};   ///< of sequences that are no more
   std::vector<Evidence> evidence = {};
 
   static constexpr std::uint64_t longest = std::uint64_t{1} << 32;
@@ -34,7 +34,7 @@ struct Sequences {
   /// The means once every sequence has `to` points.
   Means extend(Run& run, std::uint64_t to);
   /// All values that were seen, those of sequences that were let go too, one per output.
-  std::vector<Magnitudes> seen() const;
+  std::vector<Seen> seen() const;
   /// Correlations of the means' errors.
   Correlations correlations(const Run& run) const;
   /// The means with so many more sequences, as long as the others.

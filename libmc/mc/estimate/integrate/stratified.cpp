@@ -20,7 +20,7 @@ Outcome stratified(Run& run, std::optional<Outcome>& last) {
     run.record(Method::stratified, now);
     out.seen.resize(run.outputs);
     for (const Sums& s : sums)
-      for (std::size_t k = 0; k < run.outputs; ++k) out.seen[k].merge(s.magnitudes[k]);
+      for (std::size_t k = 0; k < run.outputs; ++k) out.seen[k].merge(s.seen[k]);
     const double square = sqr(static_cast<double>(points)), share = square / (weight + square);
     weight += square;
     const Correlations together = correlations(run.replicate_means(sums));

@@ -56,7 +56,7 @@ void Sums::merge(const Sums& other) {
   }
   for (std::size_t k = 0; k < outputs.size(); ++k) {
     outputs[k].merge(other.outputs[k]);
-    magnitudes[k].merge(other.magnitudes[k]);
+    seen[k].merge(other.seen[k]);
   }
   batches.resize(std::max(batches.size(), other.batches.size()));
   for (std::size_t i = 0; i < other.batches.size(); ++i) batches[i].merge(other.batches[i]);

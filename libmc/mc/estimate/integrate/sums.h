@@ -1,8 +1,8 @@
 #pragma once
 /// What the tasks of a run add up.
 
-#include <mc/estimate/magnitudes.h>
 #include <mc/estimate/moments.h>
+#include <mc/estimate/tail.h>
 
 #include <cstdint>
 #include <span>
@@ -30,13 +30,13 @@ class ScaledMoments {
   int exponent_ = 0;
 };
 
-/// Moments and magnitudes of every output, and, where they are kept, the points and the integrand's values there, and
+/// Moments of every output and what was seen of it, and, where they are kept, the points and the integrand's values there, and
 /// the moments of batches of the values.
 struct Sums {
   static constexpr std::size_t batch_count = 32;
 
   std::vector<ScaledMoments> outputs;
-  std::vector<Magnitudes> magnitudes;
+  std::vector<Seen> seen;
   std::vector<double> points = {}, values = {};
   std::vector<ScaledMoments> batches = {}; ///< batch_count for each output
 

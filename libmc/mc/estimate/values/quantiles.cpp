@@ -23,8 +23,8 @@ struct Seen {
       shares.push_back(static_cast<double>(std::upper_bound(r.begin(), r.end(), t) - r.begin()) /
                        static_cast<double>(r.size()));
     const double inside[] = {0, 1}; // of the values whose mean a share is
-    Magnitudes sizes;
-    sizes.add(inside);
+    detail::Seen sizes;
+    sizes.values.add(inside);
     detail::Evidence evidence;
     return detail::interval(detail::replicated(shares, static_cast<double>(replicates.front().size()), sizes, evidence),
                             confidence);

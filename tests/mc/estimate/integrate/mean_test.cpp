@@ -14,9 +14,9 @@ using mc::detail::replicated;
 
 constexpr std::size_t replicates = 24;
 
-mc::Magnitudes seen(const std::vector<double>& values) {
-  mc::Magnitudes m;
-  m.add(values);
+mc::detail::Seen seen(const std::vector<double>& values) {
+  mc::detail::Seen m;
+  m.values.add(values);
   return m;
 }
 
@@ -68,10 +68,10 @@ TEST(Replicated, EqualReplicatesHaveAnError) {
 
 // Share of 95 % intervals that hold the truth, of 4000.
 double covered(double index, const std::function<double(std::uint64_t, std::vector<double>&)>& draw) {
-  mc::Magnitudes tail;
+  mc::detail::Seen tail;
   for (std::uint64_t i = 1; i <= 20'000; ++i)
-    tail.add(std::vector{index > 0 ? std::pow((static_cast<double>(i) - 0.5) / 20'000, -1 / index)
-                                   : 1.0 + 1e-9 * static_cast<double>(i)});
+    tail.values.add(std::vector{index > 0 ? std::pow((static_cast<double>(i) - 0.5) / 20'000, -1 / index)
+                                          : 1.0 + 1e-9 * static_cast<double>(i)});
   int hits = 0;
   for (std::uint64_t i = 0; i < 4000; ++i) {
     std::vector<double> means(replicates);

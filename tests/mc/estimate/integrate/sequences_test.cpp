@@ -58,12 +58,12 @@ TEST(Sequences, RememberTheTailOfThoseLetGo) {
   detail::Run run{{.one = &heavy}, 1, 1, o};
   Sequences s{.purpose = 0, .count = 24};
   s.extend(run, 4096);
-  const mc::Magnitudes before = s.seen()[0];
+  const mc::Magnitudes before = s.seen()[0].values;
   ASSERT_EQ(s.means[0].bar, mc::ErrorBar::infinite_variance);
   s.keep(12);
   const detail::Mean after = s.extend(run, 8192)[0];
-  EXPECT_EQ(s.seen()[0].count(), 24u * 4096 + 12u * 4096);
-  EXPECT_GE(s.seen()[0].hi(), before.hi());
+  EXPECT_EQ(s.seen()[0].values.count(), 24u * 4096 + 12u * 4096);
+  EXPECT_GE(s.seen()[0].values.hi(), before.hi());
   EXPECT_EQ(after.bar, mc::ErrorBar::infinite_variance);
   EXPECT_EQ(after.dof, 11);
 }

@@ -1,0 +1,158 @@
+#include <mc/core/types.h>
+#include <mc/estimate/tail.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace mc {
+
+namespace {
+constexpr double borderline = 2; // the index that a variance needs more than
+constexpr double few = 0.25;     // the error that its largest values know it to
+constexpr double many = 0.06;    // and many of them
+constexpr double enough = 12;    // points that tell how many stand for a volume
+constexpr double most = 0.6;     // of the volume, that a tail may fill
+// An index may grow as this power of a volume that shrinks: of x^-p y^-p it grows with a logarithm. The largest values
+// at uniform points know theirs badly.
+constexpr double growth = 0.06, growth_of_uniform = 0.14;
+
+int exponent_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff); }
+} // namespace
+
+// The points of the octaves from a lowest one up, numbered from there, if volumes fall with an index a: in each octave
+// as many for a volume as were seen, and above all that were seen as many as in the highest of them.
+class Tail::Fit {
+ public:
+  bool known = false; // the lowest octave is not also that of all values
+  double points = 0;
+
+  double volume() const { return all_.volume; }
+  void add(const Octave& next) {
+    const bool together = points < enough; // of few points only all tell
+    sum_ += points;                        // each is one octave farther up
+    points += next.points();
+    all_ += next;
+    if (together) {
+      std::fill(rates_.begin(), rates_.begin() + size_ + 1, all_.rate());
+    } else {
+      last_ += next;
+      rates_[size_] = next.points() >= enough ? next.rate() : next.volume > 0 ? last_.rate() : rates_[size_ - 1];
+    }
+    last_ = next;
+    ++size_;
+  }
+  // Of an index of 2, were it that.
+  double error() const { return 1 / (std::log(2.0) * std::sqrt(points * moments(borderline).variance)); }
+  // How far out the points lie, in deviations from what an index of 2 makes them.
+  double farther() const {
+    const Moments m = moments(borderline);
+    return (sum_ / points - m.mean) / std::sqrt(m.variance / points);
+  }
+  double index() const {
+    double lo = 1.0 / 64, hi = 32;
+    for (int i = 0; i < 40; ++i) {
+      const double a = std::sqrt(lo * hi);
+      (moments(a).mean > sum_ / points ? lo : hi) = a;
+    }
+    return lo;
+  }
+
+ private:
+  struct Moments {
+    double mean, variance;
+  };
+  // Of the number of a point's octave.
+  Moments moments(double a) const {
+    const double q = std::exp2(-a);
+    double power = 1, s0 = 0, s1 = 0, s2 = 0;
+    for (std::size_t k = 0; k < size_; ++k, power *= q) {
+      const double number = static_cast<double>(k), expected = rates_[size_ - 1 - k] * power;
+      s0 += expected;
+      s1 += number * expected;
+      s2 += sqr(number) * expected;
+    }
+    // All octaves above: geometric series.
+    const double k = static_cast<double>(size_), r = 1 / (1 - q), first = rates_[0] * power * r;
+    s0 += first;
+    s1 += first * (k + q * r);
+    s2 += first * (k * k + 2 * k * q * r + q * (1 + q) * r * r);
+    return {s1 / s0, s2 / s0 - sqr(s1 / s0)};
+  }
+
+  std::array<double, octaves> rates_{}; // points per volume, downward
+  std::size_t size_ = 0;
+  double sum_ = 0; // of the points' numbers
+  Octave all_, last_;
+};
+
+Tail::Tail(const Magnitudes& values) : top_(values.top()), uniform_(true) {
+  for (const std::uint64_t n : values.counts()) seen_.push_back({static_cast<double>(n), static_cast<double>(n)});
+}
+
+void Tail::raise(int top) {
+  seen_.resize(octaves);
+  if (top <= top_) return;
+  std::vector<Octave> moved(octaves);
+  for (int i = 0; i < octaves; ++i) {
+    moved[static_cast<std::size_t>(std::min(i + (top - top_), octaves - 1))] += seen_[static_cast<std::size_t>(i)];
+  }
+  seen_ = std::move(moved);
+  top_ = top;
+}
+
+void Tail::add(std::span<const double> values, std::span<const double> volumes) {
+  raise(top_);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const int exponent = exponent_of(values[i]);
+    if (exponent == 0x7ff) continue;
+    if (exponent > top_) [[unlikely]]
+      raise(exponent);
+    Octave& octave = seen_[static_cast<std::size_t>(std::min(top_ - exponent, octaves - 1))];
+    octave.volume += volumes[i];
+    octave.square += volumes[i] * volumes[i];
+  }
+}
+
+void Tail::merge(const Tail& other) {
+  if (other.empty()) return;
+  raise(other.top_);
+  for (int i = 0; i < octaves; ++i) {
+    seen_[static_cast<std::size_t>(std::min(i + (top_ - other.top_), octaves - 1))] +=
+        other.seen_[static_cast<std::size_t>(i)];
+  }
+}
+
+// The largest values that know an index of 2 to so much, or the most that are still a tail.
+Tail::Fit Tail::fit(double error) const {
+  double all = 0;
+  for (const Octave& o : seen_) all += o.volume;
+  Fit fit;
+  for (std::size_t i = 0; i + 1 < seen_.size(); ++i) {
+    if (fit.volume() + seen_[i].volume > most * all) break;
+    fit.add(seen_[i]);
+    if (fit.points > enough && fit.error() <= error) break;
+  }
+  fit.known = fit.points > enough && fit.error() <= few;
+  return fit;
+}
+
+double Tail::index() const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Fit largest = fit(few);
+  if (!largest.known) return infinity;
+  const double index = largest.index();
+  const Fit all = fit(many);
+  const double grown = std::pow(all.volume() / largest.volume(), uniform_ ? growth_of_uniform : growth);
+  return index < 20 && index <= all.index() * grown ? index : infinity;
+}
+
+bool Tail::infinite_variance() const {
+  const Fit largest = fit(few);
+  if (!largest.known || largest.farther() < -1.5 || fit(many).farther() < -1) return false; // in deviations
+  return std::isfinite(index());
+}
+
+} // namespace mc

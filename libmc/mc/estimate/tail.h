@@ -1,0 +1,74 @@
+#pragma once
+/// How heavy the tail of an integrand is, whatever its points were drawn from.
+
+#include <mc/estimate/magnitudes.h>
+
+#include <span>
+#include <vector>
+
+namespace mc {
+
+/// The volume of {|f| > t} by octaves of t, from points of any density; mergeable with what others of the same density
+/// saw. Values that a density divides, f / q, hide the tail of f: where q was learned it follows f as far as it can
+/// tell. Beyond that it is bounded, so that f / q has no variance where f has none. Points of such a q lie as deep in
+/// the tail as the integral itself, and each says how much volume it stands for.
+class Tail {
+ public:
+  static constexpr int octaves = Magnitudes::octaves; ///< below the largest value; smaller ones are of the last
+
+  Tail() = default;
+  /// Of values at uniform points.
+  explicit Tail(const Magnitudes& values);
+
+  /// Values of f, and 1 / q of their points; values that are not finite are left out.
+  void add(std::span<const double> values, std::span<const double> volumes);
+  void merge(const Tail& other);
+  bool empty() const { return seen_.empty(); }
+
+  /// The index a of vol {|f| > t} ~ t^-a: the mean of f is finite for a > 1, its variance for a > 2. From the largest
+  /// values, as many as know an index of 2 to .25; infinity for those of a bounded f that are met often enough, or
+  /// where the index grows with t as no power's does.
+  ///   error  : of a power law, a standard deviation of a / 8
+  ///   Source : maximum likelihood for the numbers of points in octaves, [Hill75] where each stands for as much volume
+  double index() const;
+
+  /// Whether the variance of f is infinite: both the values that know an index of 2 to .06 and the largest, that know
+  /// it to .25, agree with an index of 2 or less. An index near 2 is not told from 2: x^-.5 is named, products of
+  /// several x^-.4, which look no lighter until very near 0, sometimes.
+  bool infinite_variance() const;
+
+ private:
+  struct Octave {
+    double volume = 0, square = 0;                                              // sums over its points
+    double points() const { return square > 0 ? volume * volume / square : 0; } // of equal volumes, as good
+    double rate() const { return square > 0 ? volume / square : 0; }
+    void operator+=(const Octave& o) {
+      volume += o.volume;
+      square += o.square;
+    }
+  };
+  class Fit;
+  void raise(int top);
+  Fit fit(double error) const;
+
+  std::vector<Octave> seen_; // seen_[i]: of exponent top_ - i; none before the first value
+  int top_ = 0;              // biased exponent
+  bool uniform_ = false;     // the points
+};
+
+namespace detail {
+/// What a run saw of an integrand: the values that it adds up, and the tail of f where those are not f itself.
+struct Seen {
+  Magnitudes values = {};
+  Tail tail = {};
+
+  void merge(const Seen& other) {
+    values.merge(other.values);
+    tail.merge(other.tail);
+  }
+  double tail_index() const { return tail.empty() ? Tail(values).index() : tail.index(); }
+  bool infinite_variance() const { return tail.empty() ? Tail(values).infinite_variance() : tail.infinite_variance(); }
+};
+} // namespace detail
+
+} // namespace mc
