@@ -33,7 +33,7 @@ std::string_view name(Stop stop);
 enum class ErrorBar {
   known,
   unseen,           ///< every value was zero: nothing tells how large those are that were not met
-  infinite_variance ///< the largest values fall off so slowly that no error bar holds
+  infinite_variance ///< the integrand is large on a volume that shrinks so slowly that no error bar holds, see Tail
 };
 std::string_view name(ErrorBar bar);
 
@@ -81,7 +81,7 @@ struct Integral {
   /// Two-sided, Student t for replicates, longer on the side they are skewed to; all numbers unless error_bar is known.
   Estimate::Interval interval{};
   ErrorBar error_bar = ErrorBar::known;
-  double tail_index = 0; ///< of the largest values, see Magnitudes; infinite for a bounded integrand
+  double tail_index = 0; ///< of the integrand, see Tail; infinite for a bounded one
   std::uint64_t calls = 0;
   double seconds = 0;
   Method method = Method::plain; ///< the one picked

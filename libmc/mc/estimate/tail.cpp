@@ -12,7 +12,7 @@ namespace mc {
 namespace {
 constexpr double borderline = 2; // the index that a variance needs more than
 constexpr double few = 0.25;     // the error that its largest values know it to
-constexpr double many = 0.06;    // and many of them
+constexpr double many = 0.06;    // and many of at most 10'000, less of more
 constexpr double enough = 12;    // points that tell how many stand for a volume
 constexpr double most = 0.6;     // of the volume, that a tail may fill
 // An index may grow as this power of a volume that shrinks: of x^-p y^-p it grows with a logarithm. The largest values
@@ -139,19 +139,26 @@ Tail::Fit Tail::fit(double error) const {
   return fit;
 }
 
+// Of more values more: that an index grows shows over a wider range.
+Tail::Fit Tail::fit_to_many() const {
+  double points = 0;
+  for (const Octave& o : seen_) points += o.points();
+  return fit(many * std::min(1.0, std::pow(1e4 / points, 0.2)));
+}
+
 double Tail::index() const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Fit largest = fit(few);
   if (!largest.known) return infinity;
   const double index = largest.index();
-  const Fit all = fit(many);
+  const Fit all = fit_to_many();
   const double grown = std::pow(all.volume() / largest.volume(), uniform_ ? growth_of_uniform : growth);
   return index < 20 && index <= all.index() * grown ? index : infinity;
 }
 
 bool Tail::infinite_variance() const {
   const Fit largest = fit(few);
-  if (!largest.known || largest.farther() < -1.5 || fit(many).farther() < -1) return false; // in deviations
+  if (!largest.known || largest.farther() < -1.5 || fit_to_many().farther() < -1) return false; // in deviations
   return std::isfinite(index());
 }
 

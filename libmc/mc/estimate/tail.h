@@ -32,9 +32,9 @@ class Tail {
   ///   Source : maximum likelihood for the numbers of points in octaves, [Hill75] where each stands for as much volume
   double index() const;
 
-  /// Whether the variance of f is infinite: both the values that know an index of 2 to .06 and the largest, that know
-  /// it to .25, agree with an index of 2 or less. An index near 2 is not told from 2: x^-.5 is named, products of
-  /// several x^-.4, which look no lighter until very near 0, sometimes.
+  /// Whether the variance of f is infinite: both many values, that know an index of 2 to .06, or better where there are
+  /// more than 10'000, and the largest, that know it to .25, agree with an index of 2 or less. An index near 2 is not
+  /// told from 2: x^-.5 is named, products of several x^-.4, which look no lighter until very near 0, sometimes.
   bool infinite_variance() const;
 
  private:
@@ -50,6 +50,7 @@ class Tail {
   class Fit;
   void raise(int top);
   Fit fit(double error) const;
+  Fit fit_to_many() const;
 
   std::vector<Octave> seen_; // seen_[i]: of exponent top_ - i; none before the first value
   int top_ = 0;              // biased exponent
