@@ -90,8 +90,18 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
     if (size == 0) return {0, 0, r - 1, 0, ErrorBar::unseen};
     step = std::max(step, range > 1e-9 * size ? jump_share * range : unseen_share * size);
   }
-  const double index = seen.values.tail_index(), beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
-  const double spread = std::ldexp(deviation, exponent) / std::sqrt(r * (1 - std::min(beyond, 0.9)));
+  // Under a learned density the values at large hide the tail of the integrand, and that is what few replicates meet.
+  const double index = std::min(seen.tail_index(), seen.values.tail_index());
+  const double beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
+  const double now = std::ldexp(deviation, exponent);
+  double width = now;
+  if (index < 5 && evidence.points > 0) {
+    const double before = evidence.deviation * std::pow(evidence.points / points, 1 - 1 / std::max(index, 2.0));
+    width = std::hypot(now, before) / std::sqrt(2.0);
+  }
+  evidence.points = points;
+  evidence.deviation = now;
+  const double spread = width / std::sqrt(r * (1 - std::min(beyond, 0.9)));
   const double unbiased = r * r / ((r - 1) * std::max(r - 2, 1.0));
   return {std::ldexp(m.mean(), exponent), std::hypot(spread, step / points / r), r - 1,
           apart ? third / (deviation * deviation * deviation) * unbiased / (6 * std::sqrt(r)) : 0.0,

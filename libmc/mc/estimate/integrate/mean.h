@@ -37,7 +37,8 @@ std::optional<double> deviate(const Mean& a, const Mean& b);
 
 /// What an integrand showed of itself at shorter lengths of the same replicates.
 struct Evidence {
-  std::vector<double> jumps = {}; ///< at each length, the height of the jump that set replicates apart; 0: none seen
+  double points = 0, deviation = 0; ///< of the last length, and of the replicates at it
+  std::vector<double> jumps = {};   ///< at each length, the height of the jump that set replicates apart; 0: none seen
 };
 
 /// The mean of independent replicates of `points` points each.
@@ -48,6 +49,8 @@ struct Evidence {
 ///             they are equal, the range of all values; where those are equal too, their size, so that the rule of
 ///             three holds for what was not seen
 ///           - of a tail of index a > 2 the share R^-(1 - 2/a) of the variance lies beyond the largest of R values
+///           - of one with a < 5 the variance is known badly, and seems least where nothing large was met, which is
+///             where runs stop: it is the mean of this and that of the last length, times what a tail makes it fall
 ///   bar   : unseen where every value was zero, infinite_variance where `seen` says so
 ///   seen  : the values behind it, and the tail of the integrand
 Mean replicated(std::span<const double> means, double points, const Seen& seen, Evidence& evidence);
