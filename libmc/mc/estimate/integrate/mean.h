@@ -42,7 +42,7 @@ struct Evidence {
 };
 
 /// The mean of independent replicates of `points` points each.
-///   error : from their spread, and two things that it does not show:
+///   error : from their spread, and three things that it does not show:
 ///           - a jump of height h moves a replicate by h / points or not at all, and replicates that agree say only
 ///             that they could not differ: .6 h / points over their number is added in squares, about what makes 24
 ///             trials of a random probability cover 95 %; h is what set them apart at one of the last lengths; where

@@ -30,8 +30,8 @@ class ScaledMoments {
   int exponent_ = 0;
 };
 
-/// Moments of every output and what was seen of it, and, where they are kept, the points and the integrand's values there, and
-/// the moments of batches of the values.
+/// Moments of every output and what was seen of it, and, where they are kept, the points and the integrand's values
+/// there, and the moments of batches of the values.
 struct Sums {
   static constexpr std::size_t batch_count = 32;
 
