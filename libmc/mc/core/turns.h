@@ -80,8 +80,9 @@ template <std::floating_point S> S small_turn(S q) {
 
 /// Azimuth of (x, y) as a fraction of a full turn, in [0,1); 0 at the origin. Half the time of atan2.
 ///   error  : 2 ulp for float and for double
-///   Source : atan t = atan c + atan((t - c) / (1 + c t)), c the nearest quarter; the rest, at most 1/8, by interpolation
-///            at Chebyshev nodes of (atan(q) / q - 1) / (2 pi q^2) in q^2; 1 / (2 pi) as a sum of two numbers
+///   Source : atan t = atan c + atan((t - c) / (1 + c t)), c the nearest of 0, 1/4, ... 1; the rest, at most 1/8, by
+///            interpolation at Chebyshev nodes of (atan(q) / q - 1) / (2 pi q^2) in q^2; 1 / (2 pi) as a sum of two
+///            numbers
 template <Real S> S turn(const S& x, const S& y) {
   using std::abs, std::atan2;
   if constexpr (std::floating_point<S>) {
