@@ -45,9 +45,10 @@ std::string correlation_table(const mc::VectorIntegral& r) {
 }
 
 nlohmann::json as_json(const mc::Integral& r, const Experiment& e) {
-  nlohmann::json j = {{"integrand", e.name}, {"value", r.estimate.value}, {"std_error", r.estimate.std_error},
-                      {"lo", r.interval.lo}, {"hi", r.interval.hi},       {"error_bar", name(r.error_bar)},
-                      {"chi2", r.chi2},      {"chi2_dof", r.chi2_dof},    {"consistent", r.consistent}};
+  nlohmann::json j = {{"integrand", e.name},   {"value", r.estimate.value}, {"std_error", r.estimate.std_error},
+                      {"lo", r.interval.lo},   {"hi", r.interval.hi},       {"error_bar", name(r.error_bar)},
+                      {"chi2", r.chi2},        {"chi2_dof", r.chi2_dof},    {"consistent", r.consistent},
+                      {"infinite", r.infinite}};
   if (std::isfinite(e.truth)) j["truth"] = e.truth;
   for (const mc::IntegrateRound& round : r.rounds)
     j["rounds"].push_back({{"method", name(round.method)},

@@ -66,9 +66,10 @@ std::string Integral::to_string() const {
                        3 / static_cast<double>(calls));
     break;
   case ErrorBar::infinite_variance:
-    text = fmt::format("{:.10g}, error not known: the variance is infinite (the largest values fall off with index "
-                       "{:.2f}; a variance needs more than 2)",
-                       estimate.value, tail_index);
+    text = fmt::format("{:.10g}, error not known: the variance is infinite ", estimate.value);
+    text += infinite > 0 ? fmt::format("(as is the integrand at {} points, which count as 0)", infinite)
+                         : fmt::format("(the largest values fall off with index {:.2f}; a variance needs more than 2)",
+                                       tail_index);
     break;
   }
   if (!consistent)
@@ -131,6 +132,7 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
     r.confidence = o.confidence;
     r.error_bar = mean.bar;
     r.tail_index = outcome.seen[k].tail_index();
+    r.infinite = outcome.seen[k].infinite;
     r.calls = run.calls;
     r.seconds = run.seconds();
     r.method = outcome.method;
@@ -183,6 +185,7 @@ Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f,
   result.confidence = o.confidence;
   result.error_bar = mean.bar;
   result.tail_index = sequences.seen().front().tail_index();
+  result.infinite = sequences.seen().front().infinite;
   result.calls = run.calls;
   result.method = Method::rqmc;
   result.stop = Stop::max_calls;

@@ -81,7 +81,8 @@ struct Integral {
   /// Two-sided, Student t for replicates, longer on the side they are skewed to; all numbers unless error_bar is known.
   Estimate::Interval interval{};
   ErrorBar error_bar = ErrorBar::known;
-  double tail_index = 0; ///< of the integrand, see Tail; infinite for a bounded one
+  double tail_index = 0;      ///< of the integrand, see Tail; infinite for a bounded one
+  std::uint64_t infinite = 0; ///< points where the integrand was infinite, which count as 0: the variance is infinite
   std::uint64_t calls = 0;
   double seconds = 0;
   Method method = Method::plain; ///< the one picked
@@ -149,8 +150,8 @@ struct BatchIntegrand {
 ///   throws     : Error for an empty f, dim < 1, a tolerance that is negative or not finite, max_calls too small for
 ///                one round, confidence outside (0,1), threads < 0, a density of another dimension or for a method that
 ///                has none, no output that is not watched; what the integrand throws, after all threads have
-///                stopped; and for an integrand that is not finite, with the point where it first was; and when
-///                cancelled before anything was estimated
+///                stopped; for an integrand that is not a number somewhere, or infinite on more than a
+///                thousandth of the volume, with the first point; and when cancelled before anything was estimated
 Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim,
                         const IntegrateOptions& options = {});
 

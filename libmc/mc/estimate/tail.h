@@ -62,13 +62,18 @@ namespace detail {
 struct Seen {
   Magnitudes values = {};
   Tail tail = {};
+  std::uint64_t infinite = 0; ///< values that were
 
   void merge(const Seen& other) {
+    infinite += other.infinite;
     values.merge(other.values);
     tail.merge(other.tail);
   }
   double tail_index() const { return tail.empty() ? Tail(values).index() : tail.index(); }
-  bool infinite_variance() const { return tail.empty() ? Tail(values).infinite_variance() : tail.infinite_variance(); }
+  /// Two points so near that doubles cannot tell them apart may hold much of a singular integral.
+  bool infinite_variance() const {
+    return infinite > 0 || (tail.empty() ? Tail(values).infinite_variance() : tail.infinite_variance());
+  }
 };
 } // namespace detail
 

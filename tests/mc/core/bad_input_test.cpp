@@ -241,6 +241,8 @@ TEST(BadInput, Integrate) {
     o.method = method;
     rows.push_back({[=] { integrate_unit([](std::span<const double> u) { return u[0] < 0.5 ? nan : 1.0; }, 2, o); },
                     {"integrate:", "not finite at", "the first at u = (0.", "must be finite almost everywhere"}});
+    rows.push_back({[=] { integrate_unit([](std::span<const double> u) { return u[0] < 0.01 ? inf : 1.0; }, 2, o); },
+                    {"integrate:", "not finite at", "the first at u = (0.0", "must be finite almost everywhere"}});
   }
   expect_refused(rows);
 }

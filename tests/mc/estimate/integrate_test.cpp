@@ -2,6 +2,7 @@
 #include <mc/domain/box.h>
 #include <mc/domain/sphere.h>
 #include <mc/estimate/integrate.h>
+#include <mc/random/pcg.h>
 #include <mc/warp/hemisphere.h>
 
 #include <mc/estimate/settings.h>
@@ -108,6 +109,29 @@ TEST(Integrate, InfiniteVarianceGetsNoBar) {
       EXPECT_EQ(r.interval.hi, std::numeric_limits<double>::infinity());
       EXPECT_NEAR(r.tail_index, 1 / p, 0.3 / p) << name(method);
     }
+}
+
+TEST(Integrate, SingularitiesAtRandomPlaces) {
+  for (const Method method : methods)
+    for (const double p : {0.3, 0.9})
+      for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        const double x = mc::Pcg(seed).uniform<double>();
+        mc::IntegrateOptions o = with(method, 200'000);
+        o.seed = seed;
+        const mc::Integral r = mc::integrate_unit([&](Unit u) { return std::pow(std::abs(u[0] - x), -p); }, 1, o);
+        EXPECT_EQ(r.error_bar, p < 0.5 ? mc::ErrorBar::known : mc::ErrorBar::infinite_variance) << name(method) << x;
+      }
+}
+
+// As doubles are that a learned density cannot tell from a singular point: they may hold much of the integral.
+TEST(Integrate, PointsWhereItIsInfiniteGetNoBar) {
+  for (const Method method : methods) {
+    const mc::Integral r = mc::integrate_unit(
+        [](Unit u) { return u[0] < 1e-4 ? std::numeric_limits<double>::infinity() : u[1]; }, 2, with(method, 200'000));
+    EXPECT_NEAR(static_cast<double>(r.infinite), 1e-4 * 200'000, 18) << name(method); // 4 sigma of the random ones
+    EXPECT_EQ(r.error_bar, mc::ErrorBar::infinite_variance);
+    EXPECT_THAT(r.to_string(), testing::HasSubstr(fmt::format("as is the integrand at {} points", r.infinite)));
+  }
 }
 
 TEST(Integrate, StopsAtTheWantedError) {

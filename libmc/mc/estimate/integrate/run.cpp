@@ -9,9 +9,11 @@
 namespace mc::detail {
 
 namespace {
-constexpr std::uint64_t chunk = 4096; // points per task: fixed, so sums do not depend on the number of threads
-constexpr std::uint64_t block = 256;  // points drawn at once
-constexpr double thread_start = 5e-4; // seconds of work that are worth waking other threads
+constexpr std::uint64_t chunk = 4096;     // points per task: fixed, so sums do not depend on the number of threads
+constexpr std::uint64_t block = 256;      // points drawn at once
+constexpr double thread_start = 5e-4;     // seconds of work that are worth waking other threads
+constexpr double most_infinite = 1e-3;    // of the volume: more is no singularity
+constexpr std::uint64_t few_infinite = 8; // points that do not tell how much it is
 } // namespace
 
 namespace {
@@ -64,6 +66,7 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
       shifts[i] = weight.shift;
     }
     f(points, d, all);
+    sums.leave_out_infinite(all, {factors.data(), n}, first);
     if (keep == Keep::points) keep_points(sums, points, all);
     for (std::size_t k = 0; k < outputs; ++k) {
       for (std::size_t i = 0; i < n; ++i) column[i] = all[i * outputs + k];
@@ -101,23 +104,33 @@ std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint
   const bool pays = once.count() * static_cast<double>(parts.size() - 1) > thread_start;
   parallel_for(parts.size() - 1, pays ? o.threads : 1, [&](std::size_t i) { task(i + 1); });
   for (std::size_t i = 0; i < parts.size(); ++i) results[i / chunks].merge(parts[i]);
-  for (std::size_t r = 0; r < sets.size(); ++r)
-    for (const ScaledMoments& m : results[r].outputs) require_finite(m.moments(), sets[r], proposal);
   calls += count * sets.size();
+  double infinite_volume = 0;
+  std::uint64_t infinite = 0;
+  for (std::size_t r = 0; r < sets.size(); ++r) {
+    for (const ScaledMoments& m : results[r].outputs)
+      if (const std::uint64_t bad = m.moments().non_finite(); bad > 0)
+        refuse_points(bad, count, m.moments().witness(), sets[r], proposal);
+    infinite_volume += results[r].infinite_volume;
+    infinite += results[r].infinite();
+    const double points = static_cast<double>(count * sets.size());
+    if (infinite >= few_infinite && infinite_volume > most_infinite * points && results[r].first_infinite)
+      refuse_points(infinite, count * (r + 1), *results[r].first_infinite, sets[r], proposal);
+  }
   return results;
 }
 
-void Run::require_finite(const Moments& m, const PointSet& set, const Proposal& proposal) const {
-  if (m.non_finite() == 0) return;
+void Run::refuse_points(std::uint64_t bad, std::uint64_t count, std::uint64_t first, const PointSet& set,
+                        const Proposal& proposal) const {
   std::vector<double> u(static_cast<std::size_t>(dim));
   std::vector<double> scratch(u.size());
-  fill_points(set, m.witness(), dim, u);
+  fill_points(set, first, dim, u);
   draw(proposal, u, scratch);
   std::string point;
   for (const double x : u) point += fmt::format("{}{:.17g}", point.empty() ? "" : ", ", x);
   throw Error(fmt::format("integrate: the integrand is not finite at {} of {} points, the first at u = ({}); it must "
                           "be finite almost everywhere",
-                          m.non_finite(), m.non_finite() + m.count(), point));
+                          bad, count, point));
 }
 
 std::vector<PointSet> Run::sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const {

@@ -110,7 +110,9 @@ struct Run {
   Sums evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const Proposal& proposal,
                 Keep keep) const;
   void keep_points(Sums& sums, std::span<const double> points, std::span<const double> values) const;
-  void require_finite(const Moments& m, const PointSet& set, const Proposal& proposal) const;
+  /// Throws: so many of `count` points of the set were bad, the one of index `first` the first.
+  [[noreturn]] void refuse_points(std::uint64_t bad, std::uint64_t count, std::uint64_t first, const PointSet& set,
+                                  const Proposal& proposal) const;
 };
 
 } // namespace mc::detail
