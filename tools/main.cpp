@@ -4,6 +4,7 @@
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 
 #include <CLI/CLI.hpp>
 
@@ -11,6 +12,7 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -80,6 +82,22 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
+// What the parser complains of, with the name that may have been meant.
+std::string complaint(const CLI::App& app, const CLI::ParseError& e) {
+  const std::vector<const CLI::App*> given = app.get_subcommands({});
+  const auto parsed = std::find_if(given.begin(), given.end(), [](const CLI::App* c) { return c->parsed(); });
+  const CLI::App& of = parsed == given.end() ? app : **parsed;
+  const std::string help = fmt::format("see carlo {}--help", parsed == given.end() ? "" : of.get_name() + " ");
+  std::vector<std::string> names, unknown = app.remaining(true);
+  for (const CLI::App* c : &of == &app ? given : std::vector<const CLI::App*>()) names.push_back(c->get_name());
+  for (const CLI::Option* o : of.get_options())
+    for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
+  auto word = std::find_if(unknown.begin(), unknown.end(), [](const auto& u) { return u.starts_with('-'); });
+  if (word == unknown.end()) word = unknown.begin();
+  if (unknown.empty()) return fmt::format("{} ({})", e.what(), help);
+  return fmt::format("unknown argument '{}'{} ({})", *word, mc::did_you_mean(*word, names), help);
+}
+
 int run(int argc, char** argv) {
   CLI::App app("carlo: Monte Carlo samplers validated, convergence measured, scenes rendered with error bars");
   app.set_version_flag("--version", fmt::format("carlo {} ({})", carlo::version, carlo::commit));
@@ -91,7 +109,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e); // --help, --version
-    throw mc::Error(fmt::format("{} (see carlo --help)", e.what()));
+    throw mc::Error(complaint(app, e));
   }
 
   std::string command = "carlo";

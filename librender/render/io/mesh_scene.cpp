@@ -74,7 +74,6 @@ SceneFile read_mesh_scene(const std::string& path) {
   SceneBuilder builder;
   return mc::with_context(path, [&] {
     TriangleMesh shape = to_shape(mesh, Transform::translate(-middle), mesh.normals.empty());
-    mc::require(shape.area() > 0, "none of its {} triangles has an area: nothing would be seen", shape.size());
     builder.add(std::move(shape), {builder.add(Lambert(Spectrum::Constant(Float(0.6))))});
     builder.add(ground_below(extent, size), {builder.add(Lambert(Spectrum::Constant(Float(0.4))))});
     builder.add(Light(GradientBackground()));

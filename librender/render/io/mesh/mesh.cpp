@@ -54,7 +54,9 @@ TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat
         return std::all_of(t.begin(), t.end(), in_range);
       }))
     normals = smooth_normals(placed, triangles);
-  return TriangleMesh(std::move(positions), triangles, std::move(normals), file.uvs);
+  TriangleMesh mesh(std::move(positions), triangles, std::move(normals), file.uvs);
+  mc::require(mesh.area() > 0, "none of its {} triangles has an area: nothing would be seen", mesh.size());
+  return mesh;
 }
 
 } // namespace render

@@ -7,16 +7,20 @@ namespace {
 
 const std::string scene_units = "scene units";
 
+Shape placed(const std::string& path, const MeshFile& mesh, const Transform& to_world, bool face_normals) {
+  return mc::with_context(path, [&] { return Shape(to_shape(mesh, to_world, face_normals)); });
+}
+
 Shape make_obj(const std::string& path, const Transform& to_world, bool face_normals) {
-  return to_shape(read_obj(path), to_world, face_normals);
+  return placed(path, read_obj(path), to_world, face_normals);
 }
 
 Shape make_ply(const std::string& path, const Transform& to_world, bool face_normals) {
-  return to_shape(read_ply(path), to_world, face_normals);
+  return placed(path, read_ply(path), to_world, face_normals);
 }
 
 Shape make_serialized(const std::string& path, const Transform& to_world, bool face_normals, int index) {
-  return to_shape(read_serialized(path, index), to_world, face_normals);
+  return placed(path, read_serialized(path, index), to_world, face_normals);
 }
 
 Shape make_rectangle(const Transform& to_world) { return TriangleMesh::rectangle(to_world); }

@@ -1,0 +1,23 @@
+#include <tools/run_carlo.h>
+
+#include <gmock/gmock.h>
+
+namespace {
+
+using support::run_carlo;
+
+TEST(Main, NamesTheArgumentThatItDoesNotKnow) {
+  const auto says = [](const std::string& arguments, const std::string& line) {
+    const support::Run r = run_carlo(arguments);
+    EXPECT_EQ(r.exit_code, 2) << arguments;
+    EXPECT_EQ(r.output, "carlo: " + line + "\n") << arguments;
+  };
+  says("rendr cbox", "unknown argument 'rendr'; did you mean 'render'? (see carlo --help)");
+  says("--verison", "unknown argument '--verison'; did you mean '--version'? (see carlo --help)");
+  says("render cbox --sppp 4 --sede 3", "unknown argument '--sppp'; did you mean '--spp'? (see carlo render --help)");
+  says("integrate x -z", "unknown argument '-z' (see carlo integrate --help)");
+  says("render a b", "unknown argument 'b' (see carlo render --help)");
+  says("render a --spp", "--spp: 1 required N missing (see carlo render --help)");
+}
+
+} // namespace
