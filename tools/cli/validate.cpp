@@ -134,7 +134,9 @@ std::vector<Option> rows(ValidateOptions& o) {
        "Where the density of --pdf or --command jumps along the axes of the domain: \"x=0.25,0.5\", \"r=0.5\", "
        "\"theta=0:90:15\" in degrees; what is constant between is then exact"},
       {"--unnormalized", "", &o.unnormalized, "The density is given up to a factor"},
-      {"--open-interval", "", &o.open_interval, "u lies in (0,1): accept samplers that break where a u is exactly 0"},
+      {"--open-interval", "", &o.open_interval,
+       "u lies in (0,1): accept samplers that break at single u, where one is exactly 0 or the density is 0 at one "
+       "point"},
   };
 }
 

@@ -25,7 +25,7 @@ struct ValidateOptions {
   std::string pdf;                     ///< or the density as an expression
   std::string domain;                  ///< of the samples; empty: by their columns
   std::string breaks;                  ///< where the density jumps along the axes of the domain, see parse_breaks
-  bool open_interval = false;          ///< u in (0,1): a sampler may break where a u is exactly 0
+  bool open_interval = false;          ///< u in (0,1): a sampler may break at single u
   bool unnormalized = false;           ///< what is given is only proportional to the density
   std::string report;                  ///< folder for index.html; empty: none
   std::string command;

@@ -348,7 +348,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   return report;
 }
 
-std::uint64_t samples_to_detect(double error, double alpha) {
+std::uint64_t samples_to_detect(double error, double alpha, int dim) {
   require(error > 0, "samples_to_detect: error = {} must be > 0", error);
   require(alpha > 0 && alpha < 1, "samples_to_detect: alpha = {} must lie in (0, 1)", alpha);
   // What test_cells reports for cells of equal shares, as a function of the samples.
@@ -359,7 +359,7 @@ std::uint64_t samples_to_detect(double error, double alpha) {
       c.variance = 0.25 * c.p / n; // of a smooth density, as the random points of the reference leave it
       c.observed = c.squares = n / static_cast<double>(cells.size());
     }
-    return test_cells(cells, 1, alpha).detectable;
+    return test_cells(cells, dim, alpha).detectable;
   };
   double lo = 1000, hi = 1e12;
   for (int i = 0; i < 60 && hi > 1.001 * lo; ++i) {

@@ -14,7 +14,7 @@ struct SubjectOptions {
                         ///< lets a suite of a hundred samplers pass nine seeds in ten
   std::size_t max_evaluations = 12'000'000; ///< of the density; a third of it at most for the expected counts
   bool evidence = false;                    ///< keep all counts and the p-value's way, for pages and plots
-  bool open_interval = false; ///< of check_laws: u in (0,1), the sampler may break where a coordinate of u is 0
+  bool open_interval = false;               ///< of check_laws: u in (0,1), the sampler may break at single u
 };
 
 /// The statistical part of the options of laws and BSDFs, which stands flat in them so that users write {.samples = n}.
@@ -51,7 +51,8 @@ template <class Options> Options with_statistics(Options o, const SubjectOptions
 Report check_subject(const Subject& subject, const SubjectOptions& options = {});
 
 /// Samples at which check_subject catches a density whose relative error is `error`, of random sign (see Report),
-/// with probability .99 at family-wise alpha. Throws Error unless 0 < error and 0 < alpha < 1.
-std::uint64_t samples_to_detect(double error, double alpha);
+/// with probability .99 at family-wise alpha, in one to three dimensions: in three it takes the most. Throws Error unless
+/// 0 < error and 0 < alpha < 1.
+std::uint64_t samples_to_detect(double error, double alpha, int dim = 3);
 
 } // namespace mc

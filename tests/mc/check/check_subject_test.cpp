@@ -155,11 +155,12 @@ TEST(CheckSubject, DiscreteOutcomes) {
 }
 
 TEST(CheckSubject, SamplesToDetectAreEnough) {
-  const std::uint64_t n = mc::samples_to_detect(0.05, 0.001);
+  const std::uint64_t n = mc::samples_to_detect(0.05, 0.001, 2);
   const mc::Report r =
       check_subject(make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf), {.samples = n});
   EXPECT_LE(r.detectable, 0.0525);
   EXPECT_GE(r.detectable, 0.04);
+  EXPECT_GT(mc::samples_to_detect(0.05, 0.001), n);
   EXPECT_THROW(mc::samples_to_detect(0, 0.01), mc::Error);
 }
 

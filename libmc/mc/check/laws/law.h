@@ -25,7 +25,7 @@ struct LawOptions {
   double mass_eps = 64;       ///< |mass - 1| beyond the bound on the quadrature error
   std::size_t max_evaluations = 12'000'000;
   bool evidence = false;      ///< see SubjectOptions
-  bool open_interval = false; ///< u in (0,1): the sampler may break where a coordinate of u is exactly 0
+  bool open_interval = false; ///< u in (0,1): the sampler may break at single u, see edges in laws.h
 };
 
 /// A deterministic law: its checks, or none where the sampler lacks what it needs.

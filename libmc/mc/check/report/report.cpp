@@ -22,7 +22,7 @@ std::string_view name(Fault f) {
   switch (f) {
   case Fault::none: return "none";
   case Fault::edge: return "edge: the ends of the unit cube break it";
-  case Fault::zero_edge: return "edge of measure zero: only u = 0 breaks it, the density is not in doubt";
+  case Fault::zero_edge: return "measure zero: only single u break it, the density is not in doubt";
   case Fault::impure: return "impure: the point is not a function of u alone";
   case Fault::not_finite: return "not finite";
   case Fault::outside: return "outside: points that are not in the domain";

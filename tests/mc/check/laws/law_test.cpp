@@ -81,6 +81,22 @@ TEST(Law, AnEdgeOfMeasureZeroIsItsOwnFindingAndCanBeAccepted) {
             Fault::edge);
 }
 
+// |x|, whose samples in the middle are right but for one.
+TEST(Law, ADensityOfZeroAtOnePointIsOfMeasureZero) {
+  const auto root = [](std::floating_point auto u) {
+    using S = decltype(u);
+    return std::copysign(std::sqrt(std::abs(2 * u - 1)), u - S(0.5));
+  };
+  const auto tried = [&]<class S>(S, double gap, bool open) {
+    const auto pdf = [gap](S x) { return std::abs(static_cast<double>(x)) <= gap ? S(0) : std::abs(x); };
+    return mc::check_laws(mc::Interval<S>(-1, 1), root, pdf, {.samples = 20'000, .open_interval = open});
+  };
+  EXPECT_EQ(tried(0.0, 0, false).fault(), Fault::zero_edge) << tried(0.0, 0, false).to_string();
+  EXPECT_EQ(tried(0.0f, 0, false).fault(), Fault::zero_edge) << tried(0.0f, 0, false).to_string();
+  EXPECT_TRUE(tried(0.0, 0, true).passed()) << tried(0.0, 0, true).to_string();
+  EXPECT_EQ(tried(0.0, 1e-7, true).fault(), Fault::edge) << "more than one u";
+}
+
 // An inverse without an oracle: the Jacobian is judged in double.
 TEST(Law, AnInverseStatesTheDensity) {
   const auto with = [](double slip, double inverse_slip) {

@@ -19,9 +19,14 @@ namespace {
 constexpr double least_expected = 8;
 
 // Errors do not keep to the cells: how much larger they must be where patches, or a region, of four cells' share lie
-// across them anyhow. With these factors `bench_mc_check_truth promise 400 1 1e5` finds 399 of 400 errors of the stated
-// size, half of them on patches or in a region as small as that; see notebooks-data/truth.
-constexpr double across_cells_signs = 1.4, across_cells_region = 1.25;
+// across them. Cells that lie at random over patches w cells wide show 1 - 1 / (3 w) of the square of a random sign,
+// along each axis. The margins are for patches that are turned and longer than wide; with them `bench_mc_check_truth
+// promise` finds 99 % of errors of the stated size, half of them as small as that; see notebooks-data/truth.
+double across_cells(int dim) {
+  const double axes = std::max(dim, 1), w = std::pow(4.0, 1 / axes);
+  return std::pow(1 - 1 / (3 * w), -0.5 * axes);
+}
+constexpr double margin_of_signs = 1.2, margin_of_region = 1.04;
 
 /// Cells that expect at least 8 samples each, given their sum.
 struct PooledCells {
@@ -129,7 +134,7 @@ std::vector<TreeLevels> tree_levels(const PooledCells& cells) {
   return groups;
 }
 
-void chi_squares(const PooledCells& cells, double share, double alpha, CellTests& result) {
+void chi_squares(const PooledCells& cells, int dim, double share, double alpha, CellTests& result) {
   const std::vector<TreeLevels> groups = tree_levels(cells);
   if (groups.empty()) return;
   const double each = share / static_cast<double>(groups.size());
@@ -143,8 +148,8 @@ void chi_squares(const PooledCells& cells, double share, double alpha, CellTests
   // A random sign per cell puts the share dof / cells of its noncentrality n e^2 into the finest group.
   const double dof = groups.back().dof, lambda = chi_square_noncentrality(dof, sidak_level(alpha, each), 0.99);
   const double noise = 1 + groups.back().noise / dof;
-  result.detectable =
-      across_cells_signs * std::sqrt(lambda * noise * static_cast<double>(cells.cells.size()) / dof / cells.n);
+  result.detectable = margin_of_signs * across_cells(dim) *
+                      std::sqrt(lambda * noise * static_cast<double>(cells.cells.size()) / dof / cells.n);
 }
 
 // Means over [a, b] of ln r, ln(1 - r).
@@ -265,7 +270,7 @@ std::vector<Run> farthest_runs(const PooledCells& cells, double& family) {
   return runs;
 }
 
-void single_cells(const PooledCells& cells, double share, double alpha, CellTests& result) {
+void single_cells(const PooledCells& cells, int dim, double share, double alpha, CellTests& result) {
   double family = 0, least = 1;
   const std::vector<Run> runs = farthest_runs(cells, family);
   if (family == 0) return;
@@ -286,7 +291,7 @@ void single_cells(const PooledCells& cells, double share, double alpha, CellTest
   const double expected = n / static_cast<double>(cells.cells.size());
   const double variance = cells.dispersion() + n * cells.variance.back();
   const double sigmas = normal_quantile(1 - std::pow(1 - level, 1 / family)) + 2.326;
-  result.detectable_cell = across_cells_region * sigmas * std::sqrt(variance / expected);
+  result.detectable_cell = margin_of_region * across_cells(dim) * sigmas * std::sqrt(variance / expected);
 }
 
 } // namespace
@@ -296,8 +301,8 @@ CellTests test_cells(const std::vector<Cell>& counted, int dim, double alpha, co
   CellTests result;
   if (cells.cells.size() < 2 || cells.n == 0) return result;
   const auto share = [dim](FitTest test) { return alpha_share(test, dim); };
-  chi_squares(cells, share(FitTest::chi_square), alpha, result);
-  single_cells(cells, share(FitTest::single_cells), alpha, result);
+  chi_squares(cells, dim, share(FitTest::chi_square), alpha, result);
+  single_cells(cells, dim, share(FitTest::single_cells), alpha, result);
   const double axes = std::max(dim, 1), pairs = std::max(axes * (axes - 1) / 2, 1.0);
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(dim); ++axis) {
     tails(cells, named, axis, share(FitTest::tails) / axes, alpha, result);
