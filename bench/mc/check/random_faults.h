@@ -81,7 +81,7 @@ struct Ranks {
   }
 };
 
-/// A turned and stretched frame of the ranks.
+/// A turned and stretched frame of the ranks that keeps their volumes.
 struct Frame {
   std::array<std::array<double, 3>, 3> axes{};
   Frame(Pcg& r, int dim) {
@@ -94,10 +94,12 @@ struct Frame {
         axes[k][a + 1] = c * y - s * x;
       }
     }
-    for (auto& axis : axes) {
-      const double stretch = log_uniform(r, 0.6, 1.7);
-      for (double& x : axis) x *= stretch;
-    }
+    std::array<double, 3> stretch{};
+    for (double& s : stretch) s = log_uniform(r, 0.6, 1.7);
+    double volume = 1;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) volume *= stretch[a];
+    for (std::size_t a = 0; a < 3; ++a)
+      for (double& x : axes[a]) x *= stretch[a] / std::pow(volume, 1.0 / dim);
   }
   Coordinates operator()(const Coordinates& v, const Coordinates& centre = {}) const {
     Coordinates x{};

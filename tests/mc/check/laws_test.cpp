@@ -57,7 +57,7 @@ TEST(Laws, EachSlipBreaksItsOwnLaw) {
   EXPECT_TRUE(broken(laws(Ramp<double, Slip::pdf_scale>{}), "|det| pdf = 1"));
   EXPECT_TRUE(broken(laws(Ramp<double, Slip::pdf_scale>{}), "mass"));
   EXPECT_TRUE(broken(laws(Ramp<double, Slip::invert>{}), "invert"));
-  EXPECT_TRUE(broken(laws(Ramp<double, Slip::edge>{}), "u = 0"));
+  EXPECT_TRUE(broken(laws(Ramp<double, Slip::edge>{}), "single u"));
   EXPECT_TRUE(broken(laws(Ramp<double, Slip::precision>{}), "sample against 50 digits"));
   EXPECT_TRUE(broken(laws(Ramp<float, Slip::precision>{}), "sample against 50 digits"));
 }

@@ -26,7 +26,7 @@ double across_cells(int dim) {
   const double axes = std::max(dim, 1), w = std::pow(4.0, 1 / axes);
   return std::pow(1 - 1 / (3 * w), -0.5 * axes);
 }
-constexpr double margin_of_signs = 1.2, margin_of_region = 1.04;
+constexpr double margin_of_signs = 1.25, margin_of_region = 1.04;
 
 /// Cells that expect at least 8 samples each, given their sum.
 struct PooledCells {
