@@ -90,7 +90,7 @@ TEST(Plugin, AnOutcomeOfProbabilityZeroAtAnEdgeIsRejected) {
   o.parameters = {"forgets=1"};
   const Output out = run(o);
   EXPECT_EQ(out.code, carlo::exit_failed);
-  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: edge"), HasSubstr("u = 0, outcome 0, pmf = 0")));
+  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: measure zero"), HasSubstr("u = 0, outcome 0, pmf = 0")));
 }
 
 TEST(Plugin, EverySetOfParametersIsACase) {
