@@ -84,17 +84,18 @@ std::string quoted(const std::string& word) {
 
 // What the parser complains of, with the name that may have been meant.
 std::string complaint(const CLI::App& app, const CLI::ParseError& e) {
-  const std::vector<const CLI::App*> given = app.get_subcommands({});
-  const auto parsed = std::find_if(given.begin(), given.end(), [](const CLI::App* c) { return c->parsed(); });
-  const CLI::App& of = parsed == given.end() ? app : **parsed;
-  const std::string help = fmt::format("see carlo {}--help", parsed == given.end() ? "" : of.get_name() + " ");
-  std::vector<std::string> names, unknown = app.remaining(true);
-  for (const CLI::App* c : &of == &app ? given : std::vector<const CLI::App*>()) names.push_back(c->get_name());
-  for (const CLI::Option* o : of.get_options())
-    for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
+  const std::vector<CLI::App*> given = app.get_subcommands();
+  const CLI::App& asked = given.empty() ? app : *given.front();
+  const std::string help = fmt::format("see carlo {}--help", given.empty() ? "" : asked.get_name() + " ");
+  const std::vector<std::string> unknown = app.remaining(true);
+  if (unknown.empty()) return fmt::format("{} ({})", e.what(), help);
   auto word = std::find_if(unknown.begin(), unknown.end(), [](const auto& u) { return u.starts_with('-'); });
   if (word == unknown.end()) word = unknown.begin();
-  if (unknown.empty()) return fmt::format("{} ({})", e.what(), help);
+  std::vector<std::string> names;
+  for (const CLI::App* c : asked.get_subcommands([](const CLI::App* c) { return !c->get_group().empty(); }))
+    names.push_back(c->get_name());
+  for (const CLI::Option* o : asked.get_options())
+    for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
   return fmt::format("unknown argument '{}'{} ({})", *word, mc::did_you_mean(*word, names), help);
 }
 

@@ -51,8 +51,8 @@ template <class Options> Options with_statistics(Options o, const SubjectOptions
 Report check_subject(const Subject& subject, const SubjectOptions& options = {});
 
 /// Samples at which check_subject catches a density whose relative error is `error`, of random sign (see Report),
-/// with probability .99 at family-wise alpha, in one to three dimensions: in three it takes the most. Throws Error
-/// unless 0 < error and 0 < alpha < 1.
+/// with probability .99 at family-wise alpha, of a density in `dim` dimensions: the more, the more samples it takes.
+/// Throws Error unless 0 < error and 0 < alpha < 1.
 std::uint64_t samples_to_detect(double error, double alpha, int dim = 3);
 
 } // namespace mc

@@ -63,9 +63,11 @@ struct Seen {
   Magnitudes values = {};
   Tail tail = {};
   std::uint64_t infinite = 0; ///< values that were
+  double infinite_volume = 0; ///< that their points stand for, where all of a run stand for their number
 
   void merge(const Seen& other) {
     infinite += other.infinite;
+    infinite_volume += other.infinite_volume;
     values.merge(other.values);
     tail.merge(other.tail);
   }

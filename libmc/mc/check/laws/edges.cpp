@@ -23,7 +23,8 @@ std::array<double, 2> beside(const AnySampler& s, double u) {
 // of 0 at one point meets, as |x| does in the middle.
 class Probe {
  public:
-  explicit Probe(const AnySampler& s) : sampler_(s) {}
+  // accepted : that the sampler breaks at single u
+  Probe(const AnySampler& s, bool accepted) : sampler_(s), accepted_(accepted) {}
 
   void operator()(const Uniforms& u) {
     const bool at_zero = has_zero(sampler_, u);
@@ -31,7 +32,7 @@ class Probe {
     const Placed p = place(sampler_, sampler_.sample(u));
     const auto fault = fault_of(p);
     const bool single = at_zero || (!fault.empty() && p.pdf == 0 && p.draw.kind == Kind::point && is_single(u));
-    if (single && sampler_.open_interval) return;
+    if (single && accepted_) return;
     (single ? zero_ : inner_).note(fault.empty() ? 0 : 1, [&] {
       return fmt::format("{} at {}", fault, describe_sample(sampler_, u));
     });
@@ -40,11 +41,11 @@ class Probe {
   // A fault that only single u show is no wrong density.
   std::vector<Check> checks() const {
     Check inner = inner_.check(), zero = zero_.check();
-    if (sampler_.open_interval) return {inner};
+    if (accepted_) return {inner};
     if (inner.verdict == Verdict::pass && zero.verdict == Verdict::fail)
       zero.detail +=
-          "; only single u do this, with a coordinate of exactly 0 or where the density is 0 at one point: take 1 "
-          "- u instead, or accept it as measure zero by open_interval (carlo validate --open-interval)";
+          "; only single u do this, with a coordinate of exactly 0 (take 1 - u instead) or where the density is 0 "
+          "at one point; open_interval (carlo validate --open-interval) accepts it as measure zero";
     return {inner, zero};
   }
 
@@ -74,6 +75,7 @@ class Probe {
   }
 
   const AnySampler& sampler_;
+  bool accepted_;
   WorstError inner_{"edges of the unit cube", 0, Fault::edge};
   WorstError zero_{"single u, of measure zero", 0, Fault::zero_edge};
 };
@@ -162,7 +164,7 @@ template <class S> void probe_breaks(const AnySampler& s, std::uint64_t seed, Pr
 
 std::vector<Check> edges_law(const AnySampler& s, const LawOptions& options) {
   if (!s.sample) return {};
-  Probe probe(s);
+  Probe probe(s, options.open_interval);
   probe_corners(s, probe);
   if (s.domain.dim > 0) {
     if (s.is_float) probe_breaks<float>(s, options.seed, probe);

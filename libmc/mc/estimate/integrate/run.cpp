@@ -9,11 +9,11 @@
 namespace mc::detail {
 
 namespace {
-constexpr std::uint64_t chunk = 4096;     // points per task: fixed, so sums do not depend on the number of threads
-constexpr std::uint64_t block = 256;      // points drawn at once
-constexpr double thread_start = 5e-4;     // seconds of work that are worth waking other threads
-constexpr double most_infinite = 1e-3;    // of the volume: more is no singularity
-constexpr std::uint64_t few_infinite = 8; // points that do not tell how much it is
+constexpr std::uint64_t chunk = 4096;  // points per task: fixed, so sums do not depend on the number of threads
+constexpr std::uint64_t block = 256;   // points drawn at once
+constexpr double thread_start = 5e-4;  // seconds of work that are worth waking other threads
+constexpr double most_infinite = 1e-3; // of the volume: more is no singularity
+constexpr double few_infinite = 8;     // points
 } // namespace
 
 namespace {
@@ -105,17 +105,17 @@ std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint
   parallel_for(parts.size() - 1, pays ? o.threads : 1, [&](std::size_t i) { task(i + 1); });
   for (std::size_t i = 0; i < parts.size(); ++i) results[i / chunks].merge(parts[i]);
   calls += count * sets.size();
-  double infinite_volume = 0;
-  std::uint64_t infinite = 0;
-  for (std::size_t r = 0; r < sets.size(); ++r) {
-    for (const ScaledMoments& m : results[r].outputs)
-      if (const std::uint64_t bad = m.moments().non_finite(); bad > 0)
-        refuse_points(bad, count, m.moments().witness(), sets[r], proposal);
-    infinite_volume += results[r].infinite_volume;
-    infinite += results[r].infinite();
-    const double points = static_cast<double>(count * sets.size());
-    if (infinite >= few_infinite && infinite_volume > most_infinite * points && results[r].first_infinite)
-      refuse_points(infinite, count * (r + 1), *results[r].first_infinite, sets[r], proposal);
+  // A few points do not tell how much volume they stand for.
+  const double most = few_infinite + most_infinite * static_cast<double>(count * sets.size());
+  for (std::size_t k = 0; k < outputs; ++k) {
+    double infinite = 0;
+    for (std::size_t r = 0; r < sets.size(); ++r) {
+      const Moments& m = results[r].outputs[k].moments();
+      const Seen& seen = results[r].seen[k];
+      infinite += seen.infinite_volume;
+      if (m.non_finite() > 0) refuse_points(m.non_finite(), count, m.witness(), sets[r], proposal);
+      if (infinite > most) refuse_points(seen.infinite, count, *results[r].first_infinite, sets[r], proposal);
+    }
   }
   return results;
 }

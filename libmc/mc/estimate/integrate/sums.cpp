@@ -39,18 +39,13 @@ double ScaledMoments::mean() const { return std::ldexp(moments_.mean(), exponent
 double ScaledMoments::std_error() const { return std::ldexp(moments_.std_error(), exponent_); }
 double ScaledMoments::variation() const { return std::ldexp(std::sqrt(moments_.variance()), exponent_); }
 
-std::uint64_t Sums::infinite() const {
-  std::uint64_t most = 0;
-  for (const Seen& s : seen) most = std::max(most, s.infinite);
-  return most;
-}
-
 void Sums::leave_out_infinite(std::span<double> all_values, std::span<const double> volumes, std::uint64_t first) {
   for (std::size_t i = 0; i < all_values.size(); ++i) {
     if (!std::isinf(all_values[i])) continue;
     all_values[i] = 0;
-    ++seen[i % outputs.size()].infinite;
-    infinite_volume += volumes[i / outputs.size()] / static_cast<double>(outputs.size());
+    Seen& output = seen[i % outputs.size()];
+    ++output.infinite;
+    output.infinite_volume += volumes[i / outputs.size()];
     if (!first_infinite) first_infinite = first + i / outputs.size();
   }
 }
@@ -75,7 +70,6 @@ void Sums::merge(const Sums& other) {
     seen[k].merge(other.seen[k]);
   }
   if (!first_infinite) first_infinite = other.first_infinite;
-  infinite_volume += other.infinite_volume;
   batches.resize(std::max(batches.size(), other.batches.size()));
   for (std::size_t i = 0; i < other.batches.size(); ++i) batches[i].merge(other.batches[i]);
   points.insert(points.end(), other.points.begin(), other.points.end());

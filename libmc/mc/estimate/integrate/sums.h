@@ -41,9 +41,7 @@ struct Sums {
   std::vector<double> points = {}, values = {};
   std::vector<ScaledMoments> batches = {};          ///< batch_count for each output
   std::optional<std::uint64_t> first_infinite = {}; ///< index of the first point where the integrand was
-  double infinite_volume = 0;                       ///< that such points stand for, in all points'
 
-  std::uint64_t infinite() const; ///< values that were, of the output that has the most
   /// Infinite values become 0, of points whose indices start at `first` and which stand for so much of the volume each.
   void leave_out_infinite(std::span<double> all_values, std::span<const double> volumes, std::uint64_t first);
 

@@ -22,7 +22,7 @@ struct MeshFile {
 /// their side.
 ///   flat   : without normals; else those of the file, or where it has none the mean of the faces about each vertex, by
 ///            their angles there [ThuermerWuethrich98]
-///   throws : Error for what TriangleMesh refuses
+///   throws : Error for what TriangleMesh refuses, and where no triangle has an area
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat = false);
 
 /// All faces of a Wavefront OBJ file as one mesh, polygons cut into triangles; materials are ignored.

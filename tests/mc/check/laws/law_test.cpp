@@ -95,6 +95,9 @@ TEST(Law, ADensityOfZeroAtOnePointIsOfMeasureZero) {
   EXPECT_EQ(tried(0.0f, 0, false).fault(), Fault::zero_edge) << tried(0.0f, 0, false).to_string();
   EXPECT_TRUE(tried(0.0, 0, true).passed()) << tried(0.0, 0, true).to_string();
   EXPECT_EQ(tried(0.0, 1e-7, true).fault(), Fault::edge) << "more than one u";
+  AnySampler open = mc::make_sampler("|x|", mc::Interval<double>(-1, 1), root, [](double x) { return std::abs(x); });
+  open.open_interval = true;
+  EXPECT_EQ(laws(open).fault(), Fault::zero_edge) << "it says that no u is 0: that excuses no other";
 }
 
 // An inverse without an oracle: the Jacobian is judged in double.

@@ -7,8 +7,8 @@ namespace {
 
 const std::string scene_units = "scene units";
 
-Shape placed(const std::string& path, const MeshFile& mesh, const Transform& to_world, bool face_normals) {
-  return mc::with_context(path, [&] { return Shape(to_shape(mesh, to_world, face_normals)); });
+Shape placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, bool face_normals) {
+  return mc::with_context(name, [&] { return Shape(to_shape(mesh, to_world, face_normals)); });
 }
 
 Shape make_obj(const std::string& path, const Transform& to_world, bool face_normals) {
@@ -20,7 +20,7 @@ Shape make_ply(const std::string& path, const Transform& to_world, bool face_nor
 }
 
 Shape make_serialized(const std::string& path, const Transform& to_world, bool face_normals, int index) {
-  return placed(path, read_serialized(path, index), to_world, face_normals);
+  return placed(fmt::format("{}: mesh {}", path, index), read_serialized(path, index), to_world, face_normals);
 }
 
 Shape make_rectangle(const Transform& to_world) { return TriangleMesh::rectangle(to_world); }
