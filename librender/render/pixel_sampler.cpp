@@ -2,12 +2,15 @@
 
 #include <mc/core/error.h>
 #include <mc/core/text.h>
-#include <mc/sampler/walk_stream.h>
 
 #include <array>
 #include <tuple>
 
 namespace render {
+
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentWalk<Float>&, std::uint64_t&) const;
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedWalk<Float>&, std::uint64_t&) const;
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolWalk<Float>&, std::uint64_t&) const;
 
 namespace {
 

@@ -5,10 +5,17 @@
 #include <render/integrator/path.h>
 #include <render/scene/scene.h>
 
+#include <mc/sampler/walk_stream.h>
+
 #include <span>
 #include <string_view>
 
 namespace render {
+
+// Compiled once: who follows paths through a Scene need not.
+extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentWalk<Float>&, std::uint64_t&) const;
+extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedWalk<Float>&, std::uint64_t&) const;
+extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolWalk<Float>&, std::uint64_t&) const;
 
 /// Point sets for a pixel's samples.
 enum class PixelSampler { independent, stratified, sobol };

@@ -1,10 +1,9 @@
 #pragma once
 // What paths bring along a ray, for tests whose answer is known in closed form.
 
-#include <render/integrator/path.h>
+#include <render/pixel_sampler.h>
 
 #include <mc/estimate/moments.h>
-#include <mc/sampler/walk_stream.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
 #include "measure.h"
 
+#include <render/pixel_sampler.h>
+
 #include <mc/random/hash.h>
-#include <mc/sampler/walk_stream.h>
 #include <mc/stats/chi_square.h>
 #include <mc/stats/t_test.h>
 

@@ -42,11 +42,7 @@ template <class SceneType> class PathIntegrator {
       : scene_(scene), options_(options), directions_(scene, options.strategy) {}
 
   /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
-  template <class Stream> Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const {
-    if (options_.shown.what == Shown::normals) return normal(ray, stream, rays);
-    if (options_.shown.what == Shown::ambient_occlusion) return openness(ray, stream, rays);
-    return follow({ray, ray.o}, stream, rays, true);
-  }
+  template <class Stream> Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const;
 
  private:
   using Own = std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>;
@@ -212,5 +208,13 @@ template <class SceneType> class PathIntegrator {
   PathOptions options_;
   Directions directions_;
 };
+
+template <class SceneType>
+template <class Stream>
+Spectrum PathIntegrator<SceneType>::radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const {
+  if (options_.shown.what == Shown::normals) return normal(ray, stream, rays);
+  if (options_.shown.what == Shown::ambient_occlusion) return openness(ray, stream, rays);
+  return follow({ray, ray.o}, stream, rays, true);
+}
 
 } // namespace render
