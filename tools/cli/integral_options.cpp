@@ -1,4 +1,5 @@
 #include <cli/integral_options.h>
+#include <gallery/picture.h>
 #include <input/words.h>
 #include <integrands/find.h>
 #include <integrands/genz.h>
@@ -164,6 +165,7 @@ Pictures measure_scene(const SceneOptions& o, const SceneRun& run) {
   mc::require(o.max_spp >= 16, "--max-spp {} must be at least 16", o.max_spp);
   mc::require(!run.to_choose || o.max_spp >= 32, "--max-spp {} must be at least 32 for adaptive spending", o.max_spp);
   const ::render::SceneFile file = ::render::read_mitsuba(run.path);
+  warn_of_departures(file);
   const ::render::RenderDefaults& own = file.defaults;
   PictureOptions p{.width = 48, .height = std::max(1, 48 * own.height / own.width), .max_spp = o.max_spp};
   char rest = 0;

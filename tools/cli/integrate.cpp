@@ -8,11 +8,11 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 #include <mc/estimate/adapt/density_file.h>
 #include <mc/estimate/values/histogram.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -63,10 +63,9 @@ std::vector<Option> rows(IntegrateOptions& o) {
 }
 
 double number(std::string_view word, const char* option) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  mc::require(error == std::errc() && end == word.data() + word.size(), "{}: '{}' is not a number", option, word);
-  return value;
+  const std::optional<double> value = mc::number_in(word);
+  mc::require(value.has_value(), "{}: '{}' is not a number", option, word);
+  return *value;
 }
 
 std::vector<Side> sides_of(const IntegrateOptions& o, int dim) {

@@ -32,6 +32,7 @@ struct RenderOptions {
   std::string scene;                  ///< a file, or the name of a scene of the gallery
   bool help_scene = false;            ///< print the reference of scene files, and stop
   std::string dialect = "mitsuba";    ///< whose defaults hold in the scene
+  std::vector<std::string> variables; ///< "name=value" of the scene's $name
   std::string output;                 ///< empty: the scene's name with .exr in the current folder
   std::optional<int> spp;             ///< samples per pixel
   std::optional<double> seconds;      ///< wall-clock budget [s]
@@ -60,6 +61,25 @@ void parse_size(const std::string& text, int& width, int& height) {
               "--size '{}' must be WIDTHxHEIGHT in pixels, e.g. 640x480", text);
 }
 
+::render::Variables parse_variables(const std::vector<std::string>& texts) {
+  ::render::Variables variables;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    mc::require(equals != std::string::npos && equals > 0, "-D '{}' must be NAME=VALUE, e.g. -D spp=16", text);
+    const auto [at, added] = variables.emplace(text.substr(0, equals), text.substr(equals + 1));
+    mc::require(added, "-D {}: it has the value '{}' already", text, at->second);
+  }
+  return variables;
+}
+
+::render::SceneFile read_scene(const std::string& file, const RenderOptions& options) {
+  const ::render::Variables variables = parse_variables(options.variables);
+  if (!::render::is_mesh_file(file))
+    return ::render::read_mitsuba(file, ::render::dialect_from(options.dialect), variables);
+  mc::require(variables.empty(), "-D: a mesh alone, as '{}', has no variables", file);
+  return ::render::read_mesh_scene(file);
+}
+
 // Whether it lies inside the picture is for the renderer to say.
 ::render::Crop parse_crop(const std::string& text) {
   ::render::Crop c;
@@ -85,6 +105,7 @@ std::vector<Option> rows(RenderOptions& o) {
        "Scene file (Mitsuba XML), mesh alone (.obj, .ply, .serialized), or a name that carlo gallery --list shows"},
       {"--help-scene", "", &o.help_scene, "Print what a scene file may hold, as Markdown, and stop"},
       {"--dialect", "NAME", &o.dialect, "Whose defaults hold in the scene: mitsuba or lajolla"},
+      {"-D", "NAME=VALUE", &o.variables, "The value of $NAME in the scene, whatever its own default; may be repeated"},
       {"-o,--output", "FILE", &o.output,
        "Image to write: .exr (radiance and variance), .pfm or .png (sRGB) [SCENE.exr here]"},
       {"--spp", "N", &o.spp, "Samples per pixel; this, --time or --target-error [the scene's]"},
@@ -299,9 +320,9 @@ int render(const RenderOptions& options) {
 
   const GalleryScene* named = named_scene(options.scene);
   const std::string file = named ? scene_file(*named) : options.scene;
-  const auto [scene, defaults, origin] = ::render::is_mesh_file(file)
-                                             ? ::render::read_mesh_scene(file)
-                                             : ::render::read_mitsuba(file, ::render::dialect_from(options.dialect));
+  const ::render::SceneFile read = read_scene(file, options);
+  const auto& [scene, defaults, origin, warnings] = read;
+  warn_of_departures(read);
   if (scene.lights().empty() && defaults.shown.what == ::render::Shown::radiance)
     std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", file.c_str());
 

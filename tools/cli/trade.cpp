@@ -12,6 +12,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 #include <mc/random/hash.h>
 
 #include <fmt/format.h>
@@ -44,12 +45,9 @@ struct TradeOptions {
 std::vector<double> numbers(const char* option, const std::string& text) {
   std::vector<double> all;
   for (const std::string_view part : split(text, ',')) {
-    const std::string word(part);
-    char* end = nullptr;
-    const double x = std::strtod(word.c_str(), &end);
-    mc::require(!word.empty() && *end == '\0' && x > 0 && std::isfinite(x), "{}: '{}' in '{}' must be a number above 0",
-                option, word, text);
-    all.push_back(x);
+    const std::optional<double> x = mc::number_in(part);
+    mc::require(x && *x > 0 && std::isfinite(*x), "{}: '{}' in '{}' must be a number above 0", option, part, text);
+    all.push_back(*x);
   }
   return all;
 }

@@ -40,6 +40,10 @@ void warn_where_coarse(const std::string& path, const ::render::Scene& scene) {
       path.c_str(), c.size, c.distance, c.step);
 }
 
+void warn_of_departures(const ::render::SceneFile& file) {
+  for (const std::string& warning : file.warnings) std::fprintf(stderr, "carlo: warning: %s\n", warning.c_str());
+}
+
 std::string samples_per_second(const ::render::RenderResult& result) {
   return format_count(double(result.samples) / result.seconds) + "samples/s";
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// What carlo does to every picture that it rendered.
 
+#include <render/io/mitsuba.h>
 #include <render/render.h>
 
 #include <cstdint>
@@ -23,6 +24,8 @@ void sign(::render::RenderResult& result, const Provenance& from);
 
 /// A line on stderr where Float is too coarse for the scene.
 void warn_where_coarse(const std::string& path, const ::render::Scene& scene);
+/// Says on standard error where a scene is not read as Mitsuba would.
+void warn_of_departures(const ::render::SceneFile& file);
 
 /// "881 ksamples/s" of a render.
 std::string samples_per_second(const ::render::RenderResult& result);

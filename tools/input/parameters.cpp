@@ -2,9 +2,9 @@
 #include <input/words.h>
 
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -21,12 +21,10 @@ struct Part {
 };
 
 double number(std::string_view word, const Part& of) {
-  double value = 0;
-  const char* end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data(), end, value);
-  mc::require(error == std::errc() && stop == end && std::isfinite(value),
+  const std::optional<double> value = mc::number_in(word);
+  mc::require(value && std::isfinite(*value),
               "{}: '{}' in '{}' is not of the form name=number, as in \"alpha=0.1,n=3\"", of.option, of.part, of.text);
-  return value;
+  return *value;
 }
 
 // One number, or first:last:step.

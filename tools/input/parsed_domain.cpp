@@ -13,7 +13,6 @@
 #include <mc/domain/triangle.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
@@ -64,12 +63,9 @@ template <mc::Domain D> Part directions(std::string text, const D& d, Rounding r
 }
 
 double number(std::string_view word, std::string_view whole) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  mc::require(error == std::errc() && end == word.data() + word.size() && !std::isnan(value),
-              "'{}' in '{}' is not a number", word, whole);
-  return value;
+  const std::optional<double> value = mc::number_in(word);
+  mc::require(value && !std::isnan(*value), "'{}' in '{}' is not a number", word, whole);
+  return *value;
 }
 
 Part interval(const std::string& name, std::string_view bounds, std::string_view whole, const Quartiles& quartiles,

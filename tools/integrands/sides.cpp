@@ -1,8 +1,8 @@
 #include <integrands/sides.h>
 
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
@@ -11,11 +11,9 @@ namespace carlo {
 namespace {
 
 double number(std::string_view text, std::string_view side) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  mc::require(error == std::errc() && end == text.data() + text.size() && !std::isnan(value),
-              "--domain: '{}' in '{}' is not a number, inf or -inf", text, side);
-  return value;
+  const std::optional<double> value = mc::number_in(text);
+  mc::require(value && !std::isnan(*value), "--domain: '{}' in '{}' is not a number, inf or -inf", text, side);
+  return *value;
 }
 
 } // namespace

@@ -1,14 +1,19 @@
 #pragma once
-/// Names, and what a message says about one that is not known.
+/// Numbers and names in text, and what a message says about a name that is not known.
 
 #include <mc/core/error.h>
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace mc {
+
+/// The number that all of a text is, "+1.5e3", "inf" and "nan" too: what is too large is infinite and what is too small
+/// 0, with its sign. Nothing where it is anything else. Knows no locale.
+std::optional<double> number_in(std::string_view text);
 
 /// Number of single-character edits (insert, delete, replace) between two words. Source: [WagnerFischer74]
 std::size_t edit_distance(std::string_view a, std::string_view b);

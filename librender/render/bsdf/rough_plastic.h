@@ -13,7 +13,8 @@ namespace render {
 
 /// A white base that is lit through the coat and seen through it, as Mitsuba has it with nonlinear = false.
 ///   value  : T(wo) T(wi) / (pi mean T) [1/sr], T what the rough coat lets through. The mean stands for the light that
-///            the coat sends back down as often as it takes: the base gives off T(wo), all that it got
+///            the coat sends back down as often as it takes: the base gives off T(wo), all that it got. Mitsuba 3 sends
+///            back what a single reflection inside leaves, and its base is the darker the rougher the coat
 ///   Source : Mitsuba 0.6, roughplastic
 class LayeredBase {
  public:

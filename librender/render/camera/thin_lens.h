@@ -9,7 +9,7 @@
 namespace render {
 
 /// Which side of the film the field of view spans.
-enum class FovAxis { x, y, smaller, larger };
+enum class FovAxis { x, y, smaller, larger, diagonal };
 
 struct LensOptions {
   FovAxis fov_axis = FovAxis::x;
@@ -36,6 +36,7 @@ class ThinLens {
 
   /// Tangents of half the horizontal and vertical field of view for a film of width / height = aspect.
   Vec2 tan_half(Float aspect) const {
+    if (fov_axis_ == FovAxis::diagonal) return Vec2(aspect, 1) * (tan_half_fov_ / std::hypot(aspect, Float(1)));
     const bool along_x = fov_axis_ == FovAxis::x || (fov_axis_ == FovAxis::smaller && aspect < 1) ||
                          (fov_axis_ == FovAxis::larger && aspect >= 1);
     return along_x ? Vec2(tan_half_fov_, tan_half_fov_ / aspect) : Vec2(tan_half_fov_ * aspect, tan_half_fov_);

@@ -33,7 +33,8 @@ class Reader {
     const IntegratorSettings integrator = integrator_.value_or(IntegratorSettings());
     return {mc::with_context(root_.file, [&] { return context_.builder.build(); }),
             {sensor_->film.width, sensor_->film.height, sensor_->spp, integrator.max_depth, integrator.shown},
-            context_.origin()};
+            context_.origin(),
+            context_.warnings()};
   }
 
  private:
@@ -44,8 +45,9 @@ class Reader {
     else if (e.tag == "bsdf") named_bsdf(e);
     else if (e.tag == "texture") named_texture(e);
     else if (e.tag == "shape") shape(e);
+    else if (e.tag == "path") context_.folders.add(e);
     else if (e.tag != "default")
-      e.fail("unknown element; use default, integrator, sensor, bsdf, texture, shape or emitter");
+      e.fail("unknown element; use default, include, path, integrator, sensor, bsdf, texture, shape or emitter");
   }
 
   template <class T> std::optional<T>& only_one(const XmlElement& e, std::optional<T>& place) {
@@ -118,12 +120,13 @@ Dialect dialect_from(std::string_view name) {
   return static_cast<Dialect>(mc::index_of("dialect", name, names));
 }
 
-SceneFile read_mitsuba(const std::string& path, Dialect dialect) {
+SceneFile read_mitsuba(const std::string& path, Dialect dialect, const Variables& variables) {
   XmlElement root = read_xml(path);
   root.mark();
   if (root.tag != "scene") root.fail("the document must be a <scene>");
   root.attribute_or("version", "");
-  substitute_variables(root);
+  include_files(root);
+  substitute_variables(root, variables);
   SceneFile file = read_where_it_stands(root, dialect);
   root.require_all_seen();
   return file;

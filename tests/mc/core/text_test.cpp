@@ -5,8 +5,37 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace {
+
+TEST(Text, Numbers) {
+  struct Row {
+    const char* text;
+    double value;
+  };
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  for (const Row& row : {Row{"0.1", 0.1},
+                         {"+2.2", 2.2},
+                         {"-3", -3},
+                         {".5", 0.5},
+                         {"5.", 5},
+                         {"1e-3", 1e-3},
+                         {"+1E+3", 1e3},
+                         {"inf", inf},
+                         {"-inf", -inf},
+                         {"1e400", inf},
+                         {"-1e400", -inf},
+                         {"1e-400", 0},
+                         {"4.9406564584124654e-324", 4.9406564584124654e-324}})
+    EXPECT_EQ(mc::number_in(row.text), row.value) << row.text;
+  EXPECT_TRUE(std::signbit(mc::number_in("-1e-400").value()));
+  EXPECT_TRUE(std::isnan(mc::number_in("nan").value()));
+  for (const char* text :
+       {"", "+", "-", "+-1", "++1", "-+1", "1 ", " 1", "1,5", "1e", "0x10", "one", "1.2.3", "e5", "1e5x"})
+    EXPECT_EQ(mc::number_in(text), std::nullopt) << text;
+}
 
 TEST(Text, NearestName) {
   const std::array known{"independent", "stratified", "sobol"};

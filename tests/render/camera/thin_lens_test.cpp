@@ -38,7 +38,8 @@ TEST(ThinLens, TheFieldOfViewHasAnAxis) {
                          {Axis::smaller, 2, 2, 1},
                          {Axis::larger, 2, 1, Float(0.5)},
                          {Axis::smaller, Float(0.5), 1, 2},
-                         {Axis::larger, Float(0.5), Float(0.5), 1}}) {
+                         {Axis::larger, Float(0.5), Float(0.5), 1},
+                         {Axis::diagonal, Float(0.75), Float(0.6), Float(0.8)}}) {
     const ThinLens camera = facing({.fov_axis = row.axis});
     EXPECT_LE((camera.tan_half(row.aspect) - Vec2(row.x, row.y)).norm(), 1e-6) << int(row.axis) << " at " << row.aspect;
   }

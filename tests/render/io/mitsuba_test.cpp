@@ -12,7 +12,7 @@ struct Mitsuba : support::SceneTest {};
 std::string gallery(const std::string& name) { return std::string(MC_SOURCE_DIR) + "/librender/scenes/" + name; }
 
 TEST_F(Mitsuba, ReadsTheCornellBoxAsItIs) {
-  const auto [scene, defaults, origin] = render::read_mitsuba(gallery("cbox.xml"));
+  const auto [scene, defaults, origin, warnings] = render::read_mitsuba(gallery("cbox.xml"));
   EXPECT_TRUE(origin.isZero());
   EXPECT_EQ(scene.surfaces().size(), 8u);
   ASSERT_EQ(scene.lights().size(), 1u);
@@ -33,7 +33,8 @@ TEST_F(Mitsuba, EveryGallerySceneLoadsAndRenders) {
   for (const auto& entry : std::filesystem::directory_iterator(gallery(""))) {
     if (entry.path().extension() != ".xml") continue;
     ++scenes;
-    const auto [scene, defaults, origin] = render::read_mitsuba(entry.path().string());
+    const auto [scene, defaults, origin, warnings] = render::read_mitsuba(entry.path().string());
+    EXPECT_THAT(warnings, testing::IsEmpty()) << "ours say what they mean";
     render::RenderOptions options;
     options.shown = defaults.shown;
     options.width = 24;
@@ -235,6 +236,20 @@ TEST_F(Mitsuba, DefaultsAreTheDialects) {
   EXPECT_EQ(lajolla.defaults.width, 256);
   EXPECT_TRUE(std::holds_alternative<render::GaussianFilter>(mitsuba.scene.filter()));
   EXPECT_TRUE(std::holds_alternative<render::BoxFilter>(lajolla.scene.filter()));
+  const auto tan_half = [&](const char* dialect, const std::string& body) {
+    const std::string text = scene("<sensor type=\"perspective\">" + body + "</sensor><shape type=\"cube\"/>");
+    return render::read_mitsuba(text, render::dialect_from(dialect)).scene.camera().tan_half(render::Float(1.5));
+  };
+  // 36 mm by 24 mm of film behind 50 mm are .72 by .48 wide, half of that .36 by .24.
+  EXPECT_LE((tan_half("mitsuba", "") - render::Vec2(0.36, 0.24)).norm(), 1e-6);
+  EXPECT_LE((tan_half("mitsuba", "<string name=\"focalLength\" value=\"100mm\"/>") - render::Vec2(0.18, 0.12)).norm(),
+            1e-6);
+  EXPECT_LE(std::abs(tan_half("lajolla", "").x() - std::tan(mc::pi<double> / 8)), 1e-6);
+  EXPECT_THAT(refusal("<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>"
+                      "<string name=\"focalLength\" value=\"50mm\"/></sensor>"),
+              testing::HasSubstr("s.xml:2: <sensor>: perspective: give fov or focalLength, not both"));
+  EXPECT_THAT(refusal("<sensor type=\"perspective\"><string name=\"focalLength\" value=\"-1mm\"/></sensor>"),
+              testing::HasSubstr("focalLength -1 must be > 0"));
   EXPECT_THAT(support::error_of([] { render::dialect_from("mitsba"); }),
               testing::HasSubstr("unknown dialect 'mitsba'; did you mean 'mitsuba'?; use one of mitsuba, lajolla"));
 }
@@ -294,7 +309,7 @@ TEST_P(Reference, BlocksAgree) {
   if (!support::shared_present(file)) GTEST_SKIP() << "the reference " << file << " is not here";
   if (!std::filesystem::exists(GetParam().path())) GTEST_SKIP() << "the scene " << name << " is not here";
   const render::Image reference = render::read_image(support::shared(file));
-  const auto [scene, defaults, origin] = render::read_mitsuba(GetParam().path());
+  const auto [scene, defaults, origin, warnings] = render::read_mitsuba(GetParam().path());
   render::RenderOptions options;
   options.width = reference.width;
   options.height = reference.height;

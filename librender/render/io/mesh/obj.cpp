@@ -91,6 +91,28 @@ void check_lines(std::string_view text) {
   });
 }
 
+// Lines that end in a backslash with the next ones behind them. Their ends follow further down, so that every line
+// keeps its number.
+std::string with_lines_joined(std::string text) {
+  if (text.find('\\') == text.npos) return text;
+  std::string joined;
+  std::size_t ends = 1;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool carriage_return = text.compare(i, 3, "\\\r\n") == 0;
+    if (carriage_return || text.compare(i, 2, "\\\n") == 0) {
+      joined += ' ';
+      ++ends;
+      i += carriage_return ? 2 : 1;
+    } else if (text[i] == '\n') {
+      joined.append(ends, '\n');
+      ends = 1;
+    } else {
+      joined += text[i];
+    }
+  }
+  return joined;
+}
+
 // The file's groups as one mesh, with one vertex for each distinct corner. Normals and texture coordinates count where
 // every corner has them.
 MeshFile merged(const tinyobj::ObjReader& reader) {
@@ -139,7 +161,7 @@ MeshFile merged(const tinyobj::ObjReader& reader) {
 } // namespace
 
 MeshFile read_obj(const std::string& path) {
-  const std::string text = mc::read_file(path);
+  const std::string text = with_lines_joined(mc::read_file(path));
   return mc::with_context(path, [&] {
     check_lines(text);
     tinyobj::ObjReader reader;

@@ -2,10 +2,10 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -96,11 +96,10 @@ class Numbers {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size()));
     mc::require(!rest_.empty(), "the file ends early");
     const std::string_view text = rest_.substr(0, rest_.find_first_of(" \t\r\n"));
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    mc::require(error == std::errc() && end == text.data() + text.size(), "'{}' is not a number", text);
+    const std::optional<double> value = mc::number_in(text);
+    mc::require(value.has_value(), "'{}' is not a number", text);
     rest_.remove_prefix(text.size());
-    return value;
+    return *value;
   }
 
   std::string_view rest_;

@@ -4,12 +4,12 @@
 
 #include <mc/core/text.h>
 
-#include <filesystem>
+#include <algorithm>
 
 namespace render::mitsuba {
 
 Context::Context(const XmlElement& root, Dialect dialect, const Vec3d& origin)
-    : path_(root.file), dialect_(dialect), origin_(origin) {
+    : folders(root), dialect_(dialect), origin_(origin) {
   collect_ids(root);
 }
 
@@ -24,10 +24,6 @@ void Context::collect_ids(const XmlElement& element) {
     }
     collect_ids(child);
   }
-}
-
-std::string Context::file(const std::string& name) const {
-  return (std::filesystem::path(path_).parent_path() / name).string();
 }
 
 const XmlElement& Context::resolve(const XmlElement& element, std::string_view tag) const {
@@ -73,6 +69,11 @@ std::shared_ptr<const Texels> Context::picture(const std::string& path) {
     picture = std::make_shared<const Texels>(image.width, image.height, std::move(image.pixels));
   }
   return picture;
+}
+
+void Context::warn(const XmlElement& element, const std::string& what) {
+  std::string text = fmt::format("{}: <{}>: {}", element.where(), element.tag, what);
+  if (std::find(warnings_.begin(), warnings_.end(), text) == warnings_.end()) warnings_.push_back(std::move(text));
 }
 
 BsdfId Context::default_bsdf() {

@@ -2,6 +2,7 @@
 /// What the plugins of one scene file share: its folder, its dialect, and what has an id.
 
 #include <render/io/mitsuba.h>
+#include <render/io/mitsuba/folders.h>
 #include <render/io/xml.h>
 #include <render/scene/builder.h>
 
@@ -10,6 +11,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace render::mitsuba {
 
@@ -23,8 +25,8 @@ class Context {
   Dialect dialect() const { return dialect_; }
   const Vec3d& origin() const { return origin_; }
 
-  /// The path of a file that is named relative to the scene file.
-  std::string file(const std::string& name) const;
+  /// Where the files are that the scene names.
+  Folders folders;
 
   /// The element itself, or the one whose id a <ref> names.
   ///   throws : Error for an unknown id, naming the nearest, or when it is no <tag>
@@ -44,13 +46,16 @@ class Context {
   ///   throws : what read_image throws
   std::shared_ptr<const Texels> picture(const std::string& path);
 
+  /// Notes once what an element means here that it does not mean elsewhere.
+  void warn(const XmlElement& element, const std::string& what);
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
   /// The scene as far as it is read.
   SceneBuilder builder;
 
  private:
   void collect_ids(const XmlElement& element);
 
-  std::string path_;
   Dialect dialect_;
   Vec3d origin_;
   std::map<std::string, const XmlElement*> ids_;
@@ -58,6 +63,7 @@ class Context {
   std::set<const XmlElement*> being_read_;
   std::map<const XmlElement*, Texture> textures_;
   std::map<std::string, std::shared_ptr<const Texels>> pictures_;
+  std::vector<std::string> warnings_;
 };
 
 } // namespace render::mitsuba

@@ -16,7 +16,7 @@ std::string text_of(const Spectrum& s) {
 }
 
 std::shared_ptr<const Texels> picture_of(const XmlElement& e, Context& context) {
-  const std::string path = context.file(e.attribute("value"));
+  const std::string path = context.folders.find(e.attribute("value"));
   return mc::with_context(e.where(), [&] { return context.picture(path); });
 }
 
@@ -29,11 +29,25 @@ std::size_t word_of(const XmlElement& e, const std::vector<std::string>& words) 
   return static_cast<std::size_t>(found - words.begin());
 }
 
+// Whether it is the name as Mitsuba 2 and 3 spell it, and lajolla too: intIOR is int_ior.
+bool is_in_snake_case(std::string_view word, std::string_view name) {
+  std::string spelled;
+  bool after_small = false;
+  for (const char c : name) {
+    const bool large = c >= 'A' && c <= 'Z';
+    if (large && after_small) spelled += '_';
+    spelled += large ? static_cast<char>(c - 'A' + 'a') : c;
+    after_small = !large;
+  }
+  return word == spelled;
+}
+
 } // namespace
 
 bool Declaration::names(const XmlElement& child) const {
   if (nested()) return std::find(tags.begin(), tags.end(), child.tag) != tags.end();
-  return child.attribute_or("name", "") == name;
+  const std::string word = child.attribute_or("name", "");
+  return word == name || is_in_snake_case(word, name);
 }
 
 const XmlElement* Declaration::find(const XmlElement& plugin) const {
@@ -76,7 +90,7 @@ Parameter<bool> boolean(const std::string& name, const std::string& meaning, boo
 
 Parameter<std::string> file(const std::string& name, const std::string& meaning) {
   return {{name, "file", "", {"string"}, meaning},
-          [](const XmlElement& e, Context& context) { return context.file(e.attribute("value")); },
+          [](const XmlElement& e, Context& context) { return context.folders.find(e.attribute("value")); },
           {},
           {}};
 }

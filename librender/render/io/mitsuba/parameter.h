@@ -22,6 +22,7 @@ struct Declaration {
   std::string lajolla = {};   ///< the same in lajolla's dialect; empty: no difference
   bool has_effect = true;     ///< false: accepted, since it cannot change the picture
   std::optional<bool> only{}; ///< a switch that may only be given as what it is by default
+  std::string departure = {}; ///< of the fallback from Mitsuba's own, as a warning; empty: none
 
   bool nested() const { return name.starts_with('<'); }
   /// Whether a child of a plugin is this parameter.
@@ -64,6 +65,7 @@ template <class T> struct Parameter {
     if (const XmlElement* given = declared.find(plugin)) return in_scene(parse(*given, context), context);
     if (context.dialect() == Dialect::lajolla && lajolla_fallback) return in_scene(*lajolla_fallback, context);
     if (!fallback) plugin.fail(fmt::format("parameter '{}' is missing: {}", declared.name, declared.meaning));
+    if (!declared.departure.empty() && context.dialect() == Dialect::mitsuba) context.warn(plugin, declared.departure);
     return in_scene(*fallback, context);
   }
 };

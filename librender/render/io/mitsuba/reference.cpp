@@ -8,7 +8,8 @@ namespace {
 constexpr const char* introduction = R"(# Scene files
 
 Mitsuba's XML, versions 0.4 to 0.6, as `carlo render` reads it; `carlo render --help-scene` prints this. What is not
-listed here is refused with its file and line. What is marked (ours) is not Mitsuba's.
+listed here is refused with its file and line. What is marked (ours) is not Mitsuba's. Names may be written as in
+Mitsuba 2 and 3: `to_world`, `int_ior`.
 
 - **Parameters** are written `<float name="fov" value="40"/>`: number `<float>` or `<integer>`, integer `<integer>`,
   boolean `<boolean>`, file and words `<string>`, point `<point>` or `<vector>` with x, y, z or a value.
@@ -17,7 +18,9 @@ listed here is refused with its file and line. What is marked (ours) is not Mits
 - **Transforms** are `<transform>` with `<translate>`, `<scale>`, `<rotate>` (angle in degrees), `<lookAt>` and
   `<matrix>` (16 numbers, row by row), applied in the order in which they stand.
 - **Variables**: `<default name="spp" value="16"/>` and then `$spp` in any value below it; of two defaults with one name
-  the first counts.
+  the first counts, and before both `carlo render -D spp=16`.
+- **Files** are named relative to the scene file, or to a folder that `<path value="textures"/>` names above;
+  `<include filename="base.xml"/>` stands for what another scene file holds.
 - **References**: `<ref id="white"/>` stands for the element with this id, wherever that is.
 - "-" as default: the parameter must be given. Where lajolla's default differs, `--dialect lajolla` takes that one.
 )";

@@ -4,8 +4,8 @@
 #include <render/io/spectrum.h>
 
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 
-#include <charconv>
 #include <cmath>
 
 namespace render::mitsuba {
@@ -80,14 +80,12 @@ Spectrum tabulated(const XmlElement& e, const std::string& text) {
 } // namespace
 
 double parse_number(const XmlElement& element, const std::string& text) {
-  double value = 0;
   const char *begin = text.data(), *end = begin + text.size();
   while (begin < end && std::isspace(static_cast<unsigned char>(*begin))) ++begin;
   while (end > begin && std::isspace(static_cast<unsigned char>(end[-1]))) --end;
-  const auto [after, error] = std::from_chars(begin, end, value);
-  if (error != std::errc{} || after != end || !std::isfinite(value))
-    element.fail(fmt::format("'{}' is not a finite number", text));
-  return value;
+  const std::optional<double> value = mc::number_in({begin, end});
+  if (!value || !std::isfinite(*value)) element.fail(fmt::format("'{}' is not a finite number", text));
+  return *value;
 }
 
 std::vector<double> parse_numbers(const XmlElement& element, const std::string& text) {

@@ -80,6 +80,17 @@ TEST_F(Mesh, ObjQuadBecomesTwoTriangles) {
   EXPECT_DOUBLE_EQ(to_shape(file, {}).area(), 6);
 }
 
+TEST_F(Mesh, ObjLinesGoOnBehindABackslash) {
+  const MeshFile file = read_obj(write("c.obj", "v 0 0 0\nv 1 \\\n 0 0\nv 0 \\\r\n1 \\\n0\nf 1 2\\\n 3\n"));
+  ASSERT_EQ(file.triangles.size(), 1u);
+  EXPECT_EQ(file.positions[1], render::Vec3d(1, 0, 0));
+  EXPECT_EQ(file.positions[2], render::Vec3d(0, 1, 0));
+  EXPECT_THAT(support::error_of([&] { read_obj(write("d.obj", "v 0 \\\n0 \\\n0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")); }),
+              HasSubstr("d.obj: line 6: a face names vertex 9"))
+      << "lines keep their numbers";
+  EXPECT_EQ(read_obj(write("e.obj", "# C:\\meshes\\e\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\\")).triangles.size(), 1u);
+}
+
 TEST_F(Mesh, ObjTextureCoordinatesGoDown) {
   const MeshFile file =
       read_obj(write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 0.75\nf 1/1 2/2 3/3\n"));

@@ -17,6 +17,7 @@ const Plugins<int>& rows() {
       plugin<int>("sum", "adds", make_sum, integer("a", "first", 1), integer("b", "second", 2))
           .accepting({no_effect("c", "as I like it"), only(false, "d", "no")}),
       plugin<int>("one", "is 1", [] { return 1; }),
+      plugin<int>("two", "its parameters", make_sum, integer("intIOR", "first", 1), integer("uScale0", "second", 1)),
   };
   return table;
 }
@@ -42,9 +43,21 @@ TEST_F(PluginTest, IsMadeOfItsParametersInOrder) {
             0);
 }
 
+TEST_F(PluginTest, NamesAreSpelledInEitherWay) {
+  EXPECT_EQ(read("<x type=\"two\"><integer name=\"int_ior\" value=\"3\"/></x>"), 4);
+  EXPECT_EQ(read("<x type=\"two\"><integer name=\"intIOR\" value=\"3\"/><integer name=\"u_scale0\" value=\"5\"/></x>"),
+            8);
+  EXPECT_THAT(
+      refusal("<x type=\"two\"><integer name=\"intIOR\" value=\"3\"/><integer name=\"int_ior\" value=\"3\"/></x>"),
+      HasSubstr("a second intIOR"));
+  for (const char* wrong : {"int_IOR", "int_IR", "intior", "int_ior_", "_int_ior"})
+    EXPECT_THAT(refusal(std::string("<x type=\"two\"><integer name=\"") + wrong + "\" value=\"3\"/></x>"),
+                HasSubstr("did you mean 'intIOR'?"));
+}
+
 TEST_F(PluginTest, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(refusal("<x type=\"sun\"/>"),
-              HasSubstr("p.xml:1: <x>: unknown type 'sun'; did you mean 'sum'?; use one of sum, one"));
+              HasSubstr("p.xml:1: <x>: unknown type 'sun'; did you mean 'sum'?; use one of sum, one, two"));
   EXPECT_THAT(refusal("<x type=\"one\">\n<float name=\"a\" value=\"1\"/></x>"),
               HasSubstr("p.xml:2: <float>: one has no 'a'; it has no parameters: remove it"));
   EXPECT_THAT(refusal("<x type=\"sum\">\n<float name=\"bb\" value=\"1\"/></x>"),

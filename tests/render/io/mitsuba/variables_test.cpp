@@ -5,9 +5,9 @@
 namespace {
 
 struct Variables : support::ScratchTest {
-  render::XmlElement element(const std::string& body) const {
+  render::XmlElement element(const std::string& body, const render::Variables& given = {}) const {
     auto root = render::read_xml(write("v.xml", "<scene>\n" + body + "\n</scene>"));
-    render::mitsuba::substitute_variables(root);
+    render::mitsuba::substitute_variables(root, given);
     return root;
   }
 };
@@ -21,9 +21,21 @@ TEST_F(Variables, StandForTheirValues) {
   EXPECT_EQ(x.children[0].attribute("v"), "1, 2");
 }
 
+TEST_F(Variables, GivenOnesGoBeforeDefaults) {
+  const auto root = element("<default name=\"a\" value=\"1\"/><x v=\"$a\" w=\"$b\"/>", {{"a", "2"}, {"b", "3"}});
+  EXPECT_EQ(root.children.back().attribute("v"), "2");
+  EXPECT_EQ(root.children.back().attribute("w"), "3");
+  EXPECT_NO_THROW(element("<default name=\"a\" value=\"1\"/>", {{"a", "2"}})) << "its default would not be used either";
+  EXPECT_THAT(support::error_of([&] {
+                element("<x v=\"$a\"/>", {{"a", "2"}, {"c", "4"}});
+              }),
+              testing::HasSubstr("v.xml: the scene has no $c that could be 4"));
+}
+
 TEST_F(Variables, UnknownOnesAreNamed) {
   EXPECT_THAT(support::error_of([&] { element("<default name=\"spp\" value=\"4\"/>\n<x v=\"$ssp\"/>"); }),
-              testing::HasSubstr("v.xml:3: <x>: no <default> above defines $ssp; did you mean 'spp'?"));
+              testing::HasSubstr("v.xml:3: <x>: no <default> above defines $ssp; did you mean 'spp'?, nor is it given "
+                                 "(carlo render -D NAME=VALUE)"));
   // A default counts from where it stands on, so that none can lead back to itself.
   EXPECT_THAT(
       support::error_of([&] { element("<default name=\"a\" value=\"$b\"/>\n<default name=\"b\" value=\"$a\"/>"); }),

@@ -1,5 +1,7 @@
 #include <render/io/mitsuba/plugins/plugins.h>
 
+#include <mc/core/text.h>
+
 namespace render::mitsuba {
 
 namespace {
@@ -72,7 +74,48 @@ Parameter<double> alpha(const std::string& range) {
 }
 
 Parameter<std::size_t> distribution(const std::vector<std::string>& names) {
-  return choice("distribution", names, "of the facets; Mitsuba's default, beckmann, is not supported", 0);
+  auto p = choice("distribution", names, "of the facets; Mitsuba's default, beckmann, is not supported", 0);
+  p.declared.departure = "facets are ggx's; Mitsuba's would be beckmann's, which are not supported. Say distribution "
+                         "ggx, or --dialect lajolla";
+  return p;
+}
+
+struct Medium {
+  std::string_view name;
+  double index;
+};
+// At 589 nm, between 0 and 20 degrees Celsius. Source: Mitsuba 0.6, most of them there from [Hecht02].
+constexpr Medium media[] = {{"vacuum", 1},        {"helium", 1.000036},        {"hydrogen", 1.000132},
+                            {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.333},
+                            {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
+                            {"glycerol", 1.4729}, {"benzene", 1.501},          {"silicone oil", 1.52045},
+                            {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
+                            {"pyrex", 1.47},      {"acrylic glass", 1.49},     {"polypropylene", 1.49},
+                            {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
+                            {"pet", 1.575},       {"diamond", 2.419}};
+
+double index_of_medium(const XmlElement& e) {
+  const std::string& word = e.attribute("value");
+  std::vector<std::string_view> names;
+  for (const Medium& medium : media) {
+    if (medium.name == word) return medium.index;
+    names.push_back(medium.name);
+  }
+  e.fail(fmt::format("no index of refraction is known of '{}'{}; give a number, or one of {}", word,
+                     mc::did_you_mean(word, names), fmt::join(names, ", ")));
+}
+
+Parameter<double> refractive_index(const std::string& name, const std::string& where, double fallback) {
+  const Parameter<double> p{
+      {name,
+       "number or name",
+       "",
+       {"float", "integer", "string"},
+       "index of refraction " + where + ", > 0, or bk7, water, ..."},
+      [](const XmlElement& e, Context&) { return e.tag == "string" ? index_of_medium(e) : number_of(e); },
+      {},
+      {}};
+  return p.otherwise(fallback, fmt::format("{}", fallback));
 }
 
 } // namespace
@@ -89,15 +132,14 @@ const Plugins<Material>& bsdf_plugins() {
                        make_fuzzymetal,
                        color("albedo", share, "what is reflected, in [0, 1]", Spectrum::Constant(Float(0.9))),
                        number("fuzz", "", 0, "radius of the ball, in [0, 1]")),
-      plugin<Material>("dielectric", "smooth glass", make_dielectric,
-                       number("intIOR", "", 1.5046, "index of refraction inside, > 0"),
-                       number("extIOR", "", 1.000277, "index of refraction outside, > 0"),
+      plugin<Material>("dielectric", "smooth glass", make_dielectric, refractive_index("intIOR", "inside", 1.5046),
+                       refractive_index("extIOR", "outside", 1.000277),
                        color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
                        color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
       plugin<Material>("roughplastic", "glossy paint: a rough clear coat over a diffuse base", make_roughplastic,
-                       number("intIOR", "", 1.49, "index of refraction inside, > 0"),
-                       number("extIOR", "", 1.000277, "index of refraction outside, > 0"), alpha("in [0.0001, 1]"),
-                       distribution({"ggx"}), color("diffuseReflectance", share, "of the base, in [0, 1]", half),
+                       refractive_index("intIOR", "inside", 1.49), refractive_index("extIOR", "outside", 1.000277),
+                       alpha("in [0.0001, 1]"), distribution({"ggx"}),
+                       color("diffuseReflectance", share, "of the base, in [0, 1]", half),
                        color("specularReflectance", share, "factor of what the coat reflects, in [0, 1]", one),
                        choice("base", {"layered", "lajolla"},
                               "(ours) what the base gets: what the coat lets through, or lajolla's (1 - F)^2 of the "
@@ -106,18 +148,16 @@ const Plugins<Material>& bsdf_plugins() {
                            .in_lajolla(1, "lajolla"))
           .accepting({only(false, "nonlinear", "the base keeps its colour")}),
       plugin<Material>("roughdielectric", "ground glass", make_roughdielectric,
-                       number("intIOR", "", 1.5046, "index of refraction inside, > 0"),
-                       number("extIOR", "", 1.000277, "index of refraction outside, > 0"),
+                       refractive_index("intIOR", "inside", 1.5046), refractive_index("extIOR", "outside", 1.000277),
                        alpha("0 for smooth glass, or in [0.0001, 1]"), distribution({"ggx"}),
                        color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
                        color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
-      plugin<Material>("roughconductor",
-                       "metal with facets of GGX, or of Blinn-Phong with the exponent 2 / alpha^2 - 2",
-                       make_roughconductor, color("eta", "", "index of refraction, >= 0"),
-                       color("k", "", "extinction coefficient, >= 0; not 0 where eta is"),
-                       number("extEta", "", 1.000277, "index of refraction outside, > 0"), alpha("in [0.0001, 1]"),
-                       distribution({"ggx", "phong"}),
-                       color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one)),
+      plugin<Material>(
+          "roughconductor", "metal with facets of GGX, or of Blinn-Phong with the exponent 2 / alpha^2 - 2",
+          make_roughconductor, color("eta", "", "index of refraction, >= 0"),
+          color("k", "", "extinction coefficient, >= 0; not 0 where eta is"),
+          refractive_index("extEta", "outside", 1.000277), alpha("in [0.0001, 1]"), distribution({"ggx", "phong"}),
+          color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one)),
       plugin<Material>("twosided", "the BSDF inside it, which all of ours are on both sides", make_twosided,
                        inner_bsdf("what covers both sides")),
       plugin<Material>("mask", "the BSDF inside it, with holes", make_mask,

@@ -5,16 +5,27 @@ namespace render::mitsuba {
 namespace {
 
 constexpr int default_spp = 4;
+constexpr std::size_t diagonal = 4; // of fovAxis
 
 SensorSettings make_sensor(const Transform& to_world, double fov, std::size_t axis, double near, double far,
                            double focus_distance, const FilmSettings& film, int spp, double radius) {
-  constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::smaller, FovAxis::larger};
+  constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::smaller, FovAxis::larger, FovAxis::diagonal};
   return {ThinLens(to_world, {axes[axis], fov, radius, focus_distance, near, far}), film, spp};
 }
 
-SensorSettings make_perspective(const Transform& to_world, double fov, std::size_t axis, double near, double far,
-                                double focus_distance, const FilmSettings& film, int spp) {
-  return make_sensor(to_world, fov, axis, near, far, focus_distance, film, spp, 0);
+// The diagonal field of view of a lens before 35 mm film, 36 mm by 24 mm, in degrees.
+double diagonal_fov(double focal_length) {
+  return 360 / mc::pi<double> * std::atan(std::hypot(36.0, 24.0) / (2 * focal_length));
+}
+
+SensorSettings make_perspective(const Transform& to_world, const std::optional<double>& fov, std::size_t axis,
+                                double near, double far, double focus_distance, const FilmSettings& film, int spp,
+                                const std::optional<double>& focal_length) {
+  mc::require(!fov || !focal_length, "perspective: give fov or focalLength, not both");
+  mc::require(!focal_length || *focal_length > 0, "perspective: focalLength {} must be > 0", focal_length.value_or(0));
+  if (fov) return make_sensor(to_world, *fov, axis, near, far, focus_distance, film, spp, 0);
+  return make_sensor(to_world, diagonal_fov(focal_length.value_or(50)), diagonal, near, far, focus_distance, film, spp,
+                     0);
 }
 
 SensorSettings make_thinlens(const Transform& to_world, double fov, std::size_t axis, double near, double far,
@@ -28,16 +39,24 @@ SensorSettings make_thinlens(const Transform& to_world, double fov, std::size_t 
                      radius ? *radius : *focal_length / (2 * *f_number));
 }
 
+Parameter<double> fov() { return number("fov", "degrees", "field of view along fovAxis, in (0, 180)"); }
+
+// "50mm"
+double millimetres_of(const XmlElement& e, Context&) {
+  std::string text = e.attribute("value");
+  if (text.ends_with("mm")) text.resize(text.size() - 2);
+  return parse_number(e, text);
+}
+
 // A row for a camera, with the parameters that all cameras have.
-template <class Make, class... V>
-Plugin<SensorSettings> sensor_plugin(std::string name, std::string meaning, Make make,
+template <class Make, class Fov, class... V>
+Plugin<SensorSettings> sensor_plugin(std::string name, std::string meaning, Make make, const Parameter<Fov>& fov,
                                      const Parameter<V>&... parameters) {
   const FilmSettings in_mitsuba{768, 576, GaussianFilter()}, in_lajolla{256, 256, BoxFilter()};
   return plugin<SensorSettings>(
       std::move(name), std::move(meaning), make,
-      transform("toWorld", "the camera's frame: x to the left, y up, z forward"),
-      number("fov", "degrees", "field of view along fovAxis, in (0, 180)").in_lajolla(45, "45"),
-      choice("fovAxis", {"x", "y", "smaller", "larger"}, "the side of the film that fov spans", 0),
+      transform("toWorld", "the camera's frame: x to the left, y up, z forward"), fov,
+      choice("fovAxis", {"x", "y", "smaller", "larger", "diagonal"}, "the side of the film that fov spans", 0),
       number("nearClip", "scene units", 0, "what stands closer before the lens is cut away"),
       number("farClip", "scene units", mc::infinity<double>, "what stands farther is cut away, > nearClip"),
       number("focusDistance", "scene units", 1, "to the plane in focus; of no effect for a pinhole"),
@@ -78,7 +97,8 @@ Plugin<int> sampler_plugin(std::string name) {
   return plugin<int>(std::move(name), "samples per pixel; which points they are, --sampler says", make_sampler,
                      integer("sampleCount", "samples per pixel, >= 1", default_spp))
       .accepting({no_effect("seed", "--seed says it"), no_effect("dimension", "our points have as many as are needed"),
-                  no_effect("scramble", "our points are always randomised")});
+                  no_effect("scramble", "our points are always randomised"),
+                  no_effect("jitter", "our points are always randomised")});
 }
 
 IntegratorSettings make_direct() { return {.max_depth = 2}; }
@@ -99,9 +119,19 @@ IntegratorSettings make_path(int max_depth) {
 
 const Plugins<SensorSettings>& sensor_plugins() {
   static const Plugins<SensorSettings> rows = {
-      sensor_plugin("perspective", "a pinhole camera", make_perspective),
+      sensor_plugin("perspective", "a pinhole camera", make_perspective,
+                    optional(fov()).otherwise(std::nullopt, "by focalLength").in_lajolla(45.0, "45"),
+                    optional(Parameter<double>{{"focalLength",
+                                                "length, as 50mm",
+                                                "mm",
+                                                {"string"},
+                                                "of a lens that sees as much of 35 mm film's diagonal, instead of fov"},
+                                               millimetres_of,
+                                               {},
+                                               {}})
+                        .otherwise(std::nullopt, "50mm")),
       sensor_plugin(
-          "thinlens", "a lens with depth of field", make_thinlens,
+          "thinlens", "a lens with depth of field", make_thinlens, fov().in_lajolla(45, "45"),
           optional(number("apertureRadius", "scene units", "radius of the lens, >= 0")),
           optional(number("fNumber", "", "focalLength over the lens's diameter, > 0, instead of the radius (ours)")),
           optional(number("focalLength", "scene units", "of the lens; fov says how much is seen (ours)"))),
@@ -131,7 +161,8 @@ const Plugins<Filter>& filter_plugins() {
 const Plugins<int>& sampler_plugins() {
   static const Plugins<int> rows = {sampler_plugin("independent"), sampler_plugin("stratified"),
                                     sampler_plugin("ldsampler"),   sampler_plugin("halton"),
-                                    sampler_plugin("hammersley"),  sampler_plugin("sobol")};
+                                    sampler_plugin("hammersley"),  sampler_plugin("sobol"),
+                                    sampler_plugin("multijitter"), sampler_plugin("orthogonal")};
   return rows;
 }
 

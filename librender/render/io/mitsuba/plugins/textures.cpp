@@ -4,14 +4,44 @@ namespace render::mitsuba {
 
 namespace {
 
-Texture make_bitmap(double uscale, double vscale, double uoffset, double voffset,
-                    const std::shared_ptr<const Texels>& texels) {
-  return Bitmap(texels, UvMap({uscale, vscale}, {uoffset, voffset}));
+// How a shape's u and v are moved before a texture is looked up there.
+struct Moved {
+  Vec2d scale = Vec2d::Ones(), offset = Vec2d::Zero();
+};
+
+Moved moved_of(const XmlElement& e, Context&) {
+  const Transform t = transform_of(e);
+  const auto& m = t.linear;
+  if (m(0, 1) != 0 || m(1, 0) != 0 || m(0, 2) != 0 || m(1, 2) != 0)
+    e.fail("only what scales and translates u and v is supported");
+  return {{m(0, 0), m(1, 1)}, t.translation.head<2>()};
 }
 
-Texture make_checkerboard(double uscale, double vscale, double uoffset, double voffset, const Spectrum& color0,
-                          const Spectrum& color1) {
-  return Checkerboard(color0, color1, UvMap({uscale, vscale}, {uoffset, voffset}));
+UvMap make_uv_map(double uscale, double vscale, double uoffset, double voffset, const Moved& first) {
+  const Vec2d scale(uscale, vscale);
+  return UvMap(scale.cwiseProduct(first.scale), scale.cwiseProduct(first.offset) + Vec2d(uoffset, voffset));
+}
+
+Texture make_bitmap(double uscale, double vscale, double uoffset, double voffset, const Moved& first, std::size_t,
+                    std::size_t, const std::shared_ptr<const Texels>& texels) {
+  return Bitmap(texels, make_uv_map(uscale, vscale, uoffset, voffset, first));
+}
+
+Texture make_checkerboard(double uscale, double vscale, double uoffset, double voffset, const Moved& first,
+                          const Spectrum& color0, const Spectrum& color1) {
+  return Checkerboard(color0, color1, make_uv_map(uscale, vscale, uoffset, voffset, first));
+}
+
+Parameter<Moved> to_uv() {
+  const Parameter<Moved> p{{"to_uv",
+                            "transform",
+                            "",
+                            {"transform"},
+                            "of u and v before these: as in Mitsuba 3, but only scale and translate"},
+                           moved_of,
+                           {},
+                           {}};
+  return p.otherwise({}, "identity");
 }
 
 // A row for a texture, with the parameters that all textures have.
@@ -20,7 +50,7 @@ Plugin<Texture> texture_plugin(std::string name, std::string meaning, Make make,
   return plugin<Texture>(
       std::move(name), std::move(meaning), make, number("uscale", "", 1, "how often it repeats along u"),
       number("vscale", "", 1, "how often it repeats along v"), number("uoffset", "periods", 0, "added to u after that"),
-      number("voffset", "periods", 0, "added to v after that"), parameters...);
+      number("voffset", "periods", 0, "added to v after that"), to_uv(), parameters...);
 }
 
 } // namespace
@@ -28,7 +58,10 @@ Plugin<Texture> texture_plugin(std::string name, std::string meaning, Make make,
 const Plugins<Texture>& texture_plugins() {
   static const Plugins<Texture> rows = {
       texture_plugin("bitmap", "a picture, bilinear between its texels, repeated; 8 bits are decoded by the sRGB curve",
-                     make_bitmap, picture("filename", "the picture: .png, .jpg, .exr, .hdr or .pfm")),
+                     make_bitmap, choice("wrapMode", {"repeat"}, "beyond its edges", 0),
+                     choice("filterType", {"bilinear", "trilinear", "ewa"},
+                            "between its texels, which here is bilinear in any case", 0),
+                     picture("filename", "the picture: .png, .jpg, .exr, .hdr or .pfm")),
       texture_plugin("checkerboard", "two by two squares in a period", make_checkerboard,
                      color("color0", "", "of the squares at (0, 0) and (1/2, 1/2)", Spectrum::Constant(Float(0.4))),
                      color("color1", "", "of the other two", Spectrum::Constant(Float(0.2)))),

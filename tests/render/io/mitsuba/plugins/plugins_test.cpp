@@ -88,6 +88,41 @@ TEST_F(PluginsTest, NamesAndParametersDiffer) {
   }
 }
 
+TEST_F(PluginsTest, IndicesOfRefractionHaveNames) {
+  const auto refracted = [&](const std::string& inside) {
+    const auto file =
+        render::read_mitsuba(scene(std::string(sensor) + "<shape type=\"cube\"><bsdf type=\"dielectric\">" + inside +
+                                   R"(<string name="extIOR" value="vacuum"/></bsdf></shape>)"));
+    return file.scene.bsdf(file.scene.surfaces()[0]).sample({0, 0, 1}, render::Float(0.999), {0, 0})->eta;
+  };
+  EXPECT_EQ(refracted(R"(<string name="intIOR" value="water"/>)"), render::Float(1.333));
+  EXPECT_EQ(refracted(R"(<float name="intIOR" value="1.333"/>)"), render::Float(1.333));
+  EXPECT_THAT(refusal(std::string(sensor) +
+                      "\n<bsdf id=\"b\" type=\"dielectric\"><string name=\"intIOR\" value=\"bk8\"/></bsdf>"),
+              testing::HasSubstr("s.xml:3: <string>: no index of refraction is known of 'bk8'; did you mean 'bk7'?"));
+}
+
+TEST_F(PluginsTest, TexturesAreMovedByTransformsToo) {
+  const auto at = [&](const std::string& parameters, const render::Vec2d& uv) {
+    const auto root = render::read_xml(write("t.xml", "<texture type=\"checkerboard\">" + parameters + "</texture>"));
+    Context context(root, render::Dialect::mitsuba, render::Vec3d(5, 6, 7)); // the scene's place is not the texture's
+    return read_plugin(texture_plugins(), root, context).eval(uv)[0];
+  };
+  const std::string moved = R"(<transform name="to_uv"><scale x="2" y="3"/><translate x="0.25" y="0.5"/></transform>)";
+  const std::string factors = R"(<float name="uscale" value="2"/><float name="vscale" value="3"/>
+                                 <float name="uoffset" value="0.25"/><float name="voffset" value="0.5"/>)";
+  int dark = 0;
+  for (double u = 0.01; u < 1; u += 0.03)
+    for (double v = 0.013; v < 1; v += 0.03) {
+      EXPECT_EQ(at(moved, {u, v}), at(factors, {u, v})) << u << " " << v;
+      dark += at(moved, {u, v}) < render::Float(0.3);
+    }
+  EXPECT_GT(dark, 200);
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<texture type=\"checkerboard\" id=\"t\"><transform name=\"to_uv\">"
+                                            "<rotate z=\"1\" angle=\"30\"/></transform></texture>"),
+              testing::HasSubstr("s.xml:3: <transform>: only what scales and translates u and v is supported"));
+}
+
 TEST_F(PluginsTest, WhatIsNotDoneIsRefused) {
   for (const char* name : {"hideEmitters"}) {
     const std::string start =

@@ -1,0 +1,57 @@
+#include <render/io/mitsuba/folders.h>
+
+#include <mc/core/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace render::mitsuba {
+
+void Folders::add(const XmlElement& path) {
+  path.mark();
+  const std::string& name = path.attribute("value");
+  std::filesystem::path folder = std::filesystem::path(path.file).parent_path() / name;
+  if (!std::filesystem::is_directory(folder)) folder = find(name);
+  if (!std::filesystem::is_directory(folder)) path.fail(fmt::format("there is no folder '{}'", folder.string()));
+  folders_.push_back(std::move(folder));
+}
+
+std::string Folders::find(const std::string& name) const {
+  const auto found = std::find_if(folders_.rbegin(), folders_.rend(), [&](const std::filesystem::path& folder) {
+    return std::filesystem::exists(folder / name);
+  });
+  return ((found == folders_.rend() ? folders_.front() : *found) / name).string();
+}
+
+namespace {
+
+constexpr int most_levels = 16; // of files that include files
+
+// The children of a <scene>, `level` files below the first.
+std::vector<XmlElement> with_included(const XmlElement& root, std::vector<XmlElement> children, int level) {
+  std::vector<XmlElement> all, paths;
+  for (XmlElement& child : children) {
+    if (child.tag == "path") paths.push_back(child);
+    if (child.tag != "include") {
+      all.push_back(std::move(child));
+      continue;
+    }
+    Folders folders(root);
+    for (const XmlElement& path : paths) folders.add(path);
+    XmlElement included =
+        mc::with_context(child.where(), [&] { return read_xml(folders.find(child.attribute("filename"))); });
+    if (included.tag != "scene") included.fail("the document must be a <scene>");
+    if (level == most_levels) child.fail(fmt::format("more than {} files include each other", most_levels));
+    std::vector<XmlElement> more = with_included(root, std::move(included.children), level + 1);
+    std::move(more.begin(), more.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
+} // namespace
+
+void include_files(XmlElement& root) { root.children = with_included(root, std::move(root.children), 0); }
+
+} // namespace render::mitsuba
