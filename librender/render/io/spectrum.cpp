@@ -2,6 +2,8 @@
 
 #include <mc/core/error.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace render {
@@ -23,6 +25,18 @@ Vec3d matching_functions(double w) {
 
 constexpr double cie_y_integral = 106.856895; // of the tabulated y-bar, per nm
 
+// Relative power of D65 at 400, 410, ..., 700 nm.
+constexpr std::array<double, 31> d65 = {82.7549, 91.4860, 93.4318, 86.6823, 104.865, 117.008, 117.812, 114.861,
+                                        115.923, 108.811, 109.354, 107.802, 104.790, 107.689, 104.405, 104.046,
+                                        100.000, 96.3342, 95.7880, 88.6856, 90.0062, 89.5991, 87.6987, 83.2886,
+                                        83.6992, 80.0268, 80.2146, 82.2778, 78.2842, 69.7213, 71.6091};
+
+double daylight(int wavelength) {
+  const int i = std::min((wavelength - 400) / 10, 29);
+  const double t = (wavelength - 400) / 10.0 - i;
+  return (1 - t) * d65[static_cast<std::size_t>(i)] + t * d65[static_cast<std::size_t>(i) + 1];
+}
+
 double value_at(const std::vector<SpectralSample>& s, double wavelength) {
   if (wavelength <= s.front().wavelength) return s.front().value;
   for (std::size_t i = 1; i < s.size(); ++i)
@@ -41,17 +55,21 @@ Eigen::Array3d xyz_to_rgb(const Vec3d& xyz) {
   return (to_rgb * xyz).array();
 }
 
-Spectrum spectrum_to_rgb(const std::vector<SpectralSample>& samples) {
+Spectrum spectrum_to_rgb(const std::vector<SpectralSample>& samples, Illuminant illuminant) {
   mc::require(!samples.empty(), "spectrum: no samples; give wavelength:value pairs");
   for (std::size_t i = 0; i < samples.size(); ++i)
     mc::require(std::isfinite(samples[i].value) && std::isfinite(samples[i].wavelength) &&
                     (i == 0 || samples[i].wavelength > samples[i - 1].wavelength),
                 "spectrum: sample {} ({}:{}) must be finite and of a longer wavelength than the one before", i,
                 samples[i].wavelength, samples[i].value);
-  Vec3d xyz = Vec3d::Zero();
-  for (int w = 400; w <= 700; ++w) xyz += value_at(samples, w) * matching_functions(w);
-  xyz /= cie_y_integral;
-  return xyz_to_rgb(xyz).cast<Float>();
+  Vec3d xyz = Vec3d::Zero(), white = Vec3d::Zero();
+  for (int w = 400; w <= 700; ++w) {
+    const Vec3d seen = matching_functions(w) * (illuminant == Illuminant::d65 ? daylight(w) : 1);
+    xyz += value_at(samples, w) * seen;
+    white += seen;
+  }
+  if (illuminant == Illuminant::d65) return (xyz_to_rgb(xyz) / xyz_to_rgb(white)).cast<Float>();
+  return xyz_to_rgb(xyz / cie_y_integral).cast<Float>();
 }
 
 } // namespace render

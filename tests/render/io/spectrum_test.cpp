@@ -32,4 +32,14 @@ TEST(Spectrum, RefusesNonsense) {
   EXPECT_THAT(support::error_of([] { render::spectrum_to_rgb({{400, NAN}}); }), testing::HasSubstr("must be finite"));
 }
 
+TEST(Spectrum, WhiteIsWhiteInDaylight) {
+  using enum render::Illuminant;
+  EXPECT_LE((render::spectrum_to_rgb({{400, 1}, {700, 1}}, d65) - 1).abs().maxCoeff(), 1e-6);
+  EXPECT_LE((render::spectrum_to_rgb({{500, 0.3}}, d65) - render::Float(0.3)).abs().maxCoeff(), 1e-6);
+  // Daylight has more of the short wavelengths than what is white at equal energy.
+  const std::vector<render::SpectralSample> cyan{{400, 1}, {560, 1}, {580, 0}};
+  const render::Spectrum in_daylight = render::spectrum_to_rgb(cyan, d65), otherwise = render::spectrum_to_rgb(cyan);
+  EXPECT_GT(in_daylight[2] / in_daylight[1], 1.02 * otherwise[2] / otherwise[1]);
+}
+
 } // namespace

@@ -8,8 +8,20 @@
 
 namespace render::mitsuba {
 
+namespace {
+
+// "2.1.0" is later than "0.6.0".
+bool is_of_mitsuba_2(const XmlElement& root) {
+  const std::string version = root.attribute_or("version", "0");
+  return mc::number_in(version.substr(0, version.find('.'))).value_or(0) >= 2;
+}
+
+} // namespace
+
 Context::Context(const XmlElement& root, Dialect dialect, const Vec3d& origin)
-    : folders(root), dialect_(dialect), origin_(origin) {
+    : folders(root), dialect_(dialect),
+      illuminant_(dialect == Dialect::mitsuba && is_of_mitsuba_2(root) ? Illuminant::d65 : Illuminant::equal_energy),
+      origin_(origin) {
   collect_ids(root);
 }
 

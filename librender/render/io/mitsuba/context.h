@@ -3,6 +3,7 @@
 
 #include <render/io/mitsuba.h>
 #include <render/io/mitsuba/folders.h>
+#include <render/io/spectrum.h>
 #include <render/io/xml.h>
 #include <render/scene/builder.h>
 
@@ -23,6 +24,9 @@ class Context {
   Context(const XmlElement& root, Dialect dialect, const Vec3d& origin);
 
   Dialect dialect() const { return dialect_; }
+  /// The light that the spectra of what reflects are seen in: by the version of the scene, that of Mitsuba 0.6 or of 2
+  /// and 3.
+  Illuminant illuminant() const { return illuminant_; }
   const Vec3d& origin() const { return origin_; }
 
   /// Where the files are that the scene names.
@@ -57,6 +61,7 @@ class Context {
   void collect_ids(const XmlElement& element);
 
   Dialect dialect_;
+  Illuminant illuminant_;
   Vec3d origin_;
   std::map<std::string, const XmlElement*> ids_;
   std::map<const XmlElement*, BsdfId> bsdfs_;

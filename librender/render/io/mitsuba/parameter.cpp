@@ -8,6 +8,8 @@ namespace render::mitsuba {
 
 namespace {
 
+constexpr const char* share_of_light = "share of light";
+
 std::string text_of(const Vec3d& v) { return fmt::format("{}, {}, {}", v[0], v[1], v[2]); }
 std::string text_of(const Spectrum& s) {
   // Colours are given in decimals: the shortest that is this float.
@@ -114,14 +116,23 @@ Parameter<Spectrum> color(const std::string& name, const std::string& unit, cons
   return color(name, unit, meaning).otherwise(fallback, text_of(fallback));
 }
 
-Parameter<Reflectance> color_or_texture(const std::string& name, const std::string& unit, const std::string& meaning,
-                                        const Spectrum& fallback) {
+Parameter<Spectrum> reflectance(const std::string& name, const std::string& meaning, const Spectrum& fallback) {
+  Parameter<Spectrum> p = color(name, share_of_light, meaning, fallback);
+  p.parse = [](const XmlElement& e, Context& context) { return reflectance_of(e, context.illuminant()); };
+  return p;
+}
+
+Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std::string& meaning,
+                                              const Spectrum& fallback) {
   const auto parse = [](const XmlElement& e, Context& context) -> Reflectance {
     if (e.tag == "texture" || e.tag == "ref") return context.texture(e);
-    return color_of(e);
+    return reflectance_of(e, context.illuminant());
   };
   const Parameter<Reflectance> p{
-      {name, "colour or texture", unit, {"rgb", "srgb", "spectrum", "texture", "ref"}, meaning}, parse, {}, {}};
+      {name, "colour or texture", share_of_light, {"rgb", "srgb", "spectrum", "texture", "ref"}, meaning},
+      parse,
+      {},
+      {}};
   return p.otherwise(fallback, text_of(fallback));
 }
 

@@ -80,10 +80,12 @@ Parameter<Vec3d> point(const std::string& name, const std::string& meaning, cons
 Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning);
 Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning,
                           const Spectrum& fallback);
+/// The share of light that something does not keep.
+Parameter<Spectrum> reflectance(const std::string& name, const std::string& meaning, const Spectrum& fallback);
 /// A colour, or a texture where it varies.
 using Reflectance = std::variant<Spectrum, Texture>;
-Parameter<Reflectance> color_or_texture(const std::string& name, const std::string& unit, const std::string& meaning,
-                                        const Spectrum& fallback);
+Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std::string& meaning,
+                                              const Spectrum& fallback);
 /// A file with a picture, relative to the scene file.
 Parameter<std::shared_ptr<const Texels>> picture(const std::string& name, const std::string& meaning);
 Parameter<Transform> transform(const std::string& name, const std::string& meaning);

@@ -1,7 +1,6 @@
 #include <render/io/mitsuba/values.h>
 
 #include <render/io/image/srgb.h>
-#include <render/io/spectrum.h>
 
 #include <mc/core/error.h>
 #include <mc/core/text.h>
@@ -64,7 +63,7 @@ Vec3d hexadecimal(const XmlElement& e, const std::string& text) {
   return v;
 }
 
-Spectrum tabulated(const XmlElement& e, const std::string& text) {
+Spectrum tabulated(const XmlElement& e, const std::string& text, Illuminant illuminant) {
   std::vector<SpectralSample> samples;
   for (std::size_t begin = 0; (begin = text.find_first_not_of(separators, begin)) != std::string::npos;) {
     const std::size_t colon = text.find(':', begin), end = std::min(text.find(',', begin), text.size());
@@ -74,7 +73,11 @@ Spectrum tabulated(const XmlElement& e, const std::string& text) {
         {parse_number(e, text.substr(begin, colon - begin)), parse_number(e, text.substr(colon + 1, end - colon - 1))});
     begin = end;
   }
-  return mc::with_context(e.where(), [&] { return spectrum_to_rgb(samples); });
+  return mc::with_context(e.where(), [&] { return spectrum_to_rgb(samples, illuminant); });
+}
+
+bool is_tabulated(const XmlElement& e) {
+  return e.tag == "spectrum" && e.attribute("value").find(':') != std::string::npos;
 }
 
 } // namespace
@@ -117,7 +120,7 @@ Vec3d vector_of(const XmlElement& element) { return axes_of(element, 0); }
 
 Spectrum color_of(const XmlElement& element) {
   const std::string& text = element.attribute("value");
-  if (element.tag == "spectrum" && text.find(':') != std::string::npos) return tabulated(element, text);
+  if (is_tabulated(element)) return tabulated(element, text, Illuminant::equal_energy);
   Vec3d v;
   if (text.starts_with('#')) {
     v = hexadecimal(element, text);
@@ -127,6 +130,11 @@ Spectrum color_of(const XmlElement& element) {
       for (int i = 0; i < 3; ++i) v[i] = srgb_to_linear(v[i]);
   }
   return v.cast<Float>().array();
+}
+
+Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant) {
+  if (illuminant == Illuminant::equal_energy || !is_tabulated(element)) return color_of(element);
+  return tabulated(element, element.attribute("value"), illuminant).max(0).min(1);
 }
 
 Transform transform_of(const XmlElement& element) {

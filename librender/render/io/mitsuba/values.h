@@ -2,6 +2,7 @@
 /// What one element of a scene file says: <float value="1"/>, <rgb value="#ff8000"/>, <transform> and the like.
 
 #include <render/core/transform.h>
+#include <render/io/spectrum.h>
 #include <render/io/xml.h>
 
 #include <string>
@@ -23,6 +24,9 @@ Vec3d vector_of(const XmlElement& element);
 /// Linear sRGB of <rgb> (linear) or <srgb> (by the sRGB curve), each as one number, three or #rrggbb (always by the
 /// curve), and of <spectrum>, as one number or wavelength:value pairs.
 Spectrum color_of(const XmlElement& element);
+/// The same of what reflects: wavelength:value pairs are seen in that light, and under D65 colours that the screen does
+/// not have become the nearest in [0, 1], as in Mitsuba 3.
+Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant);
 /// lookAt, translate, scale, rotate and matrix, applied in the order in which they stand.
 Transform transform_of(const XmlElement& element);
 

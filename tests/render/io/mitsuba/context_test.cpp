@@ -76,6 +76,19 @@ TEST_F(SceneContext, WarnsWhereMitsubaWouldHaveItOtherwise) {
   EXPECT_THAT(warnings("", lajolla), testing::IsEmpty());
 }
 
+TEST_F(SceneContext, SpectraOfWhatReflectsAreSeenInTheLightOfTheVersion) {
+  const auto said = [&](const std::string& version, render::Dialect dialect) {
+    const std::string file = write("v.xml", "<scene version=\"" + version + "\">" + sensor + R"(<shape type="cube"><bsdf
+      type="diffuse"><spectrum name="reflectance" value="400:1, 700:1"/></bsdf></shape></scene>)");
+    return support::error_of([&] { render::read_mitsuba(file, dialect); });
+  };
+  using enum render::Dialect;
+  EXPECT_THAT(said("0.6.0", mitsuba), HasSubstr("(1.1992")) << "warm, and more than there is";
+  EXPECT_THAT(said("3.0.0", lajolla), HasSubstr("(1.1992"));
+  EXPECT_THAT(said("odd", mitsuba), HasSubstr("(1.1992"));
+  for (const char* version : {"2.0.0", "2.1", "3"}) EXPECT_EQ(said(version, mitsuba), "") << version;
+}
+
 TEST_F(SceneContext, BadReferences) {
   const std::string start = std::string(sensor) + "\n";
   EXPECT_THAT(

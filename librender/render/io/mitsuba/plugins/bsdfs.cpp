@@ -6,8 +6,6 @@ namespace render::mitsuba {
 
 namespace {
 
-const std::string share = "share of light";
-
 Material make_diffuse(const Reflectance& reflectance) {
   if (const auto* texture = std::get_if<Texture>(&reflectance)) return TexturedLambert(*texture);
   return Bsdf(Lambert(std::get<Spectrum>(reflectance)));
@@ -124,23 +122,23 @@ const Plugins<Material>& bsdf_plugins() {
   static const Spectrum half = Spectrum::Constant(Float(0.5)), one = Spectrum::Ones();
   static const Plugins<Material> rows = {
       plugin<Material>("diffuse", "perfectly diffuse reflection, alike on both sides", make_diffuse,
-                       color_or_texture("reflectance", share, "what is reflected, in [0, 1]", half)),
+                       reflectance_or_texture("reflectance", "what is reflected, in [0, 1]", half)),
       plugin<Material>("conductor", "a perfect mirror", make_conductor,
                        choice("material", {"none"}, "all is reflected; metals by name are not supported"),
-                       color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one)),
+                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
       plugin<Material>("fuzzymetal", "the metal of [Shirley16]: mirrored directions moved by a point in a ball (ours)",
                        make_fuzzymetal,
-                       color("albedo", share, "what is reflected, in [0, 1]", Spectrum::Constant(Float(0.9))),
+                       reflectance("albedo", "what is reflected, in [0, 1]", Spectrum::Constant(Float(0.9))),
                        number("fuzz", "", 0, "radius of the ball, in [0, 1]")),
       plugin<Material>("dielectric", "smooth glass", make_dielectric, refractive_index("intIOR", "inside", 1.5046),
                        refractive_index("extIOR", "outside", 1.000277),
-                       color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
-                       color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
+                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one),
+                       reflectance("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
       plugin<Material>("roughplastic", "glossy paint: a rough clear coat over a diffuse base", make_roughplastic,
                        refractive_index("intIOR", "inside", 1.49), refractive_index("extIOR", "outside", 1.000277),
                        alpha("in [0.0001, 1]"), distribution({"ggx"}),
-                       color("diffuseReflectance", share, "of the base, in [0, 1]", half),
-                       color("specularReflectance", share, "factor of what the coat reflects, in [0, 1]", one),
+                       reflectance("diffuseReflectance", "of the base, in [0, 1]", half),
+                       reflectance("specularReflectance", "factor of what the coat reflects, in [0, 1]", one),
                        choice("base", {"layered", "lajolla"},
                               "(ours) what the base gets: what the coat lets through, or lajolla's (1 - F)^2 of the "
                               "half vector, which near the horizon is more than there is",
@@ -150,21 +148,21 @@ const Plugins<Material>& bsdf_plugins() {
       plugin<Material>("roughdielectric", "ground glass", make_roughdielectric,
                        refractive_index("intIOR", "inside", 1.5046), refractive_index("extIOR", "outside", 1.000277),
                        alpha("0 for smooth glass, or in [0.0001, 1]"), distribution({"ggx"}),
-                       color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one),
-                       color("specularTransmittance", share, "factor of what is refracted, in [0, 1]", one)),
+                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one),
+                       reflectance("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
       plugin<Material>(
           "roughconductor", "metal with facets of GGX, or of Blinn-Phong with the exponent 2 / alpha^2 - 2",
           make_roughconductor, color("eta", "", "index of refraction, >= 0"),
           color("k", "", "extinction coefficient, >= 0; not 0 where eta is"),
           refractive_index("extEta", "outside", 1.000277), alpha("in [0.0001, 1]"), distribution({"ggx", "phong"}),
-          color("specularReflectance", share, "factor of what is reflected, in [0, 1]", one)),
+          reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
       plugin<Material>("twosided", "the BSDF inside it, which all of ours are on both sides", make_twosided,
                        inner_bsdf("what covers both sides")),
-      plugin<Material>("mask", "the BSDF inside it, with holes", make_mask,
-                       color_or_texture("opacity", "share of light",
-                                        "what the surface stops, in [0, 1]; a gray, or of a texture the channels' mean",
-                                        half),
-                       inner_bsdf("what covers the rest")),
+      plugin<Material>(
+          "mask", "the BSDF inside it, with holes", make_mask,
+          reflectance_or_texture("opacity",
+                                 "what the surface stops, in [0, 1]; a gray, or of a texture the channels' mean", half),
+          inner_bsdf("what covers the rest")),
   };
   return rows;
 }

@@ -63,8 +63,8 @@ const Plugins<Texture>& texture_plugins() {
                             "between its texels, which here is bilinear in any case", 0),
                      picture("filename", "the picture: .png, .jpg, .exr, .hdr or .pfm")),
       texture_plugin("checkerboard", "two by two squares in a period", make_checkerboard,
-                     color("color0", "", "of the squares at (0, 0) and (1/2, 1/2)", Spectrum::Constant(Float(0.4))),
-                     color("color1", "", "of the other two", Spectrum::Constant(Float(0.2)))),
+                     reflectance("color0", "of the squares at (0, 0) and (1/2, 1/2)", Spectrum::Constant(Float(0.4))),
+                     reflectance("color1", "of the other two", Spectrum::Constant(Float(0.2)))),
   };
   return rows;
 }
