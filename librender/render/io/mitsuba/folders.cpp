@@ -38,10 +38,12 @@ std::vector<XmlElement> with_included(const XmlElement& root, std::vector<XmlEle
       all.push_back(std::move(child));
       continue;
     }
+    child.mark();
     Folders folders(root);
     for (const XmlElement& path : paths) folders.add(path);
-    XmlElement included =
-        mc::with_context(child.where(), [&] { return read_xml(folders.find(child.attribute("filename"))); });
+    const std::string& name = child.attribute("filename");
+    child.require_all_seen();
+    XmlElement included = mc::with_context(child.where(), [&] { return read_xml(folders.find(name)); });
     if (included.tag != "scene") included.fail("the document must be a <scene>");
     if (level == most_levels) child.fail(fmt::format("more than {} files include each other", most_levels));
     std::vector<XmlElement> more = with_included(root, std::move(included.children), level + 1);

@@ -57,6 +57,8 @@ TEST_F(SceneContext, ScenesIncludeOthers) {
   EXPECT_THAT(refusal(body + "<include filename=\"shapes.xml\"/>"),
               HasSubstr("more.xml:1: <include>: more than 16 files include each other"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<include filename=\"none.xml\"/>"), HasSubstr("s.xml:3: cannot read '"));
+  EXPECT_THAT(refusal("<include filename=\"more.xml\" if=\"1\"/>"),
+              HasSubstr("s.xml:2: <include>: attribute if=\"1\" is not"));
   write("more.xml", "<shape type=\"cube\"/>");
   EXPECT_THAT(refusal("<include filename=\"more.xml\"/>"),
               HasSubstr("more.xml:1: <shape>: the document must be a <scene>"));

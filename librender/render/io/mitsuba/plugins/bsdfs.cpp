@@ -2,6 +2,8 @@
 
 #include <mc/core/text.h>
 
+#include <cctype>
+
 namespace render::mitsuba {
 
 namespace {
@@ -93,7 +95,8 @@ constexpr Medium media[] = {{"vacuum", 1},        {"helium", 1.000036},        {
                             {"pet", 1.575},       {"diamond", 2.419}};
 
 double index_of_medium(const XmlElement& e) {
-  const std::string& word = e.attribute("value");
+  std::string word = e.attribute("value");
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   std::vector<std::string_view> names;
   for (const Medium& medium : media) {
     if (medium.name == word) return medium.index;

@@ -97,6 +97,7 @@ TEST_F(PluginsTest, IndicesOfRefractionHaveNames) {
   };
   EXPECT_EQ(refracted(R"(<string name="intIOR" value="water"/>)"), render::Float(1.333));
   EXPECT_EQ(refracted(R"(<float name="intIOR" value="1.333"/>)"), render::Float(1.333));
+  EXPECT_EQ(refracted(R"(<string name="int_ior" value="BK7"/>)"), render::Float(1.5046));
   EXPECT_THAT(refusal(std::string(sensor) +
                       "\n<bsdf id=\"b\" type=\"dielectric\"><string name=\"intIOR\" value=\"bk8\"/></bsdf>"),
               testing::HasSubstr("s.xml:3: <string>: no index of refraction is known of 'bk8'; did you mean 'bk7'?"));
