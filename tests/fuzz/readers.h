@@ -16,8 +16,9 @@ struct Reader {
   void (*read)(const std::string& path);
 };
 
-inline constexpr std::array<Reader, 7> readers = {{
+inline constexpr std::array<Reader, 8> readers = {{
     {"hdr", [](const std::string& p) { render::formats::read_hdr(p); }},
+    {"jpg", [](const std::string& p) { render::formats::read_jpeg(p); }},
     {"obj", [](const std::string& p) { render::to_shape(render::read_obj(p), {}); }},
     {"pfm", [](const std::string& p) { render::formats::read_pfm(p); }},
     {"ply", [](const std::string& p) { render::to_shape(render::read_ply(p), {}); }},

@@ -6,6 +6,8 @@
 
 #include "support/files.h"
 
+#include <array>
+
 namespace {
 
 using render::Image;
@@ -193,6 +195,32 @@ TEST_F(ImageIo, AFailedWriteLeavesTheOldImage) {
   EXPECT_NE(support::error_of([&] { render::write_image(path("a.exr"), wrong); }), "");
   EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
   expect_equal(image, render::read_image(path("a.pfm")));
+}
+
+// Red on the left, blue on the right, to within what the compression leaves. No code is off by more than 2.
+TEST_F(ImageIo, JpegInItsForms) {
+  const std::string jpg = MC_SOURCE_DIR "/tests/fuzz/corpus/jpg/";
+  for (const char* name : {"rgb.jpg", "progressive.jpg", "trailing.jpg"}) {
+    const Image image = render::read_image(jpg + name);
+    ASSERT_EQ(image.width, 32) << name;
+    ASSERT_EQ(image.height, 8) << name;
+    for (const int x : {0, 15, 16, 31})
+      for (int c = 0; c < 3; ++c) {
+        const double code = (x < 16 ? std::array{200, 40, 30} : std::array{20, 60, 180})[std::size_t(c)];
+        const double value = double(image.pixels[std::size_t(5 * 32 + x)][c]);
+        EXPECT_GE(value, render::srgb_to_linear((code - 2) / 255)) << name << " " << x << " " << c;
+        EXPECT_LE(value, render::srgb_to_linear((code + 2) / 255)) << name << " " << x << " " << c;
+      }
+  }
+  const std::string whole = mc::read_file(jpg + "rgb.jpg");
+  for (std::size_t n = 0; n < whole.size(); ++n) {
+    const std::string file = write("short.jpg", whole.substr(0, n));
+    EXPECT_THAT(support::error_of([&] { render::read_image(file); }), testing::HasSubstr("short.jpg")) << n;
+  }
+  EXPECT_THAT(support::error_of([&] { render::read_image(jpg + "broken-short.jpg"); }),
+              testing::HasSubstr("broken-short.jpg: the JPEG ends early"));
+  EXPECT_THAT(support::error_of([&] { render::read_image(jpg + "broken-huge.jpg"); }),
+              testing::HasSubstr("JPEG says 65535x65535, which its 295 bytes cannot hold"));
 }
 
 } // namespace

@@ -21,17 +21,46 @@
 
 #include <array>
 #include <memory>
+#include <string_view>
 
 namespace render::formats {
+
+namespace {
+
+// Whether the mark of the end is there, whatever stands behind it: 0xff and a byte are a mark, most of which have a
+// length; between the marks behind the start of a scan is what 0xff 0 or 0xff and the number of a restart may stand in.
+bool is_whole(std::string_view file) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(file[i]); };
+  bool in_scan = false;
+  for (std::size_t at = 2; at + 1 < file.size();) {
+    const unsigned mark = byte(at + 1);
+    if (byte(at) != 0xff) {
+      if (!in_scan) return false;
+      ++at;
+    } else if (mark == 0xff) { // any number of these may stand before a mark
+      ++at;
+    } else if (mark == 0 || (mark >= 0xd0 && mark <= 0xd7)) {
+      if (!in_scan) return false;
+      at += 2;
+    } else if (mark == 0xd9) {
+      return true;
+    } else {
+      if (at + 3 >= file.size()) return false;
+      in_scan = mark == 0xda;
+      at += 2 + (static_cast<std::size_t>(byte(at + 2)) << 8) + byte(at + 3);
+    }
+  }
+  return false;
+}
+
+} // namespace
 
 // The library takes zeros for what a file lacks: the mark at the end is looked for first, so that no truncated picture
 // is taken for a whole one.
 Image read_jpeg(const std::string& path) {
   const std::string file = mc::read_file(path);
-  const std::size_t end = file.find_last_not_of(std::string_view("\0\n\r ", 4));
   mc::require(file.starts_with("\xff\xd8"), "not a JPEG file: it does not begin with ff d8");
-  mc::require(end != std::string::npos && end >= 3 && file.compare(end - 1, 2, "\xff\xd9") == 0,
-              "the JPEG ends early: its last bytes are not ff d9");
+  mc::require(is_whole(file), "the JPEG ends early, or is broken: its mark of the end, ff d9, is not where it belongs");
   const auto* data = reinterpret_cast<const stbi_uc*>(file.data());
   const int size = static_cast<int>(file.size());
   mc::require(file.size() <= 0x7fffffff, "a JPEG of {} bytes is too large", file.size());
