@@ -55,7 +55,7 @@ DrawTally draw_samples(const Subject& s, std::uint64_t seed, std::uint64_t n,
       if (before) before(tally);
       ++tally.draws;
       if (!is_sample(d, stream, i, tally)) continue;
-      if (!d.pdf_positive) note(tally.leak, stream, i);
+      if (!d.pdf_positive) note(std::isfinite(d.density) ? tally.leak : tally.bad_pdf, stream, i);
       const double off = std::abs(d.weight - 1);
       if (!(off <= s.weight_tolerance)) note(tally.weight, stream, i);
       if (!(off <= tally.worst_weight)) tally.worst_weight = off;
@@ -76,6 +76,7 @@ DrawTally merged(DrawTally a, const DrawTally& b) {
   merge(a.outside, b.outside);
   merge(a.not_finite, b.not_finite);
   merge(a.leak, b.leak);
+  merge(a.bad_pdf, b.bad_pdf);
   merge(a.weight, b.weight);
   a.worst_weight = std::max(a.worst_weight, b.worst_weight);
   a.draws += b.draws;
@@ -95,6 +96,7 @@ std::vector<Check> check_draws(const Subject& s, const DrawTally& tally) {
   const auto count = [](const DrawTally::Broken& b) { return static_cast<double>(b.count); };
   add("finite", tally.not_finite, Fault::not_finite, count(tally.not_finite), 0);
   add("in the domain", tally.outside, Fault::outside, count(tally.outside), 0);
+  if (tally.bad_pdf.count > 0) add("pdf finite at samples", tally.bad_pdf, Fault::not_finite, count(tally.bad_pdf), 0);
   add("pdf > 0 at samples", tally.leak, Fault::leak, count(tally.leak), 0);
   add("weight = f / pdf", tally.weight, Fault::weight, tally.worst_weight, s.weight_tolerance);
   if (!s.may_fail) add("never fails", tally.failed, Fault::leak, count(tally.failed), 0);

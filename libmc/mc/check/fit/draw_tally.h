@@ -14,8 +14,8 @@ struct DrawTally {
   struct Broken {
     std::uint64_t count = 0, seed = 0, index = 0; ///< the witness is draw `index` of stream `seed`
   };
-  Broken failed, outside, not_finite, leak, weight;
-  double worst_weight = 0; ///< largest |weight - 1|
+  Broken failed, outside, not_finite, leak, bad_pdf, weight; ///< leak: pdf = 0; bad_pdf: it is not finite
+  double worst_weight = 0;                                   ///< largest |weight - 1|
   std::uint64_t draws = 0;
   std::vector<std::uint64_t> atoms; ///< count of each discrete outcome
 };

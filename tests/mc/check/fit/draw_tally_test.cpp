@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace {
 
 using Draw = mc::Subject::Draw;
@@ -63,6 +65,28 @@ TEST(DrawTally, EveryLawOfSingleDrawsIsACheck) {
                                            "weight = f / pdf: 20 of 1000 samples, first draw 39",
                                            "never fails: 20 of 1000 samples, first draw 9",
                                            "outcomes of probability 0: outcome 1 came 20 times"));
+}
+
+// A density that is not a number is no density of 0.
+TEST(DrawTally, ADensityThatIsNotFiniteIsItsOwnFault) {
+  mc::Subject s;
+  s.dim = 1;
+  s.draw = [](std::uint64_t, std::size_t n, std::vector<Draw>& out) {
+    for (std::size_t i = 0; i < n; ++i) {
+      Draw& d = out.emplace_back();
+      d.pdf_positive = i % 3 == 0;
+      d.density = i % 3 == 0 ? 1 : i % 3 == 1 ? std::numeric_limits<double>::quiet_NaN() : 0;
+    }
+  };
+  s.density = [](const auto&) { return 1.0; };
+  std::vector<std::string> failed;
+  for (const mc::Check& c : check_draws(s, draw_samples(s, 1, 1000, [](const auto&, double) {})))
+    if (c.verdict == mc::Verdict::fail) {
+      failed.push_back(c.name + ": " + c.detail);
+      EXPECT_EQ(c.fault, failed.size() == 1 ? mc::Fault::not_finite : mc::Fault::leak);
+    }
+  EXPECT_THAT(failed, testing::ElementsAre("pdf finite at samples: 333 of 1000 samples",
+                                           "pdf > 0 at samples: 333 of 1000 samples"));
 }
 
 TEST(DrawTally, RefusesASubjectThatDrawsNothing) {
