@@ -181,6 +181,7 @@ Subject continuous_subject(const std::shared_ptr<const Samples>& f, std::uint64_
       mc::Numbers point{};
       std::copy(x.begin(), x.end(), point.begin());
       d.v = f->domain.chart.to_unit(point);
+      d.density = density * f->domain.chart.jacobian(d.v);
     }
   };
   s.density = [f](const Subject::Coordinates& v) {

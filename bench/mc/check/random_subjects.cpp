@@ -232,7 +232,7 @@ Subject heavy_tail(Pcg& r) {
 }
 
 Subject powers_in_box(Pcg& r) {
-  const V3 a(between(r, 0.3, 3), between(r, 0.3, 3), between(r, 0.3, 3));
+  const V3 a(log_uniform(r, 0.05, 3), log_uniform(r, 0.05, 3), log_uniform(r, 0.05, 3));
   return make_subject(
       fmt::format("x^{:.2f} y^{:.2f} z^{:.2f}", a[0] - 1, a[1] - 1, a[2] - 1), mc::Box<double, 3>{},
       [a](const V3& u) { return V3(std::pow(u[0], 1 / a[0]), std::pow(u[1], 1 / a[1]), std::pow(u[2], 1 / a[2])); },

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace {
 
@@ -52,6 +53,22 @@ TEST(CheckSubject, LobesOfFewFloatSteps) {
     };
     const mc::Report r = check_subject(make_subject("few steps", mc::Sphere<float>{}, sampler, pdf), {});
     EXPECT_EQ(r.verdict(), Verdict::pass) << r.to_string();
+  }
+}
+
+// x^(a - 1) on (0, 1): of a = .12 a fortieth lies below 2^-44, a thousandth below 2^-83 and a millionth below 2^-166.
+// Between the end and the first number beside 1 there is room for all of that.
+TEST(CheckSubject, SingularitiesAsDeepAsNumbersGo) {
+  for (const double a : {0.12, 0.3}) {
+    const auto sampler = [a](Pcg& r) { return std::pow(r.uniform<double>(), 1 / a); };
+    const auto pdf = [a](double x) { return a * std::pow(x, a - 1); };
+    const mc::Report right = check_subject(make_subject("power", mc::Interval<double>(0, 1), sampler, pdf), {});
+    EXPECT_EQ(right.verdict(), Verdict::pass) << right.to_string();
+    // All below a place that a thousandth lies below, at the place.
+    const double place = std::pow(1e-3, 1 / a);
+    const auto cut = [=](Pcg& r) { return std::max(sampler(r), place * (1 + r.uniform<double>())); };
+    const mc::Report wrong = check_subject(make_subject("cut power", mc::Interval<double>(0, 1), cut, pdf), {});
+    EXPECT_EQ(wrong.verdict(), Verdict::fail) << wrong.to_string();
   }
 }
 

@@ -6,7 +6,7 @@ namespace mc {
 namespace {
 
 Subject::Coordinates moved_inside(Subject::Coordinates v, int dim) {
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) v[d] = std::clamp(v[d], 0x1p-60, 1 - 0x1p-53);
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) v[d] = std::clamp(v[d], 0x1p-500, 1 - 0x1p-53);
   return v;
 }
 

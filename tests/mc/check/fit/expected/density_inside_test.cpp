@@ -23,6 +23,21 @@ TEST(DensityInside, IsFiniteOnTheFacesOfAnInfiniteDomain) {
   EXPECT_TRUE(std::isfinite(density_inside(s, {0, 0, 0})));
 }
 
+// Points beside 0 stay where they are, and the face is so far from them that a chart of the line is finite there.
+TEST(DensityInside, IsThatOfTheTailsOnTheFacesOfTheLine) {
+  const Subject cauchy = make_subject(
+      "Cauchy", mc::RealLine<double>(0, 1),
+      [](mc::Pcg& r) { return std::tan(mc::pi<double> * (r.uniform<double>() - 0.5)); },
+      [](double x) { return 1 / (mc::pi<double> * (1 + x * x)); });
+  // x = -1 / (2 v) there, so that the density over v is 2 / pi.
+  for (const double v : {0.0, 1e-300, 1e-100, 1e-20, 1 - 0x1p-53, 1.0})
+    EXPECT_NEAR(density_inside(cauchy, {v, 0, 0}), 2 / mc::pi<double>, 1e-12) << v;
+  const Subject root = make_subject(
+      "root", mc::Interval<double>(0, 1), [](mc::Pcg& r) { return mc::sqr(r.uniform<double>()); },
+      [](double x) { return 0.5 / std::sqrt(x); });
+  EXPECT_NEAR(density_inside(root, {1e-100, 0, 0}), 0.5e50, 1e38);
+}
+
 TEST(DensityInside, ManyAreAskedInOneQuestionWhereTheSubjectTakesIt) {
   Subject s = pareto();
   std::vector<Subject::Coordinates> v{{0, 0, 0}, {0.25, 0, 0}, {1, 0, 0}};
