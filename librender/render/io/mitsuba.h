@@ -35,7 +35,8 @@ using Variables = std::map<std::string, std::string>;
 
 /// Reads a scene file with its meshes. What it may say: mitsuba/reference.h.
 ///   throws : Error "scene.xml:14: ..." for broken XML, an unknown plugin or parameter (naming the nearest), a value
-///            that cannot be read or used, a reference to nothing, a missing or broken mesh, an empty scene, variables without effect
+///            that cannot be read or used, a reference to nothing, a missing or broken mesh, an empty scene, variables
+///            that it does not use
 SceneFile read_mitsuba(const std::string& path, Dialect dialect = Dialect::mitsuba, const Variables& variables = {});
 
 } // namespace render

@@ -14,8 +14,8 @@ Mitsuba 2 and 3: `to_world`, `int_ior`.
 - **Parameters** are written `<float name="fov" value="40"/>`: number `<float>` or `<integer>`, integer `<integer>`,
   boolean `<boolean>`, file and words `<string>`, point `<point>` or `<vector>` with x, y, z or a value.
 - **Colours** are `<rgb>` (linear sRGB), `<srgb>` or `#rrggbb` (by the sRGB curve), or `<spectrum>` with one number or
-  `wavelength:value` pairs [nm]; three numbers, or one for all. Pairs of what reflects are seen in light of equal energy,
-  which makes white warm, as in Mitsuba 0.6, but in daylight in scenes of version 2 and later, as in Mitsuba 3.
+  `wavelength:value` pairs [nm]; three numbers, or one for all. Pairs of what reflects are seen in light of equal
+  energy, which makes white warm, as in Mitsuba 0.6, but in daylight in scenes of version 2 and later, as in Mitsuba 3.
 - **Transforms** are `<transform>` with `<translate>`, `<scale>`, `<rotate>` (angle in degrees), `<lookAt>` and
   `<matrix>` (16 numbers, row by row), applied in the order in which they stand.
 - **Variables**: `<default name="spp" value="16"/>` and then `$spp` in any value below it; of two defaults with one name
