@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <numeric>
 #include <vector>
@@ -13,8 +14,9 @@ std::optional<double> number_in(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (end != text.data() + text.size() || error == std::errc::invalid_argument) return {};
-  if (error == std::errc::result_out_of_range) return std::strtod(std::string(text).c_str(), nullptr);
-  return value;
+  if (error != std::errc::result_out_of_range) return value;
+  const double rounded = std::strtod(std::string(text).c_str(), nullptr);
+  return std::isinf(rounded) ? std::nullopt : std::optional(rounded);
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

@@ -11,8 +11,8 @@
 
 namespace mc {
 
-/// The number that all of a text is, "+1.5e3", "inf" and "nan" too: what is too large is infinite and what is too small
-/// 0, with its sign. Nothing where it is anything else. Knows no locale.
+/// The number that all of a text is, "+1.5e3", "inf" and "nan" too: what is too small is 0 with its sign. Nothing where
+/// it is anything else or too large for a double: infinite is only what says so. Knows no locale.
 std::optional<double> number_in(std::string_view text);
 
 /// Number of single-character edits (insert, delete, replace) between two words. Source: [WagnerFischer74]

@@ -25,15 +25,13 @@ TEST(Text, Numbers) {
                          {"+1E+3", 1e3},
                          {"inf", inf},
                          {"-inf", -inf},
-                         {"1e400", inf},
-                         {"-1e400", -inf},
                          {"1e-400", 0},
                          {"4.9406564584124654e-324", 4.9406564584124654e-324}})
     EXPECT_EQ(mc::number_in(row.text), row.value) << row.text;
   EXPECT_TRUE(std::signbit(mc::number_in("-1e-400").value()));
   EXPECT_TRUE(std::isnan(mc::number_in("nan").value()));
-  for (const char* text :
-       {"", "+", "-", "+-1", "++1", "-+1", "1 ", " 1", "1,5", "1e", "0x10", "one", "1.2.3", "e5", "1e5x"})
+  for (const char* text : {"", "+", "-", "+-1", "++1", "-+1", "1 ", " 1", "1,5", "1e", "0x10", "one", "1.2.3", "e5",
+                           "1e5x", "1e400", "-1e400"})
     EXPECT_EQ(mc::number_in(text), std::nullopt) << text;
 }
 
