@@ -136,7 +136,7 @@ std::vector<Option> rows(ValidateOptions& o) {
       {"--unnormalized", "", &o.unnormalized, "The density is given up to a factor"},
       {"--open-interval", "", &o.open_interval,
        "u lies in (0,1): accept samplers that break at single u, where one is exactly 0 or the density is 0 at one "
-       "point"},
+       "point, and samples on the very edge of the domain, whatever the density is there"},
   };
 }
 
@@ -280,7 +280,7 @@ int validate(const ValidateOptions& options) {
   const std::string page = o.report.empty() ? "" : (mc::output_folder(o.report, "index.html") / "index.html").string();
 
   const Finished finished = check_all(cases, o, alpha, interrupt.flag());
-  const Run run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty()},
+  const Run run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
                 finished.cases,
                 finished.reports,
                 finished.cases.size() < cases.size()};

@@ -216,15 +216,10 @@ SamplesFileCase samples_density_case(const SamplesFileOptions& o) {
   const std::uint64_t rows = file->table.rows();
   c.samples = rows - mc::pilot_samples(rows - rows / 9);
   c.one.check = [file, atoms, title = c.one.title()](const CaseOptions& options) {
-    mc::SubjectOptions s;
-    s.samples = options.samples;
-    s.seed = options.seed;
-    s.alpha = options.alpha;
-    s.evidence = options.evidence;
     Subject subject =
         atoms.empty() ? continuous_subject(file, options.seed) : discrete_subject(file, atoms, options.seed);
     subject.name = title;
-    return mc::check_subject(subject, s);
+    return mc::check_subject(subject, options);
   };
   return c;
 }

@@ -56,8 +56,9 @@ std::string command_again(const Case& c, const RunSettings& settings, std::size_
   const double alpha = mc::sidak_level(settings.alpha, 1 / static_cast<double>(cases));
   const std::string parameters = c.parameters.empty() ? "" : "(" + c.parameters + ")";
   const std::string what = c.again.empty() ? fmt::format("'{}{}' --scalar {}", c.name, parameters, c.scalar) : c.again;
-  return fmt::format("carlo validate {} --seed {}{} --alpha {:.6g}", what, settings.seed,
-                     settings.of_file ? std::string() : fmt::format(" --samples {}", settings.samples), alpha);
+  return fmt::format("carlo validate {} --seed {}{} --alpha {:.6g}{}", what, settings.seed,
+                     settings.of_file ? std::string() : fmt::format(" --samples {}", settings.samples), alpha,
+                     settings.open_interval ? " --open-interval" : "");
 }
 
 void write_json(const std::string& file, const Run& run) { mc::write_file(file, json_text(results(run))); }

@@ -14,6 +14,7 @@ struct RunSettings {
   std::uint64_t samples = 0; ///< per case
   double alpha = 0.01;       ///< family-wise
   bool of_file = false;      ///< the samples come from a file, which says how many there are
+  bool open_interval = false;
 };
 
 /// A run of validate: a report for each case that finished.

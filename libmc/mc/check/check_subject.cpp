@@ -323,7 +323,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   report.mass_error = mass.error;
 
   // The pilot's draws obey the same laws.
-  append(report.checks, check_draws(s, merged(counts.tally, pilot.tally)));
+  append(report.checks, check_draws(s, merged(counts.tally, pilot.tally), options.open_interval));
   append(report.checks, judge_density(s, layout));
   report.checks.push_back(test_mass(s, mass, options.alpha));
   append(report.checks, judge_inverse(s, counts, options.alpha));

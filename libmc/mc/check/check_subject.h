@@ -14,7 +14,7 @@ struct SubjectOptions {
                         ///< lets a suite of a hundred samplers pass nine seeds in ten
   std::size_t max_evaluations = 12'000'000; ///< of the density; a third of it at most for the expected counts
   bool evidence = false;                    ///< keep all counts and the p-value's way, for pages and plots
-  bool open_interval = false;               ///< of check_laws: u in (0,1), the sampler may break at single u
+  bool open_interval = false; ///< u in (0,1): the sampler may break at single u, its density on the domain's edge
 };
 
 /// The statistical part of the options of laws and BSDFs, which stands flat in them so that users write {.samples = n}.

@@ -130,6 +130,24 @@ TEST_F(SamplesFile, ASampleThatPrintingCarriedOverTheEdgeIsNone) {
   EXPECT_EQ(run(options(file, grid(2, 1, [](int i, int) { return 2.0 * i; }))).code, carlo::exit_ok);
 }
 
+// Of a density that is infinite at 1 a double holds the last 6e-4 as 1 itself: that says nothing against the sampler.
+TEST_F(SamplesFile, SamplesOnTheEdgeWhereTheDensityIsInfiniteAreOfMeasureZero) {
+  ValidateOptions o;
+  o.samples_file = samples([](mc::Pcg& r) { return fmt::format("{:.17g}", 1 - std::pow(r.uniform<double>(), 5)); });
+  o.pdf = "0.2*(1-x)^-0.8";
+  o.domain = "x=0:1";
+  const Output out = run(o);
+  EXPECT_EQ(out.code, carlo::exit_failed);
+  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: measure zero"), HasSubstr("pdf = inf")));
+  o.open_interval = true;
+  const Output open = run(o);
+  EXPECT_EQ(open.code, carlo::exit_ok) << open.text;
+  o.pdf = "0.21*(1-x)^-0.79";
+  const Output other = run(o);
+  EXPECT_EQ(other.code, carlo::exit_failed);
+  EXPECT_THAT(other.text, AllOf(HasSubstr("likely fault: shape"), HasSubstr(" --open-interval")));
+}
+
 TEST_F(SamplesFile, AnIntervalWithBounds) {
   const auto draw = [](mc::Pcg& random) { return fmt::format("{}", 4 * std::sqrt(random.uniform<double>()) - 1); };
   ValidateOptions o = options(samples(draw), grid(16, 1, [](int i, int) { return ramp_mean(i, 0) / 4; }));

@@ -1,5 +1,6 @@
 #include <mc/check/fit/draw_tally.h>
 
+#include <mc/check/fit/expected/density_inside.h>
 #include <mc/core/error.h>
 #include <mc/random/hash.h>
 
@@ -37,6 +38,25 @@ bool is_sample(const Subject::Draw& d, std::uint64_t seed, std::uint64_t index, 
   return false;
 }
 
+// Whether the point lies where a coordinate of the chart ends, and only there the density is 0 or infinite.
+bool of_measure_zero(const Subject& s, const Subject::Draw& d) {
+  const auto is_face = [](double v) { return v <= 0 || v >= 1; };
+  if (d.kind != Kind::point || std::none_of(d.v.begin(), d.v.begin() + s.dim, is_face)) return false;
+  const auto positive = [](double density) { return density > 0 && std::isfinite(density); };
+  return !positive(s.density(d.v)) && positive(density_inside(s, d.v));
+}
+
+DrawTally::Broken& broken_by_density(const Subject& s, const Subject::Draw& d, DrawTally& tally) {
+  if (of_measure_zero(s, d)) return tally.edge;
+  return std::isfinite(d.density) ? tally.leak : tally.bad_pdf;
+}
+
+// The density at a point; beside it where it has none on the face of the chart.
+double density_of(const Subject& s, const Subject::Draw& d) {
+  if (!d.pdf_positive && of_measure_zero(s, d)) return density_inside(s, d.v);
+  return d.density >= 0 ? d.density : s.density(d.v);
+}
+
 } // namespace
 
 DrawTally draw_samples(const Subject& s, std::uint64_t seed, std::uint64_t n,
@@ -55,12 +75,12 @@ DrawTally draw_samples(const Subject& s, std::uint64_t seed, std::uint64_t n,
       if (before) before(tally);
       ++tally.draws;
       if (!is_sample(d, stream, i, tally)) continue;
-      if (!d.pdf_positive) note(std::isfinite(d.density) ? tally.leak : tally.bad_pdf, stream, i);
+      if (!d.pdf_positive) note(broken_by_density(s, d, tally), stream, i);
       const double off = std::abs(d.weight - 1);
       if (!(off <= s.weight_tolerance)) note(tally.weight, stream, i);
       if (!(off <= tally.worst_weight)) tally.worst_weight = off;
       if (d.kind == Kind::atom) ++tally.atoms[static_cast<std::size_t>(d.atom)];
-      else point(d.v, d.density >= 0 ? d.density : s.density(d.v));
+      else point(d.v, density_of(s, d));
     }
   }
   return tally;
@@ -77,13 +97,14 @@ DrawTally merged(DrawTally a, const DrawTally& b) {
   merge(a.not_finite, b.not_finite);
   merge(a.leak, b.leak);
   merge(a.bad_pdf, b.bad_pdf);
+  merge(a.edge, b.edge);
   merge(a.weight, b.weight);
   a.worst_weight = std::max(a.worst_weight, b.worst_weight);
   a.draws += b.draws;
   return a;
 }
 
-std::vector<Check> check_draws(const Subject& s, const DrawTally& tally) {
+std::vector<Check> check_draws(const Subject& s, const DrawTally& tally, bool open_interval) {
   std::vector<Check> checks;
   const auto add = [&](const char* name, const DrawTally::Broken& b, Fault fault, double statistic, double limit) {
     Check c{name, b.count == 0 ? Verdict::pass : Verdict::fail, {}, 0, statistic, limit, fault, {}};
@@ -98,6 +119,8 @@ std::vector<Check> check_draws(const Subject& s, const DrawTally& tally) {
   add("in the domain", tally.outside, Fault::outside, count(tally.outside), 0);
   if (tally.bad_pdf.count > 0) add("pdf finite at samples", tally.bad_pdf, Fault::not_finite, count(tally.bad_pdf), 0);
   add("pdf > 0 at samples", tally.leak, Fault::leak, count(tally.leak), 0);
+  if (tally.edge.count > 0 && !open_interval)
+    add("pdf at the ends of the domain", tally.edge, Fault::zero_edge, count(tally.edge), 0);
   add("weight = f / pdf", tally.weight, Fault::weight, tally.worst_weight, s.weight_tolerance);
   if (!s.may_fail) add("never fails", tally.failed, Fault::leak, count(tally.failed), 0);
   for (std::size_t i = 0; i < s.atoms.size(); ++i) {

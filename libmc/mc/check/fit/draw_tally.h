@@ -14,8 +14,10 @@ struct DrawTally {
   struct Broken {
     std::uint64_t count = 0, seed = 0, index = 0; ///< the witness is draw `index` of stream `seed`
   };
-  Broken failed, outside, not_finite, leak, bad_pdf, weight; ///< leak: pdf = 0; bad_pdf: it is not finite
-  double worst_weight = 0;                                   ///< largest |weight - 1|
+  Broken failed, outside, not_finite, weight;
+  Broken leak, bad_pdf;    ///< pdf = 0; it is not finite
+  Broken edge;             ///< either, on a face of the chart and not beside it: a set of measure zero
+  double worst_weight = 0; ///< largest |weight - 1|
   std::uint64_t draws = 0;
   std::vector<std::uint64_t> atoms; ///< count of each discrete outcome
 };
@@ -31,7 +33,7 @@ DrawTally draw_samples(const Subject& subject, std::uint64_t seed, std::uint64_t
 DrawTally merged(DrawTally a, const DrawTally& b);
 
 /// One Check for each law of single draws: finite, in the domain, pdf > 0, weight, never fails, and no outcome of
-/// probability 0 among `atoms`.
-std::vector<Check> check_draws(const Subject& subject, const DrawTally& tally);
+/// probability 0 among `atoms`. With `open_interval` the pdf is free on the faces of the chart.
+std::vector<Check> check_draws(const Subject& subject, const DrawTally& tally, bool open_interval = false);
 
 } // namespace mc

@@ -22,7 +22,7 @@ std::string_view name(Fault f) {
   switch (f) {
   case Fault::none: return "none";
   case Fault::edge: return "edge: the ends of the unit cube break it";
-  case Fault::zero_edge: return "measure zero: only single u break it, the density is not in doubt";
+  case Fault::zero_edge: return "measure zero: only single u or points break it, the density is not in doubt";
   case Fault::impure: return "impure: the point is not a function of u alone";
   case Fault::not_finite: return "not finite";
   case Fault::outside: return "outside: points that are not in the domain";
@@ -60,10 +60,16 @@ double Report::p() const {
 }
 
 Fault Report::fault() const {
-  for (const bool deterministic : {true, false})
-    for (const Check& c : checks)
-      if (c.verdict == Verdict::fail && c.p.has_value() != deterministic) return c.fault;
-  return Fault::none;
+  const auto first = [&](auto&& of_kind) {
+    const auto c = std::find_if(checks.begin(), checks.end(),
+                                [&](const Check& one) { return one.verdict == Verdict::fail && of_kind(one); });
+    return c == checks.end() ? Fault::none : c->fault;
+  };
+  const auto measure_zero = [](const Check& c) { return c.fault == Fault::zero_edge; };
+  const Fault certain = first([&](const Check& c) { return !c.p && !measure_zero(c); });
+  if (certain != Fault::none) return certain;
+  const Fault likely = first([](const Check& c) { return c.p.has_value(); });
+  return likely != Fault::none ? likely : first(measure_zero);
 }
 
 std::string Report::to_string() const {

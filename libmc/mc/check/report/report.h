@@ -115,8 +115,9 @@ struct Report {
 
   Verdict verdict() const; ///< fail if any failed, else inconclusive if any is, else pass
   bool passed() const { return verdict() == Verdict::pass; }
-  double p() const;    ///< family-wise adjusted p-value (weighted Sidak over the statistical checks); 1 without any
-  Fault fault() const; ///< the likely fault: that of the first failed check, deterministic ones first
+  double p() const; ///< family-wise adjusted p-value (weighted Sidak over the statistical checks); 1 without any
+  Fault
+  fault() const; ///< the likely fault: that of the first failed check, deterministic ones first, measure zero last
   /// Several lines: the verdict, then each check that did not pass with its detail, then the worst cells.
   std::string to_string() const;
 };

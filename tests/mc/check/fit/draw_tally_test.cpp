@@ -74,6 +74,7 @@ TEST(DrawTally, ADensityThatIsNotFiniteIsItsOwnFault) {
   s.draw = [](std::uint64_t, std::size_t n, std::vector<Draw>& out) {
     for (std::size_t i = 0; i < n; ++i) {
       Draw& d = out.emplace_back();
+      d.v[0] = 0.25;
       d.pdf_positive = i % 3 == 0;
       d.density = i % 3 == 0 ? 1 : i % 3 == 1 ? std::numeric_limits<double>::quiet_NaN() : 0;
     }
@@ -87,6 +88,32 @@ TEST(DrawTally, ADensityThatIsNotFiniteIsItsOwnFault) {
     }
   EXPECT_THAT(failed, testing::ElementsAre("pdf finite at samples: 333 of 1000 samples",
                                            "pdf > 0 at samples: 333 of 1000 samples"));
+}
+
+// On the edge of the domain it says nothing of the density.
+TEST(DrawTally, OnAFaceOfTheChartItIsOfMeasureZero) {
+  mc::Subject s;
+  s.dim = 2;
+  s.draw = [](std::uint64_t, std::size_t n, std::vector<Draw>& out) {
+    for (std::size_t i = 0; i < n; ++i) {
+      Draw& d = out.emplace_back();
+      d.v = {0.25, i % 3 == 1 ? 0.0 : i % 3 == 2 ? 1.0 : 0.5, 0};
+      d.pdf_positive = i % 3 == 0;
+      d.density = i % 3 == 0 ? 1 : i % 3 == 1 ? std::numeric_limits<double>::infinity() : 0;
+    }
+  };
+  s.density = [](const auto& v) { return v[1] > 0 && v[1] < 1 ? 2.0 : std::numeric_limits<double>::infinity(); };
+  double sum = 0;
+  const mc::DrawTally t = draw_samples(s, 1, 999, [&](const auto&, double density) { sum += density; });
+  EXPECT_EQ(sum, 333 + 2 * 666);
+  const auto failed = [&](bool open_interval) {
+    std::vector<mc::Fault> faults;
+    for (const mc::Check& c : check_draws(s, t, open_interval))
+      if (c.verdict == mc::Verdict::fail) faults.push_back(c.fault);
+    return faults;
+  };
+  EXPECT_THAT(failed(false), testing::ElementsAre(mc::Fault::zero_edge));
+  EXPECT_THAT(failed(true), testing::IsEmpty());
 }
 
 TEST(DrawTally, RefusesASubjectThatDrawsNothing) {
