@@ -1,5 +1,5 @@
 #pragma once
-// The readers of files that come from anywhere, but for those that leave all to a library.
+// The readers of files that come from anywhere.
 
 #include <render/io/image/formats.h>
 #include <render/io/mesh/mesh.h>
@@ -16,7 +16,8 @@ struct Reader {
   void (*read)(const std::string& path);
 };
 
-inline constexpr std::array<Reader, 8> readers = {{
+inline constexpr std::array<Reader, 9> readers = {{
+    {"exr", [](const std::string& p) { render::formats::read_exr(p); }},
     {"hdr", [](const std::string& p) { render::formats::read_hdr(p); }},
     {"jpg", [](const std::string& p) { render::formats::read_jpeg(p); }},
     {"obj", [](const std::string& p) { render::to_shape(render::read_obj(p), {}); }},

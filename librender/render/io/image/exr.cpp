@@ -43,14 +43,12 @@ std::vector<std::string> layers_of(const Imf::ChannelList& list) {
 // One plane of floats per channel, as OpenEXR wants them.
 struct Planes {
   std::vector<std::vector<float>> plane;
-  int width;
-  Planes(std::size_t count, int w, int h)
-      : plane(count, std::vector<float>(static_cast<std::size_t>(w) * static_cast<std::size_t>(h))), width(w) {}
-  Imf::Slice slice(std::size_t c, int x0, int y0) {
-    const std::ptrdiff_t origin = -(static_cast<std::ptrdiff_t>(y0) * width + x0);
-    return {Imf::FLOAT, reinterpret_cast<char*>(plane[c].data() + origin), sizeof(float),
-            sizeof(float) * static_cast<std::size_t>(width)};
-  }
+  Imath::Box2i window; ///< of the pixels
+  Planes(std::size_t count, const Imath::Box2i& pixels)
+      : plane(count, std::vector<float>(static_cast<std::size_t>(pixels.max.x - pixels.min.x + 1) *
+                                        static_cast<std::size_t>(pixels.max.y - pixels.min.y + 1))),
+        window(pixels) {}
+  Imf::Slice slice(std::size_t c) { return Imf::Slice::Make(Imf::FLOAT, plane[c].data(), window); }
 };
 
 } // namespace
@@ -60,20 +58,20 @@ void write_exr(const std::string& path, const Image& image) {
     const std::size_t count = image.variance.empty() ? 3 : 6;
     Imf::Header header(image.width, image.height);
     Imf::FrameBuffer frame;
-    Planes planes(count, image.width, image.height);
+    Planes planes(count, header.dataWindow());
     for (std::size_t c = 0; c < count; ++c) {
       header.channels().insert(channels[c], Imf::Channel(Imf::FLOAT));
       const auto& source = c < 3 ? image.pixels : image.variance;
       for (std::size_t i = 0; i < source.size(); ++i)
         planes.plane[c][i] = static_cast<float>(source[i][static_cast<int>(c % 3)]);
-      frame.insert(channels[c], planes.slice(c, 0, 0));
+      frame.insert(channels[c], planes.slice(c));
     }
-    Planes layers(image.layers.size(), image.width, image.height);
+    Planes layers(image.layers.size(), header.dataWindow());
     std::size_t layer = 0;
     for (const auto& [name, values] : image.layers) {
       header.channels().insert(name, Imf::Channel(Imf::FLOAT));
       layers.plane[layer] = values;
-      frame.insert(name, layers.slice(layer++, 0, 0));
+      frame.insert(name, layers.slice(layer++));
     }
     for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
     if (image.estimates > 0) header.insert(estimates_key, Imf::IntAttribute(static_cast<int>(image.estimates)));
@@ -98,13 +96,12 @@ Image read_exr(const std::string& path) {
     const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
     for (std::size_t c = 0; c < 3; ++c)
       mc::require(grey || has(channels[c]), "EXR has no channel {}; R, G and B, or Y alone, are needed", channels[c]);
-    Planes planes(with_variance ? 6 : 3, width, height);
+    Planes planes(with_variance ? 6 : 3, window);
     Imf::FrameBuffer frame;
-    if (grey) frame.insert("Y", planes.slice(0, window.min.x, window.min.y));
-    for (std::size_t c = grey ? 3 : 0; c < planes.plane.size(); ++c)
-      frame.insert(channels[c], planes.slice(c, window.min.x, window.min.y));
-    Planes layers(names.size(), width, height);
-    for (std::size_t i = 0; i < names.size(); ++i) frame.insert(names[i], layers.slice(i, window.min.x, window.min.y));
+    if (grey) frame.insert("Y", planes.slice(0));
+    for (std::size_t c = grey ? 3 : 0; c < planes.plane.size(); ++c) frame.insert(channels[c], planes.slice(c));
+    Planes layers(names.size(), window);
+    for (std::size_t i = 0; i < names.size(); ++i) frame.insert(names[i], layers.slice(i));
     file.setFrameBuffer(frame);
     file.readPixels(window.min.y, window.max.y);
     if (grey) planes.plane[1] = planes.plane[2] = planes.plane[0];
