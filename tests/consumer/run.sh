@@ -39,5 +39,10 @@ export PKG_CONFIG_PATH=$scratch/prefix/lib/pkgconfig
 "$compiler" -std=c++20 "$here/control_variates.cpp" -o "$scratch/with_pkg_config" $(pkg-config --cflags --libs mc-render)
 LD_LIBRARY_PATH=$scratch/prefix/lib "$scratch/with_pkg_config"
 
+if [ -d "$scratch/prefix/include/render" ]; then
+  "$cmake" --build "$scratch/0" --config Release --target picture >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+  for ending in png exr; do "$scratch/0/Release/picture" "$scratch/picture.$ending"; done
+fi
+
 carlo=$scratch/prefix/bin/carlo
 [ ! -x "$carlo" ] || "$carlo" validate --plugin "$scratch/0/Release/mine.so" --params n=1 --params n=1000 --samples 100000
