@@ -11,8 +11,9 @@ namespace mc {
 /// The deterministic laws that the sampler has what they need for, each one or more Checks:
 ///   edges     : sample finite and in the domain, pdf positive and finite, for u in the product of the ends, quarters
 ///               and the middle of [0,1) with their neighbours, and beside the branches that find_breaks sees on lines
-///               along each axis; apart (Fault::zero_edge) sets of measure zero: u with a coordinate of exactly 0, and
-///               single u whose neighbours are right where the density is 0 at one point
+///               along each axis; apart (Fault::zero_edge) sets of measure zero: u with a coordinate of exactly 0,
+///               single u whose neighbours are right where the density is 0 at one point, and samples rounded onto the
+///               edge of the domain where the density is 0 or infinite, but not beside it
 ///   purity    : the same u gives the same point bit for bit, whatever was sampled between; other u other points
 ///   support   : eval finite and >= 0, and pdf > 0 wherever eval > 0, at 20000 uniform points of the chart (with eval)
 ///   inverse   : invert(sample(u)) = u at 20000 random u, within invert_eps               (with invert)

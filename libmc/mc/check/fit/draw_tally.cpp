@@ -38,22 +38,14 @@ bool is_sample(const Subject::Draw& d, std::uint64_t seed, std::uint64_t index, 
   return false;
 }
 
-// Whether the point lies where a coordinate of the chart ends, and only there the density is 0 or infinite.
-bool of_measure_zero(const Subject& s, const Subject::Draw& d) {
-  const auto is_face = [](double v) { return v <= 0 || v >= 1; };
-  if (d.kind != Kind::point || std::none_of(d.v.begin(), d.v.begin() + s.dim, is_face)) return false;
-  const auto positive = [](double density) { return density > 0 && std::isfinite(density); };
-  return !positive(s.density(d.v)) && positive(density_inside(s, d.v));
-}
-
 DrawTally::Broken& broken_by_density(const Subject& s, const Subject::Draw& d, DrawTally& tally) {
-  if (of_measure_zero(s, d)) return tally.edge;
+  if (d.kind == Kind::point && breaks_on_face(s, d.v)) return tally.edge;
   return std::isfinite(d.density) ? tally.leak : tally.bad_pdf;
 }
 
 // The density at a point; beside it where it has none on the face of the chart.
 double density_of(const Subject& s, const Subject::Draw& d) {
-  if (!d.pdf_positive && of_measure_zero(s, d)) return density_inside(s, d.v);
+  if (!d.pdf_positive && breaks_on_face(s, d.v)) return density_inside(s, d.v);
   return d.density >= 0 ? d.density : s.density(d.v);
 }
 

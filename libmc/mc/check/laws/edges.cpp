@@ -1,5 +1,6 @@
 // Samples at the ends of the unit cube and beside the sampler's branches.
 
+#include <mc/check/fit/expected/density_inside.h>
 #include <mc/check/laws/find_breaks.h>
 #include <mc/check/laws/law.h>
 
@@ -19,19 +20,21 @@ std::array<double, 2> beside(const AnySampler& s, double u) {
   return {std::nextafter(u, 0.0), std::nextafter(u, 1.0)};
 }
 
-// Tries single u. Judged apart are sets of measure zero: those with a coordinate of exactly 0, and those that a density
-// of 0 at one point meets, as |x| does in the middle.
+// Tries single u. Judged apart are sets of measure zero: those with a coordinate of exactly 0, those that a density of
+// 0 at one point meets, as |x| does in the middle, and those rounded onto the edge of the domain, where a density may
+// be 0 or infinite.
 class Probe {
  public:
   // accepted : that the sampler breaks at single u
-  Probe(const AnySampler& s, bool accepted) : sampler_(s), accepted_(accepted) {}
+  Probe(const AnySampler& s, bool accepted) : sampler_(s), subject_(make_subject(s)), accepted_(accepted) {}
 
   void operator()(const Uniforms& u) {
     const bool at_zero = has_zero(sampler_, u);
     if (at_zero && sampler_.open_interval) return;
     const Placed p = place(sampler_, sampler_.sample(u));
     const auto fault = fault_of(p);
-    const bool single = at_zero || (!fault.empty() && p.pdf == 0 && p.draw.kind == Kind::point && is_single(u));
+    const bool single = at_zero || (!fault.empty() && p.draw.kind == Kind::point &&
+                                    (breaks_on_face(subject_, p.draw.v) || (p.pdf == 0 && is_single(u))));
     if (single && accepted_) return;
     (single ? zero_ : inner_).note(fault.empty() ? 0 : 1, [&] {
       return fmt::format("{} at {}", fault, describe_sample(sampler_, u));
@@ -45,7 +48,7 @@ class Probe {
     if (inner.verdict == Verdict::pass && zero.verdict == Verdict::fail)
       zero.detail +=
           "; only single u do this, with a coordinate of exactly 0 (take 1 - u instead) or where the density is 0 "
-          "at one point; open_interval (carlo validate --open-interval) accepts it as measure zero";
+          "or infinite at one point; open_interval (carlo validate --open-interval) accepts it as measure zero";
     return {inner, zero};
   }
 
@@ -75,6 +78,7 @@ class Probe {
   }
 
   const AnySampler& sampler_;
+  Subject subject_;
   bool accepted_;
   WorstError inner_{"edges of the unit cube", 0, Fault::edge};
   WorstError zero_{"single u, of measure zero", 0, Fault::zero_edge};

@@ -100,6 +100,18 @@ TEST(Law, ADensityOfZeroAtOnePointIsOfMeasureZero) {
   EXPECT_EQ(laws(open).fault(), Fault::zero_edge) << "it says that no u is 0: that excuses no other";
 }
 
+// The arcsine law is infinite at both ends; the last u is rounded onto the upper one.
+TEST(Law, ADensityThatIsInfiniteAtTheEdgeOfTheDomainIsOfMeasureZero) {
+  const auto tried = [](double power, bool open) {
+    const auto sine = [power](double u) { return std::pow(std::sin(mc::pi<double> / 2 * u), power); };
+    const auto pdf = [](double x) { return 1 / (mc::pi<double> * std::sqrt(x * (1 - x))); };
+    return mc::check_laws(mc::Interval<double>(0, 1), sine, pdf, {.samples = 20'000, .open_interval = open});
+  };
+  EXPECT_EQ(tried(2, false).fault(), Fault::zero_edge) << tried(2, false).to_string();
+  EXPECT_TRUE(tried(2, true).passed()) << tried(2, true).to_string();
+  EXPECT_EQ(tried(2.2, true).fault(), Fault::shape);
+}
+
 // An inverse without an oracle: the Jacobian is judged in double.
 TEST(Law, AnInverseStatesTheDensity) {
   const auto with = [](double slip, double inverse_slip) {

@@ -1,6 +1,7 @@
 #include <mc/check/fit/expected/density_inside.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mc {
 namespace {
@@ -18,6 +19,13 @@ void densities_inside(const Subject& s, std::span<Subject::Coordinates> v, std::
   for (Subject::Coordinates& one : v) one = moved_inside(one, s.dim);
   if (s.densities) return s.densities(v, densities);
   for (std::size_t i = 0; i < v.size(); ++i) densities[i] = s.density(v[i]);
+}
+
+bool breaks_on_face(const Subject& s, const Subject::Coordinates& v) {
+  const auto is_face = [](double x) { return x <= 0 || x >= 1; };
+  if (std::none_of(v.begin(), v.begin() + s.dim, is_face)) return false;
+  const auto positive = [](double density) { return density > 0 && std::isfinite(density); };
+  return !positive(s.density(v)) && positive(density_inside(s, v));
 }
 
 } // namespace mc

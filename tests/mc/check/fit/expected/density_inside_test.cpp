@@ -38,6 +38,21 @@ TEST(DensityInside, IsThatOfTheTailsOnTheFacesOfTheLine) {
   EXPECT_NEAR(density_inside(root, {1e-100, 0, 0}), 0.5e50, 1e38);
 }
 
+TEST(DensityInside, BreaksOnAFaceOnlyWhereItDoesNotBesideIt) {
+  const auto on_unit = [](double (*pdf)(double)) {
+    return make_subject(
+        "f", mc::Interval<double>(0, 1), [](mc::Pcg& r) { return r.uniform<double>(); }, pdf);
+  };
+  const Subject arcsine = on_unit([](double x) { return 1 / (mc::pi<double> * std::sqrt(x * (1 - x))); });
+  EXPECT_TRUE(breaks_on_face(arcsine, {0, 0, 0}) && breaks_on_face(arcsine, {1, 0, 0}));
+  EXPECT_FALSE(breaks_on_face(arcsine, {1 - 0x1p-53, 0, 0}));
+  const Subject ramp = on_unit([](double x) { return 2 * x; });
+  EXPECT_TRUE(breaks_on_face(ramp, {0, 0, 0}));
+  EXPECT_FALSE(breaks_on_face(ramp, {1, 0, 0})) << "2 is a density";
+  const Subject upper_half = on_unit([](double x) { return x < 0.5 ? 0.0 : 2.0; });
+  EXPECT_FALSE(breaks_on_face(upper_half, {0, 0, 0})) << "it is 0 beside the face too";
+}
+
 TEST(DensityInside, ManyAreAskedInOneQuestionWhereTheSubjectTakesIt) {
   Subject s = pareto();
   std::vector<Subject::Coordinates> v{{0, 0, 0}, {0.25, 0, 0}, {1, 0, 0}};
