@@ -75,8 +75,7 @@ typedef struct mc_sampler {
   double invert_tolerance; ///< |invert(sample(u)) - u|; 0: the square root of the scalar's epsilon
 
   /// Optional: makes what the other functions get as `self` out of the parameters, in their order; NULL refuses them.
-  ///           Without
-  /// it `self` is the array of parameters itself, a const double *.
+  ///           Without it `self` is the array of parameters itself, a const double *.
   void* (*create)(const double* parameters);
   void (*destroy)(void* self); ///< optional: frees what create made
 
@@ -85,8 +84,7 @@ typedef struct mc_sampler {
   /// The density at any x of the domain, finite; 0 outside the support, > 0 at every sample.
   double (*pdf)(const void* self, const double* x);
   /// Optional: the u, with uniforms = dimension of the domain, such that sample(u) = x for x out of sample. Returns 1.
-  ///           It states
-  /// that sample is one to one, so that |det d sample / d u| pdf = 1 is tested too.
+  ///           It states that sample is one to one, so that |det d sample / d u| pdf = 1 is tested too.
   int32_t (*invert)(const void* self, const double* x, double* u);
   /// Optional: the integrand f >= 0 (with the cosine where there is one) that the sampler is meant for. Where f > 0,
   ///           pdf > 0.
@@ -100,7 +98,7 @@ typedef struct mc_sampler {
   int32_t open_interval; ///< 1: sample wants u in (0,1)^uniforms, no u is 0
   /// With outcomes: the probability of outcome k. The pdf integrates to what they leave of 1.
   double (*probability)(const void* self, int32_t k);
-  /// Optional: where the density jumps along axis k of the domain, k < its dimensions. Not looked at yet.
+  /// Optional: where the density jumps along axis k of the domain, k < its dimensions: what is constant between is then exact.
   ///           An axis is a coordinate of an interval or box; radius and azimuth in degrees (disk, annulus); angle from
   ///           +z and azimuth in degrees (sphere, hemisphere). Sets *places to ascending numbers that stay valid as
   ///           long as self, and returns how many.

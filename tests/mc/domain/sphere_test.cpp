@@ -1,5 +1,7 @@
 #include <mc/domain/sphere.h>
 
+#include <mc/random/pcg.h>
+
 #include "support/chart.h"
 
 namespace {
@@ -23,6 +25,19 @@ TEST(Sphere, RoundedDirectionsKeepTheirPlaceAtThePoles) {
       const double v = mc::Sphere<double>().to_unit(mc::Vec3<float>(0.6f * r, 0.8f * r, z).cast<double>())[0];
       EXPECT_NEAR((z > 0 ? v : 1 - v) / (0.25 * mc::sqr(double(r))), 1, 1e-2) << r << " " << z;
     }
+}
+
+// A reflection in a vector that was normalised, as renderers write it, is not normalised again.
+TEST(Sphere, ContainsReflectionsInNormalisedVectors) {
+  mc::Pcg random(1);
+  const auto unit = [&] {
+    const mc::Vec3<float> v(random.uniform<float>() - 0.5f, random.uniform<float>() - 0.5f, random.uniform<float>());
+    return mc::Vec3<float>(v / std::sqrt(v.dot(v)));
+  };
+  for (int i = 0; i < 1'000'000; ++i) {
+    const mc::Vec3<float> w = unit(), h = unit();
+    ASSERT_TRUE(mc::Sphere<float>().contains(-w + 2 * w.dot(h) * h)) << w.transpose() << " in " << h.transpose();
+  }
 }
 
 TEST(Sphere, ContainsUnitVectorsOnly) {
