@@ -69,8 +69,8 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(ParsedDomain, PrintedPointsMayBeRounded) {
   const mc::Numbers w{0.6, 0.8, 1e-6};
-  EXPECT_TRUE(parse_domain("sphere").chart.contains({0.600001, 0.8, 0}));
-  EXPECT_FALSE(parse_domain("sphere", carlo::unknown_quartiles, Rounding::floats).chart.contains({0.600001, 0.8, 0}));
+  EXPECT_TRUE(parse_domain("sphere").chart.contains({0.600005, 0.8, 0}));
+  EXPECT_FALSE(parse_domain("sphere", carlo::unknown_quartiles, Rounding::floats).chart.contains({0.600005, 0.8, 0}));
   EXPECT_TRUE(parse_domain("sphere", carlo::unknown_quartiles, Rounding::floats).chart.contains(w));
   EXPECT_TRUE(parse_domain("x=0:0.1", carlo::unknown_quartiles, Rounding::floats).chart.contains({0.1f}));
   EXPECT_FALSE(parse_domain("x=0:0.1", carlo::unknown_quartiles, Rounding::doubles).chart.contains({0.1f}));

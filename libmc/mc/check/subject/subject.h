@@ -52,7 +52,7 @@ struct Subject {
   bool may_fail = false;
 
   double mass_tolerance = 1e-12;  ///< rounding error of the claimed density, relative
-  double weight_tolerance = 1e-4; ///< largest |weight - 1|
+  double weight_tolerance = 1e-4; ///< largest |weight - 1|, beyond what the density changes as the point is rounded
 
   /// The point of the unit cube that the point at v was drawn from, as the sampler's own inverse says; may be empty.
   std::function<Coordinates(const Coordinates& v)> invert;
