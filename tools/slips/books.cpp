@@ -139,7 +139,7 @@ void add_mixtures_and_numbers(Slips& s) {
                mean_trial(0, [](Pcg& r) { return light_through_occluder(r, false); }),
                mean_trial(0, [](Pcg& r) { return light_through_occluder(r, true); })});
   s.push_back({"P12", "a random number of 1", "book, float(drand48())",
-               "rounds up to 1 once in 2^25 (here once in 1000): z = 0 where the density is 0; keep u < 1", Fault::atom,
+               "rounds up to 1 once in 2^25 (here once in 1000): z = 0 where the density is 0; keep u < 1", Fault::leak,
                20'000,
                trial(on_hemisphere(
                    [](Pcg& r) {

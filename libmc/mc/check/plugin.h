@@ -98,10 +98,10 @@ typedef struct mc_sampler {
   int32_t open_interval; ///< 1: sample wants u in (0,1)^uniforms, no u is 0
   /// With outcomes: the probability of outcome k. The pdf integrates to what they leave of 1.
   double (*probability)(const void* self, int32_t k);
-  /// Optional: where the density jumps along axis k of the domain, k < its dimensions: what is constant between is then exact.
-  ///           An axis is a coordinate of an interval or box; radius and azimuth in degrees (disk, annulus); angle from
-  ///           +z and azimuth in degrees (sphere, hemisphere). Sets *places to ascending numbers that stay valid as
-  ///           long as self, and returns how many.
+  /// Optional: where the density jumps along axis k of the domain, k < its dimensions: what is constant between is then
+  ///           exact. An axis is a coordinate of an interval or box; radius and azimuth in degrees (disk, annulus);
+  ///           angle from +z and azimuth in degrees (sphere, hemisphere). Sets *places to ascending numbers that stay
+  ///           valid as long as self, and returns how many.
   int32_t (*breaks)(const void* self, int32_t axis, const double** places);
 } mc_sampler;
 

@@ -34,7 +34,7 @@ class Probe {
     const Placed p = place(sampler_, sampler_.sample(u));
     const auto fault = fault_of(p);
     const bool single = at_zero || (!fault.empty() && p.draw.kind == Kind::point &&
-                                    (breaks_on_face(subject_, p.draw.v) || (p.pdf == 0 && is_single(u))));
+                                    (density_beside_face(subject_, p.draw.v) || (p.pdf == 0 && is_single(u))));
     if (single && accepted_) return;
     (single ? zero_ : inner_).note(fault.empty() ? 0 : 1, [&] {
       return fmt::format("{} at {}", fault, describe_sample(sampler_, u));

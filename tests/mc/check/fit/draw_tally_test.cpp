@@ -95,26 +95,26 @@ TEST(DrawTally, ADensityThatIsNotFiniteIsItsOwnFault) {
 TEST(DrawTally, OnAFaceOfTheChartItIsOfMeasureZero) {
   mc::Subject s;
   s.dim = 2;
-  s.draw = [](std::uint64_t, std::size_t n, std::vector<Draw>& out) {
-    for (std::size_t i = 0; i < n; ++i) {
-      Draw& d = out.emplace_back();
-      d.v = {0.25, i % 3 == 1 ? 0.0 : i % 3 == 2 ? 1.0 : 0.5, 0};
-      d.pdf_positive = i % 3 == 0;
-      d.density = i % 3 == 0 ? 1 : i % 3 == 1 ? std::numeric_limits<double>::infinity() : 0;
-    }
-  };
-  s.density = [](const auto& v) { return v[1] > 0 && v[1] < 1 ? 2.0 : std::numeric_limits<double>::infinity(); };
-  double sum = 0;
-  const mc::DrawTally t = draw_samples(s, 1, 999, [&](const auto&, double density) { sum += density; });
-  EXPECT_EQ(sum, 333 + 2 * 666);
-  const auto failed = [&](bool open_interval) {
+  s.density = [](const auto& v) { return v[1] <= 0 ? std::numeric_limits<double>::infinity() : v[1] >= 1 ? 0.0 : 2.0; };
+  const auto failed = [&](std::size_t low, std::size_t high, bool open_interval) {
+    s.draw = [&](std::uint64_t, std::size_t n, std::vector<Draw>& out) {
+      for (std::size_t i = 0; i < n; ++i) {
+        Draw& d = out.emplace_back();
+        d.v = {0.25, i < low ? 0.0 : i < low + high ? 1.0 : 0.5, 0};
+        d.pdf_positive = i >= low + high;
+      }
+    };
+    double sum = 0;
+    const mc::DrawTally t = draw_samples(s, 1, 1000, [&](const auto&, double density) { sum += density; });
+    EXPECT_EQ(sum, 2000) << "the density beside the face";
     std::vector<mc::Fault> faults;
     for (const mc::Check& c : check_draws(s, t, open_interval))
       if (c.verdict == mc::Verdict::fail) faults.push_back(c.fault);
     return faults;
   };
-  EXPECT_THAT(failed(false), testing::ElementsAre(mc::Fault::zero_edge));
-  EXPECT_THAT(failed(true), testing::IsEmpty());
+  EXPECT_THAT(failed(300, 3, false), testing::ElementsAre(mc::Fault::zero_edge));
+  EXPECT_THAT(failed(300, 3, true), testing::IsEmpty());
+  EXPECT_THAT(failed(0, 4, true), testing::ElementsAre(mc::Fault::leak)) << "rounding puts no four where nothing is";
 }
 
 // In a sharp lobe of float the density before the point was rounded is another one: 2.4 % within four steps here.

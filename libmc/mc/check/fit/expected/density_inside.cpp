@@ -6,8 +6,9 @@
 namespace mc {
 namespace {
 
-Subject::Coordinates moved_inside(Subject::Coordinates v, int dim) {
-  for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d) v[d] = std::clamp(v[d], 0x1p-500, 1 - 0x1p-53);
+Subject::Coordinates moved_inside(Subject::Coordinates v, int dim, double step = 0x1p-500) {
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d)
+    v[d] = std::clamp(v[d], step, 1 - std::max(step, 0x1p-53));
   return v;
 }
 
@@ -21,11 +22,15 @@ void densities_inside(const Subject& s, std::span<Subject::Coordinates> v, std::
   for (std::size_t i = 0; i < v.size(); ++i) densities[i] = s.density(v[i]);
 }
 
-bool breaks_on_face(const Subject& s, const Subject::Coordinates& v) {
+std::optional<double> density_beside_face(const Subject& s, const Subject::Coordinates& v) {
   const auto is_face = [](double x) { return x <= 0 || x >= 1; };
-  if (std::none_of(v.begin(), v.begin() + s.dim, is_face)) return false;
   const auto positive = [](double density) { return density > 0 && std::isfinite(density); };
-  return !positive(s.density(v)) && positive(density_inside(s, v));
+  if (std::none_of(v.begin(), v.begin() + s.dim, is_face) || positive(s.density(v))) return {};
+  for (const double step : {0x1p-500, 0x1p-52, 0x1p-30}) {
+    const double beside = s.density(moved_inside(v, s.dim, step));
+    if (positive(beside)) return beside;
+  }
+  return {};
 }
 
 } // namespace mc
