@@ -3,6 +3,9 @@
 #include <render/io/mitsuba.h>
 #include <render/render.h>
 
+#include <mc/core/file.h>
+#include <mc/estimate/moments.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -113,6 +116,50 @@ TEST(ClosedForm, SphereLight) {
       }
       EXPECT_LE(std::abs(difference) - 5e-4 * sum, 5 * std::sqrt(variance)) << y << " " << c;
     }
+}
+
+// A lamp in the middle of a closed sphere of radius 1: the wall shows albedo / pi E / (1 - albedo).
+struct Lamp {
+  double radius, albedo;
+  std::string around, strategy; ///< what stands around it
+};
+
+double seen_of(const Lamp& lamp, double& error) {
+  const std::string file = testing::TempDir() + "/lamp.xml";
+  mc::write_file(file, fmt::format(R"(<scene version="0.6.0"><sensor type="perspective"><float name="fov" value="20"/>
+<transform name="toWorld"><lookAt origin="0,0,-.5" target="0,.2,-1" up="0,1,0"/></transform></sensor>
+<shape type="sphere"><bsdf type="diffuse"><rgb name="reflectance" value="{0}"/></bsdf></shape>{1}
+<shape type="sphere"><float name="radius" value="{2}"/><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
+<emitter type="area"><rgb name="radiance" value="10000"/></emitter></shape></scene>)",
+                                   lamp.albedo, lamp.around, lamp.radius));
+  const SceneFile scene = read_mitsuba(file);
+  RenderOptions options;
+  options.width = options.height = 16;
+  options.spp = 256;
+  options.strategy = strategy_from(lamp.strategy);
+  mc::Moments seeds;
+  for (options.seed = 1; options.seed <= 8; ++options.seed) {
+    const Image image = render::render(scene.scene, options).image;
+    double sum = 0;
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x) sum += double(image.at(x, y)[1]);
+    seeds.add(sum / 256);
+  }
+  error = seeds.std_error();
+  const double irradiance = 1e4 * mc::pi<double> * mc::sqr(lamp.radius);
+  return seeds.mean() / (lamp.albedo / mc::pi<double> * irradiance / (1 - lamp.albedo));
+}
+
+// Directions are aimed at what is small, whose throughput is: paths must live to bring its light.
+TEST(ClosedForm, SmallLampsThatAreAimedAt) {
+  double error = 0;
+  const double bare = seen_of({1e-3, 0.5, "", "mixture"}, error);
+  EXPECT_LE(error, 0.01);
+  EXPECT_NEAR(bare, 1, 5 * error) << "an eighth of the light comes on paths of five edges and more";
+  const char* glass = R"(<shape type="sphere"><float name="radius" value=".005"/><bsdf type="dielectric"/></shape>)";
+  const double bulb = seen_of({5e-4, 0.8, glass, "mis"}, error);
+  EXPECT_LE(error, 0.02);
+  EXPECT_NEAR(bulb, 0.96, 5 * error) << "glass of index 1.5 sends 4 % back to the lamp";
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include <cli/integrate_output.h>
 #include <cli/subcommand.h>
 #include <input/words.h>
+#include <integrands/expression.h>
 #include <integrands/find.h>
 #include <integrands/sides.h>
 #include <terminal/interrupt.h>
@@ -216,7 +217,14 @@ int integrate(const IntegrateOptions& o) {
   };
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
-  found.results = results_of(found.integrands, bins, settings);
+  try {
+    found.results = results_of(found.integrands, bins, settings);
+  } catch (const mc::Error&) {
+    if (!*interrupt.flag()) throw;
+    progress.clear();
+    fmt::print(stderr, "interrupted before anything was estimated\n");
+    return exit_interrupted;
+  }
   progress.clear();
   const mc::Integral r = found.results.outputs.front();
   for (std::size_t k = 0; k < bins.bins.size(); ++k) {
@@ -242,7 +250,7 @@ int integrate(const IntegrateOptions& o) {
 
 Subcommand integrate_subcommand() {
   return make_subcommand<IntegrateOptions>(
-      "integrate", "Integrate a named integrand or an expression, with an error bar", rows, integrate);
+      "integrate", "Integrate a named integrand or an expression, with an error bar", rows, integrate, expressions);
 }
 
 } // namespace carlo

@@ -164,7 +164,7 @@ Brought bring(const ValidateOptions& o, const std::atomic<bool>* cancel) {
   Brought brought;
   const WorkerOptions worker{
       .limits = {.seconds = o.timeout, .gigabytes = o.memory}, .program = o.worker, .cancel = cancel};
-  if (!o.plugin.empty()) brought.cases = plugin_cases(o.plugin, o.parameters, worker);
+  if (!o.plugin.empty()) brought.cases = plugin_cases(o.plugin, o.parameters, o.names, worker);
   if (!o.sampler_command.empty())
     brought.cases.push_back(command_case({o.sampler_command, o.domain, o.breaks, o.uniforms}, worker));
   if (!o.samples_file.empty()) {
@@ -195,12 +195,14 @@ void require_possible(ValidateOptions& o, double alpha, std::uint64_t available)
 struct Finished {
   std::vector<const Case*> cases;
   std::vector<mc::Report> reports;
+  std::vector<std::string> errors; ///< of cases that could not be checked
 };
 
 // Prints the line of each case as soon as those before it are printed.
 Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions& o, double alpha,
                    const std::atomic<bool>* cancel) {
   std::vector<std::optional<mc::Report>> reports(cases.size());
+  std::vector<std::string> errors(cases.size());
   std::size_t printed = 0, finished = 0;
   std::mutex mutex;
   Progress progress;
@@ -222,12 +224,16 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
       report = mc::with_context(cases[i]->title(), [&] { return cases[i]->check(c); });
     } catch (const Interrupted&) {
       return;
+    } catch (const mc::Error& e) { // one crash is no reason to lose what the others show
+      errors[i] = e.what();
     }
     const std::lock_guard lock(mutex);
-    reports[i] = std::move(report);
+    if (errors[i].empty()) reports[i] = std::move(report);
     ++finished;
-    if (printed < cases.size() && reports[printed]) progress.clear();
-    for (; printed < cases.size() && reports[printed]; ++printed) print(printed);
+    const auto is_done = [&] { return printed < cases.size() && (reports[printed] || !errors[printed].empty()); };
+    if (is_done()) progress.clear();
+    for (; is_done(); ++printed)
+      if (reports[printed]) print(printed);
     std::fflush(stdout);
     progress.show(static_cast<double>(finished) / static_cast<double>(cases.size()),
                   fmt::format("{} of {} cases", finished, cases.size()));
@@ -235,6 +241,7 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
   progress.clear();
   Finished all;
   for (std::size_t i = 0; i < cases.size(); ++i) {
+    if (!errors[i].empty()) all.errors.push_back(errors[i]);
     if (!reports[i]) continue;
     if (i >= printed) print(i);
     all.cases.push_back(cases[i]);
@@ -256,6 +263,7 @@ void print_summary(const Run& run, std::size_t asked) {
   fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed,
              run.cases.size(), inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(),
              run.settings.alpha, run.settings.samples, run.settings.seed);
+  if (!run.errors.empty()) fmt::print("{} of {} cases could not be checked\n", run.errors.size(), asked);
   if (run.interrupted) fmt::print("interrupted: {} of {} cases were finished\n", run.cases.size(), asked);
 }
 
@@ -283,7 +291,8 @@ int validate(const ValidateOptions& options) {
   const Run run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
                 finished.cases,
                 finished.reports,
-                finished.cases.size() < cases.size()};
+                finished.cases.size() + finished.errors.size() < cases.size(),
+                finished.errors};
   print_summary(run, cases.size());
   if (!o.junit.empty()) write_junit(o.junit, run);
   if (!o.json.empty()) write_json(o.json, run);
@@ -291,6 +300,7 @@ int validate(const ValidateOptions& options) {
     write_page(page, run);
     fmt::print("page: {}\n", page);
   }
+  mc::require(run.errors.empty(), "{}", fmt::join(run.errors, "\ncarlo: "));
   if (run.interrupted) return exit_interrupted;
   const bool passed = std::all_of(run.reports.begin(), run.reports.end(), [](const auto& r) { return r.passed(); });
   return passed ? exit_ok : exit_failed;

@@ -39,6 +39,9 @@ struct Instance {
       for (std::size_t i = 0; i < names.size(); ++i) parser.DefineVar(names[i], &values[i]);
       parser.SetExpr(expression);
       parser.Eval();
+      mc::require(parser.GetNumResults() == 1,
+                  "expression '{}' has {} values; give one, or each as an argument of its own", expression,
+                  parser.GetNumResults());
     } catch (const mu::Parser::exception_type& e) {
       throw mc::Error(fmt::format("expression '{}', position {}: {}", expression, e.GetPos(), e.GetMsg()));
     }

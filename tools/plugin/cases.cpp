@@ -71,15 +71,18 @@ std::vector<Asked> asked_sets(const std::string& path, const std::vector<std::st
   return all;
 }
 
-// The sampler's parameters with those of the set in their places; nothing when it lacks one of them.
-std::optional<std::vector<double>> values_of(const std::string& path, const Description& d, const ParameterSet& set) {
+// The sampler's parameters with those of the set in their places; nothing when it lacks one of them, or when a value is
+// out of range of a sampler that is not `asked` for.
+std::optional<std::vector<double>> values_of(const std::string& path, const Description& d, const ParameterSet& set,
+                                             bool asked) {
   std::vector<Parameter> parameters = d.parameters;
   for (const auto& [name, value] : set)
     if (!find(parameters, name)) return {};
   for (const auto& [name, value] : set) {
     Parameter& p = *find(parameters, name);
-    mc::require(value >= p.lo && value <= p.hi, "{}: --params: {} = {} of {} must lie in [{}, {}]", path, name, value,
-                d.name, p.lo, p.hi);
+    const bool fits = value >= p.lo && value <= p.hi;
+    if (!fits && !asked) return {};
+    mc::require(fits, "{}: --params: {} = {} of {} must lie in [{}, {}]", path, name, value, d.name, p.lo, p.hi);
     p.value = value;
   }
   std::vector<double> values(parameters.size());
@@ -115,7 +118,8 @@ json run_plugin_task(const json& request, Watch& watch) {
       check_plugin(PluginSampler(sampler, request["parameters"], watch), request["title"], requested_options(request)));
 }
 
-Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& texts, const WorkerOptions& worker) {
+Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& texts,
+                       const std::vector<std::string>& names, const WorkerOptions& worker) {
   std::error_code error;
   mc::require(std::filesystem::exists(path, error), "cannot read '{}': no such file", path);
   const std::vector<Description> samplers = call_worker({{"task", "describe"}, {"who", path}}, worker);
@@ -126,12 +130,14 @@ Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& 
   for (std::size_t index = 0; index < samplers.size(); ++index) {
     const Description& d = samplers[index];
     const std::size_t before = cases.size();
+    const auto is_it = [&](const std::string& name) { return name == d.name || name.starts_with(d.name + "("); };
+    const bool named = names.empty() || std::any_of(names.begin(), names.end(), is_it);
     for (const Asked& set : asked)
-      if (const auto values = values_of(path, d, set.values)) {
+      if (const auto values = values_of(path, d, set.values, named)) {
         cases.push_back(make_case(path, index, d, set.values, *values, worker));
         used.insert(set.text);
       }
-    if (cases.size() == before) cases.push_back(make_case(path, index, d, {}, *values_of(path, d, {}), worker));
+    if (cases.size() == before) cases.push_back(make_case(path, index, d, {}, *values_of(path, d, {}, named), worker));
   }
   for (const Asked& set : asked)
     mc::require(used.contains(set.text), "{}: no sampler has all the parameters of --params '{}'", path, set.text);

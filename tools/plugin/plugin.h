@@ -68,7 +68,8 @@ mc::Report check_plugin(const PluginSampler& sampler, const std::string& title, 
 ///   sets   : "alpha=0.1, n=3"; lists and ranges stand for every combination, see parameters.h
 ///   throws : Error for a plugin that load_plugin refuses, that crashes or goes beyond a limit, or a set that no
 ///            sampler can take
-Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& sets, const WorkerOptions& worker);
+Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& sets,
+                       const std::vector<std::string>& names, const WorkerOptions& worker);
 
 /// What the worker does with a request of plugin_cases.
 nlohmann::json run_plugin_task(const nlohmann::json& request, Watch& watch);

@@ -37,16 +37,17 @@ json result(const Case& c, const mc::Report& r, const std::string& again) {
 }
 
 json results(const Run& run) {
-  const auto& [settings, cases, reports, interrupted] = run;
+  const auto& [settings, cases, reports, interrupted, errors] = run;
   json all = {{"command", settings.command}, {"commit", commit},        {"seed", settings.seed},
               {"samples", settings.samples}, {"alpha", settings.alpha}, {"cases", json::array()}};
-  bool passed = !interrupted;
+  bool passed = !interrupted && errors.empty();
   for (std::size_t i = 0; i < cases.size(); ++i) {
     passed = passed && reports[i].passed();
     all["cases"].push_back(result(*cases[i], reports[i], command_again(*cases[i], settings, cases.size())));
   }
   all["passed"] = passed;
   if (interrupted) all["interrupted"] = true;
+  if (!errors.empty()) all["errors"] = errors;
   return all;
 }
 
@@ -64,7 +65,7 @@ std::string command_again(const Case& c, const RunSettings& settings, std::size_
 void write_json(const std::string& file, const Run& run) { mc::write_file(file, json_text(results(run))); }
 
 void write_page(const std::string& file, const Run& run) {
-  const auto& [settings, cases, reports, interrupted] = run;
+  const auto& [settings, cases, reports, interrupted, errors] = run;
   json all = results(run);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const mc::Report& r = reports[i];

@@ -23,6 +23,7 @@ struct Run {
   const std::vector<const Case*>& cases;
   const std::vector<mc::Report>& reports;
   bool interrupted = false;
+  std::vector<std::string> errors = {}; ///< of the cases that could not be checked, with their names
 };
 
 /// The command that repeats one case of a run of so many cases, as a user would type it.

@@ -37,6 +37,7 @@ struct Direction {
   Spectrum weight; ///< f |cos| / density
   Float pdf;       ///< [1/sr] among the directions that are no narrow lobe's; 0: of a narrow lobe, met by nothing else
   Float eta;       ///< see BsdfSample
+  Float sought;    ///< density over that of following the BSDF alone: large where a small target was aimed at
 };
 
 /// Whether the strategy finds every light of the scene: chance never meets a point light or a directional one.
@@ -80,7 +81,7 @@ class Directions {
     const Vec3 d = at.frame.to_world(s->wi);
     if (!is_real(at, s->wi, d)) return {};
     const bool is_narrow = s->delta || at.bsdf.is_narrow();
-    return Direction{d, s->f * (std::abs(s->wi.z()) / s->pdf), is_narrow ? Float(0) : s->pdf, s->eta};
+    return Direction{d, s->f * (std::abs(s->wi.z()) / s->pdf), is_narrow ? Float(0) : s->pdf, s->eta, 1};
   }
 
   // The BSDF's part of the mixture, of probability pmf.
@@ -90,10 +91,10 @@ class Directions {
     if (!s) return {};
     const Vec3 d = at.frame.to_world(s->wi);
     if (!is_real(at, s->wi, d)) return {};
-    if (s->delta) return Direction{d, s->f * (std::abs(s->wi.z()) / (s->pdf * pmf)), 0, s->eta};
+    if (s->delta) return Direction{d, s->f * (std::abs(s->wi.z()) / (s->pdf * pmf)), 0, s->eta, pmf};
     if (!follows_) return {};
     const Float density = mixed(at, s->pdf, targets_pdf(at, s->wi, d));
-    return Direction{d, s->f * (std::abs(s->wi.z()) / density), density, s->eta};
+    return Direction{d, s->f * (std::abs(s->wi.z()) / density), density, s->eta, density / s->pdf};
   }
 
   // The targets' part.
@@ -115,8 +116,8 @@ class Directions {
   template <class B>
   std::optional<Direction> aimed_at(const Vertex<B>& at, const Vec3& wi, const Vec3& d, Float targets) const {
     if (!is_real(at, wi, d)) return {};
-    const Float density = mixed(at, follows_ ? at.bsdf.pdf(at.wo, wi) : Float(0), targets);
-    return Direction{d, at.bsdf.eval(at.wo, wi) * (std::abs(wi.z()) / density), density, 1};
+    const Float own = at.bsdf.pdf(at.wo, wi), density = mixed(at, own, targets);
+    return Direction{d, at.bsdf.eval(at.wo, wi) * (std::abs(wi.z()) / density), density, 1, density / own};
   }
 
   // The density of the mixture, from those of its parts.

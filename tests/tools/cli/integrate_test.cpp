@@ -159,13 +159,21 @@ TEST(Integrate, CountsMayBeWrittenAsPowersOfTen) {
   EXPECT_EQ(value("1e3"), value("1000"));
   EXPECT_NE(value("1e4"), value("1000"));
   EXPECT_EQ(support::run_carlo("integrate x -d x=0:1 --max-calls 1.5").exit_code, 2);
+  EXPECT_THAT(support::run_carlo("integrate x -d x=0:1 --max-calls -5").output, testing::HasSubstr("-5 must be >= 0"));
+}
+
+TEST(Integrate, WhatLooksLikeTwoIntegrandsOrAnOptionIsNamed) {
+  EXPECT_THAT(support::run_carlo("integrate 'x, x*x' -d x=0:1").output, testing::HasSubstr("has 2 values"));
+  EXPECT_THAT(support::run_carlo("integrate -x^2 -d x=0:1").output, testing::HasSubstr("\"(-x^2)\""));
 }
 
 TEST(Integrate, CtrlCSaysWhatWasFound) {
-  const support::Run r =
-      support::interrupt_carlo("integrate genz_c0_8d --method plain --rel-error 1e-12 --max-calls 1e12");
-  EXPECT_EQ(r.exit_code, 130) << r.output;
-  EXPECT_THAT(r.output, testing::AllOf(testing::HasSubstr(" ± "), testing::HasSubstr("stopped: cancelled")));
+  for (const std::string method : {"plain", "vegas"}) { // of which one learns for a while
+    const support::Run r =
+        support::interrupt_carlo("integrate genz_c0_8d --rel-error 1e-12 --max-calls 1e12 --method " + method);
+    EXPECT_EQ(r.exit_code, 130) << r.output;
+    EXPECT_THAT(r.output, testing::AllOf(testing::HasSubstr(" ± "), testing::HasSubstr("stopped: cancelled")));
+  }
 }
 
 } // namespace

@@ -21,4 +21,13 @@ TEST(Sides, AreWalkedFromEndToEnd) {
   }
 }
 
+TEST(Sides, AreReadWithBlanks) {
+  const std::vector<carlo::Side> sides = carlo::parse_sides(" x = 0 : 1, y= -inf :2 ");
+  ASSERT_EQ(sides.size(), 2u);
+  EXPECT_EQ(sides[0].name, "x");
+  EXPECT_EQ(sides[0].hi, 1);
+  EXPECT_EQ(sides[1].name, "y");
+  EXPECT_EQ(sides[1].lo, -HUGE_VAL);
+}
+
 } // namespace

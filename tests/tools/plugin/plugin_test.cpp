@@ -132,6 +132,25 @@ TEST(Plugin, ACrashIsOneLineThatSaysWhere) {
   EXPECT_THAT(refusal(plugin("crash_on_load")), HasSubstr("it crashed in loading: Aborted"));
 }
 
+// A report that was made is neither lost nor left out of the files because another case crashed.
+TEST(Plugin, ACrashCostsOnlyItsOwnCase) {
+  ValidateOptions o = plugin("samplers", {"Box", "Cosine"});
+  o.parameters = {"crash=1"};
+  o.json = testing::TempDir() + "/crash.json";
+  o.junit = testing::TempDir() + "/crash.xml";
+  EXPECT_THAT(refusal(o), HasSubstr("Segmentation fault"));
+  EXPECT_THAT(mc::read_file(o.json), AllOf(HasSubstr("\"name\": \"Box\""), HasSubstr("\"errors\": [\n  \"Cosine"),
+                                           HasSubstr("\"passed\": false")));
+  EXPECT_THAT(mc::read_file(o.junit), AllOf(HasSubstr("errors=\"1\""), HasSubstr("<error message=\"Cosine")));
+}
+
+// What another sampler would refuse is not asked of it.
+TEST(Plugin, ParametersAreThoseOfTheSamplersThatAreNamed) {
+  ValidateOptions o = plugin("samplers", {"Cosine"});
+  o.parameters = {"power=-1000"};
+  EXPECT_THAT(refusal(o), AllOf(HasSubstr("no sampler has all the parameters"), Not(HasSubstr("of Box"))));
+}
+
 TEST(Plugin, AHangEndsWithTheTimeout) {
   ValidateOptions o = cosine("hang");
   o.timeout = 1;

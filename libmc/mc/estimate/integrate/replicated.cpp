@@ -193,7 +193,7 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   if (method == Method::automatic && growth.grow(bare, std::max<std::uint64_t>(growth.affordable(bare) / 16, 1)))
     return std::move(growth.out);
 
-  const std::optional<Learned> learned = learn(run, method == Method::automatic ? &bare : nullptr);
+  const std::optional<Learned> learned = learn(run, method == Method::automatic ? &bare : nullptr, last);
   bare.forget();
   if (!learned) return growth.finish(bare);
   growth.out.density = learned->density;
@@ -204,7 +204,8 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
     return growth.finish(c.sequences);
   }
   const std::uint64_t reach = growth.affordable(all.front().sequences);
-  if (bare.length > reach) return growth.finish(bare); // nothing is left to hold what was learned against
+  // Of few calls none are left to hold against each other what was learned; a point costs two calls at most.
+  if (2 * all.size() * run.o.replicates * bare.length > run.left()) return growth.finish(bare);
   std::optional<Candidate> best = Contest(run, bare, reach).best_of(all);
   if (!best) return growth.finish(bare);
   growth.out.method = best->method;

@@ -72,15 +72,7 @@ void Sequences::forget() {
   }
 }
 
-std::vector<Seen> Sequences::seen() const {
-  std::vector<Seen> total = let_go;
-  for (const auto* all : {&sums, &uniform_sums})
-    for (const Sums& s : *all) {
-      total.resize(s.seen.size());
-      for (std::size_t k = 0; k < total.size(); ++k) total[k].merge(s.seen[k]);
-    }
-  return total;
-}
+std::vector<Seen> Sequences::seen() const { return seen_in(uniform_sums, seen_in(sums, let_go)); }
 
 Correlations Sequences::correlations(const Run& run) const {
   return detail::correlations(run.replicate_means(sums, uniform_sums, proposal));

@@ -76,4 +76,12 @@ void Sums::merge(const Sums& other) {
   values.insert(values.end(), other.values.begin(), other.values.end());
 }
 
+std::vector<Seen> seen_in(const std::vector<Sums>& all, std::vector<Seen> before) {
+  for (const Sums& s : all) {
+    before.resize(s.seen.size());
+    for (std::size_t k = 0; k < before.size(); ++k) before[k].merge(s.seen[k]);
+  }
+  return before;
+}
+
 } // namespace mc::detail

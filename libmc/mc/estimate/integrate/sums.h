@@ -50,4 +50,7 @@ struct Sums {
   void merge(const Sums& other);
 };
 
+/// What all of them saw of each output, beside what was seen before.
+std::vector<Seen> seen_in(const std::vector<Sums>& all, std::vector<Seen> before = {});
+
 } // namespace mc::detail

@@ -148,4 +148,15 @@ TEST(DrawTally, RefusesASubjectThatDrawsNothing) {
   EXPECT_THROW(draw_samples(s, 1, 10, [](const auto&, double) {}), mc::Error);
 }
 
+// One that always fails, as its density of 0 says: nothing is wrong, and nothing was judged.
+TEST(DrawTally, OfNoSamplesNothingIsJudged) {
+  mc::Subject s;
+  s.may_fail = true;
+  mc::DrawTally tally;
+  tally.draws = tally.failed.count = 1000;
+  EXPECT_EQ(mc::check_draws(s, tally).back().verdict, mc::Verdict::inconclusive);
+  --tally.failed.count;
+  EXPECT_EQ(mc::check_draws(s, tally).back().verdict, mc::Verdict::pass);
+}
+
 } // namespace

@@ -22,9 +22,9 @@ double ahead(const Means& round, std::uint64_t points, const Sequences& bare) {
   return std::max(by(at), by(bare.history.size() - 1));
 }
 
-// A round through a density, of so many points of each replicate.
+// A round through a density, of so many points of each replicate; `last`, if any, becomes what it says.
 Means seen_through(Run& run, std::shared_ptr<const AdaptedDensity> density, std::uint64_t purpose, std::uint64_t points,
-                   Learner* learner) {
+                   Learner* learner, std::optional<Outcome>* last) {
   const Proposal proposal{.density = std::move(density)};
   const std::vector<Sums> sums = run.evaluate_all(run.sobol_sets(purpose, 0, run.o.replicates), 0, points, proposal,
                                                   learner ? Keep::points : Keep::sums);
@@ -33,8 +33,16 @@ Means seen_through(Run& run, std::shared_ptr<const AdaptedDensity> density, std:
   // Of all rounds the last knew best where the integrand is: earlier ones may have met too little of it to know their
   // own error.
   for (Round& r : run.rounds) r.independent = false;
-  run.record(proposal.density->tree ? Method::tree : Method::vegas, run.means(sums, points, evidence), true);
-  return run.rounds.back().means;
+  const Method method = proposal.density->tree ? Method::tree : Method::vegas;
+  run.record(method, run.means(sums, points, evidence), true);
+  const Means& means = run.rounds.back().means;
+  if (last)
+    *last = {.means = means,
+             .method = method,
+             .seen = seen_in(sums),
+             .correlations = correlations(run.replicate_means(sums, {}, proposal)),
+             .density = proposal.density};
+  return means;
 }
 
 std::vector<double> values(const Means& means) {
@@ -44,14 +52,15 @@ std::vector<double> values(const Means& means) {
 }
 } // namespace
 
-std::optional<Learned> learn(Run& run, const Sequences* bare) {
+std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outcome>& last) {
   const std::uint64_t least = std::min<std::uint64_t>(run.o.max_calls / 4, 1 << 13), room = run.recordable();
   const std::uint64_t budget = std::clamp<std::uint64_t>(run.o.max_calls / 32, least, std::max(room / 4, least));
   const std::uint64_t most = std::min(run.o.max_calls / 5, room);
+  std::optional<Outcome>* said = bare ? nullptr : &last;
   if (run.o.density) {
     const std::uint64_t points = budget / 4 / run.o.replicates;
     if (points == 0) return Learned{run.o.density, std::vector<double>(run.outputs)};
-    return Learned{run.o.density, values(seen_through(run, run.o.density, 2, points, nullptr))};
+    return Learned{run.o.density, values(seen_through(run, run.o.density, 2, points, nullptr, said))};
   }
   Learner learner(run);
   if (bare) learner.learn(bare->sums);
@@ -63,7 +72,8 @@ std::optional<Learned> learn(Run& run, const Sequences* bare) {
        ++k) {
     const std::uint64_t points = calls / run.o.replicates;
     const double before = learner.width();
-    const Means round = seen_through(run, std::make_shared<AdaptedDensity>(learner.density()), 2 + k, points, &learner);
+    const Means round =
+        seen_through(run, std::make_shared<AdaptedDensity>(learner.density()), 2 + k, points, &learner, said);
     centre = values(round);
     spent += calls;
     const double by = bare ? ahead(round, points, *bare) : 0;
