@@ -41,8 +41,10 @@ void Tally::merge(const Tally& other) {
 
 SampleTaker::SampleTaker(const Scene& scene, const PathOptions& path, PixelSampler sampler, std::uint64_t seed,
                          std::uint32_t stratum, const Whole& whole)
-    : scene_(scene), integrator_(scene, path), seed_(seed),
-      stratum_(sampler == PixelSampler::stratified ? stratum : 1u << 31), whole_(whole), take_(take_of(sampler)) {}
+    : scene_(scene),
+      integrator_(scene, path, medium_around(scene, Ray{scene.camera().origin(), scene.camera().forward()})),
+      seed_(seed), stratum_(sampler == PixelSampler::stratified ? stratum : 1u << 31), whole_(whole),
+      take_(take_of(sampler)) {}
 
 SampleTaker::Take SampleTaker::take_of(PixelSampler sampler) {
   switch (sampler) {

@@ -41,8 +41,9 @@ struct PathOptions {
 /// seeds.
 template <class SceneType> class PathIntegrator {
  public:
-  PathIntegrator(const SceneType& scene, const PathOptions& options)
-      : scene_(scene), options_(options), directions_(scene, options.strategy) {}
+  /// around : through what all rays start that are asked about
+  PathIntegrator(const SceneType& scene, const PathOptions& options, const HomogeneousMedium* around = nullptr)
+      : scene_(scene), options_(options), directions_(scene, options.strategy), around_(around) {}
 
   /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
   template <class Stream> Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const;
@@ -212,6 +213,7 @@ template <class SceneType> class PathIntegrator {
   const SceneType& scene_;
   PathOptions options_;
   Directions directions_;
+  const HomogeneousMedium* around_;
 };
 
 template <class SceneType>
@@ -219,7 +221,9 @@ template <class Stream>
 Spectrum PathIntegrator<SceneType>::radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const {
   if (options_.shown.what == Shown::normals) return normal(ray, stream, rays);
   if (options_.shown.what == Shown::ambient_occlusion) return openness(ray, stream, rays);
-  return follow({ray, ray.o}, stream, rays, true);
+  Walk walk{ray, ray.o};
+  walk.medium = around_;
+  return follow(walk, stream, rays, true);
 }
 
 } // namespace render

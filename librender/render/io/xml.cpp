@@ -47,14 +47,18 @@ int line_at(const std::string& text, std::ptrdiff_t offset) {
   return 1 + static_cast<int>(std::count(text.begin(), end, '\n'));
 }
 
-XmlElement convert(const pugi::xml_node& node, const std::string& path, const std::string& text) {
+constexpr int deepest = 256; // far more than scenes nest, far fewer than a stack holds
+
+XmlElement convert(const pugi::xml_node& node, const std::string& path, const std::string& text, int depth = 1) {
   XmlElement element;
   element.tag = node.name();
   element.file = path;
   element.line = line_at(text, node.offset_debug());
   for (const auto& a : node.attributes()) element.set(a.name(), a.value());
   for (const auto& child : node.children()) {
-    if (child.type() == pugi::node_element) element.children.push_back(convert(child, path, text));
+    if (depth == deepest)
+      element.fail(fmt::format("elements are nested more than {} deep; open some of them", deepest));
+    if (child.type() == pugi::node_element) element.children.push_back(convert(child, path, text, depth + 1));
     else element.fail("text between elements is not supported; remove it");
   }
   return element;

@@ -21,6 +21,10 @@ void SceneBuilder::add(Shape shape, const Cover& cover) {
               surfaces_.size());
   mc::require(!cover.emission || !materials_[bsdf].mask,
               "scene: shape {} shines through a mask, which is not supported; remove one of them", surfaces_.size());
+  mc::require(
+      !cover.interior || !materials_[bsdf].mask,
+      "scene: shape {} holds what absorbs, and a mask has holes that light would leave it by; remove one of them",
+      surfaces_.size());
   if (!textured) shape.forget_uvs();
   Surface surface{std::make_shared<const Shape>(std::move(shape)), cover.bsdf, {}, cover.guide, cover.interior};
   if (cover.emission) {

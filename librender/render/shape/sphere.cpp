@@ -8,12 +8,15 @@
 
 namespace render {
 
+constexpr double most_radius = std::numeric_limits<float>::max() / 4; // distances are floats
+
 Sphere::Sphere(const Vec3d& center, double radius, bool inside_out)
     : center_(center), radius_(radius), height_(2 * radius), inside_out_(inside_out),
       extent_(radius + center.lpNorm<Eigen::Infinity>()),
       outside2_(mc::sqr(radius + 4 * double(std::numeric_limits<Float>::epsilon()) * extent_)) {
   mc::require(center.allFinite(), "sphere: centre ({}, {}, {}) is not finite", center.x(), center.y(), center.z());
   mc::require(std::isfinite(radius) && radius > 0, "sphere: radius {} must be finite and > 0", radius);
+  mc::require(radius <= most_radius, "sphere: radius {} must be at most {}", radius, most_radius);
 }
 
 Sphere Sphere::cap(const Vec3d& center, double radius, const Vec3d& axis, double height, bool inside_out) {

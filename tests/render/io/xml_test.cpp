@@ -40,4 +40,12 @@ TEST_F(Xml, BrokenXmlNamesTheLine) {
   EXPECT_THAT(support::error_of([&] { render::read_xml(path("none.xml")); }), testing::HasSubstr("no such file"));
 }
 
+TEST_F(Xml, DeepNestingIsRefused) {
+  std::string text;
+  for (int i = 0; i < 20'000; ++i) text += "<a>";
+  for (int i = 0; i < 20'000; ++i) text += "</a>";
+  EXPECT_THAT(support::error_of([&] { render::read_xml(write("deep.xml", text)); }),
+              testing::HasSubstr("nested more than 256 deep"));
+}
+
 } // namespace

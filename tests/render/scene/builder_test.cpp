@@ -36,6 +36,12 @@ TEST(SceneBuilder, SaysWhatIsWrong) {
   const BsdfId board = builder.add(TexturedLambert(Checkerboard(Spectrum::Zero(), Spectrum::Ones())));
   const Shape bare = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   EXPECT_THAT(message([&] { builder.add(bare, {board}); }), testing::HasSubstr("shape 1 has no texture coordinates"));
+  Material holes(Dielectric(Float(1.5)));
+  holes.mask = std::make_shared<const Mask>(Float(0.5));
+  const BsdfId lattice = builder.add(holes);
+  const HomogeneousMedium ink(Spectrum::Ones());
+  EXPECT_THAT(message([&] { builder.add(ball, {.bsdf = lattice, .interior = ink}); }),
+              testing::HasSubstr("shape 1 holds what absorbs"));
   // What was refused has left nothing behind.
   const Scene scene = builder.build();
   EXPECT_EQ(scene.surfaces().size(), 1u);

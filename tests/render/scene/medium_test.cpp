@@ -1,5 +1,6 @@
 // What glass absorbs, known in closed form.
 
+#include <render/render.h>
 #include <render/scene/builder.h>
 
 #include <mc/random/pcg.h>
@@ -167,6 +168,29 @@ TEST(HomogeneousMedium, StrategiesAgree) {
     EXPECT_GE(mc::t_test(m.mean() - plain.mean(), std::sqrt(va + vb), dof, 0, 1e-6).p, 1e-6)
         << name << ": " << m.mean() << " +- " << m.std_error() << ", bsdf " << plain.mean() << " +- "
         << plain.std_error();
+  }
+}
+
+// A camera in a ball of ink, before and behind a window of its own, and beside the ball.
+TEST(HomogeneousMedium, AroundTheCamera) {
+  const HomogeneousMedium ink(Spectrum(Float(0.5), 2, 0));
+  for (const double z : {0.4, -0.2, 5.0}) {
+    SceneBuilder builder;
+    const BsdfId clear = builder.add(Bsdf(Dielectric(1)));
+    builder.add(Sphere(Vec3d::Zero(), 1), {.bsdf = clear, .interior = ink});
+    builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 0.1})), {clear});
+    builder.add(Light(ConstantBackground(white)));
+    LensOptions lens;
+    lens.fov = 0.01;
+    builder.set(ThinLens(Transform::look_at({0, 0, z}, {0, 0, z - 1}, {0, 1, 0}), lens));
+    RenderOptions options;
+    options.width = options.height = 1;
+    options.spp = 16;
+    const Spectrum seen = render::render(builder.build(), options).image.at(0, 0);
+    const double way = z > 1 ? 2 : z + 1;
+    EXPECT_NEAR(seen[0], std::exp(-0.5 * way), 1e-4) << z;
+    EXPECT_NEAR(seen[1], std::exp(-2 * way), 1e-4) << z;
+    EXPECT_NEAR(seen[2], 1, 1e-4) << z;
   }
 }
 
