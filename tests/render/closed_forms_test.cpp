@@ -124,6 +124,7 @@ struct Lamp {
   std::string around, strategy; ///< what stands around it
 };
 
+// What the wall shows over what it should, and the standard error of that.
 double seen_of(const Lamp& lamp, double& error) {
   const std::string file = testing::TempDir() + "/lamp.xml";
   mc::write_file(file, fmt::format(R"(<scene version="0.6.0"><sensor type="perspective"><float name="fov" value="20"/>
@@ -145,9 +146,10 @@ double seen_of(const Lamp& lamp, double& error) {
       for (int x = 0; x < 16; ++x) sum += double(image.at(x, y)[1]);
     seeds.add(sum / 256);
   }
-  error = seeds.std_error();
   const double irradiance = 1e4 * mc::pi<double> * mc::sqr(lamp.radius);
-  return seeds.mean() / (lamp.albedo / mc::pi<double> * irradiance / (1 - lamp.albedo));
+  const double expected = lamp.albedo / mc::pi<double> * irradiance / (1 - lamp.albedo);
+  error = seeds.std_error() / expected;
+  return seeds.mean() / expected;
 }
 
 // Directions are aimed at what is small, whose throughput is: paths must live to bring its light.

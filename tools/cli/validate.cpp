@@ -288,6 +288,8 @@ int validate(const ValidateOptions& options) {
   const std::string page = o.report.empty() ? "" : (mc::output_folder(o.report, "index.html") / "index.html").string();
 
   const Finished finished = check_all(cases, o, alpha, interrupt.flag());
+  const std::string errors = fmt::format("{}", fmt::join(finished.errors, "\ncarlo: "));
+  mc::require(errors.empty() || !finished.cases.empty(), "{}", errors);
   const Run run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
                 finished.cases,
                 finished.reports,
@@ -300,7 +302,7 @@ int validate(const ValidateOptions& options) {
     write_page(page, run);
     fmt::print("page: {}\n", page);
   }
-  mc::require(run.errors.empty(), "{}", fmt::join(run.errors, "\ncarlo: "));
+  mc::require(errors.empty(), "{}", errors);
   if (run.interrupted) return exit_interrupted;
   const bool passed = std::all_of(run.reports.begin(), run.reports.end(), [](const auto& r) { return r.passed(); });
   return passed ? exit_ok : exit_failed;

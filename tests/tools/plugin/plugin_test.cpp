@@ -195,10 +195,10 @@ TEST(Plugin, ASweepIsEveryCombination) {
                           HasSubstr("Box(power=3)")));
 }
 
-TEST(Plugin, NothingIsWrittenWhenItCrashes) {
+TEST(Plugin, NothingIsWrittenWhereNothingWasFound) {
   ValidateOptions o = cosine("crash");
-  o.json = testing::TempDir() + "/crash.json";
-  o.junit = testing::TempDir() + "/crash.xml";
+  o.json = testing::TempDir() + "/nothing.json";
+  o.junit = testing::TempDir() + "/nothing.xml";
   mc::write_file(o.json, "old");
   refusal(o);
   EXPECT_EQ(mc::read_file(o.json), "old");
