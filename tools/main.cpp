@@ -44,9 +44,7 @@ const CLI::Validator count(
     "");
 
 // Or else -5 would be 2^64 - 5.
-const CLI::Validator
-    not_negative([](const std::string& text) { return text.starts_with('-') ? text + " must be >= 0" : std::string(); },
-                 "");
+std::string negative(const std::string& text) { return text.starts_with('-') ? text + " must be >= 0" : std::string(); }
 
 CLI::Option* add(CLI::App& app, const Option& o, bool* flag) { return app.add_flag(o.names, *flag, o.help); }
 
@@ -59,7 +57,7 @@ CLI::Option* add(CLI::App& app, const Option& o, std::vector<std::string>* list)
 template <class T> CLI::Option* add(CLI::App& app, const Option& o, T* target) {
   CLI::Option* option = app.add_option(o.names, *target, o.help);
   if constexpr (std::integral<T> || std::same_as<T, std::optional<int>>) option->transform(count);
-  if constexpr (std::unsigned_integral<T>) option->check(not_negative);
+  if constexpr (std::unsigned_integral<T>) option->check(negative);
   if constexpr (requires { target->empty(); }) {
     if (!target->empty()) option->capture_default_str();
   } else if constexpr (!requires { target->has_value(); }) {
@@ -102,7 +100,8 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& e) {
     names.push_back(c->get_name());
   for (const CLI::Option* o : asked.get_options())
     for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
-  if (word->find_first_of("*/^(") != std::string::npos)
+  const bool is_sum = word->starts_with('-') && !word->starts_with("--") && word->find_first_of("*/^(") != word->npos;
+  if (is_sum && asked.get_option_no_throw("INTEGRAND"))
     return fmt::format("unknown argument '{}'; an expression that begins with - goes into parentheses: \"({})\" ({})",
                        *word, *word, help);
   return fmt::format("unknown argument '{}'{} ({})", *word, mc::did_you_mean(*word, names), help);

@@ -16,6 +16,10 @@ TEST(Main, NamesTheArgumentThatItDoesNotKnow) {
   says("--verison", "unknown argument '--verison'; did you mean '--version'? (see carlo --help)");
   says("render cbox --sppp 4 --sede 3", "unknown argument '--sppp'; did you mean '--spp'? (see carlo render --help)");
   says("integrate x -z", "unknown argument '-z' (see carlo integrate --help)");
+  says("integrate -x^2 -d x=0:1",
+       "unknown argument '-x^2'; an expression that begins with - goes into parentheses: \"(-x^2)\" "
+       "(see carlo integrate --help)");
+  says("render cbox --outptu=/tmp/a.exr", "unknown argument '--outptu=/tmp/a.exr' (see carlo render --help)");
   says("render a b", "unknown argument 'b' (see carlo render --help)");
   says("render a --spp", "--spp: 1 required N missing (see carlo render --help)");
 }

@@ -3,6 +3,7 @@
 #include <converge/output.h>
 #include <converge/page.h>
 #include <input/words.h>
+#include <integrands/expression.h>
 #include <report/plot.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
@@ -195,7 +196,7 @@ int converge(const ConvergeOptions& o) {
 Subcommand converge_subcommand() {
   return make_subcommand<ConvergeOptions>(
       "converge", "Measure how error falls with samples and with seconds, beside theory; write data and plots", rows,
-      converge);
+      converge, expressions);
 }
 
 } // namespace carlo

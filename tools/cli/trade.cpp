@@ -4,6 +4,7 @@
 #include <converge/page.h>
 #include <converge/trade.h>
 #include <input/words.h>
+#include <integrands/expression.h>
 #include <report/plot.h>
 #include <report/report_json.h>
 #include <terminal/interrupt.h>
@@ -374,8 +375,9 @@ int trade(const TradeOptions& o) {
 } // namespace
 
 Subcommand trade_subcommand() {
-  return make_subcommand<TradeOptions>(
-      "trade", "Tell the cheapest way to a wanted error, or the most accurate in a given time", rows, trade);
+  return make_subcommand<TradeOptions>("trade",
+                                       "Tell the cheapest way to a wanted error, or the most accurate in a given time",
+                                       rows, trade, expressions);
 }
 
 } // namespace carlo

@@ -195,7 +195,7 @@ void require_possible(ValidateOptions& o, double alpha, std::uint64_t available)
 struct Finished {
   std::vector<const Case*> cases;
   std::vector<mc::Report> reports;
-  std::vector<std::string> errors; ///< of cases that could not be checked
+  std::vector<Unchecked> unchecked;
 };
 
 // Prints the line of each case as soon as those before it are printed.
@@ -210,7 +210,11 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
   for (const Case* c : cases) width = std::max(width, plain(*c).size());
   fmt::print("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>7} {:>6}\n", "sampler", width, "scalar", "verdict", "p",
              "detects", "in a cell", "ns", "s");
-  const auto print = [&](std::size_t i) { fmt::print("{}", line_of(width, *cases[i], *reports[i])); };
+  const auto print = [&](std::size_t i) {
+    if (reports[i]) fmt::print("{}", line_of(width, *cases[i], *reports[i]));
+    else fmt::print("{:<{}} {:<7} {}\n", plain(*cases[i]), width, cases[i]->scalar, "error");
+  };
+  const auto is_done = [&](std::size_t i) { return reports[i] || !errors[i].empty(); };
   mc::parallel_for(cases.size(), o.threads, [&](std::size_t i) {
     if (*cancel) return;
     CaseOptions c;
@@ -230,10 +234,8 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
     const std::lock_guard lock(mutex);
     if (errors[i].empty()) reports[i] = std::move(report);
     ++finished;
-    const auto is_done = [&] { return printed < cases.size() && (reports[printed] || !errors[printed].empty()); };
-    if (is_done()) progress.clear();
-    for (; is_done(); ++printed)
-      if (reports[printed]) print(printed);
+    if (is_done(printed)) progress.clear();
+    for (; printed < cases.size() && is_done(printed); ++printed) print(printed);
     std::fflush(stdout);
     progress.show(static_cast<double>(finished) / static_cast<double>(cases.size()),
                   fmt::format("{} of {} cases", finished, cases.size()));
@@ -241,9 +243,12 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
   progress.clear();
   Finished all;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    if (!errors[i].empty()) all.errors.push_back(errors[i]);
-    if (!reports[i]) continue;
+    if (!is_done(i)) continue;
     if (i >= printed) print(i);
+    if (!reports[i]) {
+      all.unchecked.push_back({cases[i], errors[i]});
+      continue;
+    }
     all.cases.push_back(cases[i]);
     all.reports.push_back(std::move(*reports[i]));
   }
@@ -263,7 +268,7 @@ void print_summary(const Run& run, std::size_t asked) {
   fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed,
              run.cases.size(), inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(),
              run.settings.alpha, run.settings.samples, run.settings.seed);
-  if (!run.errors.empty()) fmt::print("{} of {} cases could not be checked\n", run.errors.size(), asked);
+  if (!run.unchecked.empty()) fmt::print("{} of {} cases could not be checked\n", run.unchecked.size(), asked);
   if (run.interrupted) fmt::print("interrupted: {} of {} cases were finished\n", run.cases.size(), asked);
 }
 
@@ -288,13 +293,14 @@ int validate(const ValidateOptions& options) {
   const std::string page = o.report.empty() ? "" : (mc::output_folder(o.report, "index.html") / "index.html").string();
 
   const Finished finished = check_all(cases, o, alpha, interrupt.flag());
-  const std::string errors = fmt::format("{}", fmt::join(finished.errors, "\ncarlo: "));
+  std::string errors;
+  for (const Unchecked& u : finished.unchecked) errors += (errors.empty() ? "" : "\ncarlo: ") + u.error;
   mc::require(errors.empty() || !finished.cases.empty(), "{}", errors);
   const Run run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
                 finished.cases,
                 finished.reports,
-                finished.cases.size() + finished.errors.size() < cases.size(),
-                finished.errors};
+                finished.cases.size() + finished.unchecked.size() < cases.size(),
+                finished.unchecked};
   print_summary(run, cases.size());
   if (!o.junit.empty()) write_junit(o.junit, run);
   if (!o.json.empty()) write_json(o.json, run);

@@ -16,7 +16,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 double number(std::string_view text, std::string_view side) {
-  const std::optional<double> value = mc::number_in(text);
+  const std::optional<double> value = mc::number_in(trimmed(text));
   mc::require(value && !std::isnan(*value), "--domain: '{}' in '{}' is not a number, inf or -inf", text, side);
   return *value;
 }
@@ -27,14 +27,12 @@ std::vector<Side> parse_sides(const std::string& box) {
   std::vector<Side> sides;
   for (std::size_t begin = 0; begin <= box.size();) {
     const std::size_t end = std::min(box.find(',', begin), box.size());
-    const std::string side(trimmed(std::string_view(box).substr(begin, end - begin)));
+    const std::string_view side = trimmed(std::string_view(box).substr(begin, end - begin));
     const std::size_t equals = side.find('='), colon = side.find(':');
     mc::require(equals != std::string::npos && equals > 0 && colon != std::string::npos && colon > equals,
                 "--domain: '{}' is not of the form name=lo:hi, as in \"x=0:1,y=-1:2\"", side);
-    const std::string_view all = side;
-    Side s{std::string(trimmed(all.substr(0, equals))),
-           number(trimmed(all.substr(equals + 1, colon - equals - 1)), side),
-           number(trimmed(all.substr(colon + 1)), side)};
+    Side s{std::string(trimmed(side.substr(0, equals))), number(side.substr(equals + 1, colon - equals - 1), side),
+           number(side.substr(colon + 1), side)};
     mc::require(s.lo < s.hi, "--domain: '{}' has bounds {} and {}; lo < hi is needed", side, s.lo, s.hi);
     for (const Side& other : sides) mc::require(other.name != s.name, "--domain: '{}' is bounded twice", s.name);
     sides.push_back(s);

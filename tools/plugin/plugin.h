@@ -66,6 +66,7 @@ mc::Report check_plugin(const PluginSampler& sampler, const std::string& title, 
 /// One case per sampler of the shared object and per set of parameters that names only parameters of the sampler; where
 /// there is none, one at the defaults. Loading and checking run in processes of their own, see worker.h.
 ///   sets   : "alpha=0.1, n=3"; lists and ranges stand for every combination, see parameters.h
+///   names  : of those that are asked for, empty for all; the ranges of the others refuse no set
 ///   throws : Error for a plugin that load_plugin refuses, that crashes or goes beyond a limit, or a set that no
 ///            sampler can take
 Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& sets,

@@ -20,10 +20,15 @@ std::string printable(std::string text) {
   return text;
 }
 
-void add_case(pugi::xml_node suite, const Case& one, const mc::Report& r, const std::string& again) {
+pugi::xml_node add_node(pugi::xml_node suite, const Case& one) {
   pugi::xml_node node = suite.append_child("testcase");
   node.append_attribute("classname") = printable(one.name).c_str();
   node.append_attribute("name") = printable(one.title()).c_str();
+  return node;
+}
+
+void add_case(pugi::xml_node suite, const Case& one, const mc::Report& r, const std::string& again) {
+  pugi::xml_node node = add_node(suite, one);
   node.append_attribute("time") = fmt::format("{:.3f}", r.seconds).c_str();
   pugi::xml_node properties = node.append_child("properties");
   const auto property = [&](const char* key, const auto& value) {
@@ -53,7 +58,7 @@ void add_case(pugi::xml_node suite, const Case& one, const mc::Report& r, const 
 } // namespace
 
 void write_junit(const std::string& file, const Run& run) {
-  const auto& [settings, cases, reports, interrupted, errors] = run;
+  const auto& [settings, cases, reports, interrupted, unchecked] = run;
   std::size_t failures = 0;
   double seconds = 0;
   for (const mc::Report& r : reports) {
@@ -66,17 +71,14 @@ void write_junit(const std::string& file, const Run& run) {
   declaration.append_attribute("encoding") = "UTF-8";
   pugi::xml_node suite = document.append_child("testsuite");
   suite.append_attribute("name") = "carlo validate";
-  suite.append_attribute("tests") = static_cast<unsigned>(cases.size() + errors.size());
+  suite.append_attribute("tests") = static_cast<unsigned>(cases.size() + unchecked.size());
   suite.append_attribute("failures") = static_cast<unsigned>(failures);
-  suite.append_attribute("errors") = static_cast<unsigned>(errors.size());
+  suite.append_attribute("errors") = static_cast<unsigned>(unchecked.size());
   suite.append_attribute("time") = fmt::format("{:.3f}", seconds).c_str();
   for (std::size_t i = 0; i < cases.size(); ++i)
-    add_case(suite, *cases[i], reports[i], command_again(*cases[i], settings, cases.size()));
-  for (const std::string& error : errors) {
-    pugi::xml_node node = suite.append_child("testcase");
-    node.append_attribute("name") = printable(error.substr(0, error.find(": "))).c_str();
-    node.append_child("error").append_attribute("message") = printable(error).c_str();
-  }
+    add_case(suite, *cases[i], reports[i], command_again(*cases[i], settings, cases.size() + unchecked.size()));
+  for (const Unchecked& u : unchecked)
+    add_node(suite, *u.one).append_child("error").append_attribute("message") = printable(u.error).c_str();
   if (interrupted) suite.append_child("system-err").text() = "interrupted: the cases that finished";
   std::ostringstream text;
   document.save(text, "  ");

@@ -37,17 +37,20 @@ json result(const Case& c, const mc::Report& r, const std::string& again) {
 }
 
 json results(const Run& run) {
-  const auto& [settings, cases, reports, interrupted, errors] = run;
+  const auto& [settings, cases, reports, interrupted, unchecked] = run;
   json all = {{"command", settings.command}, {"commit", commit},        {"seed", settings.seed},
               {"samples", settings.samples}, {"alpha", settings.alpha}, {"cases", json::array()}};
-  bool passed = !interrupted && errors.empty();
+  bool passed = !interrupted && unchecked.empty();
   for (std::size_t i = 0; i < cases.size(); ++i) {
     passed = passed && reports[i].passed();
-    all["cases"].push_back(result(*cases[i], reports[i], command_again(*cases[i], settings, cases.size())));
+    all["cases"].push_back(
+        result(*cases[i], reports[i], command_again(*cases[i], settings, cases.size() + unchecked.size())));
   }
   all["passed"] = passed;
   if (interrupted) all["interrupted"] = true;
-  if (!errors.empty()) all["errors"] = errors;
+  for (const Unchecked& u : unchecked)
+    all["errors"].push_back(
+        {{"name", u.one->name}, {"parameters", u.one->parameters}, {"scalar", u.one->scalar}, {"error", u.error}});
   return all;
 }
 
@@ -65,7 +68,7 @@ std::string command_again(const Case& c, const RunSettings& settings, std::size_
 void write_json(const std::string& file, const Run& run) { mc::write_file(file, json_text(results(run))); }
 
 void write_page(const std::string& file, const Run& run) {
-  const auto& [settings, cases, reports, interrupted, errors] = run;
+  const auto& [settings, cases, reports, interrupted, unchecked] = run;
   json all = results(run);
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const mc::Report& r = reports[i];

@@ -17,13 +17,19 @@ struct RunSettings {
   bool open_interval = false;
 };
 
+/// A case that could not be checked: its sampler crashed, say.
+struct Unchecked {
+  const Case* one;
+  std::string error;
+};
+
 /// A run of validate: a report for each case that finished.
 struct Run {
   RunSettings settings;
   const std::vector<const Case*>& cases;
   const std::vector<mc::Report>& reports;
   bool interrupted = false;
-  std::vector<std::string> errors = {}; ///< of the cases that could not be checked, with their names
+  std::vector<Unchecked> unchecked = {};
 };
 
 /// The command that repeats one case of a run of so many cases, as a user would type it.

@@ -37,7 +37,7 @@ struct Direction {
   Spectrum weight; ///< f |cos| / density
   Float pdf;       ///< [1/sr] among the directions that are no narrow lobe's; 0: of a narrow lobe, met by nothing else
   Float eta;       ///< see BsdfSample
-  Float sought;    ///< density over that of following the BSDF alone: large where a small target was aimed at
+  Float over_bsdf; ///< density over that of following the BSDF alone: large where a small target was aimed at
 };
 
 /// Whether the strategy finds every light of the scene: chance never meets a point light or a directional one.

@@ -34,14 +34,14 @@ struct PathOptions {
 ///   Russian roulette: from the fourth edge on a path survives with four times the largest component of its throughput,
 ///                     corrected for the compression of radiance in glass, at most .99. The factor balances variance
 ///                     against cost: at one the Cornell box and smallpt's take a third more time to a given error.
-///                     While a path goes where it was aimed, through glass too, the throughput is as if the direction
-///                     had been followed: that on the way to a small lamp is as small as the lamp, and all light would
-///                     be in paths that hardly ever survive.
+///                     Where a direction was aimed, and through glass from there, the factor is how much denser that
+///                     is than following the BSDF, if that is more than four: throughput towards a small lamp is as
+///                     small as the lamp, and all its light would come on paths that hardly ever survive.
 /// Times to a given error are measured as CPU seconds of `carlo render` times the relmse of `carlo compare` between two
 /// seeds.
 template <class SceneType> class PathIntegrator {
  public:
-  /// around : through what all rays start that are asked about
+  /// around : through what rays start, null where nothing absorbs; must outlive it too
   PathIntegrator(const SceneType& scene, const PathOptions& options, const HomogeneousMedium* around = nullptr)
       : scene_(scene), options_(options), directions_(scene, options.strategy), around_(around) {}
 
@@ -70,7 +70,7 @@ template <class SceneType> class PathIntegrator {
     Spectrum beta = Spectrum::Ones(); ///< what light found along it counts
     Float previous_pdf = 0; ///< of its direction; 0: camera or narrow lobe, which no light sampling could have chosen
     Float eta_scale = 1;    ///< undoes the compression of radiance in glass
-    Float sought = 1;       ///< undoes how much denser the last rough surface's directions are than followed ones
+    Float over_bsdf = 1;    ///< density of its way since the last rough surface over that of following BSDFs alone
     int edges = 0;          ///< traced so far
     const HomogeneousMedium* medium = nullptr; ///< that the ray goes through; null: nothing absorbs it
   };
@@ -195,10 +195,10 @@ template <class SceneType> class PathIntegrator {
     walk.beta *= next->weight;
     walk.previous_pdf = next->pdf;
     walk.eta_scale *= mc::sqr(next->eta);
-    walk.sought = next->pdf > 0 ? next->sought : walk.sought * next->sought;
+    walk.over_bsdf = next->pdf > 0 ? next->over_bsdf : walk.over_bsdf * next->over_bsdf;
     if (is_black(walk.beta)) return false;
     if (walk.edges >= 4 && walk.beta.isFinite().all()) { // of an invalid path roulette would leave no trace
-      const Float survival = std::clamp(std::max(Float(4), walk.sought) * walk.beta.maxCoeff() * walk.eta_scale,
+      const Float survival = std::clamp(std::max(Float(4), walk.over_bsdf) * walk.beta.maxCoeff() * walk.eta_scale,
                                         std::numeric_limits<Float>::min(), Float(0.99));
       const auto roulette = mc::russian_roulette<Float>(survival, stream.next());
       if (!roulette.survives) return false;

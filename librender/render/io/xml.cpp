@@ -54,10 +54,9 @@ XmlElement convert(const pugi::xml_node& node, const std::string& path, const st
   element.tag = node.name();
   element.file = path;
   element.line = line_at(text, node.offset_debug());
+  if (depth > deepest) element.fail(fmt::format("elements are nested more than {} deep; flatten them", deepest));
   for (const auto& a : node.attributes()) element.set(a.name(), a.value());
   for (const auto& child : node.children()) {
-    if (depth == deepest)
-      element.fail(fmt::format("elements are nested more than {} deep; open some of them", deepest));
     if (child.type() == pugi::node_element) element.children.push_back(convert(child, path, text, depth + 1));
     else element.fail("text between elements is not supported; remove it");
   }

@@ -61,21 +61,6 @@ std::optional<Hit> meet(const SceneType& scene, Ray& ray, std::uint64_t& rays, c
   return scene.intersect(ray);
 }
 
-/// Through what a ray starts: what absorbs inside of the first surface around something that absorbs, if the ray comes
-/// from its inside; else null.
-template <class SceneType> const HomogeneousMedium* medium_around(const SceneType& scene, Ray ray) {
-  constexpr int most = 256; // surfaces on the way
-  for (int met = 0; met < most; ++met) {
-    const auto hit = scene.intersect(ray);
-    if (!hit) return nullptr;
-    const Surface& surface = scene.surface(*hit);
-    const SurfacePoint point = scene.surface_point(ray, *hit);
-    if (surface.interior) return ray.d.dot(point.ng) > 0 ? &*surface.interior : nullptr;
-    ray = beyond(ray, *hit, point);
-  }
-  return nullptr;
-}
-
 /// The share of light that arrives along a ray, which ends at `end` if that is given: the product of what masks let
 /// through; 0 where anything else is in the way.
 template <class SceneType>

@@ -27,7 +27,7 @@ template <class S> double solid_angle(const S& shape, const Vec3& ref, int n = 5
 TEST(Sphere, RejectsBadNumbers) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(Sphere(Vec3d(nan, 0, 0), 1), mc::Error);
-  for (const double radius : {0.0, -1.0, nan, mc::infinity<double>})
+  for (const double radius : {0.0, -1.0, nan, mc::infinity<double>, 2 * double(std::numeric_limits<Float>::max())})
     EXPECT_THROW(Sphere(Vec3d::Zero(), radius), mc::Error) << radius;
   EXPECT_THROW(Sphere::cap(Vec3d::Zero(), 1, Vec3d::Zero(), 1), mc::Error);
   for (const double height : {0.0, 2.1, nan})

@@ -28,11 +28,13 @@ const time = ns => ns > 0 ? ns < 100 ? ns.toFixed(1) : spaced(Math.round(ns)) : 
 
 function head() {
   const failed = data.cases.filter(c => c.verdict === "fail").length, unsure = data.cases.filter(c => c.verdict === "inconclusive").length;
-  const n = data.cases.length, verdict = failed ? "fail" : unsure ? "inconclusive" : "pass";
+  const errors = (data.errors || []).length;
+  const n = data.cases.length, verdict = failed ? "fail" : unsure || errors ? "inconclusive" : "pass";
   const part = k => `${k} of ${n} case${n === 1 ? "" : "s"}`;
   $("verdict").className = verdict;
   $("verdict").textContent = failed ? `${part(failed)} fail${failed === 1 ? "s" : ""}` + (unsure ? `, ${unsure} inconclusive` : "")
     : unsure ? `${part(unsure)} inconclusive` : n === 1 ? "The sampler obeys its laws" : `All ${n} cases obey their laws`;
+  if (errors) $("verdict").textContent += `; ${errors} more could not be checked`;
   $("facts").textContent = [`${spaced(data.samples)} samples each`, `family-wise \u03b1 = ${data.alpha}`, `seed ${data.seed}`,
     `commit ${data.commit}`, `${short(data.cases.reduce((s, c) => s + c.seconds, 0), 3)} s of work`].join(" \u00b7 ");
   $("command").textContent = data.command;

@@ -148,15 +148,11 @@ std::vector<Check> check_draws(const Subject& s, const DrawTally& tally, bool op
     checks.back().detail += "; open_interval (carlo validate --open-interval) accepts it as measure zero";
   }
   add("weight = f / pdf", tally.weight, Fault::weight, tally.worst_weight, s.weight_tolerance);
-  if (tally.draws > 0 && tally.failed.count == tally.draws)
-    checks.push_back({"draws samples",
-                      Verdict::inconclusive,
-                      {},
-                      0,
-                      0,
-                      1,
-                      Fault::leak,
-                      fmt::format("none of {} draws is a sample: there is nothing to judge", tally.draws)});
+  if (tally.draws > 0 && tally.failed.count == tally.draws) {
+    add("draws samples", {}, Fault::none, 0, 1);
+    checks.back().verdict = Verdict::inconclusive;
+    checks.back().detail = fmt::format("none of {} draws is a sample: there is nothing to judge", tally.draws);
+  }
   if (!s.may_fail) add("never fails", tally.failed, Fault::leak, count(tally.failed), 0);
   for (std::size_t i = 0; i < s.atoms.size(); ++i) {
     if (s.atoms[i] > 0 || tally.atoms[i] == 0) continue;

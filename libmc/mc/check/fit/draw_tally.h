@@ -33,7 +33,8 @@ DrawTally draw_samples(const Subject& subject, std::uint64_t seed, std::uint64_t
 DrawTally merged(DrawTally a, const DrawTally& b);
 
 /// One Check for each law of single draws: finite, in the domain, pdf > 0, weight, never fails, and no outcome of
-/// probability 0 among `atoms`. With `open_interval` the pdf is free on the faces of the chart.
+/// probability 0 among `atoms`; inconclusive where there is no sample at all. With `open_interval` the pdf is free on
+/// the faces of the chart.
 std::vector<Check> check_draws(const Subject& subject, const DrawTally& tally, bool open_interval = false);
 
 } // namespace mc

@@ -203,10 +203,9 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
     Candidate& c = method == Method::vegas ? all.front() : all.back();
     return growth.finish(c.sequences);
   }
-  const std::uint64_t reach = growth.affordable(all.front().sequences);
   // Of few calls none are left to hold against each other what was learned; a point costs two calls at most.
   if (2 * all.size() * run.o.replicates * bare.length > run.left()) return growth.finish(bare);
-  std::optional<Candidate> best = Contest(run, bare, reach).best_of(all);
+  std::optional<Candidate> best = Contest(run, bare, growth.affordable(all.front().sequences)).best_of(all);
   if (!best) return growth.finish(bare);
   growth.out.method = best->method;
   if (growth.adopt(best->sequences, best->sequences.means)) return std::move(growth.out);

@@ -92,6 +92,19 @@ TEST(Methods, EndWithFewerAndLongerSequencesWhereThatLeavesLess) {
   EXPECT_LT(ended, even / 2);
 }
 
+// So few that what was learned cannot be held against bare points: of 48 to 71, 24 more were spent than there are, and
+// what was left, a negative number, had no end.
+TEST(Methods, AutoKeepsToFewCalls) {
+  for (std::uint64_t calls = 48; calls <= 200; ++calls) {
+    mc::IntegrateOptions o;
+    o.max_calls = calls;
+    detail::Run run{{.one = &near_pole}, 1, 2, o};
+    std::optional<Outcome> last;
+    sequences(run, mc::Method::automatic, last);
+    ASSERT_LE(run.calls, calls);
+  }
+}
+
 TEST(Methods, LearnFindsThePeak) {
   mc::IntegrateOptions o;
   o.max_calls = 100'000;
