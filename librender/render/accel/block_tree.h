@@ -39,6 +39,7 @@ template <class Block> class BlockTree {
       tree_ = WideTree(boxes, lanes);
       blocks_.reserve(tree_.leaves().size());
       for (const auto& leaf : tree_.leaves()) add(tree_.order(), leaf.first, leaf.count);
+      tree_.forget_leaves();
     } else {
       std::vector<std::uint32_t> order(count);
       std::iota(order.begin(), order.end(), 0u);
@@ -71,8 +72,8 @@ template <class Block> class BlockTree {
  private:
   static constexpr std::uint32_t lanes = 8;
 
-  WideTree tree_;             ///< none for few
-  std::vector<Block> blocks_; ///< one per leaf, or all
+  WideTree tree_;                               ///< none for few
+  std::vector<Block, HugePages<Block>> blocks_; ///< one per leaf, or all
   Bounds bounds_;
 };
 

@@ -10,7 +10,7 @@
 
 namespace render {
 
-static_assert(alignof(TriangleBlock) == 64 && alignof(SphereBlock) == 64);
+static_assert(alignof(TriangleBlock) == 8 * sizeof(Float) && alignof(SphereBlock) == 8 * sizeof(double));
 
 /// A tree for each kind of leaf.
 template <class... Block> struct TreeOfEach : std::tuple<BlockTree<Block>...> {

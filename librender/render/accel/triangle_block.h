@@ -7,6 +7,8 @@
 #include <render/shape/shape.h>
 
 #include <array>
+#include <cmath>
+#include <type_traits>
 #include <vector>
 
 namespace render {
@@ -50,10 +52,6 @@ class TriangleBlock {
   void set(std::uint32_t lane, const Primitive& p) {
     for (std::size_t k = 0; k < 3; ++k)
       for (int a = 0; a < 3; ++a) v_[k][a][lane] = p.v[k][a];
-    // Differences of floats and their products are all but exact in double; no compensated product is needed.
-    const Vec3d a = p.v[0].cast<double>(), n = mc::cross<double>(p.v[1].cast<double>() - a, p.v[2].cast<double>() - a);
-    for (int k = 0; k < 3; ++k) normal_[k][lane] = n[k];
-    plane_[lane] = n.dot(a);
     shape_[lane] = p.shape;
     prim_[lane] = p.prim;
   }
@@ -61,8 +59,22 @@ class TriangleBlock {
   template <bool any> bool intersect(const Ray& ray, const Prepared& shear, Float& t_max, Hit& hit) const;
 
  private:
-  Lanes v_[3][3];                  ///< [vertex][axis]
-  EightDoubles normal_[3], plane_; ///< points p of the plane: normal . p = plane
+  Vec3d vertex(std::size_t k, int lane) const {
+    return {double(v_[k][0][lane]), double(v_[k][1][lane]), double(v_[k][2][lane])};
+  }
+  /// A ray meets the plane of a triangle at t = above / slope. Differences of floats and their products are all but
+  /// exact in double; those of doubles are compensated. Not kept in the block: few of its triangles are asked, and a
+  /// large mesh waits for memory.
+  struct Plane {
+    double above, slope;
+  };
+  Plane plane(const Ray& ray, int lane) const {
+    const Vec3d a = vertex(0, lane), b = vertex(1, lane) - a, c = vertex(2, lane) - a;
+    const Vec3d n = std::is_same_v<Float, double> ? mc::cross<double>(b, c) : b.cross(c);
+    return {n.dot(a - ray.o.cast<double>()), n.dot(ray.d.cast<double>())};
+  }
+
+  Lanes v_[3][3]; ///< [vertex][axis]
   int shape_[8], prim_[8];
 };
 
@@ -79,18 +91,12 @@ template <bool any> bool TriangleBlock::intersect(const Ray& ray, const Prepared
   const Lanes lowest = detail::smaller(areas0, detail::smaller(areas1, areas2)),
               highest = detail::larger(areas0, detail::larger(areas1, areas2));
   unsigned candidates = detail::less_equal(Lanes{}, lowest) | detail::less_equal(highest, Lanes{});
-  if (candidates == 0) return false;
-
-  const EightDoubles above =
-      plane_ - (normal_[0] * double(ray.o[0]) + normal_[1] * double(ray.o[1]) + normal_[2] * double(ray.o[2]));
-  const EightDoubles t8 =
-      above / (normal_[0] * double(ray.d[0]) + normal_[1] * double(ray.d[1]) + normal_[2] * double(ray.d[2]));
-  candidates &= detail::between(t8, double(t_max));
   bool found = false;
   for (; candidates != 0; candidates &= candidates - 1) {
     const int lane = __builtin_ctz(candidates);
-    const double t = t8[lane];
-    if (!(t < double(t_max))) continue;
+    const auto [above, slope] = plane(ray, lane);
+    const double ahead = slope < 0 ? -above : above;
+    if (!(ahead > 0 && ahead < double(t_max) * std::abs(slope))) continue;
     double area0 = double(areas0[lane]), area1 = double(areas1[lane]), area2 = double(areas2[lane]);
     if (area0 == 0 || area1 == 0 || area2 == 0) [[unlikely]] {
       // On an edge to float precision: products of floats are exact in double, so both neighbours decide alike.
@@ -105,6 +111,7 @@ template <bool any> bool TriangleBlock::intersect(const Ray& ray, const Prepared
     const double det = area0 + area1 + area2;
     if (det == 0) continue;
     if constexpr (any) return true;
+    const double t = above / slope;
     t_max = Float(t);
     const double inverse = 1 / det;
     hit = {t, shape_[lane], prim_[lane], Float(area1 * inverse), Float(area2 * inverse)};

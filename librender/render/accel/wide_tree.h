@@ -2,6 +2,7 @@
 /// An 8-wide bounding volume hierarchy over boxes, traversed one ray at a time.
 
 #include <render/core/bounds.h>
+#include <render/core/huge_pages.h>
 #include <render/core/lanes.h>
 #include <render/core/ray.h>
 
@@ -28,6 +29,11 @@ class WideTree {
     std::uint32_t first, count;
   };
   const std::vector<Leaf>& leaves() const { return leaves_; }
+  /// Gives back the memory of order() and leaves(), which rays do not read.
+  void forget_leaves() {
+    order_ = {};
+    leaves_ = {};
+  }
   bool empty() const { return nodes_.empty(); }
   std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
 
@@ -48,7 +54,7 @@ class WideTree {
   struct Binary;
   std::uint32_t collapse(const std::vector<Binary>& binary, std::uint32_t root);
 
-  std::vector<Node> nodes_;
+  std::vector<Node, HugePages<Node>> nodes_;
   std::vector<Leaf> leaves_;
   std::vector<std::uint32_t> order_;
 };

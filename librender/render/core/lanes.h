@@ -81,18 +81,5 @@ inline int lowest_lane(const EightDoubles& t) {
   return lower(lower(lower(0, 1), lower(2, 3)), lower(lower(4, 5), lower(6, 7)));
 }
 
-/// Bit i is set where lane i of t lies in (0, t_max).
-inline unsigned between(const EightDoubles& t, double t_max) {
-#if defined(__AVX512F__)
-  const auto& x = reinterpret_cast<const __m512d&>(t);
-  return _mm512_cmp_pd_mask(x, _mm512_setzero_pd(), _CMP_GT_OQ) &
-         _mm512_cmp_pd_mask(x, _mm512_set1_pd(t_max), _CMP_LT_OQ);
-#else
-  unsigned mask = 0;
-  for (int i = 0; i < 8; ++i) mask |= static_cast<unsigned>(t[i] > 0 && t[i] < t_max) << i;
-  return mask;
-#endif
-}
-
 } // namespace detail
 } // namespace render

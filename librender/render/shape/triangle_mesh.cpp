@@ -9,9 +9,16 @@ namespace render {
 
 namespace {
 
-Vec3d normal_of(const std::array<Vec3, 3>& v) {
+// A vector along the normal, twice as long as the triangle is large.
+Vec3d area_normal(const std::array<Vec3, 3>& v) {
   const Vec3d a = v[0].cast<double>();
   return mc::cross<double>(v[1].cast<double>() - a, v[2].cast<double>() - a);
+}
+double area_of(const std::array<Vec3, 3>& v) { return area_normal(v).norm() / 2; }
+Vec3 center_of(const std::array<Vec3, 3>& v) { return (v[0] + v[1] + v[2]) * Float(1.0 / 3); }
+// Of the ball about the centre.
+Float radius2_of(const std::array<Vec3, 3>& v, const Vec3& center) {
+  return std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()});
 }
 
 /// Where the line o + t d meets the plane of a triangle: barycentric weights of vertices 1 and 2, |cos| of the angle
@@ -62,29 +69,25 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
                 uvs_[i].y());
   mc::require(normals_.empty() || normals_.size() == positions_.size(),
               "mesh: {} normals for {} vertices; give one each or none", normals_.size(), positions_.size());
+  std::vector<double> areas;
   faces_.reserve(triangles.size());
-  for (const auto& vertices : triangles) {
-    const std::array<Vec3, 3> v = {positions_[vertices[0]], positions_[vertices[1]], positions_[vertices[2]]};
-    const Vec3d n = normal_of(v);
-    const Vec3 center = (v[0] + v[1] + v[2]) / 3;
-    const Float radius2 =
-        std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()});
-    faces_.push_back({vertices, n.stableNormalized().cast<Float>(), center, radius2, n.norm() / 2});
-    area_ += faces_.back().area;
+  for (const auto& [i, j, k] : triangles) {
+    const std::array<Vec3, 3> v = {positions_[i], positions_[j], positions_[k]};
+    const Vec3d n = area_normal(v);
+    faces_.push_back({{i, j, k}, n.stableNormalized().cast<Float>()});
+    areas.push_back(n.norm() / 2);
+    area_ += areas.back();
+    largest_radius2_ = std::max(largest_radius2_, radius2_of(v, center_of(v)));
     for (const Vec3& p : v) bounds_.add(p);
   }
-  if (area_ > 0) {
-    std::vector<double> areas;
-    for (const Face& face : faces_) areas.push_back(face.area);
-    choice_.emplace(areas);
-  }
+  if (area_ > 0) choice_.emplace(areas);
   const auto agrees = [&](const Face& f, std::uint32_t v) {
     return normals_[v].dot(f.normal) > Float(1 - 1e-6) * normals_[v].norm();
   };
   if (!normals_.empty() && std::all_of(faces_.begin(), faces_.end(), [&](const Face& f) {
         return std::all_of(f.vertices.begin(), f.vertices.end(), [&](std::uint32_t v) { return agrees(f, v); });
       }))
-    normals_.clear();
+    normals_ = {};
   for (const Vec3& p : positions_) error_ = std::max(error_, Float(0x1p-49) * p.lpNorm<Eigen::Infinity>());
 }
 
@@ -144,7 +147,7 @@ mc::Vec2<double> TriangleMesh::uv(const Hit& hit, const SurfacePoint&) const {
 SurfacePoint TriangleMesh::surface_point(const Ray& ray, const Hit& hit) const {
   const auto triangle = static_cast<std::size_t>(hit.prim);
   const Vec3d p = ray.o.cast<double>() + hit.t * ray.d.cast<double>(),
-              inward = faces_[triangle].center.cast<double>() - p;
+              inward = center_of(vertices(triangle)).cast<double>() - p;
   const double error = double(std::numeric_limits<Float>::epsilon()) * p.lpNorm<Eigen::Infinity>() + double(error_);
   const double step = std::min(0.5, 4 * error / inward.lpNorm<Eigen::Infinity>());
   SurfacePoint s = at(p + step * inward, triangle, hit.b1, hit.b2);
@@ -193,19 +196,21 @@ double TriangleMesh::spread(const Vec3& ref) const {
 }
 
 std::optional<mc::SphericalTriangle<double>> TriangleMesh::near_triangle(const Vec3& ref, std::size_t triangle) const {
-  const Face& face = faces_[triangle];
-  const Vec3 off = ref - face.center;
-  if (!(off.squaredNorm() < Float(1.2) * face.radius2 && mc::sqr(off.dot(face.normal)) < face.radius2 / 16)) return {};
   const auto v = vertices(triangle);
+  const Vec3 center = center_of(v), off = ref - center;
+  const auto near = [&](Float radius2) { return off.squaredNorm() < Float(1.2) * radius2; };
+  if (!near(largest_radius2_)) return {}; // mostly so, and at less cost than this triangle's own radius
+  const Float radius2 = radius2_of(v, center);
+  if (!(near(radius2) && mc::sqr(off.dot(faces_[triangle].normal)) < radius2 / 16)) return {};
   const Vec3d p = v[0].cast<double>(), a = p - ref.cast<double>(), ab = v[1].cast<double>() - p,
               ac = v[2].cast<double>() - p;
-  const double height = std::abs(a.dot(mc::cross<double>(ab, ac))) / (2 * face.area);
-  if (!(height * height > 1e-16 * double(face.radius2))) return {};
+  const double height = std::abs(a.dot(mc::cross<double>(ab, ac))) / (2 * area_of(v));
+  if (!(height * height > 1e-16 * double(radius2))) return {};
   return mc::SphericalTriangle<double>(a, ab, ac);
 }
 
 Float TriangleMesh::near_pdf(std::size_t triangle, const mc::SphericalTriangle<double>& directions) const {
-  return Float(faces_[triangle].area / (area_ * directions.solid_angle()));
+  return Float(area_of(vertices(triangle)) / (area_ * directions.solid_angle()));
 }
 
 Float TriangleMesh::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {

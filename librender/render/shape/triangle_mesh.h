@@ -53,8 +53,8 @@ class TriangleMesh {
   const Bounds& bounds() const { return bounds_; }
   Eigen::AlignedBox3d box() const { return {bounds_.lo.cast<double>(), bounds_.hi.cast<double>()}; }
   std::array<Vec3, 3> vertices(std::size_t triangle) const {
-    const auto& t = faces_[triangle].vertices;
-    return {positions_[t[0]], positions_[t[1]], positions_[t[2]]};
+    const auto& [i, j, k] = faces_[triangle].vertices;
+    return {positions_[i], positions_[j], positions_[k]};
   }
 
  private:
@@ -70,10 +70,7 @@ class TriangleMesh {
 
   struct Face {
     std::array<std::uint32_t, 3> vertices;
-    Vec3 normal;   ///< unit; 0 for a degenerate triangle
-    Vec3 center;   ///< centroid
-    Float radius2; ///< of the ball about it
-    double area;
+    Vec3 normal; ///< unit; 0 for a degenerate triangle
   };
   std::vector<Vec3> positions_, normals_; ///< per vertex; no normals: flat
   std::vector<mc::Vec2<float>> uvs_;
@@ -81,7 +78,8 @@ class TriangleMesh {
   std::optional<mc::TableDist1D<double>> choice_; ///< of a triangle by its area; none where all areas are 0
   double area_ = 0;
   Bounds bounds_;
-  Float error_ = 0; ///< of an interpolated point before it is rounded to Float, per coordinate
+  Float largest_radius2_ = 0; ///< of the ball about a triangle's centre
+  Float error_ = 0;           ///< of an interpolated point before it is rounded to Float, per coordinate
 };
 
 } // namespace render

@@ -1,0 +1,38 @@
+#pragma once
+/// Memory for large arrays that are read at random places.
+
+#include <cstddef>
+#include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+namespace render {
+
+/// An allocator that asks for pages of 2 MB where an array fills several of them: a walk through a tree of 100 MB in
+/// pages of 4 KB waits for the table of pages as often as for the memory. Elsewhere, and for smaller ones, as usual.
+template <class T> struct HugePages {
+  using value_type = T;
+
+  HugePages() = default;
+  template <class U> HugePages(const HugePages<U>&) {}
+
+  T* allocate(std::size_t n) {
+    void* p = ::operator new(n * sizeof(T), alignment(n));
+#if defined(__linux__)
+    if (large(n)) madvise(p, n * sizeof(T) / page * page, MADV_HUGEPAGE); // advice: what it answers does not matter
+#endif
+    return static_cast<T*>(p);
+  }
+  void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }
+
+  bool operator==(const HugePages&) const { return true; }
+
+ private:
+  static constexpr std::size_t page = std::size_t{1} << 21;
+  static bool large(std::size_t n) { return n * sizeof(T) >= 2 * page; }
+  static std::align_val_t alignment(std::size_t n) { return std::align_val_t(large(n) ? page : alignof(T)); }
+};
+
+} // namespace render
