@@ -10,7 +10,7 @@
 
 namespace render {
 
-/// An allocator that asks for pages of 2 MB where an array fills several of them: a walk through a tree of 100 MB in
+/// An allocator that asks for pages of 2 MB where an array fills many of them: a walk through a tree of 100 MB in
 /// pages of 4 KB waits for the table of pages as often as for the memory. Elsewhere, and for smaller ones, as usual.
 template <class T> struct HugePages {
   using value_type = T;
@@ -31,7 +31,7 @@ template <class T> struct HugePages {
 
  private:
   static constexpr std::size_t page = std::size_t{1} << 21;
-  static bool large(std::size_t n) { return n * sizeof(T) >= 2 * page; }
+  static bool large(std::size_t n) { return n * sizeof(T) >= 16 * page; }
   static std::align_val_t alignment(std::size_t n) { return std::align_val_t(large(n) ? page : alignof(T)); }
 };
 

@@ -14,14 +14,14 @@ struct alignas(64) Line {
 // Below, at and beyond the size from which pages are asked for, and grown across it.
 TEST(HugePages, ArraysOfAnySizeHoldWhatIsPutIntoThem) {
   constexpr std::size_t page = std::size_t{1} << 21;
-  for (const std::size_t bytes : {std::size_t{64}, page, 2 * page - 64, 2 * page, 5 * page + 64}) {
+  for (const std::size_t bytes : {std::size_t{64}, page, 16 * page - 64, 16 * page, 17 * page + 64}) {
     std::vector<Line, render::HugePages<Line>> lines;
     for (std::size_t i = 0; i < bytes / sizeof(Line); ++i) lines.push_back({i});
     lines.shrink_to_fit();
     const auto copy = lines;
     lines = {};
     for (std::size_t i = 0; i < copy.size(); ++i) ASSERT_EQ(copy[i].value, i) << bytes;
-    const std::size_t boundary = bytes >= 2 * page ? page : alignof(Line);
+    const std::size_t boundary = bytes >= 16 * page ? page : alignof(Line);
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(copy.data()) % boundary, 0u) << bytes;
   }
 }
