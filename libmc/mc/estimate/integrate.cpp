@@ -48,6 +48,7 @@ std::string_view name(ErrorBar bar) {
   switch (bar) {
   case ErrorBar::known: return "known";
   case ErrorBar::unseen: return "unseen";
+  case ErrorBar::hardly_met: return "hardly_met";
   case ErrorBar::infinite_variance: return "infinite_variance";
   }
   return "";
@@ -64,6 +65,9 @@ std::string Integral::to_string() const {
     text = fmt::format("0, error not known yet: the integrand was 0 at every point. What is not 0 fills at most {:.2g} "
                        "of the volume (95 %)",
                        3 / static_cast<double>(calls));
+    break;
+  case ErrorBar::hardly_met:
+    text = fmt::format("{:.10g}, error not known yet: a few of {} points hold most of it", estimate.value, calls);
     break;
   case ErrorBar::infinite_variance:
     text = fmt::format("{:.10g}, error not known: the variance is infinite ", estimate.value);

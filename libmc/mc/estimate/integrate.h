@@ -33,6 +33,7 @@ std::string_view name(Stop stop);
 enum class ErrorBar {
   known,
   unseen,           ///< every value was zero: nothing tells how large those are that were not met
+  hardly_met,       ///< few points met what most of the integral is made of, see Magnitudes: the next may change it all
   infinite_variance ///< the integrand is large on a volume that shrinks so slowly that no error bar holds, see Tail
 };
 std::string_view name(ErrorBar bar);

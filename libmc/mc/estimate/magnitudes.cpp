@@ -23,6 +23,7 @@ void Magnitudes::add(std::span<const double> values) {
     if (exponent > top_) [[unlikely]]
       raise(exponent);
     ++below_[static_cast<std::size_t>(std::min(top_ - exponent, octaves - 1))];
+    zeros_ += x == 0;
     if (count_++ == 0) lo_ = hi_ = x;
     lo_ = std::min(lo_, x);
     hi_ = std::max(hi_, x);
@@ -34,23 +35,42 @@ void Magnitudes::merge(const Magnitudes& other) {
   lo_ = count_ > 0 ? std::min(lo_, other.lo_) : other.lo_;
   hi_ = count_ > 0 ? std::max(hi_, other.hi_) : other.hi_;
   count_ += other.count_;
+  zeros_ += other.zeros_;
   raise(other.top_);
   for (int i = 0; i < octaves; ++i)
     below_[static_cast<std::size_t>(std::min(i + (top_ - other.top_), octaves - 1))] +=
         other.below_[static_cast<std::size_t>(i)];
 }
 
+namespace {
+// Of values in octaves, as many as stand in the first so many, from the sum of their places.
+double index_of(std::uint64_t above, std::uint64_t places, std::size_t octaves) {
+  const std::uint64_t steps = (octaves - 1) * above - places; // above the threshold, summed
+  if (above == 0 || steps == 0) return std::numeric_limits<double>::infinity();
+  return std::log2(1 + static_cast<double>(above) / static_cast<double>(steps));
+}
+} // namespace
+
 double Magnitudes::tail_index(std::uint64_t largest) const {
-  std::uint64_t above = 0, weighed = 0; // values in the octaves so far, each weighed by its place
+  std::uint64_t above = 0, places = 0;
   std::size_t i = 0;
   for (; i < octaves && above < largest; ++i) {
     above += below_[i];
-    weighed += i * below_[i];
+    places += i * below_[i];
   }
-  if (i == octaves) return std::numeric_limits<double>::infinity(); // zeros, or all but zeros
-  const std::uint64_t steps = (i - 1) * above - weighed;            // octaves above the threshold, summed
-  if (above == 0 || steps == 0) return std::numeric_limits<double>::infinity();
-  return std::log2(1 + static_cast<double>(above) / static_cast<double>(steps));
+  return i == octaves ? std::numeric_limits<double>::infinity() : index_of(above, places, i); // zeros, or nearly all
+}
+
+bool Magnitudes::hardly_met() const {
+  const std::uint64_t wanted = std::min<std::uint64_t>(16, count_ - zeros_);
+  std::uint64_t above = 0, places = 0;
+  std::size_t i = 0;
+  for (; above < wanted; ++i) {
+    const std::uint64_t here = i + 1 < octaves ? below_[i] : wanted - above; // the last octave holds zeros too
+    above += here;
+    places += i * here;
+  }
+  return index_of(above, places, i) < 1;
 }
 
 double Magnitudes::tail_index() const {

@@ -36,6 +36,10 @@ class Magnitudes {
   /// count^(2/3) largest: a peak that few points met looks heavy too, but the farther out, the lighter.
   double tail_index() const;
 
+  /// Whether few values hold most of the sum: the sixteen largest, zeros left out, fall off with an index below 1, as of
+  /// a tail without a mean. So they do where fewer than about eight points met what a peak is made of.
+  bool hardly_met() const;
+
  private:
   void raise(int top);
   std::uint64_t few_largest() const { return std::clamp<std::uint64_t>(count_ / 512, 16, 128); }
@@ -43,7 +47,7 @@ class Magnitudes {
     return static_cast<std::uint64_t>(std::pow(static_cast<double>(count_), 2.0 / 3));
   }
 
-  std::uint64_t count_ = 0;
+  std::uint64_t count_ = 0, zeros_ = 0;
   double lo_ = 0, hi_ = 0;
   int top_ = 0;                                // biased exponent of the first octave; 0 before the first value
   std::array<std::uint64_t, octaves> below_{}; // below_[i]: values with the exponent top_ - i

@@ -47,6 +47,24 @@ TEST(Magnitudes, MergedAsAddedAndOfAnySize) {
   }
 }
 
+TEST(Magnitudes, FewThatHoldTheSumAreTold) {
+  const auto hardly_met = [](const std::vector<double>& x) {
+    mc::Magnitudes m;
+    m.add(x);
+    return m.hardly_met();
+  };
+  EXPECT_FALSE(hardly_met({}));
+  EXPECT_FALSE(hardly_met({0, 0, 0}));
+  EXPECT_FALSE(hardly_met({7}));
+  EXPECT_FALSE(hardly_met({0, 0, 1, 1, 0})); // a step that two points met
+  EXPECT_FALSE(hardly_met(std::vector<double>(1000, -3)));
+  EXPECT_TRUE(hardly_met({1, 1e-5, 1e-9, 0, 0}));
+  EXPECT_TRUE(hardly_met({1, 1e-80, 1e-200})); // all but one below the octaves that are told apart
+  for (const auto& [index, few] : {std::pair{0.3, true}, {3.0, false}}) // 16 know an index to a quarter of it
+    for (std::uint64_t seed = 1; seed <= 100; ++seed)
+      EXPECT_EQ(hardly_met(powers(seed, 5000, 1 / index)), few) << index << " seed " << seed;
+}
+
 TEST(Magnitudes, BoundedValuesHaveNoTail) {
   mc::Magnitudes zeros, ones, uniform;
   zeros.add(std::vector<double>(1000, 0.0));

@@ -63,6 +63,11 @@ std::optional<double> deviate(const Mean& a, const Mean& b) {
   return quantile(complement(boost::math::normal(), std::max(tail, 1e-300)));
 }
 
+ErrorBar bar_of(const Seen& seen) {
+  if (seen.infinite_variance()) return ErrorBar::infinite_variance;
+  return seen.values.hardly_met() ? ErrorBar::hardly_met : ErrorBar::known;
+}
+
 Mean replicated(std::span<const double> means, double points, const Seen& seen, Evidence& evidence) {
   const double r = static_cast<double>(means.size());
   double largest = 0;
@@ -104,8 +109,7 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   const double spread = width / std::sqrt(r * (1 - std::min(beyond, 0.9)));
   const double unbiased = r * r / ((r - 1) * std::max(r - 2, 1.0));
   return {std::ldexp(m.mean(), exponent), std::hypot(spread, step / points / r), r - 1,
-          apart ? third / (deviation * deviation * deviation) * unbiased / (6 * std::sqrt(r)) : 0.0,
-          seen.infinite_variance() ? ErrorBar::infinite_variance : ErrorBar::known};
+          apart ? third / (deviation * deviation * deviation) * unbiased / (6 * std::sqrt(r)) : 0.0, bar_of(seen)};
 }
 
 } // namespace mc::detail

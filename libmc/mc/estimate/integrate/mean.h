@@ -35,6 +35,9 @@ Mean combined(const Mean& a, const Mean& b, double share);
 /// unknown.
 std::optional<double> deviate(const Mean& a, const Mean& b);
 
+/// What the values say of the error bar, some of which are not 0.
+ErrorBar bar_of(const Seen& seen);
+
 /// What an integrand showed of itself at shorter lengths of the same replicates.
 struct Evidence {
   double points = 0, deviation = 0; ///< of the last length, and of the replicates at it
@@ -51,7 +54,7 @@ struct Evidence {
 ///           - of a tail of index a > 2 the share R^-(1 - 2/a) of the variance lies beyond the largest of R values
 ///           - of one with a < 5 the variance is known badly, and seems least where nothing large was met, which is
 ///             where runs stop: it is the mean of this and that of the last length, times what a tail makes it fall
-///   bar   : unseen where every value was zero, infinite_variance where `seen` says so
+///   bar   : unseen where every value was zero, else as bar_of says
 ///   seen  : the values behind it, and the tail of the integrand
 Mean replicated(std::span<const double> means, double points, const Seen& seen, Evidence& evidence);
 
