@@ -70,7 +70,7 @@ bool Magnitudes::hardly_met() const {
     above += here;
     places += i * here;
   }
-  return index_of(above, places, i) < 1;
+  return index_of(above, places, i) < 0.5;
 }
 
 double Magnitudes::tail_index() const {

@@ -36,8 +36,8 @@ class Magnitudes {
   /// count^(2/3) largest: a peak that few points met looks heavy too, but the farther out, the lighter.
   double tail_index() const;
 
-  /// Whether few values hold most of the sum: the sixteen largest, zeros left out, fall off with an index below 1, as of
-  /// a tail without a mean. So they do where fewer than about eight points met what a peak is made of.
+  /// Whether few values hold most of the sum: the sixteen largest, zeros left out, fall off with an index below 1/2,
+  /// far from the 1 that a mean needs. So they do where fewer than about four points met what a peak is made of.
   bool hardly_met() const;
 
  private:

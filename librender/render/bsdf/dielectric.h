@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace render {
 
@@ -26,19 +27,25 @@ inline Fresnel fresnel_dielectric(Float cos_i, Float eta) {
   return {std::min((parallel * parallel + perpendicular * perpendicular) / 2, Float(1)), cos_t};
 }
 
+/// A relative index of refraction, its squares and quotients far from where floats end.
+///   throws : Error, naming `what`, where it is not
+inline Float checked_index(std::string_view what, Float eta) {
+  mc::require(eta >= Float(1e-3) && eta <= Float(1e3), "{}: relative index {} must lie in [0.001, 1000]", what, eta);
+  return eta;
+}
+
 /// Smooth boundary to a medium of relative index eta (inside over outside, the normal points outside): two delta lobes,
 /// chosen by the Fresnel reflectance.
 ///   f      : radiance is divided by the squared relative index on refraction, so that etendue is conserved
-///   throws : Error unless eta is finite and > 0 and the colours lie in [0, 1]
+///   throws : Error unless eta is a checked_index and the colours lie in [0, 1]
 ///   Source : Fresnel's equations, [BornWolf99] section 1.5; exact, not Schlick's fit
 class Dielectric {
  public:
   explicit Dielectric(Float eta = Float(1.5), const Spectrum& reflectance = Spectrum::Ones(),
                       const Spectrum& transmittance = Spectrum::Ones())
-      : eta_(eta), reflectance_(checked_reflectance("dielectric: reflectance", reflectance)),
-        transmittance_(checked_reflectance("dielectric: transmittance", transmittance)) {
-    mc::require(eta > 0 && std::isfinite(eta), "dielectric: relative index {} must be finite and > 0", eta);
-  }
+      : eta_(checked_index("dielectric", eta)),
+        reflectance_(checked_reflectance("dielectric: reflectance", reflectance)),
+        transmittance_(checked_reflectance("dielectric: transmittance", transmittance)) {}
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2&) const {
     const Float cos_i = std::abs(wo.z());

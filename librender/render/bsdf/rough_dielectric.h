@@ -14,18 +14,17 @@ namespace render {
 ///            by e^2. 0 where wo or wi sees the back of the facet. Light that would meet a second facet is lost.
 ///   sample : a visible normal, reflected about with probability F, else refracted through; nullopt where that ends on
 ///            the wrong side
-///   throws : Error unless eta is finite, > 0 and at least 1e-4 off 1, alpha in [1e-4, 1] and the colours in [0, 1]
+///   throws : Error unless eta is a checked_index and at least 1e-4 off 1, alpha in [1e-4, 1] and the colours in [0, 1]
 ///   Source : [WalterEtAl07] equations 19-21
 class RoughDielectric {
  public:
   RoughDielectric(Float eta, Float alpha, const Spectrum& reflectance = Spectrum::Ones(),
                   const Spectrum& transmittance = Spectrum::Ones())
-      : eta_(eta), facets_(checked_alpha("rough dielectric: alpha", alpha)),
+      : eta_(checked_index("rough dielectric", eta)), facets_(checked_alpha("rough dielectric: alpha", alpha)),
         reflectance_(checked_reflectance("rough dielectric: specularReflectance", reflectance)),
         transmittance_(checked_reflectance("rough dielectric: specularTransmittance", transmittance)) {
-    mc::require(eta > 0 && std::isfinite(eta) && std::abs(eta - 1) >= Float(1e-4),
-                "rough dielectric: relative index {} must be finite, > 0 and not 1, where nothing would be refracted",
-                eta);
+    mc::require(std::abs(eta - 1) >= Float(1e-4),
+                "rough dielectric: relative index {} must not be 1, where nothing would be refracted", eta);
   }
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {

@@ -58,12 +58,12 @@ class LajollaBase {
 ///            of at most 1, notebooks-data/single-scattering says of how much less
 ///   sample : mirrored about a visible normal, or a cosine hemisphere, by what each reflects; the pdf is that of the
 ///            mixture [1/sr]
-///   throws : Error unless eta is finite and > 0, alpha in [1e-4, 1] and the colours in [0, 1]
+///   throws : Error unless eta is a checked_index, alpha in [1e-4, 1] and the colours in [0, 1]
 template <class Base = LayeredBase> class RoughPlastic {
  public:
   RoughPlastic(Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
-      : eta_(checked_index(eta)), facets_(checked_alpha("rough plastic: alpha", alpha)), base_(eta, alpha),
-        diffuse_(checked_reflectance("rough plastic: diffuseReflectance", diffuse)),
+      : eta_(checked_index("rough plastic", eta)), facets_(checked_alpha("rough plastic: alpha", alpha)),
+        base_(eta, alpha), diffuse_(checked_reflectance("rough plastic: diffuseReflectance", diffuse)),
         specular_(checked_reflectance("rough plastic: specularReflectance", specular)), diffuse_y_(luminance(diffuse)),
         specular_y_(luminance(specular)) {}
 
@@ -103,10 +103,6 @@ template <class Base = LayeredBase> class RoughPlastic {
  private:
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
 
-  static Float checked_index(Float eta) {
-    mc::require(eta > 0 && std::isfinite(eta), "rough plastic: relative index {} must be finite and > 0", eta);
-    return eta;
-  }
   /// How often the specular lobe is sampled: by what both lobes reflect.
   Float specular_share(const Vec3& wo) const {
     const auto [reflected, transmitted] = base_.shares(wo);

@@ -75,7 +75,8 @@ TEST(Dielectric, RefractsBySnellsLaw) {
 
 TEST(Dielectric, RefusesNonsense) {
   const Float nan = std::numeric_limits<Float>::quiet_NaN();
-  for (const Float bad : {Float(0), Float(-1), nan, mc::infinity<Float>}) EXPECT_THROW(Dielectric{bad}, mc::Error);
+  for (const Float bad : {Float(0), Float(-1), Float(1e-30), Float(1e30), nan, mc::infinity<Float>})
+    EXPECT_THROW(Dielectric{bad}, mc::Error);
   for (const Float bad : {Float(-0.1), Float(1.1), nan}) {
     EXPECT_THROW(Dielectric(1, Spectrum(1, bad, 1)), mc::Error);
     EXPECT_THROW(Dielectric(1, Spectrum::Ones(), Spectrum(1, bad, 1)), mc::Error);

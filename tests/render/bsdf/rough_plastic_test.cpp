@@ -1,3 +1,5 @@
+#include <render/bsdf/dielectric.h>
+#include <render/bsdf/rough_dielectric.h>
 #include <render/bsdf/rough_plastic.h>
 
 #include <mc/check/bsdf_laws.h>
@@ -102,6 +104,29 @@ TEST(LajollaBase, GainsTowardsTheHorizon) {
   const RoughPlastic<LajollaBase> paint(Float(1.49), Float(0.02), Spectrum::Constant(Float(0.5)), Spectrum::Ones());
   const auto report = mc::check_bsdf<Float>(paint, Vec3(0, 0, 1), {.samples = 50'000, .alpha = 1e-5});
   EXPECT_EQ(report.fault(), mc::Fault::physics) << report.to_string();
+}
+
+// Boundaries of every kind, from near the horizon and above, on both sides.
+TEST(RelativeIndex, SamplesAreFiniteAtItsEnds) {
+  const auto check = [](const auto& bsdf, Float eta) {
+    mc::Pcg random(5);
+    for (int i = 0; i < 5000; ++i) {
+      const Float cosine = std::pow(Float(10), -4 * random.uniform<Float>()) * Float(i % 2 ? 1 : -1);
+      const auto s = bsdf.sample(mc::spherical_direction<Float>(std::sqrt(1 - cosine * cosine), cosine, Float(i)),
+                                 random.uniform<Float>(), random.point<Float, 2>());
+      if (!s) continue;
+      EXPECT_NEAR(s->wi.norm(), 1, 1e-5) << eta;
+      EXPECT_TRUE(s->f.isFinite().all() && std::isfinite(s->pdf) && s->pdf > 0) << eta << " at cosine " << cosine;
+    }
+  };
+  const Spectrum one = Spectrum::Ones();
+  for (const Float eta : {Float(1e-3), Float(1e3)}) {
+    check(Dielectric(eta), eta);
+    for (const Float alpha : {Float(1e-4), Float(0.1), Float(1)}) {
+      check(RoughDielectric(eta, alpha), eta);
+      check(RoughPlastic(eta, alpha, one, one), eta);
+    }
+  }
 }
 
 TEST(RoughPlastic, RefusesNonsense) {

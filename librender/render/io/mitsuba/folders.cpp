@@ -45,7 +45,8 @@ std::vector<XmlElement> with_included(const XmlElement& root, std::vector<XmlEle
     child.require_all_seen();
     XmlElement included = mc::with_context(child.where(), [&] { return read_xml(folders.find(name)); });
     if (included.tag != "scene") included.fail("the document must be a <scene>");
-    if (level == most_levels) child.fail(fmt::format("more than {} files include each other", most_levels));
+    if (level == most_levels)
+      child.fail(fmt::format("includes are nested more than {} deep; does a file include itself?", most_levels));
     std::vector<XmlElement> more = with_included(root, std::move(included.children), level + 1);
     std::move(more.begin(), more.end(), std::back_inserter(all));
   }

@@ -48,7 +48,7 @@ TEST_F(SceneFolders, HoldWhatScenesInclude) {
       << "the file that is wrong";
   write("more.xml", "<scene><include filename=\"more.xml\"/></scene>");
   EXPECT_THAT(refusal(body + "<include filename=\"shapes.xml\"/>"),
-              HasSubstr("more.xml:1: <include>: more than 16 files include each other"));
+              HasSubstr("more.xml:1: <include>: includes are nested more than 16 deep"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<include filename=\"none.xml\"/>"), HasSubstr("s.xml:3: cannot read '"));
   EXPECT_THAT(refusal("<include filename=\"more.xml\" if=\"1\"/>"),
               HasSubstr("s.xml:2: <include>: attribute if=\"1\" is not"));
