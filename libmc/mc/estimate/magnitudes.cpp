@@ -42,35 +42,29 @@ void Magnitudes::merge(const Magnitudes& other) {
         other.below_[static_cast<std::size_t>(i)];
 }
 
-namespace {
-// Of values in octaves, as many as stand in the first so many, from the sum of their places.
-double index_of(std::uint64_t above, std::uint64_t places, std::size_t octaves) {
-  const std::uint64_t steps = (octaves - 1) * above - places; // above the threshold, summed
-  if (above == 0 || steps == 0) return std::numeric_limits<double>::infinity();
-  return std::log2(1 + static_cast<double>(above) / static_cast<double>(steps));
+double Magnitudes::Largest::index() const {
+  const std::uint64_t steps = (octaves - 1) * count - places; // above the threshold, summed
+  if (count == 0 || steps == 0) return std::numeric_limits<double>::infinity();
+  return std::log2(1 + static_cast<double>(count) / static_cast<double>(steps));
 }
-} // namespace
 
-double Magnitudes::tail_index(std::uint64_t largest) const {
-  std::uint64_t above = 0, places = 0;
-  std::size_t i = 0;
-  for (; i < octaves && above < largest; ++i) {
-    above += below_[i];
-    places += i * below_[i];
-  }
-  return i == octaves ? std::numeric_limits<double>::infinity() : index_of(above, places, i); // zeros, or nearly all
+// The last octave also holds zeros.
+Magnitudes::Largest Magnitudes::largest(std::uint64_t least) const {
+  Largest found;
+  while (found.count < least && found.octaves + 1 < octaves) found.add(below_[found.octaves]);
+  return found;
+}
+
+double Magnitudes::tail_index(std::uint64_t least) const {
+  const Largest found = largest(least);
+  return found.count < least ? std::numeric_limits<double>::infinity() : found.index();
 }
 
 bool Magnitudes::hardly_met() const {
-  const std::uint64_t wanted = std::min<std::uint64_t>(16, count_ - zeros_);
-  std::uint64_t above = 0, places = 0;
-  std::size_t i = 0;
-  for (; above < wanted; ++i) {
-    const std::uint64_t here = i + 1 < octaves ? below_[i] : wanted - above; // the last octave holds zeros too
-    above += here;
-    places += i * here;
-  }
-  return index_of(above, places, i) < 0.5;
+  const std::uint64_t least = std::min<std::uint64_t>(16, count_ - zeros_);
+  Largest found = largest(least);
+  if (found.count < least) found.add(least - found.count);
+  return found.index() < 0.5;
 }
 
 double Magnitudes::tail_index() const {

@@ -25,12 +25,12 @@ class Magnitudes {
   std::span<const std::uint64_t, octaves> counts() const { return below_; }
   int top() const { return top_; }
 
-  /// The index a of a tail P(|X| > t) ~ t^-a, from at least the `largest` largest values: the mean of X is finite for
+  /// The index a of a tail P(|X| > t) ~ t^-a, from at least the `least` largest values: the mean of X is finite for
   /// a > 1, its variance for a > 2. Infinity where the largest values lie within one octave, as those of a bounded X
   /// do once they are met often enough.
-  ///   error  : relative standard error 1.1 / sqrt(largest) for independent values of an exact power law
+  ///   error  : relative standard error 1.1 / sqrt(least) for independent values of an exact power law
   ///   Source : [Hill75], with values known by their octave: the steps above the threshold are geometric
-  double tail_index(std::uint64_t largest) const;
+  double tail_index(std::uint64_t least) const;
 
   /// That of the values at large: of a 512th of them, 16 to 128. Infinity where it is above 1.3 times that of the
   /// count^(2/3) largest: a peak that few points met looks heavy too, but the farther out, the lighter.
@@ -41,6 +41,19 @@ class Magnitudes {
   bool hardly_met() const;
 
  private:
+  /// The largest values, octave by octave, and the sum of the numbers of their octaves.
+  struct Largest {
+    std::uint64_t count = 0, places = 0;
+    std::size_t octaves = 0;
+
+    void add(std::uint64_t here) {
+      count += here;
+      places += octaves++ * here;
+    }
+    double index() const; ///< infinity where all lie in one octave
+  };
+  /// So many at least, unless only the last octave has more.
+  Largest largest(std::uint64_t least) const;
   void raise(int top);
   std::uint64_t few_largest() const { return std::clamp<std::uint64_t>(count_ / 512, 16, 128); }
   std::uint64_t many_largest() const {

@@ -35,7 +35,6 @@ class WideTree {
     leaves_ = {};
   }
   bool empty() const { return nodes_.empty(); }
-  std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
 
   /// Calls leaf(index, t_max) for each leaf that the ray may enter before t_max; `leaf` may shorten t_max and returns
   /// true to stop. Near leaves come first, or in any order where the first hit is as good as the nearest.

@@ -28,7 +28,7 @@ inline Fresnel fresnel_dielectric(Float cos_i, Float eta) {
 }
 
 /// A relative index of refraction, its squares and quotients far from where floats end.
-///   throws : Error, naming `what`, where it is not
+///   throws : Error, naming `what`, unless it lies in [0.001, 1000]
 inline Float checked_index(std::string_view what, Float eta) {
   mc::require(eta >= Float(1e-3) && eta <= Float(1e3), "{}: relative index {} must lie in [0.001, 1000]", what, eta);
   return eta;

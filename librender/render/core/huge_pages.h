@@ -10,8 +10,8 @@
 
 namespace render {
 
-/// An allocator that asks for pages of 2 MB where an array fills many of them: a walk through a tree of 100 MB in
-/// pages of 4 KB waits for the table of pages as often as for the memory. Elsewhere, and for smaller ones, as usual.
+/// An allocator that asks for pages of 2 MB where an array fills many of them: rays at random find less of a tree of
+/// 100 MB in the processor's table of pages of 4 KB. Elsewhere, and for smaller ones, as usual.
 template <class T> struct HugePages {
   using value_type = T;
 
