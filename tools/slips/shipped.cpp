@@ -112,7 +112,7 @@ Trial mean_cosine(double g) {
 
 // A warp at the corners, the middle and just inside them: finite, in its domain, density positive.
 template <class W> Trial edges(const W& warp) {
-  return law_trial("edges of the unit cube", 0, Fault::edge, [warp](Pcg& r) {
+  return law_trial("ends and branches of u", 0, Fault::edge, [warp](Pcg& r) {
     const auto place = [&] {
       const double all[] = {0, 0x1p-24, 0.5, 1 - 0x1p-24};
       return static_cast<float>(all[r.next32() & 3]);

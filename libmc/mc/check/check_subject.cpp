@@ -1,6 +1,7 @@
 #include <mc/check/check_subject.h>
 
 #include <mc/check/fit/alpha_shares.h>
+#include <mc/check/fit/expected/density_inside.h>
 #include <mc/check/fit/expected/mass.h>
 #include <mc/check/fit/tests/density_levels.h>
 #include <mc/check/fit/tests/rotation.h>
@@ -223,16 +224,21 @@ Counts count_samples(const Subject& s, const Pilot& pilot, const SubjectOptions&
 std::vector<Check> judge_density(const Subject& s, const Layout& layout) {
   const auto& bad = layout.masses.bad ? layout.masses.bad : layout.cubature.bad;
   if (!bad) return {};
+  const double density = density_inside(s, *bad);
   return {{"pdf finite and >= 0",
            Verdict::fail,
            {},
            0,
            1,
            0,
-           Fault::not_finite,
-           s.describe_point
-               ? "at x = " + s.describe_point(*bad)
-               : fmt::format("at chart coordinates ({:.17g}, {:.17g}, {:.17g})", (*bad)[0], (*bad)[1], (*bad)[2])}};
+           density < 0 ? Fault::negative : Fault::not_finite,
+           fmt::format("{} at {}",
+                       density < 0           ? "negative"
+                       : std::isnan(density) ? "not a number"
+                                             : "infinite",
+                       s.describe_point ? "x = " + s.describe_point(*bad)
+                                        : fmt::format("chart coordinates ({:.17g}, {:.17g}, {:.17g})", (*bad)[0],
+                                                      (*bad)[1], (*bad)[2]))}};
 }
 
 void append(std::vector<Check>& all, std::vector<Check> more) {

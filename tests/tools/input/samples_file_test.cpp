@@ -303,6 +303,7 @@ TEST_F(SamplesFile, WhereItStandsChangesNothing) {
 struct Expression {
   const char *name, *domain, *pdf, *wrong;
   std::function<std::string(mc::Pcg&)> draw;
+  friend void PrintTo(const Expression& e, std::ostream* out) { *out << e.pdf << " over " << e.domain; }
 };
 
 double normal(mc::Pcg& random) {

@@ -48,7 +48,8 @@ bool is_sample(const Subject::Draw& d, std::uint64_t seed, std::uint64_t index, 
 DrawTally::Broken& broken_by_density(const Subject& s, const Subject::Draw& d, DrawTally& tally) {
   if (d.kind == Kind::point && density_beside_face(s, d.v))
     return std::isfinite(s.density(d.v)) ? tally.zero_edge : tally.edge;
-  return std::isfinite(d.density) ? tally.leak : tally.bad_pdf;
+  if (!std::isfinite(d.density)) return tally.bad_pdf;
+  return d.kind == Kind::point && s.density(d.v) < 0 ? tally.negative : tally.leak;
 }
 
 // The density at a point; beside it where it has none on the face of the chart.
@@ -117,6 +118,7 @@ DrawTally merged(DrawTally a, const DrawTally& b) {
   merge(a.not_finite, b.not_finite);
   merge(a.leak, b.leak);
   merge(a.bad_pdf, b.bad_pdf);
+  merge(a.negative, b.negative);
   merge(a.zero_edge, b.zero_edge);
   merge(a.edge, b.edge);
   merge(a.weight, b.weight);
@@ -139,6 +141,7 @@ std::vector<Check> check_draws(const Subject& s, const DrawTally& tally, bool op
   add("finite", tally.not_finite, Fault::not_finite, count(tally.not_finite), 0);
   add("in the domain", tally.outside, Fault::outside, count(tally.outside), 0);
   if (tally.bad_pdf.count > 0) add("pdf finite at samples", tally.bad_pdf, Fault::not_finite, count(tally.bad_pdf), 0);
+  if (tally.negative.count > 0) add("pdf >= 0 at samples", tally.negative, Fault::negative, count(tally.negative), 0);
   // Rounding puts hardly a sample where the density vanishes, but many where it is infinite.
   DrawTally::Broken leak = tally.leak, edge = tally.edge;
   merge(tally.zero_edge.count > 3 ? leak : edge, tally.zero_edge);

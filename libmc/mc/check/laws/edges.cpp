@@ -80,7 +80,7 @@ class Probe {
   const AnySampler& sampler_;
   Subject subject_;
   bool accepted_;
-  WorstError inner_{"edges of the unit cube", 0, Fault::edge};
+  WorstError inner_{"ends and branches of u", 0, Fault::edge};
   WorstError zero_{"single u, of measure zero", 0, Fault::zero_edge};
 };
 

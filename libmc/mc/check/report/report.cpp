@@ -21,10 +21,11 @@ std::string_view name(Verdict v) {
 std::string_view name(Fault f) {
   switch (f) {
   case Fault::none: return "none";
-  case Fault::edge: return "edge: the ends of the unit cube break it";
+  case Fault::edge: return "edge: u at the ends of the unit cube or beside a branch break it";
   case Fault::zero_edge: return "measure zero: only single u or points break it, the density is not in doubt";
   case Fault::impure: return "impure: the point is not a function of u alone";
   case Fault::not_finite: return "not finite";
+  case Fault::negative: return "negative: the density is below zero";
   case Fault::outside: return "outside: points that are not in the domain";
   case Fault::leak: return "leak: samples where the density is zero";
   case Fault::mass: return "mass: the density does not integrate to one";

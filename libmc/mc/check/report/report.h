@@ -27,6 +27,7 @@ enum class Fault {
   zero_edge,
   impure,
   not_finite,
+  negative,
   outside,
   leak,
   mass,

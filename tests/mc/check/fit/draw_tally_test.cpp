@@ -68,27 +68,32 @@ TEST(DrawTally, EveryLawOfSingleDrawsIsACheck) {
                                            "outcomes of probability 0: outcome 1 came 20 times"));
 }
 
-// A density that is not a number is no density of 0.
-TEST(DrawTally, ADensityThatIsNotFiniteIsItsOwnFault) {
+// A density that is not a number, or negative, is no density of 0.
+TEST(DrawTally, ADensityThatIsNoneIsItsOwnFault) {
   mc::Subject s;
   s.dim = 1;
-  s.draw = [](std::uint64_t, std::size_t n, std::vector<Draw>& out) {
+  s.draw = [&s](std::uint64_t, std::size_t n, std::vector<Draw>& out) {
     for (std::size_t i = 0; i < n; ++i) {
       Draw& d = out.emplace_back();
-      d.v[0] = 0.25;
-      d.pdf_positive = i % 3 == 0;
-      d.density = i % 3 == 0 ? 1 : i % 3 == 1 ? std::numeric_limits<double>::quiet_NaN() : 0;
+      d.v[0] = static_cast<double>(i % 4) / 4;
+      d.pdf_positive = i % 4 == 0;
+      d.density = s.density(d.v);
     }
   };
-  s.density = [](const auto&) { return 1.0; };
+  s.density = [](const auto& v) {
+    return v[0] == 0.25 ? std::numeric_limits<double>::quiet_NaN() : v[0] == 0.5 ? 0.0 : v[0] == 0.75 ? -1.0 : 1.0;
+  };
   std::vector<std::string> failed;
+  std::vector<mc::Fault> faults;
   for (const mc::Check& c : check_draws(s, draw_samples(s, 1, 1000, [](const auto&, double) {})))
     if (c.verdict == mc::Verdict::fail) {
       failed.push_back(c.name + ": " + c.detail);
-      EXPECT_EQ(c.fault, failed.size() == 1 ? mc::Fault::not_finite : mc::Fault::leak);
+      faults.push_back(c.fault);
     }
-  EXPECT_THAT(failed, testing::ElementsAre("pdf finite at samples: 333 of 1000 samples",
-                                           "pdf > 0 at samples: 333 of 1000 samples"));
+  EXPECT_THAT(failed, testing::ElementsAre("pdf finite at samples: 250 of 1000 samples",
+                                           "pdf >= 0 at samples: 250 of 1000 samples",
+                                           "pdf > 0 at samples: 250 of 1000 samples"));
+  EXPECT_THAT(faults, testing::ElementsAre(mc::Fault::not_finite, mc::Fault::negative, mc::Fault::leak));
 }
 
 // On the edge of the domain it says nothing of the density.

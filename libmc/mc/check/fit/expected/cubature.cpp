@@ -166,6 +166,9 @@ class Integrator {
     return middle > r.box.lo[axis] && middle < r.box.hi[axis];
   }
 
+  // What is no density somewhere is not looked at more closely.
+  bool spent(const CubatureGoal& goal) const { return bad || evaluations >= goal.max_evaluations; }
+
   std::size_t evaluations = 0;
   std::optional<std::array<double, 3>> bad;
 
@@ -220,7 +223,7 @@ CubatureResult integrate_boxes(const IntegrandOfMany& f, int dim, const std::vec
       }
       const double allowed = goal.box_error ? goal.box_error(value) : goal.total_error;
       if (error <= allowed) break;
-      if (integrator.evaluations >= goal.max_evaluations) {
+      if (integrator.spent(goal)) {
         result.converged = false;
         break;
       }
@@ -240,8 +243,7 @@ CubatureResult integrate_boxes(const IntegrandOfMany& f, int dim, const std::vec
   double error = 0;
   for (const Region& r : regions) error += r.error;
   std::make_heap(regions.begin(), regions.end());
-  while (error > goal.total_error && integrator.evaluations < goal.max_evaluations &&
-         Integrator::divisible(regions.front())) {
+  while (error > goal.total_error && !integrator.spent(goal) && Integrator::divisible(regions.front())) {
     std::pop_heap(regions.begin(), regions.end());
     error -= regions.back().error;
     Region other = integrator.halve(regions.back());

@@ -328,7 +328,7 @@ Reference::Masses Reference::integrate(const Subject& s, const Goal& goal, std::
   // with the passes, what they may have missed with their square. All passes count alike, and only the sum over all
   // cells decides how many there are, so that the choice biases nothing.
   double wanted = 1;
-  while (static_cast<double>(result.passes) < wanted) {
+  while (static_cast<double>(result.passes) < wanted && !result.bad) {
     integration.pass();
     if (result.passes > 1) continue;
     share_jumps(result.cells);
