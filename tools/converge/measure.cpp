@@ -187,6 +187,32 @@ std::string doubt_of(const Experiment& e, const std::vector<Curve>& curves) {
                      e.truth, std::abs(value - e.truth), best->way->name, value, error);
 }
 
+// Whether one replicate holds over half of the squared deviations from the mean.
+bool is_one_wild(const std::vector<double>& values) {
+  const double mean = mean_of(values);
+  double largest = 0, sum = 0;
+  for (const double x : values) {
+    largest = std::max(largest, mc::sqr(x - mean));
+    sum += mc::sqr(x - mean);
+  }
+  return largest > sum / 2;
+}
+
+// Why a truth found by replicates may be none; empty without a reason. Means with a finite variance are nearly normal
+// at the larger N: one in 64 that holds half of the variance would be nearly six deviations off.
+std::string doubt_of_reference(const std::vector<Curve>& curves) {
+  int sets = 0, wild = 0;
+  for (const Curve& c : curves)
+    for (std::size_t i = c.replicates.size() / 2; !c.way->adapts && !c.exact && i < c.replicates.size(); ++i) {
+      ++sets;
+      wild += is_one_wild(c.replicates[i].values);
+    }
+  if (wild < 2 || 4 * wild < sets) return {};
+  return fmt::format("in {} of {} sets of replicates one holds over half of the variance: the integral or its variance "
+                     "may be infinite, or few points meet what it is made of; errors and slopes are of chance",
+                     wild, sets);
+}
+
 bool all_zero(const std::vector<Curve>& curves) {
   for (const Curve& c : curves)
     for (const Replicates& r : c.replicates)
@@ -229,7 +255,7 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
               "{}: the integrand was 0 at every point; choose bounds around where it is not", target.integral.name);
   if (!known) std::tie(m.truth, m.truth_error) = reference(target, m.curves, o);
   for (Curve& c : m.curves) judge(c, target.integral, m.truth, m.truth_error);
-  if (known) m.doubt = doubt_of(target.integral, m.curves);
+  m.doubt = known ? doubt_of(target.integral, m.curves) : doubt_of_reference(m.curves);
   return m;
 }
 

@@ -51,7 +51,7 @@ struct Measurement {
   std::vector<Curve> curves; ///< of the ways that were finished
   double truth = 0;          ///< what errors are measured from
   double truth_error = 0;    ///< standard error of a reference; 0: the truth is known
-  std::string doubt;         ///< one line that says why the stated truth is wrong; empty: no doubt
+  std::string doubt;         ///< one line that says why the truth must or may be wrong; empty: no doubt
   bool interrupted = false;
   Cost cost = cpu_cost;         ///< what its seconds are
   std::string plain = "random"; ///< the name of the way that is plain Monte Carlo
@@ -60,7 +60,9 @@ struct Measurement {
 /// Every way on N = 16, 32, ... max_n, from the fewest that the way works with.
 ///   truth  : where the integral has none, the mean of 128 more replicates of the way with the smallest error at its
 ///            largest N: its standard error is under a tenth of the smallest error shown, and widens every interval
-///   doubt  : unbiased ways whose means agree with each other and not with the truth, by six standard errors
+///   doubt  : unbiased ways whose means agree with each other and not with the stated truth, by six standard errors;
+///            where none is stated, a quarter of all sets of replicates, at the larger N, in which one replicate holds
+///            over half of the variance
 ///   throws : Error for an integrand that is not finite somewhere, or of unknown truth and 0 at every point
 Measurement measure(const Target& target, const std::vector<Way>& ways, const MeasureOptions& options);
 

@@ -70,9 +70,10 @@ std::string Integral::to_string() const {
     text = fmt::format("{:.10g}, error not known yet: a few of {} points hold most of it", estimate.value, calls);
     break;
   case ErrorBar::infinite_variance:
-    text = fmt::format("{:.10g}, error not known: the variance is infinite ", estimate.value);
-    text += infinite > 0 ? fmt::format("(as is the integrand at {} points, which count as 0)", infinite)
-                         : fmt::format("(the largest values fall off with index {:.2f}; a variance needs more than 2)",
+    text = fmt::format("{:.10g}, error not known: the variance ", estimate.value);
+    text += infinite > 0 ? fmt::format("is infinite (as is the integrand at {} points, which count as 0)", infinite)
+                         : fmt::format("looks infinite (the largest values fall off with index {:.2f}; a variance "
+                                       "needs more than 2, an integral more than 1)",
                                        tail_index);
     break;
   }

@@ -313,7 +313,7 @@ TEST(Integral, PrintsItself) {
   EXPECT_TRUE(mc::integrate_unit(zero, 1, o).to_string().starts_with("0, error not known yet: "));
   const auto endless = [](std::span<const double> u) { return std::pow(1 - u[0], -0.9); };
   o.max_calls = 1 << 16;
-  EXPECT_NE(mc::integrate_unit(endless, 1, o).to_string().find("the variance is infinite"), std::string::npos);
+  EXPECT_NE(mc::integrate_unit(endless, 1, o).to_string().find("the variance looks infinite"), std::string::npos);
 }
 
 TEST(IntegrateRqmc, IsWithinItsError) {
