@@ -19,7 +19,8 @@ const char* remedy(mc::ErrorBar bar) {
   case mc::ErrorBar::known: return "";
   case mc::ErrorBar::hardly_met:
   case mc::ErrorBar::unseen: return "; raise --max-calls, or choose a --domain around it";
-  case mc::ErrorBar::infinite_variance: return ". Substitute a variable that removes the singularity; where there is none, take more calls";
+  case mc::ErrorBar::infinite_variance:
+    return ". Substitute a variable that removes the singularity; where there is none, take more calls";
   }
   return "";
 }

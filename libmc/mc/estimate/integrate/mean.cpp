@@ -85,7 +85,7 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   const bool apart = deviation > rounding;
 
   evidence.jumps.push_back(apart ? std::ldexp(widest_jump(scaled, deviation), exponent) * points : 0.0);
-  double jump = 0;
+  double jump = evidence.step;
   for (std::size_t i = evidence.jumps.size(); i > 0 && i + memory > evidence.jumps.size(); --i)
     jump = std::max(jump, evidence.jumps[i - 1]);
   double step = jump_share * jump;

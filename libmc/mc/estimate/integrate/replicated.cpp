@@ -41,13 +41,15 @@ class Growth {
     if (!grow(s, end.length)) use_up(s);
     return std::move(out);
   }
-  // Takes what a sequence says for the outcome; whether that is good enough.
+  // Takes what a sequence says for the outcome; whether that is good enough. Short ones behind a density hardly meet
+  // what it thought little of.
   bool adopt(const Sequences& s, const Means& means) {
     out.means = means;
     out.seen = s.seen();
     out.correlations = s.correlations(run_);
     run_.record(out.method, means);
-    if (run_.converged(out.means)) out.stop = Stop::converged;
+    const bool long_enough = !s.proposal.density || s.length >= AxisProfile::most;
+    if (long_enough && run_.converged(out.means)) out.stop = Stop::converged;
     last_ = out;
     return out.stop == Stop::converged;
   }

@@ -60,6 +60,9 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
     const auto n = static_cast<std::size_t>(std::min(block, last - first));
     const std::span<double> points(u.data(), n * d), all(values.data(), n * outputs), column(columns.data(), n);
     fill_points(set, first, dim, points);
+    const auto profiled =
+        static_cast<std::size_t>(std::clamp<std::uint64_t>(AxisProfile::most, first, first + n) - first);
+    sums.profile.add_points(points.first(profiled * d));
     for (std::size_t i = 0; i < n; ++i) {
       const Weight weight = draw(proposal, points.subspan(i * d, d), scratch);
       factors[i] = weight.factor;
@@ -82,6 +85,7 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
         for (std::size_t i = 0; i < n; ++i) column[i] -= proposal.centre[k] * shifts[i];
         largest += 2 * std::abs(proposal.centre[k]); // no shift is above 8 / 7
       }
+      sums.profile.add_values(k, column.first(profiled));
       if (keep == Keep::batches) sums.add_to_batches(k, column, first, largest);
       sums.outputs[k].add(column, first, largest);
     }
@@ -160,12 +164,16 @@ std::vector<std::vector<double>> Run::replicate_means(const std::vector<Sums>& r
 Means Run::means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
                  const std::vector<Sums>& uniform, const Proposal& proposal, const std::vector<Seen>& let_go) const {
   evidence.resize(outputs);
+  AxisProfile profile;
+  if (points <= AxisProfile::most)
+    for (const Sums& s : replicates) profile.merge(s.profile);
   const std::vector<std::vector<double>> values = replicate_means(replicates, uniform, proposal);
   Means all;
   for (std::size_t k = 0; k < outputs; ++k) {
     Seen seen = let_go.empty() ? Seen() : let_go[k];
     for (const auto* part : {&replicates, &uniform})
       for (const Sums& s : *part) seen.merge(s.seen[k]);
+    if (points <= AxisProfile::most) evidence[k].step = profile.jump(k, static_cast<std::size_t>(dim));
     all.push_back(replicated(values[k], static_cast<double>(points), seen, evidence[k]));
   }
   return all;

@@ -72,6 +72,7 @@ void Sums::merge(const Sums& other) {
   if (!first_infinite) first_infinite = other.first_infinite;
   batches.resize(std::max(batches.size(), other.batches.size()));
   for (std::size_t i = 0; i < other.batches.size(); ++i) batches[i].merge(other.batches[i]);
+  profile.merge(other.profile);
   points.insert(points.end(), other.points.begin(), other.points.end());
   values.insert(values.end(), other.values.begin(), other.values.end());
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// What the tasks of a run add up.
 
+#include <mc/estimate/integrate/axis_profile.h>
 #include <mc/estimate/moments.h>
 #include <mc/estimate/tail.h>
 
@@ -39,7 +40,8 @@ struct Sums {
   std::vector<ScaledMoments> outputs;
   std::vector<Seen> seen;
   std::vector<double> points = {}, values = {};
-  std::vector<ScaledMoments> batches = {};          ///< batch_count for each output
+  std::vector<ScaledMoments> batches = {}; ///< batch_count for each output
+  AxisProfile profile = {};
   std::optional<std::uint64_t> first_infinite = {}; ///< index of the first point where the integrand was
 
   /// Infinite values become 0, of points whose indices start at `first` and which stand for so much of the volume each.
