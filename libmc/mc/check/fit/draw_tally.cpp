@@ -46,7 +46,8 @@ bool is_sample(const Subject::Draw& d, std::uint64_t seed, std::uint64_t index, 
 }
 
 DrawTally::Broken& broken_by_density(const Subject& s, const Subject::Draw& d, DrawTally& tally) {
-  if (d.kind == Kind::point && density_beside_face(s, d.v))
+  // The way through the chart rounds, too.
+  if (d.kind == Kind::point && (density_beside(s, d.v) || (d.density == 0 && s.density(d.v) > 0)))
     return std::isfinite(s.density(d.v)) ? tally.zero_edge : tally.edge;
   if (!std::isfinite(d.density)) return tally.bad_pdf;
   return d.kind == Kind::point && s.density(d.v) < 0 ? tally.negative : tally.leak;
@@ -54,7 +55,7 @@ DrawTally::Broken& broken_by_density(const Subject& s, const Subject::Draw& d, D
 
 // The density at a point; beside it where it has none on the face of the chart.
 double density_of(const Subject& s, const Subject::Draw& d) {
-  if (const auto beside = d.pdf_positive ? std::nullopt : density_beside_face(s, d.v)) return *beside;
+  if (const auto beside = d.pdf_positive ? std::nullopt : density_beside(s, d.v)) return *beside;
   return d.density >= 0 ? d.density : s.density(d.v);
 }
 
@@ -147,7 +148,7 @@ std::vector<Check> check_draws(const Subject& s, const DrawTally& tally, bool op
   merge(tally.zero_edge.count > 3 ? leak : edge, tally.zero_edge);
   add("pdf > 0 at samples", leak, Fault::leak, count(leak), 0);
   if (edge.count > 0 && !open_interval) {
-    add("pdf at the ends of the domain", edge, Fault::zero_edge, count(edge), 0);
+    add("pdf at ends and jumps", edge, Fault::zero_edge, count(edge), 0);
     checks.back().detail += "; open_interval (carlo validate --open-interval) accepts it as measure zero";
   }
   add("weight = f / pdf", tally.weight, Fault::weight, tally.worst_weight, s.weight_tolerance);

@@ -17,7 +17,7 @@ struct DrawTally {
   Broken failed, outside, not_finite, weight;
   Broken leak, bad_pdf;    ///< pdf = 0; it is not finite
   Broken negative;         ///< pdf < 0
-  Broken zero_edge, edge;  ///< the same on a face of the chart, where the density is right beside it
+  Broken zero_edge, edge;  ///< the same where the density is right beside it: on a face of the chart, at a jump
   double worst_weight = 0; ///< largest |weight - 1| beyond what the density changes within four steps of rounding
   std::uint64_t draws = 0;
   std::vector<std::uint64_t> atoms; ///< count of each discrete outcome

@@ -21,8 +21,8 @@ std::array<double, 2> beside(const AnySampler& s, double u) {
 }
 
 // Tries single u. Judged apart are sets of measure zero: those with a coordinate of exactly 0, those that a density of
-// 0 at one point meets, as |x| does in the middle, and those rounded onto the edge of the domain, where a density may
-// be 0 or infinite.
+// 0 at one point meets, as |x| does in the middle, and those rounded onto the edge of the domain or of a jump, where a
+// density may be 0 or infinite.
 class Probe {
  public:
   // accepted : that the sampler breaks at single u
@@ -33,8 +33,10 @@ class Probe {
     if (at_zero && sampler_.open_interval) return;
     const Placed p = place(sampler_, sampler_.sample(u));
     const auto fault = fault_of(p);
-    const bool single = at_zero || (!fault.empty() && p.draw.kind == Kind::point &&
-                                    (density_beside_face(subject_, p.draw.v) || (p.pdf == 0 && is_single(u))));
+    const bool single =
+        at_zero ||
+        (!fault.empty() && p.draw.kind == Kind::point &&
+         (density_beside(subject_, p.draw.v) || (p.pdf == 0 && (subject_.density(p.draw.v) > 0 || is_single(u)))));
     if (single && accepted_) return;
     (single ? zero_ : inner_).note(fault.empty() ? 0 : 1, [&] {
       return fmt::format("{} at {}", fault, describe_sample(sampler_, u));
@@ -46,9 +48,10 @@ class Probe {
     Check inner = inner_.check(), zero = zero_.check();
     if (accepted_) return {inner};
     if (inner.verdict == Verdict::pass && zero.verdict == Verdict::fail)
-      zero.detail +=
-          "; only single u do this, with a coordinate of exactly 0 (take 1 - u instead) or where the density is 0 "
-          "or infinite at one point; open_interval (carlo validate --open-interval) accepts it as measure zero";
+      zero.detail += "; only single u do this, with a coordinate of exactly 0 (take 1 - u instead), or whose point is "
+                     "rounded onto "
+                     "the edge of the density, or one where it is 0 or infinite; open_interval (carlo validate "
+                     "--open-interval) accepts it as measure zero";
     return {inner, zero};
   }
 

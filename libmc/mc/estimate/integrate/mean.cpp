@@ -15,8 +15,8 @@ namespace mc::detail {
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-constexpr double jump_share = 0.6, unseen_share = 1.5; // of one step of one replicate, in standard errors
-constexpr std::size_t memory = 4;                      // lengths that a jump is remembered for
+constexpr double jump_share = 0.75, unseen_share = 1.5; // of one step of one replicate, in standard errors
+constexpr std::size_t memory = 4;                       // lengths that a jump is remembered for
 
 // The jump that sets replicates apart: the widest gap between neighbours, if it is wider than those of a smooth
 // distribution or all of them lie in two narrow clusters.

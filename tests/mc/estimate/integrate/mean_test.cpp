@@ -56,7 +56,7 @@ TEST(Replicated, EqualReplicatesHaveAnError) {
   Evidence evidence;
   const std::vector<double> halves(replicates, 0.5);
   const Mean step = replicated(halves, 64, seen({0, 1, 1, 0}), evidence);
-  EXPECT_DOUBLE_EQ(step.error, 0.6 / 64 / replicates);
+  EXPECT_DOUBLE_EQ(step.error, 0.75 / 64 / replicates);
   Evidence other;
   const Mean constant = replicated(halves, 64, seen({0.5, 0.5}), other);
   // 95 % bound of the rule of three on the mass of what was not seen, times the size seen: 3 / N of it.

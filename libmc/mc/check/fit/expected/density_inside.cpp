@@ -1,4 +1,5 @@
 #include <mc/check/fit/expected/density_inside.h>
+#include <mc/check/fit/pilot.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,13 +23,25 @@ void densities_inside(const Subject& s, std::span<Subject::Coordinates> v, std::
   for (std::size_t i = 0; i < v.size(); ++i) densities[i] = s.density(v[i]);
 }
 
-std::optional<double> density_beside_face(const Subject& s, const Subject::Coordinates& v) {
+std::optional<double> density_beside(const Subject& s, const Subject::Coordinates& v) {
   const auto is_face = [](double x) { return x <= 0 || x >= 1; };
   const auto positive = [](double density) { return density > 0 && std::isfinite(density); };
-  if (std::none_of(v.begin(), v.begin() + s.dim, is_face) || positive(s.density(v))) return {};
-  for (const double step : {0x1p-500, 0x1p-52, 0x1p-30}) {
-    const double beside = s.density(moved_inside(v, s.dim, step));
-    if (positive(beside)) return beside;
+  const double there = s.density(v);
+  if (positive(there)) return {};
+  if (std::any_of(v.begin(), v.begin() + s.dim, is_face))
+    for (const double step : {0x1p-500, 0x1p-52, 0x1p-30}) {
+      const double beside = s.density(moved_inside(v, s.dim, step));
+      if (positive(beside)) return beside;
+    }
+  if (!(there >= 0)) return {};
+  for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
+    const double step = rounded_steps * rounding(s, v, axis);
+    for (const double to : {v[axis] - step, v[axis] + step}) {
+      Subject::Coordinates moved = v;
+      moved[axis] = std::clamp(to, 0.0, 1.0);
+      const double beside = s.density(moved);
+      if (positive(beside)) return beside;
+    }
   }
   return {};
 }

@@ -14,9 +14,9 @@ double density_inside(const Subject& subject, const Subject::Coordinates& v);
 /// Those at many points, which it moves likewise: one question where the subject answers many at once.
 void densities_inside(const Subject& subject, std::span<Subject::Coordinates> v, std::span<double> densities);
 
-/// The density beside v, where v lies on a face of the cube and the density is 0 or not finite there, but not beside
-/// it: a set of measure zero, which says nothing against a sampler whose points are rounded onto it. Beside is as near
-/// as the domain tells points apart: 2^-500, 2^-52 or 2^-30.
-std::optional<double> density_beside_face(const Subject& subject, const Subject::Coordinates& v);
+/// The density beside v, where it is 0 or not finite at v but not beside it: a set of measure zero, which says nothing
+/// against a sampler whose points are rounded onto it. Beside a face of the cube is as near as the domain tells points
+/// apart: 2^-500, 2^-52 or 2^-30; inside, where the density jumps to 0 or is infinite, rounded_steps.
+std::optional<double> density_beside(const Subject& subject, const Subject::Coordinates& v);
 
 } // namespace mc

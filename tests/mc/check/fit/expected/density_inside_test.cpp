@@ -38,25 +38,31 @@ TEST(DensityInside, IsThatOfTheTailsOnTheFacesOfTheLine) {
   EXPECT_NEAR(density_inside(root, {1e-100, 0, 0}), 0.5e50, 1e38);
 }
 
-TEST(DensityInside, BesideAFaceWhereItBreaksOnlyThere) {
+TEST(DensityInside, BesideWhereItBreaksOnlyThere) {
   const auto on_unit = [](double (*pdf)(double)) {
     return make_subject(
         "f", mc::Interval<double>(0, 1), [](mc::Pcg& r) { return r.uniform<double>(); }, pdf);
   };
   const Subject arcsine = on_unit([](double x) { return 1 / (mc::pi<double> * std::sqrt(x * (1 - x))); });
-  EXPECT_GT(density_beside_face(arcsine, {0, 0, 0}), 1e70);
-  EXPECT_NEAR(density_beside_face(arcsine, {1, 0, 0}).value(), std::sqrt(0x1p53) / mc::pi<double>, 1);
-  EXPECT_FALSE(density_beside_face(arcsine, {1 - 0x1p-53, 0, 0}));
+  EXPECT_GT(density_beside(arcsine, {0, 0, 0}), 1e70);
+  EXPECT_NEAR(density_beside(arcsine, {1, 0, 0}).value(), std::sqrt(0x1p53) / mc::pi<double>, 1);
+  EXPECT_FALSE(density_beside(arcsine, {1 - 0x1p-53, 0, 0}));
   const Subject ramp = on_unit([](double x) { return 2 * x; });
-  EXPECT_TRUE(density_beside_face(ramp, {0, 0, 0}));
-  EXPECT_FALSE(density_beside_face(ramp, {1, 0, 0})) << "2 is a density";
+  EXPECT_TRUE(density_beside(ramp, {0, 0, 0}));
+  EXPECT_FALSE(density_beside(ramp, {1, 0, 0})) << "2 is a density";
   const Subject upper_half = on_unit([](double x) { return x < 0.5 ? 0.0 : 2.0; });
-  EXPECT_FALSE(density_beside_face(upper_half, {0, 0, 0})) << "it is 0 beside the face too";
+  EXPECT_FALSE(density_beside(upper_half, {0, 0, 0})) << "it is 0 beside the face too";
+  EXPECT_EQ(density_beside(upper_half, {0.5 - 0x1p-54, 0, 0}), 2) << "a sampler rounds onto a jump";
+  EXPECT_FALSE(density_beside(upper_half, {0.5 - 0x1p-40, 0, 0}));
+  const Subject peak = on_unit([](double x) { return 0.5 / std::sqrt(std::abs(x - 0.5)); });
+  EXPECT_TRUE(density_beside(peak, {0.5, 0, 0}));
+  const Subject undefined = on_unit([](double x) { return x == 0.5 ? std::nan("") : 1.0; });
+  EXPECT_FALSE(density_beside(undefined, {0.5, 0, 0}));
   // Far from 0 a double tells no nearer points apart.
   const Subject shifted = make_subject(
       "shifted", mc::Interval<double>(1e6, 1e6 + 1), [](mc::Pcg& r) { return 1e6 + mc::sqr(r.uniform<double>()); },
       [](double x) { return 0.5 / std::sqrt(x - 1e6); });
-  EXPECT_NEAR(density_beside_face(shifted, {0, 0, 0}).value(), 0x1p14, 0x1p11);
+  EXPECT_NEAR(density_beside(shifted, {0, 0, 0}).value(), 0x1p14, 0x1p11);
 }
 
 TEST(DensityInside, ManyAreAskedInOneQuestionWhereTheSubjectTakesIt) {
