@@ -68,6 +68,8 @@ Fault Report::fault() const {
   };
   const auto measure_zero = [](const Check& c) { return c.fault == Fault::zero_edge; };
   const Fault certain = first([&](const Check& c) { return !c.p && !measure_zero(c); });
+  const Fault beyond_doubt = first([](const Check& c) { return c.p && *c.p < 1e-9; });
+  if (certain == Fault::edge && beyond_doubt != Fault::none) return beyond_doubt;
   if (certain != Fault::none) return certain;
   const Fault likely = first([](const Check& c) { return c.p.has_value(); });
   return likely != Fault::none ? likely : first(measure_zero);

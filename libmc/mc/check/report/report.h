@@ -102,8 +102,9 @@ struct Report {
   double alpha = 0.01;
   std::uint64_t samples = 0;
   double mass = 1, mass_error = 0; ///< integral of the claimed density, atoms included, and its error bound
-  /// Relative error of the density that is caught with probability .99: of random sign over patches of any place and
-  /// shape that each hold the share of four of the checker's cells or more, a thousandth of 1e6 samples.
+  /// Relative error of the density that is caught with probability .99: of random sign over patches of any place that
+  /// each hold the share of four of the checker's cells or more, a thousandth of 1e6 samples, and are at most ten times
+  /// as long as wide. That of longer ones may have to be three times as large.
   double detectable = 0;
   double detectable_cell = 0; ///< the same in a single compact region of that share or more
   double seconds = 0;
@@ -117,8 +118,9 @@ struct Report {
   Verdict verdict() const; ///< fail if any failed, else inconclusive if any is, else pass
   bool passed() const { return verdict() == Verdict::pass; }
   double p() const; ///< family-wise adjusted p-value (weighted Sidak over the statistical checks); 1 without any
-  Fault
-  fault() const; ///< the likely fault: that of the first failed check, deterministic ones first, measure zero last
+  /// The likely fault: that of the first failed check, deterministic ones first, measure zero last; ends and branches
+  /// of u after counts that are beyond doubt wrong.
+  Fault fault() const;
   /// Several lines: the verdict, then each check that did not pass with its detail, then the worst cells.
   std::string to_string() const;
 };

@@ -104,6 +104,8 @@ ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const
   mass.estimated = reference.value + clipped + outcomes;
   mass.estimated_error = std::sqrt(std::max(sampled, 0.0) + reference.safe_variance() + sqr(s.mass_tolerance));
   mass.z = (samples.sum / n - reference.value) / std::max(mass.estimated_error, 1e-300);
+  mass.at_points = whole.value + outcomes;
+  mass.at_points_error = std::sqrt(whole.safe_variance()) + s.mass_tolerance;
   if (s.dim == 0) {
     mass.value = outcomes;
     return mass;
@@ -147,8 +149,16 @@ Check test_mass(const Subject& s, const ClaimedMass& mass, double alpha) {
     if (*c.p <= sidak_level(alpha, c.share)) c.verdict = Verdict::fail;
     else if (!(mass.estimated_error <= 0.03)) c.verdict = Verdict::inconclusive;
   }
-  if (c.verdict != Verdict::pass)
-    c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}", mass.value, mass.error);
+  if (c.verdict == Verdict::pass) return c;
+  c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}", mass.value, mass.error);
+  // Samples that are wrong where the density is high say nothing of what it integrates to.
+  if (mass.integrated || c.verdict != Verdict::fail || !(mass.at_points_error <= 0.03) ||
+      !(std::abs(mass.at_points - 1) <= 4 * mass.at_points_error))
+    return c;
+  c.fault = Fault::shape;
+  c.detail = fmt::format("the samples do not follow the density where it is high; at random points it integrates to "
+                         "{:.6g} +- {:.2g}",
+                         mass.at_points, mass.at_points_error);
   return c;
 }
 

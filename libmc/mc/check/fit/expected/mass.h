@@ -26,6 +26,7 @@ struct SampleWeights {
 struct ClaimedMass {
   double value = 1, error = 0;
   double estimated = 1, estimated_error = 0, z = 0;
+  double at_points = 1, at_points_error = 0; ///< by the random points alone, whatever the samples are
   bool integrated = true;
 };
 ClaimedMass claimed_mass(const Subject& subject, const CubatureResult& cubature, const EstimatedMass& reference,
