@@ -107,8 +107,9 @@ std::string csv(const std::vector<Row>& rows, int dim) {
   return text;
 }
 
-// Four panels over N, and one over the frequency where there is a spectrum.
-std::string script(const std::string& title, bool spectrum) {
+// Four panels over N, and one over the frequency where there is a spectrum. Without a distance above 0 that of the
+// distance has no logarithmic axis, on which gnuplot would find nothing to draw.
+std::string script(const std::string& title, bool any_distance, bool spectrum) {
   std::string s = plot_head("quality", 1100, 800);
   s += fmt::format("set multiplot layout 2,3 title \"{}\" font \",15\"\nset key left bottom Left reverse samplen 2\n"
                    "set logscale xy\nset format y \"10^{{%L}}\"\nset xlabel \"points N\"\n",
@@ -122,8 +123,9 @@ std::string script(const std::string& title, bool spectrum) {
   panel("L2-star discrepancy, RMS", 2);
   panel("periodic L2 discrepancy, RMS", 5);
   s += "set ylabel \"star discrepancy, bounds\"\nplot \"quality.csv\" skip 1 using 1:8 with linespoints pt 7 ps 0.5 lc "
-       "rgb \"#4477aa\" title \"lower\", \"\" skip 1 using 1:9 with lines lc rgb \"#4477aa\" title \"upper\"\n"
-       "set ylabel \"smallest distance, periodic, mean\"\nplot \"quality.csv\" skip 1 using 1:10 with linespoints pt 7 "
+       "rgb \"#4477aa\" title \"lower\", \"\" skip 1 using 1:9 with lines lc rgb \"#4477aa\" title \"upper\"\n";
+  if (!any_distance) s += "unset logscale y\nset format y \"%g\"\nset yrange [0:1]\n";
+  s += "set ylabel \"smallest distance, periodic, mean\"\nplot \"quality.csv\" skip 1 using 1:10 with linespoints pt 7 "
        "ps 0.5 lc rgb \"#4477aa\" title \"this set\"\n";
   if (spectrum)
     s += "unset logscale\nset format y \"%g\"\nset yrange [0:2]\nset xlabel \"frequency\"\nset ylabel \"power, x and "
@@ -250,7 +252,8 @@ void write(const PointsOptions& o, const std::filesystem::path& folder, const Me
   }
   if (m.interrupted) all["interrupted"] = true;
   mc::write_file(file("quality.json"), json_text(all));
-  mc::write_file(file("quality.gp"), script(title, dim >= 2));
+  const bool any_distance = std::any_of(m.rows.begin(), m.rows.end(), [](const Row& r) { return r.distance > 0; });
+  mc::write_file(file("quality.gp"), script(title, any_distance, dim >= 2));
   if (!draw_plot(folder, "quality"))
     std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
 }

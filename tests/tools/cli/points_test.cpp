@@ -56,6 +56,14 @@ TEST_F(Points, AFileIsLookedAtAsItIs) {
   EXPECT_EQ(last("a"), last("b"));
 }
 
+// No distance is above 0, so none has a place on a logarithmic axis.
+TEST_F(Points, TwoThatAreEqual) {
+  const std::string twins = write("twins.csv", "0.25,0.5\n0.75,0.125\n0.25,0.5\n");
+  const Ran run = run_carlo("points --points-file '" + twins + "' -o '" + path("out") + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("0 plain, 0 periodic"));
+}
+
 TEST_F(Points, ThreadsChangeNothing) {
   for (const char* threads : {"1", "2"})
     run_carlo(std::string("points lattice -n 40 --randomisations 3 --threads ") + threads + " -o '" + path(threads) +
