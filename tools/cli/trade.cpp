@@ -285,15 +285,17 @@ ordered_json to_json(const TradeOptions& o, const Measured& one) {
 int tell(const TradeOptions& o, const Measured& one, const Folders& folders) {
   const Measurement& m = *one.measurement;
   const Answers& a = *one.answers;
+  const bool exact = std::all_of(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.exact; });
   for (const ForError& f : a.errors) print(f, m.cost);
   for (const ForSeconds& f : a.seconds) print(f, m.cost);
+  if (exact) fmt::print("  every way is exact to rounding: there is no error to plot\n");
   if (!m.doubt.empty()) fmt::print("  warning: {}\n", m.doubt);
   const std::filesystem::path& folder = folders.data;
   mc::write_file((folder / "trade.csv").string(), csv(all_points(m), m.cost));
   mc::write_file((folder / "front.csv").string(), csv(a.front, m.cost));
   mc::write_file((folder / "trade.json").string(), to_json(o, one).dump(1) + "\n");
   mc::write_file((folder / "trade.gp").string(), script(one.target->integral.title, m));
-  if (!draw_plot(folder, "trade"))
+  if (!exact && !draw_plot(folder, "trade"))
     std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
   fmt::print("data and plots: {}\n", folder.string());
   if (!folders.page.empty()) {

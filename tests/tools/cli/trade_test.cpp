@@ -48,6 +48,14 @@ TEST_F(TradeCommand, AnErrorThatNoneReachesSaysHowFarEachCame) {
   EXPECT_THAT(r.output, AllOf(HasSubstr("  error 1e-09: no way came there; nearest: "), HasSubstr(" at N = 1024")));
 }
 
+// Errors of 0 have no place on logarithmic axes.
+TEST_F(TradeCommand, WhatEveryWayKnowsExactlyIsNotPlotted) {
+  const Ran r = run("'3+0*x' -d x=0:1 --max-n 64 --report '" + path("page") + "'");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(r.output, AllOf(HasSubstr("  error 0.03: "), HasSubstr("every way is exact to rounding")));
+  EXPECT_THAT(mc::read_file(path("out/trade.csv")), HasSubstr("sobol,64,"));
+}
+
 TEST_F(TradeCommand, BatchesAgainstOneByOne) {
   const Ran r = run(std::string("--plugin '") + PLUGIN_DIR + "/integrands.so' Batch --error 0.1 --max-n 64");
   EXPECT_EQ(r.exit_code, 0) << r.output;
