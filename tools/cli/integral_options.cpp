@@ -100,7 +100,8 @@ std::vector<Target> targets_of(const IntegralOptions& o) {
   mc::require(o.memory >= 0.25 && o.memory <= 1e6, "--memory {} must lie in [0.25, 1e6] GiB", o.memory);
   if (!o.plugin.empty()) {
     mc::require(o.domain.empty(), "a plugin states its own bounds; --domain is for an expression");
-    return plugin_targets(o.plugin, o.integrands, {.limits = {.seconds = o.timeout, .gigabytes = o.memory}});
+    return plugin_targets(o.plugin, o.integrands,
+                          {.limits = {.seconds = o.timeout, .gigabytes = o.memory, .less = "--max-n"}});
   }
   mc::require(o.domain.empty() || o.integrands.size() == 1, "--domain belongs to one expression");
   std::vector<Target> targets;

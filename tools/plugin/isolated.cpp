@@ -191,8 +191,8 @@ Ended wait_for(pid_t child, int pipe, const Watch& watch, double timeout, int ha
   if (!e.dead && watch.inside() && e.stalled > 0.5 * e.active)
     throw mc::Error(fmt::format("{}: it hangs{}: no answer in {:g} s (--timeout)", who, watch.where(), limits.seconds));
   if (!e.dead)
-    throw mc::Error(fmt::format("{}: not done in {:g} s,{}; raise --timeout or lower --samples", who, limits.seconds,
-                                watch.where()));
+    throw mc::Error(fmt::format("{}: not done in {:g} s,{}; raise --timeout or lower {}", who, limits.seconds,
+                                watch.where(), limits.less));
   if (WIFSIGNALED(e.status))
     throw mc::Error(fmt::format("{}: it crashed{}: {} (signal {})", who, watch.where(), strsignal(WTERMSIG(e.status)),
                                 WTERMSIG(e.status)));

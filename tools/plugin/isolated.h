@@ -49,9 +49,10 @@ class Watch {
 
 /// What foreign code may use before it is ended.
 struct Limits {
-  double seconds = 60;  ///< wall-clock
-  double gigabytes = 4; ///< address space, 2^30 bytes each; not under a sanitizer, which reserves terabytes
-  int files = 256;      ///< open at once
+  double seconds = 60;            ///< wall-clock
+  double gigabytes = 4;           ///< address space, 2^30 bytes each; not under a sanitizer, which reserves terabytes
+  int files = 256;                ///< open at once
+  std::string less = "--samples"; ///< the option of the command that makes the work smaller
 };
 
 /// Runs work in a forked child and returns what it returned. Its standard output goes to standard error. When it

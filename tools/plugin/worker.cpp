@@ -51,7 +51,8 @@ json message_in(const Bytes& bytes) {
 
 json call_worker(json request, const WorkerOptions& options) {
   const Limits& limits = options.limits;
-  request["limits"] = {{"seconds", limits.seconds}, {"gigabytes", limits.gigabytes}, {"files", limits.files}};
+  request["limits"] = {
+      {"seconds", limits.seconds}, {"gigabytes", limits.gigabytes}, {"files", limits.files}, {"less", limits.less}};
   Child worker({{options.program, "worker"}});
   send(worker.input(), request);
   Bytes answer;
@@ -84,7 +85,7 @@ void serve(json (*run)(const json& request, Watch& watch)) {
     if (!read_some(STDIN_FILENO, bytes)) throw mc::Error("worker: carlo itself starts this; it is of no use by hand");
   const json request = message_in(bytes);
   const json& l = request["limits"];
-  const Limits limits{l["seconds"], l["gigabytes"], l["files"]};
+  const Limits limits{l["seconds"], l["gigabytes"], l["files"], l["less"]};
   const std::string who = request["who"];
   json answer;
   try {

@@ -131,6 +131,7 @@ TEST_F(Converge, APluginThatMisbehavesIsOneLine) {
   expect_refused(plugin + "Crash --max-n 64", "it crashed in eval at x = (");
   expect_refused(plugin + "NaN --max-n 64", "NaN: the integrand is nan at x = (");
   expect_refused(plugin + "Hang --max-n 64 --timeout 1", "it hangs in eval at x = (");
+  expect_refused(plugin + "Slow --max-n 64 --timeout 1", "; raise --timeout or lower --max-n");
   expect_refused(plugin + "Smu --max-n 64", "unknown integrand 'Smu'; did you mean 'Sum'?");
   expect_refused(std::string("--plugin '") + PLUGIN_DIR + "/right.so'", "it holds samplers and no integrands");
 }

@@ -20,6 +20,11 @@ static double hang(const double* x) {
     for (;;) ++spin;
   return x[0];
 }
+static double slow(const double* x) {
+  volatile unsigned spin;
+  for (spin = 0; spin < 5000000;) ++spin;
+  return x[0];
+}
 
 static const double lo[] = {0, -1}, hi[] = {1, 2};
 static const mc_integrand integrands[] = {
@@ -29,5 +34,6 @@ static const mc_integrand integrands[] = {
     {.name = "Crash", .dim = 1, .eval = crash},
     {.name = "NaN", .dim = 1, .eval = not_a_number},
     {.name = "Hang", .dim = 1, .eval = hang},
+    {.name = "Slow", .dim = 1, .eval = slow},
 };
 MC_INTEGRANDS(integrands)
