@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mc {
 namespace {
@@ -105,7 +106,9 @@ DrawTally draw_samples(const Subject& s, std::uint64_t seed, std::uint64_t n,
       if (!d.pdf_positive) note(broken_by_density(s, d, tally), stream, i);
       const double off = weight_error(s, d);
       if (!(off <= s.weight_tolerance)) note(tally.weight, stream, i);
-      if (!(off <= tally.worst_weight)) tally.worst_weight = off;
+      // Not a number is worse than any.
+      tally.worst_weight =
+          std::max(tally.worst_weight, std::isnan(off) ? std::numeric_limits<double>::infinity() : off);
       if (d.kind == Kind::atom) ++tally.atoms[static_cast<std::size_t>(d.atom)];
       else point(d.v, density_of(s, d));
     }

@@ -147,6 +147,22 @@ TEST(DrawTally, AWeightMayDifferByWhatRoundingOfThePointChanges) {
   EXPECT_TRUE(broken(std::numeric_limits<double>::quiet_NaN(), 1));
 }
 
+TEST(DrawTally, AWeightThatIsNoNumberStaysTheWorst) {
+  mc::Subject s;
+  s.draw = [](std::uint64_t, std::size_t n, std::vector<Draw>& out) {
+    for (std::size_t i = 0; i < n; ++i) {
+      Draw& d = out.emplace_back();
+      d.kind = Draw::Kind::atom;
+      d.atom = 0;
+      d.weight = i == 3 ? std::numeric_limits<double>::quiet_NaN() : 1 + 1e-7;
+    }
+  };
+  s.atoms = {1};
+  const mc::DrawTally t = draw_samples(s, 1, 10, [](const auto&, double) {});
+  EXPECT_EQ(t.weight.count, 1u);
+  EXPECT_EQ(t.worst_weight, std::numeric_limits<double>::infinity());
+}
+
 TEST(DrawTally, RefusesASubjectThatDrawsNothing) {
   mc::Subject s;
   s.draw = [](std::uint64_t, std::size_t, std::vector<Draw>&) {};
