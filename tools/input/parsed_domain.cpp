@@ -1,5 +1,6 @@
 #include <input/parameters.h>
 #include <input/parsed_domain.h>
+#include <integrands/sides.h>
 
 #include <mc/check/subject/make_sampler.h>
 #include <mc/core/error.h>
@@ -63,7 +64,7 @@ template <mc::Domain D> Part directions(std::string text, const D& d, Rounding r
 }
 
 double number(std::string_view word, std::string_view whole) {
-  const std::optional<double> value = mc::number_in(word);
+  const std::optional<double> value = mc::number_in(trimmed(word));
   mc::require(value && !std::isnan(*value), "'{}' in '{}' is not a number", word, whole);
   return *value;
 }
@@ -236,13 +237,15 @@ ParsedDomain parse_domain(const std::string& text, const Quartiles& quartiles, R
   std::optional<ParsedDomain> whole;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string one = text.substr(begin, end - begin), name = one.substr(0, one.find('='));
+    const std::string one(trimmed(std::string_view(text).substr(begin, end - begin)));
+    const std::size_t equals = std::min(one.find('='), one.size());
+    const std::string name(trimmed(std::string_view(one).substr(0, equals)));
+    const std::string_view value = std::string_view(one).substr(std::min(equals + 1, one.size()));
     begin = end + 1;
-    const std::string_view value = std::string_view(one).substr(std::min(name.size() + 1, one.size()));
     if (name == "discrete") {
       const double n = number(value, one);
       mc::require(n >= 1 && n <= 1 << 24 && n == std::floor(n), "'{}'; 1 to 2^24 outcomes are possible", one);
-      mc::require(one.size() == text.size(), "'{}' stands alone", one);
+      mc::require(text.find(',') == std::string::npos, "'{}' stands alone", one);
       return discrete(static_cast<int>(n));
     }
     const std::size_t column = whole ? whole->columns.size() : 0;

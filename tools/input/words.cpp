@@ -1,6 +1,5 @@
 #include <input/words.h>
-
-#include <algorithm>
+#include <integrands/sides.h>
 
 namespace carlo {
 
@@ -8,10 +7,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> words;
   for (bool more = true; more;) {
     const std::size_t end = text.find(separator);
-    std::string_view word = text.substr(0, end);
-    word.remove_prefix(std::min(word.find_first_not_of(' '), word.size()));
-    word = word.substr(0, word.find_last_not_of(' ') + 1);
-    words.push_back(word);
+    words.push_back(trimmed(text.substr(0, end)));
     more = end != std::string_view::npos;
     if (more) text.remove_prefix(end + 1);
   }

@@ -6,7 +6,7 @@
 
 namespace carlo {
 
-/// The words between the separators, without the blanks around them: "a, b,,c" is "a", "b", "", "c".
+/// The words between the separators, trimmed: "a, b,,c" is "a", "b", "", "c".
 std::vector<std::string_view> split(std::string_view text, char separator);
 
 } // namespace carlo

@@ -22,6 +22,16 @@ double either(double a, double b) { return a != 0 || b != 0; }
 double negated(double a) { return a == 0; }
 double chosen(double condition, double yes, double no) { return condition != 0 ? yes : no; }
 
+void define_words(mu::Parser& parser) {
+  parser.ClearConst(); // muParser's own pi and e have 13 digits
+  parser.DefineConst("_pi", 3.14159265358979323846);
+  parser.DefineConst("_e", 2.71828182845904523536);
+  parser.DefineOprt("and", both, mu::prLAND);
+  parser.DefineOprt("or", either, mu::prLOR);
+  parser.DefineFun("not", negated);
+  parser.DefineFun("if", chosen);
+}
+
 // A parser with its variables: muParser evaluates in place, so each thread needs its own.
 struct Instance {
   mu::Parser parser;
@@ -29,13 +39,7 @@ struct Instance {
 
   Instance(const std::string& expression, const std::vector<std::string>& names) : values(names.size()) {
     try {
-      parser.ClearConst(); // muParser's own pi and e have 13 digits
-      parser.DefineConst("_pi", 3.14159265358979323846);
-      parser.DefineConst("_e", 2.71828182845904523536);
-      parser.DefineOprt("and", both, mu::prLAND);
-      parser.DefineOprt("or", either, mu::prLOR);
-      parser.DefineFun("not", negated);
-      parser.DefineFun("if", chosen);
+      define_words(parser);
       for (std::size_t i = 0; i < names.size(); ++i) parser.DefineVar(names[i], &values[i]);
       parser.SetExpr(expression);
       parser.Eval();
@@ -51,6 +55,19 @@ struct Instance {
 };
 
 } // namespace
+
+void require_variable(std::string_view name) {
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
+  const bool sound = !name.empty() && letters.find(name[0]) != letters.npos &&
+                     name.find_first_not_of(std::string(letters) + "0123456789") == name.npos;
+  mc::require(sound, "'{}' is no name of a variable: a letter or _, then letters, digits and _", name);
+  mu::Parser parser;
+  define_words(parser);
+  const std::string word(name);
+  const bool taken =
+      parser.GetFunDef().contains(word) || parser.GetConst().contains(word) || word == "and" || word == "or";
+  mc::require(!taken, "'{}' is no name of a variable: it means something in expressions; choose another", name);
+}
 
 std::function<double(std::span<const double>)> parse_function(const std::string& expression,
                                                               const std::vector<std::string>& variables) {

@@ -3,12 +3,18 @@
 
 #include <integrands/experiments.h>
 
+#include <string_view>
+
 namespace carlo {
 
 /// What an expression is made of, for --help.
 inline constexpr const char* expressions =
     "Expressions: + - * / ^, < <= == != >= >, and, or, not(), c ? a : b, if(c, a, b), abs sign rint min max sqrt exp "
     "ln log2 log10 sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh, _pi, _e.";
+
+/// What a variable may be called: a letter or _, then letters, digits and _, but no word of expressions.
+///   throws : mc::Error "'3x' is no name of a variable: ..."
+void require_variable(std::string_view name);
 
 /// An expression as a function of the variables' values, in their order; may be called from several threads at once.
 /// Knows the functions and operators of muParser, the constants _pi and _e, "a and b", "a or b", not(a) and

@@ -85,6 +85,11 @@ TEST(ParsedDomain, OutcomesAreWholeNumbers) {
   EXPECT_FALSE(d.chart.contains({0.5}));
 }
 
+TEST(ParsedDomain, WhiteSpaceIsOfNoMeaning) {
+  EXPECT_EQ(parse_domain(" t = 0 : 1,\n\tdisk \r\n").text, parse_domain("t=0:1,disk").text);
+  EXPECT_EQ(parse_domain("discrete = 3\n").outcomes, 3);
+}
+
 TEST(ParsedDomain, BadTextsAreOneLine) {
   const auto refused = [](const char* text) { return error_of([&] { parse_domain(text); }); };
   EXPECT_THAT(refused(""), HasSubstr("'' is not of the form name=lo:hi"));

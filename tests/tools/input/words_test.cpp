@@ -13,6 +13,7 @@ TEST(Words, StandBetweenSeparatorsWithoutBlanks) {
   EXPECT_THAT(carlo::split("", ','), ElementsAre(""));
   EXPECT_THAT(carlo::split("  ", ','), ElementsAre(""));
   EXPECT_THAT(carlo::split("a,", ','), ElementsAre("a", ""));
+  EXPECT_THAT(carlo::split("\ta b\r\n,\nc", ','), ElementsAre("a b", "c"));
 }
 
 } // namespace

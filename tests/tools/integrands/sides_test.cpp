@@ -1,6 +1,8 @@
 #include <integrands/sides.h>
 
-#include <gtest/gtest.h>
+#include <mc/core/error.h>
+
+#include <gmock/gmock.h>
 
 #include <cmath>
 
@@ -22,12 +24,30 @@ TEST(Sides, AreWalkedFromEndToEnd) {
 }
 
 TEST(Sides, AreReadWithBlanks) {
-  const std::vector<carlo::Side> sides = carlo::parse_sides(" x = 0 : 1, y= -inf :2 ");
+  const std::vector<carlo::Side> sides = carlo::parse_sides(" x = 0 : 1,\ty= -inf :2\r\n");
   ASSERT_EQ(sides.size(), 2u);
   EXPECT_EQ(sides[0].name, "x");
   EXPECT_EQ(sides[0].hi, 1);
   EXPECT_EQ(sides[1].name, "y");
   EXPECT_EQ(sides[1].lo, -HUGE_VAL);
+}
+
+TEST(Sides, HaveNamesThatExpressionsCanUse) {
+  const auto message = [](const std::string& box) -> std::string {
+    try {
+      carlo::parse_sides(box);
+    } catch (const mc::Error& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  for (const std::string name : {"3x", "x y", "\u00e9", "x-1", "x\ty"})
+    EXPECT_EQ(message("a=0:1," + name + "=0:1"),
+              "--domain: '" + name + "' is no name of a variable: a letter or _, then letters, digits and _");
+  for (const std::string name : {"_pi", "_e", "sin", "if", "not", "and", "or"})
+    EXPECT_EQ(message(name + "=0:1"),
+              "--domain: '" + name + "' is no name of a variable: it means something in expressions; choose another");
+  for (const std::string name : {"x", "X_1", "_", "sine", "pi", "e"}) EXPECT_EQ(message(name + "=0:1"), "accepted");
 }
 
 } // namespace
