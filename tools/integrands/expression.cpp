@@ -32,12 +32,23 @@ void define_words(mu::Parser& parser) {
   parser.DefineFun("if", chosen);
 }
 
+// muParser takes "x = 0.5" for an assignment, even within a sum.
+void refuse_assignment(std::string_view expression) {
+  for (std::size_t at = expression.find('='); at != expression.npos; at = expression.find('=', at + 1)) {
+    const bool second = at > 0 && std::string_view("=<>!").find(expression[at - 1]) != std::string_view::npos;
+    const bool first = at + 1 < expression.size() && expression[at + 1] == '=';
+    mc::require(first || second, "expression '{}', position {}: '=' sets a variable; use == to compare", expression,
+                at);
+  }
+}
+
 // A parser with its variables: muParser evaluates in place, so each thread needs its own.
 struct Instance {
   mu::Parser parser;
   std::vector<double> values;
 
   Instance(const std::string& expression, const std::vector<std::string>& names) : values(names.size()) {
+    refuse_assignment(expression);
     try {
       define_words(parser);
       for (std::size_t i = 0; i < names.size(); ++i) parser.DefineVar(names[i], &values[i]);

@@ -18,7 +18,7 @@ void require_variable(std::string_view name);
 
 /// An expression as a function of the variables' values, in their order; may be called from several threads at once.
 /// Knows the functions and operators of muParser, the constants _pi and _e, "a and b", "a or b", not(a) and
-/// if(condition, yes, no).
+/// if(condition, yes, no); no assignment.
 ///   throws : mc::Error for an expression that does not parse, with the position
 std::function<double(std::span<const double>)> parse_function(const std::string& expression,
                                                               const std::vector<std::string>& variables);

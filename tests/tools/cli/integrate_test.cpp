@@ -62,6 +62,16 @@ TEST(Expression, ConditionsHaveWords) {
   EXPECT_EQ(f(std::vector{1.0, 2.0}), 5);
 }
 
+// muParser would set the variable, and go on with what it was set to.
+TEST(Expression, AssignsNothing) {
+  const auto parse = [](const char* expression) { carlo::parse_function(expression, {"x", "y"}); };
+  for (const char* expression : {"x=3", "(x=0.5)*y", "x = = 3", "x=>3", "x<1 ? y=2 : 1"})
+    EXPECT_THAT([&] { parse(expression); }, testing::ThrowsMessage<mc::Error>(testing::HasSubstr("use == to compare")))
+        << expression;
+  for (const char* expression : {"x==3", "x<=3", "x>=3", "x!=3", "(x==y)+(x >= -y)"})
+    EXPECT_NO_THROW(parse(expression)) << expression;
+}
+
 TEST(Expression, TwoAtOnceDoNotMix) {
   const carlo::Experiment a = carlo::parse_expression("x", "x=0:2"), b = carlo::parse_expression("_pi", "x=0:1");
   const double u[] = {0.25};
