@@ -132,7 +132,7 @@ std::string Watch::where() const {
   for (int i = 0; i < n_; ++i)
     text += i == 0 ? fmt::format(" at {} = ({:.17g}", argument_, values_[0]) : fmt::format(", {:.17g}", values_[i]);
   if (n_ > 0) text += ")";
-  if (wanted_ > 0) text += fmt::format(", where {} of {} numbers have come", answered_, wanted_);
+  if (wanted_ > 0) text += fmt::format(", where {} of {} numbers have come (doubles of 8 bytes)", answered_, wanted_);
   return text;
 }
 

@@ -34,8 +34,8 @@ class Watch {
 
   std::uint64_t calls() const { return calls_.load(std::memory_order_relaxed); }
   bool inside() const { return function_.load(std::memory_order_relaxed) != nullptr; }
-  /// " in sample at u = (0.25, 0.5)", with ", where 2 of 3 numbers have come" where a part of the answer has; outside
-  /// of any call " after 12 calls".
+  /// " in sample at u = (0.25, 0.5)", with ", where 2 of 3 numbers have come (doubles of 8 bytes)" where a part of the
+  /// answer has; outside of any call " after 12 calls".
   std::string where() const;
 
  private:

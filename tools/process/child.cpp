@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -121,6 +122,11 @@ bool Child::has_output() const {
     if (ended) return poll(&p, 1, 0) > 0;
   }
   return true;
+}
+
+std::size_t Child::unread() const {
+  int bytes = 0;
+  return ioctl(output_, FIONREAD, &bytes) == 0 ? static_cast<std::size_t>(bytes) : 0;
 }
 
 int Child::wait() {

@@ -1,6 +1,7 @@
 #pragma once
 /// Other programs, started without a shell.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ class Child {
   /// Waits until there is something to read or nobody is left to write it. Returns false when the program itself has
   /// ended and left nothing, though a process that it started may still hold its end of the pipe.
   bool has_output() const;
+  /// Bytes of its output that can be read without waiting.
+  std::size_t unread() const;
   /// Its exit code once it has ended; 128 + the number of the signal that ended it.
   int wait();
 

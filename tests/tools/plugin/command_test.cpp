@@ -88,7 +88,16 @@ TEST_F(Command, WhatMisbehavesIsOneLine) {
   EXPECT_THAT(refusal(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("--timeout")));
   o = options("read line; printf 1234567812345678; sleep 1000", "hemisphere"); // two columns for three
   o.timeout = 1;
-  EXPECT_THAT(refusal(o), testing::ContainsRegex("at u = .*, where 2 of [0-9]+ numbers have come: no answer in 1 s"));
+  EXPECT_THAT(refusal(o), testing::ContainsRegex(
+                              "at u = .*, where 2 of [0-9]+ numbers have come .doubles of 8 bytes.: no answer in 1 s"));
+}
+
+// What a program prints besides, before its answers or between them, would shift all numbers behind it.
+TEST_F(Command, MoreThanTheAnswersIsRefused) {
+  const char* more = "bytes more than the answer; nothing else may go to standard output";
+  EXPECT_THAT(refusal(changed("for line in", "print('ready', flush=True)\nfor line in")), HasSubstr(more));
+  EXPECT_THAT(refusal(changed("    sink.flush()\n", "    sink.write(b'answered')\n    sink.flush()\n")),
+              HasSubstr(more));
 }
 
 TEST_F(Command, WhatItStartedEndsWithIt) {
