@@ -33,12 +33,11 @@ Means seen_through(Run& run, std::shared_ptr<const AdaptedDensity> density, std:
   // Of all rounds the last knew best where the integrand is: earlier ones may have met too little of it to know their
   // own error.
   for (Round& r : run.rounds) r.independent = false;
-  const Method method = proposal.density->tree ? Method::tree : Method::vegas;
-  run.record(method, run.means(sums, points, evidence), true);
+  run.record(proposal.density->tree ? Method::tree : Method::vegas, run.means(sums, points, evidence), true);
   const Means& means = run.rounds.back().means;
   if (last)
     *last = {.means = means,
-             .method = method,
+             .method = run.o.method, // vegas or tree, whichever kind of density this round was drawn from
              .seen = seen_in(sums),
              .correlations = correlations(run.replicate_means(sums, {}, proposal)),
              .density = proposal.density};
