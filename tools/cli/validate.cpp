@@ -66,7 +66,10 @@ std::uint64_t seed_of(const Case& c, const ValidateOptions& o) {
   return seed;
 }
 
-std::string error_text(double e) { return e > 0 ? fmt::format("{:.2g} %", 100 * e) : std::string("-"); }
+std::string error_text(double e) {
+  if (e > 1) return ">100 %";
+  return e > 0 ? fmt::format("{:.2g} %", 100 * e) : std::string("-");
+}
 
 std::string line_of(std::size_t width, const Case& c, const mc::Report& r) {
   const std::string ns = r.ns_per_sample > 0 ? fmt::format("{:.1f}", r.ns_per_sample) : "-";
@@ -75,6 +78,9 @@ std::string line_of(std::size_t width, const Case& c, const mc::Report& r) {
 }
 
 constexpr const char* file_formats =
+    "detects: relative error of the density, of random sign over patches that each hold four cells' share or more and\n"
+    "  are compact, not over ten times as long as wide, caught with probability .99; in a cell: in a single such "
+    "patch.\n"
     "--samples-file: one sample a row, numbers separated by commas or blanks; # begins a comment, a first row of names "
     "is left out.\n"
     "--domain: parts separated by commas, in the order of the columns, of three dimensions at most:\n"

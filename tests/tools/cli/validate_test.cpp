@@ -1,6 +1,7 @@
 // carlo validate: selection, verdicts, files and bad input.
 
 #include <catalogue/catalogue.h>
+#include <tools/run_carlo.h>
 #include <tools/run_in_process.h>
 
 #include <mc/core/file.h>
@@ -70,6 +71,18 @@ TEST(Validate, JunitIsWellFormed) {
                              HasSubstr("<property name=\"ns_per_sample\" value="),
                              HasSubstr("<property name=\"again\" value=\"carlo validate 'UniformDisk' --scalar float"),
                              HasSubstr("</testsuite>")));
+}
+
+// A thousand outcomes and as many samples: a density may be off by any factor.
+TEST(Validate, ErrorsAboveAllAreNotCounted) {
+  ValidateOptions o = few({"TableDist1D(outcomes, n=1000)"});
+  o.samples = 1000;
+  EXPECT_THAT(run(o).text, testing::AllOf(HasSubstr(" >100 % "), testing::Not(HasSubstr("e+0"))));
+}
+
+TEST(Validate, HelpExplainsItsColumns) {
+  EXPECT_THAT(support::run_carlo("validate --help").output,
+              testing::AllOf(HasSubstr("\ndetects: relative error of the density"), HasSubstr("; in a cell: ")));
 }
 
 TEST(Validate, DetectChoosesTheSamples) {

@@ -20,7 +20,7 @@ function element(tag, attributes = {}, ...children) {
   return e;
 }
 
-const percent = x => x > 0 ? short(100 * x, 2) + " %" : "\u2013";
+const percent = x => x > 1 ? ">100 %" : x > 0 ? short(100 * x, 2) + " %" : "\u2013";
 const probability = p => p === null ? "\u2013" : p >= 0.0995 ? p.toFixed(2) : short(p, 2);
 const spaced = n => String(n).replace(/\B(?=(\d{3})+$)/g, "\u202f");
 const count = x => x >= 1e15 ? short(x) : Number.isInteger(x) ? spaced(x) : x >= 100 ? spaced(Math.round(x)) : short(x);
