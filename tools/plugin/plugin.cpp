@@ -150,6 +150,10 @@ int PluginSampler::sample(const double* u, double* x) const {
   const int drawn = sampler_.sample(self_.get(), u, x);
   watch_->leave();
   mc::require(drawn >= 0, "sample returned {}; it is MC_FAILED, MC_POINT or MC_OUTCOME + k", drawn);
+  mc::require(drawn < MC_OUTCOME || sampler_.outcomes > 0 || sampler_.domain == MC_DISCRETE,
+              "sample returned {}, MC_OUTCOME + {}, but it declares no outcomes; set outcomes and probability, or "
+              "return MC_POINT",
+              drawn, drawn - MC_OUTCOME);
   return drawn;
 }
 

@@ -228,6 +228,11 @@ TEST(Plugin, WhatCannotBeLoadedSaysWhy) {
   EXPECT_THAT(refusal(plugin("reversed")), HasSubstr("interval [2, 1]"));
 }
 
+TEST(Plugin, AnOutcomeNeedsToBeDeclared) {
+  EXPECT_THAT(refusal(plugin("undeclared")),
+              HasSubstr("sample returned 255, MC_OUTCOME + 253, but it declares no outcomes; set outcomes"));
+}
+
 TEST(Plugin, BadParametersAreOneLine) {
   const auto with = [](const std::string& set) {
     ValidateOptions o = plugin("samplers");

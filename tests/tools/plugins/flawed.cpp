@@ -46,6 +46,9 @@ std::int32_t sample(const void*, const double* u, double* x) {
   born = true;
 #elif defined(FLAW_undefined)
   nobody_defines_this();
+#elif defined(FLAW_undeclared)
+  x[0] = u[0];
+  return 255;
 #endif
   x[0] = u[0];
   return 1;
