@@ -10,7 +10,8 @@ namespace render {
 using Vec2d = mc::Vec2<double>;
 
 /// uv -> frac(uv * scale + offset), in [0,1)^2: textures repeat. In double, since a scale of 1000 takes three digits.
-///   throws : Error unless all are finite
+/// From 2^53 on nothing is left of the fraction: it is 0, also where the product overflows.
+///   throws : Error unless scale and offset are finite
 class UvMap {
  public:
   explicit UvMap(const Vec2d& scale = Vec2d::Ones(), const Vec2d& offset = Vec2d::Zero())
@@ -24,8 +25,11 @@ class UvMap {
   }
 
  private:
-  // Rounding carries the fraction of -1e-20 to 1.
-  static double fraction(double x) { return std::min(x - std::floor(x), 1 - 0x1p-53); }
+  // Rounding carries the fraction of -1e-20 to 1; infinity has none.
+  static double fraction(double x) {
+    const double f = x - std::floor(x);
+    return f >= 0 ? std::min(f, 1 - 0x1p-53) : 0;
+  }
   Vec2d scale_, offset_;
 };
 

@@ -23,6 +23,12 @@ TEST(UvMap, StaysBelowOne) {
   }
 }
 
+TEST(UvMap, IsDefinedWhereItOverflows) {
+  for (const double size : {1e30, 1e300, 1.7e308})
+    for (const Vec2d& offset : {Vec2d(0, 0), Vec2d(1e308, -1e308), Vec2d(-1e308, 1e308)})
+      for (const double uv : {0.3, 1.0, -1e30}) EXPECT_EQ(UvMap({size, -size}, offset)({uv, uv}), Vec2d(0, 0)) << size;
+}
+
 TEST(UvMap, RefusesWhatIsNotFinite) {
   EXPECT_THROW(UvMap({NAN, 1}), mc::Error);
   EXPECT_THROW(UvMap({1, 1}, {0, INFINITY}), mc::Error);
