@@ -4,6 +4,12 @@
 
 namespace render {
 
+namespace {
+
+constexpr double most_skewed = 1e-4; // relative; files give frames to six digits or so
+
+} // namespace
+
 ThinLens::ThinLens(const Transform& to_world, const LensOptions& options)
     : origin_(to_world.translation.cast<Float>()), fov_axis_(options.fov_axis),
       tan_half_fov_(Float(std::tan(options.fov * mc::pi<double> / 360))), radius_(Float(options.radius)),
@@ -12,6 +18,15 @@ ThinLens::ThinLens(const Transform& to_world, const LensOptions& options)
   const auto& axes = to_world.linear;
   mc::require(axes.allFinite() && origin_.allFinite() && (axes.colwise().norm().array() > 0).all(),
               "camera: toWorld must be finite, and none of its axes 0");
+  const Eigen::RowVector3d length = axes.colwise().norm();
+  const Eigen::Matrix3d unit = axes.colwise().normalized();
+  mc::require(
+      length.maxCoeff() - length.minCoeff() <= most_skewed * length.maxCoeff() &&
+          (unit.transpose() * unit - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= most_skewed,
+      "camera: toWorld makes its axes {:.6g}, {:.6g} and {:.6g} long, with cosines of {:.3g}, {:.3g} and {:.3g} "
+      "between them; they must be equally long and orthogonal: leave out the scale or shear",
+      length[0], length[1], length[2], unit.col(0).dot(unit.col(1)), unit.col(1).dot(unit.col(2)),
+      unit.col(2).dot(unit.col(0)));
   mc::require(options.fov > 0 && options.fov < 180, "camera: fov {} must lie in (0, 180) degrees", options.fov);
   mc::require(options.radius >= 0 && std::isfinite(options.radius), "camera: apertureRadius {} must be finite and >= 0",
               options.radius);

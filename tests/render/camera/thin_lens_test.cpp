@@ -97,4 +97,17 @@ TEST(ThinLens, RefusesNonsense) {
   EXPECT_THROW(ThinLens(Transform::scale({1, 0, 1})), mc::Error);
 }
 
+// What it would do with other frames is anyone's guess; files give axes to six digits or so.
+TEST(ThinLens, TakesAFrameOfEqualOrthogonalAxesOnly) {
+  const Transform turned = Transform::rotate({1, 2, 3}, 50);
+  for (const Vec3d& fine :
+       {Vec3d(1, 1, 1), Vec3d(-1, 1, 1), Vec3d(250, -250, 250), Vec3d(1e-6, 1e-6, 1e-6), Vec3d(1, 1.00005, 1)})
+    EXPECT_NO_THROW(ThinLens(turned * Transform::scale(fine))) << fine;
+  for (const Vec3d& bent : {Vec3d(1, 2, 1), Vec3d(1, 1, 0.5), Vec3d(1.0003, 1, 1), Vec3d(1e300, 1, 1)}) {
+    EXPECT_THROW(ThinLens(turned * Transform::scale(bent)), mc::Error) << bent;
+    EXPECT_THROW(ThinLens(Transform::scale(bent) * turned), mc::Error) << bent; // sheared, too
+  }
+  EXPECT_THROW(ThinLens(Transform::columns({1, 0, 0}, {0.3, std::sqrt(0.91), 0}, {0, 0, 1}, {0, 0, 0})), mc::Error);
+}
+
 } // namespace
