@@ -89,6 +89,11 @@ void parse_size(const std::string& text, int& width, int& height) {
   return c;
 }
 
+// The same of all ways to say where a file is, be it there or not.
+std::filesystem::path whole_path(const std::string& path) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+}
+
 // The folder is looked at before hours of rendering, not after.
 void check_output(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -315,7 +320,11 @@ int render(const RenderOptions& options) {
                                                      : std::filesystem::path(options.scene).stem().string() +
                                                            (options.compare_strategies ? "-strategies.png" : ".exr");
   check_output(output);
-  if (!options.intervals.empty()) check_output(options.intervals);
+  if (!options.intervals.empty()) {
+    check_output(options.intervals);
+    mc::require(whole_path(options.intervals) != whole_path(output),
+                "--intervals '{}' would overwrite the picture; name another file", options.intervals);
+  }
   mc::require(!options.layers || is(output, ".exr"), "--layers: '{}' has no place for them; write an .exr", output);
 
   const GalleryScene* named = named_scene(options.scene);

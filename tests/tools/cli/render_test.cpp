@@ -47,6 +47,9 @@ TEST_F(RenderCommand, RefusesBadInputInOneLine) {
   expect_refused(cbox() + " --strategy mess", {"'mess'", "did you mean 'mis'"});
   expect_refused(cbox() + " --max-depth 0", {"--max-depth 0"});
   expect_refused(cbox() + " --spp 1 --intervals " + path("w.pfm"), {"--intervals", "two or more"});
+  expect_refused(cbox() + " --intervals " + path("./out.pfm"), {"--intervals", "out.pfm", "overwrite the picture"});
+  expect_refused(scenes + "cbox.xml -o nowhere.exr --intervals ./nowhere.exr",
+                 {"--intervals", "overwrite the picture"});
   expect_refused(cbox() + " --threads -2", {"--threads -2"});
   expect_refused(cbox() + " --crop 1,2,3", {"--crop '1,2,3'", "X,Y,WIDTH,HEIGHT"});
   expect_refused(cbox() + " --crop 6,0,3,3", {"crop of 3x3 pixels at (6, 0)", "8x8"});
