@@ -26,6 +26,8 @@ struct CompareOptions {
 
 using ::render::Image;
 
+constexpr std::array channel_names = {"red", "green", "blue"};
+
 struct Metric {
   std::string_view name;
   double value;
@@ -161,6 +163,26 @@ std::vector<Option> rows(CompareOptions& o) {
   };
 }
 
+// What the t-tests rest on.
+void require_variance(const std::string& path, const Image& image) {
+  double largest = 0, noise = 0;
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const double variance = double(image.variance[i][c]);
+      mc::require(
+          std::isfinite(variance) && variance >= 0,
+          "'{}': the variance of pixel ({}, {}) in {} is {:.3g}; it must be finite and >= 0 (--metric needs none)",
+          path, i % static_cast<std::size_t>(image.width), i / static_cast<std::size_t>(image.width),
+          channel_names[static_cast<std::size_t>(c)], variance);
+      largest = std::max(largest, std::abs(double(image.pixels[i][c])));
+      noise = std::max(noise, variance);
+    }
+  mc::require(
+      noise > 0 || largest == 0 || largest >= 1e-18,
+      "'{}': the largest value is {:.3g}, of which variances are too small for floats; render with brighter light",
+      path, largest);
+}
+
 int compare(const CompareOptions& options) {
   mc::require(options.alpha > 0 && options.alpha < 1, "--alpha {} must lie in (0, 1)", options.alpha);
   mc::require(options.tolerance >= 0, "--tolerance {} must be >= 0", options.tolerance);
@@ -197,11 +219,12 @@ int compare(const CompareOptions& options) {
                     : fmt::format("'{}' carries", a.variance.empty() ? options.a : options.b).c_str());
     return exit_ok;
   }
+  require_variance(options.a, a);
+  require_variance(options.b, b);
   comparison.run();
-  static constexpr std::array channel = {"red", "green", "blue"};
   const auto print = [&](const char* what, const Worst& w) {
     std::printf("%-10s worst at (%d, %d) %s: difference %.3g, %.2f standard errors, p = %.2g\n", what, w.x, w.y,
-                channel[static_cast<std::size_t>(w.channel)], w.difference, w.t, w.p);
+                channel_names[static_cast<std::size_t>(w.channel)], w.difference, w.t, w.p);
   };
   print("pixels", comparison.pixel);
   print("blocks", comparison.block);

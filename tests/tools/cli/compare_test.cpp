@@ -103,6 +103,27 @@ TEST_F(Compare, GivesNoVerdictWithoutBothVariances) {
   EXPECT_THAT(compare("").output, HasSubstr("the images carry no variance"));
 }
 
+TEST_F(Compare, AVarianceThatIsNoneIsOneLine) {
+  for (const auto& [bad, said] : {std::pair(-1e-6, "-1e-06"), {double(INFINITY), "inf"}, {double(NAN), "nan"}})
+    for (const char* name : {"a.exr", "b.exr"}) {
+      render::Image broken = noisy(1, 0.5);
+      save("a.exr", broken);
+      save("b.exr", broken);
+      broken.variance[broken.index(7, 9)][1] = render::Float(bad);
+      save(name, broken);
+      const support::Run run = compare("");
+      EXPECT_EQ(run.exit_code, 2) << run.output;
+      EXPECT_THAT(run.output, HasSubstr(path(name) + "': the variance of pixel (7, 9) in green is " + said));
+      EXPECT_EQ(compare("--metric mse").output, "0\n") << "needs no variance";
+    }
+  render::Image dim = noisy(1, 0.5);
+  for (auto& p : dim.pixels) p *= render::Float(1e-25);
+  for (auto& v : dim.variance) v.setZero();
+  save("a.exr", dim);
+  save("b.exr", dim);
+  EXPECT_THAT(compare("").output, HasSubstr("a.exr': the largest value is"));
+}
+
 TEST_F(Compare, BadInputIsOneLine) {
   save("a.exr", noisy(1, 0.5));
   save("b.exr", render::Image(4, 4));
