@@ -132,7 +132,8 @@ std::vector<Option> rows(RenderOptions& o) {
       {"--crop", "X,Y,W,H", &o.crop,
        "Only this part of the picture, from the pixel X, Y counted from the upper left corner: with --spp the same "
        "pixels, bit for bit"},
-      {"--strategy", "NAME", &o.strategy, "bsdf, hemisphere, light, mixture, guides, nee or mis [mis]"},
+      {"--strategy", "NAME", &o.strategy,
+       "bsdf, hemisphere, light (misses what other surfaces and the sky send), mixture, guides, nee or mis [mis]"},
       {"--sampler", "NAME", &o.sampler, "independent, stratified or sobol [sobol]"},
       {"--max-depth", "N", &o.max_depth,
        "Longest path in edges (1: light seen directly), -1 for no limit [the scene's]"},
@@ -342,6 +343,11 @@ int render(const RenderOptions& options) {
   if (options.compare_strategies) return compare_all(options, scene, settings, tone, output);
   mc::require(is(output, ".png") || (options.tone.empty() && options.exposure.empty()),
               "{}: '{}' keeps radiance as it is; write a .png", options.tone.empty() ? "--exposure" : "--tone", output);
+  if (settings.shown.what == ::render::Shown::radiance && misses_light(scene, settings.strategy, settings.max_depth))
+    std::fprintf(stderr,
+                 "carlo: warning: the strategy %s looks towards lamps and guides alone: it misses what other "
+                 "surfaces reflect and the sky; use mis\n",
+                 std::string(settings.strategy.name).c_str());
   Progress progress;
   std::mutex mutex;
   settings.progress = [&](const ::render::Progress& p) {

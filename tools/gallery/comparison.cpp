@@ -21,9 +21,6 @@ mc::Estimate mean_luminance(const ::render::Image& image, std::uint32_t estimate
   return mc::Estimate::student(sum / n, std::sqrt(variance) / n, n * (estimates - 1.0), image.pixels.size());
 }
 
-// Where all directions go to the lights, what other surfaces reflect is not found.
-bool misses_light(const ::render::Strategy& s) { return s.target == ::render::Target::lights && s.share == 1; }
-
 std::vector<StrategyResult> each_strategy(const ::render::Scene& scene, ::render::RenderOptions settings) {
   std::vector<StrategyResult> all;
   for (const ::render::Strategy& strategy : ::render::strategies) {
@@ -33,7 +30,7 @@ std::vector<StrategyResult> each_strategy(const ::render::Scene& scene, ::render
     if (r.partial) break;
     all.push_back({strategy.name, double(r.samples) / r.cpu_seconds, r.spp, r.relative_error,
                    r.cpu_seconds * r.relative_error * r.relative_error, r.undecided,
-                   mean_luminance(r.image, r.estimates), misses_light(strategy)});
+                   mean_luminance(r.image, r.estimates), misses_light(scene, strategy, settings.max_depth)});
   }
   return all;
 }

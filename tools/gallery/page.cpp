@@ -85,7 +85,7 @@ std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t
       "over half of a pixel's variance, its error is not known yet. <b>Strategies</b> are compared on small pictures "
       "with equal samples, the one of the picture in bold: <b>work</b> is what the same error costs in CPU time, "
       "relative to the cheapest that is right; <b>brightness</b> is the mean luminance relative to the strategy that "
-      "knows it best. <b>light</b> misses what other surfaces reflect.";
+      "knows it best. <b>light</b> looks towards lamps alone, and misses what other surfaces and the sky send.";
   return html(page);
 }
 

@@ -43,6 +43,11 @@ bool finds_all_lights(const Scene& scene, const Strategy& strategy) {
          std::none_of(lights.begin(), lights.end(), [](const Light& l) { return l.is_delta(); });
 }
 
+bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth) {
+  if (strategy.target != Target::lights || strategy.share < 1 || lights_and_guides(scene).empty()) return false;
+  return max_depth < 0 || max_depth > 2 || (max_depth == 2 && !scene.infinite_lights().empty());
+}
+
 Directions::Directions(const Scene& scene, const Strategy& strategy)
     : aims_(strategy.share), aims_for_delta_(std::min(strategy.share, Float(0.5))), follows_(strategy.share < 1) {
   if (strategy.target == Target::lights) shapes_ = lights_and_guides(scene);

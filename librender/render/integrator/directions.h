@@ -43,6 +43,10 @@ struct Direction {
 /// Whether the strategy finds every light of the scene: chance never meets a point light or a directional one.
 bool finds_all_lights(const Scene& scene, const Strategy& strategy);
 
+/// Whether the strategy leaves out light for good, since every direction goes to lamps or guides while paths are long
+/// enough, in edges (-1: no limit), to find light elsewhere: on other surfaces, or in the sky.
+bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth);
+
 /// A mixture of the BSDF and the targets of a strategy, each equally likely.
 ///   choose : a direction, and its weight under the density of the whole mixture
 ///   pdf    : that density [1/sr], narrow lobes excluded: sum of share / n pdf_i(wi) over the targets, and

@@ -212,6 +212,32 @@ TEST(Path, StrategiesAgree) {
   EXPECT_LE(light.mean(), mis.mean() - 10 * std::hypot(mis.std_error(), light.std_error()));
 }
 
+// A floor beside a wall. Where misses_light says so, `light` is too dark by far more than its error, else it is right.
+TEST(Path, LightMissesLightWhereItSaysSo) {
+  for (const bool lamp : {false, true})
+    for (const bool sky : {false, true})
+      for (const int depth : {1, 2, 3, -1}) {
+        SceneBuilder builder;
+        const BsdfId white = builder.add(Lambert(Spectrum::Constant(Float(0.7))));
+        builder.add(horizontal(0, 0, 0, 4, 4, true), {white});
+        builder.add(Sphere(Vec3d(-2, 1.5, 0), 1.5), {white});
+        if (lamp) builder.add(Sphere(Vec3d(0, 4, 0), 0.5), {white, Emission{Spectrum::Constant(9)}});
+        if (sky) builder.add(Light(ConstantBackground(Spectrum::Ones())));
+        const Scene scene = builder.build();
+        const Ray ray{Vec3(0, 2, 3), Vec3(0, -2, -3).normalized()};
+        const Strategy& strategy = strategy_from("light");
+        const mc::Moments light = support::traced(scene, ray, {strategy, depth}, 20'000),
+                          mis = support::traced(scene, ray, {strategy_from("mis"), depth}, 20'000);
+        const double error = std::hypot(light.std_error(), mis.std_error());
+        const std::string what = fmt::format("lamp {}, sky {}, depth {}", lamp, sky, depth);
+        EXPECT_EQ(misses_light(scene, strategy, depth), lamp && (depth == -1 || depth == 3 || (sky && depth == 2)))
+            << what;
+        if (misses_light(scene, strategy, depth)) EXPECT_LE(light.mean(), mis.mean() - 10 * error) << what;
+        else EXPECT_LE(std::abs(light.mean() - mis.mean()), 4.42 * error + 1e-5) << what;
+        for (const Strategy& other : unbiased) EXPECT_FALSE(misses_light(scene, other, depth)) << word(other);
+      }
+}
+
 // Radiance over paths of at most `depth` edges is the partial sum of the series; 0 edges see nothing.
 TEST(Path, DepthCountsEdges) {
   SceneBuilder builder;

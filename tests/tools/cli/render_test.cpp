@@ -230,6 +230,13 @@ TEST_F(RenderCommand, SceneWithoutLightIsBlackWithAWarning) {
   for (const auto& p : render::read_image(path("out.pfm")).pixels) EXPECT_TRUE((p == 0).all());
 }
 
+TEST_F(RenderCommand, WarnsOfTheStrategyThatMissesLight) {
+  const std::string words = "warning: the strategy light looks towards lamps and guides alone";
+  EXPECT_THAT(run_carlo("render " + cbox() + " --spp 1 --strategy light").output, HasSubstr(words));
+  for (const char* fine : {" --strategy mis", " --strategy mixture", " --strategy light --max-depth 2"})
+    EXPECT_THAT(run_carlo("render " + cbox() + " --spp 1" + fine).output, Not(HasSubstr("warning"))) << fine;
+}
+
 TEST_F(RenderCommand, ThreadsDoNotChangeABitAndMetadataTellsHow) {
   for (const char* threads : {"1", "2"}) {
     const support::Run run = run_carlo("render " + scenes + "cbox.xml --spp 4 --size 24x16 --seed 5 --threads " +
