@@ -6,6 +6,7 @@
 #include <pugixml.hpp>
 
 #include <algorithm>
+#include <string_view>
 
 namespace render {
 
@@ -55,7 +56,12 @@ XmlElement convert(const pugi::xml_node& node, const std::string& path, const st
   element.file = path;
   element.line = line_at(text, node.offset_debug());
   if (depth > deepest) element.fail(fmt::format("elements are nested more than {} deep; flatten them", deepest));
-  for (const auto& a : node.attributes()) element.set(a.name(), a.value());
+  for (const auto& a : node.attributes()) {
+    if (element.has(a.name()))
+      element.fail(fmt::format("attribute {}=\"{}\" stands beside {}=\"{}\"; remove one", a.name(), a.value(), a.name(),
+                               element.attribute(a.name())));
+    element.set(a.name(), a.value());
+  }
   for (const auto& child : node.children()) {
     if (child.type() == pugi::node_element) element.children.push_back(convert(child, path, text, depth + 1));
     else element.fail("text between elements is not supported; remove it");
@@ -68,10 +74,20 @@ XmlElement convert(const pugi::xml_node& node, const std::string& path, const st
 XmlElement read_xml(const std::string& path) {
   const std::string text = mc::read_file(path);
   pugi::xml_document document;
-  const auto result = document.load_buffer(text.data(), text.size());
+  // A fragment, since text and further elements beside the root are otherwise dropped without a word.
+  const auto result = document.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment);
   mc::require(bool(result), "{}:{}: broken XML: {}", path, line_at(text, result.offset), result.description());
   const auto root = document.document_element();
   mc::require(bool(root), "{}: no XML element; a <scene> is needed", path);
+  for (const auto& node : document.children()) {
+    if (node == root) continue;
+    const std::string_view space = " \t\r\n", stray = node.type() == pugi::node_element ? node.name() : node.value();
+    const std::size_t start = std::min(stray.find_first_not_of(space), stray.size());
+    throw mc::Error(fmt::format(
+        "{}:{}: '{}' stands outside of <{}>; a file holds one element", path,
+        line_at(text, node.offset_debug() + static_cast<std::ptrdiff_t>(start)),
+        stray.substr(start, std::min<std::size_t>(stray.find_first_of(space, start) - start, 40)), root.name()));
+  }
   return convert(root, path, text);
 }
 

@@ -44,7 +44,8 @@ class XmlElement {
   mutable bool seen_ = false;
 };
 
-/// Reads a file. Throws Error with the line for broken XML.
+/// Reads a file. Throws Error with the line for broken XML, for anything beside its one root, and for an attribute that
+/// is given twice.
 XmlElement read_xml(const std::string& path);
 
 } // namespace render

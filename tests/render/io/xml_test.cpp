@@ -40,6 +40,22 @@ TEST_F(Xml, BrokenXmlNamesTheLine) {
   EXPECT_THAT(support::error_of([&] { render::read_xml(path("none.xml")); }), testing::HasSubstr("no such file"));
 }
 
+// Taken without a word, they would be another scene than the file's author sees.
+TEST_F(Xml, NothingIsDroppedInSilence) {
+  const auto said = [&](const std::string& text) {
+    return support::error_of([&] { render::read_xml(write("a.xml", text)); });
+  };
+  const std::string at = path("a.xml") + ":";
+  EXPECT_EQ(said("<scene>\n</scene>\n<shape/>\n"),
+            at + "3: 'shape' stands outside of <scene>; a file holds one element");
+  EXPECT_EQ(said("<scene/>\n rest"), at + "2: 'rest' stands outside of <scene>; a file holds one element");
+  EXPECT_EQ(said("<scene/>\n\ntwo\nlines"), at + "3: 'two' stands outside of <scene>; a file holds one element");
+  EXPECT_EQ(said("early<scene/>"), at + "1: 'early' stands outside of <scene>; a file holds one element");
+  EXPECT_EQ(said("<scene>\n<float value=\"1\" value=\"2\"/></scene>"),
+            at + "2: <float>: attribute value=\"2\" stands beside value=\"1\"; remove one");
+  EXPECT_EQ(said("\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- of -->\n<!DOCTYPE scene>\n<scene/>\n<!-- it -->\n"), "");
+}
+
 TEST_F(Xml, DeepNestingIsRefused) {
   std::string text;
   for (int i = 0; i < 20'000; ++i) text += "<a>";
