@@ -12,6 +12,18 @@ namespace {
 
 using render::Image;
 
+// The checksum of a PNG's chunk, of its type and data, as it stands in the file.
+std::string png_crc(std::string_view bytes) {
+  std::uint32_t crc = 0xffffffff;
+  for (const char c : bytes) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? crc >> 1 ^ 0xedb88320 : crc >> 1;
+  }
+  std::string text;
+  for (int i = 0; i < 4; ++i) text += static_cast<char>(~crc >> (24 - 8 * i) & 0xff);
+  return text;
+}
+
 struct ImageIo : support::ScratchTest {
   static Image picture(bool with_variance) {
     Image image(7, 5);
@@ -64,29 +76,74 @@ TEST_F(ImageIo, ExrKeepsLayers) {
   EXPECT_EQ(back.layers, image.layers);
 }
 
-// A grey image as other programs write it: 2x1 pixels, the one channel Y.
-TEST_F(ImageIo, ExrOfLuminanceAloneIsGrey) {
-  const auto number = [](auto x) { return std::string(reinterpret_cast<const char*>(&x), sizeof x); };
-  const auto text = [](const char* s) { return std::string(s) + '\0'; };
+std::string number(auto x) { return std::string(reinterpret_cast<const char*>(&x), sizeof x); }
+
+// An EXR as other programs write it: 2x1 pixels 0.25 and 3, the same in every channel, perhaps with chromaticities.
+std::string exr_of(const std::vector<std::string>& channels, const std::vector<float>& chromaticities = {}) {
+  const auto text = [](const std::string& s) { return s + '\0'; };
   const auto attribute = [&](const char* name, const char* type, const std::string& value) {
     return text(name) + text(type) + number(static_cast<std::int32_t>(value.size())) + value;
   };
   const std::string box = number(0) + number(0) + number(1) + number(0);
-  std::string file = number(20000630) + number(2);
-  file += attribute("channels", "chlist", text("Y") + number(2) + number(0) + number(1) + number(1) + '\0');
+  std::string file = number(20000630) + number(2), list, colours, row;
+  for (const std::string& c : channels) {
+    list += text(c) + number(2) + number(0) + number(1) + number(1);
+    row += number(0.25f) + number(3.0f);
+  }
+  for (const float x : chromaticities) colours += number(x);
+  file += attribute("channels", "chlist", list + '\0');
+  if (!colours.empty()) file += attribute("chromaticities", "chromaticities", colours);
   file += attribute("compression", "compression", std::string(1, '\0'));
   file += attribute("dataWindow", "box2i", box) + attribute("displayWindow", "box2i", box);
   file +=
       attribute("lineOrder", "lineOrder", std::string(1, '\0')) + attribute("pixelAspectRatio", "float", number(1.0f));
   file += attribute("screenWindowCenter", "v2f", number(0.0f) + number(0.0f)) +
           attribute("screenWindowWidth", "float", number(1.0f)) + '\0';
-  file += number(static_cast<std::uint64_t>(file.size() + 8)) + number(0) + number(8) + number(0.25f) + number(3.0f);
-  const Image image = render::read_image(write("grey.exr", file));
-  ASSERT_EQ(image.width, 2);
-  for (int c = 0; c < 3; ++c) {
-    EXPECT_EQ(image.at(0, 0)[c], render::Float(0.25)) << c;
-    EXPECT_EQ(image.at(1, 0)[c], render::Float(3)) << c;
+  return file + number(static_cast<std::uint64_t>(file.size() + 8)) + number(0) +
+         number(static_cast<std::int32_t>(row.size())) + row;
+}
+
+TEST_F(ImageIo, ExrOfLuminanceAloneIsGrey) {
+  for (const std::vector<std::string>& channels : {std::vector<std::string>{"Y"}, {"B", "G", "R"}}) {
+    const Image image = render::read_image(write("grey.exr", exr_of(channels)));
+    ASSERT_EQ(image.width, 2);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_EQ(image.at(0, 0)[c], render::Float(0.25)) << c;
+      EXPECT_EQ(image.at(1, 0)[c], render::Float(3)) << c;
+    }
   }
+}
+
+// Read as they are, the numbers would be other colours.
+TEST_F(ImageIo, ExrOfOtherColoursIsRefused) {
+  const auto said = [&](const std::string& bytes) {
+    return support::error_of([&] { render::read_image(write("a.exr", bytes)); });
+  };
+  EXPECT_THAT(said(exr_of({"BY", "RY", "Y"})),
+              testing::HasSubstr("a.exr: EXR holds luminance and chroma (a channel RY)"));
+  const std::vector<float> ours = {0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
+  EXPECT_EQ(said(exr_of({"B", "G", "R"}, ours)), "");
+  const char* names[] = {"red", "green", "blue", "white"};
+  for (std::size_t i = 0; i < 8; ++i)
+    for (const float off : {0.0002f, -0.005f, std::numeric_limits<float>::quiet_NaN()}) {
+      std::vector<float> other = ours;
+      other[i] += off;
+      const std::string text = said(exr_of({"B", "G", "R"}, other));
+      if (off > 0) EXPECT_EQ(text, "") << i;
+      else EXPECT_THAT(text, testing::HasSubstr(fmt::format("in its chromaticities that {} is (", names[i / 2])));
+    }
+}
+
+// Radiance is the values times the size of the scale, whose sign is the order of bytes.
+TEST_F(ImageIo, PfmHasAScale) {
+  const std::string little = number(1.0f) + number(0.5f) + number(3.0f), big(little.rbegin(), little.rend());
+  const Image a = render::read_image(write("a.pfm", "PF\n1 1\n-2.5\n" + little)),
+              b = render::read_image(write("b.pfm", "PF\n1 1\n10\n" + big));
+  EXPECT_TRUE((a.at(0, 0) == render::Spectrum(2.5f, 1.25f, 7.5f)).all());
+  EXPECT_TRUE((b.at(0, 0) == render::Spectrum(30, 5, 10)).all());
+  for (const char* scale : {"0", "1e999", "nan"})
+    EXPECT_NE(
+        support::error_of([&] { render::read_image(write("c.pfm", fmt::format("PF\n1 1\n{}\n{}", scale, big))); }), "");
 }
 
 TEST_F(ImageIo, PfmKeepsRadianceBottomRowFirst) {
@@ -122,6 +179,21 @@ TEST_F(ImageIo, PngKeepsEveryCode) {
   expect_equal(image, render::read_image(path("ramp.png")));
 }
 
+// The sRGB chunk decides, else gAMA, else it is sRGB.
+TEST_F(ImageIo, PngHasAGamma) {
+  Image image(256, 1);
+  for (int i = 0; i < 256; ++i) image.at(i, 0).setConstant(render::Float(render::srgb_to_linear(i / 255.0)));
+  render::write_image(path("srgb.png"), image);
+  const std::string srgb = mc::read_file(path("srgb.png"));
+  const std::size_t at = srgb.find("sRGB") - 4, length = 4 + 4 + 1 + 4;
+  const std::string gamma("gAMA\0\0\xc3\x50", 8), chunk = std::string("\0\0\0\4", 4) + gamma + png_crc(gamma); // 0.5
+  std::string both = srgb, alone = srgb, neither = srgb;
+  expect_equal(image, render::read_image(write("both.png", both.insert(at, chunk))));
+  expect_equal(image, render::read_image(write("neither.png", neither.erase(at, length))));
+  const Image square = render::read_image(write("alone.png", alone.replace(at, length, chunk)));
+  for (int i = 0; i < 256; ++i) EXPECT_NEAR(square.at(i, 0)[1], i * i / 65025.0, 1e-6) << i;
+}
+
 // Truncated anywhere, a picture is read whole (what is lacking says nothing about pixels) or refused in one line.
 TEST_F(ImageIo, TruncatedAtAnyByte) {
   for (const std::string extension : {".exr", ".pfm", ".png"}) {
@@ -151,12 +223,7 @@ TEST_F(ImageIo, SizesThatTheBytesCannotHold) {
   render::write_image(path("small.png"), picture(false));
   std::string png = mc::read_file(path("small.png"));
   png.replace(16, 8, std::string("\x00\x0f\x42\x40\x00\x0f\x42\x40", 8));
-  std::uint32_t crc = 0xffffffff;
-  for (std::size_t i = 12; i < 29; ++i) {
-    crc ^= static_cast<unsigned char>(png[i]);
-    for (int bit = 0; bit < 8; ++bit) crc = crc & 1 ? crc >> 1 ^ 0xedb88320 : crc >> 1;
-  }
-  for (int i = 0; i < 4; ++i) png[29 + static_cast<std::size_t>(i)] = static_cast<char>(~crc >> (24 - 8 * i) & 0xff);
+  png.replace(29, 4, png_crc(std::string_view(png).substr(12, 17)));
   write("huge.png", png);
   EXPECT_THAT(support::error_of([&] { render::read_image(path("huge.png")); }),
               testing::HasSubstr("PNG says 1000000x1000000, which its"));

@@ -3,17 +3,20 @@
 #include <mc/core/error.h>
 
 #include <ImfChannelList.h>
+#include <ImfChromaticities.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace render::formats {
@@ -28,6 +31,24 @@ void require_size(double width, double height, std::size_t planes, const std::st
   const double bytes = double(std::filesystem::file_size(path));
   mc::require(width >= 1 && height >= 1 && width * height * 2 * double(planes) <= 4096 * bytes,
               "EXR says {}x{} in {} channels, which its {} bytes cannot hold", width, height, planes, bytes);
+}
+
+// Numbers of other colours than ours would pass for ours.
+void require_our_colours(const Imf::Header& header) {
+  for (const char* channel : {"RY", "BY"})
+    mc::require(!header.channels().findChannel(channel),
+                "EXR holds luminance and chroma (a channel {}); save it with the channels R, G and B", channel);
+  if (!Imf::hasChromaticities(header)) return;
+  const Imf::Chromaticities ours, &its = Imf::chromaticities(header); // the default is Rec. 709
+  const std::tuple<const char*, Imath::V2f, Imath::V2f> colours[] = {{"red", its.red, ours.red},
+                                                                     {"green", its.green, ours.green},
+                                                                     {"blue", its.blue, ours.blue},
+                                                                     {"white", its.white, ours.white}};
+  for (const auto& [name, is, must] : colours)
+    mc::require(
+        (is - must).length() <= 1e-3f,
+        "EXR says in its chromaticities that {} is ({}, {}); convert it to Rec. 709 (sRGB), where it is ({}, {})", name,
+        is.x, is.y, must.x, must.y);
 }
 
 // The channels of a file that are none of the picture's own; those of fewer pixels are left out.
@@ -86,6 +107,7 @@ void write_exr(const std::string& path, const Image& image) {
 Image read_exr(const std::string& path) {
   try {
     Imf::InputFile file(path.c_str());
+    require_our_colours(file.header());
     const auto window = file.header().dataWindow();
     const auto has = [&](const char* channel) { return file.header().channels().findChannel(channel) != nullptr; };
     const bool grey = has("Y") && !has("R") && !has("G") && !has("B"), with_variance = has(channels[3]);

@@ -4,12 +4,14 @@
 #include <mc/core/file.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <sstream>
 
 namespace render::formats {
 
-// Portable float map: "PF", width height, scale (negative: little endian), then rows from the bottom up.
+// Portable float map: "PF", width height, scale (negative: little endian; what values are multiplied by), then rows from
+// the bottom up.
 // Written through mc::write_file by the caller's temporary name, so a full disk is noticed.
 void write_pfm(const std::string& path, const Image& image) {
   static_assert(std::endian::native == std::endian::little);
@@ -35,8 +37,8 @@ Image read_pfm(const std::string& path) {
   header >> magic >> width >> height >> scale;
   mc::require(header && (magic == "PF" || magic == "Pf"),
               "not a PFM file: it does not start with PF, a size and a scale");
-  mc::require(width > 0 && height > 0 && scale != 0, "PFM header says {}x{}, scale {}; all must be non-zero", width,
-              height, scale);
+  mc::require(width > 0 && height > 0 && scale != 0 && std::isfinite(scale),
+              "PFM header says {}x{}, scale {}; all must be finite and non-zero", width, height, scale);
   const int channels = magic == "PF" ? 3 : 1;
   const std::size_t start = static_cast<std::size_t>(header.tellg()) + 1;
   const double needed = 4.0 * channels * width * height;
@@ -50,7 +52,7 @@ Image read_pfm(const std::string& path) {
         std::uint32_t word;
         std::memcpy(&word, raw, 4);
         if (scale > 0) word = __builtin_bswap32(word);
-        const Float value = Float(std::bit_cast<float>(word));
+        const Float value = Float(std::abs(scale) * double(std::bit_cast<float>(word)));
         if (channels == 3) image.at(x, y)[c] = value;
         else image.at(x, y).setConstant(value);
       }

@@ -8,8 +8,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 
 namespace render::formats {
 
@@ -84,6 +86,15 @@ class Reader {
   std::size_t row_bytes() const { return png_get_rowbytes(png_, info_); }
   std::size_t packed_row_bytes() const { return packed_row_bytes_; } ///< as they are before compression
   bool is_16_bit() const { return png_get_bit_depth(png_, info_) == 16; }
+
+  /// Linear values are encoded ones to this power, where the file says so and does not say sRGB.
+  std::optional<double> gamma() const {
+    int intent = 0;
+    double encoding = 0;
+    if (png_get_sRGB(png_, info_, &intent) != 0 || png_get_gAMA(png_, info_, &encoding) == 0) return {};
+    mc::require(encoding > 0, "PNG says a gamma of {}; it must be > 0", encoding);
+    return 1 / encoding;
+  }
 
   void read(std::vector<png_bytep>& rows) { mc::require(read_pixels(rows), "broken PNG: {}", problem_.text); }
 
@@ -185,11 +196,14 @@ Image read_png(const std::string& path) {
   Image image(static_cast<int>(reader.width()), static_cast<int>(height));
   const std::size_t values = 3 * image.pixels.size();
   const bool wide = reader.is_16_bit();
+  const auto linear = [gamma = reader.gamma()](double encoded) {
+    return Float(gamma ? std::pow(encoded, *gamma) : srgb_to_linear(encoded));
+  };
   std::array<Float, 256> narrow{};
-  for (std::size_t i = 0; i < 256; ++i) narrow[i] = Float(srgb_to_linear(double(i) / 255));
+  for (std::size_t i = 0; i < 256; ++i) narrow[i] = linear(double(i) / 255);
   for (std::size_t i = 0; i < values; ++i)
     image.pixels[i / 3][static_cast<int>(i % 3)] =
-        wide ? Float(srgb_to_linear((256 * bytes[2 * i] + bytes[2 * i + 1]) / 65535.0)) : narrow[bytes[i]];
+        wide ? linear((256 * bytes[2 * i] + bytes[2 * i + 1]) / 65535.0) : narrow[bytes[i]];
   image.metadata = reader.texts();
   return image;
 }

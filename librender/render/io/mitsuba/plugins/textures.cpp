@@ -57,11 +57,13 @@ Plugin<Texture> texture_plugin(std::string name, std::string meaning, Make make,
 
 const Plugins<Texture>& texture_plugins() {
   static const Plugins<Texture> rows = {
-      texture_plugin("bitmap", "a picture, bilinear between its texels, repeated; 8 bits are decoded by the sRGB curve",
-                     make_bitmap, choice("wrapMode", {"repeat"}, "beyond its edges", 0),
-                     choice("filterType", {"bilinear", "trilinear", "ewa"},
-                            "between its texels, which here is bilinear in any case", 0),
-                     picture("filename", "the picture: .png, .jpg, .exr, .hdr or .pfm")),
+      texture_plugin(
+          "bitmap",
+          "a picture, bilinear between its texels, repeated; 8 bits are decoded by the sRGB curve, or a PNG's gAMA",
+          make_bitmap, choice("wrapMode", {"repeat"}, "beyond its edges", 0),
+          choice("filterType", {"bilinear", "trilinear", "ewa"},
+                 "between its texels, which here is bilinear in any case", 0),
+          picture("filename", "the picture: .png, .jpg, .exr, .hdr or .pfm")),
       texture_plugin("checkerboard", "two by two squares in a period", make_checkerboard,
                      reflectance("color0", "of the squares at (0, 0) and (1/2, 1/2)", Spectrum::Constant(Float(0.4))),
                      reflectance("color1", "of the other two", Spectrum::Constant(Float(0.2)))),
