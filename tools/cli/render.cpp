@@ -1,3 +1,4 @@
+#include <cli/resume.h>
 #include <cli/subcommand.h>
 #include <gallery/picture.h>
 #include <gallery/scenes.h>
@@ -5,7 +6,6 @@
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 
-#include <render/film/accumulate.h>
 #include <render/film/interval.h>
 #include <render/io/image_io.h>
 #include <render/io/mesh_scene.h>
@@ -140,7 +140,8 @@ std::vector<Option> rows(RenderOptions& o) {
       {"--resume",
        "",
        &o.resume,
-       "Add to the EXR that is there, by the numbers of samples: --spp and --time are of what is added",
+       "Add to the EXR that is there, of the same scene, size and so on, by the numbers of samples: --spp and --time "
+       "are of what is added",
        false,
        {"--target-error", "--intervals"}},
       {"--seed", "N", &o.seed, "Seed; same seed, same bits, whatever the number of threads"},
@@ -181,43 +182,6 @@ bool is(const std::string& path, const char* extension) { return std::filesystem
 // The pixels that are asked for.
 ::render::Crop part_of(const ::render::RenderOptions& settings) {
   return settings.crop.value_or(::render::Crop{0, 0, settings.width, settings.height});
-}
-
-/// A picture that goes on.
-struct Begun {
-  ::render::Image image;
-  double spp;
-  int runs;
-};
-
-// What --resume adds to, as sign() has signed it.
-Begun begun_picture(const std::string& path, const std::string& scene_file, const ::render::RenderOptions& settings) {
-  const std::string scene = std::filesystem::path(scene_file).filename().string();
-  mc::require(std::filesystem::exists(path), "--resume: there is no '{}'; leave --resume out the first time", path);
-  Begun begun{::render::read_image(path), 0, 1};
-  const auto text = [&](const char* key) {
-    const auto found = begun.image.metadata.find(key);
-    return found == begun.image.metadata.end() ? std::string() : found->second;
-  };
-  begun.spp = std::strtod(text("carlo.samples_per_pixel").c_str(), nullptr);
-  mc::require(begun.spp > 0, "--resume: '{}' does not say its samples per pixel; carlo render has not written it",
-              path);
-  mc::require(text("carlo.scene") == scene, "--resume: '{}' is a picture of '{}', not of '{}'", path,
-              text("carlo.scene"), scene);
-  begun.runs = std::max(1, std::atoi(text("carlo.runs").c_str()));
-  const ::render::Crop part = part_of(settings);
-  mc::require(begun.image.width == part.width && begun.image.height == part.height,
-              "--resume: '{}' holds {}x{} pixels, but {}x{} are asked for", path, begun.image.width, begun.image.height,
-              part.width, part.height);
-  return begun;
-}
-
-// The picture that was begun with what a run has added.
-void add_to(const Begun& begun, ::render::RenderResult& result) {
-  result.image = accumulated(begun.image, begun.spp, result.image, result.spp);
-  result.image.layers = begun.image.layers;
-  result.image.metadata["carlo.samples_per_pixel"] = fmt::format("{:.17g}", begun.spp + result.spp);
-  result.image.metadata["carlo.runs"] = fmt::format("{}", begun.runs + 1);
 }
 
 // A word that is neither a file nor looks like one is a scene of the gallery.
@@ -355,9 +319,10 @@ int render(const RenderOptions& options) {
     progress.show(p.fraction, where_it_is(p, options.target_error));
   };
 
+  const Subject subject = subject_of(file, options.dialect, options.variables, scene, settings);
   std::optional<Begun> begun;
   if (options.resume) {
-    begun = begun_picture(output, file, settings);
+    begun = begun_picture(output, subject, part_of(settings));
     settings.seed = mc::hash(options.seed, std::uint64_t(begun->runs)); // other samples than those that are there
   }
   const Interrupt interrupt;
@@ -372,6 +337,7 @@ int render(const RenderOptions& options) {
     std::fprintf(stderr, "carlo: warning: %s\n", invalid.c_str());
   }
   sign(result, from);
+  for (const auto& [key, value] : subject) result.image.metadata[key] = value;
   if (begun) add_to(*begun, result);
   if (options.layers) {
     const ::render::Whole whole{settings.width, settings.height, part_of(settings)};

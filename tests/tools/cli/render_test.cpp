@@ -4,6 +4,8 @@
 
 #include <render/io/image_io.h>
 
+#include <mc/core/file.h>
+
 #include <support/files.h>
 
 #include <gmock/gmock.h>
@@ -165,6 +167,39 @@ TEST_F(RenderCommand, GoesOnWhereItStopped) {
   };
   refused(scenes + "cbox.xml --size 16x12 --spp 8 --resume -o " + path("r.exr"), "a picture of 'sphere-light.xml'");
   refused(scenes + "sphere-light.xml --size 8x8 --spp 8 --resume -o " + path("r.exr"), "holds 16x12 pixels");
+}
+
+// The mean of pictures of different things is a picture of nothing.
+TEST_F(RenderCommand, GoesOnWithTheSamePictureOnly) {
+  std::string text = mc::read_file(scenes + "sphere-light.xml");
+  const auto put = [&](const std::string& old, const std::string& now) {
+    text.replace(text.find(old), old.size(), now);
+  };
+  put("direct", "path");
+  put("<integrator", "<default name=\"n\" value=\"8\"/><integrator");
+  put("value=\"8\"/>\n\t\t</emitter>", "value=\"$n\"/>\n\t\t</emitter>");
+  const std::string line = "render " + write("s.xml", text) + " --spp 2 -o " + path("r.exr"),
+                    same = " --crop 2,2,8,8 --size 16x12 --resume";
+  ASSERT_EQ(run_carlo(line + " --crop 2,2,8,8 --size 16x12").exit_code, 0);
+  EXPECT_EQ(run_carlo(line + same + " --sampler independent --strategy nee --seed 3").exit_code, 0);
+  const auto refused = [&](const std::string& arguments, const std::string& words) {
+    const support::Run run = run_carlo(line + arguments);
+    EXPECT_EQ(run.exit_code, 2) << run.output;
+    EXPECT_THAT(run.output, HasSubstr(path("r.exr") + "' " + words));
+  };
+  refused(" --crop 2,2,8,8 --size 20x12 --resume", "was rendered with --size '16x12', not '20x12'");
+  refused(" --crop 3,2,8,8 --size 16x12 --resume", "was rendered with --crop '2,2,8,8', not '3,2,8,8'");
+  refused(same + " --max-depth 3", "was rendered with --max-depth '-1', not '3'");
+  refused(same + " --dialect lajolla", "was rendered with --dialect 'mitsuba', not 'lajolla'");
+  refused(same + " -D n=9", "was rendered with -D '', not 'n=9'");
+  refused(same + " --strategy light",
+          "was rendered with a --strategy that finds 'all light', not 'light towards lamps alone'");
+  write("s.xml", text + "<!-- other -->");
+  refused(same, "was rendered with a scene file whose bytes have the hash '");
+  render::Image older = render::read_image(path("r.exr"));
+  older.metadata.erase("carlo.max_depth");
+  render::write_image(path("r.exr"), older);
+  refused(same, "does not say its carlo.max_depth");
 }
 
 TEST_F(RenderCommand, ComparesStrategies) {

@@ -1,0 +1,93 @@
+#include <cli/resume.h>
+
+#include <render/film/accumulate.h>
+#include <render/io/image_io.h>
+
+#include <mc/core/error.h>
+#include <mc/core/file.h>
+#include <mc/random/hash.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+
+namespace carlo {
+
+namespace {
+
+struct Compared {
+  const char *key, *words;
+};
+
+// What is compared, in this order.
+constexpr auto compared = std::to_array<Compared>({
+    {"carlo.size", "--size"},
+    {"carlo.crop", "--crop"},
+    {"carlo.max_depth", "--max-depth"},
+    {"carlo.dialect", "--dialect"},
+    {"carlo.variables", "-D"},
+    {"carlo.finds", "a --strategy that finds"},
+    {"carlo.scene_hash", "a scene file whose bytes have the hash"},
+});
+
+// "" where it cannot be read again.
+std::string hash_of(const std::string& file) {
+  if (!std::filesystem::is_regular_file(file)) return {};
+  const std::string bytes = mc::read_file(file);
+  std::uint64_t hash = mc::hash(bytes.size());
+  for (const char c : bytes) hash = mc::hash(hash, static_cast<unsigned char>(c));
+  return fmt::format("{:016x}", hash);
+}
+
+} // namespace
+
+Subject subject_of(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
+                   const ::render::Scene& scene, const ::render::RenderOptions& settings) {
+  const ::render::Crop part = settings.crop.value_or(::render::Crop{0, 0, settings.width, settings.height});
+  std::sort(variables.begin(), variables.end());
+  return {{"carlo.scene", std::filesystem::path(file).filename().string()},
+          {"carlo.size", fmt::format("{}x{}", settings.width, settings.height)},
+          {"carlo.crop", fmt::format("{},{},{},{}", part.x, part.y, part.width, part.height)},
+          {"carlo.max_depth", fmt::format("{}", settings.max_depth)},
+          {"carlo.dialect", dialect},
+          {"carlo.variables", fmt::format("{}", fmt::join(variables, " "))},
+          {"carlo.finds",
+           misses_light(scene, settings.strategy, settings.max_depth) ? "light towards lamps alone" : "all light"},
+          {"carlo.scene_hash", hash_of(file)}};
+}
+
+Begun begun_picture(const std::string& path, const Subject& subject, const ::render::Crop& part) {
+  mc::require(std::filesystem::exists(path), "--resume: there is no '{}'; leave --resume out the first time", path);
+  Begun begun{::render::read_image(path), 0, 1};
+  const auto text = [&](const char* key) {
+    const auto found = begun.image.metadata.find(key);
+    return found == begun.image.metadata.end() ? std::string() : found->second;
+  };
+  begun.spp = std::strtod(text("carlo.samples_per_pixel").c_str(), nullptr);
+  mc::require(begun.spp > 0, "--resume: '{}' does not say its samples per pixel; carlo render has not written it",
+              path);
+  begun.runs = std::max(1, std::atoi(text("carlo.runs").c_str()));
+  mc::require(text("carlo.scene") == subject.at("carlo.scene"), "--resume: '{}' is a picture of '{}', not of '{}'",
+              path, text("carlo.scene"), subject.at("carlo.scene"));
+  mc::require(begun.image.width == part.width && begun.image.height == part.height,
+              "--resume: '{}' holds {}x{} pixels, but {}x{} are asked for", path, begun.image.width, begun.image.height,
+              part.width, part.height);
+  for (const auto& [key, words] : compared) {
+    mc::require(begun.image.metadata.contains(key),
+                "--resume: '{}' does not say its {}, as carlo render writes it now; render it anew", path, key);
+    mc::require(text(key) == subject.at(key),
+                "--resume: '{}' was rendered with {} '{}', not '{}'; ask for the same, or name another file", path,
+                words, text(key), subject.at(key));
+  }
+  return begun;
+}
+
+void add_to(const Begun& begun, ::render::RenderResult& result) {
+  result.image = accumulated(begun.image, begun.spp, result.image, result.spp);
+  result.image.layers = begun.image.layers;
+  result.image.metadata["carlo.samples_per_pixel"] = fmt::format("{:.17g}", begun.spp + result.spp);
+  result.image.metadata["carlo.runs"] = fmt::format("{}", begun.runs + 1);
+}
+
+} // namespace carlo
