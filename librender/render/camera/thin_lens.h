@@ -22,8 +22,8 @@ struct LensOptions {
 
 /// A thin lens focused on a plane; of radius 0 a pinhole.
 ///   to_world : its frame: x to the left, y up, z forward; how long they are changes nothing
-///   throws   : Error unless the frame is finite, its axes are not 0, equally long and orthogonal to 1e-4, 0 < fov < 180, radius and near are finite and
-///              >= 0, focus_distance is finite and > 0, far > near
+///   throws   : Error unless the frame is finite, its axes not 0, equally long and orthogonal (to 1e-4), 0 < fov < 180,
+///              radius and near are finite and >= 0, focus_distance is finite and > 0, far > near
 class ThinLens {
  public:
   explicit ThinLens(const Transform& to_world = {}, const LensOptions& options = {});

@@ -10,8 +10,8 @@
 
 namespace render::formats {
 
-// Portable float map: "PF", width height, scale (negative: little endian; what values are multiplied by), then rows from
-// the bottom up.
+// Portable float map: "PF", width height, scale (negative: little endian; its size multiplies the values), then rows
+// from the bottom up.
 // Written through mc::write_file by the caller's temporary name, so a full disk is noticed.
 void write_pfm(const std::string& path, const Image& image) {
   static_assert(std::endian::native == std::endian::little);
