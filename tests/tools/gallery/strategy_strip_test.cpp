@@ -45,8 +45,10 @@ TEST(StrategyStrip, ARowForEachStrategy) {
 
 TEST(StrategyStrip, TheTableComparesSamplesAndTime) {
   const render::Scene scene = lit_floor(false);
-  const auto samples = carlo::compare_strategies(scene, tiny(), 4, 64);
-  const auto time = carlo::compare_strategies_in(scene, tiny(), 0.005);
+  render::RenderOptions settings = tiny();
+  settings.max_depth = 3;
+  const auto samples = carlo::compare_strategies(scene, settings, 4, 64);
+  const auto time = carlo::compare_strategies_in(scene, settings, 0.005);
   ASSERT_EQ(samples.size(), 7u);
   ASSERT_EQ(time.size(), 7u);
   for (const auto& s : samples) EXPECT_EQ(s.spp, 64) << s.name;
@@ -57,6 +59,8 @@ TEST(StrategyStrip, TheTableComparesSamplesAndTime) {
   EXPECT_THAT(text, HasSubstr("100.00 +- "));
   EXPECT_THAT(text, HasSubstr("misses light"));
   EXPECT_THAT(text, Not(HasSubstr("nan")));
+  for (const auto& s : carlo::compare_strategies(scene, tiny(), 4, 4)) // two edges end at the lamp
+    EXPECT_FALSE(s.misses_light) << s.name;
   // What has found no light knows nothing, however little its pixels vary.
   auto blind = samples;
   blind[0].mean = {0, 0, 99, 100};
