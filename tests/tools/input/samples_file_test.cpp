@@ -23,8 +23,7 @@ namespace {
 
 using carlo::ValidateOptions;
 using support::Output, support::refusal, support::run;
-using testing::AllOf;
-using testing::HasSubstr;
+using testing::AllOf, testing::HasSubstr;
 
 using std::numbers::pi;
 

@@ -49,9 +49,10 @@ struct Evidence {
 ///   error : from their spread, and three things that it does not show:
 ///           - a jump of height h moves a replicate by h / points or not at all, and replicates that agree say only
 ///             that they could not differ: .75 h / points over their number is added in squares, about what makes 24
-///             trials of a random probability cover 94 to 97 %, where they stop at a tolerance too; h is what set them apart at one of the last lengths, or the
-///             first points showed across an axis; where they are equal, the range of all values; where those are
-///             equal too, their size, so that the rule of three holds for what was not seen
+///             trials of a random probability cover 94 to 97 %, where they stop at a tolerance too; h is what set them
+///             apart at one of the last lengths, or the first points showed across an axis; where they are equal, the
+///             range of all values; where those are equal too, their size, so that the rule of three holds for what
+///             was not seen
 ///           - of a tail of index a > 2 the share R^-(1 - 2/a) of the variance lies beyond the largest of R values
 ///           - of one with a < 5 the variance is known badly, and seems least where nothing large was met, which is
 ///             where runs stop: it is the mean of this and that of the last length, times what a tail makes it fall
