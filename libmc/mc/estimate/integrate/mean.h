@@ -2,7 +2,7 @@
 /// Means whose error was estimated, and what two of them say of each other.
 
 #include <mc/estimate/integrate.h>
-#include <mc/estimate/tail.h>
+#include <mc/estimate/seen/tail.h>
 
 #include <optional>
 #include <span>

@@ -1,9 +1,9 @@
 #pragma once
 /// What the tasks of a run add up.
 
-#include <mc/estimate/integrate/axis_profile.h>
 #include <mc/estimate/moments.h>
-#include <mc/estimate/tail.h>
+#include <mc/estimate/seen/axis_profile.h>
+#include <mc/estimate/seen/tail.h>
 
 #include <cstdint>
 #include <optional>

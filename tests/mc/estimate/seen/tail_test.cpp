@@ -1,4 +1,4 @@
-#include <mc/estimate/tail.h>
+#include <mc/estimate/seen/tail.h>
 #include <mc/random/uniform.h>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include <mc/estimate/integrate/axis_profile.h>
+#include <mc/estimate/seen/axis_profile.h>
 
 #include <mc/estimate/integrate.h>
 #include <mc/random/pcg.h>

@@ -1,7 +1,7 @@
 #pragma once
 /// How heavy the tail of an integrand is, whatever its points were drawn from.
 
-#include <mc/estimate/magnitudes.h>
+#include <mc/estimate/seen/magnitudes.h>
 
 #include <span>
 #include <vector>

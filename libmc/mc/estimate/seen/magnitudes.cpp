@@ -1,4 +1,4 @@
-#include <mc/estimate/magnitudes.h>
+#include <mc/estimate/seen/magnitudes.h>
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 #include <mc/core/types.h>
-#include <mc/estimate/tail.h>
+#include <mc/estimate/seen/tail.h>
 
 #include <algorithm>
 #include <array>
