@@ -2,7 +2,6 @@
 #include <converge/measure.h>
 #include <converge/output.h>
 #include <converge/page.h>
-#include <input/words.h>
 #include <integrands/expression.h>
 #include <report/plot.h>
 #include <terminal/interrupt.h>
@@ -11,6 +10,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -45,7 +45,7 @@ std::vector<Way> ways_of(const ConvergeOptions& o) {
   if (o.all) chosen = ways();
   const std::string samplers = o.samplers.empty() ? "random,stratified,sobol" : o.samplers;
   if (!o.all)
-    for (const std::string_view name : split(samplers, ',')) chosen.push_back(way(std::string(name)));
+    for (const std::string_view name : mc::split(samplers, ',')) chosen.push_back(way(std::string(name)));
   if (!o.points.empty()) chosen.push_back(way_of_points(o.points));
   return chosen;
 }

@@ -1,6 +1,5 @@
 #include <cli/integral_options.h>
 #include <gallery/picture.h>
-#include <input/words.h>
 #include <integrands/find.h>
 #include <integrands/genz.h>
 #include <integrands/rate_integrals.h>
@@ -9,6 +8,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 #include <render/integrator/directions.h>
 
 #include <fmt/format.h>
@@ -34,7 +34,7 @@ constexpr Group groups[] = {{"books", "the integrals of the books", experiments}
 std::vector<int> depths_of(const std::string& text, int own) {
   if (text.empty()) return {own};
   std::vector<int> depths;
-  for (const std::string_view word : split(text, ',')) {
+  for (const std::string_view word : mc::split(text, ',')) {
     int depth = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), depth);
     mc::require(error == std::errc() && end == word.data() + word.size() && (depth == -1 || depth >= 1),
@@ -48,7 +48,7 @@ std::vector<int> depths_of(const std::string& text, int own) {
 std::vector<::render::Strategy> strategies_of(const SceneOptions& o, const ::render::SceneFile& file) {
   const std::string_view names = o.strategies.empty() ? "mixture,nee,mis" : std::string_view(o.strategies);
   std::vector<::render::Strategy> strategies;
-  for (const std::string_view name : split(names, ',')) {
+  for (const std::string_view name : mc::split(names, ',')) {
     const ::render::Strategy& strategy = ::render::strategy_from(name);
     if (!o.strategies.empty() || file.defaults.shown.what != ::render::Shown::radiance ||
         finds_all_lights(file.scene, strategy))
@@ -64,7 +64,7 @@ std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, cons
     if (adaptive && !run.to_choose) continue;
     for (const int depth : depths_of(o.depths, file.defaults.max_depth))
       for (const ::render::Strategy& strategy : strategies_of(o, file))
-        for (const std::string_view sampler : split(samplers, ','))
+        for (const std::string_view sampler : mc::split(samplers, ','))
           ways.push_back({strategy, ::render::sampler_from(sampler), depth, adaptive});
   }
   const std::optional<PictureWay> plain = run.to_choose ? plain_way(file) : std::nullopt;

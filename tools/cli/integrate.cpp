@@ -1,6 +1,5 @@
 #include <cli/integrate_output.h>
 #include <cli/subcommand.h>
-#include <input/words.h>
 #include <integrands/expression.h>
 #include <integrands/find.h>
 #include <integrands/sides.h>
@@ -144,7 +143,7 @@ Bins bins_of(const IntegrateOptions& o, const Experiment& e) {
 std::vector<double> probabilities(const std::string& list) {
   std::vector<double> all;
   if (!list.empty())
-    for (const std::string_view word : split(list, ',')) all.push_back(number(word, "--quantiles"));
+    for (const std::string_view word : mc::split(list, ',')) all.push_back(number(word, "--quantiles"));
   for (const double p : all) mc::require(p > 0 && p < 1, "--quantiles: {} must lie between 0 and 1", p);
   return all;
 }

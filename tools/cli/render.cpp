@@ -319,10 +319,11 @@ int render(const RenderOptions& options) {
     progress.show(p.fraction, where_it_is(p, options.target_error));
   };
 
-  const Subject subject = subject_of(file, options.dialect, options.variables, scene, settings);
+  const ::render::Crop part = part_of(settings);
+  const PictureOf shown = picture_of(file, options.dialect, options.variables, scene, settings, part);
   std::optional<Begun> begun;
   if (options.resume) {
-    begun = begun_picture(output, subject, part_of(settings));
+    begun = begun_picture(output, shown, part);
     settings.seed = mc::hash(options.seed, std::uint64_t(begun->runs)); // other samples than those that are there
   }
   const Interrupt interrupt;
@@ -337,10 +338,10 @@ int render(const RenderOptions& options) {
     std::fprintf(stderr, "carlo: warning: %s\n", invalid.c_str());
   }
   sign(result, from);
-  for (const auto& [key, value] : subject) result.image.metadata[key] = value;
+  for (const auto& [key, value] : shown) result.image.metadata[key] = value;
   if (begun) add_to(*begun, result);
   if (options.layers) {
-    const ::render::Whole whole{settings.width, settings.height, part_of(settings)};
+    const ::render::Whole whole{settings.width, settings.height, part};
     result.image.layers = layers(scene, whole, origin, settings.threads);
   }
   if (options.exposure == "auto") tone.exposure = auto_exposure(result.image);

@@ -42,9 +42,9 @@ std::string hash_of(const std::string& file) {
 
 } // namespace
 
-Subject subject_of(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
-                   const ::render::Scene& scene, const ::render::RenderOptions& settings) {
-  const ::render::Crop part = settings.crop.value_or(::render::Crop{0, 0, settings.width, settings.height});
+PictureOf picture_of(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
+                     const ::render::Scene& scene, const ::render::RenderOptions& settings,
+                     const ::render::Crop& part) {
   std::sort(variables.begin(), variables.end());
   return {{"carlo.scene", std::filesystem::path(file).filename().string()},
           {"carlo.size", fmt::format("{}x{}", settings.width, settings.height)},
@@ -57,7 +57,7 @@ Subject subject_of(const std::string& file, const std::string& dialect, std::vec
           {"carlo.scene_hash", hash_of(file)}};
 }
 
-Begun begun_picture(const std::string& path, const Subject& subject, const ::render::Crop& part) {
+Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part) {
   mc::require(std::filesystem::exists(path), "--resume: there is no '{}'; leave --resume out the first time", path);
   Begun begun{::render::read_image(path), 0, 1};
   const auto text = [&](const char* key) {
@@ -68,17 +68,17 @@ Begun begun_picture(const std::string& path, const Subject& subject, const ::ren
   mc::require(begun.spp > 0, "--resume: '{}' does not say its samples per pixel; carlo render has not written it",
               path);
   begun.runs = std::max(1, std::atoi(text("carlo.runs").c_str()));
-  mc::require(text("carlo.scene") == subject.at("carlo.scene"), "--resume: '{}' is a picture of '{}', not of '{}'",
-              path, text("carlo.scene"), subject.at("carlo.scene"));
+  mc::require(text("carlo.scene") == picture.at("carlo.scene"), "--resume: '{}' is a picture of '{}', not of '{}'",
+              path, text("carlo.scene"), picture.at("carlo.scene"));
   mc::require(begun.image.width == part.width && begun.image.height == part.height,
               "--resume: '{}' holds {}x{} pixels, but {}x{} are asked for", path, begun.image.width, begun.image.height,
               part.width, part.height);
   for (const auto& [key, words] : compared) {
     mc::require(begun.image.metadata.contains(key),
                 "--resume: '{}' does not say its {}, as carlo render writes it now; render it anew", path, key);
-    mc::require(text(key) == subject.at(key),
+    mc::require(text(key) == picture.at(key),
                 "--resume: '{}' was rendered with {} '{}', not '{}'; ask for the same, or name another file", path,
-                words, text(key), subject.at(key));
+                words, text(key), picture.at(key));
   }
   return begun;
 }

@@ -11,12 +11,12 @@
 namespace carlo {
 
 /// What a picture shows, whatever its noise, as an image's metadata: only pictures of the same may be averaged.
-using Subject = std::map<std::string, std::string>;
+using PictureOf = std::map<std::string, std::string>;
 
 /// Of the scene file its own bytes count, not those of what it includes; `scene` is what was read there, with
-/// `variables` "name=value".
-Subject subject_of(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
-                   const ::render::Scene& scene, const ::render::RenderOptions& settings);
+/// `variables` "name=value"; `part` is what is rendered of it.
+PictureOf picture_of(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
+                     const ::render::Scene& scene, const ::render::RenderOptions& settings, const ::render::Crop& part);
 
 /// A picture that goes on.
 struct Begun {
@@ -27,7 +27,7 @@ struct Begun {
 
 /// What --resume adds to, as sign() has signed it.
 ///   throws : Error where there is none, and where it shows something else, naming what differs
-Begun begun_picture(const std::string& path, const Subject& subject, const ::render::Crop& part);
+Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part);
 
 /// The picture that was begun with what a run has added.
 void add_to(const Begun& begun, ::render::RenderResult& result);

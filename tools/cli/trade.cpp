@@ -3,7 +3,6 @@
 #include <converge/output.h>
 #include <converge/page.h>
 #include <converge/trade.h>
-#include <input/words.h>
 #include <integrands/expression.h>
 #include <report/plot.h>
 #include <report/report_json.h>
@@ -45,7 +44,7 @@ struct TradeOptions {
 
 std::vector<double> numbers(const char* option, const std::string& text) {
   std::vector<double> all;
-  for (const std::string_view part : split(text, ',')) {
+  for (const std::string_view part : mc::split(text, ',')) {
     const std::optional<double> x = mc::number_in(part);
     mc::require(x && *x > 0 && std::isfinite(*x), "{}: '{}' in '{}' must be a number above 0", option, part, text);
     all.push_back(*x);

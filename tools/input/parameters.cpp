@@ -1,5 +1,4 @@
 #include <input/parameters.h>
-#include <input/words.h>
 
 #include <mc/core/error.h>
 #include <mc/core/text.h>
@@ -29,7 +28,7 @@ double number(std::string_view word, const Part& of) {
 
 // One number, or first:last:step.
 std::vector<double> values_of(std::string_view words, const Part& of) {
-  const std::vector<std::string_view> ends = split(words, ':');
+  const std::vector<std::string_view> ends = mc::split(words, ':');
   if (ends.size() == 1) return {number(ends[0], of)};
   mc::require(ends.size() == 3, "{}: '{}' in '{}' is not of the form name=first:last:step", of.option, of.part,
               of.text);
@@ -49,12 +48,12 @@ std::vector<double> values_of(std::string_view words, const Part& of) {
 
 ParameterLists parse_lists(const std::string& text, std::string_view option) {
   ParameterLists lists;
-  for (const std::string_view part : split(text, ',')) {
+  for (const std::string_view part : mc::split(text, ',')) {
     const Part of{option, part, text};
     const std::size_t equals = part.find('=');
     std::string_view words = part;
     if (equals != std::string_view::npos && equals > 0) {
-      const std::string name(split(part.substr(0, equals), ',')[0]);
+      const std::string name(mc::trimmed(part.substr(0, equals)));
       for (const auto& other : lists)
         mc::require(other.first != name, "{}: '{}' stands twice in '{}'", option, name, text);
       lists.emplace_back(name, std::vector<double>());
@@ -62,7 +61,7 @@ ParameterLists parse_lists(const std::string& text, std::string_view option) {
     }
     mc::require(!lists.empty(), "{}: '{}' in '{}' is not of the form name=number, as in \"alpha=0.1,n=3\"", option,
                 part, text);
-    const std::vector<double> values = values_of(split(words, ',')[0], of);
+    const std::vector<double> values = values_of(mc::trimmed(words), of);
     lists.back().second.insert(lists.back().second.end(), values.begin(), values.end());
   }
   return lists;

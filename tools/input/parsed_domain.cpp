@@ -1,6 +1,5 @@
 #include <input/parameters.h>
 #include <input/parsed_domain.h>
-#include <integrands/sides.h>
 
 #include <mc/check/subject/make_sampler.h>
 #include <mc/core/error.h>
@@ -64,7 +63,7 @@ template <mc::Domain D> Part directions(std::string text, const D& d, Rounding r
 }
 
 double number(std::string_view word, std::string_view whole) {
-  const std::optional<double> value = mc::number_in(trimmed(word));
+  const std::optional<double> value = mc::number_in(mc::trimmed(word));
   mc::require(value && !std::isnan(*value), "'{}' in '{}' is not a number", word, whole);
   return *value;
 }
@@ -235,13 +234,11 @@ Breaks parse_breaks(const std::string& text, const AnyDomain& domain) {
 
 ParsedDomain parse_domain(const std::string& text, const Quartiles& quartiles, Rounding rounding) {
   std::optional<ParsedDomain> whole;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string one(trimmed(std::string_view(text).substr(begin, end - begin)));
+  for (const std::string_view part : mc::split(text, ',')) {
+    const std::string one(part);
     const std::size_t equals = std::min(one.find('='), one.size());
-    const std::string name(trimmed(std::string_view(one).substr(0, equals)));
+    const std::string name(mc::trimmed(std::string_view(one).substr(0, equals)));
     const std::string_view value = std::string_view(one).substr(std::min(equals + 1, one.size()));
-    begin = end + 1;
     if (name == "discrete") {
       const double n = number(value, one);
       mc::require(n >= 1 && n <= 1 << 24 && n == std::floor(n), "'{}'; 1 to 2^24 outcomes are possible", one);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace carlo {
@@ -15,9 +14,6 @@ struct Side {
 
   bool is_finite() const { return std::isfinite(lo) && std::isfinite(hi); }
 };
-
-/// Without the white space at its ends, ends of lines too.
-std::string_view trimmed(std::string_view text);
 
 /// "x=0:1,y=-1:2,z=0:inf". Throws Error that names --domain for anything else.
 std::vector<Side> parse_sides(const std::string& box);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
-#include <vector>
 
 namespace mc {
 
@@ -17,6 +16,23 @@ std::optional<double> number_in(std::string_view text) {
   if (error != std::errc::result_out_of_range) return value;
   const double rounded = std::strtod(std::string(text).c_str(), nullptr);
   return std::isinf(rounded) ? std::nullopt : std::optional(rounded);
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* white = " \t\n\v\f\r";
+  text.remove_prefix(std::min(text.find_first_not_of(white), text.size()));
+  return text.substr(0, text.find_last_not_of(white) + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> words;
+  for (bool more = true; more;) {
+    const std::size_t end = text.find(separator);
+    words.push_back(trimmed(text.substr(0, end)));
+    more = end != std::string_view::npos;
+    if (more) text.remove_prefix(end + 1);
+  }
+  return words;
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers and names in text, and what a message says about a name that is not known.
+/// Numbers and words in text, and what a message says about a name that is not known.
 
 #include <mc/core/error.h>
 
@@ -8,12 +8,19 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace mc {
 
 /// The number that all of a text is, "+1.5e3", "inf" and "nan" too: what is too small is 0 with its sign. Nothing where
 /// it is anything else or too large for a double: infinite is only what says so. Knows no locale.
 std::optional<double> number_in(std::string_view text);
+
+/// Without the white space at its ends, ends of lines too.
+std::string_view trimmed(std::string_view text);
+
+/// What stands between separators, trimmed: "a, b,,c" is "a", "b", "", "c".
+std::vector<std::string_view> split(std::string_view text, char separator);
 
 /// Number of single-character edits (insert, delete, replace) between two words. Source: [WagnerFischer74]
 std::size_t edit_distance(std::string_view a, std::string_view b);

@@ -2,6 +2,7 @@
 
 #include <mc/random/pcg.h>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -33,6 +34,22 @@ TEST(Text, Numbers) {
   for (const char* text : {"", "+", "-", "+-1", "++1", "-+1", "1 ", " 1", "1,5", "1e", "0x10", "one", "1.2.3", "e5",
                            "1e5x", "1e400", "-1e400"})
     EXPECT_EQ(mc::number_in(text), std::nullopt) << text;
+}
+
+TEST(Text, Trimmed) {
+  EXPECT_EQ(mc::trimmed(" \t a b\r\n"), "a b");
+  EXPECT_EQ(mc::trimmed("a"), "a");
+  EXPECT_EQ(mc::trimmed(" \n"), "");
+  EXPECT_EQ(mc::trimmed(""), "");
+}
+
+TEST(Text, SplitIntoWordsWithoutBlanks) {
+  EXPECT_THAT(mc::split("a, b,,c ", ','), testing::ElementsAre("a", "b", "", "c"));
+  EXPECT_THAT(mc::split("0:1:.1", ':'), testing::ElementsAre("0", "1", ".1"));
+  EXPECT_THAT(mc::split("", ','), testing::ElementsAre(""));
+  EXPECT_THAT(mc::split("  ", ','), testing::ElementsAre(""));
+  EXPECT_THAT(mc::split("a,", ','), testing::ElementsAre("a", ""));
+  EXPECT_THAT(mc::split("\ta b\r\n,\nc", ','), testing::ElementsAre("a b", "c"));
 }
 
 TEST(Text, NearestName) {

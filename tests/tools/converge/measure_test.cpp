@@ -73,4 +73,19 @@ TEST(Measure, ConstantsAreExact) {
   EXPECT_FALSE(m.curves[0].law);
 }
 
+// A reference of replicates is doubted where one of them holds over half of their variance again and again: of 1/x, not
+// of 1/sqrt(x), whose variance is infinite too but only just, nor of what is smooth.
+TEST(Measure, TheReferenceOfADivergentIntegralIsDoubted) {
+  const auto list = ways({"random", "stratified", "sobol"});
+  const auto doubt = [&](double power) {
+    Experiment e = ramp(std::numeric_limits<double>::quiet_NaN());
+    e.f = [power](Experiment::Unit u) { return std::pow(u[0], power); };
+    return measure(here(e), list, {.max_n = 4096, .seed = 5}).doubt;
+  };
+  EXPECT_NE(doubt(-1).find("one holds over half of the variance"), std::string::npos) << doubt(-1);
+  EXPECT_NE(doubt(-0.9), "");
+  EXPECT_EQ(doubt(-0.5), "");
+  EXPECT_EQ(doubt(2), "");
+}
+
 } // namespace

@@ -27,6 +27,8 @@ struct Named {
 using std::numbers::pi;
 constexpr double infinity = HUGE_VAL;
 
+void PrintTo(const Named& named, std::ostream* out) { *out << named.text; }
+
 class EveryDomain : public testing::TestWithParam<Named> {};
 
 TEST_P(EveryDomain, HasAChartThereAndBack) {

@@ -46,18 +46,22 @@ bool is_sample(const Subject::Draw& d, std::uint64_t seed, std::uint64_t index, 
   return false;
 }
 
-DrawTally::Broken& broken_by_density(const Subject& s, const Subject::Draw& d, DrawTally& tally) {
-  // The way through the chart rounds, too.
-  if (d.kind == Kind::point && (density_beside(s, d.v) || (d.density == 0 && s.density(d.v) > 0)))
-    return std::isfinite(s.density(d.v)) ? tally.zero_edge : tally.edge;
-  if (!std::isfinite(d.density)) return tally.bad_pdf;
-  return d.kind == Kind::point && s.density(d.v) < 0 ? tally.negative : tally.leak;
+// Rounding puts hardly a sample where the density vanishes, but many where it is infinite.
+constexpr std::uint64_t most_rounded = 3;
+
+// The density that a point without one has beside it. Of a sampler that is broken beyond doubt no more is asked: it may
+// answer slowly.
+std::optional<double> rounded_from(const Subject& s, const Subject::Draw& d, const DrawTally& tally) {
+  if (d.pdf_positive || d.kind != Kind::point || tally.leak.count + tally.bad_pdf.count > most_rounded) return {};
+  if (d.density == 0) // the way through the chart rounds, too
+    if (const double there = s.density(d.v); there > 0 && std::isfinite(there)) return there;
+  return density_beside(s, d.v);
 }
 
-// The density at a point; beside it where it has none on the face of the chart.
-double density_of(const Subject& s, const Subject::Draw& d) {
-  if (const auto beside = d.pdf_positive ? std::nullopt : density_beside(s, d.v)) return *beside;
-  return d.density >= 0 ? d.density : s.density(d.v);
+DrawTally::Broken& broken_by_density(const Subject& s, const Subject::Draw& d, bool is_rounded, DrawTally& tally) {
+  if (is_rounded) return std::isfinite(s.density(d.v)) ? tally.zero_edge : tally.edge;
+  if (!std::isfinite(d.density)) return tally.bad_pdf;
+  return d.kind == Kind::point && d.density < 0 && s.density(d.v) < 0 ? tally.negative : tally.leak;
 }
 
 // How much the claimed density changes within four steps of rounding about a point, relative. The density that a
@@ -103,14 +107,15 @@ DrawTally draw_samples(const Subject& s, std::uint64_t seed, std::uint64_t n,
       if (before) before(tally);
       ++tally.draws;
       if (!is_sample(d, stream, i, tally)) continue;
-      if (!d.pdf_positive) note(broken_by_density(s, d, tally), stream, i);
+      const std::optional<double> rounded = rounded_from(s, d, tally);
+      if (!d.pdf_positive) note(broken_by_density(s, d, rounded.has_value(), tally), stream, i);
       const double off = weight_error(s, d);
       if (!(off <= s.weight_tolerance)) note(tally.weight, stream, i);
       // Not a number is worse than any.
       tally.worst_weight =
           std::max(tally.worst_weight, std::isnan(off) ? std::numeric_limits<double>::infinity() : off);
       if (d.kind == Kind::atom) ++tally.atoms[static_cast<std::size_t>(d.atom)];
-      else point(d.v, density_of(s, d));
+      else point(d.v, rounded ? *rounded : d.density >= 0 ? d.density : s.density(d.v));
     }
   }
   return tally;
@@ -146,9 +151,8 @@ std::vector<Check> check_draws(const Subject& s, const DrawTally& tally, bool op
   add("in the domain", tally.outside, Fault::outside, count(tally.outside), 0);
   if (tally.bad_pdf.count > 0) add("pdf finite at samples", tally.bad_pdf, Fault::not_finite, count(tally.bad_pdf), 0);
   if (tally.negative.count > 0) add("pdf >= 0 at samples", tally.negative, Fault::negative, count(tally.negative), 0);
-  // Rounding puts hardly a sample where the density vanishes, but many where it is infinite.
   DrawTally::Broken leak = tally.leak, edge = tally.edge;
-  merge(tally.zero_edge.count > 3 ? leak : edge, tally.zero_edge);
+  merge(tally.leak.count + tally.zero_edge.count > most_rounded ? leak : edge, tally.zero_edge);
   add("pdf > 0 at samples", leak, Fault::leak, count(leak), 0);
   if (edge.count > 0 && !open_interval) {
     add("pdf at ends and jumps", edge, Fault::zero_edge, count(edge), 0);

@@ -104,7 +104,7 @@ struct Report {
   double mass = 1, mass_error = 0; ///< integral of the claimed density, atoms included, and its error bound
   /// Relative error of the density that is caught with probability .99: of random sign over patches of any place that
   /// each hold the share of four of the checker's cells or more, a thousandth of 1e6 samples, and are at most ten times
-  /// as long as wide. That of longer ones may have to be three times as large.
+  /// as long as wide. Of longer ones larger errors are missed.
   double detectable = 0;
   double detectable_cell = 0; ///< the same in a single compact region of that share or more
   double seconds = 0;

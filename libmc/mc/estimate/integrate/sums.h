@@ -40,8 +40,8 @@ struct Sums {
   std::vector<ScaledMoments> outputs;
   std::vector<Seen> seen;
   std::vector<double> points = {}, values = {};
-  std::vector<ScaledMoments> batches = {}; ///< batch_count for each output
-  AxisProfile profile = {};
+  std::vector<ScaledMoments> batches = {};          ///< batch_count for each output
+  AxisProfile profile = {};                         ///< of its first points
   std::optional<std::uint64_t> first_infinite = {}; ///< index of the first point where the integrand was
 
   /// Infinite values become 0, of points whose indices start at `first` and which stand for so much of the volume each.

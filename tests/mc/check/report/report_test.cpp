@@ -22,6 +22,18 @@ TEST(Report, FailBeatsInconclusiveBeatsPass) {
   EXPECT_EQ(r.fault(), Fault::mass) << "a broken law says more than a small p";
 }
 
+TEST(Report, EndsOfUDoNotNameTheFaultOfCountsBeyondDoubt) {
+  Report r;
+  r.checks.push_back({"ends of u", Verdict::fail, {}, 0, 1, 0, Fault::edge, "at u = 1"});
+  EXPECT_EQ(r.fault(), Fault::edge);
+  r.checks.push_back({"cells", Verdict::fail, 1e-6, 0.5, 1, 0, Fault::shape, "there"});
+  EXPECT_EQ(r.fault(), Fault::edge);
+  r.checks.back().p = 1e-12;
+  EXPECT_EQ(r.fault(), Fault::shape);
+  r.checks.front().fault = Fault::leak;
+  EXPECT_EQ(r.fault(), Fault::leak) << "of other laws nothing takes the name";
+}
+
 TEST(Report, TextSaysWhereAndByHowMuch) {
   Report r;
   r.subject = "Cone";

@@ -99,4 +99,25 @@ TEST(Mass, OutcomesAddUpExactly) {
   EXPECT_EQ(test_mass(s, claimed(s, {}, {}, plain(1e5)), 0.01).verdict, Verdict::fail);
 }
 
+// Where weights of the samples say that the mass is off and random points say that it is 1, the samples are wrong.
+TEST(Mass, SamplesThatMissTheDensityAreAFaultOfShape) {
+  mc::Subject s;
+  s.dim = 2;
+  mc::ClaimedMass m;
+  m.integrated = false;
+  m.value = 0.97;
+  m.estimated_error = 1e-3;
+  m.z = 30;
+  m.at_points = 1.02;
+  m.at_points_error = 0.01;
+  const mc::Check shape = test_mass(s, m, 0.01);
+  EXPECT_EQ(shape.verdict, Verdict::fail);
+  EXPECT_EQ(shape.fault, mc::Fault::shape);
+  EXPECT_NE(shape.detail.find("at random points it integrates to 1.02 +- 0.01"), std::string::npos) << shape.detail;
+  m.at_points = 0.95;
+  EXPECT_EQ(test_mass(s, m, 0.01).fault, mc::Fault::mass);
+  m.at_points_error = 0.1;
+  EXPECT_EQ(test_mass(s, m, 0.01).fault, mc::Fault::mass) << "random points do not know either";
+}
+
 } // namespace
