@@ -15,6 +15,9 @@ namespace render {
 ///            4 to 256 samples, missing as often above as below; with the variance of the pixel alone it is 85 to 93 %,
 ///            nearly all too low (notebooks-data/truth/pixel_intervals.csv). Where noise changes within three
 ///            pixels, the quiet ones get wider intervals than they need and the noisy ones narrower.
+///            Where one point set in seventy differs from the rest, as where nearly all put as many of their points
+///            towards one of two lights, most neighbourhoods agree: of two directional lights of irradiance 20 and 3
+///            34 % of the intervals held at 16 samples; the others were 0 wide and the pixels .3 % off.
 ///   throws : Error unless the image carries its variance and 0 < confidence < 1
 Image half_widths(const Image& image, double confidence);
 
