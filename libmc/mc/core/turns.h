@@ -101,6 +101,7 @@ template <Real S> S turn(const S& x, const S& y) {
       return t >= 1 ? S(0) : t;
     }
   }
+  if (x == 0 && y == 0) return S(0);
   // Of denormal, huge and exact numbers.
   const S t = S(atan2(y, x)) / (2 * pi<S>), wrapped = t < 0 ? S(t + 1) : t;
   return wrapped >= 1 ? S(0) : wrapped;

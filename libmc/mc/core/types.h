@@ -51,6 +51,13 @@ inline const S pi = [] {
 /// The largest S below 1: the last value that a uniform number in [0,1) can take.
 template <Real S> inline const S one_minus_epsilon = S(1) - std::numeric_limits<S>::epsilon() / 2;
 
+/// u where it lies in [0,1), else the nearest number there: rounding carries what warps invert out of it.
+template <Real S> S within_unit(const S& u) { return u >= 1 ? one_minus_epsilon<S> : u < 0 ? S(0) : u; }
+template <Real S, int N> Vec<S, N> within_unit(Vec<S, N> u) {
+  for (int i = 0; i < N; ++i) u[i] = within_unit(u[i]);
+  return u;
+}
+
 template <Real S> inline const S infinity = std::numeric_limits<S>::infinity();
 
 /// The unsigned integer as wide as float or double.

@@ -117,6 +117,7 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
       total_ += counts[i];
     }
     require(total_ > 0, "MultipleImportance: all {} counts are 0; at least one must be > 0", size);
+    require(isfinite(total_), "MultipleImportance: the sum of the counts is infinite; divide them by a common factor");
   }
 
   Values densities(const PointOf<First>& x) const {
@@ -129,8 +130,9 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
     Values counts = counts_;
     for (S& n : counts) n = S(std::ceil(static_cast<double>(n)));
     double sum = 0;
+    // A float that counts stops at 2^24.
     for (std::size_t i = 0; i < size; ++i)
-      for (S k(0); k < counts[i]; k += 1) sum += contribution(f, i, next(), counts);
+      for (double k = 0; k < static_cast<double>(counts[i]); ++k) sum += contribution(f, i, next(), counts);
     return sum;
   }
 

@@ -12,7 +12,8 @@ namespace mc {
 
 /// Count, mean and sum of squared deviations of a stream of doubles, mergeable; non-finite values are counted apart and
 /// the first one's index is kept.
-///   error  : relative error of the mean and variance O(eps) per merge, no cancellation [Welford62, ChanGolubLeVeque83]
+///   error  : relative error of mean and variance O(eps) per merge, no cancellation [Welford62, ChanGolubLeVeque83],
+///            but for overflow of the variance where numbers lie more than 1e154 apart
 ///   throws : estimate() throws Error when any value was not finite, or there are fewer than two
 class Moments {
  public:
@@ -52,6 +53,12 @@ class Moments {
     if (other.non_finite_ > 0 && non_finite_ == 0) witness_ = other.witness_;
     non_finite_ += other.non_finite_;
     if (other.count_ == 0) return;
+    if (count_ == 0) { // the products below overflow for large numbers
+      count_ = other.count_;
+      mean_ = other.mean_;
+      m2_ = other.m2_;
+      return;
+    }
     const double a = static_cast<double>(count_), b = static_cast<double>(other.count_), n = a + b;
     const double delta = other.mean_ - mean_;
     mean_ += delta * (b / n);

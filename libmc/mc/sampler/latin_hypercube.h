@@ -9,7 +9,7 @@ namespace mc {
 
 /// `count` points of which, in every dimension, each of the `count` equal intervals holds exactly one, jittered;
 /// dimensions are shuffled independently, so any number of them may be used. The variance of the additive part of an
-/// integrand vanishes.
+/// integrand vanishes. That holds for bits(); rounded to float a point may reach the next interval.
 ///   An index >= count starts another independent set of `count` points.
 ///   throws : Error unless count >= 1
 ///   Source : [McKayBeckmanConover79]

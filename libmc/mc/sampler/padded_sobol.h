@@ -22,7 +22,7 @@ struct PaddedSobol {
     return (std::uint64_t{x} << 32) | (low & 0xffffffffu);
   }
 
-  /// Both coordinates of a pair at once.
+  /// Both coordinates of a pair at once, of 32 bits: a double has zeros where those of bits() go on.
   template <Real S> Vec2<S> pair(std::uint64_t index, std::uint32_t number) const {
     return pair_key(number).template point<S>(index);
   }

@@ -25,9 +25,7 @@ struct BoxTree::Builder {
     require(n.value > whole.x_lo && n.value < whole.x_hi, "BoxTree: node {} cuts axis {} at {}; its box spans ({}, {})",
             node, n.axis, n.value, whole.x_lo, whole.x_hi);
     const double below = weight[node + 1], above = weight[after[node + 1]];
-    // 0 / 0 where no point comes from: any share will do.
-    const double share = below + above > 0 ? below / (below + above) : 0.5;
-    const double cut = std::clamp(whole.u_lo + share * (whole.u_hi - whole.u_lo), whole.u_lo, whole.u_hi);
+    const double cut = place_of_cut(whole.u_lo, whole.u_hi, below, above);
     tree.planes_.push_back({n.axis, {0, 0}, cut, n.value});
     if (fresh) path.push_back(whole);
     path[place] = {n.axis, whole.x_lo, n.value, whole.u_lo, cut};
@@ -39,6 +37,15 @@ struct BoxTree::Builder {
     tree.planes_[plane].next[1] = lower;
     tree.planes_[plane].next[0] = upper;
     return plane;
+  }
+
+  // Leaves to both sides the share of their weight, and to neither that has any less than 2^-53.
+  static double place_of_cut(double lo, double hi, double below, double above) {
+    // 0 / 0 where no point comes from: any share will do.
+    const double share = below + above > 0 ? below / (below + above) : 0.5, least = 0x1p-53 * (hi - lo);
+    const double lowest = below > 0 ? std::max(lo + least, std::nextafter(lo, hi)) : lo;
+    const double highest = above > 0 ? std::min(hi - least, std::nextafter(hi, lo)) : hi;
+    return std::max(std::min(lo + share * (hi - lo), highest), lowest);
   }
 
   std::uint32_t finish() {
@@ -116,8 +123,7 @@ Cell measured(const std::function<double(std::span<const double>)>& f, std::vect
   Cell c{std::move(lo), std::move(hi)};
   const std::size_t d = c.lo.size();
   const std::vector<double> step = steps(d);
-  std::vector<double> at(d), below(d), above(d), counted(d);
-  double square = 0;
+  std::vector<double> at(d), below(d), above(d), counted(d), values;
   for (int k = 1; k <= points; ++k) {
     for (std::size_t a = 0; a < d; ++a) {
       const double v = 0.5 + k * step[a] - std::floor(0.5 + k * step[a]);
@@ -127,10 +133,13 @@ Cell measured(const std::function<double(std::span<const double>)>& f, std::vect
     const double value = f(at);
     require(std::isfinite(value) && value >= 0, "BoxTree: the function is {}; it must be finite and >= 0", value);
     c.mean += value / points;
-    square += value * value / points;
+    values.push_back(value);
     for (std::size_t a = 0; a < d; ++a) (counted[a] < 0.5 ? below : above)[a] += value / points;
   }
-  c.gain = c.volume() * std::sqrt(std::max(square - c.mean * c.mean, 0.0));
+  // Relative to the mean: the squares of small numbers vanish, those of large ones overflow.
+  double squares = 0;
+  for (const double value : values) squares += c.mean > 0 ? sqr(value / c.mean - 1) / points : 0.0;
+  c.gain = c.volume() * c.mean * std::sqrt(squares);
   // The axis that tells most apart, of equal ones the longest.
   double most = -1;
   for (std::size_t a = 0; a < d; ++a) {

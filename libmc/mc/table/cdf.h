@@ -55,7 +55,7 @@ struct CdfView {
 ///   The probability of outcome i IS the length of its interval, cdf(i + 1) - cdf(i), so what is sampled and what is
 ///   claimed cannot disagree. An outcome of positive weight has a positive interval; one of weight 0 has none.
 ///   Ends are multiples of 2^-53: of the 2^53 values of uniform<double>, exactly the share pmf(i) falls on outcome i.
-///   error  : |pmf(i) - w_i / sum w| <= 2^-52 if no weight is below 2^-53 of the sum; else up to n 2^-53
+///   error  : |pmf(i) - w_i / sum w| <= 2^-51 if no weight is below 2^-53 of the sum; else up to n 2^-53
 ///   cost   : O(1) expected whatever n and the weights: a guide table starts the search [ChenAsau74]
 ///   throws : Error for no weights, a weight that is not finite and >= 0, or all weights 0
 class Cdf {

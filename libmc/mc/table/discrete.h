@@ -65,6 +65,7 @@ template <Real S> class Bernoulli {
 /// Up to N outcomes with probabilities in proportion to their weights, found by walking along these: for a choice that
 /// is made once.
 ///   error  : the share of u that meets an outcome differs from its pmf by at most 2 (size + 1) eps
+///            A weight below the smallest normal number times their sum counts as 0
 ///   throws : Error unless there are 1 to N weights, finite and >= 0, with a finite sum > 0
 template <Real S, std::size_t N> class ShortDiscrete {
  public:
@@ -81,6 +82,13 @@ template <Real S, std::size_t N> class ShortDiscrete {
     require(least == 0 && sum_ > 0 && sum_ <= std::numeric_limits<S>::max(),
             "ShortDiscrete: the weights must be finite and >= 0 and their sum, {}, finite and > 0",
             static_cast<double>(sum_));
+    using Limits = std::numeric_limits<S>;
+    if (sum_ < Limits::min() / Limits::epsilon()) [[unlikely]] { // denormals have too few bits for u times their sum
+      for (std::size_t i = 0; i < size_; ++i) weights_[i] /= sum_;
+      sum_ = 1;
+    }
+    const S smallest = Limits::min() * sum_;
+    for (std::size_t i = 0; i < size_; ++i) weights_[i] = weights_[i] < smallest ? S(0) : weights_[i];
   }
 
   DiscreteSample<S> sample_index(S u) const {

@@ -31,15 +31,12 @@ template <Real S, class I = Interval<S>> struct StepsView {
 
   std::size_t find(S u) const { return cdf.find(static_cast<double>(u)); }
   /// For u in the interval of outcome i: how far it is along it, in [0,1), and the point as far along cell i.
-  S remapped(S u, std::size_t i) const {
-    const S v = S(within(u, i));
-    return v < 1 ? v : one_minus_epsilon<S>;
-  }
+  S remapped(S u, std::size_t i) const { return within_unit(S(within(u, i))); }
   S point(S u, std::size_t i) const {
     const Work v = (index(i) + within(u, i)) / index(cdf.size());
     S x;
     if constexpr (std::same_as<I, UnitInterval>) x = S(v);
-    else x = S(Work(interval.lo) * (1 - v) + Work(interval.hi) * v);
+    else x = std::clamp(S(Work(interval.lo) * (1 - v) + Work(interval.hi) * v), S(interval.lo), S(interval.hi));
     return !std::floating_point<S> || cell(x) == i ? x : nudged(x, i);
   }
   S density(std::size_t i) const {
@@ -47,7 +44,7 @@ template <Real S, class I = Interval<S>> struct StepsView {
   }
   S invert(S x) const {
     const std::size_t i = cell(x);
-    return S(Work(cdf.cdf(i)) + (unit(x) * index(cdf.size()) - index(i)) * Work(cdf.pmf(i)));
+    return within_unit(S(Work(cdf.cdf(i)) + (unit(x) * index(cdf.size()) - index(i)) * Work(cdf.pmf(i))));
   }
   /// The cell that holds x; the outermost one beyond the ends.
   std::size_t cell(S x) const {
@@ -82,10 +79,11 @@ template <Real S, class I = Interval<S>> struct StepsView {
 ///   pdf    : pmf(i) n / (hi - lo) [1/length]; 0 outside and in cells of weight 0
 ///            Points keep to their cell as long as S can tell it from its neighbours: cells no narrower than 8 eps
 ///            max(|lo|, |hi|).
-///   invert : |invert(sample(u)) - u| <= 4 eps + pmf(i) ulp(x) n / (hi - lo): the rounding of x, magnified where cells
-///            are narrow
+///   invert : |invert(sample(u)) - u| <= 4 eps + 2 pmf(i) ulp(x) n / (hi - lo): the rounding of x and of its distance
+///            from lo, magnified where cells are narrow
 ///   reach  : an outcome less likely than the spacing of u (2^-24 float, 2^-53 double) is met only by a finer u
-///   throws : Error for no weights, a weight that is not finite and >= 0, or all weights 0
+///   throws : Error for no weights, a weight that is not finite and >= 0, all weights 0, or an interval whose width
+///            does not pass is_scale
 ///   Source : inverse transform sampling; see Cdf for the bounds
 template <Real S> class TableDist1D {
  public:
@@ -93,7 +91,13 @@ template <Real S> class TableDist1D {
   using Domain = Interval<S>;
 
   explicit TableDist1D(std::span<const double> weights, Interval<S> interval = {})
-      : cdf_(weights), interval_(interval) {}
+      : cdf_(weights), interval_(interval) {
+    require(
+        is_scale(S(interval.hi - interval.lo)),
+        "TableDist1D: [{}, {}] is too narrow or too wide for the scalar: its width is denormal or next to the largest "
+        "number",
+        static_cast<double>(interval.lo), static_cast<double>(interval.hi));
+  }
 
   /// Weights f(x) at the middle of each of n cells.
   template <class F> static TableDist1D from_function(F&& f, std::size_t n, Interval<S> interval = {}) {

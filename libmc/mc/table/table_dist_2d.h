@@ -19,7 +19,8 @@ struct ConditionalRows {
 ///   sample : u1 chooses the row, u0 the column in it -> (x, y)
 ///   pdf    : pmf(row) pmf(column | row) width height [1/area]; 0 outside and in cells of weight 0
 ///            Points keep to their cell as those of TableDist1D do: in float up to 2^20 rows and columns.
-///   invert : |invert(sample(u)) - u| <= 4 eps for points that round to the cell they were drawn in
+///   invert : |invert(sample(u)) - u| <= 4 eps + 2 ulp times the density of the row, or of the column in it, for points
+///            that round to the cell they were drawn in
 ///   throws : Error unless weights are width * height numbers, finite, >= 0, not all 0
 ///   Source : inverse transform sampling of the marginal and the conditionals [PharrJakobHumphreys23] section A.5.6
 template <Real S> class TableDist2D {
@@ -44,11 +45,13 @@ template <Real S> class TableDist2D {
   /// For a latitude-longitude image: row y spans theta in [pi y / height, pi (y + 1) / height], weighted by the solid
   /// angle of the row, cos(theta_0) - cos(theta_1).
   static TableDist2D from_lat_long(std::span<const double> weights, std::size_t width, std::size_t height) {
-    std::vector<double> scaled(weights.begin(), weights.end());
-    for (std::size_t i = 0; i < scaled.size(); ++i) {
-      const std::size_t row = i / std::max<std::size_t>(width, 1);
-      const double y = static_cast<double>(row), h = static_cast<double>(height);
-      scaled[i] *= 2 * std::sin(pi<double> * (y + 0.5) / h) * std::sin(pi<double> / (2 * h));
+    const double largest = largest_of(weights, width, height), h = static_cast<double>(height);
+    std::vector<double> scaled;
+    scaled.reserve(weights.size());
+    for (std::size_t y = 0; y < height; ++y) {
+      const double angle =
+          2 * std::sin(pi<double> * (static_cast<double>(y) + 0.5) / h) * std::sin(pi<double> / (2 * h));
+      for (std::size_t x = 0; x < width; ++x) scaled.push_back(weights[y * width + x] / largest * angle);
     }
     return TableDist2D(scaled, width, height);
   }
@@ -99,7 +102,8 @@ template <Real S> class TableDist2D {
     std::vector<double> sums;
   };
 
-  static RowsWithSums make_rows(std::span<const double> weights, std::size_t width, std::size_t height) {
+  // Checks them all.
+  static double largest_of(std::span<const double> weights, std::size_t width, std::size_t height) {
     require(width > 0 && height > 0 && weights.size() == width * height,
             "TableDist2D: {} weights for {}x{} cells; {} are needed", weights.size(), width, height, width * height);
     double largest = 0;
@@ -110,6 +114,11 @@ template <Real S> class TableDist2D {
       largest = std::max(largest, weights[i]);
     }
     require(largest > 0, "TableDist2D: all {} weights are 0; at least one must be > 0", weights.size());
+    return largest;
+  }
+
+  static RowsWithSums make_rows(std::span<const double> weights, std::size_t width, std::size_t height) {
+    const double largest = largest_of(weights, width, height);
     // A power of two near 1 / largest: row sums neither overflow nor sink below the denormals.
     int exponent;
     std::frexp(largest, &exponent);

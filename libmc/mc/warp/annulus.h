@@ -25,7 +25,7 @@ template <Real S> struct UniformAnnulus {
   Domain domain() const { return ring; }
   Vec2<S> sample(const Vec2<S>& u) const { return ring.from_unit(u); }
   S pdf(const Vec2<S>& p) const { return ring.contains(p) ? S(1 / ring.area()) : S(0); }
-  Vec2<S> invert(const Vec2<S>& p) const { return ring.to_unit(p); }
+  Vec2<S> invert(const Vec2<S>& p) const { return within_unit<S, 2>(ring.to_unit(p)); }
   template <Real T> UniformAnnulus<T> cast() const { return {T(ring.inner), T(ring.outer)}; }
 };
 

@@ -42,8 +42,8 @@ template <Real S> class BeckmannNormals {
     return S(exp(S(-r2(m)))) / (pi<S> * (alpha_x_ * m.z()) * (alpha_y_ * m.z()) * m.z());
   }
   Vec2<S> invert(const Vec3<S>& m) const {
-    using std::expm1, std::min;
-    return {min(S(-S(expm1(S(-r2(m))))), one_minus_epsilon<S>), turn<S>(m.x() / alpha_x_, m.y() / alpha_y_)};
+    using std::expm1;
+    return {within_unit<S>(-S(expm1(S(-r2(m))))), turn<S>(m.x() / alpha_x_, m.y() / alpha_y_)};
   }
   template <Real T> BeckmannNormals<T> cast() const { return {T(alpha_x_), T(alpha_y_)}; }
 

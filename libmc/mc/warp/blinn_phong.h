@@ -38,9 +38,9 @@ template <Real S> class BlinnPhong {
     return w.z() > 0 ? S((n_ + 1) / (2 * pi<S>)*S(exp(S(n_ * log_z(w))))) : S(0);
   }
   Vec2<S> invert(const Vec3<S>& w) const {
-    using std::expm1, std::max, std::min;
+    using std::expm1;
     const S u = w.z() > 0 ? S(-S(expm1(S((n_ + 1) * log_z(w))))) : S(1);
-    return {min(max(u, S(0)), one_minus_epsilon<S>), turn<S>(w.x(), w.y())};
+    return {within_unit(u), turn<S>(w.x(), w.y())};
   }
   template <Real T> BlinnPhong<T> cast() const { return BlinnPhong<T>(T(n_)); }
 

@@ -21,7 +21,8 @@ concept Warp = Domain<typename W::Domain> &&
   {w.template cast<double>()};
 };
 
-/// A bijective warp: invert(sample(u)) = u up to the bound in the warp's contract, hence |det d sample / d u| pdf = 1.
+/// A bijective warp: invert(sample(u)) = u up to the bound in the warp's contract, hence |det d sample / d u| pdf = 1,
+/// and invert(x) lies in [0,1)^dim for every x of the domain.
 template <class W>
 concept InvertibleWarp = Warp<W> && requires(const W w, typename W::Domain::Point x) {
   { w.invert(x) } -> std::convertible_to<typename W::Domain::UnitPoint>;

@@ -39,7 +39,7 @@ template <Real S> struct Exponential {
   }
   S invert(S x) const {
     using std::expm1;
-    return -S(expm1(S(-rate * x)));
+    return within_unit<S>(-S(expm1(S(-rate * x))));
   }
   template <Real T> Exponential<T> cast() const { return Exponential<T>(T(rate)); }
 };
@@ -88,9 +88,9 @@ template <Real S> struct TrimmedExponential {
   S invert(S x) const {
     using std::expm1;
     const S a = magnitude(), k = a * length;
-    if (flat(k)) return x / length;
+    if (flat(k)) return within_unit<S>(x / length);
     const S v = S(expm1(S(-a * from_dense_end(x)))) / S(expm1(S(-k)));
-    return rate < 0 ? S(1 - v) : v;
+    return within_unit(rate < 0 ? S(1 - v) : v);
   }
   template <Real T> TrimmedExponential<T> cast() const { return {T(rate), T(length)}; }
 

@@ -49,9 +49,9 @@ template <Real S> class HenyeyGreenstein {
     return scale_ / d / S(sqrt(d)); // d^(3/2) itself may underflow
   }
   Vec2<S> invert(const Vec3<S>& w) const {
-    using std::min, std::sqrt;
+    using std::sqrt;
     const S t = from_pole(w), q = sqrt(S(h_ * h_ + 2 * g_ * t));
-    return {min(S((1 + g_) * t / (q * (q + h_))), one_minus_epsilon<S>), turn<S>(w.x(), w.y())};
+    return {within_unit<S>((1 + g_) * t / (q * (q + h_))), turn<S>(w.x(), w.y())};
   }
   S one_minus_abs_g() const { return h_; }
   template <Real T> HenyeyGreenstein<T> cast() const { return HenyeyGreenstein<T>(T(h_), front_ < 0); }

@@ -38,7 +38,7 @@ template <Real S> struct IsotropicNormal {
   }
   Vec2<S> invert(const Vec2<S>& p) const {
     using std::expm1;
-    return {-S(expm1(S(-half_square(p)))), turn<S>(p.x(), p.y())};
+    return {within_unit<S>(-S(expm1(S(-half_square(p))))), turn<S>(p.x(), p.y())};
   }
   template <Real T> IsotropicNormal<T> cast() const { return IsotropicNormal<T>(T(sigma)); }
 

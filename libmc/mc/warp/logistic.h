@@ -59,7 +59,7 @@ template <Real S> struct Logistic {
     return mean + scale * S(log(S(v / (1 - v))));
   }
   S pdf(S x) const { return detail::logistic_density<S>((x - mean) / scale) / scale; }
-  S invert(S x) const { return detail::sigmoid<S>((x - mean) / scale); }
+  S invert(S x) const { return within_unit(detail::sigmoid<S>((x - mean) / scale)); }
   template <Real T> Logistic<T> cast() const { return {T(mean), T(scale)}; }
 };
 
@@ -105,8 +105,8 @@ template <Real S> struct TrimmedLogistic {
   S pdf(S x) const { return x >= lo && x <= hi ? S(detail::logistic_density<S>(x / scale) / mass() / scale) : S(0); }
   S invert(S x) const {
     using std::expm1;
-    return detail::sigmoid<S>(x / scale) / detail::sigmoid<S>(hi / scale) *
-           (S(expm1(S((lo - x) / scale))) / S(expm1(S((lo - hi) / scale))));
+    return within_unit<S>(detail::sigmoid<S>(x / scale) / detail::sigmoid<S>(hi / scale) *
+                          (S(expm1(S((lo - x) / scale))) / S(expm1(S((lo - hi) / scale)))));
   }
   template <Real T> TrimmedLogistic<T> cast() const { return {T(scale), T(lo), T(hi)}; }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <tuple>
 
 namespace mc {
@@ -35,14 +36,18 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
     }
     require(largest > 0, "Mixture: all {} weights are 0; at least one must be > 0", size);
     // Relative to the largest first: the sum of weights near the largest number would overflow.
-    for (Scalar& w : weights_) sum += w /= largest;
+    using Limits = std::numeric_limits<Scalar>;
+    for (Scalar& w : weights_) {
+      w /= largest;
+      if (w < Limits::min() / Limits::epsilon()) w = Scalar(0);
+      sum += w;
+    }
     for (Scalar& w : weights_) w /= sum;
   }
 
   Domain domain() const { return std::get<0>(warps_).domain(); }
 
   typename Domain::Point sample(typename Domain::UnitPoint u) const {
-    using std::max, std::min;
     Scalar& uc = first_of(u);
     // The last component with a positive weight takes what rounding leaves.
     std::size_t last = size - 1;
@@ -51,7 +56,7 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
     Scalar below(0);
     while (i < last && !(uc < below + weights_[i])) below += weights_[i++];
     while (weights_[i] == 0) ++i;
-    uc = min(max(Scalar((uc - below) / weights_[i]), Scalar(0)), one_minus_epsilon<Scalar>);
+    uc = within_unit<Scalar>((uc - below) / weights_[i]);
     return sample_component(i, u, std::make_index_sequence<size>());
   }
 

@@ -9,7 +9,7 @@ namespace mc {
 
 /// Normal distribution on the real line, by its inverse CDF, so that strata of u stay strata of x.
 ///   sample : x = mean - sigma sqrt(2) erfc^-1(2 u); u = 0 stands for half its step, so x is finite
-///   pdf    : exp(-t^2 / 2) / (sigma sqrt(2 pi)), t = (x - mean) / sigma [1/length]. Relative error (1 + t^2) eps: the
+///   pdf    : exp(-t^2 / 2) / (sigma sqrt(2 pi)), t = (x - mean) / sigma [1/length]. Relative error (2 + t^2) eps: the
 ///            density in the tail is ill-conditioned in x
 ///   invert : |invert(sample(u)) - u| <= 16 eps for mean = 0
 ///   throws : Error unless mean is finite and sigma passes is_scale
@@ -44,7 +44,7 @@ template <Real S> struct Normal {
   }
   S invert(S x) const {
     using std::sqrt;
-    return S(erfc(S((mean - x) / (sigma * S(sqrt(S(2))))))) / 2;
+    return within_unit<S>(S(erfc(S((mean - x) / (sigma * S(sqrt(S(2))))))) / 2);
   }
   template <Real T> Normal<T> cast() const { return {T(mean), T(sigma)}; }
 };

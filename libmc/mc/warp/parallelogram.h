@@ -21,7 +21,7 @@ template <Real S> struct UniformParallelogram {
   Domain domain() const { return shape; }
   Vec3<S> sample(const Vec2<S>& u) const { return shape.from_unit(u); }
   S pdf(const Vec3<S>& x) const { return shape.contains(x) ? S(1 / shape.area()) : S(0); }
-  Vec2<S> invert(const Vec3<S>& x) const { return shape.to_unit(x); }
+  Vec2<S> invert(const Vec3<S>& x) const { return within_unit<S, 2>(shape.to_unit(x)); }
   template <Real T> UniformParallelogram<T> cast() const { return {shape.template cast<T>()}; }
 };
 

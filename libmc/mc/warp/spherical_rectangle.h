@@ -10,7 +10,8 @@ namespace mc {
 ///   sample    : arcs from the corner sweep the patch, first the half between edge1 and the diagonal, then the other;
 ///               u0 is the share of the solid angle swept, along the arc 1 - cosine to the corner grows like u1.
 ///               Continuous in u
-///   pdf       : 1 / solid angle [1/sr], relative error as SphericalTriangle; 0 outside
+///   pdf       : 1 / solid angle [1/sr], relative error as SphericalTriangle, in double times the flatness once more:
+///               the corner across is itself rounded; 0 outside
 ///   invert    : as SphericalTriangle
 ///   throws    : Error unless corner and edges span a finite volume > 0
 ///   Source    : a fan of two [Arvo95] triangles in the closed form of spherical_triangle.h. Rejected by measurement

@@ -64,13 +64,13 @@ template <Real S> struct SphericalTriangleMap {
   }
 
   Vec2<S> invert(const Vec3<S>& w) const {
-    using std::atan2, std::max, std::min;
+    using std::atan2, std::max;
     const S x = w.dot(toward_a), y = max(S(w.dot(inward)), S(0));
     if (!(x != 0 || y > 0)) return {S(0), S(0)};
     const Arc<S> turn = Arc<S>::of(x, y), end = across(turn);
     const HalfExcess<S> half(side, end, turn.sin, turn.cos);
     const S part = 2 * S(atan2(half.sin, half.cos)) / angle, u1 = (w - b).squaredNorm() / 2 / end.far;
-    return {min(part, one_minus_epsilon<S>), min(u1, one_minus_epsilon<S>)};
+    return {within_unit(part), within_unit(u1)};
   }
 
  private:
@@ -129,7 +129,8 @@ template <Real S> struct SphericalTriangleMap {
 ///               over the plane, plus the longest edge over the height of the triangle on it. Float is computed in
 ///               double and keeps its 32 eps up to a flatness of 1e4, beyond which they grow like its square
 ///   pdf       : 1 / solid angle [1/sr], relative error 16 eps likewise; 0 outside
-///   invert    : |invert(sample(u)) - u| <= 64 eps / (shortest angular edge * sqrt(u1)): a unit vector holds no more
+///   invert    : |invert(sample(u)) - u| <= 64 eps / (shortest angular edge * sqrt(u1)) for a flatness up to 20: a unit
+///               vector holds no more. Flatter ones seen nearly edge-on lose more, by no bound that is known
 ///   throws    : Error unless a, ab, ac span a finite volume > 0
 ///   Source    : [Arvo95], by half the excess as in [VanOosteromStrackee83] instead of angles whose excess over pi
 ///               cancels below 1e-3 sr, and by the angle at b instead of the point on the far side, which lies

@@ -44,7 +44,7 @@ template <Real S> struct Tent {
   S invert(S x) const {
     using std::abs;
     const S t = 1 - S(abs(S(x - center))) / radius, tail = t * t / 2;
-    return x < center ? tail : S(1 - tail);
+    return within_unit(x < center ? tail : S(1 - tail));
   }
   template <Real T> Tent<T> cast() const { return {T(center), T(radius)}; }
 };

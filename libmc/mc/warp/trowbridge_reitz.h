@@ -61,8 +61,8 @@ template <Real S> class TrowbridgeReitzNormals {
 ///            0 for every u
 ///   pdf    : 2 D(m) wo.m / (wo_z + |stretched wo|) [1/sr]: finite on the horizon. Relative error 16 eps, because wo.m
 ///            is computed without cancellation; but as a function of a rounded m it is ill-conditioned by 1 / wo.m
-///   invert : |invert(sample(u)) - u| <= 16 eps / sin(angle between c and z), the azimuth being loose near the pole of
-///            the cap
+///   invert : |invert(sample(u)) - u| <= 8 eps max(1, 2 / |h|) / sin(angle between c and z): the azimuth is loose near
+///            the pole of the cap, and the normal of grazing facets near c = -w
 ///   throws : Error unless both roughnesses lie in [1e-6, 1e3] and wo is a unit vector with wo_z >= 0
 ///   Source : [DupuyBenyoub23]; the density of [Heitz18]
 template <Real S> class TrowbridgeReitzVisibleNormals {
@@ -103,11 +103,10 @@ template <Real S> class TrowbridgeReitzVisibleNormals {
   S pdf_reflected(const Vec3<S>& m) const { return m.z() > 0 && wo_.dot(m) > 0 ? S(scale_ / 4 * surface_.d(m)) : S(0); }
 
   Vec2<S> invert(const Vec3<S>& m) const {
-    using std::max, std::min;
     const Vec3<S> n = surface_.unstretch(m).normalized();
     const S twice = 2 * accurate_dot(w_, n);
     const S u1 = 1 - twice * n.z() / (1 + w_.z());
-    return {turn<S>(twice * n.x() - w_.x(), twice * n.y() - w_.y()), min(max(u1, S(0)), one_minus_epsilon<S>)};
+    return {turn<S>(twice * n.x() - w_.x(), twice * n.y() - w_.y()), within_unit(u1)};
   }
 
   const Vec3<S>& wo() const { return wo_; }

@@ -29,7 +29,7 @@ template <Real S> struct UniformInterval {
   Domain domain() const { return interval; }
   S sample(S u) const { return interval.lo + u * (interval.hi - interval.lo); }
   S pdf(S x) const { return interval.contains(x) ? S(1 / interval.jacobian(x)) : S(0); }
-  S invert(S x) const { return interval.to_unit(x); }
+  S invert(S x) const { return within_unit<S>(interval.to_unit(x)); }
   template <Real T> UniformInterval<T> cast() const { return {T(interval.lo), T(interval.hi)}; }
 };
 
@@ -57,7 +57,7 @@ template <Real S, int N> struct UniformBox {
   Domain domain() const { return box; }
   Point sample(const Point& u) const { return box.lo + u.cwiseProduct(box.hi - box.lo); }
   S pdf(const Point& x) const { return box.contains(x) ? S(1 / box.jacobian(x)) : S(0); }
-  Point invert(const Point& x) const { return box.to_unit(x); }
+  Point invert(const Point& x) const { return within_unit<S, N>(box.to_unit(x)); }
   template <Real T> UniformBox<T, N> cast() const { return {cast_point<T>(box.lo), cast_point<T>(box.hi)}; }
 };
 

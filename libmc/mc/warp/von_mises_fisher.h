@@ -58,10 +58,10 @@ template <Real S> class VonMisesFisher {
     return peak_ * S(exp(S(-kappa_ * one_minus_z(w))));
   }
   Vec2<S> invert(const Vec3<S>& w) const {
-    using std::expm1, std::min;
+    using std::expm1;
     const S t = one_minus_z(w);
     const S u = mass_ > 0 ? S(-S(expm1(S(-kappa_ * t))) / mass_) : S(t / 2);
-    return {min(u, one_minus_epsilon<S>), turn<S>(w.x(), w.y())};
+    return {within_unit(u), turn<S>(w.x(), w.y())};
   }
   S kappa() const { return kappa_; }
   template <Real T> VonMisesFisher<T> cast() const { return VonMisesFisher<T>(T(kappa_)); }

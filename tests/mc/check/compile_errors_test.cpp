@@ -52,6 +52,19 @@ struct Mine {
 const mc::Report report = mc::check_laws(Mine{});
 )";
 
+constexpr const char* domain_without_const = R"(#include <mc/check/laws.h>
+struct MyDomain : mc::Interval<double> {
+  bool contains(double x) { return x >= 0 && x < 1; }
+};
+struct Mine {
+  using Domain = MyDomain;
+  Domain domain() const { return {}; }
+  double sample(double u) const { return u; }
+  double pdf(double) const { return 1; }
+};
+const mc::Report report = mc::check_laws(Mine{});
+)";
+
 constexpr const char* generator_in_a_lambda = R"(#include <mc/gtest/matchers.h>
 #include <random>
 const auto sampler = [](std::mt19937& g) { return std::generate_canonical<double, 53>(g); };
@@ -80,6 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongProgram{"BsdfWithoutPdfInATest", test_of_it.c_str(),
                                  "a BSDF needs pdf(wo, wi) const, a number"},
                     WrongProgram{"GeneratorInAWarp", generator_in_a_warp, "sample(u) const must take u"},
+                    WrongProgram{"DomainWithoutConst", domain_without_const, "const from_unit, to_unit, jacobian"},
                     WrongProgram{"GeneratorInALambda", generator_in_a_lambda, "the sampler must take u"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });
 

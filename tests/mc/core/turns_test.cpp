@@ -100,4 +100,12 @@ TEST(Turns, TurnIsWithinTwoUlpsOfFiftyDigits) {
 }
 
 } // namespace
+TEST(Turns, TheOriginHasTheAzimuthZero) {
+  for (const double x : {0.0, -0.0})
+    for (const double y : {0.0, -0.0}) {
+      EXPECT_EQ(mc::turn(x, y), 0);
+      EXPECT_FALSE(std::signbit(mc::turn(x, y)));
+    }
+}
+
 } // namespace mc

@@ -177,4 +177,21 @@ TEST(MultipleImportance, RefusesNonsense) {
   EXPECT_THROW(make(1, NAN), mc::Error);
 }
 
+TEST(MultipleImportance, CountsBeyondTheScalar) {
+  using Cosine = mc::CosineHemisphere<float>;
+  const auto of = [](float a, float b) {
+    return mc::MultipleImportance(std::array{a, b}, mc::Heuristic<float>::balance(), Cosine(), Cosine());
+  };
+  EXPECT_THROW(of(3e38f, 3e38f), mc::Error);
+  // A float that counts in steps of 1 stands still at 2^24.
+  std::uint64_t asked = 0;
+  of(17'000'000, 0)
+      .multi_sample([](const auto&) { return 0.0; },
+                    [&] {
+                      ++asked;
+                      return mc::Vec2<float>(0.5f, 0.5f);
+                    });
+  EXPECT_EQ(asked, 17'000'000u);
+}
+
 } // namespace

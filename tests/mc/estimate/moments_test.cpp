@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 namespace {
 
@@ -84,6 +85,18 @@ TEST(Moments, OneValueHasNoError) {
   mc::Moments m;
   m.add(1);
   EXPECT_THROW(m.estimate(), mc::Error);
+}
+
+TEST(Moments, LargeNumbersMergeIntoNone) {
+  const std::vector<double> large(3, 1e160);
+  mc::Moments block, merged, one_by_one;
+  block.add(large, 0);
+  for (const double x : large) one_by_one.add(x);
+  merged.merge(one_by_one);
+  for (const mc::Moments* m : {&block, &merged}) {
+    EXPECT_EQ(m->mean(), 1e160);
+    EXPECT_EQ(m->variance(), 0);
+  }
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace {
@@ -52,6 +53,12 @@ TEST(Splitting, WholeNumbersAreCertain) {
 TEST(Splitting, RefusesWhatWouldBiasOrNeverEnd) {
   for (const double n : {0.0, -1.0, 2e6, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(mc::split(n, 0.5), mc::Error) << n;
+}
+
+TEST(RussianRoulette, RefusesWhatHasNoInverse) {
+  EXPECT_THROW(mc::russian_roulette(1e-40f, 0.0f), mc::Error);
+  EXPECT_THROW(mc::split(1e-40f, 0.0f), mc::Error);
+  EXPECT_TRUE(std::isfinite(mc::russian_roulette(2e-38f, 0.0f).weight));
 }
 
 } // namespace

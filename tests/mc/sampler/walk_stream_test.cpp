@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 namespace {
@@ -73,5 +74,19 @@ TEST(WalkStreamPairs, BranchesOfSobolFillCells) { branches_fill_cells<SobolWalk<
 TEST(WalkStreamPairs, BranchesOfStratifiedFillCells) { branches_fill_cells<StratifiedWalk<float>>(); }
 TEST(WalkStreamPairs, SobolFillsCells) { fills_cells<SobolWalk<float>>(); }
 TEST(WalkStreamPairs, StratifiedFillsCells) { fills_cells<StratifiedWalk<float>>(); }
+
+// Sets that no index can count are left for independent numbers.
+TEST(WalkStreamPairs, BranchesBeyondAllCountsAreIndependent) {
+  const mc::StratifiedPairs points(1, 70'000);
+  const StratifiedWalk<float> walk(points, 69'999);
+  double sum = 0;
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    StratifiedWalk<float> branch = walk.branch(i, 256).branch(3, 256);
+    const mc::Vec2<float> u = branch.next2();
+    EXPECT_TRUE(u.minCoeff() >= 0 && u.maxCoeff() < 1);
+    sum += static_cast<double>(u.x());
+  }
+  EXPECT_NEAR(sum / 256, 0.5, 5 / std::sqrt(12 * 256.0));
+}
 
 } // namespace

@@ -119,4 +119,29 @@ TEST(BoxTree, RefusesNonsense) {
                mc::Error);
 }
 
+// On either side of a plane.
+TEST(BoxTree, SmallWeightsKeepAProbability) {
+  for (const double tiny : {1e-15, 1e-17, 1e-50, 1e-300})
+    for (const bool above : {false, true}) {
+      const std::vector<TreeNode> nodes = {
+          {0, 0.5}, {TreeNode::leaf, above ? 1 : tiny}, {TreeNode::leaf, above ? tiny : 1}};
+      const BoxTree tree(1, nodes);
+      const double p = tree.density(above ? 1 : 0) / 2;
+      EXPECT_NEAR(p, tiny, 0x1p-52) << tiny;
+      EXPECT_GE(p, 0x1p-53) << tiny;
+    }
+}
+
+TEST(BoxTree, OfAFunctionInAnyUnit) {
+  const auto tree = [](double unit) {
+    return BoxTree::from_function(
+        2, [unit](std::span<const double> x) { return unit * (x[0] * x[1] + 0.1); }, 64);
+  };
+  const BoxTree one = tree(1);
+  for (const double unit : {0x1p-700, 0x1p-300, 0x1p300, 0x1p900}) {
+    const BoxTree other = tree(unit);
+    for (std::size_t leaf = 0; leaf < 64; ++leaf) EXPECT_EQ(other.density(leaf), one.density(leaf)) << unit;
+  }
+}
+
 } // namespace

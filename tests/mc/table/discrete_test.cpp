@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace mc {
 namespace {
 
@@ -89,4 +91,14 @@ TEST(Discrete, RefusesNonsense) {
 }
 
 } // namespace
+TEST(ShortDiscrete, WeightsFarApartAndDenormal) {
+  const mc::ShortDiscrete<float, 2> apart(std::array{1e-32f, 1e32f});
+  EXPECT_EQ(apart.sample_index(0.0f).index, 1u);
+  EXPECT_EQ(apart.pmf(0), 0);
+  const mc::ShortDiscrete<double, 2> denormal(std::array{5e-324, 5e-324});
+  EXPECT_EQ(denormal.sample_index(0.499).index, 0u);
+  EXPECT_EQ(denormal.sample_index(0.5).index, 1u);
+  EXPECT_EQ(denormal.pmf(0), 0.5);
+}
+
 } // namespace mc

@@ -1,3 +1,5 @@
+#include <mc/core/error.h>
+#include <mc/random/pcg.h>
 #include <mc/random/uniform.h>
 #include <mc/table/table_dist_1d.h>
 #include <mc/warp/concept.h>
@@ -71,6 +73,36 @@ TEST(TableDist1D, FromFunctionAndCast) {
   const auto table = mc::TableDist1D<double>::from_function([](double x) { return x; }, 4, {0, 4});
   EXPECT_DOUBLE_EQ(table.pmf(3), 3.5 / 8);
   EXPECT_EQ(table.cast<float>().pdf(3.5f), static_cast<float>(table.pdf(3.5)));
+}
+
+// 1 - v and v both round, so that their sum may fall below lo.
+TEST(TableDist1D, SamplesStayInTheInterval) {
+  std::vector<double> weights(100'000, 1e-12);
+  weights[0] = 1;
+  const mc::TableDist1D<double> table(weights, mc::Interval<double>(1100, 1200));
+  for (int k = 0; k < 2'000'000; k += 7) {
+    const double x = table.sample(k * 0x1p-53);
+    ASSERT_GE(x, 1100) << k;
+    ASSERT_GT(table.pdf(x), 0) << k;
+  }
+}
+
+TEST(TableDist1D, InverseLiesBelowOne) {
+  const mc::TableDist1D<float> table(std::vector<double>{1, 2, 3, 4}, mc::Interval<float>(1000, 1001));
+  mc::Pcg random(1);
+  for (int k = 0; k < 100'000; ++k) {
+    const float u = table.invert(table.sample(random.uniform<float>()));
+    ASSERT_GE(u, 0);
+    ASSERT_LT(u, 1);
+  }
+  EXPECT_LT(table.invert(1001), 1);
+  EXPECT_LT(table.sample_index(table.invert(1001)).index, 4u);
+}
+
+TEST(TableDist1D, RefusesAnIntervalThatTheScalarCannotMeasure) {
+  const std::vector<double> weights{1, 2};
+  EXPECT_THROW(mc::TableDist1D<float>(weights, mc::Interval<float>(0, 1e-40f)), mc::Error);
+  EXPECT_THROW(mc::TableDist1D<float>(weights, mc::Interval<float>(0, 3e38f)), mc::Error);
 }
 
 } // namespace

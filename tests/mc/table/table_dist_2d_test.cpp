@@ -2,6 +2,9 @@
 #include <mc/table/table_dist_2d.h>
 #include <mc/warp/concept.h>
 
+#include <support/files.h>
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace {
@@ -80,6 +83,25 @@ TEST(TableDist2D, RejectsNonsense) {
   EXPECT_THROW(make({1, std::nan("")}, 2, 1), mc::Error);
   EXPECT_THROW(make({1, -1}, 1, 2), mc::Error);
   EXPECT_THROW(mc::TableDist2D<double>::from_lat_long({}, 4, 0), mc::Error);
+}
+
+TEST(TableDist2D, InverseLiesBelowOneUpToTheEdge) {
+  const mc::TableDist2D<double> table(std::vector<double>{1, 2, 3, 4}, 2, 2);
+  for (const mc::Vec2<double>& p : {mc::Vec2<double>(0.3, 1), mc::Vec2<double>(1, 0.3), mc::Vec2<double>(1, 1)}) {
+    const mc::Vec2<double> u = table.invert(p);
+    EXPECT_LT(u.maxCoeff(), 1);
+    EXPECT_GT(table.pdf(table.sample(u)), 0);
+  }
+}
+
+// What is refused is what was given, not what became of it.
+TEST(TableDist2D, LatLongNamesTheWeightsThatItGot) {
+  const auto refusal = [](const std::vector<double>& weights, std::size_t width, std::size_t height) {
+    return support::error_of([&] { mc::TableDist2D<double>::from_lat_long(weights, width, height); });
+  };
+  EXPECT_THAT(refusal({1, -1, 1, 1}, 2, 2), testing::HasSubstr("weights[1] = -1 (column 1, row 0)"));
+  EXPECT_EQ(refusal({1.5e308, 1}, 2, 1), "");
+  EXPECT_EQ(refusal(std::vector<double>(200, 5e-324), 2, 100), "");
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/mixture.h>
 #include <mc/warp/tent.h>
+#include <mc/warp/uniform.h>
 
 #include <mc/gtest/matchers.h>
 
@@ -50,4 +51,11 @@ TEST(Mixture, RefusesNonsense) {
 }
 
 } // namespace
+// A weight that is denormal beside the largest would give samples a density of 0.
+TEST(Mixture, VanishingWeightsCountAsZero) {
+  const mc::Mixture mixture({1e-41f, 1.0f}, mc::UniformInterval<float>(0, 1e6f),
+                            mc::UniformInterval<float>(5e5f, 1e6f));
+  EXPECT_GT(mixture.pdf(mixture.sample(0.0f)), 0);
+}
+
 } // namespace mc

@@ -171,6 +171,10 @@ template <class W> struct Prober {
   void inverse(const mc::UnitPointOf<W>& u, const mc::PointOf<W>& x, double bound) {
     const mc::UnitPointOf<W> back = warp.invert(x);
     double worst = 0;
+    for (int i = 0; i < dim; ++i)
+      if (!(component(back, i) >= 0 && component(back, i) < 1)) worst = HUGE_VAL;
+    if (worst > 0)
+      return row.invert.note(worst, bound, [&] { return fmt::format("{}: inverted {}", where(u), text(back)); });
     // An end of one coordinate may be a point in the chart of another: a pole has no azimuth.
     bool end = false;
     for (int i = 0; i < dim; ++i) {

@@ -29,6 +29,7 @@ template <class W> constexpr bool has_domain = requires(const W w) {
   typename W::Domain;
   { w.domain() } -> std::convertible_to<typename W::Domain>;
 };
+template <class W> constexpr bool has_chart = requires { requires Domain<typename W::Domain>; };
 template <class W> constexpr bool samples_u = requires(const W w, typename W::Domain::UnitPoint u) { w.sample(u); };
 template <class W> constexpr bool has_pdf = requires(const W w, typename W::Domain::Point x) {
   { w.pdf(x) } -> std::convertible_to<typename W::Domain::Scalar>;
