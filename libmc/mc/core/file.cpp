@@ -155,6 +155,13 @@ void write_file(const std::string& path, std::string_view bytes) {
   else write_through(place, path, bytes);
 }
 
+std::string extension_of(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
 std::string read_file(const std::string& path) {
   std::error_code error;
   require(fs::exists(path, error), "cannot read '{}': no such file", path);

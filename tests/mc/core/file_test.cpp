@@ -43,6 +43,13 @@ TEST_F(FileTest, WritesAndReadsBack) {
   EXPECT_EQ(files(), 1u);
 }
 
+TEST_F(FileTest, ExtensionsAreInSmallLetters) {
+  EXPECT_EQ(mc::extension_of("a.b/c.tar.EXR"), ".exr");
+  EXPECT_EQ(mc::extension_of("a.b/c"), "");
+  EXPECT_EQ(mc::extension_of(""), "");
+  EXPECT_EQ(mc::extension_of("ü.Ü1"), ".Ü1");
+}
+
 TEST_F(FileTest, AFailedWriteLeavesTheOldFile) {
   const std::string path = folder / "a.txt";
   mc::write_file(path, "old");
