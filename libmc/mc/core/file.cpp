@@ -175,4 +175,10 @@ std::string read_file(const std::string& path) {
   return bytes;
 }
 
+std::string read_text(const std::string& path) {
+  std::string text = read_file(path);
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  return text;
+}
+
 } // namespace mc

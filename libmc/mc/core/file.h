@@ -34,4 +34,7 @@ std::string extension_of(const std::string& path);
 /// The whole file. Throws Error when it is missing or cannot be read.
 std::string read_file(const std::string& path);
 
+/// The same without the mark of its byte order that some programs put before text in UTF-8.
+std::string read_text(const std::string& path);
+
 } // namespace mc

@@ -123,6 +123,7 @@ MeshFile read_serialized(const std::string& path, int index) {
     mc::require(vertices <= 0xffffffff && triangles <= 0xffffffff, "{} vertices and {} triangles are too many",
                 vertices, triangles);
     MeshFile mesh;
+    mesh.without_uvs = "it has none";
     if (flags & in_double) read_attributes<double>(data, flags, vertices, mesh);
     else read_attributes<float>(data, flags, vertices, mesh);
     const auto corners = data.take<std::uint32_t>(3 * triangles);
