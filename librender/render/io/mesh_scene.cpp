@@ -78,7 +78,12 @@ SceneFile read_mesh_scene(const std::string& path) {
     builder.add(ground_below(extent, size), {builder.add(Lambert(Spectrum::Constant(Float(0.4))))});
     builder.add(Light(GradientBackground()));
     builder.set(camera_for(mesh, middle, size));
-    return SceneFile{builder.build(), {.width = 640, .height = 480, .spp = 64}, middle};
+    SceneFile file{builder.build(), {.width = 640, .height = 480, .spp = 64}, middle};
+    if (mesh.meshes > 1)
+      file.warnings.push_back(fmt::format(
+          "{}: this is mesh 0 of the {} in it; a scene shows others, by <shape type=\"serialized\"> with shapeIndex",
+          path, mesh.meshes));
+    return file;
   });
 }
 

@@ -1,4 +1,5 @@
 #include <render/io/mesh/mesh.h>
+#include <render/io/mesh_scene.h>
 
 #include <mc/core/file.h>
 #include <mc/random/pcg.h>
@@ -219,6 +220,10 @@ TEST_F(Mesh, SerializedVersionsPrecisionsAndIndices) {
       const std::string file = write("m.serialized", serialized({first, second}));
       const MeshFile mesh = read_serialized(file, 1);
       EXPECT_EQ(mesh.positions[2], Vec3d(0, 3, 0)) << version << in_double;
+      EXPECT_EQ(mesh.meshes, 2u);
+      EXPECT_EQ(read_mesh_scene(file).warnings.size(), 1u);
+      EXPECT_THAT(read_mesh_scene(file).warnings[0], HasSubstr("m.serialized: this is mesh 0 of the 2 in it"));
+      EXPECT_TRUE(read_mesh_scene(write("one.serialized", serialized({first}))).warnings.empty());
       EXPECT_EQ(mesh.normals[1], Vec3d(0, 0, 1));
       EXPECT_EQ(mesh.uvs[2], mc::Vec2<float>(0.5f, 1));
       EXPECT_EQ(read_serialized(file, 0).positions[2], Vec3d(0, 1, 0));
