@@ -132,6 +132,10 @@ std::vector<Triangle> cut_polygon(std::span<const Vec3d> corners) {
 
 void append_polygon(const std::vector<Vec3d>& positions, std::span<const std::uint32_t> polygon,
                     std::vector<Triangle>& triangles) {
+  if (polygon.size() == 3) { // most are
+    triangles.push_back({polygon[0], polygon[1], polygon[2]});
+    return;
+  }
   std::vector<Vec3d> corners;
   corners.reserve(polygon.size());
   for (const std::uint32_t i : polygon) corners.push_back(positions[i]);

@@ -200,6 +200,20 @@ TEST(Polygon, ConvexOnesAreFans) {
   }
 }
 
+TEST(Polygon, AppendsVertices) {
+  const std::vector<Vec3d> positions = {{9, 9, 9}, {0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}};
+  std::vector<std::array<std::uint32_t, 3>> triangles = {{1, 2, 3}};
+  append_polygon(positions, std::vector<std::uint32_t>{4, 3, 2}, triangles);
+  append_polygon(positions, std::vector<std::uint32_t>{2, 3, 4, 1}, triangles);
+  const std::vector<std::array<std::uint32_t, 3>> expected = {{1, 2, 3}, {4, 3, 2}, {1, 2, 3}, {1, 3, 4}};
+  ASSERT_EQ(triangles.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    std::array<std::uint32_t, 3> turned = triangles[i];
+    for (int k = 0; k < 2 && turned != expected[i]; ++k) std::rotate(turned.begin(), turned.begin() + 1, turned.end());
+    EXPECT_EQ(turned, expected[i]) << i;
+  }
+}
+
 // Without an area, crossing themselves, or beyond what a double holds: n - 2 triangles of corners that there are.
 TEST(Polygon, WhatIsNoneKeepsItsCount) {
   mc::Pcg random(4);
