@@ -7,7 +7,7 @@ packages=(
   g++ cmake ninja-build git pkg-config clang-format-14   # build
   libeigen3-dev libfmt-dev libpcg-cpp-dev      # libmc
   libboost-dev libmpfr-dev libtbb-dev libgtest-dev libgmock-dev
-  libpugixml-dev libtinyobjloader-dev zlib1g-dev libpng-dev libturbojpeg0-dev libopenexr-dev   # librender
+  libpugixml-dev zlib1g-dev libpng-dev libturbojpeg0-dev libopenexr-dev   # librender
   libcli11-dev nlohmann-json3-dev libmuparser-dev gnuplot-nox                # carlo
   "$@"
 )
@@ -15,7 +15,7 @@ packages=(
 if ! command -v dpkg-query >/dev/null; then
   cat >&2 <<'TEXT'
 bootstrap.sh: this is not a Debian system. Please install: a C++20 compiler (g++ 12 or clang 14), CMake 3.25, Ninja, git,
-Eigen 3.4, fmt 9, pcg-cpp, Boost 1.74 (headers), MPFR 4, oneTBB, GoogleTest, pugixml, tinyobjloader, zlib, libpng,
+Eigen 3.4, fmt 9, pcg-cpp, Boost 1.74 (headers), MPFR 4, oneTBB, GoogleTest, pugixml, zlib, libpng,
 libjpeg-turbo 2, OpenEXR 3, CLI11 2, nlohmann-json 3.11, muparser, gnuplot and clang-format 14; then run tools/test.sh again.
 TEXT
   exit 2

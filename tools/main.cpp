@@ -46,6 +46,11 @@ const CLI::Validator count(
 // Or else -5 would be 2^64 - 5.
 std::string negative(const std::string& text) { return text.starts_with('-') ? text + " must be >= 0" : std::string(); }
 
+// Or else -o=a.png would be a file '=a.png'.
+std::string equals_sign(const std::string& text) {
+  return text.starts_with('=') ? fmt::format("'{}' begins with =; leave that out", text) : std::string();
+}
+
 CLI::Option* add(CLI::App& app, const Option& o, bool* flag) { return app.add_flag(o.names, *flag, o.help); }
 
 CLI::Option* add(CLI::App& app, const Option& o, std::vector<std::string>* list) {
@@ -58,6 +63,7 @@ template <class T> CLI::Option* add(CLI::App& app, const Option& o, T* target) {
   CLI::Option* option = app.add_option(o.names, *target, o.help);
   if constexpr (std::integral<T> || std::same_as<T, std::optional<int>>) option->transform(count);
   if constexpr (std::unsigned_integral<T>) option->check(negative);
+  if constexpr (std::same_as<T, std::string>) option->check(equals_sign);
   if constexpr (requires { target->empty(); }) {
     if (!target->empty()) option->capture_default_str();
   } else if constexpr (!requires { target->has_value(); }) {

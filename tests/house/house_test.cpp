@@ -88,9 +88,9 @@ TEST(House, LibrariesNeverIncludeTestsBenchOrTools) {
 // A library that is costly to compile or easy to swap stands behind one .cpp of each of our libraries that needs it.
 TEST(House, EachOutsideLibraryHasOneDoor) {
   const std::map<std::string, std::string> doors = {
-      {"CLI/", "CLI11"},       {"pugixml.hpp", "pugixml"}, {"tiny_obj_loader.h", "tinyobjloader"},
-      {"OpenEXR/", "OpenEXR"}, {"Imf", "OpenEXR"},         {"turbojpeg.h", "libjpeg-turbo"},
-      {"png.h", "libpng"},     {"muParser", "muparser"}};
+      {"CLI/", "CLI11"},       {"pugixml.hpp", "pugixml"},       {"OpenEXR/", "OpenEXR"},
+      {"Imf", "OpenEXR"},      {"turbojpeg.h", "libjpeg-turbo"}, {"png.h", "libpng"},
+      {"muParser", "muparser"}};
   std::map<std::string, std::set<std::string>> users;
   for (const char* folder : {"libmc/mc", "librender/render", "tools"})
     for (const Include& i : includes(folder))

@@ -15,6 +15,7 @@
 #include <render/render.h>
 
 #include <mc/core/error.h>
+#include <mc/core/file.h>
 #include <mc/random/hash.h>
 
 #include <algorithm>
@@ -99,7 +100,7 @@ void check_output(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   mc::require(folder.empty() || std::filesystem::is_directory(folder),
               "cannot write '{}': the folder '{}' does not exist; create it first", path, folder.string());
-  const std::string extension = std::filesystem::path(path).extension().string();
+  const std::string extension = mc::extension_of(path);
   mc::require(extension == ".exr" || extension == ".pfm" || extension == ".png",
               "cannot write '{}': unknown image format '{}'; use .exr, .pfm or .png", path, extension);
 }
@@ -123,7 +124,7 @@ std::vector<Option> rows(RenderOptions& o) {
        "pixels one sample carries over half of the variance, so that their errors are not known yet",
        false,
        {"--spp", "--time"}},
-      {"--error-of", "WHAT", &o.error_of,
+      {"--error-of", "picture|worst", &o.error_of,
        "The error that counts: of the picture, or of its worst 16x16 block [picture]"},
       {"--adaptive", "on|off", &o.adaptive,
        "Samples where the error is, as a first quarter has seen it, or evenly [off with --spp, else on]"},
@@ -165,7 +166,7 @@ std::vector<Option> rows(RenderOptions& o) {
   };
 }
 
-bool is(const std::string& path, const char* extension) { return std::filesystem::path(path).extension() == extension; }
+bool is(const std::string& path, const char* extension) { return mc::extension_of(path) == extension; }
 
 // How a PNG is made, but for an exposure that the picture decides.
 ::render::Tone tone_of(const RenderOptions& options, const GalleryScene* named) {
@@ -351,7 +352,8 @@ int render(const RenderOptions& options) {
 
   fmt::print("{}: {}", output, summary_of(result, options.target_error));
   if (begun)
-    fmt::print("with what was there: {:.4g} samples/pixel of {} runs\n", begun->spp + result.spp, begun->runs + 1);
+    fmt::print("with what was there: {:.4g} samples/pixel of {} runs{}\n", begun->spp + result.spp, begun->runs + 1,
+               result.image.variance.empty() ? ", without an error bar: one of them, of one sample, has none" : "");
   return result.partial ? exit_interrupted : exit_ok;
 }
 

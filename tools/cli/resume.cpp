@@ -58,6 +58,9 @@ PictureOf picture_of(const std::string& file, const std::string& dialect, std::v
 }
 
 Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part) {
+  mc::require(mc::extension_of(path) == ".exr",
+              "--resume: '{}' is no .exr: other files do not keep radiance with its variance; go on with an .exr",
+              path);
   mc::require(std::filesystem::exists(path), "--resume: there is no '{}'; leave --resume out the first time", path);
   Begun begun{::render::read_image(path), 0, 1};
   const auto text = [&](const char* key) {

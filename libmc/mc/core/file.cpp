@@ -155,6 +155,13 @@ void write_file(const std::string& path, std::string_view bytes) {
   else write_through(place, path, bytes);
 }
 
+std::string extension_of(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  for (char& c : extension)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return extension;
+}
+
 std::string read_file(const std::string& path) {
   std::error_code error;
   require(fs::exists(path, error), "cannot read '{}': no such file", path);
@@ -166,6 +173,12 @@ std::string read_file(const std::string& path) {
   for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, file.get())) > 0;) bytes.append(buffer, n);
   require(!std::ferror(file.get()), "cannot read '{}': {}", path, std::strerror(errno));
   return bytes;
+}
+
+std::string read_text(const std::string& path) {
+  std::string text = read_file(path);
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  return text;
 }
 
 } // namespace mc

@@ -28,7 +28,13 @@ void require_writable(const std::string& path);
 ///   throws  : Error where it cannot be made, or where `first_file` could not be written in it
 std::filesystem::path output_folder(const std::string& name, const std::string& first_file);
 
+/// ".exr" of "a/b.EXR": the last dot of the name and what follows, in small letters; "" where there is none.
+std::string extension_of(const std::string& path);
+
 /// The whole file. Throws Error when it is missing or cannot be read.
 std::string read_file(const std::string& path);
+
+/// The same without the mark of its byte order that some programs put before text in UTF-8.
+std::string read_text(const std::string& path);
 
 } // namespace mc

@@ -4,9 +4,7 @@
 #include <mc/core/error.h>
 #include <mc/core/file.h>
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <vector>
 
@@ -35,15 +33,8 @@ constexpr std::array<Format, 6> known_formats = {{
     {".jpeg", formats::read_jpeg, nullptr},
 }};
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 template <class Can> const Format& format_of(const std::string& path, std::string_view verb, const Can& can) {
-  const std::string extension = extension_of(path);
+  const std::string extension = mc::extension_of(path);
   std::vector<std::string_view> usable;
   for (const Format& f : known_formats) {
     if (!can(f)) continue;

@@ -3,7 +3,7 @@
 #include <render/io/mesh/mesh.h>
 #include <render/scene/builder.h>
 
-#include <filesystem>
+#include <mc/core/file.h>
 
 namespace render {
 
@@ -13,7 +13,7 @@ constexpr double fov = 35;      // degrees, along the smaller side of the film
 constexpr double margin = 0.95; // share of the picture, from its middle, that the mesh fills at most
 
 MeshFile read_mesh(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
+  const std::string extension = mc::extension_of(path);
   if (extension == ".obj") return read_obj(path);
   if (extension == ".ply") return read_ply(path);
   return read_serialized(path, 0);
@@ -62,7 +62,7 @@ Shape ground_below(const Extent& extent, double size) {
 } // namespace
 
 bool is_mesh_file(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
+  const std::string extension = mc::extension_of(path);
   return extension == ".obj" || extension == ".ply" || extension == ".serialized";
 }
 
@@ -78,7 +78,12 @@ SceneFile read_mesh_scene(const std::string& path) {
     builder.add(ground_below(extent, size), {builder.add(Lambert(Spectrum::Constant(Float(0.4))))});
     builder.add(Light(GradientBackground()));
     builder.set(camera_for(mesh, middle, size));
-    return SceneFile{builder.build(), {.width = 640, .height = 480, .spp = 64}, middle};
+    SceneFile file{builder.build(), {.width = 640, .height = 480, .spp = 64}, middle};
+    if (mesh.meshes > 1)
+      file.warnings.push_back(fmt::format(
+          "{}: this is mesh 0 of the {} in it; a scene shows others, by <shape type=\"serialized\"> with shapeIndex",
+          path, mesh.meshes));
+    return file;
   });
 }
 

@@ -72,10 +72,11 @@ class Reader {
   }
 
   void shape(const XmlElement& e) {
+    for (const XmlElement& child : e.children) context_.resolve(child, "bsdf");
     CoveredShape s = read_plugin(shape_plugins(), e, context_);
     const BsdfId bsdf = s.bsdf ? *s.bsdf : context_.default_bsdf();
     mc::with_context(e.where(), [&] {
-      context_.builder.add(std::move(s.shape), {bsdf, s.emission, s.guide, s.interior});
+      context_.builder.add(std::move(s.shape), {bsdf, s.emission, s.guide, s.interior, s.without_uvs});
     });
   }
 

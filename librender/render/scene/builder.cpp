@@ -17,8 +17,8 @@ void SceneBuilder::add(Shape shape, const Cover& cover) {
   mc::require(bsdf < materials_.size(), "scene: shape {} names BSDF {} of {}", surfaces_.size(), bsdf,
               materials_.size());
   const bool textured = materials_[bsdf].needs_uv();
-  mc::require(!textured || shape.has_uv(), "scene: shape {} has no texture coordinates, which its texture needs",
-              surfaces_.size());
+  mc::require(!textured || shape.has_uv(), "scene: shape {} has no texture coordinates, which its texture needs{}{}",
+              surfaces_.size(), cover.without_uvs.empty() ? "" : ": ", cover.without_uvs);
   mc::require(!cover.emission || !materials_[bsdf].mask,
               "scene: shape {} shines through a mask, which is not supported; remove one of them", surfaces_.size());
   mc::require(

@@ -16,6 +16,7 @@ class SceneBuilder {
     std::optional<Emission> emission = {};
     bool guide = false; ///< see Surface
     std::optional<HomogeneousMedium> interior = {};
+    std::string without_uvs = {}; ///< why the shape has no texture coordinates, for messages
   };
   /// throws : Error for a BSDF that was not added, a texture on a shape that has no texture coordinates, a mask on one
   ///          that shines, or what AreaLight refuses

@@ -43,6 +43,23 @@ TEST_F(FileTest, WritesAndReadsBack) {
   EXPECT_EQ(files(), 1u);
 }
 
+TEST_F(FileTest, ExtensionsAreInSmallLetters) {
+  EXPECT_EQ(mc::extension_of("a.b/c.tar.EXR"), ".exr");
+  EXPECT_EQ(mc::extension_of("a.b/c"), "");
+  EXPECT_EQ(mc::extension_of(""), "");
+  EXPECT_EQ(mc::extension_of("ü.Ü1"), ".Ü1");
+}
+
+TEST_F(FileTest, TextIsWithoutItsByteOrderMark) {
+  const std::string path = folder / "a.txt";
+  for (const char* text : {"", "a", "\xEF\xBB"}) {
+    mc::write_file(path, text);
+    EXPECT_EQ(mc::read_text(path), text);
+    mc::write_file(path, std::string("\xEF\xBB\xBF") + text);
+    EXPECT_EQ(mc::read_text(path), text);
+  }
+}
+
 TEST_F(FileTest, AFailedWriteLeavesTheOldFile) {
   const std::string path = folder / "a.txt";
   mc::write_file(path, "old");

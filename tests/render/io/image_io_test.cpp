@@ -78,8 +78,10 @@ TEST_F(ImageIo, ExrKeepsLayers) {
 
 std::string number(auto x) { return std::string(reinterpret_cast<const char*>(&x), sizeof x); }
 
-// An EXR as other programs write it: 2x1 pixels 0.25 and 3, the same in every channel, perhaps with chromaticities.
-std::string exr_of(const std::vector<std::string>& channels, const std::vector<float>& chromaticities = {}) {
+// An EXR as other programs write it: 2x1 pixels 0.25 and 3, the same in every channel, perhaps with chromaticities
+// and what it is a map of.
+std::string exr_of(const std::vector<std::string>& channels, const std::vector<float>& chromaticities = {},
+                   const std::string& envmap = {}) {
   const auto text = [](const std::string& s) { return s + '\0'; };
   const auto attribute = [&](const char* name, const char* type, const std::string& value) {
     return text(name) + text(type) + number(static_cast<std::int32_t>(value.size())) + value;
@@ -95,6 +97,7 @@ std::string exr_of(const std::vector<std::string>& channels, const std::vector<f
   if (!colours.empty()) file += attribute("chromaticities", "chromaticities", colours);
   file += attribute("compression", "compression", std::string(1, '\0'));
   file += attribute("dataWindow", "box2i", box) + attribute("displayWindow", "box2i", box);
+  if (!envmap.empty()) file += attribute("envmap", "envmap", envmap);
   file +=
       attribute("lineOrder", "lineOrder", std::string(1, '\0')) + attribute("pixelAspectRatio", "float", number(1.0f));
   file += attribute("screenWindowCenter", "v2f", number(0.0f) + number(0.0f)) +
@@ -123,6 +126,9 @@ TEST_F(ImageIo, ExrOfOtherColoursIsRefused) {
               testing::HasSubstr("a.exr: EXR holds luminance and chroma (a channel RY)"));
   const std::vector<float> ours = {0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3127f, 0.329f};
   EXPECT_EQ(said(exr_of({"B", "G", "R"}, ours)), "");
+  EXPECT_EQ(said(exr_of({"B", "G", "R"}, {}, std::string(1, '\0'))), "") << "latitude and longitude";
+  EXPECT_THAT(said(exr_of({"B", "G", "R"}, {}, "\1")),
+              testing::HasSubstr("a.exr: EXR says in its envmap that it holds the sides of a cube; convert it"));
   const char* names[] = {"red", "green", "blue", "white"};
   for (std::size_t i = 0; i < 8; ++i)
     for (const float off : {0.0002f, -0.005f, std::numeric_limits<float>::quiet_NaN()}) {
@@ -234,6 +240,10 @@ TEST_F(ImageIo, SizesThatTheBytesCannotHold) {
   exr.replace(window + 8, 8, std::string("\xff\xff\xff\x3f\xff\xff\xff\x3f", 8));
   write("huge.exr", exr);
   EXPECT_NE(support::error_of([&] { render::read_image(path("huge.exr")); }), "");
+  exr = mc::read_file(path("small.exr")).replace(window + 8, 4, std::string("\x7f\x96\x98\0", 4));
+  write("large.exr", exr);
+  EXPECT_THAT(support::error_of([&] { render::read_image(path("large.exr")); }),
+              testing::ContainsRegex("EXR says 10000000x[0-9]+ in 3 channels, which its"));
 }
 
 TEST_F(ImageIo, RefusesWithOneLine) {

@@ -29,6 +29,12 @@ struct MeshScene : support::ScratchTest {
   }
 };
 
+TEST_F(MeshScene, ExtensionsInLargeLetters) {
+  EXPECT_TRUE(is_mesh_file("a/CUBE.OBJ") && is_mesh_file("a.Ply") && !is_mesh_file("obj"));
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  EXPECT_EQ(read_mesh_scene(write("CUBE.OBJ", triangle)).scene.surfaces().size(), 2u);
+}
+
 // In shapes made by machine, of 1e-12 to 1e12 and up to 1000 times their size away: all corners are in the picture
 // whatever its shape, above the ground, and one comes near an edge of a square picture.
 TEST_F(MeshScene, TheCameraSeesAllOfIt) {

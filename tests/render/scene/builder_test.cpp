@@ -36,6 +36,8 @@ TEST(SceneBuilder, SaysWhatIsWrong) {
   const BsdfId board = builder.add(TexturedLambert(Checkerboard(Spectrum::Zero(), Spectrum::Ones())));
   const Shape bare = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   EXPECT_THAT(message([&] { builder.add(bare, {board}); }), testing::HasSubstr("shape 1 has no texture coordinates"));
+  EXPECT_THAT(message([&] { builder.add(bare, {.bsdf = board, .without_uvs = "a.obj: why"}); }),
+              testing::EndsWith("which its texture needs: a.obj: why"));
   Material holes(Dielectric(Float(1.5)));
   holes.mask = std::make_shared<const Mask>(Float(0.5));
   const BsdfId lattice = builder.add(holes);

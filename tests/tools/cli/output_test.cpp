@@ -112,6 +112,7 @@ TEST_F(OutputTest, EverySubcommandHasItsHelp) {
   EXPECT_THAT(support::run_carlo("render a.xml --spp 1 --time 2").output, HasSubstr("--spp excludes --time"));
   EXPECT_THAT(support::run_carlo("validate UniformDisk --samples 1e3 --scalar double").output,
               HasSubstr("; 1000 samples each"));
+  EXPECT_THAT(support::run_carlo("render --help").output, HasSubstr("--error-of picture|worst"));
 }
 
 } // namespace

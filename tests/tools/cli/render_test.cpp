@@ -59,7 +59,8 @@ TEST_F(RenderCommand, RefusesBadInputInOneLine) {
   expect_refused(cbox() + " --tone filmc", {"'filmc'", "did you mean 'filmic'"});
   for (const char* stops : {"bright", "1e3", "nan", "1x"})
     expect_refused(cbox() + " --exposure " + stops, {"--exposure '" + std::string(stops) + "'", "or auto"});
-  expect_refused(cbox() + " --resume", {"--resume", "there is no", "the first time"});
+  expect_refused(scenes + "cbox.xml --resume -o " + path("out.exr"), {"--resume", "there is no", "the first time"});
+  expect_refused(cbox() + " --resume", {"--resume", "out.pfm' is no .exr"});
   expect_refused(cbox() + " --tone filmic", {"--tone", "out.pfm", ".png"});
   expect_refused(cbox() + " --exposure 1", {"--exposure", "out.pfm", ".png"});
   expect_refused(cbox() + " --compare-strategies", {"--compare-strategies", "out.pfm", ".png"});
@@ -67,6 +68,7 @@ TEST_F(RenderCommand, RefusesBadInputInOneLine) {
   expect_refused(cbox() + " --compare-strategies --exposure auto", {"--exposure auto is for one picture"});
   expect_refused(scenes + "hard-shadows.xml --strategy bsdf -o " + path("out.pfm"),
                  {"the strategy bsdf", "point or directional light", "use nee or mis"});
+  expect_refused(scenes + "cbox.xml -o=" + path("out.pfm"), {"'=", "out.pfm' begins with =; leave that out"});
   expect_refused("nothing.obj -o " + path("out.pfm"), {"nothing.obj"});
   expect_refused(write("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n") + " -o " + path("out.pfm"),
                  {"line.obj", "none of its 1 triangles has an area"});
@@ -165,8 +167,20 @@ TEST_F(RenderCommand, GoesOnWhereItStopped) {
     EXPECT_EQ(wrong.exit_code, 2) << wrong.output;
     EXPECT_THAT(wrong.output, HasSubstr(word));
   };
+  const std::string png = "render " + scenes + "sphere-light.xml --size 16x12 --spp 8 -o " + path("r.PNG");
+  ASSERT_EQ(run_carlo(png + " --tone filmic").exit_code, 0) << "large letters are the same extension";
+  refused(png.substr(7) + " --resume", "r.PNG' is no .exr: other files do not keep radiance");
   refused(scenes + "cbox.xml --size 16x12 --spp 8 --resume -o " + path("r.exr"), "a picture of 'sphere-light.xml'");
   refused(scenes + "sphere-light.xml --size 8x8 --spp 8 --resume -o " + path("r.exr"), "holds 16x12 pixels");
+}
+
+// What one sample per pixel does not know is not known of the sum either, and that is said.
+TEST_F(RenderCommand, GoesOnFromOneSampleWithoutAnErrorBar) {
+  const std::string line = "render " + scenes + "sphere-light.xml --size 8x8 -o " + path("r.EXR");
+  ASSERT_EQ(run_carlo(line + " --spp 1").exit_code, 0);
+  EXPECT_THAT(run_carlo(line + " --spp 8 --resume").output,
+              HasSubstr("9 samples/pixel of 2 runs, without an error bar: one of them, of one sample, has none"));
+  EXPECT_TRUE(render::read_image(path("r.EXR")).variance.empty());
 }
 
 // The mean of pictures of different things is a picture of nothing.

@@ -4,6 +4,7 @@
 
 #include <ImfChannelList.h>
 #include <ImfChromaticities.h>
+#include <ImfEnvmap.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
@@ -26,11 +27,32 @@ namespace {
 constexpr std::array<const char*, 6> channels = {"R", "G", "B", "variance.R", "variance.G", "variance.B"};
 constexpr const char* estimates_key = "estimatesPerPixel";
 
-// What a file of these many bytes may hold: no compression of the format packs 4096 bytes in one.
-void require_size(double width, double height, std::size_t planes, const std::string& path) {
-  const double bytes = double(std::filesystem::file_size(path));
-  mc::require(width >= 1 && height >= 1 && width * height * 2 * double(planes) <= 4096 * bytes,
-              "EXR says {}x{} in {} channels, which its {} bytes cannot hold", width, height, planes, bytes);
+// The channels of a file but for those of fewer pixels.
+std::vector<std::string> whole_channels(const Imf::ChannelList& list) {
+  std::vector<std::string> names;
+  for (auto c = list.begin(); c != list.end(); ++c)
+    if (c.channel().xSampling == 1 && c.channel().ySampling == 1) names.emplace_back(c.name());
+  return names;
+}
+
+// What a file of these many bytes may hold. Deflate packs 1032 bytes in one, and DWA leaves at least one of the 64
+// coefficients of a block to it; no other compression of the format packs 4096.
+void require_size(const Imf::Header& header, const std::string& path) {
+  const auto& compression = header.compression();
+  const bool is_dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
+  const auto window = header.dataWindow();
+  const double bytes = double(std::filesystem::file_size(path)), width = double(window.max.x) - window.min.x + 1,
+               height = double(window.max.y) - window.min.y + 1;
+  const auto whole = whole_channels(header.channels());
+  mc::require(width >= 1 && height >= 1 &&
+                  width * height * 2 * double(whole.size()) <= (is_dwa ? 64 * 1032 : 4096) * bytes,
+              "EXR says {}x{} in {} channels, which its {} bytes cannot hold", width, height, whole.size(), bytes);
+}
+
+// A cube's six sides would pass for one picture of all directions.
+void require_no_cube(const Imf::Header& header) {
+  mc::require(!Imf::hasEnvmap(header) || Imf::envmap(header) != Imf::ENVMAP_CUBE,
+              "EXR says in its envmap that it holds the sides of a cube; convert it to latitude and longitude");
 }
 
 // Numbers of other colours than ours would pass for ours.
@@ -49,16 +71,6 @@ void require_our_colours(const Imf::Header& header) {
         (is - must).length() <= 1e-3f,
         "EXR says in its chromaticities that {} is ({}, {}); convert it to Rec. 709 (sRGB), where it is ({}, {})", name,
         is.x, is.y, must.x, must.y);
-}
-
-// The channels of a file that are none of the picture's own; those of fewer pixels are left out.
-std::vector<std::string> layers_of(const Imf::ChannelList& list) {
-  std::vector<std::string> names;
-  for (auto c = list.begin(); c != list.end(); ++c)
-    if (c.channel().xSampling == 1 && c.channel().ySampling == 1 &&
-        std::find(channels.begin(), channels.end(), std::string_view(c.name())) == channels.end())
-      names.emplace_back(c.name());
-  return names;
 }
 
 // One plane of floats per channel, as OpenEXR wants them.
@@ -108,13 +120,15 @@ Image read_exr(const std::string& path) {
   try {
     Imf::InputFile file(path.c_str());
     require_our_colours(file.header());
+    require_no_cube(file.header());
+    require_size(file.header(), path);
     const auto window = file.header().dataWindow();
     const auto has = [&](const char* channel) { return file.header().channels().findChannel(channel) != nullptr; };
     const bool grey = has("Y") && !has("R") && !has("G") && !has("B"), with_variance = has(channels[3]);
-    std::vector<std::string> names = layers_of(file.header().channels());
-    if (grey) std::erase(names, "Y");
-    require_size(double(window.max.x) - window.min.x + 1, double(window.max.y) - window.min.y + 1, names.size() + 1,
-                 path);
+    std::vector<std::string> names = whole_channels(file.header().channels());
+    std::erase_if(names, [&](const std::string& name) {
+      return (grey && name == "Y") || std::find(channels.begin(), channels.end(), name) != channels.end();
+    });
     const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
     for (std::size_t c = 0; c < 3; ++c)
       mc::require(grey || has(channels[c]), "EXR has no channel {}; R, G and B, or Y alone, are needed", channels[c]);

@@ -3,6 +3,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 
 #include <array>
 #include <cmath>
@@ -55,8 +56,9 @@ Header header_of(Rest& rest) {
   Header header;
   for (std::string line = rest.line(); !line.empty(); line = rest.line()) {
     if (line.starts_with("FORMAT=")) {
-      header.is_xyz = line == "FORMAT=32-bit_rle_xyze";
-      mc::require(header.is_xyz || line == "FORMAT=32-bit_rle_rgbe",
+      const std::string_view format = mc::trimmed(std::string_view(line).substr(7));
+      header.is_xyz = format == "32-bit_rle_xyze";
+      mc::require(header.is_xyz || format == "32-bit_rle_rgbe",
                   "HDR header says '{}'; 32-bit_rle_rgbe or 32-bit_rle_xyze is needed", line);
     }
     // Both were multiplied in, and may stand there again and again.
@@ -80,7 +82,7 @@ Layout layout_of(const std::string& line) {
   char sign[2], axis[2], rest = 0;
   int n[2];
   const bool is_read =
-      std::sscanf(line.c_str(), "%c%c %d %c%c %d%c", &sign[0], &axis[0], &n[0], &sign[1], &axis[1], &n[1], &rest) == 6;
+      std::sscanf(line.c_str(), "%c%c %d %c%c %d %c", &sign[0], &axis[0], &n[0], &sign[1], &axis[1], &n[1], &rest) == 6;
   const bool in_columns = is_read && axis[0] == 'X';
   const int x = in_columns ? 0 : 1, y = 1 - x;
   mc::require(is_read && axis[x] == 'X' && axis[y] == 'Y' && (sign[0] == '+' || sign[0] == '-') &&

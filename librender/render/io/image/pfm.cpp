@@ -2,11 +2,13 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <sstream>
+#include <string_view>
 
 namespace render::formats {
 
@@ -28,22 +30,46 @@ void write_pfm(const std::string& path, const Image& image) {
   mc::write_file(path, bytes);
 }
 
+namespace {
+
+// The next word of a header, from `at` on, which moves behind it: between words are blanks, and comments behind a #.
+std::string_view word_from(std::string_view bytes, std::size_t& at) {
+  constexpr const char* white = " \t\r\n";
+  at = std::min(bytes.find_first_not_of(white, at), bytes.size());
+  while (at < bytes.size() && bytes[at] == '#') {
+    at = bytes.find('\n', at);
+    at = std::min(bytes.find_first_not_of(white, at), bytes.size());
+  }
+  const std::size_t begin = at;
+  at = std::min(bytes.find_first_of(white, at), bytes.size());
+  return bytes.substr(begin, at - begin);
+}
+
+} // namespace
+
 Image read_pfm(const std::string& path) {
   const std::string bytes = mc::read_file(path);
-  std::istringstream header(bytes.substr(0, 128));
-  std::string magic;
-  int width = 0, height = 0;
-  double scale = 0;
-  header >> magic >> width >> height >> scale;
-  mc::require(header && (magic == "PF" || magic == "Pf"),
+  std::size_t start = 0;
+  const std::string_view magic = word_from(bytes, start);
+  const auto across = mc::number_in(word_from(bytes, start)), down = mc::number_in(word_from(bytes, start)),
+             said = mc::number_in(word_from(bytes, start));
+  mc::require((magic == "PF" || magic == "Pf") && across && down && said,
               "not a PFM file: it does not start with PF, a size and a scale");
-  mc::require(width > 0 && height > 0 && scale != 0 && std::isfinite(scale),
-              "PFM header says {}x{}, scale {}; all must be finite and non-zero", width, height, scale);
-  const int channels = magic == "PF" ? 3 : 1;
-  const std::size_t start = static_cast<std::size_t>(header.tellg()) + 1;
+  const auto is_count = [](double n) { return n >= 1 && n <= 0x7fffffff && n == std::floor(n); };
+  const double scale = *said;
+  mc::require(is_count(*across) && is_count(*down) && scale != 0 && std::isfinite(scale),
+              "PFM header says {}x{}, scale {}; it must be whole pixels, > 0, and a scale that is finite and not 0",
+              *across, *down, scale);
+  const int width = static_cast<int>(*across), height = static_cast<int>(*down), channels = magic == "PF" ? 3 : 1;
   const double needed = 4.0 * channels * width * height;
+  // One character ends the header, or two, where its other lines end in two or the size tells so.
+  const bool may_end_in_two = bytes.find("\r\n") < start || double(bytes.size() - start) == needed + 2;
+  start += may_end_in_two && bytes.compare(start, 2, "\r\n") == 0 ? 2 : 1;
   mc::require(double(bytes.size()) >= double(start) + needed, "PFM data ends early: {} bytes of {}",
               bytes.size() - std::min(start, bytes.size()), needed);
+  mc::require(double(bytes.size()) == double(start) + needed,
+              "PFM data goes on: {} bytes where {}x{} pixels of {} floats need {}", bytes.size() - start, width, height,
+              channels, needed);
   Image image(width, height);
   const char* raw = bytes.data() + start;
   for (int y = height - 1; y >= 0; --y)

@@ -11,11 +11,14 @@
 
 namespace render {
 
-/// A mesh as a file holds it. Normals and texture coordinates: one for each position, or none.
+/// A mesh as a file holds it. Normals and texture coordinates: one for each position, or none. Where all corners of a
+/// triangle have the normal 0, it is flat.
 struct MeshFile {
   std::vector<Vec3d> positions, normals;
   std::vector<mc::Vec2<float>> uvs;
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::string without_uvs; ///< why there are no texture coordinates: "the face of line 7 has none"
+  std::size_t meshes = 1;  ///< in the file, of which this is one
 };
 
 /// The shape of a mesh file under `to_world`, its triangles turned so that a mirroring transform keeps their normals on
@@ -25,7 +28,8 @@ struct MeshFile {
 ///   throws : Error for what TriangleMesh refuses, and where no triangle has an area
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat = false);
 
-/// All faces of a Wavefront OBJ file as one mesh, polygons cut into triangles; materials are ignored.
+/// All faces of a Wavefront OBJ file as one mesh, polygons cut into triangles; materials are ignored. Faces without
+/// normals are flat where others have them; texture coordinates count where all faces have them.
 ///   throws : Error that names file and line for a missing or broken file, an index out of range, a vertex that is not
 ///            finite
 MeshFile read_obj(const std::string& path);

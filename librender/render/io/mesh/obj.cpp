@@ -1,94 +1,47 @@
 #include <render/io/mesh/mesh.h>
+#include <render/io/mesh/polygon.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
+#include <mc/random/hash.h>
 
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wold-style-cast"
-#include <tiny_obj_loader.h>
-#pragma GCC diagnostic pop
-
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
-#include <map>
+#include <unordered_map>
 
 namespace render {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+/// The first word of the rest of a line, which it leaves; empty at its end.
+std::string_view next_word(std::string_view& rest) {
+  const auto begin = std::find_if_not(rest.begin(), rest.end(), is_blank);
+  const auto end = std::find_if(begin, rest.end(), is_blank);
+  rest = {end, rest.end()};
+  return {begin, end};
+}
 
 /// Calls f(line number, keyword, rest of the line) for every line.
 template <class F> void for_each_line(std::string_view text, const F& f) {
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
-    line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
     line = line.substr(0, line.find('#'));
-    const std::string_view keyword = line.substr(0, line.find_first_of(blanks));
-    f(number, keyword, line.substr(keyword.size()));
+    const std::string_view keyword = next_word(line);
+    f(number, keyword, line);
   }
 }
 
-struct Element {
-  std::string_view keyword, name, axes; ///< axes that must be given
-};
-constexpr std::array<Element, 3> elements = {
-    {{"v", "vertex", "xyz"}, {"vt", "texture coordinate", "u"}, {"vn", "normal", "xyz"}}};
-using Counts = std::array<long, elements.size()>;
-
-void check_numbers(std::size_t line, std::size_t kind, long index, std::string_view text) {
-  const std::string numbers(text); // ends in 0, as strtod needs
-  const char* cursor = numbers.c_str();
-  for (const char axis : elements[kind].axes) {
-    char* after = nullptr;
-    const double value = std::strtod(cursor, &after);
-    mc::require(after != cursor, "line {}: {} {} has no number for {}", line, elements[kind].name, index, axis);
-    mc::require(std::isfinite(static_cast<float>(value)), "line {}: {} {} has {} = {}, which is not finite", line,
-                elements[kind].name, index, axis, value);
-    cursor = after;
-  }
-}
-
-/// A corner is v, v/vt, v//vn or v/vt/vn; negative numbers count from the last element.
-void check_corner(std::size_t line, std::string_view corner, const Counts& counts) {
-  for (std::size_t k = 0; k < counts.size(); ++k) {
-    const std::string_view field = corner.substr(0, corner.find('/'));
-    long index = 0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), index);
-    const bool number = error == std::errc() && end == field.data() + field.size();
-    mc::require(number || (k > 0 && field.empty()), "line {}: '{}' is not the number of a {}", line, field,
-                elements[k].name);
-    mc::require(!number || (index != 0 && std::abs(index) <= counts[k]),
-                "line {}: a face names {} {}, but there are only {}", line, elements[k].name, index, counts[k]);
-    if (field.size() == corner.size()) return;
-    corner.remove_prefix(field.size() + 1);
-  }
-  throw mc::Error(
-      fmt::format("line {}: a corner of a face ends in '/{}'; write v, v/vt, v//vn or v/vt/vn", line, corner));
-}
-
-// The library reads what is not a number as 0 and leaves out polygons with a bad index: look at the lines first.
-void check_lines(std::string_view text) {
-  Counts counts{};
-  for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
-    for (std::size_t k = 0; k < counts.size(); ++k)
-      if (keyword == elements[k].keyword) check_numbers(line, k, ++counts[k], rest);
-  });
-  for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
-    if (keyword != "f") return;
-    int corners = 0;
-    for (;; ++corners) {
-      rest.remove_prefix(std::min(rest.find_first_not_of(blanks), rest.size()));
-      if (rest.empty()) break;
-      const std::string_view corner = rest.substr(0, rest.find_first_of(blanks));
-      check_corner(line, corner, counts);
-      rest.remove_prefix(corner.size());
-    }
-    mc::require(corners >= 3, "line {}: a face of {} corners; at least 3 are needed", line, corners);
-  });
+// All lines end in a line feed, whatever they end in.
+std::string with_plain_ends(std::string text) {
+  for (std::size_t i = text.find('\r'); i != text.npos; i = text.find('\r', i + 1))
+    text[i] = text.compare(i, 2, "\r\n") == 0 ? ' ' : '\n';
+  return text;
 }
 
 // Lines that end in a backslash with the next ones behind them. Their ends follow further down, so that every line
@@ -98,11 +51,11 @@ std::string with_lines_joined(std::string text) {
   std::string joined;
   std::size_t ends = 1;
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool carriage_return = text.compare(i, 3, "\\\r\n") == 0;
-    if (carriage_return || text.compare(i, 2, "\\\n") == 0) {
+    const bool goes_on = text.compare(i, 2, "\\\n") == 0 || text.compare(i, 3, "\\ \n") == 0;
+    if (goes_on) {
       joined += ' ';
       ++ends;
-      i += carriage_return ? 2 : 1;
+      i = text.find('\n', i);
     } else if (text[i] == '\n') {
       joined.append(ends, '\n');
       ends = 1;
@@ -113,66 +66,151 @@ std::string with_lines_joined(std::string text) {
   return joined;
 }
 
-// The file's groups as one mesh, with one vertex for each distinct corner. Normals and texture coordinates count where
-// every corner has them.
-MeshFile merged(const tinyobj::ObjReader& reader) {
-  const tinyobj::attrib_t& attributes = reader.GetAttrib();
-  bool has_normals = true, has_uvs = true;
-  for (const auto& shape : reader.GetShapes())
-    for (const auto& corner : shape.mesh.indices) {
-      has_normals &= corner.normal_index >= 0;
-      has_uvs &= corner.texcoord_index >= 0;
-    }
-  // What the library counts is not quite what the lines say: of a keyword without a blank behind it, say.
-  const auto place = [](const std::vector<tinyobj::real_t>& v, int index, std::size_t size) {
-    const auto j = static_cast<std::size_t>(index) * size;
-    mc::require(index >= 0 && j + size <= v.size(), "a face names element {}, but only {} of its kind could be read",
-                index + 1, v.size() / size);
-    return j;
-  };
-  const auto triple = [&](const std::vector<tinyobj::real_t>& v, int index) {
-    const std::size_t j = place(v, index, 3);
-    return Vec3d(double(v[j]), double(v[j + 1]), double(v[j + 2]));
+struct Element {
+  std::string_view keyword, name, axes;
+  std::size_t needed; ///< axes that must be given
+};
+enum Kind : std::size_t { position, uv, normal };
+constexpr std::array<Element, 3> elements = {
+    {{"v", "vertex", "xyz", 3}, {"vt", "texture coordinate", "uv", 1}, {"vn", "normal", "xyz", 3}}};
+
+/// The numbers of a line; what need not be given is 0.
+Vec3d numbers_of(std::size_t line, const Element& element, std::size_t index, std::string_view rest) {
+  Vec3d numbers = Vec3d::Zero();
+  for (std::size_t axis = 0; axis < element.axes.size(); ++axis) {
+    const std::string_view word = next_word(rest);
+    if (word.empty() && axis >= element.needed) break;
+    const std::optional<double> value = mc::number_in(word);
+    mc::require(value.has_value(), "line {}: {} {} has no number for {}, but '{}'", line, element.name, index,
+                element.axes[axis], word);
+    mc::require(std::isfinite(*value), "line {}: {} {} has {} = {}, which is not finite", line, element.name, index,
+                element.axes[axis], *value);
+    numbers[static_cast<int>(axis)] = *value;
+  }
+  return numbers;
+}
+
+constexpr std::uint32_t none = 0xffffffff;
+using Corner = std::array<std::uint32_t, elements.size()>; ///< its elements, counted from 0; or none
+
+/// What the file's lines say.
+struct Lines {
+  std::array<std::vector<Vec3d>, elements.size()> values;
+  std::vector<Corner> corners;   ///< of all faces
+  std::vector<std::size_t> ends; ///< of each face in `corners`
+  /// The first line of a face with corners that have no such element. Of none of its corners they count then.
+  std::array<std::size_t, elements.size()> without = {};
+
+  bool has(Kind kind) const {
+    return std::any_of(corners.begin(), corners.end(), [&](const Corner& c) { return c[kind] != none; });
+  }
+};
+
+/// Which element a field names: from 1 on, or back from the last one above the line.
+std::uint32_t place_of(std::size_t line, const Element& element, std::string_view field, std::size_t above,
+                       std::size_t count) {
+  std::int64_t index = 0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), index);
+  mc::require(error != std::errc::invalid_argument && end == field.data() + field.size(),
+              "line {}: '{}' is not the number of a {}", line, field, element.name);
+  mc::require(index >= -static_cast<std::int64_t>(above), "line {}: a face names {} {}, but only {} stand above it",
+              line, element.name, field, above);
+  mc::require(error == std::errc() && index != 0 && index <= static_cast<std::int64_t>(count),
+              "line {}: a face names {} {}, but there are only {}", line, element.name, field, count);
+  return static_cast<std::uint32_t>(index > 0 ? index - 1 : static_cast<std::int64_t>(above) + index);
+}
+
+/// A corner is v, v/vt, v//vn or v/vt/vn; slashes at its end mean nothing.
+Corner corner_of(std::size_t line, std::string_view word, const std::array<std::size_t, elements.size()>& above,
+                 const Lines& lines) {
+  const std::string_view whole = word;
+  while (word.ends_with('/')) word.remove_suffix(1);
+  Corner corner = {none, none, none};
+  for (std::size_t k = 0; k < corner.size(); ++k) {
+    const std::string_view field = word.substr(0, word.find('/'));
+    if (k == position || !field.empty())
+      corner[k] = place_of(line, elements[k], field, above[k], lines.values[k].size());
+    if (field.size() == word.size()) return corner;
+    word.remove_prefix(field.size() + 1);
+  }
+  throw mc::Error(fmt::format("line {}: '{}' is no corner of a face; write v, v/vt, v//vn or v/vt/vn", line, whole));
+}
+
+void read_face(std::size_t line, std::string_view rest, const std::array<std::size_t, elements.size()>& above,
+               Lines& lines) {
+  const std::size_t begin = lines.corners.size();
+  for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest))
+    lines.corners.push_back(corner_of(line, word, above, lines));
+  const auto face = std::span(lines.corners).subspan(begin);
+  mc::require(face.size() >= 3, "line {}: a face of {} corners; at least 3 are needed", line, face.size());
+  lines.ends.push_back(lines.corners.size());
+  for (const Kind kind : {uv, normal}) {
+    if (std::all_of(face.begin(), face.end(), [&](const Corner& c) { return c[kind] != none; })) continue;
+    if (lines.without[kind] == 0) lines.without[kind] = line;
+    for (Corner& corner : face) corner[kind] = none;
+  }
+}
+
+// Faces may name what stands below them: they are read when the rest is.
+Lines lines_of(std::string_view text) {
+  Lines lines;
+  for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
+    for (std::size_t k = 0; k < elements.size(); ++k)
+      if (keyword == elements[k].keyword)
+        lines.values[k].push_back(numbers_of(line, elements[k], lines.values[k].size() + 1, rest));
+  });
+  for (std::size_t k = 0; k < elements.size(); ++k)
+    mc::require(lines.values[k].size() < none, "it has {} lines {}; fewer than 2^32 - 1 can be read",
+                lines.values[k].size(), elements[k].keyword);
+  std::array<std::size_t, elements.size()> above = {};
+  for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
+    for (std::size_t k = 0; k < elements.size(); ++k) above[k] += keyword == elements[k].keyword;
+    if (keyword == "f") read_face(line, rest, above, lines);
+  });
+  return lines;
+}
+
+struct HashOfCorner {
+  std::size_t operator()(const Corner& c) const { return mc::hash(c[0], c[1], c[2]); }
+};
+
+/// One vertex for each distinct corner.
+MeshFile mesh_of(Lines lines) {
+  const bool has_normals = lines.has(normal), has_uvs = lines.without[uv] == 0 && lines.has(uv);
+  if (!has_uvs)
+    for (Corner& corner : lines.corners) corner[uv] = none;
+  const auto value = [&](const Corner& c, Kind kind) -> Vec3d {
+    return c[kind] == none ? Vec3d(Vec3d::Zero()) : lines.values[kind][c[kind]];
   };
   MeshFile mesh;
-  std::map<std::array<int, 3>, std::uint32_t> known;
-  for (const auto& shape : reader.GetShapes())
-    for (std::size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3) {
-      std::array<std::uint32_t, 3> triangle{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto& corner = shape.mesh.indices[i + k];
-        const std::array key{corner.vertex_index, has_normals ? corner.normal_index : -1,
-                             has_uvs ? corner.texcoord_index : -1};
-        const auto [it, added] = known.try_emplace(key, static_cast<std::uint32_t>(mesh.positions.size()));
-        triangle[k] = it->second;
-        if (!added) continue;
-        mesh.positions.push_back(triple(attributes.vertices, key[0]));
-        if (has_normals) mesh.normals.push_back(triple(attributes.normals, key[1]));
-        if (!has_uvs) continue;
-        const std::size_t t = place(attributes.texcoords, key[2], 2);
-        mesh.uvs.emplace_back(attributes.texcoords[t],
-                              1 - attributes.texcoords[t + 1]); // up there, down here, as Mitsuba
-      }
-      mesh.triangles.push_back(triangle);
-    }
+  if (!has_uvs) mesh.without_uvs = fmt::format("the face of line {} has none", lines.without[uv]);
+  std::unordered_map<Corner, std::uint32_t, HashOfCorner> known;
+  known.reserve(lines.values[position].size());
+  const auto vertex = [&](const Corner& corner) {
+    const auto [at, added] = known.try_emplace(corner, static_cast<std::uint32_t>(mesh.positions.size()));
+    if (!added) return at->second;
+    mesh.positions.push_back(value(corner, position));
+    if (has_normals) mesh.normals.push_back(value(corner, normal));
+    if (!has_uvs) return at->second;
+    const Vec3d t = value(corner, uv);
+    mesh.uvs.emplace_back(static_cast<float>(t[0]), static_cast<float>(1 - t[1])); // up there, down here, as Mitsuba
+    return at->second;
+  };
+  std::vector<std::uint32_t> face;
+  std::size_t begin = 0;
+  for (const std::size_t end : lines.ends) {
+    face.clear();
+    for (; begin < end; ++begin) face.push_back(vertex(lines.corners[begin]));
+    append_polygon(mesh.positions, face, mesh.triangles);
+  }
   return mesh;
 }
 
 } // namespace
 
 MeshFile read_obj(const std::string& path) {
-  const std::string text = with_lines_joined(mc::read_file(path));
-  return mc::with_context(path, [&] {
-    check_lines(text);
-    tinyobj::ObjReader reader;
-    tinyobj::ObjReaderConfig config;
-    config.triangulate = true;
-    const bool parsed = reader.ParseFromString(text, "", config);
-    std::string problem = reader.Error();
-    while (!problem.empty() && std::isspace(static_cast<unsigned char>(problem.back()))) problem.pop_back();
-    mc::require(parsed, "broken OBJ: {}", problem.empty() ? "unreadable" : problem);
-    return merged(reader);
-  });
+  const std::string text = with_lines_joined(with_plain_ends(mc::read_text(path)));
+  return mc::with_context(path, [&] { return mesh_of(lines_of(text)); });
 }
 
 } // namespace render

@@ -1,4 +1,5 @@
 #include <render/io/mesh/mesh.h>
+#include <render/io/mesh/polygon.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
@@ -214,42 +215,64 @@ void read_vertices(const Element& element, Numbers& numbers, MeshFile& mesh) {
   }
 }
 
-void read_faces(const Element& element, Numbers& numbers, std::size_t vertices, MeshFile& mesh) {
+/// Of all faces the corners, and where each face ends among them.
+struct Faces {
+  std::vector<std::uint32_t> corners;
+  std::vector<std::size_t> ends;
+};
+
+void read_faces(const Element& element, Numbers& numbers, std::size_t vertices, Faces& faces) {
   const auto list = element.column({"vertex_indices", "vertex_index"}, true);
   mc::require(list.has_value(), "faces need a list vertex_indices");
   Rows rows(element, numbers, list);
   for (std::size_t i = 0; i < element.rows; ++i) {
     rows.next();
     mc::require(rows.list.size() >= 3, "face {} has {} corners; at least 3 are needed", i, rows.list.size());
-    for (const double corner : rows.list)
+    for (const double corner : rows.list) {
       mc::require(corner >= 0 && corner < double(vertices) && corner == std::floor(corner),
                   "face {} names vertex {}, but there are only 0 to {}", i, corner, double(vertices) - 1);
-    const auto corner = [&](std::size_t k) { return static_cast<std::uint32_t>(rows.list[k]); };
-    for (std::size_t k = 2; k < rows.list.size(); ++k) mesh.triangles.push_back({corner(0), corner(k - 1), corner(k)});
+      faces.corners.push_back(static_cast<std::uint32_t>(corner));
+    }
+    faces.ends.push_back(faces.corners.size());
   }
+}
+
+void require_faces(const Header& header) {
+  std::vector<std::string> elements;
+  for (const Element& e : header.elements) {
+    if (e.name == "face" && e.rows > 0) return;
+    elements.push_back(fmt::format("{} of '{}'", e.rows, e.name));
+  }
+  throw mc::Error(fmt::format("it has no faces but {}, and faces alone are seen; convert the file to faces",
+                              fmt::join(elements, ", ")));
 }
 
 } // namespace
 
 MeshFile read_ply(const std::string& path) {
-  const std::string file = mc::read_file(path);
+  const std::string file = mc::read_text(path);
   return mc::with_context(path, [&] {
     std::string_view bytes = file;
     const Header header = read_header(bytes);
     const auto vertex = std::find_if(header.elements.begin(), header.elements.end(),
                                      [](const Element& e) { return e.name == "vertex"; });
     mc::require(vertex != header.elements.end(), "the file has no element vertex");
+    require_faces(header);
     MeshFile mesh;
+    mesh.without_uvs = "its vertices have no u and v";
+    Faces faces; // they may stand before the vertices
     Numbers numbers(bytes, header);
     for (const Element& element : header.elements) {
       if (element.name == "vertex") read_vertices(element, numbers, mesh);
-      else if (element.name == "face") read_faces(element, numbers, vertex->rows, mesh);
+      else if (element.name == "face") read_faces(element, numbers, vertex->rows, faces);
       else {
         Rows rows(element, numbers, {});
         for (std::size_t i = 0; i < element.rows; ++i) rows.next();
       }
     }
     mc::require(mesh.positions.size() == vertex->rows, "a second element vertex");
+    for (std::size_t i = 0, begin = 0; i < faces.ends.size(); begin = faces.ends[i++])
+      append_polygon(mesh.positions, std::span(faces.corners).subspan(begin, faces.ends[i] - begin), mesh.triangles);
     return mesh;
   });
 }

@@ -70,7 +70,10 @@ class Unpacked {
 };
 
 // Where each mesh begins stands at the end of the file, and at the very end their number.
-std::uint64_t offset_of(std::string_view bytes, int index) {
+struct Found {
+  std::uint64_t begin, meshes;
+};
+Found find_mesh(std::string_view bytes, int index) {
   const auto version = value_at<std::uint16_t>(bytes, 2);
   mc::require(value_at<std::uint16_t>(bytes, 0) == signature && (version == 3 || version == 4),
               "not a serialized mesh of version 3 or 4");
@@ -81,7 +84,7 @@ std::uint64_t offset_of(std::string_view bytes, int index) {
   mc::require(index >= 0 && static_cast<std::uint64_t>(index) < count, "there is no mesh {}; the file holds 0 to {}",
               index, static_cast<std::int64_t>(count) - 1);
   const std::uint64_t place = end - size * (count - static_cast<std::uint64_t>(index));
-  return version == 3 ? value_at<std::uint32_t>(bytes, place) : value_at<std::uint64_t>(bytes, place);
+  return {version == 3 ? value_at<std::uint32_t>(bytes, place) : value_at<std::uint64_t>(bytes, place), count};
 }
 
 template <class T> std::vector<Vec3d> triples(const std::vector<T>& numbers) {
@@ -110,7 +113,7 @@ MeshFile read_serialized(const std::string& path, int index) {
   return mc::with_context(fmt::format("{}: mesh {}", path, index), [&] {
     const std::string_view bytes = file;
     mc::require(bytes.size() >= 8, "not a serialized mesh: it has {} bytes", bytes.size());
-    const std::uint64_t begin = offset_of(bytes, index);
+    const auto [begin, meshes] = find_mesh(bytes, index);
     const auto version = value_at<std::uint16_t>(bytes, begin + 2);
     mc::require(value_at<std::uint16_t>(bytes, begin) == signature && (version == 3 || version == 4),
                 "at its place, byte {}, stands no mesh", begin);
@@ -123,6 +126,8 @@ MeshFile read_serialized(const std::string& path, int index) {
     mc::require(vertices <= 0xffffffff && triangles <= 0xffffffff, "{} vertices and {} triangles are too many",
                 vertices, triangles);
     MeshFile mesh;
+    mesh.without_uvs = "it has none";
+    mesh.meshes = meshes;
     if (flags & in_double) read_attributes<double>(data, flags, vertices, mesh);
     else read_attributes<float>(data, flags, vertices, mesh);
     const auto corners = data.take<std::uint32_t>(3 * triangles);

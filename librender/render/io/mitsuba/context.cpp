@@ -43,6 +43,9 @@ const XmlElement& Context::resolve(const XmlElement& element, std::string_view t
   const std::string& id = element.attribute("id");
   const auto found = ids_.find(id);
   if (found != ids_.end() && found->second->tag == tag) return *found->second;
+  if (found != ids_.end())
+    element.fail(fmt::format("'{}' is the <{}> of line {}; a <ref> stands here for a <{}> alone", id,
+                             found->second->tag, found->second->line, tag));
   std::vector<std::string_view> known;
   for (const auto& [name, target] : ids_)
     if (target->tag == tag) known.push_back(name);

@@ -33,7 +33,7 @@ class Context {
   Folders folders;
 
   /// The element itself, or the one whose id a <ref> names.
-  ///   throws : Error for an unknown id, naming the nearest, or when it is no <tag>
+  ///   throws : Error for an unknown id, naming the nearest, or when it is no <tag>, naming what it is
   const XmlElement& resolve(const XmlElement& element, std::string_view tag) const;
 
   /// The BSDF that a <bsdf> describes or a <ref> names.

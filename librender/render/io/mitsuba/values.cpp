@@ -63,14 +63,19 @@ Vec3d hexadecimal(const XmlElement& e, const std::string& text) {
   return v;
 }
 
+// Pairs wavelength:value, with commas or blanks between them, and blanks about the colons.
 Spectrum tabulated(const XmlElement& e, const std::string& text, Illuminant illuminant) {
   std::vector<SpectralSample> samples;
+  const auto place = [&](std::size_t i) { return std::min(i, text.size()); };
   for (std::size_t begin = 0; (begin = text.find_first_not_of(separators, begin)) != std::string::npos;) {
-    const std::size_t colon = text.find(':', begin), end = std::min(text.find(',', begin), text.size());
-    if (colon == std::string::npos || colon > end)
-      e.fail(fmt::format("'{}' is not wavelength:value", text.substr(begin, end - begin)));
-    samples.push_back(
-        {parse_number(e, text.substr(begin, colon - begin)), parse_number(e, text.substr(colon + 1, end - colon - 1))});
+    const std::size_t colon = text.find(':', begin);
+    const std::string wavelength(mc::trimmed(std::string_view(text).substr(begin, colon - begin)));
+    if (colon == std::string::npos || wavelength.find_first_of(separators) != std::string::npos)
+      e.fail(fmt::format("'{}' is not wavelength:value",
+                         text.substr(begin, place(text.find_first_of(separators, begin)) - begin)));
+    const std::size_t value = place(text.find_first_not_of(" \t\r\n", colon + 1)),
+                      end = place(text.find_first_of(separators, value));
+    samples.push_back({parse_number(e, wavelength), parse_number(e, text.substr(value, end - value))});
     begin = end;
   }
   return mc::with_context(e.where(), [&] { return spectrum_to_rgb(samples, illuminant); });

@@ -140,6 +140,12 @@ TEST_F(Hdr, Xyz) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at(0, 0)[c], 1, 0.0127) << c;
 }
 
+TEST_F(Hdr, BlanksInTheHeader) {
+  const Image image = read("#?RADIANCE\nFORMAT= 32-bit_rle_rgbe \t\n \nEXPOSURE=2 \n\n-Y  1 +X 1 \t\r\n" +
+                           plain({{128, 128, 128, 129}}));
+  EXPECT_TRUE((image.at(0, 0) == Spectrum(Float(0.5), Float(0.5), Float(0.5))).all());
+}
+
 TEST_F(Hdr, TruncatedAtAnyByte) {
   mc::Pcg random(2);
   for (const Encode encode : ways) {

@@ -1,4 +1,5 @@
 #include <render/io/mesh/mesh.h>
+#include <render/io/mesh_scene.h>
 
 #include <mc/core/file.h>
 #include <mc/random/pcg.h>
@@ -72,65 +73,6 @@ TEST_F(Mesh, MissingNormalsAreSmooth) {
   }
 }
 
-// OBJ
-
-TEST_F(Mesh, ObjQuadBecomesTwoTriangles) {
-  const MeshFile file = read_obj(write("quad.obj", "v 0 0 0\nv 2 0 0\nv 2 3 0\nv 0 3 0\nf -4 -3 -2 -1\n"));
-  EXPECT_EQ(file.triangles.size(), 2u);
-  EXPECT_DOUBLE_EQ(to_shape(file, {}).area(), 6);
-}
-
-TEST_F(Mesh, ObjLinesGoOnBehindABackslash) {
-  const MeshFile file = read_obj(write("c.obj", "v 0 0 0\nv 1 \\\n 0 0\nv 0 \\\r\n1 \\\n0\nf 1 2\\\n 3\n"));
-  ASSERT_EQ(file.triangles.size(), 1u);
-  EXPECT_EQ(file.positions[1], render::Vec3d(1, 0, 0));
-  EXPECT_EQ(file.positions[2], render::Vec3d(0, 1, 0));
-  EXPECT_THAT(support::error_of([&] { read_obj(write("d.obj", "v 0 \\\n0 \\\n0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")); }),
-              HasSubstr("d.obj: line 6: a face names vertex 9"))
-      << "lines keep their numbers";
-  EXPECT_EQ(read_obj(write("e.obj", "# C:\\meshes\\e\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\\")).triangles.size(), 1u);
-}
-
-TEST_F(Mesh, ObjTextureCoordinatesGoDown) {
-  const MeshFile file =
-      read_obj(write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 0.75\nf 1/1 2/2 3/3\n"));
-  ASSERT_EQ(file.uvs.size(), 3u);
-  EXPECT_EQ(file.uvs[0], mc::Vec2<float>(0, 1));
-  EXPECT_EQ(file.uvs[2], mc::Vec2<float>(0, 0.25f));
-  // Where only some corners have them, they do not count.
-  EXPECT_TRUE(read_obj(write("p.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2 3\n")).uvs.empty());
-}
-
-TEST_F(Mesh, ObjRefusesWithFileAndPlace) {
-  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-  const auto refusal = [&](const std::string& text) {
-    const std::string file = write("bad.obj", text);
-    return support::error_of([&] { to_shape(read_obj(file), {}); });
-  };
-  EXPECT_THAT(support::error_of([&] { read_obj(path("none.obj")); }), HasSubstr("no such file"));
-  EXPECT_THAT(refusal(corners + "f 1 2 9\n"),
-              HasSubstr("bad.obj: line 4: a face names vertex 9, but there are only 3"));
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n\nf 1 2 3 4\nf 1 2 3 4 5\n"),
-              HasSubstr("line 7: a face names vertex 5"));
-  EXPECT_THAT(refusal(corners + "vn 0 0 1\nf 1//1 2//1 3//2\n"), HasSubstr("line 5: a face names normal 2"));
-  EXPECT_THAT(refusal(corners + "f 1/1 2/1 3/1\n"), HasSubstr("names texture coordinate 1, but there are only 0"));
-  EXPECT_THAT(refusal(corners + "f 0 1 2\n"), HasSubstr("line 4: a face names vertex 0"));
-  EXPECT_THAT(refusal(corners + "f -4 1 2\n"), HasSubstr("line 4: a face names vertex -4"));
-  EXPECT_THAT(refusal(corners + "f 1 2 x\n"), HasSubstr("line 4: 'x' is not the number of a vertex"));
-  EXPECT_THAT(refusal(corners + "f 1 2 99999999999999999999\n"), HasSubstr("line 4"));
-  EXPECT_THAT(refusal(corners + "f 1 2 3/1/1/1\n"), HasSubstr("line 4"));
-  EXPECT_THAT(refusal(corners + "f 1 2\n"), HasSubstr("line 4: a face of 2 corners"));
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n"),
-              HasSubstr("bad.obj: line 2: vertex 2 has y = nan, which is not finite"));
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 inf\nv 0 1 0\nf 1 2 3\n"), HasSubstr("line 2: vertex 2 has z = inf"));
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n"), HasSubstr("line 2: vertex 2 has no number for y"));
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn\nf 1//1 2//1 3//1\n"),
-              HasSubstr("line 4: normal 1 has no number for x"));
-  EXPECT_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt nan\nf 1/1 2/1 3/1\n"),
-              HasSubstr("line 4: texture coordinate 1 has u = nan, which is not finite"));
-  EXPECT_THAT(refusal("v 0 0 0\n"), HasSubstr("no triangle"));
-}
-
 // PLY: the same pyramid in every format.
 
 struct PlyCase {
@@ -171,6 +113,24 @@ TEST_F(Mesh, PlyInEveryFormat) {
   }
 }
 
+// A hollow in the outline, whichever corner is the first; the mark of UTF-8 before it; faces before vertices.
+TEST_F(Mesh, PlyConcavePolygons) {
+  const std::vector<std::string> hexagon = {"0 0 0\n", "2 0 0\n", "2 1 0\n", "1 1 0\n", "1 2 0\n", "0 2 0\n"};
+  for (std::size_t first = 0; first < hexagon.size(); ++first) {
+    std::string face = "6", vertices;
+    for (std::size_t i = 0; i < hexagon.size(); ++i) {
+      face += fmt::format(" {}", (first + i) % hexagon.size());
+      vertices += hexagon[i];
+    }
+    const MeshFile file = read_ply(
+        write("l.ply", "\xEF\xBB\xBFply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
+                       "element vertex 6\nproperty float x\nproperty float y\nproperty float z\nend_header\n" +
+                           face + "\n" + vertices));
+    EXPECT_EQ(file.triangles.size(), 4u);
+    EXPECT_DOUBLE_EQ(to_shape(file, {}).area(), 3) << first;
+  }
+}
+
 TEST_F(Mesh, PlyTruncatedAtAnyByte) {
   for (const PlyCase& c : ply_cases) expect_refusals_when_truncated("t.ply", pyramid(c), read_ply);
 }
@@ -198,6 +158,9 @@ TEST_F(Mesh, PlyRefusesWithFileAndPlace) {
   EXPECT_THAT(refusal(text, "ascii", "ebcdic"), HasSubstr("line 2: unknown format 'ebcdic'"));
   EXPECT_THAT(refusal(text, "vertex_indices", "edges"), HasSubstr("faces need a list vertex_indices"));
   EXPECT_THAT(refusal(text, "ply", "plx"), HasSubstr("not a PLY file"));
+  EXPECT_THAT(refusal(text, "face 2", "tristrips 2"),
+              HasSubstr("bad.ply: it has no faces but 4 of 'vertex', 2 of 'tristrips', and faces alone are seen"));
+  EXPECT_THAT(refusal(text, "face 2", "face 0"), HasSubstr("it has no faces but 4 of 'vertex', 0 of 'face'"));
 }
 
 // Mitsuba's serialized format.
@@ -257,6 +220,10 @@ TEST_F(Mesh, SerializedVersionsPrecisionsAndIndices) {
       const std::string file = write("m.serialized", serialized({first, second}));
       const MeshFile mesh = read_serialized(file, 1);
       EXPECT_EQ(mesh.positions[2], Vec3d(0, 3, 0)) << version << in_double;
+      EXPECT_EQ(mesh.meshes, 2u);
+      EXPECT_EQ(read_mesh_scene(file).warnings.size(), 1u);
+      EXPECT_THAT(read_mesh_scene(file).warnings[0], HasSubstr("m.serialized: this is mesh 0 of the 2 in it"));
+      EXPECT_TRUE(read_mesh_scene(write("one.serialized", serialized({first}))).warnings.empty());
       EXPECT_EQ(mesh.normals[1], Vec3d(0, 0, 1));
       EXPECT_EQ(mesh.uvs[2], mc::Vec2<float>(0.5f, 1));
       EXPECT_EQ(read_serialized(file, 0).positions[2], Vec3d(0, 1, 0));

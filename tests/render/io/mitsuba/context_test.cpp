@@ -51,7 +51,12 @@ TEST_F(SceneContext, BadReferences) {
       refusal(start + "<shape type=\"sphere\"><ref id=\"whte\"/></shape>\n<bsdf type=\"diffuse\" id=\"white\"/>"),
       HasSubstr("s.xml:3: <ref>: no <bsdf> has the id 'whte'; did you mean 'white'?"));
   EXPECT_THAT(refusal(start + "<shape type=\"sphere\" id=\"s\"><ref id=\"s\"/></shape>"),
-              HasSubstr("no <bsdf> has the id 's'"));
+              HasSubstr("s.xml:3: <ref>: 's' is the <shape> of line 3; a <ref> stands here for a <bsdf> alone"));
+  EXPECT_THAT(refusal(start +
+                      "<shape type=\"sphere\"><emitter type=\"area\" id=\"lamp\"><rgb name=\"radiance\" "
+                      "value=\"1\"/></emitter></shape>\n" +
+                      "<shape type=\"sphere\"><bsdf type=\"diffuse\"/><ref id=\"lamp\"/></shape>"),
+              HasSubstr("s.xml:4: <ref>: 'lamp' is the <emitter> of line 3; a <ref> stands here for a <bsdf> alone"));
   EXPECT_THAT(refusal(start + "<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\" id=\"a\"/>"),
               HasSubstr("s.xml:4: <bsdf>: a second element with the id 'a', after line 3; ids must differ"));
   EXPECT_THAT(refusal(start + "<bsdf type=\"twosided\" id=\"a\"><ref id=\"b\"/></bsdf>\n<bsdf type=\"twosided\" "

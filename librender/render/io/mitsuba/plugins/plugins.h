@@ -12,6 +12,7 @@ struct CoveredShape {
   std::optional<Emission> emission;
   bool guide;
   std::optional<HomogeneousMedium> interior;
+  std::string without_uvs; ///< why a mesh has no texture coordinates
 };
 
 struct FilmSettings {

@@ -7,19 +7,27 @@ namespace {
 
 const std::string scene_units = "scene units";
 
-Shape placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, bool face_normals) {
-  return mc::with_context(name, [&] { return Shape(to_shape(mesh, to_world, face_normals)); });
+struct Placed {
+  Shape shape;
+  std::string without_uvs; ///< why a mesh has no texture coordinates
+  Placed(Shape s, std::string why = {}) : shape(std::move(s)), without_uvs(std::move(why)) {}
+};
+
+Placed placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, bool face_normals) {
+  return mc::with_context(name, [&] {
+    return Placed(to_shape(mesh, to_world, face_normals), fmt::format("{}: {}", name, mesh.without_uvs));
+  });
 }
 
-Shape make_obj(const std::string& path, const Transform& to_world, bool face_normals) {
+Placed make_obj(const std::string& path, const Transform& to_world, bool face_normals) {
   return placed(path, read_obj(path), to_world, face_normals);
 }
 
-Shape make_ply(const std::string& path, const Transform& to_world, bool face_normals) {
+Placed make_ply(const std::string& path, const Transform& to_world, bool face_normals) {
   return placed(path, read_ply(path), to_world, face_normals);
 }
 
-Shape make_serialized(const std::string& path, const Transform& to_world, bool face_normals, int index) {
+Placed make_serialized(const std::string& path, const Transform& to_world, bool face_normals, int index) {
   return placed(fmt::format("{}: mesh {}", path, index), read_serialized(path, index), to_world, face_normals);
 }
 
@@ -74,7 +82,8 @@ template <class Make> struct Covered {
   template <class... Values>
   CoveredShape operator()(const std::optional<BsdfId>& bsdf, const std::optional<Emission>& emission,
                           const std::optional<HomogeneousMedium>& interior, bool guide, const Values&... values) const {
-    return {make(values...), bsdf, emission, guide, interior};
+    Placed placed = make(values...);
+    return {std::move(placed.shape), bsdf, emission, guide, interior, std::move(placed.without_uvs)};
   }
 };
 

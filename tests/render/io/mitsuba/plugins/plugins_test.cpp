@@ -55,6 +55,23 @@ struct PluginsTest : support::SceneTest {
   }
 };
 
+// A texture needs coordinates: the mesh's file is named, and where they are missing.
+TEST_F(PluginsTest, MeshesWithoutTextureCoordinates) {
+  const auto said = [&](const std::string& type, const std::string& file, const std::string& text) {
+    write(file, text);
+    return refusal(camera + "</sensor><shape type=\"" + type + "\"><string name=\"filename\" value=\"" + file +
+                   "\"/><bsdf type=\"diffuse\"><texture type=\"checkerboard\" name=\"reflectance\"/></bsdf></shape>");
+  };
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
+  EXPECT_EQ(said("obj", "a.obj", triangle), "");
+  EXPECT_THAT(said("obj", "a.obj", triangle + "f 1/1 2/1 3\n"),
+              testing::HasSubstr("a.obj: the face of line 6 has none"));
+  EXPECT_THAT(said("ply", "a.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                   "element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+              testing::HasSubstr("a.ply: its vertices have no u and v"));
+}
+
 // The reference and the reading cannot disagree: every parameter that a row declares is read, since what is broken in
 // it is noticed in its line, and nothing that it does not declare is accepted.
 TEST_F(PluginsTest, EveryDeclaredParameterIsRead) {

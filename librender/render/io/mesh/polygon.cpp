@@ -1,0 +1,145 @@
+#include <render/io/mesh/polygon.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace render {
+
+namespace {
+
+using Point = mc::Vec2<double>;
+using Triangle = std::array<std::uint32_t, 3>;
+
+// Twice the area of a triangle, > 0 where it turns left.
+double turn(const Point& a, const Point& b, const Point& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+// A polygon in its plane, of size 1, turning left.
+struct Flat {
+  std::vector<Point> points;
+  double area2 = 0; // twice its area
+};
+
+// Seen along the axis that its normal is nearest to: what lies within what stays as it is. Nothing where it has no
+// area.
+std::optional<Flat> flattened(std::span<const Vec3d> corners) {
+  double size = 0;
+  for (const Vec3d& p : corners) size = std::max(size, (p - corners[0]).lpNorm<Eigen::Infinity>());
+  if (!(size > 0 && std::isfinite(size))) return {};
+  const auto corner = [&](std::size_t i) -> Vec3d { return (corners[i] - corners[0]) / size; };
+  Vec3d normal = Vec3d::Zero();
+  for (std::size_t i = 2; i < corners.size(); ++i) normal += mc::cross<double>(corner(i - 1), corner(i));
+  int axis = 0;
+  if (!(normal.cwiseAbs().maxCoeff(&axis) > 0)) return {};
+  int x = (axis + 1) % 3, y = (axis + 2) % 3;
+  if (normal[axis] < 0) std::swap(x, y);
+  Flat flat{{}, std::abs(normal[axis])};
+  flat.points.reserve(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) flat.points.emplace_back(corner(i)[x], corner(i)[y]);
+  return flat;
+}
+
+// Whether all triangles about corner 0 turn left: then they lie side by side.
+bool sees_all(const std::vector<Point>& p) {
+  for (std::size_t i = 2; i < p.size(); ++i)
+    if (!(turn(p[0], p[i - 1], p[i]) >= 0)) return false;
+  return true;
+}
+
+// The corners that are left, in a ring.
+class Ring {
+ public:
+  explicit Ring(const Flat& flat) : points_(flat.points), negligible_(1e-12 * flat.area2) {
+    const auto n = static_cast<std::uint32_t>(points_.size());
+    for (std::uint32_t i = 0; i < n; ++i) {
+      next_.push_back((i + 1) % n);
+      previous_.push_back((i + n - 1) % n);
+    }
+  }
+
+  std::uint32_t next(std::uint32_t i) const { return next_[i]; }
+  Triangle triangle(std::uint32_t i) const { return {previous_[i], i, next_[i]}; }
+  bool turns_left(std::uint32_t i) const { return turn_at(i) > 0; }
+  bool is_flat(std::uint32_t i) const { return std::abs(turn_at(i)) <= negligible_; }
+  // Goes where it came from: beyond it what is within looks like what is without.
+  bool is_spike(std::uint32_t i) const {
+    const Point back = points_[previous_[i]] - points_[i], on = points_[next_[i]] - points_[i];
+    return is_flat(i) && back.dot(on) > 0;
+  }
+
+  // Whether the triangle at corner i holds nothing of the rest: where it does, then a corner that does not turn left.
+  bool is_ear(std::uint32_t i) const {
+    const auto [a, b, c] = triangle(i);
+    for (std::uint32_t j = next_[c]; j != a; j = next_[j])
+      if (holds(i, points_[j]) && !turns_left(j)) return false;
+    return true;
+  }
+
+  void remove(std::uint32_t i) {
+    next_[previous_[i]] = next_[i];
+    previous_[next_[i]] = previous_[i];
+  }
+
+ private:
+  double turn_at(std::uint32_t i) const { return turn(points_[previous_[i]], points_[i], points_[next_[i]]); }
+  // Edges too, but not the corners: where a slit begins, two corners are one point.
+  bool holds(std::uint32_t i, const Point& p) const {
+    const Point &a = points_[previous_[i]], &b = points_[i], &c = points_[next_[i]];
+    return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0 && p != a && p != b && p != c;
+  }
+
+  const std::vector<Point>& points_;
+  double negligible_;
+  std::vector<std::uint32_t> next_, previous_;
+};
+
+// The first of the corners left, from `from` on, that can be cut off: a spike, or, where there is none, an ear, or one
+// without an area, or, of a polygon that crosses itself, any.
+std::uint32_t ear_from(const Ring& ring, std::uint32_t from, std::size_t left) {
+  const auto find = [&](const auto& is_wanted) -> std::optional<std::uint32_t> {
+    std::uint32_t i = from;
+    for (std::size_t k = 0; k < left; ++k, i = ring.next(i))
+      if (is_wanted(i)) return i;
+    return {};
+  };
+  if (const auto spike = find([&](std::uint32_t i) { return ring.is_spike(i); })) return *spike;
+  if (const auto ear = find([&](std::uint32_t i) { return ring.turns_left(i) && ring.is_ear(i); })) return *ear;
+  return find([&](std::uint32_t i) { return ring.is_flat(i); }).value_or(from);
+}
+
+} // namespace
+
+std::vector<Triangle> cut_polygon(std::span<const Vec3d> corners) {
+  std::vector<Triangle> triangles;
+  triangles.reserve(corners.size() - 2);
+  const std::optional<Flat> flat = corners.size() > 3 ? flattened(corners) : std::nullopt;
+  if (!flat || sees_all(flat->points)) {
+    for (std::uint32_t i = 2; i < corners.size(); ++i) triangles.push_back({0, i - 1, i});
+    return triangles;
+  }
+  Ring ring(*flat);
+  std::uint32_t at = 0;
+  for (std::size_t left = corners.size(); left >= 3; --left) {
+    const std::uint32_t ear = ear_from(ring, at, left);
+    triangles.push_back(ring.triangle(ear));
+    ring.remove(ear);
+    at = ring.next(ring.next(ear));
+  }
+  return triangles;
+}
+
+void append_polygon(const std::vector<Vec3d>& positions, std::span<const std::uint32_t> polygon,
+                    std::vector<Triangle>& triangles) {
+  if (polygon.size() == 3) { // most are
+    triangles.push_back({polygon[0], polygon[1], polygon[2]});
+    return;
+  }
+  std::vector<Vec3d> corners;
+  corners.reserve(polygon.size());
+  for (const std::uint32_t i : polygon) corners.push_back(positions[i]);
+  for (const auto& [a, b, c] : cut_polygon(corners)) triangles.push_back({polygon[a], polygon[b], polygon[c]});
+}
+
+} // namespace render
