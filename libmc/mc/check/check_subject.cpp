@@ -126,8 +126,8 @@ double claimed_total(const Subject& s, double mass) { return s.may_fail ? 1.0 : 
 // The rate of failures against what the density leaves of 1. The error of its integral is conceded to the sampler;
 // where that would matter the mass itself is inconclusive.
 Check test_failures(const Subject& s, const DrawTally& t, double mass, double mass_error, double alpha) {
-  Check c{"failures", Verdict::pass, {}, alpha_share(FitTest::failures, s.dim), static_cast<double>(t.failed.count),
-          0,          Fault::mass,   {}};
+  Check c{"failures", Verdict::pass,  {}, alpha_share(FitTest::failures, s.dim), static_cast<double>(t.failed.count),
+          0,          Fault::failure, {}};
   const double expected = std::clamp(1 - mass, 0.0, 1.0), slack = mass_error + s.mass_tolerance;
   const double rate = static_cast<double>(t.failed.count) / static_cast<double>(t.draws);
   const double conceded = rate > expected ? std::min(expected + slack, rate) : std::max(expected - slack, rate);
@@ -262,14 +262,6 @@ std::vector<Check> judge_inverse(const Subject& s, const Counts& counts, double 
   return checks;
 }
 
-std::vector<Check> judge_slabs(const Subject& s, const Pilot& pilot, const Counts& counts, double total, double alpha) {
-  std::vector<Check> checks;
-  const std::vector<Slab> slabs = find_slabs(s, pilot, counts.coordinates);
-  for (const Slab::Kind kind : {Slab::Kind::atom, Slab::Kind::gap})
-    checks.push_back(test_slabs(s, kind, slabs, counts.kept, total, alpha));
-  return checks;
-}
-
 // What is thinner or finer than any cell.
 std::vector<Check> judge_detail(const Subject& s, const Pilot& pilot, const Layout& layout, const Counts& counts,
                                 double mass, double alpha) {
@@ -333,10 +325,17 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   append(report.checks, judge_density(s, layout));
   report.checks.push_back(test_mass(s, mass, options.alpha));
   append(report.checks, judge_inverse(s, counts, options.alpha));
-  if (s.dim > 0) append(report.checks, judge_slabs(s, pilot, counts, claimed_total(s, mass.value), options.alpha));
+  const auto slabs = s.dim > 0 ? find_slabs(s, pilot, counts.coordinates) : std::vector<Slab>();
+  const auto judge_slabs = [&](Slab::Kind kind) {
+    if (s.dim == 0) return;
+    const double total = claimed_total(s, mass.value);
+    report.checks.push_back(test_slabs(s, kind, slabs, counts.kept, total, options.alpha));
+  };
+  judge_slabs(Slab::Kind::atom);
   CellTests tests = judge_counts(s, layout, counts.cells, counts.tally, options.alpha);
   recognise_rotation(s, report.axes, layout, pilot, tests.checks);
   append(report.checks, std::move(tests.checks));
+  judge_slabs(Slab::Kind::gap); // after the shape, of which a wide one is a part
   if (s.dim > 0) append(report.checks, judge_detail(s, pilot, layout, counts, mass.value, options.alpha));
   if (s.may_fail) report.checks.push_back(test_failures(s, counts.tally, mass.value, mass.error, options.alpha));
   report.detectable = tests.detectable;

@@ -146,8 +146,9 @@ struct BatchIntegrand {
 ///                2, for every method over Genz's families [Genz87], and the 95 % intervals of vegas, tree and
 ///                automatic hold it in 95 to 96 %; with and without a tolerance, 93 to 97 % of the
 ///                95 % intervals of rqmc hold the truth on steps, kinks, shells and singularities of finite variance at
-///                random places. No error is 0 because replicates agree: what they could not see has a bound; where
-///                every value was 0, or the variance is infinite, error_bar says so, and nothing converges
+///                random places. No error is 0 because replicates agree: what they could not see has a bound. None
+///                converges on fewer than 128 points of each replicate, nor where every value was 0, or the variance is
+///                infinite, as error_bar says
 ///   throws     : Error for an empty f, dim < 1, a tolerance that is negative or not finite, max_calls too small for
 ///                one round, confidence outside (0,1), threads < 0, a density of another dimension or for a method that
 ///                has none, no output that is not watched; what the integrand throws, after all threads have

@@ -15,7 +15,7 @@ namespace mc {
 ///   made from : Pairs, which holds what all walks of a set share and must outlive them, and the index
 ///   next      : one number in [0,1);  next2 : two
 ///   branch(i, n) : the stream of branch i of n where the walk splits. The branches of all walks share one point set,
-///               n times as large; beyond 2^31 points their numbers are independent.
+///               n times as large; where that has too many points to count, their numbers are independent.
 /// A pure function of (seed of the set, index, branches taken).
 template <Real S, class Pairs> class WalkStream {
  public:
@@ -25,7 +25,7 @@ template <Real S, class Pairs> class WalkStream {
   WalkStream(const Points& points, std::uint32_t index) : WalkStream(points, hash(points.seed, index), index, 0, 1) {}
   WalkStream branch(std::uint32_t i, std::uint32_t n) const {
     bool fits = true;
-    if constexpr (pairs > 0) fits = std::uint64_t{points_->count} * scale_ * n <= most_points;
+    if constexpr (pairs > 0) fits = points_->holds(index_, std::uint64_t{scale_} * n, n);
     return WalkStream(*points_, hash(seed_, i), index_ * n + i, fits ? pair_ : pairs, fits ? scale_ * n : scale_);
   }
   S next() { return random_.uniform<S>(); }
@@ -36,8 +36,6 @@ template <Real S, class Pairs> class WalkStream {
   }
 
  private:
-  static constexpr std::uint32_t most_points = 1u << 31;
-
   WalkStream(const Points& points, std::uint64_t seed, std::uint32_t index, std::uint32_t pair, std::uint32_t scale)
       : seed_(seed), random_(seed), points_(&points), index_(index), pair_(pair), scale_(scale) {}
 
@@ -59,14 +57,17 @@ struct NoPairs {
 struct SobolPairs {
   static constexpr std::uint32_t pairs = 6;
   std::uint64_t seed;
-  std::uint32_t count;
   std::array<PaddedSobol::PairKey, pairs> keys;
 
-  SobolPairs(std::uint64_t s, std::uint32_t n) : seed(s), count(n) {
+  SobolPairs(std::uint64_t s, std::uint32_t) : seed(s) {
     for (std::uint32_t i = 0; i < pairs; ++i) keys[i] = PaddedSobol{seed}.pair_key(i);
   }
   template <Real S> Vec2<S> pair(std::uint32_t index, std::uint32_t number, std::uint32_t) const {
     return keys[number].point<S>(index);
+  }
+  /// Whether the set times `scale` has points for n branches of walk `index`.
+  bool holds(std::uint32_t index, std::uint64_t, std::uint32_t n) const {
+    return (std::uint64_t{index} + 1) * n <= std::uint64_t{1} << 32;
   }
 };
 
@@ -80,6 +81,7 @@ struct StratifiedPairs {
   template <Real S> Vec2<S> pair(std::uint32_t index, std::uint32_t number, std::uint32_t scale) const {
     return point<S, 2>(Stratified(count * scale, seed), index, 2 * number);
   }
+  bool holds(std::uint32_t, std::uint64_t scale, std::uint32_t) const { return scale <= (1u << 31) / count; }
 };
 
 template <Real S> using IndependentWalk = WalkStream<S, NoPairs>;

@@ -98,7 +98,7 @@ TEST(CheckSubject, FailuresAreTestedAgainstTheMissingMass) {
   EXPECT_TRUE(check_subject(make_subject("0.1", domain, sampler(0.1), pdf), {.samples = 100'000}).passed());
   const mc::Report wrong = check_subject(make_subject("0.11", domain, sampler(0.11), pdf), {.samples = 100'000});
   EXPECT_EQ(wrong.verdict(), Verdict::fail);
-  EXPECT_EQ(wrong.fault(), Fault::mass) << wrong.to_string();
+  EXPECT_EQ(wrong.fault(), Fault::failure) << wrong.to_string();
 }
 
 // A density that oscillates far below the size of any cell, of which the samples know nothing.

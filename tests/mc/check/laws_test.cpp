@@ -108,7 +108,7 @@ TEST(Laws, ASamplerThatFailsIsAllowedWhatItSays) {
   EXPECT_EQ(mc::check_laws(
                 mc::Interval<double>(0, 1), sample, [](double x) { return x < 0.25 ? 0.0 : 4.0 / 3; }, cheap())
                 .fault(),
-            Fault::mass);
+            Fault::failure);
 }
 
 // A branch at u = 0.7 that steps out of the domain at one number only.

@@ -8,14 +8,14 @@
 
 namespace {
 
-// The closed forms: rqmc agrees with each within 5 standard errors of 23 degrees of freedom, alpha = 5e-5 each; and
+// The closed forms: each is met within 5 standard errors of 23 degrees of freedom, alpha = 5e-5 each; and
 // where it cannot be exact, is near enough to tell.
 TEST(HardIntegrals, TruthsAreTrue) {
   EXPECT_EQ(carlo::hard_integrals().size(), 10u);
   for (const carlo::Experiment& e : carlo::hard_integrals()) {
     mc::IntegrateOptions o;
     o.rel_error = 0;
-    o.max_calls = 200'000;
+    o.max_calls = 1'000'000;
     const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
     EXPECT_LE(std::abs(r.estimate.value - e.truth), 5 * r.estimate.std_error) << e.name;
     EXPECT_LE(r.estimate.std_error, 0.05 * e.truth) << e.name;

@@ -164,7 +164,10 @@ std::vector<Check> check_draws(const Subject& s, const DrawTally& tally, bool op
     checks.back().verdict = Verdict::inconclusive;
     checks.back().detail = fmt::format("none of {} draws is a sample: there is nothing to judge", tally.draws);
   }
-  if (!s.may_fail) add("never fails", tally.failed, Fault::leak, count(tally.failed), 0);
+  if (!s.may_fail) {
+    add("never fails", tally.failed, Fault::failure, count(tally.failed), 0);
+    if (tally.failed.count > 0) checks.back().detail += "; say may_fail where a sample may be none";
+  }
   for (std::size_t i = 0; i < s.atoms.size(); ++i) {
     if (s.atoms[i] > 0 || tally.atoms[i] == 0) continue;
     checks.push_back({"outcomes of probability 0",

@@ -29,6 +29,7 @@ enum class Fault {
   not_finite,
   negative,
   outside,
+  failure,
   leak,
   mass,
   weight,

@@ -28,6 +28,46 @@ std::array<double, ImportanceGrid::bins> pooled(std::span<const double> row, std
   }
   return out;
 }
+
+// With what is more than `ratio` times as wide as what lies below it cut to at most half of that, from there on.
+std::vector<double> cut_upwards(const std::vector<double>& edges, double ratio) {
+  constexpr double least = 0x1p-50;
+  std::vector<double> cut = {edges[0], edges[1]};
+  for (std::size_t i = 1; i + 1 < edges.size(); ++i) {
+    double width = std::max(edges[i] - edges[i - 1], least);
+    while (edges[i + 1] - cut.back() > ratio * width) {
+      width *= ratio / 2;
+      cut.push_back(cut.back() + width);
+    }
+    cut.push_back(edges[i + 1]);
+  }
+  return cut;
+}
+
+std::vector<double> mirrored(std::vector<double> edges) {
+  std::reverse(edges.begin(), edges.end());
+  for (double& e : edges) e = 1 - e;
+  return edges;
+}
+
+// Bins that widen step by step away from narrow ones: the flanks of a peak lie in the bins beside it, which the points
+// of a round may not have met, and where one is hundreds of times as wide hardly any point ever does. At most a quarter
+// more bins are made for it, and their edges shared among as many as there were.
+void grade(std::array<double, ImportanceGrid::bins + 1>& edges) {
+  constexpr std::size_t bins = ImportanceGrid::bins;
+  const std::vector<double> plain(edges.begin(), edges.end());
+  std::vector<double> cut = plain;
+  for (double ratio = 8; ratio < 1e15; ratio *= 8) {
+    cut = mirrored(cut_upwards(mirrored(cut_upwards(plain, ratio)), ratio));
+    if (cut.size() <= bins + bins / 4) break;
+    cut = plain;
+  }
+  for (std::size_t k = 1; k < bins; ++k) {
+    const std::size_t place = k * (cut.size() - 1), i = place / bins;
+    const double share = static_cast<double>(place % bins) / bins;
+    edges[k] = std::max(edges[k - 1], cut[i] + share * (cut[i + 1] - cut[i]));
+  }
+}
 } // namespace
 
 ImportanceGrid::ImportanceGrid(int dim) : dim_(dim), edges_(static_cast<std::size_t>(dim) * (bins + 1)) {
@@ -125,6 +165,7 @@ void ImportanceGrid::refine(std::span<const double> power, std::uint64_t points)
       const double share = std::clamp((target - below) / mass[i], 0.0, 1.0);
       edges[k] = std::max(edges[k - 1], e[i] + share * (e[i + 1] - e[i]));
     }
+    grade(edges);
     std::copy(edges.begin(), edges.end(), e);
   }
 }

@@ -13,9 +13,10 @@ namespace mc {
 /// edges are edges of elementary intervals of a Sobol' sequence: the jumps of the density cost it nothing.
 ///   map    : u in [0,1)^dim -> x in [0,1)^dim, in place, with the Jacobian |dx/du| = 1 / density
 ///   refine : makes the density in each dimension proportional to the root of the mean of (f / density)^2 over the
-///            others, which is the best separable step, with more edges at its jumps. A tenth of the probability stays
-///            uniform, so no region is lost and the Jacobian stays below 10 in each dimension. Of few points only the
-///            coarse shape is learned: at least 64 stand behind what is taken for the power of a bin
+///            others, which is the best separable step, with more edges at its jumps. Bins widen step by step away from
+///            narrow ones: no point may have met the flanks of a peak. A tenth of the probability stays uniform, so no
+///            region is lost and the Jacobian stays below 12.5 in each dimension. Of few points only the coarse shape is
+///            learned: at least 64 stand behind what is taken for the power of a bin
 ///   Source : [Lepage78]
 class ImportanceGrid {
  public:

@@ -41,15 +41,14 @@ class Growth {
     if (!grow(s, end.length)) use_up(s);
     return std::move(out);
   }
-  // Takes what a sequence says for the outcome; whether that is good enough. Short ones behind a density hardly meet
-  // what it thought little of.
+  // Takes what a sequence says for the outcome; whether that is good enough. Short ones agree where none has met a
+  // thousandth of the volume that decides, or what a density thought little of.
   bool adopt(const Sequences& s, const Means& means) {
     out.means = means;
     out.seen = s.seen();
     out.correlations = s.correlations(run_);
     run_.record(out.method, means);
-    const bool long_enough = !s.proposal.density || s.length >= AxisProfile::most;
-    if (long_enough && run_.converged(out.means)) out.stop = Stop::converged;
+    if (s.length >= AxisProfile::most && run_.converged(out.means)) out.stop = Stop::converged;
     last_ = out;
     return out.stop == Stop::converged;
   }
@@ -192,8 +191,12 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   Growth growth(run, method == Method::automatic ? Method::rqmc : method, last);
   Sequences bare{.purpose = 0, .count = run.o.replicates, .record = method == Method::automatic};
   if (method == Method::rqmc) return growth.finish(bare);
-  if (method == Method::automatic && growth.grow(bare, std::max<std::uint64_t>(growth.affordable(bare) / 16, 1)))
-    return std::move(growth.out);
+  if (method == Method::automatic) {
+    const std::uint64_t most = growth.affordable(bare);
+    if (growth.grow(bare, std::max<std::uint64_t>(most / 16, 1))) return std::move(growth.out);
+    // What would have converged but for its length gets it.
+    if (run.converged(bare.means) && growth.grow(bare, std::min(most, AxisProfile::most))) return std::move(growth.out);
+  }
 
   const std::optional<Learned> learned = learn(run, method == Method::automatic ? &bare : nullptr, last);
   bare.forget();

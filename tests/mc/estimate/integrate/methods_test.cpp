@@ -136,17 +136,15 @@ TEST(Methods, LearnGivesUp) {
   EXPECT_LE(run.calls, 24u * 256 + 5000);
 }
 
-// Points behind what was learned hardly meet what it thought little of: a bar of few is not believed.
-TEST(Methods, WhatWasLearnedNeeds128PointsOfEachReplicate) {
-  for (const auto method : {mc::Method::rqmc, mc::Method::vegas, mc::Method::tree}) {
+// The bar of few points is not believed: they may not have met a thousandth of the volume that decides.
+TEST(Methods, ReplicatesNeed128PointsEach) {
+  for (const auto method : {mc::Method::rqmc, mc::Method::vegas, mc::Method::tree, mc::Method::automatic}) {
     mc::IntegrateOptions o;
     o.rel_error = 0.1;
     detail::Run run{{.one = &near_pole}, 1, 2, o};
     std::optional<Outcome> last;
-    const Outcome out = sequences(run, method, last);
-    EXPECT_EQ(out.stop, mc::Stop::converged);
-    if (method == mc::Method::rqmc) EXPECT_LT(run.calls, 128u * o.replicates);
-    else EXPECT_GE(run.calls, 128u * o.replicates);
+    EXPECT_EQ(sequences(run, method, last).stop, mc::Stop::converged);
+    EXPECT_GE(run.calls, 128u * o.replicates);
   }
 }
 
