@@ -216,6 +216,19 @@ TEST(Integrate, TwoValuesAreNoIntegrand) {
   EXPECT_THAT(support::run_carlo("integrate 'x, x*x' -d x=0:1").output, testing::HasSubstr("has 2 values"));
 }
 
+TEST(Integrate, NamesTheVariablesWhereItIsNotFinite) {
+  const auto says = [](const std::string& arguments) { return support::run_carlo("integrate " + arguments).output; };
+  EXPECT_THAT(says("'max(exp(.2*x-.02)-1,0)*exp(-x*x/2)/sqrt(2*_pi)' -d x=-inf:inf --method plain"),
+              testing::AllOf(testing::ContainsRegex("points, the first at x = [0-9.]+; it must be finite"),
+                             testing::EndsWith("; it is nan there: inf * 0 or inf - inf? Merge the exponents or bound "
+                                               "the domain\n")));
+  EXPECT_THAT(says("1 'sqrt(x-y)' -d x=0:1,y=2:3"),
+              testing::AllOf(testing::ContainsRegex("the first at x = 0[.][0-9]+, y = 2[.][0-9]+; it must be finite"),
+                             testing::EndsWith("; it is nan there\n")));
+  EXPECT_THAT(says("1/0 -d x=2:3"),
+              testing::AllOf(testing::HasSubstr("the first at x = 2."), testing::EndsWith("almost everywhere\n")));
+}
+
 TEST(Integrate, CtrlCSaysWhatWasFound) {
   for (const std::string method : {"plain", "vegas", "tree"}) { // of which two learn for a while
     const support::Run r =
