@@ -46,6 +46,13 @@ const CLI::Validator count(
 // Or else -5 would be 2^64 - 5.
 std::string negative(const std::string& text) { return text.starts_with('-') ? text + " must be >= 0" : std::string(); }
 
+// Or else it would be 2^64 - 1.
+std::string too_large(const std::string& text) {
+  errno = 0;
+  std::strtoull(text.c_str(), nullptr, 0);
+  return errno == ERANGE ? fmt::format("{} is too large; at most {}", text, ~0ull) : std::string();
+}
+
 // Or else -o=a.png would be a file '=a.png'.
 std::string equals_sign(const std::string& text) {
   return text.starts_with('=') ? fmt::format("'{}' begins with =; leave that out", text) : std::string();
@@ -62,7 +69,7 @@ CLI::Option* add(CLI::App& app, const Option& o, std::vector<std::string>* list)
 template <class T> CLI::Option* add(CLI::App& app, const Option& o, T* target) {
   CLI::Option* option = app.add_option(o.names, *target, o.help);
   if constexpr (std::integral<T> || std::same_as<T, std::optional<int>>) option->transform(count);
-  if constexpr (std::unsigned_integral<T>) option->check(negative);
+  if constexpr (std::unsigned_integral<T>) option->check(negative)->check(too_large);
   if constexpr (std::same_as<T, std::string>) option->check(equals_sign);
   if constexpr (requires { target->empty(); }) {
     if (!target->empty()) option->capture_default_str();
@@ -97,6 +104,9 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& e) {
   const std::vector<CLI::App*> given = app.get_subcommands();
   const CLI::App& asked = given.empty() ? app : *given.front();
   const std::string help = fmt::format("see carlo {}--help", given.empty() ? "" : asked.get_name() + " ");
+  for (const CLI::Option* o : asked.get_options())
+    if (o->get_expected_max() == 1 && o->count() > 1)
+      return fmt::format("{} is given {} times; give it once ({})", o->get_name(), o->count(), help);
   const std::vector<std::string> unknown = app.remaining(true);
   if (unknown.empty()) return fmt::format("{} ({})", e.what(), help);
   auto word = std::find_if(unknown.begin(), unknown.end(), [](const auto& u) { return u.starts_with('-'); });

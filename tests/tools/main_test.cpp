@@ -21,6 +21,9 @@ TEST(Main, NamesTheArgumentThatItDoesNotKnow) {
        "(see carlo integrate --help)");
   says("render cbox --outptu=/tmp/a.exr", "unknown argument '--outptu=/tmp/a.exr' (see carlo render --help)");
   says("render a b", "unknown argument 'b' (see carlo render --help)");
+  says("converge --max-n 64 --max-n 128", "--max-n is given 2 times; give it once (see carlo converge --help)");
+  says("integrate pi --seed 99999999999999999999",
+       "--seed: 99999999999999999999 is too large; at most 18446744073709551615 (see carlo integrate --help)");
   says("render a --spp", "--spp: 1 required N missing (see carlo render --help)");
 }
 

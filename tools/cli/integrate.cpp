@@ -169,6 +169,23 @@ mc::VectorIntegral results_of(const std::vector<Experiment>& all, const Bins& bi
   return mc::integrate_unit(f, static_cast<int>(all.size()), e.dim, o);
 }
 
+// A refusal of a point u, told in the variables of the integrand.
+std::string in_variables(std::string message, const std::vector<Experiment>& all, const std::string& domain) {
+  constexpr std::string_view before = "at u = (";
+  const std::size_t begin = message.find(before), first = begin + before.size(), end = message.find(')', begin);
+  if (begin == message.npos || end == message.npos || !all.front().place) return message;
+  std::vector<double> u;
+  for (const std::string_view x : mc::split(std::string_view(message).substr(first, end - first), ','))
+    u.push_back(mc::number_in(x).value());
+  const auto bad = std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return !std::isfinite(e.f(u)); });
+  message.replace(begin, end + 1 - begin, "at " + all.front().place(u));
+  if (bad == all.end() || !std::isnan(bad->f(u))) return message;
+  const std::vector<Side> sides = parse_sides(domain);
+  const bool finite = std::all_of(sides.begin(), sides.end(), [](const Side& s) { return s.is_finite(); });
+  return message + (finite ? "; it is nan there"
+                           : "; it is nan there: inf * 0 or inf - inf? Merge the exponents or bound the domain");
+}
+
 std::vector<Experiment> integrands_of(const IntegrateOptions& o) {
   mc::require(!o.integrands.empty(), "integrate: name an integrand or give an expression; --list shows the names");
   std::vector<Experiment> all;
@@ -218,8 +235,8 @@ int integrate(const IntegrateOptions& o) {
   settings.cancel = interrupt.flag();
   try {
     found.results = results_of(found.integrands, bins, settings);
-  } catch (const mc::Error&) {
-    if (!*interrupt.flag()) throw;
+  } catch (const mc::Error& e) {
+    if (!*interrupt.flag()) throw mc::Error(in_variables(e.what(), found.integrands, o.domain));
     progress.clear();
     fmt::print(stderr, "interrupted before anything was estimated\n");
     return exit_interrupted;

@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 
 #include <algorithm>
 #include <charconv>
@@ -36,8 +37,10 @@ Number parse(std::string_view word) {
   const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
   const auto [end, error] = std::from_chars(first, word.data() + word.size(), n.value);
   n.whole = !word.empty() && end == word.data() + word.size() && error != std::errc::invalid_argument;
-  n.finite = n.whole && error == std::errc() && std::isfinite(n.value);
+  const std::optional<double> value = mc::number_in(word); // 1e-400 is 0
+  n.finite = value && std::isfinite(*value);
   if (!n.finite) return n;
+  n.value = *value;
   const std::size_t exponent = word.find_first_of("eE");
   const std::string_view mantissa = word.substr(0, exponent);
   if (const std::size_t point = mantissa.find('.'); point != std::string_view::npos)

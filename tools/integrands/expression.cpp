@@ -4,12 +4,15 @@
 #include <integrands/sides.h>
 
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 
 #include <muParser.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -20,6 +23,7 @@ namespace {
 double both(double a, double b) { return a != 0 && b != 0; }
 double either(double a, double b) { return a != 0 || b != 0; }
 double negated(double a) { return a == 0; }
+double whole_below(double a) { return std::floor(a); }
 double chosen(double condition, double yes, double no) { return condition != 0 ? yes : no; }
 
 void define_words(mu::Parser& parser) {
@@ -30,6 +34,57 @@ void define_words(mu::Parser& parser) {
   parser.DefineOprt("or", either, mu::prLOR);
   parser.DefineFun("not", negated);
   parser.DefineFun("if", chosen);
+  parser.DefineFun("floor", whole_below);
+}
+
+// How other languages write things, and how expressions do.
+struct Habit {
+  std::string_view text, remedy;
+};
+constexpr Habit habits[] = {
+    {"\xe2\x88\x92", "this is the minus of typeset text; type -"},
+    {"\xc3\x97", "a product is x*y"},
+    {"\xc2\xb7", "a product is x*y"},
+    {"\xc2\xb2", "a square is x^2"},
+    {"\xcf\x80", "pi is _pi"},
+    {"**", "a power is x^2, not x**2"},
+    {"%", "there is no %; the rest of x by 2 is x - 2*floor(x/2)"},
+    {"pi", "pi is _pi"},
+    {"e", "e is _e; a power of it is exp(x)"},
+    {"pow", "a power is x^2, not pow(x, 2)"},
+};
+
+bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+// What to write instead of what the parser stumbled over; empty: unknown.
+std::string_view remedy(std::string_view expression, std::size_t at) {
+  const std::string_view before = mc::trimmed(expression.substr(0, at));
+  std::string_view here = expression.substr(at);
+  const auto in_value = [](char c) { return in_word(c) || c == '.'; };
+  const bool two_values = !before.empty() && !here.empty() && (in_value(before.back()) || before.back() == ')') &&
+                          (in_value(here[0]) || here[0] == '(');
+  if (here.starts_with('*') && before.ends_with('*')) here = expression.substr(before.size() - 1);
+  here.remove_prefix(std::min(here.find_first_not_of("0123456789."), here.size())); // 2pi is one word to the parser
+  for (const Habit& h : habits)
+    if (here.starts_with(h.text) &&
+        !(in_word(h.text[0]) && here.size() > h.text.size() && in_word(here[h.text.size()])))
+      return h.remedy;
+  return two_values ? "an operator is missing; a product is 2*x" : "";
+}
+
+mc::Error refusal(const std::string& expression, const mu::Parser::exception_type& e) {
+  if (e.GetCode() == mu::ecEXPRESSION_TOO_LONG)
+    return mc::Error(fmt::format("expression '{}' is too long: {} bytes; at most {} are read", abridged(expression),
+                                 expression.size(), int{mu::MaxLenExpression} - 1));
+  if (e.GetPos() < 0) return mc::Error(fmt::format("expression '{}': {}", abridged(expression), e.GetMsg()));
+  const std::size_t at = std::min(static_cast<std::size_t>(e.GetPos()), expression.size());
+  std::string complaint(remedy(expression, at));
+  if (complaint.empty()) {
+    complaint = e.GetMsg();
+    for (const char* place : {" found at position", " at expression position", " at position"})
+      complaint.resize(std::min(complaint.find(place), complaint.size()));
+  }
+  return mc::Error(fmt::format("expression '{}', position {}: {}", abridged(expression, at), at, abridged(complaint)));
 }
 
 // muParser takes "x = 0.5" for an assignment, even within a sum.
@@ -37,8 +92,8 @@ void refuse_assignment(std::string_view expression) {
   for (std::size_t at = expression.find('='); at != expression.npos; at = expression.find('=', at + 1)) {
     const bool second = at > 0 && std::string_view("=<>!").find(expression[at - 1]) != std::string_view::npos;
     const bool first = at + 1 < expression.size() && expression[at + 1] == '=';
-    mc::require(first || second, "expression '{}', position {}: '=' sets a variable; use == to compare", expression,
-                at);
+    mc::require(first || second, "expression '{}', position {}: '=' sets a variable; use == to compare",
+                abridged(expression, at), at);
   }
 }
 
@@ -55,10 +110,10 @@ struct Instance {
       parser.SetExpr(expression);
       parser.Eval();
       mc::require(parser.GetNumResults() == 1,
-                  "expression '{}' has {} values; give one, or each as an argument of its own", expression,
+                  "expression '{}' has {} values; give one, or each as an argument of its own", abridged(expression),
                   parser.GetNumResults());
     } catch (const mu::Parser::exception_type& e) {
-      throw mc::Error(fmt::format("expression '{}', position {}: {}", expression, e.GetPos(), e.GetMsg()));
+      throw refusal(expression, e);
     }
   }
   Instance(const Instance&) = delete;
@@ -66,6 +121,19 @@ struct Instance {
 };
 
 } // namespace
+
+std::string abridged(std::string_view text, std::size_t at) {
+  constexpr std::size_t most = 60;
+  const auto whole = [&](std::size_t i) { // no character of several bytes is cut
+    while (i > 0 && i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80) --i;
+    return i;
+  };
+  if (text.size() <= most) return std::string(text);
+  const std::size_t first = whole(std::min(at - std::min(at, most / 2), text.size() - most));
+  const std::size_t last = whole(std::min(first + most, text.size()));
+  return fmt::format("{}{}{}", first > 0 ? "..." : "", text.substr(first, last - first),
+                     last < text.size() ? "..." : "");
+}
 
 void require_variable(std::string_view name) {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
@@ -102,7 +170,7 @@ std::function<double(std::span<const double>)> parse_function(const std::string&
 
 Experiment parse_expression(const std::string& expression, const std::string& box) {
   mc::require(!box.empty(), "'{}' is not a name of --list; for an expression give --domain, as in \"x=0:1,y=-1:2\"",
-              expression);
+              abridged(expression));
   const std::vector<Side> sides = parse_sides(box);
   mc::require(sides.size() <= 32, "--domain: {} variables; at most 32 are possible", sides.size());
   std::vector<std::string> names;

@@ -9,17 +9,21 @@ namespace carlo {
 
 /// What an expression is made of, for --help.
 inline constexpr const char* expressions =
-    "Expressions: + - * / ^, < <= == != >= >, and, or, not(), c ? a : b, if(c, a, b), abs sign rint min max sqrt exp "
-    "ln log2 log10 sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh, _pi, _e.";
+    "Expressions: + - * / ^, < <= == != >= >, and, or, not(), c ? a : b, if(c, a, b), abs sign floor rint min max sum "
+    "avg "
+    "sqrt exp ln log (= ln) log2 log10 sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh, _pi, _e.";
+
+/// Some 60 bytes of a text around a place in it, for a message.
+std::string abridged(std::string_view text, std::size_t at = 0);
 
 /// What a variable may be called: a letter or _, then letters, digits and _, but no word of expressions.
 ///   throws : mc::Error "'3x' is no name of a variable: ..."
 void require_variable(std::string_view name);
 
 /// An expression as a function of the variables' values, in their order; may be called from several threads at once.
-/// Knows the functions and operators of muParser, the constants _pi and _e, "a and b", "a or b", not(a) and
-/// if(condition, yes, no); no assignment.
-///   throws : mc::Error for an expression that does not parse, with the position
+/// Knows the functions and operators of muParser, the constants _pi and _e, "a and b", "a or b", not(a),
+/// if(condition, yes, no) and floor(a); no assignment.
+///   throws : mc::Error for an expression that does not parse, with the position and what to write where that is known
 std::function<double(std::span<const double>)> parse_function(const std::string& expression,
                                                               const std::vector<std::string>& variables);
 

@@ -72,6 +72,46 @@ TEST(Expression, AssignsNothing) {
     EXPECT_NO_THROW(parse(expression)) << expression;
 }
 
+TEST(Expression, NamesWhatToWriteInstead) {
+  const auto message = [](const std::string& expression) -> std::string {
+    try {
+      carlo::parse_function(expression, {"x"});
+    } catch (const mc::Error& e) {
+      return e.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(message("x\u22121"), "expression 'x\u22121', position 1: this is the minus of typeset text; type -");
+  EXPECT_EQ(message("1 + x**2"), "expression '1 + x**2', position 6: a power is x^2, not x**2");
+  EXPECT_EQ(message("x%2"), "expression 'x%2', position 1: there is no %; the rest of x by 2 is x - 2*floor(x/2)");
+  EXPECT_EQ(message("pow(x,2)"), "expression 'pow(x,2)', position 0: a power is x^2, not pow(x, 2)");
+  for (const char* e : {"pi*x", "x*pi", "2pi", "sin(pi)", "2*\u03c0"})
+    EXPECT_THAT(message(e), testing::EndsWith(": pi is _pi")) << e;
+  for (const char* e : {"e^x", "2e*x"}) EXPECT_THAT(message(e), testing::HasSubstr(": e is _e;")) << e;
+  for (const char* e : {"2x", "2 x", ".5x", "2.x", "2(x)", "(x)(x)", "x(2)", "2sin(x)", "sin(2x)", "x 2", "2_pi"})
+    EXPECT_THAT(message(e), testing::EndsWith(": an operator is missing; a product is 2*x")) << e;
+  EXPECT_EQ(message("2*expo"), "expression '2*expo', position 2: Unexpected token \"expo\"");
+  EXPECT_EQ(message("x+"), "expression 'x+', position 2: Unexpected end of expression");
+  EXPECT_EQ(message(""), "expression '': Expression is empty.");
+  EXPECT_EQ(message("x<.5?1"), "expression 'x<.5?1': If-then-else operator is missing an else clause");
+  std::string sum = "x";
+  while (sum.size() < 19'999) sum += "+x";
+  EXPECT_EQ(message(sum), "accepted");
+  EXPECT_THAT(message(sum + "+x"), testing::EndsWith("...' is too long: 20001 bytes; at most 19999 are read"));
+  for (const std::string& e : {sum + "+x", sum.substr(0, 9999) + "+q" + sum.substr(0, 9998), sum.substr(0, 9999) + "=x",
+                               sum.substr(0, 9999) + "%" + std::string(500, '%'), sum.substr(0, 9999) + ",x"})
+    EXPECT_LT(message(e).size(), 200u) << e;
+  EXPECT_THAT(
+      message(sum.substr(0, 999) + "+q" + sum.substr(1, 998)),
+      testing::HasSubstr("'...x+x+x+x+x+x+x+x+x+x+x+x+x+x+x+q+x+x+x+x+x+x+x+x+x+x+x+x+x+x+...', position 1000: "));
+}
+
+TEST(Expression, FloorIsTheWholeNumberBelow) {
+  const auto f = carlo::parse_function("floor(x) + 10*(x - 2*floor(x/2))", {"x"});
+  EXPECT_EQ(f(std::vector{-0.5}), 14);
+  EXPECT_EQ(f(std::vector{3.0}), 13);
+}
+
 TEST(Expression, TwoAtOnceDoNotMix) {
   const carlo::Experiment a = carlo::parse_expression("x", "x=0:2"), b = carlo::parse_expression("_pi", "x=0:1");
   const double u[] = {0.25};
@@ -174,6 +214,19 @@ TEST(Integrate, CountsMayBeWrittenAsPowersOfTen) {
 
 TEST(Integrate, TwoValuesAreNoIntegrand) {
   EXPECT_THAT(support::run_carlo("integrate 'x, x*x' -d x=0:1").output, testing::HasSubstr("has 2 values"));
+}
+
+TEST(Integrate, NamesTheVariablesWhereItIsNotFinite) {
+  const auto says = [](const std::string& arguments) { return support::run_carlo("integrate " + arguments).output; };
+  EXPECT_THAT(says("'max(exp(.2*x-.02)-1,0)*exp(-x*x/2)/sqrt(2*_pi)' -d x=-inf:inf --method plain"),
+              testing::AllOf(testing::ContainsRegex("points, the first at x = [0-9.]+; it must be finite"),
+                             testing::EndsWith("; it is nan there: inf * 0 or inf - inf? Merge the exponents or bound "
+                                               "the domain\n")));
+  EXPECT_THAT(says("1 'sqrt(x-y)' -d x=0:1,y=2:3"),
+              testing::AllOf(testing::ContainsRegex("the first at x = 0[.][0-9]+, y = 2[.][0-9]+; it must be finite"),
+                             testing::EndsWith("; it is nan there\n")));
+  EXPECT_THAT(says("1/0 -d x=2:3"),
+              testing::AllOf(testing::HasSubstr("the first at x = 2."), testing::EndsWith("almost everywhere\n")));
 }
 
 TEST(Integrate, CtrlCSaysWhatWasFound) {

@@ -64,6 +64,13 @@ TEST_F(Points, TwoThatAreEqual) {
   EXPECT_THAT(run.output, HasSubstr("0 plain, 0 periodic"));
 }
 
+TEST_F(Points, WhatIsTooSmallForADoubleIsZero) {
+  const Ran run = run_carlo("points --points-file '" + write("small.csv", "1e-400,0.5\n0.75,0.125\n0,0.5\n") +
+                            "' -o '" + path("out") + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("0 plain, 0 periodic")) << "the first is the third";
+}
+
 TEST_F(Points, ThreadsChangeNothing) {
   for (const char* threads : {"1", "2"})
     run_carlo(std::string("points lattice -n 40 --randomisations 3 --threads ") + threads + " -o '" + path(threads) +
