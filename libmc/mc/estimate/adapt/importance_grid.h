@@ -15,8 +15,8 @@ namespace mc {
 ///   refine : makes the density in each dimension proportional to the root of the mean of (f / density)^2 over the
 ///            others, which is the best separable step, with more edges at its jumps. Bins widen step by step away from
 ///            narrow ones: no point may have met the flanks of a peak. A tenth of the probability stays uniform, so no
-///            region is lost and the Jacobian stays below 12.5 in each dimension. Of few points only the coarse shape is
-///            learned: at least 64 stand behind what is taken for the power of a bin
+///            region is lost and the Jacobian stays below 12.5 in each dimension. Of few points only the coarse shape
+///            is learned: at least 64 stand behind what is taken for the power of a bin
 ///   Source : [Lepage78]
 class ImportanceGrid {
  public:
