@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 
 namespace carlo {
 
@@ -175,11 +176,14 @@ std::string in_variables(std::string message, const std::vector<Experiment>& all
   const std::size_t begin = message.find(before), first = begin + before.size(), end = message.find(')', begin);
   if (begin == message.npos || end == message.npos || !all.front().place) return message;
   std::vector<double> u;
-  for (const std::string_view x : mc::split(std::string_view(message).substr(first, end - first), ','))
-    u.push_back(mc::number_in(x).value());
+  for (const std::string_view word : mc::split(std::string_view(message).substr(first, end - first), ',')) {
+    const std::optional<double> x = mc::number_in(word);
+    if (!x) return message;
+    u.push_back(*x);
+  }
   const auto bad = std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return !std::isfinite(e.f(u)); });
   message.replace(begin, end + 1 - begin, "at " + all.front().place(u));
-  if (bad == all.end() || !std::isnan(bad->f(u))) return message;
+  if (domain.empty() || bad == all.end() || !std::isnan(bad->f(u))) return message;
   const std::vector<Side> sides = parse_sides(domain);
   const bool finite = std::all_of(sides.begin(), sides.end(), [](const Side& s) { return s.is_finite(); });
   return message + (finite ? "; it is nan there"

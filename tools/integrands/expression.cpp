@@ -57,8 +57,9 @@ constexpr Habit habits[] = {
 bool in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 // What to write instead of what the parser stumbled over; empty: unknown.
-std::string_view remedy(std::string_view expression, std::size_t at) {
-  const std::string_view before = mc::trimmed(expression.substr(0, at));
+std::string_view remedy(std::string_view expression, std::size_t at, const std::vector<std::string>& names) {
+  const std::size_t last = at > 0 ? expression.find_last_not_of(" \t", at - 1) : expression.npos;
+  const std::string_view before = expression.substr(0, last + 1); // of nothing, too: npos + 1 is 0
   std::string_view here = expression.substr(at);
   const auto in_value = [](char c) { return in_word(c) || c == '.'; };
   const bool two_values = !before.empty() && !here.empty() && (in_value(before.back()) || before.back() == ')') &&
@@ -66,19 +67,20 @@ std::string_view remedy(std::string_view expression, std::size_t at) {
   if (here.starts_with('*') && before.ends_with('*')) here = expression.substr(before.size() - 1);
   here.remove_prefix(std::min(here.find_first_not_of("0123456789."), here.size())); // 2pi is one word to the parser
   for (const Habit& h : habits)
-    if (here.starts_with(h.text) &&
+    if (here.starts_with(h.text) && std::find(names.begin(), names.end(), h.text) == names.end() &&
         !(in_word(h.text[0]) && here.size() > h.text.size() && in_word(here[h.text.size()])))
       return h.remedy;
   return two_values ? "an operator is missing; a product is 2*x" : "";
 }
 
-mc::Error refusal(const std::string& expression, const mu::Parser::exception_type& e) {
+mc::Error refusal(const std::string& expression, const mu::Parser::exception_type& e,
+                  const std::vector<std::string>& names) {
   if (e.GetCode() == mu::ecEXPRESSION_TOO_LONG)
     return mc::Error(fmt::format("expression '{}' is too long: {} bytes; at most {} are read", abridged(expression),
                                  expression.size(), int{mu::MaxLenExpression} - 1));
   if (e.GetPos() < 0) return mc::Error(fmt::format("expression '{}': {}", abridged(expression), e.GetMsg()));
   const std::size_t at = std::min(static_cast<std::size_t>(e.GetPos()), expression.size());
-  std::string complaint(remedy(expression, at));
+  std::string complaint(remedy(expression, at, names));
   if (complaint.empty()) {
     complaint = e.GetMsg();
     for (const char* place : {" found at position", " at expression position", " at position"})
@@ -113,7 +115,7 @@ struct Instance {
                   "expression '{}' has {} values; give one, or each as an argument of its own", abridged(expression),
                   parser.GetNumResults());
     } catch (const mu::Parser::exception_type& e) {
-      throw refusal(expression, e);
+      throw refusal(expression, e, names);
     }
   }
   Instance(const Instance&) = delete;

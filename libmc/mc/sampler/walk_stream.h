@@ -81,7 +81,8 @@ struct StratifiedPairs {
   template <Real S> Vec2<S> pair(std::uint32_t index, std::uint32_t number, std::uint32_t scale) const {
     return point<S, 2>(Stratified(count * scale, seed), index, 2 * number);
   }
-  bool holds(std::uint32_t, std::uint64_t scale, std::uint32_t) const { return scale <= (1u << 31) / count; }
+  /// Whether there are strata for the set times `scale`.
+  bool holds(std::uint32_t, std::uint64_t scale, std::uint32_t) const { return count * scale <= 1u << 31; }
 };
 
 template <Real S> using IndependentWalk = WalkStream<S, NoPairs>;

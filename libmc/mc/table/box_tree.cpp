@@ -11,6 +11,7 @@ namespace mc {
 struct BoxTree::Builder {
   BoxTree& tree;
   std::vector<double> weight;     // of each node: the sum of its leaves
+  std::vector<double> positive;   // how many of them have any
   std::vector<std::size_t> after; // index of the first node that is not below it
   std::vector<Side> path = {};    // the sides that are cut, of the box so far
 
@@ -24,8 +25,7 @@ struct BoxTree::Builder {
     const Side whole = fresh ? Side{n.axis, 0, 1, 0, 1} : *side;
     require(n.value > whole.x_lo && n.value < whole.x_hi, "BoxTree: node {} cuts axis {} at {}; its box spans ({}, {})",
             node, n.axis, n.value, whole.x_lo, whole.x_hi);
-    const double below = weight[node + 1], above = weight[after[node + 1]];
-    const double cut = place_of_cut(whole.u_lo, whole.u_hi, below, above);
+    const double cut = place_of_cut(whole.u_lo, whole.u_hi, node + 1, after[node + 1]);
     tree.planes_.push_back({n.axis, {0, 0}, cut, n.value});
     if (fresh) path.push_back(whole);
     path[place] = {n.axis, whole.x_lo, n.value, whole.u_lo, cut};
@@ -39,12 +39,13 @@ struct BoxTree::Builder {
     return plane;
   }
 
-  // Leaves to both sides the share of their weight, and to neither that has any less than 2^-53.
-  static double place_of_cut(double lo, double hi, double below, double above) {
+  // Leaves to both sides the share of their weight, and 2^-53 at least to each leaf that has any, so that what is cut
+  // again finds numbers between.
+  double place_of_cut(double lo, double hi, std::size_t below, std::size_t above) const {
+    const double sum = weight[below] + weight[above];
     // 0 / 0 where no point comes from: any share will do.
-    const double share = below + above > 0 ? below / (below + above) : 0.5, least = 0x1p-53 * (hi - lo);
-    const double lowest = below > 0 ? std::max(lo + least, std::nextafter(lo, hi)) : lo;
-    const double highest = above > 0 ? std::min(hi - least, std::nextafter(hi, lo)) : hi;
+    const double share = sum > 0 ? weight[below] / sum : 0.5;
+    const double lowest = lo + 0x1p-53 * positive[below], highest = hi - 0x1p-53 * positive[above];
     return std::max(std::min(lo + share * (hi - lo), highest), lowest);
   }
 
@@ -74,23 +75,25 @@ BoxTree::BoxTree(int dim, std::span<const TreeNode> nodes) : dim_(dim), nodes_(n
   require(largest > 0, "BoxTree: the weights of all leaves are 0; at least one must be > 0");
   int exponent;
   std::frexp(largest, &exponent); // so that no sum overflows
-  std::vector<double> weight(nodes.size());
+  std::vector<double> weight(nodes.size()), positive(nodes.size());
   std::vector<std::size_t> after(nodes.size()), open; // open: nodes whose parent has not been met
   for (std::size_t i = nodes.size(); i-- > 0;) {
     if (nodes[i].axis == TreeNode::leaf) {
       weight[i] = std::ldexp(nodes[i].value, -exponent);
+      positive[i] = nodes[i].value > 0 ? 1 : 0;
       after[i] = i + 1;
     } else {
       require(open.size() >= 2, "BoxTree: node {} needs two parts below it", i);
       const std::size_t below = open.back(), above = open[open.size() - 2];
       open.resize(open.size() - 2);
       weight[i] = weight[below] + weight[above];
+      positive[i] = positive[below] + positive[above];
       after[i] = after[above];
     }
     open.push_back(i);
   }
   require(open.size() == 1, "BoxTree: {} nodes make {} trees; one is needed", nodes.size(), open.size());
-  root_ = Builder{*this, std::move(weight), std::move(after)}.build(0);
+  root_ = Builder{*this, std::move(weight), std::move(positive), std::move(after)}.build(0);
 }
 
 namespace {

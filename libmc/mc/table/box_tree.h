@@ -18,8 +18,8 @@ struct TreeNode {
 };
 
 /// Boxes of the unit cube and, for each, a box of u in [0,1)^d whose volume is its probability. Both are cut by the
-/// same planes but for their places: in u a plane leaves to either side the share of its weight, within 2^-52, and at
-/// least 2^-53 where its weight is positive.
+/// same planes but for their places: in u a plane leaves to either side the share of its weight, within 2^-52 and 2^-53
+/// for each leaf: as much is left to each whose weight is positive.
 ///   nodes  : in preorder: each plane is followed by all that lies below it, then by all that lies above
 ///   throws : Error for dim < 1, nodes that do not make one tree, an axis beyond dim, a plane outside of its box, a
 ///            weight that is not finite and >= 0, or all weights 0

@@ -51,10 +51,8 @@ TEST(BoxTree, BoxesFillTheCubeAndProbabilitiesFollowTheWeights) {
       if (n.axis == TreeNode::leaf) {
         const double p = tree.density(leaf) * volume(tree, leaf);
         // Each plane rounds its share to an ulp of u.
-        EXPECT_NEAR(p, n.value / total, 16 * 0x1p-52) << seed;
-        if (n.value == 0) {
-          EXPECT_EQ(tree.density(leaf), 0);
-        }
+        EXPECT_NEAR(p, n.value / total, 16 * 0x1p-52 + static_cast<double>(tree.leaves()) * 0x1p-53) << seed;
+        EXPECT_EQ(tree.density(leaf) > 0, n.value > 0) << seed;
         filled += volume(tree, leaf++);
         mass += p;
       }
@@ -130,6 +128,21 @@ TEST(BoxTree, SmallWeightsKeepAProbability) {
       EXPECT_NEAR(p, tiny, 0x1p-52) << tiny;
       EXPECT_GE(p, 0x1p-53) << tiny;
     }
+}
+
+// However often it is cut: beside a leaf of nearly all weight no number may be left between others.
+TEST(BoxTree, ManySmallWeightsKeepTheirProbabilities) {
+  for (const bool mirrored : {false, true}) {
+    std::vector<TreeNode> nodes;
+    for (int k = 1; k <= 40; ++k) { // a large leaf, then ever smaller boxes on one side
+      nodes.push_back({0, mirrored ? std::ldexp(1.0, -k) : 1 - std::ldexp(1.0, -k)});
+      if (!mirrored) nodes.push_back({TreeNode::leaf, k == 1 ? 1 : 1e-30});
+    }
+    nodes.push_back({TreeNode::leaf, 1e-30});
+    for (int k = 40; mirrored && k >= 1; --k) nodes.push_back({TreeNode::leaf, k == 1 ? 1 : 1e-30});
+    const BoxTree tree(1, nodes);
+    for (std::size_t leaf = 0; leaf < tree.leaves(); ++leaf) EXPECT_GT(tree.density(leaf), 0) << mirrored << leaf;
+  }
 }
 
 TEST(BoxTree, OfAFunctionInAnyUnit) {

@@ -62,6 +62,14 @@ TEST(Expression, ConditionsHaveWords) {
   EXPECT_EQ(f(std::vector{1.0, 2.0}), 5);
 }
 
+TEST(Expression, AVariableIsNoConstantMisspelt) {
+  EXPECT_THAT(
+      [] {
+        carlo::parse_function("2e*x", {"x", "e"});
+      },
+      testing::ThrowsMessage<mc::Error>(testing::HasSubstr("an operator is missing")));
+}
+
 // muParser would set the variable, and go on with what it was set to.
 TEST(Expression, AssignsNothing) {
   const auto parse = [](const char* expression) { carlo::parse_function(expression, {"x", "y"}); };
@@ -83,6 +91,7 @@ TEST(Expression, NamesWhatToWriteInstead) {
   };
   EXPECT_EQ(message("x\u22121"), "expression 'x\u22121', position 1: this is the minus of typeset text; type -");
   EXPECT_EQ(message("1 + x**2"), "expression '1 + x**2', position 6: a power is x^2, not x**2");
+  EXPECT_EQ(message(" x**2"), "expression ' x**2', position 3: a power is x^2, not x**2");
   EXPECT_EQ(message("x%2"), "expression 'x%2', position 1: there is no %; the rest of x by 2 is x - 2*floor(x/2)");
   EXPECT_EQ(message("pow(x,2)"), "expression 'pow(x,2)', position 0: a power is x^2, not pow(x, 2)");
   for (const char* e : {"pi*x", "x*pi", "2pi", "sin(pi)", "2*\u03c0"})

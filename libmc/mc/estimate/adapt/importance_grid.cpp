@@ -29,25 +29,22 @@ std::array<double, ImportanceGrid::bins> pooled(std::span<const double> row, std
   return out;
 }
 
-// With what is more than `ratio` times as wide as what lies below it cut to at most half of that, from there on.
-std::vector<double> cut_upwards(const std::vector<double>& edges, double ratio) {
+// With what is more than `ratio` times as wide as its neighbour, below it or above it, cut to at most half of that,
+// from there on.
+std::vector<double> widened(std::vector<double> edges, double ratio, bool upwards) {
   constexpr double least = 0x1p-50;
+  if (!upwards) std::reverse(edges.begin(), edges.end());
   std::vector<double> cut = {edges[0], edges[1]};
   for (std::size_t i = 1; i + 1 < edges.size(); ++i) {
-    double width = std::max(edges[i] - edges[i - 1], least);
-    while (edges[i + 1] - cut.back() > ratio * width) {
+    double width = std::max(std::abs(edges[i] - edges[i - 1]), least);
+    while (std::abs(edges[i + 1] - cut.back()) > ratio * width) {
       width *= ratio / 2;
-      cut.push_back(cut.back() + width);
+      cut.push_back(cut.back() + (upwards ? width : -width));
     }
     cut.push_back(edges[i + 1]);
   }
+  if (!upwards) std::reverse(cut.begin(), cut.end());
   return cut;
-}
-
-std::vector<double> mirrored(std::vector<double> edges) {
-  std::reverse(edges.begin(), edges.end());
-  for (double& e : edges) e = 1 - e;
-  return edges;
 }
 
 // Bins that widen step by step away from narrow ones: the flanks of a peak lie in the bins beside it, which the points
@@ -58,7 +55,7 @@ void grade(std::array<double, ImportanceGrid::bins + 1>& edges) {
   const std::vector<double> plain(edges.begin(), edges.end());
   std::vector<double> cut = plain;
   for (double ratio = 8; ratio < 1e15; ratio *= 8) {
-    cut = mirrored(cut_upwards(mirrored(cut_upwards(plain, ratio)), ratio));
+    cut = widened(widened(plain, ratio, true), ratio, false);
     if (cut.size() <= bins + bins / 4) break;
     cut = plain;
   }
@@ -135,9 +132,8 @@ void ImportanceGrid::refine(std::span<const double> power, std::uint64_t points)
   std::array<double, bins> mass;
   std::array<double, bins + 1> edges;
   // What the few points of a short round say of a bin is noise, and a density that follows it puts rare, huge weights
-  // where it fell
-  // too low: the next sums would be off by more than their error tells. So bins pool with their neighbours for enough
-  //          points.
+  // where it fell too low: the next sums would be off by more than their error tells. So bins pool with their
+  // neighbours for enough points.
   const auto reach = static_cast<std::ptrdiff_t>(
       std::clamp(std::ceil(enough * bins / static_cast<double>(points)) - 1, 0.0, bins / 2.0));
   for (std::size_t d = 0; d < static_cast<std::size_t>(dim_); ++d) {

@@ -44,15 +44,17 @@ std::string with_plain_ends(std::string text) {
   return text;
 }
 
-// Lines that end in a backslash with the next ones behind them. Their ends follow further down, so that every line
-// keeps its number.
+// Lines that end in a backslash with the next ones behind them, but for comments. Their ends follow further down, so
+// that every line keeps its number.
 std::string with_lines_joined(std::string text) {
   if (text.find('\\') == text.npos) return text;
   std::string joined;
   std::size_t ends = 1;
+  bool comment = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool goes_on = text.compare(i, 2, "\\\n") == 0 || text.compare(i, 3, "\\ \n") == 0;
-    if (goes_on) {
+    comment = text[i] != '\n' && (comment || text[i] == '#');
+    if (goes_on && !comment) {
       joined += ' ';
       ++ends;
       i = text.find('\n', i);

@@ -241,7 +241,7 @@ void require_faces(const Header& header) {
   std::vector<std::string> elements;
   for (const Element& e : header.elements) {
     if (e.name == "face" && e.rows > 0) return;
-    elements.push_back(fmt::format("{} of '{}'", e.rows, e.name));
+    if (e.rows > 0) elements.push_back(fmt::format("{} of '{}'", e.rows, e.name));
   }
   throw mc::Error(fmt::format("it has no faces but {}, and faces alone are seen; convert the file to faces",
                               fmt::join(elements, ", ")));

@@ -14,7 +14,7 @@ namespace render {
 /// concave or not, with corners in line, repeated ones, and slits that lead to holes. Seen along its mean normal
 /// [Sutherland74] they lie side by side and cover it; where they all lie about corner 0, they do.
 ///   error  : the triangles' areas add up to the polygon's to within 1e-9 of it, unless it crosses itself
-///   time   : n of triangles, of convex polygons and where corner 0 sees all of it; else n^2
+///   time   : n of triangles, of convex polygons and where corner 0 sees all of it; else n^2 as a rule, n^3 at worst
 ///   Source : ears are cut off [Eberly02]
 std::vector<std::array<std::uint32_t, 3>> cut_polygon(std::span<const Vec3d> corners);
 

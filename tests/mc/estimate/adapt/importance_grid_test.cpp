@@ -82,6 +82,14 @@ TEST(ImportanceGrid, WidensAwayFromPeaks) {
   }
 }
 
+// Edges near 0 keep their digits.
+TEST(ImportanceGrid, ResolvesAPoleAtZero) {
+  const ImportanceGrid grid = learned([](double x) { return std::pow(x, -0.97); }, 40);
+  const std::span<const double> e = grid.edges(0);
+  EXPECT_LT(e[1], 1e-12);
+  for (std::size_t i = 0; i < ImportanceGrid::bins; ++i) EXPECT_LT(e[i], e[i + 1]) << i;
+}
+
 // Of a constant there is nothing to learn but the noise of the points: one round of 128 to 8192 random ones, 64 behind
 // each bin. A count of 64 is off by 1/8, its root by 1/16, and the worst of 128 bins by 4 of those. Unpooled, bins
 // without a point get 10.

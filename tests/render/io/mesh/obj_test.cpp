@@ -27,6 +27,8 @@ TEST_F(Obj, LinesGoOnBehindABackslash) {
   EXPECT_THAT(support::error_of([&] { read_obj(write("d.obj", "v 0 \\\n0 \\\n0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")); }),
               HasSubstr("d.obj: line 6: a face names vertex 9"))
       << "lines keep their numbers";
+  const MeshFile comment = read_obj(write("f.obj", "# C:\\models\\\nv 7 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 # \\\n"));
+  EXPECT_EQ(comment.positions.front().x(), 7) << "a comment ends with its line";
   EXPECT_EQ(read_obj(write("e.obj", "# C:\\meshes\\e\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n\\")).triangles.size(), 1u);
 }
 
