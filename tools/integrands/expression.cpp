@@ -65,12 +65,14 @@ std::string_view remedy(std::string_view expression, std::size_t at, const std::
   const bool two_values = !before.empty() && !here.empty() && (in_value(before.back()) || before.back() == ')') &&
                           (in_value(here[0]) || here[0] == '(');
   if (here.starts_with('*') && before.ends_with('*')) here = expression.substr(before.size() - 1);
-  here.remove_prefix(std::min(here.find_first_not_of("0123456789."), here.size())); // 2pi is one word to the parser
+  const std::size_t digits = std::min(here.find_first_not_of("0123456789."), here.size());
+  here.remove_prefix(digits); // 2pi is one word to the parser
+  const bool glued = digits > 0 && !here.empty() && in_word(here[0]);
   for (const Habit& h : habits)
     if (here.starts_with(h.text) && std::find(names.begin(), names.end(), h.text) == names.end() &&
         !(in_word(h.text[0]) && here.size() > h.text.size() && in_word(here[h.text.size()])))
       return h.remedy;
-  return two_values ? "an operator is missing; a product is 2*x" : "";
+  return two_values || glued ? "an operator is missing; a product is 2*x" : "";
 }
 
 mc::Error refusal(const std::string& expression, const mu::Parser::exception_type& e,
