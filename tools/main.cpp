@@ -13,8 +13,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
+#include <charconv>
 #include <cmath>
+#include <concepts>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -22,6 +23,7 @@
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <new>
 #include <system_error>
 
@@ -32,25 +34,26 @@ using carlo::Option, carlo::Subcommand;
 constexpr const char* exit_codes =
     "Exit codes: 0 done and every check passed; 1 a check failed; 2 bad usage, file or value; 130 interrupted.";
 
-// 1e6 is a count too.
-const CLI::Validator count(
-    [](std::string& text) {
-      char* end = nullptr;
-      const double value = std::strtod(text.c_str(), &end);
-      if (end != text.c_str() && *end == 0 && value == std::floor(value) && std::abs(value) <= 0x1p53)
-        text = fmt::format("{:.0f}", value);
-      return std::string();
-    },
-    "");
+// Puts a count as digits: 1e6 is one too. What is wrong with it, or nothing.
+template <std::integral T> std::string whole_number(std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (end == text.c_str() || *end != 0 || value != std::floor(value) || std::isinf(value))
+    return fmt::format("'{}' is not a whole number", text);
+  if (std::is_unsigned_v<T> && text.starts_with('-')) return text + " must be >= 0";
+  // More digits than a double has are kept.
+  std::string digits = text.find_first_not_of("-0123456789") < text.size() ? fmt::format("{:.0f}", value) : text;
+  T whole{};
+  if (std::from_chars(digits.data(), digits.data() + digits.size(), whole).ec == std::errc::result_out_of_range)
+    return fmt::format("{} is too {}", text,
+                       value > 0 ? fmt::format("large; at most {}", std::numeric_limits<T>::max())
+                                 : fmt::format("small; at least {}", std::numeric_limits<T>::min()));
+  text = std::move(digits);
+  return {};
+}
 
-// Or else -5 would be 2^64 - 5.
-std::string negative(const std::string& text) { return text.starts_with('-') ? text + " must be >= 0" : std::string(); }
-
-// Or else it would be 2^64 - 1.
-std::string too_large(const std::string& text) {
-  errno = 0;
-  std::strtoull(text.c_str(), nullptr, 0);
-  return errno == ERANGE ? fmt::format("{} is too large; at most {}", text, ~0ull) : std::string();
+std::string number(const std::string& text) {
+  return mc::number_in(text) ? std::string() : fmt::format("'{}' is not a number", text);
 }
 
 // Or else -o=a.png would be a file '=a.png'.
@@ -68,8 +71,9 @@ CLI::Option* add(CLI::App& app, const Option& o, std::vector<std::string>* list)
 
 template <class T> CLI::Option* add(CLI::App& app, const Option& o, T* target) {
   CLI::Option* option = app.add_option(o.names, *target, o.help);
-  if constexpr (std::integral<T> || std::same_as<T, std::optional<int>>) option->transform(count);
-  if constexpr (std::unsigned_integral<T>) option->check(negative)->check(too_large);
+  if constexpr (std::integral<T>) option->transform(CLI::Validator(whole_number<T>, ""));
+  if constexpr (std::same_as<T, std::optional<int>>) option->transform(CLI::Validator(whole_number<int>, ""));
+  if constexpr (std::same_as<T, double> || std::same_as<T, std::optional<double>>) option->check(number);
   if constexpr (std::same_as<T, std::string>) option->check(equals_sign);
   if constexpr (requires { target->empty(); }) {
     if (!target->empty()) option->capture_default_str();

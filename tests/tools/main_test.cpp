@@ -24,6 +24,12 @@ TEST(Main, NamesTheArgumentThatItDoesNotKnow) {
   says("converge --max-n 64 --max-n 128", "--max-n is given 2 times; give it once (see carlo converge --help)");
   says("integrate pi --seed 99999999999999999999",
        "--seed: 99999999999999999999 is too large; at most 18446744073709551615 (see carlo integrate --help)");
+  says("render a --spp 5e9", "--spp: 5e9 is too large; at most 2147483647 (see carlo render --help)");
+  says("render a --spp -1e10", "--spp: -1e10 is too small; at least -2147483648 (see carlo render --help)");
+  says("render a --spp 2.5", "--spp: '2.5' is not a whole number (see carlo render --help)");
+  says("render a --spp inf", "--spp: 'inf' is not a whole number (see carlo render --help)");
+  says("validate --samples -1", "--samples: -1 must be >= 0 (see carlo validate --help)");
+  says("render a --time 1s", "--time: '1s' is not a number (see carlo render --help)");
   says("render a --spp", "--spp: 1 required N missing (see carlo render --help)");
 }
 

@@ -65,7 +65,8 @@ struct SobolPairs {
   template <Real S> Vec2<S> pair(std::uint32_t index, std::uint32_t number, std::uint32_t) const {
     return keys[number].point<S>(index);
   }
-  /// Whether the set times `scale` has points for n branches of walk `index`.
+  /// Whether the set has points for n branches of walk `index`: its sequence has as many as indices can count, however
+  /// many a set is said to have.
   bool holds(std::uint32_t index, std::uint64_t, std::uint32_t n) const {
     return (std::uint64_t{index} + 1) * n <= std::uint64_t{1} << 32;
   }
@@ -81,7 +82,7 @@ struct StratifiedPairs {
   template <Real S> Vec2<S> pair(std::uint32_t index, std::uint32_t number, std::uint32_t scale) const {
     return point<S, 2>(Stratified(count * scale, seed), index, 2 * number);
   }
-  /// Whether there are strata for the set times `scale`.
+  /// Whether there are strata for the set times `scale`, of which every walk takes part.
   bool holds(std::uint32_t, std::uint64_t scale, std::uint32_t) const { return count * scale <= 1u << 31; }
 };
 

@@ -20,7 +20,7 @@ void write_image(const std::string& path, const Image& image, const Tone& tone =
 /// .jpg.
 ///   .hdr : over the exposures and colour corrections of its header; mantissas are values, not the middles of what they
 ///          stand for; primaries are not looked at
-///   .pfm : times the size of its header's scale
+///   .pfm : times the size of its header's scale; refused where more follows than its pixels
 ///   .exr : refused where it holds luminance and chroma, the sides of a cube, or says that its primaries are not those
 ///          of Rec. 709
 ///   .png, .jpg : decoded by the curve of sRGB, or, as a PNG's gAMA chunk says, a power; transparency is left out

@@ -72,6 +72,7 @@ class Reader {
   }
 
   void shape(const XmlElement& e) {
+    // A reference that leads nowhere is named before what the plugin lacks.
     for (const XmlElement& child : e.children) context_.resolve(child, "bsdf");
     CoveredShape s = read_plugin(shape_plugins(), e, context_);
     const BsdfId bsdf = s.bsdf ? *s.bsdf : context_.default_bsdf();

@@ -52,8 +52,8 @@ template <class Stream> void fills_cells() {
   }
 }
 // The two branches of 8 paths fill the 4 x 4 cells of their first pair, and share no numbers.
-template <class Stream> void branches_fill_cells() {
-  const typename Stream::Points points(99, 8);
+template <class Stream> void branches_fill_cells(std::uint32_t count = 8) {
+  const typename Stream::Points points(99, count);
   std::set<int> cells;
   std::set<float> singles;
   for (std::uint32_t index = 0; index < 8; ++index) {
@@ -72,6 +72,8 @@ template <class Stream> void branches_fill_cells() {
 }
 TEST(WalkStreamPairs, BranchesOfSobolFillCells) { branches_fill_cells<SobolWalk<float>>(); }
 TEST(WalkStreamPairs, BranchesOfStratifiedFillCells) { branches_fill_cells<StratifiedWalk<float>>(); }
+// The first walks of a sequence share one set however long it is said to be.
+TEST(WalkStreamPairs, BranchesOfLongSobolFillCells) { branches_fill_cells<SobolWalk<float>>(1u << 31); }
 TEST(WalkStreamPairs, SobolFillsCells) { fills_cells<SobolWalk<float>>(); }
 TEST(WalkStreamPairs, StratifiedFillsCells) { fills_cells<StratifiedWalk<float>>(); }
 
@@ -80,13 +82,24 @@ TEST(WalkStreamPairs, BranchesBeyondAllCountsAreIndependent) {
   const mc::StratifiedPairs points(1, 70'000);
   const StratifiedWalk<float> walk(points, 69'999);
   double sum = 0;
+  mc::Vec2<float> last{-1, -1};
   for (std::uint32_t i = 0; i < 256; ++i) {
     StratifiedWalk<float> branch = walk.branch(i, 256).branch(3, 256);
     const mc::Vec2<float> u = branch.next2();
     EXPECT_TRUE(u.minCoeff() >= 0 && u.maxCoeff() < 1);
+    EXPECT_NE(u, last);
+    last = u;
     sum += static_cast<double>(u.x());
   }
   EXPECT_NEAR(sum / 256, 0.5, 5 / std::sqrt(12 * 256.0));
+}
+
+// The last point that an index can count is still one of the sequence's, the next is not.
+TEST(WalkStreamPairs, SobolBranchesToTheLastIndex) {
+  const mc::SobolPairs points(1, 1);
+  constexpr std::uint32_t half = 1u << 31;
+  EXPECT_EQ(SobolWalk<float>(points, half - 1).branch(1, 2).next2(), points.pair<float>(2 * half - 1, 0, 2));
+  EXPECT_NE(SobolWalk<float>(points, half).branch(0, 2).next2(), points.pair<float>(0, 0, 2));
 }
 
 } // namespace

@@ -27,7 +27,7 @@ std::string_view name(Fault f) {
   case Fault::not_finite: return "not finite";
   case Fault::negative: return "negative: the density is below zero";
   case Fault::outside: return "outside: points that are not in the domain";
-  case Fault::failure: return "failure: sample fails more or less often than the density leaves to failures";
+  case Fault::failure: return "failure: sample fails more or less often than the mass of its density allows";
   case Fault::leak: return "leak: samples where the density is zero";
   case Fault::mass: return "mass: the density does not integrate to one";
   case Fault::weight: return "weight: the stated weight disagrees with eval and pdf";

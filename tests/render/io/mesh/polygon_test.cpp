@@ -214,7 +214,7 @@ TEST(Polygon, AppendsVertices) {
   }
 }
 
-// Without an area, crossing themselves, or beyond what a double holds: n - 2 triangles of corners that there are.
+// Without an area, crossing themselves, beyond what a double holds or not numbers: n - 2 triangles of corners that there are.
 TEST(Polygon, WhatIsNoneKeepsItsCount) {
   mc::Pcg random(4);
   for (int trial = 0; trial < 3000; ++trial) {
@@ -227,6 +227,7 @@ TEST(Polygon, WhatIsNoneKeepsItsCount) {
       if (trial % 5 == 0) p[1] = p[2] = 0;
       if (trial % 7 == 0) p *= 1e308;
       if (trial % 11 == 0) p *= 1e-320;
+      if (trial % 13 == 0 && i % 3 == 0) p[0] = trial % 2 ? HUGE_VAL : std::nan("");
       corners.push_back(p);
     }
     const auto triangles = cut_polygon(corners);

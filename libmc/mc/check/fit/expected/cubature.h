@@ -19,8 +19,8 @@ struct CubatureResult {
   Integral total;              ///< errors added up, so a bound also when they all point the same way
   std::size_t evaluations = 0;
   bool converged = true; ///< every box and the total met their goals within the budget
-  std::optional<std::array<double, 3>>
-      bad; ///< first point where f was negative or not finite; nothing is refined after it
+  /// The first point where f was negative or not finite; nothing is refined after it.
+  std::optional<std::array<double, 3>> bad;
 };
 
 struct CubatureGoal {

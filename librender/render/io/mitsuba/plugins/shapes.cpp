@@ -15,7 +15,8 @@ struct Placed {
 
 Placed placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, bool face_normals) {
   return mc::with_context(name, [&] {
-    return Placed(to_shape(mesh, to_world, face_normals), fmt::format("{}: {}", name, mesh.without_uvs));
+    const std::string& why = mesh.without_uvs;
+    return Placed(to_shape(mesh, to_world, face_normals), why.empty() ? why : fmt::format("{}: {}", name, why));
   });
 }
 
