@@ -214,7 +214,8 @@ TEST(Polygon, AppendsVertices) {
   }
 }
 
-// Without an area, crossing themselves, beyond what a double holds or not numbers: n - 2 triangles of corners that there are.
+// Without an area, crossing themselves, beyond what a double holds or not numbers: n - 2 triangles of corners that
+// there are.
 TEST(Polygon, WhatIsNoneKeepsItsCount) {
   mc::Pcg random(4);
   for (int trial = 0; trial < 3000; ++trial) {
