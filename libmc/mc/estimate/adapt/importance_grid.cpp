@@ -54,7 +54,8 @@ void grade(std::array<double, ImportanceGrid::bins + 1>& edges) {
   constexpr std::size_t bins = ImportanceGrid::bins;
   const std::vector<double> plain(edges.begin(), edges.end());
   std::vector<double> cut = plain;
-  for (double ratio = 8; ratio < 1e15; ratio *= 8) {
+  for (int bits = 3; bits < 50; bits += 3) {
+    const double ratio = std::ldexp(1.0, bits);
     cut = widened(widened(plain, ratio, true), ratio, false);
     if (cut.size() <= bins + bins / 4) break;
     cut = plain;
