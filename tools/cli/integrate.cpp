@@ -58,7 +58,7 @@ std::vector<Option> rows(IntegrateOptions& o) {
        "Show quantiles of the integrand over its domain, e.g. 0.05,0.5,0.95, by as many calls again, at least 98 k"},
       {"--save-density", "FILE", &o.save_density, "Keep the density that vegas, tree or auto learned"},
       {"--load-density", "FILE", &o.load_density,
-       "Start from a density that was kept, of this integrand or one like it"},
+       "Start from a density that was kept, of this integrand or one like it; where it does not fit learning goes on"},
       {"--json", "FILE", &o.json, "Write the result to this file, with the rounds"},
   };
 }

@@ -1,4 +1,5 @@
-// A density that was learned serves other runs: nothing is learned again, and nothing is biased, however wrong it is.
+// A density that was learned serves other runs: nothing is learned again where it fits, learning goes on where it does
+// not, and nothing is biased, however wrong it is.
 
 #include <mc/core/error.h>
 #include <mc/estimate/adapt/density_file.h>
@@ -59,10 +60,11 @@ int learning(const mc::Integral& r) {
 
 // With its own density, and with that of an integrand that lies beside it: 40 intervals of 95 % for each, of which 38
 // are expected; fewer than 33 by chance in 7e-4 of the choices of seeds.
-TEST(DensityReuse, IsUnbiasedAndLearnsNothing) {
+TEST(DensityReuse, IsUnbiased) {
   for (const Method method : {Method::vegas, Method::tree, Method::automatic})
     for (const double shift : {0.0, 0.07}) {
       int covered = 0, runs = 0;
+      int kept = 0;
       double fresh = 0, reused = 0;
       for (std::uint64_t seed = 0; seed < 40; ++seed) {
         const Peaks before(seed, 0), f(seed, shift);
@@ -72,8 +74,10 @@ TEST(DensityReuse, IsUnbiasedAndLearnsNothing) {
         if (!first.density) continue; // rqmc was clearly ahead
         o.density = first.density;
         const mc::Integral r = mc::integrate_unit(f, dim, o);
-        EXPECT_EQ(learning(r), 1);
-        EXPECT_EQ(r.density, first.density);
+        if (r.density == first.density) {
+          ++kept;
+          EXPECT_EQ(learning(r), method == Method::automatic ? 1 : 2);
+        }
         EXPECT_LE(r.calls, 10'000u);
         ++runs;
         covered += r.interval.lo <= f.truth() && f.truth() <= r.interval.hi;
@@ -85,8 +89,35 @@ TEST(DensityReuse, IsUnbiasedAndLearnsNothing) {
       EXPECT_GE(runs, 30) << name(method);
       EXPECT_GE(covered, runs * 5 / 6) << name(method) << " " << shift;
       if (shift == 0) {
-        EXPECT_LT(reused, fresh) << name(method); // learned from three times the calls, and nothing spent on it
+        EXPECT_LT(reused, fresh) << name(method); // learned from three times the calls, and little spent on it
+        EXPECT_GE(kept, runs * 3 / 4) << name(method);
       }
+    }
+}
+
+// Steps of height 1 above .01 that moved towards where the density is low: replicates that met none of what lies between
+// agreed, and 57 to 90 % of the intervals held, or the rounds disagreed. 120 intervals of 95 % each, of which 114 are
+// expected; fewer than 105 by chance in 4e-4 of the choices of seeds, for each of the nine.
+TEST(DensityReuse, SeesWhatMoved) {
+  for (const Method method : {Method::vegas, Method::tree, Method::automatic})
+    for (const double by : {0.002, 0.005, 0.02}) {
+      int covered = 0, disagree = 0;
+      for (std::uint64_t seed = 0; seed < 120; ++seed) {
+        const double before = 0.2 + 0.6 * mc::hash_uniform<double>(seed % 6, 9), now = before + by;
+        const auto below = [](double place) { return [=](Unit u) { return u[0] < place ? 1 : 0.01; }; };
+        static std::shared_ptr<const mc::AdaptedDensity> densities[6];
+        if (seed < 6) densities[seed] = mc::integrate_unit(below(before), 1, with(method, 300'000, seed)).density;
+        mc::IntegrateOptions o = with(method, 1'000'000, seed);
+        o.rel_error = 1e-3;
+        o.density = densities[seed % 6];
+        const mc::Integral r = mc::integrate_unit(below(now), 1, o);
+        const double truth = now + 0.01 * (1 - now);
+        covered += r.interval.lo <= truth && truth <= r.interval.hi;
+        disagree += !r.consistent;
+        EXPECT_EQ(r.stop, mc::Stop::converged);
+      }
+      EXPECT_GE(covered, 105) << name(method) << " " << by;
+      EXPECT_LE(disagree, 2) << name(method) << " " << by;
     }
 }
 

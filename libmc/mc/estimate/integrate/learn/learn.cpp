@@ -49,6 +49,25 @@ std::vector<double> values(const Means& means) {
   for (const Mean& m : means) all.push_back(m.value);
   return all;
 }
+
+// The density that was given, and whether it fits: tried by uniform points, of the bare sequences or a round, and by
+// as many calls of its own. Learning goes on from it.
+struct Tried {
+  Learned given;
+  bool fits = true;
+};
+Tried tried(Run& run, const Sequences* bare, std::uint64_t points, Learner& learner, std::optional<Outcome>* said) {
+  constexpr std::uint64_t of_uniform = 20, of_given = 21; // purposes that no round of learning has
+  Tried all{{run.o.density, std::vector<double>(run.outputs)}};
+  if (points == 0) return all;
+  if (!bare) seen_through(run, std::make_shared<AdaptedDensity>(learner.density()), of_uniform, points, &learner, said);
+  const auto used = std::make_shared<AdaptedDensity>(*run.o.density);
+  if (run.o.method == Method::vegas) used->tree.reset();
+  learner.start_from(*used);
+  all.given.centre = values(seen_through(run, used, of_given, points, &learner, said));
+  all.fits = learner.fits(*used);
+  return all;
+}
 } // namespace
 
 std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outcome>& last) {
@@ -56,19 +75,19 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
   const std::uint64_t budget = std::clamp<std::uint64_t>(run.o.max_calls / 32, least, std::max(room / 4, least));
   const std::uint64_t most = std::min(run.o.max_calls / 5, room);
   std::optional<Outcome>* said = bare ? nullptr : &last;
-  if (run.o.density) {
-    const std::uint64_t points = budget / 4 / run.o.replicates;
-    if (points == 0) return Learned{run.o.density, std::vector<double>(run.outputs)};
-    return Learned{run.o.density, values(seen_through(run, run.o.density, 2, points, nullptr, said))};
-  }
   Learner learner(run);
   if (bare) learner.learn(bare->sums);
   std::vector<double> centre(run.outputs);
-  // Rounds of a quarter, a quarter and a half of the budget, the first of which the bare sequences may stand for; after
-  // that of twice the calls, as long as the values are spread widely and it helps.
+  if (run.o.density) {
+    Tried given = tried(run, bare, budget / 4 / run.o.replicates, learner, said);
+    if (given.fits) return std::move(given.given);
+    centre = std::move(given.given.centre);
+  }
+  // Rounds of a quarter, a quarter and a half of the budget, the first of which the bare sequences may stand for, or
+  // what a density was tried by; after that of twice the calls, as long as the values are spread widely and it helps.
   std::uint64_t calls = budget / 4, spent = 0;
-  for (std::uint64_t k = bare && run.calls >= calls && learner.width() < wide ? 1 : 0; calls / run.o.replicates >= 8;
-       ++k) {
+  const bool begun = run.o.density || (bare && run.calls >= calls && learner.width() < wide);
+  for (std::uint64_t k = begun ? 1 : 0; calls / run.o.replicates >= 8; ++k) {
     const std::uint64_t points = calls / run.o.replicates;
     const double before = learner.width();
     const Means round =

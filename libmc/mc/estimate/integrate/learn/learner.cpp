@@ -6,6 +6,11 @@
 
 namespace mc::detail {
 
+namespace {
+constexpr double small = 1e-3, large = 1e-2; // variances of a point over the squared mean
+constexpr double enough = 8;                 // points that a variance must be made of
+} // namespace
+
 Learner::Learner(const Run& run)
     : run_(run), dim_(static_cast<std::size_t>(run.dim)), density_{ImportanceGrid(run.dim)} {}
 
@@ -59,6 +64,37 @@ void Learner::measure() {
     if (const double size = largest[k] * std::sqrt(square[k]); std::isfinite(1 / size)) scale_[k] = 1 / size;
     if (mean[k] != 0) width_ = std::max(width_, std::log(std::max(square[k] / sqr(mean[k]), 1.0)));
   }
+}
+
+// What an output is off by where a point is drawn from the mixture with a density, squared, of every point that was
+// seen; over the squared mean.
+std::vector<double> Learner::off(std::size_t output, const AdaptedDensity& p) const {
+  const std::size_t outputs = run_.leading();
+  double largest = 0, mean = 0;
+  for (std::size_t i = output; i < values_.size(); i += outputs) largest = std::max(largest, std::abs(values_[i]));
+  for (std::size_t i = 0; i < size() && largest > 0; ++i) mean += values_[i * outputs + output] / largest / mixture_[i];
+  std::vector<double> all(size());
+  if (mean == 0) return all;
+  each([&](std::size_t i, std::span<double> scratch) {
+    const double x = values_[i * outputs + output] / largest / mean, here = p.density(point(i), scratch);
+    all[i] = sqr(x - here) / (Proposal::uniform_share + (1 - Proposal::uniform_share) * here) / mixture_[i];
+  });
+  return all;
+}
+
+bool Learner::fits(const AdaptedDensity& p) const {
+  const double share = static_cast<double>(AxisProfile::most * run_.o.replicates) / static_cast<double>(size());
+  for (std::size_t k = 0; k < run_.leading(); ++k) {
+    double now = 0, squares = 0, later = 0;
+    for (const double x : off(k, p)) {
+      now += x;
+      squares += sqr(x);
+    }
+    for (const double x : off(k, p.tree ? density_ : AdaptedDensity{density_.grid})) later += x;
+    const bool few = sqr(now) < enough * squares / share;
+    if ((now > small && few) || (now > large && later < 0.5 * now)) return false;
+  }
+  return true;
 }
 
 // The points as the grid sees them, and there the root of the squares of all outputs, or the one with its sign.

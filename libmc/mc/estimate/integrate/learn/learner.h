@@ -21,6 +21,13 @@ class Learner {
   void learn(const std::vector<Sums>& round);
 
   const AdaptedDensity& density() const { return density_; }
+  /// Goes on from this density: the next round is drawn from it.
+  void start_from(AdaptedDensity density) { density_ = std::move(density); }
+  /// Whether a density that was not learned here may stay what it is, after rounds of uniform points and of its own.
+  /// Not where a run as short as may converge would meet fewer than eight of the points that its variance is made of:
+  /// what the density thinks little of has that look, and replicates that met none of it agree. Nor where density(),
+  /// that goes on from it, leaves less than half of its variance; without its tree, if the other has none.
+  bool fits(const AdaptedDensity& density) const;
   /// The logarithm of the mean square over the squared mean of the values under the density before the last round: the
   /// variance of their logarithm, were they log-normal. Of the widest output.
   double width() const { return width_; }
@@ -36,6 +43,7 @@ class Learner {
   template <class F> void each(F&& f) const;
   void weigh();
   void measure();
+  std::vector<double> off(std::size_t output, const AdaptedDensity& p) const;
   WeightedValues within_grid() const;
   void adapt_grid();
   void adapt_tree();
