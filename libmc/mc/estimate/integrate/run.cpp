@@ -74,6 +74,7 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
     for (std::size_t k = 0; k < outputs; ++k) {
       for (std::size_t i = 0; i < n; ++i) column[i] = all[i * outputs + k];
       if (proposal.density) {
+        if (proposal.part == Proposal::Part::of_uniform) sums.seen[k].uniform.add(column);
         sums.seen[k].tail.add(column, {factors.data(), n});
         for (std::size_t i = 0; i < n; ++i) column[i] *= factors[i];
       }

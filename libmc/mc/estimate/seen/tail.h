@@ -62,6 +62,7 @@ namespace detail {
 struct Seen {
   Magnitudes values = {};
   Tail tail = {};
+  Magnitudes uniform = {};    ///< of f, where uniform points are but a part of a mixture
   std::uint64_t infinite = 0; ///< values that were
   double infinite_volume = 0; ///< that their points stand for, where all of a run stand for their number
 
@@ -70,11 +71,18 @@ struct Seen {
     infinite_volume += other.infinite_volume;
     values.merge(other.values);
     tail.merge(other.tail);
+    uniform.merge(other.uniform);
   }
   double tail_index() const { return tail.empty() ? Tail(values).index() : tail.index(); }
-  /// Two points so near that doubles cannot tell them apart may hold much of a singular integral.
+  /// Two points so near that doubles cannot tell them apart may hold much of a singular integral. Where a density was
+  /// learned the uniform points alone may show it, too: a density that follows f down to neighbouring doubles makes the
+  /// end of these look like the end of a tail. They are heard where they are a thousand, since steep exponentials look
+  /// as heavy to fewer, and where their index is well below 2, since they know it badly.
   bool infinite_variance() const {
-    return infinite > 0 || (tail.empty() ? Tail(values).infinite_variance() : tail.infinite_variance());
+    if (infinite > 0) return true;
+    if (tail.empty() ? Tail(values).infinite_variance() : tail.infinite_variance()) return true;
+    const Tail of_uniform(uniform);
+    return uniform.count() >= 1000 && of_uniform.infinite_variance() && of_uniform.index() < 1.5;
   }
 };
 } // namespace detail
