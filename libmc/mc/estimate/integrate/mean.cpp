@@ -29,6 +29,8 @@ double widest_jump(std::vector<double> sorted, double deviation) {
 }
 } // namespace
 
+double ulp(double mean) { return std::numeric_limits<double>::epsilon() * std::abs(mean); }
+
 Estimate estimate(const Mean& m, std::uint64_t calls) {
   return Estimate::student(m.value, m.bar == ErrorBar::known ? m.error : infinity, m.dof, calls);
 }
@@ -108,7 +110,8 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   evidence.deviation = now;
   const double spread = width / std::sqrt(r * (1 - std::min(beyond, 0.9)));
   const double unbiased = r * r / ((r - 1) * std::max(r - 2, 1.0));
-  return {std::ldexp(m.mean(), exponent), std::hypot(spread, step / points / r), r - 1,
+  const double mean = std::ldexp(m.mean(), exponent);
+  return {mean, std::max(std::hypot(spread, step / points / r), ulp(mean)), r - 1,
           apart ? third / (deviation * deviation * deviation) * unbiased / (6 * std::sqrt(r)) : 0.0, bar_of(seen)};
 }
 

@@ -18,6 +18,9 @@ struct Mean {
 };
 using Means = std::vector<Mean>; ///< one per output
 
+/// What no error of a mean is below: doubles are no closer.
+double ulp(double mean);
+
 /// The mean with its error, infinite unless the bar is known.
 Estimate estimate(const Mean& m, std::uint64_t calls);
 

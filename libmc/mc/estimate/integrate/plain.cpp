@@ -13,7 +13,8 @@ Mean of_values(const ScaledMoments& m, const Seen& seen) {
   if (size == 0) return {0, 0, n - 1, 0, ErrorBar::unseen};
   const double index = all.tail_index(), beyond = index < 20 ? std::pow(n, 2 / index - 1) : 0;
   const double spread = m.std_error() / std::sqrt(1 - std::min(beyond, 0.9));
-  return {m.mean(), std::max(spread, all.lo() == all.hi() ? 1.5 * size / n : 0.0), n - 1, 0, bar_of(seen)};
+  const double unseen = all.lo() == all.hi() ? 1.5 * size / n : 0.0;
+  return {m.mean(), std::max({spread, unseen, ulp(m.mean())}), n - 1, 0, bar_of(seen)};
 }
 
 // Of those batches that have values.
