@@ -171,19 +171,11 @@ mc::VectorIntegral results_of(const std::vector<Experiment>& all, const Bins& bi
 }
 
 // A refusal of a point u, told in the variables of the integrand.
-std::string in_variables(std::string message, const std::vector<Experiment>& all, const std::string& domain) {
-  constexpr std::string_view before = "at u = (";
-  const std::size_t begin = message.find(before), first = begin + before.size(), end = message.find(')', begin);
-  if (begin == message.npos || end == message.npos || !all.front().place) return message;
-  std::vector<double> u;
-  for (const std::string_view word : mc::split(std::string_view(message).substr(first, end - first), ',')) {
-    const std::optional<double> x = mc::number_in(word);
-    if (!x) return message;
-    u.push_back(*x);
-  }
-  const auto bad = std::find_if(all.begin(), all.end(), [&](const Experiment& e) { return !std::isfinite(e.f(u)); });
-  message.replace(begin, end + 1 - begin, "at " + all.front().place(u));
-  if (domain.empty() || bad == all.end() || !std::isnan(bad->f(u))) return message;
+std::string in_variables(const mc::NotFinite& e, const std::vector<Experiment>& all, const std::string& domain) {
+  if (!all.front().place) return e.what();
+  const std::string message = mc::NotFinite(e.bad, e.points, e.u, all.front().place(e.u)).what();
+  const auto bad = std::find_if(all.begin(), all.end(), [&](const Experiment& x) { return !std::isfinite(x.f(e.u)); });
+  if (domain.empty() || bad == all.end() || !std::isnan(bad->f(e.u))) return message;
   const std::vector<Side> sides = parse_sides(domain);
   const bool finite = std::all_of(sides.begin(), sides.end(), [](const Side& s) { return s.is_finite(); });
   return message + (finite ? "; it is nan there"
@@ -239,8 +231,10 @@ int integrate(const IntegrateOptions& o) {
   settings.cancel = interrupt.flag();
   try {
     found.results = results_of(found.integrands, bins, settings);
-  } catch (const mc::Error& e) {
-    if (!*interrupt.flag()) throw mc::Error(in_variables(e.what(), found.integrands, o.domain));
+  } catch (const mc::NotFinite& e) {
+    throw mc::Error(in_variables(e, found.integrands, o.domain));
+  } catch (const mc::Error&) {
+    if (!*interrupt.flag()) throw;
     progress.clear();
     fmt::print(stderr, "interrupted before anything was estimated\n");
     return exit_interrupted;

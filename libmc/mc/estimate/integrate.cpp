@@ -54,6 +54,13 @@ std::string_view name(ErrorBar bar) {
   return "";
 }
 
+NotFinite::NotFinite(std::uint64_t bad_points, std::uint64_t of_points, std::vector<double> point,
+                     std::string_view told)
+    : Error(fmt::format("integrate: the integrand is not finite at {} of {} points, the first at {}; it must be finite "
+                        "almost everywhere",
+                        bad_points, of_points, told)),
+      bad(bad_points), points(of_points), u(std::move(point)) {}
+
 std::string Integral::to_string() const {
   std::string text;
   switch (error_bar) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Integration to a wanted error.
 
+#include <mc/core/error.h>
 #include <mc/domain/concept.h>
 #include <mc/estimate/adapt/adapted_density.h>
 #include <mc/estimate/estimate.h>
@@ -37,6 +38,14 @@ enum class ErrorBar {
   infinite_variance ///< the integrand is large on a volume that shrinks so slowly that no error bar holds, see Tail
 };
 std::string_view name(ErrorBar bar);
+
+/// What integrate() throws for an integrand that is not finite: at so many of so many points, the first of which is u.
+/// `told` says where that is.
+struct NotFinite : Error {
+  NotFinite(std::uint64_t bad_points, std::uint64_t of_points, std::vector<double> point, std::string_view told);
+  std::uint64_t bad, points;
+  std::vector<double> u;
+};
 
 struct IntegrateProgress {
   Estimate estimate;
@@ -153,8 +162,8 @@ struct BatchIntegrand {
 ///   throws     : Error for an empty f, dim < 1, a tolerance that is negative or not finite, max_calls too small for
 ///                one round, confidence outside (0,1), threads < 0, a density of another dimension or for a method that
 ///                has none, no output that is not watched; what the integrand throws, after all threads have
-///                stopped; for an integrand that is not a number somewhere, or infinite on more than a
-///                thousandth of the volume, with the first point; and when cancelled before anything was estimated
+///                stopped; NotFinite for an integrand that is not a number somewhere, or infinite on more than a
+///                thousandth of the volume; and when cancelled before anything was estimated
 Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim,
                         const IntegrateOptions& options = {});
 

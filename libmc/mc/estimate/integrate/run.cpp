@@ -133,9 +133,7 @@ void Run::refuse_points(std::uint64_t bad, std::uint64_t count, std::uint64_t fi
   draw(proposal, u, scratch);
   std::string point;
   for (const double x : u) point += fmt::format("{}{:.17g}", point.empty() ? "" : ", ", x);
-  throw Error(fmt::format("integrate: the integrand is not finite at {} of {} points, the first at u = ({}); it must "
-                          "be finite almost everywhere",
-                          bad, count, point));
+  throw NotFinite(bad, count, std::move(u), fmt::format("u = ({})", point));
 }
 
 std::vector<PointSet> Run::sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const {
