@@ -7,7 +7,7 @@
 namespace mc {
 
 /// Points x with lo <= x <= hi in each coordinate. N = Eigen::Dynamic takes its dimension from the bounds.
-///   chart  : v = (x - lo) / (hi - lo); Jacobian: the volume
+///   chart  : v = (x - lo) / (hi - lo); Jacobian: the volume. Rounding carries no point out of the box
 ///   throws : Error unless lo and hi have the same dimension >= 1 and lo < hi, both finite, in each
 template <Real S, int N> struct Box {
   using Scalar = S;
@@ -30,7 +30,9 @@ template <Real S, int N> struct Box {
   }
 
   int dimension() const { return static_cast<int>(lo.size()); }
-  Point from_unit(const UnitPoint& v) const { return (lo.array() * (1 - v.array()) + hi.array() * v.array()).matrix(); }
+  Point from_unit(const UnitPoint& v) const {
+    return (lo.array() * (1 - v.array()) + hi.array() * v.array()).max(lo.array()).min(hi.array()).matrix();
+  }
   UnitPoint to_unit(const Point& x) const { return ((x - lo).array() / (hi - lo).array()).matrix(); }
   S jacobian(const UnitPoint&) const {
     S volume = 1; // in order: Eigen multiplies as the instruction set suggests

@@ -7,7 +7,7 @@
 namespace mc {
 
 /// The finite interval [lo, hi].
-///   chart  : v = (x - lo) / (hi - lo); Jacobian hi - lo
+///   chart  : v = (x - lo) / (hi - lo); Jacobian hi - lo. Rounding carries no point out of the interval
 ///   throws : Error unless lo < hi, both and hi - lo finite
 template <Real S> struct Interval {
   using Scalar = S;
@@ -26,7 +26,10 @@ template <Real S> struct Interval {
             static_cast<double>(hi));
   }
 
-  S from_unit(S v) const { return lo * (1 - v) + hi * v; }
+  S from_unit(S v) const {
+    const S x = lo * (1 - v) + hi * v;
+    return x < lo ? lo : x > hi ? hi : x;
+  }
   S to_unit(S x) const { return (x - lo) / (hi - lo); }
   S jacobian(S) const { return hi - lo; }
   bool contains(S x) const { return x >= lo && x <= hi; }

@@ -72,6 +72,20 @@ TEST(CheckSubject, SingularitiesAsDeepAsNumbersGo) {
   }
 }
 
+// Beside an end that is not 0 the points of the chart are rounded onto it, where the density is infinite.
+TEST(CheckSubject, SingularAtEndsThatAreNotZero) {
+  for (const double lo : {0.0833, 24.7, -670.0}) {
+    const mc::Interval<double> interval(lo, lo + 3);
+    const auto sampler = [lo](Pcg& r) { return lo + 3 * mc::sqr(std::sin(mc::pi<double> / 2 * r.uniform<double>())); };
+    const auto pdf = [lo](double x) { return 1 / (mc::pi<double> * std::sqrt((x - lo) * (lo + 3 - x))); };
+    const mc::Report right = check_subject(make_subject("arcsine", interval, sampler, pdf), {.samples = 100'000});
+    EXPECT_EQ(right.verdict(), Verdict::pass) << right.to_string();
+    const auto half = [lo](double x) { return 0.25 / (std::sqrt(3.0) * std::sqrt(x - lo)); };
+    const mc::Report wrong = check_subject(make_subject("half a root", interval, sampler, half), {.samples = 100'000});
+    EXPECT_EQ(wrong.verdict(), Verdict::fail) << wrong.to_string();
+  }
+}
+
 TEST(CheckSubject, SharpLobesAreAsEasyAsCosines) {
   // 1 - z exponential with mean 1e-10: a lobe of 1e-5 rad.
   const double scale = 1e-10;

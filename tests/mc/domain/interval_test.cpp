@@ -1,4 +1,6 @@
+#include <mc/domain/box.h>
 #include <mc/domain/interval.h>
+#include <mc/random/pcg.h>
 
 #include "support/chart.h"
 #include "support/files.h"
@@ -26,6 +28,20 @@ TEST(RealLine, TailsDoNotCancel) {
   EXPECT_NEAR(line.to_unit(-1e8) * 2e8, 1, 1e-7);
   EXPECT_NEAR((1 - line.to_unit(1e8)) * 2e8, 1, 1e-7);
   EXPECT_EQ(line.to_unit(0), 0.5);
+}
+
+// 1 - v is rounded before it is multiplied by lo: one point in 60 lay below lo here.
+TEST(Interval, NoPointIsRoundedOutOfIt) {
+  mc::Pcg random(1);
+  for (int i = 0; i < 20'000; ++i) {
+    const double lo = 2 * random.uniform<double>() - 1, hi = lo + 100 * random.uniform<double>() + 1e-6;
+    const double v = 1e-15 * random.uniform<double>();
+    const mc::Interval<double> interval(lo, hi);
+    ASSERT_TRUE(interval.contains(interval.from_unit(v))) << lo << " " << hi << " " << v;
+    ASSERT_TRUE(interval.contains(interval.from_unit(1 - v))) << lo << " " << hi << " " << v;
+    const mc::Square<double> box({lo, 0}, {hi, 1});
+    ASSERT_TRUE(box.contains(box.from_unit({v, 0.5}))) << lo << " " << hi << " " << v;
+  }
 }
 
 TEST(Interval, RefusesNonsense) {

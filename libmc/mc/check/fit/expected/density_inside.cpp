@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mc {
 namespace {
@@ -13,14 +14,32 @@ Subject::Coordinates moved_inside(Subject::Coordinates v, int dim, double step =
   return v;
 }
 
+// Singularities at an end that is not 0 are infinite where the chart's points are rounded onto it. Of a density that
+// is infinite beside such a point, too, no more is asked: it may answer slowly.
+void ask_beside_poles(const Subject& s, std::span<const Subject::Coordinates> v, std::span<double> densities) {
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    if (densities[i] != std::numeric_limits<double>::infinity()) continue;
+    const std::optional<double> beside = density_beside(s, v[i]);
+    if (!beside) return;
+    densities[i] = *beside;
+  }
+}
+
 } // namespace
 
-double density_inside(const Subject& s, const Subject::Coordinates& v) { return s.density(moved_inside(v, s.dim)); }
+double density_inside(const Subject& s, const Subject::Coordinates& v) {
+  const Subject::Coordinates inside = moved_inside(v, s.dim);
+  double density = s.density(inside);
+  ask_beside_poles(s, {&inside, 1}, {&density, 1});
+  return density;
+}
 
 void densities_inside(const Subject& s, std::span<Subject::Coordinates> v, std::span<double> densities) {
   for (Subject::Coordinates& one : v) one = moved_inside(one, s.dim);
-  if (s.densities) return s.densities(v, densities);
-  for (std::size_t i = 0; i < v.size(); ++i) densities[i] = s.density(v[i]);
+  if (s.densities) s.densities(v, densities);
+  else
+    for (std::size_t i = 0; i < v.size(); ++i) densities[i] = s.density(v[i]);
+  ask_beside_poles(s, v, densities);
 }
 
 std::optional<double> density_beside(const Subject& s, const Subject::Coordinates& v) {
@@ -34,15 +53,16 @@ std::optional<double> density_beside(const Subject& s, const Subject::Coordinate
       if (positive(beside)) return beside;
     }
   if (!(there >= 0)) return {};
-  for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
-    const double step = rounded_steps * rounding(s, v, axis);
-    for (const double to : {v[axis] - step, v[axis] + step}) {
-      Subject::Coordinates moved = v;
-      moved[axis] = std::clamp(to, 0.0, 1.0);
-      const double beside = s.density(moved);
-      if (positive(beside)) return beside;
+  for (const double steps : {1.0, 8.0, rounded_steps})
+    for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
+      const double step = steps * rounding(s, v, axis);
+      for (const double to : {v[axis] - step, v[axis] + step}) {
+        Subject::Coordinates moved = v;
+        moved[axis] = std::clamp(to, 0.0, 1.0);
+        const double beside = s.density(moved);
+        if (positive(beside)) return beside;
+      }
     }
-  }
   return {};
 }
 

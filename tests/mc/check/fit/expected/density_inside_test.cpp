@@ -65,6 +65,23 @@ TEST(DensityInside, BesideWhereItBreaksOnlyThere) {
   EXPECT_NEAR(density_beside(shifted, {0, 0, 0}).value(), 0x1p14, 0x1p11);
 }
 
+// 1e-40 of the way through [1e6, 1e6 + 1] is 1e6 in double, where the root is infinite.
+TEST(DensityInside, LooksBesideAnEndThatPointsAreRoundedOnto) {
+  const auto of = [](double (*pdf)(double)) {
+    return make_subject(
+        "f", mc::Interval<double>(1e6, 1e6 + 1), [](mc::Pcg& r) { return 1e6 + r.uniform<double>(); }, pdf);
+  };
+  const Subject root = of([](double x) { return 0.5 / std::sqrt(x - 1e6); });
+  std::vector<Subject::Coordinates> v{{1e-40, 0, 0}, {0.25, 0, 0}};
+  std::vector<double> densities(2);
+  densities_inside(root, v, densities);
+  EXPECT_GT(densities[0], 1e4);
+  EXPECT_LT(densities[0], 1e5);
+  EXPECT_EQ(densities[1], 1);
+  EXPECT_EQ(density_inside(root, v[0]), densities[0]);
+  EXPECT_TRUE(std::isinf(density_inside(of([](double) { return HUGE_VAL; }), v[0]))) << "and beside it";
+}
+
 TEST(DensityInside, ManyAreAskedInOneQuestionWhereTheSubjectTakesIt) {
   Subject s = pareto();
   std::vector<Subject::Coordinates> v{{0, 0, 0}, {0.25, 0, 0}, {1, 0, 0}};
