@@ -103,9 +103,11 @@ void lay_out_cells(const Subject& s, const Pilot& pilot, const SubjectOptions& o
       });
   layout.cubature = integrate_density(s, pilot, *layout.pilot_cells, n, options.max_evaluations / 12);
   const Partition& partition = layout.pilot_cells->partition;
+  const std::vector<double> rounded = layout.pilot_cells->rounded(s, pilot);
   for (int i = 0; i < partition.size(); ++i) {
     layout.boxes.push_back(partition.box(i));
     layout.cells.push_back(cell_of(s, pilot, layout.boxes.back(), layout.masses.cells[static_cast<std::size_t>(i)]));
+    layout.cells.back().variance += sqr(rounded[static_cast<std::size_t>(i)]);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <mc/domain/hemisphere.h>
 #include <mc/domain/interval.h>
 #include <mc/domain/sphere.h>
+#include <mc/table/table_dist_1d.h>
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/normal.h>
 
@@ -53,6 +54,21 @@ TEST(CheckSubject, LobesOfFewFloatSteps) {
     };
     const mc::Report r = check_subject(make_subject("few steps", mc::Sphere<float>{}, sampler, pdf), {});
     EXPECT_EQ(r.verdict(), Verdict::pass) << r.to_string();
+  }
+}
+
+// A float table whose one bright cell, of 260 steps, holds half of a million samples: a step at its edge holds more than
+// what a layer beside it may be off.
+TEST(CheckSubject, BrightCellsOfFewFloatSteps) {
+  std::vector<double> weights(64'586, 1);
+  weights[54'671] = 64'586;
+  const mc::TableDist1D<float> table(weights);
+  for (const std::uint64_t seed : {1u, 2u}) {
+    const mc::Report r = check_subject(make_subject(
+                                           "bright", mc::Interval<float>(), [&](float u) { return table.sample(u); },
+                                           [&](float x) { return table.pdf(x); }),
+                                       {.seed = seed});
+    EXPECT_NE(r.verdict(), Verdict::fail) << r.to_string();
   }
 }
 

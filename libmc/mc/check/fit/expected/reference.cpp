@@ -25,6 +25,33 @@ PilotCells::PilotCells(const Subject& s, const Pilot& pilot, int depth)
                 }),
       of_points(partition.find_cells(pilot.points)) {}
 
+std::vector<double> PilotCells::rounded(const Subject& s, const Pilot& pilot) const {
+  constexpr double steps = 2;
+  struct Faces {
+    UnitBox box;
+    Subject::Coordinates near{}; // how near to them rounding carries a point
+  };
+  std::vector<std::optional<Faces>> faces(static_cast<std::size_t>(partition.size()));
+  std::vector<double> shares(faces.size(), 0.0);
+  for (std::size_t i = 0; i < pilot.points.size(); ++i) {
+    const std::uint32_t cell = of_points[i];
+    const Subject::Coordinates& v = pilot.points[i];
+    const bool first = !faces[cell];
+    if (first) faces[cell].emplace().box = partition.box(static_cast<int>(cell));
+    auto& [box, near] = *faces[cell];
+    for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
+      if (first) near[d] = steps * rounding(s, v, d);
+      if (v[d] - box.lo[d] >= near[d] && box.hi[d] - v[d] >= near[d]) continue;
+      Subject::Coordinates beyond = v;
+      beyond[d] = v[d] - box.lo[d] < near[d] ? std::nextafter(box.lo[d], -1.0) : box.hi[d];
+      if (beyond[d] < 0 || beyond[d] >= 1) continue;
+      for (const std::size_t side : {std::size_t{cell}, static_cast<std::size_t>(partition.cell(beyond))})
+        shares[side] += 1 / (steps * static_cast<double>(pilot.tally.draws));
+    }
+  }
+  return shares;
+}
+
 // Splits cells into strata; points are indices into the pilot.
 struct Reference::Builder {
   const Subject& subject;

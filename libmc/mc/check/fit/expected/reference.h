@@ -20,6 +20,9 @@ struct PilotCells {
   std::vector<std::uint32_t> of_points;
   /// Cells are as wide as rounding leaves them.
   PilotCells(const Subject& subject, const Pilot& pilot, int depth);
+  /// The share of all samples that rounding by a step may carry into each cell, or out of it: what lies within two
+  /// steps of its faces, halved. 0 but for lobes of few steps.
+  std::vector<double> rounded(const Subject& subject, const Pilot& pilot) const;
 };
 
 /// The cube in strata, each with a cap on the density.

@@ -15,14 +15,6 @@ namespace {
 constexpr std::size_t most_strips = 2048, most_runs = 64, most_integrated = 4;
 constexpr int halvings = 6; // of the strips at both ends
 
-// Whether rounding may explain the count of a strip.
-bool is_rounded(const Subject& s, const Pilot& pilot, std::size_t axis, double lo, double hi, double count) {
-  double step = 0;
-  for (const std::uint32_t i : pilot.nearest(axis, 0.5 * (lo + hi), 16))
-    step = std::max(step, rounding(s, pilot.points[i], axis));
-  return step * std::max(rounded_steps, 2 * std::sqrt(count)) > hi - lo;
-}
-
 } // namespace
 
 Strips::Strips(const Pilot& pilot, int dim) {
@@ -80,6 +72,24 @@ Layer Strips::layer(const Run& run) const {
           run.hi,
           {axis.points.begin() + axis.first_points[first], axis.points.begin() + axis.first_points[last]},
           0};
+}
+
+bool Strips::is_rounded(const Subject& s, const Pilot& pilot, const Run& run) const {
+  double step = 0;
+  for (const std::uint32_t i : pilot.nearest(run.axis, 0.5 * (run.lo + run.hi), 16))
+    step = std::max(step, rounding(s, pilot.points[i], run.axis));
+  if (step * rounded_steps > run.hi - run.lo) return true;
+  const Layers& axis = axes_[run.axis];
+  const auto samples_per_length = [&](std::size_t i) {
+    const double lo = i > 0 ? axis.ends[i - 1] : 0.0, hi = i < axis.ends.size() ? axis.ends[i] : 1.0;
+    return axis.strips[i].observed / (hi - lo);
+  };
+  // Beside a strip of few samples may stand a bright cell, of which a step holds more than all of the strip.
+  double ends = 2 * run.compared.mean / (run.hi - run.lo);
+  if (run.first > 0) ends = std::max(ends, samples_per_length(run.first - 1) + samples_per_length(run.first));
+  if (run.last < axis.strips.size())
+    ends = std::max(ends, samples_per_length(run.last - 1) + samples_per_length(run.last));
+  return step * ends > std::sqrt(run.compared.mean);
 }
 
 std::vector<Strips::Run> Strips::farthest_runs(double& family) const {
@@ -144,7 +154,7 @@ Check Strips::test(const Subject& s, const Pilot& pilot, double n, double mass, 
   std::size_t integrated = 0;
   for (Run& run : runs) {
     if (integrated == most_integrated) break;
-    if (is_rounded(s, pilot, run.axis, run.lo, run.hi, run.compared.mean)) continue;
+    if (is_rounded(s, pilot, run)) continue;
     run.judge(s, pilot, layer(run), n, mass, Effort::full);
     ++integrated;
     if (run.p >= least) continue;

@@ -71,6 +71,8 @@ class Strips {
   };
   /// With the points of the pilot in a run, or in it and the strips beside it, at least 64.
   Layer layer(const Run& run) const;
+  /// Whether rounding may explain the count of a run.
+  bool is_rounded(const Subject& s, const Pilot& pilot, const Run& run) const;
   std::vector<Run> farthest_runs(double& family) const;
 
   std::vector<Layers> axes_;
