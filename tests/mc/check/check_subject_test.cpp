@@ -177,6 +177,27 @@ TEST(CheckSubject, GapsAreFoundInsideAndAtBothEnds) {
   }
 }
 
+// 23 of 100000 samples are missing at each end of a normal cut at 3.5 sigma, as many as no right sampler misses. The
+// density falls towards the ends, so that the samples beside them speak of more.
+TEST(CheckSubject, TailsThatAreCutAreGaps) {
+  const auto cut_at = [](double most) {
+    return check_subject(make_subject(
+                             "cut", mc::RealLine<double>(0, 1),
+                             [most](Pcg& r) {
+                               for (;;)
+                                 if (const double x = mc::Normal<double>().sample(r.uniform<double>());
+                                     std::abs(x) < most)
+                                   return x;
+                             },
+                             [](double x) { return mc::Normal<double>().pdf(x); }),
+                         {.samples = 100'000, .seed = 5});
+  };
+  EXPECT_TRUE(cut_at(9).passed()) << cut_at(9).to_string();
+  const mc::Report r = cut_at(3.5);
+  EXPECT_EQ(r.verdict(), Verdict::fail);
+  EXPECT_THAT(r.to_string(), testing::HasSubstr("no gaps fail"));
+}
+
 TEST(CheckSubject, DiscreteOutcomes) {
   mc::Subject s;
   s.name = "coin";

@@ -121,7 +121,7 @@ EstimatedMass slab_mass(const Subject& s, const Pilot& pilot, const Layer& layer
     for (const NearPoint& p : piece.points)
       if (p.density > over_seen * seen.density) missed += mass_of_point * p.density * seen.volume;
   }
-  mass.variance += missed;
+  if (!layer.empty) mass.variance += missed;
   return mass;
 }
 

@@ -107,7 +107,7 @@ bool is_rounding(const Subject& s, const Pilot& pilot, const Slab& gap) {
 
 // What the pilot beside a slab says that it would hold, were it no exception.
 Layer layer_around(const Pilot& pilot, const Slab& slab) {
-  Layer layer{slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis], {}, 0};
+  Layer layer{slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis], {}, 0, slab.kind == Slab::Kind::gap};
   constexpr double least = 64;
   const double inside = count_between(pilot.sorted[slab.axis], layer.lo, layer.hi);
   layer.near = pilot.nearest(slab.axis, 0.5 * (layer.lo + layer.hi), static_cast<std::size_t>(std::max(least, inside)));
@@ -137,6 +137,7 @@ std::vector<Slab> find_slabs(const Subject& s, const Pilot& pilot, const std::ar
       Slab gap;
       gap.kind = Slab::Kind::gap;
       gap.axis = axis;
+      gap.at_end = place != Place::inside;
       if (find_gap(s, sorted[axis], place, gap) && !is_rounding(s, pilot, gap)) add(gap);
     }
   }
@@ -161,7 +162,8 @@ Check test_slabs(const Subject& s, Slab::Kind kind, const std::vector<Slab>& sla
     const double claimed = atom ? 2 * (slab.mass.value + slack) : (slab.mass.value - slack) / mass;
     if (atom ? share <= claimed : share >= claimed) continue;
     // The slab lies where one sample is, or between two: that much is given. That sample is one of all, or one of two.
-    const double family = (slab.at_end ? 2 : n) * s.dim;
+    // Gaps at the ends and inside share the chance evenly.
+    const double family = (slab.at_end ? 2 : n) * s.dim * (atom ? 1 : 2);
     const double by_density = sidak(binomial_tail(atom ? slab.count - 1 : 0, n, std::min(claimed, 1.0)), family);
     const double p = std::min(by_density + (atom ? s.dim * chance_of_steps(s, slab, n) : 0.0), 1.0);
     if (p >= *c.p) continue;

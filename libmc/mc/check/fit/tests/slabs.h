@@ -21,7 +21,7 @@ struct Slab {
   UnitBox box;
   double count = 0;           ///< samples in it
   EstimatedMass mass;         ///< claimed by the density
-  bool at_end = false;        ///< of an atom: at the least or the greatest sample
+  bool at_end = false;        ///< at the least or the greatest sample, of a gap: beyond it
   double equal = 0;           ///< of an atom: samples that are the same up to rounding
   double pairs_elsewhere = 0; ///< of an atom: neighbours at other places that are the same
 };

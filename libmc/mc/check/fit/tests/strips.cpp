@@ -67,11 +67,9 @@ Layer Strips::layer(const Run& run) const {
     if (first > 0) --first;
     if (last < axis.strips.size()) ++last;
   }
-  return {run.axis,
-          run.lo,
-          run.hi,
-          {axis.points.begin() + axis.first_points[first], axis.points.begin() + axis.first_points[last]},
-          0};
+  return {run.axis, run.lo,
+          run.hi,   {axis.points.begin() + axis.first_points[first], axis.points.begin() + axis.first_points[last]},
+          0,        false};
 }
 
 bool Strips::is_rounded(const Subject& s, const Pilot& pilot, const Run& run) const {
