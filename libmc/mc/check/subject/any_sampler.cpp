@@ -60,6 +60,17 @@ std::string format_x(const AnySampler& s, const Numbers& x) {
 
 namespace {
 
+// ", its length 1 + 1e-9" of a point that should be a direction: none of its digits says so at a glance.
+std::string describe_length(const AnySampler& s, const Numbers& x) {
+  if (s.domain.numbers != 3 || s.domain.dim != 2) return {};
+  const auto off = [](const Numbers& y) { return std::hypot(y[0], y[1], y[2]) - 1; };
+  for (const AnyDomain::Chart& v : {AnyDomain::Chart{0.3, 0.4, 0}, AnyDomain::Chart{0.7, 0.2, 0}})
+    if (!(std::abs(off(s.domain.from_unit(v).x)) < 1e-6)) return {};
+  return std::abs(off(x)) > 4 * s.epsilon()
+             ? fmt::format(", its length 1 {} {:.2g}", off(x) < 0 ? '-' : '+', std::abs(off(x)))
+             : std::string();
+}
+
 // "x = (0, 1), pdf = 2, eval = 3", or what else it is.
 std::string describe_drawn(const AnySampler& s, const AnySampler::Drawn& drawn) {
   const Placed p = place(s, drawn);
@@ -67,6 +78,7 @@ std::string describe_drawn(const AnySampler& s, const AnySampler::Drawn& drawn) 
   if (p.draw.kind == Kind::atom)
     return fmt::format("outcome {}, {} = {:.9g}", drawn.atom, s.domain.dim > 0 ? "probability" : "pmf", p.pdf);
   text = "x = " + format_x(s, drawn.x);
+  if (p.draw.kind == Kind::outside) text += describe_length(s, drawn.x);
   if (p.draw.kind != Kind::point) return text;
   text += fmt::format(", pdf = {:.9g}", p.pdf);
   if (s.eval) text += fmt::format(", eval = {:.9g}", s.eval(drawn.x));

@@ -140,4 +140,16 @@ TEST(MakeSubject, ADiscreteDistributionBecomesAtoms) {
   }
 }
 
+TEST(MakeSubject, SaysHowFarADirectionIsFromUnitLength) {
+  const auto with = [](double length, double z) {
+    return make_subject(
+               "w", mc::Hemisphere<double>(),
+               [=](mc::Pcg&) { return mc::Vec3<double>(0.6 * length, 0, 0.8 * z * length); },
+               [](const auto&) { return 1.0; })
+        .describe_draw(1, 0);
+  };
+  EXPECT_THAT(with(1 - 1e-9, 1), testing::EndsWith("its length 1 - 1e-09, draw 0 of Pcg(1)"));
+  EXPECT_THAT(with(1, -1), testing::Not(testing::HasSubstr("length"))) << "it is below the horizon";
+}
+
 } // namespace
