@@ -88,6 +88,21 @@ TEST(CheckSubject, SingularitiesAsDeepAsNumbersGo) {
   }
 }
 
+// 1 / x from 1e-250 on: two fifths of the samples lie below 2^-500.
+TEST(CheckSubject, LogarithmsThatAreUniformOverAllNumbers) {
+  const double depth = 250 * std::log(10.0);
+  const auto check = [depth](double exponent) {
+    return check_subject(
+        make_subject(
+            "1 / x", mc::Interval<double>(1e-250, 1),
+            [=](Pcg& r) { return std::clamp(std::exp(-depth * std::pow(r.uniform<double>(), exponent)), 1e-250, 1.0); },
+            [=](double x) { return 1 / (x * depth); }),
+        {.samples = 100'000, .seed = 2});
+  };
+  EXPECT_TRUE(check(1).passed()) << check(1).to_string();
+  EXPECT_EQ(check(1.05).verdict(), Verdict::fail);
+}
+
 // Beside an end that is not 0 the points of the chart are rounded onto it, where the density is infinite.
 TEST(CheckSubject, SingularAtEndsThatAreNotZero) {
   for (const double lo : {0.0833, 24.7, -670.0}) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace mc {
 namespace {
@@ -13,6 +15,10 @@ Subject::Coordinates moved_inside(Subject::Coordinates v, int dim, double step =
     v[d] = std::clamp(v[d], step, 1 - std::max(step, 0x1p-53));
   return v;
 }
+
+// Whether a coordinate lies beside the face at 0, nearer than 2^-500 and yet not on it: only where the density is about
+// 1 / x are there samples.
+bool is_deep(double v) { return v > 0 && v < 0x1p-500; }
 
 // Singularities at an end that is not 0 are infinite where the chart's points are rounded onto it. Of a density that
 // is infinite beside such a point, too, no more is asked: it may answer slowly.
@@ -28,17 +34,30 @@ void ask_beside_poles(const Subject& s, std::span<const Subject::Coordinates> v,
 } // namespace
 
 double density_inside(const Subject& s, const Subject::Coordinates& v) {
-  const Subject::Coordinates inside = moved_inside(v, s.dim);
-  double density = s.density(inside);
-  ask_beside_poles(s, {&inside, 1}, {&density, 1});
+  Subject::Coordinates inside = v;
+  double density = 0;
+  densities_inside(s, {&inside, 1}, {&density, 1});
   return density;
 }
 
 void densities_inside(const Subject& s, std::span<Subject::Coordinates> v, std::span<double> densities) {
-  for (Subject::Coordinates& one : v) one = moved_inside(one, s.dim);
+  std::vector<std::pair<std::size_t, Subject::Coordinates>> deep;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const Subject::Coordinates asked = v[i];
+    v[i] = moved_inside(asked, s.dim);
+    if (std::none_of(asked.begin(), asked.begin() + s.dim, is_deep)) continue;
+    deep.emplace_back(i, v[i]);
+    for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
+      if (is_deep(asked[d])) deep.back().second[d] = asked[d];
+  }
   if (s.densities) s.densities(v, densities);
   else
     for (std::size_t i = 0; i < v.size(); ++i) densities[i] = s.density(v[i]);
+  for (const auto& [i, there] : deep)
+    if (const double density = s.density(there); density > 0 && std::isfinite(density)) {
+      v[i] = there;
+      densities[i] = density;
+    }
   ask_beside_poles(s, v, densities);
 }
 

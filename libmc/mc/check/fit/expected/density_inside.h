@@ -9,7 +9,7 @@
 namespace mc {
 
 /// The claimed density at v, moved off the faces of the cube by 2^-500 at 0 and by 2^-53 at 1, where charts of infinite
-/// domains have no point, and beside v where it is infinite there alone.
+/// domains have no point, or less where it is finite there, and beside v where it is infinite there alone.
 double density_inside(const Subject& subject, const Subject::Coordinates& v);
 /// Those at many points, which it moves likewise: one question where the subject answers many at once.
 void densities_inside(const Subject& subject, std::span<Subject::Coordinates> v, std::span<double> densities);

@@ -36,6 +36,7 @@ TEST(DensityInside, IsThatOfTheTailsOnTheFacesOfTheLine) {
       "root", mc::Interval<double>(0, 1), [](mc::Pcg& r) { return mc::sqr(r.uniform<double>()); },
       [](double x) { return 0.5 / std::sqrt(x); });
   EXPECT_NEAR(density_inside(root, {1e-100, 0, 0}), 0.5e50, 1e38);
+  EXPECT_NEAR(density_inside(root, {1e-300, 0, 0}), 0.5e150, 1e138) << "where the chart has points";
 }
 
 TEST(DensityInside, BesideWhereItBreaksOnlyThere) {
