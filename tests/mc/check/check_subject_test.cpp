@@ -192,6 +192,19 @@ TEST(CheckSubject, GapsAreFoundInsideAndAtBothEnds) {
   }
 }
 
+// 800 steps of a float hold 95 of a million samples.
+TEST(CheckSubject, GapsOfFewHundredFloatStepsAreFound) {
+  const auto skip = [](float width) {
+    const auto sampler = [width](Pcg& r) {
+      for (;;)
+        if (const float x = r.uniform<float>(); x < 0.3f || x >= 0.3f + width) return x;
+    };
+    return check_subject(make_subject("skip", mc::Interval<float>(0, 1), sampler, [](float) { return 1.0f; }), {});
+  };
+  EXPECT_TRUE(skip(0).passed()) << skip(0).to_string();
+  EXPECT_EQ(skip(800 * 0x1p-23f).verdict(), Verdict::fail);
+}
+
 // 23 of 100000 samples are missing at each end of a normal cut at 3.5 sigma, as many as no right sampler misses. The
 // density falls towards the ends, so that the samples beside them speak of more.
 TEST(CheckSubject, TailsThatAreCutAreGaps) {

@@ -85,7 +85,7 @@ bool find_gap(const Subject& s, const std::vector<double>& v, Place place, Slab&
     const double gap = at(i + 1) - at(i), inside = i >= 0 && i + 1 < n ? gap : 0;
     const double spacings = static_cast<double>(last - first - (inside > 0 ? 1 : 0));
     const double around_it = at(last) - at(first) - inside;
-    if (!(gap * spacings > widest * around_it && gap > 1e4 * s.epsilon)) continue;
+    if (!(gap * spacings > widest * around_it && gap > rounded_steps * s.epsilon)) continue;
     widest = gap * spacings / around_it;
     below = i;
   }
