@@ -57,8 +57,8 @@ TEST(CheckSubject, LobesOfFewFloatSteps) {
   }
 }
 
-// A float table whose one bright cell, of 260 steps, holds half of a million samples: a step at its edge holds more than
-// what a layer beside it may be off.
+// A float table whose one bright cell, of 260 steps, holds half of a million samples: a step at its edge holds more
+// than what a layer beside it may be off.
 TEST(CheckSubject, BrightCellsOfFewFloatSteps) {
   std::vector<double> weights(64'586, 1);
   weights[54'671] = 64'586;

@@ -25,8 +25,8 @@ enum class Effort : std::uint8_t { quick, full };
 /// From two random pairs of points in each of many boxes. The layer is cut where its near points are, until no box
 /// holds more than four, nor one whose density claims far more for the box than the samples do: a lobe or a ridge of
 /// any sharpness is looked at where it is. A near point whose density is far above all that the random points of its
-/// box saw tells what each of them would have added, had it not missed the place; the variance allows for that, but in empty
-/// layers, where the integral is only ever too small.
+/// box saw tells what each of them would have added, had it not missed the place; the variance allows for that,
+/// but in empty layers, where the integral is only ever too small.
 ///   Source : stratified sampling, with two mirrored pairs each [Cochran77]
 EstimatedMass slab_mass(const Subject& subject, const Pilot& pilot, const Layer& layer, std::uint64_t seed,
                         Effort effort = Effort::full);
