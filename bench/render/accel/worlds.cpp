@@ -34,9 +34,10 @@ Vec3 direction(mc::Pcg& random) { return mc::UniformSphere<Float>{}.sample(rando
 } // namespace
 
 std::vector<render::Shape> World::shapes() const {
-  std::vector<render::Shape> made;
-  if (!triangles.empty()) made.emplace_back(render::TriangleMesh(positions, triangles));
+  std::vector<render::Shape> made = meshes;
+  if (meshes.empty() && !triangles.empty()) made.emplace_back(render::TriangleMesh(positions, triangles));
   for (const Ball& s : spheres) made.emplace_back(render::Sphere(s.center.cast<double>(), double(s.radius)));
+  for (render::Shape& s : made) s.forget_choice();
   return made;
 }
 
@@ -97,6 +98,7 @@ World scene_file(const std::string& path) {
   const render::SceneFile file = render::read_mitsuba(path);
   for (const render::Surface& s : file.scene.surfaces()) {
     const auto* mesh = std::get_if<render::TriangleMesh>(s.shape.get());
+    if (mesh) w.meshes.emplace_back(*mesh);
     for (std::size_t t = 0; mesh && t < mesh->size(); ++t) {
       const auto first = static_cast<std::uint32_t>(w.positions.size());
       for (const Vec3& p : mesh->vertices(t)) w.positions.push_back(p);

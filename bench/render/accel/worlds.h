@@ -25,8 +25,10 @@ struct World {
   };
   std::vector<Ball> spheres = {};
   render::ThinLens camera = render::ThinLens();
+  std::vector<render::Shape> meshes = {}; ///< of a scene, with their normals and uvs, which the triangles are of
 
   std::size_t size() const { return triangles.size() + spheres.size(); }
+  /// As a scene holds what does not shine.
   std::vector<render::Shape> shapes() const;
 };
 

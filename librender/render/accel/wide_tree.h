@@ -29,10 +29,10 @@ class WideTree {
     std::uint32_t first, count;
   };
   const std::vector<Leaf>& leaves() const { return leaves_; }
-  /// Gives back the memory of order() and leaves(), which rays do not read.
+  /// Gives back the memory of order() and leaves(), which rays do not read: what = {} would keep.
   void forget_leaves() {
-    order_ = {};
-    leaves_ = {};
+    order_ = decltype(order_)();
+    leaves_ = decltype(leaves_)();
   }
   bool empty() const { return nodes_.empty(); }
 

@@ -26,6 +26,7 @@ void SceneBuilder::add(Shape shape, const Cover& cover) {
       "scene: shape {} holds what absorbs, and a mask has holes that light would leave it by; remove one of them",
       surfaces_.size());
   if (!textured) shape.forget_uvs();
+  if (!cover.emission && !cover.guide) shape.forget_choice();
   Surface surface{std::make_shared<const Shape>(std::move(shape)), cover.bsdf, {}, cover.guide, cover.interior};
   if (cover.emission) {
     surface.light = static_cast<std::uint32_t>(lights_.size());

@@ -61,6 +61,7 @@ struct DirectionSample {
 ///                       pi, and close where it is far away and faces ref
 ///   surface_point     : the point of a Hit
 ///   has_uv(), uv(hit, its point) : texture coordinates, where it has them;  forget_uvs() : not any more
+///   forget_choice()   : what only sample reads is gone: for shapes that nothing aims at
 template <class T>
 concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint hit, Ray ray, Hit h) {
   { s.sample(ref, u) } -> std::same_as<std::optional<ShapeSample>>;

@@ -44,6 +44,9 @@ struct Shape : std::variant<TriangleMesh, Sphere> {
   void forget_uvs() {
     std::visit([](auto& s) { s.forget_uvs(); }, static_cast<variant&>(*this));
   }
+  void forget_choice() {
+    std::visit([](auto& s) { s.forget_choice(); }, static_cast<variant&>(*this));
+  }
 };
 
 } // namespace render

@@ -40,6 +40,7 @@ class Sphere {
   bool has_uv() const { return true; }
   mc::Vec2<double> uv(const Hit&, const SurfacePoint& point) const;
   void forget_uvs() {}
+  void forget_choice() {}
 
   const Vec3d& center() const { return center_; }
   double radius() const { return radius_; }

@@ -87,7 +87,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
   if (!normals_.empty() && std::all_of(faces_.begin(), faces_.end(), [&](const Face& f) {
         return std::all_of(f.vertices.begin(), f.vertices.end(), [&](std::uint32_t v) { return agrees(f, v); });
       }))
-    normals_ = {};
+    normals_ = decltype(normals_)(); // gives back their memory, which = {} would keep
   for (const Vec3& p : positions_) error_ = std::max(error_, Float(0x1p-49) * p.lpNorm<Eigen::Infinity>());
 }
 

@@ -46,7 +46,9 @@ class TriangleMesh {
   bool has_uv() const { return !uvs_.empty(); }
   mc::Vec2<double> uv(const Hit& hit, const SurfacePoint&) const;
   /// Gives back the memory of texture coordinates that nothing reads.
-  void forget_uvs() { uvs_ = {}; }
+  void forget_uvs() { uvs_ = decltype(uvs_)(); }
+  /// Gives back the memory of what picks a triangle, where nothing aims at the mesh: sample() finds no point then.
+  void forget_choice() { choice_.reset(); }
 
   std::size_t size() const { return faces_.size(); }
   /// Of all triangles; empty without any.
@@ -75,7 +77,7 @@ class TriangleMesh {
   std::vector<Vec3> positions_, normals_; ///< per vertex; no normals: flat
   std::vector<mc::Vec2<float>> uvs_;
   std::vector<Face> faces_;
-  std::optional<mc::TableDist1D<double>> choice_; ///< of a triangle by its area; none where all areas are 0
+  std::optional<mc::TableDist1D<double>> choice_; ///< of a triangle by its area; none where all are 0, or forgotten
   double area_ = 0;
   Bounds bounds_;
   Float largest_radius2_ = 0; ///< of the ball about a triangle's centre

@@ -83,6 +83,12 @@ TEST(WideTree, StopsWhenALeafSaysSo) {
   EXPECT_EQ(calls, 2);
 }
 
+TEST(WideTree, ForgetsWithItsMemory) {
+  WideTree tree(random_boxes(100, Float(0.1)));
+  tree.forget_leaves();
+  EXPECT_EQ(tree.order().capacity() + tree.leaves().capacity(), 0u);
+}
+
 TEST(WideTree, EmptyTreesAndBoxes) {
   const WideTree tree{std::vector<Bounds>{}};
   EXPECT_TRUE(tree.empty());

@@ -50,6 +50,22 @@ TEST(SceneBuilder, SaysWhatIsWrong) {
   EXPECT_TRUE(scene.lights().empty());
 }
 
+// What nothing aims at keeps no table to pick its triangles by.
+TEST(SceneBuilder, SamplesWhatShinesOrGuides) {
+  SceneBuilder builder;
+  const BsdfId gray = builder.add(Lambert());
+  builder.add(TriangleMesh::rectangle({}), {gray});
+  builder.add(TriangleMesh::rectangle({}), {gray, Emission{}});
+  builder.add(TriangleMesh::rectangle({}), {.bsdf = gray, .guide = true});
+  const Scene scene = builder.build();
+  const auto sampled = [&](std::size_t i) {
+    return scene.surfaces()[i].shape->sample(Vec3(0, 0, 5), Vec2(Float(0.3), Float(0.6))).has_value();
+  };
+  EXPECT_FALSE(sampled(0));
+  EXPECT_TRUE(sampled(1));
+  EXPECT_TRUE(sampled(2));
+}
+
 TEST(SceneBuilder, ATextureLiesWhereTheCoordinatesSay) {
   SceneBuilder builder;
   const Spectrum dark = Spectrum::Constant(Float(0.25)), light = Spectrum::Constant(Float(0.75));
