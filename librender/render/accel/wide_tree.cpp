@@ -125,29 +125,53 @@ WideTree::WideTree(const std::vector<Bounds>& boxes, std::uint32_t lanes) : orde
     tasks.push_back({children, depth + 1});
     tasks.push_back({children + 1, depth + 1});
   }
-  collapse(tree, 0);
+  collapse(tree, cheapest_cuts(tree), 0);
   nodes_.shrink_to_fit();
   leaves_.shrink_to_fit();
 }
 
-std::uint32_t WideTree::collapse(const std::vector<Binary>& binary, std::uint32_t root) {
+// The node of eight children that a binary one becomes costs the chance that a ray meets it, its area: then those below
+// it cost least when the two halves of what they stand for do, for the best share of the children between the halves.
+WideTree::Cuts WideTree::cheapest_cuts(const std::vector<Binary>& binary) {
+  Cuts cuts(binary.size());
+  // [children]; leaves cost nothing, since they are there however nodes are cut.
+  std::vector<std::array<double, 9>> costs(binary.size());
+  for (std::size_t i = binary.size(); i-- > 0;) { // children stand behind their parents
+    if (binary[i].count > 0) continue;
+    const auto &left = costs[binary[i].left], &right = costs[binary[i].right];
+    auto& cost = costs[i];
+    for (std::size_t children = 2; children <= 8; ++children) {
+      std::size_t best = 1;
+      for (std::size_t k = 2; k < children; ++k)
+        if (left[k] + right[children - k] < left[best] + right[children - best]) best = k;
+      cost[children] = left[best] + right[children - best];
+      cuts[i][children - 1] = static_cast<std::uint8_t>(best);
+    }
+    cost[1] = double(binary[i].box.half_area()) + cost[8];
+    for (std::size_t children = 2; children < 8; ++children)
+      if (cost[1] < cost[children]) {
+        cost[children] = cost[1];
+        cuts[i][children - 1] = 0;
+      }
+  }
+  return cuts;
+}
+
+std::uint32_t WideTree::collapse(const std::vector<Binary>& binary, const Cuts& cuts, std::uint32_t root) {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
   std::array<std::uint32_t, 8> open{};
   std::size_t n = 0;
-  open[n++] = root;
-  while (n < 8) {
-    int widest = -1;
-    for (std::size_t i = 0; i < n; ++i)
-      if (binary[open[i]].count == 0 &&
-          (widest < 0 ||
-           binary[open[i]].box.half_area() > binary[open[static_cast<std::size_t>(widest)]].box.half_area()))
-        widest = static_cast<int>(i);
-    if (widest < 0) break;
-    const Binary& opened = binary[open[static_cast<std::size_t>(widest)]];
-    open[static_cast<std::size_t>(widest)] = opened.left;
-    open[n++] = opened.right;
-  }
+  const auto gather = [&](const auto& self, std::uint32_t from, std::size_t children) -> void {
+    const std::size_t left = binary[from].count > 0 ? 0 : cuts[from][children - 1];
+    if (left == 0) {
+      open[n++] = from;
+      return;
+    }
+    self(self, binary[from].left, left);
+    self(self, binary[from].right, children - left);
+  };
+  gather(gather, root, 8);
   Node node;
   for (std::size_t i = 0; i < 8; ++i) {
     const Bounds box = i < n ? binary[open[i]].box : Bounds{}; // an empty box is never entered
@@ -162,7 +186,7 @@ std::uint32_t WideTree::collapse(const std::vector<Binary>& binary, std::uint32_
       node.child[i] = leaf_bit | static_cast<std::uint32_t>(leaves_.size());
       leaves_.push_back({child.first, child.count});
     } else {
-      node.child[i] = collapse(binary, open[i]);
+      node.child[i] = collapse(binary, cuts, open[i]);
     }
   }
   nodes_[index] = node;

@@ -6,14 +6,15 @@
 #include <render/core/lanes.h>
 #include <render/core/ray.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 namespace render {
 
 /// The hierarchy. Leaves are blocks of up to `lanes` primitives that the owner intersects.
-///   build  : binned SAH [Wald07] with 32 bins, costs counted in blocks, collapsed to 8 children by opening the largest
-///            box
+///   build  : binned SAH [Wald07] with 32 bins, costs counted in blocks, collapsed to the nodes of 8 children that rays
+///            meet least often [YlitieKarrasLaine17]
 ///   ray    : IEEE slabs: 1/0 = inf, and a NaN from 0 * inf never rejects a box, so axis-parallel rays in box planes
 ///            hit
 class WideTree {
@@ -51,7 +52,11 @@ class WideTree {
   static constexpr int stack_size = 768; ///< 7 per level; the builder bounds the depth
 
   struct Binary;
-  std::uint32_t collapse(const std::vector<Binary>& binary, std::uint32_t root);
+  /// Of each binary node, for one to eight children that may stand for it: how many of them stand for its left half; 0
+  /// where it is cheaper as one.
+  using Cuts = std::vector<std::array<std::uint8_t, 8>>;
+  static Cuts cheapest_cuts(const std::vector<Binary>& binary);
+  std::uint32_t collapse(const std::vector<Binary>& binary, const Cuts& cuts, std::uint32_t root);
 
   std::vector<Node, HugePages<Node>> nodes_;
   std::vector<Leaf> leaves_;
