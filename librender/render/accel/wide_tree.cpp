@@ -10,12 +10,14 @@ namespace render {
 struct WideTree::Binary {
   Bounds box;
   std::uint32_t first = 0, count = 0, left = 0, right = 0;
+  int depth = 0, height = 0; ///< levels above and below, for rotate()
 };
 
 namespace {
 
 constexpr int bins = 32;
-constexpr int deepest = 64; // beyond this depth halves are taken by count, which adds at most 32 levels
+constexpr int deepest = 64;          // beyond this depth halves are taken by count, which adds at most 32 levels
+constexpr int levels = deepest + 32; // what the stack of a ray suffices for
 
 struct Split {
   int axis = -1;
@@ -125,9 +127,62 @@ WideTree::WideTree(const std::vector<Bounds>& boxes, std::uint32_t lanes) : orde
     tasks.push_back({children, depth + 1});
     tasks.push_back({children + 1, depth + 1});
   }
+  for (int pass = 0; pass < 2; ++pass) rotate(tree); // more passes gain next to nothing
   collapse(tree, cheapest_cuts(tree), 0);
   nodes_.shrink_to_fit();
   leaves_.shrink_to_fit();
+}
+
+std::vector<std::uint32_t> WideTree::parents_first(const std::vector<Binary>& tree) {
+  std::vector<std::uint32_t> order, open = {0};
+  while (!open.empty()) {
+    const std::uint32_t i = open.back();
+    open.pop_back();
+    order.push_back(i);
+    if (tree[i].count == 0) open.insert(open.end(), {tree[i].left, tree[i].right});
+  }
+  return order;
+}
+
+// The cheapest border for the items of a node is not so for the boxes that came of it: where that makes a child's box
+// smaller, its sibling changes places with one of its children.
+void WideTree::rotate(std::vector<Binary>& tree) {
+  const auto order = parents_first(tree);
+  for (const std::uint32_t i : order)
+    if (tree[i].count == 0) tree[tree[i].left].depth = tree[tree[i].right].depth = tree[i].depth + 1;
+  const auto height_over = [&](std::uint32_t a, std::uint32_t b) {
+    return 1 + std::max(tree[a].height, tree[b].height);
+  };
+  for (auto it = order.rbegin(); it != order.rend(); ++it) {
+    Binary& n = tree[*it];
+    if (n.count > 0) continue;
+    n.height = height_over(n.left, n.right);
+    double best = 0;
+    Binary* smaller = nullptr; // the child that gets the box when `out` of it and `in` change places
+    Bounds box;
+    std::uint32_t *in = nullptr, *out = nullptr;
+    for (const auto& [child, sibling] : {std::pair(&n.left, &n.right), std::pair(&n.right, &n.left)}) {
+      Binary& c = tree[*child];
+      if (c.count > 0) continue;
+      for (const auto& [goes, stays] : {std::pair(&c.left, &c.right), std::pair(&c.right, &c.left)}) {
+        Bounds together = tree[*sibling].box;
+        together.add(tree[*stays].box);
+        const double gain = double(c.box.half_area()) - double(together.half_area());
+        const int height = 1 + std::max(height_over(*sibling, *stays), tree[*goes].height);
+        if (!(gain > best) || (height > n.height && n.depth + height > levels)) continue;
+        best = gain;
+        smaller = &c;
+        box = together;
+        in = sibling;
+        out = goes;
+      }
+    }
+    if (!smaller) continue;
+    std::swap(*in, *out);
+    smaller->box = box;
+    smaller->height = height_over(smaller->left, smaller->right);
+    n.height = height_over(n.left, n.right);
+  }
 }
 
 // The node of eight children that a binary one becomes costs the chance that a ray meets it, its area: then those below
@@ -136,7 +191,9 @@ WideTree::Cuts WideTree::cheapest_cuts(const std::vector<Binary>& binary) {
   Cuts cuts(binary.size());
   // [children]; leaves cost nothing, since they are there however nodes are cut.
   std::vector<std::array<double, 9>> costs(binary.size());
-  for (std::size_t i = binary.size(); i-- > 0;) { // children stand behind their parents
+  const auto order = parents_first(binary);
+  for (auto it = order.rbegin(); it != order.rend(); ++it) {
+    const std::uint32_t i = *it;
     if (binary[i].count > 0) continue;
     const auto &left = costs[binary[i].left], &right = costs[binary[i].right];
     auto& cost = costs[i];

@@ -13,8 +13,8 @@
 namespace render {
 
 /// The hierarchy. Leaves are blocks of up to `lanes` primitives that the owner intersects.
-///   build  : binned SAH [Wald07] with 32 bins, costs counted in blocks, collapsed to the nodes of 8 children that rays
-///            meet least often [YlitieKarrasLaine17]
+///   build  : binned SAH [Wald07] with 32 bins, costs counted in blocks, rotated to smaller boxes [Kensler08],
+///            collapsed to the nodes of 8 children that rays meet least often [YlitieKarrasLaine17]
 ///   ray    : IEEE slabs: 1/0 = inf, and a NaN from 0 * inf never rejects a box, so axis-parallel rays in box planes
 ///            hit
 class WideTree {
@@ -52,6 +52,8 @@ class WideTree {
   static constexpr int stack_size = 768; ///< 7 per level; the builder bounds the depth
 
   struct Binary;
+  static std::vector<std::uint32_t> parents_first(const std::vector<Binary>& tree);
+  static void rotate(std::vector<Binary>& tree);
   /// Of each binary node, for one to eight children that may stand for it: how many of them stand for its left half; 0
   /// where it is cheaper as one.
   using Cuts = std::vector<std::array<std::uint8_t, 8>>;

@@ -74,6 +74,25 @@ TEST(WideTree, VisitsEveryLeafWithABoxThatTheRayMeets) {
   }
 }
 
+// Boxes that shrink towards a corner make the deepest trees: the stack of a ray suffices for them.
+TEST(WideTree, VisitsAllOfADeepTree) {
+  std::vector<Bounds> boxes;
+  for (int i = 0; i < 2000; ++i) {
+    Bounds box;
+    box.add(Vec3::Zero());
+    box.add(Vec3::Constant(std::pow(Float(0.95), Float(i))));
+    boxes.push_back(box);
+  }
+  const WideTree tree(boxes, 1);
+  std::size_t visited = 0;
+  Float t_max = mc::infinity<Float>;
+  tree.traverse({Vec3::Constant(-1), Vec3::Ones()}, t_max, [&](std::uint32_t, Float&) {
+    ++visited;
+    return false;
+  });
+  EXPECT_EQ(visited, boxes.size());
+}
+
 TEST(WideTree, StopsWhenALeafSaysSo) {
   const WideTree tree(random_boxes(500, Float(0.5)));
   const Ray ray{Vec3::Constant(-1), Vec3::Ones().normalized()};
