@@ -64,9 +64,9 @@ struct IntegrateOptions {
   /// Independent randomisations behind the error of stratified, rqmc, vegas and tree. Where the calls end sequences are
   /// more, or fewer and longer, whichever leaves less variance: a third of them at least, and eight, or all of fewer.
   std::uint32_t replicates = 24;
-  /// Of an earlier run, or read from a file (see load_density), of this integrand or one like it. Short rounds of uniform
-  /// points and of its own try it: where it fits, vegas, tree and automatic take it for what they would have learned;
-  /// where it does not, they go on learning from it. As unbiased for any density.
+  /// Of an earlier run, or read from a file (see load_density), of this integrand or one like it. Short rounds of
+  /// uniform points and of its own try it: where it fits, vegas, tree and automatic take it for what they would have
+  /// learned; where it does not, they go on learning from it. As unbiased for any density.
   std::shared_ptr<const AdaptedDensity> density = {};
   /// Of the last so many outputs nothing is asked: they neither end the run nor say where points go.
   std::size_t watched = 0;

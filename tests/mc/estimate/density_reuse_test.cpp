@@ -95,9 +95,9 @@ TEST(DensityReuse, IsUnbiased) {
     }
 }
 
-// Steps of height 1 above .01 that moved towards where the density is low: replicates that met none of what lies between
-// agreed, and 57 to 90 % of the intervals held, or the rounds disagreed. 120 intervals of 95 % each, of which 114 are
-// expected; fewer than 105 by chance in 4e-4 of the choices of seeds, for each of the nine.
+// Steps of height 1 above .01 that moved towards where the density is low: replicates that met none of what lies
+// between agreed, and 57 to 90 % of the intervals held, or the rounds disagreed. 120 intervals of 95 % each, of which
+// 114 are expected; fewer than 105 by chance in 4e-4 of the choices of seeds, for each of the nine.
 TEST(DensityReuse, SeesWhatMoved) {
   for (const Method method : {Method::vegas, Method::tree, Method::automatic})
     for (const double by : {0.002, 0.005, 0.02}) {

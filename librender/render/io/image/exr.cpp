@@ -40,7 +40,7 @@ std::vector<std::string> whole_channels(const Imf::ChannelList& list) {
 void require_size(const Imf::Header& header, const std::string& path) {
   const auto& compression = header.compression();
   const bool is_dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
-  const auto window = header.dataWindow();
+  const auto& window = header.dataWindow();
   const double bytes = double(std::filesystem::file_size(path)), width = double(window.max.x) - window.min.x + 1,
                height = double(window.max.y) - window.min.y + 1;
   const auto whole = whole_channels(header.channels());
