@@ -64,10 +64,10 @@ struct Counts {
 // At least 200 samples to a cell, at most 4096 cells.
 int tree_depth(double samples) { return std::clamp(static_cast<int>(std::log2(std::max(samples, 1.0) / 200)), 0, 12); }
 
-Cell cell_of(const Subject& s, const Pilot& pilot, const UnitBox& box, const EstimatedMass& mass) {
+Cell cell_of(const Subject& s, const Pilot& pilot, const UnitBox& box, const EstimatedMass& mass, std::size_t passes) {
   Cell c;
   c.p = mass.value;
-  c.variance = mass.variance_with_jumps();
+  c.variance = mass.variance_with_jumps(passes);
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
     c.rank_lo[d] = pilot.rank(d, box.lo[d]);
     c.rank_hi[d] = box.hi[d] < 1 ? pilot.rank(d, box.hi[d]) : 1.0;
@@ -106,7 +106,8 @@ void lay_out_cells(const Subject& s, const Pilot& pilot, const SubjectOptions& o
   const std::vector<double> rounded = layout.pilot_cells->rounded(s, pilot);
   for (int i = 0; i < partition.size(); ++i) {
     layout.boxes.push_back(partition.box(i));
-    layout.cells.push_back(cell_of(s, pilot, layout.boxes.back(), layout.masses.cells[static_cast<std::size_t>(i)]));
+    const EstimatedMass& mass = layout.masses.cells[static_cast<std::size_t>(i)];
+    layout.cells.push_back(cell_of(s, pilot, layout.boxes.back(), mass, layout.masses.passes));
     layout.cells.back().variance += sqr(rounded[static_cast<std::size_t>(i)]);
   }
 }

@@ -12,6 +12,13 @@ namespace mc {
 
 double EstimatedMass::shown_variance() const { return variance + 3 * std::sqrt(2 * variance_square); }
 
+double EstimatedMass::variance_with_jumps(std::size_t passes) const {
+  const double n = static_cast<double>(passes);
+  return shown_variance() + sqr(n * jump) * hidden_by_jump(4 * n);
+}
+
+double hidden_by_jump(double points) { return std::min(32 / ((points + 1) * (points + 2) * (points + 3)), 1.0); }
+
 void EstimatedMass::add_part(double volume, std::span<const double, 4> density) {
   const double a = 0.5 * (density[0] + density[1]), b = 0.5 * (density[2] + density[3]);
   const double off = volume * (a - b), mean = 0.5 * volume * (a + b), square = sqr(0.5 * off);
@@ -47,26 +54,31 @@ Subject::Coordinates mirrored(const Subject::Coordinates& v, const UnitBox& box,
   return w;
 }
 
-std::vector<double> cut_axis(double lo, double hi, const std::vector<double>& breaks, std::size_t least) {
-  std::vector<double> ends{lo};
-  for (auto b = std::upper_bound(breaks.begin(), breaks.end(), lo); b != breaks.end() && *b < hi; ++b)
-    ends.push_back(*b);
-  ends.push_back(hi);
-  const std::size_t parts = (least + ends.size() - 2) / (ends.size() - 1);
-  if (parts < 2) return ends;
-  std::vector<double> finer;
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
-    for (std::size_t k = 0; k < parts; ++k)
-      finer.push_back(ends[i] + (ends[i + 1] - ends[i]) * static_cast<double>(k) / static_cast<double>(parts));
-  finer.push_back(hi);
-  return finer;
+namespace {
+
+// Cuts an axis of a box at the breaks inside, and evenly between them until there are `least` intervals.
+void cut_axis(double lo, double hi, const std::vector<double>& breaks, std::size_t least, std::vector<double>& ends) {
+  ends.assign(1, lo);
+  const auto cut_to = [&](double end, std::size_t parts) {
+    const double begin = ends.back();
+    for (std::size_t k = 1; k < parts; ++k)
+      ends.push_back(begin + (end - begin) * static_cast<double>(k) / static_cast<double>(parts));
+    ends.push_back(end);
+  };
+  const auto first = std::upper_bound(breaks.begin(), breaks.end(), lo),
+             last = std::lower_bound(first, breaks.end(), hi);
+  const auto intervals = static_cast<std::size_t>(last - first) + 1;
+  const std::size_t parts = (least + intervals - 1) / intervals;
+  for (auto b = first; b != last; ++b) cut_to(*b, parts);
+  cut_to(hi, parts);
 }
+
+} // namespace
 
 void PairedPoints::add(const UnitBox& whole, int dim, const std::array<std::vector<double>, 3>& breaks,
                        std::size_t per_axis, Pcg& random) {
-  std::array<std::vector<double>, 3> ends{{{0, 1}, {0, 1}, {0, 1}}};
   for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d)
-    ends[d] = cut_axis(whole.lo[d], whole.hi[d], breaks[d], per_axis);
+    cut_axis(whole.lo[d], whole.hi[d], breaks[d], per_axis, ends[d]);
   for (std::size_t i = 0; i + 1 < ends[0].size(); ++i)
     for (std::size_t j = 0; j + 1 < ends[1].size(); ++j)
       for (std::size_t k = 0; k + 1 < ends[2].size(); ++k) {

@@ -22,11 +22,17 @@ struct EstimatedMass {
   double shown_variance() const;
   /// And the square of what one box may hide, whatever its points show.
   double safe_variance() const { return shown_variance() + largest * largest; }
-  /// And that of the largest jump: one that no pair here sees is seen beside it.
-  double variance_with_jumps() const { return shown_variance() + jump * jump; }
+  /// And what the largest jump may hide from all points of a box: one that no pair here sees is seen beside it. The
+  /// masses, of so many passes over the boxes, are means.
+  double variance_with_jumps(std::size_t passes = 1) const;
   /// Adds a part of a box, by its volume and the density at its four points: a point, its mirror image, and so again.
   void add_part(double volume, std::span<const double, 4> density);
 };
+
+/// The variance of what a jump of height 1 hides from n points of a box of volume 1: where it cuts a random part f off,
+/// E f^2 (1 - f)^n = 2 / ((n + 1) (n + 2) (n + 3)). Sixteen times that is conceded, and at most 1: what is hidden is
+/// seldom and much, so that four of its deviations must look like one.
+double hidden_by_jump(double points);
 
 /// Whether the parts of a box that is cut at a place are boxes, and so wide that rounded samples meet them as random
 /// points do; beside : a sample nearby.
@@ -39,15 +45,14 @@ double volume(const UnitBox& box, int dim);
 Subject::Coordinates random_point(const UnitBox& box, int dim, Pcg& random);
 /// The image of v through the middle of the box.
 Subject::Coordinates mirrored(const Subject::Coordinates& v, const UnitBox& box, int dim);
-/// Where an axis of a box is cut: at the breaks inside, and evenly between them until there are `least` intervals.
-std::vector<double> cut_axis(double lo, double hi, const std::vector<double>& breaks, std::size_t least);
 
 /// Random points in boxes: two in each part of a box, each with its mirror image through the middle. The mean over such
 /// a pair is exact where the density is linear.
 struct PairedPoints {
   std::vector<Subject::Coordinates> points; ///< four to a part, as EstimatedMass::add_part takes them
   std::vector<double> volumes;              ///< of the parts
-  /// The box is cut as by cut_axis.
+  std::array<std::vector<double>, 3> ends{{{0, 1}, {0, 1}, {0, 1}}}; ///< of the parts along the axes of the last box
+  /// The box is cut at the breaks inside, and evenly between them until there are `per_axis` parts along each axis.
   void add(const UnitBox& box, int dim, const std::array<std::vector<double>, 3>& breaks, std::size_t per_axis,
            Pcg& random);
 };

@@ -258,8 +258,10 @@ std::vector<Run> farthest_runs(const PooledCells& cells, double& family) {
       Run run{count > 0 ? HUGE_VAL : 0.0, q, count, 1, lo, hi};
       if (q > 0) {
         const double plain = cells.n * q * (1 - q);
+        // Given the sum of all cells, what is not known of the others is not known of the run.
+        const double of_run = cells.variance[hi] - cells.variance[lo], of_others = cells.variance.back() - of_run;
         const double variance =
-            plain * cells.dispersion(lo, hi) + sqr(cells.n) * (cells.variance[hi] - cells.variance[lo]);
+            plain * cells.dispersion(lo, hi) + sqr(cells.n) * (of_run * sqr(1 - q) + std::max(of_others, 0.0) * sqr(q));
         run.z = (count - cells.n * q) / std::sqrt(variance);
         run.s = plain / variance;
       }
