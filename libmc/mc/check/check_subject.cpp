@@ -157,9 +157,8 @@ CellTests judge_counts(const Subject& s, Layout& layout, const std::vector<Weigh
 }
 
 // Counts samples that are points, in the same way.
-void count_points(const Subject& s, const std::vector<Subject::Coordinates>& points,
-                  const std::vector<double>& densities, Layout& layout, Counts& counts) {
-  if (points.empty()) return;
+void count_points(const Subject& s, std::span<const Subject::Coordinates> points, std::span<const double> densities,
+                  Layout& layout, Counts& counts) {
   const std::vector<const Reference::Place*> places = layout.reference->places(points);
   std::vector<double> weights(points.size()), shares(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -189,32 +188,16 @@ Counts count_samples(const Subject& s, const Pilot& pilot, const SubjectOptions&
                      const SoFar& so_far) {
   Counts counts;
   counts.cells.resize(layout.boxes.size());
-  std::vector<Subject::Coordinates> points;
-  std::vector<double> densities;
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
     counts.coordinates[d].reserve(std::min<std::size_t>(pilot.points.size() + options.samples, most_kept));
     counts.coordinates[d] = pilot.sorted[d];
   }
-  const auto flush = [&] {
+  const auto count = [&](std::span<const Subject::Coordinates> points, std::span<const double> densities) {
     count_points(s, points, densities, layout, counts);
-    points.clear();
-    densities.clear();
   };
-  const auto count = [&](const Subject::Coordinates& v, double density) {
-    points.push_back(v);
-    densities.push_back(density);
-    if (points.size() == 4096) flush();
-  };
-  std::uint64_t milestone = 1024;
-  const auto before = [&](const DrawTally& tally) {
-    if (tally.draws != milestone) return;
-    flush();
-    so_far(counts.cells, tally);
-    milestone *= 2;
-  };
-  counts.tally = draw_samples(s, hash(options.seed, 2), options.samples, count,
-                              so_far ? std::function<void(const DrawTally&)>(before) : nullptr);
-  flush();
+  std::function<void(const DrawTally&)> judge;
+  if (so_far) judge = [&](const DrawTally& tally) { so_far(counts.cells, tally); };
+  counts.tally = draw_samples(s, hash(options.seed, 2), options.samples, count, judge);
   SampleWeights& weights = counts.weights;
   weights.draws = static_cast<double>(counts.tally.draws);
   weights.seen = weights.points + static_cast<double>(pilot.points.size());

@@ -89,35 +89,74 @@ double weight_error(const Subject& s, const Subject::Draw& d) {
   return std::max(off - spread_by_rounding(s, d.v), s.weight_tolerance);
 }
 
+// Counts what is broken about a draw; the density of a point, none where it is no point of the domain.
+std::optional<double> count_draw(const Subject& s, const Subject::Draw& d, std::uint64_t stream, std::uint64_t index,
+                                 DrawTally& tally) {
+  ++tally.draws;
+  if (!is_sample(d, stream, index, tally)) return {};
+  const std::optional<double> rounded = rounded_from(s, d, tally);
+  if (!d.pdf_positive) note(broken_by_density(s, d, rounded.has_value(), tally), stream, index);
+  const double off = weight_error(s, d);
+  if (!(off <= s.weight_tolerance)) note(tally.weight, stream, index);
+  // Not a number is worse than any.
+  tally.worst_weight = std::max(tally.worst_weight, std::isnan(off) ? std::numeric_limits<double>::infinity() : off);
+  if (d.kind == Kind::atom) {
+    ++tally.atoms[static_cast<std::size_t>(d.atom)];
+    return {};
+  }
+  if (rounded) return rounded;
+  return d.density >= 0 ? d.density : s.density(d.v);
+}
+
+// Whether nothing is to be said of a draw but where it lies: true of nearly all.
+bool is_plain(const Subject::Draw& d) {
+  return d.kind == Kind::point && d.pdf_positive && d.weight == 1 && d.density >= 0;
+}
+
 } // namespace
 
-DrawTally draw_samples(const Subject& s, std::uint64_t seed, std::uint64_t n,
-                       const std::function<void(const Subject::Coordinates& v, double density)>& point,
-                       const std::function<void(const DrawTally& so_far)>& before) {
+DrawTally draw_samples(const Subject& s, std::uint64_t seed, std::uint64_t n, const DrawnPoints& points,
+                       const std::function<void(const DrawTally& tally)>& so_far) {
+  constexpr std::size_t together = 4096;
   DrawTally tally;
   tally.atoms.assign(s.atoms.size(), 0);
   std::vector<Subject::Draw> draws;
+  std::vector<Subject::Coordinates> v;
+  std::vector<double> densities;
+  const auto hand_over = [&] {
+    if (!v.empty()) points(v, densities);
+    v.clear();
+    densities.clear();
+  };
+  std::uint64_t milestone = 1024;
   for (std::uint64_t first = 0; first < n; first += chunk) {
     const std::uint64_t stream = hash(seed, first / chunk);
     draws.clear();
     s.draw(stream, static_cast<std::size_t>(std::min<std::uint64_t>(chunk, n - first)), draws);
     require(!draws.empty(), "{}: it draws no samples", s.name);
     for (std::size_t i = 0; i < draws.size(); ++i) {
+      if (tally.draws == milestone) {
+        milestone *= 2;
+        if (so_far) {
+          hand_over();
+          so_far(tally);
+        }
+      }
       const Subject::Draw& d = draws[i];
-      if (before) before(tally);
-      ++tally.draws;
-      if (!is_sample(d, stream, i, tally)) continue;
-      const std::optional<double> rounded = rounded_from(s, d, tally);
-      if (!d.pdf_positive) note(broken_by_density(s, d, rounded.has_value(), tally), stream, i);
-      const double off = weight_error(s, d);
-      if (!(off <= s.weight_tolerance)) note(tally.weight, stream, i);
-      // Not a number is worse than any.
-      tally.worst_weight =
-          std::max(tally.worst_weight, std::isnan(off) ? std::numeric_limits<double>::infinity() : off);
-      if (d.kind == Kind::atom) ++tally.atoms[static_cast<std::size_t>(d.atom)];
-      else point(d.v, rounded ? *rounded : d.density >= 0 ? d.density : s.density(d.v));
+      double density = d.density;
+      if (is_plain(d)) {
+        ++tally.draws;
+      } else {
+        const std::optional<double> counted = count_draw(s, d, stream, i, tally);
+        if (!counted) continue;
+        density = *counted;
+      }
+      v.push_back(d.v);
+      densities.push_back(density);
+      if (v.size() == together) hand_over();
     }
   }
+  hand_over();
   return tally;
 }
 

@@ -5,6 +5,7 @@
 #include <mc/check/subject/subject.h>
 
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace mc {
@@ -23,12 +24,14 @@ struct DrawTally {
   std::vector<std::uint64_t> atoms; ///< count of each discrete outcome
 };
 
-/// Draws n samples of streams that follow from `seed`. Calls point(v, density) for each point of the domain, and
-/// before(so_far) before each draw; that may be empty.
+/// Called with points of the domain and the densities there, many at a time, in the order of the draws.
+using DrawnPoints = std::function<void(std::span<const Subject::Coordinates> v, std::span<const double> densities)>;
+
+/// Draws n samples of streams that follow from `seed`, and hands the points over.
+///   so_far : called after 1024, 2048, ... draws, but not all, when their points have been handed over; may be empty
 ///   throws : Error when the subject draws nothing
-DrawTally draw_samples(const Subject& subject, std::uint64_t seed, std::uint64_t n,
-                       const std::function<void(const Subject::Coordinates& v, double density)>& point,
-                       const std::function<void(const DrawTally& so_far)>& before = {});
+DrawTally draw_samples(const Subject& subject, std::uint64_t seed, std::uint64_t n, const DrawnPoints& points,
+                       const std::function<void(const DrawTally& tally)>& so_far = {});
 
 /// The draws of both; atoms are those of `a`.
 DrawTally merged(DrawTally a, const DrawTally& b);

@@ -29,10 +29,11 @@ std::vector<std::uint32_t> Pilot::nearest(std::size_t axis, double v, std::size_
 
 Pilot draw_pilot(const Subject& s, std::uint64_t seed, std::uint64_t samples) {
   Pilot pilot;
-  pilot.tally = draw_samples(s, seed, pilot_samples(samples), [&](const Subject::Coordinates& v, double density) {
-    pilot.points.push_back(v);
-    pilot.densities.push_back(density);
-  });
+  pilot.tally = draw_samples(s, seed, pilot_samples(samples),
+                             [&](std::span<const Subject::Coordinates> v, std::span<const double> densities) {
+                               pilot.points.insert(pilot.points.end(), v.begin(), v.end());
+                               pilot.densities.insert(pilot.densities.end(), densities.begin(), densities.end());
+                             });
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
     for (const Subject::Coordinates& v : pilot.points) pilot.sorted[d].push_back(v[d]);
     sort_numbers(pilot.sorted[d]);

@@ -128,8 +128,27 @@ double resolution(const AnySampler& s, const Subject::Coordinates& v, std::size_
   return worst;
 }
 
-Subject::Draw next_draw(const AnySampler& s, Pcg& random) {
-  return place(s, s.sample ? s.sample(random_uniforms(s, random)) : s.sample_stream(random)).draw;
+void append_draws(const AnySampler& s, std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
+  Pcg random(seed);
+  if (!s.sample) {
+    for (std::size_t i = 0; i < n; ++i) out.push_back(place(s, s.sample_stream(random)).draw);
+    return;
+  }
+  // Where many are drawn at once they stay in the fastest memory, but a program is asked for all of them in one batch.
+  const std::size_t together = s.sample_many ? n : std::min<std::size_t>(n, 256);
+  std::vector<AnySampler::Uniforms> u(together);
+  for (std::size_t left = n; left > 0; left -= u.size()) {
+    u.resize(std::min(left, together));
+    for (AnySampler::Uniforms& one : u) one = random_uniforms(s, random);
+    if (s.sample_many) {
+      for (const auto& drawn : s.sample_many(u)) out.push_back(place(s, drawn).draw);
+    } else if (s.draw_many) {
+      out.resize(out.size() + u.size());
+      s.draw_many(u, std::span(out).last(u.size()));
+    } else {
+      for (const AnySampler::Uniforms& one : u) out.push_back(place(s, s.sample(one)).draw);
+    }
+  }
 }
 
 } // namespace
@@ -154,14 +173,7 @@ Subject make_subject(const AnySampler& sampler) {
   subject.mass_tolerance = s.mass_tolerance > 0 ? s.mass_tolerance : 64 * s.epsilon();
   subject.weight_tolerance = s.weight_tolerance;
   subject.draw = [shared](std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
-    Pcg random(seed);
-    if (!shared->sample_many) {
-      for (std::size_t i = 0; i < n; ++i) out.push_back(next_draw(*shared, random));
-      return;
-    }
-    std::vector<AnySampler::Uniforms> u(n);
-    for (AnySampler::Uniforms& one : u) one = random_uniforms(*shared, random);
-    for (const auto& drawn : shared->sample_many(u)) out.push_back(place(*shared, drawn).draw);
+    append_draws(*shared, seed, n, out);
   };
   subject.describe_draw = [shared](std::uint64_t seed, std::uint64_t index) {
     return describe_draw(*shared, seed, index);

@@ -75,6 +75,9 @@ struct AnySampler {
   std::function<std::vector<std::optional<Drawn>>(std::span<const Uniforms> u)> sample_many;
   /// The next sample of a stream, for samplers that take as many random numbers as they like. One of the two is there.
   std::function<std::optional<Drawn>(Pcg& random)> sample_stream;
+  /// The draws of several u as the tests see them, with their places in the chart: what `place` makes of each `sample`,
+  /// without a call through a function for every step. For samplers of points that fit so; beside `sample`.
+  std::function<void(std::span<const Uniforms> u, std::span<Subject::Draw> draws)> draw_many;
   std::function<double(const Numbers& x)> pdf;
   /// The densities at several x, likewise beside `pdf`.
   std::function<std::vector<double>(std::span<const Numbers> x)> pdf_many;

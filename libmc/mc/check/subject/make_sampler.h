@@ -171,10 +171,12 @@ AnySampler::Drawn drawn_of(const Held& held, const D& domain, const Pdf& pdf, co
 
 /// What a sampler on a domain is made of; see make_sampler.
 template <Domain D, class Draw, class Pdf, class F> struct FunctionsOn {
+  using Chart = decltype(std::declval<const D&>().template cast<double>());
   D domain;
   Draw draw;
   Pdf pdf;
   F f;
+  Chart chart = domain.template cast<double>();
   template <class Result> std::optional<AnySampler::Drawn> drawn(const Result& result) const {
     using Held = typename Unwrapped<Result>::type;
     static_assert(
@@ -182,6 +184,26 @@ template <Domain D, class Draw, class Pdf, class F> struct FunctionsOn {
         "make_sampler: a sampler that states weights needs the f they are for");
     if (is_empty(result)) return {};
     return drawn_of(unwrapped(result), domain, pdf, f);
+  }
+  /// What place() makes of a point.
+  template <class Result> Subject::Draw placed(const Result& result) const {
+    using Kind = Subject::Draw::Kind;
+    Subject::Draw d;
+    if (is_empty(result)) {
+      d.kind = Kind::failed;
+      return d;
+    }
+    const typename D::Point x = unwrapped(result);
+    if (!all_finite(x) || !domain.contains(x)) {
+      d.kind = all_finite(x) ? Kind::outside : Kind::not_finite;
+      return d;
+    }
+    const typename Chart::UnitPoint v = chart.to_unit(to_point<typename Chart::Point>(to_array<double>(x)));
+    const auto density = static_cast<double>(static_cast<typename D::Scalar>(pdf(x)));
+    d.v = to_array<double, 3>(v);
+    d.density = density * chart.jacobian(v);
+    d.pdf_positive = density > 0 && std::isfinite(density);
+    return d;
   }
 };
 
@@ -211,6 +233,14 @@ template <Domain D, class Draw, class Pdf, class F = std::nullptr_t>
     detail::set_shared(s.sample, shared, [](const Functions& g, const AnySampler::Uniforms& u) {
       return g.drawn(g.draw(detail::to_point<typename D::UnitPoint>(u)));
     });
+    using Held = typename detail::Unwrapped<std::invoke_result_t<const Draw&, typename D::UnitPoint>>::type;
+    if constexpr (!requires(const Held& held) { held.weight; })
+      detail::set_shared(
+          s.draw_many, shared,
+          [](const Functions& g, std::span<const AnySampler::Uniforms> u, std::span<Subject::Draw> draws) {
+            for (std::size_t i = 0; i < u.size(); ++i)
+              draws[i] = g.placed(g.draw(detail::to_point<typename D::UnitPoint>(u[i])));
+          });
   }
   detail::set_shared(s.pdf, shared, [](const Functions& g, const Numbers& x) {
     return static_cast<double>(static_cast<typename D::Scalar>(g.pdf(detail::to_point<typename D::Point>(x))));

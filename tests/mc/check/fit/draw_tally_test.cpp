@@ -40,7 +40,9 @@ mc::Subject broken_subject() {
 TEST(DrawTally, CountsWhatIsBrokenAndKeepsTheFirstWitness) {
   const mc::Subject s = broken_subject();
   std::size_t points = 0;
-  const mc::DrawTally t = draw_samples(s, 1, 1000, [&](const auto& v, double) { points += v[0] == 0.25; });
+  const mc::DrawTally t = draw_samples(s, 1, 1000, [&](std::span<const mc::Subject::Coordinates> v, const auto&) {
+    for (const auto& one : v) points += one[0] == 0.25;
+  });
   EXPECT_EQ(t.draws, 1000u);
   EXPECT_EQ(points, 940u);
   EXPECT_EQ(t.failed.count, 20u);
@@ -59,7 +61,7 @@ TEST(DrawTally, CountsWhatIsBrokenAndKeepsTheFirstWitness) {
 TEST(DrawTally, EveryLawOfSingleDrawsIsACheck) {
   const mc::Subject s = broken_subject();
   std::vector<std::string> failed;
-  for (const mc::Check& c : check_draws(s, draw_samples(s, 1, 1000, [](const auto&, double) {})))
+  for (const mc::Check& c : check_draws(s, draw_samples(s, 1, 1000, [](const auto&, const auto&) {})))
     if (c.verdict == mc::Verdict::fail) failed.push_back(c.name + ": " + c.detail);
   EXPECT_THAT(failed, testing::ElementsAre(
                           "in the domain: 20 of 1000 samples, first draw 19",
@@ -86,7 +88,7 @@ TEST(DrawTally, ADensityThatIsNoneIsItsOwnFault) {
   };
   std::vector<std::string> failed;
   std::vector<mc::Fault> faults;
-  for (const mc::Check& c : check_draws(s, draw_samples(s, 1, 1000, [](const auto&, double) {})))
+  for (const mc::Check& c : check_draws(s, draw_samples(s, 1, 1000, [](const auto&, const auto&) {})))
     if (c.verdict == mc::Verdict::fail) {
       failed.push_back(c.name + ": " + c.detail);
       faults.push_back(c.fault);
@@ -111,7 +113,9 @@ TEST(DrawTally, OnAFaceOfTheChartItIsOfMeasureZero) {
       }
     };
     double sum = 0;
-    const mc::DrawTally t = draw_samples(s, 1, 1000, [&](const auto&, double density) { sum += density; });
+    const mc::DrawTally t = draw_samples(s, 1, 1000, [&](const auto&, std::span<const double> densities) {
+      for (const double density : densities) sum += density;
+    });
     EXPECT_EQ(sum, 2000) << "the density beside the face";
     std::vector<mc::Fault> faults;
     for (const mc::Check& c : check_draws(s, t, open_interval))
@@ -137,7 +141,7 @@ TEST(DrawTally, AWeightMayDifferByWhatRoundingOfThePointChanges) {
       }
     };
     s.density = [slope](const auto& v) { return std::exp(slope * (v[0] - 0.5)); };
-    return draw_samples(s, 1, 10, [](const auto&, double) {}).weight.count > 0;
+    return draw_samples(s, 1, 10, [](const auto&, const auto&) {}).weight.count > 0;
   };
   for (const double side : {-1, 1}) {
     EXPECT_FALSE(broken(1 + side * 0.02, 1e5));
@@ -159,7 +163,7 @@ TEST(DrawTally, AWeightThatIsNoNumberStaysTheWorst) {
     }
   };
   s.atoms = {1};
-  const mc::DrawTally t = draw_samples(s, 1, 10, [](const auto&, double) {});
+  const mc::DrawTally t = draw_samples(s, 1, 10, [](const auto&, const auto&) {});
   EXPECT_EQ(t.weight.count, 1u);
   EXPECT_EQ(t.worst_weight, std::numeric_limits<double>::infinity());
 }
@@ -167,7 +171,7 @@ TEST(DrawTally, AWeightThatIsNoNumberStaysTheWorst) {
 TEST(DrawTally, RefusesASubjectThatDrawsNothing) {
   mc::Subject s;
   s.draw = [](std::uint64_t, std::size_t, std::vector<Draw>&) {};
-  EXPECT_THROW(draw_samples(s, 1, 10, [](const auto&, double) {}), mc::Error);
+  EXPECT_THROW(draw_samples(s, 1, 10, [](const auto&, const auto&) {}), mc::Error);
 }
 
 // One that always fails, as its density of 0 says: nothing is wrong, and nothing was judged.
