@@ -39,10 +39,10 @@ enum class ErrorBar {
 };
 std::string_view name(ErrorBar bar);
 
-/// What integrate() throws for an integrand that is not finite: at so many of so many points, the first of which is u.
-/// `told` says where that is.
+/// What integrate() throws for an integrand that is not finite: at so many of so many points, the first of which is u;
+/// `where` is that point as text.
 struct NotFinite : Error {
-  NotFinite(std::uint64_t bad_points, std::uint64_t of_points, std::vector<double> point, std::string_view told);
+  NotFinite(std::uint64_t bad_points, std::uint64_t of_points, std::vector<double> point, std::string_view where);
   std::uint64_t bad, points;
   std::vector<double> u;
 };
