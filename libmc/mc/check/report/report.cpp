@@ -76,6 +76,15 @@ Fault Report::fault() const {
   return likely != Fault::none ? likely : first(measure_zero);
 }
 
+namespace {
+// "cell theta 1.5 to 3 deg", or nothing for an outcome, which its `where` names.
+std::string describe_worst(const std::vector<Axis>& axes, const WorstCell& w) {
+  if (w.lo == w.hi) return "";
+  const std::string place = describe_cell(axes, w.lo, w.hi);
+  return place.empty() ? "cell" : "cell " + place;
+}
+} // namespace
+
 std::string Report::to_string() const {
   std::string text =
       fmt::format("{}: {}, p = {:.3g} of {} samples at alpha = {:g}", subject, name(verdict()), p(), samples, alpha);
@@ -96,12 +105,9 @@ std::string Report::to_string() const {
   };
   if (std::none_of(checks.begin(), checks.end(), of_shape)) return text;
   for (const WorstCell& w : worst) {
-    const bool outcome = w.lo == w.hi;
-    const std::string place = describe_cell(axes, w.lo, w.hi), cell = outcome         ? ""
-                                                                      : place.empty() ? "cell"
-                                                                                      : "cell " + place;
+    const std::string cell = describe_worst(axes, w);
     text += fmt::format("\n  {}{}{}: observed {:.0f}, expected {:.1f}, z = {:.1f}", cell,
-                        outcome || w.where.empty() ? "" : " at ", w.where, w.observed, w.expected, w.z);
+                        cell.empty() || w.where.empty() ? "" : " at ", w.where, w.observed, w.expected, w.z);
   }
   return text;
 }

@@ -38,7 +38,11 @@ struct Integrand {
   const VectorIntegrand* several = nullptr;
   const BatchIntegrand* batch = nullptr;
 
-  bool empty() const { return one ? !*one : several ? !*several : !batch->f; }
+  bool empty() const {
+    if (one) return !*one;
+    if (several) return !*several;
+    return !batch->f;
+  }
   /// The values at points, both one after the other.
   void operator()(std::span<const double> points, std::size_t dim, std::span<double> values) const;
 };

@@ -38,8 +38,7 @@ class Tail::Fit {
     if (together) {
       std::fill(rates_.begin(), rates_.begin() + size_ + 1, all_.rate());
     } else {
-      last_ += next;
-      rates_[size_] = next.points() >= enough ? next.rate() : next.volume > 0 ? last_.rate() : rates_[size_ - 1];
+      rates_[size_] = rate_of(next);
     }
     last_ = next;
     ++size_;
@@ -64,6 +63,15 @@ class Tail::Fit {
   struct Moments {
     double mean, variance;
   };
+  // Points for a volume. Few points do not tell it: those of the octave above count, too, and where there are none at
+  // all, its rate.
+  double rate_of(const Octave& next) const {
+    if (next.points() >= enough) return next.rate();
+    if (!(next.volume > 0)) return rates_[size_ - 1];
+    Octave both = last_;
+    both += next;
+    return both.rate();
+  }
   // Of the number of a point's octave.
   Moments moments(double a) const {
     const double q = std::exp2(-a);

@@ -139,7 +139,7 @@ class Integrator {
     const double ratio = e2 > 0 ? e1 / e2 : 0.0;
     r.error = ratio < 0.1 ? 10 * e1 * ratio : e1;
     const bool edge = least == 0 && largest > 0; // of the support: never smooth
-    r.error = std::max(r.error, (edge ? 0.25 : r.rough ? 0.1 : 0.002) * e2) + 4e-16 * largest * volume;
+    r.error = std::max(r.error, least_share(edge, r.rough) * e2) + 4e-16 * largest * volume;
     r.rough = r.rough || edge || ratio > 0.3;
   }
 
@@ -174,6 +174,11 @@ class Integrator {
 
  private:
   static std::size_t ix(int i) { return static_cast<std::size_t>(i); }
+  // Of the surplus of the coarser level, what the error is at least: more where f was seen not to be smooth.
+  static double least_share(bool edge, bool rough) {
+    if (edge) return 0.25;
+    return rough ? 0.1 : 0.002;
+  }
   static const Rule& fine() {
     static const Rule rule(8);
     return rule;

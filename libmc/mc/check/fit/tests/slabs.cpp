@@ -65,20 +65,36 @@ double chance_of_steps(const Subject& s, const Slab& atom, double n) {
   return std::exp(at_a_place + (atom.at_end ? std::log(2.0) : std::log(n) - std::lgamma(atom.equal + 1)));
 }
 
-// The widest gap of a place on an axis, in spacings of the 64 samples around it. Exponential spacings are seldom more
-// than 16 times their mean, so that a right sampler rarely pays for the test.
+// Gaps are numbered as the sample below them; gap -1 lies before the first sample.
+struct Gaps {
+  std::ptrdiff_t first, last;
+};
 enum class Place : std::uint8_t { low_end, inside, high_end };
 
+Gaps gaps_at(Place place, std::ptrdiff_t samples) {
+  switch (place) {
+  case Place::low_end: return {-1, -1};
+  case Place::inside: return {0, samples - 2};
+  case Place::high_end: return {samples - 1, samples - 1};
+  }
+  return {0, -1};
+}
+
+// The widest gap of a place on an axis, in spacings of the 64 samples around it. Exponential spacings are seldom more
+// than 16 times their mean, so that a right sampler rarely pays for the test.
 bool find_gap(const Subject& s, const std::vector<double>& v, Place place, Slab& slab) {
   constexpr std::ptrdiff_t around = 32;
   const auto n = static_cast<std::ptrdiff_t>(v.size());
   if (n < 4 * around) return false;
-  const std::ptrdiff_t from = place == Place::low_end ? -1 : place == Place::inside ? 0 : n - 1;
-  const std::ptrdiff_t to = place == Place::low_end ? -1 : place == Place::inside ? n - 2 : n - 1;
-  const auto at = [&](std::ptrdiff_t i) { return i < 0 ? 0.0 : i >= n ? 1.0 : v[static_cast<std::size_t>(i)]; };
+  // The samples with the ends of the axis about them.
+  const auto at = [&](std::ptrdiff_t i) {
+    if (i < 0) return 0.0;
+    return i < n ? v[static_cast<std::size_t>(i)] : 1.0;
+  };
+  const Gaps gaps = gaps_at(place, n);
   double widest = 16;
   std::ptrdiff_t below = -2;
-  for (std::ptrdiff_t i = from; i <= to; ++i) {
+  for (std::ptrdiff_t i = gaps.first; i <= gaps.last; ++i) {
     const std::ptrdiff_t first = std::max<std::ptrdiff_t>(i - around, 0), last = std::min(i + 1 + around, n - 1);
     // Rounding may carry samples just out of the chart, where nothing is claimed.
     if (at(i) < 0 || at(i + 1) > 1) continue;

@@ -68,11 +68,16 @@ std::vector<std::complex<float>> transform(const std::vector<float>& grid, std::
   return x;
 }
 
+// Of bins on an axis, that memory allows.
+int most_bits(int dim) {
+  if (dim == 1) return 16;
+  return dim == 2 ? 10 : 6;
+}
+
 } // namespace
 
 FineGrid::FineGrid(int dim, double samples, double step) : dim_(dim) {
-  const int most = dim == 1 ? 16 : dim == 2 ? 10 : 6;
-  int bits = std::clamp(static_cast<int>(std::log2(8 * std::max(samples, 1.0)) / dim), 2, most);
+  int bits = std::clamp(static_cast<int>(std::log2(8 * std::max(samples, 1.0)) / dim), 2, most_bits(dim));
   // A lattice of steps is a wave whose amplitude in bins of width w is step / (pi w): a third of what samples show.
   while (bits > 2 && std::ldexp(step, bits) * std::sqrt(samples) > 1) --bits;
   size_ = std::size_t{1} << bits;
