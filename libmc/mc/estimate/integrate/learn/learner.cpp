@@ -19,7 +19,7 @@ void Learner::learn(const std::vector<Sums>& round) {
     points_.insert(points_.end(), s.points.begin(), s.points.end());
     values_.insert(values_.end(), s.values.begin(), s.values.end());
   }
-  weigh();
+  add_densities_of_round();
   measure();
   adapt_grid();
   if (rounds_.size() > 1) adapt_tree();
@@ -34,7 +34,7 @@ template <class F> void Learner::each(F&& f) const {
   });
 }
 
-void Learner::weigh() {
+void Learner::add_densities_of_round() {
   const std::size_t before = mixture_.size(), now = values_.size() / run_.leading();
   mixture_.resize(now);
   rounds_.push_back({static_cast<double>(now - before), density_});

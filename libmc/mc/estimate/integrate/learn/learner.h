@@ -41,7 +41,7 @@ class Learner {
   std::size_t size() const { return mixture_.size(); }
   std::span<const double> point(std::size_t i) const { return {points_.data() + i * dim_, dim_}; }
   template <class F> void each(F&& f) const;
-  void weigh();
+  void add_densities_of_round();
   void measure();
   std::vector<double> off(std::size_t output, const AdaptedDensity& p) const;
   WeightedValues within_grid() const;
