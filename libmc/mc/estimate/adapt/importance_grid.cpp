@@ -98,12 +98,13 @@ std::span<const double> ImportanceGrid::edges(int d) const {
 double ImportanceGrid::map(std::span<double> u) const {
   double jacobian = 1;
   const double* e = edges_.data();
-  for (std::size_t d = 0; d < u.size(); ++d, e += bins + 1) {
-    const double scaled = u[d] * bins;
+  for (double& coordinate : u) {
+    const double scaled = coordinate * bins;
     const auto i = static_cast<std::size_t>(scaled);
     const double width = e[i + 1] - e[i];
-    u[d] = std::min(e[i] + (scaled - static_cast<double>(i)) * width, one_minus_epsilon<double>);
+    coordinate = std::min(e[i] + (scaled - static_cast<double>(i)) * width, one_minus_epsilon<double>);
     jacobian *= bins * width;
+    e += bins + 1;
   }
   return jacobian;
 }

@@ -76,11 +76,12 @@ class Tail::Fit {
   Moments moments(double a) const {
     const double q = std::exp2(-a);
     double power = 1, s0 = 0, s1 = 0, s2 = 0;
-    for (std::size_t k = 0; k < size_; ++k, power *= q) {
+    for (std::size_t k = 0; k < size_; ++k) {
       const double number = static_cast<double>(k), expected = rates_[size_ - 1 - k] * power;
       s0 += expected;
       s1 += number * expected;
       s2 += sqr(number) * expected;
+      power *= q;
     }
     // All octaves above: geometric series.
     const double k = static_cast<double>(size_), r = 1 / (1 - q), first = rates_[0] * power * r;
