@@ -13,7 +13,7 @@
 
 namespace mc {
 
-/// A real number type: float, double, or a multiprecision type such as the 50-digit oracle of check/oracle.h.
+/// A real number type: float, double, or a multiprecision type such as the 50-digit one of check/subject/oracle.h.
 /// Generic code writes `using std::sqrt; sqrt(x)`, so that the multiprecision overload is found too.
 template <class S>
 concept Real = std::numeric_limits<S>::is_specialized && !std::numeric_limits<S>::is_integer;
