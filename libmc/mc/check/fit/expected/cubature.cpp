@@ -103,9 +103,8 @@ class Integrator {
     }
     evaluations += values_.size();
 
-    // What each new node differs from the interpolant of the coarser rule, in absolute value, so that neither nodes nor
-    // lines
-    // cancel: a function that jumps at random cannot look smooth.
+    // By how much each new node differs from the interpolant of the coarser rule, in absolute value, so that neither
+    // nodes nor lines cancel: a function that jumps at random cannot look smooth.
     double e1 = 0, e2 = 0, worst = -1, integral = 0;
     const std::array<int, 3> stride{1, n, n * n};
     for (int axis = 0; axis < dim_; ++axis) {

@@ -56,9 +56,10 @@ void add_atoms(const Subject& s, const Pilot& pilot, const std::vector<double>& 
   if (high >= 2) add(n - high, high, true);
 }
 
-// How often as many of n samples are equal at some place, or at one of the two ends, were all of them rounded to steps
-// so coarse that as many pairs are equal elsewhere as there are, and one more. Fewer than 31 random bits, or those of
-// the scalar, are no excuse.
+// Samples that are rounded to steps are now and then equal, which makes no atom. How coarse the steps are, the pairs of
+// equal samples elsewhere tell; one more than were seen are assumed. This is how often so many of n samples would then
+// be equal at some place, or at one of the two ends. Steps coarser than those of 31 random bits, or of the scalar, are
+// not assumed: such a sampler is at fault.
 double chance_of_steps(const Subject& s, const Slab& atom, double n) {
   const double equal_to_one = std::min(2 * (atom.pairs_elsewhere + 1) / n, n * std::max(0x1p-31, s.epsilon));
   const double at_a_place = (atom.equal - 1) * std::log(equal_to_one);
@@ -121,7 +122,7 @@ bool is_rounding(const Subject& s, const Pilot& pilot, const Slab& gap) {
   return hi - lo <= rounded_steps * step;
 }
 
-// What the pilot beside a slab says that it would hold, were it no exception.
+// The slab with the points of the pilot in it and beside it, and the mass that it would hold if it were like these.
 Layer layer_around(const Pilot& pilot, const Slab& slab) {
   Layer layer{slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis], {}, 0, slab.kind == Slab::Kind::gap};
   constexpr double least = 64;
