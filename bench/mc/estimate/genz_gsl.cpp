@@ -47,6 +47,11 @@ double padded_sobol(const Experiment& e, std::uint64_t calls, std::uint64_t seed
   return means.mean();
 }
 
+double by_gsl(const Experiment& e, std::uint64_t calls, int seed, double (bench::Gsl::*method)()) {
+  bench::Gsl gsl(e, calls, static_cast<unsigned long>(seed));
+  return (gsl.*method)();
+}
+
 struct Column {
   double rms = 0, nanoseconds = 0;
 };
@@ -74,8 +79,7 @@ int main(int argc, char** argv) {
     if (e.name.find(only) == std::string::npos) continue;
     ++cells;
     const auto gsl = [&](double (bench::Gsl::*method)()) {
-      return measure(e, calls, seeds, first,
-                     [&](int s) { return (bench::Gsl(e, calls, static_cast<unsigned long>(s)).*method)(); });
+      return measure(e, calls, seeds, first, [&](int s) { return by_gsl(e, calls, s, method); });
     };
     const std::array peers = {
         gsl(&bench::Gsl::plain),

@@ -6,6 +6,14 @@
 #include <cstdlib>
 #include <string_view>
 
+namespace {
+// Its worst error in epsilons and as a multiple of the bound.
+std::string text_of(const sweep::Law& l) {
+  if (l.points == 0) return "-";
+  return fmt::format("{:.3g} ({:.2g}{})", l.eps, l.worst, l.broken ? " !" : "");
+}
+} // namespace
+
 int main(int argc, char** argv) {
   sweep::Effort effort;
   if (argc > 1) effort.trials = std::atoi(argv[1]);
@@ -22,11 +30,8 @@ int main(int argc, char** argv) {
   for (const auto& [name, rows_of] : families) {
     if (!wanted.empty() && wanted != name) continue;
     for (const sweep::Row& row : rows_of(effort)) {
-      const auto law = [](const sweep::Law& l) {
-        return l.points ? fmt::format("{:.3g} ({:.2g}{})", l.eps, l.worst, l.broken ? " !" : "") : std::string("-");
-      };
       fmt::print("{:<32} {:>7} {:>7} {:>20} {:>20} {:>20} {:>8} {:>8}\n", row.name, row.tried, row.refused,
-                 law(row.sample), law(row.pdf), law(row.invert), row.edges.broken, row.monotone.broken);
+                 text_of(row.sample), text_of(row.pdf), text_of(row.invert), row.edges.broken, row.monotone.broken);
       for (const auto& [law_name, l] : {std::pair("edges", &row.edges),
                                         {"sample", &row.sample},
                                         {"pdf", &row.pdf},

@@ -157,10 +157,8 @@ Family furnace(mc::Pcg& random) {
   }
   Family family{"furnace", {}, 1.0};
   const Vec3d at = taken.back().first + 0.1 * taken.back().second * direction(random);
-  family.pictures.push_back(picture(things, around == 0 ? 1 : 0, eye, at, Transform(), 1,
-                                    around == 0   ? "sky"
-                                    : around == 1 ? "sphere"
-                                                  : "cube"));
+  family.pictures.push_back(
+      picture(things, around == 0 ? 1 : 0, eye, at, Transform(), 1, std::array{"sky", "sphere", "cube"}[around]));
   return family;
 }
 
@@ -259,7 +257,8 @@ Family room(mc::Pcg& random) {
 
 Family any(mc::Pcg& random) {
   const std::size_t kind = below(random, 5);
-  return kind < 2 ? furnace(random) : kind < 4 ? direct_light(random) : room(random);
+  if (kind < 2) return furnace(random);
+  return kind < 4 ? direct_light(random) : room(random);
 }
 
 } // namespace render::truth

@@ -24,7 +24,8 @@ DirectionPair pair_of(const BsdfView& view, const AnyBsdf::Direction& wi) {
   return p;
 }
 
-// A fifth as many sampled directions as samples, at most 20000, and a quarter as many uniform ones.
+// Looks along directions that the BSDF samples, one for every five samples that the options ask for and at most 20000,
+// and along one uniform direction for every four of them.
 BsdfView view_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options) {
   BsdfView view{bsdf, wo, options, {}, false};
   Pcg random(options.seed, 24);

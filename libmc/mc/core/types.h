@@ -13,7 +13,7 @@
 
 namespace mc {
 
-/// A real number type: float, double, or a multiprecision type such as the 50-digit oracle of check/oracle.h.
+/// A real number type: float, double, or a multiprecision type such as the 50-digit one of check/subject/oracle.h.
 /// Generic code writes `using std::sqrt; sqrt(x)`, so that the multiprecision overload is found too.
 template <class S>
 concept Real = std::numeric_limits<S>::is_specialized && !std::numeric_limits<S>::is_integer;
@@ -52,7 +52,10 @@ inline const S pi = [] {
 template <Real S> inline const S one_minus_epsilon = S(1) - std::numeric_limits<S>::epsilon() / 2;
 
 /// u where it lies in [0,1), else the nearest number there: rounding carries what warps invert out of it.
-template <Real S> S within_unit(const S& u) { return u >= 1 ? one_minus_epsilon<S> : u < 0 ? S(0) : u; }
+template <Real S> S within_unit(const S& u) {
+  const S at_least_0 = u < 0 ? S(0) : u;
+  return at_least_0 >= 1 ? one_minus_epsilon<S> : at_least_0;
+}
 template <Real S, int N> Vec<S, N> within_unit(Vec<S, N> u) {
   for (int i = 0; i < N; ++i) u[i] = within_unit(u[i]);
   return u;

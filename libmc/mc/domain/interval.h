@@ -4,6 +4,8 @@
 #include <mc/core/error.h>
 #include <mc/domain/concept.h>
 
+#include <algorithm>
+
 namespace mc {
 
 /// The finite interval [lo, hi].
@@ -28,7 +30,7 @@ template <Real S> struct Interval {
 
   S from_unit(S v) const {
     const S x = lo * (1 - v) + hi * v;
-    return x < lo ? lo : x > hi ? hi : x;
+    return std::clamp(x, lo, hi);
   }
   S to_unit(S x) const { return (x - lo) / (hi - lo); }
   S jacobian(S) const { return hi - lo; }

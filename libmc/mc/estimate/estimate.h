@@ -9,8 +9,8 @@ namespace mc {
 /// `interval` with any other, however few values the error was estimated from, if their mean is normal.
 struct Estimate {
   double value = 0;
-  double std_error =
-      0; ///< half the width of the 68.27 % interval: the standard error of a mean, widened for its own uncertainty
+  /// Half the width of the 68.27 % interval: the standard error of a mean, widened for its own uncertainty.
+  double std_error = 0;
   double dof = 0; ///< degrees of freedom behind std_error; 0: it is exact
   std::uint64_t count = 0;
 

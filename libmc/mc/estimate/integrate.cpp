@@ -1,43 +1,14 @@
 #include <mc/core/error.h>
 #include <mc/core/text.h>
 #include <mc/estimate/integrate.h>
-#include <mc/estimate/integrate/methods.h>
-#include <mc/estimate/integrate/sequences.h>
-
-#include <boost/math/distributions/chi_squared.hpp>
 
 #include <array>
-#include <cmath>
-#include <limits>
 #include <ostream>
 
 namespace mc {
 
-using detail::Integrand;
-using detail::Outcome;
-using detail::Run;
-
 namespace {
-
 constexpr std::array<std::string_view, 6> method_names = {"auto", "plain", "stratified", "rqmc", "vegas", "tree"};
-
-void require_sane(int outputs, int dim, const IntegrateOptions& o) {
-  require(dim >= 1, "integrate: dimension {} must be at least 1", dim);
-  require(outputs >= 1, "integrate: {} outputs; at least 1 is needed", outputs);
-  require(o.rel_error >= 0 && o.abs_error >= 0 && std::isfinite(o.rel_error) && std::isfinite(o.abs_error),
-          "integrate: tolerances {} (relative) and {} (absolute) must be finite and >= 0", o.rel_error, o.abs_error);
-  require(o.threads >= 0, "integrate: threads {} must be >= 0; 0 stands for all of the machine's", o.threads);
-  require(o.confidence > 0 && o.confidence < 1, "integrate: confidence {} must lie in (0, 1)", o.confidence);
-  require(o.watched < static_cast<std::size_t>(outputs), "integrate: {} of {} outputs are watched; 1 must not be",
-          o.watched, outputs);
-  require(o.replicates >= 2 && o.replicates <= 1u << 20,
-          "integrate: {} replicates; between 2 and 2^20 are needed for an error", o.replicates);
-  if (!o.density) return;
-  require(o.method == Method::automatic || o.method == Method::vegas || o.method == Method::tree,
-          "integrate: {} uses no density; vegas, tree and auto do", name(o.method));
-  require(o.density->dim() == dim, "integrate: the density has {} dimensions, the integrand {}", o.density->dim(), dim);
-}
-
 } // namespace
 
 std::string_view name(Method method) { return method_names[static_cast<std::size_t>(method)]; }
@@ -55,10 +26,10 @@ std::string_view name(ErrorBar bar) {
 }
 
 NotFinite::NotFinite(std::uint64_t bad_points, std::uint64_t of_points, std::vector<double> point,
-                     std::string_view told)
+                     std::string_view where)
     : Error(fmt::format("integrate: the integrand is not finite at {} of {} points, the first at {}; it must be finite "
                         "almost everywhere",
-                        bad_points, of_points, told)),
+                        bad_points, of_points, where)),
       bad(bad_points), points(of_points), u(std::move(point)) {}
 
 std::string Integral::to_string() const {
@@ -99,110 +70,6 @@ std::string_view name(Stop stop) {
   case Stop::cancelled: return "cancelled";
   }
   return "";
-}
-
-namespace {
-// What the rounds said of one output.
-std::vector<IntegrateRound> told(const Run& run, std::size_t output) {
-  std::vector<IntegrateRound> all;
-  for (const detail::Round& r : run.rounds) {
-    const detail::Mean& mean = r.means[output];
-    const double chi2 = r.chi2.empty() ? std::numeric_limits<double>::quiet_NaN() : r.chi2[output];
-    all.push_back({r.method, r.learning, r.calls, detail::estimate(mean, r.calls), mean.bar, chi2});
-  }
-  return all;
-}
-
-VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const IntegrateOptions& o) {
-  require_sane(outputs, dim, o);
-  require(!f.empty(), "integrate: the integrand is an empty function; it must be callable");
-  const Method method =
-      o.method == Method::automatic && static_cast<std::uint32_t>(dim) > Sobol::dimensions ? Method::plain : o.method;
-  const std::uint64_t least = method == Method::plain ? 2 : 2 * std::uint64_t{o.replicates};
-  require(o.max_calls >= least, "integrate: max_calls {} is too few; at least {} are needed", o.max_calls, least);
-
-  Run run{f, static_cast<std::size_t>(outputs), dim, o};
-  std::optional<Outcome> last;
-  Outcome outcome;
-  try {
-    outcome = method == Method::plain        ? detail::plain(run, last)
-              : method == Method::stratified ? detail::stratified(run, last)
-                                             : detail::sequences(run, method, last);
-  } catch (const detail::Cancelled&) {
-    require(last.has_value(), "integrate: cancelled before anything was estimated");
-    outcome = *last;
-    outcome.stop = Stop::cancelled;
-  }
-  for (detail::Round& round : run.rounds)
-    if (round.independent) run.compare(round, outcome.means);
-  VectorIntegral result{.outputs = {}, .correlations = outcome.correlations};
-  for (std::size_t k = 0; k < run.outputs; ++k) {
-    Integral r;
-    const detail::Mean& mean = outcome.means[k];
-    r.estimate = detail::estimate(mean, run.calls);
-    r.interval = detail::interval(mean, o.confidence);
-    r.confidence = o.confidence;
-    r.error_bar = mean.bar;
-    r.tail_index = outcome.seen[k].tail_index();
-    r.infinite = outcome.seen[k].infinite;
-    r.calls = run.calls;
-    r.seconds = run.seconds();
-    r.method = outcome.method;
-    r.stop = outcome.stop;
-    r.chi2 = run.chi2[k];
-    r.chi2_dof = run.chi2_dof[k];
-    r.density = outcome.density;
-    r.rounds = told(run, k);
-    r.consistent = !(r.chi2_dof > 0) || cdf(complement(boost::math::chi_squared(r.chi2_dof), r.chi2)) > 1e-4;
-    result.outputs.push_back(r);
-  }
-  return result;
-}
-
-} // namespace
-
-VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, const IntegrateOptions& o) {
-  return integrate_unit(Integrand{.several = &f}, outputs, dim, o);
-}
-
-Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim, const IntegrateOptions& o) {
-  return integrate_unit(Integrand{.one = &f}, 1, dim, o).outputs.front();
-}
-
-VectorIntegral integrate_unit(const BatchIntegrand& f, int outputs, int dim, const IntegrateOptions& o) {
-  return integrate_unit(Integrand{.batch = &f}, outputs, dim, o);
-}
-
-Integral integrate_unit(const BatchIntegrand& f, int dim, const IntegrateOptions& o) {
-  return integrate_unit(Integrand{.batch = &f}, 1, dim, o).outputs.front();
-}
-
-Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count,
-                        std::uint32_t replicates, std::uint64_t seed, int threads) {
-  IntegrateOptions o;
-  o.replicates = replicates;
-  o.seed = seed;
-  o.threads = threads;
-  o.max_calls = count * replicates;
-  require_sane(1, dim, o);
-  require(f != nullptr, "integrate: the integrand is an empty function; it must be callable");
-  require(count >= 1 && count <= detail::Sequences::longest,
-          "integrate_rqmc: {} points; between 1 and 2^32 are possible", count);
-  Run run{{.one = &f}, 1, dim, o};
-  detail::Sequences sequences{.purpose = 0, .count = replicates};
-  const detail::Mean mean = sequences.extend(run, count).front();
-  Integral result;
-  result.estimate = detail::estimate(mean, run.calls);
-  result.interval = detail::interval(mean, o.confidence);
-  result.confidence = o.confidence;
-  result.error_bar = mean.bar;
-  result.tail_index = sequences.seen().front().tail_index();
-  result.infinite = sequences.seen().front().infinite;
-  result.calls = run.calls;
-  result.method = Method::rqmc;
-  result.stop = Stop::max_calls;
-  result.seconds = run.seconds();
-  return result;
 }
 
 } // namespace mc

@@ -39,10 +39,10 @@ enum class ErrorBar {
 };
 std::string_view name(ErrorBar bar);
 
-/// What integrate() throws for an integrand that is not finite: at so many of so many points, the first of which is u.
-/// `told` says where that is.
+/// What integrate() throws for an integrand that is not finite: at so many of so many points, the first of which is u;
+/// `where` is that point as text.
 struct NotFinite : Error {
-  NotFinite(std::uint64_t bad_points, std::uint64_t of_points, std::vector<double> point, std::string_view told);
+  NotFinite(std::uint64_t bad_points, std::uint64_t of_points, std::vector<double> point, std::string_view where);
   std::uint64_t bad, points;
   std::vector<double> u;
 };
@@ -61,14 +61,15 @@ struct IntegrateOptions {
   std::uint64_t seed = 1;
   int threads = 0;          ///< 0: all of the machine's; the result has the same bits for any number
   double confidence = 0.95; ///< of the interval
-  /// Independent randomisations behind the error of stratified, rqmc, vegas and tree. Where the calls end sequences are
-  /// more, or fewer and longer, whichever leaves less variance: a third of them at least, and eight, or all of fewer.
+  /// Independent randomisations behind the error of stratified, rqmc, vegas and tree. Where a run uses up its calls,
+  /// its sequences are in the end more than these, or fewer and longer, whichever leaves less variance; but never fewer
+  /// than a third of them, nor than eight, unless fewer were asked for.
   std::uint32_t replicates = 24;
   /// Of an earlier run, or read from a file (see load_density), of this integrand or one like it. Short rounds of
   /// uniform points and of its own try it: where it fits, vegas, tree and automatic take it for what they would have
   /// learned; where it does not, they go on learning from it. As unbiased for any density.
   std::shared_ptr<const AdaptedDensity> density = {};
-  /// Of the last so many outputs nothing is asked: they neither end the run nor say where points go.
+  /// The last so many outputs need not be accurate: they neither end the run nor say where points go.
   std::size_t watched = 0;
   std::function<void(const IntegrateProgress&)> progress = {};
   const std::atomic<bool>* cancel = nullptr;

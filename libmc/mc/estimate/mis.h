@@ -39,7 +39,9 @@ template <Real S> struct Heuristic {
   S share(const S& x) const {
     using std::pow;
     if (!(x >= alpha)) return S(0);
-    return beta == 1 ? x : beta == 2 ? S(x * x) : S(pow(x, beta));
+    if (beta == 1) return x;
+    if (beta == 2) return S(x * x);
+    return S(pow(x, beta));
   }
 };
 

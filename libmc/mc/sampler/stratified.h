@@ -14,7 +14,7 @@ namespace mc {
 /// `count` jittered points: dimensions are taken in groups of `group`; in each group the cube is cut into `count` boxes
 /// of equal volume, about count^(1/group) along each side, and every box holds one point. Groups are shuffled against
 /// each other, so any number of dimensions may be used (padding). Any count works, not only perfect powers: the cube is
-/// cut into slabs whose thickness is proportional to the number of boxes in them.
+/// cut into strata whose thickness is proportional to the number of boxes in them.
 ///   An index >= count starts another independent set of `count` points.
 ///   RMS error of the mean of a Lipschitz integrand of one group: count^(-1/2 - 1/group), for group 1 and 2 down to
 ///   N^-3/2, N^-1 and, where the integrand jumps along a curve in the square, N^-3/4 [MitchellA96].
@@ -29,7 +29,7 @@ class Stratified {
 
   std::uint64_t bits(std::uint64_t index, std::uint32_t dim) const {
     std::uint64_t result = 0;
-    descend(index, dim / group_, dim % group_, [&](std::uint32_t axis, const Slab& s, std::uint32_t n) {
+    descend(index, dim / group_, dim % group_, [&](std::uint32_t axis, const Stratum& s, std::uint32_t n) {
       if (axis == dim % group_) result = inside(s, n, hash(seed_, index, dim));
     });
     return result;
@@ -40,7 +40,7 @@ class Stratified {
     const auto dims = static_cast<std::uint32_t>(u.size());
     for (std::uint32_t first = 0; first < dims; first += group_)
       descend(index, first / group_, std::min(group_, dims - first) - 1,
-              [&](std::uint32_t axis, const Slab& s, std::uint32_t n) {
+              [&](std::uint32_t axis, const Stratum& s, std::uint32_t n) {
                 u[first + axis] = uniform<double>(inside(s, n, hash(seed_, index, first + axis)));
               });
   }
@@ -48,17 +48,18 @@ class Stratified {
   std::uint32_t count() const { return count_; }
 
  private:
-  struct Slab {
+  struct Stratum {
     std::uint32_t start, size;
   };
 
-  // Calls visit(axis, slab, n) for the axes 0 to `last` of a group: the slab of the point's box, of those of n boxes.
+  // Calls visit(axis, stratum, n) for the axes 0 to `last` of a group: the stratum that holds the point's box, of those
+  // that n boxes lie in.
   template <class Visit>
   void descend(std::uint64_t index, std::uint32_t group, std::uint32_t last, Visit&& visit) const {
     std::uint32_t box = permute(static_cast<std::uint32_t>(index % count_), count_, hash(seed_, index / count_, group));
     std::uint32_t n = count_;
     for (std::uint32_t axis = 0;; ++axis) {
-      const Slab s = slab(box, n, group_ - axis);
+      const Stratum s = stratum(box, n, group_ - axis);
       visit(axis, s, n);
       if (axis == last) return;
       box -= s.start;
@@ -66,12 +67,12 @@ class Stratified {
     }
   }
 
-  // The slab that holds `box` when n boxes are cut along the first of d remaining dimensions.
-  static Slab slab(std::uint32_t box, std::uint32_t n, std::uint32_t d) {
+  // The stratum that holds `box` when n boxes are cut along the first of d remaining dimensions.
+  static Stratum stratum(std::uint32_t box, std::uint32_t n, std::uint32_t d) {
     if (d == 1) return {box, 1};
-    const auto slabs = std::clamp(static_cast<std::uint32_t>(std::lround(root(n, d))), 1u, n);
-    const auto start_of = [&](std::uint64_t i) { return static_cast<std::uint32_t>((i * n + slabs - 1) / slabs); };
-    const auto i = static_cast<std::uint32_t>(std::uint64_t{box} * slabs / n);
+    const auto strata = std::clamp(static_cast<std::uint32_t>(std::lround(root(n, d))), 1u, n);
+    const auto start_of = [&](std::uint64_t i) { return static_cast<std::uint32_t>((i * n + strata - 1) / strata); };
+    const auto i = static_cast<std::uint32_t>(std::uint64_t{box} * strata / n);
     return {start_of(i), start_of(i + 1) - start_of(i)};
   }
 
@@ -85,8 +86,8 @@ class Stratified {
     }
   }
 
-  // The slab [start, start + size) of n boxes, jittered: exact 64-bit fractions, so never 1.
-  static std::uint64_t inside(const Slab& s, std::uint32_t n, std::uint64_t jitter) {
+  // The stratum [start, start + size) of n boxes, jittered: exact 64-bit fractions, so never 1.
+  static std::uint64_t inside(const Stratum& s, std::uint32_t n, std::uint64_t jitter) {
     __extension__ using Wide = unsigned __int128;
     return static_cast<std::uint64_t>(((Wide{s.start} << 64) + Wide{s.size} * jitter) / n);
   }

@@ -18,7 +18,7 @@ struct BoxTree::Builder {
   std::uint32_t build(std::size_t node) {
     const TreeNode& n = tree.nodes_[node];
     if (n.axis == TreeNode::leaf) return finish();
-    const auto plane = static_cast<std::uint32_t>(tree.planes_.size());
+    const auto split = static_cast<std::uint32_t>(tree.splits_.size());
     const auto side = std::find_if(path.begin(), path.end(), [&](const Side& s) { return s.axis == n.axis; });
     const auto place = static_cast<std::size_t>(side - path.begin());
     const bool fresh = side == path.end();
@@ -26,7 +26,7 @@ struct BoxTree::Builder {
     require(n.value > whole.x_lo && n.value < whole.x_hi, "BoxTree: node {} cuts axis {} at {}; its box spans ({}, {})",
             node, n.axis, n.value, whole.x_lo, whole.x_hi);
     const double cut = place_of_cut(whole.u_lo, whole.u_hi, node + 1, after[node + 1]);
-    tree.planes_.push_back({n.axis, {0, 0}, cut, n.value});
+    tree.splits_.push_back({n.axis, {0, 0}, cut, n.value});
     if (fresh) path.push_back(whole);
     path[place] = {n.axis, whole.x_lo, n.value, whole.u_lo, cut};
     const std::uint32_t lower = build(node + 1);
@@ -34,9 +34,9 @@ struct BoxTree::Builder {
     const std::uint32_t upper = build(after[node + 1]);
     if (fresh) path.pop_back();
     else path[place] = whole;
-    tree.planes_[plane].next[1] = lower;
-    tree.planes_[plane].next[0] = upper;
-    return plane;
+    tree.splits_[split].next[1] = lower;
+    tree.splits_[split].next[0] = upper;
+    return split;
   }
 
   // Leaves to both sides the share of their weight, and 2^-53 at least to each leaf that has any, so that what is cut
@@ -97,7 +97,7 @@ BoxTree::BoxTree(int dim, std::span<const TreeNode> nodes) : dim_(dim), nodes_(n
 }
 
 namespace {
-struct Cell {
+struct MeasuredBox {
   std::vector<double> lo, hi;
   double mean = 0, gain = 0; // gain: what is not flat in it
   std::uint32_t axis = 0;
@@ -121,38 +121,39 @@ std::vector<double> steps(std::size_t dim) {
   return step;
 }
 
-Cell measured(const std::function<double(std::span<const double>)>& f, std::vector<double> lo, std::vector<double> hi) {
+MeasuredBox measured(const std::function<double(std::span<const double>)>& f, std::vector<double> lo,
+                     std::vector<double> hi) {
   constexpr int points = 32;
-  Cell c{std::move(lo), std::move(hi)};
-  const std::size_t d = c.lo.size();
+  MeasuredBox box{std::move(lo), std::move(hi)};
+  const std::size_t d = box.lo.size();
   const std::vector<double> step = steps(d);
   std::vector<double> at(d), below(d), above(d), counted(d), values;
   for (int k = 1; k <= points; ++k) {
     for (std::size_t a = 0; a < d; ++a) {
       const double v = 0.5 + k * step[a] - std::floor(0.5 + k * step[a]);
-      at[a] = c.lo[a] + (c.hi[a] - c.lo[a]) * v;
+      at[a] = box.lo[a] + (box.hi[a] - box.lo[a]) * v;
       counted[a] = v;
     }
     const double value = f(at);
     require(std::isfinite(value) && value >= 0, "BoxTree: the function is {}; it must be finite and >= 0", value);
-    c.mean += value / points;
+    box.mean += value / points;
     values.push_back(value);
     for (std::size_t a = 0; a < d; ++a) (counted[a] < 0.5 ? below : above)[a] += value / points;
   }
   // Relative to the mean: the squares of small numbers vanish, those of large ones overflow.
   double squares = 0;
-  for (const double value : values) squares += c.mean > 0 ? sqr(value / c.mean - 1) / points : 0.0;
-  c.gain = c.volume() * c.mean * std::sqrt(squares);
+  for (const double value : values) squares += box.mean > 0 ? sqr(value / box.mean - 1) / points : 0.0;
+  box.gain = box.volume() * box.mean * std::sqrt(squares);
   // The axis that tells most apart, of equal ones the longest.
   double most = -1;
   for (std::size_t a = 0; a < d; ++a) {
-    const double apart = std::abs(above[a] - below[a]) + 1e-3 * c.mean * (c.hi[a] - c.lo[a]);
+    const double apart = std::abs(above[a] - below[a]) + 1e-3 * box.mean * (box.hi[a] - box.lo[a]);
     if (apart > most) {
       most = apart;
-      c.axis = static_cast<std::uint32_t>(a);
+      box.axis = static_cast<std::uint32_t>(a);
     }
   }
-  return c;
+  return box;
 }
 } // namespace
 
@@ -160,30 +161,30 @@ BoxTree BoxTree::from_function(int dim, const std::function<double(std::span<con
   require(dim >= 1, "BoxTree: dimension {} must be at least 1", dim);
   require(leaves >= 1, "BoxTree: 0 leaves; at least 1 is needed");
   const auto d = static_cast<std::size_t>(dim);
-  std::vector<Cell> cells = {measured(f, std::vector<double>(d, 0.0), std::vector<double>(d, 1.0))};
-  const auto less = [&](std::size_t a, std::size_t b) { return cells[a].gain < cells[b].gain; };
+  std::vector<MeasuredBox> boxes = {measured(f, std::vector<double>(d, 0.0), std::vector<double>(d, 1.0))};
+  const auto less = [&](std::size_t a, std::size_t b) { return boxes[a].gain < boxes[b].gain; };
   for (std::vector<std::size_t> open = {0}; open.size() < leaves;) { // a heap by gain
     std::pop_heap(open.begin(), open.end(), less);
     const std::size_t at = open.back();
     open.pop_back();
-    std::vector<double> lo = cells[at].lo, hi = cells[at].hi;
-    lo[cells[at].axis] = hi[cells[at].axis] = cells[at].middle();
-    cells[at].below = cells.size();
-    Cell below = measured(f, cells[at].lo, std::move(hi)), above = measured(f, std::move(lo), cells[at].hi);
-    for (Cell* half : {&below, &above}) {
-      open.push_back(cells.size());
-      cells.push_back(std::move(*half));
+    std::vector<double> lo = boxes[at].lo, hi = boxes[at].hi;
+    lo[boxes[at].axis] = hi[boxes[at].axis] = boxes[at].middle();
+    boxes[at].below = boxes.size();
+    MeasuredBox below = measured(f, boxes[at].lo, std::move(hi)), above = measured(f, std::move(lo), boxes[at].hi);
+    for (MeasuredBox* half : {&below, &above}) {
+      open.push_back(boxes.size());
+      boxes.push_back(std::move(*half));
       std::push_heap(open.begin(), open.end(), less);
     }
   }
   std::vector<TreeNode> nodes;
   for (std::vector<std::size_t> next = {0}; !next.empty();) {
-    const Cell& c = cells[next.back()];
+    const MeasuredBox& box = boxes[next.back()];
     next.pop_back();
-    if (c.below == 0) nodes.push_back({TreeNode::leaf, c.mean * c.volume()});
+    if (box.below == 0) nodes.push_back({TreeNode::leaf, box.mean * box.volume()});
     else {
-      nodes.push_back({c.axis, c.middle()});
-      next.insert(next.end(), {c.below + 1, c.below});
+      nodes.push_back({box.axis, box.middle()});
+      next.insert(next.end(), {box.below + 1, box.below});
     }
   }
   return BoxTree(dim, nodes);

@@ -48,10 +48,10 @@ class BoxTree {
 
   /// The leaf of a point: by its coordinates u, or by x.
   template <class P> std::size_t leaf_of_u(const P& u) const {
-    return find([&](const Plane& p) { return u[p.axis] < p.u; });
+    return find([&](const Split& s) { return u[s.axis] < s.u; });
   }
   template <class P> std::size_t leaf_of_x(const P& x) const {
-    return find([&](const Plane& p) { return x[p.axis] < p.x; });
+    return find([&](const Split& s) { return x[s.axis] < s.x; });
   }
   /// The sides of a leaf that were cut; along the other axes it is [0,1).
   std::span<const Side> sides(std::size_t leaf) const {
@@ -64,23 +64,23 @@ class BoxTree {
   double map(std::span<double> u) const;
 
  private:
-  struct Plane {
+  struct Split {
     std::uint32_t axis;
-    std::uint32_t next[2]; // above, below: the index of a plane, or the complement of that of a leaf
+    std::uint32_t next[2]; // above, below: the index of a split, or the complement of that of a leaf
     double u, x;
   };
   struct Builder;
 
   template <class Below> std::size_t find(Below&& below) const {
     std::uint32_t at = root_;
-    while (!(at & 0x80000000)) at = planes_[at].next[below(planes_[at])];
+    while (!(at & 0x80000000)) at = splits_[at].next[below(splits_[at])];
     return ~at;
   }
 
   int dim_;
   std::uint32_t root_ = 0;
   std::vector<TreeNode> nodes_;
-  std::vector<Plane> planes_;
+  std::vector<Split> splits_;
   std::vector<Side> sides_;        // of all leaves, one after the other
   std::vector<std::size_t> first_; // of each leaf's, and the end
   std::vector<double> density_;

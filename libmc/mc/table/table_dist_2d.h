@@ -64,12 +64,12 @@ template <Real S> class TableDist2D {
   }
 
   /// A cell by its column x and row y.
-  struct Cell {
+  struct ChosenCell {
     std::size_t x, y;
     S pmf;              ///< > 0
     Vec2<S> u_remapped; ///< uniform again, independent of the cell
   };
-  Cell sample_index(const Vec2<S>& u) const {
+  ChosenCell sample_index(const Vec2<S>& u) const {
     const std::size_t y = rows().find(u[1]);
     const auto columns = row(y);
     const std::size_t x = columns.find(u[0]);

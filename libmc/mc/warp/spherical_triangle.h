@@ -85,8 +85,11 @@ template <Real S> struct SphericalTriangleMap {
     Corners(const Vec3<S>& pa, const Vec3<S>& ab, const Vec3<S>& ac)
         : a(pa), b(pa + ab), c(pa + ac), x(cross<S>(pa, ab)), y(cross<S>(pa, ac)), z(cross<S>(b, Vec3<S>(ac - ab))),
           la(a.norm()), lb(b.norm()), lc(c.norm()), lx(x.norm()), ly(y.norm()), lz(z.norm()) {
-      const Vec3<S> nearest = la <= lb && la <= lc ? a : lb <= lc ? b : c;
-      volume = nearest.dot(cross<S>(ab, ac));
+      volume = nearest().dot(cross<S>(ab, ac));
+    }
+    const Vec3<S>& nearest() const {
+      if (la <= lb && la <= lc) return a;
+      return lb <= lc ? b : c;
     }
   };
   explicit SphericalTriangleMap(const Corners& k)

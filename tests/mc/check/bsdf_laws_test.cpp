@@ -52,9 +52,8 @@ struct Coated {
   }
   double pdf(const V& wo, const V& wi) const {
     if (slip == Slip::support && wi.x() > 0.5) return 0;
-    return wo.z() > 0 && wi.z() > 0
-               ? (1 - mirror) * (slip == Slip::cosine ? 1 / (2 * mc::pi<double>) : wi.z() / mc::pi<double>)
-               : 0.0;
+    if (!(wo.z() > 0 && wi.z() > 0)) return 0;
+    return (1 - mirror) * (slip == Slip::cosine ? 1 / (2 * mc::pi<double>) : wi.z() / mc::pi<double>);
   }
   std::optional<Sample> sample(const V& wo, double uc, const mc::Vec2<double>& u) const {
     if (uc < mirror)

@@ -177,7 +177,10 @@ TEST(CheckSubject, GapsAreFoundInsideAndAtBothEnds) {
       const double x = (1 - width) * r.uniform<double>();
       return x < lo ? x : x + width;
     };
-    const auto pdf = [=](double x) { return !claimed ? 1.0 : x >= lo && x < hi ? 0.0 : 1 / (1 - width); };
+    const auto pdf = [=](double x) {
+      if (!claimed) return 1.0;
+      return x >= lo && x < hi ? 0.0 : 1 / (1 - width);
+    };
     return check_subject(make_subject("gap", unit, sampler, pdf), {.samples = 200'000, .seed = 3, .alpha = 1e-3});
   };
   for (const auto& [lo, hi] : {std::pair(0.0, 1e-3), std::pair(0.4, 0.401), std::pair(0.999, 1.0)}) {
@@ -208,16 +211,15 @@ TEST(CheckSubject, GapsOfFewHundredFloatStepsAreFound) {
 // 23 of 100000 samples are missing at each end of a normal cut at 3.5 sigma, as many as no right sampler misses. The
 // density falls towards the ends, so that the samples beside them speak of more.
 TEST(CheckSubject, TailsThatAreCutAreGaps) {
-  const auto cut_at = [](double most) {
-    return check_subject(make_subject(
-                             "cut", mc::RealLine<double>(0, 1),
-                             [most](Pcg& r) {
-                               for (;;)
-                                 if (const double x = mc::Normal<double>().sample(r.uniform<double>());
-                                     std::abs(x) < most)
-                                   return x;
-                             },
-                             [](double x) { return mc::Normal<double>().pdf(x); }),
+  const mc::Normal<double> normal;
+  const auto cut_at = [&](double most) {
+    const auto sampler = [=](Pcg& r) {
+      double x = normal.sample(r.uniform<double>());
+      while (!(std::abs(x) < most)) x = normal.sample(r.uniform<double>());
+      return x;
+    };
+    const auto pdf = [=](double x) { return normal.pdf(x); };
+    return check_subject(make_subject("cut", mc::RealLine<double>(0, 1), sampler, pdf),
                          {.samples = 100'000, .seed = 5});
   };
   EXPECT_TRUE(cut_at(9).passed()) << cut_at(9).to_string();

@@ -37,7 +37,10 @@ template <class S, Slip slip> struct Ramp {
     if constexpr (slip == Slip::edge) return u == 0 ? S(2) : x;
     return x;
   }
-  S pdf(S x) const { return x >= 0 && x <= 1 ? S(slip == Slip::pdf_scale ? 2.001 : 2) * x : S(0); }
+  S pdf(S x) const {
+    if (!(x >= 0 && x <= 1)) return S(0);
+    return S(slip == Slip::pdf_scale ? 2.001 : 2) * x;
+  }
   S invert(S x) const { return S(1) - (slip == Slip::invert ? S(x * x * x) : S(x * x)); }
   template <mc::Real T> Ramp<T, slip> cast() const { return {}; }
 };

@@ -81,7 +81,12 @@ template <class S> double worst_ulps_of_turn() {
     const auto size = [&] {
       return std::ldexp(random.uniform<S>() + S(0.5), static_cast<int>(random.next32() % 60) - 60);
     };
-    const S a = size(), b = i % 3 == 0 ? size() : i % 3 == 1 ? a * (1 + size()) : a * (random.uniform<S>() + S(0.1));
+    const auto another = [&](S a) {
+      if (i % 3 == 0) return size();
+      if (i % 3 == 1) return a * (1 + size());
+      return a * (random.uniform<S>() + S(0.1));
+    };
+    const S a = size(), b = another(a);
     const int range = std::numeric_limits<S>::max_exponent - 8;
     const int move = i % 5 == 0 ? static_cast<int>(random.next32() % static_cast<std::uint32_t>(2 * range)) - range : 0;
     const auto sign = [&] { return random.next32() % 2 ? S(1) : S(-1); };

@@ -14,6 +14,23 @@ namespace {
 
 double d(const auto& x) { return static_cast<double>(x); }
 
+// Of an annulus: 0, near the outer radius, or anywhere between.
+template <class S> S inner_radius(Draw& r, S outer) {
+  if (r.often(0.2)) return S(0);
+  if (r.often(0.5)) return S(outer * (1 - r.log(1e-18, 1)));
+  return S(d(outer) * r.log(1e-20, 1));
+}
+
+template <class S> mc::Vec3<S> vector_of_length(Draw& r, double length) {
+  return mc::Vec3<S>(r.direction<S>() * S(length));
+}
+
+// 0, or about as far away as the parallelogram is large, or anywhere.
+template <class S> mc::Vec3<S> origin(Draw& r, double size) {
+  if (r.often(0.5)) return mc::Vec3<S>(0, 0, 0);
+  return vector_of_length<S>(r, r.often(0.5) ? size : r.log(denormal<S>, largest<S>));
+}
+
 template <class S> void add_uniform(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
   const auto number = [](Draw& r) { return S(r.often(0.2) ? 0 : r.sign() * r.log(denormal<S>, largest<S>)); };
   rows.push_back(run(
@@ -29,9 +46,7 @@ template <class S> void add_uniform(std::vector<Row>& rows, const std::string& s
       "UniformAnnulus " + scalar, effort,
       [&](Draw& r, std::string& p) {
         const S outer = S(r.log(denormal<S>, largest<S>));
-        const S inner = r.often(0.2)   ? S(0)
-                        : r.often(0.5) ? S(outer * (1 - r.log(1e-18, 1)))
-                                       : S(d(outer) * r.log(1e-20, 1));
+        const S inner = inner_radius(r, outer);
         p = fmt::format("inner {} outer {}", inner, outer);
         return mc::UniformAnnulus<S>(inner, outer);
       },
@@ -43,10 +58,8 @@ template <class S> void add_uniform(std::vector<Row>& rows, const std::string& s
       "UniformParallelogram " + scalar, effort,
       [&](Draw& r, std::string& p) {
         const double size = r.log(denormal<S>, largest<S>);
-        const auto vector = [&](double length) { return mc::Vec3<S>(r.direction<S>() * S(length)); };
-        const mc::Vec3<S> o =
-            r.often(0.5) ? mc::Vec3<S>(0, 0, 0) : vector(r.often(0.5) ? size : r.log(denormal<S>, largest<S>));
-        const mc::Vec3<S> a = vector(size), b = vector(size * r.log(1e-6, 1e6));
+        const mc::Vec3<S> o = origin<S>(r, size);
+        const mc::Vec3<S> a = vector_of_length<S>(r, size), b = vector_of_length<S>(r, size * r.log(1e-6, 1e6));
         p = fmt::format("origin {} a {} b {}", detail::text(o), detail::text(a), detail::text(b));
         return mc::UniformParallelogram<S>{mc::Parallelogram<S>(o, a, b)};
       },

@@ -14,6 +14,13 @@ namespace {
 
 double d(const auto& x) { return static_cast<double>(x); }
 
+// By each of its three constructors.
+template <class S> mc::UniformCone<S> cone(int form, S x) {
+  if (form == 0) return mc::UniformCone<S>::from_one_minus_cos(x);
+  if (form == 1) return mc::UniformCone<S>::from_angle(x);
+  return mc::UniformCone<S>::from_sin2(x);
+}
+
 template <class S> void add(std::vector<Row>& rows, const std::string& scalar, const Effort& effort) {
   rows.push_back(run(
       "UniformSphere " + scalar, effort, [](Draw&, std::string&) { return mc::UniformSphere<S>{}; },
@@ -33,9 +40,7 @@ template <class S> void add(std::vector<Row>& rows, const std::string& scalar, c
         const int form = r.below(3);
         const S x = S(r.log(denormal<S>, 2));
         p = fmt::format("form {} of {}", form, x);
-        return form == 0   ? mc::UniformCone<S>::from_one_minus_cos(x)
-               : form == 1 ? mc::UniformCone<S>::from_angle(x)
-                           : mc::UniformCone<S>::from_sin2(x);
+        return cone(form, x);
       },
       constant({})));
   rows.push_back(run(

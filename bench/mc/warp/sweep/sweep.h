@@ -65,7 +65,9 @@ struct Draw {
   /// Log-uniform over [lo, hi], each end itself now and then.
   double log(double lo, double hi) {
     const double v = u();
-    return v < 0.02 ? lo : v > 0.98 ? hi : std::exp(std::log(lo) + u() * (std::log(hi) - std::log(lo)));
+    if (v < 0.02) return lo;
+    if (v > 0.98) return hi;
+    return std::exp(std::log(lo) + u() * (std::log(hi) - std::log(lo)));
   }
   double sign() { return often(0.5) ? 1 : -1; }
   int below(int n) { return static_cast<int>(u() * n); }

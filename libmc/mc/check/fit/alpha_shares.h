@@ -27,6 +27,11 @@ enum class FitTest : std::uint8_t {
 struct AlphaShare {
   FitTest test;
   double discrete, one_axis, more_axes; ///< share of alpha for subjects without axes, with one, with two or three
+
+  constexpr double of(int dim) const {
+    if (dim == 0) return discrete;
+    return dim == 1 ? one_axis : more_axes;
+  }
 };
 
 /// The scores (tails) are the most powerful against the faults that samplers have.
@@ -49,7 +54,7 @@ inline constexpr std::array<AlphaShare, 13> alpha_shares{{
 /// The share of alpha that a test spends on a subject with `dim` axes, all its repetitions together.
 constexpr double alpha_share(FitTest test, int dim) {
   for (const AlphaShare& s : alpha_shares)
-    if (s.test == test) return dim == 0 ? s.discrete : dim == 1 ? s.one_axis : s.more_axes;
+    if (s.test == test) return s.of(dim);
   return 0;
 }
 

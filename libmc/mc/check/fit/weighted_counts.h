@@ -7,10 +7,10 @@
 
 namespace mc {
 
-/// Sums of the weights of both in one bin. The random points stand for equal or very different numbers of samples;
-/// where the heavy ones are rare no point may have met the bin, so the samples in it say, too, what each point there
-/// would have stood for. Nor may a sample have met what is left of the bin beside many of little weight, so the points
-/// say, too, what each sample there would have weighed.
+/// Sums of the weights of both in one bin. One random point may stand for far more samples than another. Where those
+/// that stand for many are rare, none may have met the bin; so each sample also says what a point at its place would
+/// stand for. Likewise, where most samples of the bin weigh little, none of full weight may have met it; so each point
+/// also says what a sample at its place would weigh.
 struct WeightedCounts {
   double observed = 0, observed_squares = 0;
   double expected = 0, expected_squares = 0;

@@ -49,9 +49,8 @@ class Probe {
     if (accepted_) return {inner};
     if (inner.verdict == Verdict::pass && zero.verdict == Verdict::fail)
       zero.detail += "; only single u do this, with a coordinate of exactly 0 (take 1 - u instead), or whose point is "
-                     "rounded onto "
-                     "the edge of the density, or one where it is 0 or infinite; open_interval (carlo validate "
-                     "--open-interval) accepts it as measure zero";
+                     "rounded onto the edge of the density, or one where it is 0 or infinite; open_interval (carlo "
+                     "validate --open-interval) accepts it as measure zero";
     return {inner, zero};
   }
 
@@ -101,7 +100,10 @@ void probe_corners(const AnySampler& s, Probe& probe) {
   for (std::size_t k = 0; k < total; ++k) {
     Uniforms u{};
     std::size_t rest = k;
-    for (int i = 0; i < s.uniforms; ++i, rest /= at.size()) u[static_cast<std::size_t>(i)] = at[rest % at.size()];
+    for (std::size_t i = 0; i < static_cast<std::size_t>(s.uniforms); ++i) {
+      u[i] = at[rest % at.size()];
+      rest /= at.size();
+    }
     probe(u);
   }
 }
@@ -125,16 +127,19 @@ Numbers point_at(const AnySampler& s, Uniforms u, const Uniforms& start) {
   return s.domain.from_unit ? s.domain.from_unit({start[0], start[1], start[2]}).x : Numbers{};
 }
 
+// The numbers of a point of the domain as numbers of S.
+template <class S> std::vector<S> numbers_of(const AnySampler& s, const Numbers& x) {
+  std::vector<S> numbers;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.numbers); ++i) numbers.push_back(static_cast<S>(x[i]));
+  return numbers;
+}
+
 // Jumps and kinks of the sampler over S along one axis.
 template <class S> std::vector<S> breaks_along(const AnySampler& s, const Uniforms& start, std::size_t axis) {
   const std::function<std::vector<S>(const S&)> map = [&](const S& t) {
     Uniforms u = start;
     u[axis] = static_cast<double>(t);
-    const Numbers x = point_at(s, u, start);
-    std::vector<S> numbers(static_cast<std::size_t>(s.domain.numbers));
-    std::transform(x.begin(), x.begin() + s.domain.numbers, numbers.begin(),
-                   [](double v) { return static_cast<S>(v); });
-    return numbers;
+    return numbers_of<S>(s, point_at(s, u, start));
   };
   return find_breaks<S>(map, 256, 4);
 }

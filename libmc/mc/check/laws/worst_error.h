@@ -15,7 +15,7 @@ class WorstError {
   WorstError(std::string law, double limit, Fault fault) : law_(std::move(law)), limit_(limit), fault_(fault) {}
 
   /// One point: its error, and a description that is only made for a new worst one beyond the limit. NaN is the worst
-  ///            error.
+  /// error.
   template <std::invocable Describe> void note(double error, Describe&& describe) {
     ++points_;
     if (error <= limit_) {

@@ -61,19 +61,30 @@ double Report::p() const {
   return least;
 }
 
+namespace {
+// That of the first failed check of a kind.
+template <class OfKind> Fault first_fault(const std::vector<Check>& checks, OfKind of_kind) {
+  for (const Check& c : checks)
+    if (c.verdict == Verdict::fail && of_kind(c)) return c.fault;
+  return Fault::none;
+}
+
+// "cell theta 1.5 to 3 deg", or nothing for an outcome, which its `where` names.
+std::string describe_worst(const std::vector<Axis>& axes, const WorstCell& w) {
+  if (w.lo == w.hi) return "";
+  const std::string place = describe_cell(axes, w.lo, w.hi);
+  return place.empty() ? "cell" : "cell " + place;
+}
+} // namespace
+
 Fault Report::fault() const {
-  const auto first = [&](auto&& of_kind) {
-    const auto c = std::find_if(checks.begin(), checks.end(),
-                                [&](const Check& one) { return one.verdict == Verdict::fail && of_kind(one); });
-    return c == checks.end() ? Fault::none : c->fault;
-  };
   const auto measure_zero = [](const Check& c) { return c.fault == Fault::zero_edge; };
-  const Fault certain = first([&](const Check& c) { return !c.p && !measure_zero(c); });
-  const Fault beyond_doubt = first([](const Check& c) { return c.p && *c.p < 1e-9; });
+  const Fault certain = first_fault(checks, [&](const Check& c) { return !c.p && !measure_zero(c); });
+  const Fault beyond_doubt = first_fault(checks, [](const Check& c) { return c.p && *c.p < 1e-9; });
   if (certain == Fault::edge && beyond_doubt != Fault::none) return beyond_doubt;
   if (certain != Fault::none) return certain;
-  const Fault likely = first([](const Check& c) { return c.p.has_value(); });
-  return likely != Fault::none ? likely : first(measure_zero);
+  const Fault likely = first_fault(checks, [](const Check& c) { return c.p.has_value(); });
+  return likely != Fault::none ? likely : first_fault(checks, measure_zero);
 }
 
 std::string Report::to_string() const {
@@ -96,12 +107,9 @@ std::string Report::to_string() const {
   };
   if (std::none_of(checks.begin(), checks.end(), of_shape)) return text;
   for (const WorstCell& w : worst) {
-    const bool outcome = w.lo == w.hi;
-    const std::string place = describe_cell(axes, w.lo, w.hi), cell = outcome         ? ""
-                                                                      : place.empty() ? "cell"
-                                                                                      : "cell " + place;
+    const std::string cell = describe_worst(axes, w);
     text += fmt::format("\n  {}{}{}: observed {:.0f}, expected {:.1f}, z = {:.1f}", cell,
-                        outcome || w.where.empty() ? "" : " at ", w.where, w.observed, w.expected, w.z);
+                        cell.empty() || w.where.empty() ? "" : " at ", w.where, w.observed, w.expected, w.z);
   }
   return text;
 }

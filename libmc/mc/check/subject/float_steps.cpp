@@ -51,9 +51,14 @@ template <class Value> bool are_floats(const std::vector<Seen>& points, Value va
   return differ;
 }
 
+// Likewise of what is made of their coordinate k of the chart.
+template <class Value> bool are_floats_at(const std::vector<Seen>& points, std::size_t k, Value value) {
+  return are_floats(points, [&](const Seen& p) { return value(p.v[k]); });
+}
+
 // What of the axis is a float; empty: nothing.
 std::string float_of_axis(const std::vector<Seen>& points, const Axis& axis, std::size_t k) {
-  const auto are = [&](auto value) { return are_floats(points, [&](const Seen& p) { return value(p.v[k]); }); };
+  const auto are = [&](auto value) { return are_floats_at(points, k, value); };
   switch (axis.scale) {
   case Axis::Scale::azimuth:
     if (are([](double v) { return v; }) || are([](double v) { return 2 * std::numbers::pi * v; })) return axis.name;

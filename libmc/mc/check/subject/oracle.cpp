@@ -73,6 +73,13 @@ template <class Step> Oracle newton_root(Oracle x, Step&& step) {
   return x;
 }
 
+// As the stream would write a double.
+const char* mpfr_format(const std::ostream& out) {
+  const auto style = out.flags() & std::ios_base::floatfield;
+  if (style == std::ios_base::scientific) return "%.*Re";
+  return style == std::ios_base::fixed ? "%.*Rf" : "%.*Rg";
+}
+
 } // namespace
 
 Oracle::Oracle(const char* decimal) {
@@ -104,14 +111,11 @@ std::partial_ordering operator<=>(const Oracle& a, const Oracle& b) {
 }
 
 std::ostream& operator<<(std::ostream& out, const Oracle& x) {
-  const auto style = out.flags() & std::ios_base::floatfield;
-  const std::string format = style == std::ios_base::scientific ? "%.*Re"
-                             : style == std::ios_base::fixed    ? "%.*Rf"
-                                                                : "%.*Rg";
+  const char* format = mpfr_format(out);
   const int precision = static_cast<int>(out.precision());
   OracleView view(x);
-  std::string text(static_cast<std::size_t>(mpfr_snprintf(nullptr, 0, format.c_str(), precision, view.get())), ' ');
-  mpfr_snprintf(text.data(), text.size() + 1, format.c_str(), precision, view.get());
+  std::string text(static_cast<std::size_t>(mpfr_snprintf(nullptr, 0, format, precision, view.get())), ' ');
+  mpfr_snprintf(text.data(), text.size() + 1, format, precision, view.get());
   return out << text;
 }
 

@@ -14,16 +14,21 @@ constexpr double uniform_share = 0.1; // of the probability, in each dimension
 constexpr double jump_share = 0.5;    // of a jump's height that counts as mass
 constexpr double enough = 64;         // points behind what is taken for the power of a bin
 
-// The mean over the neighbours within `reach`, with weights that fall linearly; beyond its ends the row is mirrored.
+// The place of entry j in a row of n that is mirrored at its ends.
+std::size_t mirrored(std::ptrdiff_t j, std::ptrdiff_t n) {
+  if (j < 0) j = -1 - j;
+  if (j >= n) j = 2 * n - 1 - j;
+  return static_cast<std::size_t>(j);
+}
+
+// The mean over the neighbours within `reach`, with weights that fall linearly.
 std::array<double, ImportanceGrid::bins> pooled(std::span<const double> row, std::ptrdiff_t reach) {
   std::array<double, ImportanceGrid::bins> out;
   const auto n = static_cast<std::ptrdiff_t>(row.size());
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     double sum = 0;
     for (std::ptrdiff_t j = i - reach; j <= i + reach; ++j)
-      sum += static_cast<double>(reach + 1 - std::abs(j - i)) * row[static_cast<std::size_t>(j < 0    ? -1 - j
-                                                                                             : j >= n ? 2 * n - 1 - j
-                                                                                                      : j)];
+      sum += static_cast<double>(reach + 1 - std::abs(j - i)) * row[mirrored(j, n)];
     out[static_cast<std::size_t>(i)] = sum / sqr(static_cast<double>(reach + 1));
   }
   return out;
@@ -93,12 +98,13 @@ std::span<const double> ImportanceGrid::edges(int d) const {
 double ImportanceGrid::map(std::span<double> u) const {
   double jacobian = 1;
   const double* e = edges_.data();
-  for (std::size_t d = 0; d < u.size(); ++d, e += bins + 1) {
-    const double scaled = u[d] * bins;
+  for (double& coordinate : u) {
+    const double scaled = coordinate * bins;
     const auto i = static_cast<std::size_t>(scaled);
     const double width = e[i + 1] - e[i];
-    u[d] = std::min(e[i] + (scaled - static_cast<double>(i)) * width, one_minus_epsilon<double>);
+    coordinate = std::min(e[i] + (scaled - static_cast<double>(i)) * width, one_minus_epsilon<double>);
     jacobian *= bins * width;
+    e += bins + 1;
   }
   return jacobian;
 }

@@ -50,8 +50,8 @@ struct Cut {
   double at = 0;
 };
 
-// What a subtree costs: points are shared out by what the first half of them says of the leaves, and paid by the
-// second.
+// What a subtree costs: what the first half of the points shows of the leaves says how points are shared among them,
+// and what the second half shows says what that costs.
 struct Cost {
   double asked = 0, paid = 0;
   double total() const { return asked * paid; }

@@ -18,7 +18,7 @@ struct Mean {
 };
 using Means = std::vector<Mean>; ///< one per output
 
-/// What no error of a mean is below: doubles are no closer.
+/// The least error that a mean may have: doubles are no closer to each other.
 double ulp(double mean);
 
 /// The mean with its error, infinite unless the bar is known.
@@ -31,14 +31,14 @@ Estimate::Interval interval(const Mean& m, double confidence);
 /// Degrees of freedom behind the sum of the variances [Welch47].
 double welch(const Mean& a, const Mean& b);
 
-/// share b + (1 - share) a, for independent means; the bar is that of b, which was told what a knew.
+/// share b + (1 - share) a, for independent means; the bar is that of b, which was judged by the values of both.
 Mean combined(const Mean& a, const Mean& b, double share);
 
 /// By how many standard deviations of a normal two independent means differ; nothing where both are exact or a bar is
 /// unknown.
 std::optional<double> deviate(const Mean& a, const Mean& b);
 
-/// What the values say of the error bar, some of which are not 0.
+/// What values say of the error bar, if they are not all 0.
 ErrorBar bar_of(const Seen& seen);
 
 /// What an integrand showed of itself at shorter lengths of the same replicates.
@@ -57,8 +57,9 @@ struct Evidence {
 ///             range of all values; where those are equal too, their size, so that the rule of three holds for what
 ///             was not seen
 ///           - of a tail of index a > 2 the share R^-(1 - 2/a) of the variance lies beyond the largest of R values
-///           - of one with a < 5 the variance is known badly, and seems least where nothing large was met, which is
-///             where runs stop: it is the mean of this and that of the last length, times what a tail makes it fall
+///           - of a tail with a < 5 the variance is known badly. It seems least where nothing large was met, and that
+///             is where runs stop: so it is the mean of what this length shows and what the last one did, the latter
+///             scaled as the variance of such a tail falls
 ///   bar   : unseen where every value was zero, else as bar_of says
 ///   seen  : the values behind it, and the tail of the integrand
 Mean replicated(std::span<const double> means, double points, const Seen& seen, Evidence& evidence);

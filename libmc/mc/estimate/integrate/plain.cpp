@@ -29,8 +29,9 @@ std::vector<std::vector<double>> batch_means(const Sums& total) {
 Outcome plain(Run& run, std::optional<Outcome>& last) {
   const Keep keep = run.outputs > 1 ? Keep::batches : Keep::sums;
   Sums total;
-  for (std::uint64_t first = 0, count = 1024;; first += count, count = first) {
-    count = std::min(count, run.left());
+  // Rounds of 1024 points, then each of as many as all before it.
+  for (std::uint64_t first = 0;;) {
+    const std::uint64_t count = std::min(std::max<std::uint64_t>(first, 1024), run.left());
     total.merge(run.evaluate_all({Independent{run.o.seed}}, first, count, {}, keep).front());
     Outcome out{{}, Method::plain};
     for (std::size_t k = 0; k < run.outputs; ++k) out.means.push_back(of_values(total.outputs[k], total.seen[k]));
@@ -40,6 +41,7 @@ Outcome plain(Run& run, std::optional<Outcome>& last) {
     if (run.converged(out.means)) out.stop = Stop::converged;
     if (out.stop == Stop::converged || run.left() == 0) return out;
     last = out;
+    first += count;
   }
 }
 

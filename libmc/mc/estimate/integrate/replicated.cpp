@@ -41,8 +41,8 @@ class Growth {
     if (!grow(s, end.length)) use_up(s);
     return std::move(out);
   }
-  // Takes what a sequence says for the outcome; whether that is good enough. Short ones agree where none has met a
-  // thousandth of the volume that decides, or what a density thought little of.
+  // Makes what sequences say the outcome, and returns whether that is good enough. Short ones never are: they agree
+  // where none of them has met a thousandth of the volume that decides, or a place where the density is far too low.
   bool adopt(const Sequences& s, const Means& means) {
     out.means = means;
     out.seen = s.seen();

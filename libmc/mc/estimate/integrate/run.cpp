@@ -14,9 +14,7 @@ constexpr std::uint64_t block = 256;   // points drawn at once
 constexpr double thread_start = 5e-4;  // seconds of work that are worth waking other threads
 constexpr double most_infinite = 1e-3; // of the volume: more is no singularity
 constexpr double few_infinite = 8;     // points
-} // namespace
 
-namespace {
 // How the values at one point count: value * factor - centre * shift.
 struct Weight {
   double factor = 1, shift = 0;

@@ -38,7 +38,11 @@ struct Integrand {
   const VectorIntegrand* several = nullptr;
   const BatchIntegrand* batch = nullptr;
 
-  bool empty() const { return one ? !*one : several ? !*several : !batch->f; }
+  bool empty() const {
+    if (one) return !*one;
+    if (several) return !*several;
+    return !batch->f;
+  }
   /// The values at points, both one after the other.
   void operator()(std::span<const double> points, std::size_t dim, std::span<double> values) const;
 };
@@ -48,7 +52,7 @@ struct Integrand {
 ///   batches : the moments of 32 batches of the values, whose means correlate as the errors do
 enum class Keep { sums, points, batches };
 
-/// What is told of a round.
+/// What a round found.
 struct Round {
   Method method;
   bool learning;
@@ -93,13 +97,13 @@ struct Run {
                                                    const std::vector<Sums>& uniform = {},
                                                    const Proposal& proposal = {}) const;
   /// The means of replicates of so many points each; `evidence` holds one entry per output, or none at first;
-  /// `let_go` are values of replicates that are no more: of each output the tail is that of all values.
+  /// `let_go` are values of replicates that were dropped: the tail of an output is that of all values.
   Means means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
               const std::vector<Sums>& uniform = {}, const Proposal& proposal = {},
               const std::vector<Seen>& let_go = {}) const;
-  /// Takes down a round, and reports it.
+  /// Records a round, and reports the progress.
   void record(Method method, const Means& means, bool learning = false);
-  /// That the last round of a method is independent of the answer.
+  /// Notes that the last round of a method is independent of the answer.
   void independent(Method method);
   /// Adds to chi2 how far a round lies from means that are independent of it.
   void compare(Round& round, const Means& means);

@@ -22,7 +22,7 @@ struct Sequences {
   std::vector<Sums> uniform_sums = {};
   std::vector<Means> history = {}; ///< at each length, of the outputs that are not only watched
   Means means = {};                ///< the latest, of all
-  std::vector<Seen> let_go = {};   ///< of sequences that are no more
+  std::vector<Seen> let_go = {};   ///< by sequences that were dropped
   std::vector<Evidence> evidence = {};
 
   static constexpr std::uint64_t longest = std::uint64_t{1} << 32;
@@ -33,15 +33,15 @@ struct Sequences {
   std::uint64_t calls_each() const { return length + (proposal.density ? (length + 7) / 8 : 0); }
   /// The means once every sequence has `to` points.
   Means extend(Run& run, std::uint64_t to);
-  /// All values that were seen, those of sequences that were let go too, one per output.
+  /// All values that were seen, also by sequences that were dropped, one per output.
   std::vector<Seen> seen() const;
   /// Correlations of the means' errors.
   Correlations correlations(const Run& run) const;
   /// The means with so many more sequences, as long as the others.
   Means widen(Run& run, std::uint32_t more);
-  /// Lets go of all but the first sequences, not of the sizes of what they saw.
+  /// Drops all but the first sequences, but not the sizes of what the others saw.
   void keep(std::uint32_t first);
-  /// Lets go of what was recorded.
+  /// Drops what was recorded.
   void forget();
 };
 

@@ -13,8 +13,7 @@ void ScaledMoments::rescale(int exponent) {
 void ScaledMoments::add(std::span<double> values, std::uint64_t first, double largest) {
   if (largest > 0 && std::isfinite(largest)) {
     const int size = std::ilogb(largest);
-    const bool nothing_yet = moments_.mean() == 0 && moments_.variance() == 0;
-    if (size - exponent_ > 256 || (nothing_yet && size - exponent_ < -256)) rescale(size);
+    if (size - exponent_ > 256 || (only_zeros() && size - exponent_ < -256)) rescale(size);
   }
   if (exponent_ != 0)
     for (double& x : values) x = std::ldexp(x, -exponent_);
@@ -25,10 +24,9 @@ void ScaledMoments::merge(const ScaledMoments& other) {
   ScaledMoments theirs = other;
   if (theirs.exponent_ != exponent_) {
     // Zeros have no size: they take that of the others.
-    const auto empty = [](const ScaledMoments& s) { return s.moments_.mean() == 0 && s.moments_.variance() == 0; };
-    const int exponent = empty(*this)    ? theirs.exponent_
-                         : empty(theirs) ? exponent_
-                                         : std::max(exponent_, theirs.exponent_);
+    int exponent = std::max(exponent_, theirs.exponent_);
+    if (only_zeros()) exponent = theirs.exponent_;
+    else if (theirs.only_zeros()) exponent = exponent_;
     rescale(exponent);
     theirs.rescale(exponent);
   }

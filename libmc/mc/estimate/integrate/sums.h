@@ -27,6 +27,8 @@ class ScaledMoments {
 
  private:
   void rescale(int exponent);
+  /// Or no values at all.
+  bool only_zeros() const { return moments_.mean() == 0 && moments_.variance() == 0; }
 
   Moments moments_;
   int exponent_ = 0;

@@ -32,8 +32,9 @@ class Magnitudes {
   ///   Source : [Hill75], with values known by their octave: the steps above the threshold are geometric
   double tail_index(std::uint64_t least) const;
 
-  /// That of the values at large: of a 512th of them, 16 to 128. Infinity where it is above 1.3 times that of the
-  /// count^(2/3) largest: a peak that few points met looks heavy too, but the farther out, the lighter.
+  /// The index of the largest 512th of the values, at least 16 and at most 128 of them. Infinity where it is above 1.3
+  /// times that of the count^(2/3) largest: the tail of a peak that few points met looks heavy too, but gets lighter
+  /// the farther out.
   double tail_index() const;
 
   /// Whether few values hold most of the sum: the sixteen largest, zeros left out, fall off with an index below 1/2,

@@ -10,43 +10,45 @@
 namespace mc {
 
 namespace {
-constexpr double borderline = 2; // the index that a variance needs more than
-constexpr double few = 0.25;     // the error that its largest values know it to
-constexpr double many = 0.06;    // and many of at most 10'000, less of more
-constexpr double enough = 12;    // points that tell how many stand for a volume
+constexpr double borderline = 2; // the variance is finite for an index above this
+constexpr double few = 0.25;     // standard error of an index of 2, as the largest values show it
+constexpr double many = 0.06;    // as many values show it, if they are at most 10'000; less if they are more
+constexpr double enough = 12;    // points of an octave that tell how many points stand for a volume
 constexpr double most = 0.6;     // of the volume, that a tail may fill
-// An index may grow as this power of a volume that shrinks: of x^-p y^-p it grows with a logarithm. The largest values
-// at uniform points know theirs badly.
+// The index of the largest values may exceed that of many by the ratio of their volumes to this power: that of
+// x^-p y^-p grows with a logarithm. Uniform points meet few large values, whose index is known badly.
 constexpr double growth = 0.06, growth_of_uniform = 0.14;
 
 int exponent_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff); }
 } // namespace
 
-// The points of the octaves from a lowest one up, numbered from there, if volumes fall with an index a: in each octave
-// as many for a volume as were seen, and above all that were seen as many as in the highest of them.
+// A power law fitted to the values from a lowest octave up. Octaves are numbered from that one, 0, 1, ... If the law
+// has the index a, the volume of an octave is 2^-a times that of the octave below it, without end. How many points
+// stand for a volume is known from the points that were seen in each octave; above the highest of these, it is taken
+// from that one. The index is right where the mean number of a point's octave is what the law makes it: the maximum of
+// the likelihood.
 class Tail::Fit {
  public:
-  bool known = false; // the lowest octave is not also that of all values
+  bool known = false; // enough values were met to say what the index is
   double points = 0;
 
   double volume() const { return all_.volume; }
   void add(const Octave& next) {
-    const bool together = points < enough; // of few points only all tell
+    const bool together = points < enough; // so few tell a rate only all together
     sum_ += points;                        // each is one octave farther up
     points += next.points();
     all_ += next;
     if (together) {
       std::fill(rates_.begin(), rates_.begin() + size_ + 1, all_.rate());
     } else {
-      last_ += next;
-      rates_[size_] = next.points() >= enough ? next.rate() : next.volume > 0 ? last_.rate() : rates_[size_ - 1];
+      rates_[size_] = rate_of(next);
     }
     last_ = next;
     ++size_;
   }
-  // Of an index of 2, were it that.
+  // Standard error of the index, if it is 2.
   double error() const { return 1 / (std::log(2.0) * std::sqrt(points * moments(borderline).variance)); }
-  // How far out the points lie, in deviations from what an index of 2 makes them.
+  // How much farther out the points lie than for an index of 2, in standard deviations.
   double farther() const {
     const Moments m = moments(borderline);
     return (sum_ / points - m.mean) / std::sqrt(m.variance / points);
@@ -64,15 +66,25 @@ class Tail::Fit {
   struct Moments {
     double mean, variance;
   };
-  // Of the number of a point's octave.
+  // Points for a volume. Few points do not tell it: those of the octave above count, too, and where there are none at
+  // all, its rate.
+  double rate_of(const Octave& next) const {
+    if (next.points() >= enough) return next.rate();
+    if (!(next.volume > 0)) return rates_[size_ - 1];
+    Octave both = last_;
+    both += next;
+    return both.rate();
+  }
+  // Of the number of a point's octave, for an index a.
   Moments moments(double a) const {
     const double q = std::exp2(-a);
     double power = 1, s0 = 0, s1 = 0, s2 = 0;
-    for (std::size_t k = 0; k < size_; ++k, power *= q) {
+    for (std::size_t k = 0; k < size_; ++k) {
       const double number = static_cast<double>(k), expected = rates_[size_ - 1 - k] * power;
       s0 += expected;
       s1 += number * expected;
       s2 += sqr(number) * expected;
+      power *= q;
     }
     // All octaves above: geometric series.
     const double k = static_cast<double>(size_), r = 1 / (1 - q), first = rates_[0] * power * r;
@@ -125,7 +137,7 @@ void Tail::merge(const Tail& other) {
   }
 }
 
-// The largest values that know an index of 2 to so much, or the most that are still a tail.
+// To so many of the largest values that an index of 2 has this standard error, or to all that are still a tail.
 Tail::Fit Tail::fit(double error) const {
   double all = 0;
   for (const Octave& o : seen_) all += o.volume;
@@ -139,7 +151,7 @@ Tail::Fit Tail::fit(double error) const {
   return fit;
 }
 
-// Of more values more: that an index grows shows over a wider range.
+// The more values there are, the more of them: over a wider range it shows whether the index grows.
 Tail::Fit Tail::fit_to_many() const {
   double points = 0;
   for (const Octave& o : seen_) points += o.points();

@@ -8,10 +8,11 @@
 
 namespace mc {
 
-/// The volume of {|f| > t} by octaves of t, from points of any density; mergeable with what others of the same density
-/// saw. Values that a density divides, f / q, hide the tail of f: where q was learned it follows f as far as it can
-/// tell. Beyond that it is bounded, so that f / q has no variance where f has none. Points of such a q lie as deep in
-/// the tail as the integral itself, and each says how much volume it stands for.
+/// The volume of {|f| > t} by octaves of t, from points of any density q; mergeable with what others of the same
+/// density saw. The values f / q that a run adds up hide the tail of f: a q that was learned follows f as far as its
+/// points showed it. Farther out q is bounded, so that the variance of f / q is infinite where that of f is. Therefore
+/// f itself is looked at. The points of such a q reach as deep into the tail as the integral does, and each says how
+/// much volume it stands for.
 class Tail {
  public:
   static constexpr int octaves = Magnitudes::octaves; ///< below the largest value; smaller ones are of the last
@@ -25,16 +26,18 @@ class Tail {
   void merge(const Tail& other);
   bool empty() const { return seen_.empty(); }
 
-  /// The index a of vol {|f| > t} ~ t^-a: the mean of f is finite for a > 1, its variance for a > 2. From the largest
-  /// values, as many as know an index of 2 to .25; infinity for those of a bounded f that are met often enough, or
-  /// where the index grows with t as no power's does.
+  /// The index a of vol {|f| > t} ~ t^-a: the mean of f is finite for a > 1, its variance for a > 2. It is found from
+  /// the largest values alone, from as many as it takes for an index of 2 to have a standard error of .25. Infinity
+  /// where fewer were met, where f is seen to be bounded, and where the index grows with t, which that of a power does
+  /// not.
   ///   error  : of a power law, a standard deviation of a / 8
   ///   Source : maximum likelihood for the numbers of points in octaves, [Hill75] where each stands for as much volume
   double index() const;
 
-  /// Whether the variance of f is infinite: both many values, that know an index of 2 to .06, or better where there are
-  /// more than 10'000, and the largest, that know it to .25, agree with an index of 2 or less. An index near 2 is not
-  /// told from 2: x^-.5 is named, products of several x^-.4, which look no lighter until very near 0, sometimes.
+  /// Whether the variance of f is infinite. The largest values must agree with an index of 2 or less, and so must many
+  /// values: as many as it takes for an index of 2 to have a standard error of .06, or less if there are more than
+  /// 10'000 in all. An index just above 2 cannot be told from 2: x^-.5 is found to have infinite variance, and
+  /// sometimes so is a product of several x^-.4, whose tail looks lighter only very near 0.
   bool infinite_variance() const;
 
  private:
@@ -76,8 +79,8 @@ struct Seen {
   double tail_index() const { return tail.empty() ? Tail(values).index() : tail.index(); }
   /// Two points so near that doubles cannot tell them apart may hold much of a singular integral. Where a density was
   /// learned the uniform points alone may show it, too: a density that follows f down to neighbouring doubles makes the
-  /// end of these look like the end of a tail. They are heard where they are a thousand, since steep exponentials look
-  /// as heavy to fewer, and where their index is well below 2, since they know it badly.
+  /// end of these look like the end of a tail. They count from a thousand on, since to fewer a steep exponential looks
+  /// as heavy, and only where their index is well below 2, since they do not show it well.
   bool infinite_variance() const {
     if (infinite > 0) return true;
     if (tail.empty() ? Tail(values).infinite_variance() : tail.infinite_variance()) return true;

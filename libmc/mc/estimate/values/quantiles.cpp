@@ -31,16 +31,18 @@ struct Seen {
   }
 };
 
-// Both ends of the interval grow with t but for chance: the first value whose share may be p, and the first whose share
-// is at least that.
+// The first value at which one end of the interval of the share is p or more. Both ends grow with t but for chance.
+std::vector<double>::const_iterator first_value(const Seen& seen, double p, double confidence,
+                                                double Estimate::Interval::*end) {
+  return std::partition_point(seen.all.begin(), seen.all.end(),
+                              [&](double t) { return seen.share(t, confidence).*end < p; });
+}
+
+// Between the first value whose share may be p, and the first whose share is at least that.
 Quantile quantile(const Seen& seen, double p, double confidence) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto first = [&](auto end) {
-    return std::partition_point(seen.all.begin(), seen.all.end(),
-                                [&](double t) { return end(seen.share(t, confidence)) < p; });
-  };
-  const auto lo = first([](const Estimate::Interval& i) { return i.hi; });
-  const auto hi = first([](const Estimate::Interval& i) { return i.lo; });
+  const auto lo = first_value(seen, p, confidence, &Estimate::Interval::hi);
+  const auto hi = first_value(seen, p, confidence, &Estimate::Interval::lo);
   const bool may_be_below = seen.share(-infinity, confidence).hi >= p; // of all that was seen
   const auto rank = static_cast<std::size_t>(std::ceil(p * static_cast<double>(seen.all.size())));
   const double value = seen.all[std::clamp<std::size_t>(rank, 1, seen.all.size()) - 1];

@@ -103,9 +103,8 @@ class Integrator {
     }
     evaluations += values_.size();
 
-    // What each new node differs from the interpolant of the coarser rule, in absolute value, so that neither nodes nor
-    // lines
-    // cancel: a function that jumps at random cannot look smooth.
+    // By how much each new node differs from the interpolant of the coarser rule, in absolute value, so that neither
+    // nodes nor lines cancel: a function that jumps at random cannot look smooth.
     double e1 = 0, e2 = 0, worst = -1, integral = 0;
     const std::array<int, 3> stride{1, n, n * n};
     for (int axis = 0; axis < dim_; ++axis) {
@@ -139,7 +138,7 @@ class Integrator {
     const double ratio = e2 > 0 ? e1 / e2 : 0.0;
     r.error = ratio < 0.1 ? 10 * e1 * ratio : e1;
     const bool edge = least == 0 && largest > 0; // of the support: never smooth
-    r.error = std::max(r.error, (edge ? 0.25 : r.rough ? 0.1 : 0.002) * e2) + 4e-16 * largest * volume;
+    r.error = std::max(r.error, least_share(edge, r.rough) * e2) + 4e-16 * largest * volume;
     r.rough = r.rough || edge || ratio > 0.3;
   }
 
@@ -174,6 +173,11 @@ class Integrator {
 
  private:
   static std::size_t ix(int i) { return static_cast<std::size_t>(i); }
+  // Of the surplus of the coarser level, what the error is at least: more where f was seen not to be smooth.
+  static double least_share(bool edge, bool rough) {
+    if (edge) return 0.25;
+    return rough ? 0.1 : 0.002;
+  }
   static const Rule& fine() {
     static const Rule rule(8);
     return rule;

@@ -8,8 +8,9 @@
 
 namespace mc {
 
-/// The claimed density at v, moved off the faces of the cube by 2^-500 at 0 and by 2^-53 at 1, where charts of infinite
-/// domains have no point, or less where it is finite there, and beside v where it is infinite there alone.
+/// The claimed density at v. On the faces of the cube charts of infinite domains have no point: there v is moved
+/// inside, by 2^-500 at 0 and by 2^-53 at 1. A v that is nearer to the face at 0 than that, but not on it, stays where
+/// it is if the density is finite and positive there. Where the density is infinite at v alone, it is that beside v.
 double density_inside(const Subject& subject, const Subject::Coordinates& v);
 /// Those at many points, which it moves likewise: one question where the subject answers many at once.
 void densities_inside(const Subject& subject, std::span<Subject::Coordinates> v, std::span<double> densities);

@@ -9,8 +9,9 @@ namespace mc {
 namespace {
 
 constexpr std::size_t points_of_box = 4, most_near = 1024, most_pieces = 2048;
-constexpr double over_samples = 4, over_seen = 4; // densities that say that something was missed
-constexpr int most_halvings = 64;                 // one after the other
+constexpr double over_samples = 4, over_seen = 4;                // densities that say that something was missed
+constexpr int most_halvings = 64;                                // one after the other
+constexpr std::array<double, 3> boxes_of_layer{512, 1024, 2048}; // in one, two and three dimensions
 
 struct NearPoint {
   Subject::Coordinates v; // moved into the layer
@@ -111,7 +112,7 @@ EstimatedMass slab_mass(const Subject& s, const Pilot& pilot, const Layer& layer
   cutter.cut(whole, ranks, points, 0);
 
   const double less = effort == Effort::full ? 1 : 16;
-  const double boxes = (s.dim == 1 ? 512.0 : s.dim == 2 ? 1024.0 : 2048.0) / less;
+  const double boxes = boxes_of_layer[static_cast<std::size_t>(s.dim - 1)] / less;
   const double per_axis = std::max(1.0, std::pow(boxes / static_cast<double>(cutter.pieces.size()), 1.0 / s.dim));
   Pcg random(seed);
   EstimatedMass mass;

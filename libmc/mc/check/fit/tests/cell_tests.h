@@ -30,8 +30,7 @@ struct CellTests {
 /// Tests counts against probabilities, given their sum (atoms are cells of their own, at the end). Spends the shares
 /// of alpha_shares.h.
 ///   chi-square : the cells form a binary tree in their order; at each node the split of its count between its halves
-///   is
-///                binomial and independent of all other nodes, so the levels give independent chi-squares, each
+///                is binomial and independent of all other nodes, so the levels give independent chi-squares, each
 ///                sensitive to errors of its own size
 ///   tails      : per axis, the mean of ln r and ln(1 - r) over the ranks r of the samples, a score with two degrees of
 ///                freedom: powerful against wrong exponents, roughness, rotations and shifts

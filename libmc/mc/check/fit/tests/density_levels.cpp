@@ -10,7 +10,7 @@
 namespace mc {
 namespace {
 
-// That z squared is chi-square far out in its tail.
+// Of a level, for its z squared to be chi-square far out in the tail, too.
 constexpr double least_information = 30;
 
 } // namespace

@@ -5,6 +5,7 @@
 #include <mc/check/fit/weighted_counts.h>
 #include <mc/check/report/report.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -29,7 +30,7 @@ class DensityLevels {
   static std::size_t index(double ratio) {
     if (!(ratio > 0)) return 0;
     const std::int64_t level = (std::bit_cast<std::int64_t>(ratio) >> 50) - middle + count / 2;
-    return static_cast<std::size_t>(level < 0 ? 0 : level < count ? level : count - 1);
+    return static_cast<std::size_t>(std::clamp<std::int64_t>(level, 0, count - 1));
   }
   std::array<WeightedCounts, count> levels_{};
 };

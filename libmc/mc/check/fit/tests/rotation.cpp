@@ -8,7 +8,8 @@
 namespace mc {
 namespace {
 
-// What a turn takes off a chi-square is no chance, and what remains is, or is little beside it.
+// Whether a turn explains the counts: what it takes off their chi-square is more than chance does, and what remains is
+// no more than chance, or little beside what it took.
 bool explains(double before, double after, double dof, double least_gain) {
   const double gain = before - after;
   return gain >= least_gain && after - dof <= std::max(3 * std::sqrt(2 * dof), 0.25 * gain);

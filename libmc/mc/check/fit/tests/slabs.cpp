@@ -56,29 +56,46 @@ void add_atoms(const Subject& s, const Pilot& pilot, const std::vector<double>& 
   if (high >= 2) add(n - high, high, true);
 }
 
-// How often as many of n samples are equal at some place, or at one of the two ends, were all of them rounded to steps
-// so coarse that as many pairs are equal elsewhere as there are, and one more. Fewer than 31 random bits, or those of
-// the scalar, are no excuse.
+// Samples that are rounded to steps are now and then equal, which makes no atom. How coarse the steps are, the pairs of
+// equal samples elsewhere tell; one more than were seen are assumed. This is how often so many of n samples would then
+// be equal at some place, or at one of the two ends. Steps coarser than those of 31 random bits, or of the scalar, are
+// not assumed: such a sampler is at fault.
 double chance_of_steps(const Subject& s, const Slab& atom, double n) {
   const double equal_to_one = std::min(2 * (atom.pairs_elsewhere + 1) / n, n * std::max(0x1p-31, s.epsilon));
   const double at_a_place = (atom.equal - 1) * std::log(equal_to_one);
   return std::exp(at_a_place + (atom.at_end ? std::log(2.0) : std::log(n) - std::lgamma(atom.equal + 1)));
 }
 
-// The widest gap of a place on an axis, in spacings of the 64 samples around it. Exponential spacings are seldom more
-// than 16 times their mean, so that a right sampler rarely pays for the test.
+// Gaps are numbered as the sample below them; gap -1 lies before the first sample.
+struct Gaps {
+  std::ptrdiff_t first, last;
+};
 enum class Place : std::uint8_t { low_end, inside, high_end };
 
+Gaps gaps_at(Place place, std::ptrdiff_t samples) {
+  switch (place) {
+  case Place::low_end: return {-1, -1};
+  case Place::inside: return {0, samples - 2};
+  case Place::high_end: return {samples - 1, samples - 1};
+  }
+  return {0, -1};
+}
+
+// The widest gap of a place on an axis, in spacings of the 64 samples around it. Exponential spacings are seldom more
+// than 16 times their mean, so that a right sampler rarely pays for the test.
 bool find_gap(const Subject& s, const std::vector<double>& v, Place place, Slab& slab) {
   constexpr std::ptrdiff_t around = 32;
   const auto n = static_cast<std::ptrdiff_t>(v.size());
   if (n < 4 * around) return false;
-  const std::ptrdiff_t from = place == Place::low_end ? -1 : place == Place::inside ? 0 : n - 1;
-  const std::ptrdiff_t to = place == Place::low_end ? -1 : place == Place::inside ? n - 2 : n - 1;
-  const auto at = [&](std::ptrdiff_t i) { return i < 0 ? 0.0 : i >= n ? 1.0 : v[static_cast<std::size_t>(i)]; };
+  // The samples with the ends of the axis about them.
+  const auto at = [&](std::ptrdiff_t i) {
+    if (i < 0) return 0.0;
+    return i < n ? v[static_cast<std::size_t>(i)] : 1.0;
+  };
+  const Gaps gaps = gaps_at(place, n);
   double widest = 16;
   std::ptrdiff_t below = -2;
-  for (std::ptrdiff_t i = from; i <= to; ++i) {
+  for (std::ptrdiff_t i = gaps.first; i <= gaps.last; ++i) {
     const std::ptrdiff_t first = std::max<std::ptrdiff_t>(i - around, 0), last = std::min(i + 1 + around, n - 1);
     // Rounding may carry samples just out of the chart, where nothing is claimed.
     if (at(i) < 0 || at(i + 1) > 1) continue;
@@ -105,7 +122,7 @@ bool is_rounding(const Subject& s, const Pilot& pilot, const Slab& gap) {
   return hi - lo <= rounded_steps * step;
 }
 
-// What the pilot beside a slab says that it would hold, were it no exception.
+// The slab with the points of the pilot in it and beside it, and the mass that it would hold if it were like these.
 Layer layer_around(const Pilot& pilot, const Slab& slab) {
   Layer layer{slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis], {}, 0, slab.kind == Slab::Kind::gap};
   constexpr double least = 64;

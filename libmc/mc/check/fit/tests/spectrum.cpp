@@ -62,17 +62,25 @@ struct Spectrum {
 std::vector<std::complex<float>> transform(const std::vector<float>& grid, std::size_t dim, std::size_t size) {
   std::vector<std::complex<float>> x = fourier_transform(grid, size);
   // Rows along the last axis followed each other; along the others they lie side by side, in blocks.
-  for (std::size_t d = 1, stride = size / 2 + 1; d < dim; ++d, stride *= size)
+  std::size_t stride = size / 2 + 1;
+  for (std::size_t d = 1; d < dim; ++d) {
     for (std::size_t first = 0; first < x.size(); first += stride * size)
       fourier_transform(&x[first], size, stride, stride, 1);
+    stride *= size;
+  }
   return x;
+}
+
+// Of bins on an axis, that memory allows.
+int most_bits(int dim) {
+  if (dim == 1) return 16;
+  return dim == 2 ? 10 : 6;
 }
 
 } // namespace
 
 FineGrid::FineGrid(int dim, double samples, double step) : dim_(dim) {
-  const int most = dim == 1 ? 16 : dim == 2 ? 10 : 6;
-  int bits = std::clamp(static_cast<int>(std::log2(8 * std::max(samples, 1.0)) / dim), 2, most);
+  int bits = std::clamp(static_cast<int>(std::log2(8 * std::max(samples, 1.0)) / dim), 2, most_bits(dim));
   // A lattice of steps is a wave whose amplitude in bins of width w is step / (pi w): a third of what samples show.
   while (bits > 2 && std::ldexp(step, bits) * std::sqrt(samples) > 1) --bits;
   size_ = std::size_t{1} << bits;
@@ -101,7 +109,11 @@ std::vector<Check> FineGrid::test(const WeightedCounts& all, double share, doubl
   const std::size_t half = size_ / 2 + 1;
   for (std::size_t row = 0; row < x.size() / half; ++row) {
     std::array<int, 3> k{};
-    for (std::size_t d = dim - 1, rest = row; d-- > 0; rest /= size_) k[d] = periods(rest % size_, size_);
+    std::size_t rest = row;
+    for (std::size_t d = dim - 1; d-- > 0;) {
+      k[d] = periods(rest % size_, size_);
+      rest /= size_;
+    }
     for (k[dim - 1] = 0; k[dim - 1] < static_cast<int>(half); ++k[dim - 1])
       spectrum.add(k, static_cast<double>(std::norm(x[row * half + static_cast<std::size_t>(k[dim - 1])])) / variance);
   }
@@ -141,8 +153,10 @@ double mean_step(const Subject& s, const Pilot& pilot, double most) {
   double largest = 0;
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
     double sum = 0, points = 0;
-    for (std::size_t i = 0; i < pilot.points.size(); i += every, points += 1)
+    for (std::size_t i = 0; i < pilot.points.size(); i += every) {
       sum += std::min(rounding(s, pilot.points[i], axis), most);
+      points += 1;
+    }
     largest = std::max(largest, sum / points);
   }
   return largest;

@@ -5,7 +5,10 @@
 
 namespace mc {
 
-double disagreement(double a, double b) { return a == b ? 0.0 : b != 0 ? std::abs(a / b - 1) : HUGE_VAL; }
+double disagreement(double a, double b) {
+  if (a == b) return 0;
+  return b != 0 ? std::abs(a / b - 1) : HUGE_VAL;
+}
 
 double disagreement(const Channels& a, const Channels& b) {
   double worst = 0;

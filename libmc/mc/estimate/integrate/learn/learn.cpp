@@ -7,11 +7,12 @@
 namespace mc::detail {
 
 namespace {
-constexpr double wide = 2; // of values: the rare large ones may not have been met yet
+constexpr double wide = 2; // Learner::width() from which on the rare large values may not have been met yet
 
-// By how much the logarithm of the variance of a round lies below that of the bare sequences, for as many points, at
-// the length next to it or at their last, whichever says more for the round: what few points met looks too good in
-// either.
+// How much better a round is than the bare sequences: the logarithm of their variance over its own, summed over the
+// outputs. For that their variance is taken to the number of points of the round, as if it fell like 1 / N. It is so
+// compared at the length next to the round's and at their last, and what speaks more for the round counts: a variance
+// that few points show is often too small.
 double ahead(const Means& round, std::uint64_t points, const Sequences& bare) {
   std::size_t at = 0;
   for (std::uint64_t length = 16; 2 * length <= points && at + 1 < bare.history.size(); length *= 2) ++at;
@@ -22,7 +23,7 @@ double ahead(const Means& round, std::uint64_t points, const Sequences& bare) {
   return std::max(by(at), by(bare.history.size() - 1));
 }
 
-// A round through a density, of so many points of each replicate; `last`, if any, becomes what it says.
+// A round of so many points of each replicate, drawn from a density; `last`, if any, becomes what it says.
 Means seen_through(Run& run, std::shared_ptr<const AdaptedDensity> density, std::uint64_t purpose, std::uint64_t points,
                    Learner* learner, std::optional<Outcome>* last) {
   const Proposal proposal{.density = std::move(density)};
@@ -30,8 +31,8 @@ Means seen_through(Run& run, std::shared_ptr<const AdaptedDensity> density, std:
                                                   learner ? Keep::points : Keep::sums);
   if (learner) learner->learn(sums);
   std::vector<Evidence> evidence;
-  // Of all rounds the last knew best where the integrand is: earlier ones may have met too little of it to know their
-  // own error.
+  // Only the last round is held against the answer: it knew best where the integrand is. Earlier ones may have met too
+  // little of it to know their own error.
   for (Round& r : run.rounds) r.independent = false;
   run.record(proposal.density->tree ? Method::tree : Method::vegas, run.means(sums, points, evidence), true);
   const Means& means = run.rounds.back().means;
@@ -50,12 +51,13 @@ std::vector<double> values(const Means& means) {
   return all;
 }
 
-// The density that was given, and whether it fits: tried by uniform points, of the bare sequences or a round, and by
-// as many calls of its own. Learning goes on from it.
+// The density that the caller gave, and whether it may be used as it is.
 struct Tried {
   Learned given;
   bool fits = true;
 };
+// Tries it on a round of points drawn from it, and on uniform points: those of the bare sequences or, without them, a
+// round as long. The learner learns from both, and goes on from that density.
 Tried tried(Run& run, const Sequences* bare, std::uint64_t points, Learner& learner, std::optional<Outcome>* said) {
   constexpr std::uint64_t of_uniform = 20, of_given = 21; // purposes that no round of learning has
   Tried all{{run.o.density, std::vector<double>(run.outputs)}};

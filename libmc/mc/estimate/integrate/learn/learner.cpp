@@ -19,7 +19,7 @@ void Learner::learn(const std::vector<Sums>& round) {
     points_.insert(points_.end(), s.points.begin(), s.points.end());
     values_.insert(values_.end(), s.values.begin(), s.values.end());
   }
-  weigh();
+  add_densities_of_round();
   measure();
   adapt_grid();
   if (rounds_.size() > 1) adapt_tree();
@@ -34,7 +34,7 @@ template <class F> void Learner::each(F&& f) const {
   });
 }
 
-void Learner::weigh() {
+void Learner::add_densities_of_round() {
   const std::size_t before = mixture_.size(), now = values_.size() / run_.leading();
   mixture_.resize(now);
   rounds_.push_back({static_cast<double>(now - before), density_});
@@ -66,8 +66,8 @@ void Learner::measure() {
   }
 }
 
-// What an output is off by where a point is drawn from the mixture with a density, squared, of every point that was
-// seen; over the squared mean.
+// For every point that was seen, its part of the variance of an output whose points are drawn from the mixture with the
+// density p, over the squared mean.
 std::vector<double> Learner::off(std::size_t output, const AdaptedDensity& p) const {
   const std::size_t outputs = run_.leading();
   double largest = 0, mean = 0;
@@ -97,7 +97,8 @@ bool Learner::fits(const AdaptedDensity& p) const {
   return true;
 }
 
-// The points as the grid sees them, and there the root of the squares of all outputs, or the one with its sign.
+// The points in the coordinates of the grid. The value of each is the root of the squares of all outputs, or, where
+// there is one output only, that output with its sign.
 WeightedValues Learner::within_grid() const {
   const std::size_t outputs = run_.leading();
   WeightedValues seen{run_.dim, points_, std::vector<double>(size()), std::vector<double>(size())};
@@ -112,8 +113,8 @@ WeightedValues Learner::within_grid() const {
   return seen;
 }
 
-// Of an integrand whose values are spread widely only a root is learned at first, since few of the largest would speak
-// for all; what is left is less wide.
+// Where the values are spread widely, a few of the largest would decide everything. Then the grid follows a root of the
+// integrand first, and what is left to learn is spread less widely.
 void Learner::adapt_grid() {
   const WeightedValues seen = within_grid();
   const double exponent = std::min(2.0, std::sqrt(8 / std::max(width_, 1e-3)));

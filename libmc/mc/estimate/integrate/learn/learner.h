@@ -23,10 +23,13 @@ class Learner {
   const AdaptedDensity& density() const { return density_; }
   /// Goes on from this density: the next round is drawn from it.
   void start_from(AdaptedDensity density) { density_ = std::move(density); }
-  /// Whether a density that was not learned here may stay what it is, after rounds of uniform points and of its own.
-  /// Not where a run as short as may converge would meet fewer than eight of the points that its variance is made of:
-  /// what the density thinks little of has that look, and replicates that met none of it agree. Nor where density(),
-  /// that goes on from it, leaves less than half of its variance; without its tree, if the other has none.
+  /// Whether a density that the caller gave may be used as it is. Asked after a round of uniform points and one drawn
+  /// from that density. It does not fit
+  ///   - where its variance is not tiny and comes from few points: from fewer than eight in the shortest run that may
+  ///     converge. That is how a density looks that is far too low somewhere; replicates that all missed the place
+  ///     agree
+  ///   - where its variance is large, and density(), which went on learning from it, has less than half of that. If the
+  ///     given one has no tree, density() is judged without its own
   bool fits(const AdaptedDensity& density) const;
   /// The logarithm of the mean square over the squared mean of the values under the density before the last round: the
   /// variance of their logarithm, were they log-normal. Of the widest output.
@@ -41,7 +44,7 @@ class Learner {
   std::size_t size() const { return mixture_.size(); }
   std::span<const double> point(std::size_t i) const { return {points_.data() + i * dim_, dim_}; }
   template <class F> void each(F&& f) const;
-  void weigh();
+  void add_densities_of_round();
   void measure();
   std::vector<double> off(std::size_t output, const AdaptedDensity& p) const;
   WeightedValues within_grid() const;
