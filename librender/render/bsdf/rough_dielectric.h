@@ -20,7 +20,7 @@ class RoughDielectric {
  public:
   RoughDielectric(Float eta, Float alpha, const Spectrum& reflectance = Spectrum::Ones(),
                   const Spectrum& transmittance = Spectrum::Ones())
-      : eta_(checked_index("rough dielectric", eta)), facets_(checked_alpha("rough dielectric: alpha", alpha)),
+      : eta_(checked_index("rough dielectric", eta)), facets_(alpha),
         reflectance_(checked_reflectance("rough dielectric: specularReflectance", reflectance)),
         transmittance_(checked_reflectance("rough dielectric: specularTransmittance", transmittance)) {
     mc::require(std::abs(eta - 1) >= Float(1e-4),

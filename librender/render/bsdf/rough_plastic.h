@@ -62,8 +62,8 @@ class LajollaBase {
 template <class Base = LayeredBase> class RoughPlastic {
  public:
   RoughPlastic(Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
-      : eta_(checked_index("rough plastic", eta)), facets_(checked_alpha("rough plastic: alpha", alpha)),
-        base_(eta, alpha), diffuse_(checked_reflectance("rough plastic: diffuseReflectance", diffuse)),
+      : eta_(checked_index("rough plastic", eta)), facets_(alpha), base_(eta, alpha),
+        diffuse_(checked_reflectance("rough plastic: diffuseReflectance", diffuse)),
         specular_(checked_reflectance("rough plastic: specularReflectance", specular)), diffuse_y_(luminance(diffuse)),
         specular_y_(luminance(specular)) {}
 
