@@ -95,6 +95,7 @@ template <class Base = LayeredBase> class RoughPlastic {
     const Float share = specular_share(r->wo);
     return share * facets_.seen_from(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
   }
+  Float eta(const Vec3&, const Vec3&) const { return 1; }
   bool is_delta() const { return false; }
   bool is_narrow() const { return false; }
   bool has_delta() const { return false; }

@@ -121,7 +121,8 @@ class Directions {
   std::optional<Direction> aimed_at(const Vertex<B>& at, const Vec3& wi, const Vec3& d, Float targets) const {
     if (!is_real(at, wi, d)) return {};
     const Float own = at.bsdf.pdf(at.wo, wi), density = mixed(at, own, targets);
-    return Direction{d, at.bsdf.eval(at.wo, wi) * (std::abs(wi.z()) / density), density, 1, density / own};
+    return Direction{d, at.bsdf.eval(at.wo, wi) * (std::abs(wi.z()) / density), density, at.bsdf.eta(at.wo, wi),
+                     density / own};
   }
 
   // The density of the mixture, from those of its parts.
