@@ -20,9 +20,8 @@ constexpr int deepest = 64;          // beyond this depth halves are taken by co
 constexpr int levels = deepest + 32; // what the stack of a ray suffices for
 
 struct Split {
-  int axis = -1;
-  int bin = 0;
-  double cost = mc::infinity<double>;
+  int axis = 0, bin = 0;
+  double cost = mc::infinity<double>; ///< infinite: there is none
 };
 
 struct Bins {
@@ -102,7 +101,7 @@ WideTree::WideTree(const std::vector<Bounds>& boxes, std::uint32_t lanes) : orde
     }
 
     auto middle = begin + count / 2; // identical centres, or too deep: halves by count
-    if (best.axis >= 0) {
+    if (best.cost < mc::infinity<double>) {
       middle = std::partition(begin, end, [&](std::uint32_t i) { return bin_of(i, best.axis) <= best.bin; });
     } else {
       int axis = 0;

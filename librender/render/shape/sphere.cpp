@@ -67,15 +67,12 @@ SurfacePoint Sphere::point(const Vec3d& direction) const {
   s.error = std::numeric_limits<Float>::epsilon() * s.p.lpNorm<Eigen::Infinity>() + Float(0x1p-50 * extent_);
   s.ng = (inside_out_ ? Vec3d(-direction) : direction).cast<Float>();
   s.ns = s.ng;
-  s.prim = 0;
   return s;
 }
 
 SurfacePoint Sphere::surface_point(const Ray& ray, const Hit& hit) const {
   // Projected, since t may be off by more than the error of a point of the sphere, which matters off it, not along it.
-  SurfacePoint s = point((ray.o.cast<double>() + hit.t * ray.d.cast<double>() - center_).normalized());
-  s.shape = hit.shape;
-  return s;
+  return point((ray.o.cast<double>() + hit.t * ray.d.cast<double>() - center_).normalized());
 }
 
 double Sphere::spread(const Vec3& ref) const {

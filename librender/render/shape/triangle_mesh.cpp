@@ -150,9 +150,7 @@ SurfacePoint TriangleMesh::surface_point(const Ray& ray, const Hit& hit) const {
               inward = center_of(vertices(triangle)).cast<double>() - p;
   const double error = double(std::numeric_limits<Float>::epsilon()) * p.lpNorm<Eigen::Infinity>() + double(error_);
   const double step = std::min(0.5, 4 * error / inward.lpNorm<Eigen::Infinity>());
-  SurfacePoint s = at(p + step * inward, triangle, hit.b1, hit.b2);
-  s.shape = hit.shape;
-  return s;
+  return at(p + step * inward, triangle, hit.b1, hit.b2);
 }
 
 Float TriangleMesh::area_pdf(Float cosine, Float distance2) const {
