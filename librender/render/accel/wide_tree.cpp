@@ -143,8 +143,8 @@ std::vector<std::uint32_t> WideTree::parents_first(const std::vector<Binary>& tr
   return order;
 }
 
-// The cheapest border for the items of a node is not so for the boxes that came of it: where that makes a child's box
-// smaller, its sibling changes places with one of its children.
+// Borders are drawn by the items of a node, before it is known which boxes these end up in. Now that it is, a child of
+// a node changes places with a child of the other one, where that makes the other one's box smaller.
 void WideTree::rotate(std::vector<Binary>& tree) {
   const auto order = parents_first(tree);
   for (const std::uint32_t i : order)

@@ -96,7 +96,7 @@ class RoughDielectric {
     if (!(view.wo.z() > 0) || wi.z() == 0) return {};
     const bool reflects = wi.z() > 0;
     // In double: grazing facets have cosines that are small differences, and wo and wi exchanged give the same ones.
-    const double ratio = reflects ? 1 : (wo.z() < 0 ? 1 / double(eta_) : double(eta_));
+    const double far_index = wo.z() < 0 ? 1 / double(eta_) : double(eta_), ratio = reflects ? 1 : far_index;
     const bool cancel = view.wo.z() + wi.z() < Float(0.5) && reflects; // as in half_vector
     const Vec3d o = cancel ? unit_in_double(view.wo) : Vec3d(view.wo.cast<double>());
     const Vec3d i = cancel ? unit_in_double(wi) : Vec3d(wi.cast<double>()), sum = o + ratio * i;

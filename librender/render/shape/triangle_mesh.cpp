@@ -81,12 +81,12 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
     for (const Vec3& p : v) bounds_.add(p);
   }
   if (area_ > 0) choice_.emplace(areas);
-  const auto agrees = [&](const Face& f, std::uint32_t v) {
-    return normals_[v].dot(f.normal) > Float(1 - 1e-6) * normals_[v].norm();
+  const auto is_flat = [&](const Face& f) {
+    for (const std::uint32_t v : f.vertices)
+      if (!(normals_[v].dot(f.normal) > Float(1 - 1e-6) * normals_[v].norm())) return false;
+    return true;
   };
-  if (!normals_.empty() && std::all_of(faces_.begin(), faces_.end(), [&](const Face& f) {
-        return std::all_of(f.vertices.begin(), f.vertices.end(), [&](std::uint32_t v) { return agrees(f, v); });
-      }))
+  if (!normals_.empty() && std::all_of(faces_.begin(), faces_.end(), is_flat))
     normals_ = decltype(normals_)(); // gives back their memory, which = {} would keep
   for (const Vec3& p : positions_) error_ = std::max(error_, Float(0x1p-49) * p.lpNorm<Eigen::Infinity>());
 }
