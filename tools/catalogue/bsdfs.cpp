@@ -21,15 +21,22 @@ void add_bsdfs(Catalogue& c) {
   // At alpha 1e-4 and 89.9 degrees the lobe is as wide as six steps of a float direction.
   const auto grazing = [](double alpha) { return alpha < 1e-3 ? 89 : 89.9; };
   for (const double alpha : {1e-4, 1e-3, 0.02, 0.3, 1.0})
-    add_bsdf(c, "RoughPlastic", fmt::format("alpha={}", alpha),
+    add_bsdf(c, "RoughPlastic", fmt::format("LayeredBase, alpha={}", alpha),
              render::RoughPlastic(render::Float(1.49), render::Float(alpha), paint, one),
+             {0, 60, 85, grazing(alpha), 120});
+  // Kept for comparison with lajolla, it reflects up to 1.84 times the light that there is: only where no colour is
+  // above .5 can it obey the energy law beside all others.
+  const render::Spectrum half = one / 2;
+  for (const double alpha : {1e-4, 0.02, 1.0})
+    add_bsdf(c, "RoughPlastic", fmt::format("LajollaBase, specular=0.5, alpha={}", alpha),
+             render::RoughPlastic<render::LajollaBase>(render::Float(1.49), render::Float(alpha), paint, half),
              {0, 60, 85, grazing(alpha), 120});
   const render::Spectrum gold(0.143f, 0.375f, 1.442f), gold_k(3.983f, 2.386f, 1.603f);
   for (const double alpha : {1e-4, 1e-3, 0.02, 0.3, 1.0}) {
     const std::vector<double> angles = {0, 60, grazing(alpha), 120};
-    add_bsdf(c, "RoughConductor", fmt::format("ggx, alpha={}", alpha),
+    add_bsdf(c, "RoughConductor", fmt::format("Microfacets, alpha={}", alpha),
              render::RoughConductor(gold, gold_k, render::Microfacets(render::Float(alpha))), angles);
-    add_bsdf(c, "RoughConductor", fmt::format("phong, alpha={}", alpha),
+    add_bsdf(c, "RoughConductor", fmt::format("BlinnPhongFacets, alpha={}", alpha),
              render::RoughConductor(gold, gold_k, render::BlinnPhongFacets(render::Float(alpha))), angles);
   }
   for (const double alpha : {1e-4, 1e-3, 0.1, 0.5})

@@ -14,7 +14,8 @@ const Bvh::Trace& best_trace() {
                     __builtin_cpu_supports("bmi2");
   const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-  return avx2 && avx512 ? trace_avx512 : avx2 ? trace_avx2 : trace_baseline;
+  if (!avx2) return trace_baseline;
+  return avx512 ? trace_avx512 : trace_avx2;
 }
 const Bvh::Trace trace = best_trace();
 #else

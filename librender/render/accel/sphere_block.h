@@ -66,7 +66,8 @@ class SphereBlock {
       hit1 &= start + at.t1 * along >= cap_;
     }
     if constexpr (any) return detail::any_lane(hit0 | hit1);
-    const EightDoubles t = hit0 ? at.t0 : hit1 ? at.t1 : EightDoubles{} + mc::infinity<double>;
+    const EightDoubles beyond = hit1 ? at.t1 : EightDoubles{} + mc::infinity<double>;
+    const EightDoubles t = hit0 ? at.t0 : beyond;
     const int lane = detail::lowest_lane(t);
     if (!(t[lane] < limit)) return false;
     t_max = Float(t[lane]);

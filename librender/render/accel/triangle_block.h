@@ -65,10 +65,10 @@ class TriangleBlock {
   /// A ray meets the plane of a triangle at t = above / slope. Differences of floats and their products are all but
   /// exact in double; those of doubles are compensated. Not kept in the block: few of its triangles are asked, and
   /// their planes would take 256 bytes beside its 352.
-  struct Plane {
+  struct PlaneCrossing {
     double above, slope;
   };
-  Plane plane(const Ray& ray, int lane) const {
+  PlaneCrossing plane_crossing(const Ray& ray, int lane) const {
     const Vec3d a = vertex(0, lane), b = vertex(1, lane) - a, c = vertex(2, lane) - a;
     const Vec3d n = std::is_same_v<Float, double> ? mc::cross<double>(b, c) : b.cross(c);
     return {n.dot(a - ray.o.cast<double>()), n.dot(ray.d.cast<double>())};
@@ -94,7 +94,7 @@ template <bool any> bool TriangleBlock::intersect(const Ray& ray, const Prepared
   bool found = false;
   for (; candidates != 0; candidates &= candidates - 1) {
     const int lane = __builtin_ctz(candidates);
-    const auto [above, slope] = plane(ray, lane);
+    const auto [above, slope] = plane_crossing(ray, lane);
     const double ahead = slope < 0 ? -above : above;
     if (!(ahead > 0 && ahead < double(t_max) * std::abs(slope))) continue;
     double area0 = double(areas0[lane]), area1 = double(areas1[lane]), area2 = double(areas2[lane]);

@@ -20,9 +20,8 @@ constexpr int deepest = 64;          // beyond this depth halves are taken by co
 constexpr int levels = deepest + 32; // what the stack of a ray suffices for
 
 struct Split {
-  int axis = -1;
-  int bin = 0;
-  double cost = mc::infinity<double>;
+  int axis = 0, bin = 0;
+  double cost = mc::infinity<double>; ///< infinite: there is none
 };
 
 struct Bins {
@@ -102,7 +101,7 @@ WideTree::WideTree(const std::vector<Bounds>& boxes, std::uint32_t lanes) : orde
     }
 
     auto middle = begin + count / 2; // identical centres, or too deep: halves by count
-    if (best.axis >= 0) {
+    if (best.cost < mc::infinity<double>) {
       middle = std::partition(begin, end, [&](std::uint32_t i) { return bin_of(i, best.axis) <= best.bin; });
     } else {
       int axis = 0;
@@ -144,8 +143,8 @@ std::vector<std::uint32_t> WideTree::parents_first(const std::vector<Binary>& tr
   return order;
 }
 
-// The cheapest border for the items of a node is not so for the boxes that came of it: where that makes a child's box
-// smaller, its sibling changes places with one of its children.
+// Borders are drawn by the items of a node, before it is known which boxes these end up in. Now that it is, a child of
+// a node changes places with a child of the other one, where that makes the other one's box smaller.
 void WideTree::rotate(std::vector<Binary>& tree) {
   const auto order = parents_first(tree);
   for (const std::uint32_t i : order)

@@ -25,6 +25,9 @@ struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic<LayeredBase>
   Float pdf(const Vec3& wo, const Vec3& wi) const {
     return dispatch(*this, [&](const auto& b) { return b.pdf(wo, wi); });
   }
+  Float eta(const Vec3& wo, const Vec3& wi) const {
+    return dispatch(*this, [&](const auto& b) { return b.eta(wo, wi); });
+  }
   bool is_delta() const {
     return dispatch(*this, [](const auto& b) { return b.is_delta(); });
   }

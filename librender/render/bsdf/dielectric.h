@@ -34,6 +34,13 @@ inline Float checked_index(std::string_view what, Float eta) {
   return eta;
 }
 
+/// Of a boundary to a medium of relative index eta (inside over outside): the index on the side of wi over that on the
+/// side of wo.
+inline Float index_across(const Vec3& wo, const Vec3& wi, Float eta) {
+  if (wo.z() * wi.z() >= 0) return 1;
+  return wo.z() > 0 ? eta : 1 / eta;
+}
+
 /// Smooth boundary to a medium of relative index eta (inside over outside, the normal points outside): two delta lobes,
 /// chosen by the Fresnel reflectance.
 ///   f      : radiance is divided by the squared relative index on refraction, so that etendue is conserved
@@ -60,6 +67,7 @@ class Dielectric {
   }
   Spectrum eval(const Vec3&, const Vec3&) const { return Spectrum::Zero(); }
   Float pdf(const Vec3&, const Vec3&) const { return 0; }
+  Float eta(const Vec3& wo, const Vec3& wi) const { return index_across(wo, wi, eta_); }
   bool is_delta() const { return true; }
   bool is_narrow() const { return true; }
   bool has_delta() const { return true; }

@@ -29,6 +29,7 @@ class Lambert {
     return wo.z() * wi.z() > 0 ? Spectrum(albedo_ * inv_pi) : Spectrum(Spectrum::Zero());
   }
   Float pdf(const Vec3& wo, const Vec3& wi) const { return wo.z() * wi.z() > 0 ? std::abs(wi.z()) * inv_pi : Float(0); }
+  Float eta(const Vec3&, const Vec3&) const { return 1; }
   bool is_delta() const { return false; }
   bool is_narrow() const { return false; }
   bool has_delta() const { return false; }

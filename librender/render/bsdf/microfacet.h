@@ -8,9 +8,10 @@
 
 namespace render {
 
-/// alpha itself, for initialisers. Throws Error naming `what` unless it lies in [1e-4, 1].
-inline Float checked_alpha(std::string_view what, Float alpha) {
-  mc::require(alpha >= Float(1e-4) && alpha <= 1, "{} {} must lie in [0.0001, 1]", what, alpha);
+/// The roughness of facets itself, for their initialisers.
+///   throws : Error unless it lies in [1e-4, 1]
+inline Float checked_alpha(Float alpha) {
+  mc::require(alpha >= Float(1e-4) && alpha <= 1, "facets: alpha {} must lie in [0.0001, 1]", alpha);
   return alpha;
 }
 
@@ -53,10 +54,12 @@ inline std::optional<Reflection> reflection(const Vec3& wo, const Vec3& wi) {
 }
 
 /// Facets of the Trowbridge-Reitz (GGX) distribution of roughness alpha. Shadowing and masking are separable:
-/// G = G1(wo) G1(wi). Source: [WalterEtAl07]
+/// G = G1(wo) G1(wi).
+///   throws : Error unless alpha is a checked_alpha
+///   Source : [WalterEtAl07]
 class Microfacets {
  public:
-  explicit Microfacets(Float alpha) : surface_(alpha, alpha) {}
+  explicit Microfacets(Float alpha) : surface_(checked_alpha(alpha), alpha) {}
 
   Float alpha() const { return surface_.alpha_x; }
   Float d(const Vec3& m) const { return surface_.d(m); }
@@ -76,10 +79,11 @@ class Microfacets {
 /// Facets of Blinn-Phong's distribution D(m) = (n + 2) / (2 pi) cos^n, of which the integral of D cos is 1. They are
 /// the sides of V-shaped grooves: G = min(1, 2 cos m cos wo / wo.m, 2 cos m cos wi / wo.m).
 ///   n      : 2 / alpha^2 - 2, so that small slopes are distributed as Beckmann's of roughness alpha [WalterEtAl07]
+///   throws : Error unless alpha is a checked_alpha
 ///   Source : [Blinn77]
 class BlinnPhongFacets {
  public:
-  explicit BlinnPhongFacets(Float alpha) : alpha_(alpha), normals_(2 / (alpha * alpha) - 1) {}
+  explicit BlinnPhongFacets(Float alpha) : alpha_(checked_alpha(alpha)), normals_(2 / (alpha * alpha) - 1) {}
 
   Float alpha() const { return alpha_; }
   Float d(const Vec3& m) const { return normals_.pdf(m) / m.z(); }

@@ -61,6 +61,7 @@ template <class Facets> class RoughConductor {
     const auto r = reflection(wo, wi);
     return r ? facets_.seen_from(r->wo).pdf_reflected(r->m) : Float(0);
   }
+  Float eta(const Vec3&, const Vec3&) const { return 1; }
   bool is_delta() const { return false; }
   bool is_narrow() const { return facets_.alpha() < narrow_alpha; }
   bool has_delta() const { return false; }

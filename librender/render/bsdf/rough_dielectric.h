@@ -20,7 +20,7 @@ class RoughDielectric {
  public:
   RoughDielectric(Float eta, Float alpha, const Spectrum& reflectance = Spectrum::Ones(),
                   const Spectrum& transmittance = Spectrum::Ones())
-      : eta_(checked_index("rough dielectric", eta)), facets_(checked_alpha("rough dielectric: alpha", alpha)),
+      : eta_(checked_index("rough dielectric", eta)), facets_(alpha),
         reflectance_(checked_reflectance("rough dielectric: specularReflectance", reflectance)),
         transmittance_(checked_reflectance("rough dielectric: specularTransmittance", transmittance)) {
     mc::require(std::abs(eta - 1) >= Float(1e-4),
@@ -55,6 +55,7 @@ class RoughDielectric {
     const auto at = facet_between(wo, wi);
     return at ? density_of(*at) : Float(0);
   }
+  Float eta(const Vec3& wo, const Vec3& wi) const { return index_across(wo, wi, eta_); }
   bool is_delta() const { return false; }
   bool is_narrow() const { return facets_.alpha() < narrow_alpha; }
   bool has_delta() const { return false; }
@@ -95,7 +96,7 @@ class RoughDielectric {
     if (!(view.wo.z() > 0) || wi.z() == 0) return {};
     const bool reflects = wi.z() > 0;
     // In double: grazing facets have cosines that are small differences, and wo and wi exchanged give the same ones.
-    const double ratio = reflects ? 1 : (wo.z() < 0 ? 1 / double(eta_) : double(eta_));
+    const double far_index = wo.z() < 0 ? 1 / double(eta_) : double(eta_), ratio = reflects ? 1 : far_index;
     const bool cancel = view.wo.z() + wi.z() < Float(0.5) && reflects; // as in half_vector
     const Vec3d o = cancel ? unit_in_double(view.wo) : Vec3d(view.wo.cast<double>());
     const Vec3d i = cancel ? unit_in_double(wi) : Vec3d(wi.cast<double>()), sum = o + ratio * i;

@@ -62,8 +62,8 @@ class LajollaBase {
 template <class Base = LayeredBase> class RoughPlastic {
  public:
   RoughPlastic(Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
-      : eta_(checked_index("rough plastic", eta)), facets_(checked_alpha("rough plastic: alpha", alpha)),
-        base_(eta, alpha), diffuse_(checked_reflectance("rough plastic: diffuseReflectance", diffuse)),
+      : eta_(checked_index("rough plastic", eta)), facets_(alpha), base_(eta, alpha),
+        diffuse_(checked_reflectance("rough plastic: diffuseReflectance", diffuse)),
         specular_(checked_reflectance("rough plastic: specularReflectance", specular)), diffuse_y_(luminance(diffuse)),
         specular_y_(luminance(specular)) {}
 
@@ -95,6 +95,7 @@ template <class Base = LayeredBase> class RoughPlastic {
     const Float share = specular_share(r->wo);
     return share * facets_.seen_from(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
   }
+  Float eta(const Vec3&, const Vec3&) const { return 1; }
   bool is_delta() const { return false; }
   bool is_narrow() const { return false; }
   bool has_delta() const { return false; }

@@ -14,7 +14,8 @@ struct InvalidSample {
   std::uint32_t pass = 0, index = 0;
 };
 
-/// Luminances of a pixel's samples: enough to see whether one of them decides.
+/// Luminances of a pixel's samples: enough to see whether one of them decides. mc::Moments with the largest beside them
+/// would take 48 bytes a pixel for these 32, and a division a sample.
 struct SampleSums {
   std::uint64_t count = 0;
   double sum = 0, squares = 0, largest = 0;
@@ -46,7 +47,8 @@ enum class ErrorOf {
 };
 
 /// Sums of the samples of every pixel, apart by the independent point sets that they come from: a pixel is the mean of
-/// its samples, and how its sets differ tells how far it may be off.
+/// its samples, and how its sets differ tells how far it may be off. Four sets take 112 bytes a pixel, of 152 in all;
+/// mc::Moments of each set and channel would take 480, of 536.
 class Film {
  public:
   /// throws : Error for a non-positive size or number of sets

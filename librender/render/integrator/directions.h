@@ -31,8 +31,8 @@ template <class B> bool is_real(const Vertex<B>& at, const Vec3& wi, const Vec3&
   return (seen_from * d.dot(at.point.ng) > 0) == (at.wo.z() * wi.z() > 0);
 }
 
-/// A chosen direction.
-struct Direction {
+/// Where a path goes next.
+struct ChosenDirection {
   Vec3 d;          ///< in the world
   Spectrum weight; ///< f |cos| / density
   Float pdf;       ///< [1/sr] among the directions that are no narrow lobe's; 0: of a narrow lobe, met by nothing else
@@ -58,7 +58,7 @@ class Directions {
  public:
   Directions(const Scene& scene, const Strategy& strategy);
 
-  template <class B, class Stream> std::optional<Direction> choose(const Vertex<B>& at, Stream& stream) const {
+  template <class B, class Stream> std::optional<ChosenDirection> choose(const Vertex<B>& at, Stream& stream) const {
     if (!targets_ || at.bsdf.is_narrow()) return followed(at, stream);
     const Vec2 u = stream.next2(); // u[0] also makes the choices, which are then as well spread as the directions
     const auto part = aimed(at.bsdf).sample_index(u[0]);
@@ -78,31 +78,31 @@ class Directions {
     return bsdf.has_delta() ? aims_for_delta_ : aims_;
   }
 
-  template <class B, class Stream> static std::optional<Direction> followed(const Vertex<B>& at, Stream& stream) {
+  template <class B, class Stream> static std::optional<ChosenDirection> followed(const Vertex<B>& at, Stream& stream) {
     const Float uc = stream.next();
     const auto s = at.bsdf.sample(at.wo, uc, stream.next2());
     if (!s) return {};
     const Vec3 d = at.frame.to_world(s->wi);
     if (!is_real(at, s->wi, d)) return {};
     const bool is_narrow = s->delta || at.bsdf.is_narrow();
-    return Direction{d, s->f * (std::abs(s->wi.z()) / s->pdf), is_narrow ? Float(0) : s->pdf, s->eta, 1};
+    return ChosenDirection{d, s->f * (std::abs(s->wi.z()) / s->pdf), is_narrow ? Float(0) : s->pdf, s->eta, 1};
   }
 
   // The BSDF's part of the mixture, of probability pmf.
   template <class B>
-  std::optional<Direction> mixed_follow(const Vertex<B>& at, const Vec2& u, Float pmf, Float uc) const {
+  std::optional<ChosenDirection> mixed_follow(const Vertex<B>& at, const Vec2& u, Float pmf, Float uc) const {
     const auto s = at.bsdf.sample(at.wo, uc, u);
     if (!s) return {};
     const Vec3 d = at.frame.to_world(s->wi);
     if (!is_real(at, s->wi, d)) return {};
-    if (s->delta) return Direction{d, s->f * (std::abs(s->wi.z()) / (s->pdf * pmf)), 0, s->eta, pmf};
+    if (s->delta) return ChosenDirection{d, s->f * (std::abs(s->wi.z()) / (s->pdf * pmf)), 0, s->eta, pmf};
     if (!follows_) return {};
     const Float density = mixed(at, s->pdf, targets_pdf(at, s->wi, d));
-    return Direction{d, s->f * (std::abs(s->wi.z()) / density), density, s->eta, density / s->pdf};
+    return ChosenDirection{d, s->f * (std::abs(s->wi.z()) / density), density, s->eta, density / s->pdf};
   }
 
   // The targets' part.
-  template <class B> std::optional<Direction> aim(const Vertex<B>& at, const Vec2& u) const {
+  template <class B> std::optional<ChosenDirection> aim(const Vertex<B>& at, const Vec2& u) const {
     if (shapes_.empty()) {
       const bool through = at.bsdf.transmits();
       Vec3 wi = through ? mc::UniformSphere<Float>{}.sample(u) : mc::UniformHemisphere<Float>{}.sample(u);
@@ -118,10 +118,11 @@ class Directions {
     return aimed_at(at, at.frame.to_local(s->wi), s->wi, density);
   }
   template <class B>
-  std::optional<Direction> aimed_at(const Vertex<B>& at, const Vec3& wi, const Vec3& d, Float targets) const {
+  std::optional<ChosenDirection> aimed_at(const Vertex<B>& at, const Vec3& wi, const Vec3& d, Float targets) const {
     if (!is_real(at, wi, d)) return {};
     const Float own = at.bsdf.pdf(at.wo, wi), density = mixed(at, own, targets);
-    return Direction{d, at.bsdf.eval(at.wo, wi) * (std::abs(wi.z()) / density), density, 1, density / own};
+    return ChosenDirection{d, at.bsdf.eval(at.wo, wi) * (std::abs(wi.z()) / density), density, at.bsdf.eta(at.wo, wi),
+                           density / own};
   }
 
   // The density of the mixture, from those of its parts.

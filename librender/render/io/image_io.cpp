@@ -47,13 +47,17 @@ template <class Can> const Format& format_of(const std::string& path, std::strin
                               fmt::join(usable, ", "), last));
 }
 
+// Errors name the file that was asked for, not the temporary one.
+void write_to(const std::string& temporary, const std::string& path, const Format& format, const Image& image,
+              const Tone& tone) {
+  mc::with_context(path, [&] { format.write(temporary, image, tone); });
+}
+
 } // namespace
 
 void write_image(const std::string& path, const Image& image, const Tone& tone) {
   const Format& format = format_of(path, "write", [](const Format& f) { return f.write != nullptr; });
-  mc::replace_file(path, [&](const std::string& temporary) {
-    mc::with_context(path, [&] { format.write(temporary, image, tone); });
-  });
+  mc::replace_file(path, [&](const std::string& temporary) { write_to(temporary, path, format, image, tone); });
 }
 
 Image read_image(const std::string& path) {

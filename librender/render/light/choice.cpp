@@ -20,8 +20,9 @@ std::optional<LightChoice> LightChoice::of(std::span<const Light> lights, double
   std::vector<double> powers;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {
     const double power = lights[i].is_sampled() ? lights[i].power(radius) : 0;
-    choice.place_.push_back(power > 0 ? std::int32_t(choice.candidates_.size()) : -1);
+    auto& place = choice.place_.emplace_back();
     if (!(power > 0)) continue;
+    place = static_cast<std::uint32_t>(choice.candidates_.size());
     choice.candidates_.push_back(i);
     powers.push_back(power);
   }
@@ -53,10 +54,10 @@ mc::DiscreteSample<Float> LightChoice::sample_index(std::span<const Light> light
 }
 
 Float LightChoice::pmf(std::span<const Light> lights, const Vec3& ref, std::size_t light) const {
-  if (place_[light] < 0) return 0;
+  const auto place = place_[light];
+  if (!place) return 0;
   if (candidates_.size() == 1) return 1;
-  const auto place = static_cast<std::size_t>(place_[light]);
-  return by_power_ ? by_power_->pmf(place) : seen_from(lights, ref).pmf(place);
+  return by_power_ ? by_power_->pmf(*place) : seen_from(lights, ref).pmf(*place);
 }
 
 } // namespace render

@@ -34,8 +34,8 @@ class LightChoice {
   mc::ShortDiscrete<Float, few> seen_from(std::span<const Light> lights, const Vec3& ref) const;
 
   std::vector<std::uint32_t> candidates_;
-  std::vector<std::int32_t> place_;                ///< of a light among the candidates; -1: it is none
-  std::optional<mc::TableDist1D<Float>> by_power_; ///< where they are many
+  std::vector<std::optional<std::uint32_t>> place_; ///< of a light among the candidates, if it is one
+  std::optional<mc::TableDist1D<Float>> by_power_;  ///< where they are many
 };
 
 } // namespace render

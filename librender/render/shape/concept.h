@@ -13,8 +13,8 @@ namespace render {
 /// The nearest crossing of a ray: which primitive of which shape, and where on it.
 struct Hit {
   double t = 0;         ///< in double, so that large triangles and far spheres are met at a point of theirs
-  int shape = -1;       ///< index into the scene's shapes
-  int prim = -1;        ///< triangle of a mesh; 0 for a sphere
+  int shape = 0;        ///< index into the scene's shapes
+  int prim = 0;         ///< triangle of a mesh; 0 for a sphere
   Float b1 = 0, b2 = 0; ///< barycentric weights of vertices 1 and 2 (mesh only)
 };
 
@@ -23,9 +23,9 @@ struct Hit {
 struct SurfacePoint {
   Vec3 p;
   Float error = 0;
-  Vec3 ng; ///< geometric normal, unit; the light-emitting side
-  Vec3 ns; ///< shading normal, unit, same side as ng
-  int shape = -1, prim = -1;
+  Vec3 ng;      ///< geometric normal, unit; the light-emitting side
+  Vec3 ns;      ///< shading normal, unit, same side as ng
+  int prim = 0; ///< triangle of a mesh; 0 for all else
 
   /// Ray origin moved along the normal, to the side that d points to, just beyond the error bound: a ray from there
   /// meets this surface again only where it truly does. No scene-scale epsilon.

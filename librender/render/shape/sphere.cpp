@@ -67,15 +67,12 @@ SurfacePoint Sphere::point(const Vec3d& direction) const {
   s.error = std::numeric_limits<Float>::epsilon() * s.p.lpNorm<Eigen::Infinity>() + Float(0x1p-50 * extent_);
   s.ng = (inside_out_ ? Vec3d(-direction) : direction).cast<Float>();
   s.ns = s.ng;
-  s.prim = 0;
   return s;
 }
 
 SurfacePoint Sphere::surface_point(const Ray& ray, const Hit& hit) const {
   // Projected, since t may be off by more than the error of a point of the sphere, which matters off it, not along it.
-  SurfacePoint s = point((ray.o.cast<double>() + hit.t * ray.d.cast<double>() - center_).normalized());
-  s.shape = hit.shape;
-  return s;
+  return point((ray.o.cast<double>() + hit.t * ray.d.cast<double>() - center_).normalized());
 }
 
 double Sphere::spread(const Vec3& ref) const {
@@ -100,7 +97,9 @@ std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const 
   ShapeSample s;
   const double d2 = toward.squaredNorm();
   if (is_cone(d2)) {
-    // A direction of the cone, and the near point of the sphere along it.
+    // A direction of the cone, and the near point of the sphere along it. mc::SphereLight would take 6 to 58 % longer,
+    // up to four times as long for the density alone, for its care at grazing distances: where is_cone() begins, this
+    // density is at most 2e-13 off (5e-9 if Float is double).
     const double d = std::sqrt(d2);
     const Vec3d local = mc::UniformCone<double>::from_sin2(radius_ * radius_ / d2).sample(v),
                 wi = mc::Frame<double>::from_z(toward / d).to_world(local);

@@ -81,12 +81,12 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
     for (const Vec3& p : v) bounds_.add(p);
   }
   if (area_ > 0) choice_.emplace(areas);
-  const auto agrees = [&](const Face& f, std::uint32_t v) {
-    return normals_[v].dot(f.normal) > Float(1 - 1e-6) * normals_[v].norm();
+  const auto is_flat = [&](const Face& f) {
+    for (const std::uint32_t v : f.vertices)
+      if (!(normals_[v].dot(f.normal) > Float(1 - 1e-6) * normals_[v].norm())) return false;
+    return true;
   };
-  if (!normals_.empty() && std::all_of(faces_.begin(), faces_.end(), [&](const Face& f) {
-        return std::all_of(f.vertices.begin(), f.vertices.end(), [&](std::uint32_t v) { return agrees(f, v); });
-      }))
+  if (!normals_.empty() && std::all_of(faces_.begin(), faces_.end(), is_flat))
     normals_ = decltype(normals_)(); // gives back their memory, which = {} would keep
   for (const Vec3& p : positions_) error_ = std::max(error_, Float(0x1p-49) * p.lpNorm<Eigen::Infinity>());
 }
@@ -150,9 +150,7 @@ SurfacePoint TriangleMesh::surface_point(const Ray& ray, const Hit& hit) const {
               inward = center_of(vertices(triangle)).cast<double>() - p;
   const double error = double(std::numeric_limits<Float>::epsilon()) * p.lpNorm<Eigen::Infinity>() + double(error_);
   const double step = std::min(0.5, 4 * error / inward.lpNorm<Eigen::Infinity>());
-  SurfacePoint s = at(p + step * inward, triangle, hit.b1, hit.b2);
-  s.shape = hit.shape;
-  return s;
+  return at(p + step * inward, triangle, hit.b1, hit.b2);
 }
 
 Float TriangleMesh::area_pdf(Float cosine, Float distance2) const {

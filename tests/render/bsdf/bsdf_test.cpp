@@ -21,6 +21,8 @@ TEST(Bsdf, SaysWhatItsMemberSays) {
   const Vec2 u(Float(0.2), Float(0.6));
   EXPECT_EQ(bsdf.pdf(wo, wi), metal.pdf(wo, wi));
   EXPECT_TRUE((bsdf.eval(wo, wi) == metal.eval(wo, wi)).all());
+  EXPECT_EQ(bsdf.eta(wo, -wi), 1);
+  EXPECT_EQ(Bsdf(RoughDielectric(Float(1.5), Float(0.1))).eta(wo, -wi), Float(1.5));
   EXPECT_EQ(bsdf.sample(wo, Float(0.5), u)->wi, metal.sample(wo, Float(0.5), u)->wi);
   EXPECT_FALSE(bsdf.is_delta());
   EXPECT_TRUE(Bsdf(Dielectric{}).is_delta());
@@ -29,7 +31,7 @@ TEST(Bsdf, SaysWhatItsMemberSays) {
 }
 
 // To the last bit, also where one step of the direction changes both: narrow lobes at grazing angles.
-TEST(Bsdf, ASampleSaysWhatEvalAndPdfSayOfItsDirection) {
+TEST(Bsdf, ASampleSaysWhatEvalPdfAndEtaSayOfItsDirection) {
   const Spectrum half = Spectrum::Constant(Float(0.5)), one = Spectrum::Ones();
   mc::Pcg random(7);
   for (const Float alpha : {Float(1e-4), Float(0.01), Float(1)})
@@ -45,6 +47,7 @@ TEST(Bsdf, ASampleSaysWhatEvalAndPdfSayOfItsDirection) {
           if (!s) continue;
           EXPECT_EQ(s->pdf, bsdf.pdf(wo, s->wi)) << alpha << ", " << angle << " degrees";
           EXPECT_TRUE((s->f == bsdf.eval(wo, s->wi)).all()) << alpha << ", " << angle << " degrees";
+          EXPECT_EQ(s->eta, bsdf.eta(wo, s->wi)) << alpha << ", " << angle << " degrees";
         }
       }
 }

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/files.h"
+
 namespace {
 
 using namespace render;
@@ -72,9 +74,16 @@ TEST(UnitInDouble, KeepsTheSmallerPart) {
 }
 
 TEST(Microfacets, RoughnessHasARange) {
-  EXPECT_EQ(checked_alpha("x", Float(0.5)), Float(0.5));
-  for (const Float bad : {Float(0), Float(-1), Float(1.5), std::numeric_limits<Float>::quiet_NaN()})
-    EXPECT_THROW(checked_alpha("x", bad), mc::Error);
+  for (const Float good : {Float(1e-4), Float(0.5), Float(1)}) {
+    EXPECT_EQ(Microfacets(good).alpha(), good);
+    EXPECT_EQ(BlinnPhongFacets(good).alpha(), good);
+  }
+  for (const Float bad :
+       {Float(0), Float(5e-5), Float(-0.5), Float(1.5), Float(50), std::numeric_limits<Float>::quiet_NaN()}) {
+    const std::string refusal = fmt::format("facets: alpha {} must lie in [0.0001, 1]", bad);
+    EXPECT_EQ(support::error_of([&] { Microfacets{bad}; }), refusal);
+    EXPECT_EQ(support::error_of([&] { BlinnPhongFacets{bad}; }), refusal);
+  }
 }
 
 } // namespace

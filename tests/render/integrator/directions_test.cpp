@@ -21,6 +21,13 @@ Scene small_scene() {
   return builder.build();
 }
 
+SurfacePoint of_floor() {
+  SurfacePoint point;
+  point.p = Vec3(0, 0, 0);
+  point.ng = point.ns = Vec3::UnitY();
+  return point;
+}
+
 // Half mirror, half Lambert; the mirror says it enters a denser medium.
 class HalfMirror {
  public:
@@ -33,6 +40,7 @@ class HalfMirror {
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const { return base_.eval(wo, wi); }
   Float pdf(const Vec3& wo, const Vec3& wi) const { return base_.pdf(wo, wi) / 2; }
+  Float eta(const Vec3&, const Vec3&) const { return 1; }
   bool is_delta() const { return false; }
   bool is_narrow() const { return is_delta(); }
   bool has_delta() const { return true; }
@@ -48,9 +56,7 @@ class HalfMirror {
 template <class B> void expect_consistent(const B& bsdf, const Strategy& strategy, double delta_share) {
   const Scene scene = small_scene();
   const Directions directions(scene, strategy);
-  SurfacePoint point;
-  point.p = Vec3(0, 0, 0);
-  point.ng = point.ns = Vec3::UnitY();
+  const SurfacePoint point = of_floor();
   const auto frame = mc::Frame<Float>::from_z(point.ns);
   const Vertex<B> at{bsdf, point, frame, Vec3(1, 0, 2).normalized()};
   const int n = 20'000;
@@ -87,6 +93,32 @@ TEST(Directions, ADeltaLobeIsAlwaysFollowed) {
   for (const Strategy& s : strategies) {
     const double followed = s.target == Target::nothing ? 1 : 1 - std::min(double(s.share), 0.5);
     expect_consistent(HalfMirror(), s, 0.5 * followed);
+  }
+}
+
+// Followed or aimed: the lamps lie above a floor of ground glass, seen from there and from within the glass.
+TEST(Directions, OneThroughTheSurfaceSaysWhichIndexItEnters) {
+  const Scene scene = small_scene();
+  const RoughDielectric glass(Float(1.5), Float(0.3));
+  const SurfacePoint point = of_floor();
+  const auto frame = mc::Frame<Float>::from_z(point.ns);
+  for (const Strategy& s : strategies) {
+    const Directions directions(scene, s);
+    for (const Float side : {Float(1), Float(-1)}) {
+      const Vertex<RoughDielectric> at{glass, point, frame, Vec3(1, 0, 2 * side).normalized()};
+      const Float across = side > 0 ? Float(1.5) : 1 / Float(1.5);
+      int crossing = 0;
+      for (std::uint32_t i = 0; i < 1000; ++i) {
+        const mc::NoPairs numbers(12, 0);
+        mc::IndependentWalk<Float> stream(numbers, i);
+        const auto one = directions.choose(at, stream);
+        if (!one) continue;
+        const bool crosses = frame.to_local(one->d).z() * side < 0;
+        crossing += crosses;
+        EXPECT_EQ(one->eta, crosses ? across : Float(1)) << s.name << " from side " << side;
+      }
+      EXPECT_GE(crossing, side < 0 ? 100 : 0) << s.name;
+    }
   }
 }
 

@@ -319,6 +319,7 @@ class Coated {
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const { return base_.eval(wo, wi); }
   Float pdf(const Vec3& wo, const Vec3& wi) const { return Float(0.7) * base_.pdf(wo, wi); }
+  Float eta(const Vec3&, const Vec3&) const { return 1; }
   bool is_delta() const { return false; }
   bool is_narrow() const { return is_delta(); }
   bool has_delta() const { return true; }

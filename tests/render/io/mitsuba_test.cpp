@@ -124,8 +124,9 @@ TEST_F(Mitsuba, MetalsNameWhatIsWrong) {
     const std::string distribution = "<string name=\"distribution\" value=\"" + std::string(facets) + "\"/>";
     EXPECT_EQ(said(distribution), "");
     for (const char* bad : {"-1", "0", "1.5"}) // phong: an exponent below 0, or none
-      EXPECT_THAT(said(distribution + "<float name=\"alpha\" value=\"" + bad + "\"/>"),
-                  testing::HasSubstr("s.xml:3: <bsdf>: rough conductor: alpha " + std::string(bad) + " must lie in"));
+      EXPECT_THAT(
+          said(distribution + "<float name=\"alpha\" value=\"" + bad + "\"/>"),
+          testing::HasSubstr("s.xml:3: <bsdf>: facets: alpha " + std::string(bad) + " must lie in [0.0001, 1]"));
     EXPECT_THAT(said(distribution, "0", "0"), testing::HasSubstr("and k must not both be 0"));
     EXPECT_THAT(said(distribution, "-1"), testing::HasSubstr("rough conductor: eta (-"));
   }
@@ -133,6 +134,15 @@ TEST_F(Mitsuba, MetalsNameWhatIsWrong) {
               testing::HasSubstr("'beckmann' is not known; use one of ggx, phong"));
   EXPECT_THAT(said("<float name=\"extEta\" value=\"0\"/>"),
               testing::HasSubstr("s.xml:3: <bsdf>: index of refraction 0 must be > 0"));
+}
+
+TEST_F(Mitsuba, CoatsAndGroundGlassNameWhatIsWrong) {
+  for (const char* type : {"roughplastic", "roughdielectric"})
+    for (const char* bad : {"-0.5", "5e-05", "1.5"})
+      EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><bsdf type=\"" + type +
+                          "\"><float name=\"alpha\" value=\"" + bad + "\"/></bsdf></shape>"),
+                  testing::HasSubstr("s.xml:3: <bsdf>: facets: alpha " + std::string(bad) + " must lie in [0.0001, 1]"))
+          << type;
 }
 
 TEST_F(Mitsuba, MediaNameWhatIsWrong) {

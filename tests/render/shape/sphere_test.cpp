@@ -158,10 +158,8 @@ TEST(Sphere, NormalsPointOutwardOrInward) {
   const Ray ray{Vec3(0, 0, 5), Vec3(0, 0, -1)};
   for (const bool inside_out : {false, true}) {
     const Sphere s(Vec3d::Zero(), 1, inside_out);
-    const Hit hit{Float(*s.intersect(ray)), 7, 0};
-    const SurfacePoint p = s.surface_point(ray, hit);
-    EXPECT_EQ(p.ng.z(), inside_out ? -1 : 1);
-    EXPECT_EQ(p.shape, 7);
+    const Hit hit{*s.intersect(ray), 7, 0, 0, 0};
+    EXPECT_EQ(s.surface_point(ray, hit).ng.z(), inside_out ? -1 : 1);
   }
 }
 

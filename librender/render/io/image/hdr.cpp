@@ -5,6 +5,7 @@
 #include <mc/core/file.h>
 #include <mc/core/text.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -113,7 +114,8 @@ void read_pixels(Rest& rest, const Rgbe& first, std::vector<Rgbe>& line) {
       const std::size_t count = shift <= 24 ? std::size_t{next[3]} << shift : line.size();
       mc::require(i > 0 && count <= line.size() - i, "broken HDR: a run of {} pixels where {} are left", count,
                   line.size() - i);
-      for (std::size_t k = 0; k < count; ++k, ++i) line[i] = line[i - 1];
+      std::fill_n(&line[i], count, line[i - 1]);
+      i += count;
       shift += 8;
     } else {
       line[i++] = next;

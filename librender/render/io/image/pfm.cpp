@@ -74,9 +74,10 @@ Image read_pfm(const std::string& path) {
   const char* raw = bytes.data() + start;
   for (int y = height - 1; y >= 0; --y)
     for (int x = 0; x < width; ++x)
-      for (int c = 0; c < channels; ++c, raw += 4) {
+      for (int c = 0; c < channels; ++c) {
         std::uint32_t word;
         std::memcpy(&word, raw, 4);
+        raw += 4;
         if (scale > 0) word = __builtin_bswap32(word);
         const Float value = Float(std::abs(scale) * double(std::bit_cast<float>(word)));
         if (channels == 3) image.at(x, y)[c] = value;

@@ -247,34 +247,38 @@ void require_faces(const Header& header) {
                               fmt::join(elements, ", ")));
 }
 
+MeshFile mesh_of(std::string_view bytes) {
+  const Header header = read_header(bytes);
+  const auto vertex =
+      std::find_if(header.elements.begin(), header.elements.end(), [](const Element& e) { return e.name == "vertex"; });
+  mc::require(vertex != header.elements.end(), "the file has no element vertex");
+  require_faces(header);
+  MeshFile mesh;
+  mesh.without_uvs = "its vertices have no u and v";
+  Faces faces; // they may stand before the vertices
+  Numbers numbers(bytes, header);
+  for (const Element& element : header.elements) {
+    if (element.name == "vertex") read_vertices(element, numbers, mesh);
+    else if (element.name == "face") read_faces(element, numbers, vertex->rows, faces);
+    else {
+      Rows rows(element, numbers, {});
+      for (std::size_t i = 0; i < element.rows; ++i) rows.next();
+    }
+  }
+  mc::require(mesh.positions.size() == vertex->rows, "a second element vertex");
+  std::size_t begin = 0;
+  for (const std::size_t end : faces.ends) {
+    append_polygon(mesh.positions, std::span(faces.corners).subspan(begin, end - begin), mesh.triangles);
+    begin = end;
+  }
+  return mesh;
+}
+
 } // namespace
 
 MeshFile read_ply(const std::string& path) {
   const std::string file = mc::read_text(path);
-  return mc::with_context(path, [&] {
-    std::string_view bytes = file;
-    const Header header = read_header(bytes);
-    const auto vertex = std::find_if(header.elements.begin(), header.elements.end(),
-                                     [](const Element& e) { return e.name == "vertex"; });
-    mc::require(vertex != header.elements.end(), "the file has no element vertex");
-    require_faces(header);
-    MeshFile mesh;
-    mesh.without_uvs = "its vertices have no u and v";
-    Faces faces; // they may stand before the vertices
-    Numbers numbers(bytes, header);
-    for (const Element& element : header.elements) {
-      if (element.name == "vertex") read_vertices(element, numbers, mesh);
-      else if (element.name == "face") read_faces(element, numbers, vertex->rows, faces);
-      else {
-        Rows rows(element, numbers, {});
-        for (std::size_t i = 0; i < element.rows; ++i) rows.next();
-      }
-    }
-    mc::require(mesh.positions.size() == vertex->rows, "a second element vertex");
-    for (std::size_t i = 0, begin = 0; i < faces.ends.size(); begin = faces.ends[i++])
-      append_polygon(mesh.positions, std::span(faces.corners).subspan(begin, faces.ends[i] - begin), mesh.triangles);
-    return mesh;
-  });
+  return mc::with_context(path, [&] { return mesh_of(file); });
 }
 
 } // namespace render

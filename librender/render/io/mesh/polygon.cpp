@@ -100,8 +100,10 @@ class Ring {
 std::uint32_t ear_from(const Ring& ring, std::uint32_t from, std::size_t left) {
   const auto find = [&](const auto& is_wanted) -> std::optional<std::uint32_t> {
     std::uint32_t i = from;
-    for (std::size_t k = 0; k < left; ++k, i = ring.next(i))
+    for (std::size_t k = 0; k < left; ++k) {
       if (is_wanted(i)) return i;
+      i = ring.next(i);
+    }
     return {};
   };
   if (const auto spike = find([&](std::uint32_t i) { return ring.is_spike(i); })) return *spike;

@@ -44,9 +44,8 @@ Bsdf make_roughconductor(const Spectrum& eta, const Spectrum& k, double outside,
                          const Spectrum& reflectance) {
   mc::require(outside > 0, "index of refraction {} must be > 0", outside);
   const Spectrum inner = eta / Float(outside), inner_k = k / Float(outside);
-  const Float a = checked_alpha("rough conductor: alpha", Float(alpha));
-  if (distribution == 1) return RoughConductor(inner, inner_k, BlinnPhongFacets(a), reflectance);
-  return RoughConductor(inner, inner_k, Microfacets(a), reflectance);
+  if (distribution == 1) return RoughConductor(inner, inner_k, BlinnPhongFacets(Float(alpha)), reflectance);
+  return RoughConductor(inner, inner_k, Microfacets(Float(alpha)), reflectance);
 }
 
 Material make_mask(const Reflectance& opacity, Material inner) {
