@@ -86,6 +86,19 @@ TEST_F(OutputTest, AFolderWithQuotesIsDrawnIn) {
   EXPECT_FALSE(std::filesystem::exists(out + "/pi.log"));
 }
 
+TEST_F(OutputTest, APlotThatDoesNotFitIsAnErrorAndAUsersFilesStay) {
+  if (support::run("command -v gnuplot").exit_code != 0) GTEST_SKIP() << "gnuplot is not installed";
+  const std::string arguments = "converge pi --max-n 64 --replicates 8 -o '" + folder.string() + "'";
+  write("pi.log", "mine");
+  std::filesystem::create_symlink("/dev/full", path("pi.svg"));
+  const Ran full = support::run("('" CARLO_PATH "' " + arguments + " 2>&1 >/dev/null)");
+  expect_one_line(full, "pi.svg': No space left on device");
+  std::filesystem::remove(path("pi.svg"));
+  const Ran run = support::run_carlo(arguments);
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_EQ(mc::read_file(path("pi.log")), "mine");
+}
+
 TEST_F(OutputTest, CtrlCWritesWhatIsFinished) {
   const Ran run =
       support::interrupt_carlo("validate --all --threads 1 --samples 400000 --json '" + path("v.json") + "'");
