@@ -1,4 +1,4 @@
-#include <cli/subcommand.h>
+#include <options/subcommand.h>
 
 #include <render/io/image_io.h>
 

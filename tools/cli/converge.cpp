@@ -1,8 +1,8 @@
-#include <cli/integral_options.h>
 #include <converge/measure.h>
 #include <converge/output.h>
 #include <converge/page.h>
 #include <integrands/expression.h>
+#include <options/integral_options.h>
 #include <report/plot.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>

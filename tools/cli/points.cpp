@@ -1,5 +1,5 @@
-#include <cli/subcommand.h>
 #include <input/points_file.h>
+#include <options/subcommand.h>
 #include <report/plot.h>
 #include <report/projections.h>
 #include <report/report_json.h>

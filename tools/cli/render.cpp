@@ -1,8 +1,8 @@
-#include <cli/resume.h>
-#include <cli/subcommand.h>
-#include <gallery/picture.h>
 #include <gallery/scenes.h>
 #include <gallery/strategy_strip.h>
+#include <options/subcommand.h>
+#include <picture/picture.h>
+#include <picture/resume.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 

@@ -1,9 +1,9 @@
-#include <cli/integral_options.h>
-#include <cli/subcommand.h>
 #include <converge/output.h>
 #include <converge/page.h>
 #include <converge/trade.h>
 #include <integrands/expression.h>
+#include <options/integral_options.h>
+#include <options/subcommand.h>
 #include <report/plot.h>
 #include <report/report_json.h>
 #include <terminal/interrupt.h>
