@@ -41,7 +41,7 @@ struct Plot : support::ScratchTest {
 };
 
 TEST_F(Plot, ComesWholeBesideFilesOfTheSameName) {
-  if (support::run("command -v gnuplot").exit_code != 0) GTEST_SKIP() << "gnuplot is not installed";
+  if (!support::has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   write("target", "mine");
   std::filesystem::create_symlink(path("target"), path("a.log"));
   ASSERT_TRUE(draw());
@@ -52,7 +52,7 @@ TEST_F(Plot, ComesWholeBesideFilesOfTheSameName) {
 }
 
 TEST_F(Plot, TheScriptDrawsByHandToo) {
-  if (support::run("command -v gnuplot").exit_code != 0) GTEST_SKIP() << "gnuplot is not installed";
+  if (!support::has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   const support::Run run =
       support::run("cd '" + folder.string() + "' && gnuplot a.gp && gnuplot -e 'kind=\"png\"' a.gp");
   EXPECT_EQ(run.exit_code, 0) << run.output;
@@ -60,7 +60,7 @@ TEST_F(Plot, TheScriptDrawsByHandToo) {
 }
 
 TEST_F(Plot, APictureThatDoesNotFitIsAnError) {
-  if (support::run("command -v gnuplot").exit_code != 0) GTEST_SKIP() << "gnuplot is not installed";
+  if (!support::has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   std::filesystem::create_symlink("/dev/full", path("a.png"));
   EXPECT_THAT(complaint(), AllOf(HasSubstr("a.png"), HasSubstr("No space left on device")));
   EXPECT_TRUE(std::filesystem::is_symlink(path("a.png")));
