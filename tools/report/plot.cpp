@@ -23,7 +23,7 @@ class TemporaryFolder {
     std::error_code error;
     std::string name = (fs::temp_directory_path(error) / "carlo.XXXXXX").string();
     if (!error && !mkdtemp(name.data())) error = {errno, std::generic_category()};
-    mc::require(!error, "cannot make a temporary folder '{}': {}; let TMPDIR name another place", name,
+    mc::require(!error, "cannot make a temporary folder: {}; let TMPDIR name a folder that can hold one",
                 error.message());
     path_ = name;
   }
