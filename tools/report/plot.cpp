@@ -63,7 +63,7 @@ bool draw_plot(const fs::path& folder, const std::string& name, const std::vecto
   fs::create_symlink(fs::absolute(folder / script), own.file(script));
   for (const std::string& file : data) fs::create_symlink(fs::absolute(folder / file), own.file(file));
   for (const std::string kind : {"svg", "png"}) {
-    const std::string picture = name + "." + kind, place = (folder / picture).string();
+    const std::string picture = fmt::format("{}.{}", name, kind), place = (folder / picture).string();
     const std::optional<int> code =
         run_program({{"gnuplot", "-e", fmt::format("kind=\"{}\"", kind), script}, own.file(""), log});
     if (!code) return false;
