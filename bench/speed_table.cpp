@@ -66,8 +66,8 @@ int main(int argc, char** argv) {
   std::vector<std::string> words{argv[0], "--benchmark_repetitions=9", "--benchmark_min_time=0.02",
                                  "--benchmark_enable_random_interleaving=true"};
   words.insert(words.end(), argv + 1, argv + argc);
-  std::vector<char*> args;
-  for (std::string& word : words) args.push_back(word.data());
+  std::vector<char*> args(words.size());
+  std::transform(words.begin(), words.end(), args.begin(), [](std::string& word) { return word.data(); });
   int count = static_cast<int>(args.size());
   benchmark::Initialize(&count, args.data());
   if (benchmark::ReportUnrecognizedArguments(count, args.data())) return 1;

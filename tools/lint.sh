@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # What is read without being run: clang-tidy with the checks of .clang-tidy over every source, and whether each public
-# header compiles alone; or clang-tidy over the named sources. Usage: tools/lint.sh [FILE.cpp...]
+# header compiles alone; or clang-tidy over the named sources. Of the benchmarks those against GSL and Embree are read
+# where these are installed. Usage: tools/lint.sh [FILE.cpp...]
 set -eu
 cd "$(dirname "$0")/.."
-./tools/bootstrap.sh clang-14 clang-tidy-14
+./tools/bootstrap.sh clang-14 clang-tidy-14 libbenchmark-dev
 cmake --preset lint >/dev/null
 cmake --build build/lint --target carlo_generated
 if [ $# -eq 0 ]; then
-  mapfile -t files < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | grep "^$PWD/[lt]" | sort -u)
+  mapfile -t files < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | grep "^$PWD/\(bench\|lib\|tests\|tools\)" | sort -u)
   ./tests/house/headers_compile_alone.sh clang++-14 "$PWD" "$PWD/libmc" "$PWD/librender" \
     "$(pkg-config --cflags-only-I eigen3 | sed 's/-I//; s/ *$//')"
 else

@@ -1,5 +1,5 @@
 // Known-wrong samplers: each must be rejected at alpha = 1 % by the law that its fault breaks, and the right one beside
-// it not. They stand in tools/slips_*.cpp, where carlo tells their story. The seeds are fixed; a slip runs with two,
+// it not. They stand in tools/slips/, where carlo tells their story. The seeds are fixed; a slip runs with two,
 // with one where it takes many samples.
 
 #include <slips/slips.h>
@@ -62,7 +62,7 @@ TEST(Mutants, EveryNumberHasItsSlipOrItsReason) {
     EXPECT_TRUE(ids.insert(s.id).second) << s.id;
     EXPECT_FALSE(s.where.empty() || s.story.empty() || s.name.empty()) << s.id;
   }
-  // The comments that open slips_books.cpp and slips_courses.cpp say why these have no sampler.
+  // The comments that open slips/books.cpp and slips/courses.cpp say why these have no sampler.
   for (const char* none : {"P10", "P16", "P17", "P23", "P28", "P31", "P32"})
     EXPECT_TRUE(ids.insert(none).second) << none;
   for (int i = 1; i <= 36; ++i) EXPECT_TRUE(ids.contains("P" + std::to_string(i))) << i;

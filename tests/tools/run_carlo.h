@@ -26,4 +26,6 @@ inline Run run(const std::string& command) {
 
 inline Run run_carlo(const std::string& arguments) { return run("'" CARLO_PATH "' " + arguments); }
 
+inline bool has_gnuplot() { return run(std::string("command -v gnuplot")).exit_code == 0; }
+
 } // namespace support

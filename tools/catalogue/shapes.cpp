@@ -94,6 +94,19 @@ void add_points(Catalogue& c, const std::string& name, const std::string& parame
 
 mc::Cap<Float> cap_of(double one_minus_cos) { return mc::Cap<Float>(Float(one_minus_cos)); }
 
+// The points of a sphere about `at`, or of its cap, whose directions from there lie in `domain`.
+template <class D>
+void add_sphere(Catalogue& c, const std::string& where, const Vec3d& at, const Sphere& sphere, const Vec3& ref,
+                const D& domain, double tolerance = 1e-3) {
+  const auto image = [=](const SurfacePoint& p) {
+    return Vec3(((p.p.cast<double>() - at) / sphere.radius()).normalized().cast<Float>());
+  };
+  const auto surface = [=, center = Vec3(at.cast<Float>())](const Vec3& x) {
+    return sphere.surface_point({center, x}, {Float(sphere.radius())});
+  };
+  add_points(c, "Sphere", where, sphere, ref, domain, image, surface, mc::sqr(sphere.radius()), tolerance);
+}
+
 void add_spheres_seen(Catalogue& c) {
   const Vec3 center(Float(0.25), Float(-0.5), Float(0.75));
   const Vec3d at = center.cast<double>();
@@ -103,57 +116,69 @@ void add_spheres_seen(Catalogue& c) {
     add_directions(c, "Sphere", fmt::format("radius/distance={:g}", ratio), Sphere(at, ratio * at.norm()), Vec3::Zero(),
                    cone, center.normalized());
   }
-  const auto add = [&](const std::string& where, const Sphere& sphere, const Vec3& ref, const auto& domain,
-                       double tolerance = 1e-3) {
-    const auto image = [=](const SurfacePoint& p) {
-      return Vec3(((p.p.cast<double>() - at) / sphere.radius()).normalized().cast<Float>());
-    };
-    const auto surface = [=](const Vec3& x) { return sphere.surface_point({center, x}, {Float(sphere.radius())}); };
-    add_points(c, "Sphere", where, sphere, ref, domain, image, surface, mc::sqr(sphere.radius()), tolerance);
-  };
   const Sphere sphere(at, 2, true);
-  add("from inside", sphere, center + Vec3(Float(0.5), 1, Float(-1.25)), mc::Sphere<Float>{});
+  add_sphere(c, "from inside", at, sphere, center + Vec3(Float(0.5), 1, Float(-1.25)), mc::Sphere<Float>{});
   // Points next to ref have few digits of their distance.
-  add("from its surface", sphere, center + 2 * Vec3(Float(0.48), Float(0.6), Float(-0.64)), mc::Sphere<Float>{}, 0.1);
+  add_sphere(c, "from its surface", at, sphere, center + 2 * Vec3(Float(0.48), Float(0.6), Float(-0.64)),
+             mc::Sphere<Float>{}, 0.1);
   const Vec3d axis(-1, 2, 2);
   const mc::RotatedDomain<mc::Cap<Float>> around{cap_of(0.25), mc::Frame<Float>::from_z((axis / 3).cast<Float>())};
-  add("cap of height 0.5", Sphere::cap(at, 2, axis, 0.5), center + Vec3(-2, 5, 4), around);
+  add_sphere(c, "cap of height 0.5", at, Sphere::cap(at, 2, axis, 0.5), center + Vec3(-2, 5, 4), around);
 }
 
-void add_meshes_seen(Catalogue& c) {
-  // A parallelogram cut into strips of growing width, each of two triangles.
-  const auto parallelogram = [&](const std::string& where, const Vec3& ref, std::uint32_t strips, bool points) {
-    const Vec3 corner(-1, Float(-0.5), 2), e1(2, 0, Float(0.5)), e2(Float(0.25), 1, 0);
-    const auto cut = [=](std::uint32_t i) { return mc::sqr(Float(i) / Float(strips)); };
+// A parallelogram cut into strips of growing width, each of two triangles.
+struct Strips {
+  Vec3 corner{-1, Float(-0.5), 2}, e1{2, 0, Float(0.5)}, e2{Float(0.25), 1, 0};
+  std::uint32_t count;
+
+  Float cut(std::uint32_t i) const { return mc::sqr(Float(i) / Float(count)); }
+
+  TriangleMesh mesh() const {
     std::vector<Vec3> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    for (std::uint32_t i = 0; i <= strips; ++i) {
+    for (std::uint32_t i = 0; i <= count; ++i) {
       positions.push_back(corner + cut(i) * e1);
       positions.push_back(corner + cut(i) * e1 + e2);
     }
-    for (std::uint32_t i = 0; i < 2 * strips; i += 2) {
+    for (std::uint32_t i = 0; i < 2 * count; i += 2) {
       triangles.push_back({i, i + 2, i + 3});
       triangles.push_back({i, i + 3, i + 1});
     }
-    const TriangleMesh mesh(positions, triangles);
-    const mc::Parallelogram<Float> domain(corner, e1, e2);
-    const mc::Patch<Float, 4> directions(corner - ref, e1, e2);
-    add_directions(c, "TriangleMesh", where, mesh, ref, directions, directions.from_unit({Float(0.5), Float(0.5)}));
-    if (!points) return;
-    const auto surface = [=](const Vec3& x) {
-      const Vec2 v = domain.to_unit(x);
-      const auto strip = std::min(static_cast<std::uint32_t>(std::sqrt(v[0]) * Float(strips)), strips - 1);
-      const Float s = (v[0] - cut(strip)) / (cut(strip + 1) - cut(strip)), t = v[1];
-      const std::size_t first = 2 * strip;
-      return s >= t ? mesh.point(first, double(s - t), double(t)) : mesh.point(first + 1, double(s), double(t - s));
-    };
-    add_points(
-        c, "TriangleMesh", where, mesh, ref, domain, [](const SurfacePoint& p) { return p.p; }, surface, 1);
-  };
-  parallelogram("2 triangles from afar", {Float(0.25), Float(0.5), Float(-1.5)}, 1, true);
-  parallelogram("12 triangles from afar", {Float(0.25), Float(0.5), Float(-1.5)}, 6, true);
-  // Its density jumps at the diagonal, where the point does not tell whose sample it is.
-  parallelogram("2 triangles it nearly touches", {Float(0.25), Float(0.125), Float(2.25)}, 1, false);
+    return {positions, triangles};
+  }
+
+  // The point of their mesh that has these coordinates in the parallelogram.
+  SurfacePoint point(const TriangleMesh& mesh, const Vec2& v) const {
+    const auto strip = std::min(static_cast<std::uint32_t>(std::sqrt(v[0]) * Float(count)), count - 1);
+    const Float s = (v[0] - cut(strip)) / (cut(strip + 1) - cut(strip)), t = v[1];
+    const std::size_t first = 2 * strip;
+    return s >= t ? mesh.point(first, double(s - t), double(t)) : mesh.point(first + 1, double(s), double(t - s));
+  }
+};
+
+void add_strips_directions(Catalogue& c, const std::string& where, const Vec3& ref, const Strips& strips) {
+  const mc::Patch<Float, 4> directions(strips.corner - ref, strips.e1, strips.e2);
+  add_directions(c, "TriangleMesh", where, strips.mesh(), ref, directions,
+                 directions.from_unit({Float(0.5), Float(0.5)}));
+}
+
+void add_strips_points(Catalogue& c, const std::string& where, const Vec3& ref, const Strips& strips) {
+  const TriangleMesh mesh = strips.mesh();
+  const mc::Parallelogram<Float> domain(strips.corner, strips.e1, strips.e2);
+  const auto image = [](const SurfacePoint& p) { return p.p; };
+  const auto surface = [=](const Vec3& x) { return strips.point(mesh, domain.to_unit(x)); };
+  add_points(c, "TriangleMesh", where, mesh, ref, domain, image, surface, 1);
+}
+
+void add_meshes_seen(Catalogue& c) {
+  const Vec3 afar(Float(0.25), Float(0.5), Float(-1.5));
+  for (const std::uint32_t count : {1u, 6u}) {
+    const std::string where = fmt::format("{} triangles from afar", 2 * count);
+    add_strips_directions(c, where, afar, {.count = count});
+    add_strips_points(c, where, afar, {.count = count});
+  }
+  // The density of its points jumps at the diagonal, where a point does not tell whose sample it is.
+  add_strips_directions(c, "2 triangles it nearly touches", {Float(0.25), Float(0.125), Float(2.25)}, {.count = 1});
   // Two triangles that are one to the eye: directions meet both.
   const Vec3 a(Float(0.5), -1, 2), b(1, 1, Float(0.5)), e(-1, Float(0.5), Float(0.25));
   const mc::Patch<Float, 3> directions(a, b, e);

@@ -35,16 +35,15 @@ std::vector<double> extreme(std::size_t n) {
   return w;
 }
 
-// A ridge that follows no axis, in the tree of boxes that is drawn from it, and a part that is empty.
+// It follows no axis, and a part is empty.
+template <int N> double ridge(const mc::Vec<double, N>& x) {
+  const double off = (x.array() - x.mean()).matrix().norm();
+  return off < 0.45 ? std::exp(-8 * off) : 0.0;
+}
+
 template <int N> void add_tree(Catalogue& c, std::size_t leaves) {
-  add_warp(c, "TableDistTree", fmt::format("{} dimensions, {} boxes", N, leaves), [leaves](auto s) {
-    return mc::TableDistTree<decltype(s), N>::from_function(
-        [](const mc::Vec<double, N>& x) {
-          const double off = (x.array() - x.mean()).matrix().norm();
-          return off < 0.45 ? std::exp(-8 * off) : 0.0;
-        },
-        leaves);
-  });
+  add_warp(c, "TableDistTree", fmt::format("{} dimensions, {} boxes", N, leaves),
+           [leaves](auto s) { return mc::TableDistTree<decltype(s), N>::from_function(ridge<N>, leaves); });
 }
 
 // make() gives the table.

@@ -1,4 +1,4 @@
-#include <cli/subcommand.h>
+#include <options/subcommand.h>
 
 #include <render/io/image_io.h>
 
@@ -183,6 +183,12 @@ void require_variance(const std::string& path, const Image& image) {
       path, largest);
 }
 
+// "'a.png' carries", or both.
+std::string without_variance(const CompareOptions& options, const Image& a, const Image& b) {
+  if (a.variance.empty() && b.variance.empty()) return "the images carry";
+  return fmt::format("'{}' carries", a.variance.empty() ? options.a : options.b);
+}
+
 int compare(const CompareOptions& options) {
   mc::require(options.alpha > 0 && options.alpha < 1, "--alpha {} must lie in (0, 1)", options.alpha);
   mc::require(options.tolerance >= 0, "--tolerance {} must be >= 0", options.tolerance);
@@ -213,10 +219,7 @@ int compare(const CompareOptions& options) {
 
   Comparison comparison(a, b, options.tolerance);
   if (!comparison.possible()) {
-    std::printf("verdict    none: %s no variance; render to .exr to get it\n",
-                a.variance.empty() && b.variance.empty()
-                    ? "the images carry"
-                    : fmt::format("'{}' carries", a.variance.empty() ? options.a : options.b).c_str());
+    fmt::print("verdict    none: {} no variance; render to .exr to get it\n", without_variance(options, a, b));
     return exit_ok;
   }
   require_variance(options.a, a);

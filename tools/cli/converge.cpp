@@ -1,8 +1,8 @@
-#include <cli/integral_options.h>
 #include <converge/measure.h>
 #include <converge/output.h>
 #include <converge/page.h>
 #include <integrands/expression.h>
+#include <options/integral_options.h>
 #include <report/plot.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
@@ -61,7 +61,7 @@ bool write(const Target& target, const Measurement& m, const ConvergeOptions& o,
   fmt::print("{}", summary(target, m));
   std::fflush(stdout);
   const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const Curve& c) { return !c.exact; });
-  if (!can_draw || !anything || draw_plot(folder, name)) return can_draw;
+  if (!can_draw || !anything || draw_plot(folder, name, {name + ".csv"})) return can_draw;
   std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
   return false;
 }

@@ -1,7 +1,7 @@
-#include <cli/subcommand.h>
 #include <gallery/contact_sheet.h>
 #include <gallery/page.h>
-#include <gallery/picture.h>
+#include <options/subcommand.h>
+#include <picture/picture.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 

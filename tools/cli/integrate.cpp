@@ -1,8 +1,8 @@
-#include <cli/integrate_output.h>
-#include <cli/subcommand.h>
 #include <integrands/expression.h>
 #include <integrands/find.h>
 #include <integrands/sides.h>
+#include <options/subcommand.h>
+#include <report/integrate_output.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 

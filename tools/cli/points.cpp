@@ -1,5 +1,5 @@
-#include <cli/subcommand.h>
 #include <input/points_file.h>
+#include <options/subcommand.h>
 #include <report/plot.h>
 #include <report/projections.h>
 #include <report/report_json.h>
@@ -254,7 +254,7 @@ void write(const PointsOptions& o, const std::filesystem::path& folder, const Me
   mc::write_file(file("quality.json"), json_text(all));
   const bool any_distance = std::any_of(m.rows.begin(), m.rows.end(), [](const Row& r) { return r.distance > 0; });
   mc::write_file(file("quality.gp"), script(title, any_distance, dim >= 2));
-  if (!draw_plot(folder, "quality"))
+  if (!draw_plot(folder, "quality", {"quality.csv", "spectrum.csv"}))
     std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
 }
 

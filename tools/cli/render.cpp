@@ -1,8 +1,8 @@
-#include <cli/resume.h>
-#include <cli/subcommand.h>
-#include <gallery/picture.h>
 #include <gallery/scenes.h>
 #include <gallery/strategy_strip.h>
+#include <options/subcommand.h>
+#include <picture/picture.h>
+#include <picture/resume.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 
@@ -24,6 +24,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <mutex>
+#include <string_view>
 
 namespace carlo {
 
@@ -95,6 +96,12 @@ std::filesystem::path whole_path(const std::string& path) {
   return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
 }
 
+std::string output_of(const RenderOptions& options) {
+  if (!options.output.empty()) return options.output;
+  const std::string name = std::filesystem::path(options.scene).stem().string();
+  return name + (options.compare_strategies ? "-strategies.png" : ".exr");
+}
+
 // The folder is looked at before hours of rendering, not after.
 void check_output(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -103,6 +110,12 @@ void check_output(const std::string& path) {
   const std::string extension = mc::extension_of(path);
   mc::require(extension == ".exr" || extension == ".pfm" || extension == ".png",
               "cannot write '{}': unknown image format '{}'; use .exr, .pfm or .png", path, extension);
+}
+
+std::vector<std::string_view> strategy_names() {
+  std::vector<std::string_view> names;
+  for (const ::render::Strategy& strategy : ::render::strategies) names.push_back(strategy.name);
+  return names;
 }
 
 std::vector<Option> rows(RenderOptions& o) {
@@ -134,7 +147,7 @@ std::vector<Option> rows(RenderOptions& o) {
        "Only this part of the picture, from the pixel X, Y counted from the upper left corner: with --spp the same "
        "pixels, bit for bit"},
       {"--strategy", "NAME", &o.strategy,
-       "bsdf, hemisphere, light (misses what other surfaces and the sky send), mixture, guides, nee or mis [mis]"},
+       fmt::format("{}; light misses what other surfaces and the sky send [mis]", fmt::join(strategy_names(), ", "))},
       {"--sampler", "NAME", &o.sampler, "independent, stratified or sobol [sobol]"},
       {"--max-depth", "N", &o.max_depth,
        "Longest path in edges (1: light seen directly), -1 for no limit [the scene's]"},
@@ -282,9 +295,7 @@ int render(const RenderOptions& options) {
     return exit_ok;
   }
   mc::require(!options.scene.empty(), "render: SCENE is required (see carlo render --help)");
-  const std::string output = !options.output.empty() ? options.output
-                                                     : std::filesystem::path(options.scene).stem().string() +
-                                                           (options.compare_strategies ? "-strategies.png" : ".exr");
+  const std::string output = output_of(options);
   check_output(output);
   if (!options.intervals.empty()) {
     check_output(options.intervals);

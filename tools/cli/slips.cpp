@@ -80,6 +80,11 @@ Judged judge(const Slip& slip, const SlipsOptions& o) {
   return t;
 }
 
+// Errors say of which slip.
+Judged judge_named(const Slip& slip, const SlipsOptions& o) {
+  return mc::with_context(slip.title(), [&] { return judge(slip, o); });
+}
+
 std::string samples_text(const Slip& s, const Judged& t) {
   if (!t.caught) return "missed";
   if (t.samples == 0) return "none";
@@ -119,7 +124,7 @@ std::vector<std::optional<Judged>> judge_all(const Slips& slips, const SlipsOpti
   };
   mc::parallel_for(slips.size(), o.threads, [&](std::size_t i) {
     if (*cancel) return;
-    Judged one = mc::with_context(slips[i].title(), [&] { return judge(slips[i], o); });
+    Judged one = judge_named(slips[i], o);
     const std::lock_guard lock(mutex);
     judged[i] = std::move(one);
     ++finished;

@@ -1,7 +1,7 @@
 #pragma once
 /// carlo slips: what the checkers make of the samplers that the books print.
 
-#include <cli/subcommand.h>
+#include <options/subcommand.h>
 
 namespace carlo {
 

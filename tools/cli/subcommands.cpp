@@ -1,4 +1,4 @@
-#include <cli/subcommand.h>
+#include <options/subcommand.h>
 
 namespace carlo {
 

@@ -204,6 +204,16 @@ struct Finished {
   std::vector<Unchecked> unchecked;
 };
 
+mc::Report check(const Case& one, const ValidateOptions& o, double alpha) {
+  CaseOptions c;
+  c.samples = o.samples;
+  c.seed = seed_of(one, o);
+  c.alpha = alpha;
+  c.evidence = !o.report.empty();
+  c.open_interval = o.open_interval;
+  return mc::with_context(one.title(), [&] { return one.check(c); });
+}
+
 // Prints the line of each case as soon as those before it are printed.
 Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions& o, double alpha,
                    const std::atomic<bool>* cancel) {
@@ -223,15 +233,9 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
   const auto is_done = [&](std::size_t i) { return reports[i] || !errors[i].empty(); };
   mc::parallel_for(cases.size(), o.threads, [&](std::size_t i) {
     if (*cancel) return;
-    CaseOptions c;
-    c.samples = o.samples;
-    c.seed = seed_of(*cases[i], o);
-    c.alpha = alpha;
-    c.evidence = !o.report.empty();
-    c.open_interval = o.open_interval;
     mc::Report report;
     try {
-      report = mc::with_context(cases[i]->title(), [&] { return cases[i]->check(c); });
+      report = check(*cases[i], o, alpha);
     } catch (const Interrupted&) {
       return;
     } catch (const mc::Error& e) { // one crash is no reason to lose what the others show

@@ -1,7 +1,7 @@
 #pragma once
 /// carlo validate: every sampler against its laws.
 
-#include <cli/subcommand.h>
+#include <options/subcommand.h>
 
 namespace carlo {
 

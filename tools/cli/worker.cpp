@@ -1,6 +1,6 @@
 /// carlo worker: started by carlo itself, see plugin/worker.h.
 
-#include <cli/subcommand.h>
+#include <options/subcommand.h>
 #include <plugin/command.h>
 #include <plugin/integrands.h>
 #include <plugin/plugin.h>

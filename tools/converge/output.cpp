@@ -47,6 +47,15 @@ namespace {
 
 std::string field(const std::string& text) { return text.find(',') == std::string::npos ? text : "\"" + text + "\""; }
 
+// From theory to source, empty where nothing is known.
+std::string theory_fields(const Curve& c) {
+  if (!c.theory) return ",,,";
+  std::string text = fmt::format("{}{:.4f},", c.theory->at_most ? "at most " : "", -c.theory->exponent);
+  if (c.law) text += fmt::format("{:.4f},{},", -c.theory->local(c.middle), c.agrees() ? "yes" : "no");
+  else text += ",,";
+  return text + field(std::string(c.theory->source));
+}
+
 } // namespace
 
 std::string slopes_header() {
@@ -60,9 +69,7 @@ std::string slopes_csv(const Target& target, const Measurement& m) {
   for (const Curve& c : m.curves) {
     text += fmt::format("{},{},{},{},", field(e.name), name(e.smoothness.of), e.dim, field(c.way->name));
     text += c.law ? fmt::format("{:.0f},{:.4f},{:.4f},{:.4f},", c.middle, c.law->slope, c.law->lo, c.law->hi) : ",,,,";
-    text += c.theory ? fmt::format("{}{:.4f},", c.theory->at_most ? "at most " : "", -c.theory->exponent) : ",";
-    text += c.theory && c.law ? fmt::format("{:.4f},{},", -c.theory->local(c.middle), c.agrees() ? "yes" : "no") : ",,";
-    text += c.theory ? field(std::string(c.theory->source)) + "\n" : "\n";
+    text += theory_fields(c) + "\n";
   }
   return text;
 }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace carlo {
@@ -60,6 +61,12 @@ std::vector<std::string> theory_cells(const Curve& c) {
   return {slope, theory, agrees};
 }
 
+// The bias that is told from 0, and above which error it pays.
+std::array<std::string, 2> bias_cells(const Bias& b) {
+  if (!(b.bias.lo > 0)) return {"-", "-"};
+  return {ranged(b.bias), b.pays_above ? fmt::format("{:.3g}", *b.pays_above) : "never"};
+}
+
 std::string curve_table(const Measured& one) {
   const Measurement& m = *one.measurement;
   const Words words = words_of(one);
@@ -73,12 +80,8 @@ std::string curve_table(const Measured& one) {
     std::vector<std::string> row = {named(c, m), fmt::format("{:.0f}", last.n), ranged(last.rms, last.lo, last.hi),
                                     fmt::format("{:.3g}", last.seconds)};
     for (std::string& cell : theory_cells(c)) row.push_back(std::move(cell));
-    if (one.pictures) {
-      const Bias& b = one.pictures->biases[i];
-      const bool is_biased = b.bias.lo > 0;
-      row.push_back(is_biased ? ranged(b.bias) : "-");
-      row.push_back(!is_biased ? "-" : b.pays_above ? fmt::format("{:.3g}", *b.pays_above) : "never");
-    }
+    if (one.pictures)
+      for (std::string& cell : bias_cells(one.pictures->biases[i])) row.push_back(std::move(cell));
     rows += cells(row);
   }
   return table(head, rows);

@@ -60,7 +60,8 @@ std::array<double, 3> quartiles(const CsvTable& table, std::size_t column) {
 }
 
 std::string default_domain(std::size_t columns) {
-  return columns == 1 ? "x=0:1" : columns == 2 ? "x=0:1,y=0:1" : "sphere";
+  if (columns == 1) return "x=0:1";
+  return columns == 2 ? "x=0:1,y=0:1" : "sphere";
 }
 
 double checked(double value, const std::string& where) {
@@ -116,10 +117,9 @@ std::shared_ptr<const Samples> load(const SamplesFileOptions& o) {
   CsvTable table = read_csv(o.samples);
   mc::require(table.rows() >= 2000, "{}: {} samples; at least 2000 are needed", o.samples, table.rows());
   mc::require(table.rows() < std::uint64_t{1} << 32, "{}: {} samples; fewer than 2^32 fit", o.samples, table.rows());
-  ParsedDomain domain = mc::with_context("--domain", [&] {
-    return parse_domain(o.domain.empty() ? default_domain(table.columns) : o.domain,
-                        [&](std::size_t column) { return quartiles(table, column); });
-  });
+  const std::string text = o.domain.empty() ? default_domain(table.columns) : o.domain;
+  const auto quartiles_in = [&](std::size_t column) { return quartiles(table, column); };
+  ParsedDomain domain = mc::with_context("--domain", [&] { return parse_domain(text, quartiles_in); });
   const std::vector<std::string> names = domain.columns;
   mc::require(names.size() == table.columns, "{}: {} columns; {} {} needed on {}", o.samples, table.columns,
               names.size(), names.size() == 1 ? "is" : "are", domain.text);

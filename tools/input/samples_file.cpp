@@ -167,10 +167,10 @@ std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
               "{}: the density integrates to {}; some cell must be positive, and none beyond doubles", o.pdf,
               mass.value());
 
+  const auto index = [](double at, std::size_t n) {
+    return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1);
+  };
   const auto cell_of = [&](const double* x) -> std::optional<std::uint32_t> {
-    const auto index = [](double at, std::size_t n) {
-      return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1);
-    };
     const auto p = domain.to_square(x);
     if (!p) return {};
     return static_cast<std::uint32_t>(index((*p)[1], grid.height) * grid.width + index((*p)[0], grid.width));

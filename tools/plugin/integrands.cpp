@@ -20,11 +20,11 @@ namespace {
 
 constexpr std::size_t most_dimensions = 64; // load_plugin sees to it
 
-// The box of an integrand.
-struct Box {
+// Where an integrand is to be integrated.
+struct Bounds {
   std::vector<double> lo, hi;
 
-  explicit Box(const mc_integrand& f)
+  explicit Bounds(const mc_integrand& f)
       : lo(static_cast<std::size_t>(f.dim), 0.0), hi(static_cast<std::size_t>(f.dim), 1.0) {
     if (f.lo) lo.assign(f.lo, f.lo + f.dim);
     if (f.hi) hi.assign(f.hi, f.hi + f.dim);
@@ -39,32 +39,32 @@ struct Box {
 
 // In the child only. Every call is noted in the watch.
 Experiment experiment_of(const mc_integrand& f, Watch& watch) {
-  const Box box(f);
+  const Bounds bounds(f);
   Experiment e;
   e.name = f.name;
   e.dim = f.dim;
   e.truth = f.has_truth ? f.truth : std::numeric_limits<double>::quiet_NaN();
-  e.place = [box](Experiment::Unit u) {
+  e.place = [bounds](Experiment::Unit u) {
     std::string text;
-    for (std::size_t k = 0; k < u.size(); ++k) text += fmt::format("{}{:.17g}", k ? ", " : "", box.at(k, u[k]));
+    for (std::size_t k = 0; k < u.size(); ++k) text += fmt::format("{}{:.17g}", k ? ", " : "", bounds.at(k, u[k]));
     return "x = (" + text + ")";
   };
-  e.f = [f, box, &watch](Experiment::Unit u) {
+  e.f = [f, bounds, &watch](Experiment::Unit u) {
     std::array<double, most_dimensions> x;
-    for (std::size_t k = 0; k < u.size(); ++k) x[k] = box.at(k, u[k]);
+    for (std::size_t k = 0; k < u.size(); ++k) x[k] = bounds.at(k, u[k]);
     watch.enter("eval", "x", x.data(), std::min(f.dim, Watch::max_arguments));
     const double value = f.eval(x.data());
     watch.leave();
-    return box.volume() * value;
+    return bounds.volume() * value;
   };
   if (!f.eval_many) return e;
-  e.many = [f, box, &watch](Experiment::Unit points, std::span<double> values) {
+  e.many = [f, bounds, &watch](Experiment::Unit points, std::span<double> values) {
     std::vector<double> x(points.begin(), points.end());
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = box.at(i % box.lo.size(), x[i]);
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = bounds.at(i % bounds.lo.size(), x[i]);
     watch.enter("eval_many", "x", x.data(), std::min(f.dim, Watch::max_arguments));
     f.eval_many(static_cast<std::int64_t>(values.size()), x.data(), values.data());
     watch.leave();
-    for (double& value : values) value *= box.volume();
+    for (double& value : values) value *= bounds.volume();
   };
   return e;
 }

@@ -2,18 +2,79 @@
 #include <report/plot.h>
 
 #include <mc/core/error.h>
+#include <mc/core/file.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+#include <system_error>
 
 namespace carlo {
 
-bool draw_plot(const std::filesystem::path& folder, const std::string& name) {
-  const std::filesystem::path log = std::filesystem::absolute(folder) / (name + ".log");
-  for (const char* kind : {"svg", "png"}) {
-    const std::optional<int> code =
-        run_program({{"gnuplot", "-e", fmt::format("kind=\"{}\"", kind), name + ".gp"}, folder.string(), log.string()});
-    if (!code) return false;
-    mc::require(*code == 0, "gnuplot failed on {}; see {}", (folder / (name + ".gp")).string(), log.string());
+namespace fs = std::filesystem;
+
+namespace {
+
+// A folder of our own, which goes with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::error_code error;
+    std::string name = (fs::temp_directory_path(error) / "carlo.XXXXXX").string();
+    if (!error && !mkdtemp(name.data())) error = {errno, std::generic_category()};
+    mc::require(!error, "cannot make a temporary folder: {}; let TMPDIR name a folder that can hold one",
+                error.message());
+    path_ = name;
   }
-  std::filesystem::remove(log);
+  ~TemporaryFolder() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
+
+std::string_view trimmed(std::string_view text) {
+  return text.substr(0, text.find_last_not_of(" \n") + 1); // of blanks alone: nothing
+}
+
+// The last line that gnuplot printed says what is wrong; those before show where.
+std::string last_line(const std::string& log) {
+  const std::string_view text = trimmed(log);
+  return std::string(text.substr(text.rfind('\n') + 1)); // without one, from the start
+}
+
+// gnuplot leaves a part on a full disk, and ends with 0.
+bool is_whole(std::string_view picture, std::string_view kind) {
+  return kind == "svg" ? trimmed(picture).ends_with("</svg>") : picture.ends_with("IEND\xAE\x42\x60\x82");
+}
+
+} // namespace
+
+bool draw_plot(const fs::path& folder, const std::string& name, const std::vector<std::string>& data) {
+  const TemporaryFolder own;
+  const std::string script = name + ".gp", log = own.file("log");
+  fs::create_symlink(fs::absolute(folder / script), own.file(script));
+  for (const std::string& file : data) fs::create_symlink(fs::absolute(folder / file), own.file(file));
+  for (const std::string kind : {"svg", "png"}) {
+    const std::string picture = fmt::format("{}.{}", name, kind), place = (folder / picture).string();
+    const std::optional<int> code =
+        run_program({{"gnuplot", "-e", fmt::format("kind=\"{}\"", kind), script}, own.file(""), log});
+    if (!code) return false;
+    mc::require(*code == 0, "gnuplot cannot draw '{}': {}; run gnuplot {} there to see more", place,
+                last_line(mc::read_file(log)), script);
+    const std::string bytes = fs::exists(own.file(picture)) ? mc::read_file(own.file(picture)) : std::string();
+    mc::require(is_whole(bytes, kind),
+                "gnuplot drew only a part of '{}' in '{}'; is the disk full? TMPDIR names another", picture,
+                own.file(""));
+    mc::write_file(place, bytes);
+  }
   return true;
 }
 

@@ -7,9 +7,19 @@
 
 namespace carlo {
 
+namespace {
+
+// Of one panel, in pixels: the more there are, the smaller.
+int side_of(int axes) {
+  if (axes == 2) return 600;
+  return axes <= 4 ? 300 : 180;
+}
+
+} // namespace
+
 std::string projections_svg(mc::PointList points) {
   const int axes = static_cast<int>(std::min<std::size_t>(points.dim, 8));
-  const int side = axes == 2 ? 600 : axes <= 4 ? 300 : 180, gap = 28;
+  const int side = side_of(axes), gap = 28;
   const int width = (axes - 1) * (side + gap) + gap, height = width;
   const double dot = std::clamp(0.35 * side / std::sqrt(static_cast<double>(points.size())), 1.0, 6.0);
   std::string svg = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" "

@@ -18,7 +18,7 @@ double hemisphere_pdf(const V& w) { return w.z() >= 0 ? 1 / (2 * pi) : 0.0; }
 double sphere_pdf(const V&) { return 1 / (4 * pi); }
 V on_the_sphere(Pcg& r) { return direction(1 - 2 * uniform(r), 2 * pi * uniform(r)); }
 
-Directions around(double radius_xy, double (*z)(double), double (*radius)(double)) {
+DirectionSampler around(double radius_xy, double (*z)(double), double (*radius)(double)) {
   return [=](Pcg& r) {
     const double phi = 2 * pi * uniform(r), r2 = uniform(r), s = radius_xy * radius(r2);
     return V(std::cos(phi) * s, std::sin(phi) * s, z(r2));

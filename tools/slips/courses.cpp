@@ -142,7 +142,7 @@ Density about(const V& n) {
   return [n](const V& w) { return std::max(w.dot(n), 0.0) / pi; };
 }
 
-Trial rayleigh(Numbers sampler) {
+Trial rayleigh(NumberSampler sampler) {
   return trial(make_subject("", mc::HalfLine<double>(0, 1), std::move(sampler),
                             [](double x) { return x * std::exp(-x * x / 2); }));
 }

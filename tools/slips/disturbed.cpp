@@ -17,10 +17,10 @@ V rotated(const V& w, double degrees) {
 }
 
 // A share of the samples of one sampler replaced by those of another.
-Directions replaced(const Directions& sampler, double share, const Directions& other) {
+DirectionSampler replaced(const DirectionSampler& sampler, double share, const DirectionSampler& other) {
   return [=](Pcg& r) { return uniform(r) < share ? other(r) : sampler(r); };
 }
-Directions below(const Directions& sampler) {
+DirectionSampler below(const DirectionSampler& sampler) {
   return [=](Pcg& r) {
     V w = *sampler(r);
     w.z() = -w.z();
@@ -28,7 +28,7 @@ Directions below(const Directions& sampler) {
   };
 }
 // cos = u^(exponent / 2).
-Directions powered(double exponent) {
+DirectionSampler powered(double exponent) {
   return [=](Pcg& r) {
     const double c = std::pow(1 - uniform(r), 0.5 * exponent);
     return direction(c, 2 * pi * uniform(r));
@@ -38,8 +38,15 @@ Directions powered(double exponent) {
 mc::TrowbridgeReitzVisibleNormals<double> visible(double ax, double ay, double theta) {
   return {incident(theta), ax, ay};
 }
-Directions of(const mc::TrowbridgeReitzVisibleNormals<double>& warp) {
+DirectionSampler of(const mc::TrowbridgeReitzVisibleNormals<double>& warp) {
   return [warp](Pcg& r) { return warp.sample(r.point<double, 2>()); };
+}
+
+// A rotated cosine lobe is a cosine lobe: only the inverse tells.
+Trial turned_cosine(double degrees) {
+  return trial(Inverted{
+      [degrees](const mc::Vec2<double>& u) { return rotated(mc::CosineHemisphere<double>{}.sample(u), degrees); },
+      cosine_pdf, [](const V& w) { return mc::CosineHemisphere<double>{}.invert(w); }});
 }
 
 } // namespace
@@ -47,7 +54,7 @@ Directions of(const mc::TrowbridgeReitzVisibleNormals<double>& warp) {
 Slips disturbances() {
   Slips s;
   const Trial right = trial(on_hemisphere(cosine, cosine_pdf));
-  const auto add = [&](const char* id, const char* name, Fault fault, std::uint64_t samples, Directions sampler,
+  const auto add = [&](const char* id, const char* name, Fault fault, std::uint64_t samples, DirectionSampler sampler,
                        Density pdf = cosine_pdf) {
     s.push_back({id, name, "cosine hemisphere", name, fault, samples,
                  trial(on_hemisphere(std::move(sampler), std::move(pdf))), right});
@@ -69,14 +76,9 @@ Slips disturbances() {
     if (w.x() < 0 && uniform(r) < 1e-2) w.x() = -w.x();
     return w;
   });
-  // A rotated cosine lobe is a cosine lobe: only the inverse tells.
-  const auto turn = [](double degrees) {
-    return trial(Inverted{
-        [degrees](const mc::Vec2<double>& u) { return rotated(mc::CosineHemisphere<double>{}.sample(u), degrees); },
-        cosine_pdf, [](const V& w) { return mc::CosineHemisphere<double>{}.invert(w); }});
-  };
   s.push_back({"C11", "phi rotated by 0.5 degree", "cosine hemisphere",
-               "the same distribution, another map: only the inverse tells", Fault::inverse, 1000, turn(0.5), turn(0)});
+               "the same distribution, another map: only the inverse tells", Fault::inverse, 1000, turned_cosine(0.5),
+               turned_cosine(0)});
   add("C12", "1e-3 spike at the pole", Fault::local, 60'000, replaced(cosine, 1e-3, [](Pcg&) { return V(0, 0, 1); }));
   add("C13", "exponent 1.005", Fault::shape, 2'000'000, powered(1.005));
   add("C14", "exponent 1.02", Fault::shape, 250'000, powered(1.02));
@@ -90,8 +92,8 @@ Slips disturbances() {
   const auto lobe = visible(0.3, 0.3, 60);
   const Density pdf = [lobe](const V& m) { return lobe.pdf(m); };
   const Trial lobe_right = trial(on_hemisphere(of(lobe), pdf));
-  const auto add_visible = [&](const char* id, const char* name, Fault fault, std::uint64_t samples, Directions sampler,
-                               Density claimed) {
+  const auto add_visible = [&](const char* id, const char* name, Fault fault, std::uint64_t samples,
+                               DirectionSampler sampler, Density claimed) {
     s.push_back({id, name, "visible GGX normals, alpha 0.3, 60 degrees", name, fault, samples,
                  trial(on_hemisphere(std::move(sampler), std::move(claimed))), lobe_right});
   };

@@ -32,12 +32,17 @@ double table_sample(double u, double third) {
   return (static_cast<double>(i) + (u - cdf[i]) / (cdf[i + 1] - cdf[i])) / 4;
 }
 
-// invert(sample(u)) = u on [0,1], as a law.
-Trial smoothstep_inverse(const std::function<double(double)>& invert) {
-  return law_trial("invert(sample(u)) = u", 1e-12, Fault::inverse, [invert](Pcg& r) {
-    const double u = uniform(r);
-    return std::abs(invert(mc::Smoothstep<double>{}.sample(u)) - u);
-  });
+// (p(x) - p(0)) / (p(1) - p(0)) by a polynomial p that always takes x.
+double by_ignored_argument(double x) {
+  const double p = x * x * x * (2 - x);
+  return (p - p) / (p - p);
+}
+
+// The smooth step with this inverse.
+Trial smoothstep(const std::function<double(double)>& invert) {
+  return trial(InvertedNumber{.sample = [](double u) { return mc::Smoothstep<double>{}.sample(u); },
+                              .pdf = [](double x) { return mc::Smoothstep<double>{}.pdf(x); },
+                              .invert = invert});
 }
 
 // Rounding leaves barycentrics whose sum is a little above 1; the third must not become negative.
@@ -110,15 +115,17 @@ Trial mean_cosine(double g) {
                     [warp = mc::HenyeyGreenstein<double>(g)](Pcg& r) { return warp.sample(r.point<double, 2>()).z(); });
 }
 
-// A warp at the corners, the middle and just inside them: finite, in its domain, density positive.
+// An end, just inside of it, or the middle.
+float end_or_middle(Pcg& r) {
+  const double all[] = {0, 0x1p-24, 0.5, 1 - 0x1p-24};
+  return static_cast<float>(all[r.next32() & 3]);
+}
+
+// A warp at such places: finite, in its domain, density positive.
 template <class W> Trial edges(const W& warp) {
   return law_trial("ends and branches of u", 0, Fault::edge, [warp](Pcg& r) {
-    const auto place = [&] {
-      const double all[] = {0, 0x1p-24, 0.5, 1 - 0x1p-24};
-      return static_cast<float>(all[r.next32() & 3]);
-    };
     mc::Vec2<float> u;
-    for (int i = 0; i < 2; ++i) u[i] = place();
+    for (int i = 0; i < 2; ++i) u[i] = end_or_middle(r);
     const mc::Vec3<float> m = warp.sample(u);
     return m.allFinite() && m.z() >= 0 && warp.pdf(m) > 0 ? 0.0 : 1.0;
   });
@@ -193,7 +200,7 @@ struct ReusedRemainder {
   float pmf(std::size_t i) const { return i == 2 ? 0.5f : 0.25f; }
   mc::DiscreteSample<float> sample_index(float u) const {
     const float cdf[] = {0, 0.25f, 0.4995f};
-    const std::size_t i = u < cdf[1] ? 0 : u < cdf[2] ? 1 : 2;
+    const auto i = static_cast<std::size_t>(std::upper_bound(cdf, cdf + 3, u) - cdf - 1);
     return {i, pmf(i), (u - cdf[i]) / pmf(i)};
   }
 };
@@ -206,11 +213,8 @@ void add_tables_weights_and_cones(Slips& s) {
                trial(on_interval(
                    0, 1, [](Pcg& r) { return table_sample(uniform(r), 0.75); }, [](double) { return 1.0; }))});
   s.push_back({"R2", "smoothstep inverse", "pbrt-v4", "its polynomial ignores its argument: 0 / 0 for every x",
-               Fault::inverse, 1000, smoothstep_inverse([](double x) {
-                 const auto p = [x](double) { return x * x * x * (2 - x); };
-                 return (p(x) - p(0)) / (p(1) - p(0));
-               }),
-               smoothstep_inverse([](double x) { return mc::Smoothstep<double>{}.invert(x); })});
+               Fault::inverse, 1000, smoothstep(by_ignored_argument),
+               smoothstep([](double x) { return mc::Smoothstep<double>{}.invert(x); })});
   s.push_back(
       {"R3", "barycentrics divided twice", "pbrt-v4, spherical triangle",
        "the second division uses the first's result: the third coordinate turns negative", Fault::outside, 1000,

@@ -3,7 +3,7 @@
 ///
 /// They stand here in our own words because two readers need them: `carlo slips`, which tells what the
 /// checkers make of the code that the books print, and the tests, which demand that every one of them is rejected.
-/// A family adds its slips in a file of its own, slips_<family>.cpp.
+/// A family adds its slips in a file of its own, slips/FAMILY.cpp.
 
 #include <catalogue/catalogue.h>
 
@@ -16,7 +16,7 @@
 
 namespace carlo {
 
-/// A sampler, weight or estimator ready to be judged; made by the functions of slip_trials.h.
+/// A sampler, weight or estimator ready to be judged; made by the functions of trials.h.
 struct Trial {
   std::function<mc::Report(const CaseOptions&)> check;
   /// Draws of a stream until one shows by itself that it is wrong (not finite, outside, density 0, weight off); 0 when
@@ -48,7 +48,7 @@ Slips disturbances();       ///< C1 ..., V1 ...
 /// All three families.
 Slips all_slips();
 
-/// Where the books' numbers live: appended to `s` by slips_books.cpp and slips_courses.cpp.
+/// Where the books' numbers live: appended to `s` by books.cpp and courses.cpp.
 void add_shirley(Slips& s);
 void add_courses(Slips& s);
 

@@ -11,7 +11,7 @@ namespace {
 
 using Kind = mc::Subject::Draw::Kind;
 
-template <class D> mc::Subject on(const D& domain, Directions sampler, Density pdf, Failures failures) {
+template <class D> mc::Subject on(const D& domain, DirectionSampler sampler, Density pdf, Failures failures) {
   mc::Subject s = make_subject("", domain, std::move(sampler), std::move(pdf));
   s.may_fail = failures == Failures::allowed;
   return s;
@@ -28,15 +28,76 @@ bool is_bad(const mc::Subject& s, const mc::Subject::Draw& d) {
   return !d.pdf_positive || !(std::abs(d.weight - 1) <= s.weight_tolerance);
 }
 
+mc::Report report_of(const CaseOptions& c) {
+  mc::Report report;
+  report.alpha = c.alpha;
+  report.samples = c.samples;
+  return report;
+}
+
+mc::Check finite_check(const mc::Moments& moments, std::uint64_t samples) {
+  const auto bad = static_cast<double>(moments.non_finite());
+  mc::Check check{"finite", mc::Verdict::pass, {}, 0, bad, 0, mc::Fault::not_finite, {}};
+  if (bad > 0) {
+    check.verdict = mc::Verdict::fail;
+    check.detail = fmt::format("{} of {} estimates, first number {}", bad, samples, moments.witness());
+  }
+  return check;
+}
+
+mc::Check mean_check(const mc::Moments& moments, double value, double alpha) {
+  const bool exact = std::abs(moments.mean() - value) <= 1e-12 * std::abs(value); // a perfect estimator has no spread
+  const mc::TTest test = exact ? mc::TTest{} : mc::t_test(moments, value, alpha);
+  mc::Check check{"mean", mc::Verdict::pass, test.p, 1, test.t, 0, mc::Fault::bias, {}};
+  if (test.p <= alpha) {
+    check.verdict = mc::Verdict::fail;
+    check.detail = fmt::format("{:.6g} +- {:.2g} instead of {:.6g}", moments.mean(), moments.std_error(), value);
+  }
+  return check;
+}
+
+mc::Report mean_report(double value, const NumberSampler& estimator, const CaseOptions& c) {
+  mc::Report report = report_of(c);
+  mc::Moments moments;
+  mc::Pcg random(c.seed);
+  for (std::uint64_t i = 0; i < c.samples; ++i) moments.add(estimator(random), i);
+  report.checks.push_back(finite_check(moments, c.samples));
+  if (moments.non_finite() == 0) report.checks.push_back(mean_check(moments, value, c.alpha));
+  return report;
+}
+
+mc::Report law_report(mc::WorstError worst, const NumberSampler& error, const CaseOptions& c) {
+  mc::Report report = report_of(c);
+  mc::Pcg random(c.seed);
+  for (std::uint64_t i = 0; i < c.samples; ++i) {
+    const double off = error(random);
+    worst.note(off, [&] { return fmt::format("off by {:.3g} at point {}", off, i); });
+  }
+  report.checks.push_back(worst.check());
+  return report;
+}
+
+// The laws of a sampler, its inverse first: what breaks that is told before what counts find.
+Trial trial_with_inverse(const mc::AnySampler& sampler, double tolerance) {
+  Trial t = trial(make_subject(sampler));
+  t.check = [counts = t.check, sampler, tolerance](const CaseOptions& c) {
+    mc::Report report = counts(c);
+    for (mc::Check& check : mc::inverse_law(sampler, {.seed = c.seed, .invert_eps = tolerance / sampler.epsilon()}))
+      report.checks.insert(report.checks.begin(), std::move(check));
+    return report;
+  };
+  return t;
+}
+
 } // namespace
 
-mc::Subject on_hemisphere(Directions sampler, Density pdf, Failures failures) {
+mc::Subject on_hemisphere(DirectionSampler sampler, Density pdf, Failures failures) {
   return on(mc::Hemisphere<double>{}, std::move(sampler), std::move(pdf), failures);
 }
-mc::Subject on_sphere(Directions sampler, Density pdf) {
+mc::Subject on_sphere(DirectionSampler sampler, Density pdf) {
   return on(mc::Sphere<double>{}, std::move(sampler), std::move(pdf), Failures::never);
 }
-mc::Subject on_interval(double lo, double hi, Numbers sampler, std::function<double(double)> pdf) {
+mc::Subject on_interval(double lo, double hi, NumberSampler sampler, std::function<double(double)> pdf) {
   return make_subject("", mc::Interval<double>(lo, hi), std::move(sampler), std::move(pdf));
 }
 
@@ -63,14 +124,15 @@ Trial trial(const Inverted& warp, double tolerance) {
     const mc::Vec2<double> u = invert({x[0], x[1], x[2]});
     return mc::AnySampler::Uniforms{u[0], u[1]};
   };
-  Trial t = trial(make_subject(sampler));
-  t.check = [counts = t.check, sampler, tolerance](const CaseOptions& c) {
-    mc::Report report = counts(c);
-    for (mc::Check& check : mc::inverse_law(sampler, {.seed = c.seed, .invert_eps = tolerance / sampler.epsilon()}))
-      report.checks.insert(report.checks.begin(), std::move(check));
-    return report;
+  return trial_with_inverse(sampler, tolerance);
+}
+
+Trial trial(const InvertedNumber& warp, double tolerance) {
+  mc::AnySampler sampler = make_sampler("", mc::Interval<double>{}, warp.sample, warp.pdf);
+  sampler.invert = [invert = warp.invert](const mc::Numbers& x) -> std::optional<mc::AnySampler::Uniforms> {
+    return mc::AnySampler::Uniforms{invert(x[0])};
   };
-  return t;
+  return trial_with_inverse(sampler, tolerance);
 }
 
 Trial trial(const Scattering& bsdf, double theta_o) {
@@ -82,7 +144,7 @@ Trial trial(const Scattering& bsdf, double theta_o) {
   return t;
 }
 
-Trial mean_trial(double value, const Numbers& estimator) {
+Trial mean_trial(double value, const NumberSampler& estimator) {
   Trial t;
   t.fewest = 16;
   t.first_bad = [estimator](std::uint64_t seed, std::uint64_t most) -> std::uint64_t {
@@ -91,38 +153,11 @@ Trial mean_trial(double value, const Numbers& estimator) {
       if (!std::isfinite(estimator(random))) return i;
     return 0;
   };
-  t.check = [value, estimator](const CaseOptions& c) {
-    mc::Report report;
-    report.alpha = c.alpha;
-    report.samples = c.samples;
-    mc::Moments moments;
-    mc::Pcg random(c.seed);
-    for (std::uint64_t i = 0; i < c.samples; ++i) moments.add(estimator(random), i);
-    const auto bad = static_cast<double>(moments.non_finite());
-    report.checks.push_back({"finite",
-                             bad > 0 ? mc::Verdict::fail : mc::Verdict::pass,
-                             {},
-                             0,
-                             bad,
-                             0,
-                             mc::Fault::not_finite,
-                             bad > 0
-                                 ? fmt::format("{} of {} estimates, first number {}", bad, c.samples, moments.witness())
-                                 : std::string()});
-    if (bad > 0) return report;
-    const bool exact = std::abs(moments.mean() - value) <= 1e-12 * std::abs(value); // a perfect estimator has no spread
-    const mc::TTest test = exact ? mc::TTest{} : mc::t_test(moments, value, c.alpha);
-    mc::Check mean{
-        "mean", test.p <= c.alpha ? mc::Verdict::fail : mc::Verdict::pass, test.p, 1, test.t, 0, mc::Fault::bias, {}};
-    if (mean.verdict == mc::Verdict::fail)
-      mean.detail = fmt::format("{:.6g} +- {:.2g} instead of {:.6g}", moments.mean(), moments.std_error(), value);
-    report.checks.push_back(std::move(mean));
-    return report;
-  };
+  t.check = [value, estimator](const CaseOptions& c) { return mean_report(value, estimator, c); };
   return t;
 }
 
-Trial law_trial(const std::string& law, double limit, mc::Fault fault, const Numbers& error) {
+Trial law_trial(const std::string& law, double limit, mc::Fault fault, const NumberSampler& error) {
   Trial t;
   t.fewest = 16;
   t.first_bad = [limit, error](std::uint64_t seed, std::uint64_t most) -> std::uint64_t {
@@ -131,18 +166,8 @@ Trial law_trial(const std::string& law, double limit, mc::Fault fault, const Num
       if (!(error(random) <= limit)) return i;
     return 0;
   };
-  t.check = [law, limit, fault, error](const CaseOptions& c) {
-    mc::Report report;
-    report.alpha = c.alpha;
-    report.samples = c.samples;
-    mc::WorstError worst(law, limit, fault);
-    mc::Pcg random(c.seed);
-    for (std::uint64_t i = 0; i < c.samples; ++i) {
-      const double off = error(random);
-      worst.note(off, [&] { return fmt::format("off by {:.3g} at point {}", off, i); });
-    }
-    report.checks.push_back(worst.check());
-    return report;
+  t.check = [worst = mc::WorstError(law, limit, fault), error](const CaseOptions& c) {
+    return law_report(worst, error, c);
   };
   return t;
 }

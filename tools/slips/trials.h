@@ -15,16 +15,16 @@
 namespace carlo {
 
 using Direction = mc::Vec3<double>;
-using Directions = std::function<std::optional<Direction>(mc::Pcg&)>;
+using DirectionSampler = std::function<std::optional<Direction>(mc::Pcg&)>;
 using Density = std::function<double(const Direction&)>;
-using Numbers = std::function<double(mc::Pcg&)>;
+using NumberSampler = std::function<double(mc::Pcg&)>;
 
 /// May return nothing: then the density has less mass than 1, by the rate of failures.
 enum class Failures { never, allowed };
 
-mc::Subject on_hemisphere(Directions sampler, Density pdf, Failures failures = Failures::never);
-mc::Subject on_sphere(Directions sampler, Density pdf);
-mc::Subject on_interval(double lo, double hi, Numbers sampler, std::function<double(double)> pdf);
+mc::Subject on_hemisphere(DirectionSampler sampler, Density pdf, Failures failures = Failures::never);
+mc::Subject on_sphere(DirectionSampler sampler, Density pdf);
+mc::Subject on_interval(double lo, double hi, NumberSampler sampler, std::function<double(double)> pdf);
 
 Trial trial(mc::Subject subject);
 
@@ -35,6 +35,12 @@ struct Inverted {
   std::function<mc::Vec2<double>(const Direction&)> invert;
 };
 Trial trial(const Inverted& warp, double tolerance = 1e-9);
+
+/// The same of [0,1].
+struct InvertedNumber {
+  std::function<double(double)> sample, pdf, invert;
+};
+Trial trial(const InvertedNumber& warp, double tolerance = 1e-12);
 
 /// A BSDF seen from the polar angle theta_o [degrees], and its physics: the laws of check_bsdf.
 struct Scattering {
@@ -51,10 +57,10 @@ struct Scattering {
 Trial trial(const Scattering& bsdf, double theta_o);
 
 /// An estimator whose mean must be `value`: finite, and by Student's test.
-Trial mean_trial(double value, const Numbers& estimator);
+Trial mean_trial(double value, const NumberSampler& estimator);
 
 /// A law without counts: error(random) <= limit at every point. NaN breaks it.
-Trial law_trial(const std::string& law, double limit, mc::Fault fault, const Numbers& error);
+Trial law_trial(const std::string& law, double limit, mc::Fault fault, const NumberSampler& error);
 
 constexpr double pi = std::numbers::pi;
 inline double uniform(mc::Pcg& r) { return r.uniform<double>(); }

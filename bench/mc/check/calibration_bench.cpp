@@ -107,7 +107,10 @@ std::vector<mc::Subject> subjects() {
   right("table 2048x1024 with a sun", [] {
     std::vector<double> w(2048 * 1024);
     double sum = 0;
-    for (std::size_t i = 0; i < w.size(); ++i) sum += w[i] = 1 + std::cos(3.0 * static_cast<double>(i / 2048) / 1024);
+    for (std::size_t i = 0; i < w.size(); ++i) {
+      const std::size_t row = i / 2048;
+      sum += w[i] = 1 + std::cos(3.0 * static_cast<double>(row) / 1024);
+    }
     for (std::size_t y = 200; y < 206; ++y)
       for (std::size_t x = 700; x < 706; ++x) w[y * 2048 + x] += sum / 36;
     return mc::TableDist2D<double>(w, 2048, 1024);
@@ -125,9 +128,10 @@ std::vector<mc::Subject> subjects() {
   subjects.push_back(reflected<float>("GGX reflection alpha=0.3 theta=85, failures", 0.3f, 85));
   subjects.push_back(mc::bsdf_subject<double>(Coated{}, incident(30), {.name = "coated: mirror, Lambert, absorption"}));
   subjects.push_back(make_discrete_subject("alias table of 1000, weights 1e-3 to 1e3", mc::AliasTable([] {
-                                             std::vector<double> w;
-                                             for (int i = 0; i < 1000; ++i)
-                                               w.push_back(i % 5 == 0 ? 0.0 : std::pow(10.0, (i * 37) % 61 / 10.0 - 3));
+                                             std::vector<double> w(1000);
+                                             for (std::size_t i = 0; i < w.size(); ++i)
+                                               if (i % 5 != 0)
+                                                 w[i] = std::pow(10.0, static_cast<double>(i * 37 % 61) / 10.0 - 3);
                                              return w;
                                            }())));
   return subjects;

@@ -43,8 +43,10 @@ std::vector<double> cascade(std::size_t base, int digits, std::uint64_t seed) {
 std::vector<double> sky(std::size_t width, std::size_t height) {
   std::vector<double> w(width * height);
   double sum = 0;
-  for (std::size_t i = 0; i < w.size(); ++i)
-    sum += w[i] = 1 + std::cos(3 * static_cast<double>(i / width) / static_cast<double>(height));
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    const std::size_t row = i / width;
+    sum += w[i] = 1 + std::cos(3 * static_cast<double>(row) / static_cast<double>(height));
+  }
   for (std::size_t y = height / 5; y < height / 5 + 4; ++y)
     for (std::size_t x = width / 3; x < width / 3 + 4; ++x) w[y * width + x] += sum / 16;
   return w;
@@ -125,7 +127,7 @@ Subject square(std::string name, std::function<V2(Pcg&)> sample) {
 }
 
 // Samples of the square whose density is f <= most.
-Subject thinned(std::string name, double most, std::function<double(double, double)> f) {
+Subject thinned(std::string name, double most, const std::function<double(double, double)>& f) {
   return square(std::move(name), [=](Pcg& r) {
     for (;;)
       if (const double x = uniform(r), y = uniform(r); most * uniform(r) < f(x, y)) return V2(x, y);
@@ -178,7 +180,7 @@ void fine_faults(Foreigners& all) {
 }
 
 // Directions with cosine c and azimuth t that claim to be cosine distributed.
-Subject cosine(std::string name, std::function<std::array<double, 2>(Pcg&)> sample) {
+Subject cosine(std::string name, const std::function<std::array<double, 2>(Pcg&)>& sample) {
   return make_subject(
       std::move(name), mc::Hemisphere<double>{},
       [=](Pcg& r) {

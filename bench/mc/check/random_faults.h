@@ -29,7 +29,7 @@ using Draw = Subject::Draw;
 using Coordinates = Subject::Coordinates;
 
 /// The draws of a right sampler, each changed, or left out where `change` says false.
-inline Subject changed(Subject right, std::function<bool(Pcg&, Draw&)> change) {
+inline Subject changed(Subject right, const std::function<bool(Pcg&, Draw&)>& change) {
   right.draw = [draw = right.draw, change](std::uint64_t seed, std::size_t n, std::vector<Draw>& out) {
     Pcg random(seed, 91);
     std::vector<Draw> draws;
@@ -49,7 +49,7 @@ inline Subject changed(Subject right, std::function<bool(Pcg&, Draw&)> change) {
 }
 
 /// The density of the samples is (1 + error(v)) times the claimed one; |error| <= most.
-inline Subject reweighted(const Subject& right, double most, std::function<double(const Coordinates&)> error) {
+inline Subject reweighted(const Subject& right, double most, const std::function<double(const Coordinates&)>& error) {
   return changed(right, [=](Pcg& r, Draw& d) { return uniform(r) * (1 + most) < 1 + error(d.v); });
 }
 

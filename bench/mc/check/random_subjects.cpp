@@ -243,7 +243,7 @@ Subject powers_in_box(Pcg& r) {
       });
 }
 
-Subject uniform_inside(std::string name, double area, std::function<bool(const V2&)> inside) {
+Subject uniform_inside(std::string name, double area, const std::function<bool(const V2&)>& inside) {
   return make_subject(
       std::move(name), mc::Square<double>{},
       [inside](Pcg& random) {

@@ -46,7 +46,7 @@ Subject of_table(const std::string& name, const std::vector<double>& weights, bo
 /// A share k of von Mises-Fisher about `pole` in a uniform sphere.
 Subject lobe_on_sphere(double k, double kappa, const mc::Vec3<double>& pole);
 /// Uniform where `inside` says, a part of the unit square of that area.
-Subject uniform_inside(std::string name, double area, std::function<bool(const mc::Vec2<double>&)> inside);
+Subject uniform_inside(std::string name, double area, const std::function<bool(const mc::Vec2<double>&)>& inside);
 Subject uniform_ball_in_box(double radius);
 
 } // namespace truth

@@ -5,14 +5,14 @@ namespace {
 
 void pcg32(benchmark::State& state) {
   mc::Pcg random(1);
-  for (auto _ : state) benchmark::DoNotOptimize(random.next32());
+  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(random.next32());
   bench::note(state, 1, 1.7);
 }
 BENCHMARK(pcg32);
 
 template <class S> void pcg(benchmark::State& state) {
   mc::Pcg random(1);
-  for (auto _ : state) benchmark::DoNotOptimize(random.uniform<S>());
+  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(random.uniform<S>());
   bench::note(state);
 }
 BENCHMARK(pcg<float>)->Name("pcg32 uniform float");
@@ -21,7 +21,7 @@ BENCHMARK(pcg<double>)->Name("pcg32 uniform double");
 template <class S> void pcg_fill(benchmark::State& state) {
   mc::Pcg random(1);
   std::vector<S> out(1024);
-  for (auto _ : state) {
+  for ([[maybe_unused]] const auto _ : state) {
     random.fill<S>(out);
     benchmark::DoNotOptimize(out.data());
     benchmark::ClobberMemory();
@@ -33,7 +33,7 @@ BENCHMARK(pcg_fill<double>)->Name("pcg32 uniform double/n");
 
 void hashed(benchmark::State& state) {
   std::uint64_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(mc::hash_uniform<float>(1, i++));
+  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(mc::hash_uniform<float>(1, i++));
   bench::note(state);
 }
 BENCHMARK(hashed)->Name("hash uniform float");

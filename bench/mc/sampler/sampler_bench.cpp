@@ -13,7 +13,7 @@ namespace {
 // Points of the first 65536 in a scattered order, as pixels and paths ask for them.
 template <class F> void points(benchmark::State& state, double aim, const F& point) {
   std::uint32_t i = 0;
-  for (auto _ : state) {
+  for ([[maybe_unused]] const auto _ : state) {
     const mc::Vec2<float> u = point((i += 40503) & 0xffff);
     benchmark::DoNotOptimize(u);
   }
@@ -43,7 +43,7 @@ constexpr std::uint64_t run = 1024;
 template <class S> void run_scalar(benchmark::State& state) {
   const mc::Sobol sampler(1);
   std::vector<S> out(run);
-  for (auto _ : state) {
+  for ([[maybe_unused]] const auto _ : state) {
     for (std::uint64_t i = 0; i < run; ++i) out[i] = mc::coordinate<S>(sampler, run + i, 3);
     benchmark::DoNotOptimize(out.data());
     benchmark::ClobberMemory();
@@ -56,7 +56,7 @@ BENCHMARK(run_scalar<double>)->Name("Sobol run in dim 3, double");
 template <class S> void run_filled(benchmark::State& state) {
   const mc::Sobol sampler(1);
   std::vector<S> out(run);
-  for (auto _ : state) {
+  for ([[maybe_unused]] const auto _ : state) {
     sampler.fill<S>(run, 3, out);
     benchmark::DoNotOptimize(out.data());
     benchmark::ClobberMemory();

@@ -18,7 +18,7 @@ std::vector<double> sky(std::size_t n) {
 void table_1d(benchmark::State& state) {
   const mc::TableDist1D<float> table(sky(524288));
   mc::Pcg random(1);
-  for (auto _ : state) benchmark::DoNotOptimize(table.sample_index(random.uniform<float>()));
+  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(table.sample_index(random.uniform<float>()));
   bench::note(state, 1, 25);
 }
 BENCHMARK(table_1d)->Name("TableDist1D 524288, index + pmf");
@@ -26,7 +26,7 @@ BENCHMARK(table_1d)->Name("TableDist1D 524288, index + pmf");
 void alias(benchmark::State& state) {
   const mc::AliasTable table(sky(524288));
   mc::Pcg random(1);
-  for (auto _ : state) benchmark::DoNotOptimize(table.sample_index(random.uniform<double>()));
+  for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(table.sample_index(random.uniform<double>()));
   bench::note(state, 1, 0);
 }
 BENCHMARK(alias)->Name("AliasTable 524288, index + pmf");
@@ -35,7 +35,7 @@ void table_tree(benchmark::State& state) {
   const auto table = mc::TableDistTree<float, 3>::from_function(
       [](const mc::Vec3<double>& x) { return std::exp(-10 * (x.array() - x.mean()).matrix().norm()); }, 1000);
   mc::Pcg random(1);
-  for (auto _ : state) {
+  for ([[maybe_unused]] const auto _ : state) {
     const mc::Vec3<float> x = table.sample(random.point<float, 3>());
     benchmark::DoNotOptimize(table.pdf(x));
   }
@@ -46,7 +46,7 @@ BENCHMARK(table_tree)->Name("TableDistTree 1000 boxes in 3 dimensions, sample + 
 void table_2d(benchmark::State& state) {
   const mc::TableDist2D<float> table(sky(524288), 1024, 512);
   mc::Pcg random(1);
-  for (auto _ : state) {
+  for ([[maybe_unused]] const auto _ : state) {
     const mc::Vec2<float> x = table.sample(random.point<float, 2>());
     benchmark::DoNotOptimize(table.pdf(x));
   }

@@ -23,7 +23,7 @@ constexpr float pi = std::numbers::pi_v<float>;
 template <class F> void measure(const std::string& name, F f) {
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
     const auto points = bench::points<float>();
-    for (auto _ : state)
+    for ([[maybe_unused]] const auto _ : state)
       for (const Vec2<float>& u : points) benchmark::DoNotOptimize(f(u));
     bench::note(state, static_cast<double>(points.size()));
   });
@@ -55,7 +55,7 @@ void filters() {
   });
   const mc::MixtureN axis(mc::Interval<float>(-1, 1), mc::UniformDiscrete<float>(2),
                           std::vector<mc::Tent<float>>{{-0.25f, 0.5f}, {0.25f, 0.5f}});
-  const mc::Product four(axis, axis);
+  const mc::Product four{axis, axis};
   measure("2 x 2 tents", [four](const Vec2<float>& u) { return four.sample(u); });
   const auto by_hand = [n = 2, r = 0.5f](float u) {
     const float cell = std::min(std::floor(u * float(n)), float(n - 1));

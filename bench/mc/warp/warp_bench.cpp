@@ -21,7 +21,7 @@ using mc::Vec3;
 template <class S, class F> void measure(const std::string& name, double aim, bool with_pdf, F make) {
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
     const auto points = bench::points<S>();
-    for (auto _ : state) {
+    for ([[maybe_unused]] const auto _ : state) {
       for (const auto& u : points) {
         const auto& warp = make(u);
         const auto x = warp.sample(u);
@@ -50,7 +50,7 @@ template <class W> void with_batch(const std::string& name, double aim, const W&
     }
     mc::PointColumns<W> x;
     for (std::size_t k = 0; k < x.size(); ++k) x[k] = columns[2 + k];
-    for (auto _ : state) {
+    for ([[maybe_unused]] const auto _ : state) {
       mc::sample_n(warp, {columns[0], columns[1]}, x);
       benchmark::ClobberMemory();
     }

@@ -80,10 +80,23 @@ TEST_F(OutputTest, AFolderWithQuotesIsDrawnIn) {
       support::run_carlo("converge pi --max-n 64 --replicates 8 -o \"" + path("it's \\\"\\$(here)\\\"") + "\"");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_TRUE(std::filesystem::exists(out + "/pi.csv")) << run.output;
-  if (support::run("command -v gnuplot").exit_code != 0) GTEST_SKIP() << "gnuplot is not installed";
+  if (!support::has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   EXPECT_TRUE(std::filesystem::exists(out + "/pi.svg")) << run.output;
   EXPECT_TRUE(std::filesystem::exists(out + "/pi.png"));
   EXPECT_FALSE(std::filesystem::exists(out + "/pi.log"));
+}
+
+TEST_F(OutputTest, APlotThatDoesNotFitIsAnErrorAndAUsersFilesStay) {
+  if (!support::has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
+  const std::string arguments = "converge pi --max-n 64 --replicates 8 -o '" + folder.string() + "'";
+  write("pi.log", "mine");
+  std::filesystem::create_symlink("/dev/full", path("pi.svg"));
+  const Ran full = support::run("('" CARLO_PATH "' " + arguments + " 2>&1 >/dev/null)");
+  expect_one_line(full, "pi.svg': No space left on device");
+  std::filesystem::remove(path("pi.svg"));
+  const Ran run = support::run_carlo(arguments);
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_EQ(mc::read_file(path("pi.log")), "mine");
 }
 
 TEST_F(OutputTest, CtrlCWritesWhatIsFinished) {

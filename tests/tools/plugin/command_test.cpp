@@ -6,6 +6,8 @@
 
 #include <gmock/gmock.h>
 
+#include <sys/stat.h>
+
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -100,10 +102,12 @@ TEST_F(Command, MoreThanTheAnswersIsRefused) {
               HasSubstr(more));
 }
 
+// The program ends when what it started has said its id, by a pipe.
 TEST_F(Command, WhatItStartedEndsWithIt) {
-  const std::string id = "\"" + path("id") + "\"";
-  refusal(
-      options("sh -c 'echo $$ > " + id + "; exec sleep 1000' & until [ -s " + id + " ]; do sleep 0.01; done; exit 3"));
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  const std::string id = "\"" + path("id") + "\"", pipe = "\"" + path("pipe") + "\"";
+  refusal(options("sh -c 'echo $$ > " + pipe + "; exec sleep 1000' & read id < " + pipe + "; echo $id > " + id +
+                  "; exit 3"));
   EXPECT_EQ(kill(std::stoi(mc::read_file(path("id"))), 0), -1);
   EXPECT_EQ(errno, ESRCH);
 }

@@ -1,4 +1,4 @@
-#include <cli/integrate_output.h>
+#include <report/integrate_output.h>
 #include <report/report_json.h>
 #include <terminal/progress.h>
 #include <terminal/version.h>

@@ -1,8 +1,8 @@
-#include <cli/integral_options.h>
-#include <gallery/picture.h>
 #include <integrands/find.h>
 #include <integrands/genz.h>
 #include <integrands/rate_integrals.h>
+#include <options/integral_options.h>
+#include <picture/picture.h>
 #include <plugin/integrands.h>
 #include <terminal/progress.h>
 

@@ -1,4 +1,4 @@
-#include <cli/resume.h>
+#include <picture/resume.h>
 
 #include <render/film/accumulate.h>
 #include <render/io/image_io.h>

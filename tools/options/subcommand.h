@@ -1,7 +1,7 @@
 #pragma once
 /// A subcommand of carlo as data: its words, its options as rows, and the function that runs it.
 ///
-/// A new subcommand is one file, CMake's line for it, and a row in subcommands.cpp. The file defines
+/// A new subcommand is one file in cli/, CMake's line for it, and a row in subcommands.cpp. The file defines
 ///   Subcommand NAME_subcommand() { return make_subcommand<Options>("NAME", "What it does", rows, run); }
 /// where Options is a struct of its own, rows(Options&) lists the options with the fields that they fill, and
 /// run(const Options&) prints its result on stdout and progress on stderr, returns the exit code, and throws mc::Error

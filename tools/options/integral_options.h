@@ -1,8 +1,8 @@
 #pragma once
 /// What the subcommands that measure integrals and scenes are asked for alike.
 
-#include <cli/subcommand.h>
 #include <converge/pictures.h>
+#include <options/subcommand.h>
 
 #include <string>
 #include <vector>

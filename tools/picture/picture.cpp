@@ -1,4 +1,4 @@
-#include <gallery/picture.h>
+#include <picture/picture.h>
 #include <terminal/progress.h>
 #include <terminal/version.h>
 

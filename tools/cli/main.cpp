@@ -1,6 +1,6 @@
 /// carlo: the command line. The only file that includes CLI11.
 
-#include <cli/subcommand.h>
+#include <options/subcommand.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
