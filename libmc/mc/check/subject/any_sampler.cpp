@@ -128,6 +128,17 @@ double resolution(const AnySampler& s, const Subject::Coordinates& v, std::size_
   return worst;
 }
 
+// What a function that shares something with others was made of; nothing for any other function.
+template <class Signature> const void* held_by(const std::function<Signature>& function) {
+  const auto* call = function.template target<detail::SharedCall<Signature>>();
+  return call ? call->held.get() : nullptr;
+}
+
+bool draws_as_it_samples(const AnySampler& s) {
+  const void* held = held_by(s.draw_many);
+  return held && held == held_by(s.sample) && held == held_by(s.pdf);
+}
+
 void append_draws(const AnySampler& s, std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
   Pcg random(seed);
   if (!s.sample) {
@@ -136,13 +147,14 @@ void append_draws(const AnySampler& s, std::uint64_t seed, std::size_t n, std::v
   }
   // Where many are drawn at once they stay in the fastest memory, but a program is asked for all of them in one batch.
   const std::size_t together = s.sample_many ? n : std::min<std::size_t>(n, 256);
+  const bool placed = draws_as_it_samples(s);
   std::vector<AnySampler::Uniforms> u(together);
   for (std::size_t left = n; left > 0; left -= u.size()) {
     u.resize(std::min(left, together));
     for (AnySampler::Uniforms& one : u) one = random_uniforms(s, random);
     if (s.sample_many) {
       for (const auto& drawn : s.sample_many(u)) out.push_back(place(s, drawn).draw);
-    } else if (s.draw_many) {
+    } else if (placed) {
       out.resize(out.size() + u.size());
       s.draw_many(u, std::span(out).last(u.size()));
     } else {

@@ -8,12 +8,27 @@
 
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mc {
+
+namespace detail {
+
+/// A function of something that several functions share. They differ in `call` alone: what makes, copies and destroys
+/// them is compiled once per signature, not once per sampler.
+template <class Signature> struct SharedCall;
+template <class R, class... Args> struct SharedCall<R(Args...)> {
+  std::shared_ptr<const void> held;
+  R (*call)(const void* held, Args... args);
+  R operator()(Args... args) const { return call(held.get(), std::forward<Args>(args)...); }
+};
+
+} // namespace detail
 
 /// A domain as functions of plain numbers. Its chart runs in double whatever the sampler computes in, so that bins lose
 /// no precision; membership is tested in the sampler's own scalar.
@@ -76,7 +91,8 @@ struct AnySampler {
   /// The next sample of a stream, for samplers that take as many random numbers as they like. One of the two is there.
   std::function<std::optional<Drawn>(Pcg& random)> sample_stream;
   /// The draws of several u as the tests see them, with their places in the chart: what `place` makes of each `sample`,
-  /// without a call through a function for every step. For samplers of points that fit so; beside `sample`.
+  /// without a call through a function for every step. It counts only as long as `sample` and `pdf` are those that it
+  /// was made with.
   std::function<void(std::span<const Uniforms> u, std::span<Subject::Draw> draws)> draw_many;
   std::function<double(const Numbers& x)> pdf;
   /// The densities at several x, likewise beside `pdf`.

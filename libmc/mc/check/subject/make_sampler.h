@@ -73,14 +73,6 @@ template <class F> double disagreement(const F& a, const F& b) {
   return worst;
 }
 
-/// A function of something that several functions share. They differ in `call` alone: what makes, copies and destroys
-/// them is compiled once per signature, not once per sampler.
-template <class Signature> struct SharedCall;
-template <class R, class... Args> struct SharedCall<R(Args...)> {
-  std::shared_ptr<const void> held;
-  R (*call)(const void* held, Args... args);
-  R operator()(Args... args) const { return call(held.get(), std::forward<Args>(args)...); }
-};
 /// Sets `function` to f(*held, arguments), f a lambda that captures nothing.
 template <class R, class... Args, class T, class F>
 void set_shared(std::function<R(Args...)>& function, const std::shared_ptr<const T>& held, F) {

@@ -2,6 +2,7 @@
 
 #include <mc/check/check_subject.h>
 #include <mc/check/subject/make_sampler.h>
+#include <mc/warp/hemisphere.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -54,6 +55,35 @@ TEST(AnySampler, APointAndALobeAtOnce) {
   EXPECT_TRUE(right.passed()) << right.to_string();
   s.atoms = {0.26};
   EXPECT_EQ(check_subject(make_subject(s), {.samples = 50'000}).verdict(), mc::Verdict::fail);
+}
+
+// The typed way of a warp and the one step by step: the same draws, bit for bit, with those that fail, lie outside or are
+// not finite among them.
+TEST(AnySampler, DrawsAreWhatSampleAndPdfSay) {
+  const auto expect_same = [](AnySampler s) {
+    ASSERT_TRUE(s.draw_many);
+    std::vector<mc::Subject::Draw> typed, stepwise;
+    make_subject(s).draw(7, 3000, typed);
+    s.sample = [sample = s.sample](const AnySampler::Uniforms& u) { return sample(u); }; // another function
+    make_subject(s).draw(7, 3000, stepwise);
+    ASSERT_EQ(typed.size(), stepwise.size());
+    for (std::size_t i = 0; i < typed.size(); ++i) {
+      EXPECT_EQ(typed[i].kind, stepwise[i].kind) << s.name << i;
+      EXPECT_EQ(typed[i].v, stepwise[i].v) << s.name << i;
+      EXPECT_EQ(typed[i].density, stepwise[i].density) << s.name << i;
+      EXPECT_EQ(typed[i].pdf_positive, stepwise[i].pdf_positive) << s.name << i;
+    }
+  };
+  expect_same(mc::make_sampler("float", mc::CosineHemisphere<float>()));
+  expect_same(mc::make_sampler("double", mc::CosineHemisphere<double>()));
+  expect_same(mc::make_sampler(
+      "broken", mc::Interval<double>(0, 1),
+      [](double u) -> std::optional<double> {
+        if (u < 0.1) return {};
+        if (u < 0.2) return std::nan("");
+        return u < 0.3 ? 2.0 : u;
+      },
+      [](double x) { return x < 0.5 ? 0.0 : std::nan(""); }));
 }
 
 // Where densities are answered many at a time nearly all of the checker's questions come so, with the same results.
