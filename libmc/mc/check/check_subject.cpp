@@ -207,6 +207,11 @@ Counts count_samples(const Subject& s, const Pilot& pilot, const SubjectOptions&
   return counts;
 }
 
+std::string describe_density(double density) {
+  if (density < 0) return "negative";
+  return std::isnan(density) ? "not a number" : "infinite";
+}
+
 std::vector<Check> judge_density(const Subject& s, const Layout& layout) {
   const auto& bad = layout.masses.bad ? layout.masses.bad : layout.cubature.bad;
   if (!bad) return {};
@@ -218,10 +223,7 @@ std::vector<Check> judge_density(const Subject& s, const Layout& layout) {
            1,
            0,
            density < 0 ? Fault::negative : Fault::not_finite,
-           fmt::format("{} at {}",
-                       density < 0           ? "negative"
-                       : std::isnan(density) ? "not a number"
-                                             : "infinite",
+           fmt::format("{} at {}", describe_density(density),
                        s.describe_point ? "x = " + s.describe_point(*bad)
                                         : fmt::format("chart coordinates ({:.17g}, {:.17g}, {:.17g})", (*bad)[0],
                                                       (*bad)[1], (*bad)[2]))}};

@@ -36,7 +36,8 @@ Placed place(const AnySampler& s, const std::optional<AnySampler::Drawn>& drawn)
     d.kind = Kind::atom;
     d.atom = drawn->atom;
     const auto i = static_cast<std::size_t>(d.atom);
-    p.pdf = !std::isnan(drawn->pdf) ? drawn->pdf : i < s.atoms.size() ? s.atoms[i] : 0.0;
+    const double listed = i < s.atoms.size() ? s.atoms[i] : 0.0;
+    p.pdf = std::isnan(drawn->pdf) ? listed : drawn->pdf;
   } else {
     if (!s.domain.contains || !s.domain.contains(drawn->x)) {
       d.kind = Kind::outside;
@@ -66,9 +67,8 @@ std::string describe_length(const AnySampler& s, const Numbers& x) {
   const auto off = [](const Numbers& y) { return std::hypot(y[0], y[1], y[2]) - 1; };
   for (const AnyDomain::Chart& v : {AnyDomain::Chart{0.3, 0.4, 0}, AnyDomain::Chart{0.7, 0.2, 0}})
     if (!(std::abs(off(s.domain.from_unit(v).x)) < 1e-6)) return {};
-  return std::abs(off(x)) > 4 * s.epsilon()
-             ? fmt::format(", its length 1 {} {:.2g}", off(x) < 0 ? '-' : '+', std::abs(off(x)))
-             : std::string();
+  if (!(std::abs(off(x)) > 4 * s.epsilon())) return {};
+  return fmt::format(", its length 1 {} {:.2g}", off(x) < 0 ? '-' : '+', std::abs(off(x)));
 }
 
 // "x = (0, 1), pdf = 2, eval = 3", or what else it is.

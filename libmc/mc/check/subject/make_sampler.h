@@ -67,7 +67,8 @@ template <class F> double disagreement(const F& a, const F& b) {
   double worst = 0;
   for (int i = 0; i < components(a); ++i) {
     const double x = component(a, i), y = component(b, i);
-    const double off = x == y ? 0.0 : y != 0 ? std::abs(x / y - 1) : HUGE_VAL;
+    if (x == y) continue;
+    const double off = y != 0 ? std::abs(x / y - 1) : HUGE_VAL;
     worst = off <= worst ? worst : off;
   }
   return worst;

@@ -221,9 +221,9 @@ void Reference::fill_guide(std::size_t node, Bin lo, Bin hi) {
   for (std::size_t i = lo[0]; i < hi[0]; ++i)
     for (std::size_t j = lo[1]; j < hi[1]; ++j)
       for (std::size_t k = lo[2]; k < hi[2]; ++k) {
-        const std::size_t index = dim_ == 1   ? i
-                                  : dim_ == 2 ? i * guide_size_ + j
-                                              : (i * guide_size_ + j) * guide_size_ + k;
+        std::size_t index = i;
+        if (dim_ > 1) index = index * guide_size_ + j;
+        if (dim_ > 2) index = index * guide_size_ + k;
         guide_[index] = static_cast<std::uint32_t>(node);
       }
 }
