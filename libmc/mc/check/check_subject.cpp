@@ -1,7 +1,7 @@
 #include <mc/check/check_subject.h>
 
 #include <mc/check/fit/alpha_shares.h>
-#include <mc/check/fit/expected/density_inside.h>
+#include <mc/check/fit/density_inside.h>
 #include <mc/check/fit/expected/mass.h>
 #include <mc/check/fit/tests/density_levels.h>
 #include <mc/check/fit/tests/rotation.h>

@@ -1,6 +1,6 @@
 // Samples at the ends of the unit cube and beside the sampler's branches.
 
-#include <mc/check/fit/expected/density_inside.h>
+#include <mc/check/fit/density_inside.h>
 #include <mc/check/laws/find_breaks.h>
 #include <mc/check/laws/law.h>
 

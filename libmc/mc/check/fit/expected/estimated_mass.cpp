@@ -1,6 +1,6 @@
 #include <mc/check/fit/expected/estimated_mass.h>
 
-#include <mc/check/fit/expected/density_inside.h>
+#include <mc/check/fit/density_inside.h>
 #include <mc/check/fit/pilot.h>
 #include <mc/core/types.h>
 

@@ -1,7 +1,7 @@
 #include <mc/check/fit/expected/mass.h>
 
 #include <mc/check/fit/alpha_shares.h>
-#include <mc/check/fit/expected/density_inside.h>
+#include <mc/check/fit/density_inside.h>
 #include <mc/core/types.h>
 #include <mc/stats/chi_square.h>
 #include <mc/stats/multiple_testing.h>

@@ -1,6 +1,6 @@
 #include <mc/check/fit/expected/reference.h>
 
-#include <mc/check/fit/expected/density_inside.h>
+#include <mc/check/fit/density_inside.h>
 #include <mc/core/types.h>
 #include <mc/random/pcg.h>
 
