@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <ostream>
 
 namespace mc {
@@ -101,12 +103,12 @@ std::string Report::to_string() const {
   for (const Figure& f : figures)
     text += fmt::format("\n  {}: {:.6g} +- {:.2g}{}", f.name, f.value, f.std_error,
                         f.where.empty() ? "" : " at " + f.where);
-  const auto of_shape = [](const Check& c) {
-    return c.verdict == Verdict::fail &&
-           (c.fault == Fault::shape || c.fault == Fault::local || c.fault == Fault::rotation);
-  };
-  if (std::none_of(checks.begin(), checks.end(), of_shape)) return text;
+  // Of other faults, and of gaps and strips thinner than a cell, the counts of cells say nothing.
+  constexpr double least_telling = 4; // more than chance makes of the worst of some thousand cells
+  const std::array<Fault, 3> of_shape{Fault::shape, Fault::local, Fault::rotation};
+  if (std::find(of_shape.begin(), of_shape.end(), fault()) == of_shape.end()) return text;
   for (const WorstCell& w : worst) {
+    if (!(std::abs(w.z) >= least_telling)) continue;
     const std::string cell = describe_worst(axes, w);
     text += fmt::format("\n  {}{}{}: observed {:.0f}, expected {:.1f}, z = {:.1f}", cell,
                         cell.empty() || w.where.empty() ? "" : " at ", w.where, w.observed, w.expected, w.z);
