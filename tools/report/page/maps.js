@@ -35,6 +35,7 @@ const axesOf = c => c.tree ? c.axes : [{name: "outcome", scale: "linear", a: 0, 
 function valueOf(axis, v) {
   switch (axis.scale) {
   case "radius": return Math.sqrt(axis.a ** 2 + (axis.b ** 2 - axis.a ** 2) * v);
+  case "ball_radius": return axis.b * Math.cbrt(v);
   case "half_line": return axis.a + axis.b * v / (1 - v);
   case "real_line": return axis.a + axis.b * (2 * v - 1) / (2 * v * (1 - v));
   case "polar": return 360 / Math.PI * Math.asin(Math.sqrt(Math.min(axis.b * v / 2, 1)));

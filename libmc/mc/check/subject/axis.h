@@ -13,12 +13,13 @@ namespace mc {
 /// One chart coordinate v in [0,1] and the quantity of the domain that it stands for, a monotone function of v alone:
 ///   linear    : a (1 - v) + b v
 ///   radius    : sqrt(a^2 + (b^2 - a^2) v)
+///   ball_radius : b cbrt(v)
 ///   half_line : a + b v / (1 - v)
 ///   real_line : a + b w / (1 - w^2) * 2, w = 2 v - 1
 ///   polar     : the angle from the pole [deg] whose 1 - cos is b v
 ///   azimuth   : 360 v [deg], and 360 meets 0
 struct Axis {
-  enum class Scale { linear, radius, half_line, real_line, polar, azimuth };
+  enum class Scale { linear, radius, ball_radius, half_line, real_line, polar, azimuth };
 
   std::string name = "v";
   Scale scale = Scale::linear;
@@ -28,6 +29,7 @@ struct Axis {
     switch (scale) {
     case Scale::linear: return a * (1 - v) + b * v;
     case Scale::radius: return std::sqrt(a * a + (b - a) * (b + a) * v);
+    case Scale::ball_radius: return b * std::cbrt(v);
     case Scale::half_line: return a + b * (v / (1 - v));
     case Scale::real_line: return a + b * ((2 * v - 1) / (2 * v * (1 - v)));
     case Scale::polar: return 360 / std::numbers::pi * std::asin(std::sqrt(std::min(b * v / 2, 1.0)));
@@ -47,6 +49,7 @@ constexpr std::string_view name(Axis::Scale s) {
   switch (s) {
   case Axis::Scale::linear: return "linear";
   case Axis::Scale::radius: return "radius";
+  case Axis::Scale::ball_radius: return "ball_radius";
   case Axis::Scale::half_line: return "half_line";
   case Axis::Scale::real_line: return "real_line";
   case Axis::Scale::polar: return "polar";

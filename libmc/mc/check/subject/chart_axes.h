@@ -3,6 +3,7 @@
 
 #include <mc/check/subject/axis.h>
 #include <mc/domain/annulus.h>
+#include <mc/domain/ball.h>
 #include <mc/domain/box.h>
 #include <mc/domain/cap.h>
 #include <mc/domain/disk.h>
@@ -48,6 +49,11 @@ template <Real S> std::vector<Axis> chart_axes(const Annulus<S>& d) {
 }
 template <Real S> std::vector<Axis> chart_axes(const Sphere<S>&) { return polar_axes(2); }
 template <Real S> std::vector<Axis> chart_axes(const Hemisphere<S>&) { return polar_axes(1); }
+template <Real S> std::vector<Axis> chart_axes(const Ball<S>&) {
+  std::vector<Axis> axes = polar_axes(2);
+  axes.insert(axes.begin(), {"r", Axis::Scale::ball_radius, 0, 1});
+  return axes;
+}
 template <Real S> std::vector<Axis> chart_axes(const Cap<S>& d) { return polar_axes(static_cast<double>(d.h)); }
 template <Domain D> std::vector<Axis> chart_axes(const RotatedDomain<D>& d) { return chart_axes(d.inner); }
 template <Real S, int N> std::vector<Axis> chart_axes(const Box<S, N>& d) {

@@ -13,6 +13,7 @@ TEST(Axis, ReadsTheQuantityOfEachScale) {
   EXPECT_DOUBLE_EQ((Axis{"x", Scale::linear, -3, 7}).value(0.25), -0.5);
   EXPECT_DOUBLE_EQ((Axis{"r", Scale::radius, 0, 1}).value(0.25), 0.5);
   EXPECT_DOUBLE_EQ((Axis{"r", Scale::radius, 3, 5}).value(0.5), std::sqrt(17.0));
+  EXPECT_DOUBLE_EQ((Axis{"r", Scale::ball_radius, 0, 2}).value(0.125), 1);
   EXPECT_DOUBLE_EQ((Axis{"x", Scale::half_line, 1, 2}).value(0.5), 3);
   EXPECT_DOUBLE_EQ((Axis{"x", Scale::real_line, 4, 2}).value(0.5), 4);
   EXPECT_DOUBLE_EQ((Axis{"phi", Scale::azimuth, 0, 1}).value(0.25), 90);
@@ -26,9 +27,10 @@ TEST(Axis, AnglesHaveAUnitAndEveryScaleAName) {
   EXPECT_EQ((Axis{"phi", Scale::azimuth, 0, 1}).unit(), "deg");
   EXPECT_EQ(Axis{}.unit(), "");
   std::set<std::string_view> names;
-  for (const Scale s : {Scale::linear, Scale::radius, Scale::half_line, Scale::real_line, Scale::polar, Scale::azimuth})
+  for (const Scale s : {Scale::linear, Scale::radius, Scale::ball_radius, Scale::half_line, Scale::real_line,
+                        Scale::polar, Scale::azimuth})
     names.insert(name(s));
-  EXPECT_EQ(names.size(), 6u);
+  EXPECT_EQ(names.size(), 7u);
 }
 
 } // namespace

@@ -29,6 +29,15 @@ TEST(ChartAxes, AnglesAndRadiiAreThoseOfThePoints) {
   expect_polar(mc::Annulus<double>{0.5, 2}, false);
 }
 
+TEST(ChartAxes, ABallHasARadiusAndAngles) {
+  const auto axes = chart_axes(mc::Ball<double>{});
+  const Vec3<double> v(0.3, 0.2, 0.6), p = mc::Ball<double>{}.from_unit(v);
+  ASSERT_EQ(axes.size(), 3u);
+  EXPECT_DOUBLE_EQ(axes[0].value(v[0]), p.norm());
+  EXPECT_NEAR(axes[1].value(v[1]), 180 / mc::pi<double> * std::acos(p.z() / p.norm()), 1e-12);
+  EXPECT_DOUBLE_EQ(axes[2].value(v[2]), 216);
+}
+
 TEST(ChartAxes, LinesAndBoxes) {
   EXPECT_DOUBLE_EQ(chart_axes(mc::Interval<double>{-3, 7})[0].value(0.3), (mc::Interval<double>{-3, 7}).from_unit(0.3));
   EXPECT_DOUBLE_EQ(chart_axes(mc::HalfLine<double>{2, -1})[0].value(0.3), (mc::HalfLine<double>{2, -1}).from_unit(0.3));
