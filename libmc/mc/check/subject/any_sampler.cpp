@@ -1,4 +1,5 @@
 #include <mc/check/subject/any_sampler.h>
+#include <mc/check/subject/float_steps.h>
 
 #include <fmt/format.h>
 
@@ -78,7 +79,7 @@ std::string describe_drawn(const AnySampler& s, const AnySampler::Drawn& drawn) 
   if (p.draw.kind == Kind::atom)
     return fmt::format("outcome {}, {} = {:.9g}", drawn.atom, s.domain.dim > 0 ? "probability" : "pmf", p.pdf);
   text = "x = " + format_x(s, drawn.x);
-  if (p.draw.kind == Kind::outside) text += describe_length(s, drawn.x);
+  if (p.draw.kind == Kind::outside) text += describe_length(s, drawn.x) + float_excess(s, drawn.x);
   if (p.draw.kind != Kind::point) return text;
   text += fmt::format(", pdf = {:.9g}", p.pdf);
   if (s.eval) text += fmt::format(", eval = {:.9g}", s.eval(drawn.x));

@@ -2,6 +2,8 @@
 
 #include <mc/check/laws.h>
 #include <mc/domain/hemisphere.h>
+#include <mc/domain/interval.h>
+#include <mc/domain/sphere.h>
 #include <mc/warp/blinn_phong.h>
 #include <mc/warp/disk.h>
 #include <mc/warp/hemisphere.h>
@@ -52,6 +54,70 @@ TEST(FloatSteps, WhatComputesInItsOwnScalarIsSilent) {
   EXPECT_EQ(mc::float_steps(mc::make_sampler("cosine", mc::CosineHemisphere<float>()), 1), "");
   EXPECT_EQ(mc::float_steps(mc::make_sampler("cosine", mc::CosineHemisphere<double>()), 1), "");
   EXPECT_EQ(mc::float_steps(mc::make_sampler("disk", mc::UniformDisk<float>()), 1), "");
+}
+
+// x of so many random bits, scaled.
+template <class S> mc::AnySampler of_bits(int bits, S scale = 1) {
+  return mc::make_sampler(
+      "x", mc::Interval<S>(0, scale), [=](S u) { return scale * std::ldexp(std::floor(std::ldexp(u, bits)), -bits); },
+      [=](S) { return 1 / scale; });
+}
+
+TEST(FloatSteps, CoarserStepsAreNotThoseOfAFloat) {
+  EXPECT_EQ(mc::float_steps(of_bits<double>(16), 1), "x comes in steps of 1.5e-05 (2^-16)");
+  EXPECT_EQ(mc::float_steps(of_bits<float>(16), 1), "x comes in steps of 1.5e-05 (2^-16)");
+  EXPECT_EQ(mc::float_steps(of_bits<double>(20, 1024), 1), "x comes in steps of 0.00098 (2^-10)");
+  for (const int bits : {23, 24}) {
+    EXPECT_THAT(mc::float_steps(of_bits<double>(bits), 1), HasSubstr("x comes in steps of a float"));
+    EXPECT_EQ(mc::float_steps(of_bits<float>(bits), 1), "");
+  }
+  EXPECT_EQ(mc::float_steps(of_bits<double>(32), 1), "") << "no floats";
+}
+
+TEST(FloatSteps, CoarserStepsOfAnglesHaveTheirUnit) {
+  const auto sphere = [](auto z, auto turns) {
+    return mc::make_sampler(
+        "sphere", mc::Sphere<double>(),
+        [=](const mc::Vec2<double>& u) {
+          return mc::polar_direction<double>(std::sqrt(1 - z(u[0]) * z(u[0])), z(u[0]), turns(u[1]));
+        },
+        [](const auto&) { return 1 / (4 * mc::pi<double>); });
+  };
+  const auto smooth = [](double u) { return 1 - u; };
+  EXPECT_EQ(mc::float_steps(sphere(smooth, smooth), 1), "");
+  EXPECT_EQ(mc::float_steps(sphere([](double u) { return std::floor(1024 * u) / 1024; }, smooth), 1),
+            "cos theta comes in steps of 0.00098 (2^-10)");
+  EXPECT_EQ(mc::float_steps(sphere(smooth, [](double u) { return std::floor(1024 * u) / 1024; }), 1),
+            "phi comes in steps of 0.00098 turns (2^-10)");
+  // Within a narrow lobe, where a float would do no better than 2^-24.
+  EXPECT_EQ(mc::float_steps(sphere([](double u) { return 1 - std::floor(256 * u) / 65536; }, smooth), 1),
+            "cos theta comes in steps of 1.5e-05 (2^-16)");
+}
+
+const std::string excess =
+    ", as far off as float rounds: compute it in double, or declare the sampler float (.scalar = MC_FLOAT)";
+
+// The cosine hemisphere over float, told as one over double.
+TEST(FloatSteps, APointOffTheDomainByARoundingOfFloatIsTold) {
+  const mc::CosineHemisphere<float> warp;
+  const auto in_float = [=](const mc::Vec2<double>& u) {
+    return mc::Vec3<double>(warp.sample(u.cast<float>()).cast<double>());
+  };
+  const auto s = mc::make_sampler("w", mc::Hemisphere<double>(), in_float,
+                                  [](const mc::Vec3<double>& w) { return w.z() / mc::pi<double>; });
+  const mc::Report report = check_laws(s, {.samples = 20'000});
+  EXPECT_EQ(report.verdict(), mc::Verdict::fail);
+  EXPECT_THAT(report.to_string(), testing::ContainsRegex("its length 1 [+-] [0-9.]+e-0[78]" + excess.substr(0, 30)));
+}
+
+TEST(FloatSteps, OnlyFloatsAFewEpsilonsOffAreTold) {
+  const auto disk = mc::make_sampler("disk", mc::UniformDisk<double>());
+  const double cosine = static_cast<double>(std::cos(mc::pi<float> / 2));
+  EXPECT_EQ(mc::float_excess(disk, {cosine, 1}), excess);
+  EXPECT_EQ(mc::float_excess(disk, {1e-8 * std::sqrt(2.0), 1}), "") << "no float";
+  EXPECT_EQ(mc::float_excess(disk, {static_cast<double>(1.1f), 0}), "") << "too far off";
+  EXPECT_EQ(mc::float_excess(disk, {1 + 0x1p-52, 0}), "");
+  EXPECT_EQ(mc::float_excess(mc::make_sampler("disk", mc::UniformDisk<float>()), {cosine, 1}), "");
 }
 
 } // namespace
