@@ -5,6 +5,7 @@
 #include <mc/core/text.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -54,28 +55,58 @@ Number parse(std::string_view word) {
   return n;
 }
 
-// One number off the front, quoted or not.
-Number take_number(std::string_view& text) {
+constexpr const char* unclosed = "a quotation mark without its other";
+
+// One field off the front, without its quotation marks and the blanks inside them.
+std::string_view take_word(std::string_view& text) {
   const bool quoted = skip(text, '"');
-  if (quoted) skip_blanks(text);
-  const std::string_view word = text.substr(0, text.find_first_of(ends));
+  const std::string_view word = text.substr(0, text.find_first_of(quoted ? "\"" : ends));
+  text.remove_prefix(word.size());
+  mc::require(skip(text, '"') == quoted, unclosed);
+  return quoted ? mc::trimmed(word) : word;
+}
+
+// 0,5 for 0.5. Outside of quotation marks these are two numbers.
+bool has_decimal_comma(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  if (comma == std::string_view::npos) return false;
+  std::string pointed(word);
+  pointed[comma] = '.';
+  return parse(pointed).whole;
+}
+
+Number take_number(std::string_view& text) {
+  const std::string_view word = take_word(text);
   const Number n = parse(word);
   mc::require(!word.empty(), "an empty field");
+  mc::require(!has_decimal_comma(word), "'{}' has a decimal comma; write a decimal point", word.substr(0, 40));
   mc::require(n.whole, "'{}' is not a number", word.substr(0, 40));
   mc::require(n.finite, "'{}' is not a finite number", word.substr(0, 40));
-  text.remove_prefix(word.size());
-  if (quoted) skip_blanks(text);
-  mc::require(skip(text, '"') == quoted, "a quotation mark without its other");
   return n;
+}
+
+// A letter or _; of UTF-8 what begins a Latin, Greek or Cyrillic letter, and not a space or a minus sign.
+bool begins_name(std::string_view word) {
+  if (word.empty()) return false;
+  const auto c = static_cast<unsigned char>(word[0]);
+  return std::isalpha(c) || c == '_' || (c >= 0xc3 && c <= 0xd4);
 }
 
 // The names of columns; nan and inf are numbers, though not of ours.
 bool is_header(std::string_view text) {
-  const bool quoted = skip(text, '"');
-  const std::string_view word = text.substr(0, text.find_first_of(quoted ? "\"" : ends));
-  const bool begins =
-      quoted || (!text.empty() && (std::isalpha(static_cast<unsigned char>(text[0])) || text[0] == '_'));
-  return begins && !parse(word).whole;
+  const std::string_view word = take_word(text);
+  return begins_name(word) && !parse(word).whole;
+}
+
+// Up to a # that stands in no quotation marks.
+std::string_view without_comment(std::string_view text) {
+  if (text.find('#') == std::string_view::npos) return text;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') quoted = !quoted;
+    if (text[i] == '#' && !quoted) return text.substr(0, i);
+  }
+  return text;
 }
 
 void parse_row(std::string_view text, CsvTable& table) {
@@ -121,12 +152,13 @@ CsvTable read_csv(const std::string& file) {
     rest.remove_prefix(std::min(text.size() + 1, rest.size()));
     ++line;
     if (line == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-    text = text.substr(0, text.find('#'));
+    text = without_comment(text);
     skip_blanks(text);
     if (text.empty()) continue;
-    if (std::exchange(first, false) && is_header(text)) continue;
     const std::size_t before = table.values.size();
     try {
+      mc::require(std::count(text.begin(), text.end(), '"') % 2 == 0, unclosed);
+      if (std::exchange(first, false) && is_header(text)) continue;
       parse_row(text, table);
       const std::size_t found = table.values.size() - before;
       if (table.lines.empty()) table.columns = found;

@@ -1,0 +1,48 @@
+#include <input/csv.h>
+
+#include <support/files.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace {
+
+using testing::ElementsAre, testing::HasSubstr;
+
+struct Csv : support::ScratchTest {
+  carlo::CsvTable table(const std::string& text) const { return carlo::read_csv(write("a.csv", text)); }
+  std::string refusal(const std::string& text) const {
+    return support::error_of([&] { table(text); });
+  }
+};
+
+TEST_F(Csv, NamesOfColumnsAreLeftOut) {
+  for (const char* names :
+       {"x,y", "\"x\",\"y\"", "\" x [m]\",\"y, of 2\"", "_1;_2", "\"\xcf\x86\",\"n #\"", "\"x\" # names"})
+    EXPECT_THAT(table(std::string(names) + "\n0.5,0.25\n").values, ElementsAre(0.5, 0.25)) << names;
+}
+
+// A first row of numbers is none of names, whatever is wrong with it.
+TEST_F(Csv, AFirstRowOfNumbersIsNeverLeftOut) {
+  for (const char* row : {"0.5,0.25", "\"0.5\",\"0.25\"", "\" 0.5 \", 0.25", "+.5,2.5e-1", "0.5,0.25 # \"a\" note"})
+    EXPECT_THAT(table(std::string(row) + "\n1,2\n").values, ElementsAre(0.5, 0.25, 1, 2)) << row;
+  EXPECT_THAT(refusal("\"0.5,0.25\n1,2\n"), HasSubstr("a.csv:1: a quotation mark without its other"));
+  EXPECT_THAT(refusal("\"x,y\n1,2\n"), HasSubstr("a.csv:1: a quotation mark without its other"));
+  EXPECT_THAT(refusal("x,\"y\n1,2\n"), HasSubstr("a.csv:1: a quotation mark without its other"));
+  EXPECT_THAT(refusal("\"nan\",1\n1,2\n"), HasSubstr("a.csv:1: 'nan' is not a finite number"));
+  EXPECT_THAT(refusal("\"\",1\n1,2\n"), HasSubstr("a.csv:1: an empty field"));
+  EXPECT_THAT(refusal("\"0.5 m\",1\n1,2\n"), HasSubstr("a.csv:1: '0.5 m' is not a number"));
+  EXPECT_THAT(refusal("\xe2\x88\x92"
+                      "0.5,1\n1,2\n"),
+              HasSubstr("a.csv:1: '???0.5' is not a number"))
+      << "U+2212";
+}
+
+TEST_F(Csv, ADecimalCommaIsRefusedWithItsRemedy) {
+  EXPECT_THAT(refusal("\"0,5\",\"0,25\"\n"), HasSubstr("a.csv:1: '0,5' has a decimal comma; write a decimal point"));
+  EXPECT_THAT(refusal("x,y\n1,2\n0.5,\"-1,25e3\"\n"),
+              HasSubstr("a.csv:3: '-1,25e3' has a decimal comma; write a decimal point"));
+  EXPECT_THAT(refusal("\"0,5,1\",2\n"), HasSubstr("a.csv:1: '0,5,1' is not a number"));
+}
+
+} // namespace
