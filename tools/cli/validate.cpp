@@ -60,9 +60,11 @@ std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catal
 
 // Every case draws its own numbers, the same ones whichever cases run beside it and wherever its file stands.
 std::uint64_t seed_of(const Case& c, const ValidateOptions& o) {
+  std::string title = c.title();
+  if (!o.samples_file.empty()) title = "samples";
+  if (!o.sampler_command.empty()) title = "command"; // c.title() says where the program stands
   std::uint64_t seed = o.seed;
-  for (const char letter : o.samples_file.empty() ? c.title() : std::string("samples"))
-    seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
+  for (const char letter : title) seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
   return seed;
 }
 

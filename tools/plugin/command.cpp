@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -31,6 +32,15 @@ using nlohmann::json;
 namespace {
 
 using Rows = std::vector<double>;
+
+// "; it held 0.97 GiB of memory of the 1 that --memory allows" of a program that ended for want of more, perhaps.
+std::string near_limit(double peak) {
+  rlimit memory{};
+  if (getrlimit(RLIMIT_AS, &memory) != 0 || memory.rlim_cur == RLIM_INFINITY) return {};
+  const double most = static_cast<double>(memory.rlim_cur);
+  if (!(peak >= 0.9 * most)) return {};
+  return fmt::format("; it held {:.3g} GiB of memory of the {:g} that --memory allows", peak / 0x1p30, most / 0x1p30);
+}
 
 // The program, asked in batches of rows.
 class Program {
@@ -84,7 +94,9 @@ class Program {
 
   [[noreturn]] void ended(const char* what) {
     watch_.leave();
-    throw mc::Error(fmt::format("the program ended with code {} instead of answering '{}'", child_.wait(), what));
+    const int code = child_.wait();
+    throw mc::Error(fmt::format("the program ended with code {} instead of answering '{}'{}", code, what,
+                                near_limit(child_.peak())));
   }
 
   Child child_;

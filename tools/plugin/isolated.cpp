@@ -1,4 +1,5 @@
 #include <plugin/isolated.h>
+#include <process/tree.h>
 
 #include <mc/core/error.h>
 
@@ -11,19 +12,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <exception>
-#include <filesystem>
-#include <fstream>
 #include <memory>
 #include <new>
 #include <optional>
 #include <thread>
+#include <vector>
 
 namespace carlo {
 
@@ -89,24 +87,10 @@ void limit(int resource, double most) {
   _exit(0);
 }
 
-pid_t parent_of(const std::filesystem::path& process) {
-  std::ifstream in(process / "stat");
-  std::string stat;
-  std::getline(in, stat, '\0');                 // as far as it goes: the process may end between opening and reading
-  const std::size_t name_end = stat.rfind(')'); // the name may hold anything
-  long parent = -1;
-  if (name_end != std::string::npos) std::sscanf(stat.c_str() + name_end, ") %*c %ld", &parent);
-  return static_cast<pid_t>(parent);
-}
-
 // The orphans of the work are our children (PR_SET_CHILD_SUBREAPER), those of the killed ones become so in turn.
 void end_descendants() {
   for (;;) {
-    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
-      const std::string name = entry.path().filename().string();
-      if (std::isdigit(static_cast<unsigned char>(name[0])) && parent_of(entry.path()) == getpid())
-        kill(static_cast<pid_t>(std::stol(name)), SIGKILL);
-    }
+    for (const pid_t one : children(getpid())) kill(one, SIGKILL);
     if (waitpid(-1, nullptr, 0) < 0 && errno == ECHILD) return;
   }
 }
@@ -138,17 +122,42 @@ std::string Watch::where() const {
 
 namespace {
 
+// What one process may take four of them take four times: the memory of the child and of all that it started, looked
+// at from time to time.
+class MemoryOfAll {
+ public:
+  explicit MemoryOfAll(const Limits& limits) : most_(limits.gigabytes * 0x1p30) {}
+
+  // Whether it was seen beyond the limit. Pages that several share count once: a fork doubles nothing.
+  bool is_beyond() {
+    const auto start = Clock::now();
+    if (sanitized || start < next_) return false;
+    const std::vector<pid_t> all = descendants(getpid());
+    const bool beyond = resident_bytes(all) > most_ && proportional_bytes(all) > most_;
+    const auto end = Clock::now();
+    // Where thousands of processes run a look takes milliseconds: a twentieth of the time at most goes into looking.
+    next_ = end + std::max<Clock::duration>(std::chrono::milliseconds(100), 20 * (end - start));
+    return beyond;
+  }
+
+ private:
+  double most_;
+  Clock::time_point next_{};
+};
+
 // How the child ended, as far as it was waited for.
 struct Ended {
   std::string message;
   bool dead = false; // by itself, not by us
   bool given_up = false;
+  bool exhausted = false; // it was seen beyond the limit of memory
   int status = 0;
   double active = 0;  // seconds since the first call began
   double stalled = 0; // since the count of calls last grew
 };
 
-Ended wait_for(pid_t child, int pipe, const Watch& watch, double timeout, int hangup) {
+Ended wait_for(pid_t child, int pipe, const Watch& watch, const Limits& limits, int hangup) {
+  const double timeout = limits.seconds;
   const auto start = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   Ended e;
@@ -156,7 +165,8 @@ Ended wait_for(pid_t child, int pipe, const Watch& watch, double timeout, int ha
   std::optional<double> began; // when the first call was seen: a busy machine may take its time until then
   double moved = 0;
   bool open = true;
-  while (!e.dead && !whole(e.message) && elapsed() < timeout && !e.given_up) {
+  MemoryOfAll memory(limits);
+  while (!e.dead && !whole(e.message) && elapsed() < timeout && !e.given_up && !e.exhausted) {
     if (open) {
       pollfd p{pipe, POLLIN, 0};
       if (poll(&p, 1, static_cast<int>(std::clamp(1000 * (timeout - elapsed()), 1.0, 50.0))) > 0) {
@@ -175,6 +185,7 @@ Ended wait_for(pid_t child, int pipe, const Watch& watch, double timeout, int ha
       moved = elapsed();
     }
     e.given_up = hung_up(hangup);
+    e.exhausted = memory.is_beyond();
   }
   e.active = began ? elapsed() - *began : 0;
   e.stalled = elapsed() - moved;
@@ -186,8 +197,14 @@ Ended wait_for(pid_t child, int pipe, const Watch& watch, double timeout, int ha
   return e;
 }
 
+mc::Error too_much_memory(const std::string& who, const Limits& limits, const Watch& watch) {
+  return mc::Error(
+      fmt::format("{}: it wants more than {:g} GiB of memory{} (--memory)", who, limits.gigabytes, watch.where()));
+}
+
 [[noreturn]] void complain(const std::string& who, const Limits& limits, const Watch& watch, const Ended& e) {
   if (e.given_up) throw mc::Error(fmt::format("{}: interrupted", who));
+  if (e.exhausted) throw too_much_memory(who, limits, watch);
   if (!e.dead && watch.inside() && e.stalled > 0.5 * e.active)
     throw mc::Error(fmt::format("{}: it hangs{}: no answer in {:g} s (--timeout)", who, watch.where(), limits.seconds));
   if (!e.dead)
@@ -217,18 +234,16 @@ std::string run_isolated(const std::string& who, const Limits& limits, int hangu
   if (child < 0) throw system_error("no child process");
   if (child == 0) run_child(ends[1], limits, *watch, work);
   close(ends[1]);
-  const Ended ended = wait_for(child, ends[0], *watch, limits.seconds, hangup);
+  const Ended ended = wait_for(child, ends[0], *watch, limits, hangup);
   close(ends[0]);
   end_descendants();
 
-  if (!whole(ended.message)) complain(who, limits, *watch, ended);
+  if (ended.exhausted || !whole(ended.message)) complain(who, limits, *watch, ended);
   std::string text = ended.message.substr(1 + sizeof(std::uint64_t));
   switch (ended.message[0]) {
   case returned: return text;
   case threw: throw mc::Error(fmt::format("{}: it threw{}: {}", who, watch->where(), text));
-  case exhausted:
-    throw mc::Error(
-        fmt::format("{}: it wants more than {:g} GiB of memory{} (--memory)", who, limits.gigabytes, watch->where()));
+  case exhausted: throw too_much_memory(who, limits, *watch);
   default: throw mc::Error(fmt::format("{}: {}", who, text));
   }
 }

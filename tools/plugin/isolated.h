@@ -50,13 +50,14 @@ class Watch {
 /// What foreign code may use before it is ended.
 struct Limits {
   double seconds = 60;            ///< wall-clock
-  double gigabytes = 4;           ///< address space, 2^30 bytes each; not under a sanitizer, which reserves terabytes
+  double gigabytes = 4;           ///< of 2^30 bytes, see run_isolated; not under a sanitizer, which reserves terabytes
   int files = 256;                ///< open at once
   std::string less = "--samples"; ///< the option of the command that makes the work smaller
 };
 
 /// Runs work in a forked child and returns what it returned. Its standard output goes to standard error. When it
-/// returns, the child and every process that it started have ended.
+/// returns, the child and every process that it started have ended. The limit of memory is one of the address space of
+/// each process, and one of the memory that all of them hold together, looked at ten times a second.
 ///   needs  : a process with a single thread, see worker.h
 ///   hangup : a descriptor whose other end is open as long as anyone waits for the result; closed, the work is ended
 ///   throws : Error "who: ..." in one line when the work throws, crashes, ends the process or goes beyond a limit,

@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <spawn.h>
 #include <sys/ioctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -131,9 +132,11 @@ std::size_t Child::unread() const {
 
 int Child::wait() {
   int status = 0;
-  while (waitpid(id_, &status, 0) < 0 && errno == EINTR) {
+  rusage used{};
+  while (wait4(id_, &status, 0, &used) < 0 && errno == EINTR) {
   }
   id_ = -1;
+  peak_ = 1024 * static_cast<double>(used.ru_maxrss);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 

@@ -36,9 +36,12 @@ class Child {
   std::size_t unread() const;
   /// Its exit code once it has ended; 128 + the number of the signal that ended it.
   int wait();
+  /// The most memory that it, or any that it waited for, held at once [bytes]; 0 until wait() has returned.
+  double peak() const { return peak_; }
 
  private:
   pid_t id_ = -1;
+  double peak_ = 0;
   int input_ = -1, output_ = -1;
 };
 

@@ -44,6 +44,15 @@ TEST_F(Command, ARightOnePasses) {
   EXPECT_THAT(out.text, HasSubstr("1 of 1 cases passed"));
 }
 
+// The same program under another path draws the same numbers.
+TEST_F(Command, WhereItStandsChangesNothing) {
+  const auto figures = [](const std::string& file) {
+    const std::string text = run(options("python3 '" + file + "'")).text;
+    return text.substr(text.find("double"), 40);
+  };
+  EXPECT_EQ(figures(script), figures(write("elsewhere.py", mc::read_file(script))));
+}
+
 TEST_F(Command, WrongOnesAreRejected) {
   Output out = run(changed("math.sqrt(u[0])", "u[0]"));
   EXPECT_EQ(out.code, carlo::exit_failed);
