@@ -63,6 +63,11 @@ nlohmann::json as_json(const mc::Integral& r, const Experiment& e) {
   return j;
 }
 
+// To whom it ran for, a run that libmc cancelled was interrupted.
+std::string_view why_stopped(const mc::Integral& r) {
+  return r.stop == mc::Stop::cancelled ? "interrupted" : name(r.stop);
+}
+
 } // namespace
 
 std::string about(const Integrals& found) {
@@ -73,7 +78,7 @@ std::string about(const Integrals& found) {
   }
   const mc::Integral& first = found.results.outputs.front();
   text += fmt::format("{} calls in {} by {}; stopped: {}\n", format_count(double(first.calls)),
-                      format_seconds(first.seconds), name(first.method), name(first.stop));
+                      format_seconds(first.seconds), name(first.method), why_stopped(first));
   for (std::size_t i = 0; i < found.integrands.size(); ++i)
     text += about_truth(found.integrands[i], found.results.outputs[i]);
   if (found.integrands.size() > 1) text += correlation_table(found.results);
@@ -127,7 +132,7 @@ std::string integrals_json(const Integrals& found, const std::string& command, s
             {"calls", first.calls},
             {"seconds", first.seconds},
             {"method", name(first.method)},
-            {"stop", name(first.stop)}});
+            {"stop", why_stopped(first)}});
   for (std::size_t i = 0; n > 1 && i < n; ++i) {
     j["outputs"].push_back(as_json(found.results.outputs[i], found.integrands[i]));
     nlohmann::json correlations, covariances;

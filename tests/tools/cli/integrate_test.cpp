@@ -244,7 +244,7 @@ TEST(Integrate, CtrlCSaysWhatWasFound) {
         support::interrupt_carlo("integrate genz_c0_8d --rel-error 1e-12 --max-calls 1e12 --method " + method);
     EXPECT_EQ(r.exit_code, 130) << r.output;
     EXPECT_THAT(r.output, testing::AllOf(testing::HasSubstr(" ± "),
-                                         testing::HasSubstr(" by " + method + "; stopped: cancelled")));
+                                         testing::HasSubstr(" by " + method + "; stopped: interrupted")));
   }
 }
 

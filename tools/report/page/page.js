@@ -34,6 +34,7 @@ function head() {
   $("verdict").className = verdict;
   $("verdict").textContent = failed ? `${part(failed)} fail${failed === 1 ? "s" : ""}` + (unsure ? `, ${unsure} inconclusive` : "")
     : unsure ? `${part(unsure)} inconclusive` : n === 1 ? "The sampler obeys its laws" : `All ${n} cases obey their laws`;
+  if (data.interrupted) $("verdict").textContent += "; interrupted: these are the cases that were finished";
   if (errors) $("verdict").textContent += `; ${errors} more could not be checked`;
   $("facts").textContent = [`${spaced(data.samples)} samples each`, `family-wise \u03b1 = ${data.alpha}`, `seed ${data.seed}`,
     `commit ${data.commit}`, `${short(data.cases.reduce((s, c) => s + c.seconds, 0), 3)} s of work`].join(" \u00b7 ");
