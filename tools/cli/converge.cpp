@@ -66,10 +66,10 @@ bool write(const Target& target, const Measurement& m, const ConvergeOptions& o,
   return false;
 }
 
-// All targets one after another, each written as soon as it is measured; the curves that were finished.
+// All targets one after another, each written as soon as it is measured.
 struct Run {
   std::deque<Measurement> measurements; ///< of the first targets
-  std::size_t curves = 0;
+  std::size_t curves = 0;               ///< finished
   bool interrupted = false;
 };
 
@@ -91,7 +91,7 @@ Run measure_all(const std::vector<Target>& targets, const std::vector<Way>& chos
     run.measurements.push_back(measure(targets[i], chosen, m));
     progress.clear();
     const Measurement& done = run.measurements.back();
-    run.curves += done.curves.size();
+    run.curves += finished(done);
     run.interrupted = done.interrupted;
     if (!done.curves.empty()) can_draw = write(targets[i], done, o, folder, can_draw);
   }
@@ -161,10 +161,12 @@ int converge(const ConvergeOptions& o) {
               "--replicates {} must lie in [8, 100000], or be 0", o.replicates);
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
   if (is_scene(o.integral.integrands)) return converge_scene(o);
+  refuse_scene_among(o.integral.integrands);
   refuse_scene_options(o.scene);
   const Interrupt interrupt;
   const std::vector<Way> chosen = ways_of(o);
   const std::vector<Target> targets = targets_of(o.integral);
+  if (!o.integral.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.domain);
   for (const Way& w : chosen)
     for (const Target& t : targets)
       mc::require(w.dimensions == 0 || w.dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions", w.name,
@@ -184,7 +186,7 @@ int converge(const ConvergeOptions& o) {
   }
   mc::write_file((folder / "slopes.csv").string(), slopes);
   if (run.interrupted)
-    fmt::print("interrupted: {} of {} curves were finished\n", run.curves, targets.size() * chosen.size());
+    fmt::print("{}\n", interrupted_text(run.curves, targets.size() * chosen.size(), "curves", run.measurements.back()));
   fmt::print("data and plots: {}\n", folder.string());
   write_report(page, o, measured);
   if (run.interrupted) return exit_interrupted;

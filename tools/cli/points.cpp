@@ -45,6 +45,7 @@ struct PointsOptions {
 
 constexpr std::uint64_t most_points = 32768; // pairs of points are looked at
 constexpr int most_dimensions = 16;
+constexpr int axes_drawn = 8; // by projections_svg: more would be too small to look at
 
 // What is told of one set.
 struct Quality {
@@ -269,7 +270,8 @@ std::vector<Option> rows(PointsOptions& o) {
       {"--seed", "N", &o.seed, "Seed"},
       {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
       {"-o,--output", "FOLDER", &o.output,
-       "Folder for points.csv, points.svg (all pairs of axes), quality.csv, .json, .svg, .png and spectrum.csv"},
+       "Folder for points.csv, points.svg (all pairs of the first 8 axes), quality.csv, .json, .svg, .png and "
+       "spectrum.csv"},
   };
 }
 
@@ -292,6 +294,9 @@ int points(const PointsOptions& o) {
   fmt::print("{}: {} points in {} dimension{}\n", o.file.empty() ? o.set : o.file, m.rows.back().n, dim,
              dim == 1 ? "" : "s");
   print(m.rows.back(), t, dim, m.sets.size());
+  if (dim > axes_drawn)
+    fmt::print("points.svg shows the first {} of {} axes, {} of {} pairs\n", axes_drawn, dim,
+               axes_drawn * (axes_drawn - 1) / 2, dim * (dim - 1) / 2);
   write(o, folder, m, dim, t);
   fmt::print("{}data and pictures: {}\n", m.interrupted ? "interrupted; " : "", folder.string());
   return m.interrupted ? exit_interrupted : exit_ok;

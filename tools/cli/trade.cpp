@@ -13,7 +13,6 @@
 #include <mc/core/error.h>
 #include <mc/core/file.h>
 #include <mc/core/text.h>
-#include <mc/random/hash.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -22,7 +21,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 
 namespace carlo {
 
@@ -52,61 +50,6 @@ std::vector<double> numbers(const char* option, const std::string& text) {
   return all;
 }
 
-// Seconds of one evaluation near n as they were measured, one way after another: the median of the replicates, and the
-// order statistics that hold it with 95 %.
-Ranged as_measured(const Curve& c, double n) {
-  std::size_t i = 0;
-  while (i + 1 < c.errors.size() && c.errors[i].n < n) ++i;
-  std::vector<double> seconds = c.replicates[i].seconds;
-  std::sort(seconds.begin(), seconds.end());
-  const double count = static_cast<double>(seconds.size()), half = 0.98 * std::sqrt(count);
-  const auto at = [&](double rank) {
-    return seconds[static_cast<std::size_t>(std::clamp(rank, 0.0, count - 1))] / c.errors[i].n;
-  };
-  return {at(count / 2), at(count / 2 - half), at(count / 2 + half)};
-}
-
-// Runs the contenders in turn near their N, so that a busy moment falls on all of them.
-class TakenInTurn {
- public:
-  TakenInTurn(const Target& target, const std::vector<Offer>& contenders, std::uint64_t seed,
-              const std::atomic<bool>* cancel) {
-    std::map<const Curve*, std::vector<double>> seconds;
-    for (std::uint64_t round = 0; round < rounds; ++round)
-      for (const Offer& o : contenders) {
-        const std::vector<mc::RmsError>& errors = o.curve->errors;
-        const double n = std::clamp(std::exp2(std::round(std::log2(o.n))), errors.front().n, errors.back().n);
-        const Replicates r =
-            target.run({o.curve->way, static_cast<std::uint64_t>(n), mc::hash(seed, 5), 3 * round, 3, 1, cancel});
-        seconds[o.curve].push_back(r.seconds[2] / std::max(r.calls[2], 1.0)); // the first fills caches
-      }
-    // The second and the eighth of nine hold the median with 96 % confidence.
-    for (auto& [curve, all] : seconds) {
-      std::sort(all.begin(), all.end());
-      medians_[curve] = {all[4], all[1], all[7]};
-    }
-  }
-
-  Ranged operator()(const Curve& curve, double n) const {
-    const auto it = medians_.find(&curve);
-    return it == medians_.end() ? as_measured(curve, n) : it->second;
-  }
-
- private:
-  static constexpr std::uint64_t rounds = 9;
-  std::map<const Curve*, Ranged> medians_;
-};
-
-// The first offers, and plain Monte Carlo where it is one.
-std::vector<Offer> contenders(const std::vector<Offer>& offers, const std::string& plain) {
-  constexpr std::size_t most = 6;
-  std::vector<Offer> chosen(offers.begin(),
-                            offers.begin() + static_cast<std::ptrdiff_t>(std::min(most, offers.size())));
-  for (std::size_t i = most; i < offers.size(); ++i)
-    if (offers[i].curve->way->name == plain) chosen.push_back(offers[i]);
-  return chosen;
-}
-
 std::string text_of(const Ranged& r, std::string_view unit) {
   return fmt::format("{:.3g}{} [{:.3g}, {:.3g}]", r.value, unit, r.lo, r.hi);
 }
@@ -120,15 +63,19 @@ void print_ties(const std::vector<Offer>& offers, Ranged Offer::*by, std::string
   if (count > 1) fmt::print("\n");
 }
 
+// How far the best came where none reaches the error.
+void print_nearest(const ForError& f) {
+  constexpr std::size_t most = 4;
+  fmt::print("  error {:g}: no way came there", f.wanted);
+  for (std::size_t i = 0; i < std::min(f.nearest.size(), most); ++i)
+    fmt::print("{} {} {:.3g} at N = {:.0f}", i == 0 ? "; nearest:" : ",", label(*f.nearest[i].curve),
+               f.nearest[i].error.value, f.nearest[i].n);
+  if (f.nearest.size() > most) fmt::print("; all {} are in trade.csv", f.nearest.size());
+  fmt::print("; raise --max-n, of a scene --max-spp\n");
+}
+
 void print(const ForError& f, const Cost& cost) {
-  if (f.offers.empty()) {
-    fmt::print("  error {:g}: no way came there", f.wanted);
-    for (std::size_t i = 0; i < std::min<std::size_t>(f.nearest.size(), 4); ++i)
-      fmt::print("{} {} {:.3g} at N = {:.0f}", i == 0 ? "; nearest:" : ",", label(*f.nearest[i].curve),
-                 f.nearest[i].error.value, f.nearest[i].n);
-    fmt::print("; raise --max-n, of a scene --max-spp\n");
-    return;
-  }
+  if (f.offers.empty()) return print_nearest(f);
   const Offer& best = f.offers.front();
   fmt::print("  error {:g}: {} in {}{}, N about {:.0f}", f.wanted, label(*best.curve), text_of(best.seconds, cost.unit),
              cost.of, best.n);
@@ -270,6 +217,7 @@ ordered_json to_json(const TradeOptions& o, const Measured& one) {
                     {"seed", o.seed},       {"integrand", one.target->integral.name},
                     {"truth", m.truth},     {"truth_error", m.truth_error},
                     {"cost", o.scene.cost}};
+  if (m.interrupted) j["interrupted"] = true;
   j["errors"] = j["seconds"] = ordered_json::array();
   for (const ForError& f : a.errors) {
     j["errors"].push_back(to_json(f, &Offer::seconds, m.cost));
@@ -339,11 +287,13 @@ int trade(const TradeOptions& o) {
   if (!o.errors.empty()) wanted.errors = numbers("--error", o.errors);
   if (!o.seconds.empty()) wanted.seconds = numbers("--seconds", o.seconds);
   if (is_scene(o.integral.integrands)) return trade_scene(o, wanted);
+  refuse_scene_among(o.integral.integrands);
   refuse_scene_options(o.scene);
   mc::require(o.samplers.empty(), "trade: --samplers is for a scene (.xml); an integral has all");
   const Interrupt interrupt;
   const std::vector<Target> targets = targets_of(o.integral);
   mc::require(targets.size() == 1 && !o.integral.integrands.empty(), "trade: name one integrand; --list shows them");
+  if (!o.integral.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.domain);
   const Target& target = targets.front();
   const Folders folders(o);
 
@@ -355,22 +305,25 @@ int trade(const TradeOptions& o) {
   if (!errors.empty()) options.error_goal = *std::min_element(errors.begin(), errors.end());
   if (!seconds.empty()) options.cpu_goal = *std::max_element(seconds.begin(), seconds.end());
   options.progress = [&](double done, const std::string& where) { progress.show(done, where); };
-  const Measurement m = measure(target, chosen, options);
+  Measurement m = measure(target, chosen, options);
   progress.clear();
-  if (m.interrupted) {
-    fmt::print("interrupted: {} of {} ways were measured, too few to choose from\n", m.curves.size(), chosen.size());
+  if (m.curves.empty()) {
+    fmt::print("interrupted: 0 of {} ways were measured, too few to choose from\n", chosen.size());
     return exit_interrupted;
   }
   if (errors.empty() && seconds.empty())
     for (const double share : {1e-2, 1e-3, 1e-4}) errors.push_back(share * (m.truth != 0 ? std::abs(m.truth) : 1.0));
 
   const auto in_turn = [&](const std::vector<Offer>& offers) {
-    return TakenInTurn(target, contenders(offers, m.plain), o.seed, interrupt.flag());
+    return taken_in_turn(target, m, offers, o.seed, interrupt.flag());
   };
-  fmt::print("{}: {} ways, RMS errors to 10 %, {} of one estimate\n", target.integral.title, m.curves.size(),
-             m.cost.axis);
   const Answers answers = answers_of(m, wanted, in_turn);
-  return tell(o, {&target, &m, nullptr, &answers}, folders);
+  m.interrupted = *interrupt.flag();
+  if (m.interrupted) fmt::print("{}\n", interrupted_text(finished(m), chosen.size(), "ways", m));
+  fmt::print("{}: {} way{}, RMS errors to 10 %, {} of one estimate\n", target.integral.title, m.curves.size(),
+             m.curves.size() == 1 ? "" : "s", m.cost.axis);
+  const int code = tell(o, {&target, &m, nullptr, &answers}, folders);
+  return m.interrupted ? exit_interrupted : code;
 }
 
 } // namespace

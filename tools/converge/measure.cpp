@@ -78,9 +78,9 @@ bool is_enough(const Replicates& r, const Experiment& e, const MeasureOptions& o
   return std::sqrt(squares) < 0.7 * o.error_goal;
 }
 
-// The errors come later, when the truth is known. Nothing when it was interrupted.
-std::optional<Curve> run_curve(const Target& target, const Way& way, double seconds, const MeasureOptions& o,
-                               const std::function<void(std::uint64_t n)>& progress) {
+// The errors come later, when the truth is known. An interrupt costs only the N that it falls on.
+Curve run_curve(const Target& target, const Way& way, double seconds, const MeasureOptions& o,
+                const std::function<void(std::uint64_t n)>& progress) {
   Curve curve;
   curve.way = &way;
   curve.theory = theory(way.name, target.integral.smoothness, target.integral.dim);
@@ -91,12 +91,13 @@ std::optional<Curve> run_curve(const Target& target, const Way& way, double seco
     if (n < way.least) continue;
     const double before = elapsed();
     if (seconds > 0 && before + 2 * last > seconds && curve.replicates.size() >= 3) break;
-    curve.replicates.push_back(replicate(target, way, n, o));
-    if (*o.cancel) return {};
+    Replicates r = replicate(target, way, n, o);
+    curve.cut = *o.cancel;
+    if (curve.cut) break;
+    curve.replicates.push_back(std::move(r));
     last = elapsed() - before;
     progress(n);
-    const Replicates& r = curve.replicates.back();
-    if (curve.replicates.size() >= 3 && is_enough(r, target.integral, o)) break;
+    if (curve.replicates.size() >= 3 && is_enough(curve.replicates.back(), target.integral, o)) break;
   }
   return curve;
 }
@@ -137,34 +138,37 @@ void judge(Curve& curve, const Experiment& e, double truth, double truth_error) 
   curve.middle = std::exp(logs / static_cast<double>(fitted.size()));
 }
 
-// The curve whose largest N has the smallest spread, of those that do not adapt.
+// The curve whose largest N has the smallest spread, of those that do not adapt. Replicates that agree on a few points,
+// where a curve was cut, may all have missed what the integral is made of.
 const Curve* steadiest(const std::vector<Curve>& curves) {
   const Curve* best = nullptr;
   const auto spread = [](const Curve& c) { return error_of_mean(c.replicates.back().values); };
+  const auto may_tell = [&](const Curve& c) { return !c.way->adapts && !(c.cut && spread(c) == 0); };
   for (const Curve& c : curves)
-    if (!c.way->adapts && !c.replicates.empty() && (!best || spread(c) < spread(*best))) best = &c;
+    if (may_tell(c) && (!best || spread(c) < spread(*best))) best = &c;
   return best;
 }
 
+// The truth and its standard error; when interrupted by the replicates that are there.
 std::pair<double, double> reference(const Target& target, const std::vector<Curve>& curves, const MeasureOptions& o) {
   const Curve* best = steadiest(curves);
   mc::require(best, "{}: its truth is unknown, and no way without adapting is there to find it; add one to --samplers",
               target.integral.name);
   const Replicates& last = best->replicates.back();
-  if (*o.cancel) return {mean_of(last.values), error_of_mean(last.values)};
   const auto largest = static_cast<std::uint64_t>(last.calls[0]);
   const Replicates r =
       target.run({best->way, largest, mc::hash(o.seed, 77), 0, reference_replicates, o.threads, o.cancel});
-  return {mean_of(r.values), error_of_mean(r.values)};
+  const std::vector<double>& values = *o.cancel ? last.values : r.values;
+  return {mean_of(values), error_of_mean(values)};
 }
 
-// Why the truth must be wrong; empty without a reason.
+// Why the truth must be wrong; empty without a reason. A curve that was cut at small N is no witness.
 std::string doubt_of(const Experiment& e, const std::vector<Curve>& curves) {
   const Curve* best = nullptr;
   double value = 0, error = HUGE_VAL;
   int agree = 0, unbiased = 0;
   for (const Curve& c : curves) {
-    if (c.way->adapts || c.exact || c.replicates.empty()) continue;
+    if (c.way->adapts || c.exact || c.cut) continue;
     const std::vector<double>& last = c.replicates.back().values;
     const double mean = mean_of(last), own = error_of_mean(last);
     ++unbiased;
@@ -177,7 +181,7 @@ std::string doubt_of(const Experiment& e, const std::vector<Curve>& curves) {
   }
   if (!best) return {};
   for (const Curve& c : curves) {
-    if (c.way->adapts || c.replicates.empty()) continue;
+    if (c.way->adapts || c.cut) continue;
     const std::vector<double>& last = c.replicates.back().values;
     agree += std::abs(mean_of(last) - value) <= 4 * std::hypot(error_of_mean(last), error);
   }
@@ -201,9 +205,10 @@ bool is_one_wild(const std::vector<double>& values) {
 // Why a truth found by replicates may be none; empty without a reason. Means with a finite variance are nearly normal
 // at the larger N: one in 64 that holds half of the variance would be nearly six deviations off.
 std::string doubt_of_reference(const std::vector<Curve>& curves) {
+  const auto is_witness = [](const Curve& c) { return !c.way->adapts && !c.exact && !c.cut; };
   int sets = 0, wild = 0;
   for (const Curve& c : curves)
-    for (std::size_t i = c.replicates.size() / 2; !c.way->adapts && !c.exact && i < c.replicates.size(); ++i) {
+    for (std::size_t i = c.replicates.size() / 2; is_witness(c) && i < c.replicates.size(); ++i) {
       ++sets;
       wild += is_one_wild(c.replicates[i].values);
     }
@@ -243,17 +248,20 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
                           static_cast<double>(ways.size());
       if (o.progress) o.progress(done, fmt::format("{} {} N = {}", target.integral.name, ways[i].name, n));
     };
-    std::optional<Curve> curve = run_curve(target, ways[i], share, o, progress);
-    m.interrupted = !curve;
-    if (!curve) break;
-    if (!curve->replicates.empty()) m.curves.push_back(std::move(*curve));
+    Curve curve = run_curve(target, ways[i], share, o, progress);
+    m.interrupted = curve.cut;
+    if (!curve.replicates.empty()) m.curves.push_back(std::move(curve));
+    if (m.interrupted) break;
   }
   m.truth = target.integral.truth;
   const bool known = std::isfinite(m.truth);
+  // What an interrupt leaves may not tell the truth: then no error is known, which is no fault of the integrand.
+  if (m.interrupted && !known && (!steadiest(m.curves) || all_zero(m.curves))) m.curves.clear();
   if (m.curves.empty()) return m;
   mc::require(known || !all_zero(m.curves),
               "{}: the integrand was 0 at every point; choose bounds around where it is not", target.integral.name);
   if (!known) std::tie(m.truth, m.truth_error) = reference(target, m.curves, o);
+  m.interrupted = m.interrupted || *o.cancel;
   for (Curve& c : m.curves) judge(c, target.integral, m.truth, m.truth_error);
   m.doubt = known ? doubt_of(target.integral, m.curves) : doubt_of_reference(m.curves);
   return m;

@@ -31,6 +31,7 @@ struct Curve {
   std::vector<mc::RmsError> errors;   ///< N is the evaluations really made
   std::vector<Replicates> replicates; ///< behind each
   bool exact = false;                 ///< no error beyond rounding, so no slope
+  bool cut = false;                   ///< an interrupt came before its largest N
   std::optional<mc::PowerLaw> law;    ///< of N in the asymptotic range, where there are three or more
   std::optional<Rate> theory;
   double middle = 0; ///< geometric mean of the N of the law
@@ -48,18 +49,19 @@ inline constexpr Cost cpu_cost{"cpu_seconds", "CPU seconds", " s", " of CPU"};
 inline constexpr Cost ray_cost{"million_rays", "millions of rays", " Mray", ""};
 
 struct Measurement {
-  std::vector<Curve> curves; ///< of the ways that were finished
-  double truth = 0;          ///< what errors are measured from
-  double truth_error = 0;    ///< standard error of a reference; 0: the truth is known
-  std::string doubt;         ///< one line that says why the truth must or may be wrong; empty: no doubt
-  bool interrupted = false;
+  std::vector<Curve> curves;    ///< of the ways that were begun; when interrupted the last may be cut
+  double truth = 0;             ///< what errors are measured from
+  double truth_error = 0;       ///< standard error of a reference; 0: the truth is known
+  std::string doubt;            ///< one line that says why the truth must or may be wrong; empty: no doubt
+  bool interrupted = false;     ///< what was measured until then is kept, for each N that was finished
   Cost cost = cpu_cost;         ///< what its seconds are
   std::string plain = "random"; ///< the name of the way that is plain Monte Carlo
 };
 
 /// Every way on N = 16, 32, ... max_n, from the fewest that the way works with.
 ///   truth  : where the integral has none, the mean of 128 more replicates of the way with the smallest error at its
-///            largest N: its standard error is under a tenth of the smallest error shown, and widens every interval
+///            largest N: its standard error is under a tenth of the smallest error shown, and widens every interval;
+///            when interrupted, the mean of those it has
 ///   doubt  : unbiased ways whose means agree with each other and not with the stated truth, by six standard errors;
 ///            where none is stated, a quarter of all sets of replicates, at the larger N, in which one replicate holds
 ///            over half of the variance

@@ -34,13 +34,23 @@ std::string summary(const Target& target, const Measurement& m) {
   std::size_t width = 11;
   for (const Curve& c : m.curves) width = std::max(width, c.way->name.size());
   for (const Curve& c : m.curves)
-    text += fmt::format("  {:<{}} RMS error {:.3g} at N = {:.0f}, {}\n", c.way->name, width, c.errors.back().rms,
-                        c.errors.back().n, slope_text(c));
+    text += fmt::format("  {:<{}} RMS error {:.3g} at N = {:.0f}, {}{}\n", c.way->name, width, c.errors.back().rms,
+                        c.errors.back().n, slope_text(c), c.cut ? "; interrupted" : "");
   if (m.truth_error > 0)
-    text += fmt::format("  truth unknown; errors are from {:.12g} +- {:.2g}, by replicates of their own\n", m.truth,
-                        m.truth_error);
+    text += fmt::format("  truth unknown; errors are from {:.12g} +- {:.2g}{}\n", m.truth, m.truth_error,
+                        m.interrupted ? "" : ", by replicates of their own");
   if (!m.doubt.empty()) text += fmt::format("  warning: {}\n", m.doubt);
   return text;
+}
+
+std::string interrupted_text(std::size_t done, std::size_t wanted, std::string_view what, const Measurement& last) {
+  std::string text = fmt::format("interrupted: {} of {} {} were finished", done, wanted, what);
+  if (last.curves.empty() || !last.curves.back().cut) return text;
+  return text + fmt::format(", one more up to N = {:.0f}", last.curves.back().errors.back().n);
+}
+
+std::size_t finished(const Measurement& m) {
+  return m.curves.size() - (!m.curves.empty() && m.curves.back().cut ? 1 : 0);
 }
 
 namespace {
@@ -98,6 +108,7 @@ ordered_json to_json(const Curve& c, const Cost& cost) {
                       {"replicates", c.replicates[i].values.size()}});
   }
   ordered_json k = {{"sampler", c.way->name}, {"exact", c.exact}, {"points", points}};
+  if (c.cut) k["interrupted"] = true;
   if (c.law)
     k["slope"] = {{"value", c.law->slope}, {"lo", c.law->lo}, {"hi", c.law->hi}, {"constant", c.law->constant}};
   if (c.theory)

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>
+#include <string_view>
 
 namespace carlo {
 
@@ -14,6 +15,12 @@ std::string slope_text(const Curve& curve);
 
 /// The title, a line for each curve, and what is to be said of the truth.
 std::string summary(const Target& target, const Measurement& m);
+
+/// How many of its curves reached their largest N.
+std::size_t finished(const Measurement& m);
+
+/// "interrupted: 2 of 23 ways were finished, one more up to N = 4096", the last being what was measured last.
+std::string interrupted_text(std::size_t done, std::size_t wanted, std::string_view what, const Measurement& last);
 
 std::string to_csv(const Target& target, const Measurement& m);
 

@@ -165,6 +165,7 @@ std::string facts(const Measured& one) {
   s += m.truth_error > 0 ? fmt::format("; reference {:.12g} &plusmn; {:.2g}", m.truth, m.truth_error)
                          : fmt::format("; truth {:.12g}", m.truth);
   if (e.smoothness.of != Smoothness::Class::unknown) s += fmt::format("; {}", name(e.smoothness.of));
+  if (m.interrupted) s += "; interrupted";
   return s;
 }
 

@@ -1,5 +1,8 @@
 #include <converge/target.h>
+#include <integrands/expression.h>
+#include <integrands/sides.h>
 
+#include <mc/core/error.h>
 #include <mc/core/parallel.h>
 #include <mc/random/hash.h>
 
@@ -16,7 +19,32 @@ double thread_cpu_seconds() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+// Only one that needs none of its variables parses without them.
+bool is_constant(const std::string& expression) {
+  try {
+    parse_function(expression, {});
+  } catch (const mc::Error&) {
+    return false;
+  }
+  return true;
+}
+
 } // namespace
+
+void refuse_constant(const std::string& expression, const std::string& box) {
+  if (!is_constant(expression)) return;
+  std::vector<std::string> names;
+  for (const Side& s : parse_sides(box)) names.push_back(s.name);
+  throw mc::Error(fmt::format("'{}' uses none of {}: a constant has no error to measure; put a variable into it, or "
+                              "see carlo integrate",
+                              abridged(expression), fmt::join(names, ", ")));
+}
+
+void refuse_scene_among(const std::vector<std::string>& words) {
+  for (const std::string& word : words)
+    mc::require(words.size() == 1 || !word.ends_with(".xml"),
+                "'{}' stands among others: scenes are measured one at a time; give it alone", word);
+}
 
 Replicates run_here(const Experiment& given, const Task& task) {
   Experiment e = given;

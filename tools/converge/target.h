@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace carlo {
@@ -34,6 +35,13 @@ struct Target {
 /// One that runs in this process.
 ///   throws : when it runs, what evaluate throws
 Target here(Experiment integral);
+
+/// Throws Error for an expression that uses none of the variables of its box, as in "x=0:1,y=-1:2": every way knows a
+/// constant exactly, so that there is nothing to compare.
+void refuse_constant(const std::string& expression, const std::string& box);
+
+/// Throws Error for a scene file (.xml) among several words: scenes are measured one at a time.
+void refuse_scene_among(const std::vector<std::string>& words);
 
 Replicates run_here(const Experiment& e, const Task& task);
 

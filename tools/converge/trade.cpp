@@ -1,11 +1,13 @@
 #include <converge/trade.h>
 
 #include <mc/core/types.h>
+#include <mc/random/hash.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace carlo {
 
@@ -60,7 +62,61 @@ const Curve* plain(const Measurement& m) {
 
 Ranged ratio(const Ranged& a, const Ranged& b) { return {a.value / b.value, a.lo / b.hi, a.hi / b.lo}; }
 
+// The first offers, and plain Monte Carlo where it is one.
+std::vector<Offer> contenders(const std::vector<Offer>& offers, const std::string& plain_name) {
+  constexpr std::size_t most = 6;
+  std::vector<Offer> chosen(offers.begin(),
+                            offers.begin() + static_cast<std::ptrdiff_t>(std::min(most, offers.size())));
+  for (std::size_t i = most; i < offers.size(); ++i)
+    if (offers[i].curve->way->name == plain_name) chosen.push_back(offers[i]);
+  return chosen;
+}
+
+// Seconds of one evaluation near the N of an offer: the first of three replicates fills caches, the last counts.
+double seconds_again(const Target& target, const Offer& o, std::uint64_t seed, std::uint64_t round,
+                     const std::atomic<bool>* cancel) {
+  const std::vector<mc::RmsError>& errors = o.curve->errors;
+  const double n = std::clamp(std::exp2(std::round(std::log2(o.n))), errors.front().n, errors.back().n);
+  const Replicates r =
+      target.run({o.curve->way, static_cast<std::uint64_t>(n), mc::hash(seed, 5), 3 * round, 3, 1, cancel});
+  return r.seconds[2] / std::max(r.calls[2], 1.0);
+}
+
 } // namespace
+
+Ranged as_measured(const Curve& c, double n) {
+  std::size_t i = 0;
+  while (i + 1 < c.errors.size() && c.errors[i].n < n) ++i;
+  std::vector<double> seconds = c.replicates[i].seconds;
+  std::sort(seconds.begin(), seconds.end());
+  const double count = static_cast<double>(seconds.size()), half = 0.98 * std::sqrt(count);
+  const auto at = [&](double rank) {
+    return seconds[static_cast<std::size_t>(std::clamp(rank, 0.0, count - 1))] / c.errors[i].n;
+  };
+  return {at(count / 2), at(count / 2 - half), at(count / 2 + half)};
+}
+
+SecondsOfOne taken_in_turn(const Target& target, const Measurement& m, const std::vector<Offer>& offers,
+                           std::uint64_t seed, const std::atomic<bool>* cancel) {
+  constexpr std::uint64_t rounds = 9;
+  std::map<const Curve*, std::vector<double>> seconds;
+  for (std::uint64_t round = 0; round < rounds; ++round)
+    for (const Offer& o : contenders(offers, m.plain)) {
+      if (cancel && *cancel) return as_measured;
+      seconds[o.curve].push_back(seconds_again(target, o, seed, round, cancel));
+    }
+  if (cancel && *cancel) return as_measured; // the last one means nothing
+  // The second and the eighth of nine hold the median with 96 % confidence.
+  std::map<const Curve*, Ranged> medians;
+  for (auto& [curve, all] : seconds) {
+    std::sort(all.begin(), all.end());
+    medians[curve] = {all[4], all[1], all[7]};
+  }
+  return [medians](const Curve& curve, double n) {
+    const auto it = medians.find(&curve);
+    return it == medians.end() ? as_measured(curve, n) : it->second;
+  };
+}
 
 std::string label(const Curve& c) { return c.way->name + (c.way->one_by_one ? " (one by one)" : ""); }
 

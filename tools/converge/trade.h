@@ -50,6 +50,15 @@ struct Answers {
 /// ways, with its interval.
 using SecondsOfOne = std::function<Ranged(const Curve& curve, double n)>;
 
+/// As they were measured, one way after another: the median of the replicates, and the order statistics that hold it
+/// with 95 %.
+Ranged as_measured(const Curve& curve, double n);
+
+/// Runs the first offers and plain Monte Carlo, where it is one of them, again near their N, in turn, so that a busy
+/// moment falls on all alike. As they were measured for any other curve, and for all when it is interrupted.
+SecondsOfOne taken_in_turn(const Target& target, const Measurement& m, const std::vector<Offer>& offers,
+                           std::uint64_t seed, const std::atomic<bool>* cancel);
+
 /// The N at which the curve and the two edges of its band come below an error, between the measured N by straight lines
 /// in the logarithms. Nothing where the curve does not.
 std::optional<Ranged> evaluations_for(const Curve& curve, double error);

@@ -28,8 +28,8 @@ Experiment find_integrand(const std::string& text, const std::string& bounds) {
   const bool a_name =
       std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
   if (!a_name) return parse_expression(text, bounds);
-  throw mc::Error(
-      fmt::format("unknown integrand '{}'{}; --list shows them all", abridged(text), mc::did_you_mean(text, names)));
+  throw mc::Error(fmt::format("unknown integrand '{}'{}; --list shows them all; for an expression give --domain",
+                              abridged(text), mc::did_you_mean(text, names)));
 }
 
 } // namespace carlo

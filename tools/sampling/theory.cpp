@@ -96,7 +96,7 @@ std::span<const Row> rows_of(std::string_view way, int d) {
     return d == 2 ? std::span<const Row>(correlated_rows) : hypercube_rows;
   }
   if (way == "rqmc") return d <= 2 ? std::span<const Row>(interlaced_rows) : net_rows;
-  return {}; // vegas and auto choose by what they measure
+  return {}; // vegas, tree and auto choose by what they measure
 }
 
 } // namespace

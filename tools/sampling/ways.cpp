@@ -32,7 +32,7 @@ Way of_method(std::string name, std::string title, mc::Method method, std::uint6
   w.name = std::move(name);
   w.title = std::move(title);
   w.least = least;
-  w.adapts = method == mc::Method::vegas || method == mc::Method::automatic;
+  w.adapts = method == mc::Method::vegas || method == mc::Method::tree || method == mc::Method::automatic;
   w.estimate = [method](const Experiment& e, std::uint64_t n, std::uint64_t seed) {
     mc::IntegrateOptions o;
     o.rel_error = 0;
@@ -57,7 +57,8 @@ std::vector<Way> make() {
   all.push_back(of_method("stratified_rounds", "integrate(): rounds of jittered grids", mc::Method::stratified, 1024));
   all.push_back(of_method("rqmc", "integrate(): replicated scrambled Sobol' sequences", mc::Method::rqmc, 1024));
   all.push_back(of_method("vegas", "integrate(): the same through a learned importance grid", mc::Method::vegas, 2048));
-  all.push_back(of_method("auto", "integrate(): the better of the two", mc::Method::automatic, 2048));
+  all.push_back(of_method("tree", "integrate(): vegas with a tree of boxes within its grid", mc::Method::tree, 2048));
+  all.push_back(of_method("auto", "integrate(): the best of rqmc, vegas and tree", mc::Method::automatic, 2048));
   return all;
 }
 

@@ -31,7 +31,7 @@ struct Way {
   std::function<Sampled(const Experiment& e, std::uint64_t n, std::uint64_t seed)> estimate;
 };
 
-/// The point sets of point_sets.h, then integrate() by its methods: stratified_rounds, rqmc, vegas, auto.
+/// The point sets of point_sets.h, then integrate() by its methods: stratified_rounds, rqmc, vegas, tree, auto.
 const std::vector<Way>& ways();
 
 /// The point sets again, their coordinates rounded to float: NAME_float.

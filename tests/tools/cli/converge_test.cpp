@@ -1,5 +1,6 @@
 // carlo converge: integrands of every kind, ways to sample them, what is written, and bad input.
 
+#include <tools/interrupt_carlo.h>
 #include <tools/run_carlo.h>
 
 #include <support/files.h>
@@ -70,7 +71,7 @@ TEST_F(Converge, EveryWayIsMeasuredBesideTheory) {
   EXPECT_EQ(r.exit_code, 0) << r.output;
   for (const char* name :
        {"random ", "stratified ", "latin_hypercube ", "multi_jittered ", "halton ", "lattice ", "sobol ",
-        "padded_sobol ", "padded_sobol_4d ", "stratified_rounds ", "rqmc ", "vegas ", "auto "})
+        "padded_sobol ", "padded_sobol_4d ", "stratified_rounds ", "rqmc ", "vegas ", "tree ", "auto "})
     EXPECT_THAT(r.output, HasSubstr(std::string("  ") + name));
   EXPECT_THAT(out("rate_smooth_2d.json"),
               AllOf(HasSubstr("\"class\": \"smooth\""), HasSubstr("\"source\": \"Owen 1997\""),
@@ -142,7 +143,12 @@ TEST_F(Converge, BadInputIsOneLine) {
   expect_refused("'x' -d x=1:0", "lo < hi is needed");
   expect_refused("'1/(x-x)' -d x=0:1 --max-n 64", "1/(x-x): the integrand is inf at x = 0.");
   expect_refused("'0*x' -d x=0:1 --max-n 64", "0*x: the integrand was 0 at every point; choose bounds around");
+  expect_refused("'3+2' -d x=0:1", "'3+2' uses none of x: a constant has no error to measure; put a variable into it");
+  expect_refused("'_pi' -d x=0:1,y=0:1", "'_pi' uses none of x, y: ");
+  expect_refused("a.xml b.xml", "'a.xml' stands among others: scenes are measured one at a time; give it alone");
+  expect_refused("pi b.xml", "'b.xml' stands among others");
   expect_refused("pie", "unknown integrand 'pie'; did you mean 'pi'?");
+  expect_refused("3", "for an expression give --domain");
   expect_refused("pi --cost rays", "--cost are for a scene (.xml)");
   expect_refused("pi --samplers sobl", "unknown sampler 'sobl'; did you mean 'sobol'?");
   expect_refused("pi --time 0", "--time 0 must lie in (0, 1e7] seconds");
@@ -151,6 +157,28 @@ TEST_F(Converge, BadInputIsOneLine) {
   EXPECT_THAT(run_carlo("converge pi -o /proc/none").output,
               HasSubstr("'/proc/none' is no folder and cannot be made one"));
   EXPECT_FALSE(std::filesystem::exists(path("out/pi.csv")));
+}
+
+TEST_F(Converge, AVariableMayBeUnusedBesideAnother) {
+  const Ran r = run("'x' -d x=0:1,y=0:1 --samplers random --max-n 64");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+}
+
+TEST_F(Converge, TheListSaysWhatAutoChoosesFrom) {
+  EXPECT_THAT(run_carlo("converge --list").output,
+              AllOf(HasSubstr("\n  tree  "), HasSubstr("the best of rqmc, vegas and tree\n")));
+}
+
+// The first of three curves, which the interrupt cuts, is written with the N that it has.
+TEST_F(Converge, CtrlCKeepsTheCurveThatItCuts) {
+  const Ran r = support::interrupt_carlo("converge pi --max-n 2e8 --threads 1 -o '" + path("out") + "' --report '" +
+                                         path("page") + "'");
+  EXPECT_EQ(r.exit_code, 130) << r.output;
+  EXPECT_THAT(r.output, AllOf(HasSubstr("; interrupted\r\n"),
+                              HasSubstr("interrupted: 0 of 3 curves were finished, one more up to N = ")));
+  EXPECT_THAT(out("pi.csv"), HasSubstr("pi,random,16,"));
+  EXPECT_THAT(out("pi.json"), HasSubstr("\"interrupted\": true"));
+  EXPECT_THAT(mc::read_file(path("page/index.html")), HasSubstr("truth 3.14159265359; jump; interrupted"));
 }
 
 TEST_F(Converge, ABudgetOfSecondsStopsAtSmallerN) {

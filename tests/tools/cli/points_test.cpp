@@ -17,6 +17,13 @@ using Ran = support::Run;
 using support::run_carlo;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
+
+std::size_t squares(const std::string& svg) {
+  std::size_t paths = 0;
+  for (std::size_t at = svg.find("<path"); at != std::string::npos; at = svg.find("<path", at + 1)) ++paths;
+  return paths;
+}
 
 struct Points : support::ScratchTest {
   void expect_refused(const std::string& arguments, const std::string& words) const {
@@ -37,10 +44,18 @@ TEST_F(Points, ASetByName) {
   EXPECT_THAT(mc::read_file(path("out/quality.csv")),
               AllOf(HasSubstr("\n16,"), HasSubstr("\n32,"), HasSubstr("\n64,")));
   EXPECT_THAT(mc::read_file(path("out/quality.json")), HasSubstr("\"star_upper\""));
-  const std::string svg = mc::read_file(path("out/points.svg"));
-  std::size_t paths = 0;
-  for (std::size_t at = svg.find("<path"); at != std::string::npos; at = svg.find("<path", at + 1)) ++paths;
-  EXPECT_EQ(paths, 3u) << "a square for each pair of axes";
+  EXPECT_EQ(squares(mc::read_file(path("out/points.svg"))), 3u) << "a square for each pair of axes";
+}
+
+// What is drawn of many axes is what is said of it.
+TEST_F(Points, OfManyAxesTheFirstAreDrawn) {
+  const Ran run = run_carlo("points sobol -n 16 -d 12 --randomisations 1 -o '" + path("out") + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("points.svg shows the first 8 of 12 axes, 28 of 66 pairs\n"));
+  EXPECT_EQ(squares(mc::read_file(path("out/points.svg"))), 28u);
+  EXPECT_THAT(run_carlo("points sobol -n 16 -d 8 --randomisations 1 -o '" + path("out") + "'").output,
+              Not(HasSubstr("points.svg")));
+  EXPECT_THAT(run_carlo("points --help").output, HasSubstr("first 8 axes"));
 }
 
 // What points.csv holds is the set: read back, it has the same figures.

@@ -1,5 +1,6 @@
 // carlo trade: errors, budgets, what is written, and bad input. Times are not asserted.
 
+#include <tools/interrupt_carlo.h>
 #include <tools/run_carlo.h>
 
 #include <support/files.h>
@@ -32,7 +33,7 @@ struct TradeCommand : support::ScratchTest {
 TEST_F(TradeCommand, TheCheapestWayToEachError) {
   const Ran r = run("rate_smooth_2d --error 0.1,0.01 --max-n 2048 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
-  EXPECT_THAT(r.output, AllOf(HasSubstr("22 ways"), HasSubstr("  error 0.1: "), HasSubstr("  error 0.01: "),
+  EXPECT_THAT(r.output, AllOf(HasSubstr("23 ways"), HasSubstr("  error 0.1: "), HasSubstr("  error 0.01: "),
                               HasSubstr("times faster than plain Monte Carlo")));
   const std::string json = mc::read_file(path("out/trade.json"));
   EXPECT_THAT(json, AllOf(HasSubstr("\"way\": \"sobol_float\""), HasSubstr("\"gain_over_plain\""),
@@ -45,7 +46,17 @@ TEST_F(TradeCommand, TheCheapestWayToEachError) {
 TEST_F(TradeCommand, AnErrorThatNoneReachesSaysHowFarEachCame) {
   const Ran r = run("rate_jump_2d --error 1e-9 --max-n 1024");
   EXPECT_EQ(r.exit_code, 1) << r.output;
-  EXPECT_THAT(r.output, AllOf(HasSubstr("  error 1e-09: no way came there; nearest: "), HasSubstr(" at N = 1024")));
+  EXPECT_THAT(r.output, AllOf(HasSubstr("  error 1e-09: no way came there; nearest: "), HasSubstr(" at N = 1024"),
+                              HasSubstr("; all 20 are in trade.csv; raise --max-n")));
+}
+
+TEST_F(TradeCommand, CtrlCTellsWhatIsKnown) {
+  const Ran r = support::interrupt_carlo("trade pi --max-n 2e8 --threads 1 -o '" + path("out") + "'");
+  EXPECT_EQ(r.exit_code, 130) << r.output;
+  EXPECT_THAT(r.output, AllOf(HasSubstr("interrupted: 0 of 23 ways were finished, one more up to N = "),
+                              HasSubstr("  error 0.0314159: "), HasSubstr("data and plots: ")));
+  EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"interrupted\": true"));
+  EXPECT_THAT(mc::read_file(path("out/trade.csv")), HasSubstr("random,16,"));
 }
 
 // Errors of 0 have no place on logarithmic axes.
@@ -104,6 +115,8 @@ TEST_F(TradeCommand, OfWhatASceneShows) {
 
 TEST_F(TradeCommand, BadInputIsOneLine) {
   expect_refused("", "trade: name one integrand");
+  expect_refused("a.xml b.xml", "'a.xml' stands among others: scenes are measured one at a time; give it alone");
+  expect_refused("'3+2' -d x=0:1", "'3+2' uses none of x: a constant has no error to measure; put a variable into it");
   expect_refused("genz", "trade: name one integrand");
   expect_refused("pi --error 0", "--error: '0' in '0' must be a number above 0");
   expect_refused("pi --error 1e-2,,1e-3", "--error: '' in '1e-2,,1e-3'");

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -71,6 +72,53 @@ TEST(Measure, ConstantsAreExact) {
   const Measurement m = measure(here(e), list, {.max_n = 64});
   EXPECT_TRUE(m.curves[0].exact);
   EXPECT_FALSE(m.curves[0].law);
+}
+
+// The twelfth step is the fifth of the second curve, behind seven of the first: N = 16 to 256.
+TEST(Measure, AnInterruptCostsOnlyTheNThatItFallsOn) {
+  const auto list = ways({"random", "stratified", "sobol"});
+  for (const double truth : {0.5, std::numeric_limits<double>::quiet_NaN()}) {
+    std::atomic<bool> cancel = false;
+    int steps = 0;
+    const auto progress = [&](double, const std::string&) { cancel = ++steps == 12; };
+    const Measurement m =
+        measure(here(ramp(truth)), list, {.max_n = 1024, .seed = 6, .cancel = &cancel, .progress = progress});
+    EXPECT_TRUE(m.interrupted);
+    ASSERT_EQ(m.curves.size(), 2u);
+    EXPECT_FALSE(m.curves[0].cut);
+    EXPECT_TRUE(m.curves[1].cut);
+    ASSERT_EQ(m.curves[1].errors.size(), 5u);
+    EXPECT_EQ(m.curves[1].errors.back().n, 256);
+    EXPECT_NEAR(m.curves[1].errors.back().rms, std::sqrt(1 / (12 * std::pow(256, 3))), 3e-5);
+    EXPECT_EQ(m.doubt, "");
+  }
+}
+
+// The replicates of the reference, 128, are then of no use: those of the curve stand in.
+TEST(Measure, AnInterruptOfTheReferenceLeavesOneLessSure) {
+  carlo::Target target = carlo::here(ramp(std::numeric_limits<double>::quiet_NaN()));
+  std::atomic<bool> cancel = false;
+  target.run = [&cancel, e = target.integral](const carlo::Task& task) {
+    cancel = task.count == 128;
+    return run_here(e, task);
+  };
+  const auto list = ways({"stratified"});
+  const Measurement m = measure(target, list, {.max_n = 256, .replicates = 16, .cancel = &cancel});
+  EXPECT_TRUE(m.interrupted);
+  ASSERT_EQ(m.curves.size(), 1u);
+  EXPECT_FALSE(m.curves[0].cut);
+  EXPECT_NEAR(m.truth, 0.5, 6 * m.truth_error);
+  EXPECT_LE(m.truth_error, m.curves[0].errors.back().rms);
+}
+
+TEST(Measure, AnInterruptBeforeAnyTruthLeavesNothing) {
+  std::atomic<bool> cancel = false;
+  const auto progress = [&](double, const std::string&) { cancel = true; };
+  const auto list = ways({"vegas", "random"});
+  const Measurement m = measure(here(ramp(std::numeric_limits<double>::quiet_NaN())), list,
+                                {.max_n = 1 << 14, .cancel = &cancel, .progress = progress});
+  EXPECT_TRUE(m.interrupted);
+  EXPECT_TRUE(m.curves.empty());
 }
 
 // A reference of replicates is doubted where one of them holds over half of their variance again and again: of 1/x, not

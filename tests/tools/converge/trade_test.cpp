@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 namespace {
@@ -101,6 +102,36 @@ TEST(Trade, TheMostAccurateInATime) {
   EXPECT_GT(f.offers[0].error.hi, 1.1e-3);
   EXPECT_NEAR(f.gain->value, std::sqrt(1000), 1e-6);
   EXPECT_TRUE(offers_for_seconds(measured(), 1e-9, clock).offers.empty());
+}
+
+// Seconds of a second run, or of the first where that is interrupted. The clock goes on by the number of the call.
+TEST(Trade, ContendersRunAgainInTurn) {
+  carlo::Target target;
+  std::vector<std::string> order;
+  std::atomic<bool> cancel = false;
+  std::size_t most = 1000;
+  target.run = [&](const carlo::Task& task) {
+    order.push_back(task.way->name);
+    cancel = order.size() >= most;
+    return carlo::Replicates{{0, 0, 0}, {1024, 1024, 1024}, {1, 1, 1024e-9 * static_cast<double>(order.size())}};
+  };
+  Measurement m;
+  m.curves = {power_law("random", 1, 0.5), power_law("sobol", 1, 1)};
+  for (Curve& c : m.curves)
+    for (const mc::RmsError& e : c.errors) c.replicates.push_back({{}, {}, std::vector<double>(64, 7e-9 * e.n)});
+  const std::vector<Offer> offers = {{&m.curves[0], 1000, {}, {}}, {&m.curves[1], 1000, {}, {}}};
+  const carlo::SecondsOfOne again = taken_in_turn(target, m, offers, 1, &cancel);
+  ASSERT_EQ(order.size(), 18u);
+  EXPECT_EQ(order[0], "random");
+  EXPECT_EQ(order[1], "sobol");
+  EXPECT_EQ(order[2], "random");
+  EXPECT_NEAR(again(m.curves[0], 1000).value, 9e-9, 1e-15); // of the calls 1, 3, ..., 17
+  EXPECT_NEAR(again(m.curves[1], 1000).lo, 4e-9, 1e-15);    // of the calls 2, 4, ..., 18
+  order.clear();
+  most = 5;
+  const carlo::SecondsOfOne before = taken_in_turn(target, m, offers, 1, &cancel);
+  EXPECT_EQ(order.size(), 5u);
+  EXPECT_NEAR(before(m.curves[1], 1000).value, 7e-9, 1e-15);
 }
 
 TEST(Trade, TheFrontHoldsWhatNothingBeats) {
