@@ -111,11 +111,15 @@ Part named(const std::string& name, Rounding rounding) {
   if (name == "ball")
     return part("the unit ball", {"x", "y", "z"}, mc::Ball<double>(), rounding,
                 [](const Numbers& x) { return norm(x, 3) <= 1 + edge_tolerance; });
-  if (name == "triangle")
-    return part("the triangle x, y >= 0, x + y <= 1", {"x", "y"}, mc::Triangle<double>(), rounding,
-                [](const Numbers& x) {
-                  return x[0] >= -edge_tolerance && x[1] >= -edge_tolerance && x[0] + x[1] <= 1 + edge_tolerance;
-                });
+  if (name == "triangle") {
+    Part p =
+        part("the triangle x, y >= 0, x + y <= 1", {"x", "y"}, mc::Triangle<double>(), rounding, [](const Numbers& x) {
+          return x[0] >= -edge_tolerance && x[1] >= -edge_tolerance && x[0] + x[1] <= 1 + edge_tolerance;
+        });
+    p.chart.axes[0].name = "1 - x";
+    p.chart.axes[1].name = "y / (1 - x)";
+    return p;
+  }
   static const std::vector<std::string> known = {"sphere", "hemisphere", "disk",    "annulus",
                                                  "ball",   "triangle",   "discrete"};
   throw mc::Error(fmt::format("'{}' is not of the form name=lo:hi, as in \"x=0:1,y=-1:2\", nor one of {}{}", name,

@@ -118,8 +118,9 @@ std::string Report::to_string() const {
 
 std::string describe_range(const std::vector<Axis>& axes, std::size_t axis, double lo, double hi) {
   const Axis own = axis < axes.size() ? axes[axis] : Axis{axis_name(axes, axis)};
-  return fmt::format("{} in [{:.12g}, {:.12g}]{}{}", own.name, own.value(lo), own.value(hi),
-                     own.unit().empty() ? "" : " ", own.unit());
+  const auto [least, largest] = std::minmax({own.value(lo), own.value(hi)}); // some axes fall
+  return fmt::format("{} in [{:.12g}, {:.12g}]{}{}", own.name, least, largest, own.unit().empty() ? "" : " ",
+                     own.unit());
 }
 
 std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo,
@@ -127,7 +128,8 @@ std::string describe_cell(const std::vector<Axis>& axes, const std::array<double
   std::string text;
   for (std::size_t d = 0; d < std::min<std::size_t>(axes.size(), 3); ++d) {
     const Axis& axis = axes[d];
-    text += fmt::format("{}{} {:.5g} to {:.5g}{}{}", d > 0 ? ", " : "", axis.name, axis.value(lo[d]), axis.value(hi[d]),
+    const auto [least, largest] = std::minmax({axis.value(lo[d]), axis.value(hi[d])});
+    text += fmt::format("{}{} {:.5g} to {:.5g}{}{}", d > 0 ? ", " : "", axis.name, least, largest,
                         axis.unit().empty() ? "" : " ", axis.unit());
   }
   return text;

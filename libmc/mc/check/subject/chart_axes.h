@@ -12,6 +12,7 @@
 #include <mc/domain/product.h>
 #include <mc/domain/rotated.h>
 #include <mc/domain/sphere.h>
+#include <mc/domain/triangle.h>
 
 #include <fmt/format.h>
 
@@ -25,7 +26,7 @@ inline std::vector<Axis> polar_axes(double h) {
 }
 
 /// What the chart coordinates of a domain stand for; the coordinates themselves, named v0, v1, ..., where no single one
-/// has a meaning (triangles, patches, domains unknown here).
+/// has a meaning (patches, domains unknown here).
 template <Domain D> std::vector<Axis> chart_axes(const D&) {
   std::vector<Axis> axes(std::size_t{D::dim});
   for (std::size_t i = 0; i < axes.size(); ++i) axes[i].name = D::dim == 1 ? std::string("v") : fmt::format("v{}", i);
@@ -46,6 +47,9 @@ template <Real S> std::vector<Axis> chart_axes(const Disk<S>&) {
 template <Real S> std::vector<Axis> chart_axes(const Annulus<S>& d) {
   return {{"r", Axis::Scale::radius, static_cast<double>(d.inner), static_cast<double>(d.outer)},
           {"phi", Axis::Scale::azimuth, 0, 1}};
+}
+template <Real S> std::vector<Axis> chart_axes(const Triangle<S>&) {
+  return {{"1 - b0", Axis::Scale::radius, 1, 0}, {"b1 / (1 - b0)", Axis::Scale::linear, 0, 1}};
 }
 template <Real S> std::vector<Axis> chart_axes(const Sphere<S>&) { return polar_axes(2); }
 template <Real S> std::vector<Axis> chart_axes(const Hemisphere<S>&) { return polar_axes(1); }

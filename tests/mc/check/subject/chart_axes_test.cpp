@@ -53,8 +53,18 @@ TEST(ChartAxes, ProductsNameEachAxisOnce) {
   EXPECT_EQ(plane[1].name, "y");
 }
 
-TEST(ChartAxes, UnknownDomainsShowTheChart) {
+TEST(ChartAxes, ATriangleHasItsBarycentricCoordinates) {
   const auto axes = chart_axes(mc::Triangle<double>{});
+  const Vec2<double> b = mc::Triangle<double>{}.from_unit({0.3, 0.6});
+  EXPECT_DOUBLE_EQ(axes[0].value(0.3), 1 - b[0]);
+  EXPECT_DOUBLE_EQ(axes[1].value(0.6), b[1] / (1 - b[0]));
+}
+
+// A triangle under a name that no one knows.
+struct Unknown : mc::Triangle<double> {};
+
+TEST(ChartAxes, UnknownDomainsShowTheChart) {
+  const auto axes = chart_axes(Unknown{});
   EXPECT_EQ(axes[0].name, "v0");
   EXPECT_EQ(axes[1].name, "v1");
   EXPECT_DOUBLE_EQ(axes[1].value(0.25), 0.25);

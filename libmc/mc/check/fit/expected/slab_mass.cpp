@@ -1,5 +1,7 @@
 #include <mc/check/fit/expected/slab_mass.h>
 
+#include <mc/check/report/report.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -124,6 +126,15 @@ EstimatedMass slab_mass(const Subject& s, const Pilot& pilot, const Layer& layer
   }
   if (!layer.empty) mass.variance += missed;
   return mass;
+}
+
+std::string describe_layer(const Subject& s, std::size_t axis, double lo, double hi) {
+  const std::string range = describe_range(s.axes, axis, lo, hi);
+  if (!s.describe_point) return range;
+  Subject::Coordinates middle{};
+  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) middle[d] = 0.5;
+  middle[axis] = 0.5 * (lo + hi);
+  return range + ", as at " + s.describe_point(middle);
 }
 
 } // namespace mc

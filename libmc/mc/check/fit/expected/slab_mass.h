@@ -6,6 +6,7 @@
 #include <mc/check/subject/subject.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace mc {
@@ -18,6 +19,10 @@ struct Layer {
   double mass = 0;                 ///< inside, were the samples right
   bool empty = false;              ///< of samples: what an integral misses there speaks for them, not against
 };
+
+/// "theta in [1.5, 3] deg, as at (0.04, 0, 0.999)": a layer, and a point of the domain in the middle of it, since not
+/// every axis means something there.
+std::string describe_layer(const Subject& subject, std::size_t axis, double lo, double hi);
 
 /// quick : from a sixteenth of the points or less
 enum class Effort : std::uint8_t { quick, full };

@@ -187,7 +187,7 @@ Check test_slabs(const Subject& s, Slab::Kind kind, const std::vector<Slab>& sla
     c.p = p;
     c.statistic = slab.count;
     c.detail = fmt::format("{} samples, {:.3g} expected, with {}", slab.count, n * slab.mass.value,
-                           describe_range(s.axes, slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis]));
+                           describe_layer(s, slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis]));
   }
   if (*c.p <= sidak_level(alpha, c.share)) c.verdict = Verdict::fail;
   else c.detail.clear();

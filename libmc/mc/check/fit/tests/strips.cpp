@@ -159,7 +159,7 @@ Check Strips::test(const Subject& s, const Pilot& pilot, double n, double mass, 
     least = run.p;
     c.statistic = run.compared.z();
     c.detail = fmt::format("{:.0f} samples, {:.1f} expected, with {}", run.counts.observed, run.expected,
-                           describe_range(s.axes, run.axis, run.lo, run.hi));
+                           describe_layer(s, run.axis, run.lo, run.hi));
   }
   c.p = sidak(least, family);
   if (*c.p <= sidak_level(alpha, share)) c.verdict = Verdict::fail;
