@@ -78,4 +78,18 @@ TEST(LinearFit, SeesAJumpBesideASlope) {
   EXPECT_LE(add(0), 1e-6); // it began anew
 }
 
+// Sixteen times the mean square of what a jump at a random place hides from n random points.
+TEST(EstimatedMass, WhatJumpsHideIsConcededSixteenfold) {
+  for (const double n : {4.0, 12.0, 40.0}) {
+    double mean = 0;
+    constexpr int steps = 100'000;
+    for (int i = 0; i < steps; ++i) {
+      const double f = (i + 0.5) / steps;
+      mean += f * f * std::pow(1 - f, n) / steps;
+    }
+    EXPECT_NEAR(mc::hidden_by_jump(n), 16 * mean, 1e-8 * mean + 1e-12) << n;
+  }
+  EXPECT_EQ(mc::hidden_by_jump(0), 1);
+}
+
 } // namespace
