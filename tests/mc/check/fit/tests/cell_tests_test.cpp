@@ -135,8 +135,8 @@ TEST(CellTests, WeightsAreNoCounts) {
   EXPECT_GE(rejected, 5);
 }
 
-// One expectation is known to three hundredths and one deviation off; the others, known exactly, are off by as much once the
-// sum is given: no run of them is at fault.
+// One expectation is known to three hundredths and one deviation off; the others, known exactly, are off by as much
+// once the sum is given: no run of them is at fault.
 TEST(CellTests, WhatIsNotKnownOfOneCellIsNotKnownOfTheOthers) {
   std::vector<mc::Cell> cells(64);
   for (mc::Cell& c : cells) {
