@@ -15,7 +15,7 @@
 #include "arguments.h"
 
 #include <render/film/interval.h>
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
 
 #include <mc/estimate/moments.h>

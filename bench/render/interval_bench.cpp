@@ -7,7 +7,7 @@
 #include "arguments.h"
 
 #include <render/film/interval.h>
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
 
 #include <mc/stats/t_test.h>

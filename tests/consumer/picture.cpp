@@ -1,5 +1,5 @@
 // A program of librender's user: it links what librender itself uses.
-#include <render/io/image_io.h>
+#include <render/io/image/image_io.h>
 
 int main(int, char** arguments) {
   render::Image image(2, 1);

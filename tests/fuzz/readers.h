@@ -3,7 +3,7 @@
 
 #include <render/io/image/formats.h>
 #include <render/io/mesh/mesh.h>
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 
 #include <array>
 #include <string>

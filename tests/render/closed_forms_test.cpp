@@ -1,6 +1,6 @@
 // Scenes of the gallery whose pictures are known in closed form.
 
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
 
 #include <mc/core/file.h>

@@ -2,7 +2,7 @@
 // closed form by a t-test at alpha = 1e-5; there are eighty, and the seeds are fixed.
 
 #include <render/integrator/path.h>
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/scene/builder.h>
 
 #include <mc/estimate/moments.h>

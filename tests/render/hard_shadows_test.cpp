@@ -1,6 +1,6 @@
 // Points and directions of light over floors and in balls, whose radiance is known in closed form.
 
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
 #include <render/scene/builder.h>
 

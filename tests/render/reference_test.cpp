@@ -1,7 +1,7 @@
 // The gallery against the small pictures of tests/refs, which carlo rendered with many independent samples.
 
-#include <render/io/image_io.h>
-#include <render/io/mitsuba.h>
+#include <render/io/image/image_io.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include <options/subcommand.h>
 
-#include <render/io/image_io.h>
+#include <render/io/image/image_io.h>
 
 #include <mc/core/error.h>
 #include <mc/core/text.h>

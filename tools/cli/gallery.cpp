@@ -5,8 +5,8 @@
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 
-#include <render/io/image_io.h>
-#include <render/io/mitsuba.h>
+#include <render/io/image/image_io.h>
+#include <render/io/mitsuba/mitsuba.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>

@@ -7,10 +7,10 @@
 #include <terminal/progress.h>
 
 #include <render/film/interval.h>
-#include <render/io/image_io.h>
+#include <render/io/image/image_io.h>
 #include <render/io/mesh_scene.h>
-#include <render/io/mitsuba.h>
-#include <render/io/mitsuba/reference.h>
+#include <render/io/mitsuba/mitsuba.h>
+#include <render/io/mitsuba/plugins/reference.h>
 #include <render/layers.h>
 #include <render/render.h>
 

@@ -4,7 +4,7 @@
 #include <report/html.h>
 
 #include <mc/core/file.h>
-#include <render/io/image_io.h>
+#include <render/io/image/image_io.h>
 
 #include <fmt/format.h>
 

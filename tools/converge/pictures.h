@@ -3,7 +3,7 @@
 
 #include <converge/trade.h>
 
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
 
 #include <deque>

@@ -1,7 +1,7 @@
 #include <gallery/features.h>
 
 #include <render/integrator/strategy.h>
-#include <render/io/mitsuba/plugins/plugins.h>
+#include <render/io/mitsuba/plugins.h>
 #include <render/io/xml.h>
 
 #include <fmt/format.h>

@@ -110,13 +110,18 @@ std::string_view without_comment(std::string_view text) {
 }
 
 void parse_row(std::string_view text, CsvTable& table) {
+  bool commas = false, semicolons = false;
   for (bool more = true; more;) {
     const Number n = take_number(text);
     table.values.push_back(n.value);
     table.digits.push_back(static_cast<std::int16_t>(std::clamp(n.digit, -1000, 1000)));
     skip_blanks(text);
     more = !text.empty();
-    if (skip(text, ',') || skip(text, ';')) {
+    const bool comma = skip(text, ','), semicolon = !comma && skip(text, ';');
+    commas |= comma;
+    semicolons |= semicolon;
+    mc::require(!commas || !semicolons, "both ',' and ';' separate; write decimal points, and one of the two between");
+    if (comma || semicolon) {
       skip_blanks(text);
       more = !text.empty(); // a separator may end the row
     }

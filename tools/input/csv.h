@@ -18,12 +18,12 @@ struct CsvTable {
   const double* row(std::size_t i) const { return values.data() + i * columns; }
 };
 
-/// Numbers separated by commas, semicolons or blanks, in quotation marks or not. Left out are empty lines, what follows
-/// a # to the end of the line, a comma at the end of a row, and a first line whose first field, in quotation marks or
-/// not, begins with a letter or _ and is no number: the names of the columns.
-///   throws : Error "file:line: ..." for what is no finite number, a decimal comma, an empty field, a quotation mark
-///            without its other or a row of another length; "file: ..." for a file that is missing, is no text or
-///            holds no numbers
+/// Numbers separated by commas or semicolons, or by blanks, in quotation marks or not. Left out are empty lines, what
+/// follows a # to the end of the line, a comma at the end of a row, and a first line whose first field, in quotation
+/// marks or not, begins with a letter or _ and is no number: the names of the columns.
+///   throws : Error "file:line: ..." for what is no finite number, a decimal comma, commas beside semicolons, an empty
+///            field, a quotation mark without its other or a row of another length; "file: ..." for a file that is
+///            missing, is no text or holds no numbers
 CsvTable read_csv(const std::string& file);
 
 } // namespace carlo

@@ -4,14 +4,14 @@
 #include <input/samples_file.h>
 #include <integrands/sides.h>
 
-#include <render/io/image_io.h>
+#include <render/io/image/image_io.h>
 
 #include <mc/check/check_subject.h>
 #include <mc/core/error.h>
 #include <mc/core/sum.h>
 #include <mc/core/turns.h>
 #include <mc/random/uniform.h>
-#include <mc/table/table_dist_2d.h>
+#include <mc/table/table_dist_1d.h>
 
 #include <algorithm>
 #include <array>
@@ -61,6 +61,12 @@ struct GridDomain {
                           sides[i].lo + (sides[i].hi - sides[i].lo) * p[static_cast<Eigen::Index>(i)]);
     return text + ")";
   }
+  std::vector<mc::Axis> axes() const {
+    if (sphere) return {{.name = "phi", .scale = mc::Axis::Scale::azimuth}, {.name = "theta [deg]", .b = 180}};
+    std::vector<mc::Axis> named;
+    for (const Side& s : sides) named.push_back({.name = s.name, .a = s.lo, .b = s.hi});
+    return named;
+  }
   // Of a cell in row j.
   double measure(std::size_t j, std::size_t width, std::size_t height) const {
     const double w = static_cast<double>(width), h = static_cast<double>(height);
@@ -106,6 +112,13 @@ GridDomain domain_of(const SamplesFileOptions& o, std::size_t columns) {
 struct Grid {
   std::size_t width = 0, height = 0;
   std::vector<double> density;
+
+  std::uint32_t cell(const Vec2<double>& p) const { // p in the unit square
+    const auto index = [](double at, std::size_t n) {
+      return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1);
+    };
+    return static_cast<std::uint32_t>(index(p[1], height) * width + index(p[0], width));
+  }
 };
 
 Grid read_grid(const std::string& file) {
@@ -138,10 +151,7 @@ struct SamplesFile {
   std::string file;
   CsvTable table;
   GridDomain domain;
-  std::size_t width = 0, height = 0;
-  std::vector<double> weights; // of the cells
-  double mass = 1;
-  mc::TableDist2D<double> distribution;
+  Grid grid;                        // of the density on the unit square
   std::vector<std::uint32_t> cells; // of the samples
 };
 
@@ -167,13 +177,9 @@ std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
               "{}: the density integrates to {}; some cell must be positive, and none beyond doubles", o.pdf,
               mass.value());
 
-  const auto index = [](double at, std::size_t n) {
-    return std::min(static_cast<std::size_t>(at * static_cast<double>(n)), n - 1);
-  };
   const auto cell_of = [&](const double* x) -> std::optional<std::uint32_t> {
     const auto p = domain.to_square(x);
-    if (!p) return {};
-    return static_cast<std::uint32_t>(index((*p)[1], grid.height) * grid.width + index((*p)[0], grid.width));
+    return p ? std::optional(grid.cell(*p)) : std::nullopt;
   };
   std::vector<std::uint32_t> cells;
   cells.reserve(table.rows());
@@ -201,49 +207,45 @@ std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
         fmt::format("{}:{}: ({}) is not covered by the grid of {}, {}; {} of {} samples are not (see --domain)",
                     o.samples, table.lines[first_off], point, o.pdf, domain.name(), off, table.rows()));
   }
-  mc::TableDist2D<double> distribution(grid.density, grid.width, grid.height);
+  const double volume = 1 / static_cast<double>(grid.density.size()), unit = o.unnormalized ? mass.value() : 1;
+  for (double& weight : grid.density) weight /= unit * volume;
   return std::make_shared<const SamplesFile>(
-      SamplesFile{o.samples, std::move(table), std::move(domain), grid.width, grid.height, std::move(grid.density),
-                  o.unnormalized ? 1.0 : mass.value(), std::move(distribution), std::move(cells)});
+      SamplesFile{o.samples, std::move(table), std::move(domain), std::move(grid), std::move(cells)});
 }
 
+// Samples count by their cells alone: where in it each lies is drawn evenly.
 Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::string& title, std::uint64_t seed) {
   Subject s;
   s.name = title;
   s.dim = f->domain.columns() == 1 ? 1 : 2;
   s.mass_tolerance = mass_tolerance;
-  const std::string x = f->domain.sphere ? "azimuth" : f->domain.sides.front().name;
-  const std::string y = f->domain.sphere ? "theta" : f->domain.sides.back().name;
-  if (s.dim == 1) s.axes = {{.name = "quantile of " + x}};
-  else s.axes = {{.name = fmt::format("quantile of {} in its row", x)}, {.name = "quantile of " + y}};
+  s.axes = f->domain.axes();
+  s.breaks = {mc::even_breaks(f->grid.width), mc::even_breaks(f->grid.height)};
   const auto deal = std::make_shared<Deal>(static_cast<std::uint32_t>(f->table.rows()), seed);
   s.draw = [f, deal, seed](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
     const std::uint64_t first = deal->open(stream, n);
     for (std::size_t k = 0; k < n; ++k) {
       const std::uint32_t row = deal->row(first + k), cell = f->cells[row];
-      const std::size_t i = cell % f->width, j = cell / f->width;
+      const std::size_t i = cell % f->grid.width, j = cell / f->grid.width;
       const std::uint64_t bits = mc::hash(seed, row);
-      const Vec2<double> p((static_cast<double>(i) + mc::uniform<double>(bits)) / static_cast<double>(f->width),
-                           (static_cast<double>(j) + mc::uniform<double>(mc::mix64(bits))) /
-                               static_cast<double>(f->height));
       Subject::Draw& d = out.emplace_back();
-      d.pdf_positive = f->weights[cell] > 0;
-      const Vec2<double> u = f->distribution.invert(p);
-      d.v = {u[0], u[1], 0};
+      d.density = f->grid.density[cell];
+      d.pdf_positive = d.density > 0;
+      d.v[0] = (static_cast<double>(i) + mc::uniform<double>(bits)) / static_cast<double>(f->grid.width);
+      if (f->domain.columns() > 1)
+        d.v[1] = (static_cast<double>(j) + mc::uniform<double>(mc::mix64(bits))) / static_cast<double>(f->grid.height);
     }
   };
-  s.density = [mass = f->mass](const Subject::Coordinates&) { return mass; };
+  s.density = [f](const Subject::Coordinates& v) { return f->grid.density[f->grid.cell({v[0], v[1]})]; };
   s.describe_draw = [f, deal](std::uint64_t stream, std::uint64_t index) {
     const std::uint32_t row = deal->row(deal->open(stream, 0) + index), cell = f->cells[row];
     std::string point;
     for (std::size_t k = 0; k < f->table.columns; ++k)
       point += fmt::format("{}{}", k ? ", " : "", f->table.row(row)[k]);
-    return fmt::format("{}:{}: ({}) in cell ({}, {}) of the grid", f->file, f->table.lines[row], point, cell % f->width,
-                       cell / f->width);
+    return fmt::format("{}:{}: ({}) in cell ({}, {}) of the grid", f->file, f->table.lines[row], point,
+                       cell % f->grid.width, cell / f->grid.width);
   };
-  s.describe_point = [f](const Subject::Coordinates& v) {
-    return f->domain.describe(f->distribution.sample({v[0], v[1]}));
-  };
+  s.describe_point = [f](const Subject::Coordinates& v) { return f->domain.describe({v[0], v[1]}); };
   return s;
 }
 

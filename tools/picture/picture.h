@@ -1,7 +1,7 @@
 #pragma once
 /// What carlo does to every picture that it rendered.
 
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include <picture/resume.h>
 
 #include <render/film/accumulate.h>
-#include <render/io/image_io.h>
+#include <render/io/image/image_io.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>

@@ -44,7 +44,7 @@ inline Subject changed(Subject right, const std::function<bool(Pcg&, Draw&)>& ch
     }
   };
   right.describe_draw = nullptr;
-  right.invert = nullptr;
+  right.inverted = nullptr;
   return right;
 }
 

@@ -1,6 +1,6 @@
 #include "worlds.h"
 
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 
 #include <mc/core/frame.h>
 #include <mc/random/pcg.h>

@@ -24,7 +24,7 @@
 namespace mc {
 namespace {
 
-constexpr std::size_t most_inverted = 1 << 17;
+constexpr std::uint64_t most_inverted = 1 << 17;
 
 constexpr std::size_t most_kept = 1 << 22;
 
@@ -58,7 +58,6 @@ struct Counts {
   SampleWeights weights;
   std::array<std::vector<double>, 3> coordinates; ///< of the pilot and the first samples, by axis, ascending
   double kept = 0;                                ///< draws that these come from
-  std::vector<Subject::Coordinates> inverted;     ///< the first samples, through the subject's own inverse
 };
 
 // At least 200 samples to a cell, at most 4096 cells.
@@ -177,8 +176,6 @@ void count_points(const Subject& s, std::span<const Subject::Coordinates> points
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
     for (std::size_t i = 0; i < points.size() && counts.coordinates[d].size() < most_kept; ++i)
       counts.coordinates[d].push_back(points[i][d]);
-  for (std::size_t i = 0; s.invert && i < points.size() && counts.inverted.size() < most_inverted; ++i)
-    counts.inverted.push_back(s.invert(points[i]));
 }
 
 // Draws and counts; `so_far` is called with what there is after 1024, 2048, ... draws.
@@ -233,16 +230,18 @@ void append(std::vector<Check>& all, std::vector<Check> more) {
   for (Check& c : more) all.push_back(std::move(c));
 }
 
-// The samples through the subject's own inverse.
-std::vector<Check> judge_inverse(const Subject& s, const Counts& counts, double alpha) {
-  if (counts.inverted.empty()) return {};
+// Samples through the subject's own inverse.
+std::vector<Check> judge_inverse(const Subject& s, std::uint64_t seed, std::uint64_t samples, double alpha) {
+  if (!s.inverted) return {};
+  const std::vector<Subject::Coordinates> inverted = s.inverted(seed, std::min(samples, most_inverted));
+  if (inverted.empty()) return {};
   std::vector<Check> checks;
-  if (auto c = test_uniformity(counts.inverted, s.dim, s.invert_error, alpha, alpha_share(FitTest::inverse, s.dim)))
+  if (auto c = test_uniformity(inverted, s.dim, s.invert_error, alpha, alpha_share(FitTest::inverse, s.dim)))
     checks.push_back(std::move(*c));
-  FineGrid grid(s.dim, static_cast<double>(counts.inverted.size()), s.invert_error);
+  FineGrid grid(s.dim, static_cast<double>(inverted.size()), s.invert_error);
   grid.expect_uniform();
   WeightedCounts all;
-  for (const Subject::Coordinates& u : counts.inverted) {
+  for (const Subject::Coordinates& u : inverted) {
     grid.add_sample(u, 1);
     all.add_sample(1, 0);
   }
@@ -258,7 +257,7 @@ std::vector<Check> judge_detail(const Subject& s, const Pilot& pilot, const Layo
       layout.strips->test(s, pilot, counts.weights.points, points, alpha_share(FitTest::strips, s.dim), alpha),
       layout.levels.test(alpha_share(FitTest::levels, s.dim), alpha)};
   append(checks,
-         layout.grid->test(layout.all, alpha_share(FitTest::waves, s.dim) / (s.invert ? 2 : 1), alpha, "the chart"));
+         layout.grid->test(layout.all, alpha_share(FitTest::waves, s.dim) / (s.inverted ? 2 : 1), alpha, "the chart"));
   return checks;
 }
 
@@ -312,7 +311,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   append(report.checks, check_draws(s, merged(counts.tally, pilot.tally), options.open_interval));
   append(report.checks, judge_density(s, layout));
   report.checks.push_back(test_mass(s, mass, options.alpha));
-  append(report.checks, judge_inverse(s, counts, options.alpha));
+  append(report.checks, judge_inverse(s, hash(options.seed, 5), options.samples, options.alpha));
   const auto slabs = s.dim > 0 ? find_slabs(s, pilot, counts.coordinates) : std::vector<Slab>();
   const auto judge_slabs = [&](Slab::Kind kind) {
     if (s.dim == 0) return;

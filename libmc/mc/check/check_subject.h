@@ -43,7 +43,7 @@ template <class Options> Options with_statistics(Options o, const SubjectOptions
 ///   levels     : how many samples lie where the density is high or low against its surroundings (density_levels.h)
 ///   waves      : Fourier coefficients of the counts on a fine grid of the chart, and of the inverted samples
 ///                (spectrum.h)
-///   inverted   : the sampler's own inverse, where it has one, makes the first 131072 samples uniform (uniformity.h)
+///   inverted   : the sampler's own inverse, where it has one, makes samples uniform, at most 131072 (uniformity.h)
 ///   atoms      : the place on each axis where most samples agree, against the mass of its slab (slabs.h)
 ///   gaps       : the widest gap between samples inside each axis and at its ends, likewise
 ///   detection  : the report states the smallest errors it would have caught with probability .99

@@ -16,7 +16,21 @@
 
 #include <gtest/gtest.h>
 
+#include <type_traits>
+
 namespace mc {
+
+namespace detail {
+
+// Of what the macros are handed. No concepts: compilers would explain these at length.
+template <class W> constexpr bool is_sampler = Samplable<std::remove_cvref_t<W>>;
+template <class Bsdf, class V>
+constexpr bool is_bsdf = BsdfOver<std::remove_cvref_t<Bsdf>, typename std::remove_cvref_t<V>::Scalar>;
+template <class Draw, class D>
+constexpr bool draws_points =
+    std::invocable<Draw, Pcg&> || std::invocable<Draw, typename std::remove_cvref_t<D>::UnitPoint>;
+
+} // namespace detail
 
 inline testing::AssertionResult assert_passed(const Report& report) {
   return report.passed() ? testing::AssertionSuccess() : testing::AssertionFailure() << report.to_string();
@@ -24,20 +38,24 @@ inline testing::AssertionResult assert_passed(const Report& report) {
 
 template <class W> testing::AssertionResult obeys_laws(const char* expression, const W& warp, LawOptions options = {}) {
   if (options.name == LawOptions{}.name) options.name = expression;
-  return assert_passed(check_laws(warp, options));
+  if constexpr (detail::is_sampler<W>) return assert_passed(check_laws(warp, options));
+  else return testing::AssertionFailure();
 }
 
 template <class Bsdf, class S>
 testing::AssertionResult obeys_bsdf_laws(const char* expression, const Bsdf& bsdf, const Vec3<S>& wo,
                                          BsdfOptions options = {}) {
   if (options.name == BsdfOptions{}.name) options.name = expression;
-  return assert_passed(check_bsdf<S>(bsdf, wo, options));
+  if constexpr (detail::is_bsdf<Bsdf, Vec3<S>>) return assert_passed(check_bsdf<S>(bsdf, wo, options));
+  else return testing::AssertionFailure();
 }
 
 template <class Sampler, class Pdf, Domain D>
 testing::AssertionResult samples_match_pdf(const char* expression, Sampler sampler, Pdf pdf, const D& domain,
                                            const SubjectOptions& options = {}) {
-  return assert_passed(check_subject(make_subject(make_sampler(expression, domain, sampler, pdf)), options));
+  if constexpr (detail::draws_points<Sampler, D>)
+    return assert_passed(check_subject(make_subject(make_sampler(expression, domain, sampler, pdf)), options));
+  else return testing::AssertionFailure();
 }
 
 template <class Values>
@@ -58,8 +76,44 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
 
 } // namespace mc
 
-#define EXPECT_WARP_LAWS(warp, ...) EXPECT_TRUE(::mc::obeys_laws(#warp, warp __VA_OPT__(, ) __VA_ARGS__))
-#define EXPECT_BSDF_LAWS(bsdf, wo, ...) EXPECT_TRUE(::mc::obeys_bsdf_laws(#bsdf, bsdf, wo __VA_OPT__(, ) __VA_ARGS__))
+// Each looks at what it is handed before it calls anything, so that compilers say in a few lines what is missing.
+
+#define EXPECT_WARP_LAWS(warp, ...)                                                                                    \
+  switch (const char* mc_expression =                                                                                  \
+              [] {                                                                                                     \
+                static_assert(::mc::detail::is_sampler<decltype(warp)>,                                                \
+                              "a sampler needs `using Domain = ...` and const domain(), sample(u), u of "              \
+                              "Domain::UnitPoint, and pdf(x)");                                                        \
+                return #warp;                                                                                          \
+              }();                                                                                                     \
+          0)                                                                                                           \
+  case 0:                                                                                                              \
+  default:                                                                                                             \
+    EXPECT_TRUE(::mc::obeys_laws(mc_expression, warp __VA_OPT__(, ) __VA_ARGS__))
+
+#define EXPECT_BSDF_LAWS(bsdf, wo, ...)                                                                                \
+  switch (const char* mc_expression =                                                                                  \
+              [] {                                                                                                     \
+                static_assert(                                                                                         \
+                    ::mc::detail::is_bsdf<decltype(bsdf), decltype(wo)>,                                               \
+                    "a BSDF needs const sample(wo, uc, u) or sample(wo, u), eval(wo, wi) and pdf(wo, wi), a number");  \
+                return #bsdf;                                                                                          \
+              }();                                                                                                     \
+          0)                                                                                                           \
+  case 0:                                                                                                              \
+  default:                                                                                                             \
+    EXPECT_TRUE(::mc::obeys_bsdf_laws(mc_expression, bsdf, wo __VA_OPT__(, ) __VA_ARGS__))
+
 #define EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain, ...)                                                            \
-  EXPECT_TRUE(::mc::samples_match_pdf(#sampler, sampler, pdf, domain __VA_OPT__(, ) __VA_ARGS__))
+  switch (const char* mc_expression =                                                                                  \
+              [] {                                                                                                     \
+                static_assert(::mc::detail::draws_points<decltype(sampler), decltype(domain)>,                         \
+                              "the sampler must take u, a point of the unit cube, or mc::Pcg&");                       \
+                return #sampler;                                                                                       \
+              }();                                                                                                     \
+          0)                                                                                                           \
+  case 0:                                                                                                              \
+  default:                                                                                                             \
+    EXPECT_TRUE(::mc::samples_match_pdf(mc_expression, sampler, pdf, domain __VA_OPT__(, ) __VA_ARGS__))
+
 #define EXPECT_MEAN(values, value, ...) EXPECT_TRUE(::mc::has_mean(#values, values, value __VA_OPT__(, ) __VA_ARGS__))

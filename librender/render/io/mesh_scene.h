@@ -1,7 +1,7 @@
 #pragma once
 /// A scene of a mesh alone.
 
-#include <render/io/mitsuba.h>
+#include <render/io/types.h>
 
 #include <string>
 

@@ -1,6 +1,6 @@
 #include <render/film/interval.h>
 
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
 
 #include <mc/core/error.h>

@@ -1,6 +1,6 @@
 #include <render/scene/resolution.h>
 
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/scene/builder.h>
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 #include <tools/interrupt_carlo.h>
 
-#include <render/io/image_io.h>
+#include <render/io/image/image_io.h>
 
 #include <mc/core/file.h>
 

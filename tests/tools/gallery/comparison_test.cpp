@@ -1,7 +1,7 @@
 #include <gallery/comparison.h>
 #include <gallery/scenes.h>
 
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 
 #include <gtest/gtest.h>
 

@@ -39,6 +39,7 @@ TEST_F(Csv, AFirstRowOfNumbersIsNeverLeftOut) {
 }
 
 TEST_F(Csv, ADecimalCommaIsRefusedWithItsRemedy) {
+  EXPECT_THAT(refusal("1;2\n0,5;0,25\n"), HasSubstr("a.csv:2: both ',' and ';' separate; write decimal points"));
   EXPECT_THAT(refusal("\"0,5\",\"0,25\"\n"), HasSubstr("a.csv:1: '0,5' has a decimal comma; write a decimal point"));
   EXPECT_THAT(refusal("x,y\n1,2\n0.5,\"-1,25e3\"\n"),
               HasSubstr("a.csv:3: '-1,25e3' has a decimal comma; write a decimal point"));

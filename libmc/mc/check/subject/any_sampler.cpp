@@ -20,34 +20,33 @@ AnySampler::Uniforms random_uniforms(const AnySampler& s, Pcg& random) {
   return u;
 }
 
+namespace {
+
+Kind kind_of(const AnySampler& s, const std::optional<AnySampler::Drawn>& drawn) {
+  if (!drawn) return Kind::failed;
+  const auto is_finite = [](double x) { return std::isfinite(x); };
+  if (!std::all_of(drawn->x.begin(), drawn->x.end(), is_finite)) return Kind::not_finite;
+  if (drawn->atom >= 0) return Kind::atom;
+  return s.domain.contains && s.domain.contains(drawn->x) ? Kind::point : Kind::outside;
+}
+
+} // namespace
+
 Placed place(const AnySampler& s, const std::optional<AnySampler::Drawn>& drawn) {
   Placed p;
   Subject::Draw& d = p.draw;
-  if (!drawn) {
-    d.kind = Kind::failed;
-    return p;
-  }
-  const auto is_finite = [](double x) { return std::isfinite(x); };
-  if (!std::all_of(drawn->x.begin(), drawn->x.end(), is_finite)) {
-    d.kind = Kind::not_finite;
-    return p;
-  }
-  d.weight = drawn->weight;
-  if (drawn->atom >= 0) {
-    d.kind = Kind::atom;
+  d.kind = kind_of(s, drawn);
+  if (d.kind == Kind::atom) {
     d.atom = drawn->atom;
     const auto i = static_cast<std::size_t>(d.atom);
     const double listed = i < s.atoms.size() ? s.atoms[i] : 0.0;
     p.pdf = std::isnan(drawn->pdf) ? listed : drawn->pdf;
-  } else {
-    if (!s.domain.contains || !s.domain.contains(drawn->x)) {
-      d.kind = Kind::outside;
-      return p;
-    }
+  } else if (d.kind == Kind::point) {
     d.v = s.domain.to_unit(drawn->x);
     p.pdf = std::isnan(drawn->pdf) ? s.pdf(drawn->x) : drawn->pdf;
     d.density = p.pdf * s.domain.jacobian(d.v);
-  }
+  } else return p;
+  d.weight = drawn->weight;
   d.pdf_positive = p.pdf > 0 && std::isfinite(p.pdf);
   return p;
 }
@@ -140,28 +139,55 @@ bool draws_as_it_samples(const AnySampler& s) {
   return held && held == held_by(s.sample) && held == held_by(s.pdf);
 }
 
-void append_draws(const AnySampler& s, std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
+// Hands over n random u of the stream `seed`. Where many are drawn at once they stay in the fastest memory, but a program
+// is asked for all of them in one batch.
+template <class Take> void in_batches(const AnySampler& s, std::uint64_t seed, std::size_t n, const Take& take) {
   Pcg random(seed);
+  std::vector<AnySampler::Uniforms> u(s.sample_many ? n : std::min<std::size_t>(n, 256));
+  for (std::size_t left = n; left > 0; left -= u.size()) {
+    u.resize(std::min(left, u.size()));
+    for (AnySampler::Uniforms& one : u) one = random_uniforms(s, random);
+    take(u);
+  }
+}
+
+// Hands over the sample of each u.
+template <class Take>
+void sample_each(const AnySampler& s, const std::vector<AnySampler::Uniforms>& u, const Take& take) {
+  if (s.sample_many)
+    for (const auto& drawn : s.sample_many(u)) take(drawn);
+  else
+    for (const AnySampler::Uniforms& one : u) take(s.sample(one));
+}
+
+void append_draws(const AnySampler& s, std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
   if (!s.sample) {
+    Pcg random(seed);
     for (std::size_t i = 0; i < n; ++i) out.push_back(place(s, s.sample_stream(random)).draw);
     return;
   }
-  // Where many are drawn at once they stay in the fastest memory, but a program is asked for all of them in one batch.
-  const std::size_t together = s.sample_many ? n : std::min<std::size_t>(n, 256);
-  const bool placed = draws_as_it_samples(s);
-  std::vector<AnySampler::Uniforms> u(together);
-  for (std::size_t left = n; left > 0; left -= u.size()) {
-    u.resize(std::min(left, together));
-    for (AnySampler::Uniforms& one : u) one = random_uniforms(s, random);
-    if (s.sample_many) {
-      for (const auto& drawn : s.sample_many(u)) out.push_back(place(s, drawn).draw);
-    } else if (placed) {
+  const bool placed = draws_as_it_samples(s) && !s.sample_many;
+  in_batches(s, seed, n, [&](const std::vector<AnySampler::Uniforms>& u) {
+    if (placed) {
       out.resize(out.size() + u.size());
       s.draw_many(u, std::span(out).last(u.size()));
     } else {
-      for (const AnySampler::Uniforms& one : u) out.push_back(place(s, s.sample(one)).draw);
+      sample_each(s, u, [&](const auto& drawn) { out.push_back(place(s, drawn).draw); });
     }
-  }
+  });
+}
+
+std::vector<Subject::Coordinates> inverted_draws(const AnySampler& s, std::uint64_t seed, std::size_t n) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Subject::Coordinates> inverted;
+  inverted.reserve(n);
+  const auto invert = [&](const std::optional<AnySampler::Drawn>& drawn) {
+    if (kind_of(s, drawn) != Kind::point) return;
+    const auto u = s.invert(drawn->x);
+    inverted.push_back(u ? Subject::Coordinates{(*u)[0], (*u)[1], (*u)[2]} : Subject::Coordinates{nan, nan, nan});
+  };
+  in_batches(s, seed, n, [&](const std::vector<AnySampler::Uniforms>& u) { sample_each(s, u, invert); });
+  return inverted;
 }
 
 } // namespace
@@ -216,13 +242,9 @@ Subject make_subject(const AnySampler& sampler) {
     return format_numbers({x.data(), static_cast<std::size_t>(shared->domain.numbers)},
                           std::numeric_limits<float>::max_digits10);
   };
-  if (s.invert && s.invert_tolerance > 0) {
+  if (s.sample && s.invert && s.invert_tolerance > 0) {
     subject.invert_error = s.invert_tolerance;
-    subject.invert = [shared](const Subject::Coordinates& v) {
-      const auto u = shared->invert(shared->domain.from_unit(v).x);
-      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-      return u ? Subject::Coordinates{(*u)[0], (*u)[1], (*u)[2]} : Subject::Coordinates{nan, nan, nan};
-    };
+    subject.inverted = [shared](std::uint64_t seed, std::size_t n) { return inverted_draws(*shared, seed, n); };
   }
   return subject;
 }

@@ -173,7 +173,7 @@ std::string float_excess(const AnySampler& s, const Numbers& x) {
   if (!std::any_of(numbers.begin(), numbers.end(), is_float_in_full)) return {};
   const std::optional<double> off = distance(s.domain, x);
   if (!off || !(*off <= 4 * static_cast<double>(std::numeric_limits<float>::epsilon()))) return {};
-  return ", as far off as float rounds: compute it in double, or declare the sampler float (.scalar = MC_FLOAT)";
+  return ", as far off as float rounds: compute it in double, or declare float as the sampler's scalar";
 }
 
 } // namespace mc

@@ -54,8 +54,9 @@ struct Subject {
   double mass_tolerance = 1e-12;  ///< rounding error of the claimed density, relative
   double weight_tolerance = 1e-4; ///< largest |weight - 1|, beyond what the density changes as the point is rounded
 
-  /// The point of the unit cube that the point at v was drawn from, as the sampler's own inverse says; may be empty.
-  std::function<Coordinates(const Coordinates& v)> invert;
+  /// The points of the unit cube that n draws of the stream `seed` come from, as the sampler's own inverse says of each
+  /// that gives a point of the domain; may be empty.
+  std::function<std::vector<Coordinates>(std::uint64_t seed, std::size_t n)> inverted;
   double invert_error = 0; ///< bound on the error of its coordinates
 
   double epsilon = 2.220446049250313e-16; ///< of the scalar that the points are computed in

@@ -1,6 +1,6 @@
-#include <render/io/image_io.h>
+#include <render/io/image/image_io.h>
 #include <render/io/mitsuba/context.h>
-#include <render/io/mitsuba/plugins/plugins.h>
+#include <render/io/mitsuba/plugins.h>
 
 #include <mc/core/text.h>
 

@@ -1,8 +1,8 @@
 #pragma once
 /// What the plugins of one scene file share: its folder, its dialect, and what has an id.
 
-#include <render/io/mitsuba.h>
 #include <render/io/mitsuba/folders.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/io/spectrum.h>
 #include <render/io/xml.h>
 #include <render/scene/builder.h>

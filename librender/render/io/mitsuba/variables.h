@@ -1,7 +1,7 @@
 #pragma once
 /// <default name="spp" value="16"/> and $spp.
 
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 #include <render/io/xml.h>
 
 namespace render::mitsuba {

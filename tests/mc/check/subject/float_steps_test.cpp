@@ -95,7 +95,7 @@ TEST(FloatSteps, CoarserStepsOfAnglesHaveTheirUnit) {
 }
 
 const std::string excess =
-    ", as far off as float rounds: compute it in double, or declare the sampler float (.scalar = MC_FLOAT)";
+    ", as far off as float rounds: compute it in double, or declare float as the sampler's scalar";
 
 // The cosine hemisphere over float, told as one over double.
 TEST(FloatSteps, APointOffTheDomainByARoundingOfFloatIsTold) {

@@ -1,6 +1,6 @@
 // Radiance's pictures, written here in every way that the format knows.
 
-#include <render/io/image_io.h>
+#include <render/io/image/image_io.h>
 
 #include <mc/random/pcg.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 // Small scene files for tests of the reader.
 
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 
 #include "support/files.h"
 

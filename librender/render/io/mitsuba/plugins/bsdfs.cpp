@@ -1,4 +1,4 @@
-#include <render/io/mitsuba/plugins/plugins.h>
+#include <render/io/mitsuba/plugins.h>
 
 #include <mc/core/text.h>
 

@@ -1,5 +1,5 @@
 #include <render/io/mesh/mesh.h>
-#include <render/io/mitsuba/plugins/plugins.h>
+#include <render/io/mitsuba/plugins.h>
 
 namespace render::mitsuba {
 

@@ -1,6 +1,6 @@
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 
-#include <render/io/image_io.h>
+#include <render/io/image/image_io.h>
 #include <render/render.h>
 
 #include "render/io/mitsuba/scene_text.h"

@@ -1,6 +1,6 @@
-#include <render/io/mitsuba.h>
+#include <render/io/mitsuba/mitsuba.h>
 
-#include <render/io/mitsuba/plugins/plugins.h>
+#include <render/io/mitsuba/plugins.h>
 #include <render/io/mitsuba/variables.h>
 
 #include <mc/core/text.h>

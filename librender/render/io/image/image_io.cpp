@@ -1,5 +1,5 @@
 #include <render/io/image/formats.h>
-#include <render/io/image_io.h>
+#include <render/io/image/image_io.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>

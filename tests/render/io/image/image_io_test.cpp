@@ -1,5 +1,5 @@
+#include <render/io/image/image_io.h>
 #include <render/io/image/srgb.h>
-#include <render/io/image_io.h>
 
 #include <mc/core/file.h>
 #include <mc/random/pcg.h>

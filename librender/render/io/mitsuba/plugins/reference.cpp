@@ -1,5 +1,5 @@
-#include <render/io/mitsuba/plugins/plugins.h>
-#include <render/io/mitsuba/reference.h>
+#include <render/io/mitsuba/plugins.h>
+#include <render/io/mitsuba/plugins/reference.h>
 
 namespace render::mitsuba {
 

@@ -1,0 +1,27 @@
+#pragma once
+/// What the readers of scenes give.
+
+#include <render/film/image.h>
+#include <render/scene/scene.h>
+
+#include <string>
+#include <vector>
+
+namespace render {
+
+/// How a scene file asks to be rendered.
+struct RenderDefaults {
+  int width = 256, height = 256;
+  int spp = 64;
+  int max_depth = -1; ///< longest path in edges; -1: no limit
+  Shown shown = Shown::radiance;
+};
+
+struct SceneFile {
+  Scene scene;
+  RenderDefaults defaults;
+  Vec3d origin = Vec3d::Zero();           ///< the point of the file that is the origin of the scene
+  std::vector<std::string> warnings = {}; ///< "scene.xml:14: ...": where the picture is not what Mitsuba makes of it
+};
+
+} // namespace render
