@@ -139,8 +139,8 @@ bool draws_as_it_samples(const AnySampler& s) {
   return held && held == held_by(s.sample) && held == held_by(s.pdf);
 }
 
-// Hands over n random u of the stream `seed`, few at once, so that what is made of them stays in the fastest memory; but
-// a program is asked for all of them in one batch.
+// Hands over n random u of the stream `seed`, few at once, so that what is made of them stays in the fastest memory. A
+// program is asked for all of them in one batch.
 template <class Take> void in_batches(const AnySampler& s, std::uint64_t seed, std::size_t n, const Take& take) {
   Pcg random(seed);
   std::vector<AnySampler::Uniforms> u(s.sample_many ? n : std::min<std::size_t>(n, 256));
