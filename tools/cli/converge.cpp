@@ -103,7 +103,12 @@ std::vector<Option> rows(ConvergeOptions& o) {
   const std::vector<Option> own = {
       {"--samplers", "NAMES", &o.samplers,
        "Comma-separated, see --list; of a scene those of carlo render [random,stratified,sobol; of a scene all]"},
-      {"--all", "", &o.all, "Every sampler", false, {"--samplers"}},
+      {"--all",
+       "",
+       &o.all,
+       "Every sampler; of a scene every strategy, spent evenly and adaptively",
+       false,
+       {"--samplers"}},
       {"--points-file", "FILE", &o.points, "These points as one more sampler: a row each, coordinates in [0, 1)"},
       {"--replicates", "N", &o.replicates,
        "Independent repetitions behind each RMS error, 0: as many as make it known to 10 %"},
@@ -131,7 +136,7 @@ void write_report(const std::filesystem::path& folder, const ConvergeOptions& o,
 }
 
 int converge_scene(const ConvergeOptions& o) {
-  mc::require(o.points.empty() && !o.time && !o.all, "converge: --points-file, --time and --all are not for scenes");
+  mc::require(o.points.empty(), "converge: --points-file is not for scenes");
   refuse_integral_options(o.integral);
   const Interrupt interrupt;
   const Target target = scene_target(o.integral.integrands[0]);
@@ -139,20 +144,21 @@ int converge_scene(const ConvergeOptions& o) {
   const std::filesystem::path page = page_folder(o);
   const Pictures pictures = measure_scene(o.scene, {.path = target.integral.source,
                                                     .samplers = o.samplers,
+                                                    .all = o.all,
                                                     .pictures = o.replicates,
+                                                    .seconds = o.time.value_or(0),
                                                     .seed = o.seed,
                                                     .threads = o.threads,
                                                     .cancel = interrupt.flag()});
-  if (pictures.measurement.interrupted) {
-    fmt::print("interrupted: nothing is known yet without the reference, which comes last\n");
-    return exit_interrupted;
-  }
+  const bool interrupted = pictures.measurement.interrupted;
+  if (interrupted) fmt::print("{}\n", interrupted_pictures(pictures));
+  if (pictures.ways.empty()) return exit_interrupted;
   write(target, pictures.measurement, o, folder, true);
   fmt::print("{}", about_pictures(pictures));
   mc::write_file((folder / "slopes.csv").string(), slopes_header() + slopes_csv(target, pictures.measurement));
   fmt::print("data and plots: {}\n", folder.string());
   write_report(page, o, {{&target, &pictures.measurement, &pictures}});
-  return exit_ok;
+  return interrupted ? exit_interrupted : exit_ok;
 }
 
 int converge(const ConvergeOptions& o) {

@@ -256,7 +256,6 @@ int tell(const TradeOptions& o, const Measured& one, const Folders& folders) {
 }
 
 int trade_scene(const TradeOptions& o, Wanted wanted) {
-  mc::require(!o.time, "trade: --time is not for scenes; --size and --max-spp bound what they take");
   refuse_integral_options(o.integral);
   const Interrupt interrupt;
   const Target target = scene_target(o.integral.integrands[0]);
@@ -264,20 +263,20 @@ int trade_scene(const TradeOptions& o, Wanted wanted) {
   const Pictures pictures = measure_scene(o.scene, {.path = target.integral.source,
                                                     .samplers = o.samplers,
                                                     .to_choose = true,
+                                                    .seconds = o.time.value_or(0),
                                                     .seed = o.seed,
                                                     .threads = o.threads,
                                                     .cancel = interrupt.flag()});
   const Measurement& m = pictures.measurement;
-  if (m.interrupted) {
-    fmt::print("interrupted: nothing is known yet without the reference, which comes last\n");
-    return exit_interrupted;
-  }
+  if (m.interrupted) fmt::print("{}\n", interrupted_pictures(pictures));
+  if (pictures.ways.empty()) return exit_interrupted;
   if (wanted.errors.empty() && wanted.seconds.empty()) wanted.errors = {0.2, 0.1, 0.05};
   fmt::print("{}: {} ways, {} of one picture\n", target.integral.title, m.curves.size(), m.cost.axis);
   fmt::print("{}", about_pictures(pictures));
   // The pictures were taken in turn already.
   const Answers answers = answers_of(m, wanted, [](const std::vector<Offer>&) { return as_measured; });
-  return tell(o, {&target, &m, &pictures, &answers}, folders);
+  const int code = tell(o, {&target, &m, &pictures, &answers}, folders);
+  return m.interrupted ? exit_interrupted : code;
 }
 
 int trade(const TradeOptions& o) {

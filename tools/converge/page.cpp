@@ -64,7 +64,7 @@ std::vector<std::string> theory_cells(const Curve& c) {
 // The bias that is told from 0, and above which error it pays.
 std::array<std::string, 2> bias_cells(const Bias& b) {
   if (!(b.bias.lo > 0)) return {"-", "-"};
-  return {ranged(b.bias), b.pays_above ? fmt::format("{:.3g}", *b.pays_above) : "never"};
+  return {ranged(b.bias), b.pays_above ? ranged(*b.pays_above) : "never"};
 }
 
 std::string curve_table(const Measured& one) {

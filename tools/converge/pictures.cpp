@@ -4,11 +4,13 @@
 #include <mc/estimate/moments.h>
 #include <mc/random/hash.h>
 #include <mc/stats/t_test.h>
+#include <render/film/accumulate.h>
 #include <render/integrator/directions.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace carlo {
@@ -17,7 +19,8 @@ namespace {
 
 using ::render::Image;
 
-constexpr double dark = 0.01; ///< as carlo compare's relmse
+constexpr double dark = 0.01;                         ///< as carlo compare's relmse
+constexpr int first_pictures = 8, most_pictures = 64; ///< behind each error, where their number is not given
 
 double relmse(const Image& image, const Image& truth) {
   double sum = 0;
@@ -39,19 +42,38 @@ double noise(const Image& image) {
 /// Pictures of one way at one number of samples.
 struct Series {
   double spp = 0;
-  std::vector<Image> images;
-  Replicates replicates;
+  std::vector<Image> images = {};
+  Replicates replicates = {};
 };
 
-mc::RmsError error_of(const Series& s, const Image& reference, double reference_noise) {
+/// The picture that the others are held against.
+struct Reference {
+  Image image;
+  double spp = 0;
+  double noise = 0; ///< relmse
+};
+
+mc::Moments squares_of(const Series& s, const Reference& reference) {
   mc::Moments squares;
-  for (const Image& image : s.images) squares.add(relmse(image, reference) - reference_noise);
+  for (const Image& image : s.images) squares.add(relmse(image, reference.image) - reference.noise);
+  return squares;
+}
+
+mc::RmsError error_of(const Series& s, const Reference& reference) {
+  const mc::Moments squares = squares_of(s, reference);
   const double half = squares.std_error() * mc::student_quantile(0.05, double(squares.count() - 1));
   std::vector<double> seconds = s.replicates.seconds;
   std::nth_element(seconds.begin(), seconds.begin() + std::ptrdiff_t(seconds.size() / 2), seconds.end());
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
   return {s.spp, root(squares.mean()), root(squares.mean() - half), root(squares.mean() + half),
           seconds[seconds.size() / 2]};
+}
+
+// How many pictures make their error known to 10 %: the relative variance of a root is a quarter of its square's.
+int pictures_needed(const Series& s, const Reference& reference) {
+  const mc::Moments squares = squares_of(s, reference);
+  const double needed = squares.mean() > 0 ? squares.variance() / mc::sqr(squares.mean()) / (4 * 0.01) : 0;
+  return static_cast<int>(std::clamp(std::ceil(needed), double(first_pictures), double(most_pictures)));
 }
 
 // The variance of the logarithm of an error of R repetitions is 1 / (2 R): how many make it that of these pictures.
@@ -61,59 +83,84 @@ std::uint32_t repetitions(const std::vector<mc::RmsError>& errors) {
   return static_cast<std::uint32_t>(std::clamp(1 / (2 * most), 2.0, 1e6));
 }
 
-Curve curve_of(const Way& way, const std::vector<Series>& all, const Image& reference, double reference_noise) {
-  Curve curve;
-  curve.way = &way;
+// Its slope and middle, where there are errors for it.
+void fit(Curve& curve) {
   double logs = 0;
-  for (const Series& s : all) {
-    curve.errors.push_back(error_of(s, reference, reference_noise));
-    curve.replicates.push_back(s.replicates);
-    logs += std::log(s.spp) / double(all.size());
-  }
+  for (const mc::RmsError& e : curve.errors) logs += std::log(e.n) / double(curve.errors.size());
   curve.middle = std::exp(logs);
   const bool fits = std::all_of(curve.errors.begin(), curve.errors.end(), [](const auto& e) { return e.rms > 0; });
   if (fits && curve.errors.size() >= 3) curve.law = mc::fit_power_law(curve.errors, repetitions(curve.errors));
-  return curve;
 }
 
-// The relmse of the expectation and of the noise of one picture, without the picture `out`: the mean picture of R has
-// an R-th of the noise.
-std::pair<double, double> bias_and_noise(const Series& s, const Image& reference, double reference_noise,
-                                         std::size_t out) {
-  Image mean(reference.width, reference.height);
+/// Of the expectation of a picture and of its noise.
+struct Parts {
+  double bias = 0, noise = 0; ///< relmse
+};
+
+// Without the picture `out`: the mean picture of R has an R-th of the noise.
+Parts parts_of(const Series& s, const Reference& reference, std::size_t out) {
+  Image mean(reference.image.width, reference.image.height);
   double each = 0, count = 0;
   for (std::size_t r = 0; r < s.images.size(); ++r) {
     if (r == out) continue;
     for (std::size_t i = 0; i < mean.pixels.size(); ++i) mean.pixels[i] += s.images[r].pixels[i];
-    each += relmse(s.images[r], reference);
+    each += relmse(s.images[r], reference.image);
     ++count;
   }
   for (::render::Spectrum& p : mean.pixels) p /= ::render::Float(count);
-  const double of_mean = relmse(mean, reference);
+  const double of_mean = relmse(mean, reference.image);
   each /= count;
-  return {(count * of_mean - each) / (count - 1) - reference_noise, (each - of_mean) * count / (count - 1)};
+  return {(count * of_mean - each) / (count - 1) - reference.noise, (each - of_mean) * count / (count - 1)};
 }
 
-// The interval by the jackknife, wide enough for `ways` of them at once.
-Bias bias_of(const Series& s, const Image& reference, double reference_noise, std::size_t ways) {
-  const auto [square, noise] = bias_and_noise(s, reference, reference_noise, s.images.size());
-  mc::Moments parts;
-  for (std::size_t r = 0; r < s.images.size(); ++r) parts.add(bias_and_noise(s, reference, reference_noise, r).first);
+/// What seconds a picture times the relmse of its noise are: the same at any number of samples.
+struct WorkAndBias {
+  Bias bias;
+  double work = 0;
+  double variance = 0; ///< of the logarithm of `work`
+  double dof = 1;      ///< behind it
+};
+
+// The intervals are those of the jackknife, wide enough for `ways` of them at once.
+WorkAndBias bias_of(const Series& s, const Reference& reference, std::size_t ways) {
+  const Parts all = parts_of(s, reference, s.images.size());
+  mc::Moments biases, noises, seconds;
+  for (std::size_t r = 0; r < s.images.size(); ++r) {
+    const Parts part = parts_of(s, reference, r);
+    biases.add(part.bias);
+    noises.add(part.noise);
+    seconds.add(s.replicates.seconds[r]);
+  }
   const double dof = double(s.images.size() - 1);
-  const double half = mc::student_quantile(0.05 / double(ways), dof) * parts.std_error() * dof;
+  const double half = mc::student_quantile(0.05 / double(ways), dof) * biases.std_error() * dof;
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
-  return {{root(square), root(square - half), root(square + half)}, root(noise), s.spp, {}};
+  return {{{root(all.bias), root(all.bias - half), root(all.bias + half)}, root(all.noise), s.spp, {}},
+          all.noise * error_of(s, reference).seconds,
+          mc::sqr(noises.std_error() * dof / all.noise) + mc::sqr(seconds.std_error() / seconds.mean()),
+          dof};
 }
 
-// Seconds times relmse of the noise do not depend on N: at the error e a way takes seconds noise^2 / (e^2 - bias^2).
-void tell_where_they_pay(std::vector<Bias>& biases, const std::vector<Curve>& curves) {
-  const auto cost = [&](std::size_t i) { return mc::sqr(biases[i].noise) * curves[i].errors.back().seconds; };
-  double best = mc::infinity<double>;
-  for (std::size_t i = 0; i < biases.size(); ++i)
-    if (!(biases[i].bias.lo > 0)) best = std::min(best, cost(i));
-  for (std::size_t i = 0; i < biases.size(); ++i)
-    if (biases[i].bias.lo > 0 && cost(i) < best)
-      biases[i].pays_above = biases[i].bias.value * (std::isfinite(best) ? std::sqrt(best / (best - cost(i))) : 1.0);
+// At the error e a way takes seconds work / (e^2 - bias^2), so that it pays above the error at which those of the best
+// way without a bias are as many.
+void tell_where_they_pay(std::vector<WorkAndBias>& all) {
+  const WorkAndBias* best = nullptr;
+  for (const WorkAndBias& one : all)
+    if (!(one.bias.bias.lo > 0) && (!best || one.work < best->work)) best = &one;
+  for (WorkAndBias& one : all) {
+    const Ranged& bias = one.bias.bias;
+    if (!(bias.lo > 0)) continue;
+    const auto threshold = [](double square_root, double share) {
+      return share < 1 ? square_root / std::sqrt(1 - share) : mc::infinity<double>;
+    };
+    const double share = best ? one.work / best->work : 0.0;
+    double half = 0; // of the interval of the logarithm of the share
+    if (best)
+      half = mc::student_quantile(0.05 / double(all.size()), std::min(one.dof, best->dof)) *
+             std::sqrt(one.variance + best->variance);
+    const Ranged pays{threshold(bias.value, share), threshold(bias.lo, share * std::exp(-half)),
+                      threshold(bias.hi, share * std::exp(half))};
+    if (std::isfinite(pays.lo)) one.bias.pays_above = pays;
+  }
 }
 
 bool is_black(const Image& image) {
@@ -125,39 +172,99 @@ bool is_black(const Image& image) {
 class Session {
  public:
   Session(const ::render::SceneFile& file, const std::vector<PictureWay>& ways, const PictureOptions& options)
-      : file_(file), ways_(ways), options_(options), series_(ways.size()) {}
+      : file_(file), ways_(ways), options_(options), curves_(ways.size()) {}
 
   Pictures run() {
-    Pictures result;
-    if (options_.cost_rays) result.measurement.cost = ray_cost;
-    const auto plain = plain_way(file_);
-    result.measurement.plain = plain ? plain->name() : "";
-    for (int spp = 4; spp <= options_.max_spp; spp *= 2)
-      if (!take(spp)) {
-        result.measurement.interrupted = true;
-        return result;
-      }
-    result.reference = reference(result);
-    if (result.measurement.interrupted) return result;
-    const double its_noise = noise(result.reference);
-    result.reference_error = std::sqrt(its_noise);
-    for (std::size_t i = 0; i < ways_.size(); ++i) {
-      Way way;
-      way.name = way.title = ways_[i].name();
-      result.ways.push_back(way);
-      Curve curve = curve_of(result.ways.back(), series_[i], result.reference, its_noise);
-      const Bias bias = bias_of(series_[i].back(), result.reference, its_noise, ways_.size());
-      const bool is_plain = ways_[i].sampler == ::render::PixelSampler::independent && !ways_[i].adaptive;
-      if (is_plain && !(bias.bias.lo > 0)) curve.theory = Rate{0.5, 0, "independent samples"};
-      result.measurement.curves.push_back(std::move(curve));
-      result.biases.push_back(bias);
-      result.pictures.push_back(series_[i].back().images.front());
+    bool stopped = false;
+    for (spp_ = 4; spp_ <= options_.max_spp && is_time_left(); spp_ *= 2) {
+      const double before = elapsed();
+      stopped = !measure_level();
+      if (stopped) break;
+      last_ = elapsed() - before;
     }
-    tell_where_they_pay(result.biases, result.measurement.curves);
+    Pictures result = collect();
+    result.measurement.interrupted = stopped;
     return result;
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  // Twice the samples take twice as long; the first level is always measured.
+  bool is_time_left() const { return options_.seconds <= 0 || elapsed() + 2 * last_ <= options_.seconds || spp_ == 4; }
+  bool is_due(const PictureWay& way) const { return !way.adaptive || spp_ >= 32; }
+  void show(double share, const std::string& where) const {
+    const double before = spp_ - 4, all = 2.0 * options_.max_spp - 4; // of the samples of all levels
+    if (options_.progress) options_.progress((before + share * spp_) / all, where);
+  }
+
+  // Every way with the samples of this level, and the reference that this takes. Where it is cancelled it returns false
+  // and keeps nothing of it.
+  bool measure_level() {
+    std::vector<Series> level(ways_.size(), Series{double(spp_)});
+    std::vector<int> wanted(ways_.size());
+    for (std::size_t i = 0; i < ways_.size(); ++i)
+      if (is_due(ways_[i])) wanted[i] = options_.replicates > 0 ? options_.replicates : first_pictures;
+    if (!take(level, wanted) || !refine_reference(level)) return false;
+    if (options_.replicates == 0) {
+      for (std::size_t i = 0; i < ways_.size(); ++i)
+        if (wanted[i] > 0) wanted[i] = pictures_needed(level[i], reference_);
+      if (!take(level, wanted)) return false;
+    }
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
+      if (wanted[i] == 0) continue;
+      curves_[i].errors.push_back(error_of(level[i], reference_));
+      curves_[i].replicates.push_back(level[i].replicates);
+    }
+    level_ = std::move(level);
+    return true;
+  }
+
+  // A picture of every way in turn, again and again, until there are as many as are wanted. Returns whether there are.
+  bool take(std::vector<Series>& level, const std::vector<int>& wanted) const {
+    const int most = *std::max_element(wanted.begin(), wanted.end());
+    for (int r = 0; r < most; ++r)
+      for (std::size_t i = 0; i < ways_.size(); ++i) {
+        if (r >= wanted[i] || std::size_t(r) < level[i].images.size()) continue;
+        const std::uint64_t seed = mc::hash(options_.seed, i, std::uint64_t(spp_), std::uint64_t(r));
+        ::render::RenderResult result = render(ways_[i], spp_, seed);
+        if (result.partial) return false;
+        Replicates& replicates = level[i].replicates;
+        replicates.values.push_back(std::sqrt(noise(result.image)));
+        replicates.calls.push_back(result.spp);
+        replicates.seconds.push_back(options_.cost_rays ? 1e-6 * double(result.rays) : result.cpu_seconds);
+        level[i].images.push_back(std::move(result.image));
+        show(0.7 * (r + 1) / most, fmt::format("{} at {} spp", ways_[i].name(), spp_));
+      }
+    return true;
+  }
+
+  // Adds to the reference until its error is a tenth of the smallest by noise of this level. Returns whether it is.
+  bool refine_reference(const std::vector<Series>& level) {
+    double smallest = mc::infinity<double>;
+    for (const Series& s : level)
+      for (const double x : s.replicates.values)
+        if (x > 0) smallest = std::min(smallest, mc::sqr(x));
+    const PictureWay best{.max_depth = file_.defaults.max_depth, .adaptive = true};
+    const double goal = smallest / 100;
+    while (reference_.spp == 0 || reference_.noise > goal) {
+      const double more =
+          reference_.spp > 0 ? reference_.spp * std::max(reference_.noise / goal - 1, 0.25) : 16.0 * spp_;
+      show(0.8, fmt::format("the reference, {:.0f} spp", reference_.spp + more));
+      const std::uint64_t seed = mc::hash(options_.seed, 77, ++references_);
+      ::render::RenderResult r = render(best, static_cast<int>(std::min(more, 1e8)), seed);
+      if (r.partial) return false;
+      mc::require(!is_black(r.image), "the picture is black: without light there is no error to measure");
+      mc::require(std::isfinite(smallest), "no picture has any noise: there is no error to measure");
+      reference_.image = reference_.spp > 0 ? ::render::accumulated(reference_.image, reference_.spp, r.image, r.spp)
+                                            : std::move(r.image);
+      reference_.spp += r.spp;
+      reference_.noise = noise(reference_.image);
+    }
+    return true;
+  }
+
   ::render::RenderResult render(const PictureWay& way, int spp, std::uint64_t seed) const {
     ::render::RenderOptions o;
     o.width = options_.width;
@@ -174,50 +281,46 @@ class Session {
     return ::render::render(file_.scene, o);
   }
 
-  // A picture of every way in turn, again and again. Returns whether it was done.
-  bool take(int spp) {
-    const auto is_due = [&](const PictureWay& way) { return !way.adaptive || spp >= 32; };
-    for (std::size_t i = 0; i < ways_.size(); ++i)
-      if (is_due(ways_[i])) series_[i].push_back({double(spp), {}, {}});
-    for (int r = 0; r < options_.replicates; ++r)
-      for (std::size_t i = 0; i < ways_.size(); ++i) {
-        if (!is_due(ways_[i])) continue;
-        const std::uint64_t seed = mc::hash(options_.seed, i, std::uint64_t(spp), std::uint64_t(r));
-        ::render::RenderResult result = render(ways_[i], spp, seed);
-        if (result.partial) return false;
-        Series& s = series_[i].back();
-        s.replicates.values.push_back(std::sqrt(noise(result.image)));
-        s.replicates.calls.push_back(result.spp);
-        s.replicates.seconds.push_back(options_.cost_rays ? 1e-6 * double(result.rays) : result.cpu_seconds);
-        s.images.push_back(std::move(result.image));
-        if (options_.progress)
-          options_.progress(0.7 * spp / options_.max_spp, fmt::format("{} at {} spp", ways_[i].name(), spp));
-      }
-    return true;
-  }
-
-  Image reference(Pictures& result) const {
-    double smallest = mc::infinity<double>;
-    for (const auto& all : series_)
-      for (const double x : all.back().replicates.values)
-        if (x > 0) smallest = std::min(smallest, mc::sqr(x));
-    const PictureWay best{.max_depth = file_.defaults.max_depth, .adaptive = true};
-    const std::uint64_t seed = mc::hash(options_.seed, 77);
-    const Image first = render(best, options_.max_spp, seed).image;
-    mc::require(!is_black(first), "the picture is black: without light there is no error to measure");
-    mc::require(std::isfinite(smallest), "no picture has any noise: there is no error to measure");
-    const double spp = options_.max_spp * std::max(1.0, noise(first) / (smallest / 100));
-    if (options_.progress) options_.progress(0.75, fmt::format("the reference, {:.0f} spp", spp));
-    const ::render::RenderResult r = render(best, static_cast<int>(std::min(spp, 1e8)), seed);
-    result.measurement.interrupted = r.partial;
-    result.reference_spp = r.spp;
-    return r.image;
+  // What the levels that were finished tell.
+  Pictures collect() {
+    Pictures result;
+    if (options_.cost_rays) result.measurement.cost = ray_cost;
+    const auto plain = plain_way(file_);
+    result.measurement.plain = plain ? plain->name() : "";
+    const std::size_t begun =
+        std::size_t(std::count_if(curves_.begin(), curves_.end(), [](const Curve& c) { return !c.errors.empty(); }));
+    std::vector<WorkAndBias> biases;
+    for (std::size_t i = 0; i < ways_.size(); ++i) {
+      Curve& curve = curves_[i];
+      if (curve.errors.empty()) continue;
+      Way& way = result.ways.emplace_back();
+      way.name = way.title = ways_[i].name();
+      curve.way = &way;
+      fit(curve);
+      biases.push_back(bias_of(level_[i], reference_, begun));
+      const bool is_plain = ways_[i].sampler == ::render::PixelSampler::independent && !ways_[i].adaptive;
+      if (is_plain && !(biases.back().bias.bias.lo > 0)) curve.theory = Rate{0.5, 0, "independent samples"};
+      result.measurement.curves.push_back(std::move(curve));
+      result.pictures.push_back(level_[i].images.front());
+    }
+    tell_where_they_pay(biases);
+    for (WorkAndBias& one : biases) result.biases.push_back(std::move(one.bias));
+    result.reference = std::move(reference_.image);
+    result.reference_error = std::sqrt(reference_.noise);
+    result.reference_spp = reference_.spp;
+    return result;
   }
 
   const ::render::SceneFile& file_;
   const std::vector<PictureWay>& ways_;
   const PictureOptions& options_;
-  std::vector<std::vector<Series>> series_; ///< of every way
+  const Clock::time_point start_ = Clock::now();
+  std::vector<Curve> curves_; ///< of every way
+  std::vector<Series> level_; ///< of every way, those of the last level
+  Reference reference_;
+  std::uint64_t references_ = 0; ///< pictures that the reference is the mean of
+  int spp_ = 4;                  ///< of this level
+  double last_ = 0;              ///< seconds that the last level took
 };
 
 } // namespace
@@ -237,7 +340,8 @@ std::optional<PictureWay> plain_way(const ::render::SceneFile& file) {
 Pictures measure_pictures(const ::render::SceneFile& file, const std::vector<PictureWay>& ways,
                           const PictureOptions& options) {
   mc::require(!ways.empty(), "no way to render is named");
-  mc::require(options.replicates >= 3, "{} pictures behind each error; at least 3 are needed", options.replicates);
+  mc::require(options.replicates == 0 || options.replicates >= 3,
+              "{} pictures behind each error; at least 3 are needed", options.replicates);
   mc::require(options.max_spp >= 16, "{} samples per pixel at most; at least 16 are needed", options.max_spp);
   return Session(file, ways, options).run();
 }

@@ -28,8 +28,9 @@ std::optional<PictureWay> plain_way(const render::SceneFile& file);
 struct PictureOptions {
   int width = 64, height = 64;
   int max_spp = 64;
-  int replicates = 8;     ///< pictures behind each error
+  int replicates = 0;     ///< pictures behind each error; 0: as many as make it known to 10 %, 8 to 64
   bool cost_rays = false; ///< a second is a million rays: the same on every machine
+  double seconds = 0;     ///< wall-clock: no more samples where twice as many would not fit; 0: until max_spp
   std::uint64_t seed = 1;
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;
@@ -41,8 +42,9 @@ struct Bias {
   Ranged bias;      ///< root of the relmse of its expectation; the interval holds for all ways at once with 95 %
   double noise = 0; ///< root of the relmse of one picture's noise
   double n = 0;     ///< samples per pixel, the most
-  /// Where it is told from 0: the error above which it still costs less than the best way without; nothing: nowhere.
-  std::optional<double> pays_above;
+  /// Where it is told from 0: the error above which it costs less than the best way without. Infinite where it may cost
+  /// more at any error, nothing where it does. The interval holds like that of the bias.
+  std::optional<Ranged> pays_above;
 };
 
 /// What was measured: N is samples per pixel, the error of a picture the root of its relmse, the mean over pixels and
@@ -58,10 +60,11 @@ struct Pictures {
 };
 
 /// Every way on 4, 8, ... max_spp samples per pixel (adaptive ones from 32), taken in turn, so that a busy moment falls
-/// on all of them. 95 % intervals of the errors by Student's t over the pictures.
+/// on all of them. 95 % intervals of the errors by Student's t over the pictures. When interrupted, what was measured
+/// with fewer samples is kept; the ways that were begun are those of the result.
 ///   theory    : N^-1/2 for independent samples, spent evenly, whose bias is not told from 0
-///   reference : by mis, sobol and the scene's longest path, as many samples as bring its error to a tenth of the
-///               smallest error by noise
+///   reference : by mis, sobol and the scene's longest path; at each number of samples so many more as bring its error
+///               to a tenth of the smallest by noise
 ///   throws    : Error for a black scene, no ways, fewer than 3 pictures, or max_spp below 16
 Pictures measure_pictures(const render::SceneFile& file, const std::vector<PictureWay>& ways,
                           const PictureOptions& options);

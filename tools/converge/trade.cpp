@@ -2,6 +2,7 @@
 
 #include <mc/core/types.h>
 #include <mc/random/hash.h>
+#include <mc/stats/chi_square.h>
 
 #include <fmt/format.h>
 
@@ -82,6 +83,30 @@ double seconds_again(const Target& target, const Offer& o, std::uint64_t seed, s
   return r.seconds[2] / std::max(r.calls[2], 1.0);
 }
 
+/// Whether an offer cannot be told from the first of all.
+class TiesWithFirst {
+ public:
+  TiesWithFirst(const std::vector<Offer>& offers, Ranged Offer::*by) : by_(by) {
+    if (offers.empty()) return;
+    wider_ = mc::normal_quantile(0.05 / static_cast<double>(offers.size())) / mc::normal_quantile(0.05);
+    most_ = widened(offers.front().*by, (offers.front().*by).hi);
+  }
+  bool operator()(const Offer& o) const { return widened(o.*by_, (o.*by_).lo) <= most_; }
+
+ private:
+  double widened(const Ranged& r, double edge) const { return r.value * std::pow(edge / r.value, wider_); }
+
+  Ranged Offer::*by_;
+  double wider_ = 1, most_ = 0;
+};
+
+// The best first, then what ties with it, then the others.
+void rank(std::vector<Offer>& offers, Ranged Offer::*by) {
+  std::sort(offers.begin(), offers.end(),
+            [by](const Offer& a, const Offer& b) { return (a.*by).value < (b.*by).value; });
+  std::stable_partition(offers.begin(), offers.end(), TiesWithFirst(offers, by));
+}
+
 } // namespace
 
 Ranged as_measured(const Curve& c, double n) {
@@ -121,18 +146,20 @@ SecondsOfOne taken_in_turn(const Target& target, const Measurement& m, const std
 std::string label(const Curve& c) { return c.way->name + (c.way->one_by_one ? " (one by one)" : ""); }
 
 std::optional<Ranged> evaluations_for(const Curve& c, double error) {
-  const auto n = crossing(c.errors, &mc::RmsError::rms, error);
-  if (!n) return {};
-  const double last = c.errors.back().n, above = c.errors.back().hi;
-  const auto lo = crossing(c.errors, &mc::RmsError::lo, error), hi = crossing(c.errors, &mc::RmsError::hi, error);
-  // Where the upper edge does not come so low, it goes on no slower than that of plain Monte Carlo.
-  return Ranged{*n, std::min(lo.value_or(*n), *n), std::max(hi.value_or(last * mc::sqr(above / error)), *n)};
+  const auto lo = crossing(c.errors, &mc::RmsError::lo, error);
+  if (!lo) return {};
+  // What does not come so low goes on no slower than plain Monte Carlo.
+  const mc::RmsError& last = c.errors.back();
+  const auto needed = [&](Edge edge) {
+    return crossing(c.errors, edge, error).value_or(last.n * mc::sqr(last.*edge / error));
+  };
+  const double n = needed(&mc::RmsError::rms);
+  return Ranged{n, std::min(*lo, n), std::max(needed(&mc::RmsError::hi), n)};
 }
 
 std::size_t as_good(const std::vector<Offer>& offers, Ranged Offer::*by) {
-  std::size_t count = 1;
-  while (count < offers.size() && (offers[count].*by).lo <= (offers.front().*by).hi) ++count;
-  return std::min(count, offers.size());
+  const auto told = std::find_if_not(offers.begin(), offers.end(), TiesWithFirst(offers, by));
+  return static_cast<std::size_t>(told - offers.begin());
 }
 
 ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne& seconds_of_one) {
@@ -141,8 +168,7 @@ ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne
     if (const auto n = evaluations_for(c, error)) result.offers.push_back(offer_at(c, *n, seconds_of_one));
     else result.nearest.push_back(last_of(c));
   }
-  std::sort(result.offers.begin(), result.offers.end(),
-            [](const Offer& a, const Offer& b) { return a.seconds.value < b.seconds.value; });
+  rank(result.offers, &Offer::seconds);
   std::sort(result.nearest.begin(), result.nearest.end(),
             [](const Offer& a, const Offer& b) { return a.error.value < b.error.value; });
   if (const Curve* random = plain(m); random && !result.offers.empty()) {
@@ -172,8 +198,7 @@ ForSeconds offers_for_seconds(const Measurement& m, double seconds, const Second
     offer.error.hi = std::max(offer.error.hi, error_at(c.errors, &mc::RmsError::hi, range.lo));
     result.offers.push_back(offer);
   }
-  std::sort(result.offers.begin(), result.offers.end(),
-            [](const Offer& a, const Offer& b) { return a.error.value < b.error.value; });
+  rank(result.offers, &Offer::error);
   for (const Offer& o : result.offers)
     if (o.curve == plain(m)) result.gain = ratio(o.error, result.offers.front().error);
   return result;

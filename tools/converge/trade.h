@@ -22,7 +22,7 @@ struct Offer {
   Ranged error;                 ///< RMS
 };
 
-/// Every way that reaches an error, cheapest first.
+/// Every way that reaches an error, cheapest first, but that those which tie with the first stand before the others.
 struct ForError {
   double wanted = 0;
   std::vector<Offer> offers;
@@ -32,7 +32,7 @@ struct ForError {
   std::optional<Ranged> gain;
 };
 
-/// Every way within a time, most accurate first.
+/// Every way within a time, most accurate first, ties likewise.
 struct ForSeconds {
   double wanted = 0;
   std::vector<Offer> offers;
@@ -59,14 +59,16 @@ Ranged as_measured(const Curve& curve, double n);
 SecondsOfOne taken_in_turn(const Target& target, const Measurement& m, const std::vector<Offer>& offers,
                            std::uint64_t seed, const std::atomic<bool>* cancel);
 
-/// The N at which the curve and the two edges of its band come below an error, between the measured N by straight lines
-/// in the logarithms. Nothing where the curve does not.
+/// The N at which the curve and the two edges of its band come below an error: between the measured N by straight lines
+/// in the logarithms, beyond the last by N^-1/2. Nothing where the lower edge does not come there within the measured
+/// N: the way has not reached the error, and none of its figures says that it may have.
 std::optional<Ranged> evaluations_for(const Curve& curve, double error);
 
 ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne& seconds_of_one);
 ForSeconds offers_for_seconds(const Measurement& m, double seconds, const SecondsOfOne& seconds_of_one);
 
-/// How many of the first offers cannot be told from the best: their intervals overlap.
+/// How many of the first offers cannot be told from the best: their intervals overlap, which are made wide enough for all
+/// offers at once, since the best is that which was luckiest, too.
 std::size_t as_good(const std::vector<Offer>& offers, Ranged Offer::*by);
 
 /// Points that no other is both cheaper and more accurate than, cheapest first.

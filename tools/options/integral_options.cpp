@@ -44,11 +44,15 @@ std::vector<int> depths_of(const std::string& text, int own) {
   return depths;
 }
 
-// Those that are named; else those of three that find every light.
-std::vector<::render::Strategy> strategies_of(const SceneOptions& o, const ::render::SceneFile& file) {
-  const std::string_view names = o.strategies.empty() ? "mixture,nee,mis" : std::string_view(o.strategies);
+// Those that are named; else those of all, or of three, that find every light.
+std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, const ::render::SceneFile& file) {
+  std::vector<std::string_view> names = mc::split(o.strategies.empty() ? "mixture,nee,mis" : o.strategies, ',');
+  if (all && o.strategies.empty()) {
+    names.clear();
+    for (const ::render::Strategy& s : ::render::strategies) names.push_back(s.name);
+  }
   std::vector<::render::Strategy> strategies;
-  for (const std::string_view name : mc::split(names, ',')) {
+  for (const std::string_view name : names) {
     const ::render::Strategy& strategy = ::render::strategy_from(name);
     if (!o.strategies.empty() || file.defaults.shown.what != ::render::Shown::radiance ||
         finds_all_lights(file.scene, strategy))
@@ -61,9 +65,9 @@ std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, cons
   const std::string samplers = run.samplers.empty() ? "independent,stratified,sobol" : run.samplers;
   std::vector<PictureWay> ways;
   for (const bool adaptive : {false, true}) {
-    if (adaptive && !run.to_choose) continue;
+    if (adaptive && !run.to_choose && !run.all) continue;
     for (const int depth : depths_of(o.depths, file.defaults.max_depth))
-      for (const ::render::Strategy& strategy : strategies_of(o, file))
+      for (const ::render::Strategy& strategy : strategies_of(o, run.all, file))
         for (const std::string_view sampler : mc::split(samplers, ','))
           ways.push_back({strategy, ::render::sampler_from(sampler), depth, adaptive});
   }
@@ -164,7 +168,8 @@ Target scene_target(const std::string& path) {
 Pictures measure_scene(const SceneOptions& o, const SceneRun& run) {
   mc::require(o.cost == "cpu" || o.cost == "rays", "--cost '{}' must be cpu or rays", o.cost);
   mc::require(o.max_spp >= 16, "--max-spp {} must be at least 16", o.max_spp);
-  mc::require(!run.to_choose || o.max_spp >= 32, "--max-spp {} must be at least 32 for adaptive spending", o.max_spp);
+  const bool adaptive = run.to_choose || run.all;
+  mc::require(!adaptive || o.max_spp >= 32, "--max-spp {} must be at least 32 for adaptive spending", o.max_spp);
   const ::render::SceneFile file = ::render::read_mitsuba(run.path);
   warn_of_departures(file);
   const ::render::RenderDefaults& own = file.defaults;
@@ -173,7 +178,8 @@ Pictures measure_scene(const SceneOptions& o, const SceneRun& run) {
   mc::require(o.size.empty() || (std::sscanf(o.size.c_str(), "%dx%d%c", &p.width, &p.height, &rest) == 2 &&
                                  p.width > 0 && p.height > 0),
               "--size '{}' must be WIDTHxHEIGHT in pixels, e.g. 64x48", o.size);
-  if (run.pictures > 0) p.replicates = run.pictures;
+  p.replicates = run.pictures;
+  p.seconds = run.seconds;
   p.cost_rays = o.cost == "rays";
   p.seed = run.seed;
   p.threads = run.threads;
@@ -183,6 +189,18 @@ Pictures measure_scene(const SceneOptions& o, const SceneRun& run) {
   return mc::with_context(run.path, [&] { return measure_pictures(file, ways_of(o, run, file), p); });
 }
 
+namespace {
+
+// "; pays for errors above .1 [.09, .2]".
+std::string where_it_pays(const std::optional<Ranged>& above) {
+  if (!above) return "never pays";
+  if (!std::isfinite(above->value)) return fmt::format("if it pays, for errors above {:.3g} at least", above->lo);
+  return fmt::format("pays for errors above {:.3g} [{:.3g}, {}]", above->value, above->lo,
+                     std::isfinite(above->hi) ? fmt::format("{:.3g}", above->hi) : "never");
+}
+
+} // namespace
+
 std::string about_pictures(const Pictures& pictures) {
   std::string text = fmt::format("  errors are roots of relmse, from a reference of {:.0f} samples per pixel with an "
                                  "error of {:.2g}\n",
@@ -190,11 +208,15 @@ std::string about_pictures(const Pictures& pictures) {
   for (std::size_t i = 0; i < pictures.biases.size(); ++i) {
     const Bias& b = pictures.biases[i];
     if (!(b.bias.lo > 0)) continue;
-    text += fmt::format("  {}: bias {:.3g} [{:.3g}, {:.3g}], noise {:.3g} at N = {:.0f}", pictures.ways[i].name,
-                        b.bias.value, b.bias.lo, b.bias.hi, b.noise, b.n);
-    text += b.pays_above ? fmt::format("; pays for errors above {:.3g}\n", *b.pays_above) : "; never pays\n";
+    text += fmt::format("  {}: bias {:.3g} [{:.3g}, {:.3g}], noise {:.3g} at N = {:.0f}; {}\n", pictures.ways[i].name,
+                        b.bias.value, b.bias.lo, b.bias.hi, b.noise, b.n, where_it_pays(b.pays_above));
   }
   return text;
+}
+
+std::string interrupted_pictures(const Pictures& pictures) {
+  if (pictures.ways.empty()) return "interrupted: no way was finished at 4 samples per pixel, the fewest";
+  return fmt::format("interrupted: errors up to {:.0f} samples per pixel are known", pictures.biases.front().n);
 }
 
 } // namespace carlo

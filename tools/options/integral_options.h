@@ -53,7 +53,9 @@ struct SceneRun {
   std::string path;
   std::string samplers;   ///< comma-separated; empty: all
   bool to_choose = false; ///< every way with adaptive spending, too, and plain_way
-  int pictures = 0;       ///< behind each error; 0: eight
+  bool all = false;       ///< every strategy that finds every light, and adaptive spending, too
+  int pictures = 0;       ///< behind each error; 0: as many as make it known to 10 %
+  double seconds = 0;     ///< stop at fewer samples where these run out; 0: never
   std::uint64_t seed = 1;
   int threads = 0;
   const std::atomic<bool>* cancel = nullptr;
@@ -68,5 +70,8 @@ Pictures measure_scene(const SceneOptions& o, const SceneRun& run);
 
 /// "  reference: ..." and a line for each way whose bias is told from 0.
 std::string about_pictures(const Pictures& pictures);
+
+/// How far they came that were interrupted.
+std::string interrupted_pictures(const Pictures& pictures);
 
 } // namespace carlo

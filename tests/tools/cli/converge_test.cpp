@@ -62,8 +62,16 @@ TEST_F(Converge, ASceneHasNoTruthButAReference) {
     <float name="fov" value="40"/></sensor>
     <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape></scene>)");
   expect_refused(dark + " --size 4x4 --max-spp 16", "the picture is black");
-  expect_refused(dark + " --all", "--all are not for scenes");
+  expect_refused(dark + " --points-file p.csv", "--points-file is not for scenes");
   expect_refused(dark + " --max-n 64", "--memory and --max-n are not for a scene (.xml)");
+}
+
+TEST_F(Converge, OfASceneAllWaysUntilTheTimeRunsOut) {
+  const Ran r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 4x4 --all --max-spp 1048576 --time 1.5");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  for (const char* name : {"  bsdf independent ", "  hemisphere sobol ", "  light stratified ", "  mis sobol "})
+    EXPECT_THAT(r.output, HasSubstr(name));
+  EXPECT_THAT(r.output, Not(HasSubstr("interrupted")));
 }
 
 TEST_F(Converge, EveryWayIsMeasuredBesideTheory) {

@@ -92,9 +92,19 @@ TEST_F(TradeCommand, AScene) {
   expect_refused(cbox + "mis --max-depths 0", "--max-depths: '0' in '0'");
   expect_refused(cbox + "mis --cost money", "--cost 'money' must be cpu or rays");
   expect_refused("nowhere.xml", "nowhere.xml");
-  expect_refused(cbox + "mis --time 3", "--time is not for scenes");
   for (const char* of_integrals : {" --max-n 64", " -d x=0:1", " --timeout 3", " --memory 3"})
     expect_refused(cbox + "mis" + of_integrals, "--memory and --max-n are not for a scene (.xml)");
+}
+
+TEST_F(TradeCommand, CtrlCTellsWhatIsKnownOfAScene) {
+  const Ran r =
+      support::interrupt_carlo("trade " MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --samplers sobol "
+                               "--strategies mis --max-spp 1048576 --error 2 -o '" +
+                               path("out") + "'");
+  EXPECT_EQ(r.exit_code, 130) << r.output;
+  EXPECT_THAT(r.output, AllOf(HasSubstr("interrupted: errors up to "), HasSubstr(" samples per pixel are known"),
+                              HasSubstr("  error 2: "), HasSubstr("data and plots: ")));
+  EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"interrupted\": true"));
 }
 
 TEST_F(TradeCommand, OfASceneOnlyWhatFindsItsLights) {

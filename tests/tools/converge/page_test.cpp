@@ -46,7 +46,7 @@ struct PictureExample {
     }
     m.curves[0].law = mc::PowerLaw{.slope = -0.5, .lo = -0.52, .hi = -0.48};
     m.curves[0].theory = Rate{0.5, 0, "independent samples"};
-    pictures.biases = {{{0, 0, 0.01}, 0.05, 64, {}}, {{0.3, 0.29, 0.31}, 0.02, 64, 0.45}};
+    pictures.biases = {{{0, 0, 0.01}, 0.05, 64, {}}, {{0.3, 0.29, 0.31}, 0.02, 64, Ranged{0.45, 0.4, 0.6}}};
     pictures.reference = render::Image(4, 3);
     pictures.reference_spp = 6400;
     pictures.reference_error = 0.004;

@@ -58,6 +58,33 @@ TEST(Trade, EvaluationsAreWhereTheCurveComesBelow) {
   EXPECT_LE(last->lo, last->value);
 }
 
+// Whose lower edge comes so low may have reached it; what else it takes is counted as for plain Monte Carlo.
+TEST(Trade, AWayThatMayHaveReachedAnErrorIsOffered) {
+  const Curve c = power_law("sobol", 1, 1);
+  const auto n = evaluations_for(c, 0.95 / 4096);
+  ASSERT_TRUE(n);
+  EXPECT_NEAR(n->value, 4096 / (0.95 * 0.95), 1);
+  EXPECT_LE(n->lo, 4096);
+}
+
+// A way that is known well stands between two that are not: of these the second ties with the first all the same.
+TEST(Trade, WhatTiesStandsFirst) {
+  Measurement m;
+  m.curves = {power_law("sobol", 1, 1), power_law("lattice", 1.2, 1), power_law("halton", 1.4, 1)};
+  for (const std::size_t vague : {0u, 2u})
+    for (mc::RmsError& e : m.curves[vague].errors) {
+      e.lo = 0.7 * e.rms;
+      e.hi = 1.1 * e.rms;
+    }
+  for (mc::RmsError& e : m.curves[1].errors) e.lo = 0.99 * e.rms;
+  const carlo::ForError f = offers_for_error(m, 1e-3, [](const Curve&, double) { return Ranged{1e-8, 1e-8, 1e-8}; });
+  ASSERT_EQ(f.offers.size(), 3u);
+  EXPECT_EQ(label(*f.offers[0].curve), "sobol");
+  EXPECT_EQ(label(*f.offers[1].curve), "halton");
+  EXPECT_EQ(label(*f.offers[2].curve), "lattice");
+  EXPECT_EQ(as_good(f.offers, &Offer::seconds), 2u);
+}
+
 TEST(Trade, TheCheapestForAnError) {
   const Measurement& m = measured();
   const carlo::ForError f = offers_for_error(m, 1e-3, clock);
