@@ -67,8 +67,8 @@ std::optional<Ranged> evaluations_for(const Curve& curve, double error);
 ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne& seconds_of_one);
 ForSeconds offers_for_seconds(const Measurement& m, double seconds, const SecondsOfOne& seconds_of_one);
 
-/// How many of the first offers cannot be told from the best: their intervals overlap, once they are wide enough for all
-/// offers at once. The best is that which was luckiest, too.
+/// How many of the first offers cannot be told from the best: their intervals, made wide enough for all offers at once,
+/// overlap. The best is that which was luckiest, too.
 std::size_t as_good(const std::vector<Offer>& offers, Ranged Offer::*by);
 
 /// Points that no other is both cheaper and more accurate than, cheapest first.
