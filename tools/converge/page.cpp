@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 
 namespace carlo {
 
@@ -64,7 +65,10 @@ std::vector<std::string> theory_cells(const Curve& c) {
 // The bias that is told from 0, and above which error it pays.
 std::array<std::string, 2> bias_cells(const Bias& b) {
   if (!(b.bias.lo > 0)) return {"-", "-"};
-  return {ranged(b.bias), b.pays_above ? ranged(*b.pays_above) : "never"};
+  if (!b.pays_above) return {ranged(b.bias), "never"};
+  const auto end = [](double error) { return std::isfinite(error) ? fmt::format("{:.3g}", error) : "never"; };
+  const Ranged& above = *b.pays_above;
+  return {ranged(b.bias), fmt::format("{} <small>[{}, {}]</small>", end(above.value), end(above.lo), end(above.hi))};
 }
 
 std::string curve_table(const Measured& one) {

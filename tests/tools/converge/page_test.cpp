@@ -46,7 +46,8 @@ struct PictureExample {
     }
     m.curves[0].law = mc::PowerLaw{.slope = -0.5, .lo = -0.52, .hi = -0.48};
     m.curves[0].theory = Rate{0.5, 0, "independent samples"};
-    pictures.biases = {{{0, 0, 0.01}, 0.05, 64, {}}, {{0.3, 0.29, 0.31}, 0.02, 64, Ranged{0.45, 0.4, 0.6}}};
+    pictures.biases = {{{0, 0, 0.01}, 0.05, 64, {}},
+                       {{0.3, 0.29, 0.31}, 0.02, 64, Ranged{0.45, 0.4, mc::infinity<double>}}};
     pictures.reference = render::Image(4, 3);
     pictures.reference_spp = 6400;
     pictures.reference_error = 0.004;
@@ -76,8 +77,8 @@ TEST_F(MeasuredPage, OfASceneSaysWhichWayToTakeAndShowsThePictures) {
                           HasSubstr("colspan=\"5\">no way came there; nearest <i"),
                           HasSubstr("no way can begin with so little"), HasSubstr("3 <small>[2, 4]</small> &times;")));
   EXPECT_THAT(page, AllOf(HasSubstr("-0.500 <small>[-0.520, -0.480]</small>"), HasSubstr("<td>yes</td>"),
-                          HasSubstr("0.3 <small>[0.29, 0.31]</small></td><td>0.45</td>"), HasSubstr("class=\"best\""),
-                          HasSubstr("stroke-dasharray")));
+                          HasSubstr("0.3 <small>[0.29, 0.31]</small></td><td>0.45 <small>[0.4, never]</small></td>"),
+                          HasSubstr("class=\"best\""), HasSubstr("stroke-dasharray")));
   EXPECT_THAT(page, AllOf(HasSubstr("The millions of rays are those of one picture."), Not(HasSubstr("CPU"))));
   for (const char* file : {"a__room_-reference.png", "a__room_-1.png", "a__room_-2.png"}) {
     EXPECT_THAT(page, HasSubstr(std::string("src=\"") + file + "\""));
