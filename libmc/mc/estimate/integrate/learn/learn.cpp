@@ -7,7 +7,9 @@
 namespace mc::detail {
 
 namespace {
-constexpr double wide = 2; // Learner::width() from which on the rare large values may not have been met yet
+// Learner::width() from which on the rare large values may not have been met yet, and up to which all have been.
+constexpr double wide = 2, narrow = 1;
+constexpr double small_lead = 0.5; // as ahead() says
 
 // How much better a round is than the bare sequences: the logarithm of their variance over its own, summed over the
 // outputs. For that their variance is taken to the number of points of the round, as if it fell like 1 / N. It is so
@@ -88,6 +90,7 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
   // Rounds of a quarter, a quarter and a half of the budget, the first of which the bare sequences may stand for, or
   // what a density was tried by; after that of twice the calls, as long as the values are spread widely and it helps.
   std::uint64_t calls = budget / 4, spent = 0;
+  double by = 0;
   const bool begun = run.o.density || (bare && run.calls >= calls && learner.width() < wide);
   for (std::uint64_t k = begun ? 1 : 0; calls / run.o.replicates >= 8; ++k) {
     const std::uint64_t points = calls / run.o.replicates;
@@ -96,13 +99,16 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
         seen_through(run, std::make_shared<AdaptedDensity>(learner.density()), 2 + k, points, &learner, said);
     centre = values(round);
     spent += calls;
-    const double by = bare ? ahead(round, points, *bare) : 0;
+    if (bare) by = ahead(round, points, *bare);
     // Hopeless: worse than the bare sequences although no rare large values are left to be found.
-    if (bare && k > 0 && learner.width() < wide && by < -doubt(bare->history.back()) - 0.5) return {};
+    const double behind = doubt(bare ? bare->history.back() : round) + (learner.width() < narrow ? 0.0 : 0.5);
+    if (bare && k > 0 && learner.width() < wide && by < -behind) return {};
     if (k >= 1) calls *= 2;
     const bool helps = learner.width() < 0.85 * before || by > 0.7;
     if (k >= 2 && (learner.width() < 0.5 || !helps || spent + calls > most)) break;
   }
+  // A small lead is not worth the calls of a contest: the bare sequences make it up with them.
+  if (bare && learner.width() < narrow && by < small_lead) return {};
   return Learned{std::make_shared<AdaptedDensity>(learner.density()), std::move(centre)};
 }
 
