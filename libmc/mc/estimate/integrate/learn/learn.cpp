@@ -101,8 +101,7 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
     spent += calls;
     if (bare) by = ahead(round, points, *bare);
     // Hopeless: worse than the bare sequences although no rare large values are left to be found.
-    const double behind = doubt(bare ? bare->history.back() : round) + (learner.width() < narrow ? 0.0 : 0.5);
-    if (bare && k > 0 && learner.width() < wide && by < -behind) return {};
+    if (bare && k > 0 && learner.width() < wide && by < -doubt(bare->history.back()) - 0.5) return {};
     if (k >= 1) calls *= 2;
     const bool helps = learner.width() < 0.85 * before || by > 0.7;
     if (k >= 2 && (learner.width() < 0.5 || !helps || spent + calls > most)) break;
