@@ -227,11 +227,7 @@ bool all_zero(const std::vector<Curve>& curves) {
 
 } // namespace
 
-bool Curve::agrees() const {
-  if (!law || !theory) return false;
-  const double expected = -theory->local(middle);
-  return (law->lo <= expected || theory->at_most) && expected <= law->hi;
-}
+bool Curve::agrees() const { return law && theory && theory->allows(law->lo, law->hi, middle); }
 
 Measurement measure(const Target& target, const std::vector<Way>& ways, const MeasureOptions& options) {
   static const std::atomic<bool> never = false;

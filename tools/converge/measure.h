@@ -36,7 +36,7 @@ struct Curve {
   std::optional<Rate> theory;
   double middle = 0; ///< geometric mean of the N of the law
 
-  /// Whether the interval of the slope holds what theory says about these N, or a slower one where that is the fastest.
+  /// Whether the interval of the slope allows what theory says about these N.
   bool agrees() const;
 };
 

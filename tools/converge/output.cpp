@@ -23,7 +23,7 @@ std::string slope_text(const Curve& c) {
   if (!c.law) return "too few N for a slope";
   std::string text = fmt::format("slope {:+.3f} [{:+.3f}, {:+.3f}]", c.law->slope, c.law->lo, c.law->hi);
   if (!c.theory) return text;
-  text += fmt::format(", theory {}{:+.3f}", c.theory->at_most ? "at most " : "", -c.theory->exponent);
+  text += ", theory " + c.theory->to_string(3);
   if (c.theory->log_power > 0) text += fmt::format(" ({:+.3f} at these N)", -c.theory->local(c.middle));
   return text;
 }
@@ -60,7 +60,7 @@ std::string field(const std::string& text) { return text.find(',') == std::strin
 // From theory to source, empty where nothing is known.
 std::string theory_fields(const Curve& c) {
   if (!c.theory) return ",,,";
-  std::string text = fmt::format("{}{:.4f},", c.theory->at_most ? "at most " : "", -c.theory->exponent);
+  std::string text = c.theory->to_string(4) + ",";
   if (c.law) text += fmt::format("{:.4f},{},", -c.theory->local(c.middle), c.agrees() ? "yes" : "no");
   else text += ",,";
   return text + field(std::string(c.theory->source));
@@ -114,7 +114,8 @@ ordered_json to_json(const Curve& c, const Cost& cost) {
   if (c.theory)
     k["theory"] = {{"slope", -c.theory->exponent},
                    {"log_power", c.theory->log_power},
-                   {"at_most", c.theory->at_most},
+                   {"at_most", c.theory->bound == Bound::at_most},
+                   {"at_least", c.theory->bound == Bound::at_least},
                    {"source", c.theory->source}};
   if (c.theory && c.law) {
     k["theory"]["slope_at_these_n"] = -c.theory->local(c.middle);

@@ -53,7 +53,7 @@ std::vector<std::string> theory_cells(const Curve& c) {
   std::string slope = c.exact ? "exact" : "-", theory = "-", agrees = "-";
   if (c.law) slope = fmt::format("{:.3f} <small>[{:.3f}, {:.3f}]</small>", c.law->slope, c.law->lo, c.law->hi);
   if (c.theory) {
-    theory = fmt::format("{}{:.3f}", c.theory->at_most ? "at most " : "", -c.theory->exponent);
+    theory = c.theory->to_string(3);
     if (c.theory->log_power > 0 && c.law)
       theory += fmt::format(" <small>{:.3f} here</small>", -c.theory->local(c.middle));
     theory = fmt::format("<span title=\"{}\">{}</span>", escaped(c.theory->source), theory);

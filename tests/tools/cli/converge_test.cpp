@@ -82,8 +82,10 @@ TEST_F(Converge, EveryWayIsMeasuredBesideTheory) {
         "padded_sobol ", "padded_sobol_4d ", "stratified_rounds ", "rqmc ", "vegas ", "tree ", "auto "})
     EXPECT_THAT(r.output, HasSubstr(std::string("  ") + name));
   EXPECT_THAT(out("rate_smooth_2d.json"),
-              AllOf(HasSubstr("\"class\": \"smooth\""), HasSubstr("\"source\": \"Owen 1997\""),
-                    HasSubstr("\"slope_at_these_n\": "), HasSubstr("\"within_interval\": true")));
+              AllOf(HasSubstr("\"class\": \"smooth\""), HasSubstr("\"source\": \"[Owen97]\""),
+                    HasSubstr("\"slope_at_these_n\": "), HasSubstr("\"within_interval\": true"),
+                    HasSubstr("\"at_least\": true")));
+  EXPECT_THAT(out("slopes.csv"), HasSubstr(",at least -0.5000,"));
 }
 
 TEST_F(Converge, ReplicatesFollowTheTail) {

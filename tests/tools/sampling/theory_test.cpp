@@ -1,16 +1,24 @@
-// The rows of the table of rates, where they are known by heart.
+// The rows of the table of rates, where they are known by heart, and where none may be missing.
 
 #include <sampling/theory.h>
 #include <sampling/ways.h>
 
+#include <mc/core/file.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
+#include <string>
 
 namespace {
 
-using carlo::Smoothness, carlo::theory;
+using carlo::Bound, carlo::Rate, carlo::Smoothness, carlo::theory;
 using Class = Smoothness::Class;
+
+constexpr Class classes[] = {Class::smooth, Class::additive,  Class::periodic, Class::axis_kink,
+                             Class::kink,   Class::axis_jump, Class::jump,     Class::corner};
+constexpr int dimensions[] = {1, 2, 3, 5, 8};
 
 double exponent(const char* way, Class of, int dim, double a = 0) { return theory(way, {of, a}, dim)->exponent; }
 
@@ -27,7 +35,28 @@ TEST(Theory, OfEachClass) {
   EXPECT_EQ(exponent("latin_hypercube", Class::smooth, 5), 0.5);
   EXPECT_EQ(exponent("multi_jittered", Class::smooth, 2), 0.75);
   EXPECT_EQ(exponent("rqmc", Class::smooth, 2), 2.5);
-  EXPECT_TRUE(theory("halton", {Class::smooth}, 3)->at_most);
+  EXPECT_EQ(exponent("multi_jittered", Class::kink, 2), 0.75);
+  EXPECT_EQ(exponent("multi_jittered", Class::corner, 2, 0.15), 0.675);
+  EXPECT_EQ(exponent("stratified_rounds", Class::jump, 8), 0.5 + 1.0 / 16);
+  EXPECT_EQ(theory("halton", {Class::smooth}, 3)->bound, Bound::at_most);
+  EXPECT_EQ(theory("sobol", {Class::corner, 0.15}, 3)->bound, Bound::at_most);
+  EXPECT_EQ(theory("sobol", {Class::corner, 0.15}, 1)->bound, Bound::exact);
+}
+
+// In one dimension a power of two of Halton's points are a net.
+TEST(Theory, OfHaltonInOneDimensionIsThatOfSobol) {
+  for (const Class c : classes) EXPECT_EQ(exponent("halton", c, 1, 0.15), exponent("sobol", c, 1, 0.15));
+}
+
+TEST(Theory, OfWhatLearnsIsABound) {
+  for (const char* way : {"vegas", "tree", "auto"})
+    for (const Class c : classes)
+      for (const int d : dimensions) {
+        const auto rate = theory(way, {c, 0.15}, d);
+        ASSERT_TRUE(rate) << way << d;
+        EXPECT_EQ(rate->exponent, 0.5);
+        EXPECT_EQ(rate->bound, Bound::at_least);
+      }
 }
 
 TEST(Theory, LogarithmsBendTheCurve) {
@@ -36,19 +65,54 @@ TEST(Theory, LogarithmsBendTheCurve) {
   EXPECT_DOUBLE_EQ(rate->local(std::exp(10)), 1.4);
 }
 
+TEST(Theory, ABoundAllowsOneSide) {
+  struct Case {
+    Bound bound;
+    const char* text;
+    bool faster, slower;
+  };
+  for (const Case& c : {Case{Bound::exact, "-1.00", false, false}, Case{Bound::at_most, "at most -1.00", false, true},
+                        Case{Bound::at_least, "at least -1.00", true, false}}) {
+    const Rate rate{1, 0, "a source", c.bound};
+    EXPECT_EQ(rate.to_string(2), c.text);
+    EXPECT_TRUE(rate.allows(-1.1, -0.9, 1000));
+    EXPECT_EQ(rate.allows(-1.3, -1.2, 1000), c.faster);
+    EXPECT_EQ(rate.allows(-0.8, -0.7, 1000), c.slower);
+  }
+  EXPECT_TRUE((Rate{1.5, 1, "a source"}.allows(-1.41, -1.39, std::exp(10))));
+}
+
 TEST(Theory, IsSilentWhereNothingIsStated) {
-  EXPECT_FALSE(theory("vegas", {Class::smooth}, 2));
   EXPECT_FALSE(theory("sobol", {}, 2));
-  EXPECT_FALSE(theory("lattice", {Class::periodic}, 2));
-  for (const carlo::Way& w : carlo::ways()) // a rate is positive and no faster than any that is known
-    for (const Class c : {Class::smooth, Class::additive, Class::periodic, Class::axis_kink, Class::kink,
-                          Class::axis_jump, Class::jump, Class::corner})
-      for (const int d : {1, 2, 3, 5, 8})
-        if (const auto rate = theory(w.name, {c, 0.15}, d)) {
-          EXPECT_GE(rate->exponent, 0.5) << w.name << d;
-          EXPECT_LE(rate->exponent, 2.5) << w.name << d;
-          EXPECT_FALSE(rate->source.empty());
-        }
+  EXPECT_FALSE(theory("points.csv", {Class::smooth}, 2));
+  EXPECT_FALSE(theory("random", {Class::corner, 0.5}, 2)); // of infinite variance
+}
+
+// A rate is positive and no faster than any that is known.
+TEST(Theory, NoCellOfTheTableIsEmpty) {
+  for (const carlo::Way& w : carlo::ways())
+    for (const Class c : classes)
+      for (const int d : dimensions) {
+        const auto rate = theory(w.name, {c, 0.15}, d);
+        ASSERT_TRUE(rate) << w.name << ' ' << name(c) << ' ' << d;
+        EXPECT_GE(rate->exponent, 0.5) << w.name << d;
+        EXPECT_LE(rate->exponent, 2.5) << w.name << d;
+        EXPECT_FALSE(rate->source.empty()) << w.name << d;
+      }
+}
+
+TEST(Theory, SourcesStandAmongTheReferences) {
+  const std::string references = mc::read_file(MC_SOURCE_DIR "/libmc/mc/REFERENCES.md");
+  const std::regex key("\\[[A-Za-z]+[0-9]+\\]");
+  int keys = 0;
+  for (const carlo::Way& w : carlo::ways())
+    for (const Class c : classes)
+      for (const int d : dimensions) {
+        const std::string source(theory(w.name, {c, 0.15}, d)->source);
+        for (std::sregex_iterator i(source.begin(), source.end(), key), end; i != end; ++i, ++keys)
+          EXPECT_NE(references.find("| " + i->str() + " |"), std::string::npos) << i->str();
+      }
+  EXPECT_GT(keys, 100);
 }
 
 } // namespace
