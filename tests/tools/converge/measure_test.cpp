@@ -50,6 +50,15 @@ TEST(Measure, ErrorsAreTheVariancesOfTheBooks) {
   }
 }
 
+// 49 shares of 16/49 do not add up to 16.
+TEST(Measure, NIsNotRounded) {
+  const auto list = ways({"random"});
+  const Measurement m = measure(here(ramp(0.5)), list, {.max_n = 64, .replicates = 49});
+  ASSERT_EQ(m.curves[0].errors.size(), 3u);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(m.curves[0].errors[static_cast<std::size_t>(i)].n, 16 << i);
+  EXPECT_DOUBLE_EQ(m.curves[0].middle, 32);
+}
+
 // The reference is ten times surer than the smallest error.
 TEST(Measure, TheReferenceIsSurerThanWhatIsShown) {
   const auto list = ways({"random", "sobol"});
