@@ -15,7 +15,8 @@ namespace carlo {
 ///   at_least : the error falls no slower: all that is proven where nothing is known of the exponent itself
 enum class Bound { exact, at_most, at_least };
 
-/// RMS error about N^-exponent (ln N)^log_power. `source` names keys of libmc/mc/REFERENCES.md, or what it follows from.
+/// RMS error about N^-exponent (ln N)^log_power. `source` names keys of libmc/mc/REFERENCES.md, or what implies the
+/// rate.
 struct Rate {
   double exponent = 0, log_power = 0;
   std::string_view source;
@@ -31,7 +32,7 @@ struct Rate {
 
 /// The rate of a sampler or estimator, by its name, on integrands of that class over the unit cube; nothing where none
 /// is stated: for integrands of no class, samplers of no name, and where the variance is infinite.
-///   N       : of nets, and of Halton's points in one dimension, a power of two
+///   N       : of nets, and of Halton's points in one dimension, a power of two; of multi-jittered points a square
 ///   surface : one that is not parallel to the axes meets n^(d-1) of n^d cells. A jump there adds O(1/N) for each of
 ///             them, a kink O(n^-1 / N), so that no stratification beats N^-(1/2 + 1/(2 d)), N^-(1/2 + 3/(2 d))
 ///             [MitchellA96]; of scrambled nets N^-(1/2 + 1/(4 d - 2)) is proven for jumps at any surface
