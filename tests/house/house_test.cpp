@@ -33,7 +33,7 @@ const Rooms allowed_rooms = closure({
     {"mc/warp", {"mc/table", "mc/domain", "mc/core"}},
     {"mc/table", {"mc/domain", "mc/core"}},
     {"mc/sampler", {"mc/random"}},
-    {"mc/points", {"mc/core"}},
+    {"mc/points", {"mc/core", "mc/random"}},
     {"mc/stats", {"mc/core"}},
     {"mc/estimate", {"mc/warp", "mc/table", "mc/sampler", "mc/stats"}},
     {"mc/check", {"mc/estimate", "mc/stats", "mc/table", "mc/sampler"}},

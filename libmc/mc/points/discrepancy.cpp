@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 namespace mc {
 
@@ -106,20 +108,27 @@ double jittered_periodic_mean_square(double count, int dim) {
   return (std::pow(0.5, dim) - std::pow(0.5 - 1 / (3 * m) + 1 / (6 * m * m), dim)) / count;
 }
 
+// From each point on in the order of the first axis and around, until that axis alone is too long a way.
 SmallestDistance smallest_distance(PointList p) {
   require_unit_points(p);
+  std::vector<std::size_t> order(p.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p[a][0] < p[b][0]; });
   double plain = std::numeric_limits<double>::infinity(), periodic = plain;
   for (std::size_t i = 0; i < p.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
+    for (std::size_t step = 1; step < p.size(); ++step) {
+      const std::size_t j = i + step < p.size() ? i + step : i + step - p.size();
+      const double *a = p[order[i]], *b = p[order[j]], gap = i < j ? b[0] - a[0] : 1 - (a[0] - b[0]);
+      if (gap * gap >= plain) break; // the periodic distance is not more than the plain one
       double wrapped = 0;
       for (std::size_t k = 0; k < p.dim && wrapped < plain; ++k) {
-        const double t = around(p[i][k], p[j][k]);
+        const double t = around(a[k], b[k]);
         wrapped += t * t;
       }
       if (wrapped >= plain) continue; // the plain distance is not less
       periodic = std::min(periodic, wrapped);
       double straight = 0;
-      for (std::size_t k = 0; k < p.dim; ++k) straight += (p[i][k] - p[j][k]) * (p[i][k] - p[j][k]);
+      for (std::size_t k = 0; k < p.dim; ++k) straight += (a[k] - b[k]) * (a[k] - b[k]);
       plain = std::min(plain, straight);
     }
   return {std::sqrt(plain), std::sqrt(periodic)};

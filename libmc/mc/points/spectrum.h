@@ -15,7 +15,8 @@ namespace mc {
 ///   Source : [PilleboueEtAl15]
 std::vector<double> radial_power_spectrum(PointList points, int rings);
 
-/// The same in expectation for jittered points, one in each cell of an m x m grid: 1 - sinc^2(f_x / m) sinc^2(f_y / m).
+/// The same in expectation for jittered points, one in each cell of a grid of two or more dimensions with m cells along
+/// an axis: 1 - sinc^2(f_x / m) sinc^2(f_y / m).
 std::vector<double> jittered_radial_spectrum(double m, int rings);
 
 } // namespace mc

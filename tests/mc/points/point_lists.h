@@ -4,6 +4,7 @@
 #include <mc/points/point_list.h>
 #include <mc/sampler/concept.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -36,6 +37,35 @@ inline std::vector<double> hammersley(double shift) {
     points.push_back(i / 8.0 + shift);
   }
   return points;
+}
+
+/// The star discrepancy by every box between coordinates, open and closed.
+inline double star_by_all_boxes(mc::PointList p) {
+  std::vector<std::vector<double>> grid(p.dim);
+  for (std::size_t k = 0; k < p.dim; ++k) {
+    for (std::size_t i = 0; i < p.size(); ++i) grid[k].push_back(p[i][k]);
+    grid[k].push_back(1);
+  }
+  double worst = 0;
+  std::vector<std::size_t> at(p.dim, 0);
+  for (;;) {
+    double volume = 1, open = 0, closed = 0;
+    for (std::size_t k = 0; k < p.dim; ++k) volume *= grid[k][at[k]];
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      bool below = true, within = true;
+      for (std::size_t k = 0; k < p.dim; ++k) {
+        below = below && p[i][k] < grid[k][at[k]];
+        within = within && p[i][k] <= grid[k][at[k]];
+      }
+      open += below;
+      closed += within;
+    }
+    const double n = static_cast<double>(p.size());
+    worst = std::max({worst, volume - open / n, closed / n - volume});
+    std::size_t k = 0;
+    while (k < p.dim && ++at[k] == grid[k].size()) at[k++] = 0;
+    if (k == p.dim) return worst;
+  }
 }
 
 } // namespace test

@@ -53,6 +53,20 @@ TEST(Spectrum, ExpectationsOfRandomAndJitteredPoints) {
   }
 }
 
+// Of jittered points in space the first two axes are as even as the cells are wide.
+TEST(Spectrum, OfJitteredPointsInSpace) {
+  constexpr int rings = 8, sets = 300;
+  std::vector<double> mean(rings, 0.0);
+  for (std::uint64_t seed = 0; seed < sets; ++seed) {
+    const auto power =
+        mc::radial_power_spectrum({test::points_of(mc::Stratified(64, mc::hash(3, seed), 3), 64, 3), 3}, rings);
+    for (std::size_t k = 0; k < rings; ++k) mean[k] += power[k] / sets;
+  }
+  const std::vector<double> expected = mc::jittered_radial_spectrum(4, rings);
+  for (std::size_t k = 0; k < rings; ++k)
+    EXPECT_NEAR(mean[k], expected[k], 5 * std::sqrt(2 / (sets * 6.0 * static_cast<double>(k + 1))) * expected[k]) << k;
+}
+
 TEST(Spectrum, NeedsAPlane) {
   const std::vector<double> x = {0.3, 0.7};
   EXPECT_THROW(mc::radial_power_spectrum({x, 1}, 4), mc::Error);

@@ -4,55 +4,31 @@
 #include <mc/random/hash.h>
 #include <mc/sampler/independent.h>
 #include <mc/sampler/sobol.h>
+#include <mc/sampler/stratified.h>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace {
 
-// Every box between coordinates, open and closed.
-double by_all_boxes(mc::PointList p) {
-  std::vector<std::vector<double>> grid(p.dim);
-  for (std::size_t k = 0; k < p.dim; ++k) {
-    for (std::size_t i = 0; i < p.size(); ++i) grid[k].push_back(p[i][k]);
-    grid[k].push_back(1);
-  }
-  double worst = 0;
-  std::vector<std::size_t> at(p.dim, 0);
-  for (;;) {
-    double volume = 1, open = 0, closed = 0;
-    for (std::size_t k = 0; k < p.dim; ++k) volume *= grid[k][at[k]];
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      bool below = true, within = true;
-      for (std::size_t k = 0; k < p.dim; ++k) {
-        below = below && p[i][k] < grid[k][at[k]];
-        within = within && p[i][k] <= grid[k][at[k]];
-      }
-      open += below;
-      closed += within;
-    }
-    const double n = static_cast<double>(p.size());
-    worst = std::max({worst, volume - open / n, closed / n - volume});
-    std::size_t k = 0;
-    while (k < p.dim && ++at[k] == grid[k].size()) at[k++] = 0;
-    if (k == p.dim) return worst;
-  }
-}
-
-// Random and even sets, coordinates that repeat, 1 to 4 dimensions.
+// Random, even and jittered sets, coordinates that repeat, 0 among them, 1 to 4 dimensions.
 TEST(StarDiscrepancy, IsThatOfAllBoxes) {
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const auto dim = static_cast<std::uint32_t>(1 + seed % 4);
-    const std::uint64_t n = 1 + mc::hash(1, seed) % (dim < 3 ? 24 : 9);
-    std::vector<double> x =
-        seed % 3 == 0 ? test::points_of(mc::Sobol(seed), n, dim) : test::points_of(mc::Independent{seed}, n, dim);
-    if (seed % 3 == 1)
-      for (double& v : x) v = std::floor(8 * v) / 8; // 0 among them
+    const std::uint64_t most = dim < 4 ? 40 : seed % 40 == 3 ? 24 : 12, n = 1 + mc::hash(1, seed) % most;
+    std::vector<double> x = test::points_of(mc::Independent{seed}, n, dim);
+    if (seed % 5 == 0) x = test::points_of(mc::Sobol(seed), n, dim);
+    if (seed % 5 == 1) x = test::points_of(mc::Stratified(static_cast<std::uint32_t>(n), seed, dim), n, dim);
+    if (seed % 5 == 2)
+      for (double& v : x) v = std::floor(8 * v) / 8;
+    if (seed % 5 == 3)
+      for (double& v : x) v *= v * v;
     const mc::StarDiscrepancy found = mc::star_discrepancy({x, dim});
     EXPECT_TRUE(found.exact());
-    EXPECT_NEAR(found.lower, by_all_boxes({x, dim}), 1e-14) << "seed " << seed;
+    EXPECT_NEAR(found.lower, test::star_by_all_boxes({x, dim}), 1e-14) << "seed " << seed;
   }
 }
 
@@ -82,18 +58,54 @@ TEST(StarDiscrepancy, OnALineItIsNiederreitersFormula) {
   EXPECT_NEAR(found, expected + 1.0 / 2000, 1e-14);
 }
 
+// However little work there is; from some on, they are near.
 TEST(StarDiscrepancy, BoundsHoldWhereverItStops) {
-  const std::vector<double> x = test::points_of(mc::Sobol(2), 200, 3);
-  const mc::StarDiscrepancy all = mc::star_discrepancy({x, 3});
-  ASSERT_TRUE(all.exact());
-  double width = 1;
-  for (const std::uint64_t work : {0, 1000, 10'000, 100'000, 1'000'000}) {
-    const mc::StarDiscrepancy some = mc::star_discrepancy({x, 3}, work);
-    EXPECT_LE(some.lower, all.lower);
-    EXPECT_GE(some.upper, all.lower);
-    EXPECT_LE(some.upper - some.lower, width);
-    width = some.upper - some.lower;
+  for (const std::uint32_t dim : {2u, 3u, 5u}) {
+    const std::vector<double> x = test::points_of(mc::Sobol(2), 200, dim);
+    const mc::StarDiscrepancy all = mc::star_discrepancy({x, dim});
+    ASSERT_TRUE(all.exact());
+    double ratio = HUGE_VAL;
+    for (const std::uint64_t work : {0, 1000, 10'000, 100'000, 1'000'000, 10'000'000}) {
+      const mc::StarDiscrepancy some = mc::star_discrepancy({x, dim}, work);
+      EXPECT_GT(some.lower, 0);
+      EXPECT_LE(some.lower, all.lower);
+      EXPECT_GE(some.upper, all.lower);
+      ratio = some.upper / some.lower;
+    }
+    EXPECT_LT(ratio, 4) << dim;
   }
+}
+
+// The estimate is of the right size: a few times as much suffices, a fifth does not where hardly a part is left out.
+TEST(StarDiscrepancy, StepsAreAsEstimated) {
+  for (const auto& [n, dim] : {std::pair{2048u, 2u}, {512u, 3u}, {256u, 4u}, {100u, 5u}, {64u, 8u}}) {
+    const std::vector<double> x = test::points_of(mc::Sobol(1), n, dim);
+    const double steps = mc::exact_star_steps(n, dim);
+    EXPECT_TRUE(mc::star_discrepancy({x, dim}, static_cast<std::uint64_t>(4 * steps)).exact()) << dim;
+  }
+  const std::vector<double> x = test::points_of(mc::Sobol(1), 512, 4);
+  EXPECT_FALSE(mc::star_discrepancy({x, 4}, static_cast<std::uint64_t>(0.2 * mc::exact_star_steps(512, 4))).exact());
+}
+
+// Lower and upper bound of a set that is too large for its work: in eight dimensions.
+TEST(StarDiscrepancy, OfManyDimensionsTheBoundsAreSaid) {
+  const std::vector<double> x = test::points_of(mc::Sobol(3), 256, 8);
+  const mc::StarDiscrepancy found = mc::star_discrepancy({x, 8}, 30'000'000);
+  EXPECT_FALSE(found.exact());
+  EXPECT_GT(found.lower, 0.04);
+  EXPECT_LT(found.lower, found.upper);
+  EXPECT_LT(found.upper, 0.5);
+}
+
+// Sets of which branch and bound over all boxes, an independent algorithm, found the same.
+TEST(StarDiscrepancy, ThousandsOfPointsAreExact) {
+  const std::vector<double> plane = test::points_of(mc::Sobol(1), 4096, 2),
+                            space = test::points_of(mc::Sobol(1), 512, 3), four = test::points_of(mc::Sobol(1), 256, 4);
+  EXPECT_NEAR(mc::star_discrepancy({plane, 2}).upper, 0.001106379, 1e-9);
+  EXPECT_NEAR(mc::star_discrepancy({space, 3}).upper, 0.013997266, 1e-9);
+  EXPECT_NEAR(mc::star_discrepancy({four, 4}).upper, 0.038878794, 1e-9);
+  const std::vector<double> large = test::points_of(mc::Independent{1}, 4096, 3);
+  EXPECT_TRUE(mc::star_discrepancy({large, 3}).exact());
 }
 
 TEST(StarDiscrepancy, AThousandPointsInThePlaneAreExact) {

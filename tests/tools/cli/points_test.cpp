@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <sstream>
 
 namespace {
 
@@ -25,6 +26,29 @@ std::size_t squares(const std::string& svg) {
   return paths;
 }
 
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> found(1);
+  for (const char c : line) {
+    if (c == ',') found.emplace_back();
+    else found.back() += c;
+  }
+  return found;
+}
+
+// The values of a column, by its name.
+std::vector<std::string> column(const std::string& file, const std::string& name) {
+  std::istringstream text(mc::read_file(file));
+  std::string line;
+  std::getline(text, line);
+  const std::vector<std::string> names = fields(line);
+  const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+  std::vector<std::string> values;
+  while (std::getline(text, line)) values.push_back(fields(line).at(static_cast<std::size_t>(at)));
+  return values;
+}
+
+std::string last_of(const std::string& file, const std::string& name) { return column(file, name).back(); }
+
 struct Points : support::ScratchTest {
   void expect_refused(const std::string& arguments, const std::string& words) const {
     const Ran run = run_carlo("points " + arguments + " -o '" + path("out") + "'");
@@ -38,13 +62,59 @@ TEST_F(Points, ASetByName) {
   const Ran run = run_carlo("points sobol -n 64 -d 3 --randomisations 4 -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, AllOf(HasSubstr("sobol: 64 points in 3 dimensions"), HasSubstr("L2-star discrepancy"),
-                                HasSubstr("RMS of 4"), HasSubstr("-net in base 2")));
+                                HasSubstr("mean of 4"), HasSubstr("-net in base 2")));
   const std::string csv = mc::read_file(path("out/points.csv"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 64);
   EXPECT_THAT(mc::read_file(path("out/quality.csv")),
               AllOf(HasSubstr("\n16,"), HasSubstr("\n32,"), HasSubstr("\n64,")));
   EXPECT_THAT(mc::read_file(path("out/quality.json")), HasSubstr("\"star_upper\""));
   EXPECT_EQ(squares(mc::read_file(path("out/points.svg"))), 3u) << "a square for each pair of axes";
+}
+
+// Each figure stands beside those of random and jittered points, for every N. A random set is its own expectation.
+TEST_F(Points, EveryFigureHasItsRandomAndJitteredExpectation) {
+  const Ran run = run_carlo("points random -n 256 --randomisations 64 -o '" + path("out") + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  const auto value = [&](const std::string& name, std::size_t row) {
+    const std::vector<std::string> all = column(path("out/quality.csv"), name);
+    EXPECT_EQ(all.size(), 5u);
+    return std::stod(all.at(row));
+  };
+  for (std::size_t row = 0; row < 5; ++row) {
+    EXPECT_NEAR(value("l2_star", row), value("l2_star_random", row), 0.2 * value("l2_star", row));
+    EXPECT_NEAR(value("distance_periodic", row), value("distance_random", row), 0.6 * value("distance_random", row));
+    EXPECT_NEAR(value("power_low", row), 1, 0.3);
+    EXPECT_EQ(value("power_low_random", row), 1);
+    EXPECT_LT(value("power_low_jittered", row), 0.6);
+    EXPECT_EQ(value("star_lower", row), value("star_upper", row));
+    EXPECT_EQ(value("star_random_lower", row), value("star_random_upper", row));
+    EXPECT_NEAR(value("star_lower", row), value("star_random_lower", row), 0.7 * value("star_random_lower", row));
+    EXPECT_LT(value("star_jittered_lower", row), value("star_random_lower", row));
+    EXPECT_GT(value("distance_jittered", row), value("distance_random", row));
+    EXPECT_LT(value("t_jittered", row), value("t_random", row));
+  }
+  EXPECT_EQ(column(path("out/spectrum.csv"), "n").front(), "16");
+  EXPECT_EQ(column(path("out/spectrum.csv"), "n").back(), "256");
+  EXPECT_EQ(column(path("out/spectrum.csv"), "random").back(), "1");
+}
+
+// t over N, where it is one; what is no power of 2 has none.
+TEST_F(Points, TOfTheNetIsDrawnOverN) {
+  const Ran run = run_carlo("points sobol -n 100 --randomisations 1 -o '" + path("out") + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_EQ(column(path("out/quality.csv"), "t"), (std::vector<std::string>{"0", "0", "0", ""}));
+  EXPECT_THAT(mc::read_file(path("out/quality.gp")), HasSubstr("using \"n\":\"t\" "));
+}
+
+// Where the star discrepancy is too dear, bounds are said and drawn.
+TEST_F(Points, BoundsOfTheStarDiscrepancyAreSaid) {
+  const Ran run = run_carlo("points sobol -n 64 -d 12 --randomisations 1 -o '" + path("out") + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.output;
+  EXPECT_THAT(run.output, HasSubstr("star discrepancy, bounds"));
+  EXPECT_LT(std::stod(last_of(path("out/quality.csv"), "star_lower")),
+            std::stod(last_of(path("out/quality.csv"), "star_upper")));
+  EXPECT_THAT(mc::read_file(path("out/quality.gp")),
+              AllOf(HasSubstr("lower and upper bounds"), HasSubstr("\"star_random_upper\"")));
 }
 
 // What is drawn of many axes is what is said of it.
@@ -76,14 +146,14 @@ TEST_F(Points, TwoThatAreEqual) {
   const std::string twins = write("twins.csv", "0.25,0.5\n0.75,0.125\n0.25,0.5\n");
   const Ran run = run_carlo("points --points-file '" + twins + "' -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
-  EXPECT_THAT(run.output, HasSubstr("0 plain, 0 periodic"));
+  EXPECT_EQ(last_of(path("out/quality.csv"), "distance_periodic"), "0");
 }
 
 TEST_F(Points, WhatIsTooSmallForADoubleIsZero) {
   const Ran run = run_carlo("points --points-file '" + write("small.csv", "1e-400,0.5\n0.75,0.125\n0,0.5\n") +
                             "' -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
-  EXPECT_THAT(run.output, HasSubstr("0 plain, 0 periodic")) << "the first is the third";
+  EXPECT_EQ(last_of(path("out/quality.csv"), "distance_periodic"), "0") << "the first is the third";
 }
 
 TEST_F(Points, ThreadsChangeNothing) {

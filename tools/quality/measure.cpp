@@ -1,0 +1,106 @@
+#include <quality/measure.h>
+#include <sampling/point_sets.h>
+
+#include <mc/core/parallel.h>
+#include <mc/points/net.h>
+#include <mc/points/spectrum.h>
+#include <mc/random/hash.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace carlo {
+
+namespace {
+
+struct Quality {
+  double l2_star, l2_periodic;
+  mc::SmallestDistance distance;
+  std::vector<double> power;
+};
+
+Quality quality_of(mc::PointList p, int rings) {
+  return {mc::l2_star_discrepancy(p), mc::periodic_l2_discrepancy(p), mc::smallest_distance(p),
+          rings > 0 ? mc::radial_power_spectrum(p, rings) : std::vector<double>()};
+}
+
+// What has no formula.
+struct Drawn {
+  mc::StarDiscrepancy star;
+  double distance = 0;
+  std::optional<int> t;
+};
+
+Drawn drawn(const char* set, std::uint64_t n, std::size_t dim, std::uint64_t seed, std::uint64_t work) {
+  const std::vector<double> x =
+      point_set(set).make(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(dim), mc::hash(0x9eed, seed));
+  const mc::PointList p{x, dim};
+  return {mc::star_discrepancy(p, work), mc::smallest_distance(p).periodic, mc::net_quality(p, 10'000'000)};
+}
+
+Reference means(std::span<const Drawn> all) {
+  Reference mean;
+  const double share = 1.0 / static_cast<double>(all.size());
+  mean.t = 0;
+  for (const Drawn& d : all) {
+    mean.star.lower += d.star.lower * share;
+    mean.star.upper += d.star.upper * share;
+    mean.distance += d.distance * share;
+    if (d.t && mean.t) *mean.t += *d.t * share;
+    else mean.t.reset();
+  }
+  return mean;
+}
+
+} // namespace
+
+Row measure(const Sets& sets, std::size_t dim, int threads, StarWork work) {
+  Row row;
+  row.n = sets[0].size() / dim;
+  const double n = static_cast<double>(row.n), count = static_cast<double>(sets.size());
+  const int rings = dim < 2 ? 0 : std::clamp(static_cast<int>(std::lround(2 * std::sqrt(n))), 4, 128);
+  const auto axes = static_cast<int>(dim);
+  std::vector<Quality> all(sets.size());
+  std::vector<Drawn> others(2 * reference_sets);
+  // The longest first.
+  mc::parallel_for(1 + others.size() + sets.size(), threads, [&](std::size_t i) {
+    if (i == 0) {
+      row.star = mc::star_discrepancy({sets[0], dim}, work.set);
+      row.t = mc::net_quality({sets[0], dim});
+    } else if (i <= others.size()) {
+      others[i - 1] = drawn(i <= reference_sets ? "random" : "stratified", row.n, dim, i, work.reference);
+    } else {
+      all[i - 1 - others.size()] = quality_of({sets[i - 1 - others.size()], dim}, rings);
+    }
+  });
+  row.first_l2_star = all[0].l2_star;
+  row.first_l2_periodic = all[0].l2_periodic;
+  row.first_distance = all[0].distance;
+  row.power.assign(static_cast<std::size_t>(rings), 0.0);
+  for (const Quality& q : all) {
+    row.l2_star += q.l2_star * q.l2_star / count;
+    row.l2_periodic += q.l2_periodic * q.l2_periodic / count;
+    row.distance += q.distance.periodic / count;
+    for (std::size_t k = 0; k < row.power.size(); ++k) row.power[k] += q.power[k] / count;
+  }
+  row.l2_star = std::sqrt(row.l2_star);
+  row.l2_periodic = std::sqrt(row.l2_periodic);
+  row.random = means(std::span(others).first(reference_sets));
+  row.jittered = means(std::span(others).subspan(reference_sets));
+  row.random.l2_star = row.random.l2_periodic = std::sqrt(mc::random_mean_square(n, axes));
+  row.jittered.l2_star = std::sqrt(mc::jittered_star_mean_square(n, axes));
+  row.jittered.l2_periodic = std::sqrt(mc::jittered_periodic_mean_square(n, axes));
+  row.random.power.assign(row.power.size(), 1.0);
+  if (dim >= 2) row.jittered.power = mc::jittered_radial_spectrum(std::pow(n, 1.0 / axes), rings);
+  return row;
+}
+
+double low_power(const std::vector<double>& power, std::uint64_t n) {
+  const auto rings = static_cast<std::size_t>(
+      std::clamp(std::sqrt(static_cast<double>(n)) / 2, 1.0, static_cast<double>(power.size())));
+  double sum = 0;
+  for (std::size_t k = 0; k < rings; ++k) sum += power[k];
+  return sum / static_cast<double>(rings);
+}
+
+} // namespace carlo

@@ -1,0 +1,52 @@
+#pragma once
+/// What carlo points tells of point sets, and what it would tell of random and jittered ones.
+
+#include <mc/points/discrepancy.h>
+#include <mc/points/star_discrepancy.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace carlo {
+
+using Sets = std::vector<std::vector<double>>;
+
+/// Sets whose means are drawn in where no formula gives the expectation: as many random and as many jittered ones.
+constexpr int reference_sets = 16;
+
+/// What would be expected: by formulas of the L2 discrepancies (root mean squares) and the spectrum, else means over
+/// reference_sets sets, which have fixed seeds. No t where it is not known of each.
+struct Reference {
+  double l2_star = 0, l2_periodic = 0;
+  mc::StarDiscrepancy star{0, 0}; ///< means of both bounds
+  double distance = 0;            ///< periodic
+  std::optional<double> t;
+  std::vector<double> power; ///< by ring; empty in one dimension
+};
+
+/// One number of points: the first set in full, and means over all randomisations.
+struct Row {
+  std::uint64_t n = 0;
+  double first_l2_star = 0, first_l2_periodic = 0;
+  mc::SmallestDistance first_distance{};
+  mc::StarDiscrepancy star;            ///< of the first set
+  std::optional<int> t;                ///< of the first set
+  double l2_star = 0, l2_periodic = 0; ///< root mean squares
+  double distance = 0;                 ///< mean, periodic
+  std::vector<double> power;           ///< mean by ring
+  Reference random, jittered;
+};
+
+/// Steps that may be spent on the star discrepancy of a set and of each of those for reference.
+struct StarWork {
+  std::uint64_t set, reference;
+};
+
+Row measure(const Sets& sets, std::size_t dim, int threads, StarWork work);
+
+/// The mean power of the rings of frequencies up to sqrt(n) / 2: what the set lets through of smooth integrands.
+double low_power(const std::vector<double>& power, std::uint64_t n);
+
+} // namespace carlo
