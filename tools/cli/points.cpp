@@ -82,9 +82,10 @@ void print(const Row& r, int dim, std::size_t sets) {
   else
     fmt::print("no t: {}\n",
                std::has_single_bit(r.n) ? "too many boxes to look at" : "the number of points is no power of 2");
-  fmt::print("means of L2 discrepancies are root mean squares; star, distance and t of random and jittered points are "
-             "means over {} sets, the others by formula\n",
-             reference_sets);
+  fmt::print(
+      "means of L2 discrepancies are root mean squares; of random and jittered points the star discrepancy is the "
+      "mean of {} sets, distance and t of {}, the others by formula\n",
+      reference_stars, reference_sets);
 }
 
 std::string points_csv(mc::PointList p) {
@@ -92,6 +93,14 @@ std::string points_csv(mc::PointList p) {
   for (std::size_t i = 0; i < p.size(); ++i)
     for (std::size_t k = 0; k < p.dim; ++k) text += fmt::format("{}{}", p[i][k], k + 1 < p.dim ? "," : "\n");
   return text;
+}
+
+// What is within reach is exact: that takes some seconds. Of what is not, bounds come at less, and those for reference
+// at a tenth of that, since there are many.
+StarWork star_work(std::uint64_t n, std::size_t dim, bool last) {
+  constexpr std::uint64_t thorough = 2'000'000'000, quick = 300'000'000, little = 100'000'000;
+  if (mc::exact_star_steps(n, dim) < 0.6 * static_cast<double>(quick)) return {last ? thorough : quick, quick};
+  return {last ? thorough : little, little / 10};
 }
 
 // The rows of the curves, fewest points first, and the sets of the last.
@@ -102,13 +111,13 @@ struct MeasuredSets {
 };
 
 MeasuredSets measure_all(const PointsOptions& o, int& dim) {
-  constexpr std::uint64_t quick = 300'000'000, thorough = 2'000'000'000, little = 20'000'000;
   MeasuredSets m;
   if (!o.file.empty()) {
     const CsvTable table = read_points(o.file, 2, most_points, most_dimensions);
     dim = static_cast<int>(table.columns);
     m.sets = {table.values};
-    m.rows = {measure(m.sets, static_cast<std::size_t>(dim), o.threads, {thorough, quick})};
+    const StarWork work = star_work(m.sets[0].size() / table.columns, table.columns, true);
+    m.rows = {measure(m.sets, table.columns, o.threads, work)};
     return m;
   }
   const PointSet& set = point_set(o.set);
@@ -124,10 +133,8 @@ MeasuredSets measure_all(const PointsOptions& o, int& dim) {
     }
     progress.show(static_cast<double>(n * n) / static_cast<double>(4 * o.count * o.count), fmt::format("N = {}", n));
     m.sets = randomised(set, n, o);
-    // Where fewer points were too many to be exact, more are, too.
-    const bool hopeless = !m.rows.empty() && !m.rows.back().jittered.star.exact();
-    m.rows.push_back(measure(m.sets, static_cast<std::size_t>(dim), o.threads,
-                             {n == o.count ? thorough : quick, hopeless ? little : quick}));
+    const StarWork work = star_work(n, static_cast<std::size_t>(dim), n == o.count);
+    m.rows.push_back(measure(m.sets, static_cast<std::size_t>(dim), o.threads, work));
   }
   return m;
 }

@@ -31,11 +31,15 @@ struct Drawn {
   std::optional<int> t;
 };
 
-Drawn drawn(const char* set, std::uint64_t n, std::size_t dim, std::uint64_t seed, std::uint64_t work) {
+// Of the random sets for reference, then the jittered ones.
+Drawn drawn(std::uint64_t index, std::uint64_t n, std::size_t dim, std::uint64_t work) {
+  const PointSet& set = point_set(index < reference_sets ? "random" : "stratified");
   const std::vector<double> x =
-      point_set(set).make(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(dim), mc::hash(0x9eed, seed));
+      set.make(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(dim), mc::hash(0x9eed, index));
   const mc::PointList p{x, dim};
-  return {mc::star_discrepancy(p, work), mc::smallest_distance(p).periodic, mc::net_quality(p, 10'000'000)};
+  const bool star = index % reference_sets < reference_stars;
+  return {star ? mc::star_discrepancy(p, work) : mc::StarDiscrepancy{0, 0}, mc::smallest_distance(p).periodic,
+          mc::net_quality(p, 10'000'000)};
 }
 
 Reference means(std::span<const Drawn> all) {
@@ -43,8 +47,8 @@ Reference means(std::span<const Drawn> all) {
   const double share = 1.0 / static_cast<double>(all.size());
   mean.t = 0;
   for (const Drawn& d : all) {
-    mean.star.lower += d.star.lower * share;
-    mean.star.upper += d.star.upper * share;
+    mean.star.lower += d.star.lower / reference_stars;
+    mean.star.upper += d.star.upper / reference_stars;
     mean.distance += d.distance * share;
     if (d.t && mean.t) *mean.t += *d.t * share;
     else mean.t.reset();
@@ -68,7 +72,7 @@ Row measure(const Sets& sets, std::size_t dim, int threads, StarWork work) {
       row.star = mc::star_discrepancy({sets[0], dim}, work.set);
       row.t = mc::net_quality({sets[0], dim});
     } else if (i <= others.size()) {
-      others[i - 1] = drawn(i <= reference_sets ? "random" : "stratified", row.n, dim, i, work.reference);
+      others[i - 1] = drawn(i - 1, row.n, dim, work.reference);
     } else {
       all[i - 1 - others.size()] = quality_of({sets[i - 1 - others.size()], dim}, rings);
     }

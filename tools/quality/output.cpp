@@ -127,10 +127,10 @@ std::string spectrum_csv(const std::vector<Row>& rows) {
 std::string quality_script(const std::string& title, const std::vector<Row>& rows) {
   std::string s = plot_head("quality", 1500, 800);
   s += fmt::format(
-      "set multiplot layout 2,4 title \"{}; random and jittered: star, distance and t are means of {} sets, "
+      "set multiplot layout 2,4 title \"{}; random and jittered: star is the mean of {} sets, distance and t of {}, "
       "the others by formula\" font \",15\"\nset key left bottom Left reverse samplen 2\nset logscale xy\n"
       "set format y \"10^{{%L}}\"\nset xlabel \"points N\"\n",
-      title, reference_sets);
+      title, reference_stars, reference_sets);
   s += panel("L2-star discrepancy, RMS", three("l2_star", "l2_star_random", "l2_star_jittered"));
   s += panel("periodic L2 discrepancy, RMS", three("l2_periodic", "l2_periodic_random", "l2_periodic_jittered"));
   std::vector<Curve> star = three("star_lower", "star_random_lower", "star_jittered_lower");
