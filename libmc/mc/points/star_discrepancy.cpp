@@ -8,24 +8,26 @@ namespace mc {
 
 namespace {
 
-// Covers for ever smaller bounds as long as the work lasts. The work for half the bound is guessed from the last two;
-// half of what is left may be spent on each, so that a wrong guess leaves some.
+// Covers for ever smaller bounds as long as the work lasts. The work for half the bound is guessed from the last two.
+// Three quarters of what is left may be spent on each, and half of that is aimed at, so that a wrong guess leaves some.
 void lower_the_bound(const StarGrid& grid, StarDiscrepancy& found, std::uint64_t work) {
-  double ratio = 0.5, before = 0, growth = std::pow(2.0, static_cast<double>(grid.dim()));
+  double ratio = 0.5, before = 1, growth = std::pow(2.0, static_cast<double>(grid.dim()));
   while (ratio < 0.97 && work > grid.size() && !found.exact()) {
-    StarCover cover{found.lower, std::max(found.lower, ratio * found.upper), work / 2};
+    const std::uint64_t share = work - work / 4;
+    StarCover cover{found.lower, std::max(found.lower, ratio * found.upper), share};
     const bool whole = cover.run(grid);
-    const double spent = static_cast<double>(work / 2 - cover.work);
-    work -= work / 2 - cover.work;
+    work -= share - cover.work;
     found.lower = cover.lower;
-    if (!whole) {
-      ratio = std::sqrt(ratio);
-      continue;
+    const double spent = static_cast<double>(share - cover.work);
+    const double seen = std::pow(spent / before, std::log(0.5) / std::log(ratio));
+    if (whole) {
+      found.upper = std::max(cover.bound, cover.lower);
+      if (before > 1) growth = std::max(3.0, 2 * seen); // it grows itself as the bound falls
+      before = std::max(spent, 1.0);
+    } else {
+      growth = 1.5 * std::max(growth, seen);
     }
-    found.upper = std::max(cover.bound, cover.lower);
-    if (before > 0) growth = std::max(1.5, std::pow(spent / before, std::log(0.5) / std::log(ratio)));
-    before = spent;
-    const double left = 0.3 * static_cast<double>(work) / std::max(spent, 1.0);
+    const double left = 0.375 * static_cast<double>(work) / before;
     ratio = std::clamp(std::pow(0.5, std::log(left) / std::log(growth)), 0.5, 0.97);
   }
 }
