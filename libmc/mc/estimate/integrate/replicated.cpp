@@ -119,7 +119,7 @@ class Contest {
   static constexpr double clear = 3;    // one by more than this is made on the way
   // By how much more the logarithm of the variance falls for each doubling: of interlaced points than of others, of
   // bare ones than of those behind a grid, of these than of those behind a tree, whose boxes are jumps.
-  static constexpr double of_interlacing = 0.8, without_grid = 0.1, without_boxes = 0.25;
+  static constexpr double of_interlacing = 0.7, without_grid = 0.1, without_boxes = 0.25;
 
  public:
   Contest(Run& r, const Sequences& b, std::uint64_t l) : run_(r), bare_(b), last_(l) {}

@@ -284,7 +284,7 @@ TEST_F(ImageIo, JpegInItsForms) {
     for (const int x : {0, 15, 16, 31})
       for (int c = 0; c < 3; ++c) {
         const double code = (x < 16 ? std::array{200, 40, 30} : std::array{20, 60, 180})[std::size_t(c)];
-        const double value = double(image.pixels[std::size_t(5 * 32 + x)][c]);
+        const double value = double(image.pixels[5 * 32 + std::size_t(x)][c]);
         EXPECT_GE(value, render::srgb_to_linear((code - 2) / 255)) << name << " " << x << " " << c;
         EXPECT_LE(value, render::srgb_to_linear((code + 2) / 255)) << name << " " << x << " " << c;
       }
