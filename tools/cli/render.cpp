@@ -112,12 +112,6 @@ void check_output(const std::string& path) {
               "cannot write '{}': unknown image format '{}'; use .exr, .pfm or .png", path, extension);
 }
 
-std::vector<std::string_view> strategy_names() {
-  std::vector<std::string_view> names;
-  for (const ::render::Strategy& strategy : ::render::strategies) names.push_back(strategy.name);
-  return names;
-}
-
 std::vector<Option> rows(RenderOptions& o) {
   return {
       {"SCENE", "FILE", &o.scene,
@@ -147,7 +141,8 @@ std::vector<Option> rows(RenderOptions& o) {
        "Only this part of the picture, from the pixel X, Y counted from the upper left corner: with --spp the same "
        "pixels, bit for bit"},
       {"--strategy", "NAME", &o.strategy,
-       fmt::format("{}; light misses what other surfaces and the sky send [mis]", fmt::join(strategy_names(), ", "))},
+       fmt::format("{}; light misses what other surfaces and the sky send [mis]",
+                   fmt::join(::render::strategy_names(), ", "))},
       {"--sampler", "NAME", &o.sampler, "independent, stratified or sobol [sobol]"},
       {"--max-depth", "N", &o.max_depth,
        "Longest path in edges (1: light seen directly), -1 for no limit [the scene's]"},

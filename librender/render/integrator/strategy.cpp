@@ -6,10 +6,14 @@
 
 namespace render {
 
-const Strategy& strategy_from(std::string_view word) {
+std::array<std::string_view, strategies.size()> strategy_names() {
   std::array<std::string_view, strategies.size()> names;
   std::transform(strategies.begin(), strategies.end(), names.begin(), [](const Strategy& s) { return s.name; });
-  return strategies[mc::index_of("strategy", word, names)];
+  return names;
+}
+
+const Strategy& strategy_from(std::string_view word) {
+  return strategies[mc::index_of("strategy", word, strategy_names())];
 }
 
 } // namespace render

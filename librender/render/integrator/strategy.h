@@ -48,6 +48,9 @@ inline constexpr auto strategies = std::to_array<Strategy>({
     {"mis", Target::speculars, Float(0.25), Finding::by_both},
 });
 
+/// The names of all, in their order.
+std::array<std::string_view, strategies.size()> strategy_names();
+
 /// Throws Error, naming the nearest strategy, for an unknown name.
 const Strategy& strategy_from(std::string_view name);
 
