@@ -47,7 +47,8 @@ std::vector<int> depths_of(const std::string& text, int own) {
 // Those that are named; else those of all, or of three, that find every light.
 std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, const ::render::SceneFile& file) {
   const auto every = ::render::strategy_names();
-  std::vector<std::string_view> names = mc::split(o.strategies.empty() ? "mixture,nee,mis" : o.strategies, ',');
+  const std::string_view listed = o.strategies.empty() ? "mixture,nee,mis" : std::string_view(o.strategies);
+  std::vector<std::string_view> names = mc::split(listed, ',');
   if (all && o.strategies.empty()) names.assign(every.begin(), every.end());
   std::vector<::render::Strategy> strategies;
   for (const std::string_view name : names) {
