@@ -304,7 +304,7 @@ class Session {
       result.pictures.push_back(level_[i].images.front());
     }
     tell_where_they_pay(biases);
-    for (WorkAndBias& one : biases) result.biases.push_back(std::move(one.bias));
+    for (const WorkAndBias& one : biases) result.biases.push_back(one.bias);
     result.reference = std::move(reference_.image);
     result.reference_error = std::sqrt(reference_.noise);
     result.reference_spp = reference_.spp;
