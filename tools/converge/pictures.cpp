@@ -47,19 +47,19 @@ struct Series {
 };
 
 /// The picture that the others are held against.
-struct Reference {
+struct ReferencePicture {
   Image image;
   double spp = 0;
   double noise = 0; ///< relmse
 };
 
-mc::Moments squares_of(const Series& s, const Reference& reference) {
+mc::Moments squares_of(const Series& s, const ReferencePicture& reference) {
   mc::Moments squares;
   for (const Image& image : s.images) squares.add(relmse(image, reference.image) - reference.noise);
   return squares;
 }
 
-mc::RmsError error_of(const Series& s, const Reference& reference) {
+mc::RmsError error_of(const Series& s, const ReferencePicture& reference) {
   const mc::Moments squares = squares_of(s, reference);
   const double half = squares.std_error() * mc::student_quantile(0.05, double(squares.count() - 1));
   std::vector<double> seconds = s.replicates.seconds;
@@ -70,7 +70,7 @@ mc::RmsError error_of(const Series& s, const Reference& reference) {
 }
 
 // How many pictures make their error known to 10 %: the relative variance of a root is a quarter of its square's.
-int pictures_needed(const Series& s, const Reference& reference) {
+int pictures_needed(const Series& s, const ReferencePicture& reference) {
   const mc::Moments squares = squares_of(s, reference);
   const double needed = squares.mean() > 0 ? squares.variance() / mc::sqr(squares.mean()) / (4 * 0.01) : 0;
   return static_cast<int>(std::clamp(std::ceil(needed), double(first_pictures), double(most_pictures)));
@@ -98,7 +98,7 @@ struct Parts {
 };
 
 // Without the picture `out`: the mean picture of R has an R-th of the noise.
-Parts parts_of(const Series& s, const Reference& reference, std::size_t out) {
+Parts parts_of(const Series& s, const ReferencePicture& reference, std::size_t out) {
   Image mean(reference.image.width, reference.image.height);
   double each = 0, count = 0;
   for (std::size_t r = 0; r < s.images.size(); ++r) {
@@ -122,7 +122,7 @@ struct WorkAndBias {
 };
 
 // The intervals are those of the jackknife, wide enough for `ways` of them at once.
-WorkAndBias bias_of(const Series& s, const Reference& reference, std::size_t ways) {
+WorkAndBias bias_of(const Series& s, const ReferencePicture& reference, std::size_t ways) {
   const Parts all = parts_of(s, reference, s.images.size());
   mc::Moments biases, noises, seconds;
   for (std::size_t r = 0; r < s.images.size(); ++r) {
@@ -134,9 +134,10 @@ WorkAndBias bias_of(const Series& s, const Reference& reference, std::size_t way
   const double dof = double(s.images.size() - 1);
   const double half = mc::student_quantile(0.05 / double(ways), dof) * biases.std_error() * dof;
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
+  const auto relative = [](double error, double value) { return value > 0 ? mc::sqr(error / value) : 0.0; };
   return {{{root(all.bias), root(all.bias - half), root(all.bias + half)}, root(all.noise), s.spp, {}},
-          all.noise * error_of(s, reference).seconds,
-          mc::sqr(noises.std_error() * dof / all.noise) + mc::sqr(seconds.std_error() / seconds.mean()),
+          std::max(all.noise, 0.0) * error_of(s, reference).seconds,
+          relative(noises.std_error() * dof, all.noise) + relative(seconds.std_error(), seconds.mean()),
           dof};
 }
 
@@ -152,7 +153,7 @@ void tell_where_they_pay(std::vector<WorkAndBias>& all) {
     const auto threshold = [](double square_root, double share) {
       return share < 1 ? square_root / std::sqrt(1 - share) : mc::infinity<double>;
     };
-    const double share = best ? one.work / best->work : 0.0;
+    const double share = best && one.work > 0 ? one.work / best->work : 0.0;
     double half = 0; // of the interval of the logarithm of the share
     if (best)
       half = mc::student_quantile(0.05 / double(all.size()), std::min(one.dof, best->dof)) *
@@ -317,7 +318,7 @@ class Session {
   const Clock::time_point start_ = Clock::now();
   std::vector<Curve> curves_; ///< of every way
   std::vector<Series> level_; ///< of every way, those of the last level
-  Reference reference_;
+  ReferencePicture reference_;
   std::uint64_t references_ = 0; ///< pictures that the reference is the mean of
   int spp_ = 4;                  ///< of this level
   double last_ = 0;              ///< seconds that the last level took
@@ -342,7 +343,8 @@ Pictures measure_pictures(const ::render::SceneFile& file, const std::vector<Pic
   mc::require(!ways.empty(), "no way to render is named");
   mc::require(options.replicates == 0 || options.replicates >= 3,
               "{} pictures behind each error; at least 3 are needed", options.replicates);
-  mc::require(options.max_spp >= 16, "{} samples per pixel at most; at least 16 are needed", options.max_spp);
+  mc::require(options.max_spp >= 16 && options.max_spp <= 1 << 28, "{} samples per pixel at most; 16 to 2^28 can be",
+              options.max_spp);
   return Session(file, ways, options).run();
 }
 

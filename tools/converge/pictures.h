@@ -65,7 +65,7 @@ struct Pictures {
 ///   theory    : N^-1/2 for independent samples, spent evenly, whose bias is not told from 0
 ///   reference : by mis, sobol and the scene's longest path; at each number of samples so many more as bring its error
 ///               to a tenth of the smallest by noise
-///   throws    : Error for a black scene, no ways, fewer than 3 pictures, or max_spp below 16
+///   throws    : Error for a black scene, no ways, fewer than 3 pictures, or max_spp below 16 or above 2^28
 Pictures measure_pictures(const render::SceneFile& file, const std::vector<PictureWay>& ways,
                           const PictureOptions& options);
 

@@ -16,6 +16,8 @@ namespace {
 
 using Edge = double mc::RmsError::*;
 
+constexpr double farthest = 2; ///< an error that is known badly may have reached one by as much smaller, and no less
+
 // The first N from which an edge of the band stays below the error; between two N a straight line in the logarithms.
 std::optional<double> crossing(const std::vector<mc::RmsError>& errors, Edge edge, double error) {
   std::optional<std::size_t> first;
@@ -94,7 +96,9 @@ class TiesWithFirst {
   bool operator()(const Offer& o) const { return widened(o.*by_, (o.*by_).lo) <= most_; }
 
  private:
-  double widened(const Ranged& r, double edge) const { return r.value * std::pow(edge / r.value, wider_); }
+  double widened(const Ranged& r, double edge) const {
+    return r.value > 0 ? r.value * std::pow(edge / r.value, wider_) : edge;
+  }
 
   Ranged Offer::*by_;
   double wider_ = 1, most_ = 0;
@@ -148,8 +152,9 @@ std::string label(const Curve& c) { return c.way->name + (c.way->one_by_one ? " 
 std::optional<Ranged> evaluations_for(const Curve& c, double error) {
   const auto lo = crossing(c.errors, &mc::RmsError::lo, error);
   if (!lo) return {};
-  // What does not come so low goes on no slower than plain Monte Carlo.
   const mc::RmsError& last = c.errors.back();
+  if (last.rms > farthest * error) return {};
+  // What does not come so low goes on no slower than plain Monte Carlo.
   const auto needed = [&](Edge edge) {
     return crossing(c.errors, edge, error).value_or(last.n * mc::sqr(last.*edge / error));
   };
@@ -199,8 +204,9 @@ ForSeconds offers_for_seconds(const Measurement& m, double seconds, const Second
     result.offers.push_back(offer);
   }
   rank(result.offers, &Offer::error);
-  for (const Offer& o : result.offers)
-    if (o.curve == plain(m)) result.gain = ratio(o.error, result.offers.front().error);
+  for (const Offer& o : result.offers) // an exact way gains nothing that a number says
+    if (o.curve == plain(m) && result.offers.front().error.value > 0)
+      result.gain = ratio(o.error, result.offers.front().error);
   return result;
 }
 

@@ -61,7 +61,7 @@ SecondsOfOne taken_in_turn(const Target& target, const Measurement& m, const std
 
 /// The N at which the curve and the two edges of its band come below an error: between the measured N by straight lines
 /// in the logarithms, beyond the last by N^-1/2. Nothing where the lower edge does not come there within the measured
-/// N: the way has not reached the error, and none of its figures says that it may have.
+/// N, or the last error is more than twice as large: the way has not reached the error.
 std::optional<Ranged> evaluations_for(const Curve& curve, double error);
 
 ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne& seconds_of_one);

@@ -57,7 +57,7 @@ const Column columns[] = {
 };
 
 // A curve of a panel: a column, by its name, and how it looks. Those without a title are told by that of the same look.
-struct Curve {
+struct Line {
   const char *column, *look, *title;
 };
 
@@ -65,7 +65,7 @@ constexpr const char *this_look = "linespoints pt 7 ps 0.5 lc rgb \"#4477aa\"",
                      *upper_look = "lines lc rgb \"#4477aa\"", *random_look = "lines lw 1.5 dt 2 lc rgb \"#ee6677\"",
                      *jittered_look = "lines lw 2 dt 3 lc rgb \"#228833\"";
 
-std::string panel(const std::string& label, const std::vector<Curve>& curves) {
+std::string panel(const std::string& label, const std::vector<Line>& curves) {
   std::string s = fmt::format("set ylabel \"{}\"\nplot ", label);
   for (std::size_t i = 0; i < curves.size(); ++i)
     s += fmt::format("{}\"quality.csv\" using \"n\":\"{}\" with {} title \"{}\"", i == 0 ? "" : ", ", curves[i].column,
@@ -73,7 +73,7 @@ std::string panel(const std::string& label, const std::vector<Curve>& curves) {
   return s + "\n";
 }
 
-std::vector<Curve> three(const char* set, const char* random, const char* jittered) {
+std::vector<Line> three(const char* set, const char* random, const char* jittered) {
   return {{set, this_look, "this set"}, {random, random_look, "random"}, {jittered, jittered_look, "jittered"}};
 }
 
@@ -133,7 +133,7 @@ std::string quality_script(const std::string& title, const std::vector<Row>& row
       title, reference_stars, reference_sets);
   s += panel("L2-star discrepancy, RMS", three("l2_star", "l2_star_random", "l2_star_jittered"));
   s += panel("periodic L2 discrepancy, RMS", three("l2_periodic", "l2_periodic_random", "l2_periodic_jittered"));
-  std::vector<Curve> star = three("star_lower", "star_random_lower", "star_jittered_lower");
+  std::vector<Line> star = three("star_lower", "star_random_lower", "star_jittered_lower");
   const bool exact = std::all_of(rows.begin(), rows.end(), [](const Row& r) {
     return r.star.exact() && r.random.star.exact() && r.jittered.star.exact();
   });

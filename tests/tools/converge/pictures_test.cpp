@@ -72,6 +72,18 @@ TEST(Pictures, AnInterruptCostsOnlyTheLevelThatItFallsOn) {
     EXPECT_EQ(cut.measurement.curves[0].errors[n].rms, whole.measurement.curves[0].errors[n].rms);
 }
 
+// Paths of one edge meet no point light: no noise, and the bias is everything.
+TEST(Pictures, AWayWithoutNoisePaysAboveItsBias) {
+  const render::SceneFile file = scene("hard-shadows");
+  const std::vector<PictureWay> ways = {way("mis", sobol), way("mis", sobol, 1)};
+  const Pictures p = measure_pictures(file, ways, {.width = 4, .height = 3, .max_spp = 16, .cost_rays = true});
+  const Bias& dark = p.biases[1];
+  ASSERT_EQ(dark.noise, 0);
+  ASSERT_TRUE(dark.pays_above);
+  EXPECT_EQ(dark.pays_above->value, dark.bias.value);
+  EXPECT_EQ(dark.pays_above->lo, dark.bias.lo);
+}
+
 TEST(Pictures, TimeThatRunsOutIsNoInterrupt) {
   const render::SceneFile file = scene("cbox");
   const std::vector<PictureWay> ways = {way("mis", sobol)};
@@ -120,6 +132,7 @@ TEST(Pictures, RefusesWhatHasNoError) {
   const std::vector<PictureWay> ways = {way("mis", sobol)};
   EXPECT_THROW(measure_pictures(file, {}, {}), mc::Error);
   EXPECT_THROW(measure_pictures(file, ways, {.max_spp = 8}), mc::Error);
+  EXPECT_THROW(measure_pictures(file, ways, {.max_spp = 1 << 29}), mc::Error);
   EXPECT_THROW(measure_pictures(file, ways, {.replicates = 2}), mc::Error);
   EXPECT_EQ(way("nee", independent, 4, true).name(), "nee independent depth 4 adaptive");
   const std::atomic<bool> stop = true;

@@ -67,6 +67,25 @@ TEST(Trade, AWayThatMayHaveReachedAnErrorIsOffered) {
   EXPECT_LE(n->lo, 4096);
 }
 
+// One that is known badly may be far below its figure, but its lower edge alone reaches nothing.
+TEST(Trade, ABandThatIsWideReachesNotEverything) {
+  Curve c = power_law("sobol", 1, 1);
+  for (mc::RmsError& e : c.errors) e.lo = 0;
+  EXPECT_FALSE(evaluations_for(c, 0.49 / 4096));
+  EXPECT_TRUE(evaluations_for(c, 0.51 / 4096));
+}
+
+TEST(Trade, AnExactWayIsTheBestAlone) {
+  Measurement m;
+  m.curves = {power_law("random", 1, 0.5), power_law("sobol", 1, 1)};
+  for (mc::RmsError& e : m.curves[1].errors) e.rms = e.lo = e.hi = 0;
+  const carlo::ForSeconds f = offers_for_seconds(m, 1e-5, clock);
+  ASSERT_EQ(f.offers.size(), 2u);
+  EXPECT_EQ(label(*f.offers[0].curve), "sobol");
+  EXPECT_EQ(as_good(f.offers, &Offer::error), 1u);
+  EXPECT_FALSE(f.gain);
+}
+
 // A way that is known well stands between two that are not: of these the second ties with the first all the same.
 TEST(Trade, WhatTiesStandsFirst) {
   Measurement m;
