@@ -81,18 +81,19 @@ struct Gsl {
   double shifted_sobol() {
     mc::Moments means;
     const mc::Sobol sobol;
+    const std::uint64_t each = calls / 16;
     std::vector<double> shift(dim), x(dim);
     for (int r = 0; r < 16; ++r) {
       for (double& s : shift) s = gsl_rng_uniform(rng);
       double sum = 0;
-      for (std::uint32_t i = 1; i <= calls / 16; ++i) {
+      for (std::uint32_t i = 1; i <= each; ++i) {
         for (std::size_t d = 0; d < dim; ++d) {
           x[d] = shift[d] + 0x1p-32 * sobol.unscrambled(i, static_cast<std::uint32_t>(d));
           x[d] -= x[d] >= 1 ? 1.0 : 0.0;
         }
         sum += call(x.data(), dim, f.params);
       }
-      means.add(sum / double(calls / 16));
+      means.add(sum / double(each));
     }
     return means.mean();
   }

@@ -12,7 +12,8 @@ namespace mc {
 
 namespace {
 
-constexpr double uniform_share = 0.1; // of the probability
+constexpr double uniform_share = 0.1; // of the probability, over the cube
+constexpr double even_share = 0.02;   // of that of a box that is cut, over the box
 constexpr double mean_share = 0.25;   // of the squared mean, beside the variance
 constexpr double fewest = 16;         // points of either half in a box
 constexpr double worthwhile = 0.02;   // a cut saves at least this share of what its box costs
@@ -108,6 +109,16 @@ struct Learner {
     return cut.axis == TreeNode::leaf ? middle : cut;
   }
 
+  // What lies beside a peak may belong to it, although no point has met it: a share of what the leaves of a box weigh is
+  // spread evenly over the box. They are the last ones, from this node and this leaf on.
+  void spread(std::size_t node, std::size_t leaf, double volume) {
+    double weight = 0;
+    for (std::size_t i = node; i < nodes.size(); ++i) weight += nodes[i].axis == TreeNode::leaf ? nodes[i].value : 0;
+    for (std::size_t i = node; i < nodes.size(); ++i)
+      if (nodes[i].axis == TreeNode::leaf)
+        nodes[i].value = (1 - even_share) * nodes[i].value + even_share * weight * volumes[leaf++] / volume;
+  }
+
   // Adds the nodes of a box; leaves weigh what they cost. A subtree that does not pay becomes a leaf again.
   Cost grow(const Open& box, double parent) {
     const Halves all = sums(box);
@@ -128,7 +139,10 @@ struct Learner {
       below.volume *= share;
       above.volume *= 1 - share;
       const Cost a = grow(below, first), b = grow(above, first), both{a.asked + b.asked, a.paid + b.paid};
-      if (both.total() < (1 - worthwhile) * alone.total()) return both;
+      if (both.total() < (1 - worthwhile) * alone.total()) {
+        spread(node, leaf, box.volume);
+        return both;
+      }
       nodes.resize(node);
       volumes.resize(leaf);
     }

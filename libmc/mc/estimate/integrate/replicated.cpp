@@ -130,7 +130,7 @@ class Contest {
     for (std::uint64_t to = std::min<std::uint64_t>(16, bare_.length); to <= bare_.length; to *= 2) {
       for (Candidate& c : all) c.sequences.extend(run_, to);
       doublings_ = std::max(std::log2(static_cast<double>(last_) / static_cast<double>(to)), 0.0);
-      if (to >= 64 && all.size() > 1 && std::abs(over_grid(all)) > clear) drop(all, 1 - best(all));
+      if (to >= 64 && all.size() > 1 && std::abs(over_grid(all)) > clear && !disagree(all)) drop(all, 1 - best(all));
     }
     if (undecided(all))
       for (Candidate& c : all) c.sequences.widen(run_, run_.o.replicates - c.sequences.count);
@@ -153,12 +153,17 @@ class Contest {
   }
   // By how much one is ahead, beyond doubt, in the logarithm of the variance.
   double over_bare(const Candidate& c) const {
+    if (sees_less(bare_.history.back(), c.sequences.history.back())) return clear;
     return advantage(bare_, c.sequences, doublings_, run_.interlaced() ? of_interlacing : without_grid) -
            doubt(c.sequences.history.back());
   }
   double over_grid(const std::vector<Candidate>& all) const {
     return advantage(all[0].sequences, all[1].sequences, doublings_, without_boxes) -
            doubt(all[1].sequences.history.back()) - chance;
+  }
+  // The one that has not met what counts may look better by far.
+  static bool disagree(const std::vector<Candidate>& all) {
+    return apart(all[0].sequences.history.back(), all[1].sequences.history.back());
   }
   std::size_t best(const std::vector<Candidate>& all) const { return all.size() > 1 && over_grid(all) > 0 ? 1 : 0; }
   bool undecided(const std::vector<Candidate>& all) const {

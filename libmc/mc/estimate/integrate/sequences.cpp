@@ -78,12 +78,30 @@ Correlations Sequences::correlations(const Run& run) const {
   return detail::correlations(run.replicate_means(sums, uniform_sums, proposal));
 }
 
+namespace {
+bool apart(const Mean& a, const Mean& b) {
+  const auto z = deviate(a, b);
+  return z && *z > 3.72; // in 1e-4 by chance
+}
+} // namespace
+
+bool apart(const Means& a, const Means& b) {
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (apart(a[k], b[k])) return true;
+  return false;
+}
+
+bool sees_less(const Means& a, const Means& b) {
+  for (std::size_t k = 0; k < a.size(); ++k)
+    if (a[k].bar != ErrorBar::known && b[k].bar == ErrorBar::known) return true;
+  return false;
+}
+
 double log_ratio(const Means& a, const Means& b) {
   double sum = 0;
   for (std::size_t k = 0; k < a.size(); ++k) {
-    const auto z = deviate(a[k], b[k]);
-    const bool apart = z && *z > 3.72; // in 1e-4 by chance
-    const auto size = [&](const Mean& m) { return m.error / (apart ? std::abs(m.value) + m.error : 1.0) + 1e-300; };
+    const bool own = apart(a[k], b[k]);
+    const auto size = [&](const Mean& m) { return m.error / (own ? std::abs(m.value) + m.error : 1.0) + 1e-300; };
     sum += 2 * std::log(size(a[k]) / size(b[k]));
   }
   return sum;

@@ -45,8 +45,14 @@ struct Sequences {
   void forget();
 };
 
-/// The logarithm of the variances of a over those of b, summed over the outputs. Of means that lie too far apart for
-/// chance the relative errors count: one of them has not met what counts, and knows neither its value nor its error.
+/// Whether means of the same integrals lie too far apart for chance: one of them has not met what counts.
+bool apart(const Means& a, const Means& b);
+
+/// Whether the error of some output is known from b and not from a, whose variance then says nothing.
+bool sees_less(const Means& a, const Means& b);
+
+/// The logarithm of the variances of a over those of b, summed over the outputs. Of means that are apart the
+/// relative errors count: the one that has not met what counts knows neither its value nor its error.
 double log_ratio(const Means& a, const Means& b);
 
 /// What such a logarithm must exceed for b to be the better: more the more skewed b is, since it looks too good where

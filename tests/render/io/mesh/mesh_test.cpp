@@ -123,9 +123,10 @@ TEST_F(Mesh, PlyConcavePolygons) {
       vertices += hexagon[i];
     }
     const MeshFile file = read_ply(
-        write("l.ply", "\xEF\xBB\xBFply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_indices\n"
-                       "element vertex 6\nproperty float x\nproperty float y\nproperty float z\nend_header\n" +
-                           face + "\n" + vertices));
+        write("l.ply", fmt::format("\xEF\xBB\xBFply\nformat ascii 1.0\nelement face 1\n"
+                                   "property list uchar int vertex_indices\nelement vertex 6\nproperty float x\n"
+                                   "property float y\nproperty float z\nend_header\n{}\n{}",
+                                   face, vertices)));
     EXPECT_EQ(file.triangles.size(), 4u);
     EXPECT_DOUBLE_EQ(to_shape(file, {}).area(), 3) << first;
   }

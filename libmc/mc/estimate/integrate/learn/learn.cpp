@@ -89,8 +89,10 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
   }
   // Rounds of a quarter, a quarter and a half of the budget, the first of which the bare sequences may stand for, or
   // what a density was tried by; after that of twice the calls, as long as the values are spread widely and it helps.
+  // While rare large values may be left to be found, that is worth twice as much.
   std::uint64_t calls = budget / 4, spent = 0;
   double by = 0;
+  bool blind = false; // of the bare sequences
   const bool begun = run.o.density || (bare && run.calls >= calls && learner.width() < wide);
   for (std::uint64_t k = begun ? 1 : 0; calls / run.o.replicates >= 8; ++k) {
     const std::uint64_t points = calls / run.o.replicates;
@@ -100,14 +102,15 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
     centre = values(round);
     spent += calls;
     if (bare) by = ahead(round, points, *bare);
+    blind = bare && sees_less(bare->history.back(), round);
     // Hopeless: worse than the bare sequences although no rare large values are left to be found.
-    if (bare && k > 0 && learner.width() < wide && by < -doubt(bare->history.back()) - 0.5) return {};
+    if (bare && !blind && k > 0 && learner.width() < wide && by < -doubt(bare->history.back()) - 0.5) return {};
     if (k >= 1) calls *= 2;
-    const bool helps = learner.width() < 0.85 * before || by > 0.7;
-    if (k >= 2 && (learner.width() < 0.5 || !helps || spent + calls > most)) break;
+    const bool searching = learner.width() > wide, helps = learner.width() < 0.85 * before || by > 0.7;
+    if (k >= 2 && (learner.width() < 0.5 || !(searching || helps) || spent + calls > (searching ? 2 : 1) * most)) break;
   }
   // A small lead is not worth the calls of a contest: the bare sequences make it up with them.
-  if (bare && learner.width() < narrow && by < small_lead) return {};
+  if (bare && !blind && learner.width() < narrow && by < small_lead) return {};
   return Learned{std::make_shared<AdaptedDensity>(learner.density()), std::move(centre)};
 }
 
