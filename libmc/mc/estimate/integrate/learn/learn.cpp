@@ -89,7 +89,7 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
   }
   // Rounds of a quarter, a quarter and a half of the budget, the first of which the bare sequences may stand for, or
   // what a density was tried by; after that of twice the calls, as long as the values are spread widely and it helps.
-  // While rare large values may be left to be found, that is worth twice as much.
+  // Where the bare sequences know too little for an error, rare large values may be left to be found: twice as long.
   std::uint64_t calls = budget / 4, spent = 0;
   double by = 0;
   bool blind = false; // of the bare sequences
@@ -106,7 +106,8 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
     // Hopeless: worse than the bare sequences although no rare large values are left to be found.
     if (bare && !blind && k > 0 && learner.width() < wide && by < -doubt(bare->history.back()) - 0.5) return {};
     if (k >= 1) calls *= 2;
-    const bool searching = learner.width() > wide, helps = learner.width() < 0.85 * before || by > 0.7;
+    const bool searching = learner.width() > wide && (blind || !bare),
+               helps = learner.width() < 0.85 * before || by > 0.7;
     if (k >= 2 && (learner.width() < 0.5 || !(searching || helps) || spent + calls > (searching ? 2 : 1) * most)) break;
   }
   // A small lead is not worth the calls of a contest: the bare sequences make it up with them.
