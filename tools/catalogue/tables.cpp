@@ -16,6 +16,8 @@ std::vector<double> jagged(std::size_t n) {
   return w;
 }
 
+constexpr auto square = [](auto x) { return x * x; };
+
 // A sky of width x height with a sun of 3 x 3 pixels that holds half of the light.
 std::vector<double> sky(std::size_t width, std::size_t height) {
   std::vector<double> w(width * height);
@@ -73,7 +75,7 @@ void add_tables(Catalogue& c) {
     return mc::TableDist1D<decltype(s)>(jagged(100), {-3, 7});
   });
   add_warp(c, "TableDist1D", "from x^2, n=64",
-           [](auto s) { return mc::TableDist1D<decltype(s)>::from_function([](auto x) { return x * x; }, 64); });
+           [](auto s) { return mc::TableDist1D<decltype(s)>::from_function(square, 64); });
   for (const std::size_t n : {1, 1000, 100'000})
     add_outcomes(c, "TableDist1D", fmt::format("outcomes, n={}", n),
                  [n](auto s) { return mc::TableDist1D<decltype(s)>(jagged(n)); });

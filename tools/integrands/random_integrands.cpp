@@ -83,8 +83,12 @@ Experiment jump(std::uint64_t seed) {
 Experiment kink(std::uint64_t seed) {
   Draw d(seed, 1, 6);
   const std::vector<double> c = d.each(0.5, 8), a = d.each(0.05, 0.95);
-  return d.made("kink", product(c, [&](std::size_t i) { return 1 + c[i] * (mc::sqr(a[i]) + mc::sqr(1 - a[i])) / 2; }),
-                [c, a](Unit x) { return product(c, [&](std::size_t i) { return 1 + c[i] * std::abs(x[i] - a[i]); }); });
+  const double truth = product(c, [&](std::size_t i) { return 1 + c[i] * (mc::sqr(a[i]) + mc::sqr(1 - a[i])) / 2; });
+  return d.made("kink", truth, [c, a](Unit x) {
+    double f = 1;
+    for (std::size_t i = 0; i < c.size(); ++i) f *= 1 + c[i] * std::abs(x[i] - a[i]);
+    return f;
+  });
 }
 
 Experiment shell(std::uint64_t seed) {
@@ -108,7 +112,9 @@ Experiment power_law(const char* name, Draw d, double least, double most) {
   };
   return d.made(name, product(p, side), [p, a](Unit x) {
     // The point itself, met with probability 2^-53, stands for its neighbourhood.
-    return product(p, [&](std::size_t i) { return std::pow(std::max(std::abs(x[i] - a[i]), 0x1p-60), -p[i]); });
+    double f = 1;
+    for (std::size_t i = 0; i < p.size(); ++i) f *= std::pow(std::max(std::abs(x[i] - a[i]), 0x1p-60), -p[i]);
+    return f;
   });
 }
 Experiment singular(std::uint64_t seed) { return power_law("singular", Draw(seed, 1, 3), 0.1, 0.4); }

@@ -27,6 +27,33 @@ Way of_set(const std::string& name, const std::string& title, const PointSet::Me
   return w;
 }
 
+Sampled integrated(const Experiment& e, mc::Method method, std::uint64_t n, std::uint64_t seed) {
+  mc::IntegrateOptions o;
+  o.rel_error = 0;
+  o.max_calls = n;
+  o.method = method;
+  o.seed = seed;
+  o.threads = 1;
+  const auto f = [&](std::span<const double> u) {
+    double value = 0;
+    evaluate(e, u, std::span(&value, 1));
+    return value;
+  };
+  const mc::Integral r = mc::integrate_unit(f, e.dim, o);
+  return {r.estimate.value, static_cast<double>(r.calls)};
+}
+
+// By the points of a file, all moved by a random vector.
+double mean_of_shifted(const CsvTable& points, const Experiment& e, std::uint64_t n, std::uint64_t seed) {
+  const auto dim = static_cast<std::size_t>(e.dim);
+  return mean_over(e, n, [&](std::uint64_t first, std::span<double> u) {
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const double moved = points.row(first + i / dim)[i % dim] + mc::uniform<double>(mc::hash(seed, i % dim));
+      u[i] = std::min(moved - std::floor(moved), 1 - 0x1p-53);
+    }
+  });
+}
+
 Way of_method(std::string name, std::string title, mc::Method method, std::uint64_t least) {
   Way w;
   w.name = std::move(name);
@@ -34,19 +61,7 @@ Way of_method(std::string name, std::string title, mc::Method method, std::uint6
   w.least = least;
   w.adapts = method == mc::Method::vegas || method == mc::Method::tree || method == mc::Method::automatic;
   w.estimate = [method](const Experiment& e, std::uint64_t n, std::uint64_t seed) {
-    mc::IntegrateOptions o;
-    o.rel_error = 0;
-    o.max_calls = n;
-    o.method = method;
-    o.seed = seed;
-    o.threads = 1;
-    const auto f = [&](std::span<const double> u) {
-      double value = 0;
-      evaluate(e, u, std::span(&value, 1));
-      return value;
-    };
-    const mc::Integral r = mc::integrate_unit(f, e.dim, o);
-    return Sampled{r.estimate.value, static_cast<double>(r.calls)};
+    return integrated(e, method, n, seed);
   };
   return w;
 }
@@ -101,14 +116,7 @@ Way way_of_points(const std::string& file) {
   w.most = points->rows();
   w.dimensions = static_cast<int>(points->columns);
   w.estimate = [points](const Experiment& e, std::uint64_t n, std::uint64_t seed) {
-    const auto dim = static_cast<std::size_t>(e.dim);
-    const auto shifted = [&](std::uint64_t first, std::span<double> u) {
-      for (std::size_t i = 0; i < u.size(); ++i) {
-        const double moved = points->row(first + i / dim)[i % dim] + mc::uniform<double>(mc::hash(seed, i % dim));
-        u[i] = std::min(moved - std::floor(moved), 1 - 0x1p-53);
-      }
-    };
-    return Sampled{mean_over(e, n, shifted), static_cast<double>(n)};
+    return Sampled{mean_of_shifted(*points, e, n, seed), static_cast<double>(n)};
   };
   return w;
 }

@@ -97,6 +97,16 @@ template <Real S, class Bsdf> auto scatter(const Bsdf& bsdf, const Vec3<S>& wo, 
   else return bsdf.sample(wo, u);
 }
 
+template <Real S, class Bsdf> double ns_per_scatter(const Bsdf& bsdf, const Vec3<S>& wo) {
+  Pcg random(3);
+  std::vector<Vec3<S>> inputs(timing_inputs);
+  for (auto& u : inputs) u = random.point<S, 3>();
+  return mc::ns_per_sample(inputs, [&](const Vec3<S>& u) {
+    const auto drawn = scatter<S>(bsdf, wo, u[0], Vec2<S>(u[1], u[2]));
+    return drawn ? static_cast<double>(drawn->wi.x()) : 0.0;
+  });
+}
+
 } // namespace detail
 
 /// The BSDF is any object with
@@ -130,16 +140,7 @@ template <Real S, SamplesDirections<S> Bsdf> AnyBsdf any_bsdf(const Bsdf& given)
       return static_cast<double>(bsdf->pdf(to_s(wo), to_s(wi)));
     };
   }
-  any.ns_per_sample = [=](const AnyBsdf::Direction& w) {
-    Pcg random(3);
-    std::vector<Vec3<S>> inputs(timing_inputs);
-    for (auto& u : inputs) u = random.point<S, 3>();
-    const Vec3<S> wo = to_s(w);
-    return mc::ns_per_sample(inputs, [&](const Vec3<S>& u) {
-      const auto drawn = detail::scatter<S>(*bsdf, wo, u[0], Vec2<S>(u[1], u[2]));
-      return drawn ? static_cast<double>(drawn->wi.x()) : 0.0;
-    });
-  };
+  any.ns_per_sample = [=](const AnyBsdf::Direction& w) { return detail::ns_per_scatter<S>(*bsdf, to_s(w)); };
   return any;
 }
 

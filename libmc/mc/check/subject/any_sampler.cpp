@@ -160,6 +160,10 @@ void sample_each(const AnySampler& s, const std::vector<AnySampler::Uniforms>& u
     for (const AnySampler::Uniforms& one : u) take(s.sample(one));
 }
 
+void append_placed(const AnySampler& s, const std::vector<AnySampler::Uniforms>& u, std::vector<Subject::Draw>& out) {
+  sample_each(s, u, [&](const auto& drawn) { out.push_back(place(s, drawn).draw); });
+}
+
 void append_draws(const AnySampler& s, std::uint64_t seed, std::size_t n, std::vector<Subject::Draw>& out) {
   if (!s.sample) {
     Pcg random(seed);
@@ -172,7 +176,7 @@ void append_draws(const AnySampler& s, std::uint64_t seed, std::size_t n, std::v
       out.resize(out.size() + u.size());
       s.draw_many(u, std::span(out).last(u.size()));
     } else {
-      sample_each(s, u, [&](const auto& drawn) { out.push_back(place(s, drawn).draw); });
+      append_placed(s, u, out);
     }
   });
 }

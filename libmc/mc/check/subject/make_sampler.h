@@ -82,6 +82,24 @@ void set_shared(std::function<R(Args...)>& function, const std::shared_ptr<const
                                     }};
 }
 
+template <class W> double ns_per_point(const W& warp) {
+  Pcg random(3);
+  std::vector<UnitPointOf<W>> inputs(timing_inputs);
+  for (auto& u : inputs) u = random.point<typename W::Domain::Scalar, W::Domain::dim>();
+  return mc::ns_per_sample(inputs, [&](const UnitPointOf<W>& u) {
+    const auto x = warp.sample(u);
+    return is_empty(x) ? 0.0 : component(unwrapped(x), 0);
+  });
+}
+
+template <DiscreteDistribution D> double ns_per_outcome(const D& distribution) {
+  using S = typename D::Scalar;
+  Pcg random(3);
+  std::vector<S> inputs(timing_inputs);
+  for (S& u : inputs) u = random.uniform<S>();
+  return mc::ns_per_sample(inputs, [&](S u) { return static_cast<double>(distribution.sample_index(u).index); });
+}
+
 /// A chart over double as functions of numbers; a domain over float and one over double share it. What makes a sampler
 /// runs once: [[gnu::cold]] has it compiled for size, in a tenth less time.
 template <Domain Chart> [[gnu::cold]] AnyDomain domain_of(const Chart& chart) {
@@ -263,15 +281,7 @@ template <Samplable W> [[gnu::cold]] AnySampler make_sampler(std::string name, c
     for (std::vector<double>& places : warp.breaks()) s.breaks[axis++] = std::move(places);
   }
   if constexpr (HasOracle<W>) s.exact = detail::exact_sampler(warp.template cast<Oracle>());
-  detail::set_shared(s.ns_per_sample, shared, [](const W& w) {
-    Pcg random(3);
-    std::vector<UnitPointOf<W>> u(timing_inputs);
-    for (auto& one : u) one = random.point<typename W::Domain::Scalar, W::Domain::dim>();
-    return mc::ns_per_sample(u, [&](const UnitPointOf<W>& v) {
-      const auto x = w.sample(v);
-      return detail::is_empty(x) ? 0.0 : detail::component(detail::unwrapped(x), 0);
-    });
-  });
+  detail::set_shared(s.ns_per_sample, shared, [](const W& w) { return detail::ns_per_point(w); });
   return s;
 }
 
@@ -294,12 +304,7 @@ template <DiscreteDistribution D> AnySampler make_discrete_sampler(std::string n
     d.weight = static_cast<double>(drawn.pmf / shared->pmf(drawn.index));
     return d;
   };
-  s.ns_per_sample = [shared] {
-    Pcg random(3);
-    std::vector<S> u(timing_inputs);
-    for (S& one : u) one = random.uniform<S>();
-    return mc::ns_per_sample(u, [&](S one) { return static_cast<double>(shared->sample_index(one).index); });
-  };
+  s.ns_per_sample = [shared] { return detail::ns_per_outcome(*shared); };
   return s;
 }
 

@@ -109,8 +109,8 @@ struct Learner {
     return cut.axis == TreeNode::leaf ? middle : cut;
   }
 
-  // What lies beside a peak may belong to it, although no point has met it: a share of what the leaves of a box weigh is
-  // spread evenly over the box. They are the last ones, from this node and this leaf on.
+  // What lies beside a peak may belong to it, although no point has met it: a share of what the leaves of a box weigh
+  // is spread evenly over the box. They are the last ones, from this node and this leaf on.
   void spread(std::size_t node, std::size_t leaf, double volume) {
     double weight = 0;
     for (std::size_t i = node; i < nodes.size(); ++i) weight += nodes[i].axis == TreeNode::leaf ? nodes[i].value : 0;

@@ -24,8 +24,9 @@ struct WeightedValues {
 
 /// Boxes for stratified importance sampling of an integrand: the probability of each is proportional to its volume
 /// times the root of the variance in it and a quarter of the squared mean, which is best for points that are spread
-/// evenly over the probabilities; a tenth stays uniform. A box is cut where one half of its points promises most, if
-/// the other half confirms it; no box has less than 16 points of each.
+/// evenly over the probabilities; a tenth stays uniform, and a fiftieth in every box that is cut, since what lies
+/// beside a peak may belong to it. A box is cut where one half of its points promises most, if the other half confirms
+/// it; no box has less than 16 points of each.
 ///   Source : recursive stratification as in miser [PressFarrar90], with densities
 BoxTree importance_tree(const WeightedValues& seen);
 

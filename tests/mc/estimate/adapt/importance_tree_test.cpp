@@ -46,6 +46,14 @@ TEST(ImportanceTree, ATenthStaysUniform) {
   EXPECT_GT(tree.density(tree.leaf_of_x(std::array{0.05, 0.05})), 5);
 }
 
+// No point beside the peak says so, but a share of the boxes that hold it is left there.
+TEST(ImportanceTree, WhatLiesBesideAPeakMayBelongToIt) {
+  const auto corner = [](std::span<const double> x) { return x[0] < 0.1 && x[1] < 0.1 ? 1.0 : 0.0; };
+  const mc::BoxTree tree = mc::importance_tree(seen(2, 20'000, corner));
+  const auto density = [&](double x, double y) { return tree.density(tree.leaf_of_x(std::array{x, y})); };
+  EXPECT_GT(density(0.15, 0.05), 2 * density(0.9, 0.9));
+}
+
 TEST(ImportanceTree, OfNothingOneBox) {
   EXPECT_EQ(mc::importance_tree(seen(2, 0, [](std::span<const double>) { return 0.0; })).leaves(), 1u);
   EXPECT_EQ(mc::importance_tree(seen(2, 5000, [](std::span<const double>) { return 0.0; })).leaves(), 1u);

@@ -111,6 +111,15 @@ TEST(Sequences, WhoMetNothingIsNotAhead) {
   EXPECT_LT(mc::detail::log_ratio(much, nothing), -10);
   EXPECT_NEAR(mc::detail::log_ratio(much, like_it), std::log(100), 1e-9);
   EXPECT_GT(mc::detail::doubt({{1, 1, 23, 0.2}}), mc::detail::doubt(much) + 0.45);
+  EXPECT_TRUE(mc::detail::apart(much, nothing));
+  EXPECT_FALSE(mc::detail::apart(much, like_it));
+}
+
+TEST(Sequences, AnErrorThatOnlyOthersKnowSaysLess) {
+  const detail::Mean known{1, 0.1, 23}, unknown{1e-4, 1e-4, 23, 0, mc::ErrorBar::infinite_variance};
+  EXPECT_TRUE(mc::detail::sees_less({known, unknown}, {known, known}));
+  EXPECT_FALSE(mc::detail::sees_less({unknown}, {unknown}));
+  EXPECT_FALSE(mc::detail::sees_less({known}, {unknown}));
 }
 
 } // namespace
