@@ -25,7 +25,7 @@ std::string slope_text(const Curve& c) {
   if (!c.theory) return text;
   text += ", theory " + c.theory->to_string(3);
   if (c.theory->log_power > 0) text += fmt::format(" ({:+.3f} at these N)", -c.theory->local(c.middle));
-  return text;
+  return c.agrees() ? text : text + ", not in the interval";
 }
 
 std::string summary(const Target& target, const Measurement& m) {

@@ -74,7 +74,7 @@ std::vector<Experiment> make() {
        week3 + "7",
        2,
        pi / 2,
-       {Class::additive},
+       {Class::kink}, // the disk's concentric map bends along the diagonals
        64,
        cos3_cosine},
       {"ball_3d", "volume of the ball in 3 dimensions by darts", week3 + "2", 3, 4 * pi / 3, {Class::jump}, 64, ball},

@@ -50,6 +50,21 @@ TEST(Measure, ErrorsAreTheVariancesOfTheBooks) {
   }
 }
 
+// Of 24 slopes each may lie twice its 95 % interval away, four deviations: by chance one does in .15 % of runs.
+TEST(Measure, NamedIntegralsFallAsTheirClassesSay) {
+  const auto list = ways({"random", "stratified", "sobol"});
+  int known = 0;
+  for (const Experiment& e : carlo::experiments())
+    for (const carlo::Curve& c : measure(here(e), list, {.max_n = 1 << 14, .seed = 5}).curves) {
+      if (!c.law || !c.theory) continue;
+      ++known;
+      const double half = c.law->slope - c.law->lo;
+      EXPECT_TRUE(c.theory->allows(c.law->slope - 2 * half, c.law->slope + 2 * half, c.middle))
+          << e.name << ' ' << c.way->name << ": " << c.law->slope << " +- " << half;
+    }
+  EXPECT_EQ(known, 24);
+}
+
 // 49 shares of 16/49 do not add up to 16.
 TEST(Measure, NIsNotRounded) {
   const auto list = ways({"random"});
