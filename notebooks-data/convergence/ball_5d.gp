@@ -3,24 +3,25 @@ if (!exists("kind")) kind = "svg"
 if (kind eq "svg") set terminal svg size 1000,440 font "sans-serif,13" background "white"; set output "ball_5d.svg"
 if (kind eq "png") set terminal pngcairo size 1000,440 font "sans-serif,11" background "white"; set output "ball_5d.png"
 set datafile separator ","
-set multiplot layout 1,2 title "volume of the ball in 5 dimensions by darts" font ",15"
-set logscale xy
-set format y "10^{%L}"
 set border 3 lc rgb "#666666"
 set tics nomirror out
 set grid lc rgb "#e6e6e6" lt 1
+set multiplot layout 1,2 title "volume of the ball in 5 dimensions by darts" noenhanced font ",15"
+set logscale xy
+set format y "10^{%L}"
 set key left bottom Left reverse samplen 2 spacing 1.2 tc rgb "#333333"
 set ylabel "root-mean-square error"
 set xlabel "samples N"
 set format x "10^{%L}"
 plot "ball_5d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#4477aa" notitle, \
-     "ball_5d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.49 ± 0.01}", \
-     12.3351 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
+     "ball_5d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.50 ± 0.02}", \
+     11.8393 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
      "ball_5d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
      "ball_5d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.59 ± 0.02}", \
-     16.9481 * x**(-0.6) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
+     16.8303 * x**(-0.6) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
      "ball_5d.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
-     "ball_5d.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-0.58 ± 0.01}", \
+     "ball_5d.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-0.58 ± 0.03}", \
+     12.7726 * x**(-0.6) with lines dt 3 lw 1 lc rgb "#228833" notitle, \
      NaN notitle
 set xlabel "CPU seconds"
 set format x "10^{%L}"

@@ -3,23 +3,22 @@ if (!exists("kind")) kind = "svg"
 if (kind eq "svg") set terminal svg size 1000,440 font "sans-serif,13" background "white"; set output "x2_linear.svg"
 if (kind eq "png") set terminal pngcairo size 1000,440 font "sans-serif,11" background "white"; set output "x2_linear.png"
 set datafile separator ","
-set multiplot layout 1,2 title "x^2 on [0,2], density x/2" font ",15"
-set logscale xy
-set format y "10^{%L}"
 set border 3 lc rgb "#666666"
 set tics nomirror out
 set grid lc rgb "#e6e6e6" lt 1
+set multiplot layout 1,2 title "x^2 on [0,2], density x/2" noenhanced font ",15"
+set logscale xy
+set format y "10^{%L}"
 set key left bottom Left reverse samplen 2 spacing 1.2 tc rgb "#333333"
 set ylabel "root-mean-square error"
 set xlabel "samples N"
 set format x "10^{%L}"
 plot "x2_linear.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#4477aa" notitle, \
      "x2_linear.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.50 ± 0.01}", \
-     0.90162 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
      "x2_linear.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "x2_linear.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-1.45 ± 0.01}", \
+     "x2_linear.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-1.46 ± 0.01}", \
      "x2_linear.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#228833" notitle, \
-     "x2_linear.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-1.44 ± 0.01}", \
+     "x2_linear.csv" skip 1 using (strcol(2) eq "sobol" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#228833" title "sobol: N^{-1.45 ± 0.02}", \
      NaN notitle
 set xlabel "CPU seconds"
 set format x "10^{%L}"
