@@ -111,7 +111,7 @@ struct Learner {
 
   // What lies beside a peak may belong to it, although no point has met it: a share of what the leaves of a box weigh
   // is spread evenly over the box. They are the last ones, from this node and this leaf on.
-  void spread(std::size_t node, std::size_t leaf, double volume) {
+  void even_out(std::size_t node, std::size_t leaf, double volume) {
     double weight = 0;
     for (std::size_t i = node; i < nodes.size(); ++i) weight += nodes[i].axis == TreeNode::leaf ? nodes[i].value : 0;
     for (std::size_t i = node; i < nodes.size(); ++i)
@@ -140,7 +140,7 @@ struct Learner {
       above.volume *= 1 - share;
       const Cost a = grow(below, first), b = grow(above, first), both{a.asked + b.asked, a.paid + b.paid};
       if (both.total() < (1 - worthwhile) * alone.total()) {
-        spread(node, leaf, box.volume);
+        even_out(node, leaf, box.volume);
         return both;
       }
       nodes.resize(node);
