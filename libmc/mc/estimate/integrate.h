@@ -145,10 +145,10 @@ struct BatchIntegrand {
 ///   rqmc       : independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions,
 ///                error from replicates
 ///   vegas      : rqmc through an ImportanceGrid learned on a 32nd of the calls, or up to a quarter where those are
-///                few, up to a fifth where values are spread widely, and to two fifths where bare points know no error;
-///                the last round it was learned on is the consistency check. The grid is frozen before the sequences
-///                start, so the estimate is unbiased; a ninth of the points are uniform, so that no value exceeds 8
-///                times the integrand's, and the grid's own integral is subtracted, so that they cost little
+///                few, up to a fifth where values are spread widely, and to two fifths where rare large ones may be
+///                left to be found; the last round it was learned on is the consistency check. The grid is frozen before
+///                the sequences start, so the estimate is unbiased; a ninth of the points are uniform, so that no value
+///                exceeds 8 times the integrand's, and the grid's own integral is subtracted, so that they cost little
 ///                [OwenZhou00]
 ///   tree       : the same with a BoxTree within the grid, for what is no product of axes
 ///   automatic  : learns from the points of rqmc that were made anyway, and gives up where rqmc is clearly ahead; else

@@ -92,9 +92,13 @@ bool apart(const Means& a, const Means& b) {
 }
 
 bool sees_less(const Means& a, const Means& b) {
-  for (std::size_t k = 0; k < a.size(); ++k)
-    if (a[k].bar != ErrorBar::known && b[k].bar == ErrorBar::known) return true;
-  return false;
+  bool less = false;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const bool known = a[k].bar == ErrorBar::known;
+    if (known && b[k].bar != ErrorBar::known) return false;
+    less |= !known && b[k].bar == ErrorBar::known;
+  }
+  return less;
 }
 
 double log_ratio(const Means& a, const Means& b) {

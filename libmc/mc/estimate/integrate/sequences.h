@@ -48,7 +48,8 @@ struct Sequences {
 /// Whether means of the same integrals lie too far apart for chance: one of them has not met what counts.
 bool apart(const Means& a, const Means& b);
 
-/// Whether the error of some output is known from b and not from a, whose variance then says nothing.
+/// Whether the error of some output is known from b and not from a, whose variance then says nothing, and of none the
+/// other way round.
 bool sees_less(const Means& a, const Means& b);
 
 /// The logarithm of the variances of a over those of b, summed over the outputs. Of means that are apart the

@@ -120,6 +120,7 @@ TEST(Sequences, AnErrorThatOnlyOthersKnowSaysLess) {
   EXPECT_TRUE(mc::detail::sees_less({known, unknown}, {known, known}));
   EXPECT_FALSE(mc::detail::sees_less({unknown}, {unknown}));
   EXPECT_FALSE(mc::detail::sees_less({known}, {unknown}));
+  EXPECT_FALSE(mc::detail::sees_less({known, unknown}, {unknown, known}));
 }
 
 } // namespace

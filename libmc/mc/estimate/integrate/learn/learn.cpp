@@ -77,7 +77,6 @@ Tried tried(Run& run, const Sequences* bare, std::uint64_t points, Learner& lear
 std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outcome>& last) {
   const std::uint64_t least = std::min<std::uint64_t>(run.o.max_calls / 4, 1 << 13), room = run.recordable();
   const std::uint64_t budget = std::clamp<std::uint64_t>(run.o.max_calls / 32, least, std::max(room / 4, least));
-  const std::uint64_t most = std::min(run.o.max_calls / 5, room);
   std::optional<Outcome>* said = bare ? nullptr : &last;
   Learner learner(run);
   if (bare) learner.learn(bare->sums);
@@ -89,7 +88,8 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
   }
   // Rounds of a quarter, a quarter and a half of the budget, the first of which the bare sequences may stand for, or
   // what a density was tried by; after that of twice the calls, as long as the values are spread widely and it helps.
-  // Where the bare sequences know too little for an error, rare large values may be left to be found: twice as long.
+  // Where they are spread so widely that rare large ones may be left to be found, and no bare sequences that know their
+  // error say otherwise: up to twice as long.
   std::uint64_t calls = budget / 4, spent = 0;
   double by = 0;
   bool blind = false; // of the bare sequences
@@ -106,9 +106,10 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
     // Hopeless: worse than the bare sequences although no rare large values are left to be found.
     if (bare && !blind && k > 0 && learner.width() < wide && by < -doubt(bare->history.back()) - 0.5) return {};
     if (k >= 1) calls *= 2;
-    const bool searching = learner.width() > wide && (blind || !bare),
+    const bool searching = (blind || !bare) && learner.width() > wide,
                helps = learner.width() < 0.85 * before || by > 0.7;
-    if (k >= 2 && (learner.width() < 0.5 || !(searching || helps) || spent + calls > (searching ? 2 : 1) * most)) break;
+    const std::uint64_t most = std::min(run.o.max_calls / 5 * (searching ? 2 : 1), room);
+    if (k >= 2 && (learner.width() < 0.5 || !(searching || helps) || spent + calls > most)) break;
   }
   // A small lead is not worth the calls of a contest: the bare sequences make it up with them.
   if (bare && !blind && learner.width() < narrow && by < small_lead) return {};
