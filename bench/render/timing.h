@@ -8,8 +8,8 @@
 
 namespace bench {
 
-/// CPU seconds so far, of the process or of this thread: CLOCK_PROCESS_CPUTIME_ID or CLOCK_THREAD_CPUTIME_ID.
-inline double cpu_seconds(clockid_t clock) {
+/// Seconds so far: CLOCK_PROCESS_CPUTIME_ID or CLOCK_THREAD_CPUTIME_ID of CPU time, CLOCK_MONOTONIC by the clock.
+inline double seconds_by(clockid_t clock) {
   timespec t;
   clock_gettime(clock, &t);
   return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);

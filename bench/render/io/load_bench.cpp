@@ -24,7 +24,7 @@
 
 namespace {
 
-using bench::cpu_seconds, bench::median;
+using bench::seconds_by, bench::median;
 using Clock = std::chrono::steady_clock;
 
 constexpr clockid_t process = CLOCK_PROCESS_CPUTIME_ID;
@@ -118,14 +118,14 @@ template <class Read> void row(const char* format, const std::string& path, int 
   std::size_t triangles = 0;
   for (int i = 0; i < rounds; ++i) {
     const auto start = Clock::now();
-    const double cpu_start = cpu_seconds(process);
+    const double cpu_start = seconds_by(process);
     const render::MeshFile file = read(path);
     seconds.push_back(std::chrono::duration<double>(Clock::now() - start).count());
-    cpu.push_back(cpu_seconds(process) - cpu_start);
-    const double shape_start = cpu_seconds(process);
+    cpu.push_back(seconds_by(process) - cpu_start);
+    const double shape_start = seconds_by(process);
     triangles = file.triangles.size();
     const render::TriangleMesh mesh = to_shape(file, render::Transform{});
-    shape.push_back(cpu_seconds(process) - shape_start);
+    shape.push_back(seconds_by(process) - shape_start);
   }
   const double bytes = double(std::filesystem::file_size(path));
   fmt::print("{:12}{:>10}{:>8.1f}{:>8.2f}{:>8.2f}{:>8.2f}{:>8.0f}\n", format, triangles, 1e-6 * bytes, median(seconds),

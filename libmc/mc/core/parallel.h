@@ -14,6 +14,12 @@ int hardware_threads();
 /// loop: no new i is started, all threads are joined, and it is rethrown.
 void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& f);
 
+/// Runs f(begin, end) on consecutive parts of [0, n) of up to `size`, as parallel_for does.
+template <class F> void parallel_parts(std::size_t n, std::size_t size, int threads, F&& f) {
+  parallel_for((n + size - 1) / size, threads,
+               [&](std::size_t i) { f(i * size, i * size + size < n ? i * size + size : n); });
+}
+
 /// Computes f(chunk) for every chunk in [0, n) in parallel and merges the results in chunk order, so that the sum has
 /// the same bits for any number of threads. Result needs merge(const Result&) and a default constructor.
 template <class Result, class F> Result parallel_reduce(std::size_t n, int threads, F&& f) {

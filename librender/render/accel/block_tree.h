@@ -4,6 +4,8 @@
 #include <render/accel/wide_tree.h>
 #include <render/shape/shape.h>
 
+#include <mc/core/parallel.h>
+
 #include <algorithm>
 #include <numeric>
 #include <optional>
@@ -14,7 +16,8 @@ namespace render {
 
 /// A kind of leaf, Block, holds eight primitives of some shapes, spare lanes repeating the last one. It says
 ///   Block::Primitive             : a primitive, as collect() finds it, with its bounds()
-///   Block::collect(shape, index, found) : appends the primitives of a shape, if they are of this kind
+///   Block::size(shape)           : how many primitives of this kind a shape has, useless ones included
+///   Block::collect(shape, index, begin, end, found) : appends the useful ones of [begin, end), which is not empty
 ///   Block::few                   : up to so many, every ray tries all blocks: they cost less than a tree
 ///   Block::Prepared(ray)         : what the blocks need of a ray, computed once
 ///   set(lane, primitive)         : fills a lane
@@ -24,26 +27,24 @@ template <class Block> class BlockTree {
  public:
   BlockTree() = default;
   explicit BlockTree(std::span<const Shape* const> shapes) {
-    std::vector<typename Block::Primitive> primitives;
-    for (std::size_t i = 0; i < shapes.size(); ++i) Block::collect(*shapes[i], static_cast<int>(i), primitives);
-    std::vector<Bounds> boxes(primitives.size());
-    std::transform(primitives.begin(), primitives.end(), boxes.begin(), [](const auto& p) { return p.bounds(); });
-    for (const Bounds& b : boxes) bounds_.add(b);
-    const auto add = [&](const std::vector<std::uint32_t>& order, std::uint32_t first, std::uint32_t count) {
-      Block& block = blocks_.emplace_back();
-      for (std::uint32_t lane = 0; lane < lanes; ++lane)
-        block.set(lane, primitives[order[first + std::min(lane, count - 1)]]);
-    };
-    const auto count = static_cast<std::uint32_t>(boxes.size());
+    const std::vector<Primitive> primitives = collected(shapes);
+    const auto count = static_cast<std::uint32_t>(primitives.size());
     if (count > Block::few) {
-      tree_ = WideTree(boxes, lanes);
-      blocks_.reserve(tree_.leaves().size());
-      for (const auto& leaf : tree_.leaves()) add(tree_.order(), leaf.first, leaf.count);
+      tree_ = WideTree(
+          count, [&](std::size_t i) { return primitives[i].bounds(); }, lanes);
+      bounds_ = tree_.bounds();
+      const auto& leaves = tree_.leaves();
+      blocks_.resize(leaves.size());
+      mc::parallel_parts(leaves.size(), 1024, 0, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) fill(blocks_[i], primitives, tree_.order(), leaves[i]);
+      });
       tree_.forget_leaves();
     } else {
+      for (const Primitive& p : primitives) bounds_.add(p.bounds());
       std::vector<std::uint32_t> order(count);
       std::iota(order.begin(), order.end(), 0u);
-      for (std::uint32_t first = 0; first < count; first += lanes) add(order, first, std::min(lanes, count - first));
+      for (std::uint32_t first = 0; first < count; first += lanes)
+        fill(blocks_.emplace_back(), primitives, order, {first, std::min(lanes, count - first)});
     }
   }
 
@@ -70,7 +71,36 @@ template <class Block> class BlockTree {
   }
 
  private:
+  using Primitive = typename Block::Primitive;
   static constexpr std::uint32_t lanes = 8;
+
+  // In the order of the shapes.
+  static std::vector<Primitive> collected(std::span<const Shape* const> shapes) {
+    std::vector<std::size_t> ends; // of each shape's primitives, useless ones included
+    for (const Shape* shape : shapes) ends.push_back((ends.empty() ? 0 : ends.back()) + Block::size(*shape));
+    const std::size_t size = ends.empty() ? 0 : ends.back();
+    constexpr std::size_t most = 4096;
+    std::vector<std::vector<Primitive>> parts((size + most - 1) / most);
+    mc::parallel_parts(size, most, 0, [&](std::size_t begin, std::size_t end) {
+      std::vector<Primitive>& part = parts[begin / most];
+      part.reserve(end - begin);
+      auto shape = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), begin) - ends.begin());
+      for (; begin < end; ++shape) {
+        const std::size_t first = shape == 0 ? 0 : ends[shape - 1], stop = std::min(end, ends[shape]);
+        if (begin < stop) Block::collect(*shapes[shape], static_cast<int>(shape), begin - first, stop - first, part);
+        begin = stop;
+      }
+    });
+    std::vector<Primitive> all;
+    all.reserve(size);
+    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }
+  static void fill(Block& block, const std::vector<Primitive>& primitives, const std::vector<std::uint32_t>& order,
+                   const WideTree::Leaf& leaf) {
+    for (std::uint32_t lane = 0; lane < lanes; ++lane)
+      block.set(lane, primitives[order[leaf.first + std::min(lane, leaf.count - 1)]]);
+  }
 
   WideTree tree_;                               ///< none for few
   std::vector<Block, HugePages<Block>> blocks_; ///< one per leaf, or all

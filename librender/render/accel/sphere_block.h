@@ -30,8 +30,9 @@ class SphereBlock {
       return b;
     }
   };
-  static void collect(const Shape& shape, int index, std::vector<Primitive>& found) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) found.push_back({sphere, index});
+  static std::size_t size(const Shape& shape) { return std::holds_alternative<Sphere>(shape); }
+  static void collect(const Shape& shape, int index, std::size_t, std::size_t, std::vector<Primitive>& found) {
+    found.push_back({&std::get<Sphere>(shape), index});
   }
 
   struct Prepared : Line {

@@ -2,13 +2,19 @@
 
 namespace render {
 
-void TriangleBlock::collect(const Shape& shape, int index, std::vector<Primitive>& found) {
+std::size_t TriangleBlock::size(const Shape& shape) {
   const auto* mesh = std::get_if<TriangleMesh>(&shape);
-  for (std::size_t t = 0; mesh && t < mesh->size(); ++t) {
-    const auto v = mesh->vertices(t);
+  return mesh ? mesh->size() : 0;
+}
+
+void TriangleBlock::collect(const Shape& shape, int index, std::size_t begin, std::size_t end,
+                            std::vector<Primitive>& found) {
+  const auto& mesh = std::get<TriangleMesh>(shape);
+  for (std::size_t t = begin; t < end; ++t) {
+    const auto v = mesh.vertices(t);
     const Vec3d a = v[0].cast<double>();
-    if (!(mc::cross<double>(v[1].cast<double>() - a, v[2].cast<double>() - a).squaredNorm() > 0)) continue;
-    found.push_back({v, index, static_cast<int>(t)});
+    if (mc::cross<double>(v[1].cast<double>() - a, v[2].cast<double>() - a).squaredNorm() > 0)
+      found.push_back({&mesh, index, static_cast<int>(t)});
   }
 }
 

@@ -22,16 +22,18 @@ class TriangleBlock {
   static constexpr std::uint32_t few = 48; ///< six blocks of triangles cost less than a node and its sorted children
 
   struct Primitive {
-    std::array<Vec3, 3> v;
+    const TriangleMesh* mesh;
     int shape, prim;
 
+    std::array<Vec3, 3> vertices() const { return mesh->vertices(static_cast<std::size_t>(prim)); }
     Bounds bounds() const {
       Bounds b;
-      for (const Vec3& p : v) b.add(p);
+      for (const Vec3& p : vertices()) b.add(p);
       return b;
     }
   };
-  static void collect(const Shape& shape, int index, std::vector<Primitive>& found);
+  static std::size_t size(const Shape& shape);
+  static void collect(const Shape& shape, int index, std::size_t begin, std::size_t end, std::vector<Primitive>& found);
 
   /// The ray turned so that its longest axis is z and sheared to (0, 0, 1) [WoopBenthinWald13, section 3].
   struct Prepared {
@@ -50,8 +52,9 @@ class TriangleBlock {
   };
 
   void set(std::uint32_t lane, const Primitive& p) {
+    const auto v = p.vertices();
     for (std::size_t k = 0; k < 3; ++k)
-      for (int a = 0; a < 3; ++a) v_[k][a][lane] = p.v[k][a];
+      for (int a = 0; a < 3; ++a) v_[k][a][lane] = v[k][a];
     shape_[lane] = p.shape;
     prim_[lane] = p.prim;
   }

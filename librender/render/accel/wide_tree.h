@@ -1,7 +1,7 @@
 #pragma once
 /// An 8-wide bounding volume hierarchy over boxes, traversed one ray at a time.
 
-#include <render/core/bounds.h>
+#include <render/accel/binary_tree.h>
 #include <render/core/huge_pages.h>
 #include <render/core/lanes.h>
 #include <render/core/ray.h>
@@ -13,16 +13,15 @@
 namespace render {
 
 /// The hierarchy. Leaves are blocks of up to `lanes` primitives that the owner intersects.
-///   build  : binned SAH [Wald07] with 32 bins, costs counted in blocks, rotated to smaller boxes [Kensler08],
-///            collapsed to the nodes of 8 children that rays meet least often [YlitieKarrasLaine17]
+///   build  : a BinaryTree, collapsed to the nodes of 8 children that rays meet least often [YlitieKarrasLaine17]
 ///   ray    : IEEE slabs: 1/0 = inf, and a NaN from 0 * inf never rejects a box, so axis-parallel rays in box planes
 ///            hit
 class WideTree {
  public:
   static constexpr std::uint32_t block = 4;
 
-  /// Builds over the boxes; order()[first .. first + count) are then the boxes of a leaf.
-  explicit WideTree(const std::vector<Bounds>& boxes, std::uint32_t lanes = block);
+  /// As BinaryTree; order()[first .. first + count) are then the boxes of a leaf.
+  WideTree(std::size_t count, const std::function<Bounds(std::size_t)>& box, std::uint32_t lanes = block);
   WideTree() = default;
 
   const std::vector<std::uint32_t>& order() const { return order_; }
@@ -36,6 +35,7 @@ class WideTree {
     leaves_ = decltype(leaves_)();
   }
   bool empty() const { return nodes_.empty(); }
+  const Bounds& bounds() const { return bounds_; }
 
   /// Calls leaf(index, t_max) for each leaf that the ray may enter before t_max; `leaf` may shorten t_max and returns
   /// true to stop. Near leaves come first, or in any order where the first hit is as good as the nearest.
@@ -51,18 +51,16 @@ class WideTree {
   static constexpr std::uint32_t leaf_bit = 0x80000000u;
   static constexpr int stack_size = 768; ///< 7 per level; the builder bounds the depth
 
-  struct Binary;
-  static std::vector<std::uint32_t> parents_first(const std::vector<Binary>& tree);
-  static void rotate(std::vector<Binary>& tree);
   /// Of each binary node, for one to eight children that may stand for it: how many of them stand for its left half; 0
   /// where it is cheaper as one.
   using Cuts = std::vector<std::array<std::uint8_t, 8>>;
-  static Cuts cheapest_cuts(const std::vector<Binary>& binary);
-  std::uint32_t collapse(const std::vector<Binary>& binary, const Cuts& cuts, std::uint32_t root);
+  static Cuts cheapest_cuts(const BinaryTree& tree);
+  std::uint32_t collapse(const BinaryTree& tree, const Cuts& cuts, std::uint32_t root);
 
   std::vector<Node, HugePages<Node>> nodes_;
   std::vector<Leaf> leaves_;
   std::vector<std::uint32_t> order_;
+  Bounds bounds_; ///< of all
 };
 
 template <WideTree::Order order_wanted, class F> void WideTree::traverse(const Ray& ray, Float& t_max, F&& leaf) const {

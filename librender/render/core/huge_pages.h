@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <new>
+#include <utility>
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -24,6 +25,11 @@ template <class T> struct HugePages {
     if (large(n)) madvise(p, n * sizeof(T) / page * page, MADV_HUGEPAGE); // advice: what it answers does not matter
 #endif
     return static_cast<T*>(p);
+  }
+  /// Of what has no value to begin with, none is written: whoever fills an array touches its pages first.
+  template <class U> void construct(U* p) { ::new (static_cast<void*>(p)) U; }
+  template <class U, class... Args> void construct(U* p, Args&&... args) {
+    ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
   }
   void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }
 

@@ -19,6 +19,19 @@ TEST(Parallel, VisitsEveryIndexOnce) {
   mc::parallel_for(0, 2, [](std::size_t) { FAIL() << "an empty loop has no body"; });
 }
 
+TEST(Parallel, PartsCoverTheWholeInOrder) {
+  for (const std::size_t n : {0, 1, 7, 8, 9, 1000})
+    for (const int threads : {1, 2}) {
+      std::vector<std::atomic<int>> visits(n);
+      mc::parallel_parts(n, 8, threads, [&](std::size_t begin, std::size_t end) {
+        EXPECT_EQ(begin % 8, 0u);
+        EXPECT_EQ(end, std::min(begin + 8, n));
+        for (std::size_t i = begin; i < end; ++i) ++visits[i];
+      });
+      for (const auto& v : visits) EXPECT_EQ(v, 1);
+    }
+}
+
 TEST(Parallel, ReductionHasTheSameBitsForAnyThreadCount) {
   const auto run = [](int threads) {
     return mc::parallel_reduce<mc::Moments>(64, threads, [](std::size_t chunk) {

@@ -17,7 +17,8 @@ class LevelBlock {
     int shape;
     Bounds bounds() const { return {Vec3(-1, -1, z), Vec3(1, 1, z)}; }
   };
-  static void collect(const Shape& shape, int index, std::vector<Primitive>& found) {
+  static std::size_t size(const Shape&) { return 1; }
+  static void collect(const Shape& shape, int index, std::size_t, std::size_t, std::vector<Primitive>& found) {
     found.push_back({Float(shape.area()), index});
   }
   struct Prepared {

@@ -11,8 +11,9 @@ using namespace render;
 TEST(SphereBlock, CollectsSpheresInBoxesThatHoldThem) {
   std::vector<SphereBlock::Primitive> found;
   const Shape ball = Sphere(Vec3d(0.1, 0.2, 0.3), 0.7), square = TriangleMesh::rectangle({});
-  SphereBlock::collect(square, 0, found);
-  SphereBlock::collect(ball, 1, found);
+  EXPECT_EQ(SphereBlock::size(square), 0u);
+  EXPECT_EQ(SphereBlock::size(ball), 1u);
+  SphereBlock::collect(ball, 1, 0, 1, found);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].shape, 1);
   for (int a = 0; a < 3; ++a) {

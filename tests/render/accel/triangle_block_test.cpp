@@ -8,21 +8,23 @@ using namespace render;
 
 TEST(TriangleBlock, CollectsWhatCanBeHit) {
   std::vector<TriangleBlock::Primitive> found;
-  TriangleBlock::collect(TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}}, {{0, 1, 2}, {0, 1, 3}, {1, 3, 2}}),
-                         7, found);
+  const Shape mesh =
+      TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 0, 0}}, {{0, 1, 2}, {0, 1, 3}, {1, 3, 2}, {1, 2, 3}});
+  EXPECT_EQ(TriangleBlock::size(mesh), 4u);
+  TriangleBlock::collect(mesh, 7, 0, 3, found);
   ASSERT_EQ(found.size(), 2u) << "the degenerate one is left out";
   EXPECT_EQ(found[1].shape, 7);
   EXPECT_EQ(found[1].prim, 2);
   EXPECT_EQ(found[0].bounds().hi, Vec3(1, 1, 0));
-  TriangleBlock::collect(Sphere(Vec3d::Zero(), 1), 8, found);
-  EXPECT_EQ(found.size(), 2u);
+  EXPECT_EQ(TriangleBlock::size(Sphere(Vec3d::Zero(), 1)), 0u);
 }
 
 TEST(TriangleBlock, TellsTheNearestOfItsLanes) {
   TriangleBlock block;
   for (std::uint32_t lane = 0; lane < 8; ++lane) {
     const Float z = Float((lane * 5) % 8) + 1;
-    block.set(lane, {{Vec3(0, 0, z), Vec3(1, 0, z), Vec3(0, 1, z)}, int(lane), 3});
+    const TriangleMesh mesh({{0, 0, z}, {1, 0, z}, {0, 1, z}}, std::vector<std::array<std::uint32_t, 3>>(4, {0, 1, 2}));
+    block.set(lane, {&mesh, int(lane), 3});
   }
   const Ray ray{Vec3(Float(0.25), Float(0.5), 0), Vec3::UnitZ()};
   const TriangleBlock::Prepared prepared(ray);

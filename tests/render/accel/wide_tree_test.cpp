@@ -24,10 +24,14 @@ std::vector<Bounds> random_boxes(int n, Float size) {
   return boxes;
 }
 
+WideTree wide_tree(const std::vector<Bounds>& boxes, std::uint32_t lanes = WideTree::block) {
+  return {boxes.size(), [&](std::size_t i) { return boxes[i]; }, lanes};
+}
+
 TEST(WideTree, LeavesHoldEveryBoxOnceInBlocks) {
   for (const int n : {1, 2, 4, 5, 9, 100, 3000})
     for (const Float size : {Float(0), Float(0.1)}) {
-      const WideTree tree(random_boxes(n, size));
+      const WideTree tree = wide_tree(random_boxes(n, size));
       std::set<std::uint32_t> seen;
       for (const auto& leaf : tree.leaves()) {
         EXPECT_GE(leaf.count, 1u);
@@ -40,7 +44,7 @@ TEST(WideTree, LeavesHoldEveryBoxOnceInBlocks) {
 
 TEST(WideTree, VisitsEveryLeafWithABoxThatTheRayMeets) {
   const auto boxes = random_boxes(800, Float(0.05));
-  const WideTree tree(boxes);
+  const WideTree tree = wide_tree(boxes);
   mc::Pcg random(2);
   for (int i = 0; i < 500; ++i) {
     Ray ray{random.point<Float, 3>(), mc::UniformSphere<Float>{}.sample(random.point<Float, 2>())};
@@ -83,7 +87,7 @@ TEST(WideTree, VisitsAllOfADeepTree) {
     box.add(Vec3::Constant(std::pow(Float(0.95), Float(i))));
     boxes.push_back(box);
   }
-  const WideTree tree(boxes, 1);
+  const WideTree tree = wide_tree(boxes, 1);
   std::size_t visited = 0;
   Float t_max = mc::infinity<Float>;
   tree.traverse({Vec3::Constant(-1), Vec3::Ones()}, t_max, [&](std::uint32_t, Float&) {
@@ -94,7 +98,7 @@ TEST(WideTree, VisitsAllOfADeepTree) {
 }
 
 TEST(WideTree, StopsWhenALeafSaysSo) {
-  const WideTree tree(random_boxes(500, Float(0.5)));
+  const WideTree tree = wide_tree(random_boxes(500, Float(0.5)));
   const Ray ray{Vec3::Constant(-1), Vec3::Ones().normalized()};
   int calls = 0;
   Float t_max = mc::infinity<Float>;
@@ -103,14 +107,13 @@ TEST(WideTree, StopsWhenALeafSaysSo) {
 }
 
 TEST(WideTree, ForgetsWithItsMemory) {
-  WideTree tree(random_boxes(100, Float(0.1)));
+  WideTree tree = wide_tree(random_boxes(100, Float(0.1)));
   tree.forget_leaves();
   EXPECT_EQ(tree.order().capacity() + tree.leaves().capacity(), 0u);
 }
 
 TEST(WideTree, EmptyTreesAndBoxes) {
-  const WideTree tree{std::vector<Bounds>{}};
-  EXPECT_TRUE(tree.empty());
+  EXPECT_TRUE(wide_tree({}).empty());
   EXPECT_EQ(Bounds{}.half_area(), Float(0));
 }
 
