@@ -13,7 +13,7 @@ namespace carlo {
 ///   additive  : smooth, a sum of functions of one coordinate each
 ///   axis_kink : Lipschitz, its bends parallel to the axes; kink: in any other surface
 ///   axis_jump : jumps at faces parallel to the axes; jump: at any other surface
-///   corner    : product of x^-a
+///   corner    : product of x^-a; of a < 0 the slope is infinite there
 struct Smoothness {
   enum class Class { unknown, smooth, additive, periodic, axis_kink, kink, axis_jump, jump, corner };
   Class of = Class::unknown;

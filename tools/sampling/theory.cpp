@@ -29,7 +29,11 @@ Rate random_law(double, double) { return {0.5, 0, "variance sigma^2 / N"}; }
 
 Rate jittered(double d, double) { return {0.5 + 1 / d, 0, "[Haber66]; [MitchellA96]"}; }
 Rate jittered_jump(double d, double) { return {jump(d), 0, "[MitchellA96]"}; }
-Rate jittered_corner(double d, double a) { return {0.5 + (1 - 2 * a) / (2 * d), 0, "cells at the singular faces"}; }
+// Down to a = -1/2, where all cells count alike, by a root of a logarithm: below, x^-a is as good as smooth.
+Rate jittered_corner(double d, double a) {
+  return {0.5 + std::min(1.0, 0.5 - a) / d, 0, "cells at the singular faces",
+          a == -0.5 ? Bound::at_most : Bound::exact};
+}
 
 constexpr std::string_view owen = "[Owen97]", discontinuous = "[HeWang15]; [He18]", surface = "cells at the surface",
                            order_one = "[KuoSchwabSloan12]", unbounded = "[Owen06]; [Liu24]";
@@ -40,11 +44,13 @@ Rate net_kink(double d, double) { return {std::min(1.5, kink(d)), 0, surface}; }
 Rate net_axis_jump(double d, double) { return {1, (d - 1) / 2, discontinuous}; }
 Rate net_jump(double d, double) { return {jump(d), 0, discontinuous}; }
 // Logarithms of the parts of many variables, which are small beside those of one.
-Rate net_corner(double d, double a) { return {1 - a, 0, unbounded, d > 1 ? Bound::at_most : Bound::exact}; }
+Rate net_corner(double d, double a) {
+  return {std::min(1.5, 1 - a), 0, unbounded, d > 1 || a == -0.5 ? Bound::at_most : Bound::exact};
+}
 
 Rate first_order(double, double) { return {1, 0, order_one, Bound::at_most}; }
 Rate first_order_kink(double d, double) { return {std::min(1.0, kink(d)), 0, surface, Bound::at_most}; }
-Rate first_order_corner(double, double a) { return {1 - a, 0, unbounded, Bound::at_most}; }
+Rate first_order_corner(double, double a) { return {std::min(1.0, 1 - a), 0, unbounded, Bound::at_most}; }
 Rate lattice_periodic(double, double) { return {1, 0, "[Niederreiter92] chapter 5", Bound::at_least}; }
 Rate halton_smooth(double, double) { return {1, 0, "[OwenPan23]", Bound::at_most}; }
 

@@ -62,7 +62,7 @@ TEST(Measure, NamedIntegralsFallAsTheirClassesSay) {
       EXPECT_TRUE(c.theory->allows(c.law->slope - 2 * half, c.law->slope + 2 * half, c.middle))
           << e.name << ' ' << c.way->name << ": " << c.law->slope << " +- " << half;
     }
-  EXPECT_EQ(known, 24);
+  EXPECT_EQ(known, 27);
 }
 
 // 49 shares of 16/49 do not add up to 16.
