@@ -22,6 +22,7 @@ typedef std::int32_t FourInts __attribute__((vector_size(4 * sizeof(std::int32_t
 Four smaller(const Four& a, const Four& b) { return a < b ? a : b; }
 Four larger(const Four& a, const Four& b) { return a > b ? a : b; }
 
+// A Bounds in vector registers.
 struct Box {
   Four lo = mc::infinity<Float> - Four{}, hi = -mc::infinity<Float> - Four{};
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace {
 
@@ -107,7 +106,6 @@ TEST(BinaryTree, KeepsClustersApart) {
       boxes.emplace_back().add(center + Float(1e-3) * Vec3(random.point<Float, 3>()));
   }
   const BinaryTree tree = binary_tree(boxes, 8);
-
   for (const auto& node : tree.nodes()) {
     const Float size = (node.box.hi - node.box.lo).maxCoeff();
     EXPECT_TRUE(node.count == 0 || size < Float(2e-3)) << size;
