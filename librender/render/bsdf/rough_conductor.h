@@ -29,7 +29,7 @@ inline Spectrum fresnel_conductor(Float cos_i, const Spectrum& eta, const Spectr
 ///            GGX's keep .99, .87, .59, .32, Blinn-Phong's 1, .98, .74, .41
 ///   sample : mirrored about one of the normals that the distribution draws; nullopt where that ends below the surface.
 ///            The pdf is that of the mirrored directions [1/sr]
-///   throws : Error unless eta and k are finite and >= 0 and never both 0, and the colour lies in [0, 1]
+///   throws : Error unless eta and k are in [0, 1e6] and never both 0, and the colour lies in [0, 1]
 ///   Source : [WalterEtAl07] equation 20
 template <class Facets> class RoughConductor {
  public:
@@ -37,6 +37,10 @@ template <class Facets> class RoughConductor {
                  const Spectrum& reflectance = Spectrum::Ones())
       : eta_(checked_radiance("rough conductor: eta", eta)), k_(checked_radiance("rough conductor: k", k)),
         facets_(facets), reflectance_(checked_reflectance("rough conductor: specularReflectance", reflectance)) {
+    mc::require(
+        (eta <= most_index).all() && (k <= most_index).all(),
+        "rough conductor: eta ({}, {}, {}) and k ({}, {}, {}) must be at most {}; those of metals stay below 100",
+        eta[0], eta[1], eta[2], k[0], k[1], k[2], most_index);
     mc::require((eta + k > 0).all(), "rough conductor: eta ({}, {}, {}) and k must not both be 0", eta[0], eta[1],
                 eta[2]);
   }
@@ -72,6 +76,8 @@ template <class Facets> class RoughConductor {
     const Float cosine = std::clamp(r.wo.dot(r.m), Float(0), Float(1));
     return reflectance_ * fresnel_conductor(cosine, eta_, k_) * (facets_.shape(r.wo, r.wi, r.m) / 4);
   }
+
+  static constexpr Float most_index = 1e6f; // its fourth power is a float
 
   Spectrum eta_, k_;
   Facets facets_;

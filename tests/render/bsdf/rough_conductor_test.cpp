@@ -94,6 +94,8 @@ TEST(RoughConductor, RefusesNonsense) {
   const Microfacets facets{Float(0.1)};
   EXPECT_EQ(support::error_of([&] { RoughConductor(nothing, Spectrum(1, 0, 1), facets); }),
             "rough conductor: eta (0, 0, 0) and k must not both be 0");
+  EXPECT_THAT(support::error_of([&] { RoughConductor(gold, Spectrum(1, 2, Float(1e7)), facets); }),
+              testing::HasSubstr("must be at most 1"));
   EXPECT_EQ(support::error_of([&] { RoughConductor(gold, -all, facets); }),
             "rough conductor: k (-1, -1, -1) must be finite and >= 0");
   EXPECT_EQ(support::error_of([&] { RoughConductor(-all, all, facets); }),

@@ -56,6 +56,9 @@ Material Context::read_bsdf(const XmlElement& element) {
   const XmlElement& target = resolve(element, "bsdf");
   if (!being_read_.insert(&target).second)
     element.fail(fmt::format("it leads back to the <bsdf> of line {}, in which it stands", target.line));
+  constexpr std::size_t deepest = 256;
+  if (being_read_.size() > deepest)
+    element.fail(fmt::format("references to <bsdf>s stand in one another more than {} deep; flatten them", deepest));
   Material material = read_plugin(bsdf_plugins(), target, *this);
   being_read_.erase(&target);
   return material;

@@ -27,10 +27,11 @@ std::string Folders::find(const std::string& name) const {
 
 namespace {
 
-constexpr int most_levels = 16; // of files that include files
+constexpr int most_levels = 16;  // of files that include files
+constexpr int most_files = 1000; // a file counts as often as it is included
 
-// The children of a <scene>, `level` files below the first.
-std::vector<XmlElement> with_included(const XmlElement& root, std::vector<XmlElement> children, int level) {
+// The children of a <scene>, `level` files below the first; `files` counts what is included.
+std::vector<XmlElement> with_included(const XmlElement& root, std::vector<XmlElement> children, int level, int& files) {
   std::vector<XmlElement> all, paths;
   for (XmlElement& child : children) {
     if (child.tag == "path") paths.push_back(child);
@@ -47,7 +48,8 @@ std::vector<XmlElement> with_included(const XmlElement& root, std::vector<XmlEle
     if (included.tag != "scene") included.fail("the document must be a <scene>");
     if (level == most_levels)
       child.fail(fmt::format("includes are nested more than {} deep; does a file include itself?", most_levels));
-    std::vector<XmlElement> more = with_included(root, std::move(included.children), level + 1);
+    if (++files > most_files) child.fail(fmt::format("more than {} files are included; include each once", most_files));
+    std::vector<XmlElement> more = with_included(root, std::move(included.children), level + 1, files);
     std::move(more.begin(), more.end(), std::back_inserter(all));
   }
   return all;
@@ -55,6 +57,9 @@ std::vector<XmlElement> with_included(const XmlElement& root, std::vector<XmlEle
 
 } // namespace
 
-void include_files(XmlElement& root) { root.children = with_included(root, std::move(root.children), 0); }
+void include_files(XmlElement& root) {
+  int files = 0;
+  root.children = with_included(root, std::move(root.children), 0, files);
+}
 
 } // namespace render::mitsuba

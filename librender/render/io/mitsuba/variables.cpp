@@ -24,6 +24,8 @@ const Variables::value_type* longest_at(const Variables& variables, std::string_
   return best;
 }
 
+constexpr std::size_t longest = 1 << 20; // characters of a value
+
 std::string substituted(const XmlElement& e, const std::string& text, Names& names) {
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
@@ -40,6 +42,10 @@ std::string substituted(const XmlElement& e, const std::string& text, Names& nam
     }
     names.used.insert(variable->first);
     result += variable->second;
+    if (result.size() > longest)
+      e.fail(fmt::format("with its variables a value is longer than {} characters; does a <default> repeat another "
+                         "over and over?",
+                         longest));
     at = dollar + 1 + variable->first.size();
   }
   return result;

@@ -2,6 +2,8 @@
 
 #include "render/io/mitsuba/scene_text.h"
 
+#include <fmt/format.h>
+
 namespace {
 
 using testing::HasSubstr;
@@ -62,6 +64,11 @@ TEST_F(SceneContext, BadReferences) {
   EXPECT_THAT(refusal(start + "<bsdf type=\"twosided\" id=\"a\"><ref id=\"b\"/></bsdf>\n<bsdf type=\"twosided\" "
                               "id=\"b\"><ref id=\"a\"/></bsdf>"),
               HasSubstr("s.xml:4: <ref>: it leads back to the <bsdf> of line 3"));
+  std::string chain;
+  for (int i = 0; i < 10000; ++i)
+    chain += fmt::format("<bsdf type=\"twosided\" id=\"b{}\"><ref id=\"b{}\"/></bsdf>", i, i + 1);
+  EXPECT_THAT(refusal(start + chain + "<bsdf type=\"diffuse\" id=\"b10000\"/>"),
+              HasSubstr("s.xml:3: <ref>: references to <bsdf>s stand in one another more than 256 deep"));
   EXPECT_THAT(refusal(start + "<bsdf type=\"diffuse\"/>"), HasSubstr("s.xml:3: <bsdf>: attribute 'id' is missing"));
 }
 

@@ -49,6 +49,14 @@ TEST_F(SceneFolders, HoldWhatScenesInclude) {
   write("more.xml", "<scene><include filename=\"more.xml\"/></scene>");
   EXPECT_THAT(refusal(body + "<include filename=\"shapes.xml\"/>"),
               HasSubstr("more.xml:1: <include>: includes are nested more than 16 deep"));
+  write("many0.xml", "<scene/>");
+  for (int i = 1; i < 5; ++i) {
+    std::string eight;
+    for (int k = 0; k < 8; ++k) eight += fmt::format("<include filename=\"many{}.xml\"/>", i - 1);
+    write(fmt::format("many{}.xml", i), "<scene>" + eight + "</scene>");
+  }
+  EXPECT_THAT(refusal(std::string(sensor) + "<include filename=\"many4.xml\"/>"),
+              HasSubstr("<include>: more than 1000 files are included"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<include filename=\"none.xml\"/>"), HasSubstr("s.xml:3: cannot read '"));
   EXPECT_THAT(refusal("<include filename=\"more.xml\" if=\"1\"/>"),
               HasSubstr("s.xml:2: <include>: attribute if=\"1\" is not"));

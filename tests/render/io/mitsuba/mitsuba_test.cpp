@@ -60,6 +60,11 @@ TEST_F(Mitsuba, NamesFileLineAndRemedy) {
               testing::HasSubstr("s.xml:3: <shape>: unknown type 'spere'; did you mean 'sphere'?"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"hair\"/>"),
               testing::HasSubstr("s.xml:3: <shape>: unknown type 'hair'"));
+  const std::string flattened = "<transform name=\"toWorld\"><scale x=\"0\"/></transform></shape>";
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"rectangle\">" + flattened),
+              testing::HasSubstr("s.xml:3: <shape>: toWorld makes a line of the square"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"cube\">" + flattened),
+              testing::HasSubstr("s.xml:3: <shape>: toWorld flattens the cube"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"difuse\" id=\"a\"/>"),
               testing::HasSubstr("did you mean 'diffuse'?"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\" id=\"a\"/>"),

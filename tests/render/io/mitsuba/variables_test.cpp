@@ -2,6 +2,8 @@
 
 #include "support/files.h"
 
+#include <fmt/format.h>
+
 namespace {
 
 struct Variables : support::ScratchTest {
@@ -43,6 +45,13 @@ TEST_F(Variables, UnknownOnesAreNamed) {
   EXPECT_THAT(support::error_of([&] { element("<default name=\"\" value=\"4\"/>"); }),
               testing::HasSubstr("must not be empty"));
   EXPECT_THAT(support::error_of([&] { element("<x v=\"$\"/>"); }), testing::HasSubstr("defines $"));
+}
+
+TEST_F(Variables, DoNotGrowWithoutBound) {
+  std::string doubling = "<default name=\"a0\" value=\"0123456789\"/>\n";
+  for (int i = 1; i < 40; ++i) doubling += fmt::format("<default name=\"a{}\" value=\"$a{}$a{}\"/>\n", i, i - 1, i - 1);
+  EXPECT_THAT(support::error_of([&] { element(doubling); }),
+              testing::HasSubstr("v.xml:19: <default>: with its variables a value is longer than 1048576 characters"));
 }
 
 } // namespace

@@ -32,9 +32,16 @@ Placed make_serialized(const std::string& path, const Transform& to_world, bool 
   return placed(fmt::format("{}: mesh {}", path, index), read_serialized(path, index), to_world, face_normals);
 }
 
-Shape make_rectangle(const Transform& to_world) { return TriangleMesh::rectangle(to_world); }
+Shape make_rectangle(const Transform& to_world) {
+  TriangleMesh square = TriangleMesh::rectangle(to_world);
+  mc::require(square.area() > 0, "toWorld makes a line of the square, or a point; nothing would be seen");
+  return square;
+}
 
-Shape make_cube(const Transform& to_world) { return TriangleMesh::box(to_world); }
+Shape make_cube(const Transform& to_world) {
+  mc::require(to_world.linear.determinant() != 0, "toWorld flattens the cube; use a rectangle for what is flat");
+  return TriangleMesh::box(to_world);
+}
 
 Shape make_sphere(const Transform& to_world, const Vec3d& center, double radius, bool flip, std::size_t pole,
                   const std::optional<Vec3d>& cap_axis, const std::optional<double>& cap_height) {
