@@ -67,12 +67,34 @@ TEST_F(Compare, AcceptsNoiseAndRejectsABlockOrAPixelThatIsOff) {
   EXPECT_EQ(compare("").exit_code, 1);
   EXPECT_EQ(compare("--tolerance 0.05").exit_code, 0) << "0.02 is 4 % of 0.5";
 
+  // Of 6933 tests with 3 degrees of freedom one alone has a family-wise p of .01 at 115 standard errors: of one pixel
+  // less may be chance.
   off = noisy(2, 0.5);
-  off.at(3, 40)[0] += 3;
+  off.at(3, 40)[0] += 7;
   save("a.exr", off);
   const support::Run run = compare("");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.output, HasSubstr("(3, 40) red"));
+}
+
+// A lamp smaller than a pixel, of which all point sets saw nearly the same share: their spread says too little, in a
+// block that is quiet but for it.
+TEST_F(Compare, ALuckyPixelIsNoBlockThatDiffers) {
+  render::Image a(size, size);
+  for (auto& p : a.pixels) p.setConstant(render::Float(0.5));
+  a.variance.assign(a.pixels.size(), render::Spectrum::Constant(render::Float(1e-8)));
+  a.estimates = 4;
+  save("b.exr", a);
+  a.at(20, 20)[0] += render::Float(0.1);
+  a.variance[a.index(20, 20)].setConstant(render::Float(2.5e-5));
+  save("a.exr", a);
+  EXPECT_EQ(compare("").exit_code, 0) << "18 standard errors of the block, by 759 degrees of freedom";
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x) a.at(x, y)[1] += render::Float(1e-4); // 11 standard errors
+  save("a.exr", a);
+  const support::Run run = compare("");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.output, HasSubstr("blocks     worst at (0, 0) green"));
 }
 
 TEST_F(Compare, MetricsAndDifferenceImage) {
