@@ -11,8 +11,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <span>
-#include <vector>
 
 namespace carlo {
 
@@ -67,7 +65,11 @@ struct Worst {
 
 /// Sums over a rectangle of pixels, which may be a single one.
 struct Block {
-  double difference = 0, reference = 0, variance_a = 0, variance_b = 0;
+  double pixels = 0, difference = 0, reference = 0, variance_a = 0, variance_b = 0;
+  double squares = 0; ///< of the variances, over the degrees of freedom of each
+
+  // Behind the sum of the variances: few where few pixels have most of the noise. Source: [Welch47]
+  double dof() const { return squares > 0 ? mc::sqr(variance_a + variance_b) / squares : pixels; }
 };
 
 class Comparison {
@@ -91,18 +93,18 @@ class Comparison {
           const int x0 = std::max(x - 1, 0), y0 = std::max(y - 1, 0), x1 = std::min(x + 2, a_.width),
                     y1 = std::min(y + 2, a_.height);
           const Block around = sum(x0, y0, x1, y1, c);
-          const double n = double(x1 - x0) * double(y1 - y0);
           // The surroundings lend their variance, not their degrees of freedom: noise is far from normal within a
           // pixel, where one rare bright path decides. Student's t with at most 3 degrees of freedom has tails heavy
           // enough for that.
-          sums.variance_a = around.variance_a / n;
-          sums.variance_b = around.variance_b / n;
-          note(judged(sums, 1, 1), x, y, c, pixel);
+          sums.variance_a = around.variance_a / around.pixels;
+          sums.variance_b = around.variance_b / around.pixels;
+          sums.squares = squares(sums.variance_a, sums.variance_b);
+          test(sums, x, y, c, pixel);
         }
       for (int y = 0; y < a_.height; y += block_size)
         for (int x = 0; x < a_.width; x += block_size) {
-          note(judged_block(x, y, std::min(x + block_size, a_.width), std::min(y + block_size, a_.height), c), x, y, c,
-               block);
+          const int x1 = std::min(x + block_size, a_.width), y1 = std::min(y + block_size, a_.height);
+          test(sum(x, y, x1, y1, c), x, y, c, block);
         }
     }
   }
@@ -121,70 +123,36 @@ class Comparison {
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x) {
         const std::size_t i = a_.index(x, y);
+        ++sums.pixels;
         sums.difference += double(a_.pixels[i][c]) - double(b_.pixels[i][c]);
         sums.reference += double(b_.pixels[i][c]);
-        sums.variance_a += double(a_.variance[i][c]);
-        sums.variance_b += double(b_.variance[i][c]);
+        const double va = double(a_.variance[i][c]), vb = double(b_.variance[i][c]);
+        sums.variance_a += va;
+        sums.variance_b += vb;
+        sums.squares += squares(va, vb);
       }
     return sums;
   }
 
-  // A block differs if it does with and without the 64th of its pixels that differ most: what a few pixels show is for
-  // their own tests, and the variance of one that has the edge of a small lamp may be 0 by chance. Of the variances
-  // behind the test as many count as share the noise: by what they say or by how much the pixel differs.
-  Worst judged_block(int x0, int y0, int x1, int y1, int c) const {
-    std::vector<Block> pixels;
-    for (int y = y0; y < y1; ++y)
-      for (int x = x0; x < x1; ++x) pixels.push_back(sum(x, y, x + 1, y + 1, c));
-    std::sort(pixels.begin(), pixels.end(),
-              [](const Block& a, const Block& b) { return std::abs(a.difference) < std::abs(b.difference); });
-    const Worst all = judged_sum(pixels);
-    if (pixels.size() == 1) return all;
-    const Worst most = judged_sum(std::span(pixels).first(pixels.size() - (pixels.size() + 63) / 64));
-    return most.p > all.p ? most : all;
+  // Of a pixel's variances, as Block adds them.
+  double squares(double variance_a, double variance_b) const {
+    return mc::sqr(variance_a) / noise_a_.dof + mc::sqr(variance_b) / noise_b_.dof;
   }
 
-  Worst judged_sum(std::span<const Block> pixels) const {
-    Block sums;
-    double noise = 0, squares = 0;
-    for (const Block& p : pixels) {
-      sums.difference += p.difference;
-      sums.reference += p.reference;
-      sums.variance_a += p.variance_a;
-      sums.variance_b += p.variance_b;
-      const double own = std::max(p.variance_a + p.variance_b, mc::sqr(p.difference));
-      noise += own;
-      squares += mc::sqr(own);
-    }
-    return judged(sums, double(pixels.size()), squares > 0 ? mc::sqr(noise) / squares : 1);
-  }
-
-  // Welch's t-test of the mean of n pixels; as many variances as `pooled` pixels have lie behind it.
-  Worst judged(const Block& sums, double n, double pooled) const {
-    Worst result;
-    const double variance = std::max((sums.variance_a + sums.variance_b) / n, floor_) / n;
-    result.difference = sums.difference / n;
-    const double excess = std::max(0.0, std::abs(result.difference) - tolerance_ * std::abs(sums.reference / n));
-    if (excess == 0) return result;
-    result.p = 0;
-    result.t = mc::infinity<double>;
-    result.error = std::sqrt(variance);
-    if (variance > 0) {
-      const double va = sums.variance_a, vb = sums.variance_b;
-      const double welch = va + vb > 0 ? pooled * mc::welch_dof(va, noise_a_.dof, vb, noise_b_.dof) : pooled;
-      result.t = excess / result.error;
-      result.p = mc::student_tail(result.t, n > 1 ? welch : std::min(welch, 3.0));
-    }
-    return result;
-  }
-
-  void note(Worst found, int x, int y, int channel, Worst& worst) {
+  // Welch's t-test of the mean of the pixels.
+  void test(const Block& sums, int x, int y, int c, Worst& worst) {
+    const double n = sums.pixels;
     ++tests;
-    if (!(found.p < worst.p || (found.p == worst.p && found.t > worst.t))) return;
-    found.x = x;
-    found.y = y;
-    found.channel = channel;
-    worst = found;
+    const double variance = std::max((sums.variance_a + sums.variance_b) / n, floor_) / n;
+    const double difference = sums.difference / n;
+    const double excess = std::max(0.0, std::abs(difference) - tolerance_ * std::abs(sums.reference / n));
+    if (excess == 0) return;
+    double p = 0, t = mc::infinity<double>;
+    if (variance > 0) {
+      t = excess / std::sqrt(variance);
+      p = mc::student_tail(t, n == 1 ? std::min(sums.dof(), 3.0) : sums.dof());
+    }
+    if (p < worst.p || (p == worst.p && t > worst.t)) worst = {p, t, difference, std::sqrt(variance), x, y, c};
   }
 
   const Image &a_, &b_;

@@ -1,6 +1,8 @@
 #include <render/io/mesh/mesh.h>
 #include <render/io/mitsuba/plugins.h>
 
+#include <mc/core/error.h>
+
 namespace render::mitsuba {
 
 namespace {
