@@ -2,6 +2,7 @@
 /// Usage: bench_render_interval SCENE.xml... [-- SEEDS [SIZE [REFERENCE_SPP]]]
 ///   alone  : by the pixel's own variance, Student's t with 3 degrees of freedom
 ///   shared : half_widths
+///   noisy  : half_widths in the tenth of the pixels and channels whose variance in the reference is largest
 ///   low, high : intervals that lie below and above the truth
 
 #include "arguments.h"
@@ -14,7 +15,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <vector>
 
 namespace {
 
@@ -30,6 +33,17 @@ struct Coverage {
   std::string text() const { return fmt::format("{:.4f},{:.4f},{:.4f}", 1 - (low + high) / n, low / n, high / n); }
 };
 
+// Which values of the image are among the tenth of largest variance.
+std::vector<Eigen::Array<bool, 3, 1>> noisiest_tenth(const Image& image) {
+  std::vector<Float> variances;
+  for (const Spectrum& v : image.variance) variances.insert(variances.end(), v.begin(), v.end());
+  const auto tenth = variances.begin() + static_cast<std::ptrdiff_t>(variances.size() * 9 / 10);
+  std::nth_element(variances.begin(), tenth, variances.end());
+  std::vector<Eigen::Array<bool, 3, 1>> noisy;
+  for (const Spectrum& v : image.variance) noisy.emplace_back(v >= *tenth && v > 0);
+  return noisy;
+}
+
 void show(const std::string& path, int seeds, int size, int reference_spp) {
   const SceneFile file = read_mitsuba(path);
   RenderOptions options;
@@ -37,9 +51,10 @@ void show(const std::string& path, int seeds, int size, int reference_spp) {
   options.spp = reference_spp;
   options.seed = 1'000'000;
   const Image truth = render::render(file.scene, options).image;
+  const auto is_noisy = noisiest_tenth(truth);
   const double q = mc::student_quantile(0.05, 3);
   for (const int spp : {4, 16, 64, 256}) {
-    Coverage alone, shared;
+    Coverage alone, shared, noisy;
     double undecided = 0;
     options.spp = spp;
     for (options.seed = 0; options.seed < std::uint64_t(seeds); ++options.seed) {
@@ -51,10 +66,11 @@ void show(const std::string& path, int seeds, int size, int reference_spp) {
           const double off = double(result.image.pixels[i][c]) - double(truth.pixels[i][c]);
           alone.add(off, q * std::sqrt(double(result.image.variance[i][c])));
           shared.add(off, double(widths.pixels[i][c]));
+          if (is_noisy[i][c]) noisy.add(off, double(widths.pixels[i][c]));
         }
     }
-    fmt::print("{},{},{},{:.4f},{},{}\n", std::filesystem::path(path).stem().string(), spp, seeds, undecided,
-               alone.text(), shared.text());
+    fmt::print("{},{},{},{:.4f},{},{},{}\n", std::filesystem::path(path).stem().string(), spp, seeds, undecided,
+               alone.text(), shared.text(), noisy.text());
     std::fflush(stdout);
   }
 }
@@ -63,7 +79,8 @@ void show(const std::string& path, int seeds, int size, int reference_spp) {
 
 int main(int argc, char** argv) {
   const bench::Arguments arguments(argc, argv);
-  fmt::print("scene,spp,seeds,undecided,alone,alone_low,alone_high,shared,shared_low,shared_high\n");
+  fmt::print("scene,spp,seeds,undecided,alone,alone_low,alone_high,shared,shared_low,shared_high,"
+             "noisy,noisy_low,noisy_high\n");
   for (const std::string& scene : arguments.scenes)
     show(scene, arguments.number(0, 200), arguments.number(1, 16), arguments.number(2, 100'000));
 }

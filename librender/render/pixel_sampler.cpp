@@ -83,7 +83,7 @@ Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span
     const int whole_x = whole_.part.x + x;
     const std::uint64_t pixel = static_cast<std::uint64_t>(whole_y) << 32 | static_cast<std::uint64_t>(whole_x);
     const std::uint64_t rays_before = tally.rays;
-    SampleSums luminances;
+    SampleSums seen;
     for (std::uint32_t set = 0; set < sets; ++set) {
       Eigen::Array3d sum = Eigen::Array3d::Zero();
       std::uint32_t valid = 0, point = (first + sets - 1 - set) / sets;
@@ -103,14 +103,14 @@ Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span
             tally.add({whole_x, whole_y, pass, point - block * stratum_});
             continue;
           }
-          luminances.add(double(luminance(radiance)));
+          seen.add(radiance.cast<double>());
           sum += radiance.cast<double>();
           ++valid;
         }
       }
       film.add(x, y, static_cast<int>(set), sum, valid);
     }
-    film.note(x, y, luminances, tally.rays - rays_before);
+    film.note(x, y, seen, tally.rays - rays_before);
   }
   return tally;
 }

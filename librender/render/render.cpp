@@ -73,8 +73,8 @@ class Work {
         std::min(static_cast<std::uint32_t>(film_.sets()), *std::min_element(taken_.begin(), taken_.end()));
     result.seconds = elapsed();
     result.cpu_seconds = double(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
-    result.relative_error = film_.relative_error();
-    result.worst_error = film_.relative_error(ErrorOf::worst);
+    result.relative_error = film_.relative_error().value;
+    result.worst_error = film_.relative_error(ErrorOf::worst).value;
     result.undecided = film_.undecided();
     result.unsure_from = unsure_from_;
     result.invalid = total_.invalid;
@@ -108,7 +108,7 @@ class Work {
       if (!options_.progress) return;
       const double fraction =
           options_.seconds ? elapsed() / *options_.seconds : (mean_ + rows * (mean - mean_)) / wanted;
-      options_.progress({std::min(fraction, 1.0), samples, total_.rays, elapsed(), error_, undecided_});
+      options_.progress({std::min(fraction, 1.0), samples, total_.rays, elapsed(), error_.value, undecided_});
     });
     for (const Tally& tally : tallies) total_.merge(tally);
     return done == height();
@@ -118,7 +118,7 @@ class Work {
   double wanted() const {
     if (mean_ == 0 || !limited()) return options_.spp;
     if (options_.seconds) return mean_ * *options_.seconds / elapsed();
-    const double by_error = mean_ * mc::sqr(error_ / *options_.target_error);
+    const double by_error = mean_ * mc::sqr(error_.bound / *options_.target_error);
     const bool is_sure = mean_ >= least_pilot && undecided_ <= most_undecided;
     return is_sure ? by_error : std::max(by_error, 2 * mean_);
   }
@@ -147,7 +147,7 @@ class Work {
       mean_ = mean;
       error_ = film_.relative_error(options_.error_of);
       undecided_ = film_.undecided();
-      const bool is_there = options_.target_error && error_ <= *options_.target_error;
+      const bool is_there = options_.target_error && error_.value <= *options_.target_error;
       if (is_there && mean_ >= least_pilot && undecided_ > most_undecided && unsure_from_ == 0) unsure_from_ = mean_;
     }
   }
@@ -160,9 +160,9 @@ class Work {
   SamplingPlan plan_;
   double mean_ = 0; ///< samples per pixel of the rounds that are done
   Tally total_;
-  double error_ = mc::infinity<double>; ///< after the last round
-  double undecided_ = 0;                ///< at the same time
-  double unsure_from_ = 0;              ///< see RenderResult
+  RelativeError error_;    ///< after the last round
+  double undecided_ = 0;   ///< at the same time
+  double unsure_from_ = 0; ///< see RenderResult
   bool partial_ = true;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::clock_t cpu_start_ = std::clock();

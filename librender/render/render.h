@@ -25,7 +25,7 @@ struct RenderOptions {
   std::optional<Crop> crop;           ///< only this part; spent evenly, its pixels are the whole's, bit for bit
   int spp = 64;                       ///< samples per pixel, unless one of the next two is given
   std::optional<double> seconds;      ///< wall-clock budget [s]
-  std::optional<double> target_error; ///< mean relative standard error to reach, see Film and most_undecided
+  std::optional<double> target_error; ///< what RelativeError::bound is to fall to, see Film; and most_undecided
   ErrorOf error_of = ErrorOf::picture;
   std::optional<bool> adaptive; ///< samples where the error is; unless given: where seconds or an error are
   Strategy strategy = strategy_from("mis");
@@ -44,7 +44,7 @@ struct RenderResult {
   double spp = 0;              ///< samples per pixel taken, on average
   std::uint32_t estimates = 0; ///< independent point sets per pixel behind the variance
   double seconds = 0, cpu_seconds = 0;
-  double relative_error = 0; ///< see Film::relative_error
+  double relative_error = 0; ///< see RelativeError::value
   double worst_error = 0;    ///< the same of the worst block
   double undecided = 0;      ///< share of the pixels whose error bar is not known yet, see Film::undecided
   double unsure_from = 0;    ///< samples per pixel with the target error, but too many pixels undecided; 0: never so

@@ -25,7 +25,7 @@ Measured measure_with(const Picture& picture, const Strategy& strategy, std::uin
     for (std::uint32_t i = 0; i < points; ++i) {
       Stream stream(numbers, i);
       const auto radiance = double(integrator.radiance(picture.ray, stream, rays)[0]);
-      samples.add(radiance);
+      samples.add(Eigen::Array3d::Constant(radiance));
       sum += radiance;
     }
     found.means.add(sum / points, set);

@@ -18,13 +18,16 @@ double chi_square_tail(double statistic, double dof) {
   return boost::math::cdf(boost::math::complement(boost::math::chi_squared(dof), statistic));
 }
 
+double chi_square_quantile(double p, double dof) {
+  return boost::math::quantile(boost::math::complement(boost::math::chi_squared(dof), p));
+}
+
 double normal_tail(double z) { return std::erfc(std::abs(z) / std::sqrt(2.0)); }
 
 double normal_quantile(double p) { return std::sqrt(2.0) * boost::math::erfc_inv(std::clamp(p, 1e-300, 1.0)); }
 
 double chi_square_noncentrality(double dof, double level, double power) {
-  const double critical =
-      boost::math::quantile(boost::math::complement(boost::math::chi_squared(dof), std::max(level, 1e-300)));
+  const double critical = chi_square_quantile(std::max(level, 1e-300), dof);
   // For many degrees of freedom noncentral chi-square with lambda is about scale * chi-square with h degrees of
   // freedom, by its first two moments.
   const auto reached = [&](double lambda) {

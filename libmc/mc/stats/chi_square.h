@@ -9,6 +9,9 @@ namespace mc {
 /// P(X > statistic) for X chi-square with `dof` degrees of freedom; 1 for dof = 0.
 double chi_square_tail(double statistic, double dof);
 
+/// x with P(X > x) = p, in (0, 1), for X chi-square with `dof` > 0 degrees of freedom.
+double chi_square_quantile(double p, double dof);
+
 /// P(|Z| > |z|) for a standard normal Z.
 double normal_tail(double z);
 

@@ -1,23 +1,59 @@
 #include <render/film/film.h>
 
 #include <mc/core/error.h>
+#include <mc/stats/chi_square.h>
 
 #include <cmath>
 
 namespace render {
+
+namespace {
+
+// Deviations of equal samples, in parts of their squares.
+constexpr double rounding = 1e-12;
+
+/// Of independent estimates, each with its degrees of freedom; the sum has those of a multiple of chi-square of the
+/// same mean and variance. Source: [Welch47]
+class SumOfVariances {
+ public:
+  void add(double variance, double dof) {
+    sum_ += variance;
+    squares_ += variance * variance / dof;
+  }
+  double value() const { return sum_; }
+  /// What it is below with a confidence of 95 %.
+  double bound() const {
+    if (sum_ == 0) return 0;
+    const double dof = sum_ * sum_ / squares_;
+    return sum_ * dof / mc::chi_square_quantile(0.95, dof);
+  }
+
+ private:
+  double sum_ = 0, squares_ = 0;
+};
+
+} // namespace
 
 void SampleSums::merge(const SampleSums& other) {
   count += other.count;
   sum += other.sum;
   squares += other.squares;
   largest = std::max(largest, other.largest);
+  channel_squares += other.channel_squares;
+  channel_largest = channel_largest.max(other.channel_largest);
 }
 
 bool SampleSums::is_undecided() const {
   if (count < 2) return false;
   const double mean = sum / double(count), deviations = squares - mean * sum;
-  // Below: equal samples, whose deviations are rounding.
-  return deviations > 1e-12 * squares && mc::sqr(largest - mean) > deviations / 2;
+  return deviations > rounding * squares && mc::sqr(largest - mean) > deviations / 2;
+}
+
+Eigen::Array3d SampleSums::range(const Eigen::Array3d& mean) const {
+  if (count < 2) return Eigen::Array3d::Zero();
+  const Eigen::Array3d squares_mean = channel_squares / double(count), s2 = squares_mean - mean.square();
+  const Eigen::Array3d d = channel_largest - mean;
+  return (s2 > rounding * squares_mean && d > 0).select(d + s2 / d, 0);
 }
 
 Film::Film(int width, int height, int sets) : width_(width), height_(height), sets_(sets) {
@@ -55,7 +91,9 @@ PixelEstimate Film::estimate(int x, int y) const {
   if (pixel.sets < 2) return pixel;
   for (std::size_t i = first; i < first + sets; ++i)
     if (counts_[i] > 0) pixel.variance += counts_[i] * (sums_[i] / counts_[i] - pixel.mean).square();
-  pixel.variance /= (pixel.sets - 1) * n;
+  const double k = pixel.sets, left_over = (k + 1) / ((k + 2) * (k + 3));
+  const Eigen::Array3d least = k * left_over * (samples_[index(x, y)].range(pixel.mean) / n).square();
+  pixel.variance = (pixel.variance / ((k - 1) * n)).max(least);
   return pixel;
 }
 
@@ -74,31 +112,34 @@ Image Film::image() const {
   return image;
 }
 
-double Film::relative_error(ErrorOf of) const {
+RelativeError Film::relative_error(ErrorOf of) const {
   std::vector<Eigen::Array3d> means;
   means.reserve(samples_.size());
   double mean = 0;
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) {
       const PixelEstimate pixel = estimate(x, y);
-      if (pixel.sets < 2) return mc::infinity<double>;
+      if (pixel.sets < 2) return {};
       means.push_back(pixel.mean);
       mean += pixel.mean.sum() / (3.0 * double(samples_.size()));
     }
   const int block = of == ErrorOf::worst ? 16 : std::max(width_, height_);
-  double worst = 0;
+  RelativeError worst{0, 0};
   for (int top = 0; top < height_; top += block)
     for (int left = 0; left < width_; left += block) {
       const int bottom = std::min(top + block, height_), right = std::min(left + block, width_);
-      double sum = 0;
+      SumOfVariances sum;
       for (int y = top; y < bottom; ++y)
         for (int x = left; x < right; ++x) {
-          const Eigen::Array3d variance = estimate(x, y).variance;
-          if ((variance > 0).any()) sum += (variance / around(means, x, y).max(mean / 2).square()).sum();
+          const PixelEstimate pixel = estimate(x, y);
+          if ((pixel.variance > 0).any())
+            sum.add((pixel.variance / around(means, x, y).max(mean / 2).square()).mean(), pixel.sets - 1);
         }
-      worst = std::max(worst, sum / (3.0 * (bottom - top) * (right - left)));
+      const int pixels = (bottom - top) * (right - left);
+      worst.value = std::max(worst.value, std::sqrt(sum.value() / pixels));
+      worst.bound = std::max(worst.bound, std::sqrt(sum.bound() / pixels));
     }
-  return std::sqrt(worst);
+  return worst;
 }
 
 Eigen::Array3d Film::around(const std::vector<Eigen::Array3d>& means, int x, int y) const {

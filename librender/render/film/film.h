@@ -14,30 +14,47 @@ struct InvalidSample {
   std::uint32_t pass = 0, index = 0;
 };
 
-/// Luminances of a pixel's samples: enough to see whether one of them decides. mc::Moments with the largest beside them
-/// would take 48 bytes a pixel for these 32, and a division a sample.
+/// What a pixel's samples are like: how far they spread, and whether one of them decides. mc::Moments of luminance and
+/// channels with the largest beside them would take 192 bytes a pixel for these 80, and divisions at every sample.
 struct SampleSums {
   std::uint64_t count = 0;
-  double sum = 0, squares = 0, largest = 0;
+  double sum = 0, squares = 0, largest = 0; ///< luminances
+  Eigen::Array3d channel_squares = Eigen::Array3d::Zero();
+  Eigen::Array3d channel_largest = Eigen::Array3d::Zero();
 
-  void add(double y) {
+  void add(const Eigen::Array3d& sample) {
+    const double y = luminance(sample);
     ++count;
     sum += y;
     squares += y * y;
     largest = std::max(largest, y);
+    channel_squares += sample.square();
+    channel_largest = channel_largest.max(sample);
   }
   void merge(const SampleSums& other);
-  /// Whether the largest carries over half of the squared deviations from the mean: then there were too few samples of
-  /// what makes the pixel bright, and its error bar is not known yet.
+
+  /// Whether the largest luminance carries over half of the squared deviations from the mean: then there were too few
+  /// samples of what makes the pixel bright, and its error bar is not known yet.
   bool is_undecided() const;
+
+  /// How far apart the largest sample and the smallest are at least, where the mean is `mean`: the largest lies d above
+  /// it and the squared deviations have the mean s^2, so d + s^2 / d, which two values reach. 0 where all are equal up
+  /// to rounding.
+  Eigen::Array3d range(const Eigen::Array3d& mean) const;
 };
 
 /// What a pixel is, as far as its samples tell.
 struct PixelEstimate {
   Eigen::Array3d mean = Eigen::Array3d::Zero();
-  Eigen::Array3d variance = Eigen::Array3d::Zero(); ///< of the mean
+  Eigen::Array3d variance = Eigen::Array3d::Zero(); ///< of the mean; see Film::estimate
   std::uint64_t samples = 0;
   int sets = 0; ///< that have samples; fewer than two: the variance is not known
+};
+
+/// A mean relative standard error, and what it is below with a confidence of 95 %: few pixels may have most of the
+/// noise, and each knows its variance from a few sets only.
+struct RelativeError {
+  double value = mc::infinity<double>, bound = mc::infinity<double>;
 };
 
 /// Over what the errors of pixels are averaged.
@@ -47,8 +64,8 @@ enum class ErrorOf {
 };
 
 /// Sums of the samples of every pixel, apart by the independent point sets that they come from: a pixel is the mean of
-/// its samples, and how its sets differ tells how far it may be off. Four sets take 112 bytes a pixel, of 152 in all;
-/// mc::Moments of each set and channel would take 480, of 536.
+/// its samples, and how its sets differ tells how far it may be off. Four sets take 112 bytes a pixel, of 200 in all;
+/// mc::Moments of each set and channel would take 480.
 class Film {
  public:
   /// throws : Error for a non-positive size or number of sets
@@ -67,6 +84,10 @@ class Film {
 
   /// The mean of the pixel's samples. Sets count by their number of samples: with set means m_s of n_s samples, n in
   /// all, the variance of the mean m is sum_s n_s (m_s - m)^2 / ((sets - 1) n).
+  ///   Sets may agree by chance where samples do not, as at an edge, of which each of k sets counts a whole number: one
+  /// more or less moves a set's sum by the range R of the samples. So the variance is at least k f (1 - f) R^2 / n^2,
+  /// where f, what rounding left over, did not show in k sets: uniform beforehand, f (1 - f) is then
+  /// (k + 1) / ((k + 2) (k + 3)) on average.
   PixelEstimate estimate(int x, int y) const;
   std::uint64_t rays(int x, int y) const { return rays_[index(x, y)]; }
 
@@ -76,7 +97,7 @@ class Film {
   /// The mean relative standard error: root of the mean over pixels and channels of variance / radiance^2. Radiance is
   /// that of the pixel and its neighbours, 3x3, so that a rare bright sample is not divided by itself; in the dark it
   /// is half of the picture's mean. Infinite while a pixel does not know its variance.
-  double relative_error(ErrorOf of = ErrorOf::picture) const;
+  RelativeError relative_error(ErrorOf of = ErrorOf::picture) const;
 
   /// Share of the pixels that are undecided, see SampleSums.
   double undecided() const;

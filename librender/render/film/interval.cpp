@@ -1,6 +1,7 @@
 #include <render/film/interval.h>
 
 #include <mc/core/error.h>
+#include <mc/core/types.h>
 #include <mc/stats/t_test.h>
 
 #include <algorithm>
@@ -11,6 +12,8 @@ Image half_widths(const Image& image, double confidence) {
   mc::require(!image.variance.empty(), "half_widths: the image carries no variance");
   mc::require(confidence > 0 && confidence < 1, "half_widths: confidence {} must lie in (0, 1)", confidence);
   const double q = mc::student_quantile(1 - confidence, 8);
+  const double q_alone = mc::student_quantile(1 - confidence, std::max(1.0, double(image.estimates) - 1));
+  const double noisy = image.estimates < 2 ? mc::infinity<double> : 2;
   Image widths(image.width, image.height);
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -21,7 +24,8 @@ Image half_widths(const Image& image, double confidence) {
           sum += image.variance[image.index(i, j)].cast<double>();
           ++n;
         }
-      widths.at(x, y) = (q * (sum / n).sqrt()).cast<Float>();
+      const Eigen::Array3d mean = sum / n, alone = image.variance[image.index(x, y)].cast<double>();
+      widths.at(x, y) = (alone > noisy * mean).select(q_alone * alone.sqrt(), q * mean.sqrt()).cast<Float>();
     }
   return widths;
 }

@@ -13,6 +13,8 @@ TEST(ChiSquare, TailsAgreeWithTables) {
   EXPECT_NEAR(mc::normal_tail(1.959963984540054), 0.05, 1e-12);
   EXPECT_NEAR(mc::normal_quantile(0.05), 1.959963984540054, 1e-12);
   EXPECT_EQ(mc::chi_square_tail(5, 0), 1);
+  EXPECT_NEAR(mc::chi_square_quantile(0.95, 3), 0.351846317749, 1e-10);
+  EXPECT_NEAR(mc::chi_square_tail(mc::chi_square_quantile(0.01, 1000.5), 1000.5), 0.01, 1e-12);
 }
 
 // Reference: published power tables of chi-square tests of renderers at alpha = 1 %.

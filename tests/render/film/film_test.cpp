@@ -30,7 +30,7 @@ TEST(Film, MeansAndVariancesOfTheMean) {
     EXPECT_EQ(film.estimate(px, 0).samples, 4u);
     EXPECT_EQ(film.estimate(px, 0).sets, 2);
   }
-  EXPECT_NEAR(film.relative_error(), std::sqrt((0.75 / (2.5 * 2.5) + 3 / 25.0) / 3), 1e-12);
+  EXPECT_NEAR(film.relative_error().value, std::sqrt((0.75 / (2.5 * 2.5) + 3 / 25.0) / 3), 1e-12);
 }
 
 // Sets of any sizes: their weighted mean and its variance are those of all samples together. 20,000 pixels, whose mean
@@ -58,7 +58,7 @@ TEST(Film, OneSetHasNoVariance) {
   Film film(1, 1, 2);
   film.add(0, 0, 0, grey(1), 5);
   EXPECT_TRUE(film.image().variance.empty());
-  EXPECT_EQ(film.relative_error(), mc::infinity<double>);
+  EXPECT_EQ(film.relative_error().value, mc::infinity<double>);
 }
 
 // What it says is what the pixels of its image are off by: dark ones relative to half the mean, bright ones to their
@@ -77,14 +77,86 @@ TEST(Film, ErrorIsRelativeToTheSurroundings) {
     const double radiance = y < 9 ? 0.0 : y == 9 ? 4 / 3.0 : y == 10 ? 8 / 3.0 : 4;
     sum += 4 * 0.25 / mc::sqr(std::max(radiance, 1.0));
   }
-  EXPECT_NEAR(film.relative_error(), std::sqrt(sum / 400), 1e-12);
+  EXPECT_NEAR(film.relative_error().value, std::sqrt(sum / 400), 1e-12);
   // Of the blocks, 16x16 from the corner, the upper right one holds only such pixels, the darkest.
   double worst = 0;
   for (int y = 0; y < 16; ++y) {
     const double radiance = y < 9 ? 0.0 : y == 9 ? 4 / 3.0 : y == 10 ? 8 / 3.0 : 4;
     worst += 4 * 0.25 / mc::sqr(std::max(radiance, 1.0)) / 64;
   }
-  EXPECT_NEAR(film.relative_error(ErrorOf::worst), std::sqrt(worst), 1e-12);
+  EXPECT_NEAR(film.relative_error(ErrorOf::worst).value, std::sqrt(worst), 1e-12);
+}
+
+// Two values are the furthest apart that their mean, their deviations and the largest allow.
+TEST(SampleSums, RangeIsExactForTwoValuesAndNeverTooLarge) {
+  mc::Pcg random(8);
+  for (int n = 2; n < 200; ++n) {
+    SampleSums two, any, equal;
+    Eigen::Array3d of_two = grey(0), of_any = grey(0);
+    for (int i = 0; i < n; ++i) {
+      const Eigen::Array3d value = i % 7 == 1 ? Eigen::Array3d(3, 0.5, 1e-20) : Eigen::Array3d(1, 0.25, 0);
+      const Eigen::Array3d drawn(random.uniform<double>(), -std::log(1 - random.uniform<double>()), i);
+      two.add(value);
+      any.add(drawn);
+      equal.add(Eigen::Array3d(0.1, 1e20, 0));
+      of_two += value / n;
+      of_any += drawn / n;
+    }
+    EXPECT_TRUE(two.range(of_two).isApprox(Eigen::Array3d(2, 0.25, 1e-20), 1e-9)) << n;
+    const Eigen::Array3d range = any.range(of_any);
+    EXPECT_TRUE((range > 0).all() && (range <= any.channel_largest).all()) << n;
+    EXPECT_TRUE((equal.range(Eigen::Array3d(0.1, 1e20, 0)) == 0).all()) << n;
+  }
+}
+
+// An edge across a pixel, of which every set of 16 points counts a whole number, at random places: what is stated is
+// at least the truth on average, at most a third more, and only where all sets count the same.
+TEST(Film, SetsThatAgreeByChanceDoNotMakeAnEdgeCertain) {
+  mc::Pcg random(5);
+  double stated = 0, truth = 0;
+  int held = 0, between = 0;
+  constexpr int pixels = 20'000, points = 16, sets = 4;
+  for (int i = 0; i < pixels; ++i) {
+    Film film(1, 1, sets);
+    const double covered = random.uniform<double>();
+    SampleSums samples;
+    double squares = 0;
+    for (int set = 0; set < sets; ++set) {
+      const double count = std::floor(covered * points + random.uniform<double>());
+      for (int k = 0; k < points; ++k) samples.add(Eigen::Array3d(k < count, 0, 5));
+      film.add(0, 0, set, Eigen::Array3d(count, 0, 5 * points), points);
+      squares += mc::sqr(count / points - covered);
+    }
+    film.note(0, 0, samples, 1);
+    const PixelEstimate pixel = film.estimate(0, 0);
+    stated += pixel.variance[0] / pixels;
+    truth += squares / (sets * sets) / pixels;
+    held += std::abs(pixel.mean[0] - covered) <= 3.182446 * std::sqrt(pixel.variance[0]);
+    between += pixel.variance[0] > 0;
+    EXPECT_EQ(pixel.variance[1], 0);
+    EXPECT_EQ(pixel.variance[2], 0);
+  }
+  EXPECT_GE(stated, truth);
+  EXPECT_LE(stated, 1.33 * truth);
+  EXPECT_GE(double(held) / pixels, 0.95);
+  EXPECT_GE(double(between) / pixels, 0.95); // the rest saw no edge
+}
+
+// Where one pixel has the noise, four sets know its error to a third: a bound is as much larger than what they say as
+// chi-square with 3 degrees of freedom asks.
+TEST(Film, BoundsItsErrorByWhatTheSetsKnow) {
+  Film one(8, 8, 4), all(8, 8, 4);
+  for (int y = 0; y < 8; ++y)
+    for (int x = 0; x < 8; ++x)
+      for (int set = 0; set < 4; ++set) {
+        const double off = set % 2 == 0 ? 0.5 : -0.5;
+        one.add(x, y, set, grey(x == 3 && y == 3 ? 2 + off : 2), 1);
+        all.add(x, y, set, grey(2 + off), 1);
+      }
+  const RelativeError of_one = one.relative_error(), of_all = all.relative_error();
+  EXPECT_NEAR(of_one.bound / of_one.value, std::sqrt(3 / 0.351846), 1e-5); // tables of chi-square, 5 %
+  EXPECT_NEAR(of_all.bound / of_all.value, std::sqrt(192 / 160.94), 1e-4); // the same, 3 * 64 degrees
+  EXPECT_EQ(Film(1, 1, 2).relative_error().bound, mc::infinity<double>);
 }
 
 TEST(Film, TellsWhichPixelsOneSampleDecides) {
@@ -92,7 +164,7 @@ TEST(Film, TellsWhichPixelsOneSampleDecides) {
   const auto note = [&](int x, const std::vector<double>& luminances) {
     for (const double y : luminances) { // merging says the same as adding
       SampleSums one;
-      one.add(y);
+      one.add(grey(y));
       film.note(x, 0, one, 3);
     }
   };

@@ -2,10 +2,13 @@
 
 #include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
+#include <render/scene/builder.h>
 
 #include <mc/core/error.h>
 
 #include <gtest/gtest.h>
+
+#include <numbers>
 
 namespace {
 
@@ -18,12 +21,56 @@ TEST(HalfWidths, ShareTheVarianceOfTheNeighbours) {
   image.variance[image.index(0, 0)] = Spectrum(4, 0, 1);
   EXPECT_THROW(half_widths(image, 1), mc::Error);
   const Image widths = half_widths(image, 0.95);
-  const double q = 2.306004135; // tables of Student's t, 8 degrees of freedom
-  EXPECT_NEAR(double(widths.at(0, 0)[0]), q, 1e-5);
+  const double q = 2.306004135;                     // tables of Student's t, 8 degrees of freedom
+  EXPECT_NEAR(double(widths.at(0, 0)[0]), q, 1e-5); // it does not say how many estimates are behind it
   EXPECT_NEAR(double(widths.at(1, 0)[0]), q * std::sqrt(4.0 / 6), 1e-5);
   EXPECT_NEAR(double(widths.at(1, 1)[2]), q / 3, 1e-5);
   EXPECT_EQ(widths.at(0, 0)[1], 0);
   EXPECT_TRUE((widths.at(2, 1) == 0).all());
+}
+
+TEST(HalfWidths, AreTheirOwnWhereAPixelIsNoisierThanItsNeighbours) {
+  Image image(5, 5);
+  image.variance.assign(25, Spectrum::Ones());
+  image.variance[image.index(2, 2)] = Spectrum(2.5, 4, 1); // means of 7/6, 4/3, 1
+  image.estimates = 4;
+  const Image widths = half_widths(image, 0.95);
+  const double q = 2.306004135, alone = 3.182446305; // 8 and 3 degrees of freedom
+  EXPECT_NEAR(double(widths.at(2, 2)[0]), alone * std::sqrt(2.5), 1e-5);
+  EXPECT_NEAR(double(widths.at(2, 2)[1]), alone * 2, 1e-5);
+  EXPECT_NEAR(double(widths.at(2, 2)[2]), q, 1e-5);
+  EXPECT_NEAR(double(widths.at(1, 1)[1]), q * std::sqrt(4 / 3.0), 1e-5);
+}
+
+// Lamps of less than a pixel before the dark: 40 pictures of four lamps, which cover a third of their pixel.
+TEST(HalfWidths, HoldTheTruthOfLampsSmallerThanAPixel) {
+  SceneBuilder builder;
+  const BsdfId black = builder.add(Lambert(Spectrum::Zero()));
+  const double pixel = 10 / 16.0, cell = 4 * pixel; // at the distance of the lamps
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      builder.add(Sphere(Vec3d((i - 1.5) * cell + 0.5 * pixel, (j - 1.5) * cell + 0.4 * pixel, -1000), 0.33 * pixel),
+                  {black, Emission{Spectrum::Constant(10)}});
+  builder.set(ThinLens(Transform::look_at({0, 0, 0}, {0, 0, -1}, {0, 1, 0}),
+                       LensOptions{.fov = 2 * std::atan(0.005) * 180 / std::numbers::pi}));
+  const Scene scene = builder.build();
+  RenderOptions options;
+  options.width = options.height = 16;
+  options.spp = 1 << 16;
+  options.seed = 1000;
+  const Image truth = render::render(scene, options).image;
+  options.spp = 64;
+  double held = 0, n = 0;
+  for (options.seed = 0; options.seed < 40; ++options.seed) {
+    const Image image = render::render(scene, options).image, widths = half_widths(image, 0.95);
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+      if (truth.pixels[i][1] == 0) continue;
+      held += std::abs(double(image.pixels[i][1] - truth.pixels[i][1])) <= double(widths.pixels[i][1]);
+      ++n;
+    }
+  }
+  EXPECT_GE(n, 640);
+  EXPECT_GE(held / n, 0.93);
 }
 
 // Where glass casts caustics, 40 pictures against one of 8192 samples a pixel: 10240 intervals. They share pixels,
