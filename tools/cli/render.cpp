@@ -127,8 +127,8 @@ std::vector<Option> rows(RenderOptions& o) {
        "RATIO",
        &o.target_error,
        "Mean relative standard error to reach: the pixels' standard errors relative to the radiance about them, in the "
-       "dark to half of the picture's mean, root mean square, with 95 % confidence; it goes on below that while in more "
-       "than 5 % of the pixels one sample carries over half of the variance, so that their errors are not known yet",
+       "dark to half of the picture's mean, root mean square, with 95 % confidence; it goes on below that while in "
+       "more than 5 % of the pixels one sample carries over half of the variance, so that their errors are not known",
        false,
        {"--spp", "--time"}},
       {"--error-of", "picture|worst", &o.error_of,

@@ -166,6 +166,8 @@ std::string read_file(const std::string& path) {
   std::error_code error;
   require(fs::exists(path, error), "cannot read '{}': no such file", path);
   require(!fs::is_directory(path, error), "cannot read '{}': it is a folder", path);
+  require(!fs::is_character_file(path, error) && !fs::is_block_file(path, error),
+          "cannot read '{}': it is a device, which may have no end; name a file or a pipe", path);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), &std::fclose);
   require(file != nullptr, "cannot read '{}': {}", path, std::strerror(errno));
   std::string bytes;

@@ -31,7 +31,7 @@ std::filesystem::path output_folder(const std::string& name, const std::string& 
 /// ".exr" of "a/b.EXR": the last dot of the name and what follows, in small letters; "" where there is none.
 std::string extension_of(const std::string& path);
 
-/// The whole file. Throws Error when it is missing or cannot be read.
+/// The whole file, or all that a pipe gives. Throws Error when it is missing, a folder or a device, or cannot be read.
 std::string read_file(const std::string& path);
 
 /// The same without the mark of its byte order that some programs put before text in UTF-8.

@@ -30,7 +30,8 @@ Transform Transform::rotate(const Vec3d& axis, double degrees) {
 }
 
 Transform Transform::look_at(const Vec3d& origin, const Vec3d& target, const Vec3d& up) {
-  const Vec3d forward = (target - origin).normalized(), left = mc::cross<double>(up, forward);
+  const Vec3d forward = (target - origin).stableNormalized();
+  const Vec3d left = mc::cross<double>(up.stableNormalized(), forward);
   mc::require(left.norm() > 0, "lookAt: target - origin must not be 0 or parallel to up");
   const Vec3d x = left.normalized();
   return columns(x, mc::cross<double>(forward, x), forward, origin);

@@ -9,8 +9,9 @@ namespace render {
 
 namespace {
 
-constexpr double fov = 35;      // degrees, along the smaller side of the film
-constexpr double margin = 0.95; // share of the picture, from its middle, that the mesh fills at most
+constexpr double fov = 35;       // degrees, along the smaller side of the film
+constexpr double largest = 1e30; // the ground below it, fifty times as large, is far from what a float holds
+constexpr double margin = 0.95;  // share of the picture, from its middle, that the mesh fills at most
 
 MeshFile read_mesh(const std::string& path) {
   const std::string extension = mc::extension_of(path);
@@ -70,9 +71,10 @@ SceneFile read_mesh_scene(const std::string& path) {
   const MeshFile mesh = read_mesh(path);
   const Extent extent = extent_of(mesh);
   const Vec3d middle = (extent.lo + extent.hi) / 2;
-  const double size = (extent.hi - extent.lo).norm() / 2;
+  const double size = (extent.hi - extent.lo).stableNorm() / 2;
   SceneBuilder builder;
   return mc::with_context(path, [&] {
+    mc::require(size <= largest, "the mesh is {:.3g} large, more than {:.0g}; scale it down", size, largest);
     TriangleMesh shape = to_shape(mesh, Transform::translate(-middle), mesh.normals.empty());
     builder.add(std::move(shape), {builder.add(Lambert(Spectrum::Constant(Float(0.6))))});
     builder.add(ground_below(extent, size), {builder.add(Lambert(Spectrum::Constant(Float(0.4))))});

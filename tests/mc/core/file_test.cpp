@@ -81,6 +81,8 @@ TEST_F(FileTest, SaysWhatToDo) {
   EXPECT_EQ(message([&] { mc::write_file(folder, "x"); }),
             "cannot write '" + folder.string() + "': it is a folder; name a file in it");
   EXPECT_EQ(message([&] { mc::read_file(missing); }), "cannot read '" + missing + "': no such file");
+  EXPECT_EQ(message([] { mc::read_file("/dev/zero"); }),
+            "cannot read '/dev/zero': it is a device, which may have no end; name a file or a pipe");
 }
 
 TEST_F(FileTest, AskingWhetherAPlaceIsWritableLeavesNoTrace) {

@@ -55,7 +55,8 @@ TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat
       }))
     normals = smooth_normals(placed, triangles);
   TriangleMesh mesh(std::move(positions), triangles, std::move(normals), file.uvs);
-  mc::require(mesh.area() > 0, "none of its {} triangles has an area: nothing would be seen", mesh.size());
+  mc::require(mesh.area() > 0, "none of its {} triangles has an area{}: nothing would be seen", mesh.size(),
+              sizeof(Float) == sizeof(float) ? " in single precision" : "");
   return mesh;
 }
 

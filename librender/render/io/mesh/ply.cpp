@@ -87,7 +87,7 @@ class Numbers {
 
  private:
   template <class T> T take() {
-    mc::require(rest_.size() >= sizeof(T), "the file ends early");
+    mc::require(rest_.size() >= sizeof(T), "the file ends early; copy it whole");
     T value;
     std::memcpy(&value, rest_.data(), sizeof(T));
     rest_.remove_prefix(sizeof(T));
@@ -95,7 +95,7 @@ class Numbers {
   }
   double word() {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size()));
-    mc::require(!rest_.empty(), "the file ends early");
+    mc::require(!rest_.empty(), "the file ends early; copy it whole");
     const std::string_view text = rest_.substr(0, rest_.find_first_of(" \t\r\n"));
     const std::optional<double> value = mc::number_in(text);
     mc::require(value.has_value(), "'{}' is not a number", text);
@@ -156,7 +156,8 @@ Header read_header(std::string_view& bytes) {
 }
 
 std::size_t list_length(double value) {
-  mc::require(value >= 0 && value <= 0xffffffff && value == std::floor(value), "a list of {} numbers", value);
+  mc::require(value >= 0 && value <= 0xffffffff && value == std::floor(value),
+              "a list of {} numbers; a length is a whole number from 0 up", value);
   return static_cast<std::size_t>(value);
 }
 
@@ -174,6 +175,18 @@ class Rows {
     values.resize(element.properties.size());
   }
   void next() {
+    try {
+      read();
+    } catch (const mc::Error& e) { // with_context would name every row beforehand
+      throw mc::Error(fmt::format("{} {}: {}", element_.name, row_, e.what()));
+    }
+    ++row_;
+  }
+
+  std::vector<double> values, list;
+
+ private:
+  void read() {
     for (std::size_t i = 0; i < element_.properties.size(); ++i) {
       const Property& p = element_.properties[i];
       if (!p.count) {
@@ -189,12 +202,10 @@ class Rows {
     }
   }
 
-  std::vector<double> values, list;
-
- private:
   const Element& element_;
   Numbers& numbers_;
   std::optional<std::size_t> list_;
+  std::size_t row_ = 0;
 };
 
 void read_vertices(const Element& element, Numbers& numbers, MeshFile& mesh) {

@@ -153,7 +153,10 @@ TEST_F(Mesh, PlyRefusesWithFileAndPlace) {
   EXPECT_THAT(refusal(text, "3 0 1 2", "3 0 1 nan"), HasSubstr("face 0 names vertex nan"));
   EXPECT_THAT(refusal(text, "3 0 1 2", "2 0 1 2"), HasSubstr("face 0 has 2 corners"));
   EXPECT_THAT(refusal(text, "1 0 0", "1 nan 0"), HasSubstr("vertex 1 = (1, nan, 0) is not finite"));
-  EXPECT_THAT(refusal(text, "1 0 0", "1 one 0"), HasSubstr("'one' is not a number"));
+  EXPECT_THAT(refusal(text, "1 0 0", "1 one 0"), HasSubstr("bad.ply: vertex 1: 'one' is not a number"));
+  EXPECT_THAT(refusal(text, "3 0 1 2", "-3 0 1 2"),
+              HasSubstr("bad.ply: face 0: a list of -3 numbers; a length is a whole number from 0 up"));
+  EXPECT_THAT(refusal(text, "3 0 1 2", "300 0 1 2"), HasSubstr("bad.ply: face 0: the file ends early; copy it whole"));
   EXPECT_THAT(refusal(text, "property float z", "property float w"), HasSubstr("vertices need x, y and z"));
   EXPECT_THAT(refusal(text, "property float z", "property flat z"), HasSubstr("line 7: 'flat' is no type"));
   EXPECT_THAT(refusal(text, "ascii", "ebcdic"), HasSubstr("line 2: unknown format 'ebcdic'"));

@@ -47,14 +47,13 @@ Shape make_cube(const Transform& to_world) {
 
 Shape make_sphere(const Transform& to_world, const Vec3d& center, double radius, bool flip, std::size_t pole,
                   const std::optional<Vec3d>& cap_axis, const std::optional<double>& cap_height) {
-  const double scale = to_world.linear.col(0).norm();
-  mc::require(
-      (to_world.linear.transpose() * to_world.linear).isApprox(scale * scale * Eigen::Matrix3d::Identity(), 1e-9),
-      "toWorld of a sphere must scale all axes alike");
+  const double scale = to_world.linear.col(0).stableNorm();
+  const Eigen::Matrix3d turn = to_world.linear / scale;
+  mc::require((turn.transpose() * turn).isApprox(Eigen::Matrix3d::Identity(), 1e-9),
+              "toWorld of a sphere must scale all axes alike");
   mc::require(cap_axis.has_value() == cap_height.has_value(),
               "capAxis and capHeight belong together; give both or none");
   const Vec3d at = to_world.point(center);
-  const Eigen::Matrix3d turn = to_world.linear / scale;
   Eigen::Matrix3d axes = turn;
   if (pole == 1) axes << turn.col(0), turn.col(2), turn.col(1);
   if (!cap_axis) return Sphere(at, scale * radius, flip).with_uv_axes(axes);
