@@ -27,7 +27,7 @@ TEST(Transform, LooksAtItsTarget) {
   EXPECT_EQ(t.vector({0, 1, 0}), Vec3d(0, 1, 0));
   EXPECT_EQ(t.vector({1, 0, 0}), Vec3d(1, 0, 0)); // to the left of one who looks along +z with y up
   EXPECT_FALSE(t.mirrors());
-  for (const double far : {1e-200, 1e200}) // its square is no number above 0
+  for (const double far : {1e-200, 1e200}) // its square is 0 or infinite
     EXPECT_TRUE(Transform::look_at({0, 0, far}, {0, 0, 0}, {0, far, 0})
                     .linear.isApprox(Transform::look_at({0, 0, 1}, {0, 0, 0}, {0, 1, 0}).linear));
   EXPECT_THROW(Transform::look_at({1, 2, 3}, {1, 2, 3}, {0, 1, 0}), mc::Error);
