@@ -66,8 +66,10 @@ template <Real S> struct Logistic {
 /// Logistic distribution of mean 0 cut to [lo, hi].
 ///   sample : x = scale log(F / G) of the cut CDF F = F(lo) + u m and G = F(-hi) + (1 - u) m; the mass m of the
 ///            interval is F(hi) F(-lo) (1 - e^((lo - hi) / scale)), so that nothing cancels in the tails. On intervals
-///            shorter than scale x - lo = scale log(1 + odds), the odds of F against F(lo)
-///   pdf    : the logistic density / m [1/length]; 0 outside
+///            in a tail or shorter than scale the distance from the end is scale log(1 + odds), the odds of the mass up
+///            to x against the rest of the tail: all relative to the end, so that a tail may be as thin as S allows
+///   pdf    : the logistic density / m [1/length]; 0 outside. Relative error (8 + 2 d) eps, d the distance over scale
+///            from the end next to 0, or from 0 inside
 ///   invert : |invert(sample(u)) - u| <= 8 eps max(1, max(|lo|, |hi|) / min(scale, hi - lo)): the rounding of x
 ///   throws : Error unless lo < hi, both finite, scale and hi - lo pass is_scale, and m does not underflow
 template <Real S> struct TrimmedLogistic {
@@ -92,25 +94,42 @@ template <Real S> struct TrimmedLogistic {
 
   Domain domain() const { return {lo, hi}; }
   S sample(S u) const {
-    using std::expm1, std::log, std::log1p, std::max, std::min;
-    const S v = max(u, S(std::numeric_limits<S>::epsilon() / 4)), m = mass();
-    if (hi - lo <= scale) { // from the end: the logarithm below knows x only to scale eps
-      const S share = -S(expm1(S((lo - hi) / scale))), top = detail::sigmoid<S>(hi / scale);
-      const S odds = v * share * top / detail::sigmoid<S>(lo / scale) / (1 - v * share * top);
-      return min(S(lo + scale * S(log1p(odds))), hi);
-    }
-    const S below = detail::sigmoid<S>(lo / scale) + v * m, above = detail::sigmoid<S>(-hi / scale) + (1 - v) * m;
+    using std::log, std::max, std::min;
+    const S v = max(u, S(std::numeric_limits<S>::epsilon() / 4));
+    if (hi <= 0) return max(S(hi - beyond(S(-hi), S(1 - u), v)), lo);
+    if (lo >= 0 || hi - lo <= scale) return min(S(lo + beyond(lo, v, S(1 - v))), hi);
+    const S m = mass(), below = detail::sigmoid<S>(lo / scale) + v * m,
+            above = detail::sigmoid<S>(-hi / scale) + (1 - v) * m;
     return min(max(S(scale * S(log(S(below / above)))), lo), hi);
   }
-  S pdf(S x) const { return x >= lo && x <= hi ? S(detail::logistic_density<S>(x / scale) / mass() / scale) : S(0); }
+  S pdf(S x) const {
+    using std::exp, std::expm1;
+    if (!(x >= lo && x <= hi)) return S(0);
+    if (lo < 0 && hi > 0) return detail::logistic_density<S>(x / scale) / mass() / scale;
+    // Beyond the end next to 0, where densities are small: relative to what lies there.
+    const S inner = lo >= 0 ? lo : S(-hi), outer = lo >= 0 ? hi : S(-lo), at = lo >= 0 ? x : S(-x);
+    return S(exp(S((inner - at) / scale))) * (1 + S(exp(S(-inner / scale)))) /
+           (sqr<S>(1 + S(exp(S(-at / scale)))) * detail::sigmoid<S>(outer / scale) * -S(expm1(S((lo - hi) / scale))) *
+            scale);
+  }
   S invert(S x) const {
-    using std::expm1;
-    return within_unit<S>(detail::sigmoid<S>(x / scale) / detail::sigmoid<S>(hi / scale) *
-                          (S(expm1(S((lo - x) / scale))) / S(expm1(S((lo - hi) / scale)))));
+    using std::exp, std::expm1;
+    const S up_to = hi > 0 ? S(detail::sigmoid<S>(x / scale) / detail::sigmoid<S>(hi / scale))
+                           : S(S(exp(S((x - hi) / scale))) * (1 + S(exp(S(hi / scale)))) / (1 + S(exp(S(x / scale)))));
+    return within_unit<S>(up_to * (S(expm1(S((lo - x) / scale))) / S(expm1(S((lo - hi) / scale)))));
   }
   template <Real T> TrimmedLogistic<T> cast() const { return {T(scale), T(lo), T(hi)}; }
 
  private:
+  // How far from the end `inner`, the nearer to 0, the share `v` of the mass reaches; w = 1 - v.
+  S beyond(const S& inner, const S& v, const S& w) const {
+    using std::exp, std::expm1, std::log1p;
+    const S length = (hi - lo) / scale, outer = inner / scale + length, top = detail::sigmoid<S>(outer);
+    const S share = -S(expm1(S(-length))) * top,
+            other = detail::sigmoid<S>(-outer) + top * S(exp(S(-length)));            // 1 - share
+    const S odds = v * share * (1 + S(exp(S(-inner / scale)))) / (other + w * share); // no cancellation, monotone
+    return scale * S(log1p(odds));
+  }
   S mass() const {
     using std::expm1;
     return detail::sigmoid<S>(hi / scale) * detail::sigmoid<S>(-lo / scale) * -S(expm1(S((lo - hi) / scale)));

@@ -9,8 +9,8 @@
 namespace mc {
 
 /// Directions about +z with density proportional to exp(kappa cos(theta)).
-///   sample : 1 - z = t = -log(1 - u (1 - exp(-2 kappa))) / kappa, by log1p and expm1; where kappa is small and u
-///            large, 1 + z is what is computed
+///   sample : 1 - z = t = -log(1 - u (1 - exp(-2 kappa))) / kappa, by log1p and expm1; for z < 0, or u > 1/2 where
+///            kappa is small, 1 + z is what is computed
 ///   pdf    : kappa exp(-kappa t) / (2 pi (1 - exp(-2 kappa))) [1/sr], t from x^2 + y^2 near the pole. Relative error
 ///            (8 + 4 kappa t) eps: the tail is ill-conditioned in w; kappa t < 1 for 63 percent of the samples
 ///   invert : |invert(sample(u)) - u| <= 16 eps
@@ -22,7 +22,7 @@ template <Real S> class VonMisesFisher {
   using Domain = Sphere<S>;
 
   explicit VonMisesFisher(S kappa) : kappa_(kappa) {
-    using std::exp, std::expm1, std::isfinite;
+    using std::exp, std::expm1, std::isfinite, std::max;
     using Limits = std::numeric_limits<S>;
     require(isfinite(kappa) && kappa >= 0 && kappa <= Limits::max() * Limits::epsilon(),
             "VonMisesFisher: kappa = {} must be finite and >= 0, and not next to the largest number",
@@ -30,7 +30,9 @@ template <Real S> class VonMisesFisher {
     mass_ = kappa > Limits::epsilon() / 8 ? S(-S(expm1(S(-2 * kappa)))) : S(0); // 0: uniform, to a rounding
     tail_ = S(exp(S(-2 * kappa)));
     peak_ = mass_ > 0 ? S(kappa / (2 * pi<S> * mass_)) : S(1 / (4 * pi<S>));
-    growth_ = kappa <= 4 ? S(expm1(S(2 * kappa))) : S(0);
+    if (kappa > 20) return; // no u comes so close to the far pole
+    growth_ = S(expm1(S(2 * kappa)));
+    far_ = max(S(1 - S(exp(S(-kappa)))), S(0.5));
   }
 
   Domain domain() const { return {}; }
@@ -44,7 +46,7 @@ template <Real S> class VonMisesFisher {
     } else if (u[0] < S(0.5)) {
       t = -S(log1p(S(-u[0] * mass_))) / kappa_;
       cosine = 1 - t;
-    } else if (growth_ > 0) {
+    } else if (u[0] >= far_) {
       t = min(S(S(log1p(S((1 - u[0]) * growth_))) / kappa_), S(2)); // 1 + z: t (2 - t) is the same
       cosine = t - 1;
     } else {
@@ -67,7 +69,8 @@ template <Real S> class VonMisesFisher {
   template <Real T> VonMisesFisher<T> cast() const { return VonMisesFisher<T>(T(kappa_)); }
 
  private:
-  S kappa_, mass_, tail_, peak_, growth_; ///< 1 - exp(-2k), exp(-2k), pdf at the pole, exp(2k) - 1 where it is used
+  S kappa_, mass_, tail_, peak_; ///< 1 - exp(-2k), exp(-2k), pdf at the pole
+  S growth_ = 0, far_ = 1;       ///< exp(2k) - 1 and the least u for z < 0, where it is used
 };
 
 } // namespace mc

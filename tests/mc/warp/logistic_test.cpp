@@ -36,6 +36,20 @@ TYPED_TEST(LogisticOver, TrimmedObeysTheLawsInTailsAndOnShortIntervals) {
   }
 }
 
+// A tail whose density is next to the smallest number: nothing of it is lost, neither its pdf nor where it ends.
+TYPED_TEST(LogisticOver, TrimmedToATailAsThinAsTheScalarAllows) {
+  using S = TypeParam;
+  const double lo = sizeof(S) == sizeof(float) ? 80 : 700;
+  for (const double length : {1e-3, 1.0, 20.0, 1000.0})
+    for (const bool below : {false, true}) {
+      const S a = S(below ? -lo - length : lo), b = S(below ? -lo : lo + length);
+      EXPECT_WARP_LAWS(TrimmedLogistic<S>(1, a, b), {.name = fmt::format("[{}, {}]", a, b),
+                                                     .samples = 20'000,
+                                                     .invert_eps = 8 * (lo + length) / std::min(1.0, length),
+                                                     .pdf_eps = 64});
+    }
+}
+
 TEST(Logistic, RefusesNonsense) {
   for (const double scale : {0.0, -1.0, HUGE_VAL, std::nan("")}) {
     EXPECT_THROW((Logistic<double>(0, scale)), Error);

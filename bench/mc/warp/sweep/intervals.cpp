@@ -147,8 +147,9 @@ template <class S> void add_bells(std::vector<Row>& rows, const std::string& sca
         const double least = std::min(d(w.scale), d(w.hi) - d(w.lo));
         const double stretch = std::max(1.0, std::max(std::abs(d(w.lo)), std::abs(d(w.hi))) / least);
         return [=](auto, auto x) {
+          const double inner = d(w.lo) >= 0 ? d(w.lo) : std::min(d(w.hi), 0.0); // the end next to 0, or 0 inside
           return Bounds{
-              .sample = 16, .pdf = 64 + 4 * std::abs(d(x)) / d(w.scale), .invert = 8 * stretch, .scale = least};
+              .sample = 16, .pdf = 8 + 2 * std::abs(d(x) - inner) / d(w.scale), .invert = 8 * stretch, .scale = least};
         };
       }));
 }
