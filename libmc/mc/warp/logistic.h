@@ -76,11 +76,11 @@ template <Real S> struct TrimmedLogistic {
   using Scalar = S;
   using Domain = Interval<S>;
 
-  S scale = 1, lo = -1, hi = 1;
+  S scale, lo, hi; ///< to be read: constants that belong to them are made with them
 
-  TrimmedLogistic() = default;
+  TrimmedLogistic() : TrimmedLogistic(1, -1, 1) {}
   TrimmedLogistic(S scale_, S lo_, S hi_) : scale(scale_), lo(lo_), hi(hi_) {
-    using std::isfinite;
+    using std::exp, std::expm1, std::isfinite;
     require(is_scale(scale),
             "TrimmedLogistic: scale {} must be finite and > 0, neither denormal nor next to the largest",
             static_cast<double>(scale));
@@ -88,29 +88,33 @@ template <Real S> struct TrimmedLogistic {
         isfinite(lo) && isfinite(hi) && lo < hi && is_scale(S(hi - lo)),
         "TrimmedLogistic: [{}, {}] needs finite bounds with lo < hi, neither denormally close nor next to the largest",
         static_cast<double>(lo), static_cast<double>(hi));
-    require(mass() >= std::numeric_limits<S>::min(), "TrimmedLogistic: the mass of [{}, {}] at scale {} underflows",
+    const S length = (hi - lo) / scale, decay = S(exp(S(-length))), share = -S(expm1(S(-length)));
+    mass_ = detail::sigmoid<S>(hi / scale) * detail::sigmoid<S>(-lo / scale) * share;
+    require(mass_ >= std::numeric_limits<S>::min(), "TrimmedLogistic: the mass of [{}, {}] at scale {} underflows",
             static_cast<double>(lo), static_cast<double>(hi), static_cast<double>(scale));
+    low_ = detail::sigmoid<S>(lo / scale);
+    high_ = detail::sigmoid<S>(-hi / scale);
+    if (is_wide()) return;
+    const S outer = inner() / scale + length, top = detail::sigmoid<S>(outer);
+    mass_ = share * top;
+    low_ = detail::sigmoid<S>(-outer) + top * decay;
+    high_ = 1 + S(exp(S(-inner() / scale)));
   }
 
   Domain domain() const { return {lo, hi}; }
   S sample(S u) const {
-    using std::log, std::max, std::min;
-    const S v = max(u, S(std::numeric_limits<S>::epsilon() / 4));
-    if (hi <= 0) return max(S(hi - beyond(S(-hi), S(1 - u), v)), lo);
-    if (lo >= 0 || hi - lo <= scale) return min(S(lo + beyond(lo, v, S(1 - v))), hi);
-    const S m = mass(), below = detail::sigmoid<S>(lo / scale) + v * m,
-            above = detail::sigmoid<S>(-hi / scale) + (1 - v) * m;
-    return min(max(S(scale * S(log(S(below / above)))), lo), hi);
+    using std::log, std::log1p, std::max, std::min;
+    const S v = max(u, S(std::numeric_limits<S>::epsilon() / 4)), w = 1 - v;
+    if (is_wide()) return min(max(S(scale * S(log(S((low_ + v * mass_) / (high_ + w * mass_))))), lo), hi);
+    if (hi > 0) return min(S(lo + scale * S(log1p(S(v * mass_ * high_ / (low_ + w * mass_))))), hi);
+    return max(S(hi - scale * S(log1p(S(w * mass_ * high_ / (low_ + v * mass_))))), lo);
   }
   S pdf(S x) const {
-    using std::exp, std::expm1;
+    using std::exp;
     if (!(x >= lo && x <= hi)) return S(0);
-    if (lo < 0 && hi > 0) return detail::logistic_density<S>(x / scale) / mass() / scale;
-    // Beyond the end next to 0, where densities are small: relative to what lies there.
-    const S inner = lo >= 0 ? lo : S(-hi), outer = lo >= 0 ? hi : S(-lo), at = lo >= 0 ? x : S(-x);
-    return S(exp(S((inner - at) / scale))) * (1 + S(exp(S(-inner / scale)))) /
-           (sqr<S>(1 + S(exp(S(-at / scale)))) * detail::sigmoid<S>(outer / scale) * -S(expm1(S((lo - hi) / scale))) *
-            scale);
+    if (is_wide()) return detail::logistic_density<S>(x / scale) / mass_ / scale;
+    const S at = hi > 0 ? x : S(-x);
+    return S(exp(S((inner() - at) / scale))) * high_ / (sqr<S>(1 + S(exp(S(-at / scale)))) * mass_) / scale;
   }
   S invert(S x) const {
     using std::exp, std::expm1;
@@ -121,19 +125,14 @@ template <Real S> struct TrimmedLogistic {
   template <Real T> TrimmedLogistic<T> cast() const { return {T(scale), T(lo), T(hi)}; }
 
  private:
-  // How far from the end `inner`, the nearer to 0, the share `v` of the mass reaches; w = 1 - v.
-  S beyond(const S& inner, const S& v, const S& w) const {
-    using std::exp, std::expm1, std::log1p;
-    const S length = (hi - lo) / scale, outer = inner / scale + length, top = detail::sigmoid<S>(outer);
-    const S share = -S(expm1(S(-length))) * top,
-            other = detail::sigmoid<S>(-outer) + top * S(exp(S(-length)));            // 1 - share
-    const S odds = v * share * (1 + S(exp(S(-inner / scale)))) / (other + w * share); // no cancellation, monotone
-    return scale * S(log1p(odds));
-  }
-  S mass() const {
-    using std::expm1;
-    return detail::sigmoid<S>(hi / scale) * detail::sigmoid<S>(-lo / scale) * -S(expm1(S((lo - hi) / scale)));
-  }
+  // About 0, and longer than scale.
+  bool is_wide() const { return lo < 0 && hi > 0 && hi - lo > scale; }
+  // The end from which all else is seen, mirrored for an interval below 0.
+  S inner() const { return hi > 0 ? lo : S(-hi); }
+
+  // Wide: m, F(lo), F(-hi). Else: the share of the tail beyond the end that the interval has, the rest of that tail,
+  // and 1 / F of the end: a share v of the interval ends where the odds are v mass_ high_ / (low_ + (1 - v) mass_).
+  S mass_, low_, high_;
 };
 
 } // namespace mc
