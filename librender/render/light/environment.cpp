@@ -33,8 +33,8 @@ Environment::Environment(std::shared_ptr<const Texels> texels, const Transform& 
               "environment: toWorld must be a rotation");
   for (std::size_t i = 0; i < t.values.size(); ++i)
     mc::require((t.values[i] >= 0).all() && t.values[i].isFinite().all(),
-                "environment: texel ({}, {}) = ({}, {}, {}) must be finite and >= 0",
-                i % static_cast<std::size_t>(t.width), i / static_cast<std::size_t>(t.width), t.values[i][0],
+                "environment: texel ({}, {}){} = ({}, {}, {}) must be finite and >= 0",
+                i % static_cast<std::size_t>(t.width), i / static_cast<std::size_t>(t.width), t.origin, t.values[i][0],
                 t.values[i][1], t.values[i][2]);
   const std::vector<double> means = texel_means(t);
   const auto w = static_cast<std::size_t>(t.width), h = static_cast<std::size_t>(t.height);
@@ -44,7 +44,7 @@ Environment::Environment(std::shared_ptr<const Texels> texels, const Transform& 
                  below = std::cos(double(row + 1) * band);
     flux_ += scale * means[i] * (above - below) * 2 * mc::pi<double> / double(w);
   }
-  mc::require(flux_ > 0, "environment: every texel is black; leave the emitter out");
+  mc::require(flux_ > 0, "environment: every texel{} is black; leave the emitter out", texels_->origin);
   table_ = std::make_shared<const mc::TableDist2D<Float>>(mc::TableDist2D<Float>::from_lat_long(means, w, h));
 }
 

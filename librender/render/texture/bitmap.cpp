@@ -7,8 +7,9 @@ Bitmap::Bitmap(std::shared_ptr<const Texels> texels, const UvMap& map) : texels_
   largest_ = smallest_ = t.values[0];
   for (std::size_t i = 0; i < t.values.size(); ++i) {
     const Spectrum& s = t.values[i];
-    mc::require(s.isFinite().all(), "bitmap: texel ({}, {}) = ({}, {}, {}) is not finite",
-                i % static_cast<std::size_t>(t.width), i / static_cast<std::size_t>(t.width), s[0], s[1], s[2]);
+    mc::require(s.isFinite().all(), "bitmap: texel ({}, {}){} = ({}, {}, {}) is not finite",
+                i % static_cast<std::size_t>(t.width), i / static_cast<std::size_t>(t.width), t.origin, s[0], s[1],
+                s[2]);
     largest_ = largest_.max(s);
     smallest_ = smallest_.min(s);
   }

@@ -61,6 +61,12 @@ TEST(BitmapTexture, RefusesWhatIsNoPicture) {
   } catch (const mc::Error& e) {
     EXPECT_THAT(e.what(), testing::HasSubstr("bitmap: texel (1, 1) = (nan, nan, nan) is not finite"));
   }
+  try {
+    const Bitmap refused(std::make_shared<const Texels>(1, 1, std::vector<Spectrum>{grey(NAN)}, "a.exr"));
+    FAIL();
+  } catch (const mc::Error& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("bitmap: texel (0, 0) of 'a.exr' = (nan, nan, nan) is not finite"));
+  }
 }
 
 } // namespace

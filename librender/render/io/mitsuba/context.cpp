@@ -84,7 +84,7 @@ std::shared_ptr<const Texels> Context::picture(const std::string& path) {
   std::shared_ptr<const Texels>& picture = pictures_[path];
   if (!picture) {
     Image image = read_image(path);
-    picture = std::make_shared<const Texels>(image.width, image.height, std::move(image.pixels));
+    picture = std::make_shared<const Texels>(image.width, image.height, std::move(image.pixels), path);
   }
   return picture;
 }
