@@ -22,6 +22,19 @@ TYPED_TEST(VonMisesFisherOver, ObeysTheLawsFromUniformToNeedle) {
   }
 }
 
+// The last u lie next to -z, where 1 - z no longer knows how far.
+TYPED_TEST(VonMisesFisherOver, TheFarPoleKeepsItsDigits) {
+  using S = TypeParam;
+  const S step = std::numeric_limits<S>::epsilon() / 2;
+  for (S kappa = S(0.25); kappa < 40; kappa += S(0.25))
+    for (const int steps : {1, 2, 3, 10, 1000}) {
+      const Vec3<S> w = VonMisesFisher<S>(kappa).sample({1 - S(steps) * step, 0});
+      const double s =
+          std::log1p(double(steps) * double(step) * std::expm1(2 * double(kappa))) / double(kappa); // 1 + z
+      EXPECT_NEAR(double(w.x()), std::sqrt(s * (2 - s)), 16 * 2 * double(step)) << "kappa " << kappa << ", " << steps;
+    }
+}
+
 TEST(VonMisesFisher, TinyKappaIsUniform) {
   for (const double kappa : {0.0, 1e-300, 1e-9}) {
     const VonMisesFisher<double> warp(kappa);
