@@ -23,7 +23,7 @@ class SumOfVariances {
   double value() const { return sum_; }
   /// What it is below with a confidence of 95 %.
   double bound() const {
-    if (sum_ == 0) return 0;
+    if (squares_ == 0) return sum_; // nothing, or too little to be squared
     const double dof = sum_ * sum_ / squares_;
     return sum_ * dof / mc::chi_square_quantile(0.95, dof);
   }
