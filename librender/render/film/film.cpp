@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/stats/chi_square.h>
+#include <mc/stats/t_test.h>
 
 #include <cmath>
 
@@ -11,26 +12,6 @@ namespace {
 
 // Deviations of equal samples, in parts of their squares.
 constexpr double rounding = 1e-12;
-
-/// Of independent estimates, each with its degrees of freedom; the sum has those of a multiple of chi-square of the
-/// same mean and variance. Source: [Welch47]
-class SumOfVariances {
- public:
-  void add(double variance, double dof) {
-    sum_ += variance;
-    squares_ += variance * variance / dof;
-  }
-  double value() const { return sum_; }
-  /// What it is below with a confidence of 95 %.
-  double bound() const {
-    if (squares_ == 0) return sum_; // nothing, or too little to be squared
-    const double dof = sum_ * sum_ / squares_;
-    return sum_ * dof / mc::chi_square_quantile(0.95, dof);
-  }
-
- private:
-  double sum_ = 0, squares_ = 0;
-};
 
 } // namespace
 
@@ -128,16 +109,18 @@ RelativeError Film::relative_error(ErrorOf of) const {
   for (int top = 0; top < height_; top += block)
     for (int left = 0; left < width_; left += block) {
       const int bottom = std::min(top + block, height_), right = std::min(left + block, width_);
-      SumOfVariances sum;
+      double sum = 0, dof = 1; // of nothing
       for (int y = top; y < bottom; ++y)
         for (int x = left; x < right; ++x) {
           const PixelEstimate pixel = estimate(x, y);
-          if ((pixel.variance > 0).any())
-            sum.add((pixel.variance / around(means, x, y).max(mean / 2).square()).mean(), pixel.sets - 1);
+          if (!(pixel.variance > 0).any()) continue;
+          const double variance = (pixel.variance / around(means, x, y).max(mean / 2).square()).mean();
+          dof = mc::welch_dof(sum, dof, variance, pixel.sets - 1);
+          sum += variance;
         }
       const int pixels = (bottom - top) * (right - left);
-      worst.value = std::max(worst.value, std::sqrt(sum.value() / pixels));
-      worst.bound = std::max(worst.bound, std::sqrt(sum.bound() / pixels));
+      worst.value = std::max(worst.value, std::sqrt(sum / pixels));
+      worst.bound = std::max(worst.bound, std::sqrt(sum / pixels * dof / mc::chi_square_quantile(0.95, dof)));
     }
   return worst;
 }

@@ -74,7 +74,8 @@ SceneFile read_mesh_scene(const std::string& path) {
   const double size = (extent.hi - extent.lo).stableNorm() / 2;
   SceneBuilder builder;
   return mc::with_context(path, [&] {
-    mc::require(size <= largest, "the mesh is {:.3g} large, more than {:.0g}; scale it down", size, largest);
+    mc::require(size <= largest, "the mesh reaches {:.3g} from its middle, more than {:.0g}; scale it down", size,
+                largest);
     TriangleMesh shape = to_shape(mesh, Transform::translate(-middle), mesh.normals.empty());
     builder.add(std::move(shape), {builder.add(Lambert(Spectrum::Constant(Float(0.6))))});
     builder.add(ground_below(extent, size), {builder.add(Lambert(Spectrum::Constant(Float(0.4))))});

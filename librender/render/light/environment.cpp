@@ -44,7 +44,7 @@ Environment::Environment(std::shared_ptr<const Texels> texels, const Transform& 
                  below = std::cos(double(row + 1) * band);
     flux_ += scale * means[i] * (above - below) * 2 * mc::pi<double> / double(w);
   }
-  mc::require(flux_ > 0, "environment: every texel{} is black; leave the emitter out", texels_->origin);
+  mc::require(flux_ > 0, "environment: every texel{} is black; leave the emitter out", t.origin);
   table_ = std::make_shared<const mc::TableDist2D<Float>>(mc::TableDist2D<Float>::from_lat_long(means, w, h));
 }
 

@@ -110,7 +110,7 @@ TEST(SampleSums, RangeIsExactForTwoValuesAndNeverTooLarge) {
 }
 
 // An edge across a pixel, of which every set of 16 points counts a whole number, at random places: what is stated is
-// at least the truth on average, at most a third more, and only where all sets count the same.
+// at least the truth on average, and at most a third more.
 TEST(Film, SetsThatAgreeByChanceDoNotMakeAnEdgeCertain) {
   mc::Pcg random(5);
   double stated = 0, truth = 0;

@@ -42,7 +42,7 @@ TEST(HalfWidths, AreTheirOwnWhereAPixelIsNoisierThanItsNeighbours) {
   EXPECT_NEAR(double(widths.at(1, 1)[1]), q * std::sqrt(4 / 3.0), 1e-5);
 }
 
-// Lamps of less than a pixel before the dark: 40 pictures of four lamps, which cover a third of their pixel.
+// Lamps of less than a pixel before the dark: 40 pictures of 16 lamps, each a third of a pixel.
 TEST(HalfWidths, HoldTheTruthOfLampsSmallerThanAPixel) {
   SceneBuilder builder;
   const BsdfId black = builder.add(Lambert(Spectrum::Zero()));

@@ -88,7 +88,7 @@ TEST_F(MeshScene, RefusesWhatCannotBeSeen) {
               testing::AllOf(HasSubstr("line.obj"), HasSubstr("none of its 1 triangles has an area")));
   const std::string huge = write("huge.obj", "v 0 0 0\nv 1e38 0 0\nv 0 1e38 0\nf 1 2 3\n");
   EXPECT_THAT(support::error_of([&] { read_mesh_scene(huge); }),
-              HasSubstr("huge.obj: the mesh is 7.07e+37 large, more than 1e+30; scale it down"));
+              HasSubstr("huge.obj: the mesh reaches 7.07e+37 from its middle, more than 1e+30; scale it down"));
   const std::string empty = write("empty.obj", "v 0 0 0\n");
   EXPECT_THAT(support::error_of([&] { read_mesh_scene(empty); }), HasSubstr("empty.obj"));
 }
