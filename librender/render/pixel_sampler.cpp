@@ -56,9 +56,10 @@ void Tally::merge(const Tally& other) {
 }
 
 SampleTaker::SampleTaker(const Scene& scene, const PathOptions& path, PixelSampler sampler, std::uint64_t seed,
-                         std::uint32_t stratum, const Whole& whole)
+                         std::uint32_t stratum, const Whole& whole, const std::optional<SplatFilter>& splat)
     : scene_(scene), integrator_(scene, path, medium_of_camera(scene)), seed_(seed),
-      stratum_(sampler == PixelSampler::stratified ? stratum : 1u << 31), whole_(whole), take_(take_of(sampler)) {}
+      stratum_(sampler == PixelSampler::stratified ? stratum : 1u << 31), whole_(whole), splat_(splat),
+      take_(take_of(sampler)) {}
 
 SampleTaker::Take SampleTaker::take_of(PixelSampler sampler) {
   switch (sampler) {
@@ -76,12 +77,15 @@ Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span
   const ThinLens& camera = scene_.camera();
   const Vec2 scale(1 / Float(whole_.width), 1 / Float(whole_.height));
   const Vec2 tan_half = camera.tan_half(Float(whole_.width) / Float(whole_.height));
+  std::optional<Splat> splat;
+  if (splat_) splat.emplace(*splat_);
+  const Filter drawn = splat_ ? BoxFilter() : scene_.filter();
   const int whole_y = whole_.part.y + y;
   const auto sets = static_cast<std::uint32_t>(film.sets());
-  for (int x = 0; x < film.width(); ++x) {
-    const std::uint32_t first = from[static_cast<std::size_t>(x)], last = to[static_cast<std::size_t>(x)];
-    const int whole_x = whole_.part.x + x;
-    const std::uint64_t pixel = static_cast<std::uint64_t>(whole_y) << 32 | static_cast<std::uint64_t>(whole_x);
+  for (std::size_t column = 0; column < from.size(); ++column) {
+    const std::uint32_t first = from[column], last = to[column];
+    const int x = static_cast<int>(column) - border(), whole_x = whole_.part.x + x;
+    const std::uint64_t pixel = std::uint64_t(std::uint32_t(whole_y)) << 32 | std::uint32_t(whole_x);
     const std::uint64_t rays_before = tally.rays;
     SampleSums seen;
     for (std::uint32_t set = 0; set < sets; ++set) {
@@ -94,7 +98,7 @@ Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span
         const typename Stream::Points points(mc::hash(seed_, pixel, pass), stratum_);
         for (; point < stop; ++point) {
           Stream stream(points, point - block * stratum_);
-          const Vec2 offset = scene_.filter().sample(stream.next2());
+          const Vec2 offset = drawn.sample(stream.next2());
           const Vec2 s = (Vec2(Float(whole_x) + Float(0.5), Float(whole_y) + Float(0.5)) + offset).cwiseProduct(scale);
           const Ray ray = camera.ray(s, tan_half, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
           const Spectrum radiance = integrator_.radiance(ray, stream, tally.rays);
@@ -105,10 +109,15 @@ Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span
           }
           seen.add(radiance.cast<double>());
           sum += radiance.cast<double>();
+          if (splat) splat->add(offset, radiance);
           ++valid;
         }
       }
-      film.add(x, y, static_cast<int>(set), sum, valid);
+      if (splat) {
+        splat->give(film, x, y, static_cast<int>(set));
+        sum.setZero();
+      }
+      if (film.contains(x, y)) film.add(x, y, static_cast<int>(set), sum, valid);
     }
     film.note(x, y, seen, tally.rays - rays_before);
   }

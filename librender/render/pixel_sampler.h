@@ -1,7 +1,7 @@
 #pragma once
 /// Samples of pixels.
 
-#include <render/film/film.h>
+#include <render/film/splat.h>
 #include <render/integrator/path.h>
 #include <render/scene/scene.h>
 
@@ -50,10 +50,15 @@ struct Whole {
 /// of the whole.
 class SampleTaker {
  public:
+  /// splat: by which samples count for several pixels; unless given, each for one, from the scene's filter
   SampleTaker(const Scene& scene, const PathOptions& path, PixelSampler sampler, std::uint64_t seed,
-              std::uint32_t stratum, const Whole& whole);
+              std::uint32_t stratum, const Whole& whole, const std::optional<SplatFilter>& splat = {});
 
-  /// Adds to the film the samples [from[x], to[x]) of every pixel x of its row y; what is not finite is left out.
+  /// Rows above and below the film, and columns at its sides, of which samples count for its pixels.
+  int border() const { return splat_ ? splat_->reach() : 0; }
+
+  /// Adds to the film the samples [from[x], to[x]) of the pixels of its row y, the first of them `border` to the left
+  /// of it; what is not finite is left out. Writes to the rows within `border` of y.
   Tally take(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, Film& film) const {
     return (this->*take_)(y, from, to, film);
   }
@@ -69,6 +74,7 @@ class SampleTaker {
   std::uint64_t seed_;
   std::uint32_t stratum_;
   Whole whole_;
+  std::optional<SplatFilter> splat_;
   Take take_;
 };
 

@@ -26,6 +26,8 @@ void check(const Scene& scene, const RenderOptions& options) {
               options.seconds.value_or(0));
   mc::require(!options.target_error || *options.target_error > 0, "render: a target error of {}; it must be > 0",
               options.target_error.value_or(0));
+  mc::require(!options.splat || !options.adaptive.value_or(false),
+              "render: splats are spent evenly; leave out splat or adaptive");
   mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
               options.max_depth);
 }
@@ -43,7 +45,13 @@ constexpr int point_sets = 4;
 constexpr double least_pilot = 16; ///< samples per pixel
 
 bool is_adaptive(const RenderOptions& options) {
-  return options.adaptive.value_or(options.seconds.has_value() || options.target_error.has_value());
+  return !options.splat && options.adaptive.value_or(options.seconds.has_value() || options.target_error.has_value());
+}
+
+// Unless a filter is so narrow that nothing is shared.
+std::optional<SplatFilter> splat_of(const Scene& scene, const RenderOptions& options) {
+  const SplatFilter filter(scene.filter());
+  return options.splat && filter.is_wide() ? std::optional(filter) : std::nullopt;
 }
 
 // Points of a stratified set: all where it is known how many there will be.
@@ -56,11 +64,10 @@ std::uint32_t stratum_of(const RenderOptions& options) {
 class Work {
  public:
   Work(const Scene& scene, const RenderOptions& options)
-      : options_(options), whole_(whole_of(options)),
+      : options_(options), whole_(whole_of(options)), splat_(splat_of(scene, options)),
         taker_(scene, {options.strategy, options.max_depth, options.shown}, options.sampler, options.seed,
-               stratum_of(options), whole_),
-        film_(whole_.part.width, whole_.part.height, limited() ? point_sets : std::min(options.spp, point_sets)),
-        taken_(width() * height()) {}
+               stratum_of(options), whole_, splat_),
+        film_(new_film()), taken_(width() * height()) {}
 
   RenderResult run() {
     in_rounds();
@@ -89,20 +96,40 @@ class Work {
   bool cancelled() const { return options_.cancel && options_.cancel->load(std::memory_order_relaxed); }
   // The first round is always whole.
   bool out_of_time() const { return options_.seconds && mean_ > 0 && elapsed() >= *options_.seconds; }
-  std::size_t height() const { return static_cast<std::size_t>(whole_.part.height); }
-  std::size_t width() const { return static_cast<std::size_t>(whole_.part.width); }
+  // With the border, whose samples count for the picture.
+  std::size_t height() const { return static_cast<std::size_t>(whole_.part.height + 2 * taker_.border()); }
+  std::size_t width() const { return static_cast<std::size_t>(whole_.part.width + 2 * taker_.border()); }
 
-  // Gives every pixel what the plan says for a mean of `mean` samples. Returns whether all rows were done.
+  Film new_film() const {
+    const int sets = limited() ? point_sets : std::min(options_.spp, point_sets);
+    return {whole_.part.width, whole_.part.height, sets, splat_};
+  }
+
+  // Every row once. Those that write to the same pixels take turns, in an order that is the same for every part.
+  template <class Task> void for_rows(Task&& task) const {
+    const auto turns = static_cast<std::size_t>(2 * taker_.border() + 1);
+    for (std::size_t turn = 0; turn < turns; ++turn) {
+      const std::size_t first = (turn + turns - static_cast<std::size_t>(whole_.part.y) % turns) % turns;
+      mc::parallel_for((height() + turns - 1 - first) / turns, options_.threads,
+                       [&](std::size_t i) { task(first + i * turns); });
+    }
+  }
+
+  // Gives every pixel what the plan says for a mean of `mean` samples. Returns whether all rows were done. Splats count
+  // if all were, or it is the first round, since each pixel needs as many samples of all pixels about it.
   bool extend_to(double mean, double wanted) {
     std::vector<Tally> tallies(height());
+    std::vector<std::uint32_t> taken = taken_;
+    std::optional<Film> round;
+    if (splat_) round = new_film();
+    Film& film = round ? *round : film_;
     std::atomic<std::uint64_t> done = 0, samples = total_.samples;
-    mc::parallel_for(height(), options_.threads, [&](std::size_t y) {
+    for_rows([&](std::size_t y) {
       if (cancelled() || out_of_time()) return;
-      const std::span<std::uint32_t> from = std::span(taken_).subspan(y * width(), width());
-      std::vector<std::uint32_t> to(from.begin(), from.end());
+      const auto from = std::span(taken_).subspan(y * width(), width()),
+                 to = std::span(taken).subspan(y * width(), width());
       for (std::size_t x = 0; x < width(); ++x) to[x] = std::max(to[x], plan_.samples(y * width() + x, mean));
-      tallies[y] = taker_.take(static_cast<int>(y), from, to, film_);
-      std::copy(to.begin(), to.end(), from.begin());
+      tallies[y] = taker_.take(static_cast<int>(y) - taker_.border(), from, to, film);
       samples += tallies[y].samples;
       const double rows = double(++done) / double(height());
       if (!options_.progress) return;
@@ -110,8 +137,12 @@ class Work {
           options_.seconds ? elapsed() / *options_.seconds : (mean_ + rows * (mean - mean_)) / wanted;
       options_.progress({std::min(fraction, 1.0), samples, total_.rays, elapsed(), error_.value, undecided_});
     });
+    const bool is_whole = done == height();
+    if (round && !is_whole && mean_ > 0) return false;
     for (const Tally& tally : tallies) total_.merge(tally);
-    return done == height();
+    taken_ = std::move(taken);
+    if (round) film_.merge(*round);
+    return is_whole;
   }
 
   // How many samples per pixel the whole takes, as far as can be told.
@@ -154,6 +185,7 @@ class Work {
 
   const RenderOptions& options_;
   Whole whole_;
+  std::optional<SplatFilter> splat_;
   SampleTaker taker_;
   Film film_;
   std::vector<std::uint32_t> taken_; ///< samples of every pixel

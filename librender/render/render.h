@@ -30,6 +30,7 @@ struct RenderOptions {
   std::optional<bool> adaptive; ///< samples where the error is; unless given: where seconds or an error are
   Strategy strategy = strategy_from("mis");
   PixelSampler sampler = PixelSampler::sobol;
+  bool splat = false; ///< samples count for all pixels under the filter, see SplatFilter; spent evenly
   int max_depth = -1; ///< longest path in edges; -1: no limit
   Shown shown = Shown::radiance;
   std::uint64_t seed = 0;

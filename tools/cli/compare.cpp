@@ -50,12 +50,12 @@ std::vector<Metric> metrics(const Image& a, const Image& b) {
           {"max", peak},       {"mean_ratio", mean_a / mean_b}};
 }
 
-// Variance of each mean, and the degrees of freedom behind it.
+// Variance of each mean, the degrees of freedom behind it, and the pixels that share their noise.
 struct Noise {
   bool known;
-  double dof;
+  double dof, area;
   explicit Noise(const Image& image)
-      : known(!image.variance.empty()), dof(std::max(2.0, double(image.estimates)) - 1) {}
+      : known(!image.variance.empty()), dof(std::max(2.0, double(image.estimates)) - 1), area(image.noise_area) {}
 };
 
 struct Worst {
@@ -63,10 +63,10 @@ struct Worst {
   int x = 0, y = 0, channel = 0;
 };
 
-/// Sums over a rectangle of pixels, which may be a single one.
+/// Sums over a rectangle of pixels, which may be a single one; variances are those of the sums.
 struct Block {
   double pixels = 0, difference = 0, reference = 0, variance_a = 0, variance_b = 0;
-  double squares = 0; ///< of the variances, over the degrees of freedom of each
+  double squares = 0; ///< of the variances of the parts, over the degrees of freedom of each
 
   // Behind the sum of the variances: few where few pixels have most of the noise. Source: [Welch47]
   double dof() const { return squares > 0 ? mc::sqr(variance_a + variance_b) / squares : pixels; }
@@ -96,9 +96,9 @@ class Comparison {
           // The surroundings lend their variance, not their degrees of freedom: noise is far from normal within a
           // pixel, where one rare bright path decides. Student's t with at most 3 degrees of freedom has tails heavy
           // enough for that.
-          sums.variance_a = around.variance_a / around.pixels;
-          sums.variance_b = around.variance_b / around.pixels;
-          sums.squares = squares(sums.variance_a, sums.variance_b);
+          sums.variance_a = around.variance_a / around.pixels / noise_a_.area;
+          sums.variance_b = around.variance_b / around.pixels / noise_b_.area;
+          sums.squares = mc::sqr(sums.variance_a) / noise_a_.dof + mc::sqr(sums.variance_b) / noise_b_.dof;
           test(sums, x, y, c, pixel);
         }
       for (int y = 0; y < a_.height; y += block_size)
@@ -126,17 +126,13 @@ class Comparison {
         ++sums.pixels;
         sums.difference += double(a_.pixels[i][c]) - double(b_.pixels[i][c]);
         sums.reference += double(b_.pixels[i][c]);
-        const double va = double(a_.variance[i][c]), vb = double(b_.variance[i][c]);
+        // Pixels that share their noise say the same of it, so that many of them know no more than one.
+        const double va = double(a_.variance[i][c]) * noise_a_.area, vb = double(b_.variance[i][c]) * noise_b_.area;
         sums.variance_a += va;
         sums.variance_b += vb;
-        sums.squares += squares(va, vb);
+        sums.squares += mc::sqr(va) * noise_a_.area / noise_a_.dof + mc::sqr(vb) * noise_b_.area / noise_b_.dof;
       }
     return sums;
-  }
-
-  // Of a pixel's variances, as Block adds them.
-  double squares(double variance_a, double variance_b) const {
-    return mc::sqr(variance_a) / noise_a_.dof + mc::sqr(variance_b) / noise_b_.dof;
   }
 
   // Welch's t-test of the mean of the pixels.

@@ -106,7 +106,7 @@ std::vector<Option> rows(ConvergeOptions& o) {
       {"--all",
        "",
        &o.all,
-       "Every sampler; of a scene every strategy, spent evenly and adaptively",
+       "Every sampler; of a scene every strategy, spent evenly and adaptively, and splats",
        false,
        {"--samplers"}},
       {"--points-file", "FILE", &o.points, "These points as one more sampler: a row each, coordinates in [0, 1)"},

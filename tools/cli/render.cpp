@@ -48,6 +48,7 @@ struct RenderOptions {
   std::optional<int> max_depth;       ///< longest path in edges; -1: unlimited
   std::uint64_t seed = 0;
   int threads = 0;      ///< 0: all
+  bool splat = false;   ///< samples count for all pixels under the filter
   std::string tone;     ///< of a PNG; empty: the gallery's, or clamp
   std::string exposure; ///< of a PNG: stops, or auto; empty: the gallery's, or 0
   bool layers = false;  ///< EXR only: more channels
@@ -144,6 +145,9 @@ std::vector<Option> rows(RenderOptions& o) {
        fmt::format("{}; light misses what other surfaces and the sky send [mis]",
                    fmt::join(::render::strategy_names(), ", "))},
       {"--sampler", "NAME", &o.sampler, "independent, stratified or sobol [sobol]"},
+      {"--splat", "", &o.splat,
+       "Samples count for all pixels under the scene's filter about them, not for one: of filters wider than a pixel "
+       "less noise, which neighbours share (a Gaussian of .5 pixels: a third of the variance); spent evenly"},
       {"--max-depth", "N", &o.max_depth,
        "Longest path in edges (1: light seen directly), -1 for no limit [the scene's]"},
       {"--resume",
@@ -218,6 +222,8 @@ const GalleryScene* named_scene(const std::string& word) {
   mc::require(options.adaptive.empty() || options.adaptive == "on" || options.adaptive == "off",
               "--adaptive '{}' must be on or off", options.adaptive);
   if (!options.adaptive.empty()) settings.adaptive = options.adaptive == "on";
+  mc::require(!options.splat || options.adaptive != "on", "--splat spends samples evenly; leave out --adaptive on");
+  settings.splat = options.splat;
   if (!options.strategy.empty()) settings.strategy = ::render::strategy_from(options.strategy);
   if (!options.sampler.empty()) settings.sampler = ::render::sampler_from(options.sampler);
   mc::require(!options.max_depth || *options.max_depth == -1 || *options.max_depth >= 1,

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -194,7 +195,7 @@ class Session {
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   // Twice the samples take twice as long; the first level is always measured.
   bool is_time_left() const { return options_.seconds <= 0 || elapsed() + 2 * last_ <= options_.seconds || spp_ == 4; }
-  bool is_due(const PictureWay& way) const { return !way.adaptive || spp_ >= 32; }
+  bool is_due(const PictureWay& way) const { return way.spending != Spending::adaptive || spp_ >= 32; }
   void show(double share, const std::string& where) const {
     const double before = spp_ - 4, all = 2.0 * options_.max_spp - 4; // of the samples of all levels
     if (options_.progress) options_.progress((before + share * spp_) / all, where);
@@ -247,7 +248,7 @@ class Session {
     for (const Series& s : level)
       for (const double x : s.replicates.values)
         if (x > 0) smallest = std::min(smallest, mc::sqr(x));
-    const PictureWay best{.max_depth = file_.defaults.max_depth, .adaptive = true};
+    const PictureWay best{.max_depth = file_.defaults.max_depth, .spending = Spending::adaptive};
     const double goal = smallest / 100;
     while (reference_.spp == 0 || reference_.noise > goal) {
       const double more =
@@ -275,7 +276,8 @@ class Session {
     o.sampler = way.sampler;
     o.max_depth = way.max_depth;
     o.shown = file_.defaults.shown;
-    o.adaptive = way.adaptive;
+    o.adaptive = way.spending == Spending::adaptive;
+    o.splat = way.spending == Spending::splat;
     o.seed = seed;
     o.threads = options_.threads;
     o.cancel = options_.cancel;
@@ -299,7 +301,8 @@ class Session {
       curve.way = &way;
       fit(curve);
       biases.push_back(bias_of(level_[i], reference_, begun));
-      const bool is_plain = ways_[i].sampler == ::render::PixelSampler::independent && !ways_[i].adaptive;
+      const bool is_plain =
+          ways_[i].sampler == ::render::PixelSampler::independent && ways_[i].spending != Spending::adaptive;
       if (is_plain && !(biases.back().bias.bias.lo > 0)) curve.theory = Rate{0.5, 0, "independent samples"};
       result.measurement.curves.push_back(std::move(curve));
       result.pictures.push_back(level_[i].images.front());
@@ -329,7 +332,8 @@ class Session {
 std::string PictureWay::name() const {
   std::string text = fmt::format("{} {}", strategy.name, ::render::name(sampler));
   if (max_depth > 0) text += fmt::format(" depth {}", max_depth);
-  return adaptive ? text + " adaptive" : text;
+  constexpr std::array<const char*, 3> words = {"", " adaptive", " splat"};
+  return text + words[static_cast<std::size_t>(spending)];
 }
 
 std::optional<PictureWay> plain_way(const ::render::SceneFile& file) {

@@ -10,14 +10,21 @@
 
 namespace carlo {
 
+/// How samples become pixels.
+enum class Spending {
+  even,
+  adaptive, ///< samples where the error is
+  splat     ///< evenly, each sample for all pixels under the filter
+};
+
 /// One way to render.
 struct PictureWay {
   render::Strategy strategy = render::strategy_from("mis");
   render::PixelSampler sampler = render::PixelSampler::sobol;
-  int max_depth = -1;    ///< longest path in edges; -1: no limit
-  bool adaptive = false; ///< samples where the error is
+  int max_depth = -1; ///< longest path in edges; -1: no limit
+  Spending spending = Spending::even;
 
-  /// "mis sobol", "nee independent depth 4 adaptive".
+  /// "mis sobol", "nee independent depth 4 adaptive", "mis sobol splat".
   std::string name() const;
 };
 

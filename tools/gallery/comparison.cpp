@@ -7,7 +7,8 @@ namespace carlo {
 
 namespace {
 
-// The mean luminance of a picture. Its pixels are independent; its channels are not, so their errors add up at worst.
+// The mean luminance of a picture. Its pixels are independent, or say how many share their noise; its channels are not,
+// so their errors add up at worst.
 mc::Estimate mean_luminance(const ::render::Image& image, std::uint32_t estimates) {
   double sum = 0, variance = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
@@ -15,10 +16,11 @@ mc::Estimate mean_luminance(const ::render::Image& image, std::uint32_t estimate
     if (image.variance.empty()) continue;
     const ::render::Spectrum deviation = image.variance[i].sqrt();
     const double error = double(::render::luminance(deviation));
-    variance += error * error;
+    variance += error * error * image.noise_area;
   }
   const auto n = double(image.pixels.size());
-  return mc::Estimate::student(sum / n, std::sqrt(variance) / n, n * (estimates - 1.0), image.pixels.size());
+  return mc::Estimate::student(sum / n, std::sqrt(variance) / n, n / image.noise_area * (estimates - 1.0),
+                               image.pixels.size());
 }
 
 std::vector<StrategyResult> each_strategy(const ::render::Scene& scene, ::render::RenderOptions settings) {

@@ -63,12 +63,13 @@ std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, c
 std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, const ::render::SceneFile& file) {
   const std::string samplers = run.samplers.empty() ? "independent,stratified,sobol" : run.samplers;
   std::vector<PictureWay> ways;
-  for (const bool adaptive : {false, true}) {
-    if (adaptive && !run.to_choose && !run.all) continue;
+  for (const Spending spending : {Spending::even, Spending::adaptive, Spending::splat}) {
+    if (spending != Spending::even && !run.to_choose && !run.all) continue;
+    if (spending == Spending::splat && !::render::SplatFilter(file.scene.filter()).is_wide()) continue;
     for (const int depth : depths_of(o.depths, file.defaults.max_depth))
       for (const ::render::Strategy& strategy : strategies_of(o, run.all, file))
         for (const std::string_view sampler : mc::split(samplers, ','))
-          ways.push_back({strategy, ::render::sampler_from(sampler), depth, adaptive});
+          ways.push_back({strategy, ::render::sampler_from(sampler), depth, spending});
   }
   const std::optional<PictureWay> plain = run.to_choose ? plain_way(file) : std::nullopt;
   const auto is_plain = [&](const PictureWay& way) { return way.name() == plain->name(); };

@@ -19,6 +19,7 @@ Image accumulated(const Image& a, double a_samples, const Image& b, double b_sam
   sum.estimates = 0;
   if (a.variance.empty() || b.variance.empty()) return sum;
   sum.estimates = a.estimates + b.estimates;
+  sum.noise_area = std::max(a.noise_area, b.noise_area);
   for (std::size_t i = 0; i < sum.pixels.size(); ++i)
     sum.variance.push_back(mix(a.variance[i], mc::sqr(w), b.variance[i], mc::sqr(1 - w)));
   return sum;

@@ -1,10 +1,12 @@
 #pragma once
 /// Where samples become an image with an error bar.
 
+#include <render/film/filter.h>
 #include <render/film/image.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 namespace render {
 
@@ -15,10 +17,11 @@ struct InvalidSample {
 };
 
 /// What a pixel's samples are like: how far they spread, and whether one of them decides. mc::Moments of luminance and
-/// channels with the largest beside them would take 192 bytes a pixel for these 80, and divisions at every sample.
+/// channels with the largest beside them would take 192 bytes a pixel for these 104, and divisions at every sample.
 struct SampleSums {
   std::uint64_t count = 0;
   double sum = 0, squares = 0, largest = 0; ///< luminances
+  Eigen::Array3d channel_sums = Eigen::Array3d::Zero();
   Eigen::Array3d channel_squares = Eigen::Array3d::Zero();
   Eigen::Array3d channel_largest = Eigen::Array3d::Zero();
 
@@ -28,6 +31,7 @@ struct SampleSums {
     sum += y;
     squares += y * y;
     largest = std::max(largest, y);
+    channel_sums += sample;
     channel_squares += sample.square();
     channel_largest = channel_largest.max(sample);
   }
@@ -37,10 +41,9 @@ struct SampleSums {
   /// samples of what makes the pixel bright, and its error bar is not known yet.
   bool is_undecided() const;
 
-  /// How far apart the largest sample and the smallest are at least, where the mean is `mean`: the largest lies d above
-  /// it and the squared deviations have the mean s^2, so d + s^2 / d, which two values reach. 0 where all are equal up
-  /// to rounding.
-  Eigen::Array3d range(const Eigen::Array3d& mean) const;
+  /// How far apart the largest sample and the smallest are at least: the largest lies d above the mean and the squared
+  /// deviations have the mean s^2, so d + s^2 / d, which two values reach. 0 where all are equal up to rounding.
+  Eigen::Array3d range() const;
 };
 
 /// What a pixel is, as far as its samples tell.
@@ -64,30 +67,43 @@ enum class ErrorOf {
 };
 
 /// Sums of the samples of every pixel, apart by the independent point sets that they come from: a pixel is the mean of
-/// its samples, and how its sets differ tells how far it may be off. Four sets take 112 bytes a pixel, of 200 in all;
+/// its samples, and how its sets differ tells how far it may be off. Four sets take 112 bytes a pixel, of 224 in all;
 /// mc::Moments of each set and channel would take 480.
 class Film {
  public:
+  /// splat  : where samples count for several pixels, as they come by `splat`
   /// throws : Error for a non-positive size or number of sets
-  Film(int width, int height, int sets);
+  Film(int width, int height, int sets, std::optional<SplatFilter> splat = {});
 
   int width() const { return width_; }
   int height() const { return height_; }
   int sets() const { return sets_; }
+  bool contains(int x, int y) const { return x >= 0 && x < width_ && y >= 0 && y < height_; }
 
   /// Adds the sum of `count` samples of one of the pixel's point sets. Pixels may be written by different threads; one
   /// pixel by one at a time.
   void add(int x, int y, int set, const Eigen::Array3d& sum, std::uint32_t count);
 
-  /// Tells of the samples behind the sums, and of the rays that they took.
+  /// Adds what samples, of this pixel or another, give to one of its point sets: the sums of their weighted radiance
+  /// and of their weights, which are 1 for every sample of the pixel on average.
+  void splat(int x, int y, int set, const Eigen::Array4d& sum);
+
+  /// Adds the samples of a film of the same kind.
+  void merge(const Film& other);
+
+  /// Tells of the samples of a pixel, and of the rays that they took. Splats come from pixels beside the film, too.
   void note(int x, int y, const SampleSums& samples, std::uint64_t rays);
 
   /// The mean of the pixel's samples. Sets count by their number of samples: with set means m_s of n_s samples, n in
   /// all, the variance of the mean m is sum_s n_s (m_s - m)^2 / ((sets - 1) n).
+  ///   The weights of splats vary about 1, and with them what is the same everywhere. So that a sample of a constant
+  /// has no noise, n_s m_s is the set's sum less c (w_s - n_s), where w_s is the sum of its weights and c the
+  /// weighted mean of the other sets: c does not depend on w_s, and nothing is biased.
   ///   Sets may agree by chance where samples do not, as at an edge, of which each of k sets counts a whole number: one
   /// more or less moves a set's sum by the range R of the samples. So the variance is at least k f (1 - f) R^2 / n^2,
   /// where f, what rounding left over, did not show in k sets: uniform beforehand, f (1 - f) is then
   /// (k + 1) / ((k + 2) (k + 3)) on average.
+  /// Splats bring it from the pixels about, times the squares of their weights.
   PixelEstimate estimate(int x, int y) const;
   std::uint64_t rays(int x, int y) const { return rays_[index(x, y)]; }
 
@@ -107,13 +123,28 @@ class Film {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
 
+  // What a whole sample more or less in one set makes of a pixel's variance, times the square of its samples.
+  Eigen::Array3d square_range(int x, int y) const;
+
+  // Of one of the sets of a pixel, which are those from `first` on.
+  Eigen::Array3d set_sum(std::size_t first, std::size_t set) const;
+
+  // Among the pixels whose samples count.
+  std::size_t place(int x, int y) const {
+    const int reach = splat_ ? splat_->reach() : 0;
+    return static_cast<std::size_t>(y + reach) * static_cast<std::size_t>(width_ + 2 * reach) +
+           static_cast<std::size_t>(x + reach);
+  }
+
   // The mean of the pixel and its neighbours.
   Eigen::Array3d around(const std::vector<Eigen::Array3d>& means, int x, int y) const;
 
   int width_, height_, sets_;
+  std::optional<SplatFilter> splat_;
   std::vector<Eigen::Array3d> sums_;  ///< sets_ of every pixel
   std::vector<std::uint32_t> counts_; ///< the same
-  std::vector<SampleSums> samples_;
+  std::vector<double> weights_;       ///< the same, of splats; empty where there are none
+  std::vector<SampleSums> samples_;   ///< by place
   std::vector<std::uint64_t> rays_;
 };
 

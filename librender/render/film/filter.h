@@ -1,5 +1,5 @@
 #pragma once
-/// Pixel reconstruction filters: warps on the plane.
+/// Pixel reconstruction filters: warps on the plane, and how their samples are shared.
 
 #include <render/core/dispatch.h>
 #include <render/core/types.h>
@@ -10,25 +10,40 @@
 #include <mc/warp/product.h>
 #include <mc/warp/uniform.h>
 
+#include <cmath>
+
 namespace render {
 
 // Each filter is a warp; its point is the offset of a sample from the pixel's centre [pixels]. Samples belong to one
-// pixel each and weigh the same, so pixels stay independent estimates [ErnstEtAl06]. All throw Error unless their width
-// is finite and > 0.
+// pixel each and weigh the same, so pixels are independent estimates [ErnstEtAl06]; SplatFilter is the other way. All
+// are products of one `profile` along both axes, 0 beyond `radius`, and throw Error unless their width is finite and
+// > 0.
 
 /// Uniform on the square of half width `radius`.
 struct BoxFilter : mc::UniformBox<Float, 2> {
   explicit BoxFilter(Float radius = Float(0.5)) : UniformBox(Vec2::Constant(-radius), Vec2::Constant(radius)) {}
+
+  double radius() const { return double(domain().hi[0]); }
+  double profile(double x) const { return std::abs(x) <= radius() ? 0.5 / radius() : 0; }
 };
 
 /// Triangle function of half width `radius`; variance radius^2 / 6 per axis.
 struct TentFilter : mc::Tent2D<Float> {
   explicit TentFilter(Float radius = 1) : Product{{0, radius}, {0, radius}} {}
+
+  double radius() const { return double(first.radius); }
+  double profile(double x) const { return double(first.pdf(Float(x))); }
 };
 
-/// Normal distribution of standard deviation sigma, not truncated.
+/// Normal distribution of standard deviation sigma, not truncated: 6e-7 of its profile lies beyond its radius.
 struct GaussianFilter : mc::IsotropicNormal<Float> {
   explicit GaussianFilter(Float stddev = Float(0.5)) : IsotropicNormal(stddev) {}
+
+  double radius() const { return 5 * double(sigma); }
+  double profile(double x) const {
+    const double s = double(sigma);
+    return std::exp(-x * x / (2 * s * s)) / (s * std::sqrt(2 * mc::pi<double>));
+  }
 };
 
 using TentRow = mc::MixtureN<mc::Interval<Float>, mc::Tent<Float>, mc::UniformDiscrete<Float>>;
@@ -37,6 +52,9 @@ using TentRow = mc::MixtureN<mc::Interval<Float>, mc::Tent<Float>, mc::UniformDi
 ///   throws : Error unless n >= 1, too
 struct SubpixelTentFilter : mc::Product<TentRow, TentRow> {
   explicit SubpixelTentFilter(int n = 2, Float radius = Float(0.5)) : Product{row(n, radius), row(n, radius)} {}
+
+  double radius() const { return double(first.domain().hi); }
+  double profile(double x) const { return double(first.pdf(Float(x))); }
 
  private:
   static TentRow row(int n, Float radius) {
@@ -60,6 +78,42 @@ struct Filter : std::variant<BoxFilter, TentFilter, GaussianFilter, SubpixelTent
   Float pdf(const Vec2& offset) const {
     return dispatch(*this, [&](const auto& f) { return f.pdf(offset); });
   }
+  double radius() const {
+    return dispatch(*this, [](const auto& f) { return f.radius(); });
+  }
+};
+
+/// A scene's filter f, by which each sample counts for all pixels that it lies near: sample i of the square of a pixel
+/// q, uniform there, counts for the pixel p with the weight f(x_i - p), and p is the sum over the squares q of the
+/// means of f(x_i - p) L_i. As little noise as of noise_area times as many samples drawn from the filter of one pixel
+/// each; neighbours share it.
+class SplatFilter {
+ public:
+  explicit SplatFilter(const Filter& filter);
+
+  /// Pixels to each side that a sample counts for.
+  int reach() const { return static_cast<int>(squares_.size() / 2); }
+
+  /// The profile at the offset from a pixel's centre along one axis, seen from that pixel and `reach` to each side: at
+  /// offset + reach, ..., offset - reach [1/pixels].
+  void profile(double offset, std::vector<double>& values) const;
+
+  /// The mean over the samples of a pixel's square of the squared weight with which they count for the pixel (dx, dy)
+  /// away, at most `reach`.
+  double square(int dx, int dy) const { return along_axis(dx) * along_axis(dy); }
+
+  /// The sum of all squares is 1 / noise_area [pixels].
+  double noise_area() const { return noise_area_; }
+
+  /// Whether splats gain something: a filter as narrow as a pixel leaves nothing to share.
+  bool is_wide() const { return noise_area_ > 1.001; }
+
+ private:
+  double along_axis(int pixels) const { return squares_[static_cast<std::size_t>(pixels + reach())]; }
+
+  Filter filter_;
+  std::vector<double> squares_;
+  double noise_area_;
 };
 
 } // namespace render

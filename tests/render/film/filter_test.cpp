@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 namespace {
 
@@ -62,6 +63,57 @@ TEST(Filter, FiniteAtTheEdgesOfTheUnitSquare) {
     for (const Float a : {Float(0), Float(0.5), mc::one_minus_epsilon<Float>})
       for (const Float b : {Float(0), Float(0.5), mc::one_minus_epsilon<Float>})
         EXPECT_TRUE(filter.sample(Vec2(a, b)).allFinite()) << a << ", " << b;
+}
+
+struct SharedRow {
+  const char* name;
+  Filter filter;
+  int reach;
+  double noise_area; ///< in closed form
+};
+
+// The noise area of smallpt's filter: its profile is the mean of two tents of half width r = 1/2, r apart, which
+// overlap by the cubic B-spline over r, 2/3 at 0 and 1/6 at r: the integral of its square is (2/3 + 1/6) / (2 r).
+const std::array shared = {SharedRow{"box", BoxFilter(), 0, 1},
+                           SharedRow{"wide box", BoxFilter(Float(1.5)), 1, 9},
+                           SharedRow{"tent", TentFilter(), 1, 2.25},
+                           SharedRow{"wide tent", TentFilter(Float(2.25)), 2, mc::sqr(1.5 * 2.25)},
+                           SharedRow{"gaussian", GaussianFilter(), 2, mc::pi<double>},
+                           SharedRow{"wide gaussian", GaussianFilter(1), 5, 4 * mc::pi<double>},
+                           SharedRow{"smallpt", SubpixelTentFilter(), 1, 1.44}};
+
+TEST(SplatFilter, ReachesAndSharesAsFarAsItsFilter) {
+  for (const SharedRow& row : shared) {
+    const SplatFilter filter(row.filter);
+    EXPECT_EQ(filter.reach(), row.reach) << row.name;
+    EXPECT_NEAR(filter.noise_area() / row.noise_area, 1, 5e-4) << row.name;
+    EXPECT_EQ(filter.is_wide(), row.noise_area > 1) << row.name;
+  }
+  EXPECT_FALSE(SplatFilter(BoxFilter(Float(0.2))).is_wide());
+}
+
+// Profiles along both axes make the density; the squares of the weights are those of the profile, pixel by pixel.
+TEST(SplatFilter, HasTheProfileOfItsFilter) {
+  for (const SharedRow& row : shared) {
+    const SplatFilter filter(row.filter);
+    std::vector<double> x(std::size_t(2 * filter.reach() + 1)), y = x;
+    double sum = 0;
+    for (const double dx : {-0.5, -0.2, 0.0, 0.31})
+      for (const double dy : {-0.45, 0.0, 0.49}) {
+        filter.profile(dx, x);
+        filter.profile(dy, y);
+        for (int j = -filter.reach(); j <= filter.reach(); ++j)
+          for (int i = -filter.reach(); i <= filter.reach(); ++i) {
+            const double product = x[std::size_t(i + filter.reach())] * y[std::size_t(j + filter.reach())];
+            const Vec2 p(Float(dx - i), Float(dy - j));
+            EXPECT_NEAR(product, double(row.filter.pdf(p)), 1e-5) << row.name << " " << p.transpose();
+          }
+      }
+    for (int j = -filter.reach(); j <= filter.reach(); ++j)
+      for (int i = -filter.reach(); i <= filter.reach(); ++i) sum += filter.square(i, j);
+    EXPECT_NEAR(sum * filter.noise_area(), 1, 1e-12) << row.name;
+    EXPECT_NEAR(filter.square(filter.reach(), 0), filter.square(-filter.reach(), 0), 1e-4) << row.name;
+  }
 }
 
 } // namespace

@@ -12,8 +12,8 @@ namespace {
 
 using namespace carlo;
 
-PictureWay way(const char* strategy, render::PixelSampler sampler, int depth = -1, bool adaptive = false) {
-  return {render::strategy_from(strategy), sampler, depth, adaptive};
+PictureWay way(const char* strategy, render::PixelSampler sampler, int depth = -1, Spending spending = Spending::even) {
+  return {render::strategy_from(strategy), sampler, depth, spending};
 }
 
 render::SceneFile scene(const char* name) {
@@ -55,7 +55,7 @@ TEST(Pictures, TellsBiasFromNoise) {
 // What was measured with fewer samples stands, and is what a run without an interrupt finds there.
 TEST(Pictures, AnInterruptCostsOnlyTheLevelThatItFallsOn) {
   const render::SceneFile file = scene("cbox");
-  const std::vector<PictureWay> ways = {way("mis", sobol), way("nee", sobol, -1, true)};
+  const std::vector<PictureWay> ways = {way("mis", sobol), way("nee", sobol, -1, Spending::adaptive)};
   PictureOptions o{.width = 8, .height = 8, .max_spp = 16, .cost_rays = true};
   const Pictures whole = measure_pictures(file, ways, o);
   std::atomic<bool> stop = false;
@@ -134,7 +134,7 @@ TEST(Pictures, RefusesWhatHasNoError) {
   EXPECT_THROW(measure_pictures(file, ways, {.max_spp = 8}), mc::Error);
   EXPECT_THROW(measure_pictures(file, ways, {.max_spp = 1 << 29}), mc::Error);
   EXPECT_THROW(measure_pictures(file, ways, {.replicates = 2}), mc::Error);
-  EXPECT_EQ(way("nee", independent, 4, true).name(), "nee independent depth 4 adaptive");
+  EXPECT_EQ(way("nee", independent, 4, Spending::adaptive).name(), "nee independent depth 4 adaptive");
   const std::atomic<bool> stop = true;
   EXPECT_TRUE(measure_pictures(file, ways, {.width = 4, .height = 4, .cancel = &stop}).measurement.interrupted);
 }

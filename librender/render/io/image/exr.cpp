@@ -4,6 +4,7 @@
 
 #include <ImfChannelList.h>
 #include <ImfChromaticities.h>
+#include <ImfDoubleAttribute.h>
 #include <ImfEnvmap.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <tuple>
@@ -26,6 +28,7 @@ namespace {
 
 constexpr std::array<const char*, 6> channels = {"R", "G", "B", "variance.R", "variance.G", "variance.B"};
 constexpr const char* estimates_key = "estimatesPerPixel";
+constexpr const char* noise_area_key = "noiseArea";
 
 // The channels of a file but for those of fewer pixels.
 std::vector<std::string> whole_channels(const Imf::ChannelList& list) {
@@ -108,6 +111,7 @@ void write_exr(const std::string& path, const Image& image) {
     }
     for (const auto& [key, value] : image.metadata) header.insert(key, Imf::StringAttribute(value));
     if (image.estimates > 0) header.insert(estimates_key, Imf::IntAttribute(static_cast<int>(image.estimates)));
+    if (image.noise_area != 1) header.insert(noise_area_key, Imf::DoubleAttribute(image.noise_area));
     Imf::OutputFile file(path.c_str(), header);
     file.setFrameBuffer(frame);
     file.writePixels(image.height);
@@ -154,6 +158,9 @@ Image read_exr(const std::string& path) {
     if (const auto* count = file.header().findTypedAttribute<Imf::IntAttribute>(estimates_key);
         count && count->value() > 0)
       image.estimates = static_cast<std::uint32_t>(count->value());
+    if (const auto* area = file.header().findTypedAttribute<Imf::DoubleAttribute>(noise_area_key);
+        area && area->value() >= 1 && std::isfinite(area->value()))
+      image.noise_area = area->value();
     return image;
   } catch (const mc::Error&) {
     throw;
