@@ -50,8 +50,9 @@ bool is_adaptive(const RenderOptions& options) {
 
 // Unless a filter is so narrow that nothing is shared.
 std::optional<SplatFilter> splat_of(const Scene& scene, const RenderOptions& options) {
+  if (!options.splat) return {};
   const SplatFilter filter(scene.filter());
-  return options.splat && filter.is_wide() ? std::optional(filter) : std::nullopt;
+  return filter.is_wide() ? std::optional(filter) : std::nullopt;
 }
 
 // Points of a stratified set: all where it is known how many there will be.

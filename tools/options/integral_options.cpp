@@ -60,12 +60,17 @@ std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, c
   return strategies;
 }
 
+// Whether there is something to share, and not with all the picture.
+bool can_splat(const ::render::Filter& filter) {
+  return filter.radius() < 16 && ::render::SplatFilter(filter).is_wide();
+}
+
 std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, const ::render::SceneFile& file) {
   const std::string samplers = run.samplers.empty() ? "independent,stratified,sobol" : run.samplers;
   std::vector<PictureWay> ways;
   for (const Spending spending : {Spending::even, Spending::adaptive, Spending::splat}) {
     if (spending != Spending::even && !run.to_choose && !run.all) continue;
-    if (spending == Spending::splat && !::render::SplatFilter(file.scene.filter()).is_wide()) continue;
+    if (spending == Spending::splat && !can_splat(file.scene.filter())) continue;
     for (const int depth : depths_of(o.depths, file.defaults.max_depth))
       for (const ::render::Strategy& strategy : strategies_of(o, run.all, file))
         for (const std::string_view sampler : mc::split(samplers, ','))

@@ -5,6 +5,9 @@
 namespace render {
 
 SplatFilter::SplatFilter(const Filter& filter) : filter_(filter) {
+  mc::require(filter.radius() <= 64,
+              "splats reach {:.3g} pixels by this filter, and at most 64; take a narrower one or samples of their own",
+              filter.radius());
   const int reach = std::max(0, static_cast<int>(std::ceil(filter.radius() - 0.5)));
   squares_.resize(static_cast<std::size_t>(2 * reach + 1));
   std::vector<double> values(squares_.size());

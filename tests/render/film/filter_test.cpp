@@ -90,6 +90,8 @@ TEST(SplatFilter, ReachesAndSharesAsFarAsItsFilter) {
     EXPECT_EQ(filter.is_wide(), row.noise_area > 1) << row.name;
   }
   EXPECT_FALSE(SplatFilter(BoxFilter(Float(0.2))).is_wide());
+  EXPECT_THROW(SplatFilter(TentFilter(65)), mc::Error);
+  EXPECT_THROW(SplatFilter(GaussianFilter(Float(1e6))), mc::Error);
 }
 
 // Profiles along both axes make the density; the squares of the weights are those of the profile, pixel by pixel.
