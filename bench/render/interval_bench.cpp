@@ -1,5 +1,6 @@
 /// What the error bars of pixels are worth: the share of 95 % intervals that hold the truth, as CSV on stdout.
 /// Usage: bench_render_interval SCENE.xml... [-- SEEDS [SIZE [REFERENCE_SPP]]]
+///   way    : even, or splat (where the filter is wider than a pixel)
 ///   alone  : by the pixel's own variance, Student's t with 3 degrees of freedom
 ///   shared : half_widths
 ///   noisy  : half_widths in the tenth of the pixels and channels whose variance in the reference is largest
@@ -44,13 +45,7 @@ std::vector<Eigen::Array<bool, 3, 1>> noisiest_tenth(const Image& image) {
   return noisy;
 }
 
-void show(const std::string& path, int seeds, int size, int reference_spp) {
-  const SceneFile file = read_mitsuba(path);
-  RenderOptions options;
-  options.width = options.height = size;
-  options.spp = reference_spp;
-  options.seed = 1'000'000;
-  const Image truth = render::render(file.scene, options).image;
+void show(const std::string& path, const Scene& scene, RenderOptions options, const Image& truth, int seeds) {
   const auto is_noisy = noisiest_tenth(truth);
   const double q = mc::student_quantile(0.05, 3);
   for (const int spp : {4, 16, 64, 256}) {
@@ -58,7 +53,7 @@ void show(const std::string& path, int seeds, int size, int reference_spp) {
     double undecided = 0;
     options.spp = spp;
     for (options.seed = 0; options.seed < std::uint64_t(seeds); ++options.seed) {
-      const RenderResult result = render::render(file.scene, options);
+      const RenderResult result = render::render(scene, options);
       const Image widths = half_widths(result.image, 0.95);
       undecided += result.undecided / seeds;
       for (std::size_t i = 0; i < truth.pixels.size(); ++i)
@@ -69,18 +64,30 @@ void show(const std::string& path, int seeds, int size, int reference_spp) {
           if (is_noisy[i][c]) noisy.add(off, double(widths.pixels[i][c]));
         }
     }
-    fmt::print("{},{},{},{:.4f},{},{},{}\n", std::filesystem::path(path).stem().string(), spp, seeds, undecided,
-               alone.text(), shared.text(), noisy.text());
+    fmt::print("{},{},{},{},{:.4f},{},{},{}\n", std::filesystem::path(path).stem().string(),
+               options.splat ? "splat" : "even", spp, seeds, undecided, alone.text(), shared.text(), noisy.text());
     std::fflush(stdout);
   }
+}
+
+void show_ways(const std::string& path, int seeds, int size, int reference_spp) {
+  const SceneFile file = read_mitsuba(path);
+  RenderOptions options;
+  options.width = options.height = size;
+  options.spp = reference_spp;
+  options.seed = 1'000'000;
+  const Image truth = render::render(file.scene, options).image;
+  show(path, file.scene, options, truth, seeds);
+  options.splat = SplatFilter(file.scene.filter()).is_wide();
+  if (options.splat) show(path, file.scene, options, truth, seeds);
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
   const bench::Arguments arguments(argc, argv);
-  fmt::print("scene,spp,seeds,undecided,alone,alone_low,alone_high,shared,shared_low,shared_high,"
+  fmt::print("scene,way,spp,seeds,undecided,alone,alone_low,alone_high,shared,shared_low,shared_high,"
              "noisy,noisy_low,noisy_high\n");
   for (const std::string& scene : arguments.scenes)
-    show(scene, arguments.number(0, 200), arguments.number(1, 16), arguments.number(2, 100'000));
+    show_ways(scene, arguments.number(0, 200), arguments.number(1, 16), arguments.number(2, 100'000));
 }
