@@ -98,8 +98,9 @@ class Work {
   // The first round is always whole.
   bool out_of_time() const { return options_.seconds && mean_ > 0 && elapsed() >= *options_.seconds; }
   // With the border, whose samples count for the picture.
-  std::size_t height() const { return static_cast<std::size_t>(whole_.part.height + 2 * taker_.border()); }
-  std::size_t width() const { return static_cast<std::size_t>(whole_.part.width + 2 * taker_.border()); }
+  std::size_t height() const { return static_cast<std::size_t>(whole_.part.height) + 2 * border(); }
+  std::size_t width() const { return static_cast<std::size_t>(whole_.part.width) + 2 * border(); }
+  std::size_t border() const { return static_cast<std::size_t>(taker_.border()); }
 
   Film new_film() const {
     const int sets = limited() ? point_sets : std::min(options_.spp, point_sets);
@@ -108,7 +109,7 @@ class Work {
 
   // Every row once. Those that write to the same pixels take turns, in an order that is the same for every part.
   template <class Task> void for_rows(Task&& task) const {
-    const auto turns = static_cast<std::size_t>(2 * taker_.border() + 1);
+    const std::size_t turns = 2 * border() + 1;
     for (std::size_t turn = 0; turn < turns; ++turn) {
       const std::size_t first = (turn + turns - static_cast<std::size_t>(whole_.part.y) % turns) % turns;
       mc::parallel_for((height() + turns - 1 - first) / turns, options_.threads,

@@ -8,8 +8,8 @@ SplatFilter::SplatFilter(const Filter& filter) : filter_(filter) {
   mc::require(filter.radius() <= 64,
               "splats reach {:.3g} pixels by this filter, and at most 64; take a narrower one or samples of their own",
               filter.radius());
-  const int reach = std::max(0, static_cast<int>(std::ceil(filter.radius() - 0.5)));
-  squares_.resize(static_cast<std::size_t>(2 * reach + 1));
+  const auto reach = static_cast<std::size_t>(std::max(0.0, std::ceil(filter.radius() - 0.5)));
+  squares_.resize(2 * reach + 1);
   std::vector<double> values(squares_.size());
   constexpr int steps = 4096; // of the midpoint rule: 1e-6, of a box 3e-4
   for (int i = 0; i < steps; ++i) {

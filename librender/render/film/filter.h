@@ -94,6 +94,7 @@ class SplatFilter {
 
   /// Pixels to each side that a sample counts for.
   int reach() const { return static_cast<int>(squares_.size() / 2); }
+  std::size_t side() const { return squares_.size(); } ///< 2 reach + 1
 
   /// The profile at the offset from a pixel's centre along one axis, seen from that pixel and `reach` to each side: at
   /// offset + reach, ..., offset - reach [1/pixels].
@@ -110,7 +111,10 @@ class SplatFilter {
   bool is_wide() const { return noise_area_ > 1.001; }
 
  private:
-  double along_axis(int pixels) const { return squares_[static_cast<std::size_t>(pixels + reach())]; }
+  double along_axis(int pixels) const {
+    const int place = pixels + reach();
+    return squares_[static_cast<std::size_t>(place)];
+  }
 
   Filter filter_;
   std::vector<double> squares_;

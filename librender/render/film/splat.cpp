@@ -2,12 +2,9 @@
 
 namespace render {
 
-Splat::Splat(const SplatFilter& filter) : filter_(filter) {
-  const auto side = static_cast<std::size_t>(2 * filter.reach() + 1);
-  columns_.resize(side);
-  rows_.resize(side);
-  sums_.assign(side * side, Eigen::Array4d::Zero());
-}
+Splat::Splat(const SplatFilter& filter)
+    : filter_(filter), columns_(filter.side()), rows_(filter.side()),
+      sums_(filter.side() * filter.side(), Eigen::Array4d::Zero()) {}
 
 void Splat::add(const Vec2& offset, const Spectrum& radiance) {
   filter_.profile(double(offset[0]), columns_);

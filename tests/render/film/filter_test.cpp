@@ -106,7 +106,7 @@ TEST(SplatFilter, HasTheProfileOfItsFilter) {
         filter.profile(dy, y);
         for (int j = -filter.reach(); j <= filter.reach(); ++j)
           for (int i = -filter.reach(); i <= filter.reach(); ++i) {
-            const double product = x[std::size_t(i + filter.reach())] * y[std::size_t(j + filter.reach())];
+            const double product = x[at(i)] * y[at(j)];
             const Vec2 p(Float(dx - i), Float(dy - j));
             EXPECT_NEAR(product, double(row.filter.pdf(p)), 1e-5) << row.name << " " << p.transpose();
           }
