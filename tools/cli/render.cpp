@@ -308,7 +308,7 @@ int render(const RenderOptions& options) {
   const GalleryScene* named = named_scene(options.scene);
   const std::string file = named ? scene_file(*named) : options.scene;
   const ::render::SceneFile read = read_scene(file, options);
-  const auto& [scene, defaults, origin, warnings] = read;
+  const auto& [scene, defaults, origin, warnings, files] = read;
   warn_of_departures(read);
   if (scene.lights().empty() && defaults.shown.what == ::render::Shown::radiance)
     std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", file.c_str());
@@ -333,7 +333,7 @@ int render(const RenderOptions& options) {
   };
 
   const ::render::Crop part = part_of(settings);
-  const PictureOf shown = picture_of(file, options.dialect, options.variables, scene, settings, part);
+  const PictureOf shown = picture_of(file, options.dialect, options.variables, read, settings, part);
   std::optional<Begun> begun;
   if (options.resume) {
     begun = begun_picture(output, shown, part);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 namespace carlo {
@@ -28,22 +29,33 @@ constexpr auto compared = std::to_array<Compared>({
     {"carlo.dialect", "--dialect"},
     {"carlo.variables", "-D"},
     {"carlo.finds", "a --strategy that finds"},
-    {"carlo.scene_hash", "a scene file whose bytes have the hash"},
+    {"carlo.scene_hash", "files of a scene whose bytes have the hash"},
 });
 
-// "" where it cannot be read again.
-std::string hash_of(const std::string& file) {
-  if (!std::filesystem::is_regular_file(file)) return {};
-  const std::string bytes = mc::read_file(file);
-  std::uint64_t hash = mc::hash(bytes.size());
-  for (const char c : bytes) hash = mc::hash(hash, static_cast<unsigned char>(c));
+// Of their bytes, whatever their folders. "" where one cannot be read again.
+std::string hash_of(const std::set<std::string>& files) {
+  std::vector<std::uint64_t> hashes;
+  for (const std::string& file : files) {
+    if (!std::filesystem::is_regular_file(file)) return {};
+    const std::string bytes = mc::read_file(file);
+    std::uint64_t hash = mc::hash(bytes.size());
+    for (std::size_t i = 0; i < bytes.size(); i += sizeof hash) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
+      hash = mc::hash(hash, word);
+    }
+    hashes.push_back(hash);
+  }
+  std::sort(hashes.begin(), hashes.end());
+  std::uint64_t hash = hashes.size();
+  for (const std::uint64_t h : hashes) hash = mc::hash(hash, h);
   return fmt::format("{:016x}", hash);
 }
 
 } // namespace
 
 PictureOf picture_of(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
-                     const ::render::Scene& scene, const ::render::RenderOptions& settings,
+                     const ::render::SceneFile& read, const ::render::RenderOptions& settings,
                      const ::render::Crop& part) {
   std::sort(variables.begin(), variables.end());
   return {{"carlo.scene", std::filesystem::path(file).filename().string()},
@@ -53,8 +65,8 @@ PictureOf picture_of(const std::string& file, const std::string& dialect, std::v
           {"carlo.dialect", dialect},
           {"carlo.variables", fmt::format("{}", fmt::join(variables, " "))},
           {"carlo.finds",
-           misses_light(scene, settings.strategy, settings.max_depth) ? "light towards lamps alone" : "all light"},
-          {"carlo.scene_hash", hash_of(file)}};
+           misses_light(read.scene, settings.strategy, settings.max_depth) ? "light towards lamps alone" : "all light"},
+          {"carlo.scene_hash", hash_of(read.files)}};
 }
 
 Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part) {

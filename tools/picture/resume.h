@@ -2,6 +2,7 @@
 /// Pictures that --resume goes on with.
 
 #include <render/film/image.h>
+#include <render/io/types.h>
 #include <render/render.h>
 
 #include <map>
@@ -13,10 +14,11 @@ namespace carlo {
 /// What a picture shows, whatever its noise, as an image's metadata: only pictures of the same may be averaged.
 using PictureOf = std::map<std::string, std::string>;
 
-/// Of the scene file its own bytes count, not those of what it includes; `scene` is what was read there, with
-/// `variables` "name=value"; `part` is what is rendered of it.
+/// `read` is what was read from the scene file, with `variables` "name=value", and from the files that it names, whose
+/// bytes count too; `part` is what is rendered of it.
 PictureOf picture_of(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
-                     const ::render::Scene& scene, const ::render::RenderOptions& settings, const ::render::Crop& part);
+                     const ::render::SceneFile& read, const ::render::RenderOptions& settings,
+                     const ::render::Crop& part);
 
 /// A picture that goes on.
 struct Begun {

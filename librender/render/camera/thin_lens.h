@@ -33,6 +33,7 @@ class ThinLens {
   const Vec3& up() const { return up_; }
   const Vec3& forward() const { return forward_; }
   Float radius() const { return radius_; }
+  Float near() const { return near_; }
 
   /// Tangents of half the horizontal and vertical field of view for a film of width / height = aspect.
   Vec2 tan_half(Float aspect) const {

@@ -223,6 +223,8 @@ Spectrum PathIntegrator<SceneType>::radiance(const Ray& ray, Stream& stream, std
   if (options_.shown.what == Shown::ambient_occlusion) return openness(ray, stream, rays);
   Walk walk{ray, ray.o};
   walk.medium = around_;
+  if (around_) [[unlikely]] // it fills what is cut away before the lens, too
+    walk.previous -= scene_.camera().near() / ray.d.dot(scene_.camera().forward()) * ray.d;
   return follow(walk, stream, rays, true);
 }
 

@@ -82,6 +82,7 @@ SceneFile read_mesh_scene(const std::string& path) {
     builder.add(Light(GradientBackground()));
     builder.set(camera_for(mesh, middle, size));
     SceneFile file{builder.build(), {.width = 640, .height = 480, .spp = 64}, middle};
+    file.files = {path};
     if (mesh.meshes > 1)
       file.warnings.push_back(fmt::format(
           "{}: this is mesh 0 of the {} in it; a scene shows others, by <shape type=\"serialized\"> with shapeIndex",

@@ -4,6 +4,7 @@
 #include <render/film/image.h>
 #include <render/scene/scene.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct SceneFile {
   RenderDefaults defaults;
   Vec3d origin = Vec3d::Zero();           ///< the point of the file that is the origin of the scene
   std::vector<std::string> warnings = {}; ///< "scene.xml:14: ...": where the picture is not what Mitsuba makes of it
+  std::set<std::string> files = {};       ///< that were read: the scene's own, what it includes, meshes, pictures
 };
 
 } // namespace render

@@ -81,9 +81,10 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
     for (const Vec3& p : v) bounds_.add(p);
   }
   if (area_ > 0) choice_.emplace(areas);
+  constexpr Float straight = Float(2e-6); // to which files with six digits are rounded
   const auto is_flat = [&](const Face& f) {
     for (const std::uint32_t v : f.vertices)
-      if (!(normals_[v].dot(f.normal) > Float(1 - 1e-6) * normals_[v].norm())) return false;
+      if (!((normals_[v].normalized() - f.normal).norm() < straight)) return false;
     return true;
   };
   if (!normals_.empty() && std::all_of(faces_.begin(), faces_.end(), is_flat))
@@ -101,12 +102,13 @@ TriangleMesh TriangleMesh::box(const Transform& to_world) {
   std::vector<Vec3d> corners;
   Triangles triangles;
   std::vector<mc::Vec2<float>> uvs;
-  // Faces as quads, counter-clockwise seen from outside; bit k of a corner tells the sign of its coordinate k.
+  // Faces as quads, counter-clockwise seen from outside, from where u is 0 and v is 1 in Mitsuba's cube; bit k of a
+  // corner tells the sign of its coordinate k.
   for (const std::array<int, 4>& q :
-       {std::array{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+       {std::array{4, 6, 2, 0}, {1, 3, 7, 5}, {1, 5, 4, 0}, {3, 2, 6, 7}, {3, 1, 0, 2}, {5, 7, 6, 4}}) {
     const auto first = static_cast<std::uint32_t>(corners.size());
     for (const int i : q) corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
-    uvs.insert(uvs.end(), {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+    uvs.insert(uvs.end(), {{0, 1}, {1, 1}, {1, 0}, {0, 0}});
     triangles.push_back({first, first + 1, first + 2});
     triangles.push_back({first, first + 2, first + 3});
   }

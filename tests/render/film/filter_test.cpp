@@ -98,7 +98,11 @@ TEST(SplatFilter, ReachesAndSharesAsFarAsItsFilter) {
 TEST(SplatFilter, HasTheProfileOfItsFilter) {
   for (const SharedRow& row : shared) {
     const SplatFilter filter(row.filter);
-    std::vector<double> x(std::size_t(2 * filter.reach() + 1)), y = x;
+    std::vector<double> x(filter.side()), y = x;
+    const auto at = [&](int pixels) {
+      const int place = pixels + filter.reach();
+      return static_cast<std::size_t>(place);
+    };
     double sum = 0;
     for (const double dx : {-0.5, -0.2, 0.0, 0.31})
       for (const double dy : {-0.45, 0.0, 0.49}) {

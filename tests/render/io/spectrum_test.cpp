@@ -42,4 +42,20 @@ TEST(Spectrum, WhiteIsWhiteInDaylight) {
   EXPECT_GT(in_daylight[2] / in_daylight[1], 1.02 * otherwise[2] / otherwise[1]);
 }
 
+// Beyond its samples a spectrum is what it is in the renderer that reads it: sums of three parts are checked.
+TEST(Spectrum, BeyondItsSamples) {
+  using render::Beyond, render::Illuminant, render::SpectralSample;
+  const std::vector<SpectralSample> part = {{500, 1}, {520, 1}};
+  const std::vector<SpectralSample> ramp = {{480, 0}, {500, 1}, {520, 1}, {540, 0}};
+  const std::vector<SpectralSample> box = {{500 - 1e-9, 0}, {500, 1}, {520, 1}, {520 + 1e-9, 0}};
+  const auto rgb = [](const std::vector<SpectralSample>& s, Beyond beyond) {
+    return render::spectrum_to_rgb(s, Illuminant::equal_energy, beyond);
+  };
+  EXPECT_LE((rgb(part, Beyond::ramp) - rgb(ramp, Beyond::held)).abs().maxCoeff(), 1e-6);
+  EXPECT_LE((rgb(part, Beyond::zero) - rgb(box, Beyond::held)).abs().maxCoeff(), 1e-6);
+  EXPECT_LE((rgb(part, Beyond::held) - rgb({{400, 1}, {700, 1}}, Beyond::zero)).abs().maxCoeff(), 1e-6);
+  for (const Beyond beyond : {Beyond::held, Beyond::ramp, Beyond::zero})
+    EXPECT_LE((rgb({{500, 1}}, beyond) - rgb(part, Beyond::held)).abs().maxCoeff(), 1e-6) << "one sample is constant";
+}
+
 } // namespace

@@ -119,8 +119,8 @@ TEST(TriangleMesh, TextureCoordinatesFillTheSidesOfABox) {
         return Vec3d(box.point(static_cast<std::size_t>(triangle), b1, b2).p.cast<double>());
       };
       const mc::Vec2<double> du = at(1, 0) - at(0, 0), dv = at(0, 1) - at(0, 0);
-      EXPECT_GT(du[0] * dv[1] - du[1] * dv[0], 0);
-      area += (du[0] * dv[1] - du[1] * dv[0]) / 2;
+      EXPECT_LT(du[0] * dv[1] - du[1] * dv[0], 0) << "mirrored, as Mitsuba's";
+      area -= (du[0] * dv[1] - du[1] * dv[0]) / 2;
       EXPECT_GT(mc::cross<double>(p(1, 0) - p(0, 0), p(0, 1) - p(0, 0)).dot(p(0.3, 0.3) - Vec3d(5, 6, 7)), 0);
     }
     EXPECT_EQ(area, 1) << side;

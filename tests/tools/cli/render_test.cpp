@@ -209,11 +209,25 @@ TEST_F(RenderCommand, GoesOnWithTheSamePictureOnly) {
   refused(same + " --strategy light",
           "was rendered with a --strategy that finds 'all light', not 'light towards lamps alone'");
   write("s.xml", text + "<!-- other -->");
-  refused(same, "was rendered with a scene file whose bytes have the hash '");
+  refused(same, "was rendered with files of a scene whose bytes have the hash '");
   render::Image older = render::read_image(path("r.exr"));
   older.metadata.erase("carlo.max_depth");
   render::write_image(path("r.exr"), older);
   refused(same, "does not say its carlo.max_depth");
+}
+
+TEST_F(RenderCommand, GoesOnWithTheSameFilesOnly) {
+  write("sky.xml", "<scene version=\"0.6.0\"><emitter type=\"constant\"/></scene>");
+  const std::string scene = write("s.xml", "<scene version=\"0.6.0\"><include filename=\"sky.xml\"/><sensor "
+                                           "type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor></scene>");
+  const std::string line = "render " + scene + " --size 4x4 --spp 2 -o " + path("r.exr");
+  ASSERT_EQ(run_carlo(line).exit_code, 0);
+  EXPECT_EQ(run_carlo(line + " --resume").exit_code, 0);
+  write("sky.xml", "<scene version=\"0.6.0\"><emitter type=\"constant\"><rgb name=\"radiance\" value=\"3\"/></emitter>"
+                   "</scene>");
+  const support::Run run = run_carlo(line + " --resume");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.output, HasSubstr("whose bytes have the hash '"));
 }
 
 TEST_F(RenderCommand, ComparesStrategies) {

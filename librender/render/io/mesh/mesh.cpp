@@ -30,6 +30,17 @@ std::vector<Vec3> smooth_normals(const std::vector<Vec3d>& positions,
   return normals;
 }
 
+// Turns triangles so that their normals are on the side of those of their vertices.
+void wind_about(const std::vector<Vec3>& normals, const std::vector<Vec3d>& positions,
+                std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  if (normals.size() != positions.size()) return; // for TriangleMesh to refuse
+  for (auto& t : triangles) {
+    const Vec3d normal = mc::cross<double>(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
+    const Vec3 meant = normals[t[0]] + normals[t[1]] + normals[t[2]];
+    if (normal.dot(meant.cast<double>()) < 0) std::swap(t[1], t[2]);
+  }
+}
+
 } // namespace
 
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat) {
@@ -49,11 +60,13 @@ TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat
   auto triangles = file.triangles;
   if (to_world.mirrors())
     for (auto& t : triangles) std::swap(t[1], t[2]);
-  const auto in_range = [&](std::uint32_t i) { return i < placed.size(); };
-  if (!flat && file.normals.empty() && std::all_of(triangles.begin(), triangles.end(), [&](const auto& t) {
-        return std::all_of(t.begin(), t.end(), in_range);
-      }))
-    normals = smooth_normals(placed, triangles);
+  const bool are_in_range = std::all_of(triangles.begin(), triangles.end(), [&](const auto& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t i) { return i < placed.size(); });
+  });
+  if (!flat && are_in_range) {
+    if (file.normals.empty()) normals = smooth_normals(placed, triangles);
+    else wind_about(normals, placed, triangles);
+  }
   TriangleMesh mesh(std::move(positions), triangles, std::move(normals), file.uvs);
   mc::require(mesh.area() > 0, "none of its {} triangles has an area{}: nothing would be seen", mesh.size(),
               sizeof(Float) == sizeof(float) ? " in single precision" : "");

@@ -21,15 +21,16 @@ struct MeshFile {
   std::size_t meshes = 1;  ///< in the file, of which this is one
 };
 
-/// The shape of a mesh file under `to_world`, its triangles turned so that a mirroring transform keeps their normals on
-/// their side.
+/// The shape of a mesh file under `to_world`, its triangles turned to the side of the file's normals; without these a
+/// mirroring transform keeps theirs on their side.
 ///   flat   : without normals; else those of the file, or where it has none the mean of the faces about each vertex, by
 ///            their angles there [ThuermerWuethrich98]
 ///   throws : Error for what TriangleMesh refuses, and where no triangle has an area
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat = false);
 
 /// All faces of a Wavefront OBJ file as one mesh, polygons cut into triangles; materials are ignored. Faces without
-/// normals are flat where others have them; texture coordinates count where all faces have them.
+/// normals are flat where others have them; where none has, groups and materials share no vertices. Texture coordinates
+/// count where all faces have them.
 ///   throws : Error that names file and line for a missing or broken file, an index out of range, a vertex that is not
 ///            finite
 MeshFile read_obj(const std::string& path);

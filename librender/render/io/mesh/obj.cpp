@@ -98,8 +98,9 @@ using Corner = std::array<std::uint32_t, elements.size()>; ///< its elements, co
 /// What the file's lines say.
 struct Lines {
   std::array<std::vector<Vec3d>, elements.size()> values;
-  std::vector<Corner> corners;   ///< of all faces
-  std::vector<std::size_t> ends; ///< of each face in `corners`
+  std::vector<Corner> corners;       ///< of all faces
+  std::vector<std::size_t> ends;     ///< of each face in `corners`
+  std::vector<std::uint32_t> groups; ///< of each face: a new one from every `g` and `usemtl` on
   /// The first line of a face with corners that have no such element. Of none of its corners they count then.
   std::array<std::size_t, elements.size()> without = {};
 
@@ -165,9 +166,13 @@ Lines lines_of(std::string_view text) {
     mc::require(lines.values[k].size() < none, "it has {} lines {}; fewer than 2^32 - 1 can be read",
                 lines.values[k].size(), elements[k].keyword);
   std::array<std::size_t, elements.size()> above = {};
+  std::uint32_t group = 0;
   for_each_line(text, [&](std::size_t line, std::string_view keyword, std::string_view rest) {
     for (std::size_t k = 0; k < elements.size(); ++k) above[k] += keyword == elements[k].keyword;
-    if (keyword == "f") read_face(line, rest, above, lines);
+    if (keyword == "g" || keyword == "usemtl") ++group;
+    if (keyword != "f") return;
+    read_face(line, rest, above, lines);
+    lines.groups.push_back(group);
   });
   return lines;
 }
@@ -176,11 +181,14 @@ struct HashOfCorner {
   std::size_t operator()(const Corner& c) const { return mc::hash(c[0], c[1], c[2]); }
 };
 
-/// One vertex for each distinct corner.
+/// One vertex for each distinct corner; groups without normals do not share any, and so are not smoothed together.
 MeshFile mesh_of(Lines lines) {
   const bool has_normals = lines.has(normal), has_uvs = lines.without[uv] == 0 && lines.has(uv);
   if (!has_uvs)
     for (Corner& corner : lines.corners) corner[uv] = none;
+  if (!has_normals)
+    for (std::size_t face = 0, i = 0; face < lines.ends.size(); ++face)
+      for (; i < lines.ends[face]; ++i) lines.corners[i][normal] = lines.groups[face];
   const auto value = [&](const Corner& c, Kind kind) -> Vec3d {
     return c[kind] == none ? Vec3d(Vec3d::Zero()) : lines.values[kind][c[kind]];
   };

@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::uint16_t signature = 0x041c;
-enum Flag : std::uint32_t { with_normals = 1, with_uvs = 2, with_colors = 8, face_normals = 0x10, in_double = 0x2000 };
+enum Flag : std::uint32_t { with_normals = 1, with_uvs = 2, with_colors = 8, in_double = 0x2000 };
 
 template <class T> T value_at(std::string_view bytes, std::uint64_t offset) {
   mc::require(offset <= bytes.size() && bytes.size() - offset >= sizeof(T), "the file ends early: no {} bytes at {}",
@@ -103,7 +103,6 @@ template <class T> void read_attributes(Unpacked& data, std::uint32_t flags, std
       mesh.uvs.emplace_back(static_cast<float>(uvs[2 * i]), static_cast<float>(uvs[2 * i + 1]));
   }
   if (flags & with_colors) data.take<T>(3 * vertices);
-  if (flags & face_normals) mesh.normals.clear();
 }
 
 } // namespace

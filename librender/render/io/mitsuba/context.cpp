@@ -16,12 +16,17 @@ bool is_of_mitsuba_2(const XmlElement& root) {
   return mc::number_in(version.substr(0, version.find('.'))).value_or(0) >= 2;
 }
 
+Beyond beyond_of(const XmlElement& root, Dialect dialect) {
+  if (dialect == Dialect::lajolla) return Beyond::held;
+  return is_of_mitsuba_2(root) ? Beyond::zero : Beyond::ramp;
+}
+
 } // namespace
 
 Context::Context(const XmlElement& root, Dialect dialect, const Vec3d& origin)
     : folders(root), dialect_(dialect),
       illuminant_(dialect == Dialect::mitsuba && is_of_mitsuba_2(root) ? Illuminant::d65 : Illuminant::equal_energy),
-      origin_(origin) {
+      beyond_(beyond_of(root, dialect)), origin_(origin) {
   collect_ids(root);
 }
 
@@ -89,15 +94,21 @@ std::shared_ptr<const Texels> Context::picture(const std::string& path) {
   return picture;
 }
 
+std::string Context::file(const std::string& name) {
+  std::string path = folders.find(name);
+  files_.insert(path);
+  return path;
+}
+
 void Context::warn(const XmlElement& element, const std::string& what) {
   std::string text = fmt::format("{}: <{}>: {}", element.where(), element.tag, what);
   if (std::find(warnings_.begin(), warnings_.end(), text) == warnings_.end()) warnings_.push_back(std::move(text));
 }
 
-BsdfId Context::default_bsdf() {
-  const auto known = bsdfs_.find(nullptr);
-  if (known != bsdfs_.end()) return known->second;
-  return bsdfs_[nullptr] = builder.add(Lambert());
+BsdfId Context::default_bsdf(bool is_lamp) {
+  std::optional<BsdfId>& bsdf = default_bsdfs_[is_lamp ? 1 : 0];
+  if (!bsdf) bsdf = builder.add(is_lamp ? Lambert(Spectrum::Zero()) : Lambert());
+  return *bsdf;
 }
 
 } // namespace render::mitsuba

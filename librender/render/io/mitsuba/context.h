@@ -7,8 +7,10 @@
 #include <render/io/xml.h>
 #include <render/scene/builder.h>
 
+#include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -27,6 +29,8 @@ class Context {
   /// The light that the spectra of what reflects are seen in: by the version of the scene, that of Mitsuba 0.6 or of 2
   /// and 3.
   Illuminant illuminant() const { return illuminant_; }
+  /// What spectra are beyond their samples.
+  Beyond beyond() const { return beyond_; }
   const Vec3d& origin() const { return origin_; }
 
   /// Where the files are that the scene names.
@@ -41,14 +45,18 @@ class Context {
   Material read_bsdf(const XmlElement& element);
   /// The same, added to the scene when first met.
   BsdfId bsdf(const XmlElement& element);
-  /// The BSDF of shapes that name none.
-  BsdfId default_bsdf();
+  /// The BSDF of shapes that name none: diffuse, and of lamps black.
+  BsdfId default_bsdf(bool is_lamp);
 
   /// The texture that a <texture> describes or a <ref> names.
   Texture texture(const XmlElement& element);
   /// The picture in a file, read when first asked for.
   ///   throws : what read_image throws
   std::shared_ptr<const Texels> picture(const std::string& path);
+
+  /// The path of a file that the scene names.
+  std::string file(const std::string& name);
+  const std::set<std::string>& files() const { return files_; }
 
   /// Notes once what an element means here that it does not mean elsewhere.
   void warn(const XmlElement& element, const std::string& what);
@@ -62,12 +70,15 @@ class Context {
 
   Dialect dialect_;
   Illuminant illuminant_;
+  Beyond beyond_;
   Vec3d origin_;
   std::map<std::string, const XmlElement*> ids_;
   std::map<const XmlElement*, BsdfId> bsdfs_;
+  std::array<std::optional<BsdfId>, 2> default_bsdfs_; ///< of other shapes and of lamps
   std::set<const XmlElement*> being_read_;
   std::map<const XmlElement*, Texture> textures_;
   std::map<std::string, std::shared_ptr<const Texels>> pictures_;
+  std::set<std::string> files_;
   std::vector<std::string> warnings_;
 };
 

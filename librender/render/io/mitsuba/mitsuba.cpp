@@ -34,7 +34,8 @@ class Reader {
     return {mc::with_context(root_.file, [&] { return context_.builder.build(); }),
             {sensor_->film.width, sensor_->film.height, sensor_->spp, integrator.max_depth, integrator.shown},
             context_.origin(),
-            context_.warnings()};
+            context_.warnings(),
+            context_.files()};
   }
 
  private:
@@ -75,7 +76,7 @@ class Reader {
     // A reference that leads nowhere is named before what the plugin lacks.
     for (const XmlElement& child : e.children) context_.resolve(child, "bsdf");
     CoveredShape s = read_plugin(shape_plugins(), e, context_);
-    const BsdfId bsdf = s.bsdf ? *s.bsdf : context_.default_bsdf();
+    const BsdfId bsdf = s.bsdf ? *s.bsdf : context_.default_bsdf(s.emission.has_value());
     mc::with_context(e.where(), [&] {
       context_.builder.add(std::move(s.shape), {bsdf, s.emission, s.guide, s.interior, s.without_uvs});
     });
@@ -115,6 +116,12 @@ SceneFile read_where_it_stands(const XmlElement& root, Dialect dialect) {
   }
 }
 
+// Of the elements, which may come from files that are included.
+void add_files(const XmlElement& element, std::set<std::string>& files) {
+  files.insert(element.file);
+  for (const XmlElement& child : element.children) add_files(child, files);
+}
+
 } // namespace
 
 Dialect dialect_from(std::string_view name) {
@@ -131,6 +138,7 @@ SceneFile read_mitsuba(const std::string& path, Dialect dialect, const Variables
   substitute_variables(root, variables);
   SceneFile file = read_where_it_stands(root, dialect);
   root.require_all_seen();
+  add_files(root, file.files);
   return file;
 }
 

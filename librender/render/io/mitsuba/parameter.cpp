@@ -18,7 +18,7 @@ std::string text_of(const Spectrum& s) {
 }
 
 std::shared_ptr<const Texels> picture_of(const XmlElement& e, Context& context) {
-  const std::string path = context.folders.find(e.attribute("value"));
+  const std::string path = context.file(e.attribute("value"));
   return mc::with_context(e.where(), [&] { return context.picture(path); });
 }
 
@@ -92,7 +92,7 @@ Parameter<bool> boolean(const std::string& name, const std::string& meaning, boo
 
 Parameter<std::string> file(const std::string& name, const std::string& meaning) {
   return {{name, "file", "", {"string"}, meaning},
-          [](const XmlElement& e, Context& context) { return context.folders.find(e.attribute("value")); },
+          [](const XmlElement& e, Context& context) { return context.file(e.attribute("value")); },
           {},
           {}};
 }
@@ -107,7 +107,7 @@ Parameter<Vec3d> point(const std::string& name, const std::string& meaning, cons
 
 Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning) {
   return {{name, "colour", unit, {"rgb", "srgb", "spectrum"}, meaning},
-          [](const XmlElement& e, Context&) { return color_of(e); },
+          [](const XmlElement& e, Context& context) { return color_of(e, context.beyond()); },
           {},
           {}};
 }
@@ -118,7 +118,9 @@ Parameter<Spectrum> color(const std::string& name, const std::string& unit, cons
 
 Parameter<Spectrum> reflectance(const std::string& name, const std::string& meaning, const Spectrum& fallback) {
   Parameter<Spectrum> p = color(name, share_of_light, meaning, fallback);
-  p.parse = [](const XmlElement& e, Context& context) { return reflectance_of(e, context.illuminant()); };
+  p.parse = [](const XmlElement& e, Context& context) {
+    return reflectance_of(e, context.illuminant(), context.beyond());
+  };
   return p;
 }
 
@@ -126,7 +128,7 @@ Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std
                                               const Spectrum& fallback) {
   const auto parse = [](const XmlElement& e, Context& context) -> Reflectance {
     if (e.tag == "texture" || e.tag == "ref") return context.texture(e);
-    return reflectance_of(e, context.illuminant());
+    return reflectance_of(e, context.illuminant(), context.beyond());
   };
   const Parameter<Reflectance> p{
       {name, "colour or texture", share_of_light, {"rgb", "srgb", "spectrum", "texture", "ref"}, meaning},

@@ -59,12 +59,12 @@ Vec3d hexadecimal(const XmlElement& e, const std::string& text) {
     e.fail(fmt::format("'{}' is not #rrggbb", text));
   Vec3d v;
   for (int i = 0; i < 3; ++i)
-    v[i] = srgb_to_linear(std::stoi(text.substr(1 + 2 * static_cast<std::size_t>(i), 2), nullptr, 16) / 255.0);
+    v[i] = std::stoi(text.substr(1 + 2 * static_cast<std::size_t>(i), 2), nullptr, 16) / 255.0;
   return v;
 }
 
 // Pairs wavelength:value, with commas or blanks between them, and blanks about the colons.
-Spectrum tabulated(const XmlElement& e, const std::string& text, Illuminant illuminant) {
+Spectrum tabulated(const XmlElement& e, const std::string& text, Illuminant illuminant, Beyond beyond) {
   std::vector<SpectralSample> samples;
   const auto place = [&](std::size_t i) { return std::min(i, text.size()); };
   for (std::size_t begin = 0; (begin = text.find_first_not_of(separators, begin)) != std::string::npos;) {
@@ -78,7 +78,8 @@ Spectrum tabulated(const XmlElement& e, const std::string& text, Illuminant illu
     samples.push_back({parse_number(e, wavelength), parse_number(e, text.substr(value, end - value))});
     begin = end;
   }
-  return mc::with_context(e.where(), [&] { return spectrum_to_rgb(samples, illuminant); });
+  const Spectrum rgb = mc::with_context(e.where(), [&] { return spectrum_to_rgb(samples, illuminant, beyond); });
+  return beyond == Beyond::held ? rgb : Spectrum(rgb.max(0));
 }
 
 bool is_tabulated(const XmlElement& e) {
@@ -123,23 +124,18 @@ bool boolean_of(const XmlElement& element) {
 
 Vec3d vector_of(const XmlElement& element) { return axes_of(element, 0); }
 
-Spectrum color_of(const XmlElement& element) {
+Spectrum color_of(const XmlElement& element, Beyond beyond) {
   const std::string& text = element.attribute("value");
-  if (is_tabulated(element)) return tabulated(element, text, Illuminant::equal_energy);
-  Vec3d v;
-  if (text.starts_with('#')) {
-    v = hexadecimal(element, text);
-  } else {
-    v = three(element, text);
-    if (element.tag == "srgb")
-      for (int i = 0; i < 3; ++i) v[i] = srgb_to_linear(v[i]);
-  }
+  if (is_tabulated(element)) return tabulated(element, text, Illuminant::equal_energy, beyond);
+  Vec3d v = text.starts_with('#') ? hexadecimal(element, text) : three(element, text);
+  if (element.tag == "srgb")
+    for (int i = 0; i < 3; ++i) v[i] = srgb_to_linear(v[i]);
   return v.cast<Float>().array();
 }
 
-Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant) {
-  if (illuminant == Illuminant::equal_energy || !is_tabulated(element)) return color_of(element);
-  return tabulated(element, element.attribute("value"), illuminant).max(0).min(1);
+Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant, Beyond beyond) {
+  if (illuminant == Illuminant::equal_energy || !is_tabulated(element)) return color_of(element, beyond);
+  return tabulated(element, element.attribute("value"), illuminant, beyond).max(0).min(1);
 }
 
 Transform transform_of(const XmlElement& element) {

@@ -21,12 +21,13 @@ int integer_of(const XmlElement& element);
 bool boolean_of(const XmlElement& element);
 /// x, y, z attributes, those that are missing 0; or three numbers, or one for all, as the value.
 Vec3d vector_of(const XmlElement& element);
-/// Linear sRGB of <rgb> (linear) or <srgb> (by the sRGB curve), each as one number, three or #rrggbb (always by the
-/// curve), and of <spectrum>, as one number or wavelength:value pairs.
-Spectrum color_of(const XmlElement& element);
+/// Linear sRGB of <rgb> (linear) or <srgb> (by the sRGB curve), each as one number, three or #rrggbb (255ths), and of
+/// <spectrum>, as one number or wavelength:value pairs. Unless these are held, as in lajolla, colours that the screen
+/// does not have become the nearest >= 0.
+Spectrum color_of(const XmlElement& element, Beyond beyond = Beyond::held);
 /// The same of what reflects: wavelength:value pairs are seen in that light, and under D65 colours that the screen does
 /// not have become the nearest in [0, 1], as in Mitsuba 3.
-Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant);
+Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant, Beyond beyond = Beyond::held);
 /// lookAt, translate, scale, rotate and matrix, applied in the order in which they stand.
 Transform transform_of(const XmlElement& element);
 

@@ -136,4 +136,16 @@ TEST_F(Obj, FacesWithoutNormalsAreFlat) {
   EXPECT_EQ(mesh.point(1, 0.3, 0.3).ns, Vec3(0, 0, 1));
 }
 
+// Two squares about an edge, without normals: smooth, unless a group or a material begins between them.
+TEST_F(Obj, GroupsAreNotSmoothedTogether) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 -1\nv 1 1 -1\n";
+  for (const std::string word : {"", "o part\n", "g side\n", "usemtl red\n"}) {
+    const MeshFile file = read_obj(write("s.obj", corners + "f 1 2 3 4\n" + word + "f 2 5 6 3\n"));
+    const bool is_split = word[0] == 'g' || word[0] == 'u';
+    EXPECT_EQ(file.positions.size(), is_split ? 8u : 6u) << word;
+    const Vec3 at_edge = to_shape(file, {}).point(0, 1, 0).ns;
+    EXPECT_LE((at_edge - (is_split ? Vec3(0, 0, 1) : Vec3(Vec3(1, 0, 1).normalized()))).norm(), 1e-6) << word;
+  }
+}
+
 } // namespace

@@ -14,6 +14,8 @@ struct Values : support::ScratchTest {
   }
 };
 
+const auto color_of_element = [](const render::XmlElement& e) { return color_of(e); };
+
 TEST_F(Values, Scalars) {
   EXPECT_EQ(number_of(element("<float value=\" 1.5e2 \"/>")), 150);
   EXPECT_EQ(integer_of(element("<integer value=\"-3\"/>")), -3);
@@ -42,6 +44,7 @@ TEST_F(Values, Colors) {
   EXPECT_FLOAT_EQ(static_cast<float>(color_of(element("<rgb value=\"0.5\"/>"))[2]), 0.5f);
   EXPECT_FLOAT_EQ(static_cast<float>(color_of(element("<srgb value=\"#ff0080\"/>"))[0]), 1);
   EXPECT_NEAR(color_of(element("<srgb value=\"#ff0080\"/>"))[2], 0.21586, 1e-5);
+  EXPECT_NEAR(color_of(element("<rgb value=\"#ff0080\"/>"))[2], 128 / 255.0, 1e-6);
   EXPECT_NEAR(color_of(element("<srgb value=\"0.5\"/>"))[0], 0.214041, 1e-6);
   EXPECT_NEAR(color_of(element("<spectrum value=\"400:1, 700:1\"/>"))[0], 1.1993, 1e-4);
   const auto spectrum = [&](const std::string& pairs) {
@@ -50,12 +53,13 @@ TEST_F(Values, Colors) {
   const render::Spectrum color = spectrum("400:0.1, 500:0.3, 700:0.2");
   for (const char* pairs : {"400:0.1 500:0.3 700:0.2", " 400:0.1,500:0.3 ,700:0.2,", "400 : 0.1\n500: 0.3\t700 :0.2"})
     EXPECT_TRUE((spectrum(pairs) == color).all()) << pairs;
-  EXPECT_THAT(refusal("<spectrum value=\"400:1 500 700:2\"/>", color_of), HasSubstr("'500' is not wavelength:value"));
-  EXPECT_THAT(refusal("<spectrum value=\"400:, 700:2\"/>", color_of), HasSubstr("'' is not a finite number"));
+  EXPECT_THAT(refusal("<spectrum value=\"400:1 500 700:2\"/>", color_of_element),
+              HasSubstr("'500' is not wavelength:value"));
+  EXPECT_THAT(refusal("<spectrum value=\"400:, 700:2\"/>", color_of_element), HasSubstr("'' is not a finite number"));
   EXPECT_FLOAT_EQ(static_cast<float>(color_of(element("<spectrum value=\"0.25\"/>"))[0]), 0.25f);
-  EXPECT_THAT(refusal("<spectrum value=\"400:1, 700\"/>", color_of), HasSubstr("is not wavelength:value"));
-  EXPECT_THAT(refusal("<rgb value=\"1 2\"/>", color_of), HasSubstr("has 2 numbers; give 1 or 3"));
-  EXPECT_THAT(refusal("<rgb value=\"#12345\"/>", color_of), HasSubstr("is not #rrggbb"));
+  EXPECT_THAT(refusal("<spectrum value=\"400:1, 700\"/>", color_of_element), HasSubstr("is not wavelength:value"));
+  EXPECT_THAT(refusal("<rgb value=\"1 2\"/>", color_of_element), HasSubstr("has 2 numbers; give 1 or 3"));
+  EXPECT_THAT(refusal("<rgb value=\"#12345\"/>", color_of_element), HasSubstr("is not #rrggbb"));
 }
 
 TEST_F(Values, TransformsApplyInOrder) {

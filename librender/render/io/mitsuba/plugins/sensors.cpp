@@ -8,9 +8,11 @@ constexpr int default_spp = 4;
 constexpr std::size_t diagonal = 4; // of fovAxis
 
 SensorSettings make_sensor(const Transform& to_world, double fov, std::size_t axis, double near, double far,
-                           double focus_distance, const FilmSettings& film, int spp, double radius) {
+                           const std::optional<double>& focus_distance, const FilmSettings& film, int spp,
+                           double radius) {
   constexpr FovAxis axes[] = {FovAxis::x, FovAxis::y, FovAxis::smaller, FovAxis::larger, FovAxis::diagonal};
-  return {ThinLens(to_world, {axes[axis], fov, radius, focus_distance, near, far}), film, spp};
+  const double focus = focus_distance.value_or(std::isfinite(far) ? far : 1e4);
+  return {ThinLens(to_world, {axes[axis], fov, radius, focus, near, far}), film, spp};
 }
 
 // The diagonal field of view of a lens before 35 mm film, 36 mm by 24 mm, in degrees.
@@ -19,8 +21,8 @@ double diagonal_fov(double focal_length) {
 }
 
 SensorSettings make_perspective(const Transform& to_world, const std::optional<double>& fov, std::size_t axis,
-                                double near, double far, double focus_distance, const FilmSettings& film, int spp,
-                                const std::optional<double>& focal_length) {
+                                double near, double far, const std::optional<double>& focus_distance,
+                                const FilmSettings& film, int spp, const std::optional<double>& focal_length) {
   mc::require(!fov || !focal_length, "perspective: give fov or focalLength, not both");
   mc::require(!focal_length || *focal_length > 0, "perspective: focalLength {} must be > 0", focal_length.value_or(0));
   if (fov) return make_sensor(to_world, *fov, axis, near, far, focus_distance, film, spp, 0);
@@ -29,7 +31,7 @@ SensorSettings make_perspective(const Transform& to_world, const std::optional<d
 }
 
 SensorSettings make_thinlens(const Transform& to_world, double fov, std::size_t axis, double near, double far,
-                             double focus_distance, const FilmSettings& film, int spp,
+                             const std::optional<double>& focus_distance, const FilmSettings& film, int spp,
                              const std::optional<double>& radius, const std::optional<double>& f_number,
                              const std::optional<double>& focal_length) {
   mc::require(radius.has_value() != f_number.has_value() && f_number.has_value() == focal_length.has_value(),
@@ -59,7 +61,8 @@ Plugin<SensorSettings> sensor_plugin(std::string name, std::string meaning, Make
       choice("fovAxis", {"x", "y", "smaller", "larger", "diagonal"}, "the side of the film that fov spans", 0),
       number("nearClip", "scene units", 0, "what stands closer before the lens is cut away"),
       number("farClip", "scene units", mc::infinity<double>, "what stands farther is cut away, > nearClip"),
-      number("focusDistance", "scene units", 1, "to the plane in focus; of no effect for a pinhole"),
+      optional(number("focusDistance", "scene units", "to the plane in focus; of no effect for a pinhole"))
+          .otherwise(std::nullopt, "farClip, or 1e4"),
       nested("film", "the picture", film_plugins).otherwise(in_mitsuba, "hdrfilm").in_lajolla(in_lajolla, "hdrfilm"),
       nested("sampler", "how many samples", sampler_plugins).otherwise(default_spp, "independent"), parameters...);
 }

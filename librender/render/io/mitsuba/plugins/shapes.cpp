@@ -66,7 +66,7 @@ Parameter<std::optional<BsdfId>> bsdf_of_shape() {
       [](const XmlElement& e, Context& context) { return std::optional(context.bsdf(e)); },
       {},
       {}};
-  return p.otherwise(std::nullopt, "diffuse");
+  return p.otherwise(std::nullopt, "diffuse; of what shines black");
 }
 
 Parameter<std::optional<HomogeneousMedium>> medium_of_shape() {
@@ -139,7 +139,7 @@ const Plugins<CoveredShape>& shape_plugins() {
       mesh_plugin("ply", "a mesh in Stanford's format, ascii or binary", make_ply),
       mesh_plugin("serialized", "a mesh in Mitsuba's own format, versions 3 and 4", make_serialized,
                   integer("shapeIndex", "which of the file's meshes, >= 0", 0))
-          .accepting({no_effect("maxSmoothAngle", "the file's normals count")}),
+          .accepting({no_effect("maxSmoothAngle", "the file's normals count, where Mitsuba makes new ones")}),
       shape_plugin("rectangle", "the square [-1, 1]^2 in the plane z = 0, normal +z", make_rectangle, to_world()),
       shape_plugin("cube", "the cube [-1, 1]^3, normals outward", make_cube, to_world()),
       shape_plugin(

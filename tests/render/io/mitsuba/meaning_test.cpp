@@ -1,0 +1,118 @@
+// What scenes mean in Mitsuba where it is not plain: pictures of one pixel with a known radiance.
+
+#include <render/io/image/image_io.h>
+#include <render/io/mitsuba/mitsuba.h>
+#include <render/render.h>
+
+#include "render/io/mitsuba/scene_text.h"
+
+namespace {
+
+using render::Spectrum;
+
+struct Meaning : support::SceneTest {
+  /// What a pixel sees, of a box filter, from `eye` towards `target` with a tiny field of view.
+  Spectrum seen(const std::string& eye, const std::string& target, const std::string& body,
+                const std::string& sensor_parameters = "") const {
+    const std::string file =
+        write("one.xml",
+              fmt::format("<scene version=\"0.6.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"0.01\"/>{}"
+                          "<transform name=\"toWorld\"><lookAt origin=\"{}\" target=\"{}\" up=\"0,1,0\"/></transform>"
+                          "<film type=\"hdrfilm\"><rfilter type=\"box\"/></film></sensor>{}</scene>",
+                          sensor_parameters, eye, target, body));
+    const render::SceneFile read = render::read_mitsuba(file);
+    render::RenderOptions options;
+    options.width = options.height = 1;
+    options.spp = 256;
+    return render::render(read.scene, options).image.pixels[0];
+  }
+};
+
+const std::string sky = "<emitter type=\"constant\"/>";
+std::string area(double radiance) {
+  return fmt::format("<emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter>", radiance);
+}
+
+// Mitsuba gives a lamp without a BSDF a black one, other shapes a diffuse one of 1/2.
+TEST_F(Meaning, ALampWithoutABsdfReflectsNothing) {
+  for (const std::string shape : {"rectangle", "sphere", "cube"}) {
+    EXPECT_EQ(seen("0,0,4", "0,0,0", sky + "<shape type=\"" + shape + "\">" + area(3) + "</shape>")[0], 3) << shape;
+    EXPECT_NEAR(seen("0,0,4", "0,0,0", sky + "<shape type=\"" + shape + "\"/>")[0], 0.5, 1e-3) << shape;
+  }
+}
+
+// Where the normals of a file oppose the order of the corners, the normals decide which side shines.
+TEST_F(Meaning, AMeshShinesFromTheSideOfItsNormals) {
+  for (const int z : {1, -1}) {
+    write("square.obj", fmt::format("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 {}\nf 1//1 2//1 3//1 4//1\n", z));
+    for (const int mirror : {1, -1}) {
+      const std::string body = "<shape type=\"obj\"><string name=\"filename\" value=\"square.obj\"/>" + area(3) +
+                               fmt::format("<transform name=\"toWorld\"><scale x=\"{}\"/></transform></shape>", mirror);
+      EXPECT_EQ(seen("0.1,0.2,4", "0.1,0.2,0", body)[0], z > 0 ? 3 : 0) << z << mirror;
+      EXPECT_EQ(seen("0.1,0.2,-4", "0.1,0.2,0", body)[0], z > 0 ? 0 : 3) << z << mirror;
+      // A floor on that side is lit, one on the other is not.
+      const std::string floor = fmt::format("<shape type=\"rectangle\"><transform name=\"toWorld\"><rotate y=\"1\" "
+                                            "angle=\"{}\"/><translate z=\"{}\"/></transform></shape>",
+                                            z > 0 ? 180 : 0, 2 * z);
+      EXPECT_GT(seen(fmt::format("3,0,{}", z), fmt::format("0,0,{}", 2 * z), body + floor)[0], 0.1) << z << mirror;
+    }
+  }
+}
+
+// The faces of Mitsuba's cube: u and v at a point of each.
+TEST_F(Meaning, ACubeHasMitsubasTextureCoordinates) {
+  render::Image ramp(64, 64);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) ramp.at(x, y) = Spectrum((x + 0.5f) / 64, (y + 0.5f) / 64, 0);
+  render::write_image(path("ramp.pfm"), ramp);
+  const std::string body = sky + "<shape type=\"cube\"><bsdf type=\"diffuse\"><texture type=\"bitmap\" "
+                                 "name=\"reflectance\"><string name=\"filename\" value=\"ramp.pfm\"/></texture></bsdf>"
+                                 "</shape>";
+  struct Row {
+    const char *eye, *target;
+    double u, v;
+  };
+  for (const Row& row : {Row{"9,.3,-.5", "1,.3,-.5", .65, .75},
+                         {"-9,.3,-.5", "-1,.3,-.5", .65, .25},
+                         {".3,9,-.4999", ".3,1,-.5", .35, .75},
+                         {".3,-9,-.4999", ".3,-1,-.5", .25, .65},
+                         {".3,-.5,9", ".3,-.5,1", .25, .65},
+                         {".3,-.5,-9", ".3,-.5,-1", .75, .65}}) {
+    const Spectrum uv = seen(row.eye, row.target, body);
+    EXPECT_NEAR(uv[0], row.u, 2e-3) << row.target;
+    EXPECT_NEAR(uv[1], row.v, 2e-3) << row.target;
+  }
+}
+
+// A medium around the camera fills what nearClip cuts away, too.
+TEST_F(Meaning, AMediumBeginsAtTheLens) {
+  const std::string box =
+      "<shape type=\"cube\"><transform name=\"toWorld\"><scale x=\"3\" y=\"3\" z=\"3\"/></transform>"
+      "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/><boolean name=\"twoSided\" "
+      "value=\"true\"/></emitter><medium type=\"homogeneous\" name=\"interior\"><rgb "
+      "name=\"sigmaA\" value=\".2,.5,1\"/></medium></shape>";
+  for (const std::string near : {"", "<float name=\"nearClip\" value=\"1\"/>"}) {
+    const Spectrum inside = seen("0,0,0", "0,0,3", box, near);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(inside[c], std::exp(-3 * (c == 0 ? 0.2 : c == 1 ? 0.5 : 1)), 1e-5) << near;
+  }
+}
+
+// Without a word of the focus, a lens is sharp at farClip, 1e4 unless given: an edge far away is sharp.
+TEST_F(Meaning, ALensIsFocusedFarAway) {
+  const std::string lens = "<sensor type=\"thinlens\"><float name=\"fov\" value=\"40\"/><float name=\"apertureRadius\" "
+                           "value=\"0.1\"/>{}</sensor>";
+  const auto distance = [&](const std::string& more) {
+    const auto file = render::read_mitsuba(scene(sky + fmt::format(fmt::runtime(lens), more)));
+    // Where rays through two points of the lens cross.
+    const render::ThinLens& camera = file.scene.camera();
+    const render::Vec2 middle(0.5f, 0.5f);
+    const render::Ray a = camera.ray(middle, camera.tan_half(1), {0.9f, 0.1f}),
+                      b = camera.ray(middle, camera.tan_half(1), {0.9f, 0.6f});
+    return double((b.o - a.o).norm() / (a.d - b.d).norm());
+  };
+  EXPECT_NEAR(distance("") / 1e4, 1, 0.02);
+  EXPECT_NEAR(distance("<float name=\"farClip\" value=\"50\"/>"), 50, 0.1);
+  EXPECT_NEAR(distance("<float name=\"focusDistance\" value=\"7\"/><float name=\"farClip\" value=\"50\"/>"), 7, 0.01);
+}
+
+} // namespace
