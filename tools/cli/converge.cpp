@@ -42,10 +42,15 @@ struct ConvergeOptions {
 
 std::vector<Way> ways_of(const ConvergeOptions& o) {
   std::vector<Way> chosen;
-  if (o.all) chosen = ways();
+  const auto can_work = [&](const Way& w) { return w.least <= o.integral.max_n; };
+  if (o.all) std::copy_if(ways().begin(), ways().end(), std::back_inserter(chosen), can_work);
   const std::string samplers = o.samplers.empty() ? "random,stratified,sobol" : o.samplers;
   if (!o.all)
-    for (const std::string_view name : mc::split(samplers, ',')) chosen.push_back(way(std::string(name)));
+    for (const std::string_view name : mc::split(samplers, ',')) {
+      chosen.push_back(way(std::string(name)));
+      mc::require(can_work(chosen.back()), "--max-n {}: {} takes N of at least {}; raise it, or leave {} out",
+                  o.integral.max_n, name, chosen.back().least, name);
+    }
   if (!o.points.empty()) chosen.push_back(way_of_points(o.points));
   return chosen;
 }

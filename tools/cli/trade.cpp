@@ -311,7 +311,8 @@ int trade(const TradeOptions& o) {
     return exit_interrupted;
   }
   if (errors.empty() && seconds.empty())
-    for (const double share : {1e-2, 1e-3, 1e-4}) errors.push_back(share * (m.truth != 0 ? std::abs(m.truth) : 1.0));
+    for (const double share : {1e-2, 1e-3, 1e-4})
+      errors.push_back(share * (std::abs(m.truth) > 4 * m.truth_error ? std::abs(m.truth) : 1.0));
 
   const auto in_turn = [&](const std::vector<Offer>& offers) {
     return taken_in_turn(target, m, offers, o.seed, interrupt.flag());

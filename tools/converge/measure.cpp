@@ -3,6 +3,7 @@
 #include <mc/core/error.h>
 #include <mc/core/types.h>
 #include <mc/random/hash.h>
+#include <mc/stats/t_test.h>
 
 #include <fmt/format.h>
 
@@ -33,8 +34,10 @@ double error_of_mean(const std::vector<double>& x) {
   return std::sqrt(sum / (n - 1) / n);
 }
 
-// How many replicates make an RMS error known to 10 %: its relative variance is (kurtosis - 1) / (4 R).
+// How many replicates make an RMS error known to 10 %: its relative variance is (kurtosis - 1) / (4 R). Where all agree
+// more may not: as many as there can be.
 double replicates_needed(const std::vector<double>& values, double centre) {
+  if (error_of_mean(values) == 0) return double(most_replicates);
   double squares = 0, fourths = 0;
   const double n = static_cast<double>(values.size());
   for (const double x : values) {
@@ -68,14 +71,26 @@ double median(std::vector<double> x) {
   return x[x.size() / 2];
 }
 
+// The standard error of the mean of a curve's last replicates, as far as they are to be believed: where each of them
+// met the same of a jump their spread is 0 or next to it, by chance. So it falls by at most a factor of 4 where N
+// doubles, N^-2; and replicates that have never differed do not know it.
+double credible_error_of_mean(const Curve& c) {
+  double error = mc::infinity<double>;
+  for (const Replicates& r : c.replicates) {
+    const double own = error_of_mean(r.values);
+    if (own > 0 || std::isfinite(error)) error = std::isfinite(error) ? std::max(own, error / 4) : own;
+  }
+  return error;
+}
+
 // Whether the goals are passed with room to spare.
-bool is_enough(const Replicates& r, const Experiment& e, const MeasureOptions& o) {
+bool is_enough(const Curve& curve, const Experiment& e, const MeasureOptions& o) {
+  const Replicates& r = curve.replicates.back();
   if (o.cpu_goal > 0 && median(r.seconds) > o.cpu_goal) return true;
   if (!(o.error_goal > 0)) return false;
-  const double centre = std::isfinite(e.truth) ? e.truth : mean_of(r.values);
-  double squares = 0;
-  for (const double x : r.values) squares += mc::sqr(x - centre) / static_cast<double>(r.values.size());
-  return std::sqrt(squares) < 0.7 * o.error_goal;
+  const auto n = static_cast<double>(r.values.size());
+  const double off = std::isfinite(e.truth) ? std::abs(mean_of(r.values) - e.truth) : 0;
+  return std::hypot(off, std::sqrt(n - 1) * credible_error_of_mean(curve)) < 0.7 * o.error_goal;
 }
 
 // The errors come later, when the truth is known. An interrupt costs only the N that it falls on.
@@ -83,7 +98,7 @@ Curve run_curve(const Target& target, const Way& way, double seconds, const Meas
                 const std::function<void(std::uint64_t n)>& progress) {
   Curve curve;
   curve.way = &way;
-  curve.theory = theory(way.name, target.integral.smoothness, target.integral.dim);
+  if (way.file.empty()) curve.theory = theory(way.name, target.integral.smoothness, target.integral.dim);
   const auto start = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   double last = 0;
@@ -97,7 +112,7 @@ Curve run_curve(const Target& target, const Way& way, double seconds, const Meas
     curve.replicates.push_back(std::move(r));
     last = elapsed() - before;
     progress(n);
-    if (curve.replicates.size() >= 3 && is_enough(curve.replicates.back(), target.integral, o)) break;
+    if (curve.replicates.size() >= 3 && is_enough(curve, target.integral, o)) break;
   }
   return curve;
 }
@@ -138,14 +153,17 @@ void judge(Curve& curve, const Experiment& e, double truth, double truth_error) 
   curve.middle = std::exp(logs / static_cast<double>(fitted.size()));
 }
 
-// The curve whose largest N has the smallest spread, of those that do not adapt. Replicates that agree on a few points,
-// where a curve was cut, may all have missed what the integral is made of.
+// The curve whose largest N has the smallest spread that is to be believed, of those that do not adapt. Replicates that
+// agree on a few points, where a curve was cut, may all have missed what the integral is made of. Where none has ever
+// differed, the curve of the largest N.
 const Curve* steadiest(const std::vector<Curve>& curves) {
   const Curve* best = nullptr;
-  const auto spread = [](const Curve& c) { return error_of_mean(c.replicates.back().values); };
-  const auto may_tell = [&](const Curve& c) { return !c.way->adapts && !(c.cut && spread(c) == 0); };
+  const auto rank = [](const Curve& c) { return std::pair(credible_error_of_mean(c), -c.replicates.back().calls[0]); };
+  const auto may_tell = [&](const Curve& c) {
+    return !c.way->adapts && !(c.cut && error_of_mean(c.replicates.back().values) == 0);
+  };
   for (const Curve& c : curves)
-    if (may_tell(c) && (!best || spread(c) < spread(*best))) best = &c;
+    if (may_tell(c) && (!best || rank(c) < rank(*best))) best = &c;
   return best;
 }
 
@@ -191,7 +209,8 @@ std::string doubt_of(const Experiment& e, const std::vector<Curve>& curves) {
                      e.truth, std::abs(value - e.truth), best->way->name, value, error);
 }
 
-// Whether one replicate holds over half of the squared deviations from the mean.
+// Whether one replicate holds over half of the squared deviations from the mean, and more than one in a million sets of
+// normal ones does: s of R deviations has the law of t^2 / (R - 2 + t^2) (R - 1) / R, t of R - 2 degrees of freedom.
 bool is_one_wild(const std::vector<double>& values) {
   const double mean = mean_of(values);
   double largest = 0, sum = 0;
@@ -199,11 +218,13 @@ bool is_one_wild(const std::vector<double>& values) {
     largest = std::max(largest, mc::sqr(x - mean));
     sum += mc::sqr(x - mean);
   }
-  return largest > sum / 2;
+  const double n = static_cast<double>(values.size()), share = largest / sum * n / (n - 1);
+  if (!(largest > sum / 2) || n < 4) return false;
+  return share >= 1 || n * mc::student_tail(std::sqrt((n - 2) * share / (1 - share)), n - 2) < 1e-6;
 }
 
 // Why a truth found by replicates may be none; empty without a reason. Means with a finite variance are nearly normal
-// at the larger N: one in 64 that holds half of the variance would be nearly six deviations off.
+// at the larger N.
 std::string doubt_of_reference(const std::vector<Curve>& curves) {
   const auto is_witness = [](const Curve& c) { return !c.way->adapts && !c.exact && !c.cut; };
   int sets = 0, wild = 0;

@@ -29,7 +29,8 @@ bool skip(std::string_view& text, char c) {
 struct Number {
   double value = 0;
   int digit = 0;
-  bool whole = false; // the word is a number and nothing else
+  int significant = 0; // digits, from the first that is not 0
+  bool whole = false;  // the word is a number and nothing else
   bool finite = false;
 };
 
@@ -46,6 +47,11 @@ Number parse(std::string_view word) {
   const std::string_view mantissa = word.substr(0, exponent);
   if (const std::size_t point = mantissa.find('.'); point != std::string_view::npos)
     n.digit = -static_cast<int>(mantissa.size() - point - 1);
+  bool leads = true;
+  for (const char c : mantissa) {
+    leads = leads && (c < '1' || c > '9');
+    n.significant += !leads && c != '.';
+  }
   if (exponent != std::string_view::npos) {
     int power = 0;
     const char* from = word.data() + exponent + 1;
@@ -109,12 +115,37 @@ std::string_view without_comment(std::string_view text) {
   return text;
 }
 
-void parse_row(std::string_view text, CsvTable& table) {
+// How a column is printed: with so many digits behind the point, or with so many significant ones.
+struct Precision {
+  int decimals = -1000, significant = 0;
+};
+
+// Programs leave out zeros at the end: 1.5 among 0.123456 is 1.50000, and 12.5 among 12.345 is 12.500. A digit stands
+// for no more than that, as far as the rest of its column tells.
+void refine_digits(CsvTable& table, const std::vector<Precision>& columns) {
+  table.digits_below = table.digits;
+  for (std::size_t i = 0; i < table.values.size(); ++i) {
+    const Precision& p = columns[i % table.columns];
+    const auto refine = [&](std::int16_t& digit, int magnitude) {
+      digit = static_cast<std::int16_t>(std::min<int>(digit, std::max(magnitude - p.significant + 1, -p.decimals)));
+    };
+    const double size = std::abs(table.values[i]), magnitude = size > 0 ? std::floor(std::log10(size)) : -1000;
+    refine(table.digits[i], static_cast<int>(magnitude));
+    refine(table.digits_below[i], static_cast<int>(size == std::pow(10.0, magnitude) ? magnitude - 1 : magnitude));
+  }
+}
+
+void parse_row(std::string_view text, CsvTable& table, std::vector<Precision>& columns) {
+  std::size_t column = 0;
   bool commas = false, semicolons = false;
   for (bool more = true; more;) {
     const Number n = take_number(text);
     table.values.push_back(n.value);
     table.digits.push_back(static_cast<std::int16_t>(std::clamp(n.digit, -1000, 1000)));
+    if (column == columns.size()) columns.emplace_back();
+    Precision& precision = columns[column++];
+    precision.decimals = std::max<int>(precision.decimals, -table.digits.back());
+    precision.significant = std::max(precision.significant, n.significant);
     skip_blanks(text);
     more = !text.empty();
     const bool comma = skip(text, ','), semicolon = !comma && skip(text, ';');
@@ -150,6 +181,7 @@ CsvTable read_csv(const std::string& file) {
   const std::string bytes = mc::read_file(file);
   require_text(file, bytes);
   CsvTable table;
+  std::vector<Precision> columns;
   std::uint32_t line = 0;
   bool first = true;
   for (std::string_view rest = bytes; !rest.empty();) {
@@ -164,7 +196,7 @@ CsvTable read_csv(const std::string& file) {
     try {
       mc::require(std::count(text.begin(), text.end(), '"') % 2 == 0, unclosed);
       if (std::exchange(first, false) && is_header(text)) continue;
-      parse_row(text, table);
+      parse_row(text, table, columns);
       const std::size_t found = table.values.size() - before;
       if (table.lines.empty()) table.columns = found;
       mc::require(found == table.columns, "{} numbers; the rows before have {}", found, table.columns);
@@ -174,6 +206,7 @@ CsvTable read_csv(const std::string& file) {
     table.lines.push_back(line);
   }
   mc::require(!table.lines.empty(), "{}: it holds no numbers", file);
+  refine_digits(table, columns);
   return table;
 }
 

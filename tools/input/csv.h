@@ -11,7 +11,9 @@ namespace carlo {
 struct CsvTable {
   std::size_t columns = 0;
   std::vector<double> values;       ///< row by row
-  std::vector<std::int16_t> digits; ///< of each value: its last printed digit stands for 10^this
+  std::vector<std::int16_t> digits; ///< of each value: its last digit, with zeros left out, stands for 10^this
+  std::vector<std::int16_t>
+      digits_below;                 ///< of what is a little nearer to 0: one less at 1 of so many significant ones
   std::vector<std::uint32_t> lines; ///< of the file, from 1, that each row stands in
 
   std::size_t rows() const { return lines.size(); }

@@ -34,16 +34,24 @@ struct Samples {
 
   std::size_t columns() const { return table.columns; }
 
-  // The row with each number moved within its last digit, unless that leads off the domain.
+  // The row with each number moved within its last digit, to where the domain is: what is printed at its edge lies on
+  // this side of it. The row itself where many attempts do not meet the domain.
   std::vector<double> point(std::uint32_t row, std::uint64_t seed) const {
     std::vector<double> x(table.row(row), table.row(row) + columns());
     if (domain.outcomes > 0) return x;
     std::vector<double> moved = x;
-    for (std::size_t k = 0; k < columns(); ++k) {
-      const double last = std::pow(10.0, table.digits[row * columns() + k]);
-      moved[k] += last * (mc::uniform<double>(mc::hash(seed, row, k)) - 0.5);
+    constexpr std::uint64_t attempts = 256;
+    for (std::uint64_t i = 0; i < attempts; ++i) {
+      for (std::size_t k = 0; k < columns(); ++k) {
+        const std::size_t place = row * columns() + k;
+        const double above = std::pow(10.0, table.digits[place]) / 2,
+                     below = std::pow(10.0, table.digits_below[place]) / 2,
+                     u = mc::uniform<double>(mc::hash(seed, row, k + i * columns()));
+        moved[k] = x[k] + std::copysign(1.0, x[k]) * (u * (above + below) - below);
+      }
+      if (domain.contains(moved.data())) return moved;
     }
-    return domain.contains(moved.data()) ? moved : x;
+    return x;
   }
   std::string text(std::uint32_t row) const {
     std::string all;

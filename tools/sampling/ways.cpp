@@ -111,6 +111,8 @@ Way way_of_points(const std::string& file) {
   const auto points = std::make_shared<const CsvTable>(read_points(file, 64, std::size_t{1} << 28, 64));
   Way w;
   w.name = std::filesystem::path(file).filename().string();
+  const auto has_its_name = [&](const Way& known) { return known.name == w.name; };
+  if (std::any_of(ways().begin(), ways().end(), has_its_name)) w.name = "./" + w.name;
   w.title = "the points of this file, shifted at random";
   w.file = std::filesystem::absolute(file).string();
   w.most = points->rows();

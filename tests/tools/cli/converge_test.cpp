@@ -107,6 +107,9 @@ TEST_F(Converge, PointsOfAFile) {
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, HasSubstr("p.csv       RMS error "));
   EXPECT_THAT(r.output, HasSubstr("at N = 128, ")) << "the largest power of two that the file holds";
+  // A file with the name of a sampler is not that sampler.
+  EXPECT_THAT(run("pi --points-file '" + write("sobol", halton) + "' --samplers sobol --max-n 128").output,
+              HasSubstr("./sobol     RMS error "));
   expect_refused("ball_3d --points-file '" + good + "'", "p.csv: 2 columns; ball_3d has 3 dimensions");
   expect_refused("pi --points-file '" + write("few.csv", "0.5,0.5\n") + "'", "few.csv: 1 points; 64 to ");
   expect_refused("pi --points-file '" + write("off.csv", halton + "0.5,1\n") + "'",
@@ -151,6 +154,7 @@ TEST_F(Converge, BadInputIsOneLine) {
   expect_refused("'sin(q)' -d x=0:1", "expression 'sin(q)', position");
   expect_refused("'sin(x)'", "is not a name of --list; for an expression give --domain");
   expect_refused("'x' -d x=1:0", "lo < hi is needed");
+  expect_refused("pi --samplers vegas,random --max-n 64", "--max-n 64: vegas takes N of at least 2048; raise it, or");
   expect_refused("'1/(x-x)' -d x=0:1 --max-n 64", "1/(x-x): the integrand is inf at x = 0.");
   expect_refused("'0*x' -d x=0:1 --max-n 64", "0*x: the integrand was 0 at every point; choose bounds around");
   expect_refused("'3+2' -d x=0:1", "'3+2' uses none of x: a constant has no error to measure; put a variable into it");

@@ -160,4 +160,29 @@ TEST(Measure, TheReferenceOfADivergentIntegralIsDoubted) {
   EXPECT_EQ(doubt(2), "");
 }
 
+// Replicates of a jump that all meet the same number of points say nothing of the truth, however well they agree: the
+// reference is as good as it says for jumps at places where most do.
+TEST(Measure, ReplicatesThatAgreeByChanceFindNoTruth) {
+  const auto list = ways({"random", "stratified", "sobol", "lattice"});
+  int off = 0;
+  for (const double at : {0.5003, 0.50003, 0.2502, 0.12505, 0.7499})
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+      Experiment e = ramp(std::numeric_limits<double>::quiet_NaN());
+      e.f = [at](Experiment::Unit u) { return u[0] < at ? 1.0 : 0.0; };
+      const Measurement m = measure(here(e), list, {.max_n = 16384, .error_goal = 1e-4, .seed = seed});
+      EXPECT_NEAR(m.truth, at, 1e-5) << at << " " << seed;
+      off += std::abs(m.truth - at) > 3 * m.truth_error;
+    }
+  EXPECT_LE(off, 1) << "one of 20 beyond three standard errors";
+}
+
+// Few replicates of what is harmless: one of eight that holds half of the variance is nothing to speak of.
+TEST(Measure, FewReplicatesRaiseNoFalseAlarm) {
+  const auto list = ways({"random"});
+  Experiment e = ramp(std::numeric_limits<double>::quiet_NaN());
+  e.f = [](Experiment::Unit u) { return std::exp(2 * u[0]); };
+  for (std::uint64_t seed = 1; seed <= 100; ++seed)
+    EXPECT_EQ(measure(here(e), list, {.max_n = 1024, .replicates = 8, .seed = seed}).doubt, "") << seed;
+}
+
 } // namespace

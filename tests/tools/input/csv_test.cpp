@@ -46,4 +46,15 @@ TEST_F(Csv, ADecimalCommaIsRefusedWithItsRemedy) {
   EXPECT_THAT(refusal("\"0,5,1\",2\n"), HasSubstr("a.csv:1: '0,5,1' is not a number"));
 }
 
+// What the last digit of a number stands for, when programs leave out zeros at the end.
+TEST_F(Csv, DigitsAreThoseOfTheColumn) {
+  EXPECT_THAT(table("0.25\n0.5\n0.125\n1\n").digits, ElementsAre(-3, -3, -3, -2)) << "three significant digits";
+  EXPECT_THAT(table("0.123456\n1.5\n12.25\n0.00123456\n1e-09\n").digits, ElementsAre(-6, -5, -4, -8, -9))
+      << "%g: six significant digits";
+  EXPECT_THAT(table("0.123456\n1\n10\n0.1\n0.00123456\n").digits_below, ElementsAre(-6, -6, -5, -7, -8)) << "below 1";
+  EXPECT_THAT(table("0.123\n12.500\n100.000\n").digits, ElementsAre(-3, -3, -3)) << "%.3f";
+  EXPECT_THAT(table("0.5,0.25\n0.125,1e-3\n").digits, ElementsAre(-3, -2, -3, -3)) << "each column for itself";
+  EXPECT_THAT(table("1\n20\n300\n").digits, ElementsAre(0, 0, 0)) << "whole numbers";
+}
+
 } // namespace

@@ -277,4 +277,22 @@ TEST_F(SamplesFile, WhereItStandsChangesNothing) {
   EXPECT_EQ(figures(a), figures(path("elsewhere/t.csv")));
 }
 
+// Right samples as programs print them: rounded to the edge, with zeros left out at the end, to few digits.
+TEST_F(SamplesFile, EveryWayToPrintRightSamplesPasses) {
+  for (const std::string format : {"{:.2f}", "{:.3f}", "{:.4f}", "{:.3g}", "{:.4g}", "{:g}", "{:.17g}"}) {
+    const auto uniform = [&](mc::Pcg& random) { return fmt::format(fmt::runtime(format), random.uniform<double>()); };
+    const auto exponential = [&](mc::Pcg& random) {
+      return fmt::format(fmt::runtime(format), -std::log(1 - random.uniform<double>()));
+    };
+    ValidateOptions o = options(samples(uniform, "u.csv", 200'000), "");
+    o.pdf = "1";
+    o.domain = "x=0:1";
+    EXPECT_EQ(run(o).code, carlo::exit_ok) << format << run(o).text;
+    o = options(samples(exponential, "e.csv", 200'000), "");
+    o.pdf = "exp(-x)";
+    o.domain = "x=0:inf";
+    EXPECT_EQ(run(o).code, carlo::exit_ok) << format << run(o).text;
+  }
+}
+
 } // namespace
