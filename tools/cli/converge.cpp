@@ -66,7 +66,11 @@ bool write(const Target& target, const Measurement& m, const ConvergeOptions& o,
   fmt::print("{}", summary(target, m));
   std::fflush(stdout);
   const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const Curve& c) { return !c.exact; });
-  if (!can_draw || !anything || draw_plot(folder, name, {name + ".csv"})) return can_draw;
+  if (!can_draw || !anything) {
+    remove_plot(folder, name);
+    return can_draw;
+  }
+  if (draw_plot(folder, name, {name + ".csv"})) return true;
   std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
   return false;
 }

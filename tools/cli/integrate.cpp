@@ -215,6 +215,8 @@ int integrate(const IntegrateOptions& o) {
   }
   for (const std::string& file : {o.json, o.save_density})
     if (!file.empty()) mc::require_writable(file);
+  mc::require(o.json.empty() || o.json != o.save_density,
+              "--json and --save-density would both write '{}'; name another file", o.json);
   Integrals found{.integrands = integrands_of(o), .results = {}};
   const Experiment& first = found.integrands.front();
   const std::vector<double> wanted = probabilities(o.quantiles);

@@ -147,6 +147,7 @@ void write(const PointsOptions& o, const std::filesystem::path& folder, const Me
   mc::write_file(file("quality.csv"), quality_csv(m.rows));
   mc::write_file(file("spectrum.csv"), spectrum_csv(m.rows));
   if (dim >= 2) mc::write_file(file("points.svg"), projections_svg(first));
+  else remove_plot(folder, "points");
   json all = {{"command", o.command},
               {"commit", commit},
               {"seed", o.seed},

@@ -242,7 +242,8 @@ int tell(const TradeOptions& o, const Measured& one, const Folders& folders) {
   mc::write_file((folder / "front.csv").string(), csv(a.front, m.cost));
   mc::write_file((folder / "trade.json").string(), to_json(o, one).dump(1) + "\n");
   mc::write_file((folder / "trade.gp").string(), script(one.target->integral.title, m));
-  if (!exact && !draw_plot(folder, "trade", {"trade.csv", "front.csv"}))
+  if (exact) remove_plot(folder, "trade");
+  else if (!draw_plot(folder, "trade", {"trade.csv", "front.csv"}))
     std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
   fmt::print("data and plots: {}\n", folder.string());
   if (!folders.page.empty()) {

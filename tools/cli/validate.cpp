@@ -197,6 +197,8 @@ void require_possible(ValidateOptions& o, double alpha, std::uint64_t available)
   mc::require(o.samples >= 1000, "validate: --samples {}; at least 1000 are needed", o.samples);
   for (const std::string& file : {o.json, o.junit})
     if (!file.empty()) mc::require_writable(file);
+  mc::require(o.json.empty() || o.json != o.junit, "--json and --junit would both write '{}'; name another file",
+              o.json);
 }
 
 // The cases that finished, with their reports.

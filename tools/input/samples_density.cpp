@@ -72,8 +72,8 @@ std::string default_domain(std::size_t columns) {
   return columns == 2 ? "x=0:1,y=0:1" : "sphere";
 }
 
-double checked(double value, const std::string& where) {
-  mc::require(value >= 0 && std::isfinite(value), "--pdf is {} at {}; a density is finite and >= 0", value, where);
+double checked(double value, const std::string& where, const std::string& what = "--pdf") {
+  mc::require(value >= 0 && std::isfinite(value), "{} is {} at {}; a density is finite and >= 0", what, value, where);
   return value;
 }
 
@@ -93,7 +93,8 @@ std::vector<double> probabilities(const SamplesFileOptions& o, int outcomes) {
     }
   }
   mc::CompensatedSum sum;
-  for (std::size_t i = 0; i < p.size(); ++i) sum.add(checked(p[i], fmt::format("outcome {}", i)));
+  for (std::size_t i = 0; i < p.size(); ++i)
+    sum.add(checked(p[i], fmt::format("outcome {}", i), o.pdf.empty() ? "--pdf" : o.pdf));
   mc::require(sum.value() > 0, "the probabilities are all 0");
   if (o.unnormalized)
     for (double& one : p) one /= sum.value();

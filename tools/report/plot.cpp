@@ -57,6 +57,13 @@ bool is_whole(std::string_view picture, std::string_view kind) {
 
 } // namespace
 
+void remove_plot(const fs::path& folder, const std::string& name) {
+  for (const char* kind : {".svg", ".png"}) {
+    std::error_code none; // it was not there, or cannot be removed: then it could not be written either
+    fs::remove(folder / (name + kind), none);
+  }
+}
+
 bool draw_plot(const fs::path& folder, const std::string& name, const std::vector<std::string>& data) {
   const TemporaryFolder own;
   const std::string script = name + ".gp", log = own.file("log");
@@ -66,7 +73,10 @@ bool draw_plot(const fs::path& folder, const std::string& name, const std::vecto
     const std::string picture = fmt::format("{}.{}", name, kind), place = (folder / picture).string();
     const std::optional<int> code =
         run_program({{"gnuplot", "-e", fmt::format("kind=\"{}\"", kind), script}, own.file(""), log});
-    if (!code) return false;
+    if (!code) {
+      remove_plot(folder, name);
+      return false;
+    }
     mc::require(*code == 0, "gnuplot cannot draw '{}': {}; run gnuplot {} there to see more", place,
                 last_line(mc::read_file(log)), script);
     const std::string bytes = fs::exists(own.file(picture)) ? mc::read_file(own.file(picture)) : std::string();

@@ -67,6 +67,14 @@ TEST_F(TradeCommand, WhatEveryWayKnowsExactlyIsNotPlotted) {
   EXPECT_THAT(mc::read_file(path("out/trade.csv")), HasSubstr("sobol,64,"));
 }
 
+TEST_F(TradeCommand, NoPictureOfAnEarlierRunStays) {
+  std::filesystem::create_directories(path("out"));
+  for (const char* picture : {"out/trade.svg", "out/trade.png"}) write(picture, "of another integrand");
+  EXPECT_EQ(run("'3+0*x' -d x=0:1 --max-n 64").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("out/trade.svg")) || std::filesystem::exists(path("out/trade.png")));
+  EXPECT_TRUE(std::filesystem::exists(path("out/trade.csv")));
+}
+
 TEST_F(TradeCommand, BatchesAgainstOneByOne) {
   const Ran r = run(std::string("--plugin '") + PLUGIN_DIR + "/integrands.so' Batch --error 0.1 --max-n 64");
   EXPECT_EQ(r.exit_code, 0) << r.output;
