@@ -28,6 +28,7 @@ struct Samples {
   std::string file;
   CsvTable table;
   ParsedDomain domain;
+  ParsedDomain strict; ///< without the room that domain leaves to what is rounded
   Density density;
   double mass_tolerance = 1e-12;
   Breaks breaks = {};
@@ -39,24 +40,35 @@ struct Samples {
   std::vector<double> point(std::uint32_t row, std::uint64_t seed) const {
     std::vector<double> x(table.row(row), table.row(row) + columns());
     if (domain.outcomes > 0) return x;
-    std::vector<double> moved = x;
-    constexpr std::uint64_t attempts = 256;
-    for (std::uint64_t i = 0; i < attempts; ++i) {
-      for (std::size_t k = 0; k < columns(); ++k) {
-        const std::size_t place = row * columns() + k;
-        const double above = std::pow(10.0, table.digits[place]) / 2,
-                     below = std::pow(10.0, table.digits_below[place]) / 2,
-                     u = mc::uniform<double>(mc::hash(seed, row, k + i * columns()));
-        moved[k] = x[k] + std::copysign(1.0, x[k]) * (u * (above + below) - below);
+    for (const std::uint64_t by : {seed, usual})
+      for (std::uint64_t attempt = 0; attempt < 256; ++attempt) {
+        std::vector<double> moved = x;
+        for (std::size_t k = 0; k < columns(); ++k) moved[k] += shift(row, k, mc::hash(by, row, k, attempt));
+        if (is_flat() ? strict.contains(moved.data()) : domain.contains(moved.data())) return moved;
       }
-      if (domain.contains(moved.data())) return moved;
-    }
     return x;
+  }
+  // Whether there is one in the domain.
+  bool is_inside(std::uint32_t row) const {
+    return domain.contains(table.row(row)) || domain.contains(point(row, usual).data());
   }
   std::string text(std::uint32_t row) const {
     std::string all;
     for (std::size_t k = 0; k < columns(); ++k) all += fmt::format("{}{}", k ? ", " : "", table.row(row)[k]);
     return fmt::format("{}:{}: ({})", file, table.lines[row], all);
+  }
+
+ private:
+  static constexpr std::uint64_t usual = 0;
+
+  // As many numbers as dimensions: next to no point of a sphere is one of numbers that are moved.
+  bool is_flat() const { return static_cast<std::size_t>(domain.chart.dim) == columns(); }
+
+  // Uniform over what is printed like this number.
+  double shift(std::uint32_t row, std::size_t column, std::uint64_t hash) const {
+    const std::size_t place = row * columns() + column;
+    const double above = std::pow(10.0, table.digits[place]) / 2, below = std::pow(10.0, table.digits_below[place]) / 2;
+    return std::copysign(1.0, table.values[place]) * (mc::uniform<double>(hash) * (above + below) - below);
   }
 };
 
@@ -132,15 +144,16 @@ std::shared_ptr<const Samples> load(const SamplesFileOptions& o) {
   const std::vector<std::string> names = domain.columns;
   mc::require(names.size() == table.columns, "{}: {} columns; {} {} needed on {}", o.samples, table.columns,
               names.size(), names.size() == 1 ? "is" : "are", domain.text);
-  std::size_t off = 0, first_off = 0;
-  for (std::size_t i = table.rows(); i-- > 0;)
-    if (!domain.contains(table.row(i))) {
+  ParsedDomain strict = parse_domain(text, quartiles_in, Rounding::doubles);
+  Samples s{o.samples, std::move(table), std::move(domain), std::move(strict), {}};
+  std::uint32_t off = 0, first_off = 0;
+  for (auto i = static_cast<std::uint32_t>(s.table.rows()); i-- > 0;)
+    if (!s.is_inside(i)) {
       ++off;
       first_off = i;
     }
-  Samples s{o.samples, std::move(table), std::move(domain), {}};
-  mc::require(off == 0, "{} is not in {}; {} of {} samples are not (see --domain)",
-              s.text(static_cast<std::uint32_t>(first_off)), s.domain.text, off, s.table.rows());
+  mc::require(off == 0, "{} is not in {}; {} of {} samples are not (see --domain)", s.text(first_off), s.domain.text,
+              off, s.table.rows());
   if (s.domain.outcomes > 0) return std::make_shared<const Samples>(std::move(s));
   for (const std::string& name : names) mc::with_context("--domain", [&] { require_variable(name); });
   s.density = parse_function(o.density, names);

@@ -292,6 +292,14 @@ TEST_F(SamplesFile, EveryWayToPrintRightSamplesPasses) {
     o.pdf = "exp(-x)";
     o.domain = "x=0:inf";
     EXPECT_EQ(run(o).code, carlo::exit_ok) << format << run(o).text;
+    const auto disk = [&](mc::Pcg& random) {
+      const double r = std::sqrt(random.uniform<double>()), phi = 2 * pi * random.uniform<double>();
+      return fmt::format(fmt::runtime(format + "," + format), r * std::cos(phi), r * std::sin(phi));
+    };
+    o = options(samples(disk, "d.csv", 200'000), "");
+    o.pdf = "1/_pi";
+    o.domain = "disk";
+    EXPECT_EQ(run(o).code, carlo::exit_ok) << format << run(o).text;
   }
 }
 
