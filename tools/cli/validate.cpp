@@ -208,13 +208,17 @@ struct Finished {
   std::vector<Unchecked> unchecked;
 };
 
-mc::Report check(const Case& one, const ValidateOptions& o, double alpha) {
+mc::Report check(const Case& one, const ValidateOptions& o, double alpha, const std::atomic<bool>* cancel) {
   CaseOptions c;
   c.samples = o.samples;
   c.seed = seed_of(one, o);
   c.alpha = alpha;
   c.evidence = !o.report.empty();
   c.open_interval = o.open_interval;
+  const std::function<void()> stop = [cancel] {
+    if (*cancel) throw Interrupted();
+  };
+  c.before_draws = &stop;
   return mc::with_context(one.title(), [&] { return one.check(c); });
 }
 
@@ -239,7 +243,7 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
     if (*cancel) return;
     mc::Report report;
     try {
-      report = check(*cases[i], o, alpha);
+      report = check(*cases[i], o, alpha, cancel);
     } catch (const Interrupted&) {
       return;
     } catch (const mc::Error& e) { // one crash is no reason to lose what the others show

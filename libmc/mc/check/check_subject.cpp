@@ -282,6 +282,16 @@ void recognise_rotation(const Subject& s, const std::vector<Axis>& axes, const L
 } // namespace
 
 Report check_subject(const Subject& s, const SubjectOptions& options) {
+  if (options.before_draws) {
+    Subject watched = s;
+    watched.draw = [&](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& draws) {
+      (*options.before_draws)();
+      s.draw(stream, n, draws);
+    };
+    SubjectOptions others = options;
+    others.before_draws = nullptr;
+    return check_subject(watched, others);
+  }
   require(options.samples >= 1000, "check_subject: samples = {}; at least 1000 are needed", options.samples);
   require(options.alpha > 0 && options.alpha < 1, "check_subject: alpha = {} must lie in (0, 1)", options.alpha);
   const auto start = std::chrono::steady_clock::now();

@@ -5,6 +5,8 @@
 #include <mc/check/report/report.h>
 #include <mc/check/subject/subject.h>
 
+#include <functional>
+
 namespace mc {
 
 struct SubjectOptions {
@@ -15,11 +17,12 @@ struct SubjectOptions {
   std::size_t max_evaluations = 12'000'000; ///< of the density; a third of it at most for the expected counts
   bool evidence = false;                    ///< keep all counts and the p-value's way, for pages and plots
   bool open_interval = false; ///< u in (0,1): the sampler may break at single u, its density on the domain's edge
+  const std::function<void()>* before_draws = nullptr; ///< called again and again; what it throws ends the check
 };
 
 /// The statistical part of the options of laws and BSDFs, which stands flat in them so that users write {.samples = n}.
 template <class Options> SubjectOptions statistics(const Options& o) {
-  return {o.samples, o.seed, o.alpha, o.max_evaluations, o.evidence, o.open_interval};
+  return {o.samples, o.seed, o.alpha, o.max_evaluations, o.evidence, o.open_interval, o.before_draws};
 }
 /// Those options with another statistical part.
 template <class Options> Options with_statistics(Options o, const SubjectOptions& s) {
@@ -29,6 +32,7 @@ template <class Options> Options with_statistics(Options o, const SubjectOptions
   o.max_evaluations = s.max_evaluations;
   o.evidence = s.evidence;
   o.open_interval = s.open_interval;
+  o.before_draws = s.before_draws;
   return o;
 }
 

@@ -106,6 +106,10 @@ TEST_F(OutputTest, CtrlCWritesWhatIsFinished) {
   EXPECT_THAT(run.output, HasSubstr("interrupted: "));
   EXPECT_THAT(mc::read_file(path("v.json")),
               AllOf(HasSubstr("\"interrupted\": true"), HasSubstr("\"passed\": false"), HasSubstr("\"name\": ")));
+  // Within a case, of which more samples are asked for than any day has time for.
+  const Ran one = support::interrupt_carlo("validate CosineHemisphere --threads 1 --samples 1e12", "in a cell");
+  EXPECT_EQ(one.exit_code, 130) << one.output;
+  EXPECT_THAT(one.output, HasSubstr("interrupted: 0 of 2 cases were finished"));
   const Ran slips = support::interrupt_carlo("slips --threads 1 --json '" + path("s.json") + "'");
   EXPECT_EQ(slips.exit_code, 130) << slips.output;
   EXPECT_THAT(slips.output, HasSubstr("interrupted: "));

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace mc {
 
@@ -26,6 +27,7 @@ struct LawOptions {
   std::size_t max_evaluations = 12'000'000;
   bool evidence = false;      ///< see SubjectOptions
   bool open_interval = false; ///< u in (0,1): the sampler may break at single u, see edges in laws.h
+  const std::function<void()>* before_draws = nullptr; ///< called again and again; what it throws ends the check
 };
 
 /// A deterministic law: its checks, or none where the sampler lacks what it needs.

@@ -26,8 +26,9 @@ struct BsdfOptions {
   double tolerance = 1e-3;      ///< relative, of f and pdf as sample, eval and pdf state them, and of reciprocity
   double mass_tolerance = 1e-5; ///< rounding error of the density's integral
   std::size_t max_evaluations = 12'000'000;
-  bool evidence = false;      ///< see SubjectOptions
-  bool open_interval = false; ///< u in (0,1): no random number is exactly 0
+  bool evidence = false;                               ///< see SubjectOptions
+  bool open_interval = false;                          ///< u in (0,1): no random number is exactly 0
+  const std::function<void()>* before_draws = nullptr; ///< called again and again; what it throws ends the check
 };
 
 /// Values of f, a channel each.
