@@ -108,15 +108,12 @@ Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span
             continue;
           }
           seen.add(radiance.cast<double>());
-          sum += radiance.cast<double>();
           if (splat) splat->add(offset, radiance);
+          else sum += radiance.cast<double>();
           ++valid;
         }
       }
-      if (splat) {
-        splat->give(film, x, y, static_cast<int>(set));
-        sum.setZero();
-      }
+      if (splat) splat->give(film, x, y, static_cast<int>(set));
       if (film.contains(x, y)) film.add(x, y, static_cast<int>(set), sum, valid);
     }
     film.note(x, y, seen, tally.rays - rays_before);

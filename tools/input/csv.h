@@ -12,8 +12,8 @@ struct CsvTable {
   std::size_t columns = 0;
   std::vector<double> values;       ///< row by row
   std::vector<std::int16_t> digits; ///< of each value: its last digit, with zeros left out, stands for 10^this
-  std::vector<std::int16_t>
-      digits_below;                 ///< of what is a little nearer to 0: one less at 1 of so many significant ones
+  /// The same a little nearer to 0: one less below a power of 10 where it is significant digits that are printed.
+  std::vector<std::int16_t> digits_below;
   std::vector<std::uint32_t> lines; ///< of the file, from 1, that each row stands in
 
   std::size_t rows() const { return lines.size(); }

@@ -60,9 +60,8 @@ std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, c
   return strategies;
 }
 
-// Whether there is something to share, and not with all the picture.
 bool can_splat(const ::render::Filter& filter) {
-  return filter.radius() < 16 && ::render::SplatFilter(filter).is_wide();
+  return filter.radius() <= ::render::SplatFilter::furthest && ::render::SplatFilter(filter).is_wide();
 }
 
 std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, const ::render::SceneFile& file) {

@@ -103,7 +103,7 @@ class Film {
   /// more or less moves a set's sum by the range R of the samples. So the variance is at least k f (1 - f) R^2 / n^2,
   /// where f, what rounding left over, did not show in k sets: uniform beforehand, f (1 - f) is then
   /// (k + 1) / ((k + 2) (k + 3)) on average.
-  /// Splats bring it from the pixels about, times the squares of their weights.
+  /// Splats bring R^2 from the pixels about, times the squares of their weights.
   PixelEstimate estimate(int x, int y) const;
   std::uint64_t rays(int x, int y) const { return rays_[index(x, y)]; }
 
@@ -123,7 +123,7 @@ class Film {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
 
-  // What a whole sample more or less in one set makes of a pixel's variance, times the square of its samples.
+  // R^2 of estimate(): of splats the sum over the pixels about, each times the square of its weight.
   Eigen::Array3d square_range(int x, int y) const;
 
   // Of one of the sets of a pixel, which are those from `first` on.

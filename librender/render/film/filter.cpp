@@ -5,9 +5,9 @@
 namespace render {
 
 SplatFilter::SplatFilter(const Filter& filter) : filter_(filter) {
-  mc::require(filter.radius() <= 64,
-              "splats reach {:.3g} pixels by this filter, and at most 64; take a narrower one or samples of their own",
-              filter.radius());
+  mc::require(filter.radius() <= furthest,
+              "splats reach {:.3g} pixels by this filter, and at most {}; take a narrower one or samples of their own",
+              filter.radius(), furthest);
   const auto reach = static_cast<std::size_t>(std::max(0.0, std::ceil(filter.radius() - 0.5)));
   squares_.resize(2 * reach + 1);
   std::vector<double> values(squares_.size());

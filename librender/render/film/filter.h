@@ -87,9 +87,11 @@ struct Filter : std::variant<BoxFilter, TentFilter, GaussianFilter, SubpixelTent
 /// q, uniform there, counts for the pixel p with the weight f(x_i - p), and p is the sum over the squares q of the
 /// means of f(x_i - p) L_i. As little noise as of noise_area times as many samples drawn from the filter of one pixel
 /// each; neighbours share it.
-///   throws : Error for a radius over 64 pixels: every sample would count for over 16,000
+///   throws : Error for a filter whose radius is above `furthest`
 class SplatFilter {
  public:
+  static constexpr double furthest = 64; ///< [pixels]: a sample counts for 16,000
+
   explicit SplatFilter(const Filter& filter);
 
   /// Pixels to each side that a sample counts for.

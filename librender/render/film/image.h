@@ -33,8 +33,8 @@ struct Image {
   std::vector<Spectrum> variance;                   ///< empty: unknown
   std::map<std::string, std::vector<float>> layers; ///< further channels, by their names in OpenEXR, see layers.h
   std::uint32_t estimates = 0;                      ///< independent estimates per pixel behind the variance; 0: unknown
-  double noise_area =
-      1; ///< the variance of a sum of many pixels is this times the sum of their variances, see SplatFilter
+  /// The variance of a sum of many pixels is this times the sum of their variances, see SplatFilter.
+  double noise_area = 1;
   std::map<std::string, std::string> metadata; ///< command, seed, samples, commit
 
   Image() = default;

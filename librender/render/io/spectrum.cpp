@@ -40,7 +40,7 @@ double daylight(int wavelength) {
 double value_at(const std::vector<SpectralSample>& s, double wavelength) {
   if (wavelength < s.front().wavelength) return 0;
   for (std::size_t i = 1; i < s.size(); ++i)
-    if (wavelength <= s[i].wavelength) { // at the first sample s[0] counts alone
+    if (wavelength <= s[i].wavelength) {
       const double t = (wavelength - s[i - 1].wavelength) / (s[i].wavelength - s[i - 1].wavelength);
       return (1 - t) * s[i - 1].value + t * s[i].value;
     }

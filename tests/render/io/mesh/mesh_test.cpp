@@ -187,6 +187,7 @@ struct SerializedMesh {
   std::uint64_t vertices = 3, triangles = 1;
   std::vector<std::uint32_t> corners = {0, 1, 2};
   double height = 1;
+  std::uint32_t flag = 0; ///< one more
 
   template <class T> std::string body(std::uint32_t flags) const {
     std::string bytes = raw<std::uint32_t>({flags});
@@ -199,7 +200,7 @@ struct SerializedMesh {
     return bytes + raw(corners);
   }
   std::string part() const {
-    const std::string inside = in_double ? body<double>(0x200b) : body<float>(0x100b);
+    const std::string inside = in_double ? body<double>(0x200b | flag) : body<float>(0x100b | flag);
     return raw<std::uint16_t>({0x041c, version}) + packed(inside);
   }
 };
@@ -214,6 +215,15 @@ std::string serialized(const std::vector<SerializedMesh>& meshes) {
     file += meshes[0].version == 4 ? raw<std::uint64_t>({offset})
                                    : raw<std::uint32_t>({static_cast<std::uint32_t>(offset)});
   return file + raw<std::uint32_t>({static_cast<std::uint32_t>(meshes.size())});
+}
+
+// Mitsuba does not look at the flag of flat faces where there are normals.
+TEST_F(Mesh, SerializedNormalsCountWhateverTheFlagOfFlatFaces) {
+  SerializedMesh mesh;
+  mesh.flag = 0x10;
+  const MeshFile read = read_serialized(write("m.serialized", serialized({mesh})), 0);
+  ASSERT_EQ(read.normals.size(), 3u);
+  EXPECT_EQ(read.normals[1], Vec3d(0, 0, 1));
 }
 
 TEST_F(Mesh, SerializedVersionsPrecisionsAndIndices) {

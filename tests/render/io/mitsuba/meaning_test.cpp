@@ -2,6 +2,7 @@
 
 #include <render/io/image/image_io.h>
 #include <render/io/mitsuba/mitsuba.h>
+#include <render/io/spectrum.h>
 #include <render/render.h>
 
 #include "render/io/mitsuba/scene_text.h"
@@ -82,6 +83,28 @@ TEST_F(Meaning, ACubeHasMitsubasTextureCoordinates) {
     EXPECT_NEAR(uv[0], row.u, 2e-3) << row.target;
     EXPECT_NEAR(uv[1], row.v, 2e-3) << row.target;
   }
+}
+
+// Where a spectrum ends it is what the renderer and the version of the scene make of it: 450 to 460 nm are blue, but
+// white in lajolla, which holds the ends.
+TEST_F(Meaning, SpectraEndAsInTheRendererOfTheScene) {
+  const std::vector<render::SpectralSample> blue = {{450, 1}, {460, 1}};
+  const auto light = [&](const std::string& version, render::Dialect dialect) {
+    const std::string file = write("sky.xml", "<scene version=\"" + version + "\">" + sensor +
+                                                  "<emitter type=\"constant\"><spectrum name=\"radiance\" "
+                                                  "value=\"450:1, 460:1\"/></emitter></scene>");
+    render::RenderOptions options;
+    options.width = options.height = options.spp = 1;
+    return render::render(render::read_mitsuba(file, dialect).scene, options).image.pixels[0];
+  };
+  const auto expected = [&](render::Beyond beyond) {
+    return Spectrum(render::spectrum_to_rgb(blue, render::Illuminant::equal_energy, beyond).max(0));
+  };
+  using render::Beyond, render::Dialect;
+  EXPECT_TRUE(light("0.6.0", Dialect::mitsuba).isApprox(expected(Beyond::ramp), 1e-5f));
+  EXPECT_TRUE(light("3.0.0", Dialect::mitsuba).isApprox(expected(Beyond::zero), 1e-5f));
+  EXPECT_TRUE(light("0.6.0", Dialect::lajolla).isApprox(expected(Beyond::held), 1e-5f));
+  EXPECT_EQ(light("0.6.0", Dialect::mitsuba)[1], 0) << "no green";
 }
 
 // A medium around the camera fills what nearClip cuts away, too.
