@@ -55,7 +55,8 @@ std::vector<Option> rows(IntegrateOptions& o) {
        "Show where the integral comes from: along a variable (u0, u1, ... of a named integrand), or value=BINS: from "
        "values of which size, in powers of 2"},
       {"--quantiles", "LIST", &o.quantiles,
-       "Show quantiles of the integrand over its domain, e.g. 0.05,0.5,0.95, by as many calls again, at least 98 k"},
+       "Show quantiles of the integrand over its domain, e.g. 0.05,0.5,0.95, by as many calls again, at least 98 k and "
+       "at most 2^24 / (dimensions + 1)"},
       {"--save-density", "FILE", &o.save_density, "Keep the density that vegas, tree or auto learned"},
       {"--load-density", "FILE", &o.load_density,
        "Start from a density that was kept, of this integrand or one like it; where it does not fit learning goes on"},
@@ -149,14 +150,24 @@ std::vector<double> probabilities(const std::string& list) {
   return all;
 }
 
-std::vector<mc::Quantile> quantiles_of(const Experiment& e, const std::vector<double>& wanted,
-                                       const IntegrateOptions& o, std::uint64_t calls) {
+// By as many calls as the integral took. Returns whether nobody interrupted it.
+bool find_quantiles(Integrals& found, const std::vector<double>& wanted, const IntegrateOptions& o,
+                    const Interrupt& interrupt) try {
+  if (wanted.empty()) return true;
+  const Experiment& e = found.integrands.front();
   const double volume = volume_of(sides_of(o, e.dim), "--quantiles");
-  const std::uint64_t most = std::min<std::uint64_t>(o.max_calls, (1u << 24) / static_cast<unsigned>(e.dim + 1));
-  return mc::quantiles([&](std::span<const double> u) { return e.f(u) / volume; }, e.dim, wanted,
-                       {.calls = std::clamp<std::uint64_t>(calls, std::min<std::uint64_t>(98'304, most), most),
-                        .seed = o.seed,
-                        .threads = o.threads});
+  const std::uint64_t most = std::min<std::uint64_t>(o.max_calls, (1u << 24) / static_cast<unsigned>(e.dim + 1)),
+                      calls = found.results.outputs.front().calls;
+  found.quantiles = mc::quantiles([&](std::span<const double> u) { return e.f(u) / volume; }, e.dim, wanted,
+                                  {.calls = std::clamp(calls, std::min<std::uint64_t>(98'304, most), most),
+                                   .seed = o.seed,
+                                   .threads = o.threads,
+                                   .cancel = interrupt.flag()});
+  return true;
+} catch (const mc::Error&) {
+  if (!*interrupt.flag()) throw;
+  fmt::print(stderr, "interrupted before the quantiles were found\n");
+  return false;
 }
 
 // All integrands at once, or the one with its histogram.
@@ -247,8 +258,7 @@ int integrate(const IntegrateOptions& o) {
     found.histogram.push_back(bins.bins[k]);
     found.histogram.back().part = found.results.outputs[1 + k];
   }
-  const bool cancelled = r.stop == mc::Stop::cancelled;
-  if (!wanted.empty() && !cancelled) found.quantiles = quantiles_of(first, wanted, o, r.calls);
+  const bool cancelled = r.stop == mc::Stop::cancelled || !find_quantiles(found, wanted, o, interrupt);
 
   fmt::print("{}{}{}{}", about(found), o.rounds ? round_table(r) : "", histogram_table(found), quantile_table(found));
   if (!o.json.empty()) mc::write_file(o.json, integrals_json(found, o.command, o.seed));

@@ -323,6 +323,11 @@ int trade(const TradeOptions& o) {
   if (m.interrupted) fmt::print("{}\n", interrupted_text(finished(m), chosen.size(), "ways", m));
   fmt::print("{}: {} way{}, RMS errors to 10 %, {} of one estimate\n", target.integral.title, m.curves.size(),
              m.curves.size() == 1 ? "" : "s", m.cost.axis);
+  const auto out_of_time =
+      std::count_if(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.out_of_time; });
+  if (out_of_time > 0)
+    fmt::print("  --time ended {} of them before N = {}; with more of it others may be cheaper\n", out_of_time,
+               options.max_n);
   const int code = tell(o, {&target, &m, nullptr, &answers}, folders);
   return m.interrupted ? exit_interrupted : code;
 }

@@ -158,6 +158,10 @@ Brought bring(const ValidateOptions& o, const std::atomic<bool>* cancel) {
   mc::require(int(!o.plugin.empty()) + int(!o.samples_file.empty()) + int(!o.sampler_command.empty()) <= 1,
               "validate: give one of --plugin, --command and --samples-file");
   mc::require(o.sampler_command.empty() || !o.domain.empty(), "validate: --command needs the --domain it draws from");
+  mc::require(o.domain.empty() || !o.samples_file.empty() || !o.sampler_command.empty(),
+              "validate: --domain is that of a --command or a --samples-file");
+  mc::require(!o.unnormalized || !o.pdf.empty() || !o.pdf_file.empty(),
+              "validate: --unnormalized is of the density of a --samples-file, --pdf or --pdf-file");
   mc::require(o.uniforms >= 0 && (o.uniforms == 0 || !o.sampler_command.empty()),
               "validate: --uniforms {} is for a --command, and >= 1", o.uniforms);
   mc::require(o.parameters.empty() || !o.plugin.empty(), "validate: --params sets parameters of a --plugin");

@@ -105,7 +105,8 @@ Curve run_curve(const Target& target, const Way& way, double seconds, const Meas
   for (std::uint64_t n = 16; n <= std::min(o.max_n, way.most); n *= 2) {
     if (n < way.least) continue;
     const double before = elapsed();
-    if (seconds > 0 && before + 2 * last > seconds && curve.replicates.size() >= 3) break;
+    curve.out_of_time = seconds > 0 && before + 2 * last > seconds && curve.replicates.size() >= 3;
+    if (curve.out_of_time) break;
     Replicates r = replicate(target, way, n, o);
     curve.cut = *o.cancel;
     if (curve.cut) break;

@@ -32,6 +32,7 @@ struct Curve {
   std::vector<Replicates> replicates; ///< behind each
   bool exact = false;                 ///< no error beyond rounding, so no slope
   bool cut = false;                   ///< an interrupt came before its largest N
+  bool out_of_time = false;           ///< its share of MeasureOptions::seconds ended before
   std::optional<mc::PowerLaw> law;    ///< of N in the asymptotic range, where there are three or more
   std::optional<Rate> theory;
   double middle = 0; ///< geometric mean of the N of the law

@@ -102,14 +102,15 @@ std::string histogram_table(const Integrals& found) {
     largest = std::max(largest, std::abs(b.part.estimate.value));
     width = std::max(width, b.name.size());
   }
-  const double whole = found.results.outputs.front().estimate.value;
+  const mc::Estimate& whole = found.results.outputs.front().estimate;
+  const bool has_shares = std::abs(whole.value) > whole.std_error; // of what may be 0 nothing is a share
   std::string text;
   for (const Bin& b : found.histogram) {
     const double value = b.part.estimate.value;
     const auto length = static_cast<std::size_t>(largest > 0 ? std::lround(30 * std::abs(value) / largest) : 0);
-    text +=
-        fmt::format("{:<{}}  {}  {:>6.2f} % {}\n", b.name, width, value_with_error(b.part.estimate, b.part.error_bar),
-                    whole != 0 ? 100 * value / whole : 0.0, std::string(length, value < 0 ? '-' : '#'));
+    text += fmt::format("{:<{}}  {}  {:>8} {}\n", b.name, width, value_with_error(b.part.estimate, b.part.error_bar),
+                        has_shares ? fmt::format("{:.2f} %", 100 * value / whole.value) : "",
+                        std::string(length, value < 0 ? '-' : '#'));
   }
   return text;
 }

@@ -1,3 +1,4 @@
+#include <mc/core/error.h>
 #include <mc/core/parallel.h>
 
 #include <algorithm>
@@ -59,6 +60,7 @@ void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>&
 int hardware_threads() { return std::max(1, available_threads()); }
 
 void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& f) {
+  require(threads >= 0, "threads {} must be >= 0; 0 stands for all of the machine's", threads);
   if (threads == 1 || n < 2) {
     for (std::size_t i = 0; i < n; ++i) f(i);
     return;

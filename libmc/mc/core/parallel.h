@@ -11,7 +11,7 @@ namespace mc {
 int hardware_threads();
 
 /// Runs f(i) for every i in [0, n) on up to `threads` threads (0: all of the machine's). The first exception stops the
-/// loop: no new i is started, all threads are joined, and it is rethrown.
+/// loop: no new i is started, all threads are joined, and it is rethrown. Error for fewer than 0 threads.
 void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& f);
 
 /// Runs f(begin, end) on consecutive parts of [0, n) of up to `size`, as parallel_for does.

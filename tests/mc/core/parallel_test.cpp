@@ -48,6 +48,10 @@ TEST(Parallel, ReductionHasTheSameBitsForAnyThreadCount) {
   }
 }
 
+TEST(Parallel, RefusesFewerThanNoThreads) {
+  EXPECT_THROW(mc::parallel_for(1, -1, [](std::size_t) {}), mc::Error);
+}
+
 TEST(Parallel, FirstExceptionStopsTheLoopAndIsRethrown) {
   for (const int threads : {1, 2, 4}) {
     std::atomic<int> started = 0;

@@ -15,6 +15,7 @@ namespace {
 
 using Ran = support::Run;
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -48,6 +49,13 @@ TEST_F(TradeCommand, AnErrorThatNoneReachesSaysHowFarEachCame) {
   EXPECT_EQ(r.exit_code, 1) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("  error 1e-09: no way came there; nearest: "), HasSubstr(" at N = 1024"),
                               HasSubstr("; all 20 are in trade.csv; raise --max-n")));
+}
+
+TEST_F(TradeCommand, WhatTheTimeCutShortIsCounted) {
+  const std::string pi = "pi --error 1e-9 --max-n 256";
+  EXPECT_THAT(run(pi).output, Not(HasSubstr("--time ended")));
+  EXPECT_THAT(run(pi + " --time 0.001").output,
+              ContainsRegex("--time ended [0-9]+ of them before N = 256; with more of it others may be cheaper"));
 }
 
 TEST_F(TradeCommand, CtrlCTellsWhatIsKnown) {

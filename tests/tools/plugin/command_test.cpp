@@ -129,6 +129,13 @@ TEST_F(Command, BadOptionsAreOneLine) {
   EXPECT_THAT(refusal(o), HasSubstr("--uniforms 7; at most 6"));
   o.plugin = "a.so";
   EXPECT_THAT(refusal(o), HasSubstr("give one of --plugin, --command and --samples-file"));
+  ValidateOptions named;
+  named.names = {"UniformDisk"};
+  named.domain = "disk";
+  EXPECT_THAT(refusal(named), HasSubstr("--domain is that of a --command or a --samples-file"));
+  named.domain = "";
+  named.unnormalized = true;
+  EXPECT_THAT(refusal(named), HasSubstr("--unnormalized is of the density of a --samples-file"));
 }
 
 } // namespace

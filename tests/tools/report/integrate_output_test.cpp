@@ -90,6 +90,9 @@ TEST_F(IntegrateOutput, HistogramsAddUp) {
     EXPECT_NEAR(bin["value"].get<double>(), std::exp(bin["hi"].get<double>()) - below,
                 5 * bin["std_error"].get<double>());
   }
+  EXPECT_THAT(
+      support::run_carlo("integrate 'sin(x)' -d x=-1:1 --method rqmc --histogram x=4").output,
+      testing::AllOf(HasSubstr("x in [0.5, 1)"), testing::Not(testing::ContainsRegex("[0-9] % [-#]")))); // shares of 0
   EXPECT_THAT(support::run_carlo(peak + "--histogram z=10").output, HasSubstr("there is no variable 'z'"));
   EXPECT_THAT(support::run_carlo(peak + "--histogram x").output, HasSubstr("must be AXIS=BINS"));
   EXPECT_THAT(support::run_carlo("integrate 'exp(x)' -d x=-inf:1 --histogram value=9").output,

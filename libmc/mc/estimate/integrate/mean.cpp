@@ -83,15 +83,17 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   }
   double third = 0;
   for (const double x : scaled) third += std::pow(x - m.mean(), 3) / r;
-  const double deviation = std::sqrt(m.variance());
-  const bool apart = deviation > rounding;
+  const double deviation = std::sqrt(m.variance()), now = std::ldexp(deviation, exponent);
+  const double rounded = std::max(largest, seen.values.mean_size()); // where values cancel, more
+  const bool apart = now > rounding * rounded;
 
   evidence.jumps.push_back(apart ? std::ldexp(widest_jump(scaled, deviation), exponent) * points : 0.0);
   double jump = evidence.step;
   for (std::size_t i = evidence.jumps.size(); i > 0 && i + memory > evidence.jumps.size(); --i)
     jump = std::max(jump, evidence.jumps[i - 1]);
   double step = jump_share * jump;
-  if (!apart) {
+  if (apart) evidence.apart = now;
+  if (evidence.apart == 0) {
     const Magnitudes& all = seen.values;
     const double range = all.hi() - all.lo(), size = std::max(std::abs(all.hi()), std::abs(all.lo()));
     if (size == 0) return {0, 0, r - 1, 0, ErrorBar::unseen};
@@ -100,8 +102,7 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   // Under a learned density the values at large hide the tail of the integrand, and that is what few replicates meet.
   const double index = std::min(seen.tail_index(), seen.values.tail_index());
   const double beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
-  const double now = std::ldexp(deviation, exponent);
-  double width = now;
+  double width = apart ? now : std::max(now, evidence.apart);
   if (index < 5 && evidence.points > 0) {
     const double before = evidence.deviation * std::pow(evidence.points / points, 1 - 1 / std::max(index, 2.0));
     width = std::hypot(now, before) / std::sqrt(2.0);
@@ -111,7 +112,7 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   const double spread = width / std::sqrt(r * (1 - std::min(beyond, 0.9)));
   const double unbiased = r * r / ((r - 1) * std::max(r - 2, 1.0));
   const double mean = std::ldexp(m.mean(), exponent);
-  return {mean, std::max(std::hypot(spread, step / points / r), ulp(mean)), r - 1,
+  return {mean, std::max(std::hypot(spread, step / points / r), ulp(rounded)), r - 1,
           apart ? third / (deviation * deviation * deviation) * unbiased / (6 * std::sqrt(r)) : 0.0, bar_of(seen)};
 }
 

@@ -4,6 +4,8 @@
 #include <mc/estimate/integrate.h>
 #include <mc/estimate/seen/tail.h>
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,8 +46,15 @@ ErrorBar bar_of(const Seen& seen);
 /// What an integrand showed of itself at shorter lengths of the same replicates.
 struct Evidence {
   double points = 0, deviation = 0; ///< of the last length, and of the replicates at it
+  double apart = 0;                 ///< the last deviation that was more than rounding
   std::vector<double> jumps = {};   ///< at each length, the height of the jump that set replicates apart; 0: none seen
-  double step = 0;                  ///< the largest jump across an axis, of the AxisProfile of the first points
+  double step = 0; ///< the largest jump across an axis that the AxisProfile showed at both of its last two lengths
+  double last_step = std::numeric_limits<double>::infinity(); ///< at the last
+
+  void show_step(double jump) {
+    step = std::min(jump, last_step);
+    last_step = jump;
+  }
 };
 
 /// The mean of independent replicates of `points` points each.
@@ -55,7 +64,7 @@ struct Evidence {
 ///             trials of a random probability cover 94 to 97 %, where they stop at a tolerance too; h is what set them
 ///             apart at one of the last lengths, or the first points showed across an axis; where they are equal, the
 ///             range of all values; where those are equal too, their size, so that the rule of three holds for what
-///             was not seen
+///             was not seen. Replicates that differed before and came to agree are as good as when they last differed
 ///           - of a tail of index a > 2 the share R^-(1 - 2/a) of the variance lies beyond the largest of R values
 ///           - of a tail with a < 5 the variance is known badly. It seems least where nothing large was met, and that
 ///             is where runs stop: so it is the mean of what this length shows and what the last one did, the latter

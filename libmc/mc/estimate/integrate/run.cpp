@@ -170,7 +170,8 @@ Means Run::means(const std::vector<Sums>& replicates, std::uint64_t points, std:
     Seen seen = let_go.empty() ? Seen() : let_go[k];
     for (const auto* part : {&replicates, &uniform})
       for (const Sums& s : *part) seen.merge(s.seen[k]);
-    if (points <= AxisProfile::most) evidence[k].step = profile.jump(k, static_cast<std::size_t>(dim));
+    if (points <= AxisProfile::most)
+      evidence[k].show_step(profile.jump(k, static_cast<std::size_t>(dim), replicates.size()));
     all.push_back(replicated(values[k], static_cast<double>(points), seen, evidence[k]));
   }
   return all;

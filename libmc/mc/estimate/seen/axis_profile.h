@@ -21,8 +21,9 @@ class AxisProfile {
   void merge(const AxisProfile& other);
 
   /// The largest step between means of neighbouring bins along an axis, 8 to 64 with 24 points or more, of those that
-  /// exceed the steps on both sides, as no slope, kink or peak does, by four standard errors.
-  double jump(std::size_t output, std::size_t dim) const;
+  /// exceed the steps on both sides, as no slope, kink or peak does, by two standard errors of that difference. The
+  /// points are those of two replicates or more, as many of each.
+  double jump(std::size_t output, std::size_t dim, std::size_t replicates) const;
 
  private:
   std::vector<std::uint8_t> bins_;          ///< of 64: those of a point together

@@ -42,6 +42,13 @@ void Magnitudes::merge(const Magnitudes& other) {
         other.below_[static_cast<std::size_t>(i)];
 }
 
+double Magnitudes::mean_size() const {
+  constexpr int bias = 1023;
+  double sum = 0; // in units of the largest octave, so that nothing overflows
+  for (int i = 0; i + 1 < octaves; ++i) sum += std::ldexp(static_cast<double>(below_[static_cast<std::size_t>(i)]), -i);
+  return sum > 0 ? std::ldexp(sum / static_cast<double>(count_), top_ - bias) : 0.0;
+}
+
 double Magnitudes::Largest::index() const {
   const std::uint64_t steps = (octaves - 1) * count - places; // above the threshold, summed
   if (count == 0 || steps == 0) return std::numeric_limits<double>::infinity();

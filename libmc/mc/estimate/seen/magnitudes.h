@@ -21,6 +21,8 @@ class Magnitudes {
   std::uint64_t count() const { return count_; }
   double lo() const { return lo_; } ///< least value; 0 without any
   double hi() const { return hi_; } ///< largest value; 0 without any
+  /// The mean of |X|, or down to half of it: values count as the least of their octave.
+  double mean_size() const;
   /// Numbers of values by octaves, the first with the biased exponent top(); 0 before the first value.
   std::span<const std::uint64_t, octaves> counts() const { return below_; }
   int top() const { return top_; }

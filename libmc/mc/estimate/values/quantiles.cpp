@@ -51,6 +51,20 @@ Quantile quantile(const Seen& seen, double p, double confidence) {
           {may_be_below ? -infinity : std::min(*lo, value), hi == seen.all.end() ? infinity : std::max(*hi, value)}};
 }
 
+Seen seen_by(detail::Run& run, std::uint64_t points) try {
+  Seen seen;
+  for (detail::Sums& s :
+       run.evaluate_all(run.sobol_sets(1, 0, run.o.replicates), 0, points, {}, detail::Keep::points)) {
+    std::sort(s.values.begin(), s.values.end());
+    seen.all.insert(seen.all.end(), s.values.begin(), s.values.end());
+    seen.replicates.push_back(std::move(s.values));
+  }
+  std::sort(seen.all.begin(), seen.all.end());
+  return seen;
+} catch (const detail::Cancelled&) {
+  throw Error("quantiles: cancelled");
+}
+
 } // namespace
 
 std::vector<Quantile> quantiles(const std::function<double(std::span<const double>)>& f, int dim,
@@ -68,15 +82,10 @@ std::vector<Quantile> quantiles(const std::function<double(std::span<const doubl
   settings.replicates = o.replicates;
   settings.seed = o.seed;
   settings.threads = o.threads;
+  settings.cancel = o.cancel;
   detail::Run run{{.one = &f}, 1, dim, settings};
   require(o.calls <= run.recordable(), "quantiles: {} calls; at most {} values can be kept", o.calls, run.recordable());
-  Seen seen;
-  for (detail::Sums& s : run.evaluate_all(run.sobol_sets(1, 0, o.replicates), 0, points, {}, detail::Keep::points)) {
-    std::sort(s.values.begin(), s.values.end());
-    seen.all.insert(seen.all.end(), s.values.begin(), s.values.end());
-    seen.replicates.push_back(std::move(s.values));
-  }
-  std::sort(seen.all.begin(), seen.all.end());
+  const Seen seen = seen_by(run, points);
   std::vector<Quantile> all;
   for (const double p : probabilities) all.push_back(quantile(seen, p, o.confidence));
   return all;

@@ -3,6 +3,7 @@
 
 #include <mc/estimate/estimate.h>
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -16,6 +17,7 @@ struct QuantileOptions {
   std::uint64_t seed = 1;
   int threads = 0; ///< 0: all of the machine's; the result has the same bits for any number
   double confidence = 0.95;
+  const std::atomic<bool>* cancel = nullptr; ///< ends the work once it is true
 };
 
 struct Quantile {
@@ -29,7 +31,8 @@ struct Quantile {
 ///              agrees with the probability; measured over random integrands it holds the true quantile as often as
 ///              `confidence` says. Of values that f takes with a probability of their own, the true one is within
 ///   throws   : Error for an empty f, dim < 1, no probability or one outside (0, 1), fewer calls than two for each
-///              replicate or more values than fit into 128 MB, and where f is not finite, with the point
+///              replicate or more values than fit into 128 MB, where f is not finite, with the point, and when
+///              cancelled
 std::vector<Quantile> quantiles(const std::function<double(std::span<const double>)>& f, int dim,
                                 std::span<const double> probabilities, const QuantileOptions& options = {});
 

@@ -66,6 +66,27 @@ TEST(Replicated, EqualReplicatesHaveAnError) {
   EXPECT_EQ(replicated(std::vector<double>(replicates, 0.0), 64, seen({0, 0}), nothing).bar, mc::ErrorBar::unseen);
 }
 
+// A step of 4.4 whose integral is .009 and one whose integral is 0: replicates that agree differ by the rounding of their
+// sums, which is that of the values and not that of their mean.
+TEST(Replicated, RoundingOfWhatCancelsIsNoSpread) {
+  Evidence evidence;
+  std::vector<double> means(replicates, 0.009);
+  for (std::size_t i = 0; i < replicates; i += 2) means[i] += 4e-16;
+  const Mean m = replicated(means, 1024, seen({3, -1.4, -1.4}), evidence);
+  EXPECT_NEAR(m.error, 0.75 * 4.4 / 1024 / replicates, 1e-9);
+}
+
+TEST(Replicated, ThoseThatCameToAgreeKeepWhatTheyLastShowed) {
+  Evidence evidence;
+  std::vector<double> means(replicates, 0.5);
+  for (std::size_t i = 0; i < replicates; ++i) means[i] += 1e-13 * static_cast<double>(i);
+  const double before = replicated(means, 64, seen({0, 0.5, 1}), evidence).error;
+  EXPECT_LT(before, 2e-13);
+  for (const double points : {128.0, 256.0})
+    EXPECT_NEAR(replicated(std::vector<double>(replicates, 0.5), points, seen({0, 0.5, 1}), evidence).error, before,
+                1e-3 * before);
+}
+
 // Share of 95 % intervals that hold the truth, of 4000.
 double covered(double index, const std::function<double(std::uint64_t, std::vector<double>&)>& draw) {
   mc::detail::Seen tail;

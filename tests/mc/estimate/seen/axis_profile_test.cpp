@@ -38,7 +38,7 @@ double jump(double (*f)(const Point&), std::size_t points, std::uint64_t seed) {
     one.add_values(0, values);
     all.merge(one);
   }
-  return all.jump(0, 2);
+  return all.jump(0, 2, 24);
 }
 
 TEST(AxisProfile, ShowsJumpsBesideWhatIsSmooth) {
@@ -64,7 +64,22 @@ TEST(AxisProfile, HoldsSlopesKinksAndPeaksForNone) {
     }
 }
 
-TEST(AxisProfile, IsEmptyWithoutPoints) { EXPECT_EQ(AxisProfile().jump(0, 3), 0); }
+// Interlaced points of a replicate are off together, and 21 of 400 runs showed a jump of exp(x + y) for good: the error
+// was a thousand times too wide. 3 of 1000 are left, one of these 200 seeds at most (alpha .03).
+TEST(AxisProfile, SmoothIntegrandsConvergeWhateverTheSeed) {
+  int slow = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    mc::IntegrateOptions o;
+    o.rel_error = 1e-8;
+    o.max_calls = 1'000'000;
+    o.seed = seed;
+    const mc::Integral r = mc::integrate_unit([](std::span<const double> u) { return std::exp(u[0] + u[1]); }, 2, o);
+    slow += r.stop != mc::Stop::converged;
+  }
+  EXPECT_LE(slow, 1);
+}
+
+TEST(AxisProfile, IsEmptyWithoutPoints) { EXPECT_EQ(AxisProfile().jump(0, 3, 24), 0); }
 
 // Replicates have as many points before the step in one run of twelve, and only their smooth part differs then: 86 % of
 // these intervals held, and 7 % of the means were six standard errors off. 94 to 95 % hold: 34 of 300 are four

@@ -65,6 +65,16 @@ TEST(Magnitudes, FewThatHoldTheSumAreTold) {
       EXPECT_EQ(hardly_met(powers(seed, 5000, 1 / index)), few) << index << " seed " << seed;
 }
 
+TEST(Magnitudes, MeanSizeDownToHalf) {
+  EXPECT_EQ(mc::Magnitudes().mean_size(), 0);
+  for (const double scale : {1e-300, 1.0, 1e300}) {
+    mc::Magnitudes m;
+    m.add(std::vector<double>{-4 * scale, 3 * scale, 0, 0, scale});
+    EXPECT_LE(m.mean_size(), 1.6 * scale);
+    EXPECT_GE(m.mean_size(), 0.8 * scale);
+  }
+}
+
 TEST(Magnitudes, BoundedValuesHaveNoTail) {
   mc::Magnitudes zeros, ones, uniform;
   zeros.add(std::vector<double>(1000, 0.0));

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -79,6 +80,15 @@ TEST(Quantiles, WhatTheCallsCannotTell) {
   const auto found = mc::quantiles([](Unit u) { return u[0]; }, 1, std::array{1e-6, 1 - 1e-6}, {.calls = 1000});
   EXPECT_EQ(found[0].interval.lo, -std::numeric_limits<double>::infinity());
   EXPECT_EQ(found[1].interval.hi, std::numeric_limits<double>::infinity());
+}
+
+TEST(Quantiles, EndWhenCancelled) {
+  std::atomic<bool> cancel = false;
+  const auto f = [&](Unit u) {
+    cancel = true;
+    return u[0];
+  };
+  EXPECT_THROW(mc::quantiles(f, 1, std::array{0.5}, {.threads = 1, .cancel = &cancel}), mc::Error);
 }
 
 TEST(Quantiles, RefusesNonsense) {
