@@ -3,6 +3,7 @@
 #include <render/io/image/image_io.h>
 
 #include <mc/core/error.h>
+#include <mc/core/file.h>
 #include <mc/core/text.h>
 #include <mc/stats/t_test.h>
 
@@ -46,8 +47,9 @@ std::vector<Metric> metrics(const Image& a, const Image& b) {
       mean_a += x;
       mean_b += y;
     }
-  return {{"mse", square / n}, {"rmse", std::sqrt(square / n)}, {"mae", absolute / n}, {"relmse", relative / n},
-          {"max", peak},       {"mean_ratio", mean_a / mean_b}};
+  return {{"mse", square / n},   {"rmse", std::sqrt(square / n)},
+          {"mae", absolute / n}, {"relmse", relative / n},
+          {"max", peak},         {"mean_ratio", mean_a == mean_b ? 1 : mean_a / mean_b}};
 }
 
 // Variance of each mean, the degrees of freedom behind it, and the pixels that share their noise.
@@ -197,6 +199,9 @@ std::string without_variance(const CompareOptions& options, const Image& a, cons
 int compare(const CompareOptions& options) {
   mc::require(options.alpha > 0 && options.alpha < 1, "--alpha {} must lie in (0, 1)", options.alpha);
   mc::require(options.tolerance >= 0, "--tolerance {} must be >= 0", options.tolerance);
+  for (const std::string& image : {options.a, options.b})
+    mc::require(options.diff.empty() || !mc::same_place(options.diff, image),
+                "--diff '{}' would overwrite an image that is compared; name another file", options.diff);
   const Image a = ::render::read_image(options.a), b = ::render::read_image(options.b);
   mc::require(a.width == b.width && a.height == b.height, "'{}' is {}x{} but '{}' is {}x{}; the sizes must agree",
               options.a, a.width, a.height, options.b, b.width, b.height);

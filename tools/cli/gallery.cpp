@@ -2,6 +2,7 @@
 #include <gallery/page.h>
 #include <options/subcommand.h>
 #include <picture/picture.h>
+#include <picture/resume.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 
@@ -151,6 +152,9 @@ class GalleryRun {
     const std::string invalid = invalid_samples(result, from);
     mc::require(invalid.empty(), "{}: {}", title, invalid);
     sign(result, from);
+    const ::render::Crop whole{0, 0, a.settings.width, a.settings.height};
+    for (const auto& [key, value] : picture_of(scene_file(*a.scene), "mitsuba", {}, a.file, a.settings, whole))
+      result.image.metadata[key] = value; // for carlo render to go on with
     const std::string path = (folder_ / title).string();
     ::render::write_image(path + ".exr", result.image);
     ::render::write_image(path + ".png", result.image, tone_of(*a.scene));
@@ -192,6 +196,8 @@ class GalleryRun {
 };
 
 int gallery_command(const GalleryOptions& o) {
+  mc::require(o.names.empty() || !(o.list || o.table), "gallery: a list is of all scenes; leave out '{}'",
+              fmt::join(o.names, " "));
   if (o.list) return list_scenes();
   if (o.table) {
     fmt::print("{}", gallery_text());

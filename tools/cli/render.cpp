@@ -16,6 +16,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
+#include <mc/core/text.h>
 #include <mc/random/hash.h>
 
 #include <algorithm>
@@ -58,10 +59,24 @@ struct RenderOptions {
   std::string command;        ///< the command line, for the metadata
 };
 
+// Numbers of pixels between separators; none where one is anything else or too large.
+std::vector<int> pixels_in(const std::string& text, char separator) {
+  constexpr double most = 1e9;
+  std::vector<int> all;
+  for (const std::string_view word : mc::split(text, separator)) {
+    const double number = mc::number_in(word).value_or(mc::infinity<double>);
+    if (!(std::abs(number) <= most) || number != std::floor(number)) return {};
+    all.push_back(static_cast<int>(number));
+  }
+  return all;
+}
+
 void parse_size(const std::string& text, int& width, int& height) {
-  char rest = 0;
-  mc::require(std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) == 2 && width > 0 && height > 0,
+  const std::vector<int> size = pixels_in(text, 'x');
+  mc::require(size.size() == 2 && size[0] > 0 && size[1] > 0,
               "--size '{}' must be WIDTHxHEIGHT in pixels, e.g. 640x480", text);
+  width = size[0];
+  height = size[1];
 }
 
 ::render::Variables parse_variables(const std::vector<std::string>& texts) {
@@ -85,16 +100,9 @@ void parse_size(const std::string& text, int& width, int& height) {
 
 // Whether it lies inside the picture is for the renderer to say.
 ::render::Crop parse_crop(const std::string& text) {
-  ::render::Crop c;
-  char rest = 0;
-  mc::require(std::sscanf(text.c_str(), "%d,%d,%d,%d%c", &c.x, &c.y, &c.width, &c.height, &rest) == 4,
-              "--crop '{}' must be X,Y,WIDTH,HEIGHT in pixels, e.g. 100,50,64,64", text);
-  return c;
-}
-
-// The same of all ways to say where a file is, be it there or not.
-std::filesystem::path whole_path(const std::string& path) {
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  const std::vector<int> c = pixels_in(text, ',');
+  mc::require(c.size() == 4, "--crop '{}' must be X,Y,WIDTH,HEIGHT in pixels, e.g. 100,50,64,64", text);
+  return {c[0], c[1], c[2], c[3]};
 }
 
 std::string output_of(const RenderOptions& options) {
@@ -290,6 +298,14 @@ std::string summary_of(const ::render::RenderResult& r, const std::optional<doub
   return text + "\n";
 }
 
+void refuse_inputs(const std::set<std::string>& files, const RenderOptions& options, const std::string& output) {
+  for (const std::string& input : files)
+    for (const std::string& written : {output, options.intervals})
+      mc::require(written.empty() || !mc::same_place(written, input),
+                  "'{}' is a file of the scene and would be overwritten; name another with {}", written,
+                  written == output ? "-o" : "--intervals");
+}
+
 int render(const RenderOptions& options) {
   if (options.help_scene) {
     std::fputs(::render::mitsuba::reference().c_str(), stdout);
@@ -300,7 +316,7 @@ int render(const RenderOptions& options) {
   check_output(output);
   if (!options.intervals.empty()) {
     check_output(options.intervals);
-    mc::require(whole_path(options.intervals) != whole_path(output),
+    mc::require(!mc::same_place(options.intervals, output),
                 "--intervals '{}' would overwrite the picture; name another file", options.intervals);
   }
   mc::require(!options.layers || is(output, ".exr"), "--layers: '{}' has no place for them; write an .exr", output);
@@ -309,6 +325,7 @@ int render(const RenderOptions& options) {
   const std::string file = named ? scene_file(*named) : options.scene;
   const ::render::SceneFile read = read_scene(file, options);
   const auto& [scene, defaults, origin, warnings, files] = read;
+  refuse_inputs(files, options, output);
   warn_of_departures(read);
   if (scene.lights().empty() && defaults.shown.what == ::render::Shown::radiance)
     std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", file.c_str());
@@ -335,15 +352,16 @@ int render(const RenderOptions& options) {
   const ::render::Crop part = part_of(settings);
   const PictureOf shown = picture_of(file, options.dialect, options.variables, read, settings, part);
   std::optional<Begun> begun;
-  if (options.resume) {
-    begun = begun_picture(output, shown, part);
-    settings.seed = mc::hash(options.seed, std::uint64_t(begun->runs)); // other samples than those that are there
-  }
+  if (options.resume) begun = begun_picture(output, shown, part, settings);
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
   ::render::RenderResult result = ::render::render(scene, settings);
   progress.clear();
 
+  if (begun && result.estimates == 0) {
+    fmt::print("interrupted before every pixel had a new sample; {} stays as it was\n", output);
+    return exit_interrupted;
+  }
   const Provenance from{file, options.command, options.seed};
   if (const std::string invalid = invalid_samples(result, from); !invalid.empty()) {
     mc::require(options.allow_invalid, "{}: {}; nothing was written (--allow-invalid writes the image without them)",

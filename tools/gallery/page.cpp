@@ -10,7 +10,10 @@ namespace carlo {
 
 namespace {
 
-std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:.2g} %", 100 * share) : "unknown"; }
+std::string percent(double share) {
+  if (!std::isfinite(share)) return "unknown";
+  return share < 0.1 ? fmt::format("{:.2g} %", 100 * share) : fmt::format("{:.0f} %", 100 * share);
+}
 
 // Means are told relative to the one that is known best, work relative to the least.
 std::string strategies_of(const RenderedScene& r) {

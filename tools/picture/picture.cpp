@@ -28,6 +28,7 @@ void sign(::render::RenderResult& result, const Provenance& from) {
   metadata["carlo.samples_per_pixel"] = fmt::format("{:.17g}", result.spp);
   metadata["carlo.invalid_samples"] = fmt::format("{}", result.invalid);
   if (result.partial) metadata["carlo.partial"] = "interrupted before the end";
+  if (result.estimates == 0) metadata["carlo.unsampled"] = "some pixels";
 }
 
 void warn_where_coarse(const std::string& path, const ::render::Scene& scene) {

@@ -69,7 +69,8 @@ PictureOf picture_of(const std::string& file, const std::string& dialect, std::v
           {"carlo.scene_hash", hash_of(read.files)}};
 }
 
-Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part) {
+Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part,
+                    ::render::RenderOptions& settings) {
   mc::require(mc::extension_of(path) == ".exr",
               "--resume: '{}' is no .exr: other files do not keep radiance with its variance; go on with an .exr",
               path);
@@ -82,6 +83,8 @@ Begun begun_picture(const std::string& path, const PictureOf& picture, const ::r
   begun.spp = std::strtod(text("carlo.samples_per_pixel").c_str(), nullptr);
   mc::require(begun.spp > 0, "--resume: '{}' does not say its samples per pixel; carlo render has not written it",
               path);
+  mc::require(text("carlo.unsampled").empty(),
+              "--resume: '{}' has pixels without a sample, as its run was interrupted early; render it anew", path);
   begun.runs = std::max(1, std::atoi(text("carlo.runs").c_str()));
   mc::require(text("carlo.scene") == picture.at("carlo.scene"), "--resume: '{}' is a picture of '{}', not of '{}'",
               path, text("carlo.scene"), picture.at("carlo.scene"));
@@ -95,6 +98,9 @@ Begun begun_picture(const std::string& path, const PictureOf& picture, const ::r
                 "--resume: '{}' was rendered with {} '{}', not '{}'; ask for the same, or name another file", path,
                 words, text(key), picture.at(key));
   }
+  mc::require(settings.spp > 1 || settings.seconds || begun.image.variance.empty(),
+              "--resume: one sample has no variance, and '{}' would lose its own; take --spp 2 or more", path);
+  settings.seed = mc::hash(settings.seed, std::uint64_t(begun.runs));
   return begun;
 }
 

@@ -28,8 +28,11 @@ struct Begun {
 };
 
 /// What --resume adds to, as sign() has signed it.
-///   throws : Error where there is none, and where it shows something else, naming what differs
-Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part);
+///   settings : of the run that adds to it, which gets a seed of its own: other samples than those that are there
+///   throws   : Error where there is none, where it shows something else, naming what differs, where not all of it was
+///              rendered, and where one sample more would lose its variance
+Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part,
+                    ::render::RenderOptions& settings);
 
 /// The picture that was begun with what a run has added.
 void add_to(const Begun& begun, ::render::RenderResult& result);

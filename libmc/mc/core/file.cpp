@@ -155,6 +155,13 @@ void write_file(const std::string& path, std::string_view bytes) {
   else write_through(place, path, bytes);
 }
 
+bool same_place(const std::string& a, const std::string& b) {
+  const auto place = [](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
+  return place(a) == place(b);
+}
+
 std::string extension_of(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   for (char& c : extension)

@@ -28,6 +28,9 @@ void require_writable(const std::string& path);
 ///   throws  : Error where it cannot be made, or where `first_file` could not be written in it
 std::filesystem::path output_folder(const std::string& name, const std::string& first_file);
 
+/// Whether two paths lead to one place, be there a file or not.
+bool same_place(const std::string& a, const std::string& b);
+
 /// ".exr" of "a/b.EXR": the last dot of the name and what follows, in small letters; "" where there is none.
 std::string extension_of(const std::string& path);
 

@@ -51,15 +51,22 @@ template <class SceneType> class PathIntegrator {
  private:
   using Own = std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>;
 
+  /// What absorbs a ray, and what lies around that: of bodies within bodies within bodies the outermost is forgotten.
+  struct Media {
+    const HomogeneousMedium *here = nullptr, *around = nullptr; ///< null: nothing
+  };
+
   /// Where a path meets a surface.
   struct At : Vertex<Own> {
     const Surface& surface;
-    const HomogeneousMedium* before; ///< through what the path came
+    Media before; ///< through what the path came
 
     /// Through what it leaves in the direction d.
-    const HomogeneousMedium* medium(const Vec3& d) const {
-      if (!surface.interior) return before;
-      return d.dot(this->point.ng) < 0 ? &*surface.interior : nullptr;
+    Media media(const Vec3& d) const {
+      const bool came_from_inside = this->frame.to_world(this->wo).dot(this->point.ng) < 0;
+      const bool leaves_inside = d.dot(this->point.ng) < 0;
+      if (!surface.interior || came_from_inside == leaves_inside) return before;
+      return leaves_inside ? Media{&*surface.interior, before.here} : Media{before.around, nullptr};
     }
   };
 
@@ -72,7 +79,7 @@ template <class SceneType> class PathIntegrator {
     Float eta_scale = 1;    ///< undoes the compression of radiance in glass
     Float over_bsdf = 1;    ///< density of its way since the last rough surface over that of following BSDFs alone
     int edges = 0;          ///< traced so far
-    const HomogeneousMedium* medium = nullptr; ///< that the ray goes through; null: nothing absorbs it
+    Media media = {};       ///< that the ray goes through
   };
 
   // The normal of what a ray meets, as a colour.
@@ -114,23 +121,23 @@ template <class SceneType> class PathIntegrator {
       ++walk.edges;
       const auto hit = meet(walk.ray, stream, rays);
       if (!hit) {
-        if (walk.medium) [[unlikely]]
-          walk.beta *= walk.medium->transmittance(mc::infinity<Float>);
+        if (walk.media.here) [[unlikely]]
+          walk.beta *= walk.media.here->transmittance(mc::infinity<Float>);
         for (const std::uint32_t light : scene_.infinite_lights())
           radiance += walk.beta * emission(light, nullptr, walk);
         return radiance;
       }
       const Surface& surface = scene_.surface(*hit);
       const SurfacePoint point = surface.shape->surface_point(walk.ray, *hit);
-      if (walk.medium) [[unlikely]]
-        walk.beta *= walk.medium->transmittance((point.p - walk.previous).norm());
+      if (walk.media.here) [[unlikely]]
+        walk.beta *= walk.media.here->transmittance((point.p - walk.previous).norm());
       if (surface.light) radiance += walk.beta * emission(*surface.light, &point, walk);
       if (walk.edges == options_.max_depth) return radiance;
 
       const auto frame = mc::Frame<Float>::from_z(point.ns);
       std::optional<Bsdf> varied;
       const At at{
-          {scene_.bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-walk.ray.d)}, surface, walk.medium};
+          {scene_.bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-walk.ray.d)}, surface, walk.media};
       const bool rough = !at.bsdf.is_delta();
       if (rough && connects() && scene_.has_light_choice()) radiance += walk.beta * connect(at, stream, rays);
       if (whole && rough) return radiance + branch(at, walk, stream, rays);
@@ -180,7 +187,7 @@ template <class SceneType> class PathIntegrator {
     const Float open = open_share(scene_, *ray, s->end, rays);
     if (open == 0) return Spectrum::Zero();
     Spectrum arriving = open * s->radiance;
-    if (const HomogeneousMedium* medium = at.medium(s->wi)) [[unlikely]]
+    if (const HomogeneousMedium* medium = at.media(s->wi).here) [[unlikely]]
       arriving *= medium->transmittance(s->end ? (s->end->p - at.point.p).norm() : mc::infinity<Float>);
     const Float pdf = choice.pmf * s->pdf;
     const bool shared = options_.strategy.finding == Finding::by_both && !source.is_delta();
@@ -206,7 +213,7 @@ template <class SceneType> class PathIntegrator {
     }
     walk.previous = at.point.p;
     walk.ray = at.point.spawn_ray(next->d);
-    walk.medium = at.medium(next->d);
+    walk.media = at.media(next->d);
     return true;
   }
 
@@ -222,7 +229,7 @@ Spectrum PathIntegrator<SceneType>::radiance(const Ray& ray, Stream& stream, std
   if (options_.shown.what == Shown::normals) return normal(ray, stream, rays);
   if (options_.shown.what == Shown::ambient_occlusion) return openness(ray, stream, rays);
   Walk walk{ray, ray.o};
-  walk.medium = around_;
+  walk.media.here = around_;
   if (around_) [[unlikely]] // it fills what is cut away before the lens, too
     walk.previous -= scene_.camera().near() / ray.d.dot(scene_.camera().forward()) * ray.d;
   return follow(walk, stream, rays, true);

@@ -74,6 +74,7 @@ SceneFile read_mesh_scene(const std::string& path) {
   const double size = (extent.hi - extent.lo).stableNorm() / 2;
   SceneBuilder builder;
   return mc::with_context(path, [&] {
+    mc::require(!mesh.triangles.empty(), "no triangle; at least one is needed");
     mc::require(size <= largest, "the mesh reaches {:.3g} from its middle, more than {:.0g}; scale it down", size,
                 largest);
     TriangleMesh shape = to_shape(mesh, Transform::translate(-middle), mesh.normals.empty());

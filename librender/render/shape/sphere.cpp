@@ -84,7 +84,8 @@ double Sphere::area() const { return 2 * mc::pi<double> * radius_ * height_; }
 bool Sphere::is_cone(double d2) const {
   // Points of the sphere itself round to either side of it. Taken for outside, their cone would hold nothing but
   // themselves.
-  return !is_cap() && d2 > outside2_;
+  // A cone narrower than this has a density that a float cannot tell.
+  return !is_cap() && d2 > outside2_ && radius_ * radius_ > 1e-36 * d2;
 }
 
 Float Sphere::cone_pdf(double d2) const {

@@ -50,6 +50,16 @@ TEST_F(FileTest, ExtensionsAreInSmallLetters) {
   EXPECT_EQ(mc::extension_of("ü.Ü1"), ".Ü1");
 }
 
+TEST_F(FileTest, PathsThatLeadToOnePlace) {
+  const auto path = [&](const char* name) { return (folder / name).string(); };
+  mc::write_file(path("a"), "a");
+  fs::create_symlink(path("a"), path("link"));
+  EXPECT_TRUE(mc::same_place(path("a"), path("./b/../a")));
+  EXPECT_TRUE(mc::same_place(path("a"), path("link")));
+  EXPECT_TRUE(mc::same_place(path("none"), path("./none")));
+  EXPECT_FALSE(mc::same_place(path("a"), path("none")));
+}
+
 TEST_F(FileTest, TextIsWithoutItsByteOrderMark) {
   const std::string path = folder / "a.txt";
   for (const char* text : {"", "a", "\xEF\xBB"}) {

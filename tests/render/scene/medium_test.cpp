@@ -73,6 +73,28 @@ TEST(HomogeneousMedium, AChordOfABall) {
   }
 }
 
+// Within what absorbs lies something else that does: outside of the inner one the outer one goes on. Roulette plays on
+// the way: t-tests of 30 means at alpha = 1e-6, fixed seeds.
+TEST(HomogeneousMedium, ABallWithinABall) {
+  mc::Pcg random(3);
+  for (int i = 0; i < 30; ++i) {
+    const Space space(random);
+    SceneBuilder builder;
+    builder.add(Light(ConstantBackground(white)));
+    const BsdfId boundary = builder.add(Dielectric(1));
+    const double outer = random.uniform<double>(), inner = 3 * random.uniform<double>();
+    for (const auto& [radius, sigma] : {std::pair(1.0, outer), std::pair(0.5, inner)})
+      builder.add(Sphere(space.world.point(Vec3d::Zero()), radius * space.scale),
+                  {.bsdf = boundary, .interior = space.medium(Vec3d::Constant(sigma))});
+    const Scene scene = builder.build();
+    const double off = 0.45 * random.uniform<double>(), whole = 2 * std::sqrt(1 - off * off),
+                 core = 2 * std::sqrt(0.25 - off * off);
+    const mc::Moments m = support::traced(scene, space.ray({-2, off, 0}, {0, off, 0}), {strategy_from("mis")}, 4000);
+    const double expected = std::exp(-outer * (whole - core) - inner * core);
+    EXPECT_GE(mc::t_test(m, expected).p, 1e-6) << i << ": " << m.mean() << " +- " << m.std_error();
+  }
+}
+
 // Through a plate of thickness d and reflectance R of its faces, head-on: with e = exp(-sigma d), what goes to and fro
 // inside sums to T = (1 - R)^2 e / (1 - R^2 e^2); R + R e T comes back. Behind it the sky is 1, before it too. t-tests
 // of 30 x 7 means at alpha = 1e-6, fixed seeds.

@@ -48,6 +48,7 @@ TEST_F(GalleryCommand, RefusesBadInputInOneLineBeforeTheWork) {
   const std::string to = " -o " + path("out");
   expect_refused("gallery book1-metl" + to, {"'book1-metl'", "did you mean 'book1-metal'"});
   expect_refused("gallery book1-metal --scale 0" + to, {"--scale 0"});
+  expect_refused("gallery book1-metal --list", {"a list is of all scenes; leave out 'book1-metal'"});
   expect_refused("gallery book1-metal --scale nan" + to, {"--scale nan"});
   expect_refused("gallery book1-metal --spp 0" + to, {"--spp 0"});
   expect_refused("gallery book1-metal --time -1" + to, {"> 0"});
@@ -98,6 +99,8 @@ TEST_F(GalleryCommand, RenderTakesANameToo) {
   const render::Image a = render::read_image(path("one.exr")), b = render::read_image(path("out/" + name + ".exr"));
   ASSERT_EQ(a.pixels.size(), b.pixels.size());
   for (std::size_t i = 0; i < a.pixels.size(); ++i) EXPECT_TRUE((a.pixels[i] == b.pixels[i]).all()) << i;
+  const std::string go_on = "render " + name + " --size 24x24 --spp 8 --resume -o " + path("out/" + name + ".exr");
+  EXPECT_THAT(run_carlo(go_on).output, HasSubstr("16 samples/pixel of 2 runs"));
   fs::remove_all(folder / "out");
   expect_refused("render cbx -o " + path("c.exr"), {"'cbx'", "did you mean 'cbox'"});
 }

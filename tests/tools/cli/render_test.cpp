@@ -54,6 +54,9 @@ TEST_F(RenderCommand, RefusesBadInputInOneLine) {
                  {"--intervals", "overwrite the picture"});
   expect_refused(cbox() + " --threads -2", {"--threads -2"});
   expect_refused(cbox() + " --crop 1,2,3", {"--crop '1,2,3'", "X,Y,WIDTH,HEIGHT"});
+  expect_refused(cbox() + " --crop 0,0,4294967297,1", {"--crop '0,0,4294967297,1'"});
+  expect_refused(scenes + "cbox.xml --size 4294967304x8 -o " + path("out.pfm"), {"--size '4294967304x8'"});
+  expect_refused(scenes + "cbox.xml --size 1e6x1e6 -o " + path("out.pfm"), {"1000000x1000000 pixels are more than"});
   expect_refused(cbox() + " --crop 6,0,3,3", {"crop of 3x3 pixels at (6, 0)", "8x8"});
   expect_refused(cbox() + " --layers", {"--layers", "out.pfm", ".exr"});
   expect_refused(cbox() + " --tone filmc", {"'filmc'", "did you mean 'filmic'"});
@@ -181,6 +184,49 @@ TEST_F(RenderCommand, GoesOnFromOneSampleWithoutAnErrorBar) {
   EXPECT_THAT(run_carlo(line + " --spp 8 --resume").output,
               HasSubstr("9 samples/pixel of 2 runs, without an error bar: one of them, of one sample, has none"));
   EXPECT_TRUE(render::read_image(path("r.EXR")).variance.empty());
+}
+
+TEST_F(RenderCommand, GoingOnLosesNothing) {
+  const std::string line = "render " + scenes + "sphere-light.xml --size 8x8 -o " + path("r.exr");
+  ASSERT_EQ(run_carlo(line + " --spp 4").exit_code, 0);
+  const std::string before = mc::read_file(path("r.exr"));
+  EXPECT_THAT(run_carlo(line + " --spp 1 --resume").output, HasSubstr("would lose its own; take --spp 2 or more"));
+  EXPECT_EQ(mc::read_file(path("r.exr")), before);
+  render::Image early = render::read_image(path("r.exr"));
+  early.metadata["carlo.unsampled"] = "some pixels";
+  render::write_image(path("r.exr"), early);
+  EXPECT_THAT(run_carlo(line + " --spp 4 --resume").output,
+              HasSubstr("has pixels without a sample, as its run was interrupted early; render it anew"));
+}
+
+// In the first pass, over pixels that take long.
+TEST_F(RenderCommand, APassThatIsNotWholeIsNotAdded) {
+  const std::string line = "render " + scenes + "cbox.xml --size 2000x2000 --threads 1 -o " + path("r.exr");
+  const support::Run first = support::interrupt_carlo(line + " --spp 1000000");
+  EXPECT_EQ(first.exit_code, 130) << first.output;
+  EXPECT_EQ(render::read_image(path("r.exr")).metadata.at("carlo.unsampled"), "some pixels");
+  const std::string small = "render " + scenes + "cbox.xml --size 300x300 --threads 1 -o " + path("s.exr");
+  ASSERT_EQ(run_carlo(small + " --spp 2").exit_code, 0);
+  const std::string before = mc::read_file(path("s.exr"));
+  const support::Run more = support::interrupt_carlo(small + " --spp 1000000 --resume");
+  EXPECT_EQ(more.exit_code, 130) << more.output;
+  EXPECT_THAT(more.output, HasSubstr("s.exr stays as it was"));
+  EXPECT_EQ(mc::read_file(path("s.exr")), before);
+}
+
+TEST_F(RenderCommand, NoFileOfTheSceneIsOverwritten) {
+  render::Image sky(2, 1);
+  for (render::Spectrum& p : sky.pixels) p = render::Spectrum::Ones();
+  render::write_image(path("sky.exr"), sky);
+  const std::string scene =
+      write("s.xml", "<scene version=\"0.6.0\"><emitter type=\"envmap\"><string name=\"filename\" "
+                     "value=\"sky.exr\"/></emitter><sensor type=\"perspective\"/></scene>");
+  const std::string before = mc::read_file(path("sky.exr"));
+  for (const std::string& arguments :
+       {" -o " + path("sky.exr"), " -o " + path("a.exr") + " --intervals " + path("./sky.exr")})
+    EXPECT_THAT(run_carlo("render " + scene + " --size 4x4 --spp 2" + arguments).output,
+                HasSubstr("sky.exr' is a file of the scene and would be overwritten; name another with -"));
+  EXPECT_EQ(mc::read_file(path("sky.exr")), before);
 }
 
 // The mean of pictures of different things is a picture of nothing.

@@ -31,8 +31,8 @@ void add_variances(Bins& bins, std::span<const std::size_t> bin_of, std::span<co
   for (Bin& b : bins) b.variance *= b.count > 0 ? r / ((r - 1) * sqr(b.count)) : 0;
 }
 
-// Of what stands out from both sides by two standard errors of that difference. At two lengths in a row that is 0 in all
-// but 3 of 1000 runs of smooth integrands.
+// Of what stands out from both sides by two standard errors of that difference. At two lengths in a row that is 0 in
+// all but 3 of 1000 runs of smooth integrands.
 double largest_jump(std::span<const Bin> bins) {
   double largest = 0;
   const auto step = [&](std::size_t i) { return std::abs(bins[i + 1].mean() - bins[i].mean()); };

@@ -43,6 +43,19 @@ void wind_about(const std::vector<Vec3>& normals, const std::vector<Vec3d>& posi
 
 } // namespace
 
+void require_sound(const MeshFile& file) {
+  const auto require_finite = [](const char* what, const std::vector<Vec3d>& all) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      mc::require(all[i].allFinite(), "{} {} = ({}, {}, {}) is not finite", what, i, all[i][0], all[i][1], all[i][2]);
+  };
+  require_finite("vertex", file.positions);
+  require_finite("normal", file.normals);
+  for (std::size_t i = 0; i < file.triangles.size(); ++i)
+    for (const std::uint32_t v : file.triangles[i])
+      mc::require(v < file.positions.size(), "triangle {} names vertex {}, but there are only {}", i, v,
+                  file.positions.size());
+}
+
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat) {
   std::vector<Vec3d> placed;
   std::vector<Vec3> positions, normals;

@@ -28,6 +28,10 @@ struct MeshFile {
 ///   throws : Error for what TriangleMesh refuses, and where no triangle has an area
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat = false);
 
+/// Throws Error, naming the first, where a vertex or a normal is not finite or a triangle names a vertex that is not
+/// there.
+void require_sound(const MeshFile& file);
+
 /// All faces of a Wavefront OBJ file as one mesh, polygons cut into triangles; materials are ignored. Faces without
 /// normals are flat where others have them; where none has, groups and materials share no vertices. Texture coordinates
 /// count where all faces have them.

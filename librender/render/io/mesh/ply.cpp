@@ -282,6 +282,7 @@ MeshFile mesh_of(std::string_view bytes) {
     append_polygon(mesh.positions, std::span(faces.corners).subspan(begin, end - begin), mesh.triangles);
     begin = end;
   }
+  require_sound(mesh);
   return mesh;
 }
 

@@ -132,6 +132,7 @@ MeshFile read_serialized(const std::string& path, int index) {
     const auto corners = data.take<std::uint32_t>(3 * triangles);
     for (std::size_t i = 0; i < corners.size(); i += 3)
       mesh.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
+    require_sound(mesh);
     return mesh;
   });
 }

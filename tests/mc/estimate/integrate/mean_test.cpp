@@ -66,8 +66,8 @@ TEST(Replicated, EqualReplicatesHaveAnError) {
   EXPECT_EQ(replicated(std::vector<double>(replicates, 0.0), 64, seen({0, 0}), nothing).bar, mc::ErrorBar::unseen);
 }
 
-// A step of 4.4 whose integral is .009 and one whose integral is 0: replicates that agree differ by the rounding of their
-// sums, which is that of the values and not that of their mean.
+// A step of 4.4 whose integral is .009: replicates that agree differ by the rounding of their sums, which is that of
+// the values and not that of their mean.
 TEST(Replicated, RoundingOfWhatCancelsIsNoSpread) {
   Evidence evidence;
   std::vector<double> means(replicates, 0.009);

@@ -280,6 +280,20 @@ TEST_F(Mesh, SerializedCountsThatItsBytesCannotHold) {
 }
 
 // Random bytes changed in whole files: read, or refused in one line.
+TEST_F(Mesh, SerializedRefusesWhatIsNotSound) {
+  SerializedMesh beyond, high;
+  beyond.corners = {0, 1, 9};
+  high.height = mc::infinity<double>;
+  const auto refusal_of = [&](const SerializedMesh& mesh) {
+    return support::error_of([&] { read_serialized(write("m.serialized", serialized({mesh})), 0); });
+  };
+  EXPECT_THAT(refusal_of(beyond), HasSubstr("m.serialized: mesh 0: triangle 0 names vertex 9, but there are only 3"));
+  EXPECT_THAT(refusal_of(high), HasSubstr("m.serialized: mesh 0: vertex 2 = (0, inf, 0) is not finite"));
+  MeshFile bent;
+  bent.normals = {Vec3d(0, mc::infinity<double>, 0)};
+  EXPECT_THAT(support::error_of([&] { require_sound(bent); }), HasSubstr("normal 0 = (0, inf, 0) is not finite"));
+}
+
 TEST_F(Mesh, DamagedAnywhere) {
   mc::Pcg random(9);
   const std::vector<std::pair<std::string, MeshFile (*)(const std::string&)>> formats = {
