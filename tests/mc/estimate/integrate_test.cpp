@@ -361,4 +361,29 @@ TEST(IntegrateRqmc, IsWithinItsError) {
   EXPECT_EQ(r.calls, 24u * 4096);
 }
 
+// Few uniform points meet the ridge of a normal of correlation .99 over the whole plane, and its values look heavy to
+// them; under the density they grow no further. All of these had no error.
+TEST(Integrate, ARidgeInThePlaneHasAnError) {
+  const auto normal = [](std::span<const double> u) {
+    double x[2], slope = 1;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double t = 2 * u[i] - 1, rest = 4 * u[i] * (1 - u[i]);
+      x[i] = t / rest;
+      slope *= 2 * (1 + t * t) / (rest * rest);
+    }
+    const double value = std::exp(-(x[0] * x[0] - 1.98 * x[0] * x[1] + x[1] * x[1])) * slope;
+    return std::isfinite(value) ? value : 0.0;
+  };
+  const double integral = mc::pi<double> / std::sqrt(1 - mc::sqr(0.99));
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    mc::IntegrateOptions o;
+    o.rel_error = 1e-4;
+    o.max_calls = 100'000;
+    o.seed = seed;
+    const mc::Integral r = mc::integrate_unit(normal, 2, o);
+    EXPECT_EQ(r.error_bar, mc::ErrorBar::known) << seed;
+    EXPECT_NEAR(r.estimate.value, integral, 5 * r.estimate.std_error) << seed; // of ten: alpha = 1e-5
+  }
+}
+
 } // namespace

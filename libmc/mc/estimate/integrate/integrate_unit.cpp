@@ -81,7 +81,7 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
     r.interval = detail::interval(mean, o.confidence);
     r.confidence = o.confidence;
     r.error_bar = mean.bar;
-    r.tail_index = outcome.seen[k].tail_index();
+    r.tail_index = outcome.seen[k].telling_index();
     r.infinite = outcome.seen[k].infinite;
     r.calls = run.calls;
     r.seconds = run.seconds();

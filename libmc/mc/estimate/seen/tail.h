@@ -3,6 +3,7 @@
 
 #include <mc/estimate/seen/magnitudes.h>
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,8 @@ class Tail {
   /// 10'000 in all. An index just above 2 cannot be told from 2: x^-.5 is found to have infinite variance, and
   /// sometimes so is a product of several x^-.4, whose tail looks lighter only very near 0.
   bool infinite_variance() const;
+  /// The biased exponent of the largest value.
+  int top() const { return top_; }
 
  private:
   struct Octave {
@@ -77,15 +80,22 @@ struct Seen {
     uniform.merge(other.uniform);
   }
   double tail_index() const { return tail.empty() ? Tail(values).index() : tail.index(); }
+  /// The index that makes the variance infinite, or that of the tail.
+  double telling_index() const {
+    const double own = tail_index();
+    return std::isfinite(own) || !infinite_variance() ? own : Tail(uniform).index();
+  }
   /// Two points so near that doubles cannot tell them apart may hold much of a singular integral. Where a density was
   /// learned the uniform points alone may show it, too: a density that follows f down to neighbouring doubles makes the
   /// end of these look like the end of a tail. They count from a thousand on, since to fewer a steep exponential looks
-  /// as heavy, and only where their index is well below 2, since they do not show it well.
+  /// as heavy, only where their index is well below 2, since they do not show it well, and only where values went on
+  /// growing under the density, by 16 at least: of a ridge that few uniform points meet they do not.
   bool infinite_variance() const {
     if (infinite > 0) return true;
     if (tail.empty() ? Tail(values).infinite_variance() : tail.infinite_variance()) return true;
+    if (uniform.count() < 1000 || tail.top() < uniform.top() + 4) return false;
     const Tail of_uniform(uniform);
-    return uniform.count() >= 1000 && of_uniform.infinite_variance() && of_uniform.index() < 1.5;
+    return of_uniform.infinite_variance() && of_uniform.index() < 1.5;
   }
 };
 } // namespace detail
