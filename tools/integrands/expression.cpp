@@ -101,6 +101,29 @@ void refuse_assignment(std::string_view expression) {
   }
 }
 
+// muParser takes "0.2 < x < 0.5" for (0.2 < x) < 0.5.
+void refuse_chain(std::string_view expression) {
+  std::vector<bool> compared(1); // within each parenthesis that is open, since the last word that joins
+  for (std::size_t at = 0; at < expression.size(); ++at) {
+    const std::string_view here = expression.substr(at);
+    const char c = here[0];
+    const auto is_word = [&](std::string_view word) {
+      return here.starts_with(word) && (at == 0 || !in_word(expression[at - 1])) &&
+             (here.size() == word.size() || !in_word(here[word.size()]));
+    };
+    const bool is_comparison = c == '<' || c == '>' || here.starts_with("==") || here.starts_with("!=");
+    if (c == '(') compared.push_back(false);
+    if (c == ')' && compared.size() > 1) compared.pop_back();
+    if (is_word("and") || is_word("or") || std::string_view("&|?:,").find(c) != std::string_view::npos)
+      compared.back() = false;
+    if (!is_comparison) continue;
+    mc::require(!compared.back(), "expression '{}', position {}: comparisons do not chain; write 0.2 < x and x < 0.5",
+                abridged(expression), at);
+    compared.back() = true;
+    at += here.size() > 1 && here[1] == '=' ? 1 : 0;
+  }
+}
+
 // A parser with its variables: muParser evaluates in place, so each thread needs its own.
 struct Instance {
   mu::Parser parser;
@@ -108,6 +131,7 @@ struct Instance {
 
   Instance(const std::string& expression, const std::vector<std::string>& names) : values(names.size()) {
     refuse_assignment(expression);
+    refuse_chain(expression);
     try {
       define_words(parser);
       for (std::size_t i = 0; i < names.size(); ++i) parser.DefineVar(names[i], &values[i]);

@@ -103,6 +103,11 @@ TEST(Expression, NamesWhatToWriteInstead) {
   EXPECT_EQ(message("x+"), "expression 'x+', position 2: Unexpected end of expression");
   EXPECT_EQ(message(""), "expression '': Expression is empty.");
   EXPECT_EQ(message("x<.5?1"), "expression 'x<.5?1': If-then-else operator is missing an else clause");
+  EXPECT_EQ(message("2*(0.2 < x <= 0.5)"),
+            "expression '2*(0.2 < x <= 0.5)', position 11: comparisons do not chain; write 0.2 < x and x < 0.5");
+  for (const char* e : {"0.2 < x and x < 0.5 or x == 2", "(x < 1) < x", "x < 1 ? x > 2 : x != 3", "x<1 && x<2 || x>=3",
+                        "if(x < 1, x > 2, x <= 3)"})
+    EXPECT_EQ(message(e), "accepted") << e;
   std::string sum = "x";
   while (sum.size() < 19'999) sum += "+x";
   EXPECT_EQ(message(sum), "accepted");
