@@ -16,7 +16,8 @@ Sphere::Sphere(const Vec3d& center, double radius, bool inside_out)
     : center_(center), radius_(radius), height_(2 * radius), inside_out_(inside_out),
       extent_(radius + center.lpNorm<Eigen::Infinity>()),
       outside2_(mc::sqr(radius + 4 * double(std::numeric_limits<Float>::epsilon()) * extent_)) {
-  mc::require(center.allFinite(), "sphere: centre ({}, {}, {}) is not finite", center.x(), center.y(), center.z());
+  mc::require(center.cast<Float>().allFinite(), "sphere: centre ({}, {}, {}) is not finite, or beyond what {} holds",
+              center.x(), center.y(), center.z(), sizeof(Float) == sizeof(float) ? "a float" : "a double");
   mc::require(std::isfinite(radius) && radius > 0, "sphere: radius {} must be finite and > 0", radius);
   mc::require(radius <= most_radius, "sphere: radius {} must be at most {}", radius, most_radius);
 }

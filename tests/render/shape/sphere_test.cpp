@@ -27,6 +27,7 @@ template <class S> double solid_angle(const S& shape, const Vec3& ref, int n = 5
 TEST(Sphere, RejectsBadNumbers) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(Sphere(Vec3d(nan, 0, 0), 1), mc::Error);
+  EXPECT_THROW(Sphere(Vec3d(10 * double(std::numeric_limits<Float>::max()), 0, 0), 1), mc::Error);
   for (const double radius : {0.0, -1.0, nan, mc::infinity<double>, 2 * double(std::numeric_limits<Float>::max())})
     EXPECT_THROW(Sphere(Vec3d::Zero(), radius), mc::Error) << radius;
   EXPECT_THROW(Sphere::cap(Vec3d::Zero(), 1, Vec3d::Zero(), 1), mc::Error);
@@ -176,6 +177,16 @@ TEST(Sphere, SeenFromItsOwnSurfaceIsSampledByArea) {
       const double distance = (s->point.p - ref).cast<double>().norm();
       EXPECT_NEAR(s->pdf, distance / (2 * mc::pi<double>), 1e-5 / distance) << i;
     }
+  }
+}
+
+// Their cone was refused in the middle of a picture.
+TEST(Sphere, TheSmallestFromAfarAreNoError) {
+  for (const double radius : {1e-17, 1e-18, 1e-19, 1e-30}) {
+    const auto s = Sphere(Vec3d::Zero(), radius).sample_direction(Vec3(0, 0, 5), {Float(0.3), Float(0.6)});
+    ASSERT_TRUE(s.has_value()) << radius;
+    EXPECT_NEAR(s->wi.z(), -1, 1e-6) << radius;
+    EXPECT_GE(s->pdf, Float(1e33)) << radius;
   }
 }
 
