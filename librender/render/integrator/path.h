@@ -63,9 +63,11 @@ template <class SceneType> class PathIntegrator {
 
     /// Through what it leaves in the direction d.
     Media media(const Vec3& d) const {
+      if (!surface.interior) [[likely]]
+        return before;
       const bool came_from_inside = this->frame.to_world(this->wo).dot(this->point.ng) < 0;
       const bool leaves_inside = d.dot(this->point.ng) < 0;
-      if (!surface.interior || came_from_inside == leaves_inside) return before;
+      if (came_from_inside == leaves_inside) return before;
       return leaves_inside ? Media{&*surface.interior, before.here} : Media{before.around, nullptr};
     }
   };
