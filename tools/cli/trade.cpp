@@ -313,7 +313,7 @@ int trade(const TradeOptions& o) {
   }
   if (errors.empty() && seconds.empty())
     for (const double share : {1e-2, 1e-3, 1e-4})
-      errors.push_back(share * (std::abs(m.truth) > 4 * m.truth_error ? std::abs(m.truth) : 1.0));
+      errors.push_back(share * (std::abs(m.truth) > 4 * m.truth_error ? std::abs(m.truth) : m.size));
 
   const auto in_turn = [&](const std::vector<Offer>& offers) {
     return taken_in_turn(target, m, offers, o.seed, interrupt.flag());

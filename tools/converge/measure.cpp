@@ -19,30 +19,53 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::uint64_t first_replicates = 64, most_replicates = 512, reference_replicates = 128;
+constexpr double rounding = 1e-12; // of sums, relative to what is summed
+
+// Numbers in units of 2^exponent, whose fourth powers neither overflow nor vanish.
+struct Scaled {
+  std::vector<double> values;
+  int exponent = 0;
+
+  explicit Scaled(const std::vector<double>& x) : exponent(mc::largest_exponent(x)) {
+    for (const double one : x) values.push_back(std::ldexp(one, -exponent));
+  }
+  double mean() const {
+    double sum = 0;
+    for (const double one : values) sum += one; // exact for whole numbers: N must not fall below where fits begin
+    return sum / static_cast<double>(values.size());
+  }
+  double squares() const { // of deviations from the mean
+    const double centre = mean();
+    double sum = 0;
+    for (const double one : values) sum += mc::sqr(one - centre);
+    return sum;
+  }
+};
 
 double mean_of(const std::vector<double>& x) {
-  double sum = 0;
-  for (const double one : x) sum += one; // exact for whole numbers: N must not fall below where fits begin
-  return sum / static_cast<double>(x.size());
+  const Scaled s(x);
+  return std::ldexp(s.mean(), s.exponent);
 }
 
 // Standard error of the mean.
 double error_of_mean(const std::vector<double>& x) {
-  const double mean = mean_of(x), n = static_cast<double>(x.size());
-  double sum = 0;
-  for (const double one : x) sum += mc::sqr(one - mean);
-  return std::sqrt(sum / (n - 1) / n);
+  const Scaled s(x);
+  const double n = static_cast<double>(x.size());
+  return std::ldexp(std::sqrt(s.squares() / (n - 1) / n), s.exponent);
 }
 
 // How many replicates make an RMS error known to 10 %: its relative variance is (kurtosis - 1) / (4 R). Where all agree
 // more may not: as many as there can be.
-double replicates_needed(const std::vector<double>& values, double centre) {
+double replicates_needed(std::vector<double> values, double centre) {
   if (error_of_mean(values) == 0) return double(most_replicates);
-  double squares = 0, fourths = 0;
   const double n = static_cast<double>(values.size());
-  for (const double x : values) {
-    squares += mc::sqr(x - centre) / n;
-    fourths += mc::sqr(mc::sqr(x - centre)) / n;
+  values.push_back(centre); // so that it is scaled alike
+  const Scaled s(values);
+  double squares = 0, fourths = 0;
+  for (std::size_t i = 0; i + 1 < s.values.size(); ++i) {
+    const double square = mc::sqr(s.values[i] - s.values.back());
+    squares += square / n;
+    fourths += mc::sqr(square) / n;
   }
   return squares > 0 ? (fourths / mc::sqr(squares) - 1) / (4 * 0.01) : 0;
 }
@@ -120,17 +143,17 @@ Curve run_curve(const Target& target, const Way& way, double seconds, const Meas
 
 // The error of the reference may stand on either side.
 void widen(mc::RmsError& e, double truth_error) {
-  const double most = mc::sqr(2 * truth_error);
-  e.lo = std::sqrt(std::max(0.0, mc::sqr(e.lo) - most));
-  e.hi = std::sqrt(mc::sqr(e.hi) + most);
+  const double most = 2 * truth_error;
+  e.lo = e.lo > most ? std::sqrt(e.lo - most) * std::sqrt(e.lo + most) : 0;
+  e.hi = std::hypot(e.hi, most);
 }
 
-void judge(Curve& curve, const Experiment& e, double truth, double truth_error) {
-  const double floor = 1e-12 * std::max(1.0, std::abs(truth));
+void judge(Curve& curve, const Experiment& e, const Measurement& m) {
+  const double floor = rounding * m.size;
   double worst = 0;
   for (const Replicates& r : curve.replicates) {
-    mc::RmsError error = mc::rms_error(mean_of(r.calls), r.values, truth);
-    if (truth_error > 0) widen(error, truth_error);
+    mc::RmsError error = mc::rms_error(mean_of(r.calls), r.values, m.truth);
+    if (m.truth_error > 0) widen(error, m.truth_error);
     error.seconds = median(r.seconds);
     worst = std::max(worst, error.rms);
     curve.errors.push_back(error);
@@ -152,6 +175,14 @@ void judge(Curve& curve, const Experiment& e, double truth, double truth_error) 
   if (fitted.size() < 3) return;
   curve.law = mc::fit_power_law(fitted, static_cast<std::uint32_t>(fewest));
   curve.middle = std::exp(logs / static_cast<double>(fitted.size()));
+}
+
+// The mean of |f| over a few points, which rounding is relative to: the integral itself may cancel.
+double size_of(const Target& target, const MeasureOptions& o) {
+  const Replicates r = target.run({&way("random"), 1, mc::hash(o.seed, 78), 0, first_replicates, o.threads, o.cancel});
+  std::vector<double> sizes;
+  for (const double x : r.values) sizes.push_back(std::abs(x));
+  return mean_of(sizes);
 }
 
 // The curve whose largest N has the smallest spread that is to be believed, of those that do not adapt. Replicates that
@@ -182,7 +213,8 @@ std::pair<double, double> reference(const Target& target, const std::vector<Curv
 }
 
 // Why the truth must be wrong; empty without a reason. A curve that was cut at small N is no witness.
-std::string doubt_of(const Experiment& e, const std::vector<Curve>& curves) {
+std::string doubt_of(const Experiment& e, const Measurement& m) {
+  const std::vector<Curve>& curves = m.curves;
   const Curve* best = nullptr;
   double value = 0, error = HUGE_VAL;
   int agree = 0, unbiased = 0;
@@ -191,7 +223,7 @@ std::string doubt_of(const Experiment& e, const std::vector<Curve>& curves) {
     const std::vector<double>& last = c.replicates.back().values;
     const double mean = mean_of(last), own = error_of_mean(last);
     ++unbiased;
-    if (!(std::abs(mean - e.truth) > 6 * own + 1e-12 * std::abs(e.truth))) continue;
+    if (!(std::abs(mean - e.truth) > 6 * own + rounding * m.size)) continue;
     if (!best || own < error) {
       best = &c;
       value = mean;
@@ -213,12 +245,10 @@ std::string doubt_of(const Experiment& e, const std::vector<Curve>& curves) {
 // Whether one replicate holds over half of the squared deviations from the mean, and more than one in a million sets of
 // normal ones does: s of R deviations has the law of t^2 / (R - 2 + t^2) (R - 1) / R, t of R - 2 degrees of freedom.
 bool is_one_wild(const std::vector<double>& values) {
-  const double mean = mean_of(values);
-  double largest = 0, sum = 0;
-  for (const double x : values) {
-    largest = std::max(largest, mc::sqr(x - mean));
-    sum += mc::sqr(x - mean);
-  }
+  const Scaled s(values);
+  const double mean = s.mean(), sum = s.squares();
+  double largest = 0;
+  for (const double x : s.values) largest = std::max(largest, mc::sqr(x - mean));
   const double n = static_cast<double>(values.size()), share = largest / sum * n / (n - 1);
   if (!(largest > sum / 2) || n < 4) return false;
   return share >= 1 || n * mc::student_tail(std::sqrt((n - 2) * share / (1 - share)), n - 2) < 1e-6;
@@ -257,6 +287,7 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
   if (!o.cancel) o.cancel = &never;
   Measurement m;
   const auto start = Clock::now();
+  m.size = size_of(target, o);
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const double gone = std::chrono::duration<double>(Clock::now() - start).count();
     const double share = o.seconds > 0 ? std::max(1e-3, o.seconds - gone) / static_cast<double>(ways.size() - i) : 0;
@@ -280,8 +311,9 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
               "{}: the integrand was 0 at every point; choose bounds around where it is not", target.integral.name);
   if (!known) std::tie(m.truth, m.truth_error) = reference(target, m.curves, o);
   m.interrupted = m.interrupted || *o.cancel;
-  for (Curve& c : m.curves) judge(c, target.integral, m.truth, m.truth_error);
-  m.doubt = known ? doubt_of(target.integral, m.curves) : doubt_of_reference(m.curves);
+  m.size = std::max(m.size, std::abs(m.truth));
+  for (Curve& c : m.curves) judge(c, target.integral, m);
+  m.doubt = known ? doubt_of(target.integral, m) : doubt_of_reference(m.curves);
   return m;
 }
 

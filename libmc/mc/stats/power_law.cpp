@@ -11,15 +11,26 @@
 
 namespace mc {
 
+int largest_exponent(std::span<const double> x) {
+  double largest = 0;
+  for (const double one : x) largest = std::max(largest, std::abs(one));
+  return largest > 0 ? std::ilogb(largest) : 0;
+}
+
 RmsError rms_error(double n, std::span<const double> estimates, double truth) {
   require(estimates.size() >= 2, "rms_error: {} estimates; at least 2 are needed", estimates.size());
   require(std::isfinite(truth), "rms_error: truth {} must be finite", truth);
   const double r = static_cast<double>(estimates.size());
-  double squares = 0, fourths = 0;
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
+  for (std::size_t i = 0; i < estimates.size(); ++i)
     require(std::isfinite(estimates[i]), "rms_error: estimates[{}] = {} is not finite", i, estimates[i]);
-    squares += sqr(estimates[i] - truth) / r;
-    fourths += sqr(sqr(estimates[i] - truth)) / r;
+  std::vector<double> all(estimates.begin(), estimates.end());
+  all.push_back(truth);
+  const int exponent = largest_exponent(all);
+  double squares = 0, fourths = 0;
+  for (const double x : estimates) {
+    const double off = std::ldexp(x, -exponent) - std::ldexp(truth, -exponent);
+    squares += sqr(off) / r;
+    fourths += sqr(sqr(off)) / r;
   }
   // The mean of r squares of kurtosis k has the relative variance (k - 1) / r, that of chi-square 2 / degrees.
   const double excess = squares > 0 ? fourths / sqr(squares) - 1 : 0;
@@ -27,9 +38,9 @@ RmsError rms_error(double n, std::span<const double> estimates, double truth) {
   const boost::math::chi_squared distribution(degrees);
   RmsError result;
   result.n = n;
-  result.rms = std::sqrt(squares);
-  result.lo = std::sqrt(squares * degrees / quantile(complement(distribution, 0.025)));
-  result.hi = std::sqrt(squares * degrees / quantile(distribution, 0.025));
+  result.rms = std::ldexp(std::sqrt(squares), exponent);
+  result.lo = std::ldexp(std::sqrt(squares * degrees / quantile(complement(distribution, 0.025))), exponent);
+  result.hi = std::ldexp(std::sqrt(squares * degrees / quantile(distribution, 0.025)), exponent);
   return result;
 }
 

@@ -15,9 +15,14 @@ struct RmsError {
   double seconds = 0;    ///< CPU seconds of one repetition, where the caller measures them
 };
 
+/// The binary exponent of the largest |x|, 0 where all are 0: of ldexp(x, -exponent) no square overflows, and none
+/// vanishes that matters beside the largest.
+int largest_exponent(std::span<const double> x);
+
 /// RMS error of `estimates` against `truth`.
 ///   interval : from the chi-square distribution, with R degrees of freedom, or fewer where the fourth moment of the
 ///              errors is that of a longer tail than the normal one
+///   scale    : of errors of any size, since they are squared in units of the largest number
 ///   throws   : Error for fewer than 2 estimates, or when one or the truth is not finite
 RmsError rms_error(double n, std::span<const double> estimates, double truth);
 

@@ -17,6 +17,21 @@ TEST(RmsError, OfKnownEstimates) {
   EXPECT_THROW(mc::rms_error(16, std::vector<double>{1}, 0), mc::Error);
 }
 
+// Squares of these overflow or vanish.
+TEST(RmsError, IsScaleFree) {
+  const std::vector<double> estimates = {1, 3, 1, 4};
+  const mc::RmsError one = mc::rms_error(16, estimates, 2);
+  for (const int exponent : {-1000, -600, -300, 300, 600, 1000}) {
+    std::vector<double> scaled;
+    for (const double x : estimates) scaled.push_back(std::ldexp(x, exponent));
+    const mc::RmsError e = mc::rms_error(16, scaled, std::ldexp(2, exponent));
+    EXPECT_EQ(e.rms, std::ldexp(one.rms, exponent)) << exponent;
+    EXPECT_EQ(e.lo, std::ldexp(one.lo, exponent)) << exponent;
+    EXPECT_EQ(e.hi, std::ldexp(one.hi, exponent)) << exponent;
+  }
+  EXPECT_EQ(mc::rms_error(16, std::vector<double>{0, 0}, 0).rms, 0);
+}
+
 // Errors that are 0 but for one in sixteen: of 128 of them 8 +- 2.7 are not, and the interval of normal errors holds
 // the truth only for 7 to 10. At 90 %, fewer than 340 hits of 400 have probability 1e-3.
 TEST(RmsError, IntervalHoldsTheErrorOfALongTail) {

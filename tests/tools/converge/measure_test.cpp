@@ -98,6 +98,47 @@ TEST(Measure, ConstantsAreExact) {
   EXPECT_FALSE(m.curves[0].law);
 }
 
+// The same digits in units of any size, whether the truth is known or not: nothing is exact but what rounds.
+TEST(Measure, UnitsChangeNothing) {
+  const auto list = ways({"random", "stratified", "sobol"});
+  for (const double truth : {0.5, std::numeric_limits<double>::quiet_NaN()}) {
+    const Measurement one = measure(here(ramp(truth)), list, {.max_n = 1024, .seed = 3});
+    for (const int exponent : {-1000, -400, -43, 300, 1000}) {
+      Experiment e = ramp(std::ldexp(truth, exponent));
+      e.f = [exponent](Experiment::Unit u) { return std::ldexp(u[0], exponent); };
+      const Measurement m = measure(here(e), list, {.max_n = 1024, .seed = 3});
+      EXPECT_EQ(m.truth, std::ldexp(one.truth, exponent));
+      EXPECT_EQ(m.truth_error, std::ldexp(one.truth_error, exponent));
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        EXPECT_FALSE(m.curves[i].exact) << exponent << list[i].name;
+        ASSERT_TRUE(m.curves[i].law) << exponent << list[i].name;
+        EXPECT_NEAR(m.curves[i].law->slope, one.curves[i].law->slope, 1e-9);
+        EXPECT_EQ(m.curves[i].errors.back().rms, std::ldexp(one.curves[i].errors.back().rms, exponent));
+        EXPECT_NEAR(std::ldexp(m.curves[i].errors.back().lo, -exponent), one.curves[i].errors.back().lo, 1e-14);
+      }
+    }
+  }
+}
+
+TEST(Measure, ASmallTruthThatIsWrongIsDoubted) {
+  const auto list = ways({"random", "stratified", "sobol"});
+  Experiment e = ramp(2.5e-13);
+  e.f = [](Experiment::Unit u) { return 1e-13 * u[0]; };
+  EXPECT_NE(measure(here(e), list, {.max_n = 1024}).doubt, "");
+  e.truth = 0;
+  EXPECT_NE(measure(here(e), list, {.max_n = 1024}).doubt, "");
+}
+
+// What cancels at every N is exact by the size of what is summed, not by that of the sum.
+TEST(Measure, WhatCancelsIsExactToRounding) {
+  const auto list = ways({"lattice"});
+  for (const double scale : {1e-200, 1.0, 1e200}) {
+    Experiment e = ramp(0);
+    e.f = [scale](Experiment::Unit u) { return scale * std::sin(2 * 3.141592653589793 * u[0]); };
+    EXPECT_TRUE(measure(here(e), list, {.max_n = 256}).curves[0].exact) << scale;
+  }
+}
+
 // The twelfth step is the fifth of the second curve, behind seven of the first: N = 16 to 256.
 TEST(Measure, AnInterruptCostsOnlyTheNThatItFallsOn) {
   const auto list = ways({"random", "stratified", "sobol"});
