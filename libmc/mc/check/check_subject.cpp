@@ -233,8 +233,10 @@ void append(std::vector<Check>& all, std::vector<Check> more) {
 // Samples through the subject's own inverse.
 std::vector<Check> judge_inverse(const Subject& s, std::uint64_t seed, std::uint64_t samples, double alpha) {
   if (!s.inverted) return {};
-  const std::vector<Subject::Coordinates> inverted = s.inverted(seed, std::min(samples, most_inverted));
+  const std::uint64_t n = std::min(samples, most_inverted);
+  const std::vector<Subject::Coordinates> inverted = s.inverted(seed, n);
   if (inverted.empty()) return {};
+  if (auto lost = find_lost(s, seed, n, inverted)) return {*lost};
   std::vector<Check> checks;
   if (auto c = test_uniformity(inverted, s.dim, s.invert_error, alpha, alpha_share(FitTest::inverse, s.dim)))
     checks.push_back(std::move(*c));

@@ -55,7 +55,7 @@ struct Subject {
   double weight_tolerance = 1e-4; ///< largest |weight - 1|, beyond what the density changes as the point is rounded
 
   /// The points of the unit cube that n draws of the stream `seed` come from, as the sampler's own inverse says of each
-  /// that gives a point of the domain; may be empty.
+  /// that gives a point of the domain, NaN where it finds none; may be empty.
   std::function<std::vector<Coordinates>(std::uint64_t seed, std::size_t n)> inverted;
   double invert_error = 0; ///< bound on the error of its coordinates
 

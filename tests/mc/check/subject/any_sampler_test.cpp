@@ -57,6 +57,31 @@ TEST(AnySampler, APointAndALobeAtOnce) {
   EXPECT_EQ(check_subject(make_subject(s), {.samples = 50'000}).verdict(), mc::Verdict::fail);
 }
 
+// Wherever it is, and however rare: of some outcomes too, beside which the draw of the witness is counted.
+TEST(AnySampler, AnInverseThatIsNotFiniteFails) {
+  for (const double lost : {1e-2, 2e-4}) {
+    AnySampler s = unit();
+    s.atoms = {0.25};
+    s.sample = [](const AnySampler::Uniforms& u) {
+      AnySampler::Drawn d;
+      if (u[0] < 0.25) d.atom = 0;
+      else d.x[0] = (u[0] - 0.25) / 0.75;
+      return std::optional(d);
+    };
+    s.pdf = [](const Numbers&) { return 0.75; };
+    s.invert_tolerance = 1e-12;
+    for (const bool fails : {false, true}) {
+      s.invert = [=](const Numbers& x) -> std::optional<AnySampler::Uniforms> {
+        if (x[0] < 1 - lost) return AnySampler::Uniforms{0.25 + 0.75 * x[0]};
+        return fails ? std::nullopt : std::optional(AnySampler::Uniforms{NAN});
+      };
+      const mc::Report r = check_subject(make_subject(s), {.samples = 50'000});
+      EXPECT_EQ(r.fault(), mc::Fault::inverse) << r.to_string();
+      EXPECT_THAT(r.to_string(), testing::ContainsRegex("; first at u = 0.99[0-9]+, x = 0.99")) << r.to_string();
+    }
+  }
+}
+
 // The typed way of a warp and the one step by step: the same draws, bit for bit, with those that fail, lie outside or
 // are not finite among them.
 TEST(AnySampler, DrawsAreWhatSampleAndPdfSay) {

@@ -11,6 +11,27 @@
 
 namespace mc {
 
+std::optional<Check> find_lost(const Subject& s, std::uint64_t seed, std::size_t n,
+                               const std::vector<Subject::Coordinates>& inverted) {
+  const auto is_lost = [](const Subject::Coordinates& u) {
+    return !std::all_of(u.begin(), u.end(), [](double x) { return std::isfinite(x); });
+  };
+  const auto first = std::find_if(inverted.begin(), inverted.end(), is_lost);
+  if (first == inverted.end()) return {};
+  const auto count = std::count_if(first, inverted.end(), is_lost);
+  Check c{"invert is finite", Verdict::fail, {}, 0, static_cast<double>(count), 0, Fault::inverse, {}};
+  c.detail = fmt::format("invert fails or is not finite at {} of {} samples", count, inverted.size());
+  if (!s.describe_draw) return c;
+  // Only draws that gave a point were inverted.
+  std::vector<Subject::Draw> draws;
+  s.draw(seed, n, draws);
+  std::uint64_t index = 0;
+  for (auto left = first - inverted.begin(); index < draws.size(); ++index)
+    if (draws[index].kind == Subject::Draw::Kind::point && left-- == 0) break;
+  if (index < draws.size()) c.detail += "; first at " + s.describe_draw(seed, index);
+  return c;
+}
+
 std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& points, int dim, double error,
                                      double alpha, double share) {
   const double n = static_cast<double>(points.size()), root = std::sqrt(n);
