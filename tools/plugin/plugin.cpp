@@ -91,7 +91,8 @@ template <class T>
 std::vector<T> table(const char* what, const T* first, std::size_t count, std::size_t size, std::size_t expected) {
   mc::require(size == expected, "its mc_{} has {} bytes, that of its version of <mc/check/plugin.h> {}", what, size,
               expected);
-  mc::require(count <= 1000 && (count == 0 || first), "it lists {} {}s; at most 1000 are possible", count, what);
+  mc::require(count <= 1000, "it lists {} {}s; at most 1000 are possible", count, what);
+  mc::require(count == 0 || first, "{}_count = {}, but {}s is NULL", what, count, what);
   std::vector<T> all = grown(first, count, size);
   for (std::size_t i = 0; i < count; ++i) require_sound(all[i], i);
   return all;
