@@ -15,7 +15,8 @@ namespace {
 nlohmann::json run_task(const nlohmann::json& request, Watch& watch) {
   const std::string task = request["task"];
   if (task == "command") return run_command_task(request, watch);
-  if (task == "integrand" || task == "describe integrands") return run_integrand_task(request, watch);
+  if (task == "integrand" || task == "describe integrands" || task == "check integrand")
+    return run_integrand_task(request, watch);
   return run_plugin_task(request, watch);
 }
 

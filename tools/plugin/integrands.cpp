@@ -3,14 +3,17 @@
 
 #include <mc/core/error.h>
 #include <mc/core/text.h>
+#include <mc/random/uniform.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 namespace carlo {
 
@@ -69,6 +72,74 @@ Experiment experiment_of(const mc_integrand& f, Watch& watch) {
   return e;
 }
 
+// Points for a look at an integrand before it is measured, and what it says of them one by one.
+struct Looked {
+  std::vector<double> u, values; ///< the points one after another
+};
+
+// Fewer where it is slow: what is slow is measured under the worker's limits.
+Looked look_at(const Experiment& e) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::size_t most = 22 * 23 / 2; // batches of 1 to 22 points
+  const auto dim = static_cast<std::size_t>(e.dim);
+  const auto end = Clock::now() + std::chrono::milliseconds(100);
+  Looked all;
+  while (all.values.size() < most && (all.values.empty() || Clock::now() < end)) {
+    for (std::size_t k = 0; k < dim; ++k) all.u.push_back(mc::hash_uniform<double>(79, all.values.size(), k));
+    all.values.push_back(e.f(std::span(all.u).last(dim)));
+  }
+  return all;
+}
+
+/// Holds what an integrand says of the points again against what it said first.
+class Repeated {
+ public:
+  Repeated(const Experiment& e, double volume, const Looked& looked)
+      : e_(e), looked_(looked), dim_(static_cast<std::size_t>(e.dim)), volume_(volume) {
+    for (const double value : looked.values)
+      if (std::isfinite(value)) size_ = std::max(size_, std::abs(value));
+  }
+
+  Experiment::Unit points(std::size_t first, std::size_t count) const {
+    return std::span(looked_.u).subspan(first * dim_, count * dim_);
+  }
+  // Rounding may differ, as where a loop is vectorised. What is not finite at both is named where it is measured.
+  void hold(std::size_t i, double again, const std::string& says, const std::string& remedy) const {
+    constexpr double tolerance = 1.5e-8; // the square root of an epsilon
+    const double first = looked_.values[i];
+    const bool same = first == again || std::abs(again - first) <= tolerance * size_;
+    mc::require(same || (std::isnan(first) && std::isnan(again)), "{}: at {} eval says {:.17g} {} {:.17g}; {}", e_.name,
+                e_.place(points(i, 1)), first / volume_, says, again / volume_, remedy);
+  }
+
+ private:
+  const Experiment& e_;
+  const Looked& looked_;
+  std::size_t dim_;
+  double volume_, size_ = 0;
+};
+
+// Throws Error for an integrand that is no function of x alone, or whose eval_many is not its eval.
+void require_a_function(const Experiment& e, double volume) {
+  const Looked looked = look_at(e);
+  const Repeated repeated(e, volume, looked);
+  const std::size_t count = looked.values.size();
+  for (std::size_t i = count; i-- > 0;)
+    repeated.hold(i, e.f(repeated.points(i, 1)), "and then", "it must depend on x alone, on nothing before");
+  if (!e.many) return;
+  const auto hold_batch = [&](std::size_t first, std::size_t size) {
+    std::vector<double> values(size, std::numeric_limits<double>::quiet_NaN()); // which stays where none is written
+    e.many(repeated.points(first, size), values);
+    for (std::size_t i = 0; i < size; ++i)
+      repeated.hold(first + i, values[i], fmt::format("and eval_many, as point {} of {},", i, size),
+                    "values[i] must be eval(x + i dim) (nan: perhaps not written); mend eval_many, or leave it out");
+  };
+  hold_batch(0, count);
+  // Of every small size, for the remainders of loops over several points.
+  for (std::size_t first = 0, size = 1; first < count; first += size++)
+    hold_batch(first, std::min(size, count - first));
+}
+
 json describe(const std::vector<mc_integrand>& integrands) {
   json all = json::array();
   for (const mc_integrand& f : integrands)
@@ -80,10 +151,13 @@ json describe(const std::vector<mc_integrand>& integrands) {
   return all;
 }
 
-Replicates run(const std::string& path, std::size_t index, const Task& task, WorkerOptions worker) {
+// `is_checked` is whether the integrand was found to be a function, which is asked once.
+Replicates run(const std::string& path, std::size_t index, const Task& task, WorkerOptions worker, bool& is_checked) {
   worker.cancel = task.cancel;
   json r;
   try {
+    if (!is_checked) call_worker({{"task", "check integrand"}, {"who", path}, {"index", index}}, worker);
+    is_checked = true;
     r = call_worker({{"task", "integrand"},
                      {"who", path},
                      {"index", index},
@@ -107,7 +181,12 @@ Replicates run(const std::string& path, std::size_t index, const Task& task, Wor
 json run_integrand_task(const json& request, Watch& watch) {
   const Plugin plugin = load_plugin(request["who"], watch);
   if (request["task"] == "describe integrands") return describe(plugin.integrands);
-  const Experiment e = experiment_of(plugin.integrands[request["index"].get<std::size_t>()], watch);
+  const mc_integrand& f = plugin.integrands[request["index"].get<std::size_t>()];
+  const Experiment e = experiment_of(f, watch);
+  if (request["task"] == "check integrand") {
+    require_a_function(e, Bounds(f).volume());
+    return {};
+  }
   Task task;
   const std::string file = request["file"];
   Way chosen = file.empty() ? way(request["way"]) : way_of_points(file);
@@ -143,7 +222,9 @@ std::vector<Target> plugin_targets(const std::string& path, const std::vector<st
     t.integral.truth = one["truth"].is_null() ? std::numeric_limits<double>::quiet_NaN() : one["truth"].get<double>();
     t.integral.fit_from = 0;
     t.has_batch = one["batch"];
-    t.run = [path, index, worker](const Task& task) { return run(path, index, task, worker); };
+    t.run = [path, index, worker, is_checked = std::make_shared<bool>(false)](const Task& task) {
+      return run(path, index, task, worker, *is_checked);
+    };
     targets.push_back(std::move(t));
   }
   return targets;

@@ -13,7 +13,8 @@ namespace carlo {
 /// The integrands of the shared object, those named or all. Their replicates run like plugins' samplers, a task at a
 /// time, under the worker's limits.
 ///   throws : Error for a plugin that load_plugin refuses or that misbehaves, one without integrands, or an unknown
-///            name; when it runs, Error that says where it crashed, threw or hung
+///            name; when it runs, Error that says where it crashed, threw or hung, or where a few hundred points before
+///            the first replicates show that it is no function of x alone, or that its eval_many is not its eval
 std::vector<Target> plugin_targets(const std::string& path, const std::vector<std::string>& names,
                                    const WorkerOptions& worker);
 

@@ -8,6 +8,16 @@ static void sums(int64_t count, const double* x, double* values) {
   int64_t i;
   for (i = 0; i < count; ++i) values[i] = x[2 * i] + x[2 * i + 1];
 }
+static void sums_of_pairs(int64_t count, const double* x, double* values) { /* but not of the last, where it is odd */
+  int64_t i;
+  for (i = 0; i + 1 < count; i += 2) sums(2, x + 2 * i, values + i);
+}
+static double remembers(const double* x) {
+  static double before;
+  const double value = x[0] + 1e-3 * before;
+  before = x[0];
+  return value;
+}
 static double crash(const double* x) {
   volatile int* nowhere = 0;
   if (x[0] > 0.5) *nowhere = 1;
@@ -31,6 +41,8 @@ static const mc_integrand integrands[] = {
     {.name = "Sum", .title = "x + y over a box", .dim = 2, .has_truth = 1, .truth = 3, .lo = lo, .hi = hi, .eval = sum},
     {.name = "Batch", .dim = 2, .has_truth = 1, .truth = 3, .lo = lo, .hi = hi, .eval = sum, .eval_many = sums},
     {.name = "WrongTruth", .dim = 2, .has_truth = 1, .truth = 1.01, .eval = sum},
+    {.name = "Pairs", .dim = 2, .lo = lo, .hi = hi, .eval = sum, .eval_many = sums_of_pairs},
+    {.name = "Remembers", .dim = 1, .eval = remembers},
     {.name = "Crash", .dim = 1, .eval = crash},
     {.name = "NaN", .dim = 1, .eval = not_a_number},
     {.name = "Hang", .dim = 1, .eval = hang},
