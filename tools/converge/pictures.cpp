@@ -13,6 +13,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 namespace carlo {
 
@@ -20,7 +21,9 @@ namespace {
 
 using ::render::Image;
 
-constexpr double dark = 0.01;                         ///< as carlo compare's relmse
+constexpr double dark = 0.01; ///< as carlo compare's relmse
+/// Roots of relmse below this are rounding of pixels, not noise.
+constexpr double rounding_of_pixels = 8 * std::numeric_limits<::render::Float>::epsilon();
 constexpr int first_pictures = 8, most_pictures = 64; ///< behind each error, where their number is not given
 
 double relmse(const Image& image, const Image& truth) {
@@ -247,7 +250,7 @@ class Session {
     double smallest = mc::infinity<double>;
     for (const Series& s : level)
       for (const double x : s.replicates.values)
-        if (x > 0) smallest = std::min(smallest, mc::sqr(x));
+        if (x > rounding_of_pixels) smallest = std::min(smallest, mc::sqr(x));
     const PictureWay best{.max_depth = file_.defaults.max_depth, .spending = Spending::adaptive};
     const double goal = smallest / 100;
     while (reference_.spp == 0 || reference_.noise > goal) {
