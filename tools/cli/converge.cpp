@@ -65,7 +65,7 @@ bool write(const Target& target, const Measurement& m, const ConvergeOptions& o,
   mc::write_file(base + ".gp", to_script(target, m, name));
   fmt::print("{}", summary(target, m));
   std::fflush(stdout);
-  const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const Curve& c) { return !c.exact; });
+  const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.is_drawn(); });
   if (!can_draw || !anything) {
     remove_plot(folder, name);
     return can_draw;

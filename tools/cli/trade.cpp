@@ -54,12 +54,18 @@ std::string text_of(const Ranged& r, std::string_view unit) {
   return fmt::format("{:.3g}{} [{:.3g}, {:.3g}]", r.value, unit, r.lo, r.hi);
 }
 
+// Of an error of a way that ended before the time did, only what it is not above.
+std::string figure_of(const Offer& o, Ranged Offer::*by, std::string_view unit) {
+  if (o.ended && by == &Offer::error) return fmt::format("at most {:.3g}", o.error.hi);
+  return text_of(o.*by, unit);
+}
+
 // "  as good: a, b" of those that cannot be told from the first.
 void print_ties(const std::vector<Offer>& offers, Ranged Offer::*by, std::string_view unit) {
   const std::size_t count = as_good(offers, by);
   for (std::size_t i = 1; i < count; ++i)
     fmt::print("{}{} {}", i == 1 ? "      not told from it: " : ", ", label(*offers[i].curve),
-               text_of(offers[i].*by, unit));
+               figure_of(offers[i], by, unit));
   if (count > 1) fmt::print("\n");
 }
 
@@ -68,8 +74,8 @@ void print_nearest(const ForError& f) {
   constexpr std::size_t most = 4;
   fmt::print("  error {:g}: no way came there", f.wanted);
   for (std::size_t i = 0; i < std::min(f.nearest.size(), most); ++i)
-    fmt::print("{} {} {:.3g} at N = {:.0f}", i == 0 ? "; nearest:" : ",", label(*f.nearest[i].curve),
-               f.nearest[i].error.value, f.nearest[i].n);
+    fmt::print("{} {} {}{:.3g} at N = {:.0f}", i == 0 ? "; nearest:" : ",", label(*f.nearest[i].curve),
+               f.nearest[i].curve->errors.back().is_bound ? "at most " : "", f.nearest[i].error.value, f.nearest[i].n);
   if (f.nearest.size() > most) fmt::print("; all {} are in trade.csv", f.nearest.size());
   fmt::print("; raise --max-n, of a scene --max-spp\n");
 }
@@ -91,20 +97,30 @@ void print(const ForSeconds& f, const Cost& cost) {
   }
   const Offer& best = f.offers.front();
   fmt::print("  {:g}{}: {} with an error of {}, N about {:.0f}", f.wanted, cost.unit, label(*best.curve),
-             text_of(best.error, ""), best.n);
-  if (f.gain) fmt::print("; {} times smaller than plain Monte Carlo's", text_of(*f.gain, ""));
+             figure_of(best, &Offer::error, ""), best.n);
+  if (best.ended) fmt::print(", its largest, in {:.3g}{}", best.seconds.value, cost.unit);
+  if (f.gain && best.ended) fmt::print("; at least {:.3g} times smaller than plain Monte Carlo's", f.gain->lo);
+  else if (f.gain) fmt::print("; {} times smaller than plain Monte Carlo's", text_of(*f.gain, ""));
   fmt::print("\n");
   print_ties(f.offers, &Offer::error, "");
+  const auto ended = std::count_if(f.offers.begin(), f.offers.end(), [](const Offer& o) { return o.ended; });
+  if (ended > 0)
+    fmt::print(
+        "      {} of {} ways ended before {:g}{}, at their largest N, and may err less; raise --max-n, of a scene "
+        "--max-spp\n",
+        ended, f.offers.size(), f.wanted, cost.unit);
 }
 
 ordered_json to_json(const Ranged& r) { return {{"value", r.value}, {"lo", r.lo}, {"hi", r.hi}}; }
 ordered_json to_json(const std::vector<Offer>& offers, const Cost& cost) {
   ordered_json all = ordered_json::array();
-  for (const Offer& o : offers)
+  for (const Offer& o : offers) {
     all.push_back({{"way", label(*o.curve)},
                    {"n", o.n},
                    {std::string(cost.column), to_json(o.seconds)},
                    {"rms_error", to_json(o.error)}});
+    if (o.ended) all.back()["ended"] = true;
+  }
   return all;
 }
 template <class For> ordered_json to_json(const For& f, Ranged Offer::*by, const Cost& cost) {
@@ -233,6 +249,7 @@ int tell(const TradeOptions& o, const Measured& one, const Folders& folders) {
   const Measurement& m = *one.measurement;
   const Answers& a = *one.answers;
   const bool exact = std::all_of(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.exact; });
+  const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.is_drawn(); });
   for (const ForError& f : a.errors) print(f, m.cost);
   for (const ForSeconds& f : a.seconds) print(f, m.cost);
   if (exact) fmt::print("  every way is exact to rounding: there is no error to plot\n");
@@ -242,7 +259,7 @@ int tell(const TradeOptions& o, const Measured& one, const Folders& folders) {
   mc::write_file((folder / "front.csv").string(), csv(a.front, m.cost));
   mc::write_file((folder / "trade.json").string(), to_json(o, one).dump(1) + "\n");
   mc::write_file((folder / "trade.gp").string(), script(one.target->integral.title, m));
-  if (exact) remove_plot(folder, "trade");
+  if (!anything) remove_plot(folder, "trade");
   else if (!draw_plot(folder, "trade", {"trade.csv", "front.csv"}))
     std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
   fmt::print("data and plots: {}\n", folder.string());

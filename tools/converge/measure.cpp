@@ -141,11 +141,13 @@ Curve run_curve(const Target& target, const Way& way, double seconds, const Meas
   return curve;
 }
 
-// The error of the reference may stand on either side.
+// The error of the reference may stand on either side, and where it may be all of an error nothing else is known of it.
 void widen(mc::RmsError& e, double truth_error) {
   const double most = 2 * truth_error;
   e.lo = e.lo > most ? std::sqrt(e.lo - most) * std::sqrt(e.lo + most) : 0;
   e.hi = std::hypot(e.hi, most);
+  e.is_bound = e.lo == 0;
+  if (e.is_bound) e.rms = e.hi;
 }
 
 void judge(Curve& curve, const Experiment& e, const Measurement& m) {
@@ -167,7 +169,7 @@ void judge(Curve& curve, const Experiment& e, const Measurement& m) {
   double logs = 0;
   for (std::size_t i = 0; i < curve.errors.size(); ++i) {
     const mc::RmsError& one = curve.errors[i];
-    if (one.rms <= floor || (e.fit_from > 0 ? one.n < e.fit_from : i < half)) continue;
+    if (one.is_bound || one.rms <= floor || (e.fit_from > 0 ? one.n < e.fit_from : i < half)) continue;
     fitted.push_back(one);
     fewest = std::min(fewest, curve.replicates[i].values.size());
     logs += std::log(one.n);
@@ -278,6 +280,11 @@ bool all_zero(const std::vector<Curve>& curves) {
 }
 
 } // namespace
+
+bool Curve::is_drawn() const {
+  const auto is_known = [](const mc::RmsError& e) { return e.rms > 0 && !e.is_bound; };
+  return !exact && std::any_of(errors.begin(), errors.end(), is_known);
+}
 
 bool Curve::agrees() const { return law && theory && theory->allows(law->lo, law->hi, middle); }
 

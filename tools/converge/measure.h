@@ -37,6 +37,8 @@ struct Curve {
   std::optional<Rate> theory;
   double middle = 0; ///< geometric mean of the N of the law
 
+  /// Whether there is an error to draw: above 0, and not a bound.
+  bool is_drawn() const;
   /// Whether the interval of the slope allows what theory says about these N.
   bool agrees() const;
 };
@@ -63,7 +65,8 @@ struct Measurement {
 /// Every way on N = 16, 32, ... max_n, from the fewest that the way works with.
 ///   truth  : where the integral has none, the mean of 128 more replicates of the way with the smallest error at its
 ///            largest N: its standard error is under a tenth of the smallest error shown, and widens every interval;
-///            when interrupted, the mean of those it has
+///            when interrupted, the mean of those it has; an error that is not told from its own is a bound, and in no
+///            slope
 ///   doubt  : unbiased ways whose means agree with each other and not with the stated truth, by six standard errors;
 ///            where none is stated, a quarter of all sets of replicates, at the larger N, in which one replicate holds
 ///            over half of the variance

@@ -20,6 +20,7 @@ std::string color(std::size_t i) {
 
 std::string slope_text(const Curve& c) {
   if (c.exact) return "exact to rounding";
+  if (c.errors.back().is_bound && !c.law) return "not told from the error of what it is measured from";
   if (!c.law) return "too few N for a slope";
   std::string text = fmt::format("slope {:+.3f} [{:+.3f}, {:+.3f}]", c.law->slope, c.law->lo, c.law->hi);
   if (!c.theory) return text;
@@ -34,8 +35,9 @@ std::string summary(const Target& target, const Measurement& m) {
   std::size_t width = 11;
   for (const Curve& c : m.curves) width = std::max(width, c.way->name.size());
   for (const Curve& c : m.curves)
-    text += fmt::format("  {:<{}} RMS error {:.3g} at N = {:.0f}, {}{}\n", c.way->name, width, c.errors.back().rms,
-                        c.errors.back().n, slope_text(c), c.cut ? "; interrupted" : "");
+    text += fmt::format("  {:<{}} RMS error {}{:.3g} at N = {:.0f}, {}{}\n", c.way->name, width,
+                        c.errors.back().is_bound ? "at most " : "", c.errors.back().rms, c.errors.back().n,
+                        slope_text(c), c.cut ? "; interrupted" : "");
   if (m.truth_error > 0)
     text += fmt::format("  truth unknown; errors are from {:.12g} +- {:.2g}{}\n", m.truth, m.truth_error,
                         m.interrupted ? "" : ", by replicates of their own");
@@ -89,8 +91,8 @@ std::string to_csv(const Target& target, const Measurement& m) {
   const std::string name = field(target.integral.name);
   for (const Curve& c : m.curves)
     for (const mc::RmsError& p : c.errors)
-      text += fmt::format("{},{},{:.0f},{:.9g},{:.9g},{:.9g},{:.6g}\n", name, field(c.way->name), p.n, p.rms, p.lo,
-                          p.hi, p.seconds);
+      text += fmt::format("{},{},{:.0f},{},{:.9g},{:.9g},{:.6g}\n", name, field(c.way->name), p.n,
+                          p.is_bound ? "" : fmt::format("{:.9g}", p.rms), p.lo, p.hi, p.seconds);
   return text;
 }
 
@@ -101,7 +103,7 @@ ordered_json to_json(const Curve& c, const Cost& cost) {
   for (std::size_t i = 0; i < c.errors.size(); ++i) {
     const mc::RmsError& p = c.errors[i];
     points.push_back({{"n", p.n},
-                      {"rms_error", p.rms},
+                      {"rms_error", p.is_bound ? ordered_json() : ordered_json(p.rms)},
                       {"rms_lo", p.lo},
                       {"rms_hi", p.hi},
                       {std::string(cost.column), p.seconds},
@@ -160,7 +162,7 @@ std::string curve_lines(const Measurement& m, const std::string& name, const cha
   std::string plot = "plot ";
   for (std::size_t i = 0; i < m.curves.size(); ++i) {
     const Curve& c = m.curves[i];
-    if (c.exact) continue;
+    if (!c.is_drawn()) continue;
     const std::string pick = fmt::format("(strcol(2) eq \"{}\" ? ${} : NaN)", gnuplot_text(c.way->name), column);
     std::string label = with_slopes && c.law ? fmt::format("{}: N^{{{:.2f} ± {:.2f}}}", c.way->name, c.law->slope,
                                                            (c.law->hi - c.law->lo) / 2)
@@ -170,7 +172,7 @@ std::string curve_lines(const Measurement& m, const std::string& name, const cha
                         "notitle, \\\n     \"{0}.csv\" skip 1 using {1}:4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "
                         "\"{2}\" title \"{3}\", \\\n     ",
                         name, pick, color(i), gnuplot_text(label));
-    if (with_slopes && c.theory)
+    if (with_slopes && c.theory && !c.errors.back().is_bound)
       plot += fmt::format("{0:.6g} * x**({1:.6g}) with lines dt 3 lw 1 lc rgb \"{2}\" notitle, \\\n     ",
                           c.errors.back().rms * std::pow(c.errors.back().n, c.theory->exponent), -c.theory->exponent,
                           color(i));

@@ -22,6 +22,7 @@ std::size_t finished(const Measurement& m);
 /// "interrupted: 2 of 23 ways were finished, one more up to N = 4096", the last being what was measured last.
 std::string interrupted_text(std::size_t done, std::size_t wanted, std::string_view what, const Measurement& last);
 
+/// A row for each error; that of a bound is empty between 0 and the bound.
 std::string to_csv(const Target& target, const Measurement& m);
 
 /// A row for each curve: its slope beside theory. The first line names the columns.

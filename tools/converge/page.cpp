@@ -81,7 +81,9 @@ std::string curve_table(const Measured& one) {
   for (std::size_t i = 0; i < m.curves.size(); ++i) {
     const Curve& c = m.curves[i];
     const mc::RmsError& last = c.errors.back();
-    std::vector<std::string> row = {named(c, m), fmt::format("{:.0f}", last.n), ranged(last.rms, last.lo, last.hi),
+    std::vector<std::string> row = {named(c, m), fmt::format("{:.0f}", last.n),
+                                    last.is_bound ? fmt::format("&le; {:.3g}", last.hi)
+                                                  : ranged(last.rms, last.lo, last.hi),
                                     fmt::format("{:.3g}", last.seconds)};
     for (std::string& cell : theory_cells(c)) row.push_back(std::move(cell));
     if (one.pictures)
@@ -107,7 +109,8 @@ class Choices {
   void add(const std::string& wanted, const std::vector<Offer>& offers, Ranged Offer::*by,
            const std::optional<Ranged>& gain) {
     const Offer& o = offers.front();
-    std::vector<std::string> row = {wanted, named(*o.curve, m_), ranged(o.*by), fmt::format("{:.3g}", o.n)};
+    std::vector<std::string> row = {wanted, named(*o.curve, m_), ranged(o.*by),
+                                    fmt::format("{:.3g}{}", o.n, o.ended ? ", the largest" : "")};
     if (has_gain_) row.push_back(gain ? ranged(*gain) + " &times;" : "-");
     row.push_back(ties(offers, by));
     rows_ += cells(row);

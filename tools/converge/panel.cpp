@@ -76,7 +76,7 @@ class Panel {
   std::vector<const mc::RmsError*> drawn(const Curve& c) const {
     std::vector<const mc::RmsError*> all;
     for (const mc::RmsError& e : c.errors)
-      if (!c.exact && e.rms > 0 && against_.x(e) > 0) all.push_back(&e);
+      if (!c.exact && !e.is_bound && e.rms > 0 && against_.x(e) > 0) all.push_back(&e);
     return all;
   }
   double px(double x) const { return left + (width - left - right) * x_.at(x); }

@@ -104,6 +104,38 @@ class TiesWithFirst {
   double wider_ = 1, most_ = 0;
 };
 
+// At the N that a time is enough for, as far as it was measured.
+Offer offer_within(const Curve& c, const Ranged& range, const SecondsOfOne& seconds_of_one) {
+  Offer offer = offer_at(c, range, seconds_of_one);
+  // Fewer evaluations where they take longer than their median.
+  const double most = c.errors.back().n;
+  offer.error.lo = std::min(offer.error.lo, error_at(c.errors, &mc::RmsError::lo, std::min(range.hi, most)));
+  offer.error.hi = std::max(offer.error.hi, error_at(c.errors, &mc::RmsError::hi, range.lo));
+  return offer;
+}
+
+// A time is enough for more than was measured: plain Monte Carlo by its law, another at its largest N.
+Offer offer_beyond(const Measurement& m, const Curve& c, const Ranged& range, const Ranged& one) {
+  const mc::RmsError& last = c.errors.back();
+  const auto fallen = [&](double error, double n, double slope) {
+    return n > last.n ? error * std::pow(n / last.n, slope) : error;
+  };
+  if (&c == plain(m)) {
+    const double seconds = range.value * one.value;
+    return {&c,
+            range.value,
+            {seconds, seconds, seconds},
+            {fallen(last.rms, range.value, -0.5), fallen(last.lo, range.hi, -0.5), fallen(last.hi, range.lo, -0.5)}};
+  }
+  const double steepest = std::min(c.law ? c.law->lo : -1, -0.5);
+  const double rounded = std::min(last.lo, 1e-16 * m.size); // below which nothing falls
+  return {&c,
+          last.n,
+          {last.n * one.value, last.n * one.lo, last.n * one.hi},
+          {last.rms, std::max(fallen(last.lo, range.hi, steepest), rounded), last.hi},
+          !c.exact && last.rms > 0};
+}
+
 // The best first, then what ties with it, then the others.
 void rank(std::vector<Offer>& offers, Ranged Offer::*by) {
   std::sort(offers.begin(), offers.end(),
@@ -190,18 +222,14 @@ ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne
 ForSeconds offers_for_seconds(const Measurement& m, double seconds, const SecondsOfOne& seconds_of_one) {
   ForSeconds result{seconds, {}, {}};
   for (const Curve& c : m.curves) {
-    double n = c.errors.back().n;
-    Ranged one = seconds_of_one(c, n);
-    n = std::min(n, seconds / one.value);
+    const double most = c.errors.back().n;
+    Ranged one = seconds_of_one(c, most);
+    const double n = std::min(most, seconds / one.value);
     if (n < c.errors.front().n) continue; // it cannot even begin
     one = seconds_of_one(c, n);
     const Ranged range{seconds / one.value, seconds / one.hi, seconds / one.lo};
-    Offer offer = offer_at(c, {std::min(range.value, c.errors.back().n), range.lo, range.hi}, seconds_of_one);
-    // Fewer evaluations where they take longer than their median.
-    offer.error.lo =
-        std::min(offer.error.lo, error_at(c.errors, &mc::RmsError::lo, std::min(range.hi, c.errors.back().n)));
-    offer.error.hi = std::max(offer.error.hi, error_at(c.errors, &mc::RmsError::hi, range.lo));
-    result.offers.push_back(offer);
+    result.offers.push_back(range.value > most ? offer_beyond(m, c, range, one)
+                                               : offer_within(c, range, seconds_of_one));
   }
   rank(result.offers, &Offer::error);
   for (const Offer& o : result.offers) // an exact way gains nothing that a number says

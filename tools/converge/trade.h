@@ -20,6 +20,7 @@ struct Offer {
   double n = 0;                 ///< evaluations
   Ranged seconds;               ///< CPU, of one estimate
   Ranged error;                 ///< RMS
+  bool ended = false;           ///< its largest measured N takes less than the seconds asked for
 };
 
 /// Every way that reaches an error, cheapest first, but that those which tie with the first stand before the others.
@@ -32,7 +33,9 @@ struct ForError {
   std::optional<Ranged> gain;
 };
 
-/// Every way within a time, most accurate first, ties likewise.
+/// Every way within a time, most accurate first, ties likewise. Plain Monte Carlo goes on by its law beyond its largest
+/// N. Any other way that ended before errs by no more than there: the lower edge of its error is where it would come if
+/// it fell on as steeply as its slope allows, so that ways that ended sooner are not thought worse for it.
 struct ForSeconds {
   double wanted = 0;
   std::vector<Offer> offers;

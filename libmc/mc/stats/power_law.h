@@ -13,6 +13,7 @@ struct RmsError {
   double rms = 0;
   double lo = 0, hi = 0; ///< 95 % confidence interval of the RMS error
   double seconds = 0;    ///< CPU seconds of one repetition, where the caller measures them
+  bool is_bound = false; ///< only known to be at most rms = hi, since what it is measured from is not known so well
 };
 
 /// The binary exponent of the largest |x|, 0 where all are 0: of ldexp(x, -exponent) no square overflows, and none

@@ -66,6 +66,17 @@ TEST_F(Converge, ASceneHasNoTruthButAReference) {
   expect_refused(dark + " --max-n 64", "--memory and --max-n are not for a scene (.xml)");
 }
 
+// A white sphere in a white furnace: all light is 1, and what pixels differ by is rounding.
+TEST_F(Converge, ASceneWithoutNoiseBeyondRoundingHasNoError) {
+  const std::string furnace = write("furnace.xml", R"(<scene version="3.0.0">
+    <integrator type="path"><integer name="max_depth" value="2"/></integrator>
+    <sensor type="perspective"><float name="fov" value="20"/><transform name="to_world">
+      <lookat origin="0,0,5" target="0,0,0" up="0,1,0"/></transform></sensor>
+    <emitter type="constant"><rgb name="radiance" value="1,1,1"/></emitter>
+    <shape type="sphere"><bsdf type="diffuse"><rgb name="reflectance" value="1,1,1"/></bsdf></shape></scene>)");
+  expect_refused(furnace + " --size 4x4 --max-spp 16", "no picture has any noise: there is no error to measure");
+}
+
 TEST_F(Converge, OfASceneAllWaysUntilTheTimeRunsOut) {
   const Ran r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 4x4 --all --max-spp 1048576 --time 1.5");
   EXPECT_EQ(r.exit_code, 0) << r.output;
@@ -86,6 +97,15 @@ TEST_F(Converge, EveryWayIsMeasuredBesideTheory) {
                     HasSubstr("\"slope_at_these_n\": "), HasSubstr("\"within_interval\": true"),
                     HasSubstr("\"at_least\": true")));
   EXPECT_THAT(out("slopes.csv"), HasSubstr(",at least -0.5000,"));
+}
+
+TEST_F(Converge, AnErrorBelowThatOfTheReferenceIsNoFigure) {
+  const Ran r = run("'x<0.5 ? 1 : 0' -d x=0:1 --max-n 1024 --report '" + path("page") + "'");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(r.output, testing::ContainsRegex("  sobol       RMS error at most 0[.0-9]+ at N = 1024, not told from"));
+  EXPECT_THAT(out("x_0_5___1___0.csv"), HasSubstr(",sobol,1024,,0,"));
+  EXPECT_THAT(out("x_0_5___1___0.json"), HasSubstr("\"rms_error\": null"));
+  EXPECT_THAT(mc::read_file(path("page/index.html")), HasSubstr("&le; 0."));
 }
 
 TEST_F(Converge, ReplicatesFollowTheTail) {
@@ -142,6 +162,9 @@ TEST_F(Converge, AWrongTruthIsNamed) {
 }
 
 TEST_F(Converge, APluginThatMisbehavesIsOneLine) {
+  expect_refused(plugin + "Pairs --max-n 64", "eval_many, as point 252 of 253, nan; values[i] must be eval(x + i dim)");
+  expect_refused(plugin + "Remembers --max-n 64", "Remembers: at x = (");
+  expect_refused(plugin + "Remembers --max-n 64", "; it must depend on x alone, on nothing before");
   expect_refused(plugin + "Crash --max-n 64", "it crashed in eval at x = (");
   expect_refused(plugin + "NaN --max-n 64", "NaN: the integrand is nan at x = (");
   expect_refused(plugin + "Hang --max-n 64 --timeout 1", "it hangs in eval at x = (");

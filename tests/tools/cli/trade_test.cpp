@@ -51,6 +51,14 @@ TEST_F(TradeCommand, AnErrorThatNoneReachesSaysHowFarEachCame) {
                               HasSubstr("; all 20 are in trade.csv; raise --max-n")));
 }
 
+TEST_F(TradeCommand, ATimeBeyondTheLargestNSaysSo) {
+  const Ran r = run("pi --seconds 1,10 --max-n 256");
+  EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(r.output, AllOf(ContainsRegex("[0-9]+ of [0-9]+ ways ended before 1 s, at their largest N, and may err "),
+                              HasSubstr(" ways ended before 10 s, "), HasSubstr("; raise --max-n, of a scene --max")));
+  EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"ended\": true"));
+}
+
 TEST_F(TradeCommand, WhatTheTimeCutShortIsCounted) {
   const std::string pi = "pi --error 1e-9 --max-n 256";
   EXPECT_THAT(run(pi).output, Not(HasSubstr("--time ended")));

@@ -217,6 +217,25 @@ TEST(Measure, ReplicatesThatAgreeByChanceFindNoTruth) {
   EXPECT_LE(off, 1) << "one of 20 beyond three standard errors";
 }
 
+// Stratified and Sobol' points know a jump at 1/2 exactly, and the reference does not: it is of random ones, the only
+// ones that ever differ.
+TEST(Measure, AnErrorBelowThatOfTheReferenceIsABound) {
+  const auto list = ways({"random", "stratified", "sobol"});
+  Experiment e = ramp(std::numeric_limits<double>::quiet_NaN());
+  e.f = [](Experiment::Unit u) { return u[0] < 0.5 ? 1.0 : 0.0; };
+  const Measurement m = measure(here(e), list, {.max_n = 1024});
+  EXPECT_TRUE(m.curves[0].law && m.curves[0].is_drawn());
+  for (const std::size_t i : {1u, 2u}) {
+    EXPECT_FALSE(m.curves[i].law || m.curves[i].exact || m.curves[i].is_drawn());
+    for (const mc::RmsError& error : m.curves[i].errors) {
+      EXPECT_TRUE(error.is_bound);
+      EXPECT_EQ(error.lo, 0);
+      EXPECT_EQ(error.rms, error.hi);
+      EXPECT_GE(error.hi, 2 * m.truth_error);
+    }
+  }
+}
+
 // Few replicates of what is harmless: one of eight that holds half of the variance is nothing to speak of.
 TEST(Measure, FewReplicatesRaiseNoFalseAlarm) {
   const auto list = ways({"random"});

@@ -150,6 +150,24 @@ TEST(Trade, TheMostAccurateInATime) {
   EXPECT_TRUE(offers_for_seconds(measured(), 1e-9, clock).offers.empty());
 }
 
+// Beyond N = 4096, 41 us: plain Monte Carlo goes on by its law, the others are at most as bad as there, and which of them
+// is the best is not told from who ended sooner.
+TEST(Trade, WaysThatEndBeforeTheTimeSayAtMostWhatTheyErr) {
+  const carlo::ForSeconds f = offers_for_seconds(measured(), 4096e-6, clock);
+  ASSERT_EQ(f.offers.size(), 4u);
+  EXPECT_EQ(label(*f.offers[0].curve), "sobol");
+  EXPECT_EQ(as_good(f.offers, &Offer::error), 3u);
+  EXPECT_NEAR(f.gain->value, 4096 / 640.0, 1e-9);
+  for (const Offer& o : f.offers) {
+    const bool is_plain = o.curve->way->name == "random";
+    EXPECT_EQ(o.ended, !is_plain);
+    EXPECT_NEAR(o.n, is_plain ? 409600 : 4096, 1e-6);
+    EXPECT_NEAR(o.error.value, is_plain ? 1 / 640.0 : o.curve->errors.back().rms, 1e-12);
+    EXPECT_LT(o.error.lo, is_plain ? o.error.value : 0.05 * o.error.value);
+  }
+  for (const Offer& o : offers_for_seconds(measured(), 1e-5, clock).offers) EXPECT_FALSE(o.ended);
+}
+
 // Seconds of a second run, or of the first where that is interrupted. The clock goes on by the number of the call.
 TEST(Trade, ContendersRunAgainInTurn) {
   carlo::Target target;
