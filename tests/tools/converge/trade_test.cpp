@@ -150,8 +150,8 @@ TEST(Trade, TheMostAccurateInATime) {
   EXPECT_TRUE(offers_for_seconds(measured(), 1e-9, clock).offers.empty());
 }
 
-// Beyond N = 4096, 41 us: plain Monte Carlo goes on by its law, the others are at most as bad as there, and which of them
-// is the best is not told from who ended sooner.
+// Beyond N = 4096, 41 us: plain Monte Carlo goes on by its law, the others are at most as bad as there, and which of
+// them is the best is not told from who ended sooner.
 TEST(Trade, WaysThatEndBeforeTheTimeSayAtMostWhatTheyErr) {
   const carlo::ForSeconds f = offers_for_seconds(measured(), 4096e-6, clock);
   ASSERT_EQ(f.offers.size(), 4u);
