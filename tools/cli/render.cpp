@@ -298,6 +298,7 @@ std::string summary_of(const ::render::RenderResult& r, const std::optional<doub
   return text + "\n";
 }
 
+// A picture must not take the place of what the next one is made from.
 void refuse_inputs(const std::set<std::string>& files, const RenderOptions& options, const std::string& output) {
   for (const std::string& input : files)
     for (const std::string& written : {output, options.intervals})

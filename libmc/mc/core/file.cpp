@@ -156,9 +156,7 @@ void write_file(const std::string& path, std::string_view bytes) {
 }
 
 bool same_place(const std::string& a, const std::string& b) {
-  const auto place = [](const std::string& path) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
-  };
+  const auto place = [](const std::string& path) { return fs::weakly_canonical(fs::absolute(path)); };
   return place(a) == place(b);
 }
 

@@ -102,13 +102,14 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   // Under a learned density the values at large hide the tail of the integrand, and that is what few replicates meet.
   const double index = std::min(seen.tail_index(), seen.values.tail_index());
   const double beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
-  double width = apart ? now : std::max(now, evidence.apart);
+  const double shown = apart ? now : std::max(now, evidence.apart);
+  double width = shown;
   if (index < 5 && evidence.points > 0) {
     const double before = evidence.deviation * std::pow(evidence.points / points, 1 - 1 / std::max(index, 2.0));
-    width = std::hypot(now, before) / std::sqrt(2.0);
+    width = std::hypot(shown, before) / std::sqrt(2.0);
   }
   evidence.points = points;
-  evidence.deviation = now;
+  evidence.deviation = shown;
   const double spread = width / std::sqrt(r * (1 - std::min(beyond, 0.9)));
   const double unbiased = r * r / ((r - 1) * std::max(r - 2, 1.0));
   const double mean = std::ldexp(m.mean(), exponent);

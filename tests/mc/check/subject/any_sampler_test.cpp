@@ -41,7 +41,8 @@ TEST(AnySampler, UnitsAreThoseOfItsScalar) {
   }
 }
 
-TEST(AnySampler, APointAndALobeAtOnce) {
+// An outcome of probability 1/4 beside the interval.
+AnySampler point_and_lobe() {
   AnySampler s = unit();
   s.atoms = {0.25};
   s.sample = [](const AnySampler::Uniforms& u) {
@@ -51,6 +52,11 @@ TEST(AnySampler, APointAndALobeAtOnce) {
     return std::optional(d);
   };
   s.pdf = [](const Numbers&) { return 0.75; };
+  return s;
+}
+
+TEST(AnySampler, APointAndALobeAtOnce) {
+  AnySampler s = point_and_lobe();
   const mc::Report right = check_subject(make_subject(s), {.samples = 50'000});
   EXPECT_TRUE(right.passed()) << right.to_string();
   s.atoms = {0.26};
@@ -60,15 +66,7 @@ TEST(AnySampler, APointAndALobeAtOnce) {
 // Wherever it is, and however rare: of some outcomes too, beside which the draw of the witness is counted.
 TEST(AnySampler, AnInverseThatIsNotFiniteFails) {
   for (const double lost : {1e-2, 2e-4}) {
-    AnySampler s = unit();
-    s.atoms = {0.25};
-    s.sample = [](const AnySampler::Uniforms& u) {
-      AnySampler::Drawn d;
-      if (u[0] < 0.25) d.atom = 0;
-      else d.x[0] = (u[0] - 0.25) / 0.75;
-      return std::optional(d);
-    };
-    s.pdf = [](const Numbers&) { return 0.75; };
+    AnySampler s = point_and_lobe();
     s.invert_tolerance = 1e-12;
     for (const bool fails : {false, true}) {
       s.invert = [=](const Numbers& x) -> std::optional<AnySampler::Uniforms> {

@@ -87,6 +87,21 @@ TEST(Replicated, ThoseThatCameToAgreeKeepWhatTheyLastShowed) {
                 1e-3 * before);
 }
 
+// Where a tail makes an error the mean of two lengths, both may have come to agree.
+TEST(Replicated, ThoseThatCameToAgreeUnderATail) {
+  std::vector<double> values(4096);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = std::pow((static_cast<double>(i) + 0.5) / static_cast<double>(values.size()), -1.0 / 3);
+  const mc::detail::Seen cube = seen(values);
+  ASSERT_LT(cube.tail_index(), 5);
+  Evidence evidence;
+  std::vector<double> means(replicates, 1.5);
+  for (std::size_t i = 0; i < replicates; ++i) means[i] += 1e-9 * static_cast<double>(i);
+  const double before = replicated(means, 64, cube, evidence).error;
+  for (const double points : {128.0, 256.0, 512.0, 1024.0})
+    EXPECT_GE(replicated(std::vector<double>(replicates, 1.5), points, cube, evidence).error, 0.7 * before) << points;
+}
+
 // Share of 95 % intervals that hold the truth, of 4000.
 double covered(double index, const std::function<double(std::uint64_t, std::vector<double>&)>& draw) {
   mc::detail::Seen tail;
