@@ -16,6 +16,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double jump_share = 0.75, unseen_share = 1.5; // of one step of one replicate, in standard errors
+constexpr double light = 8;                             // a tail of this index shows in no error
+constexpr double skewed = 1;                            // replicates that met something large, or did not
 constexpr std::size_t memory = 4;                       // lengths that a jump is remembered for
 
 // The jump that sets replicates apart: the widest gap between neighbours, if it is wider than those of a smooth
@@ -101,20 +103,21 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   }
   // Under a learned density the values at large hide the tail of the integrand, and that is what few replicates meet.
   const double index = std::min(seen.tail_index(), seen.values.tail_index());
-  const double beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
   const double shown = apart ? now : std::max(now, evidence.apart);
+  const double skewness = apart ? third / (deviation * deviation * deviation) : 0.0;
   double width = shown;
-  if (index < 5 && evidence.points > 0) {
-    const double before = evidence.deviation * std::pow(evidence.points / points, 1 - 1 / std::max(index, 2.0));
-    width = std::hypot(shown, before) / std::sqrt(2.0);
+  if ((index < light || std::abs(skewness) > skewed) && evidence.points > 0) {
+    const double fall = 1 - 1 / std::clamp(index, 2.0, light);
+    width = std::max(width, evidence.deviation * std::pow(evidence.points / points, fall));
   }
   evidence.points = points;
   evidence.deviation = shown;
+  const double beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
   const double spread = width / std::sqrt(r * (1 - std::min(beyond, 0.9)));
   const double unbiased = r * r / ((r - 1) * std::max(r - 2, 1.0));
   const double mean = std::ldexp(m.mean(), exponent);
   return {mean, std::max(std::hypot(spread, step / points / r), ulp(rounded)), r - 1,
-          apart ? third / (deviation * deviation * deviation) * unbiased / (6 * std::sqrt(r)) : 0.0, bar_of(seen)};
+          skewness * unbiased / (6 * std::sqrt(r)), bar_of(seen)};
 }
 
 } // namespace mc::detail

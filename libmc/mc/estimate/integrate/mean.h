@@ -58,7 +58,7 @@ struct Evidence {
 };
 
 /// The mean of independent replicates of `points` points each.
-///   error : from their spread, and three things that it does not show:
+///   error : from their spread, and what it does not show:
 ///           - a jump of height h moves a replicate by h / points or not at all, and replicates that agree say only
 ///             that they could not differ: .75 h / points over their number is added in squares, about what makes 24
 ///             trials of a random probability cover 94 to 97 %, where they stop at a tolerance too; h is what set them
@@ -66,9 +66,9 @@ struct Evidence {
 ///             range of all values; where those are equal too, their size, so that the rule of three holds for what
 ///             was not seen. Replicates that differed before and came to agree are as good as when they last differed
 ///           - of a tail of index a > 2 the share R^-(1 - 2/a) of the variance lies beyond the largest of R values
-///           - of a tail with a < 5 the variance is known badly. It seems least where nothing large was met, and that
-///             is where runs stop: so it is the mean of what this length shows and what the last one did, the latter
-///             scaled as the variance of such a tail falls
+///           - of a tail with a < 8 the variance is known badly, and so is that of replicates whose skewness is above 1.
+///             It seems least where nothing large was met, and that is where runs stop: so it is no less than what the
+///             last length showed, scaled as the variance of such a tail falls
 ///   bar   : unseen where every value was zero, else as bar_of says
 ///   seen  : the values behind it, and the tail of the integrand
 Mean replicated(std::span<const double> means, double points, const Seen& seen, Evidence& evidence);

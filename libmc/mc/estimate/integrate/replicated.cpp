@@ -28,8 +28,10 @@ class Growth {
     return std::max(std::min<std::uint64_t>(16, end), 2 * s.length);
   }
   bool grow(Sequences& s, std::uint64_t end) {
-    for (std::uint64_t to = next(s, end); to <= end; to *= 2)
-      if (adopt(s, s.extend(run_, to))) return true;
+    for (std::uint64_t to = next(s, end); to <= end; to *= 2) {
+      s.extend(run_, to);
+      if (enough(s)) return true;
+    }
     return false;
   }
   // To the end of the calls: all replicates at first, then as many as best_end says.
@@ -41,15 +43,19 @@ class Growth {
     if (!grow(s, end.length)) use_up(s);
     return std::move(out);
   }
-  // Makes what sequences say the outcome, and returns whether that is good enough. Short ones never are: they agree
-  // where none of them has met a thousandth of the volume that decides, or a place where the density is far too low.
-  bool adopt(const Sequences& s, const Means& means) {
-    out.means = means;
+  // Makes what sequences say the outcome.
+  void adopt(const Sequences& s) {
+    out.means = s.means;
     out.seen = s.seen();
     out.correlations = s.correlations(run_);
-    run_.record(out.method, means);
-    if (s.length >= AxisProfile::most && run_.converged(out.means)) out.stop = Stop::converged;
+    run_.record(out.method, out.means);
     last_ = out;
+  }
+  // The same, and returns whether that is good enough. Short ones never are: they agree where none of them has met a
+  // thousandth of the volume that decides, or a place where the density is far too low.
+  bool enough(const Sequences& s) {
+    adopt(s);
+    if (s.length >= AxisProfile::most && run_.converged(out.means)) out.stop = last_->stop = Stop::converged;
     return out.stop == Stop::converged;
   }
 
@@ -98,7 +104,9 @@ class Growth {
   // More replicates, as long as those there are.
   void use_up(Sequences& s) {
     const std::uint64_t more = run_.left() / std::max<std::uint64_t>(s.calls_each(), 1);
-    if (more > 0 && s.length > 0) adopt(s, s.widen(run_, static_cast<std::uint32_t>(more)));
+    if (more == 0 || s.length == 0) return;
+    s.widen(run_, static_cast<std::uint32_t>(more));
+    enough(s);
   }
 
   Run& run_;
@@ -218,7 +226,7 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   std::optional<Candidate> best = Contest(run, bare, growth.affordable(all.front().sequences)).best_of(all);
   if (!best) return growth.finish(bare);
   growth.out.method = best->method;
-  if (growth.adopt(best->sequences, best->sequences.means)) return std::move(growth.out);
+  growth.adopt(best->sequences); // not yet good enough: it was chosen for the error that it shows here
   return growth.finish(best->sequences);
 }
 

@@ -97,9 +97,24 @@ TEST(Replicated, ThoseThatCameToAgreeUnderATail) {
   Evidence evidence;
   std::vector<double> means(replicates, 1.5);
   for (std::size_t i = 0; i < replicates; ++i) means[i] += 1e-9 * static_cast<double>(i);
-  const double before = replicated(means, 64, cube, evidence).error;
+  const double before = 1e-9 * std::sqrt((replicates + 1) / 12.0); // a uniform distribution's, of their mean
+  replicated(means, 64, cube, evidence);
   for (const double points : {128.0, 256.0, 512.0, 1024.0})
     EXPECT_GE(replicated(std::vector<double>(replicates, 1.5), points, cube, evidence).error, 0.7 * before) << points;
+}
+
+// Of skewed replicates the next length may just have met nothing large.
+TEST(Replicated, SkewedOnesKeepWhatTheyShowed) {
+  for (const double size : {1.0, 0.01}) {
+    Evidence evidence;
+    std::vector<double> means(replicates, 1.0);
+    means.back() = 1.01;
+    for (std::size_t r = 0; r < replicates; ++r) means[r] += 1e-4 * static_cast<double>(r % 5);
+    const mc::detail::Seen light = seen({1, 1.5});
+    const double before = replicated(means, 64, light, evidence).error;
+    for (double& x : means) x = 1 + size * (x - 1);
+    EXPECT_GE(replicated(means, 128, light, evidence).error, 0.5 * before) << size;
+  }
 }
 
 // Share of 95 % intervals that hold the truth, of 4000.
