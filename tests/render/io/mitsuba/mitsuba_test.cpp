@@ -117,7 +117,7 @@ TEST_F(Mitsuba, MasksNameWhatIsWrong) {
               testing::HasSubstr("s.xml:3: scene: shape 0 shines through a mask, which is not supported"));
   EXPECT_THAT(
       said("<texture type=\"checkerboard\" name=\"opacity\"><rgb name=\"color0\" value=\"2\"/></texture>" + diffuse),
-      testing::HasSubstr("mask: the largest of the opacity's texture (2, 2, 2) must lie in [0, 1]"));
+      testing::HasSubstr("s.xml:3: <bsdf>: mask: opacity: color0 (2, 2, 2) must lie in [0, 1]"));
 }
 
 TEST_F(Mitsuba, MetalsNameWhatIsWrong) {
