@@ -133,7 +133,7 @@ SceneFile read_mitsuba(const std::string& path, Dialect dialect, const Variables
   XmlElement root = read_xml(path);
   root.mark();
   if (root.tag != "scene") root.fail("the document must be a <scene>");
-  root.attribute_or("version", "");
+  is_of_mitsuba_2(root);
   include_files(root);
   substitute_variables(root, variables);
   SceneFile file = read_where_it_stands(root, dialect);
