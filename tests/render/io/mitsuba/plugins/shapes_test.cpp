@@ -1,0 +1,49 @@
+#include <render/io/mitsuba/plugins.h>
+
+#include "render/io/mitsuba/scene_text.h"
+
+namespace {
+
+using render::Dialect, render::Vec3d;
+struct ShapePlugins : support::SceneTest {
+  render::SceneFile shape(const std::string& type, const std::string& parameters, const std::string& version = "0.6.0",
+                          Dialect dialect = Dialect::mitsuba) const {
+    const std::string text = fmt::format("<scene version=\"{}\">{}\n<shape type=\"{}\">{}</shape></scene>", version,
+                                         sensor, type, parameters);
+    return render::read_mitsuba(write("shape.xml", text), dialect);
+  }
+};
+
+// Mitsuba 0.6 takes the scale of toWorld for the radius alone, Mitsuba 3 for the centre too; lajolla reads no toWorld.
+TEST_F(ShapePlugins, ToWorldScalesTheCentreOfASphereSinceMitsuba2) {
+  const std::string parameters = R"(<point name="center" x="1" y="2" z="3"/><float name="radius" value="0.5"/>
+    <transform name="toWorld"><scale value="4"/><rotate z="1" angle="90"/><translate x="10"/></transform>)";
+  const auto sphere = [&](const std::string& version) {
+    return std::get<render::Sphere>(*shape("sphere", parameters, version).scene.surfaces()[0].shape);
+  };
+  for (const char* version : {"0.5.0", "0.6.0"})
+    EXPECT_LE((sphere(version).center() - Vec3d(8, 1, 3)).norm(), 1e-12) << version;
+  for (const char* version : {"2.0.0", "3.0.0"})
+    EXPECT_LE((sphere(version).center() - Vec3d(2, 4, 12)).norm(), 1e-12) << version;
+  EXPECT_EQ(sphere("0.6.0").radius(), 2);
+  EXPECT_THAT(shape("sphere", parameters).warnings, testing::IsEmpty());
+  EXPECT_THAT(shape("sphere", parameters, "0.4.0", Dialect::lajolla).warnings,
+              testing::ElementsAre(testing::HasSubstr(
+                  "shape.xml:3: <transform>: lajolla leaves a sphere where it is, here toWorld counts")));
+}
+
+// The seam is at +x in Mitsuba and at -x in lajolla, which is seen where a texture repeats no whole number of times.
+TEST_F(ShapePlugins, TexturesOfSpheresBeginWhereTheDialectsDo) {
+  for (const bool is_lajolla : {false, true}) {
+    const auto file = shape("sphere", "", "0.6.0", is_lajolla ? Dialect::lajolla : Dialect::mitsuba);
+    const render::Shape& ball = *file.scene.surfaces()[0].shape;
+    for (double angle = -175; angle < 180; angle += 10) {
+      const double x = std::cos(angle * mc::pi<double> / 180), y = std::sin(angle * mc::pi<double> / 180);
+      render::SurfacePoint p;
+      p.p = (is_lajolla ? Vec3d(x, 0, y) : Vec3d(x, y, 0)).cast<render::Float>();
+      EXPECT_NEAR(ball.uv({}, p)[0], (angle < 0 && !is_lajolla ? angle + 360 : angle) / 360, 1e-6) << angle;
+    }
+  }
+}
+
+} // namespace
