@@ -15,23 +15,37 @@ struct Placed {
   Placed(Shape s, std::string why = {}) : shape(std::move(s)), without_uvs(std::move(why)) {}
 };
 
-Placed placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, bool face_normals) {
+/// How the normals of a mesh are made.
+struct Smoothing {
+  bool is_flat;
+  std::optional<double> max_angle; ///< between faces [degrees]
+};
+
+Placed placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, const Smoothing& smoothing) {
   return mc::with_context(name, [&] {
+    const auto& [is_flat, max_angle] = smoothing;
+    mc::require(!is_flat || !max_angle, "faceNormals and maxSmoothAngle contradict each other; give one");
     const std::string& why = mesh.without_uvs;
-    return Placed(to_shape(mesh, to_world, face_normals), why.empty() ? why : fmt::format("{}: {}", name, why));
+    return Placed(max_angle ? to_shape(split_at_edges(mesh, to_world, *max_angle), to_world)
+                            : to_shape(mesh, to_world, is_flat),
+                  why.empty() ? why : fmt::format("{}: {}", name, why));
   });
 }
 
-Placed make_obj(const std::string& path, const Transform& to_world, bool face_normals) {
-  return placed(path, read_obj(path), to_world, face_normals);
+Placed make_obj(const std::string& path, const Transform& to_world, bool face_normals,
+                const std::optional<double>& max_angle) {
+  return placed(path, read_obj(path), to_world, {face_normals, max_angle});
 }
 
-Placed make_ply(const std::string& path, const Transform& to_world, bool face_normals) {
-  return placed(path, read_ply(path), to_world, face_normals);
+Placed make_ply(const std::string& path, const Transform& to_world, bool face_normals,
+                const std::optional<double>& max_angle) {
+  return placed(path, read_ply(path), to_world, {face_normals, max_angle});
 }
 
-Placed make_serialized(const std::string& path, const Transform& to_world, bool face_normals, int index) {
-  return placed(fmt::format("{}: mesh {}", path, index), read_serialized(path, index), to_world, face_normals);
+Placed make_serialized(const std::string& path, const Transform& to_world, bool face_normals,
+                       const std::optional<double>& max_angle, int index) {
+  return placed(fmt::format("{}: mesh {}", path, index), read_serialized(path, index), to_world,
+                {face_normals, max_angle});
 }
 
 Shape make_rectangle(const Transform& to_world) {
@@ -146,13 +160,25 @@ Parameter<Center> center() {
   return p.otherwise({}, "0, 0, 0");
 }
 
+Parameter<std::optional<double>> max_smooth_angle() {
+  auto p = optional(number("maxSmoothAngle", "degrees",
+                           "faces that meet at more keep their edge, the others are smooth whatever the file says; "
+                           "lajolla leaves it out"));
+  p.parse = [](const XmlElement& e, Context& context) -> std::optional<double> {
+    const double angle = number_of(e);
+    if (context.dialect() == Dialect::lajolla) return {};
+    return angle;
+  };
+  return p;
+}
+
 // A row for a mesh in a file, with the parameters that all of those have.
 template <class Make, class... V>
 Plugin<CoveredShape> mesh_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
   return shape_plugin(
       std::move(name), std::move(meaning), make, file("filename", "the mesh, relative to the scene file"), to_world(),
       boolean("faceNormals", "whether it is flat: without the file's normals, or smooth ones where it has none"),
-      parameters...);
+      max_smooth_angle(), parameters...);
 }
 
 } // namespace
@@ -171,8 +197,7 @@ const Plugins<CoveredShape>& shape_plugins() {
       mesh_plugin("obj", "a mesh in Wavefront's format; its materials are ignored", make_obj),
       mesh_plugin("ply", "a mesh in Stanford's format, ascii or binary", make_ply),
       mesh_plugin("serialized", "a mesh in Mitsuba's own format, versions 3 and 4", make_serialized,
-                  integer("shapeIndex", "which of the file's meshes, >= 0", 0))
-          .accepting({no_effect("maxSmoothAngle", "the file's normals count, where Mitsuba makes new ones")}),
+                  integer("shapeIndex", "which of the file's meshes, >= 0", 0)),
       shape_plugin("rectangle", "the square [-1, 1]^2 in the plane z = 0, normal +z", make_rectangle, to_world()),
       shape_plugin("cube", "the cube [-1, 1]^3, normals outward", make_cube, to_world()),
       shape_plugin(

@@ -46,4 +46,25 @@ TEST_F(ShapePlugins, TexturesOfSpheresBeginWhereTheDialectsDo) {
   }
 }
 
+// In lajolla's dialect it says nothing.
+TEST_F(ShapePlugins, MeshesKeepTheirEdgesFromMaxSmoothAngleOn) {
+  const std::string box = "v -1 0 0\nv 0 0 0\nv 0 1 0\nv 0 0 -1\nf 1 2 3\nf 2 4 3\n", // two faces at 90 degrees
+      name = R"(<string name="filename" value="edge.obj"/>)", angle = R"(<float name="maxSmoothAngle" value="{}"/>)";
+  write("edge.obj", box);
+  const auto is_flat = [&](const std::string& more, Dialect dialect = Dialect::mitsuba) {
+    const auto file = shape("obj", name + more, "0.6.0", dialect);
+    const auto point = std::get<render::TriangleMesh>(*file.scene.surfaces()[0].shape).point(0, 1, 0);
+    return point.ns == point.ng;
+  };
+  EXPECT_FALSE(is_flat(""));
+  EXPECT_TRUE(is_flat(fmt::format(fmt::runtime(angle), 89)));
+  EXPECT_FALSE(is_flat(fmt::format(fmt::runtime(angle), 91)));
+  EXPECT_FALSE(is_flat(fmt::format(fmt::runtime(angle), 89), Dialect::lajolla));
+  EXPECT_THAT(support::error_of([&] {
+                is_flat(fmt::format(fmt::runtime(angle), 89) + R"(<boolean name="faceNormals" value="true"/>)");
+              }),
+              testing::AllOf(testing::HasSubstr("shape.xml:2: <shape>: "),
+                             testing::HasSubstr("edge.obj: faceNormals and maxSmoothAngle contradict each other")));
+}
+
 } // namespace
