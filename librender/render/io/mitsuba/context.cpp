@@ -39,7 +39,7 @@ Context::Context(const XmlElement& root, Dialect dialect, const Vec3d& origin)
 
 void Context::collect_ids(const XmlElement& element) {
   for (const XmlElement& child : element.children) {
-    if (child.tag != "ref" && child.has("id")) {
+    if (child.tag != "ref" && child.tag != "alias" && child.has("id")) {
       const std::string& id = child.attribute("id");
       const auto [first, added] = ids_.try_emplace(id, &child);
       if (!added)

@@ -57,6 +57,7 @@ class Reader {
   }
 
   void emitter(const XmlElement& e) {
+    if (e.attribute("type") == "area") e.fail("an area shines only as part of a <shape>; put it into one");
     Light light = read_plugin(emitter_plugins(), e, context_);
     if (light.is_infinite() && std::exchange(has_background_, true)) e.fail("a second background; only one is allowed");
     context_.builder.add(std::move(light));

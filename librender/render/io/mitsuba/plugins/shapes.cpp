@@ -48,8 +48,8 @@ Placed make_serialized(const std::string& path, const Transform& to_world, bool 
                 {face_normals, max_angle});
 }
 
-Shape make_rectangle(const Transform& to_world) {
-  TriangleMesh square = TriangleMesh::rectangle(to_world);
+Shape make_rectangle(const Transform& to_world, bool flip) {
+  TriangleMesh square = TriangleMesh::rectangle(flip ? to_world * Transform::scale({1, 1, -1}) : to_world);
   mc::require(square.area() > 0, "toWorld makes a line of the square, or a point; nothing would be seen");
   return square;
 }
@@ -198,7 +198,8 @@ const Plugins<CoveredShape>& shape_plugins() {
       mesh_plugin("ply", "a mesh in Stanford's format, ascii or binary", make_ply),
       mesh_plugin("serialized", "a mesh in Mitsuba's own format, versions 3 and 4", make_serialized,
                   integer("shapeIndex", "which of the file's meshes, >= 0", 0)),
-      shape_plugin("rectangle", "the square [-1, 1]^2 in the plane z = 0, normal +z", make_rectangle, to_world()),
+      shape_plugin("rectangle", "the square [-1, 1]^2 in the plane z = 0, normal +z", make_rectangle, to_world(),
+                   boolean("flipNormals", "whether the normal is -z")),
       shape_plugin("cube", "the cube [-1, 1]^3, normals outward", make_cube, to_world()),
       shape_plugin(
           "sphere", "a sphere, or the cap of one", make_sphere, to_world_of_sphere(), center(),

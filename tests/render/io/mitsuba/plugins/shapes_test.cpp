@@ -32,6 +32,17 @@ TEST_F(ShapePlugins, ToWorldScalesTheCentreOfASphereSinceMitsuba2) {
                   "shape.xml:3: <transform>: lajolla leaves a sphere where it is, here toWorld counts")));
 }
 
+TEST_F(ShapePlugins, ARectangleShinesFromTheOtherSideWhenItsNormalIsFlipped) {
+  const std::string mirrored = R"(<transform name="toWorld"><scale x="-1" y="2"/></transform>)";
+  for (const std::string& to_world : {std::string(), mirrored})
+    for (const bool flipped : {false, true}) {
+      const std::string flip = fmt::format("<boolean name=\"flipNormals\" value=\"{}\"/>", flipped);
+      const auto file = shape("rectangle", to_world + flip);
+      const auto& square = std::get<render::TriangleMesh>(*file.scene.surfaces()[0].shape);
+      EXPECT_EQ(square.point(0, 0.2, 0.3).ng, render::Vec3(0, 0, flipped ? -1 : 1)) << to_world;
+    }
+}
+
 // The seam is at +x in Mitsuba and at -x in lajolla, which is seen where a texture repeats no whole number of times.
 TEST_F(ShapePlugins, TexturesOfSpheresBeginWhereTheDialectsDo) {
   for (const bool is_lajolla : {false, true}) {
