@@ -12,6 +12,7 @@
 #include <mc/core/error.h>
 #include <mc/core/file.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -66,9 +67,13 @@ int list_scenes() {
   return exit_ok;
 }
 
+// Each once, however often it is named: pictures and the parts of the page are called after their scenes.
 std::vector<const GalleryScene*> chosen(const GalleryOptions& o) {
   std::vector<const GalleryScene*> scenes;
-  for (const std::string& name : o.names) scenes.push_back(&gallery_scene(name));
+  for (const std::string& name : o.names) {
+    const GalleryScene* scene = &gallery_scene(name);
+    if (std::find(scenes.begin(), scenes.end(), scene) == scenes.end()) scenes.push_back(scene);
+  }
   if (o.names.empty())
     for (const GalleryScene& scene : gallery()) scenes.push_back(&scene);
   return scenes;

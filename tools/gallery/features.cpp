@@ -48,6 +48,23 @@ void collect(const ::render::XmlElement& e, std::set<Named>& found) {
   for (const ::render::XmlElement& child : e.children) collect(child, found);
 }
 
+/// A feature with the names of the scenes that require it.
+struct Required {
+  Feature feature;
+  std::vector<std::string_view> by;
+};
+
+std::vector<Required> required_features() {
+  std::vector<Required> all;
+  for (const Feature& feature : all_features()) all.push_back({feature, {}});
+  for (const GalleryScene& scene : gallery()) {
+    const std::vector<Feature> features = features_of(scene);
+    for (Required& r : all)
+      if (std::find(features.begin(), features.end(), r.feature) != features.end()) r.by.push_back(scene.name);
+  }
+  return all;
+}
+
 constexpr const char* introduction = R"(# The gallery
 
 `carlo gallery -o DIR` renders these scenes and writes a page of them; `carlo gallery NAME -o DIR` and
@@ -77,21 +94,29 @@ std::vector<Feature> features_of(const GalleryScene& scene) {
   return features;
 }
 
+std::string features_text() {
+  std::vector<std::pair<std::string, std::vector<std::string>>> kinds;
+  for (const auto& [feature, by] : required_features()) {
+    const std::string kind = feature.substr(0, feature.find(' '));
+    const std::string scenes = by.size() == 1 ? fmt::format("`{}`", by[0]) : fmt::format("{}", by.size());
+    if (kinds.empty() || kinds.back().first != kind) kinds.push_back({kind, {}});
+    kinds.back().second.push_back(feature == kind ? scenes : feature.substr(kind.size() + 1) + " " + scenes);
+  }
+  std::string text =
+      fmt::format("| feature | how many of {} scenes require it, or which one |\n|---|---|\n", gallery().size());
+  for (const auto& [kind, features] : kinds) text += fmt::format("| {} | {} |\n", kind, fmt::join(features, ", "));
+  return text;
+}
+
 std::string gallery_text() {
   std::string text = introduction;
   text += "| scene | picture | strategy | source |\n|---|---|---|---|\n";
-  std::vector<std::pair<std::string_view, std::vector<Feature>>> required;
-  for (const GalleryScene& scene : gallery()) {
+  for (const GalleryScene& scene : gallery())
     text += fmt::format("| [{}]({}.xml) | {} | {} | {} |\n", scene.name, scene.file.empty() ? scene.name : scene.file,
                         scene.title, scene.strategy, scene.source);
-    required.emplace_back(scene.name, features_of(scene));
-  }
   text += "\n## Which scene requires which feature\n\nA feature that no scene requires does not belong here.\n\n"
           "| feature | required by |\n|---|---|\n";
-  for (const Feature& feature : all_features()) {
-    std::vector<std::string_view> by;
-    for (const auto& [name, features] : required)
-      if (std::find(features.begin(), features.end(), feature) != features.end()) by.push_back(name);
+  for (auto& [feature, by] : required_features()) {
     constexpr std::size_t shown = 6;
     const std::size_t more = by.size() > shown ? by.size() - shown : 0;
     by.resize(by.size() - more);

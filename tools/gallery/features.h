@@ -19,6 +19,9 @@ std::vector<Feature> all_features();
 ///   throws : Error where its file cannot be read
 std::vector<Feature> features_of(const GalleryScene& scene);
 
+/// A table of the kinds of features: each with the number of the scenes that require it, or the only one.
+std::string features_text();
+
 /// The scenes with their sources, and the table of features with the scenes that require them, as Markdown.
 std::string gallery_text();
 

@@ -11,8 +11,7 @@ namespace render {
 class TexturedLambert {
  public:
   explicit TexturedLambert(Texture reflectance) : reflectance_(std::move(reflectance)) {
-    checked_reflectance("diffuse: the least of the reflectance's texture", reflectance_.smallest());
-    checked_reflectance("diffuse: the largest of the reflectance's texture", reflectance_.largest());
+    reflectance_.require_reflectance("diffuse: reflectance");
   }
   /// Interpolation may round above 1.
   Lambert at(const Vec2d& uv) const { return Lambert(reflectance_.eval(uv).min(Float(1))); }

@@ -31,11 +31,8 @@ Environment::Environment(std::shared_ptr<const Texels> texels, const Transform& 
   mc::require((to_world.linear.transpose() * to_world.linear - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <=
                   1e-3,
               "environment: toWorld must be a rotation");
-  for (std::size_t i = 0; i < t.values.size(); ++i)
-    mc::require((t.values[i] >= 0).all() && t.values[i].isFinite().all(),
-                "environment: texel ({}, {}){} = ({}, {}, {}) must be finite and >= 0",
-                i % static_cast<std::size_t>(t.width), i / static_cast<std::size_t>(t.width), t.origin, t.values[i][0],
-                t.values[i][1], t.values[i][2]);
+  t.require_all("environment", "must be finite and >= 0",
+                [](const Spectrum& s) { return (s >= 0).all() && s.isFinite().all(); });
   const std::vector<double> means = texel_means(t);
   const auto w = static_cast<std::size_t>(t.width), h = static_cast<std::size_t>(t.height);
   for (std::size_t i = 0; i < means.size(); ++i) {

@@ -32,11 +32,12 @@ Sphere Sphere::cap(const Vec3d& center, double radius, const Vec3d& axis, double
   return s;
 }
 
-Sphere Sphere::with_uv_axes(const Eigen::Matrix3d& axes) const {
+Sphere Sphere::with_uv_axes(const Eigen::Matrix3d& axes, double least_u) const {
   mc::require((axes.transpose() * axes - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-6,
               "sphere: the axes of its texture must be orthonormal");
   Sphere s = *this;
   s.uv_axes_ = axes;
+  s.least_u_ = least_u;
   return s;
 }
 
@@ -44,7 +45,7 @@ mc::Vec2<double> Sphere::uv(const Hit&, const SurfacePoint& point) const {
   const Vec3d d = uv_axes_.transpose() * (point.p.cast<double>() - center_);
   const double turn = std::atan2(d.y(), d.x()) / (2 * mc::pi<double>);
   // The angle from the pole by its tangent: acos would lose half the digits there.
-  return {turn < 0 ? turn + 1 : turn, std::atan2(std::hypot(d.x(), d.y()), d.z()) / mc::pi<double>};
+  return {turn - std::floor(turn - least_u_), std::atan2(std::hypot(d.x(), d.y()), d.z()) / mc::pi<double>};
 }
 
 bool Sphere::holds(const Vec3d& offset) const { return !is_cap() || offset.dot(axis_) >= radius_ - height_; }

@@ -20,9 +20,9 @@ class Sphere {
   static Sphere cap(const Vec3d& center, double radius, const Vec3d& axis, double height, bool inside_out = false);
 
   /// The same sphere with its texture turned: the columns are where u = 0 and u = 1/4 cross the equator, and the pole
-  /// v = 0. At first they are x, y and z.
+  /// v = 0; u goes from `least_u` to least_u + 1. At first they are x, y and z, and 0.
   ///   throws : Error unless they are orthonormal, to 1e-6
-  Sphere with_uv_axes(const Eigen::Matrix3d& axes) const;
+  Sphere with_uv_axes(const Eigen::Matrix3d& axes, double least_u = 0) const;
 
   /// The nearest crossing with 0 < t < t_max.
   std::optional<double> intersect(const Ray& ray) const;
@@ -58,6 +58,7 @@ class Sphere {
   double radius_;
   Vec3d axis_ = Vec3d::UnitZ();
   Eigen::Matrix3d uv_axes_ = Eigen::Matrix3d::Identity();
+  double least_u_ = 0;
   double height_;
   bool inside_out_;
   double extent_;   ///< its largest coordinate is at most this

@@ -3,16 +3,20 @@
 namespace render {
 
 Bitmap::Bitmap(std::shared_ptr<const Texels> texels, const UvMap& map) : texels_(std::move(texels)), map_(map) {
-  const Texels& t = *texels_;
-  largest_ = smallest_ = t.values[0];
-  for (std::size_t i = 0; i < t.values.size(); ++i) {
-    const Spectrum& s = t.values[i];
-    mc::require(s.isFinite().all(), "bitmap: texel ({}, {}){} = ({}, {}, {}) is not finite",
-                i % static_cast<std::size_t>(t.width), i / static_cast<std::size_t>(t.width), t.origin, s[0], s[1],
-                s[2]);
-    largest_ = largest_.max(s);
-    smallest_ = smallest_.min(s);
+  texels_->require_all("bitmap", "is not finite; repair the picture",
+                       [](const Spectrum& s) { return s.isFinite().all(); });
+}
+
+void Bitmap::require_reflectance(std::string_view what) const {
+  Float least = mc::infinity<Float>, largest = -least;
+  for (const Spectrum& s : texels_->values) {
+    least = std::min(least, s.minCoeff());
+    largest = std::max(largest, s.maxCoeff());
   }
+  texels_->require_all(
+      what,
+      fmt::format("must lie in [0, 1]; clip or scale the picture, whose values reach from {} to {}", least, largest),
+      [](const Spectrum& s) { return (s >= 0).all() && (s <= 1).all(); });
 }
 
 namespace {

@@ -16,13 +16,11 @@ class Bitmap {
   explicit Bitmap(std::shared_ptr<const Texels> texels, const UvMap& map = UvMap());
 
   Spectrum eval(const Vec2d& uv) const;
-  Spectrum largest() const { return largest_; }
-  Spectrum smallest() const { return smallest_; }
+  void require_reflectance(std::string_view what) const;
 
  private:
   std::shared_ptr<const Texels> texels_;
   UvMap map_;
-  Spectrum largest_, smallest_;
 };
 
 } // namespace render

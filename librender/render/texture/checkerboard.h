@@ -15,8 +15,10 @@ class Checkerboard {
     const Vec2d p = map_(uv);
     return (p[0] < 0.5) == (p[1] < 0.5) ? color0_ : color1_;
   }
-  Spectrum largest() const { return color0_.max(color1_); }
-  Spectrum smallest() const { return color0_.min(color1_); }
+  void require_reflectance(std::string_view what) const {
+    checked_reflectance(fmt::format("{}: color0", what), color0_);
+    checked_reflectance(fmt::format("{}: color1", what), color1_);
+  }
 
  private:
   Spectrum color0_, color1_;

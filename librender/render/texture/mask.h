@@ -17,10 +17,7 @@ class Mask {
   explicit Mask(Float opacity) : opacity_(opacity) {
     mc::require(opacity >= 0 && opacity <= 1, "mask: opacity {} must lie in [0, 1]", opacity);
   }
-  explicit Mask(Texture opacity) : texture_(std::move(opacity)) {
-    checked_reflectance("mask: the least of the opacity's texture", texture_->smallest());
-    checked_reflectance("mask: the largest of the opacity's texture", texture_->largest());
-  }
+  explicit Mask(Texture opacity) : texture_(std::move(opacity)) { texture_->require_reflectance("mask: opacity"); }
 
   /// Whether it needs texture coordinates.
   bool varies() const { return texture_.has_value(); }

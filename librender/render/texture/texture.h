@@ -8,19 +8,17 @@
 namespace render {
 
 /// A colour that varies over a surface. Each models:
-///   eval(uv)             : the colour at a point of the surface
-///   largest(), smallest() : bounds of it, per channel
+///   eval(uv)                 : the colour at a point of the surface
+///   require_reflectance(what) : throws Error that begins with `what` and names the place unless all of it lies in
+///                               [0, 1]
 struct Texture : std::variant<Checkerboard, Bitmap> {
   using variant::variant;
 
   Spectrum eval(const Vec2d& uv) const {
     return dispatch(*this, [&](const auto& t) { return t.eval(uv); });
   }
-  Spectrum largest() const {
-    return dispatch(*this, [](const auto& t) { return t.largest(); });
-  }
-  Spectrum smallest() const {
-    return dispatch(*this, [](const auto& t) { return t.smallest(); });
+  void require_reflectance(std::string_view what) const {
+    dispatch(*this, [&](const auto& t) { t.require_reflectance(what); });
   }
 };
 

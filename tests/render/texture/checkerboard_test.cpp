@@ -1,6 +1,6 @@
 #include <render/texture/checkerboard.h>
 
-#include <gtest/gtest.h>
+#include "support/files.h"
 
 namespace {
 
@@ -16,8 +16,16 @@ TEST(Checkerboard, TwoByTwoSquaresInAPeriod) {
       EXPECT_TRUE((board.eval({u, v + 0.5}) == b).all()) << u << " " << v;
       EXPECT_TRUE((board.eval({u + 0.25, v + 0.5}) == a).all()) << u << " " << v;
     }
-  EXPECT_TRUE((board.largest() == Spectrum(1, 1, render::Float(0.5))).all());
-  EXPECT_TRUE((board.smallest() == Spectrum(0, 0, render::Float(0.25))).all());
+}
+
+TEST(Checkerboard, NamesTheColourThatIsNoReflectance) {
+  const Spectrum good = Spectrum::Ones(), bright(0, 2, 0), negative(0, 0, -1);
+  const auto said = [](const Spectrum& a, const Spectrum& b) {
+    return support::error_of([&] { render::Checkerboard(a, b).require_reflectance("paint"); });
+  };
+  EXPECT_EQ(said(good, 0 * good), "");
+  EXPECT_EQ(said(bright, good), "paint: color0 (0, 2, 0) must lie in [0, 1]");
+  EXPECT_EQ(said(good, negative), "paint: color1 (0, 0, -1) must lie in [0, 1]");
 }
 
 } // namespace

@@ -22,9 +22,9 @@ TEST(Mask, BadInput) {
     EXPECT_THAT(support::error_of([&] { Mask{bad}; }), testing::StartsWith(fmt::format("mask: opacity {}", bad)));
   const Spectrum half = Spectrum::Constant(Float(0.5));
   EXPECT_EQ(support::error_of([&] { Mask{Texture(render::Checkerboard(half, Spectrum(0, 2, 0)))}; }),
-            "mask: the largest of the opacity's texture (0.5, 2, 0.5) must lie in [0, 1]");
+            "mask: opacity: color1 (0, 2, 0) must lie in [0, 1]");
   EXPECT_EQ(support::error_of([&] { Mask{Texture(render::Checkerboard(half, Spectrum(0, 0, -1)))}; }),
-            "mask: the least of the opacity's texture (0, 0, -1) must lie in [0, 1]");
+            "mask: opacity: color1 (0, 0, -1) must lie in [0, 1]");
 }
 
 } // namespace

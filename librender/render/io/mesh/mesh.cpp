@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace render {
 
@@ -54,6 +55,38 @@ void require_sound(const MeshFile& file) {
     for (const std::uint32_t v : file.triangles[i])
       mc::require(v < file.positions.size(), "triangle {} names vertex {}, but there are only {}", i, v,
                   file.positions.size());
+}
+
+MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double degrees) {
+  mc::require(degrees >= 0 && degrees <= 180, "maxSmoothAngle {} must lie in [0, 180] degrees", degrees);
+  const double least = std::cos(degrees * mc::pi<double> / 180);
+  struct Side {
+    Vec3d normal;
+    std::uint32_t vertex;
+  };
+  std::map<std::array<double, 5>, std::vector<Side>> sides; // of what is at a position and texture coordinate
+  MeshFile split;
+  split.without_uvs = file.without_uvs;
+  split.meshes = file.meshes;
+  for (auto triangle : file.triangles) {
+    const auto corner = [&](std::size_t i) { return to_world.point(file.positions[triangle[i]]); };
+    const Vec3d normal = mc::cross<double>(corner(1) - corner(0), corner(2) - corner(0)).stableNormalized();
+    for (std::uint32_t& v : triangle) {
+      const Vec3d& p = file.positions[v];
+      const mc::Vec2<float> uv = file.uvs.empty() ? mc::Vec2<float>(0, 0) : file.uvs[v];
+      auto& about = sides[{p[0], p[1], p[2], double(uv[0]), double(uv[1])}];
+      auto side = std::find_if(about.begin(), about.end(),
+                               [&](const Side& s) { return s.normal == normal || s.normal.dot(normal) > least; });
+      if (side == about.end()) {
+        side = about.insert(side, {normal, static_cast<std::uint32_t>(split.positions.size())});
+        split.positions.push_back(p);
+        if (!file.uvs.empty()) split.uvs.push_back(uv);
+      }
+      v = side->vertex;
+    }
+    split.triangles.push_back(triangle);
+  }
+  return split;
 }
 
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat) {

@@ -28,6 +28,13 @@ struct MeshFile {
 ///   throws : Error for what TriangleMesh refuses, and where no triangle has an area
 TriangleMesh to_shape(const MeshFile& file, const Transform& to_world, bool flat = false);
 
+/// The mesh without its normals, for to_shape to make smooth ones, its vertices shared only where faces meet under
+/// `to_world` at less than an angle: what is at one position and texture coordinate is one vertex for the faces that
+/// turn away by less than that from the first of them, and so on for the others.
+///   throws : Error unless the angle lies in [0, 180]
+///   Source : Mitsuba 0.6, maxSmoothAngle
+MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double degrees);
+
 /// Throws Error, naming the first, where a vertex or a normal is not finite or a triangle names a vertex that is not
 /// there.
 void require_sound(const MeshFile& file);

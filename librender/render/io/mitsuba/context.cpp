@@ -8,13 +8,20 @@
 
 namespace render::mitsuba {
 
-namespace {
-
-// "2.1.0" is later than "0.6.0".
-bool is_of_mitsuba_2(const XmlElement& root) {
-  const std::string version = root.attribute_or("version", "0");
-  return mc::number_in(version.substr(0, version.find('.'))).value_or(0) >= 2;
+bool is_of_mitsuba_2(const XmlElement& scene) {
+  const std::string version = scene.attribute_or("version", "0.6.0");
+  for (const std::string_view known : {"0.4", "0.5", "0.6", "2", "3"}) {
+    const std::string_view rest = std::string_view(version).substr(std::min(known.size(), version.size()));
+    if (!version.starts_with(known) || rest.find_first_not_of(".0123456789") != std::string_view::npos) continue;
+    if (rest.empty() || (rest.starts_with('.') && !rest.ends_with('.'))) return known.size() == 1;
+  }
+  scene.fail(
+      fmt::format("version \"{}\" is not known; say 0.6.0, or 0.4 or 0.5, for a scene that means what it does in "
+                  "Mitsuba 0.6 or lajolla, 2.0.0 or 3.0.0 for one of Mitsuba 2 or 3",
+                  version));
 }
+
+namespace {
 
 Beyond beyond_of(const XmlElement& root, Dialect dialect) {
   if (dialect == Dialect::lajolla) return Beyond::held;
@@ -32,7 +39,7 @@ Context::Context(const XmlElement& root, Dialect dialect, const Vec3d& origin)
 
 void Context::collect_ids(const XmlElement& element) {
   for (const XmlElement& child : element.children) {
-    if (child.tag != "ref" && child.has("id")) {
+    if (child.tag != "ref" && child.tag != "alias" && child.has("id")) {
       const std::string& id = child.attribute("id");
       const auto [first, added] = ids_.try_emplace(id, &child);
       if (!added)

@@ -18,6 +18,10 @@
 
 namespace render::mitsuba {
 
+/// Whether a <scene> is written for Mitsuba 2 or 3, by its version: 2.x or 3.x; else 0.4 to 0.6, or none at all.
+///   throws : Error for any other version
+bool is_of_mitsuba_2(const XmlElement& scene);
+
 /// Filled while a scene is read. `root` must outlive it.
 class Context {
  public:

@@ -1,3 +1,4 @@
+#include <render/io/mitsuba/context.h>
 #include <render/io/mitsuba/folders.h>
 
 #include <mc/core/error.h>
@@ -46,10 +47,18 @@ std::vector<XmlElement> with_included(const XmlElement& root, std::vector<XmlEle
     child.require_all_seen();
     XmlElement included = mc::with_context(child.where(), [&] { return read_xml(folders.find(name)); });
     if (included.tag != "scene") included.fail("the document must be a <scene>");
+    if (included.has("version") && is_of_mitsuba_2(included) != is_of_mitsuba_2(root))
+      included.fail(
+          fmt::format("version \"{}\" beside \"{}\" of '{}', which includes it; colours mean different things "
+                      "in them: give both the same",
+                      included.attribute("version"), root.attribute_or("version", "0.6.0"), root.file));
     if (level == most_levels)
       child.fail(fmt::format("includes are nested more than {} deep; does a file include itself?", most_levels));
     if (++files > most_files) child.fail(fmt::format("more than {} files are included; include each once", most_files));
     std::vector<XmlElement> more = with_included(root, std::move(included.children), level + 1, files);
+    included.mark();
+    included.children.clear(); // seen where they went
+    included.require_all_seen();
     std::move(more.begin(), more.end(), std::back_inserter(all));
   }
   return all;

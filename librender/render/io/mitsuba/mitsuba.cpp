@@ -57,6 +57,7 @@ class Reader {
   }
 
   void emitter(const XmlElement& e) {
+    if (e.attribute("type") == "area") e.fail("an area shines only as part of a <shape>; put it into one");
     Light light = read_plugin(emitter_plugins(), e, context_);
     if (light.is_infinite() && std::exchange(has_background_, true)) e.fail("a second background; only one is allowed");
     context_.builder.add(std::move(light));
@@ -133,7 +134,7 @@ SceneFile read_mitsuba(const std::string& path, Dialect dialect, const Variables
   XmlElement root = read_xml(path);
   root.mark();
   if (root.tag != "scene") root.fail("the document must be a <scene>");
-  root.attribute_or("version", "");
+  is_of_mitsuba_2(root);
   include_files(root);
   substitute_variables(root, variables);
   SceneFile file = read_where_it_stands(root, dialect);

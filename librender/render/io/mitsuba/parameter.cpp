@@ -106,7 +106,7 @@ Parameter<Vec3d> point(const std::string& name, const std::string& meaning, cons
 }
 
 Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning) {
-  return {{name, "colour", unit, {"rgb", "srgb", "spectrum"}, meaning},
+  return {{name, "colour", unit, {"rgb", "srgb", "spectrum", "float"}, meaning},
           [](const XmlElement& e, Context& context) { return color_of(e, context.beyond()); },
           {},
           {}};
@@ -131,7 +131,7 @@ Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std
     return reflectance_of(e, context.illuminant(), context.beyond());
   };
   const Parameter<Reflectance> p{
-      {name, "colour or texture", share_of_light, {"rgb", "srgb", "spectrum", "texture", "ref"}, meaning},
+      {name, "colour or texture", share_of_light, {"rgb", "srgb", "spectrum", "float", "texture", "ref"}, meaning},
       parse,
       {},
       {}};

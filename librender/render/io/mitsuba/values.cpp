@@ -76,8 +76,13 @@ Spectrum tabulated(const XmlElement& e, const std::string& text, Illuminant illu
     const std::size_t value = place(text.find_first_not_of(" \t\r\n", colon + 1)),
                       end = place(text.find_first_of(separators, value));
     samples.push_back({parse_number(e, wavelength), parse_number(e, text.substr(value, end - value))});
+    if (samples.back().value < 0)
+      e.fail(fmt::format("'{}' is below 0 at {} nm; say 0", samples.back().value, samples.back().wavelength));
     begin = end;
   }
+  if (samples.size() > 1 && (samples.back().wavelength < 400 || samples[0].wavelength > 700))
+    e.fail(fmt::format("its wavelengths, {} to {}, are not seen; give them in nanometres, some of them from 400 to 700",
+                       samples[0].wavelength, samples.back().wavelength));
   const Spectrum rgb = mc::with_context(e.where(), [&] { return spectrum_to_rgb(samples, illuminant, beyond); });
   return beyond == Beyond::held ? rgb : Spectrum(rgb.max(0));
 }

@@ -21,9 +21,10 @@ int integer_of(const XmlElement& element);
 bool boolean_of(const XmlElement& element);
 /// x, y, z attributes, those that are missing 0; or three numbers, or one for all, as the value.
 Vec3d vector_of(const XmlElement& element);
-/// Linear sRGB of <rgb> (linear) or <srgb> (by the sRGB curve), each as one number, three or #rrggbb (255ths), and of
-/// <spectrum>, as one number or wavelength:value pairs. Unless these are held, as in lajolla, colours that the screen
-/// does not have become the nearest >= 0.
+/// Linear sRGB of <rgb> (linear) or <srgb> (by the sRGB curve), each as one number, three or #rrggbb (255ths), of
+/// <float>, a grey as in Mitsuba 3, and of <spectrum>, as one number or wavelength:value pairs, with values >= 0 and
+/// wavelengths that reach into 400..700 nm. Unless these are held, as in lajolla, colours that the screen does not have
+/// become the nearest >= 0.
 Spectrum color_of(const XmlElement& element, Beyond beyond = Beyond::held);
 /// The same of what reflects: wavelength:value pairs are seen in that light, and under D65 colours that the screen does
 /// not have become the nearest in [0, 1], as in Mitsuba 3.

@@ -100,6 +100,34 @@ std::string pyramid(const PlyCase& c) {
 const PlyCase ply_cases[] = {
     {"ascii", true, false}, {"binary_little_endian", false, false}, {"binary_big_endian", false, true}};
 
+// Two faces that meet at 40 degrees along y, each with corners and normals of its own; stretched along z they meet at
+// another angle.
+TEST_F(Mesh, EdgesAreKeptFromAnAngleOn) {
+  const double slope = 40 * mc::pi<double> / 180;
+  MeshFile roof;
+  roof.positions = {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {std::cos(slope), 0, -std::sin(slope)}, {0, 1, 0}};
+  roof.normals.assign(6, Vec3d(1, 0, 1));
+  roof.uvs.assign(6, {0.5f, 0.5f});
+  roof.triangles = {{0, 1, 2}, {3, 4, 5}};
+  const auto bend = [&](double most, const Transform& to_world) {
+    const MeshFile split = split_at_edges(roof, to_world, most);
+    const TriangleMesh mesh = to_shape(split, to_world);
+    EXPECT_EQ(split.uvs.size(), split.positions.size());
+    const Vec3 left = mesh.point(0, 1, 0).ns, right = mesh.point(1, 0, 0).ns; // at (0, 0, 0)
+    EXPECT_EQ(split.positions.size(), left == right ? 4u : 6u);
+    return std::acos(std::min(1.0, double(left.dot(right)))) * 180 / mc::pi<double>;
+  };
+  EXPECT_NEAR(bend(39.9, {}), 40, 1e-3);
+  EXPECT_NEAR(bend(40.1, {}), 0, 1e-3);
+  EXPECT_NEAR(bend(0, {}), 40, 1e-3);
+  const Transform stretched = Transform::scale({1, 1, 2});
+  const double steep = std::atan(2 * std::tan(slope)) * 180 / mc::pi<double>;
+  EXPECT_NEAR(bend(steep - 0.1, stretched), steep, 1e-3);
+  EXPECT_NEAR(bend(steep + 0.1, stretched), 0, 1e-3);
+  for (const double wrong : {-1.0, 180.5, std::nan("")})
+    EXPECT_THAT(support::error_of([&] { split_at_edges(roof, {}, wrong); }), HasSubstr("must lie in [0, 180] degrees"));
+}
+
 TEST_F(Mesh, PlyInEveryFormat) {
   for (const PlyCase& c : ply_cases) {
     const MeshFile file = read_ply(write("p.ply", pyramid(c)));

@@ -43,8 +43,23 @@ TEST_F(SceneContext, SpectraOfWhatReflectsAreSeenInTheLightOfTheVersion) {
   using enum render::Dialect;
   EXPECT_THAT(said("0.6.0", mitsuba), HasSubstr("(1.1992")) << "warm, and more than there is";
   EXPECT_THAT(said("3.0.0", lajolla), HasSubstr("(1.1992"));
-  EXPECT_THAT(said("odd", mitsuba), HasSubstr("(1.1992"));
   for (const char* version : {"2.0.0", "2.1", "3"}) EXPECT_EQ(said(version, mitsuba), "") << version;
+}
+
+TEST_F(SceneContext, VersionsAreThoseOfMitsuba) {
+  const auto is_late = [&](const std::string& attribute) {
+    return render::mitsuba::is_of_mitsuba_2(render::read_xml(write("v.xml", "<scene" + attribute + "/>")));
+  };
+  EXPECT_FALSE(is_late(""));
+  for (const char* old : {"0.4", "0.4.0", "0.5.0", "0.6.0", "0.6.10"})
+    EXPECT_FALSE(is_late(fmt::format(" version=\"{}\"", old))) << old;
+  for (const char* late : {"2", "2.2.1", "3.0", "3.7.1"})
+    EXPECT_TRUE(is_late(fmt::format(" version=\"{}\"", late))) << late;
+  for (const char* odd :
+       {"", "banana", "-1", "99.9.9", "0", "0.3.0", "0.61", "1.0.0", "3.", "3.0.", "3.0.0 ", "30", "3x"})
+    EXPECT_THAT(
+        support::error_of([&] { render::read_mitsuba(write("v.xml", fmt::format("\n<scene version=\"{}\"/>", odd))); }),
+        HasSubstr(fmt::format("v.xml:2: <scene>: version \"{}\" is not known; say 0.6.0", odd)));
 }
 
 TEST_F(SceneContext, BadReferences) {

@@ -60,6 +60,13 @@ TEST_F(SceneFolders, HoldWhatScenesInclude) {
   EXPECT_THAT(refusal(std::string(sensor) + "\n<include filename=\"none.xml\"/>"), HasSubstr("s.xml:3: cannot read '"));
   EXPECT_THAT(refusal("<include filename=\"more.xml\" if=\"1\"/>"),
               HasSubstr("s.xml:2: <include>: attribute if=\"1\" is not"));
+  write("more.xml", "<scene author=\"me\"/>");
+  EXPECT_THAT(refusal("<include filename=\"more.xml\"/>"), HasSubstr("more.xml:1: <scene>: attribute author=\"me\""));
+  write("more.xml", "<scene version=\"0.5.0\"/>");
+  EXPECT_THAT(refusal("<include filename=\"more.xml\"/>"), HasSubstr("no <sensor>")) << "means the same";
+  write("more.xml", "<scene version=\"3.0.0\"/>");
+  EXPECT_THAT(refusal("<include filename=\"more.xml\"/>"),
+              HasSubstr("more.xml:1: <scene>: version \"3.0.0\" beside \"0.6.0\" of '"));
   write("more.xml", "<shape type=\"cube\"/>");
   EXPECT_THAT(refusal("<include filename=\"more.xml\"/>"),
               HasSubstr("more.xml:1: <shape>: the document must be a <scene>"));

@@ -69,6 +69,10 @@ TEST_F(Mitsuba, NamesFileLineAndRemedy) {
               testing::HasSubstr("did you mean 'diffuse'?"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<bsdf type=\"diffuse\" id=\"a\"/>\n<bsdf type=\"diffuse\" id=\"a\"/>"),
               testing::HasSubstr("s.xml:4: <bsdf>: a second element with the id 'a'"));
+  EXPECT_THAT(refusal(std::string(sensor) + "\n<emitter type=\"area\"/>"),
+              testing::HasSubstr("s.xml:3: <emitter>: an area shines only as part of a <shape>; put it into one"));
+  EXPECT_THAT(refusal(std::string(sensor) + "<bsdf type=\"diffuse\" id=\"a\"/>\n<alias id=\"a\" as=\"b\"/>"),
+              testing::HasSubstr("s.xml:3: <alias>: unknown element; use default"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<volume/>"), testing::HasSubstr("s.xml:3: <volume>: unknown element"));
   EXPECT_THAT(refusal(std::string(sensor) + "\n<shape type=\"sphere\"><float name=\"radius\" value=\"one\"/></shape>"),
               testing::HasSubstr("s.xml:3: <float>: 'one' is not a finite number"));
@@ -117,7 +121,7 @@ TEST_F(Mitsuba, MasksNameWhatIsWrong) {
               testing::HasSubstr("s.xml:3: scene: shape 0 shines through a mask, which is not supported"));
   EXPECT_THAT(
       said("<texture type=\"checkerboard\" name=\"opacity\"><rgb name=\"color0\" value=\"2\"/></texture>" + diffuse),
-      testing::HasSubstr("mask: the largest of the opacity's texture (2, 2, 2) must lie in [0, 1]"));
+      testing::HasSubstr("s.xml:3: <bsdf>: mask: opacity: color0 (2, 2, 2) must lie in [0, 1]"));
 }
 
 TEST_F(Mitsuba, MetalsNameWhatIsWrong) {

@@ -1,3 +1,4 @@
+#include <render/io/image/image_io.h>
 #include <render/io/mitsuba/plugins.h>
 
 #include "render/io/mitsuba/scene_text.h"
@@ -139,6 +140,32 @@ TEST_F(PluginsTest, TexturesAreMovedByTransformsToo) {
   EXPECT_THAT(refusal(std::string(sensor) + "\n<texture type=\"checkerboard\" id=\"t\"><transform name=\"to_uv\">"
                                             "<rotate z=\"1\" angle=\"30\"/></transform></texture>"),
               testing::HasSubstr("s.xml:3: <transform>: only what scales and translates u and v is supported"));
+}
+
+// What paints reflects no more than it gets, what shines may give any amount.
+TEST_F(PluginsTest, PicturesOfPaintLieInZeroToOne) {
+  const auto bitmap = [](const std::string& name) {
+    return "<texture type=\"bitmap\" name=\"" + name + "\"><string name=\"filename\" value=\"p.pfm\"/></texture>";
+  };
+  const std::string diffuse = "<bsdf type=\"diffuse\">" + bitmap("reflectance") + "</bsdf>",
+                    mask = "<bsdf type=\"mask\">" + bitmap("opacity") + "<bsdf type=\"diffuse\"/></bsdf>";
+  const auto said = [&](const std::string& body, double texel) {
+    render::Image picture(3, 2);
+    picture.at(2, 1) = render::Spectrum(0, render::Float(texel), 1);
+    render::write_image(path("p.pfm"), picture);
+    return refusal(std::string(sensor) + "\n" + body);
+  };
+  for (const auto& [bsdf, what] : {std::pair(diffuse, "diffuse: reflectance"), {mask, "mask: opacity"}}) {
+    const std::string shape = "<shape type=\"cube\">" + bsdf + "</shape>";
+    EXPECT_EQ(said(shape, 1), "");
+    for (const double wrong : {1.75, -0.25})
+      EXPECT_THAT(
+          said(shape, wrong),
+          testing::AllOf(testing::HasSubstr(fmt::format("s.xml:3: <bsdf>: {}: texel (2, 1) of '", what)),
+                         testing::HasSubstr(fmt::format("p.pfm' = (0, {}, 1) must lie in [0, 1]; clip", wrong))));
+    EXPECT_THAT(said(shape, NAN), testing::HasSubstr("p.pfm' = (0, nan, 1) is not finite; repair the picture"));
+  }
+  EXPECT_EQ(said("<emitter type=\"envmap\"><string name=\"filename\" value=\"p.pfm\"/></emitter>", 1000), "");
 }
 
 TEST_F(PluginsTest, WhatIsNotDoneIsRefused) {

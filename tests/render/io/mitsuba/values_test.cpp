@@ -56,7 +56,14 @@ TEST_F(Values, Colors) {
   EXPECT_THAT(refusal("<spectrum value=\"400:1 500 700:2\"/>", color_of_element),
               HasSubstr("'500' is not wavelength:value"));
   EXPECT_THAT(refusal("<spectrum value=\"400:, 700:2\"/>", color_of_element), HasSubstr("'' is not a finite number"));
+  EXPECT_THAT(refusal("<spectrum value=\"400:1, 500:-0.5, 700:2\"/>", color_of_element),
+              HasSubstr("v.xml:1: <spectrum>: '-0.5' is below 0 at 500 nm; say 0"));
+  for (const std::string unseen : {"0.4:1, 0.7:2", "4e-7:1 7e-7:2", "700.5:1, 800:1", "300:1, 399:1"})
+    EXPECT_THAT(refusal("<spectrum value=\"" + unseen + "\"/>", color_of_element),
+                HasSubstr("give them in nanometres"));
+  EXPECT_GT(color_of(element("<spectrum value=\"300:1, 800:1\"/>"))[0], 1);
   EXPECT_FLOAT_EQ(static_cast<float>(color_of(element("<spectrum value=\"0.25\"/>"))[0]), 0.25f);
+  EXPECT_FLOAT_EQ(static_cast<float>(color_of(element("<float value=\"0.75\"/>"))[1]), 0.75f);
   EXPECT_THAT(refusal("<spectrum value=\"400:1, 700\"/>", color_of_element), HasSubstr("is not wavelength:value"));
   EXPECT_THAT(refusal("<rgb value=\"1 2\"/>", color_of_element), HasSubstr("has 2 numbers; give 1 or 3"));
   EXPECT_THAT(refusal("<rgb value=\"#12345\"/>", color_of_element), HasSubstr("is not #rrggbb"));

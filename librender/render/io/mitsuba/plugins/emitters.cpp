@@ -38,7 +38,8 @@ const Plugins<Emission>& surface_emitter_plugins() {
   static const Plugins<Emission> rows = {
       plugin<Emission>("area", "the same radiance in every direction, from the side that the shape's normal points to",
                        make_area, color("radiance", radiance_unit, "what is emitted, >= 0"),
-                       boolean("twoSided", "whether the other side shines too (ours)")),
+                       boolean("twoSided", "whether the other side shines too (ours)"))
+          .accepting({sampling_weight()}),
   };
   return rows;
 }
@@ -46,7 +47,8 @@ const Plugins<Emission>& surface_emitter_plugins() {
 const Plugins<Light>& emitter_plugins() {
   static const Plugins<Light> rows = {
       plugin<Light>("constant", "the same radiance from every direction where no shape is met", make_constant,
-                    color("radiance", radiance_unit, "what arrives, >= 0", Spectrum::Ones())),
+                    color("radiance", radiance_unit, "what arrives, >= 0", Spectrum::Ones()))
+          .accepting({sampling_weight()}),
       plugin<Light>("envmap", "a latitude-longitude picture of everything far away, +y its top row", make_envmap,
                     transform("toWorld", "a rotation; where it moves things is of no effect"),
                     number("scale", "", 1, "factor of the picture's values, > 0"),

@@ -14,9 +14,10 @@ Mitsuba 2 and 3: `to_world`, `int_ior`.
 - **Parameters** are written `<float name="fov" value="40"/>`: number `<float>` or `<integer>`, integer `<integer>`,
   boolean `<boolean>`, file and words `<string>`, point `<point>` or `<vector>` with x, y, z or a value.
 - **Colours** are `<rgb>` (linear sRGB) or `<srgb>` (by the sRGB curve) with three numbers, one for all, or `#rrggbb`;
-  or `<spectrum>` with one number or `wavelength:value` pairs [nm]. Pairs of what reflects are seen in light of equal
-  energy, which makes white warm, as in Mitsuba 0.6, but in daylight in scenes of version 2 and later, as in Mitsuba 3.
-  Beyond the pairs a spectrum falls to 0 within their mean distance, from version 2 on at once; lajolla's is held.
+  or `<spectrum>` with one number or `wavelength:value` pairs [nm]; or `<float>`, a grey. Pairs of what reflects are
+  seen in light of equal energy, which makes white warm, as in Mitsuba 0.6, but in daylight in scenes of version 2 and
+  later, as in Mitsuba 3. Beyond the pairs a spectrum falls to 0 within their mean distance, from version 2 on at once;
+  lajolla's is held.
 - **Transforms** are `<transform>` with `<translate>`, `<scale>`, `<rotate>` (angle in degrees), `<lookAt>` and
   `<matrix>` (16 numbers, row by row), applied in the order in which they stand.
 - **Variables**: `<default name="spp" value="16"/>` and then `$spp` in any value below it; of two defaults with one name

@@ -15,27 +15,41 @@ struct Placed {
   Placed(Shape s, std::string why = {}) : shape(std::move(s)), without_uvs(std::move(why)) {}
 };
 
-Placed placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, bool face_normals) {
+/// How the normals of a mesh are made.
+struct Smoothing {
+  bool is_flat;
+  std::optional<double> max_angle; ///< between faces [degrees]
+};
+
+Placed placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, const Smoothing& smoothing) {
   return mc::with_context(name, [&] {
+    const auto& [is_flat, max_angle] = smoothing;
+    mc::require(!is_flat || !max_angle, "faceNormals and maxSmoothAngle contradict each other; give one");
     const std::string& why = mesh.without_uvs;
-    return Placed(to_shape(mesh, to_world, face_normals), why.empty() ? why : fmt::format("{}: {}", name, why));
+    return Placed(max_angle ? to_shape(split_at_edges(mesh, to_world, *max_angle), to_world)
+                            : to_shape(mesh, to_world, is_flat),
+                  why.empty() ? why : fmt::format("{}: {}", name, why));
   });
 }
 
-Placed make_obj(const std::string& path, const Transform& to_world, bool face_normals) {
-  return placed(path, read_obj(path), to_world, face_normals);
+Placed make_obj(const std::string& path, const Transform& to_world, bool face_normals,
+                const std::optional<double>& max_angle) {
+  return placed(path, read_obj(path), to_world, {face_normals, max_angle});
 }
 
-Placed make_ply(const std::string& path, const Transform& to_world, bool face_normals) {
-  return placed(path, read_ply(path), to_world, face_normals);
+Placed make_ply(const std::string& path, const Transform& to_world, bool face_normals,
+                const std::optional<double>& max_angle) {
+  return placed(path, read_ply(path), to_world, {face_normals, max_angle});
 }
 
-Placed make_serialized(const std::string& path, const Transform& to_world, bool face_normals, int index) {
-  return placed(fmt::format("{}: mesh {}", path, index), read_serialized(path, index), to_world, face_normals);
+Placed make_serialized(const std::string& path, const Transform& to_world, bool face_normals,
+                       const std::optional<double>& max_angle, int index) {
+  return placed(fmt::format("{}: mesh {}", path, index), read_serialized(path, index), to_world,
+                {face_normals, max_angle});
 }
 
-Shape make_rectangle(const Transform& to_world) {
-  TriangleMesh square = TriangleMesh::rectangle(to_world);
+Shape make_rectangle(const Transform& to_world, bool flip) {
+  TriangleMesh square = TriangleMesh::rectangle(flip ? to_world * Transform::scale({1, 1, -1}) : to_world);
   mc::require(square.area() > 0, "toWorld makes a line of the square, or a point; nothing would be seen");
   return square;
 }
@@ -45,7 +59,13 @@ Shape make_cube(const Transform& to_world) {
   return TriangleMesh::box(to_world);
 }
 
-Shape make_sphere(const Transform& to_world, const Vec3d& center, double radius, bool flip, std::size_t pole,
+/// Where a sphere is before toWorld turns and moves it, and whether that also scales it.
+struct Center {
+  Vec3d at = Vec3d::Zero();
+  bool is_scaled = true;
+};
+
+Shape make_sphere(const Transform& to_world, const Center& center, double radius, bool flip, std::size_t pole,
                   const std::optional<Vec3d>& cap_axis, const std::optional<double>& cap_height) {
   const double scale = to_world.linear.col(0).stableNorm();
   const Eigen::Matrix3d turn = to_world.linear / scale;
@@ -53,11 +73,14 @@ Shape make_sphere(const Transform& to_world, const Vec3d& center, double radius,
               "toWorld of a sphere must scale all axes alike");
   mc::require(cap_axis.has_value() == cap_height.has_value(),
               "capAxis and capHeight belong together; give both or none");
-  const Vec3d at = to_world.point(center);
+  const Vec3d at = to_world.point(center.is_scaled ? center.at : Vec3d(center.at / scale));
+  const bool is_z_up = pole == 0;
   Eigen::Matrix3d axes = turn;
-  if (pole == 1) axes << turn.col(0), turn.col(2), turn.col(1);
-  if (!cap_axis) return Sphere(at, scale * radius, flip).with_uv_axes(axes);
-  return Sphere::cap(at, scale * radius, to_world.vector(*cap_axis), scale * *cap_height, flip).with_uv_axes(axes);
+  if (!is_z_up) axes << turn.col(0), turn.col(2), turn.col(1);
+  const Sphere sphere = cap_axis
+                            ? Sphere::cap(at, scale * radius, to_world.vector(*cap_axis), scale * *cap_height, flip)
+                            : Sphere(at, scale * radius, flip);
+  return sphere.with_uv_axes(axes, is_z_up ? 0 : -0.5);
 }
 
 Parameter<std::optional<BsdfId>> bsdf_of_shape() {
@@ -113,13 +136,49 @@ HomogeneousMedium make_homogeneous(const Spectrum& absorption, const Spectrum& s
 
 Parameter<Transform> to_world() { return transform("toWorld", "from the shape's space to the scene's"); }
 
+Parameter<Transform> to_world_of_sphere() {
+  Parameter<Transform> p = to_world();
+  p.parse = [](const XmlElement& e, Context& context) {
+    if (context.dialect() == Dialect::lajolla)
+      context.warn(e, "lajolla leaves a sphere where it is, here toWorld counts; say center and radius instead");
+    return transform_of(e);
+  };
+  return p;
+}
+
+Parameter<Center> center() {
+  const Parameter<Center> p{{"center",
+                             "point",
+                             "",
+                             {"point", "vector"},
+                             "its centre, which toWorld turns and moves, and since Mitsuba 2 scales"},
+                            [](const XmlElement& e, Context& context) {
+                              return Center{vector_of(e), context.illuminant() == Illuminant::d65};
+                            },
+                            {},
+                            {}};
+  return p.otherwise({}, "0, 0, 0");
+}
+
+Parameter<std::optional<double>> max_smooth_angle() {
+  auto p = optional(number("maxSmoothAngle", "degrees",
+                           "faces that meet at more keep their edge, the others are smooth whatever the file says; "
+                           "lajolla leaves it out"));
+  p.parse = [](const XmlElement& e, Context& context) -> std::optional<double> {
+    const double angle = number_of(e);
+    if (context.dialect() == Dialect::lajolla) return {};
+    return angle;
+  };
+  return p;
+}
+
 // A row for a mesh in a file, with the parameters that all of those have.
 template <class Make, class... V>
 Plugin<CoveredShape> mesh_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
   return shape_plugin(
       std::move(name), std::move(meaning), make, file("filename", "the mesh, relative to the scene file"), to_world(),
       boolean("faceNormals", "whether it is flat: without the file's normals, or smooth ones where it has none"),
-      parameters...);
+      max_smooth_angle(), parameters...);
 }
 
 } // namespace
@@ -138,15 +197,16 @@ const Plugins<CoveredShape>& shape_plugins() {
       mesh_plugin("obj", "a mesh in Wavefront's format; its materials are ignored", make_obj),
       mesh_plugin("ply", "a mesh in Stanford's format, ascii or binary", make_ply),
       mesh_plugin("serialized", "a mesh in Mitsuba's own format, versions 3 and 4", make_serialized,
-                  integer("shapeIndex", "which of the file's meshes, >= 0", 0))
-          .accepting({no_effect("maxSmoothAngle", "the file's normals count, where Mitsuba makes new ones")}),
-      shape_plugin("rectangle", "the square [-1, 1]^2 in the plane z = 0, normal +z", make_rectangle, to_world()),
+                  integer("shapeIndex", "which of the file's meshes, >= 0", 0)),
+      shape_plugin("rectangle", "the square [-1, 1]^2 in the plane z = 0, normal +z", make_rectangle, to_world(),
+                   boolean("flipNormals", "whether the normal is -z")),
       shape_plugin("cube", "the cube [-1, 1]^3, normals outward", make_cube, to_world()),
       shape_plugin(
-          "sphere", "a sphere, or the cap of one", make_sphere, to_world(),
-          point("center", "its centre", Vec3d::Zero()), number("radius", scene_units, 1, "its radius, > 0"),
+          "sphere", "a sphere, or the cap of one", make_sphere, to_world_of_sphere(), center(),
+          number("radius", scene_units, 1, "its radius, > 0"),
           boolean("flipNormals", "whether the normals point inward"),
-          choice("pole", {"z", "y"}, "where v is 0; u turns from x to y about z, from x to z about y (ours)", 0)
+          choice("pole", {"z", "y"},
+                 "where v is 0; u in [0, 1] turns from x to y about z, u in [-1/2, 1/2] from x to z about y (ours)", 0)
               .in_lajolla(1, "y"),
           optional(point("capAxis", "direction of the cap's pole from the centre (ours)", Vec3d::Zero())),
           optional(number("capHeight", scene_units, "how far the cap reaches from its pole, in (0, 2 radius] (ours)"))),

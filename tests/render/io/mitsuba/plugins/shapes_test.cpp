@@ -1,0 +1,81 @@
+#include <render/io/mitsuba/plugins.h>
+
+#include "render/io/mitsuba/scene_text.h"
+
+namespace {
+
+using render::Dialect, render::Vec3d;
+struct ShapePlugins : support::SceneTest {
+  render::SceneFile shape(const std::string& type, const std::string& parameters, const std::string& version = "0.6.0",
+                          Dialect dialect = Dialect::mitsuba) const {
+    const std::string text = fmt::format("<scene version=\"{}\">{}\n<shape type=\"{}\">{}</shape></scene>", version,
+                                         sensor, type, parameters);
+    return render::read_mitsuba(write("shape.xml", text), dialect);
+  }
+};
+
+// Mitsuba 0.6 takes the scale of toWorld for the radius alone, Mitsuba 3 for the centre too; lajolla reads no toWorld.
+TEST_F(ShapePlugins, ToWorldScalesTheCentreOfASphereSinceMitsuba2) {
+  const std::string parameters = R"(<point name="center" x="1" y="2" z="3"/><float name="radius" value="0.5"/>
+    <transform name="toWorld"><scale value="4"/><rotate z="1" angle="90"/><translate x="10"/></transform>)";
+  const auto sphere = [&](const std::string& version) {
+    return std::get<render::Sphere>(*shape("sphere", parameters, version).scene.surfaces()[0].shape);
+  };
+  for (const char* version : {"0.5.0", "0.6.0"})
+    EXPECT_LE((sphere(version).center() - Vec3d(8, 1, 3)).norm(), 1e-12) << version;
+  for (const char* version : {"2.0.0", "3.0.0"})
+    EXPECT_LE((sphere(version).center() - Vec3d(2, 4, 12)).norm(), 1e-12) << version;
+  EXPECT_EQ(sphere("0.6.0").radius(), 2);
+  EXPECT_THAT(shape("sphere", parameters).warnings, testing::IsEmpty());
+  EXPECT_THAT(shape("sphere", parameters, "0.4.0", Dialect::lajolla).warnings,
+              testing::ElementsAre(testing::HasSubstr(
+                  "shape.xml:3: <transform>: lajolla leaves a sphere where it is, here toWorld counts")));
+}
+
+TEST_F(ShapePlugins, ARectangleShinesFromTheOtherSideWhenItsNormalIsFlipped) {
+  const std::string mirrored = R"(<transform name="toWorld"><scale x="-1" y="2"/></transform>)";
+  for (const std::string& to_world : {std::string(), mirrored})
+    for (const bool flipped : {false, true}) {
+      const std::string flip = fmt::format("<boolean name=\"flipNormals\" value=\"{}\"/>", flipped);
+      const auto file = shape("rectangle", to_world + flip);
+      const auto& square = std::get<render::TriangleMesh>(*file.scene.surfaces()[0].shape);
+      EXPECT_EQ(square.point(0, 0.2, 0.3).ng, render::Vec3(0, 0, flipped ? -1 : 1)) << to_world;
+    }
+}
+
+// The seam is at +x in Mitsuba and at -x in lajolla, which is seen where a texture repeats no whole number of times.
+TEST_F(ShapePlugins, TexturesOfSpheresBeginWhereTheDialectsDo) {
+  for (const bool is_lajolla : {false, true}) {
+    const auto file = shape("sphere", "", "0.6.0", is_lajolla ? Dialect::lajolla : Dialect::mitsuba);
+    const render::Shape& ball = *file.scene.surfaces()[0].shape;
+    for (double angle = -175; angle < 180; angle += 10) {
+      const double x = std::cos(angle * mc::pi<double> / 180), y = std::sin(angle * mc::pi<double> / 180);
+      render::SurfacePoint p;
+      p.p = (is_lajolla ? Vec3d(x, 0, y) : Vec3d(x, y, 0)).cast<render::Float>();
+      EXPECT_NEAR(ball.uv({}, p)[0], (angle < 0 && !is_lajolla ? angle + 360 : angle) / 360, 1e-6) << angle;
+    }
+  }
+}
+
+// In lajolla's dialect it says nothing.
+TEST_F(ShapePlugins, MeshesKeepTheirEdgesFromMaxSmoothAngleOn) {
+  const std::string box = "v -1 0 0\nv 0 0 0\nv 0 1 0\nv 0 0 -1\nf 1 2 3\nf 2 4 3\n", // two faces at 90 degrees
+      name = R"(<string name="filename" value="edge.obj"/>)", angle = R"(<float name="maxSmoothAngle" value="{}"/>)";
+  write("edge.obj", box);
+  const auto is_flat = [&](const std::string& more, Dialect dialect = Dialect::mitsuba) {
+    const auto file = shape("obj", name + more, "0.6.0", dialect);
+    const auto point = std::get<render::TriangleMesh>(*file.scene.surfaces()[0].shape).point(0, 1, 0);
+    return point.ns == point.ng;
+  };
+  EXPECT_FALSE(is_flat(""));
+  EXPECT_TRUE(is_flat(fmt::format(fmt::runtime(angle), 89)));
+  EXPECT_FALSE(is_flat(fmt::format(fmt::runtime(angle), 91)));
+  EXPECT_FALSE(is_flat(fmt::format(fmt::runtime(angle), 89), Dialect::lajolla));
+  EXPECT_THAT(support::error_of([&] {
+                is_flat(fmt::format(fmt::runtime(angle), 89) + R"(<boolean name="faceNormals" value="true"/>)");
+              }),
+              testing::AllOf(testing::HasSubstr("shape.xml:2: <shape>: "),
+                             testing::HasSubstr("edge.obj: faceNormals and maxSmoothAngle contradict each other")));
+}
+
+} // namespace
