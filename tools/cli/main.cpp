@@ -56,8 +56,9 @@ std::string number(const std::string& text) {
   return mc::number_in(text) ? std::string() : fmt::format("'{}' is not a number", text);
 }
 
-// Or else -o=a.png would be a file '=a.png'.
-std::string equals_sign(const std::string& text) {
+// Or else --plugin "$MINE" with no MINE would check a sampler of ours, and -o=a.png would be a file '=a.png'.
+std::string some_word(const std::string& text) {
+  if (text.empty()) return "'' is empty; give a value or leave it out";
   return text.starts_with('=') ? fmt::format("'{}' begins with =; leave that out", text) : std::string();
 }
 
@@ -74,7 +75,7 @@ template <class T> CLI::Option* add(CLI::App& app, const Option& o, T* target) {
   if constexpr (std::integral<T>) option->transform(CLI::Validator(whole_number<T>, ""));
   if constexpr (std::same_as<T, std::optional<int>>) option->transform(CLI::Validator(whole_number<int>, ""));
   if constexpr (std::same_as<T, double> || std::same_as<T, std::optional<double>>) option->check(number);
-  if constexpr (std::same_as<T, std::string>) option->check(equals_sign);
+  if constexpr (std::same_as<T, std::string>) option->check(some_word);
   if constexpr (requires { target->empty(); }) {
     if (!target->empty()) option->capture_default_str();
   } else if constexpr (!requires { target->has_value(); }) {

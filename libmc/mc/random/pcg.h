@@ -11,10 +11,12 @@
 namespace mc {
 
 /// A stream of independent random bits: pcg32 (XSH-RR, period 2^64 per stream, 2^63 streams) [ONeill14].
+///   Streams from 2^32 on are hashed: increments that differ in their upper bits alone make streams alike.
 ///   Same (seed, stream), same bits, on every machine. Prefer hash_uniform where random access by key is wanted.
 class Pcg {
  public:
-  explicit Pcg(std::uint64_t seed = 0, std::uint64_t stream = 0) : engine_(mix64(seed + 1), stream) {}
+  explicit Pcg(std::uint64_t seed = 0, std::uint64_t stream = 0)
+      : engine_(mix64(seed + 1), stream < (std::uint64_t{1} << 32) ? stream : mix64(stream)) {}
 
   std::uint32_t next32() { return engine_(); }
   std::uint64_t next64() {

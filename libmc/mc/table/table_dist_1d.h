@@ -62,12 +62,15 @@ template <Real S, class I = Interval<S>> struct StepsView {
 
   // Rounding must not carry the point into a neighbouring cell, which may have weight 0.
   S nudged(S x, std::size_t i) const {
-    using std::abs, std::clamp;
-    const S step = std::numeric_limits<S>::epsilon() * std::max(S(abs(S(interval.lo))), S(abs(S(interval.hi))));
-    for (int k = 0; k < 4; ++k) {
+    using std::abs, std::clamp, std::nextafter;
+    const S lo = S(interval.lo), hi = S(interval.hi);
+    // To the next number first; where the distance from lo does not tell that one apart, by what it tells.
+    const S step = std::numeric_limits<S>::epsilon() * std::max(S(abs(lo)), S(abs(x)));
+    for (int k = 0; k < 6; ++k) {
       const std::size_t at = cell(x);
       if (at == i) break;
-      x = clamp(S(at < i ? x + step : x - step), S(interval.lo), S(interval.hi));
+      const S far = at < i ? S(x + step) : S(x - step);
+      x = clamp(k < 2 ? S(nextafter(x, far)) : far, lo, hi);
     }
     return x;
   }

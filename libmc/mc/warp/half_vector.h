@@ -134,7 +134,7 @@ template <Warp N> struct Facets {
 ///   sample : wi = 2 (wo.m) m - wo for the sample m of the normals, which may face away from wo: still one-to-one.
 ///            Within 64 eps
 ///   pdf    : pdf(m) / (4 |wo.m|) [1/sr] at m = the half vector. Relative error that of the normals' pdf + 32 eps,
-///            but for m within 2 eps of the horizon, which may stand for the one below it
+///            but for m within 2 eps / |wo + wi| of the horizon, which may stand for the one below it
 ///   invert : |invert(sample(u)) - u| <= 16 eps / (alpha |wo + wi|), the conditioning above, where the normals' own
 ///            inverse is exact
 ///   throws : Error unless wo is a unit vector

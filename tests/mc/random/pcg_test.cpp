@@ -26,6 +26,23 @@ TEST(Pcg, SameSeedSameBits) {
   EXPECT_LE(same_stream, 1);
 }
 
+TEST(Pcg, StreamsThatDifferInUpperBitsAloneAreIndependent) {
+  // Increments 2^62 apart would give the same number every other time.
+  for (const int bit : {32, 40, 48, 56, 62, 63}) {
+    mc::Pcg a(1, 5), b(1, 5 + (std::uint64_t{1} << bit));
+    constexpr int n = 1 << 16;
+    double sum = 0;
+    int same = 0;
+    for (int i = 0; i < n; ++i) {
+      const std::uint32_t x = a.next32(), y = b.next32();
+      same += x == y;
+      sum += (double(x) * 0x1p-32 - 0.5) * (double(y) * 0x1p-32 - 0.5);
+    }
+    EXPECT_LE(same, 2) << "2^" << bit;
+    EXPECT_LE(std::abs(sum / n), 5 * (1.0 / 12) / std::sqrt(double(n))) << "2^" << bit;
+  }
+}
+
 TEST(Pcg, AdvanceIsRepeatedDrawing) {
   mc::Pcg a(9), b(9);
   for (int i = 0; i < 12345; ++i) a.next32();

@@ -30,6 +30,8 @@ TEST(Main, NamesTheArgumentThatItDoesNotKnow) {
   says("render a --spp inf", "--spp: 'inf' is not a whole number (see carlo render --help)");
   says("validate --samples -1", "--samples: -1 must be >= 0 (see carlo validate --help)");
   says("render a --time 1s", "--time: '1s' is not a number (see carlo render --help)");
+  says("validate Linear --plugin ''",
+       "--plugin: '' is empty; give a value or leave it out (see carlo validate --help)");
   says("render a --spp", "--spp: 1 required N missing (see carlo render --help)");
 }
 

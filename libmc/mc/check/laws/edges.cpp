@@ -51,6 +51,8 @@ class Probe {
       zero.detail += "; only single u do this, with a coordinate of exactly 0 (take 1 - u instead), or whose point is "
                      "rounded onto the edge of the density, or one where it is 0 or infinite; open_interval (carlo "
                      "validate --open-interval) accepts it as measure zero";
+    if (zero.verdict == Verdict::fail && sampler_.open_interval)
+      zero.detail += "; the sampler's own open_interval only keeps u from 0";
     return {inner, zero};
   }
 

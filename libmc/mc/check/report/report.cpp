@@ -83,7 +83,8 @@ Fault Report::fault() const {
   const auto measure_zero = [](const Check& c) { return c.fault == Fault::zero_edge; };
   const Fault certain = first_fault(checks, [&](const Check& c) { return !c.p && !measure_zero(c); });
   const Fault beyond_doubt = first_fault(checks, [](const Check& c) { return c.p && *c.p < 1e-9; });
-  if (certain == Fault::edge && beyond_doubt != Fault::none) return beyond_doubt;
+  // Of energy, which is weighed by the density: where that is wrong, so is the furnace.
+  if ((certain == Fault::edge || certain == Fault::physics) && beyond_doubt != Fault::none) return beyond_doubt;
   if (certain != Fault::none) return certain;
   const Fault likely = first_fault(checks, [](const Check& c) { return c.p.has_value(); });
   return likely != Fault::none ? likely : first_fault(checks, measure_zero);

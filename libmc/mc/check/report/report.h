@@ -120,7 +120,7 @@ struct Report {
   bool passed() const { return verdict() == Verdict::pass; }
   double p() const; ///< family-wise adjusted p-value (weighted Sidak over the statistical checks); 1 without any
   /// The likely fault: that of the first failed check, deterministic ones first, measure zero last; ends and branches
-  /// of u after counts that are beyond doubt wrong.
+  /// of u, and physics, after counts that are beyond doubt wrong.
   Fault fault() const;
   /// Several lines: the verdict, then each check that did not pass with its detail, then the worst cells.
   std::string to_string() const;

@@ -99,6 +99,7 @@ TEST(Law, ADensityOfZeroAtOnePointIsOfMeasureZero) {
   AnySampler open = mc::make_sampler("|x|", mc::Interval<double>(-1, 1), root, [](double x) { return std::abs(x); });
   open.open_interval = true;
   EXPECT_EQ(laws(open).fault(), Fault::zero_edge) << "it says that no u is 0: that excuses no other";
+  EXPECT_THAT(laws(open).to_string(), HasSubstr("the sampler's own open_interval only keeps u from 0"));
 }
 
 // The arcsine law is infinite at both ends; the last u is rounded onto the upper one.

@@ -32,6 +32,8 @@ TEST(Report, EndsOfUDoNotNameTheFaultOfCountsBeyondDoubt) {
   EXPECT_EQ(r.fault(), Fault::shape);
   r.checks.front().fault = Fault::leak;
   EXPECT_EQ(r.fault(), Fault::leak) << "of other laws nothing takes the name";
+  r.checks.front().fault = Fault::physics;
+  EXPECT_EQ(r.fault(), Fault::shape) << "but of energy, which is weighed by the density";
 }
 
 TEST(Report, TextSaysWhereAndByHowMuch) {

@@ -12,7 +12,7 @@ double disagreement(double a, double b) {
 
 double disagreement(const Channels& a, const Channels& b) {
   double worst = 0;
-  for (int c = 0; c < a.count; ++c) {
+  for (int c = 0; c < std::max(a.count, b.count); ++c) {
     const double off = disagreement(a[c], b[c]);
     worst = off <= worst ? worst : off;
   }
@@ -28,12 +28,10 @@ double cosine_factor(const AnyBsdf::Direction& wi, const BsdfOptions& options) {
   return options.cosine ? std::abs(wi.z()) : 1.0;
 }
 
-std::array<double, 3> throughput(const AnyBsdf::Sample& d, const BsdfOptions& options) {
-  std::array<double, 3> t{};
-  if (d.weight.count == 0 && !(d.pdf > 0 && d.f.count > 0)) return t;
-  for (int c = 0; c < 3; ++c)
-    t[static_cast<std::size_t>(c)] = d.weight.count > 0 ? d.weight[c] : cosine_factor(d.wi, options) / d.pdf * d.f[c];
-  return t;
+Channels throughput(const AnyBsdf::Sample& d, const BsdfOptions& options) {
+  if (d.weight.count > 0) return d.weight;
+  if (d.pdf > 0 && d.f.count > 0) return scaled(d.f, cosine_factor(d.wi, options) / d.pdf);
+  return {1, {}};
 }
 
 double squared_index(const AnyBsdf::Direction& w, const BsdfOptions& options) {
@@ -84,7 +82,8 @@ AnySampler::Drawn drawn_of(const AnyBsdf& bsdf, const AnyDomain& sphere, const D
   AnySampler::Drawn drawn;
   drawn.x = {d.wi.x(), d.wi.y(), d.wi.z()};
   const auto scattered = throughput(d, options);
-  const bool finite = std::all_of(scattered.begin(), scattered.end(), [](double t) { return std::isfinite(t); });
+  const bool finite = std::all_of(scattered.value.begin(), scattered.value.begin() + scattered.count,
+                                  [](double t) { return std::isfinite(t); });
   if (!finite) drawn.x[0] = std::numeric_limits<double>::quiet_NaN();
   if (!finite || !detail::all_finite(d.wi) || !sphere.contains(drawn.x)) return drawn;
   if (d.delta) {

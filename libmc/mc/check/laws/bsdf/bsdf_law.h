@@ -44,8 +44,8 @@ Channels scaled(Channels f, double factor);
 
 /// |cos wi| where eval leaves it out.
 double cosine_factor(const AnyBsdf::Direction& wi, const BsdfOptions& options);
-/// What one sample stands for: f |cos| / pdf per channel, the last one repeated; 0 where pdf = 0.
-std::array<double, 3> throughput(const AnyBsdf::Sample& sample, const BsdfOptions& options);
+/// What one sample stands for: f |cos| / pdf per channel; 0 where pdf = 0.
+Channels throughput(const AnyBsdf::Sample& sample, const BsdfOptions& options);
 /// The squared index of the medium that w runs in, which radiance carries.
 double squared_index(const AnyBsdf::Direction& w, const BsdfOptions& options);
 /// "f(wo, wi) = ..., wo = ..., wi = ..."

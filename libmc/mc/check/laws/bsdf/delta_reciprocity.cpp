@@ -8,13 +8,13 @@ namespace mc {
 namespace {
 
 // What the delta lobe takes of the light that leaves along `from`.
-double share(const AnyBsdf::Sample& d, const AnyBsdf::Direction& from, const BsdfOptions& options) {
+Channels share(const AnyBsdf::Sample& d, const AnyBsdf::Direction& from, const BsdfOptions& options) {
   const double scale = d.transmission ? squared_index(d.wi, options) / squared_index(from, options) : 1;
-  return scale * d.pdf * throughput(d, options)[0];
+  return scaled(throughput(d, options), scale * d.pdf);
 }
 
 // The share of the way back from `there` to wo; nothing where 1024 samples do not meet it.
-std::optional<double> share_back(const BsdfView& view, const AnyBsdf::Sample& there, Pcg& random) {
+std::optional<Channels> share_back(const BsdfView& view, const AnyBsdf::Sample& there, Pcg& random) {
   for (int k = 0; k < 1024; ++k) {
     const auto d = view.bsdf.sample_next(there.wi, random);
     if (d && d->delta && d->transmission == there.transmission && d->wi.dot(view.wo) > 0.999)
@@ -33,13 +33,15 @@ BsdfFindings bsdf_delta_reciprocity_law(const BsdfView& view) {
   for (int i = 0; i < 256; ++i) {
     const auto there = view.bsdf.sample_next(view.wo, random);
     if (!there || !there->delta || std::exchange(done[there->transmission ? 1 : 0], true)) continue;
-    const double forth = share(*there, view.wo, view.options);
-    const std::optional<double> back = share_back(view, *there, random);
-    if (!back && forth < 0.05) continue; // too rare to meet
-    error.note(std::abs(forth - back.value_or(HUGE_VAL)), [&] {
-      return fmt::format("share {:.6g} from wo = {} to wi = {}, {} back", forth, view.bsdf.format(view.wo),
-                         view.bsdf.format(there->wi), back ? fmt::format("{:.6g}", *back) : "none");
-    });
+    const Channels forth = share(*there, view.wo, view.options);
+    const std::optional<Channels> back = share_back(view, *there, random);
+    for (int c = 0; c < std::max(forth.count, back ? back->count : 0); ++c) {
+      if (!back && forth[c] < 0.05) continue; // too rare to meet
+      error.note(std::abs(forth[c] - (back ? (*back)[c] : HUGE_VAL)), [&] {
+        return fmt::format("share {:.6g} from wo = {} to wi = {}, {} back", forth[c], view.bsdf.format(view.wo),
+                           view.bsdf.format(there->wi), back ? fmt::format("{:.6g}", (*back)[c]) : "none");
+      });
+    }
   }
   return {{error.check()}, {}};
 }

@@ -9,18 +9,20 @@ namespace mc {
 namespace {
 
 // The white furnace: the share of light from everywhere that leaves along wo, the mean of f |cos| / pdf, per channel.
-std::array<Moments, 3> white_furnace(const BsdfView& view, const AnyBsdf::Direction& wo, int n, std::uint64_t seed) {
-  std::array<Moments, 3> albedo;
+// Those that the BSDF does not have repeat its last one.
+std::array<Moments, Channels::most> white_furnace(const BsdfView& view, const AnyBsdf::Direction& wo, int n,
+                                                  std::uint64_t seed) {
+  std::array<Moments, Channels::most> albedo;
   Pcg random(seed, 22);
   for (int i = 0; i < n; ++i) {
     const auto drawn = view.bsdf.sample_next(wo, random);
-    std::array<double, 3> share{};
+    Channels share{1, {}};
     if (drawn) {
       share = throughput(*drawn, view.options);
       if (drawn->transmission)
-        for (double& x : share) x *= squared_index(drawn->wi, view.options) / squared_index(wo, view.options);
+        share = scaled(share, squared_index(drawn->wi, view.options) / squared_index(wo, view.options));
     }
-    for (std::size_t c = 0; c < 3; ++c) albedo[c].add(share[c]);
+    for (int c = 0; c < Channels::most; ++c) albedo[static_cast<std::size_t>(c)].add(share[c]);
   }
   return albedo;
 }

@@ -5,7 +5,7 @@
 namespace mc {
 
 BsdfFindings bsdf_support_law(const BsdfView& view) {
-  WorstError support("pdf > 0 where f > 0", 0, Fault::weight);
+  WorstError support("pdf > 0 where f > 0", 0, Fault::support);
   for (const DirectionPair& pair : view.pairs) {
     const Channels& f = pair.there;
     const bool bright = std::any_of(f.value.begin(), f.value.begin() + f.count, [](double x) { return x > 0; });

@@ -18,6 +18,9 @@ TEST(BsdfLaw, TheThroughputOfASample) {
   s.f = grey(4);
   EXPECT_EQ(throughput(s, {})[0], 1);
   EXPECT_EQ(throughput(s, {.cosine = false})[0], 2);
+  s.f = {5, {4, 4, 4, 4, 8}};
+  EXPECT_EQ(throughput(s, {})[3], 1);
+  EXPECT_EQ(throughput(s, {})[4], 2) << "of the fifth channel too";
   s.weight = grey(3);
   EXPECT_EQ(throughput(s, {})[2], 3) << "a stated weight counts";
   s.weight.count = 0;
@@ -30,6 +33,7 @@ TEST(BsdfLaw, Disagreement) {
   EXPECT_EQ(mc::disagreement(3, 2), 0.5);
   EXPECT_EQ(mc::disagreement(1, 0), HUGE_VAL);
   EXPECT_EQ(mc::disagreement(grey(3), grey(2)), 0.5);
+  EXPECT_EQ(mc::disagreement(grey(2), mc::Channels{2, {2, 1}}), 1) << "grey against a colour";
 }
 
 TEST(BsdfLaw, RadianceCarriesTheSquaredIndex) {
