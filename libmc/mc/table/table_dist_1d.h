@@ -82,8 +82,8 @@ template <Real S, class I = Interval<S>> struct StepsView {
 ///   pdf    : pmf(i) n / (hi - lo) [1/length]; 0 outside and in cells of weight 0
 ///            Points keep to their cell as long as S can tell it from its neighbours: cells no narrower than 8 eps
 ///            max(|lo|, |hi|).
-///   invert : |invert(sample(u)) - u| <= 4 eps + 2 pmf(i) ulp(x) n / (hi - lo): the rounding of x and of its distance
-///            from lo, magnified where cells are narrow
+///   invert : |invert(sample(u)) - u| <= 4 eps + 4 pmf(i) ulp(max(|x|, |lo|)) n / (hi - lo): eight roundings of x on
+///            the way there and back, magnified where cells are narrow
 ///   reach  : an outcome less likely than the spacing of u (2^-24 float, 2^-53 double) is met only by a finer u
 ///   throws : Error for no weights, a weight that is not finite and >= 0, all weights 0, or an interval whose width
 ///            does not pass is_scale

@@ -65,6 +65,29 @@ TYPED_TEST(TableDist1DTest, InvertsTheEndsOfCells) {
     }
 }
 
+// Tables and intervals made by machine.
+TYPED_TEST(TableDist1DTest, InverseWithinItsBoundOnAnyInterval) {
+  using S = TypeParam;
+  const S eps = std::numeric_limits<S>::epsilon();
+  mc::Pcg random(11);
+  const auto uniform = [&] { return random.template uniform<S>(); };
+  for (int k = 0; k < 2000; ++k) {
+    std::vector<double> weights(1 + random.next32() % 300);
+    for (double& w : weights) w = uniform() < S(0.1) ? 0 : std::pow(static_cast<double>(uniform()), 3);
+    weights[random.next32() % weights.size()] = 1;
+    const S n = static_cast<S>(weights.size()), lo = std::exp2(20 * uniform() - 10) * (uniform() - S(0.5));
+    const S hi = lo + std::exp2(20 * uniform() - 10), largest = std::max(std::abs(lo), std::abs(hi));
+    if (hi - lo < 8 * n * eps * largest) continue; // cells that S hardly tells apart
+    const mc::TableDist1D<S> table(weights, {lo, hi});
+    for (int j = 0; j < 100; ++j) {
+      const S u = uniform(), x = table.sample(u), size = std::max(std::abs(x), std::abs(lo));
+      const S ulp = std::nextafter(size, std::numeric_limits<S>::infinity()) - size;
+      ASSERT_LE(std::abs(table.invert(x) - u), 4 * eps + 4 * table.pmf(table.cell(x)) * ulp * n / (hi - lo))
+          << "[" << lo << ", " << hi << "], " << n << " cells, u = " << u;
+    }
+  }
+}
+
 TYPED_TEST(TableDist1DTest, DensityIsOffTheIntervalZero) {
   const mc::TableDist1D<TypeParam> table(std::vector<double>{1, 3}, {2, 4});
   EXPECT_EQ(table.pdf(TypeParam(1.9)), 0);
