@@ -205,8 +205,8 @@ std::string where_it_pays(const std::optional<Ranged>& above) {
 } // namespace
 
 std::string about_pictures(const Pictures& pictures) {
-  std::string text = fmt::format("  errors are roots of relmse, from a reference of {:.0f} samples per pixel with an "
-                                 "error of {:.2g}\n",
+  std::string text = fmt::format("  errors are roots of relmse, with mean^2 / 10 for its 0.01, from a reference of "
+                                 "{:.0f} samples per pixel with an error of {:.2g}\n",
                                  pictures.reference_spp, pictures.reference_error);
   for (std::size_t i = 0; i < pictures.biases.size(); ++i) {
     const Bias& b = pictures.biases[i];
