@@ -28,7 +28,7 @@ def rows(carlo, scene, folder):
         wanted = json.load(file)["errors"]
     for error in wanted:
         best = (error["offers"] or error["nearest"])[0]
-        cost, reached = best["million_rays"], best["rms_error"]["value"]
+        cost, reached = best["million_rays"], best["rms_error"]["value"] or best["rms_error"]["hi"]
         as_good = [offer["way"] for offer in error["offers"][1:error["as_good"]]]
         gain = error.get("gain_over_plain", {})
         yield [name, error["wanted"], best["way"], f"{best['n']:.3g}", f"{reached:.3g}",

@@ -68,7 +68,8 @@ void print(const Row& r, int dim, std::size_t sets) {
        number(r.jittered.l2_star));
   line("periodic L2 discrepancy", number(r.first_l2_periodic), number(r.l2_periodic), number(r.random.l2_periodic),
        number(r.jittered.l2_periodic));
-  line(r.star.exact() ? "star discrepancy" : "star discrepancy, bounds", bounds(r.star), "", bounds(r.random.star),
+  const bool exact = r.star.exact() && r.random.star.exact() && r.jittered.star.exact();
+  line(exact ? "star discrepancy" : "star discrepancy, bounds", bounds(r.star), "", bounds(r.random.star),
        bounds(r.jittered.star));
   line("smallest distance", number(r.first_distance.plain), "", "", "");
   line("  periodic", number(r.first_distance.periodic), number(r.distance), number(r.random.distance),

@@ -40,24 +40,21 @@ struct TradeOptions {
   std::string command;
 };
 
-std::vector<double> numbers(const char* option, const std::string& text) {
+std::vector<double> numbers(const char* option, const std::string& text, double most) {
   std::vector<double> all;
   for (const std::string_view part : mc::split(text, ',')) {
     const std::optional<double> x = mc::number_in(part);
-    mc::require(x && *x > 0 && std::isfinite(*x), "{}: '{}' in '{}' must be a number above 0", option, part, text);
+    mc::require(x && *x > 0 && *x <= most, "{}: '{}' in '{}' must be a number above 0, and {:g} at most", option, part,
+                text, most);
     all.push_back(*x);
   }
   return all;
 }
 
 std::string text_of(const Ranged& r, std::string_view unit) {
+  if (r.is_at_most()) return fmt::format("at most {:.3g}{}", r.hi, unit);
+  if (r.is_at_least()) return fmt::format("at least {:.3g}{}", r.lo, unit);
   return fmt::format("{:.3g}{} [{:.3g}, {:.3g}]", r.value, unit, r.lo, r.hi);
-}
-
-// Of an error of a way that ended before the time did, only what it is not above.
-std::string figure_of(const Offer& o, Ranged Offer::*by, std::string_view unit) {
-  if (o.ended && by == &Offer::error) return fmt::format("at most {:.3g}", o.error.hi);
-  return text_of(o.*by, unit);
 }
 
 // "  as good: a, b" of those that cannot be told from the first.
@@ -65,7 +62,7 @@ void print_ties(const std::vector<Offer>& offers, Ranged Offer::*by, std::string
   const std::size_t count = as_good(offers, by);
   for (std::size_t i = 1; i < count; ++i)
     fmt::print("{}{} {}", i == 1 ? "      not told from it: " : ", ", label(*offers[i].curve),
-               figure_of(offers[i], by, unit));
+               text_of(shown(offers[i], by), unit));
   if (count > 1) fmt::print("\n");
 }
 
@@ -75,7 +72,7 @@ void print_nearest(const ForError& f) {
   fmt::print("  error {:g}: no way came there", f.wanted);
   for (std::size_t i = 0; i < std::min(f.nearest.size(), most); ++i)
     fmt::print("{} {} {}{:.3g} at N = {:.0f}", i == 0 ? "; nearest:" : ",", label(*f.nearest[i].curve),
-               f.nearest[i].curve->errors.back().is_bound ? "at most " : "", f.nearest[i].error.value, f.nearest[i].n);
+               f.nearest[i].error.is_at_most() ? "at most " : "", f.nearest[i].error.value, f.nearest[i].n);
   if (f.nearest.size() > most) fmt::print("; all {} are in trade.csv", f.nearest.size());
   fmt::print("; raise --max-n, of a scene --max-spp\n");
 }
@@ -83,8 +80,8 @@ void print_nearest(const ForError& f) {
 void print(const ForError& f, const Cost& cost) {
   if (f.offers.empty()) return print_nearest(f);
   const Offer& best = f.offers.front();
-  fmt::print("  error {:g}: {} in {}{}, N about {:.0f}", f.wanted, label(*best.curve), text_of(best.seconds, cost.unit),
-             cost.of, best.n);
+  fmt::print("  error {:g}: {} in {}{}, N about {:.0f}", f.wanted, label(*best.curve),
+             text_of(shown(best, &Offer::seconds), cost.unit), cost.of, best.n);
   if (f.gain) fmt::print("; {} times faster than plain Monte Carlo", text_of(*f.gain, ""));
   fmt::print("\n");
   print_ties(f.offers, &Offer::seconds, cost.unit);
@@ -97,10 +94,9 @@ void print(const ForSeconds& f, const Cost& cost) {
   }
   const Offer& best = f.offers.front();
   fmt::print("  {:g}{}: {} with an error of {}, N about {:.0f}", f.wanted, cost.unit, label(*best.curve),
-             figure_of(best, &Offer::error, ""), best.n);
+             text_of(shown(best, &Offer::error), ""), best.n);
   if (best.ended) fmt::print(", its largest, in {:.3g}{}", best.seconds.value, cost.unit);
-  if (f.gain && best.ended) fmt::print("; at least {:.3g} times smaller than plain Monte Carlo's", f.gain->lo);
-  else if (f.gain) fmt::print("; {} times smaller than plain Monte Carlo's", text_of(*f.gain, ""));
+  if (f.gain) fmt::print("; {} times smaller than plain Monte Carlo's", text_of(*f.gain, ""));
   fmt::print("\n");
   print_ties(f.offers, &Offer::error, "");
   const auto ended = std::count_if(f.offers.begin(), f.offers.end(), [](const Offer& o) { return o.ended; });
@@ -111,7 +107,11 @@ void print(const ForSeconds& f, const Cost& cost) {
         ended, f.offers.size(), f.wanted, cost.unit);
 }
 
-ordered_json to_json(const Ranged& r) { return {{"value", r.value}, {"lo", r.lo}, {"hi", r.hi}}; }
+// JSON has no infinity: null, as the value is of which only a bound is known.
+ordered_json to_json(const Ranged& r) {
+  const bool is_known = !r.is_at_most() && !r.is_at_least();
+  return {{"value", is_known ? ordered_json(r.value) : ordered_json()}, {"lo", r.lo}, {"hi", r.hi}};
+}
 ordered_json to_json(const std::vector<Offer>& offers, const Cost& cost) {
   ordered_json all = ordered_json::array();
   for (const Offer& o : offers) {
@@ -150,8 +150,8 @@ std::string script(const std::string& title, const Measurement& m) {
 std::string csv(const std::vector<Offer>& offers, const Cost& cost) {
   std::string text = fmt::format("way,n,{},rms_error,rms_lo,rms_hi\n", cost.column);
   for (const Offer& o : offers)
-    text += fmt::format("{},{:.0f},{:.6g},{:.9g},{:.9g},{:.9g}\n", label(*o.curve), o.n, o.seconds.value, o.error.value,
-                        o.error.lo, o.error.hi);
+    text += fmt::format("{},{:.0f},{:.6g},{},{:.9g},{:.9g}\n", label(*o.curve), o.n, o.seconds.value,
+                        o.error.is_at_most() ? "" : fmt::format("{:.9g}", o.error.value), o.error.lo, o.error.hi);
   return text;
 }
 
@@ -301,8 +301,8 @@ int trade(const TradeOptions& o) {
   if (o.integral.list) return list_integrals();
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
   Wanted wanted;
-  if (!o.errors.empty()) wanted.errors = numbers("--error", o.errors);
-  if (!o.seconds.empty()) wanted.seconds = numbers("--seconds", o.seconds);
+  if (!o.errors.empty()) wanted.errors = numbers("--error", o.errors, 1e300);
+  if (!o.seconds.empty()) wanted.seconds = numbers("--seconds", o.seconds, 1e9);
   if (is_scene(o.integral.integrands)) return trade_scene(o, wanted);
   refuse_scene_among(o.integral.integrands);
   refuse_scene_options(o.scene);

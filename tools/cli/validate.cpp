@@ -126,8 +126,8 @@ std::vector<Option> rows(ValidateOptions& o) {
       {"--command", "PROGRAM", &o.sampler_command,
        "Check the sampler of this program, which answers over pipes: \"python3 mine.py\", see below"},
       {"--uniforms", "N", &o.uniforms, "Numbers that one sample of --command takes [the dimensions of --domain]"},
-      {"--timeout", "SECONDS", &o.timeout, "Time that a plugin or program may take per case"},
-      {"--memory", "GIB", &o.memory, "Memory that a plugin or program may take"},
+      {"--timeout", "SECONDS", &o.timeout, "Time that a plugin or program may take per case [60]"},
+      {"--memory", "GIB", &o.memory, "Memory that a plugin or program may take [4]"},
       {"--samples-file",
        "FILE",
        &o.samples_file,
@@ -171,11 +171,10 @@ Brought bring(const ValidateOptions& o, const std::atomic<bool>* cancel) {
   mc::require(o.pdf_file.empty() || o.pdf.empty(), "validate: give --pdf-file or --pdf, not both");
   mc::require(o.breaks.empty() || !o.pdf.empty() || !o.sampler_command.empty(),
               "validate: --breaks is for a --pdf or a --command");
-  mc::require(o.timeout > 0 && o.timeout <= 1e6, "validate: --timeout {} must lie in (0, 1e6] seconds", o.timeout);
-  mc::require(o.memory >= 0.25 && o.memory <= 1e6, "validate: --memory {} must lie in [0.25, 1e6] GiB", o.memory);
   Brought brought;
+  const bool is_foreign = !o.plugin.empty() || !o.sampler_command.empty();
   const WorkerOptions worker{
-      .limits = {.seconds = o.timeout, .gigabytes = o.memory}, .program = o.worker, .cancel = cancel};
+      .limits = limits_of(o.timeout, o.memory, is_foreign), .program = o.worker, .cancel = cancel};
   if (!o.plugin.empty()) brought.cases = plugin_cases(o.plugin, o.parameters, o.names, worker);
   if (!o.sampler_command.empty())
     brought.cases.push_back(command_case({o.sampler_command, o.domain, o.breaks, o.uniforms}, worker));

@@ -19,8 +19,8 @@ struct ValidateOptions {
   std::vector<std::string> parameters; ///< of the plugin: sets or sweeps, see parameters.h
   std::string sampler_command;         ///< or a program that answers over pipes, see command.h
   int uniforms = 0;                    ///< that one sample of it takes; 0: as many as the domain has dimensions
-  double timeout = 60;                 ///< wall-clock seconds per case of foreign code
-  double memory = 4;                   ///< GiB that it may have
+  std::optional<double> timeout;       ///< wall-clock seconds per case of foreign code; 60 where none is given
+  std::optional<double> memory;        ///< GiB that it may have; 4 where none is given
   std::string samples_file, pdf_file;  ///< samples and the density on a grid, see samples_file.h
   std::string pdf;                     ///< or the density as an expression
   std::string domain;                  ///< of the samples; empty: by their columns

@@ -54,20 +54,25 @@ double error_of_mean(const std::vector<double>& x) {
   return std::ldexp(std::sqrt(s.squares() / (n - 1) / n), s.exponent);
 }
 
-// How many replicates make an RMS error known to 10 %: its relative variance is (kurtosis - 1) / (4 R). Where all agree
-// more may not: as many as there can be.
-double replicates_needed(std::vector<double> values, double centre) {
-  if (error_of_mean(values) == 0) return double(most_replicates);
-  const double n = static_cast<double>(values.size());
-  values.push_back(centre); // so that it is scaled alike
-  const Scaled s(values);
-  double squares = 0, fourths = 0;
-  for (std::size_t i = 0; i + 1 < s.values.size(); ++i) {
-    const double square = mc::sqr(s.values[i] - s.values.back());
-    squares += square / n;
-    fourths += mc::sqr(square) / n;
+// The mean kurtosis of errors over the sets of replicates from N / 16 to 16 N, as far as they are there: of a long tail
+// each set shows a part, and most show none.
+double mean_kurtosis(const std::vector<Replicates>& all, std::size_t at, double truth) {
+  constexpr std::size_t beside = 4;
+  double sum = 0, count = 0;
+  for (std::size_t i = at - std::min(at, beside); i < std::min(at + beside + 1, all.size()); ++i) {
+    const double n = static_cast<double>(all[i].values.size());
+    sum += n * mc::error_kurtosis(all[i].values, std::isfinite(truth) ? truth : mean_of(all[i].values));
+    count += n;
   }
-  return squares > 0 ? (fourths / mc::sqr(squares) - 1) / (4 * 0.01) : 0;
+  return count > 0 ? sum / count : 0;
+}
+
+// How many replicates make an RMS error known to 10 %: its relative variance is (kurtosis - 1) / (4 R), the kurtosis
+// that of these errors or of those with fewer evaluations. Where all agree more may not: as many as there can be.
+double replicates_needed(const std::vector<double>& values, double truth, double kurtosis) {
+  if (error_of_mean(values) == 0) return double(most_replicates);
+  const double own = mc::error_kurtosis(values, std::isfinite(truth) ? truth : mean_of(values));
+  return (std::max(own, kurtosis) - 1) / (4 * 0.01);
 }
 
 void append(Replicates& all, const Replicates& more) {
@@ -76,14 +81,16 @@ void append(Replicates& all, const Replicates& more) {
   all.seconds.insert(all.seconds.end(), more.seconds.begin(), more.seconds.end());
 }
 
-Replicates replicate(const Target& target, const Way& way, std::uint64_t n, const MeasureOptions& o) {
+// `before`: those with fewer evaluations.
+Replicates replicate(const Target& target, const Way& way, std::uint64_t n, const std::vector<Replicates>& before,
+                     const MeasureOptions& o) {
   const auto run = [&](std::uint64_t first, std::uint64_t count) {
     return target.run({&way, n, o.seed, first, count, o.threads, o.cancel});
   };
   if (o.replicates > 0) return run(0, static_cast<std::uint64_t>(o.replicates));
   Replicates all = run(0, first_replicates);
   const double truth = target.integral.truth;
-  const double needed = replicates_needed(all.values, std::isfinite(truth) ? truth : mean_of(all.values));
+  const double needed = replicates_needed(all.values, truth, mean_kurtosis(before, before.size(), truth));
   const auto count = static_cast<std::uint64_t>(std::clamp(needed, 0.0, double(most_replicates)));
   if (count > first_replicates && !*o.cancel) append(all, run(first_replicates, count - first_replicates));
   return all;
@@ -130,7 +137,7 @@ Curve run_curve(const Target& target, const Way& way, double seconds, const Meas
     const double before = elapsed();
     curve.out_of_time = seconds > 0 && before + 2 * last > seconds && curve.replicates.size() >= 3;
     if (curve.out_of_time) break;
-    Replicates r = replicate(target, way, n, o);
+    Replicates r = replicate(target, way, n, curve.replicates, o);
     curve.cut = *o.cancel;
     if (curve.cut) break;
     curve.replicates.push_back(std::move(r));
@@ -153,8 +160,10 @@ void widen(mc::RmsError& e, double truth_error) {
 void judge(Curve& curve, const Experiment& e, const Measurement& m) {
   const double floor = rounding * m.size;
   double worst = 0;
-  for (const Replicates& r : curve.replicates) {
-    mc::RmsError error = mc::rms_error(mean_of(r.calls), r.values, m.truth);
+  for (std::size_t i = 0; i < curve.replicates.size(); ++i) {
+    const Replicates& r = curve.replicates[i];
+    const double kurtosis = mean_kurtosis(curve.replicates, i, m.truth);
+    mc::RmsError error = mc::rms_error(mean_of(r.calls), r.values, m.truth, kurtosis);
     if (m.truth_error > 0) widen(error, m.truth_error);
     error.seconds = median(r.seconds);
     worst = std::max(worst, error.rms);
@@ -165,13 +174,13 @@ void judge(Curve& curve, const Experiment& e, const Measurement& m) {
   // Where the asymptotic range is unknown, the upper half of the doublings.
   const std::size_t half = curve.errors.size() / 2;
   std::vector<mc::RmsError> fitted;
-  std::size_t fewest = most_replicates;
-  double logs = 0;
+  double fewest = double(most_replicates), logs = 0;
   for (std::size_t i = 0; i < curve.errors.size(); ++i) {
     const mc::RmsError& one = curve.errors[i];
     if (one.is_bound || one.rms <= floor || (e.fit_from > 0 ? one.n < e.fit_from : i < half)) continue;
     fitted.push_back(one);
-    fewest = std::min(fewest, curve.replicates[i].values.size());
+    fewest = std::min(fewest, mc::equivalent_errors(double(curve.replicates[i].values.size()),
+                                                    mean_kurtosis(curve.replicates, i, m.truth)));
     logs += std::log(one.n);
   }
   if (fitted.size() < 3) return;

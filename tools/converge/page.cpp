@@ -20,7 +20,10 @@ namespace {
 std::string ranged(double value, double lo, double hi) {
   return fmt::format("{:.3g} <small>[{:.3g}, {:.3g}]</small>", value, lo, hi);
 }
-std::string ranged(const Ranged& r) { return ranged(r.value, r.lo, r.hi); }
+std::string ranged(const Ranged& r) {
+  if (r.is_at_most()) return fmt::format("&le; {:.3g}", r.hi);
+  return r.is_at_least() ? fmt::format("&ge; {:.3g}", r.lo) : ranged(r.value, r.lo, r.hi);
+}
 
 std::string table(const std::vector<std::string>& head, const std::string& rows) {
   std::string s = "<div class=\"scroll\"><table><tr>";
@@ -82,9 +85,7 @@ std::string curve_table(const Measured& one) {
     const Curve& c = m.curves[i];
     const mc::RmsError& last = c.errors.back();
     std::vector<std::string> row = {named(c, m), fmt::format("{:.0f}", last.n),
-                                    last.is_bound ? fmt::format("&le; {:.3g}", last.hi)
-                                                  : ranged(last.rms, last.lo, last.hi),
-                                    fmt::format("{:.3g}", last.seconds)};
+                                    ranged(Ranged{last.rms, last.lo, last.hi}), fmt::format("{:.3g}", last.seconds)};
     for (std::string& cell : theory_cells(c)) row.push_back(std::move(cell));
     if (one.pictures)
       for (std::string& cell : bias_cells(one.pictures->biases[i])) row.push_back(std::move(cell));
@@ -109,7 +110,7 @@ class Choices {
   void add(const std::string& wanted, const std::vector<Offer>& offers, Ranged Offer::*by,
            const std::optional<Ranged>& gain) {
     const Offer& o = offers.front();
-    std::vector<std::string> row = {wanted, named(*o.curve, m_), ranged(o.*by),
+    std::vector<std::string> row = {wanted, named(*o.curve, m_), ranged(shown(o, by)),
                                     fmt::format("{:.3g}{}", o.n, o.ended ? ", the largest" : "")};
     if (has_gain_) row.push_back(gain ? ranged(*gain) + " &times;" : "-");
     row.push_back(ties(offers, by));
@@ -137,7 +138,8 @@ class Choices {
 std::string nearest(const ForError& f, const Measurement& m) {
   if (f.nearest.empty()) return "no way came there";
   const Offer& o = f.nearest.front();
-  return fmt::format("no way came there; nearest {}: {:.3g}", named(*o.curve, m), o.error.value);
+  return fmt::format("no way came there; nearest {}: {}{:.3g}", named(*o.curve, m), o.error.is_at_most() ? "&le; " : "",
+                     o.error.value);
 }
 
 std::string answers(const Measured& one) {
@@ -226,7 +228,8 @@ std::string footer(const Measured& one) {
   if (one.answers) s += " No other way is both cheaper and more accurate than those on the broad line.";
   if (one.pictures)
     s += " The <b>error</b> of a picture is the root of its relmse: the mean over pixels and channels of (x - "
-         "reference)&sup2; / (reference&sup2; + 0.01). A <b>bias</b> is what a way errs by however long it runs; where "
+         "reference)&sup2; / (reference&sup2; + mean&sup2; / 10). A <b>bias</b> is what a way errs by however long it "
+         "runs; where "
          "it costs less than every way without, it <b>pays</b> for errors above the one named. The pictures are one of "
          "each way, with so many samples per pixel.";
   return s;

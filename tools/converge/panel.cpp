@@ -107,7 +107,8 @@ class Panel {
   std::string best() const {
     std::string points;
     for (const Offer& o : against_.best)
-      if (o.seconds.value > 0 && o.error.value > 0) points += point(o.seconds.value, o.error.value);
+      if (o.seconds.value > 0 && o.error.value > 0 && !o.error.is_at_most())
+        points += point(o.seconds.value, o.error.value);
     if (points.empty()) return {};
     return fmt::format("<polyline class=\"best\" points=\"{}\"/>", points);
   }

@@ -21,22 +21,15 @@ namespace {
 
 using ::render::Image;
 
-constexpr double dark = 0.01; ///< as carlo compare's relmse
+/// Added to the square of a pixel, a share of that of the mean over pixels and channels: no unit of light matters. Of
+/// the gallery's pictures it is the .01 of carlo compare, in the median.
+constexpr double dark_share = 0.1;
 /// Roots of relmse below this are rounding of pixels, not noise.
 constexpr double rounding_of_pixels = 8 * std::numeric_limits<::render::Float>::epsilon();
 constexpr int first_pictures = 8, most_pictures = 64; ///< behind each error, where their number is not given
 
-double relmse(const Image& image, const Image& truth) {
-  double sum = 0;
-  for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
-    const Eigen::Array3d y = truth.pixels[i].cast<double>(), off = image.pixels[i].cast<double>() - y;
-    sum += (off.square() / (y.square() + dark)).sum();
-  }
-  return sum / (3.0 * double(truth.pixels.size()));
-}
-
 // The relmse that an image's own noise makes.
-double noise(const Image& image) {
+double noise(const Image& image, double dark) {
   double sum = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     sum += (image.variance[i].cast<double>() / (image.pixels[i].cast<double>().square() + dark)).sum();
@@ -55,28 +48,56 @@ struct ReferencePicture {
   Image image;
   double spp = 0;
   double noise = 0; ///< relmse
+  double dark = 0;  ///< what relmse adds to squares of pixels, of every picture alike
 };
+
+// The mean square of how far an image is from another, relative to the reference.
+double relmse(const Image& image, const Image& from, const ReferencePicture& reference) {
+  double sum = 0;
+  for (std::size_t i = 0; i < from.pixels.size(); ++i) {
+    const Eigen::Array3d off = image.pixels[i].cast<double>() - from.pixels[i].cast<double>();
+    sum += (off.square() / (reference.image.pixels[i].cast<double>().square() + reference.dark)).sum();
+  }
+  return sum / (3.0 * double(from.pixels.size()));
+}
+
+// Of the picture that the reference begins with.
+double dark_of(const Image& image) {
+  double sum = 0;
+  for (const ::render::Spectrum& p : image.pixels) sum += p.cast<double>().abs().sum();
+  return dark_share * mc::sqr(sum / (3.0 * double(image.pixels.size())));
+}
 
 mc::Moments squares_of(const Series& s, const ReferencePicture& reference) {
   mc::Moments squares;
-  for (const Image& image : s.images) squares.add(relmse(image, reference.image) - reference.noise);
+  for (const Image& image : s.images) squares.add(relmse(image, reference.image, reference));
   return squares;
 }
 
+// Of the squares the noise of the reference is a part, or less where its points are more even than independent ones. An
+// error that may be all of the reference's is a bound. Bright pictures that are rare leave the mean of all squares
+// badly known, but not below the least of them.
 mc::RmsError error_of(const Series& s, const ReferencePicture& reference) {
   const mc::Moments squares = squares_of(s, reference);
+  double least = squares.mean();
+  for (const Image& image : s.images) least = std::min(least, relmse(image, reference.image, reference));
   const double half = squares.std_error() * mc::student_quantile(0.05, double(squares.count() - 1));
   std::vector<double> seconds = s.replicates.seconds;
   std::nth_element(seconds.begin(), seconds.begin() + std::ptrdiff_t(seconds.size() / 2), seconds.end());
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
-  return {s.spp, root(squares.mean()), root(squares.mean() - half), root(squares.mean() + half),
-          seconds[seconds.size() / 2]};
+  const double lo = std::max(squares.mean() - half, least), hi = squares.mean() + half;
+  mc::RmsError e{s.spp, root(squares.mean() - reference.noise), root(lo - reference.noise), root(hi),
+                 seconds[seconds.size() / 2]};
+  e.is_bound = e.lo == 0;
+  if (e.is_bound) e.rms = e.hi = std::max(root(hi + 4 * reference.noise), rounding_of_pixels);
+  return e;
 }
 
 // How many pictures make their error known to 10 %: the relative variance of a root is a quarter of its square's.
 int pictures_needed(const Series& s, const ReferencePicture& reference) {
   const mc::Moments squares = squares_of(s, reference);
-  const double needed = squares.mean() > 0 ? squares.variance() / mc::sqr(squares.mean()) / (4 * 0.01) : 0;
+  const double square = squares.mean() - reference.noise;
+  const double needed = square > 0 ? squares.variance() / mc::sqr(square) / (4 * 0.01) : 0;
   return static_cast<int>(std::clamp(std::ceil(needed), double(first_pictures), double(most_pictures)));
 }
 
@@ -89,11 +110,16 @@ std::uint32_t repetitions(const std::vector<mc::RmsError>& errors) {
 
 // Its slope and middle, where there are errors for it.
 void fit(Curve& curve) {
+  std::vector<mc::RmsError> known;
   double logs = 0;
-  for (const mc::RmsError& e : curve.errors) logs += std::log(e.n) / double(curve.errors.size());
-  curve.middle = std::exp(logs);
-  const bool fits = std::all_of(curve.errors.begin(), curve.errors.end(), [](const auto& e) { return e.rms > 0; });
-  if (fits && curve.errors.size() >= 3) curve.law = mc::fit_power_law(curve.errors, repetitions(curve.errors));
+  for (const mc::RmsError& e : curve.errors) {
+    if (e.is_bound) continue;
+    known.push_back(e);
+    logs += std::log(e.n);
+  }
+  if (known.size() < 3) return;
+  curve.middle = std::exp(logs / double(known.size()));
+  curve.law = mc::fit_power_law(known, repetitions(known));
 }
 
 /// Of the expectation of a picture and of its noise.
@@ -104,17 +130,16 @@ struct Parts {
 // Without the picture `out`: the mean picture of R has an R-th of the noise.
 Parts parts_of(const Series& s, const ReferencePicture& reference, std::size_t out) {
   Image mean(reference.image.width, reference.image.height);
-  double each = 0, count = 0;
+  double count = 0, noise = 0;
   for (std::size_t r = 0; r < s.images.size(); ++r) {
     if (r == out) continue;
     for (std::size_t i = 0; i < mean.pixels.size(); ++i) mean.pixels[i] += s.images[r].pixels[i];
-    each += relmse(s.images[r], reference.image);
     ++count;
   }
   for (::render::Spectrum& p : mean.pixels) p /= ::render::Float(count);
-  const double of_mean = relmse(mean, reference.image);
-  each /= count;
-  return {(count * of_mean - each) / (count - 1) - reference.noise, (each - of_mean) * count / (count - 1)};
+  for (std::size_t r = 0; r < s.images.size(); ++r)
+    if (r != out) noise += relmse(s.images[r], mean, reference) / (count - 1);
+  return {relmse(mean, reference.image, reference) - noise / count - reference.noise, noise};
 }
 
 /// What seconds a picture times the relmse of its noise are: the same at any number of samples.
@@ -219,6 +244,8 @@ class Session {
     }
     for (std::size_t i = 0; i < ways_.size(); ++i) {
       if (wanted[i] == 0) continue;
+      for (const Image& image : level[i].images)
+        level[i].replicates.values.push_back(std::sqrt(noise(image, reference_.dark)));
       curves_[i].errors.push_back(error_of(level[i], reference_));
       curves_[i].replicates.push_back(level[i].replicates);
     }
@@ -236,7 +263,6 @@ class Session {
         ::render::RenderResult result = render(ways_[i], spp_, seed);
         if (result.partial) return false;
         Replicates& replicates = level[i].replicates;
-        replicates.values.push_back(std::sqrt(noise(result.image)));
         replicates.calls.push_back(result.spp);
         replicates.seconds.push_back(options_.cost_rays ? 1e-6 * double(result.rays) : result.cpu_seconds);
         level[i].images.push_back(std::move(result.image));
@@ -247,26 +273,31 @@ class Session {
 
   // Adds to the reference until its error is a tenth of the smallest by noise of this level. Returns whether it is.
   bool refine_reference(const std::vector<Series>& level) {
+    if (reference_.spp == 0 && !add_to_reference(16.0 * spp_)) return false;
     double smallest = mc::infinity<double>;
     for (const Series& s : level)
-      for (const double x : s.replicates.values)
-        if (x > rounding_of_pixels) smallest = std::min(smallest, mc::sqr(x));
-    const PictureWay best{.max_depth = file_.defaults.max_depth, .spending = Spending::adaptive};
+      for (const Image& image : s.images)
+        if (const double x = noise(image, reference_.dark); x > mc::sqr(rounding_of_pixels))
+          smallest = std::min(smallest, x);
+    mc::require(std::isfinite(smallest), "no picture has any noise: there is no error to measure");
     const double goal = smallest / 100;
-    while (reference_.spp == 0 || reference_.noise > goal) {
-      const double more =
-          reference_.spp > 0 ? reference_.spp * std::max(reference_.noise / goal - 1, 0.25) : 16.0 * spp_;
-      show(0.8, fmt::format("the reference, {:.0f} spp", reference_.spp + more));
-      const std::uint64_t seed = mc::hash(options_.seed, 77, ++references_);
-      ::render::RenderResult r = render(best, static_cast<int>(std::min(more, 1e8)), seed);
-      if (r.partial) return false;
-      mc::require(!is_black(r.image), "the picture is black: without light there is no error to measure");
-      mc::require(std::isfinite(smallest), "no picture has any noise: there is no error to measure");
-      reference_.image = reference_.spp > 0 ? ::render::accumulated(reference_.image, reference_.spp, r.image, r.spp)
-                                            : std::move(r.image);
-      reference_.spp += r.spp;
-      reference_.noise = noise(reference_.image);
-    }
+    while (reference_.noise > goal)
+      if (!add_to_reference(reference_.spp * std::max(reference_.noise / goal - 1, 0.25))) return false;
+    return true;
+  }
+
+  bool add_to_reference(double spp) {
+    show(0.8, fmt::format("the reference, {:.0f} spp", reference_.spp + spp));
+    const PictureWay best{.max_depth = file_.defaults.max_depth, .spending = Spending::adaptive};
+    const std::uint64_t seed = mc::hash(options_.seed, 77, ++references_);
+    ::render::RenderResult r = render(best, static_cast<int>(std::min(spp, 1e8)), seed);
+    if (r.partial) return false;
+    mc::require(!is_black(r.image), "the picture is black: without light there is no error to measure");
+    if (reference_.spp == 0) reference_.dark = dark_of(r.image);
+    reference_.image = reference_.spp > 0 ? ::render::accumulated(reference_.image, reference_.spp, r.image, r.spp)
+                                          : std::move(r.image);
+    reference_.spp += r.spp;
+    reference_.noise = noise(reference_.image, reference_.dark);
     return true;
   }
 

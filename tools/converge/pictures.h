@@ -55,7 +55,8 @@ struct Bias {
 };
 
 /// What was measured: N is samples per pixel, the error of a picture the root of its relmse, the mean over pixels and
-/// channels of (x - reference)^2 / (reference^2 + 0.01), less what the noise of the reference adds.
+/// channels of (x - reference)^2 / (reference^2 + mean^2 / 10), less what the noise of the reference adds; mean: over
+/// the pixels and channels of the first reference, for every way, so that errors do not depend on the unit of light.
 struct Pictures {
   std::deque<Way> ways;     ///< that the curves point to
   Measurement measurement;  ///< its truth is an error of 0
@@ -67,7 +68,8 @@ struct Pictures {
 };
 
 /// Every way on 4, 8, ... max_spp samples per pixel (adaptive ones from 32), taken in turn, so that a busy moment falls
-/// on all of them. 95 % intervals of the errors by Student's t over the pictures. When interrupted, what was measured
+/// on all of them. 95 % intervals of the errors by Student's t over the pictures; an error that is not told from the
+/// reference's is a bound. When interrupted, what was measured
 /// with fewer samples is kept; the ways that were begun are those of the result.
 ///   theory    : N^-1/2 for independent samples, spent evenly, whose bias is not told from 0
 ///   reference : by mis, sobol and the scene's longest path; at each number of samples so many more as bring its error

@@ -26,7 +26,7 @@ std::optional<double> crossing(const std::vector<mc::RmsError>& errors, Edge edg
   const mc::RmsError& below = errors[*first];
   if (*first == 0) return below.n;
   const mc::RmsError& above = errors[*first - 1];
-  if (!(below.*edge > 0)) return below.n;
+  if (!(below.*edge > 0)) return edge == &mc::RmsError::lo ? above.n : below.n;
   const double t = std::log(above.*edge / error) / std::log(above.*edge / (below.*edge));
   return above.n * std::pow(below.n / above.n, t);
 }
@@ -37,7 +37,7 @@ double error_at(const std::vector<mc::RmsError>& errors, Edge edge, double n) {
   std::size_t i = 1;
   while (i + 1 < errors.size() && errors[i].n < n) ++i;
   const mc::RmsError &a = errors[i - 1], &b = errors[i];
-  if (!(a.*edge > 0 && b.*edge > 0)) return b.*edge;
+  if (!(a.*edge > 0 && b.*edge > 0)) return edge == &mc::RmsError::lo ? 0 : b.*edge; // a bound beside it
   return a.*edge * std::pow(b.*edge / (a.*edge), std::log(n / a.n) / std::log(b.n / a.n));
 }
 
@@ -63,7 +63,11 @@ const Curve* plain(const Measurement& m) {
   return nullptr;
 }
 
-Ranged ratio(const Ranged& a, const Ranged& b) { return {a.value / b.value, a.lo / b.hi, a.hi / b.lo}; }
+// Nothing where neither end is known.
+std::optional<Ranged> ratio(const Ranged& a, const Ranged& b) {
+  const Ranged r{a.value / b.value, a.lo / b.hi, a.hi / b.lo};
+  return r.is_at_most() && r.is_at_least() ? std::nullopt : std::optional(r);
+}
 
 // The first offers, and plain Monte Carlo where it is one.
 std::vector<Offer> contenders(const std::vector<Offer>& offers, const std::string& plain_name) {
@@ -145,6 +149,12 @@ void rank(std::vector<Offer>& offers, Ranged Offer::*by) {
 
 } // namespace
 
+Ranged shown(const Offer& o, Ranged Offer::*by) {
+  Ranged r = o.*by;
+  if (by == &Offer::error ? o.ended : o.error.is_at_most()) r.lo = 0;
+  return r;
+}
+
 Ranged as_measured(const Curve& c, double n) {
   std::size_t i = 0;
   while (i + 1 < c.errors.size() && c.errors[i].n < n) ++i;
@@ -212,9 +222,10 @@ ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne
     const mc::RmsError& e = random->errors.back();
     const double fewest = random->errors.front().n;
     const auto needed = [&](double rms) { return std::max(e.n * mc::sqr(rms / error), fewest); };
-    const Ranged n{needed(e.rms), needed(e.lo), needed(e.hi)};
+    const Ranged n{needed(e.rms), e.is_bound ? 0 : needed(e.lo), needed(e.hi)};
     const Ranged one = seconds_of_one(*random, std::min(n.value, e.n));
-    result.gain = ratio({n.value * one.value, n.lo * one.lo, n.hi * one.hi}, result.offers.front().seconds);
+    result.gain =
+        ratio({n.value * one.value, n.lo * one.lo, n.hi * one.hi}, shown(result.offers.front(), &Offer::seconds));
   }
   return result;
 }
@@ -234,7 +245,7 @@ ForSeconds offers_for_seconds(const Measurement& m, double seconds, const Second
   rank(result.offers, &Offer::error);
   for (const Offer& o : result.offers) // an exact way gains nothing that a number says
     if (o.curve == plain(m) && result.offers.front().error.value > 0)
-      result.gain = ratio(o.error, result.offers.front().error);
+      result.gain = ratio(o.error, shown(result.offers.front(), &Offer::error));
   return result;
 }
 

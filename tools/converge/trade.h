@@ -3,15 +3,20 @@
 
 #include <converge/measure.h>
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace carlo {
 
-/// A figure with its 95 % interval.
+/// A figure with its 95 % interval. Where lo is 0 and hi is not it is at most hi, as an error that is not told from the
+/// reference's; where hi is infinite it is at least lo; more is not known then.
 struct Ranged {
   double value = 0, lo = 0, hi = 0;
+
+  bool is_at_most() const { return lo == 0 && hi > 0; }
+  bool is_at_least() const { return std::isinf(hi); }
 };
 
 /// What a way needs, or gives.
@@ -41,6 +46,10 @@ struct ForSeconds {
   std::vector<Offer> offers;
   std::optional<Ranged> gain; ///< plain Monte Carlo's error over that of the first
 };
+
+/// What there is to say of an offer: at most so much of the error of a way that ended, and of the seconds to an error
+/// that is a bound.
+Ranged shown(const Offer& offer, Ranged Offer::*by);
 
 /// What was asked for, and the ways to it.
 struct Answers {

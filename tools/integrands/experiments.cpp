@@ -60,7 +60,7 @@ std::vector<Experiment> make() {
        {Class::smooth},
        16,
        x2_quadratic},
-      {"cos2_sphere", "cos^2 over the sphere", week3 + "4", 2, 4 * pi / 3, {Class::additive}, 64, cos2_sphere},
+      {"cos2_sphere", "cos^2 over the sphere", week3 + "4", 2, 4 * pi / 3, {Class::additive, 0, true}, 64, cos2_sphere},
       {"cos3_hemisphere_uniform",
        "cos^3 over the hemisphere, uniform density",
        week3 + "7",

@@ -14,10 +14,12 @@ namespace carlo {
 ///   axis_kink : Lipschitz, its bends parallel to the axes; kink: in any other surface
 ///   axis_jump : jumps at faces parallel to the axes; jump: at any other surface
 ///   corner    : product of x^-a; of a < 0 the slope is infinite there
+///   closed    : it has the same values on opposite faces of the cube, but other slopes
 struct Smoothness {
   enum class Class { unknown, smooth, additive, periodic, axis_kink, kink, axis_jump, jump, corner };
   Class of = Class::unknown;
   double a = 0;
+  bool closed = false;
 };
 std::string_view name(Smoothness::Class c);
 

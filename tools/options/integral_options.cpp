@@ -95,8 +95,8 @@ std::vector<Option> integral_rows(IntegralOptions& o) {
        "Integrands of this shared object, compiled against <mc/check/plugin.h>",
        false,
        {"--domain"}},
-      {"--timeout", "SECONDS", &o.timeout, "Time that a plugin may take for the repetitions at one N"},
-      {"--memory", "GIB", &o.memory, "Memory that a plugin may take"},
+      {"--timeout", "SECONDS", &o.timeout, "Time that a plugin may take for the repetitions at one N [60]"},
+      {"--memory", "GIB", &o.memory, "Memory that a plugin may take [4]"},
       {"--max-n", "N", &o.max_n, "Largest number of evaluations of an integrand"},
       {"--list", "", &o.list, "List the integrands and the samplers, and stop"},
   };
@@ -104,12 +104,11 @@ std::vector<Option> integral_rows(IntegralOptions& o) {
 
 std::vector<Target> targets_of(const IntegralOptions& o) {
   mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
-  mc::require(o.timeout > 0 && o.timeout <= 1e6, "--timeout {} must lie in (0, 1e6] seconds", o.timeout);
-  mc::require(o.memory >= 0.25 && o.memory <= 1e6, "--memory {} must lie in [0.25, 1e6] GiB", o.memory);
+  Limits limits = limits_of(o.timeout, o.memory, !o.plugin.empty());
   if (!o.plugin.empty()) {
     mc::require(o.domain.empty(), "a plugin states its own bounds; --domain is for an expression");
-    return plugin_targets(o.plugin, o.integrands,
-                          {.limits = {.seconds = o.timeout, .gigabytes = o.memory, .less = "--max-n"}});
+    limits.less = "--max-n";
+    return plugin_targets(o.plugin, o.integrands, {.limits = limits});
   }
   mc::require(o.domain.empty() || o.integrands.size() == 1, "--domain belongs to one expression");
   std::vector<Target> targets;
@@ -206,8 +205,8 @@ std::string where_it_pays(const std::optional<Ranged>& above) {
 } // namespace
 
 std::string about_pictures(const Pictures& pictures) {
-  std::string text = fmt::format("  errors are roots of relmse, from a reference of {:.0f} samples per pixel with an "
-                                 "error of {:.2g}\n",
+  std::string text = fmt::format("  errors are roots of relmse, with mean^2 / 10 for its 0.01, from a reference of "
+                                 "{:.0f} samples per pixel with an error of {:.2g}\n",
                                  pictures.reference_spp, pictures.reference_error);
   for (std::size_t i = 0; i < pictures.biases.size(); ++i) {
     const Bias& b = pictures.biases[i];

@@ -4,6 +4,7 @@
 #include <converge/pictures.h>
 #include <options/subcommand.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ struct IntegralOptions {
   std::vector<std::string> integrands; ///< names, groups, or an expression
   std::string domain;                  ///< of an expression
   std::string plugin;                  ///< or the integrands of this shared object
-  double timeout = 60, memory = 4;     ///< of its process
+  std::optional<double> timeout;       ///< seconds that its process may take; see Limits
+  std::optional<double> memory;        ///< GiB likewise
   std::uint64_t max_n = 1 << 18;       ///< evaluations at most
   bool list = false;
   bool operator==(const IntegralOptions&) const = default;

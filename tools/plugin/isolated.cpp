@@ -120,6 +120,18 @@ std::string Watch::where() const {
   return text;
 }
 
+Limits limits_of(std::optional<double> timeout, std::optional<double> memory, bool has_foreign_code) {
+  mc::require(has_foreign_code || !(timeout || memory),
+              "{} is for foreign code: a --plugin, or a --command of validate", timeout ? "--timeout" : "--memory");
+  Limits limits;
+  limits.seconds = timeout.value_or(limits.seconds);
+  limits.gigabytes = memory.value_or(limits.gigabytes);
+  mc::require(limits.seconds > 0 && limits.seconds <= 1e6, "--timeout {} must lie in (0, 1e6] seconds", limits.seconds);
+  mc::require(limits.gigabytes >= 0.25 && limits.gigabytes <= 1e6, "--memory {} must lie in [0.25, 1e6] GiB",
+              limits.gigabytes);
+  return limits;
+}
+
 namespace {
 
 // What one process may take four of them take four times: the memory of the child and of all that it started, looked

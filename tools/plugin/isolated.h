@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace carlo {
@@ -54,6 +55,10 @@ struct Limits {
   int files = 256;                ///< open at once
   std::string less = "--samples"; ///< the option of the command that makes the work smaller
 };
+
+/// Limits with what --timeout and --memory give, where they are given.
+///   throws : Error where they mean nothing, and for either where no foreign code is there that it could limit
+Limits limits_of(std::optional<double> timeout, std::optional<double> memory, bool has_foreign_code);
 
 /// Runs work in a forked child and returns what it returned. Its standard output goes to standard error. When it
 /// returns, the child and every process that it started have ended. The limit of memory is one of the address space of

@@ -77,6 +77,35 @@ std::vector<Line> three(const char* set, const char* random, const char* jittere
   return {{set, this_look, "this set"}, {random, random_look, "random"}, {jittered, jittered_look, "jittered"}};
 }
 
+// Where it is not exact at every N there are two curves, and the legend says so.
+std::string star_panel(const std::vector<Row>& rows) {
+  struct Set {
+    mc::StarDiscrepancy (*star)(const Row& row);
+    Line lower, upper;
+    const char* title_of_bounds;
+  };
+  static constexpr Set sets[] = {{[](const Row& r) { return r.star; },
+                                  {"star_lower", this_look, "this set"},
+                                  {"star_upper", upper_look, ""},
+                                  "this set, bounds"},
+                                 {[](const Row& r) { return r.random.star; },
+                                  {"star_random_lower", random_look, "random"},
+                                  {"star_random_upper", random_look, ""},
+                                  "random, bounds"},
+                                 {[](const Row& r) { return r.jittered.star; },
+                                  {"star_jittered_lower", jittered_look, "jittered"},
+                                  {"star_jittered_upper", jittered_look, ""},
+                                  "jittered, bounds"}};
+  std::vector<Line> curves;
+  for (const Set& s : sets) {
+    curves.push_back(s.lower);
+    if (std::all_of(rows.begin(), rows.end(), [&](const Row& r) { return s.star(r).exact(); })) continue;
+    curves.back().title = s.title_of_bounds;
+    curves.push_back(s.upper);
+  }
+  return panel(curves.size() == 3 ? "star discrepancy" : "star discrepancy, lower and upper bounds", curves);
+}
+
 // Over frequencies in units of sqrt(N): one curve for each N, the more points the darker.
 std::string spectra(const std::vector<Row>& rows) {
   std::string s = "set xlabel \"frequency / sqrt(N)\"\nset ylabel \"power, x and y, darker with N\"\nplot ";
@@ -133,15 +162,7 @@ std::string quality_script(const std::string& title, const std::vector<Row>& row
       title, reference_stars, reference_sets);
   s += panel("L2-star discrepancy, RMS", three("l2_star", "l2_star_random", "l2_star_jittered"));
   s += panel("periodic L2 discrepancy, RMS", three("l2_periodic", "l2_periodic_random", "l2_periodic_jittered"));
-  std::vector<Line> star = three("star_lower", "star_random_lower", "star_jittered_lower");
-  const bool exact = std::all_of(rows.begin(), rows.end(), [](const Row& r) {
-    return r.star.exact() && r.random.star.exact() && r.jittered.star.exact();
-  });
-  if (!exact)
-    star.insert(star.end(), {{"star_upper", upper_look, ""},
-                             {"star_random_upper", random_look, ""},
-                             {"star_jittered_upper", jittered_look, ""}});
-  s += panel(exact ? "star discrepancy" : "star discrepancy, lower and upper bounds", star);
+  s += star_panel(rows);
   if (std::none_of(rows.begin(), rows.end(), [](const Row& r) { return r.distance > 0; }))
     s += "unset logscale y\nset format y \"%g\"\nset yrange [0:1]\n";
   s += panel("smallest distance, periodic, mean", three("distance_periodic", "distance_random", "distance_jittered"));

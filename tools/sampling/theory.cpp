@@ -52,6 +52,10 @@ Rate first_order(double, double) { return {1, 0, order_one, Bound::at_most}; }
 Rate first_order_kink(double d, double) { return {std::min(1.0, kink(d)), 0, surface, Bound::at_most}; }
 Rate first_order_corner(double, double a) { return {std::min(1.0, 1 - a), 0, unbounded, Bound::at_most}; }
 Rate lattice_periodic(double, double) { return {1, 0, "[Niederreiter92] chapter 5", Bound::at_least}; }
+// Bends where the faces meet: the coefficients of frequency k fall as k^-2, and of a sum of functions of one coordinate
+// each a lattice of N points meets every N-th.
+Rate lattice_closed(double, double) { return {2, 0, "Fourier coefficients k^-2", Bound::at_most}; }
+Rate lattice_closed_additive(double, double) { return {2, 0, "Fourier coefficients k^-2"}; }
 Rate halton_smooth(double, double) { return {1, 0, "[OwenPan23]", Bound::at_most}; }
 
 Rate latin_law(double, double) { return {0.5, 0, "[Stein87]; [Owen98]"}; }
@@ -98,6 +102,9 @@ constexpr std::array lattice_rows = {
     Row{Class::smooth, first_order},    Row{Class::additive, first_order},     Row{Class::periodic, lattice_periodic},
     Row{Class::kink, first_order_kink}, Row{Class::axis_kink, first_order},    Row{Class::axis_jump, first_order},
     Row{Class::jump, net_jump},         Row{Class::corner, first_order_corner}};
+constexpr std::array closed_lattice_rows = {Row{Class::smooth, lattice_closed},
+                                            Row{Class::additive, lattice_closed_additive},
+                                            Row{Class::axis_kink, lattice_closed}};
 constexpr std::array interlaced_rows = {Row{Class::smooth, interlaced},
                                         Row{Class::additive, interlaced},
                                         Row{Class::periodic, interlaced},
@@ -113,14 +120,14 @@ constexpr std::array learned_rows = {Row{Class::smooth, learned},    Row{Class::
 
 // The rows that hold for a sampler in d dimensions. Sets of fewer dimensions that are shuffled against each other see
 // what is not additive over them as Latin hypercubes do [Owen98].
-std::span<const Row> rows_of(std::string_view way, int d) {
+std::span<const Row> rows_of(std::string_view way, int d, bool closed) {
   if (way == "random") return random_rows;
   if (way == "stratified") return jittered_rows;
   // Its rounds are shares of N that tend to constants; grids of eight dimensions at most.
   if (way == "stratified_rounds" && d <= 8) return jittered_rows;
   if (way == "sobol") return net_rows;
   if (way == "halton") return d == 1 ? std::span<const Row>(net_rows) : halton_rows; // base two is a net of base two
-  if (way == "lattice") return lattice_rows;
+  if (way == "lattice") return closed ? std::span<const Row>(closed_lattice_rows) : lattice_rows;
   if (way == "latin_hypercube") return d == 1 ? std::span<const Row>(jittered_rows) : latin_rows;
   if (way == "padded_sobol") return d <= 2 ? std::span<const Row>(net_rows) : latin_rows;
   if (way == "padded_sobol_4d") return d <= 4 ? std::span<const Row>(net_rows) : latin_rows;
@@ -149,7 +156,7 @@ std::string Rate::to_string(int digits) const {
 
 std::optional<Rate> theory(std::string_view way, const Smoothness& smoothness, int dim) {
   if (smoothness.of == Class::corner && !(smoothness.a < 0.5)) return {};
-  for (const Row& row : rows_of(way, dim))
+  for (const Row& row : rows_of(way, dim, smoothness.closed))
     if (row.of == smoothness.of) return row.law(dim, smoothness.a);
   return {};
 }

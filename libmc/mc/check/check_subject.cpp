@@ -322,6 +322,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   // The pilot's draws obey the same laws.
   append(report.checks, check_draws(s, merged(counts.tally, pilot.tally), options.open_interval));
   append(report.checks, judge_density(s, layout));
+  append(report.checks, find_unresolved(s, pilot));
   report.checks.push_back(test_mass(s, mass, options.alpha));
   append(report.checks, judge_inverse(s, hash(options.seed, 5), options.samples, options.alpha));
   const auto slabs = s.dim > 0 ? find_slabs(s, pilot, counts.coordinates) : std::vector<Slab>();

@@ -7,8 +7,8 @@
 namespace mc {
 
 // A law is one file of laws/ and one row here.
-Law edges_law, support_law, jacobian_law, precision_law;
-constexpr Law* laws[] = {edges_law, purity_law, support_law, inverse_law, jacobian_law, precision_law};
+Law edges_law, batches_law, support_law, jacobian_law, precision_law;
+constexpr Law* laws[] = {edges_law, purity_law, batches_law, support_law, inverse_law, jacobian_law, precision_law};
 
 std::vector<Check> check_deterministic(const AnySampler& sampler, const LawOptions& options) {
   std::vector<Check> checks;

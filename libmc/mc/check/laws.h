@@ -14,7 +14,9 @@ namespace mc {
 ///               along each axis; apart (Fault::zero_edge) sets of measure zero: u with a coordinate of exactly 0,
 ///               single u whose neighbours are right where the density is 0 at one point, and samples rounded onto the
 ///               edge of the domain where the density is 0 or infinite, but not beside it
-///   purity    : the same u gives the same point bit for bit, whatever was sampled between; other u other points
+///   purity    : the same u gives the same point, the same point the same pdf and inverse, bit for bit, at once and
+///               after one, two and three other samples; other u give other points
+///   batches   : samples and densities of many at once are those of one alone, but for rounding (with sample_many)
 ///   support   : eval finite and >= 0, and pdf > 0 wherever eval > 0, at 20000 uniform points of the chart (with eval)
 ///   inverse   : invert(sample(u)) = u at 20000 random u, within invert_eps               (with invert)
 ///   jacobian  : |det d sample / d u| pdf = 1 to 1e-20 by differences over 50 digits, or without an oracle to 1e-6 in

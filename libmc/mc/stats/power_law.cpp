@@ -17,30 +17,49 @@ int largest_exponent(std::span<const double> x) {
   return largest > 0 ? std::ilogb(largest) : 0;
 }
 
-RmsError rms_error(double n, std::span<const double> estimates, double truth) {
+namespace {
+
+// Moments of errors in units of 2^exponent.
+struct ErrorMoments {
+  double squares = 0, fourths = 0; ///< means
+  int exponent = 0;
+
+  ErrorMoments(std::span<const double> estimates, double truth) {
+    std::vector<double> all(estimates.begin(), estimates.end());
+    all.push_back(truth);
+    exponent = largest_exponent(all);
+    const double r = static_cast<double>(estimates.size());
+    for (const double x : estimates) {
+      const double off = std::ldexp(x, -exponent) - std::ldexp(truth, -exponent);
+      squares += sqr(off) / r;
+      fourths += sqr(sqr(off)) / r;
+    }
+  }
+  double kurtosis() const { return squares > 0 ? fourths / sqr(squares) : 0; }
+};
+
+} // namespace
+
+double error_kurtosis(std::span<const double> estimates, double truth) {
+  return ErrorMoments(estimates, truth).kurtosis();
+}
+
+// The mean of r squares of kurtosis k has the relative variance (k - 1) / r, that of chi-square 2 / degrees.
+double equivalent_errors(double r, double kurtosis) { return kurtosis > 3 ? std::max(1.0, 2 * r / (kurtosis - 1)) : r; }
+
+RmsError rms_error(double n, std::span<const double> estimates, double truth, double kurtosis) {
   require(estimates.size() >= 2, "rms_error: {} estimates; at least 2 are needed", estimates.size());
   require(std::isfinite(truth), "rms_error: truth {} must be finite", truth);
-  const double r = static_cast<double>(estimates.size());
   for (std::size_t i = 0; i < estimates.size(); ++i)
     require(std::isfinite(estimates[i]), "rms_error: estimates[{}] = {} is not finite", i, estimates[i]);
-  std::vector<double> all(estimates.begin(), estimates.end());
-  all.push_back(truth);
-  const int exponent = largest_exponent(all);
-  double squares = 0, fourths = 0;
-  for (const double x : estimates) {
-    const double off = std::ldexp(x, -exponent) - std::ldexp(truth, -exponent);
-    squares += sqr(off) / r;
-    fourths += sqr(sqr(off)) / r;
-  }
-  // The mean of r squares of kurtosis k has the relative variance (k - 1) / r, that of chi-square 2 / degrees.
-  const double excess = squares > 0 ? fourths / sqr(squares) - 1 : 0;
-  const double degrees = excess > 2 ? std::max(1.0, 2 * r / excess) : r;
+  const ErrorMoments m(estimates, truth);
+  const double degrees = equivalent_errors(static_cast<double>(estimates.size()), std::max(m.kurtosis(), kurtosis));
   const boost::math::chi_squared distribution(degrees);
   RmsError result;
   result.n = n;
-  result.rms = std::ldexp(std::sqrt(squares), exponent);
-  result.lo = std::ldexp(std::sqrt(squares * degrees / quantile(complement(distribution, 0.025))), exponent);
-  result.hi = std::ldexp(std::sqrt(squares * degrees / quantile(distribution, 0.025)), exponent);
+  result.rms = std::ldexp(std::sqrt(m.squares), m.exponent);
+  result.lo = std::ldexp(std::sqrt(m.squares * degrees / quantile(complement(distribution, 0.025))), m.exponent);
+  result.hi = std::ldexp(std::sqrt(m.squares * degrees / quantile(distribution, 0.025)), m.exponent);
   return result;
 }
 

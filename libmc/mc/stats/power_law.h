@@ -20,12 +20,19 @@ struct RmsError {
 /// vanishes that matters beside the largest.
 int largest_exponent(std::span<const double> x);
 
+/// E error^4 / (E error^2)^2 of the errors of `estimates`; 0 where there is none. Of long tails, of which few estimates
+/// tell, it is too small.
+double error_kurtosis(std::span<const double> estimates, double truth);
+
+/// How many errors of normal law tell an RMS error as well as R of this kurtosis do: at most R, at least 1.
+double equivalent_errors(double r, double kurtosis);
+
 /// RMS error of `estimates` against `truth`.
-///   interval : from the chi-square distribution, with R degrees of freedom, or fewer where the fourth moment of the
-///              errors is that of a longer tail than the normal one
+///   interval : from the chi-square distribution, with as many degrees of freedom as equivalent_errors says of their
+///              kurtosis, or of `kurtosis`, what is known of it otherwise, where that is larger
 ///   scale    : of errors of any size, since they are squared in units of the largest number
 ///   throws   : Error for fewer than 2 estimates, or when one or the truth is not finite
-RmsError rms_error(double n, std::span<const double> estimates, double truth);
+RmsError rms_error(double n, std::span<const double> estimates, double truth, double kurtosis = 0);
 
 /// A power law rms = c N^slope.
 struct PowerLaw {

@@ -46,6 +46,20 @@ TEST(RmsError, IntervalHoldsTheErrorOfALongTail) {
   EXPECT_GE(hits, 340);
 }
 
+TEST(RmsError, AKurtosisThatIsKnownWidensIt) {
+  const std::vector<double> estimates = {1, 3, 1, 3, 1, 3, 1, 4};
+  EXPECT_NEAR(mc::error_kurtosis(estimates, 2), 23 * 8 / 121.0, 1e-12); // seven errors of 1 and one of 2
+  const mc::RmsError own = mc::rms_error(16, estimates, 2), same = mc::rms_error(16, estimates, 2, 1.5),
+                     wide = mc::rms_error(16, estimates, 2, 9);
+  EXPECT_EQ(own.hi, same.hi);
+  EXPECT_EQ(own.rms, wide.rms);
+  EXPECT_LT(wide.lo, own.lo);
+  EXPECT_GT(wide.hi, own.hi);
+  EXPECT_EQ(mc::equivalent_errors(8, 3), 8);
+  EXPECT_EQ(mc::equivalent_errors(8, 9), 2);
+  EXPECT_EQ(mc::equivalent_errors(8, 1e9), 1);
+}
+
 TEST(PowerLaw, FindsAnExactOne) {
   std::vector<mc::RmsError> errors;
   for (double n = 16; n <= 4096; n *= 2) errors.push_back({n, 3 * std::pow(n, -0.75)});

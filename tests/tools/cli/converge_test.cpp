@@ -184,6 +184,7 @@ TEST_F(Converge, BadInputIsOneLine) {
   expect_refused("'_pi' -d x=0:1,y=0:1", "'_pi' uses none of x, y: ");
   expect_refused("a.xml b.xml", "'a.xml' stands among others: scenes are measured one at a time; give it alone");
   expect_refused("pi b.xml", "'b.xml' stands among others");
+  expect_refused("pi --max-n 64 --timeout 3", "--timeout is for foreign code: a --plugin, or a --command of validate");
   expect_refused("pie", "unknown integrand 'pie'; did you mean 'pi'?");
   expect_refused("3", "for an expression give --domain");
   expect_refused("pi --cost rays", "--cost are for a scene (.xml)");

@@ -114,7 +114,8 @@ TEST_F(Points, BoundsOfTheStarDiscrepancyAreSaid) {
   EXPECT_LT(std::stod(last_of(path("out/quality.csv"), "star_lower")),
             std::stod(last_of(path("out/quality.csv"), "star_upper")));
   EXPECT_THAT(mc::read_file(path("out/quality.gp")),
-              AllOf(HasSubstr("lower and upper bounds"), HasSubstr("\"star_random_upper\"")));
+              AllOf(HasSubstr("lower and upper bounds"), HasSubstr("\"star_random_upper\""),
+                    HasSubstr("title \"this set, bounds\""), HasSubstr("title \"random, bounds\"")));
 }
 
 // What is drawn of many axes is what is said of it.

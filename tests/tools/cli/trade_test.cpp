@@ -160,6 +160,7 @@ TEST_F(TradeCommand, BadInputIsOneLine) {
   expect_refused("pi --samplers sobol", "--samplers is for a scene (.xml)");
   expect_refused("pi --report /proc/none", "'/proc/none' is no folder and cannot be made one");
   expect_refused("pi --seconds 0", "--seconds: '0' in '0' must be a number above 0");
+  expect_refused("pi --seconds 1e300", "--seconds: '1e300' in '1e300' must be a number above 0, and 1e+09 at most");
   expect_refused("pi --time 0", "--time 0 must lie in (0, 1e7] seconds");
   expect_refused("'0*x' -d x=0:1 --max-n 64", "the integrand was 0 at every point");
 }

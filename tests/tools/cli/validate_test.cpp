@@ -113,6 +113,12 @@ TEST(Validate, BadInputIsOneLine) {
   o = few({"UniformDisk"});
   o.detect = -1;
   EXPECT_THAT(refusal(o), HasSubstr("--detect"));
+  o = few({"UniformDisk"});
+  o.timeout = 60;
+  EXPECT_THAT(refusal(o), HasSubstr("--timeout is for foreign code"));
+  o.timeout = {};
+  o.memory = 4;
+  EXPECT_THAT(refusal(o), HasSubstr("--memory is for foreign code"));
 }
 
 } // namespace

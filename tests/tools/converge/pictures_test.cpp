@@ -2,7 +2,10 @@
 
 #include <converge/pictures.h>
 
+#include <support/files.h>
+
 #include <mc/core/error.h>
+#include <mc/core/file.h>
 
 #include <gtest/gtest.h>
 
@@ -19,6 +22,16 @@ PictureWay way(const char* strategy, render::PixelSampler sampler, int depth = -
 render::SceneFile scene(const char* name) {
   return render::read_mitsuba(MC_SOURCE_DIR "/librender/scenes/" + std::string(name) + ".xml");
 }
+
+struct Lamp : support::ScratchTest {
+  // sphere-light.xml, its light of another radiance.
+  render::SceneFile of(const std::string& radiance) const {
+    std::string text = mc::read_file(MC_SOURCE_DIR "/librender/scenes/sphere-light.xml");
+    const std::string name = "name=\"radiance\" value=\"";
+    text.replace(text.find(name) + name.size(), 1, radiance);
+    return render::read_mitsuba(write("lamp.xml", text));
+  }
+};
 
 constexpr auto independent = render::PixelSampler::independent, sobol = render::PixelSampler::sobol;
 
@@ -70,6 +83,50 @@ TEST(Pictures, AnInterruptCostsOnlyTheLevelThatItFallsOn) {
   EXPECT_FALSE(whole.measurement.interrupted);
   for (std::size_t n = 0; n < 3; ++n)
     EXPECT_EQ(cut.measurement.curves[0].errors[n].rms, whole.measurement.curves[0].errors[n].rms);
+}
+
+// In a white furnace paths that follow a white sphere know every pixel, and the reference only to rounding.
+TEST_F(Lamp, AnErrorThatMayBeAllOfTheReferenceIsABound) {
+  const render::SceneFile file = render::read_mitsuba(write("furnace.xml", R"(<scene version="3.0.0">
+    <integrator type="path"><integer name="max_depth" value="2"/></integrator>
+    <sensor type="perspective"><float name="fov" value="40"/><transform name="to_world">
+      <lookat origin="0,0,4" target="0,0,0" up="0,1,0"/></transform></sensor>
+    <emitter type="constant"><rgb name="radiance" value="1,1,1"/></emitter>
+    <shape type="sphere"><bsdf type="diffuse"><rgb name="reflectance" value="1,1,1"/></bsdf></shape></scene>)"));
+  const std::vector<PictureWay> ways = {way("bsdf", independent), way("hemisphere", independent)};
+  const Pictures p = measure_pictures(file, ways, {.width = 6, .height = 4, .max_spp = 16, .cost_rays = true});
+  EXPECT_FALSE(p.measurement.curves[0].is_drawn() || p.measurement.curves[0].law);
+  for (const mc::RmsError& e : p.measurement.curves[0].errors) {
+    EXPECT_TRUE(e.is_bound);
+    EXPECT_EQ(e.rms, e.hi);
+    EXPECT_GE(e.hi, 2 * p.reference_error);
+    EXPECT_LE(e.hi, 1e-5);
+  }
+  EXPECT_TRUE(p.measurement.curves[1].is_drawn() && p.measurement.curves[1].law);
+  for (const mc::RmsError& e : p.measurement.curves[1].errors) EXPECT_FALSE(e.is_bound || e.lo == 0);
+}
+
+// A million times as much light is the same noise: errors, slopes and biases do not depend on its unit.
+TEST_F(Lamp, TheUnitOfLightChangesNothing) {
+  const std::vector<PictureWay> ways = {way("mis", independent), way("mis", sobol, -1, Spending::adaptive),
+                                        way("mis", sobol, 1)};
+  const auto measured = [&](const char* radiance) {
+    return measure_pictures(of(radiance), ways, {.width = 8, .height = 6, .max_spp = 32, .cost_rays = true});
+  };
+  const Pictures one = measured("8");
+  for (const char* radiance : {"8e-6", "8e6"}) {
+    const Pictures other = measured(radiance);
+    EXPECT_NEAR(other.reference_error / one.reference_error, 1, 1e-3) << radiance;
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const Curve &a = one.measurement.curves[i], &b = other.measurement.curves[i];
+      ASSERT_EQ(a.errors.size(), b.errors.size());
+      for (std::size_t n = 0; n < a.errors.size(); ++n) {
+        EXPECT_NEAR(b.errors[n].rms / a.errors[n].rms, 1, 1e-3) << radiance << ways[i].name();
+        EXPECT_NEAR(b.errors[n].hi / a.errors[n].hi, 1, 1e-3) << radiance << ways[i].name();
+      }
+      EXPECT_NEAR(one.biases[i].bias.lo, other.biases[i].bias.lo, 1e-3) << radiance << ways[i].name();
+    }
+  }
 }
 
 // Paths of one edge meet no point light: no noise, and the bias is everything.

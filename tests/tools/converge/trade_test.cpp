@@ -168,6 +168,36 @@ TEST(Trade, WaysThatEndBeforeTheTimeSayAtMostWhatTheyErr) {
   for (const Offer& o : offers_for_seconds(measured(), 1e-5, clock).offers) EXPECT_FALSE(o.ended);
 }
 
+// Of Sobol' points from N = 1024 on it is known only that they err by no more than the reference does.
+TEST(Trade, WhatIsMadeOfABoundIsOne) {
+  Measurement m = measured();
+  for (mc::RmsError& e : m.curves[1].errors) {
+    if (e.n < 1024) continue;
+    e.rms = e.hi = 1e-3;
+    e.lo = 0;
+    e.is_bound = true;
+  }
+  m.curves.resize(2);
+  const carlo::ForError f = offers_for_error(m, 1.5e-3, clock);
+  ASSERT_EQ(f.offers.size(), 1u);
+  const Ranged seconds = shown(f.offers[0], &Offer::seconds);
+  EXPECT_TRUE(seconds.is_at_most());
+  EXPECT_GE(seconds.hi, 512 * 10e-9);
+  EXPECT_LE(f.offers[0].seconds.lo, 512 * 10e-9) << "512 points nearly come there, and 513 may";
+  ASSERT_TRUE(f.gain);
+  EXPECT_TRUE(f.gain->is_at_least());
+  EXPECT_NEAR(f.gain->lo, 0.9 * 0.9 * 0.95 / 1.5e-3 / 1.5e-3 * 10e-9 / seconds.hi, 1e-3 * f.gain->lo);
+  const carlo::ForSeconds s = offers_for_seconds(m, 20e-6, clock);
+  EXPECT_TRUE(s.offers[0].error.is_at_most());
+  EXPECT_EQ(s.offers[0].error.hi, 1e-3);
+  EXPECT_TRUE(s.gain && s.gain->is_at_least());
+  // Between a figure and a bound, too.
+  EXPECT_TRUE(offers_for_seconds(m, 7e-6, clock).offers[0].error.is_at_most());
+  EXPECT_FALSE(offers_for_seconds(m, 4e-6, clock).offers[0].error.is_at_most());
+  for (mc::RmsError& e : m.curves[0].errors) e.lo = 0;
+  EXPECT_FALSE(offers_for_seconds(m, 20e-6, clock).gain) << "of two bounds there is no ratio";
+}
+
 // Seconds of a second run, or of the first where that is interrupted. The clock goes on by the number of the call.
 TEST(Trade, ContendersRunAgainInTurn) {
   carlo::Target target;

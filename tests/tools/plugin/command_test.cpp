@@ -76,6 +76,13 @@ TEST_F(Command, EveryLawIsTried) {
   EXPECT_EQ(run(o).code, carlo::exit_ok);
 }
 
+// A program whose answers to many are right together, but not the ones of these u.
+TEST_F(Command, ManyAtOnceAreWhatEachIsAlone) {
+  const Output out = run(changed("    sink.write(results.tobytes())", "    sink.write(results[::-1].tobytes())"));
+  EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
+  EXPECT_THAT(out.text, HasSubstr("many samples at once, as one alone fail"));
+}
+
 TEST_F(Command, OutcomesAndProducts) {
   ValidateOptions o = changed("def sample(u):\n", "def sample(u):\n    return (float(int(4 * u[0])),)\n");
   o.domain = "discrete=4";

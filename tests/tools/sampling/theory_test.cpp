@@ -1,9 +1,11 @@
 // The rows of the table of rates, where they are known by heart, and where none may be missing.
 
+#include <integrands/find.h>
 #include <sampling/theory.h>
 #include <sampling/ways.h>
 
 #include <mc/core/file.h>
+#include <mc/core/types.h>
 
 #include <gtest/gtest.h>
 
@@ -46,6 +48,26 @@ TEST(Theory, OfEachClass) {
 // In one dimension a power of two of Halton's points are a net.
 TEST(Theory, OfHaltonInOneDimensionIsThatOfSobol) {
   for (const Class c : classes) EXPECT_EQ(exponent("halton", c, 1, 0.15), exponent("sobol", c, 1, 0.15));
+}
+
+// Shifted lattices of N points meet every N-th frequency of each coordinate: 4 pi (1 - 2 u)^2, the cosine squared over
+// the sphere, is 4 pi / 3 and 16 / (pi k^2) cos(2 pi k u) for every k, of which k = N, 2 N, ... are left.
+TEST(Theory, OfLatticesWhereOppositeFacesAgree) {
+  const auto rate = theory("lattice", {Class::additive, 0, true}, 2);
+  EXPECT_EQ(rate->exponent, 2);
+  EXPECT_EQ(rate->bound, Bound::exact);
+  EXPECT_EQ(exponent("lattice", Class::additive, 2), 1);
+  EXPECT_EQ(theory("sobol", {Class::additive, 0, true}, 2)->exponent, 1.5);
+  const carlo::Experiment sphere = carlo::find_integrand("cos2_sphere", "");
+  for (const std::uint64_t n : {16, 256}) {
+    double squares = 0;
+    constexpr int shifts = 4000;
+    for (std::uint64_t seed = 0; seed < shifts; ++seed)
+      squares += mc::sqr(carlo::way("lattice").estimate(sphere, n, seed).value - sphere.truth) / shifts;
+    double sum = 0; // of the squares of the coefficients of m N, each half its mean over shifts
+    for (double m = 1; m < 1000; ++m) sum += mc::sqr(16 / mc::pi<double> / mc::sqr(m * static_cast<double>(n))) / 2;
+    EXPECT_NEAR(std::sqrt(squares / sum), 1, 0.05) << n;
+  }
 }
 
 TEST(Theory, OfWhatLearnsIsABound) {

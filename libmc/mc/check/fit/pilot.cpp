@@ -2,6 +2,8 @@
 
 #include <mc/stats/sort_numbers.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -39,6 +41,22 @@ Pilot draw_pilot(const Subject& s, std::uint64_t seed, std::uint64_t samples) {
     sort_numbers(pilot.sorted[d]);
   }
   return pilot;
+}
+
+std::vector<Check> find_unresolved(const Subject& s, const Pilot& pilot) {
+  constexpr double least = 2 * rounded_steps;
+  std::vector<Check> checks;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
+    double step = 1;
+    for (const Subject::Coordinates& v : pilot.points) step = std::min(step, rounding(s, v, d));
+    if (pilot.points.empty() || !(step * least > 1)) continue;
+    Check c{"resolution, " + axis_name(s.axes, d), Verdict::inconclusive, {}, 0, 1 / step, least, Fault::none, {}};
+    c.detail = fmt::format("{} comes in so few steps that no density along it can be tested; compute it in double, or "
+                           "on a domain nearer to 0",
+                           describe_range(s.axes, d, 0, 1));
+    checks.push_back(std::move(c));
+  }
+  return checks;
 }
 
 std::uint64_t pilot_samples(std::uint64_t samples) { return std::clamp<std::uint64_t>(samples / 8, 1000, 1 << 20); }

@@ -31,6 +31,10 @@ struct Pilot {
 /// pilot_samples(samples) draws.
 Pilot draw_pilot(const Subject& subject, std::uint64_t seed, std::uint64_t samples);
 
+/// A Check, inconclusive, for each axis that is all narrower than two cells can be, 128 steps of rounding: samples that
+/// are rounded so tell nothing of a density along it.
+std::vector<Check> find_unresolved(const Subject& subject, const Pilot& pilot);
+
 /// Samples that make the cells: an eighth of those that are counted, at least 1000, at most 2^20, which is 256 for each
 /// of 4096 cells.
 std::uint64_t pilot_samples(std::uint64_t samples);

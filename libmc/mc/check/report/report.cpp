@@ -25,7 +25,7 @@ std::string_view name(Fault f) {
   case Fault::none: return "none";
   case Fault::edge: return "edge: u at the ends of the unit cube or beside a branch break it";
   case Fault::zero_edge: return "measure zero: only single u or points break it, the density is not in doubt";
-  case Fault::impure: return "impure: the point is not a function of u alone";
+  case Fault::impure: return "impure: the same question gets other answers";
   case Fault::not_finite: return "not finite";
   case Fault::negative: return "negative: the density is below zero";
   case Fault::outside: return "outside: points that are not in the domain";

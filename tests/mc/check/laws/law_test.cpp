@@ -53,6 +53,90 @@ TEST(Law, ASamplerThatReturnsThePointBeforeIsImpure) {
   EXPECT_EQ(r.fault(), Fault::impure) << r.to_string();
 }
 
+// Every second call is another's, whichever of the functions it is.
+TEST(Law, WhatAlternatesIsImpure) {
+  const AnySampler right = mc::make_sampler(
+      "mine", mc::Interval<double>(0, 2), [](double u) { return 2 * u; }, [](double) { return 0.5; });
+  const auto calls = std::make_shared<int>(0);
+  AnySampler sample = right, pdf = right, invert = right;
+  sample.sample = [=](const AnySampler::Uniforms& u) {
+    return right.sample(++*calls % 2 ? u : AnySampler::Uniforms{1 - u[0]});
+  };
+  EXPECT_EQ(laws(sample).fault(), Fault::impure) << laws(sample).to_string();
+  // Beside points where two kinds of one density meet, say, by which the integral hardly changes.
+  pdf.pdf = [=](const Numbers&) { return ++*calls % 2 ? 0.5 : std::nextafter(0.5, 1.0); };
+  EXPECT_THAT(laws(pdf).to_string(), HasSubstr("same x, same pdf fail"));
+  invert.invert = [=](const Numbers& x) {
+    return std::optional(AnySampler::Uniforms{++*calls % 2 ? x[0] / 2 : std::nextafter(x[0] / 2, 1.0)});
+  };
+  EXPECT_THAT(laws(invert).to_string(), HasSubstr("same x, same inverse fail"));
+}
+
+// A density that stands for the point sampled last, wherever it is asked.
+TEST(Law, APdfThatDependsOnTheLastSampleIsImpure) {
+  const auto last = std::make_shared<double>(0);
+  AnySampler s = on_square([last](double a, double b) { return Numbers{*last = a, b}; });
+  s.pdf = [last](const Numbers&) { return *last < 0.5 ? 1.0 : std::nextafter(1.0, 2.0); };
+  EXPECT_THAT(laws(s).to_string(), HasSubstr("same x, same pdf fail"));
+}
+
+// Of one that takes a stream the density is asked for twice.
+TEST(Law, APdfBesideAStreamIsAskedAgain) {
+  AnySampler s = mc::detail::sampler_on("mine", mc::Interval<double>(0, 1));
+  s.sample_stream = [](mc::Pcg& random) {
+    AnySampler::Drawn d;
+    d.x[0] = random.uniform<double>();
+    return std::optional(d);
+  };
+  s.pdf = [](const Numbers&) { return 1.0; };
+  EXPECT_TRUE(laws(s).passed()) << laws(s).to_string();
+  const auto calls = std::make_shared<int>(0);
+  s.pdf = [calls](const Numbers&) { return ++*calls % 2 ? 1.0 : std::nextafter(1.0, 2.0); };
+  EXPECT_EQ(laws(s).fault(), Fault::impure) << laws(s).to_string();
+}
+
+// Between 1e6 and 1e6 + 1 lie 15 floats: counts of them follow how the sampler rounds more than any density.
+TEST(Law, ADomainOfFewFloatsIsNotTested) {
+  const auto tried = []<class S>(S, double power) {
+    const auto sample = [power](S u) { return S(1e6) + static_cast<S>(std::pow(u, power)); };
+    return mc::check_laws(mc::Interval<S>(1e6, 1e6 + 1), sample, [](S) { return S(1); }, {.samples = 20'000});
+  };
+  for (const double power : {1.0, 1.5}) {
+    const mc::Report r = tried(1.0f, power);
+    EXPECT_EQ(r.verdict(), mc::Verdict::inconclusive) << r.to_string();
+    EXPECT_THAT(r.to_string(), HasSubstr("compute it in double"));
+  }
+  EXPECT_TRUE(tried(1.0, 1).passed()) << tried(1.0, 1).to_string();
+  EXPECT_EQ(tried(1.0, 1.5).verdict(), mc::Verdict::fail);
+  EXPECT_TRUE(mc::check_laws(
+                  mc::Interval<float>(1e6, 1e6 + 64), [](float u) { return 1e6f + 64 * u; },
+                  [](float) { return 1.0f / 64; }, {.samples = 20'000})
+                  .passed());
+}
+
+TEST(Law, ManyAtOnceAreWhatEachIsAlone) {
+  AnySampler s = on_square([](double a, double b) { return Numbers{a, b}; });
+  const auto many = [s](std::size_t shift, double rounded) {
+    AnySampler batched = s;
+    batched.sample_many = [=](std::span<const AnySampler::Uniforms> u) {
+      std::vector<std::optional<AnySampler::Drawn>> drawn;
+      for (std::size_t i = 0; i < u.size(); ++i) {
+        drawn.push_back(s.sample(u[(i + shift) % u.size()]));
+        drawn.back()->x[0] *= rounded;
+        drawn.back()->pdf = 1;
+      }
+      return drawn;
+    };
+    batched.pdf_many = [=](std::span<const Numbers> x) { return std::vector<double>(x.size(), rounded); };
+    return batched;
+  };
+  EXPECT_TRUE(laws(many(0, 1)).passed()) << laws(many(0, 1)).to_string();
+  EXPECT_THAT(laws(many(1, 1)).to_string(), HasSubstr("many samples at once, as one alone fail"));
+  const double in_float = 1 - 1e-7; // of a program that computes vectors in another order
+  EXPECT_THAT(laws(many(0, in_float)).to_string(), testing::Not(HasSubstr("at once")));
+  EXPECT_THAT(laws(many(0, 0.99)).to_string(), HasSubstr("many pdf at once, as one alone fail"));
+}
+
 // It is a function of u, if a poor one.
 TEST(Law, ASamplerThatStandsStillIsAnAtom) {
   const mc::Report r = laws(on_square([](double, double) { return Numbers{0.5, 0.5}; }));
