@@ -162,7 +162,7 @@ TEST(Laws, StatisticsCanBeLeftOut) {
   o.samples = 0;
   const mc::Report r = check_laws(mc::CosineHemisphere<double>{}, o);
   EXPECT_TRUE(r.passed());
-  EXPECT_EQ(r.checks.size(), 8u);
+  EXPECT_EQ(r.checks.size(), 10u);
 }
 
 } // namespace

@@ -66,8 +66,8 @@ struct Evidence {
 ///             range of all values; where those are equal too, their size, so that the rule of three holds for what
 ///             was not seen. Replicates that differed before and came to agree are as good as when they last differed
 ///           - of a tail of index a > 2 the share R^-(1 - 2/a) of the variance lies beyond the largest of R values
-///           - of a tail with a < 8 the variance is known badly, and so is that of replicates whose skewness is above 1.
-///             It seems least where nothing large was met, and that is where runs stop: so it is no less than what the
+///           - of a tail with a < 8 the variance is known badly, as is that of replicates whose skewness is above 1. It
+///             seems least where nothing large was met, and that is where runs stop: so it is no less than what the
 ///             last length showed, scaled as the variance of such a tail falls
 ///   bar   : unseen where every value was zero, else as bar_of says
 ///   seen  : the values behind it, and the tail of the integrand
