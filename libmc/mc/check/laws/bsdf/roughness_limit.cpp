@@ -9,45 +9,63 @@ double excess(const Moments& m, double allowed, const LimitOptions& options) {
   return m.non_finite() ? HUGE_VAL : std::max(std::abs(m.mean()) - allowed - options.noise - 5 * m.std_error(), 0.0);
 }
 
-// weight, weight wi and absorption of one draw.
-std::array<double, 5> features(const std::optional<AnyBsdf::Sample>& drawn, const LimitOptions& options) {
-  if (!drawn) return {0, 0, 0, 0, 1};
-  const double weight = throughput(*drawn, options.bsdf)[0];
-  return {weight, weight * drawn->wi.x(), weight * drawn->wi.y(), weight * drawn->wi.z(), 0};
+// Of one draw: weight and weight wi of each channel, those that the BSDF does not have as its last one; absorption.
+constexpr std::size_t per_channel = 4, feature_count = per_channel * Channels::most + 1;
+using Features = std::array<double, feature_count>;
+
+Features features(const std::optional<AnyBsdf::Sample>& drawn, const LimitOptions& options) {
+  Features all{};
+  if (!drawn) all.back() = 1;
+  if (!drawn) return all;
+  const Channels weight = throughput(*drawn, options.bsdf);
+  for (int c = 0; c < Channels::most; ++c) {
+    double* at = &all[per_channel * static_cast<std::size_t>(c)];
+    *at = weight[c];
+    for (int i = 0; i < 3; ++i) *++at = weight[c] * drawn->wi[i];
+  }
+  return all;
+}
+
+std::string name_of(std::size_t feature) {
+  constexpr std::array<const char*, per_channel> names{"weight", "weight x", "weight y", "weight z"};
+  if (feature + 1 == feature_count) return "share absorbed";
+  return fmt::format("{} of channel {}", names[feature % per_channel], feature / per_channel);
 }
 
 void compare_samples(const AnyBsdf& rough, const AnyBsdf& limit, double r, const AnyBsdf::Direction& wo,
                      const LimitOptions& options, WorstError& sample) {
-  std::array<Moments, 5> difference;
+  std::array<Moments, feature_count> difference;
   Pcg random(options.bsdf.seed, 25);
   for (int i = 0; i < options.samples; ++i) {
     Pcg again = random;
-    const auto a = features(rough.sample_next(wo, random), options),
-               b = features(limit.sample_next(wo, again), options);
-    for (std::size_t j = 0; j < 5; ++j) difference[j].add(a[j] - b[j]);
+    const Features a = features(rough.sample_next(wo, random), options),
+                   b = features(limit.sample_next(wo, again), options);
+    for (std::size_t j = 0; j < feature_count; ++j) difference[j].add(a[j] - b[j]);
   }
-  for (std::size_t j = 0; j < 5; ++j)
+  for (std::size_t j = 0; j < feature_count; ++j)
     sample.note(excess(difference[j], options.slope * r, options), [&] {
-      constexpr std::array<const char*, 5> names{"weight", "weight x", "weight y", "weight z", "share absorbed"};
-      return fmt::format("mean {} at roughness {:g} is {:.6g} +- {:.2g} off that of the limit, wo = {}", names[j], r,
+      return fmt::format("mean {} at roughness {:g} is {:.6g} +- {:.2g} off that of the limit, wo = {}", name_of(j), r,
                          difference[j].mean(), difference[j].std_error(), rough.format(wo));
     });
 }
 
 void compare_evals(const AnyBsdf& here, const AnyBsdf& there, double r, double d, const AnyBsdf::Direction& wo,
                    const LimitOptions& options, WorstError& eval) {
-  Moments change;
+  std::array<Moments, Channels::most> changes;
   Pcg random(options.bsdf.seed, 26);
   for (int i = 0; i < options.samples / 4; ++i) {
     const auto drawn = here.sample_next(wo, random);
     if (!drawn || drawn->delta || !(drawn->pdf > 0)) continue;
-    const double f = here.eval(wo, drawn->wi)[0], g = there.eval(wo, drawn->wi)[0];
-    change.add(std::abs(f - g) * (cosine_factor(drawn->wi, options.bsdf) / drawn->pdf));
+    const Channels f = here.eval(wo, drawn->wi), g = there.eval(wo, drawn->wi);
+    for (int c = 0; c < Channels::most; ++c)
+      changes[static_cast<std::size_t>(c)].add(std::abs(f[c] - g[c]) *
+                                               (cosine_factor(drawn->wi, options.bsdf) / drawn->pdf));
   }
-  eval.note(change.count() > 1 ? excess(change, options.slope * std::abs(d), options) : 0.0, [&] {
-    return fmt::format("f changes by {:.4g} of its mass from roughness {:g} to {:g}, wo = {}", change.mean(), r,
-                       r * (1 + d), here.format(wo));
-  });
+  for (const Moments& change : changes)
+    eval.note(change.count() > 1 ? excess(change, options.slope * std::abs(d), options) : 0.0, [&] {
+      return fmt::format("f changes by {:.4g} of its mass from roughness {:g} to {:g}, wo = {}", change.mean(), r,
+                         r * (1 + d), here.format(wo));
+    });
 }
 
 } // namespace

@@ -41,6 +41,28 @@ struct Cone {
   }
 };
 
+// Of four wavelengths, the last `last` times the others.
+template <class B> struct FourWavelengths {
+  struct Sample {
+    V wi;
+    Eigen::Vector4d f;
+    double pdf;
+    bool delta;
+  };
+  B grey;
+  double last = 1;
+
+  Eigen::Vector4d four(double f) const { return {f, f, f, last * f}; }
+  double pdf(const V& wo, const V& wi) const requires(!std::same_as<B, Mirror>) { return grey.pdf(wo, wi); }
+  Eigen::Vector4d eval(const V& wo, const V& wi) const requires(!std::same_as<B, Mirror>) {
+    return four(grey.eval(wo, wi));
+  }
+  std::optional<Sample> sample(const V& wo, const mc::Vec2<double>& u) const {
+    const auto s = grey.sample(wo, u);
+    return Sample{s->wi, four(s->f), s->pdf, s->delta};
+  }
+};
+
 std::vector<mc::Check> check(const std::function<Cone(double)>& family) {
   return mc::check_roughness_limit<double>(family, Mirror{}, V(0.6, 0, 0.8));
 }
@@ -53,6 +75,15 @@ TEST(RoughnessLimit, ALobeThatNarrowsToAMirrorPasses) {
 TEST(RoughnessLimit, AnotherAlbedoOrDirectionInTheLimitFails) {
   EXPECT_THAT(check([](double r) { return Cone{r, 0.78}; })[0].detail, testing::HasSubstr("mean weight"));
   EXPECT_EQ(check([](double r) { return Cone{r, 0.8, 0.01}; })[0].verdict, mc::Verdict::fail);
+}
+
+TEST(RoughnessLimit, EveryChannelMatters) {
+  const auto check_four = [](double last) {
+    const auto family = [&](double r) { return FourWavelengths<Cone>{Cone{r}, last}; };
+    return mc::check_roughness_limit<double>(family, FourWavelengths<Mirror>{Mirror{}}, V(0.6, 0, 0.8))[0];
+  };
+  EXPECT_EQ(check_four(1).verdict, mc::Verdict::pass);
+  EXPECT_THAT(check_four(0.97).detail, testing::HasSubstr("mean weight of channel 3"));
 }
 
 TEST(RoughnessLimit, AJumpOfEvalFails) {
