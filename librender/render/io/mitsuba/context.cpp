@@ -21,20 +21,15 @@ bool is_of_mitsuba_2(const XmlElement& scene) {
                   version));
 }
 
-namespace {
-
-Beyond beyond_of(const XmlElement& root, Dialect dialect) {
-  if (dialect == Dialect::lajolla) return Beyond::held;
-  return is_of_mitsuba_2(root) ? Beyond::zero : Beyond::ramp;
+Context::Context(const XmlElement& root, Dialect dialect, const Vec3d& origin)
+    : folders(root), dialect_(dialect), means_mitsuba_2_(is_of_mitsuba_2(root) && dialect == Dialect::mitsuba),
+      origin_(origin) {
+  collect_ids(root);
 }
 
-} // namespace
-
-Context::Context(const XmlElement& root, Dialect dialect, const Vec3d& origin)
-    : folders(root), dialect_(dialect),
-      illuminant_(dialect == Dialect::mitsuba && is_of_mitsuba_2(root) ? Illuminant::d65 : Illuminant::equal_energy),
-      beyond_(beyond_of(root, dialect)), origin_(origin) {
-  collect_ids(root);
+Beyond Context::beyond() const {
+  if (dialect_ == Dialect::lajolla) return Beyond::held;
+  return means_mitsuba_2_ ? Beyond::zero : Beyond::ramp;
 }
 
 void Context::collect_ids(const XmlElement& element) {

@@ -30,11 +30,12 @@ class Context {
   Context(const XmlElement& root, Dialect dialect, const Vec3d& origin);
 
   Dialect dialect() const { return dialect_; }
-  /// The light that the spectra of what reflects are seen in: by the version of the scene, that of Mitsuba 0.6 or of 2
-  /// and 3.
-  Illuminant illuminant() const { return illuminant_; }
+  /// Whether the scene means what it does in Mitsuba 2 and 3: by its version, unless lajolla is to read it.
+  bool means_mitsuba_2() const { return means_mitsuba_2_; }
+  /// The light that the spectra of what reflects are seen in.
+  Illuminant illuminant() const { return means_mitsuba_2_ ? Illuminant::d65 : Illuminant::equal_energy; }
   /// What spectra are beyond their samples.
-  Beyond beyond() const { return beyond_; }
+  Beyond beyond() const;
   const Vec3d& origin() const { return origin_; }
 
   /// Where the files are that the scene names.
@@ -73,8 +74,7 @@ class Context {
   void collect_ids(const XmlElement& element);
 
   Dialect dialect_;
-  Illuminant illuminant_;
-  Beyond beyond_;
+  bool means_mitsuba_2_;
   Vec3d origin_;
   std::map<std::string, const XmlElement*> ids_;
   std::map<const XmlElement*, BsdfId> bsdfs_;

@@ -153,7 +153,7 @@ Parameter<Center> center() {
                              {"point", "vector"},
                              "its centre, which toWorld turns and moves, and since Mitsuba 2 scales"},
                             [](const XmlElement& e, Context& context) {
-                              return Center{vector_of(e), context.illuminant() == Illuminant::d65};
+                              return Center{vector_of(e), context.means_mitsuba_2()};
                             },
                             {},
                             {}};
