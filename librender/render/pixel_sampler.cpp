@@ -20,22 +20,6 @@ bool is_before(const InvalidSample& a, const InvalidSample& b) {
   return std::tie(a.pass, a.y, a.x, a.index) < std::tie(b.pass, b.y, b.x, b.index);
 }
 
-// Through what the camera sees: the interior of the first surface around something that absorbs, if it looks at that
-// from inside.
-const HomogeneousMedium* medium_of_camera(const Scene& scene) {
-  constexpr int most = 256; // surfaces on the way
-  Ray ray{scene.camera().origin(), scene.camera().forward()};
-  for (int met = 0; met < most; ++met) {
-    const auto hit = scene.intersect(ray);
-    if (!hit) return nullptr;
-    const Surface& surface = scene.surface(*hit);
-    const SurfacePoint point = scene.surface_point(ray, *hit);
-    if (surface.interior) return ray.d.dot(point.ng) > 0 ? &*surface.interior : nullptr;
-    ray = beyond(ray, *hit, point);
-  }
-  return nullptr;
-}
-
 } // namespace
 
 PixelSampler sampler_from(std::string_view word) {
@@ -56,8 +40,9 @@ void Tally::merge(const Tally& other) {
 }
 
 SampleTaker::SampleTaker(const Scene& scene, const PathOptions& path, PixelSampler sampler, std::uint64_t seed,
-                         std::uint32_t stratum, const Whole& whole, const std::optional<SplatFilter>& splat)
-    : scene_(scene), integrator_(scene, path, medium_of_camera(scene)), seed_(seed),
+                         std::uint32_t stratum, const Whole& whole, const std::optional<SplatFilter>& splat,
+                         const LightPaths* light_paths)
+    : scene_(scene), integrator_(scene, path, media_at(scene, {scene.camera().origin(), scene.camera().forward()}), light_paths), seed_(seed),
       stratum_(sampler == PixelSampler::stratified ? stratum : 1u << 31), whole_(whole), splat_(splat),
       take_(take_of(sampler)) {}
 

@@ -50,9 +50,11 @@ struct Whole {
 /// of the whole.
 class SampleTaker {
  public:
-  /// splat: by which samples count for several pixels; unless given, each for one, from the scene's filter
+  /// splat       : by which samples count for several pixels; unless given, each for one, from the scene's filter
+  /// light_paths : see PathIntegrator
   SampleTaker(const Scene& scene, const PathOptions& path, PixelSampler sampler, std::uint64_t seed,
-              std::uint32_t stratum, const Whole& whole, const std::optional<SplatFilter>& splat = {});
+              std::uint32_t stratum, const Whole& whole, const std::optional<SplatFilter>& splat = {},
+              const LightPaths* light_paths = nullptr);
 
   /// Rows above and below the film, and columns at its sides, of which samples count for its pixels.
   int border() const { return splat_ ? splat_->reach() : 0; }

@@ -1,6 +1,7 @@
 #include <render/render.h>
 
 #include <render/film/sampling_plan.h>
+#include <render/light_sampler.h>
 
 #include <mc/core/error.h>
 #include <mc/core/parallel.h>
@@ -59,6 +60,11 @@ std::optional<SplatFilter> splat_of(const Scene& scene, const RenderOptions& opt
   return filter.is_wide() ? std::optional(filter) : std::nullopt;
 }
 
+std::optional<LightPaths> light_paths_of(const Scene& scene, const RenderOptions& options) {
+  if (options.shown.what != Shown::radiance) return {};
+  return LightPaths::of(scene, options.strategy, Float(options.width) / Float(options.height));
+}
+
 // Points of a stratified set: all where it is known how many there will be.
 std::uint32_t stratum_of(const RenderOptions& options) {
   const bool known = !options.seconds && !options.target_error && !is_adaptive(options);
@@ -70,9 +76,13 @@ class Work {
  public:
   Work(const Scene& scene, const RenderOptions& options)
       : options_(options), whole_(whole_of(options)), splat_(splat_of(scene, options)),
+        light_paths_(light_paths_of(scene, options)),
         taker_(scene, {options.strategy, options.max_depth, options.shown}, options.sampler, options.seed,
-               stratum_of(options), whole_, splat_),
-        film_(new_film()), taken_(width() * height()) {}
+               stratum_of(options), whole_, splat_, light_paths_ ? &*light_paths_ : nullptr),
+        film_(new_film()), taken_(width() * height()) {
+    if (light_paths_)
+      light_taker_.emplace(scene, *light_paths_, options.max_depth, options.sampler, options.seed, whole_);
+  }
 
   RenderResult run() {
     in_rounds();
@@ -108,7 +118,7 @@ class Work {
 
   Film new_film() const {
     const int sets = limited() ? point_sets : std::min(options_.spp, point_sets);
-    return {whole_.part.width, whole_.part.height, sets, splat_};
+    return {whole_.part.width, whole_.part.height, sets, splat_, light_paths_.has_value()};
   }
 
   // Every row once. Those that write to the same pixels take turns, in an order that is the same for every part.
@@ -130,6 +140,11 @@ class Work {
     if (splat_) round = new_film();
     Film& film = round ? *round : film_;
     std::atomic<std::uint64_t> done = 0, samples = total_.samples;
+    Tally lights;
+    std::uint64_t light_done = light_done_;
+    if (light_taker_)
+      light_done = light_taker_->take(light_done, light_taker_->paths(mean), options_.threads,
+                                      [&] { return cancelled() || out_of_time(); }, film, lights);
     for_rows([&](std::size_t y) {
       if (cancelled() || out_of_time()) return;
       const auto from = std::span(taken_).subspan(y * width(), width()),
@@ -146,6 +161,8 @@ class Work {
     const bool is_whole = done == height();
     if (round && !is_whole && mean_ > 0) return false;
     for (const Tally& tally : tallies) total_.merge(tally);
+    total_.merge(lights);
+    light_done_ = light_done;
     taken_ = std::move(taken);
     if (round) film_.merge(*round);
     return is_whole;
@@ -192,10 +209,13 @@ class Work {
   const RenderOptions& options_;
   Whole whole_;
   std::optional<SplatFilter> splat_;
+  std::optional<LightPaths> light_paths_;
   SampleTaker taker_;
+  std::optional<LightTaker> light_taker_;
   Film film_;
   std::vector<std::uint32_t> taken_; ///< samples of every pixel
   SamplingPlan plan_;
+  std::uint64_t light_done_ = 0; ///< paths from the lights
   double mean_ = 0; ///< samples per pixel of the rounds that are done
   Tally total_;
   RelativeError error_;    ///< after the last round

@@ -6,6 +6,8 @@
 
 #include <mc/warp/disk.h>
 
+#include <optional>
+
 namespace render {
 
 /// Which side of the film the field of view spans.
@@ -18,6 +20,15 @@ struct LensOptions {
   double focus_distance = 1;         ///< to the plane in focus [scene units]
   double near = 0;                   ///< what stands closer before the lens is cut away [scene units]
   double far = mc::infinity<double>; ///< and what stands farther
+};
+
+/// How a point is seen from a point of the lens.
+struct SeenPoint {
+  Vec2 s;        ///< of the film, see ThinLens::ray
+  Vec3 d;        ///< unit direction from the point to the lens
+  Float reach;   ///< from the point along d to the near plane
+  Float distance; ///< to the lens
+  Float density; ///< [1/sr] of the direction from the lens, where s is uniform in [0,1]^2
 };
 
 /// A thin lens focused on a plane; of radius 0 a pinhole.
@@ -56,6 +67,32 @@ class ThinLens {
     }
     // d.dot(forward) = 1, so `near` steps of d reach the near plane, and `depth` more the far one.
     return {start + near_ * d, d.normalized(), depth_ * d.norm()};
+  }
+
+  /// How p is seen from the point of the lens that u chooses; none where it lies outside of near and far. s may lie
+  /// beside the film.
+  std::optional<SeenPoint> see(const Vec3& p, const Vec2& tan_half_xy, const Vec2& u) const {
+    Vec3 offset = Vec3::Zero();
+    if (radius_ > 0) {
+      const Vec2 lens = radius_ * mc::UniformDisk<Float>{}.sample(u);
+      offset = right_ * lens[0] + up_ * lens[1];
+    }
+    const Vec3 away = p - (origin_ + offset);
+    const Float z = away.dot(forward_);
+    if (!(z > near_ && z - near_ < depth_)) return {};
+    const Vec3 toward = away / z + offset / focus_distance_;
+    const Float distance = away.norm(), cosine = z / distance, area = 4 * tan_half_xy[0] * tan_half_xy[1];
+    return SeenPoint{{(toward.dot(right_) / tan_half_xy[0] + 1) / 2, (1 - toward.dot(up_) / tan_half_xy[1]) / 2},
+                     -away / distance,
+                     (z - near_) / cosine,
+                     distance,
+                     1 / (cosine * cosine * cosine * area)};
+  }
+
+  /// The density of SeenPoint, of a ray's direction.
+  Float density(const Vec3& d, const Vec2& tan_half_xy) const {
+    const Float cosine = d.dot(forward_);
+    return 1 / (cosine * cosine * cosine * 4 * tan_half_xy[0] * tan_half_xy[1]);
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <mc/stats/t_test.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace render {
 
@@ -12,6 +13,32 @@ namespace {
 
 // Deviations of equal samples, in parts of their squares.
 constexpr double rounding = 1e-12;
+
+/// Of the samples in all sets, see Film::estimate.
+struct MeanOfSets {
+  Eigen::Array3d mean = Eigen::Array3d::Zero(), variance = Eigen::Array3d::Zero();
+};
+
+// sum(i) : of the samples of set i;  count(i) : how many they are
+template <class Sum, class Count>
+MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const Eigen::Array3d& square_range) {
+  MeanOfSets all;
+  double n = 0, k = 0;
+  for (std::size_t i = 0; i < sets; ++i) {
+    all.mean += sum(i);
+    n += count(i);
+    k += count(i) > 0;
+  }
+  if (!(n > 0)) return all;
+  all.mean /= n;
+  if (k < 2) return all;
+  for (std::size_t i = 0; i < sets; ++i)
+    if (count(i) > 0) all.variance += count(i) * (sum(i) / count(i) - all.mean).square();
+  const double left_over = (k + 1) / ((k + 2) * (k + 3));
+  const Eigen::Array3d least = k * left_over * square_range / (n * n);
+  all.variance = (all.variance / ((k - 1) * n)).max(least);
+  return all;
+}
 
 } // namespace
 
@@ -25,10 +52,12 @@ void SampleSums::merge(const SampleSums& other) {
   channel_largest = channel_largest.max(other.channel_largest);
 }
 
-bool SampleSums::is_undecided() const {
+bool SampleSums::is_undecided(const LightSums& light, double weight) const {
   if (count < 2) return false;
-  const double mean = sum / double(count), deviations = squares - mean * sum;
-  return deviations > rounding * squares && mc::sqr(largest - mean) > deviations / 2;
+  const double mean = sum / double(count), w2 = mc::sqr(weight);
+  const double all = squares + w2 * double(light.squares), deviations = all - mean * sum;
+  const double most = std::max(mc::sqr(largest - mean), w2 * mc::sqr(double(light.largest)));
+  return deviations > rounding * all && most > deviations / 2;
 }
 
 Eigen::Array3d SampleSums::range() const {
@@ -39,7 +68,13 @@ Eigen::Array3d SampleSums::range() const {
   return (s2 > rounding * squares_mean && d > 0).select(d + s2 / d, 0);
 }
 
-Film::Film(int width, int height, int sets, std::optional<SplatFilter> splat)
+void LightSums::merge(const LightSums& other) {
+  squares += other.squares;
+  largest = std::max(largest, other.largest);
+  channel_largest = channel_largest.max(other.channel_largest);
+}
+
+Film::Film(int width, int height, int sets, std::optional<SplatFilter> splat, bool lit)
     : width_(width), height_(height), sets_(sets), splat_(std::move(splat)) {
   mc::require(width > 0 && height > 0, "film: size {}x{} needs at least one pixel", width, height);
   mc::require(sets > 0, "film: {} point sets; at least 1 is needed", sets);
@@ -50,6 +85,10 @@ Film::Film(int width, int height, int sets, std::optional<SplatFilter> splat)
   const int reach = splat_ ? splat_->reach() : 0;
   samples_.resize(place(width + reach - 1, height + reach - 1) + 1);
   rays_.resize(pixels);
+  if (!lit) return;
+  light_.resize(sums_.size(), Eigen::Array3d::Zero());
+  light_seen_.resize(pixels);
+  light_counts_.resize(static_cast<std::size_t>(sets));
 }
 
 void Film::add(int x, int y, int set, const Eigen::Array3d& sum, std::uint32_t count) {
@@ -64,6 +103,12 @@ void Film::splat(int x, int y, int set, const Eigen::Array4d& sum) {
   weights_[i] += sum[3];
 }
 
+void Film::add_light(int x, int y, int set, const Eigen::Array3f& value) {
+  const std::size_t i = index(x, y);
+  light_[i * static_cast<std::size_t>(sets_) + static_cast<std::size_t>(set)] += value.cast<double>();
+  light_seen_[i].add(value);
+}
+
 void Film::merge(const Film& other) {
   for (std::size_t i = 0; i < sums_.size(); ++i) {
     sums_[i] += other.sums_[i];
@@ -72,6 +117,9 @@ void Film::merge(const Film& other) {
   for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] += other.weights_[i];
   for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].merge(other.samples_[i]);
   for (std::size_t i = 0; i < rays_.size(); ++i) rays_[i] += other.rays_[i];
+  for (std::size_t i = 0; i < light_.size(); ++i) light_[i] += other.light_[i];
+  for (std::size_t i = 0; i < light_seen_.size(); ++i) light_seen_[i].merge(other.light_seen_[i]);
+  for (std::size_t i = 0; i < light_counts_.size(); ++i) light_counts_[i] += other.light_counts_[i];
 }
 
 void Film::note(int x, int y, const SampleSums& samples, std::uint64_t rays) {
@@ -105,19 +153,23 @@ PixelEstimate Film::estimate(int x, int y) const {
   const auto sets = static_cast<std::size_t>(sets_), first = index(x, y) * sets;
   PixelEstimate pixel;
   for (std::size_t i = first; i < first + sets; ++i) {
-    pixel.mean += set_sum(first, i);
     pixel.samples += counts_[i];
     pixel.sets += counts_[i] > 0;
   }
   if (pixel.samples == 0) return pixel;
-  const auto n = double(pixel.samples);
-  pixel.mean /= n;
-  if (pixel.sets < 2) return pixel;
-  for (std::size_t i = first; i < first + sets; ++i)
-    if (counts_[i] > 0) pixel.variance += counts_[i] * (set_sum(first, i) / counts_[i] - pixel.mean).square();
-  const double k = pixel.sets, left_over = (k + 1) / ((k + 2) * (k + 3));
-  const Eigen::Array3d least = k * left_over * square_range(x, y) / (n * n);
-  pixel.variance = (pixel.variance / ((k - 1) * n)).max(least);
+  const auto own = mean_of(
+      sets, [&](std::size_t i) { return set_sum(first, first + i); }, [&](std::size_t i) { return counts_[first + i]; },
+      square_range(x, y));
+  pixel.mean = own.mean;
+  pixel.variance = own.variance;
+  if (light_.empty()) return pixel;
+  const Eigen::Array3d range = light_seen_[index(x, y)].channel_largest.cast<double>();
+  const auto light = mean_of(
+      sets, [&](std::size_t i) { return light_[first + i]; }, [&](std::size_t i) { return light_counts_[i]; },
+      range.square());
+  pixel.mean += light.mean;
+  pixel.variance += light.variance;
+  pixel.of_light = light.variance;
   return pixel;
 }
 
@@ -182,7 +234,15 @@ Eigen::Array3d Film::around(const std::vector<Eigen::Array3d>& means, int x, int
 }
 
 double Film::undecided() const {
-  const auto n = std::count_if(samples_.begin(), samples_.end(), [](const SampleSums& s) { return s.is_undecided(); });
+  const int reach = splat_ ? splat_->reach() : 0;
+  const double light = std::accumulate(light_counts_.begin(), light_counts_.end(), 0.0);
+  std::size_t n = 0;
+  for (int y = -reach; y < height_ + reach; ++y)
+    for (int x = -reach; x < width_ + reach; ++x) {
+      const SampleSums& samples = samples_[place(x, y)];
+      const bool lit = light > 0 && contains(x, y);
+      n += lit ? samples.is_undecided(light_seen_[index(x, y)], double(samples.count) / light) : samples.is_undecided();
+    }
   return double(n) / double(samples_.size());
 }
 

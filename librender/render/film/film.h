@@ -16,6 +16,20 @@ struct InvalidSample {
   std::uint32_t pass = 0, index = 0;
 };
 
+/// What paths from the lights gave to a pixel, see Film::add_light.
+struct LightSums {
+  float squares = 0, largest = 0; ///< luminances
+  Eigen::Array3f channel_largest = Eigen::Array3f::Zero();
+
+  void add(const Eigen::Array3f& value) {
+    const float y = luminance(value);
+    squares += y * y;
+    largest = std::max(largest, y);
+    channel_largest = channel_largest.max(value);
+  }
+  void merge(const LightSums& other);
+};
+
 /// What a pixel's samples are like: how far they spread, and whether one of them decides. mc::Moments of luminance and
 /// channels with the largest beside them would take 192 bytes a pixel for these 104, and divisions at every sample.
 struct SampleSums {
@@ -39,7 +53,8 @@ struct SampleSums {
 
   /// Whether the largest luminance carries over half of the squared deviations from the mean: then there were too few
   /// samples of what makes the pixel bright, and its error bar is not known yet.
-  bool is_undecided() const;
+  ///   light  : what paths from the lights gave, of which each counts `weight` times as much as a sample
+  bool is_undecided(const LightSums& light = {}, double weight = 0) const;
 
   /// How far apart the largest sample and the smallest are at least: the largest lies d above the mean and the squared
   /// deviations have the mean s^2, so d + s^2 / d, which two values reach. 0 where all are equal up to rounding.
@@ -50,6 +65,7 @@ struct SampleSums {
 struct PixelEstimate {
   Eigen::Array3d mean = Eigen::Array3d::Zero();
   Eigen::Array3d variance = Eigen::Array3d::Zero(); ///< of the mean; see Film::estimate
+  Eigen::Array3d of_light = Eigen::Array3d::Zero(); ///< of that what is due to paths from the lights
   std::uint64_t samples = 0;
   int sets = 0; ///< that have samples; fewer than two: the variance is not known
 };
@@ -72,8 +88,9 @@ enum class ErrorOf {
 class Film {
  public:
   /// splat  : where samples count for several pixels, as they come by `splat`
+  /// lit    : paths from the lights give something, too: 116 bytes more a pixel
   /// throws : Error for a non-positive size or number of sets
-  Film(int width, int height, int sets, std::optional<SplatFilter> splat = {});
+  Film(int width, int height, int sets, std::optional<SplatFilter> splat = {}, bool lit = false);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -87,6 +104,12 @@ class Film {
   /// Adds what samples, of this pixel or another, give to one of its point sets: the sums of their weighted radiance
   /// and of their weights, which are 1 for every sample of the pixel on average.
   void splat(int x, int y, int set, const Eigen::Array4d& sum);
+
+  /// Adds what a path from the lights gives to one of a pixel's point sets. It does not belong to a sample of the pixel:
+  /// in the mean, sums of the set are over what count_light says.
+  void add_light(int x, int y, int set, const Eigen::Array3f& value);
+  /// Tells that a set has got the light of as many paths as `samples` samples of every pixel have.
+  void count_light(int set, double samples) { light_counts_[static_cast<std::size_t>(set)] += samples; }
 
   /// Adds the samples of a film of the same kind.
   void merge(const Film& other);
@@ -104,6 +127,7 @@ class Film {
   /// where f, what rounding left over, did not show in k sets: uniform beforehand, f (1 - f) is then
   /// (k + 1) / ((k + 2) (k + 3)) on average.
   /// Splats bring R^2 from the pixels about, times the squares of their weights.
+  ///   Light of paths from the lights adds its own mean and the variance of that, found in the same way.
   PixelEstimate estimate(int x, int y) const;
   std::uint64_t rays(int x, int y) const { return rays_[index(x, y)]; }
 
@@ -115,7 +139,7 @@ class Film {
   /// is half of the picture's mean. Infinite while a pixel does not know its variance.
   RelativeError relative_error(ErrorOf of = ErrorOf::picture) const;
 
-  /// Share of the pixels that are undecided, see SampleSums.
+  /// Share of the pixels that are undecided, see SampleSums; a path from the lights counts as a sample.
   double undecided() const;
 
  private:
@@ -136,6 +160,9 @@ class Film {
            static_cast<std::size_t>(x + reach);
   }
 
+  // Adds the light of paths from the lights.
+  void add_light_to(PixelEstimate& pixel, int x, int y) const;
+
   // The mean of the pixel and its neighbours.
   Eigen::Array3d around(const std::vector<Eigen::Array3d>& means, int x, int y) const;
 
@@ -146,6 +173,9 @@ class Film {
   std::vector<double> weights_;       ///< the same, of splats; empty where there are none
   std::vector<SampleSums> samples_;   ///< by place
   std::vector<std::uint64_t> rays_;
+  std::vector<Eigen::Array3d> light_; ///< as sums_, of paths from the lights; empty where there are none
+  std::vector<LightSums> light_seen_; ///< of every pixel
+  std::vector<double> light_counts_;  ///< of every set
 };
 
 } // namespace render

@@ -29,8 +29,9 @@ std::vector<Need> needs_of(const Film& film) {
     }
   std::vector<Need> needs(pixels);
   for (std::size_t i = 0; i < pixels; ++i) {
-    const auto& [value, variance, samples, sets] = estimates[i];
+    const auto& [value, all, of_light, samples, sets] = estimates[i];
     if (samples == 0) continue;
+    const Eigen::Array3d variance = all - of_light; // what more samples of the pixel make smaller
     if ((variance > 0).any()) needs[i].variance = (variance / value.max(mean / 2).square()).mean() * double(samples);
     const int width = film.width(), place = static_cast<int>(i);
     needs[i].rays = double(film.rays(place % width, place / width)) / double(samples);

@@ -2,11 +2,9 @@
 /// Path tracing from the camera, by any of the strategies of the books.
 
 #include <render/film/image.h>
-#include <render/integrator/directions.h>
-#include <render/scene/visibility.h>
+#include <render/integrator/light_paths.h>
 
 #include <mc/estimate/mis.h>
-#include <mc/estimate/russian_roulette.h>
 
 // g++ gives up inlining where three kinds of streams share a file, and calls of a few instructions cost a twentieth of
 // the time. Under the sanitizers flat functions would take half an hour to compile.
@@ -41,9 +39,12 @@ struct PathOptions {
 /// seeds.
 template <class SceneType> class PathIntegrator {
  public:
-  /// around : through what rays start, null where nothing absorbs; must outlive it too
-  PathIntegrator(const SceneType& scene, const PathOptions& options, const HomogeneousMedium* around = nullptr)
-      : scene_(scene), options_(options), directions_(scene, options.strategy), around_(around) {}
+  /// around      : through what rays start
+  /// light_paths : that find some of the light; null: none are traced. It must outlive this, too
+  PathIntegrator(const SceneType& scene, const PathOptions& options, const Media& around = {},
+                 const LightPaths* light_paths = nullptr)
+      : scene_(scene), options_(options), directions_(scene, light_paths ? unaimed(options.strategy) : options.strategy),
+        around_(around), light_paths_(light_paths) {}
 
   /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
   template <class Stream> Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const;
@@ -51,26 +52,7 @@ template <class SceneType> class PathIntegrator {
  private:
   using Own = std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>;
 
-  /// What absorbs a ray, and what lies around that: of bodies within bodies within bodies the outermost is forgotten.
-  struct Media {
-    const HomogeneousMedium *here = nullptr, *around = nullptr; ///< null: nothing
-  };
-
-  /// Where a path meets a surface.
-  struct At : Vertex<Own> {
-    const Surface& surface;
-    Media before; ///< through what the path came
-
-    /// Through what it leaves in the direction d.
-    Media media(const Vec3& d) const {
-      if (!surface.interior) [[likely]]
-        return before;
-      const bool came_from_inside = this->frame.to_world(this->wo).dot(this->point.ng) < 0;
-      const bool leaves_inside = d.dot(this->point.ng) < 0;
-      if (came_from_inside == leaves_inside) return before;
-      return leaves_inside ? Media{&*surface.interior, before.here} : Media{before.around, nullptr};
-    }
-  };
+  using At = Meeting<Own>;
 
   /// A path under way.
   struct Walk {
@@ -82,7 +64,14 @@ template <class SceneType> class PathIntegrator {
     Float over_bsdf = 1;    ///< density of its way since the last rough surface over that of following BSDFs alone
     int edges = 0;          ///< traced so far
     Media media = {};       ///< that the ray goes through
+    Odds odds = {};         ///< of the paths from the lights
   };
+
+  static Strategy unaimed(Strategy strategy) {
+    strategy.target = Target::nothing;
+    strategy.share = 0;
+    return strategy;
+  }
 
   // The normal of what a ray meets, as a colour.
   template <class Stream> Spectrum normal(Ray ray, Stream& stream, std::uint64_t& rays) const {
@@ -133,6 +122,8 @@ template <class SceneType> class PathIntegrator {
       const SurfacePoint point = surface.shape->surface_point(walk.ray, *hit);
       if (walk.media.here) [[unlikely]]
         walk.beta *= walk.media.here->transmittance((point.p - walk.previous).norm());
+      if (light_paths_) [[unlikely]]
+        meet_from_both_ends(point, walk);
       if (surface.light) radiance += walk.beta * emission(*surface.light, &point, walk);
       if (walk.edges == options_.max_depth) return radiance;
 
@@ -141,7 +132,7 @@ template <class SceneType> class PathIntegrator {
       const At at{
           {scene_.bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-walk.ray.d)}, surface, walk.media};
       const bool rough = !at.bsdf.is_delta();
-      if (rough && connects() && scene_.has_light_choice()) radiance += walk.beta * connect(at, stream, rays);
+      if (rough && connects() && scene_.has_light_choice()) radiance += walk.beta * connect(at, walk, stream, rays);
       if (whole && rough) return radiance + branch(at, walk, stream, rays);
       if (!scatter(at, walk, stream)) return radiance;
     }
@@ -166,14 +157,38 @@ template <class SceneType> class PathIntegrator {
   Spectrum emission(std::uint32_t light, const SurfacePoint* met, const Walk& walk) const {
     const Light& source = scene_.lights()[light];
     const Spectrum emitted = source.emitted(walk.ray.d, met);
-    if (is_black(emitted) || !connects() || walk.previous_pdf == 0 || !source.is_sampled()) return emitted;
-    if (options_.strategy.finding == Finding::by_connection) return Spectrum::Zero();
-    const Float other = scene_.light_pmf(walk.previous, light) * source.pdf(walk.previous, walk.ray.d, met);
-    return emitted * mc::power_heuristic(walk.previous_pdf, other);
+    if (is_black(emitted) || !connects() || !source.is_sampled()) return emitted;
+    Float weight = 1;
+    if (walk.previous_pdf > 0) {
+      if (options_.strategy.finding == Finding::by_connection) return Spectrum::Zero();
+      const Float other = scene_.light_pmf(walk.previous, light) * source.pdf(walk.previous, walk.ray.d, met);
+      weight = mc::power_heuristic(walk.previous_pdf, other);
+    }
+    if (light_paths_ && met && walk.edges > 1) [[unlikely]]
+      weight = among_three(weight, walk.odds.with(light_paths_->start2(light, *met, -walk.ray.d)));
+    return emitted * weight;
+  }
+
+  // The weight of a way to find a path, from that among two and the odds of the third against it.
+  static Float among_three(Float weight, double odds) { return Float(double(weight) / (1 + double(weight) * odds)); }
+
+  // What paths from the lights would have made of the edge.
+  void meet_from_both_ends(const SurfacePoint& point, Walk& walk) const {
+    const double cosine = std::abs(double(point.ng.dot(walk.ray.d)));
+    const double distance2 = (point.p - walk.previous).template cast<double>().squaredNorm();
+    if (walk.edges > 1) walk.odds.meet(cosine, distance2);
+    else walk.odds.meet_from_camera(cosine, distance2);
+  }
+
+  // Squared density with which paths from the lights go on from `at`, where they come from wi, the way that this came.
+  static double reverse2(const At& at, const Walk& walk, const Vec3& wi, bool narrow, Float eta) {
+    if (walk.edges == 1) return narrow ? 0 : 1; // they are connected to the camera there
+    return mc::sqr(reverse_pdf(at.bsdf, at.wo, wi, narrow, eta));
   }
 
   // Light from one direction towards a light, reflected toward wo.
-  template <class Stream> RENDER_FLAT Spectrum connect(const At& at, Stream& stream, std::uint64_t& rays) const {
+  template <class Stream> RENDER_FLAT
+  Spectrum connect(const At& at, const Walk& walk, Stream& stream, std::uint64_t& rays) const {
     const Vec2 u = stream.next2(); // u[0] also chooses the light, so that the choice is as well spread as the points
     const auto choice = scene_.sample_light(at.point.p, u[0]);
     const Light& source = scene_.lights()[choice.index];
@@ -193,8 +208,18 @@ template <class SceneType> class PathIntegrator {
       arriving *= medium->transmittance(s->end ? (s->end->p - at.point.p).norm() : mc::infinity<Float>);
     const Float pdf = choice.pmf * s->pdf;
     const bool shared = options_.strategy.finding == Finding::by_both && !source.is_delta();
-    const Float weight = shared ? mc::power_heuristic(pdf, directions_.pdf(at, wi, s->wi)) : Float(1);
+    Float weight = shared ? mc::power_heuristic(pdf, directions_.pdf(at, wi, s->wi)) : Float(1);
+    if (light_paths_ && shared && s->end) [[unlikely]]
+      weight = among_three(weight, light_odds(at, walk, wi, *s, static_cast<std::uint32_t>(choice.index), pdf));
     return f * arriving * (std::abs(wi.z()) * weight / pdf);
+  }
+
+  // The odds of paths from the lights against a connection of density `pdf` [1/sr].
+  double light_odds(const At& at, const Walk& walk, const Vec3& wi, const LightSample& s, std::uint32_t light,
+                    Float pdf) const {
+    const double at_light = std::abs(double(s.end->ng.dot(s.wi))), here = std::abs(double(at.point.ng.dot(s.wi)));
+    return walk.odds.with(reverse2(at, walk, wi, false, 1)) * light_paths_->start2(light, *s.end, -s.wi) *
+           mc::sqr(here / (double(pdf) * at_light));
   }
 
   // The next direction; false where the path ends.
@@ -213,6 +238,11 @@ template <class SceneType> class PathIntegrator {
       if (!roulette.survives) return false;
       walk.beta *= roulette.weight;
     }
+    if (light_paths_) [[unlikely]] {
+      const bool narrow = next->pdf == 0;
+      walk.odds.turn(reverse2(at, walk, at.frame.to_local(next->d), narrow, next->eta),
+                     narrow ? 1 : double(next->pdf), std::abs(double(at.point.ng.dot(next->d))));
+    }
     walk.previous = at.point.p;
     walk.ray = at.point.spawn_ray(next->d);
     walk.media = at.media(next->d);
@@ -222,7 +252,8 @@ template <class SceneType> class PathIntegrator {
   const SceneType& scene_;
   PathOptions options_;
   Directions directions_;
-  const HomogeneousMedium* around_;
+  Media around_;
+  const LightPaths* light_paths_;
 };
 
 template <class SceneType>
@@ -231,8 +262,10 @@ Spectrum PathIntegrator<SceneType>::radiance(const Ray& ray, Stream& stream, std
   if (options_.shown.what == Shown::normals) return normal(ray, stream, rays);
   if (options_.shown.what == Shown::ambient_occlusion) return openness(ray, stream, rays);
   Walk walk{ray, ray.o};
-  walk.media.here = around_;
-  if (around_) [[unlikely]] // it fills what is cut away before the lens, too
+  walk.media = around_;
+  if (light_paths_) [[unlikely]]
+    walk.odds = Odds(1, light_paths_->camera_density(ray.d), 0);
+  if (around_.here || light_paths_) [[unlikely]] // it fills what is cut away before the lens, too
     walk.previous -= scene_.camera().near() / ray.d.dot(scene_.camera().forward()) * ray.d;
   return follow(walk, stream, rays, true);
 }

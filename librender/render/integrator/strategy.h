@@ -31,6 +31,7 @@ struct Strategy {
   Target target;
   Float share; ///< of the directions go to the target, the others follow the BSDF. 1: none but its delta lobes do
   Finding finding;
+  Float light_paths = 0; ///< per path from the camera, where they pay, see LightPaths; then no direction is aimed
 };
 
 /// All but `light` are unbiased, those that find by chance where no light is a point or a direction; of such lights
@@ -46,6 +47,7 @@ inline constexpr auto strategies = std::to_array<Strategy>({
     {"guides", Target::guides, Float(0.5), Finding::by_chance},
     {"nee", Target::nothing, 0, Finding::by_connection},
     {"mis", Target::speculars, Float(0.25), Finding::by_both},
+    {"bidirectional", Target::speculars, Float(0.25), Finding::by_both, Float(0.25)},
 });
 
 /// The names of all, in their order.

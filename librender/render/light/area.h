@@ -46,6 +46,9 @@ class AreaLight {
   bool is_infinite() const { return false; }
   bool is_sampled() const { return true; }
 
+  /// Radiance of either side that shines.
+  const Spectrum& radiance() const { return radiance_; }
+  bool is_two_sided() const { return two_sided_; }
   const Shape& shape() const { return *shape_; }
 
  private:

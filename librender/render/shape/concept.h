@@ -55,6 +55,7 @@ struct DirectionSample {
 ///   pdf(ref, wi)      : density [1/sr] of the direction wi: the sum over all points where it meets the shape
 ///   sample_direction(ref, u) : a direction towards a point of sample(ref, u), with its density pdf(ref, wi), whatever
 ///                       rounding makes of the direction; nullopt where none leads there
+///   sample_area(u)    : a point of the shape, of density 1 / area(); nullopt where nothing is left that samples
 ///   area()            : total area
 ///   box()             : the axis-aligned box around it
 ///   spread(ref)       : a bound of the projected solid angle [sr] that it fills at ref, however that faces; at most
@@ -66,6 +67,7 @@ template <class T>
 concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint hit, Ray ray, Hit h) {
   { s.sample(ref, u) } -> std::same_as<std::optional<ShapeSample>>;
   { s.sample_direction(ref, u) } -> std::same_as<std::optional<DirectionSample>>;
+  { s.sample_area(u) } -> std::same_as<std::optional<SurfacePoint>>;
   { s.pdf(ref, wi, hit) } -> std::convertible_to<Float>;
   { s.pdf(ref, wi) } -> std::convertible_to<Float>;
   { s.area() } -> std::convertible_to<double>;

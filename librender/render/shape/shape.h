@@ -17,6 +17,9 @@ struct Shape : std::variant<TriangleMesh, Sphere> {
   std::optional<DirectionSample> sample_direction(const Vec3& ref, const Vec2& u) const {
     return dispatch(*this, [&](const auto& s) { return s.sample_direction(ref, u); });
   }
+  std::optional<SurfacePoint> sample_area(const Vec2& u) const {
+    return dispatch(*this, [&](const auto& s) { return s.sample_area(u); });
+  }
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {
     return dispatch(*this, [&](const auto& s) { return s.pdf(ref, wi, hit); });
   }

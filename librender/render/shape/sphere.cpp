@@ -111,8 +111,7 @@ std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const 
     s.wi = wi.cast<Float>();
     s.pdf = cone_pdf(d2);
   } else {
-    const auto cap = mc::UniformCone<double>::from_one_minus_cos(height_ / radius_);
-    s.point = point(mc::Frame<double>::from_z(axis_).to_world(cap.sample(v)).normalized());
+    s.point = *sample_area(u);
     const Vec3 between = s.point.p - ref;
     if (!(between.squaredNorm() > 0)) return {};
     s.wi = between.normalized();
@@ -120,6 +119,11 @@ std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const 
   }
   if (!(s.pdf > 0) || !std::isfinite(s.pdf)) return {};
   return s;
+}
+
+std::optional<SurfacePoint> Sphere::sample_area(const Vec2& u) const {
+  const auto cap = mc::UniformCone<double>::from_one_minus_cos(height_ / radius_);
+  return point(mc::Frame<double>::from_z(axis_).to_world(cap.sample(u.cast<double>())).normalized());
 }
 
 std::optional<DirectionSample> Sphere::sample_direction(const Vec3& ref, const Vec2& u) const {

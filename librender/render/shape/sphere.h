@@ -29,6 +29,7 @@ class Sphere {
 
   std::optional<ShapeSample> sample(const Vec3& ref, const Vec2& u) const;
   std::optional<DirectionSample> sample_direction(const Vec3& ref, const Vec2& u) const;
+  std::optional<SurfacePoint> sample_area(const Vec2& u) const;
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const;
   Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const;

@@ -177,6 +177,13 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
   return s;
 }
 
+std::optional<SurfacePoint> TriangleMesh::sample_area(const Vec2& u) const {
+  if (!choice_) return {};
+  const auto [triangle, pmf, u0] = choice_->sample_index(double(u[0]));
+  const mc::Vec2<double> b = mc::UniformTriangle<double>{}.sample({u0, double(u[1])});
+  return point(triangle, b[0], b[1]);
+}
+
 std::optional<DirectionSample> TriangleMesh::sample_direction(const Vec3& ref, const Vec2& u) const {
   return toward_sample(*this, ref, u);
 }

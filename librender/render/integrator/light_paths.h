@@ -1,0 +1,194 @@
+#pragma once
+/// Paths from the lights, connected to the camera.
+
+#include <render/integrator/media.h>
+#include <render/integrator/odds.h>
+#include <render/scene/visibility.h>
+
+#include <mc/estimate/russian_roulette.h>
+#include <mc/table/table_dist_1d.h>
+
+#include <optional>
+#include <vector>
+
+namespace render {
+
+/// Light paths of a strategy, and how dense they are. Immutable, so threads share it.
+///   Path tracing hardly finds the light that glass or a mirror throws onto what is seen: where a path meets them by
+/// chance, and the lamp behind, all of it arrives at once. From the lamp it is found easily. Each vertex of a path from
+/// a light is connected to the camera, and all three ways to find the same path, by chance, by a connection to the
+/// light and by one to the camera, are weighed by the power heuristic.
+///   Lights : shapes that shine, chosen by their power; a point uniform in area and a direction by the cosine, of which
+///            four in five are aimed at the spheres of glass or mirror, where a scene has any
+///   Paths  : follow the BSDFs; Russian roulette as of PathIntegrator
+///   Source : [VeachGuibas95], of whose connections these are those at both ends; light through shading normals
+///            [Veach97] section 5.3
+class LightPaths {
+ public:
+  /// None where the strategy has none, or the scene no shape that shines, or nothing narrow or transparent: elsewhere
+  /// they would cost more than they bring.
+  ///   aspect : width / height of the film
+  static std::optional<LightPaths> of(const Scene& scene, const Strategy& strategy, Float aspect);
+
+  /// Of paths that start from a light's point in the direction d, per path from the camera: the squared density, per
+  /// area and [1/sr]; 0 for lights that none starts from.
+  double start2(std::uint32_t light, const SurfacePoint& point, const Vec3& d) const;
+
+  /// Per path from the camera.
+  double rate() const { return rate_; }
+
+  /// Density of the direction d from the camera [1/sr], in paths over the whole film.
+  double camera_density(const Vec3& d) const { return double(scene_->camera().density(d, tan_half_)); }
+
+  /// Traces one path of at most max_depth edges to the camera (-1: no limit): give(s, value) for each of its
+  /// connections, where s is the point of the film, as of ThinLens::ray, or one beside it, and value what it counts of
+  /// the radiance there: of n paths over a film of N pixels, sum(value) / (n / (rate N)) is the radiance of a pixel.
+  template <class Stream, class Give>
+  void trace(Stream& stream, int max_depth, std::uint64_t& rays, const Give& give) const;
+
+ private:
+  LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& powers);
+
+  struct Start {
+    std::uint32_t light;
+    SurfacePoint point; ///< its normals on the side that shines
+    Vec3 d;
+    Spectrum beta; ///< light that the path carries
+    double area_pdf, pdf;
+  };
+  template <class Stream> std::optional<Start> start(Stream& stream) const;
+
+  struct Walk {
+    Ray ray;
+    Vec3 previous;
+    Spectrum beta;
+    Odds odds;
+    Media media;
+    Float full; ///< the largest component of beta at first
+    double connection2; ///< squared density with which the first vertex would have been connected to the light, [1/sr^2]
+    int edges = 0;
+  };
+  // Squared density of paths from the camera that go on from `at`, where they come from wi, the way that this came.
+  template <class B> static double reverse2(const Vertex<B>& at, const Walk& walk, const Vec3& wi, bool narrow, Float eta) {
+    const double by_chance = mc::sqr(reverse_pdf(at.bsdf, at.wo, wi, narrow, eta));
+    return walk.edges == 1 && !narrow ? by_chance + walk.connection2 : by_chance;
+  }
+  // Light meets a surface by its true cosine, and the BSDF reckons with that of the shading normal.
+  template <class B> static Float shading(const Vertex<B>& at) {
+    if (at.point.ns == at.point.ng) return 1;
+    return std::abs(at.wo.z() / at.frame.to_world(at.wo).dot(at.point.ng));
+  }
+  template <class Stream, class Give>
+  void connect(const Meeting<Bsdf>& at, const Walk& walk, Stream& stream, std::uint64_t& rays, const Give& give) const;
+  template <class Stream> bool scatter(const Meeting<Bsdf>& at, Walk& walk, Stream& stream) const;
+
+  const Scene* scene_;
+  double rate_;
+  Vec2 tan_half_;
+  mc::TableDist1D<Float> by_power_;
+  Directions starts_, follows_;
+  bool absorbs_; ///< some surface holds a medium
+  Bsdf lamp_;    ///< as whose reflection a lamp's light leaves it
+};
+
+template <class Stream> std::optional<LightPaths::Start> LightPaths::start(Stream& stream) const {
+  const Vec2 u = stream.next2();
+  const auto choice = by_power_.sample_index(u[0]);
+  const auto light = static_cast<std::uint32_t>(choice.index);
+  const AreaLight& lamp = std::get<AreaLight>(scene_->lights()[light]);
+  auto point = lamp.shape().sample_area({choice.u_remapped, u[1]});
+  if (!point) return {};
+  const bool turned = lamp.is_two_sided() && stream.next() < Float(0.5);
+  if (turned) point->ng = -point->ng;
+  point->ns = point->ng;
+  const auto frame = mc::Frame<Float>::from_z(point->ng);
+  const auto next = starts_.choose(Vertex<Bsdf>{lamp_, *point, frame, Vec3::UnitZ()}, stream);
+  if (!next || is_black(next->weight)) return {};
+  const double sides = lamp.is_two_sided() ? 2 : 1, area_pdf = double(choice.pmf) / lamp.shape().area();
+  const Spectrum beta = lamp.radiance() * next->weight * Float(mc::pi<double> * sides / area_pdf);
+  return Start{light, *point, next->d, beta, area_pdf, double(next->pdf) / sides};
+}
+
+template <class Stream, class Give>
+void LightPaths::trace(Stream& stream, int max_depth, std::uint64_t& rays, const Give& give) const {
+  const auto begin = start(stream);
+  if (!begin) return;
+  Walk walk{begin->point.spawn_ray(begin->d),
+            begin->point.p,
+            begin->beta,
+            Odds(1 / mc::sqr(begin->area_pdf), begin->pdf, std::abs(double(begin->point.ng.dot(begin->d)))),
+            {},
+            begin->beta.maxCoeff(),
+            0};
+  if (absorbs_) [[unlikely]]
+    walk.media = media_at(*scene_, walk.ray);
+  while (max_depth < 0 || walk.edges + 1 < max_depth) {
+    ++walk.edges;
+    const auto hit = meet(*scene_, walk.ray, rays, [&](Float opacity) {
+      return opacity == 0 || mc::Bernoulli<Float>(opacity).sample_index(stream.next()).index == 0;
+    });
+    if (!hit) return;
+    const Surface& surface = scene_->surface(*hit);
+    const SurfacePoint point = surface.shape->surface_point(walk.ray, *hit);
+    const Vec3 way = point.p - walk.previous;
+    if (walk.media.here) [[unlikely]]
+      walk.beta *= walk.media.here->transmittance(way.norm());
+    walk.odds.meet(std::abs(double(point.ng.dot(walk.ray.d))), way.template cast<double>().squaredNorm());
+    const auto frame = mc::Frame<Float>::from_z(point.ns);
+    std::optional<Bsdf> varied;
+    const Meeting<Bsdf> at{{scene_->bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-walk.ray.d)},
+                           surface,
+                           walk.media};
+    if (walk.edges == 1)
+      walk.connection2 = mc::sqr(double(scene_->light_pmf(point.p, begin->light)) *
+                                 double(scene_->lights()[begin->light].pdf(point.p, -walk.ray.d, &begin->point)));
+    if (!at.bsdf.is_narrow()) connect(at, walk, stream, rays, give);
+    if (!scatter(at, walk, stream)) return;
+  }
+}
+
+template <class Stream, class Give>
+void LightPaths::connect(const Meeting<Bsdf>& at, const Walk& walk, Stream& stream, std::uint64_t& rays,
+                         const Give& give) const {
+  const ThinLens& camera = scene_->camera();
+  const auto seen = camera.see(at.point.p, tan_half_, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
+  if (!seen) return;
+  const Vec3 wi = at.frame.to_local(seen->d);
+  if (!is_real(at, wi, seen->d)) return;
+  const Spectrum f = at.bsdf.eval(wi, at.wo);
+  if (is_black(f)) return;
+  Ray ray = at.point.spawn_ray(seen->d);
+  ray.t_max = seen->reach;
+  const Float open = open_share(*scene_, ray, {}, rays);
+  if (open == 0) return;
+  const double from_camera =
+      double(seen->density) * std::abs(double(at.point.ng.dot(seen->d))) / mc::sqr(double(seen->distance));
+  const double odds = walk.odds.with(reverse2(at, walk, wi, false, 1)) * mc::sqr(from_camera / rate_);
+  Spectrum value = open * walk.beta * f;
+  if (const HomogeneousMedium* medium = at.media(seen->d).here) [[unlikely]]
+    value *= medium->transmittance(seen->distance);
+  give(seen->s, Spectrum(value * Float(from_camera / rate_ / (1 + odds)) * shading(at)));
+}
+
+template <class Stream> bool LightPaths::scatter(const Meeting<Bsdf>& at, Walk& walk, Stream& stream) const {
+  const auto next = follows_.choose(at, stream);
+  if (!next) return false;
+  const bool narrow = next->pdf == 0;
+  const Vec3 wi = at.frame.to_local(next->d);
+  const double cosine = std::abs(double(at.point.ng.dot(next->d)));
+  walk.beta *= next->weight * (mc::sqr(next->eta) * shading(at) * Float(cosine) / std::abs(wi.z()));
+  if (is_black(walk.beta)) return false;
+  walk.odds.turn(reverse2(at, walk, wi, narrow, next->eta), narrow ? 1 : double(next->pdf), cosine);
+  if (walk.edges >= 4) {
+    const Float survival = std::clamp(4 * walk.beta.maxCoeff() / walk.full, std::numeric_limits<Float>::min(), Float(0.99));
+    const auto roulette = mc::russian_roulette<Float>(survival, stream.next());
+    if (!roulette.survives) return false;
+    walk.beta *= roulette.weight;
+  }
+  walk.previous = at.point.p;
+  walk.ray = at.point.spawn_ray(next->d);
+  walk.media = at.media(next->d);
+  return true;
+}
+
+} // namespace render

@@ -1,0 +1,28 @@
+#include <render/integrator/media.h>
+
+#include <render/scene/visibility.h>
+
+#include <array>
+
+namespace render {
+
+Media media_at(const Scene& scene, Ray ray) {
+  constexpr int most = 256; // surfaces on the way
+  std::array<const HomogeneousMedium*, 2> left = {};
+  std::size_t found = 0;
+  int entered = 0; // bodies that lie ahead, not around
+  for (int met = 0; met < most && found < left.size(); ++met) {
+    const auto hit = scene.intersect(ray);
+    if (!hit) break;
+    const Surface& surface = scene.surface(*hit);
+    const SurfacePoint point = scene.surface_point(ray, *hit);
+    const bool leaves = ray.d.dot(point.ng) > 0;
+    if (surface.interior && !leaves) ++entered;
+    else if (surface.interior && entered > 0) --entered;
+    else if (surface.interior) left[found++] = &*surface.interior;
+    ray = beyond(ray, *hit, point);
+  }
+  return {left[0], left[1]};
+}
+
+} // namespace render

@@ -1,0 +1,56 @@
+#pragma once
+/// What paths from the lights give to the pixels.
+
+#include <render/pixel_sampler.h>
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace render {
+
+/// Paths from the lights of a picture, each a pure function of the seed and its number. They are dealt in turn to the
+/// film's point sets, as the samples of a pixel are, and the light of each connection to the camera goes to one pixel
+/// about it, chosen by the scene's filter.
+class LightTaker {
+ public:
+  /// light_paths, and the scene that they are of, must outlive it.
+  LightTaker(const Scene& scene, const LightPaths& light_paths, int max_depth, PixelSampler sampler,
+             std::uint64_t seed, const Whole& whole);
+
+  /// As many paths as belong to `mean` samples of every pixel.
+  std::uint64_t paths(double mean) const;
+
+  /// Adds to the film the paths [from, to), in this order whatever the number of threads; what is not finite is left
+  /// out. Stops early once `stop()`.
+  ///   returns : the number of the first path that was not traced
+  std::uint64_t take(std::uint64_t from, std::uint64_t to, int threads, const std::function<bool()>& stop, Film& film,
+                     Tally& tally) const;
+
+ private:
+  /// Light for a pixel of the film.
+  struct Splash {
+    int x, y, set;
+    Eigen::Array3f value;
+  };
+  struct Splashes {
+    std::vector<Splash> all;
+    Tally tally;
+  };
+  template <class Stream> void trace(std::uint64_t from, std::uint64_t to, std::uint32_t sets, Splashes& splashes) const;
+  // The pixel along one axis by u in [0,1), and the sum of the filter's values over all.
+  std::pair<int, double> pixel(double at, Float u, std::vector<double>& profile) const;
+
+  using Trace = void (LightTaker::*)(std::uint64_t, std::uint64_t, std::uint32_t, Splashes&) const;
+  static Trace trace_of(PixelSampler sampler);
+
+  const LightPaths& light_paths_;
+  SplatFilter filter_;
+  int max_depth_;
+  std::uint64_t seed_;
+  std::uint64_t run_length_; ///< points of a set; longer ones go on with another
+  Whole whole_;
+  Trace trace_;
+};
+
+} // namespace render
