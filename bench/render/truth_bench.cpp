@@ -65,7 +65,7 @@ struct Run {
     std::size_t turn = static_cast<std::size_t>(number);
     for (const Picture& picture : family.pictures)
       for (const Strategy& strategy : strategies) {
-        if (strategy.name == "light") continue;
+        if (strategy.name == "light" || strategy.light_paths > 0) continue; // those are of pictures, not of rays
         for (const auto sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
           // Of what must look like the first, each strategy meets one sampler in turn.
           if (&picture != &family.pictures[0] && ++turn % 3 != 0) continue;

@@ -1,6 +1,7 @@
 #include <render/light_sampler.h>
 
 #include <mc/core/parallel.h>
+#include <mc/table/discrete.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,14 +13,14 @@ namespace {
 
 constexpr std::uint64_t block = 1024;        // paths that one thread takes at a time
 constexpr std::uint64_t blocks_at_once = 64; // whose light waits for its turn
+constexpr std::size_t most_pixels = 2 * static_cast<std::size_t>(SplatFilter::furthest) + 1; // along one axis
 constexpr std::uint64_t apart = 0x6c69676874; // from the numbers of the pixels
 
 } // namespace
 
 LightTaker::LightTaker(const Scene& scene, const LightPaths& light_paths, int max_depth, PixelSampler sampler,
                        std::uint64_t seed, const Whole& whole)
-    : light_paths_(light_paths), filter_(scene.filter()), max_depth_(max_depth),
-      seed_(mc::hash(seed, apart)),
+    : light_paths_(light_paths), filter_(scene.filter()), max_depth_(max_depth), seed_(mc::hash(seed, apart)),
       run_length_(sampler == PixelSampler::stratified ? 4096 : std::uint64_t{1} << 31), whole_(whole),
       trace_(trace_of(sampler)) {}
 
@@ -33,24 +34,24 @@ LightTaker::Trace LightTaker::trace_of(PixelSampler sampler) {
 }
 
 std::uint64_t LightTaker::paths(double mean) const {
-  return static_cast<std::uint64_t>(std::llround(mean * double(whole_.width) * double(whole_.height) * light_paths_.rate()));
+  return static_cast<std::uint64_t>(
+      std::llround(mean * double(whole_.width) * double(whole_.height) * light_paths_.rate()));
 }
 
-std::pair<int, double> LightTaker::pixel(double at, Float u, std::vector<double>& profile) const {
+LightTaker::Choice LightTaker::pixel(double at, Float u, std::vector<double>& profile) const {
   const double here = std::floor(at);
   filter_.profile(at - here - 0.5, profile);
   const double sum = std::accumulate(profile.begin(), profile.end(), 0.0);
-  double rest = double(u) * sum;
-  std::size_t i = 0;
-  while (i + 1 < profile.size() && rest >= profile[i]) rest -= profile[i++];
-  return {static_cast<int>(here) + static_cast<int>(i) - filter_.reach(), sum};
+  if (!(sum > 0)) return {0, 0}; // between pixels, by a filter that is narrower than they are
+  const mc::ShortDiscrete<double, most_pixels> share(profile);
+  const auto chosen = static_cast<int>(share.sample_index(double(u)).index);
+  return {static_cast<int>(here) + chosen - filter_.reach(), sum};
 }
 
 template <class Stream>
 void LightTaker::trace(std::uint64_t from, std::uint64_t to, std::uint32_t sets, Splashes& splashes) const {
   std::vector<double> profile(filter_.side());
   const double reach = filter_.reach();
-  const Crop& part = whole_.part;
   for (std::uint32_t set = 0; set < sets; ++set) {
     std::uint64_t point = (from + sets - 1 - set) / sets;
     const std::uint64_t end = (to + sets - 1 - set) / sets;
@@ -64,13 +65,11 @@ void LightTaker::trace(std::uint64_t from, std::uint64_t to, std::uint32_t sets,
           const double x = double(s[0]) * whole_.width, y = double(s[1]) * whole_.height;
           if (!(x >= -reach && x < whole_.width + reach && y >= -reach && y < whole_.height + reach)) return;
           const Vec2 u = stream.next2();
-          const auto [column, across] = pixel(x, u[0], profile);
-          const auto [row, down] = pixel(y, u[1], profile);
-          const int in_part_x = column - part.x, in_part_y = row - part.y;
-          if (in_part_x < 0 || in_part_x >= part.width || in_part_y < 0 || in_part_y >= part.height) return;
-          if (value.isFinite().all()) [[likely]]
-            splashes.all.push_back({in_part_x, in_part_y, static_cast<int>(set), (value * Float(across * down)).template cast<float>()});
-          else splashes.tally.add({column, row, set, index});
+          const Choice column = pixel(x, u[0], profile), row = pixel(y, u[1], profile);
+          const Spectrum weighed = value * Float(column.weight * row.weight);
+          if (!value.isFinite().all()) [[unlikely]]
+            splashes.tally.add({column.pixel, row.pixel, set, index});
+          else splashes.add(whole_.part, column.pixel, row.pixel, static_cast<int>(set), weighed);
         });
       }
     }

@@ -15,8 +15,8 @@ namespace render {
 class LightTaker {
  public:
   /// light_paths, and the scene that they are of, must outlive it.
-  LightTaker(const Scene& scene, const LightPaths& light_paths, int max_depth, PixelSampler sampler,
-             std::uint64_t seed, const Whole& whole);
+  LightTaker(const Scene& scene, const LightPaths& light_paths, int max_depth, PixelSampler sampler, std::uint64_t seed,
+             const Whole& whole);
 
   /// As many paths as belong to `mean` samples of every pixel.
   std::uint64_t paths(double mean) const;
@@ -36,10 +36,24 @@ class LightTaker {
   struct Splashes {
     std::vector<Splash> all;
     Tally tally;
+
+    /// Light for the pixel (x, y) of the picture, if it is one of the film's.
+    void add(const Crop& film, int x, int y, int set, const Spectrum& value) {
+      const int column = x - film.x, row = y - film.y;
+      if (column >= 0 && column < film.width && row >= 0 && row < film.height)
+        all.push_back({column, row, set, value.cast<float>()});
+    }
   };
-  template <class Stream> void trace(std::uint64_t from, std::uint64_t to, std::uint32_t sets, Splashes& splashes) const;
-  // The pixel along one axis by u in [0,1), and the sum of the filter's values over all.
-  std::pair<int, double> pixel(double at, Float u, std::vector<double>& profile) const;
+  template <class Stream>
+  void trace(std::uint64_t from, std::uint64_t to, std::uint32_t sets, Splashes& splashes) const;
+
+  /// A pixel along one axis, and the sum of the filter's values over all.
+  struct Choice {
+    int pixel;
+    double weight;
+  };
+  // By u in [0,1) one of those about `at`, with probability in proportion to the filter there.
+  Choice pixel(double at, Float u, std::vector<double>& profile) const;
 
   using Trace = void (LightTaker::*)(std::uint64_t, std::uint64_t, std::uint32_t, Splashes&) const;
   static Trace trace_of(PixelSampler sampler);

@@ -42,8 +42,9 @@ void Tally::merge(const Tally& other) {
 SampleTaker::SampleTaker(const Scene& scene, const PathOptions& path, PixelSampler sampler, std::uint64_t seed,
                          std::uint32_t stratum, const Whole& whole, const std::optional<SplatFilter>& splat,
                          const LightPaths* light_paths)
-    : scene_(scene), integrator_(scene, path, media_at(scene, {scene.camera().origin(), scene.camera().forward()}), light_paths), seed_(seed),
-      stratum_(sampler == PixelSampler::stratified ? stratum : 1u << 31), whole_(whole), splat_(splat),
+    : scene_(scene),
+      integrator_(scene, path, media_at(scene, {scene.camera().origin(), scene.camera().forward()}), light_paths),
+      seed_(seed), stratum_(sampler == PixelSampler::stratified ? stratum : 1u << 31), whole_(whole), splat_(splat),
       take_(take_of(sampler)) {}
 
 SampleTaker::Take SampleTaker::take_of(PixelSampler sampler) {

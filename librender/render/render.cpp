@@ -143,8 +143,9 @@ class Work {
     Tally lights;
     std::uint64_t light_done = light_done_;
     if (light_taker_)
-      light_done = light_taker_->take(light_done, light_taker_->paths(mean), options_.threads,
-                                      [&] { return cancelled() || out_of_time(); }, film, lights);
+      light_done = light_taker_->take(
+          light_done, light_taker_->paths(mean), options_.threads, [&] { return cancelled() || out_of_time(); }, film,
+          lights);
     for_rows([&](std::size_t y) {
       if (cancelled() || out_of_time()) return;
       const auto from = std::span(taken_).subspan(y * width(), width()),
@@ -216,7 +217,7 @@ class Work {
   std::vector<std::uint32_t> taken_; ///< samples of every pixel
   SamplingPlan plan_;
   std::uint64_t light_done_ = 0; ///< paths from the lights
-  double mean_ = 0; ///< samples per pixel of the rounds that are done
+  double mean_ = 0;              ///< samples per pixel of the rounds that are done
   Tally total_;
   RelativeError error_;    ///< after the last round
   double undecided_ = 0;   ///< at the same time

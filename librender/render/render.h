@@ -28,7 +28,7 @@ struct RenderOptions {
   std::optional<double> target_error; ///< what RelativeError::bound is to fall to, see Film; and most_undecided
   ErrorOf error_of = ErrorOf::picture;
   std::optional<bool> adaptive; ///< samples where the error is; unless given: where seconds or an error are
-  Strategy strategy = strategy_from("mis");
+  Strategy strategy = strategy_from("bidirectional");
   PixelSampler sampler = PixelSampler::sobol;
   bool splat = false; ///< samples count for all pixels under the filter, see SplatFilter; spent evenly
   int max_depth = -1; ///< longest path in edges; -1: no limit
@@ -40,10 +40,10 @@ struct RenderOptions {
 };
 
 struct RenderResult {
-  Image image; ///< with variance where every pixel has two point sets or more
-  std::uint64_t samples = 0, rays = 0;
-  double spp = 0;              ///< samples per pixel taken, on average
-  std::uint32_t estimates = 0; ///< independent point sets per pixel behind the variance
+  Image image;                         ///< with variance where every pixel has two point sets or more
+  std::uint64_t samples = 0, rays = 0; ///< samples of the pixels; rays of light paths, too
+  double spp = 0;                      ///< samples per pixel taken, on average
+  std::uint32_t estimates = 0;         ///< independent point sets per pixel behind the variance
   double seconds = 0, cpu_seconds = 0;
   double relative_error = 0; ///< see RelativeError::value
   double worst_error = 0;    ///< the same of the worst block
@@ -56,7 +56,8 @@ struct RenderResult {
 
 /// Renders in rounds, which double the samples of every pixel, so that a picture interrupted after the first, four
 /// samples per pixel, is whole and has its variance. A pixel's samples are dealt to four point sets, independently
-/// randomised, so that the variance between them is honest for low-discrepancy points too.
+/// randomised, so that the variance between them is honest for low-discrepancy points too. Light paths, where the
+/// strategy has some, are as many as belong to the mean number of samples, and dealt to the sets as well.
 /// Where samples go where the error is, about the first quarter is a pilot, spent evenly, which alone decides about the
 /// rest: see adaptive_plan.
 /// The result depends on the seed, not on the number of threads; with `seconds` it depends on the machine's speed.

@@ -182,7 +182,7 @@ TEST(HardShadows, StrategiesByChanceAreRefused) {
   options.width = options.height = options.spp = 1;
   for (const Strategy& s : strategies) {
     options.strategy = s;
-    const bool connects = s.name == "nee" || s.name == "mis";
+    const bool connects = s.name == "nee" || s.name == "mis" || s.name == "bidirectional";
     EXPECT_EQ(finds_all_lights(scene, s), connects) << s.name;
     const std::string said = support::error_of([&] { render::render(scene, options); });
     if (connects) EXPECT_EQ(said, "");

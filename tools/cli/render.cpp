@@ -45,7 +45,7 @@ struct RenderOptions {
   std::string intervals;              ///< file for the half widths of 95 % intervals; empty: none
   std::string size;                   ///< "WxH"; empty: the scene's
   std::string crop;                   ///< "X,Y,W,H"; empty: all of it
-  std::string strategy, sampler;      ///< empty: mis, sobol
+  std::string strategy, sampler;      ///< empty: bidirectional, sobol
   std::optional<int> max_depth;       ///< longest path in edges; -1: unlimited
   std::uint64_t seed = 0;
   int threads = 0;      ///< 0: all
@@ -150,7 +150,7 @@ std::vector<Option> rows(RenderOptions& o) {
        "Only this part of the picture, from the pixel X, Y counted from the upper left corner: with --spp the same "
        "pixels, bit for bit"},
       {"--strategy", "NAME", &o.strategy,
-       fmt::format("{}; light misses what other surfaces and the sky send [mis]",
+       fmt::format("{}; light misses what other surfaces and the sky send [bidirectional]",
                    fmt::join(::render::strategy_names(), ", "))},
       {"--sampler", "NAME", &o.sampler, "independent, stratified or sobol [sobol]"},
       {"--splat", "", &o.splat,

@@ -25,8 +25,7 @@ mc::Estimate mean_luminance(const ::render::Image& image, std::uint32_t estimate
 
 std::vector<StrategyResult> each_strategy(const ::render::Scene& scene, ::render::RenderOptions settings) {
   std::vector<StrategyResult> all;
-  for (const ::render::Strategy& strategy : ::render::strategies) {
-    if (!finds_all_lights(scene, strategy)) continue;
+  for (const ::render::Strategy& strategy : strategies_for(scene)) {
     settings.strategy = strategy;
     const ::render::RenderResult r = ::render::render(scene, settings);
     if (r.partial) break;

@@ -29,8 +29,7 @@ std::string brightness(const StrategyResult& s, const StrategyResult* best) {
   settings.target_error.reset();
   settings.adaptive = false;
   settings.progress = nullptr;
-  for (const ::render::Strategy& strategy : ::render::strategies) {
-    if (!finds_all_lights(scene, strategy)) continue;
+  for (const ::render::Strategy& strategy : strategies_for(scene)) {
     settings.strategy = strategy;
     for (const int spp : strip_spp) {
       settings.spp = spp;

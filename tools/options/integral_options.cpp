@@ -9,11 +9,12 @@
 #include <mc/core/error.h>
 #include <mc/core/file.h>
 #include <mc/core/text.h>
-#include <render/integrator/directions.h>
+#include <render/integrator/light_paths.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -44,19 +45,17 @@ std::vector<int> depths_of(const std::string& text, int own) {
   return depths;
 }
 
-// Those that are named; else those of all, or of three, that find every light.
+// Those that are named; else those of all, or of four, that find every light, each once.
 std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, const ::render::SceneFile& file) {
-  const auto every = ::render::strategy_names();
-  const std::string_view listed = o.strategies.empty() ? "mixture,nee,mis" : std::string_view(o.strategies);
-  std::vector<std::string_view> names = mc::split(listed, ',');
-  if (all && o.strategies.empty()) names.assign(every.begin(), every.end());
   std::vector<::render::Strategy> strategies;
-  for (const std::string_view name : names) {
-    const ::render::Strategy& strategy = ::render::strategy_from(name);
-    if (!o.strategies.empty() || file.defaults.shown.what != ::render::Shown::radiance ||
-        finds_all_lights(file.scene, strategy))
-      strategies.push_back(strategy);
+  if (!o.strategies.empty()) {
+    for (const std::string_view name : mc::split(o.strategies, ','))
+      strategies.push_back(::render::strategy_from(name));
+    return strategies;
   }
+  constexpr std::array<std::string_view, 4> four = {"mixture", "nee", "mis", "bidirectional"};
+  for (const ::render::Strategy& s : strategies_for(file.scene))
+    if (all || std::find(four.begin(), four.end(), s.name) != four.end()) strategies.push_back(s);
   return strategies;
 }
 
@@ -137,7 +136,7 @@ int list_integrals() {
 std::vector<Option> scene_rows(SceneOptions& o) {
   return {
       {"--strategies", "NAMES", &o.strategies,
-       "Of a scene: comma-separated, see carlo render [of mixture, nee and mis what finds every light]"},
+       "Of a scene: comma-separated, see carlo render [of mixture, nee, mis and bidirectional what finds every light]"},
       {"--max-depths", "LIST", &o.depths, "Of a scene: longest paths in edges, -1 for no limit [the scene's]"},
       {"--size", "WxH", &o.size, "Of a scene's pictures, in pixels [48 wide]"},
       {"--max-spp", "N", &o.max_spp, "Of a scene: most samples per pixel"},

@@ -31,7 +31,7 @@ std::vector<Target> targets_of(const IntegralOptions& o);
 int list_integrals();
 
 struct SceneOptions {
-  std::string strategies; ///< empty: of mixture, nee and mis those that find every light
+  std::string strategies; ///< empty: of mixture, nee, mis and bidirectional those that find every light
   std::string depths;     ///< longest paths; empty: the scene's
   std::string size;       ///< "WxH"; empty: 48 pixels wide
   int max_spp = 64;

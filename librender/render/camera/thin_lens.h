@@ -24,11 +24,11 @@ struct LensOptions {
 
 /// How a point is seen from a point of the lens.
 struct SeenPoint {
-  Vec2 s;        ///< of the film, see ThinLens::ray
-  Vec3 d;        ///< unit direction from the point to the lens
-  Float reach;   ///< from the point along d to the near plane
+  Vec2 s;         ///< of the film, see ThinLens::ray
+  Vec3 d;         ///< unit direction from the point to the lens
+  Float reach;    ///< from the point along d to the near plane
   Float distance; ///< to the lens
-  Float density; ///< [1/sr] of the direction from the lens, where s is uniform in [0,1]^2
+  Float density;  ///< [1/sr] of the direction from the lens, where s is uniform in [0,1]^2
 };
 
 /// A thin lens focused on a plane; of radius 0 a pinhole.

@@ -105,8 +105,8 @@ class Film {
   /// and of their weights, which are 1 for every sample of the pixel on average.
   void splat(int x, int y, int set, const Eigen::Array4d& sum);
 
-  /// Adds what a path from the lights gives to one of a pixel's point sets. It does not belong to a sample of the pixel:
-  /// in the mean, sums of the set are over what count_light says.
+  /// Adds what a path from the lights gives to one of a pixel's point sets. It belongs to no sample of the pixel: the
+  /// set's mean of it is over what count_light says.
   void add_light(int x, int y, int set, const Eigen::Array3f& value);
   /// Tells that a set has got the light of as many paths as `samples` samples of every pixel have.
   void count_light(int set, double samples) { light_counts_[static_cast<std::size_t>(set)] += samples; }

@@ -19,9 +19,8 @@ std::vector<double> powers_of(const Scene& scene) {
 
 bool casts_caustics(const Scene& scene) {
   const auto surfaces = scene.surfaces();
-  return std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) {
-    return scene.bsdf(s).is_narrow() || scene.bsdf(s).transmits();
-  });
+  return std::any_of(surfaces.begin(), surfaces.end(),
+                     [&](const Surface& s) { return scene.bsdf(s).is_narrow() || scene.bsdf(s).transmits(); });
 }
 
 } // namespace
@@ -29,8 +28,16 @@ bool casts_caustics(const Scene& scene) {
 std::optional<LightPaths> LightPaths::of(const Scene& scene, const Strategy& strategy, Float aspect) {
   const std::vector<double> powers = powers_of(scene);
   const bool shines = std::any_of(powers.begin(), powers.end(), [](double p) { return p > 0; });
-  if (!(strategy.light_paths > 0) || !shines || !casts_caustics(scene)) return {};
+  const bool shares = scene.filter().radius() <= SplatFilter::furthest;
+  if (!(strategy.light_paths > 0) || !shines || !shares || !casts_caustics(scene)) return {};
   return LightPaths(scene, strategy, aspect, powers);
+}
+
+std::vector<Strategy> strategies_for(const Scene& scene) {
+  std::vector<Strategy> found;
+  for (const Strategy& s : strategies)
+    if (finds_all_lights(scene, s) && (s.light_paths == 0 || LightPaths::of(scene, s, 1))) found.push_back(s);
+  return found;
 }
 
 LightPaths::LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& powers)

@@ -26,7 +26,7 @@ namespace render {
 class LightPaths {
  public:
   /// None where the strategy has none, or the scene no shape that shines, or nothing narrow or transparent: elsewhere
-  /// they would cost more than they bring.
+  /// they would cost more than they bring. None either where the filter is wider than what SplatFilter can share.
   ///   aspect : width / height of the film
   static std::optional<LightPaths> of(const Scene& scene, const Strategy& strategy, Float aspect);
 
@@ -65,11 +65,13 @@ class LightPaths {
     Odds odds;
     Media media;
     Float full; ///< the largest component of beta at first
-    double connection2; ///< squared density with which the first vertex would have been connected to the light, [1/sr^2]
+    double
+        connection2; ///< squared density with which the first vertex would have been connected to the light, [1/sr^2]
     int edges = 0;
   };
   // Squared density of paths from the camera that go on from `at`, where they come from wi, the way that this came.
-  template <class B> static double reverse2(const Vertex<B>& at, const Walk& walk, const Vec3& wi, bool narrow, Float eta) {
+  template <class B>
+  static double reverse2(const Vertex<B>& at, const Walk& walk, const Vec3& wi, bool narrow, Float eta) {
     const double by_chance = mc::sqr(reverse_pdf(at.bsdf, at.wo, wi, narrow, eta));
     return walk.edges == 1 && !narrow ? by_chance + walk.connection2 : by_chance;
   }
@@ -91,6 +93,9 @@ class LightPaths {
   Bsdf lamp_;    ///< as whose reflection a lamp's light leaves it
 };
 
+/// The strategies that find every light of the scene, each once: without the bidirectional one where it is mis.
+std::vector<Strategy> strategies_for(const Scene& scene);
+
 template <class Stream> std::optional<LightPaths::Start> LightPaths::start(Stream& stream) const {
   const Vec2 u = stream.next2();
   const auto choice = by_power_.sample_index(u[0]);
@@ -98,8 +103,8 @@ template <class Stream> std::optional<LightPaths::Start> LightPaths::start(Strea
   const AreaLight& lamp = std::get<AreaLight>(scene_->lights()[light]);
   auto point = lamp.shape().sample_area({choice.u_remapped, u[1]});
   if (!point) return {};
-  const bool turned = lamp.is_two_sided() && stream.next() < Float(0.5);
-  if (turned) point->ng = -point->ng;
+  if (lamp.is_two_sided() && mc::Bernoulli<Float>(Float(0.5)).sample_index(stream.next()).index == 1)
+    point->ng = -point->ng;
   point->ns = point->ng;
   const auto frame = mc::Frame<Float>::from_z(point->ng);
   const auto next = starts_.choose(Vertex<Bsdf>{lamp_, *point, frame, Vec3::UnitZ()}, stream);
@@ -136,9 +141,8 @@ void LightPaths::trace(Stream& stream, int max_depth, std::uint64_t& rays, const
     walk.odds.meet(std::abs(double(point.ng.dot(walk.ray.d))), way.template cast<double>().squaredNorm());
     const auto frame = mc::Frame<Float>::from_z(point.ns);
     std::optional<Bsdf> varied;
-    const Meeting<Bsdf> at{{scene_->bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-walk.ray.d)},
-                           surface,
-                           walk.media};
+    const Meeting<Bsdf> at{
+        {scene_->bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-walk.ray.d)}, surface, walk.media};
     if (walk.edges == 1)
       walk.connection2 = mc::sqr(double(scene_->light_pmf(point.p, begin->light)) *
                                  double(scene_->lights()[begin->light].pdf(point.p, -walk.ray.d, &begin->point)));
@@ -176,11 +180,16 @@ template <class Stream> bool LightPaths::scatter(const Meeting<Bsdf>& at, Walk& 
   const bool narrow = next->pdf == 0;
   const Vec3 wi = at.frame.to_local(next->d);
   const double cosine = std::abs(double(at.point.ng.dot(next->d)));
-  walk.beta *= next->weight * (mc::sqr(next->eta) * shading(at) * Float(cosine) / std::abs(wi.z()));
+  // Light goes from wo to wi, and not all BSDFs are reciprocal; those of narrow lobes are but for the compression in
+  // glass, which does not change what a path carries.
+  const Spectrum weight = narrow ? Spectrum(next->weight * (mc::sqr(next->eta) / std::abs(wi.z())))
+                                 : Spectrum(at.bsdf.eval(wi, at.wo) / next->pdf);
+  walk.beta *= weight * (shading(at) * Float(cosine));
   if (is_black(walk.beta)) return false;
   walk.odds.turn(reverse2(at, walk, wi, narrow, next->eta), narrow ? 1 : double(next->pdf), cosine);
   if (walk.edges >= 4) {
-    const Float survival = std::clamp(4 * walk.beta.maxCoeff() / walk.full, std::numeric_limits<Float>::min(), Float(0.99));
+    const Float survival =
+        std::clamp(4 * walk.beta.maxCoeff() / walk.full, std::numeric_limits<Float>::min(), Float(0.99));
     const auto roulette = mc::russian_roulette<Float>(survival, stream.next());
     if (!roulette.survives) return false;
     walk.beta *= roulette.weight;

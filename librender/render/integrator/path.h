@@ -23,6 +23,7 @@ struct PathOptions {
 };
 
 /// Traces paths through a scene, which must outlive it. Immutable, so threads share it.
+///   Where LightPaths find light, too, what a path finds counts less, and the rest is theirs to add.
 ///   Lights that are not sampled (see LightLike) are met by following directions, in every strategy, and count fully.
 ///   Caustics cannot be reached by connecting to a light. Therefore `mis` aims a quarter of its directions at the
 ///   spheres of glass or mirror, where a scene has any: smallpt's box takes a quarter less time to a given error.
@@ -43,8 +44,9 @@ template <class SceneType> class PathIntegrator {
   /// light_paths : that find some of the light; null: none are traced. It must outlive this, too
   PathIntegrator(const SceneType& scene, const PathOptions& options, const Media& around = {},
                  const LightPaths* light_paths = nullptr)
-      : scene_(scene), options_(options), directions_(scene, light_paths ? unaimed(options.strategy) : options.strategy),
-        around_(around), light_paths_(light_paths) {}
+      : scene_(scene), options_(options),
+        directions_(scene, light_paths ? unaimed(options.strategy) : options.strategy), around_(around),
+        light_paths_(light_paths) {}
 
   /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
   template <class Stream> Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const;
@@ -187,8 +189,8 @@ template <class SceneType> class PathIntegrator {
   }
 
   // Light from one direction towards a light, reflected toward wo.
-  template <class Stream> RENDER_FLAT
-  Spectrum connect(const At& at, const Walk& walk, Stream& stream, std::uint64_t& rays) const {
+  template <class Stream>
+  RENDER_FLAT Spectrum connect(const At& at, const Walk& walk, Stream& stream, std::uint64_t& rays) const {
     const Vec2 u = stream.next2(); // u[0] also chooses the light, so that the choice is as well spread as the points
     const auto choice = scene_.sample_light(at.point.p, u[0]);
     const Light& source = scene_.lights()[choice.index];
@@ -240,8 +242,8 @@ template <class SceneType> class PathIntegrator {
     }
     if (light_paths_) [[unlikely]] {
       const bool narrow = next->pdf == 0;
-      walk.odds.turn(reverse2(at, walk, at.frame.to_local(next->d), narrow, next->eta),
-                     narrow ? 1 : double(next->pdf), std::abs(double(at.point.ng.dot(next->d))));
+      walk.odds.turn(reverse2(at, walk, at.frame.to_local(next->d), narrow, next->eta), narrow ? 1 : double(next->pdf),
+                     std::abs(double(at.point.ng.dot(next->d))));
     }
     walk.previous = at.point.p;
     walk.ray = at.point.spawn_ray(next->d);

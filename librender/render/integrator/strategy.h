@@ -31,7 +31,8 @@ struct Strategy {
   Target target;
   Float share; ///< of the directions go to the target, the others follow the BSDF. 1: none but its delta lobes do
   Finding finding;
-  Float light_paths = 0; ///< per path from the camera, where they pay, see LightPaths; then no direction is aimed
+  Float light_paths = 0; ///< paths from the lights per path from the camera, in scenes where they pay, see LightPaths;
+                         ///< no direction is aimed there
 };
 
 /// All but `light` are unbiased, those that find by chance where no light is a point or a direction; of such lights
@@ -39,6 +40,8 @@ struct Strategy {
 ///   light : rough surfaces look towards lamps and guides alone, so that what else they would reflect is missed: the
 ///           light of other surfaces and of the sky. See misses_light
 ///   light, mixture, guides : as in [Shirley16], chapters 7, 8 and 10
+///   bidirectional : mis with paths from the lights, in scenes where these pay, see LightPaths; in all others it is
+///           mis, bit for bit
 inline constexpr auto strategies = std::to_array<Strategy>({
     {"bsdf", Target::nothing, 0, Finding::by_chance},
     {"hemisphere", Target::hemisphere, 1, Finding::by_chance},

@@ -1,5 +1,7 @@
 #include <render/camera/thin_lens.h>
 
+#include <mc/random/pcg.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -42,6 +44,37 @@ TEST(ThinLens, TheFieldOfViewHasAnAxis) {
                          {Axis::diagonal, Float(0.75), Float(0.6), Float(0.8)}}) {
     const ThinLens camera = facing({.fov_axis = row.axis});
     EXPECT_LE((camera.tan_half(row.aspect) - Vec2(row.x, row.y)).norm(), 1e-6) << int(row.axis) << " at " << row.aspect;
+  }
+}
+
+// What a ray reaches is seen where it came from, along the way it came, and the density is that of the directions: the
+// area of the film's plane at distance 1 over the cube of the cosine.
+TEST(ThinLens, SeesWhatItsRaysReach) {
+  mc::Pcg random(11);
+  for (int i = 0; i < 200; ++i) {
+    LensOptions options{.fov = 20 + 100 * random.uniform<double>(),
+                        .radius = i % 2 ? 0.3 * random.uniform<double>() : 0,
+                        .focus_distance = 0.5 + 5 * random.uniform<double>(),
+                        .near = i % 3 ? 0.1 : 0,
+                        .far = i % 5 ? 50 : mc::infinity<double>};
+    const ThinLens camera = facing(options, Vec3d(1, 2, 3));
+    const Vec2 tangent = camera.tan_half(Float(1.5)), u = random.point<Float, 2>();
+    const Vec2 s = 2 * random.point<Float, 2>() - Vec2::Constant(Float(0.5)); // beside the film, too
+    const Ray ray = camera.ray(s, tangent, u);
+    const Float t = 1 + 3 * random.uniform<Float>();
+    const auto seen = camera.see(ray.at(t), tangent, u);
+    ASSERT_TRUE(seen) << i;
+    EXPECT_LE((seen->s - s).norm(), 1e-4) << i;
+    EXPECT_LE((seen->d + ray.d).norm(), 1e-5) << i;
+    EXPECT_NEAR(seen->reach, t, 1e-4) << i;
+    const double cosine = double(ray.d.dot(camera.forward()));
+    EXPECT_NEAR(seen->distance - seen->reach, options.near / cosine, 1e-4) << i;
+    const double density = 1 / (4 * double(tangent.prod()) * cosine * cosine * cosine);
+    EXPECT_NEAR(seen->density / density, 1, 1e-4) << i;
+    EXPECT_NEAR(camera.density(ray.d, tangent) / density, 1, 1e-4) << i;
+    EXPECT_FALSE(camera.see(camera.origin() - camera.forward(), tangent, u)) << i;
+    EXPECT_EQ(camera.see(camera.origin() + 51 * camera.forward(), tangent, u).has_value(), i % 5 == 0) << i;
+    EXPECT_EQ(camera.see(camera.origin() + Float(0.09) * camera.forward(), tangent, u).has_value(), i % 3 == 0) << i;
   }
 }
 

@@ -54,6 +54,45 @@ TEST(Film, SetsOfUnequalSizesAreUnbiased) {
   EXPECT_NEAR(variance, 1 / 12.0 / 13, 0.03 / 12 / 13);         // four times sqrt(2 / 3 / pixels)
 }
 
+// Two sets of a sample each, and light of as many paths as two samples of a pixel have: 3 for one set, 1 for the other.
+TEST(Film, LightOfPathsFromTheLightsAddsItsMeanAndVariance) {
+  Film film(2, 1, 2, {}, true);
+  Film later(2, 1, 2, {}, true);
+  for (int px = 0; px < 2; ++px) {
+    film.add(px, 0, 0, grey(1), 1);
+    later.add(px, 0, 1, grey(3), 1);
+  }
+  film.add_light(0, 0, 0, Eigen::Array3f::Constant(2));
+  film.count_light(0, 1);
+  later.add_light(0, 0, 0, Eigen::Array3f::Constant(1));
+  later.add_light(0, 0, 1, Eigen::Array3f::Constant(1));
+  later.count_light(1, 1);
+  film.merge(later);
+  const PixelEstimate lit = film.estimate(0, 0), unlit = film.estimate(1, 0);
+  EXPECT_NEAR(lit.mean[0], 2 + 2, 1e-12);
+  EXPECT_NEAR(unlit.mean[0], 2, 1e-12);
+  EXPECT_NEAR(unlit.variance[0], 1, 1e-12); // ((1 - 2)^2 + (3 - 2)^2) / 2
+  EXPECT_EQ(unlit.of_light[0], 0);
+  EXPECT_NEAR(lit.of_light[0], 1, 1e-12); // of the sums 3 and 1
+  EXPECT_NEAR(lit.variance[0], 2, 1e-12);
+}
+
+// A path whose light is all that varies decides the pixel; of many alike none does.
+TEST(Film, APathFromTheLightsMayDecideAPixel) {
+  for (const int paths : {1, 2, 100}) {
+    Film film(1, 1, 2, {}, true);
+    SampleSums samples;
+    for (int i = 0; i < 64; ++i) samples.add(grey(i % 2 ? 1 : 1.1));
+    film.note(0, 0, samples, 64);
+    for (int set = 0; set < 2; ++set) {
+      film.add(0, 0, set, grey(32), 32);
+      film.count_light(set, 32);
+    }
+    for (int i = 0; i < paths; ++i) film.add_light(0, 0, i % 2, Eigen::Array3f::Constant(50));
+    EXPECT_EQ(film.undecided(), paths == 1 ? 1 : 0) << paths;
+  }
+}
+
 TEST(Film, OneSetHasNoVariance) {
   Film film(1, 1, 2);
   film.add(0, 0, 0, grey(1), 5);

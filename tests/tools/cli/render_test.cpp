@@ -103,7 +103,7 @@ TEST_F(RenderCommand, ReachesTheErrorThatItIsAskedFor) {
 
 TEST_F(RenderCommand, SaysWhyItWentOnBelowTheErrorThatItIsAskedFor) {
   const std::string target = " --target-error 0.2 -o " + path("a.exr");
-  EXPECT_THAT(run_carlo("render book3-cornell-glass --size 12x8" + target).output,
+  EXPECT_THAT(run_carlo("render book3-cornell-glass --size 12x8 --strategy mis" + target).output,
               ContainsRegex("the error of 20 % was there with [0-9.]+ samples/pixel; more were taken while over 5 % of "
                             "the pixels were decided by one sample"));
   EXPECT_THAT(run_carlo("render sphere-light --size 8x6" + target).output, Not(HasSubstr("was there with")));

@@ -1,0 +1,101 @@
+#include <render/integrator/light_paths.h>
+#include <render/pixel_sampler.h>
+#include <render/scene/builder.h>
+
+#include <mc/estimate/moments.h>
+#include <mc/sampler/walk_stream.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace render;
+
+const Strategy& bidirectional = strategy_from("bidirectional");
+
+/// A lamp above a floor that a camera looks down at, and a ball beside what it sees, which makes light paths pay.
+struct Room {
+  bool two_sided = false, glass = true, lamp = true;
+  Bsdf floor = Lambert();
+  Filter filter = BoxFilter();
+
+  Scene build() const {
+    SceneBuilder builder;
+    builder.add(TriangleMesh::rectangle(Transform::rotate(Vec3d::UnitX(), -90) * Transform::scale(Vec3d::Constant(3))),
+                {builder.add(floor)});
+    const BsdfId black = builder.add(Lambert(Spectrum::Zero()));
+    const auto emission = lamp ? std::optional(Emission{Spectrum::Constant(2), two_sided}) : std::nullopt;
+    builder.add(TriangleMesh::rectangle(Transform::translate({1, 2, 0}) * Transform::rotate(Vec3d::UnitX(), 90) *
+                                        Transform::scale(Vec3d::Constant(0.5))),
+                {black, emission});
+    builder.add(Sphere(Vec3d(-1.5, 1.2, 1.5), 0.5), {glass ? builder.add(Dielectric()) : black});
+    builder.set(filter);
+    builder.set(ThinLens(Transform::look_at({0, 2, 0}, {0, 0, 0}, {0, 0, 1}), {.fov = 40}));
+    builder.add(Light(ConstantBackground(Spectrum::Zero())));
+    return builder.build();
+  }
+};
+
+TEST(LightPaths, WhereTheyPay) {
+  EXPECT_TRUE(LightPaths::of(Room().build(), bidirectional, 1));
+  EXPECT_FALSE(LightPaths::of(Room().build(), strategy_from("mis"), 1));
+  EXPECT_FALSE(LightPaths::of(Room{.glass = false}.build(), bidirectional, 1));
+  EXPECT_FALSE(LightPaths::of(Room{.lamp = false}.build(), bidirectional, 1));
+  EXPECT_FALSE(LightPaths::of(Room{.filter = BoxFilter(70)}.build(), bidirectional, 1));
+  EXPECT_EQ(strategies_for(Room().build()).size(), strategies.size());
+  EXPECT_EQ(strategies_for(Room{.glass = false}.build()).size(), strategies.size() - 1);
+}
+
+// The density of starts, over the lamp and all directions, has the integral rate(): by 1e5 uniform points and
+// directions, four standard errors. From the side of the lamp that looks away from the ball, the four in five that aim
+// at it go nowhere.
+TEST(LightPaths, StartsHaveTheDensityThatTheyTell) {
+  for (const bool two_sided : {false, true}) {
+    const Scene scene = Room{.two_sided = two_sided}.build();
+    const auto paths = LightPaths::of(scene, bidirectional, 1);
+    ASSERT_TRUE(paths);
+    const Shape& lamp = std::get<AreaLight>(scene.lights()[0]).shape();
+    mc::Pcg random(3);
+    mc::Moments moments;
+    for (int i = 0; i < 100'000; ++i) {
+      const auto point = lamp.sample_area(random.point<Float, 2>());
+      const Vec3 d = mc::UniformSphere<Float>{}.sample(random.point<Float, 2>());
+      moments.add(std::sqrt(paths->start2(0, *point, d)) * lamp.area() * 4 * mc::pi<double>);
+    }
+    const double expected = paths->rate() * (two_sided ? 0.6 : 1);
+    EXPECT_NEAR(moments.mean(), expected, 4 * moments.std_error());
+  }
+}
+
+// Of paths of two edges, over a film of one pixel: their light, and what is left for paths from the camera, is what
+// these find alone. With a hundred paths from the light for each both ways weigh, so each gives a part of it only.
+TEST(LightPaths, AddWhatPathsFromTheCameraLeave) {
+  const Scene scene = Room().build();
+  Strategy many = bidirectional;
+  many.light_paths = 100;
+  const auto paths = LightPaths::of(scene, many, 1);
+  ASSERT_TRUE(paths);
+  const PathIntegrator<Scene> both(scene, {many, 2}, {}, &*paths), alone(scene, {strategy_from("mis"), 2});
+  const mc::NoPairs numbers(17, 0);
+  mc::Moments given, left, all;
+  std::uint64_t rays = 0;
+  const Vec2 tangent = scene.camera().tan_half(1);
+  for (std::uint32_t i = 0; i < 400'000; ++i) {
+    mc::IndependentWalk<Float> stream(numbers, i);
+    const Ray ray = scene.camera().ray(stream.next2(), tangent, {0, 0});
+    left.add(double(both.radiance(ray, stream, rays)[0]));
+    all.add(double(alone.radiance(ray, stream, rays)[0]));
+    double value = 0;
+    paths->trace(stream, 2, rays, [&](const Vec2& s, const Spectrum& v) {
+      if (s.minCoeff() >= 0 && s.maxCoeff() < 1) value += double(v[0]) * paths->rate();
+    });
+    given.add(value);
+  }
+  EXPECT_GT(given.mean(), 0.01 * all.mean());
+  EXPECT_GT(left.mean(), 0.01 * all.mean());
+  const double error = std::sqrt(mc::sqr(given.std_error()) + mc::sqr(left.std_error()) + mc::sqr(all.std_error()));
+  EXPECT_LE(error, 0.01 * all.mean());
+  EXPECT_NEAR(given.mean() + left.mean(), all.mean(), 4 * error);
+}
+
+} // namespace

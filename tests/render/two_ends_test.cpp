@@ -1,0 +1,245 @@
+// Pictures of scenes made by machine: paths from the lights and the camera together make what those from the camera
+// make alone.
+
+#include <render/render.h>
+#include <render/scene/builder.h>
+
+#include <mc/estimate/moments.h>
+#include <mc/random/hash.h>
+#include <mc/random/pcg.h>
+#include <mc/stats/t_test.h>
+
+#include "support/random_direction.h"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace render;
+
+/// Draws what stands in a room.
+class RoomMaker {
+ public:
+  explicit RoomMaker(std::uint64_t seed) : random_(2026, seed) {}
+
+  Scene build() {
+    SceneBuilder builder;
+    const BsdfId grey = builder.add(Lambert(Spectrum(Float(0.7), Float(0.5), Float(0.6))));
+    for (int wall = 0; wall < 5; ++wall) // the room is open to the camera
+      if (wall == 0 || chance(0.7)) builder.add(TriangleMesh::rectangle(side(wall)), {grey});
+    const int things = 1 + static_cast<int>(3 * number());
+    for (int i = 0; i < things; ++i) add_thing(builder);
+    const int lamps = 1 + chance(0.4);
+    for (int i = 0; i < lamps; ++i) add_lamp(builder);
+    if (chance(0.4)) builder.add(Light(ConstantBackground(Spectrum::Constant(Float(0.2)))));
+    if (chance(0.3)) builder.add(Light(PointLight(place(1), Spectrum::Constant(1))));
+    builder.set(filter());
+    builder.set(ThinLens(Transform::look_at({0, 0, -4.5}, place(0.3), {0, 1, 0}), {.fov_axis = FovAxis::y,
+                                                                                   .fov = 30 + 20 * number(),
+                                                                                   .radius = chance(0.4) ? 0.2 : 0,
+                                                                                   .focus_distance = 4,
+                                                                                   .near = chance(0.4) ? 2.5 : 0}));
+    return builder.build();
+  }
+
+ private:
+  double number() { return random_.uniform<double>(); }
+  bool chance(double p) { return number() < p; }
+  Vec3d place(double r) { return r * (2 * random_.point<double, 3>() - Vec3d::Ones()); }
+
+  // Of the cube [-2, 2]^3, seen from inside.
+  static Transform side(int wall) {
+    const Transform turns[] = {Transform::rotate(Vec3d::UnitX(), -90), Transform::rotate(Vec3d::UnitX(), 90),
+                               Transform::rotate(Vec3d::UnitY(), 90), Transform::rotate(Vec3d::UnitY(), -90),
+                               Transform::rotate(Vec3d::UnitX(), 180)};
+    return turns[wall] * Transform::translate({0, 0, -2}) * Transform::scale({2, 2, 1});
+  }
+
+  Filter filter() {
+    switch (static_cast<int>(4 * number())) {
+    case 0: return BoxFilter();
+    case 1: return TentFilter();
+    case 2: return GaussianFilter();
+    default: return SubpixelTentFilter();
+    }
+  }
+
+  Bsdf surface(int kind) {
+    const Spectrum tint = Spectrum::Ones() - Spectrum(random_.point<Float, 3>()) / 4;
+    switch (kind) {
+    case 0: return Dielectric(Float(1.1 + number()), tint, tint);
+    case 1: return Metal(tint);
+    case 2: return Metal(tint, Float(0.05 + 0.4 * number()));
+    case 3: return RoughDielectric(Float(1.5), Float(0.1 + 0.5 * number()), tint, tint);
+    case 4: return RoughPlastic<LayeredBase>(Float(1.5), Float(0.1 + 0.4 * number()), tint / 2, tint);
+    default: return Lambert(tint / 2);
+    }
+  }
+
+  // A ball, a box, or a coarse ball with smooth normals.
+  void add_thing(SceneBuilder& builder) {
+    const int kind = static_cast<int>(6 * number());
+    SceneBuilder::Cover cover{.bsdf = builder.add(surface(kind))};
+    if (kind == 0 && chance(0.5)) cover.interior = HomogeneousMedium(Spectrum(random_.point<Float, 3>()));
+    const Vec3d at = place(1.2);
+    const double size = 0.3 + 0.4 * number();
+    const double shape = number();
+    if (shape < 0.5) builder.add(Sphere(at, size), cover);
+    else if (shape < 0.8)
+      builder.add(TriangleMesh::box(Transform::translate(at) *
+                                    Transform::rotate(support::random_axis(random_), 360 * number()) *
+                                    Transform::scale(Vec3d::Constant(size))),
+                  cover);
+    else builder.add(octahedron(at, size), cover);
+  }
+
+  static TriangleMesh octahedron(const Vec3d& at, double size) {
+    std::vector<Vec3> corners, normals;
+    for (int i = 0; i < 6; ++i) {
+      const Vec3d d = (i % 2 ? 1 : -1) * Vec3d::Unit(i / 2);
+      corners.push_back((at + size * d).cast<Float>());
+      normals.push_back(d.cast<Float>());
+    }
+    std::vector<std::array<std::uint32_t, 3>> faces;
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      const std::uint32_t x = i & 1u, y = 2 + (i >> 1 & 1u), z = 4 + (i >> 2);
+      const bool outward = ((x + y + z) & 1u) != 0;
+      faces.push_back(outward ? std::array{x, y, z} : std::array{x, z, y});
+    }
+    return {corners, faces, normals};
+  }
+
+  // Large ones, so that paths from the camera alone know their error.
+  void add_lamp(SceneBuilder& builder) {
+    const Emission light{Spectrum(1, 2, 3), chance(0.3)};
+    const BsdfId grey = builder.add(Lambert(Spectrum::Constant(Float(0.3))));
+    const Vec3d at = place(0.5) + Vec3d(0, 1.3, 0);
+    const double shape = number();
+    if (shape < 0.4) builder.add(Sphere(at, 0.4), {grey, light});
+    else if (shape < 0.6) builder.add(Sphere::cap(at, 0.5, support::random_axis(random_), 0.4), {grey, light});
+    else
+      builder.add(TriangleMesh::rectangle(Transform::translate(at) *
+                                          Transform::rotate(support::random_axis(random_), 360 * number()) *
+                                          Transform::scale(Vec3d::Constant(0.7))),
+                  {grey, light});
+  }
+
+  mc::Pcg random_;
+};
+
+/// Means of pictures, of the pixels in units of their reference and a dark of a tenth of its mean, so that no lamp in
+/// view outweighs the rest; by `count` independent pictures.
+mc::Moments means_of(const Scene& scene, RenderOptions options, int count, const std::vector<Spectrum>& unit) {
+  mc::Moments moments;
+  for (int i = 0; i < count; ++i) {
+    options.seed = mc::hash(options.seed, std::uint64_t(i));
+    const RenderResult r = render::render(scene, options);
+    EXPECT_EQ(r.invalid, 0u);
+    double sum = 0;
+    for (std::size_t p = 0; p < unit.size(); ++p) sum += double((r.image.pixels[p] / unit[p]).sum());
+    moments.add(sum);
+  }
+  return moments;
+}
+
+std::vector<Spectrum> unit_of(const Image& reference) {
+  Spectrum mean = Spectrum::Zero();
+  for (const Spectrum& p : reference.pixels) mean += p / Float(reference.pixels.size());
+  std::vector<Spectrum> unit;
+  for (const Spectrum& p : reference.pixels) unit.push_back(p + mean / 10);
+  return unit;
+}
+
+// Forty rooms, 16 pictures by each way, Welch's t; every way to render in turn. Skew makes a z-score of 4 of what is 3,
+// so 5.5 is the bound, which one of 10^6 exceeds by chance; of forty, one in twenty is beyond 1.96.
+TEST(TwoEnds, MakeThePictureOfOne) {
+  int lit = 0, beyond = 0;
+  for (std::uint64_t i = 0; lit < 40; ++i) {
+    const Scene scene = RoomMaker(i).build();
+    if (!LightPaths::of(scene, strategy_from("bidirectional"), 1)) continue;
+    ++lit;
+    RenderOptions options;
+    options.width = 8;
+    options.height = 6;
+    options.spp = 64;
+    options.seed = i;
+    options.max_depth = i % 4 == 3 ? 3 : -1;
+    options.strategy = strategy_from("mis");
+    options.adaptive = false;
+    RenderOptions much = options;
+    much.spp = 256;
+    const std::vector<Spectrum> unit = unit_of(render::render(scene, much).image);
+    const mc::Moments one = means_of(scene, options, 16, unit);
+    options.strategy = strategy_from("bidirectional");
+    options.sampler = std::array{PixelSampler::sobol, PixelSampler::independent, PixelSampler::stratified}[i % 3];
+    options.adaptive = i % 5 == 1;
+    options.splat = i % 5 == 2;
+    const mc::Moments two = means_of(scene, options, 16, unit);
+    const double va = mc::sqr(one.std_error()), vb = mc::sqr(two.std_error()), off = two.mean() - one.mean();
+    const double t = off / std::sqrt(va + vb);
+    beyond += std::abs(t) > 2.05; // of Student's t with some 28 degrees of freedom
+    EXPECT_LE(std::abs(t), 5.5) << "room " << i << ": " << two.mean() << " +- " << two.std_error() << " for "
+                                << one.mean() << " +- " << one.std_error();
+  }
+  EXPECT_LE(beyond, 8); // of 40 at 5 %: 8 or fewer but for 1 in 2000
+}
+
+/// A room that light paths pay in.
+Scene lit_room() {
+  for (std::uint64_t i = 100;; ++i)
+    if (Scene scene = RoomMaker(i).build(); LightPaths::of(scene, strategy_from("bidirectional"), 1)) return scene;
+}
+
+TEST(TwoEnds, SameBitsForAnyNumberOfThreadsAndAnyPart) {
+  const Scene scene = lit_room();
+  for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
+    RenderOptions options;
+    options.width = 11;
+    options.height = 9;
+    options.spp = 12;
+    options.sampler = sampler;
+    options.threads = 1;
+    const Image whole = render::render(scene, options).image;
+    options.threads = 3;
+    const Image threaded = render::render(scene, options).image;
+    options.crop = Crop{3, 2, 5, 6};
+    const Image part = render::render(scene, options).image;
+    for (int y = 0; y < 9; ++y)
+      for (int x = 0; x < 11; ++x) {
+        EXPECT_TRUE((threaded.at(x, y) == whole.at(x, y)).all());
+        if (x < 3 || x >= 8 || y < 2 || y >= 8) continue;
+        EXPECT_TRUE((part.at(x - 3, y - 2) == whole.at(x, y)).all()) << x << " " << y;
+        EXPECT_TRUE((part.variance[part.index(x - 3, y - 2)] == whole.variance[whole.index(x, y)]).all());
+      }
+  }
+}
+
+// Over 200 pictures the stated variance of the pixels is the true one, spent evenly and where the error is: the mean of
+// 48 pixels and 3 channels of 200 x 3 degrees of freedom each, of values that are far from normal and of neighbours
+// that share paths: to a tenth. The floor of Film::estimate may put it above.
+TEST(TwoEnds, ErrorBarsAreTrue) {
+  const Scene scene = lit_room();
+  RenderOptions options;
+  options.width = 8;
+  options.height = 6;
+  options.spp = 32;
+  for (const bool adaptive : {false, true}) {
+    options.adaptive = adaptive;
+    constexpr int pictures = 200;
+    std::vector<std::array<mc::Moments, 3>> pixels(48);
+    double stated = 0, real = 0;
+    for (int i = 0; i < pictures; ++i) {
+      options.seed = std::uint64_t(i);
+      const Image image = render::render(scene, options).image;
+      for (std::size_t p = 0; p < pixels.size(); ++p)
+        for (int c = 0; c < 3; ++c) pixels[p][std::size_t(c)].add(double(image.pixels[p][c]));
+      for (const Spectrum& v : image.variance) stated += double(v.sum()) / pictures;
+    }
+    for (const auto& pixel : pixels)
+      for (const mc::Moments& m : pixel) real += m.variance();
+    EXPECT_GT(stated, 0.9 * real) << adaptive;
+    EXPECT_LT(stated, 1.3 * real) << adaptive;
+  }
+}
+
+} // namespace
