@@ -71,7 +71,7 @@ class ThinLens {
 
   /// How p is seen from the point of the lens that u chooses; none where it lies outside of near and far. s may lie
   /// beside the film.
-  std::optional<SeenPoint> see(const Vec3& p, const Vec2& tan_half_xy, const Vec2& u) const {
+  std::optional<SeenPoint> sample_lens(const Vec3& p, const Vec2& tan_half_xy, const Vec2& u) const {
     Vec3 offset = Vec3::Zero();
     if (radius_ > 0) {
       const Vec2 lens = radius_ * mc::UniformDisk<Float>{}.sample(u);

@@ -155,7 +155,8 @@ template <class Stream, class Give>
 void LightPaths::connect(const Meeting<Bsdf>& at, const Walk& walk, Stream& stream, std::uint64_t& rays,
                          const Give& give) const {
   const ThinLens& camera = scene_->camera();
-  const auto seen = camera.see(at.point.p, tan_half_, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
+  const auto seen =
+      camera.sample_lens(at.point.p, tan_half_, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
   if (!seen) return;
   const Vec3 wi = at.frame.to_local(seen->d);
   if (!is_real(at, wi, seen->d)) return;

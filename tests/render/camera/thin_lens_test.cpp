@@ -62,7 +62,7 @@ TEST(ThinLens, SeesWhatItsRaysReach) {
     const Vec2 s = 2 * random.point<Float, 2>() - Vec2::Constant(Float(0.5)); // beside the film, too
     const Ray ray = camera.ray(s, tangent, u);
     const Float t = 1 + 3 * random.uniform<Float>();
-    const auto seen = camera.see(ray.at(t), tangent, u);
+    const auto seen = camera.sample_lens(ray.at(t), tangent, u);
     ASSERT_TRUE(seen) << i;
     EXPECT_LE((seen->s - s).norm(), 1e-4) << i;
     EXPECT_LE((seen->d + ray.d).norm(), 1e-5) << i;
@@ -72,9 +72,10 @@ TEST(ThinLens, SeesWhatItsRaysReach) {
     const double density = 1 / (4 * double(tangent.prod()) * cosine * cosine * cosine);
     EXPECT_NEAR(seen->density / density, 1, 1e-4) << i;
     EXPECT_NEAR(camera.density(ray.d, tangent) / density, 1, 1e-4) << i;
-    EXPECT_FALSE(camera.see(camera.origin() - camera.forward(), tangent, u)) << i;
-    EXPECT_EQ(camera.see(camera.origin() + 51 * camera.forward(), tangent, u).has_value(), i % 5 == 0) << i;
-    EXPECT_EQ(camera.see(camera.origin() + Float(0.09) * camera.forward(), tangent, u).has_value(), i % 3 == 0) << i;
+    EXPECT_FALSE(camera.sample_lens(camera.origin() - camera.forward(), tangent, u)) << i;
+    EXPECT_EQ(camera.sample_lens(camera.origin() + 51 * camera.forward(), tangent, u).has_value(), i % 5 == 0) << i;
+    EXPECT_EQ(camera.sample_lens(camera.origin() + Float(0.09) * camera.forward(), tangent, u).has_value(), i % 3 == 0)
+        << i;
   }
 }
 
