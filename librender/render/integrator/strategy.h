@@ -50,7 +50,7 @@ inline constexpr auto strategies = std::to_array<Strategy>({
     {"guides", Target::guides, Float(0.5), Finding::by_chance},
     {"nee", Target::nothing, 0, Finding::by_connection},
     {"mis", Target::speculars, Float(0.25), Finding::by_both},
-    {"bidirectional", Target::speculars, Float(0.25), Finding::by_both, Float(0.25)},
+    {"bidirectional", Target::speculars, Float(0.25), Finding::by_both, Float(0.2)},
 });
 
 /// The names of all, in their order.
