@@ -38,8 +38,9 @@ struct Rate {
 ///             [MitchellA96]; of scrambled nets N^-(1/2 + 1/(4 d - 2)) is proven for jumps at any surface
 ///             [HeWang15, He18]
 ///   learned : vegas, tree and auto choose a density by what they measure, so that no exponent is known. A ninth of the
-///             points are uniform, hence E (f/p)^2 <= 9 E f^2 whatever was learned [OwenZhou00], and a scrambled net
-///             has a constant times the variance of independent points at most [PanOwen23]: N^-1/2 or faster
+///             points or more are uniform, hence E (f/p)^2 <= 9 E f^2 whatever was learned [OwenZhou00], and a
+///             scrambled net has a constant times the variance of independent points at most [PanOwen23]: N^-1/2 or
+///             faster
 std::optional<Rate> theory(std::string_view way, const Smoothness& smoothness, int dim);
 
 } // namespace carlo

@@ -149,7 +149,7 @@ struct BatchIntegrand {
 ///                left to be found; the last round it was learned on is the consistency check. The grid is frozen
 ///                before the sequences start, so the estimate is unbiased; a ninth of the points are uniform, so that
 ///                no value exceeds 8 times the integrand's, and the grid's own integral is subtracted, so that they
-///                cost little [OwenZhou00]
+///                cost little [OwenZhou00]; up to a half where most of the error would be theirs
 ///   tree       : the same with a BoxTree within the grid, for what is no product of axes
 ///   automatic  : learns from the points of rqmc that were made anyway, and gives up where rqmc is clearly ahead; else
 ///                holds the error of vegas and tree, of half of the replicates or, where these leave it open, of all,

@@ -186,13 +186,18 @@ TEST(Integrate, PointsWhereItIsInfiniteGetNoBar) {
   }
 }
 
-// The bars of what varies by less than the doubles at its mean lay below one step of these.
+// The bars of what varies by less than the doubles at its mean lay below one step of these. Student's t of 7 degrees of
+// freedom is beyond 2 in 8.6 %: more than 3 of 8 by chance in 3e-3, for each method.
 TEST(Integrate, NoBarIsBelowTheStepOfDoubles) {
   for (const Method method : methods) {
-    const mc::Integral r =
-        mc::integrate_unit([](Unit u) { return 1e15 + std::sin(3 * u[0]) * u[1]; }, 2, with(method, 200'000));
-    EXPECT_GE(r.estimate.std_error, 0.125) << name(method);
-    EXPECT_LE(std::abs(r.estimate.value - 1e15 - (1 - std::cos(3.0)) / 6), 2 * r.estimate.std_error) << name(method);
+    int beyond = 0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      const mc::Integral r =
+          mc::integrate_unit([](Unit u) { return 1e15 + std::sin(3 * u[0]) * u[1]; }, 2, with(method, 200'000, seed));
+      EXPECT_GE(r.estimate.std_error, 0.125) << name(method);
+      beyond += std::abs(r.estimate.value - 1e15 - (1 - std::cos(3.0)) / 6) > 2 * r.estimate.std_error;
+    }
+    EXPECT_LE(beyond, 3) << name(method);
   }
 }
 

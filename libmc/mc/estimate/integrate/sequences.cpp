@@ -23,31 +23,45 @@ void add(Run& run, std::uint64_t purpose, std::uint32_t first, std::uint32_t las
   for (std::uint32_t r = first; r < last; ++r) sums[r].merge(more[r - first]);
 }
 
-// Both parts of the mixture, or the one there is.
-Means grown(Run& run, Sequences& s, std::uint32_t first, std::uint32_t last, std::uint64_t from, std::uint64_t to) {
+// Both parts of the mixture, or the one there is, from so many points to all.
+Means grown(Run& run, Sequences& s, std::uint32_t first, std::uint64_t from, std::uint64_t uniform_from) {
   Proposal part = s.proposal;
   if (part.density) part.part = Proposal::Part::of_density;
-  add(run, s.purpose, first, last, from, to, part, s.record, s.sets, s.sums);
+  add(run, s.purpose, first, s.count, from, s.length, part, s.record, s.sets, s.sums);
   if (part.density) {
     part.part = Proposal::Part::of_uniform;
-    add(run, s.purpose + of_uniform, first, last, (from + 7) / 8, (to + 7) / 8, part, false, s.uniform_sets,
+    add(run, s.purpose + of_uniform, first, s.count, uniform_from, s.uniform_length, part, false, s.uniform_sets,
         s.uniform_sums);
   }
   return s.means = run.means(s.sums, s.length, s.evidence, s.uniform_sums, s.proposal, s.let_go);
 }
+
+// Of the replicates' means, however large.
+double deviation(const std::vector<Sums>& replicates, std::size_t output) {
+  std::vector<double> means;
+  double largest = 0;
+  for (const Sums& s : replicates) {
+    means.push_back(s.outputs[output].mean());
+    largest = std::max(largest, std::abs(means.back()));
+  }
+  ScaledMoments all;
+  all.add(means, 0, largest);
+  return all.variation();
+}
 } // namespace
 
 Means Sequences::extend(Run& run, std::uint64_t to) {
-  const std::uint64_t from = length;
+  const std::uint64_t from = length, uniform_from = uniform_length;
   length = to;
-  grown(run, *this, 0, count, from, to);
+  uniform_length = uniform_points(to, sparse);
+  grown(run, *this, 0, from, uniform_from);
   history.emplace_back(means.begin(), means.begin() + static_cast<std::ptrdiff_t>(run.leading()));
   return means;
 }
 
 Means Sequences::widen(Run& run, std::uint32_t more) {
   count += more;
-  grown(run, *this, count - more, count, 0, length);
+  grown(run, *this, count - more, 0, 0);
   history.back().assign(means.begin(), means.begin() + static_cast<std::ptrdiff_t>(run.leading()));
   return means;
 }
@@ -70,6 +84,18 @@ void Sequences::forget() {
     s.points = {};
     s.values = {};
   }
+}
+
+double Sequences::uniform_variance() const {
+  if (uniform_sums.empty()) return 0;
+  const std::size_t outputs = history.back().size();
+  double sum = 0;
+  for (std::size_t k = 0; k < outputs; ++k) {
+    const double uniform = Proposal::uniform_share * deviation(uniform_sums, k),
+                 both = std::hypot(uniform, (1 - Proposal::uniform_share) * deviation(sums, k));
+    if (both > 0) sum += sqr(uniform / both);
+  }
+  return sum / static_cast<double>(outputs);
 }
 
 std::vector<Seen> Sequences::seen() const { return seen_in(uniform_sums, seen_in(sums, let_go)); }

@@ -18,7 +18,9 @@ struct Sequences {
   std::uint64_t length = 0;
   std::vector<PointSet> sets = {};
   std::vector<Sums> sums = {};
-  std::vector<PointSet> uniform_sets = {}; ///< of the uniform part, an eighth as long, rounded up
+  std::uint64_t sparse = 8; ///< points for each one of the uniform part, once the sequences are extended
+  std::uint64_t uniform_length = 0;
+  std::vector<PointSet> uniform_sets = {};
   std::vector<Sums> uniform_sums = {};
   std::vector<Means> history = {}; ///< at each length, of the outputs that are not only watched
   Means means = {};                ///< the latest, of all
@@ -28,9 +30,15 @@ struct Sequences {
   static constexpr std::uint64_t longest = std::uint64_t{1} << 32;
 
   /// Calls per point of a replicate.
-  double cost() const { return proposal.density ? 1 + Proposal::uniform_share : 1.0; }
+  double cost() const { return proposal.density ? 1 + 1 / static_cast<double>(sparse) : 1.0; }
   /// Calls of a replicate as long as it is now.
-  std::uint64_t calls_each() const { return length + (proposal.density ? (length + 7) / 8 : 0); }
+  std::uint64_t calls_each() const { return length + uniform_length; }
+  /// How long the uniform part of so many points is; rounded up.
+  std::uint64_t uniform_points(std::uint64_t points, std::uint64_t points_for_each) const {
+    return proposal.density ? (points + points_for_each - 1) / points_for_each : 0;
+  }
+  /// The uniform part's share of the variance of the means; of several outputs the mean.
+  double uniform_variance() const;
   /// The means once every sequence has `to` points.
   Means extend(Run& run, std::uint64_t to);
   /// All values that were seen, also by sequences that were dropped, one per output.

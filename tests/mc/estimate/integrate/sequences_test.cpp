@@ -105,6 +105,37 @@ TEST(Sequences, WidenedOnesSayWhatAllOfThemSaw) {
   EXPECT_EQ(half.history[0][0].error, all.means[0].error);
 }
 
+// A uniform part that is an eighth as long as the other has most of the variance, whatever the unit, and less once it
+// is as dense.
+TEST(Sequences, TheUniformPartMayBecomeDenser) {
+  for (const double unit : {1.0, 1e-300, 1e300}) {
+    const std::function<double(std::span<const double>)> f = [&](std::span<const double> u) {
+      return unit * std::exp(u[0] * u[1] - u[0]);
+    };
+    mc::IntegrateOptions o;
+    detail::Run run{{.one = &f}, 1, 2, o};
+    std::vector<double> edges;
+    for (int axis = 0; axis < 2; ++axis)
+      for (std::size_t i = 0; i <= mc::ImportanceGrid::bins; ++i)
+        edges.push_back(std::pow(static_cast<double>(i) / mc::ImportanceGrid::bins, 1.2));
+    const auto density = std::make_shared<mc::AdaptedDensity>(mc::AdaptedDensity{mc::ImportanceGrid(std::move(edges))});
+    Sequences s{.purpose = 1, .count = 24, .proposal = {density, {0.7 * unit}}};
+    EXPECT_EQ(s.uniform_variance(), 0);
+    s.extend(run, 128);
+    EXPECT_EQ(s.calls_each(), 128u + 16u);
+    const double sparse = s.uniform_variance();
+    s.sparse = 1;
+    const detail::Mean mean = s.extend(run, 256)[0];
+    EXPECT_EQ(s.calls_each(), 512u);
+    EXPECT_EQ(run.calls, 24u * 512);
+    EXPECT_GT(sparse, 0.5);
+    EXPECT_LT(s.uniform_variance(), 0.5 * sparse);
+    EXPECT_LE(std::abs(mean.value / unit - 0.7965995992970531), 5 * mean.error / unit);
+    s.widen(run, 2);
+    EXPECT_EQ(run.calls, 26u * 512);
+  }
+}
+
 // Ten times the error, but a hundredth of the relative one: the other has met next to nothing of the integrand.
 TEST(Sequences, WhoMetNothingIsNotAhead) {
   const mc::detail::Means nothing = {{1e-4, 1e-4, 23}}, much = {{1, 1e-3, 23}}, like_it = {{1.0001, 1e-4, 23}};
