@@ -21,8 +21,8 @@ namespace render {
 ///   Lights : shapes that shine, chosen by their power; a point uniform in area and a direction by the cosine, of which
 ///            four in five are aimed at the spheres of glass or mirror, where a scene has any
 ///   Paths  : follow the BSDFs; Russian roulette as of PathIntegrator
-///   Source : [VeachGuibas95], of whose connections these are those at both ends; light through shading normals
-///            [Veach97] section 5.3
+///   Source : [Veach97] chapter 10, of whose connections these are those at both ends; light through shading normals
+///            section 5.3
 class LightPaths {
  public:
   /// None where the strategy has none, or the scene no shape that shines, or nothing narrow or transparent: elsewhere
