@@ -32,7 +32,7 @@ Taken taken(const Filter& filter, std::uint64_t steps, int threads, PixelSampler
   const LightTaker taker(scene, *paths, 2, sampler, 7, {16, 12, part});
   Taken all{{part.width, part.height, 4, {}, true}, {}};
   const std::uint64_t n = taker.paths(spp);
-  EXPECT_EQ(n, std::uint64_t{spp} * 16 * 12 / 4);
+  EXPECT_EQ(n, std::uint64_t{spp} * 16 * 12 / 5);
   for (std::uint64_t i = 0; i < steps; ++i)
     EXPECT_EQ(taker.take(
                   i * n / steps, (i + 1) * n / steps, threads, [] { return false; }, all.film, all.tally),

@@ -230,8 +230,9 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   EXPECT_LE(worst.worst_error, 0.05);
   EXPECT_GT(worst.samples, exact.samples);
   options.error_of = ErrorOf::picture;
-  std::uint64_t adaptive = 0, even = 0; // rounds end where they do: few seeds say little
-  for (options.seed = 0; options.seed < 16; ++options.seed) {
+  options.strategy = strategy_from("mis"); // paths from the lights leave less that is uneven
+  std::uint64_t adaptive = 0, even = 0;    // rounds end where they do: one seed says little
+  for (options.seed = 0; options.seed < 8; ++options.seed) {
     options.adaptive = true;
     adaptive += render::render(scene, options).samples;
     options.adaptive = false;

@@ -6,7 +6,7 @@ namespace render {
 
 namespace {
 
-constexpr std::size_t most_speculars = 8; // aiming at more would not pay
+constexpr std::size_t most_spheres = 8; // aiming at more would not pay
 
 std::vector<const Shape*> guides(const Scene& scene) {
   std::vector<const Shape*> found;
@@ -23,19 +23,23 @@ std::vector<const Shape*> lights_and_guides(const Scene& scene) {
   return found;
 }
 
-std::vector<const Shape*> speculars(const Scene& scene) {
+// Those with such a BSDF, where lights can shine through them on a path that meets these; nothing meets a delta light.
+template <class Holds> std::vector<const Shape*> spheres(const Scene& scene, Holds&& holds) {
   std::vector<const Shape*> found;
   const auto& lights = scene.lights();
-  const bool can_shine_through = // on a path that meets it; nothing meets a delta light
-      std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.is_sampled() && !l.is_delta(); });
+  if (std::none_of(lights.begin(), lights.end(), [](const Light& l) { return l.is_sampled() && !l.is_delta(); }))
+    return found;
   for (const Surface& s : scene.surfaces())
-    if (can_shine_through && std::holds_alternative<Sphere>(*s.shape) && scene.bsdf(s).is_delta())
-      found.push_back(s.shape.get());
-  if (found.size() > most_speculars) found.clear();
+    if (std::holds_alternative<Sphere>(*s.shape) && holds(scene.bsdf(s))) found.push_back(s.shape.get());
+  if (found.size() > most_spheres) found.clear();
   return found;
 }
 
 } // namespace
+
+std::vector<const Shape*> caustic_casters(const Scene& scene) {
+  return spheres(scene, [](const Bsdf& b) { return b.is_narrow() || b.transmits(); });
+}
 
 bool finds_all_lights(const Scene& scene, const Strategy& strategy) {
   const auto& lights = scene.lights();
@@ -52,7 +56,8 @@ Directions::Directions(const Scene& scene, const Strategy& strategy)
     : aims_(strategy.share), aims_for_delta_(std::min(strategy.share, Float(0.5))), follows_(strategy.share < 1) {
   if (strategy.target == Target::lights) shapes_ = lights_and_guides(scene);
   if (strategy.target == Target::guides) shapes_ = guides(scene);
-  if (strategy.target == Target::speculars) shapes_ = speculars(scene);
+  if (strategy.target == Target::speculars) shapes_ = spheres(scene, [](const Bsdf& b) { return b.is_delta(); });
+  if (strategy.target == Target::casters) shapes_ = caustic_casters(scene);
   const std::size_t targets = strategy.target == Target::hemisphere ? 1 : shapes_.size();
   if (targets > 0) targets_.emplace(targets);
 }

@@ -47,6 +47,9 @@ bool finds_all_lights(const Scene& scene, const Strategy& strategy);
 /// enough, in edges (-1: no limit), to find light elsewhere: on other surfaces, or in the sky.
 bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth);
 
+/// The spheres that Target::casters aims at.
+std::vector<const Shape*> caustic_casters(const Scene& scene);
+
 /// A mixture of the BSDF and the targets of a strategy, each equally likely.
 ///   choose : a direction, and its weight under the density of the whole mixture
 ///   pdf    : that density [1/sr], narrow lobes excluded: sum of share / n pdf_i(wi) over the targets, and

@@ -1,19 +1,30 @@
 #include <render/integrator/light_paths.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace render {
 
 namespace {
 
 constexpr Strategy follow = {"", Target::nothing, 0, Finding::by_chance};
-constexpr Strategy aim = {"", Target::speculars, Float(0.8), Finding::by_chance};
+constexpr Strategy aim = {"", Target::casters, Float(0.8), Finding::by_chance};
 
-// What each light gives to paths from it.
+std::vector<const Sphere*> spheres_of(const Scene& scene) {
+  std::vector<const Sphere*> found;
+  for (const Shape* s : caustic_casters(scene)) found.push_back(&std::get<Sphere>(*s));
+  return found;
+}
+
+// What each light gives to paths from it. Infinite lights that are not sampled are found by chance alone.
 std::vector<double> powers_of(const Scene& scene) {
+  double radius2 = 0;
+  for (const Sphere* s : spheres_of(scene)) radius2 += mc::sqr(s->radius());
   std::vector<double> powers;
-  for (const Light& light : scene.lights())
-    powers.push_back(std::holds_alternative<AreaLight>(light) ? light.power(0) : 0);
+  for (const Light& light : scene.lights()) {
+    const bool starts = light.is_sampled() && !light.is_delta();
+    powers.push_back(starts ? light.power(std::sqrt(radius2)) : 0);
+  }
   return powers;
 }
 
@@ -42,21 +53,32 @@ std::vector<Strategy> strategies_for(const Scene& scene) {
 
 LightPaths::LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& powers)
     : scene_(&scene), rate_(double(strategy.light_paths)), tan_half_(scene.camera().tan_half(aspect)),
-      by_power_(powers), starts_(scene, aim), follows_(scene, follow),
+      by_power_(powers), starts_(scene, aim), follows_(scene, follow), casters_(spheres_of(scene)),
       absorbs_(std::any_of(scene.surfaces().begin(), scene.surfaces().end(),
                            [](const Surface& s) { return s.interior.has_value(); })),
       lamp_(Lambert(Spectrum::Ones())) {}
 
-double LightPaths::start2(std::uint32_t light, const SurfacePoint& point, const Vec3& d) const {
-  const auto* lamp = std::get_if<AreaLight>(&scene_->lights()[light]);
+double LightPaths::across(const Vec3& p, const Vec3& d) const {
+  double density = 0;
+  for (const Sphere* s : casters_) {
+    const Vec3d way = s->center() - p.cast<double>();
+    const double r2 = mc::sqr(s->radius()), off2 = mc::cross<double>(way, d.cast<double>()).squaredNorm();
+    if (off2 <= r2) density += 1 / (mc::pi<double> * r2 * double(casters_.size()));
+  }
+  return density;
+}
+
+double LightPaths::start2(std::uint32_t light, const SurfacePoint* met, const Vec3& ref, const Vec3& wi) const {
   const double pmf = double(by_power_.pmf(light));
-  if (!lamp || !(pmf > 0)) return 0;
-  SurfacePoint side = point;
-  if (lamp->is_two_sided() && point.ng.dot(d) < 0) side.ng = -side.ng;
+  if (!(pmf > 0)) return 0;
+  const auto* lamp = std::get_if<AreaLight>(&scene_->lights()[light]);
+  if (!lamp) return mc::sqr(rate_ * pmf * double(scene_->lights()[light].pdf(ref, wi, nullptr)) * across(ref, wi));
+  SurfacePoint side = *met;
+  if (lamp->is_two_sided() && side.ng.dot(wi) > 0) side.ng = -side.ng;
   side.ns = side.ng;
   const auto frame = mc::Frame<Float>::from_z(side.ng);
   const double sides = lamp->is_two_sided() ? 2 : 1;
-  const double pdf = double(starts_.pdf(Vertex<Bsdf>{lamp_, side, frame, Vec3::UnitZ()}, frame.to_local(d), d));
+  const double pdf = double(starts_.pdf(Vertex<Bsdf>{lamp_, side, frame, Vec3::UnitZ()}, frame.to_local(-wi), -wi));
   return mc::sqr(rate_ * pmf / lamp->shape().area() * pdf / sides);
 }
 

@@ -7,6 +7,7 @@
 
 #include <mc/estimate/russian_roulette.h>
 #include <mc/table/table_dist_1d.h>
+#include <mc/warp/disk.h>
 
 #include <optional>
 #include <vector>
@@ -18,21 +19,23 @@ namespace render {
 /// chance, and the lamp behind, all of it arrives at once. From the lamp it is found easily. Each vertex of a path from
 /// a light is connected to the camera, and all three ways to find the same path, by chance, by a connection to the
 /// light and by one to the camera, are weighed by the power heuristic.
-///   Lights : shapes that shine, chosen by their power; a point uniform in area and a direction by the cosine, of which
-///            four in five are aimed at the spheres of glass or mirror, where a scene has any
+///   Lights : chosen by their power. Of shapes that shine a point uniform in area and a direction by the cosine, of
+///            which four in five are aimed at the spheres of glass or mirror, where a scene has any. Of environment
+///            maps, for these spheres alone, a direction as the map samples it and a point of a sphere's disk across it
 ///   Paths  : follow the BSDFs; Russian roulette as of PathIntegrator
 ///   Source : [Veach97] chapter 10, of whose connections these are those at both ends; light through shading normals
 ///            section 5.3
 class LightPaths {
  public:
-  /// None where the strategy has none, or the scene no shape that shines, or nothing narrow or transparent: elsewhere
-  /// they would cost more than they bring. None either where the filter is wider than what SplatFilter can share.
+  /// None where the strategy has none, or the scene no light that they start from, or nothing narrow or transparent:
+  /// elsewhere they would cost more than they bring. None either where the filter is wider than SplatFilter can share.
   ///   aspect : width / height of the film
   static std::optional<LightPaths> of(const Scene& scene, const Strategy& strategy, Float aspect);
 
-  /// Of paths that start from a light's point in the direction d, per path from the camera: the squared density, per
-  /// area and [1/sr]; 0 for lights that none starts from.
-  double start2(std::uint32_t light, const SurfacePoint& point, const Vec3& d) const;
+  /// Of paths that start from where the direction wi from `ref` meets a light, back along it, per path from the camera:
+  /// the squared density [1/sr] times that per area, of the light's point `met` or, at infinity (null), across wi; 0
+  /// for lights that none starts from.
+  double start2(std::uint32_t light, const SurfacePoint* met, const Vec3& ref, const Vec3& wi) const;
 
   /// Per path from the camera.
   double rate() const { return rate_; }
@@ -50,13 +53,19 @@ class LightPaths {
   LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& powers);
 
   struct Start {
-    std::uint32_t light;
-    SurfacePoint point; ///< its normals on the side that shines
-    Vec3 d;
-    Spectrum beta; ///< light that the path carries
-    double area_pdf, pdf;
+    Ray ray;
+    std::optional<SurfacePoint>
+        point;                        ///< of the light, its normals on the side that shines; none: it is infinitely far
+    Spectrum beta = Spectrum::Zero(); ///< light that the path carries
+    Odds odds = {};
   };
-  template <class Stream> std::optional<Start> start(Stream& stream) const;
+  template <class Stream> std::optional<Start> sample_start(std::uint32_t light, const Vec2& u, Stream& stream) const;
+  template <class Stream>
+  std::optional<Start> sample_start_at(const AreaLight& lamp, double pmf, const Vec2& u, Stream& stream) const;
+  template <class Stream>
+  std::optional<Start> sample_start_afar(const Light& light, double pmf, const Vec2& u, Stream& stream) const;
+  // Per area across the line through p along d.
+  double across(const Vec3& p, const Vec3& d) const;
 
   struct Walk {
     Ray ray;
@@ -89,19 +98,18 @@ class LightPaths {
   Vec2 tan_half_;
   mc::TableDist1D<Float> by_power_;
   Directions starts_, follows_;
-  bool absorbs_; ///< some surface holds a medium
-  Bsdf lamp_;    ///< as whose reflection a lamp's light leaves it
+  std::vector<const Sphere*> casters_; ///< what paths from infinite lights are aimed at
+  bool absorbs_;                       ///< some surface holds a medium
+  Bsdf lamp_;                          ///< as whose reflection a lamp's light leaves it
 };
 
 /// The strategies that find every light of the scene, each once: without the bidirectional one where it is mis.
 std::vector<Strategy> strategies_for(const Scene& scene);
 
-template <class Stream> std::optional<LightPaths::Start> LightPaths::start(Stream& stream) const {
-  const Vec2 u = stream.next2();
-  const auto choice = by_power_.sample_index(u[0]);
-  const auto light = static_cast<std::uint32_t>(choice.index);
-  const AreaLight& lamp = std::get<AreaLight>(scene_->lights()[light]);
-  auto point = lamp.shape().sample_area({choice.u_remapped, u[1]});
+template <class Stream>
+std::optional<LightPaths::Start> LightPaths::sample_start_at(const AreaLight& lamp, double pmf, const Vec2& u,
+                                                             Stream& stream) const {
+  auto point = lamp.shape().sample_area(u);
   if (!point) return {};
   if (lamp.is_two_sided() && mc::Bernoulli<Float>(Float(0.5)).sample_index(stream.next()).index == 1)
     point->ng = -point->ng;
@@ -109,22 +117,45 @@ template <class Stream> std::optional<LightPaths::Start> LightPaths::start(Strea
   const auto frame = mc::Frame<Float>::from_z(point->ng);
   const auto next = starts_.choose(Vertex<Bsdf>{lamp_, *point, frame, Vec3::UnitZ()}, stream);
   if (!next || is_black(next->weight)) return {};
-  const double sides = lamp.is_two_sided() ? 2 : 1, area_pdf = double(choice.pmf) / lamp.shape().area();
-  const Spectrum beta = lamp.radiance() * next->weight * Float(mc::pi<double> * sides / area_pdf);
-  return Start{light, *point, next->d, beta, area_pdf, double(next->pdf) / sides};
+  const double sides = lamp.is_two_sided() ? 2 : 1, area_pdf = pmf / lamp.shape().area();
+  return Start{point->spawn_ray(next->d), point,
+               lamp.radiance() * next->weight * Float(mc::pi<double> * sides / area_pdf),
+               Odds(1 / mc::sqr(area_pdf), double(next->pdf) / sides, std::abs(double(point->ng.dot(next->d))))};
+}
+
+template <class Stream>
+std::optional<LightPaths::Start> LightPaths::sample_start_afar(const Light& light, double pmf, const Vec2& u,
+                                                               Stream& stream) const {
+  const auto s = light.sample(Vec3::Zero(), u);
+  if (!s || is_black(s->radiance)) return {};
+  const Sphere& aim = *casters_[mc::UniformDiscrete<Float>(casters_.size()).sample_index(stream.next()).index];
+  const Vec2 disk = Float(aim.radius()) * mc::UniformDisk<Float>{}.sample(stream.next2());
+  const auto frame = mc::Frame<Float>::from_z(s->wi);
+  const Bounds& all = scene_->bounds();
+  const Vec3 p = aim.center().cast<Float>() + frame.to_world({disk[0], disk[1], (all.hi - all.lo).norm()});
+  const double pdf = pmf * double(s->pdf), area_pdf = across(p, s->wi);
+  if (!(area_pdf > 0)) return {}; // rounding
+  return Start{{p, -s->wi}, {}, s->radiance * Float(1 / (pdf * area_pdf)), Odds(1 / mc::sqr(pdf), area_pdf, 1)};
+}
+
+template <class Stream>
+std::optional<LightPaths::Start> LightPaths::sample_start(std::uint32_t light, const Vec2& u, Stream& stream) const {
+  const auto pmf = double(by_power_.pmf(light));
+  if (const auto* lamp = std::get_if<AreaLight>(&scene_->lights()[light]))
+    return sample_start_at(*lamp, pmf, u, stream);
+  return sample_start_afar(scene_->lights()[light], pmf, u, stream);
 }
 
 template <class Stream, class Give>
 void LightPaths::trace(Stream& stream, int max_depth, std::uint64_t& rays, const Give& give) const {
-  const auto begin = start(stream);
+  const Vec2 u = stream.next2();
+  const auto choice = by_power_.sample_index(u[0]);
+  const auto light = static_cast<std::uint32_t>(choice.index);
+  const auto begin = sample_start(light, {choice.u_remapped, u[1]}, stream);
   if (!begin) return;
-  Walk walk{begin->point.spawn_ray(begin->d),
-            begin->point.p,
-            begin->beta,
-            Odds(1 / mc::sqr(begin->area_pdf), begin->pdf, std::abs(double(begin->point.ng.dot(begin->d)))),
-            {},
-            begin->beta.maxCoeff(),
-            0};
+  const SurfacePoint* source = begin->point ? &*begin->point : nullptr;
+  Walk walk{begin->ray, begin->ray.o, begin->beta, begin->odds, {}, begin->beta.maxCoeff(), 0};
+  if (source) walk.previous = source->p;
   if (absorbs_) [[unlikely]]
     walk.media = media_at(*scene_, walk.ray);
   while (max_depth < 0 || walk.edges + 1 < max_depth) {
@@ -135,17 +166,18 @@ void LightPaths::trace(Stream& stream, int max_depth, std::uint64_t& rays, const
     if (!hit) return;
     const Surface& surface = scene_->surface(*hit);
     const SurfacePoint point = surface.shape->surface_point(walk.ray, *hit);
-    const Vec3 way = point.p - walk.previous;
+    const bool from_afar = walk.edges == 1 && !source;
+    const double distance2 = (point.p - walk.previous).template cast<double>().squaredNorm();
     if (walk.media.here) [[unlikely]]
-      walk.beta *= walk.media.here->transmittance(way.norm());
-    walk.odds.meet(std::abs(double(point.ng.dot(walk.ray.d))), way.template cast<double>().squaredNorm());
+      walk.beta *= walk.media.here->transmittance(from_afar ? mc::infinity<Float> : Float(std::sqrt(distance2)));
+    walk.odds.meet(std::abs(double(point.ng.dot(walk.ray.d))), from_afar ? 1 : distance2);
     const auto frame = mc::Frame<Float>::from_z(point.ns);
     std::optional<Bsdf> varied;
     const Meeting<Bsdf> at{
         {scene_->bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-walk.ray.d)}, surface, walk.media};
     if (walk.edges == 1)
-      walk.connection2 = mc::sqr(double(scene_->light_pmf(point.p, begin->light)) *
-                                 double(scene_->lights()[begin->light].pdf(point.p, -walk.ray.d, &begin->point)));
+      walk.connection2 = mc::sqr(double(scene_->light_pmf(point.p, light)) *
+                                 double(scene_->lights()[light].pdf(point.p, -walk.ray.d, source)));
     if (!at.bsdf.is_narrow()) connect(at, walk, stream, rays, give);
     if (!scatter(at, walk, stream)) return;
   }

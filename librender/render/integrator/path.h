@@ -116,6 +116,7 @@ template <class SceneType> class PathIntegrator {
       if (!hit) {
         if (walk.media.here) [[unlikely]]
           walk.beta *= walk.media.here->transmittance(mc::infinity<Float>);
+        walk.odds.meet(1, 1); // a direction of the light
         for (const std::uint32_t light : scene_.infinite_lights())
           radiance += walk.beta * emission(light, nullptr, walk);
         return radiance;
@@ -166,8 +167,8 @@ template <class SceneType> class PathIntegrator {
       const Float other = scene_.light_pmf(walk.previous, light) * source.pdf(walk.previous, walk.ray.d, met);
       weight = mc::power_heuristic(walk.previous_pdf, other);
     }
-    if (light_paths_ && met && walk.edges > 1) [[unlikely]]
-      weight = among_three(weight, walk.odds.with(light_paths_->start2(light, *met, -walk.ray.d)));
+    if (light_paths_ && walk.edges > 1) [[unlikely]]
+      weight = among_three(weight, walk.odds.with(light_paths_->start2(light, met, walk.previous, walk.ray.d)));
     return emitted * weight;
   }
 
@@ -211,7 +212,7 @@ template <class SceneType> class PathIntegrator {
     const Float pdf = choice.pmf * s->pdf;
     const bool shared = options_.strategy.finding == Finding::by_both && !source.is_delta();
     Float weight = shared ? mc::power_heuristic(pdf, directions_.pdf(at, wi, s->wi)) : Float(1);
-    if (light_paths_ && shared && s->end) [[unlikely]]
+    if (light_paths_ && shared) [[unlikely]]
       weight = among_three(weight, light_odds(at, walk, wi, *s, static_cast<std::uint32_t>(choice.index), pdf));
     return f * arriving * (std::abs(wi.z()) * weight / pdf);
   }
@@ -219,8 +220,10 @@ template <class SceneType> class PathIntegrator {
   // The odds of paths from the lights against a connection of density `pdf` [1/sr].
   double light_odds(const At& at, const Walk& walk, const Vec3& wi, const LightSample& s, std::uint32_t light,
                     Float pdf) const {
-    const double at_light = std::abs(double(s.end->ng.dot(s.wi))), here = std::abs(double(at.point.ng.dot(s.wi)));
-    return walk.odds.with(reverse2(at, walk, wi, false, 1)) * light_paths_->start2(light, *s.end, -s.wi) *
+    const SurfacePoint* end = s.end ? &*s.end : nullptr;
+    const double at_light = end ? std::abs(double(end->ng.dot(s.wi))) : 1,
+                 here = std::abs(double(at.point.ng.dot(s.wi)));
+    return walk.odds.with(reverse2(at, walk, wi, false, 1)) * light_paths_->start2(light, end, at.point.p, s.wi) *
            mc::sqr(here / (double(pdf) * at_light));
   }
 

@@ -15,7 +15,8 @@ enum class Target {
   hemisphere, ///< every direction on the side of the path; on both where light goes through the surface
   lights,     ///< the shapes of the lights, and the guides
   guides,     ///< the shapes that the scene marks as such
-  speculars   ///< spheres of glass or mirror, which may cast caustics of the lights
+  speculars,  ///< spheres of smooth glass or mirror, which may cast caustics of the lights
+  casters     ///< these, and spheres of rough glass
 };
 
 /// How the light of sampled lights is found.

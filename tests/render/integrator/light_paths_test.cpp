@@ -15,7 +15,7 @@ const Strategy& bidirectional = strategy_from("bidirectional");
 
 /// A lamp above a floor that a camera looks down at, and a ball beside what it sees, which makes light paths pay.
 struct Room {
-  bool two_sided = false, glass = true, lamp = true;
+  bool two_sided = false, glass = true, lamp = true, sky = false;
   Bsdf floor = Lambert();
   Filter filter = BoxFilter();
 
@@ -31,7 +31,10 @@ struct Room {
     builder.add(Sphere(Vec3d(-1.5, 1.2, 1.5), 0.5), {glass ? builder.add(Dielectric()) : black});
     builder.set(filter);
     builder.set(ThinLens(Transform::look_at({0, 2, 0}, {0, 0, 0}, {0, 0, 1}), {.fov = 40}));
-    builder.add(Light(ConstantBackground(Spectrum::Zero())));
+    if (sky)
+      builder.add(
+          Light(Environment(std::make_shared<const Texels>(2, 1, std::vector<Spectrum>{{1, 1, 1}, {3, 1, 2}}))));
+    else builder.add(Light(ConstantBackground(Spectrum::Zero())));
     return builder.build();
   }
 };
@@ -41,6 +44,8 @@ TEST(LightPaths, WhereTheyPay) {
   EXPECT_FALSE(LightPaths::of(Room().build(), strategy_from("mis"), 1));
   EXPECT_FALSE(LightPaths::of(Room{.glass = false}.build(), bidirectional, 1));
   EXPECT_FALSE(LightPaths::of(Room{.lamp = false}.build(), bidirectional, 1));
+  EXPECT_TRUE(LightPaths::of(Room{.lamp = false, .sky = true}.build(), bidirectional, 1));
+  EXPECT_FALSE(LightPaths::of(Room{.glass = false, .lamp = false, .sky = true}.build(), bidirectional, 1));
   EXPECT_FALSE(LightPaths::of(Room{.filter = BoxFilter(70)}.build(), bidirectional, 1));
   EXPECT_EQ(strategies_for(Room().build()).size(), strategies.size());
   EXPECT_EQ(strategies_for(Room{.glass = false}.build()).size(), strategies.size() - 1);
@@ -60,11 +65,28 @@ TEST(LightPaths, StartsHaveTheDensityThatTheyTell) {
     for (int i = 0; i < 100'000; ++i) {
       const auto point = lamp.sample_area(random.point<Float, 2>());
       const Vec3 d = mc::UniformSphere<Float>{}.sample(random.point<Float, 2>());
-      moments.add(std::sqrt(paths->start2(0, *point, d)) * lamp.area() * 4 * mc::pi<double>);
+      moments.add(std::sqrt(paths->start2(0, &*point, {}, -d)) * lamp.area() * 4 * mc::pi<double>);
     }
     const double expected = paths->rate() * (two_sided ? 0.6 : 1);
     EXPECT_NEAR(moments.mean(), expected, 4 * moments.std_error());
   }
+}
+
+// The same of a sky, over all directions and lines within a disk across each that covers the ball.
+TEST(LightPaths, StartsFromTheSkyHaveTheDensityThatTheyTell) {
+  const Scene scene = Room{.lamp = false, .sky = true}.build();
+  const auto paths = LightPaths::of(scene, bidirectional, 1);
+  ASSERT_TRUE(paths);
+  mc::Pcg random(5);
+  mc::Moments moments;
+  for (int i = 0; i < 100'000; ++i) {
+    const Vec3 d = mc::UniformSphere<Float>{}.sample(random.point<Float, 2>());
+    const Vec2 disk = mc::UniformDisk<Float>{}.sample(random.point<Float, 2>());
+    const Vec3 p = Vec3(-1.5, Float(1.2), 1.5) + mc::Frame<Float>::from_z(d).to_world({disk[0], disk[1], 7});
+    moments.add(std::sqrt(paths->start2(scene.infinite_lights()[0], nullptr, p, d)) * 4 * mc::sqr(mc::pi<double>));
+  }
+  EXPECT_NEAR(moments.mean(), paths->rate(), 4 * moments.std_error());
+  EXPECT_LE(moments.std_error(), 0.01 * paths->rate());
 }
 
 // Of paths of two edges, over a film of one pixel: their light, and what is left for paths from the camera, is what
