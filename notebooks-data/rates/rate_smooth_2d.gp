@@ -17,7 +17,7 @@ plot "rate_smooth_2d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):5:6 wi
      "rate_smooth_2d.csv" skip 1 using (strcol(2) eq "random" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#4477aa" title "random: N^{-0.49 ± 0.03}", \
      1.1878 * x**(-0.5) with lines dt 3 lw 1 lc rgb "#4477aa" notitle, \
      "rate_smooth_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):5:6 with filledcurves fs solid 0.18 noborder lc rgb "#ee6677" notitle, \
-     "rate_smooth_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.99 ± 0.02}", \
+     "rate_smooth_2d.csv" skip 1 using (strcol(2) eq "stratified" ? $3 : NaN):4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "#ee6677" title "stratified: N^{-0.99 ± 0.03}", \
      1.23436 * x**(-1) with lines dt 3 lw 1 lc rgb "#ee6677" notitle, \
      NaN notitle
 set xlabel "CPU seconds"

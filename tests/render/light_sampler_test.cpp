@@ -8,14 +8,15 @@ namespace {
 using namespace render;
 
 /// A white floor that fills the view, a lamp above that is not seen, and a ball of glass beside.
-Scene lit_floor(const Filter& filter) {
+///   unit : of all lengths
+Scene lit_floor(const Filter& filter, double unit = 1) {
   SceneBuilder builder;
-  builder.add(TriangleMesh::rectangle(Transform::scale({9, 9, 1})), {builder.add(Lambert())});
+  builder.add(TriangleMesh::rectangle(Transform::scale({9 * unit, 9 * unit, unit})), {builder.add(Lambert())});
   const BsdfId glass = builder.add(Dielectric());
-  builder.add(Sphere(Vec3d(0, 0, 5), 1), {builder.add(Lambert(Spectrum::Zero())), Emission{}});
-  builder.add(Sphere(Vec3d(5, 0, 1), 0.5), {glass});
+  builder.add(Sphere(unit * Vec3d(0, 0, 5), unit), {builder.add(Lambert(Spectrum::Zero())), Emission{}});
+  builder.add(Sphere(unit * Vec3d(5, 0, 1), 0.5 * unit), {glass});
   builder.set(filter);
-  builder.set(ThinLens(Transform::look_at({0, 0, 3}, {0, 0, 0}, {0, 1, 0}), {.fov = 60}));
+  builder.set(ThinLens(Transform::look_at({0, 0, 3 * unit}, {0, 0, 0}, {0, 1, 0}), {.fov = 60}));
   return builder.build();
 }
 
@@ -26,8 +27,8 @@ struct Taken {
 
 // `steps` calls for all paths of `spp` samples a pixel.
 Taken taken(const Filter& filter, std::uint64_t steps, int threads, PixelSampler sampler = PixelSampler::sobol,
-            const Crop& part = {0, 0, 16, 12}, unsigned spp = 400) {
-  const Scene scene = lit_floor(filter);
+            const Crop& part = {0, 0, 16, 12}, unsigned spp = 400, double unit = 1) {
+  const Scene scene = lit_floor(filter, unit);
   const auto paths = LightPaths::of(scene, strategy_from("bidirectional"), Float(16) / 12);
   const LightTaker taker(scene, *paths, 2, sampler, 7, {16, 12, part});
   Taken all{{part.width, part.height, 4, {}, true}, {}};
@@ -81,6 +82,15 @@ TEST(LightTaker, FiltersKeepTheLight) {
   EXPECT_GT(expected, 0);
   for (const Filter& filter : {Filter(TentFilter()), Filter(GaussianFilter()), Filter(SubpixelTentFilter())})
     EXPECT_NEAR(light(filter) / expected, 1, 0.015);
+}
+
+// Lengths up to 1e18: the area of a lamp that large is hardly a float, nor is the density of a pixel over it. Rounding
+// moves a few paths across the edges of pixels.
+TEST(LightTaker, AnyUnitOfLength) {
+  const double expected = sum(taken(BoxFilter(), 1, 2).film);
+  for (const double unit : {1e-18, 1e-9, 1e9, 1e18})
+    EXPECT_NEAR(sum(taken(BoxFilter(), 1, 2, PixelSampler::sobol, {0, 0, 16, 12}, 400, unit).film) / expected, 1, 0.02)
+        << unit;
 }
 
 TEST(LightTaker, StopsBetweenItsSteps) {

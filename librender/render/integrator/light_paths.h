@@ -54,9 +54,9 @@ class LightPaths {
 
   struct Start {
     Ray ray;
-    std::optional<SurfacePoint>
-        point;                        ///< of the light, its normals on the side that shines; none: it is infinitely far
-    Spectrum beta = Spectrum::Zero(); ///< light that the path carries
+    std::optional<SurfacePoint> point; ///< of the light, with the normals of the side that shines; none: infinitely far
+    Spectrum beta = Spectrum::Zero();  ///< light that the path carries, of the unit `area`
+    double area = 0;                   ///< over the density, which no float need hold
     Odds odds = {};
   };
   template <class Stream> std::optional<Start> sample_start(std::uint32_t light, const Vec2& u, Stream& stream) const;
@@ -71,11 +71,11 @@ class LightPaths {
     Ray ray;
     Vec3 previous;
     Spectrum beta;
+    double area;
     Odds odds;
-    Media media;
-    Float full; ///< the largest component of beta at first
-    double
-        connection2; ///< squared density with which the first vertex would have been connected to the light, [1/sr^2]
+    Media media = {};
+    Float full = 0;         ///< the largest component of beta at first
+    double connection2 = 0; ///< squared density of the connection from the first vertex to the light [1/sr^2]
     int edges = 0;
   };
   // Squared density of paths from the camera that go on from `at`, where they come from wi, the way that this came.
@@ -118,8 +118,7 @@ std::optional<LightPaths::Start> LightPaths::sample_start_at(const AreaLight& la
   const auto next = starts_.choose(Vertex<Bsdf>{lamp_, *point, frame, Vec3::UnitZ()}, stream);
   if (!next || is_black(next->weight)) return {};
   const double sides = lamp.is_two_sided() ? 2 : 1, area_pdf = pmf / lamp.shape().area();
-  return Start{point->spawn_ray(next->d), point,
-               lamp.radiance() * next->weight * Float(mc::pi<double> * sides / area_pdf),
+  return Start{point->spawn_ray(next->d), point, lamp.radiance() * next->weight, mc::pi<double> * sides / area_pdf,
                Odds(1 / mc::sqr(area_pdf), double(next->pdf) / sides, std::abs(double(point->ng.dot(next->d))))};
 }
 
@@ -135,7 +134,7 @@ std::optional<LightPaths::Start> LightPaths::sample_start_afar(const Light& ligh
   const Vec3 p = aim.center().cast<Float>() + frame.to_world({disk[0], disk[1], (all.hi - all.lo).norm()});
   const double pdf = pmf * double(s->pdf), area_pdf = across(p, s->wi);
   if (!(area_pdf > 0)) return {}; // rounding
-  return Start{{p, -s->wi}, {}, s->radiance * Float(1 / (pdf * area_pdf)), Odds(1 / mc::sqr(pdf), area_pdf, 1)};
+  return Start{{p, -s->wi}, {}, s->radiance / Float(pdf), 1 / area_pdf, Odds(1 / mc::sqr(pdf), area_pdf, 1)};
 }
 
 template <class Stream>
@@ -154,8 +153,8 @@ void LightPaths::trace(Stream& stream, int max_depth, std::uint64_t& rays, const
   const auto begin = sample_start(light, {choice.u_remapped, u[1]}, stream);
   if (!begin) return;
   const SurfacePoint* source = begin->point ? &*begin->point : nullptr;
-  Walk walk{begin->ray, begin->ray.o, begin->beta, begin->odds, {}, begin->beta.maxCoeff(), 0};
-  if (source) walk.previous = source->p;
+  Walk walk{begin->ray, source ? source->p : begin->ray.o, begin->beta, begin->area, begin->odds};
+  walk.full = walk.beta.maxCoeff();
   if (absorbs_) [[unlikely]]
     walk.media = media_at(*scene_, walk.ray);
   while (max_depth < 0 || walk.edges + 1 < max_depth) {
@@ -204,7 +203,7 @@ void LightPaths::connect(const Meeting<Bsdf>& at, const Walk& walk, Stream& stre
   Spectrum value = open * walk.beta * f;
   if (const HomogeneousMedium* medium = at.media(seen->d).here) [[unlikely]]
     value *= medium->transmittance(seen->distance);
-  give(seen->s, Spectrum(value * Float(from_camera / rate_ / (1 + odds)) * shading(at)));
+  give(seen->s, Spectrum(value * Float(walk.area * from_camera / (rate_ * (1 + odds))) * shading(at)));
 }
 
 template <class Stream> bool LightPaths::scatter(const Meeting<Bsdf>& at, Walk& walk, Stream& stream) const {
