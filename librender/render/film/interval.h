@@ -12,9 +12,9 @@ namespace render {
 ///   A pixel alone does not know its error where rare bright paths decide: until it meets one it is too dark and says
 ///   that it is sure. Its neighbours have met some, so they share; and a pixel's variance counts as one observation,
 ///   however many estimates lie behind it. A lamp smaller than a pixel has no neighbour of its kind.
-///   error  : in seven scenes, two with caustics, 95 % intervals held 97 to 99 % of the pixels at 4 to 256 samples, and
-///            of the noisiest tenth 89 to 97 % at 4 and 92 to 98 % from 16 on; with the variance of the pixel alone it
-///            is 80 to 96 %, most misses too low (notebooks-data/truth/pixel_intervals.csv). Of lamps that cover part
+///   error  : in seven scenes, two with caustics, 95 % intervals held 97 to 98 % of the pixels at 4 to 256 samples, and
+///            of the noisiest tenth 88 to 97 % at 4 and 90 to 98 % from 16 on; with the variance of the pixel alone it
+///            is 80 to 97 %, most misses too low (notebooks-data/truth/pixel_intervals.csv). Of lamps that cover part
 ///            of a pixel 95 to 98 % at 16 to 256 samples.
 ///            Where noise changes within three pixels, the quiet ones get wider intervals than they need.
 ///            Where one point set in seventy differs from the rest, as where nearly all put as many of their points
