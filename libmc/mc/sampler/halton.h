@@ -21,6 +21,7 @@ enum class HaltonScramble { digits, owen };
 /// Halton::dimensions on are hashed independent ones.
 ///   Any b^k consecutive indices aligned to b^k fall one into each interval [j, j + 1) b^-k of the dimension with base
 ///   b. Cost grows with the number of digits of 2^32 in the base; prefer Sobol where counts are powers of two.
+///   From index 2^32 on digit-scrambled points repeat; nested ones differ in what lies below the digits of 2^32 only.
 ///   Source : [Halton60]
 class Halton {
  public:

@@ -44,6 +44,19 @@ TEST(Halton, DimensionsBeyondTheLastDoNotWrap) {
   for (std::uint32_t i = 0; i < 16; ++i) EXPECT_NE(s.bits(i, 1024), s.bits(i, 0));
 }
 
+// What halton.h says of indices that 32 bits cannot count.
+TEST(Halton, IndicesFrom2To32On) {
+  constexpr std::uint64_t beyond = std::uint64_t{1} << 32;
+  const mc::Halton digits(5, mc::HaltonScramble::digits), nested(5);
+  for (const std::uint32_t dim : {0u, 1u, 2u, 17u, 1023u})
+    for (std::uint64_t i = 0; i < 100; ++i) {
+      EXPECT_EQ(digits.bits(i, dim), digits.bits(i + beyond, dim)) << dim << " " << i;
+      const std::uint64_t here = nested.bits(i, dim), there = nested.bits(i + beyond, dim);
+      EXPECT_NE(here, there) << dim << " " << i;
+      EXPECT_LE(std::max(here, there) - std::min(here, there), beyond) << dim << " " << i;
+    }
+}
+
 // A smooth integrand: the error of 7776 points is well below 1/6 of that of 216, where independent points reach 1/6.
 TEST(Halton, ConvergesFasterThanIndependent) {
   const auto f = [](double x, double y) { return std::exp(x) * std::exp(y); };
