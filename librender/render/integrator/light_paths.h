@@ -23,9 +23,9 @@ namespace render {
 ///            which four in five are aimed at the spheres of glass or mirror, where a scene has any. Of environment
 ///            maps, for these spheres alone, a direction as the map samples it and a point of a sphere's disk across it
 ///   Paths  : follow the BSDFs; Russian roulette as of PathIntegrator
-///   Gain   : with a fifth as many as paths from the camera a picture takes .20 (book3-cornell-aluminium), .28 (its
-///            glass), .41 (smallpt), .62 (ground-glass), .74 (textures) and .98 (tinted-glass) of the time of `mis` to a
-///            given error; an eighth or a quarter as many change that by less than a fifth
+///   Gain   : with a fifth as many as paths from the camera a picture takes .20 (book3-cornell-aluminium), .28
+///            (book3-cornell-glass), .41 (smallpt), .62 (ground-glass), .74 (textures) and .98 (tinted-glass) of the
+///            time of `mis` to a given error; an eighth or a quarter as many change that by less than a fifth
 ///   Source : [Veach97] chapter 10, of whose connections these are those at both ends; light through shading normals
 ///            section 5.3
 class LightPaths {
