@@ -4,7 +4,6 @@
 #include <render/pixel_sampler.h>
 
 #include <functional>
-#include <utility>
 #include <vector>
 
 namespace render {
