@@ -30,7 +30,7 @@ class LightTaker {
   /// Light for a pixel of the film.
   struct Splash {
     int x, y, set;
-    Eigen::Array3f value;
+    Spectrum value;
   };
   struct Splashes {
     std::vector<Splash> all;
@@ -39,8 +39,7 @@ class LightTaker {
     /// Light for the pixel (x, y) of the picture, if it is one of the film's.
     void add(const Crop& film, int x, int y, int set, const Spectrum& value) {
       const int column = x - film.x, row = y - film.y;
-      if (column >= 0 && column < film.width && row >= 0 && row < film.height)
-        all.push_back({column, row, set, value.cast<float>()});
+      if (column >= 0 && column < film.width && row >= 0 && row < film.height) all.push_back({column, row, set, value});
     }
   };
   template <class Stream>

@@ -55,8 +55,8 @@ void SampleSums::merge(const SampleSums& other) {
 bool SampleSums::is_undecided(const LightSums& light, double weight) const {
   if (count < 2) return false;
   const double mean = sum / double(count), w2 = mc::sqr(weight);
-  const double all = squares + w2 * double(light.squares), deviations = all - mean * sum;
-  const double most = std::max(mc::sqr(largest - mean), w2 * mc::sqr(double(light.largest)));
+  const double all = squares + w2 * light.squares, deviations = all - mean * sum;
+  const double most = std::max(mc::sqr(largest - mean), w2 * mc::sqr(light.largest));
   return deviations > rounding * all && most > deviations / 2;
 }
 
@@ -103,9 +103,9 @@ void Film::splat(int x, int y, int set, const Eigen::Array4d& sum) {
   weights_[i] += sum[3];
 }
 
-void Film::add_light(int x, int y, int set, const Eigen::Array3f& value) {
+void Film::add_light(int x, int y, int set, const Eigen::Array3d& value) {
   const std::size_t i = index(x, y);
-  light_[i * static_cast<std::size_t>(sets_) + static_cast<std::size_t>(set)] += value.cast<double>();
+  light_[i * static_cast<std::size_t>(sets_) + static_cast<std::size_t>(set)] += value;
   light_seen_[i].add(value);
 }
 
@@ -163,10 +163,9 @@ PixelEstimate Film::estimate(int x, int y) const {
   pixel.mean = own.mean;
   pixel.variance = own.variance;
   if (light_.empty()) return pixel;
-  const Eigen::Array3d range = light_seen_[index(x, y)].channel_largest.cast<double>();
   const auto light = mean_of(
       sets, [&](std::size_t i) { return light_[first + i]; }, [&](std::size_t i) { return light_counts_[i]; },
-      range.square());
+      light_seen_[index(x, y)].channel_largest.square());
   pixel.mean += light.mean;
   pixel.variance += light.variance;
   pixel.of_light = light.variance;

@@ -37,9 +37,7 @@ template <class Holds> std::vector<const Shape*> spheres(const Scene& scene, Hol
 
 } // namespace
 
-std::vector<const Shape*> caustic_casters(const Scene& scene) {
-  return spheres(scene, [](const Bsdf& b) { return b.is_narrow() || b.transmits(); });
-}
+std::vector<const Shape*> caustic_casters(const Scene& scene) { return spheres(scene, casts_caustics); }
 
 bool finds_all_lights(const Scene& scene, const Strategy& strategy) {
   const auto& lights = scene.lights();

@@ -47,6 +47,8 @@ bool finds_all_lights(const Scene& scene, const Strategy& strategy);
 /// enough, in edges (-1: no limit), to find light elsewhere: on other surfaces, or in the sky.
 bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth);
 
+/// Whether light that such a surface sends on may be bundled.
+inline bool casts_caustics(const Bsdf& bsdf) { return bsdf.is_narrow() || bsdf.transmits(); }
 /// The spheres that Target::casters aims at.
 std::vector<const Shape*> caustic_casters(const Scene& scene);
 

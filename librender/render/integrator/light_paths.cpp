@@ -28,19 +28,16 @@ std::vector<double> powers_of(const Scene& scene) {
   return powers;
 }
 
-bool casts_caustics(const Scene& scene) {
-  const auto surfaces = scene.surfaces();
-  return std::any_of(surfaces.begin(), surfaces.end(),
-                     [&](const Surface& s) { return scene.bsdf(s).is_narrow() || scene.bsdf(s).transmits(); });
-}
-
 } // namespace
 
 std::optional<LightPaths> LightPaths::of(const Scene& scene, const Strategy& strategy, Float aspect) {
   const std::vector<double> powers = powers_of(scene);
   const bool shines = std::any_of(powers.begin(), powers.end(), [](double p) { return p > 0; });
   const bool shares = scene.filter().radius() <= SplatFilter::furthest;
-  if (!(strategy.light_paths > 0) || !shines || !shares || !casts_caustics(scene)) return {};
+  const auto surfaces = scene.surfaces();
+  const bool bundles =
+      std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) { return casts_caustics(scene.bsdf(s)); });
+  if (!(strategy.light_paths > 0) || !shines || !shares || !bundles) return {};
   return LightPaths(scene, strategy, aspect, powers);
 }
 

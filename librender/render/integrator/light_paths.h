@@ -25,7 +25,7 @@ namespace render {
 ///   Paths  : follow the BSDFs; Russian roulette as of PathIntegrator
 ///   Gain   : with a fifth as many as paths from the camera a picture takes .20 (book3-cornell-aluminium), .28
 ///            (book3-cornell-glass), .41 (smallpt), .62 (ground-glass), .74 (textures) and .98 (tinted-glass) of the
-///            time of `mis` to a given error; an eighth or a quarter as many change that by less than a fifth
+///            time of `mis` to a given error; an eighth or a quarter as many change that by up to a fifth
 ///   Source : [Veach97] chapter 10, of whose connections these are those at both ends; light through shading normals
 ///            section 5.3
 class LightPaths {

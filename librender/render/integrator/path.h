@@ -116,7 +116,8 @@ template <class SceneType> class PathIntegrator {
       if (!hit) {
         if (walk.media.here) [[unlikely]]
           walk.beta *= walk.media.here->transmittance(mc::infinity<Float>);
-        walk.odds.meet(1, 1); // a direction of the light
+        if (light_paths_) [[unlikely]]
+          walk.odds.meet(1, 1); // a direction of the light
         for (const std::uint32_t light : scene_.infinite_lights())
           radiance += walk.beta * emission(light, nullptr, walk);
         return radiance;

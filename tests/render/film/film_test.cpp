@@ -62,10 +62,10 @@ TEST(Film, LightOfPathsFromTheLightsAddsItsMeanAndVariance) {
     film.add(px, 0, 0, grey(1), 1);
     later.add(px, 0, 1, grey(3), 1);
   }
-  film.add_light(0, 0, 0, Eigen::Array3f::Constant(2));
+  film.add_light(0, 0, 0, grey(2));
   film.count_light(0, 1);
-  later.add_light(0, 0, 0, Eigen::Array3f::Constant(1));
-  later.add_light(0, 0, 1, Eigen::Array3f::Constant(1));
+  later.add_light(0, 0, 0, grey(1));
+  later.add_light(0, 0, 1, grey(1));
   later.count_light(1, 1);
   film.merge(later);
   const PixelEstimate lit = film.estimate(0, 0), unlit = film.estimate(1, 0);
@@ -77,20 +77,21 @@ TEST(Film, LightOfPathsFromTheLightsAddsItsMeanAndVariance) {
   EXPECT_NEAR(lit.variance[0], 2, 1e-12);
 }
 
-// A path whose light is all that varies decides the pixel; of many alike none does.
+// A path whose light is all that varies decides the pixel, in any unit of light; of many alike none does.
 TEST(Film, APathFromTheLightsMayDecideAPixel) {
-  for (const int paths : {1, 2, 100}) {
-    Film film(1, 1, 2, {}, true);
-    SampleSums samples;
-    for (int i = 0; i < 64; ++i) samples.add(grey(i % 2 ? 1 : 1.1));
-    film.note(0, 0, samples, 64);
-    for (int set = 0; set < 2; ++set) {
-      film.add(0, 0, set, grey(32), 32);
-      film.count_light(set, 32);
+  for (const double unit : {1e-30, 1.0, 1e30})
+    for (const int paths : {1, 2, 100}) {
+      Film film(1, 1, 2, {}, true);
+      SampleSums samples;
+      for (int i = 0; i < 64; ++i) samples.add(grey(unit * (i % 2 ? 1 : 1.1)));
+      film.note(0, 0, samples, 64);
+      for (int set = 0; set < 2; ++set) {
+        film.add(0, 0, set, grey(32 * unit), 32);
+        film.count_light(set, 32);
+      }
+      for (int i = 0; i < paths; ++i) film.add_light(0, 0, i % 2, grey(50 * unit));
+      EXPECT_EQ(film.undecided(), paths == 1 ? 1 : 0) << paths << " " << unit;
     }
-    for (int i = 0; i < paths; ++i) film.add_light(0, 0, i % 2, Eigen::Array3f::Constant(50));
-    EXPECT_EQ(film.undecided(), paths == 1 ? 1 : 0) << paths;
-  }
 }
 
 TEST(Film, OneSetHasNoVariance) {
