@@ -48,6 +48,21 @@ TEST(Parallel, ReductionHasTheSameBitsForAnyThreadCount) {
   }
 }
 
+// Else what a loop's body holds, a lock say, would be asked for again below it, and stacks would grow with the loop.
+TEST(Parallel, WhoeverWaitsForAnInnerLoopBeginsNothingElse) {
+  thread_local int depth = 0;
+  std::atomic<int> deepest = 0;
+  mc::parallel_for(200, 0, [&](std::size_t) {
+    if (++depth > deepest) deepest = depth;
+    mc::parallel_for(8, 0, [](std::size_t) {
+      volatile double x = 0;
+      for (int k = 0; k < 2000; ++k) x = x + k;
+    });
+    --depth;
+  });
+  EXPECT_EQ(deepest, 1);
+}
+
 TEST(Parallel, RefusesFewerThanNoThreads) {
   EXPECT_THROW(mc::parallel_for(1, -1, [](std::size_t) {}), mc::Error);
 }
