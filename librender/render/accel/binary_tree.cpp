@@ -1,5 +1,6 @@
 #include <render/accel/binary_tree.h>
 #include <render/core/huge_pages.h>
+#include <render/core/lanes.h>
 
 #include <mc/core/parallel.h>
 
@@ -15,54 +16,51 @@ namespace {
 
 using Node = BinaryTree::Node;
 
-// A point in the first three lanes.
-typedef Float Four __attribute__((vector_size(4 * sizeof(Float))));
-typedef std::int32_t FourInts __attribute__((vector_size(4 * sizeof(std::int32_t))));
-
-Four smaller(const Four& a, const Four& b) { return a < b ? a : b; }
-Four larger(const Four& a, const Four& b) { return a > b ? a : b; }
-
-// A Bounds in vector registers.
+// A Bounds in vector registers: its low sides in the first three lanes and, negative, its high ones in the fifth to the
+// seventh, so that one minimum joins two boxes.
 struct Box {
-  Four lo = mc::infinity<Float> - Four{}, hi = -mc::infinity<Float> - Four{};
+  Lanes sides = mc::infinity<Float> - Lanes{};
 
-  void add(const Four& low, const Four& high) {
-    lo = smaller(lo, low);
-    hi = larger(hi, high);
-  }
+  void add(const Lanes& other) { sides = detail::smaller(other, sides); }
   double half_area() const {
-    const Four e = hi - lo;
-    return double(e[0] * e[1] + e[1] * e[2] + e[2] * e[0]);
+    const Float x = sides[0] + sides[4], y = sides[1] + sides[5], z = sides[2] + sides[6]; // negative
+    return double(x * y + y * z + z * x);
   }
-  Bounds bounds() const { return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}}; }
+  Float extent(int axis) const { return -sides[axis + 4] - sides[axis]; }
+  Bounds bounds() const { return {{sides[0], sides[1], sides[2]}, {-sides[4], -sides[5], -sides[6]}}; }
 };
 
 // A box to be sorted. Its number is in the spare lanes: whole numbers that a float holds.
 struct Item {
-  Four lo, hi;
+  Lanes sides;
 
   Item() = default;
   Item(const Bounds& b, std::size_t i)
-      : lo{b.lo[0], b.lo[1], b.lo[2], Float(i >> 12)}, hi{b.hi[0], b.hi[1], b.hi[2], Float(i & 4095)} {}
-  std::uint32_t index() const { return static_cast<std::uint32_t>(lo[3]) << 12 | static_cast<std::uint32_t>(hi[3]); }
-  Float center(int axis) const { return Float(0.5) * lo[axis] + Float(0.5) * hi[axis]; }
-  Four center() const { return Float(0.5) * lo + Float(0.5) * hi; }
+      : sides{b.lo[0], b.lo[1], b.lo[2], Float(i >> 12), -b.hi[0], -b.hi[1], -b.hi[2], Float(i & 4095)} {}
+  std::uint32_t index() const {
+    return static_cast<std::uint32_t>(sides[3]) << 12 | static_cast<std::uint32_t>(sides[7]);
+  }
+  Float center(int axis) const { return Float(0.5) * sides[axis] - Float(0.5) * sides[axis + 4]; }
+  // As a box.
+  Lanes center() const {
+    const Lanes half = Float(0.5) * sides;
+    return half - __builtin_shufflevector(half, half, 4, 5, 6, 7, 0, 1, 2, 3);
+  }
 };
 
 // Items of a node, and the boxes around them and around their centres.
 struct Part {
-  Box box, centers;
+  Box box = {}, centers = {};
   std::uint32_t first = 0, count = 0;
   int depth = 0;
 
   void add(const Item& item) {
-    const Four center = item.center();
-    box.add(item.lo, item.hi);
-    centers.add(center, center);
+    box.add(item.sides);
+    centers.add(item.center());
   }
   void merge(const Part& p) {
-    box.add(p.box.lo, p.box.hi);
-    centers.add(p.centers.lo, p.centers.hi);
+    box.add(p.box.sides);
+    centers.add(p.centers.sides);
     count += p.count;
   }
 };
@@ -73,15 +71,18 @@ constexpr int deepest = BinaryTree::levels - 32; // beyond, halves are taken by 
 // Equal slices of a part's centres along each axis, a bin for each. An axis along which they do not differ has one.
 class Slices {
  public:
-  explicit Slices(const Part& part) : origin_(part.centers.lo) {
+  explicit Slices(const Part& part) : count(std::min(bins, 8 + static_cast<std::int32_t>(part.count / 8))) {
     for (int a = 0; a < 3; ++a) {
-      const Float scale = Float(bins) / (part.centers.hi[a] - part.centers.lo[a]);
+      const Float scale = Float(count) / part.centers.extent(a);
+      origin_[a] = part.centers.sides[a];
       scale_[a] = std::isfinite(scale) ? scale : Float(0);
     }
   }
-  FourInts bins_of(const Item& item) const {
-    const Four at = (item.center() - origin_) * scale_, last = Float(bins - 1) - Four{};
-    return __builtin_convertvector(smaller(at, last), FourInts); // infinity times 0 is in the last one
+  const std::int32_t count;
+
+  std::array<std::int32_t, 3> bins_of(const Item& item) const {
+    const Lanes at = detail::smaller((item.center() - origin_) * scale_, Float(count - 1) - Lanes{});
+    return {static_cast<std::int32_t>(at[0]), static_cast<std::int32_t>(at[1]), static_cast<std::int32_t>(at[2])};
   }
   // Whether bins_of(item)[axis] <= last.
   bool is_up_to(std::int32_t last, const Item& item, int axis) const {
@@ -89,7 +90,7 @@ class Slices {
   }
 
  private:
-  Four origin_, scale_{};
+  Lanes origin_{}, scale_{};
 };
 
 struct Bin {
@@ -97,11 +98,38 @@ struct Bin {
   std::uint32_t count = 0;
 
   void add(const Bin& b) {
-    box.add(b.box.lo, b.box.hi);
+    box.add(b.box.sides);
     count += b.count;
   }
 };
-using Bins = std::array<Bin, bins>;
+
+// Of all axes.
+struct Bins {
+  Bin along[3][bins];
+
+  void merge(const Bins& b) {
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t i = 0; i < bins; ++i) along[a][i].add(b.along[a][i]);
+  }
+};
+
+Bins bins_of(std::span<const Item> items, const Slices& slices) {
+  constexpr std::size_t many = 1 << 16; // for one thread
+  if (items.size() > many)
+    return mc::parallel_reduce<Bins>((items.size() + many - 1) / many, 0, [&](std::size_t i) {
+      return bins_of(items.subspan(i * many, std::min(many, items.size() - i * many)), slices);
+    });
+  Bins all;
+  for (const Item& item : items) {
+    const auto at = slices.bins_of(item);
+    for (std::size_t a = 0; a < 3; ++a) {
+      Bin& bin = all.along[a][at[a]];
+      bin.box.add(item.sides);
+      ++bin.count;
+    }
+  }
+  return all;
+}
 
 struct Border {
   int axis = 0, bin = 0;              ///< the last bin on its left side
@@ -112,16 +140,16 @@ struct Border {
 double filled(std::uint32_t count, std::uint32_t lanes) { return (count + lanes - 1) & ~(lanes - 1); }
 
 // The cheapest border along an axis: areas times lanes, on both sides.
-Border cheapest_border(const Bins& along, int axis, std::uint32_t lanes) {
+Border cheapest_border(std::span<const Bin> along, int axis, std::uint32_t lanes) {
   std::array<double, bins> right;
   Bin sweep;
-  for (std::size_t i = bins - 1; i > 0; --i) {
+  for (std::size_t i = along.size() - 1; i > 0; --i) {
     sweep.add(along[i]);
     right[i] = sweep.count > 0 ? sweep.box.half_area() * filled(sweep.count, lanes) : mc::infinity<double>;
   }
   Border best;
   sweep = Bin();
-  for (std::size_t i = 0; i + 1 < bins; ++i) {
+  for (std::size_t i = 0; i + 1 < along.size(); ++i) {
     sweep.add(along[i]);
     if (sweep.count == 0) continue;
     const double cost = sweep.box.half_area() * filled(sweep.count, lanes) + right[i + 1];
@@ -135,58 +163,46 @@ struct Halves {
   Part left, right;
 };
 
+// The first `count` items are those on the left.
+Halves halves_after(std::span<const Item> items, const Part& part, std::uint32_t count) {
+  const auto part_of = [&](std::uint32_t first, std::uint32_t n) {
+    Part half{.first = first, .count = n, .depth = part.depth + 1};
+    for (const Item& item : items.subspan(first, n)) half.add(item);
+    return half;
+  };
+  return {part_of(part.first, count), part_of(part.first + count, part.count - count)};
+}
+
 Halves halves_by_count(std::span<Item> items, const Part& part) {
   const auto begin = items.begin() + part.first, middle = begin + part.count / 2, end = begin + part.count;
-  const Four extent = part.centers.hi - part.centers.lo;
   int axis = 0;
   for (int a = 1; a < 3; ++a)
-    if (extent[a] > extent[axis]) axis = a;
+    if (part.centers.extent(a) > part.centers.extent(axis)) axis = a;
   std::nth_element(begin, middle, end, [&](const Item& a, const Item& b) { return a.center(axis) < b.center(axis); });
-  Halves h;
-  for (auto it = begin; it != middle; ++it) h.left.add(*it);
-  for (auto it = middle; it != end; ++it) h.right.add(*it);
-  h.left.count = part.count / 2;
-  return h;
+  return halves_after(items, part, part.count / 2);
 }
 
 Halves halves_at(std::span<Item> items, const Part& part, const Slices& slices, const Border& border) {
-  Halves h;
-  std::uint32_t i = part.first, j = part.first + part.count;
-  const auto is_left = [&](const Item& item) { return slices.is_up_to(border.bin, item, border.axis); };
-  while (true) {
-    for (; i < j && is_left(items[i]); ++i) h.left.add(items[i]);
-    for (; i < j && !is_left(items[j - 1]); --j) h.right.add(items[j - 1]);
-    if (i == j) break;
-    std::swap(items[i], items[j - 1]);
+  std::uint32_t end = 0;                                     // of those on the left
+  for (Item& item : items.subspan(part.first, part.count)) { // without a branch, which nothing could foretell
+    const bool is_left = slices.is_up_to(border.bin, item, border.axis);
+    std::swap(item, items[part.first + end]);
+    end += is_left;
   }
-  h.left.count = i - part.first;
-  return h;
+  return halves_after(items, part, end);
 }
 
 Halves halves_of(std::span<Item> items, const Part& part, std::uint32_t lanes) {
   Border best;
   const Slices slices(part);
   if (part.depth < deepest) {
-    std::array<Bins, 3> axes;
-    for (std::uint32_t i = part.first; i < part.first + part.count; ++i) {
-      const FourInts at = slices.bins_of(items[i]);
-      for (std::size_t a = 0; a < 3; ++a) {
-        Bin& bin = axes[a][static_cast<std::size_t>(at[a])];
-        bin.box.add(items[i].lo, items[i].hi);
-        ++bin.count;
-      }
-    }
+    const Bins all = bins_of(items.subspan(part.first, part.count), slices);
     for (int a = 0; a < 3; ++a) {
-      const Border border = cheapest_border(axes[static_cast<std::size_t>(a)], a, lanes);
+      const Border border = cheapest_border(std::span(all.along[a], static_cast<std::size_t>(slices.count)), a, lanes);
       if (border.cost < best.cost) best = border;
     }
   }
-  Halves h = best.cost < mc::infinity<double> ? halves_at(items, part, slices, best) : halves_by_count(items, part);
-  h.left.first = part.first;
-  h.right.first = part.first + h.left.count;
-  h.right.count = part.count - h.left.count;
-  h.left.depth = h.right.depth = part.depth + 1;
-  return h;
+  return best.cost < mc::infinity<double> ? halves_at(items, part, slices, best) : halves_by_count(items, part);
 }
 
 // A node that is still to be halved.
@@ -210,7 +226,7 @@ template <class F> void divide(std::vector<Node>& nodes, std::uint32_t node, con
 }
 
 // The nodes among the first `limit` that are reached through such nodes, each before its children.
-std::vector<std::uint32_t> parents_first(const std::vector<Node>& nodes, std::uint32_t limit) {
+std::vector<std::uint32_t> top_down(const std::vector<Node>& nodes, std::uint32_t limit) {
   std::vector<std::uint32_t> order, open = {0};
   order.reserve(limit);
   while (!open.empty()) {
@@ -225,10 +241,10 @@ std::vector<std::uint32_t> parents_first(const std::vector<Node>& nodes, std::ui
 }
 
 // Borders are drawn by the items of a node, before it is known which boxes these end up in. Now that it is, a child of
-// a node changes places with a child of the other one, where that makes the other one's box smaller. Of the nodes from
-// `limit` on, whose trees are finished, none but those at the top move.
+// a node changes places with a child of the other one, where that makes the other one's box smaller. Nodes from `limit`
+// on, whose trees are finished, keep their children.
 void rotate(std::vector<Node>& nodes, std::uint32_t limit) {
-  const auto order = parents_first(nodes, limit);
+  const auto order = top_down(nodes, limit);
   const auto height_over = [&](std::uint32_t a, std::uint32_t b) {
     return 1 + std::max(nodes[a].height, nodes[b].height);
   };
@@ -244,7 +260,7 @@ void rotate(std::vector<Node>& nodes, std::uint32_t limit) {
     std::uint32_t *in = nullptr, *out = nullptr;
     for (const auto& [child, sibling] : {std::pair(&n.left, &n.right), std::pair(&n.right, &n.left)}) {
       Node& c = nodes[*child];
-      if (c.count > 0) continue;
+      if (c.count > 0 || *child >= limit) continue;
       for (const auto& [goes, stays] : {std::pair(&c.left, &c.right), std::pair(&c.right, &c.left)}) {
         Bounds together = nodes[*sibling].box;
         together.add(nodes[*stays].box);
@@ -268,8 +284,13 @@ void rotate(std::vector<Node>& nodes, std::uint32_t limit) {
 
 constexpr int rotations = 2; // more gain next to nothing
 
-// The tree of a part, its root first.
-std::vector<Node> grown(std::span<Item> items, const Part& part, std::uint32_t lanes) {
+struct Tree {
+  std::vector<Node> nodes; ///< the root first
+  std::vector<std::uint32_t> parents_first;
+};
+
+// The tree of a part.
+Tree grown(std::span<Item> items, const Part& part, std::uint32_t lanes) {
   std::vector<Node> nodes = {node_of(part)};
   std::vector<Open> open;
   const auto add = [&](const Open& node) {
@@ -281,8 +302,10 @@ std::vector<Node> grown(std::span<Item> items, const Part& part, std::uint32_t l
     open.pop_back();
     divide(nodes, at.node, halves_of(items, at.part, lanes), add);
   }
-  for (int i = 0; i < rotations; ++i) rotate(nodes, static_cast<std::uint32_t>(nodes.size()));
-  return nodes;
+  const auto size = static_cast<std::uint32_t>(nodes.size());
+  for (int i = 0; i < rotations; ++i) rotate(nodes, size);
+  auto order = top_down(nodes, size);
+  return {std::move(nodes), std::move(order)};
 }
 
 } // namespace
@@ -312,29 +335,31 @@ BinaryTree::BinaryTree(std::size_t count, const std::function<Bounds(std::size_t
     for (std::size_t i = 0; i < level.size(); ++i) divide(nodes_, level[i].node, halves[i], add);
   }
 
-  std::vector<std::vector<Node>> trees(small.size());
+  std::vector<Tree> trees(small.size());
   mc::parallel_for(small.size(), 0, [&](std::size_t i) {
     trees[i] = grown(items, small[i].part, lanes);
     for (std::uint32_t k = small[i].part.first; k < small[i].part.first + small[i].part.count; ++k)
       order_[k] = items[k].index();
   });
   const auto top = static_cast<std::uint32_t>(nodes_.size());
+  parents_first_.resize(1);
   for (std::size_t i = 0; i < small.size(); ++i) {
+    auto& [nodes, order] = trees[i];
     const auto offset = static_cast<std::uint32_t>(nodes_.size()) - 1; // its root is there already
-    for (Node& n : trees[i])
+    for (Node& n : nodes)
       if (n.count == 0) {
         n.left += offset;
         n.right += offset;
       }
-    nodes_[small[i].node] = trees[i][0];
-    nodes_.insert(nodes_.end(), trees[i].begin() + 1, trees[i].end());
+    nodes_[small[i].node] = nodes[0];
+    nodes_.insert(nodes_.end(), nodes.begin() + 1, nodes.end());
+    order.erase(order.begin());
+    for (std::uint32_t& node : order) node += offset;
+    parents_first_.push_back(std::move(order));
   }
-  if (small.size() == 1) return;
-  for (int i = 0; i < rotations; ++i) rotate(nodes_, top);
-}
-
-std::vector<std::uint32_t> BinaryTree::parents_first() const {
-  return render::parents_first(nodes_, static_cast<std::uint32_t>(nodes_.size()));
+  if (small.size() > 1)
+    for (int i = 0; i < rotations; ++i) rotate(nodes_, top);
+  parents_first_[0] = top_down(nodes_, top);
 }
 
 } // namespace render

@@ -11,7 +11,7 @@
 namespace render {
 
 /// Halves, halved again until they are few enough for a leaf.
-///   build : binned SAH [Wald07] with 32 bins, costs counted in leaves of `lanes` boxes, then rotated to smaller
+///   build : binned SAH [Wald07] with 9 to 32 bins, costs counted in leaves of `lanes` boxes, then rotated to smaller
 ///           boxes [Kensler08]. By all of the machine's threads where there are many boxes; the same for any number.
 class BinaryTree {
  public:
@@ -32,12 +32,13 @@ class BinaryTree {
   const std::vector<Node>& nodes() const { return nodes_; }
   /// The boxes, those of a leaf together.
   std::vector<std::uint32_t>& order() { return order_; }
-  /// All nodes, each before its children.
-  std::vector<std::uint32_t> parents_first() const;
+  /// All nodes, each before its children: first the top of the tree, and then trees below it, for a thread each.
+  const std::vector<std::vector<std::uint32_t>>& parents_first() const { return parents_first_; }
 
  private:
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
+  std::vector<std::vector<std::uint32_t>> parents_first_;
 };
 
 } // namespace render

@@ -17,7 +17,8 @@ namespace render {
 /// A kind of leaf, Block, holds eight primitives of some shapes, spare lanes repeating the last one. It says
 ///   Block::Primitive             : a primitive, as collect() finds it, with its bounds()
 ///   Block::size(shape)           : how many primitives of this kind a shape has, useless ones included
-///   Block::collect(shape, index, begin, end, found) : appends the useful ones of [begin, end), which is not empty
+///   Block::collect(shape, index, begin, end, to) : writes the useful ones of [begin, end), which is not empty, to `to`
+///                                  and the following; says where they end
 ///   Block::few                   : up to so many, every ray tries all blocks: they cost less than a tree
 ///   Block::Prepared(ray)         : what the blocks need of a ray, computed once
 ///   set(lane, primitive)         : fills a lane
@@ -27,7 +28,7 @@ template <class Block> class BlockTree {
  public:
   BlockTree() = default;
   explicit BlockTree(std::span<const Shape* const> shapes) {
-    const std::vector<Primitive> primitives = collected(shapes);
+    const Primitives primitives = collected(shapes);
     const auto count = static_cast<std::uint32_t>(primitives.size());
     if (count > Block::few) {
       tree_ = WideTree(
@@ -72,31 +73,37 @@ template <class Block> class BlockTree {
 
  private:
   using Primitive = typename Block::Primitive;
+  using Primitives = std::vector<Primitive, HugePages<Primitive>>;
   static constexpr std::uint32_t lanes = 8;
 
   // In the order of the shapes.
-  static std::vector<Primitive> collected(std::span<const Shape* const> shapes) {
+  static Primitives collected(std::span<const Shape* const> shapes) {
     std::vector<std::size_t> ends; // of each shape's primitives, useless ones included
     for (const Shape* shape : shapes) ends.push_back((ends.empty() ? 0 : ends.back()) + Block::size(*shape));
     const std::size_t size = ends.empty() ? 0 : ends.back();
+    Primitives all(size);
     constexpr std::size_t most = 4096;
-    std::vector<std::vector<Primitive>> parts((size + most - 1) / most);
+    std::vector<std::size_t> useful((size + most - 1) / most); // of each part, at its front
     mc::parallel_parts(size, most, 0, [&](std::size_t begin, std::size_t end) {
-      std::vector<Primitive>& part = parts[begin / most];
-      part.reserve(end - begin);
+      Primitive* to = &all[begin];
       auto shape = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), begin) - ends.begin());
-      for (; begin < end; ++shape) {
+      for (std::size_t i = begin; i < end; ++shape) {
         const std::size_t first = shape == 0 ? 0 : ends[shape - 1], stop = std::min(end, ends[shape]);
-        if (begin < stop) Block::collect(*shapes[shape], static_cast<int>(shape), begin - first, stop - first, part);
-        begin = stop;
+        if (i < stop) to = Block::collect(*shapes[shape], static_cast<int>(shape), i - first, stop - first, to);
+        i = stop;
       }
+      useful[begin / most] = static_cast<std::size_t>(to - &all[begin]);
     });
-    std::vector<Primitive> all;
-    all.reserve(size);
-    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+    auto last = all.begin();
+    for (std::size_t i = 0; i < useful.size(); ++i) {
+      const auto part = all.begin() + static_cast<std::ptrdiff_t>(i * most),
+                 end = part + static_cast<std::ptrdiff_t>(useful[i]);
+      last = part == last ? end : std::copy(part, end, last);
+    }
+    all.erase(last, all.end());
     return all;
   }
-  static void fill(Block& block, const std::vector<Primitive>& primitives, const std::vector<std::uint32_t>& order,
+  static void fill(Block& block, const Primitives& primitives, const std::vector<std::uint32_t>& order,
                    const WideTree::Leaf& leaf) {
     for (std::uint32_t lane = 0; lane < lanes; ++lane)
       block.set(lane, primitives[order[leaf.first + std::min(lane, leaf.count - 1)]]);

@@ -6,8 +6,6 @@
 #include <render/shape/shape.h>
 #include <render/shape/sphere_crossings.h>
 
-#include <vector>
-
 namespace render {
 
 /// Eight spheres or caps, in double.
@@ -31,8 +29,9 @@ class SphereBlock {
     }
   };
   static std::size_t size(const Shape& shape) { return std::holds_alternative<Sphere>(shape); }
-  static void collect(const Shape& shape, int index, std::size_t, std::size_t, std::vector<Primitive>& found) {
-    found.push_back({&std::get<Sphere>(shape), index});
+  static Primitive* collect(const Shape& shape, int index, std::size_t, std::size_t, Primitive* to) {
+    *to = {&std::get<Sphere>(shape), index};
+    return to + 1;
   }
 
   struct Prepared : Line {

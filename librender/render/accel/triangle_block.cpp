@@ -7,15 +7,16 @@ std::size_t TriangleBlock::size(const Shape& shape) {
   return mesh ? mesh->size() : 0;
 }
 
-void TriangleBlock::collect(const Shape& shape, int index, std::size_t begin, std::size_t end,
-                            std::vector<Primitive>& found) {
+auto TriangleBlock::collect(const Shape& shape, int index, std::size_t begin, std::size_t end, Primitive* to)
+    -> Primitive* {
   const auto& mesh = std::get<TriangleMesh>(shape);
   for (std::size_t t = begin; t < end; ++t) {
     const auto v = mesh.vertices(t);
     const Vec3d a = v[0].cast<double>();
     if (mc::cross<double>(v[1].cast<double>() - a, v[2].cast<double>() - a).squaredNorm() > 0)
-      found.push_back({&mesh, index, static_cast<int>(t)});
+      *to++ = {&mesh, index, static_cast<int>(t)};
   }
+  return to;
 }
 
 } // namespace render

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <type_traits>
-#include <vector>
 
 namespace render {
 
@@ -33,7 +32,7 @@ class TriangleBlock {
     }
   };
   static std::size_t size(const Shape& shape);
-  static void collect(const Shape& shape, int index, std::size_t begin, std::size_t end, std::vector<Primitive>& found);
+  static Primitive* collect(const Shape& shape, int index, std::size_t begin, std::size_t end, Primitive* to);
 
   /// The ray turned so that its longest axis is z and sheared to (0, 0, 1) [WoopBenthinWald13, section 3].
   struct Prepared {

@@ -55,7 +55,10 @@ class WideTree {
   /// where it is cheaper as one.
   using Cuts = std::vector<std::array<std::uint8_t, 8>>;
   static Cuts cheapest_cuts(const BinaryTree& tree);
-  std::uint32_t collapse(const BinaryTree& tree, const Cuts& cuts, std::uint32_t root);
+  struct Part;
+  static std::uint32_t collapse(const BinaryTree& tree, const Cuts& cuts, std::uint32_t root, std::size_t limit,
+                                Part& part);
+  void join(Part& top, const std::vector<Part>& parts);
 
   std::vector<Node, HugePages<Node>> nodes_;
   std::vector<Leaf> leaves_;

@@ -46,11 +46,16 @@ Bounds around(const Bounds& a, const Bounds& b) {
   both.add(b);
   return both;
 }
+std::vector<std::uint32_t> flat(const std::vector<std::vector<std::uint32_t>>& lists) {
+  std::vector<std::uint32_t> all;
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
 bool same(const Bounds& a, const Bounds& b) { return a.lo == b.lo && a.hi == b.hi; }
 
 // Every box is in one leaf, leaves are no larger than asked for, and each node's box is that of what it holds.
 TEST(BinaryTree, HoldsEveryBoxOnceInTightNodesOfFewLevels) {
-  for (const std::size_t n : {1, 2, 7, 8, 9, 40, 1000, 4096, 4097, 20000})
+  for (const std::size_t n : {1, 2, 7, 8, 9, 40, 1000, 4096, 4097, 20000, 70000})
     for (int rule = 0; rule < 6; ++rule)
       for (const Float scale : {Float(1), Float(1e-38), Float(1e37)}) {
         SCOPED_TRACE(testing::Message() << n << " boxes by rule " << rule << " times " << scale);
@@ -60,7 +65,7 @@ TEST(BinaryTree, HoldsEveryBoxOnceInTightNodesOfFewLevels) {
         const auto& nodes = tree.nodes();
         std::vector<int> depth(nodes.size()), seen(n);
         std::size_t visited = 0;
-        for (const std::uint32_t i : tree.parents_first()) {
+        for (const std::uint32_t i : flat(tree.parents_first())) {
           const BinaryTree::Node& node = nodes[i];
           ++visited;
           ASSERT_LE(depth[i], BinaryTree::levels);
@@ -83,11 +88,12 @@ TEST(BinaryTree, HoldsEveryBoxOnceInTightNodesOfFewLevels) {
 }
 
 TEST(BinaryTree, IsTheSameForAnyNumberOfThreads) {
-  const auto boxes = boxes_of(30000, 3, 1);
+  const auto boxes = boxes_of(150000, 3, 1);
   BinaryTree many = binary_tree(boxes, 8);
   const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
   BinaryTree one = binary_tree(boxes, 8);
   EXPECT_EQ(many.order(), one.order());
+  EXPECT_EQ(many.parents_first(), one.parents_first());
   ASSERT_EQ(many.nodes().size(), one.nodes().size());
   for (std::size_t i = 0; i < one.nodes().size(); ++i) {
     const auto &a = many.nodes()[i], &b = one.nodes()[i];

@@ -18,8 +18,9 @@ class LevelBlock {
     Bounds bounds() const { return {Vec3(-1, -1, z), Vec3(1, 1, z)}; }
   };
   static std::size_t size(const Shape&) { return 1; }
-  static void collect(const Shape& shape, int index, std::size_t, std::size_t, std::vector<Primitive>& found) {
-    found.push_back({Float(shape.area()), index});
+  static Primitive* collect(const Shape& shape, int index, std::size_t, std::size_t, Primitive* to) {
+    *to = {Float(shape.area()), index};
+    return to + 1;
   }
   struct Prepared {
     Float inverse;

@@ -9,12 +9,11 @@ namespace {
 using namespace render;
 
 TEST(SphereBlock, CollectsSpheresInBoxesThatHoldThem) {
-  std::vector<SphereBlock::Primitive> found;
+  SphereBlock::Primitive found[2];
   const Shape ball = Sphere(Vec3d(0.1, 0.2, 0.3), 0.7), square = TriangleMesh::rectangle({});
   EXPECT_EQ(SphereBlock::size(square), 0u);
   EXPECT_EQ(SphereBlock::size(ball), 1u);
-  SphereBlock::collect(ball, 1, 0, 1, found);
-  ASSERT_EQ(found.size(), 1u);
+  ASSERT_EQ(SphereBlock::collect(ball, 1, 0, 1, found), found + 1);
   EXPECT_EQ(found[0].shape, 1);
   for (int a = 0; a < 3; ++a) {
     EXPECT_LE(double(found[0].bounds().lo[a]), 0.1 * (a + 1) - 0.7);

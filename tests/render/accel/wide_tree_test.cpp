@@ -29,7 +29,7 @@ WideTree wide_tree(const std::vector<Bounds>& boxes, std::uint32_t lanes = WideT
 }
 
 TEST(WideTree, LeavesHoldEveryBoxOnceInBlocks) {
-  for (const int n : {1, 2, 4, 5, 9, 100, 3000})
+  for (const int n : {1, 2, 4, 5, 9, 100, 3000, 30000})
     for (const Float size : {Float(0), Float(0.1)}) {
       const WideTree tree = wide_tree(random_boxes(n, size));
       std::set<std::uint32_t> seen;
@@ -43,7 +43,7 @@ TEST(WideTree, LeavesHoldEveryBoxOnceInBlocks) {
 }
 
 TEST(WideTree, VisitsEveryLeafWithABoxThatTheRayMeets) {
-  const auto boxes = random_boxes(800, Float(0.05));
+  const auto boxes = random_boxes(20000, Float(0.05)); // enough for several threads to build it
   const WideTree tree = wide_tree(boxes);
   mc::Pcg random(2);
   for (int i = 0; i < 500; ++i) {
