@@ -23,16 +23,20 @@ std::vector<const Shape*> lights_and_guides(const Scene& scene) {
   return found;
 }
 
-// Those with such a BSDF, where lights can shine through them on a path that meets these; nothing meets a delta light.
 template <class Holds> std::vector<const Shape*> spheres(const Scene& scene, Holds&& holds) {
   std::vector<const Shape*> found;
-  const auto& lights = scene.lights();
-  if (std::none_of(lights.begin(), lights.end(), [](const Light& l) { return l.is_sampled() && !l.is_delta(); }))
-    return found;
   for (const Surface& s : scene.surfaces())
     if (std::holds_alternative<Sphere>(*s.shape) && holds(scene.bsdf(s))) found.push_back(s.shape.get());
   if (found.size() > most_spheres) found.clear();
   return found;
+}
+
+// Through which a path may meet a light; nothing meets a delta light.
+std::vector<const Shape*> speculars(const Scene& scene) {
+  const auto& lights = scene.lights();
+  const bool meets =
+      std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.is_sampled() && !l.is_delta(); });
+  return meets ? spheres(scene, [](const Bsdf& b) { return b.is_delta(); }) : std::vector<const Shape*>();
 }
 
 } // namespace
@@ -54,7 +58,7 @@ Directions::Directions(const Scene& scene, const Strategy& strategy)
     : aims_(strategy.share), aims_for_delta_(std::min(strategy.share, Float(0.5))), follows_(strategy.share < 1) {
   if (strategy.target == Target::lights) shapes_ = lights_and_guides(scene);
   if (strategy.target == Target::guides) shapes_ = guides(scene);
-  if (strategy.target == Target::speculars) shapes_ = spheres(scene, [](const Bsdf& b) { return b.is_delta(); });
+  if (strategy.target == Target::speculars) shapes_ = speculars(scene);
   if (strategy.target == Target::casters) shapes_ = caustic_casters(scene);
   const std::size_t targets = strategy.target == Target::hemisphere ? 1 : shapes_.size();
   if (targets > 0) targets_.emplace(targets);

@@ -16,29 +16,34 @@ std::vector<const Sphere*> spheres_of(const Scene& scene) {
   return found;
 }
 
-// What each light gives to paths from it. Infinite lights that are not sampled are found by chance alone.
-std::vector<double> powers_of(const Scene& scene) {
-  double radius2 = 0;
+// How often paths start from each light: by its power, a third of them from all alike, since power does not tell how
+// much of it arrives. Infinite lights that are not sampled are found by chance alone.
+std::vector<double> shares_of(const Scene& scene) {
+  double radius2 = 0, sum = 0, shining = 0;
   for (const Sphere* s : spheres_of(scene)) radius2 += mc::sqr(s->radius());
-  std::vector<double> powers;
+  std::vector<double> shares;
   for (const Light& light : scene.lights()) {
-    const bool starts = light.is_sampled() && !light.is_delta();
-    powers.push_back(starts ? light.power(std::sqrt(radius2)) : 0);
+    const double power = light.is_sampled() ? light.power(std::sqrt(radius2)) : 0;
+    sum += power;
+    shining += power > 0;
+    shares.push_back(power);
   }
-  return powers;
+  for (double& share : shares)
+    if (share > 0) share = share / sum * 2 / 3 + 1 / (3 * shining);
+  return shares;
 }
 
 } // namespace
 
 std::optional<LightPaths> LightPaths::of(const Scene& scene, const Strategy& strategy, Float aspect) {
-  const std::vector<double> powers = powers_of(scene);
-  const bool shines = std::any_of(powers.begin(), powers.end(), [](double p) { return p > 0; });
-  const bool shares = scene.filter().radius() <= SplatFilter::furthest;
+  const std::vector<double> shares = shares_of(scene);
+  const bool shines = std::any_of(shares.begin(), shares.end(), [](double p) { return p > 0; });
+  const bool fits = scene.filter().radius() <= SplatFilter::furthest;
   const auto surfaces = scene.surfaces();
   const bool bundles =
       std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) { return casts_caustics(scene.bsdf(s)); });
-  if (!(strategy.light_paths > 0) || !shines || !shares || !bundles) return {};
-  return LightPaths(scene, strategy, aspect, powers);
+  if (!(strategy.light_paths > 0) || !shines || !fits || !bundles) return {};
+  return LightPaths(scene, strategy, aspect, shares);
 }
 
 std::vector<Strategy> strategies_for(const Scene& scene) {
@@ -48,12 +53,40 @@ std::vector<Strategy> strategies_for(const Scene& scene) {
   return found;
 }
 
-LightPaths::LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& powers)
-    : scene_(&scene), rate_(double(strategy.light_paths)), tan_half_(scene.camera().tan_half(aspect)),
-      by_power_(powers), starts_(scene, aim), follows_(scene, follow), casters_(spheres_of(scene)),
+LightPaths::LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& shares)
+    : scene_(&scene), rate_(double(strategy.light_paths)), tan_half_(scene.camera().tan_half(aspect)), lights_(shares),
+      starts_(scene, aim), follows_(scene, follow), casters_(spheres_of(scene)),
+      aims_(casters_.empty() ? Float(0) : aim.share),
       absorbs_(std::any_of(scene.surfaces().begin(), scene.surfaces().end(),
                            [](const Surface& s) { return s.interior.has_value(); })),
       lamp_(Lambert(Spectrum::Ones())) {}
+
+double LightPaths::around(const Vec3& p, const Vec3& d, const std::optional<Aimed>& aimed) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < casters_.size(); ++i)
+    sum += double(aimed && aimed->at == i ? aimed->pdf : casters_[i]->pdf(p, d));
+  const double uniform = double(aims_.pmf(0)) / (4 * mc::pi<double>);
+  return casters_.empty() ? uniform : uniform + double(aims_.pmf(1)) * sum / double(casters_.size());
+}
+
+auto LightPaths::sample_start_from(const PointLight& lamp, double pmf, const Vec2& u) const -> std::optional<Start> {
+  SurfacePoint point;
+  point.p = lamp.position().cast<Float>();
+  std::optional<Aimed> aimed;
+  const auto part = aims_.sample_index(u[0]);
+  if (part.index == 0) {
+    point.ng = mc::UniformSphere<Float>{}.sample({part.u_remapped, u[1]});
+  } else {
+    const auto target = mc::UniformDiscrete<Float>(casters_.size()).sample_index(part.u_remapped);
+    const auto s = casters_[target.index]->sample_direction(point.p, {target.u_remapped, u[1]});
+    if (!s) return {};
+    point.ng = s->wi;
+    aimed = Aimed{target.index, s->pdf};
+  }
+  point.ns = point.ng;
+  const double pdf = around(point.p, point.ng, aimed);
+  return Start{{point.p, point.ng}, point, lamp.intensity(), 1 / (pmf * pdf), Odds(1 / mc::sqr(pmf), pdf, 1)};
+}
 
 double LightPaths::across(const Vec3& p, const Vec3& d) const {
   double density = 0;
@@ -66,10 +99,14 @@ double LightPaths::across(const Vec3& p, const Vec3& d) const {
 }
 
 double LightPaths::start2(std::uint32_t light, const SurfacePoint* met, const Vec3& ref, const Vec3& wi) const {
-  const double pmf = double(by_power_.pmf(light));
+  const double pmf = double(lights_.pmf(light));
   if (!(pmf > 0)) return 0;
+  if (const auto* point = std::get_if<PointLight>(&scene_->lights()[light])) {
+    const Vec3d& p = point->position();
+    return mc::sqr(rate_ * pmf * around(p.cast<Float>(), -wi) / (p - ref.cast<double>()).squaredNorm());
+  }
   const auto* lamp = std::get_if<AreaLight>(&scene_->lights()[light]);
-  if (!lamp) return mc::sqr(rate_ * pmf * double(scene_->lights()[light].pdf(ref, wi, nullptr)) * across(ref, wi));
+  if (!lamp) return mc::sqr(rate_ * pmf * direction_pdf(scene_->lights()[light], ref, wi, nullptr) * across(ref, wi));
   SurfacePoint side = *met;
   if (lamp->is_two_sided() && side.ng.dot(wi) > 0) side.ng = -side.ng;
   side.ns = side.ng;

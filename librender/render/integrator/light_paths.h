@@ -19,9 +19,10 @@ namespace render {
 /// chance, and the lamp behind, all of it arrives at once. From the lamp it is found easily. Each vertex of a path from
 /// a light is connected to the camera, and all three ways to find the same path, by chance, by a connection to the
 /// light and by one to the camera, are weighed by the power heuristic.
-///   Lights : chosen by their power. Of shapes that shine a point uniform in area and a direction by the cosine, of
-///            which four in five are aimed at the spheres of glass or mirror, where a scene has any. Of environment
-///            maps, for these spheres alone, a direction as the map samples it and a point of a sphere's disk across it
+///   Lights : chosen by their power, a third of the time all alike. Of shapes that shine a point uniform in area and a
+///            direction by the cosine, of points any direction; four in five of these are aimed at the spheres of glass
+///            or mirror, where a scene has any. Of environment maps and directional lights, for these spheres alone, a
+///            direction as the light samples it and a point of a sphere's disk across it
 ///   Paths  : follow the BSDFs; Russian roulette as of PathIntegrator
 ///   Gain   : with a fifth as many as paths from the camera a picture takes .20 (book3-cornell-aluminium), .28
 ///            (book3-cornell-glass), .41 (smallpt), .62 (ground-glass), .74 (textures) and .98 (tinted-glass) of the
@@ -36,8 +37,8 @@ class LightPaths {
   static std::optional<LightPaths> of(const Scene& scene, const Strategy& strategy, Float aspect);
 
   /// Of paths that start from where the direction wi from `ref` meets a light, back along it, per path from the camera:
-  /// the squared density [1/sr] times that per area, of the light's point `met` or, at infinity (null), across wi; 0
-  /// for lights that none starts from.
+  /// the squared density [1/sr] times that per area, of the light's point `met`, or of lines along wi across it where
+  /// they start at one point or at infinity (null); 0 for lights that none starts from.
   double start2(std::uint32_t light, const SurfacePoint* met, const Vec3& ref, const Vec3& wi) const;
 
   /// Per path from the camera.
@@ -53,7 +54,7 @@ class LightPaths {
   void trace(Stream& stream, int max_depth, std::uint64_t& rays, const Give& give) const;
 
  private:
-  LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& powers);
+  LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& shares);
 
   struct Start {
     Ray ray;
@@ -65,8 +66,19 @@ class LightPaths {
   template <class Stream> std::optional<Start> sample_start(std::uint32_t light, const Vec2& u, Stream& stream) const;
   template <class Stream>
   std::optional<Start> sample_start_at(const AreaLight& lamp, double pmf, const Vec2& u, Stream& stream) const;
+  std::optional<Start> sample_start_from(const PointLight& lamp, double pmf, const Vec2& u) const;
   template <class Stream>
   std::optional<Start> sample_start_afar(const Light& light, double pmf, const Vec2& u, Stream& stream) const;
+  // Of directions from a point [1/sr]: for a direction aimed at one of the spheres, this one says its own density.
+  struct Aimed {
+    std::size_t at;
+    Float pdf;
+  };
+  double around(const Vec3& p, const Vec3& d, const std::optional<Aimed>& aimed = {}) const;
+  // As LightLike's pdf; of the one direction of a delta light 1.
+  double direction_pdf(const Light& light, const Vec3& ref, const Vec3& wi, const SurfacePoint* met) const {
+    return light.is_delta() ? 1 : double(light.pdf(ref, wi, met));
+  }
   // Per area across the line through p along d.
   double across(const Vec3& p, const Vec3& d) const;
 
@@ -77,15 +89,17 @@ class LightPaths {
     double area;
     Odds odds;
     Media media = {};
-    Float full = 0;         ///< the largest component of beta at first
-    double connection2 = 0; ///< squared density of the connection from the first vertex to the light [1/sr^2]
+    Float full = 0;          ///< the largest component of beta at first
+    double connection2 = 0;  ///< squared density of the connection from the first vertex to the light [1/sr^2]
+    bool from_delta = false; ///< the light is not met by chance
     int edges = 0;
   };
   // Squared density of paths from the camera that go on from `at`, where they come from wi, the way that this came.
   template <class B>
   static double reverse2(const Vertex<B>& at, const Walk& walk, const Vec3& wi, bool narrow, Float eta) {
-    const double by_chance = mc::sqr(reverse_pdf(at.bsdf, at.wo, wi, narrow, eta));
-    return walk.edges == 1 && !narrow ? by_chance + walk.connection2 : by_chance;
+    const bool first = walk.edges == 1;
+    const double by_chance = first && walk.from_delta ? 0 : mc::sqr(reverse_pdf(at.bsdf, at.wo, wi, narrow, eta));
+    return first && !narrow ? by_chance + walk.connection2 : by_chance;
   }
   // Light meets a surface by its true cosine, and the BSDF reckons with that of the shading normal.
   template <class B> static Float shading(const Vertex<B>& at) {
@@ -99,9 +113,10 @@ class LightPaths {
   const Scene* scene_;
   double rate_;
   Vec2 tan_half_;
-  mc::TableDist1D<Float> by_power_;
+  mc::TableDist1D<Float> lights_;
   Directions starts_, follows_;
-  std::vector<const Sphere*> casters_; ///< what paths from infinite lights are aimed at
+  std::vector<const Sphere*> casters_; ///< what paths from points and infinite lights are aimed at
+  mc::Bernoulli<Float> aims_;          ///< of those from points
   bool absorbs_;                       ///< some surface holds a medium
   Bsdf lamp_;                          ///< as whose reflection a lamp's light leaves it
 };
@@ -142,21 +157,23 @@ std::optional<LightPaths::Start> LightPaths::sample_start_afar(const Light& ligh
 
 template <class Stream>
 std::optional<LightPaths::Start> LightPaths::sample_start(std::uint32_t light, const Vec2& u, Stream& stream) const {
-  const auto pmf = double(by_power_.pmf(light));
-  if (const auto* lamp = std::get_if<AreaLight>(&scene_->lights()[light]))
-    return sample_start_at(*lamp, pmf, u, stream);
-  return sample_start_afar(scene_->lights()[light], pmf, u, stream);
+  const auto pmf = double(lights_.pmf(light));
+  const Light& source = scene_->lights()[light];
+  if (const auto* lamp = std::get_if<AreaLight>(&source)) return sample_start_at(*lamp, pmf, u, stream);
+  if (const auto* lamp = std::get_if<PointLight>(&source)) return sample_start_from(*lamp, pmf, u);
+  return sample_start_afar(source, pmf, u, stream);
 }
 
 template <class Stream, class Give>
 void LightPaths::trace(Stream& stream, int max_depth, std::uint64_t& rays, const Give& give) const {
   const Vec2 u = stream.next2();
-  const auto choice = by_power_.sample_index(u[0]);
+  const auto choice = lights_.sample_index(u[0]);
   const auto light = static_cast<std::uint32_t>(choice.index);
   const auto begin = sample_start(light, {choice.u_remapped, u[1]}, stream);
   if (!begin) return;
   const SurfacePoint* source = begin->point ? &*begin->point : nullptr;
   Walk walk{begin->ray, source ? source->p : begin->ray.o, begin->beta, begin->area, begin->odds};
+  walk.from_delta = scene_->lights()[light].is_delta();
   walk.full = walk.beta.maxCoeff();
   if (absorbs_) [[unlikely]]
     walk.media = media_at(*scene_, walk.ray);
@@ -172,14 +189,16 @@ void LightPaths::trace(Stream& stream, int max_depth, std::uint64_t& rays, const
     const double distance2 = (point.p - walk.previous).template cast<double>().squaredNorm();
     if (walk.media.here) [[unlikely]]
       walk.beta *= walk.media.here->transmittance(from_afar ? mc::infinity<Float> : Float(std::sqrt(distance2)));
-    walk.odds.meet(std::abs(double(point.ng.dot(walk.ray.d))), from_afar ? 1 : distance2);
+    const double cosine = std::abs(double(point.ng.dot(walk.ray.d)));
+    if (walk.edges == 1 && walk.from_delta) walk.odds.meet_from_point(cosine, from_afar ? 1 : distance2);
+    else walk.odds.meet(cosine, from_afar ? 1 : distance2);
     const auto frame = mc::Frame<Float>::from_z(point.ns);
     std::optional<Bsdf> varied;
     const Meeting<Bsdf> at{
         {scene_->bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-walk.ray.d)}, surface, walk.media};
     if (walk.edges == 1)
       walk.connection2 = mc::sqr(double(scene_->light_pmf(point.p, light)) *
-                                 double(scene_->lights()[light].pdf(point.p, -walk.ray.d, source)));
+                                 direction_pdf(scene_->lights()[light], point.p, -walk.ray.d, source));
     if (!at.bsdf.is_narrow()) connect(at, walk, stream, rays, give);
     if (!scatter(at, walk, stream)) return;
   }
@@ -215,13 +234,17 @@ template <class Stream> bool LightPaths::scatter(const Meeting<Bsdf>& at, Walk& 
   const bool narrow = next->pdf == 0;
   const Vec3 wi = at.frame.to_local(next->d);
   const double cosine = std::abs(double(at.point.ng.dot(next->d)));
+  // A connection to a light that no chance meets may use what chance follows as a narrow lobe.
+  const bool as_narrow = narrow && (walk.edges > 1 || !walk.from_delta || at.bsdf.has_delta());
+  Float pdf = next->pdf;
+  if (narrow) pdf = as_narrow ? Float(1) : at.bsdf.pdf(at.wo, wi);
   // Light goes from wo to wi, and not all BSDFs are reciprocal; those of narrow lobes are but for the compression in
   // glass, which does not change what a path carries.
   const Spectrum weight = narrow ? Spectrum(next->weight * (mc::sqr(next->eta) / std::abs(wi.z())))
                                  : Spectrum(at.bsdf.eval(wi, at.wo) / next->pdf);
   walk.beta *= weight * (shading(at) * Float(cosine));
   if (is_black(walk.beta)) return false;
-  walk.odds.turn(reverse2(at, walk, wi, narrow, next->eta), narrow ? 1 : double(next->pdf), cosine);
+  walk.odds.turn(reverse2(at, walk, wi, as_narrow, next->eta), double(pdf), cosine);
   if (walk.edges >= 4) {
     const Float survival =
         std::clamp(4 * walk.beta.maxCoeff() / walk.full, std::numeric_limits<Float>::min(), Float(0.99));

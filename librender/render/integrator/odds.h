@@ -33,8 +33,9 @@ class Odds {
     squared_ /= mc::sqr(pdf_ * std::max(cosine, least) / d2);
     back_ = cosine_ / d2;
   }
-  /// At the first vertex from a camera, to which others connect: there is no direction for them to choose.
-  void meet_from_camera(double cosine, double distance2) {
+  /// At the first vertex from a camera or a point light, to which others connect: there is no direction for them to
+  /// choose.
+  void meet_from_point(double cosine, double distance2) {
     meet(cosine, distance2);
     back_ = 1;
   }

@@ -181,7 +181,7 @@ template <class SceneType> class PathIntegrator {
     const double cosine = std::abs(double(point.ng.dot(walk.ray.d)));
     const double distance2 = (point.p - walk.previous).template cast<double>().squaredNorm();
     if (walk.edges > 1) walk.odds.meet(cosine, distance2);
-    else walk.odds.meet_from_camera(cosine, distance2);
+    else walk.odds.meet_from_point(cosine, distance2);
   }
 
   // Squared density with which paths from the lights go on from `at`, where they come from wi, the way that this came.
@@ -213,7 +213,7 @@ template <class SceneType> class PathIntegrator {
     const Float pdf = choice.pmf * s->pdf;
     const bool shared = options_.strategy.finding == Finding::by_both && !source.is_delta();
     Float weight = shared ? mc::power_heuristic(pdf, directions_.pdf(at, wi, s->wi)) : Float(1);
-    if (light_paths_ && shared) [[unlikely]]
+    if (light_paths_) [[unlikely]]
       weight = among_three(weight, light_odds(at, walk, wi, *s, static_cast<std::uint32_t>(choice.index), pdf));
     return f * arriving * (std::abs(wi.z()) * weight / pdf);
   }
@@ -224,7 +224,8 @@ template <class SceneType> class PathIntegrator {
     const SurfacePoint* end = s.end ? &*s.end : nullptr;
     const double at_light = end ? std::abs(double(end->ng.dot(s.wi))) : 1,
                  here = std::abs(double(at.point.ng.dot(s.wi)));
-    return walk.odds.with(reverse2(at, walk, wi, false, 1)) * light_paths_->start2(light, end, at.point.p, s.wi) *
+    const bool unconnected = walk.edges == 1 && at.bsdf.is_narrow(); // with the camera
+    return walk.odds.with(reverse2(at, walk, wi, unconnected, 1)) * light_paths_->start2(light, end, at.point.p, s.wi) *
            mc::sqr(here / (double(pdf) * at_light));
   }
 

@@ -18,6 +18,9 @@ class PointLight {
                 position[2]);
   }
 
+  const Vec3d& position() const { return position_; }
+  const Spectrum& intensity() const { return intensity_; }
+
   Spectrum emitted(const Vec3&, const SurfacePoint*) const { return Spectrum::Zero(); }
   std::optional<LightSample> sample(const Vec3& ref, const Vec2&) const {
     // In double: neither the square of 1e-30 nor that of 1e30 is a float.

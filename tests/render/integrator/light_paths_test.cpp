@@ -16,6 +16,7 @@ const Strategy& bidirectional = strategy_from("bidirectional");
 /// A lamp above a floor that a camera looks down at, and a ball beside what it sees, which makes light paths pay.
 struct Room {
   bool two_sided = false, glass = true, lamp = true, sky = false;
+  std::optional<Light> delta = {};
   Bsdf floor = Lambert();
   Filter filter = BoxFilter();
 
@@ -30,6 +31,7 @@ struct Room {
                 {black, emission});
     builder.add(Sphere(Vec3d(-1.5, 1.2, 1.5), 0.5), {glass ? builder.add(Dielectric()) : black});
     builder.set(filter);
+    if (delta) builder.add(*delta);
     builder.set(ThinLens(Transform::look_at({0, 2, 0}, {0, 0, 0}, {0, 0, 1}), {.fov = 40}));
     if (sky)
       builder.add(
@@ -72,6 +74,29 @@ TEST(LightPaths, StartsHaveTheDensityThatTheyTell) {
   }
 }
 
+// The same of a point, over all directions, and of parallel light, over lines within a disk across it that covers the
+// ball.
+TEST(LightPaths, StartsOfDeltaLightsHaveTheDensityThatTheyTell) {
+  const Vec3 ball(-1.5, Float(1.2), 1.5), at(1, 2, 0), wi = Vec3(1, 2, 3).normalized();
+  const Scene point = Room{.lamp = false, .delta = PointLight(at.cast<double>(), Spectrum::Ones())}.build(),
+              sun = Room{.lamp = false, .delta = DirectionalLight(-wi.cast<double>(), Spectrum::Ones())}.build();
+  const auto from_point = LightPaths::of(point, bidirectional, 1), from_sun = LightPaths::of(sun, bidirectional, 1);
+  ASSERT_TRUE(from_point && from_sun);
+  const auto frame = mc::Frame<Float>::from_z(wi);
+  mc::Pcg random(7);
+  mc::Moments of_point, of_sun;
+  for (int i = 0; i < 1'000'000; ++i) {
+    const Vec3 d = mc::UniformSphere<Float>{}.sample(random.point<Float, 2>());
+    of_point.add(std::sqrt(from_point->start2(0, nullptr, at - 3 * d, d)) * 9 * 4 * mc::pi<double>);
+    const Vec2 disk = mc::UniformDisk<Float>{}.sample(random.point<Float, 2>());
+    const Vec3 p = ball + frame.to_world({disk[0], disk[1], -3});
+    of_sun.add(std::sqrt(from_sun->start2(0, nullptr, p, wi)) * mc::pi<double>);
+  }
+  EXPECT_NEAR(of_point.mean(), from_point->rate(), 4 * of_point.std_error());
+  EXPECT_NEAR(of_sun.mean(), from_sun->rate(), 4 * of_sun.std_error());
+  EXPECT_LE(of_point.std_error() + of_sun.std_error(), 0.02 * from_point->rate());
+}
+
 // The same of a sky, over all directions and lines within a disk across each that covers the ball.
 TEST(LightPaths, StartsFromTheSkyHaveTheDensityThatTheyTell) {
   const Scene scene = Room{.lamp = false, .sky = true}.build();
@@ -91,8 +116,7 @@ TEST(LightPaths, StartsFromTheSkyHaveTheDensityThatTheyTell) {
 
 // Of paths of two edges, over a film of one pixel: their light, and what is left for paths from the camera, is what
 // these find alone. With a hundred paths from the light for each both ways weigh, so each gives a part of it only.
-TEST(LightPaths, AddWhatPathsFromTheCameraLeave) {
-  const Scene scene = Room().build();
+void expect_both_to_make_what_one_does(const Scene& scene) {
   Strategy many = bidirectional;
   many.light_paths = 100;
   const auto paths = LightPaths::of(scene, many, 1);
@@ -118,6 +142,10 @@ TEST(LightPaths, AddWhatPathsFromTheCameraLeave) {
   const double error = std::sqrt(mc::sqr(given.std_error()) + mc::sqr(left.std_error()) + mc::sqr(all.std_error()));
   EXPECT_LE(error, 0.01 * all.mean());
   EXPECT_NEAR(given.mean() + left.mean(), all.mean(), 4 * error);
+}
+TEST(LightPaths, AddWhatPathsFromTheCameraLeave) {
+  expect_both_to_make_what_one_does(Room().build());
+  expect_both_to_make_what_one_does(Room{.lamp = false, .delta = PointLight({1, 2, 0}, Spectrum::Ones())}.build());
 }
 
 } // namespace

@@ -56,7 +56,7 @@ TEST(Odds, AreTheQuotientOfAllDensities) {
 // Others are connected to a camera at the first vertex: there is no direction back to it that they choose.
 TEST(Odds, NothingLiesBeforeTheFirstVertexFromACamera) {
   Odds odds(1, 3, 0);
-  odds.meet_from_camera(0.5, 4);
+  odds.meet_from_point(0.5, 4);
   EXPECT_NEAR(odds.with(1), mc::sqr(4 / (3 * 0.5)), 1e-12);
   EXPECT_EQ(odds.with(0), 0);
 }
