@@ -40,6 +40,9 @@ struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic<LayeredBase>
   bool transmits() const {
     return dispatch(*this, [](const auto& b) { return b.transmits(); });
   }
+  bool casts_caustics() const {
+    return dispatch(*this, [](const auto& b) { return b.casts_caustics(); });
+  }
 };
 
 } // namespace render

@@ -25,6 +25,7 @@ struct BsdfSample {
 ///   is_narrow()       : its lobes are deltas or narrower than lights: these are sampled only if no ray meets them
 ///   has_delta()       : it has a delta lobe, perhaps besides others
 ///   transmits()       : light goes through it, in other directions than a delta lobe's
+///   casts_caustics()  : it bundles light so much that paths which start at the lights pay
 template <class T>
 concept BsdfLike = requires(const T b, Vec3 wo, Vec3 wi, Float uc, Vec2 u) {
   { b.sample(wo, uc, u) } -> std::same_as<std::optional<BsdfSample>>;
@@ -35,6 +36,7 @@ concept BsdfLike = requires(const T b, Vec3 wo, Vec3 wi, Float uc, Vec2 u) {
   { b.is_narrow() } -> std::convertible_to<bool>;
   { b.has_delta() } -> std::convertible_to<bool>;
   { b.transmits() } -> std::convertible_to<bool>;
+  { b.casts_caustics() } -> std::convertible_to<bool>;
 };
 
 } // namespace render

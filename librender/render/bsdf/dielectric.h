@@ -72,6 +72,7 @@ class Dielectric {
   bool is_narrow() const { return true; }
   bool has_delta() const { return true; }
   bool transmits() const { return false; }
+  bool casts_caustics() const { return true; }
 
  private:
   Float eta_;

@@ -34,6 +34,7 @@ class Lambert {
   bool is_narrow() const { return false; }
   bool has_delta() const { return false; }
   bool transmits() const { return false; }
+  bool casts_caustics() const { return false; }
   const Spectrum& albedo() const { return albedo_; }
 
  private:

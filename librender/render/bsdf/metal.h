@@ -65,6 +65,7 @@ class Metal {
   bool is_narrow() const { return is_delta(); }
   bool has_delta() const { return is_delta(); }
   bool transmits() const { return false; }
+  bool casts_caustics() const { return fuzz_ <= Float(0.5); } // beyond it costs more than it brings
 
  private:
   Spectrum albedo_;

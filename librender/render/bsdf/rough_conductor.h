@@ -70,6 +70,7 @@ template <class Facets> class RoughConductor {
   bool is_narrow() const { return facets_.alpha() < narrow_alpha; }
   bool has_delta() const { return false; }
   bool transmits() const { return false; }
+  bool casts_caustics() const { return facets_.alpha() <= Float(0.2); } // beyond it costs more than it brings
 
  private:
   Spectrum value(const Reflection& r) const {

@@ -60,6 +60,7 @@ class RoughDielectric {
   bool is_narrow() const { return facets_.alpha() < narrow_alpha; }
   bool has_delta() const { return false; }
   bool transmits() const { return true; }
+  bool casts_caustics() const { return true; }
 
  private:
   /// The surface seen with wo above it, and the index on the far side over that on the side of wo.

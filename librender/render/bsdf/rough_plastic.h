@@ -100,6 +100,7 @@ template <class Base = LayeredBase> class RoughPlastic {
   bool is_narrow() const { return false; }
   bool has_delta() const { return false; }
   bool transmits() const { return false; }
+  bool casts_caustics() const { return false; }
 
  private:
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;

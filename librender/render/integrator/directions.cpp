@@ -41,7 +41,10 @@ std::vector<const Shape*> speculars(const Scene& scene) {
 
 } // namespace
 
-std::vector<const Shape*> caustic_casters(const Scene& scene) { return spheres(scene, casts_caustics); }
+std::vector<const Shape*> caustic_casters(const Scene& scene) {
+  auto found = spheres(scene, [](const Bsdf& b) { return b.casts_caustics(); });
+  return found.empty() ? spheres(scene, [](const Bsdf& b) { return b.is_narrow() || b.transmits(); }) : found;
+}
 
 bool finds_all_lights(const Scene& scene, const Strategy& strategy) {
   const auto& lights = scene.lights();

@@ -47,9 +47,7 @@ bool finds_all_lights(const Scene& scene, const Strategy& strategy);
 /// enough, in edges (-1: no limit), to find light elsewhere: on other surfaces, or in the sky.
 bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth);
 
-/// Whether light that such a surface sends on may be bundled.
-inline bool casts_caustics(const Bsdf& bsdf) { return bsdf.is_narrow() || bsdf.transmits(); }
-/// The spheres that Target::casters aims at.
+/// The spheres that Target::casters aims at: all that cast caustics, or where these are many, glass and mirrors.
 std::vector<const Shape*> caustic_casters(const Scene& scene);
 
 /// A mixture of the BSDF and the targets of a strategy, each equally likely.

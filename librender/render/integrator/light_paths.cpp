@@ -41,7 +41,7 @@ std::optional<LightPaths> LightPaths::of(const Scene& scene, const Strategy& str
   const bool fits = scene.filter().radius() <= SplatFilter::furthest;
   const auto surfaces = scene.surfaces();
   const bool bundles =
-      std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) { return casts_caustics(scene.bsdf(s)); });
+      std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) { return scene.bsdf(s).casts_caustics(); });
   if (!(strategy.light_paths > 0) || !shines || !fits || !bundles) return {};
   return LightPaths(scene, strategy, aspect, shares);
 }

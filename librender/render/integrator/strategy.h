@@ -16,7 +16,7 @@ enum class Target {
   lights,     ///< the shapes of the lights, and the guides
   guides,     ///< the shapes that the scene marks as such
   speculars,  ///< spheres of smooth glass or mirror, which may cast caustics of the lights
-  casters     ///< these, and spheres of rough glass
+  casters     ///< these, and spheres of rough glass and glossy metal
 };
 
 /// How the light of sampled lights is found.

@@ -45,6 +45,7 @@ class HalfMirror {
   bool is_narrow() const { return is_delta(); }
   bool has_delta() const { return true; }
   bool transmits() const { return false; }
+  bool casts_caustics() const { return false; }
 
  private:
   Lambert base_;

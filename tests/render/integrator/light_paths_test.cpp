@@ -17,6 +17,7 @@ const Strategy& bidirectional = strategy_from("bidirectional");
 struct Room {
   bool two_sided = false, glass = true, lamp = true, sky = false;
   std::optional<Light> delta = {};
+  Bsdf ball = Dielectric();
   Bsdf floor = Lambert();
   Filter filter = BoxFilter();
 
@@ -29,7 +30,7 @@ struct Room {
     builder.add(TriangleMesh::rectangle(Transform::translate({1, 2, 0}) * Transform::rotate(Vec3d::UnitX(), 90) *
                                         Transform::scale(Vec3d::Constant(0.5))),
                 {black, emission});
-    builder.add(Sphere(Vec3d(-1.5, 1.2, 1.5), 0.5), {glass ? builder.add(Dielectric()) : black});
+    builder.add(Sphere(Vec3d(-1.5, 1.2, 1.5), 0.5), {glass ? builder.add(ball) : black});
     builder.set(filter);
     if (delta) builder.add(*delta);
     builder.set(ThinLens(Transform::look_at({0, 2, 0}, {0, 0, 0}, {0, 0, 1}), {.fov = 40}));
@@ -51,6 +52,16 @@ TEST(LightPaths, WhereTheyPay) {
   EXPECT_FALSE(LightPaths::of(Room{.filter = BoxFilter(70)}.build(), bidirectional, 1));
   EXPECT_EQ(strategies_for(Room().build()).size(), strategies.size());
   EXPECT_EQ(strategies_for(Room{.glass = false}.build()).size(), strategies.size() - 1);
+}
+
+TEST(LightPaths, PayUnderGlossyMetalOnly) {
+  const Spectrum white = Spectrum::Ones();
+  for (const Float fuzz : {Float(0), Float(0.5), Float(0.6)})
+    EXPECT_EQ(LightPaths::of(Room{.ball = Metal(white, fuzz)}.build(), bidirectional, 1).has_value(), fuzz <= 0.5);
+  for (const Float alpha : {Float(1e-4), Float(0.2), Float(0.3)}) {
+    const Bsdf ball = RoughConductor<Microfacets>(white * 0, white, Microfacets(alpha));
+    EXPECT_EQ(LightPaths::of(Room{.ball = ball}.build(), bidirectional, 1).has_value(), alpha <= Float(0.2));
+  }
 }
 
 // The density of starts, over the lamp and all directions, has the integral rate(): by 1e5 uniform points and

@@ -324,6 +324,7 @@ class Coated {
   bool is_narrow() const { return is_delta(); }
   bool has_delta() const { return true; }
   bool transmits() const { return false; }
+  bool casts_caustics() const { return false; }
 
  private:
   Lambert base_{Spectrum::Constant(Float(0.35))};
