@@ -51,9 +51,7 @@ std::vector<Strategy> strategies_for(const Scene& scene) {
 LightPaths::LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& powers)
     : scene_(&scene), rate_(double(strategy.light_paths)), tan_half_(scene.camera().tan_half(aspect)),
       by_power_(powers), starts_(scene, aim), follows_(scene, follow), casters_(spheres_of(scene)),
-      absorbs_(std::any_of(scene.surfaces().begin(), scene.surfaces().end(),
-                           [](const Surface& s) { return s.interior.has_value(); })),
-      lamp_(Lambert(Spectrum::Ones())) {}
+      absorbs_(absorbs(scene)), lamp_(Lambert(Spectrum::Ones())) {}
 
 double LightPaths::across(const Vec3& p, const Vec3& d) const {
   double density = 0;

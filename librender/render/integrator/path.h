@@ -40,16 +40,15 @@ struct PathOptions {
 /// seeds.
 template <class SceneType> class PathIntegrator {
  public:
-  /// around      : through what rays start
   /// light_paths : that find some of the light; null: none are traced. It must outlive this, too
-  PathIntegrator(const SceneType& scene, const PathOptions& options, const Media& around = {},
-                 const LightPaths* light_paths = nullptr)
+  PathIntegrator(const SceneType& scene, const PathOptions& options, const LightPaths* light_paths = nullptr)
       : scene_(scene), options_(options),
-        directions_(scene, light_paths ? unaimed(options.strategy) : options.strategy), around_(around),
-        light_paths_(light_paths) {}
+        directions_(scene, light_paths ? unaimed(options.strategy) : options.strategy), light_paths_(light_paths) {}
 
   /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
-  template <class Stream> Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const;
+  ///   around : through what the ray starts
+  template <class Stream>
+  Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays, const Media& around = {}) const;
 
  private:
   using Own = std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>;
@@ -258,20 +257,20 @@ template <class SceneType> class PathIntegrator {
   const SceneType& scene_;
   PathOptions options_;
   Directions directions_;
-  Media around_;
   const LightPaths* light_paths_;
 };
 
 template <class SceneType>
 template <class Stream>
-Spectrum PathIntegrator<SceneType>::radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const {
+Spectrum PathIntegrator<SceneType>::radiance(const Ray& ray, Stream& stream, std::uint64_t& rays,
+                                             const Media& around) const {
   if (options_.shown.what == Shown::normals) return normal(ray, stream, rays);
   if (options_.shown.what == Shown::ambient_occlusion) return openness(ray, stream, rays);
   Walk walk{ray, ray.o};
-  walk.media = around_;
+  walk.media = around;
   if (light_paths_) [[unlikely]]
     walk.odds = Odds(1, light_paths_->camera_density(ray.d), 0);
-  if (around_.here || light_paths_) [[unlikely]] // it fills what is cut away before the lens, too
+  if (around.here || light_paths_) [[unlikely]] // it fills what is cut away before the lens, too
     walk.previous -= scene_.camera().near() / ray.d.dot(scene_.camera().forward()) * ray.d;
   return follow(walk, stream, rays, true);
 }

@@ -97,7 +97,7 @@ TEST(LightPaths, AddWhatPathsFromTheCameraLeave) {
   many.light_paths = 100;
   const auto paths = LightPaths::of(scene, many, 1);
   ASSERT_TRUE(paths);
-  const PathIntegrator<Scene> both(scene, {many, 2}, {}, &*paths), alone(scene, {strategy_from("mis"), 2});
+  const PathIntegrator<Scene> both(scene, {many, 2}, &*paths), alone(scene, {strategy_from("mis"), 2});
   const mc::NoPairs numbers(17, 0);
   mc::Moments given, left, all;
   std::uint64_t rays = 0;
