@@ -17,8 +17,10 @@ namespace render {
 /// Light paths of a strategy, and how dense they are. Immutable, so threads share it.
 ///   Path tracing hardly finds the light that glass or a mirror throws onto what is seen: where a path meets them by
 /// chance, and the lamp behind, all of it arrives at once. From the lamp it is found easily. Each vertex of a path from
-/// a light is connected to the camera, and all three ways to find the same path, by chance, by a connection to the
-/// light and by one to the camera, are weighed by the power heuristic.
+/// a light but the first is connected to the camera, and all three ways to find the same path, by chance, by a
+/// connection to the light and by one to the camera, are weighed by the power heuristic.
+///   Direct : light by way of one surface is left to paths from the camera, whose connections hardly err there, while
+///            how many paths happen to arrive in a pixel does
 ///   Lights : chosen by their power. Of shapes that shine a point uniform in area and a direction by the cosine, of
 ///            which four in five are aimed at the spheres of glass or mirror, where a scene has any. Of environment
 ///            maps, for these spheres alone, a direction as the map samples it and a point of a sphere's disk across it
@@ -30,6 +32,8 @@ namespace render {
 ///            section 5.3
 class LightPaths {
  public:
+  static constexpr int least_edges = 3; ///< of the paths that they find
+
   /// None where the strategy has none, or the scene no light that they start from, or nothing narrow or transparent:
   /// elsewhere they would cost more than they bring. None either where the filter is wider than SplatFilter can share.
   ///   aspect : width / height of the film
@@ -180,7 +184,7 @@ void LightPaths::trace(Stream& stream, int max_depth, std::uint64_t& rays, const
     if (walk.edges == 1)
       walk.connection2 = mc::sqr(double(scene_->light_pmf(point.p, light)) *
                                  double(scene_->lights()[light].pdf(point.p, -walk.ray.d, source)));
-    if (!at.bsdf.is_narrow()) connect(at, walk, stream, rays, give);
+    if (walk.edges > 1 && !at.bsdf.is_narrow()) connect(at, walk, stream, rays, give);
     if (!scatter(at, walk, stream)) return;
   }
 }

@@ -167,7 +167,7 @@ template <class SceneType> class PathIntegrator {
       const Float other = scene_.light_pmf(walk.previous, light) * source.pdf(walk.previous, walk.ray.d, met);
       weight = mc::power_heuristic(walk.previous_pdf, other);
     }
-    if (light_paths_ && walk.edges > 1) [[unlikely]]
+    if (light_paths_ && walk.edges > 2) [[unlikely]]
       weight = among_three(weight, walk.odds.with(light_paths_->start2(light, met, walk.previous, walk.ray.d)));
     return emitted * weight;
   }
@@ -212,7 +212,7 @@ template <class SceneType> class PathIntegrator {
     const Float pdf = choice.pmf * s->pdf;
     const bool shared = options_.strategy.finding == Finding::by_both && !source.is_delta();
     Float weight = shared ? mc::power_heuristic(pdf, directions_.pdf(at, wi, s->wi)) : Float(1);
-    if (light_paths_ && shared) [[unlikely]]
+    if (light_paths_ && shared && walk.edges > 1) [[unlikely]]
       weight = among_three(weight, light_odds(at, walk, wi, *s, static_cast<std::uint32_t>(choice.index), pdf));
     return f * arriving * (std::abs(wi.z()) * weight / pdf);
   }
