@@ -35,6 +35,24 @@ template <class Holds> std::vector<const Shape*> spheres(const Scene& scene, Hol
   return found;
 }
 
+std::vector<const Shape*> specular_spheres(const Scene& scene) {
+  return spheres(scene, [](const Bsdf& b) { return b.is_delta(); });
+}
+
+bool holds_a_lamp(const Scene& scene, const Sphere& sphere) {
+  const auto& lights = scene.lights();
+  return std::any_of(lights.begin(), lights.end(), [&](const Light& light) {
+    const auto* lamp = std::get_if<AreaLight>(&light);
+    return lamp && lamp->shape().box().squaredExteriorDistance(sphere.center()) < mc::sqr(sphere.radius());
+  });
+}
+
+std::vector<const Shape*> shades(const Scene& scene) {
+  std::vector<const Shape*> found = specular_spheres(scene);
+  std::erase_if(found, [&](const Shape* s) { return !holds_a_lamp(scene, std::get<Sphere>(*s)); });
+  return found;
+}
+
 } // namespace
 
 std::vector<const Shape*> caustic_casters(const Scene& scene) { return spheres(scene, casts_caustics); }
@@ -54,7 +72,8 @@ Directions::Directions(const Scene& scene, const Strategy& strategy)
     : aims_(strategy.share), aims_for_delta_(std::min(strategy.share, Float(0.5))), follows_(strategy.share < 1) {
   if (strategy.target == Target::lights) shapes_ = lights_and_guides(scene);
   if (strategy.target == Target::guides) shapes_ = guides(scene);
-  if (strategy.target == Target::speculars) shapes_ = spheres(scene, [](const Bsdf& b) { return b.is_delta(); });
+  if (strategy.target == Target::speculars) shapes_ = specular_spheres(scene);
+  if (strategy.target == Target::shades) shapes_ = shades(scene);
   if (strategy.target == Target::casters) shapes_ = caustic_casters(scene);
   const std::size_t targets = strategy.target == Target::hemisphere ? 1 : shapes_.size();
   if (targets > 0) targets_.emplace(targets);

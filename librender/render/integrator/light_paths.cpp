@@ -16,6 +16,13 @@ std::vector<const Sphere*> spheres_of(const Scene& scene) {
   return found;
 }
 
+// Light that glass throws onto what is seen comes from the lights, except where these lie in the glass: it then leaves
+// in all directions, of which few arrive where the camera looks, and is found from there.
+Strategy beside(Strategy strategy) {
+  strategy.target = Target::shades;
+  return strategy;
+}
+
 // What each light gives to paths from it. Infinite lights that are not sampled are found by chance alone.
 std::vector<double> powers_of(const Scene& scene) {
   double radius2 = 0;
@@ -50,8 +57,8 @@ std::vector<Strategy> strategies_for(const Scene& scene) {
 
 LightPaths::LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& powers)
     : scene_(&scene), rate_(double(strategy.light_paths)), tan_half_(scene.camera().tan_half(aspect)),
-      by_power_(powers), starts_(scene, aim), follows_(scene, follow), casters_(spheres_of(scene)),
-      absorbs_(absorbs(scene)), lamp_(Lambert(Spectrum::Ones())) {}
+      by_power_(powers), starts_(scene, aim), follows_(scene, follow), of_camera_(scene, beside(strategy)),
+      casters_(spheres_of(scene)), absorbs_(absorbs(scene)), lamp_(Lambert(Spectrum::Ones())) {}
 
 double LightPaths::across(const Vec3& p, const Vec3& d) const {
   double density = 0;

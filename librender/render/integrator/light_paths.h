@@ -50,6 +50,9 @@ class LightPaths {
   /// Density of the direction d from the camera [1/sr], in paths over the whole film.
   double camera_density(const Vec3& d) const { return double(scene_->camera().density(d, tan_half_)); }
 
+  /// The choice of directions of the paths from the camera beside them.
+  const Directions& of_camera() const { return of_camera_; }
+
   /// Traces one path of at most max_depth edges to the camera (-1: no limit): give(s, value) for each of its
   /// connections, where s is the point of the film, as of ThinLens::ray, or one beside it, and value what it counts of
   /// the radiance there: of n paths over a film of N pixels, sum(value) / (n / (rate N)) is the radiance of a pixel.
@@ -87,8 +90,10 @@ class LightPaths {
   };
   // Squared density of paths from the camera that go on from `at`, where they come from wi, the way that this came.
   template <class B>
-  static double reverse2(const Vertex<B>& at, const Walk& walk, const Vec3& wi, bool narrow, Float eta) {
-    const double by_chance = mc::sqr(reverse_pdf(at.bsdf, at.wo, wi, narrow, eta));
+  double reverse2(const Vertex<B>& at, const Walk& walk, const Vec3& wi, bool narrow, Float eta) const {
+    const double by_chance =
+        mc::sqr(narrow ? reverse_pdf(at.bsdf, at.wo, wi, narrow, eta)
+                       : double(of_camera_.pdf(Vertex<B>{at.bsdf, at.point, at.frame, wi}, at.wo, -walk.ray.d)));
     return walk.edges == 1 && !narrow ? by_chance + walk.connection2 : by_chance;
   }
   // Light meets a surface by its true cosine, and the BSDF reckons with that of the shading normal.
@@ -104,7 +109,7 @@ class LightPaths {
   double rate_;
   Vec2 tan_half_;
   mc::TableDist1D<Float> by_power_;
-  Directions starts_, follows_;
+  Directions starts_, follows_, of_camera_;
   std::vector<const Sphere*> casters_; ///< what paths from infinite lights are aimed at
   bool absorbs_;                       ///< some surface holds a medium
   Bsdf lamp_;                          ///< as whose reflection a lamp's light leaves it

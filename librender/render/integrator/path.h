@@ -43,7 +43,8 @@ template <class SceneType> class PathIntegrator {
   /// light_paths : that find some of the light; null: none are traced. It must outlive this, too
   PathIntegrator(const SceneType& scene, const PathOptions& options, const LightPaths* light_paths = nullptr)
       : scene_(scene), options_(options),
-        directions_(scene, light_paths ? unaimed(options.strategy) : options.strategy), light_paths_(light_paths) {}
+        directions_(light_paths ? light_paths->of_camera() : Directions(scene, options.strategy)),
+        light_paths_(light_paths) {}
 
   /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
   ///   around : through what the ray starts
@@ -67,12 +68,6 @@ template <class SceneType> class PathIntegrator {
     Media media = {};       ///< that the ray goes through
     Odds odds = {};         ///< of the paths from the lights
   };
-
-  static Strategy unaimed(Strategy strategy) {
-    strategy.target = Target::nothing;
-    strategy.share = 0;
-    return strategy;
-  }
 
   // The normal of what a ray meets, as a colour.
   template <class Stream> Spectrum normal(Ray ray, Stream& stream, std::uint64_t& rays) const {
