@@ -8,9 +8,12 @@
 
 namespace render {
 
-template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentWalk<Float>&, std::uint64_t&) const;
-template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedWalk<Float>&, std::uint64_t&) const;
-template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolWalk<Float>&, std::uint64_t&) const;
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentWalk<Float>&, std::uint64_t&,
+                                                  const Media&) const;
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedWalk<Float>&, std::uint64_t&,
+                                                  const Media&) const;
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolWalk<Float>&, std::uint64_t&,
+                                                  const Media&) const;
 
 namespace {
 
@@ -42,9 +45,10 @@ void Tally::merge(const Tally& other) {
 SampleTaker::SampleTaker(const Scene& scene, const PathOptions& path, PixelSampler sampler, std::uint64_t seed,
                          std::uint32_t stratum, const Whole& whole, const std::optional<SplatFilter>& splat,
                          const LightPaths* light_paths)
-    : scene_(scene),
-      integrator_(scene, path, media_at(scene, {scene.camera().origin(), scene.camera().forward()}), light_paths),
-      seed_(seed), stratum_(sampler == PixelSampler::stratified ? stratum : 1u << 31), whole_(whole), splat_(splat),
+    : scene_(scene), around_(media_at(scene, {scene.camera().origin(), scene.camera().forward()})),
+      around_varies_(absorbs(scene) && (scene.camera().radius() > 0 || scene.camera().near() > 0)),
+      integrator_(scene, path, light_paths), seed_(seed),
+      stratum_(sampler == PixelSampler::stratified ? stratum : 1u << 31), whole_(whole), splat_(splat),
       take_(take_of(sampler)) {}
 
 SampleTaker::Take SampleTaker::take_of(PixelSampler sampler) {
@@ -87,7 +91,7 @@ Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span
           const Vec2 offset = drawn.sample(stream.next2());
           const Vec2 s = (Vec2(Float(whole_x) + Float(0.5), Float(whole_y) + Float(0.5)) + offset).cwiseProduct(scale);
           const Ray ray = camera.ray(s, tan_half, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
-          const Spectrum radiance = integrator_.radiance(ray, stream, tally.rays);
+          const Spectrum radiance = integrator_.radiance(ray, stream, tally.rays, around(ray));
           ++tally.samples;
           if (!radiance.isFinite().all()) [[unlikely]] {
             tally.add({whole_x, whole_y, pass, point - block * stratum_});

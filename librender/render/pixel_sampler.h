@@ -13,9 +13,12 @@
 namespace render {
 
 // Compiled once: who follows paths through a Scene need not.
-extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentWalk<Float>&, std::uint64_t&) const;
-extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedWalk<Float>&, std::uint64_t&) const;
-extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolWalk<Float>&, std::uint64_t&) const;
+extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentWalk<Float>&, std::uint64_t&,
+                                                         const Media&) const;
+extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedWalk<Float>&, std::uint64_t&,
+                                                         const Media&) const;
+extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolWalk<Float>&, std::uint64_t&,
+                                                         const Media&) const;
 
 /// Point sets for a pixel's samples.
 enum class PixelSampler { independent, stratified, sobol };
@@ -71,7 +74,12 @@ class SampleTaker {
   Tally take_by(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, Film& film) const;
   static Take take_of(PixelSampler sampler);
 
+  // A lens, or what is cut away before it, may reach out of the body that holds its centre.
+  Media around(const Ray& ray) const { return around_varies_ ? media_at(scene_, ray) : around_; }
+
   const Scene& scene_;
+  Media around_; ///< through what rays start
+  bool around_varies_;
   PathIntegrator<Scene> integrator_;
   std::uint64_t seed_;
   std::uint32_t stratum_;

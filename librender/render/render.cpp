@@ -62,6 +62,7 @@ std::optional<SplatFilter> splat_of(const Scene& scene, const RenderOptions& opt
 
 std::optional<LightPaths> light_paths_of(const Scene& scene, const RenderOptions& options) {
   if (options.shown.what != Shown::radiance) return {};
+  if (options.max_depth >= 0 && options.max_depth < LightPaths::least_edges) return {};
   return LightPaths::of(scene, options.strategy, Float(options.width) / Float(options.height));
 }
 

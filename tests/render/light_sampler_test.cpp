@@ -7,14 +7,17 @@ namespace {
 
 using namespace render;
 
-/// A white floor that fills the view, a lamp above that is not seen, and a ball of glass beside.
+/// A white floor that fills the view, a lamp above and a white ceiling that are not seen, and a ball of glass beyond.
 ///   unit : of all lengths
 Scene lit_floor(const Filter& filter, double unit = 1) {
   SceneBuilder builder;
   builder.add(TriangleMesh::rectangle(Transform::scale({9 * unit, 9 * unit, unit})), {builder.add(Lambert())});
+  builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 7 * unit}) * Transform::rotate(Vec3d::UnitX(), 180) *
+                                      Transform::scale({9 * unit, 9 * unit, unit})),
+              {builder.add(Lambert())});
   const BsdfId glass = builder.add(Dielectric());
   builder.add(Sphere(unit * Vec3d(0, 0, 5), unit), {builder.add(Lambert(Spectrum::Zero())), Emission{}});
-  builder.add(Sphere(unit * Vec3d(5, 0, 1), 0.5 * unit), {glass});
+  builder.add(Sphere(unit * Vec3d(0, 0, 11.5), 4 * unit), {glass});
   builder.set(filter);
   builder.set(ThinLens(Transform::look_at({0, 0, 3 * unit}, {0, 0, 0}, {0, 1, 0}), {.fov = 60}));
   return builder.build();
@@ -30,7 +33,7 @@ Taken taken(const Filter& filter, std::uint64_t steps, int threads, PixelSampler
             const Crop& part = {0, 0, 16, 12}, unsigned spp = 400, double unit = 1) {
   const Scene scene = lit_floor(filter, unit);
   const auto paths = LightPaths::of(scene, strategy_from("bidirectional"), Float(16) / 12);
-  const LightTaker taker(scene, *paths, 2, sampler, 7, {16, 12, part});
+  const LightTaker taker(scene, *paths, 3, sampler, 7, {16, 12, part});
   Taken all{{part.width, part.height, 4, {}, true}, {}};
   const std::uint64_t n = taker.paths(spp);
   EXPECT_EQ(n, std::uint64_t{spp} * 16 * 12 / 5);
@@ -96,7 +99,7 @@ TEST(LightTaker, AnyUnitOfLength) {
 TEST(LightTaker, StopsBetweenItsSteps) {
   const Scene scene = lit_floor(BoxFilter());
   const auto paths = LightPaths::of(scene, strategy_from("bidirectional"), Float(16) / 12);
-  const LightTaker taker(scene, *paths, 2, PixelSampler::sobol, 7, {16, 12, {0, 0, 16, 12}});
+  const LightTaker taker(scene, *paths, 3, PixelSampler::sobol, 7, {16, 12, {0, 0, 16, 12}});
   Film film(16, 12, 4, {}, true);
   Tally tally;
   EXPECT_EQ(taker.take(

@@ -63,4 +63,28 @@ TEST(Tally, KeepsTheFirstInvalidSampleInAnyOrder) {
   EXPECT_EQ(a.first.x, 5);
 }
 
+// A lamp seen by a camera in the middle of a ball. What fills the ball is met only by rays that start in it, which are
+// not those of a lens beyond its edge, or of a plane beyond it before which all is cut away.
+TEST(SampleTaker, RaysStartThroughWhatIsThere) {
+  const auto seen = [](const LensOptions& lens, bool filled) {
+    SceneBuilder builder;
+    builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 9}) * Transform::rotate(Vec3d::UnitX(), 180) *
+                                        Transform::scale(Vec3d::Constant(9))),
+                {builder.add(Lambert()), Emission{}});
+    SceneBuilder::Cover cover{.bsdf = builder.add(Dielectric())};
+    if (filled) cover.interior = HomogeneousMedium(Spectrum::Constant(1));
+    builder.add(Sphere(Vec3d::Zero(), 1), cover);
+    builder.set(ThinLens({}, lens));
+    const Scene scene = builder.build();
+    const SampleTaker taker(scene, {.max_depth = 1}, PixelSampler::sobol, 5, 4, {1, 1, {0, 0, 1, 1}});
+    Film film(1, 1, 4);
+    taker.take(0, std::vector<std::uint32_t>{0}, std::vector<std::uint32_t>{400}, film);
+    return film.estimate(0, 0).mean[0];
+  };
+  EXPECT_EQ(seen({.fov = 10, .near = 1.5}, true), 1);
+  const LensOptions wide = {.fov = 10, .radius = 2, .focus_distance = 9};
+  EXPECT_EQ(seen(wide, true), seen(wide, false));
+  EXPECT_NEAR(seen(wide, true), 0.75, 0.02);
+}
+
 } // namespace

@@ -272,6 +272,21 @@ TEST(TwoEnds, SameBitsForAnyNumberOfThreadsAndAnyPart) {
   }
 }
 
+TEST(TwoEnds, ShortPathsHaveOne) {
+  const Scene scene = lit_room();
+  RenderOptions options;
+  options.width = 11;
+  options.height = 9;
+  options.spp = 12;
+  options.max_depth = 2;
+  const RenderResult two = render::render(scene, options);
+  options.strategy = strategy_from("mis");
+  const RenderResult one = render::render(scene, options);
+  EXPECT_EQ(two.rays, one.rays);
+  for (std::size_t i = 0; i < one.image.pixels.size(); ++i)
+    EXPECT_TRUE((two.image.pixels[i] == one.image.pixels[i]).all());
+}
+
 // Over 200 pictures the stated variance of the pixels is the true one, spent evenly and where the error is: the mean of
 // 48 pixels and 3 channels of 200 x 3 degrees of freedom each, of values that are far from normal and of neighbours
 // that share paths: to a tenth. The floor of Film::estimate may put it above.

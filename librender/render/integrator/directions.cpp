@@ -31,12 +31,30 @@ template <class Holds> std::vector<const Shape*> spheres(const Scene& scene, Hol
   return found;
 }
 
+std::vector<const Shape*> specular_spheres(const Scene& scene) {
+  return spheres(scene, [](const Bsdf& b) { return b.is_delta(); });
+}
+
 // Through which a path may meet a light; nothing meets a delta light.
 std::vector<const Shape*> speculars(const Scene& scene) {
   const auto& lights = scene.lights();
   const bool meets =
       std::any_of(lights.begin(), lights.end(), [](const Light& l) { return l.is_sampled() && !l.is_delta(); });
-  return meets ? spheres(scene, [](const Bsdf& b) { return b.is_delta(); }) : std::vector<const Shape*>();
+  return meets ? specular_spheres(scene) : std::vector<const Shape*>();
+}
+
+bool holds_a_lamp(const Scene& scene, const Sphere& sphere) {
+  const auto& lights = scene.lights();
+  return std::any_of(lights.begin(), lights.end(), [&](const Light& light) {
+    const auto* lamp = std::get_if<AreaLight>(&light);
+    return lamp && lamp->shape().box().squaredExteriorDistance(sphere.center()) < mc::sqr(sphere.radius());
+  });
+}
+
+std::vector<const Shape*> shades(const Scene& scene) {
+  std::vector<const Shape*> found = specular_spheres(scene);
+  std::erase_if(found, [&](const Shape* s) { return !holds_a_lamp(scene, std::get<Sphere>(*s)); });
+  return found;
 }
 
 } // namespace
@@ -62,6 +80,7 @@ Directions::Directions(const Scene& scene, const Strategy& strategy)
   if (strategy.target == Target::lights) shapes_ = lights_and_guides(scene);
   if (strategy.target == Target::guides) shapes_ = guides(scene);
   if (strategy.target == Target::speculars) shapes_ = speculars(scene);
+  if (strategy.target == Target::shades) shapes_ = shades(scene);
   if (strategy.target == Target::casters) shapes_ = caustic_casters(scene);
   const std::size_t targets = strategy.target == Target::hemisphere ? 1 : shapes_.size();
   if (targets > 0) targets_.emplace(targets);

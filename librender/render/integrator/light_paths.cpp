@@ -16,6 +16,13 @@ std::vector<const Sphere*> spheres_of(const Scene& scene) {
   return found;
 }
 
+// Light that glass throws onto what is seen comes from the lights, except where these lie in the glass: it then leaves
+// in all directions, of which few arrive where the camera looks, and is found from there.
+Strategy beside(Strategy strategy) {
+  strategy.target = Target::shades;
+  return strategy;
+}
+
 // How often paths start from each light: by its power, a third of them from all alike, since power does not tell how
 // much of it arrives. Infinite lights that are not sampled are found by chance alone.
 std::vector<double> shares_of(const Scene& scene) {
@@ -55,11 +62,8 @@ std::vector<Strategy> strategies_for(const Scene& scene) {
 
 LightPaths::LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& shares)
     : scene_(&scene), rate_(double(strategy.light_paths)), tan_half_(scene.camera().tan_half(aspect)), lights_(shares),
-      starts_(scene, aim), follows_(scene, follow), casters_(spheres_of(scene)),
-      aims_(casters_.empty() ? Float(0) : aim.share),
-      absorbs_(std::any_of(scene.surfaces().begin(), scene.surfaces().end(),
-                           [](const Surface& s) { return s.interior.has_value(); })),
-      lamp_(Lambert(Spectrum::Ones())) {}
+      starts_(scene, aim), follows_(scene, follow), of_camera_(scene, beside(strategy)), casters_(spheres_of(scene)),
+      aims_(casters_.empty() ? Float(0) : aim.share), absorbs_(absorbs(scene)), lamp_(Lambert(Spectrum::Ones())) {}
 
 double LightPaths::around(const Vec3& p, const Vec3& d, const std::optional<Aimed>& aimed) const {
   double sum = 0;

@@ -17,8 +17,10 @@ namespace render {
 /// Light paths of a strategy, and how dense they are. Immutable, so threads share it.
 ///   Path tracing hardly finds the light that glass or a mirror throws onto what is seen: where a path meets them by
 /// chance, and the lamp behind, all of it arrives at once. From the lamp it is found easily. Each vertex of a path from
-/// a light is connected to the camera, and all three ways to find the same path, by chance, by a connection to the
-/// light and by one to the camera, are weighed by the power heuristic.
+/// a light but the first is connected to the camera, and all three ways to find the same path, by chance, by a
+/// connection to the light and by one to the camera, are weighed by the power heuristic.
+///   Direct : light by way of one surface is left to paths from the camera, whose connections hardly err there, while
+///            how many paths happen to arrive in a pixel does
 ///   Lights : chosen by their power, a third of the time all alike. Of shapes that shine a point uniform in area and a
 ///            direction by the cosine, of points any direction; four in five of these are aimed at the spheres of glass
 ///            or mirror, where a scene has any. Of environment maps and directional lights, for these spheres alone, a
@@ -34,6 +36,8 @@ namespace render {
 ///            section 5.3
 class LightPaths {
  public:
+  static constexpr int least_edges = 3; ///< of the paths that they find
+
   /// None where the strategy has none, or the scene no light that they start from, or nothing narrow or transparent:
   /// elsewhere they would cost more than they bring. None either where the filter is wider than SplatFilter can share.
   ///   aspect : width / height of the film
@@ -49,6 +53,9 @@ class LightPaths {
 
   /// Density of the direction d from the camera [1/sr], in paths over the whole film.
   double camera_density(const Vec3& d) const { return double(scene_->camera().density(d, tan_half_)); }
+
+  /// The choice of directions of the paths from the camera beside them.
+  const Directions& of_camera() const { return of_camera_; }
 
   /// Traces one path of at most max_depth edges to the camera (-1: no limit): give(s, value) for each of its
   /// connections, where s is the point of the film, as of ThinLens::ray, or one beside it, and value what it counts of
@@ -97,11 +104,17 @@ class LightPaths {
     bool from_delta = false; ///< the light is not met by chance
     int edges = 0;
   };
-  // Squared density of paths from the camera that go on from `at`, where they come from wi, the way that this came.
+  // Density of paths from the camera that go on from `at`, where they come from wi, by chance the way that this came.
   template <class B>
-  static double reverse2(const Vertex<B>& at, const Walk& walk, const Vec3& wi, bool narrow, Float eta) {
+  double pdf_of_camera(const Vertex<B>& at, const Walk& walk, const Vec3& wi, bool narrow, Float eta) const {
+    if (narrow) return reverse_pdf(at.bsdf, at.wo, wi, narrow, eta);
+    return double(of_camera_.pdf(Vertex<B>{at.bsdf, at.point, at.frame, wi}, at.wo, -walk.ray.d));
+  }
+  // Squared, with that of a connection.
+  template <class B>
+  double reverse2(const Vertex<B>& at, const Walk& walk, const Vec3& wi, bool narrow, Float eta) const {
     const bool first = walk.edges == 1;
-    const double by_chance = first && walk.from_delta ? 0 : mc::sqr(reverse_pdf(at.bsdf, at.wo, wi, narrow, eta));
+    const double by_chance = first && walk.from_delta ? 0 : mc::sqr(pdf_of_camera(at, walk, wi, narrow, eta));
     return first && !narrow ? by_chance + walk.connection2 : by_chance;
   }
   // Light meets a surface by its true cosine, and the BSDF reckons with that of the shading normal.
@@ -117,7 +130,7 @@ class LightPaths {
   double rate_;
   Vec2 tan_half_;
   mc::TableDist1D<Float> lights_;
-  Directions starts_, follows_;
+  Directions starts_, follows_, of_camera_;
   std::vector<const Sphere*> casters_; ///< what paths from points and infinite lights are aimed at
   mc::Bernoulli<Float> aims_;          ///< of those from points
   bool absorbs_;                       ///< some surface holds a medium
@@ -202,7 +215,7 @@ void LightPaths::trace(Stream& stream, int max_depth, std::uint64_t& rays, const
     if (walk.edges == 1)
       walk.connection2 = mc::sqr(double(scene_->light_pmf(point.p, light)) *
                                  direction_pdf(scene_->lights()[light], point.p, -walk.ray.d, source));
-    if (!at.bsdf.is_narrow()) connect(at, walk, stream, rays, give);
+    if (walk.edges > 1 && !at.bsdf.is_narrow()) connect(at, walk, stream, rays, give);
     if (!scatter(at, walk, stream)) return;
   }
 }

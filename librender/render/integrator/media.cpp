@@ -2,6 +2,7 @@
 
 #include <render/scene/visibility.h>
 
+#include <algorithm>
 #include <array>
 
 namespace render {
@@ -23,6 +24,11 @@ Media media_at(const Scene& scene, Ray ray) {
     ray = beyond(ray, *hit, point);
   }
   return {left[0], left[1]};
+}
+
+bool absorbs(const Scene& scene) {
+  const auto surfaces = scene.surfaces();
+  return std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.interior.has_value(); });
 }
 
 } // namespace render

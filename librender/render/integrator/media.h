@@ -13,6 +13,9 @@ struct Media {
 /// Through what a ray starts, as the surfaces tell that it would leave if nothing stopped it.
 Media media_at(const Scene& scene, Ray ray);
 
+/// Whether anything in the scene absorbs.
+bool absorbs(const Scene& scene);
+
 /// Where a path meets a surface whose BSDF is a B.
 template <class B> struct Meeting : Vertex<B> {
   const Surface& surface;

@@ -40,16 +40,16 @@ struct PathOptions {
 /// seeds.
 template <class SceneType> class PathIntegrator {
  public:
-  /// around      : through what rays start
   /// light_paths : that find some of the light; null: none are traced. It must outlive this, too
-  PathIntegrator(const SceneType& scene, const PathOptions& options, const Media& around = {},
-                 const LightPaths* light_paths = nullptr)
+  PathIntegrator(const SceneType& scene, const PathOptions& options, const LightPaths* light_paths = nullptr)
       : scene_(scene), options_(options),
-        directions_(scene, light_paths ? unaimed(options.strategy) : options.strategy), around_(around),
+        directions_(light_paths ? light_paths->of_camera() : Directions(scene, options.strategy)),
         light_paths_(light_paths) {}
 
   /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
-  template <class Stream> Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const;
+  ///   around : through what the ray starts
+  template <class Stream>
+  Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays, const Media& around = {}) const;
 
  private:
   using Own = std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>;
@@ -68,12 +68,6 @@ template <class SceneType> class PathIntegrator {
     Media media = {};       ///< that the ray goes through
     Odds odds = {};         ///< of the paths from the lights
   };
-
-  static Strategy unaimed(Strategy strategy) {
-    strategy.target = Target::nothing;
-    strategy.share = 0;
-    return strategy;
-  }
 
   // The normal of what a ray meets, as a colour.
   template <class Stream> Spectrum normal(Ray ray, Stream& stream, std::uint64_t& rays) const {
@@ -168,7 +162,7 @@ template <class SceneType> class PathIntegrator {
       const Float other = scene_.light_pmf(walk.previous, light) * source.pdf(walk.previous, walk.ray.d, met);
       weight = mc::power_heuristic(walk.previous_pdf, other);
     }
-    if (light_paths_ && walk.edges > 1) [[unlikely]]
+    if (light_paths_ && walk.edges > 2) [[unlikely]]
       weight = among_three(weight, walk.odds.with(light_paths_->start2(light, met, walk.previous, walk.ray.d)));
     return emitted * weight;
   }
@@ -213,7 +207,7 @@ template <class SceneType> class PathIntegrator {
     const Float pdf = choice.pmf * s->pdf;
     const bool shared = options_.strategy.finding == Finding::by_both && !source.is_delta();
     Float weight = shared ? mc::power_heuristic(pdf, directions_.pdf(at, wi, s->wi)) : Float(1);
-    if (light_paths_) [[unlikely]]
+    if (light_paths_ && walk.edges > 1) [[unlikely]]
       weight = among_three(weight, light_odds(at, walk, wi, *s, static_cast<std::uint32_t>(choice.index), pdf));
     return f * arriving * (std::abs(wi.z()) * weight / pdf);
   }
@@ -224,8 +218,7 @@ template <class SceneType> class PathIntegrator {
     const SurfacePoint* end = s.end ? &*s.end : nullptr;
     const double at_light = end ? std::abs(double(end->ng.dot(s.wi))) : 1,
                  here = std::abs(double(at.point.ng.dot(s.wi)));
-    const bool unconnected = walk.edges == 1 && at.bsdf.is_narrow(); // with the camera
-    return walk.odds.with(reverse2(at, walk, wi, unconnected, 1)) * light_paths_->start2(light, end, at.point.p, s.wi) *
+    return walk.odds.with(reverse2(at, walk, wi, false, 1)) * light_paths_->start2(light, end, at.point.p, s.wi) *
            mc::sqr(here / (double(pdf) * at_light));
   }
 
@@ -259,20 +252,20 @@ template <class SceneType> class PathIntegrator {
   const SceneType& scene_;
   PathOptions options_;
   Directions directions_;
-  Media around_;
   const LightPaths* light_paths_;
 };
 
 template <class SceneType>
 template <class Stream>
-Spectrum PathIntegrator<SceneType>::radiance(const Ray& ray, Stream& stream, std::uint64_t& rays) const {
+Spectrum PathIntegrator<SceneType>::radiance(const Ray& ray, Stream& stream, std::uint64_t& rays,
+                                             const Media& around) const {
   if (options_.shown.what == Shown::normals) return normal(ray, stream, rays);
   if (options_.shown.what == Shown::ambient_occlusion) return openness(ray, stream, rays);
   Walk walk{ray, ray.o};
-  walk.media = around_;
+  walk.media = around;
   if (light_paths_) [[unlikely]]
     walk.odds = Odds(1, light_paths_->camera_density(ray.d), 0);
-  if (around_.here || light_paths_) [[unlikely]] // it fills what is cut away before the lens, too
+  if (around.here || light_paths_) [[unlikely]] // it fills what is cut away before the lens, too
     walk.previous -= scene_.camera().near() / ray.d.dot(scene_.camera().forward()) * ray.d;
   return follow(walk, stream, rays, true);
 }

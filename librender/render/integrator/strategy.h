@@ -16,7 +16,8 @@ enum class Target {
   lights,     ///< the shapes of the lights, and the guides
   guides,     ///< the shapes that the scene marks as such
   speculars,  ///< spheres of smooth glass or mirror, which may cast caustics of the lights
-  casters     ///< these, and spheres of rough glass and glossy metal
+  casters,    ///< these, and spheres of rough glass and glossy metal
+  shades      ///< those of `speculars` that a lamp lies in, or reaches into
 };
 
 /// How the light of sampled lights is found.
@@ -33,7 +34,7 @@ struct Strategy {
   Float share; ///< of the directions go to the target, the others follow the BSDF. 1: none but its delta lobes do
   Finding finding;
   Float light_paths = 0; ///< paths from the lights per path from the camera, in scenes where they pay, see LightPaths;
-                         ///< no direction is aimed there
+                         ///< directions are aimed at `shades` alone there
 };
 
 /// All but `light` are unbiased, those that find by chance where no light is a point or a direction; of such lights

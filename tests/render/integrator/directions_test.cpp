@@ -123,4 +123,28 @@ TEST(Directions, OneThroughTheSurfaceSaysWhichIndexItEnters) {
   }
 }
 
+// Of two balls of glass the one that a lamp reaches into is aimed at, and none where the lamp stands apart.
+TEST(Directions, ShadesHoldLamps) {
+  const Strategy shades = {"", Target::shades, Float(0.5), Finding::by_both};
+  for (const double x : {3.0, 3.9, 5.0}) {
+    SceneBuilder builder;
+    const BsdfId grey = builder.add(Lambert()), glass = builder.add(Dielectric());
+    builder.add(Sphere(Vec3d(x, 1, 0), 0.2), {grey, Emission{}});
+    builder.add(Sphere(Vec3d(3, 1, 0), 0.8), {glass});
+    builder.add(Sphere(Vec3d(-3, 1, 0), 0.8), {glass});
+    const Scene scene = builder.build();
+    const Directions directions(scene, shades);
+    const SurfacePoint point = of_floor();
+    const Lambert floor;
+    const Vertex<Lambert> at{floor, point, mc::Frame<Float>::from_z(point.ns), Vec3::UnitZ()};
+    const auto over_bsdf = [&](const Vec3& towards) {
+      const Vec3 wi = at.frame.to_local(towards.normalized());
+      return directions.pdf(at, wi, towards.normalized()) / floor.pdf(at.wo, wi);
+    };
+    const bool reaches = x < 4;
+    EXPECT_EQ(over_bsdf({3, 1, 0}) > 2, reaches) << x;
+    EXPECT_NEAR(over_bsdf({-3, 1, 0}), reaches ? 0.5 : 1, 1e-5) << x;
+  }
+}
+
 } // namespace

@@ -13,7 +13,8 @@ using namespace render;
 
 const Strategy& bidirectional = strategy_from("bidirectional");
 
-/// A lamp above a floor that a camera looks down at, and a ball beside what it sees, which makes light paths pay.
+/// A lamp above a floor that a camera looks down at, a wall that it does not see, and a ball beside what it sees, which
+/// makes light paths pay.
 struct Room {
   bool two_sided = false, glass = true, lamp = true, sky = false;
   std::optional<Light> delta = {};
@@ -25,6 +26,9 @@ struct Room {
     SceneBuilder builder;
     builder.add(TriangleMesh::rectangle(Transform::rotate(Vec3d::UnitX(), -90) * Transform::scale(Vec3d::Constant(3))),
                 {builder.add(floor)});
+    builder.add(TriangleMesh::rectangle(Transform::translate({2.2, 1, 0}) * Transform::rotate(Vec3d::UnitY(), -90) *
+                                        Transform::scale(Vec3d::Constant(2))),
+                {builder.add(Lambert(Spectrum::Ones()))});
     const BsdfId black = builder.add(Lambert(Spectrum::Zero()));
     const auto emission = lamp ? std::optional(Emission{Spectrum::Constant(2), two_sided}) : std::nullopt;
     builder.add(TriangleMesh::rectangle(Transform::translate({1, 2, 0}) * Transform::rotate(Vec3d::UnitX(), 90) *
@@ -125,14 +129,14 @@ TEST(LightPaths, StartsFromTheSkyHaveTheDensityThatTheyTell) {
   EXPECT_LE(moments.std_error(), 0.01 * paths->rate());
 }
 
-// Of paths of two edges, over a film of one pixel: their light, and what is left for paths from the camera, is what
-// these find alone. With a hundred paths from the light for each both ways weigh, so each gives a part of it only.
+// Of paths of up to three edges, over a film of one pixel: their light, and what is left for paths from the camera, is
+// what these find alone. With a hundred paths from the light for each both ways weigh, so each gives a part of it only.
 void expect_both_to_make_what_one_does(const Scene& scene) {
   Strategy many = bidirectional;
   many.light_paths = 100;
   const auto paths = LightPaths::of(scene, many, 1);
   ASSERT_TRUE(paths);
-  const PathIntegrator<Scene> both(scene, {many, 2}, {}, &*paths), alone(scene, {strategy_from("mis"), 2});
+  const PathIntegrator<Scene> both(scene, {many, 3}, &*paths), alone(scene, {strategy_from("mis"), 3});
   const mc::NoPairs numbers(17, 0);
   mc::Moments given, left, all;
   std::uint64_t rays = 0;
@@ -143,7 +147,7 @@ void expect_both_to_make_what_one_does(const Scene& scene) {
     left.add(double(both.radiance(ray, stream, rays)[0]));
     all.add(double(alone.radiance(ray, stream, rays)[0]));
     double value = 0;
-    paths->trace(stream, 2, rays, [&](const Vec2& s, const Spectrum& v) {
+    paths->trace(stream, 3, rays, [&](const Vec2& s, const Spectrum& v) {
       if (s.minCoeff() >= 0 && s.maxCoeff() < 1) value += double(v[0]) * paths->rate();
     });
     given.add(value);
@@ -157,6 +161,25 @@ void expect_both_to_make_what_one_does(const Scene& scene) {
 TEST(LightPaths, AddWhatPathsFromTheCameraLeave) {
   expect_both_to_make_what_one_does(Room().build());
   expect_both_to_make_what_one_does(Room{.lamp = false, .delta = PointLight({1, 2, 0}, Spectrum::Ones())}.build());
+}
+
+// What a lamp sends to the camera by way of one surface is found by its points at hardly any error, which the number of
+// paths that happen to arrive in a pixel would add.
+TEST(LightPaths, LeaveDirectLightToTheCamera) {
+  const Scene scene = Room().build();
+  const auto paths = LightPaths::of(scene, bidirectional, 1);
+  ASSERT_TRUE(paths);
+  const mc::NoPairs numbers(17, 0);
+  std::uint64_t rays = 0;
+  int direct = 0, longer = 0;
+  for (std::uint32_t i = 0; i < 10'000; ++i) {
+    for (const int depth : {2, 3}) {
+      mc::IndependentWalk<Float> stream(numbers, i);
+      paths->trace(stream, depth, rays, [&](const Vec2&, const Spectrum&) { ++(depth == 2 ? direct : longer); });
+    }
+  }
+  EXPECT_EQ(direct, 0);
+  EXPECT_GT(longer, 300);
 }
 
 } // namespace
