@@ -34,8 +34,8 @@ LightTaker::Trace LightTaker::trace_of(PixelSampler sampler) {
 }
 
 std::uint64_t LightTaker::paths(double mean) const {
-  return static_cast<std::uint64_t>(
-      std::llround(mean * double(whole_.width) * double(whole_.height) * light_paths_.rate()));
+  constexpr double least = 16; // so that no point set of a picture of few samples goes without
+  return static_cast<std::uint64_t>(std::llround(std::max(least, mean * per_sample())));
 }
 
 LightTaker::Choice LightTaker::pixel(double at, Float u, std::vector<double>& profile) const {
@@ -79,7 +79,6 @@ void LightTaker::trace(std::uint64_t from, std::uint64_t to, std::uint32_t sets,
 std::uint64_t LightTaker::take(std::uint64_t from, std::uint64_t to, int threads, const std::function<bool()>& stop,
                                Film& film, Tally& tally) const {
   const auto sets = static_cast<std::uint32_t>(film.sets());
-  const double per_sample = light_paths_.rate() * double(whole_.width) * double(whole_.height);
   while (from < to && !stop()) {
     const std::uint64_t end = std::min(to, from + block * blocks_at_once);
     std::vector<Splashes> found((end - from + block - 1) / block);
@@ -93,7 +92,7 @@ std::uint64_t LightTaker::take(std::uint64_t from, std::uint64_t to, int threads
     }
     for (std::uint32_t set = 0; set < sets; ++set) {
       const std::uint64_t paths = (end + sets - 1 - set) / sets - (from + sets - 1 - set) / sets;
-      film.count_light(static_cast<int>(set), double(paths) / per_sample);
+      film.count_light(static_cast<int>(set), double(paths) / per_sample());
     }
     from = end;
   }

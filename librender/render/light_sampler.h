@@ -17,7 +17,7 @@ class LightTaker {
   LightTaker(const Scene& scene, const LightPaths& light_paths, int max_depth, PixelSampler sampler, std::uint64_t seed,
              const Whole& whole);
 
-  /// As many paths as belong to `mean` samples of every pixel.
+  /// As many paths as belong to `mean` samples of every pixel; of a tiny picture more.
   std::uint64_t paths(double mean) const;
 
   /// Adds to the film the paths [from, to), in this order whatever the number of threads; what is not finite is left
@@ -44,6 +44,9 @@ class LightTaker {
   };
   template <class Stream>
   void trace(std::uint64_t from, std::uint64_t to, std::uint32_t sets, Splashes& splashes) const;
+
+  // Paths that belong to a sample of every pixel.
+  double per_sample() const { return light_paths_.rate() * double(whole_.width) * double(whole_.height); }
 
   /// A pixel along one axis, and the sum of the filter's values over all.
   struct Choice {

@@ -1,7 +1,12 @@
 #include <render/light_sampler.h>
+#include <render/render.h>
 #include <render/scene/builder.h>
 
+#include <mc/estimate/moments.h>
+
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace {
 
@@ -52,6 +57,23 @@ double sum(const Film& film) {
   for (int y = 0; y < film.height(); ++y)
     for (int x = 0; x < film.width(); ++x) total += film.estimate(x, y).mean[0];
   return total;
+}
+
+// A path from the lights for five samples would be none of a single pixel: its mean of 4000 seeds is that of much.
+TEST(LightTaker, TinyPicturesHaveTheirLight) {
+  const Scene scene = lit_floor(BoxFilter());
+  const auto mean_of = [&](unsigned spp, int seeds) {
+    mc::Moments moments;
+    RenderOptions options;
+    options.width = options.height = 1;
+    options.spp = spp;
+    for (options.seed = 1; options.seed <= std::uint64_t(seeds); ++options.seed)
+      moments.add(double(render::render(scene, options).image.pixels[0][0]));
+    return moments;
+  };
+  const mc::Moments one = mean_of(1, 4000), many = mean_of(4096, 8);
+  EXPECT_LE(one.std_error(), 0.02 * many.mean());
+  EXPECT_NEAR(one.mean(), many.mean(), 4 * std::hypot(one.std_error(), many.std_error())); // alpha 1e-4
 }
 
 // In whatever steps and threads, up to the rounding of sums that are added in the same order.
