@@ -128,12 +128,15 @@ bool sees_less(const Means& a, const Means& b) {
 }
 
 double log_ratio(const Means& a, const Means& b) {
+  // Relative to its size, where they are apart.
+  const auto error = [](const Mean& m, const Mean& other) {
+    if (!apart(m, other)) return m.error;
+    const double missed = std::abs(m.value) < std::abs(other.value) ? std::abs(other.value - m.value) : 0.0;
+    return std::max(m.error, missed) / (std::abs(m.value) + m.error);
+  };
   double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    const bool own = apart(a[k], b[k]);
-    const auto size = [&](const Mean& m) { return m.error / (own ? std::abs(m.value) + m.error : 1.0) + 1e-300; };
-    sum += 2 * std::log(size(a[k]) / size(b[k]));
-  }
+  for (std::size_t k = 0; k < a.size(); ++k)
+    sum += 2 * std::log((error(a[k], b[k]) + 1e-300) / (error(b[k], a[k]) + 1e-300));
   return sum;
 }
 

@@ -61,7 +61,8 @@ bool apart(const Means& a, const Means& b);
 bool sees_less(const Means& a, const Means& b);
 
 /// The logarithm of the variances of a over those of b, summed over the outputs. Of means that are apart the
-/// relative errors count: the one that has not met what counts knows neither its value nor its error.
+/// relative errors count, and that of the smaller is at least the gap: the one that has not met what counts knows
+/// neither its value nor its error.
 double log_ratio(const Means& a, const Means& b);
 
 /// What such a logarithm must exceed for b to be the better: more the more skewed b is, since it looks too good where

@@ -107,7 +107,8 @@ TEST(Methods, AutoKeepsToFewCalls) {
 
 // A long thin Gaussian that follows no axis, .015 % of the volume: bare points that met none of it have the least
 // variance, and short rounds of learning do not meet the whole of it. Of these seeds auto once ended with bare points
-// in 4, and had an error over 10 % in 9.
+// in 4, and had an error over 10 % in 9. With grids that followed single points 19 of the 24 intervals held, and of 100
+// seeds two were off by 78 and 159 %.
 TEST(Methods, AutoFindsTheWholeOfARidge) {
   const std::function<double(std::span<const double>)> ridge = [](std::span<const double> u) {
     const double x = u[0] - 0.5, y = u[1] - 0.5, z = u[2] - 0.5, along = (x + 2 * y + 2 * z) / 3;
@@ -115,7 +116,8 @@ TEST(Methods, AutoFindsTheWholeOfARidge) {
     return std::exp(-(mc::sqr(along / 0.06) + across2 / mc::sqr(0.006)) / 2);
   };
   const double truth = std::pow(2 * mc::pi<double>, 1.5) * 0.06 * mc::sqr(0.006);
-  int bare = 0, off = 0;
+  int bare = 0, off = 0, covered = 0;
+  double squares = 0;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     mc::IntegrateOptions o;
     o.rel_error = 0;
@@ -124,9 +126,13 @@ TEST(Methods, AutoFindsTheWholeOfARidge) {
     const mc::Integral r = mc::integrate_unit(ridge, 3, o);
     bare += r.method == mc::Method::rqmc;
     off += std::abs(r.estimate.value / truth - 1) > 0.1;
+    covered += r.interval.lo <= truth && truth <= r.interval.hi;
+    squares += mc::sqr(r.estimate.value / truth - 1);
   }
   EXPECT_EQ(bare, 0);
   EXPECT_LE(off, 4);
+  EXPECT_GE(covered, 20);                   // 22.8 expected
+  EXPECT_LE(std::sqrt(squares / 24), 0.03); // measured .004, and .009 over 100 seeds
 }
 
 TEST(Methods, LearnFindsThePeak) {

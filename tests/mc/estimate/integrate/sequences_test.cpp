@@ -146,6 +146,14 @@ TEST(Sequences, WhoMetNothingIsNotAhead) {
   EXPECT_FALSE(mc::detail::apart(much, like_it));
 }
 
+// Half of the value with a fiftieth of its error: what it has not met it is off by.
+TEST(Sequences, WhoMetLessIsNotAhead) {
+  const mc::detail::Means less = {{0.5, 1e-3, 23}}, much = {{1, 0.05, 23}};
+  EXPECT_TRUE(mc::detail::apart(much, less));
+  EXPECT_LT(mc::detail::log_ratio(much, less), -4);
+  EXPECT_NEAR(mc::detail::log_ratio(less, much), -mc::detail::log_ratio(much, less), 1e-12);
+}
+
 TEST(Sequences, AnErrorThatOnlyOthersKnowSaysLess) {
   const detail::Mean known{1, 0.1, 23}, unknown{1e-4, 1e-4, 23, 0, mc::ErrorBar::infinite_variance};
   EXPECT_TRUE(mc::detail::sees_less({known, unknown}, {known, known}));

@@ -9,6 +9,8 @@ namespace mc::detail {
 namespace {
 constexpr double small = 1e-3, large = 1e-2; // variances of a point over the squared mean
 constexpr double enough = 8;                 // points that a variance must be made of
+constexpr double of_equal = 12;              // times as many points as decide, and the grid is told of all
+constexpr double fewest = 256;               // points that the grid is told of at least
 } // namespace
 
 Learner::Learner(const Run& run)
@@ -114,17 +116,27 @@ WeightedValues Learner::within_grid() const {
 }
 
 // Where the values are spread widely, a few of the largest would decide everything. Then the grid follows a root of the
-// integrand first, and what is left to learn is spread less widely.
+// integrand first, and what is left to learn is spread less widely. And where few of the points decide the integral
+// [Kish65], most having met next to nothing, the grid is told of fewer points: a density that follows single ones is
+// far too low where none fell. By the square of that share, since the grid follows about the square of the integrand,
+// of which fewer still decide. But what even a handful found is followed, if coarsely, so that the next round looks
+// there. Of a singular integrand a good share decides, although a few points hold its square: it is followed as far as
+// it goes, else its tail would stay hidden.
 void Learner::adapt_grid() {
   const WeightedValues seen = within_grid();
   const double exponent = std::min(2.0, std::sqrt(8 / std::max(width_, 1e-3)));
   std::vector<double> power(dim_ * ImportanceGrid::bins);
+  double sum = 0, squares = 0;
   for (std::size_t i = 0; i < size(); ++i) {
-    const double x = std::pow(std::abs(seen.values[i]), exponent) * seen.weights[i];
+    const double value = std::abs(seen.values[i]), x = std::pow(value, exponent) * seen.weights[i];
+    sum += value * seen.weights[i];
+    squares += sqr(value * seen.weights[i]);
     for (std::size_t j = 0; j < dim_; ++j)
       power[j * ImportanceGrid::bins + static_cast<std::size_t>(seen.points[i * dim_ + j] * ImportanceGrid::bins)] += x;
   }
-  density_.grid.refine(power, size());
+  const double all = static_cast<double>(size()), decide = squares > 0 ? sqr(sum) / squares : all;
+  const double told = all * sqr(std::min(1.0, of_equal * decide / all));
+  density_.grid.refine(power, static_cast<std::uint64_t>(std::min(std::max(told, fewest), all)));
 }
 
 void Learner::adapt_tree() { density_.tree = importance_tree(within_grid()); }
