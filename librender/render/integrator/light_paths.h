@@ -26,12 +26,13 @@ namespace render {
 ///            or mirror, where a scene has any. Of environment maps and directional lights, for these spheres alone, a
 ///            direction as the light samples it and a point of a sphere's disk across it
 ///   Paths  : follow the BSDFs; Russian roulette as of PathIntegrator
-///   Gain   : with a fifth as many as paths from the camera a picture takes .20 (book3-cornell-aluminium), .28
-///            (book3-cornell-glass), .41 (smallpt), .59 (metals), .62 (ground-glass), .74 (textures, blinn-phong), .91
-///            (materials), .98 (tinted-glass) and 1.0 (veach-mi) of the time of `mis` to a given error; an eighth or a
-///            quarter as many change that by up to a fifth. A ball of metal under a lamp of a fiftieth, a ninth or a
-///            third of its distance: .13, .17 and .64 at alpha .1, .41, .48 and .86 at .2, .9 to 1.2 at .3; at a fuzz
-///            of .3, .5 and .8 .25 to .70, .60 to .83 and 1.1 to 1.2
+///   Gain   : with a fifth as many as paths from the camera a picture takes .16 (book3-cornell-aluminium), .34
+///            (book3-cornell-glass), .41 (smallpt), .51 (metals), .61 (ground-glass), .69 (blinn-phong), .76
+///            (textures), .91 (tinted-glass) and 1.0 (materials, veach-mi) of the time of `mis` to a given error; an
+///            eighth or a quarter as many change that by up to a fifth. A ball of metal under a lamp of a fiftieth, a
+///            ninth or a third of its distance: .13, .17 and .64 at alpha .1, .41, .48 and .86 at .2, .9 to 1.2 at .3;
+///            at a fuzz of .3, .5 and .8 .25 to .70, .60 to .83 and 1.1 to 1.2. CPU seconds times the variance of six
+///            seeds
 ///   Source : [Veach97] chapter 10, of whose connections these are those at both ends; light through shading normals
 ///            section 5.3
 class LightPaths {
