@@ -181,65 +181,64 @@ std::vector<Spectrum> unit_of(const Image& reference) {
   return unit;
 }
 
-// Sixty rooms, 16 pictures by each way, Welch's t; every way to render in turn. Skew makes a z-score of 4 of what is 3,
-// so 5.5 is the bound, which one of 10^6 exceeds by chance; of sixty, one in twenty is beyond 2.05.
+RenderOptions options_of(std::uint64_t room, unsigned spp) {
+  RenderOptions options;
+  options.width = 8;
+  options.height = 6;
+  options.spp = spp;
+  options.seed = room;
+  options.max_depth = room % 4 == 3 ? 3 : -1;
+  return options;
+}
+
+/// Whether rooms look alike in two ways, by Welch's t. Skew makes a z-score of 4 of what is 3, so the bound is 5.5,
+/// which one of 10^6 exceeds by chance.
+struct Agreement {
+  int rooms = 0, beyond = 0; ///< all, and those beyond the two-sided bound of 5 %
+
+  void add(std::uint64_t room, const mc::Moments& one, const mc::Moments& two, double bound) {
+    const double t = (two.mean() - one.mean()) / std::hypot(one.std_error(), two.std_error());
+    ++rooms;
+    beyond += std::abs(t) > bound;
+    EXPECT_LE(std::abs(t), 5.5) << "room " << room << ": " << two.mean() << " +- " << two.std_error() << " for "
+                                << one.mean() << " +- " << one.std_error();
+  }
+};
+
+// Sixty rooms, 16 pictures by each way; every way to render in turn.
 TEST(TwoEnds, MakeThePictureOfOne) {
-  int lit = 0, beyond = 0;
-  for (std::uint64_t i = 0; lit < 60; ++i) {
+  Agreement agreement;
+  for (std::uint64_t i = 0; agreement.rooms < 60; ++i) {
     const Scene scene = RoomMaker(i).build();
     if (!LightPaths::of(scene, strategy_from("bidirectional"), 1)) continue;
-    ++lit;
-    RenderOptions options;
-    options.width = 8;
-    options.height = 6;
-    options.spp = 64;
-    options.seed = i;
-    options.max_depth = i % 4 == 3 ? 3 : -1;
-    options.strategy = strategy_from("mis");
-    options.adaptive = false;
-    RenderOptions much = options;
-    much.spp = 256;
+    RenderOptions options = options_of(i, 64), much = options_of(i, 256);
+    options.strategy = much.strategy = strategy_from("mis");
+    options.adaptive = much.adaptive = false;
     const std::vector<Spectrum> unit = unit_of(render::render(scene, much).image);
     const mc::Moments one = means_of(scene, options, 16, unit);
     options.strategy = strategy_from("bidirectional");
     options.sampler = std::array{PixelSampler::sobol, PixelSampler::independent, PixelSampler::stratified}[i % 3];
     options.adaptive = i % 5 == 1;
     options.splat = i % 5 == 2;
-    const mc::Moments two = means_of(scene, options, 16, unit);
-    const double va = mc::sqr(one.std_error()), vb = mc::sqr(two.std_error()), off = two.mean() - one.mean();
-    const double t = off / std::sqrt(va + vb);
-    beyond += std::abs(t) > 2.05; // of Student's t with some 28 degrees of freedom
-    EXPECT_LE(std::abs(t), 5.5) << "room " << i << ": " << two.mean() << " +- " << two.std_error() << " for "
-                                << one.mean() << " +- " << one.std_error();
+    agreement.add(i, one, means_of(scene, options, 16, unit), 2.05); // of Student's t with some 28 degrees of freedom
   }
-  EXPECT_LE(beyond, 10); // of 60 at 5 %: 10 or fewer but for 1 in 3000
+  EXPECT_LE(agreement.beyond, 10); // of 60 at 5 %: 10 or fewer but for 1 in 3000
 }
 
 // Forty rooms of points and parallel light, and the same of the spheres that these stand for, which paths from the
-// camera meet: bounds as above.
+// camera meet.
 TEST(TwoEnds, DeltaLightsCastTheCausticsOfSmallSpheres) {
-  int lit = 0, beyond = 0;
-  for (std::uint64_t i = 0; lit < 40; ++i) {
+  Agreement agreement;
+  for (std::uint64_t i = 0; agreement.rooms < 40; ++i) {
     const Scene deltas = RoomMaker(i, LitBy::deltas).build(), spheres = RoomMaker(i, LitBy::spheres).build();
     if (!LightPaths::of(deltas, strategy_from("bidirectional"), 1)) continue;
-    RenderOptions options;
-    options.width = 8;
-    options.height = 6;
-    options.spp = 256;
-    options.seed = i;
-    options.max_depth = i % 4 == 3 ? 3 : -1;
+    const RenderOptions options = options_of(i, 256);
     const Image reference = render::render(spheres, options).image;
     if (std::all_of(reference.pixels.begin(), reference.pixels.end(), is_black)) continue;
     const std::vector<Spectrum> unit = unit_of(reference);
-    const mc::Moments one = means_of(spheres, options, 12, unit), two = means_of(deltas, options, 12, unit);
-    const double off = two.mean() - one.mean();
-    const double t = off / std::sqrt(mc::sqr(one.std_error()) + mc::sqr(two.std_error()));
-    ++lit;
-    beyond += std::abs(t) > 2.07; // of Student's t with some 22 degrees of freedom
-    EXPECT_LE(std::abs(t), 5.5) << "room " << i << ": " << two.mean() << " +- " << two.std_error() << " for "
-                                << one.mean() << " +- " << one.std_error();
+    agreement.add(i, means_of(spheres, options, 12, unit), means_of(deltas, options, 12, unit), 2.07); // with some 22
   }
-  EXPECT_LE(beyond, 8); // of 40 at 5 %: 8 or fewer but for 1 in 2000
+  EXPECT_LE(agreement.beyond, 8); // of 40 at 5 %: 8 or fewer but for 1 in 2000
 }
 
 /// A room that light paths pay in.
