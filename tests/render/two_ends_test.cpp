@@ -273,10 +273,7 @@ TEST(TwoEnds, SameBitsForAnyNumberOfThreadsAndAnyPart) {
 
 TEST(TwoEnds, ShortPathsHaveOne) {
   const Scene scene = lit_room();
-  RenderOptions options;
-  options.width = 11;
-  options.height = 9;
-  options.spp = 12;
+  RenderOptions options = options_of(0, 12);
   options.max_depth = 2;
   const RenderResult two = render::render(scene, options);
   options.strategy = strategy_from("mis");
@@ -291,10 +288,7 @@ TEST(TwoEnds, ShortPathsHaveOne) {
 // that share paths: to a tenth. The floor of Film::estimate may put it above.
 TEST(TwoEnds, ErrorBarsAreTrue) {
   const Scene scene = lit_room();
-  RenderOptions options;
-  options.width = 8;
-  options.height = 6;
-  options.spp = 32;
+  RenderOptions options = options_of(0, 32);
   for (const bool adaptive : {false, true}) {
     options.adaptive = adaptive;
     constexpr int pictures = 200;

@@ -10,8 +10,9 @@ namespace mc {
 /// Number of hardware threads, at least 1.
 int hardware_threads();
 
-/// Runs f(i) for every i in [0, n) on up to `threads` threads (0: all of the machine's). The first exception stops the
-/// loop: no new i is started, all threads are joined, and it is rethrown. Error for fewer than 0 threads.
+/// Runs f(i) for every i in [0, n) on up to `threads` threads (0: all of the machine's; as many or more: those of the
+/// TBB arena that calls it). The first exception stops the loop: no new i is started, all threads are joined, and it is
+/// rethrown. Error for fewer than 0 threads.
 void parallel_for(std::size_t n, int threads, const std::function<void(std::size_t)>& f);
 
 /// Runs f(begin, end) on consecutive parts of [0, n) of up to `size`, as parallel_for does.

@@ -11,7 +11,7 @@
 namespace render {
 
 /// Halves, halved again until they are few enough for a leaf.
-///   build : binned SAH [Wald07] with 9 to 32 bins, costs counted in leaves of `lanes` boxes, then rotated to smaller
+///   build : binned SAH [Wald07] with 8 to 32 bins, costs counted in leaves of `lanes` boxes, then rotated to smaller
 ///           boxes [Kensler08]. By all of the machine's threads where there are many boxes; the same for any number.
 class BinaryTree {
  public:

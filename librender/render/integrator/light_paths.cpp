@@ -1,5 +1,7 @@
 #include <render/integrator/light_paths.h>
 
+#include <mc/warp/mixture_n.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,8 +25,8 @@ Strategy beside(Strategy strategy) {
   return strategy;
 }
 
-// How often paths start from each light: by its power, a third of them from all alike, since power does not tell how
-// much of it arrives. Infinite lights that are not sampled are found by chance alone.
+// How often paths start from each light: by its power, a third of them from all alike as in LightChoice, since power
+// does not tell how much of it arrives. Infinite lights that are not sampled are found by chance alone.
 std::vector<double> shares_of(const Scene& scene) {
   double radius2 = 0, sum = 0, shining = 0;
   for (const Sphere* s : spheres_of(scene)) radius2 += mc::sqr(s->radius());
@@ -36,7 +38,7 @@ std::vector<double> shares_of(const Scene& scene) {
     shares.push_back(power);
   }
   for (double& share : shares)
-    if (share > 0) share = share / sum * 2 / 3 + 1 / (3 * shining);
+    if (share > 0) share += sum / (2 * shining);
   return shares;
 }
 
@@ -66,11 +68,12 @@ LightPaths::LightPaths(const Scene& scene, const Strategy& strategy, Float aspec
       aims_(casters_.empty() ? Float(0) : aim.share), absorbs_(absorbs(scene)), lamp_(Lambert(Spectrum::Ones())) {}
 
 double LightPaths::around(const Vec3& p, const Vec3& d, const std::optional<Aimed>& aimed) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < casters_.size(); ++i)
-    sum += double(aimed && aimed->at == i ? aimed->pdf : casters_[i]->pdf(p, d));
   const double uniform = double(aims_.pmf(0)) / (4 * mc::pi<double>);
-  return casters_.empty() ? uniform : uniform + double(aims_.pmf(1)) * sum / double(casters_.size());
+  if (casters_.empty()) return uniform;
+  const Float at_casters = mc::mixture_pdf(mc::UniformDiscrete<Float>(casters_.size()), [&](std::size_t i) {
+    return aimed && aimed->at == i ? aimed->pdf : casters_[i]->pdf(p, d);
+  });
+  return uniform + double(aims_.pmf(1)) * double(at_casters);
 }
 
 auto LightPaths::sample_start_from(const PointLight& lamp, double pmf, const Vec2& u) const -> std::optional<Start> {

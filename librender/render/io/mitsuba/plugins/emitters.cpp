@@ -64,12 +64,14 @@ const Plugins<Light>& emitter_plugins() {
                     point("position", "where it is", Vec3d::Zero()),
                     color("intensity", "W/sr", "what is emitted, >= 0", Spectrum::Ones()))
           .accepting({sampling_weight()}),
-      plugin<Light>(
-          "directional",
-          "parallel light from far away; found by nee, mis and bidirectional alone, its caustics by bidirectional",
-          make_directional, transform("toWorld", "turns the direction; where it moves things is of no effect"),
-          point("direction", "in which the light goes, of any length", Vec3d::UnitZ()),
-          color("irradiance", "W/m^2", "of what it meets head-on, >= 0", Spectrum::Ones()))
+      plugin<Light>("directional",
+                    "parallel light from far away; found by nee, mis and bidirectional alone, the caustics of up to "
+                    "eight balls by "
+                    "bidirectional",
+                    make_directional,
+                    transform("toWorld", "turns the direction; where it moves things is of no effect"),
+                    point("direction", "in which the light goes, of any length", Vec3d::UnitZ()),
+                    color("irradiance", "W/m^2", "of what it meets head-on, >= 0", Spectrum::Ones()))
           .accepting({sampling_weight()}),
   };
   return rows;
