@@ -149,6 +149,49 @@ TEST(HardShadows, APointInAFurnace) {
   }
 }
 
+// A flat mirror, a mesh, throws parallel light onto the floor, beside what falls there straight: rho / pi (cos + tint
+// cos'). Boxes of glass under the floor, up to more than have a ball each, change nothing. Student's t of 16 pictures.
+TEST(HardShadows, MirrorsThrowParallelLight) {
+  mc::Pcg random(6);
+  for (int i = 0; i < 24; ++i) {
+    Floor floor(random);
+    Vec3d sun, way; // from the origin to the sun, and to the mirror
+    do sun = random_direction(random);
+    while (sun.y() < 0.2);
+    do way = random_direction(random);
+    while (way.y() < 0.3 || way.y() > 0.8 || way.dot(sun) > 0.7); // beside the camera's view and the sun's
+    const Vec3d mirror = 2 * way;
+    const Float tint = Float(0.5 + 0.5 * random.uniform<double>());
+    floor.builder.add(
+        TriangleMesh::rectangle(floor.space * Transform::look_at(mirror, mirror + sun - way, random_direction(random)) *
+                                Transform::scale(Vec3d::Constant(0.4))),
+        {floor.builder.add(Metal(Spectrum::Constant(tint)))});
+    const BsdfId glass = floor.builder.add(Dielectric());
+    for (int box = 0; box < 5 * (i % 3); ++box)
+      floor.builder.add(TriangleMesh::box(floor.space * Transform::translate({box - 2.0, -1.5, 0}) *
+                                          Transform::scale(Vec3d::Constant(0.3))),
+                        {glass});
+    floor.builder.add(Light(DirectionalLight(floor.space.vector(-sun), Spectrum::Ones())));
+    const Ray ray = floor.ray_to(Vec3d::Zero());
+    floor.builder.set(
+        ThinLens(Transform::look_at(ray.o.cast<double>(), floor.space.point(Vec3d::Zero()), random_direction(random)),
+                 {.fov = 8}));
+    const Scene scene = floor.builder.build();
+    RenderOptions options;
+    options.strategy = strategy_from("bidirectional");
+    options.strategy.light_paths = 20;
+    options.width = options.height = 1;
+    options.spp = 512;
+    mc::Moments seen;
+    for (options.seed = 0; options.seed < 16; ++options.seed)
+      seen.add(double(render::render(scene, options).image.pixels[0][0]));
+    const double expected = rho / mc::pi<double> * (sun.y() + double(tint) * way.y());
+    EXPECT_GE(mc::t_test(seen, expected).p, 1e-6)
+        << i << ": " << seen.mean() << " +- " << seen.std_error() << ", not " << expected << ", scale " << floor.scale;
+    EXPECT_LE(seen.std_error(), 0.1 * expected) << i;
+  }
+}
+
 // A scene file moved far away is the same scene, its points of light included.
 struct MovedLights : support::ScratchTest {};
 TEST_F(MovedLights, AreTheSame) {

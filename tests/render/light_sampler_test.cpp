@@ -41,7 +41,7 @@ Taken taken(const Filter& filter, std::uint64_t steps, int threads, PixelSampler
   const LightTaker taker(scene, *paths, 3, sampler, 7, {16, 12, part});
   Taken all{{part.width, part.height, 4, {}, true}, {}};
   const std::uint64_t n = taker.paths(spp);
-  EXPECT_EQ(n, std::uint64_t{spp} * 16 * 12 / 5);
+  EXPECT_EQ(n, std::uint64_t{spp} * 16 * 12 / 8);
   for (std::uint64_t i = 0; i < steps; ++i)
     EXPECT_EQ(taker.take(
                   i * n / steps, (i + 1) * n / steps, threads, [] { return false; }, all.film, all.tally),
@@ -59,7 +59,7 @@ double sum(const Film& film) {
   return total;
 }
 
-// A path from the lights for five samples would be none of a single pixel: its mean of 4000 seeds is that of much.
+// A path from the lights for eight samples would be none of a single pixel: its mean of 4000 seeds is that of much.
 TEST(LightTaker, TinyPicturesHaveTheirLight) {
   const Scene scene = lit_floor(BoxFilter());
   const auto mean_of = [&](unsigned spp, int seeds) {
@@ -101,7 +101,7 @@ TEST(LightTaker, StepsAndThreadsMakeNoDifference) {
 // standard deviations.
 TEST(LightTaker, FiltersKeepTheLight) {
   const auto light = [](const Filter& filter) {
-    return sum(taken(filter, 1, 2, PixelSampler::sobol, {0, 0, 16, 12}, 10'000).film);
+    return sum(taken(filter, 1, 2, PixelSampler::sobol, {0, 0, 16, 12}, 16'000).film);
   };
   const double expected = light(BoxFilter());
   EXPECT_GT(expected, 0);

@@ -23,16 +23,12 @@ std::vector<const Shape*> lights_and_guides(const Scene& scene) {
   return found;
 }
 
-template <class Holds> std::vector<const Shape*> spheres(const Scene& scene, Holds&& holds) {
+std::vector<const Shape*> specular_spheres(const Scene& scene) {
   std::vector<const Shape*> found;
   for (const Surface& s : scene.surfaces())
-    if (std::holds_alternative<Sphere>(*s.shape) && holds(scene.bsdf(s))) found.push_back(s.shape.get());
+    if (std::holds_alternative<Sphere>(*s.shape) && scene.bsdf(s).is_delta()) found.push_back(s.shape.get());
   if (found.size() > most_spheres) found.clear();
   return found;
-}
-
-std::vector<const Shape*> specular_spheres(const Scene& scene) {
-  return spheres(scene, [](const Bsdf& b) { return b.is_delta(); });
 }
 
 // Through which a path may meet a light; nothing meets a delta light.
@@ -43,14 +39,6 @@ std::vector<const Shape*> speculars(const Scene& scene) {
   return meets ? specular_spheres(scene) : std::vector<const Shape*>();
 }
 
-bool holds_a_lamp(const Scene& scene, const Sphere& sphere) {
-  const auto& lights = scene.lights();
-  return std::any_of(lights.begin(), lights.end(), [&](const Light& light) {
-    const auto* lamp = std::get_if<AreaLight>(&light);
-    return lamp && lamp->shape().box().squaredExteriorDistance(sphere.center()) < mc::sqr(sphere.radius());
-  });
-}
-
 std::vector<const Shape*> shades(const Scene& scene) {
   std::vector<const Shape*> found = specular_spheres(scene);
   std::erase_if(found, [&](const Shape* s) { return !holds_a_lamp(scene, std::get<Sphere>(*s)); });
@@ -59,9 +47,12 @@ std::vector<const Shape*> shades(const Scene& scene) {
 
 } // namespace
 
-std::vector<const Shape*> caustic_casters(const Scene& scene) {
-  auto found = spheres(scene, [](const Bsdf& b) { return b.casts_caustics(); });
-  return found.empty() ? spheres(scene, [](const Bsdf& b) { return b.is_narrow() || b.transmits(); }) : found;
+bool holds_a_lamp(const Scene& scene, const Sphere& sphere) {
+  const auto& lights = scene.lights();
+  return std::any_of(lights.begin(), lights.end(), [&](const Light& light) {
+    const auto* lamp = std::get_if<AreaLight>(&light);
+    return lamp && lamp->shape().box().squaredExteriorDistance(sphere.center()) < mc::sqr(sphere.radius());
+  });
 }
 
 bool finds_all_lights(const Scene& scene, const Strategy& strategy) {
@@ -81,9 +72,13 @@ Directions::Directions(const Scene& scene, const Strategy& strategy)
   if (strategy.target == Target::guides) shapes_ = guides(scene);
   if (strategy.target == Target::speculars) shapes_ = speculars(scene);
   if (strategy.target == Target::shades) shapes_ = shades(scene);
-  if (strategy.target == Target::casters) shapes_ = caustic_casters(scene);
   const std::size_t targets = strategy.target == Target::hemisphere ? 1 : shapes_.size();
   if (targets > 0) targets_.emplace(targets);
+}
+
+Directions::Directions(std::vector<const Shape*> targets, Float share)
+    : shapes_(std::move(targets)), aims_(share), aims_for_delta_(std::min(share, Float(0.5))), follows_(share < 1) {
+  if (!shapes_.empty()) targets_.emplace(shapes_.size());
 }
 
 } // namespace render

@@ -47,8 +47,8 @@ bool finds_all_lights(const Scene& scene, const Strategy& strategy);
 /// enough, in edges (-1: no limit), to find light elsewhere: on other surfaces, or in the sky.
 bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth);
 
-/// The spheres that Target::casters aims at: all that cast caustics, or where these are many, glass and mirrors.
-std::vector<const Shape*> caustic_casters(const Scene& scene);
+/// Whether a lamp lies in the sphere, or its box reaches into it.
+bool holds_a_lamp(const Scene& scene, const Sphere& sphere);
 
 /// A mixture of the BSDF and the targets of a strategy, each equally likely.
 ///   choose : a direction, and its weight under the density of the whole mixture
@@ -60,6 +60,8 @@ std::vector<const Shape*> caustic_casters(const Scene& scene);
 class Directions {
  public:
   Directions(const Scene& scene, const Strategy& strategy);
+  /// share : of the directions go to the targets, which must outlive it; where there are none the BSDF is followed
+  Directions(std::vector<const Shape*> targets, Float share);
 
   template <class B, class Stream> std::optional<ChosenDirection> choose(const Vertex<B>& at, Stream& stream) const {
     if (!targets_ || at.bsdf.is_narrow()) return followed(at, stream);

@@ -9,12 +9,63 @@ namespace render {
 
 namespace {
 
-constexpr Strategy follow = {"", Target::nothing, 0, Finding::by_chance};
-constexpr Strategy aim = {"", Target::casters, Float(0.8), Finding::by_chance};
+constexpr Float aimed_share = Float(0.8); // of the paths from lamps and points
+constexpr std::size_t most_casters = 8;   // aiming at more would not pay
 
-std::vector<const Sphere*> spheres_of(const Scene& scene) {
-  std::vector<const Sphere*> found;
-  for (const Shape* s : caustic_casters(scene)) found.push_back(&std::get<Sphere>(*s));
+template <class Holds> std::vector<const Shape*> shapes_where(const Scene& scene, Holds&& holds) {
+  std::vector<const Shape*> found;
+  for (const Surface& s : scene.surfaces())
+    if (holds(scene.bsdf(s))) found.push_back(s.shape.get());
+  return found;
+}
+
+// About the middle of its box; of radius 0 where nothing of it can be met.
+struct Ball {
+  Vec3d center = Vec3d::Zero();
+  double radius = 0;
+};
+
+Ball ball_around(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return {sphere->center(), sphere->radius()};
+  const auto& mesh = std::get<TriangleMesh>(shape);
+  if (mesh.box().isEmpty()) return {};
+  const Vec3d center = mesh.box().center();
+  double radius2 = 0;
+  for (std::size_t i = 0; i < mesh.size(); ++i)
+    for (const Vec3& p : mesh.vertices(i)) radius2 = std::max(radius2, (p.cast<double>() - center).squaredNorm());
+  return {center, std::sqrt(radius2)};
+}
+
+Ball ball_around(const std::vector<const Shape*>& shapes) {
+  Eigen::AlignedBox3d all;
+  for (const Shape* s : shapes) all.extend(s->box());
+  if (all.isEmpty()) return {};
+  return {all.center(), all.diagonal().norm() / 2};
+}
+
+// Balls around all that casts caustics; where these are many around glass and mirrors alone, or one around all of them:
+// nothing but paths from the lights finds the caustics of parallel light.
+std::vector<Shape> balls_around_casters(const Scene& scene) {
+  auto casters = shapes_where(scene, [](const Bsdf& b) { return b.casts_caustics(); });
+  if (casters.size() > most_casters) {
+    const auto clear = shapes_where(scene, [](const Bsdf& b) { return b.is_narrow() || b.transmits(); });
+    if (!clear.empty()) casters = clear;
+  }
+  std::vector<Ball> balls;
+  if (casters.size() > most_casters) balls.push_back(ball_around(casters));
+  else
+    for (const Shape* s : casters) balls.push_back(ball_around(*s));
+  std::vector<Shape> found;
+  for (const auto& [center, radius] : balls)
+    if (radius > 0) found.push_back(Sphere(center, radius));
+  return found;
+}
+
+// What a lamp reaches into it sees in all directions.
+std::vector<const Shape*> apart_from_lamps(const Scene& scene, const std::vector<Shape>& balls) {
+  std::vector<const Shape*> found;
+  for (const Shape& ball : balls)
+    if (!holds_a_lamp(scene, std::get<Sphere>(ball))) found.push_back(&ball);
   return found;
 }
 
@@ -27,9 +78,9 @@ Strategy beside(Strategy strategy) {
 
 // How often paths start from each light: by its power, a third of them from all alike as in LightChoice, since power
 // does not tell how much of it arrives. Infinite lights that are not sampled are found by chance alone.
-std::vector<double> shares_of(const Scene& scene) {
+std::vector<double> shares_of(const Scene& scene, const std::vector<Shape>& balls) {
   double radius2 = 0, sum = 0, shining = 0;
-  for (const Sphere* s : spheres_of(scene)) radius2 += mc::sqr(s->radius());
+  for (const Shape& ball : balls) radius2 += mc::sqr(std::get<Sphere>(ball).radius());
   std::vector<double> shares;
   for (const Light& light : scene.lights()) {
     const double power = light.is_sampled() ? light.power(std::sqrt(radius2)) : 0;
@@ -45,14 +96,13 @@ std::vector<double> shares_of(const Scene& scene) {
 } // namespace
 
 std::optional<LightPaths> LightPaths::of(const Scene& scene, const Strategy& strategy, Float aspect) {
-  const std::vector<double> shares = shares_of(scene);
+  if (!(strategy.light_paths > 0)) return {};
+  std::vector<Shape> balls = balls_around_casters(scene);
+  const std::vector<double> shares = shares_of(scene, balls);
   const bool shines = std::any_of(shares.begin(), shares.end(), [](double p) { return p > 0; });
   const bool fits = scene.filter().radius() <= SplatFilter::furthest;
-  const auto surfaces = scene.surfaces();
-  const bool bundles =
-      std::any_of(surfaces.begin(), surfaces.end(), [&](const Surface& s) { return scene.bsdf(s).casts_caustics(); });
-  if (!(strategy.light_paths > 0) || !shines || !fits || !bundles) return {};
-  return LightPaths(scene, strategy, aspect, shares);
+  if (!shines || !fits || balls.empty()) return {};
+  return LightPaths(scene, strategy, aspect, std::move(balls), shares);
 }
 
 std::vector<Strategy> strategies_for(const Scene& scene) {
@@ -62,18 +112,20 @@ std::vector<Strategy> strategies_for(const Scene& scene) {
   return found;
 }
 
-LightPaths::LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& shares)
+LightPaths::LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, std::vector<Shape> casters,
+                       const std::vector<double>& shares)
     : scene_(&scene), rate_(double(strategy.light_paths)), tan_half_(scene.camera().tan_half(aspect)), lights_(shares),
-      starts_(scene, aim), follows_(scene, follow), of_camera_(scene, beside(strategy)), casters_(spheres_of(scene)),
-      aims_(casters_.empty() ? Float(0) : aim.share), absorbs_(absorbs(scene)), lamp_(Lambert(Spectrum::Ones())) {}
+      casters_(std::move(casters)), targets_(apart_from_lamps(scene, casters_)), starts_(targets_, aimed_share),
+      follows_({}, 0), of_camera_(scene, beside(strategy)), aims_(targets_.empty() ? Float(0) : aimed_share),
+      absorbs_(absorbs(scene)), lamp_(Lambert(Spectrum::Ones())) {}
 
 double LightPaths::around(const Vec3& p, const Vec3& d, const std::optional<Aimed>& aimed) const {
   const double uniform = double(aims_.pmf(0)) / (4 * mc::pi<double>);
-  if (casters_.empty()) return uniform;
-  const Float at_casters = mc::mixture_pdf(mc::UniformDiscrete<Float>(casters_.size()), [&](std::size_t i) {
-    return aimed && aimed->at == i ? aimed->pdf : casters_[i]->pdf(p, d);
+  if (targets_.empty()) return uniform;
+  const Float at_targets = mc::mixture_pdf(mc::UniformDiscrete<Float>(targets_.size()), [&](std::size_t i) {
+    return aimed && aimed->at == i ? aimed->pdf : targets_[i]->pdf(p, d);
   });
-  return uniform + double(aims_.pmf(1)) * double(at_casters);
+  return uniform + double(aims_.pmf(1)) * double(at_targets);
 }
 
 auto LightPaths::sample_start_from(const PointLight& lamp, double pmf, const Vec2& u) const -> std::optional<Start> {
@@ -84,8 +136,8 @@ auto LightPaths::sample_start_from(const PointLight& lamp, double pmf, const Vec
   if (part.index == 0) {
     point.ng = mc::UniformSphere<Float>{}.sample({part.u_remapped, u[1]});
   } else {
-    const auto target = mc::UniformDiscrete<Float>(casters_.size()).sample_index(part.u_remapped);
-    const auto s = casters_[target.index]->sample_direction(point.p, {target.u_remapped, u[1]});
+    const auto target = mc::UniformDiscrete<Float>(targets_.size()).sample_index(part.u_remapped);
+    const auto s = targets_[target.index]->sample_direction(point.p, {target.u_remapped, u[1]});
     if (!s) return {};
     point.ng = s->wi;
     aimed = Aimed{target.index, s->pdf};
@@ -97,9 +149,10 @@ auto LightPaths::sample_start_from(const PointLight& lamp, double pmf, const Vec
 
 double LightPaths::across(const Vec3& p, const Vec3& d) const {
   double density = 0;
-  for (const Sphere* s : casters_) {
-    const Vec3d way = s->center() - p.cast<double>();
-    const double r2 = mc::sqr(s->radius()), off2 = mc::cross<double>(way, d.cast<double>()).squaredNorm();
+  for (const Shape& caster : casters_) {
+    const auto& ball = std::get<Sphere>(caster);
+    const Vec3d way = ball.center() - p.cast<double>();
+    const double r2 = mc::sqr(ball.radius()), off2 = mc::cross<double>(way, d.cast<double>()).squaredNorm();
     if (off2 <= r2) density += 1 / (mc::pi<double> * r2 * double(casters_.size()));
   }
   return density;

@@ -22,17 +22,18 @@ namespace render {
 ///   Direct : light by way of one surface is left to paths from the camera, whose connections hardly err there, while
 ///            how many paths happen to arrive in a pixel does
 ///   Lights : chosen by their power, a third of the time all alike. Of shapes that shine a point uniform in area and a
-///            direction by the cosine, of points any direction; four in five of these are aimed at the spheres of glass
-///            or mirror, where a scene has any. Of environment maps and directional lights, for these spheres alone, a
-///            direction as the light samples it and a point of a sphere's disk across it
+///            direction by the cosine, of points any direction; four in five of these are aimed at balls around what
+///            casts caustics, but for those that a lamp reaches into. Of environment maps and directional lights, for
+///            these balls alone, a direction as the light samples it and a point of a ball's disk across it. More than
+///            eight balls are one
 ///   Paths  : follow the BSDFs; Russian roulette as of PathIntegrator
-///   Gain   : with a fifth as many as paths from the camera a picture takes .16 (book3-cornell-aluminium), .34
-///            (book3-cornell-glass), .41 (smallpt), .51 (metals), .61 (ground-glass), .69 (blinn-phong), .76
-///            (textures), .91 (tinted-glass) and 1.0 (materials, veach-mi) of the time of `mis` to a given error; an
-///            eighth or a quarter as many change that by up to a fifth. A ball of metal under a lamp of a fiftieth, a
-///            ninth or a third of its distance: .13, .17 and .64 at alpha .1, .41, .48 and .86 at .2, .9 to 1.2 at .3;
-///            at a fuzz of .3, .5 and .8 .25 to .70, .60 to .83 and 1.1 to 1.2. CPU seconds times the variance of six
-///            seeds
+///   Gain   : with an eighth as many as paths from the camera a picture takes .12 (book3-cornell-aluminium), .32
+///            (book3-cornell-glass), .41 (smallpt), .52 (metals), .57 (ground-glass), .70 (blinn-phong), .75
+///            (textures), .76 (materials), .83 (tinted-glass) and 1.0 (veach-mi) of the time of `mis` to a given error;
+///            a tenth or a fifth as many change that by up to a tenth, two fifths cost up to a fifth more. A ball of
+///            metal under a lamp of a fiftieth, a ninth or a third of its distance, with a fifth: .13, .17 and .64 at
+///            alpha .1, .41, .48 and .86 at .2, .9 to 1.2 at .3; at a fuzz of .3, .5 and .8 .25 to .70, .60 to .83 and
+///            1.1 to 1.2. CPU seconds times the variance of six seeds
 ///   Source : [Veach97] chapter 10, of whose connections these are those at both ends; light through shading normals
 ///            section 5.3
 class LightPaths {
@@ -64,8 +65,12 @@ class LightPaths {
   template <class Stream, class Give>
   void trace(Stream& stream, int max_depth, std::uint64_t& rays, const Give& give) const;
 
+  LightPaths(LightPaths&&) = default; // targets_ are of casters_
+  LightPaths& operator=(LightPaths&&) = default;
+
  private:
-  LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, const std::vector<double>& shares);
+  LightPaths(const Scene& scene, const Strategy& strategy, Float aspect, std::vector<Shape> casters,
+             const std::vector<double>& shares);
 
   struct Start {
     Ray ray;
@@ -80,7 +85,7 @@ class LightPaths {
   std::optional<Start> sample_start_from(const PointLight& lamp, double pmf, const Vec2& u) const;
   template <class Stream>
   std::optional<Start> sample_start_afar(const Light& light, double pmf, const Vec2& u, Stream& stream) const;
-  // Of directions from a point [1/sr]: for a direction aimed at one of the spheres, this one says its own density.
+  // Of directions from a point [1/sr]: for a direction aimed at one of the balls, this one says its own density.
   struct Aimed {
     std::size_t at;
     Float pdf;
@@ -131,11 +136,12 @@ class LightPaths {
   double rate_;
   Vec2 tan_half_;
   mc::TableDist1D<Float> lights_;
+  std::vector<Shape> casters_;        ///< balls that paths from infinite lights are aimed at
+  std::vector<const Shape*> targets_; ///< those of them that paths from the others are aimed at
   Directions starts_, follows_, of_camera_;
-  std::vector<const Sphere*> casters_; ///< what paths from points and infinite lights are aimed at
-  mc::Bernoulli<Float> aims_;          ///< of those from points
-  bool absorbs_;                       ///< some surface holds a medium
-  Bsdf lamp_;                          ///< as whose reflection a lamp's light leaves it
+  mc::Bernoulli<Float> aims_; ///< of paths from points
+  bool absorbs_;              ///< some surface holds a medium
+  Bsdf lamp_;                 ///< as whose reflection a lamp's light leaves it
 };
 
 /// The strategies that find every light of the scene, each once: without the bidirectional one where it is mis.
@@ -162,7 +168,8 @@ std::optional<LightPaths::Start> LightPaths::sample_start_afar(const Light& ligh
                                                                Stream& stream) const {
   const auto s = light.sample(Vec3::Zero(), u);
   if (!s || is_black(s->radiance)) return {};
-  const Sphere& aim = *casters_[mc::UniformDiscrete<Float>(casters_.size()).sample_index(stream.next()).index];
+  const std::size_t target = mc::UniformDiscrete<Float>(casters_.size()).sample_index(stream.next()).index;
+  const Sphere& aim = std::get<Sphere>(casters_[target]);
   const Vec2 disk = Float(aim.radius()) * mc::UniformDisk<Float>{}.sample(stream.next2());
   const auto frame = mc::Frame<Float>::from_z(s->wi);
   const Bounds& all = scene_->bounds();

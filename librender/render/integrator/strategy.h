@@ -16,7 +16,6 @@ enum class Target {
   lights,     ///< the shapes of the lights, and the guides
   guides,     ///< the shapes that the scene marks as such
   speculars,  ///< spheres of smooth glass or mirror, which may cast caustics of the lights
-  casters,    ///< these, and spheres of rough glass and glossy metal
   shades      ///< those of `speculars` that a lamp lies in, or reaches into
 };
 
@@ -52,7 +51,7 @@ inline constexpr auto strategies = std::to_array<Strategy>({
     {"guides", Target::guides, Float(0.5), Finding::by_chance},
     {"nee", Target::nothing, 0, Finding::by_connection},
     {"mis", Target::speculars, Float(0.25), Finding::by_both},
-    {"bidirectional", Target::speculars, Float(0.25), Finding::by_both, Float(0.2)},
+    {"bidirectional", Target::speculars, Float(0.25), Finding::by_both, Float(0.125)},
 });
 
 /// The names of all, in their order.

@@ -58,6 +58,57 @@ TEST(LightPaths, WhereTheyPay) {
   EXPECT_EQ(strategies_for(Room{.glass = false}.build()).size(), strategies.size() - 1);
 }
 
+/// Parallel light from straight above onto cubes of glass in a row, with corners on spheres of radius sqrt(3) / 10.
+Scene row_of_cubes(int count) {
+  SceneBuilder builder;
+  const BsdfId glass = builder.add(Dielectric());
+  for (int i = 0; i < count; ++i)
+    builder.add(TriangleMesh::box(Transform::translate({double(i), 0, 0}) * Transform::scale(Vec3d::Constant(0.1))),
+                {glass});
+  builder.add(Light(DirectionalLight(-Vec3d::UnitY(), Spectrum::Ones())));
+  builder.set(ThinLens(Transform::look_at({0, 0, 9}, {0, 0, 0}, {0, 1, 0}), {.fov = 40}));
+  return builder.build();
+}
+
+// Up to eight cubes have a ball each; more have one, whose disk is a circle about the whole row.
+TEST(LightPaths, StartTowardsBallsAboutMeshes) {
+  for (const int count : {1, 8, 9}) {
+    const Scene scene = row_of_cubes(count);
+    const auto paths = LightPaths::of(scene, bidirectional, 1);
+    ASSERT_TRUE(paths) << count;
+    const double r2 = count < 9 ? 0.03 * count : (8.2 * 8.2 + 0.2 * 0.2 + 0.2 * 0.2) / 4;
+    const auto density = [&](double x) {
+      return std::sqrt(paths->start2(0, nullptr, Vec3(Float(x), -5, 0), Vec3::UnitY()));
+    };
+    for (const double x : {0.0, count - 1.0, count - 0.9})
+      EXPECT_NEAR(density(x) * mc::pi<double> * r2, paths->rate(), 1e-5) << count << " at " << x;
+    EXPECT_EQ(density(0.5) > 0, count == 9);
+    EXPECT_EQ(density(count + 0.2), 0);
+  }
+}
+
+// Nothing aims at glass that the lamp reaches into: all paths follow the cosine, where else a fifth do.
+TEST(LightPaths, LampsDoNotAimAtWhatHoldsThem) {
+  for (const bool inside : {false, true}) {
+    SceneBuilder builder;
+    const Vec3d at(0, inside ? 1 : 3, 0);
+    builder.add(TriangleMesh::rectangle(Transform::translate(at) * Transform::rotate(Vec3d::UnitX(), 90) *
+                                        Transform::scale(Vec3d::Constant(0.1))),
+                {builder.add(Lambert()), Emission{Spectrum::Ones()}});
+    builder.add(TriangleMesh::box(Transform::scale(Vec3d::Constant(1))), {builder.add(Dielectric())});
+    builder.set(ThinLens(Transform::look_at({0, 0, 9}, {0, 0, 0}, {0, 1, 0}), {.fov = 40}));
+    const Scene scene = builder.build();
+    const auto paths = LightPaths::of(scene, bidirectional, 1);
+    ASSERT_TRUE(paths);
+    SurfacePoint met;
+    met.p = at.cast<Float>();
+    met.ng = met.ns = -Vec3::UnitY();
+    const Vec3 aside = Vec3(Float(0.99), Float(-std::sqrt(1 - 0.99 * 0.99)), 0).normalized();
+    const double by_cosine = paths->rate() / 0.04 * double(-aside.y()) / mc::pi<double>;
+    EXPECT_NEAR(std::sqrt(paths->start2(0, &met, {}, -aside)) / by_cosine, inside ? 1 : 0.2, 1e-5);
+  }
+}
+
 TEST(LightPaths, PayUnderGlossyMetalOnly) {
   const Spectrum white = Spectrum::Ones();
   for (const Float fuzz : {Float(0), Float(0.5), Float(0.6)})

@@ -65,8 +65,7 @@ const Plugins<Light>& emitter_plugins() {
                     color("intensity", "W/sr", "what is emitted, >= 0", Spectrum::Ones()))
           .accepting({sampling_weight()}),
       plugin<Light>("directional",
-                    "parallel light from far away; found by nee, mis and bidirectional alone, the caustics of up to "
-                    "eight balls by "
+                    "parallel light from far away; found by nee, mis and bidirectional alone, its caustics by "
                     "bidirectional",
                     make_directional,
                     transform("toWorld", "turns the direction; where it moves things is of no effect"),
