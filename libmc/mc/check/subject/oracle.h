@@ -17,7 +17,8 @@ class Oracle {
   template <std::floating_point T> Oracle(T x) : Oracle(from(static_cast<double>(x))) {
     static_assert(sizeof(T) <= sizeof(double));
   }
-  template <std::integral T> Oracle(T i) : Oracle(i < 0 ? from_signed(i) : from_unsigned(i)) {}
+  template <std::signed_integral T> Oracle(T i) : Oracle(from_signed(i)) {}
+  template <std::unsigned_integral T> Oracle(T i) : Oracle(from_unsigned(i)) {}
   explicit Oracle(const char* decimal);
 
   explicit operator double() const;

@@ -21,9 +21,9 @@ class FineGrid {
  public:
   FineGrid(int dim, double samples, double step);
 
-  void add_sample(const Subject::Coordinates& v, double weight) { observed_[bin(v)] += weight; }
+  void add_sample(const Subject::Coordinates& v, double weight) { observed_[bin(v)] += static_cast<float>(weight); }
   /// A random point that stands for a share of the expected samples.
-  void add_expected(const Subject::Coordinates& v, double share) { expected_[bin(v)] += share; }
+  void add_expected(const Subject::Coordinates& v, double share) { expected_[bin(v)] += static_cast<float>(share); }
   /// Instead of random points: the same everywhere.
   void expect_uniform() { std::fill(expected_.begin(), expected_.end(), 1.0f); }
 
