@@ -67,7 +67,8 @@ bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth) {
 }
 
 Directions::Directions(const Scene& scene, const Strategy& strategy)
-    : aims_(strategy.share), aims_for_delta_(std::min(strategy.share, Float(0.5))), follows_(strategy.share < 1) {
+    : aims_(strategy.share), aims_for_delta_(std::min(strategy.share, Float(0.5))), follows_(strategy.share < 1),
+      aims_from_glass_(strategy.target != Target::speculars && strategy.target != Target::shades) {
   if (strategy.target == Target::lights) shapes_ = lights_and_guides(scene);
   if (strategy.target == Target::guides) shapes_ = guides(scene);
   if (strategy.target == Target::speculars) shapes_ = speculars(scene);

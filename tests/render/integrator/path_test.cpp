@@ -163,6 +163,26 @@ TEST(Path, EveryStrategySeesThroughGroundGlass) {
   }
 }
 
+// Light that goes round in a ball of ground glass dozens of times before it leaves, beside a ball of glass with a lamp
+// in it to aim at: 5 standard errors, alpha = 6e-7. What few paths carry would show in the variance, or be missed.
+TEST(Path, NoneAimWhereLightGoesRoundInGlass) {
+  SceneBuilder builder;
+  builder.add(Light(ConstantBackground(Spectrum::Ones())));
+  builder.add(Sphere(Vec3d::Zero(), 1), {builder.add(RoughDielectric(Float(1.5), Float(0.03)))});
+  builder.add(Sphere(Vec3d(0, 9, 0), 1), {builder.add(Dielectric())});
+  builder.add(Sphere(Vec3d(0, 9, 0), 0.5), {builder.add(Lambert()), Emission{}});
+  const Scene scene = builder.build();
+  const Ray along{Vec3(0, 0, Float(-0.9)), Vec3(1, 0, 0)};
+  const mc::Moments followed = support::traced(scene, along, {strategy_from("bsdf")}, 20'000);
+  EXPECT_GT(followed.mean(), 0.5);
+  for (const Target target : {Target::speculars, Target::shades}) {
+    const Strategy s = {"", target, Float(0.25), Finding::by_both};
+    const mc::Moments m = support::traced(scene, along, {s}, 20'000);
+    EXPECT_LE(std::abs(m.mean() - followed.mean()), 5 * std::hypot(m.std_error(), followed.std_error()));
+    EXPECT_LE(m.variance(), 2 * followed.variance());
+  }
+}
+
 // Narrow glass is not connected to lights that rays meet, by any strategy; what only a connection finds, it shows.
 TEST(Path, ANarrowLobeFindsEveryLight) {
   const RoughDielectric narrow(Float(1.5), Float(1e-4));
