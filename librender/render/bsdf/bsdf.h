@@ -28,6 +28,9 @@ struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic<LayeredBase>
   Float eta(const Vec3& wo, const Vec3& wi) const {
     return dispatch(*this, [&](const auto& b) { return b.eta(wo, wi); });
   }
+  Float albedo(const Vec3& wo) const {
+    return dispatch(*this, [&](const auto& b) { return b.albedo(wo); });
+  }
   bool is_delta() const {
     return dispatch(*this, [](const auto& b) { return b.is_delta(); });
   }

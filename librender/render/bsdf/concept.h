@@ -21,6 +21,8 @@ struct BsdfSample {
 ///   eval(wo, wi)      : f [1/sr], delta lobes excluded
 ///   pdf(wo, wi)       : density of wi [1/sr], delta lobes excluded
 ///   eta(wo, wi)       : refractive index on the side of wi over that on the side of wo, delta lobes excluded
+///   albedo(wo)        : about the share of light from wo that it sends on, of the colour of which that is most; in
+///                       [0, 1]
 ///   is_delta()        : it has delta lobes only
 ///   is_narrow()       : its lobes are deltas or narrower than lights: these are sampled only if no ray meets them
 ///   has_delta()       : it has a delta lobe, perhaps besides others
@@ -32,6 +34,7 @@ concept BsdfLike = requires(const T b, Vec3 wo, Vec3 wi, Float uc, Vec2 u) {
   { b.eval(wo, wi) } -> std::convertible_to<Spectrum>;
   { b.pdf(wo, wi) } -> std::convertible_to<Float>;
   { b.eta(wo, wi) } -> std::convertible_to<Float>;
+  { b.albedo(wo) } -> std::convertible_to<Float>;
   { b.is_delta() } -> std::convertible_to<bool>;
   { b.is_narrow() } -> std::convertible_to<bool>;
   { b.has_delta() } -> std::convertible_to<bool>;

@@ -68,6 +68,7 @@ class Dielectric {
   Spectrum eval(const Vec3&, const Vec3&) const { return Spectrum::Zero(); }
   Float pdf(const Vec3&, const Vec3&) const { return 0; }
   Float eta(const Vec3& wo, const Vec3& wi) const { return index_across(wo, wi, eta_); }
+  Float albedo(const Vec3&) const { return reflectance_.max(transmittance_).maxCoeff(); }
   bool is_delta() const { return true; }
   bool is_narrow() const { return true; }
   bool has_delta() const { return true; }

@@ -61,6 +61,7 @@ class Metal {
     return difference * (t2 * t2 + t2 * t1 + t1 * t1) / (4 * mc::pi<Float> * fuzz_ * fuzz_ * fuzz_);
   }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
+  Float albedo(const Vec3&) const { return albedo_.maxCoeff(); }
   bool is_delta() const { return fuzz_ == 0; }
   bool is_narrow() const { return is_delta(); }
   bool has_delta() const { return is_delta(); }

@@ -66,6 +66,9 @@ template <class Facets> class RoughConductor {
     return r ? facets_.seen_from(r->wo).pdf_reflected(r->m) : Float(0);
   }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
+  Float albedo(const Vec3& wo) const {
+    return (reflectance_ * fresnel_conductor(std::min(std::abs(wo.z()), Float(1)), eta_, k_)).maxCoeff();
+  }
   bool is_delta() const { return false; }
   bool is_narrow() const { return facets_.alpha() < narrow_alpha; }
   bool has_delta() const { return false; }

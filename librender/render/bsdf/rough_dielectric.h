@@ -56,6 +56,7 @@ class RoughDielectric {
     return at ? density_of(*at) : Float(0);
   }
   Float eta(const Vec3& wo, const Vec3& wi) const { return index_across(wo, wi, eta_); }
+  Float albedo(const Vec3&) const { return reflectance_.max(transmittance_).maxCoeff(); }
   bool is_delta() const { return false; }
   bool is_narrow() const { return facets_.alpha() < narrow_alpha; }
   bool has_delta() const { return false; }

@@ -96,6 +96,10 @@ template <class Base = LayeredBase> class RoughPlastic {
     return share * facets_.seen_from(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
   }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
+  Float albedo(const Vec3& wo) const {
+    const auto [reflected, transmitted] = base_.shares({wo.x(), wo.y(), std::abs(wo.z())});
+    return (specular_ * reflected + diffuse_ * transmitted).maxCoeff();
+  }
   bool is_delta() const { return false; }
   bool is_narrow() const { return false; }
   bool has_delta() const { return false; }

@@ -67,8 +67,8 @@ bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth) {
 }
 
 Directions::Directions(const Scene& scene, const Strategy& strategy)
-    : aims_(strategy.share), aims_for_delta_(std::min(strategy.share, Float(0.5))), follows_(strategy.share < 1),
-      aims_from_glass_(strategy.target != Target::speculars && strategy.target != Target::shades) {
+    : share_(strategy.share), follows_(strategy.share < 1),
+      spares_(strategy.target == Target::speculars || strategy.target == Target::shades) {
   if (strategy.target == Target::lights) shapes_ = lights_and_guides(scene);
   if (strategy.target == Target::guides) shapes_ = guides(scene);
   if (strategy.target == Target::speculars) shapes_ = speculars(scene);
@@ -78,7 +78,7 @@ Directions::Directions(const Scene& scene, const Strategy& strategy)
 }
 
 Directions::Directions(std::vector<const Shape*> targets, Float share)
-    : shapes_(std::move(targets)), aims_(share), aims_for_delta_(std::min(share, Float(0.5))), follows_(share < 1) {
+    : shapes_(std::move(targets)), share_(share), follows_(share < 1), spares_(false) {
   if (!shapes_.empty()) targets_.emplace(shapes_.size());
 }
 

@@ -54,10 +54,10 @@ bool holds_a_lamp(const Scene& scene, const Sphere& sphere);
 ///   choose : a direction, and its weight under the density of the whole mixture
 ///   pdf    : that density [1/sr], narrow lobes excluded: sum of share / n pdf_i(wi) over the targets, and
 ///            (1 - share) pdf_bsdf(wi) where share < 1
-///   A narrow BSDF is always followed, and so is rough glass where glass and mirrors are the target: light goes round
-///   in it with little loss, and would weigh 1 / (1 - share) times as much at every turn that follows the BSDF. Of
-///   `mis` three in a thousand paths would be left after twenty turns, to carry all of it: three hundred times as much
-///   each.
+///   A narrow BSDF is always followed. Where glass and mirrors are the target no BSDF aims more often than it absorbs:
+///   what follows it would weigh albedo / (1 - share) at every turn, and of the paths in a white room or in rough glass
+///   few would be left to carry all the light. Of those that go round in rough glass three in a thousand came through
+///   twenty turns.
 ///   A delta lobe is only ever found by following the BSDF, so a BSDF with such a lobe is followed by half of the
 ///   directions at least; where share = 1 its other lobes are left to the targets.
 class Directions {
@@ -67,26 +67,24 @@ class Directions {
   Directions(std::vector<const Shape*> targets, Float share);
 
   template <class B, class Stream> std::optional<ChosenDirection> choose(const Vertex<B>& at, Stream& stream) const {
-    if (!aims_from(at.bsdf)) return followed(at, stream);
+    if (!targets_ || at.bsdf.is_narrow()) return followed(at, stream);
     const Vec2 u = stream.next2(); // u[0] also makes the choices, which are then as well spread as the directions
-    const auto part = aimed(at.bsdf).sample_index(u[0]);
+    const auto part = aims(at).sample_index(u[0]);
     return part.index == 0 ? mixed_follow(at, Vec2(part.u_remapped, u[1]), part.pmf, stream.next())
                            : aim(at, Vec2(part.u_remapped, u[1]));
   }
 
   /// wi in the frame, d the same in the world.
   template <class B> Float pdf(const Vertex<B>& at, const Vec3& wi, const Vec3& d) const {
-    if (!aims_from(at.bsdf)) return at.bsdf.pdf(at.wo, wi);
+    if (!targets_) return at.bsdf.pdf(at.wo, wi);
     return mixed(at, follows_ ? at.bsdf.pdf(at.wo, wi) : Float(0), targets_pdf(at, wi, d));
   }
 
  private:
-  template <class B> bool aims_from(const B& bsdf) const {
-    return targets_ && !bsdf.is_narrow() && (aims_from_glass_ || !bsdf.transmits());
-  }
   // Outcome 1 aims, 0 follows the BSDF.
-  template <class B> const mc::Bernoulli<Float>& aimed(const B& bsdf) const {
-    return bsdf.has_delta() ? aims_for_delta_ : aims_;
+  template <class B> mc::Bernoulli<Float> aims(const Vertex<B>& at) const {
+    const Float share = at.bsdf.has_delta() ? std::min(share_, Float(0.5)) : share_;
+    return mc::Bernoulli<Float>(spares_ ? std::min(share, std::max(1 - at.bsdf.albedo(at.wo), Float(0))) : share);
   }
 
   template <class B, class Stream> static std::optional<ChosenDirection> followed(const Vertex<B>& at, Stream& stream) {
@@ -138,8 +136,8 @@ class Directions {
 
   // The density of the mixture, from those of its parts.
   template <class B> Float mixed(const Vertex<B>& at, Float own, Float targets) const {
-    const auto& aims = aimed(at.bsdf);
-    return (follows_ ? aims.pmf(0) * own : Float(0)) + aims.pmf(1) * targets;
+    const auto part = aims(at);
+    return (follows_ ? part.pmf(0) * own : Float(0)) + part.pmf(1) * targets;
   }
   template <class B> Float targets_pdf(const Vertex<B>& at, const Vec3& wi, const Vec3& d) const {
     if (shapes_.empty() && at.bsdf.transmits()) return 1 / (4 * mc::pi<Float>);
@@ -149,9 +147,9 @@ class Directions {
 
   std::vector<const Shape*> shapes_;                  ///< to aim at; none: the hemisphere, if there is a target
   std::optional<mc::UniformDiscrete<Float>> targets_; ///< the choice of one; none: the BSDF is always followed
-  mc::Bernoulli<Float> aims_, aims_for_delta_;
-  bool follows_;         ///< directions of lobes that are no delta come from the BSDF too
-  bool aims_from_glass_; ///< that is rough
+  Float share_;
+  bool follows_; ///< directions of lobes that are no delta come from the BSDF too
+  bool spares_;  ///< no BSDF aims more often than it absorbs
 };
 
 } // namespace render

@@ -25,9 +25,8 @@ struct PathOptions {
 /// Traces paths through a scene, which must outlive it. Immutable, so threads share it.
 ///   Where LightPaths find light, too, what a path finds counts less, and the rest is theirs to add.
 ///   Lights that are not sampled (see LightLike) are met by following directions, in every strategy, and count fully.
-///   Caustics cannot be reached by connecting to a light. Therefore `mis` aims a quarter of its directions, but none
-///   from rough glass, at the spheres of glass or mirror, where a scene has any: smallpt's box takes a quarter less
-///   time to a given error.
+///   Caustics cannot be reached by connecting to a light. Therefore `mis` aims up to a quarter of its directions at the
+///   spheres of glass or mirror, where a scene has any: smallpt's box takes a quarter less time to a given error.
 ///   A path splits in two where it first meets a surface that is not a delta, since two fifths of the time but little
 ///   of the variance come from the way there and the light straight from the lights: a tenth to a fifth less time to a
 ///   given error, no less with three or four branches. Source: [ArvoKirk90]

@@ -41,6 +41,7 @@ class HalfMirror {
   Spectrum eval(const Vec3& wo, const Vec3& wi) const { return base_.eval(wo, wi); }
   Float pdf(const Vec3& wo, const Vec3& wi) const { return base_.pdf(wo, wi) / 2; }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
+  Float albedo(const Vec3&) const { return Float(0.75); }
   bool is_delta() const { return false; }
   bool is_narrow() const { return is_delta(); }
   bool has_delta() const { return true; }
