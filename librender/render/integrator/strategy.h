@@ -37,7 +37,8 @@ struct Strategy {
 };
 
 /// All but `light` are unbiased, those that find by chance where no light is a point or a direction; of such lights
-/// none finds what comes by way of smooth glass or a mirror. Where nothing is to aim at, the BSDF is followed.
+/// none but `bidirectional` finds what comes by way of smooth glass or a mirror, and that where it is seen directly.
+/// Where nothing is to aim at, the BSDF is followed.
 ///   light : rough surfaces look towards lamps and guides alone, so that what else they would reflect is missed: the
 ///           light of other surfaces and of the sky. See misses_light
 ///   light, mixture, guides : as in [Shirley16], chapters 7, 8 and 10

@@ -125,9 +125,10 @@ const Plugins<Material>& bsdf_plugins() {
   static const Plugins<Material> rows = {
       plugin<Material>("diffuse", "perfectly diffuse reflection, alike on both sides", make_diffuse,
                        reflectance_or_texture("reflectance", "what is reflected, in [0, 1]", half)),
-      plugin<Material>("conductor", "a perfect mirror", make_conductor,
-                       choice("material", {"none"}, "all is reflected; metals by name are not supported"),
-                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
+      plugin<Material>(
+          "conductor", "a perfect mirror", make_conductor,
+          choice("material", {"none"}, "give it as none: all is reflected; metals by name are not supported"),
+          reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
       plugin<Material>("fuzzymetal", "the metal of [Shirley16]: mirrored directions moved by a point in a ball (ours)",
                        make_fuzzymetal,
                        reflectance("albedo", "what is reflected, in [0, 1]", Spectrum::Constant(Float(0.9))),
