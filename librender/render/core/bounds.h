@@ -3,6 +3,8 @@
 
 #include <render/core/types.h>
 
+#include <algorithm>
+
 namespace render {
 
 /// An axis-aligned box; empty until something is added.
@@ -21,6 +23,13 @@ struct Bounds {
   Float half_area() const {
     const Vec3 e = hi - lo;
     return e.x() >= 0 ? e.x() * e.y() + e.y() * e.z() + e.z() * e.x() : Float(0);
+  }
+  /// A t from which on no p + t d lies in the box, the least where any does.
+  double last(const Vec3d& p, const Vec3d& d) const {
+    double t = mc::infinity<double>;
+    for (int i = 0; i < 3; ++i)
+      if (d[i] != 0) t = std::min(t, (double(d[i] > 0 ? hi[i] : lo[i]) - p[i]) / d[i]);
+    return t;
   }
 };
 

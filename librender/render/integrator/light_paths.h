@@ -170,10 +170,12 @@ std::optional<LightPaths::Start> LightPaths::sample_start_afar(const Light& ligh
   if (!s || is_black(s->radiance)) return {};
   const std::size_t target = mc::UniformDiscrete<Float>(casters_.size()).sample_index(stream.next()).index;
   const Sphere& aim = std::get<Sphere>(casters_[target]);
-  const Vec2 disk = Float(aim.radius()) * mc::UniformDisk<Float>{}.sample(stream.next2());
-  const auto frame = mc::Frame<Float>::from_z(s->wi);
-  const Bounds& all = scene_->bounds();
-  const Vec3 p = aim.center().cast<Float>() + frame.to_world({disk[0], disk[1], (all.hi - all.lo).norm()});
+  const Vec2 disk = mc::UniformDisk<Float>{}.sample(stream.next2());
+  const Vec3d wi = s->wi.template cast<double>();
+  const Vec3d across_ball = mc::Frame<Float>::from_z(s->wi).to_world({disk[0], disk[1], 0}).template cast<double>();
+  const Vec3d crossing = aim.center() + aim.radius() * across_ball;
+  // No further away than before all that may shade the ball: a float resolves little of one beside a huge ground.
+  const Vec3 p = (crossing + (scene_->bounds().last(crossing, wi) + aim.radius()) * wi).template cast<Float>();
   const double pdf = pmf * double(s->pdf), area_pdf = across(p, s->wi);
   if (!(area_pdf > 0)) return {}; // rounding
   return Start{{p, -s->wi}, {}, s->radiance / Float(pdf), 1 / area_pdf, Odds(1 / mc::sqr(pdf), area_pdf, 1)};

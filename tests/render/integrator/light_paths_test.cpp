@@ -233,4 +233,37 @@ TEST(LightPaths, LeaveDirectLightToTheCamera) {
   EXPECT_GT(longer, 300);
 }
 
+/// What paths from the lights of a picture of one pixel bring, by way of a ball of glass in parallel light on a floor,
+/// beside a black plane below of half the width `beside`.
+mc::Moments cast_by_glass(double beside) {
+  SceneBuilder builder;
+  const auto plane = [](double y, double size) {
+    return TriangleMesh::rectangle(Transform::translate({0, y, 0}) * Transform::rotate(Vec3d::UnitX(), -90) *
+                                   Transform::scale(Vec3d::Constant(size)));
+  };
+  builder.add(plane(0, 3), {builder.add(Lambert())});
+  builder.add(plane(-1, beside), {builder.add(Lambert(Spectrum::Zero()))});
+  builder.add(Sphere(Vec3d(0, 0.6, 0), 0.5), {builder.add(Dielectric())});
+  builder.add(Light(DirectionalLight({1, -1, 0}, Spectrum::Ones())));
+  builder.set(ThinLens(Transform::look_at({0, 4, 0}, {0, 0, 0}, {0, 0, 1}), {.fov = 40}));
+  const Scene scene = builder.build();
+  const auto paths = LightPaths::of(scene, bidirectional, 1);
+  mc::Moments moments;
+  std::uint64_t rays = 0;
+  for (std::uint32_t i = 0; i < 20'000; ++i) {
+    mc::IndependentWalk<Float> stream(mc::NoPairs(19, 0), i);
+    double value = 0;
+    paths->trace(stream, -1, rays, [&](const Vec2&, const Spectrum& v) { value += double(v[0]); });
+    moments.add(value);
+  }
+  return moments;
+}
+
+// A float far away, where parallel light once started before a huge ground, tells little of a ball.
+TEST(LightPaths, FindTheCausticsOfParallelLightBesideAHugeGround) {
+  const mc::Moments small = cast_by_glass(3), huge = cast_by_glass(1e8);
+  EXPECT_LE(small.std_error(), 0.02 * small.mean());
+  EXPECT_NEAR(huge.mean(), small.mean(), 1e-3 * small.mean()); // of the same random numbers
+}
+
 } // namespace
