@@ -57,7 +57,7 @@ std::vector<Shape> balls_around_casters(const Scene& scene) {
     for (const Shape* s : casters) balls.push_back(ball_around(*s));
   std::vector<Shape> found;
   for (const auto& [center, radius] : balls)
-    if (radius > 0) found.push_back(Sphere(center, radius));
+    if (radius > 0 && radius <= Sphere::most_radius) found.push_back(Sphere(center, radius));
   return found;
 }
 

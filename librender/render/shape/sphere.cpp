@@ -8,10 +8,6 @@
 
 namespace render {
 
-namespace {
-constexpr double most_radius = double(std::numeric_limits<Float>::max()) / 4; // distances are Floats
-} // namespace
-
 Sphere::Sphere(const Vec3d& center, double radius, bool inside_out)
     : center_(center), radius_(radius), height_(2 * radius), inside_out_(inside_out),
       extent_(radius + center.lpNorm<Eigen::Infinity>()),

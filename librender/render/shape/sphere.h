@@ -13,9 +13,11 @@ namespace render {
 ///   sample : a whole sphere seen from outside: uniform in the cone that it fills; otherwise uniform in area
 ///   pdf    : 1 / (2 pi (1 - cos theta_max)), or distance^2 / (|cos| area) [1/sr]
 ///   uv     : v the angle from the pole of its axes [pi], u the one about it [2 pi]
-///   throws : Error unless centre and radius are finite, radius > 0, axis is not 0 and 0 < height <= 2 radius
+///   throws : Error unless centre is finite, 0 < radius <= most_radius, axis is not 0 and 0 < height <= 2 radius
 class Sphere {
  public:
+  static constexpr double most_radius = double(std::numeric_limits<Float>::max()) / 4; ///< distances are Floats
+
   Sphere(const Vec3d& center, double radius, bool inside_out = false);
   static Sphere cap(const Vec3d& center, double radius, const Vec3d& axis, double height, bool inside_out = false);
 

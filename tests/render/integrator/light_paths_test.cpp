@@ -87,6 +87,18 @@ TEST(LightPaths, StartTowardsBallsAboutMeshes) {
   }
 }
 
+// Nor is there a ball about a mirror whose diagonal no float holds.
+TEST(LightPaths, DoWithoutBallsThatNoFloatHolds) {
+  for (const bool too_large : {false, true}) {
+    SceneBuilder builder;
+    const double size = too_large ? 0.9 * double(std::numeric_limits<Float>::max()) : 1;
+    builder.add(TriangleMesh::rectangle(Transform::scale(Vec3d(size, size, 1))), {builder.add(Metal())});
+    builder.add(Light(DirectionalLight(-Vec3d::UnitY(), Spectrum::Ones())));
+    builder.set(ThinLens(Transform::look_at({0, 0, 9}, {0, 0, 0}, {0, 1, 0}), {.fov = 40}));
+    EXPECT_EQ(LightPaths::of(builder.build(), bidirectional, 1).has_value(), !too_large);
+  }
+}
+
 // Nothing aims at glass that the lamp reaches into: all paths follow the cosine, where else a fifth do.
 TEST(LightPaths, LampsDoNotAimAtWhatHoldsThem) {
   for (const bool inside : {false, true}) {
