@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace render {
 
@@ -36,15 +37,16 @@ Ball ball_around(const Shape& shape) {
   return {center, std::sqrt(radius2)};
 }
 
-Ball ball_around(const std::vector<const Shape*>& shapes) {
+Ball ball_around(std::span<const Ball> balls) {
   Eigen::AlignedBox3d all;
-  for (const Shape* s : shapes) all.extend(s->box());
-  if (all.isEmpty()) return {};
+  for (const auto& [center, radius] : balls)
+    all.extend(Eigen::AlignedBox3d(center.array() - radius, center.array() + radius));
   return {all.center(), all.diagonal().norm() / 2};
 }
 
-// Balls around all that casts caustics; where these are many around glass and mirrors alone, or one around all of them:
-// nothing but paths from the lights finds the caustics of parallel light.
+// Balls around all that casts caustics, where these are many around glass and mirrors alone: nothing but paths from the
+// lights finds the caustics of parallel light. Of too many the largest have their own and all others one, which is then
+// no wider than it must be.
 std::vector<Shape> balls_around_casters(const Scene& scene) {
   auto casters = shapes_where(scene, [](const Bsdf& b) { return b.casts_caustics(); });
   if (casters.size() > most_casters) {
@@ -52,12 +54,18 @@ std::vector<Shape> balls_around_casters(const Scene& scene) {
     if (!clear.empty()) casters = clear;
   }
   std::vector<Ball> balls;
-  if (casters.size() > most_casters) balls.push_back(ball_around(casters));
-  else
-    for (const Shape* s : casters) balls.push_back(ball_around(*s));
+  for (const Shape* s : casters)
+    if (const Ball ball = ball_around(*s); ball.radius > 0) balls.push_back(ball);
+  if (balls.size() > most_casters) {
+    std::stable_sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) { return a.radius > b.radius; });
+    const std::size_t own = most_casters - 1;
+    const Ball others = ball_around(std::span(balls).subspan(own));
+    balls.resize(own);
+    balls.push_back(others);
+  }
   std::vector<Shape> found;
   for (const auto& [center, radius] : balls)
-    if (radius > 0 && radius <= Sphere::most_radius) found.push_back(Sphere(center, radius));
+    if (radius <= Sphere::most_radius) found.push_back(Sphere(center, radius));
   return found;
 }
 

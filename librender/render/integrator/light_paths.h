@@ -24,8 +24,8 @@ namespace render {
 ///   Lights : chosen by their power, a third of the time all alike. Of shapes that shine a point uniform in area and a
 ///            direction by the cosine, of points any direction; four in five of these are aimed at balls around what
 ///            casts caustics, but for those that a lamp reaches into. Of environment maps and directional lights, for
-///            these balls alone, a direction as the light samples it and a point of a ball's disk across it. More than
-///            eight balls are one
+///            these balls alone, a direction as the light samples it and a point of a ball's disk across it. Of more
+///            than eight balls the seven largest stay, the others are one
 ///   Paths  : follow the BSDFs; Russian roulette as of PathIntegrator
 ///   Gain   : with an eighth as many as paths from the camera a picture takes .12 (book3-cornell-aluminium), .32
 ///            (book3-cornell-glass), .41 (smallpt), .52 (metals), .57 (ground-glass), .70 (blinn-phong), .75
