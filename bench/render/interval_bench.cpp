@@ -1,7 +1,7 @@
 /// What the error bars of pixels are worth: the share of 95 % intervals that hold the truth, as CSV on stdout.
 /// Usage: bench_render_interval SCENE.xml... [-- SEEDS [SIZE [REFERENCE_SPP]]]
 ///   way    : even, or splat (where the filter is wider than a pixel)
-///   alone  : by the pixel's own variance, Student's t with 3 degrees of freedom
+///   alone  : by the pixel's own variance, Student's t with 1 degree of freedom
 ///   shared : half_widths
 ///   noisy  : half_widths in the tenth of the pixels and channels whose variance in the reference is largest
 ///   low, high : intervals that lie below and above the truth
@@ -47,7 +47,7 @@ std::vector<Eigen::Array<bool, 3, 1>> noisiest_tenth(const Image& image) {
 
 void show(const std::string& path, const Scene& scene, RenderOptions options, const Image& truth, int seeds) {
   const auto is_noisy = noisiest_tenth(truth);
-  const double q = mc::student_quantile(0.05, 3);
+  const double q = mc::student_quantile(0.05, 1);
   for (const int spp : {4, 16, 64, 256}) {
     Coverage alone, shared, noisy;
     double undecided = 0;

@@ -46,7 +46,7 @@ Whole whole_of(const RenderOptions& options) {
   return {options.width, options.height, c};
 }
 
-constexpr int point_sets = 4;
+constexpr int point_sets = 2;
 constexpr double least_pilot = 16; ///< samples per pixel
 
 bool is_adaptive(const RenderOptions& options) {

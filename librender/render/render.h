@@ -54,9 +54,10 @@ struct RenderResult {
   bool partial = false; ///< cancelled before the end
 };
 
-/// Renders in rounds, which double the samples of every pixel, so that a picture interrupted after the first, four
-/// samples per pixel, is whole and has its variance. A pixel's samples are dealt to four point sets, independently
-/// randomised, so that the variance between them is honest for low-discrepancy points too. Light paths, where the
+/// Renders in rounds, which double the samples of every pixel, so that a picture interrupted after the first, two
+/// samples per pixel, is whole and has its variance. A pixel's samples are dealt to two point sets, independently
+/// randomised, so that the variance between them is honest for low-discrepancy points too; more sets would be
+/// shorter, which costs accuracy, and tell of a pixel what its neighbours tell as well. Light paths, where the
 /// strategy has some, are as many as belong to the mean number of samples, and dealt to the sets as well.
 /// Where samples go where the error is, about the first quarter is a pilot, spent evenly, which alone decides about the
 /// rest: see adaptive_plan.

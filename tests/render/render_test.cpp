@@ -164,19 +164,27 @@ TEST(Render, AdaptiveErrsNoMoreThanEven) {
 }
 
 TEST(Render, AdaptiveSpendsWhatIsAskedForWhereTheErrorIs) {
-  const Scene scene = small_scene(Float(0.1), 0.25);
+  const Scene scene = small_scene(Float(0.1), 0.25, Lambert()); // of caustics few pixels know their error
   for (const PixelSampler sampler : samplers) {
     RenderOptions options = small();
     options.sampler = sampler;
     options.spp = 128;
     options.threads = 1;
     options.adaptive = true;
-    const RenderResult one = render::render(scene, options);
-    EXPECT_NEAR(one.spp, 128, 0.5);
-    options.error_of = ErrorOf::worst;
-    const RenderResult worst = render::render(scene, options);
-    EXPECT_LE(worst.worst_error, one.worst_error);
+    double spent_on_all = 0, spent_on_worst = 0;
+    RenderResult worst;
+    for (options.seed = 0; options.seed < 40; ++options.seed) {
+      options.error_of = ErrorOf::picture;
+      const RenderResult one = render::render(scene, options);
+      EXPECT_NEAR(one.spp, 128, 0.5);
+      spent_on_all += one.worst_error;
+      options.error_of = ErrorOf::worst;
+      worst = render::render(scene, options);
+      spent_on_worst += worst.worst_error;
+    }
+    EXPECT_LE(spent_on_worst, spent_on_all);
     options.threads = 2;
+    --options.seed;
     const RenderResult two = render::render(scene, options);
     EXPECT_EQ(worst.rays, two.rays);
     for (std::size_t i = 0; i < two.image.pixels.size(); ++i) {
@@ -224,15 +232,21 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   options.target_error = 0.05;
   const RenderResult exact = render::render(scene, options);
   EXPECT_LE(exact.relative_error, 0.05);
-  EXPECT_EQ(exact.estimates, 4u);
-  options.error_of = ErrorOf::worst;
-  const RenderResult worst = render::render(scene, options);
-  EXPECT_LE(worst.worst_error, 0.05);
-  EXPECT_GT(worst.samples, exact.samples);
+  EXPECT_EQ(exact.estimates, 2u);
+  std::uint64_t of_picture = 0, of_worst = 0; // rounds end where they do: one seed says little
+  for (options.seed = 0; options.seed < 16; ++options.seed) {
+    options.error_of = ErrorOf::picture;
+    of_picture += render::render(scene, options).samples;
+    options.error_of = ErrorOf::worst;
+    const RenderResult worst = render::render(scene, options);
+    EXPECT_LE(worst.worst_error, 0.05);
+    of_worst += worst.samples;
+  }
+  EXPECT_GT(of_worst, of_picture);
   options.error_of = ErrorOf::picture;
   options.strategy = strategy_from("mis"); // paths from the lights leave less that is uneven
-  std::uint64_t adaptive = 0, even = 0;    // rounds end where they do: one seed says little
-  for (options.seed = 0; options.seed < 8; ++options.seed) {
+  std::uint64_t adaptive = 0, even = 0;
+  for (options.seed = 0; options.seed < 40; ++options.seed) {
     options.adaptive = true;
     adaptive += render::render(scene, options).samples;
     options.adaptive = false;
@@ -243,11 +257,11 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   options = small();
   options.seconds = 0.05;
   const RenderResult timed = render::render(scene, options);
-  EXPECT_EQ(timed.estimates, 4u);
+  EXPECT_EQ(timed.estimates, 2u);
   EXPECT_FALSE(timed.partial);
   options.seconds = 1e-9; // the first round is whole
   const RenderResult least = render::render(scene, options);
-  EXPECT_EQ(least.samples, 4u * 24 * 20);
+  EXPECT_EQ(least.samples, 2u * 24 * 20);
   EXPECT_FALSE(least.partial);
 
   const std::atomic<bool> stop = true;
@@ -273,7 +287,7 @@ TEST(Render, StopsByTimeErrorOrCancel) {
       options.progress = [&](const Progress& p) { halt = p.fraction > (late ? 0.999 : 0.1); };
       const RenderResult result = render::render(scene, options);
       EXPECT_EQ(result.partial, !late);
-      EXPECT_GE(result.estimates, 4u);
+      EXPECT_EQ(result.estimates, 2u);
       EXPECT_EQ(result.image.variance.size(), result.image.pixels.size());
       EXPECT_TRUE(std::isfinite(result.relative_error));
     }

@@ -68,21 +68,21 @@ struct Worst {
 /// Sums over a rectangle of pixels, which may be a single one; variances are those of the sums.
 struct Block {
   double pixels = 0, difference = 0, reference = 0, variance_a = 0, variance_b = 0;
-  double squares = 0; ///< of the variances of the parts, over the degrees of freedom of each
-
-  // Behind the sum of the variances: few where few pixels have most of the noise. Source: [Welch47]
-  double dof() const { return squares > 0 ? mc::sqr(variance_a + variance_b) / squares : pixels; }
+  mc::VarianceSum all; ///< variances of both
 };
 
 class Comparison {
  public:
   Comparison(const Image& a, const Image& b, double tolerance)
-      : a_(a), b_(b), noise_a_(a), noise_b_(b), tolerance_(tolerance) {}
+      : a_(a), b_(b), noise_a_(a), noise_b_(b), tolerance_(tolerance),
+        most_of_pixel_(std::min(noise_a_.dof + noise_b_.dof, 3.0)) {}
 
   bool possible() const { return noise_a_.known && noise_b_.known; }
 
   // Pixels, each with the variance of its 3x3 surroundings: a pixel that missed a rare bright path underestimates its
-  // own. Blocks of 16x16 pixels see what is spread thinly.
+  // own. These lend their degrees of freedom, too, but no more than the two pixels have, nor than 3: noise is far from
+  // normal within a pixel, where one rare bright path decides, and Student's t with 3 degrees of freedom has tails
+  // heavy enough for that. Blocks of 16x16 pixels see what is spread thinly.
   void run() {
     for (int c = 0; c < 3; ++c) {
       // A pixel none of whose samples met a rare event looks noiseless: differences far below the typical noise are not
@@ -95,12 +95,9 @@ class Comparison {
           const int x0 = std::max(x - 1, 0), y0 = std::max(y - 1, 0), x1 = std::min(x + 2, a_.width),
                     y1 = std::min(y + 2, a_.height);
           const Block around = sum(x0, y0, x1, y1, c);
-          // The surroundings lend their variance, not their degrees of freedom: noise is far from normal within a
-          // pixel, where one rare bright path decides. Student's t with at most 3 degrees of freedom has tails heavy
-          // enough for that.
           sums.variance_a = around.variance_a / around.pixels / noise_a_.area;
           sums.variance_b = around.variance_b / around.pixels / noise_b_.area;
-          sums.squares = mc::sqr(sums.variance_a) / noise_a_.dof + mc::sqr(sums.variance_b) / noise_b_.dof;
+          sums.all = around.all;
           test(sums, x, y, c, pixel);
         }
       for (int y = 0; y < a_.height; y += block_size)
@@ -132,7 +129,8 @@ class Comparison {
         const double va = double(a_.variance[i][c]) * noise_a_.area, vb = double(b_.variance[i][c]) * noise_b_.area;
         sums.variance_a += va;
         sums.variance_b += vb;
-        sums.squares += mc::sqr(va) * noise_a_.area / noise_a_.dof + mc::sqr(vb) * noise_b_.area / noise_b_.dof;
+        sums.all.add(va, noise_a_.dof, noise_a_.area);
+        sums.all.add(vb, noise_b_.dof, noise_b_.area);
       }
     return sums;
   }
@@ -148,14 +146,14 @@ class Comparison {
     double p = 0, t = mc::infinity<double>;
     if (variance > 0) {
       t = excess / std::sqrt(variance);
-      p = mc::student_tail(t, n == 1 ? std::min(sums.dof(), 3.0) : sums.dof());
+      p = mc::student_tail(t, n == 1 ? std::min(sums.all.dof(), most_of_pixel_) : sums.all.dof());
     }
     if (p < worst.p || (p == worst.p && t > worst.t)) worst = {p, t, difference, std::sqrt(variance), x, y, c};
   }
 
   const Image &a_, &b_;
   Noise noise_a_, noise_b_;
-  double tolerance_, floor_ = 0;
+  double tolerance_, most_of_pixel_, floor_ = 0;
 };
 
 std::vector<Option> rows(CompareOptions& o) {

@@ -30,7 +30,7 @@ Measured measure_with(const Picture& picture, const Strategy& strategy, std::uin
     }
     found.means.add(sum / points, set);
   }
-  found.undecided = samples.is_undecided();
+  found.undecided = samples.deciding() < 2;
   return found;
 }
 

@@ -1,5 +1,9 @@
 #pragma once
-/// Student's test of a mean against a known value, and Welch's degrees of freedom for the difference of two means.
+/// Student's test of a mean against a known value, and Welch's degrees of freedom of sums and differences.
+
+#include <mc/core/types.h>
+
+#include <algorithm>
 
 namespace mc {
 
@@ -27,6 +31,22 @@ TTest t_test(const M& moments, double value, double alpha = 0.01) {
 ///   error : that of Satterthwaite's approximation; exact where one variance is 0. dof_a + dof_b where both are
 ///   Source : [Welch47]
 double welch_dof(double variance_a, double dof_a, double variance_b, double dof_b);
+
+/// A sum of many variances, and the degrees of freedom behind it: few where few of them are most of it.
+struct VarianceSum {
+  double value = 0, squares = 0;
+
+  /// Of variances that share their noise, so that `alike` of them say no more than one, each counts so much less.
+  void add(double variance, double dof, double alike = 1) {
+    value += variance;
+    squares += alike * variance * variance / (dof + 2);
+  }
+  /// By Satterthwaite's formula, less the bias that it has because estimates stand for the variances: their squares,
+  /// of d degrees of freedom each, are (d + 2) / d times too large in the mean. Exact for one term; never below 1, and
+  /// infinite where the sum is 0.
+  ///   Source : [Welch47]
+  double dof() const { return squares > 0 ? std::max(value * value / squares - 2, 1.0) : infinity<double>; }
+};
 
 /// P(|T| > |t|) for Student's T with `dof` degrees of freedom.
 double student_tail(double t, double dof);

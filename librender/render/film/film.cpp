@@ -40,6 +40,12 @@ MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const E
   return all;
 }
 
+// What the sum of variances is below, with a confidence of 95 %.
+double bound_of(const mc::VarianceSum& sum) {
+  const double dof = sum.dof();
+  return std::isfinite(dof) ? sum.value * dof / mc::chi_square_quantile(0.95, dof) : sum.value;
+}
+
 } // namespace
 
 void SampleSums::merge(const SampleSums& other) {
@@ -52,12 +58,18 @@ void SampleSums::merge(const SampleSums& other) {
   channel_largest = channel_largest.max(other.channel_largest);
 }
 
-bool SampleSums::is_undecided(const LightSums& light, double weight) const {
-  if (count < 2) return false;
+Eigen::Array3d SampleSums::variance_of_mean() const {
+  const auto n = double(count);
+  if (count < 2) return Eigen::Array3d::Constant(mc::infinity<double>);
+  return ((channel_squares - channel_sums.square() / n) / (n * (n - 1))).max(0);
+}
+
+double SampleSums::deciding(const LightSums& light, double weight) const {
+  if (count < 2) return mc::infinity<double>;
   const double mean = sum / double(count), w2 = mc::sqr(weight);
   const double all = squares + w2 * light.squares, deviations = all - mean * sum;
   const double most = std::max(mc::sqr(largest - mean), w2 * mc::sqr(light.largest));
-  return deviations > rounding * all && most > deviations / 2;
+  return deviations > rounding * all ? deviations / most : mc::infinity<double>;
 }
 
 Eigen::Array3d SampleSums::range() const {
@@ -200,23 +212,27 @@ RelativeError Film::relative_error(ErrorOf of) const {
       mean += pixel.mean.sum() / (3.0 * double(rays_.size()));
     }
   const int block = of == ErrorOf::worst ? 16 : std::max(width_, height_);
+  const double alike = splat_ ? splat_->noise_area() : 1;
   RelativeError worst{0, 0};
   for (int top = 0; top < height_; top += block)
     for (int left = 0; left < width_; left += block) {
       const int bottom = std::min(top + block, height_), right = std::min(left + block, width_);
-      double sum = 0, dof = 1; // of nothing
+      mc::VarianceSum all, independent; // were the samples so
       for (int y = top; y < bottom; ++y)
         for (int x = left; x < right; ++x) {
           const PixelEstimate pixel = estimate(x, y);
           if (!(pixel.variance > 0).any()) continue;
-          const double variance = (pixel.variance / around(means, x, y).max(mean / 2).square()).mean();
-          dof = mc::welch_dof(sum, dof, variance, pixel.sets - 1);
-          sum += variance;
+          const Eigen::Array3d unit = around(means, x, y).max(mean / 2).square();
+          all.add((pixel.variance / unit).mean(), pixel.sets - 1, alike);
+          const Eigen::Array3d of_samples = samples_[place(x, y)].variance_of_mean() + pixel.of_light;
+          independent.add((of_samples / unit).mean(), deciding(x, y));
         }
-      if (splat_) dof = std::max(sets_ - 1.0, dof / splat_->noise_area());
+      if (all.value == 0) continue;
       const int pixels = (bottom - top) * (right - left);
-      worst.value = std::max(worst.value, std::sqrt(sum / pixels));
-      worst.bound = std::max(worst.bound, std::sqrt(sum / pixels * dof / mc::chi_square_quantile(0.95, dof)));
+      double most = bound_of(all);
+      if (!splat_ && std::isfinite(independent.value)) most = std::clamp(bound_of(independent), all.value, most);
+      worst.value = std::max(worst.value, std::sqrt(all.value / pixels));
+      worst.bound = std::max(worst.bound, std::sqrt(most / pixels));
     }
   return worst;
 }
@@ -232,16 +248,18 @@ Eigen::Array3d Film::around(const std::vector<Eigen::Array3d>& means, int x, int
   return sum / n;
 }
 
+double Film::deciding(int x, int y) const {
+  const SampleSums& samples = samples_[place(x, y)];
+  const double light = std::accumulate(light_counts_.begin(), light_counts_.end(), 0.0);
+  if (!(light > 0 && contains(x, y))) return samples.deciding();
+  return samples.deciding(light_seen_[index(x, y)], double(samples.count) / light);
+}
+
 double Film::undecided() const {
   const int reach = splat_ ? splat_->reach() : 0;
-  const double light = std::accumulate(light_counts_.begin(), light_counts_.end(), 0.0);
   std::size_t n = 0;
   for (int y = -reach; y < height_ + reach; ++y)
-    for (int x = -reach; x < width_ + reach; ++x) {
-      const SampleSums& samples = samples_[place(x, y)];
-      const bool lit = light > 0 && contains(x, y);
-      n += lit ? samples.is_undecided(light_seen_[index(x, y)], double(samples.count) / light) : samples.is_undecided();
-    }
+    for (int x = -reach; x < width_ + reach; ++x) n += deciding(x, y) < 2;
   return double(n) / double(samples_.size());
 }
 

@@ -51,10 +51,14 @@ struct SampleSums {
   }
   void merge(const SampleSums& other);
 
-  /// Whether the largest luminance carries over half of the squared deviations from the mean: then there were too few
-  /// samples of what makes the pixel bright, and its error bar is not known yet.
+  /// Of the mean, were the samples independent.
+  Eigen::Array3d variance_of_mean() const;
+
+  /// How many samples like the one that lies farthest off, were it the brightest, make up the squared deviations of
+  /// luminance from the mean; infinite where all are equal. Below 2 the pixel is undecided: there were too few samples
+  /// of what makes it bright, and its error bar is not known yet.
   ///   light  : what paths from the lights gave, of which each counts `weight` times as much as a sample
-  bool is_undecided(const LightSums& light = {}, double weight = 0) const;
+  double deciding(const LightSums& light = {}, double weight = 0) const;
 
   /// How far apart the largest sample and the smallest are at least: the largest lies d above the mean and the squared
   /// deviations have the mean s^2, so d + s^2 / d, which two values reach. 0 where all are equal up to rounding.
@@ -71,7 +75,8 @@ struct PixelEstimate {
 };
 
 /// A mean relative standard error, and what it is below with a confidence of 95 %: few pixels may have most of the
-/// noise, and each knows its variance from a few sets only.
+/// noise, and each knows its variance from two sets only. But that of independent samples, of which each pixel has
+/// many, bounds it, too; those count that decide, see SampleSums::deciding.
 struct RelativeError {
   double value = mc::infinity<double>, bound = mc::infinity<double>;
 };
@@ -83,8 +88,8 @@ enum class ErrorOf {
 };
 
 /// Sums of the samples of every pixel, apart by the independent point sets that they come from: a pixel is the mean of
-/// its samples, and how its sets differ tells how far it may be off. Four sets take 112 bytes a pixel, of 224 in all;
-/// mc::Moments of each set and channel would take 480.
+/// its samples, and how its sets differ tells how far it may be off. Two sets take 56 bytes a pixel, of 168 in all;
+/// mc::Moments of each set and channel would take 240.
 class Film {
  public:
   /// splat  : where samples count for several pixels, as they come by `splat`
@@ -139,7 +144,7 @@ class Film {
   /// is half of the picture's mean. Infinite while a pixel does not know its variance.
   RelativeError relative_error(ErrorOf of = ErrorOf::picture) const;
 
-  /// Share of the pixels that are undecided, see SampleSums; a path from the lights counts as a sample.
+  /// Share of the pixels that are undecided, see SampleSums::deciding; a path from the lights counts as a sample.
   double undecided() const;
 
  private:
@@ -159,6 +164,9 @@ class Film {
     return static_cast<std::size_t>(y + reach) * static_cast<std::size_t>(width_ + 2 * reach) +
            static_cast<std::size_t>(x + reach);
   }
+
+  // Of a pixel whose samples count.
+  double deciding(int x, int y) const;
 
   // The mean of the pixel and its neighbours.
   Eigen::Array3d around(const std::vector<Eigen::Array3d>& means, int x, int y) const;

@@ -3,6 +3,7 @@
 #include <mc/core/error.h>
 #include <mc/estimate/moments.h>
 #include <mc/random/pcg.h>
+#include <mc/warp/normal.h>
 
 #include <gtest/gtest.h>
 
@@ -39,6 +40,28 @@ TEST(TTest, RejectsAtTheRateOfAlphaAndCatchesWhatItSays) {
   EXPECT_GE(rejected, 25);
   EXPECT_LE(rejected, 80);
   EXPECT_GE(caught, 970);
+}
+
+// Of normal values, whose variances have chi-square distributions of 1 and 3 degrees of freedom: the mean of 1000 sums
+// of 64 variances each, of which the relative variance is 2 / dof: 2 sum v^2 / d / (sum v)^2.
+TEST(TTest, DegreesOfFreedomBehindSums) {
+  mc::VarianceSum one;
+  EXPECT_EQ(one.dof(), mc::infinity<double>);
+  one.add(4, 3);
+  EXPECT_NEAR(one.dof(), 3, 1e-12);
+  mc::Pcg rng(3);
+  const auto normal = [&] { return mc::Normal<double>().sample(rng.uniform<double>()); };
+  double dofs = 0;
+  for (int i = 0; i < 1000; ++i) {
+    mc::VarianceSum sum;
+    for (int k = 0; k < 32; ++k) {
+      sum.add(mc::sqr(normal()), 1);
+      sum.add(2 * (mc::sqr(normal()) + mc::sqr(normal()) + mc::sqr(normal())) / 3, 3);
+    }
+    dofs += sum.dof();
+  }
+  const double dof = mc::sqr(32.0 * 3) / (32 * (1 + 4 / 3.0));
+  EXPECT_NEAR(dofs / 1000, dof, 0.02 * dof);
 }
 
 TEST(TTest, WelchsDegreesOfFreedom) {
