@@ -152,8 +152,8 @@ struct BatchIntegrand {
 ///                cost little [OwenZhou00]; up to a half where most of the error would be theirs
 ///   tree       : the same with a BoxTree within the grid, for what is no product of axes
 ///   automatic  : learns from the points of rqmc that were made anyway, and gives up where rqmc is clearly ahead; else
-///                holds the error of vegas and tree, of half of the replicates or, where these leave it open, of all,
-///                against that of rqmc at the same length
+///                holds the error of vegas and tree, of a third of the replicates, against that of rqmc at the same
+///                length
 ///   error      : without a tolerance, 66 to 71 % of runs lie within 1 std_error of the truth and 93 to 96.5 % within
 ///                2, for every method over Genz's families [Genz87], and the 95 % intervals of vegas, tree and
 ///                automatic hold it in 95 to 96 %; with and without a tolerance, 93 to 97 % of the

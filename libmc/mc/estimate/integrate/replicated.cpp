@@ -10,6 +10,9 @@ namespace mc::detail {
 
 namespace {
 
+// Replicates that a run ends with at least: eight where there are as many, fewer know their own error too badly.
+std::uint32_t fewest(std::uint32_t all) { return std::max((all + 2) / 3, std::min(all, 8u)); }
+
 // Sequences that grow, and what they say on the way.
 class Growth {
  public:
@@ -67,17 +70,12 @@ class Growth {
     std::uint32_t count;
     std::uint64_t sparse;
   };
-  // Eight at least, where there are as many: fewer know their own error too badly.
-  double fewest() const {
-    const double all = run_.o.replicates;
-    return std::max(std::ceil(all / 3), std::min(all, 8.0));
-  }
 
   // How long all replicates get so that the fewest still reach the greatest length that the calls allow; an eighth of
   // that at most, a 32nd at least, and 64 points, to see how the error falls.
   std::uint64_t shared(const Sequences& s) const {
     const double all = s.count, points = points_left(s) + all * static_cast<double>(s.length);
-    const double fewer = std::min(fewest(), all);
+    const double fewer = std::min<double>(fewest(run_.o.replicates), all);
     double longest = std::exp2(std::floor(std::log2(static_cast<double>(s.length) + points_left(s) / fewer)));
     const auto affords = [&](double length) { return all * length + fewer * (longest - length) <= points; };
     const double least = std::min(std::max(longest / 32, 64.0), longest / 8); // shorter ones hardly show the fall
@@ -102,7 +100,7 @@ class Growth {
            length *= 2) {
         const std::uint64_t uniform_length = s.uniform_points(length, sparse);
         const double replicates = ends(s, length + uniform_length);
-        if (replicates < fewest()) break;
+        if (replicates < fewest(run_.o.replicates)) break;
         double variance = (1 - of_uniform) * falls(s.length, length);
         if (of_uniform > 0) variance += of_uniform * falls(s.uniform_length, uniform_length);
         if (variance / replicates > least) continue;
@@ -136,37 +134,32 @@ struct Candidate {
 };
 
 // Lets what was learned run against the bare sequences as far as these went, and against each other, at the length that
-// they would end with. Half of the replicates race, since what wins ends with fewer and longer ones as a rule; where
-// they leave it open, all do.
+// they would end with. As many replicates race as end: what others would say is worth less than their calls.
 class Contest {
-  static constexpr double chance = 0.5; // what may lie between two that are equal
-  static constexpr double open = 1.5;   // a decision by less than this is asked of all replicates
-  static constexpr double clear = 3;    // one by more than this is made on the way
-  // By how much more the logarithm of the variance falls for each doubling: of interlaced points than of others, of
-  // bare ones than of those behind a grid, of these than of those behind a tree, whose boxes are jumps.
-  static constexpr double of_interlacing = 0.7, without_grid = 0.1, without_boxes = 0.25;
+  static constexpr double clear = 3; // a decision by more than this is made on the way
+  // Of what was gained for each doubling so far, the part that those which follow gain more: of interlaced points than
+  // of others, of bare ones than of those behind a grid, of these than of those behind a tree, whose boxes are jumps.
+  static constexpr double of_interlacing = 1, without_grid = 0.5, without_boxes = 1.5;
 
  public:
-  Contest(Run& r, const Sequences& b, std::uint64_t l) : run_(r), bare_(b), last_(l) {}
-
-  static std::uint32_t replicates(std::uint32_t all) { return std::max((all + 1) / 2, std::min(all, 8u)); }
+  // `last`: the length that they would end with.
+  Contest(Run& r, const Sequences& b, std::uint64_t last)
+      : run_(r), bare_(b),
+        doublings_(std::max(std::log2(static_cast<double>(last) / static_cast<double>(b.length)), 0.0)) {}
 
   std::optional<Candidate> best_of(std::vector<Candidate>& all) {
     for (std::uint64_t to = std::min<std::uint64_t>(16, bare_.length); to <= bare_.length; to *= 2) {
       for (Candidate& c : all) c.sequences.extend(run_, to);
-      doublings_ = std::max(std::log2(static_cast<double>(last_) / static_cast<double>(to)), 0.0);
       if (to >= 64 && all.size() > 1 && std::abs(over_grid(all)) > clear && !disagree(all)) drop(all, 1 - best(all));
     }
-    if (undecided(all))
-      for (Candidate& c : all) c.sequences.widen(run_, run_.o.replicates - c.sequences.count);
-    const bool any = std::any_of(all.begin(), all.end(), [&](const Candidate& c) { return over_bare(c) > 0; });
-    for (Round& r : run_.rounds) r.independent &= any;
-    if (any) run_.independent(Method::rqmc);
-    for (std::size_t i = all.size(); i-- > 0;)
-      if (over_bare(all[i]) <= 0) drop(all, i);
-    if (all.size() > 1) drop(all, 1 - best(all));
-    if (all.empty()) return {};
-    return std::move(all.front());
+    const std::size_t first = best(all);
+    const bool ahead = over_bare(all[first]) > 0;
+    for (Round& r : run_.rounds) r.independent &= ahead;
+    if (ahead) run_.independent(Method::rqmc);
+    if (all.size() > 1) drop(all, 1 - first);
+    if (ahead) return std::move(all.front());
+    drop(all, 0);
+    return {};
   }
 
  private:
@@ -184,25 +177,17 @@ class Contest {
   }
   double over_grid(const std::vector<Candidate>& all) const {
     return advantage(all[0].sequences, all[1].sequences, doublings_, without_boxes) -
-           doubt(all[1].sequences.history.back()) - chance;
+           doubt(all[1].sequences.history.back());
   }
   // The one that has not met what counts may look better by far.
   static bool disagree(const std::vector<Candidate>& all) {
     return apart(all[0].sequences.history.back(), all[1].sequences.history.back());
   }
   std::size_t best(const std::vector<Candidate>& all) const { return all.size() > 1 && over_grid(all) > 0 ? 1 : 0; }
-  bool undecided(const std::vector<Candidate>& all) const {
-    // What the others would say of two that are close is worth less than their calls where interlaced points are one
-    // of them: in a fast fall a tenth of the calls is a fifth of the variance.
-    const auto close = [&](const Candidate& c) { return !run_.interlaced() && std::abs(over_bare(c)) < open; };
-    return all[0].sequences.count < run_.o.replicates &&
-           ((all.size() > 1 && std::abs(over_grid(all)) < open) || std::any_of(all.begin(), all.end(), close));
-  }
 
   Run& run_;
   const Sequences& bare_;
-  std::uint64_t last_; // the length that they would end with
-  double doublings_ = 0;
+  double doublings_; // after the contest
 };
 
 std::vector<Candidate> candidates(const Learned& learned, std::uint32_t count) {
@@ -235,13 +220,13 @@ Outcome sequences(Run& run, Method method, std::optional<Outcome>& last) {
   if (!learned) return growth.finish(bare);
   growth.out.density = learned->density;
   const bool contest = method == Method::automatic;
-  std::vector<Candidate> all = candidates(*learned, contest ? Contest::replicates(run.o.replicates) : run.o.replicates);
+  std::vector<Candidate> all = candidates(*learned, contest ? fewest(run.o.replicates) : run.o.replicates);
   if (method != Method::automatic) {
     Candidate& c = method == Method::vegas ? all.front() : all.back();
     return growth.finish(c.sequences);
   }
   // Of few calls none are left to hold against each other what was learned; a point costs two calls at most.
-  if (2 * all.size() * run.o.replicates * bare.length > run.left()) return growth.finish(bare);
+  if (2 * all.size() * all.front().sequences.count * bare.length > run.left()) return growth.finish(bare);
   std::optional<Candidate> best = Contest(run, bare, growth.affordable(all.front().sequences)).best_of(all);
   if (!best) return growth.finish(bare);
   growth.out.method = best->method;

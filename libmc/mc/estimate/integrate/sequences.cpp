@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mc::detail {
 
@@ -152,13 +153,45 @@ double fall(const Sequences& s) {
   return log_ratio(s.history[end - steps], s.history[end]) / static_cast<double>(steps * s.history[end].size());
 }
 
+namespace {
+constexpr double least = std::numeric_limits<double>::min();
+
+// The standard error that one replicate would have, were its points independent.
+double independent(const Sequences& s, std::size_t output) {
+  const auto error = [&](const std::vector<Sums>& replicates, std::uint64_t points) {
+    ScaledMoments all;
+    for (const Sums& r : replicates) all.merge(r.outputs[output]);
+    return all.variation() / std::sqrt(static_cast<double>(points));
+  };
+  const double of_density = error(s.sums, s.length);
+  if (s.uniform_sums.empty()) return of_density;
+  return std::hypot((1 - Proposal::uniform_share) * of_density,
+                    Proposal::uniform_share * error(s.uniform_sums, s.uniform_length));
+}
+
+// The logarithm of that variance over the one which the replicates show; 0 where they show more.
+double gain(const Sequences& s, std::size_t output) {
+  const double shown = s.history.back()[output].error * std::sqrt(s.count);
+  return std::max(2 * std::log((independent(s, output) + least) / (shown + least)), 0.0);
+}
+} // namespace
+
 double advantage(const Sequences& a, const Sequences& b, double doublings, double expected) {
-  constexpr double shown = 0.15;
-  const std::size_t end = std::min(a.history.size(), b.history.size()) - 1, steps = std::min<std::size_t>(end, 3);
-  const auto difference = [&](std::size_t at) { return log_ratio(a.history[at], b.history[at]); };
-  const double now = difference(end), all = -expected * static_cast<double>(b.history[end].size());
-  const double each = steps > 0 ? (now - difference(end - steps)) / static_cast<double>(steps) : all;
-  return now + doublings * (all + shown * (each - all));
+  constexpr double before = 0.4; // of the first doubling: what has not gained yet may still
+  constexpr double differ = 0.5; // of two gains, over their mean
+  const Means &of_a = a.history.back(), &of_b = b.history.back();
+  const double doubled = std::max(std::log2(static_cast<double>(a.length)), 1.0);
+  const double noise = 2.0 / (a.count - 1) + 2.0 / (b.count - 1); // variance of the logarithm of their variances
+  double sum = 0;
+  for (std::size_t k = 0; k < of_a.size(); ++k) {
+    const double gain_a = gain(a, k), gain_b = gain(b, k), prior = sqr(differ * (gain_a + gain_b) / 2);
+    if (apart(of_a[k], of_b[k])) sum += log_ratio({of_a[k]}, {of_b[k]});
+    else
+      sum += 2 * std::log((independent(a, k) + least) / (independent(b, k) + least)) +
+             (gain_b - gain_a) * prior / (prior + noise);
+    sum -= doublings * expected * (gain_a + before) / (doubled + 1);
+  }
+  return sum;
 }
 
 } // namespace mc::detail

@@ -72,9 +72,10 @@ double doubt(const Means& b);
 /// By how much the logarithm of the variances fell for each doubling, over the last three; the mean of the outputs.
 double fall(const Sequences& s);
 
-/// What log_ratio(a, b) will be after `doublings` more, from the longest length that both have reached. The logarithm
-/// of the variance of a is `expected` to fall by so much more for each doubling; what the last three showed of that
-/// counts little, since few points say little of how an error falls.
-double advantage(const Sequences& a, const Sequences& b, double doublings, double expected = 0);
+/// The logarithm of the variance of a replicate of a over that of one of b, summed over the outputs, after `doublings`
+/// more; both are as long. A dozen replicates know their variance badly, their points know well what it would be were
+/// they independent: what replicates gain over that counts the less the less there is of it. And for each
+/// doubling a gains as much as is `expected` of what each gained so far. Of means that are apart log_ratio() counts.
+double advantage(const Sequences& a, const Sequences& b, double doublings, double expected);
 
 } // namespace mc::detail

@@ -76,20 +76,39 @@ TEST(Sequences, FallIsThatOfTheVariance) {
   EXPECT_NEAR(detail::fall(s), std::log(4.0), 1e-12); // of the last three doublings
 }
 
-TEST(Sequences, AdvantageContinuesTheFallOfTheErrors) {
-  const auto history = [](std::initializer_list<double> variances) {
-    Sequences s{.purpose = 0, .count = 24};
-    for (const double v : variances) s.history.push_back({{0, std::sqrt(v), 23}});
-    return s;
-  };
-  const Sequences slow = history({1, 0.5, 0.25, 0.125}), fast = history({8, 2, 0.5, 0.125});
-  EXPECT_NEAR(mc::detail::advantage(slow, fast, 0), 0, 1e-12);
-  EXPECT_NEAR(mc::detail::advantage(slow, fast, 3), 0.15 * 3 * std::log(2), 1e-12); // a half against a quarter, thrice
-  EXPECT_NEAR(mc::detail::advantage(fast, slow, 3), -0.15 * 3 * std::log(2), 1e-12);
-  EXPECT_NEAR(mc::detail::advantage(slow, fast, 3, 0.2), 3 * (0.15 * std::log(2) - 0.85 * 0.2), 1e-12);
-  // At the longest length that both have reached; what was expected where nothing was shown.
-  EXPECT_NEAR(mc::detail::advantage(history({1, 0.5}), fast, 0), std::log(0.25), 1e-12);
-  EXPECT_NEAR(mc::detail::advantage(history({1}), fast, 2, 0.5), -std::log(8) - 1, 1e-12);
+// Replicates of equal size whose means have so much less variance than independent points would give them: `gain` is
+// the logarithm of that.
+Sequences gaining(double deviation, double gain, std::uint32_t count = 12) {
+  Sequences s{.purpose = 0, .count = count, .length = 256};
+  s.sums.resize(count, detail::Sums{std::vector<detail::ScaledMoments>(1), std::vector<detail::Seen>(1)});
+  for (std::uint32_t r = 0; r < count; ++r) {
+    std::vector<double> values(256);
+    for (std::size_t i = 0; i < 256; ++i) values[i] = i % 2 == 0 ? deviation : -deviation;
+    s.sums[r].outputs[0].add(values, 0, deviation);
+  }
+  s.history.push_back({{1, deviation / 16 / std::sqrt(count) * std::exp(-gain / 2), count - 1.0}});
+  return s;
+}
+
+// Where nothing is gained the points decide, whatever the replicates say, and however many these are; and what is
+// expected of the next doublings is part of a ninth of .4, as these gained nothing in eight.
+TEST(Sequences, AdvantageOfPointsThatGainNothing) {
+  const Sequences wide = gaining(0.1, 0), narrow = gaining(0.05, 0), lucky = gaining(0.1, 0.5),
+                  few = gaining(0.05, 0, 8);
+  EXPECT_NEAR(detail::advantage(wide, narrow, 5, 0), std::log(4), 1e-2);
+  EXPECT_NEAR(detail::advantage(narrow, wide, 5, 0), -std::log(4), 1e-2);
+  EXPECT_NEAR(detail::advantage(wide, few, 5, 0), std::log(4), 1e-2);
+  EXPECT_LT(std::abs(detail::advantage(wide, lucky, 5, 0)), 0.05);
+  EXPECT_NEAR(detail::advantage(wide, narrow, 5, 0.6), std::log(4) - 3 * 0.4 / 9, 1e-2);
+}
+
+// Where much is gained the replicates decide; and what gained fast will.
+TEST(Sequences, AdvantageOfPointsThatGainMuch) {
+  const Sequences slow = gaining(0.01, 4), fast = gaining(0.01, 8), half = gaining(0.01, 1.4);
+  EXPECT_NEAR(detail::advantage(slow, fast, 0, 0.6), 4, 0.2);
+  EXPECT_NEAR(detail::advantage(fast, slow, 0, 0.6), -4, 0.2);
+  EXPECT_NEAR(detail::advantage(fast, slow, 5, 0.6), detail::advantage(fast, slow, 0, 0.6) - 3 * 8.4 / 9, 1e-3);
+  EXPECT_NEAR(detail::advantage(half, slow, 5, 0.6), detail::advantage(half, slow, 0, 0.6) - 3 * 1.8 / 9, 1e-2);
 }
 
 TEST(Sequences, WidenedOnesSayWhatAllOfThemSaw) {

@@ -107,7 +107,7 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
     if (bare && !blind && k > 0 && learner.width() < wide && by < -doubt(bare->history.back()) - 0.5) return {};
     if (k >= 1) calls *= 2;
     const bool searching = (blind || !bare) && learner.width() > wide,
-               helps = learner.width() < 0.85 * before || by > 0.7;
+               helps = learner.width() < 0.85 * before || by > (learner.width() > wide ? 0.2 : 0.7);
     const std::uint64_t most = std::min(run.o.max_calls / 5 * (searching ? 2 : 1), room);
     if (k >= 2 && (learner.width() < 0.5 || !(searching || helps) || spent + calls > most)) break;
   }
