@@ -81,15 +81,19 @@ TEST(Integrate, AnySizeOfValues) {
     }
 }
 
+// 8 of 50 misses are exceeded by chance in .08 % where 95 % of the intervals hold.
 TEST(Integrate, EqualReplicatesAreNoProof) {
   for (const Method method : methods) {
     mc::IntegrateOptions o;
     o.method = method;
     o.max_calls = 100'000;
-    const mc::Integral step = mc::integrate_unit([](Unit u) { return u[0] < 0.377 ? 1.0 : 0.0; }, 1, o);
-    EXPECT_EQ(step.error_bar, mc::ErrorBar::known);
-    EXPECT_LE(step.interval.lo, 0.377) << name(method);
-    EXPECT_GE(step.interval.hi, 0.377) << name(method);
+    int missed = 0;
+    for (o.seed = 1; o.seed <= 50; ++o.seed) {
+      const mc::Integral step = mc::integrate_unit([](Unit u) { return u[0] < 0.377 ? 1.0 : 0.0; }, 1, o);
+      EXPECT_EQ(step.error_bar, mc::ErrorBar::known);
+      missed += !(step.interval.lo <= 0.377 && 0.377 <= step.interval.hi);
+    }
+    EXPECT_LE(missed, 8) << name(method);
     const mc::Integral constant = mc::integrate_unit([](Unit) { return 3.0; }, 2, o);
     EXPECT_EQ(constant.stop, mc::Stop::converged) << name(method);
     EXPECT_GT(constant.interval.hi, 3) << name(method);
@@ -113,11 +117,13 @@ TEST(Integrate, PeaksThatFewPointsMeetGetNoBar) {
                      s = std::sqrt(mass / (2 * mc::pi<double>));
         const double x = 0.2 + 0.6 * random.uniform<double>(), y = 0.2 + 0.6 * random.uniform<double>();
         const auto f = [&](Unit u) { return std::exp(-(mc::sqr(u[0] - x) + mc::sqr(u[1] - y)) / (2 * s * s)); };
+        const double r2 = std::sqrt(2.0) * s, within_x = (std::erf((1 - x) / r2) + std::erf(x / r2)) / 2,
+                     within_y = (std::erf((1 - y) / r2) + std::erf(y / r2)) / 2, truth = mass * within_x * within_y;
         const mc::Integral r = mc::integrate_unit(f, 2, with(method, 2000, seed));
         EXPECT_TRUE(r.error_bar == mc::ErrorBar::known || r.stop == mc::Stop::max_calls);
         if (r.error_bar != mc::ErrorBar::known) continue;
         ++known;
-        missed += !(r.interval.lo <= mass && mass <= r.interval.hi);
+        missed += !(r.interval.lo <= truth && truth <= r.interval.hi);
       }
       EXPECT_TRUE(least < 1 ? known <= 3 : known >= 297) << name(method) << " " << known;
       EXPECT_LE(missed, least < 1 ? 3 : 28) << name(method);
