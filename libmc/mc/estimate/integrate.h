@@ -156,7 +156,7 @@ struct BatchIntegrand {
 ///                length
 ///   error      : without a tolerance, 66 to 71 % of runs lie within 1 std_error of the truth and 93 to 96.5 % within
 ///                2, for every method over Genz's families [Genz87], and the 95 % intervals of vegas, tree and
-///                automatic hold it in 95 to 96 %; with and without a tolerance, 93 to 97 % of the
+///                automatic hold it in 95 to 97 %; with and without a tolerance, 93 to 97 % of the
 ///                95 % intervals of rqmc hold the truth on steps, kinks, shells and singularities of finite variance at
 ///                random places. No error is 0 because replicates agree: what they could not see has a bound. None
 ///                converges on fewer than 128 points of each replicate, nor where every value was 0, or the variance is
