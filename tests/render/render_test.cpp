@@ -173,7 +173,7 @@ TEST(Render, AdaptiveSpendsWhatIsAskedForWhereTheErrorIs) {
     options.adaptive = true;
     double spent_on_all = 0, spent_on_worst = 0;
     RenderResult worst;
-    for (options.seed = 0; options.seed < 40; ++options.seed) {
+    for (options.seed = 0; options.seed < 8; ++options.seed) {
       options.error_of = ErrorOf::picture;
       const RenderResult one = render::render(scene, options);
       EXPECT_NEAR(one.spp, 128, 0.5);
@@ -246,7 +246,7 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   options.error_of = ErrorOf::picture;
   options.strategy = strategy_from("mis"); // paths from the lights leave less that is uneven
   std::uint64_t adaptive = 0, even = 0;
-  for (options.seed = 0; options.seed < 40; ++options.seed) {
+  for (options.seed = 0; options.seed < 8; ++options.seed) {
     options.adaptive = true;
     adaptive += render::render(scene, options).samples;
     options.adaptive = false;

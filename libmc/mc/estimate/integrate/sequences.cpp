@@ -9,6 +9,12 @@ namespace mc::detail {
 namespace {
 constexpr std::uint64_t of_uniform = 1000; // added to the purpose
 
+// The logarithm of the ratio of the variances of two errors, which may be 0.
+double log_variances(double a, double b) {
+  constexpr double least = std::numeric_limits<double>::min();
+  return 2 * std::log((a + least) / (b + least));
+}
+
 // Sets [first, last) of a purpose with their points [from, to).
 void add(Run& run, std::uint64_t purpose, std::uint32_t first, std::uint32_t last, std::uint64_t from, std::uint64_t to,
          const Proposal& proposal, bool record, std::vector<PointSet>& sets, std::vector<Sums>& sums) {
@@ -136,8 +142,7 @@ double log_ratio(const Means& a, const Means& b) {
     return std::max(m.error, missed) / (std::abs(m.value) + m.error);
   };
   double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k)
-    sum += 2 * std::log((error(a[k], b[k]) + 1e-300) / (error(b[k], a[k]) + 1e-300));
+  for (std::size_t k = 0; k < a.size(); ++k) sum += log_variances(error(a[k], b[k]), error(b[k], a[k]));
   return sum;
 }
 
@@ -154,8 +159,6 @@ double fall(const Sequences& s) {
 }
 
 namespace {
-constexpr double least = std::numeric_limits<double>::min();
-
 // The standard error that one replicate would have, were its points independent.
 double independent(const Sequences& s, std::size_t output) {
   const auto error = [&](const std::vector<Sums>& replicates, std::uint64_t points) {
@@ -172,7 +175,7 @@ double independent(const Sequences& s, std::size_t output) {
 // The logarithm of that variance over the one which the replicates show; 0 where they show more.
 double gain(const Sequences& s, std::size_t output) {
   const double shown = s.history.back()[output].error * std::sqrt(s.count);
-  return std::max(2 * std::log((independent(s, output) + least) / (shown + least)), 0.0);
+  return std::max(log_variances(independent(s, output), shown), 0.0);
 }
 } // namespace
 
@@ -186,9 +189,7 @@ double advantage(const Sequences& a, const Sequences& b, double doublings, doubl
   for (std::size_t k = 0; k < of_a.size(); ++k) {
     const double gain_a = gain(a, k), gain_b = gain(b, k), prior = sqr(differ * (gain_a + gain_b) / 2);
     if (apart(of_a[k], of_b[k])) sum += log_ratio({of_a[k]}, {of_b[k]});
-    else
-      sum += 2 * std::log((independent(a, k) + least) / (independent(b, k) + least)) +
-             (gain_b - gain_a) * prior / (prior + noise);
+    else sum += log_variances(independent(a, k), independent(b, k)) + (gain_b - gain_a) * prior / (prior + noise);
     sum -= doublings * expected * (gain_a + before) / (doubled + 1);
   }
   return sum;
