@@ -165,12 +165,11 @@ std::vector<std::vector<double>> turned_axes(Draw& d) {
 }
 
 // Five standard deviations fit on every side: 6e-7 of the mass is outside.
-Experiment ridge(std::uint64_t seed) {
-  Draw d(seed, 2, 3);
+Experiment turned(const char* name, Draw& d, const std::vector<double>& width) {
   const std::vector<std::vector<double>> axes = turned_axes(d);
-  const std::vector<double> centre = d.each(0.42, 0.58), width = d.each(0.008, 0.08);
+  const std::vector<double> centre = d.each(0.42, 0.58);
   const double truth = product(width, [&](std::size_t i) { return std::sqrt(2 * mc::pi<double>) * width[i]; });
-  return d.made("ridge", truth, [axes, centre, width](Unit x) {
+  return d.made(name, truth, [axes, centre, width](Unit x) {
     double sum = 0;
     for (std::size_t k = 0; k < width.size(); ++k) {
       double along = 0;
@@ -179,6 +178,20 @@ Experiment ridge(std::uint64_t seed) {
     }
     return std::exp(-sum / 2);
   });
+}
+
+Experiment ridge(std::uint64_t seed) {
+  Draw d(seed, 2, 3);
+  return turned("ridge", d, d.each(0.008, 0.08));
+}
+
+// 1.5 to 20 times as long as thick.
+Experiment needle(std::uint64_t seed) {
+  Draw d(seed, 4, 5);
+  const double length = d.between(0.03, 0.07), thickness = length * std::pow(0.05, d.between(0.12, 1));
+  std::vector<double> width(static_cast<std::size_t>(d.dim), thickness);
+  width.front() = length;
+  return turned("needle", d, width);
 }
 
 Experiment wave(std::uint64_t seed) {
@@ -218,6 +231,7 @@ const std::vector<IntegrandClass>& integrand_classes() {
       {"infinite", "a product of |x - a|^-p, p from .5 to .95", false, infinite},
       {"peaks", "up to three Gaussians", true, peaks},
       {"ridge", "a Gaussian with turned axes", true, ridge},
+      {"needle", "a long thin one, that few points meet", true, needle},
       {"wave", "the cosine of a linear form", true, wave},
       {"product", "a product of |4 x - 2|^p", true, powers}};
   return list;

@@ -18,8 +18,8 @@ struct IntegrandClass {
 /// step: 1 below a place on each axis, d 1 to 3. box: 1 between two. jump: a step times exp(c . x), 2 to 8.
 /// kink: a product of 1 + c |x - a|, 1 to 6. shell: 1 between two spheres, 2 and 3. singular: a product of |x - a|^-p
 /// with p up to .4, a at 0 or inside, 1 to 3. infinite: so too, p from .5 to .95. peaks: up to 3 Gaussians anywhere,
-/// 2 to 6. ridge: a Gaussian whose axes are turned, 2 and 3. wave: cos(b + c . x), 1 to 8. product: of |4 x - 2|^p, 5
-/// to 20. All are multiplied by a power of two between 2^-40 and 2^40.
+/// 2 to 6. ridge: a Gaussian whose axes are turned, 2 and 3; needle: 4 and 5. wave: cos(b + c . x), 1 to 8.
+/// product: of |4 x - 2|^p, 5 to 20. All are multiplied by a power of two between 2^-40 and 2^40.
 const std::vector<IntegrandClass>& integrand_classes();
 
 } // namespace carlo

@@ -5,9 +5,16 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace {
+
+const carlo::IntegrandClass& integrand(std::string_view name) {
+  return *std::find_if(carlo::integrand_classes().begin(), carlo::integrand_classes().end(),
+                       [&](const carlo::IntegrandClass& c) { return c.name == name; });
+}
 
 // The closed forms: plain points agree with each within 6 standard errors, alpha = 2e-9 for each of 200.
 TEST(RandomIntegrands, TruthsAreTrue) {
@@ -27,6 +34,32 @@ TEST(RandomIntegrands, TruthsAreTrue) {
   }
 }
 
+// Long thin Gaussians that follow no axis and that few uniform points meet, if any: the density that is learned may
+// follow a part of one. Of 200 runs of vegas and tree 140 had an error bar when it was told by the values that were met
+// alone, 25 of these off by more than half, and 30 intervals missed. Of 90 bars of 95 % more than 9 miss by chance in
+// 1.5 %; the seeds are fixed.
+TEST(RandomIntegrands, NeedlesAreNotKnownWhereAPartWasMet) {
+  for (const mc::Method method : {mc::Method::vegas, mc::Method::tree, mc::Method::automatic}) {
+    int known = 0, off = 0, missed = 0;
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const carlo::Experiment e = integrand("needle").draw(mc::hash(i, 1));
+      mc::IntegrateOptions o;
+      o.method = method;
+      o.rel_error = 0;
+      o.max_calls = 10'000;
+      o.seed = mc::hash(i, 2);
+      const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
+      if (r.error_bar != mc::ErrorBar::known || !r.consistent) continue;
+      ++known;
+      off += std::abs(r.estimate.value / e.truth - 1) > 0.5;
+      missed += r.interval.lo > e.truth || e.truth > r.interval.hi;
+    }
+    EXPECT_GE(known, 80) << name(method);
+    EXPECT_LE(off, 1) << name(method);
+    EXPECT_LE(missed, 9) << name(method);
+  }
+}
+
 // The promise of the error bar, on integrands whose kind, place and size are random: 93 to 97 % of the 95 % intervals
 // hold the truth. 1100 runs have a binomial deviation of .0066; the bounds are 3 of them beyond, alpha = .3 % for each
 // of 6 bounds; the seeds are fixed.
@@ -35,7 +68,7 @@ TEST(RandomIntegrands, IntervalsCover) {
     for (const mc::Method method : {mc::Method::rqmc, mc::Method::plain}) {
       int runs = 0, covered = 0, silent = 0, finite = 0;
       for (const carlo::IntegrandClass& kind : carlo::integrand_classes())
-        for (std::uint64_t i = 0; i < 110; ++i) {
+        for (std::uint64_t i = 0; i < 110 && kind.name != "needle"; ++i) { // which these calls do not meet
           const carlo::Experiment e = kind.draw(mc::hash(i, 1));
           mc::IntegrateOptions o;
           o.method = method;

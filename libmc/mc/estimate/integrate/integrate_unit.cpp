@@ -42,7 +42,7 @@ std::vector<IntegrateRound> rounds_of(const Run& run, std::size_t output) {
   for (const detail::Round& r : run.rounds) {
     const detail::Mean& mean = r.means[output];
     const double chi2 = r.chi2.empty() ? std::numeric_limits<double>::quiet_NaN() : r.chi2[output];
-    all.push_back({r.method, r.learning, r.calls, detail::estimate(mean, r.calls), mean.bar, chi2});
+    all.push_back({r.method, r.learning, r.calls, detail::estimate(mean, r.calls), mean.told(), chi2});
   }
   return all;
 }
@@ -80,7 +80,7 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
     r.estimate = detail::estimate(mean, run.calls);
     r.interval = detail::interval(mean, o.confidence);
     r.confidence = o.confidence;
-    r.error_bar = mean.bar;
+    r.error_bar = mean.told();
     r.tail_index = outcome.seen[k].telling_index();
     r.infinite = outcome.seen[k].infinite;
     r.calls = run.calls;
@@ -133,7 +133,7 @@ Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f,
   result.estimate = detail::estimate(mean, run.calls);
   result.interval = detail::interval(mean, o.confidence);
   result.confidence = o.confidence;
-  result.error_bar = mean.bar;
+  result.error_bar = mean.told();
   result.tail_index = sequences.seen().front().tail_index();
   result.infinite = sequences.seen().front().infinite;
   result.calls = run.calls;

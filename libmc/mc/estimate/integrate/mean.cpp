@@ -14,6 +14,7 @@ namespace mc::detail {
 
 namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least = std::numeric_limits<double>::denorm_min(); // a mean below it need not be 0
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double jump_share = 0.75, unseen_share = 1.5; // of one step of one replicate, in standard errors
 constexpr double light = 8;                             // a tail of this index shows in no error
@@ -34,15 +35,16 @@ double widest_jump(std::vector<double> sorted, double deviation) {
 double ulp(double mean) { return std::numeric_limits<double>::epsilon() * std::abs(mean); }
 
 Estimate estimate(const Mean& m, std::uint64_t calls) {
-  return Estimate::student(m.value, m.bar == ErrorBar::known ? m.error : infinity, m.dof, calls);
+  return Estimate::student(m.value, m.told() == ErrorBar::known ? std::hypot(m.error, m.unmet) : infinity, m.dof,
+                           calls);
 }
 
 Estimate::Interval interval(const Mean& m, double confidence) {
-  if (m.bar != ErrorBar::known) return {-infinity, infinity};
-  const Estimate e = Estimate::student(m.value, m.error, m.dof, 0);
+  if (m.told() != ErrorBar::known) return {-infinity, infinity};
+  const Estimate e = estimate(m, 0);
   const Estimate::Interval plain = e.interval(confidence);
   if (!(m.error > 0)) return plain;
-  const double t = (plain.hi - plain.lo) / (2 * m.error), shift = m.skew * m.error * (1 + 2 * t * t);
+  const double t = (plain.hi - plain.lo) / (2 * e.std_error), shift = m.skew * m.error * (1 + 2 * t * t);
   return {plain.lo + std::min(shift, 0.0), plain.hi + std::max(shift, 0.0)};
 }
 
@@ -55,7 +57,7 @@ Mean combined(const Mean& a, const Mean& b, double share) {
   const Mean mine{a.value, (1 - share) * a.error, a.dof, a.skew}, other{b.value, share * b.error, b.dof, b.skew};
   const double error = std::hypot(mine.error, other.error);
   const auto third = [&](const Mean& m) { return error > 0 ? m.skew * std::pow(m.error / error, 3) : 0.0; };
-  return {a.value + share * (b.value - a.value), error, welch(mine, other), third(mine) + third(other), b.bar};
+  return {a.value + share * (b.value - a.value), error, welch(mine, other), third(mine) + third(other), b.bar, b.unmet};
 }
 
 std::optional<double> deviate(const Mean& a, const Mean& b) {
@@ -65,6 +67,14 @@ std::optional<double> deviate(const Mean& a, const Mean& b) {
       std::abs(a.value - b.value) / std::hypot(error, rounding * std::max(std::abs(a.value), std::abs(b.value)));
   const double tail = cdf(complement(boost::math::students_t(welch(a, b)), t));
   return quantile(complement(boost::math::normal(), std::max(tail, 1e-300)));
+}
+
+double unmet(const Seen& seen, double error) {
+  const Magnitudes& all = seen.values;
+  const double largest = std::max(std::abs(all.lo()), std::abs(all.hi())) / static_cast<double>(all.count());
+  if (seen.tail.empty() || std::isfinite(seen.tail_index()) || error < largest / 2) return 0;
+  const double more = seen.values.beyond();
+  return more > seen.values.mean_size() / 2 ? infinity : more;
 }
 
 ErrorBar bar_of(const Seen& seen) {
@@ -116,7 +126,7 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   const double spread = width / std::sqrt(r * (1 - std::min(beyond, 0.9)));
   const double unbiased = r * r / ((r - 1) * std::max(r - 2, 1.0));
   const double mean = std::ldexp(m.mean(), exponent);
-  return {mean, std::max(std::hypot(spread, step / points / r), ulp(rounded)), r - 1,
+  return {mean, std::max({std::hypot(spread, step / points / r), ulp(rounded), least}), r - 1,
           skewness * unbiased / (6 * std::sqrt(r)), bar_of(seen)};
 }
 

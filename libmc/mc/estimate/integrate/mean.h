@@ -5,6 +5,7 @@
 #include <mc/estimate/seen/tail.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
@@ -13,17 +14,22 @@
 namespace mc::detail {
 
 /// A mean whose standard error was estimated with `dof` degrees of freedom. `skew` is the third cumulant of the mean
-/// over error^3, divided by 6.
+/// over error^3, divided by 6. `unmet` is what values larger than all that were met may add to it, infinite where that
+/// is much.
 struct Mean {
   double value = 0, error = 0, dof = 0, skew = 0;
-  ErrorBar bar = ErrorBar::known;
+  ErrorBar bar = ErrorBar::known; ///< of what was met
+  double unmet = 0;
+
+  /// What is said of the error bar.
+  ErrorBar told() const { return bar == ErrorBar::known && std::isinf(unmet) ? ErrorBar::hardly_met : bar; }
 };
 using Means = std::vector<Mean>; ///< one per output
 
 /// The least error that a mean may have: doubles are no closer to each other.
 double ulp(double mean);
 
-/// The mean with its error, infinite unless the bar is known.
+/// The mean with its error, of what was met and what was not; infinite unless the bar is known.
 Estimate estimate(const Mean& m, std::uint64_t calls);
 
 /// The two-sided interval: Student's t, longer on the side of the skewness [Johnson78]. Never shorter than t on the
@@ -42,6 +48,13 @@ std::optional<double> deviate(const Mean& a, const Mean& b);
 
 /// What values say of the error bar, if they are not all 0.
 ErrorBar bar_of(const Seen& seen);
+
+/// What values larger than all that were met may add to a mean whose points were drawn from a learned density, see
+/// Magnitudes; infinity where that is more than half of it. So a density shows itself that follows a part of the
+/// integrand only: beside that part it is low, and few points there have values the larger the farther out they are.
+/// 0 where replicates agree better than single values of the largest size would let them, and where the integrand has
+/// the tail of a power law, whose errors allow for it.
+double unmet(const Seen& seen, double error);
 
 /// What an integrand showed of itself at shorter lengths of the same replicates.
 struct Evidence {

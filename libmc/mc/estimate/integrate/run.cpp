@@ -173,6 +173,7 @@ Means Run::means(const std::vector<Sums>& replicates, std::uint64_t points, std:
     if (points <= AxisProfile::most)
       evidence[k].show_step(profile.jump(k, static_cast<std::size_t>(dim), replicates.size()));
     all.push_back(replicated(values[k], static_cast<double>(points), seen, evidence[k]));
+    if (k < leading()) all.back().unmet = unmet(seen, all.back().error); // no density follows what is only watched
   }
   return all;
 }

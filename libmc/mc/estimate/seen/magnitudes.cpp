@@ -7,6 +7,15 @@
 
 namespace mc {
 
+namespace {
+// The biased exponent, of subnormal numbers too: at most 0, and least of 0.
+int exponent_of(double x) {
+  const auto bits = std::bit_cast<std::uint64_t>(x) & 0x7fff'ffff'ffff'ffff;
+  const auto biased = static_cast<int>(bits >> 52);
+  return biased > 0 ? biased : static_cast<int>(std::bit_width(bits)) - 52;
+}
+} // namespace
+
 void Magnitudes::raise(int top) {
   if (top <= top_) return;
   std::array<std::uint64_t, octaves> moved{};
@@ -18,7 +27,7 @@ void Magnitudes::raise(int top) {
 
 void Magnitudes::add(std::span<const double> values) {
   for (const double x : values) {
-    const auto exponent = static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff);
+    const int exponent = exponent_of(x);
     if (exponent == 0x7ff) continue;
     if (exponent > top_) [[unlikely]]
       raise(exponent);
@@ -67,11 +76,22 @@ double Magnitudes::tail_index(std::uint64_t least) const {
   return found.count < least ? std::numeric_limits<double>::infinity() : found.index();
 }
 
-bool Magnitudes::hardly_met() const {
+Magnitudes::Largest Magnitudes::sixteen_largest() const {
   const std::uint64_t least = std::min<std::uint64_t>(16, count_ - zeros_);
   Largest found = largest(least);
   if (found.count < least) found.add(least - found.count);
-  return found.index() < 0.5;
+  return found;
+}
+
+bool Magnitudes::hardly_met() const {
+  const bool single = zeros_ >= 100 && count_ - zeros_ == 1; // others may be of any size
+  return single || sixteen_largest().index() < 0.5;
+}
+
+double Magnitudes::beyond() const {
+  const double index = std::max(sixteen_largest().index(), 1.1);
+  if (std::isinf(index)) return 0;
+  return index / (index - 1) * (std::max(std::abs(lo_), std::abs(hi_)) / static_cast<double>(count_));
 }
 
 double Magnitudes::tail_index() const {

@@ -23,7 +23,8 @@ class Magnitudes {
   double hi() const { return hi_; } ///< largest value; 0 without any
   /// The mean of |X|, or down to half of it: values count as the least of their octave.
   double mean_size() const;
-  /// Numbers of values by octaves, the first with the biased exponent top(); 0 before the first value.
+  /// Numbers of values by octaves, the first with the biased exponent top(), that of subnormal ones below 1; -52 before
+  /// the first value.
   std::span<const std::uint64_t, octaves> counts() const { return below_; }
   int top() const { return top_; }
 
@@ -39,9 +40,15 @@ class Magnitudes {
   /// the farther out.
   double tail_index() const;
 
-  /// Whether few values hold most of the sum: the sixteen largest, zeros left out, fall off with an index below 1/2,
-  /// far from the 1 that a mean needs. So they do where fewer than about four points met what a peak is made of.
+  /// Whether few values hold most of the sum: there is but one beside a hundred zeros or more, or the sixteen largest, zeros
+  /// left out, fall off with an index below 1/2, far from the 1 that a mean needs. So they do where fewer than about
+  /// four points met what a peak is made of.
   bool hardly_met() const;
+
+  /// What values larger than all that were met may add to the mean of |X|, if they fall off as the sixteen largest do:
+  /// of a power law with the index a > 1 it is a / (a - 1) of what the largest adds. At most eleven times that, since
+  /// sixteen values know an index to a quarter.
+  double beyond() const;
 
  private:
   /// The largest values, octave by octave, and the sum of the numbers of their octaves.
@@ -57,6 +64,8 @@ class Magnitudes {
   };
   /// So many at least, unless only the last octave has more.
   Largest largest(std::uint64_t least) const;
+  /// Sixteen that are not 0, or all.
+  Largest sixteen_largest() const;
   void raise(int top);
   std::uint64_t few_largest() const { return std::clamp<std::uint64_t>(count_ / 512, 16, 128); }
   std::uint64_t many_largest() const {
@@ -65,7 +74,7 @@ class Magnitudes {
 
   std::uint64_t count_ = 0, zeros_ = 0;
   double lo_ = 0, hi_ = 0;
-  int top_ = 0;                                // biased exponent of the first octave; 0 before the first value
+  int top_ = -52;                              // biased exponent of the first octave
   std::array<std::uint64_t, octaves> below_{}; // below_[i]: values with the exponent top_ - i
 };
 

@@ -59,7 +59,13 @@ TEST(Magnitudes, FewThatHoldTheSumAreTold) {
   EXPECT_FALSE(hardly_met({0, 0, 1, 1, 0})); // a step that two points met
   EXPECT_FALSE(hardly_met(std::vector<double>(1000, -3)));
   EXPECT_TRUE(hardly_met({1, 1e-5, 1e-9, 0, 0}));
-  EXPECT_TRUE(hardly_met({1, 1e-80, 1e-200})); // all but one below the octaves that are told apart
+  EXPECT_TRUE(hardly_met({1, 1e-80, 1e-200}));                     // all but one below the octaves that are told apart
+  EXPECT_TRUE(hardly_met({1e-308, 1e-313, 1e-317, 5e-324, 0, 0})); // subnormal
+  std::vector<double> one(1000);
+  one.front() = -2;
+  EXPECT_TRUE(hardly_met(one)); // the others that are not 0 may be of any size
+  one.back() = -2;
+  EXPECT_FALSE(hardly_met(one));
   for (const auto& [index, few] : {std::pair{0.2, true}, {2.0, false}}) // 16 know an index to a quarter of it
     for (std::uint64_t seed = 1; seed <= 100; ++seed)
       EXPECT_EQ(hardly_met(powers(seed, 5000, 1 / index)), few) << index << " seed " << seed;
@@ -72,6 +78,28 @@ TEST(Magnitudes, MeanSizeDownToHalf) {
     m.add(std::vector<double>{-4 * scale, 3 * scale, 0, 0, scale});
     EXPECT_LE(m.mean_size(), 1.6 * scale);
     EXPECT_GE(m.mean_size(), 0.8 * scale);
+  }
+}
+
+// Above the largest value of a power law with the index a lies a / (a - 1) max^(1 - a) of the mean. Sixteen values know
+// an index to a quarter: medians are compared, up to a factor that this makes for an index of 1.5.
+TEST(Magnitudes, BeyondWhatWasMet) {
+  mc::Magnitudes none, equal;
+  equal.add(std::vector<double>{0, 3, -3, 3});
+  EXPECT_EQ(none.beyond(), 0);
+  EXPECT_EQ(equal.beyond(), 0); // as those of a step
+  for (const double index : {1.5, 2.0, 4.0}) {
+    std::vector<double> ratio;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+      const std::vector<double> x = powers(seed, 5000, 1 / index);
+      mc::Magnitudes m;
+      m.add(x);
+      ratio.push_back(m.beyond() / (index / (index - 1) * std::pow(m.hi(), 1 - index)));
+      ASSERT_LE(m.beyond(), 11 * m.hi() / 5000 * (1 + 1e-12));
+    }
+    std::nth_element(ratio.begin(), ratio.begin() + 100, ratio.end());
+    EXPECT_GT(ratio[100], 0.7) << index;
+    EXPECT_LT(ratio[100], 2.5) << index;
   }
 }
 

@@ -47,6 +47,20 @@ Means seen_through(Run& run, std::shared_ptr<const AdaptedDensity> density, std:
   return means;
 }
 
+// Whether too little of some output was met to know its error.
+bool unresolved(const Means& means) {
+  return std::any_of(means.begin(), means.end(),
+                     [](const Mean& m) { return m.told() == ErrorBar::hardly_met || m.told() == ErrorBar::unseen; });
+}
+
+// Whether a round of so many calls pays: the logarithm of the variance, if it goes on falling with that of the number
+// of points as it did in the last round, then falls further than it rises for want of these calls, as 1 / N.
+//   fell : in the last round, of so many calls; `seen` is the number of all points so far
+bool pays(double fell, double last, double seen, double calls, double left) {
+  if (calls >= left) return false;
+  return last >= seen || fell / -std::log1p(-last / seen) * std::log1p(calls / seen) > -std::log1p(-calls / left);
+}
+
 std::vector<double> values(const Means& means) {
   std::vector<double> all;
   for (const Mean& m : means) all.push_back(m.value);
@@ -87,10 +101,11 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
     centre = std::move(given.given.centre);
   }
   // Rounds of a quarter, a quarter and a half of the budget, the first of which the bare sequences may stand for, or
-  // what a density was tried by; after that of twice the calls, as long as the values are spread widely and it helps.
+  // what a density was tried by; after that of twice the calls, as long as the values are spread widely and it pays.
   // Where they are spread so widely that rare large ones may be left to be found, and no bare sequences that know their
-  // error say otherwise: up to twice as long.
+  // error say otherwise, up to twice as many calls.
   std::uint64_t calls = budget / 4, spent = 0;
+  const std::uint64_t before_all = bare ? bare->length * bare->count : 0;
   double by = 0;
   bool blind = false; // of the bare sequences
   const bool begun = run.o.density || (bare && run.calls >= calls && learner.width() < wide);
@@ -105,9 +120,12 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
     blind = bare && sees_less(bare->history.back(), round);
     // Hopeless: worse than the bare sequences although no rare large values are left to be found.
     if (bare && !blind && k > 0 && learner.width() < wide && by < -doubt(bare->history.back()) - 0.5) return {};
+    const auto now = static_cast<double>(points * run.o.replicates), seen = static_cast<double>(before_all + spent);
     if (k >= 1) calls *= 2;
-    const bool searching = (blind || !bare) && learner.width() > wide,
-               helps = learner.width() < 0.85 * before || by > (learner.width() > wide ? 0.2 : 0.7);
+    const bool searching = (!bare || unresolved(bare->history.back())) && learner.width() > wide,
+               helps = pays(before - learner.width(), now, seen, static_cast<double>(calls),
+                            static_cast<double>(run.left())) ||
+                       by > (learner.width() > wide ? 0.2 : 0.7);
     const std::uint64_t most = std::min(run.o.max_calls / 5 * (searching ? 2 : 1), room);
     if (k >= 2 && (learner.width() < 0.5 || !(searching || helps) || spent + calls > most)) break;
   }
