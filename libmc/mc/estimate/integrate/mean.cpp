@@ -82,6 +82,22 @@ ErrorBar bar_of(const Seen& seen) {
   return seen.values.hardly_met() ? ErrorBar::hardly_met : ErrorBar::known;
 }
 
+double skewness(std::span<const double> numbers) {
+  Moments m;
+  double largest = 0, third = 0;
+  for (const double x : numbers) largest = std::max(largest, std::abs(x));
+  if (!(largest > 0)) return 0;
+  for (const double x : numbers) m.add(x / largest);
+  if (m.variance() < sqr(rounding)) return 0;
+  for (const double x : numbers) third += std::pow(x / largest - m.mean(), 3);
+  return third / static_cast<double>(numbers.size()) / std::pow(m.variance(), 1.5);
+}
+
+double skew_of_mean(double skewness, double count) {
+  const double unbiased = count * count / ((count - 1) * std::max(count - 2, 1.0));
+  return skewness * unbiased / (6 * std::sqrt(count));
+}
+
 Mean replicated(std::span<const double> means, double points, const Seen& seen, Evidence& evidence) {
   const double r = static_cast<double>(means.size());
   double largest = 0;
@@ -93,8 +109,6 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
     scaled.push_back(std::ldexp(x, -exponent));
     m.add(scaled.back());
   }
-  double third = 0;
-  for (const double x : scaled) third += std::pow(x - m.mean(), 3) / r;
   const double deviation = std::sqrt(m.variance()), now = std::ldexp(deviation, exponent);
   const double rounded = std::max(largest, seen.values.mean_size()); // where values cancel, more
   const bool apart = now > rounding * rounded;
@@ -114,7 +128,7 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   // Under a learned density the values at large hide the tail of the integrand, and that is what few replicates meet.
   const double index = std::min(seen.tail_index(), seen.values.tail_index());
   const double shown = apart ? now : std::max(now, evidence.apart);
-  const double skewness = apart ? third / (deviation * deviation * deviation) : 0.0;
+  const double skewness = apart ? detail::skewness(scaled) : 0.0;
   double width = shown;
   if ((index < light || std::abs(skewness) > skewed) && evidence.points > 0) {
     const double fall = 1 - 1 / std::clamp(index, 2.0, light);
@@ -124,10 +138,9 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   evidence.deviation = shown;
   const double beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
   const double spread = width / std::sqrt(r * (1 - std::min(beyond, 0.9)));
-  const double unbiased = r * r / ((r - 1) * std::max(r - 2, 1.0));
   const double mean = std::ldexp(m.mean(), exponent);
   return {mean, std::max({std::hypot(spread, step / points / r), ulp(rounded), least}), r - 1,
-          skewness * unbiased / (6 * std::sqrt(r)), bar_of(seen)};
+          skew_of_mean(skewness, r), bar_of(seen)};
 }
 
 } // namespace mc::detail

@@ -56,6 +56,12 @@ ErrorBar bar_of(const Seen& seen);
 /// the tail of a power law, whose errors allow for it.
 double unmet(const Seen& seen, double error);
 
+/// The third central moment of numbers over the third power of their standard deviation; 0 where they are equal.
+double skewness(std::span<const double> numbers);
+
+/// The skew of the mean of so many independent numbers of that skewness.
+double skew_of_mean(double skewness, double count);
+
 /// What an integrand showed of itself at shorter lengths of the same replicates.
 struct Evidence {
   double points = 0, deviation = 0; ///< of the last length, and of the replicates at it

@@ -1,6 +1,7 @@
 #include <mc/estimate/integrate/sums.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace mc::detail {
@@ -53,8 +54,10 @@ void Sums::add_to_batches(std::size_t output, std::span<const double> added, std
   batches.resize(outputs.size() * batch_count);
   for (std::size_t i = 0; i < added.size(); i += length) {
     const std::span<const double> part = added.subspan(i, std::min(length, added.size() - i));
-    std::vector<double> copy(part.begin(), part.end());
-    batches[output * batch_count + (first + i) / length % batch_count].add(copy, first + i, largest);
+    std::array<double, length> copy;
+    std::copy(part.begin(), part.end(), copy.begin());
+    batches[output * batch_count + (first + i) / length % batch_count].add(std::span(copy).first(part.size()),
+                                                                           first + i, largest);
   }
 }
 

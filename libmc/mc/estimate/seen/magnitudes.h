@@ -40,9 +40,9 @@ class Magnitudes {
   /// the farther out.
   double tail_index() const;
 
-  /// Whether few values hold most of the sum: there is but one beside a hundred zeros or more, or the sixteen largest, zeros
-  /// left out, fall off with an index below 1/2, far from the 1 that a mean needs. So they do where fewer than about
-  /// four points met what a peak is made of.
+  /// Whether few values hold most of the sum: there is but one beside a hundred zeros or more, or the sixteen largest,
+  /// zeros left out, fall off with an index below 1/2, far from the 1 that a mean needs. So they do where fewer than
+  /// about four points met what a peak is made of.
   bool hardly_met() const;
 
   /// What values larger than all that were met may add to the mean of |X|, if they fall off as the sixteen largest do:
