@@ -45,7 +45,9 @@ std::string Integral::to_string() const {
                        3 / static_cast<double>(calls));
     break;
   case ErrorBar::hardly_met:
-    text = fmt::format("{:.10g}, error not known yet: a few of {} points hold most of it", estimate.value, calls);
+    text = fmt::format(
+        "{:.10g}, error not known yet: a few of {} points hold much of it, and larger values may be missing",
+        estimate.value, calls);
     break;
   case ErrorBar::infinite_variance:
     text = fmt::format("{:.10g}, error not known: the variance ", estimate.value);

@@ -33,8 +33,8 @@ std::string_view name(Stop stop);
 /// What is known of the error.
 enum class ErrorBar {
   known,
-  unseen,           ///< every value was zero: nothing tells how large those are that were not met
-  hardly_met,       ///< few points met what most of the integral is made of, see Magnitudes: the next may change it all
+  unseen,     ///< every value was zero: nothing tells how large those are that were not met
+  hardly_met, ///< few points hold most of the integral, or values beyond those met may: the next may change it all
   infinite_variance ///< the integrand is large on a volume that shrinks so slowly that no error bar holds, see Tail
 };
 std::string_view name(ErrorBar bar);
@@ -90,7 +90,8 @@ struct IntegrateRound {
 /// An integral with its error bar and how it was found.
 struct Integral {
   Estimate estimate; ///< its std_error is infinite unless error_bar is known
-  /// Two-sided, Student t for replicates, longer on the side they are skewed to; all numbers unless error_bar is known.
+  /// Two-sided, Student t for replicates, longer on the side they are skewed to. Of a learned density it allows for
+  /// values larger than all that were met, see Magnitudes. All numbers unless error_bar is known.
   Estimate::Interval interval{};
   ErrorBar error_bar = ErrorBar::known;
   double tail_index = 0;      ///< of the integrand, see Tail; infinite for a bounded one
