@@ -30,22 +30,25 @@ double widest_jump(std::vector<double> sorted, double deviation) {
   const double rest = sorted.back() - sorted.front() - gap;
   return gap > 1.8 * deviation || rest < gap / 4 ? gap : 0.0;
 }
+
+bool much_unmet(const Mean& m) { return std::abs(m.unmet) > std::abs(m.value) / 16; }
+double whole_error(const Mean& m) { return much_unmet(m) ? std::hypot(m.error, m.unmet) : m.error; }
 } // namespace
 
 double ulp(double mean) { return std::numeric_limits<double>::epsilon() * std::abs(mean); }
 
 Estimate estimate(const Mean& m, std::uint64_t calls) {
-  return Estimate::student(m.value, m.told() == ErrorBar::known ? std::hypot(m.error, m.unmet) : infinity, m.dof,
-                           calls);
+  return Estimate::student(m.value, m.told() == ErrorBar::known ? whole_error(m) : infinity, m.dof, calls);
 }
 
 Estimate::Interval interval(const Mean& m, double confidence) {
   if (m.told() != ErrorBar::known) return {-infinity, infinity};
-  const Estimate e = estimate(m, 0);
-  const Estimate::Interval plain = e.interval(confidence);
+  const Estimate::Interval plain = estimate(m, 0).interval(confidence);
   if (!(m.error > 0)) return plain;
-  const double t = (plain.hi - plain.lo) / (2 * e.std_error), shift = m.skew * m.error * (1 + 2 * t * t);
-  return {plain.lo + std::min(shift, 0.0), plain.hi + std::max(shift, 0.0)};
+  const double t = (plain.hi - plain.lo) / (2 * whole_error(m)), shift = m.skew * m.error * (1 + 2 * t * t),
+               unmet = much_unmet(m) ? 0 : m.unmet;
+  return {plain.lo + std::min(shift, 0.0) + std::min(unmet, 0.0),
+          plain.hi + std::max(shift, 0.0) + std::max(unmet, 0.0)};
 }
 
 double welch(const Mean& a, const Mean& b) {
@@ -73,8 +76,8 @@ double unmet(const Seen& seen, double error) {
   const Magnitudes& all = seen.values;
   const double largest = std::max(std::abs(all.lo()), std::abs(all.hi())) / static_cast<double>(all.count());
   if (seen.tail.empty() || std::isfinite(seen.tail_index()) || error < largest / 2) return 0;
-  const double more = seen.values.beyond();
-  return more > seen.values.mean_size() / 2 ? infinity : more;
+  const double more = all.beyond();
+  return std::copysign(more > all.mean_size() / 2 ? infinity : more, all.hi() + all.lo());
 }
 
 ErrorBar bar_of(const Seen& seen) {

@@ -14,8 +14,8 @@
 namespace mc::detail {
 
 /// A mean whose standard error was estimated with `dof` degrees of freedom. `skew` is the third cumulant of the mean
-/// over error^3, divided by 6. `unmet` is what values larger than all that were met may add to it, infinite where that
-/// is much.
+/// over error^3, divided by 6. `unmet` is what values larger than all that were met may add to it, with their sign;
+/// infinite where that is much.
 struct Mean {
   double value = 0, error = 0, dof = 0, skew = 0;
   ErrorBar bar = ErrorBar::known; ///< of what was met
@@ -29,11 +29,12 @@ using Means = std::vector<Mean>; ///< one per output
 /// The least error that a mean may have: doubles are no closer to each other.
 double ulp(double mean);
 
-/// The mean with its error, of what was met and what was not; infinite unless the bar is known.
+/// The mean with its error, which is infinite unless the bar is known. What was not met is a part of it where that may
+/// be more than a 16th of the mean: less is an error that few runs have.
 Estimate estimate(const Mean& m, std::uint64_t calls);
 
-/// The two-sided interval: Student's t, longer on the side of the skewness [Johnson78]. Never shorter than t on the
-/// other side: there the correction would only make up for what the skewness is itself off by.
+/// The two-sided interval: Student's t, longer on the side of the skewness [Johnson78], and of what was not met. Never
+/// shorter than t on the other side: there the correction would only make up for what the skewness is itself off by.
 Estimate::Interval interval(const Mean& m, double confidence);
 
 /// Degrees of freedom behind the sum of the variances [Welch47].
@@ -50,10 +51,10 @@ std::optional<double> deviate(const Mean& a, const Mean& b);
 ErrorBar bar_of(const Seen& seen);
 
 /// What values larger than all that were met may add to a mean whose points were drawn from a learned density, see
-/// Magnitudes; infinity where that is more than half of it. So a density shows itself that follows a part of the
-/// integrand only: beside that part it is low, and few points there have values the larger the farther out they are.
-/// 0 where replicates agree better than single values of the largest size would let them, and where the integrand has
-/// the tail of a power law, whose errors allow for it.
+/// Magnitudes, with the sign of the largest; infinity where that is more than half of it. So a density shows itself
+/// that follows a part of the integrand only: beside that part it is low, and few points there have values the larger
+/// the farther out they are. 0 where replicates agree better than single values of the largest size would let them, and
+/// where the integrand has the tail of a power law, whose errors allow for it.
 double unmet(const Seen& seen, double error);
 
 /// The third central moment of numbers over the third power of their standard deviation; 0 where they are equal.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace {
 
@@ -50,6 +51,45 @@ TEST(Mean, NoBarNoInterval) {
     EXPECT_EQ(mc::detail::estimate(m, 1).std_error, std::numeric_limits<double>::infinity());
     EXPECT_EQ(mc::detail::interval(m, 0.95).lo, -std::numeric_limits<double>::infinity());
   }
+}
+
+TEST(Mean, WhatWasNotMetWidensTheBarOrWithdrawsIt) {
+  const Mean met{-10, 0.1, 23}, little{-10, 0.1, 23, 0, mc::ErrorBar::known, -0.2},
+      much{-10, 0.1, 23, 0, mc::ErrorBar::known, -2};
+  const auto inside = mc::detail::interval(met, 0.95), beside = mc::detail::interval(little, 0.95);
+  EXPECT_DOUBLE_EQ(beside.lo, inside.lo - 0.2); // on its side only
+  EXPECT_EQ(beside.hi, inside.hi);
+  EXPECT_EQ(mc::detail::estimate(little, 1).std_error, mc::detail::estimate(met, 1).std_error);
+  EXPECT_NEAR(mc::detail::estimate(much, 1).std_error / mc::detail::estimate(met, 1).std_error, std::hypot(1, 20),
+              1e-9);
+  EXPECT_LT(mc::detail::interval(much, 0.95).lo, -14);
+  const Mean most{-10, 0.1, 23, 0, mc::ErrorBar::known, -std::numeric_limits<double>::infinity()};
+  EXPECT_EQ(most.told(), mc::ErrorBar::hardly_met);
+  EXPECT_EQ(mc::detail::interval(most, 0.95).hi, std::numeric_limits<double>::infinity());
+}
+
+// A density that follows a part of the integrand: sixteen values that fall off with an index of 1.
+TEST(Mean, UnmetIsToldByFewLargeValuesOfALearnedDensity) {
+  std::vector<double> values(5000, 1.0), volumes(5000, 1.0);
+  for (int octave = 0; octave < 5; ++octave) // 1, 2, 4, 8, 16 of 2048, 1024, ... 128
+    for (int i = 0; i < 1 << octave; ++i)
+      values[static_cast<std::size_t>((1 << octave) + i)] = -std::ldexp(2048.0, -octave);
+  mc::detail::Seen bare = seen(values), learned = bare;
+  learned.tail.add(values, volumes);
+  EXPECT_EQ(mc::detail::unmet(bare, 1), 0);
+  const double largest = 2048.0 / 5000; // of a mean size of 3
+  EXPECT_EQ(mc::detail::unmet(learned, largest), -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(mc::detail::unmet(learned, largest / 3), 0); // replicates agree too well for that
+}
+
+TEST(Mean, SkewOfAMean) {
+  EXPECT_EQ(mc::detail::skewness(std::vector<double>{}), 0);
+  EXPECT_EQ(mc::detail::skewness(std::vector<double>{3, 3, 3}), 0);
+  for (const double scale : {-1e-200, 1.0, 1e200}) { // 0 0 0 4: mean 1, variance 4, third central moment 6
+    const double skewness = mc::detail::skewness(std::vector<double>{0, 0, 0, 4 * scale});
+    EXPECT_NEAR(skewness, std::copysign(6.0 / 8, scale), 1e-12);
+  }
+  EXPECT_NEAR(mc::detail::skew_of_mean(0.6, 1e6), 1e-4, 1e-8);
 }
 
 TEST(Replicated, EqualReplicatesHaveAnError) {
