@@ -32,6 +32,13 @@ void sign(::render::RenderResult& result, const Provenance& from) {
 }
 
 void warn_where_coarse(const std::string& path, const ::render::Scene& scene) {
+  if (const auto length = ::render::length_out_of_range(scene))
+    std::fprintf(stderr,
+                 "carlo: warning: %s: %s %.3g across, and %s hold areas and squares of distances from %.2g to %.2g "
+                 "across; its light may be wrong. Scale the scene\n",
+                 path.c_str(), *length < 1 ? "a lamp is" : "the scene is", *length,
+                 sizeof(::render::Float) == sizeof(float) ? "floats" : "doubles", ::render::least_length,
+                 ::render::most_length);
   const ::render::Coarseness c = ::render::coarsest(scene);
   if (c.ratio <= ::render::too_coarse) return;
   std::fprintf(

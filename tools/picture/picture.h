@@ -22,7 +22,7 @@ std::string invalid_samples(const ::render::RenderResult& result, const Provenan
 /// Writes scene, command, commit, seed and samples into the picture's metadata.
 void sign(::render::RenderResult& result, const Provenance& from);
 
-/// A line on stderr where Float is too coarse for the scene.
+/// Lines on stderr where Float is too coarse for the scene, or holds too little.
 void warn_where_coarse(const std::string& path, const ::render::Scene& scene);
 /// Says on standard error where a scene is not read as Mitsuba would.
 void warn_of_departures(const ::render::SceneFile& file);

@@ -28,4 +28,16 @@ Coarseness coarsest(const Scene& scene) {
   return worst;
 }
 
+std::optional<double> length_out_of_range(const Scene& scene) {
+  Eigen::AlignedBox3d all;
+  for (const Surface& s : scene.surfaces()) {
+    const Eigen::AlignedBox3d box = s.shape->box();
+    if (const double size = box.diagonal().norm(); s.light && size < least_length) return size;
+    all.extend(box);
+  }
+  const double size = all.isEmpty() ? 0 : all.diagonal().norm();
+  if (size <= most_length) return {};
+  return size;
+}
+
 } // namespace render

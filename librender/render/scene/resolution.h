@@ -3,6 +3,10 @@
 
 #include <render/scene/scene.h>
 
+#include <cmath>
+#include <limits>
+#include <optional>
+
 namespace render {
 
 /// How coarse the coordinates of a surface's points are beside its size.
@@ -19,5 +23,12 @@ Coarseness coarsest(const Scene& scene);
 /// From this ratio on carlo warns: rounding moves the corners of a surface by a thousandth of its size, and so what it
 /// lights or shades by about as much.
 inline constexpr double too_coarse = 1e-3;
+
+/// Lengths whose squares a Float holds with all of its digits: areas, and densities of points on lamps.
+inline const double least_length = std::sqrt(double(std::numeric_limits<Float>::min()));
+inline const double most_length = std::sqrt(double(std::numeric_limits<Float>::max()));
+
+/// The diagonal of a lamp's bounds that is below the least, or of all surfaces' that is above the most; none: neither.
+std::optional<double> length_out_of_range(const Scene& scene);
 
 } // namespace render

@@ -38,12 +38,28 @@ TEST(Resolution, NothingIsLeftOfASmallMeshFarAway) {
   EXPECT_EQ(coarsest(with({TriangleMesh::box(place)})).ratio, mc::infinity<double>);
 }
 
+TEST(Resolution, NamesLengthsWhoseSquaresNoFloatHolds) {
+  const auto ball = [](double radius) { return Shape(Sphere(Vec3d(0, 0, 0), radius)); };
+  EXPECT_FALSE(length_out_of_range(with({})));
+  for (const double radius : {0.1 * least_length, 1.0, 0.25 * most_length})
+    EXPECT_FALSE(length_out_of_range(with({ball(radius)}))) << radius;
+  EXPECT_NEAR(length_out_of_range(with({ball(2 * most_length)})).value_or(0) / (4 * std::sqrt(3.0) * most_length), 1,
+              1e-6);
+  SceneBuilder builder;
+  const BsdfId gray = builder.add(Lambert());
+  builder.add(ball(1), {gray});
+  builder.add(ball(0.1 * least_length), {gray, Emission()});
+  EXPECT_NEAR(length_out_of_range(builder.build()).value_or(0) / (0.2 * std::sqrt(3.0) * least_length), 1, 1e-6);
+}
+
 TEST(Resolution, SufficesForTheGallery) {
   int scenes = 0;
   for (const auto& entry : std::filesystem::directory_iterator(MC_SOURCE_DIR "/librender/scenes")) {
     if (entry.path().extension() != ".xml") continue;
     ++scenes;
-    EXPECT_LE(coarsest(read_mitsuba(entry.path().string()).scene).ratio, too_coarse) << entry.path();
+    const Scene scene = read_mitsuba(entry.path().string()).scene;
+    EXPECT_LE(coarsest(scene).ratio, too_coarse) << entry.path();
+    EXPECT_FALSE(length_out_of_range(scene)) << entry.path();
   }
   EXPECT_GE(scenes, 10);
 }

@@ -327,6 +327,8 @@ TEST_F(RenderCommand, WarnsWhereFloatsCannotHoldAScene) {
   EXPECT_THAT(coarse.output, HasSubstr("carlo: warning: " + path("pebble.xml") + ": a surface 0.0346 across"));
   const support::Run fine = render_with(R"( x="1e6" y="0" z="0"/><float name="radius" value="1000"/>)");
   EXPECT_THAT(fine.output, Not(HasSubstr("warning")));
+  const support::Run huge = render_with(R"( x="0" y="0" z="0"/><float name="radius" value="1e20"/>)");
+  EXPECT_THAT(huge.output, HasSubstr("pebble.xml: the scene is 3.46e+20 across, and floats hold areas"));
 }
 
 TEST_F(RenderCommand, SceneWithoutLightIsBlackWithAWarning) {
