@@ -163,8 +163,18 @@ std::vector<Option> rows(CompareOptions& o) {
       {"--metric", "NAME", &o.metric,
        "Print only this: mse, rmse, mae, relmse, max or mean_ratio [all, and the verdict]"},
       {"--diff", "FILE", &o.diff, "Write the difference image to this file"},
-      {"--alpha", "PROBABILITY", &o.alpha, "Chance that two correct images are called different, over all tests"},
-      {"--tolerance", "RATIO", &o.tolerance, "Difference, relative to B, that still counts as agreement"},
+      {"--alpha",
+       "PROBABILITY",
+       &o.alpha,
+       "Chance that two correct images are called different, over all tests",
+       false,
+       {"--metric"}},
+      {"--tolerance",
+       "RATIO",
+       &o.tolerance,
+       "Difference, relative to B, that still counts as agreement",
+       false,
+       {"--metric"}},
   };
 }
 
@@ -227,6 +237,8 @@ int compare(const CompareOptions& options) {
 
   Comparison comparison(a, b, options.tolerance);
   if (!comparison.possible()) {
+    mc::require(options.tolerance == 0, "--tolerance: {} no variance, so that nothing is judged; render to .exr",
+                without_variance(options, a, b));
     fmt::print("verdict    none: {} no variance; render to .exr to get it\n", without_variance(options, a, b));
     return exit_ok;
   }
