@@ -202,12 +202,15 @@ Experiment parse_expression(const std::string& expression, const std::string& bo
   const std::vector<Side> sides = parse_sides(box);
   mc::require(sides.size() <= 32, "--domain: {} variables; at most 32 are possible", sides.size());
   std::vector<std::string> names;
-  double volume = 1;
+  long double product = 1; // of large and small sides, in any order
   for (const Side& s : sides) {
     names.push_back(s.name);
-    if (s.is_finite()) volume *= s.hi - s.lo;
+    if (s.is_finite()) product *= s.hi - s.lo;
   }
+  const double volume = static_cast<double>(product);
   mc::require(std::isfinite(volume), "--domain: the volume of '{}' overflows", box);
+  mc::require(volume >= std::numeric_limits<double>::min(), "--domain: the volume of '{}' is too small for a double",
+              box);
 
   Experiment e;
   e.name = expression;

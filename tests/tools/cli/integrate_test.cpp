@@ -156,6 +156,9 @@ TEST(Expression, RefusesNonsenseInOneLine) {
   EXPECT_THAT(message("x", "x=0:1,x=0:2"), testing::HasSubstr("twice"));
   EXPECT_THAT(message("x", "1x=0:1"), testing::HasSubstr("name"));
   EXPECT_THAT(message("x", "x=0:1,"), testing::HasSubstr("name=lo:hi"));
+  EXPECT_THAT(message("x", "x=0:1e200,y=0:1e200"), testing::HasSubstr("overflows"));
+  EXPECT_THAT(message("x", "x=0:1e-200,y=0:1e-200"), testing::HasSubstr("too small for a double"));
+  EXPECT_EQ(message("x", "x=0:1e200,y=0:1e200,z=0:1e-200"), "accepted");
 }
 
 // Against the exact values of an independent program, whose parameters were printed with six digits.
