@@ -51,14 +51,17 @@ struct ReferencePicture {
   double dark = 0;  ///< what relmse adds to squares of pixels, of every picture alike
 };
 
-// The mean square of how far an image is from another, relative to the reference.
+// Of a pixel's channels, the mean square of how far an image is from another, relative to the reference.
+double relative_square(const Image& image, const Image& from, const ReferencePicture& reference, std::size_t i) {
+  const Eigen::Array3d off = image.pixels[i].cast<double>() - from.pixels[i].cast<double>();
+  return (off.square() / (reference.image.pixels[i].cast<double>().square() + reference.dark)).sum() / 3;
+}
+
+// The mean of that.
 double relmse(const Image& image, const Image& from, const ReferencePicture& reference) {
   double sum = 0;
-  for (std::size_t i = 0; i < from.pixels.size(); ++i) {
-    const Eigen::Array3d off = image.pixels[i].cast<double>() - from.pixels[i].cast<double>();
-    sum += (off.square() / (reference.image.pixels[i].cast<double>().square() + reference.dark)).sum();
-  }
-  return sum / (3.0 * double(from.pixels.size()));
+  for (std::size_t i = 0; i < from.pixels.size(); ++i) sum += relative_square(image, from, reference, i);
+  return sum / double(from.pixels.size());
 }
 
 // Of the picture that the reference begins with.
@@ -125,21 +128,26 @@ void fit(Curve& curve) {
 /// Of the expectation of a picture and of its noise.
 struct Parts {
   double bias = 0, noise = 0; ///< relmse
+  mc::Moments pixels;         ///< of the bias, of which each has its part
 };
 
 // Without the picture `out`: the mean picture of R has an R-th of the noise.
 Parts parts_of(const Series& s, const ReferencePicture& reference, std::size_t out) {
   Image mean(reference.image.width, reference.image.height);
-  double count = 0, noise = 0;
-  for (std::size_t r = 0; r < s.images.size(); ++r) {
-    if (r == out) continue;
-    for (std::size_t i = 0; i < mean.pixels.size(); ++i) mean.pixels[i] += s.images[r].pixels[i];
-    ++count;
-  }
-  for (::render::Spectrum& p : mean.pixels) p /= ::render::Float(count);
+  const double count = double(s.images.size() - (out < s.images.size() ? 1 : 0));
   for (std::size_t r = 0; r < s.images.size(); ++r)
-    if (r != out) noise += relmse(s.images[r], mean, reference) / (count - 1);
-  return {relmse(mean, reference.image, reference) - noise / count - reference.noise, noise};
+    for (std::size_t i = 0; r != out && i < mean.pixels.size(); ++i) mean.pixels[i] += s.images[r].pixels[i];
+  for (::render::Spectrum& p : mean.pixels) p /= ::render::Float(count);
+  Parts parts;
+  for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
+    double own = 0;
+    for (std::size_t r = 0; r < s.images.size(); ++r)
+      if (r != out) own += relative_square(s.images[r], mean, reference, i) / (count - 1);
+    parts.noise += own / double(mean.pixels.size());
+    parts.pixels.add(relative_square(mean, reference.image, reference, i) - own / count);
+  }
+  parts.bias = parts.pixels.mean() - reference.noise;
+  return parts;
 }
 
 /// What seconds a picture times the relmse of its noise are: the same at any number of samples.
@@ -150,7 +158,8 @@ struct WorkAndBias {
   double dof = 1;      ///< behind it
 };
 
-// The intervals are those of the jackknife, wide enough for `ways` of them at once.
+// The intervals are those of the jackknife, wide enough for `ways` of them at once. Light of rare paths may be missing
+// in all pictures, which show no noise there: what only few pixels tell is no bias.
 WorkAndBias bias_of(const Series& s, const ReferencePicture& reference, std::size_t ways) {
   const Parts all = parts_of(s, reference, s.images.size());
   mc::Moments biases, noises, seconds;
@@ -161,7 +170,8 @@ WorkAndBias bias_of(const Series& s, const ReferencePicture& reference, std::siz
     seconds.add(s.replicates.seconds[r]);
   }
   const double dof = double(s.images.size() - 1);
-  const double half = mc::student_quantile(0.05 / double(ways), dof) * biases.std_error() * dof;
+  const double half =
+      mc::student_quantile(0.05 / double(ways), dof) * std::hypot(biases.std_error() * dof, all.pixels.std_error());
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
   const auto relative = [](double error, double value) { return value > 0 ? mc::sqr(error / value) : 0.0; };
   return {{{root(all.bias), root(all.bias - half), root(all.bias + half)}, root(all.noise), s.spp, {}},

@@ -46,7 +46,8 @@ struct PictureOptions {
 
 /// What a way errs by however long it runs: paths that are too short, light that a strategy does not look for.
 struct Bias {
-  Ranged bias;      ///< root of the relmse of its expectation; the interval holds for all ways at once with 95 %
+  Ranged bias;      ///< root of the relmse of its expectation; the interval holds for all ways at once with 95 %, and
+                    ///< counts the spread between pixels as chance, so that a bias is told by many of them
   double noise = 0; ///< root of the relmse of one picture's noise
   double n = 0;     ///< samples per pixel, the most
   /// Where it is told from 0: the error above which it costs less than the best way without. Infinite where it may cost
