@@ -179,8 +179,8 @@ int converge(const ConvergeOptions& o) {
   refuse_scene_among(o.integral.integrands);
   refuse_scene_options(o.scene);
   const Interrupt interrupt;
-  const std::vector<Way> chosen = ways_of(o);
   const std::vector<Target> targets = targets_of(o.integral);
+  const std::vector<Way> chosen = ways_of(o);
   if (!o.integral.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.domain);
   for (const Way& w : chosen)
     for (const Target& t : targets)

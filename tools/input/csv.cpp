@@ -184,8 +184,9 @@ CsvTable read_csv(const std::string& file) {
   std::vector<Precision> columns;
   std::uint32_t line = 0;
   bool first = true;
+  const char line_end = bytes.find('\n') == std::string::npos ? '\r' : '\n'; // as old spreadsheets end lines
   for (std::string_view rest = bytes; !rest.empty();) {
-    std::string_view text = rest.substr(0, rest.find('\n'));
+    std::string_view text = rest.substr(0, rest.find(line_end));
     rest.remove_prefix(std::min(text.size() + 1, rest.size()));
     ++line;
     if (line == 1 && text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);

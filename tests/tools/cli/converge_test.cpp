@@ -64,6 +64,7 @@ TEST_F(Converge, ASceneHasNoTruthButAReference) {
   expect_refused(dark + " --size 4x4 --max-spp 16", "the picture is black");
   expect_refused(dark + " --points-file p.csv", "--points-file is not for scenes");
   expect_refused(dark + " --max-n 64", "--memory and --max-n are not for a scene (.xml)");
+  expect_refused("pi --max-n 1", "--max-n 1 must lie between 64 and 2^28"); // not what one sampler takes at least
 }
 
 // A white sphere in a white furnace: all light is 1, and what pixels differ by is rounding.

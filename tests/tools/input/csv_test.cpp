@@ -22,6 +22,14 @@ TEST_F(Csv, NamesOfColumnsAreLeftOut) {
     EXPECT_THAT(table(std::string(names) + "\n0.5,0.25\n").values, ElementsAre(0.5, 0.25)) << names;
 }
 
+TEST_F(Csv, LinesEndInAnyWay) {
+  for (const char* end : {"\n", "\r\n", "\r"}) {
+    const std::string text = std::string("x,y") + end + "0.5,0.25" + end + "1,2" + end;
+    EXPECT_THAT(table(text).values, ElementsAre(0.5, 0.25, 1, 2));
+    EXPECT_THAT(refusal(text + "1,nan"), HasSubstr("a.csv:4: 'nan' is not a finite number"));
+  }
+}
+
 // A first row of numbers is none of names, whatever is wrong with it.
 TEST_F(Csv, AFirstRowOfNumbersIsNeverLeftOut) {
   for (const char* row : {"0.5,0.25", "\"0.5\",\"0.25\"", "\" 0.5 \", 0.25", "+.5,2.5e-1", "0.5,0.25 # \"a\" note"})

@@ -36,9 +36,12 @@ Declaration sampling_weight() {
 
 const Plugins<Emission>& surface_emitter_plugins() {
   static const Plugins<Emission> rows = {
-      plugin<Emission>("area", "the same radiance in every direction, from the side that the shape's normal points to",
-                       make_area, color("radiance", radiance_unit, "what is emitted, >= 0"),
-                       boolean("twoSided", "whether the other side shines too (ours)"))
+      plugin<Emission>(
+          "area",
+          "the same radiance in every direction, from the side that the shape's normal points to; a lamp "
+          "in the plane of another surface, as of a ceiling, is seen or hidden by rounding: keep them apart",
+          make_area, color("radiance", radiance_unit, "what is emitted, >= 0"),
+          boolean("twoSided", "whether the other side shines too (ours)"))
           .accepting({sampling_weight()}),
   };
   return rows;
