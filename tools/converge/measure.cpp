@@ -2,6 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/types.h>
+#include <mc/estimate/seen/tail.h>
 #include <mc/random/hash.h>
 #include <mc/stats/t_test.h>
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 namespace carlo {
@@ -157,13 +159,22 @@ void widen(mc::RmsError& e, double truth_error) {
   if (e.is_bound) e.rms = e.hi;
 }
 
-void judge(Curve& curve, const Experiment& e, const Measurement& m) {
+// Of a tail with the index a the share n^(2 / a - 1) of the variance lies beyond the largest of n values. Points that
+// are not independent meet the tail where one of them is nearest to it: then n is the number of replicates.
+void allow_for_tail(mc::RmsError& e, double index, double values) {
+  constexpr double light = 8, most = 0.9;
+  if (index < light) e.hi /= std::sqrt(1 - std::min(std::pow(values, std::min(2 / index - 1, 0.0)), most));
+}
+
+void judge(Curve& curve, const Experiment& e, const Measurement& m, double tail_index) {
   const double floor = rounding * m.size;
   double worst = 0;
   for (std::size_t i = 0; i < curve.replicates.size(); ++i) {
     const Replicates& r = curve.replicates[i];
     const double kurtosis = mean_kurtosis(curve.replicates, i, m.truth);
     mc::RmsError error = mc::rms_error(mean_of(r.calls), r.values, m.truth, kurtosis);
+    const double together = curve.way->name == m.plain ? error.n : 1;
+    allow_for_tail(error, tail_index, together * static_cast<double>(r.values.size()));
     if (m.truth_error > 0) widen(error, m.truth_error);
     error.seconds = median(r.seconds);
     worst = std::max(worst, error.rms);
@@ -188,12 +199,21 @@ void judge(Curve& curve, const Experiment& e, const Measurement& m) {
   curve.middle = std::exp(logs / static_cast<double>(fitted.size()));
 }
 
-// The mean of |f| over a few points, which rounding is relative to: the integral itself may cancel.
-double size_of(const Target& target, const MeasureOptions& o) {
-  const Replicates r = target.run({&way("random"), 1, mc::hash(o.seed, 78), 0, first_replicates, o.threads, o.cancel});
+// What independent points say of an integrand.
+struct Look {
+  double size;       // the mean of |f| over a few, which rounding is relative to: the integral itself may cancel
+  double tail_index; // of f
+};
+
+Look look_at(const Target& target, const MeasureOptions& o) {
+  constexpr std::uint64_t points = 1 << 14;
+  const Replicates r = target.run({&way("random"), 1, mc::hash(o.seed, 78), 0, points, o.threads, o.cancel});
   std::vector<double> sizes;
-  for (const double x : r.values) sizes.push_back(std::abs(x));
-  return mean_of(sizes);
+  for (const double x : std::span(r.values).first(std::min<std::size_t>(r.values.size(), first_replicates)))
+    sizes.push_back(std::abs(x));
+  mc::Magnitudes all;
+  all.add(r.values);
+  return {mean_of(sizes), mc::Tail(all).index()};
 }
 
 // The curve whose largest N has the smallest spread that is to be believed, of those that do not adapt. Replicates that
@@ -303,7 +323,8 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
   if (!o.cancel) o.cancel = &never;
   Measurement m;
   const auto start = Clock::now();
-  m.size = size_of(target, o);
+  const Look look = look_at(target, o);
+  m.size = look.size;
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const double gone = std::chrono::duration<double>(Clock::now() - start).count();
     const double share = o.seconds > 0 ? std::max(1e-3, o.seconds - gone) / static_cast<double>(ways.size() - i) : 0;
@@ -328,7 +349,7 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
   if (!known) std::tie(m.truth, m.truth_error) = reference(target, m.curves, o);
   m.interrupted = m.interrupted || *o.cancel;
   m.size = std::max(m.size, std::abs(m.truth));
-  for (Curve& c : m.curves) judge(c, target.integral, m);
+  for (Curve& c : m.curves) judge(c, target.integral, m, look.tail_index);
   m.doubt = known ? doubt_of(target.integral, m) : doubt_of_reference(m.curves);
   return m;
 }
