@@ -206,7 +206,7 @@ struct Look {
 };
 
 Look look_at(const Target& target, const MeasureOptions& o) {
-  constexpr std::uint64_t points = 1 << 14;
+  const std::uint64_t points = std::min<std::uint64_t>(4 * o.max_n, 1 << 14); // less than the largest N takes
   const Replicates r = target.run({&way("random"), 1, mc::hash(o.seed, 78), 0, points, o.threads, o.cancel});
   std::vector<double> sizes;
   for (const double x : std::span(r.values).first(std::min<std::size_t>(r.values.size(), first_replicates)))

@@ -1,20 +1,10 @@
 #include <mc/estimate/seen/magnitudes.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
 namespace mc {
-
-namespace {
-// The biased exponent, of subnormal numbers too: at most 0, and least of 0.
-int exponent_of(double x) {
-  const auto bits = std::bit_cast<std::uint64_t>(x) & 0x7fff'ffff'ffff'ffff;
-  const auto biased = static_cast<int>(bits >> 52);
-  return biased > 0 ? biased : static_cast<int>(std::bit_width(bits)) - 52;
-}
-} // namespace
 
 void Magnitudes::raise(int top) {
   if (top <= top_) return;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -14,6 +15,14 @@ namespace mc {
 class Magnitudes {
  public:
   static constexpr int octaves = 48; ///< below the largest value; smaller ones are counted in the last
+  static constexpr int exponent_of_zero = -52;
+
+  /// The biased exponent, of subnormal numbers too: at most 0 and least of 0; 0x7ff where x is not finite.
+  static int exponent_of(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x) & 0x7fff'ffff'ffff'ffff;
+    const auto biased = static_cast<int>(bits >> 52);
+    return biased > 0 ? biased : static_cast<int>(std::bit_width(bits)) + exponent_of_zero;
+  }
 
   void add(std::span<const double> values); ///< those that are not finite are left out
   void merge(const Magnitudes& other);
@@ -23,8 +32,7 @@ class Magnitudes {
   double hi() const { return hi_; } ///< largest value; 0 without any
   /// The mean of |X|, or down to half of it: values count as the least of their octave.
   double mean_size() const;
-  /// Numbers of values by octaves, the first with the biased exponent top(), that of subnormal ones below 1; -52 before
-  /// the first value.
+  /// Numbers of values by octaves, the first with the exponent top(): that of 0 before the first value.
   std::span<const std::uint64_t, octaves> counts() const { return below_; }
   int top() const { return top_; }
 
@@ -74,7 +82,7 @@ class Magnitudes {
 
   std::uint64_t count_ = 0, zeros_ = 0;
   double lo_ = 0, hi_ = 0;
-  int top_ = -52;                              // biased exponent of the first octave
+  int top_ = exponent_of_zero;                 // of the first octave
   std::array<std::uint64_t, octaves> below_{}; // below_[i]: values with the exponent top_ - i
 };
 

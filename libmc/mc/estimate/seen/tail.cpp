@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -18,8 +17,6 @@ constexpr double most = 0.6;     // of the volume, that a tail may fill
 // The index of the largest values may exceed that of many by the ratio of their volumes to this power: that of
 // x^-p y^-p grows with a logarithm. Uniform points meet few large values, whose index is known badly.
 constexpr double growth = 0.06, growth_of_uniform = 0.14;
-
-int exponent_of(double x) { return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff); }
 } // namespace
 
 // A power law fitted to the values from a lowest octave up. Octaves are numbered from that one, 0, 1, ... If the law
@@ -118,7 +115,7 @@ void Tail::raise(int top) {
 void Tail::add(std::span<const double> values, std::span<const double> volumes) {
   raise(top_);
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const int exponent = exponent_of(values[i]);
+    const int exponent = Magnitudes::exponent_of(values[i]);
     if (exponent == 0x7ff) continue;
     if (exponent > top_) [[unlikely]]
       raise(exponent);

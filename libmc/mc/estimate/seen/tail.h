@@ -40,7 +40,7 @@ class Tail {
   /// 10'000 in all. An index just above 2 cannot be told from 2: x^-.5 is found to have infinite variance, and
   /// sometimes so is a product of several x^-.4, whose tail looks lighter only very near 0.
   bool infinite_variance() const;
-  /// The biased exponent of the largest value.
+  /// The exponent of the largest value, see Magnitudes.
   int top() const { return top_; }
 
  private:
@@ -58,9 +58,9 @@ class Tail {
   Fit fit(double error) const;
   Fit fit_to_many() const;
 
-  std::vector<Octave> seen_; // seen_[i]: of exponent top_ - i; none before the first value
-  int top_ = 0;              // biased exponent
-  bool uniform_ = false;     // the points
+  std::vector<Octave> seen_;               // seen_[i]: of exponent top_ - i; none before the first value
+  int top_ = Magnitudes::exponent_of_zero; // of the first octave
+  bool uniform_ = false;                   // the points
 };
 
 namespace detail {
