@@ -1,6 +1,6 @@
 /// What the error bars of pixels are worth: the share of 95 % intervals that hold the truth, as CSV on stdout.
 /// Usage: bench_render_interval SCENE.xml... [-- SEEDS [SIZE [REFERENCE_SPP]]]
-///   way    : even, or splat (where the filter is wider than a pixel)
+///   way    : even, splat (where the filter is wider than a pixel) or tiles
 ///   alone  : by the pixel's own variance, Student's t with 1 degree of freedom
 ///   shared : half_widths
 ///   noisy  : half_widths in the tenth of the pixels and channels whose variance in the reference is largest
@@ -45,7 +45,8 @@ std::vector<Eigen::Array<bool, 3, 1>> noisiest_tenth(const Image& image) {
   return noisy;
 }
 
-void show(const std::string& path, const Scene& scene, RenderOptions options, const Image& truth, int seeds) {
+void show(const std::string& path, std::string_view way, const Scene& scene, RenderOptions options, const Image& truth,
+          int seeds) {
   const auto is_noisy = noisiest_tenth(truth);
   const double q = mc::student_quantile(0.05, 1);
   for (const int spp : {4, 16, 64, 256}) {
@@ -64,8 +65,8 @@ void show(const std::string& path, const Scene& scene, RenderOptions options, co
           if (is_noisy[i][c]) noisy.add(off, double(widths.pixels[i][c]));
         }
     }
-    fmt::print("{},{},{},{},{:.4f},{},{},{}\n", std::filesystem::path(path).stem().string(),
-               options.splat ? "splat" : "even", spp, seeds, undecided, alone.text(), shared.text(), noisy.text());
+    fmt::print("{},{},{},{},{:.4f},{},{},{}\n", std::filesystem::path(path).stem().string(), way, spp, seeds, undecided,
+               alone.text(), shared.text(), noisy.text());
     std::fflush(stdout);
   }
 }
@@ -77,9 +78,12 @@ void show_ways(const std::string& path, int seeds, int size, int reference_spp) 
   options.spp = reference_spp;
   options.seed = 1'000'000;
   const Image truth = render::render(file.scene, options).image;
-  show(path, file.scene, options, truth, seeds);
+  show(path, "even", file.scene, options, truth, seeds);
   options.splat = SplatFilter(file.scene.filter()).is_wide();
-  if (options.splat) show(path, file.scene, options, truth, seeds);
+  if (options.splat) show(path, "splat", file.scene, options, truth, seeds);
+  options.splat = false;
+  options.tiles = true;
+  show(path, "tiles", file.scene, options, truth, seeds);
 }
 
 } // namespace

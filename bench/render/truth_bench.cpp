@@ -41,6 +41,23 @@ struct Scores {
   }
 };
 
+struct Way {
+  Strategy strategy;
+  bool in_tile = false; ///< see measure
+
+  std::string name() const { return std::string(strategy.name) + (in_tile ? " tiles" : ""); }
+};
+
+// All that find what there is but those of pictures, not of rays; tiles, which share the same in every strategy, by
+// three.
+std::vector<Way> ways() {
+  std::vector<Way> all;
+  for (const Strategy& strategy : strategies)
+    if (strategy.name != "light" && strategy.light_paths == 0) all.push_back({strategy});
+  for (const char* name : {"mixture", "nee", "mis"}) all.push_back({strategy_from(name), true});
+  return all;
+}
+
 struct Run {
   std::uint64_t seed;
   std::uint32_t sets, points;
@@ -64,22 +81,20 @@ struct Run {
     }
     std::size_t turn = static_cast<std::size_t>(number);
     for (const Picture& picture : family.pictures)
-      for (const Strategy& strategy : strategies) {
-        if (strategy.name == "light" || strategy.light_paths > 0) continue; // those are of pictures, not of rays
+      for (const Way& way : ways())
         for (const auto sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
-          // Of what must look like the first, each strategy meets one sampler in turn.
+          // Of what must look like the first, each way meets one sampler in turn.
           if (&picture != &family.pictures[0] && ++turn % 3 != 0) continue;
-          const Measured m = measure(picture, strategy, sampler, mc::hash(seed, estimates++), sets, points);
+          const Measured m =
+              measure(picture, way.strategy, sampler, mc::hash(seed, estimates++), sets, points, way.in_tile);
           const double z = z_score(m, should, error, dof, family.rounding * should);
-          const std::string_view state = state_of(family, strategy, m);
+          const std::string_view state = state_of(family, way.strategy, m);
           fmt::print("{},{},{},{},{},{:.9g},{:.3g},{:.9g},{:.3g},{:.3f},{}\n", number, family.kind, picture.variant,
-                     strategy.name, name(sampler), m.means.mean(), m.means.std_error(), should, error, z, state);
-          for (const std::string& key :
-               {family.kind + ": " + picture.variant, "strategy: " + std::string(strategy.name),
-                "sampler: " + std::string(name(sampler)), std::string("all")})
+                     way.name(), name(sampler), m.means.mean(), m.means.std_error(), should, error, z, state);
+          for (const std::string& key : {family.kind + ": " + picture.variant, "strategy: " + way.name(),
+                                         "sampler: " + std::string(name(sampler)), std::string("all")})
             scores[key].add(state, z);
         }
-      }
   }
 };
 

@@ -1,9 +1,5 @@
 #include <render/pixel_sampler.h>
 
-#include <mc/core/error.h>
-#include <mc/core/text.h>
-
-#include <array>
 #include <tuple>
 
 namespace render {
@@ -17,19 +13,11 @@ template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolWalk<Floa
 
 namespace {
 
-constexpr std::array<std::string_view, 3> sampler_names = {"independent", "stratified", "sobol"};
-
 bool is_before(const InvalidSample& a, const InvalidSample& b) {
   return std::tie(a.pass, a.y, a.x, a.index) < std::tie(b.pass, b.y, b.x, b.index);
 }
 
 } // namespace
-
-PixelSampler sampler_from(std::string_view word) {
-  return static_cast<PixelSampler>(mc::index_of("sampler", word, sampler_names));
-}
-
-std::string_view name(PixelSampler sampler) { return sampler_names[static_cast<std::size_t>(sampler)]; }
 
 void Tally::add(const InvalidSample& sample) {
   if (invalid++ == 0 || is_before(sample, first)) first = sample;
@@ -42,14 +30,10 @@ void Tally::merge(const Tally& other) {
   invalid += other.invalid;
 }
 
-SampleTaker::SampleTaker(const Scene& scene, const PathOptions& path, PixelSampler sampler, std::uint64_t seed,
-                         std::uint32_t stratum, const Whole& whole, const std::optional<SplatFilter>& splat,
-                         const LightPaths* light_paths)
-    : scene_(scene), around_(media_at(scene, {scene.camera().origin(), scene.camera().forward()})),
-      around_varies_(absorbs(scene) && (scene.camera().radius() > 0 || scene.camera().near() > 0)),
-      integrator_(scene, path, light_paths), seed_(seed),
-      stratum_(sampler == PixelSampler::stratified ? stratum : 1u << 31), whole_(whole), splat_(splat),
-      take_(take_of(sampler)) {}
+SampleTaker::SampleTaker(const Scene& scene, const PathOptions& path, const PixelPoints& points, const Whole& whole,
+                         const std::optional<SplatFilter>& splat, const LightPaths* light_paths)
+    : scene_(scene), pixel_rays_(scene, whole), integrator_(scene, path, light_paths), points_(points), whole_(whole),
+      splat_(splat), take_(take_of(points.sampler)) {}
 
 SampleTaker::Take SampleTaker::take_of(PixelSampler sampler) {
   switch (sampler) {
@@ -64,37 +48,28 @@ template <class Stream>
 Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
                            Film& film) const {
   Tally tally;
-  const ThinLens& camera = scene_.camera();
-  const Vec2 scale(1 / Float(whole_.width), 1 / Float(whole_.height));
-  const Vec2 tan_half = camera.tan_half(Float(whole_.width) / Float(whole_.height));
   std::optional<Splat> splat;
   if (splat_) splat.emplace(*splat_);
   const Filter drawn = splat_ ? BoxFilter() : scene_.filter();
   const int whole_y = whole_.part.y + y;
   const auto sets = static_cast<std::uint32_t>(film.sets());
   for (std::size_t column = 0; column < from.size(); ++column) {
-    const std::uint32_t first = from[column], last = to[column];
     const int x = static_cast<int>(column) - border(), whole_x = whole_.part.x + x;
-    const std::uint64_t pixel = std::uint64_t(std::uint32_t(whole_y)) << 32 | std::uint32_t(whole_x);
     const std::uint64_t rays_before = tally.rays;
     SampleSums seen;
     for (std::uint32_t set = 0; set < sets; ++set) {
       Eigen::Array3d sum = Eigen::Array3d::Zero();
-      std::uint32_t valid = 0, point = (first + sets - 1 - set) / sets;
-      const std::uint32_t end = (last + sets - 1 - set) / sets;
-      while (point < end) {
-        const std::uint32_t block = point / stratum_, pass = set + sets * block;
-        const std::uint32_t stop = std::min(end, (block + 1) * stratum_);
-        const typename Stream::Points points(mc::hash(seed_, pixel, pass), stratum_);
-        for (; point < stop; ++point) {
-          Stream stream(points, point - block * stratum_);
+      std::uint32_t valid = 0;
+      points_.for_runs(set, sets, from[column], to[column], [&](const PixelPoints::Run& run) {
+        const auto points = points_.of<typename Stream::Points>(whole_x, whole_y, run);
+        for (std::uint32_t point = run.begin; point < run.end; ++point) {
+          Stream stream(points, point);
           const Vec2 offset = drawn.sample(stream.next2());
-          const Vec2 s = (Vec2(Float(whole_x) + Float(0.5), Float(whole_y) + Float(0.5)) + offset).cwiseProduct(scale);
-          const Ray ray = camera.ray(s, tan_half, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
-          const Spectrum radiance = integrator_.radiance(ray, stream, tally.rays, around(ray));
+          const Ray ray = pixel_rays_.sample(whole_x, whole_y, offset, stream);
+          const Spectrum radiance = integrator_.radiance(ray, stream, tally.rays, pixel_rays_.around(ray));
           ++tally.samples;
           if (!radiance.isFinite().all()) [[unlikely]] {
-            tally.add({whole_x, whole_y, pass, point - block * stratum_});
+            tally.add({whole_x, whole_y, run.pass, point});
             continue;
           }
           seen.add(radiance.cast<double>());
@@ -102,7 +77,7 @@ Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span
           else sum += radiance.cast<double>();
           ++valid;
         }
-      }
+      });
       if (splat) splat->give(film, x, y, static_cast<int>(set));
       if (film.contains(x, y)) film.add(x, y, static_cast<int>(set), sum, valid);
     }

@@ -2,6 +2,7 @@
 
 #include <render/film/sampling_plan.h>
 #include <render/light_sampler.h>
+#include <render/tile_sampler.h>
 
 #include <mc/core/error.h>
 #include <mc/core/parallel.h>
@@ -29,6 +30,9 @@ void check(const Scene& scene, const RenderOptions& options) {
               options.target_error.value_or(0));
   mc::require(!options.splat || !options.adaptive.value_or(false),
               "render: splats are spent evenly; leave out splat or adaptive");
+  mc::require(!options.tiles || !options.adaptive.value_or(false),
+              "render: tiles are spent evenly; leave out tiles or adaptive");
+  mc::require(!options.tiles || !options.splat, "render: tiles take no splats; leave out one of both");
   mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
               options.max_depth);
 }
@@ -50,7 +54,8 @@ constexpr int point_sets = 2;
 constexpr double least_pilot = 16; ///< samples per pixel
 
 bool is_adaptive(const RenderOptions& options) {
-  return !options.splat && options.adaptive.value_or(options.seconds.has_value() || options.target_error.has_value());
+  return !options.splat && !options.tiles &&
+         options.adaptive.value_or(options.seconds.has_value() || options.target_error.has_value());
 }
 
 // Unless a filter is so narrow that nothing is shared.
@@ -78,9 +83,10 @@ class Work {
   Work(const Scene& scene, const RenderOptions& options)
       : options_(options), whole_(whole_of(options)), splat_(splat_of(scene, options)),
         light_paths_(light_paths_of(scene, options)),
-        taker_(scene, {options.strategy, options.max_depth, options.shown}, options.sampler, options.seed,
-               stratum_of(options), whole_, splat_, light_paths_ ? &*light_paths_ : nullptr),
-        film_(new_film()), taken_(width() * height()) {
+        points_(options.sampler, options.seed, stratum_of(options)), path_{options.strategy, options.max_depth,
+                                                                           options.shown},
+        taker_(scene, path_, points_, whole_, splat_, light_paths()), film_(new_film()), taken_(width() * height()) {
+    if (options.tiles) tile_taker_.emplace(scene, path_, points_, whole_, light_paths());
     if (light_paths_)
       light_taker_.emplace(scene, *light_paths_, options.max_depth, options.sampler, options.seed, whole_);
   }
@@ -117,9 +123,16 @@ class Work {
   std::size_t width() const { return static_cast<std::size_t>(whole_.part.width) + 2 * border(); }
   std::size_t border() const { return static_cast<std::size_t>(taker_.border()); }
 
+  const LightPaths* light_paths() const { return light_paths_ ? &*light_paths_ : nullptr; }
+
   Film new_film() const {
     const int sets = limited() ? point_sets : std::min(options_.spp, point_sets);
-    return {whole_.part.width, whole_.part.height, sets, splat_, light_paths_.has_value()};
+    return {whole_.part.width,
+            whole_.part.height,
+            sets,
+            splat_,
+            light_paths_.has_value(),
+            options_.tiles ? TileIntegrator<Scene>::noise_area : 1};
   }
 
   // Every row once. Those that write to the same pixels take turns, in an order that is the same for every part.
@@ -152,7 +165,8 @@ class Work {
       const auto from = std::span(taken_).subspan(y * width(), width()),
                  to = std::span(taken).subspan(y * width(), width());
       for (std::size_t x = 0; x < width(); ++x) to[x] = std::max(to[x], plan_.samples(y * width() + x, mean));
-      tallies[y] = taker_.take(static_cast<int>(y) - taker_.border(), from, to, film);
+      tallies[y] = tile_taker_ ? tile_taker_->take(static_cast<int>(y), from[0], to[0], film)
+                               : taker_.take(static_cast<int>(y) - taker_.border(), from, to, film);
       samples += tallies[y].samples;
       const double rows = double(++done) / double(height());
       if (!options_.progress) return;
@@ -212,7 +226,10 @@ class Work {
   Whole whole_;
   std::optional<SplatFilter> splat_;
   std::optional<LightPaths> light_paths_;
+  PixelPoints points_;
+  PathOptions path_;
   SampleTaker taker_;
+  std::optional<TileTaker> tile_taker_;
   std::optional<LightTaker> light_taker_;
   Film film_;
   std::vector<std::uint32_t> taken_; ///< samples of every pixel

@@ -2,8 +2,6 @@
 
 #include <render/scene/builder.h>
 
-#include <mc/core/error.h>
-
 #include <gtest/gtest.h>
 
 namespace {
@@ -21,7 +19,7 @@ Scene ball_under_the_sky() {
 TEST(SampleTaker, PartsAreTheWhole) {
   const Scene scene = ball_under_the_sky();
   for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
-    const SampleTaker taker(scene, {}, sampler, 5, 4, {3, 2, {0, 0, 3, 2}});
+    const SampleTaker taker(scene, {}, {sampler, 5, 4}, {3, 2, {0, 0, 3, 2}});
     Film whole(3, 2, 4), parts(3, 2, 4);
     const std::vector<std::uint32_t> none = {0, 0, 0}, some = {1, 6, 19}, all = {40, 7, 19};
     const Tally one = taker.take(1, none, all, whole);
@@ -43,12 +41,6 @@ TEST(SampleTaker, PartsAreTheWhole) {
     }
     EXPECT_EQ(whole.estimate(0, 0).samples, 0u);
   }
-}
-
-TEST(SampleTaker, NamesAreTheirOwnInverse) {
-  EXPECT_THROW(sampler_from("sobel"), mc::Error);
-  for (const PixelSampler s : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol})
-    EXPECT_EQ(sampler_from(name(s)), s);
 }
 
 TEST(Tally, KeepsTheFirstInvalidSampleInAnyOrder) {
@@ -76,7 +68,7 @@ TEST(SampleTaker, RaysStartThroughWhatIsThere) {
     builder.add(Sphere(Vec3d::Zero(), 1), cover);
     builder.set(ThinLens({}, lens));
     const Scene scene = builder.build();
-    const SampleTaker taker(scene, {.max_depth = 1}, PixelSampler::sobol, 5, 4, {1, 1, {0, 0, 1, 1}});
+    const SampleTaker taker(scene, {.max_depth = 1}, {PixelSampler::sobol, 5, 4}, {1, 1, {0, 0, 1, 1}});
     Film film(1, 1, 4);
     taker.take(0, std::vector<std::uint32_t>{0}, std::vector<std::uint32_t>{400}, film);
     return film.estimate(0, 0).mean[0];

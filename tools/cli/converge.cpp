@@ -115,7 +115,7 @@ std::vector<Option> rows(ConvergeOptions& o) {
       {"--all",
        "",
        &o.all,
-       "Every sampler; of a scene every strategy, spent evenly and adaptively, and splats",
+       "Every sampler; of a scene every strategy, spent evenly and adaptively, splats and tiles",
        false,
        {"--samplers"}},
       {"--points-file", "FILE", &o.points, "These points as one more sampler: a row each, coordinates in [0, 1)"},

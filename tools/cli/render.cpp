@@ -1,5 +1,6 @@
 #include <gallery/scenes.h>
 #include <gallery/strategy_strip.h>
+#include <options/pixels.h>
 #include <options/subcommand.h>
 #include <picture/picture.h>
 #include <picture/resume.h>
@@ -26,6 +27,7 @@
 #include <filesystem>
 #include <mutex>
 #include <string_view>
+#include <tuple>
 
 namespace carlo {
 
@@ -50,6 +52,7 @@ struct RenderOptions {
   std::uint64_t seed = 0;
   int threads = 0;      ///< 0: all
   bool splat = false;   ///< samples count for all pixels under the filter
+  bool tiles = false;   ///< pixels share paths by tiles
   std::string tone;     ///< of a PNG; empty: the gallery's, or clamp
   std::string exposure; ///< of a PNG: stops, or auto; empty: the gallery's, or 0
   bool layers = false;  ///< EXR only: more channels
@@ -58,26 +61,6 @@ struct RenderOptions {
   bool allow_invalid = false; ///< write the image although samples were not finite
   std::string command;        ///< the command line, for the metadata
 };
-
-// Numbers of pixels between separators; none where one is anything else or too large.
-std::vector<int> pixels_in(const std::string& text, char separator) {
-  constexpr double most = 1e9;
-  std::vector<int> all;
-  for (const std::string_view word : mc::split(text, separator)) {
-    const double number = mc::number_in(word).value_or(mc::infinity<double>);
-    if (!(std::abs(number) <= most) || number != std::floor(number)) return {};
-    all.push_back(static_cast<int>(number));
-  }
-  return all;
-}
-
-void parse_size(const std::string& text, int& width, int& height) {
-  const std::vector<int> size = pixels_in(text, 'x');
-  mc::require(size.size() == 2 && size[0] > 0 && size[1] > 0,
-              "--size '{}' must be WIDTHxHEIGHT in pixels, e.g. 640x480", text);
-  width = size[0];
-  height = size[1];
-}
 
 ::render::Variables parse_variables(const std::vector<std::string>& texts) {
   ::render::Variables variables;
@@ -96,13 +79,6 @@ void parse_size(const std::string& text, int& width, int& height) {
     return ::render::read_mitsuba(file, ::render::dialect_from(options.dialect), variables);
   mc::require(variables.empty(), "-D: a mesh alone, as '{}', has no variables", file);
   return ::render::read_mesh_scene(file);
-}
-
-// Whether it lies inside the picture is for the renderer to say.
-::render::Crop parse_crop(const std::string& text) {
-  const std::vector<int> c = pixels_in(text, ',');
-  mc::require(c.size() == 4, "--crop '{}' must be X,Y,WIDTH,HEIGHT in pixels, e.g. 100,50,64,64", text);
-  return {c[0], c[1], c[2], c[3]};
 }
 
 std::string output_of(const RenderOptions& options) {
@@ -156,6 +132,13 @@ std::vector<Option> rows(RenderOptions& o) {
       {"--splat", "", &o.splat,
        "Samples count for all pixels under the scene's filter about them, not for one: of filters wider than a pixel "
        "less noise, which neighbours share (a Gaussian of .5 pixels: a third of the variance); spent evenly"},
+      {"--tiles",
+       "",
+       &o.tiles,
+       "2x2 pixels share the light that their paths find to leave diffuse surfaces: about half the time to an error in "
+       "rooms of diffuse walls, with noise that the four share; spent evenly",
+       false,
+       {"--splat"}},
       {"--max-depth", "N", &o.max_depth,
        "Longest path in edges (1: light seen directly), -1 for no limit [the scene's]"},
       {"--resume",
@@ -219,8 +202,8 @@ const GalleryScene* named_scene(const std::string& word) {
   if (named && !named->sampler.empty()) settings.sampler = ::render::sampler_from(named->sampler);
   settings.width = defaults.width;
   settings.height = defaults.height;
-  if (!options.size.empty()) parse_size(options.size, settings.width, settings.height);
-  if (!options.crop.empty()) settings.crop = parse_crop(options.crop);
+  if (!options.size.empty()) std::tie(settings.width, settings.height) = size_in(options.size);
+  if (!options.crop.empty()) settings.crop = crop_in(options.crop);
   settings.spp = options.spp.value_or(named && named->spp > 0 ? named->spp : defaults.spp);
   settings.seconds = options.seconds;
   settings.target_error = options.target_error;
@@ -230,8 +213,10 @@ const GalleryScene* named_scene(const std::string& word) {
   mc::require(options.adaptive.empty() || options.adaptive == "on" || options.adaptive == "off",
               "--adaptive '{}' must be on or off", options.adaptive);
   if (!options.adaptive.empty()) settings.adaptive = options.adaptive == "on";
-  mc::require(!options.splat || options.adaptive != "on", "--splat spends samples evenly; leave out --adaptive on");
+  mc::require(options.adaptive != "on" || !(options.splat || options.tiles),
+              "--{} spends samples evenly; leave out --adaptive on", options.splat ? "splat" : "tiles");
   settings.splat = options.splat;
+  settings.tiles = options.tiles;
   if (!options.strategy.empty()) settings.strategy = ::render::strategy_from(options.strategy);
   if (!options.sampler.empty()) settings.sampler = ::render::sampler_from(options.sampler);
   mc::require(!options.max_depth || *options.max_depth == -1 || *options.max_depth >= 1,

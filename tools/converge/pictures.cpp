@@ -322,6 +322,7 @@ class Session {
     o.shown = file_.defaults.shown;
     o.adaptive = way.spending == Spending::adaptive;
     o.splat = way.spending == Spending::splat;
+    o.tiles = way.spending == Spending::tiles;
     o.seed = seed;
     o.threads = options_.threads;
     o.cancel = options_.cancel;
@@ -376,7 +377,7 @@ class Session {
 std::string PictureWay::name() const {
   std::string text = fmt::format("{} {}", strategy.name, ::render::name(sampler));
   if (max_depth > 0) text += fmt::format(" depth {}", max_depth);
-  constexpr std::array<const char*, 3> words = {"", " adaptive", " splat"};
+  constexpr std::array<const char*, 4> words = {"", " adaptive", " splat", " tiles"};
   return text + words[static_cast<std::size_t>(spending)];
 }
 

@@ -14,7 +14,8 @@ namespace carlo {
 enum class Spending {
   even,
   adaptive, ///< samples where the error is
-  splat     ///< evenly, each sample for all pixels under the filter
+  splat,    ///< evenly, each sample for all pixels under the filter
+  tiles     ///< evenly, 2x2 pixels share paths
 };
 
 /// One way to render.
@@ -24,7 +25,7 @@ struct PictureWay {
   int max_depth = -1; ///< longest path in edges; -1: no limit
   Spending spending = Spending::even;
 
-  /// "mis sobol", "nee independent depth 4 adaptive", "mis sobol splat".
+  /// "mis sobol", "nee independent depth 4 adaptive", "mis sobol splat", "mis sobol tiles".
   std::string name() const;
 };
 

@@ -2,6 +2,7 @@
 #include <integrands/genz.h>
 #include <integrands/rate_integrals.h>
 #include <options/integral_options.h>
+#include <options/pixels.h>
 #include <picture/picture.h>
 #include <plugin/integrands.h>
 #include <terminal/progress.h>
@@ -17,8 +18,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
+#include <tuple>
 
 namespace carlo {
 
@@ -59,16 +60,19 @@ std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, c
   return strategies;
 }
 
-bool can_splat(const ::render::Filter& filter) {
-  return filter.radius() <= ::render::SplatFilter::furthest && ::render::SplatFilter(filter).is_wide();
+bool can_spend(Spending spending, const ::render::SceneFile& file) {
+  const ::render::Filter& filter = file.scene.filter();
+  if (spending == Spending::splat)
+    return filter.radius() <= ::render::SplatFilter::furthest && ::render::SplatFilter(filter).is_wide();
+  return spending != Spending::tiles || file.defaults.shown.what == ::render::Shown::radiance;
 }
 
 std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, const ::render::SceneFile& file) {
   const std::string samplers = run.samplers.empty() ? "independent,stratified,sobol" : run.samplers;
   std::vector<PictureWay> ways;
-  for (const Spending spending : {Spending::even, Spending::adaptive, Spending::splat}) {
+  for (const Spending spending : {Spending::even, Spending::adaptive, Spending::splat, Spending::tiles}) {
     if (spending != Spending::even && !run.to_choose && !run.all) continue;
-    if (spending == Spending::splat && !can_splat(file.scene.filter())) continue;
+    if (!can_spend(spending, file)) continue;
     for (const int depth : depths_of(o.depths, file.defaults.max_depth))
       for (const ::render::Strategy& strategy : strategies_of(o, run.all, file))
         for (const std::string_view sampler : mc::split(samplers, ','))
@@ -176,10 +180,7 @@ Pictures measure_scene(const SceneOptions& o, const SceneRun& run) {
   warn_of_departures(file);
   const ::render::RenderDefaults& own = file.defaults;
   PictureOptions p{.width = 48, .height = std::max(1, 48 * own.height / own.width), .max_spp = o.max_spp};
-  char rest = 0;
-  mc::require(o.size.empty() || (std::sscanf(o.size.c_str(), "%dx%d%c", &p.width, &p.height, &rest) == 2 &&
-                                 p.width > 0 && p.height > 0),
-              "--size '{}' must be WIDTHxHEIGHT in pixels, e.g. 64x48", o.size);
+  if (!o.size.empty()) std::tie(p.width, p.height) = size_in(o.size);
   p.replicates = run.pictures;
   p.seconds = run.seconds;
   p.cost_rays = o.cost == "rays";

@@ -54,8 +54,8 @@ bool is_scene(const std::vector<std::string>& words);
 struct SceneRun {
   std::string path;
   std::string samplers;   ///< comma-separated; empty: all
-  bool to_choose = false; ///< every way with adaptive spending and splats, too, and plain_way
-  bool all = false;       ///< every strategy that finds every light, and adaptive spending and splats, too
+  bool to_choose = false; ///< every way with adaptive spending, splats and tiles, too, and plain_way
+  bool all = false;       ///< every strategy that finds every light, adaptive spending, splats and tiles, too
   int pictures = 0;       ///< behind each error; 0: as many as make it known to 10 %
   double seconds = 0;     ///< stop at fewer samples where these run out; 0: never
   std::uint64_t seed = 1;

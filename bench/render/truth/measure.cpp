@@ -1,10 +1,11 @@
 #include "measure.h"
 
-#include <render/pixel_sampler.h>
+#include <render/tile_sampler.h>
 
 #include <mc/random/hash.h>
 #include <mc/stats/chi_square.h>
 #include <mc/stats/t_test.h>
+#include <mc/warp/disk.h>
 
 #include <cmath>
 
@@ -12,19 +13,17 @@ namespace render::truth {
 
 namespace {
 
-template <class Stream>
-Measured measure_with(const Picture& picture, const Strategy& strategy, std::uint64_t seed, std::uint32_t sets,
-                      std::uint32_t points) {
-  const PathIntegrator<Scene> integrator(*picture.scene, {strategy, picture.max_depth});
+// pixel(numbers, i, seed) : the radiance that a pixel gets by point i of a set, of this seed
+template <class Stream, class Pixel>
+Measured of_sets(std::uint64_t seed, std::uint32_t sets, std::uint32_t points, const Pixel& pixel) {
   Measured found;
   SampleSums samples;
-  std::uint64_t rays = 0;
   for (std::uint32_t set = 0; set < sets; ++set) {
-    const typename Stream::Points numbers(mc::hash(seed, set), points);
+    const std::uint64_t own = mc::hash(seed, set);
+    const typename Stream::Points numbers(own, points);
     double sum = 0;
     for (std::uint32_t i = 0; i < points; ++i) {
-      Stream stream(numbers, i);
-      const auto radiance = double(integrator.radiance(picture.ray, stream, rays)[0]);
+      const auto radiance = double(pixel(numbers, i, own));
       samples.add(Eigen::Array3d::Constant(radiance));
       sum += radiance;
     }
@@ -34,15 +33,55 @@ Measured measure_with(const Picture& picture, const Strategy& strategy, std::uin
   return found;
 }
 
+template <class Stream>
+Measured measure_with(const Picture& picture, const PathOptions& path, std::uint64_t seed, std::uint32_t sets,
+                      std::uint32_t points) {
+  const PathIntegrator<Scene> integrator(*picture.scene, path);
+  std::uint64_t rays = 0;
+  return of_sets<Stream>(seed, sets, points, [&](const auto& numbers, std::uint32_t i, std::uint64_t) {
+    Stream stream(numbers, i);
+    return integrator.radiance(picture.ray, stream, rays)[0];
+  });
+}
+
+// The ray of a pixel of the tile: the picture's, or one up to 30 degrees away, as near as far.
+Ray beside(const Ray& ray, std::uint64_t seed, std::uint32_t pixel) {
+  if (pixel == 0) return ray;
+  mc::Pcg random(seed, pixel);
+  const auto tan_most = Float(0.577 * std::pow(1e-3, random.uniform<double>()));
+  const Vec2 disk = mc::UniformDisk<Float>{}.sample(random.point<Float, 2>()) * tan_most;
+  return {ray.o, mc::Frame<Float>::from_z(ray.d).to_world(Vec3(disk[0], disk[1], 1).normalized())};
+}
+
+template <class Stream>
+Measured tile_with(const Picture& picture, const PathOptions& path, std::uint64_t seed, std::uint32_t sets,
+                   std::uint32_t points) {
+  const TileIntegrator<Scene> integrator(*picture.scene, path);
+  std::uint64_t rays = 0;
+  return of_sets<Stream>(seed, sets, points, [&](const auto& numbers, std::uint32_t i, std::uint64_t set) {
+    const typename Stream::Points others[] = {
+        {mc::hash(set, 1), points}, {mc::hash(set, 2), points}, {mc::hash(set, 3), points}};
+    const auto ray = [&](std::uint32_t k) {
+      return TileRay<Stream>{beside(picture.ray, set, k), {}, Stream(k == 0 ? numbers : others[k - 1], i)};
+    };
+    std::array<TileRay<Stream>, 4> tile{ray(0), ray(1), ray(2), ray(3)};
+    return integrator.radiances(tile, rays)[0][0];
+  });
+}
+
 } // namespace
 
 Measured measure(const Picture& picture, const Strategy& strategy, PixelSampler sampler, std::uint64_t seed,
-                 std::uint32_t sets, std::uint32_t points) {
+                 std::uint32_t sets, std::uint32_t points, bool in_tile) {
+  const PathOptions path{strategy, picture.max_depth};
+  const auto by = [&]<class Stream>(std::type_identity<Stream>) {
+    return in_tile ? tile_with<Stream>(picture, path, seed, sets, points)
+                   : measure_with<Stream>(picture, path, seed, sets, points);
+  };
   switch (sampler) {
-  case PixelSampler::independent:
-    return measure_with<mc::IndependentWalk<Float>>(picture, strategy, seed, sets, points);
-  case PixelSampler::stratified: return measure_with<mc::StratifiedWalk<Float>>(picture, strategy, seed, sets, points);
-  case PixelSampler::sobol: return measure_with<mc::SobolWalk<Float>>(picture, strategy, seed, sets, points);
+  case PixelSampler::independent: return by(std::type_identity<mc::IndependentWalk<Float>>());
+  case PixelSampler::stratified: return by(std::type_identity<mc::StratifiedWalk<Float>>());
+  case PixelSampler::sobol: return by(std::type_identity<mc::SobolWalk<Float>>());
   }
   return {};
 }

@@ -15,8 +15,10 @@ struct Measured {
 };
 
 /// `sets` sets of `points` points each.
+///   in_tile : its paths share with those of three pixels beside it, see TileIntegrator, whose rays lead up to 30
+///             degrees away, other ones in every set
 Measured measure(const Picture& picture, const Strategy& strategy, PixelSampler sampler, std::uint64_t seed,
-                 std::uint32_t sets, std::uint32_t points);
+                 std::uint32_t sets, std::uint32_t points, bool in_tile = false);
 
 /// How many standard errors `measured` is off what it should be: those of a normal variable that is as improbable as
 /// Student's t. `rounding` bounds what rounding to Float may do, as three standard errors. 0 where the measured is

@@ -43,6 +43,8 @@ struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic<LayeredBase>
   bool transmits() const {
     return dispatch(*this, [](const auto& b) { return b.transmits(); });
   }
+  /// It looks the same from everywhere on one side.
+  bool is_diffuse() const { return std::holds_alternative<Lambert>(*this); }
   bool casts_caustics() const {
     return dispatch(*this, [](const auto& b) { return b.casts_caustics(); });
   }

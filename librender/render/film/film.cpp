@@ -86,8 +86,9 @@ void LightSums::merge(const LightSums& other) {
   channel_largest = channel_largest.max(other.channel_largest);
 }
 
-Film::Film(int width, int height, int sets, std::optional<SplatFilter> splat, bool lit)
-    : width_(width), height_(height), sets_(sets), splat_(std::move(splat)) {
+Film::Film(int width, int height, int sets, std::optional<SplatFilter> splat, bool lit, double noise_area)
+    : width_(width), height_(height), sets_(sets), splat_(std::move(splat)),
+      noise_area_(splat_ ? splat_->noise_area() : noise_area) {
   mc::require(width > 0 && height > 0, "film: size {}x{} needs at least one pixel", width, height);
   mc::require(sets > 0, "film: {} point sets; at least 1 is needed", sets);
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -186,7 +187,7 @@ PixelEstimate Film::estimate(int x, int y) const {
 
 Image Film::image() const {
   Image image(width_, height_);
-  if (splat_) image.noise_area = splat_->noise_area();
+  image.noise_area = noise_area_;
   image.variance.resize(image.pixels.size());
   bool known = true;
   for (int y = 0; y < height_; ++y)
@@ -212,7 +213,6 @@ RelativeError Film::relative_error(ErrorOf of) const {
       mean += pixel.mean.sum() / (3.0 * double(rays_.size()));
     }
   const int block = of == ErrorOf::worst ? 16 : std::max(width_, height_);
-  const double alike = splat_ ? splat_->noise_area() : 1;
   RelativeError worst{0, 0};
   for (int top = 0; top < height_; top += block)
     for (int left = 0; left < width_; left += block) {
@@ -223,14 +223,15 @@ RelativeError Film::relative_error(ErrorOf of) const {
           const PixelEstimate pixel = estimate(x, y);
           if (!(pixel.variance > 0).any()) continue;
           const Eigen::Array3d unit = around(means, x, y).max(mean / 2).square();
-          all.add((pixel.variance / unit).mean(), pixel.sets - 1, alike);
+          all.add((pixel.variance / unit).mean(), pixel.sets - 1, noise_area_);
           const Eigen::Array3d of_samples = samples_[place(x, y)].variance_of_mean() + pixel.of_light;
           independent.add((of_samples / unit).mean(), deciding(x, y));
         }
       if (all.value == 0) continue;
       const int pixels = (bottom - top) * (right - left);
       double most = bound_of(all);
-      if (!splat_ && std::isfinite(independent.value)) most = std::clamp(bound_of(independent), all.value, most);
+      if (noise_area_ == 1 && std::isfinite(independent.value))
+        most = std::clamp(bound_of(independent), all.value, most);
       worst.value = std::max(worst.value, std::sqrt(all.value / pixels));
       worst.bound = std::max(worst.bound, std::sqrt(most / pixels));
     }

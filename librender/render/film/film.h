@@ -94,8 +94,9 @@ class Film {
  public:
   /// splat  : where samples count for several pixels, as they come by `splat`
   /// lit    : paths from the lights give something, too: 136 bytes more a pixel
+  /// noise_area : see Image, of samples that share paths; with splats theirs
   /// throws : Error for a non-positive size or number of sets
-  Film(int width, int height, int sets, std::optional<SplatFilter> splat = {}, bool lit = false);
+  Film(int width, int height, int sets, std::optional<SplatFilter> splat = {}, bool lit = false, double noise_area = 1);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -173,6 +174,7 @@ class Film {
 
   int width_, height_, sets_;
   std::optional<SplatFilter> splat_;
+  double noise_area_;
   std::vector<Eigen::Array3d> sums_;  ///< sets_ of every pixel
   std::vector<std::uint32_t> counts_; ///< the same
   std::vector<double> weights_;       ///< the same, of splats; empty where there are none

@@ -1,0 +1,95 @@
+#pragma once
+/// Where the samples of pixels start: their places in point sets, and their rays.
+
+#include <render/integrator/media.h>
+#include <render/scene/scene.h>
+
+#include <mc/random/hash.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+
+namespace render {
+
+/// Point sets for a pixel's samples.
+enum class PixelSampler { independent, stratified, sobol };
+/// Throws Error, naming the nearest sampler, for an unknown name.
+PixelSampler sampler_from(std::string_view name);
+std::string_view name(PixelSampler sampler);
+
+/// A part of a picture, from the pixel (x, y), counted from the upper left corner.
+struct Crop {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// A picture of which a film shows a part.
+struct Whole {
+  int width, height;
+  Crop part;
+};
+
+/// The points of a picture's pixels, each a pure function of the seed, the pixel and the number of its sample. Those of
+/// a pixel are dealt in turn to its point sets, which are randomised independently: sample k is point k / sets of set
+/// k % sets. A stratified set that is longer than `stratum` points goes on with another.
+struct PixelPoints {
+  PixelSampler sampler;
+  std::uint64_t seed;
+  std::uint32_t stratum; ///< of sets that are not stratified 2^31
+
+  PixelPoints(PixelSampler kind, std::uint64_t own_seed, std::uint32_t points)
+      : sampler(kind), seed(own_seed), stratum(kind == PixelSampler::stratified ? points : 1u << 31) {}
+
+  /// Points that follow each other, of one randomisation.
+  struct Run {
+    std::uint32_t pass; ///< the randomisation
+    std::uint32_t begin, end;
+  };
+
+  /// Calls task(run) for the runs of the set that the samples [first, last) of a pixel belong to.
+  template <class Task>
+  void for_runs(std::uint32_t set, std::uint32_t sets, std::uint32_t first, std::uint32_t last,
+                const Task& task) const {
+    const std::uint32_t end = (last + sets - 1 - set) / sets;
+    for (std::uint32_t point = (first + sets - 1 - set) / sets; point < end;) {
+      const std::uint32_t block = point / stratum, start = block * stratum;
+      const std::uint32_t stop = std::min(end, start + stratum);
+      task(Run{set + sets * block, point - start, stop - start});
+      point = stop;
+    }
+  }
+
+  /// The points of a run, for the pixel (x, y) of the whole picture.
+  template <class Points> Points of(int x, int y, const Run& run) const {
+    const std::uint64_t pixel = std::uint64_t(std::uint32_t(y)) << 32 | std::uint32_t(x);
+    return Points(mc::hash(seed, pixel, run.pass), stratum);
+  }
+};
+
+/// The rays of a scene's camera through the pixels of a picture. The scene must outlive it.
+class PixelRays {
+ public:
+  PixelRays(const Scene& scene, const Whole& whole)
+      : scene_(scene), scale_(1 / Float(whole.width), 1 / Float(whole.height)),
+        tan_half_(scene.camera().tan_half(Float(whole.width) / Float(whole.height))),
+        around_(media_at(scene, {scene.camera().origin(), scene.camera().forward()})),
+        around_varies_(absorbs(scene) && (scene.camera().radius() > 0 || scene.camera().near() > 0)) {}
+
+  /// Through the point at `offset` from the centre of the pixel (x, y) of the whole picture [pixels].
+  template <class Stream> Ray sample(int x, int y, const Vec2& offset, Stream& stream) const {
+    const ThinLens& camera = scene_.camera();
+    const Vec2 s = (Vec2(Float(x) + Float(0.5), Float(y) + Float(0.5)) + offset).cwiseProduct(scale_);
+    return camera.ray(s, tan_half_, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
+  }
+
+  /// Through what a ray starts. A lens, or what is cut away before it, may reach out of the body that holds its centre.
+  Media around(const Ray& ray) const { return around_varies_ ? media_at(scene_, ray) : around_; }
+
+ private:
+  const Scene& scene_;
+  Vec2 scale_, tan_half_;
+  Media around_;
+  bool around_varies_;
+};
+
+} // namespace render

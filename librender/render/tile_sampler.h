@@ -1,0 +1,45 @@
+#pragma once
+/// Samples of tiles of pixels.
+
+#include <render/integrator/tile.h>
+#include <render/pixel_sampler.h>
+
+namespace render {
+
+/// The samples of a picture's pixels, by PixelPoints, taken by tiles: those of all its pixels together, see
+/// TileIntegrator. Tiles lie where they do in the whole picture, and the pixels of a part are those of the whole.
+class TileTaker {
+ public:
+  /// light_paths : see PathIntegrator
+  ///   throws    : Error where something else than radiance is to be shown
+  TileTaker(const Scene& scene, const PathOptions& path, const PixelPoints& points, const Whole& whole,
+            const LightPaths* light_paths = nullptr);
+
+  /// Whether tiles begin at the film's row y; those that begin above it do at its first.
+  bool begins(int y) const { return y == 0 || (whole_.part.y + y) % side == 0; }
+
+  /// Adds to the film the samples [from, to) of all pixels of the tiles that begin at its row y; what is not finite is
+  /// left out.
+  Tally take(int y, std::uint32_t from, std::uint32_t to, Film& film) const {
+    return (this->*take_)(y, from, to, film);
+  }
+
+ private:
+  static constexpr int side = TileIntegrator<Scene>::side;
+  static constexpr std::size_t pixels = TileIntegrator<Scene>::pixels;
+
+  using Take = Tally (TileTaker::*)(int, std::uint32_t, std::uint32_t, Film&) const;
+  template <class Stream> Tally take_by(int y, std::uint32_t from, std::uint32_t to, Film& film) const;
+  template <class Stream>
+  void take_tile(int left, int top, std::uint32_t from, std::uint32_t to, Film& film, Tally& tally) const;
+  static Take take_of(PixelSampler sampler);
+
+  const Scene& scene_;
+  PixelRays pixel_rays_;
+  TileIntegrator<Scene> integrator_;
+  PixelPoints points_;
+  Whole whole_;
+  Take take_;
+};
+
+} // namespace render
