@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 
 namespace carlo {
 
@@ -19,11 +20,13 @@ namespace {
 
 struct CompareOptions {
   std::string a, b;
-  std::string metric;   ///< empty: all
-  std::string diff;     ///< file for the difference image; empty: none
-  double alpha = 0.01;  ///< family-wise
-  double tolerance = 0; ///< relative difference that still counts as agreement
+  std::string metric;          ///< empty: all
+  std::string diff;            ///< file for the difference image; empty: none
+  std::optional<double> alpha; ///< family-wise; none: usual_alpha
+  double tolerance = 0;        ///< relative difference that still counts as agreement
 };
+
+constexpr double usual_alpha = 0.01;
 
 using ::render::Image;
 
@@ -166,7 +169,7 @@ std::vector<Option> rows(CompareOptions& o) {
       {"--alpha",
        "PROBABILITY",
        &o.alpha,
-       "Chance that two correct images are called different, over all tests",
+       "Chance that two correct images are called different, over all tests [0.01]",
        false,
        {"--metric"}},
       {"--tolerance",
@@ -205,7 +208,8 @@ std::string without_variance(const CompareOptions& options, const Image& a, cons
 }
 
 int compare(const CompareOptions& options) {
-  mc::require(options.alpha > 0 && options.alpha < 1, "--alpha {} must lie in (0, 1)", options.alpha);
+  const double alpha = options.alpha.value_or(usual_alpha);
+  mc::require(alpha > 0 && alpha < 1, "--alpha {} must lie in (0, 1)", alpha);
   mc::require(options.tolerance >= 0, "--tolerance {} must be >= 0", options.tolerance);
   for (const std::string& image : {options.a, options.b})
     mc::require(options.diff.empty() || !mc::same_place(options.diff, image),
@@ -237,9 +241,11 @@ int compare(const CompareOptions& options) {
 
   Comparison comparison(a, b, options.tolerance);
   if (!comparison.possible()) {
-    mc::require(options.tolerance == 0, "--tolerance: {} no variance, so that nothing is judged; render to .exr",
-                without_variance(options, a, b));
-    fmt::print("verdict    none: {} no variance; render to .exr to get it\n", without_variance(options, a, b));
+    const std::string bare = without_variance(options, a, b);
+    const char* judged = options.tolerance > 0 ? "--tolerance" : "--alpha";
+    mc::require(options.tolerance == 0 && !options.alpha,
+                "{}: {} no variance, so that nothing is judged; render to .exr", judged, bare);
+    fmt::print("verdict    none: {} no variance; render to .exr to get it\n", bare);
     return exit_ok;
   }
   require_variance(options.a, a);
@@ -252,9 +258,9 @@ int compare(const CompareOptions& options) {
   print("pixels", comparison.pixel);
   print("blocks", comparison.block);
   const double p = comparison.family_p();
-  const bool agree = p >= options.alpha;
+  const bool agree = p >= alpha;
   std::printf("verdict    %s: family-wise p = %.3g over %.0f tests, alpha = %g%s\n", agree ? "agree" : "DIFFER", p,
-              comparison.tests, options.alpha,
+              comparison.tests, alpha,
               options.tolerance > 0 ? fmt::format(", tolerance {} of the reference", options.tolerance).c_str() : "");
   return agree ? exit_ok : exit_failed;
 }

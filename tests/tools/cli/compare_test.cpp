@@ -127,6 +127,8 @@ TEST_F(Compare, GivesNoVerdictWithoutBothVariances) {
   EXPECT_THAT(compare("").output, HasSubstr("the images carry no variance"));
   EXPECT_EQ(compare("--tolerance 0.1").exit_code, 2) << "whoever states it waits for a verdict";
   EXPECT_THAT(compare("--tolerance 0.1").output, HasSubstr("--tolerance: the images carry no variance"));
+  EXPECT_EQ(compare("--alpha 0.05").exit_code, 2);
+  EXPECT_THAT(compare("--alpha 0.05").output, HasSubstr("--alpha: the images carry no variance"));
   for (const std::string of_verdicts : {"--tolerance 0.1", "--alpha 0.1"})
     EXPECT_EQ(compare("--metric mse " + of_verdicts).exit_code, 2) << of_verdicts;
 }
