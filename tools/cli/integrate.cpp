@@ -253,6 +253,8 @@ int integrate(const IntegrateOptions& o) {
     return exit_interrupted;
   }
   progress.clear();
+  for (std::size_t i = 0; i < found.integrands.size(); ++i)
+    if (found.results.outputs[i].error_bar == mc::ErrorBar::unseen) refuse_underflow(found.integrands[i]);
   const mc::Integral r = found.results.outputs.front();
   for (std::size_t k = 0; k < bins.bins.size(); ++k) {
     found.histogram.push_back(bins.bins[k]);

@@ -325,6 +325,7 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
   const auto start = Clock::now();
   const Look look = look_at(target, o);
   m.size = look.size;
+  if (m.size == 0) refuse_underflow(target.integral);
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const double gone = std::chrono::duration<double>(Clock::now() - start).count();
     const double share = o.seconds > 0 ? std::max(1e-3, o.seconds - gone) / static_cast<double>(ways.size() - i) : 0;

@@ -70,7 +70,8 @@ struct Measurement {
 ///   doubt  : unbiased ways whose means agree with each other and not with the stated truth, by six standard errors;
 ///            where none is stated, a quarter of all sets of replicates, at the larger N, in which one replicate holds
 ///            over half of the variance
-///   throws : Error for an integrand that is not finite somewhere, or of unknown truth and 0 at every point
+///   throws : Error for an integrand that is not finite somewhere, or of unknown truth and 0 at every point, and
+///            where refuse_underflow does
 Measurement measure(const Target& target, const std::vector<Way>& ways, const MeasureOptions& options);
 
 } // namespace carlo

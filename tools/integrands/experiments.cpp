@@ -1,10 +1,12 @@
 #include <integrands/experiments.h>
 
 #include <mc/core/error.h>
+#include <mc/random/uniform.h>
 #include <mc/warp/hemisphere.h>
 #include <mc/warp/sphere.h>
 
 #include <cmath>
+#include <limits>
 
 namespace carlo {
 
@@ -132,6 +134,21 @@ void evaluate(const Experiment& e, Experiment::Unit points, std::span<double> va
     throw mc::Error(fmt::format("{}: the integrand is {} at {}", e.name,
                                 std::isnan(values[i]) ? std::string("nan") : fmt::format("{}", values[i]), place));
   }
+}
+
+void refuse_underflow(const Experiment& e) {
+  if (!e.underflows) return;
+  std::vector<double> u(static_cast<std::size_t>(e.dim));
+  bool any = false;
+  for (std::uint64_t i = 0; i < 4096; ++i) {
+    for (std::size_t d = 0; d < u.size(); ++d) u[d] = mc::hash_uniform<double>(i, d);
+    if (e.f(u) != 0) return;
+    any = any || e.underflows(u);
+  }
+  mc::require(!any,
+              "'{}': its values times the volume of '{}' are below {:.2g}, the least that a double holds; multiply it "
+              "by a large number, or rescale its variables",
+              e.name, e.source, std::numeric_limits<double>::denorm_min());
 }
 
 } // namespace carlo

@@ -38,11 +38,17 @@ struct Experiment {
   /// Several at once, points one after another; may be empty.
   std::function<void(Unit points, std::span<double> values)> many = {};
   std::function<std::string(Unit u)> place = {}; ///< "x = 0.5, y = 1", the point of its own domain; may be empty
+  /// Whether the value at u is 0 since it is too small for a double, and that of its expression is not; may be empty.
+  std::function<bool(Unit u)> underflows = {};
 };
 
 /// The integrand at each of the points.
 ///   throws : Error with the first place where it is not finite
 void evaluate(const Experiment& e, Experiment::Unit points, std::span<double> values);
+
+/// Throws Error where 4096 values are all 0 and some of them underflow: to be asked of an integrand that was 0 at every
+/// point, which may be the volume's doing.
+void refuse_underflow(const Experiment& e);
 
 const std::vector<Experiment>& experiments();
 

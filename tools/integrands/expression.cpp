@@ -219,17 +219,26 @@ Experiment parse_expression(const std::string& expression, const std::string& bo
   e.dim = static_cast<int>(sides.size());
   e.truth = std::numeric_limits<double>::quiet_NaN();
   e.fit_from = 0;
-  e.f = [sides, volume, f = parse_function(expression, names)](std::span<const double> u) {
+  const auto factors = [sides, volume, f = parse_function(expression, names)](std::span<const double> u) {
     std::array<double, 32> x;
     double scale = volume;
     for (std::size_t i = 0; i < sides.size(); ++i) {
       const Placed at = place_on(sides[i], u[i]);
       x[i] = at.x;
       if (sides[i].is_finite()) continue;
-      if (std::isinf(at.x)) return 0.0; // an end at infinity: no point of the domain
+      if (std::isinf(at.x)) return std::pair(0.0, 0.0); // an end at infinity: no point of the domain
       scale *= at.slope;
     }
-    return scale * f(std::span(x).first(sides.size()));
+    return std::pair(scale, f(std::span(x).first(sides.size())));
+  };
+  e.f = [factors](std::span<const double> u) {
+    const auto [scale, value] = factors(u);
+    return scale * value;
+  };
+  e.underflows = [factors](std::span<const double> u) {
+    const auto [scale, value] = factors(u);
+    // A value that is next to 0 itself is the far end of a peak.
+    return scale * value == 0 && std::abs(value) >= std::numeric_limits<double>::min();
   };
   e.place = [sides](std::span<const double> u) {
     std::string text;

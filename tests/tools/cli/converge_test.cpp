@@ -181,6 +181,7 @@ TEST_F(Converge, BadInputIsOneLine) {
   expect_refused("pi --samplers vegas,random --max-n 64", "--max-n 64: vegas takes N of at least 2048; raise it, or");
   expect_refused("'1/(x-x)' -d x=0:1 --max-n 64", "1/(x-x): the integrand is inf at x = 0.");
   expect_refused("'0*x' -d x=0:1 --max-n 64", "0*x: the integrand was 0 at every point; choose bounds around");
+  expect_refused("x -d x=0:1e-300", "'x': its values times the volume of 'x=0:1e-300' are below 4.9e-324, the");
   expect_refused("'3+2' -d x=0:1", "'3+2' uses none of x: a constant has no error to measure; put a variable into it");
   expect_refused("'_pi' -d x=0:1,y=0:1", "'_pi' uses none of x, y: ");
   expect_refused("a.xml b.xml", "'a.xml' stands among others: scenes are measured one at a time; give it alone");

@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -231,6 +232,22 @@ TEST(Integrate, CountsMayBeWrittenAsPowersOfTen) {
 
 TEST(Integrate, TwoValuesAreNoIntegrand) {
   EXPECT_THAT(support::run_carlo("integrate 'x, x*x' -d x=0:1").output, testing::HasSubstr("has 2 values"));
+}
+
+// It said that the integrand was 0 at every point.
+TEST(Integrate, AnIntegralBelowWhatADoubleHoldsIsNoZero) {
+  for (const std::string arguments :
+       {"x -d x=0:1e-300", "1 '(-x)' -d x=0:1e-200", "'1e-300*exp(-y)' -d x=0:1e-30,y=0:inf"}) {
+    const support::Run r = support::run_carlo("integrate " + arguments);
+    EXPECT_EQ(r.exit_code, 2) << arguments;
+    EXPECT_THAT(r.output,
+                testing::ContainsRegex("': its values times the volume of '.*' are below 4.9e-324, the least"));
+    EXPECT_EQ(std::count(r.output.begin(), r.output.end(), '\n'), 1) << r.output;
+  }
+  EXPECT_THAT(support::run_carlo("integrate '1e300*x' -d x=0:1e-300").output, testing::ContainsRegex("x = (5.0|4.9)"));
+  EXPECT_THAT(support::run_carlo("integrate x -d x=0:1e-160").output, testing::HasSubstr("e-321 ± 4.9e-324"));
+  EXPECT_THAT(support::run_carlo("integrate 'x > 2' -d x=0:1").output, testing::HasSubstr("was 0 at every point"));
+  EXPECT_EQ(support::run_carlo("integrate 'x-0.5' -d x=0:1 --max-calls 4096").exit_code, 0);
 }
 
 TEST(Integrate, NamesTheVariablesWhereItIsNotFinite) {

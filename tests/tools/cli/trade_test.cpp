@@ -163,6 +163,7 @@ TEST_F(TradeCommand, BadInputIsOneLine) {
   expect_refused("pi --seconds 1e300", "--seconds: '1e300' in '1e300' must be a number above 0, and 1e+09 at most");
   expect_refused("pi --time 0", "--time 0 must lie in (0, 1e7] seconds");
   expect_refused("'0*x' -d x=0:1 --max-n 64", "the integrand was 0 at every point");
+  expect_refused("x -d x=0:1e-300 --max-n 64", "are below 4.9e-324, the least");
 }
 
 } // namespace
