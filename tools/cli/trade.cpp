@@ -233,6 +233,7 @@ ordered_json to_json(const TradeOptions& o, const Measured& one) {
                     {"seed", o.seed},       {"integrand", one.target->integral.name},
                     {"truth", m.truth},     {"truth_error", m.truth_error},
                     {"cost", o.scene.cost}};
+  if (m.heavy_tail) j["infinite_variance"] = {{"tail_index", *m.heavy_tail}};
   if (m.interrupted) j["interrupted"] = true;
   j["errors"] = j["seconds"] = ordered_json::array();
   for (const ForError& f : a.errors) {
@@ -253,7 +254,8 @@ int tell(const TradeOptions& o, const Measured& one, const Folders& folders) {
   for (const ForError& f : a.errors) print(f, m.cost);
   for (const ForSeconds& f : a.seconds) print(f, m.cost);
   if (exact) fmt::print("  every way is exact to rounding: there is no error to plot\n");
-  if (!m.doubt.empty()) fmt::print("  warning: {}\n", m.doubt);
+  for (const std::string& warning : {m.doubt, about_variance(m)})
+    if (!warning.empty()) fmt::print("  warning: {}\n", warning);
   const std::filesystem::path& folder = folders.data;
   mc::write_file((folder / "trade.csv").string(), csv(all_points(m), m.cost));
   mc::write_file((folder / "front.csv").string(), csv(a.front, m.cost));

@@ -201,8 +201,8 @@ void judge(Curve& curve, const Experiment& e, const Measurement& m, double tail_
 
 // What independent points say of an integrand.
 struct Look {
-  double size;       // the mean of |f| over a few, which rounding is relative to: the integral itself may cancel
-  double tail_index; // of f
+  double size;   // the mean of |f| over a few, which rounding is relative to: the integral itself may cancel
+  mc::Tail tail; // of f
 };
 
 Look look_at(const Target& target, const MeasureOptions& o) {
@@ -213,7 +213,7 @@ Look look_at(const Target& target, const MeasureOptions& o) {
     sizes.push_back(std::abs(x));
   mc::Magnitudes all;
   all.add(r.values);
-  return {mean_of(sizes), mc::Tail(all).index()};
+  return {mean_of(sizes), mc::Tail(all)};
 }
 
 // The curve whose largest N has the smallest spread that is to be believed, of those that do not adapt. Replicates that
@@ -325,6 +325,8 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
   const auto start = Clock::now();
   const Look look = look_at(target, o);
   m.size = look.size;
+  const double tail_index = look.tail.index();
+  if (look.tail.infinite_variance()) m.heavy_tail = tail_index;
   if (m.size == 0) refuse_underflow(target.integral);
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const double gone = std::chrono::duration<double>(Clock::now() - start).count();
@@ -350,7 +352,7 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
   if (!known) std::tie(m.truth, m.truth_error) = reference(target, m.curves, o);
   m.interrupted = m.interrupted || *o.cancel;
   m.size = std::max(m.size, std::abs(m.truth));
-  for (Curve& c : m.curves) judge(c, target.integral, m, look.tail_index);
+  for (Curve& c : m.curves) judge(c, target.integral, m, tail_index);
   m.doubt = known ? doubt_of(target.integral, m) : doubt_of_reference(m.curves);
   return m;
 }

@@ -52,14 +52,15 @@ inline constexpr Cost cpu_cost{"cpu_seconds", "CPU seconds", " s", " of CPU"};
 inline constexpr Cost ray_cost{"million_rays", "millions of rays", " Mray", ""};
 
 struct Measurement {
-  std::vector<Curve> curves;    ///< of the ways that were begun; when interrupted the last may be cut
-  double truth = 0;             ///< what errors are measured from
-  double truth_error = 0;       ///< standard error of a reference; 0: the truth is known
-  double size = 0;              ///< mean of |f|, or |truth| where that is more: what rounding is relative to
-  std::string doubt;            ///< one line that says why the truth must or may be wrong; empty: no doubt
-  bool interrupted = false;     ///< what was measured until then is kept, for each N that was finished
-  Cost cost = cpu_cost;         ///< what its seconds are
-  std::string plain = "random"; ///< the name of the way that is plain Monte Carlo
+  std::vector<Curve> curves;        ///< of the ways that were begun; when interrupted the last may be cut
+  double truth = 0;                 ///< what errors are measured from
+  double truth_error = 0;           ///< standard error of a reference; 0: the truth is known
+  double size = 0;                  ///< mean of |f|, or |truth| where that is more: what rounding is relative to
+  std::string doubt;                ///< one line that says why the truth must or may be wrong; empty: no doubt
+  bool interrupted = false;         ///< what was measured until then is kept, for each N that was finished
+  std::optional<double> heavy_tail; ///< index of the tail, where the variance looks infinite by mc::Tail
+  Cost cost = cpu_cost;             ///< what its seconds are
+  std::string plain = "random";     ///< the name of the way that is plain Monte Carlo
 };
 
 /// Every way on N = 16, 32, ... max_n, from the fewest that the way works with.

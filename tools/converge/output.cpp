@@ -29,6 +29,13 @@ std::string slope_text(const Curve& c) {
   return c.agrees() ? text : text + ", not in the interval";
 }
 
+std::string about_variance(const Measurement& m) {
+  if (!m.heavy_tail) return {};
+  return fmt::format("the variance of the integrand looks infinite (the largest values fall off with index {:.2f}; a "
+                     "variance needs more than 2, an integral more than 1): RMS errors and slopes may be of chance",
+                     *m.heavy_tail);
+}
+
 std::string summary(const Target& target, const Measurement& m) {
   const Experiment& e = target.integral;
   std::string text = e.title == e.name ? e.name + "\n" : fmt::format("{}: {}\n", e.name, e.title);
@@ -41,7 +48,8 @@ std::string summary(const Target& target, const Measurement& m) {
   if (m.truth_error > 0)
     text += fmt::format("  truth unknown; errors are from {:.12g} +- {:.2g}{}\n", m.truth, m.truth_error,
                         m.interrupted ? "" : ", by replicates of their own");
-  if (!m.doubt.empty()) text += fmt::format("  warning: {}\n", m.doubt);
+  for (const std::string& warning : {m.doubt, about_variance(m)})
+    if (!warning.empty()) text += fmt::format("  warning: {}\n", warning);
   return text;
 }
 
@@ -140,6 +148,7 @@ ordered_json to_json(const Target& target, const Measurement& m, const ordered_j
   j["truth_error"] = m.truth_error;
   j["fit_from"] = e.fit_from;
   if (!m.doubt.empty()) j["warning"] = m.doubt;
+  if (m.heavy_tail) j["infinite_variance"] = {{"tail_index", *m.heavy_tail}};
   if (m.interrupted) j["interrupted"] = true;
   j["curves"] = ordered_json::array();
   for (const Curve& c : m.curves) j["curves"].push_back(to_json(c, m.cost));

@@ -13,7 +13,10 @@ namespace carlo {
 /// "slope -0.501 [-0.512, -0.490], theory -0.500".
 std::string slope_text(const Curve& curve);
 
-/// The title, a line for each curve, and what is to be said of the truth.
+/// That the variance looks infinite, in one line; empty where it does not.
+std::string about_variance(const Measurement& m);
+
+/// The title, a line for each curve, and what is to be said of the truth and of the variance.
 std::string summary(const Target& target, const Measurement& m);
 
 /// How many of its curves reached their largest N.

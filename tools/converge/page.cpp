@@ -211,7 +211,8 @@ std::string section(const Measured& one) {
   const auto seconds = [](const mc::RmsError& p) { return p.seconds; };
   std::string s =
       fmt::format("<section><h2>{}</h2><p class=\"facts\">{}</p>", escaped(one.target->integral.title), facts(one));
-  if (!m.doubt.empty()) s += fmt::format("<p class=\"doubt\">{}</p>", escaped(m.doubt));
+  for (const std::string& warning : {m.doubt, about_variance(m)})
+    if (!warning.empty()) s += fmt::format("<p class=\"doubt\">{}</p>", escaped(warning));
   if (one.answers) s += answers(one);
   s += "<div class=\"panels\">" + error_panel(m.curves, {.axis = words.n, .x = n, .theory = true});
   s += error_panel(

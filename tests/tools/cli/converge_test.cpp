@@ -100,6 +100,18 @@ TEST_F(Converge, EveryWayIsMeasuredBesideTheory) {
   EXPECT_THAT(out("slopes.csv"), HasSubstr(",at least -0.5000,"));
 }
 
+TEST_F(Converge, AnInfiniteVarianceIsNamed) {
+  const Ran r = run("'x^-0.7' -d x=0:1 --max-n 4096 --report '" + path("page") + "'");
+  const auto named = testing::ContainsRegex("the variance of the integrand looks infinite .the largest values fall off "
+                                            "with index 1.[2-6]");
+  EXPECT_THAT(r.output, named);
+  EXPECT_THAT(mc::read_file(path("page/index.html")), named);
+  EXPECT_THAT(out("x_-0_7.json"), HasSubstr("\"infinite_variance\": {\n  \"tail_index\": 1."));
+  EXPECT_THAT(run("'exp(x)' -d x=0:1 --max-n 4096").output, Not(HasSubstr("variance")));
+  EXPECT_THAT(out("exp_x_.json"), Not(HasSubstr("infinite_variance")));
+  EXPECT_THAT(run_carlo("trade 'x^-0.7' -d x=0:1 --max-n 1024 -o '" + path("out") + "'").output, named);
+}
+
 TEST_F(Converge, AnErrorBelowThatOfTheReferenceIsNoFigure) {
   const Ran r = run("'x<0.5 ? 1 : 0' -d x=0:1 --max-n 1024 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;

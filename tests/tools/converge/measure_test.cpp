@@ -208,6 +208,24 @@ TEST(Measure, AnInterruptBeforeAnyTruthLeavesNothing) {
   EXPECT_TRUE(m.curves.empty());
 }
 
+// Of 20 seeds 17 name the infinite variance of x^-1/2, by a logarithm alone, all that of x^-.7, and none that of x^-.4.
+TEST(Measure, AnInfiniteVarianceIsNamed) {
+  const auto list = ways({"random"});
+  const auto named = [&](double power) {
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      Experiment e = ramp(std::numeric_limits<double>::quiet_NaN());
+      e.f = [power](Experiment::Unit u) { return std::pow(u[0], power); };
+      count += measure(here(e), list, {.max_n = 4096, .replicates = 8, .seed = seed}).heavy_tail.has_value();
+    }
+    return count;
+  };
+  EXPECT_GE(named(-0.5), 10);
+  EXPECT_EQ(named(-0.7), 20);
+  EXPECT_LE(named(-0.4), 1);
+  EXPECT_EQ(named(1), 0);
+}
+
 // A reference of replicates is doubted where one of them holds over half of their variance again and again: of 1/x, not
 // of 1/sqrt(x), whose variance is infinite too but only just, nor of what is smooth.
 TEST(Measure, TheReferenceOfADivergentIntegralIsDoubted) {
