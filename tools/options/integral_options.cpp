@@ -178,6 +178,7 @@ Pictures measure_scene(const SceneOptions& o, const SceneRun& run) {
   mc::require(!adaptive || o.max_spp >= 32, "--max-spp {} must be at least 32 for adaptive spending", o.max_spp);
   const ::render::SceneFile file = ::render::read_mitsuba(run.path);
   warn_of_departures(file);
+  warn_where_coarse(run.path, file.scene);
   const ::render::RenderDefaults& own = file.defaults;
   PictureOptions p{.width = 48, .height = std::max(1, 48 * own.height / own.width), .max_spp = o.max_spp};
   if (!o.size.empty()) std::tie(p.width, p.height) = size_in(o.size);

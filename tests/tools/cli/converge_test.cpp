@@ -67,6 +67,23 @@ TEST_F(Converge, ASceneHasNoTruthButAReference) {
   expect_refused("pi --max-n 1", "--max-n 1 must lie between 64 and 2^28"); // not what one sampler takes at least
 }
 
+// As carlo render does, once.
+TEST_F(Converge, WarnsWhereFloatsCannotHoldAScene) {
+  const std::string huge = write("huge.xml", R"(<scene version="0.5.0"><sensor type="perspective">
+    <float name="fov" value="40"/></sensor><emitter type="constant"/>
+    <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape>
+    <shape type="sphere"><point name="center" x="0" y="0" z="3e20"/><float name="radius" value="1e20"/></shape>
+    </scene>)");
+  const std::string warning = "carlo: warning: " + huge + ": the scene is 4.9e+20 across, and floats hold areas";
+  for (const std::string command : {"converge ", "trade "}) {
+    const std::string said =
+        run_carlo(command + huge + " --size 4x4 --strategies mis --max-spp 32 --threads 1 -o '" + path("out") + "'")
+            .output;
+    EXPECT_THAT(said, HasSubstr(warning)) << command;
+    EXPECT_EQ(said.find("carlo: warning"), said.rfind("carlo: warning")) << said;
+  }
+}
+
 // A white sphere in a white furnace: all light is 1, and what pixels differ by is rounding.
 TEST_F(Converge, ASceneWithoutNoiseBeyondRoundingHasNoError) {
   const std::string furnace = write("furnace.xml", R"(<scene version="3.0.0">
