@@ -5,6 +5,7 @@
 #include <report/integrate_output.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
+#include <terminal/result_file.h>
 
 #include <mc/core/error.h>
 #include <mc/core/file.h>
@@ -60,7 +61,7 @@ std::vector<Option> rows(IntegrateOptions& o) {
       {"--save-density", "FILE", &o.save_density, "Keep the density that vegas, tree or auto learned"},
       {"--load-density", "FILE", &o.load_density,
        "Start from a density that was kept, of this integrand or one like it; where it does not fit learning goes on"},
-      {"--json", "FILE", &o.json, "Write the result to this file, with the rounds"},
+      {"--json", "FILE", &o.json, "Write the result to this file, with the rounds; - for standard output"},
   };
 }
 
@@ -224,10 +225,10 @@ int integrate(const IntegrateOptions& o) {
     for (const Experiment* e : named_integrands()) std::printf("%-26s %s\n", e->name.c_str(), e->title.c_str());
     return exit_ok;
   }
-  for (const std::string& file : {o.json, o.save_density})
-    if (!file.empty()) mc::require_writable(file);
+  if (!o.save_density.empty()) mc::require_writable(o.save_density);
   mc::require(o.json.empty() || o.json != o.save_density,
               "--json and --save-density would both write '{}'; name another file", o.json);
+  const ResultFile json(o.json);
   Integrals found{.integrands = integrands_of(o), .results = {}};
   const Experiment& first = found.integrands.front();
   const std::vector<double> wanted = probabilities(o.quantiles);
@@ -263,7 +264,7 @@ int integrate(const IntegrateOptions& o) {
   const bool cancelled = r.stop == mc::Stop::cancelled || !find_quantiles(found, wanted, o, interrupt);
 
   fmt::print("{}{}{}{}", about(found), o.rounds ? round_table(r) : "", histogram_table(found), quantile_table(found));
-  if (!o.json.empty()) mc::write_file(o.json, integrals_json(found, o.command, o.seed));
+  if (json.is_wanted()) json.write(integrals_json(found, o.command, o.seed));
   if (!o.save_density.empty()) {
     mc::require(r.density != nullptr,
                 "--save-density: nothing was learned by {} in {} calls, and {} is not written; "

@@ -4,10 +4,10 @@
 #include <slips/slips.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
+#include <terminal/result_file.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
-#include <mc/core/file.h>
 #include <mc/core/parallel.h>
 #include <mc/core/text.h>
 #include <mc/random/hash.h>
@@ -183,7 +183,7 @@ std::vector<Option> rows(SlipsOptions& o) {
       {"--samples", "N", &o.samples, "Samples per slip at most"},
       {"--seed", "N", &o.seed, "Seed"},
       {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
-      {"--json", "FILE", &o.json, "Write the results to this file"},
+      {"--json", "FILE", &o.json, "Write the results to this file, - for standard output"},
   };
 }
 
@@ -198,7 +198,7 @@ int slips(const SlipsOptions& o) {
   mc::require(o.alpha > 0 && o.alpha < 1, "slips: --alpha {} must lie in (0, 1)", o.alpha);
   mc::require(o.samples >= 8000 && o.samples <= 1'000'000'000, "slips: --samples {} must lie in [8000, 1e9]",
               o.samples);
-  if (!o.json.empty()) mc::require_writable(o.json);
+  const ResultFile file(o.json);
 
   const Interrupt interrupt;
   const std::vector<std::optional<Judged>> judged = judge_all(slips, o, interrupt.flag());
@@ -222,7 +222,7 @@ int slips(const SlipsOptions& o) {
   const bool passed = caught == slips.size() && right == slips.size() && boxes_as_claimed && !interrupted;
   all["passed"] = passed;
   if (interrupted) all["interrupted"] = true;
-  if (!o.json.empty()) mc::write_file(o.json, json_text(all));
+  if (file.is_wanted()) file.write(json_text(all));
   if (interrupted) return exit_interrupted;
   return passed ? exit_ok : exit_failed;
 }

@@ -6,6 +6,7 @@
 #include <report/validate_output.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
+#include <terminal/result_file.h>
 
 #include <mc/check/check_subject.h>
 #include <mc/core/error.h>
@@ -116,8 +117,8 @@ std::vector<Option> rows(ValidateOptions& o) {
       {"--seed", "N", &o.seed, "Seed"},
       {"--scalar", "TYPE", &o.scalar, "float or double [both]"},
       {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
-      {"--json", "FILE", &o.json, "Write the results to this file"},
-      {"--junit", "FILE", &o.junit, "Write the results to this file as JUnit XML"},
+      {"--json", "FILE", &o.json, "Write the results to this file, - for standard output"},
+      {"--junit", "FILE", &o.junit, "Write the results to this file as JUnit XML, - for standard output"},
       {"--report", "FOLDER", &o.report, "Write a page with maps and curves of every case to this folder (index.html)"},
       {"--plugin", "FILE", &o.plugin, "Check the samplers of this shared object, compiled against <mc/check/plugin.h>"},
       {"--params", "NAME=VALUE,...", &o.parameters,
@@ -198,10 +199,6 @@ void require_possible(ValidateOptions& o, double alpha, std::uint64_t available)
               "{}: it holds {} samples to count beside those for the bins; --detect {} needs {}", o.samples_file,
               available, o.detect.value_or(0), o.samples);
   mc::require(o.samples >= 1000, "validate: --samples {}; at least 1000 are needed", o.samples);
-  for (const std::string& file : {o.json, o.junit})
-    if (!file.empty()) mc::require_writable(file);
-  mc::require(o.json.empty() || o.json != o.junit, "--json and --junit would both write '{}'; name another file",
-              o.json);
 }
 
 // The cases that finished, with their reports.
@@ -310,6 +307,9 @@ int validate(const ValidateOptions& options) {
   }
   mc::require(o.alpha > 0 && o.alpha < 1, "validate: --alpha {} must lie in (0, 1)", o.alpha);
   const double alpha = mc::sidak_level(o.alpha, 1 / static_cast<double>(cases.size()));
+  mc::require(o.json.empty() || o.json != o.junit, "--json and --junit would both write '{}'; name another file",
+              o.json);
+  const ResultFile json(o.json), junit(o.junit);
   require_possible(o, alpha, brought.samples);
   const std::string page = o.report.empty() ? "" : (mc::output_folder(o.report, "index.html") / "index.html").string();
 
@@ -323,8 +323,8 @@ int validate(const ValidateOptions& options) {
                 finished.cases.size() + finished.unchecked.size() < cases.size(),
                 finished.unchecked};
   print_summary(run, cases.size());
-  if (!o.junit.empty()) write_junit(o.junit, run);
-  if (!o.json.empty()) write_json(o.json, run);
+  if (junit.is_wanted()) junit.write(run_junit(run));
+  if (json.is_wanted()) json.write(run_json(run));
   if (!page.empty()) {
     write_page(page, run);
     fmt::print("page: {}\n", page);

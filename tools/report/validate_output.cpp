@@ -65,7 +65,7 @@ std::string command_again(const Case& c, const RunSettings& settings, std::size_
                      settings.open_interval ? " --open-interval" : "");
 }
 
-void write_json(const std::string& file, const Run& run) { mc::write_file(file, json_text(results(run))); }
+std::string run_json(const Run& run) { return json_text(results(run)); }
 
 void write_page(const std::string& file, const Run& run) {
   const auto& [settings, cases, reports, interrupted, unchecked] = run;

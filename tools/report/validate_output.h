@@ -36,11 +36,11 @@ struct Run {
 std::string command_again(const Case& c, const RunSettings& settings, std::size_t cases);
 
 /// The schema is in tools/report/README.md; not finite numbers are null.
-void write_json(const std::string& file, const Run& run);
+std::string run_json(const Run& run);
 
 /// One testsuite, one testcase per case with its figures as properties; the report of a case that did not pass is its
 /// failure.
-void write_junit(const std::string& file, const Run& run);
+std::string run_junit(const Run& run);
 
 /// A page that needs no other file and no network: the results, and for each case that kept its evidence the maps of
 /// observed and expected counts and of their residuals, and the way of its p-value. Cases that did not pass keep all of

@@ -8,6 +8,7 @@
 #include <mc/core/file.h>
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
@@ -62,6 +63,29 @@ TEST_F(OutputTest, StandardOutputIsAPlaceForJson) {
   EXPECT_LT(run.output.find("calls in"), run.output.find("\"commit\"")) << run.output;
   support::run(carlo("--json /dev/stdout > '" + path("both") + "'"));
   EXPECT_THAT(mc::read_file(path("both")), AllOf(HasSubstr("calls in"), HasSubstr("\"commit\"")));
+}
+
+// What else is said goes to standard error, and no file "-" is made.
+TEST_F(OutputTest, ADashIsStandardOutputForJson) {
+  const auto said = [&](const std::string& arguments) { // on standard output; the rest goes to a file
+    return support::run("(cd '" + folder.string() + "' && '" CARLO_PATH "' " + arguments + " 2>words)").output;
+  };
+  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n'); };
+  const std::string validate = "validate UniformDisk --samples 1000 --scalar double";
+  for (const std::string& command :
+       {std::string("integrate 'x*x' -d x=0:1 --max-calls 1000"), std::string("slips P1 --samples 8000"), validate}) {
+    const std::string json = said(command + " --json -");
+    EXPECT_TRUE(nlohmann::json::accept(json)) << json;
+    EXPECT_THAT(json, HasSubstr("\"commit\""));
+    const std::string words = mc::read_file(path("words"));
+    EXPECT_EQ(lines(words), lines(said(command))) << words;
+    EXPECT_FALSE(std::filesystem::exists(path("-")));
+  }
+  EXPECT_THAT(said(validate + " --junit -"), AllOf(testing::StartsWith("<?xml"), testing::EndsWith("</testsuite>\n")));
+  expect_one_line(support::run_carlo(validate + " --junit - --json -"), "--json and --junit would both write '-'");
+  expect_one_line(support::run_carlo("integrate 1/0 -d x=2:3 --json -"), "must be finite");
+  EXPECT_THAT(support::run("(" + carlo("--json - 3>&1 1>/dev/full 2>&3") + ")").output,
+              HasSubstr("carlo: cannot write to standard output: No space left on device\n"));
 }
 
 TEST_F(OutputTest, ADeviceStaysADevice) {
