@@ -12,14 +12,14 @@ namespace support {
 /// Moments of the radiance that n independent paths find, in one channel. None may be without an answer.
 template <class Scene>
 mc::Moments traced(const Scene& scene, const render::Ray& ray, const render::PathOptions& options, int n,
-                   int channel = 0, const render::Media& around = {}) {
+                   int channel = 0) {
   const render::PathIntegrator<Scene> integrator(scene, options);
   const mc::NoPairs numbers(2026, 0);
   mc::Moments moments;
   std::uint64_t rays = 0;
   for (int i = 0; i < n; ++i) {
     mc::IndependentWalk<render::Float> stream(numbers, std::uint32_t(i));
-    moments.add(double(integrator.radiance(ray, stream, rays, around)[channel]), std::uint64_t(i));
+    moments.add(double(integrator.radiance(ray, stream, rays)[channel]), std::uint64_t(i));
   }
   EXPECT_EQ(moments.non_finite(), 0u);
   return moments;
