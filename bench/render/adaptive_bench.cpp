@@ -1,14 +1,15 @@
-/// What samples where the error is gain, and whether they stay true: even and adaptive spending in turn, as CSV on
-/// stdout.
+/// What samples where the error is and tiles that share paths gain, and whether they stay true: even and adaptive
+/// spending, both with tiles too, in turn, as CSV on stdout.
 /// Usage: bench_render_adaptive SCENE.xml... [-- SEEDS [SIZE [SPP [REFERENCE_SPP]]]]
 ///   relmse     : mean of (x - reference)^2 / (reference^2 + 0.01) over pixels, channels and seeds, less what the
 ///                noise of the reference adds
 ///   relative_error: root of the mean square over seeds of what the pictures say of theirs, see Film
-///   gain       : CPU seconds times relmse of even spending over those of adaptive, and its standard error
+///   gain       : CPU seconds times relmse of even spending over those of this one, and its standard error
 ///   z_mean, z_sd: of the pictures' mean radiance against the reference's, by their own error bars; a standard error
 ///                of z_mean is 1 / sqrt(SEEDS), and sqrt(SPP / REFERENCE_SPP) of it is the reference's, of z_sd
-///                1 / sqrt(2 SEEDS)
-///   picture    : mean over pixels of the squared difference of the mean pictures of both, in green, over its variance:
+///                1 / sqrt(2 SEEDS). Of tiles the noise of the mean is stated too large, up to twice
+///   picture    : mean over pixels of the squared difference of the mean picture to that of even spending, in green,
+///                over its variance:
 ///                1 where they show the same
 ///   held       : share of 95 % intervals of pixels that hold the reference
 
@@ -44,8 +45,8 @@ double z_score(const Image& image, const Image& truth) {
   for (std::size_t i = 0; i < truth.pixels.size(); ++i) {
     off += (image.pixels[i] - truth.pixels[i]).cast<double>().sum();
     // Channels of a pixel vary together: the standard error of their sum is at most the sum of theirs, and nearly so.
-    variance +=
-        mc::sqr(image.variance[i].cast<double>().sqrt().sum()) + mc::sqr(truth.variance[i].cast<double>().sqrt().sum());
+    variance += image.noise_area * mc::sqr(image.variance[i].cast<double>().sqrt().sum()) +
+                mc::sqr(truth.variance[i].cast<double>().sqrt().sum());
   }
   return off / std::sqrt(variance);
 }
@@ -95,20 +96,23 @@ void show(const std::string& path, int seeds, int size, int spp, int reference_s
   options.adaptive = true;
   const Image truth = render::render(file.scene, options).image;
   options.spp = spp;
-  Spending even{"even"}, adaptive{"adaptive"};
-  for (int i = 0; i < 2 * seeds; ++i) { // in turn, each with its own seeds
-    Spending& spending = i % 2 == 0 ? even : adaptive;
-    options.seed = std::uint64_t(i);
-    options.adaptive = &spending == &adaptive;
-    spending.add(render::render(file.scene, options), truth);
+  std::array<Spending, 4> all = {{{"even"}, {"adaptive"}, {"tiles"}, {"adaptive tiles"}}};
+  const Spending& even = all[0];
+  for (std::size_t i = 0; i < all.size() * std::size_t(seeds); ++i) { // in turn, each with its own seeds
+    const std::size_t way = i % all.size();
+    options.seed = i;
+    options.adaptive = way % 2 == 1;
+    options.tiles = way >= 2;
+    all[way].add(render::render(file.scene, options), truth);
   }
-  for (const Spending* s : {&even, &adaptive}) {
+  for (const Spending& one : all) {
+    const Spending* s = &one;
     const double gain = even.cost() / s->cost(),
                  gain_error = s == &even ? 0 : gain * std::sqrt(even.relative_variance() + s->relative_variance());
     fmt::print("{},{},{:.2f},{:.4f},{:.3g},{:.3g},{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.4f},{:.3f}\n",
                std::filesystem::path(path).stem().string(), s->name, s->spp.mean(), s->seconds.mean(), s->relmse.mean(),
                s->relmse.std_error(), std::sqrt(s->error.mean()), gain, gain_error, s->z.mean(),
-               std::sqrt(s->z.variance()), s->held / s->intervals, difference(even, adaptive));
+               std::sqrt(s->z.variance()), s->held / s->intervals, difference(even, *s));
   }
   std::fflush(stdout);
 }

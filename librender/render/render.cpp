@@ -30,8 +30,6 @@ void check(const Scene& scene, const RenderOptions& options) {
               options.target_error.value_or(0));
   mc::require(!options.splat || !options.adaptive.value_or(false),
               "render: splats are spent evenly; leave out splat or adaptive");
-  mc::require(!options.tiles || !options.adaptive.value_or(false),
-              "render: tiles are spent evenly; leave out tiles or adaptive");
   mc::require(!options.tiles || !options.splat, "render: tiles take no splats; leave out one of both");
   mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
               options.max_depth);
@@ -54,8 +52,7 @@ constexpr int point_sets = 2;
 constexpr double least_pilot = 16; ///< samples per pixel
 
 bool is_adaptive(const RenderOptions& options) {
-  return !options.splat && !options.tiles &&
-         options.adaptive.value_or(options.seconds.has_value() || options.target_error.has_value());
+  return !options.splat && options.adaptive.value_or(options.seconds.has_value() || options.target_error.has_value());
 }
 
 // Unless a filter is so narrow that nothing is shared.
@@ -165,7 +162,7 @@ class Work {
       const auto from = std::span(taken_).subspan(y * width(), width()),
                  to = std::span(taken).subspan(y * width(), width());
       for (std::size_t x = 0; x < width(); ++x) to[x] = std::max(to[x], plan_.samples(y * width() + x, mean));
-      tallies[y] = tile_taker_ ? tile_taker_->take(static_cast<int>(y), from[0], to[0], film)
+      tallies[y] = tile_taker_ ? tile_taker_->take(static_cast<int>(y), from, to, film)
                                : taker_.take(static_cast<int>(y) - taker_.border(), from, to, film);
       samples += tallies[y].samples;
       const double rows = double(++done) / double(height());
@@ -209,7 +206,8 @@ class Work {
       partial_ = mean_ < wanted && !out_of_time();
       if (!partial_ || cancelled()) return;
       if (is_pilot && mean_ >= least_pilot && mean_ >= wanted / 6) { // rounds double: about a quarter
-        plan_ = adaptive_plan(film_, mean_ / wanted, options_.error_of, options_.threads);
+        plan_ = adaptive_plan(film_, mean_ / wanted, options_.error_of, options_.threads,
+                              tile_taker_ ? tile_taker_->tiling() : Tiling{});
         is_pilot = false;
       }
       const double mean = end_of_round(wanted, is_pilot);

@@ -31,7 +31,7 @@ struct RenderOptions {
   Strategy strategy = strategy_from("bidirectional");
   PixelSampler sampler = PixelSampler::sobol;
   bool splat = false; ///< samples count for all pixels under the filter, see SplatFilter; spent evenly
-  bool tiles = false; ///< pixels share paths by tiles, see TileIntegrator; spent evenly
+  bool tiles = false; ///< pixels share paths by tiles, see TileIntegrator
   int max_depth = -1; ///< longest path in edges; -1: no limit
   Shown shown = Shown::radiance;
   std::uint64_t seed = 0;

@@ -1,5 +1,6 @@
 #include <render/tile_sampler.h>
 
+#include <algorithm>
 #include <array>
 
 namespace render {
@@ -18,12 +19,17 @@ TileTaker::Take TileTaker::take_of(PixelSampler sampler) {
   return nullptr;
 }
 
-template <class Stream> Tally TileTaker::take_by(int y, std::uint32_t from, std::uint32_t to, Film& film) const {
+template <class Stream>
+Tally TileTaker::take_by(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                         Film& film) const {
   Tally tally;
   if (!begins(y)) return tally;
   const auto start = [](int at) { return at - at % side; };
-  const int top = start(whole_.part.y + y), right = whole_.part.x + whole_.part.width;
-  for (int left = start(whole_.part.x); left < right; left += side) take_tile<Stream>(left, top, from, to, film, tally);
+  const int x = whole_.part.x, top = start(whole_.part.y + y);
+  for (int left = start(x); left < x + whole_.part.width; left += side) {
+    const auto first = static_cast<std::size_t>(std::max(left - x, 0));
+    take_tile<Stream>(left, top, from[first], to[first], film, tally);
+  }
   return tally;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Samples of tiles of pixels.
 
+#include <render/film/sampling_plan.h>
 #include <render/integrator/tile.h>
 #include <render/pixel_sampler.h>
 
@@ -18,9 +19,12 @@ class TileTaker {
   /// Whether tiles begin at the film's row y; those that begin above it do at its first.
   bool begins(int y) const { return y == 0 || (whole_.part.y + y) % side == 0; }
 
-  /// Adds to the film the samples [from, to) of all pixels of the tiles that begin at its row y; what is not finite is
-  /// left out.
-  Tally take(int y, std::uint32_t from, std::uint32_t to, Film& film) const {
+  /// Where the film's pixels lie in their tiles.
+  Tiling tiling() const { return {side, whole_.part.x % side, whole_.part.y % side}; }
+
+  /// Adds to the film the samples [from[x], to[x]) of all pixels of the tiles that begin at its row y, of each of which
+  /// x is the first column; what is not finite is left out.
+  Tally take(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, Film& film) const {
     return (this->*take_)(y, from, to, film);
   }
 
@@ -28,8 +32,9 @@ class TileTaker {
   static constexpr int side = TileIntegrator<Scene>::side;
   static constexpr std::size_t pixels = TileIntegrator<Scene>::pixels;
 
-  using Take = Tally (TileTaker::*)(int, std::uint32_t, std::uint32_t, Film&) const;
-  template <class Stream> Tally take_by(int y, std::uint32_t from, std::uint32_t to, Film& film) const;
+  using Take = Tally (TileTaker::*)(int, std::span<const std::uint32_t>, std::span<const std::uint32_t>, Film&) const;
+  template <class Stream>
+  Tally take_by(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, Film& film) const;
   template <class Stream>
   void take_tile(int left, int top, std::uint32_t from, std::uint32_t to, Film& film, Tally& tally) const;
   static Take take_of(PixelSampler sampler);

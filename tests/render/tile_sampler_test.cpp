@@ -21,13 +21,14 @@ TEST(TileTaker, PartsAreTheWhole) {
   for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
     const TileTaker taker(scene, {}, {sampler, 5, 4}, {7, 7, {1, 1, 5, 4}});
     Film whole(5, 4, 3), parts(5, 4, 3);
+    const std::vector<std::uint32_t> none(5, 0), some(5, 7), all(5, 40);
     Tally one, two;
     for (const int y : {0, 1, 2, 3}) {
       EXPECT_EQ(taker.begins(y), y != 2);
-      one.merge(taker.take(y, 0, 40, whole));
-      two.merge(taker.take(y, 0, 7, parts));
+      one.merge(taker.take(y, none, all, whole));
+      two.merge(taker.take(y, none, some, parts));
     }
-    for (const int y : {3, 2, 1, 0}) two.merge(taker.take(y, 7, 40, parts));
+    for (const int y : {3, 2, 1, 0}) two.merge(taker.take(y, some, all, parts));
     EXPECT_EQ(one.samples, 5u * 4 * 40);
     EXPECT_EQ(two.samples, one.samples);
     EXPECT_EQ(one.rays, two.rays);
@@ -54,7 +55,7 @@ TEST(TileTaker, CountsInvalidSamples) {
   const Scene scene = builder.build();
   const TileTaker taker(scene, {.strategy = strategy_from("nee")}, {PixelSampler::sobol, 5, 4}, {2, 2, {0, 0, 2, 2}});
   Film film(2, 2, 2);
-  const Tally tally = taker.take(0, 0, 8, film);
+  const Tally tally = taker.take(0, std::vector<std::uint32_t>{0, 0}, std::vector<std::uint32_t>{8, 8}, film);
   EXPECT_EQ(tally.samples, 32u);
   std::uint64_t valid = 0;
   for (int y = 0; y < 2; ++y)

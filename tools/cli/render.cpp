@@ -136,7 +136,7 @@ std::vector<Option> rows(RenderOptions& o) {
        "",
        &o.tiles,
        "2x2 pixels share the light that their paths find to leave diffuse surfaces: about half the time to an error in "
-       "rooms of diffuse walls, with noise that the four share; spent evenly",
+       "rooms of diffuse walls, with noise that the four share",
        false,
        {"--splat"}},
       {"--max-depth", "N", &o.max_depth,
@@ -213,8 +213,7 @@ const GalleryScene* named_scene(const std::string& word) {
   mc::require(options.adaptive.empty() || options.adaptive == "on" || options.adaptive == "off",
               "--adaptive '{}' must be on or off", options.adaptive);
   if (!options.adaptive.empty()) settings.adaptive = options.adaptive == "on";
-  mc::require(options.adaptive != "on" || !(options.splat || options.tiles),
-              "--{} spends samples evenly; leave out --adaptive on", options.splat ? "splat" : "tiles");
+  mc::require(!options.splat || options.adaptive != "on", "--splat spends samples evenly; leave out --adaptive on");
   settings.splat = options.splat;
   settings.tiles = options.tiles;
   if (!options.strategy.empty()) settings.strategy = ::render::strategy_from(options.strategy);

@@ -39,6 +39,32 @@ std::vector<Need> needs_of(const Film& film) {
   return needs;
 }
 
+/// What the tiles of a film need, row by row.
+struct Tiles {
+  int width, height;
+  std::vector<Need> needs;
+  std::vector<std::size_t> of_pixels; ///< the tile of each pixel
+
+  Tiles(const Film& film, const Tiling& tiling)
+      : width((tiling.x + film.width() - 1) / tiling.side + 1),
+        height((tiling.y + film.height() - 1) / tiling.side + 1),
+        needs(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    const std::vector<Need> pixels = needs_of(film);
+    of_pixels.reserve(pixels.size());
+    for (int y = 0; y < film.height(); ++y)
+      for (int x = 0; x < film.width(); ++x) {
+        const std::size_t tile = at((tiling.x + x) / tiling.side, (tiling.y + y) / tiling.side);
+        needs[tile].variance += pixels[of_pixels.size()].variance;
+        needs[tile].rays += pixels[of_pixels.size()].rays;
+        of_pixels.push_back(tile);
+      }
+  }
+
+  std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+};
+
 constexpr int radius = 8;
 
 // Weights of the neighbours by their distance along both axes.
@@ -70,28 +96,24 @@ std::vector<double> with_mean_one(const std::vector<double>& wishes, double leas
   return rates;
 }
 
-std::vector<double> wishes_of(const Film& pilot, const std::vector<Need>& needs, ErrorOf of, int threads) {
+std::vector<double> wishes_of(const Tiles& tiles, ErrorOf of, int threads) {
   const auto weights = neighbour_weights();
-  const int width = pilot.width(), height = pilot.height();
-  const auto at = [width](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  };
-  std::vector<double> wishes(needs.size());
-  mc::parallel_for(static_cast<std::size_t>(height), threads, [&](std::size_t row) {
+  std::vector<double> wishes(tiles.needs.size());
+  mc::parallel_for(static_cast<std::size_t>(tiles.height), threads, [&](std::size_t row) {
     const int y = static_cast<int>(row);
-    for (int x = 0; x < width; ++x) {
+    for (int x = 0; x < tiles.width; ++x) {
       Need sum;
       double weight = 0;
-      for (int j = std::max(y - radius, 0); j < std::min(y + radius + 1, height); ++j)
-        for (int i = std::max(x - radius, 0); i < std::min(x + radius + 1, width); ++i) {
+      for (int j = std::max(y - radius, 0); j < std::min(y + radius + 1, tiles.height); ++j)
+        for (int i = std::max(x - radius, 0); i < std::min(x + radius + 1, tiles.width); ++i) {
           const double w =
               weights[static_cast<std::size_t>(std::abs(j - y))][static_cast<std::size_t>(std::abs(i - x))];
           weight += w;
-          sum.variance += w * needs[at(i, j)].variance;
-          sum.rays += w * needs[at(i, j)].rays;
+          sum.variance += w * tiles.needs[tiles.at(i, j)].variance;
+          sum.rays += w * tiles.needs[tiles.at(i, j)].rays;
         }
       if (sum.variance > 0)
-        wishes[at(x, y)] = of == ErrorOf::picture ? std::sqrt(sum.variance / sum.rays) : sum.variance / weight;
+        wishes[tiles.at(x, y)] = of == ErrorOf::picture ? std::sqrt(sum.variance / sum.rays) : sum.variance / weight;
     }
   });
   return wishes;
@@ -113,7 +135,7 @@ struct Candidate {
   }
 };
 
-// Every pixel takes the candidate that costs all others least.
+// Every tile takes the candidate that costs all others least.
 std::vector<double> best_of(const std::vector<Candidate>& candidates, const std::vector<Need>& needs) {
   std::vector<double> rates(needs.size());
   for (std::size_t i = 0; i < needs.size(); ++i) {
@@ -128,10 +150,10 @@ std::vector<double> best_of(const std::vector<Candidate>& candidates, const std:
 
 } // namespace
 
-SamplingPlan adaptive_plan(const Film& pilot, double least, ErrorOf of, int threads) {
+SamplingPlan adaptive_plan(const Film& pilot, double least, ErrorOf of, int threads, const Tiling& tiling) {
   mc::require(least > 0 && least <= 1, "adaptive_plan: the least rate {} must lie in (0, 1]", least);
-  const std::vector<Need> needs = needs_of(pilot);
-  std::vector<double> wishes = wishes_of(pilot, needs, of, threads);
+  const Tiles tiles(pilot, tiling);
+  std::vector<double> wishes = wishes_of(tiles, of, threads);
   if (std::all_of(wishes.begin(), wishes.end(), [](double w) { return w == 0; })) return {};
   std::vector<double> rates = with_mean_one(wishes, least);
   if (of == ErrorOf::picture) {
@@ -139,11 +161,14 @@ SamplingPlan adaptive_plan(const Film& pilot, double least, ErrorOf of, int thre
     for (const double power : {0.0, 0.5, 0.75, 1.0, 1.25}) {
       std::vector<double> some = wishes;
       for (double& w : some) w = std::pow(w, power);
-      candidates.emplace_back(with_mean_one(some, least), needs);
+      candidates.emplace_back(with_mean_one(some, least), tiles.needs);
     }
-    rates = with_mean_one(best_of(candidates, needs), least);
+    rates = with_mean_one(best_of(candidates, tiles.needs), least);
   }
-  return {std::vector<float>(rates.begin(), rates.end())};
+  SamplingPlan plan;
+  plan.rates.reserve(tiles.of_pixels.size());
+  for (const std::size_t tile : tiles.of_pixels) plan.rates.push_back(static_cast<float>(rates[tile]));
+  return plan;
 }
 
 } // namespace render

@@ -15,10 +15,17 @@ struct SamplingPlan {
   }
 };
 
+/// Squares of pixels whose samples are taken together.
+struct Tiling {
+  int side = 1;     ///< [pixels]
+  int x = 0, y = 0; ///< of the film's first pixel in its tile
+};
+
 /// Samples where the error is, as far as a pilot has seen. A pixel's rate follows from its neighbours within 8 pixels,
 /// not from itself: so the samples of the pilot and those that it asks for are averaged with weights that do not
 /// depend on their values, no pixel is biased and its error bar stays true. (That the mean is 1 depends on all pixels,
-/// on each of n by about 1/n.)
+/// on each of n by about 1/n.) Where pixels share paths by tiles the same holds for these: all of a tile have one rate,
+/// which follows from the tiles within 8 of it.
 ///   Of each neighbour: v, variance / radiance^2 of one sample, averaged over the channels, radiance as in
 ///   Film::relative_error but of the pixel alone; and c, the rays of one sample. Neighbours weigh by the inverse square
 ///   of their distance. For the error of the picture rates are a power of sqrt(v / c): the one among 0 (even), .5, .75,
@@ -27,6 +34,7 @@ struct SamplingPlan {
 ///   least  : no rate is below, so that what the pilot missed is met later
 ///   threads: the plan does not depend on them
 ///   throws : Error unless 0 < least <= 1
-SamplingPlan adaptive_plan(const Film& pilot, double least, ErrorOf of = ErrorOf::picture, int threads = 0);
+SamplingPlan adaptive_plan(const Film& pilot, double least, ErrorOf of = ErrorOf::picture, int threads = 0,
+                           const Tiling& tiling = {});
 
 } // namespace render

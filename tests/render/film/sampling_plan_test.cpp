@@ -46,6 +46,28 @@ TEST(SamplingPlan, SpendsWhereTheErrorIsByItsCost) {
   EXPECT_EQ(SamplingPlan().samples(quiet, 7), 7u);
 }
 
+// All of a tile have one rate, which only tiles beside it tell; tiles may be cut by the film's edges.
+TEST(SamplingPlan, TilesAskTheTilesAbout) {
+  const auto rays = [](int, int) { return 3; };
+  std::vector<double> noise(39 * 41);
+  for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = i % 39 < 20 ? 0.1 : 1;
+  const auto at = [&](int x, int y) { return noise[39 * std::size_t(y) + std::size_t(x)]; };
+  const Tiling tiling{2, 1, 0};
+  const auto plan = [&] { return adaptive_plan(film_of(39, 41, at, rays), 0.01, ErrorOf::picture, 0, tiling); };
+  const SamplingPlan before = plan();
+  const auto rate = [](const SamplingPlan& p, int x, int y) { return p.rates[39 * std::size_t(y) + std::size_t(x)]; };
+  for (int y = 0; y < 41; ++y)
+    for (int x = 0; x < 39; ++x) EXPECT_EQ(rate(before, x, y), rate(before, x - (x > 0 && x % 2 == 0), y - y % 2));
+  EXPECT_GT(rate(before, 30, 20), 5 * rate(before, 3, 20));
+  noise[39 * 17 + 21] = 3; // of the tile of columns 21, 22 and rows 16, 17
+  const SamplingPlan after = plan();
+  const auto ratio = [&](int x, int y) { return double(rate(after, x, y)) / double(rate(before, x, y)); };
+  for (const int x : {21, 22})
+    for (const int y : {16, 17}) EXPECT_NEAR(ratio(x, y), ratio(3, 20), 1e-6);
+  EXPECT_GT(ratio(23, 17), 1.05 * ratio(3, 20));
+  EXPECT_GT(ratio(20, 15), 1.05 * ratio(3, 20));
+}
+
 // A pixel's own samples change its rate only by its share in the mean of all.
 TEST(SamplingPlan, AsksTheNeighboursNotThePixel) {
   const auto rays = [](int, int) { return 3; };
