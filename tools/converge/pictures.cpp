@@ -233,7 +233,7 @@ class Session {
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   // Twice the samples take twice as long; the first level is always measured.
   bool is_time_left() const { return options_.seconds <= 0 || elapsed() + 2 * last_ <= options_.seconds || spp_ == 4; }
-  bool is_due(const PictureWay& way) const { return way.spending != Spending::adaptive || spp_ >= 32; }
+  bool is_due(const PictureWay& way) const { return !is_adaptive(way.spending) || spp_ >= 32; }
   void show(double share, const std::string& where) const {
     const double before = spp_ - 4, all = 2.0 * options_.max_spp - 4; // of the samples of all levels
     if (options_.progress) options_.progress((before + share * spp_) / all, where);
@@ -320,9 +320,9 @@ class Session {
     o.sampler = way.sampler;
     o.max_depth = way.max_depth;
     o.shown = file_.defaults.shown;
-    o.adaptive = way.spending == Spending::adaptive;
+    o.adaptive = is_adaptive(way.spending);
     o.splat = way.spending == Spending::splat;
-    o.tiles = way.spending == Spending::tiles;
+    o.tiles = has_tiles(way.spending);
     o.seed = seed;
     o.threads = options_.threads;
     o.cancel = options_.cancel;
@@ -346,8 +346,7 @@ class Session {
       curve.way = &way;
       fit(curve);
       biases.push_back(bias_of(level_[i], reference_, begun));
-      const bool is_plain =
-          ways_[i].sampler == ::render::PixelSampler::independent && ways_[i].spending != Spending::adaptive;
+      const bool is_plain = ways_[i].sampler == ::render::PixelSampler::independent && !is_adaptive(ways_[i].spending);
       if (is_plain && !(biases.back().bias.bias.lo > 0)) curve.theory = Rate{0.5, 0, "independent samples"};
       result.measurement.curves.push_back(std::move(curve));
       result.pictures.push_back(level_[i].images.front());
@@ -377,7 +376,7 @@ class Session {
 std::string PictureWay::name() const {
   std::string text = fmt::format("{} {}", strategy.name, ::render::name(sampler));
   if (max_depth > 0) text += fmt::format(" depth {}", max_depth);
-  constexpr std::array<const char*, 4> words = {"", " adaptive", " splat", " tiles"};
+  constexpr std::array<const char*, 5> words = {"", " adaptive", " splat", " tiles", " adaptive tiles"};
   return text + words[static_cast<std::size_t>(spending)];
 }
 

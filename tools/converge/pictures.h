@@ -15,8 +15,12 @@ enum class Spending {
   even,
   adaptive, ///< samples where the error is
   splat,    ///< evenly, each sample for all pixels under the filter
-  tiles     ///< evenly, 2x2 pixels share paths
+  tiles,    ///< evenly, 2x2 pixels share paths
+  adaptive_tiles
 };
+
+inline bool is_adaptive(Spending s) { return s == Spending::adaptive || s == Spending::adaptive_tiles; }
+inline bool has_tiles(Spending s) { return s == Spending::tiles || s == Spending::adaptive_tiles; }
 
 /// One way to render.
 struct PictureWay {
@@ -25,7 +29,7 @@ struct PictureWay {
   int max_depth = -1; ///< longest path in edges; -1: no limit
   Spending spending = Spending::even;
 
-  /// "mis sobol", "nee independent depth 4 adaptive", "mis sobol splat", "mis sobol tiles".
+  /// "mis sobol", "nee independent depth 4 adaptive", "mis sobol splat", "mis sobol adaptive tiles".
   std::string name() const;
 };
 

@@ -64,13 +64,14 @@ bool can_spend(Spending spending, const ::render::SceneFile& file) {
   const ::render::Filter& filter = file.scene.filter();
   if (spending == Spending::splat)
     return filter.radius() <= ::render::SplatFilter::furthest && ::render::SplatFilter(filter).is_wide();
-  return spending != Spending::tiles || file.defaults.shown.what == ::render::Shown::radiance;
+  return !has_tiles(spending) || file.defaults.shown.what == ::render::Shown::radiance;
 }
 
 std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, const ::render::SceneFile& file) {
   const std::string samplers = run.samplers.empty() ? "independent,stratified,sobol" : run.samplers;
   std::vector<PictureWay> ways;
-  for (const Spending spending : {Spending::even, Spending::adaptive, Spending::splat, Spending::tiles}) {
+  for (const Spending spending :
+       {Spending::even, Spending::adaptive, Spending::splat, Spending::tiles, Spending::adaptive_tiles}) {
     if (spending != Spending::even && !run.to_choose && !run.all) continue;
     if (!can_spend(spending, file)) continue;
     for (const int depth : depths_of(o.depths, file.defaults.max_depth))

@@ -222,7 +222,7 @@ TEST(Pictures, RefusesWhatHasNoError) {
   EXPECT_THROW(measure_pictures(file, ways, {.max_spp = 1 << 29}), mc::Error);
   EXPECT_THROW(measure_pictures(file, ways, {.replicates = 2}), mc::Error);
   EXPECT_EQ(way("nee", independent, 4, Spending::adaptive).name(), "nee independent depth 4 adaptive");
-  EXPECT_EQ(way("mis", sobol, -1, Spending::tiles).name(), "mis sobol tiles");
+  EXPECT_EQ(way("mis", sobol, -1, Spending::adaptive_tiles).name(), "mis sobol adaptive tiles");
   const std::atomic<bool> stop = true;
   EXPECT_TRUE(measure_pictures(file, ways, {.width = 4, .height = 4, .cancel = &stop}).measurement.interrupted);
 }
