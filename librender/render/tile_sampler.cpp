@@ -35,59 +35,54 @@ Tally TileTaker::take_by(int y, std::span<const std::uint32_t> from, std::span<c
 
 template <class Stream>
 void TileTaker::take_tile(int left, int top, std::uint32_t from, std::uint32_t to, Film& film, Tally& tally) const {
-  /// A pixel of the tile.
-  struct Pixel {
-    int whole_x, whole_y, x, y; ///< in the picture, in the film
-    bool counts;                ///< it is one of the film's
-    SampleSums seen = {};
-    Eigen::Array3d sum = Eigen::Array3d::Zero();
-    std::uint32_t valid = 0;
-  };
   std::array<Pixel, pixels> tile;
   for (int i = 0; i < int(pixels); ++i) {
-    const int whole_x = left + i % side, whole_y = top + i / side, x = whole_x - whole_.part.x,
-              y = whole_y - whole_.part.y;
-    tile[std::size_t(i)] = {whole_x, whole_y, x, y, film.contains(x, y)};
+    const int x = left + i % side, y = top + i / side;
+    tile[std::size_t(i)] = {x, y, film.contains(x - whole_.part.x, y - whole_.part.y)};
   }
   const auto sets = static_cast<std::uint32_t>(film.sets());
   const std::uint64_t rays_before = tally.rays;
   for (std::uint32_t set = 0; set < sets; ++set) {
+    points_.for_runs(set, sets, from, to, [&](const PixelPoints::Run& run) { take_run<Stream>(run, tile, tally); });
     for (Pixel& pixel : tile) {
+      if (pixel.counts)
+        film.add(pixel.x - whole_.part.x, pixel.y - whole_.part.y, static_cast<int>(set), pixel.sum, pixel.valid);
       pixel.sum.setZero();
       pixel.valid = 0;
     }
-    points_.for_runs(set, sets, from, to, [&](const PixelPoints::Run& run) {
-      const auto points_at = [&](std::size_t i) {
-        return points_.of<typename Stream::Points>(tile[i].whole_x, tile[i].whole_y, run);
-      };
-      const std::array<typename Stream::Points, pixels> points{points_at(0), points_at(1), points_at(2), points_at(3)};
-      for (std::uint32_t point = run.begin; point < run.end; ++point) {
-        const auto ray_of = [&](std::size_t i) {
-          Stream stream(points[i], point);
-          const Vec2 offset = scene_.filter().sample(stream.next2());
-          const Ray ray = pixel_rays_.sample(tile[i].whole_x, tile[i].whole_y, offset, stream);
-          return TileRay<Stream>{ray, pixel_rays_.around(ray), stream};
-        };
-        std::array<TileRay<Stream>, pixels> rays{ray_of(0), ray_of(1), ray_of(2), ray_of(3)};
-        const auto radiances = integrator_.radiances(rays, tally.rays);
-        for (std::size_t i = 0; i < pixels; ++i) {
-          if (!tile[i].counts) continue;
-          ++tally.samples;
-          if (!radiances[i].isFinite().all()) [[unlikely]] {
-            tally.add({tile[i].whole_x, tile[i].whole_y, run.pass, point});
-            continue;
-          }
-          tile[i].seen.add(radiances[i].template cast<double>());
-          tile[i].sum += radiances[i].template cast<double>();
-          ++tile[i].valid;
-        }
-      }
-    });
-    for (const Pixel& pixel : tile)
-      if (pixel.counts) film.add(pixel.x, pixel.y, static_cast<int>(set), pixel.sum, pixel.valid);
   }
+  const std::uint64_t rays = (tally.rays - rays_before) / pixels;
   for (const Pixel& pixel : tile)
-    if (pixel.counts) film.note(pixel.x, pixel.y, pixel.seen, (tally.rays - rays_before) / pixels);
+    if (pixel.counts) film.note(pixel.x - whole_.part.x, pixel.y - whole_.part.y, pixel.seen, rays);
+}
+
+template <class Stream>
+void TileTaker::take_run(const PixelPoints::Run& run, std::array<Pixel, pixels>& tile, Tally& tally) const {
+  const auto points_at = [&](std::size_t i) { return points_.of<typename Stream::Points>(tile[i].x, tile[i].y, run); };
+  const std::array<typename Stream::Points, pixels> points{points_at(0), points_at(1), points_at(2), points_at(3)};
+  for (std::uint32_t point = run.begin; point < run.end; ++point) {
+    const auto ray_of = [&](std::size_t i) {
+      Stream stream(points[i], point);
+      const Vec2 offset = scene_.filter().sample(stream.next2());
+      const Ray ray = pixel_rays_.sample(tile[i].x, tile[i].y, offset, stream);
+      return TileRay<Stream>{ray, pixel_rays_.around(ray), stream};
+    };
+    std::array<TileRay<Stream>, pixels> rays{ray_of(0), ray_of(1), ray_of(2), ray_of(3)};
+    const auto radiances = integrator_.radiances(rays, tally.rays);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      Pixel& pixel = tile[i];
+      if (!pixel.counts) continue;
+      ++tally.samples;
+      if (!radiances[i].isFinite().all()) [[unlikely]] {
+        tally.add({pixel.x, pixel.y, run.pass, point});
+        continue;
+      }
+      const Eigen::Array3d radiance = radiances[i].template cast<double>();
+      pixel.seen.add(radiance);
+      pixel.sum += radiance;
+      ++pixel.valid;
+    }
+  }
 }
 
 } // namespace render

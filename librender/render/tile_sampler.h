@@ -32,11 +32,22 @@ class TileTaker {
   static constexpr int side = TileIntegrator<Scene>::side;
   static constexpr std::size_t pixels = TileIntegrator<Scene>::pixels;
 
+  /// Of a tile.
+  struct Pixel {
+    int x, y;    ///< in the whole picture
+    bool counts; ///< it is one of the film's
+    SampleSums seen = {};
+    Eigen::Array3d sum = Eigen::Array3d::Zero(); ///< of the set under way
+    std::uint32_t valid = 0;                     ///< samples of it
+  };
+
   using Take = Tally (TileTaker::*)(int, std::span<const std::uint32_t>, std::span<const std::uint32_t>, Film&) const;
   template <class Stream>
   Tally take_by(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, Film& film) const;
   template <class Stream>
   void take_tile(int left, int top, std::uint32_t from, std::uint32_t to, Film& film, Tally& tally) const;
+  template <class Stream>
+  void take_run(const PixelPoints::Run& run, std::array<Pixel, pixels>& tile, Tally& tally) const;
   static Take take_of(PixelSampler sampler);
 
   const Scene& scene_;
