@@ -126,7 +126,7 @@ TEST_F(TradeCommand, CtrlCTellsWhatIsKnownOfAScene) {
       support::interrupt_carlo("trade " MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 4x4 --samplers sobol "
                                "--strategies mis --max-spp 1048576 --error 2 -o '" +
                                    path("out") + "'",
-                               " at 1024 spp");
+                               " at 128 spp");
   EXPECT_EQ(r.exit_code, 130) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("interrupted: errors up to "), HasSubstr(" samples per pixel are known"),
                               HasSubstr("  error 2: "), HasSubstr("data and plots: ")));
