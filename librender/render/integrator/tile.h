@@ -43,7 +43,8 @@ template <class SceneType> class TileIntegrator {
   ///   throws    : Error where something else than radiance is to be shown
   TileIntegrator(const SceneType& scene, const PathOptions& options, const LightPaths* light_paths = nullptr)
       : steps_(scene, options.strategy, options.max_depth, light_paths) {
-    mc::require(options.shown.what == Shown::radiance, "render: tiles share radiance; normals and openness have none");
+    mc::require(options.shown.what == Shown::radiance,
+                "render: tiles share radiance, and normals or openness are to be shown; leave out tiles");
   }
 
   /// Radiance that arrives along the rays of a tile's pixels, one sample of each. `rays` counts the rays traced.
