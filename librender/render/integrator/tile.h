@@ -26,10 +26,11 @@ template <class Stream> struct TileRay {
 ///   Shared : where y is diffuse, among paths of as many edges before, and not where the direction was a narrow lobe's.
 ///            Paths from the lights weigh every path as if its own pixel had found it
 ///   Gain   : the time of paths that share nothing but split in two, to a given error: .49 in book3-cornell-white, .55
-///            in arcade, .60 in cbox, .73 to .91 in leaves, book3-cornell-glass, veach-mi, smallpt, materials, textures
-///            and book3-cornell-aluminium, 1.3 in book1-cover, whose small balls hide what the others find. CPU seconds
-///            times the variance of six seeds, 64 samples a pixel. Tiles of 4x4: .28 in book3-cornell-white, but 2.5 in
-///            book1-cover, and noise that 16 pixels share; two directions at each fork: .41 and .74 in cbox
+///            in arcade, .60 in cbox, .73 to .91 in leaves, book3-cornell-glass, smallpt, materials, veach-mi,
+///            book3-cornell-aluminium and textures, 1.35 in book1-cover, where neighbours see other balls. CPU seconds
+///            times the variance of six seeds, 64 samples a pixel. Two directions at each fork: .41 in
+///            book3-cornell-white, 1.04 to 1.27 times as much in the others. Tiles of 4x4: .29 there, of noise that 16
+///            pixels share
 ///   Source : [BekaertSbertHalton02]; balance heuristic [Veach97] section 9.2
 template <class SceneType> class TileIntegrator {
  public:
