@@ -96,15 +96,17 @@ const Directions4 close = {Vec3(0, Float(-0.3), -1), Vec3(Float(0.02), Float(-0.
 const Directions4 apart = {Vec3(0, Float(-0.4), -1), Vec3(Float(0.1), Float(0.2), -1),
                            Vec3(Float(-0.1), Float(0.5), -1), Vec3(2, 1, -1)};
 
-// In a sphere that shines with e and reflects a all pixels are e / (1 - a), wherever they look.
-TEST(Tile, ClosedFurnace) {
+// In a sphere that shines with e and reflects a all pixels are e / (1 - a), wherever they look and however large it is.
+class TileInAFurnace : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(OfRadius, TileInAFurnace, testing::Values(1e-15, 1, 1e15));
+TEST_P(TileInAFurnace, IsAsBrightEverywhere) {
   SceneBuilder builder;
   const BsdfId wall = builder.add(Lambert(Spectrum::Constant(Float(0.6))));
-  builder.add(Sphere(Vec3d::Zero(), 1, true), {wall, Emission{Spectrum::Constant(2)}});
+  builder.add(Sphere(Vec3d::Zero(), GetParam(), true), {wall, Emission{Spectrum::Constant(2)}});
   const Scene scene = builder.build();
+  const Vec3 inside = Float(GetParam()) * Vec3(Float(0.2), Float(0.1), Float(-0.3));
   for (const char* strategy : {"bsdf", "mixture", "nee", "mis"})
-    for (const mc::Moments& m :
-         tile_of(scene, Vec3(Float(0.2), Float(0.1), Float(-0.3)), apart, {{strategy_from(strategy)}}, 20'000)) {
+    for (const mc::Moments& m : tile_of(scene, inside, apart, {{strategy_from(strategy)}}, 20'000)) {
       const auto test = mc::t_test(m, 5);
       EXPECT_GE(test.p, 1e-5) << strategy << ": " << m.mean() << " +- " << m.std_error();
     }
