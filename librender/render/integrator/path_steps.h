@@ -42,8 +42,12 @@ template <class SceneType> class PathSteps {
   using Own = std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>;
   using At = Meeting<Own>;
 
-  /// Where a path meets a surface.
+  /// Where a path meets a surface. It stays where it is: its BSDF may be made in it.
   struct Place {
+    Place() = default;
+    Place(const Place&) = delete;
+    Place& operator=(const Place&) = delete;
+
     SurfacePoint point;
     const Surface* surface = nullptr;
     const Own* bsdf = nullptr;
@@ -62,7 +66,6 @@ template <class SceneType> class PathSteps {
 
   const SceneType& scene() const { return scene_; }
   const Directions& directions() const { return directions_; }
-  const LightPaths* light_paths() const { return light_paths_; }
 
   /// A path that starts by a ray of the camera.
   ///   around : through what the ray starts
