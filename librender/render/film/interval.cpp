@@ -11,7 +11,7 @@ namespace render {
 Image half_widths(const Image& image, double confidence) {
   mc::require(!image.variance.empty(), "half_widths: the image carries no variance");
   mc::require(confidence > 0 && confidence < 1, "half_widths: confidence {} must lie in (0, 1)", confidence);
-  const double q = mc::student_quantile(1 - confidence, 8);
+  const double q = mc::student_quantile(1 - confidence, 4 + 4 / image.noise_area);
   const double dof = std::max(1.0, double(image.estimates) - 1), q_alone = mc::student_quantile(1 - confidence, dof);
   const double noisier = dof < 2 ? 3 : 2, noisy = image.estimates < 2 ? mc::infinity<double> : noisier;
   Image widths(image.width, image.height);

@@ -27,6 +27,8 @@ TEST(HalfWidths, ShareTheVarianceOfTheNeighbours) {
   EXPECT_NEAR(double(widths.at(1, 1)[2]), q / 3, 1e-5);
   EXPECT_EQ(widths.at(0, 0)[1], 0);
   EXPECT_TRUE((widths.at(2, 1) == 0).all());
+  image.noise_area = 4; // 5 degrees of freedom
+  EXPECT_NEAR(double(half_widths(image, 0.95).at(1, 1)[2]), 2.570581836 / 3, 1e-5);
 }
 
 TEST(HalfWidths, AreTheirOwnWhereAPixelIsNoisierThanItsNeighbours) {
