@@ -151,6 +151,21 @@ TEST(Tile, SheetsHaveTwoSides) {
   expect_as_alone(corner.builder.build(), tile_eye, both_sides, {{strategy_from("nee")}}, "sheet");
 }
 
+// Two pixels see a sheet whose shading normal leans over it: what the others find behind it lights it no more than it
+// lights what is seen there.
+TEST(Tile, ShadingNormalsLeakNothing) {
+  Corner corner;
+  const Vec3 leaning = Vec3(1, 3, 0).normalized();
+  const Float z = Float(-1.5), end = Float(0.5);
+  corner.builder.add(TriangleMesh({{0, -1, z}, {0, 1, z}, {0, 1, end}, {0, -1, end}}, {{0, 1, 2}, {0, 2, 3}},
+                                  {leaning, leaning, leaning, leaning}),
+                     {corner.tan});
+  corner.add({-1, 1, -0.5}, Vec3d::UnitY(), 90, 0.4, {corner.tan, Emission{Spectrum::Constant(20)}});
+  const Directions4 sheet_and_behind = {Vec3(Float(-0.1), Float(-0.1), -1), Vec3(Float(-0.13), Float(-0.3), -1),
+                                        Vec3(Float(-0.1), Float(-0.15), -1), Vec3(Float(-0.13), Float(-0.32), -1)};
+  expect_as_alone(corner.builder.build(), tile_eye, sheet_and_behind, {{strategy_from("nee")}}, "leaning sheet");
+}
+
 // Two pixels see the room in a mirror: their paths have one edge more, which a longest path counts.
 TEST(Tile, PathsOfOtherLengthsAreLeftAlone) {
   Corner corner;
