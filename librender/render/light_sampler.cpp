@@ -25,12 +25,8 @@ LightTaker::LightTaker(const Scene& scene, const LightPaths& light_paths, int ma
       trace_(trace_of(sampler)) {}
 
 LightTaker::Trace LightTaker::trace_of(PixelSampler sampler) {
-  switch (sampler) {
-  case PixelSampler::independent: return &LightTaker::trace<mc::IndependentWalk<Float>>;
-  case PixelSampler::stratified: return &LightTaker::trace<mc::StratifiedWalk<Float>>;
-  case PixelSampler::sobol: return &LightTaker::trace<mc::SobolWalk<Float>>;
-  }
-  return nullptr;
+  return with_stream(sampler,
+                     []<class Stream>(std::type_identity<Stream>) -> Trace { return &LightTaker::trace<Stream>; });
 }
 
 std::uint64_t LightTaker::paths(double mean) const {

@@ -5,10 +5,12 @@
 #include <render/scene/scene.h>
 
 #include <mc/random/hash.h>
+#include <mc/sampler/walk_stream.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <string_view>
+#include <type_traits>
 
 namespace render {
 
@@ -17,6 +19,16 @@ enum class PixelSampler { independent, stratified, sobol };
 /// Throws Error, naming the nearest sampler, for an unknown name.
 PixelSampler sampler_from(std::string_view name);
 std::string_view name(PixelSampler sampler);
+
+/// Calls task(std::type_identity<Stream>()) with the streams of a sampler's points, and returns what it does.
+template <class Task> auto with_stream(PixelSampler sampler, const Task& task) {
+  switch (sampler) {
+  case PixelSampler::independent: break;
+  case PixelSampler::stratified: return task(std::type_identity<mc::StratifiedWalk<Float>>());
+  case PixelSampler::sobol: return task(std::type_identity<mc::SobolWalk<Float>>());
+  }
+  return task(std::type_identity<mc::IndependentWalk<Float>>());
+}
 
 /// A part of a picture, from the pixel (x, y), counted from the upper left corner.
 struct Crop {

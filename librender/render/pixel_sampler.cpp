@@ -36,12 +36,8 @@ SampleTaker::SampleTaker(const Scene& scene, const PathOptions& path, const Pixe
       splat_(splat), take_(take_of(points.sampler)) {}
 
 SampleTaker::Take SampleTaker::take_of(PixelSampler sampler) {
-  switch (sampler) {
-  case PixelSampler::independent: return &SampleTaker::take_by<mc::IndependentWalk<Float>>;
-  case PixelSampler::stratified: return &SampleTaker::take_by<mc::StratifiedWalk<Float>>;
-  case PixelSampler::sobol: return &SampleTaker::take_by<mc::SobolWalk<Float>>;
-  }
-  return nullptr;
+  return with_stream(sampler,
+                     []<class Stream>(std::type_identity<Stream>) -> Take { return &SampleTaker::take_by<Stream>; });
 }
 
 template <class Stream>

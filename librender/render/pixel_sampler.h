@@ -5,8 +5,6 @@
 #include <render/integrator/path.h>
 #include <render/pixel_points.h>
 
-#include <mc/sampler/walk_stream.h>
-
 #include <span>
 
 namespace render {

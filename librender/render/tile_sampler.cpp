@@ -11,12 +11,8 @@ TileTaker::TileTaker(const Scene& scene, const PathOptions& path, const PixelPoi
       take_(take_of(points.sampler)) {}
 
 TileTaker::Take TileTaker::take_of(PixelSampler sampler) {
-  switch (sampler) {
-  case PixelSampler::independent: return &TileTaker::take_by<mc::IndependentWalk<Float>>;
-  case PixelSampler::stratified: return &TileTaker::take_by<mc::StratifiedWalk<Float>>;
-  case PixelSampler::sobol: return &TileTaker::take_by<mc::SobolWalk<Float>>;
-  }
-  return nullptr;
+  return with_stream(sampler,
+                     []<class Stream>(std::type_identity<Stream>) -> Take { return &TileTaker::take_by<Stream>; });
 }
 
 template <class Stream>

@@ -74,16 +74,10 @@ Measured tile_with(const Picture& picture, const PathOptions& path, std::uint64_
 Measured measure(const Picture& picture, const Strategy& strategy, PixelSampler sampler, std::uint64_t seed,
                  std::uint32_t sets, std::uint32_t points, bool in_tile) {
   const PathOptions path{strategy, picture.max_depth};
-  const auto by = [&]<class Stream>(std::type_identity<Stream>) {
+  return with_stream(sampler, [&]<class Stream>(std::type_identity<Stream>) {
     return in_tile ? tile_with<Stream>(picture, path, seed, sets, points)
                    : measure_with<Stream>(picture, path, seed, sets, points);
-  };
-  switch (sampler) {
-  case PixelSampler::independent: return by(std::type_identity<mc::IndependentWalk<Float>>());
-  case PixelSampler::stratified: return by(std::type_identity<mc::StratifiedWalk<Float>>());
-  case PixelSampler::sobol: return by(std::type_identity<mc::SobolWalk<Float>>());
-  }
-  return {};
+  });
 }
 
 double z_score(const Measured& measured, double should, double its_error, double its_dof, double rounding) {

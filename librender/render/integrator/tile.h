@@ -36,8 +36,7 @@ template <class SceneType> class TileIntegrator {
  public:
   static constexpr int side = 2;
   static constexpr std::size_t pixels = side * side;
-  /// The variance of a sum of many pixels is at most this times the sum of their variances: 1.1 to 3.3 times in Cornell
-  /// boxes of 24 to 96 pixels a side.
+  /// The variance of a sum of many pixels is at most this times the sum of their variances.
   static constexpr double noise_area = pixels;
 
   /// light_paths : see PathIntegrator
