@@ -84,6 +84,7 @@ std::uint64_t LightTaker::take(std::uint64_t from, std::uint64_t to, int threads
     });
     for (const Splashes& splashes : found) {
       for (const auto& [x, y, set, value] : splashes.all) film.add_light(x, y, set, value.cast<double>());
+      film.note_light(splashes.tally.rays);
       tally.merge(splashes.tally);
     }
     for (std::uint32_t set = 0; set < sets; ++set) {

@@ -155,8 +155,8 @@ class Work {
     std::uint64_t light_done = light_done_;
     if (light_taker_)
       light_done = light_taker_->take(
-          light_done, light_taker_->paths(mean), options_.threads, [&] { return cancelled() || out_of_time(); }, film,
-          lights);
+          light_done, light_taker_->paths(mean * plan_.light), options_.threads,
+          [&] { return cancelled() || out_of_time(); }, film, lights);
     for_rows([&](std::size_t y) {
       if (cancelled() || out_of_time()) return;
       const auto from = std::span(taken_).subspan(y * width(), width()),

@@ -61,7 +61,7 @@ struct RenderResult {
 /// shorter, which costs accuracy, and tell of a pixel what its neighbours tell as well. Light paths, where the
 /// strategy has some, are as many as belong to the mean number of samples, and dealt to the sets as well.
 /// Where samples go where the error is, about the first quarter is a pilot, spent evenly, which alone decides about the
-/// rest: see adaptive_plan.
+/// rest, light paths too: see adaptive_plan.
 /// The result depends on the seed, not on the number of threads; with `seconds` it depends on the machine's speed.
 ///   throws : Error for a non-positive size, sample count, time or error, and a crop that reaches beyond the picture,
 ///            and for a strategy that cannot find every light of the scene, see finds_all_lights

@@ -133,11 +133,17 @@ void Film::merge(const Film& other) {
   for (std::size_t i = 0; i < light_.size(); ++i) light_[i] += other.light_[i];
   for (std::size_t i = 0; i < light_seen_.size(); ++i) light_seen_[i].merge(other.light_seen_[i]);
   for (std::size_t i = 0; i < light_counts_.size(); ++i) light_counts_[i] += other.light_counts_[i];
+  light_rays_ += other.light_rays_;
 }
 
 void Film::note(int x, int y, const SampleSums& samples, std::uint64_t rays) {
   samples_[place(x, y)].merge(samples);
   if (contains(x, y)) rays_[index(x, y)] += rays;
+}
+
+double Film::light_rays() const {
+  const double count = light_count();
+  return count > 0 ? double(light_rays_) / count : 0;
 }
 
 Eigen::Array3d Film::set_sum(std::size_t first, std::size_t set) const {
@@ -251,7 +257,7 @@ Eigen::Array3d Film::around(const std::vector<Eigen::Array3d>& means, int x, int
 
 double Film::deciding(int x, int y) const {
   const SampleSums& samples = samples_[place(x, y)];
-  const double light = std::accumulate(light_counts_.begin(), light_counts_.end(), 0.0);
+  const double light = light_count();
   if (!(light > 0 && contains(x, y))) return samples.deciding();
   return samples.deciding(light_seen_[index(x, y)], double(samples.count) / light);
 }

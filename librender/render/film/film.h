@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 
 namespace render {
@@ -116,6 +117,8 @@ class Film {
   void add_light(int x, int y, int set, const Eigen::Array3d& value);
   /// Tells that a set has got the light of as many paths as `samples` samples of every pixel have.
   void count_light(int set, double samples) { light_counts_[static_cast<std::size_t>(set)] += samples; }
+  /// Tells of the rays of paths from the lights.
+  void note_light(std::uint64_t rays) { light_rays_ += rays; }
 
   /// Adds the samples of a film of the same kind.
   void merge(const Film& other);
@@ -136,6 +139,8 @@ class Film {
   ///   Light of paths from the lights adds its own mean and the variance of that, found in the same way.
   PixelEstimate estimate(int x, int y) const;
   std::uint64_t rays(int x, int y) const { return rays_[index(x, y)]; }
+  /// Of paths from the lights, of as many as a sample of every pixel has; 0 where there are none.
+  double light_rays() const;
 
   /// Means, and their variance where every pixel knows it.
   Image image() const;
@@ -169,6 +174,9 @@ class Film {
   // Of a pixel whose samples count.
   double deciding(int x, int y) const;
 
+  // As many samples of every pixel as the paths from the lights go with.
+  double light_count() const { return std::accumulate(light_counts_.begin(), light_counts_.end(), 0.0); }
+
   // The mean of the pixel and its neighbours.
   Eigen::Array3d around(const std::vector<Eigen::Array3d>& means, int x, int y) const;
 
@@ -183,6 +191,7 @@ class Film {
   std::vector<Eigen::Array3d> light_; ///< as sums_, of paths from the lights; empty where there are none
   std::vector<LightSums> light_seen_; ///< of every pixel
   std::vector<double> light_counts_;  ///< of every set
+  std::uint64_t light_rays_ = 0;
 };
 
 } // namespace render

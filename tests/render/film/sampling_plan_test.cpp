@@ -84,6 +84,76 @@ TEST(SamplingPlan, AsksTheNeighboursNotThePixel) {
   EXPECT_NEAR(ratio(far), 1, 0.02);
 }
 
+// Nor does its own radiance, though that of the pixels about stands under the neighbours' variance.
+TEST(SamplingPlan, AsksNotForThePixelsRadiance) {
+  const auto plan = [](double radiance) {
+    Film film(40, 40, 2);
+    for (int i = 0; i < 40 * 40; ++i) {
+      const double value = i == 17 * 40 + 21 ? radiance : i % 40 < 20 ? 1 : 0.3;
+      for (const int set : {0, 1})
+        film.add(i % 40, i / 40, set, Eigen::Array3d::Constant(8 * value * (1 + (set - 0.5) / 10)), 8);
+      film.note(i % 40, i / 40, {}, 48);
+    }
+    return adaptive_plan(film, 0.01).rates;
+  };
+  const std::vector<float> before = plan(0.3), after = plan(0.01);
+  const std::size_t pixel = 17 * 40 + 21;
+  const auto ratio = [&](std::size_t i) { return double(after[i]) / double(before[i]); };
+  EXPECT_NEAR(ratio(pixel), ratio(pixel + 12), 1e-3);    // by the mean of all and the sum of the rates
+  EXPECT_LT(ratio(pixel + 1), 0.99 * ratio(pixel + 12)); // of its neighbours it does
+}
+
+// Rare bright samples are not divided by themselves, and a lamp does not hide what is noisy beside it.
+TEST(SamplingPlan, BrightPixelsHideNoNoise) {
+  const auto rates = [](auto&& radiance, auto&& noise) {
+    Film film(40, 1, 2);
+    for (int x = 0; x < 40; ++x) {
+      for (const int set : {0, 1})
+        film.add(x, 0, set, Eigen::Array3d::Constant(8 * radiance(x) * (1 + (set - 0.5) * noise(x) / 2)), 8);
+      film.note(x, 0, {}, 16);
+    }
+    return adaptive_plan(film, 0.001).rates;
+  };
+  const auto bright = [](int x) { return x > 20 && x % 2 == 0; };
+  const std::vector<float> rare =
+      rates([&](int x) { return bright(x) ? 4 : 1; }, [&](int x) { return bright(x) ? 0.5 : 0.05; });
+  EXPECT_GT(rare[33], 6 * rare[5]); // 4, were they divided by their own squares
+  const std::vector<float> lamp =
+      rates([](int x) { return x == 20 ? 100 : 1; }, [](int x) { return x == 20 ? 0.01 : 0.5; });
+  EXPECT_NEAR(lamp[18] / lamp[2], 1, 0.1); // 0.6, were the noise of pixel 19 divided by the light of 20
+}
+
+// As many paths from the lights as make variance times rays least; from 1 to 4.
+TEST(SamplingPlan, PathsFromTheLightsByTheirVariance) {
+  const auto plan = [](double noise, std::uint64_t rays) {
+    Film film(8, 8, 2, {}, true);
+    for (int i = 0; i < 64; ++i) {
+      for (const int set : {0, 1}) {
+        film.add(i % 8, i / 8, set, Eigen::Array3d::Constant(8 * (1 + (set - 0.5) / 10)), 8);
+        film.add_light(i % 8, i / 8, set, Eigen::Array3d::Constant(8 * (1 + (set - 0.5) * noise)));
+      }
+      film.note(i % 8, i / 8, {}, 16 * 5);
+    }
+    for (const int set : {0, 1}) film.count_light(set, 8);
+    film.note_light(64 * 16 * rays);
+    EXPECT_NEAR(film.light_rays(), 64 * double(rays), 1e-9);
+    const SamplingPlan p = adaptive_plan(film, 0.25);
+    // The largest that a path gave is half of what a set has, and its square is in the variance of pixels.
+    const double of_light = film.estimate(3, 3).of_light[0], of_samples = film.estimate(3, 3).variance[0] - of_light;
+    EXPECT_NEAR(p.light, std::clamp(std::sqrt(of_light * 5 / (of_samples * double(rays))), 1.0, 4.0), 1e-9);
+    return p.light;
+  };
+  EXPECT_GT(plan(0.3, 40), 1.1);
+  EXPECT_LT(plan(0.3, 40), 3.9);
+  EXPECT_EQ(plan(0.3, 5000), 1);
+  EXPECT_EQ(plan(3, 1), 4);
+  EXPECT_EQ(adaptive_plan(film_of(
+                              8, 8, [](int x, int) { return x; }, [](int, int) { return 1; }),
+                          0.25)
+                .light,
+            1);
+}
+
 // One noisy pixel, of which its neighbours know nothing: even spending is best for all the others that it makes noisy.
 TEST(SamplingPlan, IsEvenWhereNeighboursTellNothing) {
   mc::Pcg random(2);
