@@ -124,12 +124,11 @@ class Work {
 
   Film new_film() const {
     const int sets = limited() ? point_sets : std::min(options_.spp, point_sets);
-    return {whole_.part.width,
-            whole_.part.height,
-            sets,
-            splat_,
-            light_paths_.has_value(),
-            options_.tiles ? TileIntegrator<Scene>::noise_area : 1};
+    return {whole_.part.width, whole_.part.height, sets,
+            FilmOptions{.splat = splat_,
+                        .lit = light_paths_.has_value(),
+                        .noise_area = options_.tiles ? TileIntegrator<Scene>::noise_area : 1,
+                        .independent = options_.sampler == PixelSampler::independent}};
   }
 
   // Every row once. Those that write to the same pixels take turns, in an order that is the same for every part.

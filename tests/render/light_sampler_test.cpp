@@ -39,7 +39,7 @@ Taken taken(const Filter& filter, std::uint64_t steps, int threads, PixelSampler
   const Scene scene = lit_floor(filter, unit);
   const auto paths = LightPaths::of(scene, strategy_from("bidirectional"), Float(16) / 12);
   const LightTaker taker(scene, *paths, 3, sampler, 7, {16, 12, part});
-  Taken all{{part.width, part.height, 4, {}, true}, {}};
+  Taken all{{part.width, part.height, 4, {.lit = true}}, {}};
   const std::uint64_t n = taker.paths(spp);
   EXPECT_EQ(n, std::uint64_t{spp} * 16 * 12 / 8);
   for (std::uint64_t i = 0; i < steps; ++i)
@@ -122,7 +122,7 @@ TEST(LightTaker, StopsBetweenItsSteps) {
   const Scene scene = lit_floor(BoxFilter());
   const auto paths = LightPaths::of(scene, strategy_from("bidirectional"), Float(16) / 12);
   const LightTaker taker(scene, *paths, 3, PixelSampler::sobol, 7, {16, 12, {0, 0, 16, 12}});
-  Film film(16, 12, 4, {}, true);
+  Film film(16, 12, 4, {.lit = true});
   Tally tally;
   EXPECT_EQ(taker.take(
                 5, 100, 1, [] { return true; }, film, tally),

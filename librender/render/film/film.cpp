@@ -21,7 +21,7 @@ struct MeanOfSets {
 
 // sum(i) : of the samples of set i;  count(i) : how many they are
 template <class Sum, class Count>
-MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const Eigen::Array3d& square_range) {
+MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const Eigen::Array3d& square_jump) {
   MeanOfSets all;
   double n = 0, k = 0;
   for (std::size_t i = 0; i < sets; ++i) {
@@ -35,7 +35,7 @@ MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const E
   for (std::size_t i = 0; i < sets; ++i)
     if (count(i) > 0) all.variance += count(i) * (sum(i) / count(i) - all.mean).square();
   const double left_over = (k + 1) / ((k + 2) * (k + 3));
-  const Eigen::Array3d least = k * left_over * square_range / (n * n);
+  const Eigen::Array3d least = k * left_over * square_jump / (n * n);
   all.variance = (all.variance / ((k - 1) * n)).max(least);
   return all;
 }
@@ -56,6 +56,7 @@ void SampleSums::merge(const SampleSums& other) {
   channel_sums += other.channel_sums;
   channel_squares += other.channel_squares;
   channel_largest = channel_largest.max(other.channel_largest);
+  channel_smallest = channel_smallest.min(other.channel_smallest);
 }
 
 Eigen::Array3d SampleSums::variance_of_mean() const {
@@ -72,12 +73,13 @@ double SampleSums::deciding(const LightSums& light, double weight) const {
   return deviations > rounding * all ? deviations / most : mc::infinity<double>;
 }
 
-Eigen::Array3d SampleSums::range() const {
+Eigen::Array3d SampleSums::jump() const {
   if (count < 2) return Eigen::Array3d::Zero();
-  const Eigen::Array3d mean = channel_sums / double(count), squares_mean = channel_squares / double(count);
-  const Eigen::Array3d s2 = squares_mean - mean.square();
-  const Eigen::Array3d d = channel_largest - mean;
-  return (s2 > rounding * squares_mean && d > 0).select(d + s2 / d, 0);
+  const Eigen::Array3d mean = channel_sums / double(count), squares_mean = channel_squares / double(count),
+                       s2 = squares_mean - mean.square(), up = channel_largest - mean, down = mean - channel_smallest;
+  const Eigen::Array3d two = (1.5 * s2 / (up * down) - 0.5).max(0).min(1);
+  const Eigen::Array3d share = (up.max(down).square() > 9 * s2).select(1, two.sqrt());
+  return (s2 > rounding * squares_mean && up > 0 && down > 0).select((up + down) * share, 0);
 }
 
 void LightSums::merge(const LightSums& other) {
@@ -86,19 +88,21 @@ void LightSums::merge(const LightSums& other) {
   channel_largest = channel_largest.max(other.channel_largest);
 }
 
-Film::Film(int width, int height, int sets, std::optional<SplatFilter> splat, bool lit, double noise_area)
-    : width_(width), height_(height), sets_(sets), splat_(std::move(splat)),
-      noise_area_(splat_ ? splat_->noise_area() : noise_area) {
+Film::Film(int width, int height, int sets, FilmOptions options)
+    : width_(width), height_(height), sets_(sets), options_(std::move(options)) {
   mc::require(width > 0 && height > 0, "film: size {}x{} needs at least one pixel", width, height);
   mc::require(sets > 0, "film: {} point sets; at least 1 is needed", sets);
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   sums_.resize(pixels * static_cast<std::size_t>(sets), Eigen::Array3d::Zero());
   counts_.resize(sums_.size());
-  if (splat_) weights_.resize(sums_.size());
-  const int reach = splat_ ? splat_->reach() : 0;
+  if (options_.splat) {
+    options_.noise_area = options_.splat->noise_area();
+    weights_.resize(sums_.size());
+  }
+  const int reach = options_.splat ? options_.splat->reach() : 0;
   samples_.resize(place(width + reach - 1, height + reach - 1) + 1);
   rays_.resize(pixels);
-  if (!lit) return;
+  if (!options_.lit) return;
   light_.resize(sums_.size(), Eigen::Array3d::Zero());
   light_seen_.resize(pixels);
   light_counts_.resize(static_cast<std::size_t>(sets));
@@ -158,13 +162,13 @@ Eigen::Array3d Film::set_sum(std::size_t first, std::size_t set) const {
   return weight > 0 ? sums_[set] - (weights_[set] - counts_[set]) * (others / weight) : sums_[set];
 }
 
-Eigen::Array3d Film::square_range(int x, int y) const {
-  if (!splat_) return samples_[place(x, y)].range().square();
+Eigen::Array3d Film::square_jump(int x, int y) const {
+  if (!options_.splat) return samples_[place(x, y)].jump().square();
   Eigen::Array3d sum = Eigen::Array3d::Zero();
-  const int reach = splat_->reach();
+  const int reach = options_.splat->reach();
   for (int dy = -reach; dy <= reach; ++dy)
     for (int dx = -reach; dx <= reach; ++dx)
-      sum += splat_->square(dx, dy) * samples_[place(x + dx, y + dy)].range().square();
+      sum += options_.splat->square(dx, dy) * samples_[place(x + dx, y + dy)].jump().square();
   return sum;
 }
 
@@ -178,9 +182,11 @@ PixelEstimate Film::estimate(int x, int y) const {
   if (pixel.samples == 0) return pixel;
   const auto own = mean_of(
       sets, [&](std::size_t i) { return set_sum(first, first + i); }, [&](std::size_t i) { return counts_[first + i]; },
-      square_range(x, y));
+      square_jump(x, y));
   pixel.mean = own.mean;
-  pixel.variance = own.variance;
+  const SampleSums& samples = samples_[place(x, y)];
+  const bool by_samples = options_.independent && !options_.splat && pixel.sets > 1;
+  pixel.variance = by_samples ? samples.variance_of_mean() : own.variance;
   if (light_.empty()) return pixel;
   const auto light = mean_of(
       sets, [&](std::size_t i) { return light_[first + i]; }, [&](std::size_t i) { return light_counts_[i]; },
@@ -193,7 +199,7 @@ PixelEstimate Film::estimate(int x, int y) const {
 
 Image Film::image() const {
   Image image(width_, height_);
-  image.noise_area = noise_area_;
+  image.noise_area = options_.noise_area;
   image.variance.resize(image.pixels.size());
   bool known = true;
   for (int y = 0; y < height_; ++y)
@@ -229,14 +235,14 @@ RelativeError Film::relative_error(ErrorOf of) const {
           const PixelEstimate pixel = estimate(x, y);
           if (!(pixel.variance > 0).any()) continue;
           const Eigen::Array3d unit = around(means, x, y).max(mean / 2).square();
-          all.add((pixel.variance / unit).mean(), pixel.sets - 1, noise_area_);
+          all.add((pixel.variance / unit).mean(), pixel.sets - 1, options_.noise_area);
           const Eigen::Array3d of_samples = samples_[place(x, y)].variance_of_mean() + pixel.of_light;
           independent.add((of_samples / unit).mean(), deciding(x, y));
         }
       if (all.value == 0) continue;
       const int pixels = (bottom - top) * (right - left);
       double most = bound_of(all);
-      if (noise_area_ == 1 && std::isfinite(independent.value))
+      if (options_.noise_area == 1 && std::isfinite(independent.value))
         most = std::clamp(bound_of(independent), all.value, most);
       worst.value = std::max(worst.value, std::sqrt(all.value / pixels));
       worst.bound = std::max(worst.bound, std::sqrt(most / pixels));
@@ -263,7 +269,7 @@ double Film::deciding(int x, int y) const {
 }
 
 double Film::undecided() const {
-  const int reach = splat_ ? splat_->reach() : 0;
+  const int reach = options_.splat ? options_.splat->reach() : 0;
   std::size_t n = 0;
   for (int y = -reach; y < height_ + reach; ++y)
     for (int x = -reach; x < width_ + reach; ++x) n += deciding(x, y) < 2;

@@ -32,13 +32,14 @@ struct LightSums {
 };
 
 /// What a pixel's samples are like: how far they spread, and whether one of them decides. mc::Moments of luminance and
-/// channels with the largest beside them would take 192 bytes a pixel for these 104, and divisions at every sample.
+/// channels with their range beside them would take 216 bytes a pixel for these 128, and divisions at every sample.
 struct SampleSums {
   std::uint64_t count = 0;
   double sum = 0, squares = 0, largest = 0; ///< luminances
   Eigen::Array3d channel_sums = Eigen::Array3d::Zero();
   Eigen::Array3d channel_squares = Eigen::Array3d::Zero();
   Eigen::Array3d channel_largest = Eigen::Array3d::Zero();
+  Eigen::Array3d channel_smallest = Eigen::Array3d::Constant(mc::infinity<double>);
 
   void add(const Eigen::Array3d& sample) {
     const double y = luminance(sample);
@@ -49,6 +50,7 @@ struct SampleSums {
     channel_sums += sample;
     channel_squares += sample.square();
     channel_largest = channel_largest.max(sample);
+    channel_smallest = channel_smallest.min(sample);
   }
   void merge(const SampleSums& other);
 
@@ -61,9 +63,10 @@ struct SampleSums {
   ///   light  : what paths from the lights gave, of which each counts `weight` times as much as a sample
   double deciding(const LightSums& light = {}, double weight = 0) const;
 
-  /// How far apart the largest sample and the smallest are at least: the largest lies d above the mean and the squared
-  /// deviations have the mean s^2, so d + s^2 / d, which two values reach. 0 where all are equal up to rounding.
-  Eigen::Array3d range() const;
+  /// How far samples jump: the largest less the smallest, R, where there are but two values, as at an edge; where these
+  /// are spread evenly, as on a slope, 0. In between R sqrt(3 b / 2 - 1 / 2), where b is the square deviation over what
+  /// two such values of the same mean have [BhatiaDavis00]; R where a sample is rare, beyond three deviations.
+  Eigen::Array3d jump() const;
 };
 
 /// What a pixel is, as far as its samples tell.
@@ -88,16 +91,20 @@ enum class ErrorOf {
   worst    ///< the 16x16 block where they are largest; blocks at the right and lower edge may be smaller
 };
 
+struct FilmOptions {
+  std::optional<SplatFilter> splat = {}; ///< where samples count for several pixels, as they come by `splat`
+  bool lit = false;                      ///< paths from the lights give something, too: 136 bytes more a pixel
+  double noise_area = 1;                 ///< see Image, of samples that share paths; with splats theirs
+  bool independent = false;              ///< samples of a pixel are
+};
+
 /// Sums of the samples of every pixel, apart by the independent point sets that they come from: a pixel is the mean of
-/// its samples, and how its sets differ tells how far it may be off. Two sets take 56 bytes a pixel, of 168 in all;
+/// its samples, and how its sets differ tells how far it may be off. Two sets take 56 bytes a pixel, of 192 in all;
 /// mc::Moments of each set and channel would take 240.
 class Film {
  public:
-  /// splat  : where samples count for several pixels, as they come by `splat`
-  /// lit    : paths from the lights give something, too: 136 bytes more a pixel
-  /// noise_area : see Image, of samples that share paths; with splats theirs
   /// throws : Error for a non-positive size or number of sets
-  Film(int width, int height, int sets, std::optional<SplatFilter> splat = {}, bool lit = false, double noise_area = 1);
+  Film(int width, int height, int sets, FilmOptions options = {});
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -132,10 +139,11 @@ class Film {
   /// has no noise, n_s m_s is the set's sum less c (w_s - n_s), where w_s is the sum of its weights and c the
   /// weighted mean of the other sets: c does not depend on w_s, and nothing is biased.
   ///   Sets may agree by chance where samples do not, as at an edge, of which each of k sets counts a whole number: one
-  /// more or less moves a set's sum by the range R of the samples. So the variance is at least k f (1 - f) R^2 / n^2,
+  /// more or less moves a set's sum by the jump J of the samples. So the variance is at least k f (1 - f) J^2 / n^2,
   /// where f, what rounding left over, did not show in k sets: uniform beforehand, f (1 - f) is then
   /// (k + 1) / ((k + 2) (k + 3)) on average.
-  /// Splats bring R^2 from the pixels about, times the squares of their weights.
+  /// Splats bring J^2 from the pixels about, times the squares of their weights.
+  ///   Where samples are independent each tells what a set does; but for splats their own variance is taken.
   ///   Light of paths from the lights adds its own mean and the variance of that, found in the same way.
   PixelEstimate estimate(int x, int y) const;
   std::uint64_t rays(int x, int y) const { return rays_[index(x, y)]; }
@@ -158,15 +166,15 @@ class Film {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
 
-  // R^2 of estimate(): of splats the sum over the pixels about, each times the square of its weight.
-  Eigen::Array3d square_range(int x, int y) const;
+  // J^2 of estimate(): of splats the sum over the pixels about, each times the square of its weight.
+  Eigen::Array3d square_jump(int x, int y) const;
 
   // Of one of the sets of a pixel, which are those from `first` on.
   Eigen::Array3d set_sum(std::size_t first, std::size_t set) const;
 
   // Among the pixels whose samples count.
   std::size_t place(int x, int y) const {
-    const int reach = splat_ ? splat_->reach() : 0;
+    const int reach = options_.splat ? options_.splat->reach() : 0;
     return static_cast<std::size_t>(y + reach) * static_cast<std::size_t>(width_ + 2 * reach) +
            static_cast<std::size_t>(x + reach);
   }
@@ -181,8 +189,7 @@ class Film {
   Eigen::Array3d around(const std::vector<Eigen::Array3d>& means, int x, int y) const;
 
   int width_, height_, sets_;
-  std::optional<SplatFilter> splat_;
-  double noise_area_;
+  FilmOptions options_;
   std::vector<Eigen::Array3d> sums_;  ///< sets_ of every pixel
   std::vector<std::uint32_t> counts_; ///< the same
   std::vector<double> weights_;       ///< the same, of splats; empty where there are none

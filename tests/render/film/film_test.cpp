@@ -56,8 +56,8 @@ TEST(Film, SetsOfUnequalSizesAreUnbiased) {
 
 // Two sets of a sample each, and light of as many paths as two samples of a pixel have: 3 for one set, 1 for the other.
 TEST(Film, LightOfPathsFromTheLightsAddsItsMeanAndVariance) {
-  Film film(2, 1, 2, {}, true);
-  Film later(2, 1, 2, {}, true);
+  Film film(2, 1, 2, {.lit = true});
+  Film later(2, 1, 2, {.lit = true});
   for (int px = 0; px < 2; ++px) {
     film.add(px, 0, 0, grey(1), 1);
     later.add(px, 0, 1, grey(3), 1);
@@ -81,7 +81,7 @@ TEST(Film, LightOfPathsFromTheLightsAddsItsMeanAndVariance) {
 TEST(Film, APathFromTheLightsMayDecideAPixel) {
   for (const double unit : {1e-30, 1.0, 1e30})
     for (const int paths : {1, 2, 100}) {
-      Film film(1, 1, 2, {}, true);
+      Film film(1, 1, 2, {.lit = true});
       SampleSums samples;
       for (int i = 0; i < 64; ++i) samples.add(grey(unit * (i % 2 ? 1 : 1.1)));
       film.note(0, 0, samples, 64);
@@ -127,22 +127,26 @@ TEST(Film, ErrorIsRelativeToTheSurroundings) {
   EXPECT_NEAR(film.relative_error(ErrorOf::worst).value, std::sqrt(worst), 1e-12);
 }
 
-// Two values are the furthest apart that their mean, their deviations and the largest allow.
-TEST(SampleSums, RangeIsExactForTwoValuesAndNeverTooLarge) {
+// Two values, a slope, a rare sample beside others, and none.
+TEST(SampleSums, JumpsBetweenTwoValuesButNotOnASlope) {
   mc::Pcg random(8);
   for (int n = 2; n < 200; ++n) {
-    SampleSums two, any, equal;
+    SampleSums two, slope, rare, equal;
     for (int i = 0; i < n; ++i) {
-      const Eigen::Array3d value = i % 7 == 1 ? Eigen::Array3d(3, 0.5, 1e-20) : Eigen::Array3d(1, 0.25, 0);
-      const Eigen::Array3d drawn(random.uniform<double>(), -std::log(1 - random.uniform<double>()), i);
-      two.add(value);
-      any.add(drawn);
+      const double u = random.uniform<double>(), even = (i + 0.5) / n;
+      two.add(i % 7 == 1 ? Eigen::Array3d(3, 0.5, 1e-20) : Eigen::Array3d(1, 0.25, 0));
+      slope.add(Eigen::Array3d(even, 1 - 2e-9 * even, 1e20 * mc::sqr(even)));
+      rare.add(i == n / 2 ? Eigen::Array3d(-1, 2, 50) : Eigen::Array3d(0.3, 0.6, 1) * u);
       equal.add(Eigen::Array3d(0.1, 1e20, 0));
     }
-    EXPECT_TRUE(two.range().isApprox(Eigen::Array3d(2, 0.25, 1e-20), 1e-9)) << n;
-    const Eigen::Array3d range = any.range();
-    EXPECT_TRUE((range > 0).all() && (range <= any.channel_largest).all()) << n;
-    EXPECT_TRUE((equal.range() == 0).all()) << n;
+    EXPECT_TRUE(two.jump().isApprox(Eigen::Array3d(2, 0.25, 1e-20), 1e-9)) << n;
+    EXPECT_TRUE((equal.jump() == 0).all()) << n;
+    if (n < 20) continue; // a few values are spread unevenly
+    const Eigen::Array3d range = rare.channel_largest - rare.channel_smallest;
+    EXPECT_TRUE(rare.jump().isApprox(range, 1e-12)) << n;
+    EXPECT_NEAR(slope.jump()[0], std::sqrt(n - 1.0) / n, 1e-9);
+    EXPECT_EQ(slope.jump()[1], 0); // but for rounding all are equal
+    EXPECT_LE(slope.jump()[2], 0.37e20);
   }
 }
 

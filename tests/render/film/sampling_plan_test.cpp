@@ -126,7 +126,7 @@ TEST(SamplingPlan, BrightPixelsHideNoNoise) {
 // As many paths from the lights as make variance times rays least; from 1 to 4.
 TEST(SamplingPlan, PathsFromTheLightsByTheirVariance) {
   const auto plan = [](double noise, std::uint64_t rays) {
-    Film film(8, 8, 2, {}, true);
+    Film film(8, 8, 2, {.lit = true});
     for (int i = 0; i < 64; ++i) {
       for (const int set : {0, 1}) {
         film.add(i % 8, i / 8, set, Eigen::Array3d::Constant(8 * (1 + (set - 0.5) / 10)), 8);

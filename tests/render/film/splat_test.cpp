@@ -27,7 +27,7 @@ const std::array splat_rows = {SplatRow{"wide box", BoxFilter(Float(1.5)), 0.75}
 /// Splats of `n` samples in each set and square about the pixel of a film of one, where radiance is
 /// (1 + x^2 + y, 5, x) at its centre's distance (x, y); the squares reach one further than they need to.
 PixelEstimate splatted(const SplatFilter& filter, int n, mc::Pcg& random) {
-  Film film(1, 1, 4, filter);
+  Film film(1, 1, 4, {.splat = filter});
   Splat splat(filter);
   const int around = filter.reach() + 1;
   for (int y = -around; y <= around; ++y)
@@ -73,7 +73,7 @@ TEST(Splat, OneSetIsNotBiased) {
   const SplatFilter filter{Filter(GaussianFilter())};
   mc::Moments means;
   for (int i = 0; i < 20'000; ++i) {
-    Film film(1, 1, 1, filter);
+    Film film(1, 1, 1, {.splat = filter});
     Splat splat(filter);
     for (int y = -2; y <= 2; ++y)
       for (int x = -2; x <= 2; ++x) {
