@@ -34,9 +34,9 @@ struct Learned {
 
 /// Learned in rounds of growing size: a 32nd of the calls, or where those are few up to a quarter; up to a fifth where
 /// that helps, to two fifths where rare large values may be left to be found. `bare`, if any, are recorded sequences:
-/// learning begins with their points, and gives nothing where they are better than what it learned. A density that the
-/// caller gave is used as it is where it fits, see Learner::fits; else learning goes on from it. What a round says
-/// stands in `last`, unless bare sequences said something already.
+/// learning begins with their points, and gives nothing where they are better than what it learned, as far as both know
+/// their error. A density that the caller gave is used as it is where it fits, see Learner::fits; else learning goes on
+/// from it. What a round says stands in `last`, unless bare sequences said something already.
 std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outcome>& last);
 
 /// Sequences that double in length: rqmc, vegas, tree, or, for automatic, the best of them.

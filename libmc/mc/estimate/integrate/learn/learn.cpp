@@ -53,6 +53,11 @@ bool unresolved(const Means& means) {
                      [](const Mean& m) { return m.told() == ErrorBar::hardly_met || m.told() == ErrorBar::unseen; });
 }
 
+// Whether some error is not known.
+bool vague(const Means& means) {
+  return std::any_of(means.begin(), means.end(), [](const Mean& m) { return m.told() != ErrorBar::known; });
+}
+
 // Whether a round of so many calls pays: the logarithm of the variance, if it goes on falling with that of the number
 // of points as it did in the last round, then falls further than it rises for want of these calls, as 1 / N.
 //   fell : in the last round, of so many calls; `seen` is the number of all points so far
@@ -107,7 +112,7 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
   std::uint64_t calls = budget / 4, spent = 0;
   const std::uint64_t before_all = bare ? bare->length * bare->count : 0;
   double by = 0;
-  bool blind = false; // of the bare sequences
+  bool judged = false; // by bare sequences: where one of the two does not know its error, neither says which is better
   const bool begun = run.o.density || (bare && run.calls >= calls && learner.width() < wide);
   for (std::uint64_t k = begun ? 1 : 0; calls / run.o.replicates >= 8; ++k) {
     const std::uint64_t points = calls / run.o.replicates;
@@ -117,9 +122,9 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
     centre = values(round);
     spent += calls;
     if (bare) by = ahead(round, points, *bare);
-    blind = bare && sees_less(bare->history.back(), round);
+    judged = bare && !vague(bare->history.back()) && !vague(round);
     // Hopeless: worse than the bare sequences although no rare large values are left to be found.
-    if (bare && !blind && k > 0 && learner.width() < wide && by < -doubt(bare->history.back()) - 0.5) return {};
+    if (judged && k > 0 && learner.width() < wide && by < -doubt(bare->history.back()) - 0.5) return {};
     const auto now = static_cast<double>(points * run.o.replicates), seen = static_cast<double>(before_all + spent);
     if (k >= 1) calls *= 2;
     const bool searching = (!bare || unresolved(bare->history.back())) && learner.width() > wide,
@@ -130,7 +135,7 @@ std::optional<Learned> learn(Run& run, const Sequences* bare, std::optional<Outc
     if (k >= 2 && (learner.width() < 0.5 || !(searching || helps) || spent + calls > most)) break;
   }
   // A small lead is not worth the calls of a contest: the bare sequences make it up with them.
-  if (bare && !blind && learner.width() < narrow && by < small_lead) return {};
+  if (judged && learner.width() < narrow && by < small_lead) return {};
   return Learned{std::make_shared<AdaptedDensity>(learner.density()), std::move(centre)};
 }
 
