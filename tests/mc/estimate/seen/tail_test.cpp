@@ -74,6 +74,9 @@ TEST(Tail, InfiniteVarianceIsNamed) {
     EXPECT_GE(named(power(0.9)), 36) << b;
     EXPECT_GE(named(power(0.6)), 36) << b;
     EXPECT_GE(named(power(0.5)), 24) << b; // on the border
+    // Of a part of the volume, beside nothing or little: the tail ends there, and does not grow.
+    EXPECT_GE(named([](double x) { return x < 0.3 ? std::pow(x, -0.7) : 0.0; }), 36) << b;
+    EXPECT_GE(named([](double x) { return x < 0.3 ? std::pow(x, -0.7) : 1e-3; }), 36) << b;
     EXPECT_LE(named(power(0.4)), 1) << b;
     EXPECT_LE(named(power(0.2)), 1) << b;
     EXPECT_LE(named([](double x) { return std::exp(-x / 1e-3); }), 1) << b; // a narrow peak
