@@ -212,6 +212,7 @@ class Work {
       const double mean = end_of_round(wanted, is_pilot);
       if (!extend_to(mean, wanted)) continue;
       mean_ = mean;
+      if (!options_.target_error && !options_.progress) continue; // nobody asks
       error_ = film_.relative_error(options_.error_of);
       undecided_ = film_.undecided();
       const bool is_there = options_.target_error && error_.value <= *options_.target_error;

@@ -225,6 +225,7 @@ int integrate(const IntegrateOptions& o) {
     for (const Experiment* e : named_integrands()) std::printf("%-26s %s\n", e->name.c_str(), e->title.c_str());
     return exit_ok;
   }
+  mc::require(o.save_density != "-", "--save-density: a density goes to a file; name one");
   if (!o.save_density.empty()) mc::require_writable(o.save_density);
   mc::require(o.json.empty() || o.json != o.save_density,
               "--json and --save-density would both write '{}'; name another file", o.json);

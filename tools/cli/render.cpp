@@ -291,6 +291,14 @@ void refuse_inputs(const std::set<std::string>& files, const RenderOptions& opti
                   written == output ? "-o" : "--intervals");
 }
 
+void warn_where_light_is_missed(const ::render::Scene& scene, const ::render::RenderOptions& settings) {
+  if (settings.shown.what == ::render::Shown::radiance && misses_light(scene, settings.strategy, settings.max_depth))
+    std::fprintf(stderr,
+                 "carlo: warning: the strategy %s looks towards lamps and guides alone: it misses what other "
+                 "surfaces reflect and the sky; use mis\n",
+                 std::string(settings.strategy.name).c_str());
+}
+
 int render(const RenderOptions& options) {
   if (options.help_scene) {
     std::fputs(::render::mitsuba::reference().c_str(), stdout);
@@ -322,17 +330,14 @@ int render(const RenderOptions& options) {
   if (options.compare_strategies) return compare_all(options, scene, settings, tone, output);
   mc::require(is(output, ".png") || (options.tone.empty() && options.exposure.empty()),
               "{}: '{}' keeps radiance as it is; write a .png", options.tone.empty() ? "--exposure" : "--tone", output);
-  if (settings.shown.what == ::render::Shown::radiance && misses_light(scene, settings.strategy, settings.max_depth))
-    std::fprintf(stderr,
-                 "carlo: warning: the strategy %s looks towards lamps and guides alone: it misses what other "
-                 "surfaces reflect and the sky; use mis\n",
-                 std::string(settings.strategy.name).c_str());
+  warn_where_light_is_missed(scene, settings);
   Progress progress;
   std::mutex mutex;
-  settings.progress = [&](const ::render::Progress& p) {
-    const std::lock_guard lock(mutex);
-    progress.show(p.fraction, where_it_is(p, options.target_error));
-  };
+  if (progress.shows())
+    settings.progress = [&](const ::render::Progress& p) {
+      const std::lock_guard lock(mutex);
+      progress.show(p.fraction, where_it_is(p, options.target_error));
+    };
 
   const ::render::Crop part = part_of(settings);
   const PictureOf shown = picture_of(file, options.dialect, options.variables, read, settings, part);

@@ -302,6 +302,7 @@ int validate(const ValidateOptions& options) {
   const std::vector<const Case*> cases =
       select(o, brought.cases.empty() ? catalogue() : brought.cases, !brought.cases.empty());
   if (o.list) {
+    mc::require(o.json.empty() && o.junit.empty(), "validate: --list checks nothing; leave out --json and --junit");
     for (const Case* c : cases) fmt::print("{:<44} {}\n", plain(*c), c->scalar);
     return exit_ok;
   }

@@ -17,6 +17,7 @@ class Progress {
 
   /// `fraction` of the work in [0,1] is done; `text` says more (a rate, an error). The remaining time is extrapolated.
   void show(double fraction, const std::string& text);
+  bool shows() const { return enabled_; } ///< else nobody need find out what to show
   void clear();
 
  private:

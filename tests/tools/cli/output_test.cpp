@@ -83,6 +83,8 @@ TEST_F(OutputTest, ADashIsStandardOutputForJson) {
   }
   EXPECT_THAT(said(validate + " --junit -"), AllOf(testing::StartsWith("<?xml"), testing::EndsWith("</testsuite>\n")));
   expect_one_line(support::run_carlo(validate + " --junit - --json -"), "--json and --junit would both write '-'");
+  expect_one_line(support::run_carlo("validate --list --json -"), "--list checks nothing");
+  expect_one_line(support::run_carlo("integrate 'x' -d x=0:1 --save-density -"), "a density goes to a file");
   expect_one_line(support::run_carlo("integrate 1/0 -d x=2:3 --json -"), "must be finite");
   EXPECT_THAT(support::run("(" + carlo("--json - 3>&1 1>/dev/full 2>&3") + ")").output,
               HasSubstr("carlo: cannot write to standard output: No space left on device\n"));
