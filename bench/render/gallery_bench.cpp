@@ -13,6 +13,7 @@
 #include <render/io/mitsuba/mitsuba.h>
 
 #include <mc/estimate/moments.h>
+#include <mc/random/hash.h>
 
 #include <fmt/format.h>
 
@@ -56,11 +57,13 @@ void show(const carlo::GalleryScene& gallery_scene, int seeds, int spp, int side
   long_ones.seed = 1'000'000;
   const Green truth(render::render(file.scene, long_ones).image);
   options.spp = spp;
+  const auto place = static_cast<std::uint64_t>(&gallery_scene - carlo::gallery().data());
   for (const auto sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
     options.sampler = sampler;
     mc::Moments z, mean, undecided;
     double missed = 0;
-    for (options.seed = 0; options.seed < std::uint64_t(seeds); ++options.seed) {
+    for (int seed = 0; seed < seeds; ++seed) {
+      options.seed = mc::hash(place, sampler, seed); // no two rows by the same points
       const RenderResult result = render::render(file.scene, options);
       const Green green(result.image);
       z.add(z_of(green, truth));

@@ -13,8 +13,8 @@ namespace render {
 ///   A pixel alone does not know its error where rare bright paths decide: until it meets one it is too dark and says
 ///   that it is sure. Its neighbours have met some, so they share; and a pixel's variance counts as one observation,
 ///   however many estimates lie behind it. A lamp smaller than a pixel has no neighbour of its kind.
-///   error  : in seven scenes, two with caustics, 95 % intervals held 96 to 98 % of the pixels at 4 to 256 samples, and
-///            of the noisiest tenth 90 to 98 %; by the variance of the pixel alone, which two estimates hardly know,
+///   error  : in seven scenes, two with caustics, 95 % intervals held 95 to 98 % of the pixels at 4 to 256 samples, and
+///            of the noisiest tenth 90 to 97 %; by the variance of the pixel alone, which two estimates hardly know,
 ///            all would be five times as wide (notebooks-data/truth/pixel_intervals.csv). Of lamps that cover part of
 ///            a pixel all held at 16 to 256 samples.
 ///            Where noise changes within three pixels, the quiet ones get wider intervals than they need.
