@@ -67,6 +67,14 @@ const XmlElement* Declaration::find(const XmlElement& plugin) const {
   return found;
 }
 
+void Declaration::require_dialect(const XmlElement& given, Context& context) const {
+  const bool is_lajolla = context.dialect() == Dialect::lajolla;
+  if (!is_lajolla && !mitsubas.empty())
+    given.fail(fmt::format("'{}' is lajolla's; say {}, or --dialect lajolla", name, mitsubas));
+  if (is_lajolla && !lajollas.empty())
+    context.warn(given, fmt::format("lajolla leaves {} out, here it counts; say {} instead", name, lajollas));
+}
+
 Parameter<double> number(const std::string& name, const std::string& unit, const std::string& meaning) {
   return {{name, "number", unit, {"float", "integer"}, meaning},
           [](const XmlElement& e, Context&) { return number_of(e); },

@@ -23,6 +23,8 @@ struct Declaration {
   bool has_effect = true;     ///< false: accepted, since it cannot change the picture
   std::optional<bool> only{}; ///< a switch that may only be given as what it is by default
   std::string departure = {}; ///< of the fallback from Mitsuba's own, as a warning; empty: none
+  std::string mitsubas = {};  ///< of a parameter that lajolla alone has: what to say in Mitsuba; empty: no such one
+  std::string lajollas = {};  ///< of one that lajolla leaves out, as a warning: what to say there; empty: no such one
 
   bool nested() const { return name.starts_with('<'); }
   /// Whether a child of a plugin is this parameter.
@@ -30,6 +32,9 @@ struct Declaration {
   /// The child of a plugin that is this parameter, or null.
   ///   throws : Error for a second one and for another kind of element
   const XmlElement* find(const XmlElement& plugin) const;
+  /// Of what is given: warns where the dialect leaves it out.
+  ///   throws : Error where the dialect does not have it
+  void require_dialect(const XmlElement& given, Context& context) const;
 };
 
 /// What is read, in the coordinates of the scene: a transform leads to these, nothing else depends on them.
@@ -59,10 +64,25 @@ template <class T> struct Parameter {
     p.declared.lajolla = text;
     return p;
   }
+  /// The same, refused but in lajolla's dialect; `instead` is what Mitsuba has.
+  Parameter of_lajolla(const std::string& instead) const {
+    Parameter p = *this;
+    p.declared.mitsubas = instead;
+    return p;
+  }
+  /// The same, with a warning in lajolla's dialect, that it counts here and not there; `instead` is what lajolla has.
+  Parameter left_out_by_lajolla(const std::string& instead) const {
+    Parameter p = *this;
+    p.declared.lajollas = instead;
+    return p;
+  }
 
   /// Its value for a plugin.
   T read(const XmlElement& plugin, Context& context) const {
-    if (const XmlElement* given = declared.find(plugin)) return in_scene(parse(*given, context), context);
+    if (const XmlElement* given = declared.find(plugin)) {
+      declared.require_dialect(*given, context);
+      return in_scene(parse(*given, context), context);
+    }
     if (context.dialect() == Dialect::lajolla && lajolla_fallback) return in_scene(*lajolla_fallback, context);
     if (!fallback) plugin.fail(fmt::format("parameter '{}' is missing: {}", declared.name, declared.meaning));
     if (!declared.departure.empty() && context.dialect() == Dialect::mitsuba) context.warn(plugin, declared.departure);

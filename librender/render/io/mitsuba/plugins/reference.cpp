@@ -37,6 +37,8 @@ std::string row_of(const Declaration& d) {
     meaning = "no effect: " + meaning;
   } else if (d.only) {
     meaning = fmt::format("only {} is supported: {}", *d.only, meaning);
+  } else if (!d.mitsubas.empty()) {
+    meaning += " (lajolla's alone)";
   }
   return fmt::format("| `{}` | {} | {} | {} | {} |\n", d.name, d.type, d.unit, fallback, meaning);
 }

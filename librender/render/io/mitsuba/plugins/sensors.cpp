@@ -86,8 +86,30 @@ Plugin<FilmSettings> film_plugin(std::string name) {
       .accepting(ignored);
 }
 
-BoxFilter make_box(double radius) { return BoxFilter(Float(radius)); }
-TentFilter make_tent(double radius) { return TentFilter(Float(radius)); }
+// Of a filter whose size is its radius in Mitsuba, and its width in lajolla.
+double radius_of(const std::optional<double>& radius, const std::optional<double>& width, double fallback) {
+  mc::require(!radius || !width, "give width or radius, its half, not both");
+  return width ? *width / 2 : radius.value_or(fallback);
+}
+
+constexpr double box_radius = 0.5, tent_radius = 1;
+
+BoxFilter make_box(const std::optional<double>& radius, const std::optional<double>& width) {
+  return BoxFilter(Float(radius_of(radius, width, box_radius)));
+}
+TentFilter make_tent(const std::optional<double>& radius, const std::optional<double>& width) {
+  return TentFilter(Float(radius_of(radius, width, tent_radius)));
+}
+
+Parameter<std::optional<double>> half_side(double fallback) {
+  return optional(number("radius", "pixels", "half its side, > 0"))
+      .otherwise(std::nullopt, fmt::format("{}", fallback))
+      .left_out_by_lajolla("width, which is twice that");
+}
+Parameter<std::optional<double>> side() {
+  return optional(number("width", "pixels", "its side, > 0, instead of radius")).of_lajolla("radius, its half");
+}
+
 GaussianFilter make_gaussian(double stddev) { return GaussianFilter(Float(stddev)); }
 SubpixelTentFilter make_subpixeltent(int n, double radius) { return SubpixelTentFilter(n, Float(radius)); }
 
@@ -149,9 +171,9 @@ const Plugins<FilmSettings>& film_plugins() {
 
 const Plugins<Filter>& filter_plugins() {
   static const Plugins<Filter> rows = {
-      plugin<Filter>("box", "all of a square alike", make_box, number("radius", "pixels", 0.5, "half its side, > 0")),
-      plugin<Filter>("tent", "falls linearly from the centre, in x and in y", make_tent,
-                     number("radius", "pixels", 1, "half its side, > 0")),
+      plugin<Filter>("box", "all of a square alike", make_box, half_side(box_radius), side()),
+      plugin<Filter>("tent", "falls linearly from the centre, in x and in y", make_tent, half_side(tent_radius),
+                     side()),
       plugin<Filter>("gaussian", "the normal distribution, not cut off", make_gaussian,
                      number("stddev", "pixels", 0.5, "its standard deviation, > 0")),
       plugin<Filter>("subpixeltent", "the mean of n x n tents about the centres of the subpixels, as in smallpt (ours)",

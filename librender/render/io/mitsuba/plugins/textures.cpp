@@ -17,19 +17,23 @@ Moved moved_of(const XmlElement& e, Context&) {
   return {{m(0, 0), m(1, 1)}, t.translation.head<2>()};
 }
 
-UvMap make_uv_map(double uscale, double vscale, double uoffset, double voffset, const Moved& first) {
-  const Vec2d scale(uscale, vscale);
+struct Repeats {
+  std::optional<double> u, v, both;
+};
+
+UvMap make_uv_map(const Repeats& repeats, double uoffset, double voffset, const Moved& first) {
+  const auto& [u, v, both] = repeats;
+  mc::require(!both || (!u && !v), "give uvscale, or uscale and vscale, not both");
+  const Vec2d scale(both.value_or(u.value_or(1)), both.value_or(v.value_or(1)));
   return UvMap(scale.cwiseProduct(first.scale), scale.cwiseProduct(first.offset) + Vec2d(uoffset, voffset));
 }
 
-Texture make_bitmap(double uscale, double vscale, double uoffset, double voffset, const Moved& first, std::size_t,
-                    std::size_t, const std::shared_ptr<const Texels>& texels) {
-  return Bitmap(texels, make_uv_map(uscale, vscale, uoffset, voffset, first));
+Texture make_bitmap(const UvMap& map, std::size_t, std::size_t, const std::shared_ptr<const Texels>& texels) {
+  return Bitmap(texels, map);
 }
 
-Texture make_checkerboard(double uscale, double vscale, double uoffset, double voffset, const Moved& first,
-                          const Spectrum& color0, const Spectrum& color1) {
-  return Checkerboard(color0, color1, make_uv_map(uscale, vscale, uoffset, voffset, first));
+Texture make_checkerboard(const UvMap& map, const Spectrum& color0, const Spectrum& color1) {
+  return Checkerboard(color0, color1, map);
 }
 
 Parameter<Moved> to_uv() {
@@ -44,13 +48,28 @@ Parameter<Moved> to_uv() {
   return p.otherwise({}, "identity");
 }
 
+template <class Make> struct OnSurface {
+  Make make;
+  template <class... Values>
+  Texture operator()(const std::optional<double>& uscale, const std::optional<double>& vscale,
+                     const std::optional<double>& uvscale, double uoffset, double voffset, const Moved& first,
+                     const Values&... values) const {
+    return make(make_uv_map({uscale, vscale, uvscale}, uoffset, voffset, first), values...);
+  }
+};
+
 // A row for a texture, with the parameters that all textures have.
 template <class Make, class... V>
 Plugin<Texture> texture_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
-  return plugin<Texture>(
-      std::move(name), std::move(meaning), make, number("uscale", "", 1, "how often it repeats along u"),
-      number("vscale", "", 1, "how often it repeats along v"), number("uoffset", "periods", 0, "added to u after that"),
-      number("voffset", "periods", 0, "added to v after that"), to_uv(), parameters...);
+  const auto repeats = [](const std::string& of, const std::string& along) {
+    return optional(number(of, "", "how often it repeats along " + along));
+  };
+  return plugin<Texture>(std::move(name), std::move(meaning), OnSurface<Make>{make},
+                         repeats("uscale", "u").otherwise(std::nullopt, "1"),
+                         repeats("vscale", "v").otherwise(std::nullopt, "1"),
+                         repeats("uvscale", "both, instead of these").of_lajolla("uscale and vscale"),
+                         number("uoffset", "periods", 0, "added to u after that"),
+                         number("voffset", "periods", 0, "added to v after that"), to_uv(), parameters...);
 }
 
 } // namespace

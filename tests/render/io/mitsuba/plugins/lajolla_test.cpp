@@ -1,0 +1,74 @@
+// What lajolla's own loader reads, and Mitsuba's does not.
+
+#include <render/io/mitsuba/plugins.h>
+
+#include "render/io/mitsuba/scene_text.h"
+
+namespace {
+
+using namespace render::mitsuba;
+using render::Dialect;
+using testing::AllOf, testing::HasSubstr;
+
+struct Lajolla : support::SceneTest {
+  render::SceneFile filtered(const std::string& rfilter, Dialect dialect = Dialect::lajolla) const {
+    return render::read_mitsuba(scene(with_filter(rfilter)), dialect);
+  }
+  static std::string with_filter(const std::string& rfilter) {
+    return "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/><film type=\"hdrfilm\">\n" + rfilter +
+           "</film></sensor><shape type=\"sphere\"/>";
+  }
+};
+
+std::string rfilter_of(const std::string& type, const std::string& name = "", const std::string& value = "") {
+  const std::string parameter = name.empty() ? "" : "<float name=\"" + name + "\" value=\"" + value + "\"/>";
+  return "<rfilter type=\"" + type + "\">" + parameter + "</rfilter>";
+}
+
+TEST_F(Lajolla, TheWidthOfAFilterIsTwiceItsRadius) {
+  const auto radius = [&](const std::string& rfilter) { return filtered(rfilter).scene.filter().radius(); };
+  EXPECT_EQ(radius(rfilter_of("box", "width", "3")), 1.5);
+  EXPECT_EQ(radius(rfilter_of("tent", "width", "3")), 1.5);
+  EXPECT_EQ(radius(rfilter_of("box")), 0.5);
+  EXPECT_EQ(radius(rfilter_of("tent")), 1);
+  EXPECT_THAT(filtered(rfilter_of("tent", "width", "3")).warnings, testing::IsEmpty());
+
+  // lajolla does not look at radius: it counts, and is named.
+  const render::SceneFile by_radius = filtered(rfilter_of("tent", "radius", "2"));
+  EXPECT_EQ(by_radius.scene.filter().radius(), 2);
+  EXPECT_THAT(by_radius.warnings,
+              testing::ElementsAre(AllOf(HasSubstr("s.xml:3: <float>: lajolla leaves radius out, here it counts"),
+                                         HasSubstr("say width"))));
+  EXPECT_THAT(filtered(rfilter_of("tent", "radius", "2"), Dialect::mitsuba).warnings, testing::IsEmpty());
+
+  EXPECT_THAT(refusal(with_filter(rfilter_of("box", "width", "1"))),
+              HasSubstr("s.xml:3: <float>: 'width' is lajolla's; say radius, its half, or --dialect lajolla"));
+  const std::string both = "<rfilter type=\"box\"><float name=\"width\" value=\"1\"/><float name=\"radius\" "
+                           "value=\"1\"/></rfilter>";
+  EXPECT_THAT(refusal(with_filter(both), Dialect::lajolla),
+              HasSubstr("s.xml:3: <rfilter>: give width or radius, its half, not both"));
+  EXPECT_NE(refusal(with_filter(rfilter_of("box", "width", "0")), Dialect::lajolla), "");
+}
+
+TEST_F(Lajolla, OneScaleIsForUAndV) {
+  const auto at = [&](const std::string& parameters, double u, double v, Dialect dialect = Dialect::lajolla) {
+    const auto root = render::read_xml(write("t.xml", "<texture type=\"checkerboard\">" + parameters + "</texture>"));
+    Context context(root, dialect, render::Vec3d::Zero());
+    return double(read_plugin(texture_plugins(), root, context).eval({u, v})[0]);
+  };
+  const std::string both = "<float name=\"uvscale\" value=\"3\"/>", u = "<float name=\"uscale\" value=\"3\"/>",
+                    v = "<float name=\"vscale\" value=\"3\"/>";
+  int dark = 0;
+  for (double x = 0.01; x < 1; x += 0.03)
+    for (double y = 0.013; y < 1; y += 0.03) {
+      EXPECT_EQ(at(both, x, y), at(u + v, x, y)) << x << " " << y;
+      dark += at(both, x, y) < 0.3;
+    }
+  EXPECT_GT(dark, 200);
+  EXPECT_THAT(support::error_of([&] { at(both, 0, 0, Dialect::mitsuba); }),
+              HasSubstr("t.xml:1: <float>: 'uvscale' is lajolla's; say uscale and vscale, or --dialect lajolla"));
+  EXPECT_THAT(support::error_of([&] { at(u + both, 0, 0); }),
+              HasSubstr("t.xml:1: <texture>: give uvscale, or uscale and vscale, not both"));
+}
+
+} // namespace
