@@ -31,7 +31,12 @@ void add_bsdfs(Catalogue& c) {
     add_bsdf(c, "RoughPlastic", fmt::format("LajollaBase, specular=0.5, alpha={}", alpha),
              render::RoughPlastic<render::LajollaBase>(render::Float(1.49), render::Float(alpha), paint, half),
              {0, 60, 85, grazing(alpha), 120});
+  add_bsdf(c, "SmoothPlastic", "LayeredBase", render::SmoothPlastic(render::Float(1.49), paint, one),
+           {0, 60, 89.9, 120});
+  add_bsdf(c, "SmoothPlastic", "LajollaBase, specular=0.5",
+           render::SmoothPlastic<render::LajollaBase>(render::Float(1.49), paint, half), {0, 60, 89.9, 120});
   const render::Spectrum gold(0.143f, 0.375f, 1.442f), gold_k(3.983f, 2.386f, 1.603f);
+  add_bsdf(c, "SmoothConductor", "", render::SmoothConductor(gold, gold_k), {0, 60, 89.9, 120});
   for (const double alpha : {1e-4, 1e-3, 0.02, 0.3, 1.0}) {
     const std::vector<double> angles = {0, 60, grazing(alpha), 120};
     add_bsdf(c, "RoughConductor", fmt::format("Microfacets, alpha={}", alpha),

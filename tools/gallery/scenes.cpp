@@ -75,7 +75,7 @@ constexpr auto scenes = std::to_array<GalleryScene>({
     {"filter-box", "Squares to the horizon, box filter", ours},
     {"filter-tent", "Squares to the horizon, tent filter", ours},
     {"filter-gaussian", "Squares to the horizon, Gaussian filter", ours},
-    {"textures", "Chequered floor, tiled wall", ours},
+    {"textures", "Chequered floor of polished marble, tiled wall", ours},
     {"ground-glass", "Rough glass, smooth glass and gloss under the picture of a sky", ours, "ground-glass", "", "",
      -2},
     {"mesh-formats", "Torus and trefoil knot", ours},

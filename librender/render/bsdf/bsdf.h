@@ -1,5 +1,5 @@
 #pragma once
-/// The closed set of BSDFs.
+/// The closed sets of BSDFs, and of those that vary over a surface.
 
 #include <render/bsdf/dielectric.h>
 #include <render/bsdf/lambert.h>
@@ -7,13 +7,18 @@
 #include <render/bsdf/rough_conductor.h>
 #include <render/bsdf/rough_dielectric.h>
 #include <render/bsdf/rough_plastic.h>
+#include <render/bsdf/smooth_conductor.h>
+#include <render/bsdf/smooth_plastic.h>
+#include <render/bsdf/textured_lambert.h>
+#include <render/bsdf/textured_plastic.h>
 #include <render/core/dispatch.h>
 
 namespace render {
 
 /// One of the BSDFs; itself models BsdfLike.
 struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic<LayeredBase>, RoughPlastic<LajollaBase>,
-                           RoughDielectric, RoughConductor<Microfacets>, RoughConductor<BlinnPhongFacets>> {
+                           RoughDielectric, RoughConductor<Microfacets>, RoughConductor<BlinnPhongFacets>,
+                           SmoothPlastic<LayeredBase>, SmoothPlastic<LajollaBase>, SmoothConductor> {
   using variant::variant;
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
@@ -47,6 +52,23 @@ struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic<LayeredBase>
   bool is_diffuse() const { return std::holds_alternative<Lambert>(*this); }
   bool casts_caustics() const {
     return dispatch(*this, [](const auto& b) { return b.casts_caustics(); });
+  }
+};
+
+/// A BSDF for every point of a surface. Each models:
+///   at(uv) : the one of the point
+///   bare() : one of its kind
+struct TexturedBsdf
+    : std::variant<TexturedLambert, TexturedPlastic<RoughPlastic<LayeredBase>>,
+                   TexturedPlastic<RoughPlastic<LajollaBase>>, TexturedPlastic<SmoothPlastic<LayeredBase>>,
+                   TexturedPlastic<SmoothPlastic<LajollaBase>>> {
+  using variant::variant;
+
+  Bsdf at(const Vec2d& uv) const {
+    return dispatch(*this, [&](const auto& t) { return Bsdf(t.at(uv)); });
+  }
+  Bsdf bare() const {
+    return dispatch(*this, [](const auto& t) { return Bsdf(t.bare()); });
   }
 };
 

@@ -30,15 +30,21 @@ CoatShares::Shares integrate(Float cosine, Float eta, const Microfacets& facets)
   return {Float(reflected), Float(transmitted)};
 }
 
+CoatShares::Shares of_smooth(Float cosine, Float eta) {
+  const Float f = fresnel_dielectric(cosine, eta).reflectance;
+  return {f, 1 - f};
+}
+
 } // namespace
 
 CoatShares::CoatShares(Float eta, Float alpha)
     : critical_(eta < 1 ? std::min(std::sqrt((1 - eta) * (1 + eta)), Float(0.999)) : Float(0)),
       cells_below_(critical_ > 0 ? below : 0) {
-  const Microfacets facets(alpha);
+  std::optional<Microfacets> facets;
+  if (alpha > 0) facets.emplace(alpha);
   std::vector<Node> nodes;
   const auto add = [&](Float cosine) {
-    const auto [reflected, transmitted] = integrate(cosine, eta, facets);
+    const auto [reflected, transmitted] = facets ? integrate(cosine, eta, *facets) : of_smooth(cosine, eta);
     nodes.push_back({cosine, reflected, transmitted});
   };
   for (std::size_t i = 0; i < cells_below_; ++i)

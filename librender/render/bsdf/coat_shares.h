@@ -24,7 +24,7 @@ class CoatShares {
     Float reflected, transmitted;
   };
 
-  /// alpha in [1e-4, 1], eta > 0, both checked by those who have them.
+  /// alpha 0 for a smooth coat or in [1e-4, 1], eta > 0, both checked by those who have them.
   CoatShares(Float eta, Float alpha);
 
   Shares of(Float cosine) const {

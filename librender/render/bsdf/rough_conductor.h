@@ -22,6 +22,19 @@ inline Spectrum fresnel_conductor(Float cos_i, const Spectrum& eta, const Spectr
   return (perpendicular * (1 + (even - odd) / (even + odd)) / 2).min(Float(1));
 }
 
+/// The index of refraction of a metal that fresnel_conductor is defined for.
+///   throws : Error, naming `what`, unless eta and k are in [0, 1e6] and never both 0
+inline const Spectrum& checked_metal(std::string_view what, const Spectrum& eta, const Spectrum& k) {
+  constexpr Float most = 1e6f; // its fourth power is a float
+  checked_radiance(fmt::format("{}: eta", what), eta);
+  checked_radiance(fmt::format("{}: k", what), k);
+  mc::require((eta <= most).all() && (k <= most).all(),
+              "{}: eta ({}, {}, {}) and k ({}, {}, {}) must be at most {}; those of metals stay below 100", what,
+              eta[0], eta[1], eta[2], k[0], k[1], k[2], most);
+  mc::require((eta + k > 0).all(), "{}: eta ({}, {}, {}) and k must not both be 0", what, eta[0], eta[1], eta[2]);
+  return eta;
+}
+
 /// Metal with facets of a distribution, the same on both sides.
 ///   eta, k : its index of refraction and extinction coefficient over the index of the outside, per channel
 ///   eval   : Ks F D G / (4 cos wo cos wi), F that of wo about the half vector; 0 where wo and wi lie on different
@@ -35,15 +48,8 @@ template <class Facets> class RoughConductor {
  public:
   RoughConductor(const Spectrum& eta, const Spectrum& k, const Facets& facets,
                  const Spectrum& reflectance = Spectrum::Ones())
-      : eta_(checked_radiance("rough conductor: eta", eta)), k_(checked_radiance("rough conductor: k", k)),
-        facets_(facets), reflectance_(checked_reflectance("rough conductor: specularReflectance", reflectance)) {
-    mc::require(
-        (eta <= most_index).all() && (k <= most_index).all(),
-        "rough conductor: eta ({}, {}, {}) and k ({}, {}, {}) must be at most {}; those of metals stay below 100",
-        eta[0], eta[1], eta[2], k[0], k[1], k[2], most_index);
-    mc::require((eta + k > 0).all(), "rough conductor: eta ({}, {}, {}) and k must not both be 0", eta[0], eta[1],
-                eta[2]);
-  }
+      : eta_(checked_metal("rough conductor", eta, k)), k_(k), facets_(facets),
+        reflectance_(checked_reflectance("rough conductor: specularReflectance", reflectance)) {}
 
   std::optional<BsdfSample> sample(const Vec3& wo_given, Float, const Vec2& u) const {
     const Vec3 wo = upward(wo_given, wo_given);
@@ -80,8 +86,6 @@ template <class Facets> class RoughConductor {
     const Float cosine = std::clamp(r.wo.dot(r.m), Float(0), Float(1));
     return reflectance_ * fresnel_conductor(cosine, eta_, k_) * (facets_.shape(r.wo, r.wi, r.m) / 4);
   }
-
-  static constexpr Float most_index = 1e6f; // its fourth power is a float
 
   Spectrum eta_, k_;
   Facets facets_;

@@ -18,6 +18,7 @@ namespace render {
 ///   Source : Mitsuba 0.6, roughplastic
 class LayeredBase {
  public:
+  /// alpha : of the coat; 0: it is smooth
   LayeredBase(Float eta, Float alpha) : coat_(eta, alpha) {
     if (coat_.mean_transmitted() > 0) scale_ = std::numbers::inv_pi_v<Float> / coat_.mean_transmitted();
   }
@@ -94,6 +95,17 @@ template <class Base = LayeredBase> class RoughPlastic {
     if (!r) return 0;
     const Float share = specular_share(r->wo);
     return share * facets_.seen_from(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
+  }
+  const Spectrum& diffuse() const { return diffuse_; }
+  const Spectrum& specular() const { return specular_; }
+  /// The same paint of these colours, which lie in [0, 1].
+  RoughPlastic in_colors(const Spectrum& diffuse, const Spectrum& specular) const {
+    RoughPlastic paint = *this;
+    paint.diffuse_ = diffuse;
+    paint.specular_ = specular;
+    paint.diffuse_y_ = luminance(diffuse);
+    paint.specular_y_ = luminance(specular);
+    return paint;
   }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3& wo) const {

@@ -9,6 +9,7 @@ namespace render {
 class SceneBuilder {
  public:
   BsdfId add(Bsdf bsdf) { return add(Material(std::move(bsdf))); }
+  BsdfId add(TexturedBsdf bsdf) { return add(Material(std::move(bsdf))); }
   BsdfId add(Material material);
 
   struct Cover {

@@ -3,7 +3,6 @@
 
 #include <render/accel/bvh.h>
 #include <render/bsdf/bsdf.h>
-#include <render/bsdf/textured_lambert.h>
 #include <render/camera/thin_lens.h>
 #include <render/film/filter.h>
 #include <render/light/choice.h>
@@ -22,12 +21,12 @@ enum class BsdfId : std::uint32_t {};
 
 /// A BSDF, or one that varies, and how much of it is there.
 struct Material {
-  Bsdf bsdf;                                      ///< where a texture varies it, one of its kind
-  std::shared_ptr<const TexturedLambert> texture; ///< null: it is the same everywhere
-  std::shared_ptr<const Mask> mask;               ///< null: all of it is there
+  Bsdf bsdf;                                   ///< where a texture varies it, one of its kind
+  std::shared_ptr<const TexturedBsdf> texture; ///< null: it is the same everywhere
+  std::shared_ptr<const Mask> mask;            ///< null: all of it is there
 
   Material(Bsdf b) : bsdf(std::move(b)) {}
-  Material(TexturedLambert t) : bsdf(Lambert()), texture(std::make_shared<const TexturedLambert>(std::move(t))) {}
+  Material(TexturedBsdf t) : bsdf(t.bare()), texture(std::make_shared<const TexturedBsdf>(std::move(t))) {}
   bool needs_uv() const { return texture || (mask && mask->varies()); }
 };
 

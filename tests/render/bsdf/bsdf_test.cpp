@@ -12,7 +12,9 @@ using namespace render;
 
 static_assert(BsdfLike<Lambert> && BsdfLike<Metal> && BsdfLike<Dielectric> && BsdfLike<RoughPlastic<>> &&
               BsdfLike<RoughPlastic<LajollaBase>> && BsdfLike<RoughDielectric> &&
-              BsdfLike<RoughConductor<Microfacets>> && BsdfLike<RoughConductor<BlinnPhongFacets>> && BsdfLike<Bsdf>);
+              BsdfLike<RoughConductor<Microfacets>> && BsdfLike<RoughConductor<BlinnPhongFacets>> &&
+              BsdfLike<SmoothPlastic<>> && BsdfLike<SmoothPlastic<LajollaBase>> && BsdfLike<SmoothConductor> &&
+              BsdfLike<Bsdf>);
 
 TEST(Bsdf, SaysWhatItsMemberSays) {
   const Metal metal{Spectrum::Constant(Float(0.7)), Float(0.5)};
@@ -27,6 +29,9 @@ TEST(Bsdf, SaysWhatItsMemberSays) {
   EXPECT_FALSE(bsdf.is_delta());
   EXPECT_TRUE(Bsdf(Dielectric{}).is_delta());
   EXPECT_TRUE(Bsdf(Metal{}).is_delta());
+  EXPECT_TRUE(Bsdf(SmoothConductor(Spectrum::Ones(), Spectrum::Ones())).is_delta());
+  const Bsdf lacquer = SmoothPlastic(Float(1.5), Spectrum::Ones(), Spectrum::Ones());
+  EXPECT_TRUE(lacquer.has_delta() && !lacquer.is_delta() && !lacquer.is_narrow());
   EXPECT_FALSE(Bsdf(Lambert{}).is_delta());
 }
 
@@ -59,6 +64,7 @@ TEST(Bsdf, AlbedoIsAboutWhatSamplesSendOn) {
   for (const Float alpha : {Float(0.01), Float(0.1), Float(0.3)})
     for (const Bsdf& bsdf :
          {Bsdf(Lambert(half)), Bsdf(Metal(half)), Bsdf(Metal(half, alpha)), Bsdf(Dielectric(Float(1.5), half, half)),
+          Bsdf(SmoothConductor(half, 4 * one)), Bsdf(SmoothPlastic(Float(1.5), half, one)),
           Bsdf(RoughConductor(half, 4 * one, Microfacets(alpha))),
           Bsdf(RoughConductor(half, 4 * one, BlinnPhongFacets(alpha))),
           Bsdf(RoughPlastic(Float(1.5), alpha, half, one)),

@@ -55,6 +55,20 @@ TEST(CoatShares, TheMeanIsThatOfTheTable) {
   EXPECT_NEAR(CoatShares(Float(1.5), Float(1e-4)).mean_transmitted(), 1 - 0.091777959342, 2e-4);
 }
 
+// A smooth coat's are Fresnel's.
+TEST(CoatShares, WithoutRoughnessAreExactAtTheNodes) {
+  for (const double eta : {0.7, 1.0, 1.5, 3.0}) {
+    const CoatShares coat{Float(eta), 0};
+    for (double cosine = 0.001; cosine < 1; cosine += 0.001) {
+      const Float f = fresnel_dielectric(Float(cosine), Float(eta)).reflectance;
+      const CoatShares::Shares shares = coat.of(Float(cosine));
+      EXPECT_NEAR(shares.reflected, f, eta < 1 ? 0.02 : 0.002) << eta << ", " << cosine;
+      EXPECT_NEAR(shares.reflected + shares.transmitted, 1, 1e-6) << eta << ", " << cosine;
+    }
+  }
+  EXPECT_NEAR(CoatShares(Float(1.5), 0).mean_transmitted(), 1 - 0.091777959342, 2e-4);
+}
+
 // Light that comes from everywhere passes a boundary both ways alike, but for the index squared: so the mean from the
 // outside tells what the base gets back from the inside.
 TEST(CoatShares, AreReciprocal) {

@@ -148,6 +148,8 @@ TEST_F(PluginsTest, PicturesOfPaintLieInZeroToOne) {
     return "<texture type=\"bitmap\" name=\"" + name + "\"><string name=\"filename\" value=\"p.pfm\"/></texture>";
   };
   const std::string diffuse = "<bsdf type=\"diffuse\">" + bitmap("reflectance") + "</bsdf>",
+                    paint = "<bsdf type=\"roughplastic\">" + bitmap("diffuseReflectance") + "</bsdf>",
+                    lacquer = "<bsdf type=\"plastic\">" + bitmap("specularReflectance") + "</bsdf>",
                     mask = "<bsdf type=\"mask\">" + bitmap("opacity") + "<bsdf type=\"diffuse\"/></bsdf>";
   const auto said = [&](const std::string& body, double texel) {
     render::Image picture(3, 2);
@@ -155,7 +157,10 @@ TEST_F(PluginsTest, PicturesOfPaintLieInZeroToOne) {
     render::write_image(path("p.pfm"), picture);
     return refusal(std::string(sensor) + "\n" + body);
   };
-  for (const auto& [bsdf, what] : {std::pair(diffuse, "diffuse: reflectance"), {mask, "mask: opacity"}}) {
+  for (const auto& [bsdf, what] : {std::pair(diffuse, "diffuse: reflectance"),
+                                   {paint, "plastic: diffuseReflectance"},
+                                   {lacquer, "plastic: specularReflectance"},
+                                   {mask, "mask: opacity"}}) {
     const std::string shape = "<shape type=\"cube\">" + bsdf + "</shape>";
     EXPECT_EQ(said(shape, 1), "");
     for (const double wrong : {1.75, -0.25})

@@ -9,7 +9,7 @@ namespace render::mitsuba {
 namespace {
 
 Material make_diffuse(const Reflectance& reflectance) {
-  if (const auto* texture = std::get_if<Texture>(&reflectance)) return TexturedLambert(*texture);
+  if (const auto* texture = std::get_if<Texture>(&reflectance)) return TexturedBsdf(TexturedLambert(*texture));
   return Bsdf(Lambert(std::get<Spectrum>(reflectance)));
 }
 
@@ -17,35 +17,85 @@ Bsdf make_conductor(std::size_t, const Spectrum& reflectance) { return Metal(ref
 
 Bsdf make_fuzzymetal(const Spectrum& albedo, double fuzz) { return Metal(albedo, Float(fuzz)); }
 
-Bsdf make_dielectric(double inside, double outside, const Spectrum& reflectance, const Spectrum& transmittance) {
-  mc::require(inside > 0 && outside > 0, "indices of refraction {} and {} must be > 0", inside, outside);
-  return Dielectric(Float(inside / outside), reflectance, transmittance);
+/// Root mean square slope of facets, and whether the file says it.
+struct Slope {
+  double alpha;
+  bool is_given = false;
+};
+
+// lajolla's roughness is the root of alpha; between 0 and .01 it is .01 there.
+double alpha_of(const Slope& slope, const std::optional<double>& roughness) {
+  mc::require(!slope.is_given || !roughness, "give alpha or roughness, its square root, not both");
+  if (!roughness) return slope.alpha;
+  mc::require(*roughness >= 0 && *roughness <= 1, "roughness {} must lie in [0, 1]", *roughness);
+  constexpr double least = 0.01;
+  return *roughness == 0 ? 0 : mc::sqr(std::max(*roughness, least));
 }
 
-Bsdf make_roughplastic(double inside, double outside, double alpha, std::size_t, const Spectrum& diffuse,
-                       const Spectrum& specular, std::size_t base) {
+Float relative_index(double inside, double outside) {
   mc::require(inside > 0 && outside > 0, "indices of refraction {} and {} must be > 0", inside, outside);
-  const Float eta = Float(inside / outside);
-  if (base == 1) return RoughPlastic<LajollaBase>(eta, Float(alpha), diffuse, specular);
-  return RoughPlastic(eta, Float(alpha), diffuse, specular);
+  return Float(inside / outside);
 }
 
-Bsdf make_roughdielectric(double inside, double outside, double alpha, std::size_t, const Spectrum& reflectance,
-                          const Spectrum& transmittance) {
-  mc::require(inside > 0 && outside > 0, "indices of refraction {} and {} must be > 0", inside, outside);
-  const Float eta = Float(inside / outside);
+// Of a paint's colour what does not vary, and what does.
+Spectrum constant_of(const Reflectance& r) {
+  const auto* color = std::get_if<Spectrum>(&r);
+  return color ? *color : Spectrum(Spectrum::Constant(Float(0.5)));
+}
+std::optional<Texture> texture_of(const Reflectance& r) {
+  if (const auto* texture = std::get_if<Texture>(&r)) return *texture;
+  return {};
+}
+
+template <class Paint> Material painted(Paint paint, const Reflectance& diffuse, const Reflectance& specular) {
+  std::optional<Texture> base = texture_of(diffuse), coat = texture_of(specular);
+  if (!base && !coat) return Bsdf(std::move(paint));
+  return TexturedBsdf(TexturedPlastic<Paint>(std::move(paint), std::move(base), std::move(coat)));
+}
+
+template <class Base>
+Material plastic_over(Float eta, double alpha, const Reflectance& diffuse, const Reflectance& specular) {
+  const Spectrum base = constant_of(diffuse), coat = constant_of(specular);
+  if (alpha == 0) return painted(SmoothPlastic<Base>(eta, base, coat), diffuse, specular);
+  return painted(RoughPlastic<Base>(eta, Float(alpha), base, coat), diffuse, specular);
+}
+
+Material make_plastic(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
+                      const Reflectance& diffuse, const Reflectance& specular, std::size_t base) {
+  const Float eta = relative_index(inside, outside);
+  const double alpha = alpha_of(slope, roughness);
+  return base == 1 ? plastic_over<LajollaBase>(eta, alpha, diffuse, specular)
+                   : plastic_over<LayeredBase>(eta, alpha, diffuse, specular);
+}
+
+Material make_roughplastic(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
+                           std::size_t, const Reflectance& diffuse, const Reflectance& specular, std::size_t base) {
+  return make_plastic(inside, outside, slope, roughness, diffuse, specular, base);
+}
+
+Bsdf make_dielectric(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
+                     const Spectrum& reflectance, const Spectrum& transmittance) {
+  const Float eta = relative_index(inside, outside);
+  const double alpha = alpha_of(slope, roughness);
   if (alpha == 0) return Dielectric(eta, reflectance, transmittance);
   return RoughDielectric(eta, Float(alpha), reflectance, transmittance);
 }
 
+Bsdf make_roughdielectric(double inside, double outside, const Slope& slope, const std::optional<double>& roughness,
+                          std::size_t, const Spectrum& reflectance, const Spectrum& transmittance) {
+  return make_dielectric(inside, outside, slope, roughness, reflectance, transmittance);
+}
+
 Material make_twosided(const Material& inner) { return inner; }
 
-Bsdf make_roughconductor(const Spectrum& eta, const Spectrum& k, double outside, double alpha, std::size_t distribution,
-                         const Spectrum& reflectance) {
+Bsdf make_roughconductor(const Spectrum& eta, const Spectrum& k, double outside, const Slope& slope,
+                         std::size_t distribution, const Spectrum& reflectance) {
   mc::require(outside > 0, "index of refraction {} must be > 0", outside);
   const Spectrum inner = eta / Float(outside), inner_k = k / Float(outside);
-  if (distribution == 1) return RoughConductor(inner, inner_k, BlinnPhongFacets(Float(alpha)), reflectance);
-  return RoughConductor(inner, inner_k, Microfacets(Float(alpha)), reflectance);
+  const auto alpha = Float(slope.alpha);
+  if (alpha == 0) return SmoothConductor(inner, inner_k, reflectance);
+  if (distribution == 1) return RoughConductor(inner, inner_k, BlinnPhongFacets(alpha), reflectance);
+  return RoughConductor(inner, inner_k, Microfacets(alpha), reflectance);
 }
 
 Material make_mask(const Reflectance& opacity, Material inner) {
@@ -68,8 +118,24 @@ Parameter<Material> inner_bsdf(std::string meaning) {
           {}};
 }
 
-Parameter<double> alpha(const std::string& range) {
-  return number("alpha", "", 0.1, "root mean square slope of the facets, " + range).in_lajolla(0.01, "0.01");
+Parameter<Slope> slope() {
+  return {{"alpha",
+           "number",
+           "",
+           {"float", "integer"},
+           "root mean square slope of the facets, 0 where it is smooth, or in [0.0001, 1]"},
+          [](const XmlElement& e, Context&) {
+            return Slope{number_of(e), true};
+          },
+          {},
+          {}};
+}
+Parameter<Slope> alpha() { return slope().otherwise({0.1}, "0.1").in_lajolla({0.01}, "0.01"); }
+/// lajolla's smooth materials are its rough ones with another default; `rough` is Mitsuba's one.
+Parameter<Slope> alpha_of_smooth(const std::string& rough) { return slope().otherwise({0}, "0").of_lajolla(rough); }
+Parameter<std::optional<double>> roughness() {
+  return optional(number("roughness", "", "the root of alpha, in [0, 1], instead of it"))
+      .of_lajolla("alpha, its square");
 }
 
 Parameter<std::size_t> distribution(const std::vector<std::string>& names) {
@@ -77,6 +143,22 @@ Parameter<std::size_t> distribution(const std::vector<std::string>& names) {
   p.declared.departure = "facets are ggx's; Mitsuba's would be beckmann's, which are not supported. Say distribution "
                          "ggx, or --dialect lajolla";
   return p;
+}
+
+Parameter<std::size_t> base() {
+  return choice(
+             "base", {"layered", "lajolla"},
+             "(ours) what the base gets: what the coat lets through, or lajolla's (1 - F)^2 of the half vector, which "
+             "near the horizon is more than there is",
+             0)
+      .in_lajolla(1, "lajolla");
+}
+
+Parameter<Reflectance> color_of_base() {
+  return reflectance_or_texture("diffuseReflectance", "of the base, in [0, 1]", Spectrum::Constant(Float(0.5)));
+}
+Parameter<Reflectance> color_of_coat() {
+  return reflectance_or_texture("specularReflectance", "factor of what the coat reflects, in [0, 1]", Spectrum::Ones());
 }
 
 struct Medium {
@@ -134,31 +216,28 @@ const Plugins<Material>& bsdf_plugins() {
                        reflectance("albedo", "what is reflected, in [0, 1]", Spectrum::Constant(Float(0.9))),
                        number("fuzz", "", 0, "radius of the ball, in [0, 1]")),
       plugin<Material>("dielectric", "smooth glass", make_dielectric, refractive_index("intIOR", "inside", 1.5046),
-                       refractive_index("extIOR", "outside", 1.000277),
+                       refractive_index("extIOR", "outside", 1.000277), alpha_of_smooth("roughdielectric"), roughness(),
                        reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one),
                        reflectance("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
+      plugin<Material>("plastic", "polished paint: a smooth clear coat over a diffuse base", make_plastic,
+                       refractive_index("intIOR", "inside", 1.49), refractive_index("extIOR", "outside", 1.000277),
+                       alpha_of_smooth("roughplastic"), roughness(), color_of_base(), color_of_coat(), base())
+          .accepting({only(false, "nonlinear", "the base keeps its colour")}),
       plugin<Material>("roughplastic", "glossy paint: a rough clear coat over a diffuse base", make_roughplastic,
                        refractive_index("intIOR", "inside", 1.49), refractive_index("extIOR", "outside", 1.000277),
-                       alpha("in [0.0001, 1]"), distribution({"ggx"}),
-                       reflectance("diffuseReflectance", "of the base, in [0, 1]", half),
-                       reflectance("specularReflectance", "factor of what the coat reflects, in [0, 1]", one),
-                       choice("base", {"layered", "lajolla"},
-                              "(ours) what the base gets: what the coat lets through, or lajolla's (1 - F)^2 of the "
-                              "half vector, which near the horizon is more than there is",
-                              0)
-                           .in_lajolla(1, "lajolla"))
+                       alpha(), roughness(), distribution({"ggx"}), color_of_base(), color_of_coat(), base())
           .accepting({only(false, "nonlinear", "the base keeps its colour")}),
       plugin<Material>("roughdielectric", "ground glass", make_roughdielectric,
                        refractive_index("intIOR", "inside", 1.5046), refractive_index("extIOR", "outside", 1.000277),
-                       alpha("0 for smooth glass, or in [0.0001, 1]"), distribution({"ggx"}),
+                       alpha(), roughness(), distribution({"ggx"}),
                        reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one),
                        reflectance("specularTransmittance", "factor of what is refracted, in [0, 1]", one)),
-      plugin<Material>(
-          "roughconductor", "metal with facets of GGX, or of Blinn-Phong with the exponent 2 / alpha^2 - 2",
-          make_roughconductor, color("eta", "", "index of refraction, >= 0"),
-          color("k", "", "extinction coefficient, >= 0; not 0 where eta is"),
-          refractive_index("extEta", "outside", 1.000277), alpha("in [0.0001, 1]"), distribution({"ggx", "phong"}),
-          reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
+      plugin<Material>("roughconductor",
+                       "metal with facets of GGX, or of Blinn-Phong with the exponent 2 / alpha^2 - 2",
+                       make_roughconductor, color("eta", "", "index of refraction, >= 0"),
+                       color("k", "", "extinction coefficient, >= 0; not 0 where eta is"),
+                       refractive_index("extEta", "outside", 1.000277), alpha(), distribution({"ggx", "phong"}),
+                       reflectance("specularReflectance", "factor of what is reflected, in [0, 1]", one)),
       plugin<Material>("twosided", "the BSDF inside it, which all of ours are on both sides", make_twosided,
                        inner_bsdf("what covers both sides")),
       plugin<Material>(

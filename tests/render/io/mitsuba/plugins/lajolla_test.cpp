@@ -14,6 +14,11 @@ struct Lajolla : support::SceneTest {
   render::SceneFile filtered(const std::string& rfilter, Dialect dialect = Dialect::lajolla) const {
     return render::read_mitsuba(scene(with_filter(rfilter)), dialect);
   }
+  render::Bsdf bsdf(const std::string& type, const std::string& parameters, Dialect dialect = Dialect::lajolla) const {
+    const auto root = render::read_xml(write("b.xml", "<bsdf type=\"" + type + "\">" + parameters + "</bsdf>"));
+    Context context(root, dialect, render::Vec3d::Zero());
+    return read_plugin(bsdf_plugins(), root, context).bsdf;
+  }
   static std::string with_filter(const std::string& rfilter) {
     return "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/><film type=\"hdrfilm\">\n" + rfilter +
            "</film></sensor><shape type=\"sphere\"/>";
@@ -48,6 +53,58 @@ TEST_F(Lajolla, TheWidthOfAFilterIsTwiceItsRadius) {
   EXPECT_THAT(refusal(with_filter(both), Dialect::lajolla),
               HasSubstr("s.xml:3: <rfilter>: give width or radius, its half, not both"));
   EXPECT_NE(refusal(with_filter(rfilter_of("box", "width", "0")), Dialect::lajolla), "");
+}
+
+TEST_F(Lajolla, RoughnessIsTheRootOfAlpha) {
+  const render::Spectrum half = render::Spectrum::Constant(0.5f), one = render::Spectrum::Ones();
+  const auto close = [](const render::Bsdf& a, const render::Bsdf& b) {
+    const render::Vec3 wo = render::Vec3(0.5f, 0, 1).normalized(), wi = render::Vec3(-0.45f, 0.05f, 1).normalized();
+    const render::Spectrum f = a.eval(wo, wi), g = b.eval(wo, wi);
+    return a.index() == b.index() && (f - g).abs().maxCoeff() <= 1e-5f * g.maxCoeff();
+  };
+  const float eta = float(1.49 / 1.000277), glass = float(1.5046 / 1.000277);
+  for (const double roughness : {1.0, 0.5, 0.1, 0.01, 0.002}) {
+    const auto alpha = render::Float(std::max(roughness * roughness, 1e-4)); // lajolla's least
+    const std::string given = fmt::format("<float name=\"roughness\" value=\"{}\"/>", roughness);
+    EXPECT_TRUE(close(bsdf("roughplastic", given), render::RoughPlastic<render::LajollaBase>(eta, alpha, half, one)))
+        << roughness;
+    EXPECT_TRUE(close(bsdf("roughdielectric", given), render::RoughDielectric(glass, alpha))) << roughness;
+    EXPECT_TRUE(close(bsdf("dielectric", given), render::RoughDielectric(glass, alpha))) << roughness;
+  }
+  const std::string smooth = "<float name=\"roughness\" value=\"0\"/>";
+  EXPECT_TRUE(std::holds_alternative<render::SmoothPlastic<render::LajollaBase>>(bsdf("roughplastic", smooth)));
+  for (const std::string& said : {std::string(), smooth})
+    EXPECT_TRUE(std::holds_alternative<render::SmoothPlastic<render::LajollaBase>>(bsdf("plastic", said)));
+  EXPECT_TRUE(std::holds_alternative<render::Dielectric>(bsdf("roughdielectric", smooth)));
+  EXPECT_TRUE(std::holds_alternative<render::Dielectric>(bsdf("dielectric", "")));
+}
+
+TEST_F(Lajolla, RoughnessAndAlphaExcludeEachOther) {
+  const auto said = [&](const std::string& type, const std::string& parameters, Dialect dialect = Dialect::lajolla) {
+    return refusal(std::string(sensor) + "<bsdf id=\"b\" type=\"" + type + "\">\n" + parameters + "</bsdf>", dialect);
+  };
+  const std::string roughness = "<float name=\"roughness\" value=\"0.1\"/>",
+                    alpha = "<float name=\"alpha\" value=\"0.1\"/>", much = "<float name=\"roughness\" value=\"1.5\"/>";
+  EXPECT_THAT(said("roughplastic", roughness + alpha),
+              HasSubstr("s.xml:2: <bsdf>: give alpha or roughness, its square root, not both"));
+  EXPECT_THAT(said("roughdielectric", much), HasSubstr("s.xml:2: <bsdf>: roughness 1.5 must lie in [0, 1]"));
+  EXPECT_THAT(said("roughplastic", roughness, Dialect::mitsuba),
+              HasSubstr("s.xml:3: <float>: 'roughness' is lajolla's; say alpha, its square, or --dialect lajolla"));
+  EXPECT_THAT(said("dielectric", alpha, Dialect::mitsuba),
+              HasSubstr("s.xml:3: <float>: 'alpha' is lajolla's; say roughdielectric, or --dialect lajolla"));
+}
+
+// In either dialect: the delta lobe that the rough ones tend to.
+TEST_F(Lajolla, WithoutRoughnessMaterialsAreSmooth) {
+  const std::string alpha = "<float name=\"alpha\" value=\"0\"/>", metal = alpha + "<float name=\"eta\" value=\"0.2\"/>"
+                                                                                   "<float name=\"k\" value=\"3\"/>";
+  for (const Dialect dialect : {Dialect::lajolla, Dialect::mitsuba}) {
+    EXPECT_TRUE(bsdf("roughplastic", alpha, dialect).has_delta());
+    EXPECT_TRUE(bsdf("roughdielectric", alpha, dialect).is_delta());
+    EXPECT_TRUE(bsdf("roughconductor", metal, dialect).is_delta());
+  }
+  const std::string phong = "<string name=\"distribution\" value=\"phong\"/>";
+  EXPECT_TRUE(std::holds_alternative<render::SmoothConductor>(bsdf("roughconductor", metal + phong)));
 }
 
 TEST_F(Lajolla, OneScaleIsForUAndV) {

@@ -1,0 +1,41 @@
+#pragma once
+/// Polished metal.
+
+#include <render/bsdf/rough_conductor.h>
+
+namespace render {
+
+/// A mirror of metal, the same on both sides: what RoughConductor tends to.
+///   eta, k : its index of refraction and extinction coefficient over the index of the outside, per channel
+///   f      : a delta lobe of weight Ks F
+///   throws : Error for what RoughConductor does not take either
+class SmoothConductor {
+ public:
+  SmoothConductor(const Spectrum& eta, const Spectrum& k, const Spectrum& reflectance = Spectrum::Ones())
+      : eta_(checked_metal("conductor", eta, k)), k_(k),
+        reflectance_(checked_reflectance("conductor: specularReflectance", reflectance)) {}
+
+  std::optional<BsdfSample> sample(const Vec3& wo, Float, const Vec2&) const {
+    const Float cosine = std::abs(wo.z());
+    if (!(cosine > 0)) return {};
+    return BsdfSample{{-wo.x(), -wo.y(), wo.z()}, reflected(wo) / cosine, 1, true};
+  }
+  Spectrum eval(const Vec3&, const Vec3&) const { return Spectrum::Zero(); }
+  Float pdf(const Vec3&, const Vec3&) const { return 0; }
+  Float eta(const Vec3&, const Vec3&) const { return 1; }
+  Float albedo(const Vec3& wo) const { return reflected(wo).maxCoeff(); }
+  bool is_delta() const { return true; }
+  bool is_narrow() const { return true; }
+  bool has_delta() const { return true; }
+  bool transmits() const { return false; }
+  bool casts_caustics() const { return true; }
+
+ private:
+  Spectrum reflected(const Vec3& wo) const {
+    return reflectance_ * fresnel_conductor(std::min(std::abs(wo.z()), Float(1)), eta_, k_);
+  }
+
+  Spectrum eta_, k_, reflectance_;
+};
+
+} // namespace render

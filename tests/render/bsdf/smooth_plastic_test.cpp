@@ -1,0 +1,79 @@
+#include <render/bsdf/smooth_plastic.h>
+
+#include <mc/check/bsdf_laws.h>
+#include <mc/check/laws/bsdf/roughness_limit.h>
+
+#include "render/bsdf/albedo.h"
+#include "support/files.h"
+
+namespace {
+
+using namespace render;
+
+const Spectrum green_base(Float(0.1), Float(0.5), Float(0.3)), all_light = Spectrum::Ones();
+
+// Directions on both sides at alpha = 1e-5 each: the share of the coat, its energy both ways, and the base about it.
+TEST(SmoothPlastic, ObeysTheLaws) {
+  for (const double eta : {1.49, 0.7})
+    for (const double angle : {0.0, 60.0, 85.0, 89.9, 120.0}) {
+      const auto report = mc::check_bsdf<Float>(SmoothPlastic(Float(eta), green_base, all_light),
+                                                support::at_degrees(angle), {.samples = 50'000, .alpha = 1e-5});
+      EXPECT_TRUE(report.passed()) << eta << ", " << angle << " degrees\n" << report.to_string();
+    }
+}
+
+template <class Base> void expect_paint_tends_to_it() {
+  const auto rough = [](Float alpha) {
+    return RoughPlastic<Base>(Float(1.49), std::max(alpha, Float(1e-4)), green_base, all_light);
+  };
+  const SmoothPlastic<Base> smooth(Float(1.49), green_base, all_light);
+  for (const double angle : {0.0, 45.0, 70.0, 120.0})
+    for (const mc::Check& c : mc::check_roughness_limit<Float>(rough, smooth, support::at_degrees(angle)))
+      EXPECT_EQ(c.verdict, mc::Verdict::pass) << angle << " " << c.name << ": " << c.detail;
+}
+
+TEST(SmoothPlastic, IsWhatRoughPlasticTendsTo) {
+  expect_paint_tends_to_it<LayeredBase>();
+  expect_paint_tends_to_it<LajollaBase>();
+}
+
+// The coat by Fresnel's equations, the base T(wo) T(wi) / (pi mean T), whose mean reflectance at 1.5 is .0917780
+// (scene-catalogue G); white paint loses nothing.
+TEST(SmoothPlastic, IsThatOfTheFormulas) {
+  const SmoothPlastic paint(Float(1.5), all_light, all_light);
+  const auto through = [](Float cosine) { return 1 - double(fresnel_dielectric(cosine, Float(1.5)).reflectance); };
+  for (const double degrees : {0.0, 30.0, 60.0, 80.0, 88.0, 150.0}) {
+    const Vec3 wo = support::at_degrees(degrees);
+    const Vec3 wi = Vec3(Float(0.3), Float(-0.5), std::copysign(Float(0.4), wo.z())).normalized();
+    const double base = through(std::abs(wo.z())) * through(std::abs(wi.z())) / (mc::pi<double> * (1 - 0.0917780));
+    EXPECT_NEAR(paint.eval(wo, wi)[0], base, 0.001 * base) << degrees;
+    EXPECT_EQ(paint.eval(wo, -wi)[0], 0) << degrees;
+    const auto s = paint.sample(wo, 0, Vec2(Float(0.2), Float(0.6)));
+    ASSERT_TRUE(s && s->delta) << degrees;
+    EXPECT_EQ(s->wi, Vec3(-wo.x(), -wo.y(), wo.z()));
+    EXPECT_NEAR(double(s->f[0]) * std::abs(double(wo.z())), 1 - through(std::abs(wo.z())), 1e-6) << degrees;
+    if (degrees < 90) {
+      EXPECT_NEAR(support::albedo(paint, std::cos(degrees * mc::pi<double> / 180)), 1, 1e-3) << degrees;
+    }
+  }
+}
+
+TEST(SmoothPlastic, BlackLobesAreNotSampled) {
+  const Vec3 wo = support::at_degrees(50);
+  const SmoothPlastic bare(Float(1.5), Spectrum::Zero(), all_light), matt(Float(1.5), all_light, Spectrum::Zero());
+  for (const Float uc : {Float(0), Float(0.5), mc::one_minus_epsilon<Float>}) {
+    EXPECT_TRUE(bare.sample(wo, uc, Vec2(Float(0.3), Float(0.3)))->delta) << uc;
+    EXPECT_FALSE(matt.sample(wo, uc, Vec2(Float(0.3), Float(0.3)))->delta) << uc;
+  }
+}
+
+TEST(SmoothPlastic, RefusesNonsense) {
+  EXPECT_EQ(support::error_of([] { SmoothPlastic(Float(0), green_base, all_light); }),
+            "plastic: relative index 0 must lie in [0.001, 1000]");
+  EXPECT_THAT(support::error_of([] { SmoothPlastic(Float(1.5), 2 * all_light, all_light); }),
+              testing::HasSubstr("plastic: diffuseReflectance (2, 2, 2) must lie in [0, 1]"));
+  EXPECT_THAT(support::error_of([] { SmoothPlastic(Float(1.5), green_base, -all_light); }),
+              testing::HasSubstr("plastic: specularReflectance (-1, -1, -1) must lie in [0, 1]"));
+}
+
+} // namespace
