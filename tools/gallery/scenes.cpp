@@ -57,7 +57,7 @@ constexpr auto scenes = std::to_array<GalleryScene>({
      "P. Shirley, The Rest of Your Life, ch. 10"},
     {"book3-pixels-random", "64 random samples a pixel", "P. Shirley, The Rest of Your Life, its later edition",
      "book3-cornell-first", "bsdf", "independent", 0, 64},
-    {"book3-pixels-stratified", "64 samples a pixel, four times stratified 4x4",
+    {"book3-pixels-stratified", "64 samples a pixel, one in each of 32 boxes, twice",
      "P. Shirley, The Rest of Your Life, its later edition", "book3-cornell-first", "bsdf", "stratified", 0, 64},
 
     // K. Beason's 99 lines, and the lecture that explains them

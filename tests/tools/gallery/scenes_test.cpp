@@ -1,5 +1,8 @@
 #include <gallery/scenes.h>
 
+#include <render/io/mitsuba/mitsuba.h>
+#include <render/render.h>
+
 #include <support/files.h>
 
 #include <mc/core/file.h>
@@ -34,6 +37,23 @@ TEST(GalleryScenes, EachFileBelongsToTheGalleryAndNamesItsSource) {
     const std::string text = mc::read_file(entry.path().string());
     EXPECT_LT(text.find("<!--"), text.find("<scene")) << entry.path() << " begins with a comment that names its source";
   }
+}
+
+// The book's pair: as many samples at random, and in boxes of the pixel, in as many sets as a render keeps.
+TEST(GalleryScenes, TheStratifiedPixelsSayHowTheirSamplesLie) {
+  const carlo::GalleryScene &boxes = carlo::gallery_scene("book3-pixels-stratified"),
+                            &chance = carlo::gallery_scene("book3-pixels-random");
+  EXPECT_EQ(boxes.spp, chance.spp);
+  EXPECT_EQ(boxes.file, chance.file);
+  render::RenderOptions options;
+  options.width = options.height = options.max_depth = 1;
+  options.spp = boxes.spp;
+  options.sampler = render::sampler_from(boxes.sampler);
+  EXPECT_EQ(options.sampler, render::PixelSampler::stratified);
+  const auto sets = render::render(render::read_mitsuba(carlo::scene_file(boxes)).scene, options).estimates;
+  EXPECT_EQ(sets, 2u) << "twice";
+  EXPECT_EQ(boxes.title, fmt::format("{} samples a pixel, one in each of {} boxes, twice", boxes.spp,
+                                     static_cast<unsigned>(boxes.spp) / sets));
 }
 
 // The committed table of the ways to take; bench/scene_trades.py measures them.
