@@ -6,8 +6,11 @@ namespace carlo {
 
 void add_bsdfs(Catalogue& c) {
   add_bsdf(c, "Lambert", "", render::Lambert{}, {0, 60, 89.9, 120});
+  const std::vector<render::Spectrum> texels = {{1, 0, 0.5f}, {0, 1, 0.5f}, {0.2f, 0.4f, 0.5f}, {1, 1, 0.5f}};
+  const render::TexturedLambert picture(render::Bitmap(std::make_shared<const render::Texels>(2, 2, texels)));
+  add_bsdf(c, "TexturedLambert", "between four texels", picture.at({0.3, 0.6}), {0, 60, 120});
   // The book's fuzzy metal is not reciprocal, by its definition.
-  add_bsdf(c, "Metal", "fuzz=0", render::Metal{}, {0, 60, 89.9}, {.reciprocal = false});
+  add_bsdf(c, "Metal", "fuzz=0", render::Metal{}, {0, 60, 89.9, 120}, {.reciprocal = false});
   add_bsdf(c, "Metal", "fuzz=0.1", render::Metal({0.9f, 0.8f, 0.7f}, render::Float(0.1)), {0, 60, 85, 89.9},
            {.reciprocal = false, .mass_tolerance = 1e-4});
   add_bsdf(c, "Metal", "fuzz=1", render::Metal({0.9f, 0.8f, 0.7f}, 1), {0, 60, 85, 120}, {.reciprocal = false});
@@ -44,7 +47,7 @@ void add_bsdfs(Catalogue& c) {
     add_bsdf(c, "RoughConductor", fmt::format("BlinnPhongFacets, alpha={}", alpha),
              render::RoughConductor(gold, gold_k, render::BlinnPhongFacets(render::Float(alpha))), angles);
   }
-  for (const double alpha : {1e-4, 1e-3, 0.1, 0.5})
+  for (const double alpha : {1e-4, 1e-3, 0.1, 0.5, 0.7, 1.0})
     add_bsdf(c, "RoughDielectric", fmt::format("alpha={}", alpha),
              render::RoughDielectric(render::Float(1.5), render::Float(alpha)), {0, 60, grazing(alpha), 120, 150},
              {.eta = 1.5});

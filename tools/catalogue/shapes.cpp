@@ -1,8 +1,9 @@
-// Points of shapes and lights seen from a point, the choice of a light, offsets of filters, points of the lens: all in
-// librender's Float.
+// Points of shapes and lights seen from a point, the choice of a light, what a mask stops, offsets of filters, points
+// of the lens, rays through the film: all in librender's Float.
 #include <catalogue/catalogue.h>
 
 #include <render/scene/builder.h>
+#include <render/scene/visibility.h>
 
 #include <mc/check/check_subject.h>
 #include <mc/check/subject/make_subject.h>
@@ -222,6 +223,39 @@ void add_choices(Catalogue& c) {
   }
 }
 
+// Which of two surfaces behind one another a ray ends at, of which a picture masks the first.
+struct MetBehindMask {
+  using Scalar = Float;
+  std::shared_ptr<const Scene> scene;
+  Float opacity; ///< where the ray meets it
+
+  mc::DiscreteSample<Float> sample_index(Float u) const {
+    Ray ray{Vec3(0, Float(0.5), -2), Vec3::UnitZ()};
+    std::uint64_t rays = 0;
+    mc::DiscreteSample<Float> choice{};
+    const auto hit = meet(*scene, ray, rays, [&](Float there) {
+      choice = mc::Bernoulli<Float>(there).sample_index(u);
+      return choice.index == 0;
+    });
+    choice.index = hit ? static_cast<std::size_t>(hit->shape) : size();
+    return choice;
+  }
+  Float pmf(std::size_t i) const { return i == 0 ? opacity : 1 - opacity; }
+  std::size_t size() const { return 2; }
+};
+
+void add_mask(Catalogue& c) {
+  const std::vector<Spectrum> texels = {Spectrum::Constant(Float(0.25)), Spectrum::Constant(Float(0.5))};
+  Material leaf = Bsdf(Lambert());
+  leaf.mask = std::make_shared<const Mask>(Bitmap(std::make_shared<const Texels>(2, 1, texels)));
+  SceneBuilder builder;
+  builder.add(TriangleMesh::rectangle({}), {builder.add(leaf)});
+  builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 1})), {builder.add(Lambert())});
+  const MetBehindMask met{std::make_shared<const Scene>(builder.build()), Float(0.375)}; // between two texels
+  add_subject(c, "Mask", "a picture of 0.25 and 0.5", mc::make_discrete_subject("", met),
+              [=](const Vec2& u) { return double(met.sample_index(u[0]).pmf); });
+}
+
 // The directions towards a light that is infinitely far away.
 template <class L> void add_background(Catalogue& c, const std::string& name, const std::string& what, const L& light) {
   const auto sample = [=](const Vec2& u) { return light.sample(Vec3::Zero(), u)->wi; };
@@ -270,14 +304,30 @@ void add_camera(Catalogue& c) {
               [=](const Vec2& u) { return double(sample(u).sum()); });
 }
 
+// The rays through the points of a film, against the density that paths from the lights count on.
+void add_pinholes(Catalogue& c) {
+  for (const double fov : {10.0, 90.0, 150.0}) {
+    const ThinLens lens(Transform::look_at({1, 2, 3}, Vec3d::Zero(), Vec3d::UnitY()), {.fov = fov});
+    const Vec2 half = lens.tan_half(Float(1.5));
+    const Vec3 x = half[0] * lens.right(), y = half[1] * lens.up();
+    const mc::Patch<Float, 4> film(lens.forward() - x - y, 2 * x, 2 * y);
+    const auto sample = [=](const Vec2& u) { return lens.ray(u, half, Vec2::Zero()).d; };
+    add_subject(c, "ThinLens", fmt::format("pinhole, fov={:g}, directions", fov),
+                make_subject("", film, sample, [=](const Vec3& d) { return lens.density(d, half); }),
+                [=](const Vec2& u) { return double(sample(u).sum()); });
+  }
+}
+
 } // namespace
 
 void add_shapes(Catalogue& c) {
   add_spheres_seen(c);
   add_meshes_seen(c);
   add_choices(c);
+  add_mask(c);
   add_lights_seen(c);
   add_camera(c);
+  add_pinholes(c);
 }
 
 } // namespace carlo
