@@ -67,22 +67,53 @@ Plugin<SensorSettings> sensor_plugin(std::string name, std::string meaning, Make
       nested("sampler", "how many samples", sampler_plugins).otherwise(default_spp, "independent"), parameters...);
 }
 
-FilmSettings make_film(int width, int height, const Filter& filter) {
+FilmSettings make_film(int width, int height, const Filter& filter, double, double, std::size_t) {
   mc::require(width >= 1 && height >= 1, "size {}x{} needs at least one pixel", width, height);
   return {width, height, filter};
 }
 
+// Of what would change Mitsuba's picture only the default is done; lajolla does not look at it.
+template <class T> Parameter<T> only_default(const Parameter<T>& p, const std::string& remedy) {
+  Parameter<T> only = p;
+  only.declared.meaning += "; only this is supported: " + remedy;
+  only.parse = [p, remedy](const XmlElement& e, Context& context) {
+    if (p.parse(e, context) == *p.fallback) return *p.fallback;
+    const std::string what = fmt::format("{} = {} is not supported", p.declared.name, e.attribute("value"));
+    if (context.dialect() == Dialect::mitsuba) e.fail(fmt::format("{}; {}", what, remedy));
+    context.warn(e, fmt::format("{}, nor does lajolla look at it; {}", what, remedy));
+    return *p.fallback;
+  };
+  return only;
+}
+
+// Pictures are colours; there is no alpha to leave out.
+Parameter<std::size_t> pixel_format() {
+  auto p = choice("pixelFormat", {"rgb", "rgba"}, "colours; there is no alpha in them", 0);
+  p.parse = [of_mitsuba = p.parse](const XmlElement& e, Context& context) {
+    if (context.dialect() == Dialect::mitsuba) return of_mitsuba(e, context);
+    const std::string& word = e.attribute("value");
+    if (word != "rgb" && word != "rgba")
+      context.warn(e, fmt::format("pixelFormat = {} is not supported, nor does lajolla look at it; say rgb", word));
+    return std::size_t{0};
+  };
+  return p;
+}
+
 Plugin<FilmSettings> film_plugin(std::string name) {
   std::vector<Declaration> ignored;
-  for (const char* other :
-       {"fileFormat", "pixelFormat", "componentFormat", "banner", "attachLog", "gamma", "exposure", "filename"})
+  for (const char* other : {"fileFormat", "componentFormat", "attachLog", "filename"})
     ignored.push_back(no_effect(other, "the command line says what is written"));
-  return plugin<FilmSettings>(std::move(name), "the size of the picture and its filter", make_film,
-                              integer("width", "pixels in a row", 768).in_lajolla(256, "256"),
-                              integer("height", "rows", 576).in_lajolla(256, "256"),
-                              nested("rfilter", "how samples make a pixel", filter_plugins)
-                                  .otherwise(GaussianFilter(), "gaussian")
-                                  .in_lajolla(BoxFilter(), "box"))
+  ignored.push_back(no_effect("banner", "none is drawn into the picture"));
+  return plugin<FilmSettings>(
+             std::move(name), "the size of the picture and its filter", make_film,
+             integer("width", "pixels in a row", 768).in_lajolla(256, "256"),
+             integer("height", "rows", 576).in_lajolla(256, "256"),
+             nested("rfilter", "how samples make a pixel", filter_plugins)
+                 .otherwise(GaussianFilter(), "gaussian")
+                 .in_lajolla(BoxFilter(), "box"),
+             only_default(number("gamma", "", -1, "of a PNG, by the sRGB curve"), "remove it, or say -1"),
+             only_default(number("exposure", "stops", 0, "of a PNG"), "remove it and say carlo render --exposure"),
+             pixel_format())
       .accepting(ignored);
 }
 

@@ -107,6 +107,32 @@ TEST_F(Lajolla, WithoutRoughnessMaterialsAreSmooth) {
   EXPECT_TRUE(std::holds_alternative<render::SmoothConductor>(bsdf("roughconductor", metal + phong)));
 }
 
+// Of a film, which Mitsuba's picture depends on, and lajolla does not look at.
+TEST_F(Lajolla, WhatItsFilmLeavesOutIsNamed) {
+  const auto film = [](const std::string& parameter) {
+    return "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/><film type=\"ldrfilm\">\n" + parameter +
+           "</film></sensor><shape type=\"sphere\"/>";
+  };
+  struct Row {
+    const char *tag, *name, *done, *not_done, *remedy;
+  };
+  for (const Row& row :
+       {Row{"float", "gamma", "-1", "2.2", "say -1"}, Row{"float", "exposure", "0", "1.5", "--exposure"},
+
+        Row{"string", "pixelFormat", "rgba", "luminance", "rgb"}}) {
+    const auto with = [&](const char* value) {
+      return film(fmt::format("<{} name=\"{}\" value=\"{}\"/>", row.tag, row.name, value));
+    };
+    for (const Dialect dialect : {Dialect::mitsuba, Dialect::lajolla})
+      EXPECT_THAT(render::read_mitsuba(scene(with(row.done)), dialect).warnings, testing::IsEmpty()) << row.name;
+    EXPECT_THAT(refusal(with(row.not_done)), AllOf(HasSubstr("s.xml:3: <" + std::string(row.tag) + ">: "),
+                                                   HasSubstr(row.not_done), HasSubstr(row.remedy)));
+    EXPECT_THAT(render::read_mitsuba(scene(with(row.not_done)), Dialect::lajolla).warnings,
+                testing::ElementsAre(AllOf(HasSubstr("s.xml:3: <" + std::string(row.tag) + ">: "), HasSubstr(row.name),
+                                           HasSubstr(row.not_done), HasSubstr("nor does lajolla look at it"))));
+  }
+}
+
 TEST_F(Lajolla, OneScaleIsForUAndV) {
   const auto at = [&](const std::string& parameters, double u, double v, Dialect dialect = Dialect::lajolla) {
     const auto root = render::read_xml(write("t.xml", "<texture type=\"checkerboard\">" + parameters + "</texture>"));
