@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -136,7 +137,12 @@ Header read_header(std::string_view& bytes) {
       has_format = true;
     } else if (keyword == "element") {
       Element element;
-      mc::require(bool(words >> element.name >> element.rows), "line {}: an element needs a name and a number", line);
+      std::string rows; // as a stream reads it, -3 is 2^64 - 3
+      mc::require(bool(words >> element.name >> rows), "line {}: an element needs a name and a number", line);
+      const auto [rest, error] = std::from_chars(rows.data(), rows.data() + rows.size(), element.rows);
+      mc::require(error == std::errc() && rest == rows.data() + rows.size(),
+                  "line {}: '{}' rows of {}; give a whole number from 0 up, of at most 64 bits", line, rows,
+                  element.name);
       header.elements.push_back(element);
     } else if (keyword == "property") {
       mc::require(!header.elements.empty(), "line {}: a property before the first element", line);

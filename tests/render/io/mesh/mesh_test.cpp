@@ -175,7 +175,10 @@ TEST_F(Mesh, PlyRefusesWithFileAndPlace) {
       refusal(text, "vertex 4", "vertex 4000000000000"),
       AllOf(HasSubstr("bad.ply: 4000000000000 rows of vertex do not fit in the"), HasSubstr("bytes that follow")));
   EXPECT_THAT(refusal(binary, "face 2", "face 18446744073709551615"), HasSubstr("rows of face do not fit"));
-  EXPECT_THAT(refusal(text, "vertex 4", "vertex -4"), HasSubstr("bad.ply"));
+  for (const std::string count : {"-4", "4.5", "99999999999999999999", "four"})
+    EXPECT_THAT(refusal(text, "vertex 4", "vertex " + count),
+                HasSubstr("bad.ply: line 4: '" + count + "' rows of vertex; give a whole number from 0 up"));
+  EXPECT_THAT(refusal(text, "vertex 4", "vertex"), HasSubstr("bad.ply: line 4: an element needs a name and a number"));
   EXPECT_THAT(refusal(text, "3 0 1 2", "3 0 1 4"), HasSubstr("face 0 names vertex 4, but there are only 0 to 3"));
   EXPECT_THAT(refusal(text, "3 0 1 2", "3 0 1 -1"), HasSubstr("face 0 names vertex -1"));
   EXPECT_THAT(refusal(text, "3 0 1 2", "3 0 1 nan"), HasSubstr("face 0 names vertex nan"));
