@@ -240,6 +240,13 @@ TEST_F(ImageIo, SizesThatTheBytesCannotHold) {
   exr.replace(window + 8, 8, std::string("\xff\xff\xff\x3f\xff\xff\xff\x3f", 8));
   write("huge.exr", exr);
   EXPECT_NE(support::error_of([&] { render::read_image(path("huge.exr")); }), "");
+  // No columns, no rows, neither: the far corner one before the near one, (0, 0).
+  for (const auto& [at, size] : {std::pair<std::size_t, std::size_t>{8, 4}, {12, 4}, {8, 8}}) {
+    write("none.exr", mc::read_file(path("small.exr")).replace(window + at, size, std::string(size, '\xff')));
+    EXPECT_THAT(support::error_of([&] { render::read_image(path("none.exr")); }),
+                testing::AllOf(testing::HasSubstr("none.exr"), testing::HasSubstr("EXR")))
+        << at << ", " << size;
+  }
   exr = mc::read_file(path("small.exr")).replace(window + 8, 4, std::string("\x7f\x96\x98\0", 4));
   write("large.exr", exr);
   EXPECT_THAT(support::error_of([&] { render::read_image(path("large.exr")); }),

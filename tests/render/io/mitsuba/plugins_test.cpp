@@ -106,6 +106,14 @@ TEST_F(PluginsTest, NamesAndParametersDiffer) {
   }
 }
 
+TEST_F(PluginsTest, AFilmHasPixels) {
+  for (const auto& [width, height] : {std::pair(0, 0), {0, 5}, {5, 0}, {-1, 5}})
+    EXPECT_THAT(refusal(fmt::format("{}\n<film type=\"hdrfilm\"><integer name=\"width\" value=\"{}\"/><integer "
+                                    "name=\"height\" value=\"{}\"/></film></sensor><shape type=\"sphere\"/>",
+                                    camera, width, height)),
+                testing::HasSubstr(fmt::format("s.xml:3: <film>: size {}x{} needs at least one pixel", width, height)));
+}
+
 TEST_F(PluginsTest, IndicesOfRefractionHaveNames) {
   const auto refracted = [&](const std::string& inside) {
     const auto file =

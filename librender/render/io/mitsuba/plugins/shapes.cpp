@@ -67,6 +67,8 @@ struct Center {
 
 Shape make_sphere(const Transform& to_world, const Center& center, double radius, bool flip, std::size_t pole,
                   const std::optional<Vec3d>& cap_axis, const std::optional<double>& cap_height) {
+  mc::require((to_world.linear.colwise().lpNorm<Eigen::Infinity>().array() > 0).all(),
+              "toWorld flattens the sphere, or makes a point of it; nothing would be seen");
   const double scale = to_world.linear.col(0).stableNorm();
   const Eigen::Matrix3d turn = to_world.linear / scale;
   mc::require((turn.transpose() * turn).isApprox(Eigen::Matrix3d::Identity(), 1e-9),

@@ -32,6 +32,21 @@ TEST_F(ShapePlugins, ToWorldScalesTheCentreOfASphereSinceMitsuba2) {
                   "shape.xml:3: <transform>: lajolla leaves a sphere where it is, here toWorld counts")));
 }
 
+TEST_F(ShapePlugins, ASphereIsNotFlattened) {
+  for (const char* scale : {"value=\"0\"", "x=\"0\"", "y=\"0\"", "z=\"0\""})
+    EXPECT_THAT(support::error_of([&] {
+                  shape("sphere", "<transform name=\"toWorld\"><scale " + std::string(scale) + "/></transform>");
+                }),
+                testing::HasSubstr("shape.xml:2: <shape>: toWorld flattens the sphere, or makes a point of it"))
+        << scale;
+  // Singular, and no axis 0.
+  const std::string matrix =
+      "<transform name=\"toWorld\"><matrix value=\"1 1 0 0 1 1 0 0 0 0 1 0 0 0 0 1\"/></transform>";
+  EXPECT_THAT(support::error_of([&] { shape("sphere", matrix); }),
+              testing::HasSubstr("shape.xml:2: <shape>: toWorld of a sphere must scale all axes alike"));
+  EXPECT_NO_THROW(shape("sphere", "<transform name=\"toWorld\"><scale value=\"1e-15\"/></transform>"));
+}
+
 TEST_F(ShapePlugins, ARectangleShinesFromTheOtherSideWhenItsNormalIsFlipped) {
   const std::string mirrored = R"(<transform name="toWorld"><scale x="-1" y="2"/></transform>)";
   for (const std::string& to_world : {std::string(), mirrored})
