@@ -64,6 +64,8 @@ bool write(const Target& target, const Measurement& m, const ConvergeOptions& o,
                  to_json(target, m, {{"command", o.command}, {"commit", commit}, {"seed", o.seed}}).dump(1) + "\n");
   mc::write_file(base + ".gp", to_script(target, m, name));
   fmt::print("{}", summary(target, m));
+  const auto cut = std::count_if(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.out_of_time; });
+  if (cut > 0) fmt::print("  --time ended {} of them before N = {}\n", cut, o.integral.max_n);
   std::fflush(stdout);
   const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.is_drawn(); });
   if (!can_draw || !anything) {

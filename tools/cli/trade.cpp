@@ -82,7 +82,7 @@ void print(const ForError& f, const Cost& cost) {
   const Offer& best = f.offers.front();
   fmt::print("  error {:g}: {} in {}{}, N about {:.0f}", f.wanted, label(*best.curve),
              text_of(shown(best, &Offer::seconds), cost.unit), cost.of, best.n);
-  if (f.gain) fmt::print("; {} times faster than plain Monte Carlo", text_of(*f.gain, ""));
+  if (f.gain && f.gain->lo < f.gain->hi) fmt::print("; {} times faster than plain Monte Carlo", text_of(*f.gain, ""));
   fmt::print("\n");
   print_ties(f.offers, &Offer::seconds, cost.unit);
 }

@@ -328,6 +328,7 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
   const double tail_index = look.tail.index();
   if (look.tail.infinite_variance()) m.heavy_tail = tail_index;
   if (m.size == 0) refuse_underflow(target.integral);
+  const bool known = std::isfinite(target.integral.truth);
   for (std::size_t i = 0; i < ways.size(); ++i) {
     const double gone = std::chrono::duration<double>(Clock::now() - start).count();
     const double share = o.seconds > 0 ? std::max(1e-3, o.seconds - gone) / static_cast<double>(ways.size() - i) : 0;
@@ -341,14 +342,13 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
     m.interrupted = curve.cut;
     if (!curve.replicates.empty()) m.curves.push_back(std::move(curve));
     if (m.interrupted) break;
+    mc::require(known || !all_zero(m.curves),
+                "{}: the integrand was 0 at every point; choose bounds around where it is not", target.integral.name);
   }
   m.truth = target.integral.truth;
-  const bool known = std::isfinite(m.truth);
   // What an interrupt leaves may not tell the truth: then no error is known, which is no fault of the integrand.
   if (m.interrupted && !known && (!steadiest(m.curves) || all_zero(m.curves))) m.curves.clear();
   if (m.curves.empty()) return m;
-  mc::require(known || !all_zero(m.curves),
-              "{}: the integrand was 0 at every point; choose bounds around where it is not", target.integral.name);
   if (!known) std::tie(m.truth, m.truth_error) = reference(target, m.curves, o);
   m.interrupted = m.interrupted || *o.cancel;
   m.size = std::max(m.size, std::abs(m.truth));

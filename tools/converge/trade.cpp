@@ -224,8 +224,10 @@ ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne
     const auto needed = [&](double rms) { return std::max(e.n * mc::sqr(rms / error), fewest); };
     const Ranged n{needed(e.rms), e.is_bound ? 0 : needed(e.lo), needed(e.hi)};
     const Ranged one = seconds_of_one(*random, std::min(n.value, e.n));
-    result.gain =
-        ratio({n.value * one.value, n.lo * one.lo, n.hi * one.hi}, shown(result.offers.front(), &Offer::seconds));
+    const Offer& best = result.offers.front();
+    result.gain = best.curve == random
+                      ? Ranged{1, 1, 1}
+                      : ratio({n.value * one.value, n.lo * one.lo, n.hi * one.hi}, shown(best, &Offer::seconds));
   }
   return result;
 }

@@ -34,7 +34,7 @@ struct ForError {
   std::vector<Offer> offers;
   std::vector<Offer> nearest; ///< where none reaches it: how far each came, best first
   /// Plain Monte Carlo's seconds over those of the first; by its law N^-1/2, which holds exactly, from its largest N
-  /// down to its fewest and beyond.
+  /// down to its fewest and beyond. 1 where it is the first.
   std::optional<Ranged> gain;
 };
 

@@ -253,6 +253,7 @@ TEST_F(Converge, CtrlCKeepsTheCurveThatItCuts) {
 TEST_F(Converge, ABudgetOfSecondsStopsAtSmallerN) {
   const Ran r = run("genz_oscillatory_5d --max-n 1e8 --time 0.3");
   EXPECT_EQ(r.exit_code, 0) << r.output;
+  EXPECT_THAT(r.output, HasSubstr("--time ended "));
   EXPECT_THAT(out("genz_oscillatory_5d.csv"), AllOf(HasSubstr("sobol,64,"), Not(HasSubstr(",67108864,"))));
 }
 
