@@ -24,11 +24,6 @@ LightTaker::LightTaker(const Scene& scene, const LightPaths& light_paths, int ma
       run_length_(sampler == PixelSampler::stratified ? 4096 : std::uint64_t{1} << 31), whole_(whole),
       trace_(trace_of(sampler)) {}
 
-LightTaker::Trace LightTaker::trace_of(PixelSampler sampler) {
-  return with_stream(sampler,
-                     []<class Stream>(std::type_identity<Stream>) -> Trace { return &LightTaker::trace<Stream>; });
-}
-
 std::uint64_t LightTaker::paths(double mean) const {
   constexpr double least = 16; // so that no point set of a picture of few samples goes without
   return static_cast<std::uint64_t>(std::llround(std::max(least, mean * per_sample())));
@@ -94,6 +89,12 @@ std::uint64_t LightTaker::take(std::uint64_t from, std::uint64_t to, int threads
     from = end;
   }
   return from;
+}
+
+// Behind what it names: clang 14 does not make functions that only such a lambda names before they are defined.
+LightTaker::Trace LightTaker::trace_of(PixelSampler sampler) {
+  return with_stream(sampler,
+                     []<class Stream>(std::type_identity<Stream>) -> Trace { return &LightTaker::trace<Stream>; });
 }
 
 } // namespace render

@@ -35,11 +35,6 @@ SampleTaker::SampleTaker(const Scene& scene, const PathOptions& path, const Pixe
     : scene_(scene), pixel_rays_(scene, whole), integrator_(scene, path, light_paths), points_(points), whole_(whole),
       splat_(splat), take_(take_of(points.sampler)) {}
 
-SampleTaker::Take SampleTaker::take_of(PixelSampler sampler) {
-  return with_stream(sampler,
-                     []<class Stream>(std::type_identity<Stream>) -> Take { return &SampleTaker::take_by<Stream>; });
-}
-
 template <class Stream>
 Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
                            Film& film) const {
@@ -80,6 +75,12 @@ Tally SampleTaker::take_by(int y, std::span<const std::uint32_t> from, std::span
     film.note(x, y, seen, tally.rays - rays_before);
   }
   return tally;
+}
+
+// Behind what it names: clang 14 does not make functions that only such a lambda names before they are defined.
+SampleTaker::Take SampleTaker::take_of(PixelSampler sampler) {
+  return with_stream(sampler,
+                     []<class Stream>(std::type_identity<Stream>) -> Take { return &SampleTaker::take_by<Stream>; });
 }
 
 } // namespace render

@@ -10,11 +10,6 @@ TileTaker::TileTaker(const Scene& scene, const PathOptions& path, const PixelPoi
     : scene_(scene), pixel_rays_(scene, whole), integrator_(scene, path, light_paths), points_(points), whole_(whole),
       take_(take_of(points.sampler)) {}
 
-TileTaker::Take TileTaker::take_of(PixelSampler sampler) {
-  return with_stream(sampler,
-                     []<class Stream>(std::type_identity<Stream>) -> Take { return &TileTaker::take_by<Stream>; });
-}
-
 template <class Stream>
 Tally TileTaker::take_by(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
                          Film& film) const {
@@ -79,6 +74,12 @@ void TileTaker::take_run(const PixelPoints::Run& run, std::array<Pixel, pixels>&
       ++pixel.valid;
     }
   }
+}
+
+// Behind what it names: clang 14 does not make functions that only such a lambda names before they are defined.
+TileTaker::Take TileTaker::take_of(PixelSampler sampler) {
+  return with_stream(sampler,
+                     []<class Stream>(std::type_identity<Stream>) -> Take { return &TileTaker::take_by<Stream>; });
 }
 
 } // namespace render
