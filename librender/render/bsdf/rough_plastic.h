@@ -52,6 +52,54 @@ class LajollaBase {
   Float eta_;
 };
 
+/// What is alike in paint with rough and with smooth coats: an index of refraction, a base and the colours of both.
+template <class Base> class Paint {
+ public:
+  const Spectrum& diffuse() const { return diffuse_; }
+  const Spectrum& specular() const { return specular_; }
+  Float eta(const Vec3&, const Vec3&) const { return 1; }
+  Float albedo(const Vec3& wo) const {
+    const auto [reflected, transmitted] = base_.shares({wo.x(), wo.y(), std::abs(wo.z())});
+    return (specular_ * reflected + diffuse_ * transmitted).maxCoeff();
+  }
+  bool is_delta() const { return false; }
+  bool is_narrow() const { return false; }
+  bool transmits() const { return false; }
+  bool casts_caustics() const { return false; }
+
+ protected:
+  static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
+
+  /// name : of the material, for errors
+  Paint(const std::string& name, Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
+      : eta_(checked_index(name, eta)), base_(eta, alpha) {
+    color(checked_reflectance(name + ": diffuseReflectance", diffuse),
+          checked_reflectance(name + ": specularReflectance", specular));
+  }
+
+  void color(const Spectrum& diffuse, const Spectrum& specular) {
+    diffuse_ = diffuse;
+    specular_ = specular;
+    diffuse_y_ = luminance(diffuse);
+    specular_y_ = luminance(specular);
+  }
+  /// How often the coat is sampled: by what coat and base reflect.
+  Float specular_share(const Vec3& wo) const {
+    const auto [reflected, transmitted] = base_.shares(wo);
+    const Float specular = specular_y_ * reflected, diffuse = diffuse_y_ * transmitted;
+    return specular + diffuse > 0 ? specular / (specular + diffuse) : Float(0.5);
+  }
+  /// What the coat reflects of light along a direction of this cosine to its normal.
+  Float fresnel(Float cosine) const { return fresnel_dielectric(std::min(cosine, Float(1)), eta_).reflectance; }
+  Spectrum base_value(const Reflection& r, Float f) const { return diffuse_ * base_.value(r, f); }
+
+ private:
+  Float eta_;
+  Base base_;
+  Spectrum diffuse_, specular_;
+  Float diffuse_y_ = 0, specular_y_ = 0;
+};
+
 /// A coat with facets of GGX over a diffuse base, the same on both sides.
 ///   eta    : index of refraction of the layer over that of the outside
 ///   eval   : Ks F D G / (4 cos wo cos wi) + Kd Base, F that of wo about the half vector; 0 where wo and wi lie on
@@ -60,13 +108,10 @@ class LajollaBase {
 ///   sample : mirrored about a visible normal, or a cosine hemisphere, by what each reflects; the pdf is that of the
 ///            mixture [1/sr]
 ///   throws : Error unless eta is a checked_index, alpha in [1e-4, 1] and the colours in [0, 1]
-template <class Base = LayeredBase> class RoughPlastic {
+template <class Base = LayeredBase> class RoughPlastic : public Paint<Base> {
  public:
   RoughPlastic(Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
-      : eta_(checked_index("rough plastic", eta)), facets_(alpha), base_(eta, alpha),
-        diffuse_(checked_reflectance("rough plastic: diffuseReflectance", diffuse)),
-        specular_(checked_reflectance("rough plastic: specularReflectance", specular)), diffuse_y_(luminance(diffuse)),
-        specular_y_(luminance(specular)) {}
+      : Paint<Base>("rough plastic", eta, alpha, diffuse, specular), facets_(alpha) {}
 
   std::optional<BsdfSample> sample(const Vec3& wo_given, Float uc, const Vec2& u) const {
     const Vec3 wo = upward(wo_given, wo_given);
@@ -96,48 +141,24 @@ template <class Base = LayeredBase> class RoughPlastic {
     const Float share = specular_share(r->wo);
     return share * facets_.seen_from(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
   }
-  const Spectrum& diffuse() const { return diffuse_; }
-  const Spectrum& specular() const { return specular_; }
   /// The same paint of these colours, which lie in [0, 1].
   RoughPlastic in_colors(const Spectrum& diffuse, const Spectrum& specular) const {
     RoughPlastic paint = *this;
-    paint.diffuse_ = diffuse;
-    paint.specular_ = specular;
-    paint.diffuse_y_ = luminance(diffuse);
-    paint.specular_y_ = luminance(specular);
+    paint.color(diffuse, specular);
     return paint;
   }
-  Float eta(const Vec3&, const Vec3&) const { return 1; }
-  Float albedo(const Vec3& wo) const {
-    const auto [reflected, transmitted] = base_.shares({wo.x(), wo.y(), std::abs(wo.z())});
-    return (specular_ * reflected + diffuse_ * transmitted).maxCoeff();
-  }
-  bool is_delta() const { return false; }
-  bool is_narrow() const { return false; }
   bool has_delta() const { return false; }
-  bool transmits() const { return false; }
-  bool casts_caustics() const { return false; }
 
  private:
-  static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
+  using Paint<Base>::inv_pi, Paint<Base>::specular_share;
 
-  /// How often the specular lobe is sampled: by what both lobes reflect.
-  Float specular_share(const Vec3& wo) const {
-    const auto [reflected, transmitted] = base_.shares(wo);
-    const Float specular = specular_y_ * reflected, diffuse = diffuse_y_ * transmitted;
-    return specular + diffuse > 0 ? specular / (specular + diffuse) : Float(0.5);
-  }
   Spectrum value(const Reflection& r) const {
-    const Float f = fresnel_dielectric(std::min(std::abs(r.wo.dot(r.m)), Float(1)), eta_).reflectance;
+    const Float f = this->fresnel(std::abs(r.wo.dot(r.m)));
     const Float lobe = f * facets_.shape(r.wo, r.wi, r.m) / 4;
-    return specular_ * lobe + diffuse_ * base_.value(r, f);
+    return this->specular() * lobe + this->base_value(r, f);
   }
 
-  Float eta_;
   Microfacets facets_;
-  Base base_;
-  Spectrum diffuse_, specular_;
-  Float diffuse_y_, specular_y_;
 };
 
 } // namespace render
