@@ -55,13 +55,15 @@ std::vector<Way> ways_of(const ConvergeOptions& o) {
   return chosen;
 }
 
-// Writes and prints one target. Returns whether gnuplot is there, which is not asked again without.
+// Writes and prints one target; `pictures` of a scene. Returns whether gnuplot is there, which is not asked again
+// without.
 bool write(const Target& target, const Measurement& m, const ConvergeOptions& o, const std::filesystem::path& folder,
-           bool can_draw) {
+           bool can_draw, const Pictures* pictures = nullptr) {
   const std::string name = file_name(target.integral.name), base = (folder / name).string();
   mc::write_file(base + ".csv", to_csv(target, m));
-  mc::write_file(base + ".json",
-                 to_json(target, m, {{"command", o.command}, {"commit", commit}, {"seed", o.seed}}).dump(1) + "\n");
+  nlohmann::ordered_json about = {{"command", o.command}, {"commit", commit}, {"seed", o.seed}};
+  if (pictures) about["reference"] = {{"spp", pictures->reference_spp}, {"error", pictures->reference_error}};
+  mc::write_file(base + ".json", to_json(target, m, about).dump(1) + "\n");
   mc::write_file(base + ".gp", to_script(target, m, name));
   fmt::print("{}", summary(target, m));
   const auto cut = std::count_if(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.out_of_time; });
@@ -164,7 +166,7 @@ int converge_scene(const ConvergeOptions& o) {
   const bool interrupted = pictures.measurement.interrupted;
   if (interrupted) fmt::print("{}\n", interrupted_pictures(pictures));
   if (pictures.ways.empty()) return exit_interrupted;
-  write(target, pictures.measurement, o, folder, true);
+  write(target, pictures.measurement, o, folder, true, &pictures);
   fmt::print("{}", about_pictures(pictures));
   mc::write_file((folder / "slopes.csv").string(), slopes_header() + slopes_csv(target, pictures.measurement));
   fmt::print("data and plots: {}\n", folder.string());

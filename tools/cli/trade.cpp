@@ -226,6 +226,14 @@ template <class Seconds> Answers answers_of(const Measurement& m, const Wanted& 
   return a;
 }
 
+// The picture that errors are from, and what each way errs by however long it runs; told from 0 where lo is above.
+void add(const Pictures& p, ordered_json& j) {
+  j["reference"] = {{"spp", p.reference_spp}, {"error", p.reference_error}};
+  j["biases"] = ordered_json::array();
+  for (std::size_t i = 0; i < p.biases.size(); ++i)
+    j["biases"].push_back({{"way", label(p.measurement.curves[i])}, {"bias", to_json(p.biases[i].bias)}});
+}
+
 ordered_json to_json(const TradeOptions& o, const Measured& one) {
   const Measurement& m = *one.measurement;
   const Answers& a = *one.answers;
@@ -235,6 +243,7 @@ ordered_json to_json(const TradeOptions& o, const Measured& one) {
                     {"cost", o.scene.cost}};
   if (m.heavy_tail) j["infinite_variance"] = {{"tail_index", *m.heavy_tail}};
   if (m.interrupted) j["interrupted"] = true;
+  if (one.pictures) add(*one.pictures, j);
   j["errors"] = j["seconds"] = ordered_json::array();
   for (const ForError& f : a.errors) {
     j["errors"].push_back(to_json(f, &Offer::seconds, m.cost));

@@ -53,6 +53,7 @@ TEST_F(Converge, ASceneHasNoTruthButAReference) {
   EXPECT_THAT(r.output, AllOf(HasSubstr("  mis stratified  RMS error "), HasSubstr("  mis sobol       RMS error "),
                               HasSubstr("from a reference of ")));
   EXPECT_THAT(out("cbox.csv"), HasSubstr("cbox,mis independent,16,"));
+  EXPECT_THAT(out("cbox.json"), HasSubstr("\"reference\": {\n  \"spp\": "));
   EXPECT_THAT(out("slopes.csv"), HasSubstr(",independent samples\n"));
   const std::string page = mc::read_file(path("page/index.html"));
   EXPECT_THAT(page, AllOf(HasSubstr("8&times;8 pixels; reference of "), HasSubstr("src=\"cbox-reference.png\""),

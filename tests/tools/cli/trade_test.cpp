@@ -107,7 +107,8 @@ TEST_F(TradeCommand, AScene) {
   EXPECT_THAT(mc::read_file(path("out/trade.json")),
               AllOf(HasSubstr("\"way\": \"mis sobol adaptive\""), HasSubstr("\"way\": \"mis sobol splat\""),
                     HasSubstr("\"way\": \"mis sobol adaptive tiles\""), HasSubstr("\"way\": \"bsdf independent\""),
-                    HasSubstr("\"million_rays\""), HasSubstr("\"gain_over_plain\""), Not(HasSubstr("cpu_seconds"))));
+                    HasSubstr("\"million_rays\""), HasSubstr("\"gain_over_plain\""), HasSubstr("\"biases\""),
+                    HasSubstr("\"reference\""), Not(HasSubstr("cpu_seconds"))));
   EXPECT_THAT(mc::read_file(path("out/trade.csv")), HasSubstr("way,n,million_rays,rms_error"));
   EXPECT_THAT(mc::read_file(path("page/index.html")),
               AllOf(HasSubstr("<th>millions of rays</th>"), HasSubstr("no way came there; nearest "),
