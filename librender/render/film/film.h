@@ -91,11 +91,12 @@ enum class ErrorOf {
   worst    ///< the 16x16 block where they are largest; blocks at the right and lower edge may be smaller
 };
 
+/// What the samples of a film are.
 struct FilmOptions {
   std::optional<SplatFilter> splat = {}; ///< where samples count for several pixels, as they come by `splat`
   bool lit = false;                      ///< paths from the lights give something, too: 136 bytes more a pixel
   double noise_area = 1;                 ///< see Image, of samples that share paths; with splats theirs
-  bool independent = false;              ///< samples of a pixel are
+  bool independent = false;              ///< the samples of a pixel are
 };
 
 /// Sums of the samples of every pixel, apart by the independent point sets that they come from: a pixel is the mean of
@@ -143,7 +144,7 @@ class Film {
   /// where f, what rounding left over, did not show in k sets: uniform beforehand, f (1 - f) is then
   /// (k + 1) / ((k + 2) (k + 3)) on average.
   /// Splats bring J^2 from the pixels about, times the squares of their weights.
-  ///   Where samples are independent each tells what a set does; but for splats their own variance is taken.
+  ///   Independent samples tell what sets do, and are more: the variance is by theirs, but for splats.
   ///   Light of paths from the lights adds its own mean and the variance of that, found in the same way.
   PixelEstimate estimate(int x, int y) const;
   std::uint64_t rays(int x, int y) const { return rays_[index(x, y)]; }

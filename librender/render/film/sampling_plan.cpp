@@ -24,6 +24,7 @@ struct Need {
   }
 };
 
+/// Of the pixels of a tile.
 struct Sum {
   Eigen::Array3d radiance = Eigen::Array3d::Zero();
   double pixels = 0;

@@ -30,10 +30,10 @@ struct Tiling {
 ///   Of each neighbour: v, variance / (r s + m^2 / 4) of one sample, averaged over the channels, where m is the mean
 ///   radiance of the picture, r the pixel's and s = r; and c, the rays of one sample. Neighbours weigh by the inverse
 ///   square of their distance.
-///   For the error of the picture s is the mean of the 3x3 pixels about where that is less, so that a rare bright
-///   sample is not divided by its own square. (These 3x3 leave out the pixel whose rate it is.) Rates are a power of
-///   sqrt(v / c): the one among 0 (even), .5, .75, 1 and 1.25 at which the other pixels' variance times rays is least
-///   by the pilot, so that what neighbours cannot tell costs little.
+///   For the error of the picture s is the mean of the 3x3 pixels about (of tiles: tiles) where that is less, so that a
+///   rare bright sample is not divided by its own square; these 3x3 leave out the one whose rate it is. Rates are a
+///   power of sqrt(v / c): the one among 0 (even), .5, .75, 1 and 1.25 at which the variance times rays of the other
+///   pixels is least by the pilot, so that what neighbours cannot tell costs little.
 ///   For the worst block rates are as v: all blocks err alike.
 ///   Paths from the lights: by the same rule, sqrt(variance / rays) of all of them to that of all samples, from 1 to 4;
 ///   s = r, so that no pixel adds more than all its samples are worth.
