@@ -1,5 +1,5 @@
 // Pictures of one point whose radiance is known, where sizes and places are extreme. Each mean is held against the
-// closed form by a t-test at alpha = 1e-5; there are eighty, and the seeds are fixed.
+// closed form by a t-test at alpha = 1e-5; there are a hundred, and the seeds are fixed.
 
 #include <render/integrator/path.h>
 #include <render/io/mitsuba/mitsuba.h>
@@ -10,6 +10,9 @@
 #include <mc/stats/t_test.h>
 
 #include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
 
 #include "support/files.h"
 #include "support/traced.h"
@@ -136,36 +139,52 @@ TEST(Extremes, SmallSpheresUnderStrategiesThatAimOrConnect) {
   }
 }
 
-// A scene file moved far away is the same scene.
-struct Moved : support::ScratchTest {};
-TEST_F(Moved, IsTheSameScene) {
-  const Vec3d place(0.5, 0.7, 0.3);
-  const double d2 = place.squaredNorm(), expected = 0.7 / (d2 * std::sqrt(d2)), r = 0.1;
-  for (const double distance : {0.0, 1e4, 1e5, 1e6, 1e9}) {
-    const Vec3d m(distance, -0.3 * distance, 0.7 * distance);
-    const auto text = [&](double x, double y, double z) {
-      return fmt::format("{:.17g}, {:.17g}, {:.17g}", m.x() + x, m.y() + y, m.z() + z);
-    };
-    const std::string file = write(
-        "moved.xml",
-        fmt::format(
-            "<scene version=\"0.6.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"1\"/>"
-            "<transform name=\"toWorld\"><lookAt origin=\"{}\" target=\"{}\" up=\"0, 0, 1\"/></transform></sensor>"
-            "<bsdf type=\"diffuse\" id=\"white\"><rgb name=\"reflectance\" value=\"1\"/></bsdf>"
-            "<shape type=\"rectangle\"><transform name=\"toWorld\"><rotate x=\"1\" angle=\"-90\"/><scale value=\"5\"/>"
-            "<translate x=\"{:.17g}\" y=\"{:.17g}\" z=\"{:.17g}\"/></transform><ref id=\"white\"/></shape>"
-            "<shape type=\"sphere\"><transform name=\"toWorld\"><translate x=\"{:.17g}\" y=\"{:.17g}\" z=\"{:.17g}\"/>"
-            "</transform><float name=\"radius\" value=\"{}\"/><emitter type=\"area\"><rgb name=\"radiance\" "
-            "value=\"{}\"/>"
-            "</emitter></shape></scene>",
-            text(0, 1, 0), text(0, 0, 0), m.x(), m.y(), m.z(), m.x() + 0.5, m.y() + 0.7, m.z() + 0.3, r, 1 / (r * r)));
-    const Scene scene = read_mitsuba(file).scene;
-    const Ray ray = scene.camera().ray(Vec2(Float(0.5), Float(0.5)), scene.camera().tan_half(1), Vec2(0, 0));
-    // Numbers of 16 digits resolve places to 1e-7 at 1e9.
-    for (const std::string& strategy : unbiased())
-      expect_mean(support::traced(scene, ray, {strategy_from(strategy), 2}, 20'000), expected, 1e-4,
-                  fmt::format("{}, moved by {}", strategy, distance));
+// A scene file moved far away is the same scene, with a floor that is a square or a part of a room of huge spheres.
+struct Moved : support::ScratchTest {
+  // Numbers of 16 digits resolve places to 1e-7 at 1e9.
+  void expect_the_same(const std::function<std::string(const Vec3d& origin)>& floor) const {
+    const Vec3d place(0.5, 0.7, 0.3);
+    const double d2 = place.squaredNorm(), expected = 0.7 / (d2 * std::sqrt(d2)), r = 0.1;
+    for (const double distance : {0.0, 1e4, 1e5, 1e6, 1e9}) {
+      const Vec3d m(distance, -0.3 * distance, 0.7 * distance);
+      const auto at = [](const Vec3d& p) { return fmt::format("{:.17g}, {:.17g}, {:.17g}", p.x(), p.y(), p.z()); };
+      const std::string file = write(
+          "moved.xml",
+          fmt::format("<scene version=\"0.6.0\"><sensor type=\"perspective\"><float name=\"fov\" value=\"1\"/>"
+                      "<transform name=\"toWorld\"><lookAt origin=\"{}\" target=\"{}\" up=\"0, 0, 1\"/></transform>"
+                      "</sensor><bsdf type=\"diffuse\" id=\"white\"><rgb name=\"reflectance\" value=\"1\"/></bsdf>{}{}"
+                      "<emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter></shape></scene>",
+                      at(m + Vec3d::UnitY()), at(m), floor(m), sphere(m + place, r), 1 / (r * r)));
+      const Scene scene = read_mitsuba(file).scene;
+      const Ray ray = scene.camera().ray(Vec2(Float(0.5), Float(0.5)), scene.camera().tan_half(1), Vec2(0, 0));
+      for (const std::string& strategy : unbiased())
+        expect_mean(support::traced(scene, ray, {strategy_from(strategy), 2}, 20'000), expected, 1e-4,
+                    fmt::format("{}, moved by {}", strategy, distance));
+    }
   }
+  /// Without the tag that ends it.
+  static std::string sphere(const Vec3d& center, double radius) {
+    return fmt::format("<shape type=\"sphere\"><point name=\"center\" x=\"{:.17g}\" y=\"{:.17g}\" z=\"{:.17g}\"/>"
+                       "<float name=\"radius\" value=\"{}\"/>",
+                       center.x(), center.y(), center.z(), radius);
+  }
+};
+TEST_F(Moved, IsTheSameScene) {
+  expect_the_same([](const Vec3d& m) {
+    return fmt::format("<shape type=\"rectangle\"><transform name=\"toWorld\"><rotate x=\"1\" angle=\"-90\"/>"
+                       "<scale value=\"5\"/><translate x=\"{:.17g}\" y=\"{:.17g}\" z=\"{:.17g}\"/></transform>"
+                       "<ref id=\"white\"/></shape>",
+                       m.x(), m.y(), m.z());
+  });
+}
+TEST_F(Moved, AmongHugeSpheresToo) {
+  const std::string black = "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0\"/></bsdf></shape>";
+  expect_the_same([&](const Vec3d& m) {
+    std::string room = sphere(m - 1e5 * Vec3d::UnitY(), 1e5) + "<ref id=\"white\"/></shape>";
+    for (const Vec3d& d : {Vec3d(1, 0, 0), Vec3d(-1, 0, 0), Vec3d(0, 0, 1), Vec3d(0, 0, -1)})
+      room += sphere(m + (1e5 + 2) * d, 1e5) + black;
+    return room;
+  });
 }
 
 // A lamp beside the floor and a sun of a million times its power, so far away that the lamp gives almost all. The error

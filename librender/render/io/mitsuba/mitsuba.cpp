@@ -5,8 +5,11 @@
 
 #include <mc/core/text.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
+#include <vector>
 
 namespace render {
 
@@ -90,13 +93,43 @@ class Reader {
   bool has_background_ = false;
 };
 
-// Where the scene's shapes are, unless that is at the origin to within some of their size: coordinates are floats, too
-// coarse for what lies far away. Where nothing is left of the shapes in these, it is where the camera stands.
+// How many times its own size the farthest surface is away from `origin`.
+double farthest(const Scene& scene, const Vec3d& origin) {
+  double sizes = 0;
+  for (const Surface& s : scene.surfaces()) {
+    const Eigen::AlignedBox3d box = s.shape->box();
+    const auto reach = [&](const Vec3d& from) {
+      return std::max((box.min() - from).lpNorm<Eigen::Infinity>(), (box.max() - from).lpNorm<Eigen::Infinity>());
+    };
+    const double held = double(std::numeric_limits<Float>::epsilon()) * reach(Vec3d::Zero());
+    sizes = std::max(sizes, reach(origin) / std::max(box.diagonal().norm(), held));
+  }
+  return sizes;
+}
+
+// The median of the surfaces' middles along each axis: walls of huge radius do not move it.
+Vec3d median_of(const Scene& scene) {
+  Vec3d median;
+  for (int a = 0; a < 3; ++a) {
+    std::vector<double> middles;
+    for (const Surface& s : scene.surfaces()) middles.push_back(s.shape->box().center()[a]);
+    const auto half = middles.begin() + static_cast<std::ptrdiff_t>(middles.size() / 2);
+    std::nth_element(middles.begin(), half, middles.end());
+    median[a] = *half;
+  }
+  return median;
+}
+
+// Where the scene's shapes are, unless they are well held by floats about the origin, which are too coarse for what lies
+// far away. Where nothing is left of the shapes in these, it is where the camera stands.
 Vec3d middle_of(const Scene& scene) {
   if (scene.surfaces().empty()) return Vec3d::Zero();
-  const Vec3d lo = scene.bounds().lo.cast<double>(), hi = scene.bounds().hi.cast<double>(), middle = (lo + hi) / 2;
+  const Vec3d middle = (scene.bounds().lo.cast<double>() + scene.bounds().hi.cast<double>()) / 2;
   if (!middle.allFinite()) return scene.camera().origin().cast<double>();
-  return middle.norm() > 8 * (hi - lo).norm() ? middle : Vec3d(Vec3d::Zero());
+  Vec3d best = Vec3d::Zero();
+  for (const Vec3d& origin : {middle, median_of(scene)})
+    if (farthest(scene, origin) < farthest(scene, best) / 4) best = origin;
+  return best;
 }
 
 // About the origin of the file, or about the scene where that is far from there. From afar its middle is seen vaguely,
