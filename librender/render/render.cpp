@@ -99,8 +99,9 @@ class Work {
         std::min(static_cast<std::uint32_t>(film_.sets()), *std::min_element(taken_.begin(), taken_.end()));
     result.seconds = elapsed();
     result.cpu_seconds = double(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
-    result.relative_error = film_.relative_error().value;
-    result.worst_error = film_.relative_error(ErrorOf::worst).value;
+    const RelativeErrors errors = film_.relative_errors(result.image);
+    result.relative_error = errors.picture.value;
+    result.worst_error = errors.worst.value;
     result.undecided = film_.undecided();
     result.unsure_from = unsure_from_;
     result.invalid = total_.invalid;
@@ -213,7 +214,7 @@ class Work {
       if (!extend_to(mean, wanted)) continue;
       mean_ = mean;
       if (!options_.target_error && !options_.progress) continue; // nobody asks
-      error_ = film_.relative_error(options_.error_of);
+      error_ = film_.relative_errors().of(options_.error_of);
       undecided_ = film_.undecided();
       const bool is_there = options_.target_error && error_.value <= *options_.target_error;
       if (is_there && mean_ >= least_pilot && undecided_ > most_undecided && unsure_from_ == 0) unsure_from_ = mean_;

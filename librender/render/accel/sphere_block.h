@@ -53,9 +53,9 @@ class SphereBlock {
   template <bool any> bool intersect(const Ray&, const Prepared& line, Float& t_max, Hit& hit) const {
     const EightDoubles ox = line.o.x() - center_[0], oy = line.o.y() - center_[1], oz = line.o.z() - center_[2];
     const auto pass = sphere_pass(ox, oy, oz, line, radius2_);
-    const auto crossed = pass.crosses();
-    if (!detail::any_lane(crossed)) return false;
-    const auto at = sphere_crossings(pass, ox, oy, oz, line, radius2_);
+    const auto crossed = pass.crosses_ahead();
+    if (detail::lane_bits(crossed) == 0) return false;
+    const auto at = sphere_crossings(pass, line);
     const double limit = double(t_max);
     auto hit0 = crossed & (at.t0 > 0) & (at.t0 < limit), hit1 = crossed & (at.t1 > 0) & (at.t1 < limit);
     if (caps_) {
@@ -65,11 +65,14 @@ class SphereBlock {
       hit0 &= start + at.t0 * along >= cap_;
       hit1 &= start + at.t1 * along >= cap_;
     }
-    if constexpr (any) return detail::any_lane(hit0 | hit1);
-    const EightDoubles beyond = hit1 ? at.t1 : EightDoubles{} + mc::infinity<double>;
-    const EightDoubles t = hit0 ? at.t0 : beyond;
-    const int lane = detail::lowest_lane(t);
-    if (!(t[lane] < limit)) return false;
+    unsigned hits = detail::lane_bits(hit0 | hit1);
+    if (any || hits == 0) return hits != 0;
+    const EightDoubles t = hit0 ? at.t0 : at.t1;
+    int lane = __builtin_ctz(hits);
+    while ((hits &= hits - 1) != 0) {
+      const int other = __builtin_ctz(hits);
+      if (t[other] < t[lane]) lane = other;
+    }
     t_max = Float(t[lane]);
     hit = {t[lane], shape_[lane], 0, 0, 0};
     return true;

@@ -65,20 +65,19 @@ inline EightDoubles square_root(const EightDoubles& x) {
 #endif
 }
 
-/// Whether a comparison holds in some lane.
-inline bool any_lane(bool one) { return one; }
+/// Bit i is set where a comparison of doubles holds in lane i.
 template <class Mask>
-requires(sizeof(Mask) == sizeof(EightDoubles)) bool any_lane(const Mask& mask) {
+requires(sizeof(Mask) == sizeof(EightDoubles)) unsigned lane_bits(const Mask& mask) {
 #if defined(__AVX512DQ__)
-  return _mm512_movepi64_mask(reinterpret_cast<const __m512i&>(mask)) != 0;
+  return _mm512_movepi64_mask(reinterpret_cast<const __m512i&>(mask));
+#elif defined(__AVX__)
+  const auto* four = reinterpret_cast<const __m256d*>(&mask);
+  return static_cast<unsigned>(_mm256_movemask_pd(four[0]) | _mm256_movemask_pd(four[1]) << 4);
 #else
-  return (mask[0] | mask[1] | mask[2] | mask[3] | mask[4] | mask[5] | mask[6] | mask[7]) != 0;
+  unsigned bits = 0;
+  for (int i = 0; i < 8; ++i) bits |= unsigned(mask[i] != 0) << i;
+  return bits;
 #endif
-}
-
-inline int lowest_lane(const EightDoubles& t) {
-  const auto lower = [&](int a, int b) { return t[b] < t[a] ? b : a; };
-  return lower(lower(lower(0, 1), lower(2, 3)), lower(lower(4, 5), lower(6, 7)));
 }
 
 } // namespace detail

@@ -46,6 +46,31 @@ double bound_of(const mc::VarianceSum& sum) {
   return std::isfinite(dof) ? sum.value * dof / mc::chi_square_quantile(0.95, dof) : sum.value;
 }
 
+/// Of the pixels of a part of a picture, over their squared radiance.
+struct PartVariance {
+  mc::VarianceSum all, independent; ///< were the samples so
+  int pixels = 0;
+
+  RelativeError error(double noise_area) const {
+    if (all.value == 0) return {0, 0};
+    double most = bound_of(all);
+    if (noise_area == 1 && std::isfinite(independent.value)) most = std::clamp(bound_of(independent), all.value, most);
+    return {std::sqrt(all.value / pixels), std::sqrt(most / pixels)};
+  }
+};
+
+// The mean of the pixel and its neighbours.
+Eigen::Array3d around(const Image& image, int x, int y) {
+  Eigen::Array3d sum = Eigen::Array3d::Zero();
+  int n = 0;
+  for (int j = std::max(y - 1, 0); j < std::min(y + 2, image.height); ++j)
+    for (int i = std::max(x - 1, 0); i < std::min(x + 2, image.width); ++i) {
+      sum += image.at(i, j).cast<double>();
+      ++n;
+    }
+  return sum / n;
+}
+
 } // namespace
 
 void SampleSums::merge(const SampleSums& other) {
@@ -213,52 +238,34 @@ Image Film::image() const {
   return image;
 }
 
-RelativeError Film::relative_error(ErrorOf of) const {
-  std::vector<Eigen::Array3d> means;
-  means.reserve(rays_.size());
+RelativeErrors Film::relative_errors(const Image& image) const {
+  if (image.variance.empty()) return {};
   double mean = 0;
-  for (int y = 0; y < height_; ++y)
-    for (int x = 0; x < width_; ++x) {
-      const PixelEstimate pixel = estimate(x, y);
-      if (pixel.sets < 2) return {};
-      means.push_back(pixel.mean);
-      mean += pixel.mean.sum() / (3.0 * double(rays_.size()));
-    }
-  const int block = of == ErrorOf::worst ? 16 : std::max(width_, height_);
-  RelativeError worst{0, 0};
-  for (int top = 0; top < height_; top += block)
-    for (int left = 0; left < width_; left += block) {
-      const int bottom = std::min(top + block, height_), right = std::min(left + block, width_);
-      mc::VarianceSum all, independent; // were the samples so
-      for (int y = top; y < bottom; ++y)
-        for (int x = left; x < right; ++x) {
+  for (const Spectrum& pixel : image.pixels) mean += pixel.cast<double>().sum() / (3.0 * double(image.pixels.size()));
+  PartVariance picture;
+  RelativeErrors errors{{}, {0, 0}};
+  for (int top = 0; top < height_; top += 16)
+    for (int left = 0; left < width_; left += 16) {
+      PartVariance block;
+      for (int y = top; y < std::min(top + 16, height_); ++y)
+        for (int x = left; x < std::min(left + 16, width_); ++x) {
+          for (PartVariance* part : {&picture, &block}) ++part->pixels;
           const PixelEstimate pixel = estimate(x, y);
           if (!(pixel.variance > 0).any()) continue;
-          const Eigen::Array3d unit = around(means, x, y).max(mean / 2).square();
-          all.add((pixel.variance / unit).mean(), pixel.sets - 1, options_.noise_area);
+          const Eigen::Array3d unit = around(image, x, y).max(mean / 2).square();
+          const double relative = (pixel.variance / unit).mean();
           const Eigen::Array3d of_samples = samples_[place(x, y)].variance_of_mean() + pixel.of_light;
-          independent.add((of_samples / unit).mean(), deciding(x, y));
+          const double relative_of_samples = (of_samples / unit).mean(), dof = deciding(x, y);
+          for (PartVariance* part : {&picture, &block}) {
+            part->all.add(relative, pixel.sets - 1, options_.noise_area);
+            part->independent.add(relative_of_samples, dof);
+          }
         }
-      if (all.value == 0) continue;
-      const int pixels = (bottom - top) * (right - left);
-      double most = bound_of(all);
-      if (options_.noise_area == 1 && std::isfinite(independent.value))
-        most = std::clamp(bound_of(independent), all.value, most);
-      worst.value = std::max(worst.value, std::sqrt(all.value / pixels));
-      worst.bound = std::max(worst.bound, std::sqrt(most / pixels));
+      const RelativeError error = block.error(options_.noise_area);
+      errors.worst = {std::max(errors.worst.value, error.value), std::max(errors.worst.bound, error.bound)};
     }
-  return worst;
-}
-
-Eigen::Array3d Film::around(const std::vector<Eigen::Array3d>& means, int x, int y) const {
-  Eigen::Array3d sum = Eigen::Array3d::Zero();
-  int n = 0;
-  for (int j = std::max(y - 1, 0); j < std::min(y + 2, height_); ++j)
-    for (int i = std::max(x - 1, 0); i < std::min(x + 2, width_); ++i) {
-      sum += means[index(i, j)];
-      ++n;
-    }
-  return sum / n;
+  errors.picture = picture.error(options_.noise_area);
+  return errors;
 }
 
 double Film::deciding(int x, int y) const {

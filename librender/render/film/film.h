@@ -90,6 +90,11 @@ enum class ErrorOf {
   picture, ///< all pixels
   worst    ///< the 16x16 block where they are largest; blocks at the right and lower edge may be smaller
 };
+struct RelativeErrors {
+  RelativeError picture, worst;
+
+  const RelativeError& of(ErrorOf which) const { return which == ErrorOf::picture ? picture : worst; }
+};
 
 /// What the samples of a film are.
 struct FilmOptions {
@@ -154,10 +159,12 @@ class Film {
   /// Means, and their variance where every pixel knows it.
   Image image() const;
 
-  /// The mean relative standard error: root of the mean over pixels and channels of variance / radiance^2. Radiance is
+  /// The mean relative standard errors: root of the mean over pixels and channels of variance / radiance^2. Radiance is
   /// that of the pixel and its neighbours, 3x3, so that a rare bright sample is not divided by itself; in the dark it
   /// is half of the picture's mean. Infinite while a pixel does not know its variance.
-  RelativeError relative_error(ErrorOf of = ErrorOf::picture) const;
+  RelativeErrors relative_errors() const { return relative_errors(image()); }
+  /// The same for who has what image() gives.
+  RelativeErrors relative_errors(const Image& image) const;
 
   /// Share of the pixels that are undecided, see SampleSums::deciding; a path from the lights counts as a sample.
   double undecided() const;
@@ -185,9 +192,6 @@ class Film {
 
   // As many samples of every pixel as the paths from the lights go with.
   double light_count() const { return std::accumulate(light_counts_.begin(), light_counts_.end(), 0.0); }
-
-  // The mean of the pixel and its neighbours.
-  Eigen::Array3d around(const std::vector<Eigen::Array3d>& means, int x, int y) const;
 
   int width_, height_, sets_;
   FilmOptions options_;

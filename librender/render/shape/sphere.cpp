@@ -51,7 +51,7 @@ std::optional<double> Sphere::intersect(const Ray& ray) const {
   const Vec3d o = line.o - center_;
   const auto pass = sphere_pass(o.x(), o.y(), o.z(), line, radius_ * radius_);
   if (!pass.crosses()) return {};
-  const auto at = sphere_crossings(pass, o.x(), o.y(), o.z(), line, radius_ * radius_);
+  const auto at = sphere_crossings(pass, line);
   for (const double t : {at.t0, at.t1})
     if (t > 0 && t < double(ray.t_max) && holds(o + t * line.d)) return t;
   return {};
@@ -145,7 +145,7 @@ Float Sphere::pdf(const Vec3& ref, const Vec3& wi) const {
   const auto pass = sphere_pass(o.x(), o.y(), o.z(), line, radius_ * radius_);
   if (!pass.crosses()) return 0;
   if (const double d2 = o.squaredNorm(); is_cone(d2)) return pass.b > 0 ? cone_pdf(d2) : Float(0);
-  const auto at = sphere_crossings(pass, o.x(), o.y(), o.z(), line, radius_ * radius_);
+  const auto at = sphere_crossings(pass, line);
   Float sum = 0;
   for (const double t : {at.t0, at.t1}) {
     const Vec3d offset = o + t * line.d;

@@ -19,9 +19,12 @@ struct Line {
 ///   Source : [HainesGuntherAkenineMoller19]
 template <class T> struct SpherePass {
   T b;            ///< the centre is nearest at t = b / d^2
+  T c;            ///< squared distance of the centre from o, less radius^2
   T discriminant; ///< radius^2 less the squared distance of the centre from the line
 
   auto crosses() const { return discriminant >= 0; }
+  /// Where it crosses at some t > 0: not where it leaves a sphere behind that does not hold o.
+  auto crosses_ahead() const { return crosses() & ((b >= 0) | (c < 0)); }
 };
 
 template <class T>
@@ -29,19 +32,16 @@ SpherePass<T> sphere_pass(const T& ox, const T& oy, const T& oz, const Line& lin
   const Vec3d& d = line.d;
   const T b = -(ox * d.x() + oy * d.y() + oz * d.z()), nearest = b * line.inverse_d2;
   const T px = ox + d.x() * nearest, py = oy + d.y() * nearest, pz = oz + d.z() * nearest;
-  return {b, radius2 - (px * px + py * py + pz * pz)};
+  return {b, ox * ox + oy * oy + oz * oz - radius2, radius2 - (px * px + py * py + pz * pz)};
 }
 
 /// Distances t0 <= t1 [lengths of d] of its crossings, where there are any; a NaN t is none.
 template <class T> struct SphereCrossings { T t0, t1; };
 
-template <class T>
-SphereCrossings<T> sphere_crossings(const SpherePass<T>& pass, const T& ox, const T& oy, const T& oz, const Line& line,
-                                    const T& radius2) {
+template <class T> SphereCrossings<T> sphere_crossings(const SpherePass<T>& pass, const Line& line) {
   const T root = detail::square_root(pass.crosses() ? line.d2 * pass.discriminant : T{});
   const T q = pass.b < 0 ? pass.b - root : pass.b + root;
-  const T c = ox * ox + oy * oy + oz * oz - radius2;
-  const T first = q * line.inverse_d2, second = c / q; // q = 0 gives NaN, which is no crossing
+  const T first = q * line.inverse_d2, second = pass.c / q; // q = 0 gives NaN, which is no crossing
   return {first < second ? first : second, first < second ? second : first};
 }
 

@@ -23,9 +23,9 @@ TEST(Lanes, RootsAndChoices) {
   const EightDoubles x = {0, 1, 2, 3, 1e-300, 1e300, 0.25, 7};
   const EightDoubles root = detail::square_root(x);
   for (int i = 0; i < 8; ++i) EXPECT_EQ(root[i], std::sqrt(x[i]));
-  EXPECT_EQ(detail::lowest_lane(EightDoubles{5, 4, 3, 2, 1, 2, 3, 4}), 4);
-  EXPECT_TRUE(detail::any_lane(x > 6.0));
-  EXPECT_FALSE(detail::any_lane(x < 0.0));
+  EXPECT_EQ(detail::lane_bits(x > 2.5), 0b10101000u);
+  EXPECT_EQ(detail::lane_bits(x < 0.0), 0u);
+  EXPECT_EQ(detail::lane_bits(x >= 0.0), 0xffu);
 }
 
 } // namespace

@@ -30,7 +30,7 @@ TEST(Film, MeansAndVariancesOfTheMean) {
     EXPECT_EQ(film.estimate(px, 0).samples, 4u);
     EXPECT_EQ(film.estimate(px, 0).sets, 2);
   }
-  EXPECT_NEAR(film.relative_error().value, std::sqrt((0.75 / (2.5 * 2.5) + 3 / 25.0) / 3), 1e-12);
+  EXPECT_NEAR(film.relative_errors().picture.value, std::sqrt((0.75 / (2.5 * 2.5) + 3 / 25.0) / 3), 1e-12);
 }
 
 // Sets of any sizes: their weighted mean and its variance are those of all samples together. 20,000 pixels, whose mean
@@ -98,7 +98,7 @@ TEST(Film, OneSetHasNoVariance) {
   Film film(1, 1, 2);
   film.add(0, 0, 0, grey(1), 5);
   EXPECT_TRUE(film.image().variance.empty());
-  EXPECT_EQ(film.relative_error().value, mc::infinity<double>);
+  EXPECT_EQ(film.relative_errors().picture.value, mc::infinity<double>);
 }
 
 // What it says is what the pixels of its image are off by: dark ones relative to half the mean, bright ones to their
@@ -117,14 +117,14 @@ TEST(Film, ErrorIsRelativeToTheSurroundings) {
     const double radiance = y < 9 ? 0.0 : y == 9 ? 4 / 3.0 : y == 10 ? 8 / 3.0 : 4;
     sum += 4 * 0.25 / mc::sqr(std::max(radiance, 1.0));
   }
-  EXPECT_NEAR(film.relative_error().value, std::sqrt(sum / 400), 1e-12);
+  EXPECT_NEAR(film.relative_errors().picture.value, std::sqrt(sum / 400), 1e-12);
   // Of the blocks, 16x16 from the corner, the upper right one holds only such pixels, the darkest.
   double worst = 0;
   for (int y = 0; y < 16; ++y) {
     const double radiance = y < 9 ? 0.0 : y == 9 ? 4 / 3.0 : y == 10 ? 8 / 3.0 : 4;
     worst += 4 * 0.25 / mc::sqr(std::max(radiance, 1.0)) / 64;
   }
-  EXPECT_NEAR(film.relative_error(ErrorOf::worst).value, std::sqrt(worst), 1e-12);
+  EXPECT_NEAR(film.relative_errors().worst.value, std::sqrt(worst), 1e-12);
 }
 
 // Two values, a slope, a rare sample beside others, and none.
@@ -195,7 +195,7 @@ TEST(Film, BoundsItsErrorByWhatTheSetsKnow) {
         one.add(x, y, set, 10 * grey(x == 3 && y == 3 ? 2 + off : 2), 10);
         all.add(x, y, set, grey(2 + off), 1);
       }
-  const RelativeError of_one = one.relative_error(), of_all = all.relative_error();
+  const RelativeError of_one = one.relative_errors().picture, of_all = all.relative_errors().picture;
   EXPECT_NEAR(of_one.bound / of_one.value, std::sqrt(3 / 0.351846), 1e-5);  // tables of chi-square, 5 %
   EXPECT_NEAR(of_all.bound / of_all.value, std::sqrt(318 / 277.687), 1e-5); // 5 * 64 - 2 degrees, as none is off
   for (int i = 0; i < 40; ++i) {
@@ -203,8 +203,8 @@ TEST(Film, BoundsItsErrorByWhatTheSetsKnow) {
     sample.add(grey(i % 2 == 0 ? 0 : 4));
     one.note(3, 3, sample, 1);
   }
-  EXPECT_NEAR(one.relative_error().bound / of_one.value, std::sqrt(4 / 39.0 * 12 * 40 / 26.5093), 1e-5);
-  EXPECT_EQ(Film(1, 1, 2).relative_error().bound, mc::infinity<double>);
+  EXPECT_NEAR(one.relative_errors().picture.bound / of_one.value, std::sqrt(4 / 39.0 * 12 * 40 / 26.5093), 1e-5);
+  EXPECT_EQ(Film(1, 1, 2).relative_errors().picture.bound, mc::infinity<double>);
 }
 
 TEST(Film, TellsWhichPixelsOneSampleDecides) {

@@ -20,13 +20,15 @@ TEST(SphereCrossings, LieOnTheSphere) {
     const EightDoubles zero = {}, x = zero + o.x(), y = zero + o.y(), z = zero + o.z(), r2 = zero + 1.0;
     const auto passes = sphere_pass(x, y, z, line, r2);
     ASSERT_EQ(pass.discriminant, passes.discriminant[5]);
+    ASSERT_EQ(pass.crosses_ahead(), passes.crosses_ahead()[5] != 0);
     if (!pass.crosses()) continue;
     ++crossed;
-    const auto one = sphere_crossings(pass, o.x(), o.y(), o.z(), line, 1.0);
-    const auto eight = sphere_crossings(passes, x, y, z, line, r2);
+    const auto one = sphere_crossings(pass, line);
+    const auto eight = sphere_crossings(passes, line);
     EXPECT_EQ(one.t0, eight.t0[5]);
     EXPECT_EQ(one.t1, eight.t1[5]);
     EXPECT_LE(one.t0, one.t1);
+    EXPECT_EQ(pass.crosses_ahead(), one.t1 > 0);
     // The root loses digits where the line is all but a tangent.
     const double tolerance = 1e-14 / std::sqrt(std::max(pass.discriminant, 1e-14));
     for (const double t : {one.t0, one.t1}) EXPECT_NEAR((o + t * line.d).norm(), 1, tolerance) << trial;
@@ -38,7 +40,7 @@ TEST(SphereCrossings, LieOnTheSphere) {
 TEST(SphereCrossings, AtTheEdges) {
   const auto along_x = [](double x, double d, double radius) {
     const Line line({x, 0, 0}, {d, 0, 0});
-    return sphere_crossings(sphere_pass(x, 0.0, 0.0, line, radius * radius), x, 0.0, 0.0, line, radius * radius);
+    return sphere_crossings(sphere_pass(x, 0.0, 0.0, line, radius * radius), line);
   };
   EXPECT_EQ(along_x(1, -1, 1).t0, 0);
   EXPECT_EQ(along_x(1, -1, 1).t1, 2);

@@ -120,8 +120,8 @@ Vec3d median_of(const Scene& scene) {
   return median;
 }
 
-// Where the scene's shapes are, unless they are well held by floats about the origin, which are too coarse for what lies
-// far away. Where nothing is left of the shapes in these, it is where the camera stands.
+// Where the scene's shapes are, unless floats hold them well about the origin: they are too coarse for what lies far
+// away. Where nothing is left of the shapes in these, it is where the camera stands.
 Vec3d middle_of(const Scene& scene) {
   if (scene.surfaces().empty()) return Vec3d::Zero();
   const Vec3d middle = (scene.bounds().lo.cast<double>() + scene.bounds().hi.cast<double>()) / 2;
