@@ -33,6 +33,8 @@ void check(const Scene& scene, const RenderOptions& options) {
   mc::require(!options.tiles || !options.splat, "render: tiles take no splats; leave out one of both");
   mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
               options.max_depth);
+  mc::require(options.branches >= 1 && options.branches <= most_branches,
+              "render: {} branches of a path; they must be 1 to {}", options.branches, most_branches);
 }
 
 Whole whole_of(const RenderOptions& options) {
@@ -81,7 +83,7 @@ class Work {
       : options_(options), whole_(whole_of(options)), splat_(splat_of(scene, options)),
         light_paths_(light_paths_of(scene, options)),
         points_(options.sampler, options.seed, stratum_of(options)), path_{options.strategy, options.max_depth,
-                                                                           options.shown},
+                                                                           options.shown, options.branches},
         taker_(scene, path_, points_, whole_, splat_, light_paths()), film_(new_film()), taken_(width() * height()) {
     if (options.tiles) tile_taker_.emplace(scene, path_, points_, whole_, light_paths());
     if (light_paths_)

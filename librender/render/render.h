@@ -20,6 +20,8 @@ struct Progress {
 /// While a larger share of the pixels is undecided, a picture has not reached a target error.
 inline constexpr double most_undecided = 0.05;
 
+inline constexpr int most_branches = 1024;
+
 struct RenderOptions {
   int width = 256, height = 256;
   std::optional<Crop> crop;           ///< only this part; spent evenly, its pixels are the whole's, bit for bit
@@ -33,6 +35,7 @@ struct RenderOptions {
   bool splat = false; ///< samples count for all pixels under the filter, see SplatFilter; spent evenly
   bool tiles = false; ///< pixels share paths by tiles, see TileIntegrator
   int max_depth = -1; ///< longest path in edges; -1: no limit
+  int branches = 2;   ///< see PathOptions; tiles share instead
   Shown shown = Shown::radiance;
   std::uint64_t seed = 0;
   int threads = 0;                               ///< 0: all of the machine's

@@ -49,6 +49,7 @@ struct RenderOptions {
   std::string crop;                   ///< "X,Y,W,H"; empty: all of it
   std::string strategy, sampler;      ///< empty: bidirectional, sobol
   std::optional<int> max_depth;       ///< longest path in edges; -1: unlimited
+  std::optional<int> branches;        ///< of a path; none: librender's
   std::uint64_t seed = 0;
   int threads = 0;      ///< 0: all
   bool splat = false;   ///< samples count for all pixels under the filter
@@ -141,6 +142,13 @@ std::vector<Option> rows(RenderOptions& o) {
        {"--splat"}},
       {"--max-depth", "N", &o.max_depth,
        "Longest path in edges (1: light seen directly), -1 for no limit [the scene's]"},
+      {"--branches",
+       "N",
+       &o.branches,
+       "Ways on from where a path first meets a surface that is no mirror or glass: more samples a second with 1, less "
+       "time to an error with 2 [2]",
+       false,
+       {"--tiles"}},
       {"--resume",
        "",
        &o.resume,
@@ -221,6 +229,9 @@ const GalleryScene* named_scene(const std::string& word) {
   mc::require(!options.max_depth || *options.max_depth == -1 || *options.max_depth >= 1,
               "--max-depth {} must be -1 or at least 1", options.max_depth.value_or(0));
   settings.max_depth = options.max_depth.value_or(defaults.max_depth);
+  mc::require(!options.branches || (*options.branches >= 1 && *options.branches <= ::render::most_branches),
+              "--branches {} must be 1 to {}", options.branches.value_or(0), ::render::most_branches);
+  settings.branches = options.branches.value_or(settings.branches);
   settings.shown = defaults.shown;
   mc::require(options.threads >= 0, "--threads {} must be >= 0", options.threads);
   settings.threads = options.threads;

@@ -10,6 +10,7 @@ struct PathOptions {
   Strategy strategy = strategy_from("mis");
   int max_depth = -1; ///< longest path in edges (1: light seen directly); -1: no limit
   Shown shown = Shown::radiance;
+  int branches = 2; ///< ways on from where a path first meets a surface that is not a delta
 };
 
 /// Traces paths through a scene, which must outlive it. Immutable, so threads share it.
@@ -17,9 +18,9 @@ struct PathOptions {
 ///   Lights that are not sampled (see LightLike) are met by following directions, in every strategy, and count fully.
 ///   Caustics cannot be reached by connecting to a light. Therefore `mis` aims up to a quarter of its directions at the
 ///   spheres of glass or mirror, where a scene has any: smallpt's box takes a quarter less time to a given error.
-///   A path splits in two where it first meets a surface that is not a delta, since two fifths of the time but little
-///   of the variance come from the way there and the light straight from the lights: a tenth to a fifth less time to a
-///   given error, no less with three or four branches. Source: [ArvoKirk90]
+///   A path splits where it first meets a surface that is not a delta, unless told otherwise in two, since two fifths
+///   of the time but little of the variance come from the way there and the light straight from the lights: a tenth to
+///   a fifth less time to a given error, no less with three or four branches. Source: [ArvoKirk90]
 ///   Russian roulette: from the fourth edge on a path survives with four times the largest component of its throughput,
 ///                     corrected for the compression of radiance in glass, at most .99. The factor balances variance
 ///                     against cost: at one the Cornell box and smallpt's take a third more time to a given error.
@@ -32,7 +33,8 @@ template <class SceneType> class PathIntegrator {
  public:
   /// light_paths : that find some of the light; null: none are traced. It must outlive this, too
   PathIntegrator(const SceneType& scene, const PathOptions& options, const LightPaths* light_paths = nullptr)
-      : steps_(scene, options.strategy, options.max_depth, light_paths), shown_(options.shown) {}
+      : steps_(scene, options.strategy, options.max_depth, light_paths), shown_(options.shown),
+        branches_(options.branches) {}
 
   /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
   ///   around : through what the ray starts
@@ -65,6 +67,7 @@ template <class SceneType> class PathIntegrator {
 
   PathSteps<SceneType> steps_;
   Shown shown_;
+  int branches_;
 };
 
 template <class SceneType>
@@ -80,7 +83,7 @@ Spectrum PathIntegrator<SceneType>::radiance(const Ray& ray, Stream& stream, std
   if (!steps_.arrive_at_rough(walk, place, stream, rays, found)) return radiance;
   const auto at = place.at(walk);
   steps_.connect(at, walk, stream, rays, found);
-  const auto [copies, weight] = mc::split<Float>(2, 0);
+  const auto [copies, weight] = mc::split<Float>(Float(branches_), 0);
   Spectrum branches = Spectrum::Zero();
   for (std::uint32_t i = 0; i < copies; ++i) {
     Walk own = walk;

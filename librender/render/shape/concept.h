@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
 namespace render {
@@ -29,7 +31,14 @@ struct SurfacePoint {
 
   /// Ray origin moved along the normal, to the side that d points to, just beyond the error bound: a ray from there
   /// meets this surface again only where it truly does. No scene-scale epsilon.
-  Vec3 offset_origin(const Vec3& d) const;
+  Vec3 offset_origin(const Vec3& d) const {
+    // The surface lies within `error` of p in each coordinate, so within error * |n|_1 along the normal
+    // [PharrJakobHumphreys23, section 6.8.6]. Rounding the sum moves each coordinate by up to half an ulp: a whole one
+    // of the largest is added to the error.
+    const Float rounding = std::numeric_limits<Float>::epsilon() * p.lpNorm<Eigen::Infinity>();
+    const Float distance = (error + rounding) * ng.lpNorm<1>();
+    return p + std::copysign(distance, d.dot(ng)) * ng;
+  }
   Ray spawn_ray(const Vec3& d) const { return {offset_origin(d), d}; }
   /// Ray to another surface point, which lies in direction d, that stops before it. None where the two are so close to
   /// the plane of one that rounding turns the ray around: they do not see each other.

@@ -43,7 +43,8 @@ void expect_mean(const mc::Moments& m, double value, const std::string& what, do
 
 std::string word(const Strategy& s) { return std::string(s.name); }
 
-// Inside a closed white sphere that shines with e and reflects a, radiance is e / (1 - a) everywhere.
+// Inside a closed white sphere that shines with e and reflects a, radiance is e / (1 - a) everywhere, in however many
+// ways paths go on.
 TEST(Path, ClosedFurnace) {
   SceneBuilder builder;
   const BsdfId wall = builder.add(Lambert(Spectrum(Float(0.2), Float(0.5), Float(0.8))));
@@ -53,6 +54,8 @@ TEST(Path, ClosedFurnace) {
   for (const Strategy& s : unbiased)
     for (int channel = 0; channel < 3; ++channel)
       expect_mean(support::traced(scene, ray, {s}, 5'000, channel), 2 / (1 - (0.2 + 0.3 * channel)), word(s));
+  for (const int branches : {1, 5})
+    expect_mean(support::traced(scene, ray, {unbiased[0], -1, {}, branches}, 5'000), 2.5, "branches");
 }
 
 // Instead of light, the shading normal as a colour; beyond it the sky.

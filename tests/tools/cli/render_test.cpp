@@ -48,6 +48,9 @@ TEST_F(RenderCommand, RefusesBadInputInOneLine) {
   expect_refused(cbox() + " --sampler sobl", {"'sobl'", "did you mean 'sobol'"});
   expect_refused(cbox() + " --strategy mess", {"'mess'", "did you mean 'mis'"});
   expect_refused(cbox() + " --max-depth 0", {"--max-depth 0"});
+  expect_refused(cbox() + " --branches 0", {"--branches 0 must be 1 to 1024"});
+  expect_refused(cbox() + " --branches 1025", {"--branches 1025 must be 1 to 1024"});
+  expect_refused(cbox() + " --branches 2 --tiles", {"--branches", "--tiles"});
   expect_refused(cbox() + " --spp 1 --intervals " + path("w.pfm"), {"--intervals", "two or more"});
   expect_refused(cbox() + " --intervals " + path("./out.pfm"), {"--intervals", "out.pfm", "overwrite the picture"});
   expect_refused(scenes + "cbox.xml -o nowhere.exr --intervals ./nowhere.exr",

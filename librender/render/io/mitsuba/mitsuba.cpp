@@ -2,6 +2,7 @@
 
 #include <render/io/mitsuba/plugins.h>
 #include <render/io/mitsuba/variables.h>
+#include <render/scene/resolution.h>
 
 #include <mc/core/text.h>
 
@@ -93,18 +94,19 @@ class Reader {
   bool has_background_ = false;
 };
 
-// How many times its own size the farthest surface is away from `origin`.
-double farthest(const Scene& scene, const Vec3d& origin) {
-  double sizes = 0;
+// As Coarseness::ratio, were the scene about `origin`.
+double coarseness_about(const Vec3d& origin, const Scene& scene) {
+  constexpr double step = double(std::numeric_limits<Float>::epsilon());
+  double worst = 0;
   for (const Surface& s : scene.surfaces()) {
     const Eigen::AlignedBox3d box = s.shape->box();
     const auto reach = [&](const Vec3d& from) {
       return std::max((box.min() - from).lpNorm<Eigen::Infinity>(), (box.max() - from).lpNorm<Eigen::Infinity>());
     };
-    const double held = double(std::numeric_limits<Float>::epsilon()) * reach(Vec3d::Zero());
-    sizes = std::max(sizes, reach(origin) / std::max(box.diagonal().norm(), held));
+    const double size = std::max(box.diagonal().norm(), step * reach(Vec3d::Zero())); // as far as it is known
+    worst = std::max(worst, step * reach(origin) / size);
   }
-  return sizes;
+  return worst;
 }
 
 // The median of the surfaces' middles along each axis: walls of huge radius do not move it.
@@ -120,16 +122,17 @@ Vec3d median_of(const Scene& scene) {
   return median;
 }
 
-// Where the scene's shapes are, unless floats hold them well about the origin: they are too coarse for what lies far
-// away. Where nothing is left of the shapes in these, it is where the camera stands.
+// Where the scene's shapes are, unless that is at the origin to within some of their size: coordinates are floats, too
+// coarse for what lies far away. Walls of huge radius hide that: then it is the median, if that holds what the origin
+// does not. Where nothing is left of the shapes in floats, it is where the camera stands.
 Vec3d middle_of(const Scene& scene) {
   if (scene.surfaces().empty()) return Vec3d::Zero();
-  const Vec3d middle = (scene.bounds().lo.cast<double>() + scene.bounds().hi.cast<double>()) / 2;
+  const Vec3d lo = scene.bounds().lo.cast<double>(), hi = scene.bounds().hi.cast<double>(), middle = (lo + hi) / 2;
   if (!middle.allFinite()) return scene.camera().origin().cast<double>();
-  Vec3d best = Vec3d::Zero();
-  for (const Vec3d& origin : {middle, median_of(scene)})
-    if (farthest(scene, origin) < farthest(scene, best) / 4) best = origin;
-  return best;
+  if (middle.norm() > 8 * (hi - lo).norm()) return middle;
+  const Vec3d median = median_of(scene);
+  const double here = coarseness_about(Vec3d::Zero(), scene), there = coarseness_about(median, scene);
+  return here > too_coarse / 8 && there < std::min(too_coarse, here / 4) ? median : Vec3d(Vec3d::Zero());
 }
 
 // About the origin of the file, or about the scene where that is far from there. From afar its middle is seen vaguely,
