@@ -95,7 +95,7 @@ TEST(Integrate, EqualReplicatesAreNoProof) {
     }
     EXPECT_LE(missed, 8) << name(method);
     const mc::Integral constant = mc::integrate_unit([](Unit) { return 3.0; }, 2, o);
-    EXPECT_EQ(constant.stop, mc::Stop::converged) << name(method);
+    EXPECT_EQ(constant.stop, mc::Stop::max_calls) << name(method); // so would be 1e5 in a box that no point met
     EXPECT_GT(constant.interval.hi, 3) << name(method);
     const mc::Integral zero = mc::integrate_unit([](Unit) { return 0.0; }, 2, o);
     EXPECT_EQ(zero.stop, mc::Stop::max_calls) << name(method);

@@ -19,16 +19,46 @@ constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double jump_share = 0.75, unseen_share = 1.5; // of one step of one replicate, in standard errors
 constexpr double light = 8;                             // a tail of this index shows in no error
 constexpr double skewed = 1;                            // replicates that met something large, or did not
-constexpr std::size_t memory = 4;                       // lengths that a jump is remembered for
+constexpr std::size_t memory = 4;                       // lengths that any jump is remembered for
 
 // The jump that sets replicates apart: the widest gap between neighbours, if it is wider than those of a smooth
 // distribution or all of them lie in two narrow clusters.
-double widest_jump(std::vector<double> sorted, double deviation) {
+struct Gap {
+  double width = 0;
+  bool narrow = false, balanced = false; // the clusters beside it; both of three replicates or more
+};
+Gap widest_gap(std::vector<double> sorted, double deviation) {
   std::sort(sorted.begin(), sorted.end());
-  double gap = 0;
-  for (std::size_t i = 1; i < sorted.size(); ++i) gap = std::max(gap, sorted[i] - sorted[i - 1]);
-  const double rest = sorted.back() - sorted.front() - gap;
-  return gap > 1.8 * deviation || rest < gap / 4 ? gap : 0.0;
+  Gap gap;
+  std::size_t at = 0;
+  for (std::size_t i = 1; i < sorted.size(); ++i)
+    if (sorted[i] - sorted[i - 1] > gap.width) gap.width = sorted[at = i] - sorted[i - 1];
+  gap.narrow = sorted.back() - sorted.front() - gap.width < gap.width / 4;
+  gap.balanced = at >= 3 && at + 3 <= sorted.size();
+  return gap.width > 1.8 * deviation || gap.narrow ? gap : Gap();
+}
+
+// The highest jump that is one of the integrand beyond doubt: two lengths showed it to a half, while the gaps between
+// replicates of what has none shrink with their error, or one did by two narrow clusters.
+double established(const std::vector<Evidence::Jump>& jumps) {
+  double highest = 0;
+  for (const auto& one : jumps)
+    for (const auto& other : jumps) {
+      const bool twice = &one != &other && other.height >= one.height && other.height <= 1.5 * one.height;
+      if (one.balanced && other.balanced && (twice || one.narrow)) highest = std::max(highest, one.height);
+    }
+  return highest;
+}
+
+// The jump that replicates have just come to agree on: where their deviation fell with the number of points, as across
+// a jump, for three lengths, and then at once by far more, so that all of them have as many points beyond it. They are
+// of two values then, and deviate by half of what these differ by at most.
+double hidden_jump(const std::vector<double>& spreads) {
+  constexpr double flat = 1.6, at_once = 12;
+  if (spreads.size() < 4) return 0;
+  const auto last = std::span(spreads).last(4);
+  const auto [low, high] = std::minmax_element(last.begin(), last.end() - 1);
+  return *high <= flat * *low && last[2] > at_once * last[3] ? 2 * last[2] : 0.0;
 }
 
 bool much_unmet(const Mean& m) { return std::abs(m.unmet) > std::abs(m.value) / 16; }
@@ -60,7 +90,13 @@ Mean combined(const Mean& a, const Mean& b, double share) {
   const Mean mine{a.value, (1 - share) * a.error, a.dof, a.skew}, other{b.value, share * b.error, b.dof, b.skew};
   const double error = std::hypot(mine.error, other.error);
   const auto third = [&](const Mean& m) { return error > 0 ? m.skew * std::pow(m.error / error, 3) : 0.0; };
-  return {a.value + share * (b.value - a.value), error, welch(mine, other), third(mine) + third(other), b.bar, b.unmet};
+  return {a.value + share * (b.value - a.value),
+          error,
+          welch(mine, other),
+          third(mine) + third(other),
+          b.bar,
+          b.unmet,
+          a.agreed && b.agreed};
 }
 
 std::optional<double> deviate(const Mean& a, const Mean& b) {
@@ -116,10 +152,13 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   const double rounded = std::max(largest, seen.values.mean_size()); // where values cancel, more
   const bool apart = now > rounding * rounded;
 
-  evidence.jumps.push_back(apart ? std::ldexp(widest_jump(scaled, deviation), exponent) * points : 0.0);
-  double jump = evidence.step;
+  const Gap gap = apart ? widest_gap(scaled, deviation) : Gap();
+  evidence.jumps.push_back({std::ldexp(gap.width, exponent) * points, gap.narrow, gap.balanced});
+  evidence.spreads.push_back(now * points);
+  evidence.hidden = std::max(evidence.hidden, hidden_jump(evidence.spreads));
+  double jump = std::max({evidence.step, evidence.hidden, established(evidence.jumps)});
   for (std::size_t i = evidence.jumps.size(); i > 0 && i + memory > evidence.jumps.size(); --i)
-    jump = std::max(jump, evidence.jumps[i - 1]);
+    jump = std::max(jump, evidence.jumps[i - 1].height);
   double step = jump_share * jump;
   if (apart) evidence.apart = now;
   if (evidence.apart == 0) {
@@ -142,8 +181,13 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   const double beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
   const double spread = width / std::sqrt(r * (1 - std::min(beyond, 0.9)));
   const double mean = std::ldexp(m.mean(), exponent);
-  return {mean, std::max({std::hypot(spread, step / points / r), ulp(rounded), least}), r - 1,
-          skew_of_mean(skewness, r), bar_of(seen)};
+  return {mean,
+          std::max({std::hypot(spread, step / points / r), ulp(rounded), least}),
+          r - 1,
+          skew_of_mean(skewness, r),
+          bar_of(seen),
+          0,
+          evidence.apart == 0 || seen.constant()};
 }
 
 } // namespace mc::detail

@@ -15,11 +15,13 @@ namespace mc::detail {
 
 /// A mean whose standard error was estimated with `dof` degrees of freedom. `skew` is the third cumulant of the mean
 /// over error^3, divided by 6. `unmet` is what values larger than all that were met may add to it, with their sign;
-/// infinite where that is much.
+/// infinite where that is much. `agreed` says that what it is the mean of never differed: its error only bounds what
+/// could not be seen, and no run ends on it.
 struct Mean {
   double value = 0, error = 0, dof = 0, skew = 0;
   ErrorBar bar = ErrorBar::known; ///< of what was met
   double unmet = 0;
+  bool agreed = false;
 
   /// What is said of the error bar.
   ErrorBar told() const { return bar == ErrorBar::known && std::isinf(unmet) ? ErrorBar::hardly_met : bar; }
@@ -65,9 +67,16 @@ double skew_of_mean(double skewness, double count);
 
 /// What an integrand showed of itself at shorter lengths of the same replicates.
 struct Evidence {
+  struct Jump {
+    double height = 0;     ///< 0: none seen
+    bool narrow = false;   ///< the two clusters of replicates that it sets apart are
+    bool balanced = false; ///< both are of three or more
+  };
   double points = 0, deviation = 0; ///< of the last length, and of the replicates at it
   double apart = 0;                 ///< the last deviation that was more than rounding
-  std::vector<double> jumps = {};   ///< at each length, the height of the jump that set replicates apart; 0: none seen
+  std::vector<Jump> jumps = {};     ///< at each length, that set replicates apart
+  std::vector<double> spreads = {}; ///< at each length, their deviation times the points
+  double hidden = 0;                ///< the largest jump that they came to agree on
   double step = 0; ///< the largest jump across an axis that the AxisProfile showed at both of its last two lengths
   double last_step = std::numeric_limits<double>::infinity(); ///< at the last
 
@@ -82,9 +91,10 @@ struct Evidence {
 ///           - a jump of height h moves a replicate by h / points or not at all, and replicates that agree say only
 ///             that they could not differ: .75 h / points over their number is added in squares, about what makes 24
 ///             trials of a random probability cover 94 to 97 %, where they stop at a tolerance too; h is what set them
-///             apart at one of the last lengths, or the first points showed across an axis; where they are equal, the
-///             range of all values; where those are equal too, their size, so that the rule of three holds for what
-///             was not seen. Replicates that differed before and came to agree are as good as when they last differed
+///             apart at one of the last lengths, or beyond doubt at any, or what they came to agree on all at once, or
+///             the first points showed across an axis; where they are equal, the range of all values; where those are
+///             equal too, their size, so that the rule of three holds for what was not seen. Replicates that differed
+///             before and came to agree are as good as when they last differed
 ///           - of a tail of index a > 2 the share R^-(1 - 2/a) of the variance lies beyond the largest of R values
 ///           - of a tail with a < 8 the variance is known badly, as is that of replicates whose skewness is above 1. It
 ///             seems least where nothing large was met, and that is where runs stop: so it is no less than what the

@@ -13,9 +13,9 @@ Mean of_values(const ScaledMoments& m, const Seen& seen, std::span<const double>
   if (size == 0) return {0, 0, n - 1, 0, ErrorBar::unseen};
   const double index = all.tail_index(), beyond = index < 20 ? std::pow(n, 2 / index - 1) : 0;
   const double spread = m.std_error() / std::sqrt(1 - std::min(beyond, 0.9));
-  const double unseen = all.lo() == all.hi() ? 1.5 * size / n : 0.0;
+  const double unseen = seen.constant() ? 1.5 * size / n : 0.0;
   const double skew = skew_of_mean(skewness(batch_means), static_cast<double>(batch_means.size()));
-  return {m.mean(), std::max({spread, unseen, ulp(m.mean())}), n - 1, skew, bar_of(seen)};
+  return {m.mean(), std::max({spread, unseen, ulp(m.mean())}), n - 1, skew, bar_of(seen), 0, seen.constant()};
 }
 
 // Of those batches that have values.

@@ -74,6 +74,7 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
       if (proposal.density) {
         if (proposal.part == Proposal::Part::of_uniform) sums.seen[k].uniform.add(column);
         sums.seen[k].tail.add(column, {factors.data(), n});
+        sums.seen[k].add_to_range(column);
         for (std::size_t i = 0; i < n; ++i) column[i] *= factors[i];
       }
       Magnitudes sizes; // of the values themselves: what is subtracted hides zeros and equal values
@@ -202,7 +203,7 @@ void Run::compare(Round& round, const Means& means) {
 bool Run::converged(const Means& all) const {
   return std::all_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(leading()), [&](const Mean& m) {
     const double error = estimate(m, calls).std_error;
-    return std::isfinite(error) && (error <= o.abs_error || error <= o.rel_error * std::abs(m.value));
+    return !m.agreed && std::isfinite(error) && (error <= o.abs_error || error <= o.rel_error * std::abs(m.value));
   });
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 /// How heavy the tail of an integrand is, whatever its points were drawn from.
 
+#include <mc/core/types.h>
 #include <mc/estimate/seen/magnitudes.h>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -68,17 +70,28 @@ namespace detail {
 struct Seen {
   Magnitudes values = {};
   Tail tail = {};
-  Magnitudes uniform = {};    ///< of f, where uniform points are but a part of a mixture
-  std::uint64_t infinite = 0; ///< values that were
+  Magnitudes uniform = {};                              ///< of f, where uniform points are but a part of a mixture
+  double lo = infinity<double>, hi = -infinity<double>; ///< of f, where points are drawn from a density
+  std::uint64_t infinite = 0;                           ///< values that were
   double infinite_volume = 0; ///< that their points stand for, where all of a run stand for their number
 
   void merge(const Seen& other) {
     infinite += other.infinite;
     infinite_volume += other.infinite_volume;
+    lo = std::min(lo, other.lo);
+    hi = std::max(hi, other.hi);
     values.merge(other.values);
     tail.merge(other.tail);
     uniform.merge(other.uniform);
   }
+  void add_to_range(std::span<const double> f) {
+    for (const double x : f) {
+      lo = std::min(lo, x);
+      hi = std::max(hi, x);
+    }
+  }
+  /// Whether f was the same at all points.
+  bool constant() const { return tail.empty() ? values.lo() == values.hi() : lo == hi; }
   double tail_index() const { return tail.empty() ? Tail(values).index() : tail.index(); }
   /// The index that makes the variance infinite, or that of the tail.
   double telling_index() const {
