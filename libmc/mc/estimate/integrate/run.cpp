@@ -53,7 +53,8 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
   if (o.cancel && o.cancel->load()) throw Cancelled{};
   const auto d = static_cast<std::size_t>(dim);
   Sums sums{std::vector<ScaledMoments>(outputs), std::vector<Seen>(outputs)};
-  std::vector<double> u(block * d), values(outputs * block), columns(block), factors(block), shifts(block), scratch(d);
+  std::vector<double> u(block * d), values(outputs * block), columns(block), factors(block), shifts(block), over(block),
+      scratch(d);
   for (; first < last; first += block) {
     const auto n = static_cast<std::size_t>(std::min(block, last - first));
     const std::span<double> points(u.data(), n * d), all(values.data(), n * outputs), column(columns.data(), n);
@@ -71,6 +72,11 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
     if (keep == Keep::points) keep_points(sums, points, all);
     for (std::size_t k = 0; k < outputs; ++k) {
       for (std::size_t i = 0; i < n; ++i) column[i] = all[i * outputs + k];
+      if (!floors.empty() && floors[k][0] != 0)
+        for (std::size_t j = 0; j < 2; ++j) {
+          for (std::size_t i = 0; i < n; ++i) over[i] = column[i] - floors[k][j];
+          sums.seen[k].over[j].add({over.data(), n}, {factors.data(), proposal.density ? n : 0});
+        }
       if (proposal.density) {
         if (proposal.part == Proposal::Part::of_uniform) sums.seen[k].uniform.add(column);
         sums.seen[k].tail.add(column, {factors.data(), n});
@@ -109,6 +115,7 @@ std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint
   parallel_for(parts.size() - 1, pays ? o.threads : 1, [&](std::size_t i) { task(i + 1); });
   for (std::size_t i = 0; i < parts.size(); ++i) results[i / chunks].merge(parts[i]);
   calls += count * sets.size();
+  if (floors.empty()) find_floors(results);
   // A few points do not tell how much volume they stand for.
   const double most = few_infinite + most_infinite * static_cast<double>(count * sets.size());
   for (std::size_t k = 0; k < outputs; ++k) {
@@ -122,6 +129,24 @@ std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint
     }
   }
   return results;
+}
+
+// What has no tail has its largest value close to the quartile.
+void Run::find_floors(const std::vector<Sums>& first) {
+  constexpr double far = 4;
+  floors.resize(outputs);
+  if (o.density) return; // the first points may be drawn from it
+  for (std::size_t k = 0; k < outputs; ++k) {
+    std::vector<double> values;
+    for (const Sums& s : first) values.insert(values.end(), s.profile.values(k).begin(), s.profile.values(k).end());
+    std::sort(values.begin(), values.end());
+    const double lo = values.front(), hi = values.back(), quarter = values[values.size() / 4],
+                 upper = values[3 * values.size() / 4];
+    const bool above = hi - upper > far * (upper - lo), below = quarter - lo > far * (hi - quarter);
+    if (above) floors[k] = {2 * lo - upper, lo};
+    else if (below) floors[k] = {2 * hi - quarter, hi};
+    if (floors[k][0] * floors[k][1] <= 0) floors[k] = {}; // all of it may be tail
+  }
 }
 
 void Run::refuse_points(std::uint64_t bad, std::uint64_t count, std::uint64_t first, const PointSet& set,

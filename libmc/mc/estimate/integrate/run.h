@@ -7,6 +7,7 @@
 #include <mc/estimate/integrate/sums.h>
 #include <mc/estimate/point_set.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -71,6 +72,10 @@ struct Run {
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   std::uint64_t calls = 0;
   std::vector<Round> rounds = {};
+  /// Of each output the constant that its tail, if it has one, is added to and hidden by, between two bounds as the
+  /// first points show it: the least value, or as far below it as the upper quartile is above, where that of a sum with
+  /// x^-1/2 is; or the other way round. 0 where it may be 0, or where there is no tail.
+  std::vector<std::array<double, 2>> floors = {};
   std::vector<double> chi2 = std::vector<double>(outputs), chi2_dof = std::vector<double>(outputs);
 
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
@@ -113,6 +118,7 @@ struct Run {
  private:
   Sums evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const Proposal& proposal,
                 Keep keep) const;
+  void find_floors(const std::vector<Sums>& first);
   void keep_points(Sums& sums, std::span<const double> points, std::span<const double> values) const;
   /// Throws: so many of `count` points of the set were bad, the one of index `first` the first.
   [[noreturn]] void refuse_points(std::uint64_t bad, std::uint64_t count, std::uint64_t first, const PointSet& set,

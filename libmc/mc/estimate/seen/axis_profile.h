@@ -19,6 +19,7 @@ class AxisProfile {
   /// The values of an output there.
   void add_values(std::size_t output, std::span<const double> values);
   void merge(const AxisProfile& other);
+  const std::vector<double>& values(std::size_t output) const { return values_[output]; }
 
   /// The largest step between means of neighbouring bins along an axis, 8 to 64 with 24 points or more, of those that
   /// exceed the steps on both sides, as no slope, kink or peak does, by two standard errors of that difference. The

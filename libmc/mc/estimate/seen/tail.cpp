@@ -114,19 +114,22 @@ void Tail::raise(int top) {
 
 void Tail::add(std::span<const double> values, std::span<const double> volumes) {
   raise(top_);
+  uniform_ = volumes.empty();
   for (std::size_t i = 0; i < values.size(); ++i) {
     const int exponent = Magnitudes::exponent_of(values[i]);
     if (exponent == 0x7ff) continue;
     if (exponent > top_) [[unlikely]]
       raise(exponent);
     Octave& octave = seen_[static_cast<std::size_t>(std::min(top_ - exponent, octaves - 1))];
-    octave.volume += volumes[i];
-    octave.square += volumes[i] * volumes[i];
+    const double volume = uniform_ ? 1 : volumes[i];
+    octave.volume += volume;
+    octave.square += volume * volume;
   }
 }
 
 void Tail::merge(const Tail& other) {
   if (other.empty()) return;
+  uniform_ = other.uniform_ && (uniform_ || empty());
   raise(other.top_);
   for (int i = 0; i < octaves; ++i) {
     seen_[static_cast<std::size_t>(std::min(i + (top_ - other.top_), octaves - 1))] +=

@@ -5,6 +5,7 @@
 #include <mc/estimate/seen/magnitudes.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 #include <vector>
@@ -24,8 +25,8 @@ class Tail {
   /// Of values at uniform points.
   explicit Tail(const Magnitudes& values);
 
-  /// Values of f, and 1 / q of their points; values that are not finite are left out.
-  void add(std::span<const double> values, std::span<const double> volumes);
+  /// Values of f, and 1 / q of their points, none for uniform ones; values that are not finite are left out.
+  void add(std::span<const double> values, std::span<const double> volumes = {});
   void merge(const Tail& other);
   bool empty() const { return seen_.empty(); }
 
@@ -70,7 +71,8 @@ namespace detail {
 struct Seen {
   Magnitudes values = {};
   Tail tail = {};
-  Magnitudes uniform = {};                              ///< of f, where uniform points are but a part of a mixture
+  std::array<Tail, 2> over = {}; ///< of f less the bounds of a constant, see Run::floors; empty where that is 0
+  Magnitudes uniform = {};       ///< of f, where uniform points are but a part of a mixture
   double lo = infinity<double>, hi = -infinity<double>; ///< of f, where points are drawn from a density
   std::uint64_t infinite = 0;                           ///< values that were
   double infinite_volume = 0; ///< that their points stand for, where all of a run stand for their number
@@ -82,6 +84,7 @@ struct Seen {
     hi = std::max(hi, other.hi);
     values.merge(other.values);
     tail.merge(other.tail);
+    for (std::size_t i = 0; i < over.size(); ++i) over[i].merge(other.over[i]);
     uniform.merge(other.uniform);
   }
   void add_to_range(std::span<const double> f) {
@@ -96,7 +99,9 @@ struct Seen {
   /// The index that makes the variance infinite, or that of the tail.
   double telling_index() const {
     const double own = tail_index();
-    return std::isfinite(own) || !infinite_variance() ? own : Tail(uniform).index();
+    if (!infinite_variance()) return own;
+    if (over[0].infinite_variance()) return over[0].index();
+    return std::isfinite(own) ? own : Tail(uniform).index();
   }
   /// Two points so near that doubles cannot tell them apart may hold much of a singular integral. Where a density was
   /// learned the uniform points alone may show it, too: a density that follows f down to neighbouring doubles makes the
@@ -106,6 +111,7 @@ struct Seen {
   bool infinite_variance() const {
     if (infinite > 0) return true;
     if (tail.empty() ? Tail(values).infinite_variance() : tail.infinite_variance()) return true;
+    if (over[0].infinite_variance() && over[1].infinite_variance()) return true;
     if (uniform.count() < 1000 || tail.top() < uniform.top() + 4) return false;
     const Tail of_uniform(uniform);
     return of_uniform.infinite_variance() && of_uniform.index() < 1.5;
