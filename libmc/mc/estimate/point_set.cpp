@@ -1,9 +1,12 @@
 #include <mc/core/error.h>
 #include <mc/estimate/point_set.h>
+#include <mc/random/permute.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
+#include <numeric>
 
 namespace mc {
 
@@ -23,10 +26,6 @@ MC_CLONES void fill(const Independent& sampler, std::uint64_t first, std::size_t
   for (std::size_t i = 0; i < u.size(); i += dim)
     for (std::size_t d = 0; d < dim; ++d)
       u[i + d] = coordinate<double>(sampler, first + i / dim, static_cast<std::uint32_t>(d));
-}
-
-void fill(const Stratified& sampler, std::uint64_t first, std::size_t dim, std::span<double> u) {
-  for (std::size_t i = 0; i < u.size(); i += dim) sampler.point(first + i / dim, u.subspan(i, dim));
 }
 
 // Scrambled coordinates of the points base + skip, ..., base + skip + count - 1, to the same places of x.
@@ -80,6 +79,60 @@ template <class Visit> void windows(std::uint64_t first, std::size_t dim, std::s
   }
 }
 
+// To where a permutation takes them: all walk a step together, then those again that landed beyond its end.
+MC_CLONES void shuffle(const Permutation& permutation, std::span<std::uint32_t> positions) {
+  std::array<std::uint32_t, window> x, whose;
+  std::copy(positions.begin(), positions.end(), x.begin());
+  std::iota(whose.begin(), whose.end(), 0u);
+  for (std::size_t walking = positions.size(); walking > 0;) {
+    for (std::uint64_t r = 0; r < permutation.rounds(); ++r) {
+      const std::uint64_t key = permutation.key(r);
+      for (std::size_t i = 0; i < walking; ++i) x[i] = permutation.round(x[i], key);
+    }
+    std::size_t beyond = 0;
+    for (std::size_t i = 0; i < walking; ++i) {
+      positions[whose[i]] = x[i];
+      whose[beyond] = whose[i];
+      x[beyond] = x[i];
+      beyond += x[beyond] >= permutation.size();
+    }
+    walking = beyond;
+  }
+}
+
+// Points on their way down to a box each, axis by axis: how many boxes are left to each, which of them is its own, and
+// its stratum of the axis at hand, `size` boxes from `start`. Whole numbers, as doubles.
+struct Descent {
+  std::array<double, window> boxes, box, start, size;
+};
+
+// The strata of the points where the boxes of each are cut along an axis into at most 2^16. Numerators of whole numbers
+// are raised by half: quotients lie further from an integer than they are rounded by, so floors are exact.
+MC_CLONES void cut(Descent& points, double strata, std::size_t count) {
+  const double per_stratum = 1 / strata;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double boxes = points.boxes[i];
+    const double stratum = std::floor((points.box[i] * strata + 0.5) / boxes);
+    const double raised = stratum * boxes + (strata - 0.5); // to round up
+    points.start[i] = std::floor(raised * per_stratum);
+    points.size[i] = std::floor((raised + boxes) * per_stratum) - points.start[i];
+  }
+}
+
+// A coordinate of each anywhere in its stratum, to every dim-th place of out; then on to the boxes of the stratum.
+MC_CLONES void jitter(Descent& points, std::uint64_t key, std::uint64_t index, std::size_t count, std::size_t dim,
+                      double* out) {
+  constexpr double margin = 0x1p-50; // 8 roundings; at most 6 come together
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t bits = mix64(key + (index + i) * 0x9e3779b97f4a7c15u);
+    const double u = std::bit_cast<double>(bits >> 12 | 0x3ff0000000000000u) - 1;
+    const double per_box = 1 / points.boxes[i], start = points.start[i], size = points.size[i];
+    out[i * dim] = (start * per_box + margin) + (size * per_box - 2 * margin) * u;
+    points.box[i] -= start;
+    points.boxes[i] = size;
+  }
+}
+
 void fill(const ScrambledSobol& set, std::uint64_t first, std::size_t dim, std::span<double> u) {
   const Sobol sobol(set.seed);
   std::array<std::uint32_t, window> x;
@@ -93,6 +146,37 @@ void fill(const ScrambledSobol& set, std::uint64_t first, std::size_t dim, std::
         for (std::size_t i = 0; i < count; ++i)
           out[i * dim + d] = coordinate<double>(sobol, base + skip + i, dimension);
       }
+    }
+  });
+}
+
+void fill(const JitteredBoxes& set, std::uint64_t first, std::size_t dim, std::span<double> u) {
+  constexpr std::size_t group = 8;
+  std::array<std::uint32_t, window> boxes;
+  Descent points;
+  windows(first, dim, u, [&](std::uint64_t base, std::size_t skip, std::size_t count, double* out) {
+    const std::uint64_t index = base + skip;
+    MC_ASSERT(index + count <= set.count);
+    std::uint32_t left = 0; // boxes of a point, or one more
+    for (std::size_t d = 0; d < dim; ++d) {
+      if (d % group == 0) {
+        std::iota(boxes.begin(), boxes.begin() + count, static_cast<std::uint32_t>(index));
+        if (d > 0) shuffle(Permutation(set.count, hash(~set.seed, d)), {boxes.data(), count});
+        std::copy_n(boxes.begin(), count, points.box.begin());
+        std::fill_n(points.boxes.begin(), count, set.count);
+        left = set.count;
+      }
+      const std::size_t axes = std::min(group - d % group, dim - d);
+      if (axes > 1) {
+        // No integer is the power of half an odd number, so rounding its root is safe however it is found.
+        const double strata = std::max(std::round(std::pow(left, 1.0 / static_cast<double>(axes))), 1.0);
+        cut(points, strata, count);
+        left /= static_cast<std::uint32_t>(strata);
+      } else {
+        std::copy_n(points.box.begin(), count, points.start.begin());
+        points.size.fill(1);
+      }
+      jitter(points, hash(set.seed, d), index, count, dim, out + d);
     }
   });
 }

@@ -27,6 +27,19 @@ TEST(Permute, StaysInRangeForLargeSizes) {
     for (std::uint32_t i = 0; i < 1000; ++i) EXPECT_LT(mc::permute(n - 1 - i * 1000, n, i), n);
 }
 
+TEST(Permute, StepsTakenOneByOneAreTheWalk) {
+  for (const std::uint32_t n : {1u, 2u, 7u, 16u, 17u, 1000u, 0xffffffffu})
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+      const mc::Permutation permutation(n, seed);
+      std::uint32_t i = n / 3;
+      do
+        for (std::uint64_t r = 0; r < permutation.rounds(); ++r) i = permutation.round(i, permutation.key(r));
+      while (i >= permutation.size());
+      EXPECT_EQ(i, permutation(n / 3));
+      EXPECT_EQ(i, mc::permute(n / 3, n, seed));
+    }
+}
+
 // Where the first two of n land, over seeds, against the uniform law on ordered pairs: chi-square below its mean plus 5
 // standard deviations, alpha about 1e-6.
 TEST(Permute, PairsAreUniform) {

@@ -13,8 +13,7 @@ Outcome stratified(Run& run, std::optional<Outcome>& last) {
   for (std::uint64_t points = std::min<std::uint64_t>(64, run.left() / run.o.replicates), round = 0;; ++round) {
     std::vector<PointSet> sets;
     for (std::uint32_t r = 0; r < run.o.replicates; ++r)
-      sets.emplace_back(Stratified(static_cast<std::uint32_t>(points), hash(run.o.seed, round, r),
-                                   static_cast<std::uint32_t>(std::min(run.dim, 8))));
+      sets.emplace_back(JitteredBoxes{hash(run.o.seed, round, r), static_cast<std::uint32_t>(points)});
     const std::vector<Sums> sums = run.evaluate_all(sets, 0, points);
     const Means now = run.means(sums, points, evidence, {}, {}, out.seen); // a tail is that of all rounds
     run.record(Method::stratified, now);
