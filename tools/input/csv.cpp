@@ -168,13 +168,6 @@ void require_text(const std::string& file, const std::string& bytes) {
                               bad - bytes.begin(), static_cast<unsigned>(static_cast<unsigned char>(*bad))));
 }
 
-// Non-ASCII bytes of a word that is quoted in a message.
-std::string printable(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) >= 0x7f) c = '?';
-  return text;
-}
-
 } // namespace
 
 CsvTable read_csv(const std::string& file) {
@@ -202,7 +195,7 @@ CsvTable read_csv(const std::string& file) {
       if (table.lines.empty()) table.columns = found;
       mc::require(found == table.columns, "{} numbers; the rows before have {}", found, table.columns);
     } catch (const mc::Error& e) {
-      throw mc::Error(fmt::format("{}:{}: {}", file, line, printable(e.what())));
+      throw mc::Error(fmt::format("{}:{}: {}", file, line, mc::printable(e.what())));
     }
     table.lines.push_back(line);
   }

@@ -18,6 +18,12 @@ std::optional<double> number_in(std::string_view text) {
   return std::isinf(rounded) ? std::nullopt : std::optional(rounded);
 }
 
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = '?';
+  return text;
+}
+
 std::string_view trimmed(std::string_view text) {
   constexpr const char* white = " \t\n\v\f\r";
   text.remove_prefix(std::min(text.find_first_not_of(white), text.size()));

@@ -19,6 +19,9 @@ std::optional<double> number_in(std::string_view text);
 /// Without the white space at its ends, ends of lines too.
 std::string_view trimmed(std::string_view text);
 
+/// With a question mark for every byte that is no printable ASCII: what a file calls things, in a message of one line.
+std::string printable(std::string text);
+
 /// What stands between separators, trimmed: "a, b,,c" is "a", "b", "", "c".
 std::vector<std::string_view> split(std::string_view text, char separator);
 

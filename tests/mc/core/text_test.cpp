@@ -96,4 +96,9 @@ TEST(Text, EditDistanceIsAMetric) {
   }
 }
 
+TEST(Text, PrintableIsOneLineOfAscii) {
+  EXPECT_EQ(mc::printable("a b~"), "a b~");
+  EXPECT_EQ(mc::printable("v\n\x1b[1m\x7f\xc3\xa9"), "v??[1m???");
+}
+
 } // namespace

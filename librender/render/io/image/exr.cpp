@@ -1,6 +1,7 @@
 #include <render/io/image/formats.h>
 
 #include <mc/core/error.h>
+#include <mc/core/text.h>
 
 #include <ImfChannelList.h>
 #include <ImfChromaticities.h>
@@ -165,7 +166,7 @@ Image read_exr(const std::string& path) {
   } catch (const mc::Error&) {
     throw;
   } catch (const std::exception& e) {
-    throw mc::Error(fmt::format("cannot read EXR: {}", e.what()));
+    throw mc::Error(fmt::format("cannot read EXR: {}", mc::printable(e.what())));
   }
 }
 
