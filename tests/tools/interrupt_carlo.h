@@ -1,15 +1,18 @@
 #pragma once
-// Ctrl-C on a terminal, without waiting for a time.
+// Ctrl-C on a terminal, or another signal, without waiting for a time.
 
 #include <tools/run_carlo.h>
 
 #include <pty.h>
 #include <unistd.h>
 
+#include <csignal>
+
 namespace support {
 
 /// Runs carlo on a terminal of its own and types Ctrl-C once it has written `sign` there: by default, its progress.
-inline Run interrupt_carlo(const std::string& arguments, const std::string& sign = "\033[K") {
+/// Instead of SIGINT, which is what Ctrl-C sends, it may get another signal.
+inline Run interrupt_carlo(const std::string& arguments, const std::string& sign = "\033[K", int signal = SIGINT) {
   int terminal = -1;
   const std::string command = "exec '" CARLO_PATH "' " + arguments;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
@@ -24,7 +27,8 @@ inline Run interrupt_carlo(const std::string& arguments, const std::string& sign
   // At the end of the child, a read fails.
   for (ssize_t n; (n = read(terminal, buffer.data(), buffer.size())) > 0;) {
     output.append(buffer.data(), static_cast<std::size_t>(n));
-    if (!typed && output.find(sign) != std::string::npos) typed = write(terminal, "\003", 1) == 1;
+    if (typed || output.find(sign) == std::string::npos) continue;
+    typed = signal == SIGINT ? write(terminal, "\003", 1) == 1 : kill(child, signal) == 0;
   }
   int status = 0;
   waitpid(child, &status, 0);

@@ -1,6 +1,7 @@
 /// carlo: the command line. The only file that includes CLI11.
 
 #include <options/subcommand.h>
+#include <terminal/interrupt.h>
 #include <terminal/version.h>
 
 #include <mc/core/error.h>
@@ -32,7 +33,8 @@ namespace {
 using carlo::Option, carlo::Subcommand;
 
 constexpr const char* exit_codes =
-    "Exit codes: 0 done and every check passed; 1 a check failed; 2 bad usage, file or value; 130 interrupted.";
+    "Exit codes: 0 done and every check passed; 1 a check failed; 2 bad usage, file or value; 130 interrupted, "
+    "143 by SIGTERM.";
 
 // Puts a count as digits: 1e6 is one too. What is wrong with it, or nothing.
 template <std::integral T> std::string whole_number(std::string& text) {
@@ -145,7 +147,10 @@ int run(int argc, char** argv) {
   std::string command = "carlo";
   for (int i = 1; i < argc; ++i) command += " " + quoted(argv[i]);
   for (const Subcommand& c : all)
-    if (app.got_subcommand(c.name)) return c.run(command);
+    if (app.got_subcommand(c.name)) {
+      const int code = c.run(command);
+      return code == carlo::exit_interrupted && carlo::Interrupt::is_terminated() ? carlo::exit_terminated : code;
+    }
   return carlo::exit_bad_input;
 }
 

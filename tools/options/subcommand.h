@@ -20,10 +20,11 @@ namespace carlo {
 
 /// What carlo returns to the shell.
 enum ExitCode : int {
-  exit_ok = 0,           ///< done, and every check passed
-  exit_failed = 1,       ///< done, but a check failed: a sampler broke a law, two images differ
-  exit_bad_input = 2,    ///< bad usage, file or value; one line on stderr says what to do
-  exit_interrupted = 130 ///< Ctrl-C; what was found so far is written, or said, and marked as such
+  exit_ok = 0,            ///< done, and every check passed
+  exit_failed = 1,        ///< done, but a check failed: a sampler broke a law, two images differ
+  exit_bad_input = 2,     ///< bad usage, file or value; one line on stderr says what to do
+  exit_interrupted = 130, ///< Ctrl-C; what was found so far is written, or said, and marked as such
+  exit_terminated = 143   ///< the same by SIGTERM; subcommands return exit_interrupted
 };
 
 /// One option, or an argument that has a place and no name.

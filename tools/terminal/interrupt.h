@@ -1,30 +1,39 @@
 #pragma once
-/// Ctrl-C as a flag.
+/// Ctrl-C and SIGTERM as a flag.
 
 #include <atomic>
 #include <csignal>
 
 namespace carlo {
 
-/// Turns Ctrl-C into a flag while it lives; a second Ctrl-C ends the program at once.
+/// Turns Ctrl-C, and the SIGTERM of timeout and batch queues, into a flag while it lives. A second Ctrl-C ends the
+/// program at once; a second SIGTERM does nothing, since timeout sends two.
 class Interrupt {
  public:
-  Interrupt()
-      : old_(std::signal(SIGINT, [](int) {
-          raised_ = true;
-          std::signal(SIGINT, SIG_DFL);
-        })) {
-    raised_ = false;
+  Interrupt() : old_interrupt_(std::signal(SIGINT, raise)), old_terminate_(std::signal(SIGTERM, raise)) {
+    raised_ = terminated_ = false;
   }
-  ~Interrupt() { std::signal(SIGINT, old_); }
+  ~Interrupt() {
+    std::signal(SIGINT, old_interrupt_);
+    std::signal(SIGTERM, old_terminate_);
+  }
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
   const std::atomic<bool>* flag() const { return &raised_; }
+  /// Whether it was SIGTERM that raised it.
+  static bool is_terminated() { return terminated_; }
 
  private:
-  static inline std::atomic<bool> raised_ = false;
-  void (*old_)(int);
+  static void raise(int signal) {
+    if (!raised_) terminated_ = signal == SIGTERM;
+    raised_ = true;
+    std::signal(SIGINT, SIG_DFL);
+  }
+
+  static inline std::atomic<bool> raised_ = false, terminated_ = false;
+  void (*old_interrupt_)(int);
+  void (*old_terminate_)(int);
 };
 
 } // namespace carlo

@@ -67,12 +67,14 @@ TEST_F(GalleryCommand, ListsItsScenes) {
 }
 
 // A scene that never ends leaves nothing half done.
-TEST_F(GalleryCommand, CtrlCLeavesNothingHalfDone) {
-  const support::Run run =
-      support::interrupt_carlo("gallery book1-metal --spp 100000000 --scale 0.1 -o " + path("out"));
-  EXPECT_EQ(run.exit_code, 130) << run.output;
-  EXPECT_THAT(run.output, HasSubstr("interrupted: 0 of 1 scenes were finished"));
-  EXPECT_FALSE(fs::exists(folder / "out" / "book1-metal.exr"));
+TEST_F(GalleryCommand, CtrlCAndSigtermLeaveNothingHalfDone) {
+  for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}}) {
+    const support::Run run =
+        support::interrupt_carlo("gallery book1-metal --spp 100000000 --scale 0.1 -o " + path("out"), "\033[K", signal);
+    EXPECT_EQ(run.exit_code, code) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("interrupted: 0 of 1 scenes were finished"));
+    EXPECT_FALSE(fs::exists(folder / "out" / "book1-metal.exr"));
+  }
 }
 
 // A scene that is named twice would be two parts of the page with one name.

@@ -1,6 +1,6 @@
 // carlo render, run as a user runs it.
 
-#include <tools/interrupt_carlo.h>
+#include <tools/run_carlo.h>
 
 #include <render/io/image/image_io.h>
 
@@ -12,13 +12,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <regex>
 
 namespace {
 
 using support::run_carlo;
 using testing::AllOf;
-using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -90,26 +88,6 @@ TEST_F(RenderCommand, OutputThatCannotBeWrittenIsOneLine) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.output, HasSubstr("taken.pfm"));
   EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
-}
-
-TEST_F(RenderCommand, ReachesTheErrorThatItIsAskedFor) {
-  const std::string target = " --target-error 0.1 --size 32x32 -o ";
-  for (const std::string more : {"", " --adaptive off", " --error-of worst"}) {
-    const support::Run run = run_carlo(fmt::format("render {}cbox.xml{}{}{}", scenes, more, target, path("a.exr")));
-    ASSERT_EQ(run.exit_code, 0) << run.output;
-    std::smatch errors;
-    ASSERT_TRUE(std::regex_search(run.output, errors, std::regex("error ([0-9.]+) % .worst block ([0-9.]+) %")))
-        << run.output;
-    EXPECT_LE(std::stod(errors[more == " --error-of worst" ? 2 : 1]), 10.0);
-  }
-}
-
-TEST_F(RenderCommand, SaysWhyItWentOnBelowTheErrorThatItIsAskedFor) {
-  const std::string target = " --target-error 0.2 -o " + path("a.exr");
-  EXPECT_THAT(run_carlo("render book3-cornell-glass --size 12x8 --strategy mis" + target).output,
-              ContainsRegex("the error of 20 % was there with [0-9.]+ samples/pixel; more were taken while over 5 % of "
-                            "the pixels were decided by one sample"));
-  EXPECT_THAT(run_carlo("render sphere-light --size 8x6" + target).output, Not(HasSubstr("was there with")));
 }
 
 TEST_F(RenderCommand, WritesLayers) {
@@ -200,21 +178,6 @@ TEST_F(RenderCommand, GoingOnLosesNothing) {
   render::write_image(path("r.exr"), early);
   EXPECT_THAT(run_carlo(line + " --spp 4 --resume").output,
               HasSubstr("has pixels without a sample, as its run was interrupted early; render it anew"));
-}
-
-// In the first pass, over pixels that take long.
-TEST_F(RenderCommand, APassThatIsNotWholeIsNotAdded) {
-  const std::string line = "render " + scenes + "cbox.xml --size 2000x2000 --threads 1 -o " + path("r.exr");
-  const support::Run first = support::interrupt_carlo(line + " --spp 1000000");
-  EXPECT_EQ(first.exit_code, 130) << first.output;
-  EXPECT_EQ(render::read_image(path("r.exr")).metadata.at("carlo.unsampled"), "some pixels");
-  const std::string small = "render " + scenes + "cbox.xml --size 300x300 --threads 1 -o " + path("s.exr");
-  ASSERT_EQ(run_carlo(small + " --spp 2").exit_code, 0);
-  const std::string before = mc::read_file(path("s.exr"));
-  const support::Run more = support::interrupt_carlo(small + " --spp 1000000 --resume");
-  EXPECT_EQ(more.exit_code, 130) << more.output;
-  EXPECT_THAT(more.output, HasSubstr("s.exr stays as it was"));
-  EXPECT_EQ(mc::read_file(path("s.exr")), before);
 }
 
 TEST_F(RenderCommand, NoFileOfTheSceneIsOverwritten) {
@@ -372,18 +335,6 @@ TEST_F(RenderCommand, ThreadsDoNotChangeABitAndMetadataTellsHow) {
   EXPECT_THAT(a.metadata.at("carlo.command"), HasSubstr("--seed 5"));
   EXPECT_NE(a.metadata.at("carlo.commit"), "");
   EXPECT_FALSE(a.metadata.contains("carlo.partial"));
-}
-
-TEST_F(RenderCommand, CtrlCWritesWhatIsThereMarkedPartial) {
-  const std::string output = path("cut.exr");
-  const support::Run run =
-      support::interrupt_carlo("render " + scenes + "cbox.xml --spp 100000000 --size 16x16 -o " + output, "  error ");
-  EXPECT_EQ(run.exit_code, 130) << run.output;
-  EXPECT_THAT(run.output, HasSubstr("PARTIAL"));
-  const render::Image image = render::read_image(output);
-  EXPECT_TRUE(image.metadata.contains("carlo.partial"));
-  EXPECT_FALSE(image.variance.empty());
-  EXPECT_GT(image.at(8, 8).sum(), 0);
 }
 
 } // namespace

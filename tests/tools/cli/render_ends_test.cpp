@@ -1,0 +1,75 @@
+// When carlo render ends: at an error, by time, or interrupted.
+
+#include <tools/interrupt_carlo.h>
+
+#include <render/io/image/image_io.h>
+
+#include <mc/core/file.h>
+
+#include <support/files.h>
+
+#include <gmock/gmock.h>
+
+#include <regex>
+
+namespace {
+
+using support::run_carlo;
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::Not;
+
+struct RenderEnds : support::ScratchTest {
+  const std::string scenes = MC_SOURCE_DIR "/librender/scenes/";
+};
+
+TEST_F(RenderEnds, ReachesTheErrorThatItIsAskedFor) {
+  const std::string target = " --target-error 0.1 --size 32x32 -o ";
+  for (const std::string more : {"", " --adaptive off", " --error-of worst"}) {
+    const support::Run run = run_carlo(fmt::format("render {}cbox.xml{}{}{}", scenes, more, target, path("a.exr")));
+    ASSERT_EQ(run.exit_code, 0) << run.output;
+    std::smatch errors;
+    ASSERT_TRUE(std::regex_search(run.output, errors, std::regex("error ([0-9.]+) % .worst block ([0-9.]+) %")))
+        << run.output;
+    EXPECT_LE(std::stod(errors[more == " --error-of worst" ? 2 : 1]), 10.0);
+  }
+}
+
+TEST_F(RenderEnds, SaysWhyItWentOnBelowTheErrorThatItIsAskedFor) {
+  const std::string target = " --target-error 0.2 -o " + path("a.exr");
+  EXPECT_THAT(run_carlo("render book3-cornell-glass --size 12x8 --strategy mis" + target).output,
+              ContainsRegex("the error of 20 % was there with [0-9.]+ samples/pixel; more were taken while over 5 % of "
+                            "the pixels were decided by one sample"));
+  EXPECT_THAT(run_carlo("render sphere-light --size 8x6" + target).output, Not(HasSubstr("was there with")));
+}
+
+// In the first pass, over pixels that take long.
+TEST_F(RenderEnds, APassThatIsNotWholeIsNotAdded) {
+  const std::string line = "render " + scenes + "cbox.xml --size 2000x2000 --threads 1 -o " + path("r.exr");
+  const support::Run first = support::interrupt_carlo(line + " --spp 1000000");
+  EXPECT_EQ(first.exit_code, 130) << first.output;
+  EXPECT_EQ(render::read_image(path("r.exr")).metadata.at("carlo.unsampled"), "some pixels");
+  const std::string small = "render " + scenes + "cbox.xml --size 300x300 --threads 1 -o " + path("s.exr");
+  ASSERT_EQ(run_carlo(small + " --spp 2").exit_code, 0);
+  const std::string before = mc::read_file(path("s.exr"));
+  const support::Run more = support::interrupt_carlo(small + " --spp 1000000 --resume");
+  EXPECT_EQ(more.exit_code, 130) << more.output;
+  EXPECT_THAT(more.output, HasSubstr("s.exr stays as it was"));
+  EXPECT_EQ(mc::read_file(path("s.exr")), before);
+}
+
+TEST_F(RenderEnds, CtrlCAndSigtermWriteWhatIsThereMarkedPartial) {
+  for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}}) {
+    const std::string output = path(fmt::format("{}.exr", signal));
+    const support::Run run = support::interrupt_carlo(
+        "render " + scenes + "cbox.xml --spp 100000000 --size 16x16 -o " + output, "  error ", signal);
+    EXPECT_EQ(run.exit_code, code) << run.output;
+    EXPECT_THAT(run.output, HasSubstr("PARTIAL"));
+    const render::Image image = render::read_image(output);
+    EXPECT_TRUE(image.metadata.contains("carlo.partial"));
+    EXPECT_FALSE(image.variance.empty());
+    EXPECT_GT(image.at(8, 8).sum(), 0);
+  }
+}
+
+} // namespace
