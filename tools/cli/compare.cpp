@@ -242,10 +242,11 @@ int compare(const CompareOptions& options) {
   Comparison comparison(a, b, options.tolerance);
   if (!comparison.possible()) {
     const std::string bare = without_variance(options, a, b);
+    const char* remedy = "render to .exr with two samples or more in every pixel";
     const char* judged = options.tolerance > 0 ? "--tolerance" : "--alpha";
-    mc::require(options.tolerance == 0 && !options.alpha,
-                "{}: {} no variance, so that nothing is judged; render to .exr", judged, bare);
-    fmt::print("verdict    none: {} no variance; render to .exr to get it\n", bare);
+    mc::require(options.tolerance == 0 && !options.alpha, "{}: {} no variance, so that nothing is judged; {}", judged,
+                bare, remedy);
+    fmt::print("verdict    none: {} no variance; {}\n", bare, remedy);
     return exit_ok;
   }
   require_variance(options.a, a);
