@@ -43,7 +43,7 @@ std::vector<Option> rows(IntegrateOptions& o) {
   return {
       {"INTEGRAND", "", &o.integrands,
        "Name (see --list) or expression, e.g. \"exp(-x*x)*cos(y)\"; several share their calls"},
-      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:1,y=-inf:inf\""},
+      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:2*_pi,y=-inf:inf\""},
       {"--list", "", &o.list, "List the named integrands, and stop"},
       {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach"},
       {"--abs-error", "ERROR", &o.abs_error, "Absolute standard error that also suffices"},

@@ -10,10 +10,14 @@
 namespace carlo {
 namespace {
 
-double number(std::string_view text, std::string_view side) {
-  const std::optional<double> value = mc::number_in(mc::trimmed(text));
-  mc::require(value && !std::isnan(*value), "--domain: '{}' in '{}' is not a number, inf or -inf", text, side);
-  return *value;
+// A number, inf, or a constant expression as 2*_pi, whose value is finite.
+double bound(std::string_view text, std::string_view side) {
+  const std::string word(mc::trimmed(text));
+  if (const auto number = mc::number_in(word); number && !std::isnan(*number)) return *number;
+  const double value =
+      mc::with_context(fmt::format("--domain: '{}' in '{}'", word, side), [&] { return parse_function(word, {})({}); });
+  mc::require(std::isfinite(value), "--domain: '{}' in '{}' is {}, not a number, inf or -inf", word, side, value);
+  return value;
 }
 
 } // namespace
@@ -24,8 +28,8 @@ std::vector<Side> parse_sides(const std::string& box) {
     const std::size_t equals = side.find('='), colon = side.find(':');
     mc::require(equals != std::string::npos && equals > 0 && colon != std::string::npos && colon > equals,
                 "--domain: '{}' is not of the form name=lo:hi, as in \"x=0:1,y=-1:2\"", side);
-    Side s{std::string(mc::trimmed(side.substr(0, equals))), number(side.substr(equals + 1, colon - equals - 1), side),
-           number(side.substr(colon + 1), side)};
+    Side s{std::string(mc::trimmed(side.substr(0, equals))), bound(side.substr(equals + 1, colon - equals - 1), side),
+           bound(side.substr(colon + 1), side)};
     mc::with_context("--domain", [&] { require_variable(s.name); });
     mc::require(s.lo < s.hi, "--domain: '{}' has bounds {} and {}; lo < hi is needed", side, s.lo, s.hi);
     for (const Side& other : sides) mc::require(other.name != s.name, "--domain: '{}' is bounded twice", s.name);

@@ -15,7 +15,8 @@ struct Side {
   bool is_finite() const { return std::isfinite(lo) && std::isfinite(hi); }
 };
 
-/// "x=0:1,y=-1:2,z=0:inf". Throws Error that names --domain for anything else.
+/// "x=0:1,y=-1:2,z=0:inf"; bounds may be constant expressions, "phi=-_pi:2*_pi", see parse_function. Throws Error that
+/// names --domain for anything else.
 std::vector<Side> parse_sides(const std::string& box);
 
 /// Where u in [0,1] lies on a side: x, increasing in u, and dx/du.

@@ -92,7 +92,7 @@ std::vector<Option> integral_rows(IntegralOptions& o) {
       {"INTEGRAND", "", &o.integrands,
        "Names (see --list), groups (books, genz, rates), an expression, e.g. \"exp(-x*x)*cos(y)\", or a scene file "
        "(.xml) [books]"},
-      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:1,y=-inf:inf\""},
+      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:2*_pi,y=-inf:inf\""},
       {"--plugin",
        "FILE",
        &o.plugin,

@@ -32,15 +32,34 @@ TEST(Sides, AreReadWithBlanks) {
   EXPECT_EQ(sides[1].lo, -HUGE_VAL);
 }
 
+std::string message(const std::string& box) {
+  try {
+    carlo::parse_sides(box);
+  } catch (const mc::Error& e) {
+    return e.what();
+  }
+  return "accepted";
+}
+
+TEST(Sides, AreBoundByConstantExpressions) {
+  const std::vector<carlo::Side> sides = carlo::parse_sides("phi=-_pi: 2*_pi ,y=1/4:sqrt(2),z=-inf:(1+2)^2");
+  ASSERT_EQ(sides.size(), 3u);
+  EXPECT_EQ(sides[0].lo, -M_PI);
+  EXPECT_EQ(sides[0].hi, 2 * M_PI);
+  EXPECT_EQ(sides[1].lo, 0.25);
+  EXPECT_EQ(sides[1].hi, std::sqrt(2.0));
+  EXPECT_EQ(sides[2].lo, -HUGE_VAL);
+  EXPECT_EQ(sides[2].hi, 9);
+  EXPECT_EQ(message("x=0:2*pi"), "--domain: '2*pi' in 'x=0:2*pi': expression '2*pi', position 2: pi is _pi");
+  EXPECT_EQ(message("x=0:1,y=0:2*x"),
+            "--domain: '2*x' in 'y=0:2*x': expression '2*x', position 2: Unexpected token \"x\"");
+  for (const std::string bad : {"1/0", "0/0", "-1/0"})
+    EXPECT_THAT(message("x=0:" + bad), testing::HasSubstr("not a number, inf or -inf")) << bad;
+  for (const std::string bad : {"", "nan", "1e999", "one", "1,2"})
+    EXPECT_THAT(message("x=0:" + bad), testing::StartsWith("--domain: '")) << bad;
+}
+
 TEST(Sides, HaveNamesThatExpressionsCanUse) {
-  const auto message = [](const std::string& box) -> std::string {
-    try {
-      carlo::parse_sides(box);
-    } catch (const mc::Error& e) {
-      return e.what();
-    }
-    return "accepted";
-  };
   for (const std::string name : {"3x", "x y", "\u00e9", "x-1", "x\ty"})
     EXPECT_EQ(message("a=0:1," + name + "=0:1"),
               "--domain: '" + name + "' is no name of a variable: a letter or _, then letters, digits and _");
