@@ -11,8 +11,7 @@ namespace render {
 
 namespace {
 
-constexpr std::uint64_t block = 1024;        // paths that one thread takes at a time
-constexpr std::uint64_t blocks_at_once = 64; // whose light waits for its turn
+constexpr std::uint64_t block = 1024; // paths that one thread takes at a time
 constexpr std::size_t most_pixels = 2 * static_cast<std::size_t>(SplatFilter::furthest) + 1; // along one axis
 constexpr std::uint64_t apart = 0x6c69676874; // from the numbers of the pixels
 
@@ -71,7 +70,7 @@ std::uint64_t LightTaker::take(std::uint64_t from, std::uint64_t to, int threads
                                Film& film, Tally& tally) const {
   const auto sets = static_cast<std::uint32_t>(film.sets());
   while (from < to && !stop()) {
-    const std::uint64_t end = std::min(to, from + block * blocks_at_once);
+    const std::uint64_t end = std::min(to, from + at_once);
     std::vector<Splashes> found((end - from + block - 1) / block);
     mc::parallel_for(found.size(), threads, [&](std::size_t i) {
       const std::uint64_t first = from + i * block;

@@ -20,6 +20,8 @@ class LightTaker {
   /// As many paths as belong to `mean` samples of every pixel; of a tiny picture more.
   std::uint64_t paths(double mean) const;
 
+  static constexpr std::uint64_t at_once = 65536; ///< paths from one look at `stop` to the next
+
   /// Adds to the film the paths [from, to), in this order whatever the number of threads; what is not finite is left
   /// out. Stops early once `stop()`.
   ///   returns : the number of the first path that was not traced

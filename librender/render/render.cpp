@@ -6,8 +6,10 @@
 
 #include <mc/core/error.h>
 #include <mc/core/parallel.h>
+#include <mc/sampler/owen_scramble.h>
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -76,6 +78,21 @@ std::uint32_t stratum_of(const RenderOptions& options) {
   return known ? static_cast<std::uint32_t>((options.spp + point_sets - 1) / point_sets) : 16;
 }
 
+// Rows of which the film has no sample repeat the nearest that has some. Returns how many they are.
+int repeat_rows(const Film& film, Image& image) {
+  std::vector<int> rendered;
+  for (int y = 0; y < image.height; ++y)
+    if (film.rays(0, y) > 0) rendered.push_back(y); // there is no sample without a ray
+  if (rendered.empty()) return image.height;
+  for (int y = 0; y < image.height; ++y) {
+    const auto below = std::lower_bound(rendered.begin(), rendered.end(), y);
+    int nearest = below == rendered.end() ? rendered.back() : *below;
+    if (below != rendered.begin() && y - below[-1] <= std::abs(nearest - y)) nearest = below[-1];
+    for (int x = 0; x < image.width; ++x) image.at(x, y) = image.at(x, nearest);
+  }
+  return image.height - static_cast<int>(rendered.size());
+}
+
 /// A render under way.
 class Work {
  public:
@@ -94,6 +111,7 @@ class Work {
     in_rounds();
     RenderResult result;
     result.image = film_.image();
+    if (partial_ && mean_ == 0) result.missing_rows = repeat_rows(film_, result.image);
     result.samples = total_.samples;
     result.rays = total_.rays;
     result.spp = double(total_.samples) / double(taken_.size());
@@ -134,18 +152,22 @@ class Work {
                         .independent = options_.sampler == PixelSampler::independent}};
   }
 
-  // Every row once. Those that write to the same pixels take turns, in an order that is the same for every part.
+  // Every row once. Those that write to the same pixels take turns, in an order that is the same for every part. In a
+  // turn the next row lies amidst the widest gap, so that a first round that is cancelled has seen all of the picture.
   template <class Task> void for_rows(Task&& task) const {
     const std::size_t turns = 2 * border() + 1;
     for (std::size_t turn = 0; turn < turns; ++turn) {
       const std::size_t first = (turn + turns - static_cast<std::size_t>(whole_.part.y) % turns) % turns;
-      mc::parallel_for((height() + turns - 1 - first) / turns, options_.threads,
-                       [&](std::size_t i) { task(first + i * turns); });
+      const std::size_t rows = (height() + turns - 1 - first) / turns, size = std::bit_ceil(std::max(rows, 2ul));
+      mc::parallel_for(size, options_.threads, [&](std::size_t i) {
+        const std::size_t row = mc::reverse_bits64(i) >> (64 - std::countr_zero(size));
+        if (row < rows) task(first + row * turns);
+      });
     }
   }
 
   // Gives every pixel what the plan says for a mean of `mean` samples. Returns whether all rows were done. Splats count
-  // if all were, or it is the first round, since each pixel needs as many samples of all pixels about it.
+  // if all were, or it is the first round of two sets, which then tell what a pixel lacks of the samples about it.
   bool extend_to(double mean, double wanted) {
     std::vector<Tally> tallies(height());
     std::vector<std::uint32_t> taken = taken_;
@@ -155,12 +177,15 @@ class Work {
     std::atomic<std::uint64_t> done = 0, samples = total_.samples;
     Tally lights;
     std::uint64_t light_done = light_done_;
-    if (light_taker_)
-      light_done = light_taker_->take(
-          light_done, light_taker_->paths(mean * plan_.light), options_.threads,
-          [&] { return cancelled() || out_of_time(); }, film, lights);
+    const auto stop = [&] { return cancelled() || out_of_time(); };
+    const auto take_light = [&](std::uint64_t to) {
+      if (light_taker_) light_done = light_taker_->take(light_done, to, options_.threads, stop, film, lights);
+    };
+    const std::uint64_t all_light = light_taker_ ? light_taker_->paths(mean * plan_.light) : 0;
+    // Before the first rows there are but a few, so that these begin soon: light of any number of paths is unbiased.
+    take_light(mean_ == 0 ? std::min(all_light, LightTaker::at_once) : all_light);
     for_rows([&](std::size_t y) {
-      if (cancelled() || out_of_time()) return;
+      if (stop()) return;
       const auto from = std::span(taken_).subspan(y * width(), width()),
                  to = std::span(taken).subspan(y * width(), width());
       for (std::size_t x = 0; x < width(); ++x) to[x] = std::max(to[x], plan_.samples(y * width() + x, mean));
@@ -173,8 +198,9 @@ class Work {
           options_.seconds ? elapsed() / *options_.seconds : (mean_ + rows * (mean - mean_)) / wanted;
       options_.progress({std::min(fraction, 1.0), samples, total_.rays, elapsed(), error_.value, undecided_});
     });
+    take_light(all_light);
     const bool is_whole = done == height();
-    if (round && !is_whole && mean_ > 0) return false;
+    if (round && !is_whole && (mean_ > 0 || film_.sets() == 1)) return false;
     for (const Tally& tally : tallies) total_.merge(tally);
     total_.merge(lights);
     light_done_ = light_done;

@@ -55,11 +55,13 @@ struct RenderResult {
   double unsure_from = 0;    ///< samples per pixel with the target error, but too many pixels undecided; 0: never so
   std::uint64_t invalid = 0; ///< samples that were not finite; they are left out of the image
   InvalidSample first_invalid;
-  bool partial = false; ///< cancelled before the end
+  bool partial = false;     ///< cancelled before the end
+  int missing_rows = 0;     ///< of the image, cancelled in the first round: they repeat the nearest that was rendered
 };
 
 /// Renders in rounds, which double the samples of every pixel, so that a picture interrupted after the first, two
-/// samples per pixel, is whole and has its variance. A pixel's samples are dealt to two point sets, independently
+/// samples per pixel, is whole and has its variance. Interrupted before, it has none; rows are taken far from each
+/// other, and those that are missing repeat the nearest. A pixel's samples are dealt to two point sets, independently
 /// randomised, so that the variance between them is honest for low-discrepancy points too; more sets would be
 /// shorter, which costs accuracy, and tell of a pixel what its neighbours tell as well. Light paths, where the
 /// strategy has some, are as many as belong to the mean number of samples, and dealt to the sets as well.

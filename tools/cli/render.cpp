@@ -278,21 +278,6 @@ int compare_all(const RenderOptions& options, const ::render::Scene& scene, ::re
   return exit_ok;
 }
 
-std::string summary_of(const ::render::RenderResult& r, const std::optional<double>& target_error) {
-  std::string text = fmt::format(
-      "{}x{}, {:.4g} samples/pixel in {} ({} CPU): {}, {}rays/s, mean relative standard error {}, {} invalid samples",
-      r.image.width, r.image.height, r.spp, format_seconds(r.seconds), format_seconds(r.cpu_seconds),
-      samples_per_second(r), format_count(double(r.rays) / r.seconds), format_error(r), r.invalid);
-  if (r.undecided > 0) text += fmt::format(", {:.1f} % of the pixels decided by one sample", 100 * r.undecided);
-  if (r.partial) text += ", PARTIAL: interrupted";
-  if (r.unsure_from > 0)
-    text +=
-        fmt::format("\nthe error of {:g} % was there with {:.4g} samples/pixel; more were taken while over {:.0f} % "
-                    "of the pixels were decided by one sample (--time or --spp end sooner)",
-                    100 * target_error.value_or(0), r.unsure_from, 100 * ::render::most_undecided);
-  return text + "\n";
-}
-
 // A picture must not take the place of what the next one is made from.
 void refuse_inputs(const std::set<std::string>& files, const RenderOptions& options, const std::string& output) {
   for (const std::string& input : files)
@@ -359,8 +344,9 @@ int render(const RenderOptions& options) {
   ::render::RenderResult result = ::render::render(scene, settings);
   progress.clear();
 
-  if (begun && result.estimates == 0) {
-    fmt::print("interrupted before every pixel had a new sample; {} stays as it was\n", output);
+  if (begun ? result.estimates == 0 : result.missing_rows == result.image.height) {
+    fmt::print("interrupted before {}; {} {}\n", begun ? "every pixel had a new sample" : "a row was rendered", output,
+               begun ? "stays as it was" : "was not written");
     return exit_interrupted;
   }
   const Provenance from{file, options.command, options.seed};

@@ -19,6 +19,13 @@ std::string invalid_samples(const ::render::RenderResult& result, const Provenan
                      result.invalid, result.samples, w.x, w.y, w.pass, w.index, from.seed);
 }
 
+std::string interruption(const ::render::RenderResult& result) {
+  if (result.missing_rows == 0) return "interrupted before the end";
+  const int rows = result.image.height;
+  return fmt::format("interrupted in its first pass: {} of {} rows were rendered, the others repeat the nearest",
+                     rows - result.missing_rows, rows);
+}
+
 void sign(::render::RenderResult& result, const Provenance& from) {
   auto& metadata = result.image.metadata;
   metadata["carlo.scene"] = std::filesystem::path(from.scene).filename().string();
@@ -27,7 +34,7 @@ void sign(::render::RenderResult& result, const Provenance& from) {
   metadata["carlo.seed"] = fmt::format("{}", from.seed);
   metadata["carlo.samples_per_pixel"] = fmt::format("{:.17g}", result.spp);
   metadata["carlo.invalid_samples"] = fmt::format("{}", result.invalid);
-  if (result.partial) metadata["carlo.partial"] = "interrupted before the end";
+  if (result.partial) metadata["carlo.partial"] = interruption(result);
   if (result.estimates == 0) metadata["carlo.unsampled"] = "some pixels";
 }
 
@@ -57,8 +64,24 @@ std::string samples_per_second(const ::render::RenderResult& result) {
 }
 
 std::string format_error(const ::render::RenderResult& result) {
-  if (!std::isfinite(result.relative_error)) return "unknown (one sample per pixel)";
+  if (!std::isfinite(result.relative_error))
+    return result.missing_rows > 0 ? "unknown" : "unknown (one sample per pixel)";
   return fmt::format("{:.2f} % (worst block {:.2f} %)", 100 * result.relative_error, 100 * result.worst_error);
+}
+
+std::string summary_of(const ::render::RenderResult& r, const std::optional<double>& target_error) {
+  std::string text = fmt::format(
+      "{}x{}, {:.4g} samples/pixel in {} ({} CPU): {}, {}rays/s, mean relative standard error {}, {} invalid samples",
+      r.image.width, r.image.height, r.spp, format_seconds(r.seconds), format_seconds(r.cpu_seconds),
+      samples_per_second(r), format_count(double(r.rays) / r.seconds), format_error(r), r.invalid);
+  if (r.undecided > 0) text += fmt::format(", {:.1f} % of the pixels decided by one sample", 100 * r.undecided);
+  if (r.partial) text += ", PARTIAL: " + interruption(r);
+  if (r.unsure_from > 0)
+    text +=
+        fmt::format("\nthe error of {:g} % was there with {:.4g} samples/pixel; more were taken while over {:.0f} % "
+                    "of the pixels were decided by one sample (--time or --spp end sooner)",
+                    100 * target_error.value_or(0), r.unsure_from, 100 * ::render::most_undecided);
+  return text + "\n";
 }
 
 } // namespace carlo

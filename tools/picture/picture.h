@@ -5,6 +5,7 @@
 #include <render/render.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace carlo {
@@ -19,7 +20,11 @@ struct Provenance {
 /// "" where every sample was finite; otherwise how many were not, and how to trace the first one again.
 std::string invalid_samples(const ::render::RenderResult& result, const Provenance& from);
 
-/// Writes scene, command, commit, seed and samples into the picture's metadata.
+/// How far a partial render came: "interrupted before the end", or "interrupted in its first pass: 122 of 768 rows were
+/// rendered, the others repeat the nearest".
+std::string interruption(const ::render::RenderResult& result);
+
+/// Writes scene, command, commit, seed and samples into the picture's metadata, and how far it came.
 void sign(::render::RenderResult& result, const Provenance& from);
 
 /// Lines on stderr where Float is too coarse for the scene, or holds too little.
@@ -32,5 +37,9 @@ std::string samples_per_second(const ::render::RenderResult& result);
 
 /// "1.23 % (worst block 2.34 %)", or "unknown (one sample per pixel)".
 std::string format_error(const ::render::RenderResult& result);
+
+/// What a render took, how good it is, and why it ended: a line, or two.
+///   target_error : that was asked for
+std::string summary_of(const ::render::RenderResult& result, const std::optional<double>& target_error);
 
 } // namespace carlo

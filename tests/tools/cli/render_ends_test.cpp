@@ -48,7 +48,13 @@ TEST_F(RenderEnds, APassThatIsNotWholeIsNotAdded) {
   const std::string line = "render " + scenes + "cbox.xml --size 2000x2000 --threads 1 -o " + path("r.exr");
   const support::Run first = support::interrupt_carlo(line + " --spp 1000000");
   EXPECT_EQ(first.exit_code, 130) << first.output;
-  EXPECT_EQ(render::read_image(path("r.exr")).metadata.at("carlo.unsampled"), "some pixels");
+  const char* how_far =
+      "interrupted in its first pass: [0-9]+ of 2000 rows were rendered, the others repeat the nearest";
+  EXPECT_THAT(first.output, ContainsRegex(how_far));
+  const render::Image early = render::read_image(path("r.exr"));
+  EXPECT_EQ(early.metadata.at("carlo.unsampled"), "some pixels");
+  EXPECT_THAT(early.metadata.at("carlo.partial"), ContainsRegex(how_far));
+  EXPECT_TRUE(early.variance.empty());
   const std::string small = "render " + scenes + "cbox.xml --size 300x300 --threads 1 -o " + path("s.exr");
   ASSERT_EQ(run_carlo(small + " --spp 2").exit_code, 0);
   const std::string before = mc::read_file(path("s.exr"));
