@@ -127,6 +127,7 @@ class Work {
     result.invalid = total_.invalid;
     result.first_invalid = total_.first;
     result.partial = partial_;
+    result.out_of_time = options_.target_error && !partial_ && mean_ < wanted_by_error();
     return result;
   }
 
@@ -212,7 +213,10 @@ class Work {
   // How many samples per pixel the whole takes, as far as can be told.
   double wanted() const {
     if (mean_ == 0 || !limited()) return options_.spp;
-    if (options_.seconds) return mean_ * *options_.seconds / elapsed();
+    const double by_time = options_.seconds ? mean_ * *options_.seconds / elapsed() : mc::infinity<double>;
+    return options_.target_error ? std::min(by_time, wanted_by_error()) : by_time;
+  }
+  double wanted_by_error() const {
     const double by_error = mean_ * mc::sqr(error_.bound / *options_.target_error);
     const bool is_sure = mean_ >= least_pilot && undecided_ <= most_undecided;
     return is_sure ? by_error : std::max(by_error, 2 * mean_);

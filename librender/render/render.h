@@ -25,7 +25,7 @@ inline constexpr int most_branches = 1024;
 struct RenderOptions {
   int width = 256, height = 256;
   std::optional<Crop> crop;           ///< only this part; spent evenly, its pixels are the whole's, bit for bit
-  int spp = 64;                       ///< samples per pixel, unless one of the next two is given
+  int spp = 64;                       ///< samples per pixel, unless one of the next two, or both, are given
   std::optional<double> seconds;      ///< wall-clock budget [s]
   std::optional<double> target_error; ///< what RelativeError::bound is to fall to, see Film; and most_undecided
   ErrorOf error_of = ErrorOf::picture;
@@ -56,6 +56,7 @@ struct RenderResult {
   std::uint64_t invalid = 0; ///< samples that were not finite; they are left out of the image
   InvalidSample first_invalid;
   bool partial = false;     ///< cancelled before the end
+  bool out_of_time = false; ///< before the target error was reached
   int missing_rows = 0;     ///< of the image, cancelled in the first round: they repeat the nearest that was rendered
 };
 

@@ -107,16 +107,17 @@ std::vector<Option> rows(RenderOptions& o) {
       {"-D", "NAME=VALUE", &o.variables, "The value of $NAME in the scene, whatever its own default; may be repeated"},
       {"-o,--output", "FILE", &o.output,
        "Image to write: .exr (radiance and variance), .pfm or .png (sRGB) [SCENE.exr here]"},
-      {"--spp", "N", &o.spp, "Samples per pixel; this, --time or --target-error [the scene's]"},
+      {"--spp", "N", &o.spp, "Samples per pixel; or --time, --target-error, or both of these [the scene's]"},
       {"--time", "SECONDS", &o.seconds, "Wall-clock time to spend", false, {"--spp"}},
       {"--target-error",
        "RATIO",
        &o.target_error,
        "Mean relative standard error to reach: the pixels' standard errors relative to the radiance about them, in the "
        "dark to half of the picture's mean, root mean square, with 95 % confidence; it goes on below that while in "
-       "more than 5 % of the pixels one sample carries over half of the variance, so that their errors are not known",
+       "more than 5 % of the pixels one sample carries over half of the variance, so that their errors are not known, "
+       "which may take long: --time bounds it",
        false,
-       {"--spp", "--time"}},
+       {"--spp"}},
       {"--error-of", "picture|worst", &o.error_of,
        "The error that counts: of the picture, or of its worst 16x16 block [picture]"},
       {"--adaptive", "on|off", &o.adaptive,
@@ -242,11 +243,14 @@ const GalleryScene* named_scene(const std::string& word) {
 }
 
 std::string where_it_is(const ::render::Progress& p, const std::optional<double>& target_error) {
-  std::string text = format_count(double(p.samples) / p.seconds) + "samples/s";
+  const std::string text = format_count(double(p.samples) / p.seconds) + "samples/s";
   if (!std::isfinite(p.relative_error)) return text;
-  text += fmt::format("  error {:.2f} %, {:.1f} % of the pixels undecided", 100 * p.relative_error, 100 * p.undecided);
   const bool goes_on = target_error && p.relative_error <= *target_error && p.undecided > ::render::most_undecided;
-  return goes_on ? text + fmt::format(": on to {:.0f} %", 100 * ::render::most_undecided) : text;
+  if (goes_on) // short, to be seen on a narrow terminal
+    return fmt::format("error reached, {:.1f} % undecided: on to {:.0f} %", 100 * p.undecided,
+                       100 * ::render::most_undecided);
+  return text +
+         fmt::format("  error {:.2f} %, {:.1f} % of the pixels undecided", 100 * p.relative_error, 100 * p.undecided);
 }
 
 constexpr int compared_side = 96; // pixels

@@ -81,6 +81,9 @@ std::string summary_of(const ::render::RenderResult& r, const std::optional<doub
         fmt::format("\nthe error of {:g} % was there with {:.4g} samples/pixel; more were taken while over {:.0f} % "
                     "of the pixels were decided by one sample (--time or --spp end sooner)",
                     100 * target_error.value_or(0), r.unsure_from, 100 * ::render::most_undecided);
+  else if (r.out_of_time)
+    text += fmt::format("\nthe error of {:g} % was not reached in the time (--resume adds to the picture)",
+                        100 * target_error.value_or(0));
   return text + "\n";
 }
 

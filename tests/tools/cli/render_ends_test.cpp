@@ -43,6 +43,25 @@ TEST_F(RenderEnds, SaysWhyItWentOnBelowTheErrorThatItIsAskedFor) {
   EXPECT_THAT(run_carlo("render sphere-light --size 8x6" + target).output, Not(HasSubstr("was there with")));
 }
 
+TEST_F(RenderEnds, EndsByTimeOrErrorWhicheverComesFirst) {
+  const std::string line = "render sphere-light --size 8x6 -o " + path("a.exr"), late = "was not reached in the time";
+  const support::Run by_error = run_carlo(line + " --time 1000 --target-error 0.2");
+  EXPECT_EQ(by_error.exit_code, 0) << by_error.output;
+  EXPECT_THAT(by_error.output, Not(HasSubstr(late)));
+  const support::Run by_time = run_carlo(line + " --time 0.05 --target-error 1e-9");
+  EXPECT_EQ(by_time.exit_code, 0) << by_time.output;
+  EXPECT_THAT(by_time.output, HasSubstr("the error of 1e-07 % " + late));
+}
+
+// Whoever waits sees what for.
+TEST_F(RenderEnds, SaysWhileItGoesOnBelowTheErrorThatItIsAskedFor) {
+  const support::Run run = support::interrupt_carlo(
+      "render book3-cornell-glass --size 64x64 --strategy mis --target-error 0.5 -o " + path("a.exr"),
+      " % undecided: on to 5 %");
+  EXPECT_EQ(run.exit_code, 130) << run.output;
+  EXPECT_THAT(run.output, ContainsRegex("left  error reached, [0-9.]+ % undecided: on to 5 %"));
+}
+
 // In the first pass, over pixels that take long.
 TEST_F(RenderEnds, APassThatIsNotWholeIsNotAdded) {
   const std::string line = "render " + scenes + "cbox.xml --size 2000x2000 --threads 1 -o " + path("r.exr");
