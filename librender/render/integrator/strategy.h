@@ -41,7 +41,8 @@ struct Strategy {
 /// Where nothing is to aim at, the BSDF is followed.
 ///   light : rough surfaces look towards lamps and guides alone, so that what else they would reflect is missed: the
 ///           light of other surfaces and of the sky. See misses_light
-///   light, mixture, guides : as in [Shirley16], chapters 7, 8 and 10
+///   light, mixture, guides : as in [Shirley16], chapters 7, 8 and 10. Of a tiny lamp of triangles they lose what rays,
+///           rounded to float, miss at its outline: of a square 2e-9 times its distance over half its side
 ///   bidirectional : mis with paths from the lights, in scenes where these pay, see LightPaths; in all others it is
 ///           mis, bit for bit
 inline constexpr auto strategies = std::to_array<Strategy>({

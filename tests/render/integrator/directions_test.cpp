@@ -148,4 +148,36 @@ TEST(Directions, ShadesHoldLamps) {
   }
 }
 
+// Rounding carried rays past the outline of a tiny lamp: of those 2e-5 wide three in a thousand, and so much light.
+// The tree finds spheres by the same arithmetic as their density, but triangles by floats at first: of four million
+// rays 1.87e-4 missed. Binomial, of 100,000: 3.6 deviations more are 34, alpha = 2e-4.
+TEST(Directions, MeetTheTiniestLamps) {
+  const double half = 1e-5;
+  const Vec3d place(0.4, 0.8, -0.3);
+  const auto misses = [&](auto lamp) {
+    SceneBuilder builder;
+    builder.add(std::move(lamp), {builder.add(Lambert()), Emission{.two_sided = true}});
+    const Scene scene = builder.build();
+    const Directions directions(scene, strategy_from("light"));
+    const Lambert white;
+    int missed = 0;
+    for (int i = 0; i < 100'000; ++i) {
+      const mc::NoPairs numbers(7, 0);
+      mc::IndependentWalk<Float> stream(numbers, std::uint32_t(i));
+      SurfacePoint point = of_floor();
+      const Vec2 u = stream.next2();
+      point.p = Vec3(u[0] - Float(0.5), 0, u[1] - Float(0.5));
+      point.error = std::numeric_limits<Float>::epsilon() * point.p.lpNorm<Eigen::Infinity>();
+      const auto one =
+          directions.choose(Vertex<Lambert>{white, point, mc::Frame<Float>::from_z(point.ns), Vec3::UnitZ()}, stream);
+      missed += !one || !scene.intersect(point.spawn_ray(one->d));
+    }
+    return missed;
+  };
+  EXPECT_EQ(misses(Sphere(place, half)), 0);
+  const Transform down =
+      Transform::translate(place) * Transform::rotate(Vec3d::UnitX(), 90) * Transform::scale(Vec3d::Constant(half));
+  EXPECT_LE(misses(TriangleMesh::rectangle(down)), 34);
+}
+
 } // namespace
