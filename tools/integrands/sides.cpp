@@ -14,8 +14,9 @@ namespace {
 double bound(std::string_view text, std::string_view side) {
   const std::string word(mc::trimmed(text));
   if (const auto number = mc::number_in(word); number && !std::isnan(*number)) return *number;
-  const double value =
-      mc::with_context(fmt::format("--domain: '{}' in '{}'", word, side), [&] { return parse_function(word, {})({}); });
+  const std::string context =
+      fmt::format("--domain: '{}' in '{}' is not a number, inf, -inf or a constant expression", word, side);
+  const double value = mc::with_context(context, [&] { return parse_function(word, {})({}); });
   mc::require(std::isfinite(value), "--domain: '{}' in '{}' is {}, not a number, inf or -inf", word, side, value);
   return value;
 }
