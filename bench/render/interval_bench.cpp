@@ -1,6 +1,6 @@
 /// What the error bars of pixels are worth: the share of 95 % intervals that hold the truth, as CSV on stdout.
 /// Usage: bench_render_interval SCENE.xml... [-- SEEDS [SIZE [REFERENCE_SPP]]]
-///   way    : even, splat (where the filter is wider than a pixel) or tiles
+///   way    : even, splat (where the filter is wider than a pixel), tiles, or mis (without paths from the lights)
 ///   alone  : by the pixel's own variance, Student's t with 1 degree of freedom
 ///   shared : half_widths
 ///   noisy  : half_widths in the tenth of the pixels and channels whose variance in the reference is largest
@@ -84,6 +84,9 @@ void show_ways(const std::string& path, int seeds, int size, int reference_spp) 
   options.splat = false;
   options.tiles = true;
   show(path, "tiles", file.scene, options, truth, seeds);
+  options.tiles = false;
+  options.strategy = strategy_from("mis");
+  show(path, "mis", file.scene, options, truth, seeds);
 }
 
 } // namespace
