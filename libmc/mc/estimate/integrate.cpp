@@ -51,10 +51,11 @@ std::string Integral::to_string() const {
     break;
   case ErrorBar::infinite_variance:
     text = fmt::format("{:.10g}, error not known: the variance ", estimate.value);
-    text += infinite > 0 ? fmt::format("is infinite (as is the integrand at {} points, which count as 0)", infinite)
-                         : fmt::format("looks infinite (the largest values fall off with index {:.2f}{}; a variance "
-                                       "needs more than 2, an integral more than 1)",
-                                       tail_index, tail_index > 2 ? ", not told from 2" : "");
+    if (infinite > 0) text += fmt::format("is infinite (as is the integrand at {} points, which count as 0)", infinite);
+    else
+      text += fmt::format("looks infinite (the largest values fall off with index {:.2f}{}; a variance needs more than "
+                          "2, an integral more than 1)",
+                          tail_index, tail_index > 2 ? ", not told from 2" : "");
     break;
   }
   if (!consistent)
