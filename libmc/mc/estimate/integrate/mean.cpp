@@ -50,15 +50,18 @@ double established(const std::vector<Evidence::Jump>& jumps) {
   return highest;
 }
 
-// The jump that replicates have just come to agree on: where their deviation fell with the number of points, as across
-// a jump, for three lengths, and then at once by far more, so that all of them have as many points beyond it. They are
-// of two values then, and deviate by half of what these differ by at most.
+// The highest jump that replicates came to agree on: where their deviation fell with the number of points, as across a
+// jump, for three lengths, and then at once by far more, so that all of them have as many points beyond it. They were
+// of two values before, and deviated by half of what these differ by at most.
 double hidden_jump(const std::vector<double>& spreads) {
   constexpr double flat = 1.6, at_once = 12;
-  if (spreads.size() < 4) return 0;
-  const auto last = std::span(spreads).last(4);
-  const auto [low, high] = std::minmax_element(last.begin(), last.end() - 1);
-  return *high <= flat * *low && last[2] > at_once * last[3] ? 2 * last[2] : 0.0;
+  double highest = 0;
+  for (std::size_t i = 3; i < spreads.size(); ++i) {
+    const auto before = std::span(spreads).subspan(i - 3, 3);
+    const auto [low, high] = std::minmax_element(before.begin(), before.end());
+    if (*high <= flat * *low && before[2] > at_once * spreads[i]) highest = std::max(highest, 2 * before[2]);
+  }
+  return highest;
 }
 
 bool much_unmet(const Mean& m) { return std::abs(m.unmet) > std::abs(m.value) / 16; }
@@ -155,8 +158,7 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
   const Gap gap = apart ? widest_gap(scaled, deviation) : Gap();
   evidence.jumps.push_back({std::ldexp(gap.width, exponent) * points, gap.narrow, gap.balanced});
   evidence.spreads.push_back(now * points);
-  evidence.hidden = std::max(evidence.hidden, hidden_jump(evidence.spreads));
-  double jump = std::max({evidence.step, evidence.hidden, established(evidence.jumps)});
+  double jump = std::max({evidence.step, hidden_jump(evidence.spreads), established(evidence.jumps)});
   for (std::size_t i = evidence.jumps.size(); i > 0 && i + memory > evidence.jumps.size(); --i)
     jump = std::max(jump, evidence.jumps[i - 1].height);
   double step = jump_share * jump;

@@ -76,7 +76,6 @@ struct Evidence {
   double apart = 0;                 ///< the last deviation that was more than rounding
   std::vector<Jump> jumps = {};     ///< at each length, that set replicates apart
   std::vector<double> spreads = {}; ///< at each length, their deviation times the points
-  double hidden = 0;                ///< the largest jump that they came to agree on
   double step = 0; ///< the largest jump across an axis that the AxisProfile showed at both of its last two lengths
   double last_step = std::numeric_limits<double>::infinity(); ///< at the last
 

@@ -115,7 +115,6 @@ std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint
   parallel_for(parts.size() - 1, pays ? o.threads : 1, [&](std::size_t i) { task(i + 1); });
   for (std::size_t i = 0; i < parts.size(); ++i) results[i / chunks].merge(parts[i]);
   calls += count * sets.size();
-  if (floors.empty()) find_floors(results);
   // A few points do not tell how much volume they stand for.
   const double most = few_infinite + most_infinite * static_cast<double>(count * sets.size());
   for (std::size_t k = 0; k < outputs; ++k) {
@@ -128,6 +127,7 @@ std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint
       if (infinite > most) refuse_points(seen.infinite, count, *results[r].first_infinite, sets[r], proposal);
     }
   }
+  if (floors.empty()) find_floors(results);
   return results;
 }
 
@@ -139,13 +139,15 @@ void Run::find_floors(const std::vector<Sums>& first) {
   for (std::size_t k = 0; k < outputs; ++k) {
     std::vector<double> values;
     for (const Sums& s : first) values.insert(values.end(), s.profile.values(k).begin(), s.profile.values(k).end());
+    if (values.empty()) continue;
     std::sort(values.begin(), values.end());
     const double lo = values.front(), hi = values.back(), quarter = values[values.size() / 4],
                  upper = values[3 * values.size() / 4];
     const bool above = hi - upper > far * (upper - lo), below = quarter - lo > far * (hi - quarter);
     if (above) floors[k] = {2 * lo - upper, lo};
     else if (below) floors[k] = {2 * hi - quarter, hi};
-    if (floors[k][0] * floors[k][1] <= 0) floors[k] = {}; // all of it may be tail
+    const auto [a, b] = floors[k];
+    if (!(std::min(a, b) > 0 || std::max(a, b) < 0)) floors[k] = {}; // all of it may be tail
   }
 }
 

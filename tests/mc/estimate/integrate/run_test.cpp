@@ -98,6 +98,11 @@ TEST(Run, FindsTheConstantThatATailIsAddedTo) {
     EXPECT_NEAR(up[1], base + 1, 0.1) << base;
   }
   EXPECT_NEAR(floors_of([](std::span<const double> u) { return 7 - 1 / std::sqrt(u[0]); })[0], 7, 0.1);
+  for (const double scale : {1e-170, 1e170}) {
+    const auto scaled = floors_of([=](std::span<const double> u) { return scale * (1 + 1 / std::sqrt(u[0])); });
+    EXPECT_NEAR(scaled[0] / scale, 1, 0.1);
+  }
+  EXPECT_THROW(floors_of([](std::span<const double> u) { return u[0] < 0.5 ? u[0] : NAN; }), mc::NotFinite);
   EXPECT_EQ(floors_of([](std::span<const double> u) { return 7 + std::exp(u[0]); })[0], 0);
   EXPECT_EQ(floors_of([](std::span<const double> u) { return std::pow(u[0], -0.7); })[0], 0);
 }
