@@ -1,13 +1,14 @@
 #pragma once
-/// Every sampler of libmc and librender with the parameters it is checked at.
+/// Every distribution of libmc and librender with the parameters at which it is checked.
 ///
-/// A family adds its samplers in a file of its own, one line per case:
+/// A family adds its distributions in a file of its own, one line per case:
 ///   void add_spheres(Catalogue& c) {
 ///     add_warp(c, "CosineHemisphere", "", [](auto s) { return mc::CosineHemisphere<decltype(s)>{}; });
 ///   }
-/// then declares that function below, calls it in catalogue.cpp and names the file in CMakeLists.txt. add_warp of
-/// warp_case.h makes a float and a double case of the line, add_bsdf of bsdf_case.h one case per direction. The test
-/// catalogue_test.cpp fails when a warp, table, BSDF, shape, filter or camera of the headers is not in the list.
+/// then declares that function below, calls it in catalogue.cpp, names the file in CMakeLists.txt, and adds a sentence
+/// to descriptions.cpp. add_warp of warp_case.h makes a float and a double case of the line, add_bsdf of bsdf_case.h
+/// one case per direction. The test catalogue_test.cpp fails when a warp, table, BSDF, shape, filter or camera of the
+/// headers is not in the list, or has no description.
 
 #include <mc/check/check_subject.h>
 
@@ -19,7 +20,7 @@ namespace carlo {
 
 using CaseOptions = mc::SubjectOptions;
 
-/// One sampler at one set of parameters over one scalar.
+/// One distribution at one set of parameters over one scalar.
 struct Case {
   std::string name;       ///< the type's name
   std::string parameters; ///< "alpha=0.1, theta=60"; empty without any
@@ -27,7 +28,9 @@ struct Case {
   std::function<mc::Report(const CaseOptions&)> check;
   std::string again = {}; ///< what follows "carlo validate" to check it alone; empty: its name
 
-  std::string title() const { return name + (parameters.empty() ? "" : "(" + parameters + ")") + " " + scalar; }
+  /// "Linear(a=0, b=1)".
+  std::string plain() const { return name + (parameters.empty() ? "" : "(" + parameters + ")"); }
+  std::string title() const { return plain() + " " + scalar; }
 };
 
 using Catalogue = std::vector<Case>;

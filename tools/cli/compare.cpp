@@ -64,7 +64,7 @@ struct Noise {
 };
 
 struct Worst {
-  double p = 1, t = 0, difference = 0, error = 0;
+  double p = 1, t = 0, dof = 0, difference = 0, error = 0;
   int x = 0, y = 0, channel = 0;
 };
 
@@ -147,11 +147,12 @@ class Comparison {
     const double excess = std::max(0.0, std::abs(difference) - tolerance_ * std::abs(sums.reference / n));
     if (excess == 0) return;
     double p = 0, t = mc::infinity<double>;
+    const double dof = n == 1 ? std::min(sums.all.dof(), most_of_pixel_) : sums.all.dof();
     if (variance > 0) {
       t = excess / std::sqrt(variance);
-      p = mc::student_tail(t, n == 1 ? std::min(sums.all.dof(), most_of_pixel_) : sums.all.dof());
+      p = mc::student_tail(t, dof);
     }
-    if (p < worst.p || (p == worst.p && t > worst.t)) worst = {p, t, difference, std::sqrt(variance), x, y, c};
+    if (p < worst.p || (p == worst.p && t > worst.t)) worst = {p, t, dof, difference, std::sqrt(variance), x, y, c};
   }
 
   const Image &a_, &b_;
@@ -160,25 +161,33 @@ class Comparison {
 };
 
 std::vector<Option> rows(CompareOptions& o) {
-  return {
-      {"A", "FILE", &o.a, "Image", true},
-      {"B", "FILE", &o.b, "Image, the reference of relative metrics", true},
-      {"--metric", "NAME", &o.metric,
-       "Print only this: mse, rmse, mae, relmse, max or mean_ratio [all, and the verdict]"},
-      {"--diff", "FILE", &o.diff, "Write the difference image to this file"},
-      {"--alpha",
-       "PROBABILITY",
-       &o.alpha,
-       "Chance that two correct images are called different, over all tests [0.01]",
-       false,
-       {"--metric"}},
-      {"--tolerance",
-       "RATIO",
-       &o.tolerance,
-       "Difference, relative to B, that still counts as agreement",
-       false,
-       {"--metric"}},
-  };
+  const Exclusion judged{"--metric", "--metric prints one number and no verdict"};
+  return in_groups({
+      {common_options,
+       {
+           {"A", "FILE", &o.a, "Image: .exr, .pfm, .hdr, .png or .jpg.", true},
+           {"B", "FILE", &o.b, "Image of the same size; the reference of relative metrics.", true},
+           {"--metric", "NAME", &o.metric,
+            "Print only this number: mse, rmse, mae, relmse, max or mean_ratio. Default: all of them, and the "
+            "verdict."},
+           {"--diff", "FILE", &o.diff, "Write the image A - B to this file."},
+       }},
+      {expert_options,
+       {
+           {"--alpha",
+            "PROBABILITY",
+            &o.alpha,
+            "Probability of calling two correct images different, over all tests together. Default: 0.01.",
+            false,
+            {judged}},
+           {"--tolerance",
+            "RATIO",
+            &o.tolerance,
+            "Difference relative to B that counts as agreement.",
+            false,
+            {judged}},
+       }},
+  });
 }
 
 // What the t-tests rest on.
@@ -195,10 +204,9 @@ void require_variance(const std::string& path, const Image& image) {
       largest = std::max(largest, std::abs(double(image.pixels[i][c])));
       noise = std::max(noise, variance);
     }
-  mc::require(
-      noise > 0 || largest == 0 || largest >= 1e-18,
-      "'{}': the largest value is {:.3g}, of which variances are too small for floats; render with brighter light",
-      path, largest);
+  mc::require(noise > 0 || largest == 0 || largest >= 1e-18,
+              "'{}': the largest value is {:.3g}, too small for its variance to be a float; render with brighter light",
+              path, largest);
 }
 
 // "'a.png' carries", or both.
@@ -244,7 +252,7 @@ int compare(const CompareOptions& options) {
     const std::string bare = without_variance(options, a, b);
     const char* remedy = "render to .exr with two samples or more in every pixel";
     const char* judged = options.tolerance > 0 ? "--tolerance" : "--alpha";
-    mc::require(options.tolerance == 0 && !options.alpha, "{}: {} no variance, so that nothing is judged; {}", judged,
+    mc::require(options.tolerance == 0 && !options.alpha, "{}: {} no variance, so that there is no verdict; {}", judged,
                 bare, remedy);
     fmt::print("verdict    none: {} no variance; {}\n", bare, remedy);
     return exit_ok;
@@ -253,8 +261,9 @@ int compare(const CompareOptions& options) {
   require_variance(options.b, b);
   comparison.run();
   const auto print = [&](const char* what, const Worst& w) {
-    std::printf("%-10s worst at (%d, %d) %s: difference %.3g, %.2f standard errors, p = %.2g\n", what, w.x, w.y,
-                channel_names[static_cast<std::size_t>(w.channel)], w.difference, w.t, w.p);
+    std::printf(
+        "%-10s worst at (%d, %d) %s: difference %.3g, %.2f standard errors, %.3g degrees of freedom, p = %.2g\n", what,
+        w.x, w.y, channel_names[static_cast<std::size_t>(w.channel)], w.difference, w.t, w.dof, w.p);
   };
   print("pixels", comparison.pixel);
   print("blocks", comparison.block);
@@ -270,8 +279,17 @@ int compare(const CompareOptions& options) {
 
 Subcommand compare_subcommand() {
   return make_subcommand<CompareOptions>(
-      "compare", "Say whether two images agree: error metrics, and Welch's t-tests where variance is known", rows,
-      compare);
+      {.name = "compare",
+       .summary = "Tell whether two images agree: error metrics, and t-tests where the variance of pixels is known",
+       .examples = {{"carlo compare a.exr b.exr", "tests two renders of one scene for differences beyond noise"},
+                    {"carlo compare a.exr b.exr --metric rmse", "prints one number"},
+                    {"carlo compare a.png b.png --diff d.exr", "prints metrics, and writes the difference"}},
+       .failure = "the images differ",
+       .sections = {{"Verdict",
+                     {{"",
+                       "carlo render writes the variance of every pixel into an EXR. Welch's t-test then compares "
+                       "each pixel, and each block of 16x16 pixels, of the two images. All tests share --alpha."}}}}},
+      rows, compare);
 }
 
 } // namespace carlo

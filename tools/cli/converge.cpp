@@ -2,6 +2,7 @@
 #include <converge/output.h>
 #include <converge/page.h>
 #include <integrands/expression.h>
+#include <options/expression_help.h>
 #include <options/integral_options.h>
 #include <report/plot.h>
 #include <terminal/interrupt.h>
@@ -112,29 +113,32 @@ Run measure_all(const std::vector<Target>& targets, const std::vector<Way>& chos
 }
 
 std::vector<Option> rows(ConvergeOptions& o) {
-  std::vector<Option> all = integral_rows(o.integral);
+  OptionGroup common{common_options, integral_rows(o.integral)};
   const std::vector<Option> own = {
       {"--samplers", "NAMES", &o.samplers,
-       "Comma-separated, see --list; of a scene those of carlo render [random,stratified,sobol; of a scene all]"},
+       "Methods, comma-separated, see --list; for a scene, point sets of carlo render. Default: "
+       "random,stratified,sobol; for a scene all."},
       {"--all",
        "",
        &o.all,
-       "Every sampler; of a scene every strategy, spent evenly and adaptively, splats and tiles",
+       "Every method; for a scene every strategy, spent evenly and adaptively, with splats and with tiles.",
        false,
-       {"--samplers"}},
-      {"--points-file", "FILE", &o.points, "These points as one more sampler: a row each, coordinates in [0, 1)"},
-      {"--replicates", "N", &o.replicates,
-       "Independent repetitions behind each RMS error, 0: as many as make it known to 10 %"},
-      {"--time", "SECONDS", &o.time, "Stop at smaller N where this runs out"},
-      {"--seed", "N", &o.seed, "Seed"},
-      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
-      {"-o,--output", "FOLDER", &o.output, "Folder for CSV, JSON, gnuplot script, SVG and PNG, and slopes.csv"},
-      {"--report", "FOLDER", &o.report, "Write a page with all curves to this folder (index.html)"},
+       {{"--samplers", "--all takes every method"}}},
+      {"-o,--output", "FOLDER", &o.output, "Folder for CSV, JSON, gnuplot script, SVG, PNG and slopes.csv."},
+      {"--report", "FOLDER", &o.report, "Write a page with all curves to this folder (index.html)."},
   };
-  all.insert(all.end(), own.begin(), own.end());
-  const std::vector<Option> scene = scene_rows(o.scene);
-  all.insert(all.end(), scene.begin(), scene.end());
-  return all;
+  common.options.insert(common.options.end(), own.begin(), own.end());
+  const OptionGroup expert{
+      expert_options,
+      {
+          {"--points-file", "FILE", &o.points, "Add the points of this file as a method: one point a row, in [0, 1)."},
+          {"--replicates", "N", &o.replicates,
+           "Independent repetitions behind each error, 8 to 100000; 0 is enough to know the error to 10 %."},
+          {"--time", "SECONDS", &o.time, "Wall-clock time for everything; larger N are left out."},
+          {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same errors."},
+          {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+      }};
+  return in_groups({common, plugin_group(o.integral), scene_group(o.scene), expert});
 }
 
 // Where the page will be, looked at before any work; empty where none is wanted.
@@ -216,8 +220,22 @@ int converge(const ConvergeOptions& o) {
 
 Subcommand converge_subcommand() {
   return make_subcommand<ConvergeOptions>(
-      "converge", "Measure how error falls with samples and with seconds, beside theory; write data and plots", rows,
-      converge, expressions);
+      {.name = "converge",
+       .summary =
+           "Measure how fast the error of an estimate falls with samples and with time, and plot it beside theory",
+       .examples = {{"carlo converge pi --max-n 16384", "compares random, stratified and Sobol' points"},
+                    {"carlo converge \"exp(-x*x)*y\" -d \"x=0:1,y=-1:2\" --all --report out",
+                     "measures every method on an expression, and writes a page"},
+                    {"carlo converge scene.xml --strategies nee,mis", "measures the error of pictures"}},
+       .failure = "a truth is doubtful: errors do not fall to it",
+       .sections = {{"Output",
+                     {{"slope", "Fitted exponent of N with a 95 % interval: -0.5 for independent samples. Steeper is "
+                                "better."},
+                      {"theory",
+                       "The exponent of the literature. \"no steeper than\" where logarithms may slow the fall, "
+                       "\"at least as steep as\" where only a bound is proven."}}},
+                    expression_section()}},
+      rows, converge);
 }
 
 } // namespace carlo

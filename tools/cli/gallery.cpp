@@ -43,23 +43,30 @@ struct Asked {
 };
 
 std::vector<Option> rows(GalleryOptions& o) {
-  return {
-      {"NAME", "NAME", &o.names, "Scenes, see --list [all]"},
-      {"-o,--output", "FOLDER", &o.output, "Folder for the pictures (EXR and PNG), index.html and sheet.png"},
-      {"--list", "", &o.list, "List the scenes and stop"},
-      {"--table", "", &o.table, "Print which scene requires which feature, as Markdown, and stop"},
-      {"--spp", "N", &o.spp, "Samples per pixel; or --time, --target-error, or both of these [each scene's]"},
-      {"--time", "SECONDS", &o.seconds, "Wall-clock time for each scene", false, {"--spp"}},
-      {"--target-error",
-       "RATIO",
-       &o.target_error,
-       "Mean relative standard error of the pixels to reach, see carlo render; --time bounds it",
-       false,
-       {"--spp"}},
-      {"--scale", "RATIO", &o.scale, "Size of the pictures beside that of their scenes, in (0, 4]"},
-      {"--seed", "N", &o.seed, "Seed"},
-      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
-  };
+  const Exclusion counted{"--spp", "--time and --target-error choose the number of samples"};
+  return in_groups({
+      {common_options,
+       {
+           {"NAME", "NAME", &o.names, "Scenes, see --list. Default: all."},
+           {"-o,--output", "FOLDER", &o.output, "Folder for the pictures (EXR and PNG), index.html and sheet.png."},
+           {"--spp", "N", &o.spp, "Samples per pixel. Default: each scene's."},
+           {"--time", "SECONDS", &o.seconds, "Wall-clock time for each scene.", false, {counted}},
+           {"--target-error",
+            "RATIO",
+            &o.target_error,
+            "Mean relative standard error of the pixels to reach, see carlo render; --time bounds it.",
+            false,
+            {counted}},
+           {"--scale", "RATIO", &o.scale, "Size of the pictures relative to the scenes' own, in (0, 4]."},
+           {"--list", "", &o.list, "List the scenes, and stop."},
+       }},
+      {expert_options,
+       {
+           {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same bits."},
+           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+           {"--table", "", &o.table, "Print which scene requires which feature as Markdown, and stop."},
+       }},
+  });
 }
 
 int list_scenes() {
@@ -168,8 +175,10 @@ class GalleryRun {
     if (cancel_->load()) return false;
     keep_thumbnail(a, result.image);
     progress_.clear();
-    fmt::print("{:<32} {}x{}, {:.4g} samples/pixel in {}: {}, mean relative standard error {}\n", title, r.width,
-               r.height, r.spp, format_seconds(r.seconds), samples_per_second(result), format_error(result));
+    const std::string error =
+        std::isfinite(r.relative_error) ? fmt::format("{:.2f} %", 100 * r.relative_error) : std::string("unknown");
+    fmt::print("{:<32} {}x{}, {:.4g} samples/pixel in {}, error {}\n", title, r.width, r.height, r.spp,
+               format_seconds(r.seconds), error);
     std::fflush(stdout);
     rendered_.push_back(std::move(r));
     return true;
@@ -201,7 +210,7 @@ class GalleryRun {
 };
 
 int gallery_command(const GalleryOptions& o) {
-  mc::require(o.names.empty() || !(o.list || o.table), "gallery: a list is of all scenes; leave out '{}'",
+  mc::require(o.names.empty() || !(o.list || o.table), "gallery: --list and --table show all scenes; leave out '{}'",
               fmt::join(o.names, " "));
   if (o.list) return list_scenes();
   if (o.table) {
@@ -235,8 +244,13 @@ int gallery_command(const GalleryOptions& o) {
 } // namespace
 
 Subcommand gallery_subcommand() {
-  return make_subcommand<GalleryOptions>("gallery", "Render the scenes of the books and courses, with a page of them",
-                                         rows, gallery_command);
+  return make_subcommand<GalleryOptions>(
+      {.name = "gallery",
+       .summary = "Render scenes of books and courses, with a page that shows them",
+       .examples = {{"carlo gallery --list", "names the scenes and their sources"},
+                    {"carlo gallery cbox smallpt -o out", "renders two scenes"},
+                    {"carlo gallery --time 10 -o out", "renders each scene for ten seconds"}}},
+      rows, gallery_command);
 }
 
 } // namespace carlo

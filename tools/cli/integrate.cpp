@@ -1,6 +1,7 @@
 #include <integrands/expression.h>
 #include <integrands/find.h>
 #include <integrands/sides.h>
+#include <options/expression_help.h>
 #include <options/subcommand.h>
 #include <report/integrate_output.h>
 #include <terminal/interrupt.h>
@@ -40,29 +41,41 @@ struct IntegrateOptions {
 };
 
 std::vector<Option> rows(IntegrateOptions& o) {
-  return {
-      {"INTEGRAND", "", &o.integrands,
-       "Name (see --list) or expression, e.g. \"exp(-x*x)*cos(y)\"; several share their calls"},
-      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:2*_pi,y=-inf:inf\""},
-      {"--list", "", &o.list, "List the named integrands, and stop"},
-      {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach"},
-      {"--abs-error", "ERROR", &o.abs_error, "Absolute standard error that also suffices"},
-      {"--max-calls", "N", &o.max_calls, "Most evaluations of the integrand"},
-      {"--method", "NAME", &o.method, "auto, plain, stratified, rqmc, vegas or tree"},
-      {"--seed", "N", &o.seed, "Seed"},
-      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
-      {"--rounds", "", &o.rounds, "Show what every round said, and how well they agree"},
-      {"--histogram", "AXIS=BINS", &o.histogram,
-       "Show where the integral comes from: along a variable (u0, u1, ... of a named integrand), or value=BINS: from "
-       "values of which size, in powers of 2"},
-      {"--quantiles", "LIST", &o.quantiles,
-       "Show quantiles of the integrand over its domain, e.g. 0.05,0.5,0.95, by as many calls again, at least 98 k and "
-       "at most 2^24 / (dimensions + 1)"},
-      {"--save-density", "FILE", &o.save_density, "Keep the density that vegas, tree or auto learned"},
-      {"--load-density", "FILE", &o.load_density,
-       "Start from a density that was kept, of this integrand or one like it; where it does not fit learning goes on"},
-      {"--json", "FILE", &o.json, "Write the result to this file, with the rounds; - for standard output"},
-  };
+  return in_groups({
+      {common_options,
+       {
+           {"INTEGRAND", "", &o.integrands,
+            "Name (see --list) or expression, e.g. \"exp(-x*x)*cos(y)\". Several are evaluated at the same points."},
+           {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:2*_pi,y=-inf:inf\"."},
+           {"--rel-error", "RATIO", &o.rel_error, "Relative standard error to reach."},
+           {"--abs-error", "ERROR", &o.abs_error,
+            "Absolute standard error that also suffices, in units of the integral."},
+           {"--max-calls", "N", &o.max_calls, "Most evaluations of the integrand."},
+           {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same bits."},
+           {"--list", "", &o.list, "List the named integrands, and stop."},
+           {"--json", "FILE", &o.json, "Write the result and its rounds to this file; - is standard output."},
+       }},
+      {"More results",
+       {
+           {"--rounds", "", &o.rounds, "Print the estimate of every round, and how well the rounds agree."},
+           {"--histogram", "AXIS=BINS", &o.histogram,
+            "Print the shares of the integral along a variable (u0, u1, ... of a named integrand). value=BINS: the "
+            "shares of values by size, in powers of 2."},
+           {"--quantiles", "LIST", &o.quantiles,
+            "Print quantiles of the integrand over its domain, e.g. 0.05,0.5,0.95. Takes as many calls again, at least "
+            "98 k and at most 2^24 / (dimensions + 1)."},
+       }},
+      {expert_options,
+       {
+           {"--method", "NAME", &o.method, "Estimator: auto, plain, stratified, rqmc, vegas or tree."},
+           {"--save-density", "FILE", &o.save_density, "Write the density that vegas, tree or auto learned."},
+           {"--load-density", "FILE", &o.load_density,
+            "Start from a density that --save-density wrote for this integrand or a similar one. Learning goes on "
+            "where "
+            "it does not fit."},
+           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+       }},
+  });
 }
 
 double number(std::string_view word, const char* option) {
@@ -273,14 +286,29 @@ int integrate(const IntegrateOptions& o) {
                 name(r.method), r.calls, o.save_density);
     mc::save_density(o.save_density, *r.density);
   }
-  return cancelled ? exit_interrupted : exit_ok;
+  if (cancelled) return exit_interrupted;
+  const auto reached = [](const mc::Integral& i) {
+    return i.stop == mc::Stop::converged && i.error_bar == mc::ErrorBar::known;
+  };
+  const auto outputs = found.results.outputs.begin();
+  return std::all_of(outputs, outputs + std::ptrdiff_t(found.integrands.size()), reached) ? exit_ok : exit_failed;
 }
 
 } // namespace
 
 Subcommand integrate_subcommand() {
   return make_subcommand<IntegrateOptions>(
-      "integrate", "Integrate a named integrand or an expression, with an error bar", rows, integrate, expressions);
+      {.name = "integrate",
+       .summary = "Estimate an integral, of a named integrand or an expression, with an error bar",
+       .examples = {{"carlo integrate \"exp(-x*x)*cos(y)\" -d \"x=0:1,y=-1:2\" --rel-error 1e-4",
+                     "integrates over a rectangle to a relative error of 0.01 %"},
+                    {"carlo integrate \"exp(-x*x/2)\" -d \"x=-inf:inf\" --histogram x=10",
+                     "shows which parts of the line the integral comes from"},
+                    {"carlo integrate pi --method rqmc --json pi.json",
+                     "integrates a named integrand, and writes JSON"}},
+       .failure = "the wanted error was not reached, or the error is not known",
+       .sections = {expression_section()}},
+      rows, integrate);
 }
 
 } // namespace carlo

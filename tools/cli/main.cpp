@@ -1,6 +1,8 @@
 /// carlo: the command line. The only file that includes CLI11.
 
+#include <options/help.h>
 #include <options/subcommand.h>
+#include <terminal/columns.h>
 #include <terminal/interrupt.h>
 #include <terminal/version.h>
 
@@ -11,6 +13,7 @@
 
 #include <fcntl.h>
 #include <malloc.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -30,20 +33,16 @@
 
 namespace {
 
-using carlo::Option, carlo::Subcommand;
+using carlo::Exclusion, carlo::Option, carlo::Subcommand;
 
-constexpr const char* exit_codes =
-    "Exit codes: 0 done and every check passed; 1 a check failed; 2 bad usage, file or value; 130 interrupted, "
-    "143 by SIGTERM.";
-
-// Puts a count as digits: 1e6 is one too. What is wrong with it, or nothing.
+// Rewrites a count as digits, 1e6 too. Returns the error message, or "".
 template <std::integral T> std::string whole_number(std::string& text) {
   char* end = nullptr;
   const double value = std::strtod(text.c_str(), &end);
   if (end == text.c_str() || *end != 0 || value != std::floor(value) || std::isinf(value))
     return fmt::format("'{}' is not a whole number", text);
   if (std::is_unsigned_v<T> && text.starts_with('-')) return text + " must be >= 0";
-  // More digits than a double has are kept.
+  // Digits beyond the precision of a double stay as they are.
   std::string digits = text.find_first_not_of("-0123456789") < text.size() ? fmt::format("{:.0f}", value) : text;
   T whole{};
   if (std::from_chars(digits.data(), digits.data() + digits.size(), whole).ec == std::errc::result_out_of_range)
@@ -58,44 +57,52 @@ std::string number(const std::string& text) {
   return mc::number_in(text) ? std::string() : fmt::format("'{}' is not a number", text);
 }
 
-// Or else --plugin "$MINE" with no MINE would check a sampler of ours, and -o=a.png would be a file '=a.png'.
-std::string some_word(const std::string& text) {
+// Refuses --plugin "$MINE" where MINE is not set, and -o=a.png, which would name a file '=a.png'.
+std::string nonempty_word(const std::string& text) {
   if (text.empty()) return "'' is empty; give a value or leave it out";
   return text.starts_with('=') ? fmt::format("'{}' begins with =; leave that out", text) : std::string();
 }
 
-CLI::Option* add(CLI::App& app, const Option& o, bool* flag) { return app.add_flag(o.names, *flag, o.help); }
+CLI::Option* add(CLI::App& app, const Option& o, bool* flag) { return app.add_flag(o.names, *flag); }
 
 CLI::Option* add(CLI::App& app, const Option& o, std::vector<std::string>* list) {
-  CLI::Option* option = app.add_option(o.names, *list, o.help);
+  CLI::Option* option = app.add_option(o.names, *list);
   if (o.names.starts_with('-')) option->allow_extra_args(false); // each time it is given adds one
   return option;
 }
 
 template <class T> CLI::Option* add(CLI::App& app, const Option& o, T* target) {
-  CLI::Option* option = app.add_option(o.names, *target, o.help);
+  CLI::Option* option = app.add_option(o.names, *target);
   if constexpr (std::integral<T>) option->transform(CLI::Validator(whole_number<T>, ""));
   if constexpr (std::same_as<T, std::optional<int>>) option->transform(CLI::Validator(whole_number<int>, ""));
   if constexpr (std::same_as<T, double> || std::same_as<T, std::optional<double>>) option->check(number);
-  if constexpr (std::same_as<T, std::string>) option->check(some_word);
-  if constexpr (requires { target->empty(); }) {
-    if (!target->empty()) option->capture_default_str();
-  } else if constexpr (!requires { target->has_value(); }) {
-    option->capture_default_str();
-  }
+  if constexpr (std::same_as<T, std::string>) option->check(nonempty_word);
   return option;
 }
 
 void add(CLI::App& app, const Subcommand& subcommand) {
-  CLI::App* c = app.add_subcommand(subcommand.name, subcommand.help);
-  if (subcommand.hidden) c->group("");
-  c->footer(subcommand.footer.empty() ? exit_codes : fmt::format("{}\n{}", subcommand.footer, exit_codes));
+  CLI::App* c = app.add_subcommand(subcommand.about.name);
+  for (const std::string& alias : subcommand.about.aliases) c->alias(alias);
+  if (subcommand.about.hidden) c->group("");
   for (const Option& o : subcommand.options) {
     CLI::Option* option = std::visit([&](auto* target) { return add(*c, o, target); }, o.target);
     if (!o.value.empty()) option->type_name(o.value);
     option->required(o.required);
-    for (const std::string& name : o.excludes) option->excludes(c->get_option(name));
   }
+}
+
+// "--output" of "-o,--output".
+std::string long_name(const Option& o) { return o.names.substr(o.names.find(',') + 1); }
+
+// Throws Error where two options are given that exclude each other.
+void require_compatible(const CLI::App& app, const Subcommand& subcommand) {
+  const std::string& name = subcommand.about.name;
+  const CLI::App* given = app.get_subcommand(name);
+  for (const Option& o : subcommand.options)
+    for (const Exclusion& e : o.excludes)
+      mc::require(given->count(long_name(o)) == 0 || given->count(e.option) == 0,
+                  "{} and {} exclude each other: {}; leave one out (see carlo {} --help)", e.option, long_name(o),
+                  e.reason, name);
 }
 
 std::string quoted(const std::string& word) {
@@ -106,8 +113,8 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-// What the parser complains of, with the name that may have been meant.
-std::string complaint(const CLI::App& app, const CLI::ParseError& e) {
+// The message of a parse error, with the name that may have been meant.
+std::string message_of(const CLI::App& app, const CLI::ParseError& e) {
   const std::vector<CLI::App*> given = app.get_subcommands();
   const CLI::App& asked = given.empty() ? app : *given.front();
   const std::string help = fmt::format("see carlo {}--help", given.empty() ? "" : asked.get_name() + " ");
@@ -131,48 +138,65 @@ std::string complaint(const CLI::App& app, const CLI::ParseError& e) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("carlo: Monte Carlo samplers validated, convergence measured, scenes rendered with error bars");
+  CLI::App app(carlo::carlo_summary);
   app.set_version_flag("--version", fmt::format("carlo {} ({})", carlo::version, carlo::commit));
   app.require_subcommand(1);
-  app.footer(exit_codes);
   const std::vector<Subcommand> all = carlo::subcommands();
   for (const Subcommand& c : all) add(app, c);
+  const auto given = [&] {
+    return std::find_if(all.begin(), all.end(), [&](const Subcommand& c) { return app.got_subcommand(c.about.name); });
+  };
   try {
     app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    const std::size_t columns = carlo::terminal_columns(STDOUT_FILENO);
+    fmt::print("{}", given() == all.end() ? help_of(all, columns) : help_of(*given(), columns));
+    return carlo::exit_ok;
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e); // --help, --version
-    throw mc::Error(complaint(app, e));
+    if (e.get_exit_code() == 0) return app.exit(e); // --version
+    throw mc::Error(message_of(app, e));
   }
 
+  require_compatible(app, *given());
   std::string command = "carlo";
   for (int i = 1; i < argc; ++i) command += " " + quoted(argv[i]);
-  for (const Subcommand& c : all)
-    if (app.got_subcommand(c.name)) {
-      const int code = c.run(command);
-      return code == carlo::exit_interrupted && carlo::Interrupt::is_terminated() ? carlo::exit_terminated : code;
-    }
-  return carlo::exit_bad_input;
+  const int code = given()->run(command);
+  return code == carlo::exit_interrupted && carlo::Interrupt::is_terminated() ? carlo::exit_terminated : code;
 }
 
-// A stream that was closed before carlo began would lend its number to the next file that is opened.
+// Opens a stream that was closed before carlo began: the next file that is opened would get its descriptor.
 void occupy_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-// What one case of validate gives back the next one takes: asking the system for pages anew, which it clears each time,
-// takes a tenth of the time.
+// Keeps freed memory for the next case of validate. The system clears every page that it hands out, which takes time.
 void keep_memory() {
   mallopt(M_MMAP_THRESHOLD, 1 << 25); // bytes; the largest that is allowed
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
-// A full disk or a closed pipe may show only here.
+// Whether a stream is a pipe that nothing reads any more.
+bool is_closed_pipe(int stream) {
+  pollfd state{stream, 0, 0};
+  return poll(&state, 1, 0) == 1 && (state.revents & POLLERR) != 0;
+}
+
+// Ends as a program does that a signal of a closed pipe kills: without a message, a shell reports 141.
+[[noreturn]] void end_by_closed_pipe() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+  std::_Exit(carlo::exit_closed_pipe); // where the signal is blocked
+}
+
+// Writes what is still in the buffers: a full disk or a closed pipe may show only here.
 int finish(int code) {
   const bool flushed = std::fflush(stdout) == 0;
   const int failure = flushed ? 0 : errno;
-  mc::require(flushed && !std::ferror(stdout) && std::cout.flush().good(), "cannot write to standard output: {}",
-              failure != 0 ? std::strerror(failure) : "what was printed before is lost");
+  const bool complete = flushed && std::ferror(stdout) == 0 && std::cout.flush().good();
+  if (!complete && is_closed_pipe(STDOUT_FILENO)) end_by_closed_pipe();
+  mc::require(complete, "cannot write to standard output: {}",
+              failure != 0 ? std::strerror(failure) : "an earlier write failed");
   return code;
 }
 
@@ -181,14 +205,15 @@ int finish(int code) {
 int main(int argc, char** argv) {
   occupy_standard_streams();
   keep_memory();
-  std::signal(SIGPIPE, SIG_IGN); // a closed pipe is an error of the write
+  std::signal(SIGPIPE, SIG_IGN); // a write to a closed pipe fails instead: a plugin's pipe must not end carlo
   try {
     return finish(run(argc, argv));
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "carlo: out of memory; ask for a smaller image or fewer samples\n");
   } catch (const std::filesystem::filesystem_error& e) {
     std::fprintf(stderr, "carlo: %s\n", e.what());
-  } catch (const std::system_error& e) { // of fmt::print
+  } catch (const std::system_error& e) { // of fmt::print and ResultFile
+    if (e.code() == std::errc::broken_pipe) end_by_closed_pipe();
     std::fprintf(stderr, "carlo: cannot write to standard output: %s\n", e.code().message().c_str());
   } catch (const std::exception& e) {
     std::fprintf(stderr, "carlo: %s\n", e.what());

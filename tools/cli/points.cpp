@@ -39,9 +39,9 @@ struct PointsOptions {
   std::string command;
 };
 
-constexpr std::uint64_t most_points = 32768; // pairs of points are looked at
+constexpr std::uint64_t most_points = 32768; // the work grows as their square
 constexpr int most_dimensions = 16;
-constexpr int axes_drawn = 8; // by projections_svg: more would be too small to look at
+constexpr int axes_drawn = 8; // by projections_svg: more would be too small to read
 
 Sets randomised(const PointSet& set, std::uint64_t n, const PointsOptions& o) {
   Sets sets;
@@ -80,9 +80,7 @@ void print(const Row& r, int dim, std::size_t sets) {
     line("power up to sqrt(N) / 2", "", number(low_power(r.power, r.n)), number(low_power(r.random.power, r.n)),
          number(low_power(r.jittered.power, r.n)));
   if (r.t) fmt::print("a ({}, {}, {})-net in base 2\n", *r.t, std::countr_zero(r.n), dim);
-  else
-    fmt::print("no t: {}\n",
-               std::has_single_bit(r.n) ? "too many boxes to look at" : "the number of points is no power of 2");
+  else fmt::print("no t: {}\n", std::has_single_bit(r.n) ? "too many boxes" : "the number of points is no power of 2");
   fmt::print(
       "means of L2 discrepancies are root mean squares; of random and jittered points the star discrepancy is the "
       "mean of {} sets, distance and t of {}, the others by formula\n",
@@ -166,24 +164,32 @@ void write(const PointsOptions& o, const std::filesystem::path& folder, const Me
 }
 
 std::vector<Option> rows(PointsOptions& o) {
-  return {
-      {"SET", "", &o.set, "Point set by name, see --list"},
-      {"--points-file", "FILE", &o.file, "Look at these points instead: a row each, coordinates in [0, 1)"},
-      {"--list", "", &o.list, "List the point sets, and stop"},
-      {"-n,--count", "N", &o.count, "Points; the curves lead from 16 to here", false, {"--points-file"}},
-      {"-d,--dim", "N", &o.dim, "Dimensions, 1 to 16", false, {"--points-file"}},
-      {"--randomisations",
-       "N",
-       &o.randomisations,
-       "Independent ones behind each root mean square",
-       false,
-       {"--points-file"}},
-      {"--seed", "N", &o.seed, "Seed", false, {"--points-file"}},
-      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
-      {"-o,--output", "FOLDER", &o.output,
-       "Folder for points.csv, points.svg (all pairs of the first 8 axes), quality.csv, .json, .svg, .png and "
-       "spectrum.csv"},
-  };
+  const Exclusion own{"--points-file", "the file determines its points"};
+  return in_groups({
+      {common_options,
+       {
+           {"SET", "", &o.set, "Point set by name, see --list."},
+           {"-n,--count", "N", &o.count, "Number of points, 2 to 32768. The curves lead from 16 to N.", false, {own}},
+           {"-d,--dim", "N", &o.dim, "Dimensions, 1 to 16.", false, {own}},
+           {"--points-file", "FILE", &o.file,
+            "Measure the points of this file instead: one point a row, coordinates in [0, 1)."},
+           {"-o,--output", "FOLDER", &o.output,
+            "Folder for points.csv, points.svg (all pairs of the first 8 axes), quality.csv, .json, .svg and .png, and "
+            "spectrum.csv."},
+           {"--list", "", &o.list, "List the point sets, and stop."},
+       }},
+      {expert_options,
+       {
+           {"--randomisations",
+            "N",
+            &o.randomisations,
+            "Independent randomizations behind each mean, 1 to 1000.",
+            false,
+            {own}},
+           {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same points.", false, {own}},
+           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+       }},
+  });
 }
 
 int points(const PointsOptions& o) {
@@ -216,7 +222,19 @@ int points(const PointsOptions& o) {
 
 Subcommand points_subcommand() {
   return make_subcommand<PointsOptions>(
-      "points", "Look at a point set: pictures, discrepancies, distances, t of a net, spectrum", rows, points);
+      {.name = "points",
+       .summary = "Measure how evenly a point set fills the unit cube: pictures, discrepancies, distances, spectrum",
+       .examples = {{"carlo points sobol -n 1024 -d 2", "measures 1024 points of the Sobol' sequence in the plane"},
+                    {"carlo points --list", "names the point sets"},
+                    {"carlo points --points-file mine.csv -o out", "measures the points of a file"}},
+       .sections =
+           {{"Measures",
+             {{"discrepancy", "Largest (star) or root-mean-square (L2) difference between the share of points in "
+                              "a box and its volume. Smaller is more even."},
+              {"t of the net", "Least t for which the points are a (t, m, d)-net in base 2. Smaller is more even."},
+              {"power", "Mean power of the spectrum at frequencies up to sqrt(N) / 2; 1 for independent points. "
+                        "Smaller means smaller errors of smooth integrands."}}}}},
+      rows, points);
 }
 
 } // namespace carlo

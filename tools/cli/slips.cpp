@@ -34,7 +34,7 @@ Slips select(const std::vector<std::string>& names) {
     if (found == all.end()) {
       std::vector<std::string> known;
       for (const Slip& s : all) known.insert(known.end(), {s.id, s.name});
-      throw mc::Error(fmt::format("slips: unknown slip '{}'{} (carlo slips --list names them all)", name,
+      throw mc::Error(fmt::format("known-bugs: unknown bug '{}'{} (carlo known-bugs --list names them all)", name,
                                   mc::did_you_mean(name, known)));
     }
     chosen.push_back(*found);
@@ -100,7 +100,7 @@ json to_json(const Slip& s, const Judged& t) {
           {"test", t.test},
           {"samples", t.caught ? json(t.samples) : json()},
           {"fault", name(t.wrong.fault())},
-          {"report", t.wrong.to_string()},
+          {"report", t.wrong.to_string(mc::ReportText::full)},
           {"right", {{"verdict", name(t.right.verdict())}, {"p", t.right.p()}, {"samples", t.right.samples}}}};
 }
 
@@ -111,7 +111,7 @@ std::vector<std::optional<Judged>> judge_all(const Slips& slips, const SlipsOpti
       "book: Ray Tracing: The Rest of Your Life, 2016; course: Introduction to Real-Time Ray Tracing, SIGGRAPH 2019;\n"
       "lecture: CMU 15-468, 2021, with smallpt; lajolla: its design notes, UCSD CSE 272\n\n"
       "{:<4} {:<34} {:<29} {:<27} {:>8}  {}\n",
-      "slip", "", "where", "caught by", "samples", "the right one");
+      "bug", "", "where", "caught by", "samples", "corrected");
   std::vector<std::optional<Judged>> judged(slips.size());
   std::size_t printed = 0, finished = 0;
   std::mutex mutex;
@@ -132,7 +132,7 @@ std::vector<std::optional<Judged>> judge_all(const Slips& slips, const SlipsOpti
     for (; printed < slips.size() && judged[printed]; ++printed) print(printed);
     std::fflush(stdout);
     progress.show(static_cast<double>(finished) / static_cast<double>(slips.size()),
-                  fmt::format("{} of {} slips", finished, slips.size()));
+                  fmt::format("{} of {} bugs", finished, slips.size()));
   });
   progress.clear();
   for (std::size_t i = printed; i < slips.size(); ++i)
@@ -143,9 +143,9 @@ std::vector<std::optional<Judged>> judge_all(const Slips& slips, const SlipsOpti
 void print_stories(const Slips& slips, const std::vector<std::optional<Judged>>& judged) {
   for (std::size_t i = 0; i < slips.size(); ++i) {
     if (!judged[i]) continue;
-    fmt::print("\n{}, {}\n  {}\n  wrong{}\n", slips[i].title(), slips[i].where, slips[i].story,
+    fmt::print("\n{}, {}\n  {}\n  wrong: {}\n", slips[i].title(), slips[i].where, slips[i].story,
                judged[i]->wrong.to_string());
-    if (!judged[i]->right.passed()) fmt::print("  right{}\n", judged[i]->right.to_string());
+    if (!judged[i]->right.passed()) fmt::print("  corrected: {}\n", judged[i]->right.to_string());
   }
 }
 
@@ -176,15 +176,22 @@ bool judge_boxes(const SlipsOptions& o, json& all) {
 }
 
 std::vector<Option> rows(SlipsOptions& o) {
-  return {
-      {"SLIP", "", &o.names, "Slips by id or name, for their stories [all, and the Cornell boxes]"},
-      {"--list", "", &o.list, "List the slips, and stop"},
-      {"--alpha", "PROBABILITY", &o.alpha, "Chance of a false rejection, over all looks at one slip"},
-      {"--samples", "N", &o.samples, "Samples per slip at most"},
-      {"--seed", "N", &o.seed, "Seed"},
-      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
-      {"--json", "FILE", &o.json, "Write the results to this file, - for standard output"},
-  };
+  return in_groups({
+      {common_options,
+       {
+           {"BUG", "", &o.names, "Bugs by id or name, with their explanations. Default: all, and the Cornell boxes."},
+           {"--list", "", &o.list, "List the bugs, and stop."},
+           {"--json", "FILE", &o.json, "Write the results to this file; - is standard output."},
+       }},
+      {expert_options,
+       {
+           {"--samples", "N", &o.samples, "Most samples per bug, 8000 to 1e9."},
+           {"--alpha", "PROBABILITY", &o.alpha,
+            "Probability of rejecting a correct distribution, over all sample sizes tried for one bug."},
+           {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same verdicts."},
+           {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+       }},
+  });
 }
 
 } // namespace
@@ -195,8 +202,8 @@ int slips(const SlipsOptions& o) {
     for (const Slip& s : slips) fmt::print("{:<4} {:<34} {}\n", s.id, s.name, s.where);
     return exit_ok;
   }
-  mc::require(o.alpha > 0 && o.alpha < 1, "slips: --alpha {} must lie in (0, 1)", o.alpha);
-  mc::require(o.samples >= 8000 && o.samples <= 1'000'000'000, "slips: --samples {} must lie in [8000, 1e9]",
+  mc::require(o.alpha > 0 && o.alpha < 1, "known-bugs: --alpha {} must lie in (0, 1)", o.alpha);
+  mc::require(o.samples >= 8000 && o.samples <= 1'000'000'000, "known-bugs: --samples {} must lie in [8000, 1e9]",
               o.samples);
   const ResultFile file(o.json);
 
@@ -216,9 +223,9 @@ int slips(const SlipsOptions& o) {
   bool boxes_as_claimed = true;
   if (!o.names.empty()) print_stories(slips, judged);
   else if (!interrupted) boxes_as_claimed = judge_boxes(o, all["boxes"]);
-  fmt::print("\n{} of {} slips rejected, {} of {} right ones passed, at alpha {:g} over all looks of a slip, seed {}\n",
-             caught, finished, right, finished, o.alpha, o.seed);
-  if (interrupted) fmt::print("interrupted: {} of {} slips were finished\n", finished, slips.size());
+  fmt::print("\n{} of {} bugs rejected, {} of {} corrections passed, at alpha {:g} for each, seed {}\n", caught,
+             finished, right, finished, o.alpha, o.seed);
+  if (interrupted) fmt::print("interrupted: {} of {} bugs were finished\n", finished, slips.size());
   const bool passed = caught == slips.size() && right == slips.size() && boxes_as_claimed && !interrupted;
   all["passed"] = passed;
   if (interrupted) all["interrupted"] = true;
@@ -229,7 +236,14 @@ int slips(const SlipsOptions& o) {
 
 Subcommand slips_subcommand() {
   return make_subcommand<SlipsOptions>(
-      "slips", "Tell what the checkers make of the wrong samplers that books and courses print", rows, slips);
+      {.name = "known-bugs",
+       .summary = "Run the checker on sampling bugs that books, courses and renderers have printed",
+       .examples = {{"carlo known-bugs", "checks all bugs, and their corrections"},
+                    {"carlo known-bugs P9", "explains one bug, and the test that finds it"},
+                    {"carlo known-bugs --list", "names the bugs and their sources"}},
+       .failure = "a bug was missed, or a correction failed",
+       .aliases = {"slips"}},
+      rows, slips);
 }
 
 } // namespace carlo

@@ -2,6 +2,7 @@
 #include <converge/page.h>
 #include <converge/trade.h>
 #include <integrands/expression.h>
+#include <options/expression_help.h>
 #include <options/integral_options.h>
 #include <options/subcommand.h>
 #include <report/plot.h>
@@ -177,27 +178,32 @@ std::vector<Way> configurations(const Target& target) {
 }
 
 std::vector<Option> rows(TradeOptions& o) {
-  std::vector<Option> all = integral_rows(o.integral);
+  OptionGroup common{common_options, integral_rows(o.integral)};
   const std::vector<Option> own = {
       {"--error", "LIST", &o.errors,
-       "RMS errors to reach, absolute: \"1e-2,1e-3\" [three decades below the integral; of a scene 0.2,0.1,0.05]"},
+       "RMS errors to reach, absolute: \"1e-2,1e-3\". Default: three decades below the integral; for a scene "
+       "0.2,0.1,0.05."},
       {"--seconds",
        "LIST",
        &o.seconds,
-       "Or CPU seconds to spend: \"0.001,0.01\"; with --cost rays millions of rays",
+       "CPU seconds to spend: \"0.001,0.01\"; with --cost rays millions of rays.",
        false,
-       {"--error"}},
-      {"--time", "SECONDS", &o.time, "Stop at smaller N where this runs out"},
-      {"--seed", "N", &o.seed, "Seed"},
-      {"--threads", "N", &o.threads, "Threads, 0 for all of the machine's"},
-      {"-o,--output", "FOLDER", &o.output, "Folder for trade.json, .csv, .gp, .svg, .png and front.csv"},
-      {"--report", "FOLDER", &o.report, "Write a page with the choice and all curves to this folder (index.html)"},
+       {{"--error", "one of them asks for the cheapest method, the other for the most accurate one"}}},
+      {"-o,--output", "FOLDER", &o.output, "Folder for trade.json, .csv, .gp, .svg, .png and front.csv."},
+      {"--report", "FOLDER", &o.report, "Write a page with the choice and all curves to this folder (index.html)."},
   };
-  all.insert(all.end(), own.begin(), own.end());
-  all.push_back({"--samplers", "NAMES", &o.samplers, "Of a scene: comma-separated, see carlo render [all]"});
-  const std::vector<Option> scene = scene_rows(o.scene);
-  all.insert(all.end(), scene.begin(), scene.end());
-  return all;
+  common.options.insert(common.options.end(), own.begin(), own.end());
+  OptionGroup scene = scene_group(o.scene);
+  scene.options.push_back({"--samplers", "NAMES", &o.samplers,
+                           "Point sets of the pixels, comma-separated, see carlo render. Default: all."});
+  const OptionGroup expert{
+      expert_options,
+      {
+          {"--time", "SECONDS", &o.time, "Wall-clock time for everything; larger N are left out."},
+          {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same errors."},
+          {"--threads", "N", &o.threads, "Threads; 0 is all processors."},
+      }};
+  return in_groups({common, plugin_group(o.integral), scene, expert});
 }
 
 /// What is wanted of a target.
@@ -363,9 +369,15 @@ int trade(const TradeOptions& o) {
 } // namespace
 
 Subcommand trade_subcommand() {
-  return make_subcommand<TradeOptions>("trade",
-                                       "Tell the cheapest way to a wanted error, or the most accurate in a given time",
-                                       rows, trade, expressions);
+  return make_subcommand<TradeOptions>(
+      {.name = "trade",
+       .summary = "Find the cheapest method for a wanted error, or the most accurate one for a given time",
+       .examples = {{"carlo trade pi --error 1e-3", "finds the method that reaches an error of 0.001 first"},
+                    {"carlo trade genz_c0_8d --seconds 0.01,0.1", "finds the most accurate methods for these times"},
+                    {"carlo trade scene.xml --cost rays --report out", "compares ways to render, and writes a page"}},
+       .failure = "a wanted error or time was not reached, or a truth is doubtful",
+       .sections = {expression_section()}},
+      rows, trade);
 }
 
 } // namespace carlo

@@ -8,6 +8,7 @@ namespace carlo {
 struct ValidateOptions {
   std::vector<std::string> names;
   bool all = false, list = false;
+  bool verbose = false;              ///< print every check that does not pass
   double alpha = 0.01;               ///< family-wise over every statistical test of the run
   std::uint64_t samples = 1'000'000; ///< per case
   std::uint64_t seed = 1;
@@ -31,6 +32,10 @@ struct ValidateOptions {
   std::string command;
   std::string worker = "/proc/self/exe"; ///< the carlo that runs foreign code
 };
+
+/// The options as rows of --help, and its texts.
+std::vector<Option> validate_rows(ValidateOptions& options);
+About validate_about();
 
 int validate(const ValidateOptions& options);
 

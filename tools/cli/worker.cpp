@@ -23,13 +23,16 @@ nlohmann::json run_task(const nlohmann::json& request, Watch& watch) {
 } // namespace
 
 Subcommand worker_subcommand() {
-  Subcommand c{
-      .name = "worker", .help = "Runs foreign code for carlo, which starts it itself", .options = {}, .run = {}};
+  Subcommand c{.about = {.name = "worker",
+                         .summary = "Run foreign code for carlo, which starts it",
+                         .examples = {},
+                         .hidden = true},
+               .options = {},
+               .run = {}};
   c.run = [](const std::string&) {
     serve(run_task);
     return static_cast<int>(exit_ok);
   };
-  c.hidden = true;
   return c;
 }
 

@@ -7,12 +7,6 @@
 
 namespace carlo {
 
-/// What an expression is made of, for --help.
-inline constexpr const char* expressions =
-    "Expressions: + - * / ^, < <= == != >= >, and, or, not(), c ? a : b, if(c, a, b), abs sign floor rint min max "
-    "sum avg sqrt exp ln log (= ln) log2 log10 sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh, "
-    "_pi, _e.";
-
 /// Some 60 bytes of a text around a place in it, for a message.
 std::string abridged(std::string_view text, std::size_t at = 0);
 

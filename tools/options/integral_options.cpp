@@ -54,7 +54,7 @@ std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, c
       strategies.push_back(::render::strategy_from(name));
     return strategies;
   }
-  constexpr std::array<std::string_view, 4> four = {"mixture", "nee", "mis", "bidirectional"};
+  constexpr std::array<std::string_view, 4> four = {"mixture", "nee", "mis", "mis+lt"};
   for (const ::render::Strategy& s : strategies_for(file.scene))
     if (all || std::find(four.begin(), four.end(), s.name) != four.end()) strategies.push_back(s);
   return strategies;
@@ -91,26 +91,33 @@ std::vector<Option> integral_rows(IntegralOptions& o) {
   return {
       {"INTEGRAND", "", &o.integrands,
        "Names (see --list), groups (books, genz, rates), an expression, e.g. \"exp(-x*x)*cos(y)\", or a scene file "
-       "(.xml) [books]"},
-      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:2*_pi,y=-inf:inf\""},
-      {"--plugin",
-       "FILE",
-       &o.plugin,
-       "Integrands of this shared object, compiled against <mc/check/plugin.h>",
-       false,
-       {"--domain"}},
-      {"--timeout", "SECONDS", &o.timeout, "Time that a plugin may take for the repetitions at one N [60]"},
-      {"--memory", "GIB", &o.memory, "Memory that a plugin may take [4]"},
-      {"--max-n", "N", &o.max_n, "Largest number of evaluations of an integrand"},
-      {"--list", "", &o.list, "List the integrands and the samplers, and stop"},
+       "(.xml). Default: books."},
+      {"-d,--domain", "BOUNDS", &o.domain, "Bounds of an expression's variables, e.g. \"x=0:2*_pi,y=-inf:inf\"."},
+      {"--max-n", "N", &o.max_n, "Largest number of evaluations of an integrand."},
+      {"--list", "", &o.list, "List the integrands and the methods, and stop."},
   };
+}
+
+OptionGroup plugin_group(IntegralOptions& o) {
+  return {"Your own integrands",
+          {
+              {"--plugin",
+               "FILE",
+               &o.plugin,
+               "Take the integrands of this shared object, compiled against <mc/check/plugin.h>.",
+               false,
+               {{"--domain", "a plugin states its own bounds"}}},
+              {"--timeout", "SECONDS", &o.timeout,
+               "Wall-clock time for the repetitions of a plugin at one N. Default: 60."},
+              {"--memory", "GIB", &o.memory, "Memory for a plugin, in GiB. Default: 4."},
+          }};
 }
 
 std::vector<Target> targets_of(const IntegralOptions& o) {
   mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
   Limits limits = limits_of(o.timeout, o.memory, !o.plugin.empty());
   if (!o.plugin.empty()) {
-    mc::require(o.domain.empty(), "a plugin states its own bounds; --domain is for an expression");
+    mc::require(o.domain.empty(), "--domain is for an expression; a plugin states its own bounds");
     limits.less = "--max-n";
     return plugin_targets(o.plugin, o.integrands, {.limits = limits});
   }
@@ -133,20 +140,25 @@ int list_integrals() {
     fmt::print("{}: {}\n", g.name, g.title);
     for (const Experiment& e : g.list()) fmt::print("  {:<24} {}\n", e.name, e.title);
   }
-  fmt::print("samplers:\n");
+  fmt::print("methods (point sets and estimators):\n");
   for (const Way& w : ways()) fmt::print("  {:<24} {}\n", w.name, w.title);
   return exit_ok;
 }
 
-std::vector<Option> scene_rows(SceneOptions& o) {
+OptionGroup scene_group(SceneOptions& o) {
   return {
-      {"--strategies", "NAMES", &o.strategies,
-       "Of a scene: comma-separated, see carlo render [of mixture, nee, mis and bidirectional what finds every light]"},
-      {"--max-depths", "LIST", &o.depths, "Of a scene: longest paths in edges, -1 for no limit [the scene's]"},
-      {"--size", "WxH", &o.size, "Of a scene's pictures, in pixels [48 wide]"},
-      {"--max-spp", "N", &o.max_spp, "Of a scene: most samples per pixel"},
-      {"--cost", "WHAT", &o.cost, "Of a scene: cpu, or rays, a million for a second, the same on every machine"},
-  };
+      "Scenes",
+      {
+          {"--strategies", "NAMES", &o.strategies,
+           "Strategies, comma-separated, see carlo render --list-strategies. Default: those of mixture, nee, mis and "
+           "mis+lt that find every light."},
+          {"--max-depths", "LIST", &o.depths,
+           "Longest paths in edges, comma-separated; -1 is no limit. Default: the scene's."},
+          {"--size", "WxH", &o.size, "Size of the pictures in pixels. Default: 48 wide."},
+          {"--max-spp", "N", &o.max_spp, "Most samples per pixel."},
+          {"--cost", "WHAT", &o.cost,
+           "Unit of cost: cpu, seconds of processor time, or rays, millions of rays, the same on every machine."},
+      }};
 }
 
 void refuse_scene_options(const SceneOptions& o) {
@@ -156,8 +168,8 @@ void refuse_scene_options(const SceneOptions& o) {
 void refuse_integral_options(const IntegralOptions& o) {
   IntegralOptions none;
   none.integrands = o.integrands;
-  mc::require(o == none, "--domain, --plugin, --timeout, --memory and --max-n are not for a scene (.xml), which has "
-                         "--max-spp and --size");
+  mc::require(o == none, "--domain, --plugin, --timeout, --memory and --max-n are for an integrand; a scene (.xml) "
+                         "takes --max-spp and --size");
 }
 
 bool is_scene(const std::vector<std::string>& words) { return words.size() == 1 && words[0].ends_with(".xml"); }
@@ -220,7 +232,7 @@ std::string about_pictures(const Pictures& pictures) {
 }
 
 std::string interrupted_pictures(const Pictures& pictures) {
-  if (pictures.ways.empty()) return "interrupted: no way was finished at 4 samples per pixel, the fewest";
+  if (pictures.ways.empty()) return "interrupted: no method was finished at 4 samples per pixel, the least number";
   return fmt::format("interrupted: errors up to {:.0f} samples per pixel are known", pictures.biases.front().n);
 }
 

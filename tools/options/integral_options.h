@@ -1,5 +1,5 @@
 #pragma once
-/// What the subcommands that measure integrals and scenes are asked for alike.
+/// Options that the subcommands which measure integrals and scenes have in common.
 
 #include <converge/pictures.h>
 #include <options/subcommand.h>
@@ -21,7 +21,9 @@ struct IntegralOptions {
   bool operator==(const IntegralOptions&) const = default;
 };
 
+/// Rows for the common options, and the options of plugins.
 std::vector<Option> integral_rows(IntegralOptions& o);
+OptionGroup plugin_group(IntegralOptions& o);
 
 /// The integrands asked for; those of the books when none is.
 ///   throws : Error for what means nothing, a bad number, and for what find_integrand and plugin_targets refuse
@@ -31,7 +33,7 @@ std::vector<Target> targets_of(const IntegralOptions& o);
 int list_integrals();
 
 struct SceneOptions {
-  std::string strategies; ///< empty: of mixture, nee, mis and bidirectional those that find every light
+  std::string strategies; ///< empty: of mixture, nee, mis and mis+lt those that find every light
   std::string depths;     ///< longest paths; empty: the scene's
   std::string size;       ///< "WxH"; empty: 48 pixels wide
   int max_spp = 64;
@@ -39,7 +41,7 @@ struct SceneOptions {
   bool operator==(const SceneOptions&) const = default;
 };
 
-std::vector<Option> scene_rows(SceneOptions& o);
+OptionGroup scene_group(SceneOptions& o);
 
 /// Throws Error where one of them is given for an integral.
 void refuse_scene_options(const SceneOptions& o);

@@ -2,10 +2,10 @@
 /// A subcommand of carlo as data: its words, its options as rows, and the function that runs it.
 ///
 /// A new subcommand is one file in cli/, CMake's line for it, and a row in subcommands.cpp. The file defines
-///   Subcommand NAME_subcommand() { return make_subcommand<Options>("NAME", "What it does", rows, run); }
-/// where Options is a struct of its own, rows(Options&) lists the options with the fields that they fill, and
-/// run(const Options&) prints its result on stdout and progress on stderr, returns the exit code, and throws mc::Error
-/// on bad input.
+///   Subcommand NAME_subcommand() { return make_subcommand<Options>(about, rows, run); }
+/// where Options is a struct of its own, `about` its texts, rows(Options&) lists the options with the fields that they
+/// fill, and run(const Options&) prints its result on stdout and progress on stderr, returns the exit code, and throws
+/// mc::Error on bad input.
 
 #include <cstdint>
 #include <functional>
@@ -21,10 +21,17 @@ namespace carlo {
 /// What carlo returns to the shell.
 enum ExitCode : int {
   exit_ok = 0,            ///< done, and every check passed
-  exit_failed = 1,        ///< done, but a check failed: a sampler broke a law, two images differ
+  exit_failed = 1,        ///< done, but a check failed or a wanted error was not reached
   exit_bad_input = 2,     ///< bad usage, file or value; one line on stderr says what to do
-  exit_interrupted = 130, ///< Ctrl-C; what was found so far is written, or said, and marked as such
-  exit_terminated = 143   ///< the same by SIGTERM; subcommands return exit_interrupted
+  exit_interrupted = 130, ///< Ctrl-C; the results so far are written, or printed, and marked as such
+  exit_closed_pipe = 141, ///< nothing reads standard output any more, as behind `| head`
+  exit_terminated = 143   ///< SIGTERM, else as exit_interrupted, which subcommands return
+};
+
+/// Another option that cannot be given with this one.
+struct Exclusion {
+  std::string option; ///< "--spp"
+  std::string reason; ///< "--time chooses the number of samples": the end of a message
 };
 
 /// One option, or an argument that has a place and no name.
@@ -33,27 +40,59 @@ struct Option {
                               std::optional<int>*, std::optional<double>*>;
 
   std::string names; ///< "-o,--output"; "SCENE" of an argument by place
-  std::string value; ///< what stands behind it, for --help: "SECONDS", "FILE"; empty for a flag
-  Target target;     ///< filled when the option is given; what it holds before is the default that --help shows
-  std::string help;  ///< one line; a default that the field cannot show stands at its end in [brackets]
+  std::string value; ///< metavariable for --help: "SECONDS", "FILE"; empty for a flag
+  Target target;     ///< filled when the option is given; its initial value is the default that --help shows
+  std::string help;  ///< one or two sentences; a default that the field cannot show stands at the end
   bool required = false;
-  std::vector<std::string> excludes = {}; ///< names of options of rows above that cannot be given beside it
+  std::vector<Exclusion> excludes = {};
+  std::string group = {}; ///< heading in --help, see in_groups
+};
+
+/// Options under one heading of --help.
+struct OptionGroup {
+  std::string title;
+  std::vector<Option> options;
+};
+
+inline constexpr const char* common_options = "Common options"; ///< the first group
+inline constexpr const char* expert_options = "Expert options"; ///< the last group
+
+/// The options of all groups, in order.
+std::vector<Option> in_groups(std::vector<OptionGroup> groups);
+
+/// A term with its explanation; a paragraph where the term is empty.
+struct HelpEntry {
+  std::string term, text;
+};
+
+/// A part of --help below the options.
+struct HelpSection {
+  std::string title;
+  std::vector<HelpEntry> entries;
+};
+
+/// The texts of a subcommand.
+struct About {
+  std::string name;
+  std::string summary;                    ///< one sentence without a full stop
+  std::vector<HelpEntry> examples;        ///< command lines and what they do
+  std::string failure = {};               ///< what exit code 1 means; empty where it does not occur
+  std::vector<HelpSection> sections = {}; ///< further explanation
+  std::vector<std::string> aliases = {};  ///< former names, which --help does not show
+  bool hidden = false;                    ///< not for users: --help does not name it
 };
 
 struct Subcommand {
-  std::string name, help;
+  About about;
   std::vector<Option> options;
   std::function<int(const std::string& command_line)> run;
-  std::string footer = {}; ///< of its --help
-  bool hidden = false;     ///< not for users: --help does not name it
 };
 
 /// The subcommand of an Options struct and its functions. Where Options has a field `command` it gets the command line.
 template <class Options>
-Subcommand make_subcommand(std::string name, std::string help, std::vector<Option> (*rows)(Options&),
-                           int (*run)(const Options&), std::string footer = {}) {
+Subcommand make_subcommand(About about, std::vector<Option> (*rows)(Options&), int (*run)(const Options&)) {
   const auto options = std::make_shared<Options>();
-  Subcommand c{std::move(name), std::move(help), rows(*options), {}, std::move(footer)};
+  Subcommand c{std::move(about), rows(*options), {}};
   c.run = [options, run]([[maybe_unused]] const std::string& command_line) {
     if constexpr (requires { options->command; }) options->command = command_line;
     return run(*options);

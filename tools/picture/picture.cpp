@@ -1,4 +1,5 @@
 #include <picture/picture.h>
+#include <terminal/columns.h>
 #include <terminal/progress.h>
 #include <terminal/version.h>
 
@@ -69,22 +70,27 @@ std::string format_error(const ::render::RenderResult& result) {
   return fmt::format("{:.2f} % (worst block {:.2f} %)", 100 * result.relative_error, 100 * result.worst_error);
 }
 
-std::string summary_of(const ::render::RenderResult& r, const std::optional<double>& target_error) {
-  std::string text = fmt::format(
-      "{}x{}, {:.4g} samples/pixel in {} ({} CPU): {}, {}rays/s, mean relative standard error {}, {} invalid samples",
-      r.image.width, r.image.height, r.spp, format_seconds(r.seconds), format_seconds(r.cpu_seconds),
-      samples_per_second(r), format_count(double(r.rays) / r.seconds), format_error(r), r.invalid);
-  if (r.undecided > 0) text += fmt::format(", {:.1f} % of the pixels decided by one sample", 100 * r.undecided);
-  if (r.partial) text += ", PARTIAL: " + interruption(r);
+std::string summary_of(const std::string& file, const ::render::RenderResult& r,
+                       const std::optional<double>& target_error) {
+  constexpr std::size_t columns = 80, indent = 2;
+  std::string text;
+  if (r.partial) text += wrapped("PARTIAL: " + interruption(r), columns);
+  text += fmt::format("{}: {}x{} pixels, {:.4g} samples per pixel in {} ({} CPU)\n", file, r.image.width,
+                      r.image.height, r.spp, format_seconds(r.seconds), format_seconds(r.cpu_seconds));
+  text += fmt::format("  mean relative standard error {}, {} invalid samples\n", format_error(r), r.invalid);
+  text += fmt::format("  {}, {}rays/s", samples_per_second(r), format_count(double(r.rays) / r.seconds));
+  if (r.undecided > 0) text += fmt::format("; one sample dominates {:.1f} % of the pixels", 100 * r.undecided);
+  text += "\n";
+  const double percent = 100 * target_error.value_or(0);
   if (r.unsure_from > 0)
-    text +=
-        fmt::format("\nthe error of {:g} % was there with {:.4g} samples/pixel; more were taken while over {:.0f} % "
-                    "of the pixels were decided by one sample (--time or --spp end sooner)",
-                    100 * target_error.value_or(0), r.unsure_from, 100 * ::render::most_undecided);
+    text += wrapped(fmt::format("the error reached {:g} % with {:.4g} samples per pixel; rendering went on while one "
+                                "sample dominated over {:.0f} % of the pixels (--time bounds it)",
+                                percent, r.unsure_from, 100 * ::render::most_undecided),
+                    columns, indent);
   else if (r.out_of_time)
-    text += fmt::format("\nthe error of {:g} % was not reached in the time (--resume adds to the picture)",
-                        100 * target_error.value_or(0));
-  return text + "\n";
+    text += wrapped(fmt::format("the error of {:g} % was not reached in the time (--resume adds samples)", percent),
+                    columns, indent);
+  return text;
 }
 
 } // namespace carlo

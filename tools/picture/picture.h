@@ -38,8 +38,11 @@ std::string samples_per_second(const ::render::RenderResult& result);
 /// "1.23 % (worst block 2.34 %)", or "unknown (one sample per pixel)".
 std::string format_error(const ::render::RenderResult& result);
 
-/// What a render took, how good it is, and why it ended: a line, or two.
-///   target_error : that was asked for
-std::string summary_of(const ::render::RenderResult& result, const std::optional<double>& target_error);
+/// Three lines of at most 80 columns, where the file name is short: size and time, error, rates. "PARTIAL: ..." comes
+/// first for an interrupted render; a last sentence says why the run did not end at its target error.
+///   file         : of the picture
+///   target_error : the one that was asked for
+std::string summary_of(const std::string& file, const ::render::RenderResult& result,
+                       const std::optional<double>& target_error);
 
 } // namespace carlo

@@ -72,28 +72,28 @@ PictureOf picture_of(const std::string& file, const std::string& dialect, std::v
 Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part,
                     ::render::RenderOptions& settings) {
   mc::require(mc::extension_of(path) == ".exr",
-              "--resume: '{}' is no .exr: other files do not keep radiance with its variance; go on with an .exr",
+              "--resume: '{}' is no .exr: other formats do not store radiance with its variance; name an .exr",
               path);
-  mc::require(std::filesystem::exists(path), "--resume: there is no '{}'; leave --resume out the first time", path);
+  mc::require(std::filesystem::exists(path), "--resume: '{}' does not exist; leave out --resume in the first run", path);
   Begun begun{::render::read_image(path), 0, 1};
   const auto text = [&](const char* key) {
     const auto found = begun.image.metadata.find(key);
     return found == begun.image.metadata.end() ? std::string() : found->second;
   };
   begun.spp = std::strtod(text("carlo.samples_per_pixel").c_str(), nullptr);
-  mc::require(begun.spp > 0, "--resume: '{}' does not say its samples per pixel; carlo render has not written it",
+  mc::require(begun.spp > 0, "--resume: '{}' does not state its samples per pixel; carlo render has not written it",
               path);
   mc::require(text("carlo.unsampled").empty(),
-              "--resume: '{}' has pixels without a sample, as its run was interrupted early; render it anew", path);
+              "--resume: '{}' has pixels without a sample, as its run was interrupted early; render it again", path);
   begun.runs = std::max(1, std::atoi(text("carlo.runs").c_str()));
   mc::require(text("carlo.scene") == picture.at("carlo.scene"), "--resume: '{}' is a picture of '{}', not of '{}'",
               path, text("carlo.scene"), picture.at("carlo.scene"));
   mc::require(begun.image.width == part.width && begun.image.height == part.height,
-              "--resume: '{}' holds {}x{} pixels, but {}x{} are asked for", path, begun.image.width, begun.image.height,
+              "--resume: '{}' has {}x{} pixels, but {}x{} are requested", path, begun.image.width, begun.image.height,
               part.width, part.height);
   for (const auto& [key, words] : compared) {
     mc::require(begun.image.metadata.contains(key),
-                "--resume: '{}' does not say its {}, as carlo render writes it now; render it anew", path, key);
+                "--resume: '{}' does not state its {}, which carlo render writes now; render it again", path, key);
     mc::require(text(key) == picture.at(key),
                 "--resume: '{}' was rendered with {} '{}', not '{}'; ask for the same, or name another file", path,
                 words, text(key), picture.at(key));

@@ -1,8 +1,8 @@
+#include <terminal/columns.h>
 #include <terminal/progress.h>
 
 #include <fmt/format.h>
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -17,19 +17,28 @@ void Progress::show(double fraction, const std::string& text) {
   const auto now = Clock::now();
   if (!enabled_ || now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
-  fraction = std::clamp(fraction, 0.0, 1.0);
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const std::string remaining = fraction > 0 ? format_seconds(elapsed / fraction * (1 - fraction)) + " left" : "";
-  constexpr int width = 24;
-  const int filled = static_cast<int>(std::lround(fraction * width));
-  std::string line = fmt::format("[{:=<{}}{: <{}}] {:3.0f} %  {}  {}", "", filled, "", width - filled, 100 * fraction,
-                                 remaining, text);
-  winsize window{};
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 1 && line.size() >= window.ws_col)
-    line.resize(window.ws_col - 1u);
+  const std::string line = progress_line(fraction, remaining, text, terminal_columns(STDERR_FILENO) - 1);
   std::fprintf(stderr, "\r\033[K%s", line.c_str());
   std::fflush(stderr);
   drawn_ = true;
+}
+
+std::string progress_line(double fraction, const std::string& remaining, std::string_view text, std::size_t columns) {
+  constexpr std::size_t widest_bar = 24, narrowest_bar = 4;
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  const std::string numbers = fmt::format("{:3.0f} %  {}", 100 * fraction, remaining);
+  const std::size_t fixed = columns_of(numbers) + 5; // with the brackets of the bar and the blanks between the parts
+  // Without room for the narrowest bar, shorten the text at the last gap that fits: between parts, else between words.
+  const std::size_t room = columns - std::min(columns, fixed + narrowest_bar);
+  for (const std::string_view gap : {"  ", " "})
+    while (columns_of(text) > room && text.find(gap) != text.npos) text = text.substr(0, text.rfind(gap));
+  if (columns_of(text) > room) text = {};
+  const std::size_t used = fixed + columns_of(text);
+  const std::size_t width = std::clamp(columns - std::min(columns, used), narrowest_bar, widest_bar);
+  const auto filled = static_cast<std::size_t>(std::lround(fraction * static_cast<double>(width)));
+  return fmt::format("[{:=<{}}{: <{}}] {}  {}", "", filled, "", width - filled, numbers, text);
 }
 
 void Progress::clear() {

@@ -2,12 +2,14 @@
 /// A progress line on a terminal.
 
 #include <chrono>
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace carlo {
 
-/// Redraws one line on stderr, at most ten times a second, and only when stderr is a terminal; the line is erased at
-/// the end.
+/// Redraws one line on stderr, at most ten times a second, and only when stderr is a terminal. Erases the line at the
+/// end.
 class Progress {
  public:
   Progress();
@@ -15,9 +17,10 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `fraction` of the work in [0,1] is done; `text` says more (a rate, an error). The remaining time is extrapolated.
+  /// fraction : of the work that is done, in [0,1]; the remaining time is extrapolated from it
+  /// text     : parts separated by two blanks, the most important one first, see progress_line
   void show(double fraction, const std::string& text);
-  bool shows() const { return enabled_; } ///< else nobody need find out what to show
+  bool shows() const { return enabled_; } ///< whether show() has an effect
   void clear();
 
  private:
@@ -25,6 +28,10 @@ class Progress {
   bool enabled_, drawn_ = false;
   Clock::time_point start_, last_;
 };
+
+/// A line of at most `columns` columns: a bar, percent, the remaining time, and the parts of the text. The bar shrinks
+/// first; then whole parts are left out from the end, and the words of the first part. No number is cut.
+std::string progress_line(double fraction, const std::string& remaining, std::string_view text, std::size_t columns);
 
 /// "850 ms", "12.3 s", "4 min 05 s".
 std::string format_seconds(double seconds);

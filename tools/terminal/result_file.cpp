@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace carlo {
@@ -33,7 +34,7 @@ void ResultFile::write(std::string_view bytes) const {
   if (output_ < 0) return mc::write_file(name_, bytes);
   while (!bytes.empty()) {
     const ssize_t n = ::write(output_, bytes.data(), bytes.size());
-    mc::require(n >= 0 || errno == EINTR, "cannot write to standard output: {}", std::strerror(errno));
+    if (n < 0 && errno != EINTR) throw std::system_error(errno, std::generic_category(), "standard output");
     if (n > 0) bytes.remove_prefix(static_cast<std::size_t>(n));
   }
 }

@@ -6,23 +6,23 @@
 
 namespace carlo {
 
-/// The place of a result. Of the name "-" it is standard output, which then holds the result and nothing else: while
-/// this lives, what is printed goes to standard error.
+/// The destination of a result. The name "-" stands for standard output, which then contains the result and nothing
+/// else: during the lifetime of this object, all other prints go to standard error.
 class ResultFile {
  public:
-  /// Empty: none is wanted. Throws Error where it cannot be written, before the work for it is done.
+  /// An empty name: no result is wanted. Throws Error where the file cannot be written, before any work is done.
   explicit ResultFile(std::string name);
   ~ResultFile();
   ResultFile(const ResultFile&) = delete;
   ResultFile& operator=(const ResultFile&) = delete;
 
   bool is_wanted() const { return !name_.empty(); }
-  /// Whole or not at all where it is a file. Throws Error where it cannot be written.
+  /// Writes a file completely or not at all. Throws Error where that fails, std::system_error for standard output.
   void write(std::string_view bytes) const;
 
  private:
   std::string name_;
-  int output_ = -1; // standard output as it was, where it is the place
+  int output_ = -1; // a duplicate of standard output, where the name is "-"
 };
 
 } // namespace carlo

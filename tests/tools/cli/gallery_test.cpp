@@ -122,7 +122,7 @@ TEST_F(GalleryCommand, RenderTakesANameToo) {
   ASSERT_EQ(a.pixels.size(), b.pixels.size());
   for (std::size_t i = 0; i < a.pixels.size(); ++i) EXPECT_TRUE((a.pixels[i] == b.pixels[i]).all()) << i;
   const std::string go_on = "render " + name + " --size 24x24 --spp 8 --resume -o " + path("out/" + name + ".exr");
-  EXPECT_THAT(run_carlo(go_on).output, HasSubstr("16 samples/pixel of 2 runs"));
+  EXPECT_THAT(run_carlo(go_on).output, HasSubstr("16 samples per pixel of 2 runs"));
   fs::remove_all(folder / "out");
   expect_refused("render cbx -o " + path("c.exr"), {"'cbx'", "did you mean 'cbox'"});
 }

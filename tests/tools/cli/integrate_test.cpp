@@ -254,7 +254,17 @@ TEST(Integrate, AnIntegralBelowWhatADoubleHoldsIsNoZero) {
   EXPECT_THAT(support::run_carlo("integrate '1e300*x' -d x=0:1e-300").output, testing::ContainsRegex("x = (5.0|4.9)"));
   EXPECT_THAT(support::run_carlo("integrate x -d x=0:1e-160").output, testing::HasSubstr("e-321 ± 4.9e-324"));
   EXPECT_THAT(support::run_carlo("integrate 'x > 2' -d x=0:1").output, testing::HasSubstr("was 0 at every point"));
-  EXPECT_EQ(support::run_carlo("integrate 'x-0.5' -d x=0:1 --max-calls 4096").exit_code, 0);
+  EXPECT_EQ(support::run_carlo("integrate 'x-0.5' -d x=0:1 --abs-error 0.1").exit_code, 0);
+}
+
+TEST(Integrate, TheExitCodeTellsWhetherTheErrorWasReached) {
+  const auto code = [](const std::string& arguments) { return support::run_carlo("integrate " + arguments).exit_code; };
+  EXPECT_EQ(code("x*x -d x=0:1"), 0);
+  EXPECT_EQ(code("x*x -d x=0:1 --rel-error 1e-12 --max-calls 4096"), 1) << "the error was not reached";
+  EXPECT_EQ(code("'x > 2' -d x=0:1"), 1) << "the error is not known";
+  EXPECT_EQ(code("'x^-0.9' -d x=0:1 --max-calls 1e5"), 1) << "the variance is infinite";
+  EXPECT_EQ(code("x 'x > 2' -d x=0:1 --max-calls 1e5"), 1) << "of one of two integrands it is not known";
+  EXPECT_EQ(code("--list"), 0);
 }
 
 TEST(Integrate, NamesTheVariablesWhereItIsNotFinite) {

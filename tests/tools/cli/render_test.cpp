@@ -130,7 +130,7 @@ TEST_F(RenderCommand, GoesOnWhereItStopped) {
   const render::Image first = render::read_image(path("r.exr"));
   const support::Run run = run_carlo(line + " --resume");
   ASSERT_EQ(run.exit_code, 0) << run.output;
-  EXPECT_THAT(run.output, HasSubstr("16 samples/pixel of 2 runs"));
+  EXPECT_THAT(run.output, HasSubstr("16 samples per pixel of 2 runs"));
   const render::Image second = render::read_image(path("r.exr"));
   EXPECT_EQ(second.metadata.at("carlo.samples_per_pixel"), "16");
   EXPECT_EQ(second.metadata.at("carlo.runs"), "2");
@@ -145,7 +145,7 @@ TEST_F(RenderCommand, GoesOnWhereItStopped) {
   EXPECT_GT(changed, 100);
   EXPECT_LT(after, 0.8 * before);
   const support::Run third = run_carlo(line + " --resume");
-  EXPECT_THAT(third.output, HasSubstr("24 samples/pixel of 3 runs"));
+  EXPECT_THAT(third.output, HasSubstr("24 samples per pixel of 3 runs"));
   const auto refused = [&](const std::string& arguments, const char* word) {
     const support::Run wrong = run_carlo("render " + arguments);
     EXPECT_EQ(wrong.exit_code, 2) << wrong.output;
@@ -163,7 +163,7 @@ TEST_F(RenderCommand, GoesOnFromOneSampleWithoutAnErrorBar) {
   const std::string line = "render " + scenes + "sphere-light.xml --size 8x8 -o " + path("r.EXR");
   ASSERT_EQ(run_carlo(line + " --spp 1").exit_code, 0);
   EXPECT_THAT(run_carlo(line + " --spp 8 --resume").output,
-              HasSubstr("9 samples/pixel of 2 runs, without an error bar: one of them, of one sample, has none"));
+              HasSubstr("9 samples per pixel of 2 runs; no error bar, as one run took one sample"));
   EXPECT_TRUE(render::read_image(path("r.EXR")).variance.empty());
 }
 
@@ -177,7 +177,7 @@ TEST_F(RenderCommand, GoingOnLosesNothing) {
   early.metadata["carlo.unsampled"] = "some pixels";
   render::write_image(path("r.exr"), early);
   EXPECT_THAT(run_carlo(line + " --spp 4 --resume").output,
-              HasSubstr("has pixels without a sample, as its run was interrupted early; render it anew"));
+              HasSubstr("has pixels without a sample, as its run was interrupted early; render it again"));
 }
 
 TEST_F(RenderCommand, NoFileOfTheSceneIsOverwritten) {
@@ -225,7 +225,7 @@ TEST_F(RenderCommand, GoesOnWithTheSamePictureOnly) {
   render::Image older = render::read_image(path("r.exr"));
   older.metadata.erase("carlo.max_depth");
   render::write_image(path("r.exr"), older);
-  refused(same, "does not say its carlo.max_depth");
+  refused(same, "does not state its carlo.max_depth");
 }
 
 TEST_F(RenderCommand, GoesOnWithTheSameFilesOnly) {

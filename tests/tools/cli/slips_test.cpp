@@ -30,7 +30,7 @@ TEST(Slips, AllAreRejectedAndTheirRemediesPass) {
   o.json = (std::filesystem::path(testing::TempDir()) / "slips.json").string();
   const Output out = run(o);
   const std::size_t n = carlo::slips_of_books().size();
-  EXPECT_THAT(out.text, HasSubstr(fmt::format("{} of {} slips rejected, {} of {} right ones passed", n, n, n, n)));
+  EXPECT_THAT(out.text, HasSubstr(fmt::format("{} of {} bugs rejected, {} of {} corrections passed", n, n, n, n)));
   for (const carlo::Slip& s : carlo::slips_of_books())
     EXPECT_THAT(out.text, HasSubstr(s.title().substr(s.id.size() + 1)));
   EXPECT_THAT(out.text, HasSubstr("Which Cornell box was right?"));
@@ -42,7 +42,7 @@ TEST(Slips, ANamedSlipTellsItsStory) {
   for (const char* name : {"P5", "eight cube roots"}) {
     const Output out = run(slips({name}, 20'000));
     EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
-    EXPECT_THAT(out.text, AllOf(HasSubstr("1 of 1 slips rejected, 1 of 1 right ones passed"),
+    EXPECT_THAT(out.text, AllOf(HasSubstr("1 of 1 bugs rejected, 1 of 1 corrections passed"),
                                 HasSubstr("8 x^(1/3) leaves [0,2]"), HasSubstr("in the domain fail")));
   }
 }
@@ -53,7 +53,7 @@ TEST(Slips, AMissedSlipFails) {
   o.alpha = 1e-200;
   const Output out = run(o);
   EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
-  EXPECT_THAT(out.text, AllOf(HasSubstr("missed"), HasSubstr("0 of 1 slips rejected")));
+  EXPECT_THAT(out.text, AllOf(HasSubstr("missed"), HasSubstr("0 of 1 bugs rejected")));
 }
 
 TEST(Slips, ListNamesEverySlip) {
@@ -65,7 +65,7 @@ TEST(Slips, ListNamesEverySlip) {
 
 TEST(Slips, BadInputIsOneLine) {
   EXPECT_THAT(refusal(slips({"in-ball Lambertain"}, 8000)),
-              HasSubstr("unknown slip 'in-ball Lambertain'; did you mean 'in-ball Lambertian'?"));
+              HasSubstr("unknown bug 'in-ball Lambertain'; did you mean 'in-ball Lambertian'?"));
   EXPECT_THAT(refusal(slips({}, 10)), HasSubstr("--samples 10 must lie in"));
   SlipsOptions o = slips({"P1"}, 8000);
   o.alpha = 0;
@@ -75,7 +75,7 @@ TEST(Slips, BadInputIsOneLine) {
   EXPECT_THAT(refusal(o), HasSubstr("/nonexistent/folder"));
   carlo::ValidateOptions old;
   old.names = {"book-slips"};
-  EXPECT_THAT(refusal(old), HasSubstr("carlo slips [SLIP...]"));
+  EXPECT_THAT(refusal(old), HasSubstr("carlo known-bugs [BUG...]"));
 }
 
 // What cannot be finished leaves the user's file as it was.

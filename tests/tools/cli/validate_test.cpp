@@ -1,6 +1,7 @@
 // carlo validate: selection, verdicts, files and bad input.
 
 #include <catalogue/catalogue.h>
+#include <catalogue/descriptions.h>
 #include <tools/run_carlo.h>
 #include <tools/run_in_process.h>
 
@@ -37,11 +38,26 @@ TEST(Validate, OneScalar) {
   EXPECT_THAT(run(o).text, HasSubstr("1 of 1 cases passed"));
 }
 
-TEST(Validate, ListNamesEveryCase) {
+TEST(Validate, ListDescribesEveryDistribution) {
   ValidateOptions o;
   o.list = true;
   const std::string text = run(o).text;
-  for (const carlo::Case& c : carlo::catalogue()) EXPECT_THAT(text, HasSubstr(c.name));
+  for (const carlo::Case& c : carlo::catalogue()) {
+    EXPECT_THAT(text, testing::ContainsRegex("(^|\n)" + c.name + "[ \n]"));
+    EXPECT_NE(carlo::description_of(c.name), "") << c.name << " lacks a sentence in tools/catalogue/descriptions.cpp";
+  }
+  EXPECT_THAT(text, HasSubstr(fmt::format("{} cases of ", carlo::catalogue().size())));
+  EXPECT_THAT(text, testing::ContainsRegex("CosineHemisphere +Directions above a plane"));
+  EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 160);
+}
+
+TEST(Validate, ListOfANameShowsItsCases) {
+  ValidateOptions o;
+  o.list = true;
+  o.names = {"Linear"};
+  const std::string text = run(o).text;
+  EXPECT_THAT(text, testing::ContainsRegex("\n  Linear.a=0, b=1. +float, double\n"));
+  EXPECT_THAT(text, testing::StartsWith("Linear: Density on [0,1] that is linear from a at 0 to b at 1.\n"));
 }
 
 TEST(Validate, ResultsDoNotDependOnThreads) {
@@ -82,7 +98,8 @@ TEST(Validate, ErrorsAboveAllAreNotCounted) {
 
 TEST(Validate, HelpExplainsItsColumns) {
   EXPECT_THAT(support::run_carlo("validate --help").output,
-              testing::AllOf(HasSubstr("\ndetects: relative error of the density"), HasSubstr("; in a cell: ")));
+              testing::AllOf(HasSubstr("\n  cell  "), HasSubstr("\n  detects  "), HasSubstr("\n  in a cell  "),
+                             HasSubstr("\"detects 3.8 %, in a cell 61 %\"")));
 }
 
 TEST(Validate, DetectChoosesTheSamples) {
@@ -96,8 +113,8 @@ TEST(Validate, DetectChoosesTheSamples) {
 
 TEST(Validate, BadInputIsOneLine) {
   EXPECT_THAT(refusal(few({"CosineHemispher"})),
-              HasSubstr("unknown sampler 'CosineHemispher'; did you mean 'CosineHemisphere'?"));
-  EXPECT_THAT(refusal(few({})), HasSubstr("name a sampler, or give --all or --list"));
+              HasSubstr("unknown distribution 'CosineHemispher'; did you mean 'CosineHemisphere'?"));
+  EXPECT_THAT(refusal(few({})), HasSubstr("name a distribution, or give --all or --list"));
   ValidateOptions o = few({"UniformDisk"});
   o.alpha = 2;
   EXPECT_THAT(refusal(o), HasSubstr("--alpha 2 must lie in (0, 1)"));

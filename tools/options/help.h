@@ -1,0 +1,21 @@
+#pragma once
+/// Texts of --help.
+
+#include <options/subcommand.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace carlo {
+
+/// `carlo NAME --help` in so many columns: usage, examples, options by group, further sections, exit codes.
+std::string help_of(const Subcommand& subcommand, std::size_t columns);
+
+/// `carlo --help`.
+std::string help_of(const std::vector<Subcommand>& subcommands, std::size_t columns);
+
+/// One sentence of carlo.
+extern const char* const carlo_summary;
+
+} // namespace carlo
