@@ -30,7 +30,7 @@ struct RenderOptions {
   std::optional<double> target_error; ///< what RelativeError::bound is to fall to, see Film; and most_undecided
   ErrorOf error_of = ErrorOf::picture;
   std::optional<bool> adaptive; ///< samples where the error is; unless given: where seconds or an error are
-  Strategy strategy = strategy_from("bidirectional");
+  Strategy strategy = strategy_from("mis+lt");
   PixelSampler sampler = PixelSampler::sobol;
   bool splat = false; ///< samples count for all pixels under the filter, see SplatFilter; spent evenly
   bool tiles = false; ///< pixels share paths by tiles, see TileIntegrator

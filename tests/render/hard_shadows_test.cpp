@@ -178,7 +178,7 @@ TEST(HardShadows, MirrorsThrowParallelLight) {
                  {.fov = 8}));
     const Scene scene = floor.builder.build();
     RenderOptions options;
-    options.strategy = strategy_from("bidirectional");
+    options.strategy = strategy_from("mis+lt");
     options.strategy.light_paths = 20;
     options.width = options.height = 1;
     options.spp = 512;
@@ -225,7 +225,7 @@ TEST(HardShadows, StrategiesByChanceAreRefused) {
   options.width = options.height = options.spp = 1;
   for (const Strategy& s : strategies) {
     options.strategy = s;
-    const bool connects = s.name == "nee" || s.name == "mis" || s.name == "bidirectional";
+    const bool connects = s.name == "nee" || s.name == "mis" || s.name == "mis+lt";
     EXPECT_EQ(finds_all_lights(scene, s), connects) << s.name;
     const std::string said = support::error_of([&] { render::render(scene, options); });
     if (connects) EXPECT_EQ(said, "");

@@ -37,7 +37,7 @@ struct Taken {
 Taken taken(const Filter& filter, std::uint64_t steps, int threads, PixelSampler sampler = PixelSampler::sobol,
             const Crop& part = {0, 0, 16, 12}, unsigned spp = 400, double unit = 1) {
   const Scene scene = lit_floor(filter, unit);
-  const auto paths = LightPaths::of(scene, strategy_from("bidirectional"), Float(16) / 12);
+  const auto paths = LightPaths::of(scene, strategy_from("mis+lt"), Float(16) / 12);
   const LightTaker taker(scene, *paths, 3, sampler, 7, {16, 12, part});
   Taken all{{part.width, part.height, 4, {.lit = true}}, {}};
   const std::uint64_t n = taker.paths(spp);
@@ -120,7 +120,7 @@ TEST(LightTaker, AnyUnitOfLength) {
 
 TEST(LightTaker, StopsBetweenItsSteps) {
   const Scene scene = lit_floor(BoxFilter());
-  const auto paths = LightPaths::of(scene, strategy_from("bidirectional"), Float(16) / 12);
+  const auto paths = LightPaths::of(scene, strategy_from("mis+lt"), Float(16) / 12);
   const LightTaker taker(scene, *paths, 3, PixelSampler::sobol, 7, {16, 12, {0, 0, 16, 12}});
   Film film(16, 12, 4, {.lit = true});
   Tally tally;

@@ -45,7 +45,7 @@ TEST(TiledPicture, IsThePictureWithout) {
   for (std::uint64_t i = 0; agreement.rooms < 60; ++i) {
     const Scene scene = RoomMaker(3000 + i, i % 4 == 0 ? LitBy::deltas : LitBy::lamps).build();
     RenderOptions options = options_of(i, 48), much = options_of(i, 192);
-    options.strategy = much.strategy = strategy_from(std::array{"bidirectional", "mis", "nee"}[i % 3]);
+    options.strategy = much.strategy = strategy_from(std::array{"mis+lt", "mis", "nee"}[i % 3]);
     options.sampler = std::array{PixelSampler::sobol, PixelSampler::independent, PixelSampler::stratified}[i / 3 % 3];
     const Image reference = render::render(scene, much).image;
     if (std::all_of(reference.pixels.begin(), reference.pixels.end(), is_black)) continue;

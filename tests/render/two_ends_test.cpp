@@ -16,13 +16,13 @@ TEST(TwoEnds, MakeThePictureOfOne) {
   Agreement agreement;
   for (std::uint64_t i = 0; agreement.rooms < 60; ++i) {
     const Scene scene = RoomMaker(i).build();
-    if (!LightPaths::of(scene, strategy_from("bidirectional"), 1)) continue;
+    if (!LightPaths::of(scene, strategy_from("mis+lt"), 1)) continue;
     RenderOptions options = options_of(i, 64), much = options_of(i, 256);
     options.strategy = much.strategy = strategy_from("mis");
     options.adaptive = much.adaptive = false;
     const std::vector<Spectrum> unit = unit_of(render::render(scene, much).image);
     const mc::Moments one = means_of(scene, options, 16, unit);
-    options.strategy = strategy_from("bidirectional");
+    options.strategy = strategy_from("mis+lt");
     options.sampler = std::array{PixelSampler::sobol, PixelSampler::independent, PixelSampler::stratified}[i % 3];
     options.adaptive = i % 5 == 1;
     options.splat = i % 5 == 2;
@@ -37,7 +37,7 @@ TEST(TwoEnds, DeltaLightsCastTheCausticsOfSmallSpheres) {
   Agreement agreement;
   for (std::uint64_t i = 0; agreement.rooms < 40; ++i) {
     const Scene deltas = RoomMaker(i, LitBy::deltas).build(), spheres = RoomMaker(i, LitBy::spheres).build();
-    if (!LightPaths::of(deltas, strategy_from("bidirectional"), 1)) continue;
+    if (!LightPaths::of(deltas, strategy_from("mis+lt"), 1)) continue;
     const RenderOptions options = options_of(i, 256);
     const Image reference = render::render(spheres, options).image;
     if (std::all_of(reference.pixels.begin(), reference.pixels.end(), is_black)) continue;
@@ -50,7 +50,7 @@ TEST(TwoEnds, DeltaLightsCastTheCausticsOfSmallSpheres) {
 /// A room that light paths pay in.
 Scene lit_room() {
   for (std::uint64_t i = 100;; ++i)
-    if (Scene scene = RoomMaker(i).build(); LightPaths::of(scene, strategy_from("bidirectional"), 1)) return scene;
+    if (Scene scene = RoomMaker(i).build(); LightPaths::of(scene, strategy_from("mis+lt"), 1)) return scene;
 }
 
 TEST(TwoEnds, SameBitsForAnyNumberOfThreadsAndAnyPart) {

@@ -24,7 +24,7 @@ inline bool has_tiles(Spending s) { return s == Spending::tiles || s == Spending
 
 /// One way to render.
 struct PictureWay {
-  render::Strategy strategy = render::strategy_from("bidirectional");
+  render::Strategy strategy = render::strategy_from("mis+lt");
   render::PixelSampler sampler = render::PixelSampler::sobol;
   int max_depth = -1; ///< longest path in edges; -1: no limit
   Spending spending = Spending::even;
@@ -78,7 +78,7 @@ struct Pictures {
 /// reference's is a bound. When interrupted, what was measured
 /// with fewer samples is kept; the ways that were begun are those of the result.
 ///   theory    : N^-1/2 for independent samples, spent evenly, whose bias is not told from 0
-///   reference : bidirectional, sobol and the scene's longest path; at each number of samples so many more as bring its
+///   reference : mis+lt, sobol and the scene's longest path; at each number of samples so many more as bring its
 ///               error to a tenth of the smallest by noise
 ///   throws    : Error for a black scene, no ways, fewer than 3 pictures, or max_spp below 16 or above 2^28
 Pictures measure_pictures(const render::SceneFile& file, const std::vector<PictureWay>& ways,

@@ -68,7 +68,7 @@ std::vector<Required> required_features() {
 constexpr const char* introduction = R"(# The gallery
 
 `carlo gallery -o DIR` renders these scenes and writes a page of them; `carlo gallery NAME -o DIR` and
-`carlo render NAME` take one. Where no strategy is named it is `bidirectional`. `carlo gallery --table` prints this
+`carlo render NAME` take one. Where no strategy is named it is `mis+lt`. `carlo gallery --table` prints this
 text.
 
 )";
@@ -84,7 +84,7 @@ std::vector<Feature> all_features() {
 std::vector<Feature> features_of(const GalleryScene& scene) {
   std::set<Named> found;
   collect(::render::read_xml(scene_file(scene)), found);
-  found.insert({"strategy", scene.strategy.empty() ? "bidirectional" : std::string(scene.strategy)});
+  found.insert({"strategy", scene.strategy.empty() ? "mis+lt" : std::string(scene.strategy)});
   std::vector<Feature> features;
   for (const Row& row : rows())
     for (const Named& name : row.names)

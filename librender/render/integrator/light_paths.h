@@ -144,7 +144,7 @@ class LightPaths {
   Bsdf lamp_;                 ///< as whose reflection a lamp's light leaves it
 };
 
-/// The strategies that find every light of the scene, each once: without the bidirectional one where it is mis.
+/// The strategies that find every light of the scene, each once: without mis+lt where it is mis.
 std::vector<Strategy> strategies_for(const Scene& scene);
 
 template <class Stream>

@@ -13,7 +13,8 @@ std::array<std::string_view, strategies.size()> strategy_names() {
 }
 
 const Strategy& strategy_from(std::string_view word) {
-  return strategies[mc::index_of("strategy", word, strategy_names())];
+  const std::string_view name = word == "bidirectional" ? "mis+lt" : word;
+  return strategies[mc::index_of("strategy", name, strategy_names())];
 }
 
 } // namespace render

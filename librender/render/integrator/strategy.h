@@ -34,32 +34,50 @@ struct Strategy {
   Finding finding;
   Float light_paths = 0; ///< paths from the lights per path from the camera, in scenes where they pay, see LightPaths;
                          ///< directions are aimed at `shades` alone there
+  std::string_view summary; ///< how it finds light, one sentence
+  std::string_view use;     ///< when to use it, one sentence
 };
 
 /// All but `light` are unbiased, those that find by chance where no light is a point or a direction; of such lights
-/// none but `bidirectional` finds what comes by way of smooth glass or a mirror, and that where it is seen directly.
+/// none but `mis+lt` finds what comes by way of smooth glass or a mirror, and that where it is seen directly.
 /// Where nothing is to aim at, the BSDF is followed.
 ///   light : rough surfaces look towards lamps and guides alone, so that what else they would reflect is missed: the
 ///           light of other surfaces and of the sky. See misses_light
 ///   light, mixture, guides : as in [Shirley16], chapters 7, 8 and 10. Of a tiny lamp of triangles they lose what rays,
 ///           rounded to float, miss at its outline: of a square 2e-9 times its distance over half its side
-///   bidirectional : mis with paths from the lights, in scenes where these pay, see LightPaths; in all others it is
-///           mis, bit for bit
+///   mis+lt : path tracing plus light tracing: of the vertices s from the light and t from the camera, s = 0 and 1 with
+///           any t, and t = 1 with any s. Other pairs of bidirectional path tracing are left out. Light paths start in
+///           scenes where they pay, see LightPaths; elsewhere it is mis, bit for bit
 inline constexpr auto strategies = std::to_array<Strategy>({
-    {"bsdf", Target::nothing, 0, Finding::by_chance},
-    {"hemisphere", Target::hemisphere, 1, Finding::by_chance},
-    {"light", Target::lights, 1, Finding::by_chance},
-    {"mixture", Target::lights, Float(0.5), Finding::by_chance},
-    {"guides", Target::guides, Float(0.5), Finding::by_chance},
-    {"nee", Target::nothing, 0, Finding::by_connection},
-    {"mis", Target::speculars, Float(0.25), Finding::by_both},
-    {"bidirectional", Target::speculars, Float(0.25), Finding::by_both, Float(0.125)},
+    {"bsdf", Target::nothing, 0, Finding::by_chance, 0, "Follows the BSDF; light counts where a path hits it.",
+     "Large lights or a sky; a reference for the others. Finds no point or directional light."},
+    {"hemisphere", Target::hemisphere, 1, Finding::by_chance, 0,
+     "Takes uniform directions; light counts where a path hits it.",
+     "To show the noise of directions that ignore the BSDF. Finds no point or directional light."},
+    {"light", Target::lights, 1, Finding::by_chance, 0, "Takes directions toward lights and importance targets only.",
+     "To show one light alone. Misses the light of other surfaces and of the sky."},
+    {"mixture", Target::lights, Float(0.5), Finding::by_chance, 0,
+     "Takes half of the directions toward the lights and half by the BSDF, weighted by the density of the mixture.",
+     "To compare with Shirley's books. Finds no point or directional light."},
+    {"guides", Target::guides, Float(0.5), Finding::by_chance, 0,
+     "As mixture, toward the shapes that the scene marks as importance targets.",
+     "Scenes with a known source of indirect light, such as a glass ball. Finds no point or directional light."},
+    {"nee", Target::nothing, 0, Finding::by_connection, 0,
+     "Connects every vertex of a path with a point of a light (next-event estimation).",
+     "Diffuse surfaces and small lights. Noisy where a glossy surface reflects a light."},
+    {"mis", Target::speculars, Float(0.25), Finding::by_both, 0,
+     "Combines nee and bsdf by multiple importance sampling.",
+     "Any scene without caustics, and comparison with other path tracers."},
+    {"mis+lt", Target::speculars, Float(0.25), Finding::by_both, Float(0.125),
+     "Combines mis with paths traced from the lights to the camera (light tracing).",
+     "Any scene: the default. Finds caustics of glass, mirrors and glossy metal; elsewhere it is mis, bit for bit."},
 });
 
 /// The names of all, in their order.
 std::array<std::string_view, strategies.size()> strategy_names();
 
-/// Throws Error, naming the nearest strategy, for an unknown name.
+/// The strategy of that name; "bidirectional", its former name, is mis+lt. Throws Error, naming the nearest strategy,
+/// for an unknown name.
 const Strategy& strategy_from(std::string_view name);
 
 } // namespace render

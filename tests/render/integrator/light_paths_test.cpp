@@ -13,7 +13,7 @@ namespace {
 
 using namespace render;
 
-const Strategy& bidirectional = strategy_from("bidirectional");
+const Strategy& bidirectional = strategy_from("mis+lt");
 
 /// A lamp above a floor that a camera looks down at, a wall that it does not see, and a ball beside what it sees, which
 /// makes light paths pay.

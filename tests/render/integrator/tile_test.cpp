@@ -196,7 +196,7 @@ TEST(Tile, PathsFromTheLightsWeighByEachPixel) {
   corner.builder.add(Sphere(Vec3d(-0.5, -0.5, 0.2), 0.5), {corner.builder.add(Dielectric(Float(1.5)))});
   corner.builder.set(ThinLens(Transform::look_at({0.3, 0, 3}, {0, -0.5, 0}, {0, 1, 0}), {.fov = 40}));
   const Scene scene = corner.builder.build();
-  Strategy many = strategy_from("bidirectional");
+  Strategy many = strategy_from("mis+lt");
   many.light_paths = 20;
   const auto paths = LightPaths::of(scene, many, 1);
   ASSERT_TRUE(paths);

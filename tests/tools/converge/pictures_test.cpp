@@ -88,7 +88,7 @@ TEST(Pictures, TellsBiasFromNoise) {
 TEST_F(Caustics, LightThatFewSamplesFindIsNoBias) {
   const render::SceneFile file = ball();
   const std::vector<PictureWay> ways = {way("mixture", independent), way("nee", independent), way("mis", independent),
-                                        way("bidirectional", independent)};
+                                        way("mis+lt", independent)};
   for (const std::uint64_t seed : {1u, 3u, 10u}) {
     const Pictures p = measure_pictures(file, ways, {.width = 8, .height = 8, .max_spp = 16, .seed = seed});
     for (const Bias& b : p.biases) EXPECT_EQ(b.bias.lo, 0) << seed;

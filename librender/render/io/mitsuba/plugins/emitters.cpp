@@ -61,15 +61,15 @@ const Plugins<Light>& emitter_plugins() {
                     color("bottom", radiance_unit, "what arrives from -y, >= 0", Spectrum::Ones()),
                     color("top", radiance_unit, "what arrives from +y, >= 0", Spectrum(Float(0.5), Float(0.7), 1))),
       plugin<Light>("point",
-                    "a point that shines alike in all directions; found by nee, mis and bidirectional alone, its "
-                    "caustics by bidirectional where they are seen directly",
+                    "a point with the same intensity in all directions; only the strategies nee, mis and mis+lt find "
+                    "its light, and only mis+lt its caustics, where they are seen directly",
                     make_point, transform("toWorld", "from the light's space to the scene's"),
                     point("position", "where it is", Vec3d::Zero()),
                     color("intensity", "W/sr", "what is emitted, >= 0", Spectrum::Ones()))
           .accepting({sampling_weight()}),
       plugin<Light>("directional",
-                    "parallel light from far away; found by nee, mis and bidirectional alone, its caustics by "
-                    "bidirectional where they are seen directly",
+                    "parallel light from far away; only the strategies nee, mis and mis+lt find it, and only mis+lt "
+                    "its caustics, where they are seen directly",
                     make_directional,
                     transform("toWorld", "turns the direction; where it moves things is of no effect"),
                     point("direction", "in which the light goes, of any length", Vec3d::UnitZ()),
