@@ -56,4 +56,23 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+namespace {
+
+// Without '-' and '_', in lower case.
+std::string folded(std::string_view text) {
+  std::string letters;
+  for (const char c : text)
+    if (c != '-' && c != '_') letters += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return letters;
+}
+
+} // namespace
+
+std::optional<std::size_t> spelling_distance(std::string_view word, std::string_view name) {
+  const std::string a = folded(word), b = folded(name);
+  const std::size_t distance = edit_distance(a, b);
+  if (distance > std::max<std::size_t>(a.size() / 3, 1) || distance >= std::max(a.size(), b.size())) return {};
+  return distance;
+}
+
 } // namespace mc

@@ -28,13 +28,17 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// Number of single-character edits (insert, delete, replace) between two words. Source: [WagnerFischer74]
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// "; did you mean 'sobol'?" for the entry of `known` nearest to `word`; empty when none is near.
+/// Edit distance of two names, where upper case, '-' and '_' do not count. Nothing where it exceeds a third of the
+/// letters of `word`, or 1 for a short word: then the names hardly mean the same.
+std::optional<std::size_t> spelling_distance(std::string_view word, std::string_view name);
+
+/// "; did you mean 'sobol'?" for the entry of `known` whose spelling is nearest to `word`; empty when none is near.
 template <class Range> std::string did_you_mean(std::string_view word, const Range& known) {
   std::string_view best;
-  std::size_t best_distance = word.size() / 2 + 2;
+  std::optional<std::size_t> best_distance;
   for (const auto& k : known) {
-    const std::size_t d = edit_distance(word, k);
-    if (d < best_distance) {
+    const std::optional<std::size_t> d = spelling_distance(word, k);
+    if (d && (!best_distance || *d < *best_distance)) {
       best = k;
       best_distance = d;
     }

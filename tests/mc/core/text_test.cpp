@@ -56,6 +56,9 @@ TEST(Text, NearestName) {
   const std::array known{"independent", "stratified", "sobol"};
   EXPECT_EQ(mc::did_you_mean("sobal", known), "; did you mean 'sobol'?");
   EXPECT_EQ(mc::did_you_mean("xyzzyxyzzyxyzzy", known), "");
+  EXPECT_EQ(mc::did_you_mean("Sobol_", known), "; did you mean 'sobol'?");
+  const std::array plugins{"mask", "point", "path"};
+  for (const char* other : {"hair", "spot", "volpath", "x"}) EXPECT_EQ(mc::did_you_mean(other, plugins), "") << other;
 }
 
 TEST(Text, IndexOfANameOrWhichThereAre) {

@@ -1,4 +1,5 @@
 #include <render/io/mitsuba/plugin.h>
+#include <render/io/mitsuba/unsupported.h>
 
 #include <mc/core/text.h>
 
@@ -30,6 +31,8 @@ void require_known_children(const XmlElement& e, const PluginText& row) {
 
 void fail_unknown_type(const XmlElement& e, const std::vector<std::string_view>& known) {
   const std::string& type = e.attribute("type");
+  if (const std::string_view reason = why_unsupported(e.tag, type); !reason.empty())
+    e.fail(fmt::format("type '{}': {}", type, reason));
   e.fail(
       fmt::format("unknown type '{}'{}; use one of {}", type, mc::did_you_mean(type, known), fmt::join(known, ", ")));
 }

@@ -1,0 +1,112 @@
+#include <render/io/mitsuba/unsupported.h>
+
+#include <array>
+
+namespace render::mitsuba {
+
+namespace {
+
+struct Reason {
+  std::string_view tag, type, text;
+};
+
+constexpr std::string_view no_scattering = "scattering media are not supported; path renders absorbing media";
+constexpr std::string_view no_gradients = "derivatives of a picture are not supported; use path";
+constexpr std::string_view no_curves = "curves are not supported; convert them to a mesh";
+constexpr std::string_view no_layers = "layers are not supported; use plastic or roughplastic";
+constexpr std::string_view no_bumps = "bump and normal maps are not supported; use the BSDF inside it";
+constexpr std::string_view no_polarization = "polarization is not supported; use the BSDF without it";
+constexpr std::string_view no_sky_model = "sky models are not supported; use envmap with a picture of the sky";
+constexpr std::string_view tessellate = "this shape is not supported; convert it to a mesh (obj or ply)";
+constexpr std::string_view no_instances = "instances are not supported; repeat the shape";
+constexpr std::string_view no_such_filter = "filters with negative weights are not supported; use gaussian";
+constexpr std::string_view no_spectra = "spectra of a wavelength are not supported; colors are RGB";
+
+constexpr auto reasons = std::to_array<Reason>({
+    {"integrator", "volpath", no_scattering},
+    {"integrator", "volpathmis", no_scattering},
+    {"integrator", "volpath_simple", no_scattering},
+    {"integrator", "prb", no_gradients},
+    {"integrator", "prb_basic", no_gradients},
+    {"integrator", "prbvolpath", no_gradients},
+    {"integrator", "prb_projective", no_gradients},
+    {"integrator", "direct_projective", no_gradients},
+    {"integrator", "bdpt",
+     "bidirectional path tracing is not supported; use path, with --strategy mis+lt for caustics"},
+    {"integrator", "ptracer", "use path, with --strategy mis+lt for paths from the lights"},
+    {"integrator", "photonmapper", "photon maps are not supported; use path, with --strategy mis+lt for caustics"},
+    {"integrator", "sppm", "photon maps are not supported; use path, with --strategy mis+lt for caustics"},
+    {"integrator", "pssmlt", "Markov chains are not supported; use path"},
+    {"integrator", "mlt", "Markov chains are not supported; use path"},
+    {"integrator", "aov", "use the integrator inside it; --layers of carlo render writes normals, depth and albedo"},
+    {"integrator", "depth", "use path; --layers of carlo render writes the depth"},
+    {"integrator", "moment", "use the integrator inside it; an EXR contains the variance of every pixel"},
+    {"integrator", "stokes", no_polarization},
+    {"bsdf", "thindielectric", "thin glass is not supported; use dielectric with two surfaces"},
+    {"bsdf", "principled", "the principled BSDF is not supported; use roughplastic, roughconductor or roughdielectric"},
+    {"bsdf", "principledthin", "the principled BSDF is not supported; use roughplastic or mask"},
+    {"bsdf", "hair", "hair is not supported; use roughplastic"},
+    {"bsdf", "measured", "measured materials are not supported; use roughplastic or roughconductor"},
+    {"bsdf", "measured_polarized", no_polarization},
+    {"bsdf", "pplastic", no_polarization},
+    {"bsdf", "polarizer", no_polarization},
+    {"bsdf", "retarder", no_polarization},
+    {"bsdf", "circular", no_polarization},
+    {"bsdf", "bumpmap", no_bumps},
+    {"bsdf", "normalmap", no_bumps},
+    {"bsdf", "bump", no_bumps},
+    {"bsdf", "blendbsdf", "mixtures of BSDFs are not supported; use mask for holes, or one of the BSDFs inside it"},
+    {"bsdf", "mixturebsdf", "mixtures of BSDFs are not supported; use one of the BSDFs inside it"},
+    {"bsdf", "null", "surfaces without effect are not supported; remove the shape, or use mask with opacity 0"},
+    {"bsdf", "phong", "use roughplastic"},
+    {"bsdf", "ward", "use roughconductor"},
+    {"bsdf", "coating", no_layers},
+    {"bsdf", "roughcoating", no_layers},
+    {"bsdf", "roughdiffuse", "use diffuse"},
+    {"bsdf", "difftrans", "diffuse transmission is not supported; use diffuse"},
+    {"emitter", "spot", "spotlights are not supported; use point, or a small shape with an area emitter"},
+    {"emitter", "projector", "projected pictures are not supported; use point"},
+    {"emitter", "collimated", "beams are not supported; use directional"},
+    {"emitter", "directionalarea", "use directional, or a shape with an area emitter"},
+    {"emitter", "sky", no_sky_model},
+    {"emitter", "sun", "use directional"},
+    {"emitter", "sunsky", no_sky_model},
+    {"shape", "cylinder", tessellate},
+    {"shape", "disk", tessellate},
+    {"shape", "heightfield", tessellate},
+    {"shape", "sdfgrid", tessellate},
+    {"shape", "ellipsoids", tessellate},
+    {"shape", "hair", no_curves},
+    {"shape", "linearcurve", no_curves},
+    {"shape", "bsplinecurve", no_curves},
+    {"shape", "shapegroup", no_instances},
+    {"shape", "instance", no_instances},
+    {"shape", "merge", "use the shapes inside it"},
+    {"sensor", "orthographic", "parallel projections are not supported; use perspective from far away"},
+    {"sensor", "spherical", "panoramas are not supported; use perspective"},
+    {"sensor", "radiancemeter", "measurements without a picture are not supported; use perspective"},
+    {"sensor", "irradiancemeter", "measurements without a picture are not supported; use perspective"},
+    {"sensor", "fluencemeter", "measurements without a picture are not supported; use perspective"},
+    {"sensor", "distant", "measurements without a picture are not supported; use perspective"},
+    {"sensor", "batch", "use one sensor"},
+    {"film", "specfilm", no_spectra},
+    {"film", "mfilm", "use hdrfilm"},
+    {"rfilter", "mitchell", no_such_filter},
+    {"rfilter", "catmullrom", no_such_filter},
+    {"rfilter", "lanczos", no_such_filter},
+    {"texture", "mesh_attribute", "colors of vertices are not supported; use bitmap"},
+    {"texture", "volume", "use bitmap"},
+    {"medium", "heterogeneous", "media of varying density are not supported; use homogeneous, which absorbs only"},
+    {"phase", "isotropic", "scattering media are not supported; a homogeneous medium absorbs only"},
+    {"phase", "hg", "scattering media are not supported; a homogeneous medium absorbs only"},
+});
+
+} // namespace
+
+std::string_view why_unsupported(std::string_view tag, std::string_view type) {
+  for (const Reason& r : reasons)
+    if (r.tag == tag && r.type == type) return r.text;
+  return {};
+}
+
+} // namespace render::mitsuba
