@@ -150,7 +150,7 @@ bool Rate::allows(double lo, double hi, double n) const {
 }
 
 std::string Rate::to_string(int digits) const {
-  static constexpr std::array words = {"", "at most ", "at least "};
+  static constexpr std::array words = {"", "no steeper than ", "at least as steep as "};
   return fmt::format("{}{:.{}f}", words[static_cast<std::size_t>(bound)], -exponent, digits);
 }
 

@@ -26,7 +26,7 @@ struct Rate {
   double local(double n) const;
   /// Whether slopes in [lo, hi], of a fit about N, hold what the rate says.
   bool allows(double lo, double hi, double n) const;
-  /// The slope: "-0.500", "at most -1.000", with so many digits.
+  /// The slope with a number of digits: "-0.500", "no steeper than -1.000".
   std::string to_string(int digits) const;
 };
 

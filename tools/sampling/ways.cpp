@@ -104,7 +104,7 @@ const Way& way(const std::string& name) {
       names.push_back(w.name);
     }
   throw mc::Error(
-      fmt::format("unknown sampler '{}'{}; use {}", name, mc::did_you_mean(name, names), fmt::join(names, ", ")));
+      fmt::format("unknown method '{}'{}; use {}", name, mc::did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 Way way_of_points(const std::string& file) {

@@ -93,8 +93,8 @@ TEST(Theory, ABoundAllowsOneSide) {
     const char* text;
     bool faster, slower;
   };
-  for (const Case& c : {Case{Bound::exact, "-1.00", false, false}, Case{Bound::at_most, "at most -1.00", false, true},
-                        Case{Bound::at_least, "at least -1.00", true, false}}) {
+  for (const Case& c : {Case{Bound::exact, "-1.00", false, false}, Case{Bound::at_most, "no steeper than -1.00", false, true},
+                        Case{Bound::at_least, "at least as steep as -1.00", true, false}}) {
     const Rate rate{1, 0, "a source", c.bound};
     EXPECT_EQ(rate.to_string(2), c.text);
     EXPECT_TRUE(rate.allows(-1.1, -0.9, 1000));
