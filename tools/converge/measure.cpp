@@ -233,7 +233,7 @@ const Curve* steadiest(const std::vector<Curve>& curves) {
 // The truth and its standard error; when interrupted by the replicates that are there.
 std::pair<double, double> reference(const Target& target, const std::vector<Curve>& curves, const MeasureOptions& o) {
   const Curve* best = steadiest(curves);
-  mc::require(best, "{}: its truth is unknown, and no way without adapting is there to find it; add one to --samplers",
+  mc::require(best, "{}: its true value is unknown, and no non-adaptive method is given to estimate it; add one to --samplers",
               target.integral.name);
   const Replicates& last = best->replicates.back();
   const auto largest = static_cast<std::uint64_t>(last.calls[0]);
@@ -343,7 +343,7 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
     if (!curve.replicates.empty()) m.curves.push_back(std::move(curve));
     if (m.interrupted) break;
     mc::require(known || !all_zero(m.curves),
-                "{}: the integrand was 0 at every point; choose bounds around where it is not", target.integral.name);
+                "{}: the integrand was 0 at every point; choose bounds around the region where it is not", target.integral.name);
   }
   m.truth = target.integral.truth;
   // What an interrupt leaves may not tell the truth: then no error is known, which is no fault of the integrand.

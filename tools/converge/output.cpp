@@ -20,7 +20,7 @@ std::string color(std::size_t i) {
 
 std::string slope_text(const Curve& c) {
   if (c.exact) return "exact to rounding";
-  if (c.errors.back().is_bound && !c.law) return "not told from the error of what it is measured from";
+  if (c.errors.back().is_bound && !c.law) return "not distinguishable from the error of the reference";
   if (!c.law) return "too few N for a slope";
   std::string text = fmt::format("slope {:+.3f} [{:+.3f}, {:+.3f}]", c.law->slope, c.law->lo, c.law->hi);
   if (!c.theory) return text;
@@ -32,7 +32,7 @@ std::string slope_text(const Curve& c) {
 std::string about_variance(const Measurement& m) {
   if (!m.heavy_tail) return {};
   return fmt::format("the variance of the integrand looks infinite (the largest values fall off with index {:.2f}; a "
-                     "variance needs more than 2, an integral more than 1): RMS errors and slopes may be of chance",
+                     "finite variance needs more than 2, a finite integral more than 1): RMS errors and slopes may be chance",
                      *m.heavy_tail);
 }
 
@@ -46,8 +46,8 @@ std::string summary(const Target& target, const Measurement& m) {
                         c.errors.back().is_bound ? "at most " : "", c.errors.back().rms, c.errors.back().n,
                         slope_text(c), c.cut ? "; interrupted" : "");
   if (m.truth_error > 0)
-    text += fmt::format("  truth unknown; errors are from {:.12g} +- {:.2g}{}\n", m.truth, m.truth_error,
-                        m.interrupted ? "" : ", by replicates of their own");
+    text += fmt::format("  true value unknown; errors are relative to {:.12g} +- {:.2g}{}\n", m.truth, m.truth_error,
+                        m.interrupted ? "" : ", estimated from separate replicates");
   for (const std::string& warning : {m.doubt, about_variance(m)})
     if (!warning.empty()) text += fmt::format("  warning: {}\n", warning);
   return text;

@@ -289,7 +289,7 @@ class Session {
       for (const Image& image : s.images)
         if (const double x = noise(image, reference_.dark); x > mc::sqr(rounding_of_pixels))
           smallest = std::min(smallest, x);
-    mc::require(std::isfinite(smallest), "no picture has any noise: there is no error to measure");
+    mc::require(std::isfinite(smallest), "no picture has noise: there is no error to measure");
     const double goal = smallest / 100;
     while (reference_.noise > goal)
       if (!add_to_reference(reference_.spp * std::max(reference_.noise / goal - 1, 0.25))) return false;
@@ -388,10 +388,10 @@ std::optional<PictureWay> plain_way(const ::render::SceneFile& file) {
 
 Pictures measure_pictures(const ::render::SceneFile& file, const std::vector<PictureWay>& ways,
                           const PictureOptions& options) {
-  mc::require(!ways.empty(), "no way to render is named");
+  mc::require(!ways.empty(), "no method to render is named");
   mc::require(options.replicates == 0 || options.replicates >= 3,
               "{} pictures behind each error; at least 3 are needed", options.replicates);
-  mc::require(options.max_spp >= 16 && options.max_spp <= 1 << 28, "{} samples per pixel at most; 16 to 2^28 can be",
+  mc::require(options.max_spp >= 16 && options.max_spp <= 1 << 28, "{} samples per pixel at most; it must lie in 16 to 2^28",
               options.max_spp);
   return Session(file, ways, options).run();
 }

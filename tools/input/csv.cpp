@@ -164,7 +164,7 @@ void require_text(const std::string& file, const std::string& bytes) {
   const auto control = [](unsigned char c) { return c < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\f'; };
   const auto bad = std::find_if(bytes.begin(), bytes.end(), control);
   if (bad == bytes.end()) return;
-  throw mc::Error(fmt::format("{}: it is no text: byte {} is 0x{:02x}; rows of numbers are needed", file,
+  throw mc::Error(fmt::format("{}: it is not text: byte {} is 0x{:02x}; rows of numbers are needed", file,
                               bad - bytes.begin(), static_cast<unsigned>(static_cast<unsigned char>(*bad))));
 }
 
@@ -199,7 +199,7 @@ CsvTable read_csv(const std::string& file) {
     }
     table.lines.push_back(line);
   }
-  mc::require(!table.lines.empty(), "{}: it holds no numbers", file);
+  mc::require(!table.lines.empty(), "{}: it contains no numbers", file);
   refine_digits(table, columns);
   return table;
 }

@@ -6,7 +6,7 @@ namespace carlo {
 
 CsvTable read_points(const std::string& file, std::size_t least, std::size_t most, std::size_t most_columns) {
   CsvTable table = read_csv(file);
-  mc::require(table.columns <= most_columns, "{}: {} columns; at most {} dimensions are looked at", file, table.columns,
+  mc::require(table.columns <= most_columns, "{}: {} columns; at most {} dimensions are supported", file, table.columns,
               most_columns);
   mc::require(table.rows() >= least && table.rows() <= most, "{}: {} points; {} to {} are needed", file, table.rows(),
               least, most);

@@ -126,7 +126,7 @@ std::pair<double, double> total(const ParsedDomain& domain, const Density& densi
     return std::isfinite(value) ? value : 0.0; // the ends of infinite intervals
   };
   const mc::CubatureResult r = mc::integrate_boxes(f, domain.chart.dim, {mc::UnitBox()});
-  mc::require(r.total.value > 0, "--pdf: the expression is 0 wherever it was looked at");
+  mc::require(r.total.value > 0, "--pdf: the expression was 0 at every point that was evaluated");
   mc::require(r.total.error <= 1e-3 * r.total.value,
               "--pdf: its integral is {:.6g} to within {:.2g} only; give a density that integrates to 1 instead of "
               "--unnormalized",

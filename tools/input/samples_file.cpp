@@ -156,7 +156,7 @@ struct SamplesFile {
 };
 
 std::shared_ptr<const SamplesFile> load(const SamplesFileOptions& o) {
-  mc::require(!o.pdf.empty(), "validate: --samples-file needs the density to hold the samples against: --pdf-file or "
+  mc::require(!o.pdf.empty(), "validate: --samples-file needs a density to compare the samples with: --pdf-file or "
                               "--pdf");
   CsvTable table = read_csv(o.samples);
   mc::require(table.rows() >= 2000, "{}: {} samples; at least 2000 are needed", o.samples, table.rows());

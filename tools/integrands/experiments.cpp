@@ -146,7 +146,7 @@ void refuse_underflow(const Experiment& e) {
     any = any || e.underflows(u);
   }
   mc::require(!any,
-              "'{}': its values times the volume of '{}' are below {:.2g}, the least that a double holds; multiply it "
+              "'{}': its values times the volume of '{}' are below {:.2g}, the smallest double; multiply it "
               "by a large number, or rescale its variables",
               e.name, e.source, std::numeric_limits<double>::denorm_min());
 }

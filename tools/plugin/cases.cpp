@@ -64,7 +64,7 @@ std::vector<Asked> asked_sets(const std::string& path, const std::vector<std::st
   for (const std::string& text : texts)
     for (ParameterSet& set : parse_parameters(text)) {
       for (const auto& [name, value] : set)
-        mc::require(known.contains(name), "{}: --params: no sampler has a parameter '{}'{}", path, name,
+        mc::require(known.contains(name), "{}: --params: no distribution has a parameter '{}'{}", path, name,
                     mc::did_you_mean(name, known));
       all.push_back({std::move(set), text});
     }
@@ -123,7 +123,7 @@ Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& 
   std::error_code error;
   mc::require(std::filesystem::exists(path, error), "cannot read '{}': no such file", path);
   const std::vector<Description> samplers = call_worker({{"task", "describe"}, {"who", path}}, worker);
-  mc::require(!samplers.empty(), "{}: it holds integrands and no samplers; see carlo converge --plugin", path);
+  mc::require(!samplers.empty(), "{}: it contains integrands but no distributions; see carlo converge --plugin", path);
   const std::vector<Asked> asked = asked_sets(path, texts, samplers);
   std::set<std::string> used;
   Catalogue cases;
@@ -140,7 +140,7 @@ Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& 
     if (cases.size() == before) cases.push_back(make_case(path, index, d, {}, *values_of(path, d, {}, named), worker));
   }
   for (const Asked& set : asked)
-    mc::require(used.contains(set.text), "{}: no sampler has all the parameters of --params '{}'", path, set.text);
+    mc::require(used.contains(set.text), "{}: no distribution has all the parameters of --params '{}'", path, set.text);
   return cases;
 }
 

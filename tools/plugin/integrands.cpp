@@ -204,7 +204,7 @@ json run_integrand_task(const json& request, Watch& watch) {
 std::vector<Target> plugin_targets(const std::string& path, const std::vector<std::string>& names,
                                    const WorkerOptions& worker) {
   const json all = call_worker({{"task", "describe integrands"}, {"who", path}}, worker);
-  mc::require(!all.empty(), "{}: it holds samplers and no integrands; see carlo validate --plugin", path);
+  mc::require(!all.empty(), "{}: it contains distributions but no integrands; see carlo validate --plugin", path);
   std::vector<std::string> known;
   for (const json& one : all) known.push_back(one["name"]);
   for (const std::string& name : names)

@@ -211,7 +211,7 @@ Ended wait_for(pid_t child, int pipe, const Watch& watch, const Limits& limits, 
 
 mc::Error too_much_memory(const std::string& who, const Limits& limits, const Watch& watch) {
   return mc::Error(
-      fmt::format("{}: it wants more than {:g} GiB of memory{} (--memory)", who, limits.gigabytes, watch.where()));
+      fmt::format("{}: it needs more than {:g} GiB of memory{} (--memory)", who, limits.gigabytes, watch.where()));
 }
 
 [[noreturn]] void complain(const std::string& who, const Limits& limits, const Watch& watch, const Ended& e) {

@@ -41,10 +41,12 @@ ParsedDomain domain_of(const PluginSampler& plugin, std::uint64_t seed) {
                       plugin->scalar == MC_FLOAT ? Rounding::floats : Rounding::doubles);
 }
 
-// weight pdf / f, 1 where they agree.
-double weight_ratio(const PluginSampler& plugin, const AnySampler::Uniforms& u, const Numbers& x, double pdf) {
-  const double f = plugin.eval(x.data()), stated = plugin.weight(u.data(), x.data());
-  return f == 0 && stated == 0 ? 1.0 : stated * pdf / f;
+// Sets weight to weight pdf / f, 1 where they agree.
+void set_weight(const PluginSampler& plugin, const AnySampler::Uniforms& u, AnySampler::Drawn& d) {
+  const double f = plugin.eval(d.x.data()), stated = plugin.weight(u.data(), d.x.data());
+  d.weight = f == 0 && stated == 0 ? 1.0 : stated * d.pdf / f;
+  d.stated.value = stated;
+  d.stated.expected = f / d.pdf;
 }
 
 // The point that the plugin makes of u; what it forgets to write shows as NaN.
@@ -68,7 +70,7 @@ std::optional<AnySampler::Drawn> draw(const PluginSampler& plugin, const mc::Any
   const bool finite = std::all_of(d.x.begin(), d.x.end(), [](double x) { return std::isfinite(x); });
   if (!plugin->weight || !finite || !domain.contains(d.x)) return d;
   d.pdf = plugin.pdf(d.x.data());
-  d.weight = weight_ratio(plugin, u, d.x, d.pdf);
+  set_weight(plugin, u, d);
   return d;
 }
 

@@ -49,9 +49,9 @@ void require_sound(const mc_sampler& s, std::size_t index) {
     mc::require(s.scalar == MC_DOUBLE || s.scalar == MC_FLOAT, "scalar = {} is none of mc_scalar, 0 or 1", s.scalar);
     mc::require(s.sample, "it has no function sample");
     mc::require(s.pdf, "it has no function pdf");
-    mc::require(!s.weight || s.eval, "it states a weight, but no eval to hold it against");
+    mc::require(!s.weight || s.eval, "it states a weight, but has no eval to compare it with");
     mc::require(!s.invert || s.uniforms == 0 || s.uniforms == domain.chart.dim,
-                "it has invert, but takes {} uniforms in {} dimensions; invert needs as many", s.uniforms,
+                "it has invert, but takes {} uniforms in {} dimensions; invert needs equal numbers", s.uniforms,
                 domain.chart.dim);
     for (const double t : {s.pdf_tolerance, s.weight_tolerance, s.invert_tolerance})
       mc::require(t >= 0 && t < 1, "a tolerance is {}; it must lie in [0, 1)", t);
@@ -137,7 +137,7 @@ PluginSampler::PluginSampler(const mc_sampler& sampler, std::vector<double> para
   watch.enter("create");
   void* self = sampler.create(parameters_->data());
   watch.leave();
-  mc::require(self != nullptr, "create refuses the parameters");
+  mc::require(self != nullptr, "create rejects the parameters");
   self_ = {self, [destroy = sampler.destroy, &watch](void* made) {
              if (!destroy) return;
              watch.enter("destroy");
@@ -232,7 +232,7 @@ Plugin load_plugin(const std::string& path, Watch& watch) {
   if (!first)
     plugin.integrands =
         table("integrand", info->integrands, info->integrand_count, info->integrand_size, sizeof(mc_integrand));
-  mc::require(!plugin.samplers.empty() || !plugin.integrands.empty(), "it lists no samplers and no integrands");
+  mc::require(!plugin.samplers.empty() || !plugin.integrands.empty(), "it lists neither distributions nor integrands");
   return plugin;
 }
 

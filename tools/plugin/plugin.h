@@ -18,7 +18,7 @@ namespace carlo {
 /// watch. Lives in the child only.
 class PluginSampler {
  public:
-  /// throws : Error when create refuses the parameters
+  /// throws : Error when create rejects the parameters
   PluginSampler(const mc_sampler& sampler, std::vector<double> parameters, Watch& watch);
 
   const mc_sampler& operator*() const { return sampler_; }

@@ -82,7 +82,7 @@ json call_worker(json request, const WorkerOptions& options) {
 void serve(json (*run)(const json& request, Watch& watch)) {
   Bytes bytes;
   while (!is_whole(bytes))
-    if (!read_some(STDIN_FILENO, bytes)) throw mc::Error("worker: carlo itself starts this; it is of no use by hand");
+    if (!read_some(STDIN_FILENO, bytes)) throw mc::Error("worker: only carlo itself starts this subcommand");
   const json request = message_in(bytes);
   const json& l = request["limits"];
   const Limits limits{l["seconds"], l["gigabytes"], l["files"], l["less"]};

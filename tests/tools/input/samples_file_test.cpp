@@ -200,7 +200,7 @@ TEST_F(SamplesFile, ABadRowIsNamedByItsLine) {
   EXPECT_THAT(with("0.1,,0.2"), HasSubstr("b.csv:5: an empty field"));
   EXPECT_THAT(with("0.1,0.2x"), HasSubstr("b.csv:5: '0.2x' is not a number"));
   EXPECT_THAT(refusal(options(write("b.csv", "nan,1\n"), good)), HasSubstr("b.csv:1: 'nan'")) << "not a row of names";
-  EXPECT_THAT(refusal(options(write("b.csv", "x,y\n"), good)), HasSubstr("b.csv: it holds no numbers"));
+  EXPECT_THAT(refusal(options(write("b.csv", "x,y\n"), good)), HasSubstr("b.csv: it contains no numbers"));
 }
 
 TEST_F(SamplesFile, BadFilesAreOneLine) {
@@ -261,7 +261,7 @@ TEST_F(SamplesFile, WhatSpreadsheetsWriteIsRead) {
 TEST_F(SamplesFile, GarbageIsRefusedInPlainText) {
   const std::string pdf = grid(16, 1, ramp_mean);
   const std::string refused = refusal(options(write("b.csv", std::string("0.5\n\x7f\x45\x4c\x46\x00\x01", 10)), pdf));
-  EXPECT_THAT(refused, HasSubstr("b.csv: it is no text: byte 8 is 0x00; rows of numbers are needed"));
+  EXPECT_THAT(refused, HasSubstr("b.csv: it is not text: byte 8 is 0x00; rows of numbers are needed"));
   const std::string word = refusal(options(write("b.csv", "0.5\n\xc3\xa9\xff\n"), pdf));
   EXPECT_THAT(word, HasSubstr("b.csv:2: '\?\?\?' is not a number"));
 }

@@ -243,9 +243,9 @@ TEST(Plugin, BadParametersAreOneLine) {
   EXPECT_THAT(with("power"), HasSubstr("'power' in 'power' is not of the form name=number"));
   EXPECT_THAT(with("power=x"), HasSubstr("not of the form name=number"));
   EXPECT_THAT(with("power=21"), HasSubstr("power = 21 of Box must lie in [0, 20]"));
-  EXPECT_THAT(with("power=13"), HasSubstr("create refuses the parameters"));
+  EXPECT_THAT(with("power=13"), HasSubstr("create rejects the parameters"));
   EXPECT_THAT(with("power=1,tilt=1"), HasSubstr("no sampler has all the parameters"));
-  EXPECT_THAT(refusal(plugin("samplers", {"Cosin"})), HasSubstr("unknown sampler 'Cosin'; did you mean 'Cosine'?"));
+  EXPECT_THAT(refusal(plugin("samplers", {"Cosin"})), HasSubstr("unknown distribution 'Cosin'; did you mean 'Cosine'?"));
   ValidateOptions o;
   o.parameters = {"a=1"};
   EXPECT_THAT(refusal(o), HasSubstr("--params sets parameters of a --plugin"));
