@@ -29,8 +29,8 @@ struct Case {
   std::string again = {}; ///< what follows "carlo validate" to check it alone; empty: its name
 
   /// "Linear(a=0, b=1)".
-  std::string plain() const { return name + (parameters.empty() ? "" : "(" + parameters + ")"); }
-  std::string title() const { return plain() + " " + scalar; }
+  std::string label() const { return name + (parameters.empty() ? "" : "(" + parameters + ")"); }
+  std::string title() const { return label() + " " + scalar; }
 };
 
 using Catalogue = std::vector<Case>;

@@ -133,8 +133,8 @@ std::string cases_text(const std::vector<const Case*>& cases, std::size_t column
     if (!description.empty()) text += wrapped(fmt::format("{}: {}.", group[0]->name, description), columns);
     std::vector<std::pair<std::string, std::string>> rows; // case, scalars
     for (const Case* c : group) {
-      if (!rows.empty() && rows.back().first == c->plain()) rows.back().second += ", " + c->scalar;
-      else rows.emplace_back(c->plain(), c->scalar);
+      if (!rows.empty() && rows.back().first == c->label()) rows.back().second += ", " + c->scalar;
+      else rows.emplace_back(c->label(), c->scalar);
     }
     for (const auto& [name, scalars] : rows) text += fmt::format("{:{}}{:<60} {}\n", "", indent, name, scalars);
   }

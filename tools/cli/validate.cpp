@@ -42,7 +42,7 @@ std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catal
   for (const std::string& name : o.names) {
     bool known = false;
     for (const Case& c : catalogue) {
-      if (name != c.name && name != c.plain()) continue;
+      if (name != c.name && name != c.label()) continue;
       known = true;
       if (wanted(c)) chosen.push_back(&c);
     }
@@ -80,7 +80,7 @@ std::string error_text(double e) {
 std::string line_of(std::size_t width, const Case& c, const mc::Report& r) {
   const std::string ns = r.ns_per_sample > 0 ? fmt::format("{:.1f}", r.ns_per_sample) : "-";
   const std::string p = r.is_statistical() ? fmt::format("{:.2g}", r.p()) : "-";
-  return fmt::format("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>9} {:>7.2f}\n", c.plain(), width, c.scalar,
+  return fmt::format("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>9} {:>7.2f}\n", c.label(), width, c.scalar,
                      name(r.verdict()), p, error_text(r.detectable), error_text(r.detectable_cell), ns, r.seconds);
 }
 
@@ -165,12 +165,12 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
   std::mutex mutex;
   Progress progress;
   std::size_t width = 24;
-  for (const Case* c : cases) width = std::max(width, c->plain().size());
+  for (const Case* c : cases) width = std::max(width, c->label().size());
   fmt::print("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>9} {:>7}\n", "distribution", width, "scalar", "verdict", "p",
              "detects", "in a cell", "ns/sample", "seconds");
   const auto print = [&](std::size_t i) {
     if (reports[i]) fmt::print("{}", line_of(width, *cases[i], *reports[i]));
-    else fmt::print("{:<{}} {:<7} {}\n", cases[i]->plain(), width, cases[i]->scalar, "error");
+    else fmt::print("{:<{}} {:<7} {}\n", cases[i]->label(), width, cases[i]->scalar, "error");
   };
   const auto is_done = [&](std::size_t i) { return reports[i] || !errors[i].empty(); };
   mc::parallel_for(cases.size(), o.threads, [&](std::size_t i) {
