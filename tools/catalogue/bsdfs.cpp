@@ -27,8 +27,8 @@ void add_bsdfs(Catalogue& c) {
     add_bsdf(c, "RoughPlastic", fmt::format("LayeredBase, alpha={}", alpha),
              render::RoughPlastic(render::Float(1.49), render::Float(alpha), paint, one),
              {0, 60, 85, grazing(alpha), 120});
-  // Kept for comparison with lajolla, it reflects up to 1.84 times the light that there is: only where no colour is
-  // above .5 can it obey the energy law beside all others.
+  // LajollaBase exists for comparison with lajolla and gains energy. It obeys the energy law only with colors of at
+  // most .5.
   const render::Spectrum half = one / 2;
   for (const double alpha : {1e-4, 0.02, 1.0})
     add_bsdf(c, "RoughPlastic", fmt::format("LajollaBase, specular=0.5, alpha={}", alpha),

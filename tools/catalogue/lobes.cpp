@@ -16,7 +16,7 @@ template <class S> mc::Vec3<S> direction(double degrees) {
   return mc::spherical_direction<S>(S(std::sin(theta)), S(std::cos(theta)), S(0.7));
 }
 
-// Where a direction tells its normal badly, the inverse is loose by 16 eps / (alpha |half vector|).
+// The inverse is less precise where the half vector is short: by 16 eps / (alpha |half vector|).
 void add_half_vectors(Catalogue& c) {
   for (const auto& [alpha, degrees] : {std::pair{1e-4, 0.0}, {0.1, 60.0}, {1.0, 89.9}})
     add_warp(c, "Reflected", fmt::format("visible normals alpha={:g}, {:g} degrees", alpha, degrees),
@@ -50,7 +50,7 @@ void add_half_vectors(Catalogue& c) {
 
 } // namespace
 
-// Where a bound depends on the parameter, it is the one of the warp's contract.
+// Bounds that depend on a parameter are the bounds of the warp's contract.
 void add_lobes(Catalogue& c) {
   for (const double n : {0.0, 1.0, 100.0, 1e7})
     add_warp(c, "BlinnPhong", fmt::format("n={:g}", n),

@@ -1,5 +1,5 @@
-// Points of shapes and lights seen from a point, the choice of a light, what a mask stops, offsets of filters, points
-// of the lens, rays through the film: all in librender's Float.
+// Distributions of librender in its Float: points and directions of shapes and lights from a reference point, the choice
+// of a light, masks, offsets of filters, points of the lens, rays through the film.
 #include <catalogue/catalogue.h>
 
 #include <render/scene/builder.h>
@@ -20,7 +20,7 @@ using Number = std::function<double(const Vec2& u)>;
 
 constexpr Float eps = std::numeric_limits<Float>::epsilon(), nan = std::numeric_limits<Float>::quiet_NaN();
 
-// A sampler that is no warp; `number` takes the time of one sample.
+// A distribution that is no warp; `number` draws one sample for timing.
 void add_subject(Catalogue& c, const std::string& name, const std::string& parameters, mc::Subject subject,
                  const Number& number, double mass_tolerance = 64 * double(eps)) {
   Case one{name, parameters, sizeof(Float) == 4 ? "float" : "double", {}};
@@ -72,7 +72,7 @@ void add_points(Catalogue& c, const std::string& name, const std::string& parame
     Vec3 x;
     Float weight, pdf;
   };
-  // Per area; the weight of f = 1 under it holds what the sampler itself says of its density.
+  // Density per area. The weight of f = 1 contains the density that the shape's sample states.
   const auto per_area = [=](const SurfacePoint& p, Float pdf) {
     const Vec3d between = (p.p - ref).template cast<double>();
     return Float(double(pdf) * std::abs(p.ng.template cast<double>().dot(between.normalized())) /
@@ -95,7 +95,7 @@ void add_points(Catalogue& c, const std::string& name, const std::string& parame
 
 mc::Cap<Float> cap_of(double one_minus_cos) { return mc::Cap<Float>(Float(one_minus_cos)); }
 
-// The points of a sphere about `at`, or of its cap, whose directions from there lie in `domain`.
+// The points of a sphere about `at`, or of its cap; their directions from `at` lie in `domain`.
 template <class D>
 void add_sphere(Catalogue& c, const std::string& where, const Vec3d& at, const Sphere& sphere, const Vec3& ref,
                 const D& domain, double tolerance = 1e-3) {
@@ -178,9 +178,9 @@ void add_meshes_seen(Catalogue& c) {
     add_strips_directions(c, where, afar, {.count = count});
     add_strips_points(c, where, afar, {.count = count});
   }
-  // The density of its points jumps at the diagonal, where a point does not tell whose sample it is.
+  // Points are not checked: their density jumps at the diagonal, where a point belongs to both triangles.
   add_strips_directions(c, "2 triangles it nearly touches", {Float(0.25), Float(0.125), Float(2.25)}, {.count = 1});
-  // Two triangles that are one to the eye: directions meet both.
+  // Two triangles that coincide in direction: rays hit both.
   const Vec3 a(Float(0.5), -1, 2), b(1, 1, Float(0.5)), e(-1, Float(0.5), Float(0.25));
   const mc::Patch<Float, 3> directions(a, b, e);
   add_directions(c, "TriangleMesh", "one triangle behind another",
@@ -211,7 +211,7 @@ void add_choices(Catalogue& c) {
   for (const double radiance : {0.0, 1.0, 1e-3, 0.0, 20.0, 3.0, 0.0})
     spheres.add(Sphere(Vec3d::Zero(), 0.1), {gray, Emission{Spectrum::Constant(Float(radiance))}});
   add_choice(c, "LightChoice", "spheres of one size and place", std::move(spheres));
-  // Of lights that no ray meets only the choice is random.
+  // Point and directional lights: only the choice of the light is random.
   for (const bool with_sun : {false, true}) {
     SceneBuilder points;
     points.add(Sphere(Vec3d::Zero(), 0.1), {points.add(Lambert())});
@@ -223,11 +223,11 @@ void add_choices(Catalogue& c) {
   }
 }
 
-// Which of two surfaces behind one another a ray ends at, of which a picture masks the first.
+// The surface at which a ray ends: the first of two is masked by a picture.
 struct MetBehindMask {
   using Scalar = Float;
   std::shared_ptr<const Scene> scene;
-  Float opacity; ///< where the ray meets it
+  Float opacity; ///< at the ray's hit
 
   mc::DiscreteSample<Float> sample_index(Float u) const {
     Ray ray{Vec3(0, Float(0.5), -2), Vec3::UnitZ()};

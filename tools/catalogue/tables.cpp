@@ -9,7 +9,7 @@
 namespace carlo {
 namespace {
 
-// Weights that jump and vanish, as those of real tables do.
+// Weights that jump and vanish, as in real tables.
 std::vector<double> jagged(std::size_t n) {
   std::vector<double> w(n);
   for (std::size_t i = 0; i < n; ++i) w[i] = i % 7 == 3 ? 0.0 : 1 + static_cast<double>((i * 37) % 11);

@@ -55,7 +55,7 @@ std::vector<Metric> metrics(const Image& a, const Image& b) {
           {"max", peak},         {"mean_ratio", mean_a == mean_b ? 1 : mean_a / mean_b}};
 }
 
-// Variance of each mean, the degrees of freedom behind it, and the pixels that share their noise.
+// The noise of an image: whether variances are known, their degrees of freedom, and the number of correlated pixels.
 struct Noise {
   bool known;
   double dof, area;
@@ -68,7 +68,7 @@ struct Worst {
   int x = 0, y = 0, channel = 0;
 };
 
-/// Sums over a rectangle of pixels, which may be a single one; variances are those of the sums.
+/// Sums over a rectangle of pixels, or one pixel, with the variances of these sums.
 struct Block {
   double pixels = 0, difference = 0, reference = 0, variance_a = 0, variance_b = 0;
   mc::VarianceSum all; ///< variances of both
@@ -82,14 +82,15 @@ class Comparison {
 
   bool possible() const { return noise_a_.known && noise_b_.known; }
 
-  // Pixels, each with the variance of its 3x3 surroundings: a pixel that missed a rare bright path underestimates its
-  // own. These lend their degrees of freedom, too, but no more than the two pixels have, nor than 3: noise is far from
-  // normal within a pixel, where one rare bright path decides, and Student's t with 3 degrees of freedom has tails
-  // heavy enough for that. Blocks of 16x16 pixels see what is spread thinly.
+  // Tests pixels and blocks of 16x16 pixels. A pixel takes the mean variance of its 3x3 neighborhood, since a pixel
+  // that missed a rare bright path underestimates its own variance. Its degrees of freedom are those of the
+  // neighborhood, but at most the sum of the two pixels' own, and at most 3: one rare bright path can dominate a pixel,
+  // so that its noise is far from normal, and Student's t with 3 degrees of freedom has heavy tails. Blocks detect
+  // differences that are small in every pixel.
   void run() {
     for (int c = 0; c < 3; ++c) {
-      // A pixel none of whose samples met a rare event looks noiseless: differences far below the typical noise are not
-      // judged.
+      // A pixel without any rare event has variance 0; a floor keeps differences far below the typical noise from
+      // counting.
       const Block whole = sum(0, 0, a_.width, a_.height, c);
       floor_ = 1e-6 * (whole.variance_a + whole.variance_b) / double(a_.pixels.size());
       for (int y = 0; y < a_.height; ++y)
@@ -128,7 +129,7 @@ class Comparison {
         ++sums.pixels;
         sums.difference += double(a_.pixels[i][c]) - double(b_.pixels[i][c]);
         sums.reference += double(b_.pixels[i][c]);
-        // Pixels that share their noise say the same of it, so that many of them know no more than one.
+        // Correlated pixels count as fewer independent variances.
         const double va = double(a_.variance[i][c]) * noise_a_.area, vb = double(b_.variance[i][c]) * noise_b_.area;
         sums.variance_a += va;
         sums.variance_b += vb;
@@ -190,7 +191,7 @@ std::vector<Option> rows(CompareOptions& o) {
   });
 }
 
-// What the t-tests rest on.
+// Throws Error where the t-tests lack a usable variance.
 void require_variance(const std::string& path, const Image& image) {
   double largest = 0, noise = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
@@ -209,7 +210,7 @@ void require_variance(const std::string& path, const Image& image) {
               path, largest);
 }
 
-// "'a.png' carries", or both.
+// The subject of a message: "'a.png' carries", or "the images carry".
 std::string without_variance(const CompareOptions& options, const Image& a, const Image& b) {
   if (a.variance.empty() && b.variance.empty()) return "the images carry";
   return fmt::format("'{}' carries", a.variance.empty() ? options.a : options.b);

@@ -56,8 +56,8 @@ std::vector<Way> ways_of(const ConvergeOptions& o) {
   return chosen;
 }
 
-// Writes and prints one target; `pictures` of a scene. Returns whether gnuplot is there, which is not asked again
-// without.
+// Writes and prints one target; `pictures` for a scene. Returns whether gnuplot can draw; pass the answer on, so that
+// the warning appears once.
 bool write(const Target& target, const Measurement& m, const ConvergeOptions& o, const std::filesystem::path& folder,
            bool can_draw, const Pictures* pictures = nullptr) {
   const std::string name = file_name(target.integral.name), base = (folder / name).string();
@@ -80,7 +80,7 @@ bool write(const Target& target, const Measurement& m, const ConvergeOptions& o,
   return false;
 }
 
-// All targets one after another, each written as soon as it is measured.
+// Results of the targets, each written as soon as it is measured.
 struct Run {
   std::deque<Measurement> measurements; ///< of the first targets
   std::size_t curves = 0;               ///< finished
@@ -141,7 +141,7 @@ std::vector<Option> rows(ConvergeOptions& o) {
   return in_groups({common, plugin_group(o.integral), scene_group(o.scene), expert});
 }
 
-// Where the page will be, looked at before any work; empty where none is wanted.
+// The folder of the page, checked before any work; empty without --report.
 std::filesystem::path page_folder(const ConvergeOptions& o) {
   return o.report.empty() ? "" : mc::output_folder(o.report, "index.html");
 }

@@ -28,18 +28,18 @@ struct GalleryOptions {
   bool list = false, table = false;
   std::optional<int> spp;
   std::optional<double> seconds, target_error; ///< of each scene
-  double scale = 1;                            ///< of the pictures' sides
+  double scale = 1;                            ///< factor of width and height
   std::uint64_t seed = 0;
   int threads = 0;
   std::string command;
 };
 
-/// A scene that was read, before it is rendered.
+/// A scene that was read and is not rendered yet.
 struct Asked {
   const GalleryScene* scene;
   ::render::SceneFile file;
   ::render::RenderOptions settings;
-  double work = 0; ///< samples, or where their number is not known 1
+  double work = 0; ///< number of samples; 1 where it is unknown
 };
 
 std::vector<Option> rows(GalleryOptions& o) {
@@ -74,7 +74,7 @@ int list_scenes() {
   return exit_ok;
 }
 
-// Each once, however often it is named: pictures and the parts of the page are called after their scenes.
+// The named scenes without duplicates, since files and parts of the page have the names of scenes.
 std::vector<const GalleryScene*> chosen(const GalleryOptions& o) {
   std::vector<const GalleryScene*> scenes;
   for (const std::string& name : o.names) {
@@ -133,7 +133,7 @@ class GalleryRun {
 
   void all(const std::vector<const GalleryScene*>& scenes) {
     asked_ = scenes.size();
-    std::vector<Asked> asked; // reading is quick: what cannot be read is known before the first is rendered
+    std::vector<Asked> asked; // all are read first: a bad file is reported before any rendering
     for (const GalleryScene* scene : scenes) {
       asked.push_back(read(*scene, options_, cancel_));
       work_ += asked.back().work;
@@ -149,7 +149,7 @@ class GalleryRun {
   const std::vector<::render::Image>& thumbnails() const { return thumbnails_; }
 
  private:
-  // False when it was interrupted: what is half done is not kept.
+  // Returns false when interrupted; an unfinished scene is not kept.
   bool one(Asked& a) {
     const std::string title(a.scene->name);
     std::mutex mutex;
@@ -184,7 +184,7 @@ class GalleryRun {
     return true;
   }
 
-  // Once for all scenes of a file.
+  // Computed once for all scenes that share a file.
   const std::vector<StrategyResult>& strategies(const Asked& a) {
     const auto [place, is_new] = strategies_.try_emplace(scene_file(*a.scene));
     if (is_new && a.settings.shown.what == ::render::Shown::radiance)

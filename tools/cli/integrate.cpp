@@ -91,13 +91,13 @@ std::vector<Side> sides_of(const IntegrateOptions& o, int dim) {
   return sides;
 }
 
-// Bins, and which of them a point with its value is in.
+// Bins, and the function that finds the bin of a point and its value.
 struct Bins {
   std::vector<Bin> bins;
   mc::BinOf of;
 };
 
-// Of equal length in u: of an infinite side they are the longer the farther out.
+// Bins of equal length in u. On an infinite side their lengths in x grow outward.
 Bins along(const std::vector<Side>& sides, const std::string& variable, std::size_t count) {
   const auto side = std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return s.name == variable; });
   mc::require(side != sides.end(), "--histogram: there is no variable '{}'; use one of the domain's, or value",
@@ -113,7 +113,7 @@ Bins along(const std::vector<Side>& sides, const std::string& variable, std::siz
   return all;
 }
 
-// Powers of 2 below the largest of 4096 values. They are those of the integrand times `volume`, that of the domain.
+// Bins by size: powers of 2 below the largest of 4096 values of the integrand times the volume of the domain.
 Bins by_value(const Experiment& e, double volume, std::size_t count, std::uint64_t seed) {
   const double top_quantile[] = {1 - 1e-9};
   const double largest = mc::quantiles([&](std::span<const double> u) { return std::abs(e.f(u)); }, e.dim, top_quantile,
@@ -132,7 +132,7 @@ Bins by_value(const Experiment& e, double volume, std::size_t count, std::uint64
   return all;
 }
 
-// By what the values of Experiment::f exceed those of the expression.
+// The factor between the values of Experiment::f and those of the expression.
 double volume_of(const std::vector<Side>& sides, const char* option) {
   double volume = 1;
   for (const Side& s : sides) {
@@ -164,7 +164,7 @@ std::vector<double> probabilities(const std::string& list) {
   return all;
 }
 
-// By as many calls as the integral took. Returns whether nobody interrupted it.
+// Takes the same number of calls as the integral. Returns false when interrupted.
 bool find_quantiles(Integrals& found, const std::vector<double>& wanted, const IntegrateOptions& o,
                     const Interrupt& interrupt) try {
   if (wanted.empty()) return true;
@@ -184,7 +184,7 @@ bool find_quantiles(Integrals& found, const std::vector<double>& wanted, const I
   return false;
 }
 
-// All integrands at once, or the one with its histogram.
+// Integrates all integrands together, or one with its histogram.
 mc::VectorIntegral results_of(const std::vector<Experiment>& all, const Bins& bins, const mc::IntegrateOptions& o) {
   const Experiment& e = all.front();
   if (!bins.bins.empty()) return mc::integrate_histogram(e.f, e.dim, bins.bins.size(), bins.of, o);
@@ -195,7 +195,7 @@ mc::VectorIntegral results_of(const std::vector<Experiment>& all, const Bins& bi
   return mc::integrate_unit(f, static_cast<int>(all.size()), e.dim, o);
 }
 
-// A refusal of a point u, told in the variables of the integrand.
+// The message about a point u where the integrand is not finite, in the integrand's own variables.
 std::string in_variables(const mc::NotFinite& e, const std::vector<Experiment>& all, const std::string& domain) {
   if (!all.front().place) return e.what();
   const std::string message = mc::NotFinite(e.bad, e.points, e.u, all.front().place(e.u)).what();

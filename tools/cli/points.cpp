@@ -94,15 +94,15 @@ std::string points_csv(mc::PointList p) {
   return text;
 }
 
-// What is within reach is exact: that takes some seconds. Of what is not, bounds come at less, and those for reference
-// at a tenth of that, since there are many.
+// Work limits for the star discrepancy. It is exact where that takes some seconds at most; otherwise bounds are computed
+// with less work, and with a tenth of it for the many reference sets.
 StarWork star_work(std::uint64_t n, std::size_t dim, bool last) {
   constexpr std::uint64_t thorough = 2'000'000'000, quick = 300'000'000, little = 100'000'000;
   if (mc::exact_star_steps(n, dim) < 0.6 * static_cast<double>(quick)) return {last ? thorough : quick, quick};
   return {last ? thorough : little, little / 10};
 }
 
-// The rows of the curves, fewest points first, and the sets of the last.
+// The rows of the curves by increasing number of points, and the point sets of the last row.
 struct MeasuredSets {
   std::vector<Row> rows;
   Sets sets;

@@ -44,14 +44,15 @@ Slips select(const std::vector<std::string>& names) {
 
 struct Judged {
   mc::Report wrong, right;
-  std::string test;          ///< the check that rejected the wrong one
-  std::uint64_t samples = 0; ///< after which it did; 0: without any
+  std::string test;          ///< the check that rejected the bug
+  std::uint64_t samples = 0; ///< that the check needed
   bool caught = false;
 };
 
-// Doubles the samples until the wrong one is rejected; all looks together reject a right one with probability alpha.
+// Doubles the samples until the bug is rejected. All sample sizes together reject a correct distribution with
+// probability alpha.
 Judged judge(const Slip& slip, const SlipsOptions& o) {
-  std::uint64_t seed = o.seed; // its own numbers, whichever slips are judged beside it
+  std::uint64_t seed = o.seed; // the same numbers for any selection of bugs
   for (const char letter : slip.id)
     seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
   double looks = 1;
@@ -64,7 +65,7 @@ Judged judge(const Slip& slip, const SlipsOptions& o) {
     t.caught = t.wrong.verdict() == mc::Verdict::fail;
     if (t.caught || n >= o.samples) break;
   }
-  // The law it broke, else the test that is surest.
+  // The deterministic law that failed, else the test with the smallest p.
   const mc::Check* by = nullptr;
   const auto sureness = [](const mc::Check& c) { return c.p ? mc::sidak_share(*c.p, c.share) : -1.0; };
   for (const mc::Check& c : t.wrong.checks)
@@ -80,7 +81,7 @@ Judged judge(const Slip& slip, const SlipsOptions& o) {
   return t;
 }
 
-// Errors say of which slip.
+// As judge(); errors name the bug.
 Judged judge_named(const Slip& slip, const SlipsOptions& o) {
   return mc::with_context(slip.title(), [&] { return judge(slip, o); });
 }
@@ -104,7 +105,7 @@ json to_json(const Slip& s, const Judged& t) {
           {"right", {{"verdict", name(t.right.verdict())}, {"p", t.right.p()}, {"samples", t.right.samples}}}};
 }
 
-// Every slip that was finished before `cancel`, its line printed as soon as those before it are printed.
+// Returns the results that were finished before `cancel`. Prints them in order, each as soon as possible.
 std::vector<std::optional<Judged>> judge_all(const Slips& slips, const SlipsOptions& o,
                                              const std::atomic<bool>* cancel) {
   fmt::print(
@@ -149,7 +150,7 @@ void print_stories(const Slips& slips, const std::vector<std::optional<Judged>>&
   }
 }
 
-// Prints the boxes and appends them to `all`; whether each agrees, or not, as the books say.
+// Prints the boxes and appends them to `all`. Returns whether each agrees with the reference as the books claim.
 bool judge_boxes(const SlipsOptions& o, json& all) {
   const std::uint64_t paths = o.samples / 4;
   fmt::print("\nWhich Cornell box was right? Mean radiance of the picture, {} paths each.\n", paths);

@@ -58,7 +58,7 @@ std::string text_of(const Ranged& r, std::string_view unit) {
   return fmt::format("{:.3g}{} [{:.3g}, {:.3g}]", r.value, unit, r.lo, r.hi);
 }
 
-// "  as good: a, b" of those that cannot be told from the first.
+// Prints the candidates that do not differ significantly from the first.
 void print_ties(const std::vector<Offer>& offers, Ranged Offer::*by, std::string_view unit) {
   const std::size_t count = as_good(offers, by);
   for (std::size_t i = 1; i < count; ++i)
@@ -67,7 +67,7 @@ void print_ties(const std::vector<Offer>& offers, Ranged Offer::*by, std::string
   if (count > 1) fmt::print("\n");
 }
 
-// How far the best came where none reaches the error.
+// The smallest errors, where no method reaches the wanted one.
 void print_nearest(const ForError& f) {
   constexpr std::size_t most = 4;
   fmt::print("  error {:g}: no way came there", f.wanted);
@@ -108,7 +108,7 @@ void print(const ForSeconds& f, const Cost& cost) {
         ended, f.offers.size(), f.wanted, cost.unit);
 }
 
-// JSON has no infinity: null, as the value is of which only a bound is known.
+// JSON has no infinity; null stands for it, and for a value of which only a bound is known.
 ordered_json to_json(const Ranged& r) {
   const bool is_known = !r.is_at_most() && !r.is_at_least();
   return {{"value", is_known ? ordered_json(r.value) : ordered_json()}, {"lo", r.lo}, {"hi", r.hi}};
@@ -131,7 +131,7 @@ template <class For> ordered_json to_json(const For& f, Ranged Offer::*by, const
   return j;
 }
 
-// All points, and the front drawn through the best of them.
+// gnuplot script: all points, and the Pareto front.
 std::string script(const std::string& title, const Measurement& m) {
   std::string s = plot_head("trade", 900, 640);
   s += fmt::format("set title \"{}\" noenhanced\nset logscale xy\nset format xy \"10^{{%L}}\"\nset key outside right "
@@ -164,7 +164,8 @@ std::vector<Offer> all_points(const Measurement& m) {
   return all;
 }
 
-// Every point set over double and float, every estimator; one point at a time, too, where the integrand takes many.
+// Every point set over double and float, and every estimator; also with one point per call where the integrand takes
+// batches.
 std::vector<Way> configurations(const Target& target) {
   std::vector<Way> all = ways();
   all.insert(all.end(), float_ways().begin(), float_ways().end());
@@ -206,14 +207,14 @@ std::vector<Option> rows(TradeOptions& o) {
   return in_groups({common, plugin_group(o.integral), scene, expert});
 }
 
-/// What is wanted of a target.
+/// The wanted errors and times.
 struct Wanted {
   std::vector<double> errors, seconds;
 };
 
-/// Where the results go; looked at before any work.
+/// Output folders, checked before any work.
 struct Folders {
-  std::filesystem::path data, page; ///< page: empty where none is wanted
+  std::filesystem::path data, page; ///< page: empty without --report
 
   explicit Folders(const TradeOptions& o) : data(mc::output_folder(o.output, "trade.json")) {
     if (!o.report.empty()) page = mc::output_folder(o.report, "index.html");
@@ -232,7 +233,7 @@ template <class Seconds> Answers answers_of(const Measurement& m, const Wanted& 
   return a;
 }
 
-// The picture that errors are from, and what each way errs by however long it runs; told from 0 where lo is above.
+// Adds the reference picture, and the bias of each method with its interval.
 void add(const Pictures& p, ordered_json& j) {
   j["reference"] = {{"spp", p.reference_spp}, {"error", p.reference_error}};
   j["biases"] = ordered_json::array();
@@ -260,7 +261,7 @@ ordered_json to_json(const TradeOptions& o, const Measured& one) {
   return j;
 }
 
-// Prints and writes what was found. Returns the exit code.
+// Prints and writes the results. Returns the exit code.
 int tell(const TradeOptions& o, const Measured& one, const Folders& folders) {
   const Measurement& m = *one.measurement;
   const Answers& a = *one.answers;
@@ -308,7 +309,7 @@ int trade_scene(const TradeOptions& o, Wanted wanted) {
   if (wanted.errors.empty() && wanted.seconds.empty()) wanted.errors = {0.2, 0.1, 0.05};
   fmt::print("{}: {} ways, {} of one picture\n", target.integral.title, m.curves.size(), m.cost.axis);
   fmt::print("{}", about_pictures(pictures));
-  // The pictures were taken in turn already.
+  // The pictures were already rendered in turn.
   const Answers answers = answers_of(m, wanted, [](const std::vector<Offer>&) { return as_measured; });
   const int code = tell(o, {&target, &m, &pictures, &answers}, folders);
   return m.interrupted ? exit_interrupted : code;

@@ -61,7 +61,7 @@ std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catal
   return unique;
 }
 
-// Every case draws its own numbers, the same ones whichever cases run beside it and wherever its file stands.
+// The seed of a case. It depends neither on the other cases of the run nor on the folder of a file.
 std::uint64_t seed_of(const Case& c, const ValidateOptions& o) {
   std::string title = c.title();
   if (!o.samples_file.empty()) title = "samples";
@@ -87,7 +87,7 @@ std::string line_of(std::size_t width, const Case& c, const mc::Report& r) {
 // The user's own code or samples, checked in place of the catalogue.
 struct Brought {
   Catalogue cases;
-  std::uint64_t samples = 0; ///< of a file; 0: as many as are asked for
+  std::uint64_t samples = 0; ///< number of samples of a file; 0: the option decides
 };
 
 Brought bring(const ValidateOptions& o, const std::atomic<bool>* cancel) {
@@ -122,7 +122,7 @@ Brought bring(const ValidateOptions& o, const std::atomic<bool>* cancel) {
   return brought;
 }
 
-// Sets the samples, and refuses what cannot be done before the work begins.
+// Determines the number of samples. Throws Error before any work where it is impossible.
 void require_possible(ValidateOptions& o, double alpha, std::uint64_t available) {
   if (o.detect) {
     mc::require(*o.detect >= 1e-4 && *o.detect <= 1, "validate: --detect {} must lie in [0.0001, 1]", *o.detect);
@@ -156,7 +156,7 @@ mc::Report check(const Case& one, const ValidateOptions& o, double alpha, const 
   return mc::with_context(one.title(), [&] { return one.check(c); });
 }
 
-// Prints the line of each case as soon as those before it are printed.
+// Checks all cases. Prints their lines in order, each as soon as possible.
 Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions& o, double alpha,
                    const std::atomic<bool>* cancel) {
   std::vector<std::optional<mc::Report>> reports(cases.size());
@@ -180,7 +180,7 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
       report = check(*cases[i], o, alpha, cancel);
     } catch (const Interrupted&) {
       return;
-    } catch (const mc::Error& e) { // one crash is no reason to lose what the others show
+    } catch (const mc::Error& e) { // a crash of one case leaves the results of the others
       errors[i] = e.what();
     }
     const std::lock_guard lock(mutex);

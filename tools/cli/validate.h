@@ -1,5 +1,5 @@
 #pragma once
-/// carlo validate: every sampler against its laws.
+/// carlo validate: checks distributions with laws and statistical tests.
 
 #include <options/subcommand.h>
 
@@ -16,18 +16,18 @@ struct ValidateOptions {
   int threads = 0;                     ///< 0: all
   std::optional<double> detect;        ///< relative error to catch with probability .99; chooses `samples`
   std::string json, junit;             ///< files; empty: none
-  std::string plugin;                  ///< a shared object whose samplers are checked instead of the catalogue's
-  std::vector<std::string> parameters; ///< of the plugin: sets or sweeps, see parameters.h
-  std::string sampler_command;         ///< or a program that answers over pipes, see command.h
-  int uniforms = 0;                    ///< that one sample of it takes; 0: as many as the domain has dimensions
-  std::optional<double> timeout;       ///< wall-clock seconds per case of foreign code; 60 where none is given
-  std::optional<double> memory;        ///< GiB that it may have; 4 where none is given
-  std::string samples_file, pdf_file;  ///< samples and the density on a grid, see samples_file.h
-  std::string pdf;                     ///< or the density as an expression
-  std::string domain;                  ///< of the samples; empty: by their columns
-  std::string breaks;                  ///< where the density jumps along the axes of the domain, see parse_breaks
-  bool open_interval = false;          ///< u in (0,1): a sampler may break at single u
-  bool unnormalized = false;           ///< what is given is only proportional to the density
+  std::string plugin;                  ///< a shared object with distributions to check
+  std::vector<std::string> parameters; ///< sets or sweeps for the plugin, see parameters.h
+  std::string sampler_command;         ///< a program that answers over pipes, see command.h
+  int uniforms = 0;                    ///< per sample of the program; 0: the dimensions of the domain
+  std::optional<double> timeout;       ///< wall-clock seconds per case of foreign code; none: 60
+  std::optional<double> memory;        ///< GiB for foreign code; none: 4
+  std::string samples_file, pdf_file;  ///< samples, and a density on a grid, see samples_file.h
+  std::string pdf;                     ///< the density as an expression
+  std::string domain;                  ///< of the samples; empty: inferred from their columns
+  std::string breaks;                  ///< places where the density jumps, see parse_breaks
+  bool open_interval = false;          ///< u lies in (0,1): failures at single u are accepted
+  bool unnormalized = false;           ///< the given density is only proportional to the true one
   std::string report;                  ///< folder for index.html; empty: none
   std::string command;
   std::string worker = "/proc/self/exe"; ///< the carlo that runs foreign code

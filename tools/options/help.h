@@ -9,7 +9,7 @@
 
 namespace carlo {
 
-/// `carlo NAME --help` in so many columns: usage, examples, options by group, further sections, exit codes.
+/// `carlo NAME --help`: usage, examples, options by group, further sections, exit codes, at most `columns` wide.
 std::string help_of(const Subcommand& subcommand, std::size_t columns);
 
 /// `carlo --help`.

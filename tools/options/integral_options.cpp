@@ -46,7 +46,7 @@ std::vector<int> depths_of(const std::string& text, int own) {
   return depths;
 }
 
-// Those that are named; else those of all, or of four, that find every light, each once.
+// The named strategies; without names, the strategies that find every light, of all or of four.
 std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, const ::render::SceneFile& file) {
   std::vector<::render::Strategy> strategies;
   if (!o.strategies.empty()) {
@@ -208,7 +208,7 @@ Pictures measure_scene(const SceneOptions& o, const SceneRun& run) {
 
 namespace {
 
-// "; pays for errors above .1 [.09, .2]".
+// "pays for errors above .1 [.09, .2]": where a biased method is cheaper than the unbiased ones.
 std::string where_it_pays(const std::optional<Ranged>& above) {
   if (!above) return "never pays";
   if (!std::isfinite(above->value)) return fmt::format("if it pays, for errors above {:.3g} at least", above->lo);

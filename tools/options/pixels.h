@@ -1,5 +1,5 @@
 #pragma once
-/// Sizes and parts of pictures, as words say them.
+/// Sizes and parts of pictures, parsed from option values.
 
 #include <render/pixel_points.h>
 
@@ -12,7 +12,7 @@ namespace carlo {
 ///   throws : Error for anything else, and where one is not positive
 std::pair<int, int> size_in(const std::string& text);
 
-/// "X,Y,WIDTH,HEIGHT". Whether it lies inside the picture is for the renderer to say.
+/// The part "X,Y,WIDTH,HEIGHT". The renderer checks that it lies inside the picture.
 ///   throws : Error for anything else
 render::Crop crop_in(const std::string& text);
 

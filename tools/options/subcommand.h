@@ -18,11 +18,11 @@
 
 namespace carlo {
 
-/// What carlo returns to the shell.
+/// Exit codes of carlo.
 enum ExitCode : int {
   exit_ok = 0,            ///< done, and every check passed
   exit_failed = 1,        ///< done, but a check failed or a wanted error was not reached
-  exit_bad_input = 2,     ///< bad usage, file or value; one line on stderr says what to do
+  exit_bad_input = 2,     ///< bad usage, file or value; one line on stderr names the remedy
   exit_interrupted = 130, ///< Ctrl-C; the results so far are written, or printed, and marked as such
   exit_closed_pipe = 141, ///< nothing reads standard output any more, as behind `| head`
   exit_terminated = 143   ///< SIGTERM, else as exit_interrupted, which subcommands return
@@ -75,8 +75,8 @@ struct HelpSection {
 struct About {
   std::string name;
   std::string summary;                    ///< one sentence without a full stop
-  std::vector<HelpEntry> examples;        ///< command lines and what they do
-  std::string failure = {};               ///< what exit code 1 means; empty where it does not occur
+  std::vector<HelpEntry> examples;        ///< command lines with their effects
+  std::string failure = {};               ///< meaning of exit code 1; empty where it does not occur
   std::vector<HelpSection> sections = {}; ///< further explanation
   std::vector<std::string> aliases = {};  ///< former names, which --help does not show
   bool hidden = false;                    ///< not for users: --help does not name it

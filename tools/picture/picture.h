@@ -1,5 +1,5 @@
 #pragma once
-/// What carlo does to every picture that it rendered.
+/// Texts and metadata of every picture that carlo renders.
 
 #include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
@@ -10,26 +10,26 @@
 
 namespace carlo {
 
-/// Where a picture comes from.
+/// The origin of a picture.
 struct Provenance {
-  std::string scene;   ///< its file, or what else it is of
+  std::string scene;   ///< its file or name
   std::string command; ///< the command line
   std::uint64_t seed = 0;
 };
 
-/// "" where every sample was finite; otherwise how many were not, and how to trace the first one again.
+/// "" where every sample was finite; else the number of bad samples, and the place of the first.
 std::string invalid_samples(const ::render::RenderResult& result, const Provenance& from);
 
-/// How far a partial render came: "interrupted before the end", or "interrupted in its first pass: 122 of 768 rows were
+/// The progress of a partial render: "interrupted before the end", or "interrupted in its first pass: 122 of 768 rows were
 /// rendered, the others repeat the nearest".
 std::string interruption(const ::render::RenderResult& result);
 
-/// Writes scene, command, commit, seed and samples into the picture's metadata, and how far it came.
+/// Writes scene, command, commit, seed, samples and progress into the picture's metadata.
 void sign(::render::RenderResult& result, const Provenance& from);
 
-/// Lines on stderr where Float is too coarse for the scene, or holds too little.
+/// Warns on stderr where the precision or the range of Float is insufficient for the scene.
 void warn_where_coarse(const std::string& path, const ::render::Scene& scene);
-/// Says on standard error where a scene is not read as Mitsuba would.
+/// Warns on stderr where a scene means something else in Mitsuba.
 void warn_of_departures(const ::render::SceneFile& file);
 
 /// "881 ksamples/s" of a render.

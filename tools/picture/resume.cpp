@@ -21,7 +21,7 @@ struct Compared {
   const char *key, *words;
 };
 
-// What is compared, in this order.
+// Metadata that must agree, in order of comparison.
 constexpr auto compared = std::to_array<Compared>({
     {"carlo.size", "--size"},
     {"carlo.crop", "--crop"},
@@ -32,7 +32,7 @@ constexpr auto compared = std::to_array<Compared>({
     {"carlo.scene_hash", "files of a scene whose bytes have the hash"},
 });
 
-// Of their bytes, whatever their folders. "" where one cannot be read again.
+// A hash of the files' bytes, independent of their folders. "" where a file cannot be read again.
 std::string hash_of(const std::set<std::string>& files) {
   std::vector<std::uint64_t> hashes;
   for (const std::string& file : files) {
@@ -72,9 +72,9 @@ PictureOf picture_of(const std::string& file, const std::string& dialect, std::v
 Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part,
                     ::render::RenderOptions& settings) {
   mc::require(mc::extension_of(path) == ".exr",
-              "--resume: '{}' is no .exr: other formats do not store radiance with its variance; name an .exr",
+              "--resume: '{}' is no .exr: other formats do not store radiance with its variance; name an .exr", path);
+  mc::require(std::filesystem::exists(path), "--resume: '{}' does not exist; leave out --resume in the first run",
               path);
-  mc::require(std::filesystem::exists(path), "--resume: '{}' does not exist; leave out --resume in the first run", path);
   Begun begun{::render::read_image(path), 0, 1};
   const auto text = [&](const char* key) {
     const auto found = begun.image.metadata.find(key);

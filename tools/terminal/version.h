@@ -1,5 +1,5 @@
 #pragma once
-/// Which carlo this is, for --version and the metadata of every file it writes.
+/// Version of carlo, for --version and the metadata of its files.
 
 namespace carlo {
 
