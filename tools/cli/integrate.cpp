@@ -233,6 +233,17 @@ mc::IntegrateOptions settings_of(const IntegrateOptions& o) {
   return settings;
 }
 
+// Whether every integral has the wanted error, as an exit code. Prints a remedy where only the error is too large.
+int exit_code_of(const Integrals& found) {
+  const auto outputs = found.results.outputs.begin();
+  const auto end = outputs + std::ptrdiff_t(found.integrands.size());
+  if (!std::all_of(outputs, end, [](const mc::Integral& i) { return i.error_bar == mc::ErrorBar::known; }))
+    return exit_failed;
+  if (found.results.outputs.front().stop == mc::Stop::converged) return exit_ok;
+  fmt::print("the wanted error was not reached; raise --max-calls\n");
+  return exit_failed;
+}
+
 int integrate(const IntegrateOptions& o) {
   if (o.list) {
     for (const Experiment* e : named_integrands()) std::printf("%-26s %s\n", e->name.c_str(), e->title.c_str());
@@ -286,12 +297,7 @@ int integrate(const IntegrateOptions& o) {
                 name(r.method), r.calls, o.save_density);
     mc::save_density(o.save_density, *r.density);
   }
-  if (cancelled) return exit_interrupted;
-  const auto reached = [](const mc::Integral& i) {
-    return i.stop == mc::Stop::converged && i.error_bar == mc::ErrorBar::known;
-  };
-  const auto outputs = found.results.outputs.begin();
-  return std::all_of(outputs, outputs + std::ptrdiff_t(found.integrands.size()), reached) ? exit_ok : exit_failed;
+  return cancelled ? exit_interrupted : exit_code_of(found);
 }
 
 } // namespace

@@ -261,6 +261,8 @@ TEST(Integrate, TheExitCodeTellsWhetherTheErrorWasReached) {
   const auto code = [](const std::string& arguments) { return support::run_carlo("integrate " + arguments).exit_code; };
   EXPECT_EQ(code("x*x -d x=0:1"), 0);
   EXPECT_EQ(code("x*x -d x=0:1 --rel-error 1e-12 --max-calls 4096"), 1) << "the error was not reached";
+  EXPECT_THAT(support::run_carlo("integrate x*x -d x=0:1 --rel-error 1e-12 --max-calls 4096").output,
+              testing::EndsWith("\nthe wanted error was not reached; raise --max-calls\n"));
   EXPECT_EQ(code("'x > 2' -d x=0:1"), 1) << "the error is not known";
   EXPECT_EQ(code("'x^-0.9' -d x=0:1 --max-calls 1e5"), 1) << "the variance is infinite";
   EXPECT_EQ(code("x 'x > 2' -d x=0:1 --max-calls 1e5"), 1) << "of one of two integrands it is not known";
