@@ -113,9 +113,9 @@ TEST(House, EveryPublicHeaderHasItsTest) {
 }
 
 TEST(House, TopLevelHoldsWhatTheDesignNames) {
-  const std::set<std::string> known = {"CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE",
-                                       "libmc",          "librender",         "tools",     "tests",
-                                       "bench",          "notebooks-data",    "build",     "out"};
+  const std::set<std::string> known = {
+      "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "libmc", "librender", "tools", "tests",
+      "bench",          "notebooks-data",    "build",     "out",     "docs"};
   for (const auto& entry : fs::directory_iterator(root)) {
     const std::string file = entry.path().filename().string();
     EXPECT_TRUE(file.starts_with(".") || known.contains(file)) << file;
@@ -157,9 +157,18 @@ TEST(House, TheExamplesOfTheReadmesAreCompiled) {
 // A link to a file of the project leads to one.
 TEST(House, LinksOfTheReadmesLead) {
   static const std::regex link(R"(\]\(([\w./-]+)\))");
-  for (const fs::path file : {"README.md", "libmc/README.md", "librender/scenes/README.md",
-                              "librender/scenes/GALLERY.md", "notebooks-data/README.md", "tests/refs/README.md",
-                              "tools/input/README.md", "tools/plugin/README.md", "tools/report/README.md"}) {
+  std::vector<fs::path> files = {"README.md",
+                                 "libmc/README.md",
+                                 "librender/scenes/README.md",
+                                 "librender/scenes/GALLERY.md",
+                                 "notebooks-data/README.md",
+                                 "tests/refs/README.md",
+                                 "tools/input/README.md",
+                                 "tools/plugin/README.md",
+                                 "tools/report/README.md"};
+  for (const auto& entry : fs::recursive_directory_iterator(root / "docs"))
+    if (entry.path().extension() == ".md") files.push_back(fs::relative(entry.path(), root));
+  for (const fs::path& file : files) {
     const std::string text = text_of(file);
     for (std::sregex_iterator match(text.begin(), text.end(), link), end; match != end; ++match)
       EXPECT_TRUE(fs::exists(root / file.parent_path() / (*match)[1].str())) << file << ": " << (*match)[1];
