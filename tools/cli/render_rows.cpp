@@ -18,7 +18,7 @@ constexpr const char* splat_reason = "both share samples between pixels, and the
 constexpr const char* branch_reason = "a tile shares one continuation of each path, so that it does not split";
 constexpr const char* resume_reason = "--resume averages runs, and a target or an interval is that of a single run";
 
-OptionGroup common(RenderOptions& o) {
+OptionGroup common_group(RenderOptions& o) {
   return {
       common_options,
       {
@@ -43,7 +43,7 @@ OptionGroup common(RenderOptions& o) {
       }};
 }
 
-OptionGroup sampling(RenderOptions& o) {
+OptionGroup sampling_group(RenderOptions& o) {
   return {"Sampling",
           {
               {"--strategy", "NAME", &o.strategy,
@@ -75,7 +75,7 @@ OptionGroup sampling(RenderOptions& o) {
           }};
 }
 
-OptionGroup image(RenderOptions& o) {
+OptionGroup image_group(RenderOptions& o) {
   return {"Image",
           {
               {"--crop", "X,Y,W,H", &o.crop,
@@ -93,7 +93,7 @@ OptionGroup image(RenderOptions& o) {
           }};
 }
 
-OptionGroup expert(RenderOptions& o) {
+OptionGroup expert_group(RenderOptions& o) {
   return {expert_options,
           {
               {"--resume",
@@ -123,7 +123,7 @@ OptionGroup expert(RenderOptions& o) {
           }};
 }
 
-std::vector<HelpSection> sections() {
+std::vector<HelpSection> render_sections() {
   return {
       {"Which option when",
        {
@@ -156,7 +156,7 @@ std::vector<HelpSection> sections() {
 } // namespace
 
 std::vector<Option> render_rows(RenderOptions& options) {
-  return in_groups({common(options), sampling(options), image(options), expert(options)});
+  return in_groups({common_group(options), sampling_group(options), image_group(options), expert_group(options)});
 }
 
 About render_about() {
@@ -167,7 +167,7 @@ About render_about() {
                         "renders until the error is 2 %, at most ten minutes"},
                        {"carlo render cbox --compare-strategies -o strip.png",
                         "compares the strategies by their errors and pictures"}},
-          .sections = sections()};
+          .sections = render_sections()};
 }
 
 std::string strategies_text(std::size_t columns) {

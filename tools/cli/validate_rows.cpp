@@ -77,7 +77,7 @@ std::vector<Option> validate_rows(ValidateOptions& o) {
 
 namespace {
 
-std::vector<HelpSection> sections() {
+std::vector<HelpSection> validate_sections() {
   return {
       {"Columns of the table",
        {
@@ -132,7 +132,7 @@ About validate_about() {
                        {"carlo validate --samples-file s.csv --pdf \"2*x\"",
                         "compares the samples of a file with a density on [0, 1]"}},
           .failure = "a distribution failed, or a test was inconclusive",
-          .sections = sections()};
+          .sections = validate_sections()};
 }
 
 } // namespace carlo
