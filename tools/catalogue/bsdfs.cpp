@@ -27,7 +27,7 @@ void add_bsdfs(Catalogue& c) {
     add_bsdf(c, "RoughPlastic", fmt::format("LayeredBase, alpha={}", alpha),
              render::RoughPlastic(render::Float(1.49), render::Float(alpha), paint, one),
              {0, 60, 85, grazing(alpha), 120});
-  // LajollaBase exists for comparison with lajolla and gains energy. It obeys the energy law only with colors of at
+  // LajollaBase exists for comparison with lajolla and gains energy. It obeys the energy law only with colours of at
   // most .5.
   const render::Spectrum half = one / 2;
   for (const double alpha : {1e-4, 0.02, 1.0})

@@ -20,7 +20,7 @@ struct Description {
 constexpr auto descriptions = std::to_array<Description>({
     {"UniformInterval", "Uniform on an interval"},
     {"Linear", "Density on [0,1] that is linear from a at 0 to b at 1"},
-    {"Tent", "Triangle of a given radius about a center"},
+    {"Tent", "Triangle of a given radius about a centre"},
     {"Normal", "Normal distribution on the line"},
     {"Exponential", "Exponential distribution on the half line"},
     {"TrimmedExponential", "Exponential distribution cut to [0, length]; grows for a negative rate"},
@@ -65,7 +65,7 @@ constexpr auto descriptions = std::to_array<Description>({
     {"TableDistTree", "Piecewise constant density on the boxes of a kd-tree"},
     {"AliasTable", "Outcomes in proportion to their weights, in constant time"},
     {"Lambert", "BSDF of a matte surface: the same radiance in all directions"},
-    {"TexturedLambert", "BSDF of a matte surface with the color of a picture"},
+    {"TexturedLambert", "BSDF of a matte surface with the colour of a picture"},
     {"Metal", "BSDF of a mirror, or of a metal whose reflections are blurred by a ball of radius fuzz"},
     {"Dielectric", "BSDF of smooth glass: reflection and refraction by the Fresnel equations"},
     {"RoughPlastic", "BSDF of a diffuse base under a rough coating"},
@@ -83,10 +83,10 @@ constexpr auto descriptions = std::to_array<Description>({
     {"GradientBackground", "Directions to a sky whose radiance is linear in the height"},
     {"Environment", "Directions to an environment map, by the luminance of its pixels"},
     {"AreaLight", "Directions to a shape that emits light"},
-    {"BoxFilter", "Offsets from the center of a pixel: uniform in a square"},
-    {"TentFilter", "Offsets from the center of a pixel: a product of triangles"},
-    {"GaussianFilter", "Offsets from the center of a pixel: a Gaussian, cut at its radius"},
-    {"SubpixelTentFilter", "Offsets from the center of a pixel: triangles about the centers of n x n subpixels"},
+    {"BoxFilter", "Offsets from the centre of a pixel: uniform in a square"},
+    {"TentFilter", "Offsets from the centre of a pixel: a product of triangles"},
+    {"GaussianFilter", "Offsets from the centre of a pixel: a Gaussian, cut at its radius"},
+    {"SubpixelTentFilter", "Offsets from the centre of a pixel: triangles about the centres of n x n subpixels"},
     {"ThinLens", "Camera rays: points of the lens, and directions through the film"},
 });
 
@@ -101,7 +101,7 @@ std::vector<std::vector<const Case*>> by_distribution(const std::vector<const Ca
   return groups;
 }
 
-constexpr std::size_t indent = 2, hang = 32;
+constexpr std::size_t indent = 2, hang = 37;
 
 } // namespace
 
@@ -112,13 +112,11 @@ std::string_view description_of(std::string_view name) {
 }
 
 std::string distributions_text(const std::vector<const Case*>& cases, std::size_t columns) {
-  std::string text;
+  std::string text = fmt::format("{:<29} {:>5}  {}\n", "distribution", "cases", "description");
   const auto groups = by_distribution(cases);
   for (const auto& group : groups)
-    text += term_row(
-        group[0]->name,
-        fmt::format("{}. {} case{}", description_of(group[0]->name), group.size(), group.size() == 1 ? "" : "s"),
-        columns, 0, hang);
+    text += term_row(fmt::format("{:<29} {:>5}", group[0]->name, group.size()),
+                     fmt::format("{}.", description_of(group[0]->name)), columns, 0, hang);
   return text + "\n" +
          wrapped(fmt::format("{} cases of {} distributions. carlo validate --list NAME shows the cases of one, which "
                              "carlo validate checks by name.",

@@ -82,9 +82,9 @@ class Comparison {
 
   bool possible() const { return noise_a_.known && noise_b_.known; }
 
-  // Tests pixels and blocks of 16x16 pixels. A pixel takes the mean variance of its 3x3 neighborhood, since a pixel
+  // Tests pixels and blocks of 16x16 pixels. A pixel takes the mean variance of its 3x3 neighbourhood, since a pixel
   // that missed a rare bright path underestimates its own variance. Its degrees of freedom are those of the
-  // neighborhood, but at most the sum of the two pixels' own, and at most 3: one rare bright path can dominate a pixel,
+  // neighbourhood, but at most the sum of the two pixels' own, and at most 3: one rare bright path can dominate a pixel,
   // so that its noise is far from normal, and Student's t with 3 degrees of freedom has heavy tails. Blocks detect
   // differences that are small in every pixel.
   void run() {

@@ -183,7 +183,7 @@ std::vector<Option> rows(PointsOptions& o) {
            {"--randomisations",
             "N",
             &o.randomisations,
-            "Independent randomizations behind each mean, 1 to 1000.",
+            "Independent randomisations behind each mean, 1 to 1000.",
             false,
             {own}},
            {"--seed", "N", &o.seed, "Seed of the random numbers. The same seed gives the same points.", false, {own}},

@@ -88,7 +88,7 @@ OptionGroup image_group(RenderOptions& o) {
               {"--intervals", "FILE", &o.intervals,
                "Write half the widths of the pixels' 95 % confidence intervals to this image."},
               {"--layers", "", &o.layers,
-               "Add channels to an EXR: normal N, position P, depth Z, albedo and shape id at the center of each "
+               "Add channels to an EXR: normal N, position P, depth Z, albedo and shape id at the centre of each "
                "pixel."},
           }};
 }
@@ -135,7 +135,7 @@ std::vector<HelpSection> render_sections() {
            {"--splat", "Scenes with a Gaussian or tent filter, where correlated noise does not matter. Not with "
                        "--tiles: " +
                            std::string(splat_reason) + "."},
-           {"--tiles", "Rooms with diffuse walls. Not for many small objects, where neighboring pixels show different "
+           {"--tiles", "Rooms with diffuse walls. Not for many small objects, where neighbouring pixels show different "
                        "ones."},
            {"--branches", "2 for the least time to an error; 1 for the most samples per second. Not with --tiles: " +
                               std::string(branch_reason) + "."},
@@ -173,7 +173,7 @@ About render_about() {
 std::string strategies_text(std::size_t columns) {
   std::string text;
   for (const ::render::Strategy& s : ::render::strategies)
-    text += term_row(s.name, fmt::format("{} Use: {}", s.summary, s.use), columns, 0, 12);
+    text += term_row(s.name, fmt::format("{}\n{}", s.summary, s.use), columns, 0, 12);
   return text;
 }
 

@@ -41,7 +41,7 @@ std::vector<Option> validate_rows(ValidateOptions& o) {
            {"--command", "PROGRAM", &o.sampler_command,
             "Check the distribution of this program, which answers over pipes: \"python3 mine.py\". Needs --domain."},
            {"--uniforms", "N", &o.uniforms,
-            "Random numbers that one sample of --command takes. Default 0: the dimensions of --domain."},
+            "Random numbers that one sample of --command takes; 0 is the dimensions of --domain."},
            {"--timeout", "SECONDS", &o.timeout, "Wall-clock time for a case of a plugin or program. Default: 60."},
            {"--memory", "GIB", &o.memory, "Memory for a plugin or program, in GiB. Default: 4."},
        }},

@@ -50,7 +50,7 @@ struct Strategy {
 ///           scenes where they pay, see LightPaths; elsewhere it is mis, bit for bit
 inline constexpr auto strategies = std::to_array<Strategy>({
     {"bsdf", Target::nothing, 0, Finding::by_chance, 0, "Follows the BSDF; light counts where a path hits it.",
-     "Large lights or a sky; a reference for the others. Finds no point or directional light."},
+     "For large lights or a sky, and as a reference. Finds no point or directional light."},
     {"hemisphere", Target::hemisphere, 1, Finding::by_chance, 0,
      "Takes uniform directions; light counts where a path hits it.",
      "To show the noise of directions that ignore the BSDF. Finds no point or directional light."},
@@ -61,16 +61,17 @@ inline constexpr auto strategies = std::to_array<Strategy>({
      "To compare with Shirley's books. Finds no point or directional light."},
     {"guides", Target::guides, Float(0.5), Finding::by_chance, 0,
      "As mixture, toward the shapes that the scene marks as importance targets.",
-     "Scenes with a known source of indirect light, such as a glass ball. Finds no point or directional light."},
+     "For a known source of indirect light, such as a glass ball. Finds no point or directional light."},
     {"nee", Target::nothing, 0, Finding::by_connection, 0,
      "Connects every vertex of a path with a point of a light (next-event estimation).",
-     "Diffuse surfaces and small lights. Noisy where a glossy surface reflects a light."},
+     "For diffuse surfaces and small lights. Noisy where a glossy surface reflects a light."},
     {"mis", Target::speculars, Float(0.25), Finding::by_both, 0,
      "Combines nee and bsdf by multiple importance sampling.",
-     "Any scene without caustics, and comparison with other path tracers."},
+     "For scenes without caustics, and to compare with other path tracers."},
     {"mis+lt", Target::speculars, Float(0.25), Finding::by_both, Float(0.125),
      "Combines mis with paths traced from the lights to the camera (light tracing).",
-     "Any scene: the default. Finds caustics of glass, mirrors and glossy metal; elsewhere it is mis, bit for bit."},
+     "For any scene: the default. Finds caustics of glass, mirrors and glossy metal; elsewhere it is mis, bit for "
+     "bit."},
 });
 
 /// The names of all, in their order.

@@ -47,7 +47,7 @@ TEST(Validate, ListDescribesEveryDistribution) {
     EXPECT_NE(carlo::description_of(c.name), "") << c.name << " lacks a sentence in tools/catalogue/descriptions.cpp";
   }
   EXPECT_THAT(text, HasSubstr(fmt::format("{} cases of ", carlo::catalogue().size())));
-  EXPECT_THAT(text, testing::ContainsRegex("CosineHemisphere +Directions above a plane"));
+  EXPECT_THAT(text, testing::ContainsRegex("CosineHemisphere +2  Directions above a plane"));
   EXPECT_LT(std::count(text.begin(), text.end(), '\n'), 160);
 }
 

@@ -15,12 +15,12 @@ constexpr std::string_view no_gradients = "derivatives of a picture are not supp
 constexpr std::string_view no_curves = "curves are not supported; convert them to a mesh";
 constexpr std::string_view no_layers = "layers are not supported; use plastic or roughplastic";
 constexpr std::string_view no_bumps = "bump and normal maps are not supported; use the BSDF inside it";
-constexpr std::string_view no_polarization = "polarization is not supported; use the BSDF without it";
+constexpr std::string_view no_polarisation = "polarisation is not supported; use the BSDF without it";
 constexpr std::string_view no_sky_model = "sky models are not supported; use envmap with a picture of the sky";
 constexpr std::string_view tessellate = "this shape is not supported; convert it to a mesh (obj or ply)";
 constexpr std::string_view no_instances = "instances are not supported; repeat the shape";
 constexpr std::string_view no_such_filter = "filters with negative weights are not supported; use gaussian";
-constexpr std::string_view no_spectra = "spectra of a wavelength are not supported; colors are RGB";
+constexpr std::string_view no_spectra = "spectra of a wavelength are not supported; colours are RGB";
 
 constexpr auto reasons = std::to_array<Reason>({
     {"integrator", "volpath", no_scattering},
@@ -41,17 +41,17 @@ constexpr auto reasons = std::to_array<Reason>({
     {"integrator", "aov", "use the integrator inside it; --layers of carlo render writes normals, depth and albedo"},
     {"integrator", "depth", "use path; --layers of carlo render writes the depth"},
     {"integrator", "moment", "use the integrator inside it; an EXR contains the variance of every pixel"},
-    {"integrator", "stokes", no_polarization},
+    {"integrator", "stokes", no_polarisation},
     {"bsdf", "thindielectric", "thin glass is not supported; use dielectric with two surfaces"},
     {"bsdf", "principled", "the principled BSDF is not supported; use roughplastic, roughconductor or roughdielectric"},
     {"bsdf", "principledthin", "the principled BSDF is not supported; use roughplastic or mask"},
     {"bsdf", "hair", "hair is not supported; use roughplastic"},
     {"bsdf", "measured", "measured materials are not supported; use roughplastic or roughconductor"},
-    {"bsdf", "measured_polarized", no_polarization},
-    {"bsdf", "pplastic", no_polarization},
-    {"bsdf", "polarizer", no_polarization},
-    {"bsdf", "retarder", no_polarization},
-    {"bsdf", "circular", no_polarization},
+    {"bsdf", "measured_polarized", no_polarisation},
+    {"bsdf", "pplastic", no_polarisation},
+    {"bsdf", "polarizer", no_polarisation},
+    {"bsdf", "retarder", no_polarisation},
+    {"bsdf", "circular", no_polarisation},
     {"bsdf", "bumpmap", no_bumps},
     {"bsdf", "normalmap", no_bumps},
     {"bsdf", "bump", no_bumps},
@@ -94,7 +94,7 @@ constexpr auto reasons = std::to_array<Reason>({
     {"rfilter", "mitchell", no_such_filter},
     {"rfilter", "catmullrom", no_such_filter},
     {"rfilter", "lanczos", no_such_filter},
-    {"texture", "mesh_attribute", "colors of vertices are not supported; use bitmap"},
+    {"texture", "mesh_attribute", "colours of vertices are not supported; use bitmap"},
     {"texture", "volume", "use bitmap"},
     {"medium", "heterogeneous", "media of varying density are not supported; use homogeneous, which absorbs only"},
     {"phase", "isotropic", "scattering media are not supported; a homogeneous medium absorbs only"},
