@@ -108,11 +108,12 @@ json to_json(const Slip& s, const Judged& t) {
 // Returns the results that were finished before `cancel`. Prints them in order, each as soon as possible.
 std::vector<std::optional<Judged>> judge_all(const Slips& slips, const SlipsOptions& o,
                                              const std::atomic<bool>* cancel) {
-  fmt::print(
-      "book: Ray Tracing: The Rest of Your Life, 2016; course: Introduction to Real-Time Ray Tracing, SIGGRAPH 2019;\n"
-      "lecture: CMU 15-468, 2021, with smallpt; lajolla: its design notes, UCSD CSE 272\n\n"
-      "{:<4} {:<34} {:<29} {:<27} {:>8}  {}\n",
-      "bug", "", "where", "caught by", "samples", "corrected");
+  fmt::print("book     Ray Tracing: The Rest of Your Life, 2016\n"
+             "course   Introduction to Real-Time Ray Tracing, SIGGRAPH 2019\n"
+             "lecture  CMU 15-468, 2021, with smallpt\n"
+             "lajolla  its design notes, UCSD CSE 272\n\n"
+             "{:<4} {:<34} {:<29} {:<27} {:>8}  {}\n",
+             "bug", "", "where", "caught by", "samples", "corrected");
   std::vector<std::optional<Judged>> judged(slips.size());
   std::size_t printed = 0, finished = 0;
   std::mutex mutex;

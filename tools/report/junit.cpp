@@ -11,7 +11,7 @@ namespace carlo {
 
 namespace {
 
-// XML has no words for control characters.
+// XML cannot express control characters.
 std::string printable(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = '?';
@@ -49,8 +49,9 @@ void add_case(pugi::xml_node suite, const Case& one, const mc::Report& r, const 
   property("again", again);
   if (r.passed()) return;
   pugi::xml_node failure = node.append_child("failure");
-  failure.append_attribute("message") = fmt::format("{}, {}", name(r.verdict()), name(r.fault())).c_str();
-  failure.text() = printable(r.to_string()).c_str();
+  failure.append_attribute("message") = printable(r.verdict_text()).c_str();
+  failure.append_attribute("type") = std::string(name(r.fault())).c_str();
+  failure.text() = printable(r.to_string(mc::ReportText::full)).c_str();
 }
 
 } // namespace
@@ -77,7 +78,7 @@ std::string run_junit(const Run& run) {
     add_case(suite, *cases[i], reports[i], command_again(*cases[i], settings, cases.size() + unchecked.size()));
   for (const Unchecked& u : unchecked)
     add_node(suite, *u.one).append_child("error").append_attribute("message") = printable(u.error).c_str();
-  if (interrupted) suite.append_child("system-err").text() = "interrupted: the cases that finished";
+  if (interrupted) suite.append_child("system-err").text() = "interrupted: only the finished cases are listed";
   std::ostringstream text;
   document.save(text, "  ");
   return text.str();

@@ -123,7 +123,7 @@ float end_or_middle(Pcg& r) {
 
 // A warp at such places: finite, in its domain, density positive.
 template <class W> Trial edges(const W& warp) {
-  return law_trial("ends and branches of u", 0, Fault::edge, [warp](Pcg& r) {
+  return law_trial("boundary and branches of u", 0, Fault::edge, [warp](Pcg& r) {
     mc::Vec2<float> u;
     for (int i = 0; i < 2; ++i) u[i] = end_or_middle(r);
     const mc::Vec3<float> m = warp.sample(u);

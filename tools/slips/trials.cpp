@@ -40,7 +40,7 @@ mc::Check finite_check(const mc::Moments& moments, std::uint64_t samples) {
   mc::Check check{"finite", mc::Verdict::pass, {}, 0, bad, 0, mc::Fault::not_finite, {}};
   if (bad > 0) {
     check.verdict = mc::Verdict::fail;
-    check.detail = fmt::format("{} of {} estimates, first number {}", bad, samples, moments.witness());
+    check.detail = fmt::format("estimate {} is not finite; {} of {} estimates", moments.witness(), bad, samples);
   }
   return check;
 }
@@ -51,7 +51,8 @@ mc::Check mean_check(const mc::Moments& moments, double value, double alpha) {
   mc::Check check{"mean", mc::Verdict::pass, test.p, 1, test.t, 0, mc::Fault::bias, {}};
   if (test.p <= alpha) {
     check.verdict = mc::Verdict::fail;
-    check.detail = fmt::format("{:.6g} +- {:.2g} instead of {:.6g}", moments.mean(), moments.std_error(), value);
+    check.detail = fmt::format("mean of the estimates is {:.6g} +- {:.2g}, should be {:.6g}", moments.mean(),
+                               moments.std_error(), value);
   }
   return check;
 }
@@ -71,7 +72,7 @@ mc::Report law_report(mc::WorstError worst, const NumberSampler& error, const Ca
   mc::Pcg random(c.seed);
   for (std::uint64_t i = 0; i < c.samples; ++i) {
     const double off = error(random);
-    worst.note(off, [&] { return fmt::format("off by {:.3g} at point {}", off, i); });
+    worst.note(off, [&] { return fmt::format("error is {:.3g} at random point {}", off, i); });
   }
   report.checks.push_back(worst.check());
   return report;
@@ -139,7 +140,7 @@ Trial trial(const Scattering& bsdf, double theta_o) {
   const Direction wo = incident(theta_o);
   Trial t = trial(mc::bsdf_subject<double>(bsdf, wo));
   t.check = [bsdf, wo](const CaseOptions& c) {
-    return mc::check_bsdf<double>(bsdf, wo, mc::with_statistics(mc::BsdfOptions{}, c));
+    return mc::check_bsdf<double>(bsdf, wo, mc::with_statistics(mc::BsdfOptions{.name = ""}, c));
   };
   return t;
 }

@@ -128,15 +128,21 @@ double claimed_total(const Subject& s, double mass) { return s.may_fail ? 1.0 : 
 // The rate of failures against what the density leaves of 1. The error of its integral is conceded to the sampler;
 // where that would matter the mass itself is inconclusive.
 Check test_failures(const Subject& s, const DrawTally& t, double mass, double mass_error, double alpha) {
-  Check c{"failures", Verdict::pass,  {}, alpha_share(FitTest::failures, s.dim), static_cast<double>(t.failed.count),
-          0,          Fault::failure, {}};
+  Check c{"failure rate",
+          Verdict::pass,
+          {},
+          alpha_share(FitTest::failures, s.dim),
+          static_cast<double>(t.failed.count),
+          0,
+          Fault::failure,
+          {}};
   const double expected = std::clamp(1 - mass, 0.0, 1.0), slack = mass_error + s.mass_tolerance;
   const double rate = static_cast<double>(t.failed.count) / static_cast<double>(t.draws);
   const double conceded = rate > expected ? std::min(expected + slack, rate) : std::max(expected - slack, rate);
   c.p = binomial_tail(static_cast<double>(t.failed.count), static_cast<double>(t.draws), conceded);
   if (*c.p > sidak_level(alpha, c.share)) return c;
   c.verdict = Verdict::fail;
-  c.detail = fmt::format("{} of {} samples failed, {:.1f} expected of a density of mass {:.8g} +- {:.2g}",
+  c.detail = fmt::format("{} of {} samples failed, {:.1f} expected since the density integrates to {:.8g} +- {:.2g}",
                          t.failed.count, t.draws, expected * static_cast<double>(t.draws), mass, mass_error);
   return c;
 }
@@ -220,7 +226,7 @@ std::vector<Check> judge_density(const Subject& s, const Layout& layout) {
            1,
            0,
            density < 0 ? Fault::negative : Fault::not_finite,
-           fmt::format("{} at {}", describe_density(density),
+           fmt::format("pdf is {}, should be finite and >= 0, at {}", describe_density(density),
                        s.describe_point ? "x = " + s.describe_point(*bad)
                                         : fmt::format("chart coordinates ({:.17g}, {:.17g}, {:.17g})", (*bad)[0],
                                                       (*bad)[1], (*bad)[2]))}};
@@ -259,23 +265,35 @@ std::vector<Check> judge_detail(const Subject& s, const Pilot& pilot, const Layo
       layout.strips->test(s, pilot, counts.weights.points, points, alpha_share(FitTest::strips, s.dim), alpha),
       layout.levels.test(alpha_share(FitTest::levels, s.dim), alpha)};
   append(checks,
-         layout.grid->test(layout.all, alpha_share(FitTest::waves, s.dim) / (s.inverted ? 2 : 1), alpha, "the chart"));
+         layout.grid->test(layout.all, alpha_share(FitTest::waves, s.dim) / (s.inverted ? 2 : 1), alpha, "chart"));
   return checks;
 }
 
-// Where a turn about the pole explains the counts, the faults of shape are called a rotation.
+// Puts a finding before the detail of the failed check that explains a report: the first, or the first with a tiny p.
+void prepend_finding(std::vector<Check>& checks, const std::string& finding) {
+  if (finding.empty()) return;
+  const auto prepend = [&](auto accepts) {
+    const auto first = std::find_if(checks.begin(), checks.end(),
+                                    [&](const Check& c) { return c.verdict == Verdict::fail && accepts(c); });
+    if (first != checks.end() && !first->detail.starts_with(finding)) first->detail = finding + "; " + first->detail;
+  };
+  prepend([](const Check&) { return true; });
+  prepend([](const Check& c) { return c.p && *c.p < 1e-9; });
+}
+
+// If a rotation about the pole explains the counts, the likely cause of wrong counts is a rotation.
 void recognise_rotation(const Subject& s, const std::vector<Axis>& axes, const Layout& layout, const Pilot& pilot,
                         std::vector<Check>& checks) {
   const auto of_shape = [](const Check& c) {
     return c.verdict == Verdict::fail && (c.fault == Fault::shape || c.fault == Fault::local);
   };
-  const auto first = std::find_if(checks.begin(), checks.end(), of_shape);
-  if (first == checks.end() || s.dim < 2) return;
+  if (s.dim < 2 || std::none_of(checks.begin(), checks.end(), of_shape)) return;
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
     if (axes[d].scale != Axis::Scale::azimuth) continue;
     const std::optional<double> turn = find_rotation(s, d, layout.pilot_cells->partition, layout.cells, pilot.points);
     if (!turn) continue;
-    first->detail += fmt::format("; as if {} were turned by {:.3g} deg", axes[d].name, 360 * *turn);
+    first->detail +=
+        fmt::format("; a rotation of the samples by {:.3g} deg in {} explains the counts", 360 * *turn, axes[d].name);
     for (Check& c : checks)
       if (of_shape(c)) c.fault = Fault::rotation;
   }
@@ -333,6 +351,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   };
   judge_slabs(Slab::Kind::atom);
   CellTests tests = judge_counts(s, layout, counts.cells, counts.tally, options.alpha);
+  prepend_finding(tests.checks, describe_worst_region(s, layout.boxes, layout.cells));
   recognise_rotation(s, report.axes, layout, pilot, tests.checks);
   append(report.checks, std::move(tests.checks));
   judge_slabs(Slab::Kind::gap); // after the shape, of which a wide one is a part

@@ -34,12 +34,12 @@ Report check_laws(const AnySampler& sampler, const LawOptions& options = {});
 
 /// The same for a warp, or any struct with a domain, sample and pdf.
 template <class W> Report check_laws(const W& warp, const LawOptions& options = {}) {
-  static_assert(detail::has_domain<W>, "check_laws: a sampler needs `using Domain = ...` and domain() const");
+  static_assert(detail::has_domain<W>, "check_laws: a warp needs `using Domain = ...` and domain() const");
   static_assert(!detail::has_domain<W> || detail::has_chart<W>,
                 "check_laws: a Domain needs dim, measure and const from_unit, to_unit, jacobian and contains");
   static_assert(!detail::has_chart<W> || detail::samples_u<W>,
                 "check_laws: sample(u) const must take u, a point of the unit cube (Domain::UnitPoint), no generator");
-  static_assert(!detail::has_chart<W> || detail::has_pdf<W>, "check_laws: a sampler needs pdf(x) const");
+  static_assert(!detail::has_chart<W> || detail::has_pdf<W>, "check_laws: a warp needs pdf(x) const");
   if constexpr (Samplable<W>) return check_laws(within(make_sampler(options.name, warp), options), options);
   else return {};
 }

@@ -36,6 +36,75 @@ std::vector<WorstCell> worst_cells(const Subject& s, const std::vector<UnitBox>&
   return worst;
 }
 
+namespace {
+
+// Cells [lo, hi).
+struct Region {
+  std::size_t lo = 0, hi = 0;
+  double observed = 0, expected = 0, z = 0;
+};
+
+// Sums over the cells before each.
+struct PrefixSums {
+  std::vector<double> p{0}, variance{0}, observed{0};
+
+  explicit PrefixSums(const std::vector<Cell>& cells) {
+    for (const Cell& c : cells) {
+      p.push_back(p.back() + c.p);
+      variance.push_back(variance.back() + c.variance);
+      observed.push_back(observed.back() + c.observed);
+    }
+  }
+  Region region(std::size_t lo, std::size_t hi) const {
+    const double n = observed.back(), total = p.back(), q = (p[hi] - p[lo]) / total;
+    Region r{lo, hi, observed[hi] - observed[lo], n * q, 0};
+    const double spread = n * q * (1 - q) + n * n * (variance[hi] - variance[lo]) / (total * total);
+    r.z = (r.observed - r.expected) / std::sqrt(std::max(spread, 0.5));
+    return r;
+  }
+};
+
+// The box around the boxes [lo, hi).
+UnitBox enclosing_box(const std::vector<UnitBox>& boxes, std::size_t lo, std::size_t hi) {
+  UnitBox all = boxes[lo];
+  for (std::size_t i = lo; i < hi; ++i)
+    for (std::size_t d = 0; d < 3; ++d) {
+      all.lo[d] = std::min(all.lo[d], boxes[i].lo[d]);
+      all.hi[d] = std::max(all.hi[d], boxes[i].hi[d]);
+    }
+  return all;
+}
+
+std::string describe_box(const Subject& s, const UnitBox& box) {
+  std::string text = describe_cell(named_axes(s), box.lo, box.hi);
+  if (!s.describe_point) return text;
+  Subject::Coordinates centre;
+  for (std::size_t d = 0; d < 3; ++d) centre[d] = 0.5 * (box.lo[d] + box.hi[d]);
+  return text + ", about " + s.describe_point(centre) + ",";
+}
+
+} // namespace
+
+std::string describe_worst_region(const Subject& s, const std::vector<UnitBox>& boxes, const std::vector<Cell>& cells) {
+  constexpr double least_telling = 4; // more than chance makes of the worst of some thousand regions
+  const PrefixSums sums(cells);
+  if (!(sums.p.back() > 0)) return {};
+  Region worst;
+  const auto consider = [&](std::size_t lo, std::size_t hi) {
+    const Region r = sums.region(lo, hi);
+    if (std::abs(r.z) > std::abs(worst.z)) worst = r;
+  };
+  for (std::size_t length = 1; length < std::max<std::size_t>(boxes.size(), 1); length *= 2)
+    for (std::size_t lo = 0; lo + length <= boxes.size(); lo += length) consider(lo, lo + length);
+  for (std::size_t i = boxes.size(); i < cells.size(); ++i) consider(i, i + 1);
+  if (!(std::abs(worst.z) >= least_telling)) return {};
+  const std::string counts =
+      fmt::format("{:.0f} samples, {:.1f} expected (z = {:.1f})", worst.observed, worst.expected, worst.z);
+  if (worst.lo >= boxes.size()) return fmt::format("outcome {} has {}", worst.lo - boxes.size(), counts);
+  return fmt::format("{} {} contains {}", worst.hi - worst.lo == 1 ? "cell" : "region",
+                     describe_box(s, enclosing_box(boxes, worst.lo, worst.hi)), counts);
+}
+
 void add_counts(const std::vector<UnitBox>& boxes, const std::vector<Cell>& cells, double scale, Evidence& evidence) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     CellCount c{{}, {}, cells[i].observed, scale * cells[i].p};

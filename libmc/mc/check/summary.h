@@ -16,6 +16,12 @@ namespace mc {
 std::vector<WorstCell> worst_cells(const Subject& subject, const std::vector<UnitBox>& boxes,
                                    const std::vector<Cell>& cells, double scale);
 
+/// "region theta 0 to 60 deg, phi 0 to 360 deg, about (0, 0, 1), contains 120 samples, 64.0 expected (z = 7.0)": the
+/// cell, aligned run of 2, 4, 8, ... cells, or outcome with the largest |z|, given the sum of all counts. Empty if no |z|
+/// reaches 4, which chance explains.
+std::string describe_worst_region(const Subject& subject, const std::vector<UnitBox>& boxes,
+                                  const std::vector<Cell>& cells);
+
 /// All counts, of cells and of outcomes.
 void add_counts(const std::vector<UnitBox>& boxes, const std::vector<Cell>& cells, double scale, Evidence& evidence);
 

@@ -1,12 +1,16 @@
 #pragma once
-/// The checkers as GoogleTest assertions, for users' own suites.
-///   EXPECT_WARP_LAWS(warp[, mc::LawOptions])        : all laws of laws.h
-///   EXPECT_BSDF_LAWS(bsdf, wo[, mc::BsdfOptions])   : all laws of bsdf_laws.h seen from wo, a mc::Vec3
+/// GoogleTest assertions for distributions, BSDFs and means.
+///   EXPECT_WARP_LAWS(warp[, mc::LawOptions])        : every law of laws.h
+///   EXPECT_BSDF_LAWS(bsdf, wo[, mc::BsdfOptions])   : every law of bsdf_laws.h for the fixed direction wo, a mc::Vec3.
+///                                                     docs/methods/bsdf-conventions.md has the conventions: eval
+///                                                     without the cosine, unit vectors, +z is the normal
 ///   EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain[, mc::SubjectOptions])
-///                                                   : the chi-square tests; sampler(u) or sampler(mc::Pcg&) gives a
+///                                                   : the statistical tests; sampler(u) or sampler(mc::Pcg&) returns a
 ///                                                     point or an optional point
-///   EXPECT_MEAN(values, value[, alpha = 0.001])     : Student's t; values are any range of numbers
-/// Failures say which law broke, where and by how much. Seeds are fixed, so a test that passes keeps passing.
+///   EXPECT_MEAN(values, value[, alpha = 0.001])     : Student's t test; values are a range of numbers
+/// A failure begins with the finding: observed value, expected value and place (u, direction with its angles, or cell).
+/// The likely cause and the check follow. The last line counts the other checks that fail; it names the call that shows
+/// them. Seeds are fixed: a test that passes keeps passing. docs/methods/checks.md describes every check.
 
 #include <mc/check/bsdf_laws.h>
 #include <mc/check/laws.h>
@@ -22,7 +26,8 @@ namespace mc {
 
 namespace detail {
 
-// Of what the macros are handed. No concepts: compilers would explain these at length.
+// Whether the arguments of the macros have the required members. Constants, not concepts: compilers explain failed
+// concepts at length.
 template <class W> constexpr bool is_sampler = Samplable<std::remove_cvref_t<W>>;
 template <class Bsdf, class V>
 constexpr bool is_bsdf = BsdfOver<std::remove_cvref_t<Bsdf>, typename std::remove_cvref_t<V>::Scalar>;
@@ -30,23 +35,32 @@ template <class Draw, class D>
 constexpr bool draws_points =
     std::invocable<Draw, Pcg&> || std::invocable<Draw, typename std::remove_cvref_t<D>::UnitPoint>;
 
+inline constexpr std::string_view full_laws =
+    "; mc::check_laws(warp, options).to_string(mc::ReportText::full) shows them";
+inline constexpr std::string_view full_bsdf_laws =
+    "; mc::check_bsdf(bsdf, wo, options).to_string(mc::ReportText::full) shows them";
+
 } // namespace detail
 
-inline testing::AssertionResult assert_passed(const Report& report) {
-  return report.passed() ? testing::AssertionSuccess() : testing::AssertionFailure() << report.to_string();
+/// hint : how to get the full report, "; mc::check_laws(...)..."
+inline testing::AssertionResult assert_passed(const Report& report, std::string_view hint) {
+  if (report.passed()) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << report.to_string(ReportText::brief, hint);
 }
 
 template <class W> testing::AssertionResult obeys_laws(const char* expression, const W& warp, LawOptions options = {}) {
   if (options.name == LawOptions{}.name) options.name = expression;
-  if constexpr (detail::is_sampler<W>) return assert_passed(check_laws(warp, options));
+  if constexpr (detail::is_sampler<W>) return assert_passed(check_laws(warp, options), detail::full_laws);
   else return testing::AssertionFailure();
 }
 
 template <class Bsdf, class S>
 testing::AssertionResult obeys_bsdf_laws(const char* expression, const Bsdf& bsdf, const Vec3<S>& wo,
                                          BsdfOptions options = {}) {
-  if (options.name == BsdfOptions{}.name) options.name = expression;
-  if constexpr (detail::is_bsdf<Bsdf, Vec3<S>>) return assert_passed(check_bsdf<S>(bsdf, wo, options));
+  if (options.name == BsdfOptions{}.name)
+    options.name = fmt::format("{}, wo = {}", expression, detail::format_point(wo));
+  if constexpr (detail::is_bsdf<Bsdf, Vec3<S>>)
+    return assert_passed(check_bsdf<S>(bsdf, wo, options), detail::full_bsdf_laws);
   else return testing::AssertionFailure();
 }
 
@@ -54,7 +68,7 @@ template <class Sampler, class Pdf, Domain D>
 testing::AssertionResult samples_match_pdf(const char* expression, Sampler sampler, Pdf pdf, const D& domain,
                                            const SubjectOptions& options = {}) {
   if constexpr (detail::draws_points<Sampler, D>)
-    return assert_passed(check_subject(make_subject(make_sampler(expression, domain, sampler, pdf)), options));
+    return assert_passed(check_subject(make_subject(make_sampler(expression, domain, sampler, pdf)), options), {});
   else return testing::AssertionFailure();
 }
 
@@ -67,8 +81,8 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
     const TTest t = t_test(moments, value, alpha);
     if (t.p > alpha) return testing::AssertionSuccess();
     return testing::AssertionFailure() << fmt::format(
-               "mean of {}: {:.9g} +- {:.2g} over {} values, expected {:.9g}: {:.1f} standard errors off, p = {:.3g}",
-               expression, moments.mean(), moments.std_error(), moments.count(), value, t.t, t.p);
+               "mean of {} is {:.9g} +- {:.2g}, should be {:.9g}: {:.1f} standard errors off (p = {:.3g}, {} values)",
+               expression, moments.mean(), moments.std_error(), value, t.t, t.p, moments.count());
   } catch (const Error& e) {
     return testing::AssertionFailure() << expression << ": " << e.what();
   }
@@ -76,8 +90,8 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
 
 } // namespace mc
 
-// Each looks at what it is handed before it calls anything, so that compilers say in a few lines what is missing. It
-// does so outside of the lambda, where names of structured bindings may stand.
+// Each macro checks the types of its arguments before any call, so that compilers name the missing member in a few
+// lines. The check stands outside the lambda, which cannot use names of structured bindings.
 
 #define EXPECT_WARP_LAWS(warp, ...)                                                                                    \
   switch (constexpr bool mc_fits = ::mc::detail::is_sampler<decltype(warp)>; 0)                                        \
@@ -85,7 +99,7 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
   default:                                                                                                             \
     switch (const char* mc_expression =                                                                                \
                 [] {                                                                                                   \
-                  static_assert(mc_fits, "a sampler needs `using Domain = ...` and const domain(), sample(u), u of "   \
+                  static_assert(mc_fits, "a warp needs `using Domain = ...` and const domain(), sample(u), u of "      \
                                          "Domain::UnitPoint, and pdf(x)");                                             \
                   return #warp;                                                                                        \
                 }();                                                                                                   \
@@ -117,7 +131,7 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
   default:                                                                                                             \
     switch (const char* mc_expression =                                                                                \
                 [] {                                                                                                   \
-                  static_assert(mc_fits, "the sampler must take u, a point of the unit cube, or mc::Pcg&");            \
+                  static_assert(mc_fits, "the function must take u, a point of the unit cube, or mc::Pcg&");           \
                   return #sampler;                                                                                     \
                 }();                                                                                                   \
             0)                                                                                                         \

@@ -225,7 +225,7 @@ TEST(CheckSubject, TailsThatAreCutAreGaps) {
   EXPECT_TRUE(cut_at(9).passed()) << cut_at(9).to_string();
   const mc::Report r = cut_at(3.5);
   EXPECT_EQ(r.verdict(), Verdict::fail);
-  EXPECT_THAT(r.to_string(), testing::HasSubstr("no gaps fail"));
+  EXPECT_THAT(r.to_string(mc::ReportText::full), testing::ContainsRegex("contains 0 samples, .* expected"));
 }
 
 TEST(CheckSubject, DiscreteOutcomes) {
@@ -326,7 +326,7 @@ TEST(CheckSubject, OutcomesAreEvidenceToo) {
   ASSERT_EQ(r.evidence->outcomes.size(), 2u);
   EXPECT_EQ(r.evidence->outcomes[0].observed + r.evidence->outcomes[1].observed, 10'000);
   EXPECT_EQ(r.evidence->outcomes[1].expected, 5000);
-  EXPECT_THAT(r.to_string(), testing::HasSubstr("outcome 1: observed 5"));
+  EXPECT_THAT(r.to_string(), testing::HasSubstr("outcome 1 has 5"));
 }
 
 } // namespace

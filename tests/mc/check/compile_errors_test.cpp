@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongProgram{"GeneratorInATestOfAWarp", test_of_a_warp.c_str(),
                                  "sample(u), u of Domain::UnitPoint"},
                     WrongProgram{"DomainWithoutConst", domain_without_const, "const from_unit, to_unit, jacobian"},
-                    WrongProgram{"GeneratorInALambda", generator_in_a_lambda, "the sampler must take u"}),
+                    WrongProgram{"GeneratorInALambda", generator_in_a_lambda, "the function must take u"}),
     [](const auto& wrong) { return std::string(wrong.param.name); });
 
 } // namespace

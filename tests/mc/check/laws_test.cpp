@@ -68,7 +68,8 @@ TEST(Laws, EachSlipBreaksItsOwnLaw) {
 }
 
 TEST(Laws, TheWitnessIsPrintedInFull) {
-  EXPECT_THAT(laws(Ramp<double, Slip::edge>{}).to_string(), testing::HasSubstr("outside the domain at u = 0, x = 2"));
+  EXPECT_THAT(laws(Ramp<double, Slip::edge>{}).to_string(),
+              testing::HasSubstr("sample is outside the domain, at u = 0, x = 2"));
 }
 
 // A struct with sample and pdf alone, and the same as a pair of functions.
@@ -128,7 +129,8 @@ struct Branching {
 
 TEST(Laws, TheNeighboursOfABranchAreTried) {
   EXPECT_TRUE(laws(Branching{false}).passed()) << laws(Branching{false}).to_string();
-  EXPECT_THAT(laws(Branching{true}).to_string(), testing::HasSubstr("outside the domain at u = 0.69999999999999996"));
+  EXPECT_THAT(laws(Branching{true}).to_string(),
+              testing::HasSubstr("sample is outside the domain, at u = 0.69999999999999996"));
 }
 
 // The cosine about an axis that is not the chart's: points of the rim are rounded to either side of it.

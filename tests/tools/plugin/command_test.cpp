@@ -56,19 +56,19 @@ TEST_F(Command, WhereItStandsChangesNothing) {
 TEST_F(Command, WrongOnesAreRejected) {
   Output out = run(changed("math.sqrt(u[0])", "u[0]"));
   EXPECT_EQ(out.code, carlo::exit_failed);
-  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: "), HasSubstr("again: carlo validate --command 'python3 ")));
+  EXPECT_THAT(out.text, AllOf(HasSubstr("likely cause: "), HasSubstr("again: carlo validate --command 'python3 ")));
   out = run(changed("(1 / math.pi,)", "(1.01 / math.pi,)"));
   EXPECT_THAT(out.text, HasSubstr("the density integrates to 1.01"));
   out = run(changed("math.sqrt(u[0])", "math.nan"));
-  EXPECT_THAT(out.text, HasSubstr("likely fault: not finite"));
+  EXPECT_THAT(out.text, HasSubstr("likely cause: not finite"));
   out = run(changed("math.sqrt(u[0])", "math.sqrt(__import__('random').random())"));
-  EXPECT_THAT(out.text, HasSubstr("same u, same point fail"));
+  EXPECT_THAT(out.text, HasSubstr("law: determinism of sample"));
 }
 
 TEST_F(Command, EveryLawIsTried) {
   // The point of the u before: only a law that compares neighbouring questions sees it.
   const Output stuck = run(changed("    r, phi = math.sqrt(u[0]), 2 * math.pi * u[1]\n", "    r, phi = 0.5, 0.25\n"));
-  EXPECT_THAT(stuck.text, HasSubstr("another u, another point fail"));
+  EXPECT_THAT(stuck.text, HasSubstr("law: sample depends on u"));
   // A logarithm of 0, accepted where u lies in (0,1).
   ValidateOptions o = changed("math.sqrt(u[0])", "math.exp(0.5 * math.log(u[0]))");
   EXPECT_THAT(refusal(o), HasSubstr("ended with code 1"));
@@ -80,7 +80,7 @@ TEST_F(Command, EveryLawIsTried) {
 TEST_F(Command, ManyAtOnceAreWhatEachIsAlone) {
   const Output out = run(changed("    sink.write(results.tobytes())", "    sink.write(results[::-1].tobytes())"));
   EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
-  EXPECT_THAT(out.text, HasSubstr("many samples at once, as one alone fail"));
+  EXPECT_THAT(out.text, HasSubstr("law: batch consistency of sample"));
 }
 
 TEST_F(Command, OutcomesAndProducts) {

@@ -70,11 +70,11 @@ TEST_P(WrongPlugin, IsRejectedWithItsFaultNamed) {
 
 INSTANTIATE_TEST_SUITE_P(
     Plugin, WrongPlugin,
-    testing::Values(Wrong{"pdf_high", "the density integrates to 1.01"}, Wrong{"weight_low", "likely fault: weight"},
-                    Wrong{"nan_sample", "likely fault: not finite"}, Wrong{"nan_pdf", "pdf finite and >= 0 fail"},
-                    Wrong{"leak", "likely fault: outside"}, Wrong{"not_unit", "likely fault: outside"},
-                    Wrong{"silent", "x = (nan, nan, nan)"}, Wrong{"wrong_inverse", "invert(sample(u)) = u [eps] fail"},
-                    Wrong{"tilted_pdf", "|det| pdf = 1, upper quartile fail"}, Wrong{"hole", "likely fault: support"}),
+    testing::Values(Wrong{"pdf_high", "the density integrates to 1.01"}, Wrong{"weight_low", "likely cause: weight"},
+                    Wrong{"nan_sample", "likely cause: not finite"}, Wrong{"nan_pdf", "pdf is not finite"},
+                    Wrong{"leak", "likely cause: outside"}, Wrong{"not_unit", "likely cause: outside"},
+                    Wrong{"silent", "x = (nan, nan, nan)"}, Wrong{"wrong_inverse", "fail: invert(sample(u)) is "},
+                    Wrong{"tilted_pdf", "fail: |det d sample / d u| pdf is "}, Wrong{"hole", "likely cause: support"}),
     [](const auto& wrong) { return std::string(wrong.param.fault); });
 
 TEST(Plugin, ARotationByADegreeIsRejected) {
@@ -90,7 +90,7 @@ TEST(Plugin, AnOutcomeOfProbabilityZeroAtAnEdgeIsRejected) {
   o.parameters = {"forgets=1"};
   const Output out = run(o);
   EXPECT_EQ(out.code, carlo::exit_failed);
-  EXPECT_THAT(out.text, AllOf(HasSubstr("likely fault: measure zero"), HasSubstr("u = 0, outcome 0, pmf = 0")));
+  EXPECT_THAT(out.text, AllOf(HasSubstr("likely cause: measure zero"), HasSubstr("u = 0, outcome 0, pmf = 0")));
 }
 
 TEST(Plugin, EverySetOfParametersIsACase) {
@@ -245,7 +245,8 @@ TEST(Plugin, BadParametersAreOneLine) {
   EXPECT_THAT(with("power=21"), HasSubstr("power = 21 of Box must lie in [0, 20]"));
   EXPECT_THAT(with("power=13"), HasSubstr("create rejects the parameters"));
   EXPECT_THAT(with("power=1,tilt=1"), HasSubstr("no sampler has all the parameters"));
-  EXPECT_THAT(refusal(plugin("samplers", {"Cosin"})), HasSubstr("unknown distribution 'Cosin'; did you mean 'Cosine'?"));
+  EXPECT_THAT(refusal(plugin("samplers", {"Cosin"})),
+              HasSubstr("unknown distribution 'Cosin'; did you mean 'Cosine'?"));
   ValidateOptions o;
   o.parameters = {"a=1"};
   EXPECT_THAT(refusal(o), HasSubstr("--params sets parameters of a --plugin"));

@@ -177,46 +177,56 @@ DrawTally merged(DrawTally a, const DrawTally& b) {
 
 std::vector<Check> check_draws(const Subject& s, const DrawTally& tally, bool open_interval) {
   std::vector<Check> checks;
-  const auto add = [&](const char* name, const DrawTally::Broken& b, Fault fault, double statistic, double limit) {
+  // `finding` says of the first such sample what is wrong, and perhaps more after "; ".
+  const auto add = [&](const char* name, const DrawTally::Broken& b, Fault fault, double statistic, double limit,
+                       const std::string& finding) {
     Check c{name, b.count == 0 ? Verdict::pass : Verdict::fail, {}, 0, statistic, limit, fault, {}};
     if (b.count > 0) {
-      c.detail = fmt::format("{} of {} samples", b.count, tally.draws);
-      if (s.describe_draw) c.detail += fmt::format(", first {}", s.describe_draw(b.seed, b.index));
+      const std::size_t clause = std::min(finding.find("; "), finding.size());
+      c.detail = finding.substr(0, clause);
+      if (s.describe_draw) c.detail += ", at " + s.describe_draw(b.seed, b.index);
+      c.detail += fmt::format("; {} of {} samples{}", b.count, tally.draws, finding.substr(clause));
     }
     checks.push_back(std::move(c));
   };
   const auto count = [](const DrawTally::Broken& b) { return static_cast<double>(b.count); };
-  add("finite", tally.not_finite, Fault::not_finite, count(tally.not_finite), 0);
-  add("in the domain", tally.outside, Fault::outside, count(tally.outside), 0);
-  if (tally.bad_pdf.count > 0) add("pdf finite at samples", tally.bad_pdf, Fault::not_finite, count(tally.bad_pdf), 0);
-  if (tally.negative.count > 0) add("pdf >= 0 at samples", tally.negative, Fault::negative, count(tally.negative), 0);
+  add("finite", tally.not_finite, Fault::not_finite, count(tally.not_finite), 0, "sample is not finite");
+  add("in the domain", tally.outside, Fault::outside, count(tally.outside), 0, "sample is outside the domain");
+  if (tally.bad_pdf.count > 0)
+    add("pdf finite at samples", tally.bad_pdf, Fault::not_finite, count(tally.bad_pdf), 0, "pdf is not finite");
+  if (tally.negative.count > 0)
+    add("pdf >= 0 at samples", tally.negative, Fault::negative, count(tally.negative), 0, "pdf is negative");
   DrawTally::Broken leak = tally.leak, edge = tally.edge;
   merge(tally.leak.count + tally.zero_edge.count > most_rounded ? leak : edge, tally.zero_edge);
-  add("pdf > 0 at samples", leak, Fault::leak, count(leak), 0);
-  if (edge.count > 0 && !open_interval) {
-    add("pdf at ends and jumps", edge, Fault::zero_edge, count(edge), 0);
-    checks.back().detail += "; open_interval (carlo validate --open-interval) accepts it as measure zero";
-  }
-  add("weight = f / pdf", tally.weight, Fault::weight, tally.worst_weight, s.weight_tolerance);
+  add("pdf > 0 at samples", leak, Fault::leak, count(leak), 0, "pdf is 0, should be > 0 at every sample");
+  if (edge.count > 0 && !open_interval)
+    add("pdf at boundaries and jumps", edge, Fault::zero_edge, count(edge), 0,
+        "pdf is 0 or infinite, on a boundary or a jump of the density; option open_interval (carlo validate "
+        "--open-interval) accepts such samples as measure zero");
+  const bool describes = s.describe_weight && tally.weight.count > 0;
+  add("weight = f / pdf", tally.weight, Fault::weight, tally.worst_weight, s.weight_tolerance,
+      describes ? s.describe_weight(tally.weight.seed, tally.weight.index)
+                : fmt::format("weight differs from f / pdf by {:.3g}, relative", tally.worst_weight));
   if (tally.draws > 0 && tally.failed.count == tally.draws) {
-    add("draws samples", {}, Fault::none, 0, 1);
+    add("draws samples", {}, Fault::none, 0, 1, "");
     checks.back().verdict = Verdict::inconclusive;
-    checks.back().detail = fmt::format("none of {} draws is a sample: there is nothing to judge", tally.draws);
+    checks.back().detail = fmt::format("none of {} draws gives a sample, so no test is possible", tally.draws);
   }
   if (!s.may_fail) {
-    add("never fails", tally.failed, Fault::failure, count(tally.failed), 0);
-    if (tally.failed.count > 0) checks.back().detail += "; say may_fail where a sample may be none";
+    add("never fails", tally.failed, Fault::failure, count(tally.failed), 0,
+        "sample fails; set may_fail if a sample may fail, with a density of less mass");
   }
   for (std::size_t i = 0; i < s.atoms.size(); ++i) {
     if (s.atoms[i] > 0 || tally.atoms[i] == 0) continue;
-    checks.push_back({"outcomes of probability 0",
-                      Verdict::fail,
-                      {},
-                      0,
-                      static_cast<double>(tally.atoms[i]),
-                      0,
-                      Fault::leak,
-                      fmt::format("outcome {} came {} times", i, tally.atoms[i])});
+    checks.push_back(
+        {"outcomes of probability 0",
+         Verdict::fail,
+         {},
+         0,
+         static_cast<double>(tally.atoms[i]),
+         0,
+         Fault::leak,
+         fmt::format("outcome {} was drawn {} times, should never be: its probability is 0", i, tally.atoms[i])});
   }
   return checks;
 }

@@ -51,8 +51,8 @@ std::vector<Check> find_unresolved(const Subject& s, const Pilot& pilot) {
     for (const Subject::Coordinates& v : pilot.points) step = std::min(step, rounding(s, v, d));
     if (pilot.points.empty() || !(step * least > 1)) continue;
     Check c{"resolution, " + axis_name(s.axes, d), Verdict::inconclusive, {}, 0, 1 / step, least, Fault::none, {}};
-    c.detail = fmt::format("{} comes in so few steps that no density along it can be tested; compute it in double, or "
-                           "on a domain nearer to 0",
+    c.detail = fmt::format("{} has too few distinct values to test a density along it; compute it in double, or on a "
+                           "domain nearer to 0",
                            describe_range(s.axes, d, 0, 1));
     checks.push_back(std::move(c));
   }

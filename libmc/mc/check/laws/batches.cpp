@@ -34,8 +34,8 @@ std::string describe(const AnySampler& s, const Drawn& drawn) { return drawn ? f
 
 std::vector<Check> batches_law(const AnySampler& s, const LawOptions& options) {
   if (!s.sample || !s.sample_many) return {};
-  WorstError samples("many samples at once, as one alone", rounding, Fault::impure);
-  WorstError densities("many pdf at once, as one alone", rounding, Fault::impure);
+  WorstError samples("batch consistency of sample", rounding, Fault::impure);
+  WorstError densities("batch consistency of pdf", rounding, Fault::impure);
   Pcg random(options.seed, 16);
   std::vector<AnySampler::Uniforms> u(points);
   for (AnySampler::Uniforms& one : u) one = law_point(s, random);
@@ -44,8 +44,8 @@ std::vector<Check> batches_law(const AnySampler& s, const LawOptions& options) {
   for (std::size_t i = 0; i < points; ++i) {
     const Drawn alone = s.sample(u[i]);
     samples.note(off(drawn[i], alone), [&] {
-      return fmt::format("sample({}) = {} alone, and {} at place {} of {}", format_u(s, u[i]), describe(s, alone),
-                         describe(s, drawn[i]), i + 1, points);
+      return fmt::format("sample is {} at position {} of a batch of {}, should be {} as for a single call, at u = {}",
+                         describe(s, drawn[i]), i + 1, points, describe(s, alone), format_u(s, u[i]));
     });
     if (place(s, alone).draw.kind == Subject::Draw::Kind::point) x.push_back(alone->x);
   }
@@ -54,8 +54,9 @@ std::vector<Check> batches_law(const AnySampler& s, const LawOptions& options) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double alone = s.pdf(x[i]);
     densities.note(off(pdf[i], alone, 0), [&] {
-      return fmt::format("pdf({}) = {:.17g} alone, and {:.17g} at place {} of {}", format_x(s, x[i]), alone, pdf[i],
-                         i + 1, x.size());
+      return fmt::format(
+          "pdf is {:.17g} at position {} of a batch of {}, should be {:.17g} as for a single call, at x = {}", pdf[i],
+          i + 1, x.size(), alone, format_x(s, x[i]));
     });
   }
   return {samples.check(), densities.check()};

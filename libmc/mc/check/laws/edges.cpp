@@ -39,7 +39,7 @@ class Probe {
          (density_beside(subject_, p.draw.v) || (p.pdf == 0 && (subject_.density(p.draw.v) > 0 || is_single(u)))));
     if (single && accepted_) return;
     (single ? zero_ : inner_).note(fault.empty() ? 0 : 1, [&] {
-      return fmt::format("{} at {}", fault, describe_sample(sampler_, u));
+      return fmt::format("{}, at {}", fault, describe_sample(sampler_, u));
     });
   }
 
@@ -48,11 +48,12 @@ class Probe {
     Check inner = inner_.check(), zero = zero_.check();
     if (accepted_) return {inner};
     if (inner.verdict == Verdict::pass && zero.verdict == Verdict::fail)
-      zero.detail += "; only single u do this, with a coordinate of exactly 0 (take 1 - u instead), or whose point is "
-                     "rounded onto the edge of the density, or one where it is 0 or infinite; open_interval (carlo "
-                     "validate --open-interval) accepts it as measure zero";
+      zero.detail +=
+          "; only single values of u do this: a coordinate is exactly 0 (use 1 - u instead), or rounding "
+          "moves the point onto a boundary of the density or onto a point where the density is 0 or infinite; "
+          "option open_interval (carlo validate --open-interval) accepts them as measure zero";
     if (zero.verdict == Verdict::fail && sampler_.open_interval)
-      zero.detail += "; the sampler's own open_interval only keeps u from 0";
+      zero.detail += "; open_interval of the distribution itself excludes only u = 0";
     return {inner, zero};
   }
 
@@ -72,11 +73,11 @@ class Probe {
 
   std::string_view fault_of(const Placed& p) const {
     switch (p.draw.kind) {
-    case Kind::failed: return sampler_.may_fail ? "" : "fails";
-    case Kind::not_finite: return "not finite";
-    case Kind::outside: return "outside the domain";
+    case Kind::failed: return sampler_.may_fail ? "" : "sample fails, should return a point";
+    case Kind::not_finite: return "sample is not finite";
+    case Kind::outside: return "sample is outside the domain";
     case Kind::atom:
-    case Kind::point: return p.draw.pdf_positive ? "" : "pdf not positive and finite";
+    case Kind::point: return p.draw.pdf_positive ? "" : "pdf is not positive and finite";
     }
     return "";
   }
@@ -84,8 +85,8 @@ class Probe {
   const AnySampler& sampler_;
   Subject subject_;
   bool accepted_;
-  WorstError inner_{"ends and branches of u", 0, Fault::edge};
-  WorstError zero_{"single u, of measure zero", 0, Fault::zero_edge};
+  WorstError inner_{"boundary and branches of u", 0, Fault::edge};
+  WorstError zero_{"single u of measure zero", 0, Fault::zero_edge};
 };
 
 // The places of a coordinate: ends, quarters, middle, with their neighbours.

@@ -36,8 +36,8 @@ std::vector<Check> inverse_law(const AnySampler& s, const LawOptions& options) {
       worst = off <= worst ? worst : off;
     }
     error.note(worst / s.epsilon(), [&] {
-      return fmt::format("u = {}{}", format_u(s, u),
-                         back ? ", invert(sample(u)) = " + format_u(s, *back) : ": invert fails");
+      return fmt::format("invert(sample(u)) {}, should be u = {}", back ? "is " + format_u(s, *back) : "fails",
+                         format_u(s, u));
     });
   }
   return {error.check()};

@@ -40,7 +40,8 @@ Check exact_jacobian(const AnySampler& s, const LawOptions& options) {
     const double off = std::abs(static_cast<double>(abs(determinant(j, n) * density) - 1));
     error.note(off, [&] {
       const std::array<double, 3> c{static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
-      return fmt::format("|det| pdf - 1 = {:.3g} at u = {}", off, format_numbers({c.data(), n}, 17));
+      return fmt::format("|det d sample / d u| pdf differs from 1 by {:.3g}, at u = {}", off,
+                         format_numbers({c.data(), n}, 17));
     });
   }
   return error.check();
@@ -67,7 +68,7 @@ double determinant_at(const AnySampler& s, const AnySampler::Uniforms& u, double
 std::vector<Check> double_jacobian(const AnySampler& s, const LawOptions& options) {
   constexpr double limit = 1e-6, first_step = 0x1p-12;
   struct Point {
-    double off;
+    double off, product;
     AnySampler::Uniforms u;
   };
   std::vector<Point> points;
@@ -82,7 +83,7 @@ std::vector<Check> double_jacobian(const AnySampler& s, const LawOptions& option
     const double a = claim * determinant_at(s, u, first_step), b = claim * determinant_at(s, u, first_step / 2),
                  c = claim * determinant_at(s, u, first_step / 4);
     const double spread = std::max({a, b, c}) - std::min({a, b, c}), off = std::abs(c - 1) - 16 * spread;
-    points.push_back({off > 0 ? off : 0.0, u});
+    points.push_back({off > 0 ? off : 0.0, c, u});
   }
   Check check{"|det| pdf = 1, upper quartile", Verdict::pass, {}, 0, 0, limit, Fault::jacobian, {}};
   if (points.size() < 100) return {check};
@@ -92,7 +93,8 @@ std::vector<Check> double_jacobian(const AnySampler& s, const LawOptions& option
   check.statistic = quartile->off;
   if (!(check.statistic <= limit)) {
     check.verdict = Verdict::fail;
-    check.detail = describe_sample(s, quartile->u);
+    check.detail = fmt::format("|det d sample / d u| pdf is {:.9g}, should be 1, at {}", quartile->product,
+                               describe_sample(s, quartile->u));
   }
   return {check};
 }

@@ -14,6 +14,10 @@ double off_by(const AnySampler& s, const ExactSampler::Point& x, const ExactSamp
   return size_of({x[0] - exact[0], x[1] - exact[1], x[2] - exact[2]}) / std::max(1.0, size_of(exact)) / s.epsilon();
 }
 
+std::string format_exact(const AnySampler& s, const ExactSampler::Point& x) {
+  return format_x(s, {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])});
+}
+
 // How far rounding u on the way carries the exact sample, as what maps u once more does: a mixture, a product.
 double off_by_rounding(const AnySampler& s, const AnySampler::Uniforms& u, const ExactSampler::Point& exact) {
   constexpr double steps = 4;
@@ -42,15 +46,19 @@ std::vector<Check> precision_law(const AnySampler& s, const LawOptions& options)
     const ExactSampler::Point x{drawn->x[0], drawn->x[1], drawn->x[2]};
     double off = off_by(s, x, *exact);
     if (off > options.sample_eps) off = std::max(off - off_by_rounding(s, u, *exact), 0.0);
-    sample.note(
-        off, [&] { return fmt::format("{:.3g} eps at u = {}: x = {}", off, format_u(s, u), format_x(s, drawn->x)); });
+    sample.note(off, [&] {
+      return fmt::format("sample is {}, should be {}, at u = {}", format_x(s, drawn->x), format_exact(s, *exact),
+                         format_u(s, u));
+    });
     const Oracle density = s.exact->pdf(x);
     // Rounding may carry x across the edge of the support, where the two sides differ and both are right.
     if (!(density > 0)) continue;
     const double claimed = s.pdf(drawn->x);
     const double wrong = std::abs(static_cast<double>(claimed / density) - 1) / s.epsilon();
-    pdf.note(wrong,
-             [&] { return fmt::format("{:.3g} eps at x = {}: pdf = {:.9g}", wrong, format_x(s, drawn->x), claimed); });
+    pdf.note(wrong, [&] {
+      return fmt::format("pdf is {:.17g}, should be {:.17g}, at x = {}", claimed, static_cast<double>(density),
+                         format_x(s, drawn->x));
+    });
   }
   return {sample.check(), pdf.check()};
 }

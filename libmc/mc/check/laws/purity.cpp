@@ -52,7 +52,7 @@ class Repeated {
   // First what depends on no sample: a sample at the same u might bring back what it was asked with.
   void ask_again(const AnySampler& s, const Asked& a, int others) {
     const auto differ = [&](const std::string& question, const std::string& before, const std::string& now) {
-      return fmt::format("{} = {}, and {} after {} other samples", question, before, now, others);
+      return fmt::format("{} is {} after {} other samples, was {} before", question, now, others, before);
     };
     if (a.pdf) {
       const double now = s.pdf(a.drawn->x);
@@ -83,8 +83,8 @@ class Repeated {
   }
 
  private:
-  WorstError sample_{"same u, same point", 0, Fault::impure}, pdf_{"same x, same pdf", 0, Fault::impure},
-      invert_{"same x, same inverse", 0, Fault::impure};
+  WorstError sample_{"determinism of sample", 0, Fault::impure}, pdf_{"determinism of pdf", 0, Fault::impure},
+      invert_{"determinism of invert", 0, Fault::impure};
 };
 
 // Points that stay where they are though u moves.
@@ -95,16 +95,17 @@ class Stuck {
     alike_ += same(before_, a.drawn);
     before_ = a.drawn;
     if (pairs_++ == 0)
-      witness_ = fmt::format("sample({}) = sample({}) = {}", format_u(s, a.u), format_u(s, b.u), describe(s, a.drawn));
+      witness_ = fmt::format("sample is {} for both u = {} and u = {}, should differ", describe(s, a.drawn),
+                             format_u(s, a.u), format_u(s, b.u));
   }
 
   Check check() const {
     // A point that is always the same is a function of u; one that is stuck for a while is not.
     const Fault fault = 2 * alike_ > pairs_ ? Fault::atom : Fault::impure;
-    Check moves{"another u, another point", Verdict::pass, {}, 0, double(pairs_), points / 2.0, fault, {}};
+    Check moves{"sample depends on u", Verdict::pass, {}, 0, double(pairs_), points / 2.0, fault, {}};
     if (pairs_ <= points / 2) return moves;
     moves.verdict = Verdict::fail;
-    moves.detail = fmt::format("{}; so at {} of {} pairs", witness_, pairs_, points);
+    moves.detail = fmt::format("{}; {} of {} pairs of u give one point", witness_, pairs_, points);
     return moves;
   }
 

@@ -15,9 +15,11 @@ std::vector<Check> support_law(const AnySampler& s, const LawOptions& options) {
     const Numbers x = s.domain.from_unit(v).x;
     if (!std::all_of(x.begin(), x.end(), [](double one) { return std::isfinite(one); })) continue;
     const double f = s.eval(x), density = s.pdf(x);
-    const auto where = [&] { return fmt::format("x = {}, eval = {:.9g}, pdf = {:.9g}", format_x(s, x), f, density); };
-    sign.note(f >= 0 && std::isfinite(f) ? 0 : 1, where);
-    support.note(f > 0 && !(density > 0) ? 1 : 0, where);
+    sign.note(f >= 0 && std::isfinite(f) ? 0 : 1,
+              [&] { return fmt::format("eval is {:.9g}, should be finite and >= 0, at x = {}", f, format_x(s, x)); });
+    support.note(f > 0 && !(density > 0) ? 1 : 0, [&] {
+      return fmt::format("pdf is {:.9g}, should be > 0 since eval is {:.9g}, at x = {}", density, f, format_x(s, x));
+    });
   }
   return {sign.check(), support.check()};
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// The worst case of a deterministic law, with its witness.
+/// The largest error of a deterministic law, with its place.
 
 #include <mc/check/report/report.h>
 
@@ -14,8 +14,8 @@ class WorstError {
  public:
   WorstError(std::string law, double limit, Fault fault) : law_(std::move(law)), limit_(limit), fault_(fault) {}
 
-  /// One point: its error, and a description that is only made for a new worst one beyond the limit. NaN is the worst
-  /// error.
+  /// Adds the error at one point. `describe` returns the finding (observed value, expected value, place); it runs only
+  /// for a new largest error beyond the limit. NaN exceeds every other error.
   template <std::invocable Describe> void note(double error, Describe&& describe) {
     ++points_;
     if (error <= limit_) {
@@ -32,7 +32,8 @@ class WorstError {
   Check check() const {
     Check c{law_, broken_ == 0 ? Verdict::pass : Verdict::fail, {}, 0, worst_, limit_, fault_, {}};
     if (broken_ > 0)
-      c.detail = witness_ + "; broken at " + std::to_string(broken_) + " of " + std::to_string(points_) + " points";
+      c.detail =
+          witness_ + "; " + std::to_string(broken_) + " of " + std::to_string(points_) + " points break this law";
     return c;
   }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What a checker found.
+/// Results of a check: verdict, findings and reported values.
 
 #include <mc/check/subject/axis.h>
 
@@ -13,14 +13,15 @@
 
 namespace mc {
 
-/// `inconclusive`: the test itself could not be trusted (say, its quadrature did not converge). Never counted as a
-/// pass.
+/// `inconclusive`: the test itself is not reliable, for example because its quadrature did not converge. Never counted
+/// as a pass.
 enum class Verdict { pass, fail, inconclusive };
 
 std::string_view name(Verdict v);
 
-/// What a failed check points to. `shape`: the samples follow another density than the one claimed; `rotation`: the
-/// claimed one, turned about the pole.
+/// The likely cause of a failed check.
+///   shape    : the samples follow a density other than the claimed one
+///   rotation : the samples follow the claimed density rotated about its pole
 enum class Fault {
   none,
   edge,
@@ -45,6 +46,7 @@ enum class Fault {
   bias
 };
 
+/// "weight: the stated weight differs from f / pdf": one word, and an explanation after a colon.
 std::string_view name(Fault f);
 
 /// One law or test applied to one subject.
@@ -54,25 +56,27 @@ struct Check {
   std::optional<double> p;   ///< p-value of a statistical test; none for a deterministic law
   double share = 0;          ///< share of the family-wise alpha that a statistical test spends; the shares add up to 1
   double statistic = 0;      ///< the test statistic, or the largest error of a deterministic law
-  double limit = 0;          ///< what `statistic` (deterministic) may reach
-  Fault fault = Fault::none; ///< what it would point to if it failed
-  std::string detail;        ///< where and by how much, one line; empty when there is nothing to say
+  double limit = 0;          ///< largest error that a deterministic law allows
+  Fault fault = Fault::none; ///< the likely cause if the check fails
+  /// One line; empty for a pass. First the finding: observed value, expected value and place. Then remarks, each after
+  /// "; ".
+  std::string detail;
 };
 
-/// A cell of the partition, or a discrete outcome, whose count is far from what the density claims.
+/// A cell of the partition, or a discrete outcome, with a count far from the expected one.
 struct WorstCell {
   std::array<double, 3> lo{}, hi{}; ///< chart coordinates; all 0 for an outcome
   double observed = 0, expected = 0, z = 0;
   std::string where; ///< its centre as a point of the domain; "outcome 3"
 };
 
-/// Samples counted in a cell, and how many the density claims.
+/// Observed and expected number of samples in a cell.
 struct CellCount {
   std::array<double, 3> lo{}, hi{}; ///< chart coordinates
   double observed = 0, expected = 0;
 };
 
-/// What the maps and curves of a page are drawn from. Some 300 kB where the samples are many.
+/// Data for maps and curves of a page; about 300 kB for many samples.
 struct Evidence {
   std::vector<CellCount> cells; ///< a complete kd-tree's, in its order: the two halves of each aligned run share a face
   std::vector<CellCount> outcomes; ///< discrete ones; lo and hi are 0
@@ -80,22 +84,27 @@ struct Evidence {
     std::uint64_t samples;
     double p;
   };
-  std::vector<After> p_after; ///< Report::p() had the run stopped there: after 1024, 2048, 4096, ... and all samples
+  std::vector<After> p_after; ///< Report::p() after 1024, 2048, 4096, ... and after all samples
 };
 
-/// "theta in [1.5, 3] deg": a range of a chart coordinate as one of the domain.
+/// "theta in [1.5, 3] deg": a range of a chart coordinate in the coordinates of the domain.
 std::string describe_range(const std::vector<Axis>& axes, std::size_t axis, double lo, double hi);
 
 /// "theta 1.5 to 3 deg, phi 0 to 90 deg".
 std::string describe_cell(const std::vector<Axis>& axes, const std::array<double, 3>& lo,
                           const std::array<double, 3>& hi);
 
-/// A measured quantity that is reported and not judged by itself, say the white furnace value.
+/// A measured quantity that is reported without a verdict of its own, for example the white furnace albedo.
 struct Figure {
   std::string name;
   double value = 0, std_error = 0;
   std::string where; ///< may be empty
 };
+
+/// How much text Report::to_string returns.
+///   brief : the finding, its likely cause, the check that found it, and the number of other checks that fail
+///   full  : every check that does not pass, the worst cells and the reported values
+enum class ReportText : std::uint8_t { brief, full };
 
 /// All checks of one subject. Statistical checks share one family-wise alpha, see multiple_testing.h.
 struct Report {
@@ -103,27 +112,41 @@ struct Report {
   double alpha = 0.01;
   std::uint64_t samples = 0;
   double mass = 1, mass_error = 0; ///< integral of the claimed density, atoms included, and its error bound
-  /// Relative error of the density that is caught with probability .99: of random sign over patches of any place that
-  /// each hold the share of four of the checker's cells or more, a thousandth of 1e6 samples, and are at most ten times
-  /// as long as wide. Of longer ones larger errors are missed.
+  /// Smallest relative error of the density that is detected with probability .99. The error has this size everywhere
+  /// and a random sign in each patch. A patch contains the probability of four cells or more, which is a thousandth for
+  /// 1e6 samples, and is at most ten times as long as wide. In longer patches only larger errors are detected.
   double detectable = 0;
-  double detectable_cell = 0; ///< the same in a single compact region of that share or more
+  double detectable_cell = 0; ///< the same for an error in a single patch, with the correct density elsewhere
   double seconds = 0;
   double ns_per_sample = 0;
   std::vector<Check> checks;
-  std::vector<Axis> axes;           ///< what the chart coordinates of cells stand for; empty for discrete outcomes
+  std::vector<Axis> axes;           ///< coordinates of the domain for each chart axis; empty for discrete outcomes
   std::vector<WorstCell> worst;     ///< the five worst, worst first
-  std::optional<Evidence> evidence; ///< only where the options asked for it
+  std::optional<Evidence> evidence; ///< only if the options request it
   std::vector<Figure> figures;
 
   Verdict verdict() const; ///< fail if any failed, else inconclusive if any is, else pass
   bool passed() const { return verdict() == Verdict::pass; }
   double p() const; ///< family-wise adjusted p-value (weighted Sidak over the statistical checks); 1 without any
-  /// The likely fault: that of the first failed check, deterministic ones first, measure zero last; ends and branches
-  /// of u, and physics, after counts that are beyond doubt wrong.
-  Fault fault() const;
-  /// Several lines: the verdict, then each check that did not pass with its detail, then the worst cells.
-  std::string to_string() const;
+  /// The check that explains the verdict; null for a pass. The first failed deterministic law, except measure zero; else
+  /// the first failed statistical test; else measure zero; else the first inconclusive check. A statistical test with
+  /// p < 1e-9 comes before the laws of boundaries of u and of physics, which a wrong density breaks, too.
+  const Check* leading() const;
+  Fault fault() const; ///< the likely cause of a failure: that of the leading check; none unless the verdict is fail
+  /// Whether the verdict rests on p: a pass, or a failed statistical test. A broken law is certain, whatever p is.
+  bool is_statistical() const;
+  /// The observed value, the expected value and the place of the leading check; empty for a pass.
+  std::string finding() const;
+  /// One line:
+  ///   "pass, p = 0.42 (1000000 samples, alpha 0.001); an error of the density of 3.8 % is detected (61 % in a single
+  ///   patch)"
+  ///   "fail: weight is 0.6, should be 0.5, at u = ..."
+  ///   "fail, p = 1e-12 (20000 samples, alpha 0.001): region ... contains 120 samples, 64.0 expected"
+  std::string verdict_text() const;
+  /// The subject and verdict_text(); then, unless it passed, one indented line each for the likely cause, the check and
+  /// the rest.
+  ///   hint : how a user gets the full text, "; --verbose shows them"; printed with the number of other failures
+  std::string to_string(ReportText text = ReportText::brief, std::string_view hint = {}) const;
 };
 std::ostream& operator<<(std::ostream& out, const Report& r);
 

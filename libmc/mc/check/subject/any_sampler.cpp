@@ -61,14 +61,26 @@ std::string format_x(const AnySampler& s, const Numbers& x) {
 
 namespace {
 
-// ", its length 1 + 1e-9" of a point that should be a direction: none of its digits says so at a glance.
+// "r = 0.3, phi = 20 deg": radii and angles at chart coordinates v; empty for a domain without them.
+std::string describe_angles(const std::vector<Axis>& axes, const Subject::Coordinates& v) {
+  std::string text;
+  for (std::size_t d = 0; d < std::min<std::size_t>(axes.size(), v.size()); ++d) {
+    const Axis& axis = axes[d];
+    if (axis.unit().empty() && axis.scale != Axis::Scale::radius && axis.scale != Axis::Scale::ball_radius) continue;
+    text += fmt::format("{}{} {:.4g}{}{}", text.empty() ? "" : ", ", axis.name, axis.value(v[d]),
+                        axis.unit().empty() ? "" : " ", axis.unit());
+  }
+  return text;
+}
+
+// ", of length 1 + 1e-9" of a point that should be a direction: none of its digits says so at a glance.
 std::string describe_length(const AnySampler& s, const Numbers& x) {
   if (s.domain.numbers != 3 || s.domain.dim != 2) return {};
   const auto off = [](const Numbers& y) { return std::hypot(y[0], y[1], y[2]) - 1; };
   for (const AnyDomain::Chart& v : {AnyDomain::Chart{0.3, 0.4, 0}, AnyDomain::Chart{0.7, 0.2, 0}})
     if (!(std::abs(off(s.domain.from_unit(v).x)) < 1e-6)) return {};
   if (!(std::abs(off(x)) > 4 * s.epsilon())) return {};
-  return fmt::format(", its length 1 {} {:.2g}", off(x) < 0 ? '-' : '+', std::abs(off(x)));
+  return fmt::format(", of length 1 {} {:.2g}", off(x) < 0 ? '-' : '+', std::abs(off(x)));
 }
 
 // "x = (0, 1), pdf = 2, eval = 3", or what else it is.
@@ -78,12 +90,20 @@ std::string describe_drawn(const AnySampler& s, const AnySampler::Drawn& drawn) 
   if (p.draw.kind == Kind::atom)
     return fmt::format("outcome {}, {} = {:.9g}", drawn.atom, s.domain.dim > 0 ? "probability" : "pmf", p.pdf);
   text = "x = " + format_x(s, drawn.x);
+  const std::string angles = p.draw.kind == Kind::point ? describe_angles(s.domain.axes, p.draw.v) : "";
+  if (!angles.empty()) text += " [" + angles + "]";
   if (p.draw.kind == Kind::outside) text += describe_length(s, drawn.x) + float_excess(s, drawn.x);
   if (p.draw.kind != Kind::point) return text;
   text += fmt::format(", pdf = {:.9g}", p.pdf);
   if (s.eval) text += fmt::format(", eval = {:.9g}", s.eval(drawn.x));
-  if (drawn.weight != 1) text += fmt::format(", stated weight = {:.9g} f / pdf", drawn.weight);
   return text;
+}
+
+// "weight is 0.6, should be 0.5", and the likely reason after "; ".
+std::string describe_stated(const AnySampler::Drawn& drawn) {
+  const AnySampler::Stated& s = drawn.stated;
+  if (std::isnan(s.expected)) return fmt::format("weight is {:.9g} f / pdf, should be f / pdf", drawn.weight);
+  return fmt::format("{} is {:.9g}, should be {:.9g}{}{}", s.name, s.value, s.expected, *s.hint ? "; " : "", s.hint);
 }
 
 // "u = (0.25, 0.5)": the random numbers that a draw took from the stream; empty where it took none or too many.
@@ -98,22 +118,43 @@ std::string format_taken(const AnySampler& s, Pcg before, const Pcg& after) {
   return "u = " + format_numbers(u, wide ? 17 : std::numeric_limits<float>::max_digits10) + ", ";
 }
 
-std::string describe_draw(const AnySampler& s, std::uint64_t seed, std::uint64_t index) {
+// The random numbers of draw `index` of the stream `seed`.
+AnySampler::Uniforms uniforms_of_draw(const AnySampler& s, std::uint64_t seed, std::uint64_t index) {
   Pcg random(seed);
-  std::string text;
+  random.advance(index * static_cast<std::uint64_t>(s.uniforms) * (s.is_float ? 1 : 2));
+  return random_uniforms(s, random);
+}
+
+// Draw `index` of the stream `seed` of a sampler without u, and the random numbers that it took.
+struct StreamDraw {
   std::optional<AnySampler::Drawn> drawn;
+  std::string taken;
+};
+StreamDraw draw_of_stream(const AnySampler& s, std::uint64_t seed, std::uint64_t index) {
+  Pcg random(seed), before = random;
+  StreamDraw result;
+  for (std::uint64_t i = 0; i <= index; ++i) {
+    before = random;
+    result.drawn = s.sample_stream(random);
+  }
+  result.taken = format_taken(s, before, random);
+  return result;
+}
+
+std::string describe_draw(const AnySampler& s, std::uint64_t seed, std::uint64_t index) {
+  std::string text;
   if (s.sample) {
-    random.advance(index * static_cast<std::uint64_t>(s.uniforms) * (s.is_float ? 1 : 2));
-    text = describe_sample(s, random_uniforms(s, random));
+    text = describe_sample(s, uniforms_of_draw(s, seed, index));
   } else {
-    Pcg before = random;
-    for (std::uint64_t i = 0; i <= index; ++i) {
-      before = random;
-      drawn = s.sample_stream(random);
-    }
-    text = format_taken(s, before, random) + (drawn ? describe_drawn(s, *drawn) : "it fails");
+    const StreamDraw again = draw_of_stream(s, seed, index);
+    text = again.taken + (again.drawn ? describe_drawn(s, *again.drawn) : "sample fails");
   }
   return fmt::format("{}, draw {} of Pcg({})", text, index, seed);
+}
+
+std::string describe_weight(const AnySampler& s, std::uint64_t seed, std::uint64_t index) {
+  const auto drawn = s.sample ? s.sample(uniforms_of_draw(s, seed, index)) : draw_of_stream(s, seed, index).drawn;
+  return drawn ? describe_stated(*drawn) : "sample fails";
 }
 
 // How far one unit in the last place of the point at v moves chart coordinate `axis`.
@@ -199,7 +240,7 @@ std::vector<Subject::Coordinates> inverted_draws(const AnySampler& s, std::uint6
 std::string describe_sample(const AnySampler& s, const AnySampler::Uniforms& u) {
   if (s.describe) return "u = " + format_u(s, u) + ", " + s.describe(u);
   const auto drawn = s.sample(u);
-  return "u = " + format_u(s, u) + (drawn ? ", " + describe_drawn(s, *drawn) : ": it fails");
+  return "u = " + format_u(s, u) + ", " + (drawn ? describe_drawn(s, *drawn) : "sample fails");
 }
 
 Subject make_subject(const AnySampler& sampler) {
@@ -220,6 +261,9 @@ Subject make_subject(const AnySampler& sampler) {
   };
   subject.describe_draw = [shared](std::uint64_t seed, std::uint64_t index) {
     return describe_draw(*shared, seed, index);
+  };
+  subject.describe_weight = [shared](std::uint64_t seed, std::uint64_t index) {
+    return describe_weight(*shared, seed, index);
   };
   if (s.domain.dim == 0) return subject;
   subject.density = [shared](const Subject::Coordinates& v) {

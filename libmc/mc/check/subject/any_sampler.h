@@ -66,12 +66,20 @@ struct AnySampler {
   static constexpr int most_uniforms = 6;
   using Uniforms = std::array<double, most_uniforms>; ///< unused entries are 0
 
+  /// The stated number of a sample that differs most from the number that f and pdf give: the weight, pdf or f.
+  struct Stated {
+    const char* name = "weight";
+    double value = std::numeric_limits<double>::quiet_NaN(), expected = std::numeric_limits<double>::quiet_NaN();
+    const char* hint = ""; ///< the likely reason for the difference; may be empty
+  };
+
   /// What one sample says.
   struct Drawn {
     Numbers x{};
     int atom = -1; ///< index of a discrete outcome, which has no place in the domain; NaN in x still shows
     double pdf = std::numeric_limits<double>::quiet_NaN(); ///< claimed, where the adapter knows it already
     double weight = 1; ///< stated weight * pdf / f where a weight is stated; 1 when they agree
+    Stated stated;     ///< described when `weight` differs from 1
   };
 
   std::string name;
@@ -129,7 +137,7 @@ Placed place(const AnySampler& sampler, const std::optional<AnySampler::Drawn>& 
 /// "(0.25, 0.5)": the numbers of u and of x, in full.
 std::string format_u(const AnySampler& sampler, const AnySampler::Uniforms& u);
 std::string format_x(const AnySampler& sampler, const Numbers& x);
-/// "u = 0.5, x = 2, pdf = 1", or "u = 0.5: it fails".
+/// "u = 0.5, x = 2, pdf = 1", or "u = 0.5, sample fails".
 std::string describe_sample(const AnySampler& sampler, const AnySampler::Uniforms& u);
 
 /// The sampler as the statistical tests see it: a stream of draws in the chart.

@@ -109,10 +109,10 @@ std::optional<Step> step_of_axis(const std::vector<Seen>& points, const Axis& ax
 // What comes in steps, and in which; empty where nothing can be said about it.
 std::string clause(const std::string& what, const std::optional<Step>& step, bool is_float) {
   if (step && step->coarse)
-    return fmt::format("{} comes in steps of {:.2g}{} (2^{})", what, std::ldexp(1.0, step->exponent), step->unit,
+    return fmt::format("{} has only multiples of {:.2g}{} (2^{})", what, std::ldexp(1.0, step->exponent), step->unit,
                        step->exponent);
   if (!step || is_float) return {};
-  return what + " comes in steps of a float; compute it in double, or check the sampler as one over float";
+  return what + " is rounded to float; compute it in double, or check the distribution as float";
 }
 
 // Of the axes first, which say more than the numbers of a point.
@@ -162,7 +162,7 @@ std::string float_steps(const AnySampler& s, std::uint64_t seed) {
   for (std::size_t k = 0; k < s.domain.axes.size(); ++k) {
     const Axis& axis = s.domain.axes[k];
     if (axis.scale == Axis::Scale::polar && steps_at_pole(points, axis, k))
-      return fmt::format("cos {} comes in steps of a float; compute 1 - cos {} instead", axis.name, axis.name);
+      return fmt::format("cos {} is rounded to float near the pole; compute 1 - cos {} instead", axis.name, axis.name);
   }
   return clause_of_all(s, points);
 }
@@ -173,7 +173,7 @@ std::string float_excess(const AnySampler& s, const Numbers& x) {
   if (!std::any_of(numbers.begin(), numbers.end(), is_float_in_full)) return {};
   const std::optional<double> off = distance(s.domain, x);
   if (!off || !(*off <= 4 * static_cast<double>(std::numeric_limits<float>::epsilon()))) return {};
-  return ", as far off as float rounds: compute it in double, or declare float as the sampler's scalar";
+  return ", off by the rounding error of float: compute it in double, or declare the distribution as float";
 }
 
 } // namespace mc

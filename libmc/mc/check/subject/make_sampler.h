@@ -160,6 +160,21 @@ template <Samplable O> [[gnu::cold]] ExactSampler exact_sampler(const O& warp) {
   return e;
 }
 
+/// The channel of a weight that differs most from f / pdf.
+template <class Value> AnySampler::Stated stated_weight(const Value& weight, const Value& f, double pdf) {
+  AnySampler::Stated stated;
+  double worst = -1;
+  for (int i = 0; i < components(weight); ++i) {
+    const double value = component(weight, i), expected = component(f, i) / pdf;
+    const double off = std::abs(value - expected) / std::max(std::abs(expected), 1e-300);
+    if (off <= worst) continue;
+    worst = off;
+    stated.value = value;
+    stated.expected = expected;
+  }
+  return stated;
+}
+
 /// Turns what a sampler returns into AnySampler::Drawn: a point, or a struct of x, weight and perhaps pdf.
 template <Domain D, class Held, class Pdf, class F>
 AnySampler::Drawn drawn_of(const Held& held, const D& domain, const Pdf& pdf, const F& f) {
@@ -171,8 +186,14 @@ AnySampler::Drawn drawn_of(const Held& held, const D& domain, const Pdf& pdf, co
     const auto density = static_cast<typename D::Scalar>(pdf(x));
     d.pdf = static_cast<double>(density);
     using Value = std::remove_cvref_t<decltype(held.weight)>;
-    double off = disagreement(Value(held.weight * density), Value(f(x)));
-    if constexpr (requires { held.pdf; }) off = std::max(off, disagreement(static_cast<double>(held.pdf), d.pdf));
+    const auto value = Value(f(x));
+    double off = disagreement(Value(held.weight * density), value);
+    d.stated = stated_weight(Value(held.weight), value, d.pdf);
+    if constexpr (requires { held.pdf; }) {
+      const double of_pdf = disagreement(static_cast<double>(held.pdf), d.pdf);
+      if (of_pdf > off) d.stated = {"pdf", static_cast<double>(held.pdf), d.pdf, ""};
+      off = std::max(off, of_pdf);
+    }
     d.weight = 1 + off;
   } else {
     d.x = to_array<double>(typename D::Point(held));
@@ -192,7 +213,7 @@ template <Domain D, class Draw, class Pdf, class F> struct FunctionsOn {
     using Held = typename Unwrapped<Result>::type;
     static_assert(
         !requires(const Held& held) { held.weight; } || !std::same_as<F, std::nullptr_t>,
-        "make_sampler: a sampler that states weights needs the f they are for");
+        "make_sampler: a sample with a weight needs f, since weight = f / pdf");
     if (is_empty(result)) return {};
     return drawn_of(unwrapped(result), domain, pdf, f);
   }
@@ -229,7 +250,7 @@ template <Domain D, class Draw, class Pdf, class F = std::nullptr_t>
 [[gnu::cold]] AnySampler make_sampler(std::string name, const D& domain, Draw draw, Pdf pdf, F f = nullptr) {
   constexpr bool streams = std::invocable<const Draw&, Pcg&>;
   constexpr bool takes_u = std::invocable<const Draw&, typename D::UnitPoint>;
-  static_assert(streams || takes_u, "the sampler must take u, a point of the unit cube, or mc::Pcg&");
+  static_assert(streams || takes_u, "sample must take u, a point of the unit cube, or mc::Pcg&");
   using Functions = detail::FunctionsOn<D, Draw, Pdf, F>;
   AnySampler s = detail::sampler_on(std::move(name), domain);
   const auto shared =
@@ -302,6 +323,7 @@ template <DiscreteDistribution D> AnySampler make_discrete_sampler(std::string n
     d.pdf = static_cast<double>(drawn.pmf);
     if (!(drawn.u_remapped >= 0 && drawn.u_remapped < 1)) d.x[0] = std::numeric_limits<double>::quiet_NaN();
     d.weight = static_cast<double>(drawn.pmf / shared->pmf(drawn.index));
+    d.stated = {"stated probability", d.pdf, static_cast<double>(shared->pmf(drawn.index)), ""};
     return d;
   };
   s.ns_per_sample = [shared] { return detail::ns_per_outcome(*shared); };

@@ -64,6 +64,8 @@ struct Subject {
   std::function<double(const Coordinates& v, int axis)> resolution;
   /// The numbers behind draw `index` of stream `seed` in full precision; may be empty.
   std::function<std::string(std::uint64_t seed, std::uint64_t index)> describe_draw;
+  /// "weight is 0.6, should be 0.5" for draw `index` of stream `seed`, and the likely reason after "; "; may be empty.
+  std::function<std::string(std::uint64_t seed, std::uint64_t index)> describe_weight;
   /// The point of the domain at chart coordinates v; may be empty.
   std::function<std::string(const Coordinates& v)> describe_point;
 };

@@ -63,12 +63,14 @@ TEST(DrawTally, EveryLawOfSingleDrawsIsACheck) {
   std::vector<std::string> failed;
   for (const mc::Check& c : check_draws(s, draw_samples(s, 1, 1000, [](const auto&, const auto&) {})))
     if (c.verdict == mc::Verdict::fail) failed.push_back(c.name + ": " + c.detail);
-  EXPECT_THAT(failed, testing::ElementsAre(
-                          "in the domain: 20 of 1000 samples, first draw 19",
-                          "pdf > 0 at samples: 20 of 1000 samples, first draw 29",
-                          "weight = f / pdf: 20 of 1000 samples, first draw 39",
-                          "never fails: 20 of 1000 samples, first draw 9; say may_fail where a sample may be none",
-                          "outcomes of probability 0: outcome 1 came 20 times"));
+  EXPECT_THAT(failed,
+              testing::ElementsAre(
+                  "in the domain: sample is outside the domain, at draw 19; 20 of 1000 samples",
+                  "pdf > 0 at samples: pdf is 0, should be > 0 at every sample, at draw 29; 20 of 1000 samples",
+                  "weight = f / pdf: weight differs from f / pdf by 1, relative, at draw 39; 20 of 1000 samples",
+                  "never fails: sample fails, at draw 9; 20 of 1000 samples; set may_fail if a sample may fail, with a "
+                  "density of less mass",
+                  "outcomes of probability 0: outcome 1 was drawn 20 times, should never be: its probability is 0"));
 }
 
 // A density that is not a number, or negative, is no density of 0.
@@ -93,9 +95,10 @@ TEST(DrawTally, ADensityThatIsNoneIsItsOwnFault) {
       failed.push_back(c.name + ": " + c.detail);
       faults.push_back(c.fault);
     }
-  EXPECT_THAT(failed, testing::ElementsAre("pdf finite at samples: 250 of 1000 samples",
-                                           "pdf >= 0 at samples: 250 of 1000 samples",
-                                           "pdf > 0 at samples: 250 of 1000 samples"));
+  EXPECT_THAT(failed,
+              testing::ElementsAre("pdf finite at samples: pdf is not finite; 250 of 1000 samples",
+                                   "pdf >= 0 at samples: pdf is negative; 250 of 1000 samples",
+                                   "pdf > 0 at samples: pdf is 0, should be > 0 at every sample; 250 of 1000 samples"));
   EXPECT_THAT(faults, testing::ElementsAre(mc::Fault::not_finite, mc::Fault::negative, mc::Fault::leak));
 }
 

@@ -12,7 +12,7 @@ TEST(WorstError, KeepsTheWorstAndItsWitness) {
   const mc::Check c = error.check();
   EXPECT_EQ(c.verdict, mc::Verdict::fail);
   EXPECT_EQ(c.statistic, 3);
-  EXPECT_EQ(c.detail, "3.000000; broken at 2 of 4 points");
+  EXPECT_EQ(c.detail, "3.000000; 2 of 4 points break this law");
 }
 
 TEST(WorstError, PassesAtTheLimitAndNeverOnNan) {
@@ -24,7 +24,7 @@ TEST(WorstError, PassesAtTheLimitAndNeverOnNan) {
   bad.note(std::nan(""), [] { return std::string("nan"); });
   bad.note(7, [] { return std::string("7"); });
   EXPECT_EQ(bad.check().verdict, mc::Verdict::fail);
-  EXPECT_EQ(bad.check().detail, "nan; broken at 2 of 2 points");
+  EXPECT_EQ(bad.check().detail, "nan; 2 of 2 points break this law");
 }
 
 } // namespace

@@ -28,11 +28,11 @@ template <class S> auto lobe_from_cosine(S n) {
 
 TEST(FloatSteps, ANarrowLobeFromAFloatCosineIsTold) {
   EXPECT_EQ(mc::float_steps(lobe_from_cosine(1e6f), 1),
-            "cos theta comes in steps of a float; compute 1 - cos theta instead");
+            "cos theta is rounded to float near the pole; compute 1 - cos theta instead");
   EXPECT_EQ(mc::float_steps(lobe_from_cosine(1e6), 1), "");
   const mc::Report report = check_laws(lobe_from_cosine(1e6f), {.samples = 100'000});
   EXPECT_EQ(report.verdict(), mc::Verdict::fail);
-  EXPECT_THAT(report.to_string(), HasSubstr("cos theta comes in steps of a float"));
+  EXPECT_THAT(report.to_string(), HasSubstr("cos theta is rounded to float"));
 }
 
 TEST(FloatSteps, AnAngleInFloatWithinDoublesIsTold) {
@@ -46,7 +46,7 @@ TEST(FloatSteps, AnAngleInFloatWithinDoublesIsTold) {
         [](const mc::Vec2<double>&) { return 1 / mc::pi<double>; });
   };
   EXPECT_THAT(mc::float_steps(disk([](double u) { return double(float(2 * mc::pi<double> * u)); }), 1),
-              HasSubstr("phi comes in steps of a float; compute it in double"));
+              HasSubstr("phi is rounded to float; compute it in double"));
   EXPECT_EQ(mc::float_steps(disk([](double u) { return 2 * mc::pi<double> * u; }), 1), "");
 }
 
@@ -68,7 +68,7 @@ TEST(FloatSteps, CoarserStepsAreNotThoseOfAFloat) {
   EXPECT_EQ(mc::float_steps(of_bits<float>(16), 1), "x comes in steps of 1.5e-05 (2^-16)");
   EXPECT_EQ(mc::float_steps(of_bits<double>(20, 1024), 1), "x comes in steps of 0.00098 (2^-10)");
   for (const int bits : {23, 24}) {
-    EXPECT_THAT(mc::float_steps(of_bits<double>(bits), 1), HasSubstr("x comes in steps of a float"));
+    EXPECT_THAT(mc::float_steps(of_bits<double>(bits), 1), HasSubstr("x is rounded to float"));
     EXPECT_EQ(mc::float_steps(of_bits<float>(bits), 1), "");
   }
   EXPECT_EQ(mc::float_steps(of_bits<double>(32), 1), "") << "no floats";

@@ -150,13 +150,14 @@ Check test_mass(const Subject& s, const ClaimedMass& mass, double alpha) {
     else if (!(mass.estimated_error <= 0.03)) c.verdict = Verdict::inconclusive;
   }
   if (c.verdict == Verdict::pass) return c;
-  c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}", mass.value, mass.error);
+  c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}, should be {}1", mass.value, mass.error,
+                         s.may_fail ? "at most " : "");
   // Samples that are wrong where the density is high say nothing of what it integrates to.
   if (mass.integrated || c.verdict != Verdict::fail || !(mass.at_points_error <= 0.03) ||
       !(std::abs(mass.at_points - 1) <= 4 * mass.at_points_error))
     return c;
   c.fault = Fault::shape;
-  c.detail = fmt::format("the samples do not follow the density where it is high; at random points it integrates to "
+  c.detail = fmt::format("the samples do not follow the density where it is high; from random points it integrates to "
                          "{:.6g} +- {:.2g}",
                          mass.at_points, mass.at_points_error);
   return c;

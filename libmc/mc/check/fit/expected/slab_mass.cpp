@@ -134,7 +134,7 @@ std::string describe_layer(const Subject& s, std::size_t axis, double lo, double
   Subject::Coordinates middle{};
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) middle[d] = 0.5;
   middle[axis] = 0.5 * (lo + hi);
-  return range + ", as at " + s.describe_point(middle);
+  return range + ", for example about " + s.describe_point(middle) + ",";
 }
 
 } // namespace mc

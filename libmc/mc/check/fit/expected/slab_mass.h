@@ -20,8 +20,8 @@ struct Layer {
   bool empty = false;              ///< of samples: what an integral misses there speaks for them, not against
 };
 
-/// "theta in [1.5, 3] deg, as at (0.04, 0, 0.999)": a layer, and a point of the domain in the middle of it, since not
-/// every axis means something there.
+/// "theta in [1.5, 3] deg, for example about (0.04, 0, 0.999),": a layer and a point of the domain in the middle of it,
+/// since some axes are no coordinates of the domain.
 std::string describe_layer(const Subject& subject, std::size_t axis, double lo, double hi);
 
 /// quick : from a sixteenth of the points or less

@@ -143,7 +143,8 @@ void chi_squares(const PooledCells& cells, int dim, double share, double alpha, 
   for (const TreeLevels& g : groups) {
     const double fine = coarse + g.dof;
     result.checks.push_back(chi_square_check(fmt::format("chi-square, {:.0f} to {:.0f} cells", coarse, fine),
-                                             g.statistic, g.dof, each, alpha, fmt::format("{:.0f} expected", g.dof)));
+                                             g.statistic, g.dof, each, alpha,
+                                             fmt::format("chi-square is {:.4g}, {:.0f} expected", g.statistic, g.dof)));
     coarse = fine;
   }
   // A random sign per cell puts the share dof / cells of its noncentrality n e^2 into the finest group.
@@ -188,9 +189,11 @@ void tails(const PooledCells& cells, const std::vector<Axis>& named, std::size_t
   const double det = v[0] * v[2] - v[1] * v[1];
   if (!(det > 1e-9 * v[0] * v[2]) || !(v[0] > sqr(4 * extreme))) return;
   const double x = sum[0] - n * mean[0], y = sum[1] - n * mean[1];
-  result.checks.push_back(
-      chi_square_check("tails, " + axis_name(named, axis), (v[2] * x * x - 2 * v[1] * x * y + v[0] * y * y) / det, 2,
-                       share, alpha, fmt::format("mean ln r off by {:.3g}, mean ln(1-r) by {:.3g}", x / n, y / n)));
+  result.checks.push_back(chi_square_check(
+      "tails, " + axis_name(named, axis), (v[2] * x * x - 2 * v[1] * x * y + v[0] * y * y) / det, 2, share, alpha,
+      fmt::format("mean of ln r is off by {:.3g}, mean of ln(1 - r) by {:.3g}, where r is the rank "
+                  "along {}",
+                  x / n, y / n, axis_name(named, axis))));
 }
 
 void correlation(const PooledCells& cells, const std::vector<Axis>& named, std::size_t a, std::size_t b, double share,
@@ -208,7 +211,7 @@ void correlation(const PooledCells& cells, const std::vector<Axis>& named, std::
   if (!(variance > 16)) return;
   result.checks.push_back(chi_square_check(
       fmt::format("correlation, {} and {}", axis_name(named, a), axis_name(named, b)), sqr(sum - n * mean) / variance,
-      1, share, alpha, fmt::format("off by {:.3g}", (sum - n * mean) / n)));
+      1, share, alpha, fmt::format("the rank correlation is off by {:.3g}", (sum - n * mean) / n)));
 }
 
 void ks(const PooledCells& cells, const std::vector<Axis>& named, std::size_t axis, double share, double alpha,
@@ -234,7 +237,7 @@ void ks(const PooledCells& cells, const std::vector<Axis>& named, std::size_t ax
           {}};
   if (*c.p <= sidak_level(alpha, share)) {
     c.verdict = Verdict::fail;
-    c.detail = fmt::format("D = {:.3g}", worst / n);
+    c.detail = fmt::format("the cumulative distribution along {} is off by {:.3g}", axis_name(named, axis), worst / n);
   }
   result.checks.push_back(std::move(c));
 }
@@ -285,10 +288,13 @@ void single_cells(const PooledCells& cells, int dim, double share, double alpha,
     least = p;
     worst = r;
   }
-  Check c{"cells", Verdict::pass, sidak(least, family), share, worst.z, 0, Fault::local, {}};
+  Check c{"single cells", Verdict::pass, sidak(least, family), share, worst.z, 0, Fault::local, {}};
   if (*c.p <= level) {
     c.verdict = Verdict::fail;
-    c.detail = fmt::format("a run of {} cells is {:.2g} sigma off", worst.hi - worst.lo, worst.z);
+    c.detail = worst.hi - worst.lo == 1
+                   ? fmt::format("the count of one cell is off by {:.2g} standard deviations", worst.z)
+                   : fmt::format("the count of {} adjacent cells is off by {:.2g} standard deviations",
+                                 worst.hi - worst.lo, worst.z);
   }
   result.checks.push_back(std::move(c));
   const double expected = n / static_cast<double>(cells.cells.size());

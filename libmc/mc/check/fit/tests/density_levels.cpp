@@ -16,7 +16,7 @@ constexpr double least_information = 30;
 } // namespace
 
 Check DensityLevels::test(double share, double alpha) const {
-  Check c{"levels of density", Verdict::pass, 1.0, share, 0, 0, Fault::shape, {}};
+  Check c{"density ratio", Verdict::pass, 1.0, share, 0, 0, Fault::shape, {}};
   WeightedCounts all;
   for (const WeightedCounts& l : levels_) all.join(l);
   if (!(all.observed > 0 && all.expected > 0)) return c;
@@ -39,7 +39,10 @@ Check DensityLevels::test(double share, double alpha) const {
   c.p = chi_square_tail(c.statistic, dof);
   if (*c.p <= sidak_level(alpha, share)) {
     c.verdict = Verdict::fail;
-    c.detail = fmt::format("{:.0f} expected; the samples do not follow the density from point to point", dof);
+    c.detail =
+        fmt::format("chi-square over ranges of the density is {:.4g}, {:.0f} expected; the samples do not follow "
+                    "the density within cells",
+                    c.statistic, dof);
   }
   return c;
 }

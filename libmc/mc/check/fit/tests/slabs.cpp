@@ -186,8 +186,9 @@ Check test_slabs(const Subject& s, Slab::Kind kind, const std::vector<Slab>& sla
     if (p >= *c.p) continue;
     c.p = p;
     c.statistic = slab.count;
-    c.detail = fmt::format("{} samples, {:.3g} expected, with {}", slab.count, n * slab.mass.value,
-                           describe_layer(s, slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis]));
+    c.detail = fmt::format("{} contains {} samples, {:.3g} expected",
+                           describe_layer(s, slab.axis, slab.box.lo[slab.axis], slab.box.hi[slab.axis]), slab.count,
+                           n * slab.mass.value);
   }
   if (*c.p <= sidak_level(alpha, c.share)) c.verdict = Verdict::fail;
   else c.detail.clear();

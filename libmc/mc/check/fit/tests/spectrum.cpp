@@ -128,8 +128,10 @@ std::vector<Check> FineGrid::test(const WeightedCounts& all, double share, doubl
     checks.push_back(std::move(c));
   };
   const Wave& largest = spectrum.largest;
-  add(fmt::format("waves in {}", coordinates), sidak(std::exp(-largest.exponent), 0.5 * (bins - 1)), largest.exponent,
-      fmt::format("({}, {}, {}) periods along the axes", largest.periods[0], largest.periods[1], largest.periods[2]));
+  add(fmt::format("Fourier coefficients, {}", coordinates), sidak(std::exp(-largest.exponent), 0.5 * (bins - 1)),
+      largest.exponent,
+      fmt::format("counts minus expected counts oscillate with {} periods along the axes",
+                  fmt::format("{}", fmt::join(largest.periods.begin(), largest.periods.begin() + dim_, ", "))));
   double least = 1, family = 0, excess = 0, at = 0;
   for (std::size_t b = 0; b < spectrum.bands.size(); ++b) {
     const double dof = 2 * spectrum.bands[b].coefficients / correlated;
@@ -142,8 +144,9 @@ std::vector<Check> FineGrid::test(const WeightedCounts& all, double share, doubl
     at = std::exp2(static_cast<double>(b));
   }
   if (family > 0)
-    add(fmt::format("bands of waves in {}", coordinates), sidak(least, family), 1 + excess,
-        fmt::format("waves of {:.0f} to {:.0f} periods are {:.3g} % too strong", at, 2 * at - 1, 100 * excess));
+    add(fmt::format("Fourier bands, {}", coordinates), sidak(least, family), 1 + excess,
+        fmt::format("Fourier coefficients of {:.0f} to {:.0f} periods have {:.3g} % of the expected power", at,
+                    2 * at - 1, 100 * (1 + excess)));
   return checks;
 }
 

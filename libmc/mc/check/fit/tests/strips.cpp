@@ -144,7 +144,7 @@ void Strips::Run::judge(const Subject& s, const Pilot& pilot, Layer layer, doubl
 }
 
 Check Strips::test(const Subject& s, const Pilot& pilot, double n, double mass, double share, double alpha) const {
-  Check c{"strips", Verdict::pass, 1.0, share, 0, 0, Fault::local, {}};
+  Check c{"marginal bins", Verdict::pass, 1.0, share, 0, 0, Fault::local, {}};
   double least = 1, family = 0;
   std::vector<Run> runs = farthest_runs(family);
   for (Run& run : runs) run.judge(s, pilot, layer(run), n, mass, Effort::quick);
@@ -158,8 +158,8 @@ Check Strips::test(const Subject& s, const Pilot& pilot, double n, double mass, 
     if (run.p >= least) continue;
     least = run.p;
     c.statistic = run.compared.z();
-    c.detail = fmt::format("{:.0f} samples, {:.1f} expected, with {}", run.counts.observed, run.expected,
-                           describe_layer(s, run.axis, run.lo, run.hi));
+    c.detail = fmt::format("{} contains {:.0f} samples, {:.1f} expected", describe_layer(s, run.axis, run.lo, run.hi),
+                           run.counts.observed, run.expected);
   }
   c.p = sidak(least, family);
   if (*c.p <= sidak_level(alpha, share)) c.verdict = Verdict::fail;

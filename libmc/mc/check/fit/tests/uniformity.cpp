@@ -20,7 +20,8 @@ std::optional<Check> find_lost(const Subject& s, std::uint64_t seed, std::size_t
   if (first == inverted.end()) return {};
   const auto count = std::count_if(first, inverted.end(), is_lost);
   Check c{"invert is finite", Verdict::fail, {}, 0, static_cast<double>(count), 0, Fault::inverse, {}};
-  c.detail = fmt::format("invert fails or is not finite at {} of {} samples", count, inverted.size());
+  const std::string counts = fmt::format("; {} of {} samples", count, inverted.size());
+  c.detail = "invert fails or is not finite" + counts;
   if (!s.describe_draw) return c;
   // Only draws that gave a point were inverted.
   std::vector<Subject::Draw> draws;
@@ -28,7 +29,7 @@ std::optional<Check> find_lost(const Subject& s, std::uint64_t seed, std::size_t
   std::uint64_t index = 0;
   for (auto left = first - inverted.begin(); index < draws.size(); ++index)
     if (draws[index].kind == Subject::Draw::Kind::point && left-- == 0) break;
-  if (index < draws.size()) c.detail += "; first at " + s.describe_draw(seed, index);
+  if (index < draws.size()) c.detail = "invert fails or is not finite, at " + s.describe_draw(seed, index) + counts;
   return c;
 }
 
@@ -49,7 +50,7 @@ std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& p
   const auto moment = [&](double sum, double mean, double variance, double slope, const std::string& what) {
     const double z = (sum / n - mean) / std::sqrt(variance / n), bias = slope * error / std::sqrt(variance / n);
     note(normal_tail(std::max(std::abs(z) - bias, 0.0)), z,
-         fmt::format("{} is {:.6g}, {:.6g} expected", what, sum / n, mean));
+         fmt::format("{} of inverted samples is {:.6g}, should be {:.6g}", what, sum / n, mean));
   };
   for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a) {
     std::vector<double> values;
@@ -62,13 +63,14 @@ std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& p
     }
     const KsTest ks = ks_test(std::move(values), [](double x) { return std::clamp(x, 0.0, 1.0); });
     note(kolmogorov_tail(std::max(ks.d - error, 0.0) * (root + 0.12 + 0.11 / root)), ks.d,
-         fmt::format("u[{}]: D = {:.3g} at {:.6g}", a, ks.d, ks.at));
-    moment(mean, 1.0 / 2, 1.0 / 12, 1, fmt::format("u[{}]: mean", a));
-    moment(square, 1.0 / 3, 4.0 / 45, 2, fmt::format("u[{}]: mean square", a));
+         fmt::format("cumulative distribution of inverted u[{}] differs from uniform by {:.3g} at {:.6g}", a, ks.d,
+                     ks.at));
+    moment(mean, 1.0 / 2, 1.0 / 12, 1, fmt::format("mean of u[{}]", a));
+    moment(square, 1.0 / 3, 4.0 / 45, 2, fmt::format("mean square of u[{}]", a));
     for (std::size_t b = 0; b < a; ++b) {
       double product = 0;
       for (const auto& u : points) product += (u[a] - 0.5) * (u[b] - 0.5);
-      moment(product, 0, 1.0 / 144, 1, fmt::format("u[{}] and u[{}]: covariance", b, a));
+      moment(product, 0, 1.0 / 144, 1, fmt::format("covariance of u[{}] and u[{}]", b, a));
     }
   }
   c.p = sidak(*c.p, family);

@@ -39,25 +39,65 @@ double squared_index(const AnyBsdf::Direction& w, const BsdfOptions& options) {
 }
 
 std::string describe(const BsdfView& view, const DirectionPair& pair) {
-  const AnyBsdf& b = view.bsdf;
-  return fmt::format("f(wo, wi) = {}, f(wi, wo) = {}, pdf = {:.9g}, wo = {}, wi = {}", b.format(pair.there),
-                     b.format(pair.back), pair.pdf, b.format(view.wo), b.format(pair.wi));
+  return fmt::format("wo = {}, wi = {}", describe_direction(view.bsdf, view.wo),
+                     describe_direction(view.bsdf, pair.wi));
+}
+
+std::string describe_direction(const AnyBsdf& bsdf, const AnyBsdf::Direction& w) {
+  const double degrees = 180 / pi<double>;
+  const double theta = degrees * std::atan2(std::hypot(w.x(), w.y()), w.z());
+  double phi = degrees * std::atan2(w.y(), w.x());
+  if (phi < 0) phi += 360;
+  return fmt::format("{} [theta {:.4g} deg, phi {:.4g} deg]", bsdf.format(w), theta, phi);
 }
 
 namespace {
 
 using Direction = AnyBsdf::Direction;
 
-// How far a sample's own f, weight and pdf are from eval and pdf.
-double sample_disagreement(const AnyBsdf& bsdf, const Direction& wo, const AnyBsdf::Sample& d, double density,
-                           const BsdfOptions& options) {
-  double off = disagreement(d.pdf, density);
-  if (d.f.count == 0 && d.weight.count == 0) return off;
+// The channel with the largest difference.
+int worst_channel(const Channels& a, const Channels& b) {
+  int worst = 0;
+  for (int c = 1; c < std::max(a.count, b.count); ++c)
+    if (disagreement(a[c], b[c]) > disagreement(a[worst], b[worst])) worst = c;
+  return worst;
+}
+
+// The largest difference of a sample's own f, weight and pdf from eval and pdf, and the two values.
+struct SampleDifference {
+  double off = 0;
+  AnySampler::Stated stated;
+
+  void add(double difference, const char* name, double value, double expected) {
+    if (difference > off) stated = {name, value, expected, ""};
+    off = std::max(off, difference);
+  }
+};
+
+const char* cosine_hint(const Channels& stated, const Channels& f, const AnyBsdf::Direction& wi,
+                        const BsdfOptions& options) {
+  const Channels other = options.cosine ? f : scaled(f, std::abs(wi.z()));
+  if (!(disagreement(stated, other) <= options.tolerance)) return "";
+  return options.cosine ? "weight = f / pdf holds without the cosine, so eval seems to include it: set .cosine = false"
+                        : "weight = f |cos wi| / pdf holds, so eval seems to leave the cosine out: set .cosine = true";
+}
+
+SampleDifference sample_disagreement(const AnyBsdf& bsdf, const Direction& wo, const AnyBsdf::Sample& d, double density,
+                                     const BsdfOptions& options) {
+  SampleDifference result{disagreement(d.pdf, density), {"pdf", d.pdf, density, ""}};
+  if (d.f.count == 0 && d.weight.count == 0) return result;
   const Channels f = bsdf.eval(wo, d.wi);
-  if (d.f.count > 0) off = std::max(off, disagreement(d.f, f));
-  if (d.weight.count > 0)
-    off = std::max(off, disagreement(scaled(d.weight, density), scaled(f, cosine_factor(d.wi, options))));
-  return off;
+  if (d.f.count > 0) {
+    const int c = worst_channel(d.f, f);
+    result.add(disagreement(d.f, f), "f", d.f[c], f[c]);
+  }
+  if (d.weight.count == 0) return result;
+  const Channels given = scaled(d.weight, density), wanted = scaled(f, cosine_factor(d.wi, options));
+  const int c = worst_channel(given, wanted);
+  const double before = result.off;
+  result.add(disagreement(given, wanted), "weight", d.weight[c], wanted[c] / density);
+  if (result.off > before) result.stated.hint = cosine_hint(given, f, d.wi, options);
+  return result;
 }
 
 // Probabilities of the delta lobes as the first samples state them, and whether there is more than they.
@@ -89,24 +129,28 @@ AnySampler::Drawn drawn_of(const AnyBsdf& bsdf, const AnyDomain& sphere, const D
   if (d.delta) {
     drawn.atom = d.transmission ? 1 : 0;
     drawn.pdf = d.pdf;
-    drawn.weight = d.pdf / lobes[static_cast<std::size_t>(drawn.atom)];
+    const double probability = lobes[static_cast<std::size_t>(drawn.atom)];
+    drawn.weight = d.pdf / probability;
+    drawn.stated = {"probability of the delta lobe", d.pdf, probability, ""};
     return drawn;
   }
   const double density = bsdf.pdf(wo, d.wi);
   drawn.pdf = d.pdf > 0 && std::isfinite(d.pdf) ? density : 0.0;
-  drawn.weight = 1 + sample_disagreement(bsdf, wo, d, density, options);
+  const SampleDifference difference = sample_disagreement(bsdf, wo, d, density, options);
+  drawn.weight = 1 + difference.off;
+  drawn.stated = difference.stated;
   return drawn;
 }
 
 std::string describe_sample_at(const AnyBsdf& bsdf, const Direction& wo, const AnySampler::Uniforms& u) {
   const auto d = bsdf.sample(wo, u[0], {u[1], u[2]});
-  std::string text = "wo = " + bsdf.format(wo);
-  if (!d) return text + ": absorbed";
-  text += fmt::format(": wi = {}, pdf = {:.9g}", bsdf.format(d->wi), d->pdf);
-  if (d->f.count > 0) text += ", f = " + bsdf.format(d->f);
-  if (d->weight.count > 0) text += ", weight = " + bsdf.format(d->weight);
+  std::string text = "wo = " + describe_direction(bsdf, wo);
+  if (!d) return text + ", the sample is absorbed";
+  text += fmt::format(", wi = {}, sample.pdf = {:.9g}", describe_direction(bsdf, d->wi), d->pdf);
+  if (d->f.count > 0) text += ", sample.f = " + bsdf.format(d->f);
+  if (d->weight.count > 0) text += ", sample.weight = " + bsdf.format(d->weight);
   if (!d->delta)
-    text += fmt::format("; eval = {}, pdf() = {:.9g}", bsdf.format(bsdf.eval(wo, d->wi)), bsdf.pdf(wo, d->wi));
+    text += fmt::format(", eval = {}, pdf = {:.9g}", bsdf.format(bsdf.eval(wo, d->wi)), bsdf.pdf(wo, d->wi));
   return text;
 }
 

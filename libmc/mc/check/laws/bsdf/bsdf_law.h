@@ -48,8 +48,10 @@ double cosine_factor(const AnyBsdf::Direction& wi, const BsdfOptions& options);
 Channels throughput(const AnyBsdf::Sample& sample, const BsdfOptions& options);
 /// The squared index of the medium that w runs in, which radiance carries.
 double squared_index(const AnyBsdf::Direction& w, const BsdfOptions& options);
-/// "f(wo, wi) = ..., wo = ..., wi = ..."
+/// "wo = (0.6, 0, 0.8) [theta 36.9 deg, phi 0 deg], wi = ..."
 std::string describe(const BsdfView& view, const DirectionPair& pair);
+/// "(0.6, 0, 0.8) [theta 36.9 deg, phi 0 deg]"
+std::string describe_direction(const AnyBsdf& bsdf, const AnyBsdf::Direction& w);
 
 /// The BSDF with fixed wo as a sampler on the sphere of wi. Delta lobes, at most one on either side, become discrete
 /// outcomes: 0 reflection, 1 transmission.

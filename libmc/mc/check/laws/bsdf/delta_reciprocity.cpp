@@ -38,8 +38,10 @@ BsdfFindings bsdf_delta_reciprocity_law(const BsdfView& view) {
     for (int c = 0; c < std::max(forth.count, back ? back->count : 0); ++c) {
       if (!back && forth[c] < 0.05) continue; // too rare to meet
       error.note(std::abs(forth[c] - (back ? (*back)[c] : HUGE_VAL)), [&] {
-        return fmt::format("share {:.6g} from wo = {} to wi = {}, {} back", forth[c], view.bsdf.format(view.wo),
-                           view.bsdf.format(there->wi), back ? fmt::format("{:.6g}", (*back)[c]) : "none");
+        return fmt::format("delta lobe carries {} of the energy from wi to wo, should be {:.6g} as from wo to wi, at "
+                           "wo = {}, wi = {}",
+                           back ? fmt::format("{:.6g}", (*back)[c]) : "none", forth[c],
+                           describe_direction(view.bsdf, view.wo), describe_direction(view.bsdf, there->wi));
       });
     }
   }

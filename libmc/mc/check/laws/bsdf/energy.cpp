@@ -39,8 +39,10 @@ Figure judge(const BsdfView& view, const AnyBsdf::Direction& wo, int n, std::uin
       greatest.std_error = m.std_error();
     }
     const double off = options.lossless ? std::abs(mean - 1) - slack : mean - 1 - slack;
-    energy.note(std::max(off, 0.0),
-                [&] { return fmt::format("white furnace {:.6g} +- {:.2g} at wo = {}", mean, m.std_error(), where); });
+    energy.note(std::max(off, 0.0), [&] {
+      return fmt::format("white furnace albedo is {:.6g} +- {:.2g}, should be {}1, at wo = {}", mean, m.std_error(),
+                         options.lossless ? "" : "at most ", describe_direction(view.bsdf, wo));
+    });
   }
   return greatest;
 }

@@ -4,6 +4,26 @@
 
 namespace mc {
 
+namespace {
+
+// Whether f / |cos| is reciprocal where f is not: then eval seems to include the cosine.
+bool includes_cosine(const BsdfView& view, const DirectionPair& pair, double scale) {
+  const double cos_i = std::abs(pair.wi.z()), cos_o = std::abs(view.wo.z());
+  return disagreement(scaled(pair.there, scale * cos_o), scaled(pair.back, cos_i)) <= view.options.tolerance;
+}
+
+std::string describe_pair(const BsdfView& view, const DirectionPair& pair, double scale) {
+  std::string text = fmt::format("f(wi, wo) is {}, should be {} as f(wo, wi){}, at {}", view.bsdf.format(pair.back),
+                                 view.bsdf.format(scaled(pair.there, scale)),
+                                 scale == 1 ? "" : " times the squared ratio of the indices", describe(view, pair));
+  if (includes_cosine(view, pair, scale))
+    text += "; f / |cos wi| is reciprocal, so eval seems to include the cosine: set .cosine = false and .reciprocal = "
+            "false, or divide by |cos wi|";
+  return text;
+}
+
+} // namespace
+
 BsdfFindings bsdf_reciprocity_law(const BsdfView& view) {
   if (!view.options.reciprocal) return {};
   WorstError reciprocity("reciprocity", view.options.tolerance, Fault::physics);
@@ -11,7 +31,8 @@ BsdfFindings bsdf_reciprocity_law(const BsdfView& view) {
     if (!pair.both_ways) continue;
     const double scale =
         pair.across ? squared_index(pair.wi, view.options) / squared_index(view.wo, view.options) : 1.0;
-    reciprocity.note(disagreement(scaled(pair.there, scale), pair.back), [&] { return describe(view, pair); });
+    reciprocity.note(disagreement(scaled(pair.there, scale), pair.back),
+                     [&] { return describe_pair(view, pair, scale); });
   }
   return {{reciprocity.check()}, {}};
 }

@@ -28,7 +28,7 @@ Features features(const std::optional<AnyBsdf::Sample>& drawn, const LimitOption
 
 std::string name_of(std::size_t feature) {
   constexpr std::array<const char*, per_channel> names{"weight", "weight x", "weight y", "weight z"};
-  if (feature + 1 == feature_count) return "share absorbed";
+  if (feature + 1 == feature_count) return "absorbed fraction";
   return fmt::format("{} of channel {}", names[feature % per_channel], feature / per_channel);
 }
 
@@ -44,8 +44,8 @@ void compare_samples(const AnyBsdf& rough, const AnyBsdf& limit, double r, const
   }
   for (std::size_t j = 0; j < feature_count; ++j)
     sample.note(excess(difference[j], options.slope * r, options), [&] {
-      return fmt::format("mean {} at roughness {:g} is {:.6g} +- {:.2g} off that of the limit, wo = {}", name_of(j), r,
-                         difference[j].mean(), difference[j].std_error(), rough.format(wo));
+      return fmt::format("mean {} at roughness {:g} differs from the smooth limit by {:.6g} +- {:.2g}, at wo = {}",
+                         name_of(j), r, difference[j].mean(), difference[j].std_error(), rough.format(wo));
     });
 }
 
@@ -63,8 +63,8 @@ void compare_evals(const AnyBsdf& here, const AnyBsdf& there, double r, double d
   }
   for (const Moments& change : changes)
     eval.note(change.count() > 1 ? excess(change, options.slope * std::abs(d), options) : 0.0, [&] {
-      return fmt::format("f changes by {:.4g} of its mass from roughness {:g} to {:g}, wo = {}", change.mean(), r,
-                         r * (1 + d), here.format(wo));
+      return fmt::format("f changes by {:.4g} of its integral from roughness {:g} to {:g}, at wo = {}", change.mean(),
+                         r, r * (1 + d), here.format(wo));
     });
 }
 

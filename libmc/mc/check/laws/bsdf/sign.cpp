@@ -10,7 +10,10 @@ BsdfFindings bsdf_sign_law(const BsdfView& view) {
     const Channels& f = pair.there;
     const bool sound =
         std::all_of(f.value.begin(), f.value.begin() + f.count, [](double x) { return x >= 0 && std::isfinite(x); });
-    sign.note(sound ? 0 : 1, [&] { return describe(view, pair); });
+    sign.note(sound ? 0 : 1, [&] {
+      return fmt::format("f(wo, wi) is {}, should be finite and >= 0, at {}", view.bsdf.format(f),
+                         describe(view, pair));
+    });
   }
   return {{sign.check()}, {}};
 }

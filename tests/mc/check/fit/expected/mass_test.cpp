@@ -113,7 +113,7 @@ TEST(Mass, SamplesThatMissTheDensityAreAFaultOfShape) {
   const mc::Check shape = test_mass(s, m, 0.01);
   EXPECT_EQ(shape.verdict, Verdict::fail);
   EXPECT_EQ(shape.fault, mc::Fault::shape);
-  EXPECT_NE(shape.detail.find("at random points it integrates to 1.02 +- 0.01"), std::string::npos) << shape.detail;
+  EXPECT_NE(shape.detail.find("from random points it integrates to 1.02 +- 0.01"), std::string::npos) << shape.detail;
   m.at_points = 0.95;
   EXPECT_EQ(test_mass(s, m, 0.01).fault, mc::Fault::mass);
   m.at_points_error = 0.1;
