@@ -15,7 +15,7 @@
 
 #include "arguments.h"
 
-#include <render/film/interval.h>
+#include <render/film/confidence_interval.h>
 #include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
 
@@ -65,7 +65,7 @@ struct Spending {
     spp.add(result.spp);
     green.resize(truth.pixels.size());
     for (std::size_t i = 0; i < green.size(); ++i) green[i].add(double(result.image.pixels[i][1]));
-    const Image widths = half_widths(result.image, 0.95);
+    const Image widths = interval_half_widths(result.image, 0.95);
     for (std::size_t i = 0; i < truth.pixels.size(); ++i)
       for (int c = 0; c < 3; ++c) {
         held += std::abs(double(result.image.pixels[i][c]) - double(truth.pixels[i][c])) <= double(widths.pixels[i][c]);

@@ -1,6 +1,6 @@
 /// Whether the error bars of small pictures of the gallery's scenes are true, by every sampler, as CSV on stdout.
 /// Usage: bench_render_gallery [NAME...] [-- SEEDS [SPP [SIDE [REFERENCE_SPP]]]]
-///   undecided : share of pixels that one sample decides, see RenderResult; the mean of the seeds
+///   outlier_dominated : share of pixels that one sample decides, see RenderResult; the mean of the seeds
 ///   z_mean, z_sd : of the pictures' mean green against the reference's, by both their error bars; the standard error
 ///                  of the mean is z_sd / sqrt(SEEDS), of normal z that of the deviation 1 / sqrt(2 SEEDS)
 ///   missed    : share of 95 % intervals, 1.96 standard errors to each side, that do not hold the reference
@@ -48,7 +48,7 @@ void show(const carlo::GalleryScene& gallery_scene, int seeds, int spp, int side
   options.height = file.defaults.height;
   options = carlo::shrunk(options, side);
   options.max_depth = file.defaults.max_depth;
-  options.shown = file.defaults.shown;
+  options.aov = file.defaults.aov;
   const Strategy best = options.strategy;
   if (!gallery_scene.strategy.empty()) options.strategy = strategy_from(gallery_scene.strategy);
   RenderOptions long_ones = options;
@@ -60,7 +60,7 @@ void show(const carlo::GalleryScene& gallery_scene, int seeds, int spp, int side
   const auto place = static_cast<std::uint64_t>(&gallery_scene - carlo::gallery().data());
   for (const auto sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
     options.sampler = sampler;
-    mc::Moments z, mean, undecided;
+    mc::Moments z, mean, outlier_dominated;
     double missed = 0;
     for (int seed = 0; seed < seeds; ++seed) {
       options.seed = mc::hash(place, sampler, seed); // no two rows by the same points
@@ -69,10 +69,10 @@ void show(const carlo::GalleryScene& gallery_scene, int seeds, int spp, int side
       z.add(z_of(green, truth));
       missed += std::abs(z_of(green, truth)) > 1.96;
       mean.add(green.mean);
-      undecided.add(result.undecided);
+      outlier_dominated.add(result.outlier_dominated);
     }
     fmt::print("{},{},{},{},{:.4f},{:.3f},{:.3f},{:.3f},{:.5f},{:.5f}\n", gallery_scene.name, name(sampler), spp, seeds,
-               undecided.mean(), z.mean(), std::sqrt(z.variance()), missed / seeds, mean.mean() / truth.mean,
+               outlier_dominated.mean(), z.mean(), std::sqrt(z.variance()), missed / seeds, mean.mean() / truth.mean,
                std::hypot(mean.std_error(), std::sqrt(truth.variance)) / truth.mean);
     std::fflush(stdout);
   }

@@ -8,7 +8,7 @@
 
 #include "arguments.h"
 
-#include <render/film/interval.h>
+#include <render/film/confidence_interval.h>
 #include <render/io/mitsuba/mitsuba.h>
 #include <render/render.h>
 
@@ -51,12 +51,12 @@ void show(const std::string& path, std::string_view way, const Scene& scene, Ren
   const double q = mc::student_quantile(0.05, 1);
   for (const int spp : {4, 16, 64, 256}) {
     Coverage alone, shared, noisy;
-    double undecided = 0;
+    double outlier_dominated = 0;
     options.spp = spp;
     for (options.seed = 0; options.seed < std::uint64_t(seeds); ++options.seed) {
       const RenderResult result = render::render(scene, options);
-      const Image widths = half_widths(result.image, 0.95);
-      undecided += result.undecided / seeds;
+      const Image widths = interval_half_widths(result.image, 0.95);
+      outlier_dominated += result.outlier_dominated / seeds;
       for (std::size_t i = 0; i < truth.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c) {
           const double off = double(result.image.pixels[i][c]) - double(truth.pixels[i][c]);
@@ -65,7 +65,7 @@ void show(const std::string& path, std::string_view way, const Scene& scene, Ren
           if (is_noisy[i][c]) noisy.add(off, double(widths.pixels[i][c]));
         }
     }
-    fmt::print("{},{},{},{},{:.4f},{},{},{}\n", std::filesystem::path(path).stem().string(), way, spp, seeds, undecided,
+    fmt::print("{},{},{},{},{:.4f},{},{},{}\n", std::filesystem::path(path).stem().string(), way, spp, seeds, outlier_dominated,
                alone.text(), shared.text(), noisy.text());
     std::fflush(stdout);
   }

@@ -53,7 +53,7 @@ struct Way {
 std::vector<Way> ways() {
   std::vector<Way> all;
   for (const Strategy& strategy : strategies)
-    if (strategy.name != "light" && strategy.light_paths == 0) all.push_back({strategy});
+    if (strategy.name != "light" && strategy.light_path_rate == 0) all.push_back({strategy});
   for (const char* name : {"mixture", "nee", "mis"}) all.push_back({strategy_from(name), true});
   return all;
 }
@@ -65,10 +65,10 @@ struct Run {
   std::map<std::string, Scores> scores = {};
 
   std::string_view state_of(const Family& family, const Strategy& strategy, const Measured& m) const {
-    const bool by_chance = strategy.finding == Finding::by_chance && strategy.target != Target::lights;
+    const bool by_chance = strategy.direct_lighting == DirectLighting::bsdf_only && strategy.guiding_target != GuidingTarget::lights;
     if (by_chance && family.rarest * sets * points < 100) return "rare";
     if (m.means.mean() == 0) return "dark";
-    return m.undecided ? "undecided" : "decided";
+    return m.outlier_dominated ? "undecided" : "decided";
   }
 
   void show(int number, const Family& family) {

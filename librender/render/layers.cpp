@@ -46,7 +46,7 @@ Spectrum albedo(const Bsdf& bsdf, const Vec3& wo) {
 Met look(const Scene& scene, Ray ray, const Vec3d& origin) {
   Met m;
   std::uint64_t rays = 0;
-  const auto hit = meet(scene, ray, rays, [](Float opacity) { return opacity < Float(0.5); });
+  const auto hit = nearest_hit(scene, ray, rays, [](Float opacity) { return opacity < Float(0.5); });
   if (!hit) return m;
   const Surface& surface = scene.surface(*hit);
   const SurfacePoint point = surface.shape->surface_point(ray, *hit);
@@ -62,19 +62,19 @@ Met look(const Scene& scene, Ray ray, const Vec3d& origin) {
 
 } // namespace
 
-std::map<std::string, std::vector<float>> layers(const Scene& scene, const Whole& whole, const Vec3d& origin,
+std::map<std::string, std::vector<float>> layers(const Scene& scene, const ImageExtent& extent, const Vec3d& origin,
                                                  int threads) {
-  const auto width = static_cast<std::size_t>(whole.part.width), height = static_cast<std::size_t>(whole.part.height);
+  const auto width = static_cast<std::size_t>(extent.crop.width), height = static_cast<std::size_t>(extent.crop.height);
   std::map<std::string, std::vector<float>> result;
   std::array<float*, names.size()> planes;
   for (std::size_t i = 0; i < names.size(); ++i)
     planes[i] = result.try_emplace(names[i], width * height).first->second.data();
   const ThinLens& camera = scene.camera();
-  const Vec2 tan_half = camera.tan_half(Float(whole.width) / Float(whole.height)), middle(Float(0.5), Float(0.5));
+  const Vec2 tan_half = camera.tan_half(Float(extent.width) / Float(extent.height)), middle(Float(0.5), Float(0.5));
   mc::parallel_for(height, threads, [&](std::size_t y) {
     for (std::size_t x = 0; x < width; ++x) {
-      const Vec2 s((Float(x) + Float(whole.part.x) + Float(0.5)) / Float(whole.width),
-                   (Float(y) + Float(whole.part.y) + Float(0.5)) / Float(whole.height));
+      const Vec2 s((Float(x) + Float(extent.crop.x) + Float(0.5)) / Float(extent.width),
+                   (Float(y) + Float(extent.crop.y) + Float(0.5)) / Float(extent.height));
       const auto v = values(look(scene, camera.ray(s, tan_half, middle), origin));
       for (std::size_t i = 0; i < names.size(); ++i) planes[i][y * width + x] = static_cast<float>(v[i]);
     }

@@ -1,7 +1,7 @@
 #pragma once
 /// What a picture shows beside light.
 
-#include <render/pixel_sampler.h>
+#include <render/pixel_renderer.h>
 
 #include <map>
 #include <string>
@@ -17,7 +17,7 @@ namespace render {
 ///   albedo.R .G .B : the share of light from the camera that the surface reflects and lets through; 0 there. Exact of
 ///                   what is diffuse or smooth, to .02 of what is rough
 ///   id            : the number of the shape in the order in which the scene lists them, from 1; 0 there. To 2^24
-std::map<std::string, std::vector<float>> layers(const Scene& scene, const Whole& whole,
+std::map<std::string, std::vector<float>> layers(const Scene& scene, const ImageExtent& extent,
                                                  const Vec3d& origin = Vec3d::Zero(), int threads = 0);
 
 } // namespace render

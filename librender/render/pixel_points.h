@@ -1,7 +1,7 @@
 #pragma once
 /// Where the samples of pixels start: their places in point sets, and their rays.
 
-#include <render/integrator/media.h>
+#include <render/integrator/medium_stack.h>
 #include <render/scene/scene.h>
 
 #include <mc/random/hash.h>
@@ -36,56 +36,56 @@ struct Crop {
 };
 
 /// A picture of which a film shows a part.
-struct Whole {
+struct ImageExtent {
   int width, height;
-  Crop part;
+  Crop crop;
 };
 
 /// The points of a picture's pixels, each a pure function of the seed, the pixel and the number of its sample. Those of
 /// a pixel are dealt in turn to its point sets, which are randomised independently: sample k is point k / sets of set
-/// k % sets. A stratified set that is longer than `stratum` points goes on with another.
+/// k % sets. A stratified set that is longer than `set_size` points goes on with another.
 struct PixelPoints {
   PixelSampler sampler;
   std::uint64_t seed;
-  std::uint32_t stratum; ///< of sets that are not stratified 2^31
+  std::uint32_t set_size; ///< of sets that are not stratified 2^31
 
   PixelPoints(PixelSampler kind, std::uint64_t own_seed, std::uint32_t points)
-      : sampler(kind), seed(own_seed), stratum(kind == PixelSampler::stratified ? points : 1u << 31) {}
+      : sampler(kind), seed(own_seed), set_size(kind == PixelSampler::stratified ? points : 1u << 31) {}
 
   /// Points that follow each other, of one randomisation.
-  struct Run {
+  struct PointRange {
     std::uint32_t pass; ///< the randomisation
     std::uint32_t begin, end;
   };
 
   /// Calls task(run) for the runs of the set that the samples [first, last) of a pixel belong to.
   template <class Task>
-  void for_runs(std::uint32_t set, std::uint32_t sets, std::uint32_t first, std::uint32_t last,
+  void for_ranges(std::uint32_t set, std::uint32_t sets, std::uint32_t first, std::uint32_t last,
                 const Task& task) const {
     const std::uint32_t end = (last + sets - 1 - set) / sets;
     for (std::uint32_t point = (first + sets - 1 - set) / sets; point < end;) {
-      const std::uint32_t block = point / stratum, start = block * stratum;
-      const std::uint32_t stop = std::min(end, start + stratum);
-      task(Run{set + sets * block, point - start, stop - start});
+      const std::uint32_t block = point / set_size, start = block * set_size;
+      const std::uint32_t stop = std::min(end, start + set_size);
+      task(PointRange{set + sets * block, point - start, stop - start});
       point = stop;
     }
   }
 
   /// The points of a run, for the pixel (x, y) of the whole picture.
-  template <class Points> Points of(int x, int y, const Run& run) const {
+  template <class Points> Points point_set(int x, int y, const PointRange& range) const {
     const std::uint64_t pixel = std::uint64_t(std::uint32_t(y)) << 32 | std::uint32_t(x);
-    return Points(mc::hash(seed, pixel, run.pass), stratum);
+    return Points(mc::hash(seed, pixel, range.pass), set_size);
   }
 };
 
 /// The rays of a scene's camera through the pixels of a picture. The scene must outlive it.
 class PixelRays {
  public:
-  PixelRays(const Scene& scene, const Whole& whole)
-      : scene_(scene), scale_(1 / Float(whole.width), 1 / Float(whole.height)),
-        tan_half_(scene.camera().tan_half(Float(whole.width) / Float(whole.height))),
-        around_(media_at(scene, {scene.camera().origin(), scene.camera().forward()})),
-        around_varies_(absorbs(scene) && (scene.camera().radius() > 0 || scene.camera().near() > 0)) {}
+  PixelRays(const Scene& scene, const ImageExtent& extent)
+      : scene_(scene), scale_(1 / Float(extent.width), 1 / Float(extent.height)),
+        tan_half_(scene.camera().tan_half(Float(extent.width) / Float(extent.height))),
+        media_(initial_media(scene, {scene.camera().origin(), scene.camera().forward()})),
+        media_vary_(has_media(scene) && (scene.camera().radius() > 0 || scene.camera().near() > 0)) {}
 
   /// Through the point at `offset` from the centre of the pixel (x, y) of the whole picture [pixels].
   template <class Stream> Ray sample(int x, int y, const Vec2& offset, Stream& stream) const {
@@ -95,13 +95,13 @@ class PixelRays {
   }
 
   /// Through what a ray starts. A lens, or what is cut away before it, may reach out of the body that holds its centre.
-  Media around(const Ray& ray) const { return around_varies_ ? media_at(scene_, ray) : around_; }
+  MediumStack media(const Ray& ray) const { return media_vary_ ? initial_media(scene_, ray) : media_; }
 
  private:
   const Scene& scene_;
   Vec2 scale_, tan_half_;
-  Media around_;
-  bool around_varies_;
+  MediumStack media_;
+  bool media_vary_;
 };
 
 } // namespace render

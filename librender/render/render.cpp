@@ -1,8 +1,8 @@
 #include <render/render.h>
 
 #include <render/film/sampling_plan.h>
-#include <render/light_sampler.h>
-#include <render/tile_sampler.h>
+#include <render/light_tracing_pass.h>
+#include <render/tile_renderer.h>
 
 #include <mc/core/error.h>
 #include <mc/core/parallel.h>
@@ -20,7 +20,7 @@ namespace {
 
 void check(const Scene& scene, const RenderOptions& options) {
   mc::require(
-      finds_all_lights(scene, options.strategy) || options.shown.what != Shown::radiance,
+      finds_all_lights(scene, options.strategy) || options.aov.kind != Aov::radiance,
       "render: the strategy {} finds lights by chance, which never meets the scene's point or directional light; "
       "use nee or mis",
       options.strategy.name);
@@ -35,11 +35,11 @@ void check(const Scene& scene, const RenderOptions& options) {
   mc::require(!options.tiles || !options.splat, "render: tiles take no splats; leave out one of both");
   mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
               options.max_depth);
-  mc::require(options.branches >= 1 && options.branches <= most_branches,
-              "render: {} branches of a path; they must be 1 to {}", options.branches, most_branches);
+  mc::require(options.branches >= 1 && options.branches <= max_branches,
+              "render: {} branches of a path; they must be 1 to {}", options.branches, max_branches);
 }
 
-Whole whole_of(const RenderOptions& options) {
+ImageExtent extent_of(const RenderOptions& options) {
   const Crop c = options.crop.value_or(Crop{0, 0, options.width, options.height});
   mc::require(c.x >= 0 && c.y >= 0 && c.width >= 1 && c.height >= 1 && c.x <= options.width - c.width &&
                   c.y <= options.height - c.height,
@@ -60,20 +60,20 @@ bool is_adaptive(const RenderOptions& options) {
 }
 
 // Unless a filter is so narrow that nothing is shared.
-std::optional<SplatFilter> splat_of(const Scene& scene, const RenderOptions& options) {
+std::optional<SplatFilter> splat_filter_for(const Scene& scene, const RenderOptions& options) {
   if (!options.splat) return {};
   const SplatFilter filter(scene.filter());
   return filter.is_wide() ? std::optional(filter) : std::nullopt;
 }
 
-std::optional<LightPaths> light_paths_of(const Scene& scene, const RenderOptions& options) {
-  if (options.shown.what != Shown::radiance) return {};
-  if (options.max_depth >= 0 && options.max_depth < LightPaths::least_edges) return {};
-  return LightPaths::of(scene, options.strategy, Float(options.width) / Float(options.height));
+std::optional<LightTracer> light_tracer_for(const Scene& scene, const RenderOptions& options) {
+  if (options.aov.kind != Aov::radiance) return {};
+  if (options.max_depth >= 0 && options.max_depth < LightTracer::min_edges) return {};
+  return LightTracer::create(scene, options.strategy, Float(options.width) / Float(options.height));
 }
 
 // Points of a stratified set: all where it is known how many there will be.
-std::uint32_t stratum_of(const RenderOptions& options) {
+std::uint32_t set_size_of(const RenderOptions& options) {
   const bool known = !options.seconds && !options.target_error && !is_adaptive(options);
   return known ? static_cast<std::uint32_t>((options.spp + point_sets - 1) / point_sets) : 16;
 }
@@ -94,17 +94,17 @@ int repeat_rows(const Film& film, Image& image) {
 }
 
 /// A render under way.
-class Work {
+class RenderJob {
  public:
-  Work(const Scene& scene, const RenderOptions& options)
-      : options_(options), whole_(whole_of(options)), splat_(splat_of(scene, options)),
-        light_paths_(light_paths_of(scene, options)),
-        points_(options.sampler, options.seed, stratum_of(options)), path_{options.strategy, options.max_depth,
-                                                                           options.shown, options.branches},
-        taker_(scene, path_, points_, whole_, splat_, light_paths()), film_(new_film()), taken_(width() * height()) {
-    if (options.tiles) tile_taker_.emplace(scene, path_, points_, whole_, light_paths());
-    if (light_paths_)
-      light_taker_.emplace(scene, *light_paths_, options.max_depth, options.sampler, options.seed, whole_);
+  RenderJob(const Scene& scene, const RenderOptions& options)
+      : options_(options), extent_(extent_of(options)), splat_(splat_filter_for(scene, options)),
+        light_tracer_(light_tracer_for(scene, options)),
+        points_(options.sampler, options.seed, set_size_of(options)), path_{options.strategy, options.max_depth,
+                                                                           options.aov, options.branches},
+        pixel_renderer_(scene, path_, points_, extent_, splat_, light_tracer()), film_(new_film()), taken_(width() * height()) {
+    if (options.tiles) tile_renderer_.emplace(scene, path_, points_, extent_, light_tracer());
+    if (light_tracer_)
+      light_tracing_pass_.emplace(scene, *light_tracer_, options.max_depth, options.sampler, options.seed, extent_);
   }
 
   RenderResult run() {
@@ -120,12 +120,12 @@ class Work {
     result.seconds = elapsed();
     result.cpu_seconds = double(std::clock() - cpu_start_) / CLOCKS_PER_SEC;
     const RelativeErrors errors = film_.relative_errors(result.image);
-    result.relative_error = errors.picture.value;
-    result.worst_error = errors.worst.value;
-    result.undecided = film_.undecided();
-    result.unsure_from = unsure_from_;
+    result.relative_error = errors.image.value;
+    result.worst_error = errors.worst_block.value;
+    result.outlier_dominated = film_.outlier_dominated();
+    result.unreliable_target_spp = unreliable_target_spp_;
     result.invalid = total_.invalid;
-    result.first_invalid = total_.first;
+    result.first_invalid = total_.first_invalid;
     result.partial = partial_;
     result.out_of_time = options_.target_error && !partial_ && mean_ < wanted_by_error();
     return result;
@@ -138,19 +138,19 @@ class Work {
   // The first round is always whole.
   bool out_of_time() const { return options_.seconds && mean_ > 0 && elapsed() >= *options_.seconds; }
   // With the border, whose samples count for the picture.
-  std::size_t height() const { return static_cast<std::size_t>(whole_.part.height) + 2 * border(); }
-  std::size_t width() const { return static_cast<std::size_t>(whole_.part.width) + 2 * border(); }
-  std::size_t border() const { return static_cast<std::size_t>(taker_.border()); }
+  std::size_t height() const { return static_cast<std::size_t>(extent_.crop.height) + 2 * border(); }
+  std::size_t width() const { return static_cast<std::size_t>(extent_.crop.width) + 2 * border(); }
+  std::size_t border() const { return static_cast<std::size_t>(pixel_renderer_.border()); }
 
-  const LightPaths* light_paths() const { return light_paths_ ? &*light_paths_ : nullptr; }
+  const LightTracer* light_tracer() const { return light_tracer_ ? &*light_tracer_ : nullptr; }
 
   Film new_film() const {
     const int sets = limited() ? point_sets : std::min(options_.spp, point_sets);
-    return {whole_.part.width, whole_.part.height, sets,
+    return {extent_.crop.width, extent_.crop.height, sets,
             FilmOptions{.splat = splat_,
-                        .lit = light_paths_.has_value(),
-                        .noise_area = options_.tiles ? TileIntegrator<Scene>::noise_area : 1,
-                        .independent = options_.sampler == PixelSampler::independent}};
+                        .has_light_paths = light_tracer_.has_value(),
+                        .noise_area = options_.tiles ? PathReuseIntegrator<Scene>::noise_area : 1,
+                        .independent_samples = options_.sampler == PixelSampler::independent}};
   }
 
   // Every row once. Those that write to the same pixels take turns, in an order that is the same for every part. In a
@@ -158,7 +158,7 @@ class Work {
   template <class Task> void for_rows(Task&& task) const {
     const std::size_t turns = 2 * border() + 1;
     for (std::size_t turn = 0; turn < turns; ++turn) {
-      const std::size_t first = (turn + turns - static_cast<std::size_t>(whole_.part.y) % turns) % turns;
+      const std::size_t first = (turn + turns - static_cast<std::size_t>(extent_.crop.y) % turns) % turns;
       const std::size_t rows = (height() + turns - 1 - first) / turns, size = std::bit_ceil(std::max(rows, 2ul));
       mc::parallel_for(size, options_.threads, [&](std::size_t i) {
         const std::size_t row = mc::reverse_bits64(i) >> (64 - std::countr_zero(size));
@@ -170,39 +170,39 @@ class Work {
   // Gives every pixel what the plan says for a mean of `mean` samples. Returns whether all rows were done. Splats count
   // if all were, or it is the first round of two sets, which then tell what a pixel lacks of the samples about it.
   bool extend_to(double mean, double wanted) {
-    std::vector<Tally> tallies(height());
+    std::vector<RenderStats> row_stats(height());
     std::vector<std::uint32_t> taken = taken_;
     std::optional<Film> round;
     if (splat_) round = new_film();
     Film& film = round ? *round : film_;
     std::atomic<std::uint64_t> done = 0, samples = total_.samples;
-    Tally lights;
+    RenderStats lights;
     std::uint64_t light_done = light_done_;
     const auto stop = [&] { return cancelled() || out_of_time(); };
-    const auto take_light = [&](std::uint64_t to) {
-      if (light_taker_) light_done = light_taker_->take(light_done, to, options_.threads, stop, film, lights);
+    const auto add_light_paths = [&](std::uint64_t to) {
+      if (light_tracing_pass_) light_done = light_tracing_pass_->add_paths(light_done, to, options_.threads, stop, film, lights);
     };
-    const std::uint64_t all_light = light_taker_ ? light_taker_->paths(mean * plan_.light) : 0;
+    const std::uint64_t all_light = light_tracing_pass_ ? light_tracing_pass_->path_count(mean * plan_.light_path_scale) : 0;
     // Before the first rows there are but a few, so that these begin soon: light of any number of paths is unbiased.
-    take_light(mean_ == 0 ? std::min(all_light, LightTaker::at_once) : all_light);
+    add_light_paths(mean_ == 0 ? std::min(all_light, LightTracingPass::batch_size) : all_light);
     for_rows([&](std::size_t y) {
       if (stop()) return;
       const auto from = std::span(taken_).subspan(y * width(), width()),
                  to = std::span(taken).subspan(y * width(), width());
       for (std::size_t x = 0; x < width(); ++x) to[x] = std::max(to[x], plan_.samples(y * width() + x, mean));
-      tallies[y] = tile_taker_ ? tile_taker_->take(static_cast<int>(y), from, to, film)
-                               : taker_.take(static_cast<int>(y) - taker_.border(), from, to, film);
-      samples += tallies[y].samples;
+      row_stats[y] = tile_renderer_ ? tile_renderer_->render_row(static_cast<int>(y), from, to, film)
+                               : pixel_renderer_.render_row(static_cast<int>(y) - pixel_renderer_.border(), from, to, film);
+      samples += row_stats[y].samples;
       const double rows = double(++done) / double(height());
       if (!options_.progress) return;
       const double fraction =
           options_.seconds ? elapsed() / *options_.seconds : (mean_ + rows * (mean - mean_)) / wanted;
-      options_.progress({std::min(fraction, 1.0), samples, total_.rays, elapsed(), error_.value, undecided_});
+      options_.progress({std::min(fraction, 1.0), samples, total_.rays, elapsed(), error_.value, outlier_dominated_});
     });
-    take_light(all_light);
+    add_light_paths(all_light);
     const bool is_whole = done == height();
     if (round && !is_whole && (mean_ > 0 || film_.sets() == 1)) return false;
-    for (const Tally& tally : tallies) total_.merge(tally);
+    for (const RenderStats& stats : row_stats) total_.merge(stats);
     total_.merge(lights);
     light_done_ = light_done;
     taken_ = std::move(taken);
@@ -218,7 +218,7 @@ class Work {
   }
   double wanted_by_error() const {
     const double by_error = mean_ * mc::sqr(error_.bound / *options_.target_error);
-    const bool is_sure = mean_ >= least_pilot && undecided_ <= most_undecided;
+    const bool is_sure = mean_ >= least_pilot && outlier_dominated_ <= max_outlier_dominated;
     return is_sure ? by_error : std::max(by_error, 2 * mean_);
   }
 
@@ -238,39 +238,39 @@ class Work {
       partial_ = mean_ < wanted && !out_of_time();
       if (!partial_ || cancelled()) return;
       if (is_pilot && mean_ >= least_pilot && mean_ >= wanted / 6) { // rounds double: about a quarter
-        plan_ = adaptive_plan(film_, mean_ / wanted, options_.error_of, options_.threads,
-                              tile_taker_ ? tile_taker_->tiling() : Tiling{});
+        plan_ = adaptive_plan(film_, mean_ / wanted, options_.error_scope, options_.threads,
+                              tile_renderer_ ? tile_renderer_->tiling() : Tiling{});
         is_pilot = false;
       }
       const double mean = end_of_round(wanted, is_pilot);
       if (!extend_to(mean, wanted)) continue;
       mean_ = mean;
       if (!options_.target_error && !options_.progress) continue; // nobody asks
-      error_ = film_.relative_errors().of(options_.error_of);
-      undecided_ = film_.undecided();
+      error_ = film_.relative_errors().of(options_.error_scope);
+      outlier_dominated_ = film_.outlier_dominated();
       const bool is_there = options_.target_error && error_.value <= *options_.target_error;
-      if (is_there && mean_ >= least_pilot && undecided_ > most_undecided && unsure_from_ == 0) unsure_from_ = mean_;
+      if (is_there && mean_ >= least_pilot && outlier_dominated_ > max_outlier_dominated && unreliable_target_spp_ == 0) unreliable_target_spp_ = mean_;
     }
   }
 
   const RenderOptions& options_;
-  Whole whole_;
+  ImageExtent extent_;
   std::optional<SplatFilter> splat_;
-  std::optional<LightPaths> light_paths_;
+  std::optional<LightTracer> light_tracer_;
   PixelPoints points_;
   PathOptions path_;
-  SampleTaker taker_;
-  std::optional<TileTaker> tile_taker_;
-  std::optional<LightTaker> light_taker_;
+  PixelRenderer pixel_renderer_;
+  std::optional<TileRenderer> tile_renderer_;
+  std::optional<LightTracingPass> light_tracing_pass_;
   Film film_;
   std::vector<std::uint32_t> taken_; ///< samples of every pixel
   SamplingPlan plan_;
   std::uint64_t light_done_ = 0; ///< paths from the lights
   double mean_ = 0;              ///< samples per pixel of the rounds that are done
-  Tally total_;
+  RenderStats total_;
   RelativeError error_;    ///< after the last round
-  double undecided_ = 0;   ///< at the same time
-  double unsure_from_ = 0; ///< see RenderResult
+  double outlier_dominated_ = 0;   ///< at the same time
+  double unreliable_target_spp_ = 0; ///< see RenderResult
   bool partial_ = true;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::clock_t cpu_start_ = std::clock();
@@ -280,7 +280,7 @@ class Work {
 
 RenderResult render(const Scene& scene, const RenderOptions& options) {
   check(scene, options);
-  return Work(scene, options).run();
+  return RenderJob(scene, options).run();
 }
 
 } // namespace render

@@ -1,7 +1,7 @@
 #pragma once
 /// From a scene to an image with an error bar.
 
-#include <render/pixel_sampler.h>
+#include <render/pixel_renderer.h>
 
 #include <atomic>
 #include <functional>
@@ -14,13 +14,13 @@ struct Progress {
   std::uint64_t samples = 0, rays = 0;
   double seconds = 0;
   double relative_error = 0; ///< of what the options ask for, see Film; infinite while unknown
-  double undecided = 0;      ///< as in RenderResult, when the error was last known
+  double outlier_dominated = 0;      ///< as in RenderResult, when the error was last known
 };
 
 /// While a larger share of the pixels is undecided, a picture has not reached a target error.
-inline constexpr double most_undecided = 0.05;
+inline constexpr double max_outlier_dominated = 0.05;
 
-inline constexpr int most_branches = 1024;
+inline constexpr int max_branches = 1024;
 
 struct RenderOptions {
   int width = 256, height = 256;
@@ -28,15 +28,15 @@ struct RenderOptions {
   int spp = 64;                       ///< samples per pixel, unless one of the next two, or both, are given
   std::optional<double> seconds;      ///< wall-clock budget [s]
   std::optional<double> target_error; ///< what RelativeError::bound is to fall to, see Film; and most_undecided
-  ErrorOf error_of = ErrorOf::picture;
+  ErrorScope error_scope = ErrorScope::image;
   std::optional<bool> adaptive; ///< samples where the error is; unless given: where seconds or an error are
   Strategy strategy = strategy_from("mis+lt");
   PixelSampler sampler = PixelSampler::sobol;
   bool splat = false; ///< samples count for all pixels under the filter, see SplatFilter; spent evenly
-  bool tiles = false; ///< pixels share paths by tiles, see TileIntegrator
+  bool tiles = false; ///< pixels share paths by tiles, see PathReuseIntegrator
   int max_depth = -1; ///< longest path in edges; -1: no limit
   int branches = 2;   ///< see PathOptions; tiles share instead
-  Shown shown = Shown::radiance;
+  Aov aov = Aov::radiance;
   std::uint64_t seed = 0;
   int threads = 0;                               ///< 0: all of the machine's
   std::function<void(const Progress&)> progress; ///< called after every row, from any of the threads, also at once
@@ -51,8 +51,8 @@ struct RenderResult {
   double seconds = 0, cpu_seconds = 0;
   double relative_error = 0; ///< see RelativeError::value
   double worst_error = 0;    ///< the same of the worst block
-  double undecided = 0;      ///< share of the pixels whose error bar is not known yet, see Film::undecided
-  double unsure_from = 0;    ///< samples per pixel with the target error, but too many pixels undecided; 0: never so
+  double outlier_dominated = 0;      ///< share of the pixels whose error bar is not known yet, see Film::undecided
+  double unreliable_target_spp = 0;    ///< samples per pixel with the target error, but too many pixels undecided; 0: never so
   std::uint64_t invalid = 0; ///< samples that were not finite; they are left out of the image
   InvalidSample first_invalid;
   bool partial = false;     ///< cancelled before the end

@@ -17,7 +17,7 @@ using namespace render;
 constexpr double everywhere = HUGE_VAL;
 
 void expect_open(const Scene& scene, const Ray& ray, double reach, double expected, const std::string& what) {
-  const mc::Moments moments = support::traced(scene, ray, {.shown = {Shown::ambient_occlusion, reach}}, 20'000);
+  const mc::Moments moments = support::traced(scene, ray, {.aov = {Aov::ambient_occlusion, reach}}, 20'000);
   if (moments.std_error() == 0) EXPECT_EQ(moments.mean(), expected) << what;
   else EXPECT_GE(mc::t_test(moments, expected).p, 1e-6) << what << ": " << moments.mean() << " for " << expected;
 }
@@ -38,7 +38,7 @@ Scene corner(double h, double scale) {
 Ray down_to(double x, double scale) { return {Vec3d(x * scale, 0.01 * scale, 0).cast<Float>(), Vec3(0, -1, 0)}; }
 
 // At x from a wall of height h the floor misses (1 - x / sqrt(x^2 + h^2)) / 2: the wall's form factor.
-TEST(AmbientOcclusion, AWallBesideAFloor) {
+TEST(AmbientOcclusion, WallBesideFloor_MatchesClosedForm) {
   for (const double scale : {1e-10, 1.0, 1e10})
     for (const double x : {0.1, 1.0, 5.0})
       expect_open(corner(2, scale), down_to(x, scale), everywhere, 1 - (1 - x / std::hypot(x, 2.0)) / 2,
@@ -48,7 +48,7 @@ TEST(AmbientOcclusion, AWallBesideAFloor) {
 // Of a wall that ends nowhere within reach r the floor misses the directions that meet it sooner: half of a cone about
 // the wall's normal, whose cosine is c = x / r, on the floor a segment of the unit disk: (acos c - c sqrt(1 - c^2)) /
 // pi.
-TEST(AmbientOcclusion, OnlyWhatIsNear) {
+TEST(AmbientOcclusion, IgnoresOccludersBeyondMaxDistance) {
   for (const double scale : {1e-10, 1.0, 1e10})
     for (const double x : {0.1, 0.5, 0.9, 1.1}) {
       const double c = std::min(x, 1.0);
@@ -59,7 +59,7 @@ TEST(AmbientOcclusion, OnlyWhatIsNear) {
 
 // In a ball of radius 1 the other side is 2 cos away: farther than r for 1 - r^2 / 4 of the sky's light. From outside
 // all is open, on either side of the normals, and where nothing is seen.
-TEST(AmbientOcclusion, InAndOnABall) {
+TEST(AmbientOcclusion, InsideAndOnSphere_MatchesClosedForm) {
   for (const bool inside_out : {false, true}) {
     SceneBuilder builder;
     builder.add(Sphere(Vec3d(1, 2, 3), 1, inside_out), {builder.add(Lambert())});

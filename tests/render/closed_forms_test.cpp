@@ -22,7 +22,7 @@ RenderResult rendered(const std::string& name, int spp) {
   options.width = file.defaults.width;
   options.height = file.defaults.height;
   options.max_depth = file.defaults.max_depth;
-  options.shown = file.defaults.shown;
+  options.aov = file.defaults.aov;
   options.spp = spp;
   options.seed = 5;
   RenderResult result = render::render(file.scene, options);
@@ -153,7 +153,7 @@ double seen_of(const Lamp& lamp, double& error) {
 }
 
 // Directions are aimed at what is small, whose throughput is: paths must live to bring its light.
-TEST(ClosedForm, SmallLampsThatAreAimedAt) {
+TEST(ClosedForm, SmallGuidedLights_MatchClosedForm) {
   double error = 0;
   const double bare = seen_of({1e-3, 0.5, "", "mixture"}, error);
   EXPECT_LE(error, 0.01);

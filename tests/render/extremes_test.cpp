@@ -1,7 +1,7 @@
 // Pictures of one point whose radiance is known, where sizes and places are extreme. Each mean is held against the
 // closed form by a t-test at alpha = 1e-5; there are a hundred, and the seeds are fixed.
 
-#include <render/integrator/path.h>
+#include <render/integrator/path_integrator.h>
 #include <render/io/mitsuba/mitsuba.h>
 #include <render/scene/builder.h>
 

@@ -74,7 +74,7 @@ TEST(HardShadows, ParallelLightOnAFloor) {
 }
 
 // A ball between: all or nothing, as the ray to the light passes within its radius or not.
-TEST(HardShadows, HaveNoPenumbra) {
+TEST(HardShadows, DeltaLights_HaveNoPenumbra) {
   mc::Pcg random(3);
   int lit = 0, dark = 0;
   for (int i = 0; i < 400; ++i) {
@@ -151,7 +151,7 @@ TEST(HardShadows, APointInAFurnace) {
 
 // A flat mirror, a mesh, throws parallel light onto the floor, beside what falls there straight: rho / pi (cos + tint
 // cos'). Boxes of glass under the floor, up to more than have a ball each, change nothing. Student's t of 16 pictures.
-TEST(HardShadows, MirrorsThrowParallelLight) {
+TEST(HardShadows, MirrorReflectsDirectionalLight) {
   mc::Pcg random(6);
   for (int i = 0; i < 24; ++i) {
     Floor floor(random);
@@ -165,7 +165,7 @@ TEST(HardShadows, MirrorsThrowParallelLight) {
     floor.builder.add(
         TriangleMesh::rectangle(floor.space * Transform::look_at(mirror, mirror + sun - way, random_direction(random)) *
                                 Transform::scale(Vec3d::Constant(0.4))),
-        {floor.builder.add(Metal(Spectrum::Constant(tint)))});
+        {floor.builder.add(FuzzyMetal(Spectrum::Constant(tint)))});
     const BsdfId glass = floor.builder.add(Dielectric());
     for (int box = 0; box < 5 * (i % 3); ++box)
       floor.builder.add(TriangleMesh::box(floor.space * Transform::translate({box - 2.0, -1.5, 0}) *
@@ -179,7 +179,7 @@ TEST(HardShadows, MirrorsThrowParallelLight) {
     const Scene scene = floor.builder.build();
     RenderOptions options;
     options.strategy = strategy_from("mis+lt");
-    options.strategy.light_paths = 20;
+    options.strategy.light_path_rate = 20;
     options.width = options.height = 1;
     options.spp = 512;
     mc::Moments seen;
@@ -216,7 +216,7 @@ TEST_F(MovedLights, AreTheSame) {
   }
 }
 
-TEST(HardShadows, StrategiesByChanceAreRefused) {
+TEST(HardShadows, BsdfOnlyStrategies_AreRefused) {
   SceneBuilder builder;
   builder.add(Sphere(Vec3d::Zero(), 1), {builder.add(Lambert())});
   builder.add(Light(PointLight(Vec3d(0, 2, 0), Spectrum::Ones())));

@@ -25,13 +25,13 @@ Scene ball_before_plate(const Bsdf& of_ball) {
   return builder.build();
 }
 
-const Whole whole{32, 32, {0, 0, 32, 32}};
+const ImageExtent extent{32, 32, {0, 0, 32, 32}};
 
-struct Seen {
+struct LayerValues {
   Vec3d n, p, albedo;
   double z, id;
 };
-Seen at(const std::map<std::string, std::vector<float>>& l, std::size_t i) {
+LayerValues at(const std::map<std::string, std::vector<float>>& l, std::size_t i) {
   const auto v = [&](const char* name) { return double(l.at(name)[i]); };
   return {{v("N.X"), v("N.Y"), v("N.Z")},
           {v("P.X"), v("P.Y"), v("P.Z")},
@@ -43,14 +43,14 @@ Seen at(const std::map<std::string, std::vector<float>>& l, std::size_t i) {
 // Every pixel by the formula of the ray through its middle; the film's x runs against the world's.
 TEST(Layers, AreWhatTheRayThroughTheMiddleMeets) {
   const Spectrum color(Float(0.7), Float(0.2), Float(0.1));
-  const auto l = layers(ball_before_plate(Lambert(color)), whole);
+  const auto l = layers(ball_before_plate(Lambert(color)), extent);
   EXPECT_EQ(l.size(), 11u);
   int ball = 0, plate = 0, beyond = 0;
   for (std::size_t y = 0; y < 32; ++y)
     for (std::size_t x = 0; x < 32; ++x) {
       const Vec3d d = Vec3d(1 - (double(x) + 0.5) / 16, 1 - (double(y) + 0.5) / 16, 1).normalized();
       const double along = d.z() * 3, miss2 = 9 - along * along;
-      const Seen s = at(l, y * 32 + x);
+      const LayerValues s = at(l, y * 32 + x);
       if (miss2 < 1) {
         const Vec3d p = (along - std::sqrt(1 - miss2)) * d;
         EXPECT_LE((s.p - p).norm(), 1e-5);
@@ -80,7 +80,7 @@ TEST(Layers, AreWhatTheRayThroughTheMiddleMeets) {
 
 TEST(Layers, OfAPartAreThoseOfTheWhole) {
   const Scene scene = ball_before_plate(Lambert());
-  const auto all = layers(scene, whole), part = layers(scene, {32, 32, {7, 9, 11, 5}}, Vec3d::Zero(), 1);
+  const auto all = layers(scene, extent), part = layers(scene, {32, 32, {7, 9, 11, 5}}, Vec3d::Zero(), 1);
   for (const auto& [name, values] : part)
     for (std::size_t y = 0; y < 5; ++y)
       for (std::size_t x = 0; x < 11; ++x) EXPECT_EQ(values[y * 11 + x], all.at(name)[(y + 9) * 32 + x + 7]) << name;
@@ -88,7 +88,7 @@ TEST(Layers, OfAPartAreThoseOfTheWhole) {
 
 TEST(Layers, PositionsAreThoseOfTheFile) {
   const Scene scene = ball_before_plate(Lambert());
-  const auto here = layers(scene, whole), there = layers(scene, whole, {100, -200, 300});
+  const auto here = layers(scene, extent), there = layers(scene, extent, {100, -200, 300});
   const std::size_t middle = 16 * 32 + 16;
   EXPECT_LE((at(there, middle).p - at(here, middle).p - Vec3d(100, -200, 300)).norm(), 1e-4);
   EXPECT_EQ(at(there, middle).z, at(here, middle).z);
@@ -97,10 +97,10 @@ TEST(Layers, PositionsAreThoseOfTheFile) {
 // Glass and mirrors send on what they get; gloss within the bound that the header states, against far more points.
 TEST(Layers, AlbedoOfWhatIsNotDiffuse) {
   const auto of_middle = [](const Bsdf& bsdf) {
-    return at(layers(ball_before_plate(bsdf), whole), 16 * 32 + 16).albedo;
+    return at(layers(ball_before_plate(bsdf), extent), 16 * 32 + 16).albedo;
   };
   EXPECT_LE((of_middle(Dielectric(Float(1.5))) - Vec3d(1, 1, 1)).norm(), 1e-5);
-  EXPECT_LE((of_middle(Metal(Spectrum(1, Float(0.5), Float(0.25)))) - Vec3d(1, 0.5, 0.25)).norm(), 1e-5);
+  EXPECT_LE((of_middle(FuzzyMetal(Spectrum(1, Float(0.5), Float(0.25)))) - Vec3d(1, 0.5, 0.25)).norm(), 1e-5);
   for (const double alpha : {1e-4, 0.01, 0.1, 0.3, 1.0})
     for (const Bsdf& bsdf :
          {Bsdf(RoughPlastic(Float(1.5), Float(alpha), Spectrum::Constant(Float(0.5)), Spectrum::Ones())),

@@ -17,19 +17,19 @@ TEST(PixelSampler, NamesAreTheirOwnInverse) {
 }
 
 // Whatever is asked for at once, sample k is point k / sets of set k % sets; a stratified set goes on with another.
-TEST(PixelPoints, DealSamplesInTurn) {
+TEST(PixelPoints, AssignSamplesRoundRobin) {
   for (const PixelSampler sampler : {PixelSampler::sobol, PixelSampler::stratified}) {
     const PixelPoints points(sampler, 7, 3);
     for (const std::uint32_t sets : {1u, 2u, 5u})
       for (const auto& [first, last] : {std::pair{0u, 40u}, {3u, 4u}, {11u, 11u}, {6u, 29u}}) {
         std::vector<int> dealt(40);
         for (std::uint32_t set = 0; set < sets; ++set)
-          points.for_runs(set, sets, first, last, [&](const PixelPoints::Run& run) {
-            EXPECT_LT(run.begin, run.end);
-            EXPECT_LE(run.end, points.stratum);
-            EXPECT_EQ(run.pass % sets, set);
-            EXPECT_TRUE(sampler == PixelSampler::stratified || run.pass == set);
-            for (std::uint32_t i = run.begin; i < run.end; ++i) ++dealt[set + sets * (run.pass / sets * 3 + i)];
+          points.for_ranges(set, sets, first, last, [&](const PixelPoints::PointRange& range) {
+            EXPECT_LT(range.begin, range.end);
+            EXPECT_LE(range.end, points.set_size);
+            EXPECT_EQ(range.pass % sets, set);
+            EXPECT_TRUE(sampler == PixelSampler::stratified || range.pass == set);
+            for (std::uint32_t i = range.begin; i < range.end; ++i) ++dealt[set + sets * (range.pass / sets * 3 + i)];
           });
         for (std::uint32_t k = 0; k < 40; ++k) EXPECT_EQ(dealt[k], k >= first && k < last) << k;
       }
@@ -40,17 +40,17 @@ TEST(PixelPoints, DealSamplesInTurn) {
 TEST(PixelPoints, DependOnPixelPassAndSeed) {
   using Points = mc::SobolPairs;
   const PixelPoints one(PixelSampler::sobol, 7, 1), two(PixelSampler::sobol, 8, 1);
-  const std::uint64_t seed = one.of<Points>(3, 4, {0, 0, 1}).seed;
-  EXPECT_EQ(one.of<Points>(3, 4, {0, 5, 9}).seed, seed);
-  EXPECT_NE(one.of<Points>(4, 3, {0, 0, 1}).seed, seed);
-  EXPECT_NE(one.of<Points>(-3, 4, {0, 0, 1}).seed, seed);
-  EXPECT_NE(one.of<Points>(3, 4, {1, 0, 1}).seed, seed);
-  EXPECT_NE(two.of<Points>(3, 4, {0, 0, 1}).seed, seed);
+  const std::uint64_t seed = one.point_set<Points>(3, 4, {0, 0, 1}).seed;
+  EXPECT_EQ(one.point_set<Points>(3, 4, {0, 5, 9}).seed, seed);
+  EXPECT_NE(one.point_set<Points>(4, 3, {0, 0, 1}).seed, seed);
+  EXPECT_NE(one.point_set<Points>(-3, 4, {0, 0, 1}).seed, seed);
+  EXPECT_NE(one.point_set<Points>(3, 4, {1, 0, 1}).seed, seed);
+  EXPECT_NE(two.point_set<Points>(3, 4, {0, 0, 1}).seed, seed);
 }
 
 // The rays of a part are those of the whole: of a picture of 4x2 pixels, seen at a right angle, the upper left pixel's
 // centre lies 3/4 to the left and 1/4 up, in units of half the width.
-TEST(PixelRays, GoThroughPixelsOfTheWhole) {
+TEST(PixelRays, CroppedRaysEqualFullRays) {
   SceneBuilder builder;
   builder.add(Light(ConstantBackground(Spectrum::Ones())));
   builder.set(ThinLens({}, {.fov = 90}));
@@ -65,7 +65,7 @@ TEST(PixelRays, GoThroughPixelsOfTheWhole) {
     const Vec3 beside = rays.sample(0, 0, Vec2(Float(0.5), Float(-0.5)), stream).d;
     EXPECT_NEAR(std::abs(beside.x() / beside.z()), 0.5, 1e-6);
     EXPECT_NEAR(std::abs(beside.y() / beside.z()), 0.5, 1e-6);
-    EXPECT_EQ(rays.around({}).here, nullptr);
+    EXPECT_EQ(rays.media({}).current, nullptr);
   }
 }
 

@@ -146,7 +146,7 @@ TEST(Render, AdaptivePicturesAreUnbiasedWithHonestErrorBars) {
 
 // The logarithm of the errors' ratio is -.07 on average, of 72 pictures, and its standard deviation .25, since errors
 // are themselves estimated: that of 24 pictures lies above .08 for one set of seeds in 700.
-TEST(Render, AdaptiveErrsNoMoreThanEven) {
+TEST(Render, Adaptive_HasNoLargerErrorThanUniform) {
   const Scene scene = small_scene(Float(0.1), 0.25);
   mc::Moments logarithms;
   for (const PixelSampler sampler : samplers) {
@@ -163,7 +163,7 @@ TEST(Render, AdaptiveErrsNoMoreThanEven) {
   EXPECT_LE(logarithms.mean(), 0.08);
 }
 
-TEST(Render, AdaptiveSpendsWhatIsAskedForWhereTheErrorIs) {
+TEST(Render, Adaptive_SpendsBudgetWhereErrorIs) {
   const Scene scene = small_scene(Float(0.1), 0.25, Lambert()); // of caustics few pixels know their error
   for (const PixelSampler sampler : samplers) {
     RenderOptions options = small();
@@ -174,11 +174,11 @@ TEST(Render, AdaptiveSpendsWhatIsAskedForWhereTheErrorIs) {
     double spent_on_all = 0, spent_on_worst = 0;
     RenderResult worst;
     for (options.seed = 0; options.seed < 8; ++options.seed) {
-      options.error_of = ErrorOf::picture;
+      options.error_scope = ErrorScope::image;
       const RenderResult one = render::render(scene, options);
       EXPECT_NEAR(one.spp, 128, 0.5);
       spent_on_all += one.worst_error;
-      options.error_of = ErrorOf::worst;
+      options.error_scope = ErrorScope::worst_block;
       worst = render::render(scene, options);
       spent_on_worst += worst.worst_error;
     }
@@ -235,15 +235,15 @@ TEST(Render, StopsByTimeErrorOrCancel) {
   EXPECT_EQ(exact.estimates, 2u);
   std::uint64_t of_picture = 0, of_worst = 0; // rounds end where they do: one seed says little
   for (options.seed = 0; options.seed < 16; ++options.seed) {
-    options.error_of = ErrorOf::picture;
+    options.error_scope = ErrorScope::image;
     of_picture += render::render(scene, options).samples;
-    options.error_of = ErrorOf::worst;
+    options.error_scope = ErrorScope::worst_block;
     const RenderResult worst = render::render(scene, options);
     EXPECT_LE(worst.worst_error, 0.05);
     of_worst += worst.samples;
   }
   EXPECT_GT(of_worst, of_picture);
-  options.error_of = ErrorOf::picture;
+  options.error_scope = ErrorScope::image;
   options.strategy = strategy_from("mis"); // paths from the lights leave less that is uneven
   std::uint64_t adaptive = 0, even = 0;
   for (options.seed = 0; options.seed < 8; ++options.seed) {
@@ -294,7 +294,7 @@ TEST(Render, StopsByTimeErrorOrCancel) {
 }
 
 // One sample of the rare bright kind leaves most pixels undecided; many of them few.
-TEST(Render, ATargetIsNotReachedWhilePixelsAreUndecided) {
+TEST(Render, Target_WaitsForOutlierDominatedPixels) {
   SceneBuilder builder;
   const BsdfId black = builder.add(Lambert(Spectrum::Zero()));
   // Lamps of a thousandth of a pixel each.
@@ -308,18 +308,18 @@ TEST(Render, ATargetIsNotReachedWhilePixelsAreUndecided) {
   options.sampler = PixelSampler::independent;
   options.target_error = 0.4;
   const RenderResult result = render::render(scene, options);
-  EXPECT_LE(result.undecided, most_undecided);
+  EXPECT_LE(result.outlier_dominated, max_outlier_dominated);
   EXPECT_LE(result.relative_error, 0.4);
   options.target_error = 2;
   const RenderResult early = render::render(scene, options);
-  EXPECT_LE(early.undecided, most_undecided);
-  EXPECT_GT(early.unsure_from, 0); // by that error alone it would have stopped
-  EXPECT_LT(early.unsure_from, early.spp);
+  EXPECT_LE(early.outlier_dominated, max_outlier_dominated);
+  EXPECT_GT(early.unreliable_target_spp, 0); // by that error alone it would have stopped
+  EXPECT_LT(early.unreliable_target_spp, early.spp);
   options.target_error = {};
   options.spp = 256;
   const RenderResult counted = render::render(scene, options);
-  EXPECT_GE(counted.undecided, 0.1);
-  EXPECT_EQ(counted.unsure_from, 0);
+  EXPECT_GE(counted.outlier_dominated, 0.1);
+  EXPECT_EQ(counted.unreliable_target_spp, 0);
 }
 
 TEST(Render, ASceneWithoutLightIsBlack) {

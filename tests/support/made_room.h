@@ -79,11 +79,11 @@ class RoomMaker {
   Bsdf surface(int kind) {
     const Spectrum tint = Spectrum::Ones() - Spectrum(random_.point<Float, 3>()) / 4;
     if (lit_by_ != LitBy::lamps && kind == 3 && chance(0.5))
-      return RoughDielectric(Float(1.5), narrow_alpha / 2, tint, tint);
+      return RoughDielectric(Float(1.5), near_specular_alpha / 2, tint, tint);
     switch (kind) {
     case 0: return Dielectric(Float(1.1 + number()), tint, tint);
-    case 1: return Metal(tint);
-    case 2: return Metal(tint, Float(0.05 + 0.4 * number()));
+    case 1: return FuzzyMetal(tint);
+    case 2: return FuzzyMetal(tint, Float(0.05 + 0.4 * number()));
     case 3: return RoughDielectric(Float(1.5), Float(0.1 + 0.5 * number()), tint, tint);
     case 4: return RoughPlastic<LayeredBase>(Float(1.5), Float(0.1 + 0.4 * number()), tint / 2, tint);
     default: return Lambert(tint / 2);
@@ -93,7 +93,7 @@ class RoomMaker {
   // A ball, a box, or a coarse ball with smooth normals.
   void add_thing(SceneBuilder& builder) {
     const int kind = static_cast<int>(6 * number());
-    SceneBuilder::Cover cover{.bsdf = builder.add(surface(kind))};
+    SceneBuilder::SurfaceProperties cover{.bsdf = builder.add(surface(kind))};
     if (kind == 0 && chance(0.5)) cover.interior = HomogeneousMedium(Spectrum(random_.point<Float, 3>()));
     const Vec3d at = place(1.2);
     const double size = 0.3 + 0.4 * number();

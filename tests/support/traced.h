@@ -1,7 +1,7 @@
 #pragma once
 // What paths bring along a ray, for tests whose answer is known in closed form.
 
-#include <render/pixel_sampler.h>
+#include <render/pixel_renderer.h>
 
 #include <mc/estimate/moments.h>
 

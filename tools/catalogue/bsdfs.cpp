@@ -10,13 +10,13 @@ void add_bsdfs(Catalogue& c) {
   const render::TexturedLambert picture(render::Bitmap(std::make_shared<const render::Texels>(2, 2, texels)));
   add_bsdf(c, "TexturedLambert", "between four texels", picture.at({0.3, 0.6}), {0, 60, 120});
   // The book's fuzzy metal is not reciprocal, by its definition.
-  add_bsdf(c, "Metal", "fuzz=0", render::Metal{}, {0, 60, 89.9, 120}, {.reciprocal = false});
-  add_bsdf(c, "Metal", "fuzz=0.1", render::Metal({0.9f, 0.8f, 0.7f}, render::Float(0.1)), {0, 60, 85, 89.9},
+  add_bsdf(c, "Metal", "fuzz=0", render::FuzzyMetal{}, {0, 60, 89.9, 120}, {.reciprocal = false});
+  add_bsdf(c, "Metal", "fuzz=0.1", render::FuzzyMetal({0.9f, 0.8f, 0.7f}, render::Float(0.1)), {0, 60, 85, 89.9},
            {.reciprocal = false, .mass_tolerance = 1e-4});
-  add_bsdf(c, "Metal", "fuzz=1", render::Metal({0.9f, 0.8f, 0.7f}, 1), {0, 60, 85, 120}, {.reciprocal = false});
+  add_bsdf(c, "Metal", "fuzz=1", render::FuzzyMetal({0.9f, 0.8f, 0.7f}, 1), {0, 60, 85, 120}, {.reciprocal = false});
   add_roughness_limit(c, "Metal", "fuzz -> 0",
                       [](render::Float fuzz) {
-                        return render::Metal({0.9f, 0.8f, 0.7f}, fuzz);
+                        return render::FuzzyMetal({0.9f, 0.8f, 0.7f}, fuzz);
                       },
                       {0, 60, 85, 120});
   add_bsdf(c, "Dielectric", "eta=1.5", render::Dielectric{}, {0, 60, 89.9, 130, 150}, {.eta = 1.5});
@@ -43,7 +43,7 @@ void add_bsdfs(Catalogue& c) {
   for (const double alpha : {1e-4, 1e-3, 0.02, 0.3, 1.0}) {
     const std::vector<double> angles = {0, 60, grazing(alpha), 120};
     add_bsdf(c, "RoughConductor", fmt::format("Microfacets, alpha={}", alpha),
-             render::RoughConductor(gold, gold_k, render::Microfacets(render::Float(alpha))), angles);
+             render::RoughConductor(gold, gold_k, render::TrowbridgeReitzFacets(render::Float(alpha))), angles);
     add_bsdf(c, "RoughConductor", fmt::format("BlinnPhongFacets, alpha={}", alpha),
              render::RoughConductor(gold, gold_k, render::BlinnPhongFacets(render::Float(alpha))), angles);
   }

@@ -233,7 +233,7 @@ struct MetBehindMask {
     Ray ray{Vec3(0, Float(0.5), -2), Vec3::UnitZ()};
     std::uint64_t rays = 0;
     mc::DiscreteSample<Float> choice{};
-    const auto hit = meet(*scene, ray, rays, [&](Float there) {
+    const auto hit = nearest_hit(*scene, ray, rays, [&](Float there) {
       choice = mc::Bernoulli<Float>(there).sample_index(u);
       return choice.index == 0;
     });
@@ -313,7 +313,7 @@ void add_pinholes(Catalogue& c) {
     const mc::Patch<Float, 4> film(lens.forward() - x - y, 2 * x, 2 * y);
     const auto sample = [=](const Vec2& u) { return lens.ray(u, half, Vec2::Zero()).d; };
     add_subject(c, "ThinLens", fmt::format("pinhole, fov={:g}, directions", fov),
-                make_subject("", film, sample, [=](const Vec3& d) { return lens.density(d, half); }),
+                make_subject("", film, sample, [=](const Vec3& d) { return lens.direction_pdf(d, half); }),
                 [=](const Vec2& u) { return double(sample(u).sum()); });
   }
 }

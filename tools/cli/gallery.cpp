@@ -94,7 +94,7 @@ Asked read(const GalleryScene& scene, const GalleryOptions& o, const std::atomic
   a.settings.height = scaled(a.file.defaults.height, o.scale);
   a.settings.spp = o.spp.value_or(scene.spp > 0 ? scene.spp : a.file.defaults.spp);
   a.settings.max_depth = a.file.defaults.max_depth;
-  a.settings.shown = a.file.defaults.shown;
+  a.settings.aov = a.file.defaults.aov;
   a.settings.seconds = o.seconds;
   a.settings.target_error = o.target_error;
   a.settings.seed = o.seed;
@@ -116,7 +116,7 @@ RenderedScene report(const Asked& a, const ::render::RenderResult& result) {
   r.seconds = result.seconds;
   r.samples_per_second = double(result.samples) / result.seconds;
   r.relative_error = result.relative_error;
-  r.undecided = result.undecided;
+  r.undecided = result.outlier_dominated;
   r.strategy = a.settings.strategy.name;
   r.sampler = name(a.settings.sampler);
   r.features = features_of(*a.scene);
@@ -187,14 +187,14 @@ class GalleryRun {
   // Computed once for all scenes that share a file.
   const std::vector<StrategyResult>& strategies(const Asked& a) {
     const auto [place, is_new] = strategies_.try_emplace(scene_file(*a.scene));
-    if (is_new && a.settings.shown.what == ::render::Shown::radiance)
+    if (is_new && a.settings.aov.kind == ::render::Aov::radiance)
       place->second = compare_strategies(a.file.scene, a.settings, 64, std::min(64, a.settings.spp));
     return place->second;
   }
 
   void keep_thumbnail(const Asked& a, ::render::Image image) {
-    const ::render::Tone tone = tone_of(*a.scene);
-    for (::render::Spectrum& p : image.pixels) p = toned(p, tone).cast<::render::Float>();
+    const ::render::ToneMapping tone = tone_of(*a.scene);
+    for (::render::Spectrum& p : image.pixels) p = tone_map(p, tone).cast<::render::Float>();
     thumbnails_.push_back(thumbnail(image, thumbnail_side));
   }
 

@@ -8,7 +8,7 @@
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 
-#include <render/film/interval.h>
+#include <render/film/confidence_interval.h>
 #include <render/io/image/image_io.h>
 #include <render/io/mesh_scene.h>
 #include <render/io/mitsuba/mitsuba.h>
@@ -74,8 +74,8 @@ void check_output(const std::string& path) {
 bool is(const std::string& path, const char* extension) { return mc::extension_of(path) == extension; }
 
 // The tone of a PNG, except for an exposure that depends on the picture.
-::render::Tone tone_of(const RenderOptions& options, const GalleryScene* named) {
-  ::render::Tone tone = named ? tone_of(*named) : ::render::Tone();
+::render::ToneMapping tone_of(const RenderOptions& options, const GalleryScene* named) {
+  ::render::ToneMapping tone = named ? tone_of(*named) : ::render::ToneMapping();
   if (!options.tone.empty()) tone.curve = ::render::tone_curve_from(options.tone);
   if (options.exposure.empty() || options.exposure == "auto") return tone;
   char rest = 0;
@@ -111,7 +111,7 @@ const GalleryScene* named_scene(const std::string& word) {
   settings.target_error = options.target_error;
   mc::require(options.error_of.empty() || options.error_of == "picture" || options.error_of == "worst",
               "--error-of '{}' must be picture or worst", options.error_of);
-  if (options.error_of == "worst") settings.error_of = ::render::ErrorOf::worst;
+  if (options.error_of == "worst") settings.error_scope = ::render::ErrorScope::worst_block;
   mc::require(options.adaptive.empty() || options.adaptive == "on" || options.adaptive == "off",
               "--adaptive '{}' must be on or off", options.adaptive);
   if (!options.adaptive.empty()) settings.adaptive = options.adaptive == "on";
@@ -125,10 +125,10 @@ const GalleryScene* named_scene(const std::string& word) {
   mc::require(!options.max_depth || *options.max_depth == -1 || *options.max_depth >= 1,
               "--max-depth {} must be -1 or at least 1", options.max_depth.value_or(0));
   settings.max_depth = options.max_depth.value_or(defaults.max_depth);
-  mc::require(!options.branches || (*options.branches >= 1 && *options.branches <= ::render::most_branches),
-              "--branches {} must be 1 to {}", options.branches.value_or(0), ::render::most_branches);
+  mc::require(!options.branches || (*options.branches >= 1 && *options.branches <= ::render::max_branches),
+              "--branches {} must be 1 to {}", options.branches.value_or(0), ::render::max_branches);
   settings.branches = options.branches.value_or(settings.branches);
-  settings.shown = defaults.shown;
+  settings.aov = defaults.aov;
   mc::require(options.threads >= 0, "--threads {} must be >= 0", options.threads);
   settings.threads = options.threads;
   settings.seed = options.seed;
@@ -141,17 +141,17 @@ const GalleryScene* named_scene(const std::string& word) {
 std::string progress_text(const ::render::Progress& p, const std::optional<double>& target_error) {
   const std::string rate = format_count(double(p.samples) / p.seconds) + "samples/s";
   if (!std::isfinite(p.relative_error)) return rate;
-  const bool goes_on = target_error && p.relative_error <= *target_error && p.undecided > ::render::most_undecided;
+  const bool goes_on = target_error && p.relative_error <= *target_error && p.outlier_dominated > ::render::max_outlier_dominated;
   if (goes_on)
-    return fmt::format("error reached, {:.1f} % undecided: on to {:.0f} %", 100 * p.undecided,
-                       100 * ::render::most_undecided);
-  return fmt::format("error {:.2f} %  {:.1f} % undecided  {}", 100 * p.relative_error, 100 * p.undecided, rate);
+    return fmt::format("error reached, {:.1f} % undecided: on to {:.0f} %", 100 * p.outlier_dominated,
+                       100 * ::render::max_outlier_dominated);
+  return fmt::format("error {:.2f} %  {:.1f} % undecided  {}", 100 * p.relative_error, 100 * p.outlier_dominated, rate);
 }
 
 constexpr int compared_side = 96; // pixels
 
 int compare_all(const RenderOptions& options, const ::render::Scene& scene, ::render::RenderOptions settings,
-                const ::render::Tone& tone, const std::string& output) {
+                const ::render::ToneMapping& tone, const std::string& output) {
   if (options.size.empty()) settings = shrunk(settings, compared_side);
   const int side = std::max(settings.width, settings.height);
   mc::require(settings.spp >= 2, "--compare-strategies: one sample per pixel has no error bar; take two or more");
@@ -187,7 +187,7 @@ void refuse_inputs(const std::set<std::string>& files, const RenderOptions& opti
 }
 
 void warn_where_light_is_missed(const ::render::Scene& scene, const ::render::RenderOptions& settings) {
-  if (settings.shown.what == ::render::Shown::radiance && misses_light(scene, settings.strategy, settings.max_depth))
+  if (settings.aov.kind == ::render::Aov::radiance && misses_light(scene, settings.strategy, settings.max_depth))
     std::fprintf(
         stderr,
         "carlo: warning: the strategy %s takes directions toward lights and importance targets only: it misses "
@@ -220,13 +220,13 @@ int render(const RenderOptions& options) {
   const auto& [scene, defaults, origin, warnings, files] = read;
   refuse_inputs(files, options, output);
   warn_of_departures(read);
-  if (scene.lights().empty() && defaults.shown.what == ::render::Shown::radiance)
+  if (scene.lights().empty() && defaults.aov.kind == ::render::Aov::radiance)
     std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", file.c_str());
 
   warn_where_coarse(file, scene);
 
   ::render::RenderOptions settings = settings_of(options, defaults, named);
-  ::render::Tone tone = tone_of(options, named);
+  ::render::ToneMapping tone = tone_of(options, named);
   if (options.compare_strategies) return compare_all(options, scene, settings, tone, output);
   mc::require(is(output, ".png") || (options.tone.empty() && options.exposure.empty()),
               "{}: '{}' stores radiance as it is; write a .png", options.tone.empty() ? "--exposure" : "--tone",
@@ -264,13 +264,13 @@ int render(const RenderOptions& options) {
   for (const auto& [key, value] : shown) result.image.metadata[key] = value;
   if (begun) add_to(*begun, result);
   if (options.layers) {
-    const ::render::Whole whole{settings.width, settings.height, part};
-    result.image.layers = layers(scene, whole, origin, settings.threads);
+    const ::render::ImageExtent extent{settings.width, settings.height, part};
+    result.image.layers = layers(scene, extent, origin, settings.threads);
   }
   if (options.exposure == "auto") tone.exposure = auto_exposure(result.image);
   ::render::write_image(output, result.image, tone);
   if (!options.intervals.empty() && !result.image.variance.empty())
-    ::render::write_image(options.intervals, ::render::half_widths(result.image, 0.95));
+    ::render::write_image(options.intervals, ::render::interval_half_widths(result.image, 0.95));
 
   fmt::print("{}", summary_of(output, result, options.target_error));
   if (begun)

@@ -5,7 +5,7 @@
 #include <mc/random/hash.h>
 #include <mc/stats/t_test.h>
 #include <render/film/accumulate.h>
-#include <render/integrator/directions.h>
+#include <render/integrator/direction_mixture.h>
 
 #include <fmt/format.h>
 
@@ -304,7 +304,7 @@ class Session {
     if (r.partial) return false;
     mc::require(!is_black(r.image), "the picture is black: without light there is no error to measure");
     if (reference_.spp == 0) reference_.dark = dark_of(r.image);
-    reference_.image = reference_.spp > 0 ? ::render::accumulated(reference_.image, reference_.spp, r.image, r.spp)
+    reference_.image = reference_.spp > 0 ? ::render::accumulate(reference_.image, reference_.spp, r.image, r.spp)
                                           : std::move(r.image);
     reference_.spp += r.spp;
     reference_.noise = noise(reference_.image, reference_.dark);
@@ -319,7 +319,7 @@ class Session {
     o.strategy = way.strategy;
     o.sampler = way.sampler;
     o.max_depth = way.max_depth;
-    o.shown = file_.defaults.shown;
+    o.aov = file_.defaults.aov;
     o.adaptive = is_adaptive(way.spending);
     o.splat = way.spending == Spending::splat;
     o.tiles = has_tiles(way.spending);

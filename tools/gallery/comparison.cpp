@@ -25,12 +25,12 @@ mc::Estimate mean_luminance(const ::render::Image& image, std::uint32_t estimate
 
 std::vector<StrategyResult> each_strategy(const ::render::Scene& scene, ::render::RenderOptions settings) {
   std::vector<StrategyResult> all;
-  for (const ::render::Strategy& strategy : strategies_for(scene)) {
+  for (const ::render::Strategy& strategy : complete_strategies(scene)) {
     settings.strategy = strategy;
     const ::render::RenderResult r = ::render::render(scene, settings);
     if (r.partial) break;
     all.push_back({strategy.name, double(r.samples) / r.cpu_seconds, r.spp, r.relative_error,
-                   r.cpu_seconds * r.relative_error * r.relative_error, r.undecided,
+                   r.cpu_seconds * r.relative_error * r.relative_error, r.outlier_dominated,
                    mean_luminance(r.image, r.estimates), misses_light(scene, strategy, settings.max_depth)});
   }
   return all;

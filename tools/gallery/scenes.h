@@ -1,7 +1,7 @@
 #pragma once
 /// The gallery: the scenes that carlo knows by name.
 
-#include <render/film/tone.h>
+#include <render/film/tone_mapping.h>
 
 #include <span>
 #include <string>
@@ -29,7 +29,7 @@ std::span<const GalleryScene> gallery();
 const GalleryScene& gallery_scene(std::string_view name);
 
 /// How its PNG is made.
-inline ::render::Tone tone_of(const GalleryScene& scene) { return {scene.tone, scene.exposure}; }
+inline ::render::ToneMapping tone_of(const GalleryScene& scene) { return {scene.tone, scene.exposure}; }
 
 /// The path of its file: of an installed carlo beside its other data, of one in its build tree in the project.
 ///   throws : Error that names both places where the scenes are at neither

@@ -23,19 +23,19 @@ std::string brightness(const StrategyResult& s, const StrategyResult* best) {
 } // namespace
 
 ::render::Image strategy_strip(const ::render::Scene& scene, ::render::RenderOptions settings,
-                               const ::render::Tone& tone) {
+                               const ::render::ToneMapping& tone) {
   std::vector<::render::Image> pictures;
   settings.seconds.reset();
   settings.target_error.reset();
   settings.adaptive = false;
   settings.progress = nullptr;
-  for (const ::render::Strategy& strategy : strategies_for(scene)) {
+  for (const ::render::Strategy& strategy : complete_strategies(scene)) {
     settings.strategy = strategy;
     for (const int spp : strip_spp) {
       settings.spp = spp;
       ::render::RenderResult r = ::render::render(scene, settings);
       if (r.partial) return {};
-      for (::render::Spectrum& p : r.image.pixels) p = toned(p, tone).cast<::render::Float>();
+      for (::render::Spectrum& p : r.image.pixels) p = tone_map(p, tone).cast<::render::Float>();
       pictures.push_back(std::move(r.image));
     }
   }

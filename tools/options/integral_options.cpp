@@ -10,7 +10,7 @@
 #include <mc/core/error.h>
 #include <mc/core/file.h>
 #include <mc/core/text.h>
-#include <render/integrator/light_paths.h>
+#include <render/integrator/light_tracer.h>
 
 #include <fmt/format.h>
 
@@ -55,7 +55,7 @@ std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, c
     return strategies;
   }
   constexpr std::array<std::string_view, 4> four = {"mixture", "nee", "mis", "mis+lt"};
-  for (const ::render::Strategy& s : strategies_for(file.scene))
+  for (const ::render::Strategy& s : complete_strategies(file.scene))
     if (all || std::find(four.begin(), four.end(), s.name) != four.end()) strategies.push_back(s);
   return strategies;
 }
@@ -63,8 +63,8 @@ std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, c
 bool can_spend(Spending spending, const ::render::SceneFile& file) {
   const ::render::Filter& filter = file.scene.filter();
   if (spending == Spending::splat)
-    return filter.radius() <= ::render::SplatFilter::furthest && ::render::SplatFilter(filter).is_wide();
-  return !has_tiles(spending) || file.defaults.shown.what == ::render::Shown::radiance;
+    return filter.radius() <= ::render::SplatFilter::max_radius && ::render::SplatFilter(filter).is_wide();
+  return !has_tiles(spending) || file.defaults.aov.kind == ::render::Aov::radiance;
 }
 
 std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, const ::render::SceneFile& file) {

@@ -45,10 +45,10 @@ void warn_where_coarse(const std::string& path, const ::render::Scene& scene) {
                  "carlo: warning: %s: %s %.3g across, and %s hold areas and squares of distances from %.2g to %.2g "
                  "across; its light may be wrong. Scale the scene\n",
                  path.c_str(), *length < 1 ? "a lamp is" : "the scene is", *length,
-                 sizeof(::render::Float) == sizeof(float) ? "floats" : "doubles", ::render::least_length,
-                 ::render::most_length);
-  const ::render::Coarseness c = ::render::coarsest(scene);
-  if (c.ratio <= ::render::too_coarse) return;
+                 sizeof(::render::Float) == sizeof(float) ? "floats" : "doubles", ::render::min_length,
+                 ::render::max_length);
+  const ::render::FloatResolution c = ::render::coarsest_resolution(scene);
+  if (c.ratio <= ::render::max_resolution_ratio) return;
   std::fprintf(
       stderr,
       "carlo: warning: %s: a surface %.3g across has coordinates of %.3g, where the next number is %.2g further; "
@@ -79,13 +79,13 @@ std::string summary_of(const std::string& file, const ::render::RenderResult& r,
                       r.image.height, r.spp, format_seconds(r.seconds), format_seconds(r.cpu_seconds));
   text += fmt::format("  mean relative standard error {}, {} invalid samples\n", format_error(r), r.invalid);
   text += fmt::format("  {}, {}rays/s", samples_per_second(r), format_count(double(r.rays) / r.seconds));
-  if (r.undecided > 0) text += fmt::format("; one sample dominates {:.1f} % of the pixels", 100 * r.undecided);
+  if (r.outlier_dominated > 0) text += fmt::format("; one sample dominates {:.1f} % of the pixels", 100 * r.outlier_dominated);
   text += "\n";
   const double percent = 100 * target_error.value_or(0);
-  if (r.unsure_from > 0)
+  if (r.unreliable_target_spp > 0)
     text += wrapped(fmt::format("the error reached {:g} % with {:.4g} samples per pixel; rendering went on while one "
                                 "sample dominated over {:.0f} % of the pixels (--time bounds it)",
-                                percent, r.unsure_from, 100 * ::render::most_undecided),
+                                percent, r.unreliable_target_spp, 100 * ::render::max_outlier_dominated),
                     columns, indent);
   else if (r.out_of_time)
     text += wrapped(fmt::format("the error of {:g} % was not reached in the time (--resume adds samples)", percent),

@@ -105,7 +105,7 @@ Begun begun_picture(const std::string& path, const PictureOf& picture, const ::r
 }
 
 void add_to(const Begun& begun, ::render::RenderResult& result) {
-  result.image = accumulated(begun.image, begun.spp, result.image, result.spp);
+  result.image = accumulate(begun.image, begun.spp, result.image, result.spp);
   result.image.layers = begun.image.layers;
   result.image.metadata["carlo.samples_per_pixel"] = fmt::format("{:.17g}", begun.spp + result.spp);
   result.image.metadata["carlo.runs"] = fmt::format("{}", begun.runs + 1);

@@ -49,7 +49,11 @@ void Progress::clear() {
 std::string format_seconds(double seconds) {
   if (seconds < 0.9995) return fmt::format("{:.0f} ms", 1000 * seconds);
   if (seconds < 59.95) return fmt::format("{:.1f} s", seconds);
-  const long whole = std::lround(seconds);
+  constexpr double hour = 3600, day = 24 * hour, year = 365.25 * day;
+  if (seconds >= 1000 * day) return fmt::format("{:.0f} years", seconds / year);
+  const long whole = std::lround(seconds), minutes = std::lround(seconds / 60), hours = std::lround(seconds / hour);
+  if (hours >= 48) return fmt::format("{} d {:02} h", hours / 24, hours % 24);
+  if (whole >= 3600) return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
   return fmt::format("{} min {:02} s", whole / 60, whole % 60);
 }
 

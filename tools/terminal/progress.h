@@ -33,7 +33,7 @@ class Progress {
 /// first; then whole parts are left out from the end, and the words of the first part. No number is cut.
 std::string progress_line(double fraction, const std::string& remaining, std::string_view text, std::size_t columns);
 
-/// "850 ms", "12.3 s", "4 min 05 s".
+/// "850 ms", "12.3 s", "4 min 05 s", "13 h 53 min", "11 d 14 h", "31688 years".
 std::string format_seconds(double seconds);
 
 /// "950", "12.3 k", "4.56 M", "1.20 G".

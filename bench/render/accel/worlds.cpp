@@ -37,7 +37,7 @@ std::vector<render::Shape> World::shapes() const {
   std::vector<render::Shape> made = meshes;
   if (meshes.empty() && !triangles.empty()) made.emplace_back(render::TriangleMesh(positions, triangles));
   for (const Ball& s : spheres) made.emplace_back(render::Sphere(s.center.cast<double>(), double(s.radius)));
-  for (render::Shape& s : made) s.forget_choice();
+  for (render::Shape& s : made) s.discard_sampling_table();
   return made;
 }
 

@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
   fmt::print("material,eta,alpha,cos=1,cos=0.9,cos=0.7,cos=0.5,cos=0.3,cos=0.2,cos=0.1,cos=0.03,cos=0.003\n");
   for (const double alpha : {1e-4, 1e-3, 0.01, 0.03, 0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0}) {
     const Float a(alpha);
-    print_row("metal ggx", 0, alpha, RoughConductor(none, one, Microfacets(a)), 1, points); // F = 1
+    print_row("metal ggx", 0, alpha, RoughConductor(none, one, TrowbridgeReitzFacets(a)), 1, points); // F = 1
     print_row("metal phong", 0, alpha, RoughConductor(none, one, BlinnPhongFacets(a)), 1, points);
     for (const double eta : {1.33, 1.5, 2.0}) {
       print_row("glass from outside", eta, alpha, RoughDielectric(Float(eta), a), 1, points);

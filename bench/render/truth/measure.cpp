@@ -1,6 +1,6 @@
 #include "measure.h"
 
-#include <render/tile_sampler.h>
+#include <render/tile_renderer.h>
 
 #include <mc/random/hash.h>
 #include <mc/stats/chi_square.h>
@@ -29,7 +29,7 @@ Measured of_sets(std::uint64_t seed, std::uint32_t sets, std::uint32_t points, c
     }
     found.means.add(sum / points, set);
   }
-  found.undecided = samples.deciding() < 2;
+  found.outlier_dominated = samples.effective_sample_count() < 2;
   return found;
 }
 
@@ -56,15 +56,15 @@ Ray beside(const Ray& ray, std::uint64_t seed, std::uint32_t pixel) {
 template <class Stream>
 Measured tile_with(const Picture& picture, const PathOptions& path, std::uint64_t seed, std::uint32_t sets,
                    std::uint32_t points) {
-  const TileIntegrator<Scene> integrator(*picture.scene, path);
+  const PathReuseIntegrator<Scene> integrator(*picture.scene, path);
   std::uint64_t rays = 0;
   return of_sets<Stream>(seed, sets, points, [&](const auto& numbers, std::uint32_t i, std::uint64_t set) {
     const typename Stream::Points others[] = {
         {mc::hash(set, 1), points}, {mc::hash(set, 2), points}, {mc::hash(set, 3), points}};
     const auto ray = [&](std::uint32_t k) {
-      return TileRay<Stream>{beside(picture.ray, set, k), {}, Stream(k == 0 ? numbers : others[k - 1], i)};
+      return CameraRay<Stream>{beside(picture.ray, set, k), {}, Stream(k == 0 ? numbers : others[k - 1], i)};
     };
-    std::array<TileRay<Stream>, 4> tile{ray(0), ray(1), ray(2), ray(3)};
+    std::array<CameraRay<Stream>, 4> tile{ray(0), ray(1), ray(2), ray(3)};
     return integrator.radiances(tile, rays)[0][0];
   });
 }
@@ -82,7 +82,7 @@ Measured measure(const Picture& picture, const Strategy& strategy, PixelSampler 
 
 double z_score(const Measured& measured, double should, double its_error, double its_dof, double rounding) {
   const mc::Moments& m = measured.means;
-  if (measured.undecided || m.mean() == 0) return 0;
+  if (measured.outlier_dominated || m.mean() == 0) return 0;
   const double off = m.mean() - should, own = mc::sqr(m.std_error()),
                other = mc::sqr(its_error) + mc::sqr(rounding / 3);
   const double dof = mc::welch_dof(own, double(m.count() - 1), other, its_dof);

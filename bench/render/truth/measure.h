@@ -11,11 +11,11 @@ namespace render::truth {
 
 struct Measured {
   mc::Moments means;      ///< of independently randomised point sets
-  bool undecided = false; ///< see SampleSums
+  bool outlier_dominated = false; ///< see SampleSums
 };
 
 /// `sets` sets of `points` points each.
-///   in_tile : its paths share with those of three pixels beside it, see TileIntegrator, whose rays lead up to 30
+///   in_tile : its paths share with those of three pixels beside it, see PathReuseIntegrator, whose rays lead up to 30
 ///             degrees away, other ones in every set
 Measured measure(const Picture& picture, const Strategy& strategy, PixelSampler sampler, std::uint64_t seed,
                  std::uint32_t sets, std::uint32_t points, bool in_tile = false);

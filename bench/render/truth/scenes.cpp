@@ -152,7 +152,7 @@ Family furnace(mc::Pcg& random) {
     const auto [bsdf, radiance] = lambert();
     const std::size_t kind = below(random, 4);
     if (kind == 0) things.push_back({form, place, Bsdf(Dielectric(Float(uniform(random, 1.1, 2)))), 0, false});
-    else if (kind == 1) things.push_back({form, place, Bsdf(Metal(gray(1))), 0, false});
+    else if (kind == 1) things.push_back({form, place, Bsdf(FuzzyMetal(gray(1))), 0, false});
     else things.push_back({form, place, bsdf, radiance, false});
   }
   Family family{"furnace", {}, 1.0};
@@ -227,8 +227,8 @@ Family room(mc::Pcg& random) {
     const auto form = std::array{Thing::Form::sphere, Thing::Form::cube}[below(random, 2)];
     const Float alpha = Float(uniform(random, 0.3, 0.8));
     const Bsdf all[] = {Lambert(gray(uniform(random, 0, 1))),
-                        Metal(gray(0.9), Float(uniform(random, 0.3, 0.9))),
-                        Metal(gray(0.8)),
+                        FuzzyMetal(gray(0.9), Float(uniform(random, 0.3, 0.9))),
+                        FuzzyMetal(gray(0.8)),
                         RoughPlastic(Float(1.5), alpha, gray(0.5), gray(1)),
                         RoughDielectric(Float(1.5), alpha),
                         Dielectric(Float(1.5))};

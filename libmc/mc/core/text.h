@@ -25,7 +25,8 @@ std::string printable(std::string text);
 /// What stands between separators, trimmed: "a, b,,c" is "a", "b", "", "c".
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// Number of single-character edits (insert, delete, replace) between two words. Source: [WagnerFischer74]
+/// Number of edits between two words: insert, delete or replace a character, or swap two neighbours.
+/// Source: [WagnerFischer74]
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// Edit distance of two names, where upper case, '-' and '_' do not count. Nothing where it exceeds a third of the

@@ -66,7 +66,7 @@ struct Part {
 };
 
 constexpr std::int32_t bins = 32;
-constexpr int deepest = BinaryTree::levels - 32; // beyond, halves are taken by count, which adds at most 32 levels
+constexpr int deepest = BinaryTree::max_depth - 32; // beyond, halves are taken by count, which adds at most 32 levels
 
 // Equal slices of a part's centres along each axis, a bin for each. An axis along which they do not differ has one.
 class Slices {
@@ -266,7 +266,7 @@ void rotate(std::vector<Node>& nodes, std::uint32_t limit) {
         together.add(nodes[*stays].box);
         const double gain = double(c.box.half_area()) - double(together.half_area());
         const int height = 1 + std::max(height_over(*sibling, *stays), nodes[*goes].height);
-        if (!(gain > best) || (height > n.height && n.depth + height > BinaryTree::levels)) continue;
+        if (!(gain > best) || (height > n.height && n.depth + height > BinaryTree::max_depth)) continue;
         best = gain;
         smaller = &c;
         box = together;
@@ -314,7 +314,7 @@ Tree grown(std::span<Item> items, const Part& part, std::uint32_t lanes) {
 BinaryTree::BinaryTree(std::size_t count, const std::function<Bounds(std::size_t)>& box, std::uint32_t lanes)
     : order_(count) {
   constexpr std::uint32_t large = 4096; // boxes; the tree of fewer takes one thread, in 128 KB
-  std::vector<Item, HugePages<Item>> items(count);
+  std::vector<Item, HugePageAllocator<Item>> items(count);
   std::vector<Part> parts((count + large - 1) / large);
   mc::parallel_parts(count, large, 0, [&](std::size_t begin, std::size_t end) {
     Part& part = parts[begin / large];

@@ -21,7 +21,7 @@ class BinaryTree {
     std::uint32_t left = 0, right = 0;  ///< children, of what is no leaf
     int depth = 0, height = 0;          ///< levels above and below
   };
-  static constexpr int levels = 96; ///< no more than these are above a leaf, however the boxes lie
+  static constexpr int max_depth = 96; ///< no more than these are above a leaf, however the boxes lie
 
   /// count : at least one
   /// box   : of each, called by several threads

@@ -30,7 +30,7 @@ template <class Block> class BlockTree {
   explicit BlockTree(std::span<const Shape* const> shapes) {
     const Primitives primitives = collected(shapes);
     const auto count = static_cast<std::uint32_t>(primitives.size());
-    if (count > Block::few) {
+    if (count > Block::max_brute_force) {
       tree_ = WideTree(
           count, [&](std::size_t i) { return primitives[i].bounds(); }, lanes);
       bounds_ = tree_.bounds();
@@ -39,7 +39,7 @@ template <class Block> class BlockTree {
       mc::parallel_parts(leaves.size(), 1024, 0, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) fill(blocks_[i], primitives, tree_.order(), leaves[i]);
       });
-      tree_.forget_leaves();
+      tree_.discard_leaves();
     } else {
       for (const Primitive& p : primitives) bounds_.add(p.bounds());
       std::vector<std::uint32_t> order(count);
@@ -54,7 +54,7 @@ template <class Block> class BlockTree {
   /// As Block's intersect.
   template <bool any> bool intersect(const Ray& ray, Float& t_max, Hit& hit) const {
     if (blocks_.empty()) return false;
-    const typename Block::Prepared prepared(ray);
+    const typename Block::RaySetup prepared(ray);
     bool found = false;
     if (tree_.empty()) {
       for (const Block& block : blocks_) {
@@ -73,7 +73,7 @@ template <class Block> class BlockTree {
 
  private:
   using Primitive = typename Block::Primitive;
-  using Primitives = std::vector<Primitive, HugePages<Primitive>>;
+  using Primitives = std::vector<Primitive, HugePageAllocator<Primitive>>;
   static constexpr std::uint32_t lanes = 8;
 
   // In the order of the shapes.
@@ -110,7 +110,7 @@ template <class Block> class BlockTree {
   }
 
   WideTree tree_;                               ///< none for few
-  std::vector<Block, HugePages<Block>> blocks_; ///< one per leaf, or all
+  std::vector<Block, HugePageAllocator<Block>> blocks_; ///< one per leaf, or all
   Bounds bounds_;
 };
 

@@ -11,7 +11,7 @@ namespace render {
 /// Eight spheres or caps, in double.
 class SphereBlock {
  public:
-  static constexpr std::uint32_t few = 24;
+  static constexpr std::uint32_t max_brute_force = 24;
 
   struct Primitive {
     const Sphere* sphere;
@@ -34,8 +34,8 @@ class SphereBlock {
     return to + 1;
   }
 
-  struct Prepared : Line {
-    explicit Prepared(const Ray& ray) : Line(ray.o.cast<double>(), ray.d.cast<double>()) {}
+  struct RaySetup : Line {
+    explicit RaySetup(const Ray& ray) : Line(ray.o.cast<double>(), ray.d.cast<double>()) {}
   };
 
   void set(std::uint32_t lane, const Primitive& p) {
@@ -50,9 +50,9 @@ class SphereBlock {
     shape_[lane] = p.shape;
   }
 
-  template <bool any> bool intersect(const Ray&, const Prepared& line, Float& t_max, Hit& hit) const {
+  template <bool any> bool intersect(const Ray&, const RaySetup& line, Float& t_max, Hit& hit) const {
     const EightDoubles ox = line.o.x() - center_[0], oy = line.o.y() - center_[1], oz = line.o.z() - center_[2];
-    const auto pass = sphere_pass(ox, oy, oz, line, radius2_);
+    const auto pass = sphere_quadratic(ox, oy, oz, line, radius2_);
     const auto crossed = pass.crosses_ahead();
     if (detail::lane_bits(crossed) == 0) return false;
     const auto at = sphere_crossings(pass, line);

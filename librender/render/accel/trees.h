@@ -13,15 +13,15 @@ namespace render {
 static_assert(alignof(TriangleBlock) == 8 * sizeof(Float) && alignof(SphereBlock) == 8 * sizeof(double));
 
 /// A tree for each kind of leaf.
-template <class... Block> struct TreeOfEach : std::tuple<BlockTree<Block>...> {
-  TreeOfEach() = default;
-  explicit TreeOfEach(std::span<const Shape* const> shapes)
+template <class... Block> struct BlockTrees : std::tuple<BlockTree<Block>...> {
+  BlockTrees() = default;
+  explicit BlockTrees(std::span<const Shape* const> shapes)
       : std::tuple<BlockTree<Block>...>(BlockTree<Block>(shapes)...) {}
 };
 
 /// The kinds of leaf, in the order in which a ray tries them.
-struct Bvh::Trees : TreeOfEach<TriangleBlock, SphereBlock> {
-  using TreeOfEach::TreeOfEach;
+struct Bvh::Trees : BlockTrees<TriangleBlock, SphereBlock> {
+  using BlockTrees::BlockTrees;
 
   template <bool any> bool trace(const Ray& ray, Hit& hit) const {
     Float t_max = ray.t_max;

@@ -18,7 +18,7 @@ namespace render {
 ///   Degenerate triangles are left out.
 class TriangleBlock {
  public:
-  static constexpr std::uint32_t few = 48; ///< six blocks of triangles cost less than a node and its sorted children
+  static constexpr std::uint32_t max_brute_force = 48; ///< six blocks of triangles cost less than a node and its sorted children
 
   struct Primitive {
     const TriangleMesh* mesh;
@@ -35,11 +35,11 @@ class TriangleBlock {
   static Primitive* collect(const Shape& shape, int index, std::size_t begin, std::size_t end, Primitive* to);
 
   /// The ray turned so that its longest axis is z and sheared to (0, 0, 1) [WoopBenthinWald13, section 3].
-  struct Prepared {
+  struct RaySetup {
     int kx, ky, kz;
     Float sx, sy;
 
-    explicit Prepared(const Ray& ray) {
+    explicit RaySetup(const Ray& ray) {
       const Vec3& d = ray.d;
       const Float ax = std::abs(d.x()), ay = std::abs(d.y());
       kz = std::abs(d.z()) > std::max(ax, ay) ? 2 : int(ay > ax); // compiles to no branch
@@ -58,7 +58,7 @@ class TriangleBlock {
     prim_[lane] = p.prim;
   }
 
-  template <bool any> bool intersect(const Ray& ray, const Prepared& shear, Float& t_max, Hit& hit) const;
+  template <bool any> bool intersect(const Ray& ray, const RaySetup& shear, Float& t_max, Hit& hit) const;
 
  private:
   Vec3d vertex(std::size_t k, int lane) const {
@@ -81,7 +81,7 @@ class TriangleBlock {
 };
 
 // The signed areas opposite vertices 0, 1, 2 in the sheared frame are all of one sign: inside.
-template <bool any> bool TriangleBlock::intersect(const Ray& ray, const Prepared& shear, Float& t_max, Hit& hit) const {
+template <bool any> bool TriangleBlock::intersect(const Ray& ray, const RaySetup& shear, Float& t_max, Hit& hit) const {
   Lanes x[3], y[3];
   for (int k = 0; k < 3; ++k) {
     const Lanes z = v_[k][shear.kz] - ray.o[shear.kz];

@@ -18,7 +18,7 @@ struct WideTree::Part {
 };
 
 WideTree::WideTree(std::size_t count, const std::function<Bounds(std::size_t)>& box, std::uint32_t lanes) {
-  static_assert(stack_size >= 7 * BinaryTree::levels);
+  static_assert(stack_size >= 7 * BinaryTree::max_depth);
   if (count == 0) return;
   BinaryTree tree(count, box, lanes);
   bounds_ = tree.nodes()[0].box;
@@ -37,7 +37,7 @@ WideTree::WideTree(std::size_t count, const std::function<Bounds(std::size_t)>& 
 WideTree::Cuts WideTree::cheapest_cuts(const BinaryTree& tree) {
   const auto& binary = tree.nodes();
   Cuts cuts(binary.size());
-  std::vector<std::array<double, 9>, HugePages<std::array<double, 9>>> costs(binary.size()); // [children]
+  std::vector<std::array<double, 9>, HugePageAllocator<std::array<double, 9>>> costs(binary.size()); // [children]
   const auto cut = [&](std::uint32_t i) {
     auto& cost = costs[i];
     if (binary[i].count > 0) {

@@ -30,7 +30,7 @@ class WideTree {
   };
   const std::vector<Leaf>& leaves() const { return leaves_; }
   /// Gives back the memory of order() and leaves(), which rays do not read: what = {} would keep.
-  void forget_leaves() {
+  void discard_leaves() {
     order_ = decltype(order_)();
     leaves_ = decltype(leaves_)();
   }
@@ -60,7 +60,7 @@ class WideTree {
                                 Part& part);
   void join(Part& top, const std::vector<Part>& parts);
 
-  std::vector<Node, HugePages<Node>> nodes_;
+  std::vector<Node, HugePageAllocator<Node>> nodes_;
   std::vector<Leaf> leaves_;
   std::vector<std::uint32_t> order_;
   Bounds bounds_; ///< of all

@@ -3,7 +3,7 @@
 
 #include <render/bsdf/dielectric.h>
 #include <render/bsdf/lambert.h>
-#include <render/bsdf/metal.h>
+#include <render/bsdf/fuzzy_metal.h>
 #include <render/bsdf/rough_conductor.h>
 #include <render/bsdf/rough_dielectric.h>
 #include <render/bsdf/rough_plastic.h>
@@ -16,8 +16,8 @@
 namespace render {
 
 /// One of the BSDFs; itself models BsdfLike.
-struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic<LayeredBase>, RoughPlastic<LajollaBase>,
-                           RoughDielectric, RoughConductor<Microfacets>, RoughConductor<BlinnPhongFacets>,
+struct Bsdf : std::variant<Lambert, FuzzyMetal, Dielectric, RoughPlastic<LayeredBase>, RoughPlastic<LajollaBase>,
+                           RoughDielectric, RoughConductor<TrowbridgeReitzFacets>, RoughConductor<BlinnPhongFacets>,
                            SmoothPlastic<LayeredBase>, SmoothPlastic<LajollaBase>, SmoothConductor> {
   using variant::variant;
 
@@ -39,8 +39,8 @@ struct Bsdf : std::variant<Lambert, Metal, Dielectric, RoughPlastic<LayeredBase>
   bool is_delta() const {
     return dispatch(*this, [](const auto& b) { return b.is_delta(); });
   }
-  bool is_narrow() const {
-    return dispatch(*this, [](const auto& b) { return b.is_narrow(); });
+  bool is_near_specular() const {
+    return dispatch(*this, [](const auto& b) { return b.is_near_specular(); });
   }
   bool has_delta() const {
     return dispatch(*this, [](const auto& b) { return b.has_delta(); });
@@ -67,8 +67,8 @@ struct TexturedBsdf
   Bsdf at(const Vec2d& uv) const {
     return dispatch(*this, [&](const auto& t) { return Bsdf(t.at(uv)); });
   }
-  Bsdf bare() const {
-    return dispatch(*this, [](const auto& t) { return Bsdf(t.bare()); });
+  Bsdf untextured() const {
+    return dispatch(*this, [](const auto& t) { return Bsdf(t.untextured()); });
   }
 };
 

@@ -36,7 +36,7 @@ concept BsdfLike = requires(const T b, Vec3 wo, Vec3 wi, Float uc, Vec2 u) {
   { b.eta(wo, wi) } -> std::convertible_to<Float>;
   { b.albedo(wo) } -> std::convertible_to<Float>;
   { b.is_delta() } -> std::convertible_to<bool>;
-  { b.is_narrow() } -> std::convertible_to<bool>;
+  { b.is_near_specular() } -> std::convertible_to<bool>;
   { b.has_delta() } -> std::convertible_to<bool>;
   { b.transmits() } -> std::convertible_to<bool>;
   { b.casts_caustics() } -> std::convertible_to<bool>;

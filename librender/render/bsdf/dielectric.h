@@ -29,14 +29,14 @@ inline Fresnel fresnel_dielectric(Float cos_i, Float eta) {
 
 /// A relative index of refraction, its squares and quotients far from where floats end.
 ///   throws : Error, naming `what`, unless it lies in [0.001, 1000]
-inline Float checked_index(std::string_view what, Float eta) {
+inline Float checked_ior(std::string_view what, Float eta) {
   mc::require(eta >= Float(1e-3) && eta <= Float(1e3), "{}: relative index {} must lie in [0.001, 1000]", what, eta);
   return eta;
 }
 
 /// Of a boundary to a medium of relative index eta (inside over outside): the index on the side of wi over that on the
 /// side of wo.
-inline Float index_across(const Vec3& wo, const Vec3& wi, Float eta) {
+inline Float transmitted_eta(const Vec3& wo, const Vec3& wi, Float eta) {
   if (wo.z() * wi.z() >= 0) return 1;
   return wo.z() > 0 ? eta : 1 / eta;
 }
@@ -50,7 +50,7 @@ class Dielectric {
  public:
   explicit Dielectric(Float eta = Float(1.5), const Spectrum& reflectance = Spectrum::Ones(),
                       const Spectrum& transmittance = Spectrum::Ones())
-      : eta_(checked_index("dielectric", eta)),
+      : eta_(checked_ior("dielectric", eta)),
         reflectance_(checked_reflectance("dielectric: reflectance", reflectance)),
         transmittance_(checked_reflectance("dielectric: transmittance", transmittance)) {}
 
@@ -67,10 +67,10 @@ class Dielectric {
   }
   Spectrum eval(const Vec3&, const Vec3&) const { return Spectrum::Zero(); }
   Float pdf(const Vec3&, const Vec3&) const { return 0; }
-  Float eta(const Vec3& wo, const Vec3& wi) const { return index_across(wo, wi, eta_); }
+  Float eta(const Vec3& wo, const Vec3& wi) const { return transmitted_eta(wo, wi, eta_); }
   Float albedo(const Vec3&) const { return reflectance_.max(transmittance_).maxCoeff(); }
   bool is_delta() const { return true; }
-  bool is_narrow() const { return true; }
+  bool is_near_specular() const { return true; }
   bool has_delta() const { return true; }
   bool transmits() const { return false; }
   bool casts_caustics() const { return true; }

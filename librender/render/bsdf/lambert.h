@@ -32,7 +32,7 @@ class Lambert {
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3&) const { return albedo_.maxCoeff(); }
   bool is_delta() const { return false; }
-  bool is_narrow() const { return false; }
+  bool is_near_specular() const { return false; }
   bool has_delta() const { return false; }
   bool transmits() const { return false; }
   bool casts_caustics() const { return false; }

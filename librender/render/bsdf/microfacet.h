@@ -16,10 +16,10 @@ inline Float checked_alpha(Float alpha) {
 }
 
 /// Lobes of a smaller alpha are narrow: they fill less than about 1e-6 sr, the sun 7e-5 sr.
-inline constexpr Float narrow_alpha = Float(2e-4);
+inline constexpr Float near_specular_alpha = Float(2e-4);
 
 /// w as it is seen with wo above the surface, and back.
-inline Vec3 upward(const Vec3& w, const Vec3& wo) { return wo.z() < 0 ? Vec3(w.x(), w.y(), -w.z()) : w; }
+inline Vec3 to_upper_side(const Vec3& w, const Vec3& wo) { return wo.z() < 0 ? Vec3(w.x(), w.y(), -w.z()) : w; }
 
 /// The unit vector nearest to w, whose length is 1 but for rounding: of its height and its part along the surface the
 /// smaller stays and gives the larger.
@@ -50,25 +50,25 @@ struct Reflection {
 /// None where wo and wi lie on different sides.
 inline std::optional<Reflection> reflection(const Vec3& wo, const Vec3& wi) {
   if (!(wo.z() * wi.z() > 0)) return {};
-  return Reflection(upward(wo, wo), upward(wi, wo));
+  return Reflection(to_upper_side(wo, wo), to_upper_side(wi, wo));
 }
 
 /// Facets of the Trowbridge-Reitz (GGX) distribution of roughness alpha. Shadowing and masking are separable:
 /// G = G1(wo) G1(wi).
 ///   throws : Error unless alpha is a checked_alpha
 ///   Source : [WalterEtAl07]
-class Microfacets {
+class TrowbridgeReitzFacets {
  public:
-  explicit Microfacets(Float alpha) : surface_(checked_alpha(alpha), alpha) {}
+  explicit TrowbridgeReitzFacets(Float alpha) : surface_(checked_alpha(alpha), alpha) {}
 
   Float alpha() const { return surface_.alpha_x; }
   Float d(const Vec3& m) const { return surface_.d(m); }
   /// G1(w) / |cos w|: finite at the horizon too.
   Float g1_over_cos(const Vec3& w) const { return 2 / (std::abs(w.z()) + surface_.stretch(w).norm()); }
   /// D G / |cos wo cos wi| of facets with the normal m.
-  Float shape(const Vec3& wo, const Vec3& wi, const Vec3& m) const { return d(m) * g1_over_cos(wo) * g1_over_cos(wi); }
+  Float dg_over_cosines(const Vec3& wo, const Vec3& wi, const Vec3& m) const { return d(m) * g1_over_cos(wo) * g1_over_cos(wi); }
   /// Normals seen from wo, which lies above the surface.
-  mc::TrowbridgeReitzVisibleNormals<Float> seen_from(const Vec3& wo) const {
+  mc::TrowbridgeReitzVisibleNormals<Float> visible_normals(const Vec3& wo) const {
     return {wo.normalized(), surface_.alpha_x}; // rotations leave lengths a few ulps off, which the warp refuses
   }
 
@@ -88,12 +88,12 @@ class BlinnPhongFacets {
   Float alpha() const { return alpha_; }
   Float d(const Vec3& m) const { return normals_.pdf(m) / m.z(); }
   /// D G / |cos wo cos wi| of facets with the normal m, which bisects wo and wi, both above the surface.
-  Float shape(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
+  Float dg_over_cosines(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
     const Float groove = 2 * m.z() / wo.dot(m);
     return d(m) * std::min({1 / (wo.z() * wi.z()), groove / wi.z(), groove / wo.z()});
   }
   /// All normals, by D cos, of those who are looked at from wo.
-  struct SeenFrom {
+  struct ReflectedNormals {
     mc::BlinnPhong<Float> normals;
     Vec3 wo;
     Vec3 sample(const Vec2& u) const { return normals.sample(u); }
@@ -103,7 +103,7 @@ class BlinnPhongFacets {
       return cosine > 0 ? normals.pdf(m) / (4 * cosine) : Float(0);
     }
   };
-  SeenFrom seen_from(const Vec3& wo) const { return {normals_, wo}; }
+  ReflectedNormals visible_normals(const Vec3& wo) const { return {normals_, wo}; }
 
  private:
   Float alpha_;

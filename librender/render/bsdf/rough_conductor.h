@@ -24,7 +24,7 @@ inline Spectrum fresnel_conductor(Float cos_i, const Spectrum& eta, const Spectr
 
 /// The index of refraction of a metal that fresnel_conductor is defined for.
 ///   throws : Error, naming `what`, unless eta and k are in [0, 1e6] and never both 0
-inline const Spectrum& checked_metal(std::string_view what, const Spectrum& eta, const Spectrum& k) {
+inline const Spectrum& checked_conductor(std::string_view what, const Spectrum& eta, const Spectrum& k) {
   constexpr Float most = 1e6f; // its fourth power is a float
   checked_radiance(fmt::format("{}: eta", what), eta);
   checked_radiance(fmt::format("{}: k", what), k);
@@ -48,20 +48,20 @@ template <class Facets> class RoughConductor {
  public:
   RoughConductor(const Spectrum& eta, const Spectrum& k, const Facets& facets,
                  const Spectrum& reflectance = Spectrum::Ones())
-      : eta_(checked_metal("rough conductor", eta, k)), k_(k), facets_(facets),
+      : eta_(checked_conductor("rough conductor", eta, k)), k_(k), facets_(facets),
         reflectance_(checked_reflectance("rough conductor: specularReflectance", reflectance)) {}
 
-  std::optional<BsdfSample> sample(const Vec3& wo_given, Float, const Vec2& u) const {
-    const Vec3 wo = upward(wo_given, wo_given);
+  std::optional<BsdfSample> sample(const Vec3& unflipped_wo, Float, const Vec2& u) const {
+    const Vec3 wo = to_upper_side(unflipped_wo, unflipped_wo);
     if (!(wo.z() > 0)) return {};
-    const auto normals = facets_.seen_from(wo);
+    const auto normals = facets_.visible_normals(wo);
     const Vec3 m = normals.sample(u);
     const Vec3 wi = (2 * wo.dot(m) * m - wo).normalized();
     if (!(wi.z() > 0)) return {};
     const Reflection r(wo, wi); // the rounded wi has a normal of its own
     const Float density = normals.pdf_reflected(r.m);
     if (!(density > 0)) return {};
-    return BsdfSample{upward(wi, wo_given), value(r), density};
+    return BsdfSample{to_upper_side(wi, unflipped_wo), value(r), density};
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
     const auto r = reflection(wo, wi);
@@ -69,14 +69,14 @@ template <class Facets> class RoughConductor {
   }
   Float pdf(const Vec3& wo, const Vec3& wi) const {
     const auto r = reflection(wo, wi);
-    return r ? facets_.seen_from(r->wo).pdf_reflected(r->m) : Float(0);
+    return r ? facets_.visible_normals(r->wo).pdf_reflected(r->m) : Float(0);
   }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3& wo) const {
     return (reflectance_ * fresnel_conductor(std::min(std::abs(wo.z()), Float(1)), eta_, k_)).maxCoeff();
   }
   bool is_delta() const { return false; }
-  bool is_narrow() const { return facets_.alpha() < narrow_alpha; }
+  bool is_near_specular() const { return facets_.alpha() < near_specular_alpha; }
   bool has_delta() const { return false; }
   bool transmits() const { return false; }
   bool casts_caustics() const { return facets_.alpha() <= Float(0.2); } // beyond it costs more than it brings
@@ -84,7 +84,7 @@ template <class Facets> class RoughConductor {
  private:
   Spectrum value(const Reflection& r) const {
     const Float cosine = std::clamp(r.wo.dot(r.m), Float(0), Float(1));
-    return reflectance_ * fresnel_conductor(cosine, eta_, k_) * (facets_.shape(r.wo, r.wi, r.m) / 4);
+    return reflectance_ * fresnel_conductor(cosine, eta_, k_) * (facets_.dg_over_cosines(r.wo, r.wi, r.m) / 4);
   }
 
   Spectrum eta_, k_;

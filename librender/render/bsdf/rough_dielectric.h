@@ -20,7 +20,7 @@ class RoughDielectric {
  public:
   RoughDielectric(Float eta, Float alpha, const Spectrum& reflectance = Spectrum::Ones(),
                   const Spectrum& transmittance = Spectrum::Ones())
-      : eta_(checked_index("rough dielectric", eta)), facets_(alpha),
+      : eta_(checked_ior("rough dielectric", eta)), facets_(alpha),
         reflectance_(checked_reflectance("rough dielectric: specularReflectance", reflectance)),
         transmittance_(checked_reflectance("rough dielectric: specularTransmittance", transmittance)) {
     mc::require(std::abs(eta - 1) >= Float(1e-4),
@@ -30,7 +30,7 @@ class RoughDielectric {
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
     const View view(wo, eta_);
     if (!(view.wo.z() > 0)) return {};
-    const auto normals = facets_.seen_from(view.wo);
+    const auto normals = facets_.visible_normals(view.wo);
     const Vec3 m = normals.sample(u);
     const Float cosine = std::min(view.wo.dot(m), Float(1));
     if (!(cosine > 0)) return {};
@@ -40,25 +40,25 @@ class RoughDielectric {
     const Vec3 wi =
         reflects ? Vec3(2 * cosine * m - view.wo) : Vec3((cosine / view.ratio - cos_t) * m - view.wo / view.ratio);
     if (!(reflects ? wi.z() > 0 : wi.z() < 0)) return {};
-    const Vec3 given = view.turn(wi.normalized());
-    const auto at = facet_between(wo, given); // the rounded wi has a facet of its own
-    if (!at) return {};
-    const Float density = density_of(*at);
+    const Vec3 unflipped_wi = view.flip(wi.normalized());
+    const auto facet = facet_between(wo, unflipped_wi); // the rounded wi has a facet of its own
+    if (!facet) return {};
+    const Float density = density_of(*facet);
     if (!(density > 0) || !std::isfinite(density)) return {};
-    return BsdfSample{given, value_of(*at), density, false, reflects ? Float(1) : view.ratio};
+    return BsdfSample{unflipped_wi, value_of(*facet), density, false, reflects ? Float(1) : view.ratio};
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
-    const auto at = facet_between(wo, wi);
-    return at ? value_of(*at) : Spectrum(Spectrum::Zero());
+    const auto facet = facet_between(wo, wi);
+    return facet ? value_of(*facet) : Spectrum(Spectrum::Zero());
   }
   Float pdf(const Vec3& wo, const Vec3& wi) const {
-    const auto at = facet_between(wo, wi);
-    return at ? density_of(*at) : Float(0);
+    const auto facet = facet_between(wo, wi);
+    return facet ? density_of(*facet) : Float(0);
   }
-  Float eta(const Vec3& wo, const Vec3& wi) const { return index_across(wo, wi, eta_); }
+  Float eta(const Vec3& wo, const Vec3& wi) const { return transmitted_eta(wo, wi, eta_); }
   Float albedo(const Vec3&) const { return reflectance_.max(transmittance_).maxCoeff(); }
   bool is_delta() const { return false; }
-  bool is_narrow() const { return facets_.alpha() < narrow_alpha; }
+  bool is_near_specular() const { return facets_.alpha() < near_specular_alpha; }
   bool has_delta() const { return false; }
   bool transmits() const { return true; }
   bool casts_caustics() const { return true; }
@@ -69,8 +69,8 @@ class RoughDielectric {
     Vec3 wo;
     Float ratio;
     bool flipped;
-    View(const Vec3& w, Float eta) : wo(w), ratio(w.z() < 0 ? 1 / eta : eta), flipped(w.z() < 0) { wo = turn(w); }
-    Vec3 turn(const Vec3& w) const { return flipped ? Vec3(w.x(), w.y(), -w.z()) : w; }
+    View(const Vec3& w, Float eta) : wo(w), ratio(w.z() < 0 ? 1 / eta : eta), flipped(w.z() < 0) { wo = flip(w); }
+    Vec3 flip(const Vec3& w) const { return flipped ? Vec3(w.x(), w.y(), -w.z()) : w; }
   };
 
   /// The facet that sends light between two directions, and the cosines of both, > 0. Nothing is taken from Snell's
@@ -92,9 +92,9 @@ class RoughDielectric {
     }
     Float reflected() const { return fresnel_dielectric(cos_o, ratio).reflectance; }
   };
-  std::optional<Facet> facet_between(const Vec3& wo, const Vec3& wi_given) const {
+  std::optional<Facet> facet_between(const Vec3& wo, const Vec3& unflipped_wi) const {
     const View view(wo, eta_);
-    const Vec3 wi = view.turn(wi_given);
+    const Vec3 wi = view.flip(unflipped_wi);
     if (!(view.wo.z() > 0) || wi.z() == 0) return {};
     const bool reflects = wi.z() > 0;
     // In double: grazing facets have cosines that are small differences, and wo and wi exchanged give the same ones.
@@ -108,19 +108,19 @@ class RoughDielectric {
     return Facet{view.wo, wi, m.cast<Float>(), cos_o, cos_i, view.ratio, reflects};
   }
 
-  Spectrum value_of(const Facet& at) const {
-    const Float shape = facets_.shape(at.wo, at.wi, at.m);
-    if (at.reflects) return reflectance_ * (at.reflected() * shape / 4);
-    return transmittance_ * (at.transmitted() * shape * at.cos_o * at.jacobian() / mc::sqr(at.ratio));
+  Spectrum value_of(const Facet& facet) const {
+    const Float shape = facets_.dg_over_cosines(facet.wo, facet.wi, facet.m);
+    if (facet.reflects) return reflectance_ * (facet.reflected() * shape / 4);
+    return transmittance_ * (facet.transmitted() * shape * facet.cos_o * facet.jacobian() / mc::sqr(facet.ratio));
   }
-  Float density_of(const Facet& at) const {
-    const auto normals = facets_.seen_from(at.wo);
-    if (at.reflects) return at.reflected() * normals.pdf_reflected(at.m);
-    return at.transmitted() * normals.pdf(at.m) * at.jacobian();
+  Float density_of(const Facet& facet) const {
+    const auto normals = facets_.visible_normals(facet.wo);
+    if (facet.reflects) return facet.reflected() * normals.pdf_reflected(facet.m);
+    return facet.transmitted() * normals.pdf(facet.m) * facet.jacobian();
   }
 
   Float eta_;
-  Microfacets facets_;
+  TrowbridgeReitzFacets facets_;
   Spectrum reflectance_, transmittance_;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Glossy paint: a rough dielectric layer over a diffuse base.
 
-#include <render/bsdf/coat_shares.h>
+#include <render/bsdf/rough_fresnel.h>
 #include <render/bsdf/microfacet.h>
 
 #include <mc/table/discrete.h>
@@ -24,13 +24,13 @@ class LayeredBase {
   }
 
   Float value(const Reflection& r, Float) const {
-    return scale_ * coat_.of(r.wo.z()).transmitted * coat_.of(r.wi.z()).transmitted;
+    return scale_ * coat_.eval(r.wo.z()).transmitted * coat_.eval(r.wi.z()).transmitted;
   }
   /// Shares of the light from wo that a white coat and a white base reflect.
-  CoatShares::Shares shares(const Vec3& wo) const { return coat_.of(std::min(wo.z(), Float(1))); }
+  RoughFresnel::Albedos directional_albedo(const Vec3& wo) const { return coat_.eval(std::min(wo.z(), Float(1))); }
 
  private:
-  CoatShares coat_;
+  RoughFresnel coat_;
   Float scale_ = 0;
 };
 
@@ -43,7 +43,7 @@ class LajollaBase {
   LajollaBase(Float eta, Float) : eta_(eta) {}
 
   Float value(const Reflection&, Float f) const { return mc::sqr(1 - f) * std::numbers::inv_pi_v<Float>; }
-  CoatShares::Shares shares(const Vec3& wo) const {
+  RoughFresnel::Albedos directional_albedo(const Vec3& wo) const {
     const Float f = fresnel_dielectric(std::min(wo.z(), Float(1)), eta_).reflectance;
     return {f, 1 - f};
   }
@@ -53,17 +53,17 @@ class LajollaBase {
 };
 
 /// What is alike in paint with rough and with smooth coats: an index of refraction, a base and the colours of both.
-template <class Base> class Paint {
+template <class Base> class CoatedDiffuse {
  public:
   const Spectrum& diffuse() const { return diffuse_; }
   const Spectrum& specular() const { return specular_; }
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3& wo) const {
-    const auto [reflected, transmitted] = base_.shares({wo.x(), wo.y(), std::abs(wo.z())});
+    const auto [reflected, transmitted] = base_.directional_albedo({wo.x(), wo.y(), std::abs(wo.z())});
     return (specular_ * reflected + diffuse_ * transmitted).maxCoeff();
   }
   bool is_delta() const { return false; }
-  bool is_narrow() const { return false; }
+  bool is_near_specular() const { return false; }
   bool transmits() const { return false; }
   bool casts_caustics() const { return false; }
 
@@ -71,21 +71,21 @@ template <class Base> class Paint {
   static constexpr Float inv_pi = std::numbers::inv_pi_v<Float>;
 
   /// name : of the material, for errors
-  Paint(const std::string& name, Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
-      : eta_(checked_index(name, eta)), base_(eta, alpha) {
-    color(checked_reflectance(name + ": diffuseReflectance", diffuse),
+  CoatedDiffuse(const std::string& name, Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
+      : eta_(checked_ior(name, eta)), base_(eta, alpha) {
+    set_colors(checked_reflectance(name + ": diffuseReflectance", diffuse),
           checked_reflectance(name + ": specularReflectance", specular));
   }
 
-  void color(const Spectrum& diffuse, const Spectrum& specular) {
+  void set_colors(const Spectrum& diffuse, const Spectrum& specular) {
     diffuse_ = diffuse;
     specular_ = specular;
     diffuse_y_ = luminance(diffuse);
     specular_y_ = luminance(specular);
   }
   /// How often the coat is sampled: by what coat and base reflect.
-  Float specular_share(const Vec3& wo) const {
-    const auto [reflected, transmitted] = base_.shares(wo);
+  Float specular_probability(const Vec3& wo) const {
+    const auto [reflected, transmitted] = base_.directional_albedo(wo);
     const Float specular = specular_y_ * reflected, diffuse = diffuse_y_ * transmitted;
     return specular + diffuse > 0 ? specular / (specular + diffuse) : Float(0.5);
   }
@@ -108,16 +108,16 @@ template <class Base> class Paint {
 ///   sample : mirrored about a visible normal, or a cosine hemisphere, by what each reflects; the pdf is that of the
 ///            mixture [1/sr]
 ///   throws : Error unless eta is a checked_index, alpha in [1e-4, 1] and the colours in [0, 1]
-template <class Base = LayeredBase> class RoughPlastic : public Paint<Base> {
+template <class Base = LayeredBase> class RoughPlastic : public CoatedDiffuse<Base> {
  public:
   RoughPlastic(Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
-      : Paint<Base>("rough plastic", eta, alpha, diffuse, specular), facets_(alpha) {}
+      : CoatedDiffuse<Base>("rough plastic", eta, alpha, diffuse, specular), facets_(alpha) {}
 
-  std::optional<BsdfSample> sample(const Vec3& wo_given, Float uc, const Vec2& u) const {
-    const Vec3 wo = upward(wo_given, wo_given);
+  std::optional<BsdfSample> sample(const Vec3& unflipped_wo, Float uc, const Vec2& u) const {
+    const Vec3 wo = to_upper_side(unflipped_wo, unflipped_wo);
     if (!(wo.z() > 0)) return {};
-    const auto normals = facets_.seen_from(wo);
-    const Float share = specular_share(wo);
+    const auto normals = facets_.visible_normals(wo);
+    const Float share = specular_probability(wo);
     Vec3 wi;
     if (mc::Bernoulli<Float>(share).sample_index(uc).index == 1) {
       const Vec3 m = normals.sample(u);
@@ -129,7 +129,7 @@ template <class Base = LayeredBase> class RoughPlastic : public Paint<Base> {
     const Reflection r(wo, wi); // the rounded wi has a normal of its own
     const Float density = share * normals.pdf_reflected(r.m) + (1 - share) * wi.z() * inv_pi;
     if (!(density > 0)) return {};
-    return BsdfSample{upward(wi, wo_given), value(r), density};
+    return BsdfSample{to_upper_side(wi, unflipped_wo), value(r), density};
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
     const auto r = reflection(wo, wi);
@@ -138,27 +138,27 @@ template <class Base = LayeredBase> class RoughPlastic : public Paint<Base> {
   Float pdf(const Vec3& wo, const Vec3& wi) const {
     const auto r = reflection(wo, wi);
     if (!r) return 0;
-    const Float share = specular_share(r->wo);
-    return share * facets_.seen_from(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
+    const Float share = specular_probability(r->wo);
+    return share * facets_.visible_normals(r->wo).pdf_reflected(r->m) + (1 - share) * r->wi.z() * inv_pi;
   }
   /// The same paint of these colours, which lie in [0, 1].
-  RoughPlastic in_colors(const Spectrum& diffuse, const Spectrum& specular) const {
+  RoughPlastic with_colors(const Spectrum& diffuse, const Spectrum& specular) const {
     RoughPlastic paint = *this;
-    paint.color(diffuse, specular);
+    paint.set_colors(diffuse, specular);
     return paint;
   }
   bool has_delta() const { return false; }
 
  private:
-  using Paint<Base>::inv_pi, Paint<Base>::specular_share;
+  using CoatedDiffuse<Base>::inv_pi, CoatedDiffuse<Base>::specular_probability;
 
   Spectrum value(const Reflection& r) const {
     const Float f = this->fresnel(std::abs(r.wo.dot(r.m)));
-    const Float lobe = f * facets_.shape(r.wo, r.wi, r.m) / 4;
+    const Float lobe = f * facets_.dg_over_cosines(r.wo, r.wi, r.m) / 4;
     return this->specular() * lobe + this->base_value(r, f);
   }
 
-  Microfacets facets_;
+  TrowbridgeReitzFacets facets_;
 };
 
 } // namespace render

@@ -12,7 +12,7 @@ namespace render {
 class SmoothConductor {
  public:
   SmoothConductor(const Spectrum& eta, const Spectrum& k, const Spectrum& reflectance = Spectrum::Ones())
-      : eta_(checked_metal("conductor", eta, k)), k_(k),
+      : eta_(checked_conductor("conductor", eta, k)), k_(k),
         reflectance_(checked_reflectance("conductor: specularReflectance", reflectance)) {}
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float, const Vec2&) const {
@@ -25,7 +25,7 @@ class SmoothConductor {
   Float eta(const Vec3&, const Vec3&) const { return 1; }
   Float albedo(const Vec3& wo) const { return reflected(wo).maxCoeff(); }
   bool is_delta() const { return true; }
-  bool is_narrow() const { return true; }
+  bool is_near_specular() const { return true; }
   bool has_delta() const { return true; }
   bool transmits() const { return false; }
   bool casts_caustics() const { return true; }

@@ -10,24 +10,24 @@ namespace render {
 ///   f      : of the coat a delta lobe of weight Ks F, F that of wo; Kd Base about it, as of RoughPlastic
 ///   sample : the mirror direction, or a cosine hemisphere, by what each reflects
 ///   throws : Error unless eta is a checked_index and the colours lie in [0, 1]
-template <class Base = LayeredBase> class SmoothPlastic : public Paint<Base> {
+template <class Base = LayeredBase> class SmoothPlastic : public CoatedDiffuse<Base> {
  public:
   SmoothPlastic(Float eta, const Spectrum& diffuse, const Spectrum& specular)
-      : Paint<Base>("plastic", eta, 0, diffuse, specular) {}
+      : CoatedDiffuse<Base>("plastic", eta, 0, diffuse, specular) {}
 
-  std::optional<BsdfSample> sample(const Vec3& wo_given, Float uc, const Vec2& u) const {
-    const Vec3 wo = upward(wo_given, wo_given);
+  std::optional<BsdfSample> sample(const Vec3& unflipped_wo, Float uc, const Vec2& u) const {
+    const Vec3 wo = to_upper_side(unflipped_wo, unflipped_wo);
     if (!(wo.z() > 0)) return {};
-    const mc::Bernoulli<Float> mirrors(specular_share(wo));
+    const mc::Bernoulli<Float> mirrors(specular_probability(wo));
     const auto lobe = mirrors.sample_index(uc);
     if (lobe.index == 1) {
       const Spectrum f = this->specular() * (this->fresnel(wo.z()) / wo.z());
-      return BsdfSample{{-wo_given.x(), -wo_given.y(), wo_given.z()}, f, lobe.pmf, true};
+      return BsdfSample{{-unflipped_wo.x(), -unflipped_wo.y(), unflipped_wo.z()}, f, lobe.pmf, true};
     }
     const Vec3 wi = mc::CosineHemisphere<Float>{}.sample(u);
     const Float density = lobe.pmf * wi.z() * inv_pi;
     if (!(density > 0)) return {};
-    return BsdfSample{upward(wi, wo_given), value(Reflection(wo, wi)), density};
+    return BsdfSample{to_upper_side(wi, unflipped_wo), value(Reflection(wo, wi)), density};
   }
   Spectrum eval(const Vec3& wo, const Vec3& wi) const {
     const auto r = reflection(wo, wi);
@@ -35,18 +35,18 @@ template <class Base = LayeredBase> class SmoothPlastic : public Paint<Base> {
   }
   Float pdf(const Vec3& wo, const Vec3& wi) const {
     const auto r = reflection(wo, wi);
-    return r ? mc::Bernoulli<Float>(specular_share(r->wo)).pmf(0) * r->wi.z() * inv_pi : Float(0);
+    return r ? mc::Bernoulli<Float>(specular_probability(r->wo)).pmf(0) * r->wi.z() * inv_pi : Float(0);
   }
   /// The same paint of these colours, which lie in [0, 1].
-  SmoothPlastic in_colors(const Spectrum& diffuse, const Spectrum& specular) const {
+  SmoothPlastic with_colors(const Spectrum& diffuse, const Spectrum& specular) const {
     SmoothPlastic paint = *this;
-    paint.color(diffuse, specular);
+    paint.set_colors(diffuse, specular);
     return paint;
   }
   bool has_delta() const { return true; }
 
  private:
-  using Paint<Base>::inv_pi, Paint<Base>::specular_share;
+  using CoatedDiffuse<Base>::inv_pi, CoatedDiffuse<Base>::specular_probability;
 
   Spectrum value(const Reflection& r) const { return this->base_value(r, this->fresnel(std::abs(r.wo.dot(r.m)))); }
 };

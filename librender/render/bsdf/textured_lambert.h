@@ -13,7 +13,7 @@ class TexturedLambert {
   explicit TexturedLambert(Texture reflectance) : reflectance_(std::move(reflectance)) {
     reflectance_.require_reflectance("diffuse: reflectance");
   }
-  Lambert bare() const { return Lambert(); }
+  Lambert untextured() const { return Lambert(); }
   /// Interpolation may round above 1.
   Lambert at(const Vec2d& uv) const { return Lambert(reflectance_.eval(uv).min(Float(1))); }
 

@@ -7,26 +7,26 @@
 namespace render {
 
 /// A RoughPlastic or SmoothPlastic for every point of a surface.
-///   bare   : the paint with the colours that do not vary
+///   untextured   : the paint with the colours that do not vary
 ///   throws : Error unless all of the textures lies in [0, 1]
-template <class Paint> class TexturedPlastic {
+template <class Plastic> class TexturedPlastic {
  public:
-  TexturedPlastic(Paint bare, std::optional<Texture> diffuse, std::optional<Texture> specular)
-      : bare_(std::move(bare)), diffuse_(std::move(diffuse)), specular_(std::move(specular)) {
+  TexturedPlastic(Plastic untextured, std::optional<Texture> diffuse, std::optional<Texture> specular)
+      : untextured_(std::move(untextured)), diffuse_(std::move(diffuse)), specular_(std::move(specular)) {
     if (diffuse_) diffuse_->require_reflectance("plastic: diffuseReflectance");
     if (specular_) specular_->require_reflectance("plastic: specularReflectance");
   }
-  const Paint& bare() const { return bare_; }
+  const Plastic& untextured() const { return untextured_; }
   /// Interpolation may round above 1.
-  Paint at(const Vec2d& uv) const {
+  Plastic at(const Vec2d& uv) const {
     const auto color = [&](const std::optional<Texture>& texture, const Spectrum& constant) {
       return texture ? Spectrum(texture->eval(uv).min(Float(1))) : constant;
     };
-    return bare_.in_colors(color(diffuse_, bare_.diffuse()), color(specular_, bare_.specular()));
+    return untextured_.with_colors(color(diffuse_, untextured_.diffuse()), color(specular_, untextured_.specular()));
   }
 
  private:
-  Paint bare_;
+  Plastic untextured_;
   std::optional<Texture> diffuse_, specular_;
 };
 

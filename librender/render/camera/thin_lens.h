@@ -23,12 +23,12 @@ struct LensOptions {
 };
 
 /// How a point is seen from a point of the lens.
-struct SeenPoint {
+struct CameraWiSample {
   Vec2 s;         ///< of the film, see ThinLens::ray
-  Vec3 d;         ///< unit direction from the point to the lens
-  Float reach;    ///< from the point along d to the near plane
+  Vec3 wi;         ///< unit direction from the point to the lens
+  Float t_max;    ///< from the point along d to the near plane
   Float distance; ///< to the lens
-  Float density;  ///< [1/sr] of the direction from the lens, where s is uniform in [0,1]^2
+  Float direction_pdf;  ///< [1/sr] of the direction from the lens, where s is uniform in [0,1]^2
 };
 
 /// A thin lens focused on a plane; of radius 0 a pinhole.
@@ -71,7 +71,7 @@ class ThinLens {
 
   /// How p is seen from the point of the lens that u chooses; none where it lies outside of near and far. s may lie
   /// beside the film.
-  std::optional<SeenPoint> sample_lens(const Vec3& p, const Vec2& tan_half_xy, const Vec2& u) const {
+  std::optional<CameraWiSample> sample_wi(const Vec3& p, const Vec2& tan_half_xy, const Vec2& u) const {
     Vec3 offset = Vec3::Zero();
     if (radius_ > 0) {
       const Vec2 lens = radius_ * mc::UniformDisk<Float>{}.sample(u);
@@ -82,7 +82,7 @@ class ThinLens {
     if (!(z > near_ && z - near_ < depth_)) return {};
     const Vec3 toward = away / z + offset / focus_distance_;
     const Float distance = away.norm(), cosine = z / distance, area = 4 * tan_half_xy[0] * tan_half_xy[1];
-    return SeenPoint{{(toward.dot(right_) / tan_half_xy[0] + 1) / 2, (1 - toward.dot(up_) / tan_half_xy[1]) / 2},
+    return CameraWiSample{{(toward.dot(right_) / tan_half_xy[0] + 1) / 2, (1 - toward.dot(up_) / tan_half_xy[1]) / 2},
                      -away / distance,
                      (z - near_) / cosine,
                      distance,
@@ -90,7 +90,7 @@ class ThinLens {
   }
 
   /// The density of SeenPoint, of a ray's direction.
-  Float density(const Vec3& d, const Vec2& tan_half_xy) const {
+  Float direction_pdf(const Vec3& d, const Vec2& tan_half_xy) const {
     const Float cosine = d.dot(forward_);
     return 1 / (cosine * cosine * cosine * 4 * tan_half_xy[0] * tan_half_xy[1]);
   }

@@ -25,7 +25,7 @@ struct Bounds {
     return e.x() >= 0 ? e.x() * e.y() + e.y() * e.z() + e.z() * e.x() : Float(0);
   }
   /// A t from which on no p + t d lies in the box, the least where any does.
-  double last(const Vec3d& p, const Vec3d& d) const {
+  double exit_distance(const Vec3d& p, const Vec3d& d) const {
     double t = mc::infinity<double>;
     for (int i = 0; i < 3; ++i)
       if (d[i] != 0) t = std::min(t, (double(d[i] > 0 ? hi[i] : lo[i]) - p[i]) / d[i]);

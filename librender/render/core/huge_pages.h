@@ -13,11 +13,11 @@ namespace render {
 
 /// An allocator that asks for pages of 2 MB where an array fills many of them: rays at random find less of a tree of
 /// 100 MB in the processor's table of pages of 4 KB. Elsewhere, and for smaller ones, as usual.
-template <class T> struct HugePages {
+template <class T> struct HugePageAllocator {
   using value_type = T;
 
-  HugePages() = default;
-  template <class U> HugePages(const HugePages<U>&) {}
+  HugePageAllocator() = default;
+  template <class U> HugePageAllocator(const HugePageAllocator<U>&) {}
 
   T* allocate(std::size_t n) {
     void* p = ::operator new(n * sizeof(T), alignment(n));
@@ -33,7 +33,7 @@ template <class T> struct HugePages {
   }
   void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }
 
-  bool operator==(const HugePages&) const { return true; }
+  bool operator==(const HugePageAllocator&) const { return true; }
 
  private:
   static constexpr std::size_t page = std::size_t{1} << 21;

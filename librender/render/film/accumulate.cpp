@@ -4,7 +4,7 @@
 
 namespace render {
 
-Image accumulated(const Image& a, double a_samples, const Image& b, double b_samples) {
+Image accumulate(const Image& a, double a_samples, const Image& b, double b_samples) {
   mc::require(a.width == b.width && a.height == b.height, "a picture of {}x{} cannot go on as one of {}x{}", a.width,
               a.height, b.width, b.height);
   mc::require(a_samples > 0 && b_samples > 0, "pictures of {} and {} samples per pixel; both must be > 0", a_samples,

@@ -9,6 +9,6 @@ namespace render {
 /// m = w m_a + (1 - w) m_b with w = n_a / (n_a + n_b), of variance w^2 v_a + (1 - w)^2 v_b where both know theirs. The
 /// noise area is the larger one. The rest is that of b.
 ///   throws : Error unless both are of one size and the samples are > 0
-Image accumulated(const Image& a, double a_samples, const Image& b, double b_samples);
+Image accumulate(const Image& a, double a_samples, const Image& b, double b_samples);
 
 } // namespace render

@@ -21,7 +21,7 @@ struct MeanOfSets {
 
 // sum(i) : of the samples of set i;  count(i) : how many they are
 template <class Sum, class Count>
-MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const Eigen::Array3d& square_jump) {
+MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const Eigen::Array3d& squared_jump) {
   MeanOfSets all;
   double n = 0, k = 0;
   for (std::size_t i = 0; i < sets; ++i) {
@@ -35,7 +35,7 @@ MeanOfSets mean_of(std::size_t sets, const Sum& sum, const Count& count, const E
   for (std::size_t i = 0; i < sets; ++i)
     if (count(i) > 0) all.variance += count(i) * (sum(i) / count(i) - all.mean).square();
   const double left_over = (k + 1) / ((k + 2) * (k + 3));
-  const Eigen::Array3d least = k * left_over * square_jump / (n * n);
+  const Eigen::Array3d least = k * left_over * squared_jump / (n * n);
   all.variance = (all.variance / ((k - 1) * n)).max(least);
   return all;
 }
@@ -90,7 +90,7 @@ Eigen::Array3d SampleSums::variance_of_mean() const {
   return ((channel_squares - channel_sums.square() / n) / (n * (n - 1))).max(0);
 }
 
-double SampleSums::deciding(const LightSums& light, double weight) const {
+double SampleSums::effective_sample_count(const LightSums& light, double weight) const {
   if (count < 2) return mc::infinity<double>;
   const double mean = sum / double(count), w2 = mc::sqr(weight);
   const double all = squares + w2 * light.squares, deviations = all - mean * sum;
@@ -125,11 +125,11 @@ Film::Film(int width, int height, int sets, FilmOptions options)
     weights_.resize(sums_.size());
   }
   const int reach = options_.splat ? options_.splat->reach() : 0;
-  samples_.resize(place(width + reach - 1, height + reach - 1) + 1);
+  samples_.resize(sample_index(width + reach - 1, height + reach - 1) + 1);
   rays_.resize(pixels);
-  if (!options_.lit) return;
+  if (!options_.has_light_paths) return;
   light_.resize(sums_.size(), Eigen::Array3d::Zero());
-  light_seen_.resize(pixels);
+  light_sums_.resize(pixels);
   light_counts_.resize(static_cast<std::size_t>(sets));
 }
 
@@ -139,16 +139,16 @@ void Film::add(int x, int y, int set, const Eigen::Array3d& sum, std::uint32_t c
   counts_[i] += count;
 }
 
-void Film::splat(int x, int y, int set, const Eigen::Array4d& sum) {
+void Film::add_splat(int x, int y, int set, const Eigen::Array4d& sum) {
   const std::size_t i = index(x, y) * static_cast<std::size_t>(sets_) + static_cast<std::size_t>(set);
   sums_[i] += sum.head<3>();
   weights_[i] += sum[3];
 }
 
-void Film::add_light(int x, int y, int set, const Eigen::Array3d& value) {
+void Film::add_light_splat(int x, int y, int set, const Eigen::Array3d& value) {
   const std::size_t i = index(x, y);
   light_[i * static_cast<std::size_t>(sets_) + static_cast<std::size_t>(set)] += value;
-  light_seen_[i].add(value);
+  light_sums_[i].add(value);
 }
 
 void Film::merge(const Film& other) {
@@ -160,13 +160,13 @@ void Film::merge(const Film& other) {
   for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].merge(other.samples_[i]);
   for (std::size_t i = 0; i < rays_.size(); ++i) rays_[i] += other.rays_[i];
   for (std::size_t i = 0; i < light_.size(); ++i) light_[i] += other.light_[i];
-  for (std::size_t i = 0; i < light_seen_.size(); ++i) light_seen_[i].merge(other.light_seen_[i]);
+  for (std::size_t i = 0; i < light_sums_.size(); ++i) light_sums_[i].merge(other.light_sums_[i]);
   for (std::size_t i = 0; i < light_counts_.size(); ++i) light_counts_[i] += other.light_counts_[i];
   light_rays_ += other.light_rays_;
 }
 
-void Film::note(int x, int y, const SampleSums& samples, std::uint64_t rays) {
-  samples_[place(x, y)].merge(samples);
+void Film::record_samples(int x, int y, const SampleSums& samples, std::uint64_t rays) {
+  samples_[sample_index(x, y)].merge(samples);
   if (contains(x, y)) rays_[index(x, y)] += rays;
 }
 
@@ -187,13 +187,13 @@ Eigen::Array3d Film::set_sum(std::size_t first, std::size_t set) const {
   return weight > 0 ? sums_[set] - (weights_[set] - counts_[set]) * (others / weight) : sums_[set];
 }
 
-Eigen::Array3d Film::square_jump(int x, int y) const {
-  if (!options_.splat) return samples_[place(x, y)].jump().square();
+Eigen::Array3d Film::squared_jump(int x, int y) const {
+  if (!options_.splat) return samples_[sample_index(x, y)].jump().square();
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   const int reach = options_.splat->reach();
   for (int dy = -reach; dy <= reach; ++dy)
     for (int dx = -reach; dx <= reach; ++dx)
-      sum += options_.splat->square(dx, dy) * samples_[place(x + dx, y + dy)].jump().square();
+      sum += options_.splat->squared_weight(dx, dy) * samples_[sample_index(x + dx, y + dy)].jump().square();
   return sum;
 }
 
@@ -207,18 +207,18 @@ PixelEstimate Film::estimate(int x, int y) const {
   if (pixel.samples == 0) return pixel;
   const auto own = mean_of(
       sets, [&](std::size_t i) { return set_sum(first, first + i); }, [&](std::size_t i) { return counts_[first + i]; },
-      square_jump(x, y));
+      squared_jump(x, y));
   pixel.mean = own.mean;
-  const SampleSums& samples = samples_[place(x, y)];
-  const bool by_samples = options_.independent && !options_.splat && pixel.sets > 1;
+  const SampleSums& samples = samples_[sample_index(x, y)];
+  const bool by_samples = options_.independent_samples && !options_.splat && pixel.sets > 1;
   pixel.variance = by_samples ? samples.variance_of_mean() : own.variance;
   if (light_.empty()) return pixel;
   const auto light = mean_of(
       sets, [&](std::size_t i) { return light_[first + i]; }, [&](std::size_t i) { return light_counts_[i]; },
-      light_seen_[index(x, y)].channel_largest.square());
+      light_sums_[index(x, y)].channel_largest.square());
   pixel.mean += light.mean;
   pixel.variance += light.variance;
-  pixel.of_light = light.variance;
+  pixel.light_variance = light.variance;
   return pixel;
 }
 
@@ -254,32 +254,32 @@ RelativeErrors Film::relative_errors(const Image& image) const {
           if (!(pixel.variance > 0).any()) continue;
           const Eigen::Array3d unit = around(image, x, y).max(mean / 2).square();
           const double relative = (pixel.variance / unit).mean();
-          const Eigen::Array3d of_samples = samples_[place(x, y)].variance_of_mean() + pixel.of_light;
-          const double relative_of_samples = (of_samples / unit).mean(), dof = deciding(x, y);
+          const Eigen::Array3d of_samples = samples_[sample_index(x, y)].variance_of_mean() + pixel.light_variance;
+          const double relative_of_samples = (of_samples / unit).mean(), dof = effective_sample_count(x, y);
           for (PartVariance* part : {&picture, &block}) {
             part->all.add(relative, pixel.sets - 1, options_.noise_area);
             part->independent.add(relative_of_samples, dof);
           }
         }
       const RelativeError error = block.error(options_.noise_area);
-      errors.worst = {std::max(errors.worst.value, error.value), std::max(errors.worst.bound, error.bound)};
+      errors.worst_block = {std::max(errors.worst_block.value, error.value), std::max(errors.worst_block.bound, error.bound)};
     }
-  errors.picture = picture.error(options_.noise_area);
+  errors.image = picture.error(options_.noise_area);
   return errors;
 }
 
-double Film::deciding(int x, int y) const {
-  const SampleSums& samples = samples_[place(x, y)];
+double Film::effective_sample_count(int x, int y) const {
+  const SampleSums& samples = samples_[sample_index(x, y)];
   const double light = light_count();
-  if (!(light > 0 && contains(x, y))) return samples.deciding();
-  return samples.deciding(light_seen_[index(x, y)], double(samples.count) / light);
+  if (!(light > 0 && contains(x, y))) return samples.effective_sample_count();
+  return samples.effective_sample_count(light_sums_[index(x, y)], double(samples.count) / light);
 }
 
-double Film::undecided() const {
+double Film::outlier_dominated() const {
   const int reach = options_.splat ? options_.splat->reach() : 0;
   std::size_t n = 0;
   for (int y = -reach; y < height_ + reach; ++y)
-    for (int x = -reach; x < width_ + reach; ++x) n += deciding(x, y) < 2;
+    for (int x = -reach; x < width_ + reach; ++x) n += effective_sample_count(x, y) < 2;
   return double(n) / double(samples_.size());
 }
 

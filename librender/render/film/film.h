@@ -61,7 +61,7 @@ struct SampleSums {
   /// luminance from the mean; infinite where all are equal. Below 2 the pixel is undecided: there were too few samples
   /// of what makes it bright, and its error bar is not known yet.
   ///   light  : what paths from the lights gave, of which each counts `weight` times as much as a sample
-  double deciding(const LightSums& light = {}, double weight = 0) const;
+  double effective_sample_count(const LightSums& light = {}, double weight = 0) const;
 
   /// How far samples jump: the largest less the smallest, R, where there are but two values, as at an edge; where these
   /// are spread evenly, as on a slope, 0. In between R sqrt(3 b / 2 - 1 / 2), where b is the square deviation over what
@@ -73,7 +73,7 @@ struct SampleSums {
 struct PixelEstimate {
   Eigen::Array3d mean = Eigen::Array3d::Zero();
   Eigen::Array3d variance = Eigen::Array3d::Zero(); ///< of the mean; see Film::estimate
-  Eigen::Array3d of_light = Eigen::Array3d::Zero(); ///< of that what is due to paths from the lights
+  Eigen::Array3d light_variance = Eigen::Array3d::Zero(); ///< of that what is due to paths from the lights
   std::uint64_t samples = 0;
   int sets = 0; ///< that have samples; fewer than two: the variance is not known
 };
@@ -86,22 +86,22 @@ struct RelativeError {
 };
 
 /// Over what the errors of pixels are averaged.
-enum class ErrorOf {
-  picture, ///< all pixels
-  worst    ///< the 16x16 block where they are largest; blocks at the right and lower edge may be smaller
+enum class ErrorScope {
+  image, ///< all pixels
+  worst_block    ///< the 16x16 block where they are largest; blocks at the right and lower edge may be smaller
 };
 struct RelativeErrors {
-  RelativeError picture, worst;
+  RelativeError image, worst_block;
 
-  const RelativeError& of(ErrorOf which) const { return which == ErrorOf::picture ? picture : worst; }
+  const RelativeError& of(ErrorScope which) const { return which == ErrorScope::image ? image : worst_block; }
 };
 
 /// What the samples of a film are.
 struct FilmOptions {
   std::optional<SplatFilter> splat = {}; ///< where samples count for several pixels, as they come by `splat`
-  bool lit = false;                      ///< paths from the lights give something, too: 136 bytes more a pixel
+  bool has_light_paths = false;                      ///< paths from the lights give something, too: 136 bytes more a pixel
   double noise_area = 1;                 ///< see Image, of samples that share paths; with splats theirs
-  bool independent = false;              ///< the samples of a pixel are
+  bool independent_samples = false;              ///< the samples of a pixel are
 };
 
 /// Sums of the samples of every pixel, apart by the independent point sets that they come from: a pixel is the mean of
@@ -123,21 +123,21 @@ class Film {
 
   /// Adds what samples, of this pixel or another, give to one of its point sets: the sums of their weighted radiance
   /// and of their weights, which are 1 for every sample of the pixel on average.
-  void splat(int x, int y, int set, const Eigen::Array4d& sum);
+  void add_splat(int x, int y, int set, const Eigen::Array4d& sum);
 
   /// Adds what a path from the lights gives to one of a pixel's point sets. It belongs to no sample of the pixel: the
   /// set's mean of it is over what count_light says.
-  void add_light(int x, int y, int set, const Eigen::Array3d& value);
+  void add_light_splat(int x, int y, int set, const Eigen::Array3d& value);
   /// Tells that a set has got the light of as many paths as `samples` samples of every pixel have.
-  void count_light(int set, double samples) { light_counts_[static_cast<std::size_t>(set)] += samples; }
+  void add_light_path_count(int set, double samples) { light_counts_[static_cast<std::size_t>(set)] += samples; }
   /// Tells of the rays of paths from the lights.
-  void note_light(std::uint64_t rays) { light_rays_ += rays; }
+  void add_light_rays(std::uint64_t rays) { light_rays_ += rays; }
 
   /// Adds the samples of a film of the same kind.
   void merge(const Film& other);
 
   /// Tells of the samples of a pixel, and of the rays that they took. Splats come from pixels beside the film, too.
-  void note(int x, int y, const SampleSums& samples, std::uint64_t rays);
+  void record_samples(int x, int y, const SampleSums& samples, std::uint64_t rays);
 
   /// The mean of the pixel's samples. Sets count by their number of samples: with set means m_s of n_s samples, n in
   /// all, the variance of the mean m is sum_s n_s (m_s - m)^2 / ((sets - 1) n).
@@ -167,7 +167,7 @@ class Film {
   RelativeErrors relative_errors(const Image& image) const;
 
   /// Share of the pixels that are undecided, see SampleSums::deciding; a path from the lights counts as a sample.
-  double undecided() const;
+  double outlier_dominated() const;
 
  private:
   std::size_t index(int x, int y) const {
@@ -175,20 +175,20 @@ class Film {
   }
 
   // J^2 of estimate(): of splats the sum over the pixels about, each times the square of its weight.
-  Eigen::Array3d square_jump(int x, int y) const;
+  Eigen::Array3d squared_jump(int x, int y) const;
 
   // Of one of the sets of a pixel, which are those from `first` on.
   Eigen::Array3d set_sum(std::size_t first, std::size_t set) const;
 
   // Among the pixels whose samples count.
-  std::size_t place(int x, int y) const {
+  std::size_t sample_index(int x, int y) const {
     const int reach = options_.splat ? options_.splat->reach() : 0;
     return static_cast<std::size_t>(y + reach) * static_cast<std::size_t>(width_ + 2 * reach) +
            static_cast<std::size_t>(x + reach);
   }
 
   // Of a pixel whose samples count.
-  double deciding(int x, int y) const;
+  double effective_sample_count(int x, int y) const;
 
   // As many samples of every pixel as the paths from the lights go with.
   double light_count() const { return std::accumulate(light_counts_.begin(), light_counts_.end(), 0.0); }
@@ -201,7 +201,7 @@ class Film {
   std::vector<SampleSums> samples_;   ///< by place
   std::vector<std::uint64_t> rays_;
   std::vector<Eigen::Array3d> light_; ///< as sums_, of paths from the lights; empty where there are none
-  std::vector<LightSums> light_seen_; ///< of every pixel
+  std::vector<LightSums> light_sums_; ///< of every pixel
   std::vector<double> light_counts_;  ///< of every set
   std::uint64_t light_rays_ = 0;
 };

@@ -87,16 +87,16 @@ struct Filter : std::variant<BoxFilter, TentFilter, GaussianFilter, SubpixelTent
 /// q, uniform there, counts for the pixel p with the weight f(x_i - p), and p is the sum over the squares q of the
 /// means of f(x_i - p) L_i. As little noise as of noise_area times as many samples drawn from the filter of one pixel
 /// each; neighbours share it.
-///   throws : Error for a filter whose radius is above `furthest`
+///   throws : Error for a filter whose radius is above `max_radius`
 class SplatFilter {
  public:
-  static constexpr double furthest = 64; ///< [pixels]: a sample counts for 16,000
+  static constexpr double max_radius = 64; ///< [pixels]: a sample counts for 16,000
 
   explicit SplatFilter(const Filter& filter);
 
   /// Pixels to each side that a sample counts for.
-  int reach() const { return static_cast<int>(squares_.size() / 2); }
-  std::size_t side() const { return squares_.size(); } ///< 2 reach + 1
+  int reach() const { return static_cast<int>(squared_weights_.size() / 2); }
+  std::size_t side() const { return squared_weights_.size(); } ///< 2 reach + 1
 
   /// The profile at the offset from a pixel's centre along one axis, seen from that pixel and `reach` to each side: at
   /// offset + reach, ..., offset - reach [1/pixels].
@@ -104,7 +104,7 @@ class SplatFilter {
 
   /// The mean over the samples of a pixel's square of the squared weight with which they count for the pixel (dx, dy)
   /// away, at most `reach`.
-  double square(int dx, int dy) const { return along_axis(dx) * along_axis(dy); }
+  double squared_weight(int dx, int dy) const { return along_axis(dx) * along_axis(dy); }
 
   /// The sum of all squares is 1 / noise_area [pixels].
   double noise_area() const { return noise_area_; }
@@ -115,11 +115,11 @@ class SplatFilter {
  private:
   double along_axis(int pixels) const {
     const int place = pixels + reach();
-    return squares_[static_cast<std::size_t>(place)];
+    return squared_weights_[static_cast<std::size_t>(place)];
   }
 
   Filter filter_;
-  std::vector<double> squares_;
+  std::vector<double> squared_weights_;
   double noise_area_;
 };
 

@@ -11,18 +11,18 @@
 namespace render {
 
 /// What the pixels of a picture show.
-struct Shown {
-  enum What {
+struct Aov {
+  enum Kind {
     radiance,
     normals,          ///< of what is seen: the shading normal n as the colour (n + 1) / 2; beyond all surfaces radiance
-    ambient_occlusion ///< of what is seen: the share of a uniform sky's light that nothing within `reach` keeps from
+    ambient_occlusion ///< of what is seen: the share of a uniform sky's light that nothing within `max_distance` keeps from
                       ///< it; beyond all surfaces 1
   };
-  What what;
-  double reach; ///< [scene units]
+  Kind kind;
+  double max_distance; ///< [scene units]
 
-  constexpr Shown(What w = radiance, double r = mc::infinity<double>) : what(w), reach(r) {}
-  bool operator==(const Shown&) const = default;
+  constexpr Aov(Kind w = radiance, double r = mc::infinity<double>) : kind(w), max_distance(r) {}
+  bool operator==(const Aov&) const = default;
 };
 
 /// Row-major pixels, the top row first, linear sRGB radiance; optionally the variance of each pixel's mean, per

@@ -8,7 +8,7 @@ namespace render {
 /// How many samples each pixel gets, relative to their mean over the picture, and how many paths start at the lights.
 struct SamplingPlan {
   std::vector<float> rates = {}; ///< of mean 1, row by row from the top; empty: all 1
-  double light = 1;              ///< paths from the lights, relative to those that go with the mean
+  double light_path_scale = 1;              ///< paths from the lights, relative to those that go with the mean
 
   /// Of a pixel, where the mean over the picture is `mean`.
   std::uint32_t samples(std::size_t pixel, double mean) const {
@@ -40,7 +40,7 @@ struct Tiling {
 ///   least  : no rate is below, so that what the pilot missed is met later
 ///   threads: the plan does not depend on them
 ///   throws : Error unless 0 < least <= 1
-SamplingPlan adaptive_plan(const Film& pilot, double least, ErrorOf of = ErrorOf::picture, int threads = 0,
+SamplingPlan adaptive_plan(const Film& pilot, double least, ErrorScope scope = ErrorScope::image, int threads = 0,
                            const Tiling& tiling = {});
 
 } // namespace render

@@ -10,30 +10,30 @@
 namespace render {
 
 /// What a strategy aims directions at.
-enum class Target {
-  nothing,
+enum class GuidingTarget {
+  none,
   hemisphere, ///< every direction on the side of the path; on both where light goes through the surface
   lights,     ///< the shapes of the lights, and the guides
-  guides,     ///< the shapes that the scene marks as such
+  importance_targets,     ///< the shapes that the scene marks as such
   speculars,  ///< spheres of smooth glass or mirror, which may cast caustics of the lights
-  shades      ///< those of `speculars` that a lamp lies in, or reaches into
+  enclosing_speculars      ///< those of `speculars` that a lamp lies in, or reaches into
 };
 
 /// How the light of sampled lights is found.
-enum class Finding {
-  by_chance,     ///< where a path meets it
-  by_connection, ///< by a point of a light at every vertex; what a path meets by chance does not count
-  by_both        ///< weighted by the power heuristic [Veach97]
+enum class DirectLighting {
+  bsdf_only,     ///< where a path meets it
+  nee, ///< by a point of a light at every vertex; what a path meets by chance does not count
+  mis        ///< weighted by the power heuristic [Veach97]
 };
 
 /// A row of the table below; the integrator does what it says.
 struct Strategy {
   std::string_view name;
-  Target target;
-  Float share; ///< of the directions go to the target, the others follow the BSDF. 1: none but its delta lobes do
-  Finding finding;
-  Float light_paths = 0; ///< paths from the lights per path from the camera, in scenes where they pay, see LightPaths;
-                         ///< directions are aimed at `shades` alone there
+  GuidingTarget guiding_target;
+  Float guiding_fraction; ///< of the directions go to the target, the others follow the BSDF. 1: none but its delta lobes do
+  DirectLighting direct_lighting;
+  Float light_path_rate = 0; ///< paths from the lights per path from the camera, in scenes where they pay, see LightTracer;
+                         ///< directions are aimed at `enclosing_speculars` alone there
   std::string_view summary; ///< how it finds light, one sentence
   std::string_view use;     ///< when to use it, one sentence
 };
@@ -47,28 +47,28 @@ struct Strategy {
 ///           rounded to float, miss at its outline: of a square 2e-9 times its distance over half its side
 ///   mis+lt : path tracing plus light tracing: of the vertices s from the light and t from the camera, s = 0 and 1 with
 ///           any t, and t = 1 with any s. Other pairs of bidirectional path tracing are left out. Light paths start in
-///           scenes where they pay, see LightPaths; elsewhere it is mis, bit for bit
+///           scenes where they pay, see LightTracer; elsewhere it is mis, bit for bit
 inline constexpr auto strategies = std::to_array<Strategy>({
-    {"bsdf", Target::nothing, 0, Finding::by_chance, 0, "Follows the BSDF; light counts where a path hits it.",
+    {"bsdf", GuidingTarget::none, 0, DirectLighting::bsdf_only, 0, "Follows the BSDF; light counts where a path hits it.",
      "For large lights or a sky, and as a reference. Finds no point or directional light."},
-    {"hemisphere", Target::hemisphere, 1, Finding::by_chance, 0,
+    {"hemisphere", GuidingTarget::hemisphere, 1, DirectLighting::bsdf_only, 0,
      "Takes uniform directions; light counts where a path hits it.",
      "To show the noise of directions that ignore the BSDF. Finds no point or directional light."},
-    {"light", Target::lights, 1, Finding::by_chance, 0, "Takes directions toward lights and importance targets only.",
+    {"light", GuidingTarget::lights, 1, DirectLighting::bsdf_only, 0, "Takes directions toward lights and importance targets only.",
      "To show one light alone. Misses the light of other surfaces and of the sky."},
-    {"mixture", Target::lights, Float(0.5), Finding::by_chance, 0,
+    {"mixture", GuidingTarget::lights, Float(0.5), DirectLighting::bsdf_only, 0,
      "Takes half of the directions toward the lights and half by the BSDF, weighted by the density of the mixture.",
      "To compare with Shirley's books. Finds no point or directional light."},
-    {"guides", Target::guides, Float(0.5), Finding::by_chance, 0,
+    {"guides", GuidingTarget::importance_targets, Float(0.5), DirectLighting::bsdf_only, 0,
      "As mixture, toward the shapes that the scene marks as importance targets.",
      "For a known source of indirect light, such as a glass ball. Finds no point or directional light."},
-    {"nee", Target::nothing, 0, Finding::by_connection, 0,
+    {"nee", GuidingTarget::none, 0, DirectLighting::nee, 0,
      "Connects every vertex of a path with a point of a light (next-event estimation).",
      "For diffuse surfaces and small lights. Noisy where a glossy surface reflects a light."},
-    {"mis", Target::speculars, Float(0.25), Finding::by_both, 0,
+    {"mis", GuidingTarget::speculars, Float(0.25), DirectLighting::mis, 0,
      "Combines nee and bsdf by multiple importance sampling.",
      "For scenes without caustics, and to compare with other path tracers."},
-    {"mis+lt", Target::speculars, Float(0.25), Finding::by_both, Float(0.125),
+    {"mis+lt", GuidingTarget::speculars, Float(0.25), DirectLighting::mis, Float(0.125),
      "Combines mis with paths traced from the lights to the camera (light tracing).",
      "For any scene: the default. Finds caustics of glass, mirrors and glossy metal; elsewhere it is mis, bit for "
      "bit."},

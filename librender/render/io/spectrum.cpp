@@ -48,12 +48,12 @@ double value_at(const std::vector<SpectralSample>& s, double wavelength) {
 }
 
 // With what is beyond the samples among them; 0 beyond that.
-std::vector<SpectralSample> extended(std::vector<SpectralSample> s, Beyond beyond) {
+std::vector<SpectralSample> extended(std::vector<SpectralSample> s, Extrapolation extrapolation) {
   const SpectralSample first = s.front(), last = s.back();
-  if (beyond == Beyond::held || s.size() == 1) {
+  if (extrapolation == Extrapolation::constant || s.size() == 1) {
     s.insert(s.begin(), {std::min(0.0, first.wavelength - 1), first.value});
     s.push_back({std::max(1e6, last.wavelength + 1), last.value});
-  } else if (beyond == Beyond::ramp) {
+  } else if (extrapolation == Extrapolation::ramp) {
     const double step = (last.wavelength - first.wavelength) / double(s.size() - 1);
     s.insert(s.begin(), {first.wavelength - step, 0});
     s.push_back({last.wavelength + step, 0});
@@ -69,14 +69,14 @@ Eigen::Array3d xyz_to_rgb(const Vec3d& xyz) {
   return (to_rgb * xyz).array();
 }
 
-Spectrum spectrum_to_rgb(const std::vector<SpectralSample>& samples, Illuminant illuminant, Beyond beyond) {
+Spectrum spectrum_to_rgb(const std::vector<SpectralSample>& samples, Illuminant illuminant, Extrapolation extrapolation) {
   mc::require(!samples.empty(), "spectrum: no samples; give wavelength:value pairs");
   for (std::size_t i = 0; i < samples.size(); ++i)
     mc::require(std::isfinite(samples[i].value) && std::isfinite(samples[i].wavelength) &&
                     (i == 0 || samples[i].wavelength > samples[i - 1].wavelength),
                 "spectrum: sample {} ({}:{}) must be finite and of a longer wavelength than the one before", i,
                 samples[i].wavelength, samples[i].value);
-  const std::vector<SpectralSample> whole = extended(samples, beyond);
+  const std::vector<SpectralSample> whole = extended(samples, extrapolation);
   Vec3d xyz = Vec3d::Zero(), white = Vec3d::Zero();
   for (int w = 400; w <= 700; ++w) {
     const Vec3d seen = matching_functions(w) * (illuminant == Illuminant::d65 ? daylight(w) : 1);

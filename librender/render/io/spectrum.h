@@ -19,8 +19,8 @@ struct SpectralSample {
 enum class Illuminant { equal_energy, d65 };
 
 /// What a spectrum is beyond its samples; of one sample, always constant.
-enum class Beyond {
-  held, ///< constant, as in lajolla
+enum class Extrapolation {
+  constant, ///< constant, as in lajolla
   ramp, ///< linear to 0 within their mean distance, as in Mitsuba 0.6
   zero  ///< 0, as in Mitsuba 3
 };
@@ -32,6 +32,6 @@ enum class Beyond {
 ///   throws : Error unless the wavelengths increase and all numbers are finite
 ///   Source : [WymanSloanShirley13], multi-lobe fit; D65 of ISO/CIE 11664-2
 Spectrum spectrum_to_rgb(const std::vector<SpectralSample>& samples, Illuminant illuminant = Illuminant::equal_energy,
-                         Beyond beyond = Beyond::held);
+                         Extrapolation extrapolation = Extrapolation::constant);
 
 } // namespace render

@@ -15,7 +15,7 @@ struct RenderDefaults {
   int width = 256, height = 256;
   int spp = 64;
   int max_depth = -1; ///< longest path in edges; -1: no limit
-  Shown shown = Shown::radiance;
+  Aov aov = Aov::radiance;
 };
 
 struct SceneFile {

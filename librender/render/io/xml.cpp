@@ -27,7 +27,7 @@ void XmlElement::fail(const std::string& message) const {
   throw mc::Error(fmt::format("{}: <{}>: {}", where(), tag, message));
 }
 
-void XmlElement::require_all_seen() const {
+void XmlElement::require_all_used() const {
   if (!seen_) {
     const auto value = [&](const char* key) {
       const auto it = attributes_.find(key);
@@ -38,7 +38,7 @@ void XmlElement::require_all_seen() const {
   }
   for (const auto& [key, attribute] : attributes_)
     if (!attribute.seen) fail(fmt::format("attribute {}=\"{}\" is not supported; remove it", key, attribute.value));
-  for (const XmlElement& child : children) child.require_all_seen();
+  for (const XmlElement& child : children) child.require_all_used();
 }
 
 namespace {

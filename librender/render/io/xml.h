@@ -20,14 +20,14 @@ class XmlElement {
   const std::string& attribute(std::string_view key) const;
   std::string attribute_or(std::string_view key, std::string_view fallback) const;
   bool has(std::string_view key) const { return attributes_.contains(std::string(key)); }
-  void mark() const { seen_ = true; }
+  void mark_used() const { seen_ = true; }
 
   /// "scene.xml:14"
   std::string where() const;
   /// Throws Error "scene.xml:14: <bsdf>: message".
   [[noreturn]] void fail(const std::string& message) const;
   /// Throws Error for the first element or attribute below that was never looked at.
-  void require_all_seen() const;
+  void require_all_used() const;
 
   /// Gives every attribute the value f(old value).
   template <class F> void replace_values(const F& f) {

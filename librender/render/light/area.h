@@ -27,21 +27,21 @@ class AreaLight {
                 shape_->area());
   }
 
-  Spectrum emitted(const Vec3& wi, const SurfacePoint* met) const {
-    return met && (two_sided_ || met->ng.dot(wi) < 0) ? radiance_ : Spectrum(Spectrum::Zero());
+  Spectrum Le(const Vec3& wi, const SurfacePoint* light_point) const {
+    return light_point && (two_sided_ || light_point->ng.dot(wi) < 0) ? radiance_ : Spectrum(Spectrum::Zero());
   }
   std::optional<LightSample> sample(const Vec3& ref, const Vec2& u) const {
     const auto s = shape_->sample(ref, u);
     if (!s) return {};
-    return LightSample{s->wi, emitted(s->wi, &s->point), s->pdf, s->point};
+    return LightSample{s->wi, Le(s->wi, &s->point), s->pdf, s->point};
   }
-  Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint* met) const {
-    return met ? shape_->pdf(ref, wi, *met) : Float(0);
+  Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint* light_point) const {
+    return light_point ? shape_->pdf(ref, wi, *light_point) : Float(0);
   }
   double power(double) const {
     return mc::pi<double> * shape_->area() * double(luminance(radiance_)) * (two_sided_ ? 2 : 1);
   }
-  double irradiance(const Vec3& ref) const { return double(luminance(radiance_)) * shape_->spread(ref); }
+  double irradiance(const Vec3& ref) const { return double(luminance(radiance_)) * shape_->projected_solid_angle_bound(ref); }
   bool is_delta() const { return false; }
   bool is_infinite() const { return false; }
   bool is_sampled() const { return true; }

@@ -16,13 +16,13 @@ class ConstantBackground {
   explicit ConstantBackground(const Spectrum& radiance)
       : radiance_(checked_radiance("constant background: radiance", radiance)) {}
 
-  Spectrum emitted(const Vec3&, const SurfacePoint* met) const { return met ? Spectrum(Spectrum::Zero()) : radiance_; }
+  Spectrum Le(const Vec3&, const SurfacePoint* light_point) const { return light_point ? Spectrum(Spectrum::Zero()) : radiance_; }
   std::optional<LightSample> sample(const Vec3&, const Vec2& u) const {
     const Vec3 wi = mc::UniformSphere<Float>{}.sample(u);
     return LightSample{wi, radiance_, mc::UniformSphere<Float>{}.pdf(wi), {}};
   }
-  Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* met) const {
-    return met ? Float(0) : mc::UniformSphere<Float>{}.pdf(wi);
+  Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* light_point) const {
+    return light_point ? Float(0) : mc::UniformSphere<Float>{}.pdf(wi);
   }
   double power(double radius) const { return 4 * mc::sqr(mc::pi<double> * radius) * double(luminance(radiance_)); }
   double irradiance(const Vec3&) const { return mc::pi<double> * double(luminance(radiance_)); }
@@ -46,8 +46,8 @@ class GradientBackground {
     if (!is_black(bottom) || !is_black(top)) height_ = mc::Linear<Float>(luminance(bottom), luminance(top));
   }
 
-  Spectrum emitted(const Vec3& wi, const SurfacePoint* met) const {
-    if (met) return Spectrum::Zero();
+  Spectrum Le(const Vec3& wi, const SurfacePoint* light_point) const {
+    if (light_point) return Spectrum::Zero();
     const Float t = height(wi);
     return (1 - t) * bottom_ + t * top_;
   }
@@ -57,10 +57,10 @@ class GradientBackground {
     const Vec3 wi(w.y(), w.z(), w.x());
     const Float density = pdf(ref, wi, nullptr);
     if (!(density > 0)) return {};
-    return LightSample{wi, emitted(wi, nullptr), density, {}};
+    return LightSample{wi, Le(wi, nullptr), density, {}};
   }
-  Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* met) const {
-    return met ? Float(0) : height_.pdf(height(wi)) * mc::UniformSphere<Float>{}.pdf(wi);
+  Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* light_point) const {
+    return light_point ? Float(0) : height_.pdf(height(wi)) * mc::UniformSphere<Float>{}.pdf(wi);
   }
   double power(double radius) const {
     return 2 * mc::sqr(mc::pi<double> * radius) * (double(luminance(bottom_)) + double(luminance(top_)));

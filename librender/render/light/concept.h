@@ -12,7 +12,7 @@ struct LightSample {
   Vec3 wi;           ///< unit direction from the reference point
   Spectrum radiance; ///< arrives along it where nothing stands between; of a delta light: its irradiance across wi
   Float pdf = 0;     ///< density of wi [1/sr]; of a delta light 1
-  std::optional<SurfacePoint> end; ///< the light's point; none: it is infinitely far away
+  std::optional<SurfacePoint> point; ///< the light's point; none: it is infinitely far away
 };
 
 /// Lights are a closed set (light.h). What a ray meets is a point of a surface, or nothing (null): lights at infinity
@@ -27,10 +27,10 @@ struct LightSample {
 ///   is_infinite()      : it shines where a ray leaves the scene
 ///   is_sampled()       : sampling it beats meeting it by chance, so integrators connect to it
 template <class T>
-concept LightLike = requires(const T l, Vec3 ref, Vec3 wi, Vec2 u, const SurfacePoint* met, double radius) {
-  { l.emitted(wi, met) } -> std::convertible_to<Spectrum>;
+concept LightLike = requires(const T l, Vec3 ref, Vec3 wi, Vec2 u, const SurfacePoint* light_point, double radius) {
+  { l.Le(wi, light_point) } -> std::convertible_to<Spectrum>;
   { l.sample(ref, u) } -> std::same_as<std::optional<LightSample>>;
-  { l.pdf(ref, wi, met) } -> std::convertible_to<Float>;
+  { l.pdf(ref, wi, light_point) } -> std::convertible_to<Float>;
   { l.power(radius) } -> std::convertible_to<double>;
   { l.irradiance(ref) } -> std::convertible_to<double>;
   { l.is_delta() } -> std::convertible_to<bool>;

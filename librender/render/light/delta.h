@@ -21,7 +21,7 @@ class PointLight {
   const Vec3d& position() const { return position_; }
   const Spectrum& intensity() const { return intensity_; }
 
-  Spectrum emitted(const Vec3&, const SurfacePoint*) const { return Spectrum::Zero(); }
+  Spectrum Le(const Vec3&, const SurfacePoint*) const { return Spectrum::Zero(); }
   std::optional<LightSample> sample(const Vec3& ref, const Vec2&) const {
     // In double: neither the square of 1e-30 nor that of 1e30 is a float.
     const Vec3d way = position_ - ref.cast<double>();
@@ -62,7 +62,7 @@ class DirectionalLight {
     wi_ = -(direction / largest).normalized().cast<Float>();
   }
 
-  Spectrum emitted(const Vec3&, const SurfacePoint*) const { return Spectrum::Zero(); }
+  Spectrum Le(const Vec3&, const SurfacePoint*) const { return Spectrum::Zero(); }
   std::optional<LightSample> sample(const Vec3&, const Vec2&) const { return LightSample{wi_, irradiance_, 1, {}}; }
   Float pdf(const Vec3&, const Vec3&, const SurfacePoint*) const { return 0; }
   double power(double radius) const { return mc::pi<double> * mc::sqr(radius) * double(luminance(irradiance_)); }

@@ -13,7 +13,7 @@ namespace render {
 
 /// Radiance from a latitude-longitude picture. Of the local direction d the picture shows v = acos(d_y) / pi, +y being
 /// the top row, and u = atan2(d_x, -d_z) / 2 pi: -z lies at the left edge, +x a quarter to the right.
-///   emitted : bilinear between texel centres, u repeats, v ends at the poles
+///   Le : bilinear between texel centres, u repeats, v ends at the poles
 ///   sample  : a texel by the mean of its luminance times its solid angle, uniform in (u, v) within
 ///   pdf     : of the texel over 2 pi^2 sin(theta) [1/sr]
 ///   throws  : Error unless all texels are finite and >= 0 and one is not black, scale is finite and > 0, and to_world
@@ -22,11 +22,11 @@ class Environment {
  public:
   Environment(std::shared_ptr<const Texels> texels, const Transform& to_world = {}, double scale = 1);
 
-  Spectrum emitted(const Vec3& wi, const SurfacePoint* met) const {
-    return met ? Spectrum(Spectrum::Zero()) : radiance(place(wi));
+  Spectrum Le(const Vec3& wi, const SurfacePoint* light_point) const {
+    return light_point ? Spectrum(Spectrum::Zero()) : radiance(place(wi));
   }
   std::optional<LightSample> sample(const Vec3&, const Vec2& u) const;
-  Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* met) const { return met ? Float(0) : density(place(wi)); }
+  Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* light_point) const { return light_point ? Float(0) : density(place(wi)); }
   double power(double radius) const { return mc::pi<double> * mc::sqr(radius) * flux_; }
   double irradiance(const Vec3&) const { return flux_; }
   bool is_delta() const { return false; }

@@ -14,14 +14,14 @@ struct Light
     : std::variant<AreaLight, ConstantBackground, GradientBackground, Environment, PointLight, DirectionalLight> {
   using variant::variant;
 
-  Spectrum emitted(const Vec3& wi, const SurfacePoint* met) const {
-    return dispatch(*this, [&](const auto& l) { return l.emitted(wi, met); });
+  Spectrum Le(const Vec3& wi, const SurfacePoint* light_point) const {
+    return dispatch(*this, [&](const auto& l) { return l.Le(wi, light_point); });
   }
   std::optional<LightSample> sample(const Vec3& ref, const Vec2& u) const {
     return dispatch(*this, [&](const auto& l) { return l.sample(ref, u); });
   }
-  Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint* met) const {
-    return dispatch(*this, [&](const auto& l) { return l.pdf(ref, wi, met); });
+  Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint* light_point) const {
+    return dispatch(*this, [&](const auto& l) { return l.pdf(ref, wi, light_point); });
   }
   double power(double radius) const {
     return dispatch(*this, [&](const auto& l) { return l.power(radius); });

@@ -12,25 +12,25 @@ BsdfId SceneBuilder::add(Material material) {
   return BsdfId(static_cast<std::uint32_t>(materials_.size() - 1));
 }
 
-void SceneBuilder::add(Shape shape, const Cover& cover) {
-  const auto bsdf = static_cast<std::size_t>(cover.bsdf);
+void SceneBuilder::add(Shape shape, const SurfaceProperties& properties) {
+  const auto bsdf = static_cast<std::size_t>(properties.bsdf);
   mc::require(bsdf < materials_.size(), "scene: shape {} names BSDF {} of {}", surfaces_.size(), bsdf,
               materials_.size());
   const bool textured = materials_[bsdf].needs_uv();
   mc::require(!textured || shape.has_uv(), "scene: shape {} has no texture coordinates, which its texture needs{}{}",
-              surfaces_.size(), cover.without_uvs.empty() ? "" : ": ", cover.without_uvs);
-  mc::require(!cover.emission || !materials_[bsdf].mask,
+              surfaces_.size(), properties.missing_uv_reason.empty() ? "" : ": ", properties.missing_uv_reason);
+  mc::require(!properties.emission || !materials_[bsdf].mask,
               "scene: shape {} shines through a mask, which is not supported; remove one of them", surfaces_.size());
   mc::require(
-      !cover.interior || !materials_[bsdf].mask,
+      !properties.interior || !materials_[bsdf].mask,
       "scene: shape {} holds what absorbs, and a mask has holes that light would leave it by; remove one of them",
       surfaces_.size());
-  if (!textured) shape.forget_uvs();
-  if (!cover.emission && !cover.guide) shape.forget_choice();
-  Surface surface{std::make_shared<const Shape>(std::move(shape)), cover.bsdf, {}, cover.guide, cover.interior};
-  if (cover.emission) {
+  if (!textured) shape.discard_uvs();
+  if (!properties.emission && !properties.importance_target) shape.discard_sampling_table();
+  Surface surface{std::make_shared<const Shape>(std::move(shape)), properties.bsdf, {}, properties.importance_target, properties.interior};
+  if (properties.emission) {
     surface.light = static_cast<std::uint32_t>(lights_.size());
-    lights_.emplace_back(AreaLight(surface.shape, *cover.emission));
+    lights_.emplace_back(AreaLight(surface.shape, *properties.emission));
   }
   surfaces_.push_back(std::move(surface));
 }

@@ -12,16 +12,16 @@ class SceneBuilder {
   BsdfId add(TexturedBsdf bsdf) { return add(Material(std::move(bsdf))); }
   BsdfId add(Material material);
 
-  struct Cover {
+  struct SurfaceProperties {
     BsdfId bsdf;
     std::optional<Emission> emission = {};
-    bool guide = false; ///< see Surface
+    bool importance_target = false; ///< see Surface
     std::optional<HomogeneousMedium> interior = {};
-    std::string without_uvs = {}; ///< why the shape has no texture coordinates, for messages
+    std::string missing_uv_reason = {}; ///< why the shape has no texture coordinates, for messages
   };
   /// throws : Error for a BSDF that was not added, a texture on a shape that has no texture coordinates, a mask on one
   ///          that shines, or what AreaLight refuses
-  void add(Shape shape, const Cover& cover);
+  void add(Shape shape, const SurfaceProperties& properties);
 
   /// A light that is no surface.
   void add(Light light);

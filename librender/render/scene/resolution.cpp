@@ -7,8 +7,8 @@ namespace render {
 
 namespace {
 
-Coarseness coarseness(const Eigen::AlignedBox3d& box) {
-  Coarseness c;
+FloatResolution resolution_of(const Eigen::AlignedBox3d& box) {
+  FloatResolution c;
   c.size = box.diagonal().norm();
   c.distance = std::max(box.min().lpNorm<Eigen::Infinity>(), box.max().lpNorm<Eigen::Infinity>());
   const Float there = Float(c.distance);
@@ -19,10 +19,10 @@ Coarseness coarseness(const Eigen::AlignedBox3d& box) {
 
 } // namespace
 
-Coarseness coarsest(const Scene& scene) {
-  Coarseness worst;
+FloatResolution coarsest_resolution(const Scene& scene) {
+  FloatResolution worst;
   for (const Surface& s : scene.surfaces()) {
-    const Coarseness own = coarseness(s.shape->box());
+    const FloatResolution own = resolution_of(s.shape->box());
     if (own.ratio > worst.ratio) worst = own;
   }
   return worst;
@@ -32,11 +32,11 @@ std::optional<double> length_out_of_range(const Scene& scene) {
   Eigen::AlignedBox3d all;
   for (const Surface& s : scene.surfaces()) {
     const Eigen::AlignedBox3d box = s.shape->box();
-    if (const double size = box.diagonal().norm(); s.light && size < least_length) return size;
+    if (const double size = box.diagonal().norm(); s.light && size < min_length) return size;
     all.extend(box);
   }
   const double size = all.isEmpty() ? 0 : all.diagonal().norm();
-  if (size <= most_length) return {};
+  if (size <= max_length) return {};
   return size;
 }
 

@@ -19,7 +19,7 @@ Scene::Scene(std::vector<Surface> surfaces, std::vector<Material> materials, std
   const double radius = surfaces_.empty() ? 1.0 : (bounds.hi - bounds.lo).cast<double>().norm() / 2;
   for (std::uint32_t i = 0; i < lights_.size(); ++i)
     if (lights_[i].is_infinite()) infinite_lights_.push_back(i);
-  light_choice_ = LightChoice::of(lights_, radius);
+  light_sampler_ = LightSampler::create(lights_, radius);
 }
 
 } // namespace render

@@ -5,7 +5,7 @@
 #include <render/bsdf/bsdf.h>
 #include <render/camera/thin_lens.h>
 #include <render/film/filter.h>
-#include <render/light/choice.h>
+#include <render/light/light_sampler.h>
 #include <render/scene/medium.h>
 #include <render/texture/mask.h>
 
@@ -26,7 +26,7 @@ struct Material {
   std::shared_ptr<const Mask> mask;            ///< null: all of it is there
 
   Material(Bsdf b) : bsdf(std::move(b)) {}
-  Material(TexturedBsdf t) : bsdf(t.bare()), texture(std::make_shared<const TexturedBsdf>(std::move(t))) {}
+  Material(TexturedBsdf t) : bsdf(t.untextured()), texture(std::make_shared<const TexturedBsdf>(std::move(t))) {}
   bool needs_uv() const { return texture || (mask && mask->varies()); }
 };
 
@@ -35,7 +35,7 @@ struct Surface {
   std::shared_ptr<const Shape> shape;
   BsdfId bsdf;
   std::optional<std::uint32_t> light;             ///< the light that it is; none: it does not shine
-  bool guide = false;                             ///< the scene asks strategies that aim at lights to aim at it too
+  bool importance_target = false;                             ///< the scene asks strategies that aim at lights to aim at it too
   std::optional<HomogeneousMedium> interior = {}; ///< on the side that its normals do not point to; none on the other
 };
 
@@ -56,12 +56,12 @@ class Scene {
   const Surface& surface(const Hit& hit) const { return surfaces_[static_cast<std::size_t>(hit.shape)]; }
   /// What covers a surface; of a texture only its kind, the rest varies.
   const Bsdf& bsdf(const Surface& surface) const { return material(surface).bsdf; }
-  /// What covers it where it was hit, at `point`; made in `room` where a texture varies it.
-  const Bsdf& bsdf(const Surface& surface, const Hit& hit, const SurfacePoint& point, std::optional<Bsdf>& room) const {
+  /// What covers it where it was hit, at `point`; made in `bsdf_storage` where a texture varies it.
+  const Bsdf& bsdf(const Surface& surface, const Hit& hit, const SurfacePoint& point, std::optional<Bsdf>& bsdf_storage) const {
     const Material& m = material(surface);
     if (!m.texture) [[likely]]
       return m.bsdf;
-    return room.emplace(m.texture->at(surface.shape->uv(hit, point)));
+    return bsdf_storage.emplace(m.texture->at(surface.shape->uv(hit, point)));
   }
   /// Whether rays pass through parts of surfaces; visibility.h follows them.
   bool has_masks() const { return has_masks_; }
@@ -76,12 +76,12 @@ class Scene {
   std::span<const Light> lights() const { return lights_; }
   /// Indices of the lights that shine where a ray leaves the scene.
   std::span<const std::uint32_t> infinite_lights() const { return infinite_lights_; }
-  /// Whether there are lights to connect to. Then sample_light picks one for the point ref, as LightChoice says.
-  bool has_light_choice() const { return light_choice_.has_value(); }
+  /// Whether there are lights to connect to. Then sample_light picks one for the point ref, as LightSampler says.
+  bool has_light_sampler() const { return light_sampler_.has_value(); }
   mc::DiscreteSample<Float> sample_light(const Vec3& ref, Float u) const {
-    return light_choice_->sample_index(lights_, ref, u);
+    return light_sampler_->sample_index(lights_, ref, u);
   }
-  Float light_pmf(const Vec3& ref, std::size_t light) const { return light_choice_->pmf(lights_, ref, light); }
+  Float light_pmf(const Vec3& ref, std::size_t light) const { return light_sampler_->pmf(lights_, ref, light); }
 
   const ThinLens& camera() const { return camera_; }
   const Filter& filter() const { return filter_; }
@@ -96,7 +96,7 @@ class Scene {
   std::vector<Material> materials_;
   std::vector<Light> lights_;
   std::vector<std::uint32_t> infinite_lights_;
-  std::optional<LightChoice> light_choice_;
+  std::optional<LightSampler> light_sampler_;
   bool has_masks_;
   Bvh bvh_;
   ThinLens camera_;

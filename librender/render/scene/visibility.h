@@ -6,7 +6,7 @@
 namespace render {
 
 /// What is left of a ray beyond a point that it met.
-inline Ray beyond(const Ray& ray, const Hit& hit, const SurfacePoint& point) {
+inline Ray continue_past(const Ray& ray, const Hit& hit, const SurfacePoint& point) {
   Ray rest = point.spawn_ray(ray.d);
   rest.t_max = ray.t_max - Float(hit.t);
   return rest;
@@ -16,7 +16,7 @@ inline Ray beyond(const Ray& ray, const Hit& hit, const SurfacePoint& point) {
 namespace detail {
 
 template <class SceneType, class Passes>
-[[gnu::noinline]] std::optional<Hit> meet_with_masks(const SceneType& scene, Ray& ray, std::uint64_t& rays,
+[[gnu::noinline]] std::optional<Hit> nearest_hit_with_masks(const SceneType& scene, Ray& ray, std::uint64_t& rays,
                                                      const Passes& passes) {
   for (;;) {
     ++rays;
@@ -25,12 +25,12 @@ template <class SceneType, class Passes>
     const SurfacePoint point = scene.surface_point(ray, *hit);
     const Float opacity = scene.opacity(*hit, point);
     if (opacity == 1 || !passes(opacity)) return hit;
-    ray = beyond(ray, *hit, point);
+    ray = continue_past(ray, *hit, point);
   }
 }
 
 template <class SceneType>
-[[gnu::noinline]] Float open_share_with_masks(const SceneType& scene, Ray ray, const std::optional<SurfacePoint>& end,
+[[gnu::noinline]] Float shadow_transmittance_with_masks(const SceneType& scene, Ray ray, const std::optional<SurfacePoint>& end,
                                               std::uint64_t& rays) {
   Float share = 1;
   while (share > 0) {
@@ -39,7 +39,7 @@ template <class SceneType>
     if (!hit) return share;
     const SurfacePoint point = scene.surface_point(ray, *hit);
     share *= 1 - scene.opacity(*hit, point);
-    const std::optional<Ray> rest = end ? point.spawn_ray_to(*end, ray.d) : beyond(ray, *hit, point);
+    const std::optional<Ray> rest = end ? point.spawn_ray_to(*end, ray.d) : continue_past(ray, *hit, point);
     if (!rest) return 0;
     ray = *rest;
   }
@@ -54,9 +54,9 @@ template <class SceneType>
 /// A mask decides what is seen, not how light scatters: what passes one is the same edge of a path, and weighs the same
 /// beside what is sampled otherwise, as if nothing had been there.
 template <class SceneType, class Passes>
-std::optional<Hit> meet(const SceneType& scene, Ray& ray, std::uint64_t& rays, const Passes& passes) {
+std::optional<Hit> nearest_hit(const SceneType& scene, Ray& ray, std::uint64_t& rays, const Passes& passes) {
   if (scene.has_masks()) [[unlikely]]
-    return detail::meet_with_masks(scene, ray, rays, passes);
+    return detail::nearest_hit_with_masks(scene, ray, rays, passes);
   ++rays;
   return scene.intersect(ray);
 }
@@ -64,9 +64,9 @@ std::optional<Hit> meet(const SceneType& scene, Ray& ray, std::uint64_t& rays, c
 /// The share of light that arrives along a ray, which ends at `end` if that is given: the product of what masks let
 /// through; 0 where anything else is in the way.
 template <class SceneType>
-Float open_share(const SceneType& scene, const Ray& ray, const std::optional<SurfacePoint>& end, std::uint64_t& rays) {
+Float shadow_transmittance(const SceneType& scene, const Ray& ray, const std::optional<SurfacePoint>& end, std::uint64_t& rays) {
   if (scene.has_masks()) [[unlikely]]
-    return detail::open_share_with_masks(scene, ray, end, rays);
+    return detail::shadow_transmittance_with_masks(scene, ray, end, rays);
   ++rays;
   return scene.occluded(ray) ? Float(0) : Float(1);
 }

@@ -81,12 +81,12 @@ concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint 
   { s.pdf(ref, wi) } -> std::convertible_to<Float>;
   { s.area() } -> std::convertible_to<double>;
   { s.box() } -> std::same_as<Eigen::AlignedBox3d>;
-  { s.spread(ref) } -> std::convertible_to<double>;
+  { s.projected_solid_angle_bound(ref) } -> std::convertible_to<double>;
   { s.surface_point(ray, h) } -> std::same_as<SurfacePoint>;
 };
 
 /// The direction towards the point that the shape samples: its sample_direction, where it knows none better.
-template <class S> std::optional<DirectionSample> toward_sample(const S& shape, const Vec3& ref, const Vec2& u) {
+template <class S> std::optional<DirectionSample> sample_direction_by_point(const S& shape, const Vec3& ref, const Vec2& u) {
   const auto s = shape.sample(ref, u);
   if (!s) return {};
   return DirectionSample{s->wi, std::max(s->pdf, shape.pdf(ref, s->wi))}; // rounding may carry it past the shape

@@ -32,8 +32,8 @@ struct Shape : std::variant<TriangleMesh, Sphere> {
   Eigen::AlignedBox3d box() const {
     return dispatch(*this, [](const auto& s) { return s.box(); });
   }
-  double spread(const Vec3& ref) const {
-    return dispatch(*this, [&](const auto& s) { return s.spread(ref); });
+  double projected_solid_angle_bound(const Vec3& ref) const {
+    return dispatch(*this, [&](const auto& s) { return s.projected_solid_angle_bound(ref); });
   }
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const {
     return dispatch(*this, [&](const auto& s) { return s.surface_point(ray, hit); });
@@ -44,11 +44,11 @@ struct Shape : std::variant<TriangleMesh, Sphere> {
   mc::Vec2<double> uv(const Hit& hit, const SurfacePoint& point) const {
     return dispatch(*this, [&](const auto& s) { return s.uv(hit, point); });
   }
-  void forget_uvs() {
-    std::visit([](auto& s) { s.forget_uvs(); }, static_cast<variant&>(*this));
+  void discard_uvs() {
+    std::visit([](auto& s) { s.discard_uvs(); }, static_cast<variant&>(*this));
   }
-  void forget_choice() {
-    std::visit([](auto& s) { s.forget_choice(); }, static_cast<variant&>(*this));
+  void discard_sampling_table() {
+    std::visit([](auto& s) { s.discard_sampling_table(); }, static_cast<variant&>(*this));
   }
 };
 

@@ -15,7 +15,7 @@ Sphere::Sphere(const Vec3d& center, double radius, bool inside_out)
   mc::require(center.cast<Float>().allFinite(), "sphere: centre ({}, {}, {}) is not finite, or beyond what {} holds",
               center.x(), center.y(), center.z(), sizeof(Float) == sizeof(float) ? "a float" : "a double");
   mc::require(std::isfinite(radius) && radius > 0, "sphere: radius {} must be finite and > 0", radius);
-  mc::require(radius <= most_radius, "sphere: radius {} must be at most {}", radius, most_radius);
+  mc::require(radius <= max_radius, "sphere: radius {} must be at most {}", radius, max_radius);
 }
 
 Sphere Sphere::cap(const Vec3d& center, double radius, const Vec3d& axis, double height, bool inside_out) {
@@ -28,12 +28,12 @@ Sphere Sphere::cap(const Vec3d& center, double radius, const Vec3d& axis, double
   return s;
 }
 
-Sphere Sphere::with_uv_axes(const Eigen::Matrix3d& axes, double least_u) const {
+Sphere Sphere::with_uv_axes(const Eigen::Matrix3d& axes, double min_u) const {
   mc::require((axes.transpose() * axes - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= 1e-6,
               "sphere: the axes of its texture must be orthonormal");
   Sphere s = *this;
   s.uv_axes_ = axes;
-  s.least_u_ = least_u;
+  s.min_u_ = min_u;
   return s;
 }
 
@@ -41,19 +41,19 @@ mc::Vec2<double> Sphere::uv(const Hit&, const SurfacePoint& point) const {
   const Vec3d d = uv_axes_.transpose() * (point.p.cast<double>() - center_);
   const double turn = std::atan2(d.y(), d.x()) / (2 * mc::pi<double>);
   // The angle from the pole by its tangent: acos would lose half the digits there.
-  return {turn - std::floor(turn - least_u_), std::atan2(std::hypot(d.x(), d.y()), d.z()) / mc::pi<double>};
+  return {turn - std::floor(turn - min_u_), std::atan2(std::hypot(d.x(), d.y()), d.z()) / mc::pi<double>};
 }
 
-bool Sphere::holds(const Vec3d& offset) const { return !is_cap() || offset.dot(axis_) >= radius_ - height_; }
+bool Sphere::contains(const Vec3d& offset) const { return !is_cap() || offset.dot(axis_) >= radius_ - height_; }
 
 std::optional<double> Sphere::intersect(const Ray& ray) const {
   const Line line(ray.o.cast<double>(), ray.d.cast<double>());
   const Vec3d o = line.o - center_;
-  const auto pass = sphere_pass(o.x(), o.y(), o.z(), line, radius_ * radius_);
+  const auto pass = sphere_quadratic(o.x(), o.y(), o.z(), line, radius_ * radius_);
   if (!pass.crosses()) return {};
   const auto at = sphere_crossings(pass, line);
   for (const double t : {at.t0, at.t1})
-    if (t > 0 && t < double(ray.t_max) && holds(o + t * line.d)) return t;
+    if (t > 0 && t < double(ray.t_max) && contains(o + t * line.d)) return t;
   return {};
 }
 
@@ -73,13 +73,13 @@ SurfacePoint Sphere::surface_point(const Ray& ray, const Hit& hit) const {
   return point((ray.o.cast<double>() + hit.t * ray.d.cast<double>() - center_).normalized());
 }
 
-double Sphere::spread(const Vec3& ref) const {
+double Sphere::projected_solid_angle_bound(const Vec3& ref) const {
   return mc::pi<double> * std::min(1.0, mc::sqr(radius_) / (center_ - ref.cast<double>()).squaredNorm());
 }
 
 double Sphere::area() const { return 2 * mc::pi<double> * radius_ * height_; }
 
-bool Sphere::is_cone(double d2) const {
+bool Sphere::samples_cone(double d2) const {
   // Points of the sphere itself round to either side of it. Taken for outside, their cone would hold nothing but
   // themselves.
   // A cone narrower than this has a density that a float cannot tell.
@@ -95,7 +95,7 @@ std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const 
   const mc::Vec2<double> v = u.cast<double>();
   ShapeSample s;
   const double d2 = toward.squaredNorm();
-  if (is_cone(d2)) {
+  if (samples_cone(d2)) {
     // A direction of the cone, and the near point of the sphere along it. mc::SphereLight would take 6 to 58 % longer,
     // up to four times as long for the density alone, for its care at grazing distances: where is_cone() begins, this
     // density is at most 2e-13 off (5e-9 if Float is double).
@@ -125,16 +125,16 @@ std::optional<SurfacePoint> Sphere::sample_area(const Vec2& u) const {
 std::optional<DirectionSample> Sphere::sample_direction(const Vec3& ref, const Vec2& u) const {
   const Vec3d toward = center_ - ref.cast<double>();
   const double d2 = toward.squaredNorm();
-  if (is_cone(d2)) {
+  if (samples_cone(d2)) {
     const auto frame = mc::Frame<double>::from_z(toward / std::sqrt(d2));
     const auto cone = mc::UniformCone<double>::from_sin2(radius_ * radius_ / d2);
     return DirectionSample{frame.to_world(cone.sample(u.cast<double>())).cast<Float>(), cone_pdf(d2)};
   }
-  return toward_sample(*this, ref, u);
+  return sample_direction_by_point(*this, ref, u);
 }
 
 Float Sphere::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const {
-  if (const double d2 = (center_ - ref.cast<double>()).squaredNorm(); is_cone(d2)) return cone_pdf(d2);
+  if (const double d2 = (center_ - ref.cast<double>()).squaredNorm(); samples_cone(d2)) return cone_pdf(d2);
   const Float cosine = std::abs(hit.ng.dot(wi));
   return cosine > 0 ? (hit.p - ref).squaredNorm() / (cosine * Float(area())) : Float(0);
 }
@@ -142,14 +142,14 @@ Float Sphere::pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) cons
 Float Sphere::pdf(const Vec3& ref, const Vec3& wi) const {
   const Line line(ref.cast<double>(), wi.cast<double>());
   const Vec3d o = line.o - center_;
-  const auto pass = sphere_pass(o.x(), o.y(), o.z(), line, radius_ * radius_);
+  const auto pass = sphere_quadratic(o.x(), o.y(), o.z(), line, radius_ * radius_);
   if (!pass.crosses()) return 0;
-  if (const double d2 = o.squaredNorm(); is_cone(d2)) return pass.b > 0 ? cone_pdf(d2) : Float(0);
+  if (const double d2 = o.squaredNorm(); samples_cone(d2)) return pass.b > 0 ? cone_pdf(d2) : Float(0);
   const auto at = sphere_crossings(pass, line);
   Float sum = 0;
   for (const double t : {at.t0, at.t1}) {
     const Vec3d offset = o + t * line.d;
-    if (t > 0 && holds(offset)) sum += pdf(ref, wi, point(offset.normalized()));
+    if (t > 0 && contains(offset)) sum += pdf(ref, wi, point(offset.normalized()));
   }
   return sum;
 }

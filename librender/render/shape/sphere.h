@@ -16,15 +16,15 @@ namespace render {
 ///   throws : Error unless centre is finite, 0 < radius <= most_radius, axis is not 0 and 0 < height <= 2 radius
 class Sphere {
  public:
-  static constexpr double most_radius = double(std::numeric_limits<Float>::max()) / 4; ///< distances are Floats
+  static constexpr double max_radius = double(std::numeric_limits<Float>::max()) / 4; ///< distances are Floats
 
   Sphere(const Vec3d& center, double radius, bool inside_out = false);
   static Sphere cap(const Vec3d& center, double radius, const Vec3d& axis, double height, bool inside_out = false);
 
   /// The same sphere with its texture turned: the columns are where u = 0 and u = 1/4 cross the equator, and the pole
-  /// v = 0; u goes from `least_u` to least_u + 1. At first they are x, y and z, and 0.
+  /// v = 0; u goes from `min_u` to least_u + 1. At first they are x, y and z, and 0.
   ///   throws : Error unless they are orthonormal, to 1e-6
-  Sphere with_uv_axes(const Eigen::Matrix3d& axes, double least_u = 0) const;
+  Sphere with_uv_axes(const Eigen::Matrix3d& axes, double min_u = 0) const;
 
   /// The nearest crossing with 0 < t < t_max.
   std::optional<double> intersect(const Ray& ray) const;
@@ -37,13 +37,13 @@ class Sphere {
   double area() const;
   /// Of the whole sphere, of a cap too.
   Eigen::AlignedBox3d box() const { return {center_.array() - radius_, center_.array() + radius_}; }
-  double spread(const Vec3& ref) const;
+  double projected_solid_angle_bound(const Vec3& ref) const;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
 
   bool has_uv() const { return true; }
   mc::Vec2<double> uv(const Hit&, const SurfacePoint& point) const;
-  void forget_uvs() {}
-  void forget_choice() {}
+  void discard_uvs() {}
+  void discard_sampling_table() {}
 
   const Vec3d& center() const { return center_; }
   double radius() const { return radius_; }
@@ -53,15 +53,15 @@ class Sphere {
 
  private:
   SurfacePoint point(const Vec3d& direction) const; ///< of the surface in the unit `direction` from the centre
-  bool holds(const Vec3d& offset) const; ///< whether the sphere's point at this offset from the centre is the shape's
-  bool is_cone(double d2) const;         ///< seen from squared distance d2: a whole sphere from outside
+  bool contains(const Vec3d& offset) const; ///< whether the sphere's point at this offset from the centre is the shape's
+  bool samples_cone(double d2) const;         ///< seen from squared distance d2: a whole sphere from outside
   Float cone_pdf(double d2) const;
 
   Vec3d center_;
   double radius_;
   Vec3d axis_ = Vec3d::UnitZ();
   Eigen::Matrix3d uv_axes_ = Eigen::Matrix3d::Identity();
-  double least_u_ = 0;
+  double min_u_ = 0;
   double height_;
   bool inside_out_;
   double extent_;   ///< its largest coordinate is at most this

@@ -80,7 +80,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
     largest_radius2_ = std::max(largest_radius2_, radius2_of(v, center_of(v)));
     for (const Vec3& p : v) bounds_.add(p);
   }
-  if (area_ > 0) choice_.emplace(areas);
+  if (area_ > 0) triangle_distribution_.emplace(areas);
   constexpr Float straight = Float(2e-6); // to which files with six digits are rounded
   const auto is_flat = [&](const Face& f) {
     for (const std::uint32_t v : f.vertices)
@@ -160,8 +160,8 @@ Float TriangleMesh::area_pdf(Float cosine, Float distance2) const {
 }
 
 std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) const {
-  if (!choice_) return {};
-  const auto [triangle, pmf, u0] = choice_->sample_index(double(u[0]));
+  if (!triangle_distribution_) return {};
+  const auto [triangle, pmf, u0] = triangle_distribution_->sample_index(double(u[0]));
   const mc::Vec2<double> inner(u0, double(u[1]));
   if (const auto directions = near_triangle(ref, triangle)) [[unlikely]]
     return sample_near(ref, triangle, *directions, inner);
@@ -178,14 +178,14 @@ std::optional<ShapeSample> TriangleMesh::sample(const Vec3& ref, const Vec2& u) 
 }
 
 std::optional<SurfacePoint> TriangleMesh::sample_area(const Vec2& u) const {
-  if (!choice_) return {};
-  const auto [triangle, pmf, u0] = choice_->sample_index(double(u[0]));
+  if (!triangle_distribution_) return {};
+  const auto [triangle, pmf, u0] = triangle_distribution_->sample_index(double(u[0]));
   const mc::Vec2<double> b = mc::UniformTriangle<double>{}.sample({u0, double(u[1])});
   return point(triangle, b[0], b[1]);
 }
 
 std::optional<DirectionSample> TriangleMesh::sample_direction(const Vec3& ref, const Vec2& u) const {
-  return toward_sample(*this, ref, u);
+  return sample_direction_by_point(*this, ref, u);
 }
 
 ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle,
@@ -197,7 +197,7 @@ ShapeSample TriangleMesh::sample_near(const Vec3& ref, std::size_t triangle,
   return {point(triangle, b1, std::clamp(at.b2, 0.0, 1 - b1)), d.cast<Float>(), near_pdf(triangle, directions)};
 }
 
-double TriangleMesh::spread(const Vec3& ref) const {
+double TriangleMesh::projected_solid_angle_bound(const Vec3& ref) const {
   const Vec3d away = (bounds_.lo - ref).cwiseMax(ref - bounds_.hi).cwiseMax(Float(0)).cast<double>();
   return std::min(mc::pi<double>, area_ / away.squaredNorm());
 }

@@ -39,7 +39,7 @@ class TriangleMesh {
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const;
   Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const { return area_; }
-  double spread(const Vec3& ref) const;
+  double projected_solid_angle_bound(const Vec3& ref) const;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
   /// The point of barycentric weights b1 and b2 of vertices 1 and 2.
   SurfacePoint point(std::size_t triangle, double b1, double b2) const;
@@ -47,9 +47,9 @@ class TriangleMesh {
   bool has_uv() const { return !uvs_.empty(); }
   mc::Vec2<double> uv(const Hit& hit, const SurfacePoint&) const;
   /// Gives back the memory of texture coordinates that nothing reads.
-  void forget_uvs() { uvs_ = decltype(uvs_)(); }
+  void discard_uvs() { uvs_ = decltype(uvs_)(); }
   /// Gives back the memory of what picks a triangle, where nothing aims at the mesh: sample() finds no point then.
-  void forget_choice() { choice_.reset(); }
+  void discard_sampling_table() { triangle_distribution_.reset(); }
 
   std::size_t size() const { return faces_.size(); }
   /// Of all triangles; empty without any.
@@ -78,7 +78,7 @@ class TriangleMesh {
   std::vector<Vec3> positions_, normals_; ///< per vertex; no normals: flat
   std::vector<mc::Vec2<float>> uvs_;
   std::vector<Face> faces_;
-  std::optional<mc::TableDist1D<double>> choice_; ///< of a triangle by its area; none where all are 0, or forgotten
+  std::optional<mc::TableDist1D<double>> triangle_distribution_; ///< of a triangle by its area; none where all are 0, or forgotten
   double area_ = 0;
   Bounds bounds_;
   Float largest_radius2_ = 0; ///< of the ball about a triangle's centre

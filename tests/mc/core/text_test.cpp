@@ -76,6 +76,9 @@ TEST(Text, IndexOfANameOrWhichThereAre) {
 TEST(Text, EditDistance) {
   EXPECT_EQ(mc::edit_distance("kitten", "sitting"), 3u);
   EXPECT_EQ(mc::edit_distance("", "abc"), 3u);
+  EXPECT_EQ(mc::edit_distance("mes", "mse"), 1u);
+  EXPECT_EQ(mc::edit_distance("ab", "ba"), 1u);
+  EXPECT_EQ(mc::edit_distance("ca", "abc"), 3u) << "a swapped pair is not edited again";
 }
 
 // A metric on words: symmetric, 0 for equal words only, and at most the number of edits that made one from the other.

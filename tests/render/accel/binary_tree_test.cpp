@@ -54,7 +54,7 @@ std::vector<std::uint32_t> flat(const std::vector<std::vector<std::uint32_t>>& l
 bool same(const Bounds& a, const Bounds& b) { return a.lo == b.lo && a.hi == b.hi; }
 
 // Every box is in one leaf, leaves are no larger than asked for, and each node's box is that of what it holds.
-TEST(BinaryTree, HoldsEveryBoxOnceInTightNodesOfFewLevels) {
+TEST(BinaryTree, ContainsEachBoxOnceWithinMaxDepth) {
   for (const std::size_t n : {1, 2, 7, 8, 9, 40, 1000, 4096, 4097, 20000, 70000})
     for (int rule = 0; rule < 6; ++rule)
       for (const Float scale : {Float(1), Float(1e-38), Float(1e37)}) {
@@ -68,7 +68,7 @@ TEST(BinaryTree, HoldsEveryBoxOnceInTightNodesOfFewLevels) {
         for (const std::uint32_t i : flat(tree.parents_first())) {
           const BinaryTree::Node& node = nodes[i];
           ++visited;
-          ASSERT_LE(depth[i], BinaryTree::levels);
+          ASSERT_LE(depth[i], BinaryTree::max_depth);
           if (node.count == 0) {
             ASSERT_TRUE(same(node.box, around(nodes[node.left].box, nodes[node.right].box)));
             depth[node.left] = depth[node.right] = depth[i] + 1;

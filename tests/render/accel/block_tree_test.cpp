@@ -11,7 +11,7 @@ using namespace render;
 // A third kind of leaf, as a new shape would add one: planes z = const of a shape that is known by its area.
 class LevelBlock {
  public:
-  static constexpr std::uint32_t few = 16;
+  static constexpr std::uint32_t max_brute_force = 16;
   struct Primitive {
     Float z;
     int shape;
@@ -22,12 +22,12 @@ class LevelBlock {
     *to = {Float(shape.area()), index};
     return to + 1;
   }
-  struct Prepared {
+  struct RaySetup {
     Float inverse;
-    explicit Prepared(const Ray& ray) : inverse(1 / ray.d.z()) {}
+    explicit RaySetup(const Ray& ray) : inverse(1 / ray.d.z()) {}
   };
   void set(std::uint32_t lane, const Primitive& p) { levels_[lane] = p; }
-  template <bool any> bool intersect(const Ray& ray, const Prepared& prepared, Float& t_max, Hit& hit) const {
+  template <bool any> bool intersect(const Ray& ray, const RaySetup& prepared, Float& t_max, Hit& hit) const {
     bool found = false;
     for (const Primitive& p : levels_) {
       const Float t = (p.z - ray.o.z()) * prepared.inverse;

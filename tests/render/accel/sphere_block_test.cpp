@@ -39,7 +39,7 @@ TEST(SphereBlock, FindsWhatTheSpheresFind) {
     for (const Sphere& s : spheres) nearest = std::min(nearest, s.intersect(ray).value_or(nearest));
     Float t_max = ray.t_max;
     Hit hit;
-    const SphereBlock::Prepared prepared(ray);
+    const SphereBlock::RaySetup prepared(ray);
     ASSERT_EQ(block.intersect<true>(ray, prepared, t_max, hit), nearest < mc::infinity<double>);
     if (!block.intersect<false>(ray, prepared, t_max, hit)) continue;
     ++hits;

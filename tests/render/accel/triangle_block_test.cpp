@@ -18,7 +18,7 @@ TEST(TriangleBlock, CollectsWhatCanBeHit) {
   EXPECT_EQ(TriangleBlock::size(Sphere(Vec3d::Zero(), 1)), 0u);
 }
 
-TEST(TriangleBlock, TellsTheNearestOfItsLanes) {
+TEST(TriangleBlock, ReturnsNearestLane) {
   TriangleBlock block;
   for (std::uint32_t lane = 0; lane < 8; ++lane) {
     const Float z = Float((lane * 5) % 8) + 1;
@@ -26,7 +26,7 @@ TEST(TriangleBlock, TellsTheNearestOfItsLanes) {
     block.set(lane, {&mesh, int(lane), 3});
   }
   const Ray ray{Vec3(Float(0.25), Float(0.5), 0), Vec3::UnitZ()};
-  const TriangleBlock::Prepared prepared(ray);
+  const TriangleBlock::RaySetup prepared(ray);
   Float t_max = ray.t_max;
   Hit hit;
   ASSERT_TRUE(block.intersect<false>(ray, prepared, t_max, hit));

@@ -79,7 +79,7 @@ TEST(WideTree, VisitsEveryLeafWithABoxThatTheRayMeets) {
 }
 
 // Boxes that shrink towards a corner make the deepest trees: the stack of a ray suffices for them.
-TEST(WideTree, VisitsAllOfADeepTree) {
+TEST(WideTree, DeepTree_IsTraversedCompletely) {
   std::vector<Bounds> boxes;
   for (int i = 0; i < 2000; ++i) {
     Bounds box;
@@ -106,9 +106,9 @@ TEST(WideTree, StopsWhenALeafSaysSo) {
   EXPECT_EQ(calls, 2);
 }
 
-TEST(WideTree, ForgetsWithItsMemory) {
+TEST(WideTree, DiscardLeaves_ReleasesMemory) {
   WideTree tree = wide_tree(random_boxes(100, Float(0.1)));
-  tree.forget_leaves();
+  tree.discard_leaves();
   EXPECT_EQ(tree.order().capacity() + tree.leaves().capacity(), 0u);
 }
 

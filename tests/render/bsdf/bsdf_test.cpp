@@ -10,14 +10,14 @@ namespace {
 
 using namespace render;
 
-static_assert(BsdfLike<Lambert> && BsdfLike<Metal> && BsdfLike<Dielectric> && BsdfLike<RoughPlastic<>> &&
+static_assert(BsdfLike<Lambert> && BsdfLike<FuzzyMetal> && BsdfLike<Dielectric> && BsdfLike<RoughPlastic<>> &&
               BsdfLike<RoughPlastic<LajollaBase>> && BsdfLike<RoughDielectric> &&
-              BsdfLike<RoughConductor<Microfacets>> && BsdfLike<RoughConductor<BlinnPhongFacets>> &&
+              BsdfLike<RoughConductor<TrowbridgeReitzFacets>> && BsdfLike<RoughConductor<BlinnPhongFacets>> &&
               BsdfLike<SmoothPlastic<>> && BsdfLike<SmoothPlastic<LajollaBase>> && BsdfLike<SmoothConductor> &&
               BsdfLike<Bsdf>);
 
-TEST(Bsdf, SaysWhatItsMemberSays) {
-  const Metal metal{Spectrum::Constant(Float(0.7)), Float(0.5)};
+TEST(Bsdf, ForwardsToItsAlternative) {
+  const FuzzyMetal metal{Spectrum::Constant(Float(0.7)), Float(0.5)};
   const Bsdf bsdf = metal;
   const Vec3 wo = Vec3(1, 0, 2).normalized(), wi = Vec3(-1, Float(0.1), 2).normalized();
   const Vec2 u(Float(0.2), Float(0.6));
@@ -28,20 +28,20 @@ TEST(Bsdf, SaysWhatItsMemberSays) {
   EXPECT_EQ(bsdf.sample(wo, Float(0.5), u)->wi, metal.sample(wo, Float(0.5), u)->wi);
   EXPECT_FALSE(bsdf.is_delta());
   EXPECT_TRUE(Bsdf(Dielectric{}).is_delta());
-  EXPECT_TRUE(Bsdf(Metal{}).is_delta());
+  EXPECT_TRUE(Bsdf(FuzzyMetal{}).is_delta());
   EXPECT_TRUE(Bsdf(SmoothConductor(Spectrum::Ones(), Spectrum::Ones())).is_delta());
   const Bsdf lacquer = SmoothPlastic(Float(1.5), Spectrum::Ones(), Spectrum::Ones());
-  EXPECT_TRUE(lacquer.has_delta() && !lacquer.is_delta() && !lacquer.is_narrow());
+  EXPECT_TRUE(lacquer.has_delta() && !lacquer.is_delta() && !lacquer.is_near_specular());
   EXPECT_FALSE(Bsdf(Lambert{}).is_delta());
 }
 
 // To the last bit, also where one step of the direction changes both: narrow lobes at grazing angles.
-TEST(Bsdf, ASampleSaysWhatEvalPdfAndEtaSayOfItsDirection) {
+TEST(Bsdf, SampleAgreesWithEvalPdfAndEta) {
   const Spectrum half = Spectrum::Constant(Float(0.5)), one = Spectrum::Ones();
   mc::Pcg random(7);
   for (const Float alpha : {Float(1e-4), Float(0.01), Float(1)})
     for (const Bsdf& bsdf :
-         {Bsdf(RoughConductor(half, one, Microfacets(alpha))), Bsdf(RoughConductor(half, one, BlinnPhongFacets(alpha))),
+         {Bsdf(RoughConductor(half, one, TrowbridgeReitzFacets(alpha))), Bsdf(RoughConductor(half, one, BlinnPhongFacets(alpha))),
           Bsdf(RoughPlastic(Float(1.5), alpha, half, one)),
           Bsdf(RoughPlastic<LajollaBase>(Float(1.5), alpha, half, one)), Bsdf(RoughDielectric(Float(1.5), alpha))})
       for (const double angle : {0.0, 60.0, 89.0, 89.9, 89.99, 91.0, 120.0}) {
@@ -59,13 +59,13 @@ TEST(Bsdf, ASampleSaysWhatEvalPdfAndEtaSayOfItsDirection) {
 
 // Never more than .01 less than what samples send on, but where lajolla's paint sends on more than it gets; more by
 // what of rough surfaces meets a second facet or ends below the surface.
-TEST(Bsdf, AlbedoIsAboutWhatSamplesSendOn) {
+TEST(Bsdf, AlbedoApproximatesMeanSampleWeight) {
   const Spectrum half = Spectrum::Constant(Float(0.5)), one = Spectrum::Ones();
   for (const Float alpha : {Float(0.01), Float(0.1), Float(0.3)})
     for (const Bsdf& bsdf :
-         {Bsdf(Lambert(half)), Bsdf(Metal(half)), Bsdf(Metal(half, alpha)), Bsdf(Dielectric(Float(1.5), half, half)),
+         {Bsdf(Lambert(half)), Bsdf(FuzzyMetal(half)), Bsdf(FuzzyMetal(half, alpha)), Bsdf(Dielectric(Float(1.5), half, half)),
           Bsdf(SmoothConductor(half, 4 * one)), Bsdf(SmoothPlastic(Float(1.5), half, one)),
-          Bsdf(RoughConductor(half, 4 * one, Microfacets(alpha))),
+          Bsdf(RoughConductor(half, 4 * one, TrowbridgeReitzFacets(alpha))),
           Bsdf(RoughConductor(half, 4 * one, BlinnPhongFacets(alpha))),
           Bsdf(RoughPlastic(Float(1.5), alpha, half, one)),
           Bsdf(RoughPlastic<LajollaBase>(Float(1.5), alpha, half, one)), Bsdf(RoughDielectric(Float(1.5), alpha))})

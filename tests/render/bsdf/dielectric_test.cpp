@@ -83,7 +83,7 @@ TEST(Dielectric, RefusesNonsense) {
   }
 }
 
-TEST(Dielectric, IndexOneIsInvisible) {
+TEST(Dielectric, IndexOne_TransmitsUnchanged) {
   const Vec3 wo = Vec3(1, 2, 3).normalized();
   const auto s = Dielectric{1}.sample(wo, 0, Vec2::Zero());
   ASSERT_TRUE(s.has_value());

@@ -11,12 +11,12 @@ namespace {
 
 using namespace render;
 
-TEST(Microfacets, MaskingIsThatOfTheTangent) {
+TEST(TrowbridgeReitzFacets, MaskingIsThatOfTheTangent) {
   for (const double alpha : {0.01, 0.3, 1.0})
     for (const double theta : {0.0, 0.7, 1.5}) {
       const Vec3 w = Vec3d(std::sin(theta), 0, std::cos(theta)).cast<Float>();
       const double g1 = 2 / (1 + std::sqrt(1 + mc::sqr(alpha * std::tan(theta))));
-      EXPECT_NEAR(double(Microfacets(Float(alpha)).g1_over_cos(w)) * std::cos(theta), g1, 1e-5)
+      EXPECT_NEAR(double(TrowbridgeReitzFacets(Float(alpha)).g1_over_cos(w)) * std::cos(theta), g1, 1e-5)
           << alpha << " " << theta;
     }
 }
@@ -43,12 +43,12 @@ TEST(BlinnPhongFacets, FillTheSurface) {
 TEST(BlinnPhongFacets, HideEachOtherInGrooves) {
   const BlinnPhongFacets facets{Float(0.5)};
   const Vec3 z = Vec3::UnitZ();
-  EXPECT_NEAR(facets.shape(z, z, z), facets.d(z), 1e-6);
+  EXPECT_NEAR(facets.dg_over_cosines(z, z, z), facets.d(z), 1e-6);
   for (const double theta : {0.3, 0.9, 1.4, 1.57}) {
     const Vec3 w = Vec3d(std::sin(theta), 0, std::cos(theta)).cast<Float>(), m = (w + z).normalized();
     const double g = std::min(1.0, 2 * double(m.z()) * double(w.z()) / double(w.dot(m)));
-    EXPECT_NEAR(facets.shape(w, z, m) / (double(facets.d(m)) * g / double(w.z())), 1, 1e-4) << theta;
-    EXPECT_NEAR(facets.shape(z, w, m) / facets.shape(w, z, m), 1, 1e-6);
+    EXPECT_NEAR(facets.dg_over_cosines(w, z, m) / (double(facets.d(m)) * g / double(w.z())), 1, 1e-4) << theta;
+    EXPECT_NEAR(facets.dg_over_cosines(z, w, m) / facets.dg_over_cosines(w, z, m), 1, 1e-6);
   }
 }
 
@@ -73,15 +73,15 @@ TEST(UnitInDouble, KeepsTheSmallerPart) {
   EXPECT_EQ(unit_in_double(Vec3(0, 0, -1)), Vec3d(0, 0, -1));
 }
 
-TEST(Microfacets, RoughnessHasARange) {
+TEST(TrowbridgeReitzFacets, RoughnessHasARange) {
   for (const Float good : {Float(1e-4), Float(0.5), Float(1)}) {
-    EXPECT_EQ(Microfacets(good).alpha(), good);
+    EXPECT_EQ(TrowbridgeReitzFacets(good).alpha(), good);
     EXPECT_EQ(BlinnPhongFacets(good).alpha(), good);
   }
   for (const Float bad :
        {Float(0), Float(5e-5), Float(-0.5), Float(1.5), Float(50), std::numeric_limits<Float>::quiet_NaN()}) {
     const std::string refusal = fmt::format("facets: alpha {} must lie in [0.0001, 1]", bad);
-    EXPECT_EQ(support::error_of([&] { Microfacets{bad}; }), refusal);
+    EXPECT_EQ(support::error_of([&] { TrowbridgeReitzFacets{bad}; }), refusal);
     EXPECT_EQ(support::error_of([&] { BlinnPhongFacets{bad}; }), refusal);
   }
 }

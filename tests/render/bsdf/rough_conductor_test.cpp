@@ -50,7 +50,7 @@ template <class Facets> void expect_laws(const char* name) {
 }
 
 // Directions on both sides at alpha = 1e-5 each.
-TEST(RoughConductor, ObeysTheLaws) { expect_laws<Microfacets>("ggx"); }
+TEST(RoughConductor, ObeysTheLaws) { expect_laws<TrowbridgeReitzFacets>("ggx"); }
 TEST(RoughConductor, ObeysTheLawsWithBlinnPhongFacets) { expect_laws<BlinnPhongFacets>("phong"); }
 
 template <class Facets> void expect_limit(const char* name) {
@@ -69,12 +69,12 @@ template <class Facets> void expect_limit(const char* name) {
 }
 
 TEST(RoughConductor, TendsToTheMirror) {
-  expect_limit<Microfacets>("ggx");
+  expect_limit<TrowbridgeReitzFacets>("ggx");
   expect_limit<BlinnPhongFacets>("phong");
 }
 
 // What single scattering keeps of a white sky, by an independent quadrature, at cosines .9, .5 and .2.
-TEST(RoughConductor, LosesWhatWouldMeetASecondFacet) {
+TEST(RoughConductor, LosesMultipleScattering) {
   struct Row {
     double alpha;
     std::array<double, 3> ggx, blinn;
@@ -85,13 +85,13 @@ TEST(RoughConductor, LosesWhatWouldMeetASecondFacet) {
                          Row{0.6, {0.5931, 0.6247, 0.6939}, {0.7350, 0.8498, 0.9410}},
                          Row{1.0, {0.3230, 0.4091, 0.5114}, {0.4118, 0.6531, 0.8620}}})
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_NEAR(support::albedo(mirror<Microfacets>(row.alpha), cosines[i]), row.ggx[i], 0.001) << row.alpha;
+      EXPECT_NEAR(support::albedo(mirror<TrowbridgeReitzFacets>(row.alpha), cosines[i]), row.ggx[i], 0.001) << row.alpha;
       EXPECT_NEAR(support::albedo(mirror<BlinnPhongFacets>(row.alpha), cosines[i]), row.blinn[i], 0.001) << row.alpha;
     }
 }
 
 TEST(RoughConductor, RefusesNonsense) {
-  const Microfacets facets{Float(0.1)};
+  const TrowbridgeReitzFacets facets{Float(0.1)};
   EXPECT_EQ(support::error_of([&] { RoughConductor(nothing, Spectrum(1, 0, 1), facets); }),
             "rough conductor: eta (0, 0, 0) and k must not both be 0");
   EXPECT_THAT(support::error_of([&] { RoughConductor(gold, Spectrum(1, 2, Float(1e7)), facets); }),

@@ -39,7 +39,7 @@ TEST(RoughPlastic, ObeysTheLaws) {
 }
 
 // At five standard errors and a table's 3e-4 each.
-TEST(RoughPlastic, NoMoreLightLeavesThanComes) {
+TEST(RoughPlastic, ConservesEnergy) {
   mc::Pcg random(11);
   for (int k = 0; k < 200; ++k) {
     const double eta = k % 5 ? log_uniform(random, 1.0001, 4) : log_uniform(random, 0.3, 1);

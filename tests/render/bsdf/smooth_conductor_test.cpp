@@ -48,7 +48,7 @@ template <class Facets> void expect_metal_tends_to_it() {
 }
 
 TEST(SmoothConductor, IsWhatRoughMetalTendsTo) {
-  expect_metal_tends_to_it<Microfacets>();
+  expect_metal_tends_to_it<TrowbridgeReitzFacets>();
   expect_metal_tends_to_it<BlinnPhongFacets>();
 }
 

@@ -9,9 +9,9 @@ using namespace render;
 
 const Spectrum bright(Float(0.75), Float(0.5), Float(0.6)), dim = Spectrum::Constant(Float(0.25));
 
-template <class Paint> void expect_paint_of_the_colors(const Paint& bare, const auto& paint_of) {
+template <class Paint> void expect_paint_of_the_colors(const Paint& untextured, const auto& paint_of) {
   const Texture board = Checkerboard(bright, dim);
-  const TexturedPlastic<Paint> base(bare, board, {}), coat(bare, {}, board), both(bare, board, board);
+  const TexturedPlastic<Paint> base(untextured, board, {}), coat(untextured, {}, board), both(untextured, board, board);
   const Vec3 wo = support::at_degrees(50), wi = support::at_degrees(-48);
   for (const auto& [uv, color] : {std::pair(Vec2d(0.1, 0.1), bright), {Vec2d(0.6, 0.1), dim}}) {
     const auto expect = [&, uv = uv](const TexturedPlastic<Paint>& textured, const Paint& plain) {
@@ -24,8 +24,8 @@ template <class Paint> void expect_paint_of_the_colors(const Paint& bare, const 
         EXPECT_EQ(there.albedo(wo), plain.albedo(wo));
       }
     };
-    expect(base, paint_of(color, bare.specular()));
-    expect(coat, paint_of(bare.diffuse(), color));
+    expect(base, paint_of(color, untextured.specular()));
+    expect(coat, paint_of(untextured.diffuse(), color));
     expect(both, paint_of(color, color));
   }
 }
@@ -54,10 +54,10 @@ TEST(TexturedPlastic, ReflectsNoMoreThanItGets) {
 
 TEST(TexturedBsdf, IsOneOfItsKind) {
   const TexturedBsdf matt = TexturedLambert(Checkerboard(bright, dim));
-  EXPECT_TRUE(matt.bare().is_diffuse() && matt.at({0.1, 0.1}).is_diffuse());
+  EXPECT_TRUE(matt.untextured().is_diffuse() && matt.at({0.1, 0.1}).is_diffuse());
   const TexturedBsdf lacquer =
       TexturedPlastic(SmoothPlastic(Float(1.5), dim, bright), Texture(Checkerboard(bright, dim)), {});
-  EXPECT_TRUE(lacquer.bare().has_delta() && lacquer.at({0.1, 0.1}).has_delta());
+  EXPECT_TRUE(lacquer.untextured().has_delta() && lacquer.at({0.1, 0.1}).has_delta());
 }
 
 } // namespace

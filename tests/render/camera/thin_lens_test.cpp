@@ -62,19 +62,19 @@ TEST(ThinLens, SeesWhatItsRaysReach) {
     const Vec2 s = 2 * random.point<Float, 2>() - Vec2::Constant(Float(0.5)); // beside the film, too
     const Ray ray = camera.ray(s, tangent, u);
     const Float t = 1 + 3 * random.uniform<Float>();
-    const auto seen = camera.sample_lens(ray.at(t), tangent, u);
+    const auto seen = camera.sample_wi(ray.at(t), tangent, u);
     ASSERT_TRUE(seen) << i;
     EXPECT_LE((seen->s - s).norm(), 1e-4) << i;
-    EXPECT_LE((seen->d + ray.d).norm(), 1e-5) << i;
-    EXPECT_NEAR(seen->reach, t, 1e-4) << i;
+    EXPECT_LE((seen->wi + ray.d).norm(), 1e-5) << i;
+    EXPECT_NEAR(seen->t_max, t, 1e-4) << i;
     const double cosine = double(ray.d.dot(camera.forward()));
-    EXPECT_NEAR(seen->distance - seen->reach, options.near / cosine, 1e-4) << i;
+    EXPECT_NEAR(seen->distance - seen->t_max, options.near / cosine, 1e-4) << i;
     const double density = 1 / (4 * double(tangent.prod()) * cosine * cosine * cosine);
-    EXPECT_NEAR(seen->density / density, 1, 1e-4) << i;
-    EXPECT_NEAR(camera.density(ray.d, tangent) / density, 1, 1e-4) << i;
-    EXPECT_FALSE(camera.sample_lens(camera.origin() - camera.forward(), tangent, u)) << i;
-    EXPECT_EQ(camera.sample_lens(camera.origin() + 51 * camera.forward(), tangent, u).has_value(), i % 5 == 0) << i;
-    EXPECT_EQ(camera.sample_lens(camera.origin() + Float(0.09) * camera.forward(), tangent, u).has_value(), i % 3 == 0)
+    EXPECT_NEAR(seen->direction_pdf / density, 1, 1e-4) << i;
+    EXPECT_NEAR(camera.direction_pdf(ray.d, tangent) / density, 1, 1e-4) << i;
+    EXPECT_FALSE(camera.sample_wi(camera.origin() - camera.forward(), tangent, u)) << i;
+    EXPECT_EQ(camera.sample_wi(camera.origin() + 51 * camera.forward(), tangent, u).has_value(), i % 5 == 0) << i;
+    EXPECT_EQ(camera.sample_wi(camera.origin() + Float(0.09) * camera.forward(), tangent, u).has_value(), i % 3 == 0)
         << i;
   }
 }

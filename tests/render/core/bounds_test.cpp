@@ -18,17 +18,17 @@ TEST(Bounds, HoldsWhatWasAdded) {
   EXPECT_EQ(bounds.half_area(), 11);
 }
 
-TEST(Bounds, LieBehindWhatIsPastTheLastOfThem) {
+TEST(Bounds, ExitDistanceBoundsTheBox) {
   render::Bounds bounds;
   bounds.add(render::Vec3(0, 0, 0));
   bounds.add(render::Vec3(1, 2, 3));
   using render::Vec3d;
-  EXPECT_EQ(bounds.last({0.5, 0.5, 0.5}, {0, 2, 0}), 0.75);
-  EXPECT_EQ(bounds.last({0.5, 0.5, 0.5}, {0, -2, 0}), 0.25);
-  EXPECT_EQ(bounds.last({0.5, 0.5, 0.5}, {1, 1, -1}), 0.5);
-  EXPECT_EQ(bounds.last({0.5, 5, 0.5}, Vec3d::UnitY()), -3); // all of it is behind
-  EXPECT_EQ(bounds.last({0.5, -5, 0.5}, Vec3d::UnitY()), 7);
-  EXPECT_EQ(bounds.last({1, 1, 1}, Vec3d::UnitX()), 0);
+  EXPECT_EQ(bounds.exit_distance({0.5, 0.5, 0.5}, {0, 2, 0}), 0.75);
+  EXPECT_EQ(bounds.exit_distance({0.5, 0.5, 0.5}, {0, -2, 0}), 0.25);
+  EXPECT_EQ(bounds.exit_distance({0.5, 0.5, 0.5}, {1, 1, -1}), 0.5);
+  EXPECT_EQ(bounds.exit_distance({0.5, 5, 0.5}, Vec3d::UnitY()), -3); // all of it is behind
+  EXPECT_EQ(bounds.exit_distance({0.5, -5, 0.5}, Vec3d::UnitY()), 7);
+  EXPECT_EQ(bounds.exit_distance({1, 1, 1}, Vec3d::UnitX()), 0);
 }
 
 } // namespace

@@ -12,10 +12,10 @@ struct alignas(64) Line {
 };
 
 // Below, at and beyond the size from which pages are asked for, and grown across it.
-TEST(HugePages, ArraysOfAnySizeHoldWhatIsPutIntoThem) {
+TEST(HugePageAllocator, ArraysOfAnySizeHoldWhatIsPutIntoThem) {
   constexpr std::size_t page = std::size_t{1} << 21;
   for (const std::size_t bytes : {std::size_t{64}, page, 16 * page - 64, 16 * page, 17 * page + 64}) {
-    std::vector<Line, render::HugePages<Line>> lines;
+    std::vector<Line, render::HugePageAllocator<Line>> lines;
     for (std::size_t i = 0; i < bytes / sizeof(Line); ++i) lines.push_back({i});
     lines.shrink_to_fit();
     const auto copy = lines;

@@ -24,7 +24,7 @@ TEST(Accumulate, CountsBySamples) {
       image->variance.push_back(Spectrum::Constant(Float(1 / (12.0 * samples))));
     }
   }
-  const Image both = accumulated(a, n, b, m);
+  const Image both = accumulate(a, n, b, m);
   double squares = 0;
   for (std::size_t i = 0; i < pixels; ++i) {
     EXPECT_NEAR(both.pixels[i][0], (n * a.pixels[i][0] + m * b.pixels[i][0]) / (n + m), 1e-6);
@@ -35,21 +35,21 @@ TEST(Accumulate, CountsBySamples) {
   EXPECT_EQ(both.estimates, 8u);
 }
 
-TEST(Accumulate, WithoutVarianceThereIsNone) {
+TEST(Accumulate, MissingVariance_GivesNoVariance) {
   Image a(2, 1), b(2, 1);
   a.variance.assign(2, Spectrum::Ones());
   a.metadata["carlo.seed"] = "1";
   b.metadata["carlo.seed"] = "2";
-  const Image both = accumulated(a, 1, b, 1);
+  const Image both = accumulate(a, 1, b, 1);
   EXPECT_TRUE(both.variance.empty());
   EXPECT_EQ(both.metadata.at("carlo.seed"), "2");
 }
 
 TEST(Accumulate, RefusesNonsense) {
-  EXPECT_THAT(support::error_of([] { accumulated(Image(2, 1), 1, Image(1, 2), 1); }),
+  EXPECT_THAT(support::error_of([] { accumulate(Image(2, 1), 1, Image(1, 2), 1); }),
               testing::HasSubstr("a picture of 2x1 cannot go on as one of 1x2"));
   for (const double bad : {0.0, -1.0, std::nan("")})
-    EXPECT_THROW(accumulated(Image(1, 1), bad, Image(1, 1), 1), mc::Error);
+    EXPECT_THROW(accumulate(Image(1, 1), bad, Image(1, 1), 1), mc::Error);
 }
 
 } // namespace

@@ -30,7 +30,7 @@ TEST(Film, MeansAndVariancesOfTheMean) {
     EXPECT_EQ(film.estimate(px, 0).samples, 4u);
     EXPECT_EQ(film.estimate(px, 0).sets, 2);
   }
-  EXPECT_NEAR(film.relative_errors().picture.value, std::sqrt((0.75 / (2.5 * 2.5) + 3 / 25.0) / 3), 1e-12);
+  EXPECT_NEAR(film.relative_errors().image.value, std::sqrt((0.75 / (2.5 * 2.5) + 3 / 25.0) / 3), 1e-12);
 }
 
 // Sets of any sizes: their weighted mean and its variance are those of all samples together. 20,000 pixels, whose mean
@@ -55,42 +55,42 @@ TEST(Film, SetsOfUnequalSizesAreUnbiased) {
 }
 
 // Two sets of a sample each, and light of as many paths as two samples of a pixel have: 3 for one set, 1 for the other.
-TEST(Film, LightOfPathsFromTheLightsAddsItsMeanAndVariance) {
-  Film film(2, 1, 2, {.lit = true});
-  Film later(2, 1, 2, {.lit = true});
+TEST(Film, LightSplats_AddMeanAndVariance) {
+  Film film(2, 1, 2, {.has_light_paths = true});
+  Film later(2, 1, 2, {.has_light_paths = true});
   for (int px = 0; px < 2; ++px) {
     film.add(px, 0, 0, grey(1), 1);
     later.add(px, 0, 1, grey(3), 1);
   }
-  film.add_light(0, 0, 0, grey(2));
-  film.count_light(0, 1);
-  later.add_light(0, 0, 0, grey(1));
-  later.add_light(0, 0, 1, grey(1));
-  later.count_light(1, 1);
+  film.add_light_splat(0, 0, 0, grey(2));
+  film.add_light_path_count(0, 1);
+  later.add_light_splat(0, 0, 0, grey(1));
+  later.add_light_splat(0, 0, 1, grey(1));
+  later.add_light_path_count(1, 1);
   film.merge(later);
   const PixelEstimate lit = film.estimate(0, 0), unlit = film.estimate(1, 0);
   EXPECT_NEAR(lit.mean[0], 2 + 2, 1e-12);
   EXPECT_NEAR(unlit.mean[0], 2, 1e-12);
   EXPECT_NEAR(unlit.variance[0], 1, 1e-12); // ((1 - 2)^2 + (3 - 2)^2) / 2
-  EXPECT_EQ(unlit.of_light[0], 0);
-  EXPECT_NEAR(lit.of_light[0], 1, 1e-12); // of the sums 3 and 1
+  EXPECT_EQ(unlit.light_variance[0], 0);
+  EXPECT_NEAR(lit.light_variance[0], 1, 1e-12); // of the sums 3 and 1
   EXPECT_NEAR(lit.variance[0], 2, 1e-12);
 }
 
 // A path whose light is all that varies decides the pixel, in any unit of light; of many alike none does.
-TEST(Film, APathFromTheLightsMayDecideAPixel) {
+TEST(Film, LightSplat_CanDominatePixel) {
   for (const double unit : {1e-30, 1.0, 1e30})
     for (const int paths : {1, 2, 100}) {
-      Film film(1, 1, 2, {.lit = true});
+      Film film(1, 1, 2, {.has_light_paths = true});
       SampleSums samples;
       for (int i = 0; i < 64; ++i) samples.add(grey(unit * (i % 2 ? 1 : 1.1)));
-      film.note(0, 0, samples, 64);
+      film.record_samples(0, 0, samples, 64);
       for (int set = 0; set < 2; ++set) {
         film.add(0, 0, set, grey(32 * unit), 32);
-        film.count_light(set, 32);
+        film.add_light_path_count(set, 32);
       }
-      for (int i = 0; i < paths; ++i) film.add_light(0, 0, i % 2, grey(50 * unit));
-      EXPECT_EQ(film.undecided(), paths == 1 ? 1 : 0) << paths << " " << unit;
+      for (int i = 0; i < paths; ++i) film.add_light_splat(0, 0, i % 2, grey(50 * unit));
+      EXPECT_EQ(film.outlier_dominated(), paths == 1 ? 1 : 0) << paths << " " << unit;
     }
 }
 
@@ -98,7 +98,7 @@ TEST(Film, OneSetHasNoVariance) {
   Film film(1, 1, 2);
   film.add(0, 0, 0, grey(1), 5);
   EXPECT_TRUE(film.image().variance.empty());
-  EXPECT_EQ(film.relative_errors().picture.value, mc::infinity<double>);
+  EXPECT_EQ(film.relative_errors().image.value, mc::infinity<double>);
 }
 
 // What it says is what the pixels of its image are off by: dark ones relative to half the mean, bright ones to their
@@ -117,18 +117,18 @@ TEST(Film, ErrorIsRelativeToTheSurroundings) {
     const double radiance = y < 9 ? 0.0 : y == 9 ? 4 / 3.0 : y == 10 ? 8 / 3.0 : 4;
     sum += 4 * 0.25 / mc::sqr(std::max(radiance, 1.0));
   }
-  EXPECT_NEAR(film.relative_errors().picture.value, std::sqrt(sum / 400), 1e-12);
+  EXPECT_NEAR(film.relative_errors().image.value, std::sqrt(sum / 400), 1e-12);
   // Of the blocks, 16x16 from the corner, the upper right one holds only such pixels, the darkest.
   double worst = 0;
   for (int y = 0; y < 16; ++y) {
     const double radiance = y < 9 ? 0.0 : y == 9 ? 4 / 3.0 : y == 10 ? 8 / 3.0 : 4;
     worst += 4 * 0.25 / mc::sqr(std::max(radiance, 1.0)) / 64;
   }
-  EXPECT_NEAR(film.relative_errors().worst.value, std::sqrt(worst), 1e-12);
+  EXPECT_NEAR(film.relative_errors().worst_block.value, std::sqrt(worst), 1e-12);
 }
 
 // Two values, a slope, a rare sample beside others, and none.
-TEST(SampleSums, JumpsBetweenTwoValuesButNotOnASlope) {
+TEST(SampleSums, JumpIsZeroOnSlopes) {
   mc::Pcg random(8);
   for (int n = 2; n < 200; ++n) {
     SampleSums two, slope, rare, equal;
@@ -152,7 +152,7 @@ TEST(SampleSums, JumpsBetweenTwoValuesButNotOnASlope) {
 
 // An edge across a pixel, of which every set of 16 points counts a whole number, at random places: what is stated is
 // at least the truth on average, and at most a third more.
-TEST(Film, SetsThatAgreeByChanceDoNotMakeAnEdgeCertain) {
+TEST(Film, AgreeingSets_KeepVarianceOfEdge) {
   mc::Pcg random(5);
   double stated = 0, truth = 0;
   int held = 0, between = 0;
@@ -168,7 +168,7 @@ TEST(Film, SetsThatAgreeByChanceDoNotMakeAnEdgeCertain) {
       film.add(0, 0, set, Eigen::Array3d(count, 0, 5 * points), points);
       squares += mc::sqr(count / points - covered);
     }
-    film.note(0, 0, samples, 1);
+    film.record_samples(0, 0, samples, 1);
     const PixelEstimate pixel = film.estimate(0, 0);
     stated += pixel.variance[0] / pixels;
     truth += squares / (sets * sets) / pixels;
@@ -186,7 +186,7 @@ TEST(Film, SetsThatAgreeByChanceDoNotMakeAnEdgeCertain) {
 // Where one pixel has the noise, four sets know its error to a third: a bound is as much larger than what they say as
 // chi-square with 3 degrees of freedom asks. But the mean of forty independent samples 2 off has a
 // variance of 4 / 39, known with forty degrees of freedom, and those of a pixel are no worse; of the sets it is 1/12.
-TEST(Film, BoundsItsErrorByWhatTheSetsKnow) {
+TEST(Film, ErrorBoundCoversVarianceUncertainty) {
   Film one(8, 8, 4), all(8, 8, 4);
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 8; ++x)
@@ -195,32 +195,32 @@ TEST(Film, BoundsItsErrorByWhatTheSetsKnow) {
         one.add(x, y, set, 10 * grey(x == 3 && y == 3 ? 2 + off : 2), 10);
         all.add(x, y, set, grey(2 + off), 1);
       }
-  const RelativeError of_one = one.relative_errors().picture, of_all = all.relative_errors().picture;
+  const RelativeError of_one = one.relative_errors().image, of_all = all.relative_errors().image;
   EXPECT_NEAR(of_one.bound / of_one.value, std::sqrt(3 / 0.351846), 1e-5);  // tables of chi-square, 5 %
   EXPECT_NEAR(of_all.bound / of_all.value, std::sqrt(318 / 277.687), 1e-5); // 5 * 64 - 2 degrees, as none is off
   for (int i = 0; i < 40; ++i) {
     SampleSums sample;
     sample.add(grey(i % 2 == 0 ? 0 : 4));
-    one.note(3, 3, sample, 1);
+    one.record_samples(3, 3, sample, 1);
   }
-  EXPECT_NEAR(one.relative_errors().picture.bound / of_one.value, std::sqrt(4 / 39.0 * 12 * 40 / 26.5093), 1e-5);
-  EXPECT_EQ(Film(1, 1, 2).relative_errors().picture.bound, mc::infinity<double>);
+  EXPECT_NEAR(one.relative_errors().image.bound / of_one.value, std::sqrt(4 / 39.0 * 12 * 40 / 26.5093), 1e-5);
+  EXPECT_EQ(Film(1, 1, 2).relative_errors().image.bound, mc::infinity<double>);
 }
 
-TEST(Film, TellsWhichPixelsOneSampleDecides) {
+TEST(Film, CountsOutlierDominatedPixels) {
   Film film(4, 1, 1);
   const auto note = [&](int x, const std::vector<double>& luminances) {
     for (const double y : luminances) { // merging says the same as adding
       SampleSums one;
       one.add(grey(y));
-      film.note(x, 0, one, 3);
+      film.record_samples(x, 0, one, 3);
     }
   };
   note(0, {1, 1, 1, 1, 1, 1, 1, 100});
   note(1, {1, 2, 3, 4, 5, 6, 7, 8});
   note(2, {0.1, 0.1, 0.1, 0.1});
   note(3, {0, 0, 0, 1, 1, 1});
-  EXPECT_EQ(film.undecided(), 0.25);
+  EXPECT_EQ(film.outlier_dominated(), 0.25);
   EXPECT_EQ(film.rays(1, 0), 24u);
 }
 

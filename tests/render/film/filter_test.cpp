@@ -82,7 +82,7 @@ const std::array shared = {SharedRow{"box", BoxFilter(), 0, 1},
                            SharedRow{"wide gaussian", GaussianFilter(1), 5, 4 * mc::pi<double>},
                            SharedRow{"smallpt", SubpixelTentFilter(), 1, 1.44}};
 
-TEST(SplatFilter, ReachesAndSharesAsFarAsItsFilter) {
+TEST(SplatFilter, ReachAndWeightsMatchFilter) {
   for (const SharedRow& row : shared) {
     const SplatFilter filter(row.filter);
     EXPECT_EQ(filter.reach(), row.reach) << row.name;
@@ -116,9 +116,9 @@ TEST(SplatFilter, HasTheProfileOfItsFilter) {
           }
       }
     for (int j = -filter.reach(); j <= filter.reach(); ++j)
-      for (int i = -filter.reach(); i <= filter.reach(); ++i) sum += filter.square(i, j);
+      for (int i = -filter.reach(); i <= filter.reach(); ++i) sum += filter.squared_weight(i, j);
     EXPECT_NEAR(sum * filter.noise_area(), 1, 1e-12) << row.name;
-    EXPECT_NEAR(filter.square(filter.reach(), 0), filter.square(-filter.reach(), 0), 1e-4) << row.name;
+    EXPECT_NEAR(filter.squared_weight(filter.reach(), 0), filter.squared_weight(-filter.reach(), 0), 1e-4) << row.name;
   }
 }
 

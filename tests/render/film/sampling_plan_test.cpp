@@ -18,7 +18,7 @@ template <class Noise, class Rays> Film film_of(int width, int height, Noise&& n
     for (int x = 0; x < width; ++x) {
       for (const int set : {0, 1})
         film.add(x, y, set, Eigen::Array3d::Constant(8 * (1 + (set - 0.5) * noise(x, y) / 2)), 8);
-      film.note(x, y, {}, 16 * std::uint64_t(rays(x, y)));
+      film.record_samples(x, y, {}, 16 * std::uint64_t(rays(x, y)));
     }
   return film;
 }
@@ -28,7 +28,7 @@ double mean(const std::vector<float>& rates) {
 }
 
 // Left and right half differ: far from where they meet rates are as the formula says.
-TEST(SamplingPlan, SpendsWhereTheErrorIsByItsCost) {
+TEST(SamplingPlan, RatesFollowErrorAndCost) {
   const auto noise = [](int x, int) { return x < 24 ? 0.1 : 0.3; };
   const auto rays = [](int x, int) { return x < 24 ? 1 : 4; };
   const Film film = film_of(48, 8, noise, rays);
@@ -36,7 +36,7 @@ TEST(SamplingPlan, SpendsWhereTheErrorIsByItsCost) {
   EXPECT_NEAR(mean(plan.rates), 1, 1e-5);
   const std::size_t quiet = 3 * 48 + 5, noisy = 3 * 48 + 43;
   EXPECT_NEAR(plan.rates[noisy] / plan.rates[quiet], 3 / 2.0, 1e-4); // noise / sqrt(rays)
-  const SamplingPlan worst = adaptive_plan(film, 0.01, ErrorOf::worst);
+  const SamplingPlan worst = adaptive_plan(film, 0.01, ErrorScope::worst_block);
   EXPECT_NEAR(worst.rates[noisy] / worst.rates[quiet], 9, 1e-3);
   EXPECT_NEAR(mean(worst.rates), 1, 1e-5);
   const SamplingPlan least = adaptive_plan(film, 0.9);
@@ -47,13 +47,13 @@ TEST(SamplingPlan, SpendsWhereTheErrorIsByItsCost) {
 }
 
 // All of a tile have one rate, which only tiles beside it tell; tiles may be cut by the film's edges.
-TEST(SamplingPlan, TilesAskTheTilesAbout) {
+TEST(SamplingPlan, TileRatesFollowNeighbourTiles) {
   const auto rays = [](int, int) { return 3; };
   std::vector<double> noise(39 * 41);
   for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = i % 39 < 20 ? 0.1 : 1;
   const auto at = [&](int x, int y) { return noise[39 * std::size_t(y) + std::size_t(x)]; };
   const Tiling tiling{2, 1, 0};
-  const auto plan = [&] { return adaptive_plan(film_of(39, 41, at, rays), 0.01, ErrorOf::picture, 0, tiling); };
+  const auto plan = [&] { return adaptive_plan(film_of(39, 41, at, rays), 0.01, ErrorScope::image, 0, tiling); };
   const SamplingPlan before = plan();
   const auto rate = [](const SamplingPlan& p, int x, int y) { return p.rates[39 * std::size_t(y) + std::size_t(x)]; };
   for (int y = 0; y < 41; ++y)
@@ -69,7 +69,7 @@ TEST(SamplingPlan, TilesAskTheTilesAbout) {
 }
 
 // A pixel's own samples change its rate only by its share in the mean of all.
-TEST(SamplingPlan, AsksTheNeighboursNotThePixel) {
+TEST(SamplingPlan, RateFollowsNeighboursOnly) {
   const auto rays = [](int, int) { return 3; };
   std::vector<double> noise(40 * 40);
   for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = i % 40 < 20 ? 0.1 : 1;
@@ -85,14 +85,14 @@ TEST(SamplingPlan, AsksTheNeighboursNotThePixel) {
 }
 
 // Nor does its own radiance, though that of the pixels about stands under the neighbours' variance.
-TEST(SamplingPlan, AsksNotForThePixelsRadiance) {
+TEST(SamplingPlan, RateIgnoresPixelsOwnRadiance) {
   const auto plan = [](double radiance) {
     Film film(40, 40, 2);
     for (int i = 0; i < 40 * 40; ++i) {
       const double value = i == 17 * 40 + 21 ? radiance : i % 40 < 20 ? 1 : 0.3;
       for (const int set : {0, 1})
         film.add(i % 40, i / 40, set, Eigen::Array3d::Constant(8 * value * (1 + (set - 0.5) / 10)), 8);
-      film.note(i % 40, i / 40, {}, 48);
+      film.record_samples(i % 40, i / 40, {}, 48);
     }
     return adaptive_plan(film, 0.01).rates;
   };
@@ -104,13 +104,13 @@ TEST(SamplingPlan, AsksNotForThePixelsRadiance) {
 }
 
 // Rare bright samples are not divided by themselves, and a lamp does not hide what is noisy beside it.
-TEST(SamplingPlan, BrightPixelsHideNoNoise) {
+TEST(SamplingPlan, BrightPixels_KeepNeighbourRates) {
   const auto rates = [](auto&& radiance, auto&& noise) {
     Film film(40, 1, 2);
     for (int x = 0; x < 40; ++x) {
       for (const int set : {0, 1})
         film.add(x, 0, set, Eigen::Array3d::Constant(8 * radiance(x) * (1 + (set - 0.5) * noise(x) / 2)), 8);
-      film.note(x, 0, {}, 16);
+      film.record_samples(x, 0, {}, 16);
     }
     return adaptive_plan(film, 0.001).rates;
   };
@@ -124,24 +124,24 @@ TEST(SamplingPlan, BrightPixelsHideNoNoise) {
 }
 
 // As many paths from the lights as make variance times rays least; from 1 to 4.
-TEST(SamplingPlan, PathsFromTheLightsByTheirVariance) {
+TEST(SamplingPlan, LightPathScaleFollowsVariance) {
   const auto plan = [](double noise, std::uint64_t rays) {
-    Film film(8, 8, 2, {.lit = true});
+    Film film(8, 8, 2, {.has_light_paths = true});
     for (int i = 0; i < 64; ++i) {
       for (const int set : {0, 1}) {
         film.add(i % 8, i / 8, set, Eigen::Array3d::Constant(8 * (1 + (set - 0.5) / 10)), 8);
-        film.add_light(i % 8, i / 8, set, Eigen::Array3d::Constant(8 * (1 + (set - 0.5) * noise)));
+        film.add_light_splat(i % 8, i / 8, set, Eigen::Array3d::Constant(8 * (1 + (set - 0.5) * noise)));
       }
-      film.note(i % 8, i / 8, {}, 16 * 5);
+      film.record_samples(i % 8, i / 8, {}, 16 * 5);
     }
-    for (const int set : {0, 1}) film.count_light(set, 8);
-    film.note_light(64 * 16 * rays);
+    for (const int set : {0, 1}) film.add_light_path_count(set, 8);
+    film.add_light_rays(64 * 16 * rays);
     EXPECT_NEAR(film.light_rays(), 64 * double(rays), 1e-9);
     const SamplingPlan p = adaptive_plan(film, 0.25);
     // The largest that a path gave is half of what a set has, and its square is in the variance of pixels.
-    const double of_light = film.estimate(3, 3).of_light[0], of_samples = film.estimate(3, 3).variance[0] - of_light;
-    EXPECT_NEAR(p.light, std::clamp(std::sqrt(of_light * 5 / (of_samples * double(rays))), 1.0, 4.0), 1e-9);
-    return p.light;
+    const double light_variance = film.estimate(3, 3).light_variance[0], of_samples = film.estimate(3, 3).variance[0] - light_variance;
+    EXPECT_NEAR(p.light_path_scale, std::clamp(std::sqrt(light_variance * 5 / (of_samples * double(rays))), 1.0, 4.0), 1e-9);
+    return p.light_path_scale;
   };
   EXPECT_GT(plan(0.3, 40), 1.1);
   EXPECT_LT(plan(0.3, 40), 3.9);
@@ -150,12 +150,12 @@ TEST(SamplingPlan, PathsFromTheLightsByTheirVariance) {
   EXPECT_EQ(adaptive_plan(film_of(
                               8, 8, [](int x, int) { return x; }, [](int, int) { return 1; }),
                           0.25)
-                .light,
+                .light_path_scale,
             1);
 }
 
 // One noisy pixel, of which its neighbours know nothing: even spending is best for all the others that it makes noisy.
-TEST(SamplingPlan, IsEvenWhereNeighboursTellNothing) {
+TEST(SamplingPlan, UncorrelatedNeighbours_GiveUniformRates) {
   mc::Pcg random(2);
   std::vector<double> noise(30 * 30);
   for (double& n : noise) n = random.uniform<double>() < 0.01 ? 5 : 0.01;
@@ -172,10 +172,10 @@ TEST(SamplingPlan, IsEvenWhereNeighboursTellNothing) {
 TEST(SamplingPlan, ThreadsDoNotChangeIt) {
   const auto noise = [](int x, int y) { return 0.01 * (x * y % 7); };
   const Film film = film_of(33, 21, noise, [](int x, int) { return 1 + x; });
-  EXPECT_EQ(adaptive_plan(film, 0.2, ErrorOf::picture, 1).rates, adaptive_plan(film, 0.2, ErrorOf::picture, 3).rates);
+  EXPECT_EQ(adaptive_plan(film, 0.2, ErrorScope::image, 1).rates, adaptive_plan(film, 0.2, ErrorScope::image, 3).rates);
 }
 
-TEST(SamplingPlan, NothingToTellIsEven) {
+TEST(SamplingPlan, ZeroVariance_GivesUniformRates) {
   const auto one = [](int, int) { return 1; };
   const SamplingPlan quiet = adaptive_plan(film_of(
                                                5, 4, [](int, int) { return 0; }, one),

@@ -9,7 +9,7 @@ namespace {
 
 using namespace render;
 
-TEST(Strategy, NamesAndTheirSlips) {
+TEST(Strategy, UnknownName_SuggestsNearest) {
   for (const Strategy& s : strategies) EXPECT_EQ(strategy_from(s.name).name, s.name);
   try {
     strategy_from("mist");
@@ -20,10 +20,10 @@ TEST(Strategy, NamesAndTheirSlips) {
   }
 }
 
-TEST(Strategy, RowsMakeSense) {
+TEST(Strategy, TableIsConsistent) {
   for (const Strategy& s : strategies) {
-    EXPECT_TRUE(s.share >= 0 && s.share <= 1) << s.name;
-    EXPECT_EQ(s.share > 0, s.target != Target::nothing) << s.name;
+    EXPECT_TRUE(s.guiding_fraction >= 0 && s.guiding_fraction <= 1) << s.name;
+    EXPECT_EQ(s.guiding_fraction > 0, s.guiding_target != GuidingTarget::none) << s.name;
   }
 }
 

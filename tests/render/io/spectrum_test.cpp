@@ -38,24 +38,24 @@ TEST(Spectrum, WhiteIsWhiteInDaylight) {
   EXPECT_LE((render::spectrum_to_rgb({{500, 0.3}}, d65) - render::Float(0.3)).abs().maxCoeff(), 1e-6);
   // Daylight has more of the short wavelengths than what is white at equal energy.
   const std::vector<render::SpectralSample> cyan{{400, 1}, {560, 1}, {580, 0}};
-  const render::Spectrum in_daylight = render::spectrum_to_rgb(cyan, d65), otherwise = render::spectrum_to_rgb(cyan);
-  EXPECT_GT(in_daylight[2] / in_daylight[1], 1.02 * otherwise[2] / otherwise[1]);
+  const render::Spectrum in_daylight = render::spectrum_to_rgb(cyan, d65), with_default = render::spectrum_to_rgb(cyan);
+  EXPECT_GT(in_daylight[2] / in_daylight[1], 1.02 * with_default[2] / with_default[1]);
 }
 
 // Beyond its samples a spectrum is what it is in the renderer that reads it: sums of three parts are checked.
 TEST(Spectrum, BeyondItsSamples) {
-  using render::Beyond, render::Illuminant, render::SpectralSample;
+  using render::Extrapolation, render::Illuminant, render::SpectralSample;
   const std::vector<SpectralSample> part = {{500, 1}, {520, 1}};
   const std::vector<SpectralSample> ramp = {{480, 0}, {500, 1}, {520, 1}, {540, 0}};
   const std::vector<SpectralSample> box = {{500 - 1e-9, 0}, {500, 1}, {520, 1}, {520 + 1e-9, 0}};
-  const auto rgb = [](const std::vector<SpectralSample>& s, Beyond beyond) {
+  const auto rgb = [](const std::vector<SpectralSample>& s, Extrapolation beyond) {
     return render::spectrum_to_rgb(s, Illuminant::equal_energy, beyond);
   };
-  EXPECT_LE((rgb(part, Beyond::ramp) - rgb(ramp, Beyond::held)).abs().maxCoeff(), 1e-6);
-  EXPECT_LE((rgb(part, Beyond::zero) - rgb(box, Beyond::held)).abs().maxCoeff(), 1e-6);
-  EXPECT_LE((rgb(part, Beyond::held) - rgb({{400, 1}, {700, 1}}, Beyond::zero)).abs().maxCoeff(), 1e-6);
-  for (const Beyond beyond : {Beyond::held, Beyond::ramp, Beyond::zero})
-    EXPECT_LE((rgb({{500, 1}}, beyond) - rgb(part, Beyond::held)).abs().maxCoeff(), 1e-6) << "one sample is constant";
+  EXPECT_LE((rgb(part, Extrapolation::ramp) - rgb(ramp, Extrapolation::constant)).abs().maxCoeff(), 1e-6);
+  EXPECT_LE((rgb(part, Extrapolation::zero) - rgb(box, Extrapolation::constant)).abs().maxCoeff(), 1e-6);
+  EXPECT_LE((rgb(part, Extrapolation::constant) - rgb({{400, 1}, {700, 1}}, Extrapolation::zero)).abs().maxCoeff(), 1e-6);
+  for (const Extrapolation beyond : {Extrapolation::constant, Extrapolation::ramp, Extrapolation::zero})
+    EXPECT_LE((rgb({{500, 1}}, beyond) - rgb(part, Extrapolation::constant)).abs().maxCoeff(), 1e-6) << "one sample is constant";
 }
 
 } // namespace

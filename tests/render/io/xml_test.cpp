@@ -16,16 +16,16 @@ TEST_F(Xml, KnowsItsLines) {
   EXPECT_EQ(root.children[0].attribute_or("id", "none"), "none");
 }
 
-TEST_F(Xml, NamesWhatNobodyLookedAt) {
+TEST_F(Xml, UnusedElements_AreReported) {
   const auto root =
       render::read_xml(write("a.xml", "<scene>\n<shape type=\"x\" odd=\"1\"/>\n<film type=\"y\"/></scene>"));
-  root.mark();
-  root.children[0].mark();
+  root.mark_used();
+  root.children[0].mark_used();
   EXPECT_EQ(root.children[0].attribute("type"), "x");
-  EXPECT_EQ(support::error_of([&] { root.require_all_seen(); }),
+  EXPECT_EQ(support::error_of([&] { root.require_all_used(); }),
             path("a.xml") + ":2: <shape>: attribute odd=\"1\" is not supported; remove it");
   EXPECT_EQ(root.children[0].attribute("odd"), "1");
-  EXPECT_EQ(support::error_of([&] { root.require_all_seen(); }),
+  EXPECT_EQ(support::error_of([&] { root.require_all_used(); }),
             path("a.xml") + ":3: <film type=\"y\"> is not supported here; remove it");
 }
 

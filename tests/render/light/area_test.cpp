@@ -10,17 +10,17 @@ using namespace render;
 
 std::shared_ptr<const Shape> square() { return std::make_shared<const Shape>(TriangleMesh::rectangle({})); }
 
-TEST(AreaLight, ShinesFromTheSideOfItsNormal) {
+TEST(AreaLight, EmitsFromSideOfNormal) {
   SurfacePoint p;
   p.ng = Vec3::UnitY();
   const Spectrum radiance(1, 2, 3), black = Spectrum::Zero();
   const Vec3 above(0, -1, 0), below(0, 1, 0), beside(1, 0, 0); // directions toward the light
   const AreaLight one(square(), {radiance}), both(square(), {radiance, true});
-  EXPECT_TRUE((one.emitted(above, &p) == radiance).all());
-  EXPECT_TRUE((one.emitted(below, &p) == black).all());
-  EXPECT_TRUE((one.emitted(beside, &p) == black).all());
-  for (const Vec3& wi : {above, below}) EXPECT_TRUE((both.emitted(wi, &p) == radiance).all());
-  EXPECT_TRUE((both.emitted(above, nullptr) == black).all()) << "where no surface is met, it does not shine";
+  EXPECT_TRUE((one.Le(above, &p) == radiance).all());
+  EXPECT_TRUE((one.Le(below, &p) == black).all());
+  EXPECT_TRUE((one.Le(beside, &p) == black).all());
+  for (const Vec3& wi : {above, below}) EXPECT_TRUE((both.Le(wi, &p) == radiance).all());
+  EXPECT_TRUE((both.Le(above, nullptr) == black).all()) << "where no surface is met, it does not shine";
 }
 
 // Two squares of area 4: power pi A L, seen from both sides twice that.
@@ -33,10 +33,10 @@ TEST(AreaLight, SamplesItsShape) {
   const AreaLight light(square(), {Spectrum::Ones()});
   const Vec3 ref(Float(0.2), Float(0.1), 3);
   const auto s = light.sample(ref, Vec2(Float(0.3), Float(0.7)));
-  ASSERT_TRUE(s && s->end);
-  EXPECT_NEAR(light.pdf(ref, s->wi, &*s->end) / s->pdf, 1, 1e-5);
+  ASSERT_TRUE(s && s->point);
+  EXPECT_NEAR(light.pdf(ref, s->wi, &*s->point) / s->pdf, 1, 1e-5);
   EXPECT_TRUE((s->radiance == 1).all());
-  EXPECT_LE((ref + (s->end->p - ref).norm() * s->wi - s->end->p).norm(), 1e-5);
+  EXPECT_LE((ref + (s->point->p - ref).norm() * s->wi - s->point->p).norm(), 1e-5);
 }
 
 TEST(AreaLight, RefusesNonsense) {

@@ -10,9 +10,9 @@ using namespace render;
 
 TEST(ConstantBackground, IsTheSameEverywhere) {
   const ConstantBackground sky(Spectrum::Constant(2));
-  EXPECT_TRUE((sky.emitted(Vec3::UnitX(), nullptr) == 2).all());
+  EXPECT_TRUE((sky.Le(Vec3::UnitX(), nullptr) == 2).all());
   const SurfacePoint p;
-  EXPECT_TRUE(is_black(sky.emitted(Vec3::UnitX(), &p))) << "it does not shine through surfaces";
+  EXPECT_TRUE(is_black(sky.Le(Vec3::UnitX(), &p))) << "it does not shine through surfaces";
   EXPECT_EQ(sky.pdf(Vec3::Zero(), Vec3::UnitX(), &p), 0);
   // Through every point of the disk that a ball of radius 3 shows, 4 pi sr of radiance 2.
   EXPECT_NEAR(sky.power(3) / (mc::pi<double> * 9 * 4 * mc::pi<double> * 2), 1, 1e-6);
@@ -20,9 +20,9 @@ TEST(ConstantBackground, IsTheSameEverywhere) {
 
 TEST(GradientBackground, IsLinearInHeight) {
   const GradientBackground sky(Spectrum::Ones(), Spectrum(Float(0.5), Float(0.25), 0));
-  EXPECT_TRUE((sky.emitted(-Vec3::UnitY(), nullptr) == 1).all());
-  EXPECT_TRUE((sky.emitted(Vec3::UnitY(), nullptr) == Spectrum(Float(0.5), Float(0.25), 0)).all());
-  EXPECT_TRUE((sky.emitted(Vec3::UnitX(), nullptr) == Spectrum(Float(0.75), Float(0.625), Float(0.5))).all());
+  EXPECT_TRUE((sky.Le(-Vec3::UnitY(), nullptr) == 1).all());
+  EXPECT_TRUE((sky.Le(Vec3::UnitY(), nullptr) == Spectrum(Float(0.5), Float(0.25), 0)).all());
+  EXPECT_TRUE((sky.Le(Vec3::UnitX(), nullptr) == Spectrum(Float(0.75), Float(0.625), Float(0.5))).all());
 }
 
 // Luminance over density is the same for every sample, and is the mean luminance times 4 pi.
@@ -34,7 +34,7 @@ TEST(GradientBackground, IsSampledByLuminance) {
       const auto s = sky.sample(Vec3::Zero(), Vec2((Float(i) + Float(0.5)) / 20, (Float(j) + Float(0.5)) / 20));
       ASSERT_TRUE(s);
       EXPECT_NEAR(double(luminance(s->radiance)) / double(s->pdf) / expected, 1, 1e-5);
-      EXPECT_FALSE(s->end);
+      EXPECT_FALSE(s->point);
     }
 }
 

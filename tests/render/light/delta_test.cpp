@@ -1,4 +1,4 @@
-#include <render/light/choice.h>
+#include <render/light/light_sampler.h>
 
 #include <mc/random/pcg.h>
 
@@ -23,7 +23,7 @@ TEST(PointLight, FallsWithTheSquareOfTheDistance) {
       const Spectrum intensity = Spectrum(1, 2, 3) * Float(scale * scale);
       const PointLight light(at, intensity);
       const auto s = light.sample(ref, Vec2(Float(0.3), Float(0.7)));
-      ASSERT_TRUE(s && s->end);
+      ASSERT_TRUE(s && s->point);
       EXPECT_EQ(s->pdf, 1);
       EXPECT_LE((s->wi.cast<double>() - way.normalized()).norm(), 1e-6);
       for (int c = 0; c < 3; ++c)
@@ -43,7 +43,7 @@ TEST(PointLight, AtItsOwnPlace) {
                                      PointLight(Vec3d(1, 2, 3), Spectrum::Zero())};
   const Vec3 there(1, 2, 3);
   EXPECT_FALSE(lights[0].sample(there, Vec2(0, 0)));
-  const auto choice = LightChoice::of(lights, 1);
+  const auto choice = LightSampler::create(lights, 1);
   ASSERT_TRUE(choice);
   EXPECT_NEAR(choice->pmf(lights, there, 0), 5.0 / 6, 1e-6);
   EXPECT_NEAR(choice->pmf(lights, there, 1), 1.0 / 6, 1e-6);
@@ -56,7 +56,7 @@ TEST(DirectionalLight, IsTheSameEverywhere) {
     for (const Vec3& ref : {Vec3(0, 0, 0), Vec3(1e20f, 0, 0)}) {
       const auto s = sun.sample(ref, Vec2(Float(0.3), Float(0.7)));
       ASSERT_TRUE(s);
-      EXPECT_FALSE(s->end);
+      EXPECT_FALSE(s->point);
       EXPECT_EQ(s->pdf, 1);
       EXPECT_LE((s->wi - Vec3(-1, 2, -2) / 3).norm(), 1e-6);
       EXPECT_TRUE((s->radiance == Spectrum(1, 2, 3)).all());
@@ -65,14 +65,14 @@ TEST(DirectionalLight, IsTheSameEverywhere) {
   EXPECT_NEAR(DirectionalLight(Vec3d::UnitX(), Spectrum::Constant(2)).power(3), 18 * mc::pi<double>, 1e-4);
 }
 
-TEST(DeltaLights, AreMetByNothing) {
+TEST(DeltaLights, AreNeverHitByRays) {
   SurfacePoint met;
   met.ng = Vec3::UnitY();
   for (const Light& light : {Light(PointLight(Vec3d::Zero(), Spectrum::Ones())),
                              Light(DirectionalLight(Vec3d::UnitZ(), Spectrum::Ones()))}) {
     EXPECT_TRUE(light.is_delta() && light.is_sampled() && !light.is_infinite());
     for (const SurfacePoint* p : std::initializer_list<const SurfacePoint*>{&met, nullptr}) {
-      EXPECT_TRUE(is_black(light.emitted(Vec3::UnitX(), p)));
+      EXPECT_TRUE(is_black(light.Le(Vec3::UnitX(), p)));
       EXPECT_EQ(light.pdf(Vec3::Zero(), Vec3::UnitX(), p), 0);
     }
   }

@@ -16,20 +16,20 @@ std::shared_ptr<const Texels> picture(int width, int height, const std::function
   return std::make_shared<const Texels>(width, height, std::move(values));
 }
 
-TEST(Environment, LooksAsMitsubasDo) {
+TEST(Environment, MatchesMitsubaOrientation) {
   // Four columns: -z, +x, +z, -x at the quarters; the top row is +y.
   const Environment e(picture(4, 2, [](int x, int y) { return Spectrum(Float(x + 1), Float(y), 0); }));
-  const auto red = [&](const Vec3d& d) { return e.emitted(d.normalized().cast<Float>(), nullptr)[0]; };
+  const auto red = [&](const Vec3d& d) { return e.Le(d.normalized().cast<Float>(), nullptr)[0]; };
   const double between = mc::pi<double> / 4; // the middle of a column
   EXPECT_NEAR(red({std::sin(between), 0, -std::cos(between)}), 1, 1e-5);
   EXPECT_NEAR(red({std::cos(between), 0, std::sin(between)}), 2, 1e-5);
   EXPECT_NEAR(red({-std::sin(between), 0, std::cos(between)}), 3, 1e-5);
   EXPECT_NEAR(red({-std::cos(between), 0, -std::sin(between)}), 4, 1e-5);
   EXPECT_NEAR(red({0, 0, -1}), 2.5, 1e-5) << "the seam";
-  EXPECT_EQ(e.emitted(Vec3::UnitY(), nullptr)[1], 0);
-  EXPECT_EQ(e.emitted(-Vec3::UnitY(), nullptr)[1], 1);
+  EXPECT_EQ(e.Le(Vec3::UnitY(), nullptr)[1], 0);
+  EXPECT_EQ(e.Le(-Vec3::UnitY(), nullptr)[1], 1);
   const SurfacePoint met;
-  EXPECT_TRUE(is_black(e.emitted(Vec3::UnitX(), &met)));
+  EXPECT_TRUE(is_black(e.Le(Vec3::UnitX(), &met)));
 }
 
 TEST(Environment, TurnsWithItsTransform) {
@@ -42,13 +42,13 @@ TEST(Environment, TurnsWithItsTransform) {
         Vec3d(random.uniform<double>() - 0.5, random.uniform<double>() - 0.5, random.uniform<double>() - 0.5)
             .normalized();
     const Vec3d there = Transform::rotate({0, 1, 0}, 90).vector(d);
-    EXPECT_NEAR(turned.emitted(there.cast<Float>(), nullptr)[0], 2 * plain.emitted(d.cast<Float>(), nullptr)[0], 1e-3);
+    EXPECT_NEAR(turned.Le(there.cast<Float>(), nullptr)[0], 2 * plain.Le(d.cast<Float>(), nullptr)[0], 1e-3);
   }
 }
 
 // Sample and pdf say the same; radiance over density averages to the flux, and a density is an integral of 1: by
 // regular grids, whose lines are not those of the texels, on random pictures with black texels.
-TEST(Environment, SamplesWhatItSays) {
+TEST(Environment, SampleAgreesWithPdf) {
   mc::Pcg random(4);
   for (int trial = 0; trial < 6; ++trial) {
     const int width = 1 + trial * 3, height = 1 + trial * 2;
@@ -64,7 +64,7 @@ TEST(Environment, SamplesWhatItSays) {
         const auto s = e.sample(Vec3::Zero(), Vec2((Float(i) + Float(0.5)) / n, (Float(j) + Float(0.5)) / n));
         ASSERT_TRUE(s);
         EXPECT_GT(s->pdf, 0);
-        EXPECT_FALSE(s->end);
+        EXPECT_FALSE(s->point);
         flux += double(luminance(s->radiance)) / double(s->pdf) / (n * n);
         // A grid of (theta, phi) for the integral of the density, which is constant times 1 / sin(theta) in a texel.
         const double theta = mc::pi<double> * (i + 0.5) / n, phi = 2 * mc::pi<double> * (j + 0.5) / n,

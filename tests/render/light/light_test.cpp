@@ -14,7 +14,7 @@ TEST(Light, AnswersAsItsMember) {
   const GradientBackground sky;
   const Light light = sky;
   const Vec3 ref = Vec3::Zero(), wi = Vec3(1, 2, 3).normalized();
-  EXPECT_TRUE((light.emitted(wi, nullptr) == sky.emitted(wi, nullptr)).all());
+  EXPECT_TRUE((light.Le(wi, nullptr) == sky.Le(wi, nullptr)).all());
   EXPECT_EQ(light.pdf(ref, wi, nullptr), sky.pdf(ref, wi, nullptr));
   EXPECT_EQ(light.sample(ref, Vec2(Float(0.3), Float(0.7)))->wi, sky.sample(ref, Vec2(Float(0.3), Float(0.7)))->wi);
   EXPECT_EQ(light.power(2), sky.power(2));

@@ -26,7 +26,7 @@ TEST(SceneBuilder, AnEmptySceneIsRefusedUnlessItHasABackground) {
   EXPECT_THROW(builder.build(), mc::Error) << "build() leaves the builder empty";
 }
 
-TEST(SceneBuilder, SaysWhatIsWrong) {
+TEST(SceneBuilder, ErrorsNameTheProblem) {
   SceneBuilder builder;
   const BsdfId gray = builder.add(Lambert());
   const Shape ball = Sphere(Vec3d::Zero(), 1), flat = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}});
@@ -34,9 +34,9 @@ TEST(SceneBuilder, SaysWhatIsWrong) {
   EXPECT_THAT(message([&] { builder.add(ball, {BsdfId(3)}); }), testing::HasSubstr("shape 1 names BSDF 3 of 1"));
   EXPECT_THAT(message([&] { builder.add(flat, {gray, Emission{}}); }), testing::HasSubstr("needs an area > 0"));
   const BsdfId board = builder.add(TexturedLambert(Checkerboard(Spectrum::Zero(), Spectrum::Ones())));
-  const Shape bare = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
-  EXPECT_THAT(message([&] { builder.add(bare, {board}); }), testing::HasSubstr("shape 1 has no texture coordinates"));
-  EXPECT_THAT(message([&] { builder.add(bare, {.bsdf = board, .without_uvs = "a.obj: why"}); }),
+  const Shape untextured = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  EXPECT_THAT(message([&] { builder.add(untextured, {board}); }), testing::HasSubstr("shape 1 has no texture coordinates"));
+  EXPECT_THAT(message([&] { builder.add(untextured, {.bsdf = board, .missing_uv_reason = "a.obj: why"}); }),
               testing::EndsWith("which its texture needs: a.obj: why"));
   Material holes(Dielectric(Float(1.5)));
   holes.mask = std::make_shared<const Mask>(Float(0.5));
@@ -51,12 +51,12 @@ TEST(SceneBuilder, SaysWhatIsWrong) {
 }
 
 // What nothing aims at keeps no table to pick its triangles by.
-TEST(SceneBuilder, SamplesWhatShinesOrGuides) {
+TEST(SceneBuilder, KeepsSamplingTablesOfLightsAndTargets) {
   SceneBuilder builder;
   const BsdfId gray = builder.add(Lambert());
   builder.add(TriangleMesh::rectangle({}), {gray});
   builder.add(TriangleMesh::rectangle({}), {gray, Emission{}});
-  builder.add(TriangleMesh::rectangle({}), {.bsdf = gray, .guide = true});
+  builder.add(TriangleMesh::rectangle({}), {.bsdf = gray, .importance_target = true});
   const Scene scene = builder.build();
   const auto sampled = [&](std::size_t i) {
     return scene.surfaces()[i].shape->sample(Vec3(0, 0, 5), Vec2(Float(0.3), Float(0.6))).has_value();

@@ -54,7 +54,7 @@ TEST(HomogeneousMedium, BeersLaw) {
 
 // Boundaries of index 1 bend nothing and reflect nothing: exp(-sigma t), t the way inside, under every strategy, of any
 // size, at any place. To the rounding of coordinates that are up to four times as large as the scene.
-TEST(HomogeneousMedium, AChordOfABall) {
+TEST(HomogeneousMedium, SphereChord_MatchesBeersLaw) {
   mc::Pcg random(1);
   for (int i = 0; i < 100; ++i) {
     const Space space(random);
@@ -75,7 +75,7 @@ TEST(HomogeneousMedium, AChordOfABall) {
 
 // Within what absorbs lies something else that does: outside of the inner one the outer one goes on. Roulette plays on
 // the way: t-tests of 30 means at alpha = 1e-6, fixed seeds.
-TEST(HomogeneousMedium, ABallWithinABall) {
+TEST(HomogeneousMedium, NestedSpheres_MatchBeersLaw) {
   mc::Pcg random(3);
   for (int i = 0; i < 30; ++i) {
     const Space space(random);
@@ -122,7 +122,7 @@ TEST(HomogeneousMedium, APlateOfGlass) {
 
 // A shell: only between its two surfaces, which both name the medium, is anything absorbed. Roulette makes it vary:
 // t-tests of 20 means at alpha = 1e-6, fixed seeds.
-TEST(HomogeneousMedium, AHollowBall) {
+TEST(HomogeneousMedium, HollowSphere_MatchesBeersLaw) {
   mc::Pcg random(3);
   for (int i = 0; i < 20; ++i) {
     const Space space(random);
@@ -194,7 +194,7 @@ TEST(HomogeneousMedium, StrategiesAgree) {
 }
 
 // A camera in a ball of ink, before and behind a window of its own, and beside the ball.
-TEST(HomogeneousMedium, AroundTheCamera) {
+TEST(HomogeneousMedium, CameraInsideMedium_MatchesBeersLaw) {
   const HomogeneousMedium ink(Spectrum(Float(0.5), 2, 0));
   for (const double z : {0.4, -0.2, 5.0}) {
     SceneBuilder builder;

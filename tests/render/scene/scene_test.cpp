@@ -8,18 +8,18 @@ using namespace render;
 
 Emission shining(Float radiance, bool two_sided = false) { return {Spectrum::Constant(radiance), two_sided}; }
 
-TEST(Scene, NobodyConnectsToABackgroundOrToDarkLights) {
+TEST(Scene, BackgroundsAndBlackLightsAreNotSampled) {
   SceneBuilder builder;
   const BsdfId gray = builder.add(Lambert());
   builder.add(Sphere(Vec3d::Zero(), 1), {gray, shining(0)});
   builder.add(Light(ConstantBackground(Spectrum::Ones())));
   const Scene dark = builder.build();
-  EXPECT_FALSE(dark.has_light_choice());
+  EXPECT_FALSE(dark.has_light_sampler());
   ASSERT_EQ(dark.infinite_lights().size(), 1u);
   EXPECT_EQ(dark.infinite_lights()[0], 1u);
 }
 
-TEST(Scene, TellsWhatCoversAHit) {
+TEST(Scene, ReturnsBsdfAtHit) {
   SceneBuilder builder;
   const BsdfId gray = builder.add(Lambert()), glass = builder.add(Dielectric());
   builder.add(Sphere(Vec3d(0, 0, 5), 1), {gray, shining(2)});
@@ -33,7 +33,7 @@ TEST(Scene, TellsWhatCoversAHit) {
   EXPECT_FALSE(scene.bsdf(scene.surface(*lamp)).is_delta());
   EXPECT_TRUE(scene.bsdf(scene.surface(*ball)).is_delta());
   const SurfacePoint p = scene.surface_point(ahead, *lamp);
-  EXPECT_TRUE((scene.lights()[0].emitted(ahead.d, &p) == 2).all());
+  EXPECT_TRUE((scene.lights()[0].Le(ahead.d, &p) == 2).all());
   EXPECT_TRUE(scene.occluded(ahead));
   EXPECT_FALSE(scene.occluded({Vec3::Zero(), Vec3::UnitX()}));
 }

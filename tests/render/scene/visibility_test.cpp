@@ -49,7 +49,7 @@ struct Plates {
 };
 
 // t-tests of 20 x 7 means at alpha = 1e-6, fixed seeds.
-TEST(Visibility, ASkyThroughPlates) {
+TEST(Visibility, SkyThroughMasks_MatchesClosedForm) {
   mc::Pcg random(1);
   for (int i = 0; i < 20; ++i) {
     Plates plates(random, 1 + i % 4, 0);
@@ -66,7 +66,7 @@ TEST(Visibility, ASkyThroughPlates) {
 }
 
 // A shadow ray to a point of light is no matter of chance: rho / pi I cos / d^2 times what passes.
-TEST(Visibility, APointOfLightThroughPlates) {
+TEST(Visibility, PointLightThroughMasks_MatchesClosedForm) {
   mc::Pcg random(2);
   for (int i = 0; i < 100; ++i) {
     Plates plates(random, i % 8, 0);
@@ -88,7 +88,7 @@ TEST(Visibility, APointOfLightThroughPlates) {
 // Above a floor a ball of light that shines with L, whose radius is sin a of its distance, gives it rho L sin^2 a:
 // strategies that find it by chance, by connection and by both agree. Of 8000 samples at least 80 find it by chance,
 // enough for a t-test. Of those 10 x 7 at alpha = 1e-6, fixed seeds; to 1e-5 besides, the rounding of places.
-TEST(Visibility, ABallOfLightThroughPlates) {
+TEST(Visibility, SphereLightThroughMasks_MatchesClosedForm) {
   mc::Pcg random(3);
   for (int i = 0; i < 10; ++i) {
     Plates plates(random, 1 + i % 2, 0, 0.5);
@@ -111,7 +111,7 @@ TEST(Visibility, ABallOfLightThroughPlates) {
 }
 
 // Plates that reflect all that they stop vanish in a white sky, whatever paths they lead to.
-TEST(Visibility, WhiteVeilsVanishInAWhiteSky) {
+TEST(Visibility, WhiteMasks_VanishInWhiteSky) {
   mc::Pcg random(4);
   for (int i = 0; i < 10; ++i) {
     Plates plates(random, 3, 1);
@@ -126,7 +126,7 @@ TEST(Visibility, WhiteVeilsVanishInAWhiteSky) {
 }
 
 // Squares that are there and squares that are not: no chance about them, for eyes, shadows, normals and occlusion.
-TEST(Visibility, ALatticeIsThereOrNot) {
+TEST(Visibility, MaskTexture_IsOpaqueOrTransparent) {
   const Spectrum none = Spectrum::Zero(), all = Spectrum::Ones();
   SceneBuilder builder;
   builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 1})),
@@ -145,37 +145,37 @@ TEST(Visibility, ALatticeIsThereOrNot) {
     EXPECT_NEAR(support::traced(scene, {under, down}, one, 2).mean(), there ? 0 : 0.5, 1e-5);
     std::uint64_t rays = 0;
     Ray ray{over, down};
-    const auto hit = meet(scene, ray, rays, [](Float opacity) { return opacity < 1; });
+    const auto hit = nearest_hit(scene, ray, rays, [](Float opacity) { return opacity < 1; });
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->shape, there ? 0 : 1);
     EXPECT_EQ(rays, there ? 1u : 2u);
     // A ray that ends before the floor ends there though it passes a hole.
     Ray cut{over, down, Float(1.5)};
-    EXPECT_EQ(meet(scene, cut, rays, [](Float opacity) { return opacity < 1; }).has_value(), there);
-    EXPECT_EQ(open_share(scene, {over, down, Float(1.5)}, {}, rays), there ? 0 : 1);
-    EXPECT_EQ(open_share(scene, {over, down, Float(2.5)}, {}, rays), 0);
+    EXPECT_EQ(nearest_hit(scene, cut, rays, [](Float opacity) { return opacity < 1; }).has_value(), there);
+    EXPECT_EQ(shadow_transmittance(scene, {over, down, Float(1.5)}, {}, rays), there ? 0 : 1);
+    EXPECT_EQ(shadow_transmittance(scene, {over, down, Float(2.5)}, {}, rays), 0);
   }
 }
 
 // Under a plate of opacity a that fills the sky, to a part in 1e4, a share of 1 - a of it is open. t-tests at
 // alpha = 1e-6.
-TEST(Visibility, OcclusionAndNormalsThroughAVeil) {
+TEST(Visibility, AovsThroughMask_MatchClosedForm) {
   SceneBuilder builder;
   builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 1}) * Transform::scale({1e3, 1e3, 1})),
               {builder.add(masked(gray(0), Mask(Float(0.3))))});
   builder.add(TriangleMesh::rectangle(Transform::scale({1e4, 1e4, 1})), {builder.add(gray(0.5))});
   const Scene scene = builder.build();
   const Ray below{Vec3(0, 0, Float(0.5)), Vec3(0, 0, -1)}, above{Vec3(0, 0, 2), Vec3(1, 0, -10).normalized()};
-  EXPECT_NEAR(support::traced(scene, below, {.shown = Shown::ambient_occlusion}, 1000).mean(), 0.7, 1e-4);
+  EXPECT_NEAR(support::traced(scene, below, {.aov = Aov::ambient_occlusion}, 1000).mean(), 0.7, 1e-4);
   // The normal of the plate and of the floor is +z: blue. Both are 1 there, so the share of neither is seen.
-  EXPECT_NEAR(support::traced(scene, above, {.shown = Shown::normals}, 100, 2).mean(), 1, 1e-6);
+  EXPECT_NEAR(support::traced(scene, above, {.aov = Aov::normals}, 100, 2).mean(), 1, 1e-6);
   // From above .3 see the plate, which nothing shades, the others the floor under it.
-  const mc::Moments m = support::traced(scene, above, {.shown = Shown::ambient_occlusion}, 20'000);
+  const mc::Moments m = support::traced(scene, above, {.aov = Aov::ambient_occlusion}, 20'000);
   EXPECT_GE(mc::t_test(m, 0.3 + 0.7 * 0.7).p, 1e-6) << m.mean() << " +- " << m.std_error();
 }
 
 // Layers have no chance: they show what is there by half at least.
-TEST(Visibility, LayersShowWhatIsThereByHalf) {
+TEST(Visibility, Layers_ShowSurfacesOfHalfOpacityOrMore) {
   for (const double opacity : {0.0, 0.49, 0.5, 1.0}) {
     SceneBuilder builder;
     builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 2})),

@@ -50,11 +50,11 @@ TEST(Shape, AreaIsSampledAlike) {
   expect_alike(counted(square, [](const SurfacePoint& p) { return (p.p.x() + 4) / 8; }));
   expect_alike(counted(square, [](const SurfacePoint& p) { return (p.p.y() + 2) / 4; }));
   Shape forgotten = square;
-  forgotten.forget_choice();
+  forgotten.discard_sampling_table();
   EXPECT_FALSE(forgotten.sample_area({0, 0}));
 }
 
-TEST(Shape, FillsItsBoxAndNoMoreThanItsSpread) {
+TEST(Shape, SolidAngleStaysBelowBound) {
   mc::Pcg random(12);
   const auto number = [&] { return 4 * random.uniform<double>() - 2; };
   for (int trial = 0; trial < 400; ++trial) {
@@ -75,7 +75,7 @@ TEST(Shape, FillsItsBoxAndNoMoreThanItsSpread) {
       EXPECT_LE(outside, s ? 2 * double(s->point.error) : 0) << trial;
       filled.add(s ? shares * double(std::max(Float(0), s->wi.dot(n)) / s->pdf) : 0.0, i);
     }
-    EXPECT_LE(filled.mean() - 5 * filled.std_error(), 1.001 * shape.spread(ref)) << trial;
+    EXPECT_LE(filled.mean() - 5 * filled.std_error(), 1.001 * shape.projected_solid_angle_bound(ref)) << trial;
   }
 }
 

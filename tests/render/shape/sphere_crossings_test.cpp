@@ -16,9 +16,9 @@ TEST(SphereCrossings, LieOnTheSphere) {
     const Vec3d o = 4 * random.point<double, 3>() - Vec3d::Constant(2);
     const double length = std::exp(20 * random.uniform<double>() - 10);
     const Line line(o, length * (random.point<double, 3>() - Vec3d::Constant(0.5)));
-    const auto pass = sphere_pass(o.x(), o.y(), o.z(), line, 1.0);
+    const auto pass = sphere_quadratic(o.x(), o.y(), o.z(), line, 1.0);
     const EightDoubles zero = {}, x = zero + o.x(), y = zero + o.y(), z = zero + o.z(), r2 = zero + 1.0;
-    const auto passes = sphere_pass(x, y, z, line, r2);
+    const auto passes = sphere_quadratic(x, y, z, line, r2);
     ASSERT_EQ(pass.discriminant, passes.discriminant[5]);
     ASSERT_EQ(pass.crosses_ahead(), passes.crosses_ahead()[5] != 0);
     if (!pass.crosses()) continue;
@@ -40,12 +40,12 @@ TEST(SphereCrossings, LieOnTheSphere) {
 TEST(SphereCrossings, AtTheEdges) {
   const auto along_x = [](double x, double d, double radius) {
     const Line line({x, 0, 0}, {d, 0, 0});
-    return sphere_crossings(sphere_pass(x, 0.0, 0.0, line, radius * radius), line);
+    return sphere_crossings(sphere_quadratic(x, 0.0, 0.0, line, radius * radius), line);
   };
   EXPECT_EQ(along_x(1, -1, 1).t0, 0);
   EXPECT_EQ(along_x(1, -1, 1).t1, 2);
   EXPECT_NEAR(1e8 - 2 * along_x(1e8, -2, 1e-3).t0, 1e-3, 2e-8);
-  EXPECT_FALSE(sphere_pass(0.0, 2.0, 0.0, Line({0, 2, 0}, {1, 0, 0}), 1.0).crosses());
+  EXPECT_FALSE(sphere_quadratic(0.0, 2.0, 0.0, Line({0, 2, 0}, {1, 0, 0}), 1.0).crosses());
 }
 
 } // namespace

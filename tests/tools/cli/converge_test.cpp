@@ -39,7 +39,8 @@ TEST_F(Converge, AnExpressionNeedsNoTruth) {
   const Ran r = run("'exp(-x*x)*cos(y)' -d x=0:1,y=-1:2 --max-n 1024 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   // 0.5 sqrt(pi) erf(1) (sin 2 + sin 1)
-  EXPECT_THAT(r.output, AllOf(HasSubstr("true value unknown; errors are relative to 1.3075"), HasSubstr("sobol       RMS error ")));
+  EXPECT_THAT(r.output, AllOf(HasSubstr("true value unknown; errors are relative to 1.3075"),
+                              HasSubstr("sobol       RMS error ")));
   EXPECT_THAT(out("exp_-x_x__cos_y_.json"), AllOf(HasSubstr("\"truth_error\": "), HasSubstr("\"replicates\": ")));
   EXPECT_THAT(out("slopes.csv"), HasSubstr("exp(-x*x)*cos(y),unknown,2,sobol,"));
   const std::string page = mc::read_file(path("page/index.html"));

@@ -49,7 +49,7 @@ TEST_F(GalleryCommand, RefusesBadInputInOneLineBeforeTheWork) {
   const std::string to = " -o " + path("out");
   expect_refused("gallery book1-metl" + to, {"'book1-metl'", "did you mean 'book1-metal'"});
   expect_refused("gallery book1-metal --scale 0" + to, {"--scale 0"});
-  expect_refused("gallery book1-metal --list", {"a list is of all scenes; leave out 'book1-metal'"});
+  expect_refused("gallery book1-metal --list", {"--list and --table show all scenes; leave out 'book1-metal'"});
   expect_refused("gallery book1-metal --scale nan" + to, {"--scale nan"});
   expect_refused("gallery book1-metal --spp 0" + to, {"--spp 0"});
   expect_refused("gallery book1-metal --time -1" + to, {"> 0"});

@@ -113,13 +113,13 @@ TEST_F(RenderCommand, TonesAPng) {
     ASSERT_EQ(run_carlo(start + path("a.pfm")).exit_code, 0);
     const render::Image shown = render::read_image(path("a.png")), radiance = render::read_image(path("a.pfm"));
     const std::string words = tone;
-    render::Tone by;
+    render::ToneMapping by;
     if (words.find("reinhard") != std::string::npos) by.curve = render::ToneCurve::reinhard;
     if (words.find("filmic") != std::string::npos) by.curve = render::ToneCurve::filmic;
     if (words.find("auto") != std::string::npos) by.exposure = auto_exposure(radiance);
     for (std::size_t i = 0; i < shown.pixels.size(); ++i)
       for (int c = 0; c < 3; ++c)
-        EXPECT_NEAR(shown.pixels[i][c], toned(radiance.pixels[i], by)[c], 0.01) << tone << " " << i;
+        EXPECT_NEAR(shown.pixels[i][c], tone_map(radiance.pixels[i], by)[c], 0.01) << tone << " " << i;
   }
 }
 

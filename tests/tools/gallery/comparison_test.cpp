@@ -17,7 +17,7 @@ TEST(GalleryComparison, StrategiesAgreeButForTheOneThatMissesLight) {
   settings.width = settings.height = 600;
   settings.seed = 3;
   const std::vector<carlo::StrategyResult> all = carlo::compare_strategies(file.scene, settings, 16, 64);
-  ASSERT_EQ(all.size(), strategies_for(file.scene).size());
+  ASSERT_EQ(all.size(), complete_strategies(file.scene).size());
   const carlo::StrategyResult* best = carlo::best_known(all);
   ASSERT_TRUE(best);
   for (const carlo::StrategyResult& s : all) {

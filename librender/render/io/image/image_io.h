@@ -2,7 +2,7 @@
 /// Images to and from files; the extension chooses the format.
 
 #include <render/film/image.h>
-#include <render/film/tone.h>
+#include <render/film/tone_mapping.h>
 
 #include <string>
 
@@ -14,7 +14,7 @@ namespace render {
 ///   .pfm : linear radiance only, 32-bit float, no metadata (the format has no place for it)
 ///   .png : sRGB, 8 bit, of what `tone` makes of the radiance; metadata as text
 ///   throws : Error for another extension, a folder that is missing or not writable, a full disk
-void write_image(const std::string& path, const Image& image, const Tone& tone = {});
+void write_image(const std::string& path, const Image& image, const ToneMapping& tone = {});
 
 /// Linear radiance of .exr (channels R, G and B, or Y alone when it is grey; others are layers), .hdr, .pfm, .png or
 /// .jpg.

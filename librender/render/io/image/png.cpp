@@ -171,11 +171,11 @@ png_text text_of(const std::string& key, const std::string& value) {
 
 } // namespace
 
-void write_png(const std::string& path, const Image& image, const Tone& tone) {
+void write_png(const std::string& path, const Image& image, const ToneMapping& tone) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(image.pixels.size() * 3);
   for (const Spectrum& p : image.pixels)
-    for (const double value : toned(p, tone)) bytes.push_back(encode(value));
+    for (const double value : tone_map(p, tone)) bytes.push_back(encode(value));
   auto rows = rows_of(bytes, 3 * static_cast<std::size_t>(image.width), static_cast<std::size_t>(image.height));
   std::vector<png_text> texts;
   for (const auto& [key, value] : image.metadata) texts.push_back(text_of(key, value));

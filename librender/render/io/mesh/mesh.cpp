@@ -44,7 +44,7 @@ void wind_about(const std::vector<Vec3>& normals, const std::vector<Vec3d>& posi
 
 } // namespace
 
-void require_sound(const MeshFile& file) {
+void require_valid_mesh(const MeshFile& file) {
   const auto require_finite = [](const char* what, const std::vector<Vec3d>& all) {
     for (std::size_t i = 0; i < all.size(); ++i)
       mc::require(all[i].allFinite(), "{} {} = ({}, {}, {}) is not finite", what, i, all[i][0], all[i][1], all[i][2]);
@@ -66,7 +66,7 @@ MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double 
   };
   std::map<std::array<double, 5>, std::vector<Side>> sides; // of what is at a position and texture coordinate
   MeshFile split;
-  split.without_uvs = file.without_uvs;
+  split.missing_uv_reason = file.missing_uv_reason;
   split.meshes = file.meshes;
   for (auto triangle : file.triangles) {
     const auto corner = [&](std::size_t i) { return to_world.point(file.positions[triangle[i]]); };

@@ -17,7 +17,7 @@ struct MeshFile {
   std::vector<Vec3d> positions, normals;
   std::vector<mc::Vec2<float>> uvs;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::string without_uvs; ///< why there are no texture coordinates: "the face of line 7 has none"
+  std::string missing_uv_reason; ///< why there are no texture coordinates: "the face of line 7 has none"
   std::size_t meshes = 1;  ///< in the file, of which this is one
 };
 
@@ -37,7 +37,7 @@ MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double 
 
 /// Throws Error, naming the first, where a vertex or a normal is not finite or a triangle names a vertex that is not
 /// there.
-void require_sound(const MeshFile& file);
+void require_valid_mesh(const MeshFile& file);
 
 /// All faces of a Wavefront OBJ file as one mesh, polygons cut into triangles; materials are ignored. Faces without
 /// normals are flat where others have them; where none has, groups and materials share no vertices. Texture coordinates

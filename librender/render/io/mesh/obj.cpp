@@ -193,7 +193,7 @@ MeshFile mesh_of(Lines lines) {
     return c[kind] == none ? Vec3d(Vec3d::Zero()) : lines.values[kind][c[kind]];
   };
   MeshFile mesh;
-  if (!has_uvs) mesh.without_uvs = fmt::format("the face of line {} has none", lines.without[uv]);
+  if (!has_uvs) mesh.missing_uv_reason = fmt::format("the face of line {} has none", lines.without[uv]);
   std::unordered_map<Corner, std::uint32_t, HashOfCorner> known;
   known.reserve(lines.values[position].size());
   const auto vertex = [&](const Corner& corner) {
@@ -211,7 +211,7 @@ MeshFile mesh_of(Lines lines) {
   for (const std::size_t end : lines.ends) {
     face.clear();
     for (; begin < end; ++begin) face.push_back(vertex(lines.corners[begin]));
-    append_polygon(mesh.positions, face, mesh.triangles);
+    append_triangulated(mesh.positions, face, mesh.triangles);
   }
   return mesh;
 }

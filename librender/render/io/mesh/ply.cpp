@@ -271,7 +271,7 @@ MeshFile mesh_of(std::string_view bytes) {
   mc::require(vertex != header.elements.end(), "the file has no element vertex");
   require_faces(header);
   MeshFile mesh;
-  mesh.without_uvs = "its vertices have no u and v";
+  mesh.missing_uv_reason = "its vertices have no u and v";
   Faces faces; // they may stand before the vertices
   Numbers numbers(bytes, header);
   for (const Element& element : header.elements) {
@@ -285,10 +285,10 @@ MeshFile mesh_of(std::string_view bytes) {
   mc::require(mesh.positions.size() == vertex->rows, "a second element vertex");
   std::size_t begin = 0;
   for (const std::size_t end : faces.ends) {
-    append_polygon(mesh.positions, std::span(faces.corners).subspan(begin, end - begin), mesh.triangles);
+    append_triangulated(mesh.positions, std::span(faces.corners).subspan(begin, end - begin), mesh.triangles);
     begin = end;
   }
-  require_sound(mesh);
+  require_valid_mesh(mesh);
   return mesh;
 }
 

@@ -113,7 +113,7 @@ std::uint32_t ear_from(const Ring& ring, std::uint32_t from, std::size_t left) {
 
 } // namespace
 
-std::vector<Triangle> cut_polygon(std::span<const Vec3d> corners) {
+std::vector<Triangle> triangulate_polygon(std::span<const Vec3d> corners) {
   std::vector<Triangle> triangles;
   triangles.reserve(corners.size() - 2);
   const std::optional<Flat> flat = corners.size() > 3 ? flattened(corners) : std::nullopt;
@@ -132,7 +132,7 @@ std::vector<Triangle> cut_polygon(std::span<const Vec3d> corners) {
   return triangles;
 }
 
-void append_polygon(const std::vector<Vec3d>& positions, std::span<const std::uint32_t> polygon,
+void append_triangulated(const std::vector<Vec3d>& positions, std::span<const std::uint32_t> polygon,
                     std::vector<Triangle>& triangles) {
   if (polygon.size() == 3) { // most are
     triangles.push_back({polygon[0], polygon[1], polygon[2]});
@@ -141,7 +141,7 @@ void append_polygon(const std::vector<Vec3d>& positions, std::span<const std::ui
   std::vector<Vec3d> corners;
   corners.reserve(polygon.size());
   for (const std::uint32_t i : polygon) corners.push_back(positions[i]);
-  for (const auto& [a, b, c] : cut_polygon(corners)) triangles.push_back({polygon[a], polygon[b], polygon[c]});
+  for (const auto& [a, b, c] : triangulate_polygon(corners)) triangles.push_back({polygon[a], polygon[b], polygon[c]});
 }
 
 } // namespace render

@@ -125,14 +125,14 @@ MeshFile read_serialized(const std::string& path, int index) {
     mc::require(vertices <= 0xffffffff && triangles <= 0xffffffff, "{} vertices and {} triangles are too many",
                 vertices, triangles);
     MeshFile mesh;
-    mesh.without_uvs = "it has none";
+    mesh.missing_uv_reason = "it has none";
     mesh.meshes = meshes;
     if (flags & in_double) read_attributes<double>(data, flags, vertices, mesh);
     else read_attributes<float>(data, flags, vertices, mesh);
     const auto corners = data.take<std::uint32_t>(3 * triangles);
     for (std::size_t i = 0; i < corners.size(); i += 3)
       mesh.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
-    require_sound(mesh);
+    require_valid_mesh(mesh);
     return mesh;
   });
 }

@@ -8,7 +8,7 @@
 
 namespace render::mitsuba {
 
-bool is_of_mitsuba_2(const XmlElement& scene) {
+bool is_mitsuba_2_scene(const XmlElement& scene) {
   const std::string version = scene.attribute_or("version", "0.6.0");
   for (const std::string_view known : {"0.4", "0.5", "0.6", "2", "3"}) {
     const std::string_view rest = std::string_view(version).substr(std::min(known.size(), version.size()));
@@ -22,14 +22,14 @@ bool is_of_mitsuba_2(const XmlElement& scene) {
 }
 
 Context::Context(const XmlElement& root, Dialect dialect, const Vec3d& origin)
-    : folders(root), dialect_(dialect), means_mitsuba_2_(is_of_mitsuba_2(root) && dialect == Dialect::mitsuba),
+    : folders(root), dialect_(dialect), is_mitsuba_2_(is_mitsuba_2_scene(root) && dialect == Dialect::mitsuba),
       origin_(origin) {
   collect_ids(root);
 }
 
-Beyond Context::beyond() const {
-  if (dialect_ == Dialect::lajolla) return Beyond::held;
-  return means_mitsuba_2_ ? Beyond::zero : Beyond::ramp;
+Extrapolation Context::extrapolation() const {
+  if (dialect_ == Dialect::lajolla) return Extrapolation::constant;
+  return is_mitsuba_2_ ? Extrapolation::zero : Extrapolation::ramp;
 }
 
 void Context::collect_ids(const XmlElement& element) {

@@ -1,7 +1,7 @@
 #pragma once
 /// What the plugins of one scene file share: its folder, its dialect, and what has an id.
 
-#include <render/io/mitsuba/folders.h>
+#include <render/io/mitsuba/file_resolver.h>
 #include <render/io/mitsuba/mitsuba.h>
 #include <render/io/spectrum.h>
 #include <render/io/xml.h>
@@ -20,7 +20,7 @@ namespace render::mitsuba {
 
 /// Whether a <scene> is written for Mitsuba 2 or 3, by its version: 2.x or 3.x; else 0.4 to 0.6, or none at all.
 ///   throws : Error for any other version
-bool is_of_mitsuba_2(const XmlElement& scene);
+bool is_mitsuba_2_scene(const XmlElement& scene);
 
 /// Filled while a scene is read. `root` must outlive it.
 class Context {
@@ -31,15 +31,15 @@ class Context {
 
   Dialect dialect() const { return dialect_; }
   /// Whether the scene means what it does in Mitsuba 2 and 3: by its version, unless lajolla is to read it.
-  bool means_mitsuba_2() const { return means_mitsuba_2_; }
+  bool is_mitsuba_2() const { return is_mitsuba_2_; }
   /// The light that the spectra of what reflects are seen in.
-  Illuminant illuminant() const { return means_mitsuba_2_ ? Illuminant::d65 : Illuminant::equal_energy; }
+  Illuminant illuminant() const { return is_mitsuba_2_ ? Illuminant::d65 : Illuminant::equal_energy; }
   /// What spectra are beyond their samples.
-  Beyond beyond() const;
+  Extrapolation extrapolation() const;
   const Vec3d& origin() const { return origin_; }
 
   /// Where the files are that the scene names.
-  Folders folders;
+  FileResolver folders;
 
   /// The element itself, or the one whose id a <ref> names.
   ///   throws : Error for an unknown id, naming the nearest, or when it is no <tag>, naming what it is
@@ -74,7 +74,7 @@ class Context {
   void collect_ids(const XmlElement& element);
 
   Dialect dialect_;
-  bool means_mitsuba_2_;
+  bool is_mitsuba_2_;
   Vec3d origin_;
   std::map<std::string, const XmlElement*> ids_;
   std::map<const XmlElement*, BsdfId> bsdfs_;

@@ -36,7 +36,7 @@ class Reader {
     context_.builder.set(sensor_->film.filter);
     const IntegratorSettings integrator = integrator_.value_or(IntegratorSettings());
     return {mc::with_context(root_.file, [&] { return context_.builder.build(); }),
-            {sensor_->film.width, sensor_->film.height, sensor_->spp, integrator.max_depth, integrator.shown},
+            {sensor_->film.width, sensor_->film.height, sensor_->spp, integrator.max_depth, integrator.aov},
             context_.origin(),
             context_.warnings(),
             context_.files()};
@@ -80,10 +80,10 @@ class Reader {
   void shape(const XmlElement& e) {
     // A reference that leads nowhere is named before what the plugin lacks.
     for (const XmlElement& child : e.children) context_.resolve(child, "bsdf");
-    CoveredShape s = read_plugin(shape_plugins(), e, context_);
+    ShapeDescription s = read_plugin(shape_plugins(), e, context_);
     const BsdfId bsdf = s.bsdf ? *s.bsdf : context_.default_bsdf(s.emission.has_value());
     mc::with_context(e.where(), [&] {
-      context_.builder.add(std::move(s.shape), {bsdf, s.emission, s.guide, s.interior, s.without_uvs});
+      context_.builder.add(std::move(s.shape), {bsdf, s.emission, s.importance_target, s.interior, s.missing_uv_reason});
     });
   }
 
@@ -132,7 +132,7 @@ Vec3d middle_of(const Scene& scene) {
   if (middle.norm() > 8 * (hi - lo).norm()) return middle;
   const Vec3d median = median_of(scene);
   const double here = coarseness_about(Vec3d::Zero(), scene), there = coarseness_about(median, scene);
-  return here > too_coarse / 8 && there < std::min(too_coarse, here / 4) ? median : Vec3d(Vec3d::Zero());
+  return here > max_resolution_ratio / 8 && there < std::min(max_resolution_ratio, here / 4) ? median : Vec3d(Vec3d::Zero());
 }
 
 // About the origin of the file, or about the scene where that is far from there. From afar its middle is seen vaguely,
@@ -168,13 +168,13 @@ Dialect dialect_from(std::string_view name) {
 
 SceneFile read_mitsuba(const std::string& path, Dialect dialect, const Variables& variables) {
   XmlElement root = read_xml(path);
-  root.mark();
+  root.mark_used();
   if (root.tag != "scene") root.fail("the document must be a <scene>");
-  is_of_mitsuba_2(root);
+  is_mitsuba_2_scene(root);
   include_files(root);
   substitute_variables(root, variables);
   SceneFile file = read_where_it_stands(root, dialect);
-  root.require_all_seen();
+  root.require_all_used();
   add_files(root, file.files);
   return file;
 }

@@ -46,7 +46,7 @@ bool is_in_snake_case(std::string_view word, std::string_view name) {
 
 } // namespace
 
-bool Declaration::names(const XmlElement& child) const {
+bool Declaration::matches(const XmlElement& child) const {
   if (nested()) return std::find(tags.begin(), tags.end(), child.tag) != tags.end();
   const std::string word = child.attribute_or("name", "");
   return word == name || is_in_snake_case(word, name);
@@ -55,11 +55,11 @@ bool Declaration::names(const XmlElement& child) const {
 const XmlElement* Declaration::find(const XmlElement& plugin) const {
   const XmlElement* found = nullptr;
   for (const XmlElement& child : plugin.children) {
-    if (!names(child)) continue;
+    if (!matches(child)) continue;
     if (found) child.fail(fmt::format("a second {}, after line {}; only one is allowed here", name, found->line));
     if (std::find(tags.begin(), tags.end(), child.tag) == tags.end())
       child.fail(fmt::format("'{}' must be a <{}>", name, fmt::join(tags, "> or <")));
-    child.mark();
+    child.mark_used();
     child.attribute_or("id", "");
     child.attribute_or("name", ""); // a nested plugin may be named too
     found = &child;
@@ -69,10 +69,10 @@ const XmlElement* Declaration::find(const XmlElement& plugin) const {
 
 void Declaration::require_dialect(const XmlElement& given, Context& context) const {
   const bool is_lajolla = context.dialect() == Dialect::lajolla;
-  if (!is_lajolla && !mitsubas.empty())
-    given.fail(fmt::format("'{}' is lajolla's; say {}, or --dialect lajolla", name, mitsubas));
-  if (is_lajolla && !lajollas.empty())
-    context.warn(given, fmt::format("lajolla leaves {} out, here it counts; say {} instead", name, lajollas));
+  if (!is_lajolla && !mitsuba_alternative.empty())
+    given.fail(fmt::format("'{}' is lajolla's; say {}, or --dialect lajolla", name, mitsuba_alternative));
+  if (is_lajolla && !lajolla_alternative.empty())
+    context.warn(given, fmt::format("lajolla leaves {} out, here it counts; say {} instead", name, lajolla_alternative));
 }
 
 Parameter<double> number(const std::string& name, const std::string& unit, const std::string& meaning) {
@@ -83,19 +83,19 @@ Parameter<double> number(const std::string& name, const std::string& unit, const
 }
 Parameter<double> number(const std::string& name, const std::string& unit, double fallback,
                          const std::string& meaning) {
-  return number(name, unit, meaning).otherwise(fallback, fmt::format("{}", fallback));
+  return number(name, unit, meaning).with_default(fallback, fmt::format("{}", fallback));
 }
 
 Parameter<int> integer(const std::string& name, const std::string& meaning, int fallback) {
   const Parameter<int> p{
       {name, "integer", "", {"integer"}, meaning}, [](const XmlElement& e, Context&) { return integer_of(e); }, {}, {}};
-  return p.otherwise(fallback, fmt::format("{}", fallback));
+  return p.with_default(fallback, fmt::format("{}", fallback));
 }
 
 Parameter<bool> boolean(const std::string& name, const std::string& meaning, bool fallback) {
   const Parameter<bool> p{
       {name, "boolean", "", {"boolean"}, meaning}, [](const XmlElement& e, Context&) { return boolean_of(e); }, {}, {}};
-  return p.otherwise(fallback, fmt::format("{}", fallback));
+  return p.with_default(fallback, fmt::format("{}", fallback));
 }
 
 Parameter<std::string> file(const std::string& name, const std::string& meaning) {
@@ -110,24 +110,24 @@ Parameter<Vec3d> point(const std::string& name, const std::string& meaning, cons
                            [](const XmlElement& e, Context&) { return vector_of(e); },
                            {},
                            {}};
-  return p.otherwise(fallback, text_of(fallback));
+  return p.with_default(fallback, text_of(fallback));
 }
 
 Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning) {
   return {{name, "colour", unit, {"rgb", "srgb", "spectrum", "float"}, meaning},
-          [](const XmlElement& e, Context& context) { return color_of(e, context.beyond()); },
+          [](const XmlElement& e, Context& context) { return color_of(e, context.extrapolation()); },
           {},
           {}};
 }
 Parameter<Spectrum> color(const std::string& name, const std::string& unit, const std::string& meaning,
                           const Spectrum& fallback) {
-  return color(name, unit, meaning).otherwise(fallback, text_of(fallback));
+  return color(name, unit, meaning).with_default(fallback, text_of(fallback));
 }
 
 Parameter<Spectrum> reflectance(const std::string& name, const std::string& meaning, const Spectrum& fallback) {
   Parameter<Spectrum> p = color(name, share_of_light, meaning, fallback);
   p.parse = [](const XmlElement& e, Context& context) {
-    return reflectance_of(e, context.illuminant(), context.beyond());
+    return reflectance_of(e, context.illuminant(), context.extrapolation());
   };
   return p;
 }
@@ -136,14 +136,14 @@ Parameter<Reflectance> reflectance_or_texture(const std::string& name, const std
                                               const Spectrum& fallback) {
   const auto parse = [](const XmlElement& e, Context& context) -> Reflectance {
     if (e.tag == "texture" || e.tag == "ref") return context.texture(e);
-    return reflectance_of(e, context.illuminant(), context.beyond());
+    return reflectance_of(e, context.illuminant(), context.extrapolation());
   };
   const Parameter<Reflectance> p{
       {name, "colour or texture", share_of_light, {"rgb", "srgb", "spectrum", "float", "texture", "ref"}, meaning},
       parse,
       {},
       {}};
-  return p.otherwise(fallback, text_of(fallback));
+  return p.with_default(fallback, text_of(fallback));
 }
 
 Parameter<std::shared_ptr<const Texels>> picture(const std::string& name, const std::string& meaning) {
@@ -155,7 +155,7 @@ Parameter<Transform> transform(const std::string& name, const std::string& meani
                                [](const XmlElement& e, Context&) { return transform_of(e); },
                                {},
                                {}};
-  return p.otherwise({}, "identity");
+  return p.with_default({}, "identity");
 }
 
 Parameter<std::size_t> choice(const std::string& name, const std::vector<std::string>& words,
@@ -168,7 +168,7 @@ Parameter<std::size_t> choice(const std::string& name, const std::vector<std::st
 }
 Parameter<std::size_t> choice(const std::string& name, const std::vector<std::string>& words,
                               const std::string& meaning, std::size_t fallback) {
-  return choice(name, words, meaning).otherwise(fallback, words[fallback]);
+  return choice(name, words, meaning).with_default(fallback, words[fallback]);
 }
 
 Declaration no_effect(const std::string& name, const std::string& why) {

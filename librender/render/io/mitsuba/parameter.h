@@ -23,12 +23,12 @@ struct Declaration {
   bool has_effect = true;     ///< false: accepted, since it cannot change the picture
   std::optional<bool> only{}; ///< a switch that may only be given as what it is by default
   std::string departure = {}; ///< of the fallback from Mitsuba's own, as a warning; empty: none
-  std::string mitsubas = {};  ///< of a parameter that lajolla alone has: what to say in Mitsuba; empty: no such one
-  std::string lajollas = {};  ///< of one that lajolla leaves out, as a warning: what to say there; empty: no such one
+  std::string mitsuba_alternative = {};  ///< of a parameter that lajolla alone has: what to say in Mitsuba; empty: no such one
+  std::string lajolla_alternative = {};  ///< of one that lajolla leaves out, as a warning: what to say there; empty: no such one
 
   bool nested() const { return name.starts_with('<'); }
   /// Whether a child of a plugin is this parameter.
-  bool names(const XmlElement& child) const;
+  bool matches(const XmlElement& child) const;
   /// The child of a plugin that is this parameter, or null.
   ///   throws : Error for a second one and for another kind of element
   const XmlElement* find(const XmlElement& plugin) const;
@@ -51,29 +51,29 @@ template <class T> struct Parameter {
   std::optional<T> fallback, lajolla_fallback;
 
   /// This value where the parameter is not given; `text` is what the reference says of it.
-  Parameter otherwise(T value, const std::string& text) const {
+  Parameter with_default(T value, const std::string& text) const {
     Parameter p = *this;
     p.fallback = std::move(value);
     p.declared.fallback = text;
     return p;
   }
   /// The value in lajolla's dialect where it is not given.
-  Parameter in_lajolla(T value, const std::string& text) const {
+  Parameter with_lajolla_default(T value, const std::string& text) const {
     Parameter p = *this;
     p.lajolla_fallback = std::move(value);
     p.declared.lajolla = text;
     return p;
   }
   /// The same, refused but in lajolla's dialect; `instead` is what Mitsuba has.
-  Parameter of_lajolla(const std::string& instead) const {
+  Parameter lajolla_only(const std::string& instead) const {
     Parameter p = *this;
-    p.declared.mitsubas = instead;
+    p.declared.mitsuba_alternative = instead;
     return p;
   }
   /// The same, with a warning in lajolla's dialect, that it counts here and not there; `instead` is what lajolla has.
-  Parameter left_out_by_lajolla(const std::string& instead) const {
+  Parameter ignored_by_lajolla(const std::string& instead) const {
     Parameter p = *this;
-    p.declared.lajollas = instead;
+    p.declared.lajolla_alternative = instead;
     return p;
   }
 
@@ -118,7 +118,7 @@ Parameter<std::size_t> choice(const std::string& name, const std::vector<std::st
 
 /// A parameter that may be left out, without a value of its own then.
 template <class T> Parameter<std::optional<T>> optional(const Parameter<T>& p) {
-  return Parameter<std::optional<T>>{p.declared, p.parse, {}, {}}.otherwise(std::nullopt, "none");
+  return Parameter<std::optional<T>>{p.declared, p.parse, {}, {}}.with_default(std::nullopt, "none");
 }
 
 /// Accepted without effect, since it cannot change the picture.

@@ -10,7 +10,7 @@ namespace render::mitsuba::detail {
 void require_known_children(const XmlElement& e, const PluginText& row) {
   for (const XmlElement& child : e.children) {
     const auto known = std::find_if(row.parameters.begin(), row.parameters.end(),
-                                    [&](const Declaration& d) { return d.names(child); });
+                                    [&](const Declaration& d) { return d.matches(child); });
     const std::string name = child.attribute_or("name", "");
     if (known == row.parameters.end()) {
       std::vector<std::string> names;

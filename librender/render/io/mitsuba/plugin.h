@@ -59,7 +59,7 @@ Plugin<T> plugin(std::string name, std::string meaning, Make make, const Paramet
 ///   throws : Error "scene.xml:14: <bsdf>: ..." for a type or a child that no row has, naming the nearest, and for
 ///            values that cannot be read or used
 template <class T> T read_plugin(const Plugins<T>& rows, const XmlElement& e, Context& context) {
-  e.mark();
+  e.mark_used();
   e.attribute_or("id", "");
   e.attribute_or("name", "");
   const std::string& type = e.attribute("type");

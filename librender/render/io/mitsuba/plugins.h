@@ -6,13 +6,13 @@
 namespace render::mitsuba {
 
 /// A shape with what covers it.
-struct CoveredShape {
+struct ShapeDescription {
   Shape shape;
   std::optional<BsdfId> bsdf;
   std::optional<Emission> emission;
-  bool guide;
+  bool importance_target;
   std::optional<HomogeneousMedium> interior;
-  std::string without_uvs; ///< why a mesh has no texture coordinates
+  std::string missing_uv_reason; ///< why a mesh has no texture coordinates
 };
 
 struct FilmSettings {
@@ -22,7 +22,7 @@ struct FilmSettings {
 
 struct IntegratorSettings {
   int max_depth = -1; ///< longest path in edges, -1 for no limit
-  Shown shown = Shown::radiance;
+  Aov aov = Aov::radiance;
 };
 
 struct SensorSettings {
@@ -38,7 +38,7 @@ const Plugins<Filter>& filter_plugins();
 const Plugins<int>& sampler_plugins(); ///< samples per pixel
 const Plugins<Material>& bsdf_plugins();
 const Plugins<Texture>& texture_plugins();
-const Plugins<CoveredShape>& shape_plugins();
+const Plugins<ShapeDescription>& shape_plugins();
 const Plugins<Emission>& surface_emitter_plugins(); ///< inside a shape
 const Plugins<HomogeneousMedium>& medium_plugins(); ///< inside a shape
 const Plugins<Light>& emitter_plugins();            ///< of the scene

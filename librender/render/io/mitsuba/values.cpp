@@ -64,7 +64,7 @@ Vec3d hexadecimal(const XmlElement& e, const std::string& text) {
 }
 
 // Pairs wavelength:value, with commas or blanks between them, and blanks about the colons.
-Spectrum tabulated(const XmlElement& e, const std::string& text, Illuminant illuminant, Beyond beyond) {
+Spectrum tabulated(const XmlElement& e, const std::string& text, Illuminant illuminant, Extrapolation extrapolation) {
   std::vector<SpectralSample> samples;
   const auto place = [&](std::size_t i) { return std::min(i, text.size()); };
   for (std::size_t begin = 0; (begin = text.find_first_not_of(separators, begin)) != std::string::npos;) {
@@ -83,8 +83,8 @@ Spectrum tabulated(const XmlElement& e, const std::string& text, Illuminant illu
   if (samples.size() > 1 && (samples.back().wavelength < 400 || samples[0].wavelength > 700))
     e.fail(fmt::format("its wavelengths, {} to {}, are not seen; give them in nanometres, some of them from 400 to 700",
                        samples[0].wavelength, samples.back().wavelength));
-  const Spectrum rgb = mc::with_context(e.where(), [&] { return spectrum_to_rgb(samples, illuminant, beyond); });
-  return beyond == Beyond::held ? rgb : Spectrum(rgb.max(0));
+  const Spectrum rgb = mc::with_context(e.where(), [&] { return spectrum_to_rgb(samples, illuminant, extrapolation); });
+  return extrapolation == Extrapolation::constant ? rgb : Spectrum(rgb.max(0));
 }
 
 bool is_tabulated(const XmlElement& e) {
@@ -129,24 +129,24 @@ bool boolean_of(const XmlElement& element) {
 
 Vec3d vector_of(const XmlElement& element) { return axes_of(element, 0); }
 
-Spectrum color_of(const XmlElement& element, Beyond beyond) {
+Spectrum color_of(const XmlElement& element, Extrapolation extrapolation) {
   const std::string& text = element.attribute("value");
-  if (is_tabulated(element)) return tabulated(element, text, Illuminant::equal_energy, beyond);
+  if (is_tabulated(element)) return tabulated(element, text, Illuminant::equal_energy, extrapolation);
   Vec3d v = text.starts_with('#') ? hexadecimal(element, text) : three(element, text);
   if (element.tag == "srgb")
     for (int i = 0; i < 3; ++i) v[i] = srgb_to_linear(v[i]);
   return v.cast<Float>().array();
 }
 
-Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant, Beyond beyond) {
-  if (illuminant == Illuminant::equal_energy || !is_tabulated(element)) return color_of(element, beyond);
-  return tabulated(element, element.attribute("value"), illuminant, beyond).max(0).min(1);
+Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant, Extrapolation extrapolation) {
+  if (illuminant == Illuminant::equal_energy || !is_tabulated(element)) return color_of(element, extrapolation);
+  return tabulated(element, element.attribute("value"), illuminant, extrapolation).max(0).min(1);
 }
 
 Transform transform_of(const XmlElement& element) {
   Transform t;
   for (const XmlElement& child : element.children) {
-    child.mark();
+    child.mark_used();
     t = step(child) * t;
   }
   return t;

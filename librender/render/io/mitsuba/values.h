@@ -25,10 +25,10 @@ Vec3d vector_of(const XmlElement& element);
 /// <float>, a grey as in Mitsuba 3, and of <spectrum>, as one number or wavelength:value pairs, with values >= 0 and
 /// wavelengths that reach into 400..700 nm. Unless these are held, as in lajolla, colours that the screen does not have
 /// become the nearest >= 0.
-Spectrum color_of(const XmlElement& element, Beyond beyond = Beyond::held);
+Spectrum color_of(const XmlElement& element, Extrapolation extrapolation = Extrapolation::constant);
 /// The same of what reflects: wavelength:value pairs are seen in that light, and under D65 colours that the screen does
 /// not have become the nearest in [0, 1], as in Mitsuba 3.
-Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant, Beyond beyond = Beyond::held);
+Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant, Extrapolation extrapolation = Extrapolation::constant);
 /// lookAt, translate, scale, rotate and matrix, applied in the order in which they stand.
 Transform transform_of(const XmlElement& element);
 

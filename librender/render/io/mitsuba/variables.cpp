@@ -54,7 +54,7 @@ std::string substituted(const XmlElement& e, const std::string& text, Names& nam
 void substitute(XmlElement& e, Names& names) {
   e.replace_values([&](const std::string& value) { return substituted(e, value, names); });
   if (e.tag == "default") {
-    e.mark();
+    e.mark_used();
     const std::string& name = e.attribute("name");
     if (name.empty()) e.fail("the name must not be empty");
     names.values.try_emplace(name, e.attribute("value"));

@@ -322,7 +322,7 @@ TEST_F(Mesh, SerializedRefusesWhatIsNotSound) {
   EXPECT_THAT(refusal_of(high), HasSubstr("m.serialized: mesh 0: vertex 2 = (0, inf, 0) is not finite"));
   MeshFile bent;
   bent.normals = {Vec3d(0, mc::infinity<double>, 0)};
-  EXPECT_THAT(support::error_of([&] { require_sound(bent); }), HasSubstr("normal 0 = (0, inf, 0) is not finite"));
+  EXPECT_THAT(support::error_of([&] { require_valid_mesh(bent); }), HasSubstr("normal 0 = (0, inf, 0) is not finite"));
 }
 
 TEST_F(Mesh, DamagedAnywhere) {

@@ -38,13 +38,13 @@ TEST_F(Obj, TextureCoordinatesGoDown) {
   ASSERT_EQ(file.uvs.size(), 3u);
   EXPECT_EQ(file.uvs[0], mc::Vec2<float>(0, 1));
   EXPECT_EQ(file.uvs[2], mc::Vec2<float>(0, 0.25f));
-  EXPECT_EQ(file.without_uvs, "");
+  EXPECT_EQ(file.missing_uv_reason, "");
   // Where only some corners have them, they do not count.
   const MeshFile some =
       read_obj(write("p.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\nf 1/1 2 3\nf 1 2 3\n"));
   EXPECT_TRUE(some.uvs.empty());
   EXPECT_EQ(some.positions.size(), 3u);
-  EXPECT_EQ(some.without_uvs, "the face of line 6 has none");
+  EXPECT_EQ(some.missing_uv_reason, "the face of line 6 has none");
 }
 
 TEST_F(Obj, RefusesWithFileAndPlace) {

@@ -48,7 +48,7 @@ Plane random_plane(mc::Pcg& random, double size, double distance) {
 void expect_covers(const Points& polygon, const Plane& plane, double tolerance, const std::string& what) {
   std::vector<Vec3d> corners;
   for (const auto& p : polygon) corners.push_back(plane.at(p));
-  const auto triangles = cut_polygon(corners);
+  const auto triangles = triangulate_polygon(corners);
   ASSERT_EQ(triangles.size(), polygon.size() - 2) << what;
   const Vec3d normal = plane.normal() * (shoelace(polygon) > 0 ? 1 : -1);
   std::vector<int> used(polygon.size());
@@ -196,15 +196,15 @@ TEST(Polygon, ConvexOnesAreFans) {
     for (const auto& p : star(random, n, 0)) corners.push_back(plane.at(p));
     std::vector<std::array<std::uint32_t, 3>> fan;
     for (std::uint32_t i = 2; i < n; ++i) fan.push_back({0, i - 1, i});
-    EXPECT_EQ(cut_polygon(corners), fan);
+    EXPECT_EQ(triangulate_polygon(corners), fan);
   }
 }
 
 TEST(Polygon, AppendsVertices) {
   const std::vector<Vec3d> positions = {{9, 9, 9}, {0, 0, 0}, {4, 0, 0}, {1, 1, 0}, {0, 4, 0}};
   std::vector<std::array<std::uint32_t, 3>> triangles = {{1, 2, 3}};
-  append_polygon(positions, std::vector<std::uint32_t>{4, 3, 2}, triangles);
-  append_polygon(positions, std::vector<std::uint32_t>{2, 3, 4, 1}, triangles);
+  append_triangulated(positions, std::vector<std::uint32_t>{4, 3, 2}, triangles);
+  append_triangulated(positions, std::vector<std::uint32_t>{2, 3, 4, 1}, triangles);
   const std::vector<std::array<std::uint32_t, 3>> expected = {{1, 2, 3}, {4, 3, 2}, {1, 2, 3}, {1, 3, 4}};
   ASSERT_EQ(triangles.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -231,7 +231,7 @@ TEST(Polygon, WhatIsNoneKeepsItsCount) {
       if (trial % 13 == 0 && i % 3 == 0) p[0] = trial % 2 ? HUGE_VAL : std::nan("");
       corners.push_back(p);
     }
-    const auto triangles = cut_polygon(corners);
+    const auto triangles = triangulate_polygon(corners);
     ASSERT_EQ(triangles.size(), n - 2);
     for (const auto& t : triangles)
       for (const std::uint32_t i : t) ASSERT_LT(i, n);

@@ -48,7 +48,7 @@ TEST_F(SceneContext, SpectraOfWhatReflectsAreSeenInTheLightOfTheVersion) {
 
 TEST_F(SceneContext, VersionsAreThoseOfMitsuba) {
   const auto is_late = [&](const std::string& attribute) {
-    return render::mitsuba::is_of_mitsuba_2(render::read_xml(write("v.xml", "<scene" + attribute + "/>")));
+    return render::mitsuba::is_mitsuba_2_scene(render::read_xml(write("v.xml", "<scene" + attribute + "/>")));
   };
   EXPECT_FALSE(is_late(""));
   for (const char* old : {"0.4", "0.4.0", "0.5.0", "0.6.0", "0.6.10"})

@@ -97,13 +97,13 @@ TEST_F(Meaning, SpectraEndAsInTheRendererOfTheScene) {
     options.width = options.height = options.spp = 1;
     return render::render(render::read_mitsuba(file, dialect).scene, options).image.pixels[0];
   };
-  const auto expected = [&](render::Beyond beyond) {
+  const auto expected = [&](render::Extrapolation beyond) {
     return Spectrum(render::spectrum_to_rgb(blue, render::Illuminant::equal_energy, beyond).max(0));
   };
-  using render::Beyond, render::Dialect;
-  EXPECT_TRUE(light("0.6.0", Dialect::mitsuba).isApprox(expected(Beyond::ramp), 1e-5f));
-  EXPECT_TRUE(light("3.0.0", Dialect::mitsuba).isApprox(expected(Beyond::zero), 1e-5f));
-  EXPECT_TRUE(light("0.6.0", Dialect::lajolla).isApprox(expected(Beyond::held), 1e-5f));
+  using render::Extrapolation, render::Dialect;
+  EXPECT_TRUE(light("0.6.0", Dialect::mitsuba).isApprox(expected(Extrapolation::ramp), 1e-5f));
+  EXPECT_TRUE(light("3.0.0", Dialect::mitsuba).isApprox(expected(Extrapolation::zero), 1e-5f));
+  EXPECT_TRUE(light("0.6.0", Dialect::lajolla).isApprox(expected(Extrapolation::constant), 1e-5f));
   EXPECT_EQ(light("0.6.0", Dialect::mitsuba)[1], 0) << "no green";
 }
 

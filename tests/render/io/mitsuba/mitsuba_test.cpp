@@ -36,7 +36,7 @@ TEST_F(Mitsuba, EveryGallerySceneLoadsAndRenders) {
     const auto [scene, defaults, origin, warnings, files] = render::read_mitsuba(entry.path().string());
     EXPECT_THAT(warnings, testing::IsEmpty()) << "ours say what they mean";
     render::RenderOptions options;
-    options.shown = defaults.shown;
+    options.aov = defaults.aov;
     options.width = 24;
     options.height = 18;
     options.spp = 8;

@@ -25,7 +25,7 @@ TEST_F(ParameterTest, IsWhatTheElementSays) {
 }
 
 TEST_F(ParameterTest, FallbacksFollowTheDialect) {
-  const auto p = number("a", "", 3, "x").in_lajolla(4, "4");
+  const auto p = number("a", "", 3, "x").with_lajolla_default(4, "4");
   EXPECT_EQ(read(p, ""), 3);
   EXPECT_EQ(read(p, "", Dialect::lajolla), 4);
   EXPECT_EQ(read(p, "<float name=\"a\" value=\"2\"/>", Dialect::lajolla), 2);

@@ -27,7 +27,7 @@ struct PluginTest : support::ScratchTest {
     const auto root = render::read_xml(write("p.xml", text));
     Context context(root, render::Dialect::mitsuba, render::Vec3d::Zero());
     const int value = read_plugin(rows(), root, context);
-    root.require_all_seen();
+    root.require_all_used();
     return value;
   }
   std::string refusal(const std::string& text) const {

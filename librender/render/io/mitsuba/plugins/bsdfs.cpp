@@ -13,9 +13,9 @@ Material make_diffuse(const Reflectance& reflectance) {
   return Bsdf(Lambert(std::get<Spectrum>(reflectance)));
 }
 
-Bsdf make_conductor(std::size_t, const Spectrum& reflectance) { return Metal(reflectance, 0); }
+Bsdf make_conductor(std::size_t, const Spectrum& reflectance) { return FuzzyMetal(reflectance, 0); }
 
-Bsdf make_fuzzymetal(const Spectrum& albedo, double fuzz) { return Metal(albedo, Float(fuzz)); }
+Bsdf make_fuzzymetal(const Spectrum& albedo, double fuzz) { return FuzzyMetal(albedo, Float(fuzz)); }
 
 /// Root mean square slope of facets, and whether the file says it.
 struct Slope {
@@ -95,7 +95,7 @@ Bsdf make_roughconductor(const Spectrum& eta, const Spectrum& k, double outside,
   const auto alpha = Float(slope.alpha);
   if (alpha == 0) return SmoothConductor(inner, inner_k, reflectance);
   if (distribution == 1) return RoughConductor(inner, inner_k, BlinnPhongFacets(alpha), reflectance);
-  return RoughConductor(inner, inner_k, Microfacets(alpha), reflectance);
+  return RoughConductor(inner, inner_k, TrowbridgeReitzFacets(alpha), reflectance);
 }
 
 Material make_mask(const Reflectance& opacity, Material inner) {
@@ -130,12 +130,12 @@ Parameter<Slope> slope() {
           {},
           {}};
 }
-Parameter<Slope> alpha() { return slope().otherwise({0.1}, "0.1").in_lajolla({0.01}, "0.01"); }
+Parameter<Slope> alpha() { return slope().with_default({0.1}, "0.1").with_lajolla_default({0.01}, "0.01"); }
 /// lajolla's smooth materials are its rough ones with another default; `rough` is Mitsuba's one.
-Parameter<Slope> alpha_of_smooth(const std::string& rough) { return slope().otherwise({0}, "0").of_lajolla(rough); }
+Parameter<Slope> alpha_of_smooth(const std::string& rough) { return slope().with_default({0}, "0").lajolla_only(rough); }
 Parameter<std::optional<double>> roughness() {
   return optional(number("roughness", "", "the root of alpha, in [0, 1], instead of it"))
-      .of_lajolla("alpha, its square");
+      .lajolla_only("alpha, its square");
 }
 
 Parameter<std::size_t> distribution(const std::vector<std::string>& names) {
@@ -151,7 +151,7 @@ Parameter<std::size_t> base() {
              "(ours) what the base gets: what the coat lets through, or lajolla's (1 - F)^2 of the half vector, which "
              "near the horizon is more than there is",
              0)
-      .in_lajolla(1, "lajolla");
+      .with_lajolla_default(1, "lajolla");
 }
 
 Parameter<Reflectance> color_of_base() {
@@ -197,7 +197,7 @@ Parameter<double> refractive_index(const std::string& name, const std::string& w
       [](const XmlElement& e, Context&) { return e.tag == "string" ? index_of_medium(e) : number_of(e); },
       {},
       {}};
-  return p.otherwise(fallback, fmt::format("{}", fallback));
+  return p.with_default(fallback, fmt::format("{}", fallback));
 }
 
 } // namespace

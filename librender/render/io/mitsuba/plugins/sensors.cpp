@@ -54,7 +54,7 @@ double millimetres_of(const XmlElement& e, Context&) {
 template <class Make, class Fov, class... V>
 Plugin<SensorSettings> sensor_plugin(std::string name, std::string meaning, Make make, const Parameter<Fov>& fov,
                                      const Parameter<V>&... parameters) {
-  const FilmSettings in_mitsuba{768, 576, GaussianFilter()}, in_lajolla{256, 256, BoxFilter()};
+  const FilmSettings in_mitsuba{768, 576, GaussianFilter()}, with_lajolla_default{256, 256, BoxFilter()};
   return plugin<SensorSettings>(
       std::move(name), std::move(meaning), make,
       transform("toWorld", "the camera's frame: x to the left, y up, z forward"), fov,
@@ -62,9 +62,9 @@ Plugin<SensorSettings> sensor_plugin(std::string name, std::string meaning, Make
       number("nearClip", "scene units", 0, "what stands closer before the lens is cut away"),
       number("farClip", "scene units", mc::infinity<double>, "what stands farther is cut away, > nearClip"),
       optional(number("focusDistance", "scene units", "to the plane in focus; of no effect for a pinhole"))
-          .otherwise(std::nullopt, "farClip, or 1e4"),
-      nested("film", "the picture", film_plugins).otherwise(in_mitsuba, "hdrfilm").in_lajolla(in_lajolla, "hdrfilm"),
-      nested("sampler", "how many samples", sampler_plugins).otherwise(default_spp, "independent"), parameters...);
+          .with_default(std::nullopt, "farClip, or 1e4"),
+      nested("film", "the picture", film_plugins).with_default(in_mitsuba, "hdrfilm").with_lajolla_default(with_lajolla_default, "hdrfilm"),
+      nested("sampler", "how many samples", sampler_plugins).with_default(default_spp, "independent"), parameters...);
 }
 
 FilmSettings make_film(int width, int height, const Filter& filter, double, double, std::size_t) {
@@ -106,11 +106,11 @@ Plugin<FilmSettings> film_plugin(std::string name) {
   ignored.push_back(no_effect("banner", "none is drawn into the picture"));
   return plugin<FilmSettings>(
              std::move(name), "the size of the picture and its filter", make_film,
-             integer("width", "pixels in a row", 768).in_lajolla(256, "256"),
-             integer("height", "rows", 576).in_lajolla(256, "256"),
+             integer("width", "pixels in a row", 768).with_lajolla_default(256, "256"),
+             integer("height", "rows", 576).with_lajolla_default(256, "256"),
              nested("rfilter", "how samples make a pixel", filter_plugins)
-                 .otherwise(GaussianFilter(), "gaussian")
-                 .in_lajolla(BoxFilter(), "box"),
+                 .with_default(GaussianFilter(), "gaussian")
+                 .with_lajolla_default(BoxFilter(), "box"),
              only_default(number("gamma", "", -1, "of a PNG, by the sRGB curve"), "remove it, or say -1"),
              only_default(number("exposure", "stops", 0, "of a PNG"), "remove it and say carlo render --exposure"),
              pixel_format())
@@ -134,11 +134,11 @@ TentFilter make_tent(const std::optional<double>& radius, const std::optional<do
 
 Parameter<std::optional<double>> half_side(double fallback) {
   return optional(number("radius", "pixels", "half its side, > 0"))
-      .otherwise(std::nullopt, fmt::format("{}", fallback))
-      .left_out_by_lajolla("width, which is twice that");
+      .with_default(std::nullopt, fmt::format("{}", fallback))
+      .ignored_by_lajolla("width, which is twice that");
 }
 Parameter<std::optional<double>> side() {
-  return optional(number("width", "pixels", "its side, > 0, instead of radius")).of_lajolla("radius, its half");
+  return optional(number("width", "pixels", "its side, > 0, instead of radius")).lajolla_only("radius, its half");
 }
 
 GaussianFilter make_gaussian(double stddev) { return GaussianFilter(Float(stddev)); }
@@ -159,11 +159,11 @@ Plugin<int> sampler_plugin(std::string name) {
 
 IntegratorSettings make_direct() { return {.max_depth = 2}; }
 
-IntegratorSettings make_normals() { return {.shown = Shown::normals}; }
+IntegratorSettings make_normals() { return {.aov = Aov::normals}; }
 
 IntegratorSettings make_ao(double ray_length) {
   mc::require(ray_length > 0, "rayLength {} must be > 0; Mitsuba's automatic length, -1, is not supported", ray_length);
-  return {.shown = {Shown::ambient_occlusion, ray_length}};
+  return {.aov = {Aov::ambient_occlusion, ray_length}};
 }
 
 IntegratorSettings make_path(int max_depth) {
@@ -176,7 +176,7 @@ IntegratorSettings make_path(int max_depth) {
 const Plugins<SensorSettings>& sensor_plugins() {
   static const Plugins<SensorSettings> rows = {
       sensor_plugin("perspective", "a pinhole camera", make_perspective,
-                    optional(fov()).otherwise(std::nullopt, "by focalLength").in_lajolla(45.0, "45"),
+                    optional(fov()).with_default(std::nullopt, "by focalLength").with_lajolla_default(45.0, "45"),
                     optional(Parameter<double>{{"focalLength",
                                                 "length, as 50mm",
                                                 "mm",
@@ -185,9 +185,9 @@ const Plugins<SensorSettings>& sensor_plugins() {
                                                millimetres_of,
                                                {},
                                                {}})
-                        .otherwise(std::nullopt, "50mm")),
+                        .with_default(std::nullopt, "50mm")),
       sensor_plugin(
-          "thinlens", "a lens with depth of field", make_thinlens, fov().in_lajolla(45, "45"),
+          "thinlens", "a lens with depth of field", make_thinlens, fov().with_lajolla_default(45, "45"),
           optional(number("apertureRadius", "scene units", "radius of the lens, >= 0")),
           optional(number("fNumber", "", "focalLength over the lens's diameter, > 0, instead of the radius (ours)")),
           optional(number("focalLength", "scene units", "of the lens; fov says how much is seen (ours)"))),

@@ -11,8 +11,8 @@ const std::string scene_units = "scene units";
 
 struct Placed {
   Shape shape;
-  std::string without_uvs; ///< why a mesh has no texture coordinates
-  Placed(Shape s, std::string why = {}) : shape(std::move(s)), without_uvs(std::move(why)) {}
+  std::string missing_uv_reason; ///< why a mesh has no texture coordinates
+  Placed(Shape s, std::string why = {}) : shape(std::move(s)), missing_uv_reason(std::move(why)) {}
 };
 
 /// How the normals of a mesh are made.
@@ -25,7 +25,7 @@ Placed placed(const std::string& name, const MeshFile& mesh, const Transform& to
   return mc::with_context(name, [&] {
     const auto& [is_flat, max_angle] = smoothing;
     mc::require(!is_flat || !max_angle, "faceNormals and maxSmoothAngle contradict each other; give one");
-    const std::string& why = mesh.without_uvs;
+    const std::string& why = mesh.missing_uv_reason;
     return Placed(max_angle ? to_shape(split_at_edges(mesh, to_world, *max_angle), to_world)
                             : to_shape(mesh, to_world, is_flat),
                   why.empty() ? why : fmt::format("{}: {}", name, why));
@@ -91,7 +91,7 @@ Parameter<std::optional<BsdfId>> bsdf_of_shape() {
       [](const XmlElement& e, Context& context) { return std::optional(context.bsdf(e)); },
       {},
       {}};
-  return p.otherwise(std::nullopt, "diffuse; of what shines black");
+  return p.with_default(std::nullopt, "diffuse; of what shines black");
 }
 
 Parameter<std::optional<HomogeneousMedium>> medium_of_shape() {
@@ -108,23 +108,23 @@ Parameter<std::optional<HomogeneousMedium>> medium_of_shape() {
       },
       {},
       {}};
-  return p.otherwise(std::nullopt, "none");
+  return p.with_default(std::nullopt, "none");
 }
 
 template <class Make> struct Covered {
   Make make;
   template <class... Values>
-  CoveredShape operator()(const std::optional<BsdfId>& bsdf, const std::optional<Emission>& emission,
-                          const std::optional<HomogeneousMedium>& interior, bool guide, const Values&... values) const {
+  ShapeDescription operator()(const std::optional<BsdfId>& bsdf, const std::optional<Emission>& emission,
+                          const std::optional<HomogeneousMedium>& interior, bool importance_target, const Values&... values) const {
     Placed placed = make(values...);
-    return {std::move(placed.shape), bsdf, emission, guide, interior, std::move(placed.without_uvs)};
+    return {std::move(placed.shape), bsdf, emission, importance_target, interior, std::move(placed.missing_uv_reason)};
   }
 };
 
 // A row for a geometry, with the parameters that all shapes have.
 template <class Make, class... V>
-Plugin<CoveredShape> shape_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
-  return plugin<CoveredShape>(std::move(name), std::move(meaning), Covered<Make>{make}, bsdf_of_shape(),
+Plugin<ShapeDescription> shape_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
+  return plugin<ShapeDescription>(std::move(name), std::move(meaning), Covered<Make>{make}, bsdf_of_shape(),
                               optional(nested("emitter", "makes it shine", surface_emitter_plugins)), medium_of_shape(),
                               boolean("guide", "whether the strategies `mixture` and `guides` aim at it (ours)"),
                               parameters...);
@@ -155,11 +155,11 @@ Parameter<Center> center() {
                              {"point", "vector"},
                              "its centre, which toWorld turns and moves, and since Mitsuba 2 scales"},
                             [](const XmlElement& e, Context& context) {
-                              return Center{vector_of(e), context.means_mitsuba_2()};
+                              return Center{vector_of(e), context.is_mitsuba_2()};
                             },
                             {},
                             {}};
-  return p.otherwise({}, "0, 0, 0");
+  return p.with_default({}, "0, 0, 0");
 }
 
 Parameter<std::optional<double>> max_smooth_angle() {
@@ -176,7 +176,7 @@ Parameter<std::optional<double>> max_smooth_angle() {
 
 // A row for a mesh in a file, with the parameters that all of those have.
 template <class Make, class... V>
-Plugin<CoveredShape> mesh_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
+Plugin<ShapeDescription> mesh_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
   return shape_plugin(
       std::move(name), std::move(meaning), make, file("filename", "the mesh, relative to the scene file"), to_world(),
       boolean("faceNormals", "whether it is flat: without the file's normals, or smooth ones where it has none"),
@@ -194,8 +194,8 @@ const Plugins<HomogeneousMedium>& medium_plugins() {
   return rows;
 }
 
-const Plugins<CoveredShape>& shape_plugins() {
-  static const Plugins<CoveredShape> rows = {
+const Plugins<ShapeDescription>& shape_plugins() {
+  static const Plugins<ShapeDescription> rows = {
       mesh_plugin("obj", "a mesh in Wavefront's format; its materials are ignored", make_obj),
       mesh_plugin("ply", "a mesh in Stanford's format, ascii or binary", make_ply),
       mesh_plugin("serialized", "a mesh in Mitsuba's own format, versions 3 and 4", make_serialized,
@@ -209,7 +209,7 @@ const Plugins<CoveredShape>& shape_plugins() {
           boolean("flipNormals", "whether the normals point inward"),
           choice("pole", {"z", "y"},
                  "where v is 0; u in [0, 1] turns from x to y about z, u in [-1/2, 1/2] from x to z about y (ours)", 0)
-              .in_lajolla(1, "y"),
+              .with_lajolla_default(1, "y"),
           optional(point("capAxis", "direction of the cap's pole from the centre (ours)", Vec3d::Zero())),
           optional(number("capHeight", scene_units, "how far the cap reaches from its pole, in (0, 2 radius] (ours)"))),
   };

@@ -45,7 +45,7 @@ Parameter<Moved> to_uv() {
                            moved_of,
                            {},
                            {}};
-  return p.otherwise({}, "identity");
+  return p.with_default({}, "identity");
 }
 
 template <class Make> struct OnSurface {
@@ -65,9 +65,9 @@ Plugin<Texture> texture_plugin(std::string name, std::string meaning, Make make,
     return optional(number(of, "", "how often it repeats along " + along));
   };
   return plugin<Texture>(std::move(name), std::move(meaning), OnSurface<Make>{make},
-                         repeats("uscale", "u").otherwise(std::nullopt, "1"),
-                         repeats("vscale", "v").otherwise(std::nullopt, "1"),
-                         repeats("uvscale", "both, instead of these").of_lajolla("uscale and vscale"),
+                         repeats("uscale", "u").with_default(std::nullopt, "1"),
+                         repeats("vscale", "v").with_default(std::nullopt, "1"),
+                         repeats("uvscale", "both, instead of these").lajolla_only("uscale and vscale"),
                          number("uoffset", "periods", 0, "added to u after that"),
                          number("voffset", "periods", 0, "added to v after that"), to_uv(), parameters...);
 }

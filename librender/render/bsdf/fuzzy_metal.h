@@ -1,0 +1,76 @@
+#pragma once
+/// Mirror and fuzzy metal.
+
+#include <render/bsdf/concept.h>
+
+#include <mc/warp/ball.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace render {
+
+/// Mirror reflection about +z, on the side of wo.
+inline Vec3 reflect(const Vec3& wo) { return {-wo.x(), -wo.y(), wo.z()}; }
+
+/// A mirror (fuzz 0), or the book's fuzzy metal: the mirror direction r plus fuzz times a uniform point of the unit
+/// ball, then normalised; directions below the surface are absorbed.
+///   pdf    : the mass of the ball of radius fuzz about r along the ray t wi, (t2^3 - t1^3) / (4 pi fuzz^3) [1/sr],
+///            where t1 <= t2 are the distances at which the ray enters and leaves it
+///   eval   : albedo pdf / |cos wi|, so that a sample weighs exactly albedo; hence not reciprocal, as in the book
+///   throws : Error unless the albedo and fuzz lie in [0, 1]
+///   Source : the sampling is [Shirley16]'s; the density is derived here and checked by chi-square
+class FuzzyMetal {
+ public:
+  explicit FuzzyMetal(const Spectrum& albedo = Spectrum::Constant(Float(0.9)), Float fuzz = 0)
+      : albedo_(checked_reflectance("metal: albedo", albedo)), fuzz_(fuzz) {
+    mc::require(fuzz >= 0 && fuzz <= 1, "metal: fuzz {} must lie in [0, 1]", fuzz);
+  }
+
+  std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2& u) const {
+    if (wo.z() == 0) return {};
+    const Vec3 r = reflect(wo);
+    if (is_delta()) return BsdfSample{r, albedo_ / std::abs(r.z()), 1, true};
+    const Vec3 w = r + fuzz_ * mc::UniformBall<Float>{}.sample({uc, u[0], u[1]});
+    const Float length = w.norm();
+    if (!(length > 0)) return {};
+    const Vec3 wi = w / length;
+    const Float density = pdf(wo, wi);
+    if (!(density > 0)) return {};
+    return BsdfSample{wi, albedo_ * (density / std::abs(wi.z())), density};
+  }
+
+  Spectrum eval(const Vec3& wo, const Vec3& wi) const {
+    const Float density = pdf(wo, wi);
+    return density > 0 ? Spectrum(albedo_ * (density / std::abs(wi.z()))) : Spectrum(Spectrum::Zero());
+  }
+
+  Float pdf(const Vec3& wo, const Vec3& wi) const {
+    if (is_delta() || !(wo.z() * wi.z() > 0)) return 0;
+    const Vec3 r = reflect(wo);
+    const Float middle = r.dot(wi);
+    // The chord's half length squared; |r x wi|^2 keeps its precision where wi is close to r.
+    const Float chord2 = fuzz_ * fuzz_ - mc::cross<Float>(r, wi).squaredNorm();
+    if (!(chord2 > 0)) return 0;
+    const Float half = std::sqrt(chord2);
+    const Float t2 = middle + half;
+    if (!(t2 > 0)) return 0;
+    const Float t1 = std::max(middle - half, Float(0));
+    // t2^3 - t1^3 factored: the difference t2 - t1 is known exactly.
+    const Float difference = t1 > 0 ? 2 * half : t2;
+    return difference * (t2 * t2 + t2 * t1 + t1 * t1) / (4 * mc::pi<Float> * fuzz_ * fuzz_ * fuzz_);
+  }
+  Float eta(const Vec3&, const Vec3&) const { return 1; }
+  Float albedo(const Vec3&) const { return albedo_.maxCoeff(); }
+  bool is_delta() const { return fuzz_ == 0; }
+  bool is_near_specular() const { return is_delta(); }
+  bool has_delta() const { return is_delta(); }
+  bool transmits() const { return false; }
+  bool casts_caustics() const { return fuzz_ <= Float(0.5); } // beyond it costs more than it brings
+
+ private:
+  Spectrum albedo_;
+  Float fuzz_;
+};
+
+} // namespace render

@@ -1,0 +1,62 @@
+#include <render/bsdf/rough_fresnel.h>
+
+#include <render/bsdf/microfacet.h>
+
+namespace render {
+
+namespace {
+
+// By the midpoints of the square of visible normals. They are symmetric about the plane of wo, so that half of the
+// turn does; squaring 1 - u evens out the rim, where the facets are seen edge-on.
+RoughFresnel::Albedos integrate(Float cosine, Float eta, const TrowbridgeReitzFacets& facets) {
+  constexpr int turns = 16, rings = 32;
+  const Vec3 wo(std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine);
+  const auto normals = facets.visible_normals(wo);
+  const auto g1 = [&](const Vec3& w) { return double(facets.g1_over_cos(w) * std::abs(w.z())); };
+  double reflected = 0, transmitted = 0;
+  for (int j = 0; j < rings; ++j) {
+    const Float inward = 1 - (Float(j) + Float(0.5)) / rings;
+    const double weight = 2 * double(inward) / (turns * rings);
+    for (int i = 0; i < turns; ++i) {
+      const Vec3 m = normals.sample(Vec2((Float(i) + Float(0.5)) / (2 * turns), 1 - inward * inward));
+      const Float c = std::min(wo.dot(m), Float(1));
+      if (!(c > 0)) continue;
+      const auto [f, cos_t] = fresnel_dielectric(c, eta);
+      const Vec3 mirrored = 2 * c * m - wo, refracted = (c / eta - cos_t) * m - wo / eta;
+      if (mirrored.z() > 0) reflected += weight * double(f) * g1(mirrored);
+      if (f < 1 && refracted.z() < 0) transmitted += weight * double(1 - f) * g1(refracted);
+    }
+  }
+  return {Float(reflected), Float(transmitted)};
+}
+
+RoughFresnel::Albedos of_smooth(Float cosine, Float eta) {
+  const Float f = fresnel_dielectric(cosine, eta).reflectance;
+  return {f, 1 - f};
+}
+
+} // namespace
+
+RoughFresnel::RoughFresnel(Float eta, Float alpha)
+    : critical_(eta < 1 ? std::min(std::sqrt((1 - eta) * (1 + eta)), Float(0.999)) : Float(0)),
+      cells_below_(critical_ > 0 ? below : 0) {
+  std::optional<TrowbridgeReitzFacets> facets;
+  if (alpha > 0) facets.emplace(alpha);
+  std::vector<Node> nodes;
+  const auto add = [&](Float cosine) {
+    const auto [reflected, transmitted] = facets ? integrate(cosine, eta, *facets) : of_smooth(cosine, eta);
+    nodes.push_back({cosine, reflected, transmitted});
+  };
+  for (std::size_t i = 0; i < cells_below_; ++i)
+    add(critical_ * (1 - mc::sqr(mc::sqr(Float(below - i) / Float(below)))));
+  for (std::size_t i = 0; i <= above; ++i) add(critical_ + (1 - critical_) * mc::sqr(Float(i) / Float(above)));
+  double mean = 0;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const double a = nodes[i].cosine, b = nodes[i + 1].cosine;
+    mean += (b - a) / 3 * (double(nodes[i].transmitted) * (2 * a + b) + double(nodes[i + 1].transmitted) * (a + 2 * b));
+  }
+  mean_transmitted_ = Float(mean);
+  nodes_ = std::make_shared<const std::vector<Node>>(std::move(nodes));
+}
+
+} // namespace render

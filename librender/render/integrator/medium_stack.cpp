@@ -1,0 +1,34 @@
+#include <render/integrator/medium_stack.h>
+
+#include <render/scene/visibility.h>
+
+#include <algorithm>
+#include <array>
+
+namespace render {
+
+MediumStack initial_media(const Scene& scene, Ray ray) {
+  constexpr int most = 256; // surfaces on the way
+  std::array<const HomogeneousMedium*, 2> left = {};
+  std::size_t found = 0;
+  int entered = 0; // bodies that lie ahead, not around
+  for (int met = 0; met < most && found < left.size(); ++met) {
+    const auto hit = scene.intersect(ray);
+    if (!hit) break;
+    const Surface& surface = scene.surface(*hit);
+    const SurfacePoint point = scene.surface_point(ray, *hit);
+    const bool leaves = ray.d.dot(point.ng) > 0;
+    if (surface.interior && !leaves) ++entered;
+    else if (surface.interior && entered > 0) --entered;
+    else if (surface.interior) left[found++] = &*surface.interior;
+    ray = continue_past(ray, *hit, point);
+  }
+  return {left[0], left[1]};
+}
+
+bool has_media(const Scene& scene) {
+  const auto surfaces = scene.surfaces();
+  return std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.interior.has_value(); });
+}
+
+} // namespace render

@@ -1,0 +1,86 @@
+#include <render/pixel_renderer.h>
+
+#include <tuple>
+
+namespace render {
+
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentWalk<Float>&, std::uint64_t&,
+                                                  const MediumStack&) const;
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedWalk<Float>&, std::uint64_t&,
+                                                  const MediumStack&) const;
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolWalk<Float>&, std::uint64_t&,
+                                                  const MediumStack&) const;
+
+namespace {
+
+bool is_before(const InvalidSample& a, const InvalidSample& b) {
+  return std::tie(a.pass, a.y, a.x, a.index) < std::tie(b.pass, b.y, b.x, b.index);
+}
+
+} // namespace
+
+void RenderStats::add(const InvalidSample& sample) {
+  if (invalid++ == 0 || is_before(sample, first_invalid)) first_invalid = sample;
+}
+
+void RenderStats::merge(const RenderStats& other) {
+  samples += other.samples;
+  rays += other.rays;
+  if (other.invalid > 0 && (invalid == 0 || is_before(other.first_invalid, first_invalid))) first_invalid = other.first_invalid;
+  invalid += other.invalid;
+}
+
+PixelRenderer::PixelRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points, const ImageExtent& extent,
+                         const std::optional<SplatFilter>& splat, const LightTracer* light_tracer)
+    : scene_(scene), pixel_rays_(scene, extent), integrator_(scene, path, light_tracer), points_(points), extent_(extent),
+      splat_(splat), render_row_(render_row_for(points.sampler)) {}
+
+template <class Stream>
+RenderStats PixelRenderer::render_row_with(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                           Film& film) const {
+  RenderStats stats;
+  std::optional<SplatAccumulator> splat;
+  if (splat_) splat.emplace(*splat_);
+  const Filter drawn = splat_ ? BoxFilter() : scene_.filter();
+  const int image_y = extent_.crop.y + y;
+  const auto sets = static_cast<std::uint32_t>(film.sets());
+  for (std::size_t column = 0; column < from.size(); ++column) {
+    const int x = static_cast<int>(column) - border(), image_x = extent_.crop.x + x;
+    const std::uint64_t rays_before = stats.rays;
+    SampleSums sums;
+    for (std::uint32_t set = 0; set < sets; ++set) {
+      Eigen::Array3d sum = Eigen::Array3d::Zero();
+      std::uint32_t valid = 0;
+      points_.for_ranges(set, sets, from[column], to[column], [&](const PixelPoints::PointRange& range) {
+        const auto points = points_.point_set<typename Stream::Points>(image_x, image_y, range);
+        for (std::uint32_t point = range.begin; point < range.end; ++point) {
+          Stream stream(points, point);
+          const Vec2 offset = drawn.sample(stream.next2());
+          const Ray ray = pixel_rays_.sample(image_x, image_y, offset, stream);
+          const Spectrum radiance = integrator_.radiance(ray, stream, stats.rays, pixel_rays_.media(ray));
+          ++stats.samples;
+          if (!radiance.isFinite().all()) [[unlikely]] {
+            stats.add({image_x, image_y, range.pass, point});
+            continue;
+          }
+          sums.add(radiance.cast<double>());
+          if (splat) splat->add(offset, radiance);
+          else sum += radiance.cast<double>();
+          ++valid;
+        }
+      });
+      if (splat) splat->flush_to(film, x, y, static_cast<int>(set));
+      if (film.contains(x, y)) film.add(x, y, static_cast<int>(set), sum, valid);
+    }
+    film.record_samples(x, y, sums, stats.rays - rays_before);
+  }
+  return stats;
+}
+
+// Behind what it names: clang 14 does not make functions that only such a lambda names before they are defined.
+PixelRenderer::RenderRow PixelRenderer::render_row_for(PixelSampler sampler) {
+  return with_stream(sampler,
+                     []<class Stream>(std::type_identity<Stream>) -> RenderRow { return &PixelRenderer::render_row_with<Stream>; });
+}
+
+} // namespace render

@@ -1,0 +1,85 @@
+#include <render/tile_renderer.h>
+
+#include <algorithm>
+#include <array>
+
+namespace render {
+
+TileRenderer::TileRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points, const ImageExtent& extent,
+                     const LightTracer* light_tracer)
+    : scene_(scene), pixel_rays_(scene, extent), integrator_(scene, path, light_tracer), points_(points), extent_(extent),
+      render_row_(render_row_for(points.sampler)) {}
+
+template <class Stream>
+RenderStats TileRenderer::render_row_with(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                         Film& film) const {
+  RenderStats stats;
+  if (!starts_tile_row(y)) return stats;
+  const auto start = [](int at) { return at - at % side; };
+  const int x = extent_.crop.x, top = start(extent_.crop.y + y);
+  for (int left = start(x); left < x + extent_.crop.width; left += side) {
+    const auto first = static_cast<std::size_t>(std::max(left - x, 0));
+    render_tile<Stream>(left, top, from[first], to[first], film, stats);
+  }
+  return stats;
+}
+
+template <class Stream>
+void TileRenderer::render_tile(int left, int top, std::uint32_t from, std::uint32_t to, Film& film, RenderStats& stats) const {
+  std::array<Pixel, pixels> tile;
+  for (int i = 0; i < int(pixels); ++i) {
+    const int x = left + i % side, y = top + i / side;
+    tile[std::size_t(i)] = {x, y, film.contains(x - extent_.crop.x, y - extent_.crop.y)};
+  }
+  const auto sets = static_cast<std::uint32_t>(film.sets());
+  const std::uint64_t rays_before = stats.rays;
+  for (std::uint32_t set = 0; set < sets; ++set) {
+    points_.for_ranges(set, sets, from, to, [&](const PixelPoints::PointRange& range) { render_range<Stream>(range, tile, stats); });
+    for (Pixel& pixel : tile) {
+      if (pixel.counts)
+        film.add(pixel.x - extent_.crop.x, pixel.y - extent_.crop.y, static_cast<int>(set), pixel.sum, pixel.valid);
+      pixel.sum.setZero();
+      pixel.valid = 0;
+    }
+  }
+  const std::uint64_t rays = (stats.rays - rays_before) / pixels;
+  for (const Pixel& pixel : tile)
+    if (pixel.counts) film.record_samples(pixel.x - extent_.crop.x, pixel.y - extent_.crop.y, pixel.sums, rays);
+}
+
+template <class Stream>
+void TileRenderer::render_range(const PixelPoints::PointRange& range, std::array<Pixel, pixels>& tile, RenderStats& stats) const {
+  const auto points_at = [&](std::size_t i) { return points_.point_set<typename Stream::Points>(tile[i].x, tile[i].y, range); };
+  const std::array<typename Stream::Points, pixels> points{points_at(0), points_at(1), points_at(2), points_at(3)};
+  for (std::uint32_t point = range.begin; point < range.end; ++point) {
+    const auto ray_of = [&](std::size_t i) {
+      Stream stream(points[i], point);
+      const Vec2 offset = scene_.filter().sample(stream.next2());
+      const Ray ray = pixel_rays_.sample(tile[i].x, tile[i].y, offset, stream);
+      return CameraRay<Stream>{ray, pixel_rays_.media(ray), stream};
+    };
+    std::array<CameraRay<Stream>, pixels> rays{ray_of(0), ray_of(1), ray_of(2), ray_of(3)};
+    const auto radiances = integrator_.radiances(rays, stats.rays);
+    for (std::size_t i = 0; i < pixels; ++i) {
+      Pixel& pixel = tile[i];
+      if (!pixel.counts) continue;
+      ++stats.samples;
+      if (!radiances[i].isFinite().all()) [[unlikely]] {
+        stats.add({pixel.x, pixel.y, range.pass, point});
+        continue;
+      }
+      const Eigen::Array3d radiance = radiances[i].template cast<double>();
+      pixel.sums.add(radiance);
+      pixel.sum += radiance;
+      ++pixel.valid;
+    }
+  }
+}
+
+// Behind what it names: clang 14 does not make functions that only such a lambda names before they are defined.
+TileRenderer::RenderRow TileRenderer::render_row_for(PixelSampler sampler) {
+  return with_stream(sampler,
+                     []<class Stream>(std::type_identity<Stream>) -> RenderRow { return &TileRenderer::render_row_with<Stream>; });
+}
+
+} // namespace render

@@ -1,0 +1,133 @@
+#include <render/light_tracing_pass.h>
+#include <render/render.h>
+#include <render/scene/builder.h>
+
+#include <mc/estimate/moments.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace render;
+
+/// A white floor that fills the view, a lamp above and a white ceiling that are not seen, and a ball of glass beyond.
+///   unit : of all lengths
+Scene lit_floor(const Filter& filter, double unit = 1) {
+  SceneBuilder builder;
+  builder.add(TriangleMesh::rectangle(Transform::scale({9 * unit, 9 * unit, unit})), {builder.add(Lambert())});
+  builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 7 * unit}) * Transform::rotate(Vec3d::UnitX(), 180) *
+                                      Transform::scale({9 * unit, 9 * unit, unit})),
+              {builder.add(Lambert())});
+  const BsdfId glass = builder.add(Dielectric());
+  builder.add(Sphere(unit * Vec3d(0, 0, 5), unit), {builder.add(Lambert(Spectrum::Zero())), Emission{}});
+  builder.add(Sphere(unit * Vec3d(0, 0, 11.5), 4 * unit), {glass});
+  builder.set(filter);
+  builder.set(ThinLens(Transform::look_at({0, 0, 3 * unit}, {0, 0, 0}, {0, 1, 0}), {.fov = 60}));
+  return builder.build();
+}
+
+struct PassResult {
+  Film film;
+  RenderStats stats;
+};
+
+// `steps` calls for all paths of `spp` samples a pixel.
+PassResult run_pass(const Filter& filter, std::uint64_t steps, int threads, PixelSampler sampler = PixelSampler::sobol,
+            const Crop& part = {0, 0, 16, 12}, unsigned spp = 400, double unit = 1) {
+  const Scene scene = lit_floor(filter, unit);
+  const auto paths = LightTracer::create(scene, strategy_from("mis+lt"), Float(16) / 12);
+  const LightTracingPass pass(scene, *paths, 3, sampler, 7, {16, 12, part});
+  PassResult all{{part.width, part.height, 4, {.has_light_paths = true}}, {}};
+  const std::uint64_t n = pass.path_count(spp);
+  EXPECT_EQ(n, std::uint64_t{spp} * 16 * 12 / 8);
+  for (std::uint64_t i = 0; i < steps; ++i)
+    EXPECT_EQ(pass.add_paths(
+                  i * n / steps, (i + 1) * n / steps, threads, [] { return false; }, all.film, all.stats),
+              (i + 1) * n / steps);
+  for (int y = 0; y < part.height; ++y) // what a pixel needs to have an estimate
+    for (int x = 0; x < part.width; ++x)
+      for (int set = 0; set < 4; ++set) all.film.add(x, y, set, Eigen::Array3d::Zero(), spp / 4);
+  return all;
+}
+
+double sum(const Film& film) {
+  double total = 0;
+  for (int y = 0; y < film.height(); ++y)
+    for (int x = 0; x < film.width(); ++x) total += film.estimate(x, y).mean[0];
+  return total;
+}
+
+// A path from the lights for eight samples would be none of a single pixel: its mean of 4000 seeds is that of much.
+TEST(LightTracingPass, TinyImages_KeepLightTracing) {
+  const Scene scene = lit_floor(BoxFilter());
+  const auto mean_of = [&](unsigned spp, int seeds) {
+    mc::Moments moments;
+    RenderOptions options;
+    options.width = options.height = 1;
+    options.spp = spp;
+    for (options.seed = 1; options.seed <= std::uint64_t(seeds); ++options.seed)
+      moments.add(double(render::render(scene, options).image.pixels[0][0]));
+    return moments;
+  };
+  const mc::Moments one = mean_of(1, 4000), many = mean_of(4096, 8);
+  EXPECT_LE(one.std_error(), 0.02 * many.mean());
+  EXPECT_NEAR(one.mean(), many.mean(), 4 * std::hypot(one.std_error(), many.std_error())); // alpha 1e-4
+}
+
+// In whatever steps and threads, up to the rounding of sums that are added in the same order.
+TEST(LightTracingPass, IsIndependentOfStepsAndThreads) {
+  for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
+    const PassResult single = run_pass(BoxFilter(), 1, 1, sampler), threaded = run_pass(BoxFilter(), 1, 3, sampler);
+    EXPECT_EQ(single.stats.rays, threaded.stats.rays);
+    EXPECT_EQ(single.stats.samples, 0u);
+    const PassResult stepped = run_pass(BoxFilter(), 7, 2, sampler);
+    EXPECT_EQ(single.stats.rays, stepped.stats.rays);
+    const PassResult part = run_pass(BoxFilter(), 1, 2, sampler, {3, 2, 5, 7});
+    for (int y = 0; y < 12; ++y)
+      for (int x = 0; x < 16; ++x) {
+        const double light = single.film.estimate(x, y).mean[0];
+        EXPECT_EQ(threaded.film.estimate(x, y).mean[0], light);
+        EXPECT_NEAR(stepped.film.estimate(x, y).mean[0], light, 1e-9 * light);
+        const bool within = x >= 3 && x < 8 && y >= 2 && y < 9;
+        EXPECT_EQ(within ? part.film.estimate(x - 3, y - 2).mean[0] : light, light);
+      }
+  }
+}
+
+// On a floor that is lit nearly alike all filters give the same light: none is lost at the edges or counted twice. Some
+// 10,000 paths arrive, a sixth of them so close to an edge that the filter decides: of the difference 1.5 % is four
+// standard deviations.
+TEST(LightTracingPass, FiltersConserveEnergy) {
+  const auto light = [](const Filter& filter) {
+    return sum(run_pass(filter, 1, 2, PixelSampler::sobol, {0, 0, 16, 12}, 16'000).film);
+  };
+  const double expected = light(BoxFilter());
+  EXPECT_GT(expected, 0);
+  for (const Filter& filter : {Filter(TentFilter()), Filter(GaussianFilter()), Filter(SubpixelTentFilter())})
+    EXPECT_NEAR(light(filter) / expected, 1, 0.015);
+}
+
+// Lengths up to 1e18: the area of a lamp that large is hardly a float, nor is the density of a pixel over it. Rounding
+// moves a few paths across the edges of pixels.
+TEST(LightTracingPass, IsScaleInvariant) {
+  const double expected = sum(run_pass(BoxFilter(), 1, 2).film);
+  for (const double unit : {1e-18, 1e-9, 1e9, 1e18})
+    EXPECT_NEAR(sum(run_pass(BoxFilter(), 1, 2, PixelSampler::sobol, {0, 0, 16, 12}, 400, unit).film) / expected, 1, 0.02)
+        << unit;
+}
+
+TEST(LightTracingPass, StopsBetweenItsSteps) {
+  const Scene scene = lit_floor(BoxFilter());
+  const auto paths = LightTracer::create(scene, strategy_from("mis+lt"), Float(16) / 12);
+  const LightTracingPass pass(scene, *paths, 3, PixelSampler::sobol, 7, {16, 12, {0, 0, 16, 12}});
+  Film film(16, 12, 4, {.has_light_paths = true});
+  RenderStats stats;
+  EXPECT_EQ(pass.add_paths(
+                5, 100, 1, [] { return true; }, film, stats),
+            5u);
+  EXPECT_EQ(stats.rays, 0u);
+}
+
+} // namespace

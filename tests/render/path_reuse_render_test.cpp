@@ -1,0 +1,135 @@
+// Pictures whose pixels share paths by tiles.
+
+#include <render/integrator/light_tracer.h>
+
+#include <mc/core/error.h>
+
+#include "support/made_room.h"
+#include "support/picture_seeds.h"
+
+namespace {
+
+using namespace support;
+
+RenderOptions options_of_tiles(int spp) {
+  RenderOptions options;
+  options.width = 13;
+  options.height = 11;
+  options.spp = spp;
+  options.tiles = true;
+  return options;
+}
+
+/// A lamp over a floor and a ball, between two walls.
+Scene corner() {
+  SceneBuilder builder;
+  const BsdfId tan = builder.add(Lambert(Spectrum(Float(0.8), Float(0.6), Float(0.4))));
+  const auto wall = [&](const Vec3d& at, const Vec3d& axis, double degrees) {
+    builder.add(TriangleMesh::rectangle(Transform::translate(at) * Transform::rotate(axis, degrees) *
+                                        Transform::scale({3, 3, 1})),
+                {tan});
+  };
+  wall({0, -1, 0}, Vec3d::UnitX(), -90);
+  wall({0, 0, -1.5}, Vec3d::UnitX(), 0);
+  wall({-1.5, 0, 0}, Vec3d::UnitY(), 90);
+  builder.add(Sphere(Vec3d(0.3, -0.4, 0), 0.6), {tan});
+  builder.add(Sphere(Vec3d(0, 3, 1), 0.4), {builder.add(Lambert(Spectrum::Zero())), Emission{Spectrum::Constant(10)}});
+  builder.set(ThinLens(Transform::look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}), {.fov_axis = FovAxis::y, .fov = 28}));
+  return builder.build();
+}
+
+// Sixty rooms, lit by lamps or points, 16 pictures by each way; every strategy that tells of its lights, and every
+// sampler, in turn.
+TEST(PathReuseRender, MeanMatchesRenderWithoutReuse) {
+  Agreement agreement;
+  for (std::uint64_t i = 0; agreement.rooms < 60; ++i) {
+    const Scene scene = RoomMaker(3000 + i, i % 4 == 0 ? LitBy::deltas : LitBy::lamps).build();
+    RenderOptions options = options_of(i, 48), much = options_of(i, 192);
+    options.strategy = much.strategy = strategy_from(std::array{"mis+lt", "mis", "nee"}[i % 3]);
+    options.sampler = std::array{PixelSampler::sobol, PixelSampler::independent, PixelSampler::stratified}[i / 3 % 3];
+    const Image reference = render::render(scene, much).image;
+    if (std::all_of(reference.pixels.begin(), reference.pixels.end(), is_black)) continue;
+    const std::vector<Spectrum> unit = unit_of(reference);
+    const mc::Moments one = means_of(scene, options, 16, unit);
+    options.tiles = true;
+    options.seed += 1'000'000;
+    agreement.add(i, one, means_of(scene, options, 16, unit), 2.05); // of Student's t with some 28 degrees of freedom
+  }
+  EXPECT_LE(agreement.beyond, 10); // of 60 at 5 %: 10 or fewer but for 1 in 3000
+}
+
+// A room that light paths pay in, too.
+TEST(PathReuseRender, SameBitsForAnyNumberOfThreadsAndAnyPart) {
+  for (const Scene& scene : {corner(), RoomMaker(100).build()})
+    for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
+      RenderOptions options = options_of_tiles(12);
+      options.sampler = sampler;
+      options.threads = 1;
+      const Image whole = render::render(scene, options).image;
+      options.threads = 3;
+      EXPECT_EQ(differences(render::render(scene, options).image, whole), 0) << name(sampler);
+      for (const Crop& crop : {Crop{0, 0, 4, 5}, Crop{5, 4, 8, 7}, Crop{7, 3, 1, 1}, Crop{12, 10, 1, 1}}) {
+        options.crop = crop;
+        const RenderResult part = render::render(scene, options);
+        EXPECT_EQ(differences(part.image, whole, crop.x, crop.y), 0) << name(sampler);
+        EXPECT_EQ(part.spp, 12);
+      }
+    }
+}
+
+TEST(PathReuseRender, IsUnbiasedWithHonestErrorBars) {
+  const Scene scene = corner();
+  for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
+    SCOPED_TRACE(name(sampler));
+    RenderOptions options = options_of_tiles(16);
+    options.sampler = sampler;
+    const PictureSeeds tiles(scene, options, 0);
+    options.tiles = false;
+    expect_as_without(tiles, PictureSeeds(scene, options, 1000));
+  }
+}
+
+// Tiles that get more samples where the error is stay what they were.
+TEST(PathReuseRender, Adaptive_IsUnbiased) {
+  const Scene scene = corner();
+  RenderOptions options = options_of_tiles(48);
+  options.adaptive = true;
+  const PictureSeeds tiles(scene, options, 0);
+  options.tiles = false;
+  options.adaptive = false;
+  expect_as_without(tiles, PictureSeeds(scene, options, 1000));
+}
+
+TEST(PathReuseRender, ReportsNoiseArea) {
+  const RenderResult tiles = render::render(corner(), options_of_tiles(8));
+  EXPECT_EQ(tiles.image.noise_area, 4);
+  EXPECT_EQ(tiles.samples, 13u * 11 * 8);
+}
+
+TEST(PathReuseRender, StopsByTimeErrorOrCancelWithWholeRounds) {
+  const Scene scene = corner();
+  RenderOptions options = options_of_tiles(16);
+  options.target_error = 0.1;
+  const RenderResult by_error = render::render(scene, options);
+  EXPECT_LE(by_error.relative_error, 0.1);
+  options.target_error.reset();
+  options.seconds = 0.05;
+  const RenderResult by_time = render::render(scene, options);
+  EXPECT_GE(by_time.spp, 2);
+  EXPECT_FALSE(by_time.image.variance.empty());
+  std::atomic<bool> cancel = true;
+  options.cancel = &cancel;
+  EXPECT_TRUE(render::render(scene, options).partial);
+}
+
+TEST(PathReuseRender, RejectsIncompatibleOptions) {
+  const Scene scene = corner();
+  RenderOptions options = options_of_tiles(16);
+  options.splat = true;
+  EXPECT_THROW(render::render(scene, options), mc::Error);
+  options.splat = false;
+  options.aov = Aov::normals;
+  EXPECT_THROW(render::render(scene, options), mc::Error);
+}
+
+} // namespace

@@ -1,0 +1,82 @@
+#include <render/pixel_renderer.h>
+
+#include <render/scene/builder.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace render;
+
+Scene ball_under_the_sky() {
+  SceneBuilder builder;
+  builder.add(Light(ConstantBackground(Spectrum(1, 2, 3))));
+  builder.add(Sphere(Vec3d(0, 0, -3), 1), {builder.add(Lambert())});
+  return builder.build();
+}
+
+// Samples taken in any parts are the samples taken at once.
+TEST(PixelRenderer, SplitCallsMatchOneCall) {
+  const Scene scene = ball_under_the_sky();
+  for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
+    const PixelRenderer renderer(scene, {}, {sampler, 5, 4}, {3, 2, {0, 0, 3, 2}});
+    Film whole(3, 2, 4), parts(3, 2, 4);
+    const std::vector<std::uint32_t> none = {0, 0, 0}, some = {1, 6, 19}, all = {40, 7, 19};
+    const RenderStats one = renderer.render_row(1, none, all, whole);
+    RenderStats two = renderer.render_row(1, none, some, parts);
+    two.merge(renderer.render_row(1, some, all, parts));
+    EXPECT_EQ(one.samples, 66u);
+    EXPECT_EQ(two.samples, 66u);
+    EXPECT_EQ(one.rays, two.rays);
+    EXPECT_EQ(whole.rays(0, 1) + whole.rays(1, 1) + whole.rays(2, 1), one.rays);
+    for (int x = 0; x < 3; ++x) {
+      const PixelEstimate a = whole.estimate(x, 1), b = parts.estimate(x, 1);
+      EXPECT_EQ(a.samples, all[std::size_t(x)]);
+      EXPECT_EQ(a.sets, 4);
+      // Sums of the same numbers in another order.
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(a.mean[c], b.mean[c], 1e-12) << name(sampler);
+        EXPECT_NEAR(a.variance[c], b.variance[c], 1e-12) << name(sampler);
+      }
+    }
+    EXPECT_EQ(whole.estimate(0, 0).samples, 0u);
+  }
+}
+
+TEST(RenderStats, KeepsTheFirstInvalidSampleInAnyOrder) {
+  const InvalidSample late{0, 0, 2, 0}, early{5, 5, 1, 9};
+  RenderStats a, b;
+  a.add(late);
+  b.add(early);
+  a.merge(b);
+  EXPECT_EQ(a.invalid, 2u);
+  EXPECT_EQ(a.first_invalid.pass, 1u);
+  a.add(late);
+  EXPECT_EQ(a.first_invalid.x, 5);
+}
+
+// A lamp seen by a camera in the middle of a ball. What fills the ball is met only by rays that start in it, which are
+// not those of a lens beyond its edge, or of a plane beyond it before which all is cut away.
+TEST(PixelRenderer, CameraRaysStartInEnclosingMedium) {
+  const auto seen = [](const LensOptions& lens, bool filled) {
+    SceneBuilder builder;
+    builder.add(TriangleMesh::rectangle(Transform::translate({0, 0, 9}) * Transform::rotate(Vec3d::UnitX(), 180) *
+                                        Transform::scale(Vec3d::Constant(9))),
+                {builder.add(Lambert()), Emission{}});
+    SceneBuilder::SurfaceProperties cover{.bsdf = builder.add(Dielectric())};
+    if (filled) cover.interior = HomogeneousMedium(Spectrum::Constant(1));
+    builder.add(Sphere(Vec3d::Zero(), 1), cover);
+    builder.set(ThinLens({}, lens));
+    const Scene scene = builder.build();
+    const PixelRenderer renderer(scene, {.max_depth = 1}, {PixelSampler::sobol, 5, 4}, {1, 1, {0, 0, 1, 1}});
+    Film film(1, 1, 4);
+    renderer.render_row(0, std::vector<std::uint32_t>{0}, std::vector<std::uint32_t>{400}, film);
+    return film.estimate(0, 0).mean[0];
+  };
+  EXPECT_EQ(seen({.fov = 10, .near = 1.5}, true), 1);
+  const LensOptions wide = {.fov = 10, .radius = 2, .focus_distance = 9};
+  EXPECT_EQ(seen(wide, true), seen(wide, false));
+  EXPECT_NEAR(seen(wide, true), 0.75, 0.02);
+}
+
+} // namespace

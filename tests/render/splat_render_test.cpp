@@ -1,0 +1,109 @@
+#include <render/scene/builder.h>
+
+#include <mc/core/error.h>
+
+#include "support/picture_seeds.h"
+
+#include <cmath>
+
+namespace {
+
+using namespace render;
+using namespace support;
+
+/// A ball on a plane, both in view, under a spherical lamp that is not, and a dim sky.
+Scene ball_on_plane(const Filter& filter) {
+  SceneBuilder builder;
+  const BsdfId tan = builder.add(Lambert(Spectrum(Float(0.8), Float(0.6), Float(0.4))));
+  builder.add(Light(ConstantBackground(Spectrum(Float(0.1), Float(0.2), Float(0.3)))));
+  builder.add(Sphere(Vec3d(0, -101, 0), 100), {tan});
+  builder.add(Sphere(Vec3d(0.3, -0.4, 0), 0.6), {tan});
+  builder.add(Sphere(Vec3d(0, 3, 1), 0.4), {tan, Emission{Spectrum::Constant(10)}});
+  builder.set(filter);
+  builder.set(ThinLens(Transform::look_at({0, 0, 5}, {0, 0, 0}, {0, 1, 0}), {.fov_axis = FovAxis::y, .fov = 28}));
+  return builder.build();
+}
+
+RenderOptions splatted(int spp) {
+  RenderOptions options;
+  options.width = 13;
+  options.height = 11;
+  options.spp = spp;
+  options.splat = true;
+  return options;
+}
+
+TEST(SplatRender, SameBitsForAnyNumberOfThreadsAndAnyPart) {
+  for (const Filter& filter : {Filter(GaussianFilter()), Filter(TentFilter()), Filter(BoxFilter(Float(3.7)))}) {
+    const Scene scene = ball_on_plane(filter);
+    for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
+      RenderOptions options = splatted(12);
+      options.sampler = sampler;
+      options.threads = 1;
+      const Image whole = render::render(scene, options).image;
+      options.threads = 3;
+      EXPECT_EQ(differences(render::render(scene, options).image, whole), 0) << name(sampler);
+      for (const Crop& crop : {Crop{0, 0, 4, 5}, Crop{5, 4, 8, 7}, Crop{7, 3, 1, 1}}) {
+        options.crop = crop;
+        const RenderResult part = render::render(scene, options);
+        EXPECT_EQ(differences(part.image, whole, crop.x, crop.y), 0) << name(sampler);
+        EXPECT_EQ(part.spp, 12);
+      }
+    }
+  }
+}
+
+// A filter that is no wider than a pixel has nothing to share: its pictures stay as they are.
+TEST(SplatRender, NarrowFilter_EqualsUnsplatted) {
+  const Scene scene = ball_on_plane(BoxFilter());
+  RenderOptions options = splatted(8);
+  const Image a = render::render(scene, options).image;
+  options.splat = false;
+  EXPECT_EQ(differences(a, render::render(scene, options).image), 0);
+  EXPECT_EQ(a.noise_area, 1);
+}
+
+// At the edges too, with less noise. That of the sum is stated too large, since pixels at the edge share their noise
+// with some that are not there.
+TEST(SplatRender, IsUnbiasedWithHonestErrorBars) {
+  for (const Filter& filter : {Filter(GaussianFilter()), Filter(TentFilter())}) {
+    const Scene scene = ball_on_plane(filter);
+    for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
+      SCOPED_TRACE(name(sampler));
+      RenderOptions options = splatted(16);
+      options.sampler = sampler;
+      const PictureSeeds splat(scene, options, 0);
+      options.splat = false;
+      EXPECT_LE(expect_as_without(splat, PictureSeeds(scene, options, 1000)), 0.6);
+      EXPECT_GE(splat.sums.variance() / splat.variance, 0.3);
+    }
+  }
+}
+
+TEST(SplatRender, StopsByTimeErrorOrCancelWithWholeRounds) {
+  const Scene scene = ball_on_plane(GaussianFilter());
+  RenderOptions options = splatted(16);
+  options.target_error = 0.05;
+  const RenderResult by_error = render::render(scene, options);
+  EXPECT_LE(by_error.relative_error, 0.05);
+  EXPECT_EQ(by_error.spp, std::round(by_error.spp)) << "rows differ";
+  options.target_error.reset();
+  options.seconds = 0.05;
+  const RenderResult by_time = render::render(scene, options);
+  EXPECT_GE(by_time.spp, 4);
+  EXPECT_EQ(by_time.spp, std::round(by_time.spp)) << "rows differ";
+  EXPECT_FALSE(by_time.partial);
+  // Cancelled in the second round: the first is whole.
+  std::atomic<bool> cancel = false;
+  options = splatted(1 << 20);
+  options.cancel = &cancel;
+  options.progress = [&](const Progress& p) { cancel = p.samples > 6u * 17 * 15; };
+  const RenderResult cancelled = render::render(scene, options);
+  EXPECT_TRUE(cancelled.partial);
+  EXPECT_EQ(cancelled.spp, 4);
+  EXPECT_FALSE(cancelled.image.variance.empty());
+  options.adaptive = true;
+  EXPECT_THROW(render::render(scene, options), mc::Error);
+}
+
+} // namespace
