@@ -3,7 +3,7 @@
 
 #include <mc/core/frame.h>
 #include <mc/core/parallel.h>
-#include <mc/sampler/walk_stream.h>
+#include <mc/sampler/path_sample_stream.h>
 
 #include <array>
 
@@ -34,7 +34,7 @@ Spectrum albedo(const Bsdf& bsdf, const Vec3& wo) {
   const mc::SobolPairs points(0, n);
   Spectrum sum = Spectrum::Zero();
   for (std::uint32_t i = 0; i < n; ++i) {
-    mc::SobolWalk<Float> stream(points, i);
+    mc::SobolPathStream<Float> stream(points, i);
     const Vec2 u = stream.next2();
     const auto s = bsdf.sample(wo, stream.next2()[0], u);
     if (s) sum += s->f * (std::abs(s->wi.z()) * mc::sqr(s->eta) / s->pdf);

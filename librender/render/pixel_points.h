@@ -5,7 +5,7 @@
 #include <render/scene/scene.h>
 
 #include <mc/random/hash.h>
-#include <mc/sampler/walk_stream.h>
+#include <mc/sampler/path_sample_stream.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -24,10 +24,10 @@ std::string_view name(PixelSampler sampler);
 template <class Task> auto with_stream(PixelSampler sampler, const Task& task) {
   switch (sampler) {
   case PixelSampler::independent: break;
-  case PixelSampler::stratified: return task(std::type_identity<mc::StratifiedWalk<Float>>());
-  case PixelSampler::sobol: return task(std::type_identity<mc::SobolWalk<Float>>());
+  case PixelSampler::stratified: return task(std::type_identity<mc::StratifiedPathStream<Float>>());
+  case PixelSampler::sobol: return task(std::type_identity<mc::SobolPathStream<Float>>());
   }
-  return task(std::type_identity<mc::IndependentWalk<Float>>());
+  return task(std::type_identity<mc::IndependentPathStream<Float>>());
 }
 
 /// A part of a picture, from the pixel (x, y), counted from the upper left corner.

@@ -4,11 +4,11 @@
 
 namespace render {
 
-template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentWalk<Float>&, std::uint64_t&,
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentPathStream<Float>&, std::uint64_t&,
                                                   const MediumStack&) const;
-template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedWalk<Float>&, std::uint64_t&,
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedPathStream<Float>&, std::uint64_t&,
                                                   const MediumStack&) const;
-template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolWalk<Float>&, std::uint64_t&,
+template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolPathStream<Float>&, std::uint64_t&,
                                                   const MediumStack&) const;
 
 namespace {

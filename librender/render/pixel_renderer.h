@@ -10,11 +10,11 @@
 namespace render {
 
 // Compiled once: who follows paths through a Scene need not.
-extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentWalk<Float>&, std::uint64_t&,
+extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::IndependentPathStream<Float>&, std::uint64_t&,
                                                          const MediumStack&) const;
-extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedWalk<Float>&, std::uint64_t&,
+extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::StratifiedPathStream<Float>&, std::uint64_t&,
                                                          const MediumStack&) const;
-extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolWalk<Float>&, std::uint64_t&,
+extern template Spectrum PathIntegrator<Scene>::radiance(const Ray&, mc::SobolPathStream<Float>&, std::uint64_t&,
                                                          const MediumStack&) const;
 
 /// What was done, in how many samples and rays.

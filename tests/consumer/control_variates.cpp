@@ -14,7 +14,7 @@ int main() {
     const double u = random.uniform<double>();
     (i % 2 == 0 ? first : second).add(std::exp(u), std::array{u});
   }
-  const mc::Estimate e = mc::cross_estimate(first, second);
+  const mc::Estimate e = mc::cross_fitted_estimate(first, second);
   fmt::print("e - 1 = {:.4f} +- {:.4f}\n", e.value, e.std_error);
   return std::abs(e.value - (std::exp(1.0) - 1)) <= 5 * e.std_error ? 0 : 1;
 }

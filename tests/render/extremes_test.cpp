@@ -6,7 +6,7 @@
 #include <render/scene/builder.h>
 
 #include <mc/estimate/moments.h>
-#include <mc/sampler/walk_stream.h>
+#include <mc/sampler/path_sample_stream.h>
 #include <mc/stats/t_test.h>
 
 #include <gtest/gtest.h>
@@ -217,9 +217,9 @@ TEST(Extremes, AClosedCubeIsDarkInside) {
     const PathIntegrator<Scene> integrator(scene, {});
     std::uint64_t rays = 0;
     const Vec3 eye = middle.cast<Float>();
-    const mc::NoPairs numbers(2028, 0);
+    const mc::IndependentPairs numbers(2028, 0);
     for (std::uint32_t i = 0; i < 20'000; ++i) {
-      mc::IndependentWalk<Float> stream(numbers, i);
+      mc::IndependentPathStream<Float> stream(numbers, i);
       const Vec3 d = mc::UniformSphere<Float>{}.sample(stream.next2());
       ASSERT_TRUE(is_black(integrator.radiance({eye, d}, stream, rays))) << "moved by " << distance << ", path " << i;
     }
@@ -239,10 +239,10 @@ TEST_F(FarCube, IsDarkInside) {
                           distance));
     const Scene scene = read_mitsuba(file).scene;
     const PathIntegrator<Scene> integrator(scene, {});
-    const mc::NoPairs numbers(2029, 0);
+    const mc::IndependentPairs numbers(2029, 0);
     std::uint64_t rays = 0;
     for (std::uint32_t i = 0; i < 2'000; ++i) {
-      mc::IndependentWalk<Float> stream(numbers, i);
+      mc::IndependentPathStream<Float> stream(numbers, i);
       const Ray ray = scene.camera().ray(stream.next2(), scene.camera().tan_half(1), Vec2(0, 0));
       ASSERT_TRUE(is_black(integrator.radiance(ray, stream, rays))) << "moved by " << distance << ", path " << i;
     }

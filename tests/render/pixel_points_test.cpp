@@ -2,7 +2,7 @@
 #include <render/scene/builder.h>
 
 #include <mc/core/error.h>
-#include <mc/sampler/walk_stream.h>
+#include <mc/sampler/path_sample_stream.h>
 
 #include <gtest/gtest.h>
 
@@ -55,8 +55,8 @@ TEST(PixelRays, CroppedRaysEqualFullRays) {
   builder.add(Light(ConstantBackground(Spectrum::Ones())));
   builder.set(ThinLens({}, {.fov = 90}));
   const Scene scene = builder.build();
-  const mc::NoPairs numbers(1, 0);
-  mc::IndependentWalk<Float> stream(numbers, 0);
+  const mc::IndependentPairs numbers(1, 0);
+  mc::IndependentPathStream<Float> stream(numbers, 0);
   for (const Crop& part : {Crop{0, 0, 4, 2}, Crop{2, 1, 1, 1}}) {
     const PixelRays rays(scene, {4, 2, part});
     const Vec3 d = rays.sample(0, 0, Vec2::Zero(), stream).d;

@@ -14,14 +14,14 @@ template <class Scene>
 mc::Moments traced(const Scene& scene, const render::Ray& ray, const render::PathOptions& options, int n,
                    int channel = 0) {
   const render::PathIntegrator<Scene> integrator(scene, options);
-  const mc::NoPairs numbers(2026, 0);
+  const mc::IndependentPairs numbers(2026, 0);
   mc::Moments moments;
   std::uint64_t rays = 0;
   for (int i = 0; i < n; ++i) {
-    mc::IndependentWalk<render::Float> stream(numbers, std::uint32_t(i));
+    mc::IndependentPathStream<render::Float> stream(numbers, std::uint32_t(i));
     moments.add(double(integrator.radiance(ray, stream, rays)[channel]), std::uint64_t(i));
   }
-  EXPECT_EQ(moments.non_finite(), 0u);
+  EXPECT_EQ(moments.non_finite_count(), 0u);
   return moments;
 }
 

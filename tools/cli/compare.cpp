@@ -221,7 +221,7 @@ int compare(const CompareOptions& options) {
   mc::require(alpha > 0 && alpha < 1, "--alpha {} must lie in (0, 1)", alpha);
   mc::require(options.tolerance >= 0, "--tolerance {} must be >= 0", options.tolerance);
   for (const std::string& image : {options.a, options.b})
-    mc::require(options.diff.empty() || !mc::same_place(options.diff, image),
+    mc::require(options.diff.empty() || !mc::is_same_path(options.diff, image),
                 "--diff '{}' would overwrite an image that is compared; name another file", options.diff);
   const Image a = ::render::read_image(options.a), b = ::render::read_image(options.b);
   mc::require(a.width == b.width && a.height == b.height, "'{}' is {}x{} but '{}' is {}x{}; the sizes must agree",

@@ -143,7 +143,7 @@ std::vector<Option> rows(ConvergeOptions& o) {
 
 // The folder of the page, checked before any work; empty without --report.
 std::filesystem::path page_folder(const ConvergeOptions& o) {
-  return o.report.empty() ? "" : mc::output_folder(o.report, "index.html");
+  return o.report.empty() ? "" : mc::make_output_folder(o.report, "index.html");
 }
 
 void write_report(const std::filesystem::path& folder, const ConvergeOptions& o, const std::vector<Measured>& all) {
@@ -157,7 +157,7 @@ int converge_scene(const ConvergeOptions& o) {
   refuse_integral_options(o.integral);
   const Interrupt interrupt;
   const Target target = scene_target(o.integral.integrands[0]);
-  const std::filesystem::path folder = mc::output_folder(o.output, "slopes.csv");
+  const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
   const Pictures pictures = measure_scene(o.scene, {.path = target.integral.source,
                                                     .samplers = o.samplers,
@@ -194,7 +194,7 @@ int converge(const ConvergeOptions& o) {
     for (const Target& t : targets)
       mc::require(w.dimensions == 0 || w.dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions", w.name,
                   w.dimensions, t.integral.name, t.integral.dim);
-  const std::filesystem::path folder = mc::output_folder(o.output, "slopes.csv");
+  const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
 
   const Run run = measure_all(targets, chosen, o, folder, interrupt.flag());

@@ -223,7 +223,7 @@ int gallery_command(const GalleryOptions& o) {
   mc::require(!o.seconds || *o.seconds > 0, "--time {} must be > 0", o.seconds.value_or(0));
   mc::require(!o.target_error || *o.target_error > 0, "--target-error {} must be > 0", o.target_error.value_or(0));
   const std::vector<const GalleryScene*> scenes = chosen(o);
-  const std::filesystem::path folder = mc::output_folder(o.output, "index.html");
+  const std::filesystem::path folder = mc::make_output_folder(o.output, "index.html");
 
   const Interrupt interrupt;
   GalleryRun run(o, folder, interrupt.flag());

@@ -79,7 +79,7 @@ std::vector<Option> rows(IntegrateOptions& o) {
 }
 
 double number(std::string_view word, const char* option) {
-  const std::optional<double> value = mc::number_in(word);
+  const std::optional<double> value = mc::parse_double(word);
   mc::require(value.has_value(), "{}: '{}' is not a number", option, word);
   return *value;
 }
@@ -94,7 +94,7 @@ std::vector<Side> sides_of(const IntegrateOptions& o, int dim) {
 // Bins, and the function that finds the bin of a point and its value.
 struct Bins {
   std::vector<Bin> bins;
-  mc::BinOf of;
+  mc::BinFunction of;
 };
 
 // Bins of equal length in u. On an infinite side their lengths in x grow outward.
@@ -122,7 +122,7 @@ Bins by_value(const Experiment& e, double volume, std::size_t count, std::uint64
                              .value;
   mc::require(largest > 0, "--histogram: the integrand was 0 at 4096 points; there is no size to start from");
   const double top = std::ldexp(volume, std::ilogb(largest / volume));
-  Bins all{{}, [=](std::span<const double>, double value) { return mc::octave_below(top, value, count); }};
+  Bins all{{}, [=](std::span<const double>, double value) { return mc::octave_bin(top, value, count); }};
   for (std::size_t k = 0; k < count; ++k) {
     const double lo = k + 1 < count ? std::ldexp(top / volume, -static_cast<int>(k)) : 0.0;
     const double hi =
@@ -225,7 +225,7 @@ mc::IntegrateOptions settings_of(const IntegrateOptions& o) {
   settings.rel_error = o.rel_error;
   settings.abs_error = o.abs_error;
   settings.max_calls = o.max_calls;
-  settings.method = mc::method_from(o.method);
+  settings.method = mc::parse_method(o.method);
   settings.seed = o.seed;
   settings.threads = o.threads;
   if (!o.load_density.empty())
@@ -241,7 +241,7 @@ int exit_code_of(const Integrals& found, const mc::IntegrateOptions& o) {
     return exit_failed;
   const bool reached = std::all_of(outputs, end, [&](const mc::Integral& r) {
     const double wanted = std::max(o.abs_error, o.rel_error * std::abs(r.estimate.value));
-    return r.stop == mc::Stop::converged || r.estimate.std_error <= wanted;
+    return r.stop == mc::StopReason::converged || r.estimate.std_error <= wanted;
   });
   if (!reached) fmt::print("the wanted error was not reached; raise --max-calls\n");
   return reached ? exit_ok : exit_failed;
@@ -283,13 +283,13 @@ int integrate(const IntegrateOptions& o) {
   }
   progress.clear();
   for (std::size_t i = 0; i < found.integrands.size(); ++i)
-    if (found.results.outputs[i].error_bar == mc::ErrorBar::unseen) refuse_underflow(found.integrands[i]);
+    if (found.results.outputs[i].error_bar == mc::ErrorBar::all_zero) refuse_underflow(found.integrands[i]);
   const mc::Integral r = found.results.outputs.front();
   for (std::size_t k = 0; k < bins.bins.size(); ++k) {
     found.histogram.push_back(bins.bins[k]);
     found.histogram.back().part = found.results.outputs[1 + k];
   }
-  const bool cancelled = r.stop == mc::Stop::cancelled || !find_quantiles(found, wanted, o, interrupt);
+  const bool cancelled = r.stop == mc::StopReason::cancelled || !find_quantiles(found, wanted, o, interrupt);
 
   fmt::print("{}{}{}{}", about(found), o.rounds ? round_table(r) : "", histogram_table(found), quantile_table(found));
   if (json.is_wanted()) json.write(integrals_json(found, o.command, o.seed));

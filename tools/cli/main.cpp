@@ -54,7 +54,7 @@ template <std::integral T> std::string whole_number(std::string& text) {
 }
 
 std::string number(const std::string& text) {
-  return mc::number_in(text) ? std::string() : fmt::format("'{}' is not a number", text);
+  return mc::parse_double(text) ? std::string() : fmt::format("'{}' is not a number", text);
 }
 
 // Refuses --plugin "$MINE" where MINE is not set, and -o=a.png, which would name a file '=a.png'.

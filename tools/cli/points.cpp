@@ -5,6 +5,7 @@
 #include <report/projections.h>
 #include <report/report_json.h>
 #include <sampling/point_sets.h>
+#include <terminal/columns.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 #include <terminal/version.h>
@@ -81,10 +82,12 @@ void print(const Row& r, int dim, std::size_t sets) {
          number(low_power(r.jittered.power, r.n)));
   if (r.t) fmt::print("a ({}, {}, {})-net in base 2\n", *r.t, std::countr_zero(r.n), dim);
   else fmt::print("no t: {}\n", std::has_single_bit(r.n) ? "too many boxes" : "the number of points is no power of 2");
-  fmt::print(
-      "means of L2 discrepancies are root mean squares; of random and jittered points the star discrepancy is the "
-      "mean of {} sets, distance and t of {}, the others by formula\n",
-      reference_stars, reference_sets);
+  fmt::print("{}",
+             wrapped(fmt::format("Means of L2 discrepancies are root mean squares. For random and jittered points the "
+                                 "star discrepancy is the mean of {} sets, the distance and t of {}; the other "
+                                 "columns are exact.",
+                                 reference_stars, reference_sets),
+                     80));
 }
 
 std::string points_csv(mc::PointList p) {
@@ -203,7 +206,7 @@ int points(const PointsOptions& o) {
   mc::require(o.randomisations >= 1 && o.randomisations <= 1000, "points: --randomisations {} must lie in [1, 1000]",
               o.randomisations);
   if (o.file.empty()) point_set(o.set);
-  const std::filesystem::path folder = mc::output_folder(o.output, "points.csv");
+  const std::filesystem::path folder = mc::make_output_folder(o.output, "points.csv");
   int dim = o.dim;
   const MeasuredSets m = measure_all(o, dim);
   if (m.rows.empty()) return exit_interrupted;

@@ -66,12 +66,12 @@ void check_output(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   mc::require(folder.empty() || std::filesystem::is_directory(folder),
               "cannot write '{}': the folder '{}' does not exist; create it first", path, folder.string());
-  const std::string extension = mc::extension_of(path);
+  const std::string extension = mc::lowercase_extension(path);
   mc::require(extension == ".exr" || extension == ".pfm" || extension == ".png",
               "cannot write '{}': unknown image format '{}'; use .exr, .pfm or .png", path, extension);
 }
 
-bool is(const std::string& path, const char* extension) { return mc::extension_of(path) == extension; }
+bool is(const std::string& path, const char* extension) { return mc::lowercase_extension(path) == extension; }
 
 // The tone of a PNG, except for an exposure that depends on the picture.
 ::render::ToneMapping tone_of(const RenderOptions& options, const GalleryScene* named) {
@@ -181,7 +181,7 @@ int compare_all(const RenderOptions& options, const ::render::Scene& scene, ::re
 void refuse_inputs(const std::set<std::string>& files, const RenderOptions& options, const std::string& output) {
   for (const std::string& input : files)
     for (const std::string& written : {output, options.intervals})
-      mc::require(written.empty() || !mc::same_place(written, input),
+      mc::require(written.empty() || !mc::is_same_path(written, input),
                   "'{}' is a file of the scene and would be overwritten; name another with {}", written,
                   written == output ? "-o" : "--intervals");
 }
@@ -209,7 +209,7 @@ int render(const RenderOptions& options) {
   check_output(output);
   if (!options.intervals.empty()) {
     check_output(options.intervals);
-    mc::require(!mc::same_place(options.intervals, output),
+    mc::require(!mc::is_same_path(options.intervals, output),
                 "--intervals '{}' would overwrite the picture; name another file", options.intervals);
   }
   mc::require(!options.layers || is(output, ".exr"), "--layers: '{}' cannot store them; write an .exr", output);

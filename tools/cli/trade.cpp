@@ -44,7 +44,7 @@ struct TradeOptions {
 std::vector<double> numbers(const char* option, const std::string& text, double most) {
   std::vector<double> all;
   for (const std::string_view part : mc::split(text, ',')) {
-    const std::optional<double> x = mc::number_in(part);
+    const std::optional<double> x = mc::parse_double(part);
     mc::require(x && *x > 0 && *x <= most, "{}: '{}' in '{}' must be a number above 0, and {:g} at most", option, part,
                 text, most);
     all.push_back(*x);
@@ -216,8 +216,8 @@ struct Wanted {
 struct Folders {
   std::filesystem::path data, page; ///< page: empty without --report
 
-  explicit Folders(const TradeOptions& o) : data(mc::output_folder(o.output, "trade.json")) {
-    if (!o.report.empty()) page = mc::output_folder(o.report, "index.html");
+  explicit Folders(const TradeOptions& o) : data(mc::make_output_folder(o.output, "trade.json")) {
+    if (!o.report.empty()) page = mc::make_output_folder(o.report, "index.html");
   }
 };
 

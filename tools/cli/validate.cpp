@@ -249,7 +249,7 @@ int validate(const ValidateOptions& options) {
               o.json);
   const ResultFile json(o.json), junit(o.junit);
   require_possible(o, alpha, brought.samples);
-  const std::string page = o.report.empty() ? "" : (mc::output_folder(o.report, "index.html") / "index.html").string();
+  const std::string page = o.report.empty() ? "" : (mc::make_output_folder(o.report, "index.html") / "index.html").string();
 
   const Finished finished = check_all(cases, o, alpha, interrupt.flag());
   std::string errors;

@@ -2,7 +2,7 @@
 
 #include <mc/core/error.h>
 #include <mc/core/types.h>
-#include <mc/estimate/seen/tail.h>
+#include <mc/estimate/diagnostics/tail_index_estimator.h>
 #include <mc/random/hash.h>
 #include <mc/stats/t_test.h>
 
@@ -190,7 +190,7 @@ void judge(Curve& curve, const Experiment& e, const Measurement& m, double tail_
     const mc::RmsError& one = curve.errors[i];
     if (one.is_bound || one.rms <= floor || (e.fit_from > 0 ? one.n < e.fit_from : i < half)) continue;
     fitted.push_back(one);
-    fewest = std::min(fewest, mc::equivalent_errors(double(curve.replicates[i].values.size()),
+    fewest = std::min(fewest, mc::effective_error_count(double(curve.replicates[i].values.size()),
                                                     mean_kurtosis(curve.replicates, i, m.truth)));
     logs += std::log(one.n);
   }
@@ -202,7 +202,7 @@ void judge(Curve& curve, const Experiment& e, const Measurement& m, double tail_
 // What independent points say of an integrand.
 struct Look {
   double size;   // the mean of |f| over a few, which rounding is relative to: the integral itself may cancel
-  mc::Tail tail; // of f
+  mc::TailIndexEstimator tail; // of f
 };
 
 Look look_at(const Target& target, const MeasureOptions& o) {
@@ -211,9 +211,9 @@ Look look_at(const Target& target, const MeasureOptions& o) {
   std::vector<double> sizes;
   for (const double x : std::span(r.values).first(std::min<std::size_t>(r.values.size(), first_replicates)))
     sizes.push_back(std::abs(x));
-  mc::Magnitudes all;
+  mc::OctaveHistogram all;
   all.add(r.values);
-  return {mean_of(sizes), mc::Tail(all)};
+  return {mean_of(sizes), mc::TailIndexEstimator(all)};
 }
 
 // The curve whose largest N has the smallest spread that is to be believed, of those that do not adapt. Replicates that

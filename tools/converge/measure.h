@@ -58,7 +58,7 @@ struct Measurement {
   double size = 0;                  ///< mean of |f|, or |truth| where that is more: what rounding is relative to
   std::string doubt;                ///< one line that says why the truth must or may be wrong; empty: no doubt
   bool interrupted = false;         ///< what was measured until then is kept, for each N that was finished
-  std::optional<double> heavy_tail; ///< index of the tail, where the variance looks infinite by mc::Tail
+  std::optional<double> heavy_tail; ///< index of the tail, where the variance looks infinite by mc::TailIndexEstimator
   Cost cost = cpu_cost;             ///< what its seconds are
   std::string plain = "random";     ///< the name of the way that is plain Monte Carlo
 };

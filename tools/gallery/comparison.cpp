@@ -19,7 +19,7 @@ mc::Estimate mean_luminance(const ::render::Image& image, std::uint32_t estimate
     variance += error * error * image.noise_area;
   }
   const auto n = double(image.pixels.size());
-  return mc::Estimate::student(sum / n, std::sqrt(variance) / n, n / image.noise_area * (estimates - 1.0),
+  return mc::Estimate::from_student_t(sum / n, std::sqrt(variance) / n, n / image.noise_area * (estimates - 1.0),
                                image.pixels.size());
 }
 

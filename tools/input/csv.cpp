@@ -39,7 +39,7 @@ Number parse(std::string_view word) {
   const char* first = word.data() + (word.starts_with('+') ? 1 : 0);
   const auto [end, error] = std::from_chars(first, word.data() + word.size(), n.value);
   n.whole = !word.empty() && end == word.data() + word.size() && error != std::errc::invalid_argument;
-  const std::optional<double> value = mc::number_in(word); // 1e-400 is 0
+  const std::optional<double> value = mc::parse_double(word); // 1e-400 is 0
   n.finite = value && std::isfinite(*value);
   if (!n.finite) return n;
   n.value = *value;

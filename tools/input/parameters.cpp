@@ -20,7 +20,7 @@ struct Part {
 };
 
 double number(std::string_view word, const Part& of) {
-  const std::optional<double> value = mc::number_in(word);
+  const std::optional<double> value = mc::parse_double(word);
   mc::require(value && std::isfinite(*value),
               "{}: '{}' in '{}' is not of the form name=number, as in \"alpha=0.1,n=3\"", of.option, of.part, of.text);
   return *value;

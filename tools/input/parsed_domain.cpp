@@ -63,7 +63,7 @@ template <mc::Domain D> Part directions(std::string text, const D& d, Rounding r
 }
 
 double number(std::string_view word, std::string_view whole) {
-  const std::optional<double> value = mc::number_in(mc::trimmed(word));
+  const std::optional<double> value = mc::parse_double(mc::trimmed(word));
   mc::require(value && !std::isnan(*value), "'{}' in '{}' is not a number", word, whole);
   return *value;
 }

@@ -40,7 +40,7 @@ struct GridDomain {
     if (sphere) {
       const double length = std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
       if (!(std::abs(length - 1) <= unit_tolerance)) return {};
-      return Vec2<double>(mc::turn(x[0], x[1]), std::atan2(std::hypot(x[0], x[1]), x[2]) / mc::pi<double>);
+      return Vec2<double>(mc::azimuth_turns(x[0], x[1]), std::atan2(std::hypot(x[0], x[1]), x[2]) / mc::pi<double>);
     }
     Vec2<double> p(0, 0.5);
     for (std::size_t i = 0; i < sides.size(); ++i) {

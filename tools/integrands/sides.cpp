@@ -13,7 +13,7 @@ namespace {
 // A number, inf, or a constant expression as 2*_pi, whose value is finite.
 double bound(std::string_view text, std::string_view side) {
   const std::string word(mc::trimmed(text));
-  if (const auto number = mc::number_in(word); number && !std::isnan(*number)) return *number;
+  if (const auto number = mc::parse_double(word); number && !std::isnan(*number)) return *number;
   const std::string context =
       fmt::format("--domain: '{}' in '{}' is not a number, inf, -inf or a constant expression", word, side);
   const double value = mc::with_context(context, [&] { return parse_function(word, {})({}); });

@@ -16,7 +16,7 @@ std::vector<int> pixels_in(const std::string& text, char separator) {
   constexpr double most = 1e9;
   std::vector<int> all;
   for (const std::string_view word : mc::split(text, separator)) {
-    const double number = mc::number_in(word).value_or(mc::infinity<double>);
+    const double number = mc::parse_double(word).value_or(mc::infinity<double>);
     if (!(std::abs(number) <= most) || number != std::floor(number)) return {};
     all.push_back(static_cast<int>(number));
   }

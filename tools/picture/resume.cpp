@@ -71,7 +71,7 @@ PictureOf picture_of(const std::string& file, const std::string& dialect, std::v
 
 Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part,
                     ::render::RenderOptions& settings) {
-  mc::require(mc::extension_of(path) == ".exr",
+  mc::require(mc::lowercase_extension(path) == ".exr",
               "--resume: '{}' is no .exr: other formats do not store radiance with its variance; name an .exr", path);
   mc::require(std::filesystem::exists(path), "--resume: '{}' does not exist; leave out --resume in the first run",
               path);

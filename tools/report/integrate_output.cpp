@@ -17,8 +17,8 @@ namespace {
 const char* remedy(mc::ErrorBar bar) {
   switch (bar) {
   case mc::ErrorBar::known: return "";
-  case mc::ErrorBar::hardly_met:
-  case mc::ErrorBar::unseen: return "; raise --max-calls, or choose a --domain around it";
+  case mc::ErrorBar::undersampled:
+  case mc::ErrorBar::all_zero: return "; raise --max-calls, or choose a --domain around it";
   case mc::ErrorBar::infinite_variance:
     return ". Substitute a variable that removes the singularity; where there is none, take more calls";
   }
@@ -50,7 +50,7 @@ nlohmann::json as_json(const mc::Integral& r, const Experiment& e) {
   nlohmann::json j = {{"integrand", e.name},   {"value", r.estimate.value}, {"std_error", r.estimate.std_error},
                       {"lo", r.interval.lo},   {"hi", r.interval.hi},       {"error_bar", name(r.error_bar)},
                       {"chi2", r.chi2},        {"chi2_dof", r.chi2_dof},    {"consistent", r.consistent},
-                      {"infinite", r.infinite}};
+                      {"infinite", r.infinite_points}};
   if (std::isfinite(e.truth)) j["truth"] = e.truth;
   for (const mc::IntegrateRound& round : r.rounds)
     j["rounds"].push_back({{"method", name(round.method)},
@@ -65,7 +65,7 @@ nlohmann::json as_json(const mc::Integral& r, const Experiment& e) {
 
 // To whom it ran for, a run that libmc cancelled was interrupted.
 std::string_view why_stopped(const mc::Integral& r) {
-  return r.stop == mc::Stop::cancelled ? "interrupted" : name(r.stop);
+  return r.stop == mc::StopReason::cancelled ? "interrupted" : name(r.stop);
 }
 
 } // namespace

@@ -73,7 +73,7 @@ Inverted visible_normals(bool skewed) {
   const auto invert = [=](const V& m) {
     const V n = V(m.x() / alpha, m.y() / alpha, m.z()).normalized();
     const double x = n.dot(along), h = mc::safe_sqrt<double>(1 - x * x), y = h + (n.dot(across) - h) / half;
-    return V2(x * x + y * y, mc::turn<double>(x, y));
+    return V2(x * x + y * y, mc::azimuth_turns<double>(x, y));
   };
   return {warp, [v = mc::TrowbridgeReitzVisibleNormals<double>(wo, alpha)](const V& m) { return v.pdf(m); }, invert};
 }

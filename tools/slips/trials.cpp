@@ -36,11 +36,11 @@ mc::Report report_of(const CaseOptions& c) {
 }
 
 mc::Check finite_check(const mc::Moments& moments, std::uint64_t samples) {
-  const auto bad = static_cast<double>(moments.non_finite());
+  const auto bad = static_cast<double>(moments.non_finite_count());
   mc::Check check{"finite", mc::Verdict::pass, {}, 0, bad, 0, mc::Fault::not_finite, {}};
   if (bad > 0) {
     check.verdict = mc::Verdict::fail;
-    check.detail = fmt::format("estimate {} is not finite; {} of {} estimates", moments.witness(), bad, samples);
+    check.detail = fmt::format("estimate {} is not finite; {} of {} estimates", moments.first_non_finite(), bad, samples);
   }
   return check;
 }
@@ -63,7 +63,7 @@ mc::Report mean_report(double value, const NumberSampler& estimator, const CaseO
   mc::Pcg random(c.seed);
   for (std::uint64_t i = 0; i < c.samples; ++i) moments.add(estimator(random), i);
   report.checks.push_back(finite_check(moments, c.samples));
-  if (moments.non_finite() == 0) report.checks.push_back(mean_check(moments, value, c.alpha));
+  if (moments.non_finite_count() == 0) report.checks.push_back(mean_check(moments, value, c.alpha));
   return report;
 }
 

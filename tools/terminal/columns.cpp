@@ -13,7 +13,7 @@ namespace carlo {
 std::size_t terminal_columns(int descriptor) {
   constexpr double least = 20, most = 10'000;
   if (const char* variable = std::getenv("COLUMNS")) { // NOLINT(concurrency-mt-unsafe): nothing sets the environment
-    const double columns = mc::number_in(variable).value_or(0);
+    const double columns = mc::parse_double(variable).value_or(0);
     if (columns >= least && columns <= most && columns == std::floor(columns)) return static_cast<std::size_t>(columns);
   }
   winsize window{};

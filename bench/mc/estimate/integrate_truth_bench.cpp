@@ -25,7 +25,7 @@ struct Shares {
 
   void add(const mc::Integral& r, double truth) {
     ++runs;
-    converged += r.stop == mc::Stop::converged;
+    converged += r.stop == mc::StopReason::converged;
     calls += static_cast<double>(r.calls);
     if (!r.consistent) ++flagged;
     else if (!std::isfinite(r.estimate.std_error)) ++unknown;

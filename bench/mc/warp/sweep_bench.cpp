@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
                                         {"invert", &row.invert},
                                         {"monotone", &row.monotone}})
         if (l->broken) {
-          fmt::print("    {} broken at {} of {}: {}\n", law_name, l->broken, l->points, l->witness);
+          fmt::print("    {} broken at {} of {}: {}\n", law_name, l->broken, l->points, l->worst_case);
           ++broken;
         }
     }

@@ -22,7 +22,7 @@ namespace {
 fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
 
 // Where the bytes go.
-struct Place {
+struct OutputTarget {
   fs::path target;               // no link
   std::optional<int> descriptor; // of this process: /dev/stdout is a link into /proc/self/fd
   fs::file_type type = fs::file_type::not_found;
@@ -32,8 +32,8 @@ struct Place {
   }
 };
 
-Place follow(const std::string& path) {
-  Place place{path, {}};
+OutputTarget resolve_links(const std::string& path) {
+  OutputTarget place{path, {}};
   for (int links = 0; links < 40; ++links) {
     std::error_code error;
     const fs::path folder = folder_of(place.target);
@@ -53,8 +53,8 @@ Place follow(const std::string& path) {
   throw Error(fmt::format("cannot write '{}': its links lead in a circle", path));
 }
 
-Place writable_place(const std::string& path) {
-  const Place place = follow(path);
+OutputTarget require_writable_target(const std::string& path) {
+  const OutputTarget place = resolve_links(path);
   if (place.descriptor) return place;
   const fs::path folder = folder_of(place.target);
   std::error_code error;
@@ -70,7 +70,7 @@ Place writable_place(const std::string& path) {
   return place;
 }
 
-void write_through(const Place& place, const std::string& path, std::string_view bytes) {
+void write_through(const OutputTarget& place, const std::string& path, std::string_view bytes) {
   std::fflush(stdout); // what was printed before comes before
   const int file =
       place.descriptor ? dup(*place.descriptor) : open(place.target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
@@ -89,7 +89,7 @@ std::string temporary_name(const fs::path& folder, const fs::path& path) {
   return (folder / fmt::format(".{}.{}.tmp{}", path.stem().string(), getpid(), path.extension().string())).string();
 }
 
-void replace(const Place& place, const std::string& path, const std::function<void(const std::string&)>& write) {
+void replace(const OutputTarget& place, const std::string& path, const std::function<void(const std::string&)>& write) {
   const std::string temporary = temporary_name(folder_of(place.target), path);
   std::error_code error;
   try {
@@ -105,7 +105,7 @@ void replace(const Place& place, const std::string& path, const std::function<vo
 }
 
 // By way of a folder of our own, since not everything that writes a file can write a stream.
-void pass_on(const Place& place, const std::string& path, const std::function<void(const std::string&)>& write) {
+void write_via_temporary(const OutputTarget& place, const std::string& path, const std::function<void(const std::string&)>& write) {
   std::string folder = (fs::temp_directory_path() / "mc.XXXXXX").string();
   require(mkdtemp(folder.data()) != nullptr, "cannot make a temporary folder '{}': {}", folder, std::strerror(errno));
   std::error_code error;
@@ -131,9 +131,9 @@ void write_new(const std::string& file, const std::string& path, std::string_vie
 
 } // namespace
 
-void require_writable(const std::string& path) { writable_place(path); }
+void require_writable(const std::string& path) { require_writable_target(path); }
 
-fs::path output_folder(const std::string& name, const std::string& first_file) {
+fs::path make_output_folder(const std::string& name, const std::string& first_file) {
   std::error_code failed;
   fs::create_directories(name, failed);
   require(!failed && fs::is_directory(name), "'{}' is no folder and cannot be made one ({}); name another", name,
@@ -144,23 +144,23 @@ fs::path output_folder(const std::string& name, const std::string& first_file) {
 }
 
 void replace_file(const std::string& path, const std::function<void(const std::string&)>& write) {
-  const Place place = writable_place(path);
+  const OutputTarget place = require_writable_target(path);
   if (place.is_replaced()) replace(place, path, write);
-  else pass_on(place, path, write);
+  else write_via_temporary(place, path, write);
 }
 
 void write_file(const std::string& path, std::string_view bytes) {
-  const Place place = writable_place(path);
+  const OutputTarget place = require_writable_target(path);
   if (place.is_replaced()) replace(place, path, [&](const std::string& file) { write_new(file, path, bytes); });
   else write_through(place, path, bytes);
 }
 
-bool same_place(const std::string& a, const std::string& b) {
+bool is_same_path(const std::string& a, const std::string& b) {
   const auto place = [](const std::string& path) { return fs::weakly_canonical(fs::absolute(path)); };
   return place(a) == place(b);
 }
 
-std::string extension_of(const std::string& path) {
+std::string lowercase_extension(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   for (char& c : extension)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');

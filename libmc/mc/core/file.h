@@ -26,13 +26,13 @@ void require_writable(const std::string& path);
 
 /// The folder, made with those above it where it is missing.
 ///   throws  : Error where it cannot be made, or where `first_file` could not be written in it
-std::filesystem::path output_folder(const std::string& name, const std::string& first_file);
+std::filesystem::path make_output_folder(const std::string& name, const std::string& first_file);
 
 /// Whether two paths lead to one place, be there a file or not.
-bool same_place(const std::string& a, const std::string& b);
+bool is_same_path(const std::string& a, const std::string& b);
 
 /// ".exr" of "a/b.EXR": the last dot of the name and what follows, in small letters; "" where there is none.
-std::string extension_of(const std::string& path);
+std::string lowercase_extension(const std::string& path);
 
 /// The whole file, or all that a pipe gives. Throws Error when it is missing, a folder or a device, or cannot be read.
 std::string read_file(const std::string& path);

@@ -8,7 +8,7 @@
 
 namespace mc {
 
-std::optional<double> number_in(std::string_view text) {
+std::optional<double> parse_double(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

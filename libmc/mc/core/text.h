@@ -14,7 +14,7 @@ namespace mc {
 
 /// The number that all of a text is, "+1.5e3", "inf" and "nan" too: what is too small is 0 with its sign. Nothing where
 /// it is anything else or too large for a double: infinite is only what says so. Knows no locale.
-std::optional<double> number_in(std::string_view text);
+std::optional<double> parse_double(std::string_view text);
 
 /// Without the white space at its ends, ends of lines too.
 std::string_view trimmed(std::string_view text);

@@ -83,7 +83,7 @@ template <std::floating_point S> S small_turn(S q) {
 ///   Source : atan t = atan c + atan((t - c) / (1 + c t)), c the nearest of 0, 1/4, ... 1; the rest, at most 1/8, by
 ///            interpolation at Chebyshev nodes of (atan(q) / q - 1) / (2 pi q^2) in q^2; 1 / (2 pi) as a sum of two
 ///            numbers
-template <Real S> S turn(const S& x, const S& y) {
+template <Real S> S azimuth_turns(const S& x, const S& y) {
   using std::abs, std::atan2;
   if constexpr (std::floating_point<S>) {
     using Limits = std::numeric_limits<S>;

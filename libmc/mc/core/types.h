@@ -52,12 +52,12 @@ inline const S pi = [] {
 template <Real S> inline const S one_minus_epsilon = S(1) - std::numeric_limits<S>::epsilon() / 2;
 
 /// u where it lies in [0,1), else the nearest number there: rounding carries what warps invert out of it.
-template <Real S> S within_unit(const S& u) {
+template <Real S> S clamp_to_unit(const S& u) {
   const S at_least_0 = u < 0 ? S(0) : u;
   return at_least_0 >= 1 ? one_minus_epsilon<S> : at_least_0;
 }
-template <Real S, int N> Vec<S, N> within_unit(Vec<S, N> u) {
-  for (int i = 0; i < N; ++i) u[i] = within_unit(u[i]);
+template <Real S, int N> Vec<S, N> clamp_to_unit(Vec<S, N> u) {
+  for (int i = 0; i < N; ++i) u[i] = clamp_to_unit(u[i]);
   return u;
 }
 

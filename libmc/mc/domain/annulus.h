@@ -11,7 +11,7 @@ namespace mc {
 ///   chart  : v = ((|p|^2 - inner^2) / (outer^2 - inner^2), phi / 2 pi); uniform in area, so the Jacobian is the
 ///            constant area
 ///   error  : v0 is known to about eps outer / (outer - inner), the rounding of p
-///   throws : Error unless 0 <= inner < outer, both finite, and the area passes is_scale
+///   throws : Error unless 0 <= inner < outer, both finite, and the area passes is_valid_scale
 template <Real S> struct Annulus {
   using Scalar = S;
   using Point = Vec2<S>;
@@ -25,7 +25,7 @@ template <Real S> struct Annulus {
   Annulus(S inner_, S outer_) : inner(inner_), outer(outer_) {
     using std::isfinite;
     require(
-        inner >= 0 && inner < outer && isfinite(outer) && is_scale(area()),
+        inner >= 0 && inner < outer && isfinite(outer) && is_valid_scale(area()),
         "Annulus: radii {} and {}; 0 <= inner < outer, both finite, and an area that is neither denormal nor next to "
         "the largest number are needed",
         static_cast<double>(inner), static_cast<double>(outer));
@@ -38,7 +38,7 @@ template <Real S> struct Annulus {
   UnitPoint to_unit(const Point& p) const {
     using std::max, std::min;
     const S r = p.norm(), v = ((r - inner) * (r + inner)) / ((outer - inner) * (outer + inner));
-    return {min(max(v, S(0)), S(1)), turn<S>(p.x(), p.y())};
+    return {min(max(v, S(0)), S(1)), azimuth_turns<S>(p.x(), p.y())};
   }
   S jacobian(const UnitPoint&) const { return area(); }
   bool contains(const Point& p) const {

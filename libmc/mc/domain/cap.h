@@ -30,11 +30,11 @@ template <Real S> struct Cap {
     const S t = v[0] * h; // 1 - z, so sin^2 = t (2 - t) without cancellation
     return polar_direction<S>(safe_sqrt<S>(t * (2 - t)), 1 - t, v[1]);
   }
-  UnitPoint to_unit(const Point& w) const { return {one_minus_z(w) / h, turn<S>(w.x(), w.y())}; }
+  UnitPoint to_unit(const Point& w) const { return {one_minus_z(w) / h, azimuth_turns<S>(w.x(), w.y())}; }
   S jacobian(const UnitPoint&) const { return 2 * pi<S> * h; }
   /// The direction lies in the cone, up to rounding.
-  bool reaches(const Point& w) const { return one_minus_z(w) <= h * (1 + 8 * std::numeric_limits<S>::epsilon()); }
-  bool contains(const Point& w) const { return is_unit(w) && reaches(w); }
+  bool contains_direction(const Point& w) const { return one_minus_z(w) <= h * (1 + 8 * std::numeric_limits<S>::epsilon()); }
+  bool contains(const Point& w) const { return is_unit(w) && contains_direction(w); }
   template <Real T> Cap<T> cast() const { return Cap<T>(T(h)); }
 };
 

@@ -23,7 +23,7 @@ constexpr std::string_view name(Measure m) {
 /// Whether a distribution may have the width (or area, or volume) `scale` about `center`: [min / eps, max eps] of the
 /// scalar, so that no density about 1 / scale overflows or vanishes, tails included; and at least 8 eps |center|, the
 /// distance between numbers there.
-template <Real S> bool is_scale(const S& scale, const S& center = S(0)) {
+template <Real S> bool is_valid_scale(const S& scale, const S& center = S(0)) {
   using Limits = std::numeric_limits<S>;
   using std::abs;
   return scale >= Limits::min() / Limits::epsilon() && scale <= Limits::max() * Limits::epsilon() &&

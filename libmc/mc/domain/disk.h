@@ -16,7 +16,7 @@ template <Real S> struct Disk {
   static constexpr Measure measure = Measure::area;
 
   Point from_unit(const UnitPoint& v) const { return polar_point<S>(safe_sqrt<S>(v[0]), v[1]); }
-  UnitPoint to_unit(const Point& p) const { return {p.squaredNorm(), turn<S>(p.x(), p.y())}; }
+  UnitPoint to_unit(const Point& p) const { return {p.squaredNorm(), azimuth_turns<S>(p.x(), p.y())}; }
   S jacobian(const UnitPoint&) const { return pi<S>; }
   bool contains(const Point& p) const { return p.squaredNorm() <= 1 + 4 * std::numeric_limits<S>::epsilon(); }
   template <Real T> Disk<T> cast() const { return {}; }

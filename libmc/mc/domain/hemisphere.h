@@ -19,7 +19,7 @@ template <Real S> struct Hemisphere {
   Point from_unit(const UnitPoint& v) const {
     return polar_direction<S>(safe_sqrt<S>(v[0] * (2 - v[0])), 1 - v[0], v[1]);
   }
-  UnitPoint to_unit(const Point& w) const { return {one_minus_z(w), turn<S>(w.x(), w.y())}; }
+  UnitPoint to_unit(const Point& w) const { return {one_minus_z(w), azimuth_turns<S>(w.x(), w.y())}; }
   S jacobian(const UnitPoint&) const { return 2 * pi<S>; }
   bool contains(const Point& w) const { return w.z() >= 0 && is_unit(w); }
   template <Real T> Hemisphere<T> cast() const { return {}; }

@@ -10,7 +10,7 @@ namespace mc {
 
 /// Points origin + v0 a + v1 b of R^3, v in [0,1]^2.
 ///   chart  : v; the Jacobian is the area |a x b|
-///   throws : Error unless all coordinates are finite and the area^2 passes is_scale
+///   throws : Error unless all coordinates are finite and the area^2 passes is_valid_scale
 template <Real S> struct Parallelogram {
   using Scalar = S;
   using Point = Vec3<S>;
@@ -28,7 +28,7 @@ template <Real S> struct Parallelogram {
               "Parallelogram: coordinate {} of the origin or of an edge is not finite: {}, {}, {}", i,
               static_cast<double>(origin[i]), static_cast<double>(a[i]), static_cast<double>(b[i]));
     require(
-        is_scale(S(sqr<S>(area()))),
+        is_valid_scale(S(sqr<S>(area()))),
         "Parallelogram: the edges span an area of {}; it must be finite and > 0, its square neither denormal nor next "
         "to the largest number",
         static_cast<double>(area()));

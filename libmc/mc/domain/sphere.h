@@ -38,7 +38,7 @@ template <Real S> struct Sphere {
   }
   UnitPoint to_unit(const Point& w) const {
     const S near = one_minus_abs_z(w) / 2;
-    return {choose<S>(w.z() > 0, near, S(1 - near)), turn<S>(w.x(), w.y())};
+    return {choose<S>(w.z() > 0, near, S(1 - near)), azimuth_turns<S>(w.x(), w.y())};
   }
   S jacobian(const UnitPoint&) const { return 4 * pi<S>; }
   bool contains(const Point& w) const { return is_unit(w); }

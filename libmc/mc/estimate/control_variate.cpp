@@ -81,7 +81,7 @@ void ControlVariates::add(double f, std::span<const double> g, std::uint64_t ind
   std::vector<double> delta(n);
   for (std::size_t i = 0; i < n; ++i) delta[i] = (i == 0 ? f : g[i - 1] - means_[i - 1]) - mean_[i];
   if (!std::all_of(delta.begin(), delta.end(), [](double d) { return std::isfinite(d); })) [[unlikely]] {
-    if (non_finite_++ == 0) witness_ = index;
+    if (non_finite_++ == 0) first_non_finite_ = index;
     return;
   }
   const double count = static_cast<double>(++count_);
@@ -94,7 +94,7 @@ void ControlVariates::merge(const ControlVariates& other) {
   require(means_ == other.means_,
           "ControlVariates: merge of {} and {} controls of different means; they must be the same", means_.size(),
           other.means_.size());
-  if (other.non_finite_ > 0 && non_finite_ == 0) witness_ = other.witness_;
+  if (other.non_finite_ > 0 && non_finite_ == 0) first_non_finite_ = other.first_non_finite_;
   non_finite_ += other.non_finite_;
   if (other.count_ == 0) return;
   const double a = static_cast<double>(count_), b = static_cast<double>(other.count_), total = a + b;
@@ -110,7 +110,7 @@ void ControlVariates::merge(const ControlVariates& other) {
 
 void ControlVariates::require_enough() const {
   require(non_finite_ == 0, "ControlVariates: {} of {} values are not finite, the first at index {}", non_finite_,
-          non_finite_ + count_, witness_);
+          non_finite_ + count_, first_non_finite_);
   require(count_ >= 2, "ControlVariates: {} values; at least 2 are needed", count_);
 }
 
@@ -152,14 +152,14 @@ Estimate ControlVariates::estimate(std::span<const double> beta) const {
     value += c[i] * mean_[i];
   }
   const double n = static_cast<double>(count_), variance = std::max(0.0, square) / (n - 1);
-  return Estimate::student(value, std::sqrt(variance / n), n - 1, count_);
+  return Estimate::from_student_t(value, std::sqrt(variance / n), n - 1, count_);
 }
 
-Estimate cross_estimate(const ControlVariates& a, const ControlVariates& b) {
+Estimate cross_fitted_estimate(const ControlVariates& a, const ControlVariates& b) {
   const Estimate first = a.estimate(b.coefficients()), second = b.estimate(a.coefficients());
   const double n = static_cast<double>(first.count + second.count), share = static_cast<double>(first.count) / n;
-  return Estimate::student(share * first.value + (1 - share) * second.value,
-                           std::hypot(share * first.error(), (1 - share) * second.error()), first.dof + second.dof,
+  return Estimate::from_student_t(share * first.value + (1 - share) * second.value,
+                           std::hypot(share * first.unwidened_std_error(), (1 - share) * second.unwidened_std_error()), first.dof + second.dof,
                            first.count + second.count);
 }
 

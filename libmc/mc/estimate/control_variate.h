@@ -27,24 +27,24 @@ class ControlVariates {
   void merge(const ControlVariates& other);
 
   std::uint64_t count() const { return count_; }
-  std::uint64_t non_finite() const { return non_finite_; }
+  std::uint64_t non_finite_count() const { return non_finite_; }
   std::vector<double> coefficients() const;
   Estimate estimate(std::span<const double> beta) const;
   /// Without controls, beta = 0.
-  Estimate plain() const { return estimate(std::vector<double>(means_.size())); }
+  Estimate without_controls() const { return estimate(std::vector<double>(means_.size())); }
 
  private:
   void require_enough() const;
 
   std::vector<double> means_, mean_; ///< known means of g; sample means of (f, g - means_)
   std::vector<double> scatter_;      ///< sums of products of deviations of (f, g): the symmetric matrix, row by row
-  std::uint64_t count_ = 0, non_finite_ = 0, witness_ = 0;
+  std::uint64_t count_ = 0, non_finite_ = 0, first_non_finite_ = 0;
 };
 
 /// Both halves of the samples at once: each with the coefficients of the other, so unbiased, and no pilot is thrown
 /// away.
 ///   error  : the errors of the halves are uncorrelated up to a relative 1 / n, so they add as squares
 ///   throws : Error as estimate(), and unless both know the same means
-Estimate cross_estimate(const ControlVariates& a, const ControlVariates& b);
+Estimate cross_fitted_estimate(const ControlVariates& a, const ControlVariates& b);
 
 } // namespace mc

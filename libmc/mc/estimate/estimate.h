@@ -17,9 +17,9 @@ struct Estimate {
   /// From the standard error of a mean that was itself estimated with `dof` degrees of freedom: std_error is the error
   /// times Student's t at one sigma, 1.02 times for 23 degrees of freedom and 1.84 times for 1. Without it, 2 sigma of
   /// 24 values would cover 94.3 % instead of 94.7 %, and of 4 values 86 % instead of 90 %.
-  static Estimate student(double value, double error, double dof, std::uint64_t count);
+  static Estimate from_student_t(double value, double error, double dof, std::uint64_t count);
   /// The `error` again.
-  double error() const;
+  double unwidened_std_error() const;
 
   struct Interval {
     double lo, hi;

@@ -24,18 +24,18 @@ namespace mc {
 enum class Method { automatic, plain, stratified, rqmc, vegas, tree };
 std::string_view name(Method method);
 /// Throws Error, naming the nearest method, for an unknown name.
-Method method_from(std::string_view name);
+Method parse_method(std::string_view name);
 
 /// Why integration ended.
-enum class Stop { converged, max_calls, cancelled };
-std::string_view name(Stop stop);
+enum class StopReason { converged, max_calls, cancelled };
+std::string_view name(StopReason stop);
 
 /// What is known of the error.
 enum class ErrorBar {
   known,
-  unseen,     ///< every value was zero: nothing tells how large those are that were not met
-  hardly_met, ///< few points hold most of the integral, or values beyond those met may: the next may change it all
-  infinite_variance ///< the integrand is large on a volume that shrinks so slowly that no error bar holds, see Tail
+  all_zero,     ///< every value was zero: nothing tells how large those are that were not met
+  undersampled, ///< few points hold most of the integral, or values beyond those met may: the next may change it all
+  infinite_variance ///< the integrand is large on a volume that shrinks so slowly that no error bar holds, see TailIndexEstimator
 };
 std::string_view name(ErrorBar bar);
 
@@ -70,7 +70,7 @@ struct IntegrateOptions {
   /// learned; where it does not, they go on learning from it. As unbiased for any density.
   std::shared_ptr<const AdaptedDensity> density = {};
   /// The last so many outputs need not be accurate: they neither end the run nor say where points go.
-  std::size_t watched = 0;
+  std::size_t auxiliary_outputs = 0;
   std::function<void(const IntegrateProgress&)> progress = {};
   const std::atomic<bool>* cancel = nullptr;
 };
@@ -91,15 +91,15 @@ struct IntegrateRound {
 struct Integral {
   Estimate estimate; ///< its std_error is infinite unless error_bar is known
   /// Two-sided, Student t for replicates, longer on the side they are skewed to. Of a learned density it allows for
-  /// values larger than all that were met, see Magnitudes. All numbers unless error_bar is known.
+  /// values larger than all that were met, see OctaveHistogram. All numbers unless error_bar is known.
   Estimate::Interval interval{};
   ErrorBar error_bar = ErrorBar::known;
-  double tail_index = 0;      ///< of the integrand, see Tail; infinite for a bounded one
-  std::uint64_t infinite = 0; ///< points where the integrand was infinite, which count as 0: the variance is infinite
+  double tail_index = 0;      ///< of the integrand, see TailIndexEstimator; infinite for a bounded one
+  std::uint64_t infinite_points = 0; ///< points where the integrand was infinite, which count as 0: the variance is infinite
   std::uint64_t calls = 0;
   double seconds = 0;
   Method method = Method::plain; ///< the one picked
-  Stop stop = Stop::converged;
+  StopReason stop = StopReason::converged;
   /// stratified, vegas and tree: how well independent rounds agree, each difference turned from Student's t into a
   /// normal deviate and squared; near its dof. plain and rqmc: 0
   double chi2 = 0, chi2_dof = 0;

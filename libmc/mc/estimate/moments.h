@@ -19,7 +19,7 @@ class Moments {
  public:
   void add(double x, std::uint64_t index = 0) {
     if (!std::isfinite(x)) [[unlikely]] {
-      if (non_finite_++ == 0) witness_ = index;
+      if (non_finite_++ == 0) first_non_finite_ = index;
       return;
     }
     ++count_;
@@ -50,7 +50,7 @@ class Moments {
   }
 
   void merge(const Moments& other) {
-    if (other.non_finite_ > 0 && non_finite_ == 0) witness_ = other.witness_;
+    if (other.non_finite_ > 0 && non_finite_ == 0) first_non_finite_ = other.first_non_finite_;
     non_finite_ += other.non_finite_;
     if (other.count_ == 0) return;
     if (count_ == 0) { // the products below overflow for large numbers
@@ -80,14 +80,14 @@ class Moments {
   double variance() const { return count_ > 1 ? m2_ / static_cast<double>(count_ - 1) : 0.0; }
   /// Of the mean, as computed; estimate() widens it for the uncertainty of a variance of few values.
   double std_error() const { return count_ > 1 ? std::sqrt(variance() / static_cast<double>(count_)) : 0.0; }
-  std::uint64_t non_finite() const { return non_finite_; }
-  std::uint64_t witness() const { return witness_; } ///< index of the first non-finite value
+  std::uint64_t non_finite_count() const { return non_finite_; }
+  std::uint64_t first_non_finite() const { return first_non_finite_; } ///< index of the first non-finite value
 
   /// The mean with its error bar, count - 1 degrees of freedom behind it.
   Estimate estimate() const;
 
  private:
-  std::uint64_t count_ = 0, non_finite_ = 0, witness_ = 0;
+  std::uint64_t count_ = 0, non_finite_ = 0, first_non_finite_ = 0;
   double mean_ = 0, m2_ = 0;
 };
 

@@ -34,9 +34,9 @@ struct Volumes {
 
 // The boxes of a part hold the points whose rank along axis k is at most g[k], lo[k] <= g[k] < hi[k]: of each of them
 // the closed box ends at coordinate g[k], the open one at the next.
-class Walk {
+class CoverSearch {
  public:
-  Walk(const StarGrid& grid, StarCover& cover)
+  CoverSearch(const StarGrid& grid, StarCover& cover)
       : grid_(grid), cover_(cover), n_(static_cast<double>(grid.size())), lo_(grid.dim(), 0u), slabs_(grid.dim()) {
     for (std::size_t k = 0; k < grid.dim(); ++k) hi_.push_back(static_cast<std::uint32_t>(grid.axis(k).size() - 1));
     tally_.resize(grid.dim());
@@ -224,6 +224,6 @@ class Walk {
 
 } // namespace
 
-bool StarCover::run(const StarGrid& grid) { return Walk(grid, *this).run(); }
+bool StarCover::run(const StarGrid& grid) { return CoverSearch(grid, *this).run(); }
 
 } // namespace mc

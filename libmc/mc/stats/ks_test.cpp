@@ -35,7 +35,7 @@ KsTest ks_test(std::vector<double> samples, const std::function<double(double)>&
     const double d = std::max(static_cast<double>(i + 1) / n - f, f - static_cast<double>(i) / n);
     if (d > result.d) {
       result.d = d;
-      result.at = samples[i];
+      result.location = samples[i];
     }
   }
   result.p = kolmogorov_tail(result.d * (std::sqrt(n) + 0.12 + 0.11 / std::sqrt(n)));

@@ -12,7 +12,7 @@ double kolmogorov_tail(double lambda);
 
 struct KsTest {
   double d = 0;  ///< sup |F_n - F|
-  double at = 0; ///< where it is reached
+  double location = 0; ///< where it is reached
   double p = 1;
 };
 

@@ -45,7 +45,7 @@ double error_kurtosis(std::span<const double> estimates, double truth) {
 }
 
 // The mean of r squares of kurtosis k has the relative variance (k - 1) / r, that of chi-square 2 / degrees.
-double equivalent_errors(double r, double kurtosis) { return kurtosis > 3 ? std::max(1.0, 2 * r / (kurtosis - 1)) : r; }
+double effective_error_count(double r, double kurtosis) { return kurtosis > 3 ? std::max(1.0, 2 * r / (kurtosis - 1)) : r; }
 
 RmsError rms_error(double n, std::span<const double> estimates, double truth, double kurtosis) {
   require(estimates.size() >= 2, "rms_error: {} estimates; at least 2 are needed", estimates.size());
@@ -53,7 +53,7 @@ RmsError rms_error(double n, std::span<const double> estimates, double truth, do
   for (std::size_t i = 0; i < estimates.size(); ++i)
     require(std::isfinite(estimates[i]), "rms_error: estimates[{}] = {} is not finite", i, estimates[i]);
   const ErrorMoments m(estimates, truth);
-  const double degrees = equivalent_errors(static_cast<double>(estimates.size()), std::max(m.kurtosis(), kurtosis));
+  const double degrees = effective_error_count(static_cast<double>(estimates.size()), std::max(m.kurtosis(), kurtosis));
   const boost::math::chi_squared distribution(degrees);
   RmsError result;
   result.n = n;

@@ -25,10 +25,10 @@ int largest_exponent(std::span<const double> x);
 double error_kurtosis(std::span<const double> estimates, double truth);
 
 /// How many errors of normal law tell an RMS error as well as R of this kurtosis do: at most R, at least 1.
-double equivalent_errors(double r, double kurtosis);
+double effective_error_count(double r, double kurtosis);
 
 /// RMS error of `estimates` against `truth`.
-///   interval : from the chi-square distribution, with as many degrees of freedom as equivalent_errors says of their
+///   interval : from the chi-square distribution, with as many degrees of freedom as effective_error_count says of their
 ///              kurtosis, or of `kurtosis`, what is known of it otherwise, where that is larger
 ///   scale    : of errors of any size, since they are squared in units of the largest number
 ///   throws   : Error for fewer than 2 estimates, or when one or the truth is not finite

@@ -36,10 +36,10 @@ double welch_dof(double variance_a, double dof_a, double variance_b, double dof_
 struct VarianceSum {
   double value = 0, squares = 0;
 
-  /// Of variances that share their noise, so that `alike` of them say no more than one, each counts so much less.
-  void add(double variance, double dof, double alike = 1) {
+  /// Of variances that share their noise, so that `correlated_terms` of them say no more than one, each counts so much less.
+  void add(double variance, double dof, double correlated_terms = 1) {
     value += variance;
-    squares += alike * variance * variance / (dof + 2);
+    squares += correlated_terms * variance * variance / (dof + 2);
   }
   /// By Satterthwaite's formula, less the bias that it has because estimates stand for the variances: their squares,
   /// of d degrees of freedom each, are (d + 2) / d times too large in the mean. Exact for one term; never below 1, and

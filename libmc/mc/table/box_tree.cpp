@@ -13,19 +13,19 @@ struct BoxTree::Builder {
   std::vector<double> weight;     // of each node: the sum of its leaves
   std::vector<double> positive;   // how many of them have any
   std::vector<std::size_t> after; // index of the first node that is not below it
-  std::vector<Side> path = {};    // the sides that are cut, of the box so far
+  std::vector<AxisExtent> path = {};    // the sides that are cut, of the box so far
 
   std::uint32_t build(std::size_t node) {
-    const TreeNode& n = tree.nodes_[node];
-    if (n.axis == TreeNode::leaf) return finish();
+    const BoxTreeNode& n = tree.nodes_[node];
+    if (n.axis == BoxTreeNode::leaf) return finish();
     const auto split = static_cast<std::uint32_t>(tree.splits_.size());
-    const auto side = std::find_if(path.begin(), path.end(), [&](const Side& s) { return s.axis == n.axis; });
-    const auto place = static_cast<std::size_t>(side - path.begin());
-    const bool fresh = side == path.end();
-    const Side whole = fresh ? Side{n.axis, 0, 1, 0, 1} : *side;
+    const auto extent = std::find_if(path.begin(), path.end(), [&](const AxisExtent& s) { return s.axis == n.axis; });
+    const auto place = static_cast<std::size_t>(extent - path.begin());
+    const bool fresh = extent == path.end();
+    const AxisExtent whole = fresh ? AxisExtent{n.axis, 0, 1, 0, 1} : *extent;
     require(n.value > whole.x_lo && n.value < whole.x_hi, "BoxTree: node {} cuts axis {} at {}; its box spans ({}, {})",
             node, n.axis, n.value, whole.x_lo, whole.x_hi);
-    const double cut = place_of_cut(whole.u_lo, whole.u_hi, node + 1, after[node + 1]);
+    const double cut = cut_in_u(whole.u_lo, whole.u_hi, node + 1, after[node + 1]);
     tree.splits_.push_back({n.axis, {0, 0}, cut, n.value});
     if (fresh) path.push_back(whole);
     path[place] = {n.axis, whole.x_lo, n.value, whole.u_lo, cut};
@@ -41,7 +41,7 @@ struct BoxTree::Builder {
 
   // Leaves to both sides the share of their weight, and 2^-53 at least to each leaf that has any, so that what is cut
   // again finds numbers between.
-  double place_of_cut(double lo, double hi, std::size_t below, std::size_t above) const {
+  double cut_in_u(double lo, double hi, std::size_t below, std::size_t above) const {
     const double sum = weight[below] + weight[above];
     // 0 / 0 where no point comes from: any share will do.
     const double share = sum > 0 ? weight[below] / sum : 0.5;
@@ -51,22 +51,22 @@ struct BoxTree::Builder {
 
   std::uint32_t finish() {
     double density = 1;
-    for (const Side& s : path) density *= (s.u_hi - s.u_lo) / (s.x_hi - s.x_lo);
-    tree.sides_.insert(tree.sides_.end(), path.begin(), path.end());
-    tree.first_.push_back(tree.sides_.size());
+    for (const AxisExtent& s : path) density *= (s.u_hi - s.u_lo) / (s.x_hi - s.x_lo);
+    tree.extents_.insert(tree.extents_.end(), path.begin(), path.end());
+    tree.first_.push_back(tree.extents_.size());
     tree.density_.push_back(density);
     return ~static_cast<std::uint32_t>(tree.density_.size() - 1);
   }
 };
 
-BoxTree::BoxTree(int dim, std::span<const TreeNode> nodes) : dim_(dim), nodes_(nodes.begin(), nodes.end()), first_{0} {
+BoxTree::BoxTree(int dim, std::span<const BoxTreeNode> nodes) : dim_(dim), nodes_(nodes.begin(), nodes.end()), first_{0} {
   require(dim >= 1, "BoxTree: dimension {} must be at least 1", dim);
   require(!nodes.empty() && nodes.size() < 1u << 31, "BoxTree: {} nodes; between 1 and 2^31 are possible",
           nodes.size());
   double largest = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const TreeNode& n = nodes[i];
-    if (n.axis == TreeNode::leaf) {
+    const BoxTreeNode& n = nodes[i];
+    if (n.axis == BoxTreeNode::leaf) {
       require(std::isfinite(n.value) && n.value >= 0, "BoxTree: node {} has the weight {}; it must be finite and >= 0",
               i, n.value);
       largest = std::max(largest, n.value);
@@ -78,7 +78,7 @@ BoxTree::BoxTree(int dim, std::span<const TreeNode> nodes) : dim_(dim), nodes_(n
   std::vector<double> weight(nodes.size()), positive(nodes.size());
   std::vector<std::size_t> after(nodes.size()), open; // open: nodes whose parent has not been met
   for (std::size_t i = nodes.size(); i-- > 0;) {
-    if (nodes[i].axis == TreeNode::leaf) {
+    if (nodes[i].axis == BoxTreeNode::leaf) {
       weight[i] = std::ldexp(nodes[i].value, -exponent);
       positive[i] = nodes[i].value > 0 ? 1 : 0;
       after[i] = i + 1;
@@ -177,11 +177,11 @@ BoxTree BoxTree::from_function(int dim, const std::function<double(std::span<con
       std::push_heap(open.begin(), open.end(), less);
     }
   }
-  std::vector<TreeNode> nodes;
+  std::vector<BoxTreeNode> nodes;
   for (std::vector<std::size_t> next = {0}; !next.empty();) {
     const MeasuredBox& box = boxes[next.back()];
     next.pop_back();
-    if (box.below == 0) nodes.push_back({TreeNode::leaf, box.mean * box.volume()});
+    if (box.below == 0) nodes.push_back({BoxTreeNode::leaf, box.mean * box.volume()});
     else {
       nodes.push_back({box.axis, box.middle()});
       next.insert(next.end(), {box.below + 1, box.below});
@@ -192,7 +192,7 @@ BoxTree BoxTree::from_function(int dim, const std::function<double(std::span<con
 
 double BoxTree::map(std::span<double> u) const {
   const std::size_t leaf = leaf_of_u(u);
-  for (const Side& s : sides(leaf)) {
+  for (const AxisExtent& s : extents(leaf)) {
     const double x = s.x_lo + (u[s.axis] - s.u_lo) / (s.u_hi - s.u_lo) * (s.x_hi - s.x_lo);
     u[s.axis] = std::min(x, std::nextafter(s.x_hi, 0.0));
   }

@@ -10,7 +10,7 @@
 namespace mc {
 
 /// A plane across an axis, or a box that is not cut any more.
-struct TreeNode {
+struct BoxTreeNode {
   static constexpr std::uint32_t leaf = 0xffffffff;
 
   std::uint32_t axis = leaf; ///< that the plane is at right angles to
@@ -27,14 +27,14 @@ struct TreeNode {
 class BoxTree {
  public:
   /// One side of a leaf: [x_lo, x_hi) along an axis, which [u_lo, u_hi) is mapped to.
-  struct Side {
+  struct AxisExtent {
     std::uint32_t axis;
     double x_lo, x_hi, u_lo, u_hi;
   };
 
-  explicit BoxTree(int dim, std::span<const TreeNode> nodes);
+  explicit BoxTree(int dim, std::span<const BoxTreeNode> nodes);
   /// The whole cube as one box.
-  explicit BoxTree(int dim) : BoxTree(dim, std::vector<TreeNode>(1)) {}
+  explicit BoxTree(int dim) : BoxTree(dim, std::vector<BoxTreeNode>(1)) {}
 
   /// `leaves` boxes, halved again and again where f varies most, by its deviation over 32 places times the volume;
   /// their weights are the mean of f over these places times the volume.
@@ -44,7 +44,7 @@ class BoxTree {
   int dim() const { return dim_; }
   std::size_t leaves() const { return density_.size(); }
   /// The nodes that it was made of.
-  std::span<const TreeNode> nodes() const { return nodes_; }
+  std::span<const BoxTreeNode> nodes() const { return nodes_; }
 
   /// The leaf of a point: by its coordinates u, or by x.
   template <class P> std::size_t leaf_of_u(const P& u) const {
@@ -54,8 +54,8 @@ class BoxTree {
     return find([&](const Split& s) { return x[s.axis] < s.x; });
   }
   /// The sides of a leaf that were cut; along the other axes it is [0,1).
-  std::span<const Side> sides(std::size_t leaf) const {
-    return {sides_.data() + first_[leaf], first_[leaf + 1] - first_[leaf]};
+  std::span<const AxisExtent> extents(std::size_t leaf) const {
+    return {extents_.data() + first_[leaf], first_[leaf + 1] - first_[leaf]};
   }
   /// Probability of a leaf over its volume.
   double density(std::size_t leaf) const { return density_[leaf]; }
@@ -79,9 +79,9 @@ class BoxTree {
 
   int dim_;
   std::uint32_t root_ = 0;
-  std::vector<TreeNode> nodes_;
+  std::vector<BoxTreeNode> nodes_;
   std::vector<Split> splits_;
-  std::vector<Side> sides_;        // of all leaves, one after the other
+  std::vector<AxisExtent> extents_;        // of all leaves, one after the other
   std::vector<std::size_t> first_; // of each leaf's, and the end
   std::vector<double> density_;
 };

@@ -25,13 +25,13 @@ inline std::vector<double> even_breaks(std::size_t n) {
 }
 
 /// The geometry of TableDist1D over a cumulative table that lives elsewhere: n cells of equal width on an interval.
-template <Real S, class I = Interval<S>> struct StepsView {
+template <Real S, class I = Interval<S>> struct PiecewiseConstantView {
   CdfView cdf;
   [[no_unique_address]] I interval;
 
   std::size_t find(S u) const { return cdf.find(static_cast<double>(u)); }
   /// For u in the interval of outcome i: how far it is along it, in [0,1), and the point as far along cell i.
-  S remapped(S u, std::size_t i) const { return within_unit(S(within(u, i))); }
+  S remapped(S u, std::size_t i) const { return clamp_to_unit(S(within(u, i))); }
   S point(S u, std::size_t i) const {
     const Work v = (index(i) + within(u, i)) / index(cdf.size());
     S x;
@@ -44,7 +44,7 @@ template <Real S, class I = Interval<S>> struct StepsView {
   }
   S invert(S x) const {
     const std::size_t i = cell(x);
-    return within_unit(S(Work(cdf.cdf(i)) + (unit(x) * index(cdf.size()) - index(i)) * Work(cdf.pmf(i))));
+    return clamp_to_unit(S(Work(cdf.cdf(i)) + (unit(x) * index(cdf.size()) - index(i)) * Work(cdf.pmf(i))));
   }
   /// The cell that holds x; the outermost one beyond the ends.
   std::size_t cell(S x) const {
@@ -86,7 +86,7 @@ template <Real S, class I = Interval<S>> struct StepsView {
 ///            the way there and back, magnified where cells are narrow
 ///   reach  : an outcome less likely than the spacing of u (2^-24 float, 2^-53 double) is met only by a finer u
 ///   throws : Error for no weights, a weight that is not finite and >= 0, all weights 0, or an interval whose width
-///            does not pass is_scale
+///            does not pass is_valid_scale
 ///   Source : inverse transform sampling; see Cdf for the bounds
 template <Real S> class TableDist1D {
  public:
@@ -96,7 +96,7 @@ template <Real S> class TableDist1D {
   explicit TableDist1D(std::span<const double> weights, Interval<S> interval = {})
       : cdf_(weights), interval_(interval) {
     require(
-        is_scale(S(interval.hi - interval.lo)),
+        is_valid_scale(S(interval.hi - interval.lo)),
         "TableDist1D: [{}, {}] is too narrow or too wide for the scalar: its width is denormal or next to the largest "
         "number",
         static_cast<double>(interval.lo), static_cast<double>(interval.hi));
@@ -133,7 +133,7 @@ template <Real S> class TableDist1D {
  private:
   template <Real T> friend class TableDist1D;
   TableDist1D(Cdf cdf, Interval<S> interval) : cdf_(std::move(cdf)), interval_(interval) {}
-  StepsView<S> view() const { return {cdf_.view(), interval_}; }
+  PiecewiseConstantView<S> view() const { return {cdf_.view(), interval_}; }
 
   Cdf cdf_;
   Interval<S> interval_;

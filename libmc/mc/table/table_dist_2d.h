@@ -64,12 +64,12 @@ template <Real S> class TableDist2D {
   }
 
   /// A cell by its column x and row y.
-  struct ChosenCell {
+  struct CellSample {
     std::size_t x, y;
     S pmf;              ///< > 0
     Vec2<S> u_remapped; ///< uniform again, independent of the cell
   };
-  ChosenCell sample_index(const Vec2<S>& u) const {
+  CellSample sample_index(const Vec2<S>& u) const {
     const std::size_t y = rows().find(u[1]);
     const auto columns = row(y);
     const std::size_t x = columns.find(u[0]);
@@ -140,8 +140,8 @@ template <Real S> class TableDist2D {
   explicit TableDist2D(RowsWithSums r) : rows_(std::move(r.rows)), row_choice_(std::span<const double>(r.sums)) {}
   TableDist2D(Rows rows, Cdf row_choice) : rows_(std::move(rows)), row_choice_(std::move(row_choice)) {}
 
-  StepsView<S, UnitInterval> rows() const { return {row_choice_.view(), {}}; }
-  StepsView<S, UnitInterval> row(std::size_t y) const {
+  PiecewiseConstantView<S, UnitInterval> rows() const { return {row_choice_.view(), {}}; }
+  PiecewiseConstantView<S, UnitInterval> row(std::size_t y) const {
     const std::size_t n = rows_.width;
     return {{&rows_.cumulative[y * CdfView::ends(n)], &rows_.guide[y * (CdfView::cells(n) + 1)],
              static_cast<std::uint32_t>(n)},

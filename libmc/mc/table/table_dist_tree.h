@@ -28,7 +28,7 @@ template <Real S, int N> class TableDistTree {
   using Domain = Box<S, N>;
   using Point = Vec<S, N>;
 
-  explicit TableDistTree(std::span<const TreeNode> nodes) : tree_(N, nodes) {}
+  explicit TableDistTree(std::span<const BoxTreeNode> nodes) : tree_(N, nodes) {}
   explicit TableDistTree(BoxTree tree) : tree_(std::move(tree)) {
     require(tree_.dim() == N, "TableDistTree: a tree of {} dimensions; {} are needed", tree_.dim(), N);
   }
@@ -46,7 +46,7 @@ template <Real S, int N> class TableDistTree {
 
   Point sample(const Point& u) const {
     Point x = u;
-    for (const BoxTree::Side& s : tree_.sides(tree_.leaf_of_u(u))) {
+    for (const BoxTree::AxisExtent& s : tree_.extents(tree_.leaf_of_u(u))) {
       const Work v = (Work(u[s.axis]) - s.u_lo) / (Work(s.u_hi) - s.u_lo);
       x[s.axis] = inside(s.x_lo + v * (Work(s.x_hi) - s.x_lo), s);
     }
@@ -58,13 +58,13 @@ template <Real S, int N> class TableDistTree {
     if constexpr (std::floating_point<S>) return S(tree_.density(leaf));
     else {
       S density = 1;
-      for (const BoxTree::Side& s : tree_.sides(leaf)) density *= (S(s.u_hi) - s.u_lo) / (S(s.x_hi) - s.x_lo);
+      for (const BoxTree::AxisExtent& s : tree_.extents(leaf)) density *= (S(s.u_hi) - s.u_lo) / (S(s.x_hi) - s.x_lo);
       return density;
     }
   }
   Point invert(const Point& x) const {
     Point u = x;
-    for (const BoxTree::Side& s : tree_.sides(tree_.leaf_of_x(x))) {
+    for (const BoxTree::AxisExtent& s : tree_.extents(tree_.leaf_of_x(x))) {
       const Work v = (Work(x[s.axis]) - s.x_lo) / (Work(s.x_hi) - s.x_lo);
       u[s.axis] = std::min(S(s.u_lo + v * (Work(s.u_hi) - s.u_lo)), one_minus_epsilon<S>);
     }
@@ -79,7 +79,7 @@ template <Real S, int N> class TableDistTree {
   using Work = std::conditional_t<std::same_as<S, float>, double, S>;
 
   // Rounding must not carry the point into a neighbouring box, which may have weight 0.
-  static S inside(Work exact, const BoxTree::Side& s) {
+  static S inside(Work exact, const BoxTree::AxisExtent& s) {
     S x = S(exact);
     if constexpr (std::floating_point<S>) {
       if (x < s.x_lo) x = std::nextafter(x, S(1));
@@ -93,8 +93,8 @@ template <Real S, int N> class TableDistTree {
 
 template <Real S, int N> std::array<std::vector<double>, N> TableDistTree<S, N>::breaks() const {
   std::array<std::vector<double>, N> breaks;
-  for (const TreeNode& n : tree_.nodes())
-    if (n.axis != TreeNode::leaf) breaks[n.axis].push_back(n.value);
+  for (const BoxTreeNode& n : tree_.nodes())
+    if (n.axis != BoxTreeNode::leaf) breaks[n.axis].push_back(n.value);
   for (std::vector<double>& places : breaks) {
     std::sort(places.begin(), places.end());
     places.erase(std::unique(places.begin(), places.end()), places.end());

@@ -11,7 +11,7 @@ namespace mc {
 ///            which distorts strata near the centre where UniformDisk does not
 ///   pdf    : 1 / (pi (outer - inner) (outer + inner)) [1/area]; 0 outside the ring, up to 4 eps outer
 ///   invert : |invert(sample(u)) - u| <= 8 eps outer / (outer - inner): p does not know a thin ring's u0 better
-///   throws : Error unless 0 <= inner < outer, both finite, and the area passes is_scale
+///   throws : Error unless 0 <= inner < outer, both finite, and the area passes is_valid_scale
 ///   Source : [ShirleyWangZimmerman96]
 template <Real S> struct UniformAnnulus {
   using Scalar = S;
@@ -25,7 +25,7 @@ template <Real S> struct UniformAnnulus {
   Domain domain() const { return ring; }
   Vec2<S> sample(const Vec2<S>& u) const { return ring.from_unit(u); }
   S pdf(const Vec2<S>& p) const { return ring.contains(p) ? S(1 / ring.area()) : S(0); }
-  Vec2<S> invert(const Vec2<S>& p) const { return within_unit<S, 2>(ring.to_unit(p)); }
+  Vec2<S> invert(const Vec2<S>& p) const { return clamp_to_unit<S, 2>(ring.to_unit(p)); }
   template <Real T> UniformAnnulus<T> cast() const { return {T(ring.inner), T(ring.outer)}; }
 };
 

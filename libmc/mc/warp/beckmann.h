@@ -43,7 +43,7 @@ template <Real S> class BeckmannNormals {
   }
   Vec2<S> invert(const Vec3<S>& m) const {
     using std::expm1;
-    return {within_unit<S>(-S(expm1(S(-r2(m))))), turn<S>(m.x() / alpha_x_, m.y() / alpha_y_)};
+    return {clamp_to_unit<S>(-S(expm1(S(-r2(m))))), azimuth_turns<S>(m.x() / alpha_x_, m.y() / alpha_y_)};
   }
   template <Real T> BeckmannNormals<T> cast() const { return {T(alpha_x_), T(alpha_y_)}; }
 

@@ -40,7 +40,7 @@ template <Real S> class BlinnPhong {
   Vec2<S> invert(const Vec3<S>& w) const {
     using std::expm1;
     const S u = w.z() > 0 ? S(-S(expm1(S((n_ + 1) * log_z(w))))) : S(1);
-    return {within_unit(u), turn<S>(w.x(), w.y())};
+    return {clamp_to_unit(u), azimuth_turns<S>(w.x(), w.y())};
   }
   template <Real T> BlinnPhong<T> cast() const { return BlinnPhong<T>(T(n_)); }
 

@@ -44,8 +44,8 @@ template <Real S> class UniformCone {
 
   Domain domain() const { return cap_; }
   Vec3<S> sample(const Vec2<S>& u) const { return cap_.from_unit(u); }
-  S pdf(const Vec3<S>& w) const { return cap_.reaches(w) ? S(1 / (2 * pi<S> * cap_.h)) : S(0); }
-  Vec2<S> invert(const Vec3<S>& w) const { return within_unit<S, 2>(cap_.to_unit(w)); }
+  S pdf(const Vec3<S>& w) const { return cap_.contains_direction(w) ? S(1 / (2 * pi<S> * cap_.h)) : S(0); }
+  Vec2<S> invert(const Vec3<S>& w) const { return clamp_to_unit<S, 2>(cap_.to_unit(w)); }
   template <Real T> UniformCone<T> cast() const { return UniformCone<T>::from_one_minus_cos(T(cap_.h)); }
 
  private:

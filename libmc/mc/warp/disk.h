@@ -45,7 +45,7 @@ template <Real S> struct UniformDisk {
       b = p.y() < 0 ? S(-r) : r;
       a = b * (4 / pi<S>)*S(atan(S(p.x() / p.y())));
     }
-    return within_unit<S, 2>({(a + 1) / 2, (b + 1) / 2});
+    return clamp_to_unit<S, 2>({(a + 1) / 2, (b + 1) / 2});
   }
 
   template <Real T> UniformDisk<T> cast() const { return {}; }
@@ -63,7 +63,7 @@ template <Real S> struct UniformDiskPolar {
   Domain domain() const { return {}; }
   Vec2<S> sample(const Vec2<S>& u) const { return domain().from_unit(u); }
   S pdf(const Vec2<S>& p) const { return domain().contains(p) ? S(1 / pi<S>) : S(0); }
-  Vec2<S> invert(const Vec2<S>& p) const { return within_unit<S, 2>(domain().to_unit(p)); }
+  Vec2<S> invert(const Vec2<S>& p) const { return clamp_to_unit<S, 2>(domain().to_unit(p)); }
   template <Real T> UniformDiskPolar<T> cast() const { return {}; }
 };
 

@@ -13,7 +13,7 @@ namespace mc {
 ///   pdf    : rate exp(-rate x) [1/length]; 0 for x < 0. Relative error (2 + rate x) eps: the tail is ill-conditioned
 ///            in x
 ///   invert : |invert(sample(u)) - u| <= 8 eps
-///   throws : Error unless rate > 0 and 1 / rate passes is_scale
+///   throws : Error unless rate > 0 and 1 / rate passes is_valid_scale
 template <Real S> struct Exponential {
   using Scalar = S;
   using Domain = HalfLine<S>;
@@ -23,7 +23,7 @@ template <Real S> struct Exponential {
   Exponential() = default;
   explicit Exponential(S rate_) : rate(rate_) {
     require(
-        rate > 0 && is_scale(S(1 / rate)),
+        rate > 0 && is_valid_scale(S(1 / rate)),
         "Exponential: rate {} and its inverse must be finite and > 0, neither denormal nor next to the largest number",
         static_cast<double>(rate));
   }
@@ -39,7 +39,7 @@ template <Real S> struct Exponential {
   }
   S invert(S x) const {
     using std::expm1;
-    return within_unit<S>(-S(expm1(S(-rate * x))));
+    return clamp_to_unit<S>(-S(expm1(S(-rate * x))));
   }
   template <Real T> Exponential<T> cast() const { return Exponential<T>(T(rate)); }
 };
@@ -49,7 +49,7 @@ template <Real S> struct Exponential {
 ///            the logarithm is that of (1 - u) + u e^-k, which does not cancel
 ///   pdf    : |rate| exp(-|rate| t) / (1 - e^-k) [1/length], t the distance from the dense end; 0 outside
 ///   invert : |invert(sample(u)) - u| <= 16 eps; for rate < 0 max(16, k) eps, as the dense end is not at 0
-///   throws : Error unless rate and k are finite, and length and, unless k vanishes, 1 / |rate| pass is_scale
+///   throws : Error unless rate and k are finite, and length and, unless k vanishes, 1 / |rate| pass is_valid_scale
 template <Real S> struct TrimmedExponential {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -60,8 +60,8 @@ template <Real S> struct TrimmedExponential {
   TrimmedExponential(S rate_, S length_) : rate(rate_), length(length_) {
     using std::isfinite;
     require(
-        isfinite(rate) && is_scale(length) && isfinite(S(rate * length)) &&
-            (flat(magnitude() * length) || is_scale(S(1 / magnitude()))),
+        isfinite(rate) && is_valid_scale(length) && isfinite(S(rate * length)) &&
+            (flat(magnitude() * length) || is_valid_scale(S(1 / magnitude()))),
         "TrimmedExponential: rate {}, length {}: both and their product must be finite, length > 0, and neither length "
         "nor 1 / rate denormal or next to the largest number",
         static_cast<double>(rate), static_cast<double>(length));
@@ -88,9 +88,9 @@ template <Real S> struct TrimmedExponential {
   S invert(S x) const {
     using std::expm1;
     const S a = magnitude(), k = a * length;
-    if (flat(k)) return within_unit<S>(x / length);
+    if (flat(k)) return clamp_to_unit<S>(x / length);
     const S v = S(expm1(S(-a * from_dense_end(x)))) / S(expm1(S(-k)));
-    return within_unit(rate < 0 ? S(1 - v) : v);
+    return clamp_to_unit(rate < 0 ? S(1 - v) : v);
   }
   template <Real T> TrimmedExponential<T> cast() const { return {T(rate), T(length)}; }
 

@@ -19,7 +19,7 @@ namespace mc {
 
 /// A distribution of normals that knows the direction it is seen from, as visible normals do.
 template <class N>
-concept NormalsSeenFrom = Warp<N> && requires(const N n) {
+concept VisibleNormalDistribution = Warp<N> && requires(const N n) {
   { n.wo() } -> std::convertible_to<PointOf<N>>;
 };
 
@@ -27,7 +27,7 @@ namespace detail {
 
 /// v / |v| - v of a vector that is unit up to rounding. Relative error that of |v|^2 - 1, taken with twice the digits
 /// of S.
-template <Real S> Vec3<S> to_unit_length(const Vec3<S>& v) {
+template <Real S> Vec3<S> normalization_correction(const Vec3<S>& v) {
   if constexpr (std::floating_point<S>) {
     S sum(-1), low(0);
     for (int i = 0; i < 3; ++i) {
@@ -42,7 +42,7 @@ template <Real S> Vec3<S> to_unit_length(const Vec3<S>& v) {
 }
 
 /// A direction and the normals that it meets.
-template <Warp N> struct Facets {
+template <Warp N> struct MicrofacetGeometry {
   using S = typename N::Scalar;
   N normals;
   Vec3<S> wo;
@@ -76,7 +76,7 @@ template <Warp N> struct Facets {
   /// wo + eta wi of the directions of both: what their lengths lack of 1 matters as much as a turn by the same amount.
   Vec3<S> sum(const Vec3<S>& wi, const S& eta) const {
     using std::fma;
-    const Vec3<S> rest = to_unit_length(wo) + eta * to_unit_length(wi);
+    const Vec3<S> rest = normalization_correction(wo) + eta * normalization_correction(wi);
     return Vec3<S>(S(fma(eta, wi.x(), wo.x())), S(fma(eta, wi.y(), wo.y())), S(fma(eta, wi.z(), wo.z()))) + rest;
   }
   /// The upper one of the two normals +-s / |s|; a normal that rounding may have carried below the horizon counts as
@@ -124,7 +124,7 @@ template <Warp N> struct Facets {
 
   /// wo is unit only in the narrower scalar.
   template <Real T> auto cast() const {
-    return Facets<decltype(normals.template cast<T>())>{normals.template cast<T>(), cast_point<T>(wo).normalized()};
+    return MicrofacetGeometry<decltype(normals.template cast<T>())>{normals.template cast<T>(), cast_point<T>(wo).normalized()};
   }
 };
 
@@ -145,29 +145,29 @@ template <Warp N> class Reflected {
   using S = Scalar;
   using Domain = Sphere<S>;
 
-  Reflected(const Vec3<S>& wo, N normals) requires(!NormalsSeenFrom<N>) : facets_{std::move(normals), wo} {
-    facets_.require_unit("Reflected");
+  Reflected(const Vec3<S>& wo, N normals) requires(!VisibleNormalDistribution<N>) : geometry_{std::move(normals), wo} {
+    geometry_.require_unit("Reflected");
   }
-  explicit Reflected(N normals) requires NormalsSeenFrom<N> : facets_{normals, normals.wo()} {}
+  explicit Reflected(N normals) requires VisibleNormalDistribution<N> : geometry_{normals, normals.wo()} {}
 
   Domain domain() const { return {}; }
-  Vec3<S> sample(const Vec2<S>& u) const { return direction(facets_.normals.sample(u)); }
-  S pdf(const Vec3<S>& wi) const { return facets_.reflected_pdf_of(wi); }
-  Vec2<S> invert(const Vec3<S>& wi) const { return facets_.invert(facets_.sum(wi, S(1))); }
+  Vec3<S> sample(const Vec2<S>& u) const { return direction(geometry_.normals.sample(u)); }
+  S pdf(const Vec3<S>& wi) const { return geometry_.reflected_pdf_of(wi); }
+  Vec2<S> invert(const Vec3<S>& wi) const { return geometry_.invert(geometry_.sum(wi, S(1))); }
 
-  Vec3<S> direction(const Vec3<S>& m) const { return facets_.reflect(facets_.facing(m)); }
+  Vec3<S> direction(const Vec3<S>& m) const { return geometry_.reflect(geometry_.facing(m)); }
   /// Density of direction(m) [1/sr], as accurate as the density of the normals at m.
-  S pdf_at_normal(const Vec3<S>& m) const { return facets_.reflected_pdf_at(m); }
+  S pdf_at_normal(const Vec3<S>& m) const { return geometry_.reflected_pdf_at(m); }
 
   template <Real T> auto cast() const {
-    auto wide = facets_.template cast<T>();
+    auto wide = geometry_.template cast<T>();
     return Reflected<decltype(wide.normals)>(std::move(wide));
   }
 
  private:
   template <Warp M> friend class Reflected;
-  explicit Reflected(detail::Facets<N> facets) : facets_(std::move(facets)) {} // wo is unit only in the narrower scalar
-  detail::Facets<N> facets_;
+  explicit Reflected(detail::MicrofacetGeometry<N> geometry) : geometry_(std::move(geometry)) {} // wo is unit only in the narrower scalar
+  detail::MicrofacetGeometry<N> geometry_;
 };
 
 template <class S, class N> Reflected(const Vec3<S>&, N) -> Reflected<N>;
@@ -187,41 +187,41 @@ template <Warp N> class RefractedIn {
   using S = Scalar;
   using Domain = Sphere<S>;
 
-  RefractedIn(const Vec3<S>& wo, N normals, S eta) requires(!NormalsSeenFrom<N>)
-      : RefractedIn(detail::Facets<N>{std::move(normals), wo}, eta) {
+  RefractedIn(const Vec3<S>& wo, N normals, S eta) requires(!VisibleNormalDistribution<N>)
+      : RefractedIn(detail::MicrofacetGeometry<N>{std::move(normals), wo}, eta) {
     check();
   }
-  RefractedIn(N normals, S eta) requires NormalsSeenFrom<N>
-      : RefractedIn(detail::Facets<N>{normals, normals.wo()}, eta) {
+  RefractedIn(N normals, S eta) requires VisibleNormalDistribution<N>
+      : RefractedIn(detail::MicrofacetGeometry<N>{normals, normals.wo()}, eta) {
     check();
   }
 
   Domain domain() const { return {}; }
-  Vec3<S> sample(const Vec2<S>& u) const { return direction(facets_.normals.sample(u)); }
-  S pdf(const Vec3<S>& wi) const { return facets_.refracted_pdf_of(wi, eta_); }
-  Vec2<S> invert(const Vec3<S>& wi) const { return facets_.invert(facets_.sum(wi, eta_)); }
+  Vec3<S> sample(const Vec2<S>& u) const { return direction(geometry_.normals.sample(u)); }
+  S pdf(const Vec3<S>& wi) const { return geometry_.refracted_pdf_of(wi, eta_); }
+  Vec2<S> invert(const Vec3<S>& wi) const { return geometry_.invert(geometry_.sum(wi, eta_)); }
 
-  Vec3<S> direction(const Vec3<S>& m) const { return facets_.refract(facets_.facing(m), eta_); }
+  Vec3<S> direction(const Vec3<S>& m) const { return geometry_.refract(geometry_.facing(m), eta_); }
   /// Density of direction(m) [1/sr], as accurate as the density of the normals at m.
-  S pdf_at_normal(const Vec3<S>& m) const { return facets_.refracted_pdf_at(m, eta_); }
+  S pdf_at_normal(const Vec3<S>& m) const { return geometry_.refracted_pdf_at(m, eta_); }
 
   template <Real T> auto cast() const {
-    auto wide = facets_.template cast<T>();
+    auto wide = geometry_.template cast<T>();
     return RefractedIn<decltype(wide.normals)>(std::move(wide), T(eta_));
   }
 
  private:
   template <Warp M> friend class RefractedIn;
-  RefractedIn(detail::Facets<N> facets, S eta) : facets_(std::move(facets)), eta_(eta) {
+  RefractedIn(detail::MicrofacetGeometry<N> geometry, S eta) : geometry_(std::move(geometry)), eta_(eta) {
     using std::sqrt;
-    if (eta > 1) facets_.floor *= 1 + 1 / S(sqrt(S((eta - 1) * (eta + 1)))); // wi tells m to eps / |wo + eta wi|
+    if (eta > 1) geometry_.floor *= 1 + 1 / S(sqrt(S((eta - 1) * (eta + 1)))); // wi tells m to eps / |wo + eta wi|
   }
   void check() const {
-    facets_.require_unit("RefractedIn");
+    geometry_.require_unit("RefractedIn");
     require(eta_ >= S(1.0001) && eta_ <= S(1e4), "RefractedIn: eta = {} must lie in [1.0001, 10000]",
             static_cast<double>(eta_));
   }
-  detail::Facets<N> facets_;
+  detail::MicrofacetGeometry<N> geometry_;
   S eta_;
 };
 
@@ -242,48 +242,48 @@ template <Warp N> class RefractedOut {
   using S = Scalar;
   using Domain = Sphere<S>;
 
-  RefractedOut(const Vec3<S>& wo, N normals, S eta) requires(!NormalsSeenFrom<N>)
-      : RefractedOut(detail::Facets<N>{std::move(normals), wo}, eta) {
+  RefractedOut(const Vec3<S>& wo, N normals, S eta) requires(!VisibleNormalDistribution<N>)
+      : RefractedOut(detail::MicrofacetGeometry<N>{std::move(normals), wo}, eta) {
     check();
   }
-  RefractedOut(N normals, S eta) requires NormalsSeenFrom<N>
-      : RefractedOut(detail::Facets<N>{normals, normals.wo()}, eta) {
+  RefractedOut(N normals, S eta) requires VisibleNormalDistribution<N>
+      : RefractedOut(detail::MicrofacetGeometry<N>{normals, normals.wo()}, eta) {
     check();
   }
 
   Domain domain() const { return {}; }
-  Vec3<S> sample(const Vec2<S>& u) const { return direction(facets_.normals.sample(u)); }
+  Vec3<S> sample(const Vec2<S>& u) const { return direction(geometry_.normals.sample(u)); }
   S pdf(const Vec3<S>& wi) const {
     // Rounding may carry a wi that was reflected at the critical angle beyond it, by less than this.
     const S slack = 16 * std::numeric_limits<S>::epsilon();
-    const bool total = facets_.sum(wi, S(1)).squaredNorm() / 4 <= (1 - eta_) * (1 + eta_) + slack;
-    return facets_.refracted_pdf_of(wi, eta_) + (total ? facets_.reflected_pdf_of(wi) : S(0));
+    const bool total = geometry_.sum(wi, S(1)).squaredNorm() / 4 <= (1 - eta_) * (1 + eta_) + slack;
+    return geometry_.refracted_pdf_of(wi, eta_) + (total ? geometry_.reflected_pdf_of(wi) : S(0));
   }
 
   Vec3<S> direction(const Vec3<S>& m) const {
-    const Vec3<S> n = facets_.facing(m);
-    return facets_.refracts(n, eta_) ? facets_.refract(n, eta_) : facets_.reflect(n);
+    const Vec3<S> n = geometry_.facing(m);
+    return geometry_.refracts(n, eta_) ? geometry_.refract(n, eta_) : geometry_.reflect(n);
   }
   /// Density of direction(m) [1/sr] by way of m alone: pdf less what other normals add. As accurate as the density of
   /// the normals.
   S pdf_at_normal(const Vec3<S>& m) const {
-    return facets_.refracts(m, eta_) ? facets_.refracted_pdf_at(m, eta_) : facets_.reflected_pdf_at(m);
+    return geometry_.refracts(m, eta_) ? geometry_.refracted_pdf_at(m, eta_) : geometry_.reflected_pdf_at(m);
   }
 
   template <Real T> auto cast() const {
-    auto wide = facets_.template cast<T>();
+    auto wide = geometry_.template cast<T>();
     return RefractedOut<decltype(wide.normals)>(std::move(wide), T(eta_));
   }
 
  private:
   template <Warp M> friend class RefractedOut;
-  RefractedOut(detail::Facets<N> facets, S eta) : facets_(std::move(facets)), eta_(eta) {}
+  RefractedOut(detail::MicrofacetGeometry<N> geometry, S eta) : geometry_(std::move(geometry)), eta_(eta) {}
   void check() const {
-    facets_.require_unit("RefractedOut");
+    geometry_.require_unit("RefractedOut");
     require(eta_ >= S(1e-4) && eta_ <= S(0.9999), "RefractedOut: eta = {} must lie in [0.0001, 0.9999]",
             static_cast<double>(eta_));
   }
-  detail::Facets<N> facets_;
+  detail::MicrofacetGeometry<N> geometry_;
   S eta_;
 };
 

@@ -21,7 +21,7 @@ template <Real S> struct UniformHemisphere {
   Domain domain() const { return {}; }
   Vec3<S> sample(const Vec2<S>& u) const { return domain().from_unit(u); }
   S pdf(const Vec3<S>& w) const { return w.z() >= 0 ? S(1 / (2 * pi<S>)) : S(0); }
-  Vec2<S> invert(const Vec3<S>& w) const { return within_unit<S, 2>(domain().to_unit(w)); }
+  Vec2<S> invert(const Vec3<S>& w) const { return clamp_to_unit<S, 2>(domain().to_unit(w)); }
   template <Real T> UniformHemisphere<T> cast() const { return {}; }
 };
 

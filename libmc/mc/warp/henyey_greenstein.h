@@ -51,7 +51,7 @@ template <Real S> class HenyeyGreenstein {
   Vec2<S> invert(const Vec3<S>& w) const {
     using std::sqrt;
     const S t = from_pole(w), q = sqrt(S(h_ * h_ + 2 * g_ * t));
-    return {within_unit<S>((1 + g_) * t / (q * (q + h_))), turn<S>(w.x(), w.y())};
+    return {clamp_to_unit<S>((1 + g_) * t / (q * (q + h_))), azimuth_turns<S>(w.x(), w.y())};
   }
   S one_minus_abs_g() const { return h_; }
   template <Real T> HenyeyGreenstein<T> cast() const { return HenyeyGreenstein<T>(T(h_), front_ < 0); }

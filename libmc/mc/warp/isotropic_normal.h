@@ -11,7 +11,7 @@ namespace mc {
 ///   sample : r = sigma sqrt(-2 log(1 - u0)), phi = 2 pi u1. 1 - u0 is never 0, so r is finite for every u
 ///   pdf    : exp(-r^2 / (2 sigma^2)) / (2 pi sigma^2) [1/area]. Relative error (4 + (r / sigma)^2) eps
 ///   invert : |invert(sample(u)) - u| <= 8 eps
-///   throws : Error unless sigma > 0 and sigma^2 passes is_scale
+///   throws : Error unless sigma > 0 and sigma^2 passes is_valid_scale
 ///   Source : [BoxMuller58]. Two independent normals by inverse CDF (Normal2D) distort strata less and cost more
 template <Real S> struct IsotropicNormal {
   using Scalar = S;
@@ -22,7 +22,7 @@ template <Real S> struct IsotropicNormal {
   IsotropicNormal() = default;
   explicit IsotropicNormal(S sigma_) : sigma(sigma_) {
     require(
-        sigma > 0 && is_scale(S(sigma * sigma)),
+        sigma > 0 && is_valid_scale(S(sigma * sigma)),
         "IsotropicNormal: sigma {} must be finite and > 0, its square neither denormal nor next to the largest number",
         static_cast<double>(sigma));
   }
@@ -38,7 +38,7 @@ template <Real S> struct IsotropicNormal {
   }
   Vec2<S> invert(const Vec2<S>& p) const {
     using std::expm1;
-    return {within_unit<S>(-S(expm1(S(-half_square(p))))), turn<S>(p.x(), p.y())};
+    return {clamp_to_unit<S>(-S(expm1(S(-half_square(p))))), azimuth_turns<S>(p.x(), p.y())};
   }
   template <Real T> IsotropicNormal<T> cast() const { return IsotropicNormal<T>(T(sigma)); }
 

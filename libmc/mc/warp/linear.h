@@ -41,7 +41,7 @@ template <Real S> struct Linear {
     return min(S((a + b) / (aw + S(sqrt(S(aw * aw * (1 - v) + b * b * w))))), one_minus_epsilon<S>);
   }
   S pdf(S x) const { return x >= 0 && x <= 1 ? S(2 * ((1 - x) * a + x * b) / (a + b)) : S(0); }
-  S invert(S x) const { return within_unit<S>(x * (a * (2 - x) + b * x) / (a + b)); }
+  S invert(S x) const { return clamp_to_unit<S>(x * (a * (2 - x) + b * x) / (a + b)); }
   template <Real T> Linear<T> cast() const {
     Linear<T> other;
     other.a = T(a);

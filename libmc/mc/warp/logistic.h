@@ -33,7 +33,7 @@ template <Real S> S logistic_density(const S& t) {
 ///   sample : x = mean + scale log(u / (1 - u)); u = 0 stands for half its step, so x is finite
 ///   pdf    : e^-t / (scale (1 + e^-t)^2), t = (x - mean) / scale [1/length]. Relative error (4 + |t|) eps for mean = 0
 ///   invert : |invert(sample(u)) - u| <= 8 eps for mean = 0; a mean far from 0 costs its own rounding
-///   throws : Error unless mean is finite and scale passes is_scale
+///   throws : Error unless mean is finite and scale passes is_valid_scale
 template <Real S> struct Logistic {
   using Scalar = S;
   using Domain = RealLine<S>;
@@ -43,7 +43,7 @@ template <Real S> struct Logistic {
   Logistic() = default;
   Logistic(S mean_, S scale_) : mean(mean_), scale(scale_) {
     using std::isfinite;
-    require(isfinite(mean) && is_scale(scale, mean),
+    require(isfinite(mean) && is_valid_scale(scale, mean),
             "Logistic: mean {}, scale {}: both must be finite, scale > 0 and neither denormal, next to the largest "
             "number nor "
             "below 8 eps |mean|",
@@ -59,7 +59,7 @@ template <Real S> struct Logistic {
     return mean + scale * S(log(S(v / (1 - v))));
   }
   S pdf(S x) const { return detail::logistic_density<S>((x - mean) / scale) / scale; }
-  S invert(S x) const { return within_unit(detail::sigmoid<S>((x - mean) / scale)); }
+  S invert(S x) const { return clamp_to_unit(detail::sigmoid<S>((x - mean) / scale)); }
   template <Real T> Logistic<T> cast() const { return {T(mean), T(scale)}; }
 };
 
@@ -71,7 +71,7 @@ template <Real S> struct Logistic {
 ///   pdf    : the logistic density / m [1/length]; 0 outside. Relative error (8 + 2 d) eps, d the distance over scale
 ///            from the end next to 0, or from 0 inside
 ///   invert : |invert(sample(u)) - u| <= 8 eps max(1, max(|lo|, |hi|) / min(scale, hi - lo)): the rounding of x
-///   throws : Error unless lo < hi, both finite, scale and hi - lo pass is_scale, and m does not underflow
+///   throws : Error unless lo < hi, both finite, scale and hi - lo pass is_valid_scale, and m does not underflow
 template <Real S> struct TrimmedLogistic {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -81,11 +81,11 @@ template <Real S> struct TrimmedLogistic {
   TrimmedLogistic() : TrimmedLogistic(1, -1, 1) {}
   TrimmedLogistic(S scale_, S lo_, S hi_) : scale(scale_), lo(lo_), hi(hi_) {
     using std::exp, std::expm1, std::isfinite;
-    require(is_scale(scale),
+    require(is_valid_scale(scale),
             "TrimmedLogistic: scale {} must be finite and > 0, neither denormal nor next to the largest",
             static_cast<double>(scale));
     require(
-        isfinite(lo) && isfinite(hi) && lo < hi && is_scale(S(hi - lo)),
+        isfinite(lo) && isfinite(hi) && lo < hi && is_valid_scale(S(hi - lo)),
         "TrimmedLogistic: [{}, {}] needs finite bounds with lo < hi, neither denormally close nor next to the largest",
         static_cast<double>(lo), static_cast<double>(hi));
     const S length = (hi - lo) / scale, decay = S(exp(S(-length))), share = -S(expm1(S(-length)));
@@ -120,7 +120,7 @@ template <Real S> struct TrimmedLogistic {
     using std::exp, std::expm1;
     const S up_to = hi > 0 ? S(detail::sigmoid<S>(x / scale) / detail::sigmoid<S>(hi / scale))
                            : S(S(exp(S((x - hi) / scale))) * (1 + S(exp(S(hi / scale)))) / (1 + S(exp(S(x / scale)))));
-    return within_unit<S>(up_to * (S(expm1(S((lo - x) / scale))) / S(expm1(S((lo - hi) / scale)))));
+    return clamp_to_unit<S>(up_to * (S(expm1(S((lo - x) / scale))) / S(expm1(S((lo - hi) / scale)))));
   }
   template <Real T> TrimmedLogistic<T> cast() const { return {T(scale), T(lo), T(hi)}; }
 

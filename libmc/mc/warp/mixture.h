@@ -56,7 +56,7 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
     Scalar below(0);
     while (i < last && !(uc < below + weights_[i])) below += weights_[i++];
     while (weights_[i] == 0) ++i;
-    uc = within_unit<Scalar>((uc - below) / weights_[i]);
+    uc = clamp_to_unit<Scalar>((uc - below) / weights_[i]);
     return sample_component(i, u, std::make_index_sequence<size>());
   }
 

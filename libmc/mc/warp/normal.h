@@ -12,7 +12,7 @@ namespace mc {
 ///   pdf    : exp(-t^2 / 2) / (sigma sqrt(2 pi)), t = (x - mean) / sigma [1/length]. Relative error (2 + t^2) eps: the
 ///            density in the tail is ill-conditioned in x
 ///   invert : |invert(sample(u)) - u| <= 16 eps for mean = 0
-///   throws : Error unless mean is finite and sigma passes is_scale
+///   throws : Error unless mean is finite and sigma passes is_valid_scale
 ///   Source : erfc and its inverse from Boost.Math
 template <Real S> struct Normal {
   using Scalar = S;
@@ -23,7 +23,7 @@ template <Real S> struct Normal {
   Normal() = default;
   Normal(S mean_, S sigma_) : mean(mean_), sigma(sigma_) {
     using std::isfinite;
-    require(isfinite(mean) && is_scale(sigma, mean),
+    require(isfinite(mean) && is_valid_scale(sigma, mean),
             "Normal: mean {}, sigma {}: both must be finite, sigma > 0 and neither denormal, next to the largest "
             "number nor "
             "below 8 eps |mean|",
@@ -44,7 +44,7 @@ template <Real S> struct Normal {
   }
   S invert(S x) const {
     using std::sqrt;
-    return within_unit<S>(S(erfc(S((mean - x) / (sigma * S(sqrt(S(2))))))) / 2);
+    return clamp_to_unit<S>(S(erfc(S((mean - x) / (sigma * S(sqrt(S(2))))))) / 2);
   }
   template <Real T> Normal<T> cast() const { return {T(mean), T(sigma)}; }
 };

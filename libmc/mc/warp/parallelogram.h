@@ -11,7 +11,7 @@ namespace mc {
 ///   pdf    : 1 / |a x b| [1/area]; 0 off the parallelogram, up to the rounding of a sample
 ///   invert : |invert(sample(u)) - u| <= 16 eps for a parallelogram at the origin with edges at a wide angle; a distant
 ///            origin or a narrow angle costs its own conditioning
-///   throws : Error unless the coordinates are finite and the area^2 passes is_scale
+///   throws : Error unless the coordinates are finite and the area^2 passes is_valid_scale
 template <Real S> struct UniformParallelogram {
   using Scalar = S;
   using Domain = Parallelogram<S>;
@@ -21,7 +21,7 @@ template <Real S> struct UniformParallelogram {
   Domain domain() const { return shape; }
   Vec3<S> sample(const Vec2<S>& u) const { return shape.from_unit(u); }
   S pdf(const Vec3<S>& x) const { return shape.contains(x) ? S(1 / shape.area()) : S(0); }
-  Vec2<S> invert(const Vec3<S>& x) const { return within_unit<S, 2>(shape.to_unit(x)); }
+  Vec2<S> invert(const Vec3<S>& x) const { return clamp_to_unit<S, 2>(shape.to_unit(x)); }
   template <Real T> UniformParallelogram<T> cast() const { return {shape.template cast<T>()}; }
 };
 

@@ -37,7 +37,7 @@ template <Real S> struct Power {
   }
   S invert(S x) const {
     using std::pow;
-    return within_unit(S(pow(x, S(n + 1))));
+    return clamp_to_unit(S(pow(x, S(n + 1))));
   }
   template <Real T> Power<T> cast() const { return Power<T>(T(n)); }
 };

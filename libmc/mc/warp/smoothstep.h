@@ -26,7 +26,7 @@ template <Real S> struct Smoothstep {
     else return root(v);
   }
   S pdf(S x) const { return x >= 0 && x <= 1 ? S(2 * x * x * (3 - 2 * x)) : S(0); }
-  S invert(S x) const { return within_unit<S>(x * x * x * (2 - x)); }
+  S invert(S x) const { return clamp_to_unit<S>(x * x * x * (2 - x)); }
   template <Real T> Smoothstep<T> cast() const { return {}; }
 
   /// The x of x^3 (2 - x) = v > 0.

@@ -18,7 +18,7 @@ template <Real S> struct UniformSphere {
   Domain domain() const { return {}; }
   Vec3<S> sample(const Vec2<S>& u) const { return domain().from_unit(u); }
   S pdf(const Vec3<S>&) const { return 1 / (4 * pi<S>); }
-  Vec2<S> invert(const Vec3<S>& w) const { return within_unit<S, 2>(domain().to_unit(w)); }
+  Vec2<S> invert(const Vec3<S>& w) const { return clamp_to_unit<S, 2>(domain().to_unit(w)); }
   template <Real T> UniformSphere<T> cast() const { return {}; }
 };
 

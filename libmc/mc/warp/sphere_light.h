@@ -16,7 +16,7 @@ namespace mc {
 ///               direction in S holds the offset from the axis only to eps, so narrower cones than eps need the local
 ///               form
 ///   invert    : |invert(sample(u)) - u| <= 16 eps
-///   throws    : Error unless the centre is finite, radius passes is_scale, and radius / distance > 1e-18
+///   throws    : Error unless the centre is finite, radius passes is_valid_scale, and radius / distance > 1e-18
 ///   Source    : [ShirleyWangZimmerman96]
 template <Real S> class SphereLight {
  public:
@@ -52,7 +52,7 @@ template <Real S> class SphereLight {
   static S filled(const Vec3<S>& center, const S& radius, const S& distance) {
     using std::frexp, std::isfinite, std::ldexp, std::sqrt;
     require(
-        is_scale(radius) && isfinite(distance),
+        is_valid_scale(radius) && isfinite(distance),
         "SphereLight: radius {} must be finite and > 0, neither denormal nor next to the largest number, distance {} "
         "finite",
         static_cast<double>(radius), static_cast<double>(distance));

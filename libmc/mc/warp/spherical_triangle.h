@@ -70,7 +70,7 @@ template <Real S> struct SphericalTriangleMap {
     const Arc<S> turn = Arc<S>::of(x, y), end = across(turn);
     const HalfExcess<S> half(side, end, turn.sin, turn.cos);
     const S part = 2 * S(atan2(half.sin, half.cos)) / angle, u1 = (w - b).squaredNorm() / 2 / end.far;
-    return {within_unit(part), within_unit(u1)};
+    return {clamp_to_unit(part), clamp_to_unit(u1)};
   }
 
  private:

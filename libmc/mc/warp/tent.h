@@ -11,7 +11,7 @@ namespace mc {
 ///   pdf    : (radius - |x - center|) / radius^2 [1/length]; 0 outside. At least the density half a step of u from the
 ///            end, so that samples that round to the end keep a positive density
 ///   invert : |invert(sample(u)) - u| <= 8 eps where center = 0; a centre far from 0 costs its own rounding
-///   throws : Error unless center is finite and radius passes is_scale
+///   throws : Error unless center is finite and radius passes is_valid_scale
 template <Real S> struct Tent {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -22,7 +22,7 @@ template <Real S> struct Tent {
   Tent(S center_, S radius_) : center(center_), radius(radius_) {
     using std::isfinite;
     require(
-        isfinite(center) && is_scale(radius, center),
+        isfinite(center) && is_valid_scale(radius, center),
         "Tent: center {}, radius {}: both must be finite, radius > 0 and neither denormal, next to the largest number "
         "nor below 8 eps |center|",
         static_cast<double>(center), static_cast<double>(radius));
@@ -44,7 +44,7 @@ template <Real S> struct Tent {
   S invert(S x) const {
     using std::abs;
     const S t = 1 - S(abs(S(x - center))) / radius, tail = t * t / 2;
-    return within_unit(x < center ? tail : S(1 - tail));
+    return clamp_to_unit(x < center ? tail : S(1 - tail));
   }
   template <Real T> Tent<T> cast() const { return {T(center), T(radius)}; }
 };

@@ -24,7 +24,7 @@ template <Real S> struct UniformTriangle {
   }
   S pdf(const Vec2<S>& b) const { return domain().contains(b) ? S(2) : S(0); }
   Vec2<S> invert(const Vec2<S>& b) const {
-    return within_unit(b[0] < b[1] ? Vec2<S>(2 * b[0], b[1] + b[0]) : Vec2<S>(b[0] + b[1], 2 * b[1]));
+    return clamp_to_unit(b[0] < b[1] ? Vec2<S>(2 * b[0], b[1] + b[0]) : Vec2<S>(b[0] + b[1], 2 * b[1]));
   }
   template <Real T> UniformTriangle<T> cast() const { return {}; }
 };

@@ -106,7 +106,7 @@ template <Real S> class TrowbridgeReitzVisibleNormals {
     const Vec3<S> n = surface_.unstretch(m).normalized();
     const S twice = 2 * accurate_dot(w_, n);
     const S u1 = 1 - twice * n.z() / (1 + w_.z());
-    return {turn<S>(twice * n.x() - w_.x(), twice * n.y() - w_.y()), within_unit(u1)};
+    return {azimuth_turns<S>(twice * n.x() - w_.x(), twice * n.y() - w_.y()), clamp_to_unit(u1)};
   }
 
   const Vec3<S>& wo() const { return wo_; }

@@ -63,7 +63,7 @@ template <Real S> class VonMisesFisher {
     using std::expm1;
     const S t = one_minus_z(w);
     const S u = mass_ > 0 ? S(-S(expm1(S(-kappa_ * t))) / mass_) : S(t / 2);
-    return {within_unit(u), turn<S>(w.x(), w.y())};
+    return {clamp_to_unit(u), azimuth_turns<S>(w.x(), w.y())};
   }
   S kappa() const { return kappa_; }
   template <Real T> VonMisesFisher<T> cast() const { return VonMisesFisher<T>(T(kappa_)); }

@@ -14,7 +14,7 @@ constexpr double largest = 1e30; // the ground below it, fifty times as large, i
 constexpr double margin = 0.95;  // share of the picture, from its middle, that the mesh fills at most
 
 MeshFile read_mesh(const std::string& path) {
-  const std::string extension = mc::extension_of(path);
+  const std::string extension = mc::lowercase_extension(path);
   if (extension == ".obj") return read_obj(path);
   if (extension == ".ply") return read_ply(path);
   return read_serialized(path, 0);
@@ -63,7 +63,7 @@ Shape ground_below(const Extent& extent, double size) {
 } // namespace
 
 bool is_mesh_file(const std::string& path) {
-  const std::string extension = mc::extension_of(path);
+  const std::string extension = mc::lowercase_extension(path);
   return extension == ".obj" || extension == ".ply" || extension == ".serialized";
 }
 

@@ -188,7 +188,7 @@ TEST(BadInput, TablesAndSamplers) {
   rows.push_back({[] { TableDist1D<double>::from_function([](double x) { return x - 1; }, 2); },
                   {"weights[0] = -0.75", "not finite and >= 0"}});
   rows.push_back({[] { BoxTree(0); }, {"BoxTree:", "dimension 0", "at least 1"}});
-  rows.push_back({[] { BoxTree(2, std::vector<TreeNode>{{TreeNode::leaf, nan}}); }, {"BoxTree:", "node 0", "nan"}});
+  rows.push_back({[] { BoxTree(2, std::vector<BoxTreeNode>{{BoxTreeNode::leaf, nan}}); }, {"BoxTree:", "node 0", "nan"}});
   rows.push_back({[] { TableDistTree<float, 3>(BoxTree(2)); }, {"TableDistTree:", "2 dimensions", "3 are needed"}});
   rows.push_back({[] { Stratified(0, 1, 2); }, {"Stratified:", "count 0", "at least 1"}});
   rows.push_back({[] { Stratified(4, 1, 0); }, {"Stratified:", "group 0", "at least 1"}});
@@ -234,7 +234,7 @@ TEST(BadInput, Integrate) {
   rows.push_back({[=] { integrate_rqmc(f, 2, 0); }, {"integrate_rqmc:", "0 points", "between 1 and 2^32"}});
   rows.push_back({[=] { integrate_rqmc(f, 0, 64); }, {"integrate:", "dimension 0"}});
   rows.push_back({[=] { integrate_rqmc(f, 2, 64, 1); }, {"integrate:", "1 replicates"}});
-  rows.push_back({[] { method_from("vega"); }, {"unknown method 'vega'", "did you mean 'vegas'?"}});
+  rows.push_back({[] { parse_method("vega"); }, {"unknown method 'vega'", "did you mean 'vegas'?"}});
   // A value that is not finite: how many, and the first point.
   for (const Method method : {Method::plain, Method::stratified, Method::rqmc, Method::vegas, Method::automatic}) {
     IntegrateOptions o;

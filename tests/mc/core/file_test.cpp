@@ -43,24 +43,24 @@ TEST_F(FileTest, WritesAndReadsBack) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(FileTest, ExtensionsAreInSmallLetters) {
-  EXPECT_EQ(mc::extension_of("a.b/c.tar.EXR"), ".exr");
-  EXPECT_EQ(mc::extension_of("a.b/c"), "");
-  EXPECT_EQ(mc::extension_of(""), "");
-  EXPECT_EQ(mc::extension_of("ü.Ü1"), ".Ü1");
+TEST_F(FileTest, ExtensionsAreLowercase) {
+  EXPECT_EQ(mc::lowercase_extension("a.b/c.tar.EXR"), ".exr");
+  EXPECT_EQ(mc::lowercase_extension("a.b/c"), "");
+  EXPECT_EQ(mc::lowercase_extension(""), "");
+  EXPECT_EQ(mc::lowercase_extension("ü.Ü1"), ".Ü1");
 }
 
-TEST_F(FileTest, PathsThatLeadToOnePlace) {
+TEST_F(FileTest, IsSamePathResolvesLinksAndDots) {
   const auto path = [&](const char* name) { return (folder / name).string(); };
   mc::write_file(path("a"), "a");
   fs::create_symlink(path("a"), path("link"));
-  EXPECT_TRUE(mc::same_place(path("a"), path("./b/../a")));
-  EXPECT_TRUE(mc::same_place(path("a"), path("link")));
-  EXPECT_TRUE(mc::same_place(path("none"), path("./none")));
-  EXPECT_FALSE(mc::same_place(path("a"), path("none")));
+  EXPECT_TRUE(mc::is_same_path(path("a"), path("./b/../a")));
+  EXPECT_TRUE(mc::is_same_path(path("a"), path("link")));
+  EXPECT_TRUE(mc::is_same_path(path("none"), path("./none")));
+  EXPECT_FALSE(mc::is_same_path(path("a"), path("none")));
 }
 
-TEST_F(FileTest, TextIsWithoutItsByteOrderMark) {
+TEST_F(FileTest, ReadTextDropsTheByteOrderMark) {
   const std::string path = folder / "a.txt";
   for (const char* text : {"", "a", "\xEF\xBB"}) {
     mc::write_file(path, text);
@@ -83,7 +83,7 @@ TEST_F(FileTest, AFailedWriteLeavesTheOldFile) {
   EXPECT_EQ(files(), 1u) << "the temporary file is gone";
 }
 
-TEST_F(FileTest, SaysWhatToDo) {
+TEST_F(FileTest, ErrorsNameTheRemedy) {
   const std::string missing = folder / "none" / "a.txt";
   EXPECT_EQ(message([&] { mc::write_file(missing, "x"); }), "cannot write '" + missing + "': the folder '" +
                                                                 (folder / "none").string() +
@@ -95,7 +95,7 @@ TEST_F(FileTest, SaysWhatToDo) {
             "cannot read '/dev/zero': it is a device, which may have no end; name a file or a pipe");
 }
 
-TEST_F(FileTest, AskingWhetherAPlaceIsWritableLeavesNoTrace) {
+TEST_F(FileTest, RequireWritableCreatesNothing) {
   const std::string path = folder / "a.txt", missing = folder / "none" / "a.txt";
   mc::require_writable(path);
   EXPECT_EQ(files(), 0u);
@@ -106,20 +106,20 @@ TEST_F(FileTest, AskingWhetherAPlaceIsWritableLeavesNoTrace) {
 }
 
 TEST_F(FileTest, AnOutputFolderIsMade) {
-  const fs::path made = mc::output_folder(folder / "a" / "b", "c.txt");
+  const fs::path made = mc::make_output_folder(folder / "a" / "b", "c.txt");
   EXPECT_EQ(made, folder / "a" / "b");
   EXPECT_TRUE(fs::is_directory(made));
   mc::write_file(made / "c.txt", "x");
-  EXPECT_EQ(mc::output_folder(made, "c.txt"), made);
-  EXPECT_EQ(message([&] { mc::output_folder(made / "c.txt", "d.txt"); }),
+  EXPECT_EQ(mc::make_output_folder(made, "c.txt"), made);
+  EXPECT_EQ(message([&] { mc::make_output_folder(made / "c.txt", "d.txt"); }),
             "'" + (made / "c.txt").string() + "' is no folder and cannot be made one (Not a directory); name another");
   fs::create_directory(made / "d.txt");
-  EXPECT_EQ(message([&] { mc::output_folder(made, "d.txt"); }),
+  EXPECT_EQ(message([&] { mc::make_output_folder(made, "d.txt"); }),
             "cannot write '" + (made / "d.txt").string() + "': it is a folder; name a file in it");
 }
 
 // /dev/full accepts the open and refuses the bytes, as a full disk does.
-TEST_F(FileTest, AFullDiskIsAnError) {
+TEST_F(FileTest, FullDisk_Throws) {
   const std::string path = folder / "a.txt";
   EXPECT_EQ(message([&] {
               mc::replace_file(path, [&](const std::string& temporary) {
@@ -133,7 +133,7 @@ TEST_F(FileTest, AFullDiskIsAnError) {
   EXPECT_EQ(files(), 0u);
 }
 
-TEST_F(FileTest, ALinkIsFollowedAndStays) {
+TEST_F(FileTest, Link_IsFollowedAndKept) {
   const std::string path = folder / "a.txt", link = folder / "link.txt", chain = folder / "chain.txt";
   fs::create_directories(folder / "deep");
   fs::create_symlink("a.txt", link);
@@ -148,7 +148,7 @@ TEST_F(FileTest, ALinkIsFollowedAndStays) {
             "cannot write '" + (folder / "circle").string() + "': its links lead in a circle");
 }
 
-TEST_F(FileTest, PermissionsStay) {
+TEST_F(FileTest, KeepsPermissions) {
   const std::string path = folder / "a.txt";
   mc::write_file(path, "old");
   fs::permissions(path, fs::perms(0640));
@@ -156,7 +156,7 @@ TEST_F(FileTest, PermissionsStay) {
   EXPECT_EQ(fs::status(path).permissions(), fs::perms(0640));
 }
 
-TEST_F(FileTest, ANamedPipeStaysAndPassesTheBytesOn) {
+TEST_F(FileTest, NamedPipe_ReceivesTheBytesAndIsKept) {
   const std::string path = folder / "pipe.txt";
   ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
   const int reader = open(path.c_str(), O_RDONLY | O_NONBLOCK); // so that no thread is needed: a pipe holds 64 KiB
@@ -178,7 +178,7 @@ TEST_F(FileTest, ANamedPipeStaysAndPassesTheBytesOn) {
   EXPECT_EQ(files(), 1u);
 }
 
-TEST_F(FileTest, AnOpenDescriptorIsWrittenWhereItStands) {
+TEST_F(FileTest, OpenDescriptor_IsWrittenAtItsOffset) {
   const std::string path = folder / "log.txt";
   const int log = open(path.c_str(), O_WRONLY | O_CREAT, 0600);
   ASSERT_EQ(write(log, "before ", 7), 7);
@@ -191,7 +191,7 @@ TEST_F(FileTest, AnOpenDescriptorIsWrittenWhereItStands) {
 }
 
 // A node of our own like /dev/full, which takes the open and refuses the bytes. Making one needs root.
-TEST_F(FileTest, ADeviceStaysAndItsErrorIsSeen) {
+TEST_F(FileTest, Device_WriteFails_ThrowsAndKeepsTheDevice) {
   const std::string full = folder / "full.txt", null = folder / "null.txt";
   if (mknod(full.c_str(), S_IFCHR | 0666, makedev(1, 7)) != 0 ||
       mknod(null.c_str(), S_IFCHR | 0666, makedev(1, 3)) != 0 || !std::ofstream(null).is_open())

@@ -19,7 +19,7 @@ TEST(Parallel, VisitsEveryIndexOnce) {
   mc::parallel_for(0, 2, [](std::size_t) { FAIL() << "an empty loop has no body"; });
 }
 
-TEST(Parallel, PartsCoverTheWholeInOrder) {
+TEST(Parallel, PartsCoverTheRangeInOrder) {
   for (const std::size_t n : {0, 1, 7, 8, 9, 1000})
     for (const int threads : {1, 2}) {
       std::vector<std::atomic<int>> visits(n);
@@ -49,7 +49,7 @@ TEST(Parallel, ReductionHasTheSameBitsForAnyThreadCount) {
 }
 
 // Else what a loop's body holds, a lock say, would be asked for again below it, and stacks would grow with the loop.
-TEST(Parallel, WhoeverWaitsForAnInnerLoopBeginsNothingElse) {
+TEST(Parallel, NestedLoop_WhileWaiting_RunsNoOuterTask) {
   thread_local int depth = 0;
   std::atomic<int> deepest = 0;
   mc::parallel_for(200, 0, [&](std::size_t) {
@@ -63,7 +63,7 @@ TEST(Parallel, WhoeverWaitsForAnInnerLoopBeginsNothingElse) {
   EXPECT_EQ(deepest, 1);
 }
 
-TEST(Parallel, RefusesFewerThanNoThreads) {
+TEST(Parallel, RejectsNegativeThreadCount) {
   EXPECT_THROW(mc::parallel_for(1, -1, [](std::size_t) {}), mc::Error);
 }
 

@@ -11,7 +11,7 @@
 
 namespace {
 
-TEST(Text, Numbers) {
+TEST(Text, ParsesNumbers) {
   struct Row {
     const char* text;
     double value;
@@ -28,12 +28,12 @@ TEST(Text, Numbers) {
                          {"-inf", -inf},
                          {"1e-400", 0},
                          {"4.9406564584124654e-324", 4.9406564584124654e-324}})
-    EXPECT_EQ(mc::number_in(row.text), row.value) << row.text;
-  EXPECT_TRUE(std::signbit(mc::number_in("-1e-400").value()));
-  EXPECT_TRUE(std::isnan(mc::number_in("nan").value()));
+    EXPECT_EQ(mc::parse_double(row.text), row.value) << row.text;
+  EXPECT_TRUE(std::signbit(mc::parse_double("-1e-400").value()));
+  EXPECT_TRUE(std::isnan(mc::parse_double("nan").value()));
   for (const char* text : {"", "+", "-", "+-1", "++1", "-+1", "1 ", " 1", "1,5", "1e", "0x10", "one", "1.2.3", "e5",
                            "1e5x", "1e400", "-1e400"})
-    EXPECT_EQ(mc::number_in(text), std::nullopt) << text;
+    EXPECT_EQ(mc::parse_double(text), std::nullopt) << text;
 }
 
 TEST(Text, Trimmed) {
@@ -61,7 +61,7 @@ TEST(Text, NearestName) {
   for (const char* other : {"hair", "spot", "volpath", "x"}) EXPECT_EQ(mc::did_you_mean(other, plugins), "") << other;
 }
 
-TEST(Text, IndexOfANameOrWhichThereAre) {
+TEST(Text, IndexOf_UnknownName_ListsTheKnownOnes) {
   const std::array<std::string_view, 3> known{"independent", "stratified", "sobol"};
   EXPECT_EQ(mc::index_of("sampler", "independent", known), 0u);
   EXPECT_EQ(mc::index_of("sampler", "sobol", known), 2u);

@@ -18,7 +18,7 @@ template <class S, class T> double ulps(S got, const T& exact) {
 
 // Every multiple of 2^-24: all that uniform<float> gives. Double is exact enough to judge float: its own error is 2^-29
 // ulp.
-TEST(Turns, EveryFloatUniformIsWithinTwoUlps) {
+TEST(Turns, CosSinOfEveryFloatUniformIsWithinTwoUlps) {
   double worst = 0;
   for (std::uint32_t i = 0; i < 1u << 24; ++i) {
     const float u = static_cast<float>(i) * 0x1p-24f;
@@ -45,7 +45,7 @@ template <class S> double worst_ulps() {
   return worst;
 }
 
-TEST(Turns, WithinTwoUlpsOfFiftyDigits) {
+TEST(Turns, CosSinIsWithinTwoUlpsOfFiftyDigits) {
   EXPECT_LE(worst_ulps<float>(), 2);
   EXPECT_LE(worst_ulps<double>(), 2);
 }
@@ -62,15 +62,15 @@ TEST(Turns, QuartersAreExact) {
   EXPECT_EQ(polar_direction<double>(0.6, 0.8, 0.5), Vec3<double>(-0.6, 0, 0.8));
 }
 
-TEST(Turns, TurnStaysInTheUnitInterval) {
-  EXPECT_EQ(turn(0.0f, 0.0f), 0.0f);
-  EXPECT_EQ(turn(0.0f, 1.0f), 0.25f);
-  const float below = turn(1.0f, -std::numeric_limits<float>::denorm_min());
+TEST(Turns, AzimuthStaysInTheUnitInterval) {
+  EXPECT_EQ(azimuth_turns(0.0f, 0.0f), 0.0f);
+  EXPECT_EQ(azimuth_turns(0.0f, 1.0f), 0.25f);
+  const float below = azimuth_turns(1.0f, -std::numeric_limits<float>::denorm_min());
   EXPECT_TRUE(below >= 0 && below < 1) << below;
-  EXPECT_LT(turn(-1.0, -1e-300), 1.0);
-  EXPECT_EQ(turn(0.0, -1.0), 0.75);
-  EXPECT_TRUE(std::isnan(turn(std::nan(""), 1.0)));
-  EXPECT_EQ(turn(-infinity<double>, infinity<double>), 0.375);
+  EXPECT_LT(azimuth_turns(-1.0, -1e-300), 1.0);
+  EXPECT_EQ(azimuth_turns(0.0, -1.0), 0.75);
+  EXPECT_TRUE(std::isnan(azimuth_turns(std::nan(""), 1.0)));
+  EXPECT_EQ(azimuth_turns(-infinity<double>, infinity<double>), 0.375);
 }
 
 // Points of every octant, of sizes from denormal to the largest number; many near the axes and the diagonals.
@@ -92,14 +92,14 @@ template <class S> double worst_ulps_of_turn() {
     const auto sign = [&] { return random.next32() % 2 ? S(1) : S(-1); };
     const bool swapped = random.next32() % 2;
     const S x = sign() * std::ldexp(swapped ? a : b, move), y = sign() * std::ldexp(swapped ? b : a, move);
-    const Oracle exact = turn<Oracle>(Oracle(x), Oracle(y));
-    if (static_cast<S>(exact) < 1) worst = std::max(worst, ulps<S>(turn(x, y), exact));
-    else EXPECT_EQ(turn(x, y), S(0));
+    const Oracle exact = azimuth_turns<Oracle>(Oracle(x), Oracle(y));
+    if (static_cast<S>(exact) < 1) worst = std::max(worst, ulps<S>(azimuth_turns(x, y), exact));
+    else EXPECT_EQ(azimuth_turns(x, y), S(0));
   }
   return worst;
 }
 
-TEST(Turns, TurnIsWithinTwoUlpsOfFiftyDigits) {
+TEST(Turns, AzimuthIsWithinTwoUlpsOfFiftyDigits) {
   EXPECT_LE(worst_ulps_of_turn<float>(), 2);
   EXPECT_LE(worst_ulps_of_turn<double>(), 2);
 }
@@ -108,8 +108,8 @@ TEST(Turns, TurnIsWithinTwoUlpsOfFiftyDigits) {
 TEST(Turns, TheOriginHasTheAzimuthZero) {
   for (const double x : {0.0, -0.0})
     for (const double y : {0.0, -0.0}) {
-      EXPECT_EQ(mc::turn(x, y), 0);
-      EXPECT_FALSE(std::signbit(mc::turn(x, y)));
+      EXPECT_EQ(mc::azimuth_turns(x, y), 0);
+      EXPECT_FALSE(std::signbit(mc::azimuth_turns(x, y)));
     }
 }
 

@@ -62,7 +62,7 @@ TEST(ControlVariates, SpecialControls) {
   EXPECT_EQ(constant.coefficients()[0], 0);
   const Estimate r = repeated.estimate(repeated.coefficients());
   EXPECT_LE(std::abs(r.value - 1.0 / 3), 5 * r.std_error);
-  EXPECT_LT(r.std_error, 0.3 * repeated.plain().std_error);
+  EXPECT_LT(r.std_error, 0.3 * repeated.without_controls().std_error);
 }
 
 // Against least squares by Eigen on the centred samples in units of their deviations: 1 to 6 controls of scales 1e-9 to
@@ -103,7 +103,7 @@ TEST(ControlVariates, CoefficientsAreLeastSquares) {
 
 // One control. A coefficient fitted to the same 8 samples biases the mean, that of the other half does not. 5 standard
 // errors over 20000 runs, a false alarm in 6e-7 of seeds; the seed is fixed.
-TEST(CrossEstimate, IsUnbiasedWhereFittingInPlaceIsNot) {
+TEST(CrossFittedEstimate, IsUnbiasedWhereFittingInPlaceIsNot) {
   mc::Pcg random(3);
   mc::Moments crossed, in_place;
   for (int run = 0; run < 20'000; ++run) {
@@ -113,7 +113,7 @@ TEST(CrossEstimate, IsUnbiasedWhereFittingInPlaceIsNot) {
       half[static_cast<std::size_t>(i % 2)].add(std::exp(3 * u), std::array{u});
     }
     const auto& [a, b] = half;
-    crossed.add(cross_estimate(a, b).value);
+    crossed.add(cross_fitted_estimate(a, b).value);
     in_place.add(a.estimate(a.coefficients()).value);
   }
   EXPECT_LE(std::abs(crossed.mean() - truth), 5 * crossed.std_error());
@@ -122,12 +122,12 @@ TEST(CrossEstimate, IsUnbiasedWhereFittingInPlaceIsNot) {
 
 // Shares within 1 and 2 sigma over 2000 runs of 2 x 100 samples: .683 and .954, with standard errors .0104 and .0047; 3
 // of those.
-TEST(CrossEstimate, ErrorBarIsCalibrated) {
+TEST(CrossFittedEstimate, ErrorBarIsCalibrated) {
   mc::Pcg random(4);
   int within1 = 0, within2 = 0;
   for (int run = 0; run < 2000; ++run) {
     const ControlVariates a = drawn(random, 100), b = drawn(random, 100);
-    const Estimate e = cross_estimate(a, b);
+    const Estimate e = cross_fitted_estimate(a, b);
     const double z = std::abs(e.value - truth) / e.std_error;
     within1 += z <= 1;
     within2 += z <= 2;
@@ -136,7 +136,7 @@ TEST(CrossEstimate, ErrorBarIsCalibrated) {
   EXPECT_THAT(within2 / 2000.0, testing::AllOf(testing::Ge(0.940), testing::Le(0.968)));
 }
 
-TEST(ControlVariates, MergingIsAdding) {
+TEST(ControlVariates, MergeEqualsAdding) {
   mc::Pcg random(5), again(5);
   ControlVariates parts = drawn(random, 300);
   parts.merge(drawn(random, 700));
@@ -157,7 +157,7 @@ TEST(ControlVariates, RefusesNonsense) {
             "ControlVariates: means[1] = inf is not finite");
   ControlVariates m(means);
   m.add(1, std::array{1.0, 2.0}, 0);
-  EXPECT_THAT(support::error_of([&] { m.plain(); }), testing::HasSubstr("at least 2 are needed"));
+  EXPECT_THAT(support::error_of([&] { m.without_controls(); }), testing::HasSubstr("at least 2 are needed"));
   m.add(1, std::array{1.0, double(NAN)}, 17);
   EXPECT_THAT(support::error_of([&] { m.coefficients(); }),
               testing::HasSubstr("1 of 2 values are not finite, the first at index 17"));

@@ -98,7 +98,7 @@ TEST(DensityReuse, IsUnbiased) {
 // Steps of height 1 above .01 that moved towards where the density is low: replicates that met none of what lies
 // between agreed, and 57 to 90 % of the intervals held, or the rounds disagreed. 120 intervals of 95 % each, of which
 // 114 are expected; fewer than 105 by chance in 4e-4 of the choices of seeds, for each of the nine.
-TEST(DensityReuse, SeesWhatMoved) {
+TEST(DensityReuse, DetectsAMovedIntegrand) {
   for (const Method method : {Method::vegas, Method::tree, Method::automatic})
     for (const double by : {0.002, 0.005, 0.02}) {
       int covered = 0, disagree = 0;
@@ -114,14 +114,14 @@ TEST(DensityReuse, SeesWhatMoved) {
         const double truth = now + 0.01 * (1 - now);
         covered += r.interval.lo <= truth && truth <= r.interval.hi;
         disagree += !r.consistent;
-        EXPECT_EQ(r.stop, mc::Stop::converged);
+        EXPECT_EQ(r.stop, mc::StopReason::converged);
       }
       EXPECT_GE(covered, 105) << name(method) << " " << by;
       EXPECT_LE(disagree, 2) << name(method) << " " << by;
     }
 }
 
-TEST(DensityReuse, ByWayOfAFileTheSameBits) {
+TEST(DensityReuse, SavedDensityGivesTheSameBits) {
   const Peaks f(3, 0);
   const int dim = static_cast<int>(f.dim);
   mc::IntegrateOptions o = with(Method::tree, 30'000, 1);
@@ -134,8 +134,8 @@ TEST(DensityReuse, ByWayOfAFileTheSameBits) {
   EXPECT_EQ(a.estimate.std_error, b.estimate.std_error);
 }
 
-TEST(DensityReuse, MayBeZeroWhereTheIntegrandIsNot) {
-  const std::vector<mc::TreeNode> nodes = {{0, 0.5}, {mc::TreeNode::leaf, 1}, {mc::TreeNode::leaf, 0}};
+TEST(DensityReuse, IsUnbiasedWhereTheDensityIsZero) {
+  const std::vector<mc::BoxTreeNode> nodes = {{0, 0.5}, {mc::BoxTreeNode::leaf, 1}, {mc::BoxTreeNode::leaf, 0}};
   mc::AdaptedDensity half{mc::ImportanceGrid(1), mc::BoxTree(1, nodes)};
   mc::IntegrateOptions o = with(Method::tree, 20'000, 1);
   o.density = std::make_shared<mc::AdaptedDensity>(half);
@@ -143,7 +143,7 @@ TEST(DensityReuse, MayBeZeroWhereTheIntegrandIsNot) {
   EXPECT_LE(std::abs(r.estimate.value - 1.5), 5 * r.estimate.std_error);
 }
 
-TEST(DensityReuse, RefusesWhatDoesNotFit) {
+TEST(DensityReuse, RejectsMismatchedDensities) {
   const auto f = [](Unit u) { return u[0]; };
   mc::IntegrateOptions o = with(Method::vegas, 10'000, 1);
   o.density = std::make_shared<mc::AdaptedDensity>(mc::AdaptedDensity{mc::ImportanceGrid(3)});

@@ -18,21 +18,21 @@ TEST(Estimate, NormalInterval) {
 
 // Quantiles of Student's t at .975: 12.7062 for 1 and 2.2622 for 9 degrees of freedom.
 TEST(Estimate, StudentInterval) {
-  EXPECT_NEAR(mc::Estimate::student(0, 1, 1, 2).interval(0.95).hi, 12.7062047361747, 1e-9);
-  EXPECT_NEAR(mc::Estimate::student(0, 1, 9, 10).interval(0.95).hi, 2.26215716279820, 1e-9);
+  EXPECT_NEAR(mc::Estimate::from_student_t(0, 1, 1, 2).interval(0.95).hi, 12.7062047361747, 1e-9);
+  EXPECT_NEAR(mc::Estimate::from_student_t(0, 1, 9, 10).interval(0.95).hi, 2.26215716279820, 1e-9);
 }
 
 // One sigma is the interval of 68.27 % for any number of values: tan(.68269 pi / 2) for one degree of freedom.
-TEST(Estimate, OneSigmaHasOneMeaning) {
+TEST(Estimate, StdErrorCoversOneSigmaForAnyDof) {
   const double probability = std::erf(std::sqrt(0.5));
   for (const double dof : {1.0, 2.0, 9.0, 23.0, 1e6}) {
-    const mc::Estimate e = mc::Estimate::student(3, 0.5, dof, 0);
+    const mc::Estimate e = mc::Estimate::from_student_t(3, 0.5, dof, 0);
     EXPECT_NEAR(e.interval(probability).hi, 3 + e.std_error, 1e-12) << dof;
-    EXPECT_DOUBLE_EQ(e.error(), 0.5) << dof;
+    EXPECT_DOUBLE_EQ(e.unwidened_std_error(), 0.5) << dof;
   }
-  EXPECT_NEAR(mc::Estimate::student(0, 1, 1, 2).std_error, std::tan(probability * mc::pi<double> / 2), 1e-12);
-  EXPECT_NEAR(mc::Estimate::student(0, 1, 23, 24).std_error, 1.0222, 5e-5);
-  EXPECT_EQ((mc::Estimate{.value = 0, .std_error = 2}.error()), 2);
+  EXPECT_NEAR(mc::Estimate::from_student_t(0, 1, 1, 2).std_error, std::tan(probability * mc::pi<double> / 2), 1e-12);
+  EXPECT_NEAR(mc::Estimate::from_student_t(0, 1, 23, 24).std_error, 1.0222, 5e-5);
+  EXPECT_EQ((mc::Estimate{.value = 0, .std_error = 2}.unwidened_std_error()), 2);
 }
 
 TEST(Estimate, RefusesNonsense) {

@@ -63,21 +63,21 @@ TEST(Moments, NonFiniteValuesAreCountedAndNamed) {
   x[61] = std::numeric_limits<double>::infinity();
   mc::Moments m;
   m.add(x, 1000);
-  EXPECT_EQ(m.non_finite(), 2u);
-  EXPECT_EQ(m.witness(), 1037u);
+  EXPECT_EQ(m.non_finite_count(), 2u);
+  EXPECT_EQ(m.first_non_finite(), 1037u);
   EXPECT_EQ(m.count(), 98u);
   EXPECT_THROW(m.estimate(), mc::Error);
   mc::Moments clean;
   clean.add(1);
   clean.merge(m);
-  EXPECT_EQ(clean.witness(), 1037u);
+  EXPECT_EQ(clean.first_non_finite(), 1037u);
 }
 
 TEST(Moments, HugeValuesDoNotOverflowTheBlockSum) {
   const std::vector<double> x(16, 1e308);
   mc::Moments m;
   m.add(x, 0);
-  EXPECT_EQ(m.non_finite(), 0u);
+  EXPECT_EQ(m.non_finite_count(), 0u);
   EXPECT_DOUBLE_EQ(m.mean(), 1e308);
 }
 
@@ -87,7 +87,7 @@ TEST(Moments, OneValueHasNoError) {
   EXPECT_THROW(m.estimate(), mc::Error);
 }
 
-TEST(Moments, LargeNumbersMergeIntoNone) {
+TEST(Moments, MergeIntoEmpty_LargeNumbers_DoesNotOverflow) {
   const std::vector<double> large(3, 1e160);
   mc::Moments block, merged, one_by_one;
   block.add(large, 0);

@@ -43,7 +43,7 @@ struct Pair {
 // The error of a ratio by the covariances: small beside those of the two, and as large as said. The mean of 80 squared
 // deviates of Student's t with 23 degrees of freedom has a standard deviation of .2 about 1.05: the bounds are 3.5 of
 // them away.
-TEST(VectorIntegral, CovariancesTellTheErrorOfARatio) {
+TEST(VectorIntegral, CovariancesGiveTheErrorOfARatio) {
   for (const Method method : methods) {
     double squares = 0, reduction = 0;
     constexpr int runs = 80;
@@ -73,7 +73,7 @@ TEST(VectorIntegral, CovariancesTellTheErrorOfARatio) {
   }
 }
 
-TEST(VectorIntegral, NothingKnownNoCovariance) {
+TEST(VectorIntegral, UnknownError_CovarianceIsNotFinite) {
   const mc::VectorIntegrand f = [](Unit u, std::span<double> y) {
     y[0] = u[0];
     y[1] = 0;

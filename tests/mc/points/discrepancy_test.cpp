@@ -43,7 +43,7 @@ TEST(Discrepancy, AgreesWithScipy) {
 }
 
 // By hand, as fractions of the square; to the bound that the header states.
-TEST(Discrepancy, OfPointsThatAreKnown) {
+TEST(Discrepancy, MatchesKnownValues) {
   const auto expect = [](double root, double square) { EXPECT_NEAR(root * root, square, 1e-13 / 9); };
   const std::vector<double> middle = {0.5, 0.5}, four = {.25, .25, .25, .75, .75, .25, .75, .75};
   expect(mc::l2_star_discrepancy({middle, 2}), 23.0 / 288);
@@ -88,7 +88,7 @@ TEST(Discrepancy, PeriodicIsTheMeanOverBoxesThatWrap) {
   EXPECT_NEAR(sum / boxes, square, 0.02 * square);
 }
 
-TEST(Discrepancy, AShiftChangesThePeriodicOnesByNothing) {
+TEST(Discrepancy, PeriodicOnesAreShiftInvariant) {
   const std::vector<double> x = test::points_of(mc::Sobol(3), 64, 3);
   std::vector<double> moved = x;
   for (double& v : moved) v = v + 0.375 < 1 ? v + 0.375 : v + 0.375 - 1;
@@ -125,7 +125,7 @@ TEST(Discrepancy, ExpectationsOfRandomAndJitteredPoints) {
   jittered_periodic.expect(mc::jittered_periodic_mean_square(36, 2), "jittered, periodic");
 }
 
-TEST(SmallestDistance, IsThatOfAllPairs) {
+TEST(SmallestDistance, MatchesBruteForce) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const auto dim = static_cast<std::uint32_t>(1 + seed % 4);
     std::vector<double> x = test::points_of(mc::Independent{seed}, 2 + seed, dim);

@@ -12,7 +12,7 @@ namespace {
 
 using mc::net_quality;
 
-TEST(NetQuality, OfNetsThatAreKnown) {
+TEST(NetQuality, MatchesKnownNets) {
   const std::vector<double> net = test::hammersley(0), two = test::points_of(mc::Sobol(1), 1024, 2),
                             four = test::points_of(mc::PaddedSobol4D(1), 256, 4);
   EXPECT_EQ(net_quality({net, 2}), 0);
@@ -27,7 +27,7 @@ TEST(NetQuality, OfAGrid) {
   EXPECT_EQ(net_quality({grid, 2}), 1);
 }
 
-TEST(NetQuality, OfPointsThatAreNone) {
+TEST(NetQuality, NotANet_ReturnsNothing) {
   const std::vector<double> jittered = test::points_of(mc::Stratified(256, 3, 2), 256, 2),
                             random = test::points_of(mc::Independent{3}, 64, 2), same(64, 0.5);
   EXPECT_GT(net_quality({jittered, 2}), 0);

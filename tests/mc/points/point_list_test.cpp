@@ -16,7 +16,7 @@ TEST(PointList, RowsAreSideBySide) {
   EXPECT_NO_THROW(mc::require_unit_points(p));
 }
 
-TEST(PointList, RefusesWhatIsNoPointOfTheCube) {
+TEST(PointList, RejectsPointsOutsideTheUnitCube) {
   for (const double bad : {-1e-300, 1.0, std::numeric_limits<double>::quiet_NaN()}) {
     const std::vector<double> values = {0.5, bad};
     EXPECT_THROW(mc::require_unit_points({values, 2}), mc::Error) << bad;

@@ -67,7 +67,7 @@ TEST(Spectrum, OfJitteredPointsInSpace) {
     EXPECT_NEAR(mean[k], expected[k], 5 * std::sqrt(2 / (sets * 6.0 * static_cast<double>(k + 1))) * expected[k]) << k;
 }
 
-TEST(Spectrum, NeedsAPlane) {
+TEST(Spectrum, RejectsOneDimension) {
   const std::vector<double> x = {0.3, 0.7};
   EXPECT_THROW(mc::radial_power_spectrum({x, 1}, 4), mc::Error);
   EXPECT_THROW(mc::radial_power_spectrum({x, 2}, 0), mc::Error);

@@ -15,7 +15,7 @@ struct Case {
   double truth = test::star_by_all_boxes({x, 3});
 };
 
-TEST(StarCover, OfABoundBelowTheWorstBoxFindsIt) {
+TEST(StarCover, BoundBelowTheDiscrepancy_FindsTheWorstBox) {
   const Case c;
   for (const double bound : {0.0, 0.5 * c.truth, 0.999 * c.truth}) {
     mc::StarCover cover{0, bound, plenty};
@@ -24,7 +24,7 @@ TEST(StarCover, OfABoundBelowTheWorstBoxFindsIt) {
   }
 }
 
-TEST(StarCover, OfABoundAboveSaysSoForLess) {
+TEST(StarCover, BoundAboveTheDiscrepancy_TakesLessWork) {
   const Case c;
   mc::StarCover exact{c.truth, c.truth, plenty}, coarse{0, 3 * c.truth, plenty};
   EXPECT_TRUE(exact.run(c.grid));
@@ -33,7 +33,7 @@ TEST(StarCover, OfABoundAboveSaysSoForLess) {
   EXPECT_GT(coarse.work, exact.work);
 }
 
-TEST(StarCover, WithoutWorkItSaysNothing) {
+TEST(StarCover, TooLittleWork_ReturnsFalse) {
   const Case c;
   mc::StarCover cover{0, 0, 100};
   EXPECT_FALSE(cover.run(c.grid));

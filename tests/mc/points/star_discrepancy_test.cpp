@@ -15,7 +15,7 @@
 namespace {
 
 // Random, even and jittered sets, coordinates that repeat, 0 among them, 1 to 4 dimensions.
-TEST(StarDiscrepancy, IsThatOfAllBoxes) {
+TEST(StarDiscrepancy, MatchesBruteForce) {
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     const auto dim = static_cast<std::uint32_t>(1 + seed % 4);
     const std::uint64_t most = dim < 4 ? 40 : seed % 40 == 3 ? 24 : 12, n = 1 + mc::hash(1, seed) % most;
@@ -33,7 +33,7 @@ TEST(StarDiscrepancy, IsThatOfAllBoxes) {
 }
 
 // By exact rational arithmetic.
-TEST(StarDiscrepancy, OfPointsThatAreKnown) {
+TEST(StarDiscrepancy, MatchesKnownValues) {
   struct {
     std::size_t n, dim;
     double value;
@@ -59,7 +59,7 @@ TEST(StarDiscrepancy, OnALineItIsNiederreitersFormula) {
 }
 
 // However little work there is; from some on, they are near.
-TEST(StarDiscrepancy, BoundsHoldWhereverItStops) {
+TEST(StarDiscrepancy, BoundsHoldForAnyWork) {
   for (const std::uint32_t dim : {2u, 3u, 5u}) {
     const std::vector<double> x = test::points_of(mc::Sobol(2), 200, dim);
     const mc::StarDiscrepancy all = mc::star_discrepancy({x, dim});
@@ -88,7 +88,7 @@ TEST(StarDiscrepancy, StepsAreAsEstimated) {
 }
 
 // Lower and upper bound of a set that is too large for its work: in eight dimensions.
-TEST(StarDiscrepancy, OfManyDimensionsTheBoundsAreSaid) {
+TEST(StarDiscrepancy, ManyDimensions_ReturnsBounds) {
   const std::vector<double> x = test::points_of(mc::Sobol(3), 256, 8);
   const mc::StarDiscrepancy found = mc::star_discrepancy({x, 8}, 30'000'000);
   EXPECT_FALSE(found.exact());

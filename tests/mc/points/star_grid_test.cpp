@@ -7,7 +7,7 @@
 
 namespace {
 
-TEST(StarGrid, KnowsPointsByTheirRanks) {
+TEST(StarGrid, StoresRanksOfPoints) {
   const std::vector<double> x = {0.5, 0, 0.25, 0.75, 0.5, 0.75};
   const mc::StarGrid grid({x, 2});
   EXPECT_EQ(grid.axis(0), (std::vector<double>{0, 0.25, 0.5, 1}));
@@ -19,7 +19,7 @@ TEST(StarGrid, KnowsPointsByTheirRanks) {
 }
 
 // No box is worse than the worst; of small sets many starts find it nearly always.
-TEST(StarAscent, IsALowerBoundAndOftenTheTruth) {
+TEST(StarAscent, IsALowerBoundAndOftenExact) {
   int found = 0;
   constexpr std::uint64_t sets = 60;
   for (std::uint64_t seed = 0; seed < sets; ++seed) {

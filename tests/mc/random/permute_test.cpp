@@ -27,7 +27,7 @@ TEST(Permute, StaysInRangeForLargeSizes) {
     for (std::uint32_t i = 0; i < 1000; ++i) EXPECT_LT(mc::permute(n - 1 - i * 1000, n, i), n);
 }
 
-TEST(Permute, StepsTakenOneByOneAreTheWalk) {
+TEST(Permute, RoundsReproduceThePermutation) {
   for (const std::uint32_t n : {1u, 2u, 7u, 16u, 17u, 1000u, 0xffffffffu})
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
       const mc::Permutation permutation(n, seed);

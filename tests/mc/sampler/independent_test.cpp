@@ -14,7 +14,7 @@ TEST(Independent, UniformOverSeedsAndIndices) {
   EXPECT_NEAR(rms * std::sqrt(1024.0) / std::sqrt(7.0 / 144), 1, 0.2);
 }
 
-TEST(SampleStream, WalksTheDimensions) {
+TEST(SampleStream, AdvancesThroughTheDimensions) {
   mc::SampleStream<double, mc::Independent> stream({5}, 9, 2);
   EXPECT_EQ(stream.next(), (mc::coordinate<double>(mc::Independent{5}, 9, 2)));
   EXPECT_EQ((stream.next<3>()), (mc::point<double, 3>(mc::Independent{5}, 9, 3)));

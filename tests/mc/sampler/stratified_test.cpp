@@ -29,7 +29,7 @@ TEST(Stratified, OneDimensionalGroupsHaveOnePointPerInterval) {
 }
 
 // Any count: the slabs hold count / slabs points each up to one, in proportion to their width.
-TEST(Stratified, AnyCountKeepsItsSlabs) {
+TEST(Stratified, AnyCountFillsEveryStratum) {
   for (const std::uint32_t n : {2u, 3u, 5u, 6u, 7u, 12u, 50u, 997u}) {
     const mc::Stratified s(n, 4);
     const auto slabs = static_cast<std::uint32_t>(std::lround(std::sqrt(n)));

@@ -20,7 +20,7 @@ TEST(Ks, LimitingTail) {
 TEST(Ks, StatisticByHand) {
   const mc::KsTest r = mc::ks_test({0.1, 0.2, 0.9}, identity);
   EXPECT_NEAR(r.d, 2.0 / 3 - 0.2, 1e-15);
-  EXPECT_EQ(r.at, 0.2);
+  EXPECT_EQ(r.location, 0.2);
 }
 
 // 1000 runs of 30 samples at 5 %: Binomial(1000, 0.05); [25, 80] holds with probability 0.9998.

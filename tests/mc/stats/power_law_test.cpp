@@ -46,7 +46,7 @@ TEST(RmsError, IntervalHoldsTheErrorOfALongTail) {
   EXPECT_GE(hits, 340);
 }
 
-TEST(RmsError, AKurtosisThatIsKnownWidensIt) {
+TEST(RmsError, GivenKurtosisWidensTheInterval) {
   const std::vector<double> estimates = {1, 3, 1, 3, 1, 3, 1, 4};
   EXPECT_NEAR(mc::error_kurtosis(estimates, 2), 23 * 8 / 121.0, 1e-12); // seven errors of 1 and one of 2
   const mc::RmsError own = mc::rms_error(16, estimates, 2), same = mc::rms_error(16, estimates, 2, 1.5),
@@ -55,9 +55,9 @@ TEST(RmsError, AKurtosisThatIsKnownWidensIt) {
   EXPECT_EQ(own.rms, wide.rms);
   EXPECT_LT(wide.lo, own.lo);
   EXPECT_GT(wide.hi, own.hi);
-  EXPECT_EQ(mc::equivalent_errors(8, 3), 8);
-  EXPECT_EQ(mc::equivalent_errors(8, 9), 2);
-  EXPECT_EQ(mc::equivalent_errors(8, 1e9), 1);
+  EXPECT_EQ(mc::effective_error_count(8, 3), 8);
+  EXPECT_EQ(mc::effective_error_count(8, 9), 2);
+  EXPECT_EQ(mc::effective_error_count(8, 1e9), 1);
 }
 
 TEST(PowerLaw, FindsAnExactOne) {

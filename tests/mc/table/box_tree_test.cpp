@@ -10,26 +10,26 @@
 namespace {
 
 using mc::BoxTree;
-using mc::TreeNode;
+using mc::BoxTreeNode;
 
 // A random tree: planes anywhere in their boxes, weights over many orders of magnitude, zeros among them.
-std::vector<TreeNode> random_nodes(std::uint64_t seed, int dim, int depth, std::vector<double> lo,
+std::vector<BoxTreeNode> random_nodes(std::uint64_t seed, int dim, int depth, std::vector<double> lo,
                                    std::vector<double> hi) {
   const auto random = [&](std::uint64_t k) { return mc::hash_uniform<double>(seed, k); };
   if (depth == 0 || random(1) < 0.1)
-    return {{TreeNode::leaf, random(2) < 0.2 ? 0 : std::pow(10.0, 20 * random(3) - 10)}};
+    return {{BoxTreeNode::leaf, random(2) < 0.2 ? 0 : std::pow(10.0, 20 * random(3) - 10)}};
   const auto axis = static_cast<std::uint32_t>(random(4) * dim);
   const double at = lo[axis] + (hi[axis] - lo[axis]) * (0.05 + 0.9 * random(5));
-  std::vector<TreeNode> nodes = {{axis, at}};
+  std::vector<BoxTreeNode> nodes = {{axis, at}};
   std::vector<double> middle = hi;
   middle[axis] = at;
-  for (const TreeNode& n : random_nodes(mc::hash(seed, 6), dim, depth - 1, lo, middle)) nodes.push_back(n);
+  for (const BoxTreeNode& n : random_nodes(mc::hash(seed, 6), dim, depth - 1, lo, middle)) nodes.push_back(n);
   lo[axis] = at;
-  for (const TreeNode& n : random_nodes(mc::hash(seed, 7), dim, depth - 1, lo, hi)) nodes.push_back(n);
+  for (const BoxTreeNode& n : random_nodes(mc::hash(seed, 7), dim, depth - 1, lo, hi)) nodes.push_back(n);
   return nodes;
 }
 BoxTree random_tree(std::uint64_t seed, int dim, int depth) {
-  std::vector<TreeNode> nodes = random_nodes(seed, dim, depth, std::vector<double>(static_cast<std::size_t>(dim), 0.0),
+  std::vector<BoxTreeNode> nodes = random_nodes(seed, dim, depth, std::vector<double>(static_cast<std::size_t>(dim), 0.0),
                                              std::vector<double>(static_cast<std::size_t>(dim), 1.0));
   nodes.back().value = 1; // not all of them are 0
   return BoxTree(dim, nodes);
@@ -37,7 +37,7 @@ BoxTree random_tree(std::uint64_t seed, int dim, int depth) {
 
 double volume(const BoxTree& tree, std::size_t leaf) {
   double v = 1;
-  for (const BoxTree::Side& s : tree.sides(leaf)) v *= s.x_hi - s.x_lo;
+  for (const BoxTree::AxisExtent& s : tree.extents(leaf)) v *= s.x_hi - s.x_lo;
   return v;
 }
 
@@ -45,10 +45,10 @@ TEST(BoxTree, BoxesFillTheCubeAndProbabilitiesFollowTheWeights) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     const BoxTree tree = random_tree(seed, 1 + static_cast<int>(seed % 6), 8);
     double total = 0, filled = 0, mass = 0;
-    for (const TreeNode& n : tree.nodes()) total += n.axis == TreeNode::leaf ? n.value : 0;
+    for (const BoxTreeNode& n : tree.nodes()) total += n.axis == BoxTreeNode::leaf ? n.value : 0;
     std::size_t leaf = 0;
-    for (const TreeNode& n : tree.nodes())
-      if (n.axis == TreeNode::leaf) {
+    for (const BoxTreeNode& n : tree.nodes())
+      if (n.axis == BoxTreeNode::leaf) {
         const double p = tree.density(leaf) * volume(tree, leaf);
         // Each plane rounds its share to an ulp of u.
         EXPECT_NEAR(p, n.value / total, 16 * 0x1p-52 + static_cast<double>(tree.leaves()) * 0x1p-53) << seed;
@@ -93,8 +93,8 @@ TEST(BoxTree, FollowsAFunction) {
 }
 
 TEST(BoxTree, RefusesNonsense) {
-  constexpr std::uint32_t leaf = TreeNode::leaf;
-  const auto make = [](std::vector<TreeNode> nodes) { return BoxTree(2, nodes); };
+  constexpr std::uint32_t leaf = BoxTreeNode::leaf;
+  const auto make = [](std::vector<BoxTreeNode> nodes) { return BoxTree(2, nodes); };
   EXPECT_THROW(make({}), mc::Error);
   EXPECT_THROW(make({{leaf, 0}}), mc::Error);
   EXPECT_THROW(make({{leaf, std::nan("")}}), mc::Error);
@@ -121,8 +121,8 @@ TEST(BoxTree, RefusesNonsense) {
 TEST(BoxTree, SmallWeightsKeepAProbability) {
   for (const double tiny : {1e-15, 1e-17, 1e-50, 1e-300})
     for (const bool above : {false, true}) {
-      const std::vector<TreeNode> nodes = {
-          {0, 0.5}, {TreeNode::leaf, above ? 1 : tiny}, {TreeNode::leaf, above ? tiny : 1}};
+      const std::vector<BoxTreeNode> nodes = {
+          {0, 0.5}, {BoxTreeNode::leaf, above ? 1 : tiny}, {BoxTreeNode::leaf, above ? tiny : 1}};
       const BoxTree tree(1, nodes);
       const double p = tree.density(above ? 1 : 0) / 2;
       EXPECT_NEAR(p, tiny, 0x1p-52) << tiny;
@@ -133,13 +133,13 @@ TEST(BoxTree, SmallWeightsKeepAProbability) {
 // However often it is cut: beside a leaf of nearly all weight no number may be left between others.
 TEST(BoxTree, ManySmallWeightsKeepTheirProbabilities) {
   for (const bool mirrored : {false, true}) {
-    std::vector<TreeNode> nodes;
+    std::vector<BoxTreeNode> nodes;
     for (int k = 1; k <= 40; ++k) { // a large leaf, then ever smaller boxes on one side
       nodes.push_back({0, mirrored ? std::ldexp(1.0, -k) : 1 - std::ldexp(1.0, -k)});
-      if (!mirrored) nodes.push_back({TreeNode::leaf, k == 1 ? 1 : 1e-30});
+      if (!mirrored) nodes.push_back({BoxTreeNode::leaf, k == 1 ? 1 : 1e-30});
     }
-    nodes.push_back({TreeNode::leaf, 1e-30});
-    for (int k = 40; mirrored && k >= 1; --k) nodes.push_back({TreeNode::leaf, k == 1 ? 1 : 1e-30});
+    nodes.push_back({BoxTreeNode::leaf, 1e-30});
+    for (int k = 40; mirrored && k >= 1; --k) nodes.push_back({BoxTreeNode::leaf, k == 1 ? 1 : 1e-30});
     const BoxTree tree(1, nodes);
     for (std::size_t leaf = 0; leaf < tree.leaves(); ++leaf) EXPECT_GT(tree.density(leaf), 0) << mirrored << leaf;
   }

@@ -49,8 +49,8 @@ TEST(TableDistTree, EmptyBoxesHaveNoDensity) {
 }
 
 TEST(TableDistTree, BreaksAreItsPlanes) {
-  constexpr std::uint32_t leaf = mc::TreeNode::leaf;
-  const std::vector<mc::TreeNode> nodes = {{1, 0.6}, {0, 0.3}, {leaf, 1}, {leaf, 2}, {0, 0.3}, {leaf, 3}, {leaf, 4}};
+  constexpr std::uint32_t leaf = mc::BoxTreeNode::leaf;
+  const std::vector<mc::BoxTreeNode> nodes = {{1, 0.6}, {0, 0.3}, {leaf, 1}, {leaf, 2}, {0, 0.3}, {leaf, 3}, {leaf, 4}};
   const mc::TableDistTree<double, 2> table(nodes);
   EXPECT_EQ(table.breaks()[0], std::vector{0.3});
   EXPECT_EQ(table.breaks()[1], std::vector{0.6});
@@ -59,6 +59,6 @@ TEST(TableDistTree, BreaksAreItsPlanes) {
   EXPECT_EQ((table.cast<float>().pdf({0.9f, 0.9f})), static_cast<float>(table.pdf({0.9, 0.9})));
 }
 
-TEST(TableDistTree, KnowsItsDimension) { EXPECT_THROW((mc::TableDistTree<double, 3>(mc::BoxTree(2))), mc::Error); }
+TEST(TableDistTree, RejectsTreesOfOtherDimensions) { EXPECT_THROW((mc::TableDistTree<double, 3>(mc::BoxTree(2))), mc::Error); }
 
 } // namespace

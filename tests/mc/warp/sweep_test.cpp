@@ -12,7 +12,7 @@ TEST_P(Sweep, BoundsHoldOverTheWholeRange) {
   for (const sweep::Row& row : GetParam()({.trials = 60, .points = 12, .seed = 3})) {
     EXPECT_LT(row.refused, row.tried) << row.name;
     for (const sweep::Law* law : {&row.edges, &row.sample, &row.pdf, &row.invert, &row.monotone})
-      EXPECT_EQ(law->broken, 0u) << row.name << ": " << law->witness;
+      EXPECT_EQ(law->broken, 0u) << row.name << ": " << law->worst_case;
   }
 }
 

@@ -2,7 +2,7 @@
 #include <render/scene/builder.h>
 
 #include <mc/estimate/moments.h>
-#include <mc/sampler/walk_stream.h>
+#include <mc/sampler/path_sample_stream.h>
 #include <mc/warp/sphere.h>
 
 #include <gtest/gtest.h>
@@ -64,8 +64,8 @@ template <class B> void expect_consistent(const B& bsdf, const Strategy& strateg
   const int n = 20'000;
   int rough = 0, delta = 0, other = 0;
   for (int i = 0; i < n; ++i) {
-    const mc::NoPairs numbers(11, 0);
-    mc::IndependentWalk<Float> stream(numbers, std::uint32_t(i));
+    const mc::IndependentPairs numbers(11, 0);
+    mc::IndependentPathStream<Float> stream(numbers, std::uint32_t(i));
     const auto one = directions.sample(at, stream);
     if (!one) continue;
     if (one->pdf == 0) {
@@ -111,8 +111,8 @@ TEST(DirectionMixture, TransmittedSample_HasTransmittedEta) {
       const Float across = side > 0 ? Float(1.5) : 1 / Float(1.5);
       int crossing = 0;
       for (std::uint32_t i = 0; i < 1000; ++i) {
-        const mc::NoPairs numbers(12, 0);
-        mc::IndependentWalk<Float> stream(numbers, i);
+        const mc::IndependentPairs numbers(12, 0);
+        mc::IndependentPathStream<Float> stream(numbers, i);
         const auto one = directions.sample(at, stream);
         if (!one) continue;
         const bool crosses = frame.to_local(one->d).z() * side < 0;
@@ -162,8 +162,8 @@ TEST(DirectionMixture, TinyAreaLights_AreHitBySampledRays) {
     const Lambert white;
     int missed = 0;
     for (int i = 0; i < 100'000; ++i) {
-      const mc::NoPairs numbers(7, 0);
-      mc::IndependentWalk<Float> stream(numbers, std::uint32_t(i));
+      const mc::IndependentPairs numbers(7, 0);
+      mc::IndependentPathStream<Float> stream(numbers, std::uint32_t(i));
       SurfacePoint point = of_floor();
       const Vec2 u = stream.next2();
       point.p = Vec3(u[0] - Float(0.5), 0, u[1] - Float(0.5));

@@ -3,7 +3,7 @@
 #include <render/scene/builder.h>
 
 #include <mc/estimate/moments.h>
-#include <mc/sampler/walk_stream.h>
+#include <mc/sampler/path_sample_stream.h>
 
 #include <gtest/gtest.h>
 
@@ -196,12 +196,12 @@ void expect_both_to_make_what_one_does(const Scene& scene) {
   const auto paths = LightTracer::create(scene, many, 1);
   ASSERT_TRUE(paths);
   const PathIntegrator<Scene> both(scene, {many, 3}, &*paths), alone(scene, {strategy_from("mis"), 3});
-  const mc::NoPairs numbers(17, 0);
+  const mc::IndependentPairs numbers(17, 0);
   mc::Moments given, left, all;
   std::uint64_t rays = 0;
   const Vec2 tangent = scene.camera().tan_half(1);
   for (std::uint32_t i = 0; i < 400'000; ++i) {
-    mc::IndependentWalk<Float> stream(numbers, i);
+    mc::IndependentPathStream<Float> stream(numbers, i);
     const Ray ray = scene.camera().ray(stream.next2(), tangent, {0, 0});
     left.add(double(both.radiance(ray, stream, rays)[0]));
     all.add(double(alone.radiance(ray, stream, rays)[0]));
@@ -228,12 +228,12 @@ TEST(LightTracer, SkipsPathsOfTwoEdges) {
   const Scene scene = Room().build();
   const auto paths = LightTracer::create(scene, mis_lt, 1);
   ASSERT_TRUE(paths);
-  const mc::NoPairs numbers(17, 0);
+  const mc::IndependentPairs numbers(17, 0);
   std::uint64_t rays = 0;
   int direct = 0, longer = 0;
   for (std::uint32_t i = 0; i < 10'000; ++i) {
     for (const int depth : {2, 3}) {
-      mc::IndependentWalk<Float> stream(numbers, i);
+      mc::IndependentPathStream<Float> stream(numbers, i);
       paths->trace(stream, depth, rays, [&](const Vec2&, const Spectrum&) { ++(depth == 2 ? direct : longer); });
     }
   }
@@ -259,7 +259,7 @@ mc::Moments cast_by_glass(double beside) {
   mc::Moments moments;
   std::uint64_t rays = 0;
   for (std::uint32_t i = 0; i < 20'000; ++i) {
-    mc::IndependentWalk<Float> stream(mc::NoPairs(19, 0), i);
+    mc::IndependentPathStream<Float> stream(mc::IndependentPairs(19, 0), i);
     double value = 0;
     paths->trace(stream, -1, rays, [&](const Vec2&, const Spectrum& v) { value += double(v[0]); });
     moments.add(value);

@@ -3,7 +3,7 @@
 
 #include <mc/core/error.h>
 #include <mc/estimate/moments.h>
-#include <mc/sampler/walk_stream.h>
+#include <mc/sampler/path_sample_stream.h>
 #include <mc/stats/t_test.h>
 
 #include <gmock/gmock.h>
@@ -110,8 +110,8 @@ TEST(PathIntegrator, LightsAreDarkFromBehind) {
   const Scene scene = cornell_light();
   std::uint64_t rays = 0;
   for (const Strategy& s : unbiased) {
-    const mc::NoPairs numbers(1, 0);
-    mc::IndependentWalk<Float> stream(numbers, 0);
+    const mc::IndependentPairs numbers(1, 0);
+    mc::IndependentPathStream<Float> stream(numbers, 0);
     const PathIntegrator<Scene> integrator(scene, {s, 1});
     const Ray above{Vec3(278, 700, Float(279.5)), Vec3(0, -1, 0)}, below{Vec3(278, 300, Float(279.5)), Vec3(0, 1, 0)};
     EXPECT_TRUE(is_black(integrator.radiance(above, stream, rays))) << word(s);
@@ -329,8 +329,8 @@ TEST(PathIntegrator, NonFiniteThroughput_IsReported) {
   for (const Strategy& s : unbiased) {
     const PathIntegrator<Recovered<Broken>> integrator(scene, {s});
     for (std::uint32_t i = 0; i < 100; ++i) {
-      const mc::NoPairs numbers(3, 0);
-      mc::IndependentWalk<Float> stream(numbers, i);
+      const mc::IndependentPairs numbers(3, 0);
+      mc::IndependentPathStream<Float> stream(numbers, i);
       EXPECT_FALSE(integrator.radiance({Vec3::Zero(), Vec3::UnitX()}, stream, rays).isFinite().all()) << word(s);
     }
   }

@@ -3,7 +3,7 @@
 
 #include <mc/core/error.h>
 #include <mc/estimate/moments.h>
-#include <mc/sampler/walk_stream.h>
+#include <mc/sampler/path_sample_stream.h>
 #include <mc/stats/t_test.h>
 
 #include <gtest/gtest.h>
@@ -22,12 +22,12 @@ struct How {
   const LightTracer* light_tracer = nullptr;
 };
 
-using Numbers = std::array<mc::NoPairs, 4>;
+using Numbers = std::array<mc::IndependentPairs, 4>;
 
 /// Of each pixel of a tile whose rays start at `eye`, in red.
 std::array<mc::Moments, 4> tile_of(const Scene& scene, const Vec3& eye, const Directions4& ways, const How& how,
                                    std::uint32_t n) {
-  using Stream = mc::IndependentWalk<Float>;
+  using Stream = mc::IndependentPathStream<Float>;
   const PathReuseIntegrator<Scene> integrator(scene, how.path, how.light_tracer);
   const Numbers numbers{{{1, 0}, {2, 0}, {3, 0}, {4, 0}}};
   std::array<mc::Moments, 4> moments;
@@ -40,17 +40,17 @@ std::array<mc::Moments, 4> tile_of(const Scene& scene, const Vec3& eye, const Di
     const auto radiances = integrator.radiances(tile, rays);
     for (std::size_t k = 0; k < 4; ++k) moments[k].add(double(radiances[k][0]), i);
   }
-  for (const mc::Moments& m : moments) EXPECT_EQ(m.non_finite(), 0u);
+  for (const mc::Moments& m : moments) EXPECT_EQ(m.non_finite_count(), 0u);
   return moments;
 }
 
 mc::Moments alone_of(const Scene& scene, const Ray& ray, const How& how, std::uint32_t n) {
   const PathIntegrator<Scene> integrator(scene, how.path, how.light_tracer);
-  const mc::NoPairs numbers(5, 0);
+  const mc::IndependentPairs numbers(5, 0);
   mc::Moments moments;
   std::uint64_t rays = 0;
   for (std::uint32_t i = 0; i < n; ++i) {
-    mc::IndependentWalk<Float> stream(numbers, i);
+    mc::IndependentPathStream<Float> stream(numbers, i);
     moments.add(double(integrator.radiance(ray, stream, rays, how.media)[0]), i);
   }
   return moments;

@@ -2,7 +2,7 @@
 #include <render/scene/builder.h>
 
 #include <mc/estimate/moments.h>
-#include <mc/sampler/walk_stream.h>
+#include <mc/sampler/path_sample_stream.h>
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@ namespace {
 
 using namespace render;
 
-using StepStream = mc::IndependentWalk<Float>;
-const mc::NoPairs step_numbers(11, 0);
+using StepStream = mc::IndependentPathStream<Float>;
+const mc::IndependentPairs step_numbers(11, 0);
 
 /// A mirror at z = 0 that faces a grey wall at z = 2, which shines a little.
 Scene mirror_and_wall() {

@@ -19,7 +19,7 @@ TEST(Expression, IntegratesOverItsBox) {
   o.rel_error = 1e-6;
   const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
   const double truth = std::sqrt(mc::pi<double>) / 2 * std::erf(1.0) * (std::sin(2.0) + std::sin(1.0));
-  EXPECT_EQ(r.stop, mc::Stop::converged);
+  EXPECT_EQ(r.stop, mc::StopReason::converged);
   EXPECT_LE(std::abs(r.estimate.value - truth), 5 * r.estimate.std_error);
 }
 
@@ -40,7 +40,7 @@ TEST(Expression, BoundsMayBeInfinite) {
     mc::IntegrateOptions o;
     o.rel_error = 1e-4;
     const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
-    EXPECT_EQ(r.stop, mc::Stop::converged) << c.expression << " over " << c.box;
+    EXPECT_EQ(r.stop, mc::StopReason::converged) << c.expression << " over " << c.box;
     EXPECT_LE(std::abs(r.estimate.value - c.truth), 5 * r.estimate.std_error) << c.expression << " over " << c.box;
   }
   // The same at all points, and no run ends on what may but look so.
@@ -48,7 +48,7 @@ TEST(Expression, BoundsMayBeInfinite) {
   mc::IntegrateOptions few;
   few.max_calls = 10'000;
   const mc::Integral r = mc::integrate_unit(same.f, same.dim, few);
-  EXPECT_EQ(r.stop, mc::Stop::max_calls);
+  EXPECT_EQ(r.stop, mc::StopReason::max_calls);
   EXPECT_NEAR(r.estimate.value, 1, 1e-12);
   const double zero[] = {0};
   EXPECT_EQ(carlo::parse_expression("exp(-x*x)", "x=-inf:inf").f(zero), 0);

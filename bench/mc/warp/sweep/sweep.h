@@ -31,7 +31,7 @@ struct Law {
   double worst = 0; ///< error / bound
   double eps = 0;   ///< the same error in epsilons
   std::uint64_t broken = 0, points = 0;
-  std::string witness; ///< of the worst, where it is broken
+  std::string worst_case; ///< of the worst, where it is broken
 
   template <class Describe> void note(double error, double bound, Describe&& describe) {
     ++points;
@@ -42,7 +42,7 @@ struct Law {
     if (!holds && worst != worst) return; // NaN is the worst
     worst = ratio;
     eps = error;
-    if (!holds) witness = describe();
+    if (!holds) worst_case = describe();
   }
 };
 

@@ -71,9 +71,9 @@ std::string_view checked(std::string_view text) {
   return body;
 }
 
-TreeNode node(Lines& lines) {
+BoxTreeNode node(Lines& lines) {
   std::string_view line = lines.next();
-  TreeNode n;
+  BoxTreeNode n;
   const bool leaf = Lines::is(line, "leaf");
   line.remove_prefix(leaf || Lines::is(line, "cut") ? line.find(' ') : line.size());
   if (!leaf) n.axis = lines.number<std::uint32_t>(line);
@@ -90,8 +90,8 @@ std::string to_text(const AdaptedDensity& density) {
   const auto out = std::back_inserter(text);
   for (int d = 0; d < density.dim(); ++d) fmt::format_to(out, "axis {}\n", fmt::join(density.grid.edges(d), " "));
   fmt::format_to(out, "tree {}\n", density.tree ? density.tree->nodes().size() : 0);
-  for (const TreeNode& n : density.tree ? density.tree->nodes() : std::span<const TreeNode>()) {
-    if (n.axis == TreeNode::leaf) fmt::format_to(out, "leaf {}\n", n.value);
+  for (const BoxTreeNode& n : density.tree ? density.tree->nodes() : std::span<const BoxTreeNode>()) {
+    if (n.axis == BoxTreeNode::leaf) fmt::format_to(out, "leaf {}\n", n.value);
     else fmt::format_to(out, "cut {} {}\n", n.axis, n.value);
   }
   return text + fmt::format("checksum {:016x}\n", fnv1a(text));
@@ -117,7 +117,7 @@ AdaptedDensity density_from_text(std::string_view text) {
   line = lines.after("tree");
   const auto count = lines.number<std::size_t>(line);
   lines.require_end(line);
-  std::vector<TreeNode> nodes;
+  std::vector<BoxTreeNode> nodes;
   for (std::size_t i = 0; i < count; ++i) nodes.push_back(node(lines));
   require(lines.done(), "density: there is more behind the {} nodes of the tree", count);
   if (count > 0) density.tree = BoxTree(dim, nodes);

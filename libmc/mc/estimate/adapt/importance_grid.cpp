@@ -120,7 +120,7 @@ double ImportanceGrid::density(std::span<const double> x) const {
   return density;
 }
 
-double ImportanceGrid::unmap(std::span<double> x) const {
+double ImportanceGrid::invert(std::span<double> x) const {
   double density = 1;
   const double* e = edges_.data();
   for (double& coordinate : x) {

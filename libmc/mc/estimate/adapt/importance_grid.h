@@ -33,7 +33,7 @@ class ImportanceGrid {
   /// The density of the points that map() returns, at x in [0,1)^dim: the inverse of its Jacobian.
   double density(std::span<const double> x) const;
   /// Maps one point x back to u, in place, and returns the density at x.
-  double unmap(std::span<double> x) const;
+  double invert(std::span<double> x) const;
   /// `power` holds, for each dimension and bin, the sum of (f Jacobian)^2 over the `points` of a round.
   void refine(std::span<const double> power, std::uint64_t points);
   /// The edges of one dimension: bins + 1 increasing numbers from 0 to 1.

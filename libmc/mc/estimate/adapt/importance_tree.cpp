@@ -47,7 +47,7 @@ struct Open {
 };
 
 struct Cut {
-  std::uint32_t axis = TreeNode::leaf;
+  std::uint32_t axis = BoxTreeNode::leaf;
   double at = 0;
 };
 
@@ -59,9 +59,9 @@ struct Cost {
 };
 
 struct Learner {
-  const WeightedValues& seen;
+  const WeightedSamples& samples;
   std::vector<std::size_t> order;
-  std::vector<TreeNode> nodes = {};
+  std::vector<BoxTreeNode> nodes = {};
   std::vector<double> volumes = {}; // of the leaves
 
   // Which half a point is in: hashed, since even points of a sequence lie on one side.
@@ -70,7 +70,7 @@ struct Learner {
   Halves sums(const Open& box) const {
     Halves all{};
     for (std::size_t i = box.first; i < box.last; ++i)
-      all[half(order[i])].add(seen.weights[order[i]], seen.values[order[i]]);
+      all[half(order[i])].add(samples.weights[order[i]], samples.values[order[i]]);
     return all;
   }
 
@@ -84,9 +84,9 @@ struct Learner {
       const double side = box.hi[a] - box.lo[a];
       for (std::size_t i = box.first; i < box.last; ++i) {
         const std::size_t k = order[i];
-        const double place = (seen.point(k)[a] - box.lo[a]) / side * parts;
-        part[std::min(static_cast<std::size_t>(std::max(place, 0.0)), parts - 1)][half(k)].add(seen.weights[k],
-                                                                                               seen.values[k]);
+        const double place = (samples.point(k)[a] - box.lo[a]) / side * parts;
+        part[std::min(static_cast<std::size_t>(std::max(place, 0.0)), parts - 1)][half(k)].add(samples.weights[k],
+                                                                                               samples.values[k]);
       }
       Halves below{};
       for (std::size_t k = 1; k < parts; ++k) {
@@ -106,16 +106,16 @@ struct Learner {
         }
       }
     }
-    return cut.axis == TreeNode::leaf ? middle : cut;
+    return cut.axis == BoxTreeNode::leaf ? middle : cut;
   }
 
   // What lies beside a peak may belong to it, although no point has met it: a share of what the leaves of a box weigh
   // is spread evenly over the box. They are the last ones, from this node and this leaf on.
   void even_out(std::size_t node, std::size_t leaf, double volume) {
     double weight = 0;
-    for (std::size_t i = node; i < nodes.size(); ++i) weight += nodes[i].axis == TreeNode::leaf ? nodes[i].value : 0;
+    for (std::size_t i = node; i < nodes.size(); ++i) weight += nodes[i].axis == BoxTreeNode::leaf ? nodes[i].value : 0;
     for (std::size_t i = node; i < nodes.size(); ++i)
-      if (nodes[i].axis == TreeNode::leaf)
+      if (nodes[i].axis == BoxTreeNode::leaf)
         nodes[i].value = (1 - even_share) * nodes[i].value + even_share * weight * volumes[leaf++] / volume;
   }
 
@@ -127,11 +127,11 @@ struct Learner {
     const Cost alone{box.volume * first, box.volume * (first > 0 ? second * second / first : 0)};
     const Cut cut = best(box, all);
     const std::size_t node = nodes.size(), leaf = volumes.size();
-    if (cut.axis != TreeNode::leaf) {
+    if (cut.axis != BoxTreeNode::leaf) {
       nodes.push_back({cut.axis, cut.at});
       const auto at = [&](std::size_t i) { return order.begin() + static_cast<std::ptrdiff_t>(i); };
       const auto middle = std::stable_partition(at(box.first), at(box.last),
-                                                [&](std::size_t k) { return seen.point(k)[cut.axis] < cut.at; });
+                                                [&](std::size_t k) { return samples.point(k)[cut.axis] < cut.at; });
       Open below = box, above = box;
       below.last = above.first = static_cast<std::size_t>(middle - order.begin());
       below.hi[cut.axis] = above.lo[cut.axis] = cut.at;
@@ -146,7 +146,7 @@ struct Learner {
       nodes.resize(node);
       volumes.resize(leaf);
     }
-    nodes.push_back({TreeNode::leaf, box.volume * (all[0] + all[1]).spread()});
+    nodes.push_back({BoxTreeNode::leaf, box.volume * (all[0] + all[1]).spread()});
     volumes.push_back(box.volume);
     return alone;
   }
@@ -154,21 +154,21 @@ struct Learner {
 
 } // namespace
 
-BoxTree importance_tree(const WeightedValues& seen) {
-  const auto d = static_cast<std::size_t>(seen.dim);
-  Learner learner{seen, std::vector<std::size_t>(seen.size())};
+BoxTree importance_tree(const WeightedSamples& samples) {
+  const auto d = static_cast<std::size_t>(samples.dim);
+  Learner learner{samples, std::vector<std::size_t>(samples.size())};
   std::iota(learner.order.begin(), learner.order.end(), std::size_t{0});
-  learner.grow({0, seen.size(), std::vector<double>(d, 0.0), std::vector<double>(d, 1.0), 1}, 0);
+  learner.grow({0, samples.size(), std::vector<double>(d, 0.0), std::vector<double>(d, 1.0), 1}, 0);
   double total = 0;
-  for (const TreeNode& n : learner.nodes)
-    if (n.axis == TreeNode::leaf) total += n.value;
+  for (const BoxTreeNode& n : learner.nodes)
+    if (n.axis == BoxTreeNode::leaf) total += n.value;
   std::size_t leaf = 0;
-  for (TreeNode& n : learner.nodes)
-    if (n.axis == TreeNode::leaf) {
+  for (BoxTreeNode& n : learner.nodes)
+    if (n.axis == BoxTreeNode::leaf) {
       const double volume = learner.volumes[leaf++];
       n.value = total > 0 ? (1 - uniform_share) * n.value / total + uniform_share * volume : volume;
     }
-  return BoxTree(seen.dim, learner.nodes);
+  return BoxTree(samples.dim, learner.nodes);
 }
 
 } // namespace mc

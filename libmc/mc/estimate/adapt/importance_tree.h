@@ -11,7 +11,7 @@ namespace mc {
 
 /// What was seen of an integrand: points of [0,1)^dim, its value at each, and how much of the volume the point stands
 /// for: 1 / (number of points x density that they were drawn from).
-struct WeightedValues {
+struct WeightedSamples {
   int dim = 0;
   std::vector<double> points; ///< one after the other
   std::vector<double> values, weights;
@@ -28,6 +28,6 @@ struct WeightedValues {
 /// beside a peak may belong to it. A box is cut where one half of its points promises most, if the other half confirms
 /// it; no box has less than 16 points of each.
 ///   Source : recursive stratification as in miser [PressFarrar90], with densities
-BoxTree importance_tree(const WeightedValues& seen);
+BoxTree importance_tree(const WeightedSamples& samples);
 
 } // namespace mc

@@ -38,7 +38,7 @@ Correlations correlations(const std::vector<std::vector<double>>& means) {
   return all;
 }
 
-Correlations combined(const Correlations& of_a, const Means& a, const Correlations& of_b, const Means& b,
+Correlations combine_independent(const Correlations& of_a, const Means& a, const Correlations& of_b, const Means& b,
                       double share) {
   const std::size_t n = a.size();
   // What either contributes to the error of the two.

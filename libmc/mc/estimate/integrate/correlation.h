@@ -13,7 +13,7 @@ using Correlations = std::vector<double>;
 /// Those of means[output][replicate]; 0 beside an output whose replicates are equal.
 Correlations correlations(const std::vector<std::vector<double>>& means);
 
-/// Those of combined(a, b, share), where a and b are independent.
-Correlations combined(const Correlations& of_a, const Means& a, const Correlations& of_b, const Means& b, double share);
+/// Those of combine_independent(a, b, share), where a and b are independent.
+Correlations combine_independent(const Correlations& of_a, const Means& a, const Correlations& of_b, const Means& b, double share);
 
 } // namespace mc::detail

@@ -4,7 +4,7 @@
 #include <mc/core/error.h>
 #include <mc/estimate/integrate.h>
 #include <mc/estimate/integrate/methods.h>
-#include <mc/estimate/integrate/sequences.h>
+#include <mc/estimate/integrate/replicated_sequences.h>
 
 #include <boost/math/distributions/chi_squared.hpp>
 
@@ -15,7 +15,7 @@ namespace mc {
 
 using detail::Integrand;
 using detail::Outcome;
-using detail::Run;
+using detail::IntegrationRun;
 
 namespace {
 
@@ -26,8 +26,8 @@ void require_sane(int outputs, int dim, const IntegrateOptions& o) {
           "integrate: tolerances {} (relative) and {} (absolute) must be finite and >= 0", o.rel_error, o.abs_error);
   require(o.threads >= 0, "integrate: threads {} must be >= 0; 0 stands for all of the machine's", o.threads);
   require(o.confidence > 0 && o.confidence < 1, "integrate: confidence {} must lie in (0, 1)", o.confidence);
-  require(o.watched < static_cast<std::size_t>(outputs), "integrate: {} of {} outputs are watched; 1 must not be",
-          o.watched, outputs);
+  require(o.auxiliary_outputs < static_cast<std::size_t>(outputs), "integrate: {} of {} outputs are watched; 1 must not be",
+          o.auxiliary_outputs, outputs);
   require(o.replicates >= 2 && o.replicates <= 1u << 20,
           "integrate: {} replicates; between 2 and 2^20 are needed for an error", o.replicates);
   if (!o.density) return;
@@ -37,20 +37,20 @@ void require_sane(int outputs, int dim, const IntegrateOptions& o) {
 }
 
 // What the rounds said of one output.
-std::vector<IntegrateRound> rounds_of(const Run& run, std::size_t output) {
+std::vector<IntegrateRound> rounds_of(const IntegrationRun& run, std::size_t output) {
   std::vector<IntegrateRound> all;
   for (const detail::Round& r : run.rounds) {
     const detail::Mean& mean = r.means[output];
     const double chi2 = r.chi2.empty() ? std::numeric_limits<double>::quiet_NaN() : r.chi2[output];
-    all.push_back({r.method, r.learning, r.calls, detail::estimate(mean, r.calls), mean.told(), chi2});
+    all.push_back({r.method, r.learning, r.calls, detail::estimate(mean, r.calls), mean.reported_error_bar(), chi2});
   }
   return all;
 }
 
-Outcome run_method(Run& run, Method method, std::optional<Outcome>& last) {
+Outcome run_method(IntegrationRun& run, Method method, std::optional<Outcome>& last) {
   if (method == Method::plain) return detail::plain(run, last);
   if (method == Method::stratified) return detail::stratified(run, last);
-  return detail::sequences(run, method, last);
+  return detail::replicated_rqmc(run, method, last);
 }
 
 VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const IntegrateOptions& o) {
@@ -61,7 +61,7 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
   const std::uint64_t least = method == Method::plain ? 2 : 2 * std::uint64_t{o.replicates};
   require(o.max_calls >= least, "integrate: max_calls {} is too few; at least {} are needed", o.max_calls, least);
 
-  Run run{f, static_cast<std::size_t>(outputs), dim, o};
+  IntegrationRun run{f, static_cast<std::size_t>(outputs), dim, o};
   std::optional<Outcome> last;
   Outcome outcome;
   try {
@@ -69,10 +69,10 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
   } catch (const detail::Cancelled&) {
     require(last.has_value(), "integrate: cancelled before anything was estimated");
     outcome = *last;
-    outcome.stop = Stop::cancelled;
+    outcome.stop = StopReason::cancelled;
   }
   for (detail::Round& round : run.rounds)
-    if (round.independent) run.compare(round, outcome.means);
+    if (round.independent) run.add_chi2(round, outcome.means);
   VectorIntegral result{.outputs = {}, .correlations = outcome.correlations};
   for (std::size_t k = 0; k < run.outputs; ++k) {
     Integral r;
@@ -80,9 +80,9 @@ VectorIntegral integrate_unit(const Integrand& f, int outputs, int dim, const In
     r.estimate = detail::estimate(mean, run.calls);
     r.interval = detail::interval(mean, o.confidence);
     r.confidence = o.confidence;
-    r.error_bar = mean.told();
-    r.tail_index = outcome.seen[k].telling_index();
-    r.infinite = outcome.seen[k].infinite;
+    r.error_bar = mean.reported_error_bar();
+    r.tail_index = outcome.diagnostics[k].decisive_tail_index();
+    r.infinite_points = outcome.diagnostics[k].infinite_count;
     r.calls = run.calls;
     r.seconds = run.seconds();
     r.method = outcome.method;
@@ -124,21 +124,21 @@ Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f,
   o.max_calls = count * replicates;
   require_sane(1, dim, o);
   require(f != nullptr, "integrate: the integrand is an empty function; it must be callable");
-  require(count >= 1 && count <= detail::Sequences::longest,
+  require(count >= 1 && count <= detail::ReplicatedSequences::max_length,
           "integrate_rqmc: {} points; between 1 and 2^32 are possible", count);
-  Run run{{.one = &f}, 1, dim, o};
-  detail::Sequences sequences{.purpose = 0, .count = replicates};
+  IntegrationRun run{{.one = &f}, 1, dim, o};
+  detail::ReplicatedSequences sequences{.stream_id = 0, .count = replicates};
   const detail::Mean mean = sequences.extend(run, count).front();
   Integral result;
   result.estimate = detail::estimate(mean, run.calls);
   result.interval = detail::interval(mean, o.confidence);
   result.confidence = o.confidence;
-  result.error_bar = mean.told();
-  result.tail_index = sequences.seen().front().tail_index();
-  result.infinite = sequences.seen().front().infinite;
+  result.error_bar = mean.reported_error_bar();
+  result.tail_index = sequences.diagnostics().front().tail_index();
+  result.infinite_points = sequences.diagnostics().front().infinite_count;
   result.calls = run.calls;
   result.method = Method::rqmc;
-  result.stop = Stop::max_calls;
+  result.stop = StopReason::max_calls;
   result.seconds = run.seconds();
   return result;
 }

@@ -16,10 +16,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least = std::numeric_limits<double>::denorm_min(); // a mean below it need not be 0
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-constexpr double jump_share = 0.75, unseen_share = 1.5; // of one step of one replicate, in standard errors
-constexpr double light = 8;                             // a tail of this index shows in no error
-constexpr double skewed = 1;                            // replicates that met something large, or did not
-constexpr std::size_t memory = 4;                       // lengths that any jump is remembered for
+constexpr double jump_share = 0.75, constant_share = 1.5; // of one step of one replicate, in standard errors
+constexpr double light_tail_index = 8;                             // a tail of this index shows in no error
+constexpr double large_skewness = 1;                            // replicates that met something large, or did not
+constexpr std::size_t remembered_lengths = 4;                       // lengths that any jump is remembered for
 
 // The jump that sets replicates apart: the widest gap between neighbours, if it is wider than those of a smooth
 // distribution or all of them lie in two narrow clusters.
@@ -40,7 +40,7 @@ Gap widest_gap(std::vector<double> sorted, double deviation) {
 
 // The highest jump that is one of the integrand beyond doubt: two lengths showed it to a half, while the gaps between
 // replicates of what has none shrink with their error, or one did by two narrow clusters.
-double established(const std::vector<Evidence::Jump>& jumps) {
+double established_jump(const std::vector<ReplicateHistory::Jump>& jumps) {
   double highest = 0;
   for (const auto& one : jumps)
     for (const auto& other : jumps) {
@@ -53,75 +53,75 @@ double established(const std::vector<Evidence::Jump>& jumps) {
 // The highest jump that replicates came to agree on: where their deviation fell with the number of points, as across a
 // jump, for three lengths, and then at once by far more, so that all of them have as many points beyond it. They were
 // of two values before, and deviated by half of what these differ by at most.
-double hidden_jump(const std::vector<double>& spreads) {
+double hidden_jump(const std::vector<double>& scaled_deviations) {
   constexpr double flat = 1.6, at_once = 12;
   double highest = 0;
-  for (std::size_t i = 3; i < spreads.size(); ++i) {
-    const auto before = std::span(spreads).subspan(i - 3, 3);
+  for (std::size_t i = 3; i < scaled_deviations.size(); ++i) {
+    const auto before = std::span(scaled_deviations).subspan(i - 3, 3);
     const auto [low, high] = std::minmax_element(before.begin(), before.end());
-    if (*high <= flat * *low && before[2] > at_once * spreads[i]) highest = std::max(highest, 2 * before[2]);
+    if (*high <= flat * *low && before[2] > at_once * scaled_deviations[i]) highest = std::max(highest, 2 * before[2]);
   }
   return highest;
 }
 
-bool much_unmet(const Mean& m) { return std::abs(m.unmet) > std::abs(m.value) / 16; }
-double whole_error(const Mean& m) { return much_unmet(m) ? std::hypot(m.error, m.unmet) : m.error; }
+bool tail_bound_is_large(const Mean& m) { return std::abs(m.unsampled_tail_bound) > std::abs(m.value) / 16; }
+double total_error(const Mean& m) { return tail_bound_is_large(m) ? std::hypot(m.error, m.unsampled_tail_bound) : m.error; }
 } // namespace
 
 double ulp(double mean) { return std::numeric_limits<double>::epsilon() * std::abs(mean); }
 
 Estimate estimate(const Mean& m, std::uint64_t calls) {
-  return Estimate::student(m.value, m.told() == ErrorBar::known ? whole_error(m) : infinity, m.dof, calls);
+  return Estimate::from_student_t(m.value, m.reported_error_bar() == ErrorBar::known ? total_error(m) : infinity, m.dof, calls);
 }
 
 Estimate::Interval interval(const Mean& m, double confidence) {
-  if (m.told() != ErrorBar::known) return {-infinity, infinity};
+  if (m.reported_error_bar() != ErrorBar::known) return {-infinity, infinity};
   const Estimate::Interval plain = estimate(m, 0).interval(confidence);
   if (!(m.error > 0)) return plain;
-  const double t = (plain.hi - plain.lo) / (2 * whole_error(m)), shift = m.skew * m.error * (1 + 2 * t * t),
-               unmet = much_unmet(m) ? 0 : m.unmet;
-  return {plain.lo + std::min(shift, 0.0) + std::min(unmet, 0.0),
-          plain.hi + std::max(shift, 0.0) + std::max(unmet, 0.0)};
+  const double t = (plain.hi - plain.lo) / (2 * total_error(m)), shift = m.skew * m.error * (1 + 2 * t * t),
+               unsampled_tail_bound = tail_bound_is_large(m) ? 0 : m.unsampled_tail_bound;
+  return {plain.lo + std::min(shift, 0.0) + std::min(unsampled_tail_bound, 0.0),
+          plain.hi + std::max(shift, 0.0) + std::max(unsampled_tail_bound, 0.0)};
 }
 
-double welch(const Mean& a, const Mean& b) {
+double welch_dof(const Mean& a, const Mean& b) {
   const double largest = std::max(a.error, b.error); // squares of shares neither vanish nor overflow
-  return largest > 0 ? welch_dof(sqr(a.error / largest), a.dof, sqr(b.error / largest), b.dof) : a.dof + b.dof;
+  return largest > 0 ? mc::welch_dof(sqr(a.error / largest), a.dof, sqr(b.error / largest), b.dof) : a.dof + b.dof;
 }
 
-Mean combined(const Mean& a, const Mean& b, double share) {
+Mean combine_independent(const Mean& a, const Mean& b, double share) {
   const Mean mine{a.value, (1 - share) * a.error, a.dof, a.skew}, other{b.value, share * b.error, b.dof, b.skew};
   const double error = std::hypot(mine.error, other.error);
   const auto third = [&](const Mean& m) { return error > 0 ? m.skew * std::pow(m.error / error, 3) : 0.0; };
   return {a.value + share * (b.value - a.value),
           error,
-          welch(mine, other),
+          welch_dof(mine, other),
           third(mine) + third(other),
-          b.bar,
-          b.unmet,
-          a.agreed && b.agreed};
+          b.error_bar,
+          b.unsampled_tail_bound,
+          a.zero_spread && b.zero_spread};
 }
 
-std::optional<double> deviate(const Mean& a, const Mean& b) {
+std::optional<double> z_score(const Mean& a, const Mean& b) {
   const double error = std::hypot(a.error, b.error);
-  if (!(error > 0) || a.bar != ErrorBar::known || b.bar != ErrorBar::known) return {};
+  if (!(error > 0) || a.error_bar != ErrorBar::known || b.error_bar != ErrorBar::known) return {};
   const double t =
       std::abs(a.value - b.value) / std::hypot(error, rounding * std::max(std::abs(a.value), std::abs(b.value)));
-  const double tail = cdf(complement(boost::math::students_t(welch(a, b)), t));
+  const double tail = cdf(complement(boost::math::students_t(welch_dof(a, b)), t));
   return quantile(complement(boost::math::normal(), std::max(tail, 1e-300)));
 }
 
-double unmet(const Seen& seen, double error) {
-  const Magnitudes& all = seen.values;
+double unsampled_tail_bound(const IntegrandDiagnostics& diagnostics, double error) {
+  const OctaveHistogram& all = diagnostics.values;
   const double largest = std::max(std::abs(all.lo()), std::abs(all.hi())) / static_cast<double>(all.count());
-  if (seen.tail.empty() || std::isfinite(seen.tail_index()) || error < largest / 2) return 0;
-  const double more = all.beyond();
-  return std::copysign(more > all.mean_size() / 2 ? infinity : more, all.hi() + all.lo());
+  if (diagnostics.tail.empty() || std::isfinite(diagnostics.tail_index()) || error < largest / 2) return 0;
+  const double more = all.extrapolated_tail_mean();
+  return std::copysign(more > all.mean_magnitude() / 2 ? infinity : more, all.hi() + all.lo());
 }
 
-ErrorBar bar_of(const Seen& seen) {
-  if (seen.infinite_variance()) return ErrorBar::infinite_variance;
-  return seen.values.hardly_met() ? ErrorBar::hardly_met : ErrorBar::known;
+ErrorBar error_bar_of(const IntegrandDiagnostics& diagnostics) {
+  if (diagnostics.infinite_variance()) return ErrorBar::infinite_variance;
+  return diagnostics.values.undersampled() ? ErrorBar::undersampled : ErrorBar::known;
 }
 
 double skewness(std::span<const double> numbers) {
@@ -140,7 +140,7 @@ double skew_of_mean(double skewness, double count) {
   return skewness * unbiased / (6 * std::sqrt(count));
 }
 
-Mean replicated(std::span<const double> means, double points, const Seen& seen, Evidence& evidence) {
+Mean mean_of_replicates(std::span<const double> means, double points, const IntegrandDiagnostics& diagnostics, ReplicateHistory& history) {
   const double r = static_cast<double>(means.size());
   double largest = 0;
   for (const double x : means) largest = std::max(largest, std::abs(x));
@@ -152,44 +152,44 @@ Mean replicated(std::span<const double> means, double points, const Seen& seen, 
     m.add(scaled.back());
   }
   const double deviation = std::sqrt(m.variance()), now = std::ldexp(deviation, exponent);
-  const double rounded = std::max(largest, seen.values.mean_size()); // where values cancel, more
-  const bool apart = now > rounding * rounded;
+  const double rounded = std::max(largest, diagnostics.values.mean_magnitude()); // where values cancel, more
+  const bool differ = now > rounding * rounded;
 
-  const Gap gap = apart ? widest_gap(scaled, deviation) : Gap();
-  evidence.jumps.push_back({std::ldexp(gap.width, exponent) * points, gap.narrow, gap.balanced});
-  evidence.spreads.push_back(now * points);
-  double jump = std::max({evidence.step, hidden_jump(evidence.spreads), established(evidence.jumps)});
-  for (std::size_t i = evidence.jumps.size(); i > 0 && i + memory > evidence.jumps.size(); --i)
-    jump = std::max(jump, evidence.jumps[i - 1].height);
+  const Gap gap = differ ? widest_gap(scaled, deviation) : Gap();
+  history.jumps.push_back({std::ldexp(gap.width, exponent) * points, gap.narrow, gap.balanced});
+  history.scaled_deviations.push_back(now * points);
+  double jump = std::max({history.axis_jump, hidden_jump(history.scaled_deviations), established_jump(history.jumps)});
+  for (std::size_t i = history.jumps.size(); i > 0 && i + remembered_lengths > history.jumps.size(); --i)
+    jump = std::max(jump, history.jumps[i - 1].height);
   double step = jump_share * jump;
-  if (apart) evidence.apart = now;
-  if (evidence.apart == 0) {
-    const Magnitudes& all = seen.values;
+  if (differ) history.last_nonzero_deviation = now;
+  if (history.last_nonzero_deviation == 0) {
+    const OctaveHistogram& all = diagnostics.values;
     const double range = all.hi() - all.lo(), size = std::max(std::abs(all.hi()), std::abs(all.lo()));
-    if (size == 0) return {0, 0, r - 1, 0, ErrorBar::unseen};
-    step = std::max(step, range > 1e-9 * size ? jump_share * range : unseen_share * size);
+    if (size == 0) return {0, 0, r - 1, 0, ErrorBar::all_zero};
+    step = std::max(step, range > 1e-9 * size ? jump_share * range : constant_share * size);
   }
   // Under a learned density the values at large hide the tail of the integrand, and that is what few replicates meet.
-  const double index = std::min(seen.tail_index(), seen.values.tail_index());
-  const double shown = apart ? now : std::max(now, evidence.apart);
-  const double skewness = apart ? detail::skewness(scaled) : 0.0;
+  const double index = std::min(diagnostics.tail_index(), diagnostics.values.tail_index());
+  const double shown = differ ? now : std::max(now, history.last_nonzero_deviation);
+  const double skewness = differ ? detail::skewness(scaled) : 0.0;
   double width = shown;
-  if ((index < light || std::abs(skewness) > skewed) && evidence.points > 0) {
-    const double fall = 1 - 1 / std::clamp(index, 2.0, light);
-    width = std::max(width, evidence.deviation * std::pow(evidence.points / points, fall));
+  if ((index < light_tail_index || std::abs(skewness) > large_skewness) && history.last_points > 0) {
+    const double decay = 1 - 1 / std::clamp(index, 2.0, light_tail_index);
+    width = std::max(width, history.last_deviation * std::pow(history.last_points / points, decay));
   }
-  evidence.points = points;
-  evidence.deviation = shown;
-  const double beyond = index < 20 ? std::pow(r, 2 / index - 1) : 0;
-  const double spread = width / std::sqrt(r * (1 - std::min(beyond, 0.9)));
+  history.last_points = points;
+  history.last_deviation = shown;
+  const double unsampled_variance_share = index < 20 ? std::pow(r, 2 / index - 1) : 0;
+  const double spread = width / std::sqrt(r * (1 - std::min(unsampled_variance_share, 0.9)));
   const double mean = std::ldexp(m.mean(), exponent);
   return {mean,
           std::max({std::hypot(spread, step / points / r), ulp(rounded), least}),
           r - 1,
           skew_of_mean(skewness, r),
-          bar_of(seen),
+          error_bar_of(diagnostics),
           0,
-          evidence.apart == 0 || seen.constant()};
+          history.last_nonzero_deviation == 0 || diagnostics.constant()};
 }
 
 } // namespace mc::detail

@@ -6,20 +6,20 @@ namespace mc::detail {
 
 // Independent rounds, weighed by the square of their number of points: by the number alone, the early rounds would
 // dominate an error that falls faster than N^-1/2; by the measured variances, the mean would be biased.
-Outcome stratified(Run& run, std::optional<Outcome>& last) {
+Outcome stratified(IntegrationRun& run, std::optional<Outcome>& last) {
   Outcome out{{}, Method::stratified};
   double weight = 0;
-  std::vector<Evidence> evidence;
-  for (std::uint64_t points = std::min<std::uint64_t>(64, run.left() / run.o.replicates), round = 0;; ++round) {
+  std::vector<ReplicateHistory> histories;
+  for (std::uint64_t points = std::min<std::uint64_t>(64, run.calls_left() / run.options.replicates), round = 0;; ++round) {
     std::vector<PointSet> sets;
-    for (std::uint32_t r = 0; r < run.o.replicates; ++r)
-      sets.emplace_back(JitteredBoxes{hash(run.o.seed, round, r), static_cast<std::uint32_t>(points)});
+    for (std::uint32_t r = 0; r < run.options.replicates; ++r)
+      sets.emplace_back(JitteredBoxes{hash(run.options.seed, round, r), static_cast<std::uint32_t>(points)});
     const std::vector<Sums> sums = run.evaluate_all(sets, 0, points);
-    const Means now = run.means(sums, points, evidence, {}, {}, out.seen); // a tail is that of all rounds
+    const Means now = run.means(sums, points, histories, {}, {}, out.diagnostics); // a tail is that of all rounds
     run.record(Method::stratified, now);
-    out.seen.resize(run.outputs);
+    out.diagnostics.resize(run.outputs);
     for (const Sums& s : sums)
-      for (std::size_t k = 0; k < run.outputs; ++k) out.seen[k].merge(s.seen[k]);
+      for (std::size_t k = 0; k < run.outputs; ++k) out.diagnostics[k].merge(s.diagnostics[k]);
     const double square = sqr(static_cast<double>(points)), share = square / (weight + square);
     weight += square;
     const Correlations together = correlations(run.replicate_means(sums));
@@ -27,18 +27,18 @@ Outcome stratified(Run& run, std::optional<Outcome>& last) {
       out.means = now;
       out.correlations = together;
     } else {
-      run.compare(run.rounds.back(), out.means);
-      out.correlations = combined(out.correlations, out.means, together, now, share);
+      run.add_chi2(run.rounds.back(), out.means);
+      out.correlations = combine_independent(out.correlations, out.means, together, now, share);
       for (std::size_t k = 0; k < run.outputs; ++k) {
         // Rounds of zeros only: once something is seen, their error is that of half as many points.
-        if (out.means[k].bar == ErrorBar::unseen) out.means[k].error = 2 * now[k].error;
-        out.means[k] = combined(out.means[k], now[k], share);
+        if (out.means[k].error_bar == ErrorBar::all_zero) out.means[k].error = 2 * now[k].error;
+        out.means[k] = combine_independent(out.means[k], now[k], share);
       }
     }
-    if (run.converged(out.means)) out.stop = Stop::converged;
+    if (run.converged(out.means)) out.stop = StopReason::converged;
     // The last round takes all that is left rather than leave a rest that is too small for another doubling.
-    const std::uint64_t left = std::min<std::uint64_t>(run.left() / run.o.replicates, 0xffffffffu);
-    if (out.stop == Stop::converged || left < points) return out;
+    const std::uint64_t left = std::min<std::uint64_t>(run.calls_left() / run.options.replicates, 0xffffffffu);
+    if (out.stop == StopReason::converged || left < points) return out;
     points = left < 4 * points ? left : 2 * points;
     last = out;
   }

@@ -36,14 +36,14 @@ void ScaledMoments::merge(const ScaledMoments& other) {
 
 double ScaledMoments::mean() const { return std::ldexp(moments_.mean(), exponent_); }
 double ScaledMoments::std_error() const { return std::ldexp(moments_.std_error(), exponent_); }
-double ScaledMoments::variation() const { return std::ldexp(std::sqrt(moments_.variance()), exponent_); }
+double ScaledMoments::std_deviation() const { return std::ldexp(std::sqrt(moments_.variance()), exponent_); }
 
-void Sums::leave_out_infinite(std::span<double> all_values, std::span<const double> volumes, std::uint64_t first) {
+void Sums::zero_infinite_values(std::span<double> all_values, std::span<const double> volumes, std::uint64_t first) {
   for (std::size_t i = 0; i < all_values.size(); ++i) {
     if (!std::isinf(all_values[i])) continue;
     all_values[i] = 0;
-    Seen& output = seen[i % outputs.size()];
-    ++output.infinite;
+    IntegrandDiagnostics& output = diagnostics[i % outputs.size()];
+    ++output.infinite_count;
     output.infinite_volume += volumes[i / outputs.size()];
     if (!first_infinite) first_infinite = first + i / outputs.size();
   }
@@ -68,7 +68,7 @@ void Sums::merge(const Sums& other) {
   }
   for (std::size_t k = 0; k < outputs.size(); ++k) {
     outputs[k].merge(other.outputs[k]);
-    seen[k].merge(other.seen[k]);
+    diagnostics[k].merge(other.diagnostics[k]);
   }
   if (!first_infinite) first_infinite = other.first_infinite;
   batches.resize(std::max(batches.size(), other.batches.size()));
@@ -78,10 +78,10 @@ void Sums::merge(const Sums& other) {
   values.insert(values.end(), other.values.begin(), other.values.end());
 }
 
-std::vector<Seen> seen_in(const std::vector<Sums>& all, std::vector<Seen> before) {
+std::vector<IntegrandDiagnostics> merged_diagnostics(const std::vector<Sums>& all, std::vector<IntegrandDiagnostics> before) {
   for (const Sums& s : all) {
-    before.resize(s.seen.size());
-    for (std::size_t k = 0; k < before.size(); ++k) before[k].merge(s.seen[k]);
+    before.resize(s.diagnostics.size());
+    for (std::size_t k = 0; k < before.size(); ++k) before[k].merge(s.diagnostics[k]);
   }
   return before;
 }

@@ -2,8 +2,8 @@
 /// What the tasks of a run add up.
 
 #include <mc/estimate/moments.h>
-#include <mc/estimate/seen/axis_profile.h>
-#include <mc/estimate/seen/tail.h>
+#include <mc/estimate/diagnostics/axis_profile.h>
+#include <mc/estimate/diagnostics/integrand_diagnostics.h>
 
 #include <cstdint>
 #include <optional>
@@ -22,7 +22,7 @@ class ScaledMoments {
 
   double mean() const;
   double std_error() const;
-  double variation() const; ///< standard deviation of the values
+  double std_deviation() const; ///< standard deviation of the values
   const Moments& moments() const { return moments_; }
 
  private:
@@ -40,14 +40,14 @@ struct Sums {
   static constexpr std::size_t batch_count = 32;
 
   std::vector<ScaledMoments> outputs;
-  std::vector<Seen> seen;
+  std::vector<IntegrandDiagnostics> diagnostics;
   std::vector<double> points = {}, values = {};
   std::vector<ScaledMoments> batches = {};          ///< batch_count for each output
   AxisProfile profile = {};                         ///< of its first points
   std::optional<std::uint64_t> first_infinite = {}; ///< index of the first point where the integrand was
 
   /// Infinite values become 0, of points whose indices start at `first` and which stand for so much of the volume each.
-  void leave_out_infinite(std::span<double> all_values, std::span<const double> volumes, std::uint64_t first);
+  void zero_infinite_values(std::span<double> all_values, std::span<const double> volumes, std::uint64_t first);
 
   /// Values of an output whose indices start at `first`: 32 to a batch, in turn.
   void add_to_batches(std::size_t output, std::span<const double> values, std::uint64_t first, double largest);
@@ -55,6 +55,6 @@ struct Sums {
 };
 
 /// What all of them saw of each output, beside what was seen before.
-std::vector<Seen> seen_in(const std::vector<Sums>& all, std::vector<Seen> before = {});
+std::vector<IntegrandDiagnostics> merged_diagnostics(const std::vector<Sums>& all, std::vector<IntegrandDiagnostics> before = {});
 
 } // namespace mc::detail

@@ -7,10 +7,10 @@
 namespace mc {
 
 VectorIntegral integrate_histogram(const std::function<double(std::span<const double>)>& f, int dim, std::size_t bins,
-                                   const BinOf& bin_of, IntegrateOptions options) {
+                                   const BinFunction& bin_of, IntegrateOptions options) {
   require(f != nullptr && bin_of != nullptr, "integrate: the integrand is an empty function; it must be callable");
   require(bins >= 1 && bins <= 10'000, "integrate: {} bins; between 1 and 10000 are possible", bins);
-  options.watched = bins;
+  options.auxiliary_outputs = bins;
   const VectorIntegrand parts = [&](std::span<const double> u, std::span<double> values) {
     std::fill(values.begin(), values.end(), 0.0);
     values[0] = f(u);
@@ -19,7 +19,7 @@ VectorIntegral integrate_histogram(const std::function<double(std::span<const do
   return integrate_unit(parts, static_cast<int>(1 + bins), dim, options);
 }
 
-std::size_t octave_below(double top, double value, std::size_t bins) {
+std::size_t octave_bin(double top, double value, std::size_t bins) {
   const double size = std::abs(value);
   if (!(size < top)) return 0;
   if (size == 0) return bins - 1;

@@ -1,6 +1,6 @@
 #include <mc/core/error.h>
 #include <mc/estimate/integrate/mean.h>
-#include <mc/estimate/integrate/run.h>
+#include <mc/estimate/integrate/integration_run.h>
 #include <mc/estimate/values/quantiles.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace mc {
 namespace {
 
 // The values of all replicates, each sorted, and all together.
-struct Seen {
+struct ReplicateValues {
   std::vector<std::vector<double>> replicates;
   std::vector<double> all;
 
@@ -23,44 +23,44 @@ struct Seen {
       shares.push_back(static_cast<double>(std::upper_bound(r.begin(), r.end(), t) - r.begin()) /
                        static_cast<double>(r.size()));
     const double inside[] = {0, 1}; // of the values whose mean a share is
-    detail::Seen sizes;
+    detail::IntegrandDiagnostics sizes;
     sizes.values.add(inside);
-    detail::Evidence evidence;
-    return detail::interval(detail::replicated(shares, static_cast<double>(replicates.front().size()), sizes, evidence),
+    detail::ReplicateHistory history;
+    return detail::interval(detail::mean_of_replicates(shares, static_cast<double>(replicates.front().size()), sizes, history),
                             confidence);
   }
 };
 
 // The first value at which one end of the interval of the share is p or more. Both ends grow with t but for chance.
-std::vector<double>::const_iterator first_value(const Seen& seen, double p, double confidence,
+std::vector<double>::const_iterator first_value(const ReplicateValues& sampled, double p, double confidence,
                                                 double Estimate::Interval::*end) {
-  return std::partition_point(seen.all.begin(), seen.all.end(),
-                              [&](double t) { return seen.share(t, confidence).*end < p; });
+  return std::partition_point(sampled.all.begin(), sampled.all.end(),
+                              [&](double t) { return sampled.share(t, confidence).*end < p; });
 }
 
 // Between the first value whose share may be p, and the first whose share is at least that.
-Quantile quantile(const Seen& seen, double p, double confidence) {
+Quantile quantile(const ReplicateValues& sampled, double p, double confidence) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto lo = first_value(seen, p, confidence, &Estimate::Interval::hi);
-  const auto hi = first_value(seen, p, confidence, &Estimate::Interval::lo);
-  const bool may_be_below = seen.share(-infinity, confidence).hi >= p; // of all that was seen
-  const auto rank = static_cast<std::size_t>(std::ceil(p * static_cast<double>(seen.all.size())));
-  const double value = seen.all[std::clamp<std::size_t>(rank, 1, seen.all.size()) - 1];
+  const auto lo = first_value(sampled, p, confidence, &Estimate::Interval::hi);
+  const auto hi = first_value(sampled, p, confidence, &Estimate::Interval::lo);
+  const bool may_be_below = sampled.share(-infinity, confidence).hi >= p; // of all that was seen
+  const auto rank = static_cast<std::size_t>(std::ceil(p * static_cast<double>(sampled.all.size())));
+  const double value = sampled.all[std::clamp<std::size_t>(rank, 1, sampled.all.size()) - 1];
   return {p,
           value,
-          {may_be_below ? -infinity : std::min(*lo, value), hi == seen.all.end() ? infinity : std::max(*hi, value)}};
+          {may_be_below ? -infinity : std::min(*lo, value), hi == sampled.all.end() ? infinity : std::max(*hi, value)}};
 }
 
-Seen seen_by(detail::Run& run, std::uint64_t points) try {
-  Seen seen;
+ReplicateValues sample_replicates(detail::IntegrationRun& run, std::uint64_t points) try {
+  ReplicateValues sampled;
   for (detail::Sums& s :
-       run.evaluate_all(run.sobol_sets(1, 0, run.o.replicates), 0, points, {}, detail::Keep::points)) {
+       run.evaluate_all(run.sobol_sets(1, 0, run.options.replicates), 0, points, {}, detail::Keep::points)) {
     std::sort(s.values.begin(), s.values.end());
-    seen.all.insert(seen.all.end(), s.values.begin(), s.values.end());
-    seen.replicates.push_back(std::move(s.values));
+    sampled.all.insert(sampled.all.end(), s.values.begin(), s.values.end());
+    sampled.replicates.push_back(std::move(s.values));
   }
-  std::sort(seen.all.begin(), seen.all.end());
-  return seen;
+  std::sort(sampled.all.begin(), sampled.all.end());
+  return sampled;
 } catch (const detail::Cancelled&) {
   throw Error("quantiles: cancelled");
 }
@@ -83,11 +83,11 @@ std::vector<Quantile> quantiles(const std::function<double(std::span<const doubl
   settings.seed = o.seed;
   settings.threads = o.threads;
   settings.cancel = o.cancel;
-  detail::Run run{{.one = &f}, 1, dim, settings};
-  require(o.calls <= run.recordable(), "quantiles: {} calls; at most {} values can be kept", o.calls, run.recordable());
-  const Seen seen = seen_by(run, points);
+  detail::IntegrationRun run{{.one = &f}, 1, dim, settings};
+  require(o.calls <= run.max_recorded_calls(), "quantiles: {} calls; at most {} values can be kept", o.calls, run.max_recorded_calls());
+  const ReplicateValues sampled = sample_replicates(run, points);
   std::vector<Quantile> all;
-  for (const double p : probabilities) all.push_back(quantile(seen, p, o.confidence));
+  for (const double p : probabilities) all.push_back(quantile(sampled, p, o.confidence));
   return all;
 }
 

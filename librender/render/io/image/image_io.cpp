@@ -34,7 +34,7 @@ constexpr std::array<Format, 6> known_formats = {{
 }};
 
 template <class Can> const Format& format_of(const std::string& path, std::string_view verb, const Can& can) {
-  const std::string extension = mc::extension_of(path);
+  const std::string extension = mc::lowercase_extension(path);
   std::vector<std::string_view> usable;
   for (const Format& f : known_formats) {
     if (!can(f)) continue;

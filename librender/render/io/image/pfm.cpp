@@ -51,8 +51,8 @@ Image read_pfm(const std::string& path) {
   const std::string bytes = mc::read_file(path);
   std::size_t start = 0;
   const std::string_view magic = word_from(bytes, start);
-  const auto across = mc::number_in(word_from(bytes, start)), down = mc::number_in(word_from(bytes, start)),
-             said = mc::number_in(word_from(bytes, start));
+  const auto across = mc::parse_double(word_from(bytes, start)), down = mc::parse_double(word_from(bytes, start)),
+             said = mc::parse_double(word_from(bytes, start));
   mc::require((magic == "PF" || magic == "Pf") && across && down && said,
               "not a PFM file: it does not start with PF, a size and a scale");
   const auto is_count = [](double n) { return n >= 1 && n <= 0x7fffffff && n == std::floor(n); };

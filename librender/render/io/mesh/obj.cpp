@@ -82,7 +82,7 @@ Vec3d numbers_of(std::size_t line, const Element& element, std::size_t index, st
   for (std::size_t axis = 0; axis < element.axes.size(); ++axis) {
     const std::string_view word = next_word(rest);
     if (word.empty() && axis >= element.needed) break;
-    const std::optional<double> value = mc::number_in(word);
+    const std::optional<double> value = mc::parse_double(word);
     mc::require(value.has_value(), "line {}: {} {} has no number for {}, but '{}'", line, element.name, index,
                 element.axes[axis], word);
     mc::require(std::isfinite(*value), "line {}: {} {} has {} = {}, which is not finite", line, element.name, index,

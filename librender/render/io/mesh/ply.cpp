@@ -98,7 +98,7 @@ class Numbers {
     rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r\n"), rest_.size()));
     mc::require(!rest_.empty(), "the file ends early; copy it whole");
     const std::string_view text = rest_.substr(0, rest_.find_first_of(" \t\r\n"));
-    const std::optional<double> value = mc::number_in(text);
+    const std::optional<double> value = mc::parse_double(text);
     mc::require(value.has_value(), "'{}' is not a number", text);
     rest_.remove_prefix(text.size());
     return *value;

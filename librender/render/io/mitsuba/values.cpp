@@ -97,7 +97,7 @@ double parse_number(const XmlElement& element, const std::string& text) {
   const char *begin = text.data(), *end = begin + text.size();
   while (begin < end && std::isspace(static_cast<unsigned char>(*begin))) ++begin;
   while (end > begin && std::isspace(static_cast<unsigned char>(end[-1]))) --end;
-  const std::optional<double> value = mc::number_in({begin, end});
+  const std::optional<double> value = mc::parse_double({begin, end});
   if (!value || !std::isfinite(*value)) element.fail(fmt::format("'{}' is not a finite number", text));
   return *value;
 }

@@ -22,7 +22,7 @@ mc::AdaptedDensity made(std::uint64_t seed, int dim, std::size_t leaves) {
   return density;
 }
 
-TEST(DensityFile, GivesTheSameBits) {
+TEST(DensityFile, RoundTripKeepsTheBits) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const int dim = 1 + static_cast<int>(seed % 5);
     const mc::AdaptedDensity density = made(seed, dim, seed % 3 * 20);
@@ -43,7 +43,7 @@ std::string refusal(const std::string& text) {
 }
 
 // Every byte changed, every length: each is refused in one line.
-TEST(DensityFile, NoDamagePasses) {
+TEST(DensityFile, DamagedTextIsRejected) {
   const std::string whole = mc::to_text(made(7, 2, 10));
   for (std::size_t i = 0; i < whole.size(); ++i) {
     std::string damaged = whole;
@@ -57,7 +57,7 @@ TEST(DensityFile, NoDamagePasses) {
 }
 
 // What a program that writes its own density may get wrong: the checksum fits.
-TEST(DensityFile, NamesTheLine) {
+TEST(DensityFile, ErrorsNameTheLine) {
   const auto summed = [](const std::string& body) {
     std::uint64_t h = 0xcbf29ce484222325;
     for (const char c : body) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3;

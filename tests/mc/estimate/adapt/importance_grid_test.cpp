@@ -59,7 +59,7 @@ TEST(ImportanceGrid, MapsTheCubeOntoItself) {
   }
 }
 
-TEST(ImportanceGrid, CrowdsWhereTheIntegrandIs) {
+TEST(ImportanceGrid, RefineConcentratesBinsAtLargeValues) {
   const ImportanceGrid grid = learned([](double x) { return x < 0.01 ? 1.0 : 0.0; }, 6);
   std::size_t inside = 0;
   for (const double e : grid.edges(0)) inside += e <= 0.01;
@@ -69,7 +69,7 @@ TEST(ImportanceGrid, CrowdsWhereTheIntegrandIs) {
 // What no point met beside a peak is met by the next: bins widen by steps, of 8^3 at most (the first power of 8 at
 // which these peaks need at most a quarter more bins, whose edges are then shared among 128), and right beside the peak
 // there is far more than the uniform tenth.
-TEST(ImportanceGrid, WidensAwayFromPeaks) {
+TEST(ImportanceGrid, BinsWidenStepwiseAwayFromPeaks) {
   for (const double width : {1e-2, 1e-3}) {
     const ImportanceGrid grid = learned([width](double x) { return std::abs(x - 0.4) < width ? 1.0 : 0.0; }, 12);
     const std::span<const double> e = grid.edges(0);
@@ -95,7 +95,7 @@ TEST(ImportanceGrid, ResolvesAPoleAtZero) {
 // Of a constant there is nothing to learn but the noise of the points: one round of 128 to 8192 random ones, 64 behind
 // each bin. A count of 64 is off by 1/8, its root by 1/16, and the worst of 128 bins by 4 of those. Unpooled, bins
 // without a point get 10.
-TEST(ImportanceGrid, FewPointsTeachNoNoise) {
+TEST(ImportanceGrid, Refine_FewPoints_DoesNotFitNoise) {
   for (const std::size_t points : {128u, 512u, 2048u, 8192u}) {
     const mc::Independent sampler{points};
     ImportanceGrid grid(1);
@@ -113,7 +113,7 @@ TEST(ImportanceGrid, FewPointsTeachNoNoise) {
   }
 }
 
-TEST(ImportanceGrid, NothingSeenNothingLearned) {
+TEST(ImportanceGrid, Refine_AllZero_KeepsTheEdges) {
   const ImportanceGrid grid = learned([](double) { return 0.0; }, 2);
   EXPECT_DOUBLE_EQ(grid.edges(0)[64], 64.0 / ImportanceGrid::bins);
 }

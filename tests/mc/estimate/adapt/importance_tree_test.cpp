@@ -9,8 +9,8 @@
 namespace {
 
 // Values at independent uniform points.
-template <class F> mc::WeightedValues seen(int dim, std::size_t n, F&& f) {
-  mc::WeightedValues s{dim, {}, {}, std::vector<double>(n, 1.0 / static_cast<double>(n))};
+template <class F> mc::WeightedSamples samples_of(int dim, std::size_t n, F&& f) {
+  mc::WeightedSamples s{dim, {}, {}, std::vector<double>(n, 1.0 / static_cast<double>(n))};
   for (std::size_t i = 0; i < n; ++i) {
     for (int d = 0; d < dim; ++d) s.points.push_back(mc::hash_uniform<double>(1, i, d));
     s.values.push_back(f(s.point(i)));
@@ -19,9 +19,9 @@ template <class F> mc::WeightedValues seen(int dim, std::size_t n, F&& f) {
 }
 
 // Either axis alone shows nothing of it: the first cuts gain nothing.
-TEST(ImportanceTree, FindsWhatNoAxisShows) {
+TEST(ImportanceTree, FollowsNonSeparableIntegrand) {
   const auto checks = [](std::span<const double> x) { return (x[0] < 0.5) == (x[1] < 0.5) ? x[2] : 0.0; };
-  const mc::BoxTree tree = mc::importance_tree(seen(3, 8000, checks));
+  const mc::BoxTree tree = mc::importance_tree(samples_of(3, 8000, checks));
   EXPECT_GT(tree.leaves(), 3u);
   const auto density = [&](double x, double y) { return tree.density(tree.leaf_of_x(std::array{x, y, 0.8})); };
   EXPECT_GT(density(0.2, 0.3), 4 * density(0.2, 0.8));
@@ -29,34 +29,34 @@ TEST(ImportanceTree, FindsWhatNoAxisShows) {
 }
 
 // Of noise there is nothing to learn: what one half of the points promises the other does not confirm.
-TEST(ImportanceTree, FollowsNoNoise) {
+TEST(ImportanceTree, DoesNotSplitOnNoise) {
   std::size_t leaves = 0;
   for (std::uint64_t k = 0; k < 20; ++k) {
     std::uint64_t i = 0;
     const auto noise = [&](std::span<const double>) { return 1 + mc::hash_uniform<double>(2, k, i++); };
-    leaves += mc::importance_tree(seen(4, 3000, noise)).leaves();
+    leaves += mc::importance_tree(samples_of(4, 3000, noise)).leaves();
   }
   EXPECT_LE(leaves, 100u); // of 20 trees with up to 90 boxes each
 }
 
-TEST(ImportanceTree, ATenthStaysUniform) {
+TEST(ImportanceTree, KeepsATenthUniform) {
   const auto corner = [](std::span<const double> x) { return x[0] < 0.1 && x[1] < 0.1 ? 1.0 : 0.0; };
-  const mc::BoxTree tree = mc::importance_tree(seen(2, 20'000, corner));
+  const mc::BoxTree tree = mc::importance_tree(samples_of(2, 20'000, corner));
   for (std::size_t leaf = 0; leaf < tree.leaves(); ++leaf) EXPECT_GE(tree.density(leaf), 0.1 - 1e-12);
   EXPECT_GT(tree.density(tree.leaf_of_x(std::array{0.05, 0.05})), 5);
 }
 
 // No point beside the peak says so, but a share of the boxes that hold it is left there.
-TEST(ImportanceTree, WhatLiesBesideAPeakMayBelongToIt) {
+TEST(ImportanceTree, KeepsProbabilityBesideAPeak) {
   const auto corner = [](std::span<const double> x) { return x[0] < 0.1 && x[1] < 0.1 ? 1.0 : 0.0; };
-  const mc::BoxTree tree = mc::importance_tree(seen(2, 20'000, corner));
+  const mc::BoxTree tree = mc::importance_tree(samples_of(2, 20'000, corner));
   const auto density = [&](double x, double y) { return tree.density(tree.leaf_of_x(std::array{x, y})); };
   EXPECT_GT(density(0.15, 0.05), 2 * density(0.9, 0.9));
 }
 
-TEST(ImportanceTree, OfNothingOneBox) {
-  EXPECT_EQ(mc::importance_tree(seen(2, 0, [](std::span<const double>) { return 0.0; })).leaves(), 1u);
-  EXPECT_EQ(mc::importance_tree(seen(2, 5000, [](std::span<const double>) { return 0.0; })).leaves(), 1u);
+TEST(ImportanceTree, NoSamples_GivesOneBox) {
+  EXPECT_EQ(mc::importance_tree(samples_of(2, 0, [](std::span<const double>) { return 0.0; })).leaves(), 1u);
+  EXPECT_EQ(mc::importance_tree(samples_of(2, 5000, [](std::span<const double>) { return 0.0; })).leaves(), 1u);
 }
 
 } // namespace

@@ -10,51 +10,51 @@
 
 namespace {
 
-using mc::detail::Evidence;
+using mc::detail::ReplicateHistory;
 using mc::detail::Mean;
-using mc::detail::replicated;
+using mc::detail::mean_of_replicates;
 
 constexpr std::size_t replicates = 24;
 
-mc::detail::Seen seen(const std::vector<double>& values) {
-  mc::detail::Seen m;
+mc::detail::IntegrandDiagnostics diagnostics_of(const std::vector<double>& values) {
+  mc::detail::IntegrandDiagnostics m;
   m.values.add(values);
   return m;
 }
 
 TEST(Mean, WelchLiesBetweenTheSmallerAndTheSum) {
-  EXPECT_DOUBLE_EQ(mc::detail::welch({0, 1, 10}, {0, 1, 10}), 20);
-  EXPECT_DOUBLE_EQ(mc::detail::welch({0, 1, 10}, {0, 0, 3}), 10);
-  EXPECT_DOUBLE_EQ(mc::detail::welch({0, 0, 10}, {0, 0, 3}), 13);
-  EXPECT_NEAR(mc::detail::welch({0, 1e-300, 10}, {0, 1e-300, 10}), 20, 1e-9); // the squares would underflow
+  EXPECT_DOUBLE_EQ(mc::detail::welch_dof({0, 1, 10}, {0, 1, 10}), 20);
+  EXPECT_DOUBLE_EQ(mc::detail::welch_dof({0, 1, 10}, {0, 0, 3}), 10);
+  EXPECT_DOUBLE_EQ(mc::detail::welch_dof({0, 0, 10}, {0, 0, 3}), 13);
+  EXPECT_NEAR(mc::detail::welch_dof({0, 1e-300, 10}, {0, 1e-300, 10}), 20, 1e-9); // the squares would underflow
 }
 
-TEST(Mean, DeviateIsThatOfANormal) {
+TEST(Mean, ZScoreIsThatOfANormal) {
   // Student's t of many degrees of freedom is the normal.
-  EXPECT_NEAR(mc::detail::deviate({0, std::sqrt(0.5), 1e9}, {2, std::sqrt(0.5), 1e9}).value(), 2, 1e-6);
+  EXPECT_NEAR(mc::detail::z_score({0, std::sqrt(0.5), 1e9}, {2, std::sqrt(0.5), 1e9}).value(), 2, 1e-6);
   // 2.069 is the 97.5 % quantile of 23 degrees of freedom, 1.960 that of the normal.
-  EXPECT_NEAR(mc::detail::deviate({0, 1, 23}, {2.0687, 0, 23}).value(), 1.95996, 1e-4);
-  EXPECT_FALSE(mc::detail::deviate({1, 0, 23}, {2, 0, 23}).has_value());
-  EXPECT_LE(mc::detail::deviate({1, 1e-20, 23}, {1 + 1e-15, 0, 23}).value(), 1); // rounding is no disagreement
-  EXPECT_FALSE(mc::detail::deviate({0, 0, 23, 0, mc::ErrorBar::unseen}, {1, 1, 23}).has_value());
+  EXPECT_NEAR(mc::detail::z_score({0, 1, 23}, {2.0687, 0, 23}).value(), 1.95996, 1e-4);
+  EXPECT_FALSE(mc::detail::z_score({1, 0, 23}, {2, 0, 23}).has_value());
+  EXPECT_LE(mc::detail::z_score({1, 1e-20, 23}, {1 + 1e-15, 0, 23}).value(), 1); // rounding is no disagreement
+  EXPECT_FALSE(mc::detail::z_score({0, 0, 23, 0, mc::ErrorBar::all_zero}, {1, 1, 23}).has_value());
 }
 
-TEST(Mean, CombinesIndependentOnes) {
-  const Mean m = mc::detail::combined({1, 3, 10, 0.2}, {2, 4, 10, 0}, 0.5);
+TEST(Mean, CombineIndependentPropagatesErrorAndSkew) {
+  const Mean m = mc::detail::combine_independent({1, 3, 10, 0.2}, {2, 4, 10, 0}, 0.5);
   EXPECT_EQ(m.value, 1.5);
   EXPECT_DOUBLE_EQ(m.error, 2.5);
   EXPECT_DOUBLE_EQ(m.skew, 0.2 * std::pow(0.6, 3));
 }
 
-TEST(Mean, NoBarNoInterval) {
-  for (const auto bar : {mc::ErrorBar::unseen, mc::ErrorBar::infinite_variance}) {
+TEST(Mean, UnknownErrorBar_IntervalIsInfinite) {
+  for (const auto bar : {mc::ErrorBar::all_zero, mc::ErrorBar::infinite_variance}) {
     const Mean m{1, 0.1, 23, 0, bar};
     EXPECT_EQ(mc::detail::estimate(m, 1).std_error, std::numeric_limits<double>::infinity());
     EXPECT_EQ(mc::detail::interval(m, 0.95).lo, -std::numeric_limits<double>::infinity());
   }
 }
 
-TEST(Mean, WhatWasNotMetWidensTheBarOrWithdrawsIt) {
+TEST(Mean, UnsampledTailBound_WidensTheIntervalOrMakesTheErrorUnknown) {
   const Mean met{-10, 0.1, 23}, little{-10, 0.1, 23, 0, mc::ErrorBar::known, -0.2},
       much{-10, 0.1, 23, 0, mc::ErrorBar::known, -2};
   const auto inside = mc::detail::interval(met, 0.95), beside = mc::detail::interval(little, 0.95);
@@ -65,22 +65,22 @@ TEST(Mean, WhatWasNotMetWidensTheBarOrWithdrawsIt) {
               1e-9);
   EXPECT_LT(mc::detail::interval(much, 0.95).lo, -14);
   const Mean most{-10, 0.1, 23, 0, mc::ErrorBar::known, -std::numeric_limits<double>::infinity()};
-  EXPECT_EQ(most.told(), mc::ErrorBar::hardly_met);
+  EXPECT_EQ(most.reported_error_bar(), mc::ErrorBar::undersampled);
   EXPECT_EQ(mc::detail::interval(most, 0.95).hi, std::numeric_limits<double>::infinity());
 }
 
 // A density that follows a part of the integrand: sixteen values that fall off with an index of 1.
-TEST(Mean, UnmetIsToldByFewLargeValuesOfALearnedDensity) {
+TEST(Mean, UnsampledTailBound_FewLargeValuesOfALearnedDensity_IsInfinite) {
   std::vector<double> values(5000, 1.0), volumes(5000, 1.0);
   for (int octave = 0; octave < 5; ++octave) // 1, 2, 4, 8, 16 of 2048, 1024, ... 128
     for (int i = 0; i < 1 << octave; ++i)
       values[static_cast<std::size_t>((1 << octave) + i)] = -std::ldexp(2048.0, -octave);
-  mc::detail::Seen bare = seen(values), learned = bare;
+  mc::detail::IntegrandDiagnostics baseline = diagnostics_of(values), learned = baseline;
   learned.tail.add(values, volumes);
-  EXPECT_EQ(mc::detail::unmet(bare, 1), 0);
+  EXPECT_EQ(mc::detail::unsampled_tail_bound(baseline, 1), 0);
   const double largest = 2048.0 / 5000; // of a mean size of 3
-  EXPECT_EQ(mc::detail::unmet(learned, largest), -std::numeric_limits<double>::infinity());
-  EXPECT_EQ(mc::detail::unmet(learned, largest / 3), 0); // replicates agree too well for that
+  EXPECT_EQ(mc::detail::unsampled_tail_bound(learned, largest), -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(mc::detail::unsampled_tail_bound(learned, largest / 3), 0); // replicates agree too well for that
 }
 
 TEST(Mean, SkewOfAMean) {
@@ -93,50 +93,50 @@ TEST(Mean, SkewOfAMean) {
   EXPECT_NEAR(mc::detail::skew_of_mean(0.6, 1e6), 1e-4, 1e-8);
 }
 
-TEST(Replicated, EqualReplicatesHaveAnError) {
-  Evidence evidence;
+TEST(MeanOfReplicates, EqualReplicatesHaveAnError) {
+  ReplicateHistory history;
   const std::vector<double> halves(replicates, 0.5);
-  const Mean step = replicated(halves, 64, seen({0, 1, 1, 0}), evidence);
+  const Mean step = mean_of_replicates(halves, 64, diagnostics_of({0, 1, 1, 0}), history);
   EXPECT_DOUBLE_EQ(step.error, 0.75 / 64 / replicates);
-  Evidence other;
-  const Mean constant = replicated(halves, 64, seen({0.5, 0.5}), other);
+  ReplicateHistory other;
+  const Mean constant = mean_of_replicates(halves, 64, diagnostics_of({0.5, 0.5}), other);
   // 95 % bound of the rule of three on the mass of what was not seen, times the size seen: 3 / N of it.
   const mc::Estimate::Interval i = mc::detail::interval(constant, 0.95);
   EXPECT_NEAR(i.hi - 0.5, 0.5 * 3 / (64 * replicates), 0.05 * (i.hi - 0.5));
-  Evidence nothing;
-  EXPECT_EQ(replicated(std::vector<double>(replicates, 0.0), 64, seen({0, 0}), nothing).bar, mc::ErrorBar::unseen);
+  ReplicateHistory nothing;
+  EXPECT_EQ(mean_of_replicates(std::vector<double>(replicates, 0.0), 64, diagnostics_of({0, 0}), nothing).error_bar, mc::ErrorBar::all_zero);
 }
 
-TEST(Replicated, NoRunEndsOnThoseThatNeverDiffered) {
-  Evidence evidence;
+TEST(MeanOfReplicates, IdenticalReplicates_SetZeroSpread) {
+  ReplicateHistory history;
   std::vector<double> means(replicates, 0.5);
-  const Mean equal = replicated(means, 64, seen({0, 1}), evidence);
-  EXPECT_TRUE(equal.agreed);
+  const Mean equal = mean_of_replicates(means, 64, diagnostics_of({0, 1}), history);
+  EXPECT_TRUE(equal.zero_spread);
   means[3] += 0.01;
-  const Mean apart = replicated(means, 128, seen({0, 1}), evidence);
-  EXPECT_FALSE(apart.agreed);
-  EXPECT_FALSE(replicated(std::vector<double>(replicates, 0.5), 256, seen({0, 1}), evidence).agreed);
-  EXPECT_TRUE(mc::detail::combined(equal, equal, 0.5).agreed);
-  EXPECT_FALSE(mc::detail::combined(equal, apart, 0.5).agreed);
+  const Mean apart = mean_of_replicates(means, 128, diagnostics_of({0, 1}), history);
+  EXPECT_FALSE(apart.zero_spread);
+  EXPECT_FALSE(mean_of_replicates(std::vector<double>(replicates, 0.5), 256, diagnostics_of({0, 1}), history).zero_spread);
+  EXPECT_TRUE(mc::detail::combine_independent(equal, equal, 0.5).zero_spread);
+  EXPECT_FALSE(mc::detail::combine_independent(equal, apart, 0.5).zero_spread);
 }
 
 // Steps of random heights at random places beside a smooth part that is soon exact: each replicate has one point more
 // or none beyond the step, and where the place is close to a multiple of 1 / points, all have as many. As long as jumps
 // were forgotten after four lengths 16 of 2000 runs were beyond ten of their errors. A few are left, whose steps showed
 // at one length alone.
-TEST(Replicated, RememberTheJumpThatTheyAgreeOn) {
+TEST(MeanOfReplicates, RemembersAJumpThatReplicatesAgreeOn) {
   int beyond = 0;
   for (std::uint64_t run = 0; run < 2000; ++run) {
     mc::Pcg random(run);
     const double place = random.uniform<double>(), height = std::pow(10, -3 * random.uniform<double>());
-    Evidence evidence;
+    ReplicateHistory history;
     Mean m;
     for (double points = 16; points <= 16384; points *= 2) {
       std::vector<double> means;
       for (std::size_t r = 0; r < replicates; ++r)
         means.push_back(height * std::floor(place * points + random.uniform<double>()) / points +
                         (random.uniform<double>() - 0.5) * std::pow(points, -2.5));
-      m = replicated(means, points, seen({0, 1}), evidence);
+      m = mean_of_replicates(means, points, diagnostics_of({0, 1}), history);
     }
     beyond += std::abs(m.value - height * place) > 10 * m.error;
   }
@@ -145,58 +145,58 @@ TEST(Replicated, RememberTheJumpThatTheyAgreeOn) {
 
 // A step of 4.4 whose integral is .009: replicates that agree differ by the rounding of their sums, which is that of
 // the values and not that of their mean.
-TEST(Replicated, RoundingOfWhatCancelsIsNoSpread) {
-  Evidence evidence;
+TEST(MeanOfReplicates, RoundingByCancellationIsNotSpread) {
+  ReplicateHistory history;
   std::vector<double> means(replicates, 0.009);
   for (std::size_t i = 0; i < replicates; i += 2) means[i] += 4e-16;
-  const Mean m = replicated(means, 1024, seen({3, -1.4, -1.4}), evidence);
+  const Mean m = mean_of_replicates(means, 1024, diagnostics_of({3, -1.4, -1.4}), history);
   EXPECT_NEAR(m.error, 0.75 * 4.4 / 1024 / replicates, 1e-9);
 }
 
-TEST(Replicated, ThoseThatCameToAgreeKeepWhatTheyLastShowed) {
-  Evidence evidence;
+TEST(MeanOfReplicates, IdenticalAfterSpread_KeepsTheLastDeviation) {
+  ReplicateHistory history;
   std::vector<double> means(replicates, 0.5);
   for (std::size_t i = 0; i < replicates; ++i) means[i] += 1e-13 * static_cast<double>(i);
-  const double before = replicated(means, 64, seen({0, 0.5, 1}), evidence).error;
+  const double before = mean_of_replicates(means, 64, diagnostics_of({0, 0.5, 1}), history).error;
   EXPECT_LT(before, 2e-13);
   for (const double points : {128.0, 256.0})
-    EXPECT_NEAR(replicated(std::vector<double>(replicates, 0.5), points, seen({0, 0.5, 1}), evidence).error, before,
+    EXPECT_NEAR(mean_of_replicates(std::vector<double>(replicates, 0.5), points, diagnostics_of({0, 0.5, 1}), history).error, before,
                 1e-3 * before);
 }
 
 // Where a tail makes an error the mean of two lengths, both may have come to agree.
-TEST(Replicated, ThoseThatCameToAgreeUnderATail) {
+TEST(MeanOfReplicates, IdenticalAfterSpread_HeavyTail_KeepsTheLastDeviation) {
   std::vector<double> values(4096);
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] = std::pow((static_cast<double>(i) + 0.5) / static_cast<double>(values.size()), -1.0 / 3);
-  const mc::detail::Seen cube = seen(values);
+  const mc::detail::IntegrandDiagnostics cube = diagnostics_of(values);
   ASSERT_LT(cube.tail_index(), 5);
-  Evidence evidence;
+  ReplicateHistory history;
   std::vector<double> means(replicates, 1.5);
   for (std::size_t i = 0; i < replicates; ++i) means[i] += 1e-9 * static_cast<double>(i);
   const double before = 1e-9 * std::sqrt((replicates + 1) / 12.0); // a uniform distribution's, of their mean
-  replicated(means, 64, cube, evidence);
+  mean_of_replicates(means, 64, cube, history);
   for (const double points : {128.0, 256.0, 512.0, 1024.0})
-    EXPECT_GE(replicated(std::vector<double>(replicates, 1.5), points, cube, evidence).error, 0.7 * before) << points;
+    EXPECT_GE(mean_of_replicates(std::vector<double>(replicates, 1.5), points, cube, history).error, 0.7 * before) << points;
 }
 
 // Of skewed replicates the next length may just have met nothing large.
-TEST(Replicated, SkewedOnesKeepWhatTheyShowed) {
+TEST(MeanOfReplicates, SkewedReplicates_KeepTheLastDeviation) {
   for (const double size : {1.0, 0.01}) {
-    Evidence evidence;
+    ReplicateHistory history;
     std::vector<double> means(replicates, 1.0);
     means.back() = 1.01;
     for (std::size_t r = 0; r < replicates; ++r) means[r] += 1e-4 * static_cast<double>(r % 5);
-    const mc::detail::Seen light = seen({1, 1.5});
-    const double before = replicated(means, 64, light, evidence).error;
+    const mc::detail::IntegrandDiagnostics light = diagnostics_of({1, 1.5});
+    const double before = mean_of_replicates(means, 64, light, history).error;
     for (double& x : means) x = 1 + size * (x - 1);
-    EXPECT_GE(replicated(means, 128, light, evidence).error, 0.5 * before) << size;
+    EXPECT_GE(mean_of_replicates(means, 128, light, history).error, 0.5 * before) << size;
   }
 }
 
 // Share of 95 % intervals that hold the truth, of 4000.
 double covered(double index, const std::function<double(std::uint64_t, std::vector<double>&)>& draw) {
-  mc::detail::Seen tail;
+  mc::detail::IntegrandDiagnostics tail;
   for (std::uint64_t i = 1; i <= 20'000; ++i)
     tail.values.add(std::vector{index > 0 ? std::pow((static_cast<double>(i) - 0.5) / 20'000, -1 / index)
                                           : 1.0 + 1e-9 * static_cast<double>(i)});
@@ -204,15 +204,15 @@ double covered(double index, const std::function<double(std::uint64_t, std::vect
   for (std::uint64_t i = 0; i < 4000; ++i) {
     std::vector<double> means(replicates);
     const double truth = draw(i, means);
-    Evidence evidence;
-    const mc::Estimate::Interval interval = mc::detail::interval(replicated(means, 1, tail, evidence), 0.95);
+    ReplicateHistory history;
+    const mc::Estimate::Interval interval = mc::detail::interval(mean_of_replicates(means, 1, tail, history), 0.95);
     hits += interval.lo <= truth && truth <= interval.hi;
   }
   return hits / 4000.0;
 }
 
 // Binomial deviation of 4000: .0035. The promise is .93 to .97; what a distribution reaches differs by its shape.
-TEST(Replicated, IntervalsCover) {
+TEST(MeanOfReplicates, IntervalsCover) {
   const auto uniform = [](std::uint64_t i, std::size_t r) { return mc::hash_uniform<double>(8, i, r); };
   const double smooth = covered(0, [&](std::uint64_t i, std::vector<double>& x) {
     for (std::size_t r = 0; r < x.size(); ++r) x[r] = uniform(i, r);
@@ -231,14 +231,14 @@ TEST(Replicated, IntervalsCover) {
 }
 
 // A jump of height 1 at a random place: each replicate has one point more or not, 24 trials of a random probability.
-TEST(Replicated, IntervalsCoverJumps) {
+TEST(MeanOfReplicates, IntervalsCoverJumps) {
   int hits = 0;
   for (std::uint64_t i = 0; i < 4000; ++i) {
     const double p = mc::hash_uniform<double>(9, i);
     std::vector<double> means;
     for (std::uint64_t r = 0; r < replicates; ++r) means.push_back(mc::hash_uniform<double>(10, i, r) < p);
-    Evidence evidence;
-    const mc::Estimate::Interval interval = mc::detail::interval(replicated(means, 1, seen({0, 1}), evidence), 0.95);
+    ReplicateHistory history;
+    const mc::Estimate::Interval interval = mc::detail::interval(mean_of_replicates(means, 1, diagnostics_of({0, 1}), history), 0.95);
     hits += interval.lo <= p && p <= interval.hi;
   }
   EXPECT_GE(hits / 4000.0, 0.93);

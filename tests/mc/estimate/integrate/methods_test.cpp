@@ -16,32 +16,32 @@ const std::function<double(std::span<const double>)> near_pole = [](std::span<co
 };
 
 // Each keeps to its calls, leaves its latest means behind and says which method it was.
-TEST(Methods, KeepToTheCalls) {
+TEST(Methods, DoNotExceedMaxCalls) {
   for (const std::uint64_t calls : {500u, 5000u, 77'777u}) {
     mc::IntegrateOptions o;
     o.max_calls = calls;
     o.rel_error = 0;
     const auto expect = [&](auto method, mc::Method name) {
-      detail::Run run{{.one = &near_pole}, 1, 2, o};
+      detail::IntegrationRun run{{.one = &near_pole}, 1, 2, o};
       std::optional<Outcome> last;
       const Outcome out = method(run, last);
       EXPECT_LE(run.calls, calls);
       EXPECT_GE(run.calls, calls / 2);
       EXPECT_EQ(out.method, name);
-      EXPECT_EQ(out.stop, mc::Stop::max_calls);
+      EXPECT_EQ(out.stop, mc::StopReason::max_calls);
       EXPECT_GT(out.means[0].error, 0);
     };
     expect(plain, mc::Method::plain);
     expect(stratified, mc::Method::stratified);
-    expect([](detail::Run& run, auto& last) { return sequences(run, mc::Method::rqmc, last); }, mc::Method::rqmc);
-    expect([](detail::Run& run, auto& last) { return sequences(run, mc::Method::vegas, last); }, mc::Method::vegas);
-    expect([](detail::Run& run, auto& last) { return sequences(run, mc::Method::tree, last); }, mc::Method::tree);
+    expect([](detail::IntegrationRun& run, auto& last) { return replicated_rqmc(run, mc::Method::rqmc, last); }, mc::Method::rqmc);
+    expect([](detail::IntegrationRun& run, auto& last) { return replicated_rqmc(run, mc::Method::vegas, last); }, mc::Method::vegas);
+    expect([](detail::IntegrationRun& run, auto& last) { return replicated_rqmc(run, mc::Method::tree, last); }, mc::Method::tree);
   }
 }
 
 // Whatever the calls and the replicates: no call too many, and fewer left over than are spent; of up to eight
 // replicates none is missing in the end, of more a third is left.
-TEST(Methods, SpendTheCallsWhateverTheirNumber) {
+TEST(Methods, SpendMostCallsOfAnyBudget) {
   std::mt19937_64 random(20261122);
   for (int i = 0; i < 60; ++i) {
     mc::IntegrateOptions o;
@@ -51,9 +51,9 @@ TEST(Methods, SpendTheCallsWhateverTheirNumber) {
     for (const mc::Method method : {mc::Method::rqmc, mc::Method::vegas, mc::Method::tree, mc::Method::automatic}) {
       SCOPED_TRACE(std::string(mc::name(method)) + ", " + std::to_string(o.max_calls) + " calls, " +
                    std::to_string(o.replicates) + " replicates");
-      detail::Run run{{.one = &near_pole}, 1, 2, o};
+      detail::IntegrationRun run{{.one = &near_pole}, 1, 2, o};
       std::optional<Outcome> last;
-      const Outcome out = sequences(run, method, last);
+      const Outcome out = replicated_rqmc(run, method, last);
       EXPECT_LE(run.calls, o.max_calls);
       EXPECT_GE(run.calls, o.max_calls / 2);
       EXPECT_GE(out.means[0].dof + 1, std::max<double>(std::min(o.replicates, 8u), std::ceil(o.replicates / 3.0)));
@@ -63,7 +63,7 @@ TEST(Methods, SpendTheCallsWhateverTheirNumber) {
 
 // The end of sequences: where the error falls faster than that of independent points fewer and longer ones leave less
 // of it; where it does not, all replicates stay, but for the few seeds where it seems to by chance.
-TEST(Methods, EndWithFewerAndLongerSequencesWhereThatLeavesLess) {
+TEST(Methods, EndWithFewerLongerSequencesWhereVarianceIsLower) {
   const std::function<double(std::span<const double>)> smooth = [](std::span<const double> u) {
     return std::exp(u[0] - 0.3 * u[1]);
   };
@@ -92,31 +92,31 @@ TEST(Methods, EndWithFewerAndLongerSequencesWhereThatLeavesLess) {
   EXPECT_LT(ended, even / 2);
 }
 
-// So few that what was learned cannot be held against bare points: of 48 to 71, 24 more were spent than there are, and
+// So few that what was learned cannot be held against baseline points: of 48 to 71, 24 more were spent than there are, and
 // what was left, a negative number, had no end.
-TEST(Methods, AutoKeepsToFewCalls) {
+TEST(Methods, Automatic_FewCalls_DoesNotExceedMaxCalls) {
   for (std::uint64_t calls = 48; calls <= 200; ++calls) {
     mc::IntegrateOptions o;
     o.max_calls = calls;
-    detail::Run run{{.one = &near_pole}, 1, 2, o};
+    detail::IntegrationRun run{{.one = &near_pole}, 1, 2, o};
     std::optional<Outcome> last;
-    sequences(run, mc::Method::automatic, last);
+    replicated_rqmc(run, mc::Method::automatic, last);
     ASSERT_LE(run.calls, calls);
   }
 }
 
-// A long thin Gaussian that follows no axis, .015 % of the volume: bare points that met none of it have the least
-// variance, and short rounds of learning do not meet the whole of it. Of these seeds auto once ended with bare points
+// A long thin Gaussian that follows no axis, .015 % of the volume: baseline points that met none of it have the least
+// variance, and short rounds of learning do not meet the whole of it. Of these seeds auto once ended with baseline points
 // in 4, and had an error over 10 % in 9. With grids that followed single points 19 of the 24 intervals held, and of 100
 // seeds two were off by 78 and 159 %.
-TEST(Methods, AutoFindsTheWholeOfARidge) {
+TEST(Methods, Automatic_NarrowRidge_FindsTheWholeIntegral) {
   const std::function<double(std::span<const double>)> ridge = [](std::span<const double> u) {
     const double x = u[0] - 0.5, y = u[1] - 0.5, z = u[2] - 0.5, along = (x + 2 * y + 2 * z) / 3;
     const double across2 = x * x + y * y + z * z - along * along;
     return std::exp(-(mc::sqr(along / 0.06) + across2 / mc::sqr(0.006)) / 2);
   };
   const double truth = std::pow(2 * mc::pi<double>, 1.5) * 0.06 * mc::sqr(0.006);
-  int bare = 0, off = 0, covered = 0;
+  int baseline = 0, off = 0, covered = 0;
   double squares = 0;
   for (std::uint64_t seed = 1; seed <= 24; ++seed) {
     mc::IntegrateOptions o;
@@ -124,23 +124,23 @@ TEST(Methods, AutoFindsTheWholeOfARidge) {
     o.max_calls = 100'000;
     o.seed = seed;
     const mc::Integral r = mc::integrate_unit(ridge, 3, o);
-    bare += r.method == mc::Method::rqmc;
+    baseline += r.method == mc::Method::rqmc;
     off += std::abs(r.estimate.value / truth - 1) > 0.1;
     covered += r.interval.lo <= truth && truth <= r.interval.hi;
     squares += mc::sqr(r.estimate.value / truth - 1);
   }
-  EXPECT_EQ(bare, 0);
+  EXPECT_EQ(baseline, 0);
   EXPECT_LE(off, 4);
   EXPECT_GE(covered, 20);                   // 22.8 expected
   EXPECT_LE(std::sqrt(squares / 24), 0.03); // measured .004, and .009 over 100 seeds
 }
 
-TEST(Methods, LearnFindsThePeak) {
+TEST(Methods, LearnDensity_ConcentratesAtThePeak) {
   mc::IntegrateOptions o;
   o.max_calls = 100'000;
-  detail::Run run{{.one = &near_pole}, 1, 2, o};
+  detail::IntegrationRun run{{.one = &near_pole}, 1, 2, o};
   std::optional<Outcome> last;
-  const Learned learned = learn(run, nullptr, last).value();
+  const LearnedDensity learned = learn_density(run, nullptr, last).value();
   ASSERT_TRUE(last.has_value()) << "what to say when cancelled now";
   EXPECT_EQ(last->means[0].value, run.rounds.back().means[0].value);
   EXPECT_FALSE(run.rounds.empty());
@@ -151,25 +151,25 @@ TEST(Methods, LearnFindsThePeak) {
 }
 
 // Of a smooth wave there is nothing to learn that points do not do better.
-TEST(Methods, LearnGivesUp) {
+TEST(Methods, LearnDensity_SmoothIntegrand_ReturnsNothing) {
   const std::function<double(std::span<const double>)> wave = [](std::span<const double> u) {
     return std::cos(0.97 + 2.76 * u[0] + 3.24 * u[1]);
   };
   mc::IntegrateOptions o;
   o.max_calls = 100'000;
-  detail::Run run{{.one = &wave}, 1, 2, o};
-  Sequences bare{.purpose = 0, .count = 24, .record = true};
-  for (std::uint64_t to = 16; to <= 256; to *= 2) bare.extend(run, to);
+  detail::IntegrationRun run{{.one = &wave}, 1, 2, o};
+  ReplicatedSequences baseline{.stream_id = 0, .count = 24, .record = true};
+  for (std::uint64_t to = 16; to <= 256; to *= 2) baseline.extend(run, to);
   std::optional<Outcome> last;
-  EXPECT_FALSE(learn(run, &bare, last).has_value());
+  EXPECT_FALSE(learn_density(run, &baseline, last).has_value());
   EXPECT_FALSE(last.has_value());
   EXPECT_LE(run.calls, 24u * 256 + 5000);
 }
 
-// Bare points of a tail as heavy as this hardly ever know their error, and look good where they met nothing large: by
+// Baseline points of a tail as heavy as this hardly ever know their error, and look good where they met nothing large: by
 // the errors that both showed, learning gave up in 8 of 200 seeds, and auto was ten times as far off as with what the
 // others learned. In these it did.
-TEST(Methods, LearnGivesUpOnlyWhereErrorsAreKnown) {
+TEST(Methods, LearnDensity_UnknownErrors_ReturnsADensity) {
   const std::function<double(std::span<const double>)> corner = [](std::span<const double> u) {
     return std::pow(u[0] * u[1] * u[2] + 1e-300, -0.4);
   };
@@ -178,17 +178,17 @@ TEST(Methods, LearnGivesUpOnlyWhereErrorsAreKnown) {
     o.max_calls = 100'000;
     o.rel_error = 0;
     o.seed = seed;
-    detail::Run run{{.one = &corner}, 1, 3, o};
-    Sequences bare{.purpose = 0, .count = 24, .record = true};
-    for (std::uint64_t to = 16; to <= 256; to *= 2) bare.extend(run, to);
+    detail::IntegrationRun run{{.one = &corner}, 1, 3, o};
+    ReplicatedSequences baseline{.stream_id = 0, .count = 24, .record = true};
+    for (std::uint64_t to = 16; to <= 256; to *= 2) baseline.extend(run, to);
     std::optional<Outcome> last;
-    EXPECT_TRUE(learn(run, &bare, last).has_value()) << seed;
+    EXPECT_TRUE(learn_density(run, &baseline, last).has_value()) << seed;
   }
 }
 
 // What auto tried and gave up costs it less than the replicates that rqmc grows and drops; in 400 other seeds, too.
 // When auto grew them as far it ended with 13 where rqmc had 14, or misjudged how the error falls and kept 30.
-TEST(Methods, AutoEndsWithAsManySequencesAsRqmc) {
+TEST(Methods, Automatic_RqmcChosen_EndsWithAsManySequences) {
   const std::function<double(std::span<const double>)> wave = [](std::span<const double> u) {
     double x = 0.97;
     for (std::size_t i = 0; i < u.size(); ++i) x += (0.3 + 0.1 * static_cast<double>(i)) * u[i];
@@ -211,9 +211,9 @@ TEST(Methods, ReplicatesNeed128PointsEach) {
   for (const auto method : {mc::Method::rqmc, mc::Method::vegas, mc::Method::tree, mc::Method::automatic}) {
     mc::IntegrateOptions o;
     o.rel_error = 0.1;
-    detail::Run run{{.one = &near_pole}, 1, 2, o};
+    detail::IntegrationRun run{{.one = &near_pole}, 1, 2, o};
     std::optional<Outcome> last;
-    EXPECT_EQ(sequences(run, method, last).stop, mc::Stop::converged);
+    EXPECT_EQ(replicated_rqmc(run, method, last).stop, mc::StopReason::converged);
     EXPECT_GE(run.calls, 128u * o.replicates);
   }
 }

@@ -21,17 +21,17 @@ ScaledMoments moments(std::uint64_t seed, int power) {
   return m;
 }
 
-TEST(ScaledMoments, KeepTheErrorOfAnySize) {
+TEST(ScaledMoments, ErrorIsScaleInvariant) {
   const ScaledMoments plain = moments(1, 0);
   for (const int power : {-1000, -600, -200, 200, 600, 1000}) {
     const ScaledMoments m = moments(1, power);
     EXPECT_EQ(m.mean(), std::ldexp(plain.mean(), power));
     EXPECT_EQ(m.std_error(), std::ldexp(plain.std_error(), power));
-    EXPECT_EQ(m.variation(), std::ldexp(plain.variation(), power));
+    EXPECT_EQ(m.std_deviation(), std::ldexp(plain.std_deviation(), power));
   }
 }
 
-TEST(ScaledMoments, MergeAcrossSizes) {
+TEST(ScaledMoments, MergeAcrossScales) {
   for (const int power : {-900, 900}) {
     ScaledMoments zeros_first, zeros_last = moments(2, power);
     std::vector<double> zeros(256);

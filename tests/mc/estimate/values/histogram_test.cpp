@@ -50,13 +50,13 @@ TEST(Histogram, PartsOfAnIntegral) {
 }
 
 TEST(Histogram, OctavesBelowTheTop) {
-  EXPECT_EQ(mc::octave_below(8, 100, 5), 0u);
-  EXPECT_EQ(mc::octave_below(8, -8, 5), 0u);
-  EXPECT_EQ(mc::octave_below(8, 7.99, 5), 1u);
-  EXPECT_EQ(mc::octave_below(8, 4, 5), 1u);
-  EXPECT_EQ(mc::octave_below(8, 3.99, 5), 2u);
-  EXPECT_EQ(mc::octave_below(8, 1e-9, 5), 4u);
-  EXPECT_EQ(mc::octave_below(8, 0, 5), 4u);
+  EXPECT_EQ(mc::octave_bin(8, 100, 5), 0u);
+  EXPECT_EQ(mc::octave_bin(8, -8, 5), 0u);
+  EXPECT_EQ(mc::octave_bin(8, 7.99, 5), 1u);
+  EXPECT_EQ(mc::octave_bin(8, 4, 5), 1u);
+  EXPECT_EQ(mc::octave_bin(8, 3.99, 5), 2u);
+  EXPECT_EQ(mc::octave_bin(8, 1e-9, 5), 4u);
+  EXPECT_EQ(mc::octave_bin(8, 0, 5), 4u);
 }
 
 TEST(Histogram, RefusesNonsense) {
@@ -64,7 +64,7 @@ TEST(Histogram, RefusesNonsense) {
   EXPECT_THROW(mc::integrate_histogram(f, 2, 0, none), mc::Error);
   EXPECT_THROW(mc::integrate_histogram(f, 2, 10, {}), mc::Error);
   const mc::VectorIntegral r = mc::integrate_histogram(f, 2, 3, none, with(mc::Method::rqmc, 1000, 1));
-  EXPECT_EQ(r.outputs[1].error_bar, mc::ErrorBar::unseen);
+  EXPECT_EQ(r.outputs[1].error_bar, mc::ErrorBar::all_zero);
 }
 
 } // namespace

@@ -76,13 +76,13 @@ TEST(Quantiles, OfFewValues) {
   EXPECT_EQ(found[3].value, 6);
 }
 
-TEST(Quantiles, WhatTheCallsCannotTell) {
+TEST(Quantiles, TooFewCalls_IntervalEndIsInfinite) {
   const auto found = mc::quantiles([](Unit u) { return u[0]; }, 1, std::array{1e-6, 1 - 1e-6}, {.calls = 1000});
   EXPECT_EQ(found[0].interval.lo, -std::numeric_limits<double>::infinity());
   EXPECT_EQ(found[1].interval.hi, std::numeric_limits<double>::infinity());
 }
 
-TEST(Quantiles, EndWhenCancelled) {
+TEST(Quantiles, CancelThrows) {
   std::atomic<bool> cancel = false;
   const auto f = [&](Unit u) {
     cancel = true;

@@ -64,7 +64,7 @@ std::optional<Check> test_uniformity(const std::vector<std::array<double, 3>>& p
     const KsTest ks = ks_test(std::move(values), [](double x) { return std::clamp(x, 0.0, 1.0); });
     note(kolmogorov_tail(std::max(ks.d - error, 0.0) * (root + 0.12 + 0.11 / root)), ks.d,
          fmt::format("cumulative distribution of inverted u[{}] differs from uniform by {:.3g} at {:.6g}", a, ks.d,
-                     ks.at));
+                     ks.location));
     moment(mean, 1.0 / 2, 1.0 / 12, 1, fmt::format("mean of u[{}]", a));
     moment(square, 1.0 / 3, 4.0 / 45, 2, fmt::format("mean square of u[{}]", a));
     for (std::size_t b = 0; b < a; ++b) {

@@ -33,7 +33,7 @@ Figure judge(const BsdfView& view, const AnyBsdf::Direction& wo, int n, std::uin
   const std::string where = view.bsdf.format(wo);
   Figure greatest{"white furnace", -1, 0, where};
   for (const Moments& m : white_furnace(view, wo, n, seed)) {
-    const double slack = 5 * m.std_error() + options.tolerance, mean = m.non_finite() ? HUGE_VAL : m.mean();
+    const double slack = 5 * m.std_error() + options.tolerance, mean = m.non_finite_count() ? HUGE_VAL : m.mean();
     if (mean > greatest.value) {
       greatest.value = mean;
       greatest.std_error = m.std_error();

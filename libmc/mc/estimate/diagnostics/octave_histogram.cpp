@@ -1,4 +1,4 @@
-#include <mc/estimate/seen/magnitudes.h>
+#include <mc/estimate/diagnostics/octave_histogram.h>
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 namespace mc {
 
-void Magnitudes::raise(int top) {
+void OctaveHistogram::raise(int top) {
   if (top <= top_) return;
   std::array<std::uint64_t, octaves> moved{};
   for (int i = 0; i < octaves; ++i)
@@ -15,9 +15,9 @@ void Magnitudes::raise(int top) {
   top_ = top;
 }
 
-void Magnitudes::add(std::span<const double> values) {
+void OctaveHistogram::add(std::span<const double> values) {
   for (const double x : values) {
-    const int exponent = exponent_of(x);
+    const int exponent = biased_exponent(x);
     if (exponent == 0x7ff) continue;
     if (exponent > top_) [[unlikely]]
       raise(exponent);
@@ -29,7 +29,7 @@ void Magnitudes::add(std::span<const double> values) {
   }
 }
 
-void Magnitudes::merge(const Magnitudes& other) {
+void OctaveHistogram::merge(const OctaveHistogram& other) {
   if (other.count_ == 0) return;
   lo_ = count_ > 0 ? std::min(lo_, other.lo_) : other.lo_;
   hi_ = count_ > 0 ? std::max(hi_, other.hi_) : other.hi_;
@@ -41,50 +41,50 @@ void Magnitudes::merge(const Magnitudes& other) {
         other.below_[static_cast<std::size_t>(i)];
 }
 
-double Magnitudes::mean_size() const {
+double OctaveHistogram::mean_magnitude() const {
   constexpr int bias = 1023;
   double sum = 0; // in units of the largest octave, so that nothing overflows
   for (int i = 0; i + 1 < octaves; ++i) sum += std::ldexp(static_cast<double>(below_[static_cast<std::size_t>(i)]), -i);
   return sum > 0 ? std::ldexp(sum / static_cast<double>(count_), top_ - bias) : 0.0;
 }
 
-double Magnitudes::Largest::index() const {
-  const std::uint64_t steps = (octaves - 1) * count - places; // above the threshold, summed
+double OctaveHistogram::Largest::index() const {
+  const std::uint64_t steps = (octaves - 1) * count - octave_sum; // above the threshold, summed
   if (count == 0 || steps == 0) return std::numeric_limits<double>::infinity();
   return std::log2(1 + static_cast<double>(count) / static_cast<double>(steps));
 }
 
 // The last octave also holds zeros.
-Magnitudes::Largest Magnitudes::largest(std::uint64_t least) const {
+OctaveHistogram::Largest OctaveHistogram::largest(std::uint64_t least) const {
   Largest found;
   while (found.count < least && found.octaves + 1 < octaves) found.add(below_[found.octaves]);
   return found;
 }
 
-double Magnitudes::tail_index(std::uint64_t least) const {
+double OctaveHistogram::tail_index(std::uint64_t least) const {
   const Largest found = largest(least);
   return found.count < least ? std::numeric_limits<double>::infinity() : found.index();
 }
 
-Magnitudes::Largest Magnitudes::sixteen_largest() const {
+OctaveHistogram::Largest OctaveHistogram::sixteen_largest() const {
   const std::uint64_t least = std::min<std::uint64_t>(16, count_ - zeros_);
   Largest found = largest(least);
   if (found.count < least) found.add(least - found.count);
   return found;
 }
 
-bool Magnitudes::hardly_met() const {
+bool OctaveHistogram::undersampled() const {
   const bool single = zeros_ >= 100 && count_ - zeros_ == 1; // others may be of any size
   return single || sixteen_largest().index() < 0.5;
 }
 
-double Magnitudes::beyond() const {
+double OctaveHistogram::extrapolated_tail_mean() const {
   const double index = std::max(sixteen_largest().index(), 1.1);
   if (std::isinf(index)) return 0;
   return index / (index - 1) * (std::max(std::abs(lo_), std::abs(hi_)) / static_cast<double>(count_));
 }
 
-double Magnitudes::tail_index() const {
+double OctaveHistogram::tail_index() const {
   const double few = tail_index(few_largest()), many = tail_index(many_largest());
   return few > 1.3 * many ? std::numeric_limits<double>::infinity() : few;
 }

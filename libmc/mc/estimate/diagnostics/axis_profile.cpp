@@ -1,5 +1,5 @@
 #include <mc/core/types.h>
-#include <mc/estimate/seen/axis_profile.h>
+#include <mc/estimate/diagnostics/axis_profile.h>
 
 #include <algorithm>
 #include <array>

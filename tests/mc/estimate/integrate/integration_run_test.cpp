@@ -1,4 +1,4 @@
-#include <mc/estimate/integrate/run.h>
+#include <mc/estimate/integrate/integration_run.h>
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@ const std::function<double(std::span<const double>)> weighted_sum = [](std::span
   return u[0] + 2 * u[1];
 };
 
-TEST(Run, SumsEveryPointOnceInAnyCut) {
+TEST(IntegrationRun, SumsEveryPointOnceForAnyPartition) {
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &weighted_sum}, 1, 2, o};
+  detail::IntegrationRun run{{.one = &weighted_sum}, 1, 2, o};
   const std::vector<mc::PointSet> sets = run.sobol_sets(1, 0, 3);
   auto whole = run.evaluate_all(sets, 0, 10'000), parts = run.evaluate_all(sets, 0, 300);
   const auto rest = run.evaluate_all(sets, 300, 9700);
@@ -21,16 +21,16 @@ TEST(Run, SumsEveryPointOnceInAnyCut) {
     parts[r].merge(rest[r]);
     EXPECT_EQ(parts[r].outputs[0].moments().count(), whole[r].outputs[0].moments().count());
     EXPECT_NEAR(parts[r].outputs[0].mean(), whole[r].outputs[0].mean(), 1e-14);
-    EXPECT_NEAR(parts[r].outputs[0].variation(), whole[r].outputs[0].variation(), 1e-13);
+    EXPECT_NEAR(parts[r].outputs[0].std_deviation(), whole[r].outputs[0].std_deviation(), 1e-13);
   }
 }
 
-TEST(Run, MeansAreThoseOfTheReplicates) {
+TEST(IntegrationRun, MeansAreThoseOfTheReplicates) {
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &weighted_sum}, 1, 2, o};
+  detail::IntegrationRun run{{.one = &weighted_sum}, 1, 2, o};
   const auto sums = run.evaluate_all(run.sobol_sets(1, 0, 24), 0, 100);
-  std::vector<mc::detail::Evidence> evidence;
-  const mc::detail::Mean mean = run.means(sums, 100, evidence)[0];
+  std::vector<mc::detail::ReplicateHistory> histories;
+  const mc::detail::Mean mean = run.means(sums, 100, histories)[0];
   mc::Moments m;
   for (const auto& s : sums) m.add(s.outputs[0].mean());
   EXPECT_DOUBLE_EQ(mean.value, m.mean());
@@ -39,31 +39,31 @@ TEST(Run, MeansAreThoseOfTheReplicates) {
 }
 
 // Both parts of the mixture with their shares, and what was subtracted added again, are the integral for any grid.
-TEST(Run, TheMixtureIsUnbiased) {
+TEST(IntegrationRun, MixtureIsUnbiased) {
   mc::AdaptedDensity density{mc::ImportanceGrid(2)};
   std::vector<double> power(2 * mc::ImportanceGrid::bins, 1e-3);
   for (std::size_t i = 0; i < 20; ++i) power[i] = power[200 + i] = 1; // where the integrand is not
   density.grid.refine(power, 100'000);
-  const std::vector<mc::TreeNode> nodes = {
-      {0, 0.3}, {mc::TreeNode::leaf, 5}, {1, 0.6}, {mc::TreeNode::leaf, 1}, {mc::TreeNode::leaf, 2}};
+  const std::vector<mc::BoxTreeNode> nodes = {
+      {0, 0.3}, {mc::BoxTreeNode::leaf, 5}, {1, 0.6}, {mc::BoxTreeNode::leaf, 1}, {mc::BoxTreeNode::leaf, 2}};
   density.tree = mc::BoxTree(2, nodes);
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &weighted_sum}, 1, 2, o};
+  detail::IntegrationRun run{{.one = &weighted_sum}, 1, 2, o};
   mc::detail::Proposal proposal{
-      std::make_shared<mc::AdaptedDensity>(density), {0.7}, mc::detail::Proposal::Part::of_density};
+      std::make_shared<mc::AdaptedDensity>(density), {0.7}, mc::detail::Proposal::Part::density};
   const auto of_density = run.evaluate_all(run.sobol_sets(1, 0, 24), 0, 4096, proposal);
-  proposal.part = mc::detail::Proposal::Part::of_uniform;
+  proposal.part = mc::detail::Proposal::Part::uniform;
   const auto of_uniform = run.evaluate_all(run.sobol_sets(2, 0, 24), 0, 512, proposal);
-  std::vector<mc::detail::Evidence> evidence;
-  const mc::detail::Mean mean = run.means(of_density, 4096, evidence, of_uniform, proposal)[0];
+  std::vector<mc::detail::ReplicateHistory> histories;
+  const mc::detail::Mean mean = run.means(of_density, 4096, histories, of_uniform, proposal)[0];
   EXPECT_GT(mean.error, 0);
   EXPECT_LE(mean.error, 0.01);
   EXPECT_NEAR(mean.value, 1.5, 5 * mean.error);
 }
 
-TEST(Run, RecordsPointsAndValues) {
+TEST(IntegrationRun, RecordsPointsAndValues) {
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &weighted_sum}, 1, 2, o};
+  detail::IntegrationRun run{{.one = &weighted_sum}, 1, 2, o};
   const auto sums = run.evaluate_all(run.sobol_sets(1, 0, 2), 0, 5000, {}, detail::Keep::points);
   for (const auto& s : sums) {
     ASSERT_EQ(s.points.size(), 10'000u);
@@ -73,9 +73,9 @@ TEST(Run, RecordsPointsAndValues) {
   EXPECT_TRUE(run.evaluate_all(run.sobol_sets(1, 0, 1), 0, 10)[0].points.empty());
 }
 
-TEST(Run, ReplicatesAndPurposesDiffer) {
+TEST(IntegrationRun, ReplicatesAndStreamsDiffer) {
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &weighted_sum}, 1, 2, o};
+  detail::IntegrationRun run{{.one = &weighted_sum}, 1, 2, o};
   const auto a = run.evaluate_all(run.sobol_sets(1, 0, 2), 0, 100),
              b = run.evaluate_all(run.sobol_sets(2, 0, 1), 0, 100);
   EXPECT_NE(a[0].outputs[0].mean(), a[1].outputs[0].mean());
@@ -85,12 +85,12 @@ TEST(Run, ReplicatesAndPurposesDiffer) {
 }
 
 // What x^-1/2 is added to is known to within its own least value; of what has no tail, or is all tail, nothing is.
-TEST(Run, FindsTheConstantThatATailIsAddedTo) {
+TEST(IntegrationRun, FindsTailOffsets) {
   const auto floors_of = [](const std::function<double(std::span<const double>)>& f) {
     mc::IntegrateOptions o;
-    mc::detail::Run run{{.one = &f}, 1, 1, o};
+    mc::detail::IntegrationRun run{{.one = &f}, 1, 1, o};
     run.evaluate_all(run.sobol_sets(0, 0, 24), 0, 16);
-    return run.floors.front();
+    return run.tail_offsets.front();
   };
   for (const double base : {-5.0, 1.0, 100.0}) {
     const auto up = floors_of([=](std::span<const double> u) { return base + 1 / std::sqrt(u[0]); });
@@ -109,7 +109,7 @@ TEST(Run, FindsTheConstantThatATailIsAddedTo) {
 
 // A constant does not hide a tail whose variance is infinite: 30 of 40 runs at least name it, of x^-3/4 all but one,
 // where one and seven did if only f itself was looked at. Nor is exp(-3 sum x) taken for such a tail.
-TEST(Run, AConstantHidesNoTail) {
+TEST(IntegrationRun, TailPlusConstant_InfiniteVarianceIsDetected) {
   int root = 0, steep = 0, light = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const auto is_infinite = [&](int dim, const std::function<double(std::span<const double>)>& f) {

@@ -1,5 +1,5 @@
 #include <mc/core/types.h>
-#include <mc/estimate/seen/tail.h>
+#include <mc/estimate/diagnostics/tail_index_estimator.h>
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ constexpr double growth = 0.06, growth_of_uniform = 0.14;
 // stand for a volume is known from the points that were seen in each octave; above the highest of these, it is taken
 // from that one. The index is right where the mean number of a point's octave is what the law makes it: the maximum of
 // the likelihood.
-class Tail::Fit {
+class TailIndexEstimator::Fit {
  public:
   bool known = false; // enough values were met to say what the index is
   double points = 0;
@@ -46,7 +46,7 @@ class Tail::Fit {
   // Standard error of the index, if it is 2.
   double error() const { return 1 / (std::log(2.0) * std::sqrt(points * moments(borderline).variance)); }
   // How much farther out the points lie than for an index of 2, in standard deviations.
-  double farther() const {
+  double excess_z_score() const {
     const Moments m = moments(borderline);
     return (sum_ / points - m.mean) / std::sqrt(m.variance / points);
   }
@@ -97,54 +97,54 @@ class Tail::Fit {
   Octave all_, last_;
 };
 
-Tail::Tail(const Magnitudes& values) : top_(values.top()), uniform_(true) {
-  for (const std::uint64_t n : values.counts()) seen_.push_back({static_cast<double>(n), static_cast<double>(n)});
+TailIndexEstimator::TailIndexEstimator(const OctaveHistogram& values) : top_(values.top_exponent()), uniform_(true) {
+  for (const std::uint64_t n : values.counts()) octave_volumes_.push_back({static_cast<double>(n), static_cast<double>(n)});
 }
 
-void Tail::raise(int top) {
-  seen_.resize(octaves);
+void TailIndexEstimator::raise(int top) {
+  octave_volumes_.resize(octaves);
   if (top <= top_) return;
   std::vector<Octave> moved(octaves);
   for (int i = 0; i < octaves; ++i) {
-    moved[static_cast<std::size_t>(std::min(i + (top - top_), octaves - 1))] += seen_[static_cast<std::size_t>(i)];
+    moved[static_cast<std::size_t>(std::min(i + (top - top_), octaves - 1))] += octave_volumes_[static_cast<std::size_t>(i)];
   }
-  seen_ = std::move(moved);
+  octave_volumes_ = std::move(moved);
   top_ = top;
 }
 
-void Tail::add(std::span<const double> values, std::span<const double> volumes) {
+void TailIndexEstimator::add(std::span<const double> values, std::span<const double> volumes) {
   raise(top_);
   uniform_ = volumes.empty();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const int exponent = Magnitudes::exponent_of(values[i]);
+    const int exponent = OctaveHistogram::biased_exponent(values[i]);
     if (exponent == 0x7ff) continue;
     if (exponent > top_) [[unlikely]]
       raise(exponent);
-    Octave& octave = seen_[static_cast<std::size_t>(std::min(top_ - exponent, octaves - 1))];
+    Octave& octave = octave_volumes_[static_cast<std::size_t>(std::min(top_ - exponent, octaves - 1))];
     const double volume = uniform_ ? 1 : volumes[i];
     octave.volume += volume;
     octave.square += volume * volume;
   }
 }
 
-void Tail::merge(const Tail& other) {
+void TailIndexEstimator::merge(const TailIndexEstimator& other) {
   if (other.empty()) return;
   uniform_ = other.uniform_ && (uniform_ || empty());
   raise(other.top_);
   for (int i = 0; i < octaves; ++i) {
-    seen_[static_cast<std::size_t>(std::min(i + (top_ - other.top_), octaves - 1))] +=
-        other.seen_[static_cast<std::size_t>(i)];
+    octave_volumes_[static_cast<std::size_t>(std::min(i + (top_ - other.top_), octaves - 1))] +=
+        other.octave_volumes_[static_cast<std::size_t>(i)];
   }
 }
 
 // To so many of the largest values that an index of 2 has this standard error, or to all that are still a tail.
-Tail::Fit Tail::fit(double error) const {
+TailIndexEstimator::Fit TailIndexEstimator::fit(double error) const {
   double all = 0;
-  for (const Octave& o : seen_) all += o.volume;
+  for (const Octave& o : octave_volumes_) all += o.volume;
   Fit fit;
-  for (std::size_t i = 0; i + 1 < seen_.size(); ++i) {
-    if (fit.volume() + seen_[i].volume > most * all) break;
-    fit.add(seen_[i]);
+  for (std::size_t i = 0; i + 1 < octave_volumes_.size(); ++i) {
+    if (fit.volume() + octave_volumes_[i].volume > most * all) break;
+    fit.add(octave_volumes_[i]);
     if (fit.points > enough && fit.error() <= error) break;
   }
   fit.known = fit.points > enough && fit.error() <= few;
@@ -152,13 +152,13 @@ Tail::Fit Tail::fit(double error) const {
 }
 
 // The more values there are, the more of them: over a wider range it shows whether the index grows.
-Tail::Fit Tail::fit_to_many() const {
+TailIndexEstimator::Fit TailIndexEstimator::fit_to_many() const {
   double points = 0;
-  for (const Octave& o : seen_) points += o.points();
+  for (const Octave& o : octave_volumes_) points += o.points();
   return fit(many * std::min(1.0, std::pow(1e4 / points, 0.2)));
 }
 
-double Tail::index() const {
+double TailIndexEstimator::index() const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Fit largest = fit(few);
   if (!largest.known) return infinity;
@@ -168,9 +168,9 @@ double Tail::index() const {
   return index < 20 && index <= all.index() * grown ? index : infinity;
 }
 
-bool Tail::infinite_variance() const {
+bool TailIndexEstimator::infinite_variance() const {
   const Fit largest = fit(few);
-  if (!largest.known || largest.farther() < -1.5 || fit_to_many().farther() < -1) return false; // in deviations
+  if (!largest.known || largest.excess_z_score() < -1.5 || fit_to_many().excess_z_score() < -1) return false; // in deviations
   return std::isfinite(index());
 }
 

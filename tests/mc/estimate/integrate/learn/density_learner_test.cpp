@@ -1,4 +1,4 @@
-#include <mc/estimate/integrate/learn/learner.h>
+#include <mc/estimate/integrate/learn/density_learner.h>
 
 #include <gtest/gtest.h>
 
@@ -16,15 +16,15 @@ const std::function<double(std::span<const double>)> peaks = [](std::span<const 
   return at(0.25) + at(0.75);
 };
 
-TEST(Learner, FollowsWhatIsNoProduct) {
+TEST(DensityLearner, FollowsNonSeparableIntegrand) {
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &peaks}, 1, 2, o};
-  detail::Learner learner(run);
+  detail::IntegrationRun run{{.one = &peaks}, 1, 2, o};
+  detail::DensityLearner learner(run);
   double widths[4];
   for (std::uint64_t k = 0; k < 4; ++k) {
     const detail::Proposal proposal{.density = std::make_shared<mc::AdaptedDensity>(learner.density())};
     learner.learn(run.evaluate_all(run.sobol_sets(2 + k, 0, 24), 0, 128, proposal, detail::Keep::points));
-    widths[k] = learner.width();
+    widths[k] = learner.log_second_moment();
   }
   EXPECT_LT(widths[3], 0.3 * widths[0]);
   ASSERT_TRUE(learner.density().tree.has_value());
@@ -37,7 +37,7 @@ TEST(Learner, FollowsWhatIsNoProduct) {
 // A product whose few largest values hold most of the mean square: the grid follows it only as far as it has been seen,
 // alike on both sides of the middle, about which it is symmetric. Where single points said more than their neighbours
 // the density was up to 6.5 times as large on one side as on the other.
-TEST(Learner, FollowsNoSinglePoints) {
+TEST(DensityLearner, DoesNotFollowSinglePoints) {
   constexpr std::size_t dim = 20;
   const std::function<double(std::span<const double>)> product = [](std::span<const double> u) {
     double f = 1;
@@ -45,8 +45,8 @@ TEST(Learner, FollowsNoSinglePoints) {
     return f;
   };
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &product}, 1, dim, o};
-  detail::Learner learner(run);
+  detail::IntegrationRun run{{.one = &product}, 1, dim, o};
+  detail::DensityLearner learner(run);
   learner.learn(run.evaluate_all(run.sobol_sets(2, 0, 24), 0, 512, {}, detail::Keep::points));
   std::vector<double> x(dim, 0.5), scratch(dim);
   const auto density = [&](std::size_t axis, double at) {
@@ -64,11 +64,11 @@ TEST(Learner, FollowsNoSinglePoints) {
   EXPECT_LE(largest, 2.5); // measured 2.0
 }
 
-TEST(Learner, NothingSeenNothingLearned) {
+TEST(DensityLearner, AllZero_StaysUniform) {
   const std::function<double(std::span<const double>)> zero = [](std::span<const double>) { return 0.0; };
   mc::IntegrateOptions o;
-  detail::Run run{{.one = &zero}, 1, 2, o};
-  detail::Learner learner(run);
+  detail::IntegrationRun run{{.one = &zero}, 1, 2, o};
+  detail::DensityLearner learner(run);
   for (std::uint64_t k = 0; k < 2; ++k)
     learner.learn(run.evaluate_all(run.sobol_sets(k, 0, 24), 0, 64, {}, detail::Keep::points));
   std::vector<double> scratch(2);

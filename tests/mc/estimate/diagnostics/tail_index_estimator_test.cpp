@@ -1,4 +1,4 @@
-#include <mc/estimate/seen/tail.h>
+#include <mc/estimate/diagnostics/tail_index_estimator.h>
 #include <mc/random/uniform.h>
 
 #include <gtest/gtest.h>
@@ -25,14 +25,14 @@ struct Points {
       volumes.push_back(b == 0 ? 1 : 128 * width);
     }
   }
-  mc::Tail tail(const std::function<double(double)>& f) const {
+  mc::TailIndexEstimator tail(const std::function<double(double)>& f) const {
     std::vector<double> values(x.size());
     std::transform(x.begin(), x.end(), values.begin(), f);
-    mc::Tail t;
+    mc::TailIndexEstimator t;
     if (volumes.front() == 1) {
-      mc::Magnitudes m;
+      mc::OctaveHistogram m;
       m.add(values);
-      return mc::Tail(m);
+      return mc::TailIndexEstimator(m);
     }
     t.add(values, volumes);
     return t;
@@ -45,7 +45,7 @@ std::function<double(double)> power(double p) {
 
 // The standard deviation that is stated, a / 8, over 40 samples, which know it to 11 %; the bound is 2.5 of that
 // beyond, alpha = 1e-2 for each of 9 bounds, with fixed seeds. Points of any density say the same.
-TEST(Tail, IndexOfAPowerWhateverThePointsAreDrawnFrom) {
+TEST(TailIndexEstimator, IndexOfAPowerLawFromAnyDensity) {
   for (const double b : {0.0, 0.4, 0.8})
     for (const double p : {0.3, 0.5, 0.9}) {
       double squares = 0;
@@ -63,7 +63,7 @@ TEST(Tail, IndexOfAPowerWhateverThePointsAreDrawnFrom) {
 
 // Of 40 samples of 10'000 points; the seeds are fixed. A share of 98 % falls below 36 of 40 once in 500 times; on the
 // border, where it is .8, below 24 as often.
-TEST(Tail, InfiniteVarianceIsNamed) {
+TEST(TailIndexEstimator, DetectsInfiniteVariance) {
   for (const double b : {0.0, 0.4, 0.8}) {
     std::vector<Points> samples;
     for (std::uint64_t seed = 0; seed < 40; ++seed) samples.emplace_back(100 + seed, 10'000, b);
@@ -88,19 +88,19 @@ TEST(Tail, InfiniteVarianceIsNamed) {
   }
 }
 
-TEST(Tail, MergedAsAddedAndOfAnySize) {
+TEST(TailIndexEstimator, MergeEqualsAddingAtAnyScale) {
   const Points points(4, 10'000, 0.5);
   std::vector<double> values;
   for (const double x : points.x) values.push_back(std::pow(x, -0.8));
-  mc::Tail plain;
+  mc::TailIndexEstimator plain;
   plain.add(values, points.volumes);
   for (const int size : {-900, 0, 900}) {
     std::vector<double> scaled;
     for (const double v : values) scaled.push_back(-std::ldexp(v, size));
-    mc::Tail whole, parts;
+    mc::TailIndexEstimator whole, parts;
     whole.add(scaled, points.volumes);
     for (std::size_t i = 0; i < 10; ++i) {
-      mc::Tail part;
+      mc::TailIndexEstimator part;
       part.add(std::span(scaled).subspan((9 - i) * 1000, 1000),
                std::span(points.volumes).subspan((9 - i) * 1000, 1000));
       parts.merge(part);
@@ -111,15 +111,15 @@ TEST(Tail, MergedAsAddedAndOfAnySize) {
   }
 }
 
-TEST(Tail, BoundedOrTooFewValuesHaveNone) {
-  EXPECT_EQ(mc::Tail().index(), infinity);
-  EXPECT_FALSE(mc::Tail().infinite_variance());
+TEST(TailIndexEstimator, BoundedOrTooFewValues_IndexIsInfinite) {
+  EXPECT_EQ(mc::TailIndexEstimator().index(), infinity);
+  EXPECT_FALSE(mc::TailIndexEstimator().infinite_variance());
   for (const std::size_t n : {1u, 10u, 1000u})
     for (const double b : {0.0, 0.5})
       for (const auto& f :
            std::vector<std::function<double(double)>>{[](double) { return 0.0; }, [](double) { return 1.0; },
                                                       [](double x) { return x; }, [](double) { return infinity; }}) {
-        const mc::Tail t = Points(5, n, b).tail(f);
+        const mc::TailIndexEstimator t = Points(5, n, b).tail(f);
         EXPECT_FALSE(t.infinite_variance());
         EXPECT_EQ(t.index(), infinity);
       }

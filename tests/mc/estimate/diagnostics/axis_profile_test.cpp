@@ -1,4 +1,4 @@
-#include <mc/estimate/seen/axis_profile.h>
+#include <mc/estimate/diagnostics/axis_profile.h>
 
 #include <mc/estimate/integrate.h>
 #include <mc/random/pcg.h>
@@ -41,7 +41,7 @@ double jump(double (*f)(const Point&), std::size_t points, std::uint64_t seed) {
   return all.jump(0, 2, 24);
 }
 
-TEST(AxisProfile, ShowsJumpsBesideWhatIsSmooth) {
+TEST(AxisProfile, DetectsJumpsBesideASmoothPart) {
   for (const std::size_t points : {16u, 32u, 64u, 128u})
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       const auto n = [&](auto f) { return jump(f, points, seed); };
@@ -52,7 +52,7 @@ TEST(AxisProfile, ShowsJumpsBesideWhatIsSmooth) {
     }
 }
 
-TEST(AxisProfile, HoldsSlopesKinksAndPeaksForNone) {
+TEST(AxisProfile, SlopesKinksAndPeaksAreNotJumps) {
   for (const std::size_t points : {16u, 32u, 64u, 128u})
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       const auto n = [&](auto f) { return jump(f, points, seed); };
@@ -74,7 +74,7 @@ TEST(AxisProfile, SmoothIntegrandsConvergeWhateverTheSeed) {
     o.max_calls = 400'000;
     o.seed = seed;
     const mc::Integral r = mc::integrate_unit([](std::span<const double> u) { return std::exp(u[0] + u[1]); }, 2, o);
-    slow += r.stop != mc::Stop::converged;
+    slow += r.stop != mc::StopReason::converged;
   }
   EXPECT_LE(slow, 1);
 }
@@ -84,7 +84,7 @@ TEST(AxisProfile, IsEmptyWithoutPoints) { EXPECT_EQ(AxisProfile().jump(0, 3, 24)
 // Replicates have as many points before the step in one run of twelve, and only their smooth part differs then: 86 % of
 // these intervals held, and 7 % of the means were six standard errors off. 94 to 95 % hold: 34 of 300 are four
 // deviations beyond 18, alpha = 1e-4; so are 7 beyond 1.
-TEST(AxisProfile, NoJumpHidesBehindWhatIsSmooth) {
+TEST(AxisProfile, JumpPlusSmoothPart_IntervalsCover) {
   int missed = 0, far = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     const double t = 0.02 + 0.96 * mc::Pcg(seed, 9).uniform<double>(), integral = t + t * t / 2;
@@ -93,7 +93,7 @@ TEST(AxisProfile, NoJumpHidesBehindWhatIsSmooth) {
     o.rel_error = 1e-3;
     o.seed = seed;
     const mc::Integral r = mc::integrate_unit([t](std::span<const double> u) { return u[0] < t ? 1 + u[0] : 0; }, 1, o);
-    EXPECT_EQ(r.stop, mc::Stop::converged);
+    EXPECT_EQ(r.stop, mc::StopReason::converged);
     missed += !(r.interval.lo <= integral && integral <= r.interval.hi);
     far += std::abs(r.estimate.value - integral) > 6 * r.estimate.std_error;
   }

@@ -1,4 +1,4 @@
-#include <mc/sampler/walk_stream.h>
+#include <mc/sampler/path_sample_stream.h>
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@ namespace {
 
 using namespace mc;
 
-template <class Stream> class WalkStreamOf : public testing::Test {};
-using Streams = testing::Types<IndependentWalk<float>, SobolWalk<float>, StratifiedWalk<float>>;
-TYPED_TEST_SUITE(WalkStreamOf, Streams);
+template <class Stream> class PathSampleStreamOf : public testing::Test {};
+using Streams = testing::Types<IndependentPathStream<float>, SobolPathStream<float>, StratifiedPathStream<float>>;
+TYPED_TEST_SUITE(PathSampleStreamOf, Streams);
 
-TYPED_TEST(WalkStreamOf, IsAFunctionOfKeyAndIndex) {
+TYPED_TEST(PathSampleStreamOf, IsAFunctionOfKeyAndIndex) {
   std::set<float> firsts;
   for (std::uint32_t index = 0; index < 16; ++index) {
     const typename TypeParam::Points points(7, 16), others(8, 16);
@@ -70,21 +70,21 @@ template <class Stream> void branches_fill_cells(std::uint32_t count = 8) {
   EXPECT_EQ(cells.size(), 16u);
   EXPECT_EQ(singles.size(), 24u);
 }
-TEST(WalkStreamPairs, BranchesOfSobolFillCells) { branches_fill_cells<SobolWalk<float>>(); }
-TEST(WalkStreamPairs, BranchesOfStratifiedFillCells) { branches_fill_cells<StratifiedWalk<float>>(); }
+TEST(PathSampleStreamPairs, BranchesOfSobolFillCells) { branches_fill_cells<SobolPathStream<float>>(); }
+TEST(PathSampleStreamPairs, BranchesOfStratifiedFillCells) { branches_fill_cells<StratifiedPathStream<float>>(); }
 // The first walks of a sequence share one set however long it is said to be.
-TEST(WalkStreamPairs, BranchesOfLongSobolFillCells) { branches_fill_cells<SobolWalk<float>>(1u << 31); }
-TEST(WalkStreamPairs, SobolFillsCells) { fills_cells<SobolWalk<float>>(); }
-TEST(WalkStreamPairs, StratifiedFillsCells) { fills_cells<StratifiedWalk<float>>(); }
+TEST(PathSampleStreamPairs, BranchesOfLongSobolFillCells) { branches_fill_cells<SobolPathStream<float>>(1u << 31); }
+TEST(PathSampleStreamPairs, SobolFillsCells) { fills_cells<SobolPathStream<float>>(); }
+TEST(PathSampleStreamPairs, StratifiedFillsCells) { fills_cells<StratifiedPathStream<float>>(); }
 
 // Sets that no index can count are left for independent numbers.
-TEST(WalkStreamPairs, BranchesBeyondAllCountsAreIndependent) {
+TEST(PathSampleStreamPairs, BranchesBeyondAllCountsAreIndependent) {
   const mc::StratifiedPairs points(1, 70'000);
-  const StratifiedWalk<float> walk(points, 69'999);
+  const StratifiedPathStream<float> stream(points, 69'999);
   double sum = 0;
   mc::Vec2<float> last{-1, -1};
   for (std::uint32_t i = 0; i < 256; ++i) {
-    StratifiedWalk<float> branch = walk.branch(i, 256).branch(3, 256);
+    StratifiedPathStream<float> branch = stream.branch(i, 256).branch(3, 256);
     const mc::Vec2<float> u = branch.next2();
     EXPECT_TRUE(u.minCoeff() >= 0 && u.maxCoeff() < 1);
     EXPECT_NE(u, last);
@@ -95,11 +95,11 @@ TEST(WalkStreamPairs, BranchesBeyondAllCountsAreIndependent) {
 }
 
 // The last point that an index can count is still one of the sequence's, the next is not.
-TEST(WalkStreamPairs, SobolBranchesToTheLastIndex) {
+TEST(PathSampleStreamPairs, SobolBranchesToTheLastIndex) {
   const mc::SobolPairs points(1, 1);
   constexpr std::uint32_t half = 1u << 31;
-  EXPECT_EQ(SobolWalk<float>(points, half - 1).branch(1, 2).next2(), points.pair<float>(2 * half - 1, 0, 2));
-  EXPECT_NE(SobolWalk<float>(points, half).branch(0, 2).next2(), points.pair<float>(0, 0, 2));
+  EXPECT_EQ(SobolPathStream<float>(points, half - 1).branch(1, 2).next2(), points.pair<float>(2 * half - 1, 0, 2));
+  EXPECT_NE(SobolPathStream<float>(points, half).branch(0, 2).next2(), points.pair<float>(0, 0, 2));
 }
 
 } // namespace

@@ -17,16 +17,16 @@ namespace mc {
 ///   branch(i, n) : the stream of branch i of n where the walk splits. The branches of all walks share one point set,
 ///               n times as large; where that has too many points to count, their numbers are independent.
 /// A pure function of (seed of the set, index, branches taken).
-template <Real S, class Pairs> class WalkStream {
+template <Real S, class Pairs> class PathSampleStream {
  public:
   using Points = Pairs;
   static constexpr std::uint32_t pairs = Pairs::pairs;
 
-  WalkStream(const Points& points, std::uint32_t index) : WalkStream(points, hash(points.seed, index), index, 0, 1) {}
-  WalkStream branch(std::uint32_t i, std::uint32_t n) const {
+  PathSampleStream(const Points& points, std::uint32_t index) : PathSampleStream(points, hash(points.seed, index), index, 0, 1) {}
+  PathSampleStream branch(std::uint32_t i, std::uint32_t n) const {
     bool fits = true;
-    if constexpr (pairs > 0) fits = points_->holds(index_, std::uint64_t{scale_} * n, n);
-    return WalkStream(*points_, hash(seed_, i), index_ * n + i, fits ? pair_ : pairs, fits ? scale_ * n : scale_);
+    if constexpr (pairs > 0) fits = points_->can_branch(index_, std::uint64_t{scale_} * n, n);
+    return PathSampleStream(*points_, hash(seed_, i), index_ * n + i, fits ? pair_ : pairs, fits ? scale_ * n : scale_);
   }
   S next() { return random_.uniform<S>(); }
   Vec2<S> next2() {
@@ -36,7 +36,7 @@ template <Real S, class Pairs> class WalkStream {
   }
 
  private:
-  WalkStream(const Points& points, std::uint64_t seed, std::uint32_t index, std::uint32_t pair, std::uint32_t scale)
+  PathSampleStream(const Points& points, std::uint64_t seed, std::uint32_t index, std::uint32_t pair, std::uint32_t scale)
       : seed_(seed), random_(seed), points_(&points), index_(index), pair_(pair), scale_(scale) {}
 
   std::uint64_t seed_;
@@ -47,10 +47,10 @@ template <Real S, class Pairs> class WalkStream {
 };
 
 /// No pairs: all numbers are independent.
-struct NoPairs {
+struct IndependentPairs {
   static constexpr std::uint32_t pairs = 0;
   std::uint64_t seed;
-  NoPairs(std::uint64_t s, std::uint32_t) : seed(s) {}
+  IndependentPairs(std::uint64_t s, std::uint32_t) : seed(s) {}
 };
 
 /// The first pairs of PaddedSobol, for any count.
@@ -67,7 +67,7 @@ struct SobolPairs {
   }
   /// Whether the set has points for n branches of walk `index`: its sequence has as many as indices can count, however
   /// many a set is said to have.
-  bool holds(std::uint32_t index, std::uint64_t, std::uint32_t n) const {
+  bool can_branch(std::uint32_t index, std::uint64_t, std::uint32_t n) const {
     return (std::uint64_t{index} + 1) * n <= std::uint64_t{1} << 32;
   }
 };
@@ -83,11 +83,11 @@ struct StratifiedPairs {
     return point<S, 2>(Stratified(count * scale, seed), index, 2 * number);
   }
   /// Whether there are strata for the set times `scale`, of which every walk takes part.
-  bool holds(std::uint32_t, std::uint64_t scale, std::uint32_t) const { return count * scale <= 1u << 31; }
+  bool can_branch(std::uint32_t, std::uint64_t scale, std::uint32_t) const { return count * scale <= 1u << 31; }
 };
 
-template <Real S> using IndependentWalk = WalkStream<S, NoPairs>;
-template <Real S> using SobolWalk = WalkStream<S, SobolPairs>;
-template <Real S> using StratifiedWalk = WalkStream<S, StratifiedPairs>;
+template <Real S> using IndependentPathStream = PathSampleStream<S, IndependentPairs>;
+template <Real S> using SobolPathStream = PathSampleStream<S, SobolPairs>;
+template <Real S> using StratifiedPathStream = PathSampleStream<S, StratifiedPairs>;
 
 } // namespace mc

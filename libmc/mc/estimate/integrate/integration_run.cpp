@@ -1,6 +1,6 @@
 #include <mc/core/error.h>
 #include <mc/core/parallel.h>
-#include <mc/estimate/integrate/run.h>
+#include <mc/estimate/integrate/integration_run.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr double thread_start = 5e-4;  // seconds of work that are worth waking 
 constexpr double most_infinite = 1e-3; // of the volume: more is no singularity
 constexpr double few_infinite = 8;     // points
 
-// How the values at one point count: value * factor - centre * shift.
+// How the values at one point count: value * factor - control_coefficients * shift.
 struct Weight {
   double factor = 1, shift = 0;
 };
@@ -24,7 +24,7 @@ struct Weight {
 Weight draw(const Proposal& proposal, std::span<double> point, std::span<double> scratch) {
   if (!proposal.density) return {};
   const AdaptedDensity& p = *proposal.density;
-  const bool uniform = proposal.part == Proposal::Part::of_uniform;
+  const bool uniform = proposal.part == Proposal::Part::uniform;
   const double jacobian = uniform ? 1 / p.density(point, scratch) : p.map(point);
   if (std::isinf(jacobian)) return {1 / Proposal::uniform_share, 0}; // where only the uniform part comes
   if (proposal.part == Proposal::Part::all) return {jacobian, 0};
@@ -42,18 +42,18 @@ void Integrand::operator()(std::span<const double> points, std::size_t dim, std:
     for (std::size_t i = 0; i < n; ++i) (*several)(points.subspan(i * dim, dim), values.subspan(i * outputs, outputs));
 }
 
-void Run::keep_points(Sums& sums, std::span<const double> points, std::span<const double> values) const {
+void IntegrationRun::record_points(Sums& sums, std::span<const double> points, std::span<const double> values) const {
   sums.points.insert(sums.points.end(), points.begin(), points.end());
   for (auto at = values.begin(); at != values.end(); at += static_cast<std::ptrdiff_t>(outputs))
-    sums.values.insert(sums.values.end(), at, at + static_cast<std::ptrdiff_t>(leading()));
+    sums.values.insert(sums.values.end(), at, at + static_cast<std::ptrdiff_t>(primary_outputs()));
 }
 
-Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const Proposal& proposal,
+Sums IntegrationRun::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const Proposal& proposal,
                    Keep keep) const {
-  if (o.cancel && o.cancel->load()) throw Cancelled{};
+  if (options.cancel && options.cancel->load()) throw Cancelled{};
   const auto d = static_cast<std::size_t>(dim);
-  Sums sums{std::vector<ScaledMoments>(outputs), std::vector<Seen>(outputs)};
-  std::vector<double> u(block * d), values(outputs * block), columns(block), factors(block), shifts(block), over(block),
+  Sums sums{std::vector<ScaledMoments>(outputs), std::vector<IntegrandDiagnostics>(outputs)};
+  std::vector<double> u(block * d), values(outputs * block), columns(block), factors(block), shifts(block), offset_values(block),
       scratch(d);
   for (; first < last; first += block) {
     const auto n = static_cast<std::size_t>(std::min(block, last - first));
@@ -67,29 +67,29 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
       factors[i] = weight.factor;
       shifts[i] = weight.shift;
     }
-    f(points, d, all);
-    sums.leave_out_infinite(all, {factors.data(), n}, first);
-    if (keep == Keep::points) keep_points(sums, points, all);
+    integrand(points, d, all);
+    sums.zero_infinite_values(all, {factors.data(), n}, first);
+    if (keep == Keep::points) record_points(sums, points, all);
     for (std::size_t k = 0; k < outputs; ++k) {
       for (std::size_t i = 0; i < n; ++i) column[i] = all[i * outputs + k];
-      if (!floors.empty() && floors[k][0] != 0)
+      if (!tail_offsets.empty() && tail_offsets[k][0] != 0)
         for (std::size_t j = 0; j < 2; ++j) {
-          for (std::size_t i = 0; i < n; ++i) over[i] = column[i] - floors[k][j];
-          sums.seen[k].over[j].add({over.data(), n}, {factors.data(), proposal.density ? n : 0});
+          for (std::size_t i = 0; i < n; ++i) offset_values[i] = column[i] - tail_offsets[k][j];
+          sums.diagnostics[k].offset_tails[j].add({offset_values.data(), n}, {factors.data(), proposal.density ? n : 0});
         }
       if (proposal.density) {
-        if (proposal.part == Proposal::Part::of_uniform) sums.seen[k].uniform.add(column);
-        sums.seen[k].tail.add(column, {factors.data(), n});
-        sums.seen[k].add_to_range(column);
+        if (proposal.part == Proposal::Part::uniform) sums.diagnostics[k].uniform_values.add(column);
+        sums.diagnostics[k].tail.add(column, {factors.data(), n});
+        sums.diagnostics[k].add_to_range(column);
         for (std::size_t i = 0; i < n; ++i) column[i] *= factors[i];
       }
-      Magnitudes sizes; // of the values themselves: what is subtracted hides zeros and equal values
+      OctaveHistogram sizes; // of the values themselves: what is subtracted hides zeros and equal values
       sizes.add(column);
-      sums.seen[k].values.merge(sizes);
+      sums.diagnostics[k].values.merge(sizes);
       double largest = std::max(std::abs(sizes.lo()), std::abs(sizes.hi()));
-      if (!proposal.centre.empty()) {
-        for (std::size_t i = 0; i < n; ++i) column[i] -= proposal.centre[k] * shifts[i];
-        largest += 2 * std::abs(proposal.centre[k]); // no shift is above 8 / 7
+      if (!proposal.control_coefficients.empty()) {
+        for (std::size_t i = 0; i < n; ++i) column[i] -= proposal.control_coefficients[k] * shifts[i];
+        largest += 2 * std::abs(proposal.control_coefficients[k]); // no shift is above 8 / 7
       }
       sums.profile.add_values(k, column.first(profiled));
       if (keep == Keep::batches) sums.add_to_batches(k, column, first, largest);
@@ -99,7 +99,7 @@ Sums Run::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last,
   return sums;
 }
 
-std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
+std::vector<Sums> IntegrationRun::evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
                                     const Proposal& proposal, Keep keep) {
   const std::uint64_t chunks = (count + chunk - 1) / chunk;
   std::vector<Sums> parts(sets.size() * chunks), results(sets.size());
@@ -112,7 +112,7 @@ std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint
   task(0);
   const std::chrono::duration<double> once = std::chrono::steady_clock::now() - begin;
   const bool pays = once.count() * static_cast<double>(parts.size() - 1) > thread_start;
-  parallel_for(parts.size() - 1, pays ? o.threads : 1, [&](std::size_t i) { task(i + 1); });
+  parallel_for(parts.size() - 1, pays ? options.threads : 1, [&](std::size_t i) { task(i + 1); });
   for (std::size_t i = 0; i < parts.size(); ++i) results[i / chunks].merge(parts[i]);
   calls += count * sets.size();
   // A few points do not tell how much volume they stand for.
@@ -121,21 +121,21 @@ std::vector<Sums> Run::evaluate_all(const std::vector<PointSet>& sets, std::uint
     double infinite = 0;
     for (std::size_t r = 0; r < sets.size(); ++r) {
       const Moments& m = results[r].outputs[k].moments();
-      const Seen& seen = results[r].seen[k];
-      infinite += seen.infinite_volume;
-      if (m.non_finite() > 0) refuse_points(m.non_finite(), count, m.witness(), sets[r], proposal);
-      if (infinite > most) refuse_points(seen.infinite, count, *results[r].first_infinite, sets[r], proposal);
+      const IntegrandDiagnostics& diagnostics = results[r].diagnostics[k];
+      infinite += diagnostics.infinite_volume;
+      if (m.non_finite_count() > 0) throw_not_finite(m.non_finite_count(), count, m.first_non_finite(), sets[r], proposal);
+      if (infinite > most) throw_not_finite(diagnostics.infinite_count, count, *results[r].first_infinite, sets[r], proposal);
     }
   }
-  if (floors.empty()) find_floors(results);
+  if (tail_offsets.empty()) find_tail_offsets(results);
   return results;
 }
 
 // What has no tail has its largest value close to the quartile.
-void Run::find_floors(const std::vector<Sums>& first) {
+void IntegrationRun::find_tail_offsets(const std::vector<Sums>& first) {
   constexpr double far = 4;
-  floors.resize(outputs);
-  if (o.density) return; // the first points may be drawn from it
+  tail_offsets.resize(outputs);
+  if (options.density) return; // the first points may be drawn from it
   for (std::size_t k = 0; k < outputs; ++k) {
     std::vector<double> values;
     for (const Sums& s : first) values.insert(values.end(), s.profile.values(k).begin(), s.profile.values(k).end());
@@ -144,14 +144,14 @@ void Run::find_floors(const std::vector<Sums>& first) {
     const double lo = values.front(), hi = values.back(), quarter = values[values.size() / 4],
                  upper = values[3 * values.size() / 4];
     const bool above = hi - upper > far * (upper - lo), below = quarter - lo > far * (hi - quarter);
-    if (above) floors[k] = {2 * lo - upper, lo};
-    else if (below) floors[k] = {2 * hi - quarter, hi};
-    const auto [a, b] = floors[k];
-    if (!(std::min(a, b) > 0 || std::max(a, b) < 0)) floors[k] = {}; // all of it may be tail
+    if (above) tail_offsets[k] = {2 * lo - upper, lo};
+    else if (below) tail_offsets[k] = {2 * hi - quarter, hi};
+    const auto [a, b] = tail_offsets[k];
+    if (!(std::min(a, b) > 0 || std::max(a, b) < 0)) tail_offsets[k] = {}; // all of it may be tail
   }
 }
 
-void Run::refuse_points(std::uint64_t bad, std::uint64_t count, std::uint64_t first, const PointSet& set,
+void IntegrationRun::throw_not_finite(std::uint64_t bad, std::uint64_t count, std::uint64_t first, const PointSet& set,
                         const Proposal& proposal) const {
   std::vector<double> u(static_cast<std::size_t>(dim));
   std::vector<double> scratch(u.size());
@@ -162,17 +162,17 @@ void Run::refuse_points(std::uint64_t bad, std::uint64_t count, std::uint64_t fi
   throw NotFinite(bad, count, std::move(u), fmt::format("u = ({})", point));
 }
 
-std::vector<PointSet> Run::sobol_sets(std::uint64_t purpose, std::uint32_t first, std::uint32_t last) const {
+std::vector<PointSet> IntegrationRun::sobol_sets(std::uint64_t stream_id, std::uint32_t first, std::uint32_t last) const {
   std::vector<PointSet> sets;
   for (std::uint32_t r = first; r < last; ++r) {
-    const std::uint64_t seed = hash(o.seed, purpose, r);
-    if (purpose == 0 && interlaced()) sets.emplace_back(InterlacedSobol{seed});
+    const std::uint64_t seed = hash(options.seed, stream_id, r);
+    if (stream_id == 0 && uses_interlaced_points()) sets.emplace_back(InterlacedSobol{seed});
     else sets.emplace_back(ScrambledSobol{seed});
   }
   return sets;
 }
 
-std::vector<std::vector<double>> Run::replicate_means(const std::vector<Sums>& replicates,
+std::vector<std::vector<double>> IntegrationRun::replicate_means(const std::vector<Sums>& replicates,
                                                       const std::vector<Sums>& uniform,
                                                       const Proposal& proposal) const {
   std::vector<std::vector<double>> means(outputs);
@@ -180,57 +180,57 @@ std::vector<std::vector<double>> Run::replicate_means(const std::vector<Sums>& r
     for (std::size_t r = 0; r < replicates.size(); ++r) {
       const double mean = replicates[r].outputs[k].mean();
       means[k].push_back(uniform.empty() ? mean
-                                         : proposal.centre[k] + (1 - Proposal::uniform_share) * mean +
+                                         : proposal.control_coefficients[k] + (1 - Proposal::uniform_share) * mean +
                                                Proposal::uniform_share * uniform[r].outputs[k].mean());
     }
   return means;
 }
 
-Means Run::means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<Evidence>& evidence,
-                 const std::vector<Sums>& uniform, const Proposal& proposal, const std::vector<Seen>& let_go) const {
-  evidence.resize(outputs);
+Means IntegrationRun::means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<ReplicateHistory>& histories,
+                 const std::vector<Sums>& uniform, const Proposal& proposal, const std::vector<IntegrandDiagnostics>& discarded) const {
+  histories.resize(outputs);
   AxisProfile profile;
   if (points <= AxisProfile::most)
     for (const Sums& s : replicates) profile.merge(s.profile);
   const std::vector<std::vector<double>> values = replicate_means(replicates, uniform, proposal);
   Means all;
   for (std::size_t k = 0; k < outputs; ++k) {
-    Seen seen = let_go.empty() ? Seen() : let_go[k];
+    IntegrandDiagnostics diagnostics = discarded.empty() ? IntegrandDiagnostics() : discarded[k];
     for (const auto* part : {&replicates, &uniform})
-      for (const Sums& s : *part) seen.merge(s.seen[k]);
+      for (const Sums& s : *part) diagnostics.merge(s.diagnostics[k]);
     if (points <= AxisProfile::most)
-      evidence[k].show_step(profile.jump(k, static_cast<std::size_t>(dim), replicates.size()));
-    all.push_back(replicated(values[k], static_cast<double>(points), seen, evidence[k]));
-    if (k < leading()) all.back().unmet = unmet(seen, all.back().error); // no density follows what is only watched
+      histories[k].add_axis_jump(profile.jump(k, static_cast<std::size_t>(dim), replicates.size()));
+    all.push_back(mean_of_replicates(values[k], static_cast<double>(points), diagnostics, histories[k]));
+    if (k < primary_outputs()) all.back().unsampled_tail_bound = unsampled_tail_bound(diagnostics, all.back().error); // no density follows what is only watched
   }
   return all;
 }
 
-void Run::record(Method method, const Means& means, bool learning) {
+void IntegrationRun::record(Method method, const Means& means, bool learning) {
   rounds.push_back({method, learning, calls, means, learning});
-  if (o.progress) o.progress({estimate(means.front(), calls), calls, seconds()});
+  if (options.progress) options.progress({estimate(means.front(), calls), calls, seconds()});
 }
 
-void Run::independent(Method method) {
+void IntegrationRun::mark_independent(Method method) {
   const auto last = std::find_if(rounds.rbegin(), rounds.rend(), [&](const Round& r) { return r.method == method; });
   MC_ASSERT(last != rounds.rend());
   last->independent = true;
 }
 
-void Run::compare(Round& round, const Means& means) {
+void IntegrationRun::add_chi2(Round& round, const Means& means) {
   round.chi2.assign(outputs, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t k = 0; k < outputs; ++k)
-    if (const auto z = deviate(round.means[k], means[k])) {
+    if (const auto z = z_score(round.means[k], means[k])) {
       round.chi2[k] = sqr(*z);
       chi2[k] += sqr(*z);
       chi2_dof[k] += 1;
     }
 }
 
-bool Run::converged(const Means& all) const {
-  return std::all_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(leading()), [&](const Mean& m) {
+bool IntegrationRun::converged(const Means& all) const {
+  return std::all_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(primary_outputs()), [&](const Mean& m) {
     const double error = estimate(m, calls).std_error;
-    return !m.agreed && std::isfinite(error) && (error <= o.abs_error || error <= o.rel_error * std::abs(m.value));
+    return !m.zero_spread && std::isfinite(error) && (error <= options.abs_error || error <= options.rel_error * std::abs(m.value));
   });
 }
 
