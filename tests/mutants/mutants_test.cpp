@@ -1,8 +1,8 @@
 // Known-wrong samplers: each must be rejected at alpha = 1 % by the law that its fault breaks, and the right one beside
-// it not. They stand in tools/slips/, where carlo tells their story. The seeds are fixed; a slip runs with two,
+// it not. They stand in tools/known_bugs/, where carlo tells their story. The seeds are fixed; a slip runs with two,
 // with one where it takes many samples.
 
-#include <slips/slips.h>
+#include <known_bugs/known_bugs.h>
 
 #include <gtest/gtest.h>
 
@@ -13,13 +13,13 @@
 namespace carlo {
 
 // GoogleTest prints the bytes of a parameter otherwise.
-void PrintTo(const Slip& s, std::ostream* out) { *out << s.title() << ", " << s.where << ": " << s.story; }
+void PrintTo(const KnownBug& s, std::ostream* out) { *out << s.title() << ", " << s.source << ": " << s.description; }
 
 } // namespace carlo
 
 namespace {
 
-using carlo::Slip;
+using carlo::KnownBug;
 using mc::Fault;
 
 // Tests of counts see one fault at several scales: whether it is called shape, local or atom is a matter of degree.
@@ -30,14 +30,14 @@ bool same_kind(Fault a, Fault b) {
   return a == b || (counted(a) && counted(b));
 }
 
-std::string identifier(const testing::TestParamInfo<Slip>& slip) {
-  std::string name = slip.param.title();
+std::string identifier(const testing::TestParamInfo<KnownBug>& bug) {
+  std::string name = bug.param.title();
   std::replace_if(
       name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
   return name;
 }
 
-class MutantTest : public testing::TestWithParam<Slip> {};
+class MutantTest : public testing::TestWithParam<KnownBug> {};
 
 TEST_P(MutantTest, IsRejected) {
   for (std::uint64_t seed = 1; seed <= (GetParam().samples > 4'000'000 ? 1 : 2); ++seed) {
@@ -48,21 +48,21 @@ TEST_P(MutantTest, IsRejected) {
 }
 
 // alpha = 0.01 % per slip: all of them together are rejected by chance once in 150 seeds.
-TEST_P(MutantTest, TheRightOneBesideItPasses) {
+TEST_P(MutantTest, CorrectVersionPasses) {
   const std::uint64_t samples = std::min<std::uint64_t>(std::max<std::uint64_t>(GetParam().samples, 20'000), 60'000);
   const mc::Report report = GetParam().right.check({.samples = samples, .seed = 1, .alpha = 1e-4});
   EXPECT_TRUE(report.passed()) << report.to_string();
 }
 
-INSTANTIATE_TEST_SUITE_P(All, MutantTest, testing::ValuesIn(carlo::all_slips()), identifier);
+INSTANTIATE_TEST_SUITE_P(All, MutantTest, testing::ValuesIn(carlo::all_known_bugs()), identifier);
 
-TEST(Mutants, EveryNumberHasItsSlipOrItsReason) {
+TEST(Mutants, EveryIdHasBugOrReason) {
   std::set<std::string> ids;
-  for (const Slip& s : carlo::all_slips()) {
+  for (const KnownBug& s : carlo::all_known_bugs()) {
     EXPECT_TRUE(ids.insert(s.id).second) << s.id;
-    EXPECT_FALSE(s.where.empty() || s.story.empty() || s.name.empty()) << s.id;
+    EXPECT_FALSE(s.source.empty() || s.description.empty() || s.name.empty()) << s.id;
   }
-  // The comments that open slips/books.cpp and slips/courses.cpp say why these have no sampler.
+  // The comments that open known_bugs/books.cpp and known_bugs/courses.cpp say why these have no sampler.
   for (const char* none : {"P10", "P16", "P17", "P23", "P28", "P31", "P32"})
     EXPECT_TRUE(ids.insert(none).second) << none;
   for (int i = 1; i <= 36; ++i) EXPECT_TRUE(ids.contains("P" + std::to_string(i))) << i;

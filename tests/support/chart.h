@@ -1,7 +1,7 @@
 #pragma once
 // The laws of a domain: its chart is one-to-one, and its Jacobian is the ratio of the measures.
 
-#include <mc/check/subject/numbers.h>
+#include <mc/check/subject/point_array.h>
 #include <mc/check/subject/oracle.h>
 #include <mc/domain/concept.h>
 #include <mc/random/pcg.h>

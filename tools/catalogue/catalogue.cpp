@@ -5,12 +5,12 @@
 namespace carlo {
 
 void add_case(Catalogue& c, std::string name, std::string parameters, std::string scalar,
-              std::function<mc::AnySampler(std::string)> make, mc::LawOptions bounds) {
+              std::function<mc::AnyDistribution(std::string)> make, mc::LawOptions bounds) {
   Case one{std::move(name), std::move(parameters), std::move(scalar), {}};
   bounds.name = one.title();
   one.check = [make = std::move(make), bounds = std::move(bounds)](const CaseOptions& options) {
     const mc::LawOptions o = mc::with_statistics(bounds, options);
-    return check_laws(mc::within(make(o.name), o), o);
+    return check_laws(mc::with_tolerances(make(o.name), o), o);
   };
   c.push_back(std::move(one));
 }

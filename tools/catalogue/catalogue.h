@@ -26,7 +26,7 @@ struct Case {
   std::string parameters; ///< "alpha=0.1, theta=60"; empty without any
   std::string scalar;     ///< "float" or "double"
   std::function<mc::Report(const CaseOptions&)> check;
-  std::string again = {}; ///< what follows "carlo validate" to check it alone; empty: its name
+  std::string rerun_arguments = {}; ///< what follows "carlo validate" to check it alone; empty: its name
 
   /// "Linear(a=0, b=1)".
   std::string label() const { return name + (parameters.empty() ? "" : "(" + parameters + ")"); }

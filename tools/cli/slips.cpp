@@ -1,7 +1,7 @@
 #include <cli/slips.h>
 #include <report/report_json.h>
-#include <slips/cornell.h>
-#include <slips/slips.h>
+#include <known_bugs/cornell.h>
+#include <known_bugs/known_bugs.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 #include <terminal/result_file.h>
@@ -25,15 +25,15 @@ namespace {
 
 using nlohmann::json;
 
-Slips select(const std::vector<std::string>& names) {
-  Slips all = slips_of_books(), chosen;
+KnownBugs select(const std::vector<std::string>& names) {
+  KnownBugs all = book_bugs(), chosen;
   if (names.empty()) return all;
   for (const std::string& name : names) {
     const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const Slip& s) { return name == s.id || name == s.name || name == s.title(); });
+                                    [&](const KnownBug& s) { return name == s.id || name == s.name || name == s.title(); });
     if (found == all.end()) {
       std::vector<std::string> known;
-      for (const Slip& s : all) known.insert(known.end(), {s.id, s.name});
+      for (const KnownBug& s : all) known.insert(known.end(), {s.id, s.name});
       throw mc::Error(fmt::format("known-bugs: unknown bug '{}'{} (carlo known-bugs --list names them all)", name,
                                   mc::did_you_mean(name, known)));
     }
@@ -51,15 +51,15 @@ struct Judged {
 
 // Doubles the samples until the bug is rejected. All sample sizes together reject a correct distribution with
 // probability alpha.
-Judged judge(const Slip& slip, const SlipsOptions& o) {
+Judged judge(const KnownBug& slip, const SlipsOptions& o) {
   std::uint64_t seed = o.seed; // the same numbers for any selection of bugs
   for (const char letter : slip.id)
     seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
   double looks = 1;
-  for (std::uint64_t n = slip.wrong.fewest; n < o.samples; n *= 2) looks += 1;
+  for (std::uint64_t n = slip.wrong.min_samples; n < o.samples; n *= 2) looks += 1;
   const double alpha = mc::sidak_level(o.alpha, 1 / looks);
   Judged t;
-  for (std::uint64_t n = slip.wrong.fewest;; n = std::min(2 * n, o.samples)) {
+  for (std::uint64_t n = slip.wrong.min_samples;; n = std::min(2 * n, o.samples)) {
     t.wrong = slip.wrong.check({.samples = n, .seed = seed, .alpha = alpha});
     t.samples = n;
     t.caught = t.wrong.verdict() == mc::Verdict::fail;
@@ -75,28 +75,28 @@ Judged judge(const Slip& slip, const SlipsOptions& o) {
     const bool deterministic = !by->p;
     if (deterministic && (by->fault == mc::Fault::mass || by->fault == mc::Fault::inverse)) t.samples = 0;
     else if (deterministic)
-      if (const std::uint64_t bad = slip.wrong.first_bad(seed, t.samples)) t.samples = bad;
+      if (const std::uint64_t bad = slip.wrong.first_failure(seed, t.samples)) t.samples = bad;
   }
-  t.right = slip.right.check({.samples = std::max(slip.right.fewest, o.samples / 4), .seed = seed, .alpha = alpha});
+  t.right = slip.right.check({.samples = std::max(slip.right.min_samples, o.samples / 4), .seed = seed, .alpha = alpha});
   return t;
 }
 
 // As judge(); errors name the bug.
-Judged judge_named(const Slip& slip, const SlipsOptions& o) {
+Judged judge_named(const KnownBug& slip, const SlipsOptions& o) {
   return mc::with_context(slip.title(), [&] { return judge(slip, o); });
 }
 
-std::string samples_text(const Slip& s, const Judged& t) {
+std::string samples_text(const KnownBug& s, const Judged& t) {
   if (!t.caught) return "missed";
   if (t.samples == 0) return "none";
-  return fmt::format("{}{}", t.samples == s.wrong.fewest ? "<= " : "", t.samples);
+  return fmt::format("{}{}", t.samples == s.wrong.min_samples ? "<= " : "", t.samples);
 }
 
-json to_json(const Slip& s, const Judged& t) {
+json to_json(const KnownBug& s, const Judged& t) {
   return {{"id", s.id},
           {"name", s.name},
-          {"where", s.where},
-          {"story", s.story},
+          {"where", s.source},
+          {"story", s.description},
           {"caught", t.caught},
           {"test", t.test},
           {"samples", t.caught ? json(t.samples) : json()},
@@ -106,7 +106,7 @@ json to_json(const Slip& s, const Judged& t) {
 }
 
 // Returns the results that were finished before `cancel`. Prints them in order, each as soon as possible.
-std::vector<std::optional<Judged>> judge_all(const Slips& slips, const SlipsOptions& o,
+std::vector<std::optional<Judged>> judge_all(const KnownBugs& slips, const SlipsOptions& o,
                                              const std::atomic<bool>* cancel) {
   fmt::print("book     Ray Tracing: The Rest of Your Life, 2016\n"
              "course   Introduction to Real-Time Ray Tracing, SIGGRAPH 2019\n"
@@ -119,9 +119,9 @@ std::vector<std::optional<Judged>> judge_all(const Slips& slips, const SlipsOpti
   std::mutex mutex;
   Progress progress;
   const auto print = [&](std::size_t i) {
-    const Slip& s = slips[i];
+    const KnownBug& s = slips[i];
     const Judged& r = *judged[i];
-    fmt::print("{:<4} {:<34} {:<29} {:<27} {:>8}  {}, p = {:.2g}\n", s.id, s.name, s.where, r.test, samples_text(s, r),
+    fmt::print("{:<4} {:<34} {:<29} {:<27} {:>8}  {}, p = {:.2g}\n", s.id, s.name, s.source, r.test, samples_text(s, r),
                name(r.right.verdict()), r.right.p());
   };
   mc::parallel_for(slips.size(), o.threads, [&](std::size_t i) {
@@ -142,10 +142,10 @@ std::vector<std::optional<Judged>> judge_all(const Slips& slips, const SlipsOpti
   return judged;
 }
 
-void print_stories(const Slips& slips, const std::vector<std::optional<Judged>>& judged) {
+void print_stories(const KnownBugs& slips, const std::vector<std::optional<Judged>>& judged) {
   for (std::size_t i = 0; i < slips.size(); ++i) {
     if (!judged[i]) continue;
-    fmt::print("\n{}, {}\n  {}\n  wrong: {}\n", slips[i].title(), slips[i].where, slips[i].story,
+    fmt::print("\n{}, {}\n  {}\n  wrong: {}\n", slips[i].title(), slips[i].source, slips[i].description,
                judged[i]->wrong.to_string());
     if (!judged[i]->right.passed()) fmt::print("  corrected: {}\n", judged[i]->right.to_string());
   }
@@ -163,10 +163,10 @@ bool judge_boxes(const SlipsOptions& o, json& all) {
     as_claimed = as_claimed && agrees == b.claimed_right;
     const std::string off = &b == &boxes.front() ? fmt::format("{:.4f}", b.mean)
                                                  : fmt::format("{:+.1f} % +- {:.1f}", 100 * b.off, 100 * b.off_error);
-    fmt::print("  {:<34} {:<12} {:<16} {}  {}\n", b.name, b.where, off, agrees ? "right" : "wrong", b.story);
+    fmt::print("  {:<34} {:<12} {:<16} {}  {}\n", b.name, b.source, off, agrees ? "right" : "wrong", b.description);
     all.push_back({{"name", b.name},
-                   {"where", b.where},
-                   {"story", b.story},
+                   {"where", b.source},
+                   {"story", b.description},
                    {"mean", b.mean},
                    {"std_error", b.std_error},
                    {"off", b.off},
@@ -199,9 +199,9 @@ std::vector<Option> rows(SlipsOptions& o) {
 } // namespace
 
 int slips(const SlipsOptions& o) {
-  const Slips slips = select(o.names);
+  const KnownBugs slips = select(o.names);
   if (o.list) {
-    for (const Slip& s : slips) fmt::print("{:<4} {:<34} {}\n", s.id, s.name, s.where);
+    for (const KnownBug& s : slips) fmt::print("{:<4} {:<34} {}\n", s.id, s.name, s.source);
     return exit_ok;
   }
   mc::require(o.alpha > 0 && o.alpha < 1, "known-bugs: --alpha {} must lie in (0, 1)", o.alpha);

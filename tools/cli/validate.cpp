@@ -109,7 +109,7 @@ Brought bring(const ValidateOptions& o, const std::atomic<bool>* cancel) {
   Brought brought;
   const bool is_foreign = !o.plugin.empty() || !o.sampler_command.empty();
   const WorkerOptions worker{
-      .limits = limits_of(o.timeout, o.memory, is_foreign), .program = o.worker, .cancel = cancel};
+      .limits = resource_limits(o.timeout, o.memory, is_foreign), .program = o.worker, .cancel = cancel};
   if (!o.plugin.empty()) brought.cases = plugin_cases(o.plugin, o.parameters, o.names, worker);
   if (!o.sampler_command.empty())
     brought.cases.push_back(command_case({o.sampler_command, o.domain, o.breaks, o.uniforms}, worker));

@@ -12,12 +12,12 @@ namespace carlo {
 
 namespace {
 
-nlohmann::json run_task(const nlohmann::json& request, Watch& watch) {
+nlohmann::json run_task(const nlohmann::json& request, CallMonitor& monitor) {
   const std::string task = request["task"];
-  if (task == "command") return run_command_task(request, watch);
+  if (task == "command") return run_command_task(request, monitor);
   if (task == "integrand" || task == "describe integrands" || task == "check integrand")
-    return run_integrand_task(request, watch);
-  return run_plugin_task(request, watch);
+    return run_integrand_task(request, monitor);
+  return run_plugin_task(request, monitor);
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 #include <input/parameters.h>
 #include <input/parsed_domain.h>
 
-#include <mc/check/subject/make_sampler.h>
+#include <mc/check/subject/make_distribution.h>
 #include <mc/core/error.h>
 #include <mc/core/text.h>
 #include <mc/domain/annulus.h>
@@ -18,7 +18,7 @@
 
 namespace carlo {
 
-using mc::AnyDomain, mc::Numbers;
+using mc::AnyDomain, mc::PointArray;
 
 namespace {
 
@@ -26,9 +26,9 @@ constexpr double unit_tolerance = 1e-5, edge_tolerance = 1e-6;
 
 // A factor of a domain.
 using Part = ParsedDomain;
-using Contains = std::function<bool(const Numbers& x)>;
+using Contains = std::function<bool(const PointArray& x)>;
 
-double norm(const Numbers& x, int n) {
+double norm(const PointArray& x, int n) {
   double sum = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) sum += x[i] * x[i];
   return std::sqrt(sum);
@@ -37,13 +37,13 @@ double norm(const Numbers& x, int n) {
 // A domain of libmc over double as a part; printed points are in it where `near` says so.
 template <mc::Domain D>
 Part part(std::string text, std::vector<std::string> columns, const D& d, Rounding rounding, Contains near) {
-  const mc::AnySampler on = rounding == Rounding::floats ? mc::detail::sampler_on("", d.template cast<float>())
-                                                         : mc::detail::sampler_on("", d);
+  const mc::AnyDistribution on = rounding == Rounding::floats ? mc::detail::distribution_on("", d.template cast<float>())
+                                                         : mc::detail::distribution_on("", d);
   Part p{on.domain, std::move(columns), std::move(text)};
   if (rounding != Rounding::printed) return p;
   p.chart.contains = std::move(near);
-  p.chart.to_unit = [to_unit = p.chart.to_unit](const Numbers& x) {
-    AnyDomain::Chart v = to_unit(x);
+  p.chart.to_unit = [to_unit = p.chart.to_unit](const PointArray& x) {
+    AnyDomain::Coordinates v = to_unit(x);
     for (double& one : v) one = std::clamp(one, 0.0, 1.0);
     return v;
   };
@@ -55,7 +55,7 @@ template <mc::Domain D> Part directions(std::string text, const D& d, Rounding r
   Part p = part(std::move(text), {"x", "y", "z"}, d, rounding, std::move(near));
   if (rounding != Rounding::printed) return p;
   p.text += fmt::format(" (to {:g})", unit_tolerance);
-  p.chart.to_unit = [to_unit = p.chart.to_unit](const Numbers& x) {
+  p.chart.to_unit = [to_unit = p.chart.to_unit](const PointArray& x) {
     const double length = norm(x, 3);
     return to_unit({x[0] / length, x[1] / length, std::max(x[2], -1.0) / length});
   };
@@ -76,7 +76,7 @@ Part interval(const std::string& name, std::string_view bounds, std::string_view
   const double lo = number(bounds.substr(0, colon), whole), hi = number(bounds.substr(colon + 1), whole);
   mc::require(lo < hi, "'{}' has bounds {} and {}; lo < hi is needed", whole, lo, hi);
   const std::string text = fmt::format("{} in [{:g}, {:g}]", name, lo, hi);
-  const auto inside = [lo, hi](const Numbers& x) { return x[0] >= lo && x[0] <= hi && std::isfinite(x[0]); };
+  const auto inside = [lo, hi](const PointArray& x) { return x[0] >= lo && x[0] <= hi && std::isfinite(x[0]); };
   const auto scale = [](double size) { return size > 0 ? size : 1.0; };
   const auto on = [&](const auto& domain) { return part(text, {name}, domain, rounding, inside); };
   Part p;
@@ -96,24 +96,24 @@ Part annulus(std::string_view radius, Rounding rounding) {
   mc::require(inner > 0 && inner < 1, "annulus={} needs a radius in (0, 1)", radius);
   return part(
       fmt::format("the annulus {} <= r <= 1", inner), {"x", "y"}, mc::Annulus<double>(inner, 1), rounding,
-      [inner](const Numbers& x) { return std::abs(norm(x, 2) - 0.5 - inner / 2) <= 0.5 - inner / 2 + edge_tolerance; });
+      [inner](const PointArray& x) { return std::abs(norm(x, 2) - 0.5 - inner / 2) <= 0.5 - inner / 2 + edge_tolerance; });
 }
 
 Part named(const std::string& name, Rounding rounding) {
-  const auto is_unit = [](const Numbers& x) { return std::abs(norm(x, 3) - 1) <= unit_tolerance; };
+  const auto is_unit = [](const PointArray& x) { return std::abs(norm(x, 3) - 1) <= unit_tolerance; };
   if (name == "sphere") return directions("the unit sphere", mc::Sphere<double>(), rounding, is_unit);
   if (name == "hemisphere")
     return directions("the unit hemisphere", mc::Hemisphere<double>(), rounding,
-                      [is_unit](const Numbers& x) { return is_unit(x) && x[2] >= -unit_tolerance; });
+                      [is_unit](const PointArray& x) { return is_unit(x) && x[2] >= -unit_tolerance; });
   if (name == "disk")
     return part("the unit disk", {"x", "y"}, mc::Disk<double>(), rounding,
-                [](const Numbers& x) { return norm(x, 2) <= 1 + edge_tolerance; });
+                [](const PointArray& x) { return norm(x, 2) <= 1 + edge_tolerance; });
   if (name == "ball")
     return part("the unit ball", {"x", "y", "z"}, mc::Ball<double>(), rounding,
-                [](const Numbers& x) { return norm(x, 3) <= 1 + edge_tolerance; });
+                [](const PointArray& x) { return norm(x, 3) <= 1 + edge_tolerance; });
   if (name == "triangle") {
     Part p =
-        part("the triangle x, y >= 0, x + y <= 1", {"x", "y"}, mc::Triangle<double>(), rounding, [](const Numbers& x) {
+        part("the triangle x, y >= 0, x + y <= 1", {"x", "y"}, mc::Triangle<double>(), rounding, [](const PointArray& x) {
           return x[0] >= -edge_tolerance && x[1] >= -edge_tolerance && x[0] + x[1] <= 1 + edge_tolerance;
         });
     p.chart.axes[0].name = "1 - x";
@@ -128,8 +128,8 @@ Part named(const std::string& name, Rounding rounding) {
 
 Part discrete(int outcomes) {
   Part p{{}, {"i"}, fmt::format("outcomes 0 to {}", outcomes - 1), outcomes};
-  p.chart.numbers = 1;
-  p.chart.contains = [outcomes](const Numbers& x) { return x[0] >= 0 && x[0] < outcomes && x[0] == std::floor(x[0]); };
+  p.chart.point_size = 1;
+  p.chart.contains = [outcomes](const PointArray& x) { return x[0] >= 0 && x[0] < outcomes && x[0] == std::floor(x[0]); };
   return p;
 }
 
@@ -147,30 +147,30 @@ void put(std::array<double, N>& x, std::size_t first, int count, const std::arra
 Part product(const Part& a, const Part& b) {
   Part p{{}, a.columns, a.text + ", " + b.text};
   p.columns.insert(p.columns.end(), b.columns.begin(), b.columns.end());
-  mc::require(p.columns.size() <= std::tuple_size_v<Numbers> && a.chart.dim + b.chart.dim <= 3,
+  mc::require(p.columns.size() <= std::tuple_size_v<PointArray> && a.chart.dim + b.chart.dim <= 3,
               "{} has {} dimensions in {} columns; at most 3 in {} can be checked", p.text, a.chart.dim + b.chart.dim,
-              p.columns.size(), std::tuple_size_v<Numbers>);
+              p.columns.size(), std::tuple_size_v<PointArray>);
   p.chart.dim = a.chart.dim + b.chart.dim;
-  p.chart.numbers = a.chart.numbers + b.chart.numbers;
+  p.chart.point_size = a.chart.point_size + b.chart.point_size;
   p.chart.axes = a.chart.axes;
   p.chart.axes.insert(p.chart.axes.end(), b.chart.axes.begin(), b.chart.axes.end());
-  const auto x_split = static_cast<std::size_t>(a.chart.numbers), v_split = static_cast<std::size_t>(a.chart.dim);
-  p.chart.contains = [a = a.chart, b = b.chart, x_split](const Numbers& x) {
-    return a.contains(slice(x, 0, a.numbers)) && b.contains(slice(x, x_split, b.numbers));
+  const auto x_split = static_cast<std::size_t>(a.chart.point_size), v_split = static_cast<std::size_t>(a.chart.dim);
+  p.chart.contains = [a = a.chart, b = b.chart, x_split](const PointArray& x) {
+    return a.contains(slice(x, 0, a.point_size)) && b.contains(slice(x, x_split, b.point_size));
   };
-  p.chart.to_unit = [a = a.chart, b = b.chart, x_split, v_split](const Numbers& x) {
-    AnyDomain::Chart v = a.to_unit(slice(x, 0, a.numbers));
-    put(v, v_split, b.dim, b.to_unit(slice(x, x_split, b.numbers)));
+  p.chart.to_unit = [a = a.chart, b = b.chart, x_split, v_split](const PointArray& x) {
+    AnyDomain::Coordinates v = a.to_unit(slice(x, 0, a.point_size));
+    put(v, v_split, b.dim, b.to_unit(slice(x, x_split, b.point_size)));
     return v;
   };
-  p.chart.from_unit = [a = a.chart, b = b.chart, x_split, v_split](const AnyDomain::Chart& v) {
-    AnyDomain::Image image = a.from_unit(slice(v, 0, a.dim));
-    const AnyDomain::Image second = b.from_unit(slice(v, v_split, b.dim));
-    put(image.x, x_split, b.numbers, second.x);
+  p.chart.from_unit = [a = a.chart, b = b.chart, x_split, v_split](const AnyDomain::Coordinates& v) {
+    AnyDomain::DomainPoint image = a.from_unit(slice(v, 0, a.dim));
+    const AnyDomain::DomainPoint second = b.from_unit(slice(v, v_split, b.dim));
+    put(image.x, x_split, b.point_size, second.x);
     image.jacobian *= second.jacobian;
     return image;
   };
-  p.chart.jacobian = [a = a.chart, b = b.chart, v_split](const AnyDomain::Chart& v) {
+  p.chart.jacobian = [a = a.chart, b = b.chart, v_split](const AnyDomain::Coordinates& v) {
     return a.jacobian(slice(v, 0, a.dim)) * b.jacobian(slice(v, v_split, b.dim));
   };
   return p;
@@ -179,7 +179,7 @@ Part product(const Part& a, const Part& b) {
 } // namespace
 
 bool ParsedDomain::contains(const double* x) const {
-  Numbers numbers{};
+  PointArray numbers{};
   std::copy_n(x, columns.size(), numbers.begin());
   return chart.contains(numbers);
 }

@@ -1,7 +1,7 @@
 #pragma once
 /// Domains that are chosen as text, by --domain or by a plugin.
 
-#include <mc/check/subject/any_sampler.h>
+#include <mc/check/subject/any_distribution.h>
 
 #include <array>
 #include <functional>

@@ -1,5 +1,5 @@
 #include <input/csv.h>
-#include <input/deal.h>
+#include <input/row_shuffler.h>
 #include <input/parsed_domain.h>
 #include <input/samples_density.h>
 #include <integrands/expression.h>
@@ -114,14 +114,14 @@ std::vector<double> probabilities(const SamplesFileOptions& o, int outcomes) {
 }
 
 // The numbers of a point, as many as there are columns.
-std::span<const double> numbers(const ParsedDomain& domain, const mc::Numbers& x) {
+std::span<const double> numbers(const ParsedDomain& domain, const mc::PointArray& x) {
   return std::span(x).first(domain.columns.size());
 }
 
 // What an unnormalised density is to be divided by, and the relative error of that.
 std::pair<double, double> total(const ParsedDomain& domain, const Density& density) {
-  const auto f = [&](const mc::AnyDomain::Chart& v) {
-    const mc::AnyDomain::Image at = domain.chart.from_unit(v);
+  const auto f = [&](const mc::AnyDomain::Coordinates& v) {
+    const mc::AnyDomain::DomainPoint at = domain.chart.from_unit(v);
     const double value = density(numbers(domain, at.x)) * at.jacobian;
     return std::isfinite(value) ? value : 0.0; // the ends of infinite intervals
   };
@@ -171,18 +171,18 @@ Subject discrete_subject(const std::shared_ptr<const Samples>& f, const std::vec
   Subject s;
   s.mass_tolerance = 1e-4; // printed probabilities
   s.atoms = probabilities;
-  const auto deal = std::make_shared<Deal>(static_cast<std::uint32_t>(f->table.rows()), seed);
-  s.draw = [f, deal, probabilities](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
-    const std::uint64_t first = deal->open(stream, n);
+  const auto shuffler = std::make_shared<RowShuffler>(static_cast<std::uint32_t>(f->table.rows()), seed);
+  s.draw = [f, shuffler, probabilities](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
+    const std::uint64_t first = shuffler->open(stream, n);
     for (std::size_t k = 0; k < n; ++k) {
       Subject::Draw& d = out.emplace_back();
       d.kind = Subject::Draw::Kind::atom;
-      d.atom = static_cast<int>(f->table.row(deal->row(first + k))[0]);
+      d.atom = static_cast<int>(f->table.row(shuffler->row(first + k))[0]);
       d.pdf_positive = probabilities[static_cast<std::size_t>(d.atom)] > 0;
     }
   };
-  s.describe_draw = [f, deal](std::uint64_t stream, std::uint64_t index) {
-    return f->text(deal->row(deal->open(stream, 0) + index));
+  s.describe_draw = [f, shuffler](std::uint64_t stream, std::uint64_t index) {
+    return f->text(shuffler->row(shuffler->open(stream, 0) + index));
   };
   return s;
 }
@@ -193,26 +193,26 @@ Subject continuous_subject(const std::shared_ptr<const Samples>& f, std::uint64_
   s.axes = f->domain.chart.axes;
   s.mass_tolerance = f->mass_tolerance;
   s.breaks = f->breaks;
-  const auto deal = std::make_shared<Deal>(static_cast<std::uint32_t>(f->table.rows()), seed);
-  s.draw = [f, deal, seed](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
-    const std::uint64_t first = deal->open(stream, n);
+  const auto shuffler = std::make_shared<RowShuffler>(static_cast<std::uint32_t>(f->table.rows()), seed);
+  s.draw = [f, shuffler, seed](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
+    const std::uint64_t first = shuffler->open(stream, n);
     for (std::size_t k = 0; k < n; ++k) {
-      const std::vector<double> x = f->point(deal->row(first + k), seed);
+      const std::vector<double> x = f->point(shuffler->row(first + k), seed);
       const double density = f->density(x);
       Subject::Draw& d = out.emplace_back();
       d.pdf_positive = density > 0 && std::isfinite(density);
-      mc::Numbers point{};
+      mc::PointArray point{};
       std::copy(x.begin(), x.end(), point.begin());
       d.v = f->domain.chart.to_unit(point);
       d.density = density * f->domain.chart.jacobian(d.v);
     }
   };
   s.density = [f](const Subject::Coordinates& v) {
-    const mc::AnyDomain::Image at = f->domain.chart.from_unit(v);
+    const mc::AnyDomain::DomainPoint at = f->domain.chart.from_unit(v);
     return f->density(numbers(f->domain, at.x)) * at.jacobian;
   };
-  s.describe_draw = [f, deal](std::uint64_t stream, std::uint64_t index) {
-    const std::uint32_t row = deal->row(deal->open(stream, 0) + index);
+  s.describe_draw = [f, shuffler](std::uint64_t stream, std::uint64_t index) {
+    const std::uint32_t row = shuffler->row(shuffler->open(stream, 0) + index);
     return fmt::format("{}, pdf = {:.9g}", f->text(row), f->density({f->table.row(row), f->columns()}));
   };
   s.describe_point = [f](const Subject::Coordinates& v) {
@@ -231,11 +231,11 @@ SamplesFileCase samples_density_case(const SamplesFileOptions& o) {
   c.one.name = o.samples;
   c.one.parameters = o.density.empty() ? o.pdf : o.density;
   c.one.scalar = "double";
-  c.one.again = fmt::format("--samples-file '{}' {} '{}'", o.samples, o.density.empty() ? "--pdf-file" : "--pdf",
+  c.one.rerun_arguments = fmt::format("--samples-file '{}' {} '{}'", o.samples, o.density.empty() ? "--pdf-file" : "--pdf",
                             c.one.parameters);
-  if (!o.domain.empty()) c.one.again += fmt::format(" --domain '{}'", o.domain);
-  if (!o.breaks.empty()) c.one.again += fmt::format(" --breaks '{}'", o.breaks);
-  if (o.unnormalized) c.one.again += " --unnormalized";
+  if (!o.domain.empty()) c.one.rerun_arguments += fmt::format(" --domain '{}'", o.domain);
+  if (!o.breaks.empty()) c.one.rerun_arguments += fmt::format(" --breaks '{}'", o.breaks);
+  if (o.unnormalized) c.one.rerun_arguments += " --unnormalized";
   const std::uint64_t rows = file->table.rows();
   c.samples = rows - mc::pilot_samples(rows - rows / 9);
   c.one.check = [file, atoms, title = c.one.title()](const CaseOptions& options) {

@@ -1,5 +1,5 @@
 #include <input/csv.h>
-#include <input/deal.h>
+#include <input/row_shuffler.h>
 #include <input/samples_density.h>
 #include <input/samples_file.h>
 #include <integrands/sides.h>
@@ -221,11 +221,11 @@ Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::strin
   s.mass_tolerance = mass_tolerance;
   s.axes = f->domain.axes();
   s.breaks = {mc::even_breaks(f->grid.width), mc::even_breaks(f->grid.height)};
-  const auto deal = std::make_shared<Deal>(static_cast<std::uint32_t>(f->table.rows()), seed);
-  s.draw = [f, deal, seed](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
-    const std::uint64_t first = deal->open(stream, n);
+  const auto shuffler = std::make_shared<RowShuffler>(static_cast<std::uint32_t>(f->table.rows()), seed);
+  s.draw = [f, shuffler, seed](std::uint64_t stream, std::size_t n, std::vector<Subject::Draw>& out) {
+    const std::uint64_t first = shuffler->open(stream, n);
     for (std::size_t k = 0; k < n; ++k) {
-      const std::uint32_t row = deal->row(first + k), cell = f->cells[row];
+      const std::uint32_t row = shuffler->row(first + k), cell = f->cells[row];
       const std::size_t i = cell % f->grid.width, j = cell / f->grid.width;
       const std::uint64_t bits = mc::hash(seed, row);
       Subject::Draw& d = out.emplace_back();
@@ -237,8 +237,8 @@ Subject subject_of(const std::shared_ptr<const SamplesFile>& f, const std::strin
     }
   };
   s.density = [f](const Subject::Coordinates& v) { return f->grid.density[f->grid.cell({v[0], v[1]})]; };
-  s.describe_draw = [f, deal](std::uint64_t stream, std::uint64_t index) {
-    const std::uint32_t row = deal->row(deal->open(stream, 0) + index), cell = f->cells[row];
+  s.describe_draw = [f, shuffler](std::uint64_t stream, std::uint64_t index) {
+    const std::uint32_t row = shuffler->row(shuffler->open(stream, 0) + index), cell = f->cells[row];
     std::string point;
     for (std::size_t k = 0; k < f->table.columns; ++k)
       point += fmt::format("{}{}", k ? ", " : "", f->table.row(row)[k]);
@@ -258,9 +258,9 @@ SamplesFileCase samples_file_case(const SamplesFileOptions& options) {
   c.one.name = options.samples;
   c.one.parameters = options.pdf;
   c.one.scalar = "double";
-  c.one.again = fmt::format("--samples-file '{}' --pdf-file '{}'", options.samples, options.pdf);
-  if (!options.domain.empty()) c.one.again += fmt::format(" --domain '{}'", options.domain);
-  if (options.unnormalized) c.one.again += " --unnormalized";
+  c.one.rerun_arguments = fmt::format("--samples-file '{}' --pdf-file '{}'", options.samples, options.pdf);
+  if (!options.domain.empty()) c.one.rerun_arguments += fmt::format(" --domain '{}'", options.domain);
+  if (options.unnormalized) c.one.rerun_arguments += " --unnormalized";
   const std::uint64_t rows = file->table.rows();
   c.samples = rows - mc::pilot_samples(rows - rows / 9);
   c.one.check = [file, title = c.one.title()](const CaseOptions& o) {

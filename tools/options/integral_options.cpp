@@ -115,10 +115,10 @@ OptionGroup plugin_group(IntegralOptions& o) {
 
 std::vector<Target> targets_of(const IntegralOptions& o) {
   mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
-  Limits limits = limits_of(o.timeout, o.memory, !o.plugin.empty());
+  ResourceLimits limits = resource_limits(o.timeout, o.memory, !o.plugin.empty());
   if (!o.plugin.empty()) {
     mc::require(o.domain.empty(), "--domain is for an expression; a plugin states its own bounds");
-    limits.less = "--max-n";
+    limits.reduce_option = "--max-n";
     return plugin_targets(o.plugin, o.integrands, {.limits = limits});
   }
   mc::require(o.domain.empty() || o.integrands.size() == 1, "--domain belongs to one expression");

@@ -33,9 +33,9 @@ struct Description {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Parameter, name, value, lo, hi)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Description, name, scalar, parameters)
 
-std::vector<Description> describe(const std::string& path, Watch& watch) {
+std::vector<Description> describe(const std::string& path, CallMonitor& monitor) {
   std::vector<Description> all;
-  for (const mc_sampler& s : load_plugin(path, watch).samplers) {
+  for (const mc_sampler& s : load_plugin(path, monitor).samplers) {
     Description& d = all.emplace_back(Description{s.name, s.scalar == MC_FLOAT ? "float" : "double", {}});
     for (int i = 0; i < s.parameter_count; ++i)
       d.parameters.push_back({s.parameters[i].name, s.parameters[i].value, s.parameters[i].lo, s.parameters[i].hi});
@@ -97,8 +97,8 @@ Case make_case(const std::string& path, std::size_t index, const Description& d,
   c.scalar = d.scalar;
   for (const auto& [name, value] : set)
     c.parameters += fmt::format("{}{}={}", c.parameters.empty() ? "" : ", ", name, value);
-  c.again = fmt::format("--plugin '{}' {}", path, d.name);
-  if (!set.empty()) c.again += fmt::format(" --params '{}'", c.parameters);
+  c.rerun_arguments = fmt::format("--plugin '{}' {}", path, d.name);
+  if (!set.empty()) c.rerun_arguments += fmt::format(" --params '{}'", c.parameters);
   c.check = [=, title = c.title()](const CaseOptions& o) {
     json request = check_request("check", path, title, o);
     request["index"] = index;
@@ -110,12 +110,12 @@ Case make_case(const std::string& path, std::size_t index, const Description& d,
 
 } // namespace
 
-json run_plugin_task(const json& request, Watch& watch) {
+json run_plugin_task(const json& request, CallMonitor& monitor) {
   const std::string path = request["who"];
-  if (request["task"] == "describe") return describe(path, watch);
-  const mc_sampler sampler = load_plugin(path, watch).samplers[request["index"].get<std::size_t>()];
+  if (request["task"] == "describe") return describe(path, monitor);
+  const mc_sampler distribution = load_plugin(path, monitor).samplers[request["index"].get<std::size_t>()];
   return to_json(
-      check_plugin(PluginSampler(sampler, request["parameters"], watch), request["title"], requested_options(request)));
+      check_plugin(PluginDistribution(distribution, request["parameters"], monitor), request["title"], requested_options(request)));
 }
 
 Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& texts,

@@ -26,7 +26,7 @@
 
 namespace carlo {
 
-using mc::AnySampler;
+using mc::AnyDistribution;
 using nlohmann::json;
 
 namespace {
@@ -45,8 +45,8 @@ std::string near_limit(double peak) {
 // The program, asked in batches of rows.
 class Program {
  public:
-  Program(const std::string& command, std::size_t uniforms, std::size_t columns, Watch& watch)
-      : child_({{"/bin/sh", "-c", command}}), uniforms_(uniforms), columns_(columns), watch_(watch) {}
+  Program(const std::string& command, std::size_t uniforms, std::size_t columns, CallMonitor& monitor)
+      : child_({{"/bin/sh", "-c", command}}), uniforms_(uniforms), columns_(columns), monitor_(monitor) {}
 
   std::size_t uniforms() const { return uniforms_; }
   std::size_t columns() const { return columns_; }
@@ -65,14 +65,14 @@ class Program {
       const std::size_t n = std::min(batch, (in.size() - at) / width);
       const std::size_t more = child_.unread(); // it would be taken for the next answer
       mc::require(more == 0, "it wrote {} bytes more than the answer; it must write nothing else to standard output", more);
-      watch_.enter(what, argument, in.data() + at,
-                   static_cast<int>(std::min<std::size_t>(width, Watch::max_arguments)));
+      monitor_.enter(what, argument, in.data() + at,
+                   static_cast<int>(std::min<std::size_t>(width, CallMonitor::max_arguments)));
       // In one write: a single point, asked thousands of times, costs what its system calls cost.
       std::string question = fmt::format("{} {} {}\n", what, n, width);
       question.append(reinterpret_cast<const char*>(in.data() + at), n * width * sizeof(double));
       if (!write_all(child_.input(), question.data(), question.size())) ended(what);
       read(what, out, n * answer_width);
-      watch_.leave();
+      monitor_.leave();
     }
     return out;
   }
@@ -88,12 +88,12 @@ class Program {
       if (n <= 0) ended(what);
       to += n;
       left -= static_cast<std::size_t>(n);
-      watch_.answered(count - left / sizeof(double), count);
+      monitor_.answered(count - left / sizeof(double), count);
     }
   }
 
   [[noreturn]] void ended(const char* what) {
-    watch_.leave();
+    monitor_.leave();
     const int code = child_.wait();
     throw mc::Error(fmt::format("the program ended with code {} instead of answering '{}'{}", code, what,
                                 near_limit(child_.peak())));
@@ -101,7 +101,7 @@ class Program {
 
   Child child_;
   std::size_t uniforms_, columns_;
-  Watch& watch_;
+  CallMonitor& monitor_;
 };
 
 // The leading `width` numbers of each as one row.
@@ -118,13 +118,13 @@ class CommandOnDomain {
   CommandOnDomain(const std::shared_ptr<Program>& program, const ParsedDomain& domain)
       : program_(program), domain_(domain) {}
 
-  std::vector<std::optional<AnySampler::Drawn>> sample(std::span<const AnySampler::Uniforms> u) const {
+  std::vector<std::optional<AnyDistribution::Sample>> sample(std::span<const AnyDistribution::Uniforms> u) const {
     const Rows x = program_->sample(rows_of(u, program_->uniforms()));
-    std::vector<std::optional<AnySampler::Drawn>> drawn(u.size(), AnySampler::Drawn{});
-    std::vector<mc::Numbers> points;
+    std::vector<std::optional<AnyDistribution::Sample>> drawn(u.size(), AnyDistribution::Sample{});
+    std::vector<mc::PointArray> points;
     std::vector<std::size_t> owners;
     for (std::size_t i = 0; i < u.size(); ++i) {
-      AnySampler::Drawn& d = *drawn[i];
+      AnyDistribution::Sample& d = *drawn[i];
       std::copy_n(x.begin() + static_cast<std::ptrdiff_t>(i * program_->columns()), program_->columns(), d.x.begin());
       const bool inside = domain_.chart.contains(d.x);
       if (domain_.outcomes > 0 && inside) d.atom = static_cast<int>(d.x[0]);
@@ -136,7 +136,7 @@ class CommandOnDomain {
     for (std::size_t k = 0; k < owners.size(); ++k) drawn[owners[k]]->pdf = density[k];
     return drawn;
   }
-  std::vector<double> pdf(std::span<const mc::Numbers> x) const {
+  std::vector<double> pdf(std::span<const mc::PointArray> x) const {
     return program_->pdf(rows_of(x, program_->columns()));
   }
 
@@ -145,27 +145,27 @@ class CommandOnDomain {
   ParsedDomain domain_;
 };
 
-double time_of(const CommandOnDomain& command, const AnySampler& s) {
+double time_of(const CommandOnDomain& command, const AnyDistribution& s) {
   mc::Pcg random(3);
-  std::vector<AnySampler::Uniforms> u(mc::timing_inputs);
-  for (AnySampler::Uniforms& one : u) one = random_uniforms(s, random);
+  std::vector<AnyDistribution::Uniforms> u(mc::timing_inputs);
+  for (AnyDistribution::Uniforms& one : u) one = random_uniforms(s, random);
   const auto start = std::chrono::steady_clock::now();
   command.sample(u);
   return 1e9 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
          static_cast<double>(u.size());
 }
 
-AnySampler sampler_of(const std::shared_ptr<Program>& program, const ParsedDomain& domain) {
+AnyDistribution plugin_distribution(const std::shared_ptr<Program>& program, const ParsedDomain& domain) {
   const CommandOnDomain command(program, domain);
-  AnySampler s;
+  AnyDistribution s;
   s.domain = domain.chart;
   s.uniforms = static_cast<int>(program->uniforms());
-  s.sample = [command](const AnySampler::Uniforms& u) { return command.sample(std::span(&u, 1))[0]; };
-  s.sample_many = [command](std::span<const AnySampler::Uniforms> u) { return command.sample(u); };
-  s.pdf = [command](const mc::Numbers& x) { return command.pdf(std::span(&x, 1))[0]; };
-  s.pdf_many = [command](std::span<const mc::Numbers> x) { return command.pdf(x); };
+  s.sample = [command](const AnyDistribution::Uniforms& u) { return command.sample(std::span(&u, 1))[0]; };
+  s.sample_many = [command](std::span<const AnyDistribution::Uniforms> u) { return command.sample(u); };
+  s.pdf = [command](const mc::PointArray& x) { return command.pdf(std::span(&x, 1))[0]; };
+  s.pdf_many = [command](std::span<const mc::PointArray> x) { return command.pdf(x); };
   s.ns_per_sample = [command, s] { return time_of(command, s); };
-  std::vector<mc::Numbers> outcomes(static_cast<std::size_t>(domain.outcomes));
+  std::vector<mc::PointArray> outcomes(static_cast<std::size_t>(domain.outcomes));
   for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i][0] = static_cast<double>(i);
   if (!outcomes.empty()) s.atoms = command.pdf(outcomes);
   return s;
@@ -187,38 +187,38 @@ ParsedDomain charted(Program& program, const std::string& text, std::uint64_t se
 
 } // namespace
 
-json run_command_task(const json& request, Watch& watch) {
+json run_command_task(const json& request, CallMonitor& monitor) {
   std::signal(SIGPIPE, SIG_IGN); // a program that ended is an error of the write
   const std::string text = request["domain"];
   const auto program =
       std::make_shared<Program>(request["who"].get<std::string>(), request["uniforms"].get<std::size_t>(),
-                                parse_domain(text).columns.size(), watch);
+                                parse_domain(text).columns.size(), monitor);
   auto o = mc::with_statistics(mc::LawOptions(), requested_options(request));
   o.max_evaluations = 1'000'000; // each is an exchange with the program
   const ParsedDomain domain = charted(*program, text, o.seed);
-  AnySampler sampler = sampler_of(program, domain);
-  sampler.breaks = parse_breaks(request["breaks"], domain.chart);
-  sampler.name = request["title"];
-  return to_json(check_laws(sampler, o));
+  AnyDistribution distribution = plugin_distribution(program, domain);
+  distribution.breaks = parse_breaks(request["breaks"], domain.chart);
+  distribution.name = request["title"];
+  return to_json(check_laws(distribution, o));
 }
 
-Case command_case(const CommandSampler& sampler, const WorkerOptions& worker) {
-  const ParsedDomain domain = mc::with_context("--domain", [&] { return parse_domain(sampler.domain); });
-  parse_breaks(sampler.breaks, domain.chart);
-  const int uniforms = sampler.uniforms > 0 ? sampler.uniforms : std::max(domain.chart.dim, 1);
-  mc::require(uniforms <= Watch::max_arguments, "validate: --uniforms {}; at most {} are possible", uniforms,
-              Watch::max_arguments);
+Case command_case(const CommandDistribution& distribution, const WorkerOptions& worker) {
+  const ParsedDomain domain = mc::with_context("--domain", [&] { return parse_domain(distribution.domain); });
+  parse_breaks(distribution.breaks, domain.chart);
+  const int uniforms = distribution.uniforms > 0 ? distribution.uniforms : std::max(domain.chart.dim, 1);
+  mc::require(uniforms <= CallMonitor::max_arguments, "validate: --uniforms {}; at most {} are possible", uniforms,
+              CallMonitor::max_arguments);
   Case c;
-  c.name = sampler.command;
-  c.parameters = sampler.domain;
+  c.name = distribution.command;
+  c.parameters = distribution.domain;
   c.scalar = "double";
-  c.again = fmt::format("--command '{}' --domain '{}'", sampler.command, sampler.domain);
-  if (!sampler.breaks.empty()) c.again += fmt::format(" --breaks '{}'", sampler.breaks);
-  if (sampler.uniforms > 0) c.again += fmt::format(" --uniforms {}", sampler.uniforms);
+  c.rerun_arguments = fmt::format("--command '{}' --domain '{}'", distribution.command, distribution.domain);
+  if (!distribution.breaks.empty()) c.rerun_arguments += fmt::format(" --breaks '{}'", distribution.breaks);
+  if (distribution.uniforms > 0) c.rerun_arguments += fmt::format(" --uniforms {}", distribution.uniforms);
   c.check = [=, title = c.title()](const CaseOptions& o) {
-    json request = check_request("command", sampler.command, title, o);
-    request["domain"] = sampler.domain;
-    request["breaks"] = sampler.breaks;
+    json request = check_request("command", distribution.command, title, o);
+    request["domain"] = distribution.domain;
+    request["breaks"] = distribution.breaks;
     request["uniforms"] = uniforms;
     return report_from_json(call_worker(std::move(request), worker));
   };

@@ -18,7 +18,7 @@
 
 namespace carlo {
 
-struct CommandSampler {
+struct CommandDistribution {
   std::string command; ///< for /bin/sh
   std::string domain;  ///< see parse_domain
   std::string breaks;  ///< see parse_breaks; may be empty
@@ -29,9 +29,9 @@ struct CommandSampler {
 /// plugin, in a process of its own under limits, and everything it started ends with it.
 ///   throws : Error for a domain that means nothing; when it runs, Error for a program that cannot be started, ends,
 ///            hangs, or answers with too few numbers
-Case command_case(const CommandSampler& sampler, const WorkerOptions& worker);
+Case command_case(const CommandDistribution& distribution, const WorkerOptions& worker);
 
 /// What the worker does with the request of command_case.
-nlohmann::json run_command_task(const nlohmann::json& request, Watch& watch);
+nlohmann::json run_command_task(const nlohmann::json& request, CallMonitor& monitor);
 
 } // namespace carlo

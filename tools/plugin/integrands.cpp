@@ -41,7 +41,7 @@ struct Bounds {
 };
 
 // In the child only. Every call is noted in the watch.
-Experiment experiment_of(const mc_integrand& f, Watch& watch) {
+Experiment experiment_of(const mc_integrand& f, CallMonitor& monitor) {
   const Bounds bounds(f);
   Experiment e;
   e.name = f.name;
@@ -52,21 +52,21 @@ Experiment experiment_of(const mc_integrand& f, Watch& watch) {
     for (std::size_t k = 0; k < u.size(); ++k) text += fmt::format("{}{:.17g}", k ? ", " : "", bounds.at(k, u[k]));
     return "x = (" + text + ")";
   };
-  e.f = [f, bounds, &watch](Experiment::Unit u) {
+  e.f = [f, bounds, &monitor](Experiment::Unit u) {
     std::array<double, most_dimensions> x;
     for (std::size_t k = 0; k < u.size(); ++k) x[k] = bounds.at(k, u[k]);
-    watch.enter("eval", "x", x.data(), std::min(f.dim, Watch::max_arguments));
+    monitor.enter("eval", "x", x.data(), std::min(f.dim, CallMonitor::max_arguments));
     const double value = f.eval(x.data());
-    watch.leave();
+    monitor.leave();
     return bounds.volume() * value;
   };
   if (!f.eval_many) return e;
-  e.many = [f, bounds, &watch](Experiment::Unit points, std::span<double> values) {
+  e.many = [f, bounds, &monitor](Experiment::Unit points, std::span<double> values) {
     std::vector<double> x(points.begin(), points.end());
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = bounds.at(i % bounds.lo.size(), x[i]);
-    watch.enter("eval_many", "x", x.data(), std::min(f.dim, Watch::max_arguments));
+    monitor.enter("eval_many", "x", x.data(), std::min(f.dim, CallMonitor::max_arguments));
     f.eval_many(static_cast<std::int64_t>(values.size()), x.data(), values.data());
-    watch.leave();
+    monitor.leave();
     for (double& value : values) value *= bounds.volume();
   };
   return e;
@@ -178,11 +178,11 @@ Replicates run(const std::string& path, std::size_t index, const Task& task, Wor
 
 } // namespace
 
-json run_integrand_task(const json& request, Watch& watch) {
-  const Plugin plugin = load_plugin(request["who"], watch);
+json run_integrand_task(const json& request, CallMonitor& monitor) {
+  const Plugin plugin = load_plugin(request["who"], monitor);
   if (request["task"] == "describe integrands") return describe(plugin.integrands);
   const mc_integrand& f = plugin.integrands[request["index"].get<std::size_t>()];
-  const Experiment e = experiment_of(f, watch);
+  const Experiment e = experiment_of(f, monitor);
   if (request["task"] == "check integrand") {
     require_a_function(e, Bounds(f).volume());
     return {};

@@ -2,7 +2,7 @@
 /// Integrands of plugins, measured in a process of their own.
 
 #include <converge/target.h>
-#include <plugin/isolated.h>
+#include <plugin/run_isolated.h>
 #include <plugin/worker.h>
 
 #include <string>
@@ -19,6 +19,6 @@ std::vector<Target> plugin_targets(const std::string& path, const std::vector<st
                                    const WorkerOptions& worker);
 
 /// What the worker does with the requests of plugin_targets.
-nlohmann::json run_integrand_task(const nlohmann::json& request, Watch& watch);
+nlohmann::json run_integrand_task(const nlohmann::json& request, CallMonitor& monitor);
 
 } // namespace carlo

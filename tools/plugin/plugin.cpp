@@ -25,7 +25,7 @@ bool is_word(const char* text) {
                      [](unsigned char c) { return std::isalnum(c) || c == '_'; });
 }
 
-void require_sound(const mc_sampler& s, std::size_t index) {
+void require_valid(const mc_sampler& s, std::size_t index) {
   mc::require(is_word(s.name), "sampler {} has no name of letters, digits and _", index);
   mc::with_context(fmt::format("sampler {}", s.name), [&] {
     mc::require(s.domain >= MC_INTERVAL && s.domain <= MC_PRODUCT, "domain = {} is none of mc_domain, 1 to 8",
@@ -44,8 +44,8 @@ void require_sound(const mc_sampler& s, std::size_t index) {
     mc::require(s.outcomes == 0 || s.domain != MC_DISCRETE, "outcomes beside a density, but domain is MC_DISCRETE");
     mc::require((s.outcomes > 0) == (s.probability != nullptr), "outcomes = {}, but probability is {}", s.outcomes,
                 s.probability ? "given" : "NULL");
-    mc::require(s.uniforms >= 0 && s.uniforms <= Watch::max_arguments, "uniforms = {} must lie in 0 to {}", s.uniforms,
-                Watch::max_arguments);
+    mc::require(s.uniforms >= 0 && s.uniforms <= CallMonitor::max_arguments, "uniforms = {} must lie in 0 to {}", s.uniforms,
+                CallMonitor::max_arguments);
     mc::require(s.scalar == MC_DOUBLE || s.scalar == MC_FLOAT, "scalar = {} is none of mc_scalar, 0 or 1", s.scalar);
     mc::require(s.sample, "it has no function sample");
     mc::require(s.pdf, "it has no function pdf");
@@ -67,7 +67,7 @@ void require_sound(const mc_sampler& s, std::size_t index) {
   });
 }
 
-void require_sound(const mc_integrand& f, std::size_t index) {
+void require_valid(const mc_integrand& f, std::size_t index) {
   mc::require(is_word(f.name), "integrand {} has no name of letters, digits and _", index);
   mc::with_context(fmt::format("integrand {}", f.name), [&] {
     mc::require(f.dim >= 1 && f.dim <= 64, "dim = {} must lie in 1 to 64", f.dim);
@@ -81,7 +81,7 @@ void require_sound(const mc_integrand& f, std::size_t index) {
 }
 
 // An array of structs that were compiled with `size` bytes each, perhaps before the last fields came.
-template <class T> std::vector<T> grown(const T* first, std::size_t count, std::size_t size) {
+template <class T> std::vector<T> copy_structs(const T* first, std::size_t count, std::size_t size) {
   std::vector<T> all(count);
   for (std::size_t i = 0; i < count; ++i) std::memcpy(&all[i], reinterpret_cast<const char*>(first) + i * size, size);
   return all;
@@ -93,12 +93,12 @@ std::vector<T> table(const char* what, const T* first, std::size_t count, std::s
               expected);
   mc::require(count <= 1000, "it lists {} {}s; at most 1000 are possible", count, what);
   mc::require(count == 0 || first, "{}_count = {}, but {}s is NULL", what, count, what);
-  std::vector<T> all = grown(first, count, size);
-  for (std::size_t i = 0; i < count; ++i) require_sound(all[i], i);
+  std::vector<T> all = copy_structs(first, count, size);
+  for (std::size_t i = 0; i < count; ++i) require_valid(all[i], i);
   return all;
 }
 
-std::string side(const char* name, double lo, double hi) { return fmt::format("{}={:.17g}:{:.17g}", name, lo, hi); }
+std::string interval_text(const char* name, double lo, double hi) { return fmt::format("{}={:.17g}:{:.17g}", name, lo, hi); }
 
 std::string box_text(const mc_sampler& s) {
   const auto is_zero = [](double x) { return x == 0; };
@@ -106,7 +106,7 @@ std::string box_text(const mc_sampler& s) {
   constexpr const char* names[] = {"x", "y", "z"};
   std::string text;
   for (int i = 0; i < (s.domain == MC_INTERVAL ? 1 : s.dim); ++i)
-    text += (i > 0 ? "," : "") + side(names[i], s.lo[i], unit ? 1 : s.hi[i]);
+    text += (i > 0 ? "," : "") + interval_text(names[i], s.lo[i], unit ? 1 : s.hi[i]);
   return text;
 }
 
@@ -125,91 +125,91 @@ std::string domain_text(const mc_sampler& s) {
   }
 }
 
-PluginSampler::PluginSampler(const mc_sampler& sampler, std::vector<double> parameters, Watch& watch)
-    : sampler_(sampler), parameters_(std::make_shared<std::vector<double>>(std::move(parameters))), watch_(&watch) {
-  const ParsedDomain domain = parse_domain(domain_text(sampler));
+PluginDistribution::PluginDistribution(const mc_sampler& distribution, std::vector<double> parameters, CallMonitor& monitor)
+    : distribution_(distribution), parameters_(std::make_shared<std::vector<double>>(std::move(parameters))), monitor_(&monitor) {
+  const ParsedDomain domain = parse_domain(domain_text(distribution));
   coordinates_ = static_cast<int>(domain.columns.size());
-  uniforms_ = sampler.uniforms > 0 ? sampler.uniforms : std::max(domain.chart.dim, 1);
-  if (!sampler.create) {
+  uniforms_ = distribution.uniforms > 0 ? distribution.uniforms : std::max(domain.chart.dim, 1);
+  if (!distribution.create) {
     self_ = {parameters_, parameters_->data()};
     return;
   }
-  watch.enter("create");
-  void* self = sampler.create(parameters_->data());
-  watch.leave();
+  monitor.enter("create");
+  void* self = distribution.create(parameters_->data());
+  monitor.leave();
   mc::require(self != nullptr, "create rejects the parameters");
-  self_ = {self, [destroy = sampler.destroy, &watch](void* made) {
+  self_ = {self, [destroy = distribution.destroy, &monitor](void* made) {
              if (!destroy) return;
-             watch.enter("destroy");
+             monitor.enter("destroy");
              destroy(made);
-             watch.leave();
+             monitor.leave();
            }};
 }
 
-int PluginSampler::sample(const double* u, double* x) const {
-  watch_->enter("sample", "u", u, uniforms());
-  const int drawn = sampler_.sample(self_.get(), u, x);
-  watch_->leave();
+int PluginDistribution::sample(const double* u, double* x) const {
+  monitor_->enter("sample", "u", u, uniforms());
+  const int drawn = distribution_.sample(self_.get(), u, x);
+  monitor_->leave();
   mc::require(drawn >= 0, "sample returned {}; it is MC_FAILED, MC_POINT or MC_OUTCOME + k", drawn);
-  mc::require(drawn < MC_OUTCOME || sampler_.outcomes > 0 || sampler_.domain == MC_DISCRETE,
+  mc::require(drawn < MC_OUTCOME || distribution_.outcomes > 0 || distribution_.domain == MC_DISCRETE,
               "sample returned {}, MC_OUTCOME + {}, but it declares no outcomes; set outcomes and probability, or "
               "return MC_POINT",
               drawn, drawn - MC_OUTCOME);
   return drawn;
 }
 
-double PluginSampler::pdf(const double* x) const {
-  watch_->enter("pdf", "x", x, coordinates());
-  const double density = sampler_.pdf(self_.get(), x);
-  watch_->leave();
+double PluginDistribution::pdf(const double* x) const {
+  monitor_->enter("pdf", "x", x, coordinates());
+  const double density = distribution_.pdf(self_.get(), x);
+  monitor_->leave();
   return density;
 }
 
-bool PluginSampler::invert(const double* x, double* u) const {
-  watch_->enter("invert", "x", x, coordinates());
-  const bool ok = sampler_.invert(self_.get(), x, u) != 0;
-  watch_->leave();
+bool PluginDistribution::invert(const double* x, double* u) const {
+  monitor_->enter("invert", "x", x, coordinates());
+  const bool ok = distribution_.invert(self_.get(), x, u) != 0;
+  monitor_->leave();
   return ok;
 }
 
-double PluginSampler::eval(const double* x) const {
-  watch_->enter("eval", "x", x, coordinates());
-  const double f = sampler_.eval(self_.get(), x);
-  watch_->leave();
+double PluginDistribution::eval(const double* x) const {
+  monitor_->enter("eval", "x", x, coordinates());
+  const double f = distribution_.eval(self_.get(), x);
+  monitor_->leave();
   return f;
 }
 
-double PluginSampler::weight(const double* u, const double* x) const {
-  watch_->enter("weight", "u", u, uniforms());
-  const double w = sampler_.weight(self_.get(), u, x);
-  watch_->leave();
+double PluginDistribution::weight(const double* u, const double* x) const {
+  monitor_->enter("weight", "u", u, uniforms());
+  const double w = distribution_.weight(self_.get(), u, x);
+  monitor_->leave();
   return w;
 }
 
-double PluginSampler::probability(int outcome) const {
-  watch_->enter("probability");
-  const double p = sampler_.probability(self_.get(), outcome);
-  watch_->leave();
+double PluginDistribution::probability(int outcome) const {
+  monitor_->enter("probability");
+  const double p = distribution_.probability(self_.get(), outcome);
+  monitor_->leave();
   return p;
 }
 
-std::vector<double> PluginSampler::breaks(int axis) const {
-  if (!sampler_.breaks) return {};
+std::vector<double> PluginDistribution::breaks(int axis) const {
+  if (!distribution_.breaks) return {};
   const double* places = nullptr;
-  watch_->enter("breaks");
-  const int count = sampler_.breaks(self_.get(), axis, &places);
-  watch_->leave();
+  monitor_->enter("breaks");
+  const int count = distribution_.breaks(self_.get(), axis, &places);
+  monitor_->leave();
   mc::require(count >= 0 && count <= 1 << 24 && (count == 0 || places), "breaks returned {} places of axis {}", count,
               axis);
   return {places, places + count};
 }
 
-Plugin load_plugin(const std::string& path, Watch& watch) {
+Plugin load_plugin(const std::string& path, CallMonitor& monitor) {
   // A name without a slash would be searched for among the system's libraries.
   const std::string file = std::filesystem::absolute(path).string();
-  watch.enter("loading");
+  monitor.enter("loading");
   void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  watch.leave();
+  monitor.leave();
   if (!library) {
     std::string why = dlerror();
     if (why.starts_with(file + ": ")) why.erase(0, file.size() + 2);
@@ -218,9 +218,9 @@ Plugin load_plugin(const std::string& path, Watch& watch) {
   const auto entry = reinterpret_cast<const mc_plugin_info* (*)()>(dlsym(library, "mc_plugin"));
   mc::require(entry != nullptr,
               "it has no function mc_plugin; end the source with MC_PLUGIN(samplers) of <mc/check/plugin.h>");
-  watch.enter("mc_plugin");
+  monitor.enter("mc_plugin");
   const mc_plugin_info* const info = entry();
-  watch.leave();
+  monitor.leave();
   mc::require(info != nullptr, "mc_plugin returned NULL");
   mc::require(info->abi >= 1 && info->abi <= MC_PLUGIN_ABI,
               "it is made for version {} of <mc/check/plugin.h>, this carlo for 1 to {}; use the header of this carlo",

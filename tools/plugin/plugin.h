@@ -5,7 +5,7 @@
 #include <plugin/worker.h>
 
 #include <mc/check/plugin.h>
-#include <mc/check/subject/any_sampler.h>
+#include <mc/check/subject/any_distribution.h>
 
 #include <memory>
 #include <span>
@@ -16,13 +16,13 @@ namespace carlo {
 
 /// A sampler of a loaded shared object with its parameters set: the functions of mc_sampler, each call noted in the
 /// watch. Lives in the child only.
-class PluginSampler {
+class PluginDistribution {
  public:
   /// throws : Error when create rejects the parameters
-  PluginSampler(const mc_sampler& sampler, std::vector<double> parameters, Watch& watch);
+  PluginDistribution(const mc_sampler& distribution, std::vector<double> parameters, CallMonitor& monitor);
 
-  const mc_sampler& operator*() const { return sampler_; }
-  const mc_sampler* operator->() const { return &sampler_; }
+  const mc_sampler& operator*() const { return distribution_; }
+  const mc_sampler* operator->() const { return &distribution_; }
   int coordinates() const { return coordinates_; } ///< of a point
   int uniforms() const { return uniforms_; }       ///< of a sample
 
@@ -35,11 +35,11 @@ class PluginSampler {
   std::vector<double> breaks(int axis) const; ///< in the quantity of the axis
 
  private:
-  mc_sampler sampler_;
+  mc_sampler distribution_;
   int coordinates_, uniforms_;
   std::shared_ptr<std::vector<double>> parameters_;
   std::shared_ptr<void> self_;
-  Watch* watch_;
+  CallMonitor* monitor_;
 };
 
 /// What a shared object holds; its functions and texts live as long as the process.
@@ -52,16 +52,16 @@ struct Plugin {
 ///   throws : Error for a file that is no shared object, lacks mc_plugin or one that it needs itself, is made for a
 ///            later version of the header, or holds a sampler or an integrand without a function, or with a domain, a
 ///            number or a parameter that means nothing
-Plugin load_plugin(const std::string& path, Watch& watch);
+Plugin load_plugin(const std::string& path, CallMonitor& monitor);
 
 /// The sampler's domain in the words of parse_domain.
-std::string domain_text(const mc_sampler& sampler);
+std::string domain_text(const mc_sampler& distribution);
 
 /// The plugin's sampler as the laws see it. Charts of infinite intervals are centred on samples of `seed`.
-mc::AnySampler sampler_of(const PluginSampler& plugin, const std::string& title, std::uint64_t seed);
+mc::AnyDistribution plugin_distribution(const PluginDistribution& plugin, const std::string& title, std::uint64_t seed);
 
 /// Every law of check_laws that the sampler's functions allow.
-mc::Report check_plugin(const PluginSampler& sampler, const std::string& title, const CaseOptions& options);
+mc::Report check_plugin(const PluginDistribution& distribution, const std::string& title, const CaseOptions& options);
 
 /// One case per sampler of the shared object and per set of parameters that names only parameters of the sampler; where
 /// there is none, one at the defaults. Loading and checking run in processes of their own, see worker.h.
@@ -73,6 +73,6 @@ Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& 
                        const std::vector<std::string>& names, const WorkerOptions& worker);
 
 /// What the worker does with a request of plugin_cases.
-nlohmann::json run_plugin_task(const nlohmann::json& request, Watch& watch);
+nlohmann::json run_plugin_task(const nlohmann::json& request, CallMonitor& monitor);
 
 } // namespace carlo

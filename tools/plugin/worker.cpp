@@ -50,9 +50,9 @@ json message_in(const Bytes& bytes) {
 } // namespace
 
 json call_worker(json request, const WorkerOptions& options) {
-  const Limits& limits = options.limits;
+  const ResourceLimits& limits = options.limits;
   request["limits"] = {
-      {"seconds", limits.seconds}, {"gigabytes", limits.gigabytes}, {"files", limits.files}, {"less", limits.less}};
+      {"seconds", limits.seconds}, {"gigabytes", limits.gigabytes}, {"files", limits.files}, {"less", limits.reduce_option}};
   Child worker({{options.program, "worker"}});
   send(worker.input(), request);
   Bytes answer;
@@ -79,18 +79,18 @@ json call_worker(json request, const WorkerOptions& options) {
   return std::move(message["result"]);
 }
 
-void serve(json (*run)(const json& request, Watch& watch)) {
+void serve(json (*run)(const json& request, CallMonitor& monitor)) {
   Bytes bytes;
   while (!is_whole(bytes))
     if (!read_some(STDIN_FILENO, bytes)) throw mc::Error("worker: only carlo itself starts this subcommand");
   const json request = message_in(bytes);
   const json& l = request["limits"];
-  const Limits limits{l["seconds"], l["gigabytes"], l["files"], l["less"]};
+  const ResourceLimits limits{l["seconds"], l["gigabytes"], l["files"], l["less"]};
   const std::string who = request["who"];
   json answer;
   try {
-    const std::string result = run_isolated(who, limits, STDIN_FILENO, [&](Watch& watch) {
-      const Bytes cbor = json::to_cbor(run(request, watch));
+    const std::string result = run_isolated(who, limits, STDIN_FILENO, [&](CallMonitor& monitor) {
+      const Bytes cbor = json::to_cbor(run(request, monitor));
       return std::string(cbor.begin(), cbor.end());
     });
     answer["result"] = json::from_cbor(result);

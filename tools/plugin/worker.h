@@ -3,14 +3,14 @@
 ///
 /// carlo, with its threads, starts `carlo worker` (posix_spawn: nothing of ours runs between fork and exec), writes one
 /// request to its input and reads one answer from its output. The worker has a single thread, so that it may fork: it
-/// runs the foreign code in a child under limits, and ends every process that came of it, see isolated.h. Should carlo
+/// runs the foreign code in a child under limits, and ends every process that came of it, see run_isolated.h. Should carlo
 /// itself be killed, the worker's input closes, and it does the same.
 ///
 /// Both messages are CBOR behind their length, 8 bytes in this machine's order:
 ///   request : {"task": NAME, "who": what errors begin with, "limits": {...}, and what the task takes}
 ///   answer  : {"result": ...} or {"error": one line}
 
-#include <plugin/isolated.h>
+#include <plugin/run_isolated.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -21,7 +21,7 @@ namespace carlo {
 
 /// How foreign code is run.
 struct WorkerOptions {
-  Limits limits;
+  ResourceLimits limits;
   std::string program = "/proc/self/exe";    ///< a carlo
   const std::atomic<bool>* cancel = nullptr; ///< set: call_worker throws Interrupted
 };
@@ -34,6 +34,6 @@ struct Interrupted {};
 nlohmann::json call_worker(nlohmann::json request, const WorkerOptions& options);
 
 /// Reads a request from standard input, has `run` answer it in a child, and writes the answer to standard output.
-void serve(nlohmann::json (*run)(const nlohmann::json& request, Watch& watch));
+void serve(nlohmann::json (*run)(const nlohmann::json& request, CallMonitor& monitor));
 
 } // namespace carlo

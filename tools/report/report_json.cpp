@@ -44,9 +44,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Axis, name, scale, a, b)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Check, name, verdict, p, share, statistic, limit, fault, detail)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorstCell, lo, hi, observed, expected, z, where)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CellCount, lo, hi, observed, expected)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence::After, samples, p)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Evidence, cells, outcomes, p_after)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Figure, name, value, std_error, where)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlotData::PValueAfter, samples, p)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PlotData, cells, outcomes, p_after)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ReportedValue, name, value, std_error, where)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Report, subject, alpha, samples, mass, mass_error, detectable, detectable_cell,
                                    seconds, ns_per_sample, checks, axes, worst, evidence, figures)
 

@@ -59,7 +59,7 @@ json results(const Run& run) {
 std::string command_again(const Case& c, const RunSettings& settings, std::size_t cases) {
   const double alpha = mc::sidak_level(settings.alpha, 1 / static_cast<double>(cases));
   const std::string parameters = c.parameters.empty() ? "" : "(" + c.parameters + ")";
-  const std::string what = c.again.empty() ? fmt::format("'{}{}' --scalar {}", c.name, parameters, c.scalar) : c.again;
+  const std::string what = c.rerun_arguments.empty() ? fmt::format("'{}{}' --scalar {}", c.name, parameters, c.scalar) : c.rerun_arguments;
   return fmt::format("carlo validate {} --seed {}{} --alpha {:.6g}{}", what, settings.seed,
                      settings.of_file ? std::string() : fmt::format(" --samples {}", settings.samples), alpha,
                      settings.open_interval ? " --open-interval" : "");

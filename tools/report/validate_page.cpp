@@ -41,7 +41,7 @@ std::string replaced(std::string text, std::string_view mark, std::string_view b
 
 } // namespace
 
-PackedTree pack_tree(const mc::Evidence& evidence, int dim, std::size_t most) {
+PackedTree pack_tree(const mc::PlotData& evidence, int dim, std::size_t most) {
   const std::size_t n = evidence.cells.size();
   if (n == 0) return {};
   std::vector<mc::CellCount> nodes(2 * n); // heap order, root at 1
@@ -65,7 +65,7 @@ PackedTree pack_tree(const mc::Evidence& evidence, int dim, std::size_t most) {
   return tree;
 }
 
-std::string pack_outcomes(const mc::Evidence& evidence, std::size_t most) {
+std::string pack_outcomes(const mc::PlotData& evidence, std::size_t most) {
   const std::size_t n = evidence.outcomes.size(), kept = std::min(n, most);
   std::vector<float> numbers(2 * kept);
   for (std::size_t k = 0; k < kept; ++k) {

@@ -16,11 +16,11 @@ struct PackedTree {
 };
 
 /// The cells of the evidence, neighbours joined until at most `most` remain.
-PackedTree pack_tree(const mc::Evidence& evidence, int dim, std::size_t most);
+PackedTree pack_tree(const mc::PlotData& evidence, int dim, std::size_t most);
 
 /// Observed and expected counts of the outcomes, neighbours joined until at most `most` remain: base64 of 32-bit
 /// floats.
-std::string pack_outcomes(const mc::Evidence& evidence, std::size_t most);
+std::string pack_outcomes(const mc::PlotData& evidence, std::size_t most);
 
 /// One HTML file with everything inline. `data` is JSON, see validate_output.h.
 std::string page(std::string_view data);

@@ -9,7 +9,7 @@
 
 #include <array>
 
-namespace truth {
+namespace checker_bench {
 namespace {
 
 using mc::sqr;
@@ -23,7 +23,7 @@ double wrapped(double x) { return std::min(x - std::floor(x), 1 - 0x1p-53); }
 Subject ring(Pcg& r) {
   const double k = log_uniform(r, 1e-3, 1), inner = log_uniform(r, 0.01, 0.35),
                width = inner * log_uniform(r, 1e-4, 0.3), outer = inner + width;
-  const double x = between(r, outer, 1 - outer), y = between(r, outer, 1 - outer), squares = width * (inner + outer);
+  const double x = uniform_between(r, outer, 1 - outer), y = uniform_between(r, outer, 1 - outer), squares = width * (inner + outer);
   return make_subject(
       fmt::format("{:.2g} in a ring of {:.3g}, {:.2g} wide", k, inner, width), mc::Square<double>{},
       [=](Pcg& q) {
@@ -54,7 +54,7 @@ struct Peak {
 // A peak on an even square, in one of two cases at an edge.
 Subject spot(Pcg& r) {
   const auto place = [&] {
-    switch (one_of(r, 4)) {
+    switch (random_index(r, 4)) {
     case 0: return 0.0;
     case 1: return 1.0;
     case 2: return log_uniform(r, 1e-5, 0.5);
@@ -75,8 +75,8 @@ Subject spot(Pcg& r) {
 
 // A band across a square whose density is a power of y.
 Subject ridge(Pcg& r) {
-  const double k = log_uniform(r, 1e-2, 1), width = log_uniform(r, 1e-5, 0.2), at = uniform(r), a = between(r, 0.4, 3),
-               slope = log_uniform(r, 0.01, 30) * (one_of(r, 2) == 0 ? 1 : -1);
+  const double k = log_uniform(r, 1e-2, 1), width = log_uniform(r, 1e-5, 0.2), at = uniform(r), a = uniform_between(r, 0.4, 3),
+               slope = log_uniform(r, 0.01, 30) * (random_index(r, 2) == 0 ? 1 : -1);
   return make_subject(
       fmt::format("{:.2g} in a ridge of slope {:.2f}, {:.2g} wide, y^{:.2f}", k, slope, width, a - 1),
       mc::Square<double>{},
@@ -92,9 +92,9 @@ Subject ridge(Pcg& r) {
 
 // A skew tube through a box whose density is a power of z.
 Subject tube(Pcg& r) {
-  const double k = log_uniform(r, 1e-2, 1), a = between(r, 0.4, 3);
+  const double k = log_uniform(r, 1e-2, 1), a = uniform_between(r, 0.4, 3);
   const std::array<double, 2> width{log_uniform(r, 1e-3, 0.2), log_uniform(r, 1e-3, 0.2)}, at{uniform(r), uniform(r)},
-      slope{between(r, -2, 2), between(r, -2, 2)};
+      slope{uniform_between(r, -2, 2), uniform_between(r, -2, 2)};
   return make_subject(
       fmt::format("{:.2g} in a tube of {:.2g} by {:.2g}, z^{:.2f}", k, width[0], width[1], a - 1), mc::Box<double, 3>{},
       [=](Pcg& q) {
@@ -118,7 +118,7 @@ Subject tube(Pcg& r) {
 
 Subject random_narrow(std::uint64_t seed) {
   Pcg r(mc::hash(seed, 80));
-  switch (one_of(r, 4)) {
+  switch (random_index(r, 4)) {
   case 0: return ring(r);
   case 1: return spot(r);
   case 2: return ridge(r);
@@ -126,4 +126,4 @@ Subject random_narrow(std::uint64_t seed) {
   }
 }
 
-} // namespace truth
+} // namespace checker_bench

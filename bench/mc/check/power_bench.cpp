@@ -2,7 +2,7 @@
 // of other renderers print for the same disturbance.
 // Usage: bench_mc_check_power [SEEDS [SAMPLES [ID]]]; 20 seeds of 1e6 samples unless told otherwise.
 
-#include <slips/slips.h>
+#include <known_bugs/known_bugs.h>
 
 #include <mc/core/parallel.h>
 
@@ -36,11 +36,11 @@ int main(int argc, char** argv) {
   const std::string only = argc > 3 ? argv[3] : "";
   fmt::print("{:<46} {:>5} {:>9} {:>9}  {:<28} | {:>5} {:>8} {:>8} {:>5} {:>5}\n", "mutant, alpha = 1 %", "runs",
              "rejected", "s per run", "by", "nori", "warptest", "mitsuba", "pbrt", "best");
-  for (const carlo::Slip& slip : carlo::all_slips()) {
-    if (!only.empty() && only != slip.id) continue;
+  for (const carlo::KnownBug& bug : carlo::all_known_bugs()) {
+    if (!only.empty() && only != bug.id) continue;
     std::vector<mc::Report> reports(seeds);
     mc::parallel_for(seeds, 0, [&](std::size_t i) {
-      reports[i] = slip.wrong.check({.samples = samples, .seed = i + 1, .alpha = 0.01});
+      reports[i] = bug.wrong.check({.samples = samples, .seed = i + 1, .alpha = 0.01});
     });
     std::size_t rejected = 0;
     double seconds = 0;
@@ -51,9 +51,9 @@ int main(int argc, char** argv) {
       for (const mc::Check& c : r.checks)
         if (by.empty() && c.verdict == mc::Verdict::fail) by = c.name;
     }
-    fmt::print("{:<46} {:>5} {:>9} {:>9.3f}  {:<28}", slip.title(), seeds, rejected,
+    fmt::print("{:<46} {:>5} {:>9} {:>9.3f}  {:<28}", bug.title(), seeds, rejected,
                seconds / static_cast<double>(seeds), by);
-    if (const auto p = peers.find(slip.id); p != peers.end())
+    if (const auto p = peers.find(bug.id); p != peers.end())
       fmt::print(" | {:>5.2f} {:>8.2f} {:>8.2f} {:>5.2f} {:>5.2f}", p->second.nori, p->second.warptest,
                  p->second.mitsuba, p->second.pbrt, p->second.best);
     fmt::print("\n");

@@ -15,11 +15,11 @@
 #include <memory>
 #include <string>
 
-namespace truth {
+namespace checker_bench {
 
 /// A wrong sampler.
 ///   size : relative error of the density, share of the samples that are wrong, or cells of a lattice
-struct Faulty {
+struct FaultySubject {
   std::string kind;
   double size = 0;
   Subject subject;
@@ -29,7 +29,7 @@ using Draw = Subject::Draw;
 using Coordinates = Subject::Coordinates;
 
 /// The draws of a right sampler, each changed, or left out where `change` says false.
-inline Subject changed(Subject right, const std::function<bool(Pcg&, Draw&)>& change) {
+inline Subject with_changed_draws(Subject right, const std::function<bool(Pcg&, Draw&)>& change) {
   right.draw = [draw = right.draw, change](std::uint64_t seed, std::size_t n, std::vector<Draw>& out) {
     Pcg random(seed, 91);
     std::vector<Draw> draws;
@@ -50,7 +50,7 @@ inline Subject changed(Subject right, const std::function<bool(Pcg&, Draw&)>& ch
 
 /// The density of the samples is (1 + error(v)) times the claimed one; |error| <= most.
 inline Subject reweighted(const Subject& right, double most, const std::function<double(const Coordinates&)>& error) {
-  return changed(right, [=](Pcg& r, Draw& d) { return uniform(r) * (1 + most) < 1 + error(d.v); });
+  return with_changed_draws(right, [=](Pcg& r, Draw& d) { return uniform(r) * (1 + most) < 1 + error(d.v); });
 }
 
 /// Ranks of chart coordinates among samples, axis by axis: a scale on which any density is about even.
@@ -87,7 +87,7 @@ struct Frame {
   Frame(Pcg& r, int dim) {
     for (std::size_t a = 0; a < 3; ++a) axes[a][a] = 1;
     for (std::size_t a = 0; a + 1 < static_cast<std::size_t>(dim); ++a) {
-      const double t = one_of(r, 2) == 0 ? 0.0 : 2 * mc::pi<double> * uniform(r), c = std::cos(t), s = std::sin(t);
+      const double t = random_index(r, 2) == 0 ? 0.0 : 2 * mc::pi<double> * uniform(r), c = std::cos(t), s = std::sin(t);
       for (std::size_t k = 0; k < 3; ++k) {
         const double x = axes[k][a], y = axes[k][a + 1];
         axes[k][a] = c * x + s * y;
@@ -110,7 +110,7 @@ struct Frame {
 };
 
 /// Random signs on a lattice of random offset and direction with about `patches` cells.
-inline Faulty random_signs(const Subject& right, Pcg& r, double size, double patches) {
+inline FaultySubject random_signs(const Subject& right, Pcg& r, double size, double patches) {
   const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 14);
   const Frame frame(r, right.dim);
   const double scale = std::pow(patches, 1.0 / right.dim);
@@ -127,10 +127,10 @@ inline Faulty random_signs(const Subject& right, Pcg& r, double size, double pat
 }
 
 /// One region of this share of the samples, an ellipsoid or a box of the ranks, with more or fewer samples.
-inline Faulty one_region(const Subject& right, Pcg& r, double size, double share) {
+inline FaultySubject one_region(const Subject& right, Pcg& r, double size, double share) {
   const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 17);
   const Frame frame(r, right.dim);
-  const bool box = one_of(r, 2) == 0;
+  const bool box = random_index(r, 2) == 0;
   const Coordinates centre = (*ranks)(ranks->points[r.next64() % ranks->points.size()]);
   const auto distance = [=](const Coordinates& v) {
     const Coordinates x = frame((*ranks)(v), centre);
@@ -140,7 +140,7 @@ inline Faulty one_region(const Subject& right, Pcg& r, double size, double share
   for (const Coordinates& v : ranks->points) distances.push_back(distance(v));
   const auto at = distances.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(distances.size()));
   std::nth_element(distances.begin(), at, distances.end());
-  const double sign = size < 1 && one_of(r, 2) == 0 ? -size : size;
+  const double sign = size < 1 && random_index(r, 2) == 0 ? -size : size;
   return {"one region", size, reweighted(right, size, [=, radius = *at](const Coordinates& v) {
             return distance(v) <= radius ? sign : 0.0;
           })};
@@ -148,12 +148,12 @@ inline Faulty one_region(const Subject& right, Pcg& r, double size, double share
 
 /// A smooth error: of the exponent along an axis, a tilt along it, or a correlation of two axes; the sampler's ranks
 /// are (1 + size) times too bent.
-inline Faulty smooth(const Subject& right, Pcg& r, double size) {
+inline FaultySubject smooth(const Subject& right, Pcg& r, double size) {
   const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 16);
-  const auto axis = static_cast<std::size_t>(one_of(r, right.dim)), other = (axis + 1) % 3;
-  const int form = one_of(r, right.dim > 1 ? 3 : 2);
+  const auto axis = static_cast<std::size_t>(random_index(r, right.dim)), other = (axis + 1) % 3;
+  const int form = random_index(r, right.dim > 1 ? 3 : 2);
   const char* names[] = {"exponent", "tilt", "correlation"};
-  const double sign = one_of(r, 2) == 0 ? size : -size;
+  const double sign = random_index(r, 2) == 0 ? size : -size;
   return {names[form], size, reweighted(right, 3 * size, [=](const Coordinates& v) {
             const Coordinates at = (*ranks)(v);
             if (form == 0) return std::clamp(sign * (1 + std::log(at[axis])), -0.9, 3 * size);
@@ -163,8 +163,8 @@ inline Faulty smooth(const Subject& right, Pcg& r, double size) {
 }
 
 /// A wave of up to 100 periods an axis.
-inline Faulty wave(const Subject& right, Pcg& r, double size) {
-  const double k = between(r, -100, 100), l = between(r, -100, 100), m = between(r, -15, 15), phase = uniform(r);
+inline FaultySubject wave(const Subject& right, Pcg& r, double size) {
+  const double k = uniform_between(r, -100, 100), l = uniform_between(r, -100, 100), m = uniform_between(r, -15, 15), phase = uniform(r);
   const bool space = right.dim == 3;
   return {"wave", size, reweighted(right, size, [=](const Coordinates& v) {
             const double turns = space ? 0.15 * (k * v[0] + l * v[1]) + m * v[2] : k * v[0] + l * v[1];
@@ -173,18 +173,18 @@ inline Faulty wave(const Subject& right, Pcg& r, double size) {
 }
 
 /// Values of a coordinate that belong to a share of the samples are left out, or become one value.
-inline Faulty gap_or_clamp(const Subject& right, Pcg& r, double share) {
+inline FaultySubject gap_or_clamp(const Subject& right, Pcg& r, double share) {
   const Ranks ranks(right, r.next64(), 1 << 19);
-  const auto axis = static_cast<std::size_t>(one_of(r, right.dim));
+  const auto axis = static_cast<std::size_t>(random_index(r, right.dim));
   const std::vector<double>& v = ranks.sorted[axis];
   const double n = static_cast<double>(v.size());
   const auto width = static_cast<std::size_t>(std::max(1.0, share * n));
   const std::size_t first =
-      one_of(r, 3) == 0 ? 0 : static_cast<std::size_t>(uniform(r) * (n - static_cast<double>(width)));
+      random_index(r, 3) == 0 ? 0 : static_cast<std::size_t>(uniform(r) * (n - static_cast<double>(width)));
   const double lo = first == 0 ? 0.0 : v[first], hi = v[std::min(first + width, v.size() - 1)];
-  if (one_of(r, 2) == 0)
-    return {"gap", share, changed(right, [=](Pcg&, Draw& d) { return !(d.v[axis] >= lo && d.v[axis] < hi); })};
-  return {"clamp", share, changed(right, [=](Pcg&, Draw& d) {
+  if (random_index(r, 2) == 0)
+    return {"gap", share, with_changed_draws(right, [=](Pcg&, Draw& d) { return !(d.v[axis] >= lo && d.v[axis] < hi); })};
+  return {"clamp", share, with_changed_draws(right, [=](Pcg&, Draw& d) {
             if (d.v[axis] >= lo && d.v[axis] < hi) {
               d.v[axis] = first == 0 ? hi : lo;
               d.density = -1;
@@ -194,10 +194,10 @@ inline Faulty gap_or_clamp(const Subject& right, Pcg& r, double share) {
 }
 
 /// Coordinates that share the digits beyond a lattice, or lack them.
-inline Faulty lattice(const Subject& right, Pcg& r) {
+inline FaultySubject lattice(const Subject& right, Pcg& r) {
   const double n = std::floor(log_uniform(r, 16, 400));
-  const bool shared = one_of(r, 2) == 0 && right.dim > 1;
-  return {shared ? "one offset for two axes" : "coarse coordinate", n, changed(right, [=](Pcg&, Draw& d) {
+  const bool shared = random_index(r, 2) == 0 && right.dim > 1;
+  return {shared ? "one offset for two axes" : "coarse coordinate", n, with_changed_draws(right, [=](Pcg&, Draw& d) {
             const double fraction = shared ? n * d.v[1] - std::floor(n * d.v[1]) : 0.5;
             d.v[0] = std::min((std::floor(n * d.v[0]) + fraction) / n, 1 - 0x1p-53);
             d.density = -1;
@@ -206,11 +206,11 @@ inline Faulty lattice(const Subject& right, Pcg& r) {
 }
 
 /// A share of the samples moved into a small box around one of them.
-inline Faulty spike(const Subject& right, Pcg& r, double share) {
+inline FaultySubject spike(const Subject& right, Pcg& r, double share) {
   const auto ranks = std::make_shared<Ranks>(right, r.next64(), 1 << 12);
   const Coordinates centre = ranks->points[r.next64() % ranks->points.size()];
   const double radius = log_uniform(r, 1e-7, 3e-3);
-  return {"spike", share, changed(right, [=, dim = right.dim](Pcg& random, Draw& d) {
+  return {"spike", share, with_changed_draws(right, [=, dim = right.dim](Pcg& random, Draw& d) {
             if (uniform(random) >= share) return true;
             for (std::size_t a = 0; a < static_cast<std::size_t>(dim); ++a)
               d.v[a] = std::clamp(centre[a] + radius * (uniform(random) - 0.5), 1e-12, 1 - 1e-12);
@@ -219,9 +219,9 @@ inline Faulty spike(const Subject& right, Pcg& r, double share) {
           })};
 }
 
-inline Faulty wrong_mass(Subject right, double size) {
+inline FaultySubject wrong_mass(Subject right, double size) {
   right.density = [density = right.density, size](const Coordinates& v) { return (1 + size) * density(v); };
-  return {"mass", size, changed(right, [](Pcg&, Draw& d) {
+  return {"mass", size, with_changed_draws(right, [](Pcg&, Draw& d) {
             d.density = -1;
             return true;
           })};
@@ -230,13 +230,13 @@ inline Faulty wrong_mass(Subject right, double size) {
 /// An error of the size that the report of the right sampler states, of any shape that the statement is about: on
 /// patches that hold the share of four of the checker's cells or more, or in one such region; one in two as small as
 /// that.
-inline Faulty stated_fault(const Subject& right, const mc::Report& stated, std::uint64_t seed) {
+inline FaultySubject stated_fault(const Subject& right, const mc::Report& stated, std::uint64_t seed) {
   Pcg r(mc::hash(seed, 79));
   const double cells = std::exp2(std::floor(std::log2(static_cast<double>(stated.samples) / 200)));
-  const bool small = one_of(r, 2) == 0;
-  if (one_of(r, 2) == 0)
+  const bool small = random_index(r, 2) == 0;
+  if (random_index(r, 2) == 0)
     return random_signs(right, r, stated.detectable, small ? cells / 4 : log_uniform(r, 16, cells / 4));
   return one_region(right, r, stated.detectable_cell, small ? 4 / cells : log_uniform(r, 4 / cells, 0.3));
 }
 
-} // namespace truth
+} // namespace checker_bench

@@ -30,7 +30,7 @@
 
 #include <memory>
 
-namespace truth {
+namespace checker_bench {
 namespace {
 
 using mc::sqr;
@@ -67,7 +67,7 @@ Subject table(const std::string& name, const std::vector<double>& w, std::size_t
 // cascade.
 std::vector<double> texture(Pcg& r, std::size_t n, std::string& name) {
   std::vector<double> w(n, 1);
-  switch (one_of(r, 5)) {
+  switch (random_index(r, 5)) {
   case 0:
     name += " u";
     for (double& x : w) x = uniform(r);
@@ -87,16 +87,16 @@ std::vector<double> texture(Pcg& r, std::size_t n, std::string& name) {
     break;
   default: {
     name += " cascade";
-    const double low = between(r, 0.5, 0.95);
+    const double low = uniform_between(r, 0.5, 0.95);
     const std::uint64_t seed = r.next64();
     for (std::size_t bit = 1; bit < n; bit *= 2)
       for (std::size_t i = 0; i < n; ++i) w[i] *= mc::hash(seed, i / bit, bit) & 1 ? low : 2 - low;
   }
   }
-  if (one_of(r, 4) == 0) {
+  if (random_index(r, 4) == 0) {
     name += " with holes";
     for (double& x : w)
-      if (one_of(r, 3) == 0) x = 0;
+      if (random_index(r, 3) == 0) x = 0;
     w[0] = 1;
   }
   return w;
@@ -105,7 +105,7 @@ std::vector<double> texture(Pcg& r, std::size_t n, std::string& name) {
 V3 random_direction(Pcg& r) { return mc::Sphere<double>{}.from_unit(V2(uniform(r), uniform(r))); }
 
 template <mc::Real S> Subject lobes(Pcg& r) {
-  switch (one_of(r, 5)) {
+  switch (random_index(r, 5)) {
   case 0: return make_subject("cosine", mc::CosineHemisphere<S>{});
   case 1: {
     const double alpha = log_uniform(r, 0.01, 1);
@@ -119,7 +119,7 @@ template <mc::Real S> Subject lobes(Pcg& r) {
     return plain("cosine about a random axis",
                  mc::Rotated(mc::CosineHemisphere<S>{}, mc::Vec3<S>(random_direction(r).cast<S>().normalized())));
   default: {
-    const double t = between(r, 0, 1.5), ax = log_uniform(r, 0.02, 1), ay = log_uniform(r, 0.02, 1);
+    const double t = uniform_between(r, 0, 1.5), ax = log_uniform(r, 0.02, 1), ay = log_uniform(r, 0.02, 1);
     const mc::Vec3<S> wo(static_cast<S>(std::sin(t)), S(0), static_cast<S>(std::cos(t)));
     return plain(fmt::format("GGX visible {:.3f} {:.3f} at {:.2f}", ax, ay, t),
                  mc::TrowbridgeReitzVisibleNormals<S>(wo, static_cast<S>(ax), static_cast<S>(ay)));
@@ -130,7 +130,7 @@ template <mc::Real S> Subject lobes(Pcg& r) {
 // Warps on the domains that no other kind has.
 template <mc::Real S> Subject shapes(Pcg& r) {
   const auto real = [&](double lo, double hi) { return static_cast<S>(log_uniform(r, lo, hi)); };
-  switch (one_of(r, 11)) {
+  switch (random_index(r, 11)) {
   case 0: return plain("disk", mc::UniformDisk<S>{});
   case 1: {
     const S outer = real(0.1, 10);
@@ -145,14 +145,14 @@ template <mc::Real S> Subject shapes(Pcg& r) {
     return plain("spherical triangle", mc::SphericalTriangle<S>(a, ab, ac));
   }
   case 6: return plain("exponential", mc::Exponential<S>(real(0.01, 100)));
-  case 7: return plain("logistic", mc::Logistic<S>(static_cast<S>(between(r, -3, 3)), real(0.1, 3)));
+  case 7: return plain("logistic", mc::Logistic<S>(static_cast<S>(uniform_between(r, -3, 3)), real(0.1, 3)));
   case 8: return plain("bilinear", mc::Bilinear<S>(real(0.01, 1), real(0.01, 1), real(0.01, 1), real(0.01, 1)));
   case 9: {
-    const mc::Normal<S> x(static_cast<S>(between(r, -1, 1)), real(0.1, 2)), y(S(0), real(0.1, 2));
+    const mc::Normal<S> x(static_cast<S>(uniform_between(r, -1, 1)), real(0.1, 2)), y(S(0), real(0.1, 2));
     return plain("normal in the plane", mc::Product{x, y});
   }
   default: {
-    const mc::Tent<S> x(S(0), real(0.1, 3)), y(static_cast<S>(between(r, -1, 1)), real(0.1, 3));
+    const mc::Tent<S> x(S(0), real(0.1, 3)), y(static_cast<S>(uniform_between(r, -1, 1)), real(0.1, 3));
     return plain("tent in the plane", mc::Product{x, y});
   }
   }
@@ -160,10 +160,10 @@ template <mc::Real S> Subject shapes(Pcg& r) {
 
 } // namespace
 
-Subject of_table(const std::string& name, const std::vector<double>& weights, bool named) {
+Subject table_subject(const std::string& name, const std::vector<double>& weights, bool named) {
   return table<double>(name, weights, named);
 }
-Subject of_table(const std::string& name, const std::vector<double>& weights, std::size_t width, std::size_t height,
+Subject table_subject(const std::string& name, const std::vector<double>& weights, std::size_t width, std::size_t height,
                  bool named) {
   return table<double>(name, weights, width, height, named);
 }
@@ -172,8 +172,8 @@ Subject table_1d(Pcg& r) {
   const auto n = static_cast<std::size_t>(log_uniform(r, 4, 1e5));
   std::string name = fmt::format("table of {}", n);
   const std::vector<double> w = texture(r, n, name);
-  const bool named = one_of(r, 2) == 0;
-  return one_of(r, 2) == 0 ? table<double>(name, w, named) : table<float>(name, w, named);
+  const bool named = random_index(r, 2) == 0;
+  return random_index(r, 2) == 0 ? table<double>(name, w, named) : table<float>(name, w, named);
 }
 
 Subject table_2d(Pcg& r) {
@@ -181,8 +181,8 @@ Subject table_2d(Pcg& r) {
              height = static_cast<std::size_t>(log_uniform(r, 4, 700));
   std::string name = fmt::format("table {}x{}", width, height);
   const std::vector<double> w = texture(r, width * height, name);
-  const bool named = one_of(r, 2) == 0;
-  return one_of(r, 2) == 0 ? table<double>(name, w, width, height, named) : table<float>(name, w, width, height, named);
+  const bool named = random_index(r, 2) == 0;
+  return random_index(r, 2) == 0 ? table<double>(name, w, width, height, named) : table<float>(name, w, width, height, named);
 }
 
 Subject lobe_on_sphere(double k, double kappa, const V3& pole) {
@@ -211,14 +211,14 @@ Subject lobe_on_sphere(Pcg& r) {
 }
 
 Subject heavy_tail(Pcg& r) {
-  if (one_of(r, 2) == 0) {
-    const double a = between(r, 0.3, 3);
+  if (random_index(r, 2) == 0) {
+    const double a = uniform_between(r, 0.3, 3);
     return make_subject(
         fmt::format("Pareto {:.2f}", a), mc::HalfLine<double>(1, 1),
         [a](Pcg& random) { return std::pow(1 - uniform(random), -1 / a); },
         [a](double x) { return x >= 1 ? a * std::pow(x, -a - 1) : 0.0; });
   }
-  const double b = between(r, 0.5, 4), s = log_uniform(r, 0.1, 10);
+  const double b = uniform_between(r, 0.5, 4), s = log_uniform(r, 0.1, 10);
   return make_subject(
       fmt::format("log-logistic {:.2f} scale {:.2f}", b, s), mc::HalfLine<double>(0, 1),
       [=](Pcg& random) {
@@ -254,9 +254,9 @@ Subject uniform_inside(std::string name, double area, const std::function<bool(c
 }
 
 Subject set_in_box(Pcg& r) {
-  switch (one_of(r, 3)) {
+  switch (random_index(r, 3)) {
   case 0: {
-    const double slope = between(r, -0.7, 0.7), width = between(r, 0.02, 0.2), at = between(r, 0.4, 0.4 + 0.1);
+    const double slope = uniform_between(r, -0.7, 0.7), width = uniform_between(r, 0.02, 0.2), at = uniform_between(r, 0.4, 0.4 + 0.1);
     // Between y = at + slope (x - 1/2) and width above it, inside the square for every x.
     return uniform_inside(fmt::format("strip {:.2f} wide {:.2f}", slope, width), width, [=](const V2& p) {
       const double y = p[1] - at - 0.5 * slope * (p[0] - 0.5);
@@ -264,13 +264,13 @@ Subject set_in_box(Pcg& r) {
     });
   }
   case 1: {
-    const double radius = log_uniform(r, 0.05, 0.5), x = between(r, radius, 1 - radius),
-                 y = between(r, radius, 1 - radius);
+    const double radius = log_uniform(r, 0.05, 0.5), x = uniform_between(r, radius, 1 - radius),
+                 y = uniform_between(r, radius, 1 - radius);
     return uniform_inside(fmt::format("disk of {:.3f}", radius), mc::pi<double> * radius * radius,
                           [=](const V2& p) { return sqr(p[0] - x) + sqr(p[1] - y) < radius * radius; });
   }
   default: {
-    const int n = 2 * (1 + one_of(r, 150)), m = 2 * (1 + one_of(r, 150));
+    const int n = 2 * (1 + random_index(r, 150)), m = 2 * (1 + random_index(r, 150));
     return uniform_inside(fmt::format("checkerboard {}x{}", n, m), 0.5, [=](const V2& p) {
       return (static_cast<int>(p[0] * n) + static_cast<int>(p[1] * m)) % 2 == 0;
     });
@@ -290,10 +290,10 @@ Subject uniform_ball_in_box(double radius) {
       [=](const V3& p) { return inside(p) ? density : 0.0; });
 }
 
-Subject ball_in_box(Pcg& r) { return uniform_ball_in_box(between(r, 0.2, 0.5)); }
+Subject ball_in_box(Pcg& r) { return uniform_ball_in_box(uniform_between(r, 0.2, 0.5)); }
 
 Subject normals(Pcg& r) {
-  const double k = log_uniform(r, 1e-4, 1), s = log_uniform(r, 1e-6, 1), m = between(r, -2, 2);
+  const double k = log_uniform(r, 1e-4, 1), s = log_uniform(r, 1e-6, 1), m = uniform_between(r, -2, 2);
   return make_subject(
       fmt::format("normal and {:.2g} of sigma {:.2g}", k, s), mc::RealLine<double>(0, 1),
       [=](Pcg& random) {
@@ -310,7 +310,7 @@ Subject product(Pcg& r) {
   const auto n = static_cast<std::size_t>(log_uniform(r, 4, 1e4));
   std::string name = fmt::format("table of {}", n);
   const auto x = std::make_shared<mc::TableDist1D<double>>(texture(r, n, name));
-  const double a = between(r, 0.4, 3), shift = uniform(r), slope = one_of(r, 2) == 0 ? 0 : between(r, -2, 2);
+  const double a = uniform_between(r, 0.4, 3), shift = uniform(r), slope = random_index(r, 2) == 0 ? 0 : uniform_between(r, -2, 2);
   // On a torus, moved along x by an amount that depends on y.
   const auto moved = [=](double by) { return by - std::floor(by); };
   return make_subject(
@@ -330,9 +330,9 @@ Subject outcomes(Pcg& r) {
   return make_discrete_subject(name, mc::AliasTable(texture(r, n, name)));
 }
 
-Subject random_right(std::uint64_t seed) {
+Subject random_correct(std::uint64_t seed) {
   Pcg r(mc::hash(seed, 77));
-  switch (one_of(r, 15)) {
+  switch (random_index(r, 15)) {
   case 0:
   case 1: return table_2d(r);
   case 2: return table_1d(r);
@@ -351,9 +351,9 @@ Subject random_right(std::uint64_t seed) {
   }
 }
 
-Subject random_shape(std::uint64_t seed) {
+Subject random_continuous(std::uint64_t seed) {
   for (std::uint64_t k = 0;; ++k)
-    if (Subject right = random_right(mc::hash(seed, k)); right.dim > 0) return right;
+    if (Subject right = random_correct(mc::hash(seed, k)); right.dim > 0) return right;
 }
 
-} // namespace truth
+} // namespace checker_bench

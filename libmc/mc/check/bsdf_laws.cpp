@@ -16,10 +16,10 @@ namespace {
 DirectionPair pair_of(const BsdfView& view, const AnyBsdf::Direction& wi) {
   DirectionPair p;
   p.wi = wi;
-  p.across = view.wo.z() * wi.z() < 0;
-  p.both_ways = view.options.reciprocal && (view.through || !p.across);
-  p.there = view.bsdf.eval(view.wo, wi);
-  p.back = p.both_ways ? view.bsdf.eval(wi, view.wo) : p.there;
+  p.transmitted = view.wo.z() * wi.z() < 0;
+  p.has_reverse = view.options.reciprocal && (view.transmissive || !p.transmitted);
+  p.f = view.bsdf.eval(view.wo, wi);
+  p.f_reverse = p.has_reverse ? view.bsdf.eval(wi, view.wo) : p.f;
   p.pdf = view.bsdf.pdf(view.wo, wi);
   return p;
 }
@@ -33,7 +33,7 @@ BsdfView view_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const Bsdf
   const int n = static_cast<int>(std::min<std::uint64_t>(options.samples, 100'000) / 5);
   for (int i = 0; i < n; ++i) {
     const auto drawn = bsdf.sample_next(wo, random);
-    if (drawn && wo.z() * drawn->wi.z() < 0) view.through = true;
+    if (drawn && wo.z() * drawn->wi.z() < 0) view.transmissive = true;
     if (drawn && !drawn->delta) view.pairs.push_back(pair_of(view, drawn->wi));
     if (i % 4 != 0) continue;
     const double u0 = next(), u1 = next();
@@ -46,7 +46,7 @@ BsdfView view_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const Bsdf
 } // namespace
 
 Subject bsdf_subject(const AnyBsdf& bsdf, const Vec3<double>& wo, const BsdfOptions& options) {
-  Subject s = make_subject(seen_from(bsdf, wo, options));
+  Subject s = make_subject(bsdf_distribution(bsdf, wo, options));
   s.resolution = {}; // what rounding does to wi depends on the lobe, not on the place alone
   return s;
 }
@@ -56,7 +56,7 @@ Report check_bsdf(const AnyBsdf& given, const Vec3<double>& wo, const BsdfOption
   AnyBsdf bsdf = given;
   bsdf.open_interval = bsdf.open_interval || options.open_interval;
   Report report = check_subject(bsdf_subject(bsdf, wo, options), statistics(options));
-  for (Check& check : purity_law(seen_from(bsdf, wo, options), {.seed = options.seed}))
+  for (Check& check : determinism_law(bsdf_distribution(bsdf, wo, options), {.seed = options.seed}))
     report.checks.push_back(std::move(check));
   const BsdfView view = view_from(bsdf, wo, options);
   for (BsdfLaw* law : laws) {

@@ -6,10 +6,10 @@
 
 namespace mc {
 
-/// A BSDF with fixed wo as a subject on the sphere of wi; see seen_from.
+/// A BSDF with fixed wo as a subject on the sphere of wi; see bsdf_distribution.
 Subject bsdf_subject(const AnyBsdf& bsdf, const Vec3<double>& wo, const BsdfOptions& options = {});
 
-/// A BSDF over scalar S with fixed wo as a subject on the sphere of wi; see any_bsdf and seen_from. A phase function is
+/// A BSDF over scalar S with fixed wo as a subject on the sphere of wi; see any_bsdf and bsdf_distribution. A phase function is
 /// a BSDF without the cosine.
 template <Real S, BsdfOver<S> Bsdf>
 Subject bsdf_subject(const Bsdf& bsdf, const Vec3<S>& wo, const BsdfOptions& options = {}) {

@@ -1,13 +1,13 @@
 #include <mc/check/check_subject.h>
 
 #include <mc/check/fit/alpha_shares.h>
-#include <mc/check/fit/density_inside.h>
+#include <mc/check/fit/interior_density.h>
 #include <mc/check/fit/expected/mass.h>
-#include <mc/check/fit/tests/density_levels.h>
+#include <mc/check/fit/tests/density_ratio.h>
 #include <mc/check/fit/tests/rotation.h>
-#include <mc/check/fit/tests/slabs.h>
+#include <mc/check/fit/tests/axis_intervals.h>
 #include <mc/check/fit/tests/spectrum.h>
-#include <mc/check/fit/tests/strips.h>
+#include <mc/check/fit/tests/marginal_bins.h>
 #include <mc/check/fit/tests/uniformity.h>
 #include <mc/check/summary.h>
 #include <mc/core/error.h>
@@ -31,14 +31,14 @@ constexpr std::size_t most_kept = 1 << 22;
 // Where the samples will be counted, and how many the density claims there.
 struct Layout {
   std::optional<PilotCells> pilot_cells; ///< of subjects with axes
-  std::optional<Reference> reference;
+  std::optional<StratifiedReference> reference;
   std::vector<UnitBox> boxes; ///< of its cells; the cells beyond them are discrete outcomes
   std::vector<Cell> cells;
-  std::optional<Strips> strips;
-  std::optional<FineGrid> grid;
-  DensityLevels levels;
+  std::optional<MarginalBins> marginal_bins;
+  std::optional<SpectrumTest> spectrum;
+  DensityRatioTest density_ratio;
   WeightedCounts all; ///< samples and random points, wherever they lie
-  Reference::Masses masses;
+  StratifiedReference::CellMasses masses;
   CubatureResult cubature;
 };
 
@@ -53,7 +53,7 @@ struct WeightSums {
 
 // What was counted.
 struct Counts {
-  DrawTally tally;
+  DrawStats stats;
   std::vector<WeightSums> cells;
   SampleWeights weights;
   std::array<std::vector<double>, 3> coordinates; ///< of the pilot and the first samples, by axis, ascending
@@ -75,34 +75,34 @@ Cell cell_of(const Subject& s, const Pilot& pilot, const UnitBox& box, const Est
 }
 
 // Counts what points of the reference stand for, each test's in a loop of its own: they share little memory.
-void count_expected(std::span<const Reference::Evaluated> points, Layout& layout) {
+void count_expected(std::span<const StratifiedReference::EvaluatedPoint> points, Layout& layout) {
   std::vector<double> weights(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) weights[i] = points[i].place->weight(points[i].density);
-  for (std::size_t i = 0; i < points.size(); ++i) layout.strips->add_expected(points[i].v, points[i].share, weights[i]);
-  for (const Reference::Evaluated& p : points) layout.grid->add_expected(p.v, p.share);
+  for (std::size_t i = 0; i < points.size(); ++i) weights[i] = points[i].stratum->weight(points[i].density);
+  for (std::size_t i = 0; i < points.size(); ++i) layout.marginal_bins->add_expected(points[i].v, points[i].share, weights[i]);
+  for (const StratifiedReference::EvaluatedPoint& p : points) layout.spectrum->add_expected(p.v, p.share);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Reference::Evaluated& p = points[i];
-    layout.levels.add_expected(p.density / p.place->density, p.share, weights[i]);
+    const StratifiedReference::EvaluatedPoint& p = points[i];
+    layout.density_ratio.add_expected(p.density / p.stratum->density, p.share, weights[i]);
     layout.all.add_expected(p.share, weights[i]);
   }
 }
 
 void lay_out_cells(const Subject& s, const Pilot& pilot, const SubjectOptions& options, Layout& layout) {
-  const double n = static_cast<double>(options.samples), draws = static_cast<double>(pilot.tally.draws);
+  const double n = static_cast<double>(options.samples), draws = static_cast<double>(pilot.stats.draws);
   layout.pilot_cells.emplace(s, pilot, tree_depth(n * static_cast<double>(pilot.points.size()) / draws));
   layout.reference.emplace(s, pilot, *layout.pilot_cells, hash(options.seed, 3));
-  Reference::Goal goal;
+  StratifiedReference::Goal goal;
   goal.samples = n;
-  goal.most = std::max<std::size_t>(options.max_evaluations / 3, 1 << 15);
-  layout.strips.emplace(pilot, s.dim);
-  layout.grid.emplace(s.dim, n, mean_step(s, pilot, 1 / std::sqrt(n)));
+  goal.max_points = std::max<std::size_t>(options.max_evaluations / 3, 1 << 15);
+  layout.marginal_bins.emplace(pilot, s.dim);
+  layout.spectrum.emplace(s.dim, n, mean_step(s, pilot, 1 / std::sqrt(n)));
   layout.masses =
-      layout.reference->integrate(s, goal, hash(options.seed, 4), [&](std::span<const Reference::Evaluated> points) {
+      layout.reference->integrate(s, goal, hash(options.seed, 4), [&](std::span<const StratifiedReference::EvaluatedPoint> points) {
         count_expected(points, layout);
       });
   layout.cubature = integrate_density(s, pilot, *layout.pilot_cells, n, options.max_evaluations / 12);
   const Partition& partition = layout.pilot_cells->partition;
-  const std::vector<double> rounded = layout.pilot_cells->rounded(s, pilot);
+  const std::vector<double> rounded = layout.pilot_cells->rounding_shares(s, pilot);
   for (int i = 0; i < partition.size(); ++i) {
     layout.boxes.push_back(partition.box(i));
     const EstimatedMass& mass = layout.masses.cells[static_cast<std::size_t>(i)];
@@ -127,7 +127,7 @@ double claimed_total(const Subject& s, double mass) { return s.may_fail ? 1.0 : 
 
 // The rate of failures against what the density leaves of 1. The error of its integral is conceded to the sampler;
 // where that would matter the mass itself is inconclusive.
-Check test_failures(const Subject& s, const DrawTally& t, double mass, double mass_error, double alpha) {
+Check test_failures(const Subject& s, const DrawStats& t, double mass, double mass_error, double alpha) {
   Check c{"failure rate",
           Verdict::pass,
           {},
@@ -148,14 +148,14 @@ Check test_failures(const Subject& s, const DrawTally& t, double mass, double ma
 }
 
 // Every test of the counts so far.
-CellTests judge_counts(const Subject& s, Layout& layout, const std::vector<WeightSums>& cells, const DrawTally& tally,
+CellTests judge_counts(const Subject& s, Layout& layout, const std::vector<WeightSums>& cells, const DrawStats& stats,
                        double alpha) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     layout.cells[i].observed = cells[i].sum;
     layout.cells[i].squares = cells[i].squares;
   }
   for (std::size_t i = 0; i < s.atoms.size(); ++i) {
-    const double count = static_cast<double>(tally.atoms[i]);
+    const double count = static_cast<double>(stats.atoms[i]);
     layout.cells[layout.boxes.size() + i].observed = layout.cells[layout.boxes.size() + i].squares = count;
   }
   return test_cells(layout.cells, s.dim, alpha, s.axes);
@@ -164,31 +164,31 @@ CellTests judge_counts(const Subject& s, Layout& layout, const std::vector<Weigh
 // Counts samples that are points, in the same way.
 void count_points(const Subject& s, std::span<const Subject::Coordinates> points, std::span<const double> densities,
                   Layout& layout, Counts& counts) {
-  const std::vector<const Reference::Place*> places = layout.reference->places(points);
+  const std::vector<const StratifiedReference::Stratum*> strata = layout.reference->find_strata(points);
   std::vector<double> weights(points.size()), shares(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    weights[i] = places[i]->weight(densities[i]);
-    shares[i] = places[i]->share(densities[i]);
-    counts.cells[places[i]->cell].add(weights[i]);
+    weights[i] = strata[i]->weight(densities[i]);
+    shares[i] = strata[i]->share(densities[i]);
+    counts.cells[strata[i]->cell].add(weights[i]);
     counts.weights.points += 1;
     counts.weights.sum += weights[i];
     counts.weights.squares += sqr(weights[i]);
     layout.all.add_sample(weights[i], shares[i]);
   }
   for (std::size_t i = 0; i < points.size(); ++i)
-    layout.levels.add_sample(densities[i] / places[i]->density, weights[i], shares[i]);
-  for (std::size_t i = 0; i < points.size(); ++i) layout.strips->add_sample(points[i], weights[i], shares[i]);
-  for (std::size_t i = 0; i < points.size(); ++i) layout.grid->add_sample(points[i], weights[i]);
+    layout.density_ratio.add_sample(densities[i] / strata[i]->density, weights[i], shares[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) layout.marginal_bins->add_sample(points[i], weights[i], shares[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) layout.spectrum->add_sample(points[i], weights[i]);
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d)
     for (std::size_t i = 0; i < points.size() && counts.coordinates[d].size() < most_kept; ++i)
       counts.coordinates[d].push_back(points[i][d]);
 }
 
-// Draws and counts; `so_far` is called with what there is after 1024, 2048, ... draws.
-using SoFar = std::function<void(const std::vector<WeightSums>& cells, const DrawTally& tally)>;
+// Draws and counts; `on_progress` is called with what there is after 1024, 2048, ... draws.
+using ProgressCallback = std::function<void(const std::vector<WeightSums>& cells, const DrawStats& stats)>;
 
 Counts count_samples(const Subject& s, const Pilot& pilot, const SubjectOptions& options, Layout& layout,
-                     const SoFar& so_far) {
+                     const ProgressCallback& on_progress) {
   Counts counts;
   counts.cells.resize(layout.boxes.size());
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
@@ -198,14 +198,14 @@ Counts count_samples(const Subject& s, const Pilot& pilot, const SubjectOptions&
   const auto count = [&](std::span<const Subject::Coordinates> points, std::span<const double> densities) {
     count_points(s, points, densities, layout, counts);
   };
-  std::function<void(const DrawTally&)> judge;
-  if (so_far) judge = [&](const DrawTally& tally) { so_far(counts.cells, tally); };
-  counts.tally = draw_samples(s, hash(options.seed, 2), options.samples, count, judge);
+  std::function<void(const DrawStats&)> judge;
+  if (on_progress) judge = [&](const DrawStats& stats) { on_progress(counts.cells, stats); };
+  counts.stats = draw_samples(s, hash(options.seed, 2), options.samples, count, judge);
   SampleWeights& weights = counts.weights;
-  weights.draws = static_cast<double>(counts.tally.draws);
-  weights.seen = weights.points + static_cast<double>(pilot.points.size());
-  const double draws = weights.draws + static_cast<double>(pilot.tally.draws);
-  counts.kept = draws * static_cast<double>(counts.coordinates[0].size()) / std::max(weights.seen, 1.0);
+  weights.draws = static_cast<double>(counts.stats.draws);
+  weights.total_points = weights.points + static_cast<double>(pilot.points.size());
+  const double draws = weights.draws + static_cast<double>(pilot.stats.draws);
+  counts.kept = draws * static_cast<double>(counts.coordinates[0].size()) / std::max(weights.total_points, 1.0);
   for (std::vector<double>& axis : counts.coordinates) sort_numbers(axis);
   return counts;
 }
@@ -216,9 +216,9 @@ std::string describe_density(double density) {
 }
 
 std::vector<Check> judge_density(const Subject& s, const Layout& layout) {
-  const auto& bad = layout.masses.bad ? layout.masses.bad : layout.cubature.bad;
+  const auto& bad = layout.masses.invalid_point ? layout.masses.invalid_point : layout.cubature.invalid_point;
   if (!bad) return {};
-  const double density = density_inside(s, *bad);
+  const double density = interior_density(s, *bad);
   return {{"pdf finite and >= 0",
            Verdict::fail,
            {},
@@ -242,18 +242,18 @@ std::vector<Check> judge_inverse(const Subject& s, std::uint64_t seed, std::uint
   const std::uint64_t n = std::min(samples, most_inverted);
   const std::vector<Subject::Coordinates> inverted = s.inverted(seed, n);
   if (inverted.empty()) return {};
-  if (auto lost = find_lost(s, seed, n, inverted)) return {*lost};
+  if (auto lost = check_inverse_finite(s, seed, n, inverted)) return {*lost};
   std::vector<Check> checks;
   if (auto c = test_uniformity(inverted, s.dim, s.invert_error, alpha, alpha_share(FitTest::inverse, s.dim)))
     checks.push_back(std::move(*c));
-  FineGrid grid(s.dim, static_cast<double>(inverted.size()), s.invert_error);
+  SpectrumTest grid(s.dim, static_cast<double>(inverted.size()), s.invert_error);
   grid.expect_uniform();
   WeightedCounts all;
   for (const Subject::Coordinates& u : inverted) {
     grid.add_sample(u, 1);
     all.add_sample(1, 0);
   }
-  append(checks, grid.test(all, alpha_share(FitTest::waves, s.dim) / 2, alpha, "inverted samples"));
+  append(checks, grid.test(all, alpha_share(FitTest::spectrum, s.dim) / 2, alpha, "inverted samples"));
   return checks;
 }
 
@@ -262,10 +262,10 @@ std::vector<Check> judge_detail(const Subject& s, const Pilot& pilot, const Layo
                                 double mass, double alpha) {
   const double points = std::max(mass - std::accumulate(s.atoms.begin(), s.atoms.end(), 0.0), 1e-300);
   std::vector<Check> checks{
-      layout.strips->test(s, pilot, counts.weights.points, points, alpha_share(FitTest::strips, s.dim), alpha),
-      layout.levels.test(alpha_share(FitTest::levels, s.dim), alpha)};
+      layout.marginal_bins->test(s, pilot, counts.weights.points, points, alpha_share(FitTest::marginal_bins, s.dim), alpha),
+      layout.density_ratio.test(alpha_share(FitTest::density_ratio, s.dim), alpha)};
   append(checks,
-         layout.grid->test(layout.all, alpha_share(FitTest::waves, s.dim) / (s.inverted ? 2 : 1), alpha, "chart"));
+         layout.spectrum->test(layout.all, alpha_share(FitTest::spectrum, s.dim) / (s.inverted ? 2 : 1), alpha, "chart"));
   return checks;
 }
 
@@ -325,38 +325,38 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
 
   const Pilot pilot = s.dim > 0 ? draw_pilot(s, hash(options.seed, 1), options.samples) : Pilot{};
   Layout layout = lay_out(s, pilot, options);
-  SoFar so_far;
+  ProgressCallback on_progress;
   if (options.evidence)
-    so_far = [&](const std::vector<WeightSums>& cells, const DrawTally& tally) {
+    on_progress = [&](const std::vector<WeightSums>& cells, const DrawStats& stats) {
       Report then;
-      then.checks = judge_counts(s, layout, cells, tally, options.alpha).checks;
-      report.evidence->p_after.push_back({tally.draws, then.p()});
+      then.checks = judge_counts(s, layout, cells, stats, options.alpha).checks;
+      report.evidence->p_after.push_back({stats.draws, then.p()});
     };
-  const Counts counts = count_samples(s, pilot, options, layout, so_far);
-  const ClaimedMass mass = claimed_mass(s, layout.cubature, layout.masses.total, layout.masses.whole, counts.weights);
+  const Counts counts = count_samples(s, pilot, options, layout, on_progress);
+  const ClaimedMass mass = claimed_mass(s, layout.cubature, layout.masses.total, layout.masses.uncapped, counts.weights);
   report.mass = mass.value;
   report.mass_error = mass.error;
 
   // The pilot's draws obey the same laws.
-  append(report.checks, check_draws(s, merged(counts.tally, pilot.tally), options.open_interval));
+  append(report.checks, check_draws(s, merge(counts.stats, pilot.stats), options.open_interval));
   append(report.checks, judge_density(s, layout));
   append(report.checks, find_unresolved(s, pilot));
   report.checks.push_back(test_mass(s, mass, options.alpha));
   append(report.checks, judge_inverse(s, hash(options.seed, 5), options.samples, options.alpha));
-  const auto slabs = s.dim > 0 ? find_slabs(s, pilot, counts.coordinates) : std::vector<Slab>();
-  const auto judge_slabs = [&](Slab::Kind kind) {
+  const auto intervals = s.dim > 0 ? find_axis_intervals(s, pilot, counts.coordinates) : std::vector<AxisInterval>();
+  const auto judge_intervals = [&](AxisInterval::Kind kind) {
     if (s.dim == 0) return;
     const double total = claimed_total(s, mass.value);
-    report.checks.push_back(test_slabs(s, kind, slabs, counts.kept, total, options.alpha));
+    report.checks.push_back(test_axis_intervals(s, kind, intervals, counts.kept, total, options.alpha));
   };
-  judge_slabs(Slab::Kind::atom);
-  CellTests tests = judge_counts(s, layout, counts.cells, counts.tally, options.alpha);
+  judge_intervals(AxisInterval::Kind::atom);
+  CellTests tests = judge_counts(s, layout, counts.cells, counts.stats, options.alpha);
   prepend_finding(tests.checks, describe_worst_region(s, layout.boxes, layout.cells));
   recognise_rotation(s, report.axes, layout, pilot, tests.checks);
   append(report.checks, std::move(tests.checks));
-  judge_slabs(Slab::Kind::gap); // after the shape, of which a wide one is a part
+  judge_intervals(AxisInterval::Kind::gap); // after the shape, of which a wide one is a part
   if (s.dim > 0) append(report.checks, judge_detail(s, pilot, layout, counts, mass.value, options.alpha));
-  if (s.may_fail) report.checks.push_back(test_failures(s, counts.tally, mass.value, mass.error, options.alpha));
+  if (s.may_fail) report.checks.push_back(test_failures(s, counts.stats, mass.value, mass.error, options.alpha));
   report.detectable = tests.detectable;
   report.detectable_cell = tests.detectable_cell;
 
@@ -366,7 +366,7 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
   report.worst = worst_cells(s, layout.boxes, layout.cells, scale);
   if (report.evidence) {
     add_counts(layout.boxes, layout.cells, scale, *report.evidence);
-    report.evidence->p_after.push_back({counts.tally.draws, report.p()});
+    report.evidence->p_after.push_back({counts.stats.draws, report.p()});
   }
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -42,13 +42,13 @@ template <class Options> Options with_statistics(Options o, const SubjectOptions
 ///                allowed): by cubature where random points and the samples agree with it, to the error of the cubature
 ///                and what 4.6 samples would not have seen; else to the error of the random points
 ///   counts     : all tests of cell_tests.h on cells adapted to the density, whose probabilities are known with their
-///                variance (reference.h), so that no density makes a right sampler fail
-///   strips     : thin layers along each axis, down to a few samples at the ends (strips.h)
-///   levels     : how many samples lie where the density is high or low against its surroundings (density_levels.h)
+///                variance (stratified_reference.h), so that no density makes a right sampler fail
+///   marginals  : thin layers along each axis, down to a few samples at the ends (marginal_bins.h)
+///   density    : how many samples lie where the density is high or low against its surroundings (density_ratio.h)
 ///   waves      : Fourier coefficients of the counts on a fine grid of the chart, and of the inverted samples
 ///                (spectrum.h)
 ///   inverted   : the sampler's own inverse, where it has one, makes samples uniform, at most 131072 (uniformity.h)
-///   atoms      : the place on each axis where most samples agree, against the mass of its slab (slabs.h)
+///   atoms      : the place on each axis where most samples agree, against the mass of its interval (axis_intervals.h)
 ///   gaps       : the widest gap between samples inside each axis and at its ends, likewise
 ///   detection  : the report states the smallest errors it would have caught with probability .99
 ///   throws     : Error when samples < 1000, or alpha is not in (0, 1)

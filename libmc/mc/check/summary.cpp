@@ -105,7 +105,7 @@ std::string describe_worst_region(const Subject& s, const std::vector<UnitBox>& 
                      describe_box(s, enclosing_box(boxes, worst.lo, worst.hi)), counts);
 }
 
-void add_counts(const std::vector<UnitBox>& boxes, const std::vector<Cell>& cells, double scale, Evidence& evidence) {
+void add_counts(const std::vector<UnitBox>& boxes, const std::vector<Cell>& cells, double scale, PlotData& evidence) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     CellCount c{{}, {}, cells[i].observed, scale * cells[i].p};
     if (i < boxes.size()) {

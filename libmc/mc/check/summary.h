@@ -23,7 +23,7 @@ std::string describe_worst_region(const Subject& subject, const std::vector<Unit
                                   const std::vector<Cell>& cells);
 
 /// All counts, of cells and of outcomes.
-void add_counts(const std::vector<UnitBox>& boxes, const std::vector<Cell>& cells, double scale, Evidence& evidence);
+void add_counts(const std::vector<UnitBox>& boxes, const std::vector<Cell>& cells, double scale, PlotData& evidence);
 
 /// The subject's axes, named v0, v1, ... where it names none.
 std::vector<Axis> named_axes(const Subject& subject);

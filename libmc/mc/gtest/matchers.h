@@ -4,8 +4,8 @@
 ///   EXPECT_BSDF_LAWS(bsdf, wo[, mc::BsdfOptions])   : every law of bsdf_laws.h for the fixed direction wo, a mc::Vec3.
 ///                                                     docs/methods/bsdf-conventions.md has the conventions: eval
 ///                                                     without the cosine, unit vectors, +z is the normal
-///   EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain[, mc::SubjectOptions])
-///                                                   : the statistical tests; sampler(u) or sampler(mc::Pcg&) returns a
+///   EXPECT_SAMPLES_MATCH_PDF(sample, pdf, domain[, mc::SubjectOptions])
+///                                                   : the statistical tests; sample(u) or sample(mc::Pcg&) returns a
 ///                                                     point or an optional point
 ///   EXPECT_MEAN(values, value[, alpha = 0.001])     : Student's t test; values are a range of numbers
 /// A failure begins with the finding: observed value, expected value and place (u, direction with its angles, or cell).
@@ -28,7 +28,7 @@ namespace detail {
 
 // Whether the arguments of the macros have the required members. Constants, not concepts: compilers explain failed
 // concepts at length.
-template <class W> constexpr bool is_sampler = Samplable<std::remove_cvref_t<W>>;
+template <class W> constexpr bool is_distribution = ContinuousDistribution<std::remove_cvref_t<W>>;
 template <class Bsdf, class V>
 constexpr bool is_bsdf = BsdfOver<std::remove_cvref_t<Bsdf>, typename std::remove_cvref_t<V>::Scalar>;
 template <class Draw, class D>
@@ -50,7 +50,7 @@ inline testing::AssertionResult assert_passed(const Report& report, std::string_
 
 template <class W> testing::AssertionResult obeys_laws(const char* expression, const W& warp, LawOptions options = {}) {
   if (options.name == LawOptions{}.name) options.name = expression;
-  if constexpr (detail::is_sampler<W>) return assert_passed(check_laws(warp, options), detail::full_laws);
+  if constexpr (detail::is_distribution<W>) return assert_passed(check_laws(warp, options), detail::full_laws);
   else return testing::AssertionFailure();
 }
 
@@ -64,11 +64,11 @@ testing::AssertionResult obeys_bsdf_laws(const char* expression, const Bsdf& bsd
   else return testing::AssertionFailure();
 }
 
-template <class Sampler, class Pdf, Domain D>
-testing::AssertionResult samples_match_pdf(const char* expression, Sampler sampler, Pdf pdf, const D& domain,
+template <class Sample, class Pdf, Domain D>
+testing::AssertionResult samples_match_pdf(const char* expression, Sample sample, Pdf pdf, const D& domain,
                                            const SubjectOptions& options = {}) {
-  if constexpr (detail::draws_points<Sampler, D>)
-    return assert_passed(check_subject(make_subject(make_sampler(expression, domain, sampler, pdf)), options), {});
+  if constexpr (detail::draws_points<Sample, D>)
+    return assert_passed(check_subject(make_subject(make_distribution(expression, domain, sample, pdf)), options), {});
   else return testing::AssertionFailure();
 }
 
@@ -94,7 +94,7 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
 // lines. The check stands outside the lambda, which cannot use names of structured bindings.
 
 #define EXPECT_WARP_LAWS(warp, ...)                                                                                    \
-  switch (constexpr bool mc_fits = ::mc::detail::is_sampler<decltype(warp)>; 0)                                        \
+  switch (constexpr bool mc_fits = ::mc::detail::is_distribution<decltype(warp)>; 0)                                        \
   case 0:                                                                                                              \
   default:                                                                                                             \
     switch (const char* mc_expression =                                                                                \
@@ -125,18 +125,18 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
     default:                                                                                                           \
       EXPECT_TRUE(::mc::obeys_bsdf_laws(mc_expression, bsdf, wo __VA_OPT__(, ) __VA_ARGS__))
 
-#define EXPECT_SAMPLES_MATCH_PDF(sampler, pdf, domain, ...)                                                            \
-  switch (constexpr bool mc_fits = ::mc::detail::draws_points<decltype(sampler), decltype(domain)>; 0)                 \
+#define EXPECT_SAMPLES_MATCH_PDF(sample, pdf, domain, ...)                                                            \
+  switch (constexpr bool mc_fits = ::mc::detail::draws_points<decltype(sample), decltype(domain)>; 0)                 \
   case 0:                                                                                                              \
   default:                                                                                                             \
     switch (const char* mc_expression =                                                                                \
                 [] {                                                                                                   \
                   static_assert(mc_fits, "the function must take u, a point of the unit cube, or mc::Pcg&");           \
-                  return #sampler;                                                                                     \
+                  return #sample;                                                                                     \
                 }();                                                                                                   \
             0)                                                                                                         \
     case 0:                                                                                                            \
     default:                                                                                                           \
-      EXPECT_TRUE(::mc::samples_match_pdf(mc_expression, sampler, pdf, domain __VA_OPT__(, ) __VA_ARGS__))
+      EXPECT_TRUE(::mc::samples_match_pdf(mc_expression, sample, pdf, domain __VA_OPT__(, ) __VA_ARGS__))
 
 #define EXPECT_MEAN(values, value, ...) EXPECT_TRUE(::mc::has_mean(#values, values, value __VA_OPT__(, ) __VA_ARGS__))

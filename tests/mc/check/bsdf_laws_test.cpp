@@ -15,7 +15,7 @@ using V = mc::Vec3<double>;
 using Color = Eigen::Array3d;
 using mc::Fault;
 
-enum class Slip {
+enum class Bug {
   none,
   weight,
   cosine,
@@ -37,49 +37,49 @@ struct Sample {
 
 // Half Lambert, half perfect mirror when asked for.
 struct Coated {
-  Slip slip = Slip::none;
+  Bug bug = Bug::none;
   double mirror = 0;
 
   Color eval(const V& wo, const V& wi) const {
     if (!(wo.z() > 0 && wi.z() > 0) || mirror == 1) return Color::Zero();
     double f = 0.5 / mc::pi<double>;
-    if (slip == Slip::energy) f *= 2.2;
-    if (slip == Slip::grazing_energy && wo.z() < 0.2) f *= 2.2;
-    if (slip == Slip::reciprocity) f *= 0.5 + wo.z();
-    if (slip == Slip::negative) f -= 0.1 * (wi.x() > 0.9);
-    if (slip == Slip::negative && wi.x() > 0.9) f = -f;
+    if (bug == Bug::energy) f *= 2.2;
+    if (bug == Bug::grazing_energy && wo.z() < 0.2) f *= 2.2;
+    if (bug == Bug::reciprocity) f *= 0.5 + wo.z();
+    if (bug == Bug::negative) f -= 0.1 * (wi.x() > 0.9);
+    if (bug == Bug::negative && wi.x() > 0.9) f = -f;
     return Color::Constant(f);
   }
   double pdf(const V& wo, const V& wi) const {
-    if (slip == Slip::support && wi.x() > 0.5) return 0;
+    if (bug == Bug::support && wi.x() > 0.5) return 0;
     if (!(wo.z() > 0 && wi.z() > 0)) return 0;
-    return (1 - mirror) * (slip == Slip::cosine ? 1 / (2 * mc::pi<double>) : wi.z() / mc::pi<double>);
+    return (1 - mirror) * (bug == Bug::cosine ? 1 / (2 * mc::pi<double>) : wi.z() / mc::pi<double>);
   }
   std::optional<Sample> sample(const V& wo, double uc, const mc::Vec2<double>& u) const {
     if (uc < mirror)
       return Sample{V(-wo.x(), -wo.y(), wo.z()),
-                    Color::Constant((slip == Slip::mirror_reciprocity && wo.x() > 0 ? 0.5 : 0.2) * mirror / wo.z()),
-                    slip == Slip::mirror_probability ? uc : mirror, true, false};
+                    Color::Constant((bug == Bug::mirror_reciprocity && wo.x() > 0 ? 0.5 : 0.2) * mirror / wo.z()),
+                    bug == Bug::mirror_probability ? uc : mirror, true, false};
     const V wi = mc::CosineHemisphere<double>{}.sample(u);
-    return Sample{wi, (slip == Slip::weight ? 1.01 : 1.0) * eval(wo, wi), pdf(wo, wi), false, false};
+    return Sample{wi, (bug == Bug::weight ? 1.01 : 1.0) * eval(wo, wi), pdf(wo, wi), false, false};
   }
 };
 
 mc::Report check(Coated b) { return mc::check_bsdf<double>(b, V(0.6, 0, 0.8), {.samples = 50'000}); }
 
-TEST(BsdfLaws, ARightBsdfPassesWithAndWithoutADeltaLobe) {
+TEST(BsdfLaws, CorrectBsdf_PassesWithAndWithoutDeltaLobe) {
   EXPECT_TRUE(check({}).passed()) << check({}).to_string();
-  EXPECT_TRUE(check({Slip::none, 0.3}).passed()) << check({Slip::none, 0.3}).to_string();
-  EXPECT_TRUE(check({Slip::none, 1}).passed()) << check({Slip::none, 1}).to_string();
+  EXPECT_TRUE(check({Bug::none, 0.3}).passed()) << check({Bug::none, 0.3}).to_string();
+  EXPECT_TRUE(check({Bug::none, 1}).passed()) << check({Bug::none, 1}).to_string();
 }
 
-TEST(BsdfLaws, EachSlipIsNamed) {
-  EXPECT_EQ(check({Slip::weight}).fault(), Fault::weight);
-  EXPECT_EQ(check({Slip::energy}).fault(), Fault::physics);
-  EXPECT_EQ(check({Slip::reciprocity}).fault(), Fault::physics);
-  EXPECT_EQ(check({Slip::negative}).fault(), Fault::physics);
-  EXPECT_EQ(check({Slip::cosine}).fault(), Fault::shape) << "though its white furnace is too bright";
-  EXPECT_EQ(check({Slip::mirror_probability, 0.3}).fault(), Fault::weight);
+TEST(BsdfLaws, EachBug_IsNamed) {
+  EXPECT_EQ(check({Bug::weight}).fault(), Fault::weight);
+  EXPECT_EQ(check({Bug::energy}).fault(), Fault::physics);
+  EXPECT_EQ(check({Bug::reciprocity}).fault(), Fault::physics);
+  EXPECT_EQ(check({Bug::negative}).fault(), Fault::physics);
+  EXPECT_EQ(check({Bug::cosine}).fault(), Fault::shape) << "though its white furnace is too bright";
+  EXPECT_EQ(check({Bug::mirror_probability, 0.3}).fault(), Fault::weight);
 }
 
 bool broken(const mc::Report& r, const std::string& law) {
@@ -87,13 +87,13 @@ bool broken(const mc::Report& r, const std::string& law) {
                      [&](const mc::Check& c) { return c.name == law && c.verdict == mc::Verdict::fail; });
 }
 
-TEST(BsdfLaws, PhysicsBeyondTheSampledPairs) {
-  EXPECT_TRUE(broken(check({Slip::support}), "pdf > 0 where f > 0"));
-  EXPECT_TRUE(broken(check({Slip::grazing_energy}), "energy <= 1"));
-  EXPECT_TRUE(broken(check({Slip::mirror_reciprocity, 0.3}), "reciprocity of delta lobes"));
+TEST(BsdfLaws, SupportEnergyAndDeltaReciprocity_Fail) {
+  EXPECT_TRUE(broken(check({Bug::support}), "pdf > 0 where f > 0"));
+  EXPECT_TRUE(broken(check({Bug::grazing_energy}), "energy <= 1"));
+  EXPECT_TRUE(broken(check({Bug::mirror_reciprocity, 0.3}), "reciprocity of delta lobes"));
 }
 
-TEST(BsdfLaws, APdfOfZeroWhereFIsPositiveIsNamed) {
+TEST(BsdfLaws, PdfZeroWhereFIsPositive_Fails) {
   // Half of what it reflects is never sampled.
   struct Half : Coated {
     double pdf(const V& wo, const V& wi) const { return wi.x() > 0 ? 2 * Coated::pdf(wo, wi) : 0; }
@@ -136,7 +136,7 @@ struct FourWavelengths {
   }
 };
 
-TEST(BsdfLaws, EveryChannelIsLookedAt) {
+TEST(BsdfLaws, WrongSingleChannel_Fails) {
   const auto of = [](const FourWavelengths& b) {
     return mc::check_bsdf<double>(b, V(0.6, 0, 0.8), {.samples = 20'000});
   };
@@ -146,15 +146,15 @@ TEST(BsdfLaws, EveryChannelIsLookedAt) {
   EXPECT_TRUE(broken(of({.mirror_back = 0.5, .mirror = true}), "reciprocity of delta lobes"));
 }
 
-TEST(BsdfLaws, TheWhiteFurnaceIsReported) {
-  const mc::Report r = check({Slip::none, 0.3});
+TEST(BsdfLaws, WhiteFurnace_IsReported) {
+  const mc::Report r = check({Bug::none, 0.3});
   ASSERT_EQ(r.figures.size(), 2u);
   EXPECT_NEAR(r.figures[0].value, 0.5 + 0.2 * 0.3, 5 * r.figures[0].std_error + 1e-12);
   EXPECT_GE(r.figures[1].value, r.figures[0].value - 5 * r.figures[0].std_error);
 }
 
-TEST(BsdfLaws, TheWitnessNamesItsRandomNumbers) {
-  EXPECT_THAT(check({Slip::weight}).to_string(),
+TEST(BsdfLaws, Witness_NamesRandomNumbers) {
+  EXPECT_THAT(check({Bug::weight}).to_string(),
               testing::ContainsRegex("fail: f is 0.16.*, should be 0.159.*, at u = \\(0"));
 }
 
@@ -178,7 +178,7 @@ struct Glass {
   }
 };
 
-TEST(BsdfLaws, RefractionCarriesTheSquaredIndex) {
+TEST(BsdfLaws, Refraction_ReciprocityUsesSquaredIndex) {
   for (const V& wo : {V(0.6, 0, 0.8), V(0.3, 0, -std::sqrt(0.91))}) {
     const auto check = [&](Glass g) {
       return mc::check_bsdf<double>(g, wo, {.samples = 20'000, .eta = 1.5, .lossless = true});
@@ -191,7 +191,7 @@ TEST(BsdfLaws, RefractionCarriesTheSquaredIndex) {
 
 // A phase function: no cosine, weights instead of values, one channel.
 struct Phase {
-  double slip = 1;
+  double bug = 1;
   struct Sample {
     V wi;
     double pdf, weight;
@@ -202,11 +202,11 @@ struct Phase {
   double pdf(const V& wo, const V& wi) const { return lobe.pdf(mc::Frame<double>::from_z(wo).to_local(wi)); }
   std::optional<Sample> sample(const V& wo, const mc::Vec2<double>& u) const {
     const V wi = about(wo, lobe.sample(u));
-    return Sample{wi, pdf(wo, wi), slip};
+    return Sample{wi, pdf(wo, wi), bug};
   }
 };
 
-TEST(BsdfLaws, PhaseFunctions) {
+TEST(BsdfLaws, PhaseFunction_Passes) {
   const mc::BsdfOptions options{.samples = 50'000, .cosine = false, .lossless = true};
   const mc::Report r = mc::check_bsdf<double>(Phase{}, V(0.6, 0, 0.8), options);
   EXPECT_TRUE(r.passed()) << r.to_string();

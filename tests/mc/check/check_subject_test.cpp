@@ -25,7 +25,7 @@ double cosine_pdf(const V& w) { return w.z() > 0 ? w.z() / mc::pi<double> : 0.0;
 
 // 300 seeds at alpha = 10 %, cheap sizes. KS on cells is conservative, so the rate may lie below 10 %; above it is a
 // fault: Binomial(300, 0.1) stays below 48 with probability 0.9995.
-TEST(CheckSubject, AcceptsTheRightSamplerAtTheRateOfAlpha) {
+TEST(CheckSubject, CorrectDistribution_RejectedAtMostAtAlpha) {
   const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
   int rejected = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
@@ -38,7 +38,7 @@ TEST(CheckSubject, AcceptsTheRightSamplerAtTheRateOfAlpha) {
 }
 
 // A normal lobe of unit vectors, its deviation 15 steps of a float: cells as narrow as a step would count the steps.
-TEST(CheckSubject, LobesOfFewFloatSteps) {
+TEST(CheckSubject, LobeOfFewFloatSteps_Passes) {
   using F = mc::Vec3<float>;
   const mc::Normal<double> offset(0, 9e-7);
   for (const double azimuth : {0.4, 2.0, 4.0}) {
@@ -59,7 +59,7 @@ TEST(CheckSubject, LobesOfFewFloatSteps) {
 
 // A float table whose one bright cell, of 260 steps, holds half of a million samples: a step at its edge holds more
 // than what a layer beside it may be off.
-TEST(CheckSubject, BrightCellsOfFewFloatSteps) {
+TEST(CheckSubject, BrightCellOfFewFloatSteps_Passes) {
   std::vector<double> weights(64'586, 1);
   weights[54'671] = 64'586;
   const mc::TableDist1D<float> table(weights);
@@ -74,7 +74,7 @@ TEST(CheckSubject, BrightCellsOfFewFloatSteps) {
 
 // x^(a - 1) on (0, 1): of a = .12 a fortieth lies below 2^-44, a thousandth below 2^-83 and a millionth below 2^-166.
 // Between the end and the first number beside 1 there is room for all of that.
-TEST(CheckSubject, SingularitiesAsDeepAsNumbersGo) {
+TEST(CheckSubject, DeepSingularity_Passes) {
   for (const double a : {0.12, 0.3}) {
     const auto sampler = [a](Pcg& r) { return std::pow(r.uniform<double>(), 1 / a); };
     const auto pdf = [a](double x) { return a * std::pow(x, a - 1); };
@@ -89,7 +89,7 @@ TEST(CheckSubject, SingularitiesAsDeepAsNumbersGo) {
 }
 
 // 1 / x from 1e-250 on: two fifths of the samples lie below 2^-500.
-TEST(CheckSubject, LogarithmsThatAreUniformOverAllNumbers) {
+TEST(CheckSubject, LogUniformOverAllDoubles_Passes) {
   const double depth = 250 * std::log(10.0);
   const auto check = [depth](double exponent) {
     return check_subject(
@@ -104,7 +104,7 @@ TEST(CheckSubject, LogarithmsThatAreUniformOverAllNumbers) {
 }
 
 // Beside an end that is not 0 the points of the chart are rounded onto it, where the density is infinite.
-TEST(CheckSubject, SingularAtEndsThatAreNotZero) {
+TEST(CheckSubject, SingularityAtNonzeroEnd_Passes) {
   for (const double lo : {0.0833, 24.7, -670.0}) {
     const mc::Interval<double> interval(lo, lo + 3);
     const auto sampler = [lo](Pcg& r) { return lo + 3 * mc::sqr(std::sin(mc::pi<double> / 2 * r.uniform<double>())); };
@@ -117,7 +117,7 @@ TEST(CheckSubject, SingularAtEndsThatAreNotZero) {
   }
 }
 
-TEST(CheckSubject, SharpLobesAreAsEasyAsCosines) {
+TEST(CheckSubject, SharpLobe_IsTestedAsStrictlyAsCosine) {
   // 1 - z exponential with mean 1e-10: a lobe of 1e-5 rad.
   const double scale = 1e-10;
   const auto sampler = [scale](Pcg& r) {
@@ -131,7 +131,7 @@ TEST(CheckSubject, SharpLobesAreAsEasyAsCosines) {
   EXPECT_NEAR(r.mass, 1, 1e-3);
 }
 
-TEST(CheckSubject, FailuresAreTestedAgainstTheMissingMass) {
+TEST(CheckSubject, FailureRate_IsTestedAgainstMissingMass) {
   const auto sampler = [](double p) {
     return [p](Pcg& r) -> std::optional<V> {
       if (r.uniform<double>() < p) return {};
@@ -147,14 +147,14 @@ TEST(CheckSubject, FailuresAreTestedAgainstTheMissingMass) {
 }
 
 // A density that oscillates far below the size of any cell, of which the samples know nothing.
-TEST(CheckSubject, StructureFinerThanAnyCellIsSeenInTheDensitiesOfTheSamples) {
+TEST(CheckSubject, StructureFinerThanCells_Fails) {
   const auto pdf = [](double x) { return 1 + std::sin(2e7 * x) * (std::fmod(x * 1e8, 1.0) < 0.5 ? 1.0 : 0.7); };
   const mc::Subject s = make_subject(
       "rough", mc::Interval<double>(0, 1), [](Pcg& r) { return r.uniform<double>(); }, pdf);
   EXPECT_EQ(check_subject(s, {.samples = 100'000, .max_evaluations = 100'000}).verdict(), Verdict::fail);
 }
 
-TEST(CheckSubject, WitnessesAreInTheReport) {
+TEST(CheckSubject, Report_ContainsWitnesses) {
   const auto sampler = [](Pcg& r) {
     V w = cosine(r);
     if (r.uniform<double>() < 1e-3) w = -w;
@@ -169,7 +169,7 @@ TEST(CheckSubject, WitnessesAreInTheReport) {
 // An azimuth of 2 * 3.14 u leaves a gap at the end of the turn, a clamp one at each end of u, a skipped interval one
 // inside: too narrow for any cell, each seen empty by the pilot and then by the samples. A right density whose support
 //         has such gaps passes.
-TEST(CheckSubject, GapsAreFoundInsideAndAtBothEnds) {
+TEST(CheckSubject, GapsInsideAndAtEnds_Fail) {
   const mc::Interval<double> unit(0, 1);
   const auto gap = [&](double lo, double hi, bool claimed) {
     const double width = hi - lo;
@@ -196,7 +196,7 @@ TEST(CheckSubject, GapsAreFoundInsideAndAtBothEnds) {
 }
 
 // 800 steps of a float hold 95 of a million samples.
-TEST(CheckSubject, GapsOfFewHundredFloatStepsAreFound) {
+TEST(CheckSubject, GapOfFewHundredFloatSteps_Fails) {
   const auto skip = [](float width) {
     const auto sampler = [width](Pcg& r) {
       for (;;)
@@ -210,7 +210,7 @@ TEST(CheckSubject, GapsOfFewHundredFloatStepsAreFound) {
 
 // 23 of 100000 samples are missing at each end of a normal cut at 3.5 sigma, as many as no right sampler misses. The
 // density falls towards the ends, so that the samples beside them speak of more.
-TEST(CheckSubject, TailsThatAreCutAreGaps) {
+TEST(CheckSubject, TruncatedTail_IsGap) {
   const mc::Normal<double> normal;
   const auto cut_at = [&](double most) {
     const auto sampler = [=](Pcg& r) {
@@ -228,7 +228,7 @@ TEST(CheckSubject, TailsThatAreCutAreGaps) {
   EXPECT_THAT(r.to_string(mc::ReportText::full), testing::ContainsRegex("contains 0 samples, .* expected"));
 }
 
-TEST(CheckSubject, DiscreteOutcomes) {
+TEST(CheckSubject, DiscreteOutcomes_AreTested) {
   mc::Subject s;
   s.name = "coin";
   s.atoms = {0.5, 0.5};
@@ -252,7 +252,7 @@ TEST(CheckSubject, DiscreteOutcomes) {
   EXPECT_EQ(check_subject(s, {.samples = 100'000}).fault(), Fault::mass);
 }
 
-TEST(CheckSubject, SamplesToDetectAreEnough) {
+TEST(CheckSubject, SamplesToDetect_AreSufficient) {
   const std::uint64_t n = mc::samples_to_detect(0.05, 0.001, 2);
   const mc::Report r =
       check_subject(make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf), {.samples = n});
@@ -262,18 +262,18 @@ TEST(CheckSubject, SamplesToDetectAreEnough) {
   EXPECT_THROW(mc::samples_to_detect(0, 0.01), mc::Error);
 }
 
-TEST(CheckSubject, SameSeedSameReport) {
+TEST(CheckSubject, SameSeed_SameReport) {
   const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
   EXPECT_EQ(check_subject(s, {.samples = 5000}).p(), check_subject(s, {.samples = 5000}).p());
 }
 
-TEST(CheckSubject, RefusesNonsense) {
+TEST(CheckSubject, InvalidOptions_Throw) {
   const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
   EXPECT_THROW(check_subject(s, {.samples = 10}), mc::Error);
   EXPECT_THROW(check_subject(s, {.alpha = 2}), mc::Error);
 }
 
-TEST(CheckSubject, EvidenceIsAllTheCountsAndTheWayOfP) {
+TEST(CheckSubject, PlotData_HasAllCountsAndPValues) {
   const mc::Subject s = make_subject("cosine", mc::Hemisphere<double>{}, cosine, cosine_pdf);
   const mc::Report plain = check_subject(s, {.samples = 50'000}),
                    r = check_subject(s, {.samples = 50'000, .evidence = true});
@@ -298,7 +298,7 @@ TEST(CheckSubject, EvidenceIsAllTheCountsAndTheWayOfP) {
   for (const auto& [samples, p] : r.evidence->p_after) EXPECT_GT(p, 0.001) << samples;
 }
 
-TEST(CheckSubject, TheWayOfPFallsForAWrongSampler) {
+TEST(CheckSubject, PlotData_WrongSamples_PValueFalls) {
   const auto skewed = [](Pcg& r) {
     const double z = std::pow(r.uniform<double>(), 1 / 2.1), phi = 2 * mc::pi<double> * r.uniform<double>();
     return mc::spherical_direction<double>(std::sqrt(1 - z * z), z, phi);
@@ -310,7 +310,7 @@ TEST(CheckSubject, TheWayOfPFallsForAWrongSampler) {
   EXPECT_LT(r.evidence->p_after.back().p, 1e-9);
 }
 
-TEST(CheckSubject, OutcomesAreEvidenceToo) {
+TEST(CheckSubject, PlotData_HasDiscreteOutcomes) {
   mc::Subject s;
   s.name = "coin";
   s.atoms = {0.5, 0.5};

@@ -71,7 +71,7 @@ TEST(My, Sampler) { EXPECT_SAMPLES_MATCH_PDF(sampler, [](double) { return 1.0; }
 
 class CompileErrors : public testing::TestWithParam<WrongProgram> {};
 
-TEST_P(CompileErrors, AreShortAndSayWhatIsMissing) {
+TEST_P(CompileErrors, AreShortAndNameMissingMember) {
   const std::string base = testing::TempDir() + "/wrong_" + GetParam().name, source = base + ".cpp",
                     said = base + ".txt";
   mc::write_file(source, GetParam().text);

@@ -22,9 +22,9 @@ mc::LawOptions cheap() {
   return o;
 }
 
-// Density 2 x on [0,1]; `Slip` breaks one law at a time.
-enum class Slip { none, pdf_scale, invert, edge, precision };
-template <class S, Slip slip> struct Ramp {
+// Density 2 x on [0,1]; `Bug` breaks one law at a time.
+enum class Bug { none, pdf_scale, invert, edge, precision };
+template <class S, Bug bug> struct Ramp {
   using Scalar = S;
   using Domain = mc::Interval<S>;
   Domain domain() const { return {}; }
@@ -32,43 +32,43 @@ template <class S, Slip slip> struct Ramp {
     using std::sqrt;
     const S v = S(1) - u; // in (0, 1]
     S x = S(sqrt(v));
-    if constexpr (slip == Slip::precision && std::floating_point<S>)
+    if constexpr (bug == Bug::precision && std::floating_point<S>)
       x = x * (1 + 100 * std::numeric_limits<S>::epsilon()) < 1 ? x * (1 + 100 * std::numeric_limits<S>::epsilon()) : x;
-    if constexpr (slip == Slip::edge) return u == 0 ? S(2) : x;
+    if constexpr (bug == Bug::edge) return u == 0 ? S(2) : x;
     return x;
   }
   S pdf(S x) const {
     if (!(x >= 0 && x <= 1)) return S(0);
-    return S(slip == Slip::pdf_scale ? 2.001 : 2) * x;
+    return S(bug == Bug::pdf_scale ? 2.001 : 2) * x;
   }
-  S invert(S x) const { return S(1) - (slip == Slip::invert ? S(x * x * x) : S(x * x)); }
-  template <mc::Real T> Ramp<T, slip> cast() const { return {}; }
+  S invert(S x) const { return S(1) - (bug == Bug::invert ? S(x * x * x) : S(x * x)); }
+  template <mc::Real T> Ramp<T, bug> cast() const { return {}; }
 };
 
 template <class W> mc::Report laws(const W& w) { return check_laws(w, cheap()); }
 
-TEST(Laws, ARightWarpPasses) {
-  EXPECT_TRUE(laws(Ramp<float, Slip::none>{}).passed()) << laws(Ramp<float, Slip::none>{}).to_string();
-  EXPECT_TRUE(laws(Ramp<double, Slip::none>{}).passed()) << laws(Ramp<double, Slip::none>{}).to_string();
+TEST(Laws, CorrectWarp_Passes) {
+  EXPECT_TRUE(laws(Ramp<float, Bug::none>{}).passed()) << laws(Ramp<float, Bug::none>{}).to_string();
+  EXPECT_TRUE(laws(Ramp<double, Bug::none>{}).passed()) << laws(Ramp<double, Bug::none>{}).to_string();
   EXPECT_TRUE(laws(mc::UniformHemisphere<float>{}).passed());
 }
 
-TEST(Laws, EachSlipBreaksItsOwnLaw) {
+TEST(Laws, EachBug_BreaksItsOwnLaw) {
   const auto broken = [](const mc::Report& r, const std::string& law) {
     for (const mc::Check& c : r.checks)
       if (c.name.find(law) != std::string::npos && c.verdict == mc::Verdict::fail) return true;
     return false;
   };
-  EXPECT_TRUE(broken(laws(Ramp<double, Slip::pdf_scale>{}), "|det| pdf = 1"));
-  EXPECT_TRUE(broken(laws(Ramp<double, Slip::pdf_scale>{}), "mass"));
-  EXPECT_TRUE(broken(laws(Ramp<double, Slip::invert>{}), "invert"));
-  EXPECT_TRUE(broken(laws(Ramp<double, Slip::edge>{}), "single u"));
-  EXPECT_TRUE(broken(laws(Ramp<double, Slip::precision>{}), "sample against 50 digits"));
-  EXPECT_TRUE(broken(laws(Ramp<float, Slip::precision>{}), "sample against 50 digits"));
+  EXPECT_TRUE(broken(laws(Ramp<double, Bug::pdf_scale>{}), "|det| pdf = 1"));
+  EXPECT_TRUE(broken(laws(Ramp<double, Bug::pdf_scale>{}), "mass"));
+  EXPECT_TRUE(broken(laws(Ramp<double, Bug::invert>{}), "invert"));
+  EXPECT_TRUE(broken(laws(Ramp<double, Bug::edge>{}), "single u"));
+  EXPECT_TRUE(broken(laws(Ramp<double, Bug::precision>{}), "sample against 50 digits"));
+  EXPECT_TRUE(broken(laws(Ramp<float, Bug::precision>{}), "sample against 50 digits"));
 }
 
-TEST(Laws, TheWitnessIsPrintedInFull) {
-  EXPECT_THAT(laws(Ramp<double, Slip::edge>{}).to_string(),
+TEST(Laws, Witness_IsPrintedInFullPrecision) {
+  EXPECT_THAT(laws(Ramp<double, Bug::edge>{}).to_string(),
               testing::HasSubstr("sample is outside the domain, at u = 0, x = 2"));
 }
 
@@ -84,17 +84,17 @@ struct OwnDisk {
   double pdf(const mc::Vec2<double>& p) const { return p.norm() <= 1 ? stretch / mc::pi<double> : 0; }
 };
 
-TEST(Laws, AStructOfSampleAndPdfIsEnough) {
+TEST(Laws, StructOfSampleAndPdf_IsChecked) {
   EXPECT_TRUE(laws(OwnDisk{}).passed()) << laws(OwnDisk{}).to_string();
   EXPECT_EQ(laws(OwnDisk{1.001}).fault(), Fault::mass);
 }
 
-TEST(Laws, APairOfFunctionsOnADomain) {
+TEST(Laws, FunctionsOnDomain_AreChecked) {
   const auto sample = [](double u) { return std::sqrt(u); };
   const auto check = [&](auto pdf) { return mc::check_laws(mc::Interval<double>(0, 1), sample, pdf, cheap()); };
   // The density of the square root vanishes at its end, where u = 0 leads.
   const mc::Report r = check([](double x) { return 2 * x; });
-  EXPECT_EQ(r.fault(), Fault::zero_edge) << r.to_string();
+  EXPECT_EQ(r.fault(), Fault::measure_zero) << r.to_string();
   EXPECT_TRUE(mc::check_laws(
                   mc::Interval<double>(0, 1), [](double u) { return std::sqrt(1 - u); }, [](double x) { return 2 * x; },
                   cheap())
@@ -102,7 +102,7 @@ TEST(Laws, APairOfFunctionsOnADomain) {
   EXPECT_EQ(check([](double) { return 1.0; }).verdict(), mc::Verdict::fail);
 }
 
-TEST(Laws, ASamplerThatFailsIsAllowedWhatItSays) {
+TEST(Laws, OptionalSample_MayFailAtStatedRate) {
   const auto sample = [](double u) -> std::optional<double> {
     if (u < 0.25) return {};
     return u;
@@ -118,16 +118,16 @@ TEST(Laws, ASamplerThatFailsIsAllowedWhatItSays) {
 // A branch at u = 0.7 that steps out of the domain at one number only.
 struct Branching {
   using Domain = mc::Interval<double>;
-  bool slip;
+  bool bug;
   Domain domain() const { return {0, 2}; }
   double sample(double u) const {
     if (u < 0.7) return u;
-    return slip && u == 0.7 ? -1 : u + 1;
+    return bug && u == 0.7 ? -1 : u + 1;
   }
   double pdf(double x) const { return (x >= 0 && x < 0.7) || (x >= 1.7 && x <= 2) ? 1 : 0; }
 };
 
-TEST(Laws, TheNeighboursOfABranchAreTried) {
+TEST(Laws, NeighboursOfBranch_AreTested) {
   EXPECT_TRUE(laws(Branching{false}).passed()) << laws(Branching{false}).to_string();
   EXPECT_THAT(laws(Branching{true}).to_string(),
               testing::HasSubstr("sample is outside the domain, at u = 0.69999999999999996"));
@@ -148,7 +148,7 @@ template <class S> struct TiltedCosine {
   S pdf(const mc::Vec3<S>& w) const { return std::max(S(0), w.dot(normal())) / mc::pi<S>; }
 };
 
-TEST(Laws, PointsRoundedOverTheRimOfADensityAreOfMeasureZero) {
+TEST(Laws, PointsRoundedOverDensityEdge_AreMeasureZero) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     mc::LawOptions o = cheap();
     o.seed = seed;
@@ -159,7 +159,7 @@ TEST(Laws, PointsRoundedOverTheRimOfADensityAreOfMeasureZero) {
   }
 }
 
-TEST(Laws, StatisticsCanBeLeftOut) {
+TEST(Laws, NoSamples_SkipsStatisticalTests) {
   mc::LawOptions o = cheap();
   o.samples = 0;
   const mc::Report r = check_laws(mc::CosineHemisphere<double>{}, o);

@@ -11,10 +11,10 @@
 
 namespace {
 
-// 2d. hypothesis.h: the variance is floored at 1e-5, so a mean of 1.001e-4 with a deviation of 1e-6 passes as 1e-4
+// hypothesis.h: the variance is floored at 1e-5, so a mean of 1.001e-4 with a deviation of 1e-6 passes as 1e-4
 // after a million
 // values: 100 standard errors.
-TEST(PeerDefects, SmallVariancesAreNotFloored) {
+TEST(PeerDefects, TTest_SmallVariance_IsNotFloored) {
   mc::Moments m;
   for (int i = 0; i < 1'000'000; ++i) m.add(1.001e-4 + (i % 2 ? 1e-6 : -1e-6));
   const mc::TTest t = mc::t_test(m, 1e-4);
@@ -22,9 +22,9 @@ TEST(PeerDefects, SmallVariancesAreNotFloored) {
   EXPECT_LT(t.p, 1e-300);
 }
 
-// 2d. Mitsuba 3: the last group of pooled cells is dropped while incomplete, so 100000 samples where 1 is expected
+// Mitsuba 3: the last group of pooled cells is dropped while incomplete, so 100000 samples where 1 is expected
 // pass.
-TEST(PeerDefects, StraySamplesInPooledCellsCount) {
+TEST(PeerDefects, ChiSquare_IncompletePool_IsCounted) {
   std::vector<double> expected(5000, 1000 - 1.0 / 5000);
   std::vector<std::uint64_t> observed(5000, 980);
   for (int i = 0; i < 100; ++i) {
@@ -34,7 +34,7 @@ TEST(PeerDefects, StraySamplesInPooledCellsCount) {
   EXPECT_LT(mc::chi_square(observed, expected).p, 1e-300);
 }
 
-// 2d. Mitsuba 3: no samples at all, nothing expected: accepted with p = 1.
-TEST(PeerDefects, NoSamplesAreNoEvidence) { EXPECT_THROW(mc::chi_square({0, 0, 0}, {0, 0, 0}), mc::Error); }
+// Mitsuba 3: no samples at all, nothing expected: accepted with p = 1.
+TEST(PeerDefects, ChiSquare_NoSamples_Throws) { EXPECT_THROW(mc::chi_square({0, 0, 0}, {0, 0, 0}), mc::Error); }
 
 } // namespace

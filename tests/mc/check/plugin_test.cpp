@@ -39,7 +39,7 @@ TEST(PluginHeader, LayoutOfVersionTwo) {
   EXPECT_EQ(sizeof(mc_plugin_info), 40u);
 }
 
-TEST(PluginHeader, IsPureC99) {
+TEST(PluginHeader, CompilesAsC99) {
   const std::string command =
       "printf '#include <mc/check/plugin.h>\\n' | '" MC_CXX_COMPILER
       "' -x c -std=c99 -pedantic-errors -Wall -Wextra -Werror -fsyntax-only -I'" MC_SOURCE_DIR "/libmc' -";

@@ -11,7 +11,7 @@ mc::Cell cell(double p, double observed) {
   return c;
 }
 
-TEST(Summary, WorstCellsComeFirstAndOutcomesHaveNames) {
+TEST(Summary, WorstCells_AreSortedAndOutcomesNamed) {
   mc::Subject s;
   s.dim = 1;
   s.describe_point = [](const mc::Subject::Coordinates& v) { return "x = " + std::to_string(v[0]).substr(0, 4); };
@@ -23,7 +23,7 @@ TEST(Summary, WorstCellsComeFirstAndOutcomesHaveNames) {
   EXPECT_EQ(worst[0].expected, 50);
   EXPECT_EQ(worst[1].where, "x = 0.75");
   EXPECT_EQ(worst[1].z, 2);
-  mc::Evidence e;
+  mc::PlotData e;
   add_counts(boxes, cells, 100, e);
   ASSERT_EQ(e.cells.size(), 2u);
   ASSERT_EQ(e.outcomes.size(), 1u);
@@ -31,7 +31,7 @@ TEST(Summary, WorstCellsComeFirstAndOutcomesHaveNames) {
   EXPECT_EQ(e.outcomes[0].observed, 20);
 }
 
-TEST(Summary, AxesWithoutNamesAreNumbered) {
+TEST(Summary, NamedAxes_UnnamedAreNumbered) {
   mc::Subject s;
   s.dim = 2;
   s.axes = {{"r"}};

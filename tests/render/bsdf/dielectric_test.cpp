@@ -13,7 +13,7 @@ TEST(Fresnel, KnownValues) {
   EXPECT_NEAR(fresnel_dielectric(1, Float(1 / 1.5)).reflectance, 0.04, 1e-6);
   EXPECT_EQ(fresnel_dielectric(Float(0.5), 1).reflectance, 0);
   EXPECT_NEAR(fresnel_dielectric(Float(1e-6), Float(1.5)).reflectance, 1, 1e-4);
-  // Leaving glass at 40 degrees, just below the critical angle of 41.81 (seed-slips P25).
+  // Leaving glass at 40 degrees, just below the critical angle of 41.81 (course Introduction to Real-Time Ray Tracing, SIGGRAPH 2019, ch. 8).
   EXPECT_NEAR(fresnel_dielectric(Float(std::cos(40 * mc::pi<double> / 180)), Float(1 / 1.5)).reflectance, 0.245, 5e-4);
   const auto total = fresnel_dielectric(Float(std::cos(42 * mc::pi<double> / 180)), Float(1 / 1.5));
   EXPECT_EQ(total.reflectance, 1);

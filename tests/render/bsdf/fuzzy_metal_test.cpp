@@ -48,7 +48,7 @@ TEST(FuzzyMetal, TendsToTheMirrorAsFuzzVanishes) {
       EXPECT_EQ(c.verdict, mc::Verdict::pass) << c.name << ": " << c.detail;
 }
 
-// Share of samples below the surface as measured from the book's own code (seed-slips P14). 4e5 samples: 5 standard
+// Share of samples below the surface as measured from the book's own code ([Shirley16], ch. 10). 4e5 samples: 5 standard
 // errors are below .004.
 TEST(FuzzyMetal, AbsorbsDirectionsBelowSurface) {
   struct Row {

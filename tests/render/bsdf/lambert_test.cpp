@@ -36,7 +36,7 @@ TEST(Lambert, RefusesNonsense) {
     EXPECT_THROW(Lambert(Spectrum(1, bad, 1)), mc::Error);
 }
 
-// The book's in-ball slip has E[cos] = .8 (seed-slips P1).
+// The book's in-ball slip has E[cos] = .8 ([Shirley16], ch. 4).
 // The midpoint rule over n x n is off by O(n^-1.5) at the horizon, where the cosine has a root.
 TEST(Lambert, MeanCosineIsTwoThirds) {
   const int n = 256;

@@ -106,7 +106,7 @@ TEST(ThinLens, RaysOfOneFilmPointMeetInTheFocalPlane) {
       EXPECT_NEAR(ray.d.norm(), 1, 1e-6);
       second_moment += double((ray.o - camera.origin()).squaredNorm()) / (n * n);
     }
-  // Uniform on the lens: E[r^2] = R^2 / 2; a radius linear in u gives R^2 / 3 (seed-slips P15).
+  // Uniform on the lens: E[r^2] = R^2 / 2; a radius linear in u gives R^2 / 3 (course Introduction to Real-Time Ray Tracing, SIGGRAPH 2019, tutorial 8).
   EXPECT_NEAR(second_moment / 0.09, 0.5, 1e-3);
 }
 

@@ -131,7 +131,7 @@ TEST(PathIntegrator, SphereOverLambertPlane) {
     expect_mean(support::traced(scene, down, {s, 2}, 100'000), 0.5 * 3 * 1.5 * 1.5 / 16, word(s));
 }
 
-// Light met after a delta lobe counts fully in every strategy (seed-slips P34), and once (P33).
+// Light met after a delta lobe counts fully in every strategy and once (both bugs are in the next-event estimation of CMU 15-468, 2021).
 TEST(PathIntegrator, LightsInMirrorsAndThroughGlass) {
   const Emission light{Spectrum::Constant(3)};
   SceneBuilder builder;

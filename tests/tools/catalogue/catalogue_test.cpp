@@ -59,7 +59,7 @@ std::set<std::string> names_of(const carlo::Case& c) {
   return {c.name, c.name + "<" + c.parameters.substr(0, c.parameters.find(',')) + ">"};
 }
 
-TEST(Catalogue, NoSamplerIsLeftOut) {
+TEST(Catalogue, EveryDistribution_IsListed) {
   std::set<std::string> known;
   for (const carlo::Case& c : carlo::catalogue()) known.merge(names_of(c));
   const fs::path root = MC_SOURCE_DIR;
@@ -78,7 +78,7 @@ TEST(Catalogue, NoSamplerIsLeftOut) {
     EXPECT_TRUE(known.contains(type)) << type << " is in no file of tools/catalogue";
 }
 
-TEST(Catalogue, TitlesAreUnique) {
+TEST(Catalogue, Titles_AreUnique) {
   std::set<std::string> titles;
   for (const carlo::Case& c : carlo::catalogue()) EXPECT_TRUE(titles.insert(c.title()).second) << c.title();
 }
@@ -87,7 +87,7 @@ TEST(Catalogue, TitlesAreUnique) {
 // at 1e6. Alpha 1e-6 a case: the seeds are fixed and some five hundred cases must pass.
 class CatalogueTest : public testing::TestWithParam<carlo::Case> {};
 
-TEST_P(CatalogueTest, ObeysItsLaws) {
+TEST_P(CatalogueTest, ObeysLaws) {
   const mc::Report report = GetParam().check({.samples = 20'000, .seed = 7, .alpha = 1e-6});
   EXPECT_TRUE(report.passed()) << report.to_string();
 }

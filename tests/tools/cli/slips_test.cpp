@@ -1,7 +1,7 @@
 // carlo slips: every slip judged, the right ones beside them, the Cornell boxes, JSON and bad input.
 
-#include <slips/cornell.h>
-#include <slips/slips.h>
+#include <known_bugs/cornell.h>
+#include <known_bugs/known_bugs.h>
 #include <tools/run_in_process.h>
 
 #include <mc/core/file.h>
@@ -29,9 +29,9 @@ TEST(Slips, AllAreRejectedAndTheirRemediesPass) {
   SlipsOptions o = slips({}, 100'000);
   o.json = (std::filesystem::path(testing::TempDir()) / "slips.json").string();
   const Output out = run(o);
-  const std::size_t n = carlo::slips_of_books().size();
+  const std::size_t n = carlo::book_bugs().size();
   EXPECT_THAT(out.text, HasSubstr(fmt::format("{} of {} bugs rejected, {} of {} corrections passed", n, n, n, n)));
-  for (const carlo::Slip& s : carlo::slips_of_books())
+  for (const carlo::KnownBug& s : carlo::book_bugs())
     EXPECT_THAT(out.text, HasSubstr(s.title().substr(s.id.size() + 1)));
   EXPECT_THAT(out.text, HasSubstr("Which Cornell box was right?"));
   EXPECT_THAT(mc::read_file(o.json),
@@ -61,7 +61,7 @@ TEST(Slips, ListNamesEverySlip) {
   SlipsOptions o = slips({}, 8000);
   o.list = true;
   const std::string text = run(o).text;
-  for (const carlo::Slip& s : carlo::slips_of_books()) EXPECT_THAT(text, AllOf(HasSubstr(s.name), HasSubstr(s.where)));
+  for (const carlo::KnownBug& s : carlo::book_bugs()) EXPECT_THAT(text, AllOf(HasSubstr(s.name), HasSubstr(s.source)));
 }
 
 TEST(Slips, BadInputIsOneLine) {

@@ -16,13 +16,13 @@ struct Csv : support::ScratchTest {
   }
 };
 
-TEST_F(Csv, NamesOfColumnsAreLeftOut) {
+TEST_F(Csv, HeaderRow_IsSkipped) {
   for (const char* names :
        {"x,y", "\"x\",\"y\"", "\" x [m]\",\"y, of 2\"", "_1;_2", "\"\xcf\x86\",\"n #\"", "\"x\" # names"})
     EXPECT_THAT(table(std::string(names) + "\n0.5,0.25\n").values, ElementsAre(0.5, 0.25)) << names;
 }
 
-TEST_F(Csv, LinesEndInAnyWay) {
+TEST_F(Csv, AnyLineEnding_IsAccepted) {
   for (const char* end : {"\n", "\r\n", "\r"}) {
     const std::string text = std::string("x,y") + end + "0.5,0.25" + end + "1,2" + end;
     EXPECT_THAT(table(text).values, ElementsAre(0.5, 0.25, 1, 2));
@@ -31,7 +31,7 @@ TEST_F(Csv, LinesEndInAnyWay) {
 }
 
 // A first row of numbers is none of names, whatever is wrong with it.
-TEST_F(Csv, AFirstRowOfNumbersIsNeverLeftOut) {
+TEST_F(Csv, NumericFirstRow_IsKept) {
   for (const char* row : {"0.5,0.25", "\"0.5\",\"0.25\"", "\" 0.5 \", 0.25", "+.5,2.5e-1", "0.5,0.25 # \"a\" note"})
     EXPECT_THAT(table(std::string(row) + "\n1,2\n").values, ElementsAre(0.5, 0.25, 1, 2)) << row;
   EXPECT_THAT(refusal("\"0.5,0.25\n1,2\n"), HasSubstr("a.csv:1: a quotation mark without its other"));
@@ -46,7 +46,7 @@ TEST_F(Csv, AFirstRowOfNumbersIsNeverLeftOut) {
       << "U+2212";
 }
 
-TEST_F(Csv, ADecimalCommaIsRefusedWithItsRemedy) {
+TEST_F(Csv, DecimalComma_IsRejectedWithRemedy) {
   EXPECT_THAT(refusal("1;2\n0,5;0,25\n"), HasSubstr("a.csv:2: both ',' and ';' separate; write decimal points"));
   EXPECT_THAT(refusal("\"0,5\",\"0,25\"\n"), HasSubstr("a.csv:1: '0,5' has a decimal comma; write a decimal point"));
   EXPECT_THAT(refusal("x,y\n1,2\n0.5,\"-1,25e3\"\n"),
@@ -55,7 +55,7 @@ TEST_F(Csv, ADecimalCommaIsRefusedWithItsRemedy) {
 }
 
 // What the last digit of a number stands for, when programs leave out zeros at the end.
-TEST_F(Csv, DigitsAreThoseOfTheColumn) {
+TEST_F(Csv, Digits_FollowColumn) {
   EXPECT_THAT(table("0.25\n0.5\n0.125\n1\n").digits, ElementsAre(-3, -3, -3, -2)) << "three significant digits";
   EXPECT_THAT(table("0.123456\n1.5\n12.25\n0.00123456\n1e-09\n").digits, ElementsAre(-6, -5, -4, -8, -9))
       << "%g: six significant digits";

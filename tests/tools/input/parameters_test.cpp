@@ -12,12 +12,12 @@ using carlo::ParameterSet, carlo::parse_parameters;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-TEST(Parameters, OneSet) {
+TEST(Parameters, SingleValues_AreOneSet) {
   EXPECT_THAT(parse_parameters("alpha=0.1, n=3"), ElementsAre(ParameterSet{{"alpha", 0.1}, {"n", 3}}));
   EXPECT_THAT(parse_parameters("x = -1e-3"), ElementsAre(ParameterSet{{"x", -1e-3}}));
 }
 
-TEST(Parameters, AListAndARangeAreEveryCombination) {
+TEST(Parameters, ListsAndRanges_AreEveryCombination) {
   EXPECT_THAT(parse_parameters("a=1,2,n=3,4"),
               ElementsAre(ParameterSet{{"a", 1}, {"n", 3}}, ParameterSet{{"a", 1}, {"n", 4}},
                           ParameterSet{{"a", 2}, {"n", 3}}, ParameterSet{{"a", 2}, {"n", 4}}));
@@ -29,7 +29,7 @@ TEST(Parameters, AListAndARangeAreEveryCombination) {
                                                             ParameterSet{{"a", 0}}, ParameterSet{{"a", 7}}));
 }
 
-TEST(Parameters, BadOnesAreOneLine) {
+TEST(Parameters, InvalidText_IsOneLineError) {
   const auto refused = [](const std::string& text) { return support::error_of([&] { parse_parameters(text); }); };
   EXPECT_THAT(refused(""), HasSubstr("not of the form name=number"));
   EXPECT_THAT(refused("0.1,a=1"), HasSubstr("'0.1' in '0.1,a=1' is not of the form name=number"));

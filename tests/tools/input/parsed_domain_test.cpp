@@ -21,7 +21,7 @@ struct Named {
   int dim;
   std::size_t columns;
   double measure; ///< infinite: not tried
-  mc::Numbers outside;
+  mc::PointArray outside;
 };
 
 using std::numbers::pi;
@@ -31,7 +31,7 @@ void PrintTo(const Named& named, std::ostream* out) { *out << named.text; }
 
 class EveryDomain : public testing::TestWithParam<Named> {};
 
-TEST_P(EveryDomain, HasAChartThereAndBack) {
+TEST_P(EveryDomain, ChartRoundTrips) {
   const Named& named = GetParam();
   for (const Rounding rounding : {Rounding::printed, Rounding::doubles, Rounding::floats}) {
     const ParsedDomain d = parse_domain(named.text, carlo::unknown_quartiles, rounding);
@@ -43,12 +43,12 @@ TEST_P(EveryDomain, HasAChartThereAndBack) {
     mc::Pcg random(5);
     double measure = 0;
     for (int i = 0; i < 1000; ++i) {
-      mc::AnyDomain::Chart v{};
+      mc::AnyDomain::Coordinates v{};
       for (std::size_t k = 0; k < static_cast<std::size_t>(named.dim); ++k) v[k] = random.uniform<double>();
-      const mc::AnyDomain::Image at = d.chart.from_unit(v);
+      const mc::AnyDomain::DomainPoint at = d.chart.from_unit(v);
       measure += at.jacobian / 1000;
       EXPECT_TRUE(rounding == Rounding::floats || d.chart.contains(at.x)) << named.text;
-      const mc::AnyDomain::Chart back = d.chart.to_unit(at.x);
+      const mc::AnyDomain::Coordinates back = d.chart.to_unit(at.x);
       for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(back[k], v[k], 1e-12) << named.text;
     }
     // The charts of bounded domains have constant Jacobians, but for the triangle's.
@@ -69,8 +69,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Named{"sphere,t=0:2", 3, 4, 8 * pi, {0, 0, 1, 2.1}},
                     Named{"t=0:2,sphere", 3, 4, 8 * pi, {2.1, 0, 0, 1}}));
 
-TEST(ParsedDomain, PrintedPointsMayBeRounded) {
-  const mc::Numbers w{0.6, 0.8, 1e-6};
+TEST(ParsedDomain, PrintedPoints_MayBeRounded) {
+  const mc::PointArray w{0.6, 0.8, 1e-6};
   EXPECT_TRUE(parse_domain("sphere").chart.contains({0.600005, 0.8, 0}));
   EXPECT_FALSE(parse_domain("sphere", carlo::unknown_quartiles, Rounding::floats).chart.contains({0.600005, 0.8, 0}));
   EXPECT_TRUE(parse_domain("sphere", carlo::unknown_quartiles, Rounding::floats).chart.contains(w));
@@ -78,7 +78,7 @@ TEST(ParsedDomain, PrintedPointsMayBeRounded) {
   EXPECT_FALSE(parse_domain("x=0:0.1", carlo::unknown_quartiles, Rounding::doubles).chart.contains({0.1f}));
 }
 
-TEST(ParsedDomain, OutcomesAreWholeNumbers) {
+TEST(ParsedDomain, Outcomes_AreIntegers) {
   const ParsedDomain d = parse_domain("discrete=3");
   EXPECT_EQ(d.outcomes, 3);
   EXPECT_EQ(d.chart.dim, 0);
@@ -87,12 +87,12 @@ TEST(ParsedDomain, OutcomesAreWholeNumbers) {
   EXPECT_FALSE(d.chart.contains({0.5}));
 }
 
-TEST(ParsedDomain, WhiteSpaceIsOfNoMeaning) {
+TEST(ParsedDomain, WhiteSpace_IsIgnored) {
   EXPECT_EQ(parse_domain(" t = 0 : 1,\n\tdisk \r\n").text, parse_domain("t=0:1,disk").text);
   EXPECT_EQ(parse_domain("discrete = 3\n").outcomes, 3);
 }
 
-TEST(ParsedDomain, BadTextsAreOneLine) {
+TEST(ParsedDomain, InvalidText_IsOneLineError) {
   const auto refused = [](const char* text) { return error_of([&] { parse_domain(text); }); };
   EXPECT_THAT(refused(""), HasSubstr("'' is not of the form name=lo:hi"));
   EXPECT_THAT(refused("sphere,disk"), HasSubstr("4 dimensions in 5 columns"));
@@ -101,7 +101,7 @@ TEST(ParsedDomain, BadTextsAreOneLine) {
   EXPECT_THAT(refused("x=0:1,discrete=3"), HasSubstr("'discrete=3' stands alone"));
 }
 
-TEST(ParsedDomain, BreaksAreGivenInTheQuantityOfTheAxis) {
+TEST(ParsedDomain, Breaks_AreInAxisUnits) {
   const auto breaks = [](const char* domain, const char* text) {
     return carlo::parse_breaks(text, parse_domain(domain).chart);
   };
@@ -119,7 +119,7 @@ TEST(ParsedDomain, BreaksAreGivenInTheQuantityOfTheAxis) {
   EXPECT_THAT(refused("r"), HasSubstr("--breaks: 'r' in 'r' is not of the form name=number"));
 }
 
-TEST(ParsedDomain, QuartilesLeaveOutWhatIsNotFinite) {
+TEST(ParsedDomain, Quartiles_IgnoreNonFinite) {
   EXPECT_EQ(carlo::quartiles_of({4, NAN, 1, 2, 3, HUGE_VAL}), (std::array<double, 3>{2, 3, 4}));
   EXPECT_EQ(carlo::quartiles_of({NAN}), carlo::unknown_quartiles(0));
 }

@@ -79,7 +79,7 @@ const std::vector<Expression> expressions = {
 
 struct ByExpression : SamplesFile, testing::WithParamInterface<Expression> {};
 
-TEST_P(ByExpression, RightOnesPassAndWrongOnesFail) {
+TEST_P(ByExpression, CorrectPassesAndWrongFails) {
   ValidateOptions o = options(samples(GetParam().draw), "");
   o.domain = GetParam().domain;
   o.pdf = GetParam().pdf;
@@ -97,7 +97,7 @@ TEST_P(ByExpression, RightOnesPassAndWrongOnesFail) {
 INSTANTIATE_TEST_SUITE_P(SamplesFile, ByExpression, testing::ValuesIn(expressions),
                          [](const auto& one) { return std::string(one.param.name); });
 
-TEST_F(SamplesFile, BadDomainsAndExpressionsAreOneLine) {
+TEST_F(SamplesFile, InvalidDomainsAndExpressions_AreOneLineErrors) {
   const std::string file = samples(ramp);
   const auto with = [&](const std::string& domain, const std::string& pdf) {
     ValidateOptions o = options(file, "");

@@ -31,14 +31,14 @@ double cosine_mean(int, int j) {
   return j < 16 ? (a * a - b * b) / (2 * pi * (a - b)) : 0;
 }
 
-TEST_F(SamplesFile, ADensityThatVariesWithinItsCellsPasses) {
+TEST_F(SamplesFile, DensityVaryingWithinCells_Passes) {
   // 16 columns for 40000 samples of a slope: bins finer than a cell would reject it.
   const Output out = run(options(samples(ramp), grid(16, 1, ramp_mean)));
   EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
   EXPECT_THAT(out.text, AllOf(HasSubstr("1 of 1 cases passed"), HasSubstr("35556 samples each")));
 }
 
-TEST_F(SamplesFile, EverySeedDealsTheRowsAnewAndPasses) {
+TEST_F(SamplesFile, EverySeed_ShufflesRowsAndPasses) {
   ValidateOptions o = options(samples(ramp), grid(16, 4, ramp_mean));
   int passed = 0;
   for (o.seed = 1; o.seed <= 20; ++o.seed) passed += run(o).code == carlo::exit_ok;
@@ -47,7 +47,7 @@ TEST_F(SamplesFile, EverySeedDealsTheRowsAnewAndPasses) {
   EXPECT_GE(passed, 19);
 }
 
-TEST_F(SamplesFile, AnotherDensityIsRejectedAndPlaced) {
+TEST_F(SamplesFile, WrongDensity_IsRejectedWithPlace) {
   const Output out = run(options(samples(ramp), grid(16, 16, [](int, int j) { return ramp_mean(j, 0); })));
   EXPECT_EQ(out.code, carlo::exit_failed);
   EXPECT_THAT(out.text, AllOf(HasSubstr("likely cause: "), HasSubstr(" about (0."),
@@ -55,7 +55,7 @@ TEST_F(SamplesFile, AnotherDensityIsRejectedAndPlaced) {
                               HasSubstr("again: carlo validate --samples-file '")));
 }
 
-TEST_F(SamplesFile, NeighboursExchangedAreSeen) {
+TEST_F(SamplesFile, SwappedNeighbourCells_AreRejected) {
   const auto checked = [](mc::Pcg& random) { // 200 columns, of which every other one is empty
     const double cell = std::floor(100 * random.uniform<double>());
     return fmt::format("{:.7f}", (2 * cell + random.uniform<double>()) / 200);
@@ -68,14 +68,14 @@ TEST_F(SamplesFile, NeighboursExchangedAreSeen) {
   EXPECT_EQ(run(options(file, grid_of(0.1, 1.9))).code, carlo::exit_failed);
 }
 
-TEST_F(SamplesFile, AnErrorOfThreePercentInTheSlopeIsRejected) {
+TEST_F(SamplesFile, ThreePercentSlopeError_IsRejected) {
   // Density 2 x against 0.03 + 1.97 x: means off by 1.5 % at most where the samples are, 48 % in the first of 16
   // columns.
   EXPECT_EQ(run(options(samples(ramp), grid(16, 1, [](int i, int) { return 0.03 + 0.97 * ramp_mean(i, 0); }))).code,
             carlo::exit_failed);
 }
 
-TEST_F(SamplesFile, TheIntegralMustBeOneUnlessToldOtherwise) {
+TEST_F(SamplesFile, Integral_MustBeOneUnlessUnnormalized) {
   ValidateOptions o = options(samples(ramp), grid(16, 1, [](int i, int) { return 1.01 * ramp_mean(i, 0); }));
   const Output out = run(o);
   EXPECT_EQ(out.code, carlo::exit_failed);
@@ -85,7 +85,7 @@ TEST_F(SamplesFile, TheIntegralMustBeOneUnlessToldOtherwise) {
   EXPECT_EQ(run(o).code, carlo::exit_ok);
 }
 
-TEST_F(SamplesFile, ASampleWhereTheDensityIsZeroIsALeakOfItsLine) {
+TEST_F(SamplesFile, SampleAtZeroDensity_NamesItsLine) {
   const std::string file = samples(ramp);
   std::ofstream(file, std::ios::app) << "0.01, 0.5\n";
   ValidateOptions o = options(file, grid(64, 1, [](int i, int) { return i == 0 ? 0.0 : (2.0 * i + 1) / 64; }));
@@ -96,7 +96,7 @@ TEST_F(SamplesFile, ASampleWhereTheDensityIsZeroIsALeakOfItsLine) {
               AllOf(HasSubstr("likely cause: leak"), HasSubstr("s.csv:"), HasSubstr("in cell (0, 0) of the grid")));
 }
 
-TEST_F(SamplesFile, ASampleThatPrintingCarriedOverTheEdgeIsNone) {
+TEST_F(SamplesFile, SampleRoundedOverEdge_IsAccepted) {
   const auto draw = [](mc::Pcg& random) {
     return fmt::format("{}", std::max(0.5 - 4e-7, 0.5 + 0.5 * random.uniform<double>() - 1e-4));
   };
@@ -104,7 +104,7 @@ TEST_F(SamplesFile, ASampleThatPrintingCarriedOverTheEdgeIsNone) {
 }
 
 // Of a density that is infinite at 1 a double holds the last 6e-4 as 1 itself: that says nothing against the sampler.
-TEST_F(SamplesFile, SamplesOnTheEdgeWhereTheDensityIsInfiniteAreOfMeasureZero) {
+TEST_F(SamplesFile, SampleAtInfiniteDensityEdge_IsMeasureZero) {
   ValidateOptions o;
   o.samples_file = samples([](mc::Pcg& r) { return fmt::format("{:.17g}", 1 - std::pow(r.uniform<double>(), 5)); });
   o.pdf = "0.2*(1-x)^-0.8";
@@ -116,7 +116,7 @@ TEST_F(SamplesFile, SamplesOnTheEdgeWhereTheDensityIsInfiniteAreOfMeasureZero) {
   EXPECT_THAT(run(o), fails(AllOf(HasSubstr("likely cause: shape"), HasSubstr(" --open-interval"))));
 }
 
-TEST_F(SamplesFile, AnIntervalWithBounds) {
+TEST_F(SamplesFile, IntervalWithBounds_Passes) {
   const auto draw = [](mc::Pcg& random) { return fmt::format("{}", 4 * std::sqrt(random.uniform<double>()) - 1); };
   ValidateOptions o = options(samples(draw), grid(16, 1, [](int i, int) { return ramp_mean(i, 0) / 4; }));
   o.domain = "x=-1:3";
@@ -125,7 +125,7 @@ TEST_F(SamplesFile, AnIntervalWithBounds) {
   EXPECT_EQ(run(o).code, carlo::exit_failed);
 }
 
-TEST_F(SamplesFile, DirectionsOnALatitudeLongitudeGrid) {
+TEST_F(SamplesFile, LatitudeLongitudeGrid_Passes) {
   const std::string file = samples(cosine);
   EXPECT_EQ(run(options(file, grid(8, 32, cosine_mean))).code, carlo::exit_ok);
   // Against the uniform hemisphere, of mass 1 too.
@@ -146,7 +146,7 @@ TEST_F(SamplesFile, DirectionsOnALatitudeLongitudeGrid) {
   EXPECT_THAT(run(o).text, HasSubstr(" theta [deg] in ["));
 }
 
-TEST_F(SamplesFile, AGreyExrIsAGrid) {
+TEST_F(SamplesFile, GreyExr_IsGrid) {
   render::Image image(16, 4);
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 16; ++x) image.at(x, y).setConstant(static_cast<render::Float>(ramp_mean(x, y)));
@@ -163,7 +163,7 @@ TEST_F(SamplesFile, AGreyExrIsAGrid) {
   EXPECT_THAT(refusal(o), HasSubstr("torn.exr"));
 }
 
-TEST_F(SamplesFile, StepsMayBeNamed) {
+TEST_F(SamplesFile, Breaks_AreAccepted) {
   const auto steps = [](mc::Pcg& r) { // density 0.4, 1.6, 0.4, 1.6, ... on 64 bins
     const double u = 32 * r.uniform<double>(), bin = std::floor(u), x = u - bin;
     return fmt::format("{:.9f}", (2 * bin + (x < 0.2 ? x / 0.2 : 1 + (x - 0.2) / 0.8)) / 64);
@@ -182,7 +182,7 @@ TEST_F(SamplesFile, StepsMayBeNamed) {
   EXPECT_THAT(refusal(o), HasSubstr("--breaks is for a --pdf or a --command"));
 }
 
-TEST_F(SamplesFile, DetectNeedsEnoughSamples) {
+TEST_F(SamplesFile, Detect_TooFewSamples_Throws) {
   ValidateOptions o = options(samples(ramp), grid(16, 1, ramp_mean));
   o.detect = 0.2;
   EXPECT_THAT(run(o).text, HasSubstr("samples per case to detect 20 %"));
@@ -190,7 +190,7 @@ TEST_F(SamplesFile, DetectNeedsEnoughSamples) {
   EXPECT_THAT(refusal(o), HasSubstr("it holds 35556 samples to count beside those for the bins; --detect 0.001 needs"));
 }
 
-TEST_F(SamplesFile, ABadRowIsNamedByItsLine) {
+TEST_F(SamplesFile, InvalidRow_NamesItsLine) {
   const std::string good = grid(16, 1, ramp_mean);
   const auto with = [&](const std::string& row) {
     return refusal(options(write("b.csv", "x,y\n0.5,0.5\n\n# note\n" + row + "\n0.1,0.2\n"), good));
@@ -206,7 +206,7 @@ TEST_F(SamplesFile, ABadRowIsNamedByItsLine) {
   EXPECT_THAT(refusal(options(write("b.csv", "x,y\n"), good)), HasSubstr("b.csv: it contains no numbers"));
 }
 
-TEST_F(SamplesFile, BadFilesAreOneLine) {
+TEST_F(SamplesFile, InvalidFiles_AreOneLineErrors) {
   const std::string file = samples(ramp), good = grid(16, 1, ramp_mean);
   EXPECT_THAT(refusal(options(path("none.csv"), good)), HasSubstr("none.csv': no such file"));
   EXPECT_THAT(refusal(options(file, path("none.exr"))), HasSubstr("none.exr"));
@@ -223,7 +223,7 @@ TEST_F(SamplesFile, BadFilesAreOneLine) {
   EXPECT_THAT(refusal(o), HasSubstr("p.csv: 4 rows; the density on an interval is one row"));
 }
 
-TEST_F(SamplesFile, SamplesOffTheGridAreOneLine) {
+TEST_F(SamplesFile, SamplesOutsideGrid_AreOneLineErrors) {
   ValidateOptions o = options(samples(ramp), grid(4, 4, one));
   o.domain = "x=0:0.5,y=0:1";
   EXPECT_THAT(refusal(o), testing::MatchesRegex(".*s\\.csv:[0-9]+: \\(0\\.[0-9]+, 0\\.[0-9]+\\) is not covered by the "
@@ -245,7 +245,7 @@ TEST_F(SamplesFile, SamplesOffTheGridAreOneLine) {
 }
 
 // As spreadsheets and their users write it: quoted, with a comma at the end, with comments; all one table.
-TEST_F(SamplesFile, WhatSpreadsheetsWriteIsRead) {
+TEST_F(SamplesFile, SpreadsheetFormats_AreRead) {
   const std::string file = samples(ramp), pdf = grid(16, 1, ramp_mean);
   std::string quoted = "\"x\",\"y\",\r\n";
   std::ifstream in(file);
@@ -261,7 +261,7 @@ TEST_F(SamplesFile, WhatSpreadsheetsWriteIsRead) {
               HasSubstr("b.csv:2: a quotation mark without its other"));
 }
 
-TEST_F(SamplesFile, GarbageIsRefusedInPlainText) {
+TEST_F(SamplesFile, BinaryGarbage_IsRejectedInPlainText) {
   const std::string pdf = grid(16, 1, ramp_mean);
   const std::string refused = refusal(options(write("b.csv", std::string("0.5\n\x7f\x45\x4c\x46\x00\x01", 10)), pdf));
   EXPECT_THAT(refused, HasSubstr("b.csv: it is not text: byte 8 is 0x00; rows of numbers are needed"));
@@ -269,7 +269,7 @@ TEST_F(SamplesFile, GarbageIsRefusedInPlainText) {
   EXPECT_THAT(word, HasSubstr("b.csv:2: '\?\?\?' is not a number"));
 }
 
-TEST_F(SamplesFile, WhereItStandsChangesNothing) {
+TEST_F(SamplesFile, Result_IsIndependentOfPath) {
   const std::string pdf = grid(16, 1, ramp_mean), a = samples(ramp);
   std::filesystem::create_directories(folder / "elsewhere");
   std::filesystem::copy(a, folder / "elsewhere" / "t.csv");
@@ -281,7 +281,7 @@ TEST_F(SamplesFile, WhereItStandsChangesNothing) {
 }
 
 // Right samples as programs print them: rounded to the edge, with zeros left out at the end, to few digits.
-TEST_F(SamplesFile, EveryWayToPrintRightSamplesPasses) {
+TEST_F(SamplesFile, AnyNumberFormat_CorrectSamplesPass) {
   for (const std::string format : {"{:.2f}", "{:.3f}", "{:.4f}", "{:.3g}", "{:.4g}", "{:g}", "{:.17g}"}) {
     const auto uniform = [&](mc::Pcg& random) { return fmt::format(fmt::runtime(format), random.uniform<double>()); };
     const auto exponential = [&](mc::Pcg& random) {

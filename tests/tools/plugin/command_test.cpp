@@ -38,14 +38,14 @@ struct Command : support::ScratchTest {
   }
 };
 
-TEST_F(Command, ARightOnePasses) {
+TEST_F(Command, CorrectProgram_Passes) {
   const Output out = run(options("python3 '" + script + "'"));
   EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
   EXPECT_THAT(out.text, HasSubstr("1 of 1 cases passed"));
 }
 
 // The same program under another path draws the same numbers.
-TEST_F(Command, WhereItStandsChangesNothing) {
+TEST_F(Command, Result_IsIndependentOfPath) {
   const auto figures = [](const std::string& file) {
     const std::string text = run(options("python3 '" + file + "'")).text;
     return text.substr(text.find("double"), 40);
@@ -53,7 +53,7 @@ TEST_F(Command, WhereItStandsChangesNothing) {
   EXPECT_EQ(figures(script), figures(write("elsewhere.py", mc::read_file(script))));
 }
 
-TEST_F(Command, WrongOnesAreRejected) {
+TEST_F(Command, WrongPrograms_AreRejected) {
   Output out = run(changed("math.sqrt(u[0])", "u[0]"));
   EXPECT_EQ(out.code, carlo::exit_failed);
   EXPECT_THAT(out.text, AllOf(HasSubstr("likely cause: "), HasSubstr("again: carlo validate --command 'python3 ")));
@@ -65,7 +65,7 @@ TEST_F(Command, WrongOnesAreRejected) {
   EXPECT_THAT(out.text, HasSubstr("law: determinism of sample"));
 }
 
-TEST_F(Command, EveryLawIsTried) {
+TEST_F(Command, EveryApplicableLaw_IsTested) {
   // The point of the u before: only a law that compares neighbouring questions sees it.
   const Output stuck = run(changed("    r, phi = math.sqrt(u[0]), 2 * math.pi * u[1]\n", "    r, phi = 0.5, 0.25\n"));
   EXPECT_THAT(stuck.text, HasSubstr("law: sample depends on u"));
@@ -77,13 +77,13 @@ TEST_F(Command, EveryLawIsTried) {
 }
 
 // A program whose answers to many are right together, but not the ones of these u.
-TEST_F(Command, ManyAtOnceAreWhatEachIsAlone) {
+TEST_F(Command, BatchAnswers_EqualSingleAnswers) {
   const Output out = run(changed("    sink.write(results.tobytes())", "    sink.write(results[::-1].tobytes())"));
   EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
   EXPECT_THAT(out.text, HasSubstr("law: batch consistency of sample"));
 }
 
-TEST_F(Command, OutcomesAndProducts) {
+TEST_F(Command, OutcomesAndProductDomains_Pass) {
   ValidateOptions o = changed("def sample(u):\n", "def sample(u):\n    return (float(int(4 * u[0])),)\n");
   o.domain = "discrete=4";
   EXPECT_EQ(run(o).code, carlo::exit_failed); // 1 / pi each
@@ -96,7 +96,7 @@ TEST_F(Command, OutcomesAndProducts) {
 }
 
 // Ends, hangs and half answers are one line of ours behind what the program itself says.
-TEST_F(Command, WhatMisbehavesIsOneLine) {
+TEST_F(Command, MisbehavingProgram_IsOneLineError) {
   EXPECT_THAT(refusal(options("exit 3")),
               HasSubstr("exit 3: the program ended with code 3 instead of answering 'sample'"));
   EXPECT_THAT(refusal(options("read line; printf 12345678")), HasSubstr("instead of answering 'sample'"));
@@ -111,7 +111,7 @@ TEST_F(Command, WhatMisbehavesIsOneLine) {
 }
 
 // What a program prints besides, before its answers or between them, would shift all numbers behind it.
-TEST_F(Command, MoreThanTheAnswersIsRefused) {
+TEST_F(Command, ExtraOutput_IsRejected) {
   const char* more = "bytes more than the answer; nothing else may go to standard output";
   EXPECT_THAT(refusal(changed("for line in", "print('ready', flush=True)\nfor line in")), HasSubstr(more));
   EXPECT_THAT(refusal(changed("    sink.flush()\n", "    sink.write(b'answered')\n    sink.flush()\n")),
@@ -119,7 +119,7 @@ TEST_F(Command, MoreThanTheAnswersIsRefused) {
 }
 
 // The program ends when what it started has said its id, by a pipe.
-TEST_F(Command, WhatItStartedEndsWithIt) {
+TEST_F(Command, ChildProcesses_AreEnded) {
   ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
   const std::string id = "\"" + path("id") + "\"", pipe = "\"" + path("pipe") + "\"";
   refusal(options("sh -c 'echo $$ > " + pipe + "; exec sleep 1000' & read id < " + pipe + "; echo $id > " + id +
@@ -128,7 +128,7 @@ TEST_F(Command, WhatItStartedEndsWithIt) {
   EXPECT_EQ(errno, ESRCH);
 }
 
-TEST_F(Command, BadOptionsAreOneLine) {
+TEST_F(Command, InvalidOptions_AreOneLineErrors) {
   EXPECT_THAT(refusal(options("true", "")), HasSubstr("--command needs the --domain"));
   EXPECT_THAT(refusal(options("true", "dsk")), HasSubstr("did you mean 'disk'"));
   ValidateOptions o = options("true");

@@ -34,7 +34,7 @@ ValidateOptions cosine(const std::string& fault) {
   return o;
 }
 
-TEST(Plugin, RightSamplersPassInEveryKindOfDomain) {
+TEST(Plugin, CorrectPlugin_PassesOnEveryDomain) {
   // Sixteen cases at a family-wise alpha of 0.01, one fixed seed.
   const Output out = run(plugin("samplers"));
   EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
@@ -42,7 +42,7 @@ TEST(Plugin, RightSamplersPassInEveryKindOfDomain) {
   EXPECT_THAT(out.text, HasSubstr("float   pass")) << "the tail computes in float";
 }
 
-TEST(Plugin, AnotherDensityIsRejectedOnEveryDomain) {
+TEST(Plugin, WrongDensity_IsRejectedOnEveryDomain) {
   for (const char* name : {"Ball", "Annulus", "Plane", "Flight", "Glossy", "Steps"}) {
     ValidateOptions o = plugin("samplers", {name});
     o.parameters = {"wrong=1"};
@@ -50,9 +50,9 @@ TEST(Plugin, AnotherDensityIsRejectedOnEveryDomain) {
   }
 }
 
-TEST(Plugin, OneCompiledBeforeTheStructsGrewWorksOn) { EXPECT_EQ(run(plugin("first_version")).code, carlo::exit_ok); }
+TEST(Plugin, OldAbi_StillLoads) { EXPECT_EQ(run(plugin("first_version")).code, carlo::exit_ok); }
 
-TEST(Plugin, OneWrittenInCppPasses) { EXPECT_EQ(run(plugin("right")).code, carlo::exit_ok); }
+TEST(Plugin, CppPlugin_Passes) { EXPECT_EQ(run(plugin("right")).code, carlo::exit_ok); }
 
 struct Wrong {
   const char *fault, *found;
@@ -61,7 +61,7 @@ struct Wrong {
 };
 struct WrongPlugin : testing::TestWithParam<Wrong> {};
 
-TEST_P(WrongPlugin, IsRejectedWithItsFaultNamed) {
+TEST_P(WrongPlugin, IsRejectedAndFaultNamed) {
   const Output out = run(cosine(GetParam().fault));
   EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
   EXPECT_THAT(out.text, AllOf(HasSubstr("0 of 1 cases passed"), HasSubstr(GetParam().found),
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"tilted_pdf", "fail: |det d sample / d u| pdf is "}, Wrong{"hole", "likely cause: support"}),
     [](const auto& wrong) { return std::string(wrong.param.fault); });
 
-TEST(Plugin, ARotationByADegreeIsRejected) {
+TEST(Plugin, RotationByOneDegree_IsRejected) {
   ValidateOptions o = plugin("samplers", {"Halves"});
   o.samples = 200'000; // 2.5e-3 of the mass lies on the wrong side of the edge
   EXPECT_EQ(run(o).code, carlo::exit_ok);
@@ -85,7 +85,7 @@ TEST(Plugin, ARotationByADegreeIsRejected) {
   EXPECT_EQ(run(o).code, carlo::exit_failed);
 }
 
-TEST(Plugin, AnOutcomeOfProbabilityZeroAtAnEdgeIsRejected) {
+TEST(Plugin, OutcomeOfProbabilityZero_IsRejected) {
   ValidateOptions o = plugin("samplers", {"Table"});
   o.parameters = {"forgets=1"};
   const Output out = run(o);
@@ -93,7 +93,7 @@ TEST(Plugin, AnOutcomeOfProbabilityZeroAtAnEdgeIsRejected) {
   EXPECT_THAT(out.text, AllOf(HasSubstr("likely cause: measure zero"), HasSubstr("u = 0, outcome 0, pmf = 0")));
 }
 
-TEST(Plugin, EverySetOfParametersIsACase) {
+TEST(Plugin, EachParameterSet_IsCase) {
   ValidateOptions o = plugin("samplers", {"Box"});
   o.parameters = {"power=0", "power=0.5"};
   const Output out = run(o);
@@ -103,7 +103,7 @@ TEST(Plugin, EverySetOfParametersIsACase) {
   EXPECT_THAT(run(o).text, AllOf(HasSubstr("Box(power=0.5)"), Not(HasSubstr("Cosine"))));
 }
 
-TEST(Plugin, TheReportCrossesTheProcessWhole) {
+TEST(Plugin, Report_SurvivesProcessBoundary) {
   ValidateOptions o = cosine("pdf_high");
   o.json = testing::TempDir() + "/plugin.json";
   run(o);
@@ -111,7 +111,7 @@ TEST(Plugin, TheReportCrossesTheProcessWhole) {
                                            HasSubstr("\"z\": "), HasSubstr("\"ns_per_sample\"")));
 }
 
-TEST(Plugin, TheSameSeedGivesTheSameVerdict) {
+TEST(Plugin, SameSeed_SameVerdict) {
   const auto p = [] {
     const std::string text = run(cosine("")).text;
     return text.substr(text.find("pass"), 30);
@@ -119,7 +119,7 @@ TEST(Plugin, TheSameSeedGivesTheSameVerdict) {
   EXPECT_EQ(p(), p());
 }
 
-TEST(Plugin, ACrashIsOneLineThatSaysWhere) {
+TEST(Plugin, Crash_IsOneLineWithPlace) {
   EXPECT_THAT(refusal(cosine("crash")), AllOf(HasSubstr("samplers.so: it crashed in sample at u = (0."),
                                               HasSubstr("Segmentation fault (signal 11)")));
   EXPECT_THAT(refusal(cosine("quit")),
@@ -133,7 +133,7 @@ TEST(Plugin, ACrashIsOneLineThatSaysWhere) {
 }
 
 // A report that was made is neither lost nor left out of the files because another case crashed.
-TEST(Plugin, ACrashCostsOnlyItsOwnCase) {
+TEST(Plugin, Crash_FailsOnlyItsCase) {
   ValidateOptions o = plugin("samplers", {"Box", "Cosine"});
   o.parameters = {"crash=1"};
   o.json = testing::TempDir() + "/crash.json";
@@ -145,13 +145,13 @@ TEST(Plugin, ACrashCostsOnlyItsOwnCase) {
 }
 
 // What another sampler would refuse is not asked of it.
-TEST(Plugin, ParametersAreThoseOfTheSamplersThatAreNamed) {
+TEST(Plugin, Parameters_ApplyToNamedCasesOnly) {
   ValidateOptions o = plugin("samplers", {"Cosine"});
   o.parameters = {"power=-1000"};
   EXPECT_THAT(refusal(o), AllOf(HasSubstr("no sampler has all the parameters"), Not(HasSubstr("of Box"))));
 }
 
-TEST(Plugin, AHangEndsWithTheTimeout) {
+TEST(Plugin, Hang_EndsAtTimeout) {
   ValidateOptions o = cosine("hang");
   o.timeout = 1;
   EXPECT_THAT(refusal(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("no answer in 1 s")));
@@ -162,7 +162,7 @@ TEST(Plugin, AHangEndsWithTheTimeout) {
   EXPECT_THAT(refusal(o), HasSubstr("--timeout 0 must lie in"));
 }
 
-TEST(Plugin, ALimitIsOneLineThatNamesIt) {
+TEST(Plugin, ExceededLimit_IsOneLineNamingLimit) {
   ValidateOptions o = plugin("greedy");
   o.memory = 1;
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -175,7 +175,7 @@ TEST(Plugin, ALimitIsOneLineThatNamesIt) {
 }
 
 // Even a process that left its group and lost its parent has ended when carlo says its verdict.
-TEST(Plugin, WhatItStartedEndsWithIt) {
+TEST(Plugin, ChildProcesses_AreEnded) {
   const std::string file = testing::TempDir() + "/family";
   setenv("FAMILY_FILE", file.c_str(), 1);
   std::filesystem::remove(file);
@@ -186,7 +186,7 @@ TEST(Plugin, WhatItStartedEndsWithIt) {
   EXPECT_EQ(errno, ESRCH);
 }
 
-TEST(Plugin, ASweepIsEveryCombination) {
+TEST(Plugin, ParameterSweep_IsEveryCombination) {
   ValidateOptions o = plugin("samplers", {"Box"});
   o.parameters = {"power=0:1:0.5,3", "tilt=0"};
   o.list = true;
@@ -195,7 +195,7 @@ TEST(Plugin, ASweepIsEveryCombination) {
                           HasSubstr("Box(power=3)")));
 }
 
-TEST(Plugin, NothingIsWrittenWhereNothingWasFound) {
+TEST(Plugin, NoCases_WritesNothing) {
   ValidateOptions o = cosine("crash");
   o.json = testing::TempDir() + "/nothing.json";
   o.junit = testing::TempDir() + "/nothing.xml";
@@ -205,7 +205,7 @@ TEST(Plugin, NothingIsWrittenWhereNothingWasFound) {
   EXPECT_FALSE(std::filesystem::exists(o.junit));
 }
 
-TEST(Plugin, WhatCannotBeLoadedSaysWhy) {
+TEST(Plugin, UnloadablePlugin_NamesReason) {
   EXPECT_THAT(refusal(plugin("absent")), HasSubstr("absent.so': no such file"));
   ValidateOptions o = plugin("right");
   o.plugin = testing::TempDir() + "/text.so";
@@ -228,12 +228,12 @@ TEST(Plugin, WhatCannotBeLoadedSaysWhy) {
   EXPECT_THAT(refusal(plugin("reversed")), HasSubstr("interval [2, 1]"));
 }
 
-TEST(Plugin, AnOutcomeNeedsToBeDeclared) {
+TEST(Plugin, UndeclaredOutcome_IsRejected) {
   EXPECT_THAT(refusal(plugin("undeclared")),
               HasSubstr("sample returned 255, MC_OUTCOME + 253, but it declares no outcomes; set outcomes"));
 }
 
-TEST(Plugin, BadParametersAreOneLine) {
+TEST(Plugin, InvalidParameters_AreOneLineErrors) {
   const auto with = [](const std::string& set) {
     ValidateOptions o = plugin("samplers");
     o.parameters = {set};

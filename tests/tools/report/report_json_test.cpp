@@ -33,7 +33,7 @@ mc::Report full() {
   r.axes = {{"radius", mc::Axis::Scale::radius, 1, 2}};
   r.worst = {{{0, .5, 0}, {1, .75, 0}, 3, 4, -0.5, "(1, 2)"}};
   r.figures = {{"albedo", 0.5, 0.01, "45 deg"}};
-  r.evidence = mc::Evidence{{{{0, 0, 0}, {1, 1, 1}, 5, 6}}, {{{}, {}, 7, 8}}, {{1024, 0.125}}};
+  r.evidence = mc::PlotData{{{{0, 0, 0}, {1, 1, 1}, 5, 6}}, {{{}, {}, 7, 8}}, {{1024, 0.125}}};
   return r;
 }
 

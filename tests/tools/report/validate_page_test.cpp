@@ -108,7 +108,7 @@ TEST_F(Page, NeedsNothingElse) {
 }
 
 TEST_F(Page, TreesArePackedWhole) {
-  const mc::Evidence& evidence = *results().reports[0].evidence;
+  const mc::PlotData& evidence = *results().reports[0].evidence;
   const std::size_t n = evidence.cells.size();
   const carlo::PackedTree all = carlo::pack_tree(evidence, 2, 4096), few = carlo::pack_tree(evidence, 2, 33);
   EXPECT_EQ(all.axes.size(), n - 1);

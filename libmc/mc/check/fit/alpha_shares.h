@@ -19,16 +19,16 @@ enum class FitTest : std::uint8_t {
   failures,
   inverse,
   mass,
-  strips,
-  waves,
-  levels
+  marginal_bins,
+  spectrum,
+  density_ratio
 };
 
 struct AlphaShare {
   FitTest test;
   double discrete, one_axis, more_axes; ///< share of alpha for subjects without axes, with one, with two or three
 
-  constexpr double of(int dim) const {
+  constexpr double at_dimension(int dim) const {
     if (dim == 0) return discrete;
     return dim == 1 ? one_axis : more_axes;
   }
@@ -46,15 +46,15 @@ inline constexpr std::array<AlphaShare, 13> alpha_shares{{
     {FitTest::failures, 0.03, 0.03, 0.03},
     {FitTest::inverse, 0, 0.01, 0.01},
     {FitTest::mass, 0, 0.02, 0.02},
-    {FitTest::strips, 0, 0.03, 0.03},
-    {FitTest::levels, 0, 0.02, 0.02},
-    {FitTest::waves, 0, 0.05, 0.05},
+    {FitTest::marginal_bins, 0, 0.03, 0.03},
+    {FitTest::density_ratio, 0, 0.02, 0.02},
+    {FitTest::spectrum, 0, 0.05, 0.05},
 }};
 
 /// The share of alpha that a test spends on a subject with `dim` axes, all its repetitions together.
 constexpr double alpha_share(FitTest test, int dim) {
   for (const AlphaShare& s : alpha_shares)
-    if (s.test == test) return s.of(dim);
+    if (s.test == test) return s.at_dimension(dim);
   return 0;
 }
 

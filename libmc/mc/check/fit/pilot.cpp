@@ -31,7 +31,7 @@ std::vector<std::uint32_t> Pilot::nearest(std::size_t axis, double v, std::size_
 
 Pilot draw_pilot(const Subject& s, std::uint64_t seed, std::uint64_t samples) {
   Pilot pilot;
-  pilot.tally = draw_samples(s, seed, pilot_samples(samples),
+  pilot.stats = draw_samples(s, seed, pilot_samples(samples),
                              [&](std::span<const Subject::Coordinates> v, std::span<const double> densities) {
                                pilot.points.insert(pilot.points.end(), v.begin(), v.end());
                                pilot.densities.insert(pilot.densities.end(), densities.begin(), densities.end());
@@ -44,11 +44,11 @@ Pilot draw_pilot(const Subject& s, std::uint64_t seed, std::uint64_t samples) {
 }
 
 std::vector<Check> find_unresolved(const Subject& s, const Pilot& pilot) {
-  constexpr double least = 2 * rounded_steps;
+  constexpr double least = 2 * min_resolved_steps;
   std::vector<Check> checks;
   for (std::size_t d = 0; d < static_cast<std::size_t>(s.dim); ++d) {
     double step = 1;
-    for (const Subject::Coordinates& v : pilot.points) step = std::min(step, rounding(s, v, d));
+    for (const Subject::Coordinates& v : pilot.points) step = std::min(step, rounding_step(s, v, d));
     if (pilot.points.empty() || !(step * least > 1)) continue;
     Check c{"resolution, " + axis_name(s.axes, d), Verdict::inconclusive, {}, 0, 1 / step, least, Fault::none, {}};
     c.detail = fmt::format("{} has too few distinct values to test a density along it; compute it in double, or on a "

@@ -1,7 +1,7 @@
 #pragma once
 /// A first sample, independent of the one that is counted: it says where the cells go.
 
-#include <mc/check/fit/draw_tally.h>
+#include <mc/check/fit/draw_stats.h>
 
 #include <array>
 #include <vector>
@@ -9,18 +9,18 @@
 namespace mc {
 
 /// How far rounding moves a coordinate of points near v: Subject::resolution, or what it says of subjects without one.
-inline double rounding(const Subject& s, const Subject::Coordinates& v, std::size_t axis) {
+inline double rounding_step(const Subject& s, const Subject::Coordinates& v, std::size_t axis) {
   return s.resolution ? s.resolution(v, static_cast<int>(axis)) : s.epsilon * v[axis];
 }
 
 /// What is narrower than so many steps of rounding is not tested: a sampler rounds on the way, too.
-inline constexpr double rounded_steps = 64;
+inline constexpr double min_resolved_steps = 64;
 
 struct Pilot {
   std::vector<Subject::Coordinates> points;
   std::vector<double> densities;             ///< claimed at the points
   std::array<std::vector<double>, 3> sorted; ///< the coordinates of the points, by axis
-  DrawTally tally;
+  DrawStats stats;
 
   /// The share of the pilot below v on an axis.
   double rank(std::size_t axis, double v) const;

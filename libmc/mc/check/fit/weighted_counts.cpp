@@ -6,16 +6,16 @@
 
 namespace mc {
 
-double CountsCompared::z() const { return mean > 0 ? excess / std::sqrt(spread * mean) : 0.0; }
+double CountComparison::z() const { return mean > 0 ? excess / std::sqrt(spread * mean) : 0.0; }
 
-double CountsCompared::p() const {
+double CountComparison::p() const {
   const double samples = observed / sample_variance;
   if (!(point_variance > 0)) return samples > 0 ? 0.0 : 1.0;
   return binomial_tail(samples, samples + expected / point_variance, point_variance / spread);
 }
 
-CountsCompared compare(const WeightedCounts& bin, double scale) {
-  CountsCompared c;
+CountComparison compare(const WeightedCounts& bin, double scale) {
+  CountComparison c;
   c.observed = bin.observed;
   c.expected = scale * bin.expected;
   c.excess = c.observed - c.expected;

@@ -38,7 +38,7 @@ struct WeightedCounts {
 };
 
 /// Both as counts of the same bin: that many samples, each with its variance, were expected.
-struct CountsCompared {
+struct CountComparison {
   double excess = 0;                              ///< observed - expected, in samples
   double mean = 0;                                ///< of what both say, each by its precision
   double spread = 1;                              ///< variance of the excess is spread times mean
@@ -52,6 +52,6 @@ struct CountsCompared {
   double p() const;
 };
 /// scale : samples for each unit of expectation
-CountsCompared compare(const WeightedCounts& bin, double scale);
+CountComparison compare(const WeightedCounts& bin, double scale);
 
 } // namespace mc

@@ -7,25 +7,25 @@
 namespace mc {
 namespace {
 
-double size_of(const Numbers& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); }
+double size_of(const PointArray& x) { return std::sqrt(std::inner_product(x.begin(), x.end(), x.begin(), 0.0)); }
 
 // The same point but for rounding, as the two sides of an azimuth's seam are.
-bool same_point(const AnySampler& s, const AnySampler::Uniforms& back, const Numbers& x) {
+bool same_point(const AnyDistribution& s, const AnyDistribution::Uniforms& back, const PointArray& x) {
   const auto again = s.sample(back);
   if (!again) return false;
-  Numbers apart;
+  PointArray apart;
   for (std::size_t i = 0; i < apart.size(); ++i) apart[i] = again->x[i] - x[i];
   return size_of(apart) <= 64 * s.epsilon() * std::max(1.0, size_of(x));
 }
 
 } // namespace
 
-std::vector<Check> inverse_law(const AnySampler& s, const LawOptions& options) {
+std::vector<Check> inverse_law(const AnyDistribution& s, const LawOptions& options) {
   if (!s.sample || !s.invert) return {};
   WorstError error("invert(sample(u)) = u [eps]", options.invert_eps, Fault::inverse);
   Pcg random(options.seed, 11);
   for (int k = 0; k < 20000; ++k) {
-    const AnySampler::Uniforms u = law_point(s, random);
+    const AnyDistribution::Uniforms u = rounded_uniforms(s, random);
     const auto drawn = s.sample(u);
     if (!drawn || drawn->atom >= 0) continue;
     const auto back = s.invert(drawn->x);

@@ -15,28 +15,28 @@ template <class T> T determinant(const Matrix<T>& j, std::size_t n) {
          j[0][2] * (j[1][0] * j[2][1] - j[1][1] * j[2][0]);
 }
 
-Check exact_jacobian(const AnySampler& s, const LawOptions& options) {
+Check oracle_jacobian(const AnyDistribution& s, const LawOptions& options) {
   const Oracle h(1e-20);
   const auto n = static_cast<std::size_t>(s.domain.dim);
   WorstError error("|det| pdf = 1", 1e-20, Fault::jacobian);
   Pcg random(options.seed, 12);
   for (std::uint64_t k = 0; k < options.points / 4; ++k) {
-    const ExactSampler::Point u = wide_law_point(s, random);
+    const OracleDistribution::Point u = oracle_uniforms(s, random);
     Matrix<Oracle> j;
     bool fails = false;
     for (std::size_t axis = 0; axis < n && !fails; ++axis) {
-      ExactSampler::Point ahead = u, behind = u;
+      OracleDistribution::Point ahead = u, behind = u;
       ahead[axis] += h;
       behind[axis] -= h;
-      const auto a = s.exact->sample(ahead), b = s.exact->sample(behind);
+      const auto a = s.oracle->sample(ahead), b = s.oracle->sample(behind);
       fails = !a || !b;
       if (fails) break;
-      const ExactSampler::Point va = s.exact->locate(*a).v, vb = s.exact->locate(*b).v;
+      const OracleDistribution::Point va = s.oracle->to_chart(*a).v, vb = s.oracle->to_chart(*b).v;
       for (std::size_t i = 0; i < n; ++i) j[i][axis] = (va[i] - vb[i]) / (2 * h);
     }
-    const auto x = s.exact->sample(u);
+    const auto x = s.oracle->sample(u);
     if (fails || !x) continue;
-    const Oracle density = s.exact->pdf(*x) * s.exact->locate(*x).jacobian;
+    const Oracle density = s.oracle->pdf(*x) * s.oracle->to_chart(*x).jacobian;
     const double off = std::abs(static_cast<double>(abs(determinant(j, n) * density) - 1));
     error.note(off, [&] {
       const std::array<double, 3> c{static_cast<double>(u[0]), static_cast<double>(u[1]), static_cast<double>(u[2])};
@@ -48,16 +48,16 @@ Check exact_jacobian(const AnySampler& s, const LawOptions& options) {
 }
 
 // |det d v / d u| at u by differences of step h; NaN where the sampler fails.
-double determinant_at(const AnySampler& s, const AnySampler::Uniforms& u, double h) {
+double determinant_at(const AnyDistribution& s, const AnyDistribution::Uniforms& u, double h) {
   const auto n = static_cast<std::size_t>(s.domain.dim);
   Matrix<double> j{};
   for (std::size_t axis = 0; axis < n; ++axis) {
-    AnySampler::Uniforms ahead = u, behind = u;
+    AnyDistribution::Uniforms ahead = u, behind = u;
     ahead[axis] += h;
     behind[axis] -= h;
     const auto a = s.sample(ahead), b = s.sample(behind);
     if (!a || !b) return std::numeric_limits<double>::quiet_NaN();
-    const AnyDomain::Chart va = s.domain.to_unit(a->x), vb = s.domain.to_unit(b->x);
+    const AnyDomain::Coordinates va = s.domain.to_unit(a->x), vb = s.domain.to_unit(b->x);
     for (std::size_t i = 0; i < n; ++i) j[i][axis] = (va[i] - vb[i]) / (2 * h);
   }
   return std::abs(determinant(j, n));
@@ -65,16 +65,16 @@ double determinant_at(const AnySampler& s, const AnySampler::Uniforms& u, double
 
 // Three steps bound the error of their own result, which is taken off; rounding of an ill-conditioned sampler may still
 // slip through at single points, so the upper quartile is judged.
-std::vector<Check> double_jacobian(const AnySampler& s, const LawOptions& options) {
+std::vector<Check> double_jacobian(const AnyDistribution& s, const LawOptions& options) {
   constexpr double limit = 1e-6, first_step = 0x1p-12;
   struct Point {
     double off, product;
-    AnySampler::Uniforms u;
+    AnyDistribution::Uniforms u;
   };
   std::vector<Point> points;
   Pcg random(options.seed, 33);
   for (int k = 0; k < 1000; ++k) {
-    AnySampler::Uniforms u = law_point(s, random);
+    AnyDistribution::Uniforms u = rounded_uniforms(s, random);
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.dim); ++i)
       u[i] = first_step + (1 - 2 * first_step - 0x1p-40) * u[i];
     const auto x = s.sample(u);
@@ -101,9 +101,9 @@ std::vector<Check> double_jacobian(const AnySampler& s, const LawOptions& option
 
 } // namespace
 
-std::vector<Check> jacobian_law(const AnySampler& s, const LawOptions& options) {
+std::vector<Check> jacobian_law(const AnyDistribution& s, const LawOptions& options) {
   if (!s.sample || !s.invert || s.domain.dim == 0 || s.uniforms != s.domain.dim) return {};
-  if (s.exact) return {exact_jacobian(s, options)};
+  if (s.oracle) return {oracle_jacobian(s, options)};
   return s.is_float ? std::vector<Check>{} : double_jacobian(s, options);
 }
 

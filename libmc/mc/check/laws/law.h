@@ -3,7 +3,7 @@
 
 #include <mc/check/laws/worst_error.h>
 #include <mc/check/report/report.h>
-#include <mc/check/subject/any_sampler.h>
+#include <mc/check/subject/any_distribution.h>
 
 #include <fmt/format.h>
 
@@ -26,18 +26,18 @@ struct LawOptions {
   double mass_eps = 64;       ///< |mass - 1| beyond the bound on the quadrature error
   std::size_t max_evaluations = 12'000'000;
   bool evidence = false;      ///< see SubjectOptions
-  bool open_interval = false; ///< u in (0,1): the sampler may break at single u, see edges in laws.h
+  bool open_interval = false; ///< u in (0,1): the sampler may break at single u, see boundary in laws.h
   const std::function<void()>* before_draws = nullptr; ///< called again and again; what it throws ends the check
 };
 
 /// A deterministic law: its checks, or none where the sampler lacks what it needs.
-using Law = std::vector<Check>(const AnySampler& sampler, const LawOptions& options);
+using Law = std::vector<Check>(const AnyDistribution& distribution, const LawOptions& options);
 
-Law inverse_law, purity_law; ///< those that are asked for alone, too
+Law inverse_law, determinism_law; ///< those that are asked for alone, too
 
 /// A random point of the unit cube for a law: the same numbers in double, rounded to the sampler's scalar.
-AnySampler::Uniforms law_point(const AnySampler& sampler, Pcg& random);
+AnyDistribution::Uniforms rounded_uniforms(const AnyDistribution& distribution, Pcg& random);
 /// The same, not rounded.
-ExactSampler::Point wide_law_point(const AnySampler& sampler, Pcg& random);
+OracleDistribution::Point oracle_uniforms(const AnyDistribution& distribution, Pcg& random);
 
 } // namespace mc

@@ -5,52 +5,52 @@
 namespace mc {
 namespace {
 
-double size_of(const ExactSampler::Point& x) {
+double size_of(const OracleDistribution::Point& x) {
   return static_cast<double>(sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]));
 }
 
 // How far off, in epsilons: relative to the largest of 1 and the exact sample.
-double off_by(const AnySampler& s, const ExactSampler::Point& x, const ExactSampler::Point& exact) {
+double off_by(const AnyDistribution& s, const OracleDistribution::Point& x, const OracleDistribution::Point& exact) {
   return size_of({x[0] - exact[0], x[1] - exact[1], x[2] - exact[2]}) / std::max(1.0, size_of(exact)) / s.epsilon();
 }
 
-std::string format_exact(const AnySampler& s, const ExactSampler::Point& x) {
+std::string format_exact(const AnyDistribution& s, const OracleDistribution::Point& x) {
   return format_x(s, {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])});
 }
 
 // How far rounding u on the way carries the exact sample, as what maps u once more does: a mixture, a product.
-double off_by_rounding(const AnySampler& s, const AnySampler::Uniforms& u, const ExactSampler::Point& exact) {
+double off_by_rounding(const AnyDistribution& s, const AnyDistribution::Uniforms& u, const OracleDistribution::Point& exact) {
   constexpr double steps = 4;
   double off = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    ExactSampler::Point rounded{u[0], u[1], u[2]};
+    OracleDistribution::Point rounded{u[0], u[1], u[2]};
     rounded[i] *= 1 - s.epsilon();
-    if (const auto x = s.exact->sample(rounded)) off += steps * off_by(s, *x, exact);
+    if (const auto x = s.oracle->sample(rounded)) off += steps * off_by(s, *x, exact);
   }
   return off;
 }
 
 } // namespace
 
-std::vector<Check> precision_law(const AnySampler& s, const LawOptions& options) {
-  if (!s.sample || !s.exact) return {};
+std::vector<Check> precision_law(const AnyDistribution& s, const LawOptions& options) {
+  if (!s.sample || !s.oracle) return {};
   WorstError sample("sample against 50 digits [eps]", options.sample_eps, Fault::precision);
   WorstError pdf("pdf against 50 digits [eps]", options.pdf_eps, Fault::precision);
   Pcg random(options.seed, 13);
   for (std::uint64_t k = 0; k < options.points; ++k) {
-    const AnySampler::Uniforms u = law_point(s, random);
+    const AnyDistribution::Uniforms u = rounded_uniforms(s, random);
     const auto drawn = s.sample(u);
-    const auto exact = s.exact->sample({u[0], u[1], u[2]});
+    const auto exact = s.oracle->sample({u[0], u[1], u[2]});
     // Where one fails and the other does not is a matter of rounding; the rate of failures is tested with the mass.
     if (!drawn || !exact) continue;
-    const ExactSampler::Point x{drawn->x[0], drawn->x[1], drawn->x[2]};
+    const OracleDistribution::Point x{drawn->x[0], drawn->x[1], drawn->x[2]};
     double off = off_by(s, x, *exact);
     if (off > options.sample_eps) off = std::max(off - off_by_rounding(s, u, *exact), 0.0);
     sample.note(off, [&] {
       return fmt::format("sample is {}, should be {}, at u = {}", format_x(s, drawn->x), format_exact(s, *exact),
                          format_u(s, u));
     });
-    const Oracle density = s.exact->pdf(x);
+    const Oracle density = s.oracle->pdf(x);
     // Rounding may carry x across the edge of the support, where the two sides differ and both are right.
     if (!(density > 0)) continue;
     const double claimed = s.pdf(drawn->x);

@@ -4,15 +4,15 @@
 
 namespace mc {
 
-std::vector<Check> support_law(const AnySampler& s, const LawOptions& options) {
+std::vector<Check> support_law(const AnyDistribution& s, const LawOptions& options) {
   if (!s.eval || s.domain.dim == 0) return {};
   WorstError sign("eval finite and >= 0", 0, Fault::physics), support("pdf > 0 where eval > 0", 0, Fault::support);
   Pcg random(options.seed, 31);
   for (int k = 0; k < 20000; ++k) {
-    AnyDomain::Chart v{};
+    AnyDomain::Coordinates v{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.dim); ++i)
       v[i] = s.is_float ? static_cast<double>(random.uniform<float>()) : random.uniform<double>();
-    const Numbers x = s.domain.from_unit(v).x;
+    const PointArray x = s.domain.from_unit(v).x;
     if (!std::all_of(x.begin(), x.end(), [](double one) { return std::isfinite(one); })) continue;
     const double f = s.eval(x), density = s.pdf(x);
     sign.note(f >= 0 && std::isfinite(f) ? 0 : 1,

@@ -23,14 +23,14 @@ std::string_view name(Verdict v) {
 std::string_view name(Fault f) {
   switch (f) {
   case Fault::none: return "none";
-  case Fault::edge: return "boundary: sample or pdf is wrong at the ends of [0,1) or beside a branch";
-  case Fault::zero_edge: return "measure zero: only single values of u or single points are wrong, not the density";
-  case Fault::impure: return "not deterministic: equal arguments give different results";
+  case Fault::boundary: return "boundary: sample or pdf is wrong at the ends of [0,1) or beside a branch";
+  case Fault::measure_zero: return "measure zero: only single values of u or single points are wrong, not the density";
+  case Fault::nondeterministic: return "not deterministic: equal arguments give different results";
   case Fault::not_finite: return "not finite: a sample, pdf or f is infinite or not a number";
   case Fault::negative: return "negative: the density is below zero";
   case Fault::outside: return "outside: samples lie outside the domain";
   case Fault::failure: return "failure: sample fails at another rate than the mass of the density requires";
-  case Fault::leak: return "leak: samples lie where the density is zero";
+  case Fault::zero_pdf: return "leak: samples lie where the density is zero";
   case Fault::mass: return "mass: the density does not integrate to one";
   case Fault::weight: return "weight: a stated weight, pdf or f differs from eval and pdf";
   case Fault::support: return "support: the integrand is positive where the density is zero";
@@ -72,11 +72,11 @@ template <class Accepts> const Check* first_failed(const std::vector<Check>& che
 }
 
 const Check* leading_failure(const std::vector<Check>& checks) {
-  const auto measure_zero = [](const Check& c) { return c.fault == Fault::zero_edge; };
+  const auto measure_zero = [](const Check& c) { return c.fault == Fault::measure_zero; };
   const Check* certain = first_failed(checks, [&](const Check& c) { return !c.p && !measure_zero(c); });
   const Check* beyond_doubt = first_failed(checks, [](const Check& c) { return c.p && *c.p < 1e-9; });
   // The density weighs the energy: a wrong density makes the white furnace wrong.
-  if (beyond_doubt && certain && (certain->fault == Fault::edge || certain->fault == Fault::physics))
+  if (beyond_doubt && certain && (certain->fault == Fault::boundary || certain->fault == Fault::physics))
     return beyond_doubt;
   if (certain) return certain;
   const Check* likely = first_failed(checks, [](const Check& c) { return c.p.has_value(); });
@@ -195,7 +195,7 @@ std::string Report::to_string(ReportText detail, std::string_view hint) const {
   }
   if (detail == ReportText::brief) return text;
   if (c) text += describe_cells(*this, *c);
-  for (const Figure& f : figures)
+  for (const ReportedValue& f : figures)
     text += fmt::format("\n  {}: {:.6g} +- {:.2g}{}", f.name, f.value, f.std_error,
                         f.where.empty() ? "" : " at " + f.where);
   return text;

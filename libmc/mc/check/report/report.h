@@ -24,14 +24,14 @@ std::string_view name(Verdict v);
 ///   rotation : the samples follow the claimed density rotated about its pole
 enum class Fault {
   none,
-  edge,
-  zero_edge,
-  impure,
+  boundary,
+  measure_zero,
+  nondeterministic,
   not_finite,
   negative,
   outside,
   failure,
-  leak,
+  zero_pdf,
   mass,
   weight,
   support,
@@ -77,14 +77,14 @@ struct CellCount {
 };
 
 /// Data for maps and curves of a page; about 300 kB for many samples.
-struct Evidence {
+struct PlotData {
   std::vector<CellCount> cells; ///< a complete kd-tree's, in its order: the two halves of each aligned run share a face
   std::vector<CellCount> outcomes; ///< discrete ones; lo and hi are 0
-  struct After {
+  struct PValueAfter {
     std::uint64_t samples;
     double p;
   };
-  std::vector<After> p_after; ///< Report::p() after 1024, 2048, 4096, ... and after all samples
+  std::vector<PValueAfter> p_after; ///< Report::p() after 1024, 2048, 4096, ... and after all samples
 };
 
 /// "theta in [1.5, 3] deg": a range of a chart coordinate in the coordinates of the domain.
@@ -95,7 +95,7 @@ std::string describe_cell(const std::vector<Axis>& axes, const std::array<double
                           const std::array<double, 3>& hi);
 
 /// A measured quantity that is reported without a verdict of its own, for example the white furnace albedo.
-struct Figure {
+struct ReportedValue {
   std::string name;
   double value = 0, std_error = 0;
   std::string where; ///< may be empty
@@ -122,8 +122,8 @@ struct Report {
   std::vector<Check> checks;
   std::vector<Axis> axes;           ///< coordinates of the domain for each chart axis; empty for discrete outcomes
   std::vector<WorstCell> worst;     ///< the five worst, worst first
-  std::optional<Evidence> evidence; ///< only if the options request it
-  std::vector<Figure> figures;
+  std::optional<PlotData> evidence; ///< only if the options request it
+  std::vector<ReportedValue> figures;
 
   Verdict verdict() const; ///< fail if any failed, else inconclusive if any is, else pass
   bool passed() const { return verdict() == Verdict::pass; }

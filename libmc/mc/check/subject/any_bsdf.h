@@ -1,7 +1,7 @@
 #pragma once
 /// Any scattering function, its types erased: what the laws of BSDFs run over.
 
-#include <mc/check/subject/numbers.h>
+#include <mc/check/subject/point_array.h>
 #include <mc/check/subject/timing.h>
 #include <mc/random/pcg.h>
 
@@ -33,9 +33,9 @@ struct BsdfOptions {
 
 /// Values of f, a channel each.
 struct Channels {
-  static constexpr int most = 8;
+  static constexpr int max_count = 8;
   int count = 0;
-  std::array<double, most> value; ///< the first `count` mean something
+  std::array<double, max_count> value; ///< the first `count` mean something
 
   /// Of channel c; the last one repeats.
   double operator[](int c) const { return value[static_cast<std::size_t>(std::min(c, count - 1))]; }
@@ -86,7 +86,7 @@ concept BsdfOver = detail::samples_directions<B, S> && detail::has_eval<B, S> &&
 namespace detail {
 
 template <class F> Channels channels_of(const F& f) {
-  static_assert(point_size<F>() >= 1 && point_size<F>() <= Channels::most, "a BSDF has 1 to 8 channels");
+  static_assert(point_size<F>() >= 1 && point_size<F>() <= Channels::max_count, "a BSDF has 1 to 8 channels");
   Channels c;
   c.count = components(f);
   for (int i = 0; i < c.count; ++i) c.value[static_cast<std::size_t>(i)] = component(f, i);

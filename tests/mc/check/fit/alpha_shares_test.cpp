@@ -16,7 +16,7 @@ TEST(AlphaShares, SumToOne) {
   EXPECT_NEAR(more, 1, 1e-12);
 }
 
-TEST(AlphaShares, AreLookedUpByTestAndAxes) {
+TEST(AlphaShares, LookUp_ByTestAndDimension) {
   EXPECT_EQ(mc::alpha_share(mc::FitTest::ks, 0), 0);
   EXPECT_EQ(mc::alpha_share(mc::FitTest::correlation, 1), 0);
   EXPECT_EQ(mc::alpha_share(mc::FitTest::correlation, 3), mc::alpha_share(mc::FitTest::correlation, 2));

@@ -7,13 +7,13 @@
 
 namespace {
 
-TEST(Pilot, IsAnEighthWithinBounds) {
+TEST(Pilot, Size_IsEighthWithinBounds) {
   EXPECT_EQ(mc::pilot_samples(2000), 1000u);
   EXPECT_EQ(mc::pilot_samples(1'000'000), 125'000u);
   EXPECT_EQ(mc::pilot_samples(100'000'000), 1u << 20);
 }
 
-TEST(Pilot, RanksAreSharesOfItsPoints) {
+TEST(Pilot, Rank_IsShareOfPointsBelow) {
   const mc::Subject s = make_subject(
       "square", mc::Interval<double>(0, 1), [](mc::Pcg& r) { return mc::sqr(r.uniform<double>()); },
       [](double x) { return 0.5 / std::sqrt(x); });
@@ -24,7 +24,7 @@ TEST(Pilot, RanksAreSharesOfItsPoints) {
   EXPECT_NEAR(pilot.rank(0, 0.25), 0.5, 0.025); // 5 standard deviations
 }
 
-TEST(Pilot, NearestPointsOfAnAxis) {
+TEST(Pilot, Nearest_ReturnsClosestPointsOnAxis) {
   mc::Pcg random(5);
   mc::Pilot pilot;
   for (int i = 0; i < 500; ++i) pilot.points.push_back({std::floor(100 * random.uniform<double>()) / 100, 0, 0});

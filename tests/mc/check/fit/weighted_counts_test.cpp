@@ -16,7 +16,7 @@ int poisson(Pcg& r, double mean) {
   return k;
 }
 
-TEST(WeightedCounts, JoinedAreAddedUp) {
+TEST(WeightedCounts, Join_AddsSums) {
   mc::WeightedCounts a, b;
   a.add_sample(0.5, 2);
   b.add_sample(1, 3);
@@ -30,11 +30,11 @@ TEST(WeightedCounts, JoinedAreAddedUp) {
   EXPECT_EQ(a.weights, 2);
 }
 
-TEST(CountsCompared, HasBothVariances) {
+TEST(CountComparison, Spread_IncludesBothVariances) {
   mc::WeightedCounts bin;
   for (int i = 0; i < 120; ++i) bin.add_sample(1, 2);
   for (int i = 0; i < 40; ++i) bin.add_expected(2);
-  const mc::CountsCompared c = compare(bin, 1);
+  const mc::CountComparison c = compare(bin, 1);
   EXPECT_EQ(c.excess, 40);
   EXPECT_EQ(c.sample_variance, 1);
   EXPECT_NEAR(c.point_variance, 2, 1e-12); // as 120 samples see it: 240 / 120
@@ -42,13 +42,13 @@ TEST(CountsCompared, HasBothVariances) {
   EXPECT_NEAR(c.z(), 40 / std::sqrt(3 * c.mean), 1e-12);
 }
 
-TEST(CountsCompared, NothingOnBothSidesSaysNothing) {
-  const mc::CountsCompared c = compare({}, 1);
+TEST(CountComparison, BothEmpty_HasPOfOne) {
+  const mc::CountComparison c = compare({}, 1);
   EXPECT_EQ(c.z(), 0);
   EXPECT_EQ(c.p(), 1);
 }
 
-TEST(CountsCompared, SamplesWhereNothingIsClaimedAreImpossible) {
+TEST(CountComparison, SamplesWithoutExpectation_AreRejected) {
   mc::WeightedCounts bin;
   bin.add_sample(1, 0);
   EXPECT_EQ(compare(bin, 1).p(), 0);
@@ -57,7 +57,7 @@ TEST(CountsCompared, SamplesWhereNothingIsClaimedAreImpossible) {
 // Bins of right samples in which random points of very different weights speak: half of the mass by points that stand
 // for one sample, half by points that stand for 40, of which there is often none. 20000 bins at p <= 1e-3: at most 35
 // with probability 0.999.
-TEST(CountsCompared, RarePointsOfGreatWeightAreNoFault) {
+TEST(CountComparison, RareHeavyPoints_AreNotRejected) {
   Pcg random(1);
   int rejected = 0, blind = 0;
   for (int run = 0; run < 20'000; ++run) {
@@ -77,7 +77,7 @@ TEST(CountsCompared, RarePointsOfGreatWeightAreNoFault) {
 
 // The other way round: bins in which three samples of weight 1 are expected, and thirty of weight 0.01; one in 20 has
 // only the light ones.
-TEST(CountsCompared, RareSamplesOfGreatWeightAreNoFault) {
+TEST(CountComparison, RareHeavySamples_AreNotRejected) {
   Pcg random(2);
   int rejected = 0, blind = 0;
   for (int run = 0; run < 20'000; ++run) {
@@ -95,7 +95,7 @@ TEST(CountsCompared, RareSamplesOfGreatWeightAreNoFault) {
   EXPECT_GE(blind, 200);
 }
 
-TEST(CountsCompared, WhatIsFarOffIsFound) {
+TEST(CountComparison, LargeExcess_IsRejected) {
   mc::WeightedCounts spike, gap;
   for (int i = 0; i < 300; ++i) spike.add_sample(1, 2);
   for (int i = 0; i < 50; ++i) {

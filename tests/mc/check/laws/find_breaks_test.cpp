@@ -9,7 +9,7 @@ namespace {
 
 using testing::Contains;
 
-TEST(FindBreaks, AJumpIsFoundToTheLastBit) {
+TEST(FindBreaks, Jump_IsLocatedToLastBit) {
   for (const double at : {0.3, 0.5, 0.71234567, 1.0 / 3, 0.001}) {
     EXPECT_THAT(mc::find_breaks<double>([&](double t) { return std::vector{t < at ? t : t + 0.5}; }, 256, 4),
                 Contains(at));
@@ -23,7 +23,7 @@ TEST(FindBreaks, AJumpIsFoundToTheLastBit) {
   }
 }
 
-TEST(FindBreaks, AKinkIsFoundOverFiftyDigits) {
+TEST(FindBreaks, Kink_IsLocatedOverOracle) {
   using mc::Oracle;
   for (const double at : {0.3, 0.5, 0.71234567}) {
     const auto breaks = mc::find_breaks<Oracle>(
@@ -32,7 +32,7 @@ TEST(FindBreaks, AKinkIsFoundOverFiftyDigits) {
   }
 }
 
-TEST(FindBreaks, ASmoothMapHasNone) {
+TEST(FindBreaks, SmoothMap_HasNoBreaks) {
   EXPECT_TRUE(mc::find_breaks<double>([](double t) { return std::vector{1 + t + 0.2 * t * t}; }, 256, 4).empty());
 }
 

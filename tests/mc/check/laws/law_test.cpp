@@ -9,96 +9,96 @@
 
 namespace {
 
-using mc::Fault, mc::Numbers, mc::AnySampler;
+using mc::Fault, mc::PointArray, mc::AnyDistribution;
 using testing::HasSubstr;
 
 // sample(u) on the unit square with density 1.
-AnySampler on_square(const std::function<Numbers(double, double)>& point) {
-  AnySampler s = mc::detail::sampler_on("mine", mc::Square<double>());
+AnyDistribution on_square(const std::function<PointArray(double, double)>& point) {
+  AnyDistribution s = mc::detail::distribution_on("mine", mc::Square<double>());
   s.uniforms = 2;
-  s.sample = [point](const AnySampler::Uniforms& u) {
-    AnySampler::Drawn d;
+  s.sample = [point](const AnyDistribution::Uniforms& u) {
+    AnyDistribution::Sample d;
     d.x = point(u[0], u[1]);
     return std::optional(d);
   };
-  s.pdf = [](const Numbers&) { return 1.0; };
+  s.pdf = [](const PointArray&) { return 1.0; };
   return s;
 }
 
 std::string full(const mc::Report& report) { return report.to_string(mc::ReportText::full); }
 
-mc::Report laws(const AnySampler& s, bool open_interval = false) {
+mc::Report laws(const AnyDistribution& s, bool open_interval = false) {
   return check_laws(s, {.samples = 20'000, .open_interval = open_interval});
 }
 
-TEST(Law, AFunctionOfUPasses) {
-  const mc::Report r = laws(on_square([](double a, double b) { return Numbers{a, b}; }));
+TEST(Law, Determinism_FunctionOfU_Passes) {
+  const mc::Report r = laws(on_square([](double a, double b) { return PointArray{a, b}; }));
   EXPECT_TRUE(r.passed()) << r.to_string();
 }
 
-TEST(Law, ASamplerThatIgnoresUIsImpure) {
+TEST(Law, Determinism_SampleIgnoresU_Fails) {
   const auto random = std::make_shared<mc::Pcg>(7);
   const mc::Report r = laws(on_square([random](double, double) {
-    return Numbers{random->uniform<double>(), random->uniform<double>()};
+    return PointArray{random->uniform<double>(), random->uniform<double>()};
   }));
-  EXPECT_EQ(r.fault(), Fault::impure) << r.to_string();
+  EXPECT_EQ(r.fault(), Fault::nondeterministic) << r.to_string();
   EXPECT_THAT(full(r), HasSubstr("law: determinism of sample"));
 }
 
-TEST(Law, ASamplerThatReturnsThePointBeforeIsImpure) {
-  const auto before = std::make_shared<Numbers>(Numbers{0.5, 0.5});
+TEST(Law, Determinism_SampleReturnsPreviousPoint_Fails) {
+  const auto before = std::make_shared<PointArray>(PointArray{0.5, 0.5});
   const mc::Report r = laws(on_square([before](double a, double b) {
-    const Numbers last = *before;
+    const PointArray last = *before;
     *before = {a, b};
     return last;
   }));
-  EXPECT_EQ(r.fault(), Fault::impure) << r.to_string();
+  EXPECT_EQ(r.fault(), Fault::nondeterministic) << r.to_string();
 }
 
 // Every second call is another's, whichever of the functions it is.
-TEST(Law, WhatAlternatesIsImpure) {
-  const AnySampler right = mc::make_sampler(
+TEST(Law, Determinism_AlternatingResults_Fail) {
+  const AnyDistribution right = mc::make_distribution(
       "mine", mc::Interval<double>(0, 2), [](double u) { return 2 * u; }, [](double) { return 0.5; });
   const auto calls = std::make_shared<int>(0);
-  AnySampler sample = right, pdf = right, invert = right;
-  sample.sample = [=](const AnySampler::Uniforms& u) {
-    return right.sample(++*calls % 2 ? u : AnySampler::Uniforms{1 - u[0]});
+  AnyDistribution sample = right, pdf = right, invert = right;
+  sample.sample = [=](const AnyDistribution::Uniforms& u) {
+    return right.sample(++*calls % 2 ? u : AnyDistribution::Uniforms{1 - u[0]});
   };
-  EXPECT_EQ(laws(sample).fault(), Fault::impure) << laws(sample).to_string();
+  EXPECT_EQ(laws(sample).fault(), Fault::nondeterministic) << laws(sample).to_string();
   // Beside points where two kinds of one density meet, say, by which the integral hardly changes.
-  pdf.pdf = [=](const Numbers&) { return ++*calls % 2 ? 0.5 : std::nextafter(0.5, 1.0); };
+  pdf.pdf = [=](const PointArray&) { return ++*calls % 2 ? 0.5 : std::nextafter(0.5, 1.0); };
   EXPECT_THAT(laws(pdf).to_string(), HasSubstr("law: determinism of pdf"));
-  invert.invert = [=](const Numbers& x) {
-    return std::optional(AnySampler::Uniforms{++*calls % 2 ? x[0] / 2 : std::nextafter(x[0] / 2, 1.0)});
+  invert.invert = [=](const PointArray& x) {
+    return std::optional(AnyDistribution::Uniforms{++*calls % 2 ? x[0] / 2 : std::nextafter(x[0] / 2, 1.0)});
   };
   EXPECT_THAT(laws(invert).to_string(), HasSubstr("law: determinism of invert"));
 }
 
 // A density that stands for the point sampled last, wherever it is asked.
-TEST(Law, APdfThatDependsOnTheLastSampleIsImpure) {
+TEST(Law, Determinism_PdfDependsOnLastSample_Fails) {
   const auto last = std::make_shared<double>(0);
-  AnySampler s = on_square([last](double a, double b) { return Numbers{*last = a, b}; });
-  s.pdf = [last](const Numbers&) { return *last < 0.5 ? 1.0 : std::nextafter(1.0, 2.0); };
+  AnyDistribution s = on_square([last](double a, double b) { return PointArray{*last = a, b}; });
+  s.pdf = [last](const PointArray&) { return *last < 0.5 ? 1.0 : std::nextafter(1.0, 2.0); };
   EXPECT_THAT(laws(s).to_string(), HasSubstr("law: determinism of pdf"));
 }
 
 // Of one that takes a stream the density is asked for twice.
-TEST(Law, APdfBesideAStreamIsAskedAgain) {
-  AnySampler s = mc::detail::sampler_on("mine", mc::Interval<double>(0, 1));
+TEST(Law, Determinism_StreamWithPdf_RepeatsPdf) {
+  AnyDistribution s = mc::detail::distribution_on("mine", mc::Interval<double>(0, 1));
   s.sample_stream = [](mc::Pcg& random) {
-    AnySampler::Drawn d;
+    AnyDistribution::Sample d;
     d.x[0] = random.uniform<double>();
     return std::optional(d);
   };
-  s.pdf = [](const Numbers&) { return 1.0; };
+  s.pdf = [](const PointArray&) { return 1.0; };
   EXPECT_TRUE(laws(s).passed()) << laws(s).to_string();
   const auto calls = std::make_shared<int>(0);
-  s.pdf = [calls](const Numbers&) { return ++*calls % 2 ? 1.0 : std::nextafter(1.0, 2.0); };
-  EXPECT_EQ(laws(s).fault(), Fault::impure) << laws(s).to_string();
+  s.pdf = [calls](const PointArray&) { return ++*calls % 2 ? 1.0 : std::nextafter(1.0, 2.0); };
+  EXPECT_EQ(laws(s).fault(), Fault::nondeterministic) << laws(s).to_string();
 }
 
 // Between 1e6 and 1e6 + 1 lie 15 floats: counts of them follow how the sampler rounds more than any density.
-TEST(Law, ADomainOfFewFloatsIsNotTested) {
+TEST(Law, Resolution_IntervalOfFewFloats_IsInconclusive) {
   const auto tried = []<class S>(S, double power) {
     const auto sample = [power](S u) { return S(1e6) + static_cast<S>(std::pow(u, power)); };
     return mc::check_laws(mc::Interval<S>(1e6, 1e6 + 1), sample, [](S) { return S(1); }, {.samples = 20'000});
@@ -116,12 +116,12 @@ TEST(Law, ADomainOfFewFloatsIsNotTested) {
                   .passed());
 }
 
-TEST(Law, ManyAtOnceAreWhatEachIsAlone) {
-  AnySampler s = on_square([](double a, double b) { return Numbers{a, b}; });
+TEST(Law, BatchConsistency_BatchDiffersFromSingle_Fails) {
+  AnyDistribution s = on_square([](double a, double b) { return PointArray{a, b}; });
   const auto many = [s](std::size_t shift, double rounded) {
-    AnySampler batched = s;
-    batched.sample_many = [=](std::span<const AnySampler::Uniforms> u) {
-      std::vector<std::optional<AnySampler::Drawn>> drawn;
+    AnyDistribution batched = s;
+    batched.sample_many = [=](std::span<const AnyDistribution::Uniforms> u) {
+      std::vector<std::optional<AnyDistribution::Sample>> drawn;
       for (std::size_t i = 0; i < u.size(); ++i) {
         drawn.push_back(s.sample(u[(i + shift) % u.size()]));
         drawn.back()->x[0] *= rounded;
@@ -129,7 +129,7 @@ TEST(Law, ManyAtOnceAreWhatEachIsAlone) {
       }
       return drawn;
     };
-    batched.pdf_many = [=](std::span<const Numbers> x) { return std::vector<double>(x.size(), rounded); };
+    batched.pdf_many = [=](std::span<const PointArray> x) { return std::vector<double>(x.size(), rounded); };
     return batched;
   };
   EXPECT_TRUE(laws(many(0, 1)).passed()) << laws(many(0, 1)).to_string();
@@ -140,20 +140,20 @@ TEST(Law, ManyAtOnceAreWhatEachIsAlone) {
 }
 
 // It is a function of u, if a poor one.
-TEST(Law, ASamplerThatStandsStillIsAnAtom) {
-  const mc::Report r = laws(on_square([](double, double) { return Numbers{0.5, 0.5}; }));
+TEST(Law, Determinism_ConstantSample_IsAtom) {
+  const mc::Report r = laws(on_square([](double, double) { return PointArray{0.5, 0.5}; }));
   EXPECT_EQ(r.fault(), Fault::atom) << r.to_string();
   EXPECT_THAT(full(r), HasSubstr("sample depends on u"));
 }
 
-TEST(Law, AnEdgeOfMeasureZeroIsItsOwnFindingAndCanBeAccepted) {
+TEST(Law, Boundary_ZeroUFails_IsMeasureZeroAndAcceptable) {
   const auto interval = [](auto sample, auto pdf, bool open) {
     return mc::check_laws(mc::Interval<double>(0, 1), sample, pdf, {.samples = 20'000, .open_interval = open});
   };
   const auto root = [](double u) { return std::sqrt(u); };
   const auto ramp = [](double x) { return 2 * x; };
   const mc::Report closed = interval(root, ramp, false);
-  EXPECT_EQ(closed.fault(), Fault::zero_edge) << closed.to_string();
+  EXPECT_EQ(closed.fault(), Fault::measure_zero) << closed.to_string();
   EXPECT_THAT(closed.to_string(), HasSubstr("--open-interval"));
   EXPECT_TRUE(interval(root, ramp, true).passed()) << interval(root, ramp, true).to_string();
   // A wrong density stays one, and an edge that is not of measure zero too.
@@ -165,11 +165,11 @@ TEST(Law, AnEdgeOfMeasureZeroIsItsOwnFindingAndCanBeAccepted) {
   EXPECT_EQ(interval(
                 leaves, [](double) { return 1.0; }, true)
                 .fault(),
-            Fault::edge);
+            Fault::boundary);
 }
 
 // |x|, whose samples in the middle are right but for one.
-TEST(Law, ADensityOfZeroAtOnePointIsOfMeasureZero) {
+TEST(Law, Boundary_PdfZeroAtOnePoint_IsMeasureZero) {
   const auto root = [](std::floating_point auto u) {
     using S = decltype(u);
     return std::copysign(std::sqrt(std::abs(2 * u - 1)), u - S(0.5));
@@ -178,35 +178,35 @@ TEST(Law, ADensityOfZeroAtOnePointIsOfMeasureZero) {
     const auto pdf = [gap](S x) { return std::abs(static_cast<double>(x)) <= gap ? S(0) : std::abs(x); };
     return mc::check_laws(mc::Interval<S>(-1, 1), root, pdf, {.samples = 20'000, .open_interval = open});
   };
-  EXPECT_EQ(tried(0.0, 0, false).fault(), Fault::zero_edge) << tried(0.0, 0, false).to_string();
-  EXPECT_EQ(tried(0.0f, 0, false).fault(), Fault::zero_edge) << tried(0.0f, 0, false).to_string();
+  EXPECT_EQ(tried(0.0, 0, false).fault(), Fault::measure_zero) << tried(0.0, 0, false).to_string();
+  EXPECT_EQ(tried(0.0f, 0, false).fault(), Fault::measure_zero) << tried(0.0f, 0, false).to_string();
   EXPECT_TRUE(tried(0.0, 0, true).passed()) << tried(0.0, 0, true).to_string();
-  EXPECT_EQ(tried(0.0, 1e-7, true).fault(), Fault::edge) << "more than one u";
-  AnySampler open = mc::make_sampler("|x|", mc::Interval<double>(-1, 1), root, [](double x) { return std::abs(x); });
+  EXPECT_EQ(tried(0.0, 1e-7, true).fault(), Fault::boundary) << "more than one u";
+  AnyDistribution open = mc::make_distribution("|x|", mc::Interval<double>(-1, 1), root, [](double x) { return std::abs(x); });
   open.open_interval = true;
-  EXPECT_EQ(laws(open).fault(), Fault::zero_edge) << "it says that no u is 0: that excuses no other";
+  EXPECT_EQ(laws(open).fault(), Fault::measure_zero) << "it says that no u is 0: that excuses no other";
   EXPECT_THAT(laws(open).to_string(), HasSubstr("open_interval of the distribution itself excludes only u = 0"));
 }
 
 // The arcsine law is infinite at both ends; the last u is rounded onto the upper one.
-TEST(Law, ADensityThatIsInfiniteAtTheEdgeOfTheDomainIsOfMeasureZero) {
+TEST(Law, Boundary_InfinitePdfAtDomainEdge_IsMeasureZero) {
   const auto tried = [](double power, bool open) {
     const auto sine = [power](double u) { return std::pow(std::sin(mc::pi<double> / 2 * u), power); };
     const auto pdf = [](double x) { return 1 / (mc::pi<double> * std::sqrt(x * (1 - x))); };
     return mc::check_laws(mc::Interval<double>(0, 1), sine, pdf, {.samples = 20'000, .open_interval = open});
   };
-  EXPECT_EQ(tried(2, false).fault(), Fault::zero_edge) << tried(2, false).to_string();
+  EXPECT_EQ(tried(2, false).fault(), Fault::measure_zero) << tried(2, false).to_string();
   EXPECT_TRUE(tried(2, true).passed()) << tried(2, true).to_string();
   EXPECT_EQ(tried(2.2, true).fault(), Fault::shape);
 }
 
 // An inverse without an oracle: the Jacobian is judged in double.
-TEST(Law, AnInverseStatesTheDensity) {
-  const auto with = [](double slip, double inverse_slip) {
-    AnySampler s = on_square([](double a, double b) { return Numbers{1 - std::sqrt(1 - a), b}; });
-    s.pdf = [slip](const Numbers& x) { return slip * 2 * (1 - x[0]); };
-    s.invert = [inverse_slip](const Numbers& x) {
-      return std::optional(AnySampler::Uniforms{1 - (1 - x[0]) * (1 - x[0]), inverse_slip * x[1]});
+TEST(Law, Jacobian_WithoutOracle_IsTestedInDouble) {
+  const auto with = [](double bug, double inverse_bug) {
+    AnyDistribution s = on_square([](double a, double b) { return PointArray{1 - std::sqrt(1 - a), b}; });
+    s.pdf = [bug](const PointArray& x) { return bug * 2 * (1 - x[0]); };
+    s.invert = [inverse_bug](const PointArray& x) {
+      return std::optional(AnyDistribution::Uniforms{1 - (1 - x[0]) * (1 - x[0]), inverse_bug * x[1]});
     };
     return laws(s);
   };
@@ -215,15 +215,15 @@ TEST(Law, AnInverseStatesTheDensity) {
   EXPECT_EQ(with(1, 0.99).fault(), Fault::inverse);
 }
 
-TEST(Law, WhatTheSamplerIsForIsPositiveOnlyWhereThePdfIs) {
-  AnySampler s = on_square([](double a, double b) { return Numbers{a, b}; });
-  s.eval = [](const Numbers& x) { return x[0]; };
+TEST(Law, Support_IntegrandPositiveWherePdfIsZero_Fails) {
+  AnyDistribution s = on_square([](double a, double b) { return PointArray{a, b}; });
+  s.eval = [](const PointArray& x) { return x[0]; };
   EXPECT_TRUE(laws(s).passed());
-  s.eval = [](const Numbers& x) { return x[0] - 0.5; };
+  s.eval = [](const PointArray& x) { return x[0] - 0.5; };
   EXPECT_EQ(laws(s).fault(), Fault::physics);
-  s = on_square([](double a, double b) { return Numbers{a / 2, b}; });
-  s.pdf = [](const Numbers& x) { return x[0] <= 0.5 ? 2.0 : 0.0; };
-  s.eval = [](const Numbers&) { return 1.0; };
+  s = on_square([](double a, double b) { return PointArray{a / 2, b}; });
+  s.pdf = [](const PointArray& x) { return x[0] <= 0.5 ? 2.0 : 0.0; };
+  s.eval = [](const PointArray&) { return 1.0; };
   EXPECT_EQ(laws(s).fault(), Fault::support);
 }
 

@@ -16,7 +16,7 @@ std::string of_sample(const mc::Report& report) {
 }
 
 // Near the rim a step of u moves z by a hundred: what a mixture makes of u is rounded once more, which is no fault.
-TEST(PrecisionLaw, RoundingOfUIsConceded) {
+TEST(PrecisionLaw, ErrorWithinRoundingOfU_Passes) {
   const mc::Mixture mixture(std::array<double, 2>{1e-4, 1 - 1e-4}, mc::UniformHemisphere<double>{},
                             mc::CosineHemisphere<double>{});
   for (std::uint64_t seed = 1; seed <= 50; ++seed)
@@ -30,6 +30,6 @@ struct Shifted : mc::UniformInterval<double> {
   template <mc::Real T> mc::UniformInterval<T> cast() const { return {T(0), T(1)}; }
 };
 
-TEST(PrecisionLaw, MoreThanRoundingIsNot) { EXPECT_NE(of_sample(check_laws(Shifted(0, 1), {.samples = 0})), "pass"); }
+TEST(PrecisionLaw, ErrorBeyondRoundingOfU_Fails) { EXPECT_NE(of_sample(check_laws(Shifted(0, 1), {.samples = 0})), "pass"); }
 
 } // namespace

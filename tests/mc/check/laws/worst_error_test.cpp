@@ -6,7 +6,7 @@
 
 namespace {
 
-TEST(WorstError, KeepsTheWorstAndItsWitness) {
+TEST(WorstError, KeepsLargestErrorAndItsWitness) {
   mc::WorstError error("law", 1, mc::Fault::inverse);
   for (const double e : {0.5, 3.0, 0.9, 2.0}) error.note(e, [e] { return std::to_string(e); });
   const mc::Check c = error.check();
@@ -15,7 +15,7 @@ TEST(WorstError, KeepsTheWorstAndItsWitness) {
   EXPECT_EQ(c.detail, "3.000000; 2 of 4 points break this law");
 }
 
-TEST(WorstError, PassesAtTheLimitAndNeverOnNan) {
+TEST(WorstError, AtLimitPasses_NanFails) {
   mc::WorstError good("law", 1, mc::Fault::inverse);
   good.note(1, [] { return std::string(); });
   EXPECT_EQ(good.check().verdict, mc::Verdict::pass);

@@ -7,7 +7,7 @@ namespace {
 
 using mc::Fault, mc::Report, mc::Verdict;
 
-TEST(Report, FailBeatsInconclusiveBeatsPass) {
+TEST(Report, Verdict_FailBeatsInconclusiveBeatsPass) {
   Report r;
   EXPECT_EQ(r.verdict(), Verdict::pass);
   EXPECT_EQ(r.p(), 1);
@@ -22,16 +22,16 @@ TEST(Report, FailBeatsInconclusiveBeatsPass) {
   EXPECT_EQ(r.fault(), Fault::mass) << "a broken law says more than a small p";
 }
 
-TEST(Report, EndsOfUDoNotNameTheFaultOfCountsBeyondDoubt) {
+TEST(Report, Fault_SignificantCounts_OverrideBoundary) {
   Report r;
-  r.checks.push_back({"ends of u", Verdict::fail, {}, 0, 1, 0, Fault::edge, "at u = 1"});
-  EXPECT_EQ(r.fault(), Fault::edge);
+  r.checks.push_back({"ends of u", Verdict::fail, {}, 0, 1, 0, Fault::boundary, "at u = 1"});
+  EXPECT_EQ(r.fault(), Fault::boundary);
   r.checks.push_back({"cells", Verdict::fail, 1e-6, 0.5, 1, 0, Fault::shape, "there"});
-  EXPECT_EQ(r.fault(), Fault::edge);
+  EXPECT_EQ(r.fault(), Fault::boundary);
   r.checks.back().p = 1e-12;
   EXPECT_EQ(r.fault(), Fault::shape);
-  r.checks.front().fault = Fault::leak;
-  EXPECT_EQ(r.fault(), Fault::leak) << "of other laws nothing takes the name";
+  r.checks.front().fault = Fault::zero_pdf;
+  EXPECT_EQ(r.fault(), Fault::zero_pdf) << "of other laws nothing takes the name";
   r.checks.front().fault = Fault::physics;
   EXPECT_EQ(r.fault(), Fault::shape) << "but of energy, which is weighed by the density";
 }
@@ -110,7 +110,7 @@ TEST(Report, TextOfAnInconclusiveCheck_SaysWhy) {
   EXPECT_EQ(r.to_string(), "inconclusive: x has few values\n  law: resolution, x");
 }
 
-TEST(Report, EveryFaultAndVerdictHasAName) {
+TEST(Report, EveryFaultAndVerdict_HasName) {
   for (int i = 0; i <= static_cast<int>(Fault::bias); ++i) EXPECT_GT(name(static_cast<Fault>(i)).size(), 3u) << i;
   for (const Verdict v : {Verdict::pass, Verdict::fail, Verdict::inconclusive}) EXPECT_GT(name(v).size(), 3u);
 }

@@ -20,7 +20,7 @@ struct Half {
   }
 };
 
-TEST(AnyBsdf, SaysWhatTheBsdfSays) {
+TEST(AnyBsdf, ForwardsToBsdf) {
   const mc::AnyBsdf b = mc::any_bsdf<float>(Half{});
   const mc::AnyBsdf::Direction wo(0, 0, 1);
   EXPECT_TRUE(b.is_float);
@@ -36,7 +36,7 @@ TEST(AnyBsdf, SaysWhatTheBsdfSays) {
   EXPECT_EQ(b.pdf(wo, wo), 1);
 }
 
-TEST(AnyBsdf, AnOpenIntervalHoldsNoZero) {
+TEST(AnyBsdf, OpenInterval_NeverPassesZero) {
   mc::Pcg random(1), before = random;
   while (random.uniform<float>() != 0) before = random;
   mc::AnyBsdf b;
@@ -54,7 +54,7 @@ TEST(AnyBsdf, AnOpenIntervalHoldsNoZero) {
   }
 }
 
-TEST(AnyBsdf, OneChannelRepeats) {
+TEST(AnyBsdf, Channels_LastRepeats) {
   mc::Channels grey;
   grey.count = 1;
   grey.value[0] = 0.5;

@@ -9,7 +9,7 @@ namespace {
 using mc::Axis;
 using Scale = mc::Axis::Scale;
 
-TEST(Axis, ReadsTheQuantityOfEachScale) {
+TEST(Axis, Value_FollowsScale) {
   EXPECT_DOUBLE_EQ((Axis{"x", Scale::linear, -3, 7}).value(0.25), -0.5);
   EXPECT_DOUBLE_EQ((Axis{"r", Scale::radius, 0, 1}).value(0.25), 0.5);
   EXPECT_DOUBLE_EQ((Axis{"r", Scale::radius, 3, 5}).value(0.5), std::sqrt(17.0));
@@ -23,7 +23,7 @@ TEST(Axis, ReadsTheQuantityOfEachScale) {
       << "no cancellation at the pole";
 }
 
-TEST(Axis, AnglesHaveAUnitAndEveryScaleAName) {
+TEST(Axis, Unit_AnglesAreDegrees) {
   EXPECT_EQ((Axis{"phi", Scale::azimuth, 0, 1}).unit(), "deg");
   EXPECT_EQ(Axis{}.unit(), "");
   std::set<std::string_view> names;

@@ -21,7 +21,7 @@ template <class D> void expect_polar(const D& domain, bool directions) {
   }
 }
 
-TEST(ChartAxes, AnglesAndRadiiAreThoseOfThePoints) {
+TEST(ChartAxes, PolarDomains_MatchAnglesAndRadii) {
   expect_polar(mc::Sphere<double>{}, true);
   expect_polar(mc::Hemisphere<double>{}, true);
   expect_polar(mc::Cap<double>{0.01}, true);
@@ -29,7 +29,7 @@ TEST(ChartAxes, AnglesAndRadiiAreThoseOfThePoints) {
   expect_polar(mc::Annulus<double>{0.5, 2}, false);
 }
 
-TEST(ChartAxes, ABallHasARadiusAndAngles) {
+TEST(ChartAxes, Ball_HasRadiusAndAngles) {
   const auto axes = chart_axes(mc::Ball<double>{});
   const Vec3<double> v(0.3, 0.2, 0.6), p = mc::Ball<double>{}.from_unit(v);
   ASSERT_EQ(axes.size(), 3u);
@@ -38,7 +38,7 @@ TEST(ChartAxes, ABallHasARadiusAndAngles) {
   EXPECT_DOUBLE_EQ(axes[2].value(v[2]), 216);
 }
 
-TEST(ChartAxes, LinesAndBoxes) {
+TEST(ChartAxes, LinesAndBoxes_MatchCoordinates) {
   EXPECT_DOUBLE_EQ(chart_axes(mc::Interval<double>{-3, 7})[0].value(0.3), (mc::Interval<double>{-3, 7}).from_unit(0.3));
   EXPECT_DOUBLE_EQ(chart_axes(mc::HalfLine<double>{2, -1})[0].value(0.3), (mc::HalfLine<double>{2, -1}).from_unit(0.3));
   EXPECT_DOUBLE_EQ(chart_axes(mc::RealLine<double>{2, 3})[0].value(0.3), (mc::RealLine<double>{2, 3}).from_unit(0.3));
@@ -47,13 +47,13 @@ TEST(ChartAxes, LinesAndBoxes) {
   EXPECT_DOUBLE_EQ(box[1].value(0.5), 2.5);
 }
 
-TEST(ChartAxes, ProductsNameEachAxisOnce) {
+TEST(ChartAxes, Product_NamesEachAxisOnce) {
   const auto plane = chart_axes(mc::Plane<double>{});
   EXPECT_EQ(plane[0].name, "x");
   EXPECT_EQ(plane[1].name, "y");
 }
 
-TEST(ChartAxes, ATriangleHasItsBarycentricCoordinates) {
+TEST(ChartAxes, Triangle_HasBarycentricCoordinates) {
   const auto axes = chart_axes(mc::Triangle<double>{});
   const Vec2<double> b = mc::Triangle<double>{}.from_unit({0.3, 0.6});
   EXPECT_DOUBLE_EQ(axes[0].value(0.3), 1 - b[0]);
@@ -63,7 +63,7 @@ TEST(ChartAxes, ATriangleHasItsBarycentricCoordinates) {
 // A triangle under a name that no one knows.
 struct Unknown : mc::Triangle<double> {};
 
-TEST(ChartAxes, UnknownDomainsShowTheChart) {
+TEST(ChartAxes, UnknownDomain_ShowsChartCoordinates) {
   const auto axes = chart_axes(Unknown{});
   EXPECT_EQ(axes[0].name, "v0");
   EXPECT_EQ(axes[1].name, "v1");

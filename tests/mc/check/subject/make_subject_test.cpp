@@ -21,7 +21,7 @@ std::vector<mc::Subject::Draw> draw(const mc::Subject& s, std::size_t n) {
   return out;
 }
 
-TEST(MakeSubject, AWarpBecomesChartPoints) {
+TEST(MakeSubject, Warp_DrawsChartPoints) {
   const mc::Subject s = mc::make_subject("cosine", mc::CosineHemisphere<float>{});
   EXPECT_EQ(s.dim, 2);
   for (const auto& d : draw(s, 1000)) {
@@ -34,7 +34,7 @@ TEST(MakeSubject, AWarpBecomesChartPoints) {
   EXPECT_THAT(s.describe_point({0, 0, 0}), testing::HasSubstr("1)"));
 }
 
-TEST(MakeSubject, DrawsAreClassified) {
+TEST(MakeSubject, Draws_AreClassified) {
   const mc::Interval<double> unit;
   const auto pdf = [](double x) { return x > 0.5 ? 2.0 : 0.0; };
   EXPECT_EQ(draw(mc::make_subject(
@@ -57,14 +57,14 @@ TEST(MakeSubject, DrawsAreClassified) {
   EXPECT_TRUE(failing.may_fail);
 }
 
-TEST(MakeSubject, TheWitnessIsTheDraw) {
+TEST(MakeSubject, Witness_DescribesDraw) {
   const auto sampler = [](mc::Pcg& r) { return r.uniform<double>(); };
   const mc::Subject s = mc::make_subject("u", mc::Interval<double>(), sampler, [](double) { return 1.0; });
   const auto draws = draw(s, 5);
   EXPECT_THAT(s.describe_draw(1, 4), testing::HasSubstr(fmt::format("x = {:.17g}", draws[4].v[0])));
 }
 
-TEST(MakeSubject, TheWitnessNamesTheUniformNumbersItTook) {
+TEST(MakeSubject, Witness_NamesUniformNumbers) {
   const auto sampler = [](mc::Pcg& r) { return mc::Vec2<float>(r.uniform<float>(), r.uniform<float>()); };
   const mc::Subject s =
       mc::make_subject("u", mc::Square<float>(), sampler, [](const mc::Vec2<float>&) { return 1.0f; });
@@ -82,7 +82,7 @@ struct AreaLightSeen {
     Eigen::Array3d weight;
     double pdf;
   };
-  double slip = 1;
+  double bug = 1;
   // The point at height 1 in direction w.
   static mc::Vec2<double> hit(const mc::Vec3<double>& w) { return {w.x() / w.z(), w.y() / w.z()}; }
   static bool visible(const mc::Vec3<double>& w) {
@@ -96,11 +96,11 @@ struct AreaLightSeen {
   } // r^2 / (cos area)
   Sample sample(const mc::Vec2<double>& u) const {
     const mc::Vec3<double> w = mc::Vec3<double>(2 * u[0] - 1, u[1] - 0.5, 1).normalized();
-    return {w, slip * Eigen::Array3d(1, 2, 3) / pdf(w), pdf(w)};
+    return {w, bug * Eigen::Array3d(1, 2, 3) / pdf(w), pdf(w)};
   }
 };
 
-TEST(MakeSubject, ALightSeenFromAPoint) {
+TEST(MakeSubject, LightSampledFromPoint_Passes) {
   const auto check = [](AreaLightSeen light) {
     return check_subject(mc::make_subject(
                              "light", mc::Hemisphere<double>(),
@@ -115,7 +115,7 @@ TEST(MakeSubject, ALightSeenFromAPoint) {
               testing::ContainsRegex("light: fail: weight is [0-9.]+, should be [0-9.]+, at u = \\("));
 }
 
-TEST(MakeSubject, AnImageShapedTable) {
+TEST(MakeSubject, ImageTable_Passes) {
   std::vector<double> pixels(64 * 32, 1);
   pixels[20 * 64 + 5] = 1000;
   const mc::TableDist2D<float> table(pixels, 64, 32);
@@ -129,7 +129,7 @@ TEST(MakeSubject, AnImageShapedTable) {
       mc::Verdict::fail);
 }
 
-TEST(MakeSubject, ADiscreteDistributionBecomesAtoms) {
+TEST(MakeSubject, DiscreteDistribution_HasAtoms) {
   const std::vector<double> weights{1, 0, 3};
   const mc::Subject s = mc::make_discrete_subject("alias", mc::AliasTable(weights));
   EXPECT_EQ(s.dim, 0);
@@ -141,7 +141,7 @@ TEST(MakeSubject, ADiscreteDistributionBecomesAtoms) {
   }
 }
 
-TEST(MakeSubject, SaysHowFarADirectionIsFromUnitLength) {
+TEST(MakeSubject, Witness_NamesDeviationFromUnitLength) {
   const auto with = [](double length, double z) {
     return make_subject(
                "w", mc::Hemisphere<double>(),

@@ -14,7 +14,7 @@
 
 namespace {
 
-TEST(Oracle, FiftyDigits) {
+TEST(Oracle, HasFiftyDigits) {
   const mc::Oracle root = sqrt(mc::Oracle(2));
   EXPECT_LE(abs(mc::Oracle(root * root - 2)), mc::Oracle("1e-49"));
   EXPECT_LE(abs(mc::Oracle(mc::pi<mc::Oracle> - mc::Oracle("3.14159265358979323846264338327950288419716939937510"))),
@@ -22,12 +22,12 @@ TEST(Oracle, FiftyDigits) {
   static_assert(mc::Real<mc::Oracle>);
 }
 
-TEST(Oracle, IsAPlainNumberToEigen) {
+TEST(Oracle, WorksAsEigenScalar) {
   const mc::Vec3<mc::Oracle> v(1, 2, 2);
   EXPECT_EQ(v.norm(), 3);
 }
 
-TEST(Oracle, HoldsWhatDoubleHolds) {
+TEST(Oracle, RoundTrip_DoubleIsExact) {
   const double inf = std::numeric_limits<double>::infinity();
   for (const double x : {0.0, -0.0, 1.0, -0.1, 5e-324, 1.7976931348623157e308, inf, -inf}) {
     EXPECT_EQ(static_cast<double>(mc::Oracle(x)), x);
@@ -42,7 +42,7 @@ TEST(Oracle, HoldsWhatDoubleHolds) {
   EXPECT_THROW(mc::Oracle("1.5x"), mc::Error);
 }
 
-TEST(Oracle, LimitsAreItsOwn) {
+TEST(Oracle, NumericLimits_AreConsistent) {
   using Limits = std::numeric_limits<mc::Oracle>;
   EXPECT_EQ(nextafter(mc::Oracle(1), 2) - 1, Limits::epsilon());
   EXPECT_GT(Limits::min(), 0);
@@ -51,7 +51,7 @@ TEST(Oracle, LimitsAreItsOwn) {
   EXPECT_TRUE(isinf(Limits::infinity()) && isnan(Limits::quiet_NaN()));
 }
 
-TEST(Oracle, PrintsAsManyDigitsAsTheStreamAsks) {
+TEST(Oracle, Print_FollowsStreamPrecision) {
   std::ostringstream out;
   out << std::setprecision(20) << mc::Oracle("0.1") << ' ' << std::scientific << std::setprecision(2)
       << mc::Oracle(-250);
@@ -77,7 +77,7 @@ TEST(Oracle, ErfcInvInvertsErfc) {
 }
 
 // MPFR's constants are a thread's own: other threads find the same numbers.
-TEST(Oracle, IsTheSameInEveryThread) {
+TEST(Oracle, SameResultInEveryThread) {
   const mc::Oracle here = log(mc::Oracle(3)) * sin(mc::Oracle(2));
   std::vector<mc::Oracle> there(8);
   std::vector<std::thread> threads;

@@ -4,7 +4,7 @@
 
 namespace {
 
-TEST(Subject, ADrawIsAPointOfWeightOneUnlessSaidOtherwise) {
+TEST(Subject, Draw_DefaultsToPointOfWeightOne) {
   const mc::Subject::Draw d;
   EXPECT_EQ(d.kind, mc::Subject::Draw::Kind::point);
   EXPECT_EQ(d.weight, 1);

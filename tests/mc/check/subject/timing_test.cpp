@@ -4,7 +4,7 @@
 
 namespace {
 
-TEST(NsPerSample, GrowsWithTheWork) {
+TEST(NsPerSample, IncreasesWithWork) {
   const std::vector<double> inputs(mc::timing_inputs, 0.5);
   const auto work = [](int rounds) {
     return [rounds](double x) {

@@ -68,7 +68,7 @@ struct Region {
 
 class Integrator {
  public:
-  Integrator(const IntegrandOfMany& f, int dim) : f_(f), dim_(dim) {}
+  Integrator(const BatchFunction& f, int dim) : f_(f), dim_(dim) {}
 
   void evaluate(Region& r) {
     const Rule& rule = r.rough && dim_ == 3 ? coarse() : fine();
@@ -95,7 +95,7 @@ class Integrator {
     for (std::size_t i = 0; i < values_.size(); ++i) {
       double& value = values_[i];
       if (!(value >= 0 && value <= std::numeric_limits<double>::max())) {
-        if (!bad) bad = points_[i];
+        if (!invalid_point) invalid_point = points_[i];
         value = 0;
       }
       largest = std::max(largest, value);
@@ -166,10 +166,10 @@ class Integrator {
   }
 
   // What is no density somewhere is not looked at more closely.
-  bool spent(const CubatureGoal& goal) const { return bad || evaluations >= goal.max_evaluations; }
+  bool spent(const CubatureGoal& goal) const { return invalid_point || evaluations >= goal.max_evaluations; }
 
   std::size_t evaluations = 0;
-  std::optional<std::array<double, 3>> bad;
+  std::optional<std::array<double, 3>> invalid_point;
 
  private:
   static std::size_t ix(int i) { return static_cast<std::size_t>(i); }
@@ -186,7 +186,7 @@ class Integrator {
     static const Rule rule(4);
     return rule;
   }
-  const IntegrandOfMany& f_;
+  const BatchFunction& f_;
   int dim_;
   std::vector<std::array<double, 3>> points_;
   std::vector<double> values_;
@@ -196,13 +196,13 @@ class Integrator {
 
 CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim,
                                const std::vector<UnitBox>& boxes, const CubatureGoal& goal) {
-  const IntegrandOfMany many = [&f](std::span<std::array<double, 3>> v, std::span<double> values) {
+  const BatchFunction many = [&f](std::span<std::array<double, 3>> v, std::span<double> values) {
     std::transform(v.begin(), v.end(), values.begin(), f);
   };
   return integrate_boxes(many, dim, boxes, goal);
 }
 
-CubatureResult integrate_boxes(const IntegrandOfMany& f, int dim, const std::vector<UnitBox>& boxes,
+CubatureResult integrate_boxes(const BatchFunction& f, int dim, const std::vector<UnitBox>& boxes,
                                const CubatureGoal& goal) {
   require(dim >= 1 && dim <= 3, "integrate_boxes: dim {} must lie in 1..3", dim);
   Integrator integrator(f, dim);
@@ -268,7 +268,7 @@ CubatureResult integrate_boxes(const IntegrandOfMany& f, int dim, const std::vec
   result.total = {value.value(), bound.value()};
   result.converged = result.converged && result.total.error <= goal.total_error;
   result.evaluations = integrator.evaluations;
-  result.bad = integrator.bad;
+  result.invalid_point = integrator.invalid_point;
   return result;
 }
 

@@ -20,7 +20,7 @@ struct CubatureResult {
   std::size_t evaluations = 0;
   bool converged = true; ///< every box and the total met their goals within the budget
   /// The first point where f was negative or not finite; nothing is refined after it.
-  std::optional<std::array<double, 3>> bad;
+  std::optional<std::array<double, 3>> invalid_point;
 };
 
 struct CubatureGoal {
@@ -42,8 +42,8 @@ struct CubatureGoal {
 CubatureResult integrate_boxes(const std::function<double(const std::array<double, 3>&)>& f, int dim,
                                const std::vector<UnitBox>& boxes, const CubatureGoal& goal = {});
 /// The same of an f that is evaluated at many points at once. It may move them.
-using IntegrandOfMany = std::function<void(std::span<std::array<double, 3>> v, std::span<double> values)>;
-CubatureResult integrate_boxes(const IntegrandOfMany& f, int dim, const std::vector<UnitBox>& boxes,
+using BatchFunction = std::function<void(std::span<std::array<double, 3>> v, std::span<double> values)>;
+CubatureResult integrate_boxes(const BatchFunction& f, int dim, const std::vector<UnitBox>& boxes,
                                const CubatureGoal& goal = {});
 
 } // namespace mc

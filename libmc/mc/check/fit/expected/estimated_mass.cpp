@@ -1,6 +1,6 @@
 #include <mc/check/fit/expected/estimated_mass.h>
 
-#include <mc/check/fit/density_inside.h>
+#include <mc/check/fit/interior_density.h>
 #include <mc/check/fit/pilot.h>
 #include <mc/core/types.h>
 
@@ -10,14 +10,14 @@
 
 namespace mc {
 
-double EstimatedMass::shown_variance() const { return variance + 3 * std::sqrt(2 * variance_square); }
+double EstimatedMass::conservative_variance() const { return variance + 3 * std::sqrt(2 * variance_square); }
 
 double EstimatedMass::variance_with_jumps(std::size_t passes) const {
   const double n = static_cast<double>(passes);
-  return shown_variance() + sqr(n * jump) * hidden_by_jump(4 * n);
+  return conservative_variance() + sqr(n * jump) * hidden_jump_variance(4 * n);
 }
 
-double hidden_by_jump(double points) { return std::min(32 / ((points + 1) * (points + 2) * (points + 3)), 1.0); }
+double hidden_jump_variance(double points) { return std::min(32 / ((points + 1) * (points + 2) * (points + 3)), 1.0); }
 
 void EstimatedMass::add_part(double volume, std::span<const double, 4> density) {
   const double a = 0.5 * (density[0] + density[1]), b = 0.5 * (density[2] + density[3]);
@@ -29,9 +29,9 @@ void EstimatedMass::add_part(double volume, std::span<const double, 4> density) 
   jump = std::max(jump, std::abs(off));
 }
 
-bool may_cut(const Subject& s, const UnitBox& box, std::size_t axis, double place, const Subject::Coordinates& beside) {
+bool may_split(const Subject& s, const UnitBox& box, std::size_t axis, double place, const Subject::Coordinates& beside) {
   const double least = std::min(place - box.lo[axis], box.hi[axis] - place);
-  return least > 0 && least >= rounded_steps * rounding(s, beside, axis);
+  return least > 0 && least >= min_resolved_steps * rounding_step(s, beside, axis);
 }
 
 double volume(const UnitBox& box, int dim) {
@@ -75,7 +75,7 @@ void cut_axis(double lo, double hi, const std::vector<double>& breaks, std::size
 
 } // namespace
 
-void PairedPoints::add(const UnitBox& whole, int dim, const std::array<std::vector<double>, 3>& breaks,
+void AntitheticPoints::add(const UnitBox& whole, int dim, const std::array<std::vector<double>, 3>& breaks,
                        std::size_t per_axis, Pcg& random) {
   for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d)
     cut_axis(whole.lo[d], whole.hi[d], breaks[d], per_axis, ends[d]);
@@ -91,12 +91,12 @@ void PairedPoints::add(const UnitBox& whole, int dim, const std::array<std::vect
       }
 }
 
-Seen add_box(const Subject& s, const UnitBox& box, std::size_t per_axis, Pcg& random, EstimatedMass& mass) {
-  PairedPoints paired;
+BoxMaxima add_box(const Subject& s, const UnitBox& box, std::size_t per_axis, Pcg& random, EstimatedMass& mass) {
+  AntitheticPoints paired;
   paired.add(box, s.dim, s.breaks, per_axis, random);
   std::vector<double> densities(paired.points.size());
-  densities_inside(s, paired.points, densities);
-  Seen seen;
+  interior_densities(s, paired.points, densities);
+  BoxMaxima seen;
   for (double& d : densities) {
     d = d >= 0 && d <= std::numeric_limits<double>::max() ? d : 0.0;
     seen.density = std::max(seen.density, d);

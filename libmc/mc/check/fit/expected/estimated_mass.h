@@ -19,9 +19,9 @@ struct EstimatedMass {
   double largest = 0;         ///< of one box
   double jump = 0; ///< by which the points of one box are farthest from linear, in it and the cells beside it
   /// The variance with its own uncertainty: three standard deviations above the estimate.
-  double shown_variance() const;
+  double conservative_variance() const;
   /// And the square of what one box may hide, whatever its points show.
-  double safe_variance() const { return shown_variance() + largest * largest; }
+  double worst_case_variance() const { return conservative_variance() + largest * largest; }
   /// And what the largest jump may hide from all points of a box: one that no pair here sees is seen beside it. The
   /// masses, of so many passes over the boxes, are means.
   double variance_with_jumps(std::size_t passes = 1) const;
@@ -32,11 +32,11 @@ struct EstimatedMass {
 /// The variance of what a jump of height 1 hides from n points of a box of volume 1: where it cuts a random part f off,
 /// E f^2 (1 - f)^n = 2 / ((n + 1) (n + 2) (n + 3)). Sixteen times that is conceded, and at most 1: what is hidden is
 /// seldom and much, so that four of its deviations must look like one.
-double hidden_by_jump(double points);
+double hidden_jump_variance(double points);
 
 /// Whether the parts of a box that is cut at a place are boxes, and so wide that rounded samples meet them as random
 /// points do; beside : a sample nearby.
-bool may_cut(const Subject& subject, const UnitBox& box, std::size_t axis, double place,
+bool may_split(const Subject& subject, const UnitBox& box, std::size_t axis, double place,
              const Subject::Coordinates& beside);
 
 /// Its volume in the cube.
@@ -48,7 +48,7 @@ Subject::Coordinates mirrored(const Subject::Coordinates& v, const UnitBox& box,
 
 /// Random points in boxes: two in each part of a box, each with its mirror image through the middle. The mean over such
 /// a pair is exact where the density is linear.
-struct PairedPoints {
+struct AntitheticPoints {
   std::vector<Subject::Coordinates> points; ///< four to a part, as EstimatedMass::add_part takes them
   std::vector<double> volumes;              ///< of the parts
   std::array<std::vector<double>, 3> ends{{{0, 1}, {0, 1}, {0, 1}}}; ///< of the parts along the axes of the last box
@@ -58,13 +58,13 @@ struct PairedPoints {
 };
 
 /// What the points of a box saw: the largest density, and the largest volume that one of them stood for.
-struct Seen {
+struct BoxMaxima {
   double density = 0, volume = 0;
 };
 
 /// Adds the integral of the density over a box, cut at the breaks of the subject and evenly into at least `per_axis`
 /// parts along each axis.
-Seen add_box(const Subject& subject, const UnitBox& box, std::size_t per_axis, Pcg& random, EstimatedMass& mass);
+BoxMaxima add_box(const Subject& subject, const UnitBox& box, std::size_t per_axis, Pcg& random, EstimatedMass& mass);
 
 /// How far the points of boxes are from one linear function over all of them.
 class LinearFit {

@@ -1,7 +1,7 @@
 #include <mc/check/fit/expected/mass.h>
 
 #include <mc/check/fit/alpha_shares.h>
-#include <mc/check/fit/density_inside.h>
+#include <mc/check/fit/interior_density.h>
 #include <mc/core/types.h>
 #include <mc/stats/chi_square.h>
 #include <mc/stats/multiple_testing.h>
@@ -56,7 +56,7 @@ std::vector<UnitBox> extents(const PilotCells& cells, const Pilot& pilot, int le
   std::vector<UnitBox> extent(static_cast<std::size_t>(cells.partition.size() >> level),
                               UnitBox{{2, 2, 2}, {-1, -1, -1}});
   for (std::size_t i = 0; i < pilot.points.size(); ++i) {
-    UnitBox& e = extent[cells.of_points[i] >> level];
+    UnitBox& e = extent[cells.cell_of_point[i] >> level];
     for (std::size_t d = 0; d < 3; ++d) {
       e.lo[d] = std::min(e.lo[d], pilot.points[i][d]);
       e.hi[d] = std::max(e.hi[d], pilot.points[i][d]);
@@ -85,14 +85,14 @@ CubatureResult integrate_density(const Subject& s, const Pilot& pilot, const Pil
   goal.max_evaluations = max_evaluations;
   const double each = goal.total_error / static_cast<double>(pieces.size());
   goal.box_error = [each](double value) { return std::max(each, 1e-3 * value); };
-  const IntegrandOfMany density = [&s](std::span<Subject::Coordinates> v, std::span<double> densities) {
-    densities_inside(s, v, densities);
+  const BatchFunction density = [&s](std::span<Subject::Coordinates> v, std::span<double> densities) {
+    interior_densities(s, v, densities);
   };
   return integrate_boxes(density, s.dim, pieces, goal);
 }
 
 ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const EstimatedMass& reference,
-                         const EstimatedMass& whole, const SampleWeights& samples) {
+                         const EstimatedMass& uncapped, const SampleWeights& samples) {
   ClaimedMass mass;
   const double n = samples.draws;
   double outcomes = 0;
@@ -102,10 +102,10 @@ ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const
   const double clipped_variance = (samples.points - 2 * samples.sum + samples.squares) / (n * n);
   const double sampled = (samples.squares - sqr(samples.sum) / n) / (n * n);
   mass.estimated = reference.value + clipped + outcomes;
-  mass.estimated_error = std::sqrt(std::max(sampled, 0.0) + reference.safe_variance() + sqr(s.mass_tolerance));
+  mass.estimated_error = std::sqrt(std::max(sampled, 0.0) + reference.worst_case_variance() + sqr(s.mass_tolerance));
   mass.z = (samples.sum / n - reference.value) / std::max(mass.estimated_error, 1e-300);
-  mass.at_points = whole.value + outcomes;
-  mass.at_points_error = std::sqrt(whole.safe_variance()) + s.mass_tolerance;
+  mass.from_points = uncapped.value + outcomes;
+  mass.from_points_error = std::sqrt(uncapped.worst_case_variance()) + s.mass_tolerance;
   if (s.dim == 0) {
     mass.value = outcomes;
     return mass;
@@ -116,31 +116,31 @@ ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const
   // by a pair at most, seldom by half of one. What lies where the samples are not only the points see; a lobe that they
   // miss the samples see.
   constexpr double conceded = 5, agreed = 1.5;
-  const double by_points = std::sqrt(whole.shown_variance());
-  const double by_samples = std::sqrt(reference.shown_variance() + std::max(clipped_variance, 0.0));
+  const double by_points = std::sqrt(uncapped.conservative_variance());
+  const double by_samples = std::sqrt(reference.conservative_variance() + std::max(clipped_variance, 0.0));
   const double rounding = std::max(s.mass_tolerance, 1e-12); // of sums of many terms
   const double total = cubature.total.value + outcomes, bound = cubature.total.error + rounding;
-  mass.integrated = !cubature.bad && cubature.total.error <= 1 / std::sqrt(n) &&
-                    std::abs(total - outcomes - whole.value) <= bound + agreed * by_points + whole.jump / 2 &&
+  mass.by_cubature = !cubature.invalid_point && cubature.total.error <= 1 / std::sqrt(n) &&
+                    std::abs(total - outcomes - uncapped.value) <= bound + agreed * by_points + uncapped.jump / 2 &&
                     mass.estimated - total <= bound + agreed * by_samples + reference.jump / 2;
-  mass.value = mass.integrated ? total : mass.estimated;
-  if (!mass.integrated) {
+  mass.value = mass.by_cubature ? total : mass.estimated;
+  if (!mass.by_cubature) {
     mass.error = 4 * mass.estimated_error;
     return mass;
   }
-  mass.error = cubature.total.error + conceded * by_points + std::max(whole.jump, reference.jump);
+  mass.error = cubature.total.error + conceded * by_points + std::max(uncapped.jump, reference.jump);
   // A lobe that no point met adds mass and takes none off. It fits into one box, below its cap, or no sample met it:
   // then it holds at most 4.6 of them, with probability .99.
   if (total < 1)
     mass.error = std::max(mass.error, cubature.total.error + conceded * by_samples + reference.jump) +
-                 reference.largest + 4.6 / samples.seen;
+                 reference.largest + 4.6 / samples.total_points;
   return mass;
 }
 
 Check test_mass(const Subject& s, const ClaimedMass& mass, double alpha) {
   const double excess = mass.value - 1, off = s.may_fail ? std::max(excess, 0.0) : std::abs(excess);
   Check c{"mass", Verdict::pass, {}, 0, off, mass.error + s.mass_tolerance, Fault::mass, {}};
-  if (mass.integrated) {
+  if (mass.by_cubature) {
     if (!(off <= c.limit)) c.verdict = Verdict::fail;
   } else {
     c.p = normal_tail(mass.z);
@@ -153,13 +153,13 @@ Check test_mass(const Subject& s, const ClaimedMass& mass, double alpha) {
   c.detail = fmt::format("the density integrates to {:.10g} +- {:.2g}, should be {}1", mass.value, mass.error,
                          s.may_fail ? "at most " : "");
   // Samples that are wrong where the density is high say nothing of what it integrates to.
-  if (mass.integrated || c.verdict != Verdict::fail || !(mass.at_points_error <= 0.03) ||
-      !(std::abs(mass.at_points - 1) <= 4 * mass.at_points_error))
+  if (mass.by_cubature || c.verdict != Verdict::fail || !(mass.from_points_error <= 0.03) ||
+      !(std::abs(mass.from_points - 1) <= 4 * mass.from_points_error))
     return c;
   c.fault = Fault::shape;
   c.detail = fmt::format("the samples do not follow the density where it is high; from random points it integrates to "
                          "{:.6g} +- {:.2g}",
-                         mass.at_points, mass.at_points_error);
+                         mass.from_points, mass.from_points_error);
   return c;
 }
 

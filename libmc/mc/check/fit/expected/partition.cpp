@@ -22,7 +22,7 @@ double shortest_binary_fraction(double a, double b) {
 // Splits nodes; points are those of the pilot in a node.
 struct Partition::Builder {
   Partition& partition;
-  const MayCut& may_cut;
+  const MaySplit& may_split;
   using Points = std::span<Coordinates>;
 
   // The place for a split of this axis; none when the pilot cannot be divided there.
@@ -56,17 +56,17 @@ struct Partition::Builder {
       const std::uint32_t axis = (first + i) % dim;
       const auto at = quantile(points, box, axis);
       if (!at || !(*at > box.lo[axis] && *at < box.hi[axis])) continue;
-      if (!may_cut || may_cut(box, axis, *at, points[points.size() / 2])) return {*at, axis};
+      if (!may_split || may_split(box, axis, *at, points[points.size() / 2])) return {*at, axis};
       refused = true;
     }
-    return {refused ? never : 0.5 * (box.lo[first] + box.hi[first]), first};
+    return {refused ? no_split : 0.5 * (box.lo[first] + box.hi[first]), first};
   }
 
   void split(int node, const UnitBox& box, Points points, int level) {
     if (level == partition.depth_) return;
     const Split s = partition.splits_[static_cast<std::size_t>(node)] = place(box, points, level);
     const auto upper =
-        std::partition(points.begin(), points.end(), [&](const Coordinates& v) { return v[s.axis] < s.at; });
+        std::partition(points.begin(), points.end(), [&](const Coordinates& v) { return v[s.axis] < s.position; });
     const auto below = static_cast<std::size_t>(upper - points.begin());
     const auto [left, right] = halves(box, s);
     split(2 * node, left, points.first(below), level + 1);
@@ -74,17 +74,17 @@ struct Partition::Builder {
   }
 };
 
-Partition::Partition(std::vector<Coordinates> pilot, int dim, int depth, const MayCut& may_cut)
+Partition::Partition(std::vector<Coordinates> pilot, int dim, int depth, const MaySplit& may_split)
     : dim_(dim), depth_(depth) {
   require(dim >= 1 && dim <= 3, "Partition: dim {} must lie in 1..3", dim);
   require(depth >= 0 && depth <= 24, "Partition: depth {} must lie in 0..24", depth);
   splits_.resize(static_cast<std::size_t>(size()));
-  Builder{*this, may_cut}.split(1, UnitBox{}, pilot, 0);
+  Builder{*this, may_split}.split(1, UnitBox{}, pilot, 0);
 }
 
 std::array<UnitBox, 2> Partition::halves(const UnitBox& box, const Split& s) {
   std::array<UnitBox, 2> half{box, box};
-  half[0].hi[s.axis] = half[1].lo[s.axis] = std::min(s.at, box.hi[s.axis]);
+  half[0].hi[s.axis] = half[1].lo[s.axis] = std::min(s.position, box.hi[s.axis]);
   return half;
 }
 
@@ -93,7 +93,7 @@ std::vector<std::uint32_t> Partition::find_cells(const std::vector<Coordinates>&
   for (int level = 0; level < depth_; ++level)
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Split& s = splits_[cells[i]];
-      cells[i] = 2 * cells[i] + (points[i][s.axis] >= s.at);
+      cells[i] = 2 * cells[i] + (points[i][s.axis] >= s.position);
     }
   for (std::uint32_t& c : cells) c -= static_cast<std::uint32_t>(size());
   return cells;

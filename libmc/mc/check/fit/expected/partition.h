@@ -23,11 +23,11 @@ class Partition {
   using Coordinates = std::array<double, 3>;
 
   /// Whether a box may be cut at a place on an axis, where `beside` is a point of the pilot in it.
-  using MayCut = std::function<bool(const UnitBox& box, std::size_t axis, double place, const Coordinates& beside)>;
+  using MaySplit = std::function<bool(const UnitBox& box, std::size_t axis, double place, const Coordinates& beside)>;
 
   /// The pilot must be independent of the samples that are counted later. A box that may not be cut along any axis is
-  /// all in the lower of its halves; the upper one is empty and begins where it ends. may_cut : any place if empty
-  Partition(std::vector<Coordinates> pilot, int dim, int depth, const MayCut& may_cut = {});
+  /// all in the lower of its halves; the upper one is empty and begins where it ends. may_split : any place if empty
+  Partition(std::vector<Coordinates> pilot, int dim, int depth, const MaySplit& may_split = {});
 
   int size() const { return 1 << depth_; }
   int depth() const { return depth_; }
@@ -40,7 +40,7 @@ class Partition {
     int node = 1;
     for (int level = 0; level < depth_; ++level) {
       const Split& s = splits_[static_cast<std::size_t>(node)];
-      node = 2 * node + (v[s.axis] >= s.at);
+      node = 2 * node + (v[s.axis] >= s.position);
     }
     return node - size();
   }
@@ -48,10 +48,10 @@ class Partition {
   /// Where an inner node is cut: node i of 1 .. size() - 1 in heap order, root 1, children 2 i and 2 i + 1; the cells
   /// follow as size() + cell.
   struct Split {
-    double at; ///< `never` where all of the box is in the lower half
+    double position; ///< `no_split` where all of the box is in the lower half
     std::uint32_t axis;
   };
-  static constexpr double never = 2;
+  static constexpr double no_split = 2;
   const Split& split(int node) const { return splits_[static_cast<std::size_t>(node)]; }
   /// The two parts of a box that is split so.
   static std::array<UnitBox, 2> halves(const UnitBox& box, const Split& split);

@@ -21,7 +21,7 @@ constexpr double least_expected = 8;
 // How much larger errors must be to be found where they do not keep to the cells: their patches, or their region, hold
 // the share of four cells and lie across the borders of cells. Cells that lie at random over patches w cells wide show
 // 1 - 1 / (3 w) of the square of a random sign, along each axis. The margins are for patches that are turned and longer
-// than wide: `bench_mc_check_truth promise 118 100001 1e6` and `959 1 1e5` find all errors of the stated size, half of
+// than wide: `bench_mc_check_error_rates promise 118 100001 1e6` and `959 1 1e5` find all errors of the stated size, half of
 // them as small as that.
 double across_cells(int dim) {
   const double axes = std::max(dim, 1), w = std::pow(4.0, 1 / axes);

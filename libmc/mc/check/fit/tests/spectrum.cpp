@@ -1,6 +1,6 @@
 #include <mc/check/fit/tests/spectrum.h>
 
-#include <mc/check/fit/tests/slabs.h>
+#include <mc/check/fit/tests/axis_intervals.h>
 #include <mc/core/types.h>
 #include <mc/stats/chi_square.h>
 #include <mc/stats/multiple_testing.h>
@@ -79,7 +79,7 @@ int most_bits(int dim) {
 
 } // namespace
 
-FineGrid::FineGrid(int dim, double samples, double step) : dim_(dim) {
+SpectrumTest::SpectrumTest(int dim, double samples, double step) : dim_(dim) {
   int bits = std::clamp(static_cast<int>(std::log2(8 * std::max(samples, 1.0)) / dim), 2, most_bits(dim));
   // A lattice of steps is a wave whose amplitude in bins of width w is step / (pi w): a third of what samples show.
   while (bits > 2 && std::ldexp(step, bits) * std::sqrt(samples) > 1) --bits;
@@ -88,7 +88,7 @@ FineGrid::FineGrid(int dim, double samples, double step) : dim_(dim) {
   expected_.resize(observed_.size());
 }
 
-std::vector<Check> FineGrid::test(const WeightedCounts& all, double share, double alpha,
+std::vector<Check> SpectrumTest::test(const WeightedCounts& all, double share, double alpha,
                                   const char* coordinates) const {
   double observed = 0, expected = 0, collisions = 0;
   for (const float o : observed_) observed += static_cast<double>(o);
@@ -157,7 +157,7 @@ double mean_step(const Subject& s, const Pilot& pilot, double most) {
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(s.dim); ++axis) {
     double sum = 0, points = 0;
     for (std::size_t i = 0; i < pilot.points.size(); i += every) {
-      sum += std::min(rounding(s, pilot.points[i], axis), most);
+      sum += std::min(rounding_step(s, pilot.points[i], axis), most);
       points += 1;
     }
     largest = std::max(largest, sum / points);

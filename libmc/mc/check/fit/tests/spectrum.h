@@ -17,9 +17,9 @@ namespace mc {
 /// 64^3 on three, fewer for few samples and for coordinates that are rounded: a lattice of steps as wide as a bin is no
 /// fault.
 ///   step : mean width of the steps to which coordinates are rounded
-class FineGrid {
+class SpectrumTest {
  public:
-  FineGrid(int dim, double samples, double step);
+  SpectrumTest(int dim, double samples, double step);
 
   void add_sample(const Subject::Coordinates& v, double weight) { observed_[bin(v)] += static_cast<float>(weight); }
   /// A random point that stands for a share of the expected samples.

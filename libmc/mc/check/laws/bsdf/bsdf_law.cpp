@@ -1,19 +1,19 @@
 #include <mc/check/laws/bsdf/bsdf_law.h>
 
-#include <mc/check/subject/make_sampler.h>
+#include <mc/check/subject/make_distribution.h>
 #include <mc/domain/sphere.h>
 
 namespace mc {
 
-double disagreement(double a, double b) {
+double relative_difference(double a, double b) {
   if (a == b) return 0;
   return b != 0 ? std::abs(a / b - 1) : HUGE_VAL;
 }
 
-double disagreement(const Channels& a, const Channels& b) {
+double relative_difference(const Channels& a, const Channels& b) {
   double worst = 0;
   for (int c = 0; c < std::max(a.count, b.count); ++c) {
-    const double off = disagreement(a[c], b[c]);
+    const double off = relative_difference(a[c], b[c]);
     worst = off <= worst ? worst : off;
   }
   return worst;
@@ -59,14 +59,14 @@ using Direction = AnyBsdf::Direction;
 int worst_channel(const Channels& a, const Channels& b) {
   int worst = 0;
   for (int c = 1; c < std::max(a.count, b.count); ++c)
-    if (disagreement(a[c], b[c]) > disagreement(a[worst], b[worst])) worst = c;
+    if (relative_difference(a[c], b[c]) > relative_difference(a[worst], b[worst])) worst = c;
   return worst;
 }
 
 // The largest difference of a sample's own f, weight and pdf from eval and pdf, and the two values.
 struct SampleDifference {
   double off = 0;
-  AnySampler::Stated stated;
+  AnyDistribution::Stated stated;
 
   void add(double difference, const char* name, double value, double expected) {
     if (difference > off) stated = {name, value, expected, ""};
@@ -77,25 +77,25 @@ struct SampleDifference {
 const char* cosine_hint(const Channels& stated, const Channels& f, const AnyBsdf::Direction& wi,
                         const BsdfOptions& options) {
   const Channels other = options.cosine ? f : scaled(f, std::abs(wi.z()));
-  if (!(disagreement(stated, other) <= options.tolerance)) return "";
+  if (!(relative_difference(stated, other) <= options.tolerance)) return "";
   return options.cosine ? "weight = f / pdf holds without the cosine, so eval seems to include it: set .cosine = false"
                         : "weight = f |cos wi| / pdf holds, so eval seems to leave the cosine out: set .cosine = true";
 }
 
-SampleDifference sample_disagreement(const AnyBsdf& bsdf, const Direction& wo, const AnyBsdf::Sample& d, double density,
+SampleDifference sample_difference(const AnyBsdf& bsdf, const Direction& wo, const AnyBsdf::Sample& d, double density,
                                      const BsdfOptions& options) {
-  SampleDifference result{disagreement(d.pdf, density), {"pdf", d.pdf, density, ""}};
+  SampleDifference result{relative_difference(d.pdf, density), {"pdf", d.pdf, density, ""}};
   if (d.f.count == 0 && d.weight.count == 0) return result;
   const Channels f = bsdf.eval(wo, d.wi);
   if (d.f.count > 0) {
     const int c = worst_channel(d.f, f);
-    result.add(disagreement(d.f, f), "f", d.f[c], f[c]);
+    result.add(relative_difference(d.f, f), "f", d.f[c], f[c]);
   }
   if (d.weight.count == 0) return result;
   const Channels given = scaled(d.weight, density), wanted = scaled(f, cosine_factor(d.wi, options));
   const int c = worst_channel(given, wanted);
   const double before = result.off;
-  result.add(disagreement(given, wanted), "weight", d.weight[c], wanted[c] / density);
+  result.add(relative_difference(given, wanted), "weight", d.weight[c], wanted[c] / density);
   if (result.off > before) result.stated.hint = cosine_hint(given, f, d.wi, options);
   return result;
 }
@@ -117,9 +117,9 @@ Lobes find_lobes(const AnyBsdf& bsdf, const Direction& wo, const BsdfOptions& op
   return lobes;
 }
 
-AnySampler::Drawn drawn_of(const AnyBsdf& bsdf, const AnyDomain& sphere, const Direction& wo, const AnyBsdf::Sample& d,
+AnyDistribution::Sample make_sample(const AnyBsdf& bsdf, const AnyDomain& sphere, const Direction& wo, const AnyBsdf::Sample& d,
                            const std::array<double, 2>& lobes, const BsdfOptions& options) {
-  AnySampler::Drawn drawn;
+  AnyDistribution::Sample drawn;
   drawn.x = {d.wi.x(), d.wi.y(), d.wi.z()};
   const auto scattered = throughput(d, options);
   const bool finite = std::all_of(scattered.value.begin(), scattered.value.begin() + scattered.count,
@@ -136,13 +136,13 @@ AnySampler::Drawn drawn_of(const AnyBsdf& bsdf, const AnyDomain& sphere, const D
   }
   const double density = bsdf.pdf(wo, d.wi);
   drawn.pdf = d.pdf > 0 && std::isfinite(d.pdf) ? density : 0.0;
-  const SampleDifference difference = sample_disagreement(bsdf, wo, d, density, options);
+  const SampleDifference difference = sample_difference(bsdf, wo, d, density, options);
   drawn.weight = 1 + difference.off;
   drawn.stated = difference.stated;
   return drawn;
 }
 
-std::string describe_sample_at(const AnyBsdf& bsdf, const Direction& wo, const AnySampler::Uniforms& u) {
+std::string describe_sample_at(const AnyBsdf& bsdf, const Direction& wo, const AnyDistribution::Uniforms& u) {
   const auto d = bsdf.sample(wo, u[0], {u[1], u[2]});
   std::string text = "wo = " + describe_direction(bsdf, wo);
   if (!d) return text + ", the sample is absorbed";
@@ -156,10 +156,10 @@ std::string describe_sample_at(const AnyBsdf& bsdf, const Direction& wo, const A
 
 } // namespace
 
-AnySampler seen_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options) {
+AnyDistribution bsdf_distribution(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options) {
   const Lobes lobes = find_lobes(bsdf, wo, options);
-  AnySampler s = bsdf.is_float ? detail::sampler_on(options.name, Sphere<float>{})
-                               : detail::sampler_on(options.name, Sphere<double>{});
+  AnyDistribution s = bsdf.is_float ? detail::distribution_on(options.name, Sphere<float>{})
+                               : detail::distribution_on(options.name, Sphere<double>{});
   if (!lobes.continuous) s.domain.dim = 0;
   s.may_fail = true;
   s.open_interval = options.open_interval;
@@ -167,13 +167,13 @@ AnySampler seen_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const Bs
   s.mass_tolerance = options.mass_tolerance;
   if (lobes.probability[0] > 0 || lobes.probability[1] > 0) s.atoms = {lobes.probability[0], lobes.probability[1]};
   s.uniforms = 3;
-  s.sample = [=, sphere = s.domain](const AnySampler::Uniforms& u) -> std::optional<AnySampler::Drawn> {
+  s.sample = [=, sphere = s.domain](const AnyDistribution::Uniforms& u) -> std::optional<AnyDistribution::Sample> {
     const auto d = bsdf.sample(wo, u[0], {u[1], u[2]});
     if (!d) return {};
-    return drawn_of(bsdf, sphere, wo, *d, lobes.probability, options);
+    return make_sample(bsdf, sphere, wo, *d, lobes.probability, options);
   };
-  s.pdf = [=](const Numbers& x) { return bsdf.pdf(wo, Direction(x[0], x[1], x[2])); };
-  s.describe = [=](const AnySampler::Uniforms& u) { return describe_sample_at(bsdf, wo, u); };
+  s.pdf = [=](const PointArray& x) { return bsdf.pdf(wo, Direction(x[0], x[1], x[2])); };
+  s.describe = [=](const AnyDistribution::Uniforms& u) { return describe_sample_at(bsdf, wo, u); };
   return s;
 }
 

@@ -4,7 +4,7 @@
 #include <mc/check/laws/worst_error.h>
 #include <mc/check/report/report.h>
 #include <mc/check/subject/any_bsdf.h>
-#include <mc/check/subject/any_sampler.h>
+#include <mc/check/subject/any_distribution.h>
 
 #include <fmt/format.h>
 
@@ -16,9 +16,9 @@ namespace mc {
 /// f, both ways where that means something, and the density of one pair of directions.
 struct DirectionPair {
   AnyBsdf::Direction wi;
-  bool across = false;    ///< wo and wi lie on two sides of the surface
-  bool both_ways = false; ///< back is f(wi, wo)
-  Channels there, back;
+  bool transmitted = false;    ///< wo and wi lie on two sides of the surface
+  bool has_reverse = false; ///< f_reverse is f(wi, wo)
+  Channels f, f_reverse;
   double pdf = 0;
 };
 
@@ -28,18 +28,18 @@ struct BsdfView {
   AnyBsdf::Direction wo;
   const BsdfOptions& options;
   std::vector<DirectionPair> pairs; ///< at sampled wi and at uniform ones
-  bool through = false;             ///< light crosses the surface, so directions on its other side mean something
+  bool transmissive = false;             ///< light crosses the surface, so directions on its other side mean something
 };
 
 struct BsdfFindings {
   std::vector<Check> checks;
-  std::vector<Figure> figures;
+  std::vector<ReportedValue> figures;
 };
 using BsdfLaw = BsdfFindings(const BsdfView& view);
 
 /// The largest |a / b - 1| over the channels, 0 where both are 0.
-double disagreement(double a, double b);
-double disagreement(const Channels& a, const Channels& b);
+double relative_difference(double a, double b);
+double relative_difference(const Channels& a, const Channels& b);
 Channels scaled(Channels f, double factor);
 
 /// |cos wi| where eval leaves it out.
@@ -57,6 +57,6 @@ std::string describe_direction(const AnyBsdf& bsdf, const AnyBsdf::Direction& w)
 /// outcomes: 0 reflection, 1 transmission.
 ///   weight : 1 where the f, weight and pdf of a sample agree with eval and pdf, or a delta lobe repeats its
 ///            probability
-AnySampler seen_from(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options);
+AnyDistribution bsdf_distribution(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options);
 
 } // namespace mc

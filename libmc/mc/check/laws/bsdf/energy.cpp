@@ -10,9 +10,9 @@ namespace {
 
 // The white furnace: the share of light from everywhere that leaves along wo, the mean of f |cos| / pdf, per channel.
 // Those that the BSDF does not have repeat its last one.
-std::array<Moments, Channels::most> white_furnace(const BsdfView& view, const AnyBsdf::Direction& wo, int n,
+std::array<Moments, Channels::max_count> white_furnace(const BsdfView& view, const AnyBsdf::Direction& wo, int n,
                                                   std::uint64_t seed) {
-  std::array<Moments, Channels::most> albedo;
+  std::array<Moments, Channels::max_count> albedo;
   Pcg random(seed, 22);
   for (int i = 0; i < n; ++i) {
     const auto drawn = view.bsdf.sample_next(wo, random);
@@ -22,16 +22,16 @@ std::array<Moments, Channels::most> white_furnace(const BsdfView& view, const An
       if (drawn->transmission)
         share = scaled(share, squared_index(drawn->wi, view.options) / squared_index(wo, view.options));
     }
-    for (int c = 0; c < Channels::most; ++c) albedo[static_cast<std::size_t>(c)].add(share[c]);
+    for (int c = 0; c < Channels::max_count; ++c) albedo[static_cast<std::size_t>(c)].add(share[c]);
   }
   return albedo;
 }
 
 // Judges the furnace at one wo; the figure is the greatest channel's.
-Figure judge(const BsdfView& view, const AnyBsdf::Direction& wo, int n, std::uint64_t seed, WorstError& energy) {
+ReportedValue judge(const BsdfView& view, const AnyBsdf::Direction& wo, int n, std::uint64_t seed, WorstError& energy) {
   const BsdfOptions& options = view.options;
   const std::string where = view.bsdf.format(wo);
-  Figure greatest{"white furnace", -1, 0, where};
+  ReportedValue greatest{"white furnace", -1, 0, where};
   for (const Moments& m : white_furnace(view, wo, n, seed)) {
     const double slack = 5 * m.std_error() + options.tolerance, mean = m.non_finite_count() ? HUGE_VAL : m.mean();
     if (mean > greatest.value) {
@@ -52,23 +52,23 @@ Figure judge(const BsdfView& view, const AnyBsdf::Direction& wo, int n, std::uin
 BsdfFindings bsdf_energy_law(const BsdfView& view) {
   WorstError energy("energy <= 1", 0, Fault::physics);
   const int n = static_cast<int>(std::min<std::uint64_t>(view.options.samples, 100'000));
-  const Figure here = judge(view, view.wo, n, view.options.seed, energy);
+  const ReportedValue here = judge(view, view.wo, n, view.options.seed, energy);
   double most = -1;
   AnyBsdf::Direction brightest = view.wo;
   for (int k = 0; k < 32; ++k) {
     constexpr std::array<double, 8> cosines{1, 0.9, 0.7, 0.5, 0.3, 0.1, 0.03, 0.003};
     const bool other_side = k % 2 == 1;
-    if (other_side && !view.through) continue;
+    if (other_side && !view.transmissive) continue;
     const double side = (view.wo.z() < 0) == other_side ? 1 : -1;
     const double z = side * cosines[static_cast<std::size_t>(k / 2 % 8)], phi = k < 16 ? 0.4 : 2.3;
     const AnyBsdf::Direction w = spherical_direction<double>(std::sqrt(1 - z * z), z, phi);
-    const Figure f = judge(view, w, 1000, view.options.seed + static_cast<std::uint64_t>(k) + 1, energy);
+    const ReportedValue f = judge(view, w, 1000, view.options.seed + static_cast<std::uint64_t>(k) + 1, energy);
     if (!(f.value > most)) continue;
     most = f.value;
     brightest = w;
   }
   // A thousand samples miss an albedo of 1.27 where they seldom draw the lobe that gains.
-  Figure again = judge(view, brightest, n, view.options.seed + 33, energy);
+  ReportedValue again = judge(view, brightest, n, view.options.seed + 33, energy);
   again.name = "white furnace, greatest over wo";
   return {{energy.check()}, {here, again}};
 }

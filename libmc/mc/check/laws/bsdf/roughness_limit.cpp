@@ -5,20 +5,20 @@
 namespace mc {
 namespace {
 
-double excess(const Moments& m, double allowed, const LimitOptions& options) {
+double excess(const Moments& m, double allowed, const RoughnessLimitOptions& options) {
   return m.non_finite_count() ? HUGE_VAL : std::max(std::abs(m.mean()) - allowed - options.noise - 5 * m.std_error(), 0.0);
 }
 
 // Of one draw: weight and weight wi of each channel, those that the BSDF does not have as its last one; absorption.
-constexpr std::size_t per_channel = 4, feature_count = per_channel * Channels::most + 1;
+constexpr std::size_t per_channel = 4, feature_count = per_channel * Channels::max_count + 1;
 using Features = std::array<double, feature_count>;
 
-Features features(const std::optional<AnyBsdf::Sample>& drawn, const LimitOptions& options) {
+Features features(const std::optional<AnyBsdf::Sample>& drawn, const RoughnessLimitOptions& options) {
   Features all{};
   if (!drawn) all.back() = 1;
   if (!drawn) return all;
   const Channels weight = throughput(*drawn, options.bsdf);
-  for (int c = 0; c < Channels::most; ++c) {
+  for (int c = 0; c < Channels::max_count; ++c) {
     double* at = &all[per_channel * static_cast<std::size_t>(c)];
     *at = weight[c];
     for (int i = 0; i < 3; ++i) *++at = weight[c] * drawn->wi[i];
@@ -33,7 +33,7 @@ std::string name_of(std::size_t feature) {
 }
 
 void compare_samples(const AnyBsdf& rough, const AnyBsdf& limit, double r, const AnyBsdf::Direction& wo,
-                     const LimitOptions& options, WorstError& sample) {
+                     const RoughnessLimitOptions& options, WorstError& sample) {
   std::array<Moments, feature_count> difference;
   Pcg random(options.bsdf.seed, 25);
   for (int i = 0; i < options.samples; ++i) {
@@ -50,14 +50,14 @@ void compare_samples(const AnyBsdf& rough, const AnyBsdf& limit, double r, const
 }
 
 void compare_evals(const AnyBsdf& here, const AnyBsdf& there, double r, double d, const AnyBsdf::Direction& wo,
-                   const LimitOptions& options, WorstError& eval) {
-  std::array<Moments, Channels::most> changes;
+                   const RoughnessLimitOptions& options, WorstError& eval) {
+  std::array<Moments, Channels::max_count> changes;
   Pcg random(options.bsdf.seed, 26);
   for (int i = 0; i < options.samples / 4; ++i) {
     const auto drawn = here.sample_next(wo, random);
     if (!drawn || drawn->delta || !(drawn->pdf > 0)) continue;
     const Channels f = here.eval(wo, drawn->wi), g = there.eval(wo, drawn->wi);
-    for (int c = 0; c < Channels::most; ++c)
+    for (int c = 0; c < Channels::max_count; ++c)
       changes[static_cast<std::size_t>(c)].add(std::abs(f[c] - g[c]) *
                                                (cosine_factor(drawn->wi, options.bsdf) / drawn->pdf));
   }
@@ -71,7 +71,7 @@ void compare_evals(const AnyBsdf& here, const AnyBsdf& there, double r, double d
 } // namespace
 
 std::vector<Check> check_limit(const std::function<AnyBsdf(double r)>& family, const AnyBsdf& limit,
-                               const AnyBsdf::Direction& wo, const LimitOptions& options) {
+                               const AnyBsdf::Direction& wo, const RoughnessLimitOptions& options) {
   WorstError sample("sample tends to its smooth limit", 0, Fault::physics);
   WorstError eval("eval is continuous in roughness", 0, Fault::physics);
   for (int k = 2; k <= 16; k += 2) {

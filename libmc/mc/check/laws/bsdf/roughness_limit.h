@@ -5,7 +5,7 @@
 
 namespace mc {
 
-struct LimitOptions {
+struct RoughnessLimitOptions {
   BsdfOptions bsdf;
   double slope = 4; ///< what a roughness of r may change: means by slope r, f by slope times the relative change of r
   double noise = 1e-4; ///< rounding error of the means, conceded to them
@@ -21,13 +21,13 @@ struct LimitOptions {
 ///            f| |cos| / pdf over samples of r is at most slope |d| + noise + five standard errors. With mass 1 at
 ///            every r (check_bsdf) eval then tends to the limit's lobe, since its samples do
 std::vector<Check> check_limit(const std::function<AnyBsdf(double r)>& family, const AnyBsdf& limit,
-                               const AnyBsdf::Direction& wo, const LimitOptions& options = {});
+                               const AnyBsdf::Direction& wo, const RoughnessLimitOptions& options = {});
 
 /// The same for BSDFs over scalar S.
 
 template <Real S, class Family, SamplesDirections<S> Limit>
 std::vector<Check> check_roughness_limit(const Family& family, const Limit& limit, const Vec3<S>& wo,
-                                         const LimitOptions& options = {}) {
+                                         const RoughnessLimitOptions& options = {}) {
   return check_limit([&](double r) { return any_bsdf<S>(family(static_cast<S>(r))); }, any_bsdf<S>(limit),
                      AnyBsdf::Direction(wo.template cast<double>()), options);
 }

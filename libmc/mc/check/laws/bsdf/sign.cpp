@@ -7,7 +7,7 @@ namespace mc {
 BsdfFindings bsdf_sign_law(const BsdfView& view) {
   WorstError sign("f finite and >= 0", 0, Fault::physics);
   for (const DirectionPair& pair : view.pairs) {
-    const Channels& f = pair.there;
+    const Channels& f = pair.f;
     const bool sound =
         std::all_of(f.value.begin(), f.value.begin() + f.count, [](double x) { return x >= 0 && std::isfinite(x); });
     sign.note(sound ? 0 : 1, [&] {

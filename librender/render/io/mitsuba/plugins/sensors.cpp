@@ -144,13 +144,13 @@ Parameter<std::optional<double>> side() {
 GaussianFilter make_gaussian(double stddev) { return GaussianFilter(Float(stddev)); }
 SubpixelTentFilter make_subpixeltent(int n, double radius) { return SubpixelTentFilter(n, Float(radius)); }
 
-int make_sampler(int samples) {
+int make_distribution(int samples) {
   mc::require(samples >= 1, "sampleCount {} must be at least 1", samples);
   return samples;
 }
 
 Plugin<int> sampler_plugin(std::string name) {
-  return plugin<int>(std::move(name), "samples per pixel; which points they are, --sampler says", make_sampler,
+  return plugin<int>(std::move(name), "samples per pixel; which points they are, --sampler says", make_distribution,
                      integer("sampleCount", "samples per pixel, >= 1", default_spp))
       .accepting({no_effect("seed", "--seed says it"), no_effect("dimension", "our points have as many as are needed"),
                   no_effect("scramble", "our points are always randomised"),

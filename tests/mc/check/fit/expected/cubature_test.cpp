@@ -43,7 +43,7 @@ std::vector<Case> cases() {
   };
 }
 
-TEST(Cubature, ErrorIsWithinItsBound) {
+TEST(Cubature, Error_IsWithinStatedBound) {
   for (const Case& c : cases())
     for (const double goal : {1e-3, 1e-4, 1e-5}) {
       mc::CubatureGoal g;
@@ -87,7 +87,7 @@ Factor random_factor(mc::Pcg& random) {
 
 // The bound holds for 300 products of random factors: lobes, steps, kinks, singular powers, oscillations and edges with
 // a root.
-TEST(Cubature, TheBoundHoldsForRandomProducts) {
+TEST(Cubature, Error_RandomProducts_IsWithinStatedBound) {
   mc::Pcg random(77);
   for (int k = 0; k < 300; ++k) {
     const int dim = k % 10 == 0 ? 3 : 1 + k % 2;
@@ -111,7 +111,7 @@ TEST(Cubature, TheBoundHoldsForRandomProducts) {
   }
 }
 
-TEST(Cubature, BoxesAddUpToTheWhole) {
+TEST(Cubature, BoxIntegrals_AddUpToTotal) {
   std::vector<mc::UnitBox> boxes(4);
   for (std::size_t i = 0; i < 4; ++i) {
     boxes[i].lo[0] = static_cast<double>(i) / 4;
@@ -124,7 +124,7 @@ TEST(Cubature, BoxesAddUpToTheWhole) {
   EXPECT_NEAR(r.total.value, 1, 3e-7);
 }
 
-TEST(Cubature, SaysWhenItDidNotConverge) {
+TEST(Cubature, BudgetExhausted_ReportsNotConverged) {
   mc::CubatureGoal g;
   g.total_error = 1e-9;
   g.max_evaluations = 1000;
@@ -134,12 +134,12 @@ TEST(Cubature, SaysWhenItDidNotConverge) {
   EXPECT_LE(std::abs(r.total.value - mc::pi<double> / 4), r.total.error);
 }
 
-TEST(Cubature, KeepsTheFirstBadPoint) {
+TEST(Cubature, InvalidDensity_KeepsFirstPoint) {
   const auto r =
       mc::integrate_boxes([](const Point& v) { return v[0] > 0.9 ? std::nan("") : 1.0; }, 1, {mc::UnitBox{}});
-  ASSERT_TRUE(r.bad.has_value());
-  EXPECT_GT((*r.bad)[0], 0.9);
-  EXPECT_TRUE(mc::integrate_boxes([](const Point&) { return -1.0; }, 1, {mc::UnitBox{}}).bad.has_value());
+  ASSERT_TRUE(r.invalid_point.has_value());
+  EXPECT_GT((*r.invalid_point)[0], 0.9);
+  EXPECT_TRUE(mc::integrate_boxes([](const Point&) { return -1.0; }, 1, {mc::UnitBox{}}).invalid_point.has_value());
   EXPECT_THROW(mc::integrate_boxes([](const Point&) { return 1.0; }, 4, {mc::UnitBox{}}), mc::Error);
 }
 

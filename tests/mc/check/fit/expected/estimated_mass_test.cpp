@@ -17,17 +17,17 @@ mc::EstimatedMass mass_of(const mc::Subject& s, const mc::UnitBox& box, std::siz
   return mass;
 }
 
-TEST(EstimatedMass, OfABox) {
+TEST(EstimatedMass, Box_EqualsIntegral) {
   const mc::Subject s = make_subject(
       "plane", mc::Square<double>{}, [](const mc::Vec2<double>& u) { return u; },
       [](const mc::Vec2<double>& p) { return p[0] + p[1]; });
   const mc::EstimatedMass m = mass_of(s, {{0, 0, 0}, {0.5, 1, 1}}, 32, 1);
-  EXPECT_NEAR(m.value, 0.375, 5 * std::sqrt(m.safe_variance()));
+  EXPECT_NEAR(m.value, 0.375, 5 * std::sqrt(m.worst_case_variance()));
   EXPECT_LE(m.variance, 1e-7);
 }
 
 // Half of each pair of mirrored points is as far above the middle as the other is below.
-TEST(EstimatedMass, LinearDensitiesAreExact) {
+TEST(EstimatedMass, LinearDensity_IsExact) {
   const mc::Subject s = make_subject(
       "ramp", mc::Interval<double>(0, 1), [](Pcg& r) { return std::sqrt(r.uniform<double>()); },
       [](double x) { return 2 * x; });
@@ -39,7 +39,7 @@ TEST(EstimatedMass, LinearDensitiesAreExact) {
 
 // A jump in one of 50 boxes: 2000 runs, each within 5 of the standard deviations that allow for what one box may hide,
 // and their mean right to 5 of its own.
-TEST(EstimatedMass, JumpsStayWithinTheStatedError) {
+TEST(EstimatedMass, DensityWithJump_StaysWithinStatedError) {
   double sum = 0, squares = 0;
   const int runs = 2000;
   for (int run = 0; run < runs; ++run) {
@@ -49,14 +49,14 @@ TEST(EstimatedMass, JumpsStayWithinTheStatedError) {
         [=](double x) { return x < at ? 1.0 : 3.0; });
     const mc::EstimatedMass m = mass_of(s, {{0, 0, 0}, {1, 1, 1}}, 50, static_cast<std::uint64_t>(run));
     const double off = m.value - (3 - 2 * at);
-    EXPECT_LE(std::abs(off), 5 * std::sqrt(m.safe_variance())) << at;
+    EXPECT_LE(std::abs(off), 5 * std::sqrt(m.worst_case_variance())) << at;
     sum += off;
     squares += off * off;
   }
   EXPECT_LE(std::abs(sum), 5 * std::sqrt(squares));
 }
 
-TEST(LinearFit, SeesAJumpBesideASlope) {
+TEST(LinearFit, JumpOnSlope_HasLargeResidual) {
   Pcg random(3);
   mc::LinearFit fit(2);
   const auto add = [&](double jump) {
@@ -79,7 +79,7 @@ TEST(LinearFit, SeesAJumpBesideASlope) {
 }
 
 // Sixteen times the mean square of what a jump at a random place hides from n random points.
-TEST(EstimatedMass, WhatJumpsHideIsConcededSixteenfold) {
+TEST(EstimatedMass, HiddenJumpVariance_IsScaledBySixteen) {
   for (const double n : {4.0, 12.0, 40.0}) {
     double mean = 0;
     constexpr int steps = 100'000;
@@ -87,9 +87,9 @@ TEST(EstimatedMass, WhatJumpsHideIsConcededSixteenfold) {
       const double f = (i + 0.5) / steps;
       mean += f * f * std::pow(1 - f, n) / steps;
     }
-    EXPECT_NEAR(mc::hidden_by_jump(n), 16 * mean, 1e-8 * mean + 1e-12) << n;
+    EXPECT_NEAR(mc::hidden_jump_variance(n), 16 * mean, 1e-8 * mean + 1e-12) << n;
   }
-  EXPECT_EQ(mc::hidden_by_jump(0), 1);
+  EXPECT_EQ(mc::hidden_jump_variance(0), 1);
 }
 
 } // namespace

@@ -23,34 +23,34 @@ mc::ClaimedMass claimed(const mc::Subject& s, const mc::CubatureResult& c, const
   return claimed_mass(s, c, points, points, samples);
 }
 
-mc::SampleWeights plain(double n) { return {.draws = n, .points = n, .sum = n, .squares = n, .seen = n}; }
+mc::SampleWeights plain(double n) { return {.draws = n, .points = n, .sum = n, .squares = n, .total_points = n}; }
 
-TEST(Mass, CubatureIsBelievedWhereTheReferenceAgrees) {
+TEST(Mass, CubatureAgreesWithReference_IsUsed) {
   const mc::Subject s = flat(1);
   const mc::Pilot pilot = draw_pilot(s, 1, 100'000);
   const mc::CubatureResult c = integrate_density(s, pilot, {s, pilot, 6}, 1e5, 100'000);
   EXPECT_NEAR(c.total.value, 1, 1e-12);
   const mc::ClaimedMass m = claimed(s, c, {.value = 1, .variance = 1e-12, .variance_square = 1e-30}, plain(1e5));
-  EXPECT_TRUE(m.integrated);
+  EXPECT_TRUE(m.by_cubature);
   EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::pass);
 }
 
-TEST(Mass, AWrongConstantFails) {
+TEST(Mass, WrongNormalization_Fails) {
   const mc::Subject s = flat(1.001);
   const mc::Pilot pilot = draw_pilot(s, 1, 100'000);
   const mc::CubatureResult c = integrate_density(s, pilot, {s, pilot, 6}, 1e5, 100'000);
   const mc::ClaimedMass m = claimed(s, c, {.value = 1.001, .variance = 1e-12, .variance_square = 1e-30}, plain(1e5));
-  EXPECT_TRUE(m.integrated);
+  EXPECT_TRUE(m.by_cubature);
   EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::fail);
 }
 
 // What the cubature missed the reference has seen: then the samples decide.
-TEST(Mass, CubatureThatIsRefutedIsNotBelieved) {
+TEST(Mass, CubatureContradictsSamples_IsNotUsed) {
   const mc::Subject s = flat(1);
   mc::CubatureResult c;
   c.total = {0.999, 1e-15};
   const mc::ClaimedMass m = claimed(s, c, {.value = 1, .variance = 1e-10, .variance_square = 1e-23}, plain(1e5));
-  EXPECT_FALSE(m.integrated);
+  EXPECT_FALSE(m.by_cubature);
   EXPECT_EQ(m.value, 1);
   EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::pass);
   const mc::ClaimedMass off = claimed(s, c, {.value = 1.001, .variance = 1e-10, .variance_square = 1e-23}, plain(1e5));
@@ -58,20 +58,20 @@ TEST(Mass, CubatureThatIsRefutedIsNotBelieved) {
 }
 
 // A tenth of the draws clipped to almost nothing: what they stand for is added to the mass.
-TEST(Mass, WhatIsClippedIsEstimatedByTheSamples) {
+TEST(Mass, ClippedDensity_IsEstimatedFromSamples) {
   const mc::Subject s = flat(1);
   mc::CubatureResult c;
   c.total = {0.9, 1e-15};
-  mc::SampleWeights w{.draws = 1e5, .points = 1e5, .sum = 9e4, .squares = 9e4, .seen = 1e5};
+  mc::SampleWeights w{.draws = 1e5, .points = 1e5, .sum = 9e4, .squares = 9e4, .total_points = 1e5};
   const mc::ClaimedMass m = claimed(s, c, {.value = 0.9, .variance = 1e-10, .variance_square = 1e-23}, w);
   EXPECT_NEAR(m.estimated, 1, 1e-12);
-  EXPECT_FALSE(m.integrated);
+  EXPECT_FALSE(m.by_cubature);
   EXPECT_EQ(test_mass(s, m, 0.01).verdict, Verdict::pass);
 }
 
 // Cubature that is off by 1 to 8 standard deviations of the estimate, and says that it is exact: a right density fails
 // at most once in 1000 however far off it is. 4000 runs each: at most 13 with probability 0.999.
-TEST(Mass, CubatureThatIsWronglySureFailsNoRightDensity) {
+TEST(Mass, OverconfidentCubature_CorrectDensityPasses) {
   const mc::Subject s = flat(1);
   const double sigma = 1e-3;
   Pcg random(1);
@@ -89,7 +89,7 @@ TEST(Mass, CubatureThatIsWronglySureFailsNoRightDensity) {
   }
 }
 
-TEST(Mass, OutcomesAddUpExactly) {
+TEST(Mass, DiscreteOutcomes_AddUpExactly) {
   mc::Subject s;
   s.atoms = {0.25, 0.75};
   const mc::ClaimedMass m = claimed(s, {}, {}, plain(1e5));
@@ -100,23 +100,23 @@ TEST(Mass, OutcomesAddUpExactly) {
 }
 
 // Where weights of the samples say that the mass is off and random points say that it is 1, the samples are wrong.
-TEST(Mass, SamplesThatMissTheDensityAreAFaultOfShape) {
+TEST(Mass, SamplesMissDensity_IsFaultOfShape) {
   mc::Subject s;
   s.dim = 2;
   mc::ClaimedMass m;
-  m.integrated = false;
+  m.by_cubature = false;
   m.value = 0.97;
   m.estimated_error = 1e-3;
   m.z = 30;
-  m.at_points = 1.02;
-  m.at_points_error = 0.01;
+  m.from_points = 1.02;
+  m.from_points_error = 0.01;
   const mc::Check shape = test_mass(s, m, 0.01);
   EXPECT_EQ(shape.verdict, Verdict::fail);
   EXPECT_EQ(shape.fault, mc::Fault::shape);
   EXPECT_NE(shape.detail.find("from random points it integrates to 1.02 +- 0.01"), std::string::npos) << shape.detail;
-  m.at_points = 0.95;
+  m.from_points = 0.95;
   EXPECT_EQ(test_mass(s, m, 0.01).fault, mc::Fault::mass);
-  m.at_points_error = 0.1;
+  m.from_points_error = 0.1;
   EXPECT_EQ(test_mass(s, m, 0.01).fault, mc::Fault::mass) << "random points do not know either";
 }
 

@@ -27,7 +27,7 @@ TEST(ShortestBinaryFraction, IsTheShortest) {
   EXPECT_EQ(mc::shortest_binary_fraction(0, 1e-300), std::ldexp(1.0, std::ilogb(1e-300)));
 }
 
-TEST(Partition, CellsTileTheCubeAndHoldEqualShares) {
+TEST(Partition, CellsTileCubeWithEqualShares) {
   for (int dim = 1; dim <= 3; ++dim)
     for (const double power : {1.0, 20.0}) {
       const mc::Partition partition(draw(dim, 65536, 1, power), dim, 9);
@@ -54,7 +54,7 @@ TEST(Partition, CellsTileTheCubeAndHoldEqualShares) {
     }
 }
 
-TEST(Partition, SplitsAnAtomOff) {
+TEST(Partition, AtomInPilot_GetsOwnCell) {
   std::vector<Point> pilot = draw(1, 1000, 3, 1);
   for (int i = 0; i < 1000; ++i) pilot.push_back({0.3, 0, 0});
   const mc::Partition partition(pilot, 1, 8);
@@ -62,7 +62,7 @@ TEST(Partition, SplitsAnAtomOff) {
   EXPECT_LE(b.hi[0] - b.lo[0], 1e-3);
 }
 
-TEST(Partition, SurvivesDegeneratePilots) {
+TEST(Partition, DegeneratePilots_AreAccepted) {
   EXPECT_EQ(mc::Partition({}, 2, 4).size(), 16);
   EXPECT_EQ(mc::Partition({{0.5, 0.5, 0}}, 2, 4).size(), 16);
   EXPECT_EQ(mc::Partition(std::vector<Point>(100), 3, 6).size(), 64);
@@ -71,13 +71,13 @@ TEST(Partition, SurvivesDegeneratePilots) {
 }
 
 // Where no box may be narrower than 1/20 the cells that are left tile the cube, and the others are empty.
-TEST(Partition, BoxesThatMayNotBeCutStayWhole) {
-  const auto may_cut = [](const mc::UnitBox& box, std::size_t axis, double place, const Point& beside) {
+TEST(Partition, UnsplittableBoxes_StayWhole) {
+  const auto may_split = [](const mc::UnitBox& box, std::size_t axis, double place, const Point& beside) {
     EXPECT_TRUE(beside[axis] >= box.lo[axis] && beside[axis] <= box.hi[axis]);
     return std::min(place - box.lo[axis], box.hi[axis] - place) >= 0.05;
   };
   for (int dim = 1; dim <= 3; ++dim) {
-    const mc::Partition partition(draw(dim, 65536, 5, 3), dim, 12, may_cut);
+    const mc::Partition partition(draw(dim, 65536, 5, 3), dim, 12, may_split);
     double whole = 0;
     int empty = 0;
     for (int i = 0; i < partition.size(); ++i) {

@@ -32,7 +32,7 @@ mc::Report report(const mc::CellTests& t) {
   return r;
 }
 
-TEST(CellTests, SharesNeverExceedAlpha) {
+TEST(CellTests, AlphaShares_SumToAtMostAlpha) {
   for (const int dim : {0, 1, 2, 3}) {
     auto cells = uniform_cells(64);
     for (mc::Cell& c : cells) c.rank_lo[1] = c.rank_lo[2] = 0.25;
@@ -45,7 +45,7 @@ TEST(CellTests, SharesNeverExceedAlpha) {
 
 // 1000 runs at 10 %, of which 91 % is spent; KS on cells is conservative. Binomial(1000, 0.1) lies below 140 with
 // 0.9999.
-TEST(CellTests, RejectsAtMostAtTheRateOfAlpha) {
+TEST(CellTests, CorrectCounts_RejectedAtMostAtAlpha) {
   int rejected = 0;
   for (int run = 0; run < 1000; ++run) {
     auto cells = uniform_cells(128);
@@ -56,7 +56,7 @@ TEST(CellTests, RejectsAtMostAtTheRateOfAlpha) {
   EXPECT_GE(rejected, 30);
 }
 
-TEST(CellTests, FindsExponentsSpikesAndSteps) {
+TEST(CellTests, WrongExponentsSpikesAndSteps_Fail) {
   auto cells = uniform_cells(512);
   fill(cells, 3, 100000, 1.05);
   EXPECT_EQ(report(mc::test_cells(cells, 1, 0.01)).verdict(), mc::Verdict::fail) << "exponent";
@@ -73,7 +73,7 @@ TEST(CellTests, FindsExponentsSpikesAndSteps) {
 }
 
 // What it says it catches, it catches: random signs of the stated size, and a single cell off by the stated size.
-TEST(CellTests, KeepsItsPromiseOfPower) {
+TEST(CellTests, DetectableError_IsRejected) {
   auto cells = uniform_cells(256);
   fill(cells, 6, 100000);
   const mc::CellTests stated = mc::test_cells(cells, 1, 0.01);
@@ -103,7 +103,7 @@ TEST(CellTests, KeepsItsPromiseOfPower) {
 
 // Probabilities that were estimated themselves, of as large a variance as the counts: 500 runs at 10 %. Binomial(500,
 // 0.1) lies below 75 with 0.9998. What is far beyond both is still found.
-TEST(CellTests, EstimatedProbabilitiesCostPowerNotTruth) {
+TEST(CellTests, EstimatedProbabilities_KeepAlpha) {
   int rejected = 0;
   for (int run = 0; run < 500; ++run) {
     auto cells = uniform_cells(128);
@@ -123,7 +123,7 @@ TEST(CellTests, EstimatedProbabilitiesCostPowerNotTruth) {
 }
 
 // Samples that count half, and a count of twice as many: the variance follows the weights.
-TEST(CellTests, WeightsAreNoCounts) {
+TEST(CellTests, WeightedSamples_RejectedAtRateAlpha) {
   int rejected = 0;
   for (int run = 0; run < 300; ++run) {
     auto cells = uniform_cells(128);
@@ -137,7 +137,7 @@ TEST(CellTests, WeightsAreNoCounts) {
 
 // One expectation is known to three hundredths and one deviation off; the others, known exactly, are off by as much
 // once the sum is given: no run of them is at fault.
-TEST(CellTests, WhatIsNotKnownOfOneCellIsNotKnownOfTheOthers) {
+TEST(CellTests, UncertainCell_FailsNoOtherCell) {
   std::vector<mc::Cell> cells(64);
   for (mc::Cell& c : cells) {
     c.p = 0.5 / 63;

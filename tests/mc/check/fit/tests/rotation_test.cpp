@@ -28,7 +28,7 @@ mc::Subject bent_cosine(double degrees, double bend = 0.8) {
   return make_subject("bent cosine", mc::Hemisphere<double>{}, sampler, pdf);
 }
 
-TEST(FindRotation, NamesTheTurnSmallAndLarge) {
+TEST(FindRotation, SmallAndLargeRotations_AreFound) {
   for (const double degrees : {2.0, -3.0, 40.0, 90.0, -110.0, 180.0}) {
     const mc::Report r = check_subject(bent_cosine(degrees), {.samples = 200'000});
     EXPECT_EQ(r.fault(), Fault::rotation) << degrees << r.to_string();
@@ -42,14 +42,14 @@ TEST(FindRotation, NamesTheTurnSmallAndLarge) {
   }
 }
 
-TEST(FindRotation, AnotherShapeIsNoRotation) {
+TEST(FindRotation, OtherShape_IsNoRotation) {
   const mc::Report r = check_subject(bent_cosine(0, 0.6), {.samples = 200'000});
   EXPECT_EQ(r.fault(), Fault::shape) << r.to_string();
   EXPECT_TRUE(check_subject(bent_cosine(0), {.samples = 200'000}).passed());
 }
 
 // A density that no turn changes: no turn of its wrong samples explains them, however many are tried.
-TEST(FindRotation, RoundDensitiesAreNeverTurned) {
+TEST(FindRotation, RotationallySymmetricDensity_HasNoRotation) {
   for (const double exponent : {0.8, 1.1, 1.5}) {
     const auto sampler = [exponent](Pcg& r) {
       const double z = std::pow(r.uniform<double>(), 1 / (1 + exponent)),

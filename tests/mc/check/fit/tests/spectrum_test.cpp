@@ -11,7 +11,7 @@ namespace {
 using mc::Pcg;
 constexpr double pi = std::numbers::pi;
 
-TEST(FourierTransform, IsTheSum) {
+TEST(FourierTransform, EqualsDirectSum) {
   Pcg random(1);
   std::vector<std::complex<float>> x(64 * 3), before;
   for (auto& c : x)
@@ -27,7 +27,7 @@ TEST(FourierTransform, IsTheSum) {
   for (std::size_t j = 0; j < 64; ++j) EXPECT_EQ(x[3 * j], before[3 * j]);
 }
 
-TEST(FourierTransform, OfRealRowsIsThatOfComplexOnes) {
+TEST(FourierTransform, RealRows_EqualComplexTransform) {
   Pcg random(2);
   for (const std::size_t rows : {1u, 2u, 5u}) {
     std::vector<float> x(32 * rows);
@@ -44,7 +44,7 @@ TEST(FourierTransform, OfRealRowsIsThatOfComplexOnes) {
 // Samples of the unit square that `point` makes of uniform numbers, against uniform expectation.
 template <class F> bool fails(std::uint64_t seed, int n, double alpha, F point) {
   Pcg random(seed);
-  mc::FineGrid grid(2, n, 0);
+  mc::SpectrumTest grid(2, n, 0);
   grid.expect_uniform();
   mc::WeightedCounts all;
   for (int i = 0; i < n; ++i) {
@@ -57,7 +57,7 @@ template <class F> bool fails(std::uint64_t seed, int n, double alpha, F point) 
 }
 
 // 200 runs at 10 %: at most 36 with probability 0.9997. The expectation is known or made of random points itself.
-TEST(FineGrid, RejectsAtMostAtTheRateOfAlpha) {
+TEST(SpectrumTest, CorrectSamples_RejectedAtMostAtAlpha) {
   int known = 0, estimated = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     known += fails(seed, 4000, 0.1, [](Pcg& r) {
@@ -65,7 +65,7 @@ TEST(FineGrid, RejectsAtMostAtTheRateOfAlpha) {
     });
     // An uneven density, with a third of as many random points.
     Pcg random(seed, 5);
-    mc::FineGrid grid(2, 4000, 0);
+    mc::SpectrumTest grid(2, 4000, 0);
     const auto point = [&] {
       return mc::Subject::Coordinates{mc::sqr(random.uniform<double>()), random.uniform<double>(), 0};
     };
@@ -87,7 +87,7 @@ TEST(FineGrid, RejectsAtMostAtTheRateOfAlpha) {
   EXPECT_LE(estimated, 36);
 }
 
-TEST(FineGrid, WavesAndLatticesOfAnyDirectionAreFound) {
+TEST(SpectrumTest, WavesAndLatticesOfAnyDirection_Fail) {
   const auto uniform = [](Pcg& r) { return r.uniform<double>(); };
   const double a = 0.1;
   EXPECT_TRUE(fails(1, 200'000, 1e-3, [&](Pcg& r) {

@@ -21,7 +21,7 @@ std::vector<std::array<double, 3>> points(std::uint64_t seed, int n, double powe
 
 // 400 runs at 10 %: Binomial(400, 0.1) lies in 16 to 66 with probability 0.9999; dependent tests make Sidak
 // conservative.
-TEST(Uniformity, RejectsAtTheRateOfAlpha) {
+TEST(Uniformity, UniformPoints_RejectedAtRateAlpha) {
   int rejected = 0;
   for (std::uint64_t seed = 0; seed < 400; ++seed)
     rejected += mc::test_uniformity(points(seed, 2000), 2, 0, 0.1, 1)->verdict == mc::Verdict::fail;
@@ -29,7 +29,7 @@ TEST(Uniformity, RejectsAtTheRateOfAlpha) {
   EXPECT_GE(rejected, 12);
 }
 
-TEST(Uniformity, FindsWrongPowersAndCorrelations) {
+TEST(Uniformity, WrongPowersAndCorrelations_Fail) {
   const auto bent = mc::test_uniformity(points(1, 100'000, 1.02), 2, 0, 0.001, 1),
              tied = mc::test_uniformity(points(2, 100'000, 1, 0.02), 2, 0, 0.001, 1);
   EXPECT_EQ(bent->verdict, mc::Verdict::fail);
@@ -37,7 +37,7 @@ TEST(Uniformity, FindsWrongPowersAndCorrelations) {
   EXPECT_EQ(tied->verdict, mc::Verdict::fail);
 }
 
-TEST(Uniformity, ConcedesTheErrorOfTheInverse) {
+TEST(Uniformity, ErrorWithinInverseBound_Passes) {
   EXPECT_EQ(mc::test_uniformity(points(1, 10'000, 1.0001), 2, 1e-4, 0.5, 1)->verdict, mc::Verdict::pass);
   EXPECT_FALSE(mc::test_uniformity(points(1, 10'000), 2, 1e-2, 0.5, 1).has_value());
 }

@@ -11,7 +11,7 @@ mc::Channels grey(double f) {
   return c;
 }
 
-TEST(BsdfLaw, TheThroughputOfASample) {
+TEST(BsdfLaw, Throughput_IsWeightOrFCosOverPdf) {
   mc::AnyBsdf::Sample s;
   s.wi = {0, 0, 0.5};
   s.pdf = 2;
@@ -28,15 +28,15 @@ TEST(BsdfLaw, TheThroughputOfASample) {
   EXPECT_EQ(throughput(s, {})[0], 0);
 }
 
-TEST(BsdfLaw, Disagreement) {
-  EXPECT_EQ(mc::disagreement(0, 0), 0);
-  EXPECT_EQ(mc::disagreement(3, 2), 0.5);
-  EXPECT_EQ(mc::disagreement(1, 0), HUGE_VAL);
-  EXPECT_EQ(mc::disagreement(grey(3), grey(2)), 0.5);
-  EXPECT_EQ(mc::disagreement(grey(2), mc::Channels{2, {2, 1}}), 1) << "grey against a colour";
+TEST(BsdfLaw, RelativeDifference_OverChannels_IsLargest) {
+  EXPECT_EQ(mc::relative_difference(0, 0), 0);
+  EXPECT_EQ(mc::relative_difference(3, 2), 0.5);
+  EXPECT_EQ(mc::relative_difference(1, 0), HUGE_VAL);
+  EXPECT_EQ(mc::relative_difference(grey(3), grey(2)), 0.5);
+  EXPECT_EQ(mc::relative_difference(grey(2), mc::Channels{2, {2, 1}}), 1) << "grey against a colour";
 }
 
-TEST(BsdfLaw, RadianceCarriesTheSquaredIndex) {
+TEST(BsdfLaw, SquaredIndex_BelowSurface_IsEtaSquared) {
   EXPECT_EQ(mc::squared_index({0, 0, 1}, {.eta = 1.5}), 1);
   EXPECT_EQ(mc::squared_index({0, 0, -1}, {.eta = 1.5}), 2.25);
 }

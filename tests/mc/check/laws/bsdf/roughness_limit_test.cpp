@@ -67,17 +67,17 @@ std::vector<mc::Check> check(const std::function<Cone(double)>& family) {
   return mc::check_roughness_limit<double>(family, Mirror{}, V(0.6, 0, 0.8));
 }
 
-TEST(RoughnessLimit, ALobeThatNarrowsToAMirrorPasses) {
+TEST(RoughnessLimit, LobeNarrowingToMirror_Passes) {
   for (const mc::Check& c : check([](double r) { return Cone{r}; }))
     EXPECT_EQ(c.verdict, mc::Verdict::pass) << c.detail;
 }
 
-TEST(RoughnessLimit, AnotherAlbedoOrDirectionInTheLimitFails) {
+TEST(RoughnessLimit, WrongLimitAlbedoOrDirection_Fails) {
   EXPECT_THAT(check([](double r) { return Cone{r, 0.78}; })[0].detail, testing::HasSubstr("mean weight"));
   EXPECT_EQ(check([](double r) { return Cone{r, 0.8, 0.01}; })[0].verdict, mc::Verdict::fail);
 }
 
-TEST(RoughnessLimit, EveryChannelMatters) {
+TEST(RoughnessLimit, WrongSingleChannel_Fails) {
   const auto check_four = [](double last) {
     const auto family = [&](double r) { return FourWavelengths<Cone>{Cone{r}, last}; };
     return mc::check_roughness_limit<double>(family, FourWavelengths<Mirror>{Mirror{}}, V(0.6, 0, 0.8))[0];
@@ -86,7 +86,7 @@ TEST(RoughnessLimit, EveryChannelMatters) {
   EXPECT_THAT(check_four(0.97).detail, testing::HasSubstr("mean weight of channel 3"));
 }
 
-TEST(RoughnessLimit, AJumpOfEvalFails) {
+TEST(RoughnessLimit, EvalJumpsInRoughness_Fails) {
   const auto checks = check([](double r) { return Cone{r < 0.99 ? r : 2 * r}; });
   EXPECT_EQ(checks[0].verdict, mc::Verdict::pass) << checks[0].detail;
   EXPECT_THAT(checks[1].detail, testing::HasSubstr("from roughness 1 to"));

@@ -1,0 +1,108 @@
+// How often the checker rejects random right samplers, and how often it misses random faults, by their kind and size.
+// Usage: bench_mc_check_error_rates right|narrow|faults|promise|foreign [CASES [FIRST_SEED [SAMPLES [NAME]]]]
+//   right   : random right samplers, see random_subjects.h
+//   narrow  : right ones with narrow features, likewise
+//   faults  : random faults in them, of sizes around what can be found, see random_faults.h
+//   promise : random faults of the size that the report of the right sampler says it detects
+//   foreign : CASES seeds of each of the samplers of regression_subjects.h
+//   NAME    : only subjects in whose name this stands
+// Prints CSV with a first line that holds the command; a summary on the standard error. alpha = 1 %.
+
+#include <mc/check/regression_subjects.h>
+#include <mc/check/random_faults.h>
+
+#include <mc/check/check_subject.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <map>
+
+namespace checker_bench {
+namespace {
+
+struct Options {
+  std::string what = "right";
+  std::uint64_t cases = 100, first = 1;
+  double samples = 1e6;
+  std::string name;
+};
+
+mc::Report check(const Subject& subject, std::uint64_t seed, const Options& o) {
+  return check_subject(subject, {.samples = static_cast<std::uint64_t>(o.samples), .seed = seed, .alpha = 0.01});
+}
+
+// One fault of a random kind. Sizes go from a fifth to five times what is about detectable.
+FaultySubject random_fault(const Subject& right, std::uint64_t seed, double samples) {
+  Pcg r(mc::hash(seed, 78));
+  const double sigma = std::sqrt(1 / samples), factor = log_uniform(r, 0.2, 5);
+  switch (random_index(r, 8)) {
+  case 0: return random_signs(right, r, std::min(0.9, 30 * factor * sigma), log_uniform(r, 16, samples / 1000));
+  case 1: {
+    const double share = log_uniform(r, 1000 / samples, 0.1);
+    return one_region(right, r, 12 * factor * sigma / std::sqrt(share), share);
+  }
+  case 2: return wave(right, r, std::min(0.9, 20 * factor * sigma));
+  case 3: return gap_or_clamp(right, r, 40 * factor / samples);
+  case 4: return lattice(right, r);
+  case 5: return spike(right, r, 120 * factor / samples);
+  case 6: return smooth(right, r, 10 * factor * sigma);
+  default: return wrong_mass(right, 12 * factor * sigma);
+  }
+}
+
+void print(std::uint64_t seed, const FaultySubject& one, const mc::Report& report, double seconds) {
+  std::string check;
+  for (const mc::Check& c : report.checks)
+    if (check.empty() && c.verdict == report.verdict() && c.verdict != mc::Verdict::pass) check = c.name;
+  fmt::print("{},{},{:.4g},{},{},{:.3g},{},{:.3g},{:.3g},{:.2f}\n", seed, one.kind, one.size, one.subject.name,
+             mc::name(report.verdict()), report.p(), check.empty() ? "" : '"' + check + '"', report.detectable,
+             report.detectable_cell, seconds);
+  std::fflush(stdout);
+}
+
+void run(const Options& o) {
+  fmt::print("# bench_mc_check_error_rates {} {} {} {:g}{}\nseed,kind,size,name,verdict,p,check,detects,in_a_cell,seconds\n",
+             o.what, o.cases, o.first, o.samples, o.name.empty() ? "" : " " + o.name);
+  std::map<std::string, std::map<std::string, int>> verdicts;
+  double seconds = 0, checked = 0;
+  const auto one_case = [&](std::uint64_t seed, const FaultySubject& one) {
+    if (one.subject.name.find(o.name) == std::string::npos) return;
+    const std::clock_t start = std::clock();
+    const mc::Report report = check(one.subject, seed, o);
+    const double used = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    seconds += used;
+    checked += 1;
+    ++verdicts[o.what == "foreign" ? one.subject.name : one.kind][std::string(mc::name(report.verdict()))];
+    print(seed, one, report, used);
+  };
+  const std::vector<RegressionSubject> foreign = o.what == "foreign" ? regression_subjects() : std::vector<RegressionSubject>{};
+  for (std::uint64_t seed = o.first; seed < o.first + o.cases; ++seed)
+    if (o.what == "foreign") {
+      for (const RegressionSubject& f : foreign) one_case(seed, {f.right ? "right" : "wrong", 0, f.subject});
+    } else if (o.what == "right") {
+      one_case(seed, {"right", 0, random_correct(seed)});
+    } else if (o.what == "narrow") {
+      one_case(seed, {"right", 0, random_narrow(seed)});
+    } else {
+      const Subject right = random_continuous(seed);
+      if (right.name.find(o.name) == std::string::npos) continue;
+      if (o.what == "promise") one_case(seed, stated_fault(right, check(right, seed, o), seed));
+      else one_case(seed, random_fault(right, seed, o.samples));
+    }
+  for (const auto& [kind, counts] : verdicts)
+    for (const auto& [verdict, count] : counts) fmt::print(stderr, "{}: {} {}\n", kind, verdict, count);
+  fmt::print(stderr, "{:.2f} CPU seconds each\n", seconds / checked);
+}
+
+} // namespace
+} // namespace checker_bench
+
+int main(int argc, char** argv) {
+  checker_bench::Options o;
+  if (argc > 1) o.what = argv[1];
+  if (argc > 2) o.cases = static_cast<std::uint64_t>(std::atof(argv[2]));
+  if (argc > 3) o.first = static_cast<std::uint64_t>(std::atof(argv[3]));
+  if (argc > 4) o.samples = std::atof(argv[4]);
+  if (argc > 5) o.name = argv[5];
+  checker_bench::run(o);
+}

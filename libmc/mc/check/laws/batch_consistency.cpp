@@ -1,0 +1,65 @@
+// Many questions at once get the answers of each alone.
+
+#include <mc/check/laws/law.h>
+
+#include <limits>
+
+namespace mc {
+namespace {
+
+using OptionalSample = std::optional<AnyDistribution::Sample>;
+
+constexpr std::size_t points = 257; // no whole number of the vectors that a program may compute in
+
+// A program may compute in float, and vectors round otherwise than single numbers: but not by as much as this.
+constexpr double rounding = 1024 * static_cast<double>(std::numeric_limits<float>::epsilon());
+
+// How far b is off a, relative to the larger, or to `least` where both are smaller. NaN is as good as NaN.
+double off(double a, double b, double least) {
+  if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
+  const double relative = std::abs(a - b) / std::max({std::abs(a), std::abs(b), least});
+  return std::isnan(relative) ? HUGE_VAL : relative;
+}
+
+double off(const OptionalSample& a, const OptionalSample& b) {
+  if (!a || !b) return a.has_value() == b.has_value() ? 0 : HUGE_VAL;
+  double worst = 0;
+  for (std::size_t i = 0; i < a->x.size(); ++i) worst = std::max(worst, off(a->x[i], b->x[i], 1));
+  return worst;
+}
+
+std::string describe(const AnyDistribution& s, const OptionalSample& drawn) { return drawn ? format_x(s, drawn->x) : "a failure"; }
+
+} // namespace
+
+std::vector<Check> batch_consistency_law(const AnyDistribution& s, const LawOptions& options) {
+  if (!s.sample || !s.sample_many) return {};
+  WorstError samples("batch consistency of sample", rounding, Fault::nondeterministic);
+  WorstError densities("batch consistency of pdf", rounding, Fault::nondeterministic);
+  Pcg random(options.seed, 16);
+  std::vector<AnyDistribution::Uniforms> u(points);
+  for (AnyDistribution::Uniforms& one : u) one = rounded_uniforms(s, random);
+  const std::vector<OptionalSample> drawn = s.sample_many(u);
+  std::vector<PointArray> x;
+  for (std::size_t i = 0; i < points; ++i) {
+    const OptionalSample alone = s.sample(u[i]);
+    samples.note(off(drawn[i], alone), [&] {
+      return fmt::format("sample is {} at position {} of a batch of {}, should be {} as for a single call, at u = {}",
+                         describe(s, drawn[i]), i + 1, points, describe(s, alone), format_u(s, u[i]));
+    });
+    if (to_chart(s, alone).draw.kind == Subject::Draw::Kind::point) x.push_back(alone->x);
+  }
+  if (!s.pdf_many || x.empty()) return {samples.check()};
+  const std::vector<double> pdf = s.pdf_many(x);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double alone = s.pdf(x[i]);
+    densities.note(off(pdf[i], alone, 0), [&] {
+      return fmt::format(
+          "pdf is {:.17g} at position {} of a batch of {}, should be {:.17g} as for a single call, at x = {}", pdf[i],
+          i + 1, x.size(), alone, format_x(s, x[i]));
+    });
+  }
+  return {samples.check(), densities.check()};
+}
+
+} // namespace mc

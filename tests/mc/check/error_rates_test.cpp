@@ -1,0 +1,73 @@
+// Samplers that nobody here chose: small runs of bench/mc/check/error_rates_bench.cpp with fixed seeds.
+
+#include <mc/check/regression_subjects.h>
+#include <mc/check/random_faults.h>
+
+#include <mc/check/check_subject.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using mc::Verdict;
+
+// Each is rejected by chance once in 10000 runs.
+TEST(CheckerErrorRates, RandomCorrectDistributions_Pass) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const mc::Report r = check_subject(checker_bench::random_correct(seed), {.samples = 50'000, .seed = seed, .alpha = 1e-4});
+    EXPECT_TRUE(r.passed()) << seed << ": " << r.to_string();
+  }
+}
+
+// Ridges and lobes that lie in thin layers: where the integral of a layer missed them their samples were too many. Each
+// is rejected by chance once in 1000 runs.
+TEST(CheckerErrorRates, MassInThinLayers_IsNotMissed) {
+  for (const std::uint64_t seed : {284u, 3407u, 3768u}) {
+    const mc::Report r = check_subject(checker_bench::random_correct(seed), {.samples = 100'000, .seed = seed, .alpha = 1e-3});
+    EXPECT_TRUE(r.passed()) << seed << ": " << r.to_string();
+  }
+}
+
+// Narrow features, and thin layers beside them in which few samples speak. Each is rejected by chance once in 10000
+// runs.
+TEST(CheckerErrorRates, NarrowFeatures_Pass) {
+  for (const std::uint64_t seed : {33u, 128u, 178u, 200u, 255u}) {
+    const mc::Report r = check_subject(checker_bench::random_narrow(seed), {.samples = 50'000, .seed = seed, .alpha = 1e-4});
+    EXPECT_TRUE(r.passed()) << seed << ": " << r.to_string();
+  }
+}
+
+// Each is missed at most once in 100: more than 3 of 60 with probability 0.003.
+TEST(CheckerErrorRates, FaultsOfStatedSize_AreFound) {
+  int missed = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const mc::SubjectOptions options{.samples = 50'000, .seed = seed, .alpha = 0.01};
+    const mc::Subject right = checker_bench::random_continuous(seed);
+    const checker_bench::FaultySubject wrong = checker_bench::stated_fault(right, check_subject(right, options), seed);
+    missed += check_subject(wrong.subject, options).verdict() != Verdict::fail;
+  }
+  EXPECT_LE(missed, 3);
+}
+
+// The right ones are rejected by chance once in 10000 runs each. The wrong ones need a million samples to show; the
+// clamped exponential has 7 equal ones among these and the pilot's, fewer than the 2 that are needed once in 100 seeds.
+TEST(CheckerErrorRates, RegressionSubjects_AreJudgedCorrectly) {
+  for (const checker_bench::RegressionSubject& f : checker_bench::regression_subjects()) {
+    const mc::Report r = check_subject(
+        f.subject, {.samples = f.right ? 300'000u : 1'000'000u, .seed = 3, .alpha = f.right ? 1e-4 : 0.01});
+    EXPECT_EQ(r.verdict(), f.right ? Verdict::pass : Verdict::fail) << r.to_string();
+  }
+}
+
+// What a table says of its breaks is exact.
+TEST(CheckerErrorRates, TableWithBreaks_MassIsExact) {
+  mc::Pcg random(1);
+  std::vector<double> weights(100 * 50);
+  for (double& w : weights) w = random.uniform<double>();
+  const mc::Subject s = checker_bench::table_subject("table", weights, 100, 50, true);
+  EXPECT_EQ(s.breaks[0].size(), 99u);
+  EXPECT_EQ(s.breaks[1].size(), 49u);
+  EXPECT_NEAR(check_subject(s, {.samples = 100'000}).mass, 1, 1e-9);
+}
+
+} // namespace

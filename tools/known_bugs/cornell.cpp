@@ -1,0 +1,210 @@
+#include <known_bugs/cornell.h>
+
+#include <known_bugs/test_cases.h>
+
+#include <mc/core/frame.h>
+#include <mc/core/parallel.h>
+#include <mc/estimate/moments.h>
+#include <mc/random/hash.h>
+
+namespace carlo {
+namespace {
+
+using V = Direction;
+using mc::Pcg;
+
+struct Hit {
+  double t = HUGE_VAL;
+  V p = V::Zero(), n = V::Zero(), albedo = V::Zero();
+  bool light = false;
+};
+
+// The light: y = 554, x in [213, 343], z in [227, 332], shining down.
+constexpr double light_y = 554, light_x0 = 213, light_x1 = 343, light_z0 = 227, light_z1 = 332, radiance = 15;
+
+// A box turned about y, then moved.
+struct Block {
+  double cos, sin;
+  V corner, size;
+  Block(double degrees, const V& at, const V& extent)
+      : cos(std::cos(degrees * pi / 180)), sin(std::sin(degrees * pi / 180)), corner(at), size(extent) {}
+  V to_world(const V& v) const { return {cos * v.x() + sin * v.z(), v.y(), -sin * v.x() + cos * v.z()}; }
+  V to_local(const V& v) const { return {cos * v.x() - sin * v.z(), v.y(), sin * v.x() + cos * v.z()}; }
+
+  void intersect(const V& o, const V& d, Hit& hit) const {
+    const V lo = to_local(o - corner), ld = to_local(d);
+    double near = 1e-3, far = hit.t;
+    int axis = -1;
+    for (int i = 0; i < 3; ++i) {
+      const double a = -lo[i] / ld[i], b = (size[i] - lo[i]) / ld[i];
+      if (std::min(a, b) > near) {
+        near = std::min(a, b);
+        axis = i;
+      }
+      far = std::min(far, std::max(a, b));
+    }
+    if (axis < 0 || !(near < far)) return;
+    V n = V::Zero();
+    n[axis] = ld[axis] > 0 ? -1 : 1;
+    hit = {near, o + near * d, to_world(n), V::Constant(0.73), false};
+  }
+};
+
+Hit intersect(const V& o, const V& d) {
+  static const Block blocks[] = {{15, V(265, 0, 295), V(165, 330, 165)}, {-18, V(130, 0, 65), V(165, 165, 165)}};
+  static const V white = V::Constant(0.73), green(0.12, 0.45, 0.15), red(0.65, 0.05, 0.05);
+  Hit hit;
+  const auto wall = [&](int axis, double at, const V& albedo) {
+    const double t = (at - o[axis]) / d[axis];
+    if (!(t > 1e-3 && t < hit.t)) return;
+    const V p = o + t * d;
+    for (int i = 0; i < 3; ++i)
+      if (i != axis && !(p[i] >= 0 && p[i] <= 555)) return;
+    V n = V::Zero();
+    n[axis] = d[axis] > 0 ? -1 : 1;
+    hit = {t, p, n, albedo, false};
+  };
+  wall(0, 0, red);
+  wall(0, 555, green);
+  wall(1, 0, white);
+  wall(1, 555, white);
+  wall(2, 555, white);
+  for (const Block& b : blocks) b.intersect(o, d, hit);
+  const double t = (light_y - o.y()) / d.y();
+  if (t > 1e-3 && t < hit.t) {
+    const V p = o + t * d;
+    if (p.x() >= light_x0 && p.x() <= light_x1 && p.z() >= light_z0 && p.z() <= light_z1)
+      hit = {t, p, V(0, d.y() > 0 ? -1 : 1, 0), V::Zero(), true};
+  }
+  return hit;
+}
+
+V toward_light(const V& p, Pcg& r) {
+  const V q(light_x0 + (light_x1 - light_x0) * uniform(r), light_y, light_z0 + (light_z1 - light_z0) * uniform(r));
+  return (q - p).normalized();
+}
+
+double toward_light_pdf(const V& p, const V& w) {
+  const double t = (light_y - p.y()) / w.y();
+  if (!(t > 1e-3)) return 0;
+  const V q = p + t * w;
+  if (!(q.x() >= light_x0 && q.x() <= light_x1 && q.z() >= light_z0 && q.z() <= light_z1)) return 0;
+  return t * t / (std::abs(w.y()) * (light_x1 - light_x0) * (light_z1 - light_z0));
+}
+
+V doubled(Pcg& r) {
+  const double phi = 2 * pi * uniform(r), r2 = uniform(r);
+  return V(std::cos(phi) * 2 * std::sqrt(r2), std::sin(phi) * 2 * std::sqrt(r2), std::sqrt(1 - r2)).normalized();
+}
+
+// A direction at a wall and what the path weighs after it: cos / pi over the density that the book claims.
+struct Bounce {
+  V w;
+  double weight;
+};
+using Strategy = Bounce (*)(const Hit&, Pcg&);
+
+V around(const V& n, const V& local) { return mc::Frame<double>::from_z(n).to_world(local); }
+
+template <V (*lobe)(Pcg&)> Bounce mixed(const Hit& h, Pcg& r) {
+  const V w = uniform(r) < 0.5 ? toward_light(h.p, r) : around(h.n, lobe(r));
+  const double c = std::max(w.dot(h.n), 0.0) / pi;
+  return {w, c > 0 ? c / (0.5 * c + 0.5 * toward_light_pdf(h.p, w)) : 0};
+}
+template <V (*lobe)(Pcg&)> Bounce weightless(const Hit& h, Pcg& r) { return {around(h.n, lobe(r)), 1}; }
+
+V unit_in_ball(Pcg& r) { return (V::UnitZ() + in_ball(r)).normalized(); }
+V on_ball(Pcg& r) { return (V::UnitZ() + in_ball(r).normalized()).normalized(); }
+
+Bounce hemisphere(const Hit& h, Pcg& r) {
+  const double z = uniform(r);
+  return {around(h.n, direction(z, 2 * pi * uniform(r))), 2 * z};
+}
+Bounce light_only(const Hit& h, Pcg& r) {
+  const V w = toward_light(h.p, r);
+  const double pdf = toward_light_pdf(h.p, w);
+  return {w, pdf > 0 ? std::max(w.dot(h.n), 0.0) / pi / pdf : 0};
+}
+
+const V eye(278, 278, -800);
+V view(double x, double y) {
+  const double half = std::tan(20 * pi / 180);
+  return V((2 * x - 1) * half, (2 * y - 1) * half, 1).normalized();
+}
+
+// What the picture shows of the light itself: the same in every box, so it need not be noisy.
+double light_in_view() {
+  constexpr int n = 1000;
+  std::uint64_t seen = 0;
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) seen += intersect(eye, view((x + 0.5) / n, (y + 0.5) / n)).light;
+  return radiance * static_cast<double>(seen) / (n * n);
+}
+
+// Radiance of a path through a random point of the picture, the light in view left out.
+double path(Strategy bounce, Pcg& r) {
+  const double x = uniform(r);
+  V o = eye, d = view(x, uniform(r)), beta = V::Ones();
+  for (int depth = 0; depth <= 50; ++depth) {
+    const Hit hit = intersect(o, d);
+    if (hit.light) return depth > 0 && hit.n.y() < 0 ? radiance * beta.mean() : 0;
+    if (!(hit.t < HUGE_VAL)) return 0;
+    const Bounce b = bounce(hit, r);
+    if (!(b.weight > 0)) return 0;
+    beta = beta.cwiseProduct(hit.albedo) * b.weight;
+    o = hit.p;
+    d = b.w;
+  }
+  return 0;
+}
+
+mc::Moments render(Strategy strategy, std::uint64_t paths, std::uint64_t seed, int threads) {
+  constexpr std::uint64_t chunk = 4096;
+  return mc::parallel_reduce<mc::Moments>((paths + chunk - 1) / chunk, threads, [&](std::size_t i) {
+    mc::Moments m;
+    Pcg random(mc::hash(seed, i));
+    for (std::uint64_t k = 0; k < chunk; ++k) m.add(path(strategy, random), i * chunk + k);
+    return m;
+  });
+}
+
+} // namespace
+
+std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, int threads) {
+  struct Way {
+    CornellBox box;
+    Strategy strategy;
+  };
+  const Way ways[] = {
+      {{"cosine and light, half each", "reference", "cosine directions; the density of a sample is the mixture's",
+        true},
+       mixed<cosine>},
+      {{"normal + unit vector", "book v3.2.3", "cosine directions: right", true}, weightless<on_ball>},
+      {{"uniform hemisphere", "book v3.2.3", "right too: the text that calls the difference a bug is stale", true},
+       hemisphere},
+      {{"normal + point in the ball", "book, ch. 4", "P1: directions crowd the normal, out of the box's dark corners"},
+       weightless<unit_in_ball>},
+      {{"doubled cosine lobe", "book, ch. 6", "P2: directions crowd the horizon"}, weightless<doubled>},
+      {{"light only", "book, ch. 7", "P6: what the walls send each other is lost"}, light_only},
+      {{"doubled lobe and light, half each", "book, ch. 8", "P2, half hidden by the light samples"}, mixed<doubled>},
+  };
+  const double direct = light_in_view();
+  std::vector<CornellBox> boxes;
+  for (const Way& way : ways) {
+    const bool reference = boxes.empty();
+    const mc::Moments m = render(way.strategy, reference ? 4 * paths : paths, mc::hash(seed, boxes.size()), threads);
+    CornellBox b = way.box;
+    b.mean = direct + m.mean();
+    b.std_error = m.std_error();
+    if (!reference) {
+      const CornellBox& r = boxes.front();
+      b.off = b.mean / r.mean - 1;
+      b.off_error = std::hypot(b.std_error, r.std_error) / r.mean;
+      b.p = std::erfc(std::abs(b.off) / b.off_error / std::sqrt(2.0));
+    }
+    boxes.push_back(b);
+  }
+  return boxes;
+}
+
+} // namespace carlo
