@@ -9,7 +9,7 @@ cmake --preset lint >/dev/null
 cmake --build build/lint --target carlo_generated
 if [ $# -eq 0 ]; then
   mapfile -t files < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | grep "^$PWD/\(bench\|lib\|tests\|tools\)" | sort -u)
-  ./tests/house/headers_compile_alone.sh clang++-14 "$PWD" "$PWD/libmc" "$PWD/librender" \
+  ./tests/layout/headers_compile_alone.sh clang++-14 "$PWD" "$PWD/libmc" "$PWD/librender" \
     "$(pkg-config --cflags-only-I eigen3 | sed 's/-I//; s/ *$//')"
 else
   files=("$@")

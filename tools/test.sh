@@ -26,7 +26,7 @@ if [ "$preset" = portable ]; then
     echo "test.sh: the functions above are compiled for an instruction set and may be called by all code" >&2
     exit 1
   fi
-  exec ./tests/house/same_bits.sh build/release/tools/carlo build/portable/tools/carlo
+  exec ./tests/layout/same_bits.sh build/release/tools/carlo build/portable/tools/carlo
 fi
 cmake --preset "$preset"
 cmake --build --preset "$preset"

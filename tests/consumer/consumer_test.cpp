@@ -22,7 +22,7 @@ TEST(Consumer, LibraryWarpObeysItsLaws) { EXPECT_WARP_LAWS(mc::CosineHemisphere<
 
 TEST(Consumer, OwnSamplerMatchesItsPdf) { EXPECT_SAMPLES_MATCH_PDF(my_sample, my_pdf, mc::Hemisphere<double>()); }
 
-TEST(Consumer, AWrongPdfIsRejected) {
+TEST(Consumer, WrongPdfIsRejected) {
   const testing::AssertionResult result =
       mc::samples_match_pdf("my_sample", my_sample, wrong_pdf, mc::Hemisphere<double>());
   EXPECT_FALSE(result);
@@ -30,7 +30,7 @@ TEST(Consumer, AWrongPdfIsRejected) {
       << result.message(); // not inconclusive
 }
 
-TEST(Consumer, TheMeanOfItsHeightIsTwoThirds) {
+TEST(Consumer, MeanHeightIsTwoThirds) {
   mc::Pcg random(1);
   std::vector<double> heights;
   for (int i = 0; i < 10'000; ++i) heights.push_back(my_sample(random).z());

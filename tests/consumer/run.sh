@@ -17,7 +17,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >/dev/null
-"$here/../house/readme_examples.sh" "$here/../../libmc/README.md" "$scratch/readme_examples.h" "$scratch/expected.txt"
+"$here/../layout/readme_examples.sh" "$here/../../libmc/README.md" "$scratch/readme_examples.h" "$scratch/expected.txt"
 
 "$cmake" -G "Ninja Multi-Config" -S "$here" -B "$scratch/built" -DCMAKE_PREFIX_PATH="$scratch/prefix" \
   -DCMAKE_CXX_COMPILER="$compiler" -DREADME_EXAMPLES_DIR="$scratch" >/dev/null

@@ -3,7 +3,7 @@
 
 #include <render/integrator/light_tracer.h>
 
-#include "support/made_room.h"
+#include "support/random_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -14,43 +14,43 @@ using namespace support;
 // Sixty rooms, 16 pictures by each way; every way to render in turn.
 TEST(LightTracingRender, MatchesMisImages) {
   Agreement agreement;
-  for (std::uint64_t i = 0; agreement.rooms < 60; ++i) {
-    const Scene scene = RoomMaker(i).build();
+  for (std::uint64_t i = 0; agreement.scenes < 60; ++i) {
+    const Scene scene = RandomScene(i).build();
     if (!LightTracer::create(scene, strategy_from("mis+lt"), 1)) continue;
     RenderOptions options = options_of(i, 64), much = options_of(i, 256);
     options.strategy = much.strategy = strategy_from("mis");
     options.adaptive = much.adaptive = false;
-    const std::vector<Spectrum> unit = unit_of(render::render(scene, much).image);
-    const mc::Moments one = means_of(scene, options, 16, unit);
+    const std::vector<Spectrum> unit = pixel_units(render::render(scene, much).image);
+    const mc::Moments one = picture_means(scene, options, 16, unit);
     options.strategy = strategy_from("mis+lt");
     options.sampler = std::array{PixelSampler::sobol, PixelSampler::independent, PixelSampler::stratified}[i % 3];
     options.adaptive = i % 5 == 1;
     options.splat = i % 5 == 2;
-    agreement.add(i, one, means_of(scene, options, 16, unit), 2.05); // of Student's t with some 28 degrees of freedom
+    agreement.add(i, one, picture_means(scene, options, 16, unit), 2.05); // of Student's t with some 28 degrees of freedom
   }
-  EXPECT_LE(agreement.beyond, 10); // of 60 at 5 %: 10 or fewer but for 1 in 3000
+  EXPECT_LE(agreement.outliers, 10); // of 60 at 5 %: 10 or fewer but for 1 in 3000
 }
 
 // Forty rooms of points and parallel light, and the same of the spheres that these stand for, which paths from the
 // camera meet.
 TEST(LightTracingRender, DeltaLights_MatchSmallSphereLights) {
   Agreement agreement;
-  for (std::uint64_t i = 0; agreement.rooms < 40; ++i) {
-    const Scene deltas = RoomMaker(i, LitBy::deltas).build(), spheres = RoomMaker(i, LitBy::spheres).build();
+  for (std::uint64_t i = 0; agreement.scenes < 40; ++i) {
+    const Scene deltas = RandomScene(i, RandomLights::deltas).build(), spheres = RandomScene(i, RandomLights::spheres).build();
     if (!LightTracer::create(deltas, strategy_from("mis+lt"), 1)) continue;
     const RenderOptions options = options_of(i, 256);
     const Image reference = render::render(spheres, options).image;
     if (std::all_of(reference.pixels.begin(), reference.pixels.end(), is_black)) continue;
-    const std::vector<Spectrum> unit = unit_of(reference);
-    agreement.add(i, means_of(spheres, options, 12, unit), means_of(deltas, options, 12, unit), 2.07); // with some 22
+    const std::vector<Spectrum> unit = pixel_units(reference);
+    agreement.add(i, picture_means(spheres, options, 12, unit), picture_means(deltas, options, 12, unit), 2.07); // with some 22
   }
-  EXPECT_LE(agreement.beyond, 8); // of 40 at 5 %: 8 or fewer but for 1 in 2000
+  EXPECT_LE(agreement.outliers, 8); // of 40 at 5 %: 8 or fewer but for 1 in 2000
 }
 
 /// A room that light paths pay in.
 Scene lit_room() {
   for (std::uint64_t i = 100;; ++i)
-    if (Scene scene = RoomMaker(i).build(); LightTracer::create(scene, strategy_from("mis+lt"), 1)) return scene;
+    if (Scene scene = RandomScene(i).build(); LightTracer::create(scene, strategy_from("mis+lt"), 1)) return scene;
 }
 
 TEST(LightTracingRender, SameBitsForAnyNumberOfThreadsAndAnyPart) {

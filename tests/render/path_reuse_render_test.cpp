@@ -4,7 +4,7 @@
 
 #include <mc/core/error.h>
 
-#include "support/made_room.h"
+#include "support/random_scene.h"
 #include "support/picture_seeds.h"
 
 namespace {
@@ -42,36 +42,36 @@ Scene corner() {
 // sampler, in turn.
 TEST(PathReuseRender, MeanMatchesRenderWithoutReuse) {
   Agreement agreement;
-  for (std::uint64_t i = 0; agreement.rooms < 60; ++i) {
-    const Scene scene = RoomMaker(3000 + i, i % 4 == 0 ? LitBy::deltas : LitBy::lamps).build();
+  for (std::uint64_t i = 0; agreement.scenes < 60; ++i) {
+    const Scene scene = RandomScene(3000 + i, i % 4 == 0 ? RandomLights::deltas : RandomLights::lamps).build();
     RenderOptions options = options_of(i, 48), much = options_of(i, 192);
     options.strategy = much.strategy = strategy_from(std::array{"mis+lt", "mis", "nee"}[i % 3]);
     options.sampler = std::array{PixelSampler::sobol, PixelSampler::independent, PixelSampler::stratified}[i / 3 % 3];
     const Image reference = render::render(scene, much).image;
     if (std::all_of(reference.pixels.begin(), reference.pixels.end(), is_black)) continue;
-    const std::vector<Spectrum> unit = unit_of(reference);
-    const mc::Moments one = means_of(scene, options, 16, unit);
+    const std::vector<Spectrum> unit = pixel_units(reference);
+    const mc::Moments one = picture_means(scene, options, 16, unit);
     options.tiles = true;
     options.seed += 1'000'000;
-    agreement.add(i, one, means_of(scene, options, 16, unit), 2.05); // of Student's t with some 28 degrees of freedom
+    agreement.add(i, one, picture_means(scene, options, 16, unit), 2.05); // of Student's t with some 28 degrees of freedom
   }
-  EXPECT_LE(agreement.beyond, 10); // of 60 at 5 %: 10 or fewer but for 1 in 3000
+  EXPECT_LE(agreement.outliers, 10); // of 60 at 5 %: 10 or fewer but for 1 in 3000
 }
 
 // A room that light paths pay in, too.
 TEST(PathReuseRender, SameBitsForAnyNumberOfThreadsAndAnyPart) {
-  for (const Scene& scene : {corner(), RoomMaker(100).build()})
+  for (const Scene& scene : {corner(), RandomScene(100).build()})
     for (const PixelSampler sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
       RenderOptions options = options_of_tiles(12);
       options.sampler = sampler;
       options.threads = 1;
       const Image whole = render::render(scene, options).image;
       options.threads = 3;
-      EXPECT_EQ(differences(render::render(scene, options).image, whole), 0) << name(sampler);
+      EXPECT_EQ(count_different_pixels(render::render(scene, options).image, whole), 0) << name(sampler);
       for (const Crop& crop : {Crop{0, 0, 4, 5}, Crop{5, 4, 8, 7}, Crop{7, 3, 1, 1}, Crop{12, 10, 1, 1}}) {
         options.crop = crop;
         const RenderResult part = render::render(scene, options);
-        EXPECT_EQ(differences(part.image, whole, crop.x, crop.y), 0) << name(sampler);
+        EXPECT_EQ(count_different_pixels(part.image, whole, crop.x, crop.y), 0) << name(sampler);
         EXPECT_EQ(part.spp, 12);
       }
     }
@@ -83,9 +83,9 @@ TEST(PathReuseRender, IsUnbiasedWithHonestErrorBars) {
     SCOPED_TRACE(name(sampler));
     RenderOptions options = options_of_tiles(16);
     options.sampler = sampler;
-    const PictureSeeds tiles(scene, options, 0);
+    const SeedEnsemble tiles(scene, options, 0);
     options.tiles = false;
-    expect_as_without(tiles, PictureSeeds(scene, options, 1000));
+    expect_same_statistics(tiles, SeedEnsemble(scene, options, 1000));
   }
 }
 
@@ -94,10 +94,10 @@ TEST(PathReuseRender, Adaptive_IsUnbiased) {
   const Scene scene = corner();
   RenderOptions options = options_of_tiles(48);
   options.adaptive = true;
-  const PictureSeeds tiles(scene, options, 0);
+  const SeedEnsemble tiles(scene, options, 0);
   options.tiles = false;
   options.adaptive = false;
-  expect_as_without(tiles, PictureSeeds(scene, options, 1000));
+  expect_same_statistics(tiles, SeedEnsemble(scene, options, 1000));
 }
 
 TEST(PathReuseRender, ReportsNoiseArea) {

@@ -42,11 +42,11 @@ TEST(SplatRender, SameBitsForAnyNumberOfThreadsAndAnyPart) {
       options.threads = 1;
       const Image whole = render::render(scene, options).image;
       options.threads = 3;
-      EXPECT_EQ(differences(render::render(scene, options).image, whole), 0) << name(sampler);
+      EXPECT_EQ(count_different_pixels(render::render(scene, options).image, whole), 0) << name(sampler);
       for (const Crop& crop : {Crop{0, 0, 4, 5}, Crop{5, 4, 8, 7}, Crop{7, 3, 1, 1}}) {
         options.crop = crop;
         const RenderResult part = render::render(scene, options);
-        EXPECT_EQ(differences(part.image, whole, crop.x, crop.y), 0) << name(sampler);
+        EXPECT_EQ(count_different_pixels(part.image, whole, crop.x, crop.y), 0) << name(sampler);
         EXPECT_EQ(part.spp, 12);
       }
     }
@@ -59,7 +59,7 @@ TEST(SplatRender, NarrowFilter_EqualsUnsplatted) {
   RenderOptions options = splatted(8);
   const Image a = render::render(scene, options).image;
   options.splat = false;
-  EXPECT_EQ(differences(a, render::render(scene, options).image), 0);
+  EXPECT_EQ(count_different_pixels(a, render::render(scene, options).image), 0);
   EXPECT_EQ(a.noise_area, 1);
 }
 
@@ -72,9 +72,9 @@ TEST(SplatRender, IsUnbiasedWithHonestErrorBars) {
       SCOPED_TRACE(name(sampler));
       RenderOptions options = splatted(16);
       options.sampler = sampler;
-      const PictureSeeds splat(scene, options, 0);
+      const SeedEnsemble splat(scene, options, 0);
       options.splat = false;
-      EXPECT_LE(expect_as_without(splat, PictureSeeds(scene, options, 1000)), 0.6);
+      EXPECT_LE(expect_same_statistics(splat, SeedEnsemble(scene, options, 1000)), 0.6);
       EXPECT_GE(splat.sums.variance() / splat.variance, 0.3);
     }
   }

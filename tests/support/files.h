@@ -48,9 +48,9 @@ inline std::string error_of(const std::function<void()>& f) {
 
 /// Comparison data that stand beside the project and not in it. Tests that only compare against them skip where they
 /// are absent.
-inline bool shared_present(const std::string& file) {
+inline bool has_shared_file(const std::string& file) {
   return std::filesystem::exists(std::string(MC_SHARED_DIR) + "/" + file);
 }
-inline std::string shared(const std::string& file) { return std::string(MC_SHARED_DIR) + "/" + file; }
+inline std::string shared_file(const std::string& file) { return std::string(MC_SHARED_DIR) + "/" + file; }
 
 } // namespace support

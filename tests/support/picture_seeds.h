@@ -11,7 +11,7 @@
 namespace support {
 
 /// Pixels of a that are not, bit for bit, those of b from (dx, dy) on.
-inline int differences(const render::Image& a, const render::Image& b, int dx = 0, int dy = 0) {
+inline int count_different_pixels(const render::Image& a, const render::Image& b, int dx = 0, int dy = 0) {
   int different = 0;
   for (int y = 0; y < a.height; ++y)
     for (int x = 0; x < a.width; ++x)
@@ -22,13 +22,13 @@ inline int differences(const render::Image& a, const render::Image& b, int dx = 
 
 /// Of 150 seeds from `first` on: of the sum of each picture and of each pixel, in green, and what the pictures say of
 /// it.
-struct PictureSeeds {
+struct SeedEnsemble {
   mc::Moments sums;
   std::vector<mc::Moments> pixels;
   double variance = 0; ///< stated, of the sum
   std::vector<double> variances;
 
-  PictureSeeds(const render::Scene& scene, render::RenderOptions options, std::uint64_t first)
+  SeedEnsemble(const render::Scene& scene, render::RenderOptions options, std::uint64_t first)
       : pixels(std::size_t(options.width) * std::size_t(options.height)), variances(pixels.size()) {
     constexpr int seeds = 150;
     for (options.seed = first; options.seed < first + seeds; ++options.seed) {
@@ -50,7 +50,7 @@ struct PictureSeeds {
 /// the pixels within 12 % (four of its standard errors); that of the sum is not above what is stated but by chance,
 /// .1 %.
 ///   returns : the variance of the pixels over that of those that share nothing
-inline double expect_as_without(const PictureSeeds& shared, const PictureSeeds& own) {
+inline double expect_same_statistics(const SeedEnsemble& shared, const SeedEnsemble& own) {
   const double error = std::hypot(shared.sums.std_error(), own.sums.std_error());
   EXPECT_LE(std::abs(shared.sums.mean() - own.sums.mean()), 3.29 * error);
   double squares = 0, compared = 0, stated = 0, is = 0, was = 0;

@@ -9,12 +9,12 @@
 
 namespace support {
 
-struct Run {
+struct ProcessResult {
   int exit_code;
   std::string output; ///< stdout and stderr
 };
 
-inline Run run(const std::string& command) {
+inline ProcessResult run(const std::string& command) {
   FILE* pipe = popen((command + " 2>&1").c_str(), "r");
   if (!pipe) return {-1, "cannot start " + command};
   std::string output;
@@ -24,7 +24,7 @@ inline Run run(const std::string& command) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, output};
 }
 
-inline Run run_carlo(const std::string& arguments) { return run("'" CARLO_PATH "' " + arguments); }
+inline ProcessResult run_carlo(const std::string& arguments) { return run("'" CARLO_PATH "' " + arguments); }
 
 inline bool has_gnuplot() { return run(std::string("command -v gnuplot")).exit_code == 0; }
 

@@ -1,7 +1,7 @@
 #pragma once
 // Calls a subcommand's function and keeps what it says.
 
-#include <cli/slips.h>
+#include <cli/known_bugs.h>
 #include <cli/validate.h>
 
 #include <support/files.h>
@@ -18,11 +18,11 @@ struct Output {
   std::string text;
 };
 
-inline int call(carlo::ValidateOptions o) {
+inline int call(carlo::ValidateCommandOptions o) {
   o.worker = CARLO_PATH; // a test is no carlo
-  return carlo::validate(o);
+  return carlo::run_validate(o);
 }
-inline int call(const carlo::SlipsOptions& o) { return carlo::slips(o); }
+inline int call(const carlo::KnownBugsCommandOptions& o) { return carlo::run_known_bugs(o); }
 
 template <class Options> Output run(const Options& o) {
   testing::internal::CaptureStdout();

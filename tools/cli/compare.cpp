@@ -18,7 +18,7 @@ namespace carlo {
 
 namespace {
 
-struct CompareOptions {
+struct CompareCommandOptions {
   std::string a, b;
   std::string metric;          ///< empty: all
   std::string diff;            ///< file for the difference image; empty: none
@@ -26,9 +26,9 @@ struct CompareOptions {
   double tolerance = 0;        ///< relative difference that still counts as agreement
 };
 
-constexpr double usual_alpha = 0.01;
+constexpr double default_alpha = 0.01;
 
-using ::render::Image;
+using render::Image;
 
 constexpr std::array channel_names = {"red", "green", "blue"};
 
@@ -56,20 +56,20 @@ std::vector<Metric> metrics(const Image& a, const Image& b) {
 }
 
 // The noise of an image: whether variances are known, their degrees of freedom, and the number of correlated pixels.
-struct Noise {
+struct ImageNoise {
   bool known;
   double dof, area;
-  explicit Noise(const Image& image)
+  explicit ImageNoise(const Image& image)
       : known(!image.variance.empty()), dof(std::max(2.0, double(image.estimates)) - 1), area(image.noise_area) {}
 };
 
-struct Worst {
+struct LargestDeviation {
   double p = 1, t = 0, dof = 0, difference = 0, error = 0;
   int x = 0, y = 0, channel = 0;
 };
 
 /// Sums over a rectangle of pixels, or one pixel, with the variances of these sums.
-struct Block {
+struct BlockSums {
   double pixels = 0, difference = 0, reference = 0, variance_a = 0, variance_b = 0;
   mc::VarianceSum all; ///< variances of both
 };
@@ -78,9 +78,9 @@ class Comparison {
  public:
   Comparison(const Image& a, const Image& b, double tolerance)
       : a_(a), b_(b), noise_a_(a), noise_b_(b), tolerance_(tolerance),
-        most_of_pixel_(std::min(noise_a_.dof + noise_b_.dof, 3.0)) {}
+        max_pixel_dof_(std::min(noise_a_.dof + noise_b_.dof, 3.0)) {}
 
-  bool possible() const { return noise_a_.known && noise_b_.known; }
+  bool have_variances() const { return noise_a_.known && noise_b_.known; }
 
   // Tests pixels and blocks of 16x16 pixels. A pixel takes the mean variance of its 3x3 neighbourhood, since a pixel
   // that missed a rare bright path underestimates its own variance. Its degrees of freedom are those of the
@@ -91,14 +91,14 @@ class Comparison {
     for (int c = 0; c < 3; ++c) {
       // A pixel without any rare event has variance 0; a floor keeps differences far below the typical noise from
       // counting.
-      const Block whole = sum(0, 0, a_.width, a_.height, c);
+      const BlockSums whole = sum(0, 0, a_.width, a_.height, c);
       floor_ = 1e-6 * (whole.variance_a + whole.variance_b) / double(a_.pixels.size());
       for (int y = 0; y < a_.height; ++y)
         for (int x = 0; x < a_.width; ++x) {
-          Block sums = sum(x, y, x + 1, y + 1, c);
+          BlockSums sums = sum(x, y, x + 1, y + 1, c);
           const int x0 = std::max(x - 1, 0), y0 = std::max(y - 1, 0), x1 = std::min(x + 2, a_.width),
                     y1 = std::min(y + 2, a_.height);
-          const Block around = sum(x0, y0, x1, y1, c);
+          const BlockSums around = sum(x0, y0, x1, y1, c);
           sums.variance_a = around.variance_a / around.pixels / noise_a_.area;
           sums.variance_b = around.variance_b / around.pixels / noise_b_.area;
           sums.all = around.all;
@@ -116,13 +116,13 @@ class Comparison {
     return -std::expm1(tests * std::log1p(-std::min(std::min(pixel.p, block.p), 1 - 0x1p-53)));
   }
 
-  Worst pixel, block;
+  LargestDeviation pixel, block;
   double tests = 0;
   static constexpr int block_size = 16;
 
  private:
-  Block sum(int x0, int y0, int x1, int y1, int c) const {
-    Block sums;
+  BlockSums sum(int x0, int y0, int x1, int y1, int c) const {
+    BlockSums sums;
     for (int y = y0; y < y1; ++y)
       for (int x = x0; x < x1; ++x) {
         const std::size_t i = a_.index(x, y);
@@ -140,7 +140,7 @@ class Comparison {
   }
 
   // Welch's t-test of the mean of the pixels.
-  void test(const Block& sums, int x, int y, int c, Worst& worst) {
+  void test(const BlockSums& sums, int x, int y, int c, LargestDeviation& worst) {
     const double n = sums.pixels;
     ++tests;
     const double variance = std::max((sums.variance_a + sums.variance_b) / n, floor_) / n;
@@ -148,7 +148,7 @@ class Comparison {
     const double excess = std::max(0.0, std::abs(difference) - tolerance_ * std::abs(sums.reference / n));
     if (excess == 0) return;
     double p = 0, t = mc::infinity<double>;
-    const double dof = n == 1 ? std::min(sums.all.dof(), most_of_pixel_) : sums.all.dof();
+    const double dof = n == 1 ? std::min(sums.all.dof(), max_pixel_dof_) : sums.all.dof();
     if (variance > 0) {
       t = excess / std::sqrt(variance);
       p = mc::student_tail(t, dof);
@@ -157,11 +157,11 @@ class Comparison {
   }
 
   const Image &a_, &b_;
-  Noise noise_a_, noise_b_;
-  double tolerance_, most_of_pixel_, floor_ = 0;
+  ImageNoise noise_a_, noise_b_;
+  double tolerance_, max_pixel_dof_, floor_ = 0;
 };
 
-std::vector<Option> rows(CompareOptions& o) {
+std::vector<Option> rows(CompareCommandOptions& o) {
   const Exclusion judged{"--metric", "--metric prints one number and no verdict"};
   return in_groups({
       {common_options,
@@ -211,19 +211,19 @@ void require_variance(const std::string& path, const Image& image) {
 }
 
 // The subject of a message: "'a.png' carries", or "the images carry".
-std::string without_variance(const CompareOptions& options, const Image& a, const Image& b) {
+std::string without_variance(const CompareCommandOptions& options, const Image& a, const Image& b) {
   if (a.variance.empty() && b.variance.empty()) return "the images carry";
   return fmt::format("'{}' carries", a.variance.empty() ? options.a : options.b);
 }
 
-int compare(const CompareOptions& options) {
-  const double alpha = options.alpha.value_or(usual_alpha);
+int run_compare(const CompareCommandOptions& options) {
+  const double alpha = options.alpha.value_or(default_alpha);
   mc::require(alpha > 0 && alpha < 1, "--alpha {} must lie in (0, 1)", alpha);
   mc::require(options.tolerance >= 0, "--tolerance {} must be >= 0", options.tolerance);
   for (const std::string& image : {options.a, options.b})
     mc::require(options.diff.empty() || !mc::is_same_path(options.diff, image),
                 "--diff '{}' would overwrite an image that is compared; name another file", options.diff);
-  const Image a = ::render::read_image(options.a), b = ::render::read_image(options.b);
+  const Image a = render::read_image(options.a), b = render::read_image(options.b);
   mc::require(a.width == b.width && a.height == b.height, "'{}' is {}x{} but '{}' is {}x{}; the sizes must agree",
               options.a, a.width, a.height, options.b, b.width, b.height);
   for (const auto* image : {&a, &b})
@@ -244,24 +244,24 @@ int compare(const CompareOptions& options) {
   if (!options.diff.empty()) {
     Image difference(a.width, a.height);
     for (std::size_t i = 0; i < a.pixels.size(); ++i) difference.pixels[i] = a.pixels[i] - b.pixels[i];
-    ::render::write_image(options.diff, difference);
+    render::write_image(options.diff, difference);
   }
   if (!options.metric.empty()) return exit_ok;
 
   Comparison comparison(a, b, options.tolerance);
-  if (!comparison.possible()) {
-    const std::string bare = without_variance(options, a, b);
+  if (!comparison.have_variances()) {
+    const std::string subject = without_variance(options, a, b);
     const char* remedy = "render to .exr with two samples or more in every pixel";
     const char* judged = options.tolerance > 0 ? "--tolerance" : "--alpha";
     mc::require(options.tolerance == 0 && !options.alpha, "{}: {} no variance, so that there is no verdict; {}", judged,
-                bare, remedy);
-    fmt::print("verdict    none: {} no variance; {}\n", bare, remedy);
+                subject, remedy);
+    fmt::print("verdict    none: {} no variance; {}\n", subject, remedy);
     return exit_ok;
   }
   require_variance(options.a, a);
   require_variance(options.b, b);
   comparison.run();
-  const auto print = [&](const char* what, const Worst& w) {
+  const auto print = [&](const char* what, const LargestDeviation& w) {
     std::printf(
         "%-10s worst at (%d, %d) %s: difference %.3g, %.2f standard errors, %.3g degrees of freedom, p = %.2g\n", what,
         w.x, w.y, channel_names[static_cast<std::size_t>(w.channel)], w.difference, w.t, w.dof, w.p);
@@ -279,7 +279,7 @@ int compare(const CompareOptions& options) {
 } // namespace
 
 Subcommand compare_subcommand() {
-  return make_subcommand<CompareOptions>(
+  return make_subcommand<CompareCommandOptions>(
       {.name = "compare",
        .summary = "Tell whether two images agree: error metrics, and t-tests where the variance of pixels is known",
        .examples = {{"carlo compare a.exr b.exr", "tests two renders of one scene for differences beyond noise"},
@@ -290,7 +290,7 @@ Subcommand compare_subcommand() {
                      {{"",
                        "carlo render writes the variance of every pixel into an EXR. Welch's t-test then compares "
                        "each pixel, and each block of 16x16 pixels, of the two images. All tests share --alpha."}}}}},
-      rows, compare);
+      rows, run_compare);
 }
 
 } // namespace carlo

@@ -27,7 +27,7 @@ namespace carlo {
 
 namespace {
 
-struct ConvergeOptions {
+struct ConvergeCommandOptions {
   IntegralOptions integral;
   SceneOptions scene;
   bool all = false;
@@ -41,36 +41,36 @@ struct ConvergeOptions {
   std::string command;
 };
 
-std::vector<Way> ways_of(const ConvergeOptions& o) {
-  std::vector<Way> chosen;
-  const auto can_work = [&](const Way& w) { return w.least <= o.integral.max_n; };
-  if (o.all) std::copy_if(ways().begin(), ways().end(), std::back_inserter(chosen), can_work);
+std::vector<SamplingMethod> methods_of(const ConvergeCommandOptions& o) {
+  std::vector<SamplingMethod> chosen;
+  const auto can_work = [&](const SamplingMethod& w) { return w.min_calls <= o.integral.max_n; };
+  if (o.all) std::copy_if(sampling_methods().begin(), sampling_methods().end(), std::back_inserter(chosen), can_work);
   const std::string samplers = o.samplers.empty() ? "random,stratified,sobol" : o.samplers;
   if (!o.all)
     for (const std::string_view name : mc::split(samplers, ',')) {
-      chosen.push_back(way(std::string(name)));
+      chosen.push_back(sampling_method(std::string(name)));
       mc::require(can_work(chosen.back()), "--max-n {}: {} takes N of at least {}; raise it, or leave {} out",
-                  o.integral.max_n, name, chosen.back().least, name);
+                  o.integral.max_n, name, chosen.back().min_calls, name);
     }
-  if (!o.points.empty()) chosen.push_back(way_of_points(o.points));
+  if (!o.points.empty()) chosen.push_back(points_file_method(o.points));
   return chosen;
 }
 
 // Writes and prints one target; `pictures` for a scene. Returns whether gnuplot can draw; pass the answer on, so that
 // the warning appears once.
-bool write(const Target& target, const Measurement& m, const ConvergeOptions& o, const std::filesystem::path& folder,
-           bool can_draw, const Pictures* pictures = nullptr) {
-  const std::string name = file_name(target.integral.name), base = (folder / name).string();
+bool write(const IntegralTarget& target, const Measurement& m, const ConvergeCommandOptions& o, const std::filesystem::path& folder,
+           bool can_draw, const PictureMeasurement* pictures = nullptr) {
+  const std::string name = safe_file_name(target.integral.name), base = (folder / name).string();
   mc::write_file(base + ".csv", to_csv(target, m));
   nlohmann::ordered_json about = {{"command", o.command}, {"commit", commit}, {"seed", o.seed}};
   if (pictures) about["reference"] = {{"spp", pictures->reference_spp}, {"error", pictures->reference_error}};
   mc::write_file(base + ".json", to_json(target, m, about).dump(1) + "\n");
   mc::write_file(base + ".gp", to_script(target, m, name));
   fmt::print("{}", summary(target, m));
-  const auto cut = std::count_if(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.out_of_time; });
+  const auto cut = std::count_if(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.out_of_time; });
   if (cut > 0) fmt::print("  --time ended {} of them before N = {}\n", cut, o.integral.max_n);
   std::fflush(stdout);
-  const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.is_drawn(); });
+  const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.has_measurable_error(); });
   if (!can_draw || !anything) {
     remove_plot(folder, name);
     return can_draw;
@@ -81,18 +81,18 @@ bool write(const Target& target, const Measurement& m, const ConvergeOptions& o,
 }
 
 // Results of the targets, each written as soon as it is measured.
-struct Run {
+struct ConvergeRun {
   std::deque<Measurement> measurements; ///< of the first targets
   std::size_t curves = 0;               ///< finished
   bool interrupted = false;
 };
 
-Run measure_all(const std::vector<Target>& targets, const std::vector<Way>& chosen, const ConvergeOptions& o,
+ConvergeRun measure_all(const std::vector<IntegralTarget>& targets, const std::vector<SamplingMethod>& chosen, const ConvergeCommandOptions& o,
                 const std::filesystem::path& folder, const std::atomic<bool>* cancel) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  Run run;
-  Progress progress;
+  ConvergeRun run;
+  ProgressLine progress;
   bool can_draw = true;
   for (std::size_t i = 0; i < targets.size() && !run.interrupted; ++i) {
     MeasureOptions m{
@@ -102,18 +102,18 @@ Run measure_all(const std::vector<Target>& targets, const std::vector<Way>& chos
     m.progress = [&](double done, const std::string& where) {
       progress.show((static_cast<double>(i) + done) / static_cast<double>(targets.size()), where);
     };
-    run.measurements.push_back(measure(targets[i], chosen, m));
+    run.measurements.push_back(measure_convergence(targets[i], chosen, m));
     progress.clear();
     const Measurement& done = run.measurements.back();
-    run.curves += finished(done);
+    run.curves += count_finished(done);
     run.interrupted = done.interrupted;
     if (!done.curves.empty()) can_draw = write(targets[i], done, o, folder, can_draw);
   }
   return run;
 }
 
-std::vector<Option> rows(ConvergeOptions& o) {
-  OptionGroup common{common_options, integral_rows(o.integral)};
+std::vector<Option> rows(ConvergeCommandOptions& o) {
+  OptionGroup common{common_options, integral_option_rows(o.integral)};
   const std::vector<Option> own = {
       {"--samplers", "NAMES", &o.samplers,
        "Methods, comma-separated, see --list; for a scene, point sets of carlo render. Default: "
@@ -142,24 +142,24 @@ std::vector<Option> rows(ConvergeOptions& o) {
 }
 
 // The folder of the page, checked before any work; empty without --report.
-std::filesystem::path page_folder(const ConvergeOptions& o) {
+std::filesystem::path page_folder(const ConvergeCommandOptions& o) {
   return o.report.empty() ? "" : mc::make_output_folder(o.report, "index.html");
 }
 
-void write_report(const std::filesystem::path& folder, const ConvergeOptions& o, const std::vector<Measured>& all) {
+void write_report(const std::filesystem::path& folder, const ConvergeCommandOptions& o, const std::vector<PageEntry>& all) {
   if (folder.empty()) return;
-  write_page(folder, converge_head(o.command), all);
+  write_convergence_page(folder, converge_header(o.command), all);
   fmt::print("page: {}\n", (folder / "index.html").string());
 }
 
-int converge_scene(const ConvergeOptions& o) {
+int run_converge_scene(const ConvergeCommandOptions& o) {
   mc::require(o.points.empty(), "converge: --points-file is not for scenes");
   refuse_integral_options(o.integral);
   const Interrupt interrupt;
-  const Target target = scene_target(o.integral.integrands[0]);
+  const IntegralTarget target = scene_target(o.integral.integrands[0]);
   const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
-  const Pictures pictures = measure_scene(o.scene, {.path = target.integral.source,
+  const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
                                                     .samplers = o.samplers,
                                                     .all = o.all,
                                                     .pictures = o.replicates,
@@ -168,44 +168,44 @@ int converge_scene(const ConvergeOptions& o) {
                                                     .threads = o.threads,
                                                     .cancel = interrupt.flag()});
   const bool interrupted = pictures.measurement.interrupted;
-  if (interrupted) fmt::print("{}\n", interrupted_pictures(pictures));
-  if (pictures.ways.empty()) return exit_interrupted;
+  if (interrupted) fmt::print("{}\n", interruption_summary(pictures));
+  if (pictures.methods.empty()) return exit_interrupted;
   write(target, pictures.measurement, o, folder, true, &pictures);
-  fmt::print("{}", about_pictures(pictures));
+  fmt::print("{}", bias_summary(pictures));
   mc::write_file((folder / "slopes.csv").string(), slopes_header() + slopes_csv(target, pictures.measurement));
   fmt::print("data and plots: {}\n", folder.string());
   write_report(page, o, {{&target, &pictures.measurement, &pictures}});
   return interrupted ? exit_interrupted : exit_ok;
 }
 
-int converge(const ConvergeOptions& o) {
+int run_converge(const ConvergeCommandOptions& o) {
   if (o.integral.list) return list_integrals();
   mc::require(o.replicates == 0 || (o.replicates >= 8 && o.replicates <= 100'000),
               "--replicates {} must lie in [8, 100000], or be 0", o.replicates);
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
-  if (is_scene(o.integral.integrands)) return converge_scene(o);
+  if (is_scene(o.integral.integrands)) return run_converge_scene(o);
   refuse_scene_among(o.integral.integrands);
   refuse_scene_options(o.scene);
   const Interrupt interrupt;
-  const std::vector<Target> targets = targets_of(o.integral);
-  const std::vector<Way> chosen = ways_of(o);
+  const std::vector<IntegralTarget> targets = targets_of(o.integral);
+  const std::vector<SamplingMethod> chosen = methods_of(o);
   if (!o.integral.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.domain);
-  for (const Way& w : chosen)
-    for (const Target& t : targets)
-      mc::require(w.dimensions == 0 || w.dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions", w.name,
-                  w.dimensions, t.integral.name, t.integral.dim);
+  for (const SamplingMethod& w : chosen)
+    for (const IntegralTarget& t : targets)
+      mc::require(w.max_dimensions == 0 || w.max_dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions", w.name,
+                  w.max_dimensions, t.integral.name, t.integral.dim);
   const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
 
-  const Run run = measure_all(targets, chosen, o, folder, interrupt.flag());
+  const ConvergeRun run = measure_all(targets, chosen, o, folder, interrupt.flag());
   std::string slopes = slopes_header();
-  std::vector<Measured> measured;
+  std::vector<PageEntry> measured;
   bool doubted = false;
   for (std::size_t i = 0; i < run.measurements.size(); ++i) {
     if (run.measurements[i].curves.empty()) continue;
     slopes += slopes_csv(targets[i], run.measurements[i]);
     measured.push_back({&targets[i], &run.measurements[i]});
-    doubted = doubted || !run.measurements[i].doubt.empty();
+    doubted = doubted || !run.measurements[i].truth_warning.empty();
   }
   mc::write_file((folder / "slopes.csv").string(), slopes);
   if (run.interrupted)
@@ -219,7 +219,7 @@ int converge(const ConvergeOptions& o) {
 } // namespace
 
 Subcommand converge_subcommand() {
-  return make_subcommand<ConvergeOptions>(
+  return make_subcommand<ConvergeCommandOptions>(
       {.name = "converge",
        .summary =
            "Measure how fast the error of an estimate falls with samples and with time, and plot it beside theory",
@@ -235,7 +235,7 @@ Subcommand converge_subcommand() {
                        "The exponent of the literature. \"no steeper than\" where logarithms may slow the fall, "
                        "\"at least as steep as\" where only a bound is proven."}}},
                     expression_section()}},
-      rows, converge);
+      rows, run_converge);
 }
 
 } // namespace carlo

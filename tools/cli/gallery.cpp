@@ -22,7 +22,7 @@ namespace carlo {
 
 namespace {
 
-struct GalleryOptions {
+struct GalleryCommandOptions {
   std::vector<std::string> names; ///< empty: all
   std::string output = "out/gallery";
   bool list = false, table = false;
@@ -35,14 +35,14 @@ struct GalleryOptions {
 };
 
 /// A scene that was read and is not rendered yet.
-struct Asked {
+struct SceneJob {
   const GalleryScene* scene;
-  ::render::SceneFile file;
-  ::render::RenderOptions settings;
+  render::SceneFile file;
+  render::RenderOptions settings;
   double work = 0; ///< number of samples; 1 where it is unknown
 };
 
-std::vector<Option> rows(GalleryOptions& o) {
+std::vector<Option> rows(GalleryCommandOptions& o) {
   const Exclusion counted{"--spp", "--time and --target-error choose the number of samples"};
   return in_groups({
       {common_options,
@@ -75,7 +75,7 @@ int list_scenes() {
 }
 
 // The named scenes without duplicates, since files and parts of the page have the names of scenes.
-std::vector<const GalleryScene*> chosen(const GalleryOptions& o) {
+std::vector<const GalleryScene*> chosen_scenes(const GalleryCommandOptions& o) {
   std::vector<const GalleryScene*> scenes;
   for (const std::string& name : o.names) {
     const GalleryScene* scene = &gallery_scene(name);
@@ -88,8 +88,8 @@ std::vector<const GalleryScene*> chosen(const GalleryOptions& o) {
 
 int scaled(int pixels, double scale) { return std::max(1, static_cast<int>(std::lround(pixels * scale))); }
 
-Asked read(const GalleryScene& scene, const GalleryOptions& o, const std::atomic<bool>* cancel) {
-  Asked a{&scene, ::render::read_mitsuba(scene_file(scene)), {}};
+SceneJob read(const GalleryScene& scene, const GalleryCommandOptions& o, const std::atomic<bool>* cancel) {
+  SceneJob a{&scene, render::read_mitsuba(scene_file(scene)), {}};
   a.settings.width = scaled(a.file.defaults.width, o.scale);
   a.settings.height = scaled(a.file.defaults.height, o.scale);
   a.settings.spp = o.spp.value_or(scene.spp > 0 ? scene.spp : a.file.defaults.spp);
@@ -100,14 +100,14 @@ Asked read(const GalleryScene& scene, const GalleryOptions& o, const std::atomic
   a.settings.seed = o.seed;
   a.settings.threads = o.threads;
   a.settings.cancel = cancel;
-  if (!scene.strategy.empty()) a.settings.strategy = ::render::strategy_from(scene.strategy);
-  if (!scene.sampler.empty()) a.settings.sampler = ::render::sampler_from(scene.sampler);
+  if (!scene.strategy.empty()) a.settings.strategy = render::strategy_from(scene.strategy);
+  if (!scene.sampler.empty()) a.settings.sampler = render::sampler_from(scene.sampler);
   const bool counted = !o.seconds && !o.target_error;
   a.work = counted ? double(a.settings.width) * a.settings.height * a.settings.spp : 1;
   return a;
 }
 
-RenderedScene report(const Asked& a, const ::render::RenderResult& result) {
+RenderedScene report(const SceneJob& a, const render::RenderResult& result) {
   RenderedScene r;
   r.scene = a.scene;
   r.width = result.image.width;
@@ -116,7 +116,7 @@ RenderedScene report(const Asked& a, const ::render::RenderResult& result) {
   r.seconds = result.seconds;
   r.samples_per_second = double(result.samples) / result.seconds;
   r.relative_error = result.relative_error;
-  r.undecided = result.outlier_dominated;
+  r.outlier_dominated = result.outlier_dominated;
   r.strategy = a.settings.strategy.name;
   r.sampler = name(a.settings.sampler);
   r.features = features_of(*a.scene);
@@ -128,48 +128,48 @@ constexpr int thumbnail_side = 64, thumbnails_in_a_row = 12;
 /// Renders one scene after the other.
 class GalleryRun {
  public:
-  GalleryRun(const GalleryOptions& options, std::filesystem::path folder, const std::atomic<bool>* cancel)
+  GalleryRun(const GalleryCommandOptions& options, std::filesystem::path folder, const std::atomic<bool>* cancel)
       : options_(options), folder_(std::move(folder)), cancel_(cancel) {}
 
-  void all(const std::vector<const GalleryScene*>& scenes) {
-    asked_ = scenes.size();
-    std::vector<Asked> asked; // all are read first: a bad file is reported before any rendering
+  void render_all(const std::vector<const GalleryScene*>& scenes) {
+    scene_count_ = scenes.size();
+    std::vector<SceneJob> jobs; // all are read first: a bad file is reported before any rendering
     for (const GalleryScene* scene : scenes) {
-      asked.push_back(read(*scene, options_, cancel_));
-      work_ += asked.back().work;
+      jobs.push_back(read(*scene, options_, cancel_));
+      work_ += jobs.back().work;
     }
-    for (Asked& a : asked) {
-      if (!one(a)) break;
-      done_ += a.work;
+    for (SceneJob& job : jobs) {
+      if (!render_one(job)) break;
+      done_ += job.work;
     }
     progress_.clear();
   }
 
   const std::vector<RenderedScene>& rendered() const { return rendered_; }
-  const std::vector<::render::Image>& thumbnails() const { return thumbnails_; }
+  const std::vector<render::Image>& thumbnails() const { return thumbnails_; }
 
  private:
   // Returns false when interrupted; an unfinished scene is not kept.
-  bool one(Asked& a) {
+  bool render_one(SceneJob& a) {
     const std::string title(a.scene->name);
     std::mutex mutex;
-    a.settings.progress = [&](const ::render::Progress& p) {
+    a.settings.progress = [&](const render::Progress& p) {
       const std::lock_guard lock(mutex);
       progress_.show((done_ + p.fraction * a.work) / work_,
-                     fmt::format("{} of {}: {}", rendered_.size() + 1, asked_, title));
+                     fmt::format("{} of {}: {}", rendered_.size() + 1, scene_count_, title));
     };
-    ::render::RenderResult result = ::render::render(a.file.scene, a.settings);
+    render::RenderResult result = render::render(a.file.scene, a.settings);
     if (result.partial) return false;
     const Provenance from{title, options_.command, options_.seed};
-    const std::string invalid = invalid_samples(result, from);
+    const std::string invalid = invalid_samples_text(result, from);
     mc::require(invalid.empty(), "{}: {}", title, invalid);
-    sign(result, from);
-    const ::render::Crop whole{0, 0, a.settings.width, a.settings.height};
-    for (const auto& [key, value] : picture_of(scene_file(*a.scene), "mitsuba", {}, a.file, a.settings, whole))
+    add_metadata(result, from);
+    const render::Crop whole{0, 0, a.settings.width, a.settings.height};
+    for (const auto& [key, value] : render_fingerprint(scene_file(*a.scene), "mitsuba", {}, a.file, a.settings, whole))
       result.image.metadata[key] = value; // for carlo render to go on with
     const std::string path = (folder_ / title).string();
-    ::render::write_image(path + ".exr", result.image);
-    ::render::write_image(path + ".png", result.image, tone_of(*a.scene));
+    render::write_image(path + ".exr", result.image);
+    render::write_image(path + ".png", result.image, tone_of(*a.scene));
     RenderedScene r = report(a, result);
     r.strategies = strategies(a);
     if (cancel_->load()) return false;
@@ -185,31 +185,31 @@ class GalleryRun {
   }
 
   // Computed once for all scenes that share a file.
-  const std::vector<StrategyResult>& strategies(const Asked& a) {
+  const std::vector<StrategyResult>& strategies(const SceneJob& a) {
     const auto [place, is_new] = strategies_.try_emplace(scene_file(*a.scene));
-    if (is_new && a.settings.aov.kind == ::render::Aov::radiance)
+    if (is_new && a.settings.aov.kind == render::Aov::radiance)
       place->second = compare_strategies(a.file.scene, a.settings, 64, std::min(64, a.settings.spp));
     return place->second;
   }
 
-  void keep_thumbnail(const Asked& a, ::render::Image image) {
-    const ::render::ToneMapping tone = tone_of(*a.scene);
-    for (::render::Spectrum& p : image.pixels) p = tone_map(p, tone).cast<::render::Float>();
+  void keep_thumbnail(const SceneJob& a, render::Image image) {
+    const render::ToneMapping tone = tone_of(*a.scene);
+    for (render::Spectrum& p : image.pixels) p = tone_map(p, tone).cast<render::Float>();
     thumbnails_.push_back(thumbnail(image, thumbnail_side));
   }
 
-  const GalleryOptions& options_;
+  const GalleryCommandOptions& options_;
   std::filesystem::path folder_;
   const std::atomic<bool>* cancel_;
-  Progress progress_;
-  std::size_t asked_ = 0;
+  ProgressLine progress_;
+  std::size_t scene_count_ = 0;
   double work_ = 0, done_ = 0;
   std::vector<RenderedScene> rendered_;
-  std::vector<::render::Image> thumbnails_;
+  std::vector<render::Image> thumbnails_;
   std::map<std::string, std::vector<StrategyResult>> strategies_;
 };
 
-int gallery_command(const GalleryOptions& o) {
+int run_gallery(const GalleryCommandOptions& o) {
   mc::require(o.names.empty() || !(o.list || o.table), "gallery: --list and --table show all scenes; leave out '{}'",
               fmt::join(o.names, " "));
   if (o.list) return list_scenes();
@@ -222,15 +222,15 @@ int gallery_command(const GalleryOptions& o) {
   mc::require(!o.spp || *o.spp >= 1, "--spp {} must be at least 1", o.spp.value_or(0));
   mc::require(!o.seconds || *o.seconds > 0, "--time {} must be > 0", o.seconds.value_or(0));
   mc::require(!o.target_error || *o.target_error > 0, "--target-error {} must be > 0", o.target_error.value_or(0));
-  const std::vector<const GalleryScene*> scenes = chosen(o);
+  const std::vector<const GalleryScene*> scenes = chosen_scenes(o);
   const std::filesystem::path folder = mc::make_output_folder(o.output, "index.html");
 
   const Interrupt interrupt;
   GalleryRun run(o, folder, interrupt.flag());
-  run.all(scenes);
+  run.render_all(scenes);
   const std::size_t finished = run.rendered().size();
   if (finished > 0) {
-    ::render::write_image((folder / "sheet.png").string(),
+    render::write_image((folder / "sheet.png").string(),
                           contact_sheet(run.thumbnails(), thumbnails_in_a_row, thumbnail_side));
     const std::string page = (folder / "index.html").string();
     mc::write_file(page, gallery_page(run.rendered(), scenes.size(), o.command));
@@ -244,13 +244,13 @@ int gallery_command(const GalleryOptions& o) {
 } // namespace
 
 Subcommand gallery_subcommand() {
-  return make_subcommand<GalleryOptions>(
+  return make_subcommand<GalleryCommandOptions>(
       {.name = "gallery",
        .summary = "Render scenes of books and courses, with a page that shows them",
        .examples = {{"carlo gallery --list", "names the scenes and their sources"},
                     {"carlo gallery cbox smallpt -o out", "renders two scenes"},
                     {"carlo gallery --time 10 -o out", "renders each scene for ten seconds"}}},
-      rows, gallery_command);
+      rows, run_gallery);
 }
 
 } // namespace carlo

@@ -1,6 +1,6 @@
 #include <integrands/expression.h>
 #include <integrands/find.h>
-#include <integrands/sides.h>
+#include <integrands/variable_bounds.h>
 #include <options/expression_help.h>
 #include <options/subcommand.h>
 #include <report/integrate_output.h>
@@ -24,7 +24,7 @@ namespace carlo {
 
 namespace {
 
-struct IntegrateOptions {
+struct IntegrateCommandOptions {
   std::vector<std::string> integrands; ///< names, or expressions
   std::string domain;                  ///< "x=0:1,y=-1:2" for an expression
   bool list = false;
@@ -40,7 +40,7 @@ struct IntegrateOptions {
   std::string command;
 };
 
-std::vector<Option> rows(IntegrateOptions& o) {
+std::vector<Option> rows(IntegrateCommandOptions& o) {
   return in_groups({
       {common_options,
        {
@@ -84,37 +84,37 @@ double number(std::string_view word, const char* option) {
   return *value;
 }
 
-std::vector<Side> sides_of(const IntegrateOptions& o, int dim) {
-  if (!o.domain.empty()) return parse_sides(o.domain);
-  std::vector<Side> sides(static_cast<std::size_t>(dim));
-  for (std::size_t d = 0; d < sides.size(); ++d) sides[d] = {fmt::format("u{}", d), 0, 1};
-  return sides;
+std::vector<VariableBounds> bounds_of(const IntegrateCommandOptions& o, int dim) {
+  if (!o.domain.empty()) return parse_bounds(o.domain);
+  std::vector<VariableBounds> bounds(static_cast<std::size_t>(dim));
+  for (std::size_t d = 0; d < bounds.size(); ++d) bounds[d] = {fmt::format("u{}", d), 0, 1};
+  return bounds;
 }
 
 // Bins, and the function that finds the bin of a point and its value.
-struct Bins {
-  std::vector<Bin> bins;
-  mc::BinFunction of;
+struct HistogramBins {
+  std::vector<HistogramBin> bins;
+  mc::BinFunction bin_of;
 };
 
 // Bins of equal length in u. On an infinite side their lengths in x grow outward.
-Bins along(const std::vector<Side>& sides, const std::string& variable, std::size_t count) {
-  const auto side = std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return s.name == variable; });
-  mc::require(side != sides.end(), "--histogram: there is no variable '{}'; use one of the domain's, or value",
+HistogramBins bins_along_variable(const std::vector<VariableBounds>& bounds, const std::string& variable, std::size_t count) {
+  const auto side = std::find_if(bounds.begin(), bounds.end(), [&](const VariableBounds& s) { return s.name == variable; });
+  mc::require(side != bounds.end(), "--histogram: there is no variable '{}'; use one of the domain's, or value",
               variable);
-  const auto axis = static_cast<std::size_t>(side - sides.begin());
+  const auto axis = static_cast<std::size_t>(side - bounds.begin());
   const auto n = static_cast<double>(count);
-  Bins all{{}, [=](std::span<const double> u, double) { return static_cast<std::size_t>(u[axis] * n); }};
+  HistogramBins all{{}, [=](std::span<const double> u, double) { return static_cast<std::size_t>(u[axis] * n); }};
   for (std::size_t k = 0; k < count; ++k) {
-    const double lo = place_on(*side, static_cast<double>(k) / n).x,
-                 hi = place_on(*side, static_cast<double>(k + 1) / n).x;
+    const double lo = map_to_bounds(*side, static_cast<double>(k) / n).x,
+                 hi = map_to_bounds(*side, static_cast<double>(k + 1) / n).x;
     all.bins.push_back({fmt::format("{} in [{:.4g}, {:.4g})", variable, lo, hi), lo, hi, {}});
   }
   return all;
 }
 
 // Bins by size: powers of 2 below the largest of 4096 values of the integrand times the volume of the domain.
-Bins by_value(const Experiment& e, double volume, std::size_t count, std::uint64_t seed) {
+HistogramBins bins_by_value(const UnitCubeIntegral& e, double volume, std::size_t count, std::uint64_t seed) {
   const double top_quantile[] = {1 - 1e-9};
   const double largest = mc::quantiles([&](std::span<const double> u) { return std::abs(e.f(u)); }, e.dim, top_quantile,
                                        {.calls = 4096, .seed = seed})
@@ -122,7 +122,7 @@ Bins by_value(const Experiment& e, double volume, std::size_t count, std::uint64
                              .value;
   mc::require(largest > 0, "--histogram: the integrand was 0 at 4096 points; there is no size to start from");
   const double top = std::ldexp(volume, std::ilogb(largest / volume));
-  Bins all{{}, [=](std::span<const double>, double value) { return mc::octave_bin(top, value, count); }};
+  HistogramBins all{{}, [=](std::span<const double>, double value) { return mc::octave_bin(top, value, count); }};
   for (std::size_t k = 0; k < count; ++k) {
     const double lo = k + 1 < count ? std::ldexp(top / volume, -static_cast<int>(k)) : 0.0;
     const double hi =
@@ -132,28 +132,28 @@ Bins by_value(const Experiment& e, double volume, std::size_t count, std::uint64
   return all;
 }
 
-// The factor between the values of Experiment::f and those of the expression.
-double volume_of(const std::vector<Side>& sides, const char* option) {
+// The factor between the values of UnitCubeIntegral::f and those of the expression.
+double volume_of(const std::vector<VariableBounds>& bounds, const char* option) {
   double volume = 1;
-  for (const Side& s : sides) {
+  for (const VariableBounds& s : bounds) {
     mc::require(s.is_finite(), "{}: the domain is infinite along {}; values need a finite volume", option, s.name);
     volume *= s.hi - s.lo;
   }
   return volume;
 }
 
-Bins bins_of(const IntegrateOptions& o, const Experiment& e) {
+HistogramBins bins_of(const IntegrateCommandOptions& o, const UnitCubeIntegral& e) {
   const std::size_t equals = o.histogram.find('=');
   mc::require(equals != std::string::npos, "--histogram '{}' must be AXIS=BINS, e.g. x=20", o.histogram);
   const std::string axis = o.histogram.substr(0, equals);
   const double count = number(std::string_view(o.histogram).substr(equals + 1), "--histogram");
   mc::require(count >= 2 && count <= 1000 && count == std::floor(count),
               "--histogram: {} bins; a whole number between 2 and 1000 is needed", count);
-  const std::vector<Side> sides = sides_of(o, e.dim);
-  const bool a_variable = std::any_of(sides.begin(), sides.end(), [&](const Side& s) { return s.name == axis; });
+  const std::vector<VariableBounds> bounds = bounds_of(o, e.dim);
+  const bool a_variable = std::any_of(bounds.begin(), bounds.end(), [&](const VariableBounds& s) { return s.name == axis; });
   const auto bins = static_cast<std::size_t>(count);
-  return axis == "value" && !a_variable ? by_value(e, volume_of(sides, "--histogram"), bins, o.seed)
-                                        : along(sides, axis, bins);
+  return axis == "value" && !a_variable ? bins_by_value(e, volume_of(bounds, "--histogram"), bins, o.seed)
+                                        : bins_along_variable(bounds, axis, bins);
 }
 
 std::vector<double> probabilities(const std::string& list) {
@@ -165,11 +165,11 @@ std::vector<double> probabilities(const std::string& list) {
 }
 
 // Takes the same number of calls as the integral. Returns false when interrupted.
-bool find_quantiles(Integrals& found, const std::vector<double>& wanted, const IntegrateOptions& o,
+bool find_quantiles(IntegrateResults& found, const std::vector<double>& wanted, const IntegrateCommandOptions& o,
                     const Interrupt& interrupt) try {
   if (wanted.empty()) return true;
-  const Experiment& e = found.integrands.front();
-  const double volume = volume_of(sides_of(o, e.dim), "--quantiles");
+  const UnitCubeIntegral& e = found.integrands.front();
+  const double volume = volume_of(bounds_of(o, e.dim), "--quantiles");
   const std::uint64_t most = std::min<std::uint64_t>(o.max_calls, (1u << 24) / static_cast<unsigned>(e.dim + 1)),
                       calls = found.results.outputs.front().calls;
   found.quantiles = mc::quantiles([&](std::span<const double> u) { return e.f(u) / volume; }, e.dim, wanted,
@@ -185,9 +185,9 @@ bool find_quantiles(Integrals& found, const std::vector<double>& wanted, const I
 }
 
 // Integrates all integrands together, or one with its histogram.
-mc::VectorIntegral results_of(const std::vector<Experiment>& all, const Bins& bins, const mc::IntegrateOptions& o) {
-  const Experiment& e = all.front();
-  if (!bins.bins.empty()) return mc::integrate_histogram(e.f, e.dim, bins.bins.size(), bins.of, o);
+mc::VectorIntegral results_of(const std::vector<UnitCubeIntegral>& all, const HistogramBins& bins, const mc::IntegrateOptions& o) {
+  const UnitCubeIntegral& e = all.front();
+  if (!bins.bins.empty()) return mc::integrate_histogram(e.f, e.dim, bins.bins.size(), bins.bin_of, o);
   if (all.size() == 1) return {{mc::integrate_unit(e.f, e.dim, o)}, {1}};
   const mc::VectorIntegrand f = [&](std::span<const double> u, std::span<double> values) {
     for (std::size_t i = 0; i < all.size(); ++i) values[i] = all[i].f(u);
@@ -196,20 +196,20 @@ mc::VectorIntegral results_of(const std::vector<Experiment>& all, const Bins& bi
 }
 
 // The message about a point u where the integrand is not finite, in the integrand's own variables.
-std::string in_variables(const mc::NotFinite& e, const std::vector<Experiment>& all, const std::string& domain) {
-  if (!all.front().place) return e.what();
-  const std::string message = mc::NotFinite(e.bad, e.points, e.u, all.front().place(e.u)).what();
-  const auto bad = std::find_if(all.begin(), all.end(), [&](const Experiment& x) { return !std::isfinite(x.f(e.u)); });
+std::string in_variables(const mc::NotFinite& e, const std::vector<UnitCubeIntegral>& all, const std::string& domain) {
+  if (!all.front().describe_point) return e.what();
+  const std::string message = mc::NotFinite(e.bad, e.points, e.u, all.front().describe_point(e.u)).what();
+  const auto bad = std::find_if(all.begin(), all.end(), [&](const UnitCubeIntegral& x) { return !std::isfinite(x.f(e.u)); });
   if (domain.empty() || bad == all.end() || !std::isnan(bad->f(e.u))) return message;
-  const std::vector<Side> sides = parse_sides(domain);
-  const bool finite = std::all_of(sides.begin(), sides.end(), [](const Side& s) { return s.is_finite(); });
+  const std::vector<VariableBounds> bounds = parse_bounds(domain);
+  const bool finite = std::all_of(bounds.begin(), bounds.end(), [](const VariableBounds& s) { return s.is_finite(); });
   return message + (finite ? "; it is nan there"
                            : "; it is nan there: inf * 0 or inf - inf? Merge the exponents or bound the domain");
 }
 
-std::vector<Experiment> integrands_of(const IntegrateOptions& o) {
+std::vector<UnitCubeIntegral> integrands_of(const IntegrateCommandOptions& o) {
   mc::require(!o.integrands.empty(), "integrate: name an integrand or give an expression; --list shows the names");
-  std::vector<Experiment> all;
+  std::vector<UnitCubeIntegral> all;
   for (const std::string& text : o.integrands) {
     all.push_back(find_integrand(text, o.domain));
     mc::require(all.back().dim == all.front().dim, "integrate: '{}' has {} dimensions, '{}' {}; they must be the same",
@@ -220,7 +220,7 @@ std::vector<Experiment> integrands_of(const IntegrateOptions& o) {
   return all;
 }
 
-mc::IntegrateOptions settings_of(const IntegrateOptions& o) {
+mc::IntegrateOptions settings_of(const IntegrateCommandOptions& o) {
   mc::IntegrateOptions settings;
   settings.rel_error = o.rel_error;
   settings.abs_error = o.abs_error;
@@ -234,7 +234,7 @@ mc::IntegrateOptions settings_of(const IntegrateOptions& o) {
 }
 
 // Whether every integral has the wanted error, as an exit code. Prints a remedy where an error is known but too large.
-int exit_code_of(const Integrals& found, const mc::IntegrateOptions& o) {
+int exit_code_of(const IntegrateResults& found, const mc::IntegrateOptions& o) {
   const auto outputs = found.results.outputs.begin();
   const auto end = outputs + std::ptrdiff_t(found.integrands.size());
   if (!std::all_of(outputs, end, [](const mc::Integral& r) { return r.error_bar == mc::ErrorBar::known; }))
@@ -247,9 +247,9 @@ int exit_code_of(const Integrals& found, const mc::IntegrateOptions& o) {
   return reached ? exit_ok : exit_failed;
 }
 
-int integrate(const IntegrateOptions& o) {
+int run_integrate(const IntegrateCommandOptions& o) {
   if (o.list) {
-    for (const Experiment* e : named_integrands()) std::printf("%-26s %s\n", e->name.c_str(), e->title.c_str());
+    for (const UnitCubeIntegral* e : named_integrands()) std::printf("%-26s %s\n", e->name.c_str(), e->title.c_str());
     return exit_ok;
   }
   mc::require(o.save_density != "-", "--save-density: a density goes to a file; name one");
@@ -257,14 +257,14 @@ int integrate(const IntegrateOptions& o) {
   mc::require(o.json.empty() || o.json != o.save_density,
               "--json and --save-density would both write '{}'; name another file", o.json);
   const ResultFile json(o.json);
-  Integrals found{.integrands = integrands_of(o), .results = {}};
-  const Experiment& first = found.integrands.front();
+  IntegrateResults found{.integrands = integrands_of(o), .results = {}};
+  const UnitCubeIntegral& first = found.integrands.front();
   const std::vector<double> wanted = probabilities(o.quantiles);
-  if (!wanted.empty()) volume_of(sides_of(o, first.dim), "--quantiles");
+  if (!wanted.empty()) volume_of(bounds_of(o, first.dim), "--quantiles");
   mc::IntegrateOptions settings = settings_of(o);
-  Bins bins;
+  HistogramBins bins;
   if (!o.histogram.empty()) bins = bins_of(o, first);
-  Progress progress;
+  ProgressLine progress;
   settings.progress = [&](const mc::IntegrateProgress& p) {
     progress.show(double(p.calls) / double(o.max_calls),
                   fmt::format("{:.8g} ± {:.2g}", p.estimate.value, p.estimate.std_error));
@@ -287,11 +287,11 @@ int integrate(const IntegrateOptions& o) {
   const mc::Integral r = found.results.outputs.front();
   for (std::size_t k = 0; k < bins.bins.size(); ++k) {
     found.histogram.push_back(bins.bins[k]);
-    found.histogram.back().part = found.results.outputs[1 + k];
+    found.histogram.back().integral = found.results.outputs[1 + k];
   }
   const bool cancelled = r.stop == mc::StopReason::cancelled || !find_quantiles(found, wanted, o, interrupt);
 
-  fmt::print("{}{}{}{}", about(found), o.rounds ? round_table(r) : "", histogram_table(found), quantile_table(found));
+  fmt::print("{}{}{}{}", integrate_summary(found), o.rounds ? round_table(r) : "", histogram_table(found), quantile_table(found));
   if (json.is_wanted()) json.write(integrals_json(found, o.command, o.seed));
   if (!o.save_density.empty()) {
     mc::require(r.density != nullptr,
@@ -306,7 +306,7 @@ int integrate(const IntegrateOptions& o) {
 } // namespace
 
 Subcommand integrate_subcommand() {
-  return make_subcommand<IntegrateOptions>(
+  return make_subcommand<IntegrateCommandOptions>(
       {.name = "integrate",
        .summary = "Estimate an integral, of a named integrand or an expression, with an error bar",
        .examples = {{"carlo integrate \"exp(-x*x)*cos(y)\" -d \"x=0:1,y=-1:2\" --rel-error 1e-4",
@@ -317,7 +317,7 @@ Subcommand integrate_subcommand() {
                      "integrates a named integrand, and writes JSON"}},
        .failure = "the wanted error was not reached, or the error is not known",
        .sections = {expression_section()}},
-      rows, integrate);
+      rows, run_integrate);
 }
 
 } // namespace carlo

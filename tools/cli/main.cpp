@@ -71,8 +71,8 @@ CLI::Option* add(CLI::App& app, const Option& o, std::vector<std::string>* list)
   return option;
 }
 
-template <class T> CLI::Option* add(CLI::App& app, const Option& o, T* target) {
-  CLI::Option* option = app.add_option(o.names, *target);
+template <class T> CLI::Option* add(CLI::App& app, const Option& o, T* destination) {
+  CLI::Option* option = app.add_option(o.names, *destination);
   if constexpr (std::integral<T>) option->transform(CLI::Validator(whole_number<T>, ""));
   if constexpr (std::same_as<T, std::optional<int>>) option->transform(CLI::Validator(whole_number<int>, ""));
   if constexpr (std::same_as<T, double> || std::same_as<T, std::optional<double>>) option->check(number);
@@ -85,7 +85,7 @@ void add(CLI::App& app, const Subcommand& subcommand) {
   for (const std::string& alias : subcommand.about.aliases) c->alias(alias);
   if (subcommand.about.hidden) c->group("");
   for (const Option& o : subcommand.options) {
-    CLI::Option* option = std::visit([&](auto* target) { return add(*c, o, target); }, o.target);
+    CLI::Option* option = std::visit([&](auto* destination) { return add(*c, o, destination); }, o.destination);
     if (!o.value.empty()) option->type_name(o.value);
     option->required(o.required);
   }

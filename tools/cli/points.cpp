@@ -27,7 +27,7 @@ namespace {
 
 using nlohmann::json;
 
-struct PointsOptions {
+struct PointsCommandOptions {
   std::string set;
   std::string file; ///< a user's own points instead
   bool list = false;
@@ -44,8 +44,8 @@ constexpr std::uint64_t most_points = 32768; // the work grows as their square
 constexpr int most_dimensions = 16;
 constexpr int axes_drawn = 8; // by projections_svg: more would be too small to read
 
-Sets randomised(const PointSet& set, std::uint64_t n, const PointsOptions& o) {
-  Sets sets;
+PointSets randomised(const PointSet& set, std::uint64_t n, const PointsCommandOptions& o) {
+  PointSets sets;
   for (int r = 0; r < o.randomisations; ++r)
     sets.push_back(set.make(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(o.dim),
                             r == 0 ? o.seed : mc::hash(o.seed, static_cast<std::uint64_t>(r))));
@@ -63,7 +63,7 @@ std::string bounds(const mc::StarDiscrepancy& s) {
   return s.exact() ? number(s.lower) : fmt::format("{:.3g}-{:.3g}", s.lower, s.upper);
 }
 
-void print(const Row& r, int dim, std::size_t sets) {
+void print(const QualityRow& r, int dim, std::size_t sets) {
   line("", "this set", fmt::format("mean of {}", sets), "random", "jittered");
   line("L2-star discrepancy", number(r.first_l2_star), number(r.l2_star), number(r.random.l2_star),
        number(r.jittered.l2_star));
@@ -78,8 +78,8 @@ void print(const Row& r, int dim, std::size_t sets) {
   const auto mean_t = [](const std::optional<double>& t) { return t ? fmt::format("{:.2f}", *t) : std::string(); };
   line("t of the net", r.t ? fmt::format("{}", *r.t) : "-", "", mean_t(r.random.t), mean_t(r.jittered.t));
   if (dim >= 2)
-    line("power up to sqrt(N) / 2", "", number(low_power(r.power, r.n)), number(low_power(r.random.power, r.n)),
-         number(low_power(r.jittered.power, r.n)));
+    line("power up to sqrt(N) / 2", "", number(low_frequency_power(r.power, r.n)), number(low_frequency_power(r.random.power, r.n)),
+         number(low_frequency_power(r.jittered.power, r.n)));
   if (r.t) fmt::print("a ({}, {}, {})-net in base 2\n", *r.t, std::countr_zero(r.n), dim);
   else fmt::print("no t: {}\n", std::has_single_bit(r.n) ? "too many boxes" : "the number of points is no power of 2");
   fmt::print("{}",
@@ -99,27 +99,27 @@ std::string points_csv(mc::PointList p) {
 
 // Work limits for the star discrepancy. It is exact where that takes some seconds at most; otherwise bounds are computed
 // with less work, and with a tenth of it for the many reference sets.
-StarWork star_work(std::uint64_t n, std::size_t dim, bool last) {
+StarDiscrepancyBudget star_discrepancy_budget(std::uint64_t n, std::size_t dim, bool last) {
   constexpr std::uint64_t thorough = 2'000'000'000, quick = 300'000'000, little = 100'000'000;
   if (mc::exact_star_steps(n, dim) < 0.6 * static_cast<double>(quick)) return {last ? thorough : quick, quick};
   return {last ? thorough : little, little / 10};
 }
 
 // The rows of the curves by increasing number of points, and the point sets of the last row.
-struct MeasuredSets {
-  std::vector<Row> rows;
-  Sets sets;
+struct QualityRun {
+  std::vector<QualityRow> rows;
+  PointSets sets;
   bool interrupted = false;
 };
 
-MeasuredSets measure_all(const PointsOptions& o, int& dim) {
-  MeasuredSets m;
+QualityRun measure_all(const PointsCommandOptions& o, int& dim) {
+  QualityRun m;
   if (!o.file.empty()) {
     const CsvTable table = read_points(o.file, 2, most_points, most_dimensions);
     dim = static_cast<int>(table.columns);
     m.sets = {table.values};
-    const StarWork work = star_work(m.sets[0].size() / table.columns, table.columns, true);
-    m.rows = {measure(m.sets, table.columns, o.threads, work)};
+    const StarDiscrepancyBudget work = star_discrepancy_budget(m.sets[0].size() / table.columns, table.columns, true);
+    m.rows = {measure_quality(m.sets, table.columns, o.threads, work)};
     return m;
   }
   const PointSet& set = point_set(o.set);
@@ -127,7 +127,7 @@ MeasuredSets measure_all(const PointsOptions& o, int& dim) {
   for (std::uint64_t n = 16; n < o.count; n *= 2) counts.push_back(n);
   counts.push_back(o.count);
   const Interrupt interrupt;
-  Progress progress;
+  ProgressLine progress;
   for (const std::uint64_t n : counts) {
     if (*interrupt.flag()) {
       m.interrupted = true;
@@ -135,13 +135,13 @@ MeasuredSets measure_all(const PointsOptions& o, int& dim) {
     }
     progress.show(static_cast<double>(n * n) / static_cast<double>(4 * o.count * o.count), fmt::format("N = {}", n));
     m.sets = randomised(set, n, o);
-    const StarWork work = star_work(n, static_cast<std::size_t>(dim), n == o.count);
-    m.rows.push_back(measure(m.sets, static_cast<std::size_t>(dim), o.threads, work));
+    const StarDiscrepancyBudget work = star_discrepancy_budget(n, static_cast<std::size_t>(dim), n == o.count);
+    m.rows.push_back(measure_quality(m.sets, static_cast<std::size_t>(dim), o.threads, work));
   }
   return m;
 }
 
-void write(const PointsOptions& o, const std::filesystem::path& folder, const MeasuredSets& m, int dim) {
+void write(const PointsCommandOptions& o, const std::filesystem::path& folder, const QualityRun& m, int dim) {
   const mc::PointList first{m.sets[0], static_cast<std::size_t>(dim)};
   const std::string title = fmt::format("{}, {} dimensions", o.file.empty() ? o.set : std::string("points"), dim);
   const auto file = [&](const char* name) { return (folder / name).string(); };
@@ -158,7 +158,7 @@ void write(const PointsOptions& o, const std::filesystem::path& folder, const Me
               {"randomisations", m.sets.size()},
               {"reference_sets", reference_sets},
               {"rows", json::array()}};
-  for (const Row& r : m.rows) all["rows"].push_back(to_json(r));
+  for (const QualityRow& r : m.rows) all["rows"].push_back(to_json(r));
   if (m.interrupted) all["interrupted"] = true;
   mc::write_file(file("quality.json"), json_text(all));
   mc::write_file(file("quality.gp"), quality_script(title, m.rows));
@@ -166,7 +166,7 @@ void write(const PointsOptions& o, const std::filesystem::path& folder, const Me
     std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
 }
 
-std::vector<Option> rows(PointsOptions& o) {
+std::vector<Option> rows(PointsCommandOptions& o) {
   const Exclusion own{"--points-file", "the file determines its points"};
   return in_groups({
       {common_options,
@@ -195,7 +195,7 @@ std::vector<Option> rows(PointsOptions& o) {
   });
 }
 
-int points(const PointsOptions& o) {
+int run_points(const PointsCommandOptions& o) {
   if (o.list) {
     for (const PointSet& s : point_sets()) fmt::print("{:<18} {}\n", s.name, s.title);
     return exit_ok;
@@ -208,7 +208,7 @@ int points(const PointsOptions& o) {
   if (o.file.empty()) point_set(o.set);
   const std::filesystem::path folder = mc::make_output_folder(o.output, "points.csv");
   int dim = o.dim;
-  const MeasuredSets m = measure_all(o, dim);
+  const QualityRun m = measure_all(o, dim);
   if (m.rows.empty()) return exit_interrupted;
   fmt::print("{}: {} points in {} dimension{}\n", o.file.empty() ? o.set : o.file, m.rows.back().n, dim,
              dim == 1 ? "" : "s");
@@ -224,7 +224,7 @@ int points(const PointsOptions& o) {
 } // namespace
 
 Subcommand points_subcommand() {
-  return make_subcommand<PointsOptions>(
+  return make_subcommand<PointsCommandOptions>(
       {.name = "points",
        .summary = "Measure how evenly a point set fills the unit cube: pictures, discrepancies, distances, spectrum",
        .examples = {{"carlo points sobol -n 1024 -d 2", "measures 1024 points of the Sobol' sequence in the plane"},
@@ -237,7 +237,7 @@ Subcommand points_subcommand() {
               {"t of the net", "Least t for which the points are a (t, m, d)-net in base 2. Smaller is more even."},
               {"power", "Mean power of the spectrum at frequencies up to sqrt(N) / 2; 1 for independent points. "
                         "Smaller means smaller errors of smooth integrands."}}}}},
-      rows, points);
+      rows, run_points);
 }
 
 } // namespace carlo

@@ -36,8 +36,8 @@ namespace carlo {
 
 namespace {
 
-::render::Variables parse_variables(const std::vector<std::string>& texts) {
-  ::render::Variables variables;
+render::Variables parse_variables(const std::vector<std::string>& texts) {
+  render::Variables variables;
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
     mc::require(equals != std::string::npos && equals > 0, "-D '{}' must be NAME=VALUE, e.g. -D spp=16", text);
@@ -47,15 +47,15 @@ namespace {
   return variables;
 }
 
-::render::SceneFile read_scene(const std::string& file, const RenderOptions& options) {
-  const ::render::Variables variables = parse_variables(options.variables);
-  if (!::render::is_mesh_file(file))
-    return ::render::read_mitsuba(file, ::render::dialect_from(options.dialect), variables);
+render::SceneFile read_scene(const std::string& file, const RenderCommandOptions& options) {
+  const render::Variables variables = parse_variables(options.variables);
+  if (!render::is_mesh_file(file))
+    return render::read_mitsuba(file, render::dialect_from(options.dialect), variables);
   mc::require(variables.empty(), "-D: '{}' is a mesh alone, which has no variables", file);
-  return ::render::read_mesh_scene(file);
+  return render::read_mesh_scene(file);
 }
 
-std::string output_of(const RenderOptions& options) {
+std::string output_of(const RenderCommandOptions& options) {
   if (!options.output.empty()) return options.output;
   const std::string name = std::filesystem::path(options.scene).stem().string();
   return name + (options.compare_strategies ? "-strategies.png" : ".exr");
@@ -71,12 +71,12 @@ void check_output(const std::string& path) {
               "cannot write '{}': unknown image format '{}'; use .exr, .pfm or .png", path, extension);
 }
 
-bool is(const std::string& path, const char* extension) { return mc::lowercase_extension(path) == extension; }
+bool has_extension(const std::string& path, const char* extension) { return mc::lowercase_extension(path) == extension; }
 
 // The tone of a PNG, except for an exposure that depends on the picture.
-::render::ToneMapping tone_of(const RenderOptions& options, const GalleryScene* named) {
-  ::render::ToneMapping tone = named ? tone_of(*named) : ::render::ToneMapping();
-  if (!options.tone.empty()) tone.curve = ::render::tone_curve_from(options.tone);
+render::ToneMapping tone_of(const RenderCommandOptions& options, const GalleryScene* named) {
+  render::ToneMapping tone = named ? tone_of(*named) : render::ToneMapping();
+  if (!options.tone.empty()) tone.curve = render::tone_curve_from(options.tone);
   if (options.exposure.empty() || options.exposure == "auto") return tone;
   char rest = 0;
   mc::require(std::sscanf(options.exposure.c_str(), "%lf%c", &tone.exposure, &rest) == 1 &&
@@ -86,8 +86,8 @@ bool is(const std::string& path, const char* extension) { return mc::lowercase_e
 }
 
 // The pixels to render.
-::render::Crop part_of(const ::render::RenderOptions& settings) {
-  return settings.crop.value_or(::render::Crop{0, 0, settings.width, settings.height});
+render::Crop crop_of(const render::RenderOptions& settings) {
+  return settings.crop.value_or(render::Crop{0, 0, settings.width, settings.height});
 }
 
 // A word that is neither a file nor looks like one is a scene of the gallery.
@@ -97,21 +97,21 @@ const GalleryScene* named_scene(const std::string& word) {
 }
 
 // The settings of the scene, overridden by those of the command line.
-::render::RenderOptions settings_of(const RenderOptions& options, const ::render::RenderDefaults& defaults,
+render::RenderOptions settings_of(const RenderCommandOptions& options, const render::RenderDefaults& defaults,
                                     const GalleryScene* named) {
-  ::render::RenderOptions settings;
-  if (named && !named->strategy.empty()) settings.strategy = ::render::strategy_from(named->strategy);
-  if (named && !named->sampler.empty()) settings.sampler = ::render::sampler_from(named->sampler);
+  render::RenderOptions settings;
+  if (named && !named->strategy.empty()) settings.strategy = render::strategy_from(named->strategy);
+  if (named && !named->sampler.empty()) settings.sampler = render::sampler_from(named->sampler);
   settings.width = defaults.width;
   settings.height = defaults.height;
-  if (!options.size.empty()) std::tie(settings.width, settings.height) = size_in(options.size);
-  if (!options.crop.empty()) settings.crop = crop_in(options.crop);
+  if (!options.size.empty()) std::tie(settings.width, settings.height) = parse_size(options.size);
+  if (!options.crop.empty()) settings.crop = parse_crop(options.crop);
   settings.spp = options.spp.value_or(named && named->spp > 0 ? named->spp : defaults.spp);
   settings.seconds = options.seconds;
   settings.target_error = options.target_error;
   mc::require(options.error_of.empty() || options.error_of == "picture" || options.error_of == "worst",
               "--error-of '{}' must be picture or worst", options.error_of);
-  if (options.error_of == "worst") settings.error_scope = ::render::ErrorScope::worst_block;
+  if (options.error_of == "worst") settings.error_scope = render::ErrorScope::worst_block;
   mc::require(options.adaptive.empty() || options.adaptive == "on" || options.adaptive == "off",
               "--adaptive '{}' must be on or off", options.adaptive);
   if (!options.adaptive.empty()) settings.adaptive = options.adaptive == "on";
@@ -120,13 +120,13 @@ const GalleryScene* named_scene(const std::string& word) {
               "pixel; leave one out");
   settings.splat = options.splat;
   settings.tiles = options.tiles;
-  if (!options.strategy.empty()) settings.strategy = ::render::strategy_from(options.strategy);
-  if (!options.sampler.empty()) settings.sampler = ::render::sampler_from(options.sampler);
+  if (!options.strategy.empty()) settings.strategy = render::strategy_from(options.strategy);
+  if (!options.sampler.empty()) settings.sampler = render::sampler_from(options.sampler);
   mc::require(!options.max_depth || *options.max_depth == -1 || *options.max_depth >= 1,
               "--max-depth {} must be -1 or at least 1", options.max_depth.value_or(0));
   settings.max_depth = options.max_depth.value_or(defaults.max_depth);
-  mc::require(!options.branches || (*options.branches >= 1 && *options.branches <= ::render::max_branches),
-              "--branches {} must be 1 to {}", options.branches.value_or(0), ::render::max_branches);
+  mc::require(!options.branches || (*options.branches >= 1 && *options.branches <= render::max_branches),
+              "--branches {} must be 1 to {}", options.branches.value_or(0), render::max_branches);
   settings.branches = options.branches.value_or(settings.branches);
   settings.aov = defaults.aov;
   mc::require(options.threads >= 0, "--threads {} must be >= 0", options.threads);
@@ -138,25 +138,25 @@ const GalleryScene* named_scene(const std::string& word) {
 }
 
 // Parts of a progress line, the most important one first.
-std::string progress_text(const ::render::Progress& p, const std::optional<double>& target_error) {
+std::string progress_text(const render::Progress& p, const std::optional<double>& target_error) {
   const std::string rate = format_count(double(p.samples) / p.seconds) + "samples/s";
   if (!std::isfinite(p.relative_error)) return rate;
-  const bool goes_on = target_error && p.relative_error <= *target_error && p.outlier_dominated > ::render::max_outlier_dominated;
+  const bool goes_on = target_error && p.relative_error <= *target_error && p.outlier_dominated > render::max_outlier_dominated;
   if (goes_on)
     return fmt::format("error reached, {:.1f} % undecided: on to {:.0f} %", 100 * p.outlier_dominated,
-                       100 * ::render::max_outlier_dominated);
+                       100 * render::max_outlier_dominated);
   return fmt::format("error {:.2f} %  {:.1f} % undecided  {}", 100 * p.relative_error, 100 * p.outlier_dominated, rate);
 }
 
 constexpr int compared_side = 96; // pixels
 
-int compare_all(const RenderOptions& options, const ::render::Scene& scene, ::render::RenderOptions settings,
-                const ::render::ToneMapping& tone, const std::string& output) {
-  if (options.size.empty()) settings = shrunk(settings, compared_side);
+int compare_all(const RenderCommandOptions& options, const render::Scene& scene, render::RenderOptions settings,
+                const render::ToneMapping& tone, const std::string& output) {
+  if (options.size.empty()) settings = shrink_to_fit(settings, compared_side);
   const int side = std::max(settings.width, settings.height);
   mc::require(settings.spp >= 2, "--compare-strategies: one sample per pixel has no error bar; take two or more");
   mc::require(options.exposure != "auto", "--exposure auto is for one picture; give stops to --compare-strategies");
-  mc::require(is(output, ".png"), "--compare-strategies: cannot write '{}'; name a .png", output);
+  mc::require(has_extension(output, ".png"), "--compare-strategies: cannot write '{}'; name a .png", output);
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
   const auto start = std::chrono::steady_clock::now();
@@ -164,13 +164,13 @@ int compare_all(const RenderOptions& options, const ::render::Scene& scene, ::re
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   const auto count = double(std::max<std::size_t>(same_samples.size(), 1)); // none: interrupted
   const double seconds = settings.seconds.value_or(spent.count() / count);
-  const std::vector<StrategyResult> same_time = compare_strategies_in(scene, settings, seconds);
-  const ::render::Image strip = strategy_strip(scene, settings, tone);
+  const std::vector<StrategyResult> same_time = compare_strategies_for_time(scene, settings, seconds);
+  const render::Image strip = strategy_strip(scene, settings, tone);
   if (interrupt.flag()->load()) {
     fmt::print("interrupted: nothing was written\n");
     return exit_interrupted;
   }
-  ::render::write_image(output, strip);
+  render::write_image(output, strip);
   fmt::print("{}x{}, {} samples per pixel; {:.3g} s\n{}{}: a row for each strategy, with {} samples per pixel\n",
              settings.width, settings.height, settings.spp, seconds, strategy_table(same_samples, same_time), output,
              fmt::join(strip_spp, ", "));
@@ -178,7 +178,7 @@ int compare_all(const RenderOptions& options, const ::render::Scene& scene, ::re
 }
 
 // Throws Error where an output would overwrite a file of the scene.
-void refuse_inputs(const std::set<std::string>& files, const RenderOptions& options, const std::string& output) {
+void refuse_inputs(const std::set<std::string>& files, const RenderCommandOptions& options, const std::string& output) {
   for (const std::string& input : files)
     for (const std::string& written : {output, options.intervals})
       mc::require(written.empty() || !mc::is_same_path(written, input),
@@ -186,8 +186,8 @@ void refuse_inputs(const std::set<std::string>& files, const RenderOptions& opti
                   written == output ? "-o" : "--intervals");
 }
 
-void warn_where_light_is_missed(const ::render::Scene& scene, const ::render::RenderOptions& settings) {
-  if (settings.aov.kind == ::render::Aov::radiance && misses_light(scene, settings.strategy, settings.max_depth))
+void warn_where_light_is_missed(const render::Scene& scene, const render::RenderOptions& settings) {
+  if (settings.aov.kind == render::Aov::radiance && misses_light(scene, settings.strategy, settings.max_depth))
     std::fprintf(
         stderr,
         "carlo: warning: the strategy %s takes directions toward lights and importance targets only: it misses "
@@ -195,9 +195,9 @@ void warn_where_light_is_missed(const ::render::Scene& scene, const ::render::Re
         std::string(settings.strategy.name).c_str());
 }
 
-int render(const RenderOptions& options) {
+int run_render(const RenderCommandOptions& options) {
   if (options.help_scene) {
-    std::fputs(::render::mitsuba::reference().c_str(), stdout);
+    std::fputs(render::mitsuba::reference().c_str(), stdout);
     return exit_ok;
   }
   if (options.list_strategies) {
@@ -212,75 +212,75 @@ int render(const RenderOptions& options) {
     mc::require(!mc::is_same_path(options.intervals, output),
                 "--intervals '{}' would overwrite the picture; name another file", options.intervals);
   }
-  mc::require(!options.layers || is(output, ".exr"), "--layers: '{}' cannot store them; write an .exr", output);
+  mc::require(!options.layers || has_extension(output, ".exr"), "--layers: '{}' cannot store them; write an .exr", output);
 
   const GalleryScene* named = named_scene(options.scene);
   const std::string file = named ? scene_file(*named) : options.scene;
-  const ::render::SceneFile read = read_scene(file, options);
+  const render::SceneFile read = read_scene(file, options);
   const auto& [scene, defaults, origin, warnings, files] = read;
   refuse_inputs(files, options, output);
-  warn_of_departures(read);
-  if (scene.lights().empty() && defaults.aov.kind == ::render::Aov::radiance)
+  warn_about_scene_file(read);
+  if (scene.lights().empty() && defaults.aov.kind == render::Aov::radiance)
     std::fprintf(stderr, "carlo: warning: %s has no light; the image will be black\n", file.c_str());
 
-  warn_where_coarse(file, scene);
+  warn_if_imprecise(file, scene);
 
-  ::render::RenderOptions settings = settings_of(options, defaults, named);
-  ::render::ToneMapping tone = tone_of(options, named);
+  render::RenderOptions settings = settings_of(options, defaults, named);
+  render::ToneMapping tone = tone_of(options, named);
   if (options.compare_strategies) return compare_all(options, scene, settings, tone, output);
-  mc::require(is(output, ".png") || (options.tone.empty() && options.exposure.empty()),
+  mc::require(has_extension(output, ".png") || (options.tone.empty() && options.exposure.empty()),
               "{}: '{}' stores radiance as it is; write a .png", options.tone.empty() ? "--exposure" : "--tone",
               output);
   warn_where_light_is_missed(scene, settings);
-  Progress progress;
+  ProgressLine progress;
   std::mutex mutex;
-  if (progress.shows())
-    settings.progress = [&](const ::render::Progress& p) {
+  if (progress.is_visible())
+    settings.progress = [&](const render::Progress& p) {
       const std::lock_guard lock(mutex);
       progress.show(p.fraction, progress_text(p, options.target_error));
     };
 
-  const ::render::Crop part = part_of(settings);
-  const PictureOf shown = picture_of(file, options.dialect, options.variables, read, settings, part);
-  std::optional<Begun> begun;
-  if (options.resume) begun = begun_picture(output, shown, part, settings);
+  const render::Crop part = crop_of(settings);
+  const RenderFingerprint fingerprint = render_fingerprint(file, options.dialect, options.variables, read, settings, part);
+  std::optional<ResumeState> resumed;
+  if (options.resume) resumed = load_resume_state(output, fingerprint, part, settings);
   const Interrupt interrupt;
   settings.cancel = interrupt.flag();
-  ::render::RenderResult result = ::render::render(scene, settings);
+  render::RenderResult result = render::render(scene, settings);
   progress.clear();
 
-  if (begun ? result.estimates == 0 : result.missing_rows == result.image.height) {
-    fmt::print("interrupted before {}; {} {}\n", begun ? "every pixel had a new sample" : "a row was rendered", output,
-               begun ? "is unchanged" : "was not written");
+  if (resumed ? result.estimates == 0 : result.missing_rows == result.image.height) {
+    fmt::print("interrupted before {}; {} {}\n", resumed ? "every pixel had a new sample" : "a row was rendered", output,
+               resumed ? "is unchanged" : "was not written");
     return exit_interrupted;
   }
   const Provenance from{file, options.command, options.seed};
-  if (const std::string invalid = invalid_samples(result, from); !invalid.empty()) {
+  if (const std::string invalid = invalid_samples_text(result, from); !invalid.empty()) {
     mc::require(options.allow_invalid, "{}: {}; nothing was written (--allow-invalid writes the image without them)",
                 file, invalid);
     std::fprintf(stderr, "carlo: warning: %s\n", invalid.c_str());
   }
-  sign(result, from);
-  for (const auto& [key, value] : shown) result.image.metadata[key] = value;
-  if (begun) add_to(*begun, result);
+  add_metadata(result, from);
+  for (const auto& [key, value] : fingerprint) result.image.metadata[key] = value;
+  if (resumed) accumulate_into(*resumed, result);
   if (options.layers) {
-    const ::render::ImageExtent extent{settings.width, settings.height, part};
+    const render::ImageExtent extent{settings.width, settings.height, part};
     result.image.layers = layers(scene, extent, origin, settings.threads);
   }
   if (options.exposure == "auto") tone.exposure = auto_exposure(result.image);
-  ::render::write_image(output, result.image, tone);
+  render::write_image(output, result.image, tone);
   if (!options.intervals.empty() && !result.image.variance.empty())
-    ::render::write_image(options.intervals, ::render::interval_half_widths(result.image, 0.95));
+    render::write_image(options.intervals, render::interval_half_widths(result.image, 0.95));
 
-  fmt::print("{}", summary_of(output, result, options.target_error));
-  if (begun)
-    fmt::print("  with the earlier runs: {:.4g} samples per pixel of {} runs{}\n", begun->spp + result.spp,
-               begun->runs + 1, result.image.variance.empty() ? "; no error bar, as one run took one sample" : "");
+  fmt::print("{}", render_summary(output, result, options.target_error));
+  if (resumed)
+    fmt::print("  with the earlier runs: {:.4g} samples per pixel of {} runs{}\n", resumed->spp + result.spp,
+               resumed->runs + 1, result.image.variance.empty() ? "; no error bar, as one run took one sample" : "");
   return result.partial ? exit_interrupted : exit_ok;
 }
 
 } // namespace
 
-Subcommand render_subcommand() { return make_subcommand<RenderOptions>(render_about(), render_rows, render); }
+Subcommand render_subcommand() { return make_subcommand<RenderCommandOptions>(render_about(), render_rows, render); }
 
 } // namespace carlo

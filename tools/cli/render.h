@@ -7,7 +7,7 @@
 
 namespace carlo {
 
-struct RenderOptions {
+struct RenderCommandOptions {
   std::string scene;                  ///< a file, or the name of a scene of the gallery
   bool help_scene = false;            ///< print the reference of scene files, and stop
   bool list_strategies = false;       ///< print the strategies, and stop
@@ -39,7 +39,7 @@ struct RenderOptions {
 };
 
 /// The options as rows of --help, and its texts.
-std::vector<Option> render_rows(RenderOptions& options);
+std::vector<Option> render_rows(RenderCommandOptions& options);
 About render_about();
 
 /// A row for each strategy: its name, how it finds light, and when to use it.

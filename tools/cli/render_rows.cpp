@@ -18,7 +18,7 @@ constexpr const char* splat_reason = "both share samples between pixels, and the
 constexpr const char* branch_reason = "a tile shares one continuation of each path, so that it does not split";
 constexpr const char* resume_reason = "--resume averages runs, and a target or an interval is that of a single run";
 
-OptionGroup common_group(RenderOptions& o) {
+OptionGroup common_group(RenderCommandOptions& o) {
   return {
       common_options,
       {
@@ -43,12 +43,12 @@ OptionGroup common_group(RenderOptions& o) {
       }};
 }
 
-OptionGroup sampling_group(RenderOptions& o) {
+OptionGroup sampling_group(RenderCommandOptions& o) {
   return {"Sampling",
           {
               {"--strategy", "NAME", &o.strategy,
                fmt::format("How paths find light: {}; see --list-strategies. Default: mis+lt.",
-                           fmt::join(::render::strategy_names(), ", "))},
+                           fmt::join(render::strategy_names(), ", "))},
               {"--sampler", "NAME", &o.sampler,
                "Point set of the pixels: independent, stratified or sobol. Default: sobol."},
               {"--adaptive", "on|off", &o.adaptive,
@@ -75,7 +75,7 @@ OptionGroup sampling_group(RenderOptions& o) {
           }};
 }
 
-OptionGroup image_group(RenderOptions& o) {
+OptionGroup image_group(RenderCommandOptions& o) {
   return {"Image",
           {
               {"--crop", "X,Y,W,H", &o.crop,
@@ -93,7 +93,7 @@ OptionGroup image_group(RenderOptions& o) {
           }};
 }
 
-OptionGroup expert_group(RenderOptions& o) {
+OptionGroup expert_group(RenderCommandOptions& o) {
   return {expert_options,
           {
               {"--resume",
@@ -155,7 +155,7 @@ std::vector<HelpSection> render_sections() {
 
 } // namespace
 
-std::vector<Option> render_rows(RenderOptions& options) {
+std::vector<Option> render_rows(RenderCommandOptions& options) {
   return in_groups({common_group(options), sampling_group(options), image_group(options), expert_group(options)});
 }
 
@@ -172,7 +172,7 @@ About render_about() {
 
 std::string strategies_text(std::size_t columns) {
   std::string text;
-  for (const ::render::Strategy& s : ::render::strategies)
+  for (const render::Strategy& s : render::strategies)
     text += term_row(s.name, fmt::format("{}\n{}", s.summary, s.use), columns, 0, 12);
   return text;
 }

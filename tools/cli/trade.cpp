@@ -29,7 +29,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-struct TradeOptions {
+struct TradeCommandOptions {
   IntegralOptions integral;
   SceneOptions scene;
   std::string samplers;        ///< of a scene; empty: all
@@ -41,7 +41,7 @@ struct TradeOptions {
   std::string command;
 };
 
-std::vector<double> numbers(const char* option, const std::string& text, double most) {
+std::vector<double> parse_positive_list(const char* option, const std::string& text, double most) {
   std::vector<double> all;
   for (const std::string_view part : mc::split(text, ',')) {
     const std::optional<double> x = mc::parse_double(part);
@@ -52,94 +52,94 @@ std::vector<double> numbers(const char* option, const std::string& text, double 
   return all;
 }
 
-std::string text_of(const Ranged& r, std::string_view unit) {
-  if (r.is_at_most()) return fmt::format("at most {:.3g}{}", r.hi, unit);
-  if (r.is_at_least()) return fmt::format("at least {:.3g}{}", r.lo, unit);
+std::string text_of(const IntervalEstimate& r, std::string_view unit) {
+  if (r.is_upper_bound()) return fmt::format("at most {:.3g}{}", r.hi, unit);
+  if (r.is_lower_bound()) return fmt::format("at least {:.3g}{}", r.lo, unit);
   return fmt::format("{:.3g}{} [{:.3g}, {:.3g}]", r.value, unit, r.lo, r.hi);
 }
 
 // Prints the candidates that do not differ significantly from the first.
-void print_ties(const std::vector<Offer>& offers, Ranged Offer::*by, std::string_view unit) {
-  const std::size_t count = as_good(offers, by);
+void print_ties(const std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion, std::string_view unit) {
+  const std::size_t count = count_ties(candidates, criterion);
   for (std::size_t i = 1; i < count; ++i)
-    fmt::print("{}{} {}", i == 1 ? "      not told from it: " : ", ", label(*offers[i].curve),
-               text_of(shown(offers[i], by), unit));
+    fmt::print("{}{} {}", i == 1 ? "      not told from it: " : ", ", curve_label(*candidates[i].curve),
+               text_of(reported_interval(candidates[i], criterion), unit));
   if (count > 1) fmt::print("\n");
 }
 
 // The smallest errors, where no method reaches the wanted one.
-void print_nearest(const ForError& f) {
+void print_nearest(const CandidatesForError& f) {
   constexpr std::size_t most = 4;
-  fmt::print("  error {:g}: no way came there", f.wanted);
+  fmt::print("  error {:g}: no way came there", f.goal);
   for (std::size_t i = 0; i < std::min(f.nearest.size(), most); ++i)
-    fmt::print("{} {} {}{:.3g} at N = {:.0f}", i == 0 ? "; nearest:" : ",", label(*f.nearest[i].curve),
-               f.nearest[i].error.is_at_most() ? "at most " : "", f.nearest[i].error.value, f.nearest[i].n);
+    fmt::print("{} {} {}{:.3g} at N = {:.0f}", i == 0 ? "; nearest:" : ",", curve_label(*f.nearest[i].curve),
+               f.nearest[i].error.is_upper_bound() ? "at most " : "", f.nearest[i].error.value, f.nearest[i].n);
   if (f.nearest.size() > most) fmt::print("; all {} are in trade.csv", f.nearest.size());
   fmt::print("; raise --max-n, of a scene --max-spp\n");
 }
 
-void print(const ForError& f, const Cost& cost) {
-  if (f.offers.empty()) return print_nearest(f);
-  const Offer& best = f.offers.front();
-  fmt::print("  error {:g}: {} in {}{}, N about {:.0f}", f.wanted, label(*best.curve),
-             text_of(shown(best, &Offer::seconds), cost.unit), cost.of, best.n);
+void print(const CandidatesForError& f, const CostUnit& cost) {
+  if (f.candidates.empty()) return print_nearest(f);
+  const TradeCandidate& best = f.candidates.front();
+  fmt::print("  error {:g}: {} in {}{}, N about {:.0f}", f.goal, curve_label(*best.curve),
+             text_of(reported_interval(best, &TradeCandidate::seconds), cost.unit), cost.qualifier, best.n);
   if (f.gain && f.gain->lo < f.gain->hi) fmt::print("; {} times faster than plain Monte Carlo", text_of(*f.gain, ""));
   fmt::print("\n");
-  print_ties(f.offers, &Offer::seconds, cost.unit);
+  print_ties(f.candidates, &TradeCandidate::seconds, cost.unit);
 }
 
-void print(const ForSeconds& f, const Cost& cost) {
-  if (f.offers.empty()) {
-    fmt::print("  {:g}{}: no way can begin with so little\n", f.wanted, cost.unit);
+void print(const CandidatesForTime& f, const CostUnit& cost) {
+  if (f.candidates.empty()) {
+    fmt::print("  {:g}{}: no way can begin with so little\n", f.goal, cost.unit);
     return;
   }
-  const Offer& best = f.offers.front();
-  fmt::print("  {:g}{}: {} with an error of {}, N about {:.0f}", f.wanted, cost.unit, label(*best.curve),
-             text_of(shown(best, &Offer::error), ""), best.n);
-  if (best.ended) fmt::print(", its largest, in {:.3g}{}", best.seconds.value, cost.unit);
+  const TradeCandidate& best = f.candidates.front();
+  fmt::print("  {:g}{}: {} with an error of {}, N about {:.0f}", f.goal, cost.unit, curve_label(*best.curve),
+             text_of(reported_interval(best, &TradeCandidate::error), ""), best.n);
+  if (best.is_largest_n) fmt::print(", its largest, in {:.3g}{}", best.seconds.value, cost.unit);
   if (f.gain) fmt::print("; {} times smaller than plain Monte Carlo's", text_of(*f.gain, ""));
   fmt::print("\n");
-  print_ties(f.offers, &Offer::error, "");
-  const auto ended = std::count_if(f.offers.begin(), f.offers.end(), [](const Offer& o) { return o.ended; });
+  print_ties(f.candidates, &TradeCandidate::error, "");
+  const auto ended = std::count_if(f.candidates.begin(), f.candidates.end(), [](const TradeCandidate& o) { return o.is_largest_n; });
   if (ended > 0)
     fmt::print(
         "      {} of {} ways ended before {:g}{}, at their largest N, and may err less; raise --max-n, of a scene "
         "--max-spp\n",
-        ended, f.offers.size(), f.wanted, cost.unit);
+        ended, f.candidates.size(), f.goal, cost.unit);
 }
 
 // JSON has no infinity; null stands for it, and for a value of which only a bound is known.
-ordered_json to_json(const Ranged& r) {
-  const bool is_known = !r.is_at_most() && !r.is_at_least();
+ordered_json to_json(const IntervalEstimate& r) {
+  const bool is_known = !r.is_upper_bound() && !r.is_lower_bound();
   return {{"value", is_known ? ordered_json(r.value) : ordered_json()}, {"lo", r.lo}, {"hi", r.hi}};
 }
-ordered_json to_json(const std::vector<Offer>& offers, const Cost& cost) {
+ordered_json to_json(const std::vector<TradeCandidate>& candidates, const CostUnit& cost) {
   ordered_json all = ordered_json::array();
-  for (const Offer& o : offers) {
-    all.push_back({{"way", label(*o.curve)},
+  for (const TradeCandidate& o : candidates) {
+    all.push_back({{"way", curve_label(*o.curve)},
                    {"n", o.n},
                    {std::string(cost.column), to_json(o.seconds)},
                    {"rms_error", to_json(o.error)}});
-    if (o.ended) all.back()["ended"] = true;
+    if (o.is_largest_n) all.back()["ended"] = true;
   }
   return all;
 }
-template <class For> ordered_json to_json(const For& f, Ranged Offer::*by, const Cost& cost) {
-  ordered_json j = {{"wanted", f.wanted}, {"as_good", f.offers.empty() ? 0 : as_good(f.offers, by)}};
+template <class For> ordered_json to_json(const For& f, IntervalEstimate TradeCandidate::*criterion, const CostUnit& cost) {
+  ordered_json j = {{"wanted", f.goal}, {"as_good", f.candidates.empty() ? 0 : count_ties(f.candidates, criterion)}};
   if (f.gain) j["gain_over_plain"] = to_json(*f.gain);
-  j["offers"] = to_json(f.offers, cost);
+  j["offers"] = to_json(f.candidates, cost);
   return j;
 }
 
 // gnuplot script: all points, and the Pareto front.
 std::string script(const std::string& title, const Measurement& m) {
-  std::string s = plot_head("trade", 900, 640);
+  std::string s = plot_header("trade", 900, 640);
   s += fmt::format("set title \"{}\" noenhanced\nset logscale xy\nset format xy \"10^{{%L}}\"\nset key outside right "
                    "Left reverse samplen 1\nset xlabel \"{} of one estimate\"\nset ylabel \"root-mean-square "
                    "error\"\nplot \"front.csv\" skip 1 using 3:4 with lines lw 6 lc rgb \"#dddddd\" title \"best\"",
                    title, m.cost.axis);
   for (std::size_t i = 0; i < m.curves.size(); ++i) {
-    std::string name = label(m.curves[i]);
+    std::string name = curve_label(m.curves[i]);
     s +=
         fmt::format(", \\\n     \"trade.csv\" skip 1 using (strcol(1) eq \"{}\" ? $3 : NaN):4 with linespoints pt 7 ps "
                     "0.4 lc rgb \"{}\" title \"{}\" noenhanced",
@@ -148,17 +148,17 @@ std::string script(const std::string& title, const Measurement& m) {
   return s + "\n";
 }
 
-std::string csv(const std::vector<Offer>& offers, const Cost& cost) {
+std::string csv(const std::vector<TradeCandidate>& candidates, const CostUnit& cost) {
   std::string text = fmt::format("way,n,{},rms_error,rms_lo,rms_hi\n", cost.column);
-  for (const Offer& o : offers)
-    text += fmt::format("{},{:.0f},{:.6g},{},{:.9g},{:.9g}\n", label(*o.curve), o.n, o.seconds.value,
-                        o.error.is_at_most() ? "" : fmt::format("{:.9g}", o.error.value), o.error.lo, o.error.hi);
+  for (const TradeCandidate& o : candidates)
+    text += fmt::format("{},{:.0f},{:.6g},{},{:.9g},{:.9g}\n", curve_label(*o.curve), o.n, o.seconds.value,
+                        o.error.is_upper_bound() ? "" : fmt::format("{:.9g}", o.error.value), o.error.lo, o.error.hi);
   return text;
 }
 
-std::vector<Offer> all_points(const Measurement& m) {
-  std::vector<Offer> all;
-  for (const Curve& c : m.curves)
+std::vector<TradeCandidate> all_points(const Measurement& m) {
+  std::vector<TradeCandidate> all;
+  for (const ConvergenceCurve& c : m.curves)
     for (const mc::RmsError& e : c.errors)
       all.push_back({&c, e.n, {e.seconds, e.seconds, e.seconds}, {e.rms, e.lo, e.hi}});
   return all;
@@ -166,20 +166,20 @@ std::vector<Offer> all_points(const Measurement& m) {
 
 // Every point set over double and float, and every estimator; also with one point per call where the integrand takes
 // batches.
-std::vector<Way> configurations(const Target& target) {
-  std::vector<Way> all = ways();
-  all.insert(all.end(), float_ways().begin(), float_ways().end());
+std::vector<SamplingMethod> configurations(const IntegralTarget& target) {
+  std::vector<SamplingMethod> all = sampling_methods();
+  all.insert(all.end(), float_sampling_methods().begin(), float_sampling_methods().end());
   if (!target.has_batch) return all;
   const std::size_t count = all.size();
   for (std::size_t i = 0; i < count; ++i) {
     all.push_back(all[i]);
-    all.back().one_by_one = true;
+    all.back().scalar_calls = true;
   }
   return all;
 }
 
-std::vector<Option> rows(TradeOptions& o) {
-  OptionGroup common{common_options, integral_rows(o.integral)};
+std::vector<Option> rows(TradeCommandOptions& o) {
+  OptionGroup common{common_options, integral_option_rows(o.integral)};
   const std::vector<Option> own = {
       {"--error", "LIST", &o.errors,
        "RMS errors to reach, absolute: \"1e-2,1e-3\". Default: three decades below the integral; for a scene "
@@ -208,42 +208,42 @@ std::vector<Option> rows(TradeOptions& o) {
 }
 
 /// The wanted errors and times.
-struct Wanted {
+struct TradeGoals {
   std::vector<double> errors, seconds;
 };
 
 /// Output folders, checked before any work.
-struct Folders {
+struct OutputFolders {
   std::filesystem::path data, page; ///< page: empty without --report
 
-  explicit Folders(const TradeOptions& o) : data(mc::make_output_folder(o.output, "trade.json")) {
+  explicit OutputFolders(const TradeCommandOptions& o) : data(mc::make_output_folder(o.output, "trade.json")) {
     if (!o.report.empty()) page = mc::make_output_folder(o.report, "index.html");
   }
 };
 
-// `seconds_of_one` takes offers and measures them again.
-template <class Seconds> Answers answers_of(const Measurement& m, const Wanted& wanted, const Seconds& seconds_of_one) {
-  Answers a;
+// `evaluation_cost` takes offers and measures them again.
+template <class Seconds> TradeResults trade_results_of(const Measurement& m, const TradeGoals& wanted, const Seconds& evaluation_cost) {
+  TradeResults a;
   for (const double error : wanted.errors)
-    a.errors.push_back(offers_for_error(m, error, seconds_of_one(offers_for_error(m, error, as_measured).offers)));
+    a.by_error.push_back(candidates_for_error(m, error, evaluation_cost(candidates_for_error(m, error, measured_cost).candidates)));
   for (const double budget : wanted.seconds)
-    a.seconds.push_back(
-        offers_for_seconds(m, budget, seconds_of_one(offers_for_seconds(m, budget, as_measured).offers)));
-  a.front = pareto_front(m);
+    a.by_time.push_back(
+        candidates_for_time(m, budget, evaluation_cost(candidates_for_time(m, budget, measured_cost).candidates)));
+  a.pareto_front = pareto_front(m);
   return a;
 }
 
 // Adds the reference picture, and the bias of each method with its interval.
-void add(const Pictures& p, ordered_json& j) {
+void add(const PictureMeasurement& p, ordered_json& j) {
   j["reference"] = {{"spp", p.reference_spp}, {"error", p.reference_error}};
   j["biases"] = ordered_json::array();
   for (std::size_t i = 0; i < p.biases.size(); ++i)
-    j["biases"].push_back({{"way", label(p.measurement.curves[i])}, {"bias", to_json(p.biases[i].bias)}});
+    j["biases"].push_back({{"way", curve_label(p.measurement.curves[i])}, {"bias", to_json(p.biases[i].bias)}});
 }
 
-ordered_json to_json(const TradeOptions& o, const Measured& one) {
+ordered_json to_json(const TradeCommandOptions& o, const PageEntry& one) {
   const Measurement& m = *one.measurement;
-  const Answers& a = *one.answers;
+  const TradeResults& a = *one.trade_results;
   ordered_json j = {{"command", o.command}, {"commit", commit},
                     {"seed", o.seed},       {"integrand", one.target->integral.name},
                     {"truth", m.truth},     {"truth_error", m.truth_error},
@@ -252,29 +252,29 @@ ordered_json to_json(const TradeOptions& o, const Measured& one) {
   if (m.interrupted) j["interrupted"] = true;
   if (one.pictures) add(*one.pictures, j);
   j["errors"] = j["seconds"] = ordered_json::array();
-  for (const ForError& f : a.errors) {
-    j["errors"].push_back(to_json(f, &Offer::seconds, m.cost));
-    if (f.offers.empty()) j["errors"].back()["nearest"] = to_json(f.nearest, m.cost);
+  for (const CandidatesForError& f : a.by_error) {
+    j["errors"].push_back(to_json(f, &TradeCandidate::seconds, m.cost));
+    if (f.candidates.empty()) j["errors"].back()["nearest"] = to_json(f.nearest, m.cost);
   }
-  for (const ForSeconds& f : a.seconds) j["seconds"].push_back(to_json(f, &Offer::error, m.cost));
-  j["front"] = to_json(a.front, m.cost);
+  for (const CandidatesForTime& f : a.by_time) j["seconds"].push_back(to_json(f, &TradeCandidate::error, m.cost));
+  j["front"] = to_json(a.pareto_front, m.cost);
   return j;
 }
 
 // Prints and writes the results. Returns the exit code.
-int tell(const TradeOptions& o, const Measured& one, const Folders& folders) {
+int report(const TradeCommandOptions& o, const PageEntry& one, const OutputFolders& folders) {
   const Measurement& m = *one.measurement;
-  const Answers& a = *one.answers;
-  const bool exact = std::all_of(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.exact; });
-  const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.is_drawn(); });
-  for (const ForError& f : a.errors) print(f, m.cost);
-  for (const ForSeconds& f : a.seconds) print(f, m.cost);
+  const TradeResults& a = *one.trade_results;
+  const bool exact = std::all_of(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.exact; });
+  const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.has_measurable_error(); });
+  for (const CandidatesForError& f : a.by_error) print(f, m.cost);
+  for (const CandidatesForTime& f : a.by_time) print(f, m.cost);
   if (exact) fmt::print("  every way is exact to rounding: there is no error to plot\n");
-  for (const std::string& warning : {m.doubt, about_variance(m)})
+  for (const std::string& warning : {m.truth_warning, variance_warning(m)})
     if (!warning.empty()) fmt::print("  warning: {}\n", warning);
   const std::filesystem::path& folder = folders.data;
   mc::write_file((folder / "trade.csv").string(), csv(all_points(m), m.cost));
-  mc::write_file((folder / "front.csv").string(), csv(a.front, m.cost));
+  mc::write_file((folder / "front.csv").string(), csv(a.pareto_front, m.cost));
   mc::write_file((folder / "trade.json").string(), to_json(o, one).dump(1) + "\n");
   mc::write_file((folder / "trade.gp").string(), script(one.target->integral.title, m));
   if (!anything) remove_plot(folder, "trade");
@@ -282,65 +282,65 @@ int tell(const TradeOptions& o, const Measured& one, const Folders& folders) {
     std::fprintf(stderr, "carlo: warning: gnuplot is not installed; data and scripts are written, but no plots\n");
   fmt::print("data and plots: {}\n", folder.string());
   if (!folders.page.empty()) {
-    write_page(folders.page, trade_head(o.command), {one});
+    write_convergence_page(folders.page, trade_header(o.command), {one});
     fmt::print("page: {}\n", (folders.page / "index.html").string());
   }
-  const auto is_reached = [](const auto& f) { return !f.offers.empty(); };
-  const bool reached = std::all_of(a.errors.begin(), a.errors.end(), is_reached) &&
-                       std::all_of(a.seconds.begin(), a.seconds.end(), is_reached);
-  return reached && m.doubt.empty() ? exit_ok : exit_failed;
+  const auto is_reached = [](const auto& f) { return !f.candidates.empty(); };
+  const bool reached = std::all_of(a.by_error.begin(), a.by_error.end(), is_reached) &&
+                       std::all_of(a.by_time.begin(), a.by_time.end(), is_reached);
+  return reached && m.truth_warning.empty() ? exit_ok : exit_failed;
 }
 
-int trade_scene(const TradeOptions& o, Wanted wanted) {
+int run_trade_scene(const TradeCommandOptions& o, TradeGoals wanted) {
   refuse_integral_options(o.integral);
   const Interrupt interrupt;
-  const Target target = scene_target(o.integral.integrands[0]);
-  const Folders folders(o);
-  const Pictures pictures = measure_scene(o.scene, {.path = target.integral.source,
+  const IntegralTarget target = scene_target(o.integral.integrands[0]);
+  const OutputFolders folders(o);
+  const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
                                                     .samplers = o.samplers,
-                                                    .to_choose = true,
+                                                    .for_trade = true,
                                                     .seconds = o.time.value_or(0),
                                                     .seed = o.seed,
                                                     .threads = o.threads,
                                                     .cancel = interrupt.flag()});
   const Measurement& m = pictures.measurement;
-  if (m.interrupted) fmt::print("{}\n", interrupted_pictures(pictures));
-  if (pictures.ways.empty()) return exit_interrupted;
+  if (m.interrupted) fmt::print("{}\n", interruption_summary(pictures));
+  if (pictures.methods.empty()) return exit_interrupted;
   if (wanted.errors.empty() && wanted.seconds.empty()) wanted.errors = {0.2, 0.1, 0.05};
   fmt::print("{}: {} ways, {} of one picture\n", target.integral.title, m.curves.size(), m.cost.axis);
-  fmt::print("{}", about_pictures(pictures));
+  fmt::print("{}", bias_summary(pictures));
   // The pictures were already rendered in turn.
-  const Answers answers = answers_of(m, wanted, [](const std::vector<Offer>&) { return as_measured; });
-  const int code = tell(o, {&target, &m, &pictures, &answers}, folders);
+  const TradeResults trade_results = trade_results_of(m, wanted, [](const std::vector<TradeCandidate>&) { return measured_cost; });
+  const int code = report(o, {&target, &m, &pictures, &trade_results}, folders);
   return m.interrupted ? exit_interrupted : code;
 }
 
-int trade(const TradeOptions& o) {
+int run_trade(const TradeCommandOptions& o) {
   if (o.integral.list) return list_integrals();
   mc::require(!o.time || (*o.time > 0 && *o.time <= 1e7), "--time {} must lie in (0, 1e7] seconds", o.time.value_or(0));
-  Wanted wanted;
-  if (!o.errors.empty()) wanted.errors = numbers("--error", o.errors, 1e300);
-  if (!o.seconds.empty()) wanted.seconds = numbers("--seconds", o.seconds, 1e9);
-  if (is_scene(o.integral.integrands)) return trade_scene(o, wanted);
+  TradeGoals wanted;
+  if (!o.errors.empty()) wanted.errors = parse_positive_list("--error", o.errors, 1e300);
+  if (!o.seconds.empty()) wanted.seconds = parse_positive_list("--seconds", o.seconds, 1e9);
+  if (is_scene(o.integral.integrands)) return run_trade_scene(o, wanted);
   refuse_scene_among(o.integral.integrands);
   refuse_scene_options(o.scene);
   mc::require(o.samplers.empty(), "trade: --samplers is for a scene (.xml); an integral has all");
   const Interrupt interrupt;
-  const std::vector<Target> targets = targets_of(o.integral);
+  const std::vector<IntegralTarget> targets = targets_of(o.integral);
   mc::require(targets.size() == 1 && !o.integral.integrands.empty(), "trade: name one integrand; --list shows them");
   if (!o.integral.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.domain);
-  const Target& target = targets.front();
-  const Folders folders(o);
+  const IntegralTarget& target = targets.front();
+  const OutputFolders folders(o);
 
-  const std::vector<Way> chosen = configurations(target);
-  Progress progress;
+  const std::vector<SamplingMethod> chosen = configurations(target);
+  ProgressLine progress;
   MeasureOptions options{.max_n = o.integral.max_n, .seed = o.seed, .threads = o.threads, .cancel = interrupt.flag()};
   options.seconds = o.time.value_or(0);
   std::vector<double>&errors = wanted.errors, &seconds = wanted.seconds;
   if (!errors.empty()) options.error_goal = *std::min_element(errors.begin(), errors.end());
   if (!seconds.empty()) options.cpu_goal = *std::max_element(seconds.begin(), seconds.end());
   options.progress = [&](double done, const std::string& where) { progress.show(done, where); };
-  Measurement m = measure(target, chosen, options);
+  Measurement m = measure_convergence(target, chosen, options);
   progress.clear();
   if (m.curves.empty()) {
     fmt::print("interrupted: 0 of {} ways were measured, too few to choose from\n", chosen.size());
@@ -348,29 +348,29 @@ int trade(const TradeOptions& o) {
   }
   if (errors.empty() && seconds.empty())
     for (const double share : {1e-2, 1e-3, 1e-4})
-      errors.push_back(share * (std::abs(m.truth) > 4 * m.truth_error ? std::abs(m.truth) : m.size));
+      errors.push_back(share * (std::abs(m.truth) > 4 * m.truth_error ? std::abs(m.truth) : m.magnitude));
 
-  const auto in_turn = [&](const std::vector<Offer>& offers) {
-    return taken_in_turn(target, m, offers, o.seed, interrupt.flag());
+  const auto in_turn = [&](const std::vector<TradeCandidate>& candidates) {
+    return interleaved_cost(target, m, candidates, o.seed, interrupt.flag());
   };
-  const Answers answers = answers_of(m, wanted, in_turn);
+  const TradeResults trade_results = trade_results_of(m, wanted, in_turn);
   m.interrupted = *interrupt.flag();
-  if (m.interrupted) fmt::print("{}\n", interrupted_text(finished(m), chosen.size(), "ways", m));
+  if (m.interrupted) fmt::print("{}\n", interrupted_text(count_finished(m), chosen.size(), "ways", m));
   fmt::print("{}: {} way{}, RMS errors to 10 %, {} of one estimate\n", target.integral.title, m.curves.size(),
              m.curves.size() == 1 ? "" : "s", m.cost.axis);
   const auto out_of_time =
-      std::count_if(m.curves.begin(), m.curves.end(), [](const Curve& c) { return c.out_of_time; });
+      std::count_if(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.out_of_time; });
   if (out_of_time > 0)
     fmt::print("  --time ended {} of them before N = {}; with more of it others may be cheaper\n", out_of_time,
                options.max_n);
-  const int code = tell(o, {&target, &m, nullptr, &answers}, folders);
+  const int code = report(o, {&target, &m, nullptr, &trade_results}, folders);
   return m.interrupted ? exit_interrupted : code;
 }
 
 } // namespace
 
 Subcommand trade_subcommand() {
-  return make_subcommand<TradeOptions>(
+  return make_subcommand<TradeCommandOptions>(
       {.name = "trade",
        .summary = "Find the cheapest method for a wanted error, or the most accurate one for a given time",
        .examples = {{"carlo trade pi --error 1e-3", "finds the method that reaches an error of 0.001 first"},
@@ -378,7 +378,7 @@ Subcommand trade_subcommand() {
                     {"carlo trade scene.xml --cost rays --report out", "compares ways to render, and writes a page"}},
        .failure = "a wanted error or time was not reached, or a truth is doubtful",
        .sections = {expression_section()}},
-      rows, trade);
+      rows, run_trade);
 }
 
 } // namespace carlo

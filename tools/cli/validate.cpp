@@ -30,12 +30,12 @@ namespace {
 
 // The cases that the names select: all cases of a distribution, or one case as --list prints it. Without a name, all
 // cases of the user's file.
-std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catalogue, bool brought) {
+std::vector<const Case*> select(const ValidateCommandOptions& o, const Catalogue& catalogue, bool is_user_input) {
   mc::require(o.scalar.empty() || o.scalar == "float" || o.scalar == "double",
               "validate: --scalar '{}' must be float or double", o.scalar);
   std::vector<const Case*> chosen;
   const auto wanted = [&](const Case& c) { return o.scalar.empty() || c.scalar == o.scalar; };
-  if (o.all || ((o.list || brought) && o.names.empty())) {
+  if (o.all || ((o.list || is_user_input) && o.names.empty())) {
     for (const Case& c : catalogue)
       if (wanted(c)) chosen.push_back(&c);
   }
@@ -51,7 +51,7 @@ std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catal
     for (const Case& c : catalogue) names.insert(c.name);
     throw mc::Error(
         fmt::format("validate: unknown distribution '{}'{} ({})", name, mc::did_you_mean(name, names),
-                    brought ? "--list shows the distributions of your file" : "carlo validate --list names them all"));
+                    is_user_input ? "--list shows the distributions of your file" : "carlo validate --list names them all"));
   }
   std::vector<const Case*> unique;
   for (const Case* c : chosen)
@@ -62,7 +62,7 @@ std::vector<const Case*> select(const ValidateOptions& o, const Catalogue& catal
 }
 
 // The seed of a case. It depends neither on the other cases of the run nor on the folder of a file.
-std::uint64_t seed_of(const Case& c, const ValidateOptions& o) {
+std::uint64_t seed_of(const Case& c, const ValidateCommandOptions& o) {
   std::string title = c.title();
   if (!o.samples_file.empty()) title = "samples";
   if (!o.sampler_command.empty()) title = "command"; // c.title() says where the program stands
@@ -85,12 +85,12 @@ std::string line_of(std::size_t width, const Case& c, const mc::Report& r) {
 }
 
 // The user's own code or samples, checked in place of the catalogue.
-struct Brought {
+struct UserInput {
   Catalogue cases;
   std::uint64_t samples = 0; ///< number of samples of a file; 0: the option decides
 };
 
-Brought bring(const ValidateOptions& o, const std::atomic<bool>* cancel) {
+UserInput read_user_input(const ValidateCommandOptions& o, const std::atomic<bool>* cancel) {
   mc::require(int(!o.plugin.empty()) + int(!o.samples_file.empty()) + int(!o.sampler_command.empty()) <= 1,
               "validate: give one of --plugin, --command and --samples-file");
   mc::require(o.sampler_command.empty() || !o.domain.empty(), "validate: --command needs the --domain of its samples");
@@ -106,24 +106,24 @@ Brought bring(const ValidateOptions& o, const std::atomic<bool>* cancel) {
   mc::require(o.pdf_file.empty() || o.pdf.empty(), "validate: give --pdf-file or --pdf, not both");
   mc::require(o.breaks.empty() || !o.pdf.empty() || !o.sampler_command.empty(),
               "validate: --breaks is for a --pdf or a --command");
-  Brought brought;
+  UserInput user_input;
   const bool is_foreign = !o.plugin.empty() || !o.sampler_command.empty();
   const WorkerOptions worker{
       .limits = resource_limits(o.timeout, o.memory, is_foreign), .program = o.worker, .cancel = cancel};
-  if (!o.plugin.empty()) brought.cases = plugin_cases(o.plugin, o.parameters, o.names, worker);
+  if (!o.plugin.empty()) user_input.cases = plugin_cases(o.plugin, o.parameters, o.names, worker);
   if (!o.sampler_command.empty())
-    brought.cases.push_back(command_case({o.sampler_command, o.domain, o.breaks, o.uniforms}, worker));
+    user_input.cases.push_back(command_case({o.sampler_command, o.domain, o.breaks, o.uniforms}, worker));
   if (!o.samples_file.empty()) {
     const SamplesFileCase file =
         samples_file_case({o.samples_file, o.pdf_file, o.pdf, o.domain, o.breaks, o.unnormalized});
-    brought.cases.push_back(file.one);
-    brought.samples = file.samples;
+    user_input.cases.push_back(file.one);
+    user_input.samples = file.samples;
   }
-  return brought;
+  return user_input;
 }
 
 // Determines the number of samples. Throws Error before any work where it is impossible.
-void require_possible(ValidateOptions& o, double alpha, std::uint64_t available) {
+void resolve_sample_count(ValidateCommandOptions& o, double alpha, std::uint64_t available) {
   if (o.detect) {
     mc::require(*o.detect >= 1e-4 && *o.detect <= 1, "validate: --detect {} must lie in [0.0001, 1]", *o.detect);
     o.samples = mc::samples_to_detect(*o.detect, alpha);
@@ -136,13 +136,13 @@ void require_possible(ValidateOptions& o, double alpha, std::uint64_t available)
 }
 
 // The cases that finished, with their reports.
-struct Finished {
+struct CheckedCases {
   std::vector<const Case*> cases;
   std::vector<mc::Report> reports;
-  std::vector<Unchecked> unchecked;
+  std::vector<UncheckedCase> unchecked;
 };
 
-mc::Report check(const Case& one, const ValidateOptions& o, double alpha, const std::atomic<bool>* cancel) {
+mc::Report check(const Case& one, const ValidateCommandOptions& o, double alpha, const std::atomic<bool>* cancel) {
   CaseOptions c;
   c.samples = o.samples;
   c.seed = seed_of(one, o);
@@ -157,13 +157,13 @@ mc::Report check(const Case& one, const ValidateOptions& o, double alpha, const 
 }
 
 // Checks all cases. Prints their lines in order, each as soon as possible.
-Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions& o, double alpha,
+CheckedCases check_all(const std::vector<const Case*>& cases, const ValidateCommandOptions& o, double alpha,
                    const std::atomic<bool>* cancel) {
   std::vector<std::optional<mc::Report>> reports(cases.size());
   std::vector<std::string> errors(cases.size());
   std::size_t printed = 0, finished = 0;
   std::mutex mutex;
-  Progress progress;
+  ProgressLine progress;
   std::size_t width = 24;
   for (const Case* c : cases) width = std::max(width, c->label().size());
   fmt::print("{:<{}} {:<7} {:<12} {:>8} {:>9} {:>9} {:>9} {:>7}\n", "distribution", width, "scalar", "verdict", "p",
@@ -193,7 +193,7 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
                   fmt::format("{} of {} cases", finished, cases.size()));
   });
   progress.clear();
-  Finished all;
+  CheckedCases all;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     if (!is_done(i)) continue;
     if (i >= printed) print(i);
@@ -208,7 +208,7 @@ Finished check_all(const std::vector<const Case*>& cases, const ValidateOptions&
 }
 
 // The reports of cases that did not pass, then the number of cases that passed.
-void print_summary(const Run& run, std::size_t asked, bool verbose) {
+void print_summary(const ValidationRun& run, std::size_t asked, bool verbose) {
   constexpr std::string_view hint = "; --verbose shows them";
   std::size_t passed = 0, inconclusive = 0;
   for (std::size_t i = 0; i < run.cases.size(); ++i) {
@@ -217,7 +217,7 @@ void print_summary(const Run& run, std::size_t asked, bool verbose) {
     inconclusive += r.verdict() == mc::Verdict::inconclusive;
     if (!r.passed())
       fmt::print("\n{}\n  again: {}\n", r.to_string(verbose ? mc::ReportText::full : mc::ReportText::brief, hint),
-                 command_again(*run.cases[i], run.settings, asked));
+                 repeat_command(*run.cases[i], run.settings, asked));
   }
   fmt::print("\n{} of {} cases passed{} at family-wise alpha {:g}; {} samples each, seed {}\n", passed,
              run.cases.size(), inconclusive > 0 ? fmt::format(", {} inconclusive", inconclusive) : std::string(),
@@ -228,18 +228,18 @@ void print_summary(const Run& run, std::size_t asked, bool verbose) {
 
 } // namespace
 
-int validate(const ValidateOptions& options) {
+int run_validate(const ValidateCommandOptions& options) {
   mc::require(options.names.empty() || options.names.front() != "book-slips",
               "validate: book-slips is a subcommand of its own: carlo known-bugs [BUG...]");
-  ValidateOptions o = options;
+  ValidateCommandOptions o = options;
   const Interrupt interrupt;
-  const Brought brought = bring(o, interrupt.flag());
-  if (brought.samples > 0) o.samples = brought.samples;
+  const UserInput user_input = read_user_input(o, interrupt.flag());
+  if (user_input.samples > 0) o.samples = user_input.samples;
   const std::vector<const Case*> cases =
-      select(o, brought.cases.empty() ? catalogue() : brought.cases, !brought.cases.empty());
+      select(o, user_input.cases.empty() ? catalogue() : user_input.cases, !user_input.cases.empty());
   if (o.list) {
     mc::require(o.json.empty() && o.junit.empty(), "validate: --list checks nothing; leave out --json and --junit");
-    const bool is_overview = o.names.empty() && brought.cases.empty();
+    const bool is_overview = o.names.empty() && user_input.cases.empty();
     fmt::print("{}", (is_overview ? distributions_text : cases_text)(cases, terminal_columns(STDOUT_FILENO)));
     return exit_ok;
   }
@@ -248,23 +248,23 @@ int validate(const ValidateOptions& options) {
   mc::require(o.json.empty() || o.json != o.junit, "--json and --junit would both write '{}'; name another file",
               o.json);
   const ResultFile json(o.json), junit(o.junit);
-  require_possible(o, alpha, brought.samples);
+  resolve_sample_count(o, alpha, user_input.samples);
   const std::string page = o.report.empty() ? "" : (mc::make_output_folder(o.report, "index.html") / "index.html").string();
 
-  const Finished finished = check_all(cases, o, alpha, interrupt.flag());
+  const CheckedCases finished = check_all(cases, o, alpha, interrupt.flag());
   std::string errors;
-  for (const Unchecked& u : finished.unchecked) errors += (errors.empty() ? "" : "\ncarlo: ") + u.error;
+  for (const UncheckedCase& u : finished.unchecked) errors += (errors.empty() ? "" : "\ncarlo: ") + u.error;
   mc::require(errors.empty() || !finished.cases.empty(), "{}", errors);
-  const Run run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
+  const ValidationRun run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
                 finished.cases,
                 finished.reports,
                 finished.cases.size() + finished.unchecked.size() < cases.size(),
                 finished.unchecked};
   print_summary(run, cases.size(), o.verbose);
-  if (junit.is_wanted()) junit.write(run_junit(run));
-  if (json.is_wanted()) json.write(run_json(run));
+  if (junit.is_wanted()) junit.write(validation_junit(run));
+  if (json.is_wanted()) json.write(validation_json(run));
   if (!page.empty()) {
-    write_page(page, run);
+    write_validation_page(page, run);
     fmt::print("page: {}\n", page);
   }
   mc::require(errors.empty(), "{}", errors);
@@ -273,6 +273,6 @@ int validate(const ValidateOptions& options) {
   return passed ? exit_ok : exit_failed;
 }
 
-Subcommand validate_subcommand() { return make_subcommand<ValidateOptions>(validate_about(), validate_rows, validate); }
+Subcommand validate_subcommand() { return make_subcommand<ValidateCommandOptions>(validate_about(), validate_rows, validate); }
 
 } // namespace carlo

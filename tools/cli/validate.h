@@ -5,7 +5,7 @@
 
 namespace carlo {
 
-struct ValidateOptions {
+struct ValidateCommandOptions {
   std::vector<std::string> names;
   bool all = false, list = false;
   bool verbose = false;              ///< print every check that does not pass
@@ -34,9 +34,9 @@ struct ValidateOptions {
 };
 
 /// The options as rows of --help, and its texts.
-std::vector<Option> validate_rows(ValidateOptions& options);
+std::vector<Option> validate_rows(ValidateCommandOptions& options);
 About validate_about();
 
-int validate(const ValidateOptions& options);
+int run_validate(const ValidateCommandOptions& options);
 
 } // namespace carlo

@@ -4,7 +4,7 @@
 
 namespace carlo {
 
-std::vector<Option> validate_rows(ValidateOptions& o) {
+std::vector<Option> validate_rows(ValidateCommandOptions& o) {
   const Exclusion counted{"--samples", "--detect computes the number of samples"},
       given{"--samples", "every sample of the file counts"};
   return in_groups({

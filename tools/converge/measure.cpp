@@ -24,11 +24,11 @@ constexpr std::uint64_t first_replicates = 64, most_replicates = 512, reference_
 constexpr double rounding = 1e-12; // of sums, relative to what is summed
 
 // Numbers in units of 2^exponent, whose fourth powers neither overflow nor vanish.
-struct Scaled {
+struct ScaledValues {
   std::vector<double> values;
   int exponent = 0;
 
-  explicit Scaled(const std::vector<double>& x) : exponent(mc::largest_exponent(x)) {
+  explicit ScaledValues(const std::vector<double>& x) : exponent(mc::largest_exponent(x)) {
     for (const double one : x) values.push_back(std::ldexp(one, -exponent));
   }
   double mean() const {
@@ -45,13 +45,13 @@ struct Scaled {
 };
 
 double mean_of(const std::vector<double>& x) {
-  const Scaled s(x);
+  const ScaledValues s(x);
   return std::ldexp(s.mean(), s.exponent);
 }
 
 // Standard error of the mean.
 double error_of_mean(const std::vector<double>& x) {
-  const Scaled s(x);
+  const ScaledValues s(x);
   const double n = static_cast<double>(x.size());
   return std::ldexp(std::sqrt(s.squares() / (n - 1) / n), s.exponent);
 }
@@ -84,10 +84,10 @@ void append(Replicates& all, const Replicates& more) {
 }
 
 // `before`: those with fewer evaluations.
-Replicates replicate(const Target& target, const Way& way, std::uint64_t n, const std::vector<Replicates>& before,
+Replicates replicate(const IntegralTarget& target, const SamplingMethod& method, std::uint64_t n, const std::vector<Replicates>& before,
                      const MeasureOptions& o) {
   const auto run = [&](std::uint64_t first, std::uint64_t count) {
-    return target.run({&way, n, o.seed, first, count, o.threads, o.cancel});
+    return target.run({&method, n, o.seed, first, count, o.threads, o.cancel});
   };
   if (o.replicates > 0) return run(0, static_cast<std::uint64_t>(o.replicates));
   Replicates all = run(0, first_replicates);
@@ -106,7 +106,7 @@ double median(std::vector<double> x) {
 // The standard error of the mean of a curve's last replicates, as far as they are to be believed: where each of them
 // met the same of a jump their spread is 0 or next to it, by chance. So it falls by at most a factor of 4 where N
 // doubles, N^-2; and replicates that have never differed do not know it.
-double credible_error_of_mean(const Curve& c) {
+double credible_error_of_mean(const ConvergenceCurve& c) {
   double error = mc::infinity<double>;
   for (const Replicates& r : c.replicates) {
     const double own = error_of_mean(r.values);
@@ -116,7 +116,7 @@ double credible_error_of_mean(const Curve& c) {
 }
 
 // Whether the goals are passed with room to spare.
-bool is_enough(const Curve& curve, const Experiment& e, const MeasureOptions& o) {
+bool reaches_goals(const ConvergenceCurve& curve, const UnitCubeIntegral& e, const MeasureOptions& o) {
   const Replicates& r = curve.replicates.back();
   if (o.cpu_goal > 0 && median(r.seconds) > o.cpu_goal) return true;
   if (!(o.error_goal > 0)) return false;
@@ -126,32 +126,32 @@ bool is_enough(const Curve& curve, const Experiment& e, const MeasureOptions& o)
 }
 
 // The errors come later, when the truth is known. An interrupt costs only the N that it falls on.
-Curve run_curve(const Target& target, const Way& way, double seconds, const MeasureOptions& o,
+ConvergenceCurve run_curve(const IntegralTarget& target, const SamplingMethod& method, double seconds, const MeasureOptions& o,
                 const std::function<void(std::uint64_t n)>& progress) {
-  Curve curve;
-  curve.way = &way;
-  if (way.file.empty()) curve.theory = theory(way.name, target.integral.smoothness, target.integral.dim);
+  ConvergenceCurve curve;
+  curve.method = &method;
+  if (method.points_file.empty()) curve.theory = theoretical_rate(method.name, target.integral.smoothness, target.integral.dim);
   const auto start = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   double last = 0;
-  for (std::uint64_t n = 16; n <= std::min(o.max_n, way.most); n *= 2) {
-    if (n < way.least) continue;
+  for (std::uint64_t n = 16; n <= std::min(o.max_n, method.max_calls); n *= 2) {
+    if (n < method.min_calls) continue;
     const double before = elapsed();
     curve.out_of_time = seconds > 0 && before + 2 * last > seconds && curve.replicates.size() >= 3;
     if (curve.out_of_time) break;
-    Replicates r = replicate(target, way, n, curve.replicates, o);
-    curve.cut = *o.cancel;
-    if (curve.cut) break;
+    Replicates r = replicate(target, method, n, curve.replicates, o);
+    curve.interrupted = *o.cancel;
+    if (curve.interrupted) break;
     curve.replicates.push_back(std::move(r));
     last = elapsed() - before;
     progress(n);
-    if (curve.replicates.size() >= 3 && is_enough(curve, target.integral, o)) break;
+    if (curve.replicates.size() >= 3 && reaches_goals(curve, target.integral, o)) break;
   }
   return curve;
 }
 
 // The error of the reference may stand on either side, and where it may be all of an error nothing else is known of it.
-void widen(mc::RmsError& e, double truth_error) {
+void add_reference_error(mc::RmsError& e, double truth_error) {
   const double most = 2 * truth_error;
   e.lo = e.lo > most ? std::sqrt(e.lo - most) * std::sqrt(e.lo + most) : 0;
   e.hi = std::hypot(e.hi, most);
@@ -166,16 +166,16 @@ void allow_for_tail(mc::RmsError& e, double index, double values) {
   if (index < light) e.hi /= std::sqrt(1 - std::min(std::pow(values, std::min(2 / index - 1, 0.0)), most));
 }
 
-void judge(Curve& curve, const Experiment& e, const Measurement& m, double tail_index) {
-  const double floor = rounding * m.size;
+void evaluate_curve(ConvergenceCurve& curve, const UnitCubeIntegral& e, const Measurement& m, double tail_index) {
+  const double floor = rounding * m.magnitude;
   double worst = 0;
   for (std::size_t i = 0; i < curve.replicates.size(); ++i) {
     const Replicates& r = curve.replicates[i];
     const double kurtosis = mean_kurtosis(curve.replicates, i, m.truth);
     mc::RmsError error = mc::rms_error(mean_of(r.calls), r.values, m.truth, kurtosis);
-    const double together = curve.way->name == m.plain ? error.n : 1;
+    const double together = curve.method->name == m.plain_mc ? error.n : 1;
     allow_for_tail(error, tail_index, together * static_cast<double>(r.values.size()));
-    if (m.truth_error > 0) widen(error, m.truth_error);
+    if (m.truth_error > 0) add_reference_error(error, m.truth_error);
     error.seconds = median(r.seconds);
     worst = std::max(worst, error.rms);
     curve.errors.push_back(error);
@@ -188,26 +188,26 @@ void judge(Curve& curve, const Experiment& e, const Measurement& m, double tail_
   double fewest = double(most_replicates), logs = 0;
   for (std::size_t i = 0; i < curve.errors.size(); ++i) {
     const mc::RmsError& one = curve.errors[i];
-    if (one.is_bound || one.rms <= floor || (e.fit_from > 0 ? one.n < e.fit_from : i < half)) continue;
+    if (one.is_bound || one.rms <= floor || (e.min_fit_n > 0 ? one.n < e.min_fit_n : i < half)) continue;
     fitted.push_back(one);
     fewest = std::min(fewest, mc::effective_error_count(double(curve.replicates[i].values.size()),
                                                     mean_kurtosis(curve.replicates, i, m.truth)));
     logs += std::log(one.n);
   }
   if (fitted.size() < 3) return;
-  curve.law = mc::fit_power_law(fitted, static_cast<std::uint32_t>(fewest));
-  curve.middle = std::exp(logs / static_cast<double>(fitted.size()));
+  curve.power_law = mc::fit_power_law(fitted, static_cast<std::uint32_t>(fewest));
+  curve.fit_center = std::exp(logs / static_cast<double>(fitted.size()));
 }
 
 // What independent points say of an integrand.
-struct Look {
-  double size;   // the mean of |f| over a few, which rounding is relative to: the integral itself may cancel
+struct IntegrandProbe {
+  double magnitude;   // the mean of |f| over a few, which rounding is relative to: the integral itself may cancel
   mc::TailIndexEstimator tail; // of f
 };
 
-Look look_at(const Target& target, const MeasureOptions& o) {
+IntegrandProbe probe_integrand(const IntegralTarget& target, const MeasureOptions& o) {
   const std::uint64_t points = std::min<std::uint64_t>(4 * o.max_n, 1 << 14); // less than the largest N takes
-  const Replicates r = target.run({&way("random"), 1, mc::hash(o.seed, 78), 0, points, o.threads, o.cancel});
+  const Replicates r = target.run({&sampling_method("random"), 1, mc::hash(o.seed, 78), 0, points, o.threads, o.cancel});
   std::vector<double> sizes;
   for (const double x : std::span(r.values).first(std::min<std::size_t>(r.values.size(), first_replicates)))
     sizes.push_back(std::abs(x));
@@ -219,42 +219,42 @@ Look look_at(const Target& target, const MeasureOptions& o) {
 // The curve whose largest N has the smallest spread that is to be believed, of those that do not adapt. Replicates that
 // agree on a few points, where a curve was cut, may all have missed what the integral is made of. Where none has ever
 // differed, the curve of the largest N.
-const Curve* steadiest(const std::vector<Curve>& curves) {
-  const Curve* best = nullptr;
-  const auto rank = [](const Curve& c) { return std::pair(credible_error_of_mean(c), -c.replicates.back().calls[0]); };
-  const auto may_tell = [&](const Curve& c) {
-    return !c.way->adapts && !(c.cut && error_of_mean(c.replicates.back().values) == 0);
+const ConvergenceCurve* most_precise_curve(const std::vector<ConvergenceCurve>& curves) {
+  const ConvergenceCurve* best = nullptr;
+  const auto rank = [](const ConvergenceCurve& c) { return std::pair(credible_error_of_mean(c), -c.replicates.back().calls[0]); };
+  const auto is_usable = [&](const ConvergenceCurve& c) {
+    return !c.method->is_adaptive && !(c.interrupted && error_of_mean(c.replicates.back().values) == 0);
   };
-  for (const Curve& c : curves)
-    if (may_tell(c) && (!best || rank(c) < rank(*best))) best = &c;
+  for (const ConvergenceCurve& c : curves)
+    if (is_usable(c) && (!best || rank(c) < rank(*best))) best = &c;
   return best;
 }
 
 // The truth and its standard error; when interrupted by the replicates that are there.
-std::pair<double, double> reference(const Target& target, const std::vector<Curve>& curves, const MeasureOptions& o) {
-  const Curve* best = steadiest(curves);
+std::pair<double, double> estimate_truth(const IntegralTarget& target, const std::vector<ConvergenceCurve>& curves, const MeasureOptions& o) {
+  const ConvergenceCurve* best = most_precise_curve(curves);
   mc::require(best, "{}: its true value is unknown, and no non-adaptive method is given to estimate it; add one to --samplers",
               target.integral.name);
   const Replicates& last = best->replicates.back();
   const auto largest = static_cast<std::uint64_t>(last.calls[0]);
   const Replicates r =
-      target.run({best->way, largest, mc::hash(o.seed, 77), 0, reference_replicates, o.threads, o.cancel});
+      target.run({best->method, largest, mc::hash(o.seed, 77), 0, reference_replicates, o.threads, o.cancel});
   const std::vector<double>& values = *o.cancel ? last.values : r.values;
   return {mean_of(values), error_of_mean(values)};
 }
 
 // Why the truth must be wrong; empty without a reason. A curve that was cut at small N is no witness.
-std::string doubt_of(const Experiment& e, const Measurement& m) {
-  const std::vector<Curve>& curves = m.curves;
-  const Curve* best = nullptr;
+std::string wrong_truth_warning(const UnitCubeIntegral& e, const Measurement& m) {
+  const std::vector<ConvergenceCurve>& curves = m.curves;
+  const ConvergenceCurve* best = nullptr;
   double value = 0, error = HUGE_VAL;
   int agree = 0, unbiased = 0;
-  for (const Curve& c : curves) {
-    if (c.way->adapts || c.exact || c.cut) continue;
+  for (const ConvergenceCurve& c : curves) {
+    if (c.method->is_adaptive || c.exact || c.interrupted) continue;
     const std::vector<double>& last = c.replicates.back().values;
     const double mean = mean_of(last), own = error_of_mean(last);
     ++unbiased;
-    if (!(std::abs(mean - e.truth) > 6 * own + rounding * m.size)) continue;
+    if (!(std::abs(mean - e.truth) > 6 * own + rounding * m.magnitude)) continue;
     if (!best || own < error) {
       best = &c;
       value = mean;
@@ -262,21 +262,21 @@ std::string doubt_of(const Experiment& e, const Measurement& m) {
     }
   }
   if (!best) return {};
-  for (const Curve& c : curves) {
-    if (c.way->adapts || c.cut) continue;
+  for (const ConvergenceCurve& c : curves) {
+    if (c.method->is_adaptive || c.interrupted) continue;
     const std::vector<double>& last = c.replicates.back().values;
     agree += std::abs(mean_of(last) - value) <= 4 * std::hypot(error_of_mean(last), error);
   }
   if (agree < std::min(unbiased, 2)) return {};
   return fmt::format("the stated truth {:.12g} is wrong, or the integrand is: errors stop falling at {:.2g}, where {} "
                      "settles at {:.12g} +- {:.2g}",
-                     e.truth, std::abs(value - e.truth), best->way->name, value, error);
+                     e.truth, std::abs(value - e.truth), best->method->name, value, error);
 }
 
 // Whether one replicate holds over half of the squared deviations from the mean, and more than one in a million sets of
 // normal ones does: s of R deviations has the law of t^2 / (R - 2 + t^2) (R - 1) / R, t of R - 2 degrees of freedom.
-bool is_one_wild(const std::vector<double>& values) {
-  const Scaled s(values);
+bool one_dominates(const std::vector<double>& values) {
+  const ScaledValues s(values);
   const double mean = s.mean(), sum = s.squares();
   double largest = 0;
   for (const double x : s.values) largest = std::max(largest, mc::sqr(x - mean));
@@ -287,22 +287,22 @@ bool is_one_wild(const std::vector<double>& values) {
 
 // Why a truth found by replicates may be none; empty without a reason. Means with a finite variance are nearly normal
 // at the larger N.
-std::string doubt_of_reference(const std::vector<Curve>& curves) {
-  const auto is_witness = [](const Curve& c) { return !c.way->adapts && !c.exact && !c.cut; };
-  int sets = 0, wild = 0;
-  for (const Curve& c : curves)
-    for (std::size_t i = c.replicates.size() / 2; is_witness(c) && i < c.replicates.size(); ++i) {
+std::string unreliable_reference_warning(const std::vector<ConvergenceCurve>& curves) {
+  const auto is_usable = [](const ConvergenceCurve& c) { return !c.method->is_adaptive && !c.exact && !c.interrupted; };
+  int sets = 0, dominated = 0;
+  for (const ConvergenceCurve& c : curves)
+    for (std::size_t i = c.replicates.size() / 2; is_usable(c) && i < c.replicates.size(); ++i) {
       ++sets;
-      wild += is_one_wild(c.replicates[i].values);
+      dominated += one_dominates(c.replicates[i].values);
     }
-  if (wild < 2 || 4 * wild < sets) return {};
+  if (dominated < 2 || 4 * dominated < sets) return {};
   return fmt::format("in {} of {} sets of replicates one holds over half of the variance: the integral or its variance "
                      "may be infinite, or few points meet what it is made of; errors and slopes are of chance",
-                     wild, sets);
+                     dominated, sets);
 }
 
-bool all_zero(const std::vector<Curve>& curves) {
-  for (const Curve& c : curves)
+bool all_zero(const std::vector<ConvergenceCurve>& curves) {
+  for (const ConvergenceCurve& c : curves)
     for (const Replicates& r : c.replicates)
       if (std::any_of(r.values.begin(), r.values.end(), [](double x) { return x != 0; })) return false;
   return true;
@@ -310,36 +310,36 @@ bool all_zero(const std::vector<Curve>& curves) {
 
 } // namespace
 
-bool Curve::is_drawn() const {
+bool ConvergenceCurve::has_measurable_error() const {
   const auto is_known = [](const mc::RmsError& e) { return e.rms > 0 && !e.is_bound; };
   return !exact && std::any_of(errors.begin(), errors.end(), is_known);
 }
 
-bool Curve::agrees() const { return law && theory && theory->allows(law->lo, law->hi, middle); }
+bool ConvergenceCurve::agrees_with_theory() const { return power_law && theory && theory->is_consistent_with(power_law->lo, power_law->hi, fit_center); }
 
-Measurement measure(const Target& target, const std::vector<Way>& ways, const MeasureOptions& options) {
+Measurement measure_convergence(const IntegralTarget& target, const std::vector<SamplingMethod>& methods, const MeasureOptions& options) {
   static const std::atomic<bool> never = false;
   MeasureOptions o = options;
   if (!o.cancel) o.cancel = &never;
   Measurement m;
   const auto start = Clock::now();
-  const Look look = look_at(target, o);
-  m.size = look.size;
-  const double tail_index = look.tail.index();
-  if (look.tail.infinite_variance()) m.heavy_tail = tail_index;
-  if (m.size == 0) refuse_underflow(target.integral);
+  const IntegrandProbe probe = probe_integrand(target, o);
+  m.magnitude = probe.magnitude;
+  const double tail_index = probe.tail.index();
+  if (probe.tail.infinite_variance()) m.heavy_tail = tail_index;
+  if (m.magnitude == 0) refuse_underflow(target.integral);
   const bool known = std::isfinite(target.integral.truth);
-  for (std::size_t i = 0; i < ways.size(); ++i) {
+  for (std::size_t i = 0; i < methods.size(); ++i) {
     const double gone = std::chrono::duration<double>(Clock::now() - start).count();
-    const double share = o.seconds > 0 ? std::max(1e-3, o.seconds - gone) / static_cast<double>(ways.size() - i) : 0;
+    const double share = o.seconds > 0 ? std::max(1e-3, o.seconds - gone) / static_cast<double>(methods.size() - i) : 0;
     const auto progress = [&](std::uint64_t n) {
       // Work grows with N: the last N takes half of a curve's time.
       const double done = (static_cast<double>(i) + static_cast<double>(n) / static_cast<double>(o.max_n)) /
-                          static_cast<double>(ways.size());
-      if (o.progress) o.progress(done, fmt::format("{} {} N = {}", target.integral.name, ways[i].name, n));
+                          static_cast<double>(methods.size());
+      if (o.progress) o.progress(done, fmt::format("{} {} N = {}", target.integral.name, methods[i].name, n));
     };
-    Curve curve = run_curve(target, ways[i], share, o, progress);
-    m.interrupted = curve.cut;
+    ConvergenceCurve curve = run_curve(target, methods[i], share, o, progress);
+    m.interrupted = curve.interrupted;
     if (!curve.replicates.empty()) m.curves.push_back(std::move(curve));
     if (m.interrupted) break;
     mc::require(known || !all_zero(m.curves),
@@ -347,13 +347,13 @@ Measurement measure(const Target& target, const std::vector<Way>& ways, const Me
   }
   m.truth = target.integral.truth;
   // What an interrupt leaves may not tell the truth: then no error is known, which is no fault of the integrand.
-  if (m.interrupted && !known && (!steadiest(m.curves) || all_zero(m.curves))) m.curves.clear();
+  if (m.interrupted && !known && (!most_precise_curve(m.curves) || all_zero(m.curves))) m.curves.clear();
   if (m.curves.empty()) return m;
-  if (!known) std::tie(m.truth, m.truth_error) = reference(target, m.curves, o);
+  if (!known) std::tie(m.truth, m.truth_error) = estimate_truth(target, m.curves, o);
   m.interrupted = m.interrupted || *o.cancel;
-  m.size = std::max(m.size, std::abs(m.truth));
-  for (Curve& c : m.curves) judge(c, target.integral, m, tail_index);
-  m.doubt = known ? doubt_of(target.integral, m) : doubt_of_reference(m.curves);
+  m.magnitude = std::max(m.magnitude, std::abs(m.truth));
+  for (ConvergenceCurve& c : m.curves) evaluate_curve(c, target.integral, m, tail_index);
+  m.truth_warning = known ? wrong_truth_warning(target.integral, m) : unreliable_reference_warning(m.curves);
   return m;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Error against samples and seconds, for one integral and several ways to sample it.
 
-#include <converge/target.h>
+#include <converge/integral_target.h>
 #include <sampling/theory.h>
 
 #include <mc/stats/power_law.h>
@@ -26,41 +26,41 @@ struct MeasureOptions {
 };
 
 /// How the error of one way falls.
-struct Curve {
-  const Way* way = nullptr;
+struct ConvergenceCurve {
+  const SamplingMethod* method = nullptr;
   std::vector<mc::RmsError> errors;   ///< N is the evaluations really made
   std::vector<Replicates> replicates; ///< behind each
   bool exact = false;                 ///< no error beyond rounding, so no slope
-  bool cut = false;                   ///< an interrupt came before its largest N
+  bool interrupted = false;                   ///< an interrupt came before its largest N
   bool out_of_time = false;           ///< its share of MeasureOptions::seconds ended before
-  std::optional<mc::PowerLaw> law;    ///< of N in the asymptotic range, where there are three or more
-  std::optional<Rate> theory;
-  double middle = 0; ///< geometric mean of the N of the law
+  std::optional<mc::PowerLaw> power_law;    ///< of N in the asymptotic range, where there are three or more
+  std::optional<ConvergenceRate> theory;
+  double fit_center = 0; ///< geometric mean of the N of the law
 
   /// Whether there is an error to draw: above 0, and not a bound.
-  bool is_drawn() const;
+  bool has_measurable_error() const;
   /// Whether the interval of the slope allows what theory says about these N.
-  bool agrees() const;
+  bool agrees_with_theory() const;
 };
 
 /// What an estimate costs, in words.
-struct Cost {
+struct CostUnit {
   std::string_view column, axis; ///< of tables, of plots
-  std::string_view unit, of;     ///< behind a figure
+  std::string_view unit, qualifier;     ///< behind a figure
 };
-inline constexpr Cost cpu_cost{"cpu_seconds", "CPU seconds", " s", " of CPU"};
-inline constexpr Cost ray_cost{"million_rays", "millions of rays", " Mray", ""};
+inline constexpr CostUnit cpu_cost{"cpu_seconds", "CPU seconds", " s", " of CPU"};
+inline constexpr CostUnit ray_cost{"million_rays", "millions of rays", " Mray", ""};
 
 struct Measurement {
-  std::vector<Curve> curves;        ///< of the ways that were begun; when interrupted the last may be cut
+  std::vector<ConvergenceCurve> curves;        ///< of the ways that were begun; when interrupted the last may be cut
   double truth = 0;                 ///< what errors are measured from
   double truth_error = 0;           ///< standard error of a reference; 0: the truth is known
-  double size = 0;                  ///< mean of |f|, or |truth| where that is more: what rounding is relative to
-  std::string doubt;                ///< one line that says why the truth must or may be wrong; empty: no doubt
+  double magnitude = 0;                  ///< mean of |f|, or |truth| where that is more: what rounding is relative to
+  std::string truth_warning;                ///< one line that says why the truth must or may be wrong; empty: no doubt
   bool interrupted = false;         ///< what was measured until then is kept, for each N that was finished
   std::optional<double> heavy_tail; ///< index of the tail, where the variance looks infinite by mc::TailIndexEstimator
-  Cost cost = cpu_cost;             ///< what its seconds are
-  std::string plain = "random";     ///< the name of the way that is plain Monte Carlo
+  CostUnit cost = cpu_cost;             ///< what its seconds are
+  std::string plain_mc = "random";     ///< the name of the way that is plain Monte Carlo
 };
 
 /// Every way on N = 16, 32, ... max_n, from the fewest that the way works with.
@@ -73,6 +73,6 @@ struct Measurement {
 ///            over half of the variance
 ///   throws : Error for an integrand that is not finite somewhere, or of unknown truth and 0 at every point, and
 ///            where refuse_underflow does
-Measurement measure(const Target& target, const std::vector<Way>& ways, const MeasureOptions& options);
+Measurement measure_convergence(const IntegralTarget& target, const std::vector<SamplingMethod>& methods, const MeasureOptions& options);
 
 } // namespace carlo

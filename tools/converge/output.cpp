@@ -18,49 +18,49 @@ std::string color(std::size_t i) {
   return colors[i % colors.size()];
 }
 
-std::string slope_text(const Curve& c) {
+std::string slope_text(const ConvergenceCurve& c) {
   if (c.exact) return "exact to rounding";
-  if (c.errors.back().is_bound && !c.law) return "not distinguishable from the error of the reference";
-  if (!c.law) return "too few N for a slope";
-  std::string text = fmt::format("slope {:+.3f} [{:+.3f}, {:+.3f}]", c.law->slope, c.law->lo, c.law->hi);
+  if (c.errors.back().is_bound && !c.power_law) return "not distinguishable from the error of the reference";
+  if (!c.power_law) return "too few N for a slope";
+  std::string text = fmt::format("slope {:+.3f} [{:+.3f}, {:+.3f}]", c.power_law->slope, c.power_law->lo, c.power_law->hi);
   if (!c.theory) return text;
   text += ", theory " + c.theory->to_string(3);
-  if (c.theory->log_power > 0) text += fmt::format(" ({:+.3f} at these N)", -c.theory->local(c.middle));
-  return c.agrees() ? text : text + ", not in the interval";
+  if (c.theory->log_power > 0) text += fmt::format(" ({:+.3f} at these N)", -c.theory->local_exponent(c.fit_center));
+  return c.agrees_with_theory() ? text : text + ", not in the interval";
 }
 
-std::string about_variance(const Measurement& m) {
+std::string variance_warning(const Measurement& m) {
   if (!m.heavy_tail) return {};
   return fmt::format("the variance of the integrand looks infinite (the largest values fall off with index {:.2f}; a "
                      "finite variance needs more than 2, a finite integral more than 1): RMS errors and slopes may be chance",
                      *m.heavy_tail);
 }
 
-std::string summary(const Target& target, const Measurement& m) {
-  const Experiment& e = target.integral;
+std::string summary(const IntegralTarget& target, const Measurement& m) {
+  const UnitCubeIntegral& e = target.integral;
   std::string text = e.title == e.name ? e.name + "\n" : fmt::format("{}: {}\n", e.name, e.title);
   std::size_t width = 11;
-  for (const Curve& c : m.curves) width = std::max(width, c.way->name.size());
-  for (const Curve& c : m.curves)
-    text += fmt::format("  {:<{}} RMS error {}{:.3g} at N = {:.0f}, {}{}\n", c.way->name, width,
+  for (const ConvergenceCurve& c : m.curves) width = std::max(width, c.method->name.size());
+  for (const ConvergenceCurve& c : m.curves)
+    text += fmt::format("  {:<{}} RMS error {}{:.3g} at N = {:.0f}, {}{}\n", c.method->name, width,
                         c.errors.back().is_bound ? "at most " : "", c.errors.back().rms, c.errors.back().n,
-                        slope_text(c), c.cut ? "; interrupted" : "");
+                        slope_text(c), c.interrupted ? "; interrupted" : "");
   if (m.truth_error > 0)
     text += fmt::format("  true value unknown; errors are relative to {:.12g} +- {:.2g}{}\n", m.truth, m.truth_error,
                         m.interrupted ? "" : ", estimated from separate replicates");
-  for (const std::string& warning : {m.doubt, about_variance(m)})
+  for (const std::string& warning : {m.truth_warning, variance_warning(m)})
     if (!warning.empty()) text += fmt::format("  warning: {}\n", warning);
   return text;
 }
 
 std::string interrupted_text(std::size_t done, std::size_t wanted, std::string_view what, const Measurement& last) {
   std::string text = fmt::format("interrupted: {} of {} {} were finished", done, wanted, what);
-  if (last.curves.empty() || !last.curves.back().cut) return text;
+  if (last.curves.empty() || !last.curves.back().interrupted) return text;
   return text + fmt::format(", one more up to N = {:.0f}", last.curves.back().errors.back().n);
 }
 
-std::size_t finished(const Measurement& m) {
-  return m.curves.size() - (!m.curves.empty() && m.curves.back().cut ? 1 : 0);
+std::size_t count_finished(const Measurement& m) {
+  return m.curves.size() - (!m.curves.empty() && m.curves.back().interrupted ? 1 : 0);
 }
 
 namespace {
@@ -68,10 +68,10 @@ namespace {
 std::string field(const std::string& text) { return text.find(',') == std::string::npos ? text : "\"" + text + "\""; }
 
 // From theory to source, empty where nothing is known.
-std::string theory_fields(const Curve& c) {
+std::string theory_fields(const ConvergenceCurve& c) {
   if (!c.theory) return ",,,";
   std::string text = c.theory->to_string(4) + ",";
-  if (c.law) text += fmt::format("{:.4f},{},", -c.theory->local(c.middle), c.agrees() ? "yes" : "no");
+  if (c.power_law) text += fmt::format("{:.4f},{},", -c.theory->local_exponent(c.fit_center), c.agrees_with_theory() ? "yes" : "no");
   else text += ",,";
   return text + field(std::string(c.theory->source));
 }
@@ -83,30 +83,30 @@ std::string slopes_header() {
          "within_interval,source\n";
 }
 
-std::string slopes_csv(const Target& target, const Measurement& m) {
-  const Experiment& e = target.integral;
+std::string slopes_csv(const IntegralTarget& target, const Measurement& m) {
+  const UnitCubeIntegral& e = target.integral;
   std::string text;
-  for (const Curve& c : m.curves) {
-    text += fmt::format("{},{},{},{},", field(e.name), name(e.smoothness.of), e.dim, field(c.way->name));
-    text += c.law ? fmt::format("{:.0f},{:.4f},{:.4f},{:.4f},", c.middle, c.law->slope, c.law->lo, c.law->hi) : ",,,,";
+  for (const ConvergenceCurve& c : m.curves) {
+    text += fmt::format("{},{},{},{},", field(e.name), name(e.smoothness.kind), e.dim, field(c.method->name));
+    text += c.power_law ? fmt::format("{:.0f},{:.4f},{:.4f},{:.4f},", c.fit_center, c.power_law->slope, c.power_law->lo, c.power_law->hi) : ",,,,";
     text += theory_fields(c) + "\n";
   }
   return text;
 }
 
-std::string to_csv(const Target& target, const Measurement& m) {
+std::string to_csv(const IntegralTarget& target, const Measurement& m) {
   std::string text = fmt::format("experiment,sampler,n,rms_error,rms_lo,rms_hi,{}\n", m.cost.column);
   const std::string name = field(target.integral.name);
-  for (const Curve& c : m.curves)
+  for (const ConvergenceCurve& c : m.curves)
     for (const mc::RmsError& p : c.errors)
-      text += fmt::format("{},{},{:.0f},{},{:.9g},{:.9g},{:.6g}\n", name, field(c.way->name), p.n,
+      text += fmt::format("{},{},{:.0f},{},{:.9g},{:.9g},{:.6g}\n", name, field(c.method->name), p.n,
                           p.is_bound ? "" : fmt::format("{:.9g}", p.rms), p.lo, p.hi, p.seconds);
   return text;
 }
 
 namespace {
 
-ordered_json to_json(const Curve& c, const Cost& cost) {
+ordered_json to_json(const ConvergenceCurve& c, const CostUnit& cost) {
   ordered_json points = ordered_json::array();
   for (std::size_t i = 0; i < c.errors.size(); ++i) {
     const mc::RmsError& p = c.errors[i];
@@ -117,41 +117,41 @@ ordered_json to_json(const Curve& c, const Cost& cost) {
                       {std::string(cost.column), p.seconds},
                       {"replicates", c.replicates[i].values.size()}});
   }
-  ordered_json k = {{"sampler", c.way->name}, {"exact", c.exact}, {"points", points}};
-  if (c.cut) k["interrupted"] = true;
-  if (c.law)
-    k["slope"] = {{"value", c.law->slope}, {"lo", c.law->lo}, {"hi", c.law->hi}, {"constant", c.law->constant}};
+  ordered_json k = {{"sampler", c.method->name}, {"exact", c.exact}, {"points", points}};
+  if (c.interrupted) k["interrupted"] = true;
+  if (c.power_law)
+    k["slope"] = {{"value", c.power_law->slope}, {"lo", c.power_law->lo}, {"hi", c.power_law->hi}, {"constant", c.power_law->constant}};
   if (c.theory)
     k["theory"] = {{"slope", -c.theory->exponent},
                    {"log_power", c.theory->log_power},
-                   {"at_most", c.theory->bound == Bound::at_most},
-                   {"at_least", c.theory->bound == Bound::at_least},
+                   {"at_most", c.theory->bound == RateBound::at_most},
+                   {"at_least", c.theory->bound == RateBound::at_least},
                    {"source", c.theory->source}};
-  if (c.theory && c.law) {
-    k["theory"]["slope_at_these_n"] = -c.theory->local(c.middle);
-    k["theory"]["within_interval"] = c.agrees();
+  if (c.theory && c.power_law) {
+    k["theory"]["slope_at_these_n"] = -c.theory->local_exponent(c.fit_center);
+    k["theory"]["within_interval"] = c.agrees_with_theory();
   }
   return k;
 }
 
 } // namespace
 
-ordered_json to_json(const Target& target, const Measurement& m, const ordered_json& about) {
-  const Experiment& e = target.integral;
+ordered_json to_json(const IntegralTarget& target, const Measurement& m, const ordered_json& about) {
+  const UnitCubeIntegral& e = target.integral;
   ordered_json j = about;
   j["experiment"] = e.name;
   j["title"] = e.title;
   j["source"] = e.source;
   j["dimension"] = e.dim;
-  j["class"] = name(e.smoothness.of);
+  j["class"] = name(e.smoothness.kind);
   j["truth"] = m.truth;
   j["truth_error"] = m.truth_error;
-  j["fit_from"] = e.fit_from;
-  if (!m.doubt.empty()) j["warning"] = m.doubt;
+  j["fit_from"] = e.min_fit_n;
+  if (!m.truth_warning.empty()) j["warning"] = m.truth_warning;
   if (m.heavy_tail) j["infinite_variance"] = {{"tail_index", *m.heavy_tail}};
   if (m.interrupted) j["interrupted"] = true;
   j["curves"] = ordered_json::array();
-  for (const Curve& c : m.curves) j["curves"].push_back(to_json(c, m.cost));
+  for (const ConvergenceCurve& c : m.curves) j["curves"].push_back(to_json(c, m.cost));
   return j;
 }
 
@@ -170,12 +170,12 @@ std::string gnuplot_text(const std::string& text) {
 std::string curve_lines(const Measurement& m, const std::string& name, const char* column, bool with_slopes) {
   std::string plot = "plot ";
   for (std::size_t i = 0; i < m.curves.size(); ++i) {
-    const Curve& c = m.curves[i];
-    if (!c.is_drawn()) continue;
-    const std::string pick = fmt::format("(strcol(2) eq \"{}\" ? ${} : NaN)", gnuplot_text(c.way->name), column);
-    std::string label = with_slopes && c.law ? fmt::format("{}: N^{{{:.2f} ± {:.2f}}}", c.way->name, c.law->slope,
-                                                           (c.law->hi - c.law->lo) / 2)
-                                             : c.way->name;
+    const ConvergenceCurve& c = m.curves[i];
+    if (!c.has_measurable_error()) continue;
+    const std::string pick = fmt::format("(strcol(2) eq \"{}\" ? ${} : NaN)", gnuplot_text(c.method->name), column);
+    std::string label = with_slopes && c.power_law ? fmt::format("{}: N^{{{:.2f} ± {:.2f}}}", c.method->name, c.power_law->slope,
+                                                           (c.power_law->hi - c.power_law->lo) / 2)
+                                             : c.method->name;
     std::replace(label.begin(), label.end(), '_', ' '); // which gnuplot would take for a subscript
     plot += fmt::format("\"{0}.csv\" skip 1 using {1}:5:6 with filledcurves fs solid 0.18 noborder lc rgb \"{2}\" "
                         "notitle, \\\n     \"{0}.csv\" skip 1 using {1}:4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "
@@ -191,9 +191,9 @@ std::string curve_lines(const Measurement& m, const std::string& name, const cha
 
 } // namespace
 
-std::string to_script(const Target& target, const Measurement& m, const std::string& name) {
+std::string to_script(const IntegralTarget& target, const Measurement& m, const std::string& name) {
   const bool many = m.curves.size() > 5; // then the key would hide them
-  std::string s = plot_head(name, 1000, many ? 860 : 440);
+  std::string s = plot_header(name, 1000, many ? 860 : 440);
   s += fmt::format("set multiplot layout 1,2 title \"{}\" noenhanced font \",15\"\nset logscale xy\nset format y "
                    "\"10^{{%L}}\"\nset key {} Left reverse samplen 2 spacing 1.2 tc rgb \"#333333\"\nset "
                    "ylabel \"root-mean-square error\"\n",

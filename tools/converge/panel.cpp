@@ -51,10 +51,10 @@ std::string number(double x) {
 
 class Panel {
  public:
-  Panel(const std::vector<Curve>& curves, const Against& against) : curves_(curves), against_(against) {
-    for (const Curve& c : curves)
+  Panel(const std::vector<ConvergenceCurve>& curves, const PanelOptions& options) : curves_(curves), options_(options) {
+    for (const ConvergenceCurve& c : curves)
       for (const mc::RmsError* e : drawn(c)) {
-        x_.hold(against.x(*e));
+        x_.hold(options.x(*e));
         y_.hold(e->rms);
       }
     x_.widen();
@@ -64,19 +64,19 @@ class Panel {
   std::string svg() const {
     if (!(x_.lo < HUGE_VAL)) return {};
     std::string s = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"RMS error against {}\">", width,
-                                height, escaped(against_.axis));
+                                height, escape_html(options_.axis));
     s += grid() + fmt::format("<text class=\"label\" x=\"{:.0f}\" y=\"{:.0f}\">{}</text>", (left + width - right) / 2,
-                              height - 8, escaped(against_.axis));
+                              height - 8, escape_html(options_.axis));
     s += best();
     for (std::size_t i = 0; i < curves_.size(); ++i) s += curve(curves_[i], color(i));
     return s + "</svg>";
   }
 
  private:
-  std::vector<const mc::RmsError*> drawn(const Curve& c) const {
+  std::vector<const mc::RmsError*> drawn(const ConvergenceCurve& c) const {
     std::vector<const mc::RmsError*> all;
     for (const mc::RmsError& e : c.errors)
-      if (!c.exact && !e.is_bound && e.rms > 0 && against_.x(e) > 0) all.push_back(&e);
+      if (!c.exact && !e.is_bound && e.rms > 0 && options_.x(e) > 0) all.push_back(&e);
     return all;
   }
   double px(double x) const { return left + (width - left - right) * x_.at(x); }
@@ -106,41 +106,41 @@ class Panel {
   }
   std::string best() const {
     std::string points;
-    for (const Offer& o : against_.best)
-      if (o.seconds.value > 0 && o.error.value > 0 && !o.error.is_at_most())
+    for (const TradeCandidate& o : options_.pareto_front)
+      if (o.seconds.value > 0 && o.error.value > 0 && !o.error.is_upper_bound())
         points += point(o.seconds.value, o.error.value);
     if (points.empty()) return {};
     return fmt::format("<polyline class=\"best\" points=\"{}\"/>", points);
   }
-  std::string curve(const Curve& c, const std::string& color) const {
+  std::string curve(const ConvergenceCurve& c, const std::string& color) const {
     const std::vector<const mc::RmsError*> errors = drawn(c);
     if (errors.empty()) return {};
     std::string middle, band;
     for (const mc::RmsError* e : errors) {
-      middle += point(against_.x(*e), e->rms);
-      band += point(against_.x(*e), e->hi);
+      middle += point(options_.x(*e), e->rms);
+      band += point(options_.x(*e), e->hi);
     }
-    for (auto e = errors.rbegin(); e != errors.rend(); ++e) band += point(against_.x(**e), (*e)->lo);
+    for (auto e = errors.rbegin(); e != errors.rend(); ++e) band += point(options_.x(**e), (*e)->lo);
     std::string s = fmt::format("<polygon points=\"{}\" fill=\"{}\" fill-opacity=\"{}\"/>", band, color,
                                 curves_.size() > 6 ? .08 : .16);
     s += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"/>", middle, color);
-    if (!against_.theory || !c.theory) return s;
-    const double first_x = against_.x(*errors.front()), last_x = against_.x(*errors.back()),
+    if (!options_.theory || !c.theory) return s;
+    const double first_x = options_.x(*errors.front()), last_x = options_.x(*errors.back()),
                  last_y = errors.back()->rms;
     const double first_y = last_y * std::pow(first_x / last_x, -c.theory->exponent);
     return s + line(px(first_x), py(first_y), px(last_x), py(last_y),
                     fmt::format("stroke=\"{}\" stroke-dasharray=\"1 4\" stroke-width=\"1.4\"", color));
   }
 
-  const std::vector<Curve>& curves_;
-  const Against& against_;
+  const std::vector<ConvergenceCurve>& curves_;
+  const PanelOptions& options_;
   Axis x_, y_;
 };
 
 } // namespace
 
-std::string error_panel(const std::vector<Curve>& curves, const Against& against) {
-  return Panel(curves, against).svg();
+std::string error_panel(const std::vector<ConvergenceCurve>& curves, const PanelOptions& options) {
+  return Panel(curves, options).svg();
 }
 
 } // namespace carlo

@@ -10,14 +10,14 @@
 namespace carlo {
 
 /// What a panel draws the errors against.
-struct Against {
+struct PanelOptions {
   std::string_view axis; ///< what stands below it
   double (*x)(const mc::RmsError& e);
   bool theory = false;       ///< dotted lines that fall as theory says
-  std::vector<Offer> best{}; ///< a broad line through these, which x must be the seconds for
+  std::vector<TradeCandidate> pareto_front{}; ///< a broad line through these, which x must be the seconds for
 };
 
 /// An SVG element: the RMS errors with their 95 % bands, both axes logarithmic; empty where no error is above 0.
-std::string error_panel(const std::vector<Curve>& curves, const Against& against);
+std::string error_panel(const std::vector<ConvergenceCurve>& curves, const PanelOptions& options);
 
 } // namespace carlo

@@ -14,12 +14,12 @@ namespace carlo {
 
 namespace {
 
-using Edge = double mc::RmsError::*;
+using BandEdge = double mc::RmsError::*;
 
 constexpr double farthest = 2; ///< an error that is known badly may have reached one by as much smaller, and no less
 
 // The first N from which an edge of the band stays below the error; between two N a straight line in the logarithms.
-std::optional<double> crossing(const std::vector<mc::RmsError>& errors, Edge edge, double error) {
+std::optional<double> crossing(const std::vector<mc::RmsError>& errors, BandEdge edge, double error) {
   std::optional<std::size_t> first;
   for (std::size_t i = errors.size(); i-- > 0 && errors[i].*edge <= error;) first = i;
   if (!first) return {};
@@ -32,7 +32,7 @@ std::optional<double> crossing(const std::vector<mc::RmsError>& errors, Edge edg
 }
 
 // The error at n, by straight lines in the logarithms; at the ends those of the first and last two points.
-double error_at(const std::vector<mc::RmsError>& errors, Edge edge, double n) {
+double error_at(const std::vector<mc::RmsError>& errors, BandEdge edge, double n) {
   if (errors.size() < 2) return errors.front().*edge;
   std::size_t i = 1;
   while (i + 1 < errors.size() && errors[i].n < n) ++i;
@@ -41,98 +41,98 @@ double error_at(const std::vector<mc::RmsError>& errors, Edge edge, double n) {
   return a.*edge * std::pow(b.*edge / (a.*edge), std::log(n / a.n) / std::log(b.n / a.n));
 }
 
-Offer offer_at(const Curve& c, const Ranged& n, const SecondsOfOne& seconds_of_one) {
-  const Ranged one = seconds_of_one(c, n.value);
-  Offer offer;
-  offer.curve = &c;
-  offer.n = n.value;
-  offer.seconds = {n.value * one.value, n.lo * one.lo, n.hi * one.hi};
-  offer.error = {error_at(c.errors, &mc::RmsError::rms, n.value), error_at(c.errors, &mc::RmsError::lo, n.value),
+TradeCandidate candidate_at(const ConvergenceCurve& c, const IntervalEstimate& n, const EvaluationCost& evaluation_cost) {
+  const IntervalEstimate one = evaluation_cost(c, n.value);
+  TradeCandidate candidate;
+  candidate.curve = &c;
+  candidate.n = n.value;
+  candidate.seconds = {n.value * one.value, n.lo * one.lo, n.hi * one.hi};
+  candidate.error = {error_at(c.errors, &mc::RmsError::rms, n.value), error_at(c.errors, &mc::RmsError::lo, n.value),
                  error_at(c.errors, &mc::RmsError::hi, n.value)};
-  return offer;
+  return candidate;
 }
 
-Offer last_of(const Curve& c) {
+TradeCandidate largest_n_candidate(const ConvergenceCurve& c) {
   const mc::RmsError& e = c.errors.back();
   return {&c, e.n, {e.seconds, e.seconds, e.seconds}, {e.rms, e.lo, e.hi}};
 }
 
-const Curve* plain(const Measurement& m) {
-  for (const Curve& c : m.curves)
-    if (c.way->name == m.plain && !c.way->one_by_one && !c.exact) return &c;
+const ConvergenceCurve* plain_mc_curve(const Measurement& m) {
+  for (const ConvergenceCurve& c : m.curves)
+    if (c.method->name == m.plain_mc && !c.method->scalar_calls && !c.exact) return &c;
   return nullptr;
 }
 
 // Nothing where neither end is known.
-std::optional<Ranged> ratio(const Ranged& a, const Ranged& b) {
-  const Ranged r{a.value / b.value, a.lo / b.hi, a.hi / b.lo};
-  return r.is_at_most() && r.is_at_least() ? std::nullopt : std::optional(r);
+std::optional<IntervalEstimate> ratio(const IntervalEstimate& a, const IntervalEstimate& b) {
+  const IntervalEstimate r{a.value / b.value, a.lo / b.hi, a.hi / b.lo};
+  return r.is_upper_bound() && r.is_lower_bound() ? std::nullopt : std::optional(r);
 }
 
 // The first offers, and plain Monte Carlo where it is one.
-std::vector<Offer> contenders(const std::vector<Offer>& offers, const std::string& plain_name) {
+std::vector<TradeCandidate> contenders(const std::vector<TradeCandidate>& candidates, const std::string& plain_name) {
   constexpr std::size_t most = 6;
-  std::vector<Offer> chosen(offers.begin(),
-                            offers.begin() + static_cast<std::ptrdiff_t>(std::min(most, offers.size())));
-  for (std::size_t i = most; i < offers.size(); ++i)
-    if (offers[i].curve->way->name == plain_name) chosen.push_back(offers[i]);
+  std::vector<TradeCandidate> chosen(candidates.begin(),
+                            candidates.begin() + static_cast<std::ptrdiff_t>(std::min(most, candidates.size())));
+  for (std::size_t i = most; i < candidates.size(); ++i)
+    if (candidates[i].curve->method->name == plain_name) chosen.push_back(candidates[i]);
   return chosen;
 }
 
 // Seconds of one evaluation near the N of an offer: the first of three replicates fills caches, the last counts.
-double seconds_again(const Target& target, const Offer& o, std::uint64_t seed, std::uint64_t round,
+double remeasured_seconds(const IntegralTarget& target, const TradeCandidate& o, std::uint64_t seed, std::uint64_t round,
                      const std::atomic<bool>* cancel) {
   const std::vector<mc::RmsError>& errors = o.curve->errors;
   const double n = std::clamp(std::exp2(std::round(std::log2(o.n))), errors.front().n, errors.back().n);
   const Replicates r =
-      target.run({o.curve->way, static_cast<std::uint64_t>(n), mc::hash(seed, 5), 3 * round, 3, 1, cancel});
+      target.run({o.curve->method, static_cast<std::uint64_t>(n), mc::hash(seed, 5), 3 * round, 3, 1, cancel});
   return r.seconds[2] / std::max(r.calls[2], 1.0);
 }
 
 /// Whether an offer cannot be told from the first of all.
 class TiesWithFirst {
  public:
-  TiesWithFirst(const std::vector<Offer>& offers, Ranged Offer::*by) : by_(by) {
-    if (offers.empty()) return;
-    wider_ = mc::normal_quantile(0.05 / static_cast<double>(offers.size())) / mc::normal_quantile(0.05);
-    most_ = widened(offers.front().*by, (offers.front().*by).hi);
+  TiesWithFirst(const std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion) : criterion_(criterion) {
+    if (candidates.empty()) return;
+    wider_ = mc::normal_quantile(0.05 / static_cast<double>(candidates.size())) / mc::normal_quantile(0.05);
+    most_ = widened(candidates.front().*criterion, (candidates.front().*criterion).hi);
   }
-  bool operator()(const Offer& o) const { return widened(o.*by_, (o.*by_).lo) <= most_; }
+  bool operator()(const TradeCandidate& o) const { return widened(o.*criterion_, (o.*criterion_).lo) <= most_; }
 
  private:
-  double widened(const Ranged& r, double edge) const {
+  double widened(const IntervalEstimate& r, double edge) const {
     return r.value > 0 ? r.value * std::pow(edge / r.value, wider_) : edge;
   }
 
-  Ranged Offer::*by_;
+  IntervalEstimate TradeCandidate::*criterion_;
   double wider_ = 1, most_ = 0;
 };
 
 // At the N that a time is enough for, as far as it was measured.
-Offer offer_within(const Curve& c, const Ranged& range, const SecondsOfOne& seconds_of_one) {
-  Offer offer = offer_at(c, range, seconds_of_one);
+TradeCandidate candidate_within(const ConvergenceCurve& c, const IntervalEstimate& range, const EvaluationCost& evaluation_cost) {
+  TradeCandidate candidate = candidate_at(c, range, evaluation_cost);
   // Fewer evaluations where they take longer than their median.
   const double most = c.errors.back().n;
-  offer.error.lo = std::min(offer.error.lo, error_at(c.errors, &mc::RmsError::lo, std::min(range.hi, most)));
-  offer.error.hi = std::max(offer.error.hi, error_at(c.errors, &mc::RmsError::hi, range.lo));
-  return offer;
+  candidate.error.lo = std::min(candidate.error.lo, error_at(c.errors, &mc::RmsError::lo, std::min(range.hi, most)));
+  candidate.error.hi = std::max(candidate.error.hi, error_at(c.errors, &mc::RmsError::hi, range.lo));
+  return candidate;
 }
 
 // A time is enough for more than was measured: plain Monte Carlo by its law, another at its largest N.
-Offer offer_beyond(const Measurement& m, const Curve& c, const Ranged& range, const Ranged& one) {
+TradeCandidate candidate_beyond(const Measurement& m, const ConvergenceCurve& c, const IntervalEstimate& range, const IntervalEstimate& one) {
   const mc::RmsError& last = c.errors.back();
   const auto fallen = [&](double error, double n, double slope) {
     return n > last.n ? error * std::pow(n / last.n, slope) : error;
   };
-  if (&c == plain(m)) {
+  if (&c == plain_mc_curve(m)) {
     const double seconds = range.value * one.value;
     return {&c,
             range.value,
             {seconds, seconds, seconds},
             {fallen(last.rms, range.value, -0.5), fallen(last.lo, range.hi, -0.5), fallen(last.hi, range.lo, -0.5)}};
   }
-  const double steepest = std::min(c.law ? c.law->lo : -1, -0.5);
-  const double rounded = std::min(last.lo, 1e-16 * m.size); // below which nothing falls
+  const double steepest = std::min(c.power_law ? c.power_law->lo : -1, -0.5);
+  const double rounded = std::min(last.lo, 1e-16 * m.magnitude); // below which nothing falls
   return {&c,
           last.n,
           {last.n * one.value, last.n * one.lo, last.n * one.hi},
@@ -141,21 +141,21 @@ Offer offer_beyond(const Measurement& m, const Curve& c, const Ranged& range, co
 }
 
 // The best first, then what ties with it, then the others.
-void rank(std::vector<Offer>& offers, Ranged Offer::*by) {
-  std::sort(offers.begin(), offers.end(),
-            [by](const Offer& a, const Offer& b) { return (a.*by).value < (b.*by).value; });
-  std::stable_partition(offers.begin(), offers.end(), TiesWithFirst(offers, by));
+void rank(std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion) {
+  std::sort(candidates.begin(), candidates.end(),
+            [criterion](const TradeCandidate& a, const TradeCandidate& b) { return (a.*criterion).value < (b.*criterion).value; });
+  std::stable_partition(candidates.begin(), candidates.end(), TiesWithFirst(candidates, criterion));
 }
 
 } // namespace
 
-Ranged shown(const Offer& o, Ranged Offer::*by) {
-  Ranged r = o.*by;
-  if (by == &Offer::error ? o.ended : o.error.is_at_most()) r.lo = 0;
+IntervalEstimate reported_interval(const TradeCandidate& o, IntervalEstimate TradeCandidate::*criterion) {
+  IntervalEstimate r = o.*criterion;
+  if (criterion == &TradeCandidate::error ? o.is_largest_n : o.error.is_upper_bound()) r.lo = 0;
   return r;
 }
 
-Ranged as_measured(const Curve& c, double n) {
+IntervalEstimate measured_cost(const ConvergenceCurve& c, double n) {
   std::size_t i = 0;
   while (i + 1 < c.errors.size() && c.errors[i].n < n) ++i;
   std::vector<double> seconds = c.replicates[i].seconds;
@@ -167,100 +167,100 @@ Ranged as_measured(const Curve& c, double n) {
   return {at(count / 2), at(count / 2 - half), at(count / 2 + half)};
 }
 
-SecondsOfOne taken_in_turn(const Target& target, const Measurement& m, const std::vector<Offer>& offers,
+EvaluationCost interleaved_cost(const IntegralTarget& target, const Measurement& m, const std::vector<TradeCandidate>& candidates,
                            std::uint64_t seed, const std::atomic<bool>* cancel) {
   constexpr std::uint64_t rounds = 9;
-  std::map<const Curve*, std::vector<double>> seconds;
+  std::map<const ConvergenceCurve*, std::vector<double>> seconds;
   for (std::uint64_t round = 0; round < rounds; ++round)
-    for (const Offer& o : contenders(offers, m.plain)) {
-      if (cancel && *cancel) return as_measured;
-      seconds[o.curve].push_back(seconds_again(target, o, seed, round, cancel));
+    for (const TradeCandidate& o : contenders(candidates, m.plain_mc)) {
+      if (cancel && *cancel) return measured_cost;
+      seconds[o.curve].push_back(remeasured_seconds(target, o, seed, round, cancel));
     }
-  if (cancel && *cancel) return as_measured; // the last one means nothing
+  if (cancel && *cancel) return measured_cost; // the last one means nothing
   // The second and the eighth of nine hold the median with 96 % confidence.
-  std::map<const Curve*, Ranged> medians;
+  std::map<const ConvergenceCurve*, IntervalEstimate> medians;
   for (auto& [curve, all] : seconds) {
     std::sort(all.begin(), all.end());
     medians[curve] = {all[4], all[1], all[7]};
   }
-  return [medians](const Curve& curve, double n) {
+  return [medians](const ConvergenceCurve& curve, double n) {
     const auto it = medians.find(&curve);
-    return it == medians.end() ? as_measured(curve, n) : it->second;
+    return it == medians.end() ? measured_cost(curve, n) : it->second;
   };
 }
 
-std::string label(const Curve& c) { return c.way->name + (c.way->one_by_one ? " (one by one)" : ""); }
+std::string curve_label(const ConvergenceCurve& c) { return c.method->name + (c.method->scalar_calls ? " (one by one)" : ""); }
 
-std::optional<Ranged> evaluations_for(const Curve& c, double error) {
+std::optional<IntervalEstimate> evaluations_to_reach(const ConvergenceCurve& c, double error) {
   const auto lo = crossing(c.errors, &mc::RmsError::lo, error);
   if (!lo) return {};
   const mc::RmsError& last = c.errors.back();
   if (last.rms > farthest * error) return {};
   // What does not come so low goes on no slower than plain Monte Carlo.
-  const auto needed = [&](Edge edge) {
+  const auto needed = [&](BandEdge edge) {
     return crossing(c.errors, edge, error).value_or(last.n * mc::sqr(last.*edge / error));
   };
   const double n = needed(&mc::RmsError::rms);
-  return Ranged{n, std::min(*lo, n), std::max(needed(&mc::RmsError::hi), n)};
+  return IntervalEstimate{n, std::min(*lo, n), std::max(needed(&mc::RmsError::hi), n)};
 }
 
-std::size_t as_good(const std::vector<Offer>& offers, Ranged Offer::*by) {
-  const auto told = std::find_if_not(offers.begin(), offers.end(), TiesWithFirst(offers, by));
-  return static_cast<std::size_t>(told - offers.begin());
+std::size_t count_ties(const std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion) {
+  const auto told = std::find_if_not(candidates.begin(), candidates.end(), TiesWithFirst(candidates, criterion));
+  return static_cast<std::size_t>(told - candidates.begin());
 }
 
-ForError offers_for_error(const Measurement& m, double error, const SecondsOfOne& seconds_of_one) {
-  ForError result{error, {}, {}, {}};
-  for (const Curve& c : m.curves) {
-    if (const auto n = evaluations_for(c, error)) result.offers.push_back(offer_at(c, *n, seconds_of_one));
-    else result.nearest.push_back(last_of(c));
+CandidatesForError candidates_for_error(const Measurement& m, double error, const EvaluationCost& evaluation_cost) {
+  CandidatesForError result{error, {}, {}, {}};
+  for (const ConvergenceCurve& c : m.curves) {
+    if (const auto n = evaluations_to_reach(c, error)) result.candidates.push_back(candidate_at(c, *n, evaluation_cost));
+    else result.nearest.push_back(largest_n_candidate(c));
   }
-  rank(result.offers, &Offer::seconds);
+  rank(result.candidates, &TradeCandidate::seconds);
   std::sort(result.nearest.begin(), result.nearest.end(),
-            [](const Offer& a, const Offer& b) { return a.error.value < b.error.value; });
-  if (const Curve* random = plain(m); random && !result.offers.empty()) {
+            [](const TradeCandidate& a, const TradeCandidate& b) { return a.error.value < b.error.value; });
+  if (const ConvergenceCurve* random = plain_mc_curve(m); random && !result.candidates.empty()) {
     const mc::RmsError& e = random->errors.back();
     const double fewest = random->errors.front().n;
     const auto needed = [&](double rms) { return std::max(e.n * mc::sqr(rms / error), fewest); };
-    const Ranged n{needed(e.rms), e.is_bound ? 0 : needed(e.lo), needed(e.hi)};
-    const Ranged one = seconds_of_one(*random, std::min(n.value, e.n));
-    const Offer& best = result.offers.front();
+    const IntervalEstimate n{needed(e.rms), e.is_bound ? 0 : needed(e.lo), needed(e.hi)};
+    const IntervalEstimate one = evaluation_cost(*random, std::min(n.value, e.n));
+    const TradeCandidate& best = result.candidates.front();
     result.gain = best.curve == random
-                      ? Ranged{1, 1, 1}
-                      : ratio({n.value * one.value, n.lo * one.lo, n.hi * one.hi}, shown(best, &Offer::seconds));
+                      ? IntervalEstimate{1, 1, 1}
+                      : ratio({n.value * one.value, n.lo * one.lo, n.hi * one.hi}, reported_interval(best, &TradeCandidate::seconds));
   }
   return result;
 }
 
-ForSeconds offers_for_seconds(const Measurement& m, double seconds, const SecondsOfOne& seconds_of_one) {
-  ForSeconds result{seconds, {}, {}};
-  for (const Curve& c : m.curves) {
+CandidatesForTime candidates_for_time(const Measurement& m, double seconds, const EvaluationCost& evaluation_cost) {
+  CandidatesForTime result{seconds, {}, {}};
+  for (const ConvergenceCurve& c : m.curves) {
     const double most = c.errors.back().n;
-    Ranged one = seconds_of_one(c, most);
+    IntervalEstimate one = evaluation_cost(c, most);
     const double n = std::min(most, seconds / one.value);
     if (n < c.errors.front().n) continue; // it cannot even begin
-    one = seconds_of_one(c, n);
-    const Ranged range{seconds / one.value, seconds / one.hi, seconds / one.lo};
-    result.offers.push_back(range.value > most ? offer_beyond(m, c, range, one)
-                                               : offer_within(c, range, seconds_of_one));
+    one = evaluation_cost(c, n);
+    const IntervalEstimate range{seconds / one.value, seconds / one.hi, seconds / one.lo};
+    result.candidates.push_back(range.value > most ? candidate_beyond(m, c, range, one)
+                                               : candidate_within(c, range, evaluation_cost));
   }
-  rank(result.offers, &Offer::error);
-  for (const Offer& o : result.offers) // an exact way gains nothing that a number says
-    if (o.curve == plain(m) && result.offers.front().error.value > 0)
-      result.gain = ratio(o.error, shown(result.offers.front(), &Offer::error));
+  rank(result.candidates, &TradeCandidate::error);
+  for (const TradeCandidate& o : result.candidates) // an exact way gains nothing that a number says
+    if (o.curve == plain_mc_curve(m) && result.candidates.front().error.value > 0)
+      result.gain = ratio(o.error, reported_interval(result.candidates.front(), &TradeCandidate::error));
   return result;
 }
 
-std::vector<Offer> pareto_front(const Measurement& m) {
-  std::vector<Offer> all;
-  for (const Curve& c : m.curves)
+std::vector<TradeCandidate> pareto_front(const Measurement& m) {
+  std::vector<TradeCandidate> all;
+  for (const ConvergenceCurve& c : m.curves)
     for (const mc::RmsError& e : c.errors)
       all.push_back({&c, e.n, {e.seconds, e.seconds, e.seconds}, {e.rms, e.lo, e.hi}});
-  std::sort(all.begin(), all.end(), [](const Offer& a, const Offer& b) {
+  std::sort(all.begin(), all.end(), [](const TradeCandidate& a, const TradeCandidate& b) {
     return std::pair(a.seconds.value, a.error.value) < std::pair(b.seconds.value, b.error.value);
   });
-  std::vector<Offer> front;
-  for (const Offer& o : all)
+  std::vector<TradeCandidate> front;
+  for (const TradeCandidate& o : all)
     if (front.empty() || o.error.value < front.back().error.value) front.push_back(o);
   return front;
 }

@@ -9,13 +9,13 @@ namespace {
 
 // The mean luminance of a picture. Its pixels are independent, or say how many share their noise; its channels are not,
 // so their errors add up at worst.
-mc::Estimate mean_luminance(const ::render::Image& image, std::uint32_t estimates) {
+mc::Estimate mean_luminance(const render::Image& image, std::uint32_t estimates) {
   double sum = 0, variance = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-    sum += double(::render::luminance(image.pixels[i]));
+    sum += double(render::luminance(image.pixels[i]));
     if (image.variance.empty()) continue;
-    const ::render::Spectrum deviation = image.variance[i].sqrt();
-    const double error = double(::render::luminance(deviation));
+    const render::Spectrum deviation = image.variance[i].sqrt();
+    const double error = double(render::luminance(deviation));
     variance += error * error * image.noise_area;
   }
   const auto n = double(image.pixels.size());
@@ -23,11 +23,11 @@ mc::Estimate mean_luminance(const ::render::Image& image, std::uint32_t estimate
                                image.pixels.size());
 }
 
-std::vector<StrategyResult> each_strategy(const ::render::Scene& scene, ::render::RenderOptions settings) {
+std::vector<StrategyResult> each_strategy(const render::Scene& scene, render::RenderOptions settings) {
   std::vector<StrategyResult> all;
-  for (const ::render::Strategy& strategy : complete_strategies(scene)) {
+  for (const render::Strategy& strategy : complete_strategies(scene)) {
     settings.strategy = strategy;
-    const ::render::RenderResult r = ::render::render(scene, settings);
+    const render::RenderResult r = render::render(scene, settings);
     if (r.partial) break;
     all.push_back({strategy.name, double(r.samples) / r.cpu_seconds, r.spp, r.relative_error,
                    r.cpu_seconds * r.relative_error * r.relative_error, r.outlier_dominated,
@@ -38,17 +38,17 @@ std::vector<StrategyResult> each_strategy(const ::render::Scene& scene, ::render
 
 } // namespace
 
-::render::RenderOptions shrunk(::render::RenderOptions settings, int side) {
+render::RenderOptions shrink_to_fit(render::RenderOptions settings, int side) {
   const double shrink = std::min(1.0, double(side) / std::max(settings.width, settings.height));
   settings.width = std::max(1, static_cast<int>(std::lround(shrink * settings.width)));
   settings.height = std::max(1, static_cast<int>(std::lround(shrink * settings.height)));
   return settings;
 }
 
-std::vector<StrategyResult> compare_strategies(const ::render::Scene& scene, ::render::RenderOptions settings, int side,
+std::vector<StrategyResult> compare_strategies(const render::Scene& scene, render::RenderOptions settings, int side,
                                                int spp) {
   if (spp < 2) return {}; // no error bars
-  settings = shrunk(settings, side);
+  settings = shrink_to_fit(settings, side);
   settings.spp = spp;
   settings.seconds.reset();
   settings.target_error.reset();
@@ -56,7 +56,7 @@ std::vector<StrategyResult> compare_strategies(const ::render::Scene& scene, ::r
   return each_strategy(scene, settings);
 }
 
-std::vector<StrategyResult> compare_strategies_in(const ::render::Scene& scene, ::render::RenderOptions settings,
+std::vector<StrategyResult> compare_strategies_for_time(const render::Scene& scene, render::RenderOptions settings,
                                                   double seconds) {
   settings.seconds = seconds;
   settings.target_error.reset();
@@ -65,7 +65,7 @@ std::vector<StrategyResult> compare_strategies_in(const ::render::Scene& scene, 
   return each_strategy(scene, settings);
 }
 
-const StrategyResult* best_known(const std::vector<StrategyResult>& all) {
+const StrategyResult* most_precise(const std::vector<StrategyResult>& all) {
   const StrategyResult* best = nullptr;
   for (const StrategyResult& s : all)
     if (!s.misses_light && s.mean.value > 0 && (!best || s.mean.std_error < best->mean.std_error)) best = &s;

@@ -7,7 +7,7 @@ namespace carlo {
 
 namespace {
 
-using ::render::Float, ::render::Image, ::render::Spectrum;
+using render::Float, render::Image, render::Spectrum;
 
 constexpr int gap = 4; // pixels between cells
 const Spectrum ground = Spectrum::Constant(Float(0.01));

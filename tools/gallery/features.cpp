@@ -13,21 +13,21 @@ namespace carlo {
 
 namespace {
 
-namespace mitsuba = ::render::mitsuba;
+namespace mitsuba = render::mitsuba;
 
 /// A plugin as a scene file names it.
-struct Named {
+struct PluginName {
   std::string kind, plugin;
-  auto operator<=>(const Named&) const = default;
+  auto operator<=>(const PluginName&) const = default;
 };
 
-struct Row {
+struct FeatureRow {
   Feature feature;
-  std::set<Named> names;
+  std::set<PluginName> names;
 };
 
-std::vector<Row> rows() {
-  std::vector<Row> all;
+std::vector<FeatureRow> rows() {
+  std::vector<FeatureRow> all;
   for (const mitsuba::Kind& kind : mitsuba::all_plugins()) {
     const std::string tag = kind.tag.substr(0, kind.tag.find(' ')); // of "emitter in a shape"
     const bool alike = std::all_of(kind.rows.begin(), kind.rows.end(),
@@ -38,28 +38,28 @@ std::vector<Row> rows() {
       all.back().names.insert({tag, plugin.name});
     }
   }
-  for (const ::render::Strategy& s : ::render::strategies)
+  for (const render::Strategy& s : render::strategies)
     all.push_back({fmt::format("strategy {}", s.name), {{"strategy", std::string(s.name)}}});
   return all;
 }
 
-void collect(const ::render::XmlElement& e, std::set<Named>& found) {
+void collect(const render::XmlElement& e, std::set<PluginName>& found) {
   if (e.has("type")) found.insert({e.tag, e.attribute("type")});
-  for (const ::render::XmlElement& child : e.children) collect(child, found);
+  for (const render::XmlElement& child : e.children) collect(child, found);
 }
 
 /// A feature with the names of the scenes that require it.
-struct Required {
+struct FeatureUse {
   Feature feature;
   std::vector<std::string_view> by;
 };
 
-std::vector<Required> required_features() {
-  std::vector<Required> all;
+std::vector<FeatureUse> required_features() {
+  std::vector<FeatureUse> all;
   for (const Feature& feature : all_features()) all.push_back({feature, {}});
   for (const GalleryScene& scene : gallery()) {
     const std::vector<Feature> features = features_of(scene);
-    for (Required& r : all)
+    for (FeatureUse& r : all)
       if (std::find(features.begin(), features.end(), r.feature) != features.end()) r.by.push_back(scene.name);
   }
   return all;
@@ -77,17 +77,17 @@ text.
 
 std::vector<Feature> all_features() {
   std::vector<Feature> all;
-  for (const Row& row : rows()) all.push_back(row.feature);
+  for (const FeatureRow& row : rows()) all.push_back(row.feature);
   return all;
 }
 
 std::vector<Feature> features_of(const GalleryScene& scene) {
-  std::set<Named> found;
-  collect(::render::read_xml(scene_file(scene)), found);
+  std::set<PluginName> found;
+  collect(render::read_xml(scene_file(scene)), found);
   found.insert({"strategy", scene.strategy.empty() ? "mis+lt" : std::string(scene.strategy)});
   std::vector<Feature> features;
-  for (const Row& row : rows())
-    for (const Named& name : row.names)
+  for (const FeatureRow& row : rows())
+    for (const PluginName& name : row.names)
       if (found.contains(name)) {
         features.push_back(row.feature);
         break;

@@ -17,7 +17,7 @@ std::string percent(double share) {
 
 // Means are told relative to the one that is known best, work relative to the least.
 std::string strategies_of(const RenderedScene& r) {
-  const StrategyResult* best = best_known(r.strategies);
+  const StrategyResult* best = most_precise(r.strategies);
   if (!best || !(best->mean.value > 0)) return {};
   double least = HUGE_VAL;
   for (const StrategyResult& s : r.strategies)
@@ -30,7 +30,7 @@ std::string strategies_of(const RenderedScene& r) {
     text += fmt::format("<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
                         "<td class=\"n\">{:.1f} &plusmn; {:.1f} %</td></tr>",
                         s.name == r.strategy ? fmt::format("<b>{}</b>", s.name) : std::string(s.name), work,
-                        percent(s.relative_error), percent(s.undecided), 100 * s.mean.value / best->mean.value,
+                        percent(s.relative_error), percent(s.outlier_dominated), 100 * s.mean.value / best->mean.value,
                         100 * s.mean.std_error / best->mean.value);
   }
   return text + "</table></div></details>";
@@ -41,16 +41,16 @@ std::string section(const RenderedScene& r) {
   std::string s = fmt::format(
       "<section id=\"{0}\"><a href=\"{0}.png\"><img src=\"{0}.png\" width=\"{1}\" height=\"{2}\" loading=\"lazy\" "
       "alt=\"{3}\"></a><h2>{3}</h2><p class=\"source\"><code>{0}</code> {4}</p>",
-      scene.name, r.width, r.height, escaped(scene.title), escaped(scene.source));
+      scene.name, r.width, r.height, escape_html(scene.title), escape_html(scene.source));
   s += fmt::format(
       "<p class=\"facts\">{}&times;{}, {:.4g} samples/pixel, <b>{}samples/s</b>, {}, mean relative standard error "
       "<b>{}</b>{}; {}, {}; <a href=\"{}.exr\">EXR</a></p>",
       r.width, r.height, r.spp, format_count(r.samples_per_second), format_seconds(r.seconds),
       percent(r.relative_error),
-      r.undecided > 0 ? fmt::format(", {} of the pixels decided by one sample", percent(r.undecided)) : "", r.strategy,
+      r.outlier_dominated > 0 ? fmt::format(", {} of the pixels decided by one sample", percent(r.outlier_dominated)) : "", r.strategy,
       r.sampler, scene.name);
   s += "<ul class=\"features\">";
-  for (const Feature& f : r.features) s += fmt::format("<li>{}</li>", escaped(f));
+  for (const Feature& f : r.features) s += fmt::format("<li>{}</li>", escape_html(f));
   return s + "</ul>" + strategies_of(r) + "</section>";
 }
 
@@ -75,11 +75,11 @@ a { color: var(--link); }
 
 } // namespace
 
-std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t asked, const std::string& command) {
-  Page page{.tool = "carlo gallery", .title = "Scenes with error bars", .style = style, .command = command};
-  if (rendered.size() < asked)
+std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t requested, const std::string& command) {
+  HtmlPage page{.tool = "carlo gallery", .title = "Scenes with error bars", .style = style, .command = command};
+  if (rendered.size() < requested)
     page.note =
-        fmt::format("<p class=\"doubt\">Interrupted: {} of {} scenes were finished.</p>\n", rendered.size(), asked);
+        fmt::format("<p class=\"doubt\">Interrupted: {} of {} scenes were finished.</p>\n", rendered.size(), requested);
   for (const RenderedScene& r : rendered) page.main += section(r) + "\n";
   page.footer =
       "<b>Mean relative standard error</b>: the root mean square of the pixels' standard errors "
@@ -89,7 +89,7 @@ std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t
       "with equal samples, the one of the picture in bold: <b>work</b> is what the same error costs in CPU time, "
       "relative to the cheapest that is right; <b>brightness</b> is the mean luminance relative to the strategy that "
       "knows it best. <b>light</b> looks towards lamps alone, and misses what other surfaces and the sky send.";
-  return html(page);
+  return to_html(page);
 }
 
 } // namespace carlo

@@ -14,14 +14,14 @@ struct RenderedScene {
   const GalleryScene* scene = nullptr;
   int width = 0, height = 0;
   double spp = 0, seconds = 0, samples_per_second = 0;
-  double relative_error = 0, undecided = 0; ///< see RenderResult
+  double relative_error = 0, outlier_dominated = 0; ///< see RenderResult
   std::string strategy, sampler;
   std::vector<Feature> features;
   std::vector<StrategyResult> strategies; ///< empty where they were not compared
 };
 
 /// HTML that shows NAME.png of every scene, in the folder of the page, and needs no script and no network.
-///   asked : how many scenes were asked for; fewer were rendered when it was interrupted
-std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t asked, const std::string& command);
+///   requested : how many scenes were asked for; fewer were rendered when it was interrupted
+std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t requested, const std::string& command);
 
 } // namespace carlo

@@ -86,7 +86,7 @@ constexpr auto scenes = std::to_array<GalleryScene>({
     {"fast-lens", "The room through a lens of f/1.4, focused on the ball", ours},
     {"ambient-occlusion", "The room by what is near", ours},
     {"one-bounce", "The room under a sky, light reflected once; a film's tone curve", ours, "one-bounce", "", "", 1, 0,
-     ::render::ToneCurve::filmic},
+     render::ToneCurve::filmic},
     {"leaves", "A plant whose leaves are masks, a lattice and a veil", ours},
     {"metals", "Metals, and paint that is glossy over diffuse", "C. Wyman, DXR tutorials"},
     {"tinted-glass", "Green glass, the thicker the darker", "M. McGuire, The Graphics Codex"},

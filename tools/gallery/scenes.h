@@ -19,7 +19,7 @@ struct GalleryScene {
   std::string_view sampler = {};  ///< empty: carlo render's
   double exposure = 0;            ///< of its PNG [stops]
   int spp = 0;                    ///< samples per pixel; 0: the file's
-  ::render::ToneCurve tone = ::render::ToneCurve::clamp;
+  render::ToneCurve tone = render::ToneCurve::clamp;
 };
 
 /// All of them, by source in the order of the text.
@@ -29,7 +29,7 @@ std::span<const GalleryScene> gallery();
 const GalleryScene& gallery_scene(std::string_view name);
 
 /// How its PNG is made.
-inline ::render::ToneMapping tone_of(const GalleryScene& scene) { return {scene.tone, scene.exposure}; }
+inline render::ToneMapping tone_of(const GalleryScene& scene) { return {scene.tone, scene.exposure}; }
 
 /// The path of its file: of an installed carlo beside its other data, of one in its build tree in the project.
 ///   throws : Error that names both places where the scenes are at neither

@@ -22,20 +22,20 @@ std::string brightness(const StrategyResult& s, const StrategyResult* best) {
 
 } // namespace
 
-::render::Image strategy_strip(const ::render::Scene& scene, ::render::RenderOptions settings,
-                               const ::render::ToneMapping& tone) {
-  std::vector<::render::Image> pictures;
+render::Image strategy_strip(const render::Scene& scene, render::RenderOptions settings,
+                               const render::ToneMapping& tone) {
+  std::vector<render::Image> pictures;
   settings.seconds.reset();
   settings.target_error.reset();
   settings.adaptive = false;
   settings.progress = nullptr;
-  for (const ::render::Strategy& strategy : complete_strategies(scene)) {
+  for (const render::Strategy& strategy : complete_strategies(scene)) {
     settings.strategy = strategy;
     for (const int spp : strip_spp) {
       settings.spp = spp;
-      ::render::RenderResult r = ::render::render(scene, settings);
+      render::RenderResult r = render::render(scene, settings);
       if (r.partial) return {};
-      for (::render::Spectrum& p : r.image.pixels) p = tone_map(p, tone).cast<::render::Float>();
+      for (render::Spectrum& p : r.image.pixels) p = tone_map(p, tone).cast<render::Float>();
       pictures.push_back(std::move(r.image));
     }
   }
@@ -46,7 +46,7 @@ std::string strategy_table(const std::vector<StrategyResult>& same_samples,
                            const std::vector<StrategyResult>& same_time) {
   mc::require(same_samples.size() == same_time.size(), "strategies: {} with the same samples, {} in the same time",
               same_samples.size(), same_time.size());
-  const StrategyResult* best = best_known(same_samples);
+  const StrategyResult* best = most_precise(same_samples);
   double least = HUGE_VAL;
   for (const StrategyResult& s : same_samples)
     if (s.work > 0 && s.mean.value > 0 && !s.misses_light) least = std::min(least, s.work);

@@ -155,7 +155,7 @@ std::shared_ptr<const Samples> load(const SamplesFileOptions& o) {
   mc::require(off == 0, "{} is not in {}; {} of {} samples are not (see --domain)", s.text(first_off), s.domain.text,
               off, s.table.rows());
   if (s.domain.outcomes > 0) return std::make_shared<const Samples>(std::move(s));
-  for (const std::string& name : names) mc::with_context("--domain", [&] { require_variable(name); });
+  for (const std::string& name : names) mc::with_context("--domain", [&] { require_variable_name(name); });
   s.density = parse_function(o.density, names);
   s.breaks = parse_breaks(o.breaks, s.domain.chart);
   if (o.unnormalized) {

@@ -2,7 +2,7 @@
 #include <input/row_shuffler.h>
 #include <input/samples_density.h>
 #include <input/samples_file.h>
-#include <integrands/sides.h>
+#include <integrands/variable_bounds.h>
 
 #include <render/io/image/image_io.h>
 
@@ -32,7 +32,7 @@ constexpr double digits = 1e-6; // to which programs print numbers of order 1
 // The sphere as (azimuth, angle from +z), each over its range, or a rectangle, as the unit square of the grid.
 struct GridDomain {
   bool sphere = false;
-  std::vector<Side> sides;
+  std::vector<VariableBounds> sides;
 
   std::size_t columns() const { return sphere ? 3 : sides.size(); }
 
@@ -64,7 +64,7 @@ struct GridDomain {
   std::vector<mc::Axis> axes() const {
     if (sphere) return {{.name = "phi", .scale = mc::Axis::Scale::azimuth}, {.name = "theta [deg]", .b = 180}};
     std::vector<mc::Axis> named;
-    for (const Side& s : sides) named.push_back({.name = s.name, .a = s.lo, .b = s.hi});
+    for (const VariableBounds& s : sides) named.push_back({.name = s.name, .a = s.lo, .b = s.hi});
     return named;
   }
   // Of a cell in row j.
@@ -74,21 +74,21 @@ struct GridDomain {
       return 2 * mc::pi<double> / w * 2 * std::sin(mc::pi<double> * (static_cast<double>(j) + 0.5) / h) *
              std::sin(mc::pi<double> / (2 * h));
     double area = 1 / (w * h);
-    for (const Side& s : sides) area *= s.hi - s.lo;
+    for (const VariableBounds& s : sides) area *= s.hi - s.lo;
     return area;
   }
   std::string name() const {
     if (sphere) return fmt::format("the unit sphere (to {:g})", unit_tolerance);
     std::string text;
-    for (const Side& s : sides)
+    for (const VariableBounds& s : sides)
       text += fmt::format("{}{} in [{:g}, {:g}]", text.empty() ? "" : ", ", s.name, s.lo, s.hi);
     return text;
   }
 };
 
-std::vector<Side> finite_sides(const std::string& box) {
-  std::vector<Side> sides = parse_sides(box);
-  for (const Side& s : sides)
+std::vector<VariableBounds> finite_sides(const std::string& box) {
+  std::vector<VariableBounds> sides = parse_bounds(box);
+  for (const VariableBounds& s : sides)
     mc::require(s.is_finite(), "--domain: '{}' has no end in '{}'; a grid needs one: give the density as --pdf", s.name,
                 box);
   return sides;

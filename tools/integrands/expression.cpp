@@ -1,7 +1,7 @@
 /// The only file that includes muParser.
 
 #include <integrands/expression.h>
-#include <integrands/sides.h>
+#include <integrands/variable_bounds.h>
 
 #include <mc/core/error.h>
 #include <mc/core/text.h>
@@ -78,9 +78,9 @@ std::string_view remedy(std::string_view expression, std::size_t at, const std::
 mc::Error refusal(const std::string& expression, const mu::Parser::exception_type& e,
                   const std::vector<std::string>& names) {
   if (e.GetCode() == mu::ecEXPRESSION_TOO_LONG)
-    return mc::Error(fmt::format("expression '{}' is too long: {} bytes; at most {} are read", abridged(expression),
+    return mc::Error(fmt::format("expression '{}' is too long: {} bytes; at most {} are read", abbreviate(expression),
                                  expression.size(), int{mu::MaxLenExpression} - 1));
-  if (e.GetPos() < 0) return mc::Error(fmt::format("expression '{}': {}", abridged(expression), e.GetMsg()));
+  if (e.GetPos() < 0) return mc::Error(fmt::format("expression '{}': {}", abbreviate(expression), e.GetMsg()));
   const std::size_t at = std::min(static_cast<std::size_t>(e.GetPos()), expression.size());
   std::string complaint(remedy(expression, at, names));
   if (complaint.empty()) {
@@ -88,7 +88,7 @@ mc::Error refusal(const std::string& expression, const mu::Parser::exception_typ
     for (const char* place : {" found at position", " at expression position", " at position"})
       complaint.resize(std::min(complaint.find(place), complaint.size()));
   }
-  return mc::Error(fmt::format("expression '{}', position {}: {}", abridged(expression, at), at, abridged(complaint)));
+  return mc::Error(fmt::format("expression '{}', position {}: {}", abbreviate(expression, at), at, abbreviate(complaint)));
 }
 
 // muParser takes "x = 0.5" for an assignment, even within a sum.
@@ -97,7 +97,7 @@ void refuse_assignment(std::string_view expression) {
     const bool second = at > 0 && std::string_view("=<>!").find(expression[at - 1]) != std::string_view::npos;
     const bool first = at + 1 < expression.size() && expression[at + 1] == '=';
     mc::require(first || second, "expression '{}', position {}: '=' sets a variable; use == to compare",
-                abridged(expression, at), at);
+                abbreviate(expression, at), at);
   }
 }
 
@@ -118,7 +118,7 @@ void refuse_chain(std::string_view expression) {
       compared.back() = false;
     if (!is_comparison) continue;
     mc::require(!compared.back(), "expression '{}', position {}: comparisons do not chain; write 0.2 < x and x < 0.5",
-                abridged(expression), at);
+                abbreviate(expression), at);
     compared.back() = true;
     at += here.size() > 1 && here[1] == '=' ? 1 : 0;
   }
@@ -138,7 +138,7 @@ struct Instance {
       parser.SetExpr(expression);
       parser.Eval();
       mc::require(parser.GetNumResults() == 1,
-                  "expression '{}' has {} values; give one, or each as an argument of its own", abridged(expression),
+                  "expression '{}' has {} values; give one, or each as an argument of its own", abbreviate(expression),
                   parser.GetNumResults());
     } catch (const mu::Parser::exception_type& e) {
       throw refusal(expression, e, names);
@@ -150,7 +150,7 @@ struct Instance {
 
 } // namespace
 
-std::string abridged(std::string_view text, std::size_t at) {
+std::string abbreviate(std::string_view text, std::size_t at) {
   constexpr std::size_t most = 60;
   const auto whole = [&](std::size_t i) { // no character of several bytes is cut
     while (i > 0 && i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80) --i;
@@ -163,7 +163,7 @@ std::string abridged(std::string_view text, std::size_t at) {
                      last < text.size() ? "..." : "");
 }
 
-void require_variable(std::string_view name) {
+void require_variable_name(std::string_view name) {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
   const bool sound = !name.empty() && letters.find(name[0]) != letters.npos &&
                      name.find_first_not_of(std::string(letters) + "0123456789") == name.npos;
@@ -196,14 +196,14 @@ std::function<double(std::span<const double>)> parse_function(const std::string&
   };
 }
 
-Experiment parse_expression(const std::string& expression, const std::string& box) {
+UnitCubeIntegral parse_expression(const std::string& expression, const std::string& box) {
   mc::require(!box.empty(), "'{}' is not a name of --list; for an expression give --domain, as in \"x=0:1,y=-1:2\"",
-              abridged(expression));
-  const std::vector<Side> sides = parse_sides(box);
-  mc::require(sides.size() <= 32, "--domain: {} variables; at most 32 are possible", sides.size());
+              abbreviate(expression));
+  const std::vector<VariableBounds> bounds = parse_bounds(box);
+  mc::require(bounds.size() <= 32, "--domain: {} variables; at most 32 are possible", bounds.size());
   std::vector<std::string> names;
   long double product = 1; // of large and small sides, in any order
-  for (const Side& s : sides) {
+  for (const VariableBounds& s : bounds) {
     names.push_back(s.name);
     if (s.is_finite()) product *= s.hi - s.lo;
   }
@@ -212,38 +212,38 @@ Experiment parse_expression(const std::string& expression, const std::string& bo
   mc::require(volume >= std::numeric_limits<double>::min(), "--domain: the volume of '{}' is too small for a double",
               box);
 
-  Experiment e;
+  UnitCubeIntegral e;
   e.name = expression;
   e.title = expression;
   e.source = box;
-  e.dim = static_cast<int>(sides.size());
+  e.dim = static_cast<int>(bounds.size());
   e.truth = std::numeric_limits<double>::quiet_NaN();
-  e.fit_from = 0;
-  const auto factors = [sides, volume, f = parse_function(expression, names)](std::span<const double> u) {
+  e.min_fit_n = 0;
+  const auto factors = [bounds, volume, f = parse_function(expression, names)](std::span<const double> u) {
     std::array<double, 32> x;
     double scale = volume;
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      const Placed at = place_on(sides[i], u[i]);
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+      const MappedPoint at = map_to_bounds(bounds[i], u[i]);
       x[i] = at.x;
-      if (sides[i].is_finite()) continue;
+      if (bounds[i].is_finite()) continue;
       if (std::isinf(at.x)) return std::pair(0.0, 0.0); // an end at infinity: no point of the domain
       scale *= at.slope;
     }
-    return std::pair(scale, f(std::span(x).first(sides.size())));
+    return std::pair(scale, f(std::span(x).first(bounds.size())));
   };
   e.f = [factors](std::span<const double> u) {
     const auto [scale, value] = factors(u);
     return scale * value;
   };
-  e.underflows = [factors](std::span<const double> u) {
+  e.underflows_at = [factors](std::span<const double> u) {
     const auto [scale, value] = factors(u);
     // A value that is next to 0 itself is the far end of a peak.
     return scale * value == 0 && std::abs(value) >= std::numeric_limits<double>::min();
   };
-  e.place = [sides](std::span<const double> u) {
+  e.describe_point = [bounds](std::span<const double> u) {
     std::string text;
-    for (std::size_t i = 0; i < sides.size(); ++i)
-      text += fmt::format("{}{} = {:.9g}", i > 0 ? ", " : "", sides[i].name, place_on(sides[i], u[i]).x);
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+      text += fmt::format("{}{} = {:.9g}", i > 0 ? ", " : "", bounds[i].name, map_to_bounds(bounds[i], u[i]).x);
     return text;
   };
   return e;

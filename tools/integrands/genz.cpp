@@ -12,45 +12,45 @@ namespace carlo {
 
 namespace {
 
-using Unit = std::span<const double>;
+using UnitPoint = std::span<const double>;
 using Parameters = std::vector<double>; // c: how hard, w: where
 
 struct Family {
   const char* name;
-  double (*f)(Unit x, Unit c, Unit w);
-  double (*truth)(Unit c, Unit w);
+  double (*f)(UnitPoint x, UnitPoint c, UnitPoint w);
+  double (*truth)(UnitPoint c, UnitPoint w);
   Smoothness::Class smoothness;
 };
 
-template <class Term> double product(Unit c, Unit w, Term&& term) {
+template <class Term> double product(UnitPoint c, UnitPoint w, Term&& term) {
   double p = 1;
   for (std::size_t i = 0; i < c.size(); ++i) p *= term(c[i], w[i], i);
   return p;
 }
 
-double dot(Unit c, Unit x) {
+double dot(UnitPoint c, UnitPoint x) {
   double s = 0;
   for (std::size_t i = 0; i < c.size(); ++i) s += c[i] * x[i];
   return s;
 }
 
-double oscillatory(Unit x, Unit c, Unit w) { return std::cos(2 * mc::pi<double> * w[0] + dot(c, x)); }
-double oscillatory_truth(Unit c, Unit w) {
+double oscillatory(UnitPoint x, UnitPoint c, UnitPoint w) { return std::cos(2 * mc::pi<double> * w[0] + dot(c, x)); }
+double oscillatory_truth(UnitPoint c, UnitPoint w) {
   using namespace std::complex_literals;
   std::complex<double> p = std::exp(2i * mc::pi<double> * w[0]);
   for (const double a : c) p *= (std::exp(1i * a) - 1.0) / (1i * a);
   return p.real();
 }
 
-double product_peak(Unit x, Unit c, Unit w) {
+double product_peak(UnitPoint x, UnitPoint c, UnitPoint w) {
   return product(c, w, [&](double a, double b, std::size_t i) { return 1 / (1 / (a * a) + mc::sqr(x[i] - b)); });
 }
-double product_peak_truth(Unit c, Unit w) {
+double product_peak_truth(UnitPoint c, UnitPoint w) {
   return product(c, w, [](double a, double b, std::size_t) { return a * (std::atan(a * (1 - b)) + std::atan(a * b)); });
 }
 
-double corner_peak(Unit x, Unit c, Unit) { return std::pow(1 + dot(c, x), -static_cast<double>(c.size() + 1)); }
-double corner_peak_truth(Unit c, Unit) {
+double corner_peak(UnitPoint x, UnitPoint c, UnitPoint) { return std::pow(1 + dot(c, x), -static_cast<double>(c.size() + 1)); }
+double corner_peak_truth(UnitPoint c, UnitPoint) {
   double sum = 0, scale = 1;
   for (std::uint32_t corner = 0; corner < 1u << c.size(); ++corner) {
     double s = 1;
@@ -62,29 +62,29 @@ double corner_peak_truth(Unit c, Unit) {
   return sum / scale;
 }
 
-double gaussian(Unit x, Unit c, Unit w) {
+double gaussian(UnitPoint x, UnitPoint c, UnitPoint w) {
   double s = 0;
   for (std::size_t i = 0; i < c.size(); ++i) s += mc::sqr(c[i] * (x[i] - w[i]));
   return std::exp(-s);
 }
-double gaussian_truth(Unit c, Unit w) {
+double gaussian_truth(UnitPoint c, UnitPoint w) {
   return product(c, w, [](double a, double b, std::size_t) {
     return std::sqrt(mc::pi<double>) / (2 * a) * (std::erf(a * (1 - b)) + std::erf(a * b));
   });
 }
 
-double c0(Unit x, Unit c, Unit w) {
+double c0(UnitPoint x, UnitPoint c, UnitPoint w) {
   double s = 0;
   for (std::size_t i = 0; i < c.size(); ++i) s += c[i] * std::abs(x[i] - w[i]);
   return std::exp(-s);
 }
-double c0_truth(Unit c, Unit w) {
+double c0_truth(UnitPoint c, UnitPoint w) {
   return product(c, w,
                  [](double a, double b, std::size_t) { return -(std::expm1(-a * b) + std::expm1(-a * (1 - b))) / a; });
 }
 
-double discontinuous(Unit x, Unit c, Unit w) { return x[0] > w[0] || x[1] > w[1] ? 0 : std::exp(dot(c, x)); }
-double discontinuous_truth(Unit c, Unit w) {
+double discontinuous(UnitPoint x, UnitPoint c, UnitPoint w) { return x[0] > w[0] || x[1] > w[1] ? 0 : std::exp(dot(c, x)); }
+double discontinuous_truth(UnitPoint c, UnitPoint w) {
   return product(c, w, [](double a, double b, std::size_t i) { return std::expm1(i < 2 ? a * b : a) / a; });
 }
 
@@ -123,8 +123,8 @@ const Parameters parameters[][2] = {
      {0.8173, 0.689164, 0.136461, 0.717283, 0.745699, 0.354077, 0.485065, 0.686489}},
 };
 
-std::vector<Experiment> make() {
-  std::vector<Experiment> list;
+std::vector<UnitCubeIntegral> make() {
+  std::vector<UnitCubeIntegral> list;
   for (std::size_t k = 0; k < std::size(parameters); ++k) {
     const Family& family = families[k / 3];
     const Parameters &c = parameters[k][0], &w = parameters[k][1];
@@ -136,15 +136,15 @@ std::vector<Experiment> make() {
                     family.truth(c, w),
                     {family.smoothness},
                     256,
-                    [&family, &c, &w](Unit x) { return family.f(x, c, w); }});
+                    [&family, &c, &w](UnitPoint x) { return family.f(x, c, w); }});
   }
   return list;
 }
 
 } // namespace
 
-const std::vector<Experiment>& genz_integrals() {
-  static const std::vector<Experiment> list = make();
+const std::vector<UnitCubeIntegral>& genz_integrals() {
+  static const std::vector<UnitCubeIntegral> list = make();
   return list;
 }
 

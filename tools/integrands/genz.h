@@ -1,7 +1,7 @@
 #pragma once
 /// Genz's families of test integrals.
 
-#include <integrands/experiments.h>
+#include <integrands/unit_cube_integral.h>
 
 namespace carlo {
 
@@ -9,6 +9,6 @@ namespace carlo {
 /// c0 and discontinuous, with fixed parameters of Genz's difficulties 6, 18, 2.2, 15.2, 16.1 and 16.4; true values in
 /// closed form.
 ///   Source : [Genz87], difficulties of [Hahn05]
-const std::vector<Experiment>& genz_integrals();
+const std::vector<UnitCubeIntegral>& genz_integrals();
 
 } // namespace carlo

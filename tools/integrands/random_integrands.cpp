@@ -13,7 +13,7 @@ namespace carlo {
 
 namespace {
 
-using Unit = std::span<const double>;
+using UnitPoint = std::span<const double>;
 
 struct Draw {
   mc::Pcg random;
@@ -30,7 +30,7 @@ struct Draw {
     for (double& x : v) x = between(lo, hi);
     return v;
   }
-  Experiment made(const char* name, double truth, std::function<double(Unit)> f) const {
+  UnitCubeIntegral made(const char* name, double truth, std::function<double(UnitPoint)> f) const {
     return {name,
             fmt::format("{} in {} dimensions", name, dim),
             "made by machine",
@@ -38,7 +38,7 @@ struct Draw {
             scale * truth,
             {},
             0,
-            [f = std::move(f), s = scale](Unit x) { return s * f(x); }};
+            [f = std::move(f), s = scale](UnitPoint x) { return s * f(x); }};
   }
 };
 
@@ -48,31 +48,31 @@ template <class Term> double product(const std::vector<double>& a, Term&& term) 
   return p;
 }
 
-Experiment step(std::uint64_t seed) {
+UnitCubeIntegral step(std::uint64_t seed) {
   Draw d(seed, 1, 3);
   const std::vector<double> a = d.each(0.05, 0.95);
-  return d.made("step", product(a, [&](std::size_t i) { return a[i]; }), [a](Unit x) {
+  return d.made("step", product(a, [&](std::size_t i) { return a[i]; }), [a](UnitPoint x) {
     for (std::size_t i = 0; i < a.size(); ++i)
       if (x[i] >= a[i]) return 0.0;
     return 1.0;
   });
 }
 
-Experiment box(std::uint64_t seed) {
+UnitCubeIntegral box(std::uint64_t seed) {
   Draw d(seed, 1, 3);
   const std::vector<double> lo = d.each(0, 0.7), width = d.each(0.1, 0.3);
-  return d.made("box", product(lo, [&](std::size_t i) { return width[i]; }), [lo, width](Unit x) {
+  return d.made("box", product(lo, [&](std::size_t i) { return width[i]; }), [lo, width](UnitPoint x) {
     for (std::size_t i = 0; i < lo.size(); ++i)
       if (x[i] < lo[i] || x[i] >= lo[i] + width[i]) return 0.0;
     return 1.0;
   });
 }
 
-Experiment jump(std::uint64_t seed) {
+UnitCubeIntegral jump(std::uint64_t seed) {
   Draw d(seed, 2, 8);
   const std::vector<double> c = d.each(0.2, 4), a = d.each(0.1, 0.9);
   const auto truth = [&](std::size_t i) { return std::expm1(i < 2 ? c[i] * a[i] : c[i]) / c[i]; };
-  return d.made("jump", product(c, truth), [c, a](Unit x) {
+  return d.made("jump", product(c, truth), [c, a](UnitPoint x) {
     if (x[0] > a[0] || x[1] > a[1]) return 0.0;
     double s = 0;
     for (std::size_t i = 0; i < c.size(); ++i) s += c[i] * x[i];
@@ -80,47 +80,47 @@ Experiment jump(std::uint64_t seed) {
   });
 }
 
-Experiment kink(std::uint64_t seed) {
+UnitCubeIntegral kink(std::uint64_t seed) {
   Draw d(seed, 1, 6);
   const std::vector<double> c = d.each(0.5, 8), a = d.each(0.05, 0.95);
   const double truth = product(c, [&](std::size_t i) { return 1 + c[i] * (mc::sqr(a[i]) + mc::sqr(1 - a[i])) / 2; });
-  return d.made("kink", truth, [c, a](Unit x) {
+  return d.made("kink", truth, [c, a](UnitPoint x) {
     double f = 1;
     for (std::size_t i = 0; i < c.size(); ++i) f *= 1 + c[i] * std::abs(x[i] - a[i]);
     return f;
   });
 }
 
-Experiment shell(std::uint64_t seed) {
+UnitCubeIntegral shell(std::uint64_t seed) {
   Draw d(seed, 2, 3);
   const double outer = d.between(0.15, 0.35), inner = outer - d.between(0.01, 0.1);
   const std::vector<double> c = d.each(0.36, 0.64);
   const double pi = mc::pi<double>, power = d.dim == 2 ? pi : 4 * pi / 3;
-  return d.made("shell", power * (std::pow(outer, d.dim) - std::pow(inner, d.dim)), [=](Unit x) {
+  return d.made("shell", power * (std::pow(outer, d.dim) - std::pow(inner, d.dim)), [=](UnitPoint x) {
     double r2 = 0;
     for (std::size_t i = 0; i < c.size(); ++i) r2 += mc::sqr(x[i] - c[i]);
     return r2 < outer * outer && r2 >= inner * inner ? 1.0 : 0.0;
   });
 }
 
-Experiment power_law(const char* name, Draw d, double least, double most) {
+UnitCubeIntegral power_law(const char* name, Draw d, double least, double most) {
   const std::vector<double> p = d.each(least, most);
   std::vector<double> a = d.each(0, 1);
   if (d.between(0, 1) < 0.5) a.assign(a.size(), 0.0);
   const auto side = [&](std::size_t i) {
     return (std::pow(a[i], 1 - p[i]) + std::pow(1 - a[i], 1 - p[i])) / (1 - p[i]);
   };
-  return d.made(name, product(p, side), [p, a](Unit x) {
+  return d.made(name, product(p, side), [p, a](UnitPoint x) {
     // The point itself, met with probability 2^-53, stands for its neighbourhood.
     double f = 1;
     for (std::size_t i = 0; i < p.size(); ++i) f *= std::pow(std::max(std::abs(x[i] - a[i]), 0x1p-60), -p[i]);
     return f;
   });
 }
-Experiment singular(std::uint64_t seed) { return power_law("singular", Draw(seed, 1, 3), 0.1, 0.4); }
-Experiment infinite(std::uint64_t seed) { return power_law("infinite", Draw(seed, 1, 2), 0.5, 0.95); }
+UnitCubeIntegral singular(std::uint64_t seed) { return power_law("singular", Draw(seed, 1, 3), 0.1, 0.4); }
+UnitCubeIntegral infinite(std::uint64_t seed) { return power_law("infinite", Draw(seed, 1, 2), 0.5, 0.95); }
 
-Experiment peaks(std::uint64_t seed) {
+UnitCubeIntegral peaks(std::uint64_t seed) {
   Draw d(seed, 2, 6);
   struct Peak {
     std::vector<double> centre;
@@ -137,7 +137,7 @@ Experiment peaks(std::uint64_t seed) {
     truth += p.height * product(p.centre, side);
     all.push_back(p);
   }
-  return d.made("peaks", truth, [all](Unit x) {
+  return d.made("peaks", truth, [all](UnitPoint x) {
     double sum = 0;
     for (const Peak& p : all) {
       double r2 = 0;
@@ -165,11 +165,11 @@ std::vector<std::vector<double>> turned_axes(Draw& d) {
 }
 
 // Five standard deviations fit on every side: 6e-7 of the mass is outside.
-Experiment turned(const char* name, Draw& d, const std::vector<double>& width) {
+UnitCubeIntegral turned(const char* name, Draw& d, const std::vector<double>& width) {
   const std::vector<std::vector<double>> axes = turned_axes(d);
   const std::vector<double> centre = d.each(0.42, 0.58);
   const double truth = product(width, [&](std::size_t i) { return std::sqrt(2 * mc::pi<double>) * width[i]; });
-  return d.made(name, truth, [axes, centre, width](Unit x) {
+  return d.made(name, truth, [axes, centre, width](UnitPoint x) {
     double sum = 0;
     for (std::size_t k = 0; k < width.size(); ++k) {
       double along = 0;
@@ -180,13 +180,13 @@ Experiment turned(const char* name, Draw& d, const std::vector<double>& width) {
   });
 }
 
-Experiment ridge(std::uint64_t seed) {
+UnitCubeIntegral ridge(std::uint64_t seed) {
   Draw d(seed, 2, 3);
   return turned("ridge", d, d.each(0.008, 0.08));
 }
 
 // 1.5 to 20 times as long as thick.
-Experiment needle(std::uint64_t seed) {
+UnitCubeIntegral needle(std::uint64_t seed) {
   Draw d(seed, 4, 5);
   const double length = d.between(0.03, 0.07), thickness = length * std::pow(0.05, d.between(0.12, 1));
   std::vector<double> width(static_cast<std::size_t>(d.dim), thickness);
@@ -194,24 +194,24 @@ Experiment needle(std::uint64_t seed) {
   return turned("needle", d, width);
 }
 
-Experiment wave(std::uint64_t seed) {
+UnitCubeIntegral wave(std::uint64_t seed) {
   using namespace std::complex_literals;
   Draw d(seed, 1, 8);
   const double phase = d.between(0, 2 * mc::pi<double>);
   const std::vector<double> c = d.each(0.5, 20.0 / d.dim);
   std::complex<double> p = std::exp(1i * phase);
   for (const double a : c) p *= (std::exp(1i * a) - 1.0) / (1i * a);
-  return d.made("wave", p.real(), [phase, c](Unit x) {
+  return d.made("wave", p.real(), [phase, c](UnitPoint x) {
     double s = phase;
     for (std::size_t i = 0; i < c.size(); ++i) s += c[i] * x[i];
     return std::cos(s);
   });
 }
 
-Experiment powers(std::uint64_t seed) {
+UnitCubeIntegral powers(std::uint64_t seed) {
   Draw d(seed, 5, 20);
   const double p = d.between(0.5, 1);
-  return d.made("product", std::pow(std::pow(2.0, p) / (1 + p), d.dim), [p](Unit x) {
+  return d.made("product", std::pow(std::pow(2.0, p) / (1 + p), d.dim), [p](UnitPoint x) {
     double f = 1;
     for (const double u : x) f *= std::abs(4 * u - 2);
     return std::pow(f, p);

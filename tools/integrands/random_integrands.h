@@ -1,7 +1,7 @@
 #pragma once
 /// Integrands made by machine, to try what an error bar promises.
 
-#include <integrands/experiments.h>
+#include <integrands/unit_cube_integral.h>
 
 #include <cstdint>
 #include <string_view>
@@ -12,7 +12,7 @@ namespace carlo {
 struct IntegrandClass {
   std::string_view name, title;
   bool finite_variance;
-  Experiment (*draw)(std::uint64_t seed);
+  UnitCubeIntegral (*draw)(std::uint64_t seed);
 };
 
 /// step: 1 below a place on each axis, d 1 to 3. box: 1 between two. jump: a step times exp(c . x), 2 to 8.

@@ -10,7 +10,7 @@ namespace carlo {
 
 namespace {
 
-using Unit = std::span<const double>;
+using UnitPoint = std::span<const double>;
 using Class = Smoothness::Class;
 
 constexpr double edge = 2.0 / 3, corner = 0.15;
@@ -24,7 +24,7 @@ double place(int d) {
   for (int i = 0; i < d; ++i) sum += normal[i];
   return 0.46 * sum;
 }
-double along(Unit u) {
+double along(UnitPoint u) {
   double sum = 0;
   for (std::size_t i = 0; i < u.size(); ++i) sum += normal[i] * u[i];
   return sum;
@@ -51,19 +51,19 @@ double jump_truth(int d) {
   return 1 - mean_over_cube(d, [d](double t) { return t > 0 ? std::pow(t, d) / std::tgamma(d + 1) : 0.0; });
 }
 
-double exponentials(Unit u) {
+double exponentials(UnitPoint u) {
   double sum = 0;
   for (const double x : u) sum += x;
   return std::exp(sum);
 }
-double box(Unit u) {
+double box(UnitPoint u) {
   for (const double x : u)
     if (!(x < edge)) return 0;
   return 1;
 }
-double bent(Unit u) { return std::abs(along(u) - place(static_cast<int>(u.size()))); }
-double half_space(Unit u) { return along(u) < place(static_cast<int>(u.size())) ? 1 : 0; }
-double root(Unit u) {
+double bent(UnitPoint u) { return std::abs(along(u) - place(static_cast<int>(u.size()))); }
+double half_space(UnitPoint u) { return along(u) < place(static_cast<int>(u.size())) ? 1 : 0; }
+double root(UnitPoint u) {
   double product = 1;
   for (const double x : u) product *= x;
   return std::pow(std::max(product, 1e-300), -corner);
@@ -73,7 +73,7 @@ struct Kind {
   const char *name, *title;
   Smoothness smoothness;
   double (*truth)(int d);
-  double (*f)(Unit u);
+  double (*f)(UnitPoint u);
 };
 
 constexpr Kind kinds[] = {
@@ -84,8 +84,8 @@ constexpr Kind kinds[] = {
     {"corner", "product of x^-0.15", {Class::corner, corner}, [](int d) { return std::pow(1 - corner, -d); }, root},
 };
 
-std::vector<Experiment> make() {
-  std::vector<Experiment> list;
+std::vector<UnitCubeIntegral> make() {
+  std::vector<UnitCubeIntegral> list;
   for (const Kind& kind : kinds)
     for (const int d : {1, 2, 3, 5, 8})
       list.push_back({fmt::format("rate_{}_{}d", kind.name, d),
@@ -96,8 +96,8 @@ std::vector<Experiment> make() {
 
 } // namespace
 
-const std::vector<Experiment>& rate_integrals() {
-  static const std::vector<Experiment> list = make();
+const std::vector<UnitCubeIntegral>& rate_integrals() {
+  static const std::vector<UnitCubeIntegral> list = make();
   return list;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// One integrand for each class of smoothness, in each dimension: what the table of convergence rates is measured on.
 
-#include <integrands/experiments.h>
+#include <integrands/unit_cube_integral.h>
 
 namespace carlo {
 
@@ -11,6 +11,6 @@ namespace carlo {
 ///   kink      : |a . x - b|, a turned against all axes
 ///   jump      : 1 where a . x < b
 ///   corner    : product of x^-0.15
-const std::vector<Experiment>& rate_integrals();
+const std::vector<UnitCubeIntegral>& rate_integrals();
 
 } // namespace carlo

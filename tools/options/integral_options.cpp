@@ -25,11 +25,11 @@ namespace carlo {
 
 namespace {
 
-struct Group {
+struct IntegrandGroup {
   const char *name, *title;
-  const std::vector<Experiment>& (*list)();
+  const std::vector<UnitCubeIntegral>& (*list)();
 };
-constexpr Group groups[] = {{"books", "the integrals of the books", experiments},
+constexpr IntegrandGroup groups[] = {{"books", "the integrals of the books", textbook_integrals},
                             {"genz", "Genz's families", genz_integrals},
                             {"rates", "each class of smoothness in 1 to 8 dimensions", rate_integrals}};
 
@@ -47,47 +47,47 @@ std::vector<int> depths_of(const std::string& text, int own) {
 }
 
 // The named strategies; without names, the strategies that find every light, of all or of four.
-std::vector<::render::Strategy> strategies_of(const SceneOptions& o, bool all, const ::render::SceneFile& file) {
-  std::vector<::render::Strategy> strategies;
+std::vector<render::Strategy> strategies_of(const SceneOptions& o, bool all, const render::SceneFile& file) {
+  std::vector<render::Strategy> strategies;
   if (!o.strategies.empty()) {
     for (const std::string_view name : mc::split(o.strategies, ','))
-      strategies.push_back(::render::strategy_from(name));
+      strategies.push_back(render::strategy_from(name));
     return strategies;
   }
   constexpr std::array<std::string_view, 4> four = {"mixture", "nee", "mis", "mis+lt"};
-  for (const ::render::Strategy& s : complete_strategies(file.scene))
+  for (const render::Strategy& s : complete_strategies(file.scene))
     if (all || std::find(four.begin(), four.end(), s.name) != four.end()) strategies.push_back(s);
   return strategies;
 }
 
-bool can_spend(Spending spending, const ::render::SceneFile& file) {
-  const ::render::Filter& filter = file.scene.filter();
-  if (spending == Spending::splat)
-    return filter.radius() <= ::render::SplatFilter::max_radius && ::render::SplatFilter(filter).is_wide();
-  return !has_tiles(spending) || file.defaults.aov.kind == ::render::Aov::radiance;
+bool supports_allocation(SampleAllocation allocation, const render::SceneFile& file) {
+  const render::Filter& filter = file.scene.filter();
+  if (allocation == SampleAllocation::splat)
+    return filter.radius() <= render::SplatFilter::max_radius && render::SplatFilter(filter).is_wide();
+  return !uses_tiles(allocation) || file.defaults.aov.kind == render::Aov::radiance;
 }
 
-std::vector<PictureWay> ways_of(const SceneOptions& o, const SceneRun& run, const ::render::SceneFile& file) {
+std::vector<RenderMethod> methods_of(const SceneOptions& o, const SceneMeasureRequest& run, const render::SceneFile& file) {
   const std::string samplers = run.samplers.empty() ? "independent,stratified,sobol" : run.samplers;
-  std::vector<PictureWay> ways;
-  for (const Spending spending :
-       {Spending::even, Spending::adaptive, Spending::splat, Spending::tiles, Spending::adaptive_tiles}) {
-    if (spending != Spending::even && !run.to_choose && !run.all) continue;
-    if (!can_spend(spending, file)) continue;
+  std::vector<RenderMethod> methods;
+  for (const SampleAllocation allocation :
+       {SampleAllocation::uniform, SampleAllocation::adaptive, SampleAllocation::splat, SampleAllocation::tiles, SampleAllocation::adaptive_tiles}) {
+    if (allocation != SampleAllocation::uniform && !run.for_trade && !run.all) continue;
+    if (!supports_allocation(allocation, file)) continue;
     for (const int depth : depths_of(o.depths, file.defaults.max_depth))
-      for (const ::render::Strategy& strategy : strategies_of(o, run.all, file))
+      for (const render::Strategy& strategy : strategies_of(o, run.all, file))
         for (const std::string_view sampler : mc::split(samplers, ','))
-          ways.push_back({strategy, ::render::sampler_from(sampler), depth, spending});
+          methods.push_back({strategy, render::sampler_from(sampler), depth, allocation});
   }
-  const std::optional<PictureWay> plain = run.to_choose ? plain_way(file) : std::nullopt;
-  const auto is_plain = [&](const PictureWay& way) { return way.name() == plain->name(); };
-  if (plain && std::none_of(ways.begin(), ways.end(), is_plain)) ways.push_back(*plain);
-  return ways;
+  const std::optional<RenderMethod> plain = run.for_trade ? plain_mc_method(file) : std::nullopt;
+  const auto is_plain = [&](const RenderMethod& method) { return method.name() == plain->name(); };
+  if (plain && std::none_of(methods.begin(), methods.end(), is_plain)) methods.push_back(*plain);
+  return methods;
 }
 
 } // namespace
 
-std::vector<Option> integral_rows(IntegralOptions& o) {
+std::vector<Option> integral_option_rows(IntegralOptions& o) {
   return {
       {"INTEGRAND", "", &o.integrands,
        "Names (see --list), groups (books, genz, rates), an expression, e.g. \"exp(-x*x)*cos(y)\", or a scene file "
@@ -113,7 +113,7 @@ OptionGroup plugin_group(IntegralOptions& o) {
           }};
 }
 
-std::vector<Target> targets_of(const IntegralOptions& o) {
+std::vector<IntegralTarget> targets_of(const IntegralOptions& o) {
   mc::require(o.max_n >= 64 && o.max_n <= (1u << 28), "--max-n {} must lie between 64 and 2^28", o.max_n);
   ResourceLimits limits = resource_limits(o.timeout, o.memory, !o.plugin.empty());
   if (!o.plugin.empty()) {
@@ -122,26 +122,26 @@ std::vector<Target> targets_of(const IntegralOptions& o) {
     return plugin_targets(o.plugin, o.integrands, {.limits = limits});
   }
   mc::require(o.domain.empty() || o.integrands.size() == 1, "--domain belongs to one expression");
-  std::vector<Target> targets;
+  std::vector<IntegralTarget> targets;
   const std::vector<std::string> words = o.integrands.empty() ? std::vector<std::string>{"books"} : o.integrands;
   for (const std::string& word : words) {
-    const Group* group = nullptr;
-    for (const Group& g : groups)
+    const IntegrandGroup* group = nullptr;
+    for (const IntegrandGroup& g : groups)
       if (word == g.name) group = &g;
-    if (!group) targets.push_back(here(find_integrand(word, o.domain)));
+    if (!group) targets.push_back(in_process_target(find_integrand(word, o.domain)));
     else
-      for (const Experiment& e : group->list()) targets.push_back(here(e));
+      for (const UnitCubeIntegral& e : group->list()) targets.push_back(in_process_target(e));
   }
   return targets;
 }
 
 int list_integrals() {
-  for (const Group& g : groups) {
+  for (const IntegrandGroup& g : groups) {
     fmt::print("{}: {}\n", g.name, g.title);
-    for (const Experiment& e : g.list()) fmt::print("  {:<24} {}\n", e.name, e.title);
+    for (const UnitCubeIntegral& e : g.list()) fmt::print("  {:<24} {}\n", e.name, e.title);
   }
   fmt::print("methods (point sets and estimators):\n");
-  for (const Way& w : ways()) fmt::print("  {:<24} {}\n", w.name, w.title);
+  for (const SamplingMethod& w : sampling_methods()) fmt::print("  {:<24} {}\n", w.name, w.title);
   return exit_ok;
 }
 
@@ -174,42 +174,42 @@ void refuse_integral_options(const IntegralOptions& o) {
 
 bool is_scene(const std::vector<std::string>& words) { return words.size() == 1 && words[0].ends_with(".xml"); }
 
-Target scene_target(const std::string& path) {
-  Target target;
+IntegralTarget scene_target(const std::string& path) {
+  IntegralTarget target;
   target.integral.name = target.integral.title = std::filesystem::path(path).stem().string();
   target.integral.source = path;
   target.integral.dim = 0;
   target.integral.truth = 0;
-  target.integral.fit_from = 0;
+  target.integral.min_fit_n = 0;
   return target;
 }
 
-Pictures measure_scene(const SceneOptions& o, const SceneRun& run) {
+PictureMeasurement measure_scene(const SceneOptions& o, const SceneMeasureRequest& run) {
   mc::require(o.cost == "cpu" || o.cost == "rays", "--cost '{}' must be cpu or rays", o.cost);
   mc::require(o.max_spp >= 16, "--max-spp {} must be at least 16", o.max_spp);
-  const bool adaptive = run.to_choose || run.all;
+  const bool adaptive = run.for_trade || run.all;
   mc::require(!adaptive || o.max_spp >= 32, "--max-spp {} must be at least 32 for adaptive spending", o.max_spp);
-  const ::render::SceneFile file = ::render::read_mitsuba(run.path);
-  warn_of_departures(file);
-  warn_where_coarse(run.path, file.scene);
-  const ::render::RenderDefaults& own = file.defaults;
+  const render::SceneFile file = render::read_mitsuba(run.path);
+  warn_about_scene_file(file);
+  warn_if_imprecise(run.path, file.scene);
+  const render::RenderDefaults& own = file.defaults;
   PictureOptions p{.width = 48, .height = std::max(1, 48 * own.height / own.width), .max_spp = o.max_spp};
-  if (!o.size.empty()) std::tie(p.width, p.height) = size_in(o.size);
+  if (!o.size.empty()) std::tie(p.width, p.height) = parse_size(o.size);
   p.replicates = run.pictures;
   p.seconds = run.seconds;
   p.cost_rays = o.cost == "rays";
   p.seed = run.seed;
   p.threads = run.threads;
   p.cancel = run.cancel;
-  Progress progress;
+  ProgressLine progress;
   p.progress = [&](double done, const std::string& where) { progress.show(done, where); };
-  return mc::with_context(run.path, [&] { return measure_pictures(file, ways_of(o, run, file), p); });
+  return mc::with_context(run.path, [&] { return measure_pictures(file, methods_of(o, run, file), p); });
 }
 
 namespace {
 
 // "pays for errors above .1 [.09, .2]": where a biased method is cheaper than the unbiased ones.
-std::string where_it_pays(const std::optional<Ranged>& above) {
+std::string break_even_text(const std::optional<IntervalEstimate>& above) {
   if (!above) return "never pays";
   if (!std::isfinite(above->value)) return fmt::format("if it pays, for errors above {:.3g} at least", above->lo);
   return fmt::format("pays for errors above {:.3g} [{:.3g}, {}]", above->value, above->lo,
@@ -218,21 +218,21 @@ std::string where_it_pays(const std::optional<Ranged>& above) {
 
 } // namespace
 
-std::string about_pictures(const Pictures& pictures) {
+std::string bias_summary(const PictureMeasurement& pictures) {
   std::string text = fmt::format("  errors are roots of relmse, with mean^2 / 10 for its 0.01, from a reference of "
                                  "{:.0f} samples per pixel with an error of {:.2g}\n",
                                  pictures.reference_spp, pictures.reference_error);
   for (std::size_t i = 0; i < pictures.biases.size(); ++i) {
     const Bias& b = pictures.biases[i];
     if (!(b.bias.lo > 0)) continue;
-    text += fmt::format("  {}: bias {:.3g} [{:.3g}, {:.3g}], noise {:.3g} at N = {:.0f}; {}\n", pictures.ways[i].name,
-                        b.bias.value, b.bias.lo, b.bias.hi, b.noise, b.n, where_it_pays(b.pays_above));
+    text += fmt::format("  {}: bias {:.3g} [{:.3g}, {:.3g}], noise {:.3g} at N = {:.0f}; {}\n", pictures.methods[i].name,
+                        b.bias.value, b.bias.lo, b.bias.hi, b.noise, b.n, break_even_text(b.break_even_error));
   }
   return text;
 }
 
-std::string interrupted_pictures(const Pictures& pictures) {
-  if (pictures.ways.empty()) return "interrupted: no method was finished at 4 samples per pixel, the least number";
+std::string interruption_summary(const PictureMeasurement& pictures) {
+  if (pictures.methods.empty()) return "interrupted: no method was finished at 4 samples per pixel, the least number";
   return fmt::format("interrupted: errors up to {:.0f} samples per pixel are known", pictures.biases.front().n);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Options that the subcommands which measure integrals and scenes have in common.
 
-#include <converge/pictures.h>
+#include <converge/picture_measurement.h>
 #include <options/subcommand.h>
 
 #include <optional>
@@ -22,12 +22,12 @@ struct IntegralOptions {
 };
 
 /// Rows for the common options, and the options of plugins.
-std::vector<Option> integral_rows(IntegralOptions& o);
+std::vector<Option> integral_option_rows(IntegralOptions& o);
 OptionGroup plugin_group(IntegralOptions& o);
 
 /// The named integrands; without a name the group books.
 ///   throws : Error for an unknown name, a bad number, and as find_integrand and plugin_targets
-std::vector<Target> targets_of(const IntegralOptions& o);
+std::vector<IntegralTarget> targets_of(const IntegralOptions& o);
 
 /// Prints the integrands and the methods.
 int list_integrals();
@@ -53,10 +53,10 @@ void refuse_integral_options(const IntegralOptions& o);
 bool is_scene(const std::vector<std::string>& words);
 
 /// A request to measure a scene.
-struct SceneRun {
+struct SceneMeasureRequest {
   std::string path;
   std::string samplers;   ///< comma-separated; empty: all
-  bool to_choose = false; ///< also adaptive sampling, splats and tiles, and plain_way
+  bool for_trade = false; ///< also adaptive sampling, splats and tiles, and plain_mc_method
   bool all = false;       ///< every strategy that finds every light, adaptive sampling, splats and tiles
   int pictures = 0;       ///< pictures per error; 0: enough to know it to 10 %
   double seconds = 0;     ///< wall-clock budget; 0: none
@@ -66,16 +66,16 @@ struct SceneRun {
 };
 
 /// A target that stands for a scene in summaries and tables.
-Target scene_target(const std::string& path);
+IntegralTarget scene_target(const std::string& path);
 
 /// Measures every strategy, sampler and longest path, with progress on a terminal.
 ///   throws : Error for a scene that cannot be read or is black, an unknown name, or a bad number
-Pictures measure_scene(const SceneOptions& o, const SceneRun& run);
+PictureMeasurement measure_scene(const SceneOptions& o, const SceneMeasureRequest& run);
 
 /// A line about the reference, and one for each method with a significant bias.
-std::string about_pictures(const Pictures& pictures);
+std::string bias_summary(const PictureMeasurement& pictures);
 
 /// A line about the progress of interrupted measurements.
-std::string interrupted_pictures(const Pictures& pictures);
+std::string interruption_summary(const PictureMeasurement& pictures);
 
 } // namespace carlo

@@ -25,14 +25,14 @@ std::vector<int> pixels_in(const std::string& text, char separator) {
 
 } // namespace
 
-std::pair<int, int> size_in(const std::string& text) {
+std::pair<int, int> parse_size(const std::string& text) {
   const std::vector<int> size = pixels_in(text, 'x');
   mc::require(size.size() == 2 && size[0] > 0 && size[1] > 0,
               "--size '{}' must be WIDTHxHEIGHT in pixels, e.g. 640x480", text);
   return {size[0], size[1]};
 }
 
-render::Crop crop_in(const std::string& text) {
+render::Crop parse_crop(const std::string& text) {
   const std::vector<int> c = pixels_in(text, ',');
   mc::require(c.size() == 4, "--crop '{}' must be X,Y,WIDTH,HEIGHT in pixels, e.g. 100,50,64,64", text);
   return {c[0], c[1], c[2], c[3]};

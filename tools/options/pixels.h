@@ -10,10 +10,10 @@ namespace carlo {
 
 /// Width and height of "640x480".
 ///   throws : Error for anything else, and where one is not positive
-std::pair<int, int> size_in(const std::string& text);
+std::pair<int, int> parse_size(const std::string& text);
 
 /// The part "X,Y,WIDTH,HEIGHT". The renderer checks that it lies inside the picture.
 ///   throws : Error for anything else
-render::Crop crop_in(const std::string& text);
+render::Crop parse_crop(const std::string& text);
 
 } // namespace carlo

@@ -13,21 +13,21 @@
 
 namespace carlo {
 
-std::string invalid_samples(const ::render::RenderResult& result, const Provenance& from) {
+std::string invalid_samples_text(const render::RenderResult& result, const Provenance& from) {
   if (result.invalid == 0) return {};
-  const ::render::InvalidSample& w = result.first_invalid;
+  const render::InvalidSample& w = result.first_invalid;
   return fmt::format("{} of {} samples are not finite; the first: pixel ({}, {}), pass {}, sample {}, seed {}",
                      result.invalid, result.samples, w.x, w.y, w.pass, w.index, from.seed);
 }
 
-std::string interruption(const ::render::RenderResult& result) {
+std::string interruption_text(const render::RenderResult& result) {
   if (result.missing_rows == 0) return "interrupted before the end";
   const int rows = result.image.height;
   return fmt::format("interrupted in its first pass: {} of {} rows were rendered, the others repeat the nearest",
                      rows - result.missing_rows, rows);
 }
 
-void sign(::render::RenderResult& result, const Provenance& from) {
+void add_metadata(render::RenderResult& result, const Provenance& from) {
   auto& metadata = result.image.metadata;
   metadata["carlo.scene"] = std::filesystem::path(from.scene).filename().string();
   metadata["carlo.command"] = from.command;
@@ -35,20 +35,20 @@ void sign(::render::RenderResult& result, const Provenance& from) {
   metadata["carlo.seed"] = fmt::format("{}", from.seed);
   metadata["carlo.samples_per_pixel"] = fmt::format("{:.17g}", result.spp);
   metadata["carlo.invalid_samples"] = fmt::format("{}", result.invalid);
-  if (result.partial) metadata["carlo.partial"] = interruption(result);
+  if (result.partial) metadata["carlo.partial"] = interruption_text(result);
   if (result.estimates == 0) metadata["carlo.unsampled"] = "some pixels";
 }
 
-void warn_where_coarse(const std::string& path, const ::render::Scene& scene) {
-  if (const auto length = ::render::length_out_of_range(scene))
+void warn_if_imprecise(const std::string& path, const render::Scene& scene) {
+  if (const auto length = render::length_out_of_range(scene))
     std::fprintf(stderr,
                  "carlo: warning: %s: %s %.3g across, and %s hold areas and squares of distances from %.2g to %.2g "
                  "across; its light may be wrong. Scale the scene\n",
                  path.c_str(), *length < 1 ? "a lamp is" : "the scene is", *length,
-                 sizeof(::render::Float) == sizeof(float) ? "floats" : "doubles", ::render::min_length,
-                 ::render::max_length);
-  const ::render::FloatResolution c = ::render::coarsest_resolution(scene);
-  if (c.ratio <= ::render::max_resolution_ratio) return;
+                 sizeof(render::Float) == sizeof(float) ? "floats" : "doubles", render::min_length,
+                 render::max_length);
+  const render::FloatResolution c = render::coarsest_resolution(scene);
+  if (c.ratio <= render::max_resolution_ratio) return;
   std::fprintf(
       stderr,
       "carlo: warning: %s: a surface %.3g across has coordinates of %.3g, where the next number is %.2g further; "
@@ -56,25 +56,25 @@ void warn_where_coarse(const std::string& path, const ::render::Scene& scene) {
       path.c_str(), c.size, c.distance, c.step);
 }
 
-void warn_of_departures(const ::render::SceneFile& file) {
+void warn_about_scene_file(const render::SceneFile& file) {
   for (const std::string& warning : file.warnings) std::fprintf(stderr, "carlo: warning: %s\n", warning.c_str());
 }
 
-std::string samples_per_second(const ::render::RenderResult& result) {
+std::string samples_per_second(const render::RenderResult& result) {
   return format_count(double(result.samples) / result.seconds) + "samples/s";
 }
 
-std::string format_error(const ::render::RenderResult& result) {
+std::string format_error(const render::RenderResult& result) {
   if (!std::isfinite(result.relative_error))
     return result.missing_rows > 0 ? "unknown" : "unknown (one sample per pixel)";
   return fmt::format("{:.2f} % (worst block {:.2f} %)", 100 * result.relative_error, 100 * result.worst_error);
 }
 
-std::string summary_of(const std::string& file, const ::render::RenderResult& r,
+std::string render_summary(const std::string& file, const render::RenderResult& r,
                        const std::optional<double>& target_error) {
   constexpr std::size_t columns = 80, indent = 2;
   std::string text;
-  if (r.partial) text += wrapped("PARTIAL: " + interruption(r), columns);
+  if (r.partial) text += wrapped("PARTIAL: " + interruption_text(r), columns);
   text += fmt::format("{}: {}x{} pixels, {:.4g} samples per pixel in {} ({} CPU)\n", file, r.image.width,
                       r.image.height, r.spp, format_seconds(r.seconds), format_seconds(r.cpu_seconds));
   text += fmt::format("  mean relative standard error {}, {} invalid samples\n", format_error(r), r.invalid);
@@ -85,7 +85,7 @@ std::string summary_of(const std::string& file, const ::render::RenderResult& r,
   if (r.unreliable_target_spp > 0)
     text += wrapped(fmt::format("the error reached {:g} % with {:.4g} samples per pixel; rendering went on while one "
                                 "sample dominated over {:.0f} % of the pixels (--time bounds it)",
-                                percent, r.unreliable_target_spp, 100 * ::render::max_outlier_dominated),
+                                percent, r.unreliable_target_spp, 100 * render::max_outlier_dominated),
                     columns, indent);
   else if (r.out_of_time)
     text += wrapped(fmt::format("the error of {:g} % was not reached in the time (--resume adds samples)", percent),

@@ -18,31 +18,31 @@ struct Provenance {
 };
 
 /// "" where every sample was finite; else the number of bad samples, and the place of the first.
-std::string invalid_samples(const ::render::RenderResult& result, const Provenance& from);
+std::string invalid_samples_text(const render::RenderResult& result, const Provenance& from);
 
 /// The progress of a partial render: "interrupted before the end", or "interrupted in its first pass: 122 of 768 rows were
 /// rendered, the others repeat the nearest".
-std::string interruption(const ::render::RenderResult& result);
+std::string interruption_text(const render::RenderResult& result);
 
 /// Writes scene, command, commit, seed, samples and progress into the picture's metadata.
-void sign(::render::RenderResult& result, const Provenance& from);
+void add_metadata(render::RenderResult& result, const Provenance& from);
 
 /// Warns on stderr where the precision or the range of Float is insufficient for the scene.
-void warn_where_coarse(const std::string& path, const ::render::Scene& scene);
+void warn_if_imprecise(const std::string& path, const render::Scene& scene);
 /// Warns on stderr where a scene means something else in Mitsuba.
-void warn_of_departures(const ::render::SceneFile& file);
+void warn_about_scene_file(const render::SceneFile& file);
 
 /// "881 ksamples/s" of a render.
-std::string samples_per_second(const ::render::RenderResult& result);
+std::string samples_per_second(const render::RenderResult& result);
 
 /// "1.23 % (worst block 2.34 %)", or "unknown (one sample per pixel)".
-std::string format_error(const ::render::RenderResult& result);
+std::string format_error(const render::RenderResult& result);
 
 /// Three lines of at most 80 columns, where the file name is short: size and time, error, rates. "PARTIAL: ..." comes
 /// first for an interrupted render; a last sentence says why the run did not end at its target error.
 ///   file         : of the picture
 ///   target_error : the one that was asked for
-std::string summary_of(const std::string& file, const ::render::RenderResult& result,
+std::string render_summary(const std::string& file, const render::RenderResult& result,
                        const std::optional<double>& target_error);
 
 } // namespace carlo

@@ -17,12 +17,12 @@ namespace carlo {
 
 namespace {
 
-struct Compared {
+struct FingerprintEntry {
   const char *key, *words;
 };
 
 // Metadata that must agree, in order of comparison.
-constexpr auto compared = std::to_array<Compared>({
+constexpr auto compared = std::to_array<FingerprintEntry>({
     {"carlo.size", "--size"},
     {"carlo.crop", "--crop"},
     {"carlo.max_depth", "--max-depth"},
@@ -54,9 +54,9 @@ std::string hash_of(const std::set<std::string>& files) {
 
 } // namespace
 
-PictureOf picture_of(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
-                     const ::render::SceneFile& read, const ::render::RenderOptions& settings,
-                     const ::render::Crop& part) {
+RenderFingerprint render_fingerprint(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
+                     const render::SceneFile& read, const render::RenderOptions& settings,
+                     const render::Crop& part) {
   std::sort(variables.begin(), variables.end());
   return {{"carlo.scene", std::filesystem::path(file).filename().string()},
           {"carlo.size", fmt::format("{}x{}", settings.width, settings.height)},
@@ -69,46 +69,46 @@ PictureOf picture_of(const std::string& file, const std::string& dialect, std::v
           {"carlo.scene_hash", hash_of(read.files)}};
 }
 
-Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part,
-                    ::render::RenderOptions& settings) {
+ResumeState load_resume_state(const std::string& path, const RenderFingerprint& fingerprint, const render::Crop& part,
+                    render::RenderOptions& settings) {
   mc::require(mc::lowercase_extension(path) == ".exr",
               "--resume: '{}' is no .exr: other formats do not store radiance with its variance; name an .exr", path);
   mc::require(std::filesystem::exists(path), "--resume: '{}' does not exist; leave out --resume in the first run",
               path);
-  Begun begun{::render::read_image(path), 0, 1};
+  ResumeState resume_state{render::read_image(path), 0, 1};
   const auto text = [&](const char* key) {
-    const auto found = begun.image.metadata.find(key);
-    return found == begun.image.metadata.end() ? std::string() : found->second;
+    const auto found = resume_state.image.metadata.find(key);
+    return found == resume_state.image.metadata.end() ? std::string() : found->second;
   };
-  begun.spp = std::strtod(text("carlo.samples_per_pixel").c_str(), nullptr);
-  mc::require(begun.spp > 0, "--resume: '{}' does not state its samples per pixel; carlo render has not written it",
+  resume_state.spp = std::strtod(text("carlo.samples_per_pixel").c_str(), nullptr);
+  mc::require(resume_state.spp > 0, "--resume: '{}' does not state its samples per pixel; carlo render has not written it",
               path);
   mc::require(text("carlo.unsampled").empty(),
               "--resume: '{}' has pixels without a sample, as its run was interrupted early; render it again", path);
-  begun.runs = std::max(1, std::atoi(text("carlo.runs").c_str()));
-  mc::require(text("carlo.scene") == picture.at("carlo.scene"), "--resume: '{}' is a picture of '{}', not of '{}'",
-              path, text("carlo.scene"), picture.at("carlo.scene"));
-  mc::require(begun.image.width == part.width && begun.image.height == part.height,
-              "--resume: '{}' has {}x{} pixels, but {}x{} are requested", path, begun.image.width, begun.image.height,
+  resume_state.runs = std::max(1, std::atoi(text("carlo.runs").c_str()));
+  mc::require(text("carlo.scene") == fingerprint.at("carlo.scene"), "--resume: '{}' is a picture of '{}', not of '{}'",
+              path, text("carlo.scene"), fingerprint.at("carlo.scene"));
+  mc::require(resume_state.image.width == part.width && resume_state.image.height == part.height,
+              "--resume: '{}' has {}x{} pixels, but {}x{} are requested", path, resume_state.image.width, resume_state.image.height,
               part.width, part.height);
   for (const auto& [key, words] : compared) {
-    mc::require(begun.image.metadata.contains(key),
+    mc::require(resume_state.image.metadata.contains(key),
                 "--resume: '{}' does not state its {}, which carlo render writes now; render it again", path, key);
-    mc::require(text(key) == picture.at(key),
+    mc::require(text(key) == fingerprint.at(key),
                 "--resume: '{}' was rendered with {} '{}', not '{}'; ask for the same, or name another file", path,
-                words, text(key), picture.at(key));
+                words, text(key), fingerprint.at(key));
   }
-  mc::require(settings.spp > 1 || settings.seconds || begun.image.variance.empty(),
+  mc::require(settings.spp > 1 || settings.seconds || resume_state.image.variance.empty(),
               "--resume: one sample has no variance, and '{}' would lose its own; take --spp 2 or more", path);
-  settings.seed = mc::hash(settings.seed, std::uint64_t(begun.runs));
-  return begun;
+  settings.seed = mc::hash(settings.seed, std::uint64_t(resume_state.runs));
+  return resume_state;
 }
 
-void add_to(const Begun& begun, ::render::RenderResult& result) {
-  result.image = accumulate(begun.image, begun.spp, result.image, result.spp);
-  result.image.layers = begun.image.layers;
-  result.image.metadata["carlo.samples_per_pixel"] = fmt::format("{:.17g}", begun.spp + result.spp);
-  result.image.metadata["carlo.runs"] = fmt::format("{}", begun.runs + 1);
+void accumulate_into(const ResumeState& resume_state, render::RenderResult& result) {
+  result.image = accumulate(resume_state.image, resume_state.spp, result.image, result.spp);
+  result.image.layers = resume_state.image.layers;
+  result.image.metadata["carlo.samples_per_pixel"] = fmt::format("{:.17g}", resume_state.spp + result.spp);
+  result.image.metadata["carlo.runs"] = fmt::format("{}", resume_state.runs + 1);
 }
 
 } // namespace carlo

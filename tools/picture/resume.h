@@ -12,18 +12,18 @@
 namespace carlo {
 
 /// Metadata that identify the expected picture: only pictures with equal metadata may be averaged.
-using PictureOf = std::map<std::string, std::string>;
+using RenderFingerprint = std::map<std::string, std::string>;
 
 ///   variables : "name=value" of the scene
 ///   read      : the scene and the names of its files, which are hashed
 ///   part      : the rendered part of the picture
-PictureOf picture_of(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
-                     const ::render::SceneFile& read, const ::render::RenderOptions& settings,
-                     const ::render::Crop& part);
+RenderFingerprint render_fingerprint(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
+                     const render::SceneFile& read, const render::RenderOptions& settings,
+                     const render::Crop& part);
 
 /// The existing picture, its samples per pixel and its number of runs.
-struct Begun {
-  ::render::Image image;
+struct ResumeState {
+  render::Image image;
   double spp;
   int runs;
 };
@@ -32,10 +32,10 @@ struct Begun {
 ///   settings : of the new run; its seed is changed, so that its samples differ from the existing ones
 ///   throws   : Error for a missing or incomplete picture, for one with other metadata, naming the difference, and
 ///              where one more sample would lose the variance
-Begun begun_picture(const std::string& path, const PictureOf& picture, const ::render::Crop& part,
-                    ::render::RenderOptions& settings);
+ResumeState load_resume_state(const std::string& path, const RenderFingerprint& fingerprint, const render::Crop& part,
+                    render::RenderOptions& settings);
 
 /// Averages the existing picture with the result of a run, which receives the mean.
-void add_to(const Begun& begun, ::render::RenderResult& result);
+void accumulate_into(const ResumeState& resume_state, render::RenderResult& result);
 
 } // namespace carlo

@@ -63,7 +63,7 @@ class Program {
     out.reserve(in.size() / width * answer_width);
     for (std::size_t at = 0; at < in.size(); at += batch * width) {
       const std::size_t n = std::min(batch, (in.size() - at) / width);
-      const std::size_t more = child_.unread(); // it would be taken for the next answer
+      const std::size_t more = child_.available_bytes(); // it would be taken for the next answer
       mc::require(more == 0, "it wrote {} bytes more than the answer; it must write nothing else to standard output", more);
       monitor_.enter(what, argument, in.data() + at,
                    static_cast<int>(std::min<std::size_t>(width, CallMonitor::max_arguments)));
@@ -96,10 +96,10 @@ class Program {
     monitor_.leave();
     const int code = child_.wait();
     throw mc::Error(fmt::format("the program ended with code {} instead of answering '{}'{}", code, what,
-                                near_limit(child_.peak())));
+                                near_limit(child_.peak_memory())));
   }
 
-  Child child_;
+  ChildProcess child_;
   std::size_t uniforms_, columns_;
   CallMonitor& monitor_;
 };

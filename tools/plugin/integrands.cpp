@@ -41,18 +41,18 @@ struct Bounds {
 };
 
 // In the child only. Every call is noted in the watch.
-Experiment experiment_of(const mc_integrand& f, CallMonitor& monitor) {
+UnitCubeIntegral experiment_of(const mc_integrand& f, CallMonitor& monitor) {
   const Bounds bounds(f);
-  Experiment e;
+  UnitCubeIntegral e;
   e.name = f.name;
   e.dim = f.dim;
   e.truth = f.has_truth ? f.truth : std::numeric_limits<double>::quiet_NaN();
-  e.place = [bounds](Experiment::Unit u) {
+  e.describe_point = [bounds](UnitCubeIntegral::UnitPoint u) {
     std::string text;
     for (std::size_t k = 0; k < u.size(); ++k) text += fmt::format("{}{:.17g}", k ? ", " : "", bounds.at(k, u[k]));
     return "x = (" + text + ")";
   };
-  e.f = [f, bounds, &monitor](Experiment::Unit u) {
+  e.f = [f, bounds, &monitor](UnitCubeIntegral::UnitPoint u) {
     std::array<double, most_dimensions> x;
     for (std::size_t k = 0; k < u.size(); ++k) x[k] = bounds.at(k, u[k]);
     monitor.enter("eval", "x", x.data(), std::min(f.dim, CallMonitor::max_arguments));
@@ -61,7 +61,7 @@ Experiment experiment_of(const mc_integrand& f, CallMonitor& monitor) {
     return bounds.volume() * value;
   };
   if (!f.eval_many) return e;
-  e.many = [f, bounds, &monitor](Experiment::Unit points, std::span<double> values) {
+  e.f_batch = [f, bounds, &monitor](UnitCubeIntegral::UnitPoint points, std::span<double> values) {
     std::vector<double> x(points.begin(), points.end());
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = bounds.at(i % bounds.lo.size(), x[i]);
     monitor.enter("eval_many", "x", x.data(), std::min(f.dim, CallMonitor::max_arguments));
@@ -78,7 +78,7 @@ struct Looked {
 };
 
 // Fewer where it is slow: what is slow is measured under the worker's limits.
-Looked look_at(const Experiment& e) {
+Looked look_at(const UnitCubeIntegral& e) {
   using Clock = std::chrono::steady_clock;
   constexpr std::size_t most = 22 * 23 / 2; // batches of 1 to 22 points
   const auto dim = static_cast<std::size_t>(e.dim);
@@ -94,13 +94,13 @@ Looked look_at(const Experiment& e) {
 /// Holds what an integrand says of the points again against what it said first.
 class Repeated {
  public:
-  Repeated(const Experiment& e, double volume, const Looked& looked)
+  Repeated(const UnitCubeIntegral& e, double volume, const Looked& looked)
       : e_(e), looked_(looked), dim_(static_cast<std::size_t>(e.dim)), volume_(volume) {
     for (const double value : looked.values)
       if (std::isfinite(value)) size_ = std::max(size_, std::abs(value));
   }
 
-  Experiment::Unit points(std::size_t first, std::size_t count) const {
+  UnitCubeIntegral::UnitPoint points(std::size_t first, std::size_t count) const {
     return std::span(looked_.u).subspan(first * dim_, count * dim_);
   }
   // Rounding may differ, as where a loop is vectorised. What is not finite at both is named where it is measured.
@@ -109,27 +109,27 @@ class Repeated {
     const double first = looked_.values[i];
     const bool same = first == again || std::abs(again - first) <= tolerance * size_;
     mc::require(same || (std::isnan(first) && std::isnan(again)), "{}: at {} eval says {:.17g} {} {:.17g}; {}", e_.name,
-                e_.place(points(i, 1)), first / volume_, says, again / volume_, remedy);
+                e_.describe_point(points(i, 1)), first / volume_, says, again / volume_, remedy);
   }
 
  private:
-  const Experiment& e_;
+  const UnitCubeIntegral& e_;
   const Looked& looked_;
   std::size_t dim_;
   double volume_, size_ = 0;
 };
 
 // Throws Error for an integrand that is no function of x alone, or whose eval_many is not its eval.
-void require_a_function(const Experiment& e, double volume) {
+void require_a_function(const UnitCubeIntegral& e, double volume) {
   const Looked looked = look_at(e);
   const Repeated repeated(e, volume, looked);
   const std::size_t count = looked.values.size();
   for (std::size_t i = count; i-- > 0;)
     repeated.hold(i, e.f(repeated.points(i, 1)), "and then", "it must depend on x alone, on nothing before");
-  if (!e.many) return;
+  if (!e.f_batch) return;
   const auto hold_batch = [&](std::size_t first, std::size_t size) {
     std::vector<double> values(size, std::numeric_limits<double>::quiet_NaN()); // which stays where none is written
-    e.many(repeated.points(first, size), values);
+    e.f_batch(repeated.points(first, size), values);
     for (std::size_t i = 0; i < size; ++i)
       repeated.hold(first + i, values[i], fmt::format("and eval_many, as point {} of {},", i, size),
                     "values[i] must be eval(x + i dim) (nan: perhaps not written); mend eval_many, or leave it out");
@@ -152,7 +152,7 @@ json describe(const std::vector<mc_integrand>& integrands) {
 }
 
 // `is_checked` is whether the integrand was found to be a function, which is asked once.
-Replicates run(const std::string& path, std::size_t index, const Task& task, WorkerOptions worker, bool& is_checked) {
+Replicates run(const std::string& path, std::size_t index, const ReplicateTask& task, WorkerOptions worker, bool& is_checked) {
   worker.cancel = task.cancel;
   json r;
   try {
@@ -161,9 +161,9 @@ Replicates run(const std::string& path, std::size_t index, const Task& task, Wor
     r = call_worker({{"task", "integrand"},
                      {"who", path},
                      {"index", index},
-                     {"way", task.way->name},
-                     {"file", task.way->file},
-                     {"one_by_one", task.way->one_by_one},
+                     {"way", task.method->name},
+                     {"file", task.method->points_file},
+                     {"one_by_one", task.method->scalar_calls},
                      {"n", task.n},
                      {"seed", task.seed},
                      {"first", task.first},
@@ -182,26 +182,26 @@ json run_integrand_task(const json& request, CallMonitor& monitor) {
   const Plugin plugin = load_plugin(request["who"], monitor);
   if (request["task"] == "describe integrands") return describe(plugin.integrands);
   const mc_integrand& f = plugin.integrands[request["index"].get<std::size_t>()];
-  const Experiment e = experiment_of(f, monitor);
+  const UnitCubeIntegral e = experiment_of(f, monitor);
   if (request["task"] == "check integrand") {
     require_a_function(e, Bounds(f).volume());
     return {};
   }
-  Task task;
+  ReplicateTask task;
   const std::string file = request["file"];
-  Way chosen = file.empty() ? way(request["way"]) : way_of_points(file);
-  chosen.one_by_one = request["one_by_one"];
-  task.way = &chosen;
+  SamplingMethod chosen = file.empty() ? sampling_method(request["way"]) : points_file_method(file);
+  chosen.scalar_calls = request["one_by_one"];
+  task.method = &chosen;
   task.n = request["n"];
   task.seed = request["seed"];
   task.first = request["first"];
   task.count = request["count"];
   task.threads = 1;
-  const Replicates r = run_here(e, task);
+  const Replicates r = run_replicates(e, task);
   return {{"values", r.values}, {"calls", r.calls}, {"seconds", r.seconds}};
 }
 
-std::vector<Target> plugin_targets(const std::string& path, const std::vector<std::string>& names,
+std::vector<IntegralTarget> plugin_targets(const std::string& path, const std::vector<std::string>& names,
                                    const WorkerOptions& worker) {
   const json all = call_worker({{"task", "describe integrands"}, {"who", path}}, worker);
   mc::require(!all.empty(), "{}: it contains distributions but no integrands; see carlo validate --plugin", path);
@@ -210,19 +210,19 @@ std::vector<Target> plugin_targets(const std::string& path, const std::vector<st
   for (const std::string& name : names)
     mc::require(std::find(known.begin(), known.end(), name) != known.end(), "{}: unknown integrand '{}'{}; it holds {}",
                 path, name, mc::did_you_mean(name, known), fmt::join(known, ", "));
-  std::vector<Target> targets;
+  std::vector<IntegralTarget> targets;
   for (std::size_t index = 0; index < known.size(); ++index) {
     if (!names.empty() && std::find(names.begin(), names.end(), known[index]) == names.end()) continue;
     const json& one = all[index];
-    Target t;
+    IntegralTarget t;
     t.integral.name = known[index];
     t.integral.title = one["title"];
     t.integral.source = path;
     t.integral.dim = one["dim"];
     t.integral.truth = one["truth"].is_null() ? std::numeric_limits<double>::quiet_NaN() : one["truth"].get<double>();
-    t.integral.fit_from = 0;
+    t.integral.min_fit_n = 0;
     t.has_batch = one["batch"];
-    t.run = [path, index, worker, is_checked = std::make_shared<bool>(false)](const Task& task) {
+    t.run = [path, index, worker, is_checked = std::make_shared<bool>(false)](const ReplicateTask& task) {
       return run(path, index, task, worker, *is_checked);
     };
     targets.push_back(std::move(t));

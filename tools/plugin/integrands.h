@@ -1,7 +1,7 @@
 #pragma once
 /// Integrands of plugins, measured in a process of their own.
 
-#include <converge/target.h>
+#include <converge/integral_target.h>
 #include <plugin/run_isolated.h>
 #include <plugin/worker.h>
 
@@ -15,7 +15,7 @@ namespace carlo {
 ///   throws : Error for a plugin that load_plugin refuses or that misbehaves, one without integrands, or an unknown
 ///            name; when it runs, Error that says where it crashed, threw or hung, or where a few hundred points before
 ///            the first replicates show that it is no function of x alone, or that its eval_many is not its eval
-std::vector<Target> plugin_targets(const std::string& path, const std::vector<std::string>& names,
+std::vector<IntegralTarget> plugin_targets(const std::string& path, const std::vector<std::string>& names,
                                    const WorkerOptions& worker);
 
 /// What the worker does with the requests of plugin_targets.

@@ -53,7 +53,7 @@ json call_worker(json request, const WorkerOptions& options) {
   const ResourceLimits& limits = options.limits;
   request["limits"] = {
       {"seconds", limits.seconds}, {"gigabytes", limits.gigabytes}, {"files", limits.files}, {"less", limits.reduce_option}};
-  Child worker({{options.program, "worker"}});
+  ChildProcess worker({{options.program, "worker"}});
   send(worker.input(), request);
   Bytes answer;
   bool cancelled = false;

@@ -50,7 +50,7 @@ struct Setup {
   Setup& operator=(const Setup&) = delete;
 };
 
-pid_t spawn(const Launch& launch, int input, int output) {
+pid_t spawn(const LaunchOptions& launch, int input, int output) {
   Setup setup;
   if (!launch.folder.empty()) posix_spawn_file_actions_addchdir_np(&setup.files, launch.folder.c_str());
   posix_spawn_file_actions_adddup2(&setup.files, input, STDIN_FILENO);
@@ -79,7 +79,7 @@ pid_t spawn(const Launch& launch, int input, int output) {
 
 } // namespace
 
-Child::Child(const Launch& launch) {
+ChildProcess::ChildProcess(const LaunchOptions& launch) {
   const bool piped = launch.output_file.empty();
   const Pipe in, out;
   input_ = in.write;
@@ -99,7 +99,7 @@ Child::Child(const Launch& launch) {
   throw mc::Error(fmt::format("cannot start '{}': {}", launch.arguments[0], std::strerror(error)));
 }
 
-Child::~Child() {
+ChildProcess::~ChildProcess() {
   close_input();
   if (id_ > 0) {
     kill(-id_, SIGKILL);
@@ -108,12 +108,12 @@ Child::~Child() {
   if (output_ >= 0) close(output_);
 }
 
-void Child::close_input() {
+void ChildProcess::close_input() {
   if (input_ >= 0) close(input_);
   input_ = -1;
 }
 
-bool Child::has_output() const {
+bool ChildProcess::has_output() const {
   pollfd p{output_, POLLIN, 0};
   constexpr int interval = 50; // ms between two looks at the program
   while (poll(&p, 1, interval) <= 0) {
@@ -125,12 +125,12 @@ bool Child::has_output() const {
   return true;
 }
 
-std::size_t Child::unread() const {
+std::size_t ChildProcess::available_bytes() const {
   int bytes = 0;
   return ioctl(output_, FIONREAD, &bytes) == 0 ? static_cast<std::size_t>(bytes) : 0;
 }
 
-int Child::wait() {
+int ChildProcess::wait() {
   int status = 0;
   rusage used{};
   while (wait4(id_, &status, 0, &used) < 0 && errno == EINTR) {
@@ -140,9 +140,9 @@ int Child::wait() {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-std::optional<int> run_program(const Launch& launch) {
+std::optional<int> run_program(const LaunchOptions& launch) {
   try {
-    Child child(launch);
+    ChildProcess child(launch);
     child.close_input();
     return child.wait();
   } catch (const mc::Error&) {

@@ -25,14 +25,14 @@ Quality quality_of(mc::PointList p, int rings) {
 }
 
 // What has no formula.
-struct Drawn {
+struct ReferenceSetQuality {
   mc::StarDiscrepancy star;
   double distance = 0;
   std::optional<int> t;
 };
 
 // Of the random sets for reference, then the jittered ones.
-Drawn drawn(std::uint64_t index, std::uint64_t n, std::size_t dim, std::uint64_t work) {
+ReferenceSetQuality reference_set_quality(std::uint64_t index, std::uint64_t n, std::size_t dim, std::uint64_t work) {
   const PointSet& set = point_set(index < reference_sets ? "random" : "stratified");
   const std::vector<double> x =
       set.make(static_cast<std::uint32_t>(n), static_cast<std::uint32_t>(dim), mc::hash(0x9eed, index));
@@ -42,11 +42,11 @@ Drawn drawn(std::uint64_t index, std::uint64_t n, std::size_t dim, std::uint64_t
           mc::net_quality(p, 10'000'000)};
 }
 
-Reference means(std::span<const Drawn> all) {
-  Reference mean;
+QualityReference means(std::span<const ReferenceSetQuality> all) {
+  QualityReference mean;
   const double share = 1.0 / static_cast<double>(all.size());
   mean.t = 0;
-  for (const Drawn& d : all) {
+  for (const ReferenceSetQuality& d : all) {
     mean.star.lower += d.star.lower / reference_stars;
     mean.star.upper += d.star.upper / reference_stars;
     mean.distance += d.distance * share;
@@ -58,21 +58,21 @@ Reference means(std::span<const Drawn> all) {
 
 } // namespace
 
-Row measure(const Sets& sets, std::size_t dim, int threads, StarWork work) {
-  Row row;
+QualityRow measure_quality(const PointSets& sets, std::size_t dim, int threads, StarDiscrepancyBudget work) {
+  QualityRow row;
   row.n = sets[0].size() / dim;
   const double n = static_cast<double>(row.n), count = static_cast<double>(sets.size());
   const int rings = dim < 2 ? 0 : std::clamp(static_cast<int>(std::lround(2 * std::sqrt(n))), 4, 128);
   const auto axes = static_cast<int>(dim);
   std::vector<Quality> all(sets.size());
-  std::vector<Drawn> others(2 * reference_sets);
+  std::vector<ReferenceSetQuality> others(2 * reference_sets);
   // The longest first.
   mc::parallel_for(1 + others.size() + sets.size(), threads, [&](std::size_t i) {
     if (i == 0) {
       row.star = mc::star_discrepancy({sets[0], dim}, work.set);
       row.t = mc::net_quality({sets[0], dim});
     } else if (i <= others.size()) {
-      others[i - 1] = drawn(i - 1, row.n, dim, work.reference);
+      others[i - 1] = reference_set_quality(i - 1, row.n, dim, work.reference);
     } else {
       all[i - 1 - others.size()] = quality_of({sets[i - 1 - others.size()], dim}, rings);
     }
@@ -99,7 +99,7 @@ Row measure(const Sets& sets, std::size_t dim, int threads, StarWork work) {
   return row;
 }
 
-double low_power(const std::vector<double>& power, std::uint64_t n) {
+double low_frequency_power(const std::vector<double>& power, std::uint64_t n) {
   const auto rings = static_cast<std::size_t>(
       std::clamp(std::sqrt(static_cast<double>(n)) / 2, 1.0, static_cast<double>(power.size())));
   double sum = 0;

@@ -20,44 +20,44 @@ template <class T> std::string field(const std::optional<T>& value) {
 // A column of quality.csv.
 struct Column {
   const char* name;
-  std::optional<double> (*value)(const Row& row);
+  std::optional<double> (*value)(const QualityRow& row);
 };
 
 std::optional<double> optional(const std::optional<int>& t) { return t ? std::optional<double>(*t) : std::nullopt; }
 
 std::optional<double> low(const std::vector<double>& power, std::uint64_t n) {
-  return power.empty() ? std::nullopt : std::optional<double>(low_power(power, n));
+  return power.empty() ? std::nullopt : std::optional<double>(low_frequency_power(power, n));
 }
 
 using Value = std::optional<double>;
 
 const Column columns[] = {
-    {"n", [](const Row& r) -> Value { return static_cast<double>(r.n); }},
-    {"l2_star", [](const Row& r) -> Value { return r.l2_star; }},
-    {"l2_star_random", [](const Row& r) -> Value { return r.random.l2_star; }},
-    {"l2_star_jittered", [](const Row& r) -> Value { return r.jittered.l2_star; }},
-    {"l2_periodic", [](const Row& r) -> Value { return r.l2_periodic; }},
-    {"l2_periodic_random", [](const Row& r) -> Value { return r.random.l2_periodic; }},
-    {"l2_periodic_jittered", [](const Row& r) -> Value { return r.jittered.l2_periodic; }},
-    {"star_lower", [](const Row& r) -> Value { return r.star.lower; }},
-    {"star_upper", [](const Row& r) -> Value { return r.star.upper; }},
-    {"star_random_lower", [](const Row& r) -> Value { return r.random.star.lower; }},
-    {"star_random_upper", [](const Row& r) -> Value { return r.random.star.upper; }},
-    {"star_jittered_lower", [](const Row& r) -> Value { return r.jittered.star.lower; }},
-    {"star_jittered_upper", [](const Row& r) -> Value { return r.jittered.star.upper; }},
-    {"distance_periodic", [](const Row& r) -> Value { return r.distance; }},
-    {"distance_random", [](const Row& r) -> Value { return r.random.distance; }},
-    {"distance_jittered", [](const Row& r) -> Value { return r.jittered.distance; }},
-    {"t", [](const Row& r) -> Value { return optional(r.t); }},
-    {"t_random", [](const Row& r) -> Value { return r.random.t; }},
-    {"t_jittered", [](const Row& r) -> Value { return r.jittered.t; }},
-    {"power_low", [](const Row& r) -> Value { return low(r.power, r.n); }},
-    {"power_low_random", [](const Row& r) -> Value { return low(r.random.power, r.n); }},
-    {"power_low_jittered", [](const Row& r) -> Value { return low(r.jittered.power, r.n); }},
+    {"n", [](const QualityRow& r) -> Value { return static_cast<double>(r.n); }},
+    {"l2_star", [](const QualityRow& r) -> Value { return r.l2_star; }},
+    {"l2_star_random", [](const QualityRow& r) -> Value { return r.random.l2_star; }},
+    {"l2_star_jittered", [](const QualityRow& r) -> Value { return r.jittered.l2_star; }},
+    {"l2_periodic", [](const QualityRow& r) -> Value { return r.l2_periodic; }},
+    {"l2_periodic_random", [](const QualityRow& r) -> Value { return r.random.l2_periodic; }},
+    {"l2_periodic_jittered", [](const QualityRow& r) -> Value { return r.jittered.l2_periodic; }},
+    {"star_lower", [](const QualityRow& r) -> Value { return r.star.lower; }},
+    {"star_upper", [](const QualityRow& r) -> Value { return r.star.upper; }},
+    {"star_random_lower", [](const QualityRow& r) -> Value { return r.random.star.lower; }},
+    {"star_random_upper", [](const QualityRow& r) -> Value { return r.random.star.upper; }},
+    {"star_jittered_lower", [](const QualityRow& r) -> Value { return r.jittered.star.lower; }},
+    {"star_jittered_upper", [](const QualityRow& r) -> Value { return r.jittered.star.upper; }},
+    {"distance_periodic", [](const QualityRow& r) -> Value { return r.distance; }},
+    {"distance_random", [](const QualityRow& r) -> Value { return r.random.distance; }},
+    {"distance_jittered", [](const QualityRow& r) -> Value { return r.jittered.distance; }},
+    {"t", [](const QualityRow& r) -> Value { return optional(r.t); }},
+    {"t_random", [](const QualityRow& r) -> Value { return r.random.t; }},
+    {"t_jittered", [](const QualityRow& r) -> Value { return r.jittered.t; }},
+    {"power_low", [](const QualityRow& r) -> Value { return low(r.power, r.n); }},
+    {"power_low_random", [](const QualityRow& r) -> Value { return low(r.random.power, r.n); }},
+    {"power_low_jittered", [](const QualityRow& r) -> Value { return low(r.jittered.power, r.n); }},
 };
 
 // A curve of a panel: a column, by its name, and how it looks. Those without a title are told by that of the same look.
-struct Line {
+struct PlotCurve {
   const char *column, *look, *title;
 };
 
@@ -65,7 +65,7 @@ constexpr const char *this_look = "linespoints pt 7 ps 0.5 lc rgb \"#4477aa\"",
                      *upper_look = "lines lc rgb \"#4477aa\"", *random_look = "lines lw 1.5 dt 2 lc rgb \"#ee6677\"",
                      *jittered_look = "lines lw 2 dt 3 lc rgb \"#228833\"";
 
-std::string panel(const std::string& label, const std::vector<Line>& curves) {
+std::string panel(const std::string& label, const std::vector<PlotCurve>& curves) {
   std::string s = fmt::format("set ylabel \"{}\"\nplot ", label);
   for (std::size_t i = 0; i < curves.size(); ++i)
     s += fmt::format("{}\"quality.csv\" using \"n\":\"{}\" with {} title \"{}\"", i == 0 ? "" : ", ", curves[i].column,
@@ -73,33 +73,33 @@ std::string panel(const std::string& label, const std::vector<Line>& curves) {
   return s + "\n";
 }
 
-std::vector<Line> three(const char* set, const char* random, const char* jittered) {
+std::vector<PlotCurve> three(const char* set, const char* random, const char* jittered) {
   return {{set, this_look, "this set"}, {random, random_look, "random"}, {jittered, jittered_look, "jittered"}};
 }
 
 // Where it is not exact at every N there are two curves, and the legend says so.
-std::string star_panel(const std::vector<Row>& rows) {
+std::string star_panel(const std::vector<QualityRow>& rows) {
   struct Set {
-    mc::StarDiscrepancy (*star)(const Row& row);
-    Line lower, upper;
+    mc::StarDiscrepancy (*star)(const QualityRow& row);
+    PlotCurve lower, upper;
     const char* title_of_bounds;
   };
-  static constexpr Set sets[] = {{[](const Row& r) { return r.star; },
+  static constexpr Set sets[] = {{[](const QualityRow& r) { return r.star; },
                                   {"star_lower", this_look, "this set"},
                                   {"star_upper", upper_look, ""},
                                   "this set, bounds"},
-                                 {[](const Row& r) { return r.random.star; },
+                                 {[](const QualityRow& r) { return r.random.star; },
                                   {"star_random_lower", random_look, "random"},
                                   {"star_random_upper", random_look, ""},
                                   "random, bounds"},
-                                 {[](const Row& r) { return r.jittered.star; },
+                                 {[](const QualityRow& r) { return r.jittered.star; },
                                   {"star_jittered_lower", jittered_look, "jittered"},
                                   {"star_jittered_upper", jittered_look, ""},
                                   "jittered, bounds"}};
-  std::vector<Line> curves;
+  std::vector<PlotCurve> curves;
   for (const Set& s : sets) {
     curves.push_back(s.lower);
-    if (std::all_of(rows.begin(), rows.end(), [&](const Row& r) { return s.star(r).exact(); })) continue;
+    if (std::all_of(rows.begin(), rows.end(), [&](const QualityRow& r) { return s.star(r).exact(); })) continue;
     curves.back().title = s.title_of_bounds;
     curves.push_back(s.upper);
   }
@@ -107,7 +107,7 @@ std::string star_panel(const std::vector<Row>& rows) {
 }
 
 // Over frequencies in units of sqrt(N): one curve for each N, the more points the darker.
-std::string spectra(const std::vector<Row>& rows) {
+std::string spectra(const std::vector<QualityRow>& rows) {
   std::string s = "set xlabel \"frequency / sqrt(N)\"\nset ylabel \"power, x and y, darker with N\"\nplot ";
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double n = static_cast<double>(rows[i].n);
@@ -119,33 +119,33 @@ std::string spectra(const std::vector<Row>& rows) {
         rows[i].n, std::sqrt(n), i + 1 == rows.size() ? 2 : 1, 0x44 + grey * 0x8b / 200, 0x77 + grey * 0x68 / 200,
         0xaa + grey * 0x45 / 200, i + 1 == rows.size() ? "this set" : "");
   }
-  const Row& last = rows.back();
+  const QualityRow& last = rows.back();
   s += fmt::format("\"spectrum.csv\" using ($1=={0} ? $2/{1:.9g} : NaN):4 with {2} title \"random\", "
                    "\"spectrum.csv\" using ($1=={0} ? $2/{1:.9g} : NaN):5 with {3} title \"jittered\"\n",
                    last.n, std::sqrt(static_cast<double>(last.n)), random_look, jittered_look);
   return s;
 }
 
-json to_json(const Reference& r) {
+json to_json(const QualityReference& r) {
   return {{"l2_star_rms", r.l2_star},   {"l2_periodic_rms", r.l2_periodic}, {"star_lower", r.star.lower},
           {"star_upper", r.star.upper}, {"distance_periodic", r.distance},  {"t", r.t ? json(*r.t) : json()}};
 }
 
 } // namespace
 
-std::string quality_csv(const std::vector<Row>& rows) {
+std::string quality_csv(const std::vector<QualityRow>& rows) {
   std::string text;
   for (const Column& c : columns) text += fmt::format("{}{}", &c == columns ? "" : ",", c.name);
-  for (const Row& r : rows) {
+  for (const QualityRow& r : rows) {
     text += '\n';
     for (const Column& c : columns) text += fmt::format("{}{}", &c == columns ? "" : ",", field(c.value(r)));
   }
   return text + '\n';
 }
 
-std::string spectrum_csv(const std::vector<Row>& rows) {
+std::string spectrum_csv(const std::vector<QualityRow>& rows) {
   std::string text = "n,frequency,power,random,jittered\n";
-  for (const Row& r : rows)
+  for (const QualityRow& r : rows)
     for (std::size_t k = 0; k < r.power.size(); ++k)
       text +=
           fmt::format("{},{},{:.9g},{:.9g},{:.9g}\n", r.n, k + 1, r.power[k], r.random.power[k], r.jittered.power[k]);
@@ -153,8 +153,8 @@ std::string spectrum_csv(const std::vector<Row>& rows) {
 }
 
 // Without a distance above 0 that of the distance has no logarithmic axis, on which gnuplot would find nothing to draw.
-std::string quality_script(const std::string& title, const std::vector<Row>& rows) {
-  std::string s = plot_head("quality", 1500, 800);
+std::string quality_script(const std::string& title, const std::vector<QualityRow>& rows) {
+  std::string s = plot_header("quality", 1500, 800);
   s += fmt::format(
       "set multiplot layout 2,4 title \"{}; random and jittered: star is the mean of {} sets, distance and t of {}, "
       "the others by formula\" font \",15\"\nset key left bottom Left reverse samplen 2\nset logscale xy\n"
@@ -163,11 +163,11 @@ std::string quality_script(const std::string& title, const std::vector<Row>& row
   s += panel("L2-star discrepancy, RMS", three("l2_star", "l2_star_random", "l2_star_jittered"));
   s += panel("periodic L2 discrepancy, RMS", three("l2_periodic", "l2_periodic_random", "l2_periodic_jittered"));
   s += star_panel(rows);
-  if (std::none_of(rows.begin(), rows.end(), [](const Row& r) { return r.distance > 0; }))
+  if (std::none_of(rows.begin(), rows.end(), [](const QualityRow& r) { return r.distance > 0; }))
     s += "unset logscale y\nset format y \"%g\"\nset yrange [0:1]\n";
   s += panel("smallest distance, periodic, mean", three("distance_periodic", "distance_random", "distance_jittered"));
   s += "unset logscale y\nset format y \"%g\"\nset yrange [-0.5:*]\nset key left top\n";
-  if (std::any_of(rows.begin(), rows.end(), [](const Row& r) { return r.t.has_value(); }))
+  if (std::any_of(rows.begin(), rows.end(), [](const QualityRow& r) { return r.t.has_value(); }))
     s += panel("t of the (t,m,s)-net in base 2", three("t", "t_random", "t_jittered"));
   if (!rows[0].power.empty()) {
     s += "set yrange [0:1.5]\n" +
@@ -177,7 +177,7 @@ std::string quality_script(const std::string& title, const std::vector<Row>& row
   return s + "unset multiplot\n";
 }
 
-json to_json(const Row& r) {
+json to_json(const QualityRow& r) {
   return {{"n", r.n},
           {"l2_star", r.first_l2_star},
           {"l2_star_rms", r.l2_star},

@@ -7,10 +7,10 @@
 namespace carlo {
 
 /// A text as HTML that shows it, in an attribute too.
-std::string escaped(std::string_view text);
+std::string escape_html(std::string_view text);
 
 /// A page in the looks of all of carlo's, of HTML but for the command. It needs no script and no network.
-struct Page {
+struct HtmlPage {
   std::string_view tool;  ///< "carlo gallery"
   std::string_view title; ///< what the page is about
   std::string_view style; ///< CSS of its own
@@ -18,6 +18,6 @@ struct Page {
   std::string command{};  ///< that made it
   std::string main{}, footer{};
 };
-std::string html(const Page& page);
+std::string to_html(const HtmlPage& page);
 
 } // namespace carlo

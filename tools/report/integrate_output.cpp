@@ -30,7 +30,7 @@ std::string value_with_error(const mc::Estimate& e, mc::ErrorBar bar) {
                                     : fmt::format("{:<14.8g} ± {:<8}", e.value, "?");
 }
 
-std::string about_truth(const Experiment& e, const mc::Integral& r) {
+std::string about_truth(const UnitCubeIntegral& e, const mc::Integral& r) {
   if (!std::isfinite(e.truth)) return "";
   if (r.error_bar != mc::ErrorBar::known) return fmt::format("the true value is {:.10g}\n", e.truth);
   const double sigmas = r.estimate.std_error > 0 ? std::abs(r.estimate.value - e.truth) / r.estimate.std_error : 0.0;
@@ -46,7 +46,7 @@ std::string correlation_table(const mc::VectorIntegral& r) {
   return text;
 }
 
-nlohmann::json as_json(const mc::Integral& r, const Experiment& e) {
+nlohmann::json as_json(const mc::Integral& r, const UnitCubeIntegral& e) {
   nlohmann::json j = {{"integrand", e.name},   {"value", r.estimate.value}, {"std_error", r.estimate.std_error},
                       {"lo", r.interval.lo},   {"hi", r.interval.hi},       {"error_bar", name(r.error_bar)},
                       {"chi2", r.chi2},        {"chi2_dof", r.chi2_dof},    {"consistent", r.consistent},
@@ -70,7 +70,7 @@ std::string_view why_stopped(const mc::Integral& r) {
 
 } // namespace
 
-std::string about(const Integrals& found) {
+std::string integrate_summary(const IntegrateResults& found) {
   std::string text;
   for (std::size_t i = 0; i < found.integrands.size(); ++i) {
     const mc::Integral& r = found.results.outputs[i];
@@ -95,27 +95,27 @@ std::string round_table(const mc::Integral& r) {
   return text + fmt::format("sum of chi2: {:.2f} of {:.0f}\n", r.chi2, r.chi2_dof);
 }
 
-std::string histogram_table(const Integrals& found) {
+std::string histogram_table(const IntegrateResults& found) {
   double largest = 0;
   std::size_t width = 0;
-  for (const Bin& b : found.histogram) {
-    largest = std::max(largest, std::abs(b.part.estimate.value));
+  for (const HistogramBin& b : found.histogram) {
+    largest = std::max(largest, std::abs(b.integral.estimate.value));
     width = std::max(width, b.name.size());
   }
   const mc::Estimate& whole = found.results.outputs.front().estimate;
   const bool has_shares = std::abs(whole.value) > whole.std_error; // of what may be 0 nothing is a share
   std::string text;
-  for (const Bin& b : found.histogram) {
-    const double value = b.part.estimate.value;
+  for (const HistogramBin& b : found.histogram) {
+    const double value = b.integral.estimate.value;
     const auto length = static_cast<std::size_t>(largest > 0 ? std::lround(30 * std::abs(value) / largest) : 0);
-    text += fmt::format("{:<{}}  {}  {:>8} {}\n", b.name, width, value_with_error(b.part.estimate, b.part.error_bar),
+    text += fmt::format("{:<{}}  {}  {:>8} {}\n", b.name, width, value_with_error(b.integral.estimate, b.integral.error_bar),
                         has_shares ? fmt::format("{:.2f} %", 100 * value / whole.value) : "",
                         std::string(length, value < 0 ? '-' : '#'));
   }
   return text;
 }
 
-std::string quantile_table(const Integrals& found) {
+std::string quantile_table(const IntegrateResults& found) {
   std::string text;
   for (const mc::Quantile& q : found.quantiles)
     text += fmt::format("quantile {:g}: {:.8g}, 95 % in [{:.8g}, {:.8g}]\n", q.probability, q.value, q.interval.lo,
@@ -123,7 +123,7 @@ std::string quantile_table(const Integrals& found) {
   return text;
 }
 
-std::string integrals_json(const Integrals& found, const std::string& command, std::uint64_t seed) {
+std::string integrals_json(const IntegrateResults& found, const std::string& command, std::uint64_t seed) {
   const mc::Integral& first = found.results.outputs.front();
   const std::size_t n = found.integrands.size();
   nlohmann::json j = n == 1 ? as_json(first, found.integrands.front()) : nlohmann::json::object();
@@ -144,13 +144,13 @@ std::string integrals_json(const Integrals& found, const std::string& command, s
     j["correlation"].push_back(correlations);
     j["covariance"].push_back(covariances);
   }
-  for (const Bin& b : found.histogram)
+  for (const HistogramBin& b : found.histogram)
     j["histogram"].push_back({{"bin", b.name},
                               {"lo", b.lo},
                               {"hi", b.hi},
-                              {"value", b.part.estimate.value},
-                              {"std_error", b.part.estimate.std_error},
-                              {"error_bar", name(b.part.error_bar)}});
+                              {"value", b.integral.estimate.value},
+                              {"std_error", b.integral.estimate.std_error},
+                              {"error_bar", name(b.integral.error_bar)}});
   for (const mc::Quantile& q : found.quantiles)
     j["quantiles"].push_back(
         {{"probability", q.probability}, {"value", q.value}, {"lo", q.interval.lo}, {"hi", q.interval.hi}});

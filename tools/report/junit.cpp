@@ -56,7 +56,7 @@ void add_case(pugi::xml_node suite, const Case& one, const mc::Report& r, const 
 
 } // namespace
 
-std::string run_junit(const Run& run) {
+std::string validation_junit(const ValidationRun& run) {
   const auto& [settings, cases, reports, interrupted, unchecked] = run;
   std::size_t failures = 0;
   double seconds = 0;
@@ -75,9 +75,9 @@ std::string run_junit(const Run& run) {
   suite.append_attribute("errors") = static_cast<unsigned>(unchecked.size());
   suite.append_attribute("time") = fmt::format("{:.3f}", seconds).c_str();
   for (std::size_t i = 0; i < cases.size(); ++i)
-    add_case(suite, *cases[i], reports[i], command_again(*cases[i], settings, cases.size() + unchecked.size()));
-  for (const Unchecked& u : unchecked)
-    add_node(suite, *u.one).append_child("error").append_attribute("message") = printable(u.error).c_str();
+    add_case(suite, *cases[i], reports[i], repeat_command(*cases[i], settings, cases.size() + unchecked.size()));
+  for (const UncheckedCase& u : unchecked)
+    add_node(suite, *u.test_case).append_child("error").append_attribute("message") = printable(u.error).c_str();
   if (interrupted) suite.append_child("system-err").text() = "interrupted: only the finished cases are listed";
   std::ostringstream text;
   document.save(text, "  ");

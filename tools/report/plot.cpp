@@ -88,7 +88,7 @@ bool draw_plot(const fs::path& folder, const std::string& name, const std::vecto
   return true;
 }
 
-std::string plot_head(const std::string& name, int width, int height) {
+std::string plot_header(const std::string& name, int width, int height) {
   return fmt::format(R"(# gnuplot {0}.gp writes {0}.svg and {0}.png
 if (!exists("kind")) kind = "svg"
 if (kind eq "svg") set terminal svg size {1},{2} font "sans-serif,13" background "white"; set output "{0}.svg"

@@ -19,6 +19,6 @@ void remove_plot(const std::filesystem::path& folder, const std::string& name);
 
 /// Where a script begins: sets the terminal of `kind`, the output NAME.kind of width x height pixels, and the looks
 /// that all pictures share.
-std::string plot_head(const std::string& name, int width, int height);
+std::string plot_header(const std::string& name, int width, int height);
 
 } // namespace carlo

@@ -36,7 +36,7 @@ json result(const Case& c, const mc::Report& r, const std::string& again) {
   return one;
 }
 
-json results(const Run& run) {
+json results(const ValidationRun& run) {
   const auto& [settings, cases, reports, interrupted, unchecked] = run;
   json all = {{"command", settings.command}, {"commit", commit},        {"seed", settings.seed},
               {"samples", settings.samples}, {"alpha", settings.alpha}, {"cases", json::array()}};
@@ -44,30 +44,30 @@ json results(const Run& run) {
   for (std::size_t i = 0; i < cases.size(); ++i) {
     passed = passed && reports[i].passed();
     all["cases"].push_back(
-        result(*cases[i], reports[i], command_again(*cases[i], settings, cases.size() + unchecked.size())));
+        result(*cases[i], reports[i], repeat_command(*cases[i], settings, cases.size() + unchecked.size())));
   }
   all["passed"] = passed;
   if (interrupted) all["interrupted"] = true;
-  for (const Unchecked& u : unchecked)
+  for (const UncheckedCase& u : unchecked)
     all["errors"].push_back(
-        {{"name", u.one->name}, {"parameters", u.one->parameters}, {"scalar", u.one->scalar}, {"error", u.error}});
+        {{"name", u.test_case->name}, {"parameters", u.test_case->parameters}, {"scalar", u.test_case->scalar}, {"error", u.error}});
   return all;
 }
 
 } // namespace
 
-std::string command_again(const Case& c, const RunSettings& settings, std::size_t cases) {
+std::string repeat_command(const Case& c, const ValidationSettings& settings, std::size_t cases) {
   const double alpha = mc::sidak_level(settings.alpha, 1 / static_cast<double>(cases));
   const std::string parameters = c.parameters.empty() ? "" : "(" + c.parameters + ")";
   const std::string what = c.rerun_arguments.empty() ? fmt::format("'{}{}' --scalar {}", c.name, parameters, c.scalar) : c.rerun_arguments;
   return fmt::format("carlo validate {} --seed {}{} --alpha {:.6g}{}", what, settings.seed,
-                     settings.of_file ? std::string() : fmt::format(" --samples {}", settings.samples), alpha,
+                     settings.from_file ? std::string() : fmt::format(" --samples {}", settings.samples), alpha,
                      settings.open_interval ? " --open-interval" : "");
 }
 
-std::string run_json(const Run& run) { return json_text(results(run)); }
+std::string validation_json(const ValidationRun& run) { return json_text(results(run)); }
 
-void write_page(const std::string& file, const Run& run) {
+void write_validation_page(const std::string& file, const ValidationRun& run) {
   const auto& [settings, cases, reports, interrupted, unchecked] = run;
   json all = results(run);
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -82,7 +82,7 @@ void write_page(const std::string& file, const Run& run) {
       one["outcomes"] = {{"of", r.evidence->outcomes.size()}, {"numbers", pack_outcomes(*r.evidence, most / 2)}};
     }
   }
-  mc::write_file(file, page(json_text(all)));
+  mc::write_file(file, fill_page_template(json_text(all)));
 }
 
 } // namespace carlo

@@ -77,7 +77,7 @@ std::string pack_outcomes(const mc::PlotData& evidence, std::size_t most) {
   return base64(numbers);
 }
 
-std::string page(std::string_view data) {
+std::string fill_page_template(std::string_view data) {
   // "</script>" in a string of the data would end its element.
   std::string safe;
   for (std::size_t i = 0; i < data.size(); ++i) {

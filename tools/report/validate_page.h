@@ -23,6 +23,6 @@ PackedTree pack_tree(const mc::PlotData& evidence, int dim, std::size_t most);
 std::string pack_outcomes(const mc::PlotData& evidence, std::size_t most);
 
 /// One HTML file with everything inline. `data` is JSON, see validate_output.h.
-std::string page(std::string_view data);
+std::string fill_page_template(std::string_view data);
 
 } // namespace carlo

@@ -27,14 +27,14 @@ void fill(const T& sampler, std::uint64_t first, std::size_t dim, std::span<doub
       points[i * dim + k] = static_cast<double>(mc::coordinate<S>(sampler, first + i, static_cast<std::uint32_t>(k)));
 }
 
-template <mc::Real S, mc::Sampler T> double mean_by(const T& sampler, const Experiment& e, std::uint32_t count) {
+template <mc::Real S, mc::Sampler T> double mean_by(const T& sampler, const UnitCubeIntegral& e, std::uint32_t count) {
   const auto dim = static_cast<std::size_t>(e.dim);
   return mean_over(e, count,
                    [&](std::uint64_t first, std::span<double> points) { fill<S>(sampler, first, dim, points); });
 }
 
 template <mc::Real S, class Make> PointSet::Mean mean_of(Make make) {
-  return [make](const Experiment& e, std::uint32_t count, std::uint64_t seed) {
+  return [make](const UnitCubeIntegral& e, std::uint32_t count, std::uint64_t seed) {
     return mean_by<S>(make(count, static_cast<std::uint32_t>(e.dim), seed), e, count);
   };
 }
@@ -76,7 +76,7 @@ const std::vector<PointSet>& point_sets() {
   return all;
 }
 
-double mean_over(const Experiment& e, std::uint64_t n,
+double mean_over(const UnitCubeIntegral& e, std::uint64_t n,
                  const std::function<void(std::uint64_t first, std::span<double> points)>& fill) {
   constexpr std::uint64_t block = 256;
   const auto dim = static_cast<std::size_t>(e.dim);

@@ -1,7 +1,7 @@
 #pragma once
 /// The point sets of libmc by name.
 
-#include <integrands/experiments.h>
+#include <integrands/unit_cube_integral.h>
 
 #include <cstdint>
 #include <functional>
@@ -17,13 +17,13 @@ struct PointSet {
   /// Coordinate k of point i at i * dim + k.
   std::function<std::vector<double>(std::uint32_t count, std::uint32_t dim, std::uint64_t seed)> make;
   /// The mean of the integrand over them, and over them rounded to float.
-  using Mean = std::function<double(const Experiment& e, std::uint32_t count, std::uint64_t seed)>;
+  using Mean = std::function<double(const UnitCubeIntegral& e, std::uint32_t count, std::uint64_t seed)>;
   Mean mean, mean_in_float;
 };
 
 /// The mean of the integrand over n points; fill(first, points) writes those from `first` on, one after another.
 ///   throws : what evaluate throws
-double mean_over(const Experiment& e, std::uint64_t n,
+double mean_over(const UnitCubeIntegral& e, std::uint64_t n,
                  const std::function<void(std::uint64_t first, std::span<double> points)>& fill);
 
 const std::vector<PointSet>& point_sets();

@@ -1,7 +1,7 @@
 #pragma once
 /// What the literature says about how fast samplers converge.
 
-#include <integrands/experiments.h>
+#include <integrands/unit_cube_integral.h>
 
 #include <optional>
 #include <string>
@@ -13,19 +13,19 @@ namespace carlo {
 ///   exact    : the exponent itself
 ///   at_most  : the error falls no faster: logarithms of a power that is not known slow it down
 ///   at_least : the error falls no slower: all that is proven where nothing is known of the exponent itself
-enum class Bound { exact, at_most, at_least };
+enum class RateBound { exact, at_most, at_least };
 
 /// RMS error about N^-exponent (ln N)^log_power. `source` names keys of libmc/mc/REFERENCES.md, or what implies the
 /// rate.
-struct Rate {
+struct ConvergenceRate {
   double exponent = 0, log_power = 0;
   std::string_view source;
-  Bound bound = Bound::exact;
+  RateBound bound = RateBound::exact;
 
   /// The exponent that a fit about N sees: the logarithm bends the curve.
-  double local(double n) const;
+  double local_exponent(double n) const;
   /// Whether slopes in [lo, hi], of a fit about N, hold what the rate says.
-  bool allows(double lo, double hi, double n) const;
+  bool is_consistent_with(double lo, double hi, double n) const;
   /// The slope with a number of digits: "-0.500", "no steeper than -1.000".
   std::string to_string(int digits) const;
 };
@@ -41,6 +41,6 @@ struct Rate {
 ///             points or more are uniform, hence E (f/p)^2 <= 9 E f^2 whatever was learned [OwenZhou00], and a
 ///             scrambled net has a constant times the variance of independent points at most [PanOwen23]: N^-1/2 or
 ///             faster
-std::optional<Rate> theory(std::string_view way, const Smoothness& smoothness, int dim);
+std::optional<ConvergenceRate> theoretical_rate(std::string_view method, const Smoothness& smoothness, int dim);
 
 } // namespace carlo

@@ -11,9 +11,9 @@
 
 namespace carlo {
 
-Progress::Progress() : enabled_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), last_(start_) {}
+ProgressLine::ProgressLine() : enabled_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), last_(start_) {}
 
-void Progress::show(double fraction, const std::string& text) {
+void ProgressLine::show(double fraction, const std::string& text) {
   const auto now = Clock::now();
   if (!enabled_ || now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
@@ -41,7 +41,7 @@ std::string progress_line(double fraction, const std::string& remaining, std::st
   return fmt::format("[{:=<{}}{: <{}}] {}  {}", "", filled, "", width - filled, numbers, text);
 }
 
-void Progress::clear() {
+void ProgressLine::clear() {
   if (drawn_) std::fprintf(stderr, "\r\033[K");
   drawn_ = false;
 }

@@ -10,17 +10,17 @@ namespace carlo {
 
 /// Redraws one line on stderr, at most ten times a second, and only when stderr is a terminal. Erases the line at the
 /// end.
-class Progress {
+class ProgressLine {
  public:
-  Progress();
-  ~Progress() { clear(); }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  ProgressLine();
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
 
   /// fraction : of the work that is done, in [0,1]; the remaining time is extrapolated from it
   /// text     : parts separated by two blanks, the most important one first, see progress_line
   void show(double fraction, const std::string& text);
-  bool shows() const { return enabled_; } ///< whether show() has an effect
+  bool is_visible() const { return enabled_; } ///< whether show() has an effect
   void clear();
 
  private:

@@ -25,12 +25,12 @@
 
 namespace {
 
-using carlo::Experiment;
+using carlo::UnitCubeIntegral;
 
 double cpu_seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
 // Sixteen randomisations of the longest power of two that fits, padded by fours, as OpenQMC's users take them.
-double padded_sobol(const Experiment& e, std::uint64_t calls, std::uint64_t seed) {
+double padded_sobol(const UnitCubeIntegral& e, std::uint64_t calls, std::uint64_t seed) {
   mc::Moments means;
   const std::uint64_t points = std::bit_floor(calls / 16);
   std::array<double, 8> x{};
@@ -47,7 +47,7 @@ double padded_sobol(const Experiment& e, std::uint64_t calls, std::uint64_t seed
   return means.mean();
 }
 
-double by_gsl(const Experiment& e, std::uint64_t calls, int seed, double (bench::Gsl::*method)()) {
+double by_gsl(const UnitCubeIntegral& e, std::uint64_t calls, int seed, double (bench::Gsl::*method)()) {
   bench::Gsl gsl(e, calls, static_cast<unsigned long>(seed));
   return (gsl.*method)();
 }
@@ -56,7 +56,7 @@ struct Column {
   double rms = 0, nanoseconds = 0;
 };
 
-template <class F> Column measure(const Experiment& e, std::uint64_t calls, int seeds, int first, F&& f) {
+template <class F> Column measure(const UnitCubeIntegral& e, std::uint64_t calls, int seeds, int first, F&& f) {
   double sum = 0;
   const double start = cpu_seconds();
   for (int s = first; s < first + seeds; ++s) sum += mc::sqr((f(s) - e.truth) / e.truth);
@@ -75,7 +75,7 @@ int main(int argc, char** argv) {
   std::printf("%-22s %8s %8s %8s %8s %8s %8s | %8s %-5s %6s | %6s %6s\n", "integral", "plain", "miser", "vegas",
               "vegasW", "shifted", "padded", "auto", "", "ratio", "ns", "vegas");
   int won = 0, light = 0, cells = 0;
-  for (const Experiment& e : carlo::genz_integrals()) {
+  for (const UnitCubeIntegral& e : carlo::genz_integrals()) {
     if (e.name.find(only) == std::string::npos) continue;
     ++cells;
     const auto gsl = [&](double (bench::Gsl::*method)()) {

@@ -1,7 +1,7 @@
 #pragma once
 /// What GSL makes of an integral, as its users would call it.
 
-#include <integrands/experiments.h>
+#include <integrands/unit_cube_integral.h>
 
 #include <mc/estimate/moments.h>
 #include <mc/sampler/sobol.h>
@@ -16,21 +16,21 @@
 
 namespace bench {
 
-using carlo::Experiment;
+using carlo::UnitCubeIntegral;
 
 inline double call(double* x, std::size_t dim, void* data) {
-  return static_cast<const Experiment*>(data)->f(std::span<const double>(x, dim));
+  return static_cast<const UnitCubeIntegral*>(data)->f(std::span<const double>(x, dim));
 }
 
 struct Gsl {
-  const Experiment& e;
+  const UnitCubeIntegral& e;
   std::size_t dim, calls;
   gsl_monte_function f;
   std::vector<double> lo, hi;
   gsl_rng* rng;
 
-  Gsl(const Experiment& experiment, std::size_t calls_, unsigned long seed)
-      : e(experiment), dim(static_cast<std::size_t>(e.dim)), calls(calls_), f{call, dim, const_cast<Experiment*>(&e)},
+  Gsl(const UnitCubeIntegral& experiment, std::size_t calls_, unsigned long seed)
+      : e(experiment), dim(static_cast<std::size_t>(e.dim)), calls(calls_), f{call, dim, const_cast<UnitCubeIntegral*>(&e)},
         lo(dim), hi(dim, 1.0), rng(gsl_rng_alloc(gsl_rng_mt19937)) {
     gsl_rng_set(rng, seed);
   }

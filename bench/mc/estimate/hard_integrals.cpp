@@ -12,10 +12,10 @@ namespace carlo {
 
 namespace {
 
-using Unit = std::span<const double>;
+using UnitPoint = std::span<const double>;
 const double pi = mc::pi<double>;
 
-double distance2(Unit x, double centre) {
+double distance2(UnitPoint x, double centre) {
   double r2 = 0;
   for (const double u : x) r2 += mc::sqr(u - centre);
   return r2;
@@ -27,11 +27,11 @@ double bell(double a, double s) {
 }
 
 constexpr double peak = 0.07;
-double two_peaks(Unit x) {
+double two_peaks(UnitPoint x) {
   return std::exp(-distance2(x, 0.3) / (2 * peak * peak)) + std::exp(-distance2(x, 0.7) / (2 * peak * peak));
 }
 
-double absolute_product(Unit x) {
+double absolute_product(UnitPoint x) {
   double f = 1;
   for (const double u : x) f *= std::abs(4 * u - 2);
   return f;
@@ -40,7 +40,7 @@ double absolute_product(Unit x) {
 // A call on the geometric mean of 50 prices of a lognormal walk: price and strike 100, volatility .3, rate .05, a year.
 constexpr double volatility = 0.3, rate = 0.05;
 constexpr int days = 50;
-double asian(Unit u) {
+double asian(UnitPoint u) {
   double walk = 0, sum = 0;
   for (const double x : u) {
     walk += (rate - volatility * volatility / 2) / days +
@@ -58,7 +58,7 @@ double asian_truth() {
 }
 
 constexpr std::array box_lo = {0.1374, 0.5193, 0.3071}, box_hi = {0.3021, 0.9226, 0.4459};
-double box(Unit x) {
+double box(UnitPoint x) {
   for (std::size_t i = 0; i < x.size(); ++i)
     if (x[i] < box_lo[i] || x[i] >= box_hi[i]) return 0;
   return 1;
@@ -70,14 +70,14 @@ double box_truth() {
 }
 
 constexpr double shell_inner = 0.33, shell_outer = 0.34;
-double shell(Unit x) {
+double shell(UnitPoint x) {
   const double r2 = distance2(x, 0.47);
   return r2 < mc::sqr(shell_outer) && r2 >= mc::sqr(shell_inner) ? 1 : 0;
 }
 
 // A Gaussian ten times as long as wide, along (1, 2, 2) / 3; what lies outside of the cube is below 1e-11 of it.
 constexpr double ridge_width = 0.006, ridge_length = 0.06;
-double ridge(Unit x) {
+double ridge(UnitPoint x) {
   const double along = (x[0] - 0.5 + 2 * (x[1] - 0.5) + 2 * (x[2] - 0.5)) / 3,
                across2 = distance2(x, 0.5) - along * along;
   return std::exp(-(mc::sqr(along / ridge_length) + across2 / mc::sqr(ridge_width)) / 2);
@@ -85,23 +85,23 @@ double ridge(Unit x) {
 
 // The hole in the middle and what lies outside of the square are below 1e-100 of it.
 constexpr double ring_radius = 0.3, ring_width = 0.008;
-double ring(Unit x) { return std::exp(-mc::sqr((std::sqrt(distance2(x, 0.5)) - ring_radius) / ring_width) / 2); }
+double ring(UnitPoint x) { return std::exp(-mc::sqr((std::sqrt(distance2(x, 0.5)) - ring_radius) / ring_width) / 2); }
 
-double corner(Unit x) { return std::pow(std::max(x[0] * x[1] * x[2], 1e-300), -0.4); }
+double corner(UnitPoint x) { return std::pow(std::max(x[0] * x[1] * x[2], 1e-300), -0.4); }
 
 // |x - c|^-1.2 in a ball about c that lies in the cube.
 constexpr double pole_power = 1.2, pole_radius = 0.4;
-double pole(Unit x) {
+double pole(UnitPoint x) {
   const double r2 = distance2(x, 0.43);
   return r2 < mc::sqr(pole_radius) ? std::pow(std::max(r2, 1e-300), -pole_power / 2) : 0;
 }
 
-double ball(Unit x) { return distance2(x, 0) <= 1 ? 1 : 0; }
+double ball(UnitPoint x) { return distance2(x, 0) <= 1 ? 1 : 0; }
 
-std::vector<Experiment> make() {
+std::vector<UnitCubeIntegral> make() {
   using Class = Smoothness::Class;
-  const auto one = [](const char* name, const char* title, int dim, double truth, Class smoothness, double (*f)(Unit)) {
-    return Experiment{fmt::format("hard_{}", name), title, "made to be hard", dim, truth, {smoothness}, 0, f};
+  const auto one = [](const char* name, const char* title, int dim, double truth, Class smoothness, double (*f)(UnitPoint)) {
+    return UnitCubeIntegral{fmt::format("hard_{}", name), title, "made to be hard", dim, truth, {smoothness}, 0, f};
   };
   const double sphere = 4 * pi / 3;
   return {one("peaks_5d", "two Gaussians on a diagonal", 5, 2 * std::pow(bell(0.3, peak), 5), Class::smooth, two_peaks),
@@ -121,8 +121,8 @@ std::vector<Experiment> make() {
 
 } // namespace
 
-const std::vector<Experiment>& hard_integrals() {
-  static const std::vector<Experiment> list = make();
+const std::vector<UnitCubeIntegral>& hard_integrals() {
+  static const std::vector<UnitCubeIntegral> list = make();
   return list;
 }
 

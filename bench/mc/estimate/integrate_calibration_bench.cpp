@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
     if (!only.empty() && only != name(method)) continue;
     Shares all;
     std::uint64_t seed = first; // another one for each integral: those of one dimension would share their points
-    for (const carlo::Experiment& e : carlo::genz_integrals()) {
+    for (const carlo::UnitCubeIntegral& e : carlo::genz_integrals()) {
       if (e.name.find(integrals) == std::string::npos) continue;
       Shares shares;
       for (int i = 0; i < runs; ++i) {

@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
       Shares shares;
       for (int i = 0; i < runs; ++i) {
         const std::uint64_t seed = first + static_cast<std::uint64_t>(i);
-        const carlo::Experiment e = kind.draw(mc::hash(seed, 1));
+        const carlo::UnitCubeIntegral e = kind.draw(mc::hash(seed, 1));
         mc::IntegrateOptions o;
         o.method = method;
         o.rel_error = rel_error;

@@ -25,7 +25,7 @@
 
 namespace {
 
-using carlo::Experiment;
+using carlo::UnitCubeIntegral;
 
 // Squared relative errors of the seeds.
 struct Errors {
@@ -35,7 +35,7 @@ struct Errors {
   double relative_error() const { return squares.std_error() / (2 * squares.mean()); }
 };
 
-mc::Integral run(const Experiment& e, mc::Method method, std::uint64_t calls, std::uint64_t seed) {
+mc::Integral run(const UnitCubeIntegral& e, mc::Method method, std::uint64_t calls, std::uint64_t seed) {
   mc::IntegrateOptions o;
   o.method = method;
   o.rel_error = 0;
@@ -45,7 +45,7 @@ mc::Integral run(const Experiment& e, mc::Method method, std::uint64_t calls, st
   return mc::integrate_unit(e.f, e.dim, o);
 }
 
-void row(const Experiment& e, std::uint64_t calls, std::uint64_t first, int seeds) {
+void row(const UnitCubeIntegral& e, std::uint64_t calls, std::uint64_t first, int seeds) {
   Errors miser, vegas, vegas_warm, shifted, rqmc, automatic;
   int grid = 0, tree = 0, covered = 0, agreed = 0;
   for (std::uint64_t s = first; s < first + static_cast<std::uint64_t>(seeds); ++s) {
@@ -87,6 +87,6 @@ int main(int argc, char** argv) {
   fmt::print("integral,dim,calls,seeds,miser,vegas,shifted,rqmc,automatic,ratio,ratio_error,picked_vegas,picked_tree,"
              "covered,flagged\n");
   for (const auto* list : {&carlo::genz_integrals(), &carlo::hard_integrals()})
-    for (const Experiment& e : *list)
+    for (const UnitCubeIntegral& e : *list)
       if (e.name.find(only) != std::string::npos) row(e, calls, first, seeds);
 }

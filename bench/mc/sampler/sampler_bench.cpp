@@ -17,7 +17,7 @@ template <class F> void points(benchmark::State& state, double aim, const F& poi
     const mc::Vec2<float> u = point((i += 40503) & 0xffff);
     benchmark::DoNotOptimize(u);
   }
-  bench::note(state, 1, aim);
+  bench::set_counters(state, 1, aim);
 }
 template <class T> auto pair_of(const T& sampler) {
   return [sampler](std::uint32_t i) { return mc::point<float, 2>(sampler, i, 2); };
@@ -48,7 +48,7 @@ template <class S> void run_scalar(benchmark::State& state) {
     benchmark::DoNotOptimize(out.data());
     benchmark::ClobberMemory();
   }
-  bench::note(state, run);
+  bench::set_counters(state, run);
 }
 BENCHMARK(run_scalar<float>)->Name("Sobol run in dim 3, float");
 BENCHMARK(run_scalar<double>)->Name("Sobol run in dim 3, double");
@@ -61,7 +61,7 @@ template <class S> void run_filled(benchmark::State& state) {
     benchmark::DoNotOptimize(out.data());
     benchmark::ClobberMemory();
   }
-  bench::note(state, run);
+  bench::set_counters(state, run);
 }
 BENCHMARK(run_filled<float>)->Name("Sobol run in dim 3, float/n");
 BENCHMARK(run_filled<double>)->Name("Sobol run in dim 3, double/n");

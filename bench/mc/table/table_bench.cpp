@@ -19,7 +19,7 @@ void table_1d(benchmark::State& state) {
   const mc::TableDist1D<float> table(sky(524288));
   mc::Pcg random(1);
   for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(table.sample_index(random.uniform<float>()));
-  bench::note(state, 1, 25);
+  bench::set_counters(state, 1, 25);
 }
 BENCHMARK(table_1d)->Name("TableDist1D 524288, index + pmf");
 
@@ -27,7 +27,7 @@ void alias(benchmark::State& state) {
   const mc::AliasTable table(sky(524288));
   mc::Pcg random(1);
   for ([[maybe_unused]] const auto _ : state) benchmark::DoNotOptimize(table.sample_index(random.uniform<double>()));
-  bench::note(state, 1, 0);
+  bench::set_counters(state, 1, 0);
 }
 BENCHMARK(alias)->Name("AliasTable 524288, index + pmf");
 
@@ -39,7 +39,7 @@ void table_tree(benchmark::State& state) {
     const mc::Vec3<float> x = table.sample(random.point<float, 3>());
     benchmark::DoNotOptimize(table.pdf(x));
   }
-  bench::note(state, 1, 50);
+  bench::set_counters(state, 1, 50);
 }
 BENCHMARK(table_tree)->Name("TableDistTree 1000 boxes in 3 dimensions, sample + pdf");
 
@@ -50,7 +50,7 @@ void table_2d(benchmark::State& state) {
     const mc::Vec2<float> x = table.sample(random.point<float, 2>());
     benchmark::DoNotOptimize(table.pdf(x));
   }
-  bench::note(state, 1, 50);
+  bench::set_counters(state, 1, 50);
 }
 BENCHMARK(table_2d)->Name("TableDist2D 1024x512, sample + pdf");
 

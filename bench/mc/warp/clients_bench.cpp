@@ -22,10 +22,10 @@ constexpr float pi = std::numbers::pi_v<float>;
 
 template <class F> void measure(const std::string& name, F f) {
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
-    const auto points = bench::points<float>();
+    const auto points = bench::random_points<float>();
     for ([[maybe_unused]] const auto _ : state)
       for (const Vec2<float>& u : points) benchmark::DoNotOptimize(f(u));
-    bench::note(state, static_cast<double>(points.size()));
+    bench::set_counters(state, static_cast<double>(points.size()));
   });
 }
 

@@ -20,7 +20,7 @@ using mc::Vec3;
 // make(u) gives the warp to sample at u.
 template <class S, class F> void measure(const std::string& name, double aim, bool with_pdf, F make) {
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
-    const auto points = bench::points<S>();
+    const auto points = bench::random_points<S>();
     for ([[maybe_unused]] const auto _ : state) {
       for (const auto& u : points) {
         const auto& warp = make(u);
@@ -29,7 +29,7 @@ template <class S, class F> void measure(const std::string& name, double aim, bo
         if (with_pdf) benchmark::DoNotOptimize(warp.pdf(x));
       }
     }
-    bench::note(state, static_cast<double>(points.size()), aim);
+    bench::set_counters(state, static_cast<double>(points.size()), aim);
   });
 }
 
@@ -41,7 +41,7 @@ template <class W> void with_batch(const std::string& name, double aim, const W&
   measure(name, aim, warp, false);
   benchmark::RegisterBenchmark((name + "/n").c_str(), [=](benchmark::State& state) {
     using S = typename W::Scalar;
-    const auto points = bench::points<S>();
+    const auto points = bench::random_points<S>();
     std::array<std::vector<S>, 5> columns;
     for (auto& column : columns) column.resize(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -54,7 +54,7 @@ template <class W> void with_batch(const std::string& name, double aim, const W&
       mc::sample_n(warp, {columns[0], columns[1]}, x);
       benchmark::ClobberMemory();
     }
-    bench::note(state, static_cast<double>(points.size()));
+    bench::set_counters(state, static_cast<double>(points.size()));
   });
 }
 

@@ -1,13 +1,13 @@
 #include <mc/domain/ball.h>
-#include <support/chart.h>
+#include <support/domain_laws.h>
 
 namespace mc {
 namespace {
 
 TEST(Ball, ChartGoesThereAndBack) {
   static_assert(Domain<Ball<float>>);
-  support::expect_chart(Ball<float>{}, 8);
-  support::expect_chart(Ball<double>{}, 8);
+  support::expect_domain_laws(Ball<float>{}, 8);
+  support::expect_domain_laws(Ball<double>{}, 8);
 }
 
 TEST(Ball, Membership) {

@@ -2,15 +2,15 @@
 
 #include <gmock/gmock.h>
 
-#include "support/chart.h"
+#include "support/domain_laws.h"
 #include "support/files.h"
 
 namespace {
 
 TEST(Box, Chart) {
-  support::expect_chart(mc::Square<float>(), 1);
-  support::expect_chart(mc::Square<double>({-3, 2}, {5, 2.5}), 8);
-  support::expect_chart(mc::Box<double, 3>({0, 0, 0}, {1, 2, 3}), 2);
+  support::expect_domain_laws(mc::Square<float>(), 1);
+  support::expect_domain_laws(mc::Square<double>({-3, 2}, {5, 2.5}), 8);
+  support::expect_domain_laws(mc::Box<double, 3>({0, 0, 0}, {1, 2, 3}), 2);
 }
 
 TEST(Box, DynamicTakesItsDimensionFromTheBounds) {

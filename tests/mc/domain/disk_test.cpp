@@ -1,12 +1,12 @@
 #include <mc/domain/disk.h>
 
-#include "support/chart.h"
+#include "support/domain_laws.h"
 
 namespace {
 
 TEST(Disk, Chart) {
-  support::expect_chart(mc::Disk<float>(), 4);
-  support::expect_chart(mc::Disk<double>(), 4);
+  support::expect_domain_laws(mc::Disk<float>(), 4);
+  support::expect_domain_laws(mc::Disk<double>(), 4);
 }
 
 TEST(Disk, Edges) {

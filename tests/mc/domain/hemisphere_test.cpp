@@ -1,12 +1,12 @@
 #include <mc/domain/hemisphere.h>
 
-#include "support/chart.h"
+#include "support/domain_laws.h"
 
 namespace {
 
 TEST(Hemisphere, Chart) {
-  support::expect_chart(mc::Hemisphere<float>(), 8);
-  support::expect_chart(mc::Hemisphere<double>(), 8);
+  support::expect_domain_laws(mc::Hemisphere<float>(), 8);
+  support::expect_domain_laws(mc::Hemisphere<double>(), 8);
 }
 
 TEST(Hemisphere, EndsAtTheHorizon) {

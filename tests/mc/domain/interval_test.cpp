@@ -2,24 +2,24 @@
 #include <mc/domain/interval.h>
 #include <mc/random/pcg.h>
 
-#include "support/chart.h"
+#include "support/domain_laws.h"
 #include "support/files.h"
 
 namespace {
 
 TEST(Interval, Chart) {
-  support::expect_chart(mc::Interval<float>(), 1);
-  support::expect_chart(mc::Interval<double>(-2, 6), 2);
+  support::expect_domain_laws(mc::Interval<float>(), 1);
+  support::expect_domain_laws(mc::Interval<double>(-2, 6), 2);
 }
 
 TEST(HalfLine, Chart) {
-  support::expect_chart(mc::HalfLine<float>(0, 2), 4);
-  support::expect_chart(mc::HalfLine<double>(0, -3), 4);
+  support::expect_domain_laws(mc::HalfLine<float>(0, 2), 4);
+  support::expect_domain_laws(mc::HalfLine<double>(0, -3), 4);
 }
 
 TEST(RealLine, Chart) {
-  support::expect_chart(mc::RealLine<float>(0, 1), 4);
-  support::expect_chart(mc::RealLine<double>(0, 1e-3), 4);
+  support::expect_domain_laws(mc::RealLine<float>(0, 1), 4);
+  support::expect_domain_laws(mc::RealLine<double>(0, 1e-3), 4);
 }
 
 // Far out on either side v keeps its relative precision toward 0, and 1 - v its absolute one.

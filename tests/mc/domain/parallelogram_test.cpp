@@ -1,6 +1,6 @@
 #include <mc/domain/parallelogram.h>
 
-#include "support/chart.h"
+#include "support/domain_laws.h"
 #include <mc/core/error.h>
 
 #include <cmath>
@@ -9,8 +9,8 @@ namespace mc {
 namespace {
 
 TEST(Parallelogram, Chart) {
-  support::expect_chart(Parallelogram<float>({0, 0, 0}, {1, 2, 3}, {-1, 0, 0.5f}), 16);
-  support::expect_chart(Parallelogram<double>({0, 0, 0}, {1, 2, 3}, {-1, 0, 0.5}), 16);
+  support::expect_domain_laws(Parallelogram<float>({0, 0, 0}, {1, 2, 3}, {-1, 0, 0.5f}), 16);
+  support::expect_domain_laws(Parallelogram<double>({0, 0, 0}, {1, 2, 3}, {-1, 0, 0.5}), 16);
   support::expect_jacobian(Parallelogram<double>({1, 2, 3}, {1, 2, 3}, {-1, 0, 0.5}));
   const Parallelogram<double> unit;
   EXPECT_FALSE(unit.contains({0.5, 0.5, 0.1}));

@@ -1,6 +1,6 @@
 #include <mc/domain/product.h>
 
-#include "support/chart.h"
+#include "support/domain_laws.h"
 #include <mc/core/error.h>
 
 #include <cmath>
@@ -9,8 +9,8 @@ namespace mc {
 namespace {
 
 TEST(ProductDomain, Chart) {
-  support::expect_chart(Plane<double>{}, 4);
-  support::expect_chart(ProductDomain<Interval<float>, HalfLine<float>>{}, 4);
+  support::expect_domain_laws(Plane<double>{}, 4);
+  support::expect_domain_laws(ProductDomain<Interval<float>, HalfLine<float>>{}, 4);
   EXPECT_EQ((ProductDomain<Interval<float>, HalfLine<float>>::measure), Measure::area);
   EXPECT_FALSE(Plane<double>{}.contains({0, std::nan("")}));
 }

@@ -2,7 +2,7 @@
 
 #include <mc/domain/hemisphere.h>
 
-#include "support/chart.h"
+#include "support/domain_laws.h"
 #include <mc/core/error.h>
 
 #include <cmath>

@@ -2,13 +2,13 @@
 
 #include <mc/random/pcg.h>
 
-#include "support/chart.h"
+#include "support/domain_laws.h"
 
 namespace {
 
 TEST(Sphere, Chart) {
-  support::expect_chart(mc::Sphere<float>(), 8);
-  support::expect_chart(mc::Sphere<double>(), 8);
+  support::expect_domain_laws(mc::Sphere<float>(), 8);
+  support::expect_domain_laws(mc::Sphere<double>(), 8);
 }
 
 TEST(Sphere, TheNorthPoleKeepsItsPrecision) {

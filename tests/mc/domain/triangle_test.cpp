@@ -1,13 +1,13 @@
 #include <mc/domain/triangle.h>
 
-#include "support/chart.h"
+#include "support/domain_laws.h"
 
 namespace {
 
 TEST(Triangle, Chart) {
   // The second coordinate is divided by 1 - b0: 2000 points come within 1e-3 of that corner.
-  support::expect_chart(mc::Triangle<float>(), 4000);
-  support::expect_chart(mc::Triangle<double>(), 4000);
+  support::expect_domain_laws(mc::Triangle<float>(), 4000);
+  support::expect_domain_laws(mc::Triangle<double>(), 4000);
 }
 
 TEST(Triangle, Edges) {

@@ -43,13 +43,13 @@ render::Image noisy(std::uint64_t seed, double mean) {
 
 struct Compare : support::ScratchTest {
   void save(const std::string& name, const render::Image& image) const { render::write_image(path(name), image); }
-  support::Run compare(const std::string& arguments) const {
+  support::ProcessResult compare(const std::string& arguments) const {
     return run_carlo("compare " + path("a.exr") + " " + path("b.exr") + " " + arguments);
   }
 };
 
 // Ten fixed pairs at alpha = 0.01: two rejections or more have probability 0.004.
-TEST_F(Compare, AcceptsNoiseAndRejectsABlockOrAPixelThatIsOff) {
+TEST_F(Compare, AcceptsNoiseAndRejectsBiasedPixelOrBlock) {
   int rejected = 0;
   for (std::uint64_t k = 0; k < 10; ++k) {
     save("a.exr", noisy(2 * k, 0.5));
@@ -70,14 +70,14 @@ TEST_F(Compare, AcceptsNoiseAndRejectsABlockOrAPixelThatIsOff) {
   off = noisy(2, 0.5);
   off.at(3, 40)[0] += 3;
   save("a.exr", off);
-  const support::Run run = compare("");
+  const support::ProcessResult run = compare("");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.output, HasSubstr("(3, 40) red"));
 }
 
 // A lamp smaller than a pixel, of which all point sets saw nearly the same share: their spread says too little, in a
 // block that is quiet but for it.
-TEST_F(Compare, ALuckyPixelIsNoBlockThatDiffers) {
+TEST_F(Compare, NoiselessPixel_DoesNotFailItsBlock) {
   render::Image a(size, size);
   for (auto& p : a.pixels) p.setConstant(render::Float(0.5));
   a.variance.assign(a.pixels.size(), render::Spectrum::Constant(render::Float(1e-8)));
@@ -90,7 +90,7 @@ TEST_F(Compare, ALuckyPixelIsNoBlockThatDiffers) {
   for (int y = 0; y < 16; ++y)
     for (int x = 0; x < 16; ++x) a.at(x, y)[1] += render::Float(1e-4); // 11 standard errors
   save("a.exr", a);
-  const support::Run run = compare("");
+  const support::ProcessResult run = compare("");
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.output, HasSubstr("blocks     worst at (0, 0) green"));
 }
@@ -115,12 +115,12 @@ TEST_F(Compare, MetricsAndDifferenceImage) {
 }
 
 // What one image's noise may be is no verdict on two.
-TEST_F(Compare, GivesNoVerdictWithoutBothVariances) {
+TEST_F(Compare, NoVerdictWithoutBothVariances) {
   render::Image bare = noisy(2, 0.9);
   bare.variance.clear();
   save("a.exr", noisy(1, 0.5));
   save("b.exr", bare);
-  const support::Run run = compare("");
+  const support::ProcessResult run = compare("");
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.output, HasSubstr("verdict    none: '" + path("b.exr") +
                                     "' carries no variance; render to .exr with two samples or more in every pixel"));
@@ -134,7 +134,7 @@ TEST_F(Compare, GivesNoVerdictWithoutBothVariances) {
     EXPECT_EQ(compare("--metric mse " + of_verdicts).exit_code, 2) << of_verdicts;
 }
 
-TEST_F(Compare, AVarianceThatIsNoneIsOneLine) {
+TEST_F(Compare, InvalidVariance_IsReportedInOneLine) {
   for (const auto& [bad, said] : {std::pair(-1e-6, "-1e-06"), {double(INFINITY), "inf"}, {double(NAN), "nan"}})
     for (const char* name : {"a.exr", "b.exr"}) {
       render::Image broken = noisy(1, 0.5);
@@ -142,7 +142,7 @@ TEST_F(Compare, AVarianceThatIsNoneIsOneLine) {
       save("b.exr", broken);
       broken.variance[broken.index(7, 9)][1] = render::Float(bad);
       save(name, broken);
-      const support::Run run = compare("");
+      const support::ProcessResult run = compare("");
       EXPECT_EQ(run.exit_code, 2) << run.output;
       EXPECT_THAT(run.output, HasSubstr(path(name) + "': the variance of pixel (7, 9) in green is " + said));
       EXPECT_EQ(compare("--metric mse").output, "0\n") << "needs no variance";
@@ -155,7 +155,7 @@ TEST_F(Compare, AVarianceThatIsNoneIsOneLine) {
   EXPECT_THAT(compare("").output, HasSubstr("a.exr': the largest value is"));
 }
 
-TEST_F(Compare, BadInputIsOneLine) {
+TEST_F(Compare, BadInput_IsReportedInOneLine) {
   save("a.exr", noisy(1, 0.5));
   save("b.exr", render::Image(4, 4));
   EXPECT_EQ(compare("").exit_code, 2);

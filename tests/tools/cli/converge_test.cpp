@@ -14,18 +14,18 @@
 
 namespace {
 
-using Ran = support::Run;
+using support::ProcessResult;
 using support::run_carlo;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
 struct Converge : support::ScratchTest {
-  Ran run(const std::string& arguments) const {
+  ProcessResult run(const std::string& arguments) const {
     return run_carlo("converge " + arguments + " --threads 1 -o '" + path("out") + "'");
   }
   void expect_refused(const std::string& arguments, const std::string& words) const {
-    const Ran refused = run(arguments);
+    const ProcessResult refused = run(arguments);
     EXPECT_EQ(refused.exit_code, 2) << arguments << "\n" << refused.output;
     EXPECT_EQ(std::count(refused.output.begin(), refused.output.end(), '\n'), 1) << refused.output;
     EXPECT_THAT(refused.output, HasSubstr(words));
@@ -35,8 +35,8 @@ struct Converge : support::ScratchTest {
 
 const std::string plugin = std::string("--plugin '") + PLUGIN_DIR + "/integrands.so' ";
 
-TEST_F(Converge, AnExpressionNeedsNoTruth) {
-  const Ran r = run("'exp(-x*x)*cos(y)' -d x=0:1,y=-1:2 --max-n 1024 --report '" + path("page") + "'");
+TEST_F(Converge, Expression_NeedsNoTruth) {
+  const ProcessResult r = run("'exp(-x*x)*cos(y)' -d x=0:1,y=-1:2 --max-n 1024 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   // 0.5 sqrt(pi) erf(1) (sin 2 + sin 1)
   EXPECT_THAT(r.output, AllOf(HasSubstr("true value unknown; errors are relative to 1.3075"),
@@ -47,8 +47,8 @@ TEST_F(Converge, AnExpressionNeedsNoTruth) {
   EXPECT_THAT(page, AllOf(HasSubstr("<polyline"), HasSubstr("reference 1.3075"), Not(HasSubstr("http"))));
 }
 
-TEST_F(Converge, ASceneHasNoTruthButAReference) {
-  const Ran r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --strategies mis --max-spp 16 --report '" +
+TEST_F(Converge, Scene_IsComparedWithAReference) {
+  const ProcessResult r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --strategies mis --max-spp 16 --report '" +
                     path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("  mis stratified  RMS error "), HasSubstr("  mis sobol       RMS error "),
@@ -70,7 +70,7 @@ TEST_F(Converge, ASceneHasNoTruthButAReference) {
 }
 
 // As carlo render does, once.
-TEST_F(Converge, WarnsWhereFloatsCannotHoldAScene) {
+TEST_F(Converge, SceneTooLargeForFloat_IsWarnedAbout) {
   const std::string huge = write("huge.xml", R"(<scene version="0.5.0"><sensor type="perspective">
     <float name="fov" value="40"/></sensor><emitter type="constant"/>
     <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape>
@@ -87,7 +87,7 @@ TEST_F(Converge, WarnsWhereFloatsCannotHoldAScene) {
 }
 
 // A white sphere in a white furnace: all light is 1, and what pixels differ by is rounding.
-TEST_F(Converge, ASceneWithoutNoiseBeyondRoundingHasNoError) {
+TEST_F(Converge, NoiselessScene_IsRejected) {
   const std::string furnace = write("furnace.xml", R"(<scene version="3.0.0">
     <integrator type="path"><integer name="max_depth" value="2"/></integrator>
     <sensor type="perspective"><float name="fov" value="20"/><transform name="to_world">
@@ -97,16 +97,16 @@ TEST_F(Converge, ASceneWithoutNoiseBeyondRoundingHasNoError) {
   expect_refused(furnace + " --size 4x4 --max-spp 16", "no picture has noise: there is no error to measure");
 }
 
-TEST_F(Converge, OfASceneAllWaysUntilTheTimeRunsOut) {
-  const Ran r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 4x4 --all --max-spp 1048576 --time 1.5");
+TEST_F(Converge, SceneWithAll_MeasuresEveryMethodUntilTimeRunsOut) {
+  const ProcessResult r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 4x4 --all --max-spp 1048576 --time 1.5");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   for (const char* name : {"  bsdf independent ", "  hemisphere sobol ", "  light stratified ", "  mis sobol "})
     EXPECT_THAT(r.output, HasSubstr(name));
   EXPECT_THAT(r.output, Not(HasSubstr("interrupted")));
 }
 
-TEST_F(Converge, EveryWayIsMeasuredBesideTheory) {
-  const Ran r = run("rate_smooth_2d --all --max-n 4096 --replicates 64");
+TEST_F(Converge, All_MeasuresEveryMethodBesideTheory) {
+  const ProcessResult r = run("rate_smooth_2d --all --max-n 4096 --replicates 64");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   for (const char* name :
        {"random ", "stratified ", "latin_hypercube ", "multi_jittered ", "halton ", "lattice ", "sobol ",
@@ -119,8 +119,8 @@ TEST_F(Converge, EveryWayIsMeasuredBesideTheory) {
   EXPECT_THAT(out("slopes.csv"), HasSubstr(",at least as steep as -0.5000,"));
 }
 
-TEST_F(Converge, AnInfiniteVarianceIsNamed) {
-  const Ran r = run("'x^-0.7' -d x=0:1 --max-n 4096 --report '" + path("page") + "'");
+TEST_F(Converge, InfiniteVariance_IsReported) {
+  const ProcessResult r = run("'x^-0.7' -d x=0:1 --max-n 4096 --report '" + path("page") + "'");
   const auto named = testing::ContainsRegex("the variance of the integrand looks infinite .the largest values fall off "
                                             "with index 1.[2-6]");
   EXPECT_THAT(r.output, named);
@@ -131,8 +131,8 @@ TEST_F(Converge, AnInfiniteVarianceIsNamed) {
   EXPECT_THAT(run_carlo("trade 'x^-0.7' -d x=0:1 --max-n 1024 -o '" + path("out") + "'").output, named);
 }
 
-TEST_F(Converge, AnErrorBelowThatOfTheReferenceIsNoFigure) {
-  const Ran r = run("'x<0.5 ? 1 : 0' -d x=0:1 --max-n 1024 --report '" + path("page") + "'");
+TEST_F(Converge, ErrorBelowReferenceError_HasNoValue) {
+  const ProcessResult r = run("'x<0.5 ? 1 : 0' -d x=0:1 --max-n 1024 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, testing::ContainsRegex("  sobol       RMS error at most 0[.0-9]+ at N = 1024, not told from"));
   EXPECT_THAT(out("x_0_5___1___0.csv"), HasSubstr(",sobol,1024,,0,"));
@@ -140,13 +140,13 @@ TEST_F(Converge, AnErrorBelowThatOfTheReferenceIsNoFigure) {
   EXPECT_THAT(mc::read_file(path("page/index.html")), HasSubstr("&le; 0."));
 }
 
-TEST_F(Converge, ReplicatesFollowTheTail) {
+TEST_F(Converge, HeavyTail_TakesMoreReplicates) {
   // A value in sixteen: an RMS error is known to 10 % after more replicates than for normal errors.
   run("'x<0.0625 ? 1 : 0' -d x=0:1 --samplers random --max-n 64");
   EXPECT_THAT(out("x_0_0625___1___0.json"), Not(HasSubstr("\"replicates\": 64,")));
 }
 
-TEST_F(Converge, PointsOfAFile) {
+TEST_F(Converge, PointsFile_IsOneMoreSampler) {
   std::string halton;
   for (int i = 1; i <= 200; ++i) {
     double a = 0, b = 0, f = 0.5, g = 1 / 3.0;
@@ -155,7 +155,7 @@ TEST_F(Converge, PointsOfAFile) {
     halton += fmt::format("{:.12f},{:.12f}\n", a, b);
   }
   const std::string good = write("p.csv", halton);
-  const Ran r = run("pi --points-file '" + good + "' --samplers random --max-n 4096");
+  const ProcessResult r = run("pi --points-file '" + good + "' --samplers random --max-n 4096");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, HasSubstr("p.csv       RMS error "));
   EXPECT_THAT(r.output, HasSubstr("at N = 128, ")) << "the largest power of two that the file holds";
@@ -170,8 +170,8 @@ TEST_F(Converge, PointsOfAFile) {
                  "bad.csv:201: 'zero' is not a number");
 }
 
-TEST_F(Converge, IntegrandsOfAPlugin) {
-  const Ran r = run(plugin + "Sum Batch --max-n 256");
+TEST_F(Converge, Plugin_IntegrandsAreMeasured) {
+  const ProcessResult r = run(plugin + "Sum Batch --max-n 256");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("x + y over a box"), HasSubstr("Batch\n")));
   // The same integrand one by one and in batches.
@@ -186,14 +186,14 @@ TEST_F(Converge, IntegrandsOfAPlugin) {
   EXPECT_NE(errors("Sum"), "");
 }
 
-TEST_F(Converge, AWrongTruthIsNamed) {
-  const Ran r = run(plugin + "WrongTruth --max-n 1024");
+TEST_F(Converge, WrongTruth_IsReported) {
+  const ProcessResult r = run(plugin + "WrongTruth --max-n 1024");
   EXPECT_EQ(r.exit_code, 1) << r.output;
   EXPECT_THAT(r.output, HasSubstr("the stated truth 1.01 is wrong, or the integrand is: errors stop falling at 0.01"));
   EXPECT_EQ(run(plugin + "Sum --max-n 1024").exit_code, 0);
 }
 
-TEST_F(Converge, APluginThatMisbehavesIsOneLine) {
+TEST_F(Converge, FaultyPlugin_IsReportedInOneLine) {
   expect_refused(plugin + "Pairs --max-n 64", "eval_many, as point 252 of 253, nan; values[i] must be eval(x + i dim)");
   expect_refused(plugin + "Remembers --max-n 64", "Remembers: at x = (");
   expect_refused(plugin + "Remembers --max-n 64", "; it must depend on x alone, on nothing before");
@@ -205,7 +205,7 @@ TEST_F(Converge, APluginThatMisbehavesIsOneLine) {
   expect_refused(std::string("--plugin '") + PLUGIN_DIR + "/right.so'", "it holds samplers and no integrands");
 }
 
-TEST_F(Converge, BadInputIsOneLine) {
+TEST_F(Converge, BadInput_IsReportedInOneLine) {
   expect_refused("'sin(q)' -d x=0:1", "expression 'sin(q)', position");
   expect_refused("'sin(x)'", "is not a name of --list; for an expression give --domain");
   expect_refused("'x' -d x=1:0", "lo < hi is needed");
@@ -230,19 +230,19 @@ TEST_F(Converge, BadInputIsOneLine) {
   EXPECT_FALSE(std::filesystem::exists(path("out/pi.csv")));
 }
 
-TEST_F(Converge, AVariableMayBeUnusedBesideAnother) {
-  const Ran r = run("'x' -d x=0:1,y=0:1 --samplers random --max-n 64");
+TEST_F(Converge, UnusedVariable_IsAccepted) {
+  const ProcessResult r = run("'x' -d x=0:1,y=0:1 --samplers random --max-n 64");
   EXPECT_EQ(r.exit_code, 0) << r.output;
 }
 
-TEST_F(Converge, TheListSaysWhatAutoChoosesFrom) {
+TEST_F(Converge, ListExplainsAuto) {
   EXPECT_THAT(run_carlo("converge --list").output,
               AllOf(HasSubstr("\n  tree  "), HasSubstr("the best of rqmc, vegas and tree\n")));
 }
 
 // The first of three curves, which the interrupt cuts, is written with the N that it has.
-TEST_F(Converge, CtrlCKeepsTheCurveThatItCuts) {
-  const Ran r = support::interrupt_carlo("converge pi --max-n 2e8 --threads 1 -o '" + path("out") + "' --report '" +
+TEST_F(Converge, CtrlC_KeepsTheInterruptedCurve) {
+  const ProcessResult r = support::interrupt_carlo("converge pi --max-n 2e8 --threads 1 -o '" + path("out") + "' --report '" +
                                          path("page") + "'");
   EXPECT_EQ(r.exit_code, 130) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("; interrupted\r\n"),
@@ -252,14 +252,14 @@ TEST_F(Converge, CtrlCKeepsTheCurveThatItCuts) {
   EXPECT_THAT(mc::read_file(path("page/index.html")), HasSubstr("truth 3.14159265359; jump; interrupted"));
 }
 
-TEST_F(Converge, ABudgetOfSecondsStopsAtSmallerN) {
-  const Ran r = run("genz_oscillatory_5d --max-n 1e8 --time 0.3");
+TEST_F(Converge, TimeLimit_StopsAtSmallerN) {
+  const ProcessResult r = run("genz_oscillatory_5d --max-n 1e8 --time 0.3");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, HasSubstr("--time ended "));
   EXPECT_THAT(out("genz_oscillatory_5d.csv"), AllOf(HasSubstr("sobol,64,"), Not(HasSubstr(",67108864,"))));
 }
 
-TEST_F(Converge, ThreadsChangeNothing) {
+TEST_F(Converge, ResultsDoNotDependOnThreads) {
   const auto errors = [&](const std::string& threads) {
     run_carlo("converge pi --samplers sobol,vegas --max-n 4096 --replicates 16 --threads " + threads + " -o '" +
               path("t" + threads) + "'");

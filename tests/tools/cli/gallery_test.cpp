@@ -21,7 +21,7 @@ using testing::HasSubstr, testing::Not;
 
 struct GalleryCommand : support::ScratchTest {
   void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
-    const support::Run run = run_carlo(arguments);
+    const support::ProcessResult run = run_carlo(arguments);
     EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.output;
     EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
     for (const std::string& word : words) EXPECT_THAT(run.output, HasSubstr(word)) << arguments;
@@ -29,8 +29,8 @@ struct GalleryCommand : support::ScratchTest {
   }
 };
 
-TEST_F(GalleryCommand, RendersWhatIsNamed) {
-  const support::Run run =
+TEST_F(GalleryCommand, RendersNamedScenes) {
+  const support::ProcessResult run =
       run_carlo("gallery book1-metal book3-cornell-glass-guided --scale 0.05 --spp 8 -o " + path("out"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const render::Image image = render::read_image(path("out/book3-cornell-glass-guided.exr"));
@@ -45,7 +45,7 @@ TEST_F(GalleryCommand, RendersWhatIsNamed) {
   EXPECT_THAT(page, Not(HasSubstr("Interrupted")));
 }
 
-TEST_F(GalleryCommand, RefusesBadInputInOneLineBeforeTheWork) {
+TEST_F(GalleryCommand, BadInput_IsReportedInOneLineBeforeTheWork) {
   const std::string to = " -o " + path("out");
   expect_refused("gallery book1-metl" + to, {"'book1-metl'", "did you mean 'book1-metal'"});
   expect_refused("gallery book1-metal --scale 0" + to, {"--scale 0"});
@@ -59,17 +59,17 @@ TEST_F(GalleryCommand, RefusesBadInputInOneLineBeforeTheWork) {
   EXPECT_EQ(mc::read_file(taken), "mine");
 }
 
-TEST_F(GalleryCommand, ListsItsScenes) {
-  const support::Run run = run_carlo("gallery --list");
+TEST_F(GalleryCommand, ListPrintsEveryScene) {
+  const support::ProcessResult run = run_carlo("gallery --list");
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.output, HasSubstr("book1-metal "));
   EXPECT_THAT(run.output, HasSubstr("smallpt"));
 }
 
 // A scene that never ends leaves nothing half done.
-TEST_F(GalleryCommand, CtrlCAndSigtermLeaveNothingHalfDone) {
+TEST_F(GalleryCommand, CtrlCAndSigterm_LeaveNoPartialPicture) {
   for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}}) {
-    const support::Run run =
+    const support::ProcessResult run =
         support::interrupt_carlo("gallery book1-metal --spp 100000000 --scale 0.1 -o " + path("out"), "\033[K", signal);
     EXPECT_EQ(run.exit_code, code) << run.output;
     EXPECT_THAT(run.output, HasSubstr("interrupted: 0 of 1 scenes were finished"));
@@ -79,7 +79,7 @@ TEST_F(GalleryCommand, CtrlCAndSigtermLeaveNothingHalfDone) {
 
 // A scene that is named twice would be two parts of the page with one name.
 TEST_F(GalleryCommand, RendersEachSceneOnce) {
-  const support::Run run =
+  const support::ProcessResult run =
       run_carlo("gallery book1-sky book1-gradient book1-sky --scale 0.05 --spp 1 -o " + path("out"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const auto times = [](const std::string& text, const std::string& word) {
@@ -95,8 +95,8 @@ TEST_F(GalleryCommand, RendersEachSceneOnce) {
 }
 
 // All scenes, of which the first is done at once: after it, some of them are, and the page says how many.
-TEST_F(GalleryCommand, CtrlCKeepsWhatIsFinished) {
-  const support::Run run =
+TEST_F(GalleryCommand, CtrlC_KeepsFinishedPictures) {
+  const support::ProcessResult run =
       support::interrupt_carlo("gallery --spp 256 --scale 0.1 -o " + path("out"), "samples/pixel in");
   EXPECT_EQ(run.exit_code, 130) << run.output;
   const auto scenes = carlo::gallery();
@@ -113,10 +113,10 @@ TEST_F(GalleryCommand, CtrlCKeepsWhatIsFinished) {
 }
 
 // The same scene, strategy and samples by either command.
-TEST_F(GalleryCommand, RenderTakesANameToo) {
+TEST_F(GalleryCommand, RenderAcceptsASceneName) {
   const std::string name = "book3-cornell-glass-guided";
   ASSERT_EQ(run_carlo("gallery " + name + " --scale 0.04 --spp 8 --seed 3 -o " + path("out")).exit_code, 0);
-  const support::Run run = run_carlo("render " + name + " --size 24x24 --spp 8 --seed 3 -o " + path("one.exr"));
+  const support::ProcessResult run = run_carlo("render " + name + " --size 24x24 --spp 8 --seed 3 -o " + path("one.exr"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const render::Image a = render::read_image(path("one.exr")), b = render::read_image(path("out/" + name + ".exr"));
   ASSERT_EQ(a.pixels.size(), b.pixels.size());

@@ -13,8 +13,8 @@
 
 namespace {
 
-TEST(Expression, IntegratesOverItsBox) {
-  const carlo::Experiment e = carlo::parse_expression("exp(-x*x)*cos(y)", "x=0:1,y=-1:2");
+TEST(Expression, IntegratesOverTheBox) {
+  const carlo::UnitCubeIntegral e = carlo::parse_expression("exp(-x*x)*cos(y)", "x=0:1,y=-1:2");
   mc::IntegrateOptions o;
   o.rel_error = 1e-6;
   const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
@@ -36,7 +36,7 @@ TEST(Expression, BoundsMayBeInfinite) {
                {"exp(-(x-100)^2/2e6)", "x=-inf:inf", std::sqrt(2e6 * pi)},
                {"exp(-abs(x)-y*y-z*z)", "x=-inf:inf,y=-inf:inf,z=-inf:inf", 2 * pi}};
   for (const auto& c : cases) {
-    const carlo::Experiment e = carlo::parse_expression(c.expression, c.box);
+    const carlo::UnitCubeIntegral e = carlo::parse_expression(c.expression, c.box);
     mc::IntegrateOptions o;
     o.rel_error = 1e-4;
     const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
@@ -44,7 +44,7 @@ TEST(Expression, BoundsMayBeInfinite) {
     EXPECT_LE(std::abs(r.estimate.value - c.truth), 5 * r.estimate.std_error) << c.expression << " over " << c.box;
   }
   // The same at all points, and no run ends on what may but look so.
-  const carlo::Experiment same = carlo::parse_expression("x^-2", "x=1:inf");
+  const carlo::UnitCubeIntegral same = carlo::parse_expression("x^-2", "x=1:inf");
   mc::IntegrateOptions few;
   few.max_calls = 10'000;
   const mc::Integral r = mc::integrate_unit(same.f, same.dim, few);
@@ -52,10 +52,10 @@ TEST(Expression, BoundsMayBeInfinite) {
   EXPECT_NEAR(r.estimate.value, 1, 1e-12);
   const double zero[] = {0};
   EXPECT_EQ(carlo::parse_expression("exp(-x*x)", "x=-inf:inf").f(zero), 0);
-  EXPECT_EQ(carlo::parse_expression("x", "x=-inf:0").place(std::vector{0.5}), "x = -1");
+  EXPECT_EQ(carlo::parse_expression("x", "x=-inf:0").describe_point(std::vector{0.5}), "x = -1");
 }
 
-TEST(Expression, ConditionsHaveWords) {
+TEST(Expression, SupportsAndOrNotIf) {
   const auto value = [](const char* expression, double x) {
     return carlo::parse_function(expression, {"x"})(std::vector{x});
   };
@@ -70,7 +70,7 @@ TEST(Expression, ConditionsHaveWords) {
   EXPECT_EQ(f(std::vector{1.0, 2.0}), 5);
 }
 
-TEST(Expression, AVariableIsNoConstantMisspelt) {
+TEST(Expression, VariableNamedLikeAConstantIsAccepted) {
   EXPECT_THAT(
       [] {
         carlo::parse_function("2e*x", {"x", "e"});
@@ -79,7 +79,7 @@ TEST(Expression, AVariableIsNoConstantMisspelt) {
 }
 
 // muParser would set the variable, and go on with what it was set to.
-TEST(Expression, AssignsNothing) {
+TEST(Expression, AssignmentIsRejected) {
   const auto parse = [](const char* expression) { carlo::parse_function(expression, {"x", "y"}); };
   for (const char* expression : {"x=3", "(x=0.5)*y", "x = = 3", "x=>3", "x<1 ? y=2 : 1"})
     EXPECT_THAT([&] { parse(expression); }, testing::ThrowsMessage<mc::Error>(testing::HasSubstr("use == to compare")))
@@ -88,7 +88,7 @@ TEST(Expression, AssignsNothing) {
     EXPECT_NO_THROW(parse(expression)) << expression;
 }
 
-TEST(Expression, NamesWhatToWriteInstead) {
+TEST(Expression, SyntaxErrorsSuggestTheRightSpelling) {
   const auto message = [](const std::string& expression) -> std::string {
     try {
       carlo::parse_function(expression, {"x"});
@@ -128,14 +128,14 @@ TEST(Expression, NamesWhatToWriteInstead) {
       testing::HasSubstr("'...x+x+x+x+x+x+x+x+x+x+x+x+x+x+x+q+x+x+x+x+x+x+x+x+x+x+x+x+x+x+...', position 1000: "));
 }
 
-TEST(Expression, FloorIsTheWholeNumberBelow) {
+TEST(Expression, FloorRoundsDown) {
   const auto f = carlo::parse_function("floor(x) + 10*(x - 2*floor(x/2))", {"x"});
   EXPECT_EQ(f(std::vector{-0.5}), 14);
   EXPECT_EQ(f(std::vector{3.0}), 13);
 }
 
-TEST(Expression, TwoAtOnceDoNotMix) {
-  const carlo::Experiment a = carlo::parse_expression("x", "x=0:2"), b = carlo::parse_expression("_pi", "x=0:1");
+TEST(Expression, ConcurrentEvaluationIsIndependent) {
+  const carlo::UnitCubeIntegral a = carlo::parse_expression("x", "x=0:2"), b = carlo::parse_expression("_pi", "x=0:1");
   const double u[] = {0.25};
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(a.f(u), 1.0);
@@ -143,7 +143,7 @@ TEST(Expression, TwoAtOnceDoNotMix) {
   }
 }
 
-TEST(Expression, RefusesNonsenseInOneLine) {
+TEST(Expression, BadInput_IsReportedInOneLine) {
   const auto message = [](const char* expression, const char* box) -> std::string {
     try {
       carlo::parse_expression(expression, box);
@@ -181,8 +181,8 @@ TEST(Genz, TrueValues) {
     EXPECT_LE(std::abs(carlo::genz_integrals()[i].truth / known[i] - 1), 3e-5) << carlo::genz_integrals()[i].name;
 }
 
-TEST(Genz, AutomaticIsWithinItsError) {
-  for (const carlo::Experiment& e : carlo::genz_integrals()) {
+TEST(Genz, AutomaticMethodReachesItsError) {
+  for (const carlo::UnitCubeIntegral& e : carlo::genz_integrals()) {
     mc::IntegrateOptions o;
     o.rel_error = 0;
     o.max_calls = 100'000;
@@ -205,7 +205,7 @@ TEST(Genz, ErrorBarsAreCalibrated) {
     o.max_calls = 2500;
     o.threads = 1;
     int runs = 0, flagged = 0, within1 = 0, within2 = 0;
-    for (const carlo::Experiment& e : carlo::genz_integrals())
+    for (const carlo::UnitCubeIntegral& e : carlo::genz_integrals())
       for (int i = 0; i < 60; ++i, ++runs, ++o.seed) {
         const mc::Integral r = mc::integrate_unit(e.f, e.dim, o);
         const double sigmas = std::abs(r.estimate.value - e.truth) / r.estimate.std_error;
@@ -225,9 +225,9 @@ TEST(Genz, ErrorBarsAreCalibrated) {
   }
 }
 
-TEST(Integrate, CountsMayBeWrittenAsPowersOfTen) {
+TEST(Integrate, CountsAcceptScientificNotation) {
   const auto value = [](const std::string& calls) {
-    const support::Run r =
+    const support::ProcessResult r =
         support::run_carlo("integrate x*x -d x=0:1 --method plain --rel-error 1e-9 --max-calls " + calls);
     return r.output.substr(0, r.output.find('\n'));
   };
@@ -237,15 +237,15 @@ TEST(Integrate, CountsMayBeWrittenAsPowersOfTen) {
   EXPECT_THAT(support::run_carlo("integrate x -d x=0:1 --max-calls -5").output, testing::HasSubstr("-5 must be >= 0"));
 }
 
-TEST(Integrate, TwoValuesAreNoIntegrand) {
+TEST(Integrate, CommaSeparatedValues_AreRejected) {
   EXPECT_THAT(support::run_carlo("integrate 'x, x*x' -d x=0:1").output, testing::HasSubstr("has 2 values"));
 }
 
 // It said that the integrand was 0 at every point.
-TEST(Integrate, AnIntegralBelowWhatADoubleHoldsIsNoZero) {
+TEST(Integrate, Underflow_IsNotReportedAsZero) {
   for (const std::string arguments :
        {"x -d x=0:1e-300", "1 '(-x)' -d x=0:1e-200", "'1e-300*exp(-y)' -d x=0:1e-30,y=0:inf"}) {
-    const support::Run r = support::run_carlo("integrate " + arguments);
+    const support::ProcessResult r = support::run_carlo("integrate " + arguments);
     EXPECT_EQ(r.exit_code, 2) << arguments;
     EXPECT_THAT(r.output,
                 testing::ContainsRegex("': its values times the volume of '.*' are below 4.9e-324, the smallest"));
@@ -269,7 +269,7 @@ TEST(Integrate, TheExitCodeTellsWhetherTheErrorWasReached) {
   EXPECT_EQ(code("--list"), 0);
 }
 
-TEST(Integrate, NamesTheVariablesWhereItIsNotFinite) {
+TEST(Integrate, NonFiniteValue_ReportsTheVariables) {
   const auto says = [](const std::string& arguments) { return support::run_carlo("integrate " + arguments).output; };
   EXPECT_THAT(says("'max(exp(.2*x-.02)-1,0)*exp(-x*x/2)/sqrt(2*_pi)' -d x=-inf:inf --method plain"),
               testing::AllOf(testing::ContainsRegex("points, the first at x = [0-9.]+; it must be finite"),
@@ -282,9 +282,9 @@ TEST(Integrate, NamesTheVariablesWhereItIsNotFinite) {
               testing::AllOf(testing::HasSubstr("the first at x = 2."), testing::EndsWith("almost everywhere\n")));
 }
 
-TEST(Integrate, CtrlCSaysWhatWasFound) {
+TEST(Integrate, CtrlC_PrintsResultSoFar) {
   for (const std::string method : {"plain", "vegas", "tree"}) { // of which two learn for a while
-    const support::Run r =
+    const support::ProcessResult r =
         support::interrupt_carlo("integrate genz_c0_8d --rel-error 1e-12 --max-calls 1e12 --method " + method);
     EXPECT_EQ(r.exit_code, 130) << r.output;
     EXPECT_THAT(r.output, testing::AllOf(testing::HasSubstr(" ± "),

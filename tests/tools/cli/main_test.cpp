@@ -6,9 +6,9 @@ namespace {
 
 using support::run_carlo;
 
-TEST(Main, NamesTheArgumentThatItDoesNotKnow) {
+TEST(Main, UnknownArgument_IsNamed) {
   const auto says = [](const std::string& arguments, const std::string& line) {
-    const support::Run r = run_carlo(arguments);
+    const support::ProcessResult r = run_carlo(arguments);
     EXPECT_EQ(r.exit_code, 2) << arguments;
     EXPECT_EQ(r.output, "carlo: " + line + "\n") << arguments;
   };

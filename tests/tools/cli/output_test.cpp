@@ -18,21 +18,21 @@
 
 namespace {
 
-using Ran = support::Run;
+using support::ProcessResult;
 using testing::AllOf;
 using testing::HasSubstr;
 
 struct OutputTest : support::ScratchTest {
   static constexpr const char* integral = "' integrate 'x*x' -d x=0:1 --max-calls 1000 ";
   std::string carlo(const std::string& arguments) const { return "'" CARLO_PATH + (integral + arguments); }
-  void expect_one_line(const Ran& run, const std::string& words) const {
+  void expect_one_line(const ProcessResult& run, const std::string& words) const {
     EXPECT_EQ(run.exit_code, 2) << run.output;
     EXPECT_THAT(run.output, AllOf(testing::StartsWith("carlo: "), HasSubstr(words)));
     EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
   }
 };
 
-TEST_F(OutputTest, AFullStandardOutputIsAnError) {
+TEST_F(OutputTest, FullStandardOutput_IsAnError) {
   expect_one_line(support::run("(" + carlo("3>&1 1>/dev/full 2>&3") + ")"),
                   "cannot write to standard output: No space left on device");
   for (const char* words : {"--help", "--version", "integrate --list", "known-bugs --list"})
@@ -40,7 +40,7 @@ TEST_F(OutputTest, AFullStandardOutputIsAnError) {
                     "cannot write to standard output");
 }
 
-TEST_F(OutputTest, AClosedStandardOutputIsAnErrorAndTouchesNoFile) {
+TEST_F(OutputTest, ClosedStandardOutput_IsAnErrorAndTouchesNoFile) {
   const std::string json = write("kept.json", "");
   expect_one_line(support::run("(" + carlo("--json '" + json + "' 3>&1 1>&- 2>&3") + ")"),
                   "cannot write to standard output");
@@ -62,8 +62,8 @@ TEST_F(OutputTest, AClosedPipeEndsQuietly) {
   }
 }
 
-TEST_F(OutputTest, StandardOutputIsAPlaceForJson) {
-  const Ran run = support::run(carlo("--json /dev/stdout"));
+TEST_F(OutputTest, DevStdout_AcceptsJson) {
+  const ProcessResult run = support::run(carlo("--json /dev/stdout"));
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_LT(run.output.find("calls in"), run.output.find("\"commit\"")) << run.output;
   support::run(carlo("--json /dev/stdout > '" + path("both") + "'"));
@@ -71,7 +71,7 @@ TEST_F(OutputTest, StandardOutputIsAPlaceForJson) {
 }
 
 // What else is said goes to standard error, and no file "-" is made.
-TEST_F(OutputTest, ADashIsStandardOutputForJson) {
+TEST_F(OutputTest, Dash_IsStandardOutputForJson) {
   const auto said = [&](const std::string& arguments) { // on standard output; the rest goes to a file
     return support::run("(cd '" + folder.string() + "' && '" CARLO_PATH "' " + arguments + " 2>words)").output;
   };
@@ -95,19 +95,19 @@ TEST_F(OutputTest, ADashIsStandardOutputForJson) {
               HasSubstr("carlo: cannot write to standard output: No space left on device\n"));
 }
 
-TEST_F(OutputTest, ADeviceStaysADevice) {
+TEST_F(OutputTest, Device_IsNotReplaced) {
   const std::string full = path("full.json");
   if (mknod(full.c_str(), S_IFCHR | 0666, makedev(1, 7)) != 0 || !std::ofstream(full).is_open())
     GTEST_SKIP() << "device nodes cannot be made here";
-  const Ran run = support::run(carlo("--json '" + full + "'"));
+  const ProcessResult run = support::run(carlo("--json '" + full + "'"));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.output, HasSubstr("full.json': No space left on device"));
   EXPECT_TRUE(std::filesystem::is_character_file(full));
 }
 
-TEST_F(OutputTest, AFolderWithQuotesIsDrawnIn) {
+TEST_F(OutputTest, FolderWithQuotes_GetsItsPlots) {
   const std::string out = path("it's \"$(here)\"");
-  const Ran run =
+  const ProcessResult run =
       support::run_carlo("converge pi --max-n 64 --replicates 8 -o \"" + path("it's \\\"\\$(here)\\\"") + "\"");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_TRUE(std::filesystem::exists(out + "/pi.csv")) << run.output;
@@ -117,35 +117,35 @@ TEST_F(OutputTest, AFolderWithQuotesIsDrawnIn) {
   EXPECT_FALSE(std::filesystem::exists(out + "/pi.log"));
 }
 
-TEST_F(OutputTest, APlotThatDoesNotFitIsAnErrorAndAUsersFilesStay) {
+TEST_F(OutputTest, FullDisk_PlotIsAnErrorAndUserFilesStay) {
   if (!support::has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   const std::string arguments = "converge pi --max-n 64 --replicates 8 -o '" + folder.string() + "'";
   write("pi.log", "mine");
   std::filesystem::create_symlink("/dev/full", path("pi.svg"));
-  const Ran full = support::run("('" CARLO_PATH "' " + arguments + " 2>&1 >/dev/null)");
+  const ProcessResult full = support::run("('" CARLO_PATH "' " + arguments + " 2>&1 >/dev/null)");
   expect_one_line(full, "pi.svg': No space left on device");
   std::filesystem::remove(path("pi.svg"));
-  const Ran run = support::run_carlo(arguments);
+  const ProcessResult run = support::run_carlo(arguments);
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_EQ(mc::read_file(path("pi.log")), "mine");
 }
 
-TEST_F(OutputTest, CtrlCWritesWhatIsFinished) {
-  const Ran run =
+TEST_F(OutputTest, CtrlC_WritesFinishedResults) {
+  const ProcessResult run =
       support::interrupt_carlo("validate --all --threads 1 --samples 400000 --json '" + path("v.json") + "'");
   EXPECT_EQ(run.exit_code, 130) << run.output;
   EXPECT_THAT(run.output, HasSubstr("interrupted: "));
   EXPECT_THAT(mc::read_file(path("v.json")),
               AllOf(HasSubstr("\"interrupted\": true"), HasSubstr("\"passed\": false"), HasSubstr("\"name\": ")));
   // Within a case, of which more samples are asked for than any day has time for.
-  const Ran one = support::interrupt_carlo("validate CosineHemisphere --threads 1 --samples 1e12", "in a cell");
+  const ProcessResult one = support::interrupt_carlo("validate CosineHemisphere --threads 1 --samples 1e12", "in a cell");
   EXPECT_EQ(one.exit_code, 130) << one.output;
   EXPECT_THAT(one.output, HasSubstr("interrupted: 0 of 2 cases were finished"));
-  const Ran slips = support::interrupt_carlo("known-bugs --threads 1 --json '" + path("s.json") + "'");
+  const ProcessResult slips = support::interrupt_carlo("known-bugs --threads 1 --json '" + path("s.json") + "'");
   EXPECT_EQ(slips.exit_code, 130) << slips.output;
   EXPECT_THAT(slips.output, HasSubstr("interrupted: "));
   EXPECT_THAT(mc::read_file(path("s.json")), AllOf(HasSubstr("\"interrupted\": true"), HasSubstr("\"passed\": false")));
-  const Ran curves = support::interrupt_carlo("converge --max-n 4e6 --threads 1 -o '" + path("c") + "'");
+  const ProcessResult curves = support::interrupt_carlo("converge --max-n 4e6 --threads 1 -o '" + path("c") + "'");
   EXPECT_EQ(curves.exit_code, 130) << curves.output;
   EXPECT_THAT(curves.output, HasSubstr("interrupted: "));
 }

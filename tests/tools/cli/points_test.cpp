@@ -14,7 +14,7 @@
 
 namespace {
 
-using Ran = support::Run;
+using support::ProcessResult;
 using support::run_carlo;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -51,15 +51,15 @@ std::string last_of(const std::string& file, const std::string& name) { return c
 
 struct Points : support::ScratchTest {
   void expect_refused(const std::string& arguments, const std::string& words) const {
-    const Ran run = run_carlo("points " + arguments + " -o '" + path("out") + "'");
+    const ProcessResult run = run_carlo("points " + arguments + " -o '" + path("out") + "'");
     EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.output;
     EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
     EXPECT_THAT(run.output, HasSubstr(words));
   }
 };
 
-TEST_F(Points, ASetByName) {
-  const Ran run = run_carlo("points sobol -n 64 -d 3 --randomisations 4 -o '" + path("out") + "'");
+TEST_F(Points, NamedSet_IsAnalysed) {
+  const ProcessResult run = run_carlo("points sobol -n 64 -d 3 --randomisations 4 -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, AllOf(HasSubstr("sobol: 64 points in 3 dimensions"), HasSubstr("L2-star discrepancy"),
                                 HasSubstr("mean of 4"), HasSubstr("-net in base 2")));
@@ -73,7 +73,7 @@ TEST_F(Points, ASetByName) {
 
 // Each figure stands beside those of random and jittered points, for every N. A random set is its own expectation.
 TEST_F(Points, EveryFigureHasItsRandomAndJitteredExpectation) {
-  const Ran run = run_carlo("points random -n 256 --randomisations 64 -o '" + path("out") + "'");
+  const ProcessResult run = run_carlo("points random -n 256 --randomisations 64 -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   const auto value = [&](const std::string& name, std::size_t row) {
     const std::vector<std::string> all = column(path("out/quality.csv"), name);
@@ -99,16 +99,16 @@ TEST_F(Points, EveryFigureHasItsRandomAndJitteredExpectation) {
 }
 
 // t over N, where it is one; what is no power of 2 has none.
-TEST_F(Points, TOfTheNetIsDrawnOverN) {
-  const Ran run = run_carlo("points sobol -n 100 --randomisations 1 -o '" + path("out") + "'");
+TEST_F(Points, PlotsTOfTheNetOverN) {
+  const ProcessResult run = run_carlo("points sobol -n 100 --randomisations 1 -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_EQ(column(path("out/quality.csv"), "t"), (std::vector<std::string>{"0", "0", "0", ""}));
   EXPECT_THAT(mc::read_file(path("out/quality.gp")), HasSubstr("using \"n\":\"t\" "));
 }
 
 // Where the star discrepancy is too dear, bounds are said and drawn.
-TEST_F(Points, BoundsOfTheStarDiscrepancyAreSaid) {
-  const Ran run = run_carlo("points sobol -n 64 -d 12 --randomisations 1 -o '" + path("out") + "'");
+TEST_F(Points, PrintsBoundsOfTheStarDiscrepancy) {
+  const ProcessResult run = run_carlo("points sobol -n 64 -d 12 --randomisations 1 -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr("star discrepancy, bounds"));
   EXPECT_LT(std::stod(last_of(path("out/quality.csv"), "star_lower")),
@@ -119,8 +119,8 @@ TEST_F(Points, BoundsOfTheStarDiscrepancyAreSaid) {
 }
 
 // What is drawn of many axes is what is said of it.
-TEST_F(Points, OfManyAxesTheFirstAreDrawn) {
-  const Ran run = run_carlo("points sobol -n 16 -d 12 --randomisations 1 -o '" + path("out") + "'");
+TEST_F(Points, ManyAxes_FirstEightAreDrawn) {
+  const ProcessResult run = run_carlo("points sobol -n 16 -d 12 --randomisations 1 -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr("points.svg shows the first 8 of 12 axes, 28 of 66 pairs\n"));
   EXPECT_EQ(squares(mc::read_file(path("out/points.svg"))), 28u);
@@ -130,9 +130,9 @@ TEST_F(Points, OfManyAxesTheFirstAreDrawn) {
 }
 
 // What points.csv holds is the set: read back, it has the same figures.
-TEST_F(Points, AFileIsLookedAtAsItIs) {
+TEST_F(Points, PointsFile_IsAnalysedUnchanged) {
   run_carlo("points halton -n 50 --randomisations 1 -o '" + path("a") + "'");
-  const Ran run = run_carlo("points --points-file '" + path("a/points.csv") + "' -o '" + path("b") + "'");
+  const ProcessResult run = run_carlo("points --points-file '" + path("a/points.csv") + "' -o '" + path("b") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, AllOf(HasSubstr("50 points in 2 dimensions"), HasSubstr("no power of 2")));
   const auto last = [&](const std::string& name) {
@@ -143,21 +143,21 @@ TEST_F(Points, AFileIsLookedAtAsItIs) {
 }
 
 // No distance is above 0, so none has a place on a logarithmic axis.
-TEST_F(Points, TwoThatAreEqual) {
+TEST_F(Points, EqualPoints_HaveDistanceZero) {
   const std::string twins = write("twins.csv", "0.25,0.5\n0.75,0.125\n0.25,0.5\n");
-  const Ran run = run_carlo("points --points-file '" + twins + "' -o '" + path("out") + "'");
+  const ProcessResult run = run_carlo("points --points-file '" + twins + "' -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_EQ(last_of(path("out/quality.csv"), "distance_periodic"), "0");
 }
 
-TEST_F(Points, WhatIsTooSmallForADoubleIsZero) {
-  const Ran run = run_carlo("points --points-file '" + write("small.csv", "1e-400,0.5\n0.75,0.125\n0,0.5\n") +
+TEST_F(Points, Underflow_IsPrintedAsZero) {
+  const ProcessResult run = run_carlo("points --points-file '" + write("small.csv", "1e-400,0.5\n0.75,0.125\n0,0.5\n") +
                             "' -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_EQ(last_of(path("out/quality.csv"), "distance_periodic"), "0") << "the first is the third";
 }
 
-TEST_F(Points, ThreadsChangeNothing) {
+TEST_F(Points, ResultsDoNotDependOnThreads) {
   for (const char* threads : {"1", "2"})
     run_carlo(std::string("points lattice -n 40 --randomisations 3 --threads ") + threads + " -o '" + path(threads) +
               "'");
@@ -165,7 +165,7 @@ TEST_F(Points, ThreadsChangeNothing) {
   EXPECT_EQ(mc::read_file(path("1/spectrum.csv")), mc::read_file(path("2/spectrum.csv")));
 }
 
-TEST_F(Points, BadInputIsOneLine) {
+TEST_F(Points, BadInput_IsReportedInOneLine) {
   expect_refused("sobl", "unknown point set 'sobl'; did you mean 'sobol'?");
   expect_refused("", "give a point set (see --list) or --points-file");
   for (const char* of_a_set : {" -n 64", " -d 3", " --seed 2", " --randomisations 4"})
@@ -179,7 +179,7 @@ TEST_F(Points, BadInputIsOneLine) {
                  "off.csv:3: coordinate 2 is 1; it must lie in [0, 1)");
   expect_refused("--points-file '" + write("bad.csv", "0.5,0.5\n0.25\n") + "'", "bad.csv:2: 1 numbers");
   write("file", "");
-  const Ran run = run_carlo("points sobol -o '" + path("file") + "'");
+  const ProcessResult run = run_carlo("points sobol -o '" + path("file") + "'");
   EXPECT_EQ(run.exit_code, 2) << run.output;
   EXPECT_THAT(run.output, HasSubstr("cannot"));
 }

@@ -68,18 +68,18 @@ bool matches(const std::vector<std::string>& shown, const std::vector<std::strin
 
 struct Readme : support::ScratchTest {};
 
-TEST_F(Readme, ShowsWhatItsCommandsPrint) {
+TEST_F(Readme, ShownOutputMatchesTheCommands) {
   const std::vector<Shown> all = commands(mc::read_file(MC_SOURCE_DIR "/README.md"));
   EXPECT_GE(all.size(), 8u);
   std::filesystem::create_directory_symlink(MC_SOURCE_DIR "/librender", folder / "librender");
   for (const Shown& shown : all) {
-    const support::Run run = support::run("cd '" + folder.string() + "' && '" CARLO_PATH "' " + shown.command);
+    const support::ProcessResult run = support::run("cd '" + folder.string() + "' && '" CARLO_PATH "' " + shown.command);
     EXPECT_EQ(run.exit_code, 0) << shown.command;
     EXPECT_TRUE(matches(shown.output, lines(run.output))) << "$ carlo " << shown.command << "\n" << run.output;
   }
 }
 
-TEST(ReadmeTest, SeesWhatDiffers) {
+TEST(ReadmeTest, DetectsDifferences) {
   EXPECT_EQ(without_times("A float pass 0.26 2.6 %  49 %  2.8  0.31"),
             without_times("A float pass 0.26 2.6 %  49 %  7  3"));
   EXPECT_EQ(without_times("in 2 ms by rqmc, 737 ksamples/s"), without_times("in 1.5 s by rqmc, 1 Msamples/s"));

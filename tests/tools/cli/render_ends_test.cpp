@@ -23,10 +23,10 @@ struct RenderEnds : support::ScratchTest {
   const std::string scenes = MC_SOURCE_DIR "/librender/scenes/";
 };
 
-TEST_F(RenderEnds, ReachesTheErrorThatItIsAskedFor) {
+TEST_F(RenderEnds, ReachesTheTargetError) {
   const std::string target = " --target-error 0.1 --size 32x32 -o ";
   for (const std::string more : {"", " --adaptive off", " --error-of worst"}) {
-    const support::Run run = run_carlo(fmt::format("render {}cbox.xml{}{}{}", scenes, more, target, path("a.exr")));
+    const support::ProcessResult run = run_carlo(fmt::format("render {}cbox.xml{}{}{}", scenes, more, target, path("a.exr")));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     std::smatch errors;
     ASSERT_TRUE(std::regex_search(run.output, errors, std::regex("error ([0-9.]+) % .worst block ([0-9.]+) %")))
@@ -35,7 +35,7 @@ TEST_F(RenderEnds, ReachesTheErrorThatItIsAskedFor) {
   }
 }
 
-TEST_F(RenderEnds, SaysWhyItWentOnBelowTheErrorThatItIsAskedFor) {
+TEST_F(RenderEnds, SummaryExplainsSamplingBelowTheTargetError) {
   const std::string target = " --target-error 0.2 -o " + path("a.exr");
   EXPECT_THAT(run_carlo("render book3-cornell-glass --size 12x8 --strategy mis" + target).output,
               ContainsRegex("the error reached 20 % with [0-9.]+ samples per pixel; rendering went on while one[ \n]+"
@@ -43,19 +43,19 @@ TEST_F(RenderEnds, SaysWhyItWentOnBelowTheErrorThatItIsAskedFor) {
   EXPECT_THAT(run_carlo("render sphere-light --size 8x6" + target).output, Not(HasSubstr("rendering went on")));
 }
 
-TEST_F(RenderEnds, EndsByTimeOrErrorWhicheverComesFirst) {
+TEST_F(RenderEnds, StopsAtTimeOrErrorWhicheverComesFirst) {
   const std::string line = "render sphere-light --size 8x6 -o " + path("a.exr"), late = "was not reached in the time";
-  const support::Run by_error = run_carlo(line + " --time 1000 --target-error 0.2");
+  const support::ProcessResult by_error = run_carlo(line + " --time 1000 --target-error 0.2");
   EXPECT_EQ(by_error.exit_code, 0) << by_error.output;
   EXPECT_THAT(by_error.output, Not(HasSubstr(late)));
-  const support::Run by_time = run_carlo(line + " --time 0.05 --target-error 1e-9");
+  const support::ProcessResult by_time = run_carlo(line + " --time 0.05 --target-error 1e-9");
   EXPECT_EQ(by_time.exit_code, 0) << by_time.output;
   EXPECT_THAT(by_time.output, HasSubstr("the error of 1e-07 % " + late));
 }
 
 // Whoever waits sees what for.
-TEST_F(RenderEnds, SaysWhileItGoesOnBelowTheErrorThatItIsAskedFor) {
-  const support::Run run = support::interrupt_carlo(
+TEST_F(RenderEnds, ProgressExplainsSamplingBelowTheTargetError) {
+  const support::ProcessResult run = support::interrupt_carlo(
       "render book3-cornell-glass --size 64x64 --strategy mis --target-error 0.5 -o " + path("a.exr"),
       " % undecided: on to 5 %");
   EXPECT_EQ(run.exit_code, 130) << run.output;
@@ -63,9 +63,9 @@ TEST_F(RenderEnds, SaysWhileItGoesOnBelowTheErrorThatItIsAskedFor) {
 }
 
 // In the first pass, over pixels that take long.
-TEST_F(RenderEnds, APassThatIsNotWholeIsNotAdded) {
+TEST_F(RenderEnds, IncompletePass_IsNotAdded) {
   const std::string line = "render " + scenes + "cbox.xml --size 2000x2000 --threads 1 -o " + path("r.exr");
-  const support::Run first = support::interrupt_carlo(line + " --spp 1000000");
+  const support::ProcessResult first = support::interrupt_carlo(line + " --spp 1000000");
   EXPECT_EQ(first.exit_code, 130) << first.output;
   const char* how_far =
       "interrupted in its first pass: [0-9]+ of 2000 rows were rendered, the others repeat the nearest";
@@ -79,16 +79,16 @@ TEST_F(RenderEnds, APassThatIsNotWholeIsNotAdded) {
   const std::string small = "render " + scenes + "cbox.xml --size 300x300 --threads 1 -o " + path("s.exr");
   ASSERT_EQ(run_carlo(small + " --spp 2").exit_code, 0);
   const std::string before = mc::read_file(path("s.exr"));
-  const support::Run more = support::interrupt_carlo(small + " --spp 1000000 --resume");
+  const support::ProcessResult more = support::interrupt_carlo(small + " --spp 1000000 --resume");
   EXPECT_EQ(more.exit_code, 130) << more.output;
   EXPECT_THAT(more.output, HasSubstr("s.exr is unchanged"));
   EXPECT_EQ(mc::read_file(path("s.exr")), before);
 }
 
-TEST_F(RenderEnds, CtrlCAndSigtermWriteWhatIsThereMarkedPartial) {
+TEST_F(RenderEnds, CtrlCAndSigterm_WriteAPartialPicture) {
   for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}}) {
     const std::string output = path(fmt::format("{}.exr", signal));
-    const support::Run run = support::interrupt_carlo(
+    const support::ProcessResult run = support::interrupt_carlo(
         "render " + scenes + "cbox.xml --spp 100000000 --size 16x16 -o " + output, "  error ", signal);
     EXPECT_EQ(run.exit_code, code) << run.output;
     EXPECT_THAT(run.output, HasSubstr("PARTIAL: interrupted before the end\r\n" + output));

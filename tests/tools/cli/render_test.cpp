@@ -25,7 +25,7 @@ const std::string scenes = MC_SOURCE_DIR "/librender/scenes/";
 struct RenderCommand : support::ScratchTest {
   // One line on stderr, exit 2, and no file where the picture would be.
   void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
-    const support::Run run = run_carlo("render " + arguments);
+    const support::ProcessResult run = run_carlo("render " + arguments);
     EXPECT_EQ(run.exit_code, 2) << arguments << "\n" << run.output;
     EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
     EXPECT_TRUE(run.output.starts_with("carlo: ")) << run.output;
@@ -35,7 +35,7 @@ struct RenderCommand : support::ScratchTest {
   std::string cbox() const { return scenes + "cbox.xml --size 8x8 -o " + path("out.pfm"); }
 };
 
-TEST_F(RenderCommand, RefusesBadInputInOneLine) {
+TEST_F(RenderCommand, BadInput_IsReportedInOneLine) {
   expect_refused("nowhere.xml -o " + path("out.pfm"), {"nowhere.xml", "no such file"});
   expect_refused(cbox() + " --spp 0", {"0 samples per pixel", "at least 1"});
   expect_refused(cbox() + " --spp -3", {"-3 samples per pixel", "at least 1"});
@@ -82,16 +82,16 @@ TEST_F(RenderCommand, RefusesBadInputInOneLine) {
 }
 
 // A folder stands where the file should go: true of root as well, whom permissions do not stop.
-TEST_F(RenderCommand, OutputThatCannotBeWrittenIsOneLine) {
+TEST_F(RenderCommand, UnwritableOutput_IsReportedInOneLine) {
   std::filesystem::create_directory(path("taken.pfm"));
-  const support::Run run = run_carlo("render " + scenes + "cbox.xml --spp 1 --size 4x4 -o " + path("taken.pfm"));
+  const support::ProcessResult run = run_carlo("render " + scenes + "cbox.xml --spp 1 --size 4x4 -o " + path("taken.pfm"));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.output, HasSubstr("taken.pfm"));
   EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
 }
 
 TEST_F(RenderCommand, WritesLayers) {
-  const support::Run run =
+  const support::ProcessResult run =
       run_carlo("render " + scenes + "sphere-light.xml --size 16x12 --spp 2 --layers -o " + path("l.exr"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const auto layers = render::read_image(path("l.exr")).layers;
@@ -106,7 +106,7 @@ TEST_F(RenderCommand, WritesLayers) {
 }
 
 // As bright as it is: middle grey where the picture's middle is.
-TEST_F(RenderCommand, TonesAPng) {
+TEST_F(RenderCommand, AppliesToneToPng) {
   const std::string start = "render " + scenes + "sphere-light.xml --size 8x8 --spp 4 -o ";
   for (const char* tone : {"", " --tone reinhard", " --tone filmic --exposure auto", " --exposure auto"}) {
     ASSERT_EQ(run_carlo(start + path("a.png") + tone).exit_code, 0) << tone;
@@ -124,11 +124,11 @@ TEST_F(RenderCommand, TonesAPng) {
 }
 
 // Two runs of 8 samples are a picture of 16: other samples than the first, and the variance of them all.
-TEST_F(RenderCommand, GoesOnWhereItStopped) {
+TEST_F(RenderCommand, Resume_AddsSamples) {
   const std::string line = "render " + scenes + "sphere-light.xml --size 16x12 --spp 8 -o " + path("r.exr");
   ASSERT_EQ(run_carlo(line + " --layers").exit_code, 0);
   const render::Image first = render::read_image(path("r.exr"));
-  const support::Run run = run_carlo(line + " --resume");
+  const support::ProcessResult run = run_carlo(line + " --resume");
   ASSERT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr("16 samples per pixel of 2 runs"));
   const render::Image second = render::read_image(path("r.exr"));
@@ -144,10 +144,10 @@ TEST_F(RenderCommand, GoesOnWhereItStopped) {
   }
   EXPECT_GT(changed, 100);
   EXPECT_LT(after, 0.8 * before);
-  const support::Run third = run_carlo(line + " --resume");
+  const support::ProcessResult third = run_carlo(line + " --resume");
   EXPECT_THAT(third.output, HasSubstr("24 samples per pixel of 3 runs"));
   const auto refused = [&](const std::string& arguments, const char* word) {
-    const support::Run wrong = run_carlo("render " + arguments);
+    const support::ProcessResult wrong = run_carlo("render " + arguments);
     EXPECT_EQ(wrong.exit_code, 2) << wrong.output;
     EXPECT_THAT(wrong.output, HasSubstr(word));
   };
@@ -159,7 +159,7 @@ TEST_F(RenderCommand, GoesOnWhereItStopped) {
 }
 
 // What one sample per pixel does not know is not known of the sum either, and that is said.
-TEST_F(RenderCommand, GoesOnFromOneSampleWithoutAnErrorBar) {
+TEST_F(RenderCommand, Resume_FromOneSampleHasNoErrorBar) {
   const std::string line = "render " + scenes + "sphere-light.xml --size 8x8 -o " + path("r.EXR");
   ASSERT_EQ(run_carlo(line + " --spp 1").exit_code, 0);
   EXPECT_THAT(run_carlo(line + " --spp 8 --resume").output,
@@ -167,7 +167,7 @@ TEST_F(RenderCommand, GoesOnFromOneSampleWithoutAnErrorBar) {
   EXPECT_TRUE(render::read_image(path("r.EXR")).variance.empty());
 }
 
-TEST_F(RenderCommand, GoingOnLosesNothing) {
+TEST_F(RenderCommand, Resume_KeepsLayersAndVariance) {
   const std::string line = "render " + scenes + "sphere-light.xml --size 8x8 -o " + path("r.exr");
   ASSERT_EQ(run_carlo(line + " --spp 4").exit_code, 0);
   const std::string before = mc::read_file(path("r.exr"));
@@ -180,7 +180,7 @@ TEST_F(RenderCommand, GoingOnLosesNothing) {
               HasSubstr("has pixels without a sample, as its run was interrupted early; render it again"));
 }
 
-TEST_F(RenderCommand, NoFileOfTheSceneIsOverwritten) {
+TEST_F(RenderCommand, SceneFiles_AreNotOverwritten) {
   render::Image sky(2, 1);
   for (render::Spectrum& p : sky.pixels) p = render::Spectrum::Ones();
   render::write_image(path("sky.exr"), sky);
@@ -196,7 +196,7 @@ TEST_F(RenderCommand, NoFileOfTheSceneIsOverwritten) {
 }
 
 // The mean of pictures of different things is a picture of nothing.
-TEST_F(RenderCommand, GoesOnWithTheSamePictureOnly) {
+TEST_F(RenderCommand, Resume_RejectsAnotherPicture) {
   std::string text = mc::read_file(scenes + "sphere-light.xml");
   const auto put = [&](const std::string& old, const std::string& now) {
     text.replace(text.find(old), old.size(), now);
@@ -209,7 +209,7 @@ TEST_F(RenderCommand, GoesOnWithTheSamePictureOnly) {
   ASSERT_EQ(run_carlo(line + " --crop 2,2,8,8 --size 16x12").exit_code, 0);
   EXPECT_EQ(run_carlo(line + same + " --sampler independent --strategy nee --seed 3").exit_code, 0);
   const auto refused = [&](const std::string& arguments, const std::string& words) {
-    const support::Run run = run_carlo(line + arguments);
+    const support::ProcessResult run = run_carlo(line + arguments);
     EXPECT_EQ(run.exit_code, 2) << run.output;
     EXPECT_THAT(run.output, HasSubstr(path("r.exr") + "' " + words));
   };
@@ -228,7 +228,7 @@ TEST_F(RenderCommand, GoesOnWithTheSamePictureOnly) {
   refused(same, "does not state its carlo.max_depth");
 }
 
-TEST_F(RenderCommand, GoesOnWithTheSameFilesOnly) {
+TEST_F(RenderCommand, Resume_RejectsChangedFiles) {
   write("sky.xml", "<scene version=\"0.6.0\"><emitter type=\"constant\"/></scene>");
   const std::string scene = write("s.xml", "<scene version=\"0.6.0\"><include filename=\"sky.xml\"/><sensor "
                                            "type=\"perspective\"><float name=\"fov\" value=\"40\"/></sensor></scene>");
@@ -237,13 +237,13 @@ TEST_F(RenderCommand, GoesOnWithTheSameFilesOnly) {
   EXPECT_EQ(run_carlo(line + " --resume").exit_code, 0);
   write("sky.xml", "<scene version=\"0.6.0\"><emitter type=\"constant\"><rgb name=\"radiance\" value=\"3\"/></emitter>"
                    "</scene>");
-  const support::Run run = run_carlo(line + " --resume");
+  const support::ProcessResult run = run_carlo(line + " --resume");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.output, HasSubstr("whose bytes have the hash '"));
 }
 
 TEST_F(RenderCommand, ComparesStrategies) {
-  const support::Run run = run_carlo("render " + scenes +
+  const support::ProcessResult run = run_carlo("render " + scenes +
                                      "sphere-light.xml --size 4x3 --spp 4 "
                                      "--compare-strategies -o " +
                                      path("s.png"));
@@ -254,7 +254,7 @@ TEST_F(RenderCommand, ComparesStrategies) {
 }
 
 TEST_F(RenderCommand, WritesIntervals) {
-  const support::Run run = run_carlo("render " + cbox() + " --spp 8 --intervals " + path("w.pfm"));
+  const support::ProcessResult run = run_carlo("render " + cbox() + " --spp 8 --intervals " + path("w.pfm"));
   EXPECT_EQ(run.exit_code, 0) << run.output;
   const render::Image image = render::read_image(path("out.pfm")), widths = render::read_image(path("w.pfm"));
   ASSERT_EQ(widths.pixels.size(), image.pixels.size());
@@ -267,10 +267,10 @@ TEST_F(RenderCommand, WritesIntervals) {
 }
 
 // A mesh needs no scene file; a part of its picture is that of the whole.
-TEST_F(RenderCommand, TakesAMeshAloneAndAPartOfThePicture) {
+TEST_F(RenderCommand, AcceptsAMeshAndACrop) {
   const std::string mesh = scenes + "meshes/torus.ply --size 24x16 --spp 8 -o ";
   ASSERT_EQ(run_carlo("render " + mesh + path("whole.exr")).exit_code, 0);
-  const support::Run run = run_carlo("render " + mesh + path("part.exr") + " --crop 5,2,9,10");
+  const support::ProcessResult run = run_carlo("render " + mesh + path("part.exr") + " --crop 5,2,9,10");
   ASSERT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr("9x10"));
   const render::Image whole = render::read_image(path("whole.exr")), part = render::read_image(path("part.exr"));
@@ -280,7 +280,7 @@ TEST_F(RenderCommand, TakesAMeshAloneAndAPartOfThePicture) {
 }
 
 // A pebble in a scene a thousand kilometres wide is more than floats can hold.
-TEST_F(RenderCommand, WarnsWhereFloatsCannotHoldAScene) {
+TEST_F(RenderCommand, SceneTooLargeForFloat_IsWarnedAbout) {
   const std::string start = R"(<scene version="0.5.0"><sensor type="perspective"><float name="fov" value="40"/></sensor>
     <emitter type="constant"/><shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape>
     <shape type="sphere"><point name="center")";
@@ -288,12 +288,12 @@ TEST_F(RenderCommand, WarnsWhereFloatsCannotHoldAScene) {
     return run_carlo("render " + write("pebble.xml", start + place + "</shape></scene>") + " --spp 2 --size 4x4 -o " +
                      path("out.pfm"));
   };
-  const support::Run coarse = render_with(R"( x="1e6" y="0" z="0"/><float name="radius" value="0.01"/>)");
+  const support::ProcessResult coarse = render_with(R"( x="1e6" y="0" z="0"/><float name="radius" value="0.01"/>)");
   EXPECT_EQ(coarse.exit_code, 0) << coarse.output;
   EXPECT_THAT(coarse.output, HasSubstr("carlo: warning: " + path("pebble.xml") + ": a surface 0.0346 across"));
-  const support::Run fine = render_with(R"( x="1e6" y="0" z="0"/><float name="radius" value="1000"/>)");
+  const support::ProcessResult fine = render_with(R"( x="1e6" y="0" z="0"/><float name="radius" value="1000"/>)");
   EXPECT_THAT(fine.output, Not(HasSubstr("warning")));
-  const support::Run huge = render_with(R"( x="0" y="0" z="0"/><float name="radius" value="1e20"/>)");
+  const support::ProcessResult huge = render_with(R"( x="0" y="0" z="0"/><float name="radius" value="1e20"/>)");
   EXPECT_THAT(huge.output, HasSubstr("pebble.xml: the scene is 3.46e+20 across, and floats hold areas"));
 }
 
@@ -301,22 +301,22 @@ TEST_F(RenderCommand, SceneWithoutLightIsBlackWithAWarning) {
   const std::string scene = write("dark.xml", R"(<scene version="0.5.0">
     <sensor type="perspective"><float name="fov" value="40"/></sensor>
     <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape></scene>)");
-  const support::Run run = run_carlo("render " + scene + " --spp 2 --size 4x4 -o " + path("out.pfm"));
+  const support::ProcessResult run = run_carlo("render " + scene + " --spp 2 --size 4x4 -o " + path("out.pfm"));
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, AllOf(HasSubstr("warning"), HasSubstr("no light")));
   for (const auto& p : render::read_image(path("out.pfm")).pixels) EXPECT_TRUE((p == 0).all());
 }
 
-TEST_F(RenderCommand, WarnsOfTheStrategyThatMissesLight) {
+TEST_F(RenderCommand, StrategyThatMissesLight_IsWarnedAbout) {
   const std::string words = "warning: the strategy light looks towards lamps and guides alone";
   EXPECT_THAT(run_carlo("render " + cbox() + " --spp 1 --strategy light").output, HasSubstr(words));
   for (const char* fine : {" --strategy mis", " --strategy mixture", " --strategy light --max-depth 2"})
     EXPECT_THAT(run_carlo("render " + cbox() + " --spp 1" + fine).output, Not(HasSubstr("warning"))) << fine;
 }
 
-TEST_F(RenderCommand, ThreadsDoNotChangeABitAndMetadataTellsHow) {
+TEST_F(RenderCommand, ResultsDoNotDependOnThreadsAndHaveMetadata) {
   for (const char* threads : {"1", "2"}) {
-    const support::Run run = run_carlo("render " + scenes + "cbox.xml --spp 4 --size 24x16 --seed 5 --threads " +
+    const support::ProcessResult run = run_carlo("render " + scenes + "cbox.xml --spp 4 --size 24x16 --seed 5 --threads " +
                                        threads + " -o " + path(threads) + ".exr");
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_THAT(run.output, AllOf(HasSubstr("samples/s"), HasSubstr("rays/s"),

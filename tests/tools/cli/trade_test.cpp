@@ -13,26 +13,26 @@
 
 namespace {
 
-using Ran = support::Run;
+using support::ProcessResult;
 using testing::AllOf;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 
 struct TradeCommand : support::ScratchTest {
-  Ran run(const std::string& arguments) const {
+  ProcessResult run(const std::string& arguments) const {
     return support::run_carlo("trade " + arguments + " -o '" + path("out") + "'");
   }
   void expect_refused(const std::string& arguments, const std::string& words) const {
-    const Ran refused = run(arguments);
+    const ProcessResult refused = run(arguments);
     EXPECT_EQ(refused.exit_code, 2) << arguments << "\n" << refused.output;
     EXPECT_EQ(std::count(refused.output.begin(), refused.output.end(), '\n'), 1) << refused.output;
     EXPECT_THAT(refused.output, HasSubstr(words));
   }
 };
 
-TEST_F(TradeCommand, TheCheapestWayToEachError) {
-  const Ran r = run("rate_smooth_2d --error 0.1,0.01 --max-n 2048 --report '" + path("page") + "'");
+TEST_F(TradeCommand, PrintsTheCheapestMethodForEachError) {
+  const ProcessResult r = run("rate_smooth_2d --error 0.1,0.01 --max-n 2048 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("23 ways"), HasSubstr("  error 0.1: "), HasSubstr("  error 0.01: "),
                               HasSubstr("times faster than plain Monte Carlo")));
@@ -44,30 +44,30 @@ TEST_F(TradeCommand, TheCheapestWayToEachError) {
               AllOf(HasSubstr("<th>plain Monte Carlo costs</th>"), HasSubstr("The CPU seconds are those of one est")));
 }
 
-TEST_F(TradeCommand, AnErrorThatNoneReachesSaysHowFarEachCame) {
-  const Ran r = run("rate_jump_2d --error 1e-9 --max-n 1024");
+TEST_F(TradeCommand, UnreachedError_ListsTheNearestMethods) {
+  const ProcessResult r = run("rate_jump_2d --error 1e-9 --max-n 1024");
   EXPECT_EQ(r.exit_code, 1) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("  error 1e-09: no way came there; nearest: "), HasSubstr(" at N = 1024"),
                               HasSubstr("; all 20 are in trade.csv; raise --max-n")));
 }
 
-TEST_F(TradeCommand, ATimeBeyondTheLargestNSaysSo) {
-  const Ran r = run("pi --seconds 1,10 --max-n 256");
+TEST_F(TradeCommand, TimeBeyondTheLargestN_IsReported) {
+  const ProcessResult r = run("pi --seconds 1,10 --max-n 256");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, AllOf(ContainsRegex("[0-9]+ of [0-9]+ ways ended before 1 s, at their largest N, and may err "),
                               HasSubstr(" ways ended before 10 s, "), HasSubstr("; raise --max-n, of a scene --max")));
   EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"ended\": true"));
 }
 
-TEST_F(TradeCommand, WhatTheTimeCutShortIsCounted) {
+TEST_F(TradeCommand, CurvesEndedByTime_AreCounted) {
   const std::string pi = "pi --error 1e-9 --max-n 256";
   EXPECT_THAT(run(pi).output, Not(HasSubstr("--time ended")));
   EXPECT_THAT(run(pi + " --time 0.001").output,
               ContainsRegex("--time ended [0-9]+ of them before N = 256; with more of it others may be cheaper"));
 }
 
-TEST_F(TradeCommand, CtrlCTellsWhatIsKnown) {
-  const Ran r = support::interrupt_carlo("trade pi --max-n 2e8 --threads 1 -o '" + path("out") + "'");
+TEST_F(TradeCommand, CtrlC_PrintsResultSoFar) {
+  const ProcessResult r = support::interrupt_carlo("trade pi --max-n 2e8 --threads 1 -o '" + path("out") + "'");
   EXPECT_EQ(r.exit_code, 130) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("interrupted: 0 of 23 ways were finished, one more up to N = "),
                               HasSubstr("  error 0.0314159: "), HasSubstr("data and plots: ")));
@@ -76,14 +76,14 @@ TEST_F(TradeCommand, CtrlCTellsWhatIsKnown) {
 }
 
 // Errors of 0 have no place on logarithmic axes.
-TEST_F(TradeCommand, WhatEveryWayKnowsExactlyIsNotPlotted) {
-  const Ran r = run("'3+0*x' -d x=0:1 --max-n 64 --report '" + path("page") + "'");
+TEST_F(TradeCommand, ExactIntegral_IsNotPlotted) {
+  const ProcessResult r = run("'3+0*x' -d x=0:1 --max-n 64 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("  error 0.03: "), HasSubstr("every way is exact to rounding")));
   EXPECT_THAT(mc::read_file(path("out/trade.csv")), HasSubstr("sobol,64,"));
 }
 
-TEST_F(TradeCommand, NoPictureOfAnEarlierRunStays) {
+TEST_F(TradeCommand, RemovesPlotsOfEarlierRuns) {
   std::filesystem::create_directories(path("out"));
   for (const char* picture : {"out/trade.svg", "out/trade.png"}) write(picture, "of another integrand");
   EXPECT_EQ(run("'3+0*x' -d x=0:1 --max-n 64").exit_code, 0);
@@ -91,15 +91,15 @@ TEST_F(TradeCommand, NoPictureOfAnEarlierRunStays) {
   EXPECT_TRUE(std::filesystem::exists(path("out/trade.csv")));
 }
 
-TEST_F(TradeCommand, BatchesAgainstOneByOne) {
-  const Ran r = run(std::string("--plugin '") + PLUGIN_DIR + "/integrands.so' Batch --error 0.1 --max-n 64");
+TEST_F(TradeCommand, ComparesBatchesWithSingleCalls) {
+  const ProcessResult r = run(std::string("--plugin '") + PLUGIN_DIR + "/integrands.so' Batch --error 0.1 --max-n 64");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"way\": \"sobol (one by one)\""));
 }
 
-TEST_F(TradeCommand, AScene) {
+TEST_F(TradeCommand, Scene_ListsMethodsAndBiases) {
   const std::string cbox = MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --samplers sobol --strategies ";
-  const Ran r = run(cbox + "light,mis --max-spp 32 --cost rays --error 0.5,1e-6 --report '" + path("page") + "'");
+  const ProcessResult r = run(cbox + "light,mis --max-spp 32 --cost rays --error 0.5,1e-6 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 1) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("cbox: 11 ways, millions of rays"), HasSubstr("  light sobol: bias "),
                               HasSubstr("  error 0.5: "), HasSubstr(" times faster than plain Monte Carlo\n"),
@@ -122,8 +122,8 @@ TEST_F(TradeCommand, AScene) {
     expect_refused(cbox + "mis" + of_integrals, "--memory and --max-n are not for a scene (.xml)");
 }
 
-TEST_F(TradeCommand, CtrlCTellsWhatIsKnownOfAScene) {
-  const Ran r =
+TEST_F(TradeCommand, CtrlC_OfAScenePrintsResultSoFar) {
+  const ProcessResult r =
       support::interrupt_carlo("trade " MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 4x4 --samplers sobol "
                                "--strategies mis --max-spp 1048576 --error 2 -o '" +
                                    path("out") + "'",
@@ -134,23 +134,23 @@ TEST_F(TradeCommand, CtrlCTellsWhatIsKnownOfAScene) {
   EXPECT_THAT(mc::read_file(path("out/trade.json")), HasSubstr("\"interrupted\": true"));
 }
 
-TEST_F(TradeCommand, OfASceneOnlyWhatFindsItsLights) {
+TEST_F(TradeCommand, Scene_ExcludesStrategiesThatMissLights) {
   const std::string hard = MC_SOURCE_DIR "/librender/scenes/hard-shadows.xml --size 4x3 --samplers sobol --max-spp 32 ";
-  const Ran r = run(hard + "--cost rays --error 0.5");
+  const ProcessResult r = run(hard + "--cost rays --error 0.5");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   // nee and mis; even, adaptive, both with tiles. Chance meets no point light: there is no plain Monte Carlo.
   EXPECT_THAT(r.output, AllOf(HasSubstr("hard-shadows: 8 ways"), Not(HasSubstr("plain Monte Carlo"))));
   expect_refused(hard + "--strategies mixture", "mixture");
 }
 
-TEST_F(TradeCommand, OfWhatASceneShows) {
+TEST_F(TradeCommand, Scene_OfAovs) {
   // Without any light: in the dark if it were not ambient occlusion.
-  const Ran r = run(MC_SOURCE_DIR "/librender/scenes/ambient-occlusion.xml --size 4x3 --samplers sobol --max-spp 32 "
+  const ProcessResult r = run(MC_SOURCE_DIR "/librender/scenes/ambient-occlusion.xml --size 4x3 --samplers sobol --max-spp 32 "
                                   "--strategies mis --cost rays --error 0.5");
   EXPECT_EQ(r.exit_code, 0) << r.output;
 }
 
-TEST_F(TradeCommand, BadInputIsOneLine) {
+TEST_F(TradeCommand, BadInput_IsReportedInOneLine) {
   expect_refused("", "trade: name one integrand");
   expect_refused("a.xml b.xml", "'a.xml' stands among others: scenes are measured one at a time; give it alone");
   expect_refused("'3+2' -d x=0:1", "'3+2' uses none of x: a constant has no error to measure; put a variable into it");

@@ -14,32 +14,32 @@
 
 namespace {
 
-using carlo::ValidateOptions;
+using carlo::ValidateCommandOptions;
 using support::Output, support::refusal, support::run;
 using testing::HasSubstr;
 
-ValidateOptions few(std::vector<std::string> names) {
-  ValidateOptions o;
+ValidateCommandOptions few(std::vector<std::string> names) {
+  ValidateCommandOptions o;
   o.names = std::move(names);
   o.samples = 5000;
   return o;
 }
 
-TEST(Validate, ANameIsAllItsCases) {
+TEST(Validate, Name_SelectsAllItsCases) {
   const Output out = run(few({"CosineHemisphere", "Linear(a=0, b=1)"}));
   EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
   EXPECT_THAT(out.text, testing::AllOf(HasSubstr("4 of 4 cases passed"), HasSubstr("float   pass"),
                                        HasSubstr("double  pass"), HasSubstr("Linear(a=0, b=1)")));
 }
 
-TEST(Validate, OneScalar) {
-  ValidateOptions o = few({"CosineHemisphere"});
+TEST(Validate, Scalar_SelectsOneType) {
+  ValidateCommandOptions o = few({"CosineHemisphere"});
   o.scalar = "float";
   EXPECT_THAT(run(o).text, HasSubstr("1 of 1 cases passed"));
 }
 
 TEST(Validate, ListDescribesEveryDistribution) {
-  ValidateOptions o;
+  ValidateCommandOptions o;
   o.list = true;
   const std::string text = run(o).text;
   for (const carlo::Case& c : carlo::catalogue()) {
@@ -52,7 +52,7 @@ TEST(Validate, ListDescribesEveryDistribution) {
 }
 
 TEST(Validate, ListOfANameShowsItsCases) {
-  ValidateOptions o;
+  ValidateCommandOptions o;
   o.list = true;
   o.names = {"Linear"};
   const std::string text = run(o).text;
@@ -61,7 +61,7 @@ TEST(Validate, ListOfANameShowsItsCases) {
 }
 
 TEST(Validate, ResultsDoNotDependOnThreads) {
-  ValidateOptions one = few({"UniformDisk"}), two = one;
+  ValidateCommandOptions one = few({"UniformDisk"}), two = one;
   one.threads = 1;
   two.threads = 2;
   const std::filesystem::path folder = testing::TempDir();
@@ -79,7 +79,7 @@ TEST(Validate, ResultsDoNotDependOnThreads) {
 }
 
 TEST(Validate, JunitIsWellFormed) {
-  ValidateOptions o = few({"UniformDisk"});
+  ValidateCommandOptions o = few({"UniformDisk"});
   o.junit = (std::filesystem::path(testing::TempDir()) / "junit.xml").string();
   run(o);
   EXPECT_THAT(mc::read_file(o.junit),
@@ -90,20 +90,20 @@ TEST(Validate, JunitIsWellFormed) {
 }
 
 // A thousand outcomes and as many samples: a density may be off by any factor.
-TEST(Validate, ErrorsAboveAllAreNotCounted) {
-  ValidateOptions o = few({"TableDist1D(outcomes, n=1000)"});
+TEST(Validate, DetectableErrorAbove100Percent_IsCapped) {
+  ValidateCommandOptions o = few({"TableDist1D(outcomes, n=1000)"});
   o.samples = 1000;
   EXPECT_THAT(run(o).text, testing::AllOf(HasSubstr(" >100 % "), testing::Not(HasSubstr("e+0"))));
 }
 
-TEST(Validate, HelpExplainsItsColumns) {
+TEST(Validate, HelpExplainsTheColumns) {
   EXPECT_THAT(support::run_carlo("validate --help").output,
               testing::AllOf(HasSubstr("\n  cell  "), HasSubstr("\n  detects  "), HasSubstr("\n  in a cell  "),
                              HasSubstr("\"detects 3.8 %, in a cell 61 %\"")));
 }
 
-TEST(Validate, DetectChoosesTheSamples) {
-  ValidateOptions o = few({"UniformDisk"});
+TEST(Validate, Detect_ChoosesTheSampleCount) {
+  ValidateCommandOptions o = few({"UniformDisk"});
   o.detect = 0.05;
   o.scalar = "double";
   const Output out = run(o);
@@ -111,11 +111,11 @@ TEST(Validate, DetectChoosesTheSamples) {
   EXPECT_THAT(out.text, HasSubstr("to detect 5 %"));
 }
 
-TEST(Validate, BadInputIsOneLine) {
+TEST(Validate, BadInput_IsReportedInOneLine) {
   EXPECT_THAT(refusal(few({"CosineHemispher"})),
               HasSubstr("unknown distribution 'CosineHemispher'; did you mean 'CosineHemisphere'?"));
   EXPECT_THAT(refusal(few({})), HasSubstr("name a distribution, or give --all or --list"));
-  ValidateOptions o = few({"UniformDisk"});
+  ValidateCommandOptions o = few({"UniformDisk"});
   o.alpha = 2;
   EXPECT_THAT(refusal(o), HasSubstr("--alpha 2 must lie in (0, 1)"));
   o = few({"UniformDisk"});

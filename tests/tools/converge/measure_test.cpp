@@ -12,56 +12,56 @@
 
 namespace {
 
-using carlo::Experiment, carlo::Measurement;
+using carlo::UnitCubeIntegral, carlo::Measurement;
 
-Experiment ramp(double truth) {
-  Experiment e;
+UnitCubeIntegral ramp(double truth) {
+  UnitCubeIntegral e;
   e.name = e.title = "ramp";
   e.dim = 1;
   e.truth = truth;
   e.smoothness = {carlo::Smoothness::Class::smooth};
-  e.fit_from = 16;
-  e.f = [](Experiment::Unit u) { return u[0]; };
+  e.min_fit_n = 16;
+  e.f = [](UnitCubeIntegral::UnitPoint u) { return u[0]; };
   return e;
 }
 
-std::vector<carlo::Way> ways(std::initializer_list<const char*> names) {
-  std::vector<carlo::Way> all;
-  for (const char* name : names) all.push_back(carlo::way(name));
+std::vector<carlo::SamplingMethod> methods(std::initializer_list<const char*> names) {
+  std::vector<carlo::SamplingMethod> all;
+  for (const char* name : names) all.push_back(carlo::sampling_method(name));
   return all;
 }
 
 // Var = 1 / (12 N) and 1 / (12 N^3). The 95 % intervals of 7 N and 2 ways: fewer than 10 hits of 14 has probability
 // 4e-4.
-TEST(Measure, ErrorsAreTheVariancesOfTheBooks) {
-  const auto list = ways({"random", "stratified"});
+TEST(Measure, ErrorsMatchKnownVariances) {
+  const auto list = methods({"random", "stratified"});
   for (const double truth : {0.5, std::numeric_limits<double>::quiet_NaN()}) {
-    const Measurement m = measure(here(ramp(truth)), list, {.max_n = 1024, .seed = 3});
+    const Measurement m = measure_convergence(in_process_target(ramp(truth)), list, {.max_n = 1024, .seed = 3});
     ASSERT_EQ(m.curves.size(), 2u);
     int hits = 0;
-    for (const carlo::Curve& c : m.curves)
+    for (const carlo::ConvergenceCurve& c : m.curves)
       for (const mc::RmsError& e : c.errors) {
-        const double exact = std::sqrt(1 / (12 * std::pow(e.n, c.way->name == "random" ? 1 : 3)));
+        const double exact = std::sqrt(1 / (12 * std::pow(e.n, c.method->name == "random" ? 1 : 3)));
         hits += e.lo <= exact && exact <= e.hi;
       }
     EXPECT_GE(hits, 10);
-    EXPECT_TRUE(m.curves[0].agrees() && m.curves[1].agrees());
+    EXPECT_TRUE(m.curves[0].agrees_with_theory() && m.curves[1].agrees_with_theory());
     EXPECT_EQ(m.truth_error > 0, std::isnan(truth));
     EXPECT_NEAR(m.truth, 0.5, 6 * m.truth_error);
-    EXPECT_TRUE(m.doubt.empty());
+    EXPECT_TRUE(m.truth_warning.empty());
   }
 }
 
 // x^-.45, whose errors have no fourth moment: what is missing of them is known by the tail. Of 180 bands 85 missed when
 // they were told by the replicates alone, and 23 do.
-TEST(Measure, BandsAllowForAHeavyTail) {
-  Experiment e = ramp(1 / 0.55);
-  e.f = [](Experiment::Unit u) { return std::pow(u[0], -0.45); };
+TEST(Measure, HeavyTail_WidensBands) {
+  UnitCubeIntegral e = ramp(1 / 0.55);
+  e.f = [](UnitCubeIntegral::UnitPoint u) { return std::pow(u[0], -0.45); };
   const double variance = 1 / 0.1 - mc::sqr(1 / 0.55);
   int missed = 0, bands = 0;
-  const auto random = ways({"random"});
+  const auto random = methods({"random"});
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const Measurement m = measure(here(e), random, {.max_n = 4096, .seed = seed});
+    const Measurement m = measure_convergence(in_process_target(e), random, {.max_n = 4096, .seed = seed});
     for (const mc::RmsError& error : m.curves[0].errors) {
       const double exact = std::sqrt(variance / error.n);
       missed += exact < error.lo || error.hi < exact;
@@ -73,68 +73,68 @@ TEST(Measure, BandsAllowForAHeavyTail) {
 }
 
 // Of 24 slopes each may lie twice its 95 % interval away, four deviations: by chance one does in .15 % of runs.
-TEST(Measure, NamedIntegralsFallAsTheirClassesSay) {
-  const auto list = ways({"random", "stratified", "sobol"});
+TEST(Measure, NamedIntegralsConvergeAtTheirTheoreticalRates) {
+  const auto list = methods({"random", "stratified", "sobol"});
   int known = 0;
-  for (const Experiment& e : carlo::experiments())
-    for (const carlo::Curve& c : measure(here(e), list, {.max_n = 1 << 14, .seed = 5}).curves) {
-      if (!c.law || !c.theory) continue;
+  for (const UnitCubeIntegral& e : carlo::textbook_integrals())
+    for (const carlo::ConvergenceCurve& c : measure_convergence(in_process_target(e), list, {.max_n = 1 << 14, .seed = 5}).curves) {
+      if (!c.power_law || !c.theory) continue;
       ++known;
-      const double half = c.law->slope - c.law->lo;
-      EXPECT_TRUE(c.theory->allows(c.law->slope - 2 * half, c.law->slope + 2 * half, c.middle))
-          << e.name << ' ' << c.way->name << ": " << c.law->slope << " +- " << half;
+      const double half = c.power_law->slope - c.power_law->lo;
+      EXPECT_TRUE(c.theory->is_consistent_with(c.power_law->slope - 2 * half, c.power_law->slope + 2 * half, c.fit_center))
+          << e.name << ' ' << c.method->name << ": " << c.power_law->slope << " +- " << half;
     }
   EXPECT_EQ(known, 27);
 }
 
 // 49 shares of 16/49 do not add up to 16.
 TEST(Measure, NIsNotRounded) {
-  const auto list = ways({"random"});
-  const Measurement m = measure(here(ramp(0.5)), list, {.max_n = 64, .replicates = 49});
+  const auto list = methods({"random"});
+  const Measurement m = measure_convergence(in_process_target(ramp(0.5)), list, {.max_n = 64, .replicates = 49});
   ASSERT_EQ(m.curves[0].errors.size(), 3u);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(m.curves[0].errors[static_cast<std::size_t>(i)].n, 16 << i);
-  EXPECT_DOUBLE_EQ(m.curves[0].middle, 32);
+  EXPECT_DOUBLE_EQ(m.curves[0].fit_center, 32);
 }
 
 // The reference is ten times surer than the smallest error.
-TEST(Measure, TheReferenceIsSurerThanWhatIsShown) {
-  const auto list = ways({"random", "sobol"});
-  const Measurement m = measure(here(ramp(std::numeric_limits<double>::quiet_NaN())), list, {.max_n = 256, .seed = 4});
+TEST(Measure, ReferenceIsMoreAccurateThanTheCurves) {
+  const auto list = methods({"random", "sobol"});
+  const Measurement m = measure_convergence(in_process_target(ramp(std::numeric_limits<double>::quiet_NaN())), list, {.max_n = 256, .seed = 4});
   EXPECT_LE(m.truth_error, 0.12 * m.curves[1].errors.back().rms);
   EXPECT_LT(m.curves[1].errors.back().lo, m.curves[1].errors.back().rms);
 }
 
-TEST(Measure, AWrongTruthIsDoubtedAndARightOneIsNot) {
-  const auto list = ways({"random", "stratified", "sobol"});
-  EXPECT_FALSE(measure(here(ramp(0.5001)), list, {.max_n = 1024}).doubt.empty());
+TEST(Measure, OnlyWrongTruthsAreWarnedAbout) {
+  const auto list = methods({"random", "stratified", "sobol"});
+  EXPECT_FALSE(measure_convergence(in_process_target(ramp(0.5001)), list, {.max_n = 1024}).truth_warning.empty());
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
-    EXPECT_EQ(measure(here(ramp(0.5)), list, {.max_n = 256, .replicates = 16, .seed = seed}).doubt, "");
+    EXPECT_EQ(measure_convergence(in_process_target(ramp(0.5)), list, {.max_n = 256, .replicates = 16, .seed = seed}).truth_warning, "");
 }
 
 TEST(Measure, ConstantsAreExact) {
-  Experiment e = ramp(2);
-  e.f = [](Experiment::Unit) { return 2; };
-  const auto list = ways({"random"});
-  const Measurement m = measure(here(e), list, {.max_n = 64});
+  UnitCubeIntegral e = ramp(2);
+  e.f = [](UnitCubeIntegral::UnitPoint) { return 2; };
+  const auto list = methods({"random"});
+  const Measurement m = measure_convergence(in_process_target(e), list, {.max_n = 64});
   EXPECT_TRUE(m.curves[0].exact);
-  EXPECT_FALSE(m.curves[0].law);
+  EXPECT_FALSE(m.curves[0].power_law);
 }
 
 // The same digits in units of any size, whether the truth is known or not: nothing is exact but what rounds.
-TEST(Measure, UnitsChangeNothing) {
-  const auto list = ways({"random", "stratified", "sobol"});
+TEST(Measure, ResultsAreInvariantToScale) {
+  const auto list = methods({"random", "stratified", "sobol"});
   for (const double truth : {0.5, std::numeric_limits<double>::quiet_NaN()}) {
-    const Measurement one = measure(here(ramp(truth)), list, {.max_n = 1024, .seed = 3});
+    const Measurement one = measure_convergence(in_process_target(ramp(truth)), list, {.max_n = 1024, .seed = 3});
     for (const int exponent : {-1000, -400, -43, 300, 1000}) {
-      Experiment e = ramp(std::ldexp(truth, exponent));
-      e.f = [exponent](Experiment::Unit u) { return std::ldexp(u[0], exponent); };
-      const Measurement m = measure(here(e), list, {.max_n = 1024, .seed = 3});
+      UnitCubeIntegral e = ramp(std::ldexp(truth, exponent));
+      e.f = [exponent](UnitCubeIntegral::UnitPoint u) { return std::ldexp(u[0], exponent); };
+      const Measurement m = measure_convergence(in_process_target(e), list, {.max_n = 1024, .seed = 3});
       EXPECT_EQ(m.truth, std::ldexp(one.truth, exponent));
       EXPECT_EQ(m.truth_error, std::ldexp(one.truth_error, exponent));
       for (std::size_t i = 0; i < list.size(); ++i) {
         EXPECT_FALSE(m.curves[i].exact) << exponent << list[i].name;
-        ASSERT_TRUE(m.curves[i].law) << exponent << list[i].name;
-        EXPECT_NEAR(m.curves[i].law->slope, one.curves[i].law->slope, 1e-9);
+        ASSERT_TRUE(m.curves[i].power_law) << exponent << list[i].name;
+        EXPECT_NEAR(m.curves[i].power_law->slope, one.curves[i].power_law->slope, 1e-9);
         EXPECT_EQ(m.curves[i].errors.back().rms, std::ldexp(one.curves[i].errors.back().rms, exponent));
         EXPECT_NEAR(std::ldexp(m.curves[i].errors.back().lo, -exponent), one.curves[i].errors.back().lo, 1e-14);
       }
@@ -142,81 +142,81 @@ TEST(Measure, UnitsChangeNothing) {
   }
 }
 
-TEST(Measure, ASmallTruthThatIsWrongIsDoubted) {
-  const auto list = ways({"random", "stratified", "sobol"});
-  Experiment e = ramp(2.5e-13);
-  e.f = [](Experiment::Unit u) { return 1e-13 * u[0]; };
-  EXPECT_NE(measure(here(e), list, {.max_n = 1024}).doubt, "");
+TEST(Measure, WrongSmallTruth_IsWarnedAbout) {
+  const auto list = methods({"random", "stratified", "sobol"});
+  UnitCubeIntegral e = ramp(2.5e-13);
+  e.f = [](UnitCubeIntegral::UnitPoint u) { return 1e-13 * u[0]; };
+  EXPECT_NE(measure_convergence(in_process_target(e), list, {.max_n = 1024}).truth_warning, "");
   e.truth = 0;
-  EXPECT_NE(measure(here(e), list, {.max_n = 1024}).doubt, "");
+  EXPECT_NE(measure_convergence(in_process_target(e), list, {.max_n = 1024}).truth_warning, "");
 }
 
 // What cancels at every N is exact by the size of what is summed, not by that of the sum.
-TEST(Measure, WhatCancelsIsExactToRounding) {
-  const auto list = ways({"lattice"});
+TEST(Measure, CancellingIntegral_IsExactToRounding) {
+  const auto list = methods({"lattice"});
   for (const double scale : {1e-200, 1.0, 1e200}) {
-    Experiment e = ramp(0);
-    e.f = [scale](Experiment::Unit u) { return scale * std::sin(2 * 3.141592653589793 * u[0]); };
-    EXPECT_TRUE(measure(here(e), list, {.max_n = 256}).curves[0].exact) << scale;
+    UnitCubeIntegral e = ramp(0);
+    e.f = [scale](UnitCubeIntegral::UnitPoint u) { return scale * std::sin(2 * 3.141592653589793 * u[0]); };
+    EXPECT_TRUE(measure_convergence(in_process_target(e), list, {.max_n = 256}).curves[0].exact) << scale;
   }
 }
 
 // The twelfth step is the fifth of the second curve, behind seven of the first: N = 16 to 256.
-TEST(Measure, AnInterruptCostsOnlyTheNThatItFallsOn) {
-  const auto list = ways({"random", "stratified", "sobol"});
+TEST(Measure, Interrupt_LosesOnlyTheCurrentN) {
+  const auto list = methods({"random", "stratified", "sobol"});
   for (const double truth : {0.5, std::numeric_limits<double>::quiet_NaN()}) {
     std::atomic<bool> cancel = false;
     int steps = 0;
     const auto progress = [&](double, const std::string&) { cancel = ++steps == 12; };
     const Measurement m =
-        measure(here(ramp(truth)), list, {.max_n = 1024, .seed = 6, .cancel = &cancel, .progress = progress});
+        measure_convergence(in_process_target(ramp(truth)), list, {.max_n = 1024, .seed = 6, .cancel = &cancel, .progress = progress});
     EXPECT_TRUE(m.interrupted);
     ASSERT_EQ(m.curves.size(), 2u);
-    EXPECT_FALSE(m.curves[0].cut);
-    EXPECT_TRUE(m.curves[1].cut);
+    EXPECT_FALSE(m.curves[0].interrupted);
+    EXPECT_TRUE(m.curves[1].interrupted);
     ASSERT_EQ(m.curves[1].errors.size(), 5u);
     EXPECT_EQ(m.curves[1].errors.back().n, 256);
     EXPECT_NEAR(m.curves[1].errors.back().rms, std::sqrt(1 / (12 * std::pow(256, 3))), 3e-5);
-    EXPECT_EQ(m.doubt, "");
+    EXPECT_EQ(m.truth_warning, "");
   }
 }
 
 // The replicates of the reference, 128, are then of no use: those of the curve stand in.
-TEST(Measure, AnInterruptOfTheReferenceLeavesOneLessSure) {
-  carlo::Target target = carlo::here(ramp(std::numeric_limits<double>::quiet_NaN()));
+TEST(Measure, InterruptedReference_HasLargerError) {
+  carlo::IntegralTarget target = carlo::in_process_target(ramp(std::numeric_limits<double>::quiet_NaN()));
   std::atomic<bool> cancel = false;
-  target.run = [&cancel, e = target.integral](const carlo::Task& task) {
+  target.run = [&cancel, e = target.integral](const carlo::ReplicateTask& task) {
     cancel = task.count == 128;
-    return run_here(e, task);
+    return run_replicates(e, task);
   };
-  const auto list = ways({"stratified"});
-  const Measurement m = measure(target, list, {.max_n = 256, .replicates = 16, .cancel = &cancel});
+  const auto list = methods({"stratified"});
+  const Measurement m = measure_convergence(target, list, {.max_n = 256, .replicates = 16, .cancel = &cancel});
   EXPECT_TRUE(m.interrupted);
   ASSERT_EQ(m.curves.size(), 1u);
-  EXPECT_FALSE(m.curves[0].cut);
+  EXPECT_FALSE(m.curves[0].interrupted);
   EXPECT_NEAR(m.truth, 0.5, 6 * m.truth_error);
   EXPECT_LE(m.truth_error, m.curves[0].errors.back().rms);
 }
 
-TEST(Measure, AnInterruptBeforeAnyTruthLeavesNothing) {
+TEST(Measure, InterruptBeforeReference_HasNoCurves) {
   std::atomic<bool> cancel = false;
   const auto progress = [&](double, const std::string&) { cancel = true; };
-  const auto list = ways({"vegas", "random"});
-  const Measurement m = measure(here(ramp(std::numeric_limits<double>::quiet_NaN())), list,
+  const auto list = methods({"vegas", "random"});
+  const Measurement m = measure_convergence(in_process_target(ramp(std::numeric_limits<double>::quiet_NaN())), list,
                                 {.max_n = 1 << 14, .cancel = &cancel, .progress = progress});
   EXPECT_TRUE(m.interrupted);
   EXPECT_TRUE(m.curves.empty());
 }
 
 // Of 20 seeds 17 name the infinite variance of x^-1/2, by a logarithm alone, all that of x^-.7, and none that of x^-.4.
-TEST(Measure, AnInfiniteVarianceIsNamed) {
-  const auto list = ways({"random"});
+TEST(Measure, InfiniteVariance_IsReported) {
+  const auto list = methods({"random"});
   const auto named = [&](double power) {
     int count = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      Experiment e = ramp(std::numeric_limits<double>::quiet_NaN());
-      e.f = [power](Experiment::Unit u) { return std::pow(u[0], power); };
-      count += measure(here(e), list, {.max_n = 4096, .replicates = 8, .seed = seed}).heavy_tail.has_value();
+      UnitCubeIntegral e = ramp(std::numeric_limits<double>::quiet_NaN());
+      e.f = [power](UnitCubeIntegral::UnitPoint u) { return std::pow(u[0], power); };
+      count += measure_convergence(in_process_target(e), list, {.max_n = 4096, .replicates = 8, .seed = seed}).heavy_tail.has_value();
     }
     return count;
   };
@@ -228,12 +228,12 @@ TEST(Measure, AnInfiniteVarianceIsNamed) {
 
 // A reference of replicates is doubted where one of them holds over half of their variance again and again: of 1/x, not
 // of 1/sqrt(x), whose variance is infinite too but only just, nor of what is smooth.
-TEST(Measure, TheReferenceOfADivergentIntegralIsDoubted) {
-  const auto list = ways({"random", "stratified", "sobol"});
+TEST(Measure, DivergentIntegral_ReferenceIsWarnedAbout) {
+  const auto list = methods({"random", "stratified", "sobol"});
   const auto doubt = [&](double power) {
-    Experiment e = ramp(std::numeric_limits<double>::quiet_NaN());
-    e.f = [power](Experiment::Unit u) { return std::pow(u[0], power); };
-    return measure(here(e), list, {.max_n = 4096, .seed = 5}).doubt;
+    UnitCubeIntegral e = ramp(std::numeric_limits<double>::quiet_NaN());
+    e.f = [power](UnitCubeIntegral::UnitPoint u) { return std::pow(u[0], power); };
+    return measure_convergence(in_process_target(e), list, {.max_n = 4096, .seed = 5}).truth_warning;
   };
   EXPECT_NE(doubt(-1).find("one holds over half of the variance"), std::string::npos) << doubt(-1);
   EXPECT_NE(doubt(-0.9), "");
@@ -243,14 +243,14 @@ TEST(Measure, TheReferenceOfADivergentIntegralIsDoubted) {
 
 // Replicates of a jump that all meet the same number of points say nothing of the truth, however well they agree: the
 // reference is as good as it says for jumps at places where most do.
-TEST(Measure, ReplicatesThatAgreeByChanceFindNoTruth) {
-  const auto list = ways({"random", "stratified", "sobol", "lattice"});
+TEST(Measure, ReplicatesThatAgreeByChance_AreNotTheReference) {
+  const auto list = methods({"random", "stratified", "sobol", "lattice"});
   int off = 0;
   for (const double at : {0.5003, 0.50003, 0.2502, 0.12505, 0.7499})
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
-      Experiment e = ramp(std::numeric_limits<double>::quiet_NaN());
-      e.f = [at](Experiment::Unit u) { return u[0] < at ? 1.0 : 0.0; };
-      const Measurement m = measure(here(e), list, {.max_n = 16384, .error_goal = 1e-4, .seed = seed});
+      UnitCubeIntegral e = ramp(std::numeric_limits<double>::quiet_NaN());
+      e.f = [at](UnitCubeIntegral::UnitPoint u) { return u[0] < at ? 1.0 : 0.0; };
+      const Measurement m = measure_convergence(in_process_target(e), list, {.max_n = 16384, .error_goal = 1e-4, .seed = seed});
       EXPECT_NEAR(m.truth, at, 1e-5) << at << " " << seed;
       off += std::abs(m.truth - at) > 3 * m.truth_error;
     }
@@ -259,14 +259,14 @@ TEST(Measure, ReplicatesThatAgreeByChanceFindNoTruth) {
 
 // Stratified and Sobol' points know a jump at 1/2 exactly, and the reference does not: it is of random ones, the only
 // ones that ever differ.
-TEST(Measure, AnErrorBelowThatOfTheReferenceIsABound) {
-  const auto list = ways({"random", "stratified", "sobol"});
-  Experiment e = ramp(std::numeric_limits<double>::quiet_NaN());
-  e.f = [](Experiment::Unit u) { return u[0] < 0.5 ? 1.0 : 0.0; };
-  const Measurement m = measure(here(e), list, {.max_n = 1024});
-  EXPECT_TRUE(m.curves[0].law && m.curves[0].is_drawn());
+TEST(Measure, ErrorBelowReferenceError_IsAnUpperBound) {
+  const auto list = methods({"random", "stratified", "sobol"});
+  UnitCubeIntegral e = ramp(std::numeric_limits<double>::quiet_NaN());
+  e.f = [](UnitCubeIntegral::UnitPoint u) { return u[0] < 0.5 ? 1.0 : 0.0; };
+  const Measurement m = measure_convergence(in_process_target(e), list, {.max_n = 1024});
+  EXPECT_TRUE(m.curves[0].power_law && m.curves[0].has_measurable_error());
   for (const std::size_t i : {1u, 2u}) {
-    EXPECT_FALSE(m.curves[i].law || m.curves[i].exact || m.curves[i].is_drawn());
+    EXPECT_FALSE(m.curves[i].power_law || m.curves[i].exact || m.curves[i].has_measurable_error());
     for (const mc::RmsError& error : m.curves[i].errors) {
       EXPECT_TRUE(error.is_bound);
       EXPECT_EQ(error.lo, 0);
@@ -279,7 +279,7 @@ TEST(Measure, AnErrorBelowThatOfTheReferenceIsABound) {
 // x^-.15 by stratified points, whose errors are those of the cell at 0, of kurtosis 30: a set of them shows little
 // of its tail. Of 420 bands of 95 %, whose neighbours share what they know, 385 hold; by the kurtosis of each set alone
 // 320 did.
-TEST(Measure, BandsHoldErrorsOfALongTail) {
+TEST(Measure, BandsCoverErrorsOfHeavyTails) {
   constexpr double a = 0.15;
   const auto moment = [](double from, double to, double power) {
     return (std::pow(to, 1 - power) - std::pow(from, 1 - power)) / (1 - power);
@@ -290,12 +290,12 @@ TEST(Measure, BandsHoldErrorsOfALongTail) {
       variance += moment(i / n, (i + 1) / n, 2 * a) / n - mc::sqr(moment(i / n, (i + 1) / n, a));
     return std::sqrt(variance);
   };
-  Experiment e = ramp(1 / (1 - a));
-  e.f = [](Experiment::Unit u) { return std::pow(std::max(u[0], 1e-300), -a); };
-  const auto list = ways({"stratified"});
+  UnitCubeIntegral e = ramp(1 / (1 - a));
+  e.f = [](UnitCubeIntegral::UnitPoint u) { return std::pow(std::max(u[0], 1e-300), -a); };
+  const auto list = methods({"stratified"});
   int hold = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    const Measurement m = measure(here(e), list, {.max_n = 1024, .seed = seed});
+    const Measurement m = measure_convergence(in_process_target(e), list, {.max_n = 1024, .seed = seed});
     for (const mc::RmsError& error : m.curves[0].errors) {
       hold += error.lo <= rms(error.n) && rms(error.n) <= error.hi;
       ++all;
@@ -306,12 +306,12 @@ TEST(Measure, BandsHoldErrorsOfALongTail) {
 }
 
 // Few replicates of what is harmless: one of eight that holds half of the variance is nothing to speak of.
-TEST(Measure, FewReplicatesRaiseNoFalseAlarm) {
-  const auto list = ways({"random"});
-  Experiment e = ramp(std::numeric_limits<double>::quiet_NaN());
-  e.f = [](Experiment::Unit u) { return std::exp(2 * u[0]); };
+TEST(Measure, FewReplicates_GiveNoWarning) {
+  const auto list = methods({"random"});
+  UnitCubeIntegral e = ramp(std::numeric_limits<double>::quiet_NaN());
+  e.f = [](UnitCubeIntegral::UnitPoint u) { return std::exp(2 * u[0]); };
   for (std::uint64_t seed = 1; seed <= 100; ++seed)
-    EXPECT_EQ(measure(here(e), list, {.max_n = 1024, .replicates = 8, .seed = seed}).doubt, "") << seed;
+    EXPECT_EQ(measure_convergence(in_process_target(e), list, {.max_n = 1024, .replicates = 8, .seed = seed}).truth_warning, "") << seed;
 }
 
 } // namespace

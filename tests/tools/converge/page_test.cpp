@@ -20,56 +20,56 @@ using testing::Not;
 
 mc::RmsError error(double n, double rms, double seconds) { return {n, rms, 0.9 * rms, 1.1 * rms, seconds}; }
 
-Way named(const char* name) {
-  Way way;
-  way.name = name;
-  return way;
+SamplingMethod named(const char* name) {
+  SamplingMethod method;
+  method.name = name;
+  return method;
 }
 
 /// Two ways to render a scene of 4x3 pixels, the second a biased one.
 struct PictureExample {
-  Target target;
-  Pictures pictures;
-  Answers answers;
+  IntegralTarget target;
+  PictureMeasurement pictures;
+  TradeResults trade_results;
 
   PictureExample() {
     target.integral = {"a <room>", "a <room>", "rooms/a.xml", 0, 0, {}, 0, {}};
-    for (const char* name : {"mis independent", "light sobol"}) pictures.ways.push_back(named(name));
+    for (const char* name : {"mis independent", "light sobol"}) pictures.methods.push_back(named(name));
     Measurement& m = pictures.measurement;
     m.cost = ray_cost;
-    for (const Way& w : pictures.ways) {
-      Curve c;
-      c.way = &w;
+    for (const SamplingMethod& w : pictures.methods) {
+      ConvergenceCurve c;
+      c.method = &w;
       c.errors = {error(4, 0.2, 0.01), error(16, 0.1, 0.04), error(64, 0.05, 0.16)};
       m.curves.push_back(c);
       pictures.pictures.emplace_back(4, 3);
     }
-    m.curves[0].law = mc::PowerLaw{.slope = -0.5, .lo = -0.52, .hi = -0.48};
-    m.curves[0].theory = Rate{0.5, 0, "independent samples"};
+    m.curves[0].power_law = mc::PowerLaw{.slope = -0.5, .lo = -0.52, .hi = -0.48};
+    m.curves[0].theory = ConvergenceRate{0.5, 0, "independent samples"};
     pictures.biases = {{{0, 0, 0.01}, 0.05, 64, {}},
-                       {{0.3, 0.29, 0.31}, 0.02, 64, Ranged{0.45, 0.4, mc::infinity<double>}}};
+                       {{0.3, 0.29, 0.31}, 0.02, 64, IntervalEstimate{0.45, 0.4, mc::infinity<double>}}};
     pictures.reference = render::Image(4, 3);
     pictures.reference_spp = 6400;
     pictures.reference_error = 0.004;
-    const Offer cheap{&m.curves[0], 16, {0.04, 0.035, 0.045}, {0.1, 0.09, 0.11}},
+    const TradeCandidate cheap{&m.curves[0], 16, {0.04, 0.035, 0.045}, {0.1, 0.09, 0.11}},
         as_cheap{&m.curves[1], 16, {0.041, 0.036, 0.046}, {0.1, 0.09, 0.11}};
-    answers.errors = {{0.1, {cheap, as_cheap}, {}, {}}, {1e-6, {}, {cheap}, {}}};
-    answers.seconds = {{0.04, {cheap}, Ranged{3, 2, 4}}, {1e-9, {}, {}}};
-    answers.front = {cheap};
+    trade_results.by_error = {{0.1, {cheap, as_cheap}, {}, {}}, {1e-6, {}, {cheap}, {}}};
+    trade_results.by_time = {{0.04, {cheap}, IntervalEstimate{3, 2, 4}}, {1e-9, {}, {}}};
+    trade_results.pareto_front = {cheap};
   }
-  Measured measured() const { return {&target, &pictures.measurement, &pictures, &answers}; }
+  PageEntry measured() const { return {&target, &pictures.measurement, &pictures, &trade_results}; }
 };
 
-struct MeasuredPage : support::ScratchTest {
-  std::string page(const PageHead& head, const std::vector<Measured>& all) const {
-    write_page(path("."), head, all);
+struct ConvergencePage : support::ScratchTest {
+  std::string page(const PageHeader& head, const std::vector<PageEntry>& all) const {
+    write_convergence_page(path("."), head, all);
     return mc::read_file(path("index.html"));
   }
 };
 
-TEST_F(MeasuredPage, OfASceneSaysWhichWayToTakeAndShowsThePictures) {
+TEST_F(ConvergencePage, SceneShowsMethodChoiceAndPictures) {
   const PictureExample e;
-  const std::string page = this->page(trade_head("carlo trade 'a <room>.xml' --cost rays"), {e.measured()});
+  const std::string page = this->page(trade_header("carlo trade 'a <room>.xml' --cost rays"), {e.measured()});
   EXPECT_THAT(page, AllOf(HasSubstr("<title>carlo trade</title>"), HasSubstr("Which way to take"),
                           HasSubstr("4&times;3 pixels; reference of 6400 samples per pixel with an error of 0.004")));
   EXPECT_THAT(page, AllOf(HasSubstr("0.04 <small>[0.035, 0.045]</small>"),
@@ -87,37 +87,37 @@ TEST_F(MeasuredPage, OfASceneSaysWhichWayToTakeAndShowsThePictures) {
   for (const char* loaded : {"http", "<script", "@import", "url("}) EXPECT_THAT(page, Not(HasSubstr(loaded)));
 }
 
-TEST_F(MeasuredPage, OfIntegralsHasNoPicturesAndNoBias) {
-  Target target;
+TEST_F(ConvergencePage, IntegralsShowNoPicturesAndNoBias) {
+  IntegralTarget target;
   target.integral = {"pi", "Area of the disk", "a book", 2, 3.14159, {}, 0, {}};
-  const Way way = named("random");
+  const SamplingMethod method = named("random");
   Measurement m;
-  Curve c;
-  c.way = &way;
+  ConvergenceCurve c;
+  c.method = &method;
   c.errors = {error(64, 0.2, 1e-6), error(65536, 2e-3, 1e-3), error(1 << 20, 5e-4, 2e-2)};
   m.curves = {c};
   m.truth = 3.14159;
-  const std::string page = this->page(converge_head("carlo converge pi"), {{&target, &m}});
+  const std::string page = this->page(converge_header("carlo converge pi"), {{&target, &m}});
   EXPECT_THAT(page, AllOf(HasSubstr("a book; 2 dimensions; truth 3.14159"), HasSubstr("<th>sampler</th>"),
                           HasSubstr("The CPU seconds are those of one estimate."), Not(HasSubstr("bias")),
                           Not(HasSubstr("<figure")), Not(HasSubstr("class=\"best\""))));
   EXPECT_THAT(page, HasSubstr("10<tspan dy=\"-5\" font-size=\"8\">-6</tspan>"));
   m.curves[0].exact = true; // nothing to draw
-  EXPECT_THAT(this->page(converge_head("carlo converge pi"), {{&target, &m}}),
+  EXPECT_THAT(this->page(converge_header("carlo converge pi"), {{&target, &m}}),
               AllOf(Not(HasSubstr("<svg")), HasSubstr("<td>exact</td>")));
 }
 
 // 1, 2 and 5 stand on an axis that spans a decade or two.
-TEST_F(MeasuredPage, ShortAxesHaveTicksWithinADecade) {
+TEST_F(ConvergencePage, ShortAxesHaveTicksWithinADecade) {
   const PictureExample e;
-  const std::string page = this->page(converge_head("carlo converge a.xml"), {e.measured()});
+  const std::string page = this->page(converge_header("carlo converge a.xml"), {e.measured()});
   for (const char* tick : {">0.05</text>", ">0.1</text>", ">0.2</text>", ">5</text>", ">10</text>", ">50</text>"})
     EXPECT_THAT(page, HasSubstr(tick));
 }
 
-TEST_F(MeasuredPage, NothingOverflowsOnAPhone) {
+TEST_F(ConvergencePage, FitsAPhone) {
   const PictureExample e;
-  page(trade_head(std::string(200, 'x')), {e.measured()});
+  page(trade_header(std::string(200, 'x')), {e.measured()});
   support::expect_fits_a_phone(path("index.html"));
 }
 

@@ -9,12 +9,12 @@
 
 namespace {
 
-using carlo::Curve, carlo::Measurement, carlo::Offer, carlo::Ranged;
+using carlo::ConvergenceCurve, carlo::Measurement, carlo::TradeCandidate, carlo::IntervalEstimate;
 
 // RMS = c N^-e with a band of 10 %, N = 16 to 4096.
-Curve power_law(const char* name, double c, double e) {
-  Curve curve;
-  curve.way = &carlo::way(name);
+ConvergenceCurve power_law(const char* name, double c, double e) {
+  ConvergenceCurve curve;
+  curve.method = &carlo::sampling_method(name);
   for (double n = 16; n <= 4096; n *= 2) {
     const double rms = c * std::pow(n, -e);
     curve.errors.push_back({n, rms, 0.9 * rms, 1.1 * rms, 1e-8 * n});
@@ -23,8 +23,8 @@ Curve power_law(const char* name, double c, double e) {
 }
 
 // 10 ns for each evaluation, or 40 of a lattice; known to 5 %.
-Ranged clock(const Curve& c, double) {
-  const double t = c.way->name == "lattice" ? 40e-9 : 10e-9;
+IntervalEstimate clock(const ConvergenceCurve& c, double) {
+  const double t = c.method->name == "lattice" ? 40e-9 : 10e-9;
   return {t, 0.95 * t, 1.05 * t};
 }
 
@@ -39,55 +39,55 @@ const Measurement& measured() {
   return all;
 }
 
-TEST(Trade, EvaluationsAreWhereTheCurveComesBelow) {
-  const Curve c = power_law("sobol", 1, 1);
-  const auto n = evaluations_for(c, 1e-3);
+TEST(Trade, EvaluationsToReachIsTheCrossingOfTheCurve) {
+  const ConvergenceCurve c = power_law("sobol", 1, 1);
+  const auto n = evaluations_to_reach(c, 1e-3);
   ASSERT_TRUE(n);
   EXPECT_NEAR(n->value, 1000, 1e-6);
   EXPECT_NEAR(n->lo, 900, 1e-6);
   EXPECT_NEAR(n->hi, 1100, 1e-6);
-  EXPECT_FALSE(evaluations_for(c, 1e-4));
-  EXPECT_EQ(evaluations_for(c, 1)->value, 16) << "it cannot take fewer";
+  EXPECT_FALSE(evaluations_to_reach(c, 1e-4));
+  EXPECT_EQ(evaluations_to_reach(c, 1)->value, 16) << "it cannot take fewer";
   // A dip that does not last is no arrival.
-  Curve dips = c;
+  ConvergenceCurve dips = c;
   dips.errors[2].rms = 1e-9;
-  EXPECT_NEAR(evaluations_for(dips, 1e-3)->value, 1000, 1e-6);
+  EXPECT_NEAR(evaluations_to_reach(dips, 1e-3)->value, 1000, 1e-6);
   // The upper edge that never comes so low goes on as slowly as plain Monte Carlo.
-  const auto last = evaluations_for(c, 1.05 / 4096);
+  const auto last = evaluations_to_reach(c, 1.05 / 4096);
   EXPECT_GE(last->hi, 4096);
   EXPECT_LE(last->lo, last->value);
 }
 
 // Whose lower edge comes so low may have reached it; what else it takes is counted as for plain Monte Carlo.
-TEST(Trade, AWayThatMayHaveReachedAnErrorIsOffered) {
-  const Curve c = power_law("sobol", 1, 1);
-  const auto n = evaluations_for(c, 0.95 / 4096);
+TEST(Trade, MethodWhoseBandReachesTheError_IsACandidate) {
+  const ConvergenceCurve c = power_law("sobol", 1, 1);
+  const auto n = evaluations_to_reach(c, 0.95 / 4096);
   ASSERT_TRUE(n);
   EXPECT_NEAR(n->value, 4096 / (0.95 * 0.95), 1);
   EXPECT_LE(n->lo, 4096);
 }
 
 // One that is known badly may be far below its figure, but its lower edge alone reaches nothing.
-TEST(Trade, ABandThatIsWideReachesNotEverything) {
-  Curve c = power_law("sobol", 1, 1);
+TEST(Trade, WideBand_DoesNotReachEveryError) {
+  ConvergenceCurve c = power_law("sobol", 1, 1);
   for (mc::RmsError& e : c.errors) e.lo = 0;
-  EXPECT_FALSE(evaluations_for(c, 0.49 / 4096));
-  EXPECT_TRUE(evaluations_for(c, 0.51 / 4096));
+  EXPECT_FALSE(evaluations_to_reach(c, 0.49 / 4096));
+  EXPECT_TRUE(evaluations_to_reach(c, 0.51 / 4096));
 }
 
-TEST(Trade, AnExactWayIsTheBestAlone) {
+TEST(Trade, ExactMethod_IsTheOnlyBest) {
   Measurement m;
   m.curves = {power_law("random", 1, 0.5), power_law("sobol", 1, 1)};
   for (mc::RmsError& e : m.curves[1].errors) e.rms = e.lo = e.hi = 0;
-  const carlo::ForSeconds f = offers_for_seconds(m, 1e-5, clock);
-  ASSERT_EQ(f.offers.size(), 2u);
-  EXPECT_EQ(label(*f.offers[0].curve), "sobol");
-  EXPECT_EQ(as_good(f.offers, &Offer::error), 1u);
+  const carlo::CandidatesForTime f = candidates_for_time(m, 1e-5, clock);
+  ASSERT_EQ(f.candidates.size(), 2u);
+  EXPECT_EQ(curve_label(*f.candidates[0].curve), "sobol");
+  EXPECT_EQ(count_ties(f.candidates, &TradeCandidate::error), 1u);
   EXPECT_FALSE(f.gain);
 }
 
 // A way that is known well stands between two that are not: of these the second ties with the first all the same.
-TEST(Trade, WhatTiesStandsFirst) {
+TEST(Trade, TiesRankFirst) {
   Measurement m;
   m.curves = {power_law("sobol", 1, 1), power_law("lattice", 1.2, 1), power_law("halton", 1.4, 1)};
   for (const std::size_t vague : {0u, 2u})
@@ -96,25 +96,25 @@ TEST(Trade, WhatTiesStandsFirst) {
       e.hi = 1.1 * e.rms;
     }
   for (mc::RmsError& e : m.curves[1].errors) e.lo = 0.99 * e.rms;
-  const carlo::ForError f = offers_for_error(m, 1e-3, [](const Curve&, double) { return Ranged{1e-8, 1e-8, 1e-8}; });
-  ASSERT_EQ(f.offers.size(), 3u);
-  EXPECT_EQ(label(*f.offers[0].curve), "sobol");
-  EXPECT_EQ(label(*f.offers[1].curve), "halton");
-  EXPECT_EQ(label(*f.offers[2].curve), "lattice");
-  EXPECT_EQ(as_good(f.offers, &Offer::seconds), 2u);
+  const carlo::CandidatesForError f = candidates_for_error(m, 1e-3, [](const ConvergenceCurve&, double) { return IntervalEstimate{1e-8, 1e-8, 1e-8}; });
+  ASSERT_EQ(f.candidates.size(), 3u);
+  EXPECT_EQ(curve_label(*f.candidates[0].curve), "sobol");
+  EXPECT_EQ(curve_label(*f.candidates[1].curve), "halton");
+  EXPECT_EQ(curve_label(*f.candidates[2].curve), "lattice");
+  EXPECT_EQ(count_ties(f.candidates, &TradeCandidate::seconds), 2u);
 }
 
-TEST(Trade, TheCheapestForAnError) {
+TEST(Trade, RanksByCostForAnError) {
   const Measurement& m = measured();
-  const carlo::ForError f = offers_for_error(m, 1e-3, clock);
-  ASSERT_EQ(f.offers.size(), 3u);
-  EXPECT_EQ(label(*f.offers[0].curve), "sobol");
-  EXPECT_EQ(label(*f.offers[1].curve), "halton");
-  EXPECT_EQ(label(*f.offers[2].curve), "lattice");
-  EXPECT_NEAR(f.offers[0].seconds.value, 1e-5, 1e-10);
-  EXPECT_NEAR(f.offers[0].seconds.lo, 1e-5 * 0.9 * 0.95, 1e-10);
-  EXPECT_NEAR(f.offers[0].seconds.hi, 1e-5 * 1.1 * 1.05, 1e-10);
-  EXPECT_EQ(as_good(f.offers, &Offer::seconds), 2u) << "2 % apart, known to 15 %";
+  const carlo::CandidatesForError f = candidates_for_error(m, 1e-3, clock);
+  ASSERT_EQ(f.candidates.size(), 3u);
+  EXPECT_EQ(curve_label(*f.candidates[0].curve), "sobol");
+  EXPECT_EQ(curve_label(*f.candidates[1].curve), "halton");
+  EXPECT_EQ(curve_label(*f.candidates[2].curve), "lattice");
+  EXPECT_NEAR(f.candidates[0].seconds.value, 1e-5, 1e-10);
+  EXPECT_NEAR(f.candidates[0].seconds.lo, 1e-5 * 0.9 * 0.95, 1e-10);
+  EXPECT_NEAR(f.candidates[0].seconds.hi, 1e-5 * 1.1 * 1.05, 1e-10);
+  EXPECT_EQ(count_ties(f.candidates, &TradeCandidate::seconds), 2u) << "2 % apart, known to 15 %";
   // Plain Monte Carlo needs 1e6 evaluations, beyond what was measured: 1000 times as many.
   ASSERT_EQ(f.nearest.size(), 1u);
   EXPECT_NEAR(f.gain->value, 1000, 1e-6);
@@ -123,53 +123,53 @@ TEST(Trade, TheCheapestForAnError) {
 }
 
 // Each takes its fewest evaluations, 16: plain Monte Carlo no fewer.
-TEST(Trade, AnErrorThatAllReachAtOnceIsNoGain) {
-  const carlo::ForError f = offers_for_error(measured(), 2, clock);
-  ASSERT_EQ(f.offers.size(), 4u);
+TEST(Trade, ErrorReachedAtTheFewestN_HasNoGain) {
+  const carlo::CandidatesForError f = candidates_for_error(measured(), 2, clock);
+  ASSERT_EQ(f.candidates.size(), 4u);
   EXPECT_NEAR(f.gain->value, 1, 1e-9);
   EXPECT_LE(f.gain->lo, 1);
   EXPECT_GE(f.gain->hi, 1);
 }
 
-TEST(Trade, WhereNoneArrivesTheNearestAreNamed) {
-  const carlo::ForError f = offers_for_error(measured(), 1e-6, clock);
-  EXPECT_TRUE(f.offers.empty());
+TEST(Trade, UnreachedError_ListsTheNearestMethods) {
+  const carlo::CandidatesForError f = candidates_for_error(measured(), 1e-6, clock);
+  EXPECT_TRUE(f.candidates.empty());
   EXPECT_FALSE(f.gain);
   ASSERT_EQ(f.nearest.size(), 4u);
-  EXPECT_EQ(f.nearest.back().curve->way->name, "random");
+  EXPECT_EQ(f.nearest.back().curve->method->name, "random");
 }
 
-TEST(Trade, TheMostAccurateInATime) {
-  const carlo::ForSeconds f = offers_for_seconds(measured(), 1e-5, clock);
-  ASSERT_EQ(f.offers.size(), 4u);
-  EXPECT_EQ(f.offers[0].curve->way->name, "sobol");
-  EXPECT_NEAR(f.offers[0].error.value, 1e-3, 1e-9);
-  EXPECT_LT(f.offers[0].error.lo, 0.9e-3);
-  EXPECT_GT(f.offers[0].error.hi, 1.1e-3);
+TEST(Trade, RanksByErrorForATime) {
+  const carlo::CandidatesForTime f = candidates_for_time(measured(), 1e-5, clock);
+  ASSERT_EQ(f.candidates.size(), 4u);
+  EXPECT_EQ(f.candidates[0].curve->method->name, "sobol");
+  EXPECT_NEAR(f.candidates[0].error.value, 1e-3, 1e-9);
+  EXPECT_LT(f.candidates[0].error.lo, 0.9e-3);
+  EXPECT_GT(f.candidates[0].error.hi, 1.1e-3);
   EXPECT_NEAR(f.gain->value, std::sqrt(1000), 1e-6);
-  EXPECT_TRUE(offers_for_seconds(measured(), 1e-9, clock).offers.empty());
+  EXPECT_TRUE(candidates_for_time(measured(), 1e-9, clock).candidates.empty());
 }
 
 // Beyond N = 4096, 41 us: plain Monte Carlo goes on by its law, the others are at most as bad as there, and which of
 // them is the best is not told from who ended sooner.
-TEST(Trade, WaysThatEndBeforeTheTimeSayAtMostWhatTheyErr) {
-  const carlo::ForSeconds f = offers_for_seconds(measured(), 4096e-6, clock);
-  ASSERT_EQ(f.offers.size(), 4u);
-  EXPECT_EQ(label(*f.offers[0].curve), "sobol");
-  EXPECT_EQ(as_good(f.offers, &Offer::error), 3u);
+TEST(Trade, MethodsLimitedByMaxN_HaveAnUpperErrorBound) {
+  const carlo::CandidatesForTime f = candidates_for_time(measured(), 4096e-6, clock);
+  ASSERT_EQ(f.candidates.size(), 4u);
+  EXPECT_EQ(curve_label(*f.candidates[0].curve), "sobol");
+  EXPECT_EQ(count_ties(f.candidates, &TradeCandidate::error), 3u);
   EXPECT_NEAR(f.gain->value, 4096 / 640.0, 1e-9);
-  for (const Offer& o : f.offers) {
-    const bool is_plain = o.curve->way->name == "random";
-    EXPECT_EQ(o.ended, !is_plain);
+  for (const TradeCandidate& o : f.candidates) {
+    const bool is_plain = o.curve->method->name == "random";
+    EXPECT_EQ(o.is_largest_n, !is_plain);
     EXPECT_NEAR(o.n, is_plain ? 409600 : 4096, 1e-6);
     EXPECT_NEAR(o.error.value, is_plain ? 1 / 640.0 : o.curve->errors.back().rms, 1e-12);
     EXPECT_LT(o.error.lo, is_plain ? o.error.value : 0.05 * o.error.value);
   }
-  for (const Offer& o : offers_for_seconds(measured(), 1e-5, clock).offers) EXPECT_FALSE(o.ended);
+  for (const TradeCandidate& o : candidates_for_time(measured(), 1e-5, clock).candidates) EXPECT_FALSE(o.is_largest_n);
 }
 
 // Of Sobol' points from N = 1024 on it is known only that they err by no more than the reference does.
-TEST(Trade, WhatIsMadeOfABoundIsOne) {
+TEST(Trade, RatiosOfBoundsAreBounds) {
   Measurement m = measured();
   for (mc::RmsError& e : m.curves[1].errors) {
     if (e.n < 1024) continue;
@@ -178,43 +178,43 @@ TEST(Trade, WhatIsMadeOfABoundIsOne) {
     e.is_bound = true;
   }
   m.curves.resize(2);
-  const carlo::ForError f = offers_for_error(m, 1.5e-3, clock);
-  ASSERT_EQ(f.offers.size(), 1u);
-  const Ranged seconds = shown(f.offers[0], &Offer::seconds);
-  EXPECT_TRUE(seconds.is_at_most());
+  const carlo::CandidatesForError f = candidates_for_error(m, 1.5e-3, clock);
+  ASSERT_EQ(f.candidates.size(), 1u);
+  const IntervalEstimate seconds = reported_interval(f.candidates[0], &TradeCandidate::seconds);
+  EXPECT_TRUE(seconds.is_upper_bound());
   EXPECT_GE(seconds.hi, 512 * 10e-9);
-  EXPECT_LE(f.offers[0].seconds.lo, 512 * 10e-9) << "512 points nearly come there, and 513 may";
+  EXPECT_LE(f.candidates[0].seconds.lo, 512 * 10e-9) << "512 points nearly come there, and 513 may";
   ASSERT_TRUE(f.gain);
-  EXPECT_TRUE(f.gain->is_at_least());
+  EXPECT_TRUE(f.gain->is_lower_bound());
   EXPECT_NEAR(f.gain->lo, 0.9 * 0.9 * 0.95 / 1.5e-3 / 1.5e-3 * 10e-9 / seconds.hi, 1e-3 * f.gain->lo);
-  const carlo::ForSeconds s = offers_for_seconds(m, 20e-6, clock);
-  EXPECT_TRUE(s.offers[0].error.is_at_most());
-  EXPECT_EQ(s.offers[0].error.hi, 1e-3);
-  EXPECT_TRUE(s.gain && s.gain->is_at_least());
+  const carlo::CandidatesForTime s = candidates_for_time(m, 20e-6, clock);
+  EXPECT_TRUE(s.candidates[0].error.is_upper_bound());
+  EXPECT_EQ(s.candidates[0].error.hi, 1e-3);
+  EXPECT_TRUE(s.gain && s.gain->is_lower_bound());
   // Between a figure and a bound, too.
-  EXPECT_TRUE(offers_for_seconds(m, 7e-6, clock).offers[0].error.is_at_most());
-  EXPECT_FALSE(offers_for_seconds(m, 4e-6, clock).offers[0].error.is_at_most());
+  EXPECT_TRUE(candidates_for_time(m, 7e-6, clock).candidates[0].error.is_upper_bound());
+  EXPECT_FALSE(candidates_for_time(m, 4e-6, clock).candidates[0].error.is_upper_bound());
   for (mc::RmsError& e : m.curves[0].errors) e.lo = 0;
-  EXPECT_FALSE(offers_for_seconds(m, 20e-6, clock).gain) << "of two bounds there is no ratio";
+  EXPECT_FALSE(candidates_for_time(m, 20e-6, clock).gain) << "of two bounds there is no ratio";
 }
 
 // Seconds of a second run, or of the first where that is interrupted. The clock goes on by the number of the call.
-TEST(Trade, ContendersRunAgainInTurn) {
-  carlo::Target target;
+TEST(Trade, CandidatesAreTimedInterleaved) {
+  carlo::IntegralTarget target;
   std::vector<std::string> order;
   std::atomic<bool> cancel = false;
   std::size_t most = 1000;
-  target.run = [&](const carlo::Task& task) {
-    order.push_back(task.way->name);
+  target.run = [&](const carlo::ReplicateTask& task) {
+    order.push_back(task.method->name);
     cancel = order.size() >= most;
     return carlo::Replicates{{0, 0, 0}, {1024, 1024, 1024}, {1, 1, 1024e-9 * static_cast<double>(order.size())}};
   };
   Measurement m;
   m.curves = {power_law("random", 1, 0.5), power_law("sobol", 1, 1)};
-  for (Curve& c : m.curves)
+  for (ConvergenceCurve& c : m.curves)
     for (const mc::RmsError& e : c.errors) c.replicates.push_back({{}, {}, std::vector<double>(64, 7e-9 * e.n)});
-  const std::vector<Offer> offers = {{&m.curves[0], 1000, {}, {}}, {&m.curves[1], 1000, {}, {}}};
-  const carlo::SecondsOfOne again = taken_in_turn(target, m, offers, 1, &cancel);
+  const std::vector<TradeCandidate> candidates = {{&m.curves[0], 1000, {}, {}}, {&m.curves[1], 1000, {}, {}}};
+  const carlo::EvaluationCost again = interleaved_cost(target, m, candidates, 1, &cancel);
   ASSERT_EQ(order.size(), 18u);
   EXPECT_EQ(order[0], "random");
   EXPECT_EQ(order[1], "sobol");
@@ -223,17 +223,17 @@ TEST(Trade, ContendersRunAgainInTurn) {
   EXPECT_NEAR(again(m.curves[1], 1000).lo, 4e-9, 1e-15);    // of the calls 2, 4, ..., 18
   order.clear();
   most = 5;
-  const carlo::SecondsOfOne before = taken_in_turn(target, m, offers, 1, &cancel);
+  const carlo::EvaluationCost before = interleaved_cost(target, m, candidates, 1, &cancel);
   EXPECT_EQ(order.size(), 5u);
   EXPECT_NEAR(before(m.curves[1], 1000).value, 7e-9, 1e-15);
 }
 
-TEST(Trade, TheFrontHoldsWhatNothingBeats) {
+TEST(Trade, ParetoFrontHasNoDominatedPoints) {
   const Measurement& m = measured();
-  const std::vector<Offer> front = pareto_front(m);
+  const std::vector<TradeCandidate> front = pareto_front(m);
   for (std::size_t i = 0; i < front.size(); ++i) {
     EXPECT_TRUE(i == 0 || front[i].seconds.value > front[i - 1].seconds.value);
-    for (const Curve& c : m.curves)
+    for (const ConvergenceCurve& c : m.curves)
       for (const mc::RmsError& e : c.errors)
         EXPECT_FALSE(e.seconds < front[i].seconds.value && e.rms < front[i].error.value);
   }

@@ -11,14 +11,14 @@
 namespace {
 
 // Five standard errors of the difference of two nearly normal means: one in two million for each of four strategies.
-TEST(GalleryComparison, StrategiesAgreeButForTheOneThatMissesLight) {
+TEST(GalleryComparison, StrategiesAgreeUnlessTheyMissLight) {
   const auto file = render::read_mitsuba(carlo::scene_file(carlo::gallery_scene("book3-cornell-white")));
   render::RenderOptions settings;
   settings.width = settings.height = 600;
   settings.seed = 3;
   const std::vector<carlo::StrategyResult> all = carlo::compare_strategies(file.scene, settings, 16, 64);
   ASSERT_EQ(all.size(), complete_strategies(file.scene).size());
-  const carlo::StrategyResult* best = carlo::best_known(all);
+  const carlo::StrategyResult* best = carlo::most_precise(all);
   ASSERT_TRUE(best);
   for (const carlo::StrategyResult& s : all) {
     const double error = std::hypot(s.mean.std_error, best->mean.std_error),
@@ -29,13 +29,13 @@ TEST(GalleryComparison, StrategiesAgreeButForTheOneThatMissesLight) {
   }
 }
 
-TEST(GalleryComparison, StopsWhenItIsCancelled) {
+TEST(GalleryComparison, StopsWhenCancelled) {
   const auto file = render::read_mitsuba(carlo::scene_file(carlo::gallery_scene("book1-diffuse")));
   const std::atomic<bool> cancel = true;
   render::RenderOptions settings;
   settings.cancel = &cancel;
   EXPECT_TRUE(carlo::compare_strategies(file.scene, settings, 16, 64).empty());
-  EXPECT_EQ(carlo::best_known({}), nullptr);
+  EXPECT_EQ(carlo::most_precise({}), nullptr);
 }
 
 } // namespace

@@ -14,7 +14,7 @@ Image ramp(int width, int height) {
 }
 
 // To the rounding of sums of up to 15 values.
-TEST(ContactSheet, AThumbnailPixelIsTheMeanOfWhatItCovers) {
+TEST(ContactSheet, ThumbnailPixelIsMeanOfCoveredPixels) {
   const Image small = carlo::thumbnail(ramp(150, 70), 10);
   ASSERT_EQ(small.width, 10);
   ASSERT_EQ(small.height, 5);
@@ -29,7 +29,7 @@ TEST(ContactSheet, AThumbnailPixelIsTheMeanOfWhatItCovers) {
 }
 
 // Where edges cut pixels, each part counts where it lies.
-TEST(ContactSheet, AThumbnailKeepsTheMean) {
+TEST(ContactSheet, ThumbnailPreservesMean) {
   for (const int side : {7, 11, 13, 64}) {
     const Image small = carlo::thumbnail(ramp(150, 70), side);
     Spectrum sum = Spectrum::Zero();
@@ -40,7 +40,7 @@ TEST(ContactSheet, AThumbnailKeepsTheMean) {
   }
 }
 
-TEST(ContactSheet, EveryPictureHasItsCell) {
+TEST(ContactSheet, PlacesEachPictureInItsCell) {
   std::vector<Image> pictures;
   for (int i = 0; i < 5; ++i) { // the last is narrow, and the second row lower
     pictures.emplace_back(i == 4 ? 2 : 6, i < 3 ? 6 : 4);

@@ -8,14 +8,14 @@
 
 namespace {
 
-TEST(GalleryFeatures, ASceneHasThoseOfItsFile) {
+TEST(GalleryFeatures, AreReadFromTheSceneFile) {
   const std::vector<carlo::Feature> features = carlo::features_of(carlo::gallery_scene("smallpt"));
   EXPECT_THAT(features, testing::ElementsAre("integrator path", "sensor perspective", "film", "rfilter subpixeltent",
                                              "sampler", "bsdf diffuse", "bsdf conductor", "bsdf dielectric",
                                              "shape sphere", "emitter area", "strategy mis+lt"));
 }
 
-TEST(GalleryFeatures, EachIsRequiredByAScene) {
+TEST(GalleryFeatures, AreEachUsedByAScene) {
   std::set<carlo::Feature> required;
   for (const carlo::GalleryScene& scene : carlo::gallery())
     for (const carlo::Feature& f : carlo::features_of(scene)) required.insert(f);
@@ -23,12 +23,12 @@ TEST(GalleryFeatures, EachIsRequiredByAScene) {
   EXPECT_GT(required.size(), 30u);
 }
 
-TEST(GalleryFeatures, TheTableIsUpToDate) {
+TEST(GalleryFeatures, TableIsUpToDate) {
   EXPECT_EQ(mc::read_file(MC_SOURCE_DIR "/librender/scenes/GALLERY.md"), carlo::gallery_text())
       << "run: carlo gallery --table > librender/scenes/GALLERY.md";
 }
 
-TEST(GalleryFeatures, TheReadmeShowsThem) {
+TEST(GalleryFeatures, AreShownInTheReadme) {
   const std::string table = carlo::features_text();
   EXPECT_NE(mc::read_file(MC_SOURCE_DIR "/README.md").find("\n\n" + table + "\n"), std::string::npos)
       << "README.md must hold:\n"

@@ -24,7 +24,7 @@ std::vector<carlo::RenderedScene> two_scenes() {
   r.seconds = 12;
   r.samples_per_second = 3e6;
   r.relative_error = 0.0123;
-  r.undecided = 0.02;
+  r.outlier_dominated = 0.02;
   r.strategy = "mis";
   r.sampler = "sobol";
   r.features = carlo::features_of(*r.scene);
@@ -39,7 +39,7 @@ std::vector<carlo::RenderedScene> two_scenes() {
 
 struct GalleryPage : support::ScratchTest {};
 
-TEST_F(GalleryPage, SaysWhatWasFoundAndLoadsNothing) {
+TEST_F(GalleryPage, ShowsResultsAndLoadsNothing) {
   const std::string page = carlo::gallery_page(two_scenes(), 3, "carlo gallery '<x>'");
   EXPECT_THAT(page,
               HasSubstr("1024&times;768, 64 samples/pixel, <b>3 Msamples/s</b>, 12.0 s, mean relative standard error "
@@ -55,7 +55,7 @@ TEST_F(GalleryPage, SaysWhatWasFoundAndLoadsNothing) {
   EXPECT_THAT(carlo::gallery_page(two_scenes(), 2, ""), Not(HasSubstr("Interrupted")));
 }
 
-TEST_F(GalleryPage, NothingOverflowsOnAPhone) {
+TEST_F(GalleryPage, FitsAPhone) {
   std::string text = carlo::gallery_page(two_scenes(), 2, std::string(200, 'x'));
   for (std::size_t at = 0; (at = text.find("<details>", at)) != std::string::npos; ++at)
     text.replace(at, 9, "<details open>");

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-TEST(GalleryScenes, EachNameIsThereOnceAndHasItsFile) {
+TEST(GalleryScenes, NamesAreUniqueAndHaveAFile) {
   std::set<std::string_view> names;
   for (const carlo::GalleryScene& scene : carlo::gallery()) {
     EXPECT_TRUE(names.insert(scene.name).second) << scene.name;
@@ -27,7 +27,7 @@ TEST(GalleryScenes, EachNameIsThereOnceAndHasItsFile) {
   }
 }
 
-TEST(GalleryScenes, EachFileBelongsToTheGalleryAndNamesItsSource) {
+TEST(GalleryScenes, EachFileIsListedAndCitesItsSource) {
   std::set<std::string> known;
   for (const carlo::GalleryScene& scene : carlo::gallery())
     known.insert(fs::path(carlo::scene_file(scene)).filename().string());
@@ -40,7 +40,7 @@ TEST(GalleryScenes, EachFileBelongsToTheGalleryAndNamesItsSource) {
 }
 
 // The book's pair: as many samples at random, and in boxes of the pixel, in as many sets as a render keeps.
-TEST(GalleryScenes, TheStratifiedPixelsSayHowTheirSamplesLie) {
+TEST(GalleryScenes, StratifiedPixelsUseTheDocumentedSampler) {
   const carlo::GalleryScene &boxes = carlo::gallery_scene("book3-pixels-stratified"),
                             &chance = carlo::gallery_scene("book3-pixels-random");
   EXPECT_EQ(boxes.spp, chance.spp);
@@ -57,7 +57,7 @@ TEST(GalleryScenes, TheStratifiedPixelsSayHowTheirSamplesLie) {
 }
 
 // The committed table of the ways to take; bench/scene_trades.py measures them.
-TEST(GalleryScenes, EachFileHasItsTrades) {
+TEST(GalleryScenes, EachFileHasTradeData) {
   const std::string trades = mc::read_file(MC_SOURCE_DIR "/notebooks-data/trade/scenes.csv");
   for (const carlo::GalleryScene& scene : carlo::gallery()) {
     const std::string file = fs::path(carlo::scene_file(scene)).stem().string();
@@ -65,7 +65,7 @@ TEST(GalleryScenes, EachFileHasItsTrades) {
   }
 }
 
-TEST(GalleryScenes, AnUnknownNameGivesTheNearest) {
+TEST(GalleryScenes, UnknownNameSuggestsTheNearest) {
   EXPECT_THAT(support::error_of([] { carlo::gallery_scene("book3-cornel-glass"); }),
               HasSubstr("did you mean 'book3-cornell-glass'"));
   EXPECT_THAT(support::error_of([] { carlo::gallery_scene(""); }), HasSubstr("carlo gallery --list"));

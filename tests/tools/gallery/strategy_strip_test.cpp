@@ -30,7 +30,7 @@ render::RenderOptions tiny() {
 }
 
 // Seven strategies, or the two that find a point of light; six pictures each, whose sides and gaps are 4 pixels.
-TEST(StrategyStrip, ARowForEachStrategy) {
+TEST(StrategyStrip, HasARowForEachStrategy) {
   const render::Image all = carlo::strategy_strip(lit_floor(false), tiny(), {});
   EXPECT_EQ(all.width, 6 * 8 + 4);
   EXPECT_EQ(all.height, 7 * 7 + 4);
@@ -43,12 +43,12 @@ TEST(StrategyStrip, ARowForEachStrategy) {
   EXPECT_EQ(carlo::strategy_strip(lit_floor(false), settings, {}).width, 0);
 }
 
-TEST(StrategyStrip, TheTableComparesSamplesAndTime) {
+TEST(StrategyStrip, TableComparesEqualSamplesAndEqualTime) {
   const render::Scene scene = lit_floor(false);
   render::RenderOptions settings = tiny();
   settings.max_depth = 3;
   const auto samples = carlo::compare_strategies(scene, settings, 4, 64);
-  const auto time = carlo::compare_strategies_in(scene, settings, 0.005);
+  const auto time = carlo::compare_strategies_for_time(scene, settings, 0.005);
   ASSERT_EQ(samples.size(), 7u);
   ASSERT_EQ(time.size(), 7u);
   for (const auto& s : samples) EXPECT_EQ(s.spp, 64) << s.name;
@@ -69,13 +69,13 @@ TEST(StrategyStrip, TheTableComparesSamplesAndTime) {
   EXPECT_THAT(support::error_of([&] { carlo::strategy_table(samples, {}); }), HasSubstr("7 with the same samples"));
 }
 
-TEST(StrategyStrip, ShrinksNothingThatIsSmall) {
+TEST(StrategyStrip, SmallPicturesKeepTheirSize) {
   render::RenderOptions settings;
   settings.width = 600;
   settings.height = 300;
-  EXPECT_EQ(carlo::shrunk(settings, 96).width, 96);
-  EXPECT_EQ(carlo::shrunk(settings, 96).height, 48);
-  EXPECT_EQ(carlo::shrunk(settings, 1000).width, 600);
+  EXPECT_EQ(carlo::shrink_to_fit(settings, 96).width, 96);
+  EXPECT_EQ(carlo::shrink_to_fit(settings, 96).height, 48);
+  EXPECT_EQ(carlo::shrink_to_fit(settings, 1000).width, 600);
 }
 
 } // namespace

@@ -12,7 +12,7 @@
 
 namespace {
 
-using carlo::ValidateOptions;
+using carlo::ValidateCommandOptions;
 using support::Output, support::refusal, support::run;
 using testing::HasSubstr;
 
@@ -41,7 +41,7 @@ std::string uniform_ball(mc::Pcg& random, int dim, double inner = 0) {
   }
 }
 
-const std::vector<Expression> expressions = {
+const std::vector<Expression> expression_help = {
     {"line", "x=-inf:inf", "exp(-x*x/2)/sqrt(2*_pi)", "exp(-x*x/2.4)/sqrt(2.4*_pi)",
      [](mc::Pcg& r) { return fmt::format("{:.6g}", normal(r)); }},
     {"half_line", "x=0:inf", "exp(-x)", "2*exp(-2*x)",
@@ -80,7 +80,7 @@ const std::vector<Expression> expressions = {
 struct ByExpression : SamplesFile, testing::WithParamInterface<Expression> {};
 
 TEST_P(ByExpression, CorrectPassesAndWrongFails) {
-  ValidateOptions o = options(samples(GetParam().draw), "");
+  ValidateCommandOptions o = options(samples(GetParam().draw), "");
   o.domain = GetParam().domain;
   o.pdf = GetParam().pdf;
   const Output right = run(o);
@@ -94,13 +94,13 @@ TEST_P(ByExpression, CorrectPassesAndWrongFails) {
   EXPECT_EQ(run(o).code, carlo::exit_failed);
 }
 
-INSTANTIATE_TEST_SUITE_P(SamplesFile, ByExpression, testing::ValuesIn(expressions),
+INSTANTIATE_TEST_SUITE_P(SamplesFile, ByExpression, testing::ValuesIn(expression_help),
                          [](const auto& one) { return std::string(one.param.name); });
 
 TEST_F(SamplesFile, InvalidDomainsAndExpressions_AreOneLineErrors) {
   const std::string file = samples(ramp);
   const auto with = [&](const std::string& domain, const std::string& pdf) {
-    ValidateOptions o = options(file, "");
+    ValidateCommandOptions o = options(file, "");
     o.domain = domain;
     o.pdf = pdf;
     return refusal(o);

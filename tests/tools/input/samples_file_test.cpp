@@ -16,7 +16,7 @@
 
 namespace {
 
-using carlo::ValidateOptions;
+using carlo::ValidateCommandOptions;
 using support::Output, support::refusal, support::run;
 using testing::AllOf, testing::ContainsRegex, testing::HasSubstr;
 
@@ -39,7 +39,7 @@ TEST_F(SamplesFile, DensityVaryingWithinCells_Passes) {
 }
 
 TEST_F(SamplesFile, EverySeed_ShufflesRowsAndPasses) {
-  ValidateOptions o = options(samples(ramp), grid(16, 4, ramp_mean));
+  ValidateCommandOptions o = options(samples(ramp), grid(16, 4, ramp_mean));
   int passed = 0;
   for (o.seed = 1; o.seed <= 20; ++o.seed) passed += run(o).code == carlo::exit_ok;
   // The samples are the same, so that the seeds are not independent; at alpha = 0.01 two failures in twenty would be
@@ -76,7 +76,7 @@ TEST_F(SamplesFile, ThreePercentSlopeError_IsRejected) {
 }
 
 TEST_F(SamplesFile, Integral_MustBeOneUnlessUnnormalized) {
-  ValidateOptions o = options(samples(ramp), grid(16, 1, [](int i, int) { return 1.01 * ramp_mean(i, 0); }));
+  ValidateCommandOptions o = options(samples(ramp), grid(16, 1, [](int i, int) { return 1.01 * ramp_mean(i, 0); }));
   const Output out = run(o);
   EXPECT_EQ(out.code, carlo::exit_failed);
   EXPECT_THAT(out.text,
@@ -88,7 +88,7 @@ TEST_F(SamplesFile, Integral_MustBeOneUnlessUnnormalized) {
 TEST_F(SamplesFile, SampleAtZeroDensity_NamesItsLine) {
   const std::string file = samples(ramp);
   std::ofstream(file, std::ios::app) << "0.01, 0.5\n";
-  ValidateOptions o = options(file, grid(64, 1, [](int i, int) { return i == 0 ? 0.0 : (2.0 * i + 1) / 64; }));
+  ValidateCommandOptions o = options(file, grid(64, 1, [](int i, int) { return i == 0 ? 0.0 : (2.0 * i + 1) / 64; }));
   o.unnormalized = true;
   const Output out = run(o);
   EXPECT_EQ(out.code, carlo::exit_failed);
@@ -105,7 +105,7 @@ TEST_F(SamplesFile, SampleRoundedOverEdge_IsAccepted) {
 
 // Of a density that is infinite at 1 a double holds the last 6e-4 as 1 itself: that says nothing against the sampler.
 TEST_F(SamplesFile, SampleAtInfiniteDensityEdge_IsMeasureZero) {
-  ValidateOptions o;
+  ValidateCommandOptions o;
   o.samples_file = samples([](mc::Pcg& r) { return fmt::format("{:.17g}", 1 - std::pow(r.uniform<double>(), 5)); });
   o.pdf = "0.2*(1-x)^-0.8";
   const auto fails = [](const auto& text) { return testing::FieldsAre(carlo::exit_failed, text); };
@@ -118,7 +118,7 @@ TEST_F(SamplesFile, SampleAtInfiniteDensityEdge_IsMeasureZero) {
 
 TEST_F(SamplesFile, IntervalWithBounds_Passes) {
   const auto draw = [](mc::Pcg& random) { return fmt::format("{}", 4 * std::sqrt(random.uniform<double>()) - 1); };
-  ValidateOptions o = options(samples(draw), grid(16, 1, [](int i, int) { return ramp_mean(i, 0) / 4; }));
+  ValidateCommandOptions o = options(samples(draw), grid(16, 1, [](int i, int) { return ramp_mean(i, 0) / 4; }));
   o.domain = "x=-1:3";
   EXPECT_EQ(run(o).code, carlo::exit_ok);
   o.domain = "x=-1:3.1";
@@ -141,7 +141,7 @@ TEST_F(SamplesFile, LatitudeLongitudeGrid_Passes) {
     const double z = std::cbrt(random.uniform<double>()), phi = 2 * pi * random.uniform<double>();
     return fmt::format("{} {} {}", std::sqrt(1 - z * z) * std::cos(phi), std::sqrt(1 - z * z) * std::sin(phi), z);
   };
-  ValidateOptions o = options(samples(lower), grid(8, 32, cosine_mean));
+  ValidateCommandOptions o = options(samples(lower), grid(8, 32, cosine_mean));
   o.verbose = true;
   EXPECT_THAT(run(o).text, HasSubstr(" theta [deg] in ["));
 }
@@ -150,7 +150,7 @@ TEST_F(SamplesFile, GreyExr_IsGrid) {
   render::Image image(16, 4);
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 16; ++x) image.at(x, y).setConstant(static_cast<render::Float>(ramp_mean(x, y)));
-  ValidateOptions o = options(samples(ramp), path("p.exr"));
+  ValidateCommandOptions o = options(samples(ramp), path("p.exr"));
   render::write_image(o.pdf_file, image);
   EXPECT_EQ(run(o).code, carlo::exit_ok);
   image.at(3, 2)[1] += 1;
@@ -168,7 +168,7 @@ TEST_F(SamplesFile, Breaks_AreAccepted) {
     const double u = 32 * r.uniform<double>(), bin = std::floor(u), x = u - bin;
     return fmt::format("{:.9f}", (2 * bin + (x < 0.2 ? x / 0.2 : 1 + (x - 0.2) / 0.8)) / 64);
   };
-  ValidateOptions o = options(samples(steps), "");
+  ValidateCommandOptions o = options(samples(steps), "");
   o.domain = "x=0:1";
   o.pdf = "64*x - 2*rint(32*x-0.5) < 1 ? 0.4 : 1.6";
   o.breaks = "x=0:1:0.015625";
@@ -183,7 +183,7 @@ TEST_F(SamplesFile, Breaks_AreAccepted) {
 }
 
 TEST_F(SamplesFile, Detect_TooFewSamples_Throws) {
-  ValidateOptions o = options(samples(ramp), grid(16, 1, ramp_mean));
+  ValidateCommandOptions o = options(samples(ramp), grid(16, 1, ramp_mean));
   o.detect = 0.2;
   EXPECT_THAT(run(o).text, HasSubstr("samples per case to detect 20 %"));
   o.detect = 0.001;
@@ -218,13 +218,13 @@ TEST_F(SamplesFile, InvalidFiles_AreOneLineErrors) {
   EXPECT_THAT(refusal(options(file, write("q.csv", "1,2\n3,-1\n"))),
               HasSubstr("q.csv:2: number 2 is -1; a density is >= 0"));
   EXPECT_THAT(refusal(options(file, write("q.csv", "0,0\n0,0\n"))), HasSubstr("q.csv: the density integrates to 0"));
-  ValidateOptions o = options(
+  ValidateCommandOptions o = options(
       samples([](mc::Pcg& random) { return fmt::format("{}", random.uniform<double>()); }, "x.csv"), grid(4, 4, one));
   EXPECT_THAT(refusal(o), HasSubstr("p.csv: 4 rows; the density on an interval is one row"));
 }
 
 TEST_F(SamplesFile, SamplesOutsideGrid_AreOneLineErrors) {
-  ValidateOptions o = options(samples(ramp), grid(4, 4, one));
+  ValidateCommandOptions o = options(samples(ramp), grid(4, 4, one));
   o.domain = "x=0:0.5,y=0:1";
   EXPECT_THAT(refusal(o), testing::MatchesRegex(".*s\\.csv:[0-9]+: \\(0\\.[0-9]+, 0\\.[0-9]+\\) is not covered by the "
                                                 "grid of .*p\\.csv, x in \\[0, 0\\.5\\], y in \\[0, 1\\]; "
@@ -287,7 +287,7 @@ TEST_F(SamplesFile, AnyNumberFormat_CorrectSamplesPass) {
     const auto exponential = [&](mc::Pcg& random) {
       return fmt::format(fmt::runtime(format), -std::log(1 - random.uniform<double>()));
     };
-    ValidateOptions o = options(samples(uniform, "u.csv", 200'000), "");
+    ValidateCommandOptions o = options(samples(uniform, "u.csv", 200'000), "");
     o.pdf = "1";
     o.domain = "x=0:1";
     EXPECT_EQ(run(o).code, carlo::exit_ok) << format << run(o).text;

@@ -28,8 +28,8 @@ struct SamplesFile : support::ScratchTest {
       for (int i = 0; i < width; ++i) text += fmt::format("{:.9g}{}", mean(i, j), i + 1 < width ? "," : "\n");
     return write("p.csv", text);
   }
-  carlo::ValidateOptions options(const std::string& samples, const std::string& pdf) const {
-    carlo::ValidateOptions o;
+  carlo::ValidateCommandOptions options(const std::string& samples, const std::string& pdf) const {
+    carlo::ValidateCommandOptions o;
     o.samples_file = samples;
     o.pdf_file = pdf;
     return o;

@@ -10,9 +10,9 @@ namespace {
 
 // The closed forms: each is met within 5 standard errors of 23 degrees of freedom, alpha = 5e-5 each; and
 // where it cannot be exact, is near enough to tell.
-TEST(HardIntegrals, TruthsAreTrue) {
+TEST(HardIntegrals, StatedValuesAreCorrect) {
   EXPECT_EQ(carlo::hard_integrals().size(), 10u);
-  for (const carlo::Experiment& e : carlo::hard_integrals()) {
+  for (const carlo::UnitCubeIntegral& e : carlo::hard_integrals()) {
     mc::IntegrateOptions o;
     o.rel_error = 0;
     o.max_calls = 1'000'000;

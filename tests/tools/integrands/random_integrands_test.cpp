@@ -17,11 +17,11 @@ const carlo::IntegrandClass& integrand(std::string_view name) {
 }
 
 // The closed forms: plain points agree with each within 6 standard errors, alpha = 2e-9 for each of 200.
-TEST(RandomIntegrands, TruthsAreTrue) {
+TEST(RandomIntegrands, StatedValuesAreCorrect) {
   for (const carlo::IntegrandClass& kind : carlo::integrand_classes()) {
     if (!kind.finite_variance) continue;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      const carlo::Experiment e = kind.draw(seed);
+      const carlo::UnitCubeIntegral e = kind.draw(seed);
       mc::IntegrateOptions o;
       o.method = mc::Method::plain;
       o.rel_error = 0;
@@ -38,11 +38,11 @@ TEST(RandomIntegrands, TruthsAreTrue) {
 // follow a part of one. Of 200 runs of vegas and tree 140 had an error bar when it was told by the values that were met
 // alone, 25 of these off by more than half, and 30 intervals missed. Of 90 bars of 95 % more than 9 miss by chance in
 // 1.5 %; the seeds are fixed.
-TEST(RandomIntegrands, NeedlesAreNotKnownWhereAPartWasMet) {
+TEST(RandomIntegrands, PartlySampledNeedlesHaveNoErrorBar) {
   for (const mc::Method method : {mc::Method::vegas, mc::Method::tree, mc::Method::automatic}) {
     int known = 0, off = 0, missed = 0;
     for (std::uint64_t i = 0; i < 200; ++i) {
-      const carlo::Experiment e = integrand("needle").draw(mc::hash(i, 1));
+      const carlo::UnitCubeIntegral e = integrand("needle").draw(mc::hash(i, 1));
       mc::IntegrateOptions o;
       o.method = method;
       o.rel_error = 0;
@@ -63,13 +63,13 @@ TEST(RandomIntegrands, NeedlesAreNotKnownWhereAPartWasMet) {
 // The promise of the error bar, on integrands whose kind, place and size are random: 93 to 97 % of the 95 % intervals
 // hold the truth. 1100 runs have a binomial deviation of .0066; the bounds are 3 of them beyond, alpha = .3 % for each
 // of 6 bounds; the seeds are fixed.
-TEST(RandomIntegrands, IntervalsCover) {
+TEST(RandomIntegrands, IntervalsHaveNominalCoverage) {
   for (const double rel_error : {0.0, 3e-3})
     for (const mc::Method method : {mc::Method::rqmc, mc::Method::plain}) {
       int runs = 0, covered = 0, silent = 0, finite = 0;
       for (const carlo::IntegrandClass& kind : carlo::integrand_classes())
         for (std::uint64_t i = 0; i < 110 && kind.name != "needle"; ++i) { // which these calls do not meet
-          const carlo::Experiment e = kind.draw(mc::hash(i, 1));
+          const carlo::UnitCubeIntegral e = kind.draw(mc::hash(i, 1));
           mc::IntegrateOptions o;
           o.method = method;
           o.rel_error = rel_error;

@@ -1,7 +1,7 @@
 // The closed forms of the integrands behind the table of rates.
 
 #include <integrands/rate_integrals.h>
-#include <sampling/ways.h>
+#include <sampling/sampling_methods.h>
 
 #include <mc/random/hash.h>
 
@@ -12,13 +12,13 @@
 namespace {
 
 // 24 estimates of 4096 scrambled points: beyond six standard errors by chance once in 1e5 tests, of which these are 25.
-TEST(RateIntegrals, TheTruthsAreTrue) {
+TEST(RateIntegrals, StatedValuesAreCorrect) {
   EXPECT_EQ(carlo::rate_integrals().size(), 25u);
-  for (const carlo::Experiment& e : carlo::rate_integrals()) {
+  for (const carlo::UnitCubeIntegral& e : carlo::rate_integrals()) {
     double sum = 0, squares = 0;
     constexpr int n = 24;
     for (std::uint64_t r = 0; r < n; ++r) {
-      const double x = carlo::way("sobol").estimate(e, 4096, mc::hash(9, r)).value - e.truth;
+      const double x = carlo::sampling_method("sobol").estimate(e, 4096, mc::hash(9, r)).value - e.truth;
       sum += x / n;
       squares += x * x / n;
     }

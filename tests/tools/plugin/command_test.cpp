@@ -14,7 +14,7 @@
 
 namespace {
 
-using carlo::ValidateOptions;
+using carlo::ValidateCommandOptions;
 using support::Output, support::refusal, support::run;
 using testing::AllOf;
 using testing::HasSubstr;
@@ -22,15 +22,15 @@ using testing::HasSubstr;
 const std::string script = MC_SOURCE_DIR "/tests/tools/commands/sampler.py";
 
 struct Command : support::ScratchTest {
-  static ValidateOptions options(const std::string& command, const std::string& domain = "disk") {
-    ValidateOptions o;
+  static ValidateCommandOptions options(const std::string& command, const std::string& domain = "disk") {
+    ValidateCommandOptions o;
     o.sampler_command = command;
     o.domain = domain;
     o.samples = 20'000;
     return o;
   }
   // The script with a piece of it replaced.
-  ValidateOptions changed(const std::string& from, const std::string& to) const {
+  ValidateCommandOptions changed(const std::string& from, const std::string& to) const {
     std::string text = mc::read_file(script);
     const std::size_t at = text.find(from);
     EXPECT_NE(at, std::string::npos) << from;
@@ -70,7 +70,7 @@ TEST_F(Command, EveryApplicableLaw_IsTested) {
   const Output stuck = run(changed("    r, phi = math.sqrt(u[0]), 2 * math.pi * u[1]\n", "    r, phi = 0.5, 0.25\n"));
   EXPECT_THAT(stuck.text, HasSubstr("law: sample depends on u"));
   // A logarithm of 0, accepted where u lies in (0,1).
-  ValidateOptions o = changed("math.sqrt(u[0])", "math.exp(0.5 * math.log(u[0]))");
+  ValidateCommandOptions o = changed("math.sqrt(u[0])", "math.exp(0.5 * math.log(u[0]))");
   EXPECT_THAT(refusal(o), HasSubstr("ended with code 1"));
   o.open_interval = true;
   EXPECT_EQ(run(o).code, carlo::exit_ok);
@@ -84,7 +84,7 @@ TEST_F(Command, BatchAnswers_EqualSingleAnswers) {
 }
 
 TEST_F(Command, OutcomesAndProductDomains_Pass) {
-  ValidateOptions o = changed("def sample(u):\n", "def sample(u):\n    return (float(int(4 * u[0])),)\n");
+  ValidateCommandOptions o = changed("def sample(u):\n", "def sample(u):\n    return (float(int(4 * u[0])),)\n");
   o.domain = "discrete=4";
   EXPECT_EQ(run(o).code, carlo::exit_failed); // 1 / pi each
   o = changed("def sample(u):\n", "def sample(u):\n    return (float(int(math.pi * u[0])),)\n");
@@ -101,7 +101,7 @@ TEST_F(Command, MisbehavingProgram_IsOneLineError) {
               HasSubstr("exit 3: the program ended with code 3 instead of answering 'sample'"));
   EXPECT_THAT(refusal(options("read line; printf 12345678")), HasSubstr("instead of answering 'sample'"));
   EXPECT_THAT(refusal(options("no-such-program-here 2>/dev/null")), HasSubstr("ended with code 127"));
-  ValidateOptions o = options("sleep 1000");
+  ValidateCommandOptions o = options("sleep 1000");
   o.timeout = 2;
   EXPECT_THAT(refusal(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("--timeout")));
   o = options("read line; printf 1234567812345678; sleep 1000", "hemisphere"); // two columns for three
@@ -131,12 +131,12 @@ TEST_F(Command, ChildProcesses_AreEnded) {
 TEST_F(Command, InvalidOptions_AreOneLineErrors) {
   EXPECT_THAT(refusal(options("true", "")), HasSubstr("--command needs the --domain"));
   EXPECT_THAT(refusal(options("true", "dsk")), HasSubstr("did you mean 'disk'"));
-  ValidateOptions o = options("true");
+  ValidateCommandOptions o = options("true");
   o.uniforms = 7;
   EXPECT_THAT(refusal(o), HasSubstr("--uniforms 7; at most 6"));
   o.plugin = "a.so";
   EXPECT_THAT(refusal(o), HasSubstr("give one of --plugin, --command and --samples-file"));
-  ValidateOptions named;
+  ValidateCommandOptions named;
   named.names = {"UniformDisk"};
   named.domain = "disk";
   EXPECT_THAT(refusal(named), HasSubstr("--domain is that of a --command or a --samples-file"));

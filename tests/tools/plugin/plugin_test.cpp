@@ -13,14 +13,14 @@
 
 namespace {
 
-using carlo::ValidateOptions;
+using carlo::ValidateCommandOptions;
 using support::Output, support::refusal, support::run;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-ValidateOptions plugin(const std::string& file, std::vector<std::string> names = {}) {
-  ValidateOptions o;
+ValidateCommandOptions plugin(const std::string& file, std::vector<std::string> names = {}) {
+  ValidateCommandOptions o;
   o.plugin = std::string(PLUGIN_DIR "/") + file + ".so";
   o.names = std::move(names);
   o.samples = 20'000;
@@ -28,8 +28,8 @@ ValidateOptions plugin(const std::string& file, std::vector<std::string> names =
   return o;
 }
 
-ValidateOptions cosine(const std::string& fault) {
-  ValidateOptions o = plugin("samplers", {"Cosine"});
+ValidateCommandOptions cosine(const std::string& fault) {
+  ValidateCommandOptions o = plugin("samplers", {"Cosine"});
   if (!fault.empty()) o.parameters = {fault + "=1"};
   return o;
 }
@@ -44,7 +44,7 @@ TEST(Plugin, CorrectPlugin_PassesOnEveryDomain) {
 
 TEST(Plugin, WrongDensity_IsRejectedOnEveryDomain) {
   for (const char* name : {"Ball", "Annulus", "Plane", "Flight", "Glossy", "Steps"}) {
-    ValidateOptions o = plugin("samplers", {name});
+    ValidateCommandOptions o = plugin("samplers", {name});
     o.parameters = {"wrong=1"};
     EXPECT_EQ(run(o).code, carlo::exit_failed) << name;
   }
@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& wrong) { return std::string(wrong.param.fault); });
 
 TEST(Plugin, RotationByOneDegree_IsRejected) {
-  ValidateOptions o = plugin("samplers", {"Halves"});
+  ValidateCommandOptions o = plugin("samplers", {"Halves"});
   o.samples = 200'000; // 2.5e-3 of the mass lies on the wrong side of the edge
   EXPECT_EQ(run(o).code, carlo::exit_ok);
   o.parameters = {"tilt=1"};
@@ -86,7 +86,7 @@ TEST(Plugin, RotationByOneDegree_IsRejected) {
 }
 
 TEST(Plugin, OutcomeOfProbabilityZero_IsRejected) {
-  ValidateOptions o = plugin("samplers", {"Table"});
+  ValidateCommandOptions o = plugin("samplers", {"Table"});
   o.parameters = {"forgets=1"};
   const Output out = run(o);
   EXPECT_EQ(out.code, carlo::exit_failed);
@@ -94,7 +94,7 @@ TEST(Plugin, OutcomeOfProbabilityZero_IsRejected) {
 }
 
 TEST(Plugin, EachParameterSet_IsCase) {
-  ValidateOptions o = plugin("samplers", {"Box"});
+  ValidateCommandOptions o = plugin("samplers", {"Box"});
   o.parameters = {"power=0", "power=0.5"};
   const Output out = run(o);
   EXPECT_THAT(out.text,
@@ -104,7 +104,7 @@ TEST(Plugin, EachParameterSet_IsCase) {
 }
 
 TEST(Plugin, Report_SurvivesProcessBoundary) {
-  ValidateOptions o = cosine("pdf_high");
+  ValidateCommandOptions o = cosine("pdf_high");
   o.json = testing::TempDir() + "/plugin.json";
   run(o);
   EXPECT_THAT(mc::read_file(o.json), AllOf(HasSubstr("\"name\": \"mass\""), HasSubstr("\"worst\": ["),
@@ -126,7 +126,7 @@ TEST(Plugin, Crash_IsOneLineWithPlace) {
               AllOf(HasSubstr("it ended the process in sample at u = (0."), HasSubstr("exit code 0")));
   EXPECT_THAT(refusal(plugin("throws")),
               AllOf(HasSubstr("it threw in sample at u = ("), HasSubstr("no square root today")));
-  ValidateOptions box = plugin("samplers", {"Box"});
+  ValidateCommandOptions box = plugin("samplers", {"Box"});
   box.parameters = {"power=14"};
   EXPECT_THAT(refusal(box), HasSubstr("it crashed in destroy: Aborted"));
   EXPECT_THAT(refusal(plugin("crash_on_load")), HasSubstr("it crashed in loading: Aborted"));
@@ -134,7 +134,7 @@ TEST(Plugin, Crash_IsOneLineWithPlace) {
 
 // A report that was made is neither lost nor left out of the files because another case crashed.
 TEST(Plugin, Crash_FailsOnlyItsCase) {
-  ValidateOptions o = plugin("samplers", {"Box", "Cosine"});
+  ValidateCommandOptions o = plugin("samplers", {"Box", "Cosine"});
   o.parameters = {"crash=1"};
   o.json = testing::TempDir() + "/crash.json";
   o.junit = testing::TempDir() + "/crash.xml";
@@ -146,13 +146,13 @@ TEST(Plugin, Crash_FailsOnlyItsCase) {
 
 // What another sampler would refuse is not asked of it.
 TEST(Plugin, Parameters_ApplyToNamedCasesOnly) {
-  ValidateOptions o = plugin("samplers", {"Cosine"});
+  ValidateCommandOptions o = plugin("samplers", {"Cosine"});
   o.parameters = {"power=-1000"};
   EXPECT_THAT(refusal(o), AllOf(HasSubstr("no sampler has all the parameters"), Not(HasSubstr("of Box"))));
 }
 
 TEST(Plugin, Hang_EndsAtTimeout) {
-  ValidateOptions o = cosine("hang");
+  ValidateCommandOptions o = cosine("hang");
   o.timeout = 1;
   EXPECT_THAT(refusal(o), AllOf(HasSubstr("it hangs in sample at u = (0."), HasSubstr("no answer in 1 s")));
   o.parameters = {"slow=1"};
@@ -163,7 +163,7 @@ TEST(Plugin, Hang_EndsAtTimeout) {
 }
 
 TEST(Plugin, ExceededLimit_IsOneLineNamingLimit) {
-  ValidateOptions o = plugin("greedy");
+  ValidateCommandOptions o = plugin("greedy");
   o.memory = 1;
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   EXPECT_THAT(refusal(o), AllOf(HasSubstr("greedy.so: it wants more than 1 GiB of memory in sample at u = ("),
@@ -187,7 +187,7 @@ TEST(Plugin, ChildProcesses_AreEnded) {
 }
 
 TEST(Plugin, ParameterSweep_IsEveryCombination) {
-  ValidateOptions o = plugin("samplers", {"Box"});
+  ValidateCommandOptions o = plugin("samplers", {"Box"});
   o.parameters = {"power=0:1:0.5,3", "tilt=0"};
   o.list = true;
   const std::string text = run(o).text;
@@ -196,7 +196,7 @@ TEST(Plugin, ParameterSweep_IsEveryCombination) {
 }
 
 TEST(Plugin, NoCases_WritesNothing) {
-  ValidateOptions o = cosine("crash");
+  ValidateCommandOptions o = cosine("crash");
   o.json = testing::TempDir() + "/nothing.json";
   o.junit = testing::TempDir() + "/nothing.xml";
   mc::write_file(o.json, "old");
@@ -207,7 +207,7 @@ TEST(Plugin, NoCases_WritesNothing) {
 
 TEST(Plugin, UnloadablePlugin_NamesReason) {
   EXPECT_THAT(refusal(plugin("absent")), HasSubstr("absent.so': no such file"));
-  ValidateOptions o = plugin("right");
+  ValidateCommandOptions o = plugin("right");
   o.plugin = testing::TempDir() + "/text.so";
   mc::write_file(o.plugin, "int main() {}\n");
   EXPECT_THAT(refusal(o),
@@ -235,7 +235,7 @@ TEST(Plugin, UndeclaredOutcome_IsRejected) {
 
 TEST(Plugin, InvalidParameters_AreOneLineErrors) {
   const auto with = [](const std::string& set) {
-    ValidateOptions o = plugin("samplers");
+    ValidateCommandOptions o = plugin("samplers");
     o.parameters = {set};
     return refusal(o);
   };
@@ -247,7 +247,7 @@ TEST(Plugin, InvalidParameters_AreOneLineErrors) {
   EXPECT_THAT(with("power=1,tilt=1"), HasSubstr("no sampler has all the parameters"));
   EXPECT_THAT(refusal(plugin("samplers", {"Cosin"})),
               HasSubstr("unknown distribution 'Cosin'; did you mean 'Cosine'?"));
-  ValidateOptions o;
+  ValidateCommandOptions o;
   o.parameters = {"a=1"};
   EXPECT_THAT(refusal(o), HasSubstr("--params sets parameters of a --plugin"));
 }

@@ -6,7 +6,7 @@
 
 namespace {
 
-using carlo::ValidateOptions;
+using carlo::ValidateCommandOptions;
 using support::refusal, support::run;
 using testing::AllOf, testing::AnyOf;
 using testing::HasSubstr;
@@ -15,8 +15,8 @@ const std::string sampler_program = MC_SOURCE_DIR "/tests/tools/commands/sampler
 
 struct Isolated : support::ScratchTest {
   // A program that runs these lines of Python, then the sampler. It may take half a GiB.
-  ValidateOptions after(const std::string& lines) const {
-    ValidateOptions o;
+  ValidateCommandOptions after(const std::string& lines) const {
+    ValidateCommandOptions o;
     o.sampler_command =
         "python3 '" + write("program.py", "import os, time\n" + lines + "exec(open('" + sampler_program + "').read())\n") + "'";
     o.domain = "disk";

@@ -62,7 +62,7 @@ class Family {
   bool is_there_ = false;
 };
 
-TEST(Tree, DescendantsAreThoseOfChildrenToo) {
+TEST(ProcessTree, DescendantsIncludeGrandchildren) {
   const Family family(true);
   ASSERT_TRUE(family.is_there());
   EXPECT_THAT(carlo::children(getpid()), testing::ElementsAre(family.child()));
@@ -74,7 +74,7 @@ TEST(Tree, DescendantsAreThoseOfChildrenToo) {
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST(Tree, SharedMemoryCountsOnce) {
+TEST(ProcessTree, ProportionalBytesCountSharedMemoryOnce) {
   const Family family(true);
   ASSERT_TRUE(family.is_there());
   const std::vector<pid_t> all = carlo::descendants(getpid());
@@ -85,7 +85,7 @@ TEST(Tree, SharedMemoryCountsOnce) {
   EXPECT_LE(carlo::proportional_bytes(all), 0.75 * carlo::resident_bytes(all));
 }
 
-TEST(Tree, MemoryOfEachAddsUp) {
+TEST(ProcessTree, ResidentBytesAreSummedOverProcesses) {
   const Family family(false);
   ASSERT_TRUE(family.is_there());
   const std::vector<pid_t> all = carlo::descendants(getpid());
@@ -94,7 +94,7 @@ TEST(Tree, MemoryOfEachAddsUp) {
 }
 #endif
 
-TEST(Tree, WhatHasEndedHoldsNothing) {
+TEST(ProcessTree, EndedProcessesUseNoMemory) {
   EXPECT_EQ(carlo::resident_bytes({-1}), 0);
   EXPECT_EQ(carlo::proportional_bytes({-1}), 0);
 }

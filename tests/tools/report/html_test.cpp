@@ -4,9 +4,9 @@
 
 namespace {
 
-TEST(Html, ShowsWhatMeansSomethingInHtml) {
-  EXPECT_EQ(carlo::escaped("a < b > \"c\" & d"), "a &lt; b &gt; &quot;c&quot; &amp; d");
-  EXPECT_EQ(carlo::escaped(""), "");
+TEST(Html, EscapesSpecialCharacters) {
+  EXPECT_EQ(carlo::escape_html("a < b > \"c\" & d"), "a &lt; b &gt; &quot;c&quot; &amp; d");
+  EXPECT_EQ(carlo::escape_html(""), "");
 }
 
 } // namespace

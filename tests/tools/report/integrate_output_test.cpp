@@ -18,13 +18,13 @@ const std::string peak = "integrate '1/((1e-2+(x-.4)^2)*(1e-2+(y-.7)^2))' -d x=0
 
 struct IntegrateOutput : support::ScratchTest {
   nlohmann::json run(const std::string& arguments) const {
-    const support::Run r = support::run_carlo(arguments + " --json " + path("r.json"));
+    const support::ProcessResult r = support::run_carlo(arguments + " --json " + path("r.json"));
     EXPECT_EQ(r.exit_code, 0) << r.output;
     return nlohmann::json::parse(mc::read_file(path("r.json")));
   }
 };
 
-TEST_F(IntegrateOutput, SeveralShareTheirCalls) {
+TEST_F(IntegrateOutput, SeveralIntegrandsShareTheirCalls) {
   const nlohmann::json j = run("integrate 'x*y' 'x*y + 1e-3*x' -d x=0:1,y=0:2 --rel-error 1e-3 --method plain");
   ASSERT_EQ(j["outputs"].size(), 2u);
   EXPECT_GT(j["correlation"][0][1], 0.99);
@@ -33,13 +33,13 @@ TEST_F(IntegrateOutput, SeveralShareTheirCalls) {
     EXPECT_NEAR(j["covariance"][i][i].get<double>(), error * error, 1e-12 * error * error);
     EXPECT_EQ(j["correlation"][i][i], 1);
   }
-  const support::Run r = support::run_carlo("integrate genz_c0_2d genz_gaussian_2d --rel-error 1e-2");
+  const support::ProcessResult r = support::run_carlo("integrate genz_c0_2d genz_gaussian_2d --rel-error 1e-2");
   EXPECT_THAT(r.output, testing::AllOf(HasSubstr("Genz: c0 in 2"), HasSubstr("Genz: gaussian in 2"),
                                        HasSubstr("correlations of the errors\n  1.000")));
   EXPECT_THAT(support::run_carlo("integrate genz_c0_2d genz_c0_5d").output, HasSubstr("must be the same"));
 }
 
-TEST_F(IntegrateOutput, RoundsAreTheRun) {
+TEST_F(IntegrateOutput, RoundsSumToTheRun) {
   const nlohmann::json j = run(peak + "--rel-error 1e-5 --method vegas");
   double chi2 = 0;
   std::uint64_t learning = 0;
@@ -54,7 +54,7 @@ TEST_F(IntegrateOutput, RoundsAreTheRun) {
               testing::AllOf(HasSubstr("vegas, learning"), HasSubstr("sum of chi2: ")));
 }
 
-TEST_F(IntegrateOutput, ADensityIsKeptAndReused) {
+TEST_F(IntegrateOutput, DensityIsSavedAndReused) {
   const std::string file = path("density");
   const nlohmann::json first = run(peak + "--rel-error 1e-5 --method vegas --save-density " + file),
                        second = run(peak + "--rel-error 1e-5 --method vegas --seed 2 --load-density " + file);
@@ -66,16 +66,16 @@ TEST_F(IntegrateOutput, ADensityIsKeptAndReused) {
   // Two errors of 23 degrees of freedom: beyond 5 in 5e-5 of the choices of seeds.
   EXPECT_LE(std::abs(difference), 5 * std::hypot(first["std_error"].get<double>(), second["std_error"].get<double>()));
   mc::write_file(path("cut"), mc::read_file(file).substr(0, 1000));
-  const support::Run cut = support::run_carlo(peak + "--load-density " + path("cut"));
+  const support::ProcessResult cut = support::run_carlo(peak + "--load-density " + path("cut"));
   EXPECT_EQ(cut.exit_code, 2);
   EXPECT_THAT(cut.output, HasSubstr("cut: density: the checksum at the end is missing"));
   EXPECT_THAT(support::run_carlo("integrate x -d x=0:1 --load-density " + file).output, HasSubstr("has 2 dimensions"));
-  const support::Run none = support::run_carlo("integrate x -d x=0:1 --method rqmc --save-density " + path("none"));
+  const support::ProcessResult none = support::run_carlo("integrate x -d x=0:1 --method rqmc --save-density " + path("none"));
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_THAT(none.output, testing::AllOf(HasSubstr("95 % in [0.49999"), HasSubstr("nothing was learned by rqmc")));
 }
 
-TEST_F(IntegrateOutput, HistogramsAddUp) {
+TEST_F(IntegrateOutput, HistogramSumsToTheIntegral) {
   for (const char* axis : {"x=10", "y=7", "value=6"}) {
     const nlohmann::json j = run(peak + "--histogram " + axis);
     double sum = 0;
@@ -99,7 +99,7 @@ TEST_F(IntegrateOutput, HistogramsAddUp) {
               HasSubstr("infinite along x"));
 }
 
-TEST_F(IntegrateOutput, QuantilesOfTheExpression) {
+TEST_F(IntegrateOutput, PrintsQuantilesOfTheExpression) {
   const nlohmann::json j = run("integrate 'x*x' -d x=1:3 --quantiles 0.25,0.5");
   ASSERT_EQ(j["quantiles"].size(), 2u);
   for (const nlohmann::json& q : j["quantiles"]) {

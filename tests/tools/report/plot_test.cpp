@@ -20,7 +20,7 @@ struct Plot : support::ScratchTest {
     ScratchTest::SetUp();
     path_ = std::getenv("PATH");
     write("a.csv", "n,error\n1,1\n2,0.5\n4,0.25\n");
-    write("a.gp", carlo::plot_head("a", 300, 200) + "plot \"a.csv\" skip 1 using 1:2 with lines\n");
+    write("a.gp", carlo::plot_header("a", 300, 200) + "plot \"a.csv\" skip 1 using 1:2 with lines\n");
   }
   void TearDown() override {
     setenv("PATH", path_.c_str(), 1);
@@ -40,7 +40,7 @@ struct Plot : support::ScratchTest {
   std::string path_;
 };
 
-TEST_F(Plot, ComesWholeBesideFilesOfTheSameName) {
+TEST_F(Plot, ReplacesOnlyItsOwnFiles) {
   if (!support::has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   write("target", "mine");
   std::filesystem::create_symlink(path("target"), path("a.log"));
@@ -51,22 +51,22 @@ TEST_F(Plot, ComesWholeBesideFilesOfTheSameName) {
   EXPECT_EQ(mc::read_file(path("target")), "mine");
 }
 
-TEST_F(Plot, TheScriptDrawsByHandToo) {
+TEST_F(Plot, ScriptRunsByHand) {
   if (!support::has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
-  const support::Run run =
+  const support::ProcessResult run =
       support::run("cd '" + folder.string() + "' && gnuplot a.gp && gnuplot -e 'kind=\"png\"' a.gp");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_TRUE(std::filesystem::exists(path("a.svg")) && std::filesystem::exists(path("a.png")));
 }
 
-TEST_F(Plot, APictureThatDoesNotFitIsAnError) {
+TEST_F(Plot, FullDisk_IsAnError) {
   if (!support::has_gnuplot()) GTEST_SKIP() << "gnuplot is not installed";
   std::filesystem::create_symlink("/dev/full", path("a.png"));
   EXPECT_THAT(complaint(), AllOf(HasSubstr("a.png"), HasSubstr("No space left on device")));
   EXPECT_TRUE(std::filesystem::is_symlink(path("a.png")));
 }
 
-TEST_F(Plot, APartOfAPictureIsAnErrorAndTheOldOneStays) {
+TEST_F(Plot, PartialPicture_IsAnErrorAndTheOldOneStays) {
   write("a.svg", "old");
   put_for_gnuplot("printf '<svg>' > a.svg\n");
   EXPECT_THAT(complaint(), HasSubstr("gnuplot drew only a part of 'a.svg'"));
@@ -75,13 +75,13 @@ TEST_F(Plot, APartOfAPictureIsAnErrorAndTheOldOneStays) {
   EXPECT_EQ(mc::read_file(path("a.svg")), "old");
 }
 
-TEST_F(Plot, WhatGnuplotSaysIsOneLine) {
+TEST_F(Plot, GnuplotErrors_AreReportedInOneLine) {
   put_for_gnuplot("printf 'plot b\\n     ^\\n\"a.gp\" line 7: undefined variable: b\\n\\n' >&2; exit 1\n");
   EXPECT_THAT(complaint(), AllOf(HasSubstr("a.svg': \"a.gp\" line 7: undefined variable: b; run gnuplot a.gp"),
                                  testing::Not(HasSubstr("\n"))));
 }
 
-TEST_F(Plot, WithoutGnuplotThereIsNone) {
+TEST_F(Plot, WithoutGnuplot_NothingIsDrawn) {
   setenv("PATH", path("nothing").c_str(), 1);
   EXPECT_FALSE(draw());
 }

@@ -40,7 +40,7 @@ mc::Report full() {
 // Text tells all doubles apart, NaN and -0 too.
 std::string as_text(const mc::Report& r) { return carlo::to_json(r).dump(-1, ' ', false); }
 
-TEST(ReportJson, CborKeepsEveryBit) {
+TEST(ReportJson, CborRoundTripIsExact) {
   const mc::Report r = full();
   const auto bytes = nlohmann::json::to_cbor(carlo::to_json(r));
   const mc::Report back = carlo::report_from_json(nlohmann::json::from_cbor(bytes));
@@ -55,13 +55,13 @@ TEST(ReportJson, CborKeepsEveryBit) {
   EXPECT_EQ(back.to_string(), r.to_string());
 }
 
-TEST(ReportJson, WithoutEvidenceThereIsNone) {
+TEST(ReportJson, OmitsMissingEvidence) {
   mc::Report r = full();
   r.evidence.reset();
   EXPECT_FALSE(carlo::report_from_json(carlo::to_json(r)).evidence.has_value());
 }
 
-TEST(ReportJson, DamageIsAnError) {
+TEST(ReportJson, DamagedJson_Throws) {
   nlohmann::json j = carlo::to_json(full());
   j["checks"][0]["fault"] = "nonsense";
   EXPECT_THAT(support::error_of([&] { carlo::report_from_json(j); }), HasSubstr("'nonsense' is no word"));
@@ -70,7 +70,7 @@ TEST(ReportJson, DamageIsAnError) {
   EXPECT_THAT(support::error_of([&] { carlo::report_from_json(j); }), HasSubstr("the report is damaged"));
 }
 
-TEST(ReportJson, TextIsAlwaysJson) {
+TEST(ReportJson, TextIsValidJson) {
   EXPECT_EQ(carlo::json_text({{"a", "\xff"}, {"b", NAN}}), "{\n \"a\": \"\xef\xbf\xbd\",\n \"b\": null\n}\n");
 }
 
@@ -78,7 +78,7 @@ TEST(JunitTest, IsEscaped) {
   const carlo::Case one{"<\"A&B\">", "x<1", "double", {}};
   const std::vector<const carlo::Case*> cases{&one};
   const std::vector<mc::Report> reports{full()};
-  const std::string xml = carlo::run_junit({{}, cases, reports});
+  const std::string xml = carlo::validation_junit({{}, cases, reports});
   EXPECT_THAT(xml, AllOf(HasSubstr("classname=\"&lt;&quot;A&amp;B&quot;>\""), HasSubstr("too much &lt; 1 &amp; more?"),
                          HasSubstr("tests=\"1\" failures=\"1\"")));
   EXPECT_EQ(xml.find('\x01'), std::string::npos);

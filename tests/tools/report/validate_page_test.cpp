@@ -33,7 +33,7 @@ constexpr std::uint64_t samples = 60'000;
 struct Results {
   std::vector<carlo::Case> cases;
   std::vector<mc::Report> reports;
-  carlo::RunSettings settings;
+  carlo::ValidationSettings settings;
 
   std::vector<const carlo::Case*> pointers() const {
     std::vector<const carlo::Case*> p;
@@ -82,13 +82,13 @@ const Results& results() {
   return made;
 }
 
-struct Page : testing::Test {
+struct ValidatePage : testing::Test {
   fs::path folder = fs::path(testing::TempDir()) / ("carlo_page_" + std::to_string(::getpid()));
   std::string file = (folder / "index.html").string();
   void SetUp() override {
     fs::create_directories(folder);
     const std::vector<const carlo::Case*> cases = results().pointers();
-    carlo::write_page(file, {results().settings, cases, results().reports});
+    carlo::write_validation_page(file, {results().settings, cases, results().reports});
   }
   void TearDown() override { fs::remove_all(folder); }
 
@@ -98,7 +98,7 @@ struct Page : testing::Test {
 // Says which text is missing without printing the whole page.
 bool has(const std::string& dom, const std::string& text) { return dom.find(text) != std::string::npos; }
 
-TEST_F(Page, NeedsNothingElse) {
+TEST_F(ValidatePage, LoadsNothing) {
   const std::string text = mc::read_file(file);
   for (const char* loaded :
        {"src=", "url(", "@import", "fetch(", "XMLHttpRequest", "http://www.w3.org/1999", "https://"})
@@ -107,7 +107,7 @@ TEST_F(Page, NeedsNothingElse) {
   EXPECT_THAT(text, HasSubstr("carlo validate \\u003c/script>")) << "data cannot end its element";
 }
 
-TEST_F(Page, TreesArePackedWhole) {
+TEST_F(ValidatePage, PackedTreesAreComplete) {
   const mc::PlotData& evidence = *results().reports[0].evidence;
   const std::size_t n = evidence.cells.size();
   const carlo::PackedTree all = carlo::pack_tree(evidence, 2, 4096), few = carlo::pack_tree(evidence, 2, 33);
@@ -118,7 +118,7 @@ TEST_F(Page, TreesArePackedWhole) {
 }
 
 // In a browser: failures first, search, order and maps. One load each, a second or so.
-TEST_F(Page, FailuresComeFirstAndOpen) {
+TEST_F(ValidatePage, FailuresComeFirstAndOpen) {
   const std::string dom = browse("");
   if (dom.empty()) GTEST_SKIP() << support::no_browser;
   EXPECT_EQ(logged(dom), "");
@@ -135,7 +135,7 @@ TEST_F(Page, FailuresComeFirstAndOpen) {
   EXPECT_TRUE(has(dom, "cell theta") || has(dom, "<td>theta")) << "the worst cells have their coordinates";
 }
 
-TEST_F(Page, SearchFilters) {
+TEST_F(ValidatePage, SearchFilters) {
   const std::string dom = browse("q=tent%20double");
   if (dom.empty()) GTEST_SKIP() << support::no_browser;
   EXPECT_EQ(logged(dom), "");
@@ -143,7 +143,7 @@ TEST_F(Page, SearchFilters) {
   EXPECT_FALSE(has(dom, "Cosine</b>"));
 }
 
-TEST_F(Page, ColumnsSortAndEveryKindOpens) {
+TEST_F(ValidatePage, ColumnsSortAndEveryCaseOpens) {
   const std::string dom = browse("sort=name&desc=1&open=0,2,3&map=equal");
   if (dom.empty()) GTEST_SKIP() << support::no_browser;
   EXPECT_EQ(logged(dom), "");
@@ -155,17 +155,17 @@ TEST_F(Page, ColumnsSortAndEveryKindOpens) {
   EXPECT_TRUE(has(dom, "6 cells")) << "the dice";
 }
 
-TEST_F(Page, NothingOverflowsOnAPhone) { support::expect_fits_a_phone(file, "open=0,1,2,3"); }
+TEST_F(ValidatePage, FitsAPhone) { support::expect_fits_a_phone(file, "open=0,1,2,3"); }
 
-TEST(ValidateReport, AnUnwritableFolderIsRefusedBeforeTheWork) {
-  carlo::ValidateOptions o;
+TEST(ValidateReport, UnwritableFolder_IsRejectedBeforeTheWork) {
+  carlo::ValidateCommandOptions o;
   o.names = {"UniformDisk"};
   const std::string file = (fs::path(testing::TempDir()) / "carlo_in_the_way").string();
   mc::write_file(file, "mine");
   for (const std::string& place : {file, file + "/report", std::string("/proc/report")}) {
     o.report = place;
     try {
-      carlo::validate(o);
+      carlo::run_validate(o);
       ADD_FAILURE() << place << " accepted";
     } catch (const mc::Error& e) {
       EXPECT_THAT(e.what(), testing::AllOf(HasSubstr(place), Not(HasSubstr("\n"))));

@@ -3,7 +3,7 @@
 
 #include <integrands/rate_integrals.h>
 #include <sampling/theory.h>
-#include <sampling/ways.h>
+#include <sampling/sampling_methods.h>
 
 #include <mc/core/file.h>
 #include <mc/core/text.h>
@@ -45,12 +45,12 @@ std::string readme() {
   return all.substr(from, all.find("\n## ", from + 1) - from);
 }
 
-TEST(RateTable, HasARowForEachIntegrandAndWay) {
+TEST(RateTable, HasARowForEachIntegrandAndMethod) {
   const std::vector<Fields> all = rows();
-  ASSERT_EQ(all.size(), carlo::rate_integrals().size() * carlo::ways().size());
+  ASSERT_EQ(all.size(), carlo::rate_integrals().size() * carlo::sampling_methods().size());
   std::size_t i = 0;
-  for (const carlo::Experiment& e : carlo::rate_integrals())
-    for (const carlo::Way& w : carlo::ways()) {
+  for (const carlo::UnitCubeIntegral& e : carlo::rate_integrals())
+    for (const carlo::SamplingMethod& w : carlo::sampling_methods()) {
       ASSERT_EQ(all[i].size(), std::size_t{source} + 1) << i;
       EXPECT_EQ(all[i][experiment], e.name);
       EXPECT_EQ(all[i][sampler], w.name);
@@ -58,26 +58,26 @@ TEST(RateTable, HasARowForEachIntegrandAndWay) {
     }
 }
 
-TEST(RateTable, SaysWhatTheorySays) {
+TEST(RateTable, StatesTheTheoreticalRates) {
   const std::vector<Fields> all = rows();
   std::size_t i = 0;
-  for (const carlo::Experiment& e : carlo::rate_integrals())
-    for (const carlo::Way& w : carlo::ways()) {
+  for (const carlo::UnitCubeIntegral& e : carlo::rate_integrals())
+    for (const carlo::SamplingMethod& w : carlo::sampling_methods()) {
       const Fields& row = all.at(i++);
-      const auto rate = carlo::theory(w.name, e.smoothness, e.dim);
+      const auto rate = carlo::theoretical_rate(w.name, e.smoothness, e.dim);
       ASSERT_TRUE(rate) << e.name << ' ' << w.name;
       EXPECT_EQ(row[stated], rate->to_string(4)) << e.name << ' ' << w.name;
       EXPECT_EQ(row[source], rate->source) << e.name << ' ' << w.name;
-      EXPECT_NEAR(number(row[at_these_n]), -rate->local(number(row[around_n])), 1e-3) << e.name << ' ' << w.name;
+      EXPECT_NEAR(number(row[at_these_n]), -rate->local_exponent(number(row[around_n])), 1e-3) << e.name << ' ' << w.name;
       // The ends are rounded: within half a digit of theory either answer may be right.
       const double digit = 1e-4, n = number(row[around_n]), from = number(row[lo]), to = number(row[hi]);
-      if (rate->allows(from - digit, to + digit, n) != rate->allows(from + digit, to - digit, n)) continue;
-      EXPECT_EQ(row[within], rate->allows(from, to, n) ? "yes" : "no") << e.name << ' ' << w.name;
+      if (rate->is_consistent_with(from - digit, to + digit, n) != rate->is_consistent_with(from + digit, to - digit, n)) continue;
+      EXPECT_EQ(row[within], rate->is_consistent_with(from, to, n) ? "yes" : "no") << e.name << ' ' << w.name;
     }
 }
 
 // The README says how many intervals hold their theory, and names the sampler and the class of those that do not.
-TEST(RateTable, ItsMissesAreExplained) {
+TEST(RateTable, DeviationsFromTheoryAreExplained) {
   const std::string text = readme();
   const std::vector<Fields> all = rows();
   std::size_t hold = 0;

@@ -10,7 +10,7 @@ namespace {
 
 using carlo::progress_line;
 
-TEST(Progress, SecondsReadAsPeopleWriteThem) {
+TEST(Progress, FormatsSecondsAndMinutes) {
   EXPECT_EQ(carlo::format_seconds(0.85), "850 ms");
   EXPECT_EQ(carlo::format_seconds(12.34), "12.3 s");
   EXPECT_EQ(carlo::format_seconds(245), "4 min 05 s");
@@ -21,7 +21,7 @@ TEST(Progress, SecondsReadAsPeopleWriteThem) {
   EXPECT_EQ(carlo::format_seconds(1e12), "31688 years");
 }
 
-TEST(Progress, CountsKeepThreeDigits) {
+TEST(Progress, FormatsCountsWithThreeDigits) {
   EXPECT_EQ(carlo::format_count(0), "0");
   EXPECT_EQ(carlo::format_count(950), "950");
   EXPECT_EQ(carlo::format_count(999.9), "1 k");

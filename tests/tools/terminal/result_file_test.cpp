@@ -14,7 +14,7 @@ using carlo::ResultFile;
 
 struct ResultFileTest : support::ScratchTest {};
 
-TEST_F(ResultFileTest, OfADashIsStandardOutputWhichHoldsNothingElse) {
+TEST_F(ResultFileTest, Dash_IsStandardOutputWithNothingElse) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();
   std::printf("before ");
@@ -30,7 +30,7 @@ TEST_F(ResultFileTest, OfADashIsStandardOutputWhichHoldsNothingElse) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "words more");
 }
 
-TEST_F(ResultFileTest, OfANameIsAFile) {
+TEST_F(ResultFileTest, Name_IsAFile) {
   const ResultFile file(path("r.json"));
   EXPECT_TRUE(file.is_wanted());
   EXPECT_FALSE(std::filesystem::exists(path("r.json"))) << "nothing is known yet";

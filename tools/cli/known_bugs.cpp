@@ -1,4 +1,4 @@
-#include <cli/slips.h>
+#include <cli/known_bugs.h>
 #include <report/report_json.h>
 #include <known_bugs/cornell.h>
 #include <known_bugs/known_bugs.h>
@@ -42,7 +42,7 @@ KnownBugs select(const std::vector<std::string>& names) {
   return chosen;
 }
 
-struct Judged {
+struct DetectionResult {
   mc::Report wrong, right;
   std::string test;          ///< the check that rejected the bug
   std::uint64_t samples = 0; ///< that the check needed
@@ -51,14 +51,14 @@ struct Judged {
 
 // Doubles the samples until the bug is rejected. All sample sizes together reject a correct distribution with
 // probability alpha.
-Judged judge(const KnownBug& slip, const SlipsOptions& o) {
+DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o) {
   std::uint64_t seed = o.seed; // the same numbers for any selection of bugs
   for (const char letter : slip.id)
     seed = mc::hash(seed, static_cast<std::uint64_t>(static_cast<unsigned char>(letter)));
   double looks = 1;
   for (std::uint64_t n = slip.wrong.min_samples; n < o.samples; n *= 2) looks += 1;
   const double alpha = mc::sidak_level(o.alpha, 1 / looks);
-  Judged t;
+  DetectionResult t;
   for (std::uint64_t n = slip.wrong.min_samples;; n = std::min(2 * n, o.samples)) {
     t.wrong = slip.wrong.check({.samples = n, .seed = seed, .alpha = alpha});
     t.samples = n;
@@ -82,17 +82,17 @@ Judged judge(const KnownBug& slip, const SlipsOptions& o) {
 }
 
 // As judge(); errors name the bug.
-Judged judge_named(const KnownBug& slip, const SlipsOptions& o) {
-  return mc::with_context(slip.title(), [&] { return judge(slip, o); });
+DetectionResult detect_named(const KnownBug& slip, const KnownBugsCommandOptions& o) {
+  return mc::with_context(slip.title(), [&] { return detect(slip, o); });
 }
 
-std::string samples_text(const KnownBug& s, const Judged& t) {
+std::string samples_text(const KnownBug& s, const DetectionResult& t) {
   if (!t.caught) return "missed";
   if (t.samples == 0) return "none";
   return fmt::format("{}{}", t.samples == s.wrong.min_samples ? "<= " : "", t.samples);
 }
 
-json to_json(const KnownBug& s, const Judged& t) {
+json to_json(const KnownBug& s, const DetectionResult& t) {
   return {{"id", s.id},
           {"name", s.name},
           {"where", s.source},
@@ -106,7 +106,7 @@ json to_json(const KnownBug& s, const Judged& t) {
 }
 
 // Returns the results that were finished before `cancel`. Prints them in order, each as soon as possible.
-std::vector<std::optional<Judged>> judge_all(const KnownBugs& slips, const SlipsOptions& o,
+std::vector<std::optional<DetectionResult>> detect_all(const KnownBugs& bugs, const KnownBugsCommandOptions& o,
                                              const std::atomic<bool>* cancel) {
   fmt::print("book     Ray Tracing: The Rest of Your Life, 2016\n"
              "course   Introduction to Real-Time Ray Tracing, SIGGRAPH 2019\n"
@@ -114,45 +114,45 @@ std::vector<std::optional<Judged>> judge_all(const KnownBugs& slips, const Slips
              "lajolla  its design notes, UCSD CSE 272\n\n"
              "{:<4} {:<34} {:<29} {:<27} {:>8}  {}\n",
              "bug", "", "where", "caught by", "samples", "corrected");
-  std::vector<std::optional<Judged>> judged(slips.size());
+  std::vector<std::optional<DetectionResult>> results(bugs.size());
   std::size_t printed = 0, finished = 0;
   std::mutex mutex;
-  Progress progress;
+  ProgressLine progress;
   const auto print = [&](std::size_t i) {
-    const KnownBug& s = slips[i];
-    const Judged& r = *judged[i];
+    const KnownBug& s = bugs[i];
+    const DetectionResult& r = *results[i];
     fmt::print("{:<4} {:<34} {:<29} {:<27} {:>8}  {}, p = {:.2g}\n", s.id, s.name, s.source, r.test, samples_text(s, r),
                name(r.right.verdict()), r.right.p());
   };
-  mc::parallel_for(slips.size(), o.threads, [&](std::size_t i) {
+  mc::parallel_for(bugs.size(), o.threads, [&](std::size_t i) {
     if (*cancel) return;
-    Judged one = judge_named(slips[i], o);
+    DetectionResult one = detect_named(bugs[i], o);
     const std::lock_guard lock(mutex);
-    judged[i] = std::move(one);
+    results[i] = std::move(one);
     ++finished;
-    if (printed < slips.size() && judged[printed]) progress.clear();
-    for (; printed < slips.size() && judged[printed]; ++printed) print(printed);
+    if (printed < bugs.size() && results[printed]) progress.clear();
+    for (; printed < bugs.size() && results[printed]; ++printed) print(printed);
     std::fflush(stdout);
-    progress.show(static_cast<double>(finished) / static_cast<double>(slips.size()),
-                  fmt::format("{} of {} bugs", finished, slips.size()));
+    progress.show(static_cast<double>(finished) / static_cast<double>(bugs.size()),
+                  fmt::format("{} of {} bugs", finished, bugs.size()));
   });
   progress.clear();
-  for (std::size_t i = printed; i < slips.size(); ++i)
-    if (judged[i]) print(i);
-  return judged;
+  for (std::size_t i = printed; i < bugs.size(); ++i)
+    if (results[i]) print(i);
+  return results;
 }
 
-void print_stories(const KnownBugs& slips, const std::vector<std::optional<Judged>>& judged) {
-  for (std::size_t i = 0; i < slips.size(); ++i) {
-    if (!judged[i]) continue;
-    fmt::print("\n{}, {}\n  {}\n  wrong: {}\n", slips[i].title(), slips[i].source, slips[i].description,
-               judged[i]->wrong.to_string());
-    if (!judged[i]->right.passed()) fmt::print("  corrected: {}\n", judged[i]->right.to_string());
+void print_stories(const KnownBugs& bugs, const std::vector<std::optional<DetectionResult>>& results) {
+  for (std::size_t i = 0; i < bugs.size(); ++i) {
+    if (!results[i]) continue;
+    fmt::print("\n{}, {}\n  {}\n  wrong: {}\n", bugs[i].title(), bugs[i].source, bugs[i].description,
+               results[i]->wrong.to_string());
+    if (!results[i]->right.passed()) fmt::print("  corrected: {}\n", results[i]->right.to_string());
   }
 }
 
 // Prints the boxes and appends them to `all`. Returns whether each agrees with the reference as the books claim.
-bool judge_boxes(const SlipsOptions& o, json& all) {
+bool check_cornell_boxes(const KnownBugsCommandOptions& o, json& all) {
   const std::uint64_t paths = o.samples / 4;
   fmt::print("\nWhich Cornell box was right? Mean radiance of the picture, {} paths each.\n", paths);
   const std::vector<CornellBox> boxes = cornell_boxes(paths, o.seed, o.threads);
@@ -177,7 +177,7 @@ bool judge_boxes(const SlipsOptions& o, json& all) {
   return as_claimed;
 }
 
-std::vector<Option> rows(SlipsOptions& o) {
+std::vector<Option> rows(KnownBugsCommandOptions& o) {
   return in_groups({
       {common_options,
        {
@@ -198,10 +198,10 @@ std::vector<Option> rows(SlipsOptions& o) {
 
 } // namespace
 
-int slips(const SlipsOptions& o) {
-  const KnownBugs slips = select(o.names);
+int run_known_bugs(const KnownBugsCommandOptions& o) {
+  const KnownBugs bugs = select(o.names);
   if (o.list) {
-    for (const KnownBug& s : slips) fmt::print("{:<4} {:<34} {}\n", s.id, s.name, s.source);
+    for (const KnownBug& s : bugs) fmt::print("{:<4} {:<34} {}\n", s.id, s.name, s.source);
     return exit_ok;
   }
   mc::require(o.alpha > 0 && o.alpha < 1, "known-bugs: --alpha {} must lie in (0, 1)", o.alpha);
@@ -210,25 +210,25 @@ int slips(const SlipsOptions& o) {
   const ResultFile file(o.json);
 
   const Interrupt interrupt;
-  const std::vector<std::optional<Judged>> judged = judge_all(slips, o, interrupt.flag());
+  const std::vector<std::optional<DetectionResult>> results = detect_all(bugs, o, interrupt.flag());
   json all = {{"command", o.command}, {"commit", commit},       {"seed", o.seed},
               {"alpha", o.alpha},     {"slips", json::array()}, {"boxes", json::array()}};
   std::size_t finished = 0, caught = 0, right = 0;
-  for (std::size_t i = 0; i < slips.size(); ++i) {
-    if (!judged[i]) continue;
+  for (std::size_t i = 0; i < bugs.size(); ++i) {
+    if (!results[i]) continue;
     ++finished;
-    caught += judged[i]->caught;
-    right += judged[i]->right.passed();
-    all["slips"].push_back(to_json(slips[i], *judged[i]));
+    caught += results[i]->caught;
+    right += results[i]->right.passed();
+    all["slips"].push_back(to_json(bugs[i], *results[i]));
   }
   const bool interrupted = *interrupt.flag();
   bool boxes_as_claimed = true;
-  if (!o.names.empty()) print_stories(slips, judged);
-  else if (!interrupted) boxes_as_claimed = judge_boxes(o, all["boxes"]);
+  if (!o.names.empty()) print_stories(bugs, results);
+  else if (!interrupted) boxes_as_claimed = check_cornell_boxes(o, all["boxes"]);
   fmt::print("\n{} of {} bugs rejected, {} of {} corrections passed, at alpha {:g} for each, seed {}\n", caught,
              finished, right, finished, o.alpha, o.seed);
-  if (interrupted) fmt::print("interrupted: {} of {} bugs were finished\n", finished, slips.size());
-  const bool passed = caught == slips.size() && right == slips.size() && boxes_as_claimed && !interrupted;
+  if (interrupted) fmt::print("interrupted: {} of {} bugs were finished\n", finished, bugs.size());
+  const bool passed = caught == bugs.size() && right == bugs.size() && boxes_as_claimed && !interrupted;
   all["passed"] = passed;
   if (interrupted) all["interrupted"] = true;
   if (file.is_wanted()) file.write(json_text(all));
@@ -236,8 +236,8 @@ int slips(const SlipsOptions& o) {
   return passed ? exit_ok : exit_failed;
 }
 
-Subcommand slips_subcommand() {
-  return make_subcommand<SlipsOptions>(
+Subcommand known_bugs_subcommand() {
+  return make_subcommand<KnownBugsCommandOptions>(
       {.name = "known-bugs",
        .summary = "Run the checker on sampling bugs that books, courses and renderers have printed",
        .examples = {{"carlo known-bugs", "checks all bugs, and their corrections"},
@@ -245,7 +245,7 @@ Subcommand slips_subcommand() {
                     {"carlo known-bugs --list", "names the bugs and their sources"}},
        .failure = "a bug was missed, or a correction failed",
        .aliases = {"slips"}},
-      rows, slips);
+      rows, run_known_bugs);
 }
 
 } // namespace carlo

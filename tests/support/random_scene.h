@@ -17,12 +17,12 @@ namespace support {
 using namespace render;
 
 /// What lights a room: lamps, or points and parallel light, or the tiny and the far spheres that these stand for.
-enum class LitBy { lamps, deltas, spheres };
+enum class RandomLights { lamps, deltas, spheres };
 
 /// Draws what stands in a room.
-class RoomMaker {
+class RandomScene {
  public:
-  explicit RoomMaker(std::uint64_t seed, LitBy lit_by = LitBy::lamps) : random_(2026, seed), lit_by_(lit_by) {}
+  explicit RandomScene(std::uint64_t seed, RandomLights lights = RandomLights::lamps) : random_(2026, seed), lights_(lights) {}
 
   Scene build() {
     SceneBuilder builder;
@@ -30,10 +30,10 @@ class RoomMaker {
     for (int wall = 0; wall < 5; ++wall) // the room is open to the camera
       if (wall == 0 || chance(0.7)) builder.add(TriangleMesh::rectangle(side(wall)), {grey});
     const int things = 1 + static_cast<int>(3 * number());
-    for (int i = 0; i < things; ++i) add_thing(builder);
+    for (int i = 0; i < things; ++i) add_object(builder);
     const int lamps = 1 + chance(0.4);
     for (int i = 0; i < lamps; ++i)
-      if (lit_by_ == LitBy::lamps) add_lamp(builder);
+      if (lights_ == RandomLights::lamps) add_lamp(builder);
       else add_small_light(builder);
     if (chance(0.3)) builder.add(Light(ConstantBackground(Spectrum::Constant(Float(0.2)))));
     else if (chance(0.6)) builder.add(Light(sky()));
@@ -78,7 +78,7 @@ class RoomMaker {
 
   Bsdf surface(int kind) {
     const Spectrum tint = Spectrum::Ones() - Spectrum(random_.point<Float, 3>()) / 4;
-    if (lit_by_ != LitBy::lamps && kind == 3 && chance(0.5))
+    if (lights_ != RandomLights::lamps && kind == 3 && chance(0.5))
       return RoughDielectric(Float(1.5), near_specular_alpha / 2, tint, tint);
     switch (kind) {
     case 0: return Dielectric(Float(1.1 + number()), tint, tint);
@@ -91,7 +91,7 @@ class RoomMaker {
   }
 
   // A ball, a box, or a coarse ball with smooth normals.
-  void add_thing(SceneBuilder& builder) {
+  void add_object(SceneBuilder& builder) {
     const int kind = static_cast<int>(6 * number());
     SceneBuilder::SurfaceProperties cover{.bsdf = builder.add(surface(kind))};
     if (kind == 0 && chance(0.5)) cover.interior = HomogeneousMedium(Spectrum(random_.point<Float, 3>()));
@@ -142,7 +142,7 @@ class RoomMaker {
     const Spectrum light(3, 2, 4);
     const bool far = chance(0.4);
     const Vec3d way = random_axis(random_), at = far ? Vec3d(2e4 * way) : Vec3d(place(0.5) + Vec3d(0, 1.2, 0));
-    if (lit_by_ == LitBy::deltas) {
+    if (lights_ == RandomLights::deltas) {
       if (far) builder.add(Light(DirectionalLight(-way, light / 4)));
       else builder.add(Light(PointLight(at, light)));
       return;
@@ -153,12 +153,12 @@ class RoomMaker {
   }
 
   mc::Pcg random_;
-  LitBy lit_by_;
+  RandomLights lights_;
 };
 
 /// Means of pictures, of the pixels in units of their reference and a dark of a tenth of its mean, so that no lamp in
 /// view outweighs the rest; by `count` independent pictures.
-inline mc::Moments means_of(const Scene& scene, RenderOptions options, int count, const std::vector<Spectrum>& unit) {
+inline mc::Moments picture_means(const Scene& scene, RenderOptions options, int count, const std::vector<Spectrum>& unit) {
   mc::Moments moments;
   for (int i = 0; i < count; ++i) {
     options.seed = mc::hash(options.seed, std::uint64_t(i));
@@ -171,7 +171,7 @@ inline mc::Moments means_of(const Scene& scene, RenderOptions options, int count
   return moments;
 }
 
-inline std::vector<Spectrum> unit_of(const Image& reference) {
+inline std::vector<Spectrum> pixel_units(const Image& reference) {
   Spectrum mean = Spectrum::Zero();
   for (const Spectrum& p : reference.pixels) mean += p / Float(reference.pixels.size());
   std::vector<Spectrum> unit;
@@ -192,12 +192,12 @@ inline RenderOptions options_of(std::uint64_t room, unsigned spp) {
 /// Whether rooms look alike in two ways, by Welch's t. Skew makes a z-score of 4 of what is 3, so the bound is 5.5,
 /// which one of 10^6 exceeds by chance.
 struct Agreement {
-  int rooms = 0, beyond = 0; ///< all, and those beyond the two-sided bound of 5 %
+  int scenes = 0, outliers = 0; ///< all, and those beyond the two-sided bound of 5 %
 
   void add(std::uint64_t room, const mc::Moments& one, const mc::Moments& two, double bound) {
     const double t = (two.mean() - one.mean()) / std::hypot(one.std_error(), two.std_error());
-    ++rooms;
-    beyond += std::abs(t) > bound;
+    ++scenes;
+    outliers += std::abs(t) > bound;
     EXPECT_LE(std::abs(t), 5.5) << "room " << room << ": " << two.mean() << " +- " << two.std_error() << " for "
                                 << one.mean() << " +- " << one.std_error();
   }

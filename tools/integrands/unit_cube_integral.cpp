@@ -1,4 +1,4 @@
-#include <integrands/experiments.h>
+#include <integrands/unit_cube_integral.h>
 
 #include <mc/core/error.h>
 #include <mc/random/uniform.h>
@@ -12,38 +12,38 @@ namespace carlo {
 
 namespace {
 
-using Unit = std::span<const double>;
+using UnitPoint = std::span<const double>;
 
 // Darts at the cube [-1,1]^d: volume of the cube where they hit the unit ball.
-double ball(Unit u) {
+double ball(UnitPoint u) {
   double r2 = 0;
   for (const double x : u) r2 += mc::sqr(2 * x - 1);
   return r2 <= 1 ? std::ldexp(1.0, static_cast<int>(u.size())) : 0.0;
 }
 
-mc::Vec2<double> pair(Unit u) { return {u[0], u[1]}; }
+mc::Vec2<double> pair(UnitPoint u) { return {u[0], u[1]}; }
 
-double x2_uniform(Unit u) { return 2 * mc::sqr(2 * u[0]); }
-double x2_linear(Unit u) {
+double x2_uniform(UnitPoint u) { return 2 * mc::sqr(2 * u[0]); }
+double x2_linear(UnitPoint u) {
   const double x = 2 * std::sqrt(u[0]);
   return 2 * x; // x^2 / (x / 2)
 }
-double x2_quadratic(Unit u) {
+double x2_quadratic(UnitPoint u) {
   const double x = 2 * std::cbrt(1 - u[0]); // 1 - u, so that x > 0
   return x * x / (3 * x * x / 8);
 }
-double cos2_sphere(Unit u) {
+double cos2_sphere(UnitPoint u) {
   const mc::UniformSphere<double> warp;
   const auto w = warp.sample(pair(u));
   return mc::sqr(w.z()) / warp.pdf(w);
 }
-template <class Warp> double cos3(Unit u) {
+template <class Warp> double cos3(UnitPoint u) {
   const auto w = Warp{}.sample(pair(u));
   return w.z() * w.z() * w.z() / Warp{}.pdf(w);
 }
-double adversarial(Unit u) { return -100 * std::cos(200 * mc::pi<double> * u[0]); }
+double adversarial(UnitPoint u) { return -100 * std::cos(200 * mc::pi<double> * u[0]); }
 
-std::vector<Experiment> make() {
+std::vector<UnitCubeIntegral> make() {
   const double pi = mc::pi<double>;
   const std::string week3 = "Ray Tracing: The Rest of Your Life (P. Shirley), chapter ";
   const std::string codex = "The Graphics Codex (M. McGuire)";
@@ -101,8 +101,8 @@ std::vector<Experiment> make() {
 
 } // namespace
 
-const std::vector<Experiment>& experiments() {
-  static const std::vector<Experiment> list = make();
+const std::vector<UnitCubeIntegral>& textbook_integrals() {
+  static const std::vector<UnitCubeIntegral> list = make();
   return list;
 }
 
@@ -122,28 +122,28 @@ std::string_view name(Smoothness::Class c) {
   return "";
 }
 
-void evaluate(const Experiment& e, Experiment::Unit points, std::span<double> values) {
+void evaluate(const UnitCubeIntegral& e, UnitCubeIntegral::UnitPoint points, std::span<double> values) {
   const auto dim = static_cast<std::size_t>(e.dim);
   const auto point = [&](std::size_t i) { return points.subspan(i * dim, dim); };
-  if (e.many) e.many(points, values);
+  if (e.f_batch) e.f_batch(points, values);
   else
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = e.f(point(i));
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
-    const std::string place = e.place ? e.place(point(i)) : fmt::format("u = ({})", fmt::join(point(i), ", "));
+    const std::string place = e.describe_point ? e.describe_point(point(i)) : fmt::format("u = ({})", fmt::join(point(i), ", "));
     throw mc::Error(fmt::format("{}: the integrand is {} at {}", e.name,
                                 std::isnan(values[i]) ? std::string("nan") : fmt::format("{}", values[i]), place));
   }
 }
 
-void refuse_underflow(const Experiment& e) {
-  if (!e.underflows) return;
+void refuse_underflow(const UnitCubeIntegral& e) {
+  if (!e.underflows_at) return;
   std::vector<double> u(static_cast<std::size_t>(e.dim));
   bool any = false;
   for (std::uint64_t i = 0; i < 4096; ++i) {
     for (std::size_t d = 0; d < u.size(); ++d) u[d] = mc::hash_uniform<double>(i, d);
     if (e.f(u) != 0) return;
-    any = any || e.underflows(u);
+    any = any || e.underflows_at(u);
   }
   mc::require(!any,
               "'{}': its values times the volume of '{}' are below {:.2g}, the smallest double; multiply it "

@@ -1,7 +1,7 @@
 // What is chosen among three or more is read line by line, as if and return, a switch or a table: in the product code
 // no conditional a ? b : c stands in another.
 
-#include "house/source_tree.h"
+#include "layout/source_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 namespace {
 
-using namespace house;
+using namespace layout;
 
 // Where the comment, string or character that begins at i ends; i where none does.
 std::size_t end_of_quoted(const std::string& text, std::size_t i) {
@@ -81,7 +81,7 @@ std::vector<int> nested_conditionals(const std::string& text) {
   return found;
 }
 
-TEST(Conditionals, TheCheckSeesWhatItShould) {
+TEST(Conditionals, NestedOnesAreDetected) {
   for (const char* wrong : {"x = a ? b : c ? d : e;", "x = a ? b ? c : d : e;", "x = a ? f(b ? c : d) : e;",
                             "x = a ? b : (c ? d : e);", "f(a ? v[b ? 0 : 1] : e, 1);", "x = a ? \"?\" : b ? '\"' : c;"})
     EXPECT_EQ(nested_conditionals(wrong).size(), 1u) << wrong;
@@ -93,7 +93,7 @@ TEST(Conditionals, TheCheckSeesWhatItShould) {
   EXPECT_EQ(nested_conditionals("// ?\nx = a ? b\n  : c ? d : e;"), (std::vector<int>{3}));
 }
 
-TEST(Conditionals, StandInNoOther) {
+TEST(Conditionals, AreNotNested) {
   for (const fs::path& file : sources({"libmc", "librender", "tools"}))
     for (const int line : nested_conditionals(text_of(file)))
       ADD_FAILURE() << file.string() << ":" << line << ": a conditional within another";

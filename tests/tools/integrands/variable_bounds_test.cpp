@@ -1,4 +1,4 @@
-#include <integrands/sides.h>
+#include <integrands/variable_bounds.h>
 
 #include <mc/core/error.h>
 
@@ -9,47 +9,47 @@
 namespace {
 
 // dx/du is the derivative, x rises from lo to hi.
-TEST(Sides, AreWalkedFromEndToEnd) {
+TEST(VariableBounds, MapIsMonotoneAndHasItsDerivative) {
   for (const char* box : {"x=-2:3", "x=1:inf", "x=-inf:-1", "x=-inf:inf"}) {
-    const carlo::Side side = carlo::parse_sides(box)[0];
-    EXPECT_EQ(carlo::place_on(side, 0).x, side.lo) << box;
+    const carlo::VariableBounds side = carlo::parse_bounds(box)[0];
+    EXPECT_EQ(carlo::map_to_bounds(side, 0).x, side.lo) << box;
     for (double u = 0.01; u < 0.995; u += 0.01) {
-      const double h = 1e-6, rise = carlo::place_on(side, u + h).x - carlo::place_on(side, u - h).x;
-      EXPECT_NEAR(carlo::place_on(side, u).slope / (rise / (2 * h)), 1, 1e-6) << box << " at " << u;
+      const double h = 1e-6, rise = carlo::map_to_bounds(side, u + h).x - carlo::map_to_bounds(side, u - h).x;
+      EXPECT_NEAR(carlo::map_to_bounds(side, u).slope / (rise / (2 * h)), 1, 1e-6) << box << " at " << u;
     }
-    const double last = carlo::place_on(side, 1 - 0x1p-53).x;
+    const double last = carlo::map_to_bounds(side, 1 - 0x1p-53).x;
     EXPECT_TRUE(std::isfinite(last)) << box;
     EXPECT_TRUE(std::isfinite(side.hi) ? std::abs(last - side.hi) < 1e-14 : last > 1e14) << box;
   }
 }
 
-TEST(Sides, AreReadWithBlanks) {
-  const std::vector<carlo::Side> sides = carlo::parse_sides(" x = 0 : 1,\ty= -inf :2\r\n");
-  ASSERT_EQ(sides.size(), 2u);
-  EXPECT_EQ(sides[0].name, "x");
-  EXPECT_EQ(sides[0].hi, 1);
-  EXPECT_EQ(sides[1].name, "y");
-  EXPECT_EQ(sides[1].lo, -HUGE_VAL);
+TEST(VariableBounds, AcceptBlanks) {
+  const std::vector<carlo::VariableBounds> bounds = carlo::parse_bounds(" x = 0 : 1,\ty= -inf :2\r\n");
+  ASSERT_EQ(bounds.size(), 2u);
+  EXPECT_EQ(bounds[0].name, "x");
+  EXPECT_EQ(bounds[0].hi, 1);
+  EXPECT_EQ(bounds[1].name, "y");
+  EXPECT_EQ(bounds[1].lo, -HUGE_VAL);
 }
 
 std::string message(const std::string& box) {
   try {
-    carlo::parse_sides(box);
+    carlo::parse_bounds(box);
   } catch (const mc::Error& e) {
     return e.what();
   }
   return "accepted";
 }
 
-TEST(Sides, AreBoundByConstantExpressions) {
-  const std::vector<carlo::Side> sides = carlo::parse_sides("phi=-_pi: 2*_pi ,y=1/4:sqrt(2),z=-inf:(1+2)^2");
-  ASSERT_EQ(sides.size(), 3u);
-  EXPECT_EQ(sides[0].lo, -M_PI);
-  EXPECT_EQ(sides[0].hi, 2 * M_PI);
-  EXPECT_EQ(sides[1].lo, 0.25);
-  EXPECT_EQ(sides[1].hi, std::sqrt(2.0));
-  EXPECT_EQ(sides[2].lo, -HUGE_VAL);
-  EXPECT_EQ(sides[2].hi, 9);
+TEST(VariableBounds, AcceptConstantExpressions) {
+  const std::vector<carlo::VariableBounds> bounds = carlo::parse_bounds("phi=-_pi: 2*_pi ,y=1/4:sqrt(2),z=-inf:(1+2)^2");
+  ASSERT_EQ(bounds.size(), 3u);
+  EXPECT_EQ(bounds[0].lo, -M_PI);
+  EXPECT_EQ(bounds[0].hi, 2 * M_PI);
+  EXPECT_EQ(bounds[1].lo, 0.25);
+  EXPECT_EQ(bounds[1].hi, std::sqrt(2.0));
+  EXPECT_EQ(bounds[2].lo, -HUGE_VAL);
+  EXPECT_EQ(bounds[2].hi, 9);
   const std::string none = " is not a number, inf, -inf or a constant expression: ";
   EXPECT_EQ(message("x=0:2*pi"), "--domain: '2*pi' in 'x=0:2*pi'" + none + "expression '2*pi', position 2: pi is _pi");
   EXPECT_EQ(message("x=0:1,y=0:2*x"),
@@ -60,7 +60,7 @@ TEST(Sides, AreBoundByConstantExpressions) {
     EXPECT_THAT(message("x=0:" + bad), testing::StartsWith("--domain: '")) << bad;
 }
 
-TEST(Sides, HaveNamesThatExpressionsCanUse) {
+TEST(VariableBounds, RejectInvalidVariableNames) {
   for (const std::string name : {"3x", "x y", "\u00e9", "x-1", "x\ty"})
     EXPECT_EQ(message("a=0:1," + name + "=0:1"),
               "--domain: '" + name + "' is no name of a variable: a letter or _, then letters, digits and _");

@@ -1,6 +1,6 @@
-#include <converge/target.h>
+#include <converge/integral_target.h>
 #include <integrands/expression.h>
-#include <integrands/sides.h>
+#include <integrands/variable_bounds.h>
 
 #include <mc/core/error.h>
 #include <mc/core/parallel.h>
@@ -34,10 +34,10 @@ bool is_constant(const std::string& expression) {
 void refuse_constant(const std::string& expression, const std::string& box) {
   if (!is_constant(expression)) return;
   std::vector<std::string> names;
-  for (const Side& s : parse_sides(box)) names.push_back(s.name);
+  for (const VariableBounds& s : parse_bounds(box)) names.push_back(s.name);
   throw mc::Error(fmt::format("'{}' uses none of {}: a constant has no error to measure; put a variable into it, or "
                               "see carlo integrate",
-                              abridged(expression), fmt::join(names, ", ")));
+                              abbreviate(expression), fmt::join(names, ", ")));
 }
 
 void refuse_scene_among(const std::vector<std::string>& words) {
@@ -46,15 +46,15 @@ void refuse_scene_among(const std::vector<std::string>& words) {
                 "'{}' stands among others: scenes are measured one at a time; give it alone", word);
 }
 
-Replicates run_here(const Experiment& given, const Task& task) {
-  Experiment e = given;
-  if (task.way->one_by_one) e.many = {};
+Replicates run_replicates(const UnitCubeIntegral& given, const ReplicateTask& task) {
+  UnitCubeIntegral e = given;
+  if (task.method->scalar_calls) e.f_batch = {};
   Replicates r;
   for (auto* numbers : {&r.values, &r.calls, &r.seconds}) numbers->resize(task.count);
   mc::parallel_for(task.count, task.threads, [&](std::size_t i) {
     if (task.cancel && *task.cancel) return;
     const double start = thread_cpu_seconds();
-    const Sampled s = task.way->estimate(e, task.n, mc::hash(task.seed, task.n, task.first + i));
+    const MethodEstimate s = task.method->estimate(e, task.n, mc::hash(task.seed, task.n, task.first + i));
     r.values[i] = s.value;
     r.calls[i] = s.calls;
     r.seconds[i] = thread_cpu_seconds() - start;
@@ -62,10 +62,10 @@ Replicates run_here(const Experiment& given, const Task& task) {
   return r;
 }
 
-Target here(Experiment integral) {
-  const auto shared = std::make_shared<const Experiment>(integral);
-  const bool has_batch = integral.many != nullptr;
-  return {std::move(integral), [shared](const Task& task) { return run_here(*shared, task); }, has_batch};
+IntegralTarget in_process_target(UnitCubeIntegral integral) {
+  const auto shared = std::make_shared<const UnitCubeIntegral>(integral);
+  const bool has_batch = integral.f_batch != nullptr;
+  return {std::move(integral), [shared](const ReplicateTask& task) { return run_replicates(*shared, task); }, has_batch};
 }
 
 } // namespace carlo

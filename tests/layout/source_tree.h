@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace house {
+namespace layout {
 
 namespace fs = std::filesystem;
 
@@ -66,4 +66,4 @@ inline std::vector<Include> includes(const fs::path& folder) {
   return found;
 }
 
-} // namespace house
+} // namespace layout

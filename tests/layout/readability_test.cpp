@@ -1,6 +1,6 @@
 // What a reader meets: short files and functions, small folders, and a drawing of who includes whom without a circle.
 
-#include "house/source_tree.h"
+#include "layout/source_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 namespace {
 
-using namespace house;
+using namespace layout;
 
 const std::vector<const char*> everything = {"libmc", "librender", "tools", "tests", "bench"};
 
@@ -55,7 +55,7 @@ std::vector<Function> long_functions(const std::vector<std::string>& lines, std:
   return found;
 }
 
-TEST(Layout, LongFunctionsAreSeen) {
+TEST(Readability, LongFunctionsAreDetected) {
   const std::vector<std::string> lines = {"struct A {",
                                           "  A(int a,",
                                           "    int b)",
@@ -93,17 +93,17 @@ TEST(Layout, LongFunctionsAreSeen) {
   EXPECT_EQ(found[2].length, 4u);
 }
 
-TEST(Layout, AFileIsOneIdea) {
+TEST(Readability, FilesHaveAtMost400Lines) {
   for (const fs::path& file : sources(everything)) EXPECT_LE(lines_of(file).size(), 400u) << file;
 }
 
-TEST(Layout, AFunctionFitsOnTwoScreens) {
+TEST(Readability, FunctionsHaveAtMost80Lines) {
   for (const fs::path& file : sources(everything))
     for (const Function& f : long_functions(lines_of(file), 80))
       ADD_FAILURE() << file.string() << ":" << f.line << ": a function of " << f.length << " lines; 80 are the most";
 }
 
-TEST(Layout, LinesFitTheScreen) {
+TEST(Readability, LinesHaveAtMost120Columns) {
   for (const fs::path& file : sources(everything)) {
     const std::vector<std::string> lines = lines_of(file);
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -117,7 +117,7 @@ TEST(Layout, LinesFitTheScreen) {
 }
 
 // Of simple values: what may also be arguments or a capture is left out.
-TEST(Layout, NoCommaBetweenAssignments) {
+TEST(Readability, NoCommaOperatorBetweenAssignments) {
   static const std::regex two(R"(^\s*\w[\w.\[\]>-]* [-+*/|&]?= [^;"(){}[]*, \w[\w.\[\]>-]* [-+*/|&]?= .*;$)");
   EXPECT_TRUE(std::regex_match("  a.b = 1, c[i] += 2;", two));
   EXPECT_FALSE(std::regex_match("  const int a = 1, b = 2;", two));
@@ -129,7 +129,7 @@ TEST(Layout, NoCommaBetweenAssignments) {
 }
 
 // But for the warps, a family of one kind, of which one is read and the others follow.
-TEST(Layout, AFolderHoldsAtMostFifteenSources) {
+TEST(Readability, FoldersHaveAtMost15Sources) {
   const std::set<std::string> families = {"libmc/mc/warp", "tests/mc/warp"};
   std::map<std::string, int> count;
   for (const fs::path& file : sources(everything)) ++count[file.parent_path().string()];
@@ -139,7 +139,7 @@ TEST(Layout, AFolderHoldsAtMostFifteenSources) {
 using Graph = std::map<std::string, std::map<std::string, std::string>>; ///< from, to, and the place of an include
 
 // A circle through `node`, or "".
-std::string circle(const Graph& graph, const std::string& node, std::vector<std::string>& path,
+std::string find_cycle(const Graph& graph, const std::string& node, std::vector<std::string>& path,
                    std::set<std::string>& done) {
   if (const auto it = std::find(path.begin(), path.end(), node); it != path.end()) {
     std::string text;
@@ -150,14 +150,14 @@ std::string circle(const Graph& graph, const std::string& node, std::vector<std:
   if (!graph.contains(node) || done.contains(node)) return "";
   path.push_back(node);
   for (const auto& [to, place] : graph.at(node))
-    if (const std::string found = circle(graph, to, path, done); !found.empty()) return found;
+    if (const std::string found = find_cycle(graph, to, path, done); !found.empty()) return found;
   path.pop_back();
   done.insert(node);
   return "";
 }
 
 // Who includes whom: a whole folder stands above another or below it.
-TEST(Layout, FoldersIncludeInOneDirection) {
+TEST(Readability, FoldersHaveNoIncludeCycles) {
   const std::vector<const char*> bases = {"libmc", "librender", "tools"};
   Graph graph;
   for (const char* base : bases)
@@ -172,7 +172,7 @@ TEST(Layout, FoldersIncludeInOneDirection) {
   std::set<std::string> done;
   for (const auto& [folder, edges] : graph) {
     std::vector<std::string> path;
-    const std::string found = circle(graph, folder, path, done);
+    const std::string found = find_cycle(graph, folder, path, done);
     ASSERT_TRUE(found.empty()) << "folders include each other in a circle:\n" << found;
   }
 }

@@ -1,4 +1,4 @@
-#include <converge/pictures.h>
+#include <converge/picture_measurement.h>
 
 #include <mc/core/error.h>
 #include <mc/estimate/moments.h>
@@ -19,25 +19,25 @@ namespace carlo {
 
 namespace {
 
-using ::render::Image;
+using render::Image;
 
 /// Added to the square of a pixel, a share of that of the mean over pixels and channels: no unit of light matters. Of
 /// the gallery's pictures it is the .01 of carlo compare, in the median.
-constexpr double dark_share = 0.1;
+constexpr double relmse_floor_share = 0.1;
 /// Roots of relmse below this are rounding of pixels, not noise.
-constexpr double rounding_of_pixels = 8 * std::numeric_limits<::render::Float>::epsilon();
+constexpr double rounding_of_pixels = 8 * std::numeric_limits<render::Float>::epsilon();
 constexpr int first_pictures = 8, most_pictures = 64; ///< behind each error, where their number is not given
 
 // The relmse that an image's own noise makes.
-double noise(const Image& image, double dark) {
+double noise(const Image& image, double relmse_floor) {
   double sum = 0;
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
-    sum += (image.variance[i].cast<double>() / (image.pixels[i].cast<double>().square() + dark)).sum();
+    sum += (image.variance[i].cast<double>() / (image.pixels[i].cast<double>().square() + relmse_floor)).sum();
   return sum / (3.0 * double(image.pixels.size()));
 }
 
 /// Pictures of one way at one number of samples.
-struct Series {
+struct PictureSeries {
   double spp = 0;
   std::vector<Image> images = {};
   Replicates replicates = {};
@@ -48,13 +48,13 @@ struct ReferencePicture {
   Image image;
   double spp = 0;
   double noise = 0; ///< relmse
-  double dark = 0;  ///< what relmse adds to squares of pixels, of every picture alike
+  double relmse_floor = 0;  ///< what relmse adds to squares of pixels, of every picture alike
 };
 
 // Of a pixel's channels, the mean square of how far an image is from another, relative to the reference.
 double relative_square(const Image& image, const Image& from, const ReferencePicture& reference, std::size_t i) {
   const Eigen::Array3d off = image.pixels[i].cast<double>() - from.pixels[i].cast<double>();
-  return (off.square() / (reference.image.pixels[i].cast<double>().square() + reference.dark)).sum() / 3;
+  return (off.square() / (reference.image.pixels[i].cast<double>().square() + reference.relmse_floor)).sum() / 3;
 }
 
 // The mean of that.
@@ -65,13 +65,13 @@ double relmse(const Image& image, const Image& from, const ReferencePicture& ref
 }
 
 // Of the picture that the reference begins with.
-double dark_of(const Image& image) {
+double relmse_floor_of(const Image& image) {
   double sum = 0;
-  for (const ::render::Spectrum& p : image.pixels) sum += p.cast<double>().abs().sum();
-  return dark_share * mc::sqr(sum / (3.0 * double(image.pixels.size())));
+  for (const render::Spectrum& p : image.pixels) sum += p.cast<double>().abs().sum();
+  return relmse_floor_share * mc::sqr(sum / (3.0 * double(image.pixels.size())));
 }
 
-mc::Moments squares_of(const Series& s, const ReferencePicture& reference) {
+mc::Moments squares_of(const PictureSeries& s, const ReferencePicture& reference) {
   mc::Moments squares;
   for (const Image& image : s.images) squares.add(relmse(image, reference.image, reference));
   return squares;
@@ -80,7 +80,7 @@ mc::Moments squares_of(const Series& s, const ReferencePicture& reference) {
 // Of the squares the noise of the reference is a part, or less where its points are more even than independent ones. An
 // error that may be all of the reference's is a bound. Bright pictures that are rare leave the mean of all squares
 // badly known, but not below the least of them.
-mc::RmsError error_of(const Series& s, const ReferencePicture& reference) {
+mc::RmsError error_of(const PictureSeries& s, const ReferencePicture& reference) {
   const mc::Moments squares = squares_of(s, reference);
   double least = squares.mean();
   for (const Image& image : s.images) least = std::min(least, relmse(image, reference.image, reference));
@@ -97,7 +97,7 @@ mc::RmsError error_of(const Series& s, const ReferencePicture& reference) {
 }
 
 // How many pictures make their error known to 10 %: the relative variance of a root is a quarter of its square's.
-int pictures_needed(const Series& s, const ReferencePicture& reference) {
+int pictures_needed(const PictureSeries& s, const ReferencePicture& reference) {
   const mc::Moments squares = squares_of(s, reference);
   const double square = squares.mean() - reference.noise;
   const double needed = square > 0 ? squares.variance() / mc::sqr(square) / (4 * 0.01) : 0;
@@ -112,7 +112,7 @@ std::uint32_t repetitions(const std::vector<mc::RmsError>& errors) {
 }
 
 // Its slope and middle, where there are errors for it.
-void fit(Curve& curve) {
+void fit(ConvergenceCurve& curve) {
   std::vector<mc::RmsError> known;
   double logs = 0;
   for (const mc::RmsError& e : curve.errors) {
@@ -121,24 +121,24 @@ void fit(Curve& curve) {
     logs += std::log(e.n);
   }
   if (known.size() < 3) return;
-  curve.middle = std::exp(logs / double(known.size()));
-  curve.law = mc::fit_power_law(known, repetitions(known));
+  curve.fit_center = std::exp(logs / double(known.size()));
+  curve.power_law = mc::fit_power_law(known, repetitions(known));
 }
 
 /// Of the expectation of a picture and of its noise.
-struct Parts {
+struct BiasAndNoise {
   double bias = 0, noise = 0; ///< relmse
   mc::Moments pixels;         ///< of the bias, of which each has its part
 };
 
 // Without the picture `out`: the mean picture of R has an R-th of the noise.
-Parts parts_of(const Series& s, const ReferencePicture& reference, std::size_t out) {
+BiasAndNoise bias_and_noise_of(const PictureSeries& s, const ReferencePicture& reference, std::size_t out) {
   Image mean(reference.image.width, reference.image.height);
   const double count = double(s.images.size() - (out < s.images.size() ? 1 : 0));
   for (std::size_t r = 0; r < s.images.size(); ++r)
     for (std::size_t i = 0; r != out && i < mean.pixels.size(); ++i) mean.pixels[i] += s.images[r].pixels[i];
-  for (::render::Spectrum& p : mean.pixels) p /= ::render::Float(count);
-  Parts parts;
+  for (render::Spectrum& p : mean.pixels) p /= render::Float(count);
+  BiasAndNoise parts;
   for (std::size_t i = 0; i < mean.pixels.size(); ++i) {
     double own = 0;
     for (std::size_t r = 0; r < s.images.size(); ++r)
@@ -160,18 +160,18 @@ struct WorkAndBias {
 
 // The intervals are those of the jackknife, wide enough for `ways` of them at once. Light of rare paths may be missing
 // in all pictures, which show no noise there: what only few pixels tell is no bias.
-WorkAndBias bias_of(const Series& s, const ReferencePicture& reference, std::size_t ways) {
-  const Parts all = parts_of(s, reference, s.images.size());
+WorkAndBias bias_of(const PictureSeries& s, const ReferencePicture& reference, std::size_t methods) {
+  const BiasAndNoise all = bias_and_noise_of(s, reference, s.images.size());
   mc::Moments biases, noises, seconds;
   for (std::size_t r = 0; r < s.images.size(); ++r) {
-    const Parts part = parts_of(s, reference, r);
+    const BiasAndNoise part = bias_and_noise_of(s, reference, r);
     biases.add(part.bias);
     noises.add(part.noise);
     seconds.add(s.replicates.seconds[r]);
   }
   const double dof = double(s.images.size() - 1);
   const double half =
-      mc::student_quantile(0.05 / double(ways), dof) * std::hypot(biases.std_error() * dof, all.pixels.std_error());
+      mc::student_quantile(0.05 / double(methods), dof) * std::hypot(biases.std_error() * dof, all.pixels.std_error());
   const auto root = [](double x) { return std::sqrt(std::max(x, 0.0)); };
   const auto relative = [](double error, double value) { return value > 0 ? mc::sqr(error / value) : 0.0; };
   return {{{root(all.bias), root(all.bias - half), root(all.bias + half)}, root(all.noise), s.spp, {}},
@@ -182,12 +182,12 @@ WorkAndBias bias_of(const Series& s, const ReferencePicture& reference, std::siz
 
 // At the error e a way takes seconds work / (e^2 - bias^2), so that it pays above the error at which those of the best
 // way without a bias are as many.
-void tell_where_they_pay(std::vector<WorkAndBias>& all) {
+void set_break_even_errors(std::vector<WorkAndBias>& all) {
   const WorkAndBias* best = nullptr;
   for (const WorkAndBias& one : all)
     if (!(one.bias.bias.lo > 0) && (!best || one.work < best->work)) best = &one;
   for (WorkAndBias& one : all) {
-    const Ranged& bias = one.bias.bias;
+    const IntervalEstimate& bias = one.bias.bias;
     if (!(bias.lo > 0)) continue;
     const auto threshold = [](double square_root, double share) {
       return share < 1 ? square_root / std::sqrt(1 - share) : mc::infinity<double>;
@@ -197,24 +197,24 @@ void tell_where_they_pay(std::vector<WorkAndBias>& all) {
     if (best)
       half = mc::student_quantile(0.05 / double(all.size()), std::min(one.dof, best->dof)) *
              std::sqrt(one.variance + best->variance);
-    const Ranged pays{threshold(bias.value, share), threshold(bias.lo, share * std::exp(-half)),
+    const IntervalEstimate pays{threshold(bias.value, share), threshold(bias.lo, share * std::exp(-half)),
                       threshold(bias.hi, share * std::exp(half))};
-    if (std::isfinite(pays.lo)) one.bias.pays_above = pays;
+    if (std::isfinite(pays.lo)) one.bias.break_even_error = pays;
   }
 }
 
 bool is_black(const Image& image) {
   return std::all_of(image.pixels.begin(), image.pixels.end(),
-                     [](const ::render::Spectrum& p) { return ::render::is_black(p); });
+                     [](const render::Spectrum& p) { return render::is_black(p); });
 }
 
 /// A measurement under way.
-class Session {
+class PictureSession {
  public:
-  Session(const ::render::SceneFile& file, const std::vector<PictureWay>& ways, const PictureOptions& options)
-      : file_(file), ways_(ways), options_(options), curves_(ways.size()) {}
+  PictureSession(const render::SceneFile& file, const std::vector<RenderMethod>& methods, const PictureOptions& options)
+      : file_(file), methods_(methods), options_(options), curves_(methods.size()) {}
 
-  Pictures run() {
+  PictureMeasurement run() {
     bool stopped = false;
     for (spp_ = 4; spp_ <= options_.max_spp && is_time_left(); spp_ *= 2) {
       const double before = elapsed();
@@ -222,7 +222,7 @@ class Session {
       if (stopped) break;
       last_ = elapsed() - before;
     }
-    Pictures result = collect();
+    PictureMeasurement result = collect();
     result.measurement.interrupted = stopped;
     return result;
   }
@@ -233,7 +233,7 @@ class Session {
   double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   // Twice the samples take twice as long; the first level is always measured.
   bool is_time_left() const { return options_.seconds <= 0 || elapsed() + 2 * last_ <= options_.seconds || spp_ == 4; }
-  bool is_due(const PictureWay& way) const { return !is_adaptive(way.spending) || spp_ >= 32; }
+  bool is_due(const RenderMethod& method) const { return !is_adaptive(method.allocation) || spp_ >= 32; }
   void show(double share, const std::string& where) const {
     const double before = spp_ - 4, all = 2.0 * options_.max_spp - 4; // of the samples of all levels
     if (options_.progress) options_.progress((before + share * spp_) / all, where);
@@ -242,20 +242,20 @@ class Session {
   // Every way with the samples of this level, and the reference that this takes. Where it is cancelled it returns false
   // and keeps nothing of it.
   bool measure_level() {
-    std::vector<Series> level(ways_.size(), Series{double(spp_)});
-    std::vector<int> wanted(ways_.size());
-    for (std::size_t i = 0; i < ways_.size(); ++i)
-      if (is_due(ways_[i])) wanted[i] = options_.replicates > 0 ? options_.replicates : first_pictures;
-    if (!take(level, wanted) || !refine_reference(level)) return false;
+    std::vector<PictureSeries> level(methods_.size(), PictureSeries{double(spp_)});
+    std::vector<int> wanted(methods_.size());
+    for (std::size_t i = 0; i < methods_.size(); ++i)
+      if (is_due(methods_[i])) wanted[i] = options_.replicates > 0 ? options_.replicates : first_pictures;
+    if (!render_missing(level, wanted) || !refine_reference(level)) return false;
     if (options_.replicates == 0) {
-      for (std::size_t i = 0; i < ways_.size(); ++i)
+      for (std::size_t i = 0; i < methods_.size(); ++i)
         if (wanted[i] > 0) wanted[i] = pictures_needed(level[i], reference_);
-      if (!take(level, wanted)) return false;
+      if (!render_missing(level, wanted)) return false;
     }
-    for (std::size_t i = 0; i < ways_.size(); ++i) {
+    for (std::size_t i = 0; i < methods_.size(); ++i) {
       if (wanted[i] == 0) continue;
       for (const Image& image : level[i].images)
-        level[i].replicates.values.push_back(std::sqrt(noise(image, reference_.dark)));
+        level[i].replicates.values.push_back(std::sqrt(noise(image, reference_.relmse_floor)));
       curves_[i].errors.push_back(error_of(level[i], reference_));
       curves_[i].replicates.push_back(level[i].replicates);
     }
@@ -264,30 +264,30 @@ class Session {
   }
 
   // A picture of every way in turn, again and again, until there are as many as are wanted. Returns whether there are.
-  bool take(std::vector<Series>& level, const std::vector<int>& wanted) const {
+  bool render_missing(std::vector<PictureSeries>& level, const std::vector<int>& wanted) const {
     const int most = *std::max_element(wanted.begin(), wanted.end());
     for (int r = 0; r < most; ++r)
-      for (std::size_t i = 0; i < ways_.size(); ++i) {
+      for (std::size_t i = 0; i < methods_.size(); ++i) {
         if (r >= wanted[i] || std::size_t(r) < level[i].images.size()) continue;
         const std::uint64_t seed = mc::hash(options_.seed, i, std::uint64_t(spp_), std::uint64_t(r));
-        ::render::RenderResult result = render(ways_[i], spp_, seed);
+        render::RenderResult result = render_picture(methods_[i], spp_, seed);
         if (result.partial) return false;
         Replicates& replicates = level[i].replicates;
         replicates.calls.push_back(result.spp);
         replicates.seconds.push_back(options_.cost_rays ? 1e-6 * double(result.rays) : result.cpu_seconds);
         level[i].images.push_back(std::move(result.image));
-        show(0.7 * (r + 1) / most, fmt::format("{} at {} spp", ways_[i].name(), spp_));
+        show(0.7 * (r + 1) / most, fmt::format("{} at {} spp", methods_[i].name(), spp_));
       }
     return true;
   }
 
   // Adds to the reference until its error is a tenth of the smallest by noise of this level. Returns whether it is.
-  bool refine_reference(const std::vector<Series>& level) {
+  bool refine_reference(const std::vector<PictureSeries>& level) {
     if (reference_.spp == 0 && !add_to_reference(16.0 * spp_)) return false;
     double smallest = mc::infinity<double>;
-    for (const Series& s : level)
+    for (const PictureSeries& s : level)
       for (const Image& image : s.images)
-        if (const double x = noise(image, reference_.dark); x > mc::sqr(rounding_of_pixels))
+        if (const double x = noise(image, reference_.relmse_floor); x > mc::sqr(rounding_of_pixels))
           smallest = std::min(smallest, x);
     mc::require(std::isfinite(smallest), "no picture has noise: there is no error to measure");
     const double goal = smallest / 100;
@@ -298,60 +298,60 @@ class Session {
 
   bool add_to_reference(double spp) {
     show(0.8, fmt::format("the reference, {:.0f} spp", reference_.spp + spp));
-    const PictureWay best{.max_depth = file_.defaults.max_depth, .spending = Spending::adaptive};
+    const RenderMethod best{.max_depth = file_.defaults.max_depth, .allocation = SampleAllocation::adaptive};
     const std::uint64_t seed = mc::hash(options_.seed, 77, ++references_);
-    ::render::RenderResult r = render(best, static_cast<int>(std::min(spp, 1e8)), seed);
+    render::RenderResult r = render_picture(best, static_cast<int>(std::min(spp, 1e8)), seed);
     if (r.partial) return false;
     mc::require(!is_black(r.image), "the picture is black: without light there is no error to measure");
-    if (reference_.spp == 0) reference_.dark = dark_of(r.image);
-    reference_.image = reference_.spp > 0 ? ::render::accumulate(reference_.image, reference_.spp, r.image, r.spp)
+    if (reference_.spp == 0) reference_.relmse_floor = relmse_floor_of(r.image);
+    reference_.image = reference_.spp > 0 ? render::accumulate(reference_.image, reference_.spp, r.image, r.spp)
                                           : std::move(r.image);
     reference_.spp += r.spp;
-    reference_.noise = noise(reference_.image, reference_.dark);
+    reference_.noise = noise(reference_.image, reference_.relmse_floor);
     return true;
   }
 
-  ::render::RenderResult render(const PictureWay& way, int spp, std::uint64_t seed) const {
-    ::render::RenderOptions o;
+  render::RenderResult render_picture(const RenderMethod& method, int spp, std::uint64_t seed) const {
+    render::RenderOptions o;
     o.width = options_.width;
     o.height = options_.height;
     o.spp = spp;
-    o.strategy = way.strategy;
-    o.sampler = way.sampler;
-    o.max_depth = way.max_depth;
+    o.strategy = method.strategy;
+    o.sampler = method.sampler;
+    o.max_depth = method.max_depth;
     o.aov = file_.defaults.aov;
-    o.adaptive = is_adaptive(way.spending);
-    o.splat = way.spending == Spending::splat;
-    o.tiles = has_tiles(way.spending);
+    o.adaptive = is_adaptive(method.allocation);
+    o.splat = method.allocation == SampleAllocation::splat;
+    o.tiles = uses_tiles(method.allocation);
     o.seed = seed;
     o.threads = options_.threads;
     o.cancel = options_.cancel;
-    return ::render::render(file_.scene, o);
+    return render::render(file_.scene, o);
   }
 
   // What the levels that were finished tell.
-  Pictures collect() {
-    Pictures result;
+  PictureMeasurement collect() {
+    PictureMeasurement result;
     if (options_.cost_rays) result.measurement.cost = ray_cost;
-    const auto plain = plain_way(file_);
-    result.measurement.plain = plain ? plain->name() : "";
+    const auto plain = plain_mc_method(file_);
+    result.measurement.plain_mc = plain ? plain->name() : "";
     const std::size_t begun =
-        std::size_t(std::count_if(curves_.begin(), curves_.end(), [](const Curve& c) { return !c.errors.empty(); }));
+        std::size_t(std::count_if(curves_.begin(), curves_.end(), [](const ConvergenceCurve& c) { return !c.errors.empty(); }));
     std::vector<WorkAndBias> biases;
-    for (std::size_t i = 0; i < ways_.size(); ++i) {
-      Curve& curve = curves_[i];
+    for (std::size_t i = 0; i < methods_.size(); ++i) {
+      ConvergenceCurve& curve = curves_[i];
       if (curve.errors.empty()) continue;
-      Way& way = result.ways.emplace_back();
-      way.name = way.title = ways_[i].name();
-      curve.way = &way;
+      SamplingMethod& method = result.methods.emplace_back();
+      method.name = method.title = methods_[i].name();
+      curve.method = &method;
       fit(curve);
       biases.push_back(bias_of(level_[i], reference_, begun));
-      const bool is_plain = ways_[i].sampler == ::render::PixelSampler::independent && !is_adaptive(ways_[i].spending);
-      if (is_plain && !(biases.back().bias.bias.lo > 0)) curve.theory = Rate{0.5, 0, "independent samples"};
+      const bool is_plain = methods_[i].sampler == render::PixelSampler::independent && !is_adaptive(methods_[i].allocation);
+      if (is_plain && !(biases.back().bias.bias.lo > 0)) curve.theory = ConvergenceRate{0.5, 0, "independent samples"};
       result.measurement.curves.push_back(std::move(curve));
       result.pictures.push_back(level_[i].images.front());
     }
-    tell_where_they_pay(biases);
+    set_break_even_errors(biases);
     for (const WorkAndBias& one : biases) result.biases.push_back(one.bias);
     result.reference = std::move(reference_.image);
     result.reference_error = std::sqrt(reference_.noise);
@@ -359,12 +359,12 @@ class Session {
     return result;
   }
 
-  const ::render::SceneFile& file_;
-  const std::vector<PictureWay>& ways_;
+  const render::SceneFile& file_;
+  const std::vector<RenderMethod>& methods_;
   const PictureOptions& options_;
   const Clock::time_point start_ = Clock::now();
-  std::vector<Curve> curves_; ///< of every way
-  std::vector<Series> level_; ///< of every way, those of the last level
+  std::vector<ConvergenceCurve> curves_; ///< of every way
+  std::vector<PictureSeries> level_; ///< of every way, those of the last level
   ReferencePicture reference_;
   std::uint64_t references_ = 0; ///< pictures that the reference is the mean of
   int spp_ = 4;                  ///< of this level
@@ -373,27 +373,27 @@ class Session {
 
 } // namespace
 
-std::string PictureWay::name() const {
-  std::string text = fmt::format("{} {}", strategy.name, ::render::name(sampler));
+std::string RenderMethod::name() const {
+  std::string text = fmt::format("{} {}", strategy.name, render::name(sampler));
   if (max_depth > 0) text += fmt::format(" depth {}", max_depth);
   constexpr std::array<const char*, 5> words = {"", " adaptive", " splat", " tiles", " adaptive tiles"};
-  return text + words[static_cast<std::size_t>(spending)];
+  return text + words[static_cast<std::size_t>(allocation)];
 }
 
-std::optional<PictureWay> plain_way(const ::render::SceneFile& file) {
-  const ::render::Strategy& strategy = ::render::strategy_from("bsdf");
+std::optional<RenderMethod> plain_mc_method(const render::SceneFile& file) {
+  const render::Strategy& strategy = render::strategy_from("bsdf");
   if (!finds_all_lights(file.scene, strategy)) return {};
-  return PictureWay{strategy, ::render::PixelSampler::independent, file.defaults.max_depth};
+  return RenderMethod{strategy, render::PixelSampler::independent, file.defaults.max_depth};
 }
 
-Pictures measure_pictures(const ::render::SceneFile& file, const std::vector<PictureWay>& ways,
+PictureMeasurement measure_pictures(const render::SceneFile& file, const std::vector<RenderMethod>& methods,
                           const PictureOptions& options) {
-  mc::require(!ways.empty(), "no method to render is named");
+  mc::require(!methods.empty(), "no method to render is named");
   mc::require(options.replicates == 0 || options.replicates >= 3,
               "{} pictures behind each error; at least 3 are needed", options.replicates);
   mc::require(options.max_spp >= 16 && options.max_spp <= 1 << 28, "{} samples per pixel at most; it must lie in 16 to 2^28",
               options.max_spp);
-  return Session(file, ways, options).run();
+  return PictureSession(file, methods, options).run();
 }
 
 } // namespace carlo

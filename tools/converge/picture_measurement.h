@@ -11,23 +11,23 @@
 namespace carlo {
 
 /// How samples become pixels.
-enum class Spending {
-  even,
+enum class SampleAllocation {
+  uniform,
   adaptive, ///< samples where the error is
   splat,    ///< evenly, each sample for all pixels under the filter
   tiles,    ///< evenly, 2x2 pixels share paths
   adaptive_tiles
 };
 
-inline bool is_adaptive(Spending s) { return s == Spending::adaptive || s == Spending::adaptive_tiles; }
-inline bool has_tiles(Spending s) { return s == Spending::tiles || s == Spending::adaptive_tiles; }
+inline bool is_adaptive(SampleAllocation s) { return s == SampleAllocation::adaptive || s == SampleAllocation::adaptive_tiles; }
+inline bool uses_tiles(SampleAllocation s) { return s == SampleAllocation::tiles || s == SampleAllocation::adaptive_tiles; }
 
 /// One way to render.
-struct PictureWay {
+struct RenderMethod {
   render::Strategy strategy = render::strategy_from("mis+lt");
   render::PixelSampler sampler = render::PixelSampler::sobol;
   int max_depth = -1; ///< longest path in edges; -1: no limit
-  Spending spending = Spending::even;
+  SampleAllocation allocation = SampleAllocation::uniform;
 
   /// "mis sobol", "nee independent depth 4 adaptive", "mis sobol splat", "mis sobol adaptive tiles".
   std::string name() const;
@@ -35,7 +35,7 @@ struct PictureWay {
 
 /// Plain Monte Carlo: independent samples of paths that follow the surfaces and meet the lights by chance. Nothing
 /// where chance does not meet every light.
-std::optional<PictureWay> plain_way(const render::SceneFile& file);
+std::optional<RenderMethod> plain_mc_method(const render::SceneFile& file);
 
 struct PictureOptions {
   int width = 64, height = 64;
@@ -51,24 +51,24 @@ struct PictureOptions {
 
 /// What a way errs by however long it runs: paths that are too short, light that a strategy does not look for.
 struct Bias {
-  Ranged bias;      ///< root of the relmse of its expectation; the interval holds for all ways at once with 95 %, and
+  IntervalEstimate bias;      ///< root of the relmse of its expectation; the interval holds for all ways at once with 95 %, and
                     ///< counts the spread between pixels as chance, so that a bias is told by many of them
   double noise = 0; ///< root of the relmse of one picture's noise
   double n = 0;     ///< samples per pixel, the most
   /// Where it is told from 0: the error above which it costs less than the best way without. Infinite where it may cost
   /// more at any error, nothing where it does. The interval holds like that of the bias.
-  std::optional<Ranged> pays_above;
+  std::optional<IntervalEstimate> break_even_error;
 };
 
 /// What was measured: N is samples per pixel, the error of a picture the root of its relmse, the mean over pixels and
 /// channels of (x - reference)^2 / (reference^2 + mean^2 / 10), less what the noise of the reference adds; mean: over
 /// the pixels and channels of the first reference, for every way, so that errors do not depend on the unit of light.
-struct Pictures {
-  std::deque<Way> ways;     ///< that the curves point to
+struct PictureMeasurement {
+  std::deque<SamplingMethod> methods;     ///< that the curves point to
   Measurement measurement;  ///< its truth is an error of 0
   std::vector<Bias> biases; ///< of the ways
-  ::render::Image reference;
-  std::vector<::render::Image> pictures; ///< one of each way, of its most samples
+  render::Image reference;
+  std::vector<render::Image> pictures; ///< one of each way, of its most samples
   double reference_error = 0;            ///< root of the relmse that the reference's noise is
   double reference_spp = 0;
 };
@@ -81,7 +81,7 @@ struct Pictures {
 ///   reference : mis+lt, sobol and the scene's longest path; at each number of samples so many more as bring its
 ///               error to a tenth of the smallest by noise
 ///   throws    : Error for a black scene, no ways, fewer than 3 pictures, or max_spp below 16 or above 2^28
-Pictures measure_pictures(const render::SceneFile& file, const std::vector<PictureWay>& ways,
+PictureMeasurement measure_pictures(const render::SceneFile& file, const std::vector<RenderMethod>& methods,
                           const PictureOptions& options);
 
 } // namespace carlo

@@ -1,6 +1,6 @@
 // The layout of the house: who may include whom, every header has its test, the READMEs show what is compiled.
 
-#include "house/source_tree.h"
+#include "layout/source_tree.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,23 +10,23 @@
 
 namespace {
 
-using namespace house;
+using namespace layout;
 
-using Rooms = std::map<std::string, std::set<std::string>>;
+using Modules = std::map<std::string, std::set<std::string>>;
 
 // Every room with the rooms it may include, and transitively theirs.
-Rooms closure(Rooms rooms) {
+Modules closure(Modules modules) {
   for (bool grown = true; grown;) {
     grown = false;
-    for (auto& [room, allowed] : rooms)
+    for (auto& [module, allowed] : modules)
       for (const std::string& next : std::set<std::string>(allowed))
-        if (const auto it = rooms.find(next); it != rooms.end())
+        if (const auto it = modules.find(next); it != modules.end())
           for (const std::string& further : it->second) grown |= allowed.insert(further).second;
   }
-  return rooms;
+  return modules;
 }
 
-const Rooms allowed_rooms = closure({
+const Modules allowed_includes = closure({
     {"mc/core", {}},
     {"mc/random", {"mc/core"}},
     {"mc/domain", {"mc/core"}},
@@ -53,7 +53,7 @@ const Rooms allowed_rooms = closure({
 });
 
 // "libmc/mc/warp/disk.h" or "mc/warp/disk.h" -> "mc/warp"; a file directly under render/ is the room "render".
-std::string room_of(std::string path) {
+std::string module_of(std::string path) {
   for (const std::string prefix : {"libmc/", "librender/"})
     if (path.starts_with(prefix)) path.erase(0, prefix.size());
   const std::string parent = fs::path(path).parent_path().generic_string();
@@ -65,19 +65,19 @@ std::string room_of(std::string path) {
 
 bool is_ours(const std::string& header) { return header.starts_with("mc/") || header.starts_with("render/"); }
 
-TEST(House, IncludesFollowTheDesign) {
+TEST(Layout, IncludesPointDownwards) {
   for (const char* folder : {"libmc/mc", "librender/render"}) {
     for (const Include& i : includes(folder)) {
       if (!is_ours(i.header)) continue;
-      const std::string from = room_of(i.file), to = room_of(i.header);
-      ASSERT_TRUE(allowed_rooms.contains(from)) << i.file << " stands in a folder that the design does not name";
-      EXPECT_TRUE(from == to || allowed_rooms.at(from).contains(to))
+      const std::string from = module_of(i.file), to = module_of(i.header);
+      ASSERT_TRUE(allowed_includes.contains(from)) << i.file << " stands in a folder that the design does not name";
+      EXPECT_TRUE(from == to || allowed_includes.at(from).contains(to))
           << i.file << ":" << i.line << ": " << from << " may not include <" << i.header << ">";
     }
   }
 }
 
-TEST(House, LibrariesNeverIncludeTestsBenchOrTools) {
+TEST(Layout, LibrariesNeverIncludeTestsBenchOrTools) {
   for (const char* folder : {"libmc/mc", "librender/render"})
     for (const Include& i : includes(folder))
       EXPECT_TRUE(!i.header.starts_with("tests/") && !i.header.starts_with("tools/") &&
@@ -86,7 +86,7 @@ TEST(House, LibrariesNeverIncludeTestsBenchOrTools) {
 }
 
 // A library that is costly to compile or easy to swap stands behind one .cpp of each of our libraries that needs it.
-TEST(House, EachOutsideLibraryHasOneDoor) {
+TEST(Layout, EachThirdPartyLibraryIsIncludedByOneFile) {
   const std::map<std::string, std::string> doors = {
       {"CLI/", "CLI11"},       {"pugixml.hpp", "pugixml"},       {"OpenEXR/", "OpenEXR"},
       {"Imf", "OpenEXR"},      {"turbojpeg.h", "libjpeg-turbo"}, {"png.h", "libpng"},
@@ -100,7 +100,7 @@ TEST(House, EachOutsideLibraryHasOneDoor) {
     EXPECT_LE(files.size(), 1u) << library << " is included by " << *files.begin() << " and " << *files.rbegin();
 }
 
-TEST(House, EveryPublicHeaderHasItsTest) {
+TEST(Layout, EveryPublicHeaderHasATest) {
   for (const std::string base : {"libmc", "librender"}) {
     const fs::path inner = base == "libmc" ? "libmc/mc" : "librender/render";
     for (const fs::path& file : sources(inner)) {
@@ -112,7 +112,7 @@ TEST(House, EveryPublicHeaderHasItsTest) {
   }
 }
 
-TEST(House, TopLevelHoldsWhatTheDesignNames) {
+TEST(Layout, TopLevelHasOnlyKnownEntries) {
   const std::set<std::string> known = {
       "CMakeLists.txt", "CMakePresets.json", "README.md", "LICENSE", "libmc", "librender", "tools", "tests",
       "bench",          "notebooks-data",    "build",     "out",     "docs"};
@@ -124,29 +124,29 @@ TEST(House, TopLevelHoldsWhatTheDesignNames) {
 
 // A consumer compiles with flags of its own: no installed header branches on the instruction set, nor includes one that
 // does (and that would not be found, since it is not installed).
-TEST(House, InstalledHeadersMeanTheSameUnderAllFlags) {
+TEST(Layout, InstalledHeadersDoNotDependOnInstructionSet) {
   static const std::regex branch(R"(__(AVX|SSE|GFNI|BMI|FMA|ARM)|immintrin|_mm\d*_)"),
       excluded(R"re(PATTERN "([\w.]+)" EXCLUDE)re");
   const std::string cmake = text_of("librender/CMakeLists.txt");
-  std::set<std::string> inside;
+  std::set<std::string> not_installed;
   for (std::sregex_iterator match(cmake.begin(), cmake.end(), excluded), end; match != end; ++match)
-    inside.insert((*match)[1]);
-  EXPECT_FALSE(inside.empty());
+    not_installed.insert((*match)[1]);
+  EXPECT_FALSE(not_installed.empty());
   for (const char* folder : {"libmc/mc", "librender/render"}) {
     for (const fs::path& file : sources(fs::path(folder))) {
-      if (file.extension() != ".h" || inside.contains(file.filename().string())) continue;
+      if (file.extension() != ".h" || not_installed.contains(file.filename().string())) continue;
       EXPECT_FALSE(std::regex_search(text_of(file), branch)) << file;
     }
     for (const Include& i : includes(folder)) {
-      if (!i.file.ends_with(".h") || inside.contains(fs::path(i.file).filename().string())) continue;
-      EXPECT_FALSE(is_ours(i.header) && inside.contains(fs::path(i.header).filename().string()))
+      if (!i.file.ends_with(".h") || not_installed.contains(fs::path(i.file).filename().string())) continue;
+      EXPECT_FALSE(is_ours(i.header) && not_installed.contains(fs::path(i.header).filename().string()))
           << i.file << ":" << i.line << ": <" << i.header << "> is not installed";
     }
   }
 }
 
 // The README's test and the plugin are those that the consumer compiles and runs against the installed package.
-TEST(House, TheExamplesOfTheReadmesAreCompiled) {
+TEST(Layout, ReadmeExamplesAreCompiled) {
   EXPECT_NE(text_of("README.md").find("```cpp\n" + text_of("tests/consumer/my_test.cpp") + "```"), std::string::npos)
       << "README.md: the test is not tests/consumer/my_test.cpp";
   EXPECT_NE(text_of("tools/plugin/README.md").find("```c\n" + text_of("tests/consumer/mine.c") + "```"),
@@ -155,7 +155,7 @@ TEST(House, TheExamplesOfTheReadmesAreCompiled) {
 }
 
 // A link to a file of the project leads to one.
-TEST(House, LinksOfTheReadmesLead) {
+TEST(Layout, ReadmeLinksExist) {
   static const std::regex link(R"(\]\(([\w./-]+)\))");
   std::vector<fs::path> files = {"README.md",
                                  "libmc/README.md",
@@ -175,6 +175,6 @@ TEST(House, LinksOfTheReadmesLead) {
   }
 }
 
-TEST(House, TheReadmeIsForTheFirstTenMinutes) { EXPECT_LE(lines_of("README.md").size(), 160u); }
+TEST(Layout, ReadmeHasAtMost160Lines) { EXPECT_LE(lines_of("README.md").size(), 160u); }
 
 } // namespace

@@ -8,7 +8,7 @@
 namespace carlo {
 
 /// A variable with its bounds, lo < hi; either may be infinite.
-struct Side {
+struct VariableBounds {
   std::string name;
   double lo, hi;
 
@@ -17,15 +17,15 @@ struct Side {
 
 /// "x=0:1,y=-1:2,z=0:inf"; bounds may be constant expressions, "phi=-_pi:2*_pi", see parse_function. Throws Error that
 /// names --domain for anything else.
-std::vector<Side> parse_sides(const std::string& box);
+std::vector<VariableBounds> parse_bounds(const std::string& box);
 
 /// Where u in [0,1] lies on a side: x, increasing in u, and dx/du.
 ///   finite : x = lo (1 - u) + hi u
 ///   lo:inf : x = lo + u / (1 - u) [PiessensEtAl83]; -inf:hi mirrored; -inf:inf : x = t / (1 - t^2), t = 2 u - 1
-struct Placed {
+struct MappedPoint {
   double x, slope;
 };
-inline Placed place_on(const Side& s, double u) {
+inline MappedPoint map_to_bounds(const VariableBounds& s, double u) {
   if (s.is_finite()) return {s.lo * (1 - u) + s.hi * u, s.hi - s.lo};
   if (std::isfinite(s.lo)) return {s.lo + u / (1 - u), 1 / ((1 - u) * (1 - u))};
   if (std::isfinite(s.hi)) return {s.hi - (1 - u) / u, 1 / (u * u)};

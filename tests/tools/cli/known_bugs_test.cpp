@@ -13,20 +13,20 @@
 
 namespace {
 
-using carlo::SlipsOptions;
+using carlo::KnownBugsCommandOptions;
 using support::Output, support::refusal, support::run;
 using testing::AllOf;
 using testing::HasSubstr;
 
-SlipsOptions slips(std::vector<std::string> names, std::uint64_t samples) {
-  SlipsOptions o;
+KnownBugsCommandOptions bug_options(std::vector<std::string> names, std::uint64_t samples) {
+  KnownBugsCommandOptions o;
   o.names = std::move(names);
   o.samples = samples;
   return o;
 }
 
-TEST(Slips, AllAreRejectedAndTheirRemediesPass) {
-  SlipsOptions o = slips({}, 100'000);
+TEST(KnownBugs, BuggyVersionsAreRejectedAndFixesPass) {
+  KnownBugsCommandOptions o = bug_options({}, 100'000);
   o.json = (std::filesystem::path(testing::TempDir()) / "slips.json").string();
   const Output out = run(o);
   const std::size_t n = carlo::book_bugs().size();
@@ -38,9 +38,9 @@ TEST(Slips, AllAreRejectedAndTheirRemediesPass) {
               AllOf(HasSubstr("\"id\": \"P36\""), HasSubstr("\"boxes\""), HasSubstr("\"commit\"")));
 }
 
-TEST(Slips, ANamedSlipTellsItsStory) {
+TEST(KnownBugs, NamedBug_PrintsItsStory) {
   for (const char* name : {"P5", "eight cube roots"}) {
-    const Output out = run(slips({name}, 20'000));
+    const Output out = run(bug_options({name}, 20'000));
     EXPECT_EQ(out.code, carlo::exit_ok) << out.text;
     EXPECT_THAT(out.text,
                 AllOf(HasSubstr("1 of 1 bugs rejected, 1 of 1 corrections passed"), HasSubstr("8 x^(1/3) leaves [0,2]"),
@@ -49,39 +49,39 @@ TEST(Slips, ANamedSlipTellsItsStory) {
 }
 
 // A wrong sampler that no test rejects at so small an alpha is reported as missed, and the exit code says so.
-TEST(Slips, AMissedSlipFails) {
-  SlipsOptions o = slips({"P36"}, 8000);
+TEST(KnownBugs, UndetectedBug_FailsTheRun) {
+  KnownBugsCommandOptions o = bug_options({"P36"}, 8000);
   o.alpha = 1e-200;
   const Output out = run(o);
   EXPECT_EQ(out.code, carlo::exit_failed) << out.text;
   EXPECT_THAT(out.text, AllOf(HasSubstr("missed"), HasSubstr("0 of 1 bugs rejected")));
 }
 
-TEST(Slips, ListNamesEverySlip) {
-  SlipsOptions o = slips({}, 8000);
+TEST(KnownBugs, ListPrintsEveryBug) {
+  KnownBugsCommandOptions o = bug_options({}, 8000);
   o.list = true;
   const std::string text = run(o).text;
   for (const carlo::KnownBug& s : carlo::book_bugs()) EXPECT_THAT(text, AllOf(HasSubstr(s.name), HasSubstr(s.source)));
 }
 
-TEST(Slips, BadInputIsOneLine) {
-  EXPECT_THAT(refusal(slips({"in-ball Lambertain"}, 8000)),
+TEST(KnownBugs, BadInput_IsReportedInOneLine) {
+  EXPECT_THAT(refusal(bug_options({"in-ball Lambertain"}, 8000)),
               HasSubstr("unknown bug 'in-ball Lambertain'; did you mean 'in-ball Lambertian'?"));
-  EXPECT_THAT(refusal(slips({}, 10)), HasSubstr("--samples 10 must lie in"));
-  SlipsOptions o = slips({"P1"}, 8000);
+  EXPECT_THAT(refusal(bug_options({}, 10)), HasSubstr("--samples 10 must lie in"));
+  KnownBugsCommandOptions o = bug_options({"P1"}, 8000);
   o.alpha = 0;
   EXPECT_THAT(refusal(o), HasSubstr("--alpha 0 must lie in (0, 1)"));
-  o = slips({"P1"}, 8000);
+  o = bug_options({"P1"}, 8000);
   o.json = "/nonexistent/folder/file.json";
   EXPECT_THAT(refusal(o), HasSubstr("/nonexistent/folder"));
-  carlo::ValidateOptions old;
+  carlo::ValidateCommandOptions old;
   old.names = {"book-slips"};
   EXPECT_THAT(refusal(old), HasSubstr("carlo known-bugs [BUG...]"));
 }
 
 // What cannot be finished leaves the user's file as it was.
-TEST(Slips, TheOldResultsStayUntilTheNewOnesAreWhole) {
-  SlipsOptions o = slips({"P1"}, 8000);
+TEST(KnownBugs, OldResultsStayUntilNewOnesAreComplete) {
+  KnownBugsCommandOptions o = bug_options({"P1"}, 8000);
   o.json = testing::TempDir() + "/kept.json";
   mc::write_file(o.json, "old");
   o.samples = 10;
@@ -91,7 +91,7 @@ TEST(Slips, TheOldResultsStayUntilTheNewOnesAreWhole) {
 
 // The right boxes agree with the reference within five standard errors; the wrong ones are as far off as when each was
 // integrated on its own: +12 % in the ball, -16 % doubled, -21 % light only, -1.7 % half hidden.
-TEST(CornellBoxes, RightOnesAgreeAndWrongOnesAreOffByWhatIsKnown) {
+TEST(CornellBoxes, CorrectOnesAgreeAndWrongOnesHaveKnownErrors) {
   const auto boxes = carlo::cornell_boxes(60'000, 1, 0);
   ASSERT_EQ(boxes.size(), 7u);
   const double off[] = {0, 0, 0, 0.125, -0.161, -0.21, -0.017};
@@ -102,7 +102,7 @@ TEST(CornellBoxes, RightOnesAgreeAndWrongOnesAreOffByWhatIsKnown) {
   }
 }
 
-TEST(CornellBoxes, ThreadsDoNotChangeThem) {
+TEST(CornellBoxes, DoNotDependOnThreads) {
   const auto one = carlo::cornell_boxes(5000, 2, 1), two = carlo::cornell_boxes(5000, 2, 2);
   for (std::size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].mean, two[i].mean) << one[i].name;
 }

@@ -5,7 +5,7 @@
 
 namespace carlo {
 
-struct SlipsOptions {
+struct KnownBugsCommandOptions {
   std::vector<std::string> names; ///< ids or names of bugs; empty: all, and the Cornell boxes
   bool list = false;
   double alpha = 0.01;               ///< over all sample sizes tried for one bug
@@ -21,6 +21,6 @@ struct SlipsOptions {
 /// JSON: {command, commit, seed, alpha, passed, slips: [{id, name, where, story, caught, test, samples (0: none
 ///       needed), fault, report, right: {verdict, p, samples}}],
 ///       boxes: [{name, where, story, mean, std_error, off, off_error, p, agrees}]}.
-int slips(const SlipsOptions& options);
+int run_known_bugs(const KnownBugsCommandOptions& options);
 
 } // namespace carlo

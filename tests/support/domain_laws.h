@@ -51,7 +51,7 @@ template <mc::Domain D> void expect_jacobian(const D& domain) {
 }
 
 /// The Jacobian, points in the domain, and round trips within `eps` machine epsilons of the unit cube.
-template <mc::Domain D> void expect_chart(const D& domain, double eps) {
+template <mc::Domain D> void expect_domain_laws(const D& domain, double eps) {
   using S = typename D::Scalar;
   const double bound = eps * static_cast<double>(std::numeric_limits<S>::epsilon());
   mc::Pcg random(11);

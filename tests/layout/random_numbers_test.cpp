@@ -66,7 +66,7 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-TEST(RandomNumbers, GoIntoWarpsOfLibmcOnly) {
+TEST(RandomNumbers, AreOnlyUsedThroughLibmc) {
   const fs::path root = fs::path(MC_SOURCE_DIR) / "librender/render";
   int files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(root)) {
@@ -81,7 +81,7 @@ TEST(RandomNumbers, GoIntoWarpsOfLibmcOnly) {
 }
 
 // Numbers come from the streams of libmc.
-TEST(RandomNumbers, AreNotMade) {
+TEST(RandomNumbers, AreNotGeneratedInLibrender) {
   const fs::path root = fs::path(MC_SOURCE_DIR) / "librender/render";
   for (const auto& entry : fs::recursive_directory_iterator(root)) {
     const std::string name = entry.path().filename().string();
@@ -92,7 +92,7 @@ TEST(RandomNumbers, AreNotMade) {
   }
 }
 
-TEST(RandomNumbers, TheCheckSeesWhatItShould) {
+TEST(RandomNumbers, MisusesAreDetected) {
   for (const char* wrong :
        {"const Float z = 1 - 2 * u[0];", "  return std::sqrt(u[0]);", "if (uc < r) return;", "  return radius * u;",
         "const Float a = stream.next();\n  return a * a;", "return std::cos(2 * mc::pi<Float> * u[1]);",

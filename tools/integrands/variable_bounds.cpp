@@ -1,5 +1,5 @@
 #include <integrands/expression.h>
-#include <integrands/sides.h>
+#include <integrands/variable_bounds.h>
 
 #include <mc/core/error.h>
 #include <mc/core/text.h>
@@ -23,20 +23,20 @@ double bound(std::string_view text, std::string_view side) {
 
 } // namespace
 
-std::vector<Side> parse_sides(const std::string& box) {
-  std::vector<Side> sides;
+std::vector<VariableBounds> parse_bounds(const std::string& box) {
+  std::vector<VariableBounds> bounds;
   for (const std::string_view side : mc::split(box, ',')) {
     const std::size_t equals = side.find('='), colon = side.find(':');
     mc::require(equals != std::string::npos && equals > 0 && colon != std::string::npos && colon > equals,
                 "--domain: '{}' is not of the form name=lo:hi, as in \"x=0:1,y=-1:2\"", side);
-    Side s{std::string(mc::trimmed(side.substr(0, equals))), bound(side.substr(equals + 1, colon - equals - 1), side),
+    VariableBounds s{std::string(mc::trimmed(side.substr(0, equals))), bound(side.substr(equals + 1, colon - equals - 1), side),
            bound(side.substr(colon + 1), side)};
-    mc::with_context("--domain", [&] { require_variable(s.name); });
+    mc::with_context("--domain", [&] { require_variable_name(s.name); });
     mc::require(s.lo < s.hi, "--domain: '{}' has bounds {} and {}; lo < hi is needed", side, s.lo, s.hi);
-    for (const Side& other : sides) mc::require(other.name != s.name, "--domain: '{}' is bounded twice", s.name);
-    sides.push_back(s);
+    for (const VariableBounds& other : bounds) mc::require(other.name != s.name, "--domain: '{}' is bounded twice", s.name);
+    bounds.push_back(s);
   }
-  return sides;
+  return bounds;
 }
 
 } // namespace carlo

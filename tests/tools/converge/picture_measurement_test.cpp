@@ -1,6 +1,6 @@
 // Pictures of a scene by several ways: errors, slopes, bias, and that the choice repeats.
 
-#include <converge/pictures.h>
+#include <converge/picture_measurement.h>
 
 #include <support/files.h>
 
@@ -15,8 +15,8 @@ namespace {
 
 using namespace carlo;
 
-PictureWay way(const char* strategy, render::PixelSampler sampler, int depth = -1, Spending spending = Spending::even) {
-  return {render::strategy_from(strategy), sampler, depth, spending};
+RenderMethod method(const char* strategy, render::PixelSampler sampler, int depth = -1, SampleAllocation allocation = SampleAllocation::uniform) {
+  return {render::strategy_from(strategy), sampler, depth, allocation};
 }
 
 render::SceneFile scene(const char* name) {
@@ -55,17 +55,17 @@ struct Lamp : support::ScratchTest {
 constexpr auto independent = render::PixelSampler::independent, sobol = render::PixelSampler::sobol;
 
 // Independent samples fall as N^-1/2; light found after two edges only is a bias, told from noise.
-TEST(Pictures, TellsBiasFromNoise) {
+TEST(PictureMeasurement, SeparatesBiasFromNoise) {
   const render::SceneFile file = scene("cbox");
   PictureOptions o{.width = 12, .height = 12, .max_spp = 64, .cost_rays = true};
-  const std::vector<PictureWay> ways = {way("mis", independent), way("mis", sobol), way("mis", sobol, 2)};
-  const Pictures p = measure_pictures(file, ways, o);
+  const std::vector<RenderMethod> methods = {method("mis", independent), method("mis", sobol), method("mis", sobol, 2)};
+  const PictureMeasurement p = measure_pictures(file, methods, o);
   ASSERT_EQ(p.measurement.curves.size(), 3u);
-  const Curve& random = p.measurement.curves[0];
-  ASSERT_TRUE(random.law);
+  const ConvergenceCurve& random = p.measurement.curves[0];
+  ASSERT_TRUE(random.power_law);
   // Within twice the 95 % interval: one seed of 10,000 is not.
-  EXPECT_LE(2 * random.law->lo - random.law->slope, -0.5);
-  EXPECT_GE(2 * random.law->hi - random.law->slope, -0.5);
+  EXPECT_LE(2 * random.power_law->lo - random.power_law->slope, -0.5);
+  EXPECT_GE(2 * random.power_law->hi - random.power_law->slope, -0.5);
   EXPECT_EQ(random.errors.size(), 5u); // 4, 8, 16, 32, 64
   for (const mc::RmsError& e : random.errors) {
     EXPECT_LT(e.lo, e.rms);
@@ -76,38 +76,38 @@ TEST(Pictures, TellsBiasFromNoise) {
   for (const std::size_t unbiased : {0u, 1u}) EXPECT_EQ(p.biases[unbiased].bias.lo, 0) << unbiased;
   const Bias& cut = p.biases[2];
   EXPECT_GE(cut.bias.lo, 0.1); // a third of the light comes by longer paths
-  ASSERT_TRUE(cut.pays_above);
-  EXPECT_GE(cut.pays_above->value, cut.bias.value);
-  EXPECT_LE(cut.pays_above->lo, cut.pays_above->value);
-  EXPECT_GE(cut.pays_above->hi, cut.pays_above->value);
-  for (const Curve& c : p.measurement.curves) // 8 of each, and more where they spread
+  ASSERT_TRUE(cut.break_even_error);
+  EXPECT_GE(cut.break_even_error->value, cut.bias.value);
+  EXPECT_LE(cut.break_even_error->lo, cut.break_even_error->value);
+  EXPECT_GE(cut.break_even_error->hi, cut.break_even_error->value);
+  for (const ConvergenceCurve& c : p.measurement.curves) // 8 of each, and more where they spread
     for (const Replicates& r : c.replicates) EXPECT_GE(r.values.size(), 8u);
 }
 
 // What all pictures miss alike shows no noise, and was taken for a bias at seven of twenty seeds, of which these are.
-TEST_F(Caustics, LightThatFewSamplesFindIsNoBias) {
+TEST_F(Caustics, RarelySampledLightIsNotBias) {
   const render::SceneFile file = ball();
-  const std::vector<PictureWay> ways = {way("mixture", independent), way("nee", independent), way("mis", independent),
-                                        way("mis+lt", independent)};
+  const std::vector<RenderMethod> methods = {method("mixture", independent), method("nee", independent), method("mis", independent),
+                                        method("mis+lt", independent)};
   for (const std::uint64_t seed : {1u, 3u, 10u}) {
-    const Pictures p = measure_pictures(file, ways, {.width = 8, .height = 8, .max_spp = 16, .seed = seed});
+    const PictureMeasurement p = measure_pictures(file, methods, {.width = 8, .height = 8, .max_spp = 16, .seed = seed});
     for (const Bias& b : p.biases) EXPECT_EQ(b.bias.lo, 0) << seed;
   }
 }
 
 // What was measured with fewer samples stands, and is what a run without an interrupt finds there.
-TEST(Pictures, AnInterruptCostsOnlyTheLevelThatItFallsOn) {
+TEST(PictureMeasurement, Interrupt_LosesOnlyTheCurrentLevel) {
   const render::SceneFile file = scene("cbox");
-  const std::vector<PictureWay> ways = {way("mis", sobol), way("nee", sobol, -1, Spending::adaptive)};
+  const std::vector<RenderMethod> methods = {method("mis", sobol), method("nee", sobol, -1, SampleAllocation::adaptive)};
   PictureOptions o{.width = 8, .height = 8, .max_spp = 16, .cost_rays = true};
-  const Pictures whole = measure_pictures(file, ways, o);
+  const PictureMeasurement whole = measure_pictures(file, methods, o);
   std::atomic<bool> stop = false;
   o.max_spp = 64;
   o.cancel = &stop;
   o.progress = [&](double, const std::string& where) { stop = stop || where.ends_with(" 32 spp"); };
-  const Pictures cut = measure_pictures(file, ways, o);
+  const PictureMeasurement cut = measure_pictures(file, methods, o);
   EXPECT_TRUE(cut.measurement.interrupted);
-  ASSERT_EQ(cut.ways.size(), 1u); // adaptive spending begins at 32
+  ASSERT_EQ(cut.methods.size(), 1u); // adaptive spending begins at 32
   ASSERT_EQ(cut.measurement.curves[0].errors.size(), 3u);
   EXPECT_EQ(cut.biases[0].n, 16);
   EXPECT_FALSE(whole.measurement.interrupted);
@@ -116,65 +116,65 @@ TEST(Pictures, AnInterruptCostsOnlyTheLevelThatItFallsOn) {
 }
 
 // In a white furnace paths that follow a white sphere know every pixel, and the reference only to rounding.
-TEST_F(Lamp, AnErrorThatMayBeAllOfTheReferenceIsABound) {
+TEST_F(Lamp, ErrorBelowReferenceNoise_IsAnUpperBound) {
   const render::SceneFile file = render::read_mitsuba(write("furnace.xml", R"(<scene version="3.0.0">
     <integrator type="path"><integer name="max_depth" value="2"/></integrator>
     <sensor type="perspective"><float name="fov" value="40"/><transform name="to_world">
       <lookat origin="0,0,4" target="0,0,0" up="0,1,0"/></transform></sensor>
     <emitter type="constant"><rgb name="radiance" value="1,1,1"/></emitter>
     <shape type="sphere"><bsdf type="diffuse"><rgb name="reflectance" value="1,1,1"/></bsdf></shape></scene>)"));
-  const std::vector<PictureWay> ways = {way("bsdf", independent), way("hemisphere", independent)};
-  const Pictures p = measure_pictures(file, ways, {.width = 6, .height = 4, .max_spp = 16, .cost_rays = true});
-  EXPECT_FALSE(p.measurement.curves[0].is_drawn() || p.measurement.curves[0].law);
+  const std::vector<RenderMethod> methods = {method("bsdf", independent), method("hemisphere", independent)};
+  const PictureMeasurement p = measure_pictures(file, methods, {.width = 6, .height = 4, .max_spp = 16, .cost_rays = true});
+  EXPECT_FALSE(p.measurement.curves[0].has_measurable_error() || p.measurement.curves[0].power_law);
   for (const mc::RmsError& e : p.measurement.curves[0].errors) {
     EXPECT_TRUE(e.is_bound);
     EXPECT_EQ(e.rms, e.hi);
     EXPECT_GE(e.hi, 2 * p.reference_error);
     EXPECT_LE(e.hi, 1e-5);
   }
-  EXPECT_TRUE(p.measurement.curves[1].is_drawn() && p.measurement.curves[1].law);
+  EXPECT_TRUE(p.measurement.curves[1].has_measurable_error() && p.measurement.curves[1].power_law);
   for (const mc::RmsError& e : p.measurement.curves[1].errors) EXPECT_FALSE(e.is_bound || e.lo == 0);
 }
 
 // A million times as much light is the same noise: errors, slopes and biases do not depend on its unit.
-TEST_F(Lamp, TheUnitOfLightChangesNothing) {
-  const std::vector<PictureWay> ways = {way("mis", independent), way("mis", sobol, -1, Spending::adaptive),
-                                        way("mis", sobol, 1)};
+TEST_F(Lamp, ResultsAreInvariantToRadianceScale) {
+  const std::vector<RenderMethod> methods = {method("mis", independent), method("mis", sobol, -1, SampleAllocation::adaptive),
+                                        method("mis", sobol, 1)};
   const auto measured = [&](const char* radiance) {
-    return measure_pictures(of(radiance), ways, {.width = 8, .height = 6, .max_spp = 32, .cost_rays = true});
+    return measure_pictures(of(radiance), methods, {.width = 8, .height = 6, .max_spp = 32, .cost_rays = true});
   };
-  const Pictures one = measured("8");
+  const PictureMeasurement one = measured("8");
   for (const char* radiance : {"8e-6", "8e6"}) {
-    const Pictures other = measured(radiance);
+    const PictureMeasurement other = measured(radiance);
     EXPECT_NEAR(other.reference_error / one.reference_error, 1, 1e-3) << radiance;
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      const Curve &a = one.measurement.curves[i], &b = other.measurement.curves[i];
+    for (std::size_t i = 0; i < methods.size(); ++i) {
+      const ConvergenceCurve &a = one.measurement.curves[i], &b = other.measurement.curves[i];
       ASSERT_EQ(a.errors.size(), b.errors.size());
       for (std::size_t n = 0; n < a.errors.size(); ++n) {
-        EXPECT_NEAR(b.errors[n].rms / a.errors[n].rms, 1, 1e-3) << radiance << ways[i].name();
-        EXPECT_NEAR(b.errors[n].hi / a.errors[n].hi, 1, 1e-3) << radiance << ways[i].name();
+        EXPECT_NEAR(b.errors[n].rms / a.errors[n].rms, 1, 1e-3) << radiance << methods[i].name();
+        EXPECT_NEAR(b.errors[n].hi / a.errors[n].hi, 1, 1e-3) << radiance << methods[i].name();
       }
-      EXPECT_NEAR(one.biases[i].bias.lo, other.biases[i].bias.lo, 1e-3) << radiance << ways[i].name();
+      EXPECT_NEAR(one.biases[i].bias.lo, other.biases[i].bias.lo, 1e-3) << radiance << methods[i].name();
     }
   }
 }
 
 // Paths of one edge meet no point light: no noise, and the bias is everything.
-TEST(Pictures, AWayWithoutNoisePaysAboveItsBias) {
+TEST(PictureMeasurement, NoiselessMethod_BreaksEvenAtItsBias) {
   const render::SceneFile file = scene("hard-shadows");
-  const std::vector<PictureWay> ways = {way("mis", sobol), way("mis", sobol, 1)};
-  const Pictures p = measure_pictures(file, ways, {.width = 4, .height = 3, .max_spp = 16, .cost_rays = true});
+  const std::vector<RenderMethod> methods = {method("mis", sobol), method("mis", sobol, 1)};
+  const PictureMeasurement p = measure_pictures(file, methods, {.width = 4, .height = 3, .max_spp = 16, .cost_rays = true});
   const Bias& dark = p.biases[1];
   ASSERT_EQ(dark.noise, 0);
-  ASSERT_TRUE(dark.pays_above);
-  EXPECT_EQ(dark.pays_above->value, dark.bias.value);
-  EXPECT_EQ(dark.pays_above->lo, dark.bias.lo);
+  ASSERT_TRUE(dark.break_even_error);
+  EXPECT_EQ(dark.break_even_error->value, dark.bias.value);
+  EXPECT_EQ(dark.break_even_error->lo, dark.bias.lo);
 }
 
-TEST(Pictures, TimeThatRunsOutIsNoInterrupt) {
+TEST(PictureMeasurement, TimeLimit_IsNotAnInterrupt) {
   const render::SceneFile file = scene("cbox");
-  const std::vector<PictureWay> ways = {way("mis", sobol)};
-  const Pictures p = measure_pictures(file, ways, {.width = 8, .height = 8, .max_spp = 1 << 20, .seconds = 1e-3});
+  const std::vector<RenderMethod> methods = {method("mis", sobol)};
+  const PictureMeasurement p = measure_pictures(file, methods, {.width = 8, .height = 8, .max_spp = 1 << 20, .seconds = 1e-3});
   EXPECT_FALSE(p.measurement.interrupted);
   ASSERT_EQ(p.measurement.curves.size(), 1u);
   EXPECT_EQ(p.measurement.curves[0].errors.size(), 1u);
@@ -182,29 +182,29 @@ TEST(Pictures, TimeThatRunsOutIsNoInterrupt) {
 
 // Two runs with other seeds and costs that no clock makes: they choose the same, or each says of the other's choice
 // that it is as good.
-TEST(Pictures, TwoRunsChooseAlike) {
+TEST(PictureMeasurement, ChoiceIsReproducible) {
   const render::SceneFile file = scene("cbox");
-  const std::vector<PictureWay> ways = {way("mis", independent), way("nee", sobol), way("mis", sobol)};
+  const std::vector<RenderMethod> methods = {method("mis", independent), method("nee", sobol), method("mis", sobol)};
   PictureOptions o{.width = 8, .height = 8, .max_spp = 32, .cost_rays = true};
-  const auto contenders = [&](const Pictures& p) {
+  const auto contenders = [&](const PictureMeasurement& p) {
     const double error = 2 * p.measurement.curves[0].errors.back().rms;
-    const ForError f = offers_for_error(p.measurement, error, [](const Curve& c, double) {
+    const CandidatesForError f = candidates_for_error(p.measurement, error, [](const ConvergenceCurve& c, double) {
       const double one = c.errors.back().seconds / c.errors.back().n;
-      return Ranged{one, one, one};
+      return IntervalEstimate{one, one, one};
     });
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < as_good(f.offers, &Offer::seconds); ++i) names.push_back(label(*f.offers[i].curve));
+    for (std::size_t i = 0; i < count_ties(f.candidates, &TradeCandidate::seconds); ++i) names.push_back(curve_label(*f.candidates[i].curve));
     return names;
   };
-  const Pictures one = measure_pictures(file, ways, o);
-  const Pictures same = measure_pictures(file, ways, o);
-  for (std::size_t i = 0; i < ways.size(); ++i)
+  const PictureMeasurement one = measure_pictures(file, methods, o);
+  const PictureMeasurement same = measure_pictures(file, methods, o);
+  for (std::size_t i = 0; i < methods.size(); ++i)
     for (std::size_t n = 0; n < one.measurement.curves[i].errors.size(); ++n) {
       EXPECT_EQ(one.measurement.curves[i].errors[n].rms, same.measurement.curves[i].errors[n].rms);
       EXPECT_EQ(one.measurement.curves[i].errors[n].seconds, same.measurement.curves[i].errors[n].seconds);
     }
   o.seed = 2;
-  const Pictures other = measure_pictures(file, ways, o);
+  const PictureMeasurement other = measure_pictures(file, methods, o);
   const std::vector<std::string> a = contenders(one), b = contenders(other);
   ASSERT_FALSE(a.empty());
   ASSERT_FALSE(b.empty());
@@ -214,17 +214,17 @@ TEST(Pictures, TwoRunsChooseAlike) {
   EXPECT_TRUE(a[0] == b[0] || (holds(a, b[0]) && holds(b, a[0]))) << a[0] << " or " << b[0];
 }
 
-TEST(Pictures, RefusesWhatHasNoError) {
+TEST(PictureMeasurement, RejectsScenesWithoutError) {
   const render::SceneFile file = scene("cbox");
-  const std::vector<PictureWay> ways = {way("mis", sobol)};
+  const std::vector<RenderMethod> methods = {method("mis", sobol)};
   EXPECT_THROW(measure_pictures(file, {}, {}), mc::Error);
-  EXPECT_THROW(measure_pictures(file, ways, {.max_spp = 8}), mc::Error);
-  EXPECT_THROW(measure_pictures(file, ways, {.max_spp = 1 << 29}), mc::Error);
-  EXPECT_THROW(measure_pictures(file, ways, {.replicates = 2}), mc::Error);
-  EXPECT_EQ(way("nee", independent, 4, Spending::adaptive).name(), "nee independent depth 4 adaptive");
-  EXPECT_EQ(way("mis", sobol, -1, Spending::adaptive_tiles).name(), "mis sobol adaptive tiles");
+  EXPECT_THROW(measure_pictures(file, methods, {.max_spp = 8}), mc::Error);
+  EXPECT_THROW(measure_pictures(file, methods, {.max_spp = 1 << 29}), mc::Error);
+  EXPECT_THROW(measure_pictures(file, methods, {.replicates = 2}), mc::Error);
+  EXPECT_EQ(method("nee", independent, 4, SampleAllocation::adaptive).name(), "nee independent depth 4 adaptive");
+  EXPECT_EQ(method("mis", sobol, -1, SampleAllocation::adaptive_tiles).name(), "mis sobol adaptive tiles");
   const std::atomic<bool> stop = true;
-  EXPECT_TRUE(measure_pictures(file, ways, {.width = 4, .height = 4, .cancel = &stop}).measurement.interrupted);
+  EXPECT_TRUE(measure_pictures(file, methods, {.width = 4, .height = 4, .cancel = &stop}).measurement.interrupted);
 }
 
 } // namespace
