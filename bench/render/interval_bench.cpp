@@ -65,8 +65,8 @@ void show(const std::string& path, std::string_view way, const Scene& scene, Ren
           if (is_noisy[i][c]) noisy.add(off, double(widths.pixels[i][c]));
         }
     }
-    fmt::print("{},{},{},{},{:.4f},{},{},{}\n", std::filesystem::path(path).stem().string(), way, spp, seeds, outlier_dominated,
-               alone.text(), shared.text(), noisy.text());
+    fmt::print("{},{},{},{},{:.4f},{},{},{}\n", std::filesystem::path(path).stem().string(), way, spp, seeds,
+               outlier_dominated, alone.text(), shared.text(), noisy.text());
     std::fflush(stdout);
   }
 }

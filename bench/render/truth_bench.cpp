@@ -65,7 +65,8 @@ struct Run {
   std::map<std::string, Scores> scores = {};
 
   std::string_view state_of(const Family& family, const Strategy& strategy, const Measured& m) const {
-    const bool by_chance = strategy.direct_lighting == DirectLighting::bsdf_only && strategy.guiding_target != GuidingTarget::lights;
+    const bool by_chance =
+        strategy.direct_lighting == DirectLighting::bsdf_only && strategy.guiding_target != GuidingTarget::lights;
     if (by_chance && family.rarest * sets * points < 100) return "rare";
     if (m.means.mean() == 0) return "dark";
     return m.outlier_dominated ? "undecided" : "decided";

@@ -17,8 +17,8 @@ constexpr std::uint64_t apart = 0x6c69676874; // from the numbers of the pixels
 
 } // namespace
 
-LightTracingPass::LightTracingPass(const Scene& scene, const LightTracer& light_tracer, int max_depth, PixelSampler sampler,
-                       std::uint64_t seed, const ImageExtent& extent)
+LightTracingPass::LightTracingPass(const Scene& scene, const LightTracer& light_tracer, int max_depth,
+                                   PixelSampler sampler, std::uint64_t seed, const ImageExtent& extent)
     : light_tracer_(light_tracer), filter_(scene.filter()), max_depth_(max_depth), seed_(mc::hash(seed, apart)),
       run_length_(sampler == PixelSampler::stratified ? 4096 : std::uint64_t{1} << 31), extent_(extent),
       trace_(trace_for(sampler)) {}
@@ -66,8 +66,8 @@ void LightTracingPass::trace(std::uint64_t from, std::uint64_t to, std::uint32_t
   }
 }
 
-std::uint64_t LightTracingPass::add_paths(std::uint64_t from, std::uint64_t to, int threads, const std::function<bool()>& stop,
-                               Film& film, RenderStats& stats) const {
+std::uint64_t LightTracingPass::add_paths(std::uint64_t from, std::uint64_t to, int threads,
+                                          const std::function<bool()>& stop, Film& film, RenderStats& stats) const {
   const auto sets = static_cast<std::uint32_t>(film.sets());
   while (from < to && !stop()) {
     const std::uint64_t end = std::min(to, from + batch_size);
@@ -92,8 +92,8 @@ std::uint64_t LightTracingPass::add_paths(std::uint64_t from, std::uint64_t to, 
 
 // Behind what it names: clang 14 does not make functions that only such a lambda names before they are defined.
 LightTracingPass::Trace LightTracingPass::trace_for(PixelSampler sampler) {
-  return with_stream(sampler,
-                     []<class Stream>(std::type_identity<Stream>) -> Trace { return &LightTracingPass::trace<Stream>; });
+  return with_stream(
+      sampler, []<class Stream>(std::type_identity<Stream>) -> Trace { return &LightTracingPass::trace<Stream>; });
 }
 
 } // namespace render

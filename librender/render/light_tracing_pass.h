@@ -14,8 +14,8 @@ namespace render {
 class LightTracingPass {
  public:
   /// light_paths, and the scene that they are of, must outlive it.
-  LightTracingPass(const Scene& scene, const LightTracer& light_tracer, int max_depth, PixelSampler sampler, std::uint64_t seed,
-             const ImageExtent& extent);
+  LightTracingPass(const Scene& scene, const LightTracer& light_tracer, int max_depth, PixelSampler sampler,
+                   std::uint64_t seed, const ImageExtent& extent);
 
   /// As many paths as belong to `mean` samples of every pixel; of a tiny picture more.
   std::uint64_t path_count(double mean) const;
@@ -25,8 +25,8 @@ class LightTracingPass {
   /// Adds to the film the paths [from, to), in this order whatever the number of threads; what is not finite is left
   /// out. Stops early once `stop()`.
   ///   returns : the number of the first path that was not traced
-  std::uint64_t add_paths(std::uint64_t from, std::uint64_t to, int threads, const std::function<bool()>& stop, Film& film,
-                     RenderStats& stats) const;
+  std::uint64_t add_paths(std::uint64_t from, std::uint64_t to, int threads, const std::function<bool()>& stop,
+                          Film& film, RenderStats& stats) const;
 
  private:
   /// Light for a pixel of the film.
@@ -41,7 +41,8 @@ class LightTracingPass {
     /// Light for the pixel (x, y) of the picture, if it is one of the film's.
     void add(const Crop& film, int x, int y, int set, const Spectrum& value) {
       const int column = x - film.x, row = y - film.y;
-      if (column >= 0 && column < film.width && row >= 0 && row < film.height) splats.push_back({column, row, set, value});
+      if (column >= 0 && column < film.width && row >= 0 && row < film.height)
+        splats.push_back({column, row, set, value});
     }
   };
   template <class Stream>

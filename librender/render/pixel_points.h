@@ -61,7 +61,7 @@ struct PixelPoints {
   /// Calls task(run) for the runs of the set that the samples [first, last) of a pixel belong to.
   template <class Task>
   void for_ranges(std::uint32_t set, std::uint32_t sets, std::uint32_t first, std::uint32_t last,
-                const Task& task) const {
+                  const Task& task) const {
     const std::uint32_t end = (last + sets - 1 - set) / sets;
     for (std::uint32_t point = (first + sets - 1 - set) / sets; point < end;) {
       const std::uint32_t block = point / set_size, start = block * set_size;

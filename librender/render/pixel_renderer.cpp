@@ -26,18 +26,20 @@ void RenderStats::add(const InvalidSample& sample) {
 void RenderStats::merge(const RenderStats& other) {
   samples += other.samples;
   rays += other.rays;
-  if (other.invalid > 0 && (invalid == 0 || is_before(other.first_invalid, first_invalid))) first_invalid = other.first_invalid;
+  if (other.invalid > 0 && (invalid == 0 || is_before(other.first_invalid, first_invalid)))
+    first_invalid = other.first_invalid;
   invalid += other.invalid;
 }
 
-PixelRenderer::PixelRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points, const ImageExtent& extent,
-                         const std::optional<SplatFilter>& splat, const LightTracer* light_tracer)
-    : scene_(scene), pixel_rays_(scene, extent), integrator_(scene, path, light_tracer), points_(points), extent_(extent),
-      splat_(splat), render_row_(render_row_for(points.sampler)) {}
+PixelRenderer::PixelRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points,
+                             const ImageExtent& extent, const std::optional<SplatFilter>& splat,
+                             const LightTracer* light_tracer)
+    : scene_(scene), pixel_rays_(scene, extent), integrator_(scene, path, light_tracer), points_(points),
+      extent_(extent), splat_(splat), render_row_(render_row_for(points.sampler)) {}
 
 template <class Stream>
-RenderStats PixelRenderer::render_row_with(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                           Film& film) const {
+RenderStats PixelRenderer::render_row_with(int y, std::span<const std::uint32_t> from,
+                                           std::span<const std::uint32_t> to, Film& film) const {
   RenderStats stats;
   std::optional<SplatAccumulator> splat;
   if (splat_) splat.emplace(*splat_);
@@ -79,8 +81,9 @@ RenderStats PixelRenderer::render_row_with(int y, std::span<const std::uint32_t>
 
 // Behind what it names: clang 14 does not make functions that only such a lambda names before they are defined.
 PixelRenderer::RenderRow PixelRenderer::render_row_for(PixelSampler sampler) {
-  return with_stream(sampler,
-                     []<class Stream>(std::type_identity<Stream>) -> RenderRow { return &PixelRenderer::render_row_with<Stream>; });
+  return with_stream(sampler, []<class Stream>(std::type_identity<Stream>) -> RenderRow {
+    return &PixelRenderer::render_row_with<Stream>;
+  });
 }
 
 } // namespace render

@@ -100,8 +100,9 @@ class RenderJob {
       : options_(options), extent_(extent_of(options)), splat_(splat_filter_for(scene, options)),
         light_tracer_(light_tracer_for(scene, options)),
         points_(options.sampler, options.seed, set_size_of(options)), path_{options.strategy, options.max_depth,
-                                                                           options.aov, options.branches},
-        pixel_renderer_(scene, path_, points_, extent_, splat_, light_tracer()), film_(new_film()), taken_(width() * height()) {
+                                                                            options.aov, options.branches},
+        pixel_renderer_(scene, path_, points_, extent_, splat_, light_tracer()), film_(new_film()),
+        taken_(width() * height()) {
     if (options.tiles) tile_renderer_.emplace(scene, path_, points_, extent_, light_tracer());
     if (light_tracer_)
       light_tracing_pass_.emplace(scene, *light_tracer_, options.max_depth, options.sampler, options.seed, extent_);
@@ -180,9 +181,11 @@ class RenderJob {
     std::uint64_t light_done = light_done_;
     const auto stop = [&] { return cancelled() || out_of_time(); };
     const auto add_light_paths = [&](std::uint64_t to) {
-      if (light_tracing_pass_) light_done = light_tracing_pass_->add_paths(light_done, to, options_.threads, stop, film, lights);
+      if (light_tracing_pass_)
+        light_done = light_tracing_pass_->add_paths(light_done, to, options_.threads, stop, film, lights);
     };
-    const std::uint64_t all_light = light_tracing_pass_ ? light_tracing_pass_->path_count(mean * plan_.light_path_scale) : 0;
+    const std::uint64_t all_light =
+        light_tracing_pass_ ? light_tracing_pass_->path_count(mean * plan_.light_path_scale) : 0;
     // Before the first rows there are but a few, so that these begin soon: light of any number of paths is unbiased.
     add_light_paths(mean_ == 0 ? std::min(all_light, LightTracingPass::batch_size) : all_light);
     for_rows([&](std::size_t y) {
@@ -190,8 +193,9 @@ class RenderJob {
       const auto from = std::span(taken_).subspan(y * width(), width()),
                  to = std::span(taken).subspan(y * width(), width());
       for (std::size_t x = 0; x < width(); ++x) to[x] = std::max(to[x], plan_.samples(y * width() + x, mean));
-      row_stats[y] = tile_renderer_ ? tile_renderer_->render_row(static_cast<int>(y), from, to, film)
-                               : pixel_renderer_.render_row(static_cast<int>(y) - pixel_renderer_.border(), from, to, film);
+      row_stats[y] = tile_renderer_
+                         ? tile_renderer_->render_row(static_cast<int>(y), from, to, film)
+                         : pixel_renderer_.render_row(static_cast<int>(y) - pixel_renderer_.border(), from, to, film);
       samples += row_stats[y].samples;
       const double rows = double(++done) / double(height());
       if (!options_.progress) return;
@@ -249,7 +253,8 @@ class RenderJob {
       error_ = film_.relative_errors().of(options_.error_scope);
       outlier_dominated_ = film_.outlier_dominated();
       const bool is_there = options_.target_error && error_.value <= *options_.target_error;
-      if (is_there && mean_ >= least_pilot && outlier_dominated_ > max_outlier_dominated && unreliable_target_spp_ == 0) unreliable_target_spp_ = mean_;
+      if (is_there && mean_ >= least_pilot && outlier_dominated_ > max_outlier_dominated && unreliable_target_spp_ == 0)
+        unreliable_target_spp_ = mean_;
     }
   }
 
@@ -268,8 +273,8 @@ class RenderJob {
   std::uint64_t light_done_ = 0; ///< paths from the lights
   double mean_ = 0;              ///< samples per pixel of the rounds that are done
   RenderStats total_;
-  RelativeError error_;    ///< after the last round
-  double outlier_dominated_ = 0;   ///< at the same time
+  RelativeError error_;              ///< after the last round
+  double outlier_dominated_ = 0;     ///< at the same time
   double unreliable_target_spp_ = 0; ///< see RenderResult
   bool partial_ = true;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

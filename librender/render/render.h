@@ -13,8 +13,8 @@ struct Progress {
   double fraction = 0; ///< of the work, in [0,1]
   std::uint64_t samples = 0, rays = 0;
   double seconds = 0;
-  double relative_error = 0; ///< of what the options ask for, see Film; infinite while unknown
-  double outlier_dominated = 0;      ///< as in RenderResult, when the error was last known
+  double relative_error = 0;    ///< of what the options ask for, see Film; infinite while unknown
+  double outlier_dominated = 0; ///< as in RenderResult, when the error was last known
 };
 
 /// While a larger share of the pixels is undecided, a picture has not reached a target error.
@@ -49,10 +49,11 @@ struct RenderResult {
   double spp = 0;                      ///< samples per pixel taken, on average
   std::uint32_t estimates = 0;         ///< independent point sets per pixel behind the variance
   double seconds = 0, cpu_seconds = 0;
-  double relative_error = 0; ///< see RelativeError::value
-  double worst_error = 0;    ///< the same of the worst block
-  double outlier_dominated = 0;      ///< share of the pixels whose error bar is not known yet, see Film::undecided
-  double unreliable_target_spp = 0;    ///< samples per pixel with the target error, but too many pixels undecided; 0: never so
+  double relative_error = 0;    ///< see RelativeError::value
+  double worst_error = 0;       ///< the same of the worst block
+  double outlier_dominated = 0; ///< share of the pixels whose error bar is not known yet, see Film::undecided
+  double unreliable_target_spp =
+      0;                     ///< samples per pixel with the target error, but too many pixels undecided; 0: never so
   std::uint64_t invalid = 0; ///< samples that were not finite; they are left out of the image
   InvalidSample first_invalid;
   bool partial = false;     ///< cancelled before the end

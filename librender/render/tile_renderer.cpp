@@ -5,14 +5,14 @@
 
 namespace render {
 
-TileRenderer::TileRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points, const ImageExtent& extent,
-                     const LightTracer* light_tracer)
-    : scene_(scene), pixel_rays_(scene, extent), integrator_(scene, path, light_tracer), points_(points), extent_(extent),
-      render_row_(render_row_for(points.sampler)) {}
+TileRenderer::TileRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points,
+                           const ImageExtent& extent, const LightTracer* light_tracer)
+    : scene_(scene), pixel_rays_(scene, extent), integrator_(scene, path, light_tracer), points_(points),
+      extent_(extent), render_row_(render_row_for(points.sampler)) {}
 
 template <class Stream>
 RenderStats TileRenderer::render_row_with(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
-                         Film& film) const {
+                                          Film& film) const {
   RenderStats stats;
   if (!starts_tile_row(y)) return stats;
   const auto start = [](int at) { return at - at % side; };
@@ -25,7 +25,8 @@ RenderStats TileRenderer::render_row_with(int y, std::span<const std::uint32_t> 
 }
 
 template <class Stream>
-void TileRenderer::render_tile(int left, int top, std::uint32_t from, std::uint32_t to, Film& film, RenderStats& stats) const {
+void TileRenderer::render_tile(int left, int top, std::uint32_t from, std::uint32_t to, Film& film,
+                               RenderStats& stats) const {
   std::array<Pixel, pixels> tile;
   for (int i = 0; i < int(pixels); ++i) {
     const int x = left + i % side, y = top + i / side;
@@ -34,7 +35,8 @@ void TileRenderer::render_tile(int left, int top, std::uint32_t from, std::uint3
   const auto sets = static_cast<std::uint32_t>(film.sets());
   const std::uint64_t rays_before = stats.rays;
   for (std::uint32_t set = 0; set < sets; ++set) {
-    points_.for_ranges(set, sets, from, to, [&](const PixelPoints::PointRange& range) { render_range<Stream>(range, tile, stats); });
+    points_.for_ranges(set, sets, from, to,
+                       [&](const PixelPoints::PointRange& range) { render_range<Stream>(range, tile, stats); });
     for (Pixel& pixel : tile) {
       if (pixel.counts)
         film.add(pixel.x - extent_.crop.x, pixel.y - extent_.crop.y, static_cast<int>(set), pixel.sum, pixel.valid);
@@ -48,8 +50,11 @@ void TileRenderer::render_tile(int left, int top, std::uint32_t from, std::uint3
 }
 
 template <class Stream>
-void TileRenderer::render_range(const PixelPoints::PointRange& range, std::array<Pixel, pixels>& tile, RenderStats& stats) const {
-  const auto points_at = [&](std::size_t i) { return points_.point_set<typename Stream::Points>(tile[i].x, tile[i].y, range); };
+void TileRenderer::render_range(const PixelPoints::PointRange& range, std::array<Pixel, pixels>& tile,
+                                RenderStats& stats) const {
+  const auto points_at = [&](std::size_t i) {
+    return points_.point_set<typename Stream::Points>(tile[i].x, tile[i].y, range);
+  };
   const std::array<typename Stream::Points, pixels> points{points_at(0), points_at(1), points_at(2), points_at(3)};
   for (std::uint32_t point = range.begin; point < range.end; ++point) {
     const auto ray_of = [&](std::size_t i) {
@@ -78,8 +83,9 @@ void TileRenderer::render_range(const PixelPoints::PointRange& range, std::array
 
 // Behind what it names: clang 14 does not make functions that only such a lambda names before they are defined.
 TileRenderer::RenderRow TileRenderer::render_row_for(PixelSampler sampler) {
-  return with_stream(sampler,
-                     []<class Stream>(std::type_identity<Stream>) -> RenderRow { return &TileRenderer::render_row_with<Stream>; });
+  return with_stream(sampler, []<class Stream>(std::type_identity<Stream>) -> RenderRow {
+    return &TileRenderer::render_row_with<Stream>;
+  });
 }
 
 } // namespace render

@@ -14,7 +14,7 @@ class TileRenderer {
   /// light_tracer : see PathIntegrator
   ///   throws    : Error where something else than radiance is to be shown
   TileRenderer(const Scene& scene, const PathOptions& path, const PixelPoints& points, const ImageExtent& extent,
-            const LightTracer* light_tracer = nullptr);
+               const LightTracer* light_tracer = nullptr);
 
   /// Whether tiles begin at the film's row y; those that begin above it do at its first.
   bool starts_tile_row(int y) const { return y == 0 || (extent_.crop.y + y) % side == 0; }
@@ -24,7 +24,8 @@ class TileRenderer {
 
   /// Adds to the film the samples [from[x], to[x]) of all pixels of the tiles that begin at its row y, of each of which
   /// x is the first column; what is not finite is left out.
-  RenderStats render_row(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, Film& film) const {
+  RenderStats render_row(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                         Film& film) const {
     return (this->*render_row_)(y, from, to, film);
   }
 
@@ -41,9 +42,11 @@ class TileRenderer {
     std::uint32_t valid = 0;                     ///< samples of it
   };
 
-  using RenderRow = RenderStats (TileRenderer::*)(int, std::span<const std::uint32_t>, std::span<const std::uint32_t>, Film&) const;
+  using RenderRow = RenderStats (TileRenderer::*)(int, std::span<const std::uint32_t>, std::span<const std::uint32_t>,
+                                                  Film&) const;
   template <class Stream>
-  RenderStats render_row_with(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to, Film& film) const;
+  RenderStats render_row_with(int y, std::span<const std::uint32_t> from, std::span<const std::uint32_t> to,
+                              Film& film) const;
   template <class Stream>
   void render_tile(int left, int top, std::uint32_t from, std::uint32_t to, Film& film, RenderStats& stats) const;
   template <class Stream>

@@ -140,7 +140,7 @@ using Graph = std::map<std::string, std::map<std::string, std::string>>; ///< fr
 
 // A circle through `node`, or "".
 std::string find_cycle(const Graph& graph, const std::string& node, std::vector<std::string>& path,
-                   std::set<std::string>& done) {
+                       std::set<std::string>& done) {
   if (const auto it = std::find(path.begin(), path.end(), node); it != path.end()) {
     std::string text;
     for (auto from = it; from != path.end(); ++from)

@@ -35,7 +35,7 @@ struct PassResult {
 
 // `steps` calls for all paths of `spp` samples a pixel.
 PassResult run_pass(const Filter& filter, std::uint64_t steps, int threads, PixelSampler sampler = PixelSampler::sobol,
-            const Crop& part = {0, 0, 16, 12}, unsigned spp = 400, double unit = 1) {
+                    const Crop& part = {0, 0, 16, 12}, unsigned spp = 400, double unit = 1) {
   const Scene scene = lit_floor(filter, unit);
   const auto paths = LightTracer::create(scene, strategy_from("mis+lt"), Float(16) / 12);
   const LightTracingPass pass(scene, *paths, 3, sampler, 7, {16, 12, part});
@@ -114,7 +114,8 @@ TEST(LightTracingPass, FiltersConserveEnergy) {
 TEST(LightTracingPass, IsScaleInvariant) {
   const double expected = sum(run_pass(BoxFilter(), 1, 2).film);
   for (const double unit : {1e-18, 1e-9, 1e9, 1e18})
-    EXPECT_NEAR(sum(run_pass(BoxFilter(), 1, 2, PixelSampler::sobol, {0, 0, 16, 12}, 400, unit).film) / expected, 1, 0.02)
+    EXPECT_NEAR(sum(run_pass(BoxFilter(), 1, 2, PixelSampler::sobol, {0, 0, 16, 12}, 400, unit).film) / expected, 1,
+                0.02)
         << unit;
 }
 

@@ -26,7 +26,8 @@ TEST(LightTracingRender, MatchesMisImages) {
     options.sampler = std::array{PixelSampler::sobol, PixelSampler::independent, PixelSampler::stratified}[i % 3];
     options.adaptive = i % 5 == 1;
     options.splat = i % 5 == 2;
-    agreement.add(i, one, picture_means(scene, options, 16, unit), 2.05); // of Student's t with some 28 degrees of freedom
+    agreement.add(i, one, picture_means(scene, options, 16, unit),
+                  2.05); // of Student's t with some 28 degrees of freedom
   }
   EXPECT_LE(agreement.outliers, 10); // of 60 at 5 %: 10 or fewer but for 1 in 3000
 }
@@ -36,13 +37,15 @@ TEST(LightTracingRender, MatchesMisImages) {
 TEST(LightTracingRender, DeltaLights_MatchSmallSphereLights) {
   Agreement agreement;
   for (std::uint64_t i = 0; agreement.scenes < 40; ++i) {
-    const Scene deltas = RandomScene(i, RandomLights::deltas).build(), spheres = RandomScene(i, RandomLights::spheres).build();
+    const Scene deltas = RandomScene(i, RandomLights::deltas).build(),
+                spheres = RandomScene(i, RandomLights::spheres).build();
     if (!LightTracer::create(deltas, strategy_from("mis+lt"), 1)) continue;
     const RenderOptions options = options_of(i, 256);
     const Image reference = render::render(spheres, options).image;
     if (std::all_of(reference.pixels.begin(), reference.pixels.end(), is_black)) continue;
     const std::vector<Spectrum> unit = pixel_units(reference);
-    agreement.add(i, picture_means(spheres, options, 12, unit), picture_means(deltas, options, 12, unit), 2.07); // with some 22
+    agreement.add(i, picture_means(spheres, options, 12, unit), picture_means(deltas, options, 12, unit),
+                  2.07); // with some 22
   }
   EXPECT_LE(agreement.outliers, 8); // of 40 at 5 %: 8 or fewer but for 1 in 2000
 }

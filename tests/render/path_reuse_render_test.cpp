@@ -4,8 +4,8 @@
 
 #include <mc/core/error.h>
 
-#include "support/random_scene.h"
 #include "support/picture_seeds.h"
+#include "support/random_scene.h"
 
 namespace {
 
@@ -53,7 +53,8 @@ TEST(PathReuseRender, MeanMatchesRenderWithoutReuse) {
     const mc::Moments one = picture_means(scene, options, 16, unit);
     options.tiles = true;
     options.seed += 1'000'000;
-    agreement.add(i, one, picture_means(scene, options, 16, unit), 2.05); // of Student's t with some 28 degrees of freedom
+    agreement.add(i, one, picture_means(scene, options, 16, unit),
+                  2.05); // of Student's t with some 28 degrees of freedom
   }
   EXPECT_LE(agreement.outliers, 10); // of 60 at 5 %: 10 or fewer but for 1 in 3000
 }

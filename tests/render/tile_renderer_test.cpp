@@ -53,9 +53,11 @@ TEST(TileRenderer, CountsInvalidSamples) {
   builder.add(Sphere(Vec3d(0, 0, -3), 1), {builder.add(Lambert(Spectrum::Constant(Float(0.9))))});
   builder.add(Sphere(Vec3d(0, 0, -3), 1.5, true), {builder.add(Lambert(Spectrum::Constant(Float(0.9))))});
   const Scene scene = builder.build();
-  const TileRenderer renderer(scene, {.strategy = strategy_from("nee")}, {PixelSampler::sobol, 5, 4}, {2, 2, {0, 0, 2, 2}});
+  const TileRenderer renderer(scene, {.strategy = strategy_from("nee")}, {PixelSampler::sobol, 5, 4},
+                              {2, 2, {0, 0, 2, 2}});
   Film film(2, 2, 2);
-  const RenderStats stats = renderer.render_row(0, std::vector<std::uint32_t>{0, 0}, std::vector<std::uint32_t>{8, 8}, film);
+  const RenderStats stats =
+      renderer.render_row(0, std::vector<std::uint32_t>{0, 0}, std::vector<std::uint32_t>{8, 8}, film);
   EXPECT_EQ(stats.samples, 32u);
   std::uint64_t valid = 0;
   for (int y = 0; y < 2; ++y)

@@ -1,8 +1,8 @@
 #pragma once
 // The laws of a domain: its chart is one-to-one, and its Jacobian is the ratio of the measures.
 
-#include <mc/check/subject/point_array.h>
 #include <mc/check/subject/oracle.h>
+#include <mc/check/subject/point_array.h>
 #include <mc/domain/concept.h>
 #include <mc/random/pcg.h>
 

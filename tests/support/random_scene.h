@@ -22,7 +22,8 @@ enum class RandomLights { lamps, deltas, spheres };
 /// Draws what stands in a room.
 class RandomScene {
  public:
-  explicit RandomScene(std::uint64_t seed, RandomLights lights = RandomLights::lamps) : random_(2026, seed), lights_(lights) {}
+  explicit RandomScene(std::uint64_t seed, RandomLights lights = RandomLights::lamps)
+      : random_(2026, seed), lights_(lights) {}
 
   Scene build() {
     SceneBuilder builder;
@@ -158,7 +159,8 @@ class RandomScene {
 
 /// Means of pictures, of the pixels in units of their reference and a dark of a tenth of its mean, so that no lamp in
 /// view outweighs the rest; by `count` independent pictures.
-inline mc::Moments picture_means(const Scene& scene, RenderOptions options, int count, const std::vector<Spectrum>& unit) {
+inline mc::Moments picture_means(const Scene& scene, RenderOptions options, int count,
+                                 const std::vector<Spectrum>& unit) {
   mc::Moments moments;
   for (int i = 0; i < count; ++i) {
     options.seed = mc::hash(options.seed, std::uint64_t(i));

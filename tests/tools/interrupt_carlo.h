@@ -12,7 +12,8 @@ namespace support {
 
 /// Runs carlo on a terminal of its own and types Ctrl-C once it has written `sign` there: by default, its progress.
 /// Instead of SIGINT, which is what Ctrl-C sends, it may get another signal.
-inline ProcessResult interrupt_carlo(const std::string& arguments, const std::string& sign = "\033[K", int signal = SIGINT) {
+inline ProcessResult interrupt_carlo(const std::string& arguments, const std::string& sign = "\033[K",
+                                     int signal = SIGINT) {
   int terminal = -1;
   const std::string command = "exec '" CARLO_PATH "' " + arguments;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);

@@ -58,8 +58,8 @@ std::vector<SamplingMethod> methods_of(const ConvergeCommandOptions& o) {
 
 // Writes and prints one target; `pictures` for a scene. Returns whether gnuplot can draw; pass the answer on, so that
 // the warning appears once.
-bool write(const IntegralTarget& target, const Measurement& m, const ConvergeCommandOptions& o, const std::filesystem::path& folder,
-           bool can_draw, const PictureMeasurement* pictures = nullptr) {
+bool write(const IntegralTarget& target, const Measurement& m, const ConvergeCommandOptions& o,
+           const std::filesystem::path& folder, bool can_draw, const PictureMeasurement* pictures = nullptr) {
   const std::string name = safe_file_name(target.integral.name), base = (folder / name).string();
   mc::write_file(base + ".csv", to_csv(target, m));
   nlohmann::ordered_json about = {{"command", o.command}, {"commit", commit}, {"seed", o.seed}};
@@ -67,10 +67,12 @@ bool write(const IntegralTarget& target, const Measurement& m, const ConvergeCom
   mc::write_file(base + ".json", to_json(target, m, about).dump(1) + "\n");
   mc::write_file(base + ".gp", to_script(target, m, name));
   fmt::print("{}", summary(target, m));
-  const auto cut = std::count_if(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.out_of_time; });
+  const auto cut =
+      std::count_if(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.out_of_time; });
   if (cut > 0) fmt::print("  --time ended {} of them before N = {}\n", cut, o.integral.max_n);
   std::fflush(stdout);
-  const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.has_measurable_error(); });
+  const bool anything =
+      std::any_of(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.has_measurable_error(); });
   if (!can_draw || !anything) {
     remove_plot(folder, name);
     return can_draw;
@@ -87,8 +89,9 @@ struct ConvergeRun {
   bool interrupted = false;
 };
 
-ConvergeRun measure_all(const std::vector<IntegralTarget>& targets, const std::vector<SamplingMethod>& chosen, const ConvergeCommandOptions& o,
-                const std::filesystem::path& folder, const std::atomic<bool>* cancel) {
+ConvergeRun measure_all(const std::vector<IntegralTarget>& targets, const std::vector<SamplingMethod>& chosen,
+                        const ConvergeCommandOptions& o, const std::filesystem::path& folder,
+                        const std::atomic<bool>* cancel) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   ConvergeRun run;
@@ -146,7 +149,8 @@ std::filesystem::path page_folder(const ConvergeCommandOptions& o) {
   return o.report.empty() ? "" : mc::make_output_folder(o.report, "index.html");
 }
 
-void write_report(const std::filesystem::path& folder, const ConvergeCommandOptions& o, const std::vector<PageEntry>& all) {
+void write_report(const std::filesystem::path& folder, const ConvergeCommandOptions& o,
+                  const std::vector<PageEntry>& all) {
   if (folder.empty()) return;
   write_convergence_page(folder, converge_header(o.command), all);
   fmt::print("page: {}\n", (folder / "index.html").string());
@@ -160,13 +164,13 @@ int run_converge_scene(const ConvergeCommandOptions& o) {
   const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
   const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
-                                                    .samplers = o.samplers,
-                                                    .all = o.all,
-                                                    .pictures = o.replicates,
-                                                    .seconds = o.time.value_or(0),
-                                                    .seed = o.seed,
-                                                    .threads = o.threads,
-                                                    .cancel = interrupt.flag()});
+                                                              .samplers = o.samplers,
+                                                              .all = o.all,
+                                                              .pictures = o.replicates,
+                                                              .seconds = o.time.value_or(0),
+                                                              .seed = o.seed,
+                                                              .threads = o.threads,
+                                                              .cancel = interrupt.flag()});
   const bool interrupted = pictures.measurement.interrupted;
   if (interrupted) fmt::print("{}\n", interruption_summary(pictures));
   if (pictures.methods.empty()) return exit_interrupted;
@@ -192,8 +196,8 @@ int run_converge(const ConvergeCommandOptions& o) {
   if (!o.integral.domain.empty()) refuse_constant(o.integral.integrands[0], o.integral.domain);
   for (const SamplingMethod& w : chosen)
     for (const IntegralTarget& t : targets)
-      mc::require(w.max_dimensions == 0 || w.max_dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions", w.name,
-                  w.max_dimensions, t.integral.name, t.integral.dim);
+      mc::require(w.max_dimensions == 0 || w.max_dimensions >= t.integral.dim, "{}: {} columns; {} has {} dimensions",
+                  w.name, w.max_dimensions, t.integral.name, t.integral.dim);
   const std::filesystem::path folder = mc::make_output_folder(o.output, "slopes.csv");
   const std::filesystem::path page = page_folder(o);
 

@@ -231,7 +231,7 @@ int run_gallery(const GalleryCommandOptions& o) {
   const std::size_t finished = run.rendered().size();
   if (finished > 0) {
     render::write_image((folder / "sheet.png").string(),
-                          contact_sheet(run.thumbnails(), thumbnails_in_a_row, thumbnail_side));
+                        contact_sheet(run.thumbnails(), thumbnails_in_a_row, thumbnail_side));
     const std::string page = (folder / "index.html").string();
     mc::write_file(page, gallery_page(run.rendered(), scenes.size(), o.command));
     fmt::print("page: {}\n", page);

@@ -98,8 +98,10 @@ struct HistogramBins {
 };
 
 // Bins of equal length in u. On an infinite side their lengths in x grow outward.
-HistogramBins bins_along_variable(const std::vector<VariableBounds>& bounds, const std::string& variable, std::size_t count) {
-  const auto side = std::find_if(bounds.begin(), bounds.end(), [&](const VariableBounds& s) { return s.name == variable; });
+HistogramBins bins_along_variable(const std::vector<VariableBounds>& bounds, const std::string& variable,
+                                  std::size_t count) {
+  const auto side =
+      std::find_if(bounds.begin(), bounds.end(), [&](const VariableBounds& s) { return s.name == variable; });
   mc::require(side != bounds.end(), "--histogram: there is no variable '{}'; use one of the domain's, or value",
               variable);
   const auto axis = static_cast<std::size_t>(side - bounds.begin());
@@ -150,7 +152,8 @@ HistogramBins bins_of(const IntegrateCommandOptions& o, const UnitCubeIntegral& 
   mc::require(count >= 2 && count <= 1000 && count == std::floor(count),
               "--histogram: {} bins; a whole number between 2 and 1000 is needed", count);
   const std::vector<VariableBounds> bounds = bounds_of(o, e.dim);
-  const bool a_variable = std::any_of(bounds.begin(), bounds.end(), [&](const VariableBounds& s) { return s.name == axis; });
+  const bool a_variable =
+      std::any_of(bounds.begin(), bounds.end(), [&](const VariableBounds& s) { return s.name == axis; });
   const auto bins = static_cast<std::size_t>(count);
   return axis == "value" && !a_variable ? bins_by_value(e, volume_of(bounds, "--histogram"), bins, o.seed)
                                         : bins_along_variable(bounds, axis, bins);
@@ -185,7 +188,8 @@ bool find_quantiles(IntegrateResults& found, const std::vector<double>& wanted, 
 }
 
 // Integrates all integrands together, or one with its histogram.
-mc::VectorIntegral results_of(const std::vector<UnitCubeIntegral>& all, const HistogramBins& bins, const mc::IntegrateOptions& o) {
+mc::VectorIntegral results_of(const std::vector<UnitCubeIntegral>& all, const HistogramBins& bins,
+                              const mc::IntegrateOptions& o) {
   const UnitCubeIntegral& e = all.front();
   if (!bins.bins.empty()) return mc::integrate_histogram(e.f, e.dim, bins.bins.size(), bins.bin_of, o);
   if (all.size() == 1) return {{mc::integrate_unit(e.f, e.dim, o)}, {1}};
@@ -199,7 +203,8 @@ mc::VectorIntegral results_of(const std::vector<UnitCubeIntegral>& all, const Hi
 std::string in_variables(const mc::NotFinite& e, const std::vector<UnitCubeIntegral>& all, const std::string& domain) {
   if (!all.front().describe_point) return e.what();
   const std::string message = mc::NotFinite(e.bad, e.points, e.u, all.front().describe_point(e.u)).what();
-  const auto bad = std::find_if(all.begin(), all.end(), [&](const UnitCubeIntegral& x) { return !std::isfinite(x.f(e.u)); });
+  const auto bad =
+      std::find_if(all.begin(), all.end(), [&](const UnitCubeIntegral& x) { return !std::isfinite(x.f(e.u)); });
   if (domain.empty() || bad == all.end() || !std::isnan(bad->f(e.u))) return message;
   const std::vector<VariableBounds> bounds = parse_bounds(domain);
   const bool finite = std::all_of(bounds.begin(), bounds.end(), [](const VariableBounds& s) { return s.is_finite(); });
@@ -291,7 +296,8 @@ int run_integrate(const IntegrateCommandOptions& o) {
   }
   const bool cancelled = r.stop == mc::StopReason::cancelled || !find_quantiles(found, wanted, o, interrupt);
 
-  fmt::print("{}{}{}{}", integrate_summary(found), o.rounds ? round_table(r) : "", histogram_table(found), quantile_table(found));
+  fmt::print("{}{}{}{}", integrate_summary(found), o.rounds ? round_table(r) : "", histogram_table(found),
+             quantile_table(found));
   if (json.is_wanted()) json.write(integrals_json(found, o.command, o.seed));
   if (!o.save_density.empty()) {
     mc::require(r.density != nullptr,

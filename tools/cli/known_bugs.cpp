@@ -1,7 +1,7 @@
 #include <cli/known_bugs.h>
-#include <report/report_json.h>
 #include <known_bugs/cornell.h>
 #include <known_bugs/known_bugs.h>
+#include <report/report_json.h>
 #include <terminal/interrupt.h>
 #include <terminal/progress.h>
 #include <terminal/result_file.h>
@@ -29,8 +29,8 @@ KnownBugs select(const std::vector<std::string>& names) {
   KnownBugs all = book_bugs(), chosen;
   if (names.empty()) return all;
   for (const std::string& name : names) {
-    const auto found = std::find_if(all.begin(), all.end(),
-                                    [&](const KnownBug& s) { return name == s.id || name == s.name || name == s.title(); });
+    const auto found = std::find_if(
+        all.begin(), all.end(), [&](const KnownBug& s) { return name == s.id || name == s.name || name == s.title(); });
     if (found == all.end()) {
       std::vector<std::string> known;
       for (const KnownBug& s : all) known.insert(known.end(), {s.id, s.name});
@@ -77,7 +77,8 @@ DetectionResult detect(const KnownBug& slip, const KnownBugsCommandOptions& o) {
     else if (deterministic)
       if (const std::uint64_t bad = slip.wrong.first_failure(seed, t.samples)) t.samples = bad;
   }
-  t.right = slip.right.check({.samples = std::max(slip.right.min_samples, o.samples / 4), .seed = seed, .alpha = alpha});
+  t.right =
+      slip.right.check({.samples = std::max(slip.right.min_samples, o.samples / 4), .seed = seed, .alpha = alpha});
   return t;
 }
 
@@ -107,7 +108,7 @@ json to_json(const KnownBug& s, const DetectionResult& t) {
 
 // Returns the results that were finished before `cancel`. Prints them in order, each as soon as possible.
 std::vector<std::optional<DetectionResult>> detect_all(const KnownBugs& bugs, const KnownBugsCommandOptions& o,
-                                             const std::atomic<bool>* cancel) {
+                                                       const std::atomic<bool>* cancel) {
   fmt::print("book     Ray Tracing: The Rest of Your Life, 2016\n"
              "course   Introduction to Real-Time Ray Tracing, SIGGRAPH 2019\n"
              "lecture  CMU 15-468, 2021, with smallpt\n"

@@ -78,8 +78,8 @@ void print(const QualityRow& r, int dim, std::size_t sets) {
   const auto mean_t = [](const std::optional<double>& t) { return t ? fmt::format("{:.2f}", *t) : std::string(); };
   line("t of the net", r.t ? fmt::format("{}", *r.t) : "-", "", mean_t(r.random.t), mean_t(r.jittered.t));
   if (dim >= 2)
-    line("power up to sqrt(N) / 2", "", number(low_frequency_power(r.power, r.n)), number(low_frequency_power(r.random.power, r.n)),
-         number(low_frequency_power(r.jittered.power, r.n)));
+    line("power up to sqrt(N) / 2", "", number(low_frequency_power(r.power, r.n)),
+         number(low_frequency_power(r.random.power, r.n)), number(low_frequency_power(r.jittered.power, r.n)));
   if (r.t) fmt::print("a ({}, {}, {})-net in base 2\n", *r.t, std::countr_zero(r.n), dim);
   else fmt::print("no t: {}\n", std::has_single_bit(r.n) ? "too many boxes" : "the number of points is no power of 2");
   fmt::print("{}",

@@ -49,8 +49,7 @@ render::Variables parse_variables(const std::vector<std::string>& texts) {
 
 render::SceneFile read_scene(const std::string& file, const RenderCommandOptions& options) {
   const render::Variables variables = parse_variables(options.variables);
-  if (!render::is_mesh_file(file))
-    return render::read_mitsuba(file, render::dialect_from(options.dialect), variables);
+  if (!render::is_mesh_file(file)) return render::read_mitsuba(file, render::dialect_from(options.dialect), variables);
   mc::require(variables.empty(), "-D: '{}' is a mesh alone, which has no variables", file);
   return render::read_mesh_scene(file);
 }
@@ -71,7 +70,9 @@ void check_output(const std::string& path) {
               "cannot write '{}': unknown image format '{}'; use .exr, .pfm or .png", path, extension);
 }
 
-bool has_extension(const std::string& path, const char* extension) { return mc::lowercase_extension(path) == extension; }
+bool has_extension(const std::string& path, const char* extension) {
+  return mc::lowercase_extension(path) == extension;
+}
 
 // The tone of a PNG, except for an exposure that depends on the picture.
 render::ToneMapping tone_of(const RenderCommandOptions& options, const GalleryScene* named) {
@@ -98,7 +99,7 @@ const GalleryScene* named_scene(const std::string& word) {
 
 // The settings of the scene, overridden by those of the command line.
 render::RenderOptions settings_of(const RenderCommandOptions& options, const render::RenderDefaults& defaults,
-                                    const GalleryScene* named) {
+                                  const GalleryScene* named) {
   render::RenderOptions settings;
   if (named && !named->strategy.empty()) settings.strategy = render::strategy_from(named->strategy);
   if (named && !named->sampler.empty()) settings.sampler = render::sampler_from(named->sampler);
@@ -141,7 +142,8 @@ render::RenderOptions settings_of(const RenderCommandOptions& options, const ren
 std::string progress_text(const render::Progress& p, const std::optional<double>& target_error) {
   const std::string rate = format_count(double(p.samples) / p.seconds) + "samples/s";
   if (!std::isfinite(p.relative_error)) return rate;
-  const bool goes_on = target_error && p.relative_error <= *target_error && p.outlier_dominated > render::max_outlier_dominated;
+  const bool goes_on =
+      target_error && p.relative_error <= *target_error && p.outlier_dominated > render::max_outlier_dominated;
   if (goes_on)
     return fmt::format("error reached, {:.1f} % undecided: on to {:.0f} %", 100 * p.outlier_dominated,
                        100 * render::max_outlier_dominated);
@@ -212,7 +214,8 @@ int run_render(const RenderCommandOptions& options) {
     mc::require(!mc::is_same_path(options.intervals, output),
                 "--intervals '{}' would overwrite the picture; name another file", options.intervals);
   }
-  mc::require(!options.layers || has_extension(output, ".exr"), "--layers: '{}' cannot store them; write an .exr", output);
+  mc::require(!options.layers || has_extension(output, ".exr"), "--layers: '{}' cannot store them; write an .exr",
+              output);
 
   const GalleryScene* named = named_scene(options.scene);
   const std::string file = named ? scene_file(*named) : options.scene;
@@ -241,7 +244,8 @@ int run_render(const RenderCommandOptions& options) {
     };
 
   const render::Crop part = crop_of(settings);
-  const RenderFingerprint fingerprint = render_fingerprint(file, options.dialect, options.variables, read, settings, part);
+  const RenderFingerprint fingerprint =
+      render_fingerprint(file, options.dialect, options.variables, read, settings, part);
   std::optional<ResumeState> resumed;
   if (options.resume) resumed = load_resume_state(output, fingerprint, part, settings);
   const Interrupt interrupt;
@@ -250,8 +254,8 @@ int run_render(const RenderCommandOptions& options) {
   progress.clear();
 
   if (resumed ? result.estimates == 0 : result.missing_rows == result.image.height) {
-    fmt::print("interrupted before {}; {} {}\n", resumed ? "every pixel had a new sample" : "a row was rendered", output,
-               resumed ? "is unchanged" : "was not written");
+    fmt::print("interrupted before {}; {} {}\n", resumed ? "every pixel had a new sample" : "a row was rendered",
+               output, resumed ? "is unchanged" : "was not written");
     return exit_interrupted;
   }
   const Provenance from{file, options.command, options.seed};

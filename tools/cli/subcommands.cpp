@@ -5,7 +5,7 @@ namespace carlo {
 // A row a subcommand, in the order of --help.
 #define CARLO_SUBCOMMANDS(row)                                                                                         \
   row(validate);                                                                                                       \
-  row(known_bugs);                                                                                                          \
+  row(known_bugs);                                                                                                     \
   row(points);                                                                                                         \
   row(converge);                                                                                                       \
   row(trade);                                                                                                          \

@@ -59,7 +59,8 @@ std::string text_of(const IntervalEstimate& r, std::string_view unit) {
 }
 
 // Prints the candidates that do not differ significantly from the first.
-void print_ties(const std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion, std::string_view unit) {
+void print_ties(const std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion,
+                std::string_view unit) {
   const std::size_t count = count_ties(candidates, criterion);
   for (std::size_t i = 1; i < count; ++i)
     fmt::print("{}{} {}", i == 1 ? "      not told from it: " : ", ", curve_label(*candidates[i].curve),
@@ -100,7 +101,8 @@ void print(const CandidatesForTime& f, const CostUnit& cost) {
   if (f.gain) fmt::print("; {} times smaller than plain Monte Carlo's", text_of(*f.gain, ""));
   fmt::print("\n");
   print_ties(f.candidates, &TradeCandidate::error, "");
-  const auto ended = std::count_if(f.candidates.begin(), f.candidates.end(), [](const TradeCandidate& o) { return o.is_largest_n; });
+  const auto ended =
+      std::count_if(f.candidates.begin(), f.candidates.end(), [](const TradeCandidate& o) { return o.is_largest_n; });
   if (ended > 0)
     fmt::print(
         "      {} of {} ways ended before {:g}{}, at their largest N, and may err less; raise --max-n, of a scene "
@@ -124,7 +126,8 @@ ordered_json to_json(const std::vector<TradeCandidate>& candidates, const CostUn
   }
   return all;
 }
-template <class For> ordered_json to_json(const For& f, IntervalEstimate TradeCandidate::*criterion, const CostUnit& cost) {
+template <class For>
+ordered_json to_json(const For& f, IntervalEstimate TradeCandidate::*criterion, const CostUnit& cost) {
   ordered_json j = {{"wanted", f.goal}, {"as_good", f.candidates.empty() ? 0 : count_ties(f.candidates, criterion)}};
   if (f.gain) j["gain_over_plain"] = to_json(*f.gain);
   j["offers"] = to_json(f.candidates, cost);
@@ -222,10 +225,12 @@ struct OutputFolders {
 };
 
 // `evaluation_cost` takes offers and measures them again.
-template <class Seconds> TradeResults trade_results_of(const Measurement& m, const TradeGoals& wanted, const Seconds& evaluation_cost) {
+template <class Seconds>
+TradeResults trade_results_of(const Measurement& m, const TradeGoals& wanted, const Seconds& evaluation_cost) {
   TradeResults a;
   for (const double error : wanted.errors)
-    a.by_error.push_back(candidates_for_error(m, error, evaluation_cost(candidates_for_error(m, error, measured_cost).candidates)));
+    a.by_error.push_back(
+        candidates_for_error(m, error, evaluation_cost(candidates_for_error(m, error, measured_cost).candidates)));
   for (const double budget : wanted.seconds)
     a.by_time.push_back(
         candidates_for_time(m, budget, evaluation_cost(candidates_for_time(m, budget, measured_cost).candidates)));
@@ -266,7 +271,8 @@ int report(const TradeCommandOptions& o, const PageEntry& one, const OutputFolde
   const Measurement& m = *one.measurement;
   const TradeResults& a = *one.trade_results;
   const bool exact = std::all_of(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.exact; });
-  const bool anything = std::any_of(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.has_measurable_error(); });
+  const bool anything =
+      std::any_of(m.curves.begin(), m.curves.end(), [](const ConvergenceCurve& c) { return c.has_measurable_error(); });
   for (const CandidatesForError& f : a.by_error) print(f, m.cost);
   for (const CandidatesForTime& f : a.by_time) print(f, m.cost);
   if (exact) fmt::print("  every way is exact to rounding: there is no error to plot\n");
@@ -297,12 +303,12 @@ int run_trade_scene(const TradeCommandOptions& o, TradeGoals wanted) {
   const IntegralTarget target = scene_target(o.integral.integrands[0]);
   const OutputFolders folders(o);
   const PictureMeasurement pictures = measure_scene(o.scene, {.path = target.integral.source,
-                                                    .samplers = o.samplers,
-                                                    .for_trade = true,
-                                                    .seconds = o.time.value_or(0),
-                                                    .seed = o.seed,
-                                                    .threads = o.threads,
-                                                    .cancel = interrupt.flag()});
+                                                              .samplers = o.samplers,
+                                                              .for_trade = true,
+                                                              .seconds = o.time.value_or(0),
+                                                              .seed = o.seed,
+                                                              .threads = o.threads,
+                                                              .cancel = interrupt.flag()});
   const Measurement& m = pictures.measurement;
   if (m.interrupted) fmt::print("{}\n", interruption_summary(pictures));
   if (pictures.methods.empty()) return exit_interrupted;
@@ -310,7 +316,8 @@ int run_trade_scene(const TradeCommandOptions& o, TradeGoals wanted) {
   fmt::print("{}: {} ways, {} of one picture\n", target.integral.title, m.curves.size(), m.cost.axis);
   fmt::print("{}", bias_summary(pictures));
   // The pictures were already rendered in turn.
-  const TradeResults trade_results = trade_results_of(m, wanted, [](const std::vector<TradeCandidate>&) { return measured_cost; });
+  const TradeResults trade_results =
+      trade_results_of(m, wanted, [](const std::vector<TradeCandidate>&) { return measured_cost; });
   const int code = report(o, {&target, &m, &pictures, &trade_results}, folders);
   return m.interrupted ? exit_interrupted : code;
 }

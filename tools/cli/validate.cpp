@@ -49,9 +49,9 @@ std::vector<const Case*> select(const ValidateCommandOptions& o, const Catalogue
     if (known) continue;
     std::set<std::string> names;
     for (const Case& c : catalogue) names.insert(c.name);
-    throw mc::Error(
-        fmt::format("validate: unknown distribution '{}'{} ({})", name, mc::did_you_mean(name, names),
-                    is_user_input ? "--list shows the distributions of your file" : "carlo validate --list names them all"));
+    throw mc::Error(fmt::format("validate: unknown distribution '{}'{} ({})", name, mc::did_you_mean(name, names),
+                                is_user_input ? "--list shows the distributions of your file"
+                                              : "carlo validate --list names them all"));
   }
   std::vector<const Case*> unique;
   for (const Case* c : chosen)
@@ -158,7 +158,7 @@ mc::Report check(const Case& one, const ValidateCommandOptions& o, double alpha,
 
 // Checks all cases. Prints their lines in order, each as soon as possible.
 CheckedCases check_all(const std::vector<const Case*>& cases, const ValidateCommandOptions& o, double alpha,
-                   const std::atomic<bool>* cancel) {
+                       const std::atomic<bool>* cancel) {
   std::vector<std::optional<mc::Report>> reports(cases.size());
   std::vector<std::string> errors(cases.size());
   std::size_t printed = 0, finished = 0;
@@ -249,17 +249,18 @@ int run_validate(const ValidateCommandOptions& options) {
               o.json);
   const ResultFile json(o.json), junit(o.junit);
   resolve_sample_count(o, alpha, user_input.samples);
-  const std::string page = o.report.empty() ? "" : (mc::make_output_folder(o.report, "index.html") / "index.html").string();
+  const std::string page =
+      o.report.empty() ? "" : (mc::make_output_folder(o.report, "index.html") / "index.html").string();
 
   const CheckedCases finished = check_all(cases, o, alpha, interrupt.flag());
   std::string errors;
   for (const UncheckedCase& u : finished.unchecked) errors += (errors.empty() ? "" : "\ncarlo: ") + u.error;
   mc::require(errors.empty() || !finished.cases.empty(), "{}", errors);
   const ValidationRun run{{o.command, o.seed, o.samples, o.alpha, !o.samples_file.empty(), o.open_interval},
-                finished.cases,
-                finished.reports,
-                finished.cases.size() + finished.unchecked.size() < cases.size(),
-                finished.unchecked};
+                          finished.cases,
+                          finished.reports,
+                          finished.cases.size() + finished.unchecked.size() < cases.size(),
+                          finished.unchecked};
   print_summary(run, cases.size(), o.verbose);
   if (junit.is_wanted()) junit.write(validation_junit(run));
   if (json.is_wanted()) json.write(validation_json(run));
@@ -273,6 +274,8 @@ int run_validate(const ValidateCommandOptions& options) {
   return passed ? exit_ok : exit_failed;
 }
 
-Subcommand validate_subcommand() { return make_subcommand<ValidateCommandOptions>(validate_about(), validate_rows, validate); }
+Subcommand validate_subcommand() {
+  return make_subcommand<ValidateCommandOptions>(validate_about(), validate_rows, validate);
+}
 
 } // namespace carlo

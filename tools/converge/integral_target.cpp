@@ -65,7 +65,8 @@ Replicates run_replicates(const UnitCubeIntegral& given, const ReplicateTask& ta
 IntegralTarget in_process_target(UnitCubeIntegral integral) {
   const auto shared = std::make_shared<const UnitCubeIntegral>(integral);
   const bool has_batch = integral.f_batch != nullptr;
-  return {std::move(integral), [shared](const ReplicateTask& task) { return run_replicates(*shared, task); }, has_batch};
+  return {std::move(integral), [shared](const ReplicateTask& task) { return run_replicates(*shared, task); },
+          has_batch};
 }
 
 } // namespace carlo

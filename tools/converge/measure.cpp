@@ -84,8 +84,8 @@ void append(Replicates& all, const Replicates& more) {
 }
 
 // `before`: those with fewer evaluations.
-Replicates replicate(const IntegralTarget& target, const SamplingMethod& method, std::uint64_t n, const std::vector<Replicates>& before,
-                     const MeasureOptions& o) {
+Replicates replicate(const IntegralTarget& target, const SamplingMethod& method, std::uint64_t n,
+                     const std::vector<Replicates>& before, const MeasureOptions& o) {
   const auto run = [&](std::uint64_t first, std::uint64_t count) {
     return target.run({&method, n, o.seed, first, count, o.threads, o.cancel});
   };
@@ -126,11 +126,12 @@ bool reaches_goals(const ConvergenceCurve& curve, const UnitCubeIntegral& e, con
 }
 
 // The errors come later, when the truth is known. An interrupt costs only the N that it falls on.
-ConvergenceCurve run_curve(const IntegralTarget& target, const SamplingMethod& method, double seconds, const MeasureOptions& o,
-                const std::function<void(std::uint64_t n)>& progress) {
+ConvergenceCurve run_curve(const IntegralTarget& target, const SamplingMethod& method, double seconds,
+                           const MeasureOptions& o, const std::function<void(std::uint64_t n)>& progress) {
   ConvergenceCurve curve;
   curve.method = &method;
-  if (method.points_file.empty()) curve.theory = theoretical_rate(method.name, target.integral.smoothness, target.integral.dim);
+  if (method.points_file.empty())
+    curve.theory = theoretical_rate(method.name, target.integral.smoothness, target.integral.dim);
   const auto start = Clock::now();
   const auto elapsed = [&] { return std::chrono::duration<double>(Clock::now() - start).count(); };
   double last = 0;
@@ -191,7 +192,7 @@ void evaluate_curve(ConvergenceCurve& curve, const UnitCubeIntegral& e, const Me
     if (one.is_bound || one.rms <= floor || (e.min_fit_n > 0 ? one.n < e.min_fit_n : i < half)) continue;
     fitted.push_back(one);
     fewest = std::min(fewest, mc::effective_error_count(double(curve.replicates[i].values.size()),
-                                                    mean_kurtosis(curve.replicates, i, m.truth)));
+                                                        mean_kurtosis(curve.replicates, i, m.truth)));
     logs += std::log(one.n);
   }
   if (fitted.size() < 3) return;
@@ -201,13 +202,14 @@ void evaluate_curve(ConvergenceCurve& curve, const UnitCubeIntegral& e, const Me
 
 // What independent points say of an integrand.
 struct IntegrandProbe {
-  double magnitude;   // the mean of |f| over a few, which rounding is relative to: the integral itself may cancel
+  double magnitude; // the mean of |f| over a few, which rounding is relative to: the integral itself may cancel
   mc::TailIndexEstimator tail; // of f
 };
 
 IntegrandProbe probe_integrand(const IntegralTarget& target, const MeasureOptions& o) {
   const std::uint64_t points = std::min<std::uint64_t>(4 * o.max_n, 1 << 14); // less than the largest N takes
-  const Replicates r = target.run({&sampling_method("random"), 1, mc::hash(o.seed, 78), 0, points, o.threads, o.cancel});
+  const Replicates r =
+      target.run({&sampling_method("random"), 1, mc::hash(o.seed, 78), 0, points, o.threads, o.cancel});
   std::vector<double> sizes;
   for (const double x : std::span(r.values).first(std::min<std::size_t>(r.values.size(), first_replicates)))
     sizes.push_back(std::abs(x));
@@ -221,7 +223,9 @@ IntegrandProbe probe_integrand(const IntegralTarget& target, const MeasureOption
 // differed, the curve of the largest N.
 const ConvergenceCurve* most_precise_curve(const std::vector<ConvergenceCurve>& curves) {
   const ConvergenceCurve* best = nullptr;
-  const auto rank = [](const ConvergenceCurve& c) { return std::pair(credible_error_of_mean(c), -c.replicates.back().calls[0]); };
+  const auto rank = [](const ConvergenceCurve& c) {
+    return std::pair(credible_error_of_mean(c), -c.replicates.back().calls[0]);
+  };
   const auto is_usable = [&](const ConvergenceCurve& c) {
     return !c.method->is_adaptive && !(c.interrupted && error_of_mean(c.replicates.back().values) == 0);
   };
@@ -231,10 +235,12 @@ const ConvergenceCurve* most_precise_curve(const std::vector<ConvergenceCurve>& 
 }
 
 // The truth and its standard error; when interrupted by the replicates that are there.
-std::pair<double, double> estimate_truth(const IntegralTarget& target, const std::vector<ConvergenceCurve>& curves, const MeasureOptions& o) {
+std::pair<double, double> estimate_truth(const IntegralTarget& target, const std::vector<ConvergenceCurve>& curves,
+                                         const MeasureOptions& o) {
   const ConvergenceCurve* best = most_precise_curve(curves);
-  mc::require(best, "{}: its true value is unknown, and no non-adaptive method is given to estimate it; add one to --samplers",
-              target.integral.name);
+  mc::require(
+      best, "{}: its true value is unknown, and no non-adaptive method is given to estimate it; add one to --samplers",
+      target.integral.name);
   const Replicates& last = best->replicates.back();
   const auto largest = static_cast<std::uint64_t>(last.calls[0]);
   const Replicates r =
@@ -315,9 +321,12 @@ bool ConvergenceCurve::has_measurable_error() const {
   return !exact && std::any_of(errors.begin(), errors.end(), is_known);
 }
 
-bool ConvergenceCurve::agrees_with_theory() const { return power_law && theory && theory->is_consistent_with(power_law->lo, power_law->hi, fit_center); }
+bool ConvergenceCurve::agrees_with_theory() const {
+  return power_law && theory && theory->is_consistent_with(power_law->lo, power_law->hi, fit_center);
+}
 
-Measurement measure_convergence(const IntegralTarget& target, const std::vector<SamplingMethod>& methods, const MeasureOptions& options) {
+Measurement measure_convergence(const IntegralTarget& target, const std::vector<SamplingMethod>& methods,
+                                const MeasureOptions& options) {
   static const std::atomic<bool> never = false;
   MeasureOptions o = options;
   if (!o.cancel) o.cancel = &never;
@@ -343,7 +352,8 @@ Measurement measure_convergence(const IntegralTarget& target, const std::vector<
     if (!curve.replicates.empty()) m.curves.push_back(std::move(curve));
     if (m.interrupted) break;
     mc::require(known || !all_zero(m.curves),
-                "{}: the integrand was 0 at every point; choose bounds around the region where it is not", target.integral.name);
+                "{}: the integrand was 0 at every point; choose bounds around the region where it is not",
+                target.integral.name);
   }
   m.truth = target.integral.truth;
   // What an interrupt leaves may not tell the truth: then no error is known, which is no fault of the integrand.

@@ -28,12 +28,12 @@ struct MeasureOptions {
 /// How the error of one way falls.
 struct ConvergenceCurve {
   const SamplingMethod* method = nullptr;
-  std::vector<mc::RmsError> errors;   ///< N is the evaluations really made
-  std::vector<Replicates> replicates; ///< behind each
-  bool exact = false;                 ///< no error beyond rounding, so no slope
-  bool interrupted = false;                   ///< an interrupt came before its largest N
-  bool out_of_time = false;           ///< its share of MeasureOptions::seconds ended before
-  std::optional<mc::PowerLaw> power_law;    ///< of N in the asymptotic range, where there are three or more
+  std::vector<mc::RmsError> errors;      ///< N is the evaluations really made
+  std::vector<Replicates> replicates;    ///< behind each
+  bool exact = false;                    ///< no error beyond rounding, so no slope
+  bool interrupted = false;              ///< an interrupt came before its largest N
+  bool out_of_time = false;              ///< its share of MeasureOptions::seconds ended before
+  std::optional<mc::PowerLaw> power_law; ///< of N in the asymptotic range, where there are three or more
   std::optional<ConvergenceRate> theory;
   double fit_center = 0; ///< geometric mean of the N of the law
 
@@ -45,22 +45,22 @@ struct ConvergenceCurve {
 
 /// What an estimate costs, in words.
 struct CostUnit {
-  std::string_view column, axis; ///< of tables, of plots
-  std::string_view unit, qualifier;     ///< behind a figure
+  std::string_view column, axis;    ///< of tables, of plots
+  std::string_view unit, qualifier; ///< behind a figure
 };
 inline constexpr CostUnit cpu_cost{"cpu_seconds", "CPU seconds", " s", " of CPU"};
 inline constexpr CostUnit ray_cost{"million_rays", "millions of rays", " Mray", ""};
 
 struct Measurement {
-  std::vector<ConvergenceCurve> curves;        ///< of the ways that were begun; when interrupted the last may be cut
-  double truth = 0;                 ///< what errors are measured from
-  double truth_error = 0;           ///< standard error of a reference; 0: the truth is known
-  double magnitude = 0;                  ///< mean of |f|, or |truth| where that is more: what rounding is relative to
-  std::string truth_warning;                ///< one line that says why the truth must or may be wrong; empty: no doubt
-  bool interrupted = false;         ///< what was measured until then is kept, for each N that was finished
+  std::vector<ConvergenceCurve> curves; ///< of the ways that were begun; when interrupted the last may be cut
+  double truth = 0;                     ///< what errors are measured from
+  double truth_error = 0;               ///< standard error of a reference; 0: the truth is known
+  double magnitude = 0;                 ///< mean of |f|, or |truth| where that is more: what rounding is relative to
+  std::string truth_warning;            ///< one line that says why the truth must or may be wrong; empty: no doubt
+  bool interrupted = false;             ///< what was measured until then is kept, for each N that was finished
   std::optional<double> heavy_tail; ///< index of the tail, where the variance looks infinite by mc::TailIndexEstimator
-  CostUnit cost = cpu_cost;             ///< what its seconds are
-  std::string plain_mc = "random";     ///< the name of the way that is plain Monte Carlo
+  CostUnit cost = cpu_cost;         ///< what its seconds are
+  std::string plain_mc = "random";  ///< the name of the way that is plain Monte Carlo
 };
 
 /// Every way on N = 16, 32, ... max_n, from the fewest that the way works with.
@@ -73,6 +73,7 @@ struct Measurement {
 ///            over half of the variance
 ///   throws : Error for an integrand that is not finite somewhere, or of unknown truth and 0 at every point, and
 ///            where refuse_underflow does
-Measurement measure_convergence(const IntegralTarget& target, const std::vector<SamplingMethod>& methods, const MeasureOptions& options);
+Measurement measure_convergence(const IntegralTarget& target, const std::vector<SamplingMethod>& methods,
+                                const MeasureOptions& options);
 
 } // namespace carlo

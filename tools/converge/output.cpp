@@ -22,7 +22,8 @@ std::string slope_text(const ConvergenceCurve& c) {
   if (c.exact) return "exact to rounding";
   if (c.errors.back().is_bound && !c.power_law) return "not distinguishable from the error of the reference";
   if (!c.power_law) return "too few N for a slope";
-  std::string text = fmt::format("slope {:+.3f} [{:+.3f}, {:+.3f}]", c.power_law->slope, c.power_law->lo, c.power_law->hi);
+  std::string text =
+      fmt::format("slope {:+.3f} [{:+.3f}, {:+.3f}]", c.power_law->slope, c.power_law->lo, c.power_law->hi);
   if (!c.theory) return text;
   text += ", theory " + c.theory->to_string(3);
   if (c.theory->log_power > 0) text += fmt::format(" ({:+.3f} at these N)", -c.theory->local_exponent(c.fit_center));
@@ -31,9 +32,10 @@ std::string slope_text(const ConvergenceCurve& c) {
 
 std::string variance_warning(const Measurement& m) {
   if (!m.heavy_tail) return {};
-  return fmt::format("the variance of the integrand looks infinite (the largest values fall off with index {:.2f}; a "
-                     "finite variance needs more than 2, a finite integral more than 1): RMS errors and slopes may be chance",
-                     *m.heavy_tail);
+  return fmt::format(
+      "the variance of the integrand looks infinite (the largest values fall off with index {:.2f}; a "
+      "finite variance needs more than 2, a finite integral more than 1): RMS errors and slopes may be chance",
+      *m.heavy_tail);
 }
 
 std::string summary(const IntegralTarget& target, const Measurement& m) {
@@ -71,7 +73,8 @@ std::string field(const std::string& text) { return text.find(',') == std::strin
 std::string theory_fields(const ConvergenceCurve& c) {
   if (!c.theory) return ",,,";
   std::string text = c.theory->to_string(4) + ",";
-  if (c.power_law) text += fmt::format("{:.4f},{},", -c.theory->local_exponent(c.fit_center), c.agrees_with_theory() ? "yes" : "no");
+  if (c.power_law)
+    text += fmt::format("{:.4f},{},", -c.theory->local_exponent(c.fit_center), c.agrees_with_theory() ? "yes" : "no");
   else text += ",,";
   return text + field(std::string(c.theory->source));
 }
@@ -88,7 +91,9 @@ std::string slopes_csv(const IntegralTarget& target, const Measurement& m) {
   std::string text;
   for (const ConvergenceCurve& c : m.curves) {
     text += fmt::format("{},{},{},{},", field(e.name), name(e.smoothness.kind), e.dim, field(c.method->name));
-    text += c.power_law ? fmt::format("{:.0f},{:.4f},{:.4f},{:.4f},", c.fit_center, c.power_law->slope, c.power_law->lo, c.power_law->hi) : ",,,,";
+    text += c.power_law ? fmt::format("{:.0f},{:.4f},{:.4f},{:.4f},", c.fit_center, c.power_law->slope, c.power_law->lo,
+                                      c.power_law->hi)
+                        : ",,,,";
     text += theory_fields(c) + "\n";
   }
   return text;
@@ -120,7 +125,10 @@ ordered_json to_json(const ConvergenceCurve& c, const CostUnit& cost) {
   ordered_json k = {{"sampler", c.method->name}, {"exact", c.exact}, {"points", points}};
   if (c.interrupted) k["interrupted"] = true;
   if (c.power_law)
-    k["slope"] = {{"value", c.power_law->slope}, {"lo", c.power_law->lo}, {"hi", c.power_law->hi}, {"constant", c.power_law->constant}};
+    k["slope"] = {{"value", c.power_law->slope},
+                  {"lo", c.power_law->lo},
+                  {"hi", c.power_law->hi},
+                  {"constant", c.power_law->constant}};
   if (c.theory)
     k["theory"] = {{"slope", -c.theory->exponent},
                    {"log_power", c.theory->log_power},
@@ -173,9 +181,10 @@ std::string curve_lines(const Measurement& m, const std::string& name, const cha
     const ConvergenceCurve& c = m.curves[i];
     if (!c.has_measurable_error()) continue;
     const std::string pick = fmt::format("(strcol(2) eq \"{}\" ? ${} : NaN)", gnuplot_text(c.method->name), column);
-    std::string label = with_slopes && c.power_law ? fmt::format("{}: N^{{{:.2f} ± {:.2f}}}", c.method->name, c.power_law->slope,
-                                                           (c.power_law->hi - c.power_law->lo) / 2)
-                                             : c.method->name;
+    std::string label = with_slopes && c.power_law
+                            ? fmt::format("{}: N^{{{:.2f} ± {:.2f}}}", c.method->name, c.power_law->slope,
+                                          (c.power_law->hi - c.power_law->lo) / 2)
+                            : c.method->name;
     std::replace(label.begin(), label.end(), '_', ' '); // which gnuplot would take for a subscript
     plot += fmt::format("\"{0}.csv\" skip 1 using {1}:5:6 with filledcurves fs solid 0.18 noborder lc rgb \"{2}\" "
                         "notitle, \\\n     \"{0}.csv\" skip 1 using {1}:4 with linespoints pt 7 ps 0.4 lw 1.5 lc rgb "

@@ -54,7 +54,8 @@ Words words_of(const PageEntry& one) {
 
 std::vector<std::string> theory_cells(const ConvergenceCurve& c) {
   std::string slope = c.exact ? "exact" : "-", theory = "-", agrees = "-";
-  if (c.power_law) slope = fmt::format("{:.3f} <small>[{:.3f}, {:.3f}]</small>", c.power_law->slope, c.power_law->lo, c.power_law->hi);
+  if (c.power_law)
+    slope = fmt::format("{:.3f} <small>[{:.3f}, {:.3f}]</small>", c.power_law->slope, c.power_law->lo, c.power_law->hi);
   if (c.theory) {
     theory = c.theory->to_string(3);
     if (c.theory->log_power > 0 && c.power_law)
@@ -71,13 +72,14 @@ std::array<std::string, 2> bias_cells(const Bias& b) {
   if (!b.break_even_error) return {format_interval(b.bias), "never"};
   const auto end = [](double error) { return std::isfinite(error) ? fmt::format("{:.3g}", error) : "never"; };
   const IntervalEstimate& above = *b.break_even_error;
-  return {format_interval(b.bias), fmt::format("{} <small>[{}, {}]</small>", end(above.value), end(above.lo), end(above.hi))};
+  return {format_interval(b.bias),
+          fmt::format("{} <small>[{}, {}]</small>", end(above.value), end(above.lo), end(above.hi))};
 }
 
 std::string curve_table(const PageEntry& one) {
   const Measurement& m = *one.measurement;
   const Words words = words_of(one);
-  std::vector<std::string> head = {words.method,     words.n,  "RMS error, 95 %", std::string(m.cost.axis),
+  std::vector<std::string> head = {words.method,  words.n,  "RMS error, 95 %", std::string(m.cost.axis),
                                    "slope, 95 %", "theory", "agrees"};
   if (one.pictures) head.insert(head.end(), {"bias, 95 %", "pays above"});
   std::string rows;
@@ -85,7 +87,8 @@ std::string curve_table(const PageEntry& one) {
     const ConvergenceCurve& c = m.curves[i];
     const mc::RmsError& last = c.errors.back();
     std::vector<std::string> row = {named(c, m), fmt::format("{:.0f}", last.n),
-                                    format_interval(IntervalEstimate{last.rms, last.lo, last.hi}), fmt::format("{:.3g}", last.seconds)};
+                                    format_interval(IntervalEstimate{last.rms, last.lo, last.hi}),
+                                    fmt::format("{:.3g}", last.seconds)};
     for (std::string& cell : theory_cells(c)) row.push_back(std::move(cell));
     if (one.pictures)
       for (std::string& cell : bias_cells(one.pictures->biases[i])) row.push_back(std::move(cell));
@@ -107,8 +110,8 @@ class ChoiceTable {
  public:
   ChoiceTable(const PageEntry& one, bool has_gain) : m_(*one.measurement), n_(words_of(one).n), has_gain_(has_gain) {}
 
-  void add(const std::string& wanted, const std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion,
-           const std::optional<IntervalEstimate>& gain) {
+  void add(const std::string& wanted, const std::vector<TradeCandidate>& candidates,
+           IntervalEstimate TradeCandidate::*criterion, const std::optional<IntervalEstimate>& gain) {
     const TradeCandidate& o = candidates.front();
     std::vector<std::string> row = {wanted, named(*o.curve, m_), format_interval(reported_interval(o, criterion)),
                                     fmt::format("{:.3g}{}", o.n, o.is_largest_n ? ", the largest" : "")};
@@ -138,8 +141,8 @@ class ChoiceTable {
 std::string nearest(const CandidatesForError& f, const Measurement& m) {
   if (f.nearest.empty()) return "no way came there";
   const TradeCandidate& o = f.nearest.front();
-  return fmt::format("no way came there; nearest {}: {}{:.3g}", named(*o.curve, m), o.error.is_upper_bound() ? "&le; " : "",
-                     o.error.value);
+  return fmt::format("no way came there; nearest {}: {}{:.3g}", named(*o.curve, m),
+                     o.error.is_upper_bound() ? "&le; " : "", o.error.value);
 }
 
 std::string choice_tables(const PageEntry& one) {
@@ -169,8 +172,8 @@ std::string facts(const PageEntry& one) {
     return fmt::format("{}; {}&times;{} pixels; reference of {:.0f} samples per pixel with an error of {:.2g}",
                        escape_html(e.source), one.pictures->reference.width, one.pictures->reference.height,
                        one.pictures->reference_spp, one.pictures->reference_error);
-  std::string s =
-      fmt::format("{}{} dimension{}", e.source.empty() ? "" : escape_html(e.source) + "; ", e.dim, e.dim == 1 ? "" : "s");
+  std::string s = fmt::format("{}{} dimension{}", e.source.empty() ? "" : escape_html(e.source) + "; ", e.dim,
+                              e.dim == 1 ? "" : "s");
   s += m.truth_error > 0 ? fmt::format("; reference {:.12g} &plusmn; {:.2g}", m.truth, m.truth_error)
                          : fmt::format("; truth {:.12g}", m.truth);
   if (e.smoothness.kind != Smoothness::Class::unknown) s += fmt::format("; {}", name(e.smoothness.kind));
@@ -216,7 +219,9 @@ std::string section(const PageEntry& one) {
   if (one.trade_results) s += choice_tables(one);
   s += "<div class=\"panels\">" + error_panel(m.curves, {.axis = words.n, .x = n, .theory = true});
   s += error_panel(
-      m.curves, {.axis = m.cost.axis, .x = seconds, .pareto_front = one.trade_results ? one.trade_results->pareto_front : std::vector<TradeCandidate>()});
+      m.curves, {.axis = m.cost.axis,
+                 .x = seconds,
+                 .pareto_front = one.trade_results ? one.trade_results->pareto_front : std::vector<TradeCandidate>()});
   return s + "</div>" + curve_table(one) + pictures(one) + "</section>";
 }
 
@@ -276,7 +281,8 @@ std::string safe_file_name(const std::string& text) {
   return safe;
 }
 
-void write_convergence_page(const std::filesystem::path& folder, const PageHeader& head, const std::vector<PageEntry>& all) {
+void write_convergence_page(const std::filesystem::path& folder, const PageHeader& head,
+                            const std::vector<PageEntry>& all) {
   HtmlPage page{.tool = head.tool, .title = head.title, .style = style, .command = head.command};
   for (const PageEntry& one : all) {
     page.main += section(one) + "\n";

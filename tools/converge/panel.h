@@ -13,7 +13,7 @@ namespace carlo {
 struct PanelOptions {
   std::string_view axis; ///< what stands below it
   double (*x)(const mc::RmsError& e);
-  bool theory = false;       ///< dotted lines that fall as theory says
+  bool theory = false;                        ///< dotted lines that fall as theory says
   std::vector<TradeCandidate> pareto_front{}; ///< a broad line through these, which x must be the seconds for
 };
 

@@ -47,8 +47,8 @@ struct PictureSeries {
 struct ReferencePicture {
   Image image;
   double spp = 0;
-  double noise = 0; ///< relmse
-  double relmse_floor = 0;  ///< what relmse adds to squares of pixels, of every picture alike
+  double noise = 0;        ///< relmse
+  double relmse_floor = 0; ///< what relmse adds to squares of pixels, of every picture alike
 };
 
 // Of a pixel's channels, the mean square of how far an image is from another, relative to the reference.
@@ -198,7 +198,7 @@ void set_break_even_errors(std::vector<WorkAndBias>& all) {
       half = mc::student_quantile(0.05 / double(all.size()), std::min(one.dof, best->dof)) *
              std::sqrt(one.variance + best->variance);
     const IntervalEstimate pays{threshold(bias.value, share), threshold(bias.lo, share * std::exp(-half)),
-                      threshold(bias.hi, share * std::exp(half))};
+                                threshold(bias.hi, share * std::exp(half))};
     if (std::isfinite(pays.lo)) one.bias.break_even_error = pays;
   }
 }
@@ -304,8 +304,8 @@ class PictureSession {
     if (r.partial) return false;
     mc::require(!is_black(r.image), "the picture is black: without light there is no error to measure");
     if (reference_.spp == 0) reference_.relmse_floor = relmse_floor_of(r.image);
-    reference_.image = reference_.spp > 0 ? render::accumulate(reference_.image, reference_.spp, r.image, r.spp)
-                                          : std::move(r.image);
+    reference_.image =
+        reference_.spp > 0 ? render::accumulate(reference_.image, reference_.spp, r.image, r.spp) : std::move(r.image);
     reference_.spp += r.spp;
     reference_.noise = noise(reference_.image, reference_.relmse_floor);
     return true;
@@ -335,8 +335,8 @@ class PictureSession {
     if (options_.cost_rays) result.measurement.cost = ray_cost;
     const auto plain = plain_mc_method(file_);
     result.measurement.plain_mc = plain ? plain->name() : "";
-    const std::size_t begun =
-        std::size_t(std::count_if(curves_.begin(), curves_.end(), [](const ConvergenceCurve& c) { return !c.errors.empty(); }));
+    const std::size_t begun = std::size_t(
+        std::count_if(curves_.begin(), curves_.end(), [](const ConvergenceCurve& c) { return !c.errors.empty(); }));
     std::vector<WorkAndBias> biases;
     for (std::size_t i = 0; i < methods_.size(); ++i) {
       ConvergenceCurve& curve = curves_[i];
@@ -346,7 +346,8 @@ class PictureSession {
       curve.method = &method;
       fit(curve);
       biases.push_back(bias_of(level_[i], reference_, begun));
-      const bool is_plain = methods_[i].sampler == render::PixelSampler::independent && !is_adaptive(methods_[i].allocation);
+      const bool is_plain =
+          methods_[i].sampler == render::PixelSampler::independent && !is_adaptive(methods_[i].allocation);
       if (is_plain && !(biases.back().bias.bias.lo > 0)) curve.theory = ConvergenceRate{0.5, 0, "independent samples"};
       result.measurement.curves.push_back(std::move(curve));
       result.pictures.push_back(level_[i].images.front());
@@ -364,7 +365,7 @@ class PictureSession {
   const PictureOptions& options_;
   const Clock::time_point start_ = Clock::now();
   std::vector<ConvergenceCurve> curves_; ///< of every way
-  std::vector<PictureSeries> level_; ///< of every way, those of the last level
+  std::vector<PictureSeries> level_;     ///< of every way, those of the last level
   ReferencePicture reference_;
   std::uint64_t references_ = 0; ///< pictures that the reference is the mean of
   int spp_ = 4;                  ///< of this level
@@ -387,12 +388,12 @@ std::optional<RenderMethod> plain_mc_method(const render::SceneFile& file) {
 }
 
 PictureMeasurement measure_pictures(const render::SceneFile& file, const std::vector<RenderMethod>& methods,
-                          const PictureOptions& options) {
+                                    const PictureOptions& options) {
   mc::require(!methods.empty(), "no method to render is named");
   mc::require(options.replicates == 0 || options.replicates >= 3,
               "{} pictures behind each error; at least 3 are needed", options.replicates);
-  mc::require(options.max_spp >= 16 && options.max_spp <= 1 << 28, "{} samples per pixel at most; it must lie in 16 to 2^28",
-              options.max_spp);
+  mc::require(options.max_spp >= 16 && options.max_spp <= 1 << 28,
+              "{} samples per pixel at most; it must lie in 16 to 2^28", options.max_spp);
   return PictureSession(file, methods, options).run();
 }
 

@@ -19,8 +19,12 @@ enum class SampleAllocation {
   adaptive_tiles
 };
 
-inline bool is_adaptive(SampleAllocation s) { return s == SampleAllocation::adaptive || s == SampleAllocation::adaptive_tiles; }
-inline bool uses_tiles(SampleAllocation s) { return s == SampleAllocation::tiles || s == SampleAllocation::adaptive_tiles; }
+inline bool is_adaptive(SampleAllocation s) {
+  return s == SampleAllocation::adaptive || s == SampleAllocation::adaptive_tiles;
+}
+inline bool uses_tiles(SampleAllocation s) {
+  return s == SampleAllocation::tiles || s == SampleAllocation::adaptive_tiles;
+}
 
 /// One way to render.
 struct RenderMethod {
@@ -51,7 +55,8 @@ struct PictureOptions {
 
 /// What a way errs by however long it runs: paths that are too short, light that a strategy does not look for.
 struct Bias {
-  IntervalEstimate bias;      ///< root of the relmse of its expectation; the interval holds for all ways at once with 95 %, and
+  IntervalEstimate
+      bias;         ///< root of the relmse of its expectation; the interval holds for all ways at once with 95 %, and
                     ///< counts the spread between pixels as chance, so that a bias is told by many of them
   double noise = 0; ///< root of the relmse of one picture's noise
   double n = 0;     ///< samples per pixel, the most
@@ -64,12 +69,12 @@ struct Bias {
 /// channels of (x - reference)^2 / (reference^2 + mean^2 / 10), less what the noise of the reference adds; mean: over
 /// the pixels and channels of the first reference, for every way, so that errors do not depend on the unit of light.
 struct PictureMeasurement {
-  std::deque<SamplingMethod> methods;     ///< that the curves point to
-  Measurement measurement;  ///< its truth is an error of 0
-  std::vector<Bias> biases; ///< of the ways
+  std::deque<SamplingMethod> methods; ///< that the curves point to
+  Measurement measurement;            ///< its truth is an error of 0
+  std::vector<Bias> biases;           ///< of the ways
   render::Image reference;
   std::vector<render::Image> pictures; ///< one of each way, of its most samples
-  double reference_error = 0;            ///< root of the relmse that the reference's noise is
+  double reference_error = 0;          ///< root of the relmse that the reference's noise is
   double reference_spp = 0;
 };
 
@@ -82,6 +87,6 @@ struct PictureMeasurement {
 ///               error to a tenth of the smallest by noise
 ///   throws    : Error for a black scene, no ways, fewer than 3 pictures, or max_spp below 16 or above 2^28
 PictureMeasurement measure_pictures(const render::SceneFile& file, const std::vector<RenderMethod>& methods,
-                          const PictureOptions& options);
+                                    const PictureOptions& options);
 
 } // namespace carlo

@@ -41,14 +41,15 @@ double error_at(const std::vector<mc::RmsError>& errors, BandEdge edge, double n
   return a.*edge * std::pow(b.*edge / (a.*edge), std::log(n / a.n) / std::log(b.n / a.n));
 }
 
-TradeCandidate candidate_at(const ConvergenceCurve& c, const IntervalEstimate& n, const EvaluationCost& evaluation_cost) {
+TradeCandidate candidate_at(const ConvergenceCurve& c, const IntervalEstimate& n,
+                            const EvaluationCost& evaluation_cost) {
   const IntervalEstimate one = evaluation_cost(c, n.value);
   TradeCandidate candidate;
   candidate.curve = &c;
   candidate.n = n.value;
   candidate.seconds = {n.value * one.value, n.lo * one.lo, n.hi * one.hi};
   candidate.error = {error_at(c.errors, &mc::RmsError::rms, n.value), error_at(c.errors, &mc::RmsError::lo, n.value),
-                 error_at(c.errors, &mc::RmsError::hi, n.value)};
+                     error_at(c.errors, &mc::RmsError::hi, n.value)};
   return candidate;
 }
 
@@ -72,16 +73,16 @@ std::optional<IntervalEstimate> ratio(const IntervalEstimate& a, const IntervalE
 // The first offers, and plain Monte Carlo where it is one.
 std::vector<TradeCandidate> contenders(const std::vector<TradeCandidate>& candidates, const std::string& plain_name) {
   constexpr std::size_t most = 6;
-  std::vector<TradeCandidate> chosen(candidates.begin(),
-                            candidates.begin() + static_cast<std::ptrdiff_t>(std::min(most, candidates.size())));
+  std::vector<TradeCandidate> chosen(
+      candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(std::min(most, candidates.size())));
   for (std::size_t i = most; i < candidates.size(); ++i)
     if (candidates[i].curve->method->name == plain_name) chosen.push_back(candidates[i]);
   return chosen;
 }
 
 // Seconds of one evaluation near the N of an offer: the first of three replicates fills caches, the last counts.
-double remeasured_seconds(const IntegralTarget& target, const TradeCandidate& o, std::uint64_t seed, std::uint64_t round,
-                     const std::atomic<bool>* cancel) {
+double remeasured_seconds(const IntegralTarget& target, const TradeCandidate& o, std::uint64_t seed,
+                          std::uint64_t round, const std::atomic<bool>* cancel) {
   const std::vector<mc::RmsError>& errors = o.curve->errors;
   const double n = std::clamp(std::exp2(std::round(std::log2(o.n))), errors.front().n, errors.back().n);
   const Replicates r =
@@ -92,7 +93,8 @@ double remeasured_seconds(const IntegralTarget& target, const TradeCandidate& o,
 /// Whether an offer cannot be told from the first of all.
 class TiesWithFirst {
  public:
-  TiesWithFirst(const std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion) : criterion_(criterion) {
+  TiesWithFirst(const std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion)
+      : criterion_(criterion) {
     if (candidates.empty()) return;
     wider_ = mc::normal_quantile(0.05 / static_cast<double>(candidates.size())) / mc::normal_quantile(0.05);
     most_ = widened(candidates.front().*criterion, (candidates.front().*criterion).hi);
@@ -109,7 +111,8 @@ class TiesWithFirst {
 };
 
 // At the N that a time is enough for, as far as it was measured.
-TradeCandidate candidate_within(const ConvergenceCurve& c, const IntervalEstimate& range, const EvaluationCost& evaluation_cost) {
+TradeCandidate candidate_within(const ConvergenceCurve& c, const IntervalEstimate& range,
+                                const EvaluationCost& evaluation_cost) {
   TradeCandidate candidate = candidate_at(c, range, evaluation_cost);
   // Fewer evaluations where they take longer than their median.
   const double most = c.errors.back().n;
@@ -119,7 +122,8 @@ TradeCandidate candidate_within(const ConvergenceCurve& c, const IntervalEstimat
 }
 
 // A time is enough for more than was measured: plain Monte Carlo by its law, another at its largest N.
-TradeCandidate candidate_beyond(const Measurement& m, const ConvergenceCurve& c, const IntervalEstimate& range, const IntervalEstimate& one) {
+TradeCandidate candidate_beyond(const Measurement& m, const ConvergenceCurve& c, const IntervalEstimate& range,
+                                const IntervalEstimate& one) {
   const mc::RmsError& last = c.errors.back();
   const auto fallen = [&](double error, double n, double slope) {
     return n > last.n ? error * std::pow(n / last.n, slope) : error;
@@ -142,8 +146,9 @@ TradeCandidate candidate_beyond(const Measurement& m, const ConvergenceCurve& c,
 
 // The best first, then what ties with it, then the others.
 void rank(std::vector<TradeCandidate>& candidates, IntervalEstimate TradeCandidate::*criterion) {
-  std::sort(candidates.begin(), candidates.end(),
-            [criterion](const TradeCandidate& a, const TradeCandidate& b) { return (a.*criterion).value < (b.*criterion).value; });
+  std::sort(candidates.begin(), candidates.end(), [criterion](const TradeCandidate& a, const TradeCandidate& b) {
+    return (a.*criterion).value < (b.*criterion).value;
+  });
   std::stable_partition(candidates.begin(), candidates.end(), TiesWithFirst(candidates, criterion));
 }
 
@@ -167,8 +172,9 @@ IntervalEstimate measured_cost(const ConvergenceCurve& c, double n) {
   return {at(count / 2), at(count / 2 - half), at(count / 2 + half)};
 }
 
-EvaluationCost interleaved_cost(const IntegralTarget& target, const Measurement& m, const std::vector<TradeCandidate>& candidates,
-                           std::uint64_t seed, const std::atomic<bool>* cancel) {
+EvaluationCost interleaved_cost(const IntegralTarget& target, const Measurement& m,
+                                const std::vector<TradeCandidate>& candidates, std::uint64_t seed,
+                                const std::atomic<bool>* cancel) {
   constexpr std::uint64_t rounds = 9;
   std::map<const ConvergenceCurve*, std::vector<double>> seconds;
   for (std::uint64_t round = 0; round < rounds; ++round)
@@ -189,7 +195,9 @@ EvaluationCost interleaved_cost(const IntegralTarget& target, const Measurement&
   };
 }
 
-std::string curve_label(const ConvergenceCurve& c) { return c.method->name + (c.method->scalar_calls ? " (one by one)" : ""); }
+std::string curve_label(const ConvergenceCurve& c) {
+  return c.method->name + (c.method->scalar_calls ? " (one by one)" : "");
+}
 
 std::optional<IntervalEstimate> evaluations_to_reach(const ConvergenceCurve& c, double error) {
   const auto lo = crossing(c.errors, &mc::RmsError::lo, error);
@@ -212,7 +220,8 @@ std::size_t count_ties(const std::vector<TradeCandidate>& candidates, IntervalEs
 CandidatesForError candidates_for_error(const Measurement& m, double error, const EvaluationCost& evaluation_cost) {
   CandidatesForError result{error, {}, {}, {}};
   for (const ConvergenceCurve& c : m.curves) {
-    if (const auto n = evaluations_to_reach(c, error)) result.candidates.push_back(candidate_at(c, *n, evaluation_cost));
+    if (const auto n = evaluations_to_reach(c, error))
+      result.candidates.push_back(candidate_at(c, *n, evaluation_cost));
     else result.nearest.push_back(largest_n_candidate(c));
   }
   rank(result.candidates, &TradeCandidate::seconds);
@@ -225,9 +234,9 @@ CandidatesForError candidates_for_error(const Measurement& m, double error, cons
     const IntervalEstimate n{needed(e.rms), e.is_bound ? 0 : needed(e.lo), needed(e.hi)};
     const IntervalEstimate one = evaluation_cost(*random, std::min(n.value, e.n));
     const TradeCandidate& best = result.candidates.front();
-    result.gain = best.curve == random
-                      ? IntervalEstimate{1, 1, 1}
-                      : ratio({n.value * one.value, n.lo * one.lo, n.hi * one.hi}, reported_interval(best, &TradeCandidate::seconds));
+    result.gain = best.curve == random ? IntervalEstimate{1, 1, 1}
+                                       : ratio({n.value * one.value, n.lo * one.lo, n.hi * one.hi},
+                                               reported_interval(best, &TradeCandidate::seconds));
   }
   return result;
 }
@@ -242,7 +251,7 @@ CandidatesForTime candidates_for_time(const Measurement& m, double seconds, cons
     one = evaluation_cost(c, n);
     const IntervalEstimate range{seconds / one.value, seconds / one.hi, seconds / one.lo};
     result.candidates.push_back(range.value > most ? candidate_beyond(m, c, range, one)
-                                               : candidate_within(c, range, evaluation_cost));
+                                                   : candidate_within(c, range, evaluation_cost));
   }
   rank(result.candidates, &TradeCandidate::error);
   for (const TradeCandidate& o : result.candidates) // an exact way gains nothing that a number says

@@ -22,10 +22,10 @@ struct IntervalEstimate {
 /// What a way needs, or gives.
 struct TradeCandidate {
   const ConvergenceCurve* curve = nullptr; ///< of the measurement, which must outlive the offer
-  double n = 0;                 ///< evaluations
-  IntervalEstimate seconds;               ///< CPU, of one estimate
-  IntervalEstimate error;                 ///< RMS
-  bool is_largest_n = false;           ///< its largest measured N takes less than the seconds asked for
+  double n = 0;                            ///< evaluations
+  IntervalEstimate seconds;                ///< CPU, of one estimate
+  IntervalEstimate error;                  ///< RMS
+  bool is_largest_n = false;               ///< its largest measured N takes less than the seconds asked for
 };
 
 /// Every way that reaches an error, cheapest first, but that those which tie with the first stand before the others.
@@ -68,8 +68,9 @@ IntervalEstimate measured_cost(const ConvergenceCurve& curve, double n);
 
 /// Runs the first offers and plain Monte Carlo, where it is one of them, again near their N, in turn, so that a busy
 /// moment falls on all alike. As they were measured for any other curve, and for all when it is interrupted.
-EvaluationCost interleaved_cost(const IntegralTarget& target, const Measurement& m, const std::vector<TradeCandidate>& candidates,
-                           std::uint64_t seed, const std::atomic<bool>* cancel);
+EvaluationCost interleaved_cost(const IntegralTarget& target, const Measurement& m,
+                                const std::vector<TradeCandidate>& candidates, std::uint64_t seed,
+                                const std::atomic<bool>* cancel);
 
 /// The N at which the curve and the two edges of its band come below an error: between the measured N by straight lines
 /// in the logarithms, beyond the last by N^-1/2. Nothing where the lower edge does not come there within the measured

@@ -20,7 +20,7 @@ mc::Estimate mean_luminance(const render::Image& image, std::uint32_t estimates)
   }
   const auto n = double(image.pixels.size());
   return mc::Estimate::from_student_t(sum / n, std::sqrt(variance) / n, n / image.noise_area * (estimates - 1.0),
-                               image.pixels.size());
+                                      image.pixels.size());
 }
 
 std::vector<StrategyResult> each_strategy(const render::Scene& scene, render::RenderOptions settings) {
@@ -57,7 +57,7 @@ std::vector<StrategyResult> compare_strategies(const render::Scene& scene, rende
 }
 
 std::vector<StrategyResult> compare_strategies_for_time(const render::Scene& scene, render::RenderOptions settings,
-                                                  double seconds) {
+                                                        double seconds) {
   settings.seconds = seconds;
   settings.target_error.reset();
   settings.adaptive = false;

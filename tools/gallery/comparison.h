@@ -17,7 +17,7 @@ struct StrategyResult {
   double spp = 0;                ///< samples per pixel
   double relative_error = 0;     ///< see Film::relative_error
   double work = 0;               ///< CPU seconds times the square of that: what a given error costs
-  double outlier_dominated = 0;          ///< see RenderResult
+  double outlier_dominated = 0;  ///< see RenderResult
   mc::Estimate mean;             ///< luminance, mean of the picture
   bool misses_light = false;     ///< so that it is wrong, however cheap
 };
@@ -29,7 +29,7 @@ std::vector<StrategyResult> compare_strategies(const render::Scene& scene, rende
 
 /// The same with the same time for each, wall-clock [s], samples spent evenly, on the picture as it is.
 std::vector<StrategyResult> compare_strategies_for_time(const render::Scene& scene, render::RenderOptions settings,
-                                                  double seconds);
+                                                        double seconds);
 
 /// The picture that `settings` describes, made so small that its longer side has at most `side` pixels.
 render::RenderOptions shrink_to_fit(render::RenderOptions settings, int side);

@@ -47,8 +47,9 @@ std::string section(const RenderedScene& r) {
       "<b>{}</b>{}; {}, {}; <a href=\"{}.exr\">EXR</a></p>",
       r.width, r.height, r.spp, format_count(r.samples_per_second), format_seconds(r.seconds),
       percent(r.relative_error),
-      r.outlier_dominated > 0 ? fmt::format(", {} of the pixels decided by one sample", percent(r.outlier_dominated)) : "", r.strategy,
-      r.sampler, scene.name);
+      r.outlier_dominated > 0 ? fmt::format(", {} of the pixels decided by one sample", percent(r.outlier_dominated))
+                              : "",
+      r.strategy, r.sampler, scene.name);
   s += "<ul class=\"features\">";
   for (const Feature& f : r.features) s += fmt::format("<li>{}</li>", escape_html(f));
   return s + "</ul>" + strategies_of(r) + "</section>";
@@ -75,7 +76,8 @@ a { color: var(--link); }
 
 } // namespace
 
-std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t requested, const std::string& command) {
+std::string gallery_page(const std::vector<RenderedScene>& rendered, std::size_t requested,
+                         const std::string& command) {
   HtmlPage page{.tool = "carlo gallery", .title = "Scenes with error bars", .style = style, .command = command};
   if (rendered.size() < requested)
     page.note =

@@ -23,7 +23,7 @@ std::string brightness(const StrategyResult& s, const StrategyResult* best) {
 } // namespace
 
 render::Image strategy_strip(const render::Scene& scene, render::RenderOptions settings,
-                               const render::ToneMapping& tone) {
+                             const render::ToneMapping& tone) {
   std::vector<render::Image> pictures;
   settings.seconds.reset();
   settings.target_error.reset();

@@ -37,8 +37,9 @@ double norm(const PointArray& x, int n) {
 // A domain of libmc over double as a part; printed points are in it where `near` says so.
 template <mc::Domain D>
 Part part(std::string text, std::vector<std::string> columns, const D& d, Rounding rounding, Contains near) {
-  const mc::AnyDistribution on = rounding == Rounding::floats ? mc::detail::distribution_on("", d.template cast<float>())
-                                                         : mc::detail::distribution_on("", d);
+  const mc::AnyDistribution on = rounding == Rounding::floats
+                                     ? mc::detail::distribution_on("", d.template cast<float>())
+                                     : mc::detail::distribution_on("", d);
   Part p{on.domain, std::move(columns), std::move(text)};
   if (rounding != Rounding::printed) return p;
   p.chart.contains = std::move(near);
@@ -94,9 +95,10 @@ Part interval(const std::string& name, std::string_view bounds, std::string_view
 Part annulus(std::string_view radius, Rounding rounding) {
   const double inner = number(radius, radius);
   mc::require(inner > 0 && inner < 1, "annulus={} needs a radius in (0, 1)", radius);
-  return part(
-      fmt::format("the annulus {} <= r <= 1", inner), {"x", "y"}, mc::Annulus<double>(inner, 1), rounding,
-      [inner](const PointArray& x) { return std::abs(norm(x, 2) - 0.5 - inner / 2) <= 0.5 - inner / 2 + edge_tolerance; });
+  return part(fmt::format("the annulus {} <= r <= 1", inner), {"x", "y"}, mc::Annulus<double>(inner, 1), rounding,
+              [inner](const PointArray& x) {
+                return std::abs(norm(x, 2) - 0.5 - inner / 2) <= 0.5 - inner / 2 + edge_tolerance;
+              });
 }
 
 Part named(const std::string& name, Rounding rounding) {
@@ -112,10 +114,10 @@ Part named(const std::string& name, Rounding rounding) {
     return part("the unit ball", {"x", "y", "z"}, mc::Ball<double>(), rounding,
                 [](const PointArray& x) { return norm(x, 3) <= 1 + edge_tolerance; });
   if (name == "triangle") {
-    Part p =
-        part("the triangle x, y >= 0, x + y <= 1", {"x", "y"}, mc::Triangle<double>(), rounding, [](const PointArray& x) {
-          return x[0] >= -edge_tolerance && x[1] >= -edge_tolerance && x[0] + x[1] <= 1 + edge_tolerance;
-        });
+    Part p = part("the triangle x, y >= 0, x + y <= 1", {"x", "y"}, mc::Triangle<double>(), rounding,
+                  [](const PointArray& x) {
+                    return x[0] >= -edge_tolerance && x[1] >= -edge_tolerance && x[0] + x[1] <= 1 + edge_tolerance;
+                  });
     p.chart.axes[0].name = "1 - x";
     p.chart.axes[1].name = "y / (1 - x)";
     return p;
@@ -129,7 +131,9 @@ Part named(const std::string& name, Rounding rounding) {
 Part discrete(int outcomes) {
   Part p{{}, {"i"}, fmt::format("outcomes 0 to {}", outcomes - 1), outcomes};
   p.chart.point_size = 1;
-  p.chart.contains = [outcomes](const PointArray& x) { return x[0] >= 0 && x[0] < outcomes && x[0] == std::floor(x[0]); };
+  p.chart.contains = [outcomes](const PointArray& x) {
+    return x[0] >= 0 && x[0] < outcomes && x[0] == std::floor(x[0]);
+  };
   return p;
 }
 

@@ -1,6 +1,6 @@
 #include <input/csv.h>
-#include <input/row_shuffler.h>
 #include <input/parsed_domain.h>
+#include <input/row_shuffler.h>
 #include <input/samples_density.h>
 #include <integrands/expression.h>
 
@@ -231,8 +231,8 @@ SamplesFileCase samples_density_case(const SamplesFileOptions& o) {
   c.one.name = o.samples;
   c.one.parameters = o.density.empty() ? o.pdf : o.density;
   c.one.scalar = "double";
-  c.one.rerun_arguments = fmt::format("--samples-file '{}' {} '{}'", o.samples, o.density.empty() ? "--pdf-file" : "--pdf",
-                            c.one.parameters);
+  c.one.rerun_arguments = fmt::format("--samples-file '{}' {} '{}'", o.samples,
+                                      o.density.empty() ? "--pdf-file" : "--pdf", c.one.parameters);
   if (!o.domain.empty()) c.one.rerun_arguments += fmt::format(" --domain '{}'", o.domain);
   if (!o.breaks.empty()) c.one.rerun_arguments += fmt::format(" --breaks '{}'", o.breaks);
   if (o.unnormalized) c.one.rerun_arguments += " --unnormalized";

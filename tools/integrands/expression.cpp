@@ -88,7 +88,8 @@ mc::Error refusal(const std::string& expression, const mu::Parser::exception_typ
     for (const char* place : {" found at position", " at expression position", " at position"})
       complaint.resize(std::min(complaint.find(place), complaint.size()));
   }
-  return mc::Error(fmt::format("expression '{}', position {}: {}", abbreviate(expression, at), at, abbreviate(complaint)));
+  return mc::Error(
+      fmt::format("expression '{}', position {}: {}", abbreviate(expression, at), at, abbreviate(complaint)));
 }
 
 // muParser takes "x = 0.5" for an assignment, even within a sum.

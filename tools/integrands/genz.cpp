@@ -49,7 +49,9 @@ double product_peak_truth(UnitPoint c, UnitPoint w) {
   return product(c, w, [](double a, double b, std::size_t) { return a * (std::atan(a * (1 - b)) + std::atan(a * b)); });
 }
 
-double corner_peak(UnitPoint x, UnitPoint c, UnitPoint) { return std::pow(1 + dot(c, x), -static_cast<double>(c.size() + 1)); }
+double corner_peak(UnitPoint x, UnitPoint c, UnitPoint) {
+  return std::pow(1 + dot(c, x), -static_cast<double>(c.size() + 1));
+}
 double corner_peak_truth(UnitPoint c, UnitPoint) {
   double sum = 0, scale = 1;
   for (std::uint32_t corner = 0; corner < 1u << c.size(); ++corner) {
@@ -83,7 +85,9 @@ double c0_truth(UnitPoint c, UnitPoint w) {
                  [](double a, double b, std::size_t) { return -(std::expm1(-a * b) + std::expm1(-a * (1 - b))) / a; });
 }
 
-double discontinuous(UnitPoint x, UnitPoint c, UnitPoint w) { return x[0] > w[0] || x[1] > w[1] ? 0 : std::exp(dot(c, x)); }
+double discontinuous(UnitPoint x, UnitPoint c, UnitPoint w) {
+  return x[0] > w[0] || x[1] > w[1] ? 0 : std::exp(dot(c, x));
+}
 double discontinuous_truth(UnitPoint c, UnitPoint w) {
   return product(c, w, [](double a, double b, std::size_t i) { return std::expm1(i < 2 ? a * b : a) / a; });
 }

@@ -130,7 +130,8 @@ void evaluate(const UnitCubeIntegral& e, UnitCubeIntegral::UnitPoint points, std
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = e.f(point(i));
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isfinite(values[i])) continue;
-    const std::string place = e.describe_point ? e.describe_point(point(i)) : fmt::format("u = ({})", fmt::join(point(i), ", "));
+    const std::string place =
+        e.describe_point ? e.describe_point(point(i)) : fmt::format("u = ({})", fmt::join(point(i), ", "));
     throw mc::Error(fmt::format("{}: the integrand is {} at {}", e.name,
                                 std::isnan(values[i]) ? std::string("nan") : fmt::format("{}", values[i]), place));
   }

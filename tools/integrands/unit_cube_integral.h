@@ -33,11 +33,12 @@ struct UnitCubeIntegral {
   int dim;
   double truth; ///< NaN: unknown
   Smoothness smoothness;
-  double min_fit_n;                 ///< smallest N in the asymptotic range; 0: unknown
+  double min_fit_n;                     ///< smallest N in the asymptotic range; 0: unknown
   std::function<double(UnitPoint u)> f; ///< of u in [0,1)^dim; its mean is the integral
   /// Several at once, points one after another; may be empty.
   std::function<void(UnitPoint points, std::span<double> values)> f_batch = {};
-  std::function<std::string(UnitPoint u)> describe_point = {}; ///< "x = 0.5, y = 1", the point of its own domain; may be empty
+  std::function<std::string(UnitPoint u)> describe_point =
+      {}; ///< "x = 0.5, y = 1", the point of its own domain; may be empty
   /// Whether the value at u is 0 since it is too small for a double, and that of its expression is not; may be empty.
   std::function<bool(UnitPoint u)> underflows_at = {};
 };

@@ -29,11 +29,12 @@ std::vector<VariableBounds> parse_bounds(const std::string& box) {
     const std::size_t equals = side.find('='), colon = side.find(':');
     mc::require(equals != std::string::npos && equals > 0 && colon != std::string::npos && colon > equals,
                 "--domain: '{}' is not of the form name=lo:hi, as in \"x=0:1,y=-1:2\"", side);
-    VariableBounds s{std::string(mc::trimmed(side.substr(0, equals))), bound(side.substr(equals + 1, colon - equals - 1), side),
-           bound(side.substr(colon + 1), side)};
+    VariableBounds s{std::string(mc::trimmed(side.substr(0, equals))),
+                     bound(side.substr(equals + 1, colon - equals - 1), side), bound(side.substr(colon + 1), side)};
     mc::with_context("--domain", [&] { require_variable_name(s.name); });
     mc::require(s.lo < s.hi, "--domain: '{}' has bounds {} and {}; lo < hi is needed", side, s.lo, s.hi);
-    for (const VariableBounds& other : bounds) mc::require(other.name != s.name, "--domain: '{}' is bounded twice", s.name);
+    for (const VariableBounds& other : bounds)
+      mc::require(other.name != s.name, "--domain: '{}' is bounded twice", s.name);
     bounds.push_back(s);
   }
   return bounds;

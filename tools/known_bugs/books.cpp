@@ -72,7 +72,7 @@ void add_one_density(KnownBugs& s) {
                Fault::shape, 8000,
                test_case(on_hemisphere([](Pcg& r) { return V((V::UnitZ() + in_ball(r)).normalized()); }, cosine_pdf)),
                test_case(on_hemisphere([](Pcg& r) { return V((V::UnitZ() + in_ball(r).normalized()).normalized()); },
-                                   cosine_pdf))});
+                                       cosine_pdf))});
   s.push_back({"P2", "doubled cosine lobe", "book, ch. 5",
                "x and y = 2 sqrt(r2) cos, sin phi: not unit; without the 2 it is", Fault::outside, 1000,
                test_case(on_hemisphere(doubled, cosine_pdf)), test_case(on_hemisphere(cosine, cosine_pdf))});
@@ -84,11 +84,11 @@ void add_one_density(KnownBugs& s) {
       {"P3", "sphere formula on a hemisphere", "book, ch. 5",
        "z = 1 - r2 with the full sphere's x and y; sin = sqrt(r2 (2 - r2))", Fault::outside, 1000,
        test_case(on_hemisphere(around(
-                               2, [](double u) { return 1 - u; }, [](double u) { return std::sqrt(u * (1 - u)); }),
-                           hemisphere_pdf)),
+                                   2, [](double u) { return 1 - u; }, [](double u) { return std::sqrt(u * (1 - u)); }),
+                               hemisphere_pdf)),
        test_case(on_hemisphere(around(
-                               1, [](double u) { return 1 - u; }, [](double u) { return std::sqrt(u * (2 - u)); }),
-                           hemisphere_pdf))});
+                                   1, [](double u) { return 1 - u; }, [](double u) { return std::sqrt(u * (2 - u)); }),
+                               hemisphere_pdf))});
   s.push_back(
       {"P4", "x without its factor 2", "book, ch. 5", "x = cos phi sqrt(r2 (1 - r2)) while y has the 2: not unit",
        Fault::outside, 1000,
@@ -99,8 +99,8 @@ void add_one_density(KnownBugs& s) {
            },
            sphere_pdf)),
        test_case(on_sphere(around(
-                           2, [](double u) { return 1 - 2 * u; }, [](double u) { return std::sqrt(u * (1 - u)); }),
-                       sphere_pdf))});
+                               2, [](double u) { return 1 - 2 * u; }, [](double u) { return std::sqrt(u * (1 - u)); }),
+                           sphere_pdf))});
   s.push_back({"P5", "eight cube roots", "book v3.2.3, ch. 3",
                "8 x^(1/3) leaves [0,2]; (8 x)^(1/3) does not. x^2 / pdf is 8/3 for any x and hides it", Fault::outside,
                1000,
@@ -113,7 +113,8 @@ void add_one_density(KnownBugs& s) {
 void add_mixtures_and_numbers(KnownBugs& s) {
   s.push_back({"P6", "light-only directions", "book, ch. 7-8",
                "density 0 on the lit walls: what they send is lost; f > 0 needs p > 0", Fault::bias, 1000,
-               mean_test_case(1, [](Pcg& r) { return cosine_pdf(to_light(r)) / light_pdf; }), mean_test_case(1, [](Pcg& r) {
+               mean_test_case(1, [](Pcg& r) { return cosine_pdf(to_light(r)) / light_pdf; }),
+               mean_test_case(1, [](Pcg& r) {
                  const V w = uniform(r) < 0.5 ? to_light(r) : cosine(r);
                  return cosine_pdf(w) / (0.5 * cosine_pdf(w) + 0.5 * (w.z() > light_cos ? light_pdf : 0));
                })});
@@ -121,26 +122,27 @@ void add_mixtures_and_numbers(KnownBugs& s) {
                "half the samples from a shape that never defined random(): all (1,0,0), density 0; fail loudly",
                Fault::zero_pdf, 1000,
                test_case(on_hemisphere([](Pcg& r) { return uniform(r) < 0.5 ? V(1, 0, 0) : cosine(r); },
-                                   [](const V& w) { return 0.5 * cosine_pdf(w) + 0.5 * 0; })),
+                                       [](const V& w) { return 0.5 * cosine_pdf(w) + 0.5 * 0; })),
                test_case(on_hemisphere(
                    [](Pcg& r) { return uniform(r) < 0.5 ? to_light(r) : cosine(r); },
                    [](const V& w) { return 0.5 * cosine_pdf(w) + 0.5 * (w.z() > light_cos ? light_pdf : 0); }))});
-  s.push_back(
-      {"P8", "sphere light seen from inside", "book, ch. 10",
-       "sqrt(1 - R^2/d^2) with d < R is NaN; from inside every direction reaches it", Fault::not_finite, 1000,
-       test_case(on_sphere([](Pcg& r) { return direction(1 + uniform(r) * (std::sqrt(1 - 1.2) - 1), 2 * pi * uniform(r)); },
-                       [](const V&) { return 1 / (2 * pi * (1 - std::sqrt(1 - 1.2))); })),
-       test_case(on_sphere(on_the_sphere, sphere_pdf))});
+  s.push_back({"P8", "sphere light seen from inside", "book, ch. 10",
+               "sqrt(1 - R^2/d^2) with d < R is NaN; from inside every direction reaches it", Fault::not_finite, 1000,
+               test_case(on_sphere(
+                   [](Pcg& r) { return direction(1 + uniform(r) * (std::sqrt(1 - 1.2) - 1), 2 * pi * uniform(r)); },
+                   [](const V&) { return 1 / (2 * pi * (1 - std::sqrt(1 - 1.2))); })),
+               test_case(on_sphere(on_the_sphere, sphere_pdf))});
   s.push_back({"P9", "cone by 1 - cos", "book, ch. 10",
                "the solid angle cancels: 7 % wrong at R/d = 1e-3 in float; q / (1 + sqrt(1 - q)), q = R^2/d^2",
-               Fault::mass, 1000, cone_by_cosine(), test_case(make_subject("", mc::UniformCone<float>::from_sin2(1e-6f)))});
+               Fault::mass, 1000, cone_by_cosine(),
+               test_case(make_subject("", mc::UniformCone<float>::from_sin2(1e-6f)))});
   s.push_back({"P11", "ray epsilon that scales", "book, ch. 8-10",
                "t > 0.001 of an unnormalised shadow ray skips an occluder 0.3 above the floor", Fault::bias, 1000,
                mean_test_case(0, [](Pcg& r) { return light_through_occluder(r, false); }),
                mean_test_case(0, [](Pcg& r) { return light_through_occluder(r, true); })});
   s.push_back({"P12", "a random number of 1", "book, float(drand48())",
-               "rounds up to 1 once in 2^25 (here once in 1000): z = 0 where the density is 0; keep u < 1", Fault::zero_pdf,
-               20'000,
+               "rounds up to 1 once in 2^25 (here once in 1000): z = 0 where the density is 0; keep u < 1",
+               Fault::zero_pdf, 20'000,
                test_case(on_hemisphere(
                    [](Pcg& r) {
                      const double u = uniform(r), r2 = u > 0.999 ? 1.0 : u / 0.999;
@@ -148,17 +150,17 @@ void add_mixtures_and_numbers(KnownBugs& s) {
                    },
                    cosine_pdf)),
                test_case(on_hemisphere([](Pcg& r) { return direction(std::sqrt(1 - uniform(r)), 2 * pi * uniform(r)); },
-                                   cosine_pdf))});
+                                       cosine_pdf))});
   // Distances uniform in [R/2, 3R/2]: the mean solid angle is half of 4 pi and half of the closed form outside.
   const double outside = 0.5 - (std::sqrt(1.25) - std::acos(1 / 1.5));
   s.push_back({"P13", "NaN turned to 0", "book, de_nan",
                "hides P8: the light seen from inside turns black; count what is not finite, and fail", Fault::bias,
                1000,
                mean_test_case(2 * pi * (1 + outside),
-                          [](Pcg& r) {
-                            const double f = book_solid_angle(0.5 + uniform(r));
-                            return std::isfinite(f) ? f : 0.0;
-                          }),
+                              [](Pcg& r) {
+                                const double f = book_solid_angle(0.5 + uniform(r));
+                                return std::isfinite(f) ? f : 0.0;
+                              }),
                mean_test_case(2 * pi * (1 + outside), [](Pcg& r) {
                  const double d = 0.5 + uniform(r);
                  return d <= 1 ? 4 * pi : book_solid_angle(d);

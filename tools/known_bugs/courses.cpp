@@ -69,9 +69,9 @@ struct CourseGgx {
 
 TestCase bsdf_test_case(const CourseGgx& b, double n_dot_v) {
   return test_case(BsdfFunctions{[b](const V& wo, double uc, const V2& u) { return b.sample(wo, uc, u); },
-                          [b](const V& wo, const V& wi) { return b.eval(wo, wi); },
-                          [b](const V& wo, const V& wi) { return b.pdf(wo, wi); }},
-               std::acos(n_dot_v) * 180 / pi);
+                                 [b](const V& wo, const V& wi) { return b.eval(wo, wi); },
+                                 [b](const V& wo, const V& wi) { return b.pdf(wo, wi); }},
+                   std::acos(n_dot_v) * 180 / pi);
 }
 
 // Reflect or leave glass at 40 degrees inside: drawn with one probability, claimed with that of the same path walked
@@ -144,7 +144,7 @@ Density about(const V& n) {
 
 TestCase rayleigh(SampleNumber sample) {
   return test_case(make_subject("", mc::HalfLine<double>(0, 1), std::move(sample),
-                            [](double x) { return x * std::exp(-x * x / 2); }));
+                                [](double x) { return x * std::exp(-x * x / 2); }));
 }
 
 void add_tutorials(KnownBugs& s) {
@@ -163,16 +163,16 @@ void add_tutorials(KnownBugs& s) {
                test_case(make_subject("", mc::UniformDisk<double>{}))});
   const auto light = [](Pcg& r) { return std::floor(4 * uniform(r)) + 1; };
   s.push_back({"P18", "one light of four, not times four", tutorial + "12",
-               "one of N lights is drawn, the factor N is lost: 2.5 of 10", Fault::bias, 1000, mean_test_case(10, light),
-               mean_test_case(10, [light](Pcg& r) { return 4 * light(r); })});
+               "one of N lights is drawn, the factor N is lost: 2.5 of 10", Fault::bias, 1000,
+               mean_test_case(10, light), mean_test_case(10, [light](Pcg& r) { return 4 * light(r); })});
   s.push_back({"P19", "0 / 0 at the horizon", tutorial + "12",
                "n.l / (n.l / pi) with n.l = 0 (here once in 1000); no sample where its density is 0", Fault::not_finite,
                20'000,
                mean_test_case(pi,
-                          [](Pcg& r) {
-                            const double u = uniform(r), nl = std::sqrt(1 - (u > 0.999 ? 1.0 : u));
-                            return nl / (nl / pi);
-                          }),
+                              [](Pcg& r) {
+                                const double u = uniform(r), nl = std::sqrt(1 - (u > 0.999 ? 1.0 : u));
+                                return nl / (nl / pi);
+                              }),
                mean_test_case(pi, [](Pcg& r) {
                  const double nl = std::sqrt(1 - uniform(r));
                  return nl > 0 ? nl / (nl / pi) : 0.0;
@@ -230,7 +230,7 @@ void add_chapters_and_lectures(KnownBugs& s) {
                    },
                    about(near_minus_z()))),
                test_case(on_sphere([](Pcg& r) { return mc::Frame<double>::from_z(near_minus_z()).to_world(cosine(r)); },
-                               about(near_minus_z())))});
+                                   about(near_minus_z())))});
   s.push_back({"P36", "a clamped logarithm", "lajolla, 4.1",
                "max(u, 1e-8) (here 1e-3) puts an atom where the tail was; 1 - u is never 0", Fault::local, 30'000,
                rayleigh([](Pcg& r) { return std::sqrt(-2 * std::log(std::max(uniform(r), 1e-3))); }),

@@ -30,10 +30,10 @@ struct TestCase {
 struct KnownBug {
   std::string id;
   std::string name;
-  std::string source;     ///< the text or program it was found in
-  std::string description;     ///< what is wrong, and what is right; one line
-  mc::Fault fault;       ///< the first law it breaks
-  std::uint64_t samples; ///< with which it is rejected at alpha = 1 %, for any seed
+  std::string source;      ///< the text or program it was found in
+  std::string description; ///< what is wrong, and what is right; one line
+  mc::Fault fault;         ///< the first law it breaks
+  std::uint64_t samples;   ///< with which it is rejected at alpha = 1 %, for any seed
   TestCase wrong, right;
 
   std::string title() const { return id + " " + name; }
@@ -43,7 +43,7 @@ using KnownBugs = std::vector<KnownBug>;
 
 KnownBugs book_bugs();     ///< P1 to P36
 KnownBugs renderer_bugs(); ///< R1 ...
-KnownBugs perturbations();       ///< C1 ..., V1 ...
+KnownBugs perturbations(); ///< C1 ..., V1 ...
 
 /// All three families.
 KnownBugs all_known_bugs();

@@ -41,8 +41,8 @@ double by_ignored_argument(double x) {
 // The smooth step with this inverse.
 TestCase smoothstep(const std::function<double(double)>& invert) {
   return test_case(InvertibleWarp1D{.sample = [](double u) { return mc::Smoothstep<double>{}.sample(u); },
-                              .pdf = [](double x) { return mc::Smoothstep<double>{}.pdf(x); },
-                              .invert = invert});
+                                    .pdf = [](double x) { return mc::Smoothstep<double>{}.pdf(x); },
+                                    .invert = invert});
 }
 
 // Rounding leaves barycentrics whose sum is a little above 1; the third must not become negative.
@@ -111,8 +111,8 @@ TestCase two_lobes(double sampled, double stated) {
 
 // The mean cosine of a phase function that was asked for g = 0.995.
 TestCase mean_cosine(double g) {
-  return mean_test_case(0.995,
-                    [warp = mc::HenyeyGreenstein<double>(g)](Pcg& r) { return warp.sample(r.point<double, 2>()).z(); });
+  return mean_test_case(
+      0.995, [warp = mc::HenyeyGreenstein<double>(g)](Pcg& r) { return warp.sample(r.point<double, 2>()).z(); });
 }
 
 // An end, just inside of it, or the middle.
@@ -165,7 +165,7 @@ TestCase trimmed_exponential() {
     return std::min(std::log(1 - r.uniform<float>() * (1 - std::exp(-c))) / -c, 1.0f);
   };
   return test_case(make_subject("", mc::Interval<float>(0, 1), sample,
-                            [c](float x) { return c / (1 - std::exp(-c)) * std::exp(-c * x); }));
+                                [c](float x) { return c / (1 - std::exp(-c)) * std::exp(-c * x); }));
 }
 
 // The density a + (b - a) x on [0,1] of large values: their squares overflow.
@@ -176,7 +176,7 @@ TestCase linear_squared() {
     return (a - std::sqrt((1 - u) * a * a + u * b * b)) / (a - b);
   };
   return test_case(make_subject("", mc::Interval<float>(0, 1), sample,
-                            [a, b](float x) { return 2 * ((1 - x) * a + x * b) / (a + b); }));
+                                [a, b](float x) { return 2 * ((1 - x) * a + x * b) / (a + b); }));
 }
 
 // von Mises-Fisher at kappa = 1e-7 in float: 1 - exp(-2 kappa) cancels.
@@ -231,13 +231,13 @@ void add_tables_weights_and_cones(KnownBugs& s) {
   s.push_back({"R6", "lobe weights differ", "three-gpu-pathtracer",
                "sample picks lobes with one weight, pdf states another", Fault::weight, 1000, two_lobes(0.5, 0.4),
                two_lobes(0.5, 0.5)});
-  s.push_back(
-      {"R7", "a missing 1 / pdf", "a user's Mitsuba 3 plugin", "sample returns f cos instead of f cos / pdf",
-       Fault::bias, 1000,
-       mean_test_case(1, [](Pcg& r) { return cosine_pdf(mc::UniformHemisphere<double>{}.sample(r.point<double, 2>())); }),
-       mean_test_case(1, [](Pcg& r) {
-         return cosine_pdf(mc::UniformHemisphere<double>{}.sample(r.point<double, 2>())) * 2 * pi;
-       })});
+  s.push_back({"R7", "a missing 1 / pdf", "a user's Mitsuba 3 plugin", "sample returns f cos instead of f cos / pdf",
+               Fault::bias, 1000,
+               mean_test_case(
+                   1, [](Pcg& r) { return cosine_pdf(mc::UniformHemisphere<double>{}.sample(r.point<double, 2>())); }),
+               mean_test_case(1, [](Pcg& r) {
+                 return cosine_pdf(mc::UniformHemisphere<double>{}.sample(r.point<double, 2>())) * 2 * pi;
+               })});
   s.push_back({"R8", "narrow cone by its cosine", "pbrt-v4, Mitsuba 3",
                "a cone of 1 mrad in float: pdf 5 % off, nine distinct cosines", Fault::mass, 1000,
                test_case(make_subject(
@@ -274,9 +274,9 @@ void add_edges_of_distributions(KnownBugs& s) {
                trimmed_exponential(), test_case(make_subject("", mc::TrimmedExponential<float>(1e-6f, 1)))});
   s.push_back({"R14", "a cylinder of area 1 / pi", "tungsten", "density 1 / pi on an area of 4 pi", Fault::mass, 1000,
                test_case(on_sphere([](Pcg& r) { return direction(1 - 2 * uniform(r), 2 * pi * uniform(r)); },
-                               [](const V&) { return 1 / pi; })),
+                                   [](const V&) { return 1 / pi; })),
                test_case(on_sphere([](Pcg& r) { return direction(1 - 2 * uniform(r), 2 * pi * uniform(r)); },
-                               [](const V&) { return 1 / (4 * pi); }))});
+                                   [](const V&) { return 1 / (4 * pi); }))});
   s.push_back({"R15", "squares that overflow", "pbrt-v4, Mitsuba 3: bilinear",
                "linear weights of 1e30 in float are not a number", Fault::not_finite, 1000, linear_squared(),
                test_case(make_subject("", mc::Linear<float>(1e30f, 2e30f)))});

@@ -40,7 +40,8 @@ mc::Check finite_check(const mc::Moments& moments, std::uint64_t samples) {
   mc::Check check{"finite", mc::Verdict::pass, {}, 0, bad, 0, mc::Fault::not_finite, {}};
   if (bad > 0) {
     check.verdict = mc::Verdict::fail;
-    check.detail = fmt::format("estimate {} is not finite; {} of {} estimates", moments.first_non_finite(), bad, samples);
+    check.detail =
+        fmt::format("estimate {} is not finite; {} of {} estimates", moments.first_non_finite(), bad, samples);
   }
   return check;
 }
@@ -83,7 +84,8 @@ TestCase test_case_with_inverse(const mc::AnyDistribution& distribution, double 
   TestCase t = test_case(make_subject(distribution));
   t.check = [counts = t.check, distribution, tolerance](const CaseOptions& c) {
     mc::Report report = counts(c);
-    for (mc::Check& check : mc::inverse_law(distribution, {.seed = c.seed, .invert_eps = tolerance / distribution.epsilon()}))
+    for (mc::Check& check :
+         mc::inverse_law(distribution, {.seed = c.seed, .invert_eps = tolerance / distribution.epsilon()}))
       report.checks.insert(report.checks.begin(), std::move(check));
     return report;
   };
@@ -121,7 +123,8 @@ TestCase test_case(mc::Subject subject) {
 
 TestCase test_case(const InvertibleWarp& warp, double tolerance) {
   mc::AnyDistribution distribution = make_distribution("", mc::Hemisphere<double>{}, warp.sample, warp.pdf);
-  distribution.invert = [invert = warp.invert](const mc::PointArray& x) -> std::optional<mc::AnyDistribution::Uniforms> {
+  distribution.invert = [invert =
+                             warp.invert](const mc::PointArray& x) -> std::optional<mc::AnyDistribution::Uniforms> {
     const mc::Vec2<double> u = invert({x[0], x[1], x[2]});
     return mc::AnyDistribution::Uniforms{u[0], u[1]};
   };
@@ -130,7 +133,8 @@ TestCase test_case(const InvertibleWarp& warp, double tolerance) {
 
 TestCase test_case(const InvertibleWarp1D& warp, double tolerance) {
   mc::AnyDistribution distribution = make_distribution("", mc::Interval<double>{}, warp.sample, warp.pdf);
-  distribution.invert = [invert = warp.invert](const mc::PointArray& x) -> std::optional<mc::AnyDistribution::Uniforms> {
+  distribution.invert = [invert =
+                             warp.invert](const mc::PointArray& x) -> std::optional<mc::AnyDistribution::Uniforms> {
     return mc::AnyDistribution::Uniforms{invert(x[0])};
   };
   return test_case_with_inverse(distribution, tolerance);

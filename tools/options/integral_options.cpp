@@ -30,8 +30,8 @@ struct IntegrandGroup {
   const std::vector<UnitCubeIntegral>& (*list)();
 };
 constexpr IntegrandGroup groups[] = {{"books", "the integrals of the books", textbook_integrals},
-                            {"genz", "Genz's families", genz_integrals},
-                            {"rates", "each class of smoothness in 1 to 8 dimensions", rate_integrals}};
+                                     {"genz", "Genz's families", genz_integrals},
+                                     {"rates", "each class of smoothness in 1 to 8 dimensions", rate_integrals}};
 
 std::vector<int> depths_of(const std::string& text, int own) {
   if (text.empty()) return {own};
@@ -50,8 +50,7 @@ std::vector<int> depths_of(const std::string& text, int own) {
 std::vector<render::Strategy> strategies_of(const SceneOptions& o, bool all, const render::SceneFile& file) {
   std::vector<render::Strategy> strategies;
   if (!o.strategies.empty()) {
-    for (const std::string_view name : mc::split(o.strategies, ','))
-      strategies.push_back(render::strategy_from(name));
+    for (const std::string_view name : mc::split(o.strategies, ',')) strategies.push_back(render::strategy_from(name));
     return strategies;
   }
   constexpr std::array<std::string_view, 4> four = {"mixture", "nee", "mis", "mis+lt"};
@@ -67,11 +66,13 @@ bool supports_allocation(SampleAllocation allocation, const render::SceneFile& f
   return !uses_tiles(allocation) || file.defaults.aov.kind == render::Aov::radiance;
 }
 
-std::vector<RenderMethod> methods_of(const SceneOptions& o, const SceneMeasureRequest& run, const render::SceneFile& file) {
+std::vector<RenderMethod> methods_of(const SceneOptions& o, const SceneMeasureRequest& run,
+                                     const render::SceneFile& file) {
   const std::string samplers = run.samplers.empty() ? "independent,stratified,sobol" : run.samplers;
   std::vector<RenderMethod> methods;
   for (const SampleAllocation allocation :
-       {SampleAllocation::uniform, SampleAllocation::adaptive, SampleAllocation::splat, SampleAllocation::tiles, SampleAllocation::adaptive_tiles}) {
+       {SampleAllocation::uniform, SampleAllocation::adaptive, SampleAllocation::splat, SampleAllocation::tiles,
+        SampleAllocation::adaptive_tiles}) {
     if (allocation != SampleAllocation::uniform && !run.for_trade && !run.all) continue;
     if (!supports_allocation(allocation, file)) continue;
     for (const int depth : depths_of(o.depths, file.defaults.max_depth))
@@ -225,8 +226,9 @@ std::string bias_summary(const PictureMeasurement& pictures) {
   for (std::size_t i = 0; i < pictures.biases.size(); ++i) {
     const Bias& b = pictures.biases[i];
     if (!(b.bias.lo > 0)) continue;
-    text += fmt::format("  {}: bias {:.3g} [{:.3g}, {:.3g}], noise {:.3g} at N = {:.0f}; {}\n", pictures.methods[i].name,
-                        b.bias.value, b.bias.lo, b.bias.hi, b.noise, b.n, break_even_text(b.break_even_error));
+    text +=
+        fmt::format("  {}: bias {:.3g} [{:.3g}, {:.3g}], noise {:.3g} at N = {:.0f}; {}\n", pictures.methods[i].name,
+                    b.bias.value, b.bias.lo, b.bias.hi, b.noise, b.n, break_even_text(b.break_even_error));
   }
   return text;
 }

@@ -37,12 +37,12 @@ struct Exclusion {
 /// One option, or an argument that has a place and no name.
 struct Option {
   using Destination = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, std::vector<std::string>*,
-                              std::optional<int>*, std::optional<double>*>;
+                                   std::optional<int>*, std::optional<double>*>;
 
-  std::string names; ///< "-o,--output"; "SCENE" of an argument by place
-  std::string value; ///< metavariable for --help: "SECONDS", "FILE"; empty for a flag
-  Destination destination;     ///< filled when the option is given; its initial value is the default that --help shows
-  std::string help;  ///< one or two sentences; a default that the field cannot show stands at the end
+  std::string names;       ///< "-o,--output"; "SCENE" of an argument by place
+  std::string value;       ///< metavariable for --help: "SECONDS", "FILE"; empty for a flag
+  Destination destination; ///< filled when the option is given; its initial value is the default that --help shows
+  std::string help;        ///< one or two sentences; a default that the field cannot show stands at the end
   bool required = false;
   std::vector<Exclusion> excludes = {};
   std::string group = {}; ///< heading in --help, see in_groups

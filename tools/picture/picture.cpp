@@ -45,8 +45,7 @@ void warn_if_imprecise(const std::string& path, const render::Scene& scene) {
                  "carlo: warning: %s: %s %.3g across, and %s hold areas and squares of distances from %.2g to %.2g "
                  "across; its light may be wrong. Scale the scene\n",
                  path.c_str(), *length < 1 ? "a lamp is" : "the scene is", *length,
-                 sizeof(render::Float) == sizeof(float) ? "floats" : "doubles", render::min_length,
-                 render::max_length);
+                 sizeof(render::Float) == sizeof(float) ? "floats" : "doubles", render::min_length, render::max_length);
   const render::FloatResolution c = render::coarsest_resolution(scene);
   if (c.ratio <= render::max_resolution_ratio) return;
   std::fprintf(
@@ -71,7 +70,7 @@ std::string format_error(const render::RenderResult& result) {
 }
 
 std::string render_summary(const std::string& file, const render::RenderResult& r,
-                       const std::optional<double>& target_error) {
+                           const std::optional<double>& target_error) {
   constexpr std::size_t columns = 80, indent = 2;
   std::string text;
   if (r.partial) text += wrapped("PARTIAL: " + interruption_text(r), columns);
@@ -79,7 +78,8 @@ std::string render_summary(const std::string& file, const render::RenderResult& 
                       r.image.height, r.spp, format_seconds(r.seconds), format_seconds(r.cpu_seconds));
   text += fmt::format("  mean relative standard error {}, {} invalid samples\n", format_error(r), r.invalid);
   text += fmt::format("  {}, {}rays/s", samples_per_second(r), format_count(double(r.rays) / r.seconds));
-  if (r.outlier_dominated > 0) text += fmt::format("; one sample dominates {:.1f} % of the pixels", 100 * r.outlier_dominated);
+  if (r.outlier_dominated > 0)
+    text += fmt::format("; one sample dominates {:.1f} % of the pixels", 100 * r.outlier_dominated);
   text += "\n";
   const double percent = 100 * target_error.value_or(0);
   if (r.unreliable_target_spp > 0)

@@ -43,6 +43,6 @@ std::string format_error(const render::RenderResult& result);
 ///   file         : of the picture
 ///   target_error : the one that was asked for
 std::string render_summary(const std::string& file, const render::RenderResult& result,
-                       const std::optional<double>& target_error);
+                           const std::optional<double>& target_error);
 
 } // namespace carlo

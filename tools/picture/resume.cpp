@@ -54,9 +54,9 @@ std::string hash_of(const std::set<std::string>& files) {
 
 } // namespace
 
-RenderFingerprint render_fingerprint(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
-                     const render::SceneFile& read, const render::RenderOptions& settings,
-                     const render::Crop& part) {
+RenderFingerprint render_fingerprint(const std::string& file, const std::string& dialect,
+                                     std::vector<std::string> variables, const render::SceneFile& read,
+                                     const render::RenderOptions& settings, const render::Crop& part) {
   std::sort(variables.begin(), variables.end());
   return {{"carlo.scene", std::filesystem::path(file).filename().string()},
           {"carlo.size", fmt::format("{}x{}", settings.width, settings.height)},
@@ -70,7 +70,7 @@ RenderFingerprint render_fingerprint(const std::string& file, const std::string&
 }
 
 ResumeState load_resume_state(const std::string& path, const RenderFingerprint& fingerprint, const render::Crop& part,
-                    render::RenderOptions& settings) {
+                              render::RenderOptions& settings) {
   mc::require(mc::lowercase_extension(path) == ".exr",
               "--resume: '{}' is no .exr: other formats do not store radiance with its variance; name an .exr", path);
   mc::require(std::filesystem::exists(path), "--resume: '{}' does not exist; leave out --resume in the first run",
@@ -81,16 +81,16 @@ ResumeState load_resume_state(const std::string& path, const RenderFingerprint& 
     return found == resume_state.image.metadata.end() ? std::string() : found->second;
   };
   resume_state.spp = std::strtod(text("carlo.samples_per_pixel").c_str(), nullptr);
-  mc::require(resume_state.spp > 0, "--resume: '{}' does not state its samples per pixel; carlo render has not written it",
-              path);
+  mc::require(resume_state.spp > 0,
+              "--resume: '{}' does not state its samples per pixel; carlo render has not written it", path);
   mc::require(text("carlo.unsampled").empty(),
               "--resume: '{}' has pixels without a sample, as its run was interrupted early; render it again", path);
   resume_state.runs = std::max(1, std::atoi(text("carlo.runs").c_str()));
   mc::require(text("carlo.scene") == fingerprint.at("carlo.scene"), "--resume: '{}' is a picture of '{}', not of '{}'",
               path, text("carlo.scene"), fingerprint.at("carlo.scene"));
   mc::require(resume_state.image.width == part.width && resume_state.image.height == part.height,
-              "--resume: '{}' has {}x{} pixels, but {}x{} are requested", path, resume_state.image.width, resume_state.image.height,
-              part.width, part.height);
+              "--resume: '{}' has {}x{} pixels, but {}x{} are requested", path, resume_state.image.width,
+              resume_state.image.height, part.width, part.height);
   for (const auto& [key, words] : compared) {
     mc::require(resume_state.image.metadata.contains(key),
                 "--resume: '{}' does not state its {}, which carlo render writes now; render it again", path, key);

@@ -17,9 +17,9 @@ using RenderFingerprint = std::map<std::string, std::string>;
 ///   variables : "name=value" of the scene
 ///   read      : the scene and the names of its files, which are hashed
 ///   part      : the rendered part of the picture
-RenderFingerprint render_fingerprint(const std::string& file, const std::string& dialect, std::vector<std::string> variables,
-                     const render::SceneFile& read, const render::RenderOptions& settings,
-                     const render::Crop& part);
+RenderFingerprint render_fingerprint(const std::string& file, const std::string& dialect,
+                                     std::vector<std::string> variables, const render::SceneFile& read,
+                                     const render::RenderOptions& settings, const render::Crop& part);
 
 /// The existing picture, its samples per pixel and its number of runs.
 struct ResumeState {
@@ -33,7 +33,7 @@ struct ResumeState {
 ///   throws   : Error for a missing or incomplete picture, for one with other metadata, naming the difference, and
 ///              where one more sample would lose the variance
 ResumeState load_resume_state(const std::string& path, const RenderFingerprint& fingerprint, const render::Crop& part,
-                    render::RenderOptions& settings);
+                              render::RenderOptions& settings);
 
 /// Averages the existing picture with the result of a run, which receives the mean.
 void accumulate_into(const ResumeState& resume_state, render::RenderResult& result);

@@ -114,8 +114,8 @@ json run_plugin_task(const json& request, CallMonitor& monitor) {
   const std::string path = request["who"];
   if (request["task"] == "describe") return describe(path, monitor);
   const mc_sampler distribution = load_plugin(path, monitor).samplers[request["index"].get<std::size_t>()];
-  return to_json(
-      check_plugin(PluginDistribution(distribution, request["parameters"], monitor), request["title"], requested_options(request)));
+  return to_json(check_plugin(PluginDistribution(distribution, request["parameters"], monitor), request["title"],
+                              requested_options(request)));
 }
 
 Catalogue plugin_cases(const std::string& path, const std::vector<std::string>& texts,

@@ -51,7 +51,7 @@ void set_weight(const PluginDistribution& plugin, const AnyDistribution::Uniform
 
 // The point that the plugin makes of u; what it forgets to write shows as NaN.
 std::optional<AnyDistribution::Sample> draw(const PluginDistribution& plugin, const mc::AnyDomain& domain,
-                                      const AnyDistribution::Uniforms& u) {
+                                            const AnyDistribution::Uniforms& u) {
   AnyDistribution::Sample d;
   const auto n = static_cast<std::size_t>(plugin.coordinates());
   std::fill_n(d.x.begin(), n, std::numeric_limits<double>::quiet_NaN());
@@ -91,7 +91,8 @@ double invert_tolerance(const PluginDistribution& plugin, double epsilon) {
 
 } // namespace
 
-mc::AnyDistribution plugin_distribution(const PluginDistribution& plugin, const std::string& title, std::uint64_t seed) {
+mc::AnyDistribution plugin_distribution(const PluginDistribution& plugin, const std::string& title,
+                                        std::uint64_t seed) {
   const ParsedDomain domain = domain_of(plugin, seed);
   AnyDistribution s;
   s.name = title;

@@ -64,9 +64,10 @@ class Program {
     for (std::size_t at = 0; at < in.size(); at += batch * width) {
       const std::size_t n = std::min(batch, (in.size() - at) / width);
       const std::size_t more = child_.available_bytes(); // it would be taken for the next answer
-      mc::require(more == 0, "it wrote {} bytes more than the answer; it must write nothing else to standard output", more);
+      mc::require(more == 0, "it wrote {} bytes more than the answer; it must write nothing else to standard output",
+                  more);
       monitor_.enter(what, argument, in.data() + at,
-                   static_cast<int>(std::min<std::size_t>(width, CallMonitor::max_arguments)));
+                     static_cast<int>(std::min<std::size_t>(width, CallMonitor::max_arguments)));
       // In one write: a single point, asked thousands of times, costs what its system calls cost.
       std::string question = fmt::format("{} {} {}\n", what, n, width);
       question.append(reinterpret_cast<const char*>(in.data() + at), n * width * sizeof(double));

@@ -152,7 +152,8 @@ json describe(const std::vector<mc_integrand>& integrands) {
 }
 
 // `is_checked` is whether the integrand was found to be a function, which is asked once.
-Replicates run(const std::string& path, std::size_t index, const ReplicateTask& task, WorkerOptions worker, bool& is_checked) {
+Replicates run(const std::string& path, std::size_t index, const ReplicateTask& task, WorkerOptions worker,
+               bool& is_checked) {
   worker.cancel = task.cancel;
   json r;
   try {
@@ -202,7 +203,7 @@ json run_integrand_task(const json& request, CallMonitor& monitor) {
 }
 
 std::vector<IntegralTarget> plugin_targets(const std::string& path, const std::vector<std::string>& names,
-                                   const WorkerOptions& worker) {
+                                           const WorkerOptions& worker) {
   const json all = call_worker({{"task", "describe integrands"}, {"who", path}}, worker);
   mc::require(!all.empty(), "{}: it contains distributions but no integrands; see carlo validate --plugin", path);
   std::vector<std::string> known;

@@ -16,7 +16,7 @@ namespace carlo {
 ///            name; when it runs, Error that says where it crashed, threw or hung, or where a few hundred points before
 ///            the first replicates show that it is no function of x alone, or that its eval_many is not its eval
 std::vector<IntegralTarget> plugin_targets(const std::string& path, const std::vector<std::string>& names,
-                                   const WorkerOptions& worker);
+                                           const WorkerOptions& worker);
 
 /// What the worker does with the requests of plugin_targets.
 nlohmann::json run_integrand_task(const nlohmann::json& request, CallMonitor& monitor);

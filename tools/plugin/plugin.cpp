@@ -44,8 +44,8 @@ void require_valid(const mc_sampler& s, std::size_t index) {
     mc::require(s.outcomes == 0 || s.domain != MC_DISCRETE, "outcomes beside a density, but domain is MC_DISCRETE");
     mc::require((s.outcomes > 0) == (s.probability != nullptr), "outcomes = {}, but probability is {}", s.outcomes,
                 s.probability ? "given" : "NULL");
-    mc::require(s.uniforms >= 0 && s.uniforms <= CallMonitor::max_arguments, "uniforms = {} must lie in 0 to {}", s.uniforms,
-                CallMonitor::max_arguments);
+    mc::require(s.uniforms >= 0 && s.uniforms <= CallMonitor::max_arguments, "uniforms = {} must lie in 0 to {}",
+                s.uniforms, CallMonitor::max_arguments);
     mc::require(s.scalar == MC_DOUBLE || s.scalar == MC_FLOAT, "scalar = {} is none of mc_scalar, 0 or 1", s.scalar);
     mc::require(s.sample, "it has no function sample");
     mc::require(s.pdf, "it has no function pdf");
@@ -98,7 +98,9 @@ std::vector<T> table(const char* what, const T* first, std::size_t count, std::s
   return all;
 }
 
-std::string interval_text(const char* name, double lo, double hi) { return fmt::format("{}={:.17g}:{:.17g}", name, lo, hi); }
+std::string interval_text(const char* name, double lo, double hi) {
+  return fmt::format("{}={:.17g}:{:.17g}", name, lo, hi);
+}
 
 std::string box_text(const mc_sampler& s) {
   const auto is_zero = [](double x) { return x == 0; };
@@ -125,8 +127,10 @@ std::string domain_text(const mc_sampler& s) {
   }
 }
 
-PluginDistribution::PluginDistribution(const mc_sampler& distribution, std::vector<double> parameters, CallMonitor& monitor)
-    : distribution_(distribution), parameters_(std::make_shared<std::vector<double>>(std::move(parameters))), monitor_(&monitor) {
+PluginDistribution::PluginDistribution(const mc_sampler& distribution, std::vector<double> parameters,
+                                       CallMonitor& monitor)
+    : distribution_(distribution), parameters_(std::make_shared<std::vector<double>>(std::move(parameters))),
+      monitor_(&monitor) {
   const ParsedDomain domain = parse_domain(domain_text(distribution));
   coordinates_ = static_cast<int>(domain.columns.size());
   uniforms_ = distribution.uniforms > 0 ? distribution.uniforms : std::max(domain.chart.dim, 1);

@@ -214,11 +214,13 @@ mc::Error too_much_memory(const std::string& who, const ResourceLimits& limits, 
       fmt::format("{}: it needs more than {:g} GiB of memory{} (--memory)", who, limits.gigabytes, monitor.where()));
 }
 
-[[noreturn]] void complain(const std::string& who, const ResourceLimits& limits, const CallMonitor& monitor, const Ended& e) {
+[[noreturn]] void complain(const std::string& who, const ResourceLimits& limits, const CallMonitor& monitor,
+                           const Ended& e) {
   if (e.given_up) throw mc::Error(fmt::format("{}: interrupted", who));
   if (e.exhausted) throw too_much_memory(who, limits, monitor);
   if (!e.dead && monitor.inside() && e.stalled > 0.5 * e.active)
-    throw mc::Error(fmt::format("{}: it hangs{}: no answer in {:g} s (--timeout)", who, monitor.where(), limits.seconds));
+    throw mc::Error(
+        fmt::format("{}: it hangs{}: no answer in {:g} s (--timeout)", who, monitor.where(), limits.seconds));
   if (!e.dead)
     throw mc::Error(fmt::format("{}: not done in {:g} s,{}; raise --timeout or lower {}", who, limits.seconds,
                                 monitor.where(), limits.reduce_option));

@@ -50,9 +50,9 @@ class CallMonitor {
 
 /// What foreign code may use before it is ended.
 struct ResourceLimits {
-  double seconds = 60;            ///< wall-clock
-  double gigabytes = 4;           ///< of 2^30 bytes, see run_isolated; not under a sanitizer, which reserves terabytes
-  int files = 256;                ///< open at once
+  double seconds = 60;  ///< wall-clock
+  double gigabytes = 4; ///< of 2^30 bytes, see run_isolated; not under a sanitizer, which reserves terabytes
+  int files = 256;      ///< open at once
   std::string reduce_option = "--samples"; ///< the option of the command that makes the work smaller
 };
 

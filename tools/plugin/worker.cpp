@@ -51,8 +51,10 @@ json message_in(const Bytes& bytes) {
 
 json call_worker(json request, const WorkerOptions& options) {
   const ResourceLimits& limits = options.limits;
-  request["limits"] = {
-      {"seconds", limits.seconds}, {"gigabytes", limits.gigabytes}, {"files", limits.files}, {"less", limits.reduce_option}};
+  request["limits"] = {{"seconds", limits.seconds},
+                       {"gigabytes", limits.gigabytes},
+                       {"files", limits.files},
+                       {"less", limits.reduce_option}};
   ChildProcess worker({{options.program, "worker"}});
   send(worker.input(), request);
   Bytes answer;

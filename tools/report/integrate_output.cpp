@@ -47,9 +47,15 @@ std::string correlation_table(const mc::VectorIntegral& r) {
 }
 
 nlohmann::json as_json(const mc::Integral& r, const UnitCubeIntegral& e) {
-  nlohmann::json j = {{"integrand", e.name},   {"value", r.estimate.value}, {"std_error", r.estimate.std_error},
-                      {"lo", r.interval.lo},   {"hi", r.interval.hi},       {"error_bar", name(r.error_bar)},
-                      {"chi2", r.chi2},        {"chi2_dof", r.chi2_dof},    {"consistent", r.consistent},
+  nlohmann::json j = {{"integrand", e.name},
+                      {"value", r.estimate.value},
+                      {"std_error", r.estimate.std_error},
+                      {"lo", r.interval.lo},
+                      {"hi", r.interval.hi},
+                      {"error_bar", name(r.error_bar)},
+                      {"chi2", r.chi2},
+                      {"chi2_dof", r.chi2_dof},
+                      {"consistent", r.consistent},
                       {"infinite", r.infinite_points}};
   if (std::isfinite(e.truth)) j["truth"] = e.truth;
   for (const mc::IntegrateRound& round : r.rounds)
@@ -108,7 +114,8 @@ std::string histogram_table(const IntegrateResults& found) {
   for (const HistogramBin& b : found.histogram) {
     const double value = b.integral.estimate.value;
     const auto length = static_cast<std::size_t>(largest > 0 ? std::lround(30 * std::abs(value) / largest) : 0);
-    text += fmt::format("{:<{}}  {}  {:>8} {}\n", b.name, width, value_with_error(b.integral.estimate, b.integral.error_bar),
+    text += fmt::format("{:<{}}  {}  {:>8} {}\n", b.name, width,
+                        value_with_error(b.integral.estimate, b.integral.error_bar),
                         has_shares ? fmt::format("{:.2f} %", 100 * value / whole.value) : "",
                         std::string(length, value < 0 ? '-' : '#'));
   }

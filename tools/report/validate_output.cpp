@@ -49,8 +49,10 @@ json results(const ValidationRun& run) {
   all["passed"] = passed;
   if (interrupted) all["interrupted"] = true;
   for (const UncheckedCase& u : unchecked)
-    all["errors"].push_back(
-        {{"name", u.test_case->name}, {"parameters", u.test_case->parameters}, {"scalar", u.test_case->scalar}, {"error", u.error}});
+    all["errors"].push_back({{"name", u.test_case->name},
+                             {"parameters", u.test_case->parameters},
+                             {"scalar", u.test_case->scalar},
+                             {"error", u.error}});
   return all;
 }
 
@@ -59,7 +61,8 @@ json results(const ValidationRun& run) {
 std::string repeat_command(const Case& c, const ValidationSettings& settings, std::size_t cases) {
   const double alpha = mc::sidak_level(settings.alpha, 1 / static_cast<double>(cases));
   const std::string parameters = c.parameters.empty() ? "" : "(" + c.parameters + ")";
-  const std::string what = c.rerun_arguments.empty() ? fmt::format("'{}{}' --scalar {}", c.name, parameters, c.scalar) : c.rerun_arguments;
+  const std::string what =
+      c.rerun_arguments.empty() ? fmt::format("'{}{}' --scalar {}", c.name, parameters, c.scalar) : c.rerun_arguments;
   return fmt::format("carlo validate {} --seed {}{} --alpha {:.6g}{}", what, settings.seed,
                      settings.from_file ? std::string() : fmt::format(" --samples {}", settings.samples), alpha,
                      settings.open_interval ? " --open-interval" : "");

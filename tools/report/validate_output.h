@@ -13,7 +13,7 @@ struct ValidationSettings {
   std::uint64_t seed = 1;
   std::uint64_t samples = 0; ///< per case
   double alpha = 0.01;       ///< family-wise
-  bool from_file = false;      ///< the samples come from a file, which says how many there are
+  bool from_file = false;    ///< the samples come from a file, which says how many there are
   bool open_interval = false;
 };
 

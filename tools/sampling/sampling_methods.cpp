@@ -69,10 +69,13 @@ SamplingMethod integrate_method(std::string name, std::string title, mc::Method 
 std::vector<SamplingMethod> make() {
   std::vector<SamplingMethod> all;
   for (const PointSet& set : point_sets()) all.push_back(point_set_method(set.name, set.title, set.mean));
-  all.push_back(integrate_method("stratified_rounds", "integrate(): rounds of jittered grids", mc::Method::stratified, 1024));
+  all.push_back(
+      integrate_method("stratified_rounds", "integrate(): rounds of jittered grids", mc::Method::stratified, 1024));
   all.push_back(integrate_method("rqmc", "integrate(): replicated scrambled Sobol' sequences", mc::Method::rqmc, 1024));
-  all.push_back(integrate_method("vegas", "integrate(): the same through a learned importance grid", mc::Method::vegas, 2048));
-  all.push_back(integrate_method("tree", "integrate(): vegas with a tree of boxes within its grid", mc::Method::tree, 2048));
+  all.push_back(
+      integrate_method("vegas", "integrate(): the same through a learned importance grid", mc::Method::vegas, 2048));
+  all.push_back(
+      integrate_method("tree", "integrate(): vegas with a tree of boxes within its grid", mc::Method::tree, 2048));
   all.push_back(integrate_method("auto", "integrate(): the best of rqmc, vegas and tree", mc::Method::automatic, 2048));
   return all;
 }

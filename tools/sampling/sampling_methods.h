@@ -19,12 +19,12 @@ struct MethodEstimate {
 /// A point set or an estimator. Another seed is an independent randomisation.
 struct SamplingMethod {
   std::string name;
-  std::string title;        ///< one line
+  std::string title;            ///< one line
   std::uint64_t min_calls = 16; ///< fewest evaluations it can work with
   std::uint64_t max_calls = 1 << 28;
-  int max_dimensions = 0;      ///< how many it has at most; 0: any
-  bool is_adaptive = false;     ///< its estimate depends on what it measured before
-  std::string points_file;        ///< of its points; empty: none
+  int max_dimensions = 0;    ///< how many it has at most; 0: any
+  bool is_adaptive = false;  ///< its estimate depends on what it measured before
+  std::string points_file;   ///< of its points; empty: none
   bool scalar_calls = false; ///< integrands that take many points at once are given one
   /// An estimate from about n evaluations.
   ///   throws : Error with the place for an integrand that is not finite

@@ -50,7 +50,9 @@ ConvergenceRate net_corner(double d, double a) {
 
 ConvergenceRate first_order(double, double) { return {1, 0, order_one, RateBound::at_most}; }
 ConvergenceRate first_order_kink(double d, double) { return {std::min(1.0, kink(d)), 0, surface, RateBound::at_most}; }
-ConvergenceRate first_order_corner(double, double a) { return {std::min(1.0, 1 - a), 0, unbounded, RateBound::at_most}; }
+ConvergenceRate first_order_corner(double, double a) {
+  return {std::min(1.0, 1 - a), 0, unbounded, RateBound::at_most};
+}
 ConvergenceRate lattice_periodic(double, double) { return {1, 0, "[Niederreiter92] chapter 5", RateBound::at_least}; }
 // Bends where the faces meet: the coefficients of frequency k fall as k^-2, and of a sum of functions of one coordinate
 // each a lattice of N points meets every N-th.
@@ -94,14 +96,19 @@ constexpr std::array correlated_rows = {
     RateRow{Class::periodic, latin_additive},     RateRow{Class::kink, correlated_smooth},
     RateRow{Class::axis_kink, correlated_smooth}, RateRow{Class::axis_jump, correlated_smooth},
     RateRow{Class::jump, correlated_smooth},      RateRow{Class::corner, correlated_corner}};
-constexpr std::array halton_rows = {RateRow{Class::smooth, halton_smooth},    RateRow{Class::additive, halton_smooth},
-                                    RateRow{Class::periodic, halton_smooth},  RateRow{Class::kink, first_order_kink},
-                                    RateRow{Class::axis_kink, halton_smooth}, RateRow{Class::axis_jump, halton_smooth},
-                                    RateRow{Class::jump, net_jump},           RateRow{Class::corner, first_order_corner}};
-constexpr std::array lattice_rows = {
-    RateRow{Class::smooth, first_order},    RateRow{Class::additive, first_order},     RateRow{Class::periodic, lattice_periodic},
-    RateRow{Class::kink, first_order_kink}, RateRow{Class::axis_kink, first_order},    RateRow{Class::axis_jump, first_order},
-    RateRow{Class::jump, net_jump},         RateRow{Class::corner, first_order_corner}};
+constexpr std::array halton_rows = {
+    RateRow{Class::smooth, halton_smooth},    RateRow{Class::additive, halton_smooth},
+    RateRow{Class::periodic, halton_smooth},  RateRow{Class::kink, first_order_kink},
+    RateRow{Class::axis_kink, halton_smooth}, RateRow{Class::axis_jump, halton_smooth},
+    RateRow{Class::jump, net_jump},           RateRow{Class::corner, first_order_corner}};
+constexpr std::array lattice_rows = {RateRow{Class::smooth, first_order},
+                                     RateRow{Class::additive, first_order},
+                                     RateRow{Class::periodic, lattice_periodic},
+                                     RateRow{Class::kink, first_order_kink},
+                                     RateRow{Class::axis_kink, first_order},
+                                     RateRow{Class::axis_jump, first_order},
+                                     RateRow{Class::jump, net_jump},
+                                     RateRow{Class::corner, first_order_corner}};
 constexpr std::array closed_lattice_rows = {RateRow{Class::smooth, lattice_closed},
                                             RateRow{Class::additive, lattice_closed_additive},
                                             RateRow{Class::axis_kink, lattice_closed}};
@@ -126,7 +133,8 @@ std::span<const RateRow> rows_of(std::string_view method, int d, bool matching_f
   // Its rounds are shares of N that tend to constants; grids of eight dimensions at most.
   if (method == "stratified_rounds" && d <= 8) return jittered_rows;
   if (method == "sobol") return net_rows;
-  if (method == "halton") return d == 1 ? std::span<const RateRow>(net_rows) : halton_rows; // base two is a net of base two
+  if (method == "halton")
+    return d == 1 ? std::span<const RateRow>(net_rows) : halton_rows; // base two is a net of base two
   if (method == "lattice") return matching_faces ? std::span<const RateRow>(closed_lattice_rows) : lattice_rows;
   if (method == "latin_hypercube") return d == 1 ? std::span<const RateRow>(jittered_rows) : latin_rows;
   if (method == "padded_sobol") return d <= 2 ? std::span<const RateRow>(net_rows) : latin_rows;

@@ -8,8 +8,8 @@
 //   NAME    : only subjects in whose name this stands
 // Prints CSV with a first line that holds the command; a summary on the standard error. alpha = 1 %.
 
-#include <mc/check/regression_subjects.h>
 #include <mc/check/random_faults.h>
+#include <mc/check/regression_subjects.h>
 
 #include <mc/check/check_subject.h>
 
@@ -61,8 +61,9 @@ void print(std::uint64_t seed, const FaultySubject& one, const mc::Report& repor
 }
 
 void run(const Options& o) {
-  fmt::print("# bench_mc_check_error_rates {} {} {} {:g}{}\nseed,kind,size,name,verdict,p,check,detects,in_a_cell,seconds\n",
-             o.what, o.cases, o.first, o.samples, o.name.empty() ? "" : " " + o.name);
+  fmt::print(
+      "# bench_mc_check_error_rates {} {} {} {:g}{}\nseed,kind,size,name,verdict,p,check,detects,in_a_cell,seconds\n",
+      o.what, o.cases, o.first, o.samples, o.name.empty() ? "" : " " + o.name);
   std::map<std::string, std::map<std::string, int>> verdicts;
   double seconds = 0, checked = 0;
   const auto one_case = [&](std::uint64_t seed, const FaultySubject& one) {
@@ -75,7 +76,8 @@ void run(const Options& o) {
     ++verdicts[o.what == "foreign" ? one.subject.name : one.kind][std::string(mc::name(report.verdict()))];
     print(seed, one, report, used);
   };
-  const std::vector<RegressionSubject> foreign = o.what == "foreign" ? regression_subjects() : std::vector<RegressionSubject>{};
+  const std::vector<RegressionSubject> foreign =
+      o.what == "foreign" ? regression_subjects() : std::vector<RegressionSubject>{};
   for (std::uint64_t seed = o.first; seed < o.first + o.cases; ++seed)
     if (o.what == "foreign") {
       for (const RegressionSubject& f : foreign) one_case(seed, {f.right ? "right" : "wrong", 0, f.subject});

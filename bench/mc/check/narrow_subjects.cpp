@@ -23,7 +23,8 @@ double wrapped(double x) { return std::min(x - std::floor(x), 1 - 0x1p-53); }
 Subject ring(Pcg& r) {
   const double k = log_uniform(r, 1e-3, 1), inner = log_uniform(r, 0.01, 0.35),
                width = inner * log_uniform(r, 1e-4, 0.3), outer = inner + width;
-  const double x = uniform_between(r, outer, 1 - outer), y = uniform_between(r, outer, 1 - outer), squares = width * (inner + outer);
+  const double x = uniform_between(r, outer, 1 - outer), y = uniform_between(r, outer, 1 - outer),
+               squares = width * (inner + outer);
   return make_subject(
       fmt::format("{:.2g} in a ring of {:.3g}, {:.2g} wide", k, inner, width), mc::Square<double>{},
       [=](Pcg& q) {
@@ -75,8 +76,8 @@ Subject spot(Pcg& r) {
 
 // A band across a square whose density is a power of y.
 Subject ridge(Pcg& r) {
-  const double k = log_uniform(r, 1e-2, 1), width = log_uniform(r, 1e-5, 0.2), at = uniform(r), a = uniform_between(r, 0.4, 3),
-               slope = log_uniform(r, 0.01, 30) * (random_index(r, 2) == 0 ? 1 : -1);
+  const double k = log_uniform(r, 1e-2, 1), width = log_uniform(r, 1e-5, 0.2), at = uniform(r),
+               a = uniform_between(r, 0.4, 3), slope = log_uniform(r, 0.01, 30) * (random_index(r, 2) == 0 ? 1 : -1);
   return make_subject(
       fmt::format("{:.2g} in a ridge of slope {:.2f}, {:.2g} wide, y^{:.2f}", k, slope, width, a - 1),
       mc::Square<double>{},

@@ -87,7 +87,8 @@ struct Frame {
   Frame(Pcg& r, int dim) {
     for (std::size_t a = 0; a < 3; ++a) axes[a][a] = 1;
     for (std::size_t a = 0; a + 1 < static_cast<std::size_t>(dim); ++a) {
-      const double t = random_index(r, 2) == 0 ? 0.0 : 2 * mc::pi<double> * uniform(r), c = std::cos(t), s = std::sin(t);
+      const double t = random_index(r, 2) == 0 ? 0.0 : 2 * mc::pi<double> * uniform(r), c = std::cos(t),
+                   s = std::sin(t);
       for (std::size_t k = 0; k < 3; ++k) {
         const double x = axes[k][a], y = axes[k][a + 1];
         axes[k][a] = c * x + s * y;
@@ -164,7 +165,8 @@ inline FaultySubject smooth(const Subject& right, Pcg& r, double size) {
 
 /// A wave of up to 100 periods an axis.
 inline FaultySubject wave(const Subject& right, Pcg& r, double size) {
-  const double k = uniform_between(r, -100, 100), l = uniform_between(r, -100, 100), m = uniform_between(r, -15, 15), phase = uniform(r);
+  const double k = uniform_between(r, -100, 100), l = uniform_between(r, -100, 100), m = uniform_between(r, -15, 15),
+               phase = uniform(r);
   const bool space = right.dim == 3;
   return {"wave", size, reweighted(right, size, [=](const Coordinates& v) {
             const double turns = space ? 0.15 * (k * v[0] + l * v[1]) + m * v[2] : k * v[0] + l * v[1];
@@ -183,7 +185,8 @@ inline FaultySubject gap_or_clamp(const Subject& right, Pcg& r, double share) {
       random_index(r, 3) == 0 ? 0 : static_cast<std::size_t>(uniform(r) * (n - static_cast<double>(width)));
   const double lo = first == 0 ? 0.0 : v[first], hi = v[std::min(first + width, v.size() - 1)];
   if (random_index(r, 2) == 0)
-    return {"gap", share, with_changed_draws(right, [=](Pcg&, Draw& d) { return !(d.v[axis] >= lo && d.v[axis] < hi); })};
+    return {"gap", share,
+            with_changed_draws(right, [=](Pcg&, Draw& d) { return !(d.v[axis] >= lo && d.v[axis] < hi); })};
   return {"clamp", share, with_changed_draws(right, [=](Pcg&, Draw& d) {
             if (d.v[axis] >= lo && d.v[axis] < hi) {
               d.v[axis] = first == 0 ? hi : lo;

@@ -163,8 +163,8 @@ template <mc::Real S> Subject shapes(Pcg& r) {
 Subject table_subject(const std::string& name, const std::vector<double>& weights, bool named) {
   return table<double>(name, weights, named);
 }
-Subject table_subject(const std::string& name, const std::vector<double>& weights, std::size_t width, std::size_t height,
-                 bool named) {
+Subject table_subject(const std::string& name, const std::vector<double>& weights, std::size_t width,
+                      std::size_t height, bool named) {
   return table<double>(name, weights, width, height, named);
 }
 
@@ -182,7 +182,8 @@ Subject table_2d(Pcg& r) {
   std::string name = fmt::format("table {}x{}", width, height);
   const std::vector<double> w = texture(r, width * height, name);
   const bool named = random_index(r, 2) == 0;
-  return random_index(r, 2) == 0 ? table<double>(name, w, width, height, named) : table<float>(name, w, width, height, named);
+  return random_index(r, 2) == 0 ? table<double>(name, w, width, height, named)
+                                 : table<float>(name, w, width, height, named);
 }
 
 Subject lobe_on_sphere(double k, double kappa, const V3& pole) {
@@ -256,7 +257,8 @@ Subject uniform_inside(std::string name, double area, const std::function<bool(c
 Subject set_in_box(Pcg& r) {
   switch (random_index(r, 3)) {
   case 0: {
-    const double slope = uniform_between(r, -0.7, 0.7), width = uniform_between(r, 0.02, 0.2), at = uniform_between(r, 0.4, 0.4 + 0.1);
+    const double slope = uniform_between(r, -0.7, 0.7), width = uniform_between(r, 0.02, 0.2),
+                 at = uniform_between(r, 0.4, 0.4 + 0.1);
     // Between y = at + slope (x - 1/2) and width above it, inside the square for every x.
     return uniform_inside(fmt::format("strip {:.2f} wide {:.2f}", slope, width), width, [=](const V2& p) {
       const double y = p[1] - at - 0.5 * slope * (p[0] - 0.5);
@@ -310,7 +312,8 @@ Subject product(Pcg& r) {
   const auto n = static_cast<std::size_t>(log_uniform(r, 4, 1e4));
   std::string name = fmt::format("table of {}", n);
   const auto x = std::make_shared<mc::TableDist1D<double>>(texture(r, n, name));
-  const double a = uniform_between(r, 0.4, 3), shift = uniform(r), slope = random_index(r, 2) == 0 ? 0 : uniform_between(r, -2, 2);
+  const double a = uniform_between(r, 0.4, 3), shift = uniform(r),
+               slope = random_index(r, 2) == 0 ? 0 : uniform_between(r, -2, 2);
   // On a torus, moved along x by an amount that depends on y.
   const auto moved = [=](double by) { return by - std::floor(by); };
   return make_subject(

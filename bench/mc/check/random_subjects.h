@@ -40,8 +40,8 @@ Subject product(Pcg& r);
 Subject outcomes(Pcg& r);
 
 /// The sampler of a table, with the breaks that it names or without.
-Subject table_subject(const std::string& name, const std::vector<double>& weights, std::size_t width, std::size_t height,
-                 bool named);
+Subject table_subject(const std::string& name, const std::vector<double>& weights, std::size_t width,
+                      std::size_t height, bool named);
 Subject table_subject(const std::string& name, const std::vector<double>& weights, bool named);
 /// A share k of von Mises-Fisher about `pole` in a uniform sphere.
 Subject lobe_on_sphere(double k, double kappa, const mc::Vec3<double>& pole);

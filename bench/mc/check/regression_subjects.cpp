@@ -58,12 +58,13 @@ void tables(RegressionSubjects& all) {
       const std::size_t height = w.size() / width;
       const char* breaks = named ? "with breaks" : "without breaks";
       all.push_back(
-          {table_subject(fmt::format("table {}x{} {} {}", width, height, what, breaks), w, width, height, named), true});
+          {table_subject(fmt::format("table {}x{} {} {}", width, height, what, breaks), w, width, height, named),
+           true});
     };
     const auto line = [&](const char* what, const std::vector<double>& w) {
       all.push_back(
           {table_subject(fmt::format("table of {} {} {}", w.size(), what, named ? "with breaks" : "without breaks"), w,
-                    named),
+                         named),
            true});
     };
     plane("u^4", texels(256 * 128, 4), 256);

@@ -30,8 +30,9 @@ struct Gsl {
   gsl_rng* rng;
 
   Gsl(const UnitCubeIntegral& experiment, std::size_t calls_, unsigned long seed)
-      : e(experiment), dim(static_cast<std::size_t>(e.dim)), calls(calls_), f{call, dim, const_cast<UnitCubeIntegral*>(&e)},
-        lo(dim), hi(dim, 1.0), rng(gsl_rng_alloc(gsl_rng_mt19937)) {
+      : e(experiment), dim(static_cast<std::size_t>(e.dim)),
+        calls(calls_), f{call, dim, const_cast<UnitCubeIntegral*>(&e)}, lo(dim), hi(dim, 1.0),
+        rng(gsl_rng_alloc(gsl_rng_mt19937)) {
     gsl_rng_set(rng, seed);
   }
   ~Gsl() { gsl_rng_free(rng); }

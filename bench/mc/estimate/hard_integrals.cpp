@@ -100,7 +100,8 @@ double ball(UnitPoint x) { return distance2(x, 0) <= 1 ? 1 : 0; }
 
 std::vector<UnitCubeIntegral> make() {
   using Class = Smoothness::Class;
-  const auto one = [](const char* name, const char* title, int dim, double truth, Class smoothness, double (*f)(UnitPoint)) {
+  const auto one = [](const char* name, const char* title, int dim, double truth, Class smoothness,
+                      double (*f)(UnitPoint)) {
     return UnitCubeIntegral{fmt::format("hard_{}", name), title, "made to be hard", dim, truth, {smoothness}, 0, f};
   };
   const double sphere = 4 * pi / 3;

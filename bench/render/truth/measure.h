@@ -10,7 +10,7 @@
 namespace render::truth {
 
 struct Measured {
-  mc::Moments means;      ///< of independently randomised point sets
+  mc::Moments means;              ///< of independently randomised point sets
   bool outlier_dominated = false; ///< see SampleSums
 };
 

@@ -1,13 +1,13 @@
 #include <mc/check/check_subject.h>
 
 #include <mc/check/fit/alpha_shares.h>
-#include <mc/check/fit/interior_density.h>
 #include <mc/check/fit/expected/mass.h>
-#include <mc/check/fit/tests/density_ratio.h>
-#include <mc/check/fit/tests/rotation.h>
+#include <mc/check/fit/interior_density.h>
 #include <mc/check/fit/tests/axis_intervals.h>
-#include <mc/check/fit/tests/spectrum.h>
+#include <mc/check/fit/tests/density_ratio.h>
 #include <mc/check/fit/tests/marginal_bins.h>
+#include <mc/check/fit/tests/rotation.h>
+#include <mc/check/fit/tests/spectrum.h>
 #include <mc/check/fit/tests/uniformity.h>
 #include <mc/check/summary.h>
 #include <mc/core/error.h>
@@ -78,7 +78,8 @@ Cell cell_of(const Subject& s, const Pilot& pilot, const UnitBox& box, const Est
 void count_expected(std::span<const StratifiedReference::EvaluatedPoint> points, Layout& layout) {
   std::vector<double> weights(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) weights[i] = points[i].stratum->weight(points[i].density);
-  for (std::size_t i = 0; i < points.size(); ++i) layout.marginal_bins->add_expected(points[i].v, points[i].share, weights[i]);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    layout.marginal_bins->add_expected(points[i].v, points[i].share, weights[i]);
   for (const StratifiedReference::EvaluatedPoint& p : points) layout.spectrum->add_expected(p.v, p.share);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const StratifiedReference::EvaluatedPoint& p = points[i];
@@ -96,10 +97,9 @@ void lay_out_cells(const Subject& s, const Pilot& pilot, const SubjectOptions& o
   goal.max_points = std::max<std::size_t>(options.max_evaluations / 3, 1 << 15);
   layout.marginal_bins.emplace(pilot, s.dim);
   layout.spectrum.emplace(s.dim, n, mean_step(s, pilot, 1 / std::sqrt(n)));
-  layout.masses =
-      layout.reference->integrate(s, goal, hash(options.seed, 4), [&](std::span<const StratifiedReference::EvaluatedPoint> points) {
-        count_expected(points, layout);
-      });
+  layout.masses = layout.reference->integrate(
+      s, goal, hash(options.seed, 4),
+      [&](std::span<const StratifiedReference::EvaluatedPoint> points) { count_expected(points, layout); });
   layout.cubature = integrate_density(s, pilot, *layout.pilot_cells, n, options.max_evaluations / 12);
   const Partition& partition = layout.pilot_cells->partition;
   const std::vector<double> rounded = layout.pilot_cells->rounding_shares(s, pilot);
@@ -261,11 +261,11 @@ std::vector<Check> judge_inverse(const Subject& s, std::uint64_t seed, std::uint
 std::vector<Check> judge_detail(const Subject& s, const Pilot& pilot, const Layout& layout, const Counts& counts,
                                 double mass, double alpha) {
   const double points = std::max(mass - std::accumulate(s.atoms.begin(), s.atoms.end(), 0.0), 1e-300);
-  std::vector<Check> checks{
-      layout.marginal_bins->test(s, pilot, counts.weights.points, points, alpha_share(FitTest::marginal_bins, s.dim), alpha),
-      layout.density_ratio.test(alpha_share(FitTest::density_ratio, s.dim), alpha)};
-  append(checks,
-         layout.spectrum->test(layout.all, alpha_share(FitTest::spectrum, s.dim) / (s.inverted ? 2 : 1), alpha, "chart"));
+  std::vector<Check> checks{layout.marginal_bins->test(s, pilot, counts.weights.points, points,
+                                                       alpha_share(FitTest::marginal_bins, s.dim), alpha),
+                            layout.density_ratio.test(alpha_share(FitTest::density_ratio, s.dim), alpha)};
+  append(checks, layout.spectrum->test(layout.all, alpha_share(FitTest::spectrum, s.dim) / (s.inverted ? 2 : 1), alpha,
+                                       "chart"));
   return checks;
 }
 
@@ -333,7 +333,8 @@ Report check_subject(const Subject& s, const SubjectOptions& options) {
       report.evidence->p_after.push_back({stats.draws, then.p()});
     };
   const Counts counts = count_samples(s, pilot, options, layout, on_progress);
-  const ClaimedMass mass = claimed_mass(s, layout.cubature, layout.masses.total, layout.masses.uncapped, counts.weights);
+  const ClaimedMass mass =
+      claimed_mass(s, layout.cubature, layout.masses.total, layout.masses.uncapped, counts.weights);
   report.mass = mass.value;
   report.mass_error = mass.error;
 

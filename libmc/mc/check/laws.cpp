@@ -8,7 +8,8 @@ namespace mc {
 
 // A law is one file of laws/ and one row here.
 Law boundary_law, batch_consistency_law, support_law, jacobian_law, precision_law;
-constexpr Law* laws[] = {boundary_law, determinism_law, batch_consistency_law, support_law, inverse_law, jacobian_law, precision_law};
+constexpr Law* laws[] = {boundary_law, determinism_law, batch_consistency_law, support_law,
+                         inverse_law,  jacobian_law,    precision_law};
 
 std::vector<Check> check_deterministic_laws(const AnyDistribution& distribution, const LawOptions& options) {
   std::vector<Check> checks;

@@ -40,14 +40,16 @@ template <class W> Report check_laws(const W& warp, const LawOptions& options = 
   static_assert(!detail::has_chart<W> || detail::has_sample<W>,
                 "check_laws: sample(u) const must take u, a point of the unit cube (Domain::UnitPoint), no generator");
   static_assert(!detail::has_chart<W> || detail::has_pdf<W>, "check_laws: a warp needs pdf(x) const");
-  if constexpr (ContinuousDistribution<W>) return check_laws(with_tolerances(make_distribution(options.name, warp), options), options);
+  if constexpr (ContinuousDistribution<W>)
+    return check_laws(with_tolerances(make_distribution(options.name, warp), options), options);
   else return {};
 }
 
 /// The same for a pair of functions on a domain: sample(u) -> x or optional x, pdf(x).
 template <Domain D, class Draw, class Pdf>
 Report check_laws(const D& domain, Draw sample, Pdf pdf, const LawOptions& options = {}) {
-  return check_laws(with_tolerances(make_distribution(options.name, domain, std::move(sample), std::move(pdf)), options), options);
+  return check_laws(
+      with_tolerances(make_distribution(options.name, domain, std::move(sample), std::move(pdf)), options), options);
 }
 
 } // namespace mc

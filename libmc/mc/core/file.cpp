@@ -105,7 +105,8 @@ void replace(const OutputTarget& place, const std::string& path, const std::func
 }
 
 // By way of a folder of our own, since not everything that writes a file can write a stream.
-void write_via_temporary(const OutputTarget& place, const std::string& path, const std::function<void(const std::string&)>& write) {
+void write_via_temporary(const OutputTarget& place, const std::string& path,
+                         const std::function<void(const std::string&)>& write) {
   std::string folder = (fs::temp_directory_path() / "mc.XXXXXX").string();
   require(mkdtemp(folder.data()) != nullptr, "cannot make a temporary folder '{}': {}", folder, std::strerror(errno));
   std::error_code error;

@@ -33,7 +33,9 @@ template <Real S> struct Cap {
   UnitPoint to_unit(const Point& w) const { return {one_minus_z(w) / h, azimuth_turns<S>(w.x(), w.y())}; }
   S jacobian(const UnitPoint&) const { return 2 * pi<S> * h; }
   /// The direction lies in the cone, up to rounding.
-  bool contains_direction(const Point& w) const { return one_minus_z(w) <= h * (1 + 8 * std::numeric_limits<S>::epsilon()); }
+  bool contains_direction(const Point& w) const {
+    return one_minus_z(w) <= h * (1 + 8 * std::numeric_limits<S>::epsilon());
+  }
   bool contains(const Point& w) const { return is_unit(w) && contains_direction(w); }
   template <Real T> Cap<T> cast() const { return Cap<T>(T(h)); }
 };

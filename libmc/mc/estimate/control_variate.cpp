@@ -158,9 +158,10 @@ Estimate ControlVariates::estimate(std::span<const double> beta) const {
 Estimate cross_fitted_estimate(const ControlVariates& a, const ControlVariates& b) {
   const Estimate first = a.estimate(b.coefficients()), second = b.estimate(a.coefficients());
   const double n = static_cast<double>(first.count + second.count), share = static_cast<double>(first.count) / n;
-  return Estimate::from_student_t(share * first.value + (1 - share) * second.value,
-                           std::hypot(share * first.unwidened_std_error(), (1 - share) * second.unwidened_std_error()), first.dof + second.dof,
-                           first.count + second.count);
+  return Estimate::from_student_t(
+      share * first.value + (1 - share) * second.value,
+      std::hypot(share * first.unwidened_std_error(), (1 - share) * second.unwidened_std_error()),
+      first.dof + second.dof, first.count + second.count);
 }
 
 } // namespace mc

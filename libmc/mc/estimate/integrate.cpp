@@ -51,7 +51,8 @@ std::string Integral::to_string() const {
     break;
   case ErrorBar::infinite_variance:
     text = fmt::format("{:.10g}, error not known: the variance ", estimate.value);
-    if (infinite_points > 0) text += fmt::format("is infinite (as is the integrand at {} points, which count as 0)", infinite_points);
+    if (infinite_points > 0)
+      text += fmt::format("is infinite (as is the integrand at {} points, which count as 0)", infinite_points);
     else
       text += fmt::format("looks infinite (the largest values fall off with index {:.2f}{}; a variance needs more than "
                           "2, an integral more than 1)",

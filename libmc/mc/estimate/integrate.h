@@ -94,8 +94,9 @@ struct Integral {
   /// values larger than all that were met, see OctaveHistogram. All numbers unless error_bar is known.
   Estimate::Interval interval{};
   ErrorBar error_bar = ErrorBar::known;
-  double tail_index = 0;      ///< of the integrand, see TailIndexEstimator; infinite for a bounded one
-  std::uint64_t infinite_points = 0; ///< points where the integrand was infinite, which count as 0: the variance is infinite
+  double tail_index = 0; ///< of the integrand, see TailIndexEstimator; infinite for a bounded one
+  std::uint64_t infinite_points =
+      0; ///< points where the integrand was infinite, which count as 0: the variance is infinite
   std::uint64_t calls = 0;
   double seconds = 0;
   Method method = Method::plain; ///< the one picked

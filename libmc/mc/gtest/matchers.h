@@ -94,7 +94,7 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
 // lines. The check stands outside the lambda, which cannot use names of structured bindings.
 
 #define EXPECT_WARP_LAWS(warp, ...)                                                                                    \
-  switch (constexpr bool mc_fits = ::mc::detail::is_distribution<decltype(warp)>; 0)                                        \
+  switch (constexpr bool mc_fits = ::mc::detail::is_distribution<decltype(warp)>; 0)                                   \
   case 0:                                                                                                              \
   default:                                                                                                             \
     switch (const char* mc_expression =                                                                                \
@@ -125,14 +125,14 @@ testing::AssertionResult has_mean(const char* expression, const Values& values, 
     default:                                                                                                           \
       EXPECT_TRUE(::mc::obeys_bsdf_laws(mc_expression, bsdf, wo __VA_OPT__(, ) __VA_ARGS__))
 
-#define EXPECT_SAMPLES_MATCH_PDF(sample, pdf, domain, ...)                                                            \
-  switch (constexpr bool mc_fits = ::mc::detail::draws_points<decltype(sample), decltype(domain)>; 0)                 \
+#define EXPECT_SAMPLES_MATCH_PDF(sample, pdf, domain, ...)                                                             \
+  switch (constexpr bool mc_fits = ::mc::detail::draws_points<decltype(sample), decltype(domain)>; 0)                  \
   case 0:                                                                                                              \
   default:                                                                                                             \
     switch (const char* mc_expression =                                                                                \
                 [] {                                                                                                   \
                   static_assert(mc_fits, "the function must take u, a point of the unit cube, or mc::Pcg&");           \
-                  return #sample;                                                                                     \
+                  return #sample;                                                                                      \
                 }();                                                                                                   \
             0)                                                                                                         \
     case 0:                                                                                                            \

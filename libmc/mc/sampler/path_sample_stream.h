@@ -22,7 +22,8 @@ template <Real S, class Pairs> class PathSampleStream {
   using Points = Pairs;
   static constexpr std::uint32_t pairs = Pairs::pairs;
 
-  PathSampleStream(const Points& points, std::uint32_t index) : PathSampleStream(points, hash(points.seed, index), index, 0, 1) {}
+  PathSampleStream(const Points& points, std::uint32_t index)
+      : PathSampleStream(points, hash(points.seed, index), index, 0, 1) {}
   PathSampleStream branch(std::uint32_t i, std::uint32_t n) const {
     bool fits = true;
     if constexpr (pairs > 0) fits = points_->can_branch(index_, std::uint64_t{scale_} * n, n);
@@ -36,7 +37,8 @@ template <Real S, class Pairs> class PathSampleStream {
   }
 
  private:
-  PathSampleStream(const Points& points, std::uint64_t seed, std::uint32_t index, std::uint32_t pair, std::uint32_t scale)
+  PathSampleStream(const Points& points, std::uint64_t seed, std::uint32_t index, std::uint32_t pair,
+                   std::uint32_t scale)
       : seed_(seed), random_(seed), points_(&points), index_(index), pair_(pair), scale_(scale) {}
 
   std::uint64_t seed_;

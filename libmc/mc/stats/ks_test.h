@@ -11,7 +11,7 @@ namespace mc {
 double kolmogorov_tail(double lambda);
 
 struct KsTest {
-  double d = 0;  ///< sup |F_n - F|
+  double d = 0;        ///< sup |F_n - F|
   double location = 0; ///< where it is reached
   double p = 1;
 };

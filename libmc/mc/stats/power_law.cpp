@@ -45,7 +45,9 @@ double error_kurtosis(std::span<const double> estimates, double truth) {
 }
 
 // The mean of r squares of kurtosis k has the relative variance (k - 1) / r, that of chi-square 2 / degrees.
-double effective_error_count(double r, double kurtosis) { return kurtosis > 3 ? std::max(1.0, 2 * r / (kurtosis - 1)) : r; }
+double effective_error_count(double r, double kurtosis) {
+  return kurtosis > 3 ? std::max(1.0, 2 * r / (kurtosis - 1)) : r;
+}
 
 RmsError rms_error(double n, std::span<const double> estimates, double truth, double kurtosis) {
   require(estimates.size() >= 2, "rms_error: {} estimates; at least 2 are needed", estimates.size());

@@ -10,10 +10,10 @@ namespace mc {
 // Walks the nodes once, a stack of sides behind it.
 struct BoxTree::Builder {
   BoxTree& tree;
-  std::vector<double> weight;     // of each node: the sum of its leaves
-  std::vector<double> positive;   // how many of them have any
-  std::vector<std::size_t> after; // index of the first node that is not below it
-  std::vector<AxisExtent> path = {};    // the sides that are cut, of the box so far
+  std::vector<double> weight;        // of each node: the sum of its leaves
+  std::vector<double> positive;      // how many of them have any
+  std::vector<std::size_t> after;    // index of the first node that is not below it
+  std::vector<AxisExtent> path = {}; // the sides that are cut, of the box so far
 
   std::uint32_t build(std::size_t node) {
     const BoxTreeNode& n = tree.nodes_[node];
@@ -59,7 +59,8 @@ struct BoxTree::Builder {
   }
 };
 
-BoxTree::BoxTree(int dim, std::span<const BoxTreeNode> nodes) : dim_(dim), nodes_(nodes.begin(), nodes.end()), first_{0} {
+BoxTree::BoxTree(int dim, std::span<const BoxTreeNode> nodes)
+    : dim_(dim), nodes_(nodes.begin(), nodes.end()), first_{0} {
   require(dim >= 1, "BoxTree: dimension {} must be at least 1", dim);
   require(!nodes.empty() && nodes.size() < 1u << 31, "BoxTree: {} nodes; between 1 and 2^31 are possible",
           nodes.size());

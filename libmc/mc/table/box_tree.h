@@ -81,8 +81,8 @@ class BoxTree {
   std::uint32_t root_ = 0;
   std::vector<BoxTreeNode> nodes_;
   std::vector<Split> splits_;
-  std::vector<AxisExtent> extents_;        // of all leaves, one after the other
-  std::vector<std::size_t> first_; // of each leaf's, and the end
+  std::vector<AxisExtent> extents_; // of all leaves, one after the other
+  std::vector<std::size_t> first_;  // of each leaf's, and the end
   std::vector<double> density_;
 };
 

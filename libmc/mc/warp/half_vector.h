@@ -124,7 +124,8 @@ template <Warp N> struct MicrofacetGeometry {
 
   /// wo is unit only in the narrower scalar.
   template <Real T> auto cast() const {
-    return MicrofacetGeometry<decltype(normals.template cast<T>())>{normals.template cast<T>(), cast_point<T>(wo).normalized()};
+    return MicrofacetGeometry<decltype(normals.template cast<T>())>{normals.template cast<T>(),
+                                                                    cast_point<T>(wo).normalized()};
   }
 };
 
@@ -166,7 +167,8 @@ template <Warp N> class Reflected {
 
  private:
   template <Warp M> friend class Reflected;
-  explicit Reflected(detail::MicrofacetGeometry<N> geometry) : geometry_(std::move(geometry)) {} // wo is unit only in the narrower scalar
+  explicit Reflected(detail::MicrofacetGeometry<N> geometry)
+      : geometry_(std::move(geometry)) {} // wo is unit only in the narrower scalar
   detail::MicrofacetGeometry<N> geometry_;
 };
 

@@ -109,7 +109,7 @@ template <class Block> class BlockTree {
       block.set(lane, primitives[order[leaf.first + std::min(lane, leaf.count - 1)]]);
   }
 
-  WideTree tree_;                               ///< none for few
+  WideTree tree_;                                       ///< none for few
   std::vector<Block, HugePageAllocator<Block>> blocks_; ///< one per leaf, or all
   Bounds bounds_;
 };

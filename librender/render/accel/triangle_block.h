@@ -18,7 +18,8 @@ namespace render {
 ///   Degenerate triangles are left out.
 class TriangleBlock {
  public:
-  static constexpr std::uint32_t max_brute_force = 48; ///< six blocks of triangles cost less than a node and its sorted children
+  static constexpr std::uint32_t max_brute_force =
+      48; ///< six blocks of triangles cost less than a node and its sorted children
 
   struct Primitive {
     const TriangleMesh* mesh;

@@ -2,8 +2,8 @@
 /// The closed sets of BSDFs, and of those that vary over a surface.
 
 #include <render/bsdf/dielectric.h>
-#include <render/bsdf/lambert.h>
 #include <render/bsdf/fuzzy_metal.h>
+#include <render/bsdf/lambert.h>
 #include <render/bsdf/rough_conductor.h>
 #include <render/bsdf/rough_dielectric.h>
 #include <render/bsdf/rough_plastic.h>

@@ -50,8 +50,7 @@ class Dielectric {
  public:
   explicit Dielectric(Float eta = Float(1.5), const Spectrum& reflectance = Spectrum::Ones(),
                       const Spectrum& transmittance = Spectrum::Ones())
-      : eta_(checked_ior("dielectric", eta)),
-        reflectance_(checked_reflectance("dielectric: reflectance", reflectance)),
+      : eta_(checked_ior("dielectric", eta)), reflectance_(checked_reflectance("dielectric: reflectance", reflectance)),
         transmittance_(checked_reflectance("dielectric: transmittance", transmittance)) {}
 
   std::optional<BsdfSample> sample(const Vec3& wo, Float uc, const Vec2&) const {

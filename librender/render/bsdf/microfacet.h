@@ -66,7 +66,9 @@ class TrowbridgeReitzFacets {
   /// G1(w) / |cos w|: finite at the horizon too.
   Float g1_over_cos(const Vec3& w) const { return 2 / (std::abs(w.z()) + surface_.stretch(w).norm()); }
   /// D G / |cos wo cos wi| of facets with the normal m.
-  Float dg_over_cosines(const Vec3& wo, const Vec3& wi, const Vec3& m) const { return d(m) * g1_over_cos(wo) * g1_over_cos(wi); }
+  Float dg_over_cosines(const Vec3& wo, const Vec3& wi, const Vec3& m) const {
+    return d(m) * g1_over_cos(wo) * g1_over_cos(wi);
+  }
   /// Normals seen from wo, which lies above the surface.
   mc::TrowbridgeReitzVisibleNormals<Float> visible_normals(const Vec3& wo) const {
     return {wo.normalized(), surface_.alpha_x}; // rotations leave lengths a few ulps off, which the warp refuses

@@ -1,8 +1,8 @@
 #pragma once
 /// Glossy paint: a rough dielectric layer over a diffuse base.
 
-#include <render/bsdf/rough_fresnel.h>
 #include <render/bsdf/microfacet.h>
+#include <render/bsdf/rough_fresnel.h>
 
 #include <mc/table/discrete.h>
 #include <mc/warp/hemisphere.h>
@@ -74,7 +74,7 @@ template <class Base> class CoatedDiffuse {
   CoatedDiffuse(const std::string& name, Float eta, Float alpha, const Spectrum& diffuse, const Spectrum& specular)
       : eta_(checked_ior(name, eta)), base_(eta, alpha) {
     set_colors(checked_reflectance(name + ": diffuseReflectance", diffuse),
-          checked_reflectance(name + ": specularReflectance", specular));
+               checked_reflectance(name + ": specularReflectance", specular));
   }
 
   void set_colors(const Spectrum& diffuse, const Spectrum& specular) {

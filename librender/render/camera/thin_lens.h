@@ -24,11 +24,11 @@ struct LensOptions {
 
 /// How a point is seen from a point of the lens.
 struct CameraWiSample {
-  Vec2 s;         ///< of the film, see ThinLens::ray
-  Vec3 wi;         ///< unit direction from the point to the lens
-  Float t_max;    ///< from the point along d to the near plane
-  Float distance; ///< to the lens
-  Float direction_pdf;  ///< [1/sr] of the direction from the lens, where s is uniform in [0,1]^2
+  Vec2 s;              ///< of the film, see ThinLens::ray
+  Vec3 wi;             ///< unit direction from the point to the lens
+  Float t_max;         ///< from the point along d to the near plane
+  Float distance;      ///< to the lens
+  Float direction_pdf; ///< [1/sr] of the direction from the lens, where s is uniform in [0,1]^2
 };
 
 /// A thin lens focused on a plane; of radius 0 a pinhole.
@@ -83,10 +83,10 @@ class ThinLens {
     const Vec3 toward = away / z + offset / focus_distance_;
     const Float distance = away.norm(), cosine = z / distance, area = 4 * tan_half_xy[0] * tan_half_xy[1];
     return CameraWiSample{{(toward.dot(right_) / tan_half_xy[0] + 1) / 2, (1 - toward.dot(up_) / tan_half_xy[1]) / 2},
-                     -away / distance,
-                     (z - near_) / cosine,
-                     distance,
-                     1 / (cosine * cosine * cosine * area)};
+                          -away / distance,
+                          (z - near_) / cosine,
+                          distance,
+                          1 / (cosine * cosine * cosine * area)};
   }
 
   /// The density of SeenPoint, of a ray's direction.

@@ -262,7 +262,8 @@ RelativeErrors Film::relative_errors(const Image& image) const {
           }
         }
       const RelativeError error = block.error(options_.noise_area);
-      errors.worst_block = {std::max(errors.worst_block.value, error.value), std::max(errors.worst_block.bound, error.bound)};
+      errors.worst_block = {std::max(errors.worst_block.value, error.value),
+                            std::max(errors.worst_block.bound, error.bound)};
     }
   errors.image = picture.error(options_.noise_area);
   return errors;

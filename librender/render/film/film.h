@@ -72,7 +72,7 @@ struct SampleSums {
 /// What a pixel is, as far as its samples tell.
 struct PixelEstimate {
   Eigen::Array3d mean = Eigen::Array3d::Zero();
-  Eigen::Array3d variance = Eigen::Array3d::Zero(); ///< of the mean; see Film::estimate
+  Eigen::Array3d variance = Eigen::Array3d::Zero();       ///< of the mean; see Film::estimate
   Eigen::Array3d light_variance = Eigen::Array3d::Zero(); ///< of that what is due to paths from the lights
   std::uint64_t samples = 0;
   int sets = 0; ///< that have samples; fewer than two: the variance is not known
@@ -87,8 +87,8 @@ struct RelativeError {
 
 /// Over what the errors of pixels are averaged.
 enum class ErrorScope {
-  image, ///< all pixels
-  worst_block    ///< the 16x16 block where they are largest; blocks at the right and lower edge may be smaller
+  image,      ///< all pixels
+  worst_block ///< the 16x16 block where they are largest; blocks at the right and lower edge may be smaller
 };
 struct RelativeErrors {
   RelativeError image, worst_block;
@@ -99,9 +99,9 @@ struct RelativeErrors {
 /// What the samples of a film are.
 struct FilmOptions {
   std::optional<SplatFilter> splat = {}; ///< where samples count for several pixels, as they come by `splat`
-  bool has_light_paths = false;                      ///< paths from the lights give something, too: 136 bytes more a pixel
+  bool has_light_paths = false;          ///< paths from the lights give something, too: 136 bytes more a pixel
   double noise_area = 1;                 ///< see Image, of samples that share paths; with splats theirs
-  bool independent_samples = false;              ///< the samples of a pixel are
+  bool independent_samples = false;      ///< the samples of a pixel are
 };
 
 /// Sums of the samples of every pixel, apart by the independent point sets that they come from: a pixel is the mean of

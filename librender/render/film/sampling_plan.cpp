@@ -50,7 +50,8 @@ class Tiles {
       }
     double mean = 0;
     for (const Sum& sum : sums_) mean += sum.radiance.sum() / (3.0 * double(pixels.size()));
-    for (std::size_t i = 0; i < pixels.size(); ++i) add_variances(tile_of_pixel[i], pixels[i], mc::sqr(mean / 2), scope);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      add_variances(tile_of_pixel[i], pixels[i], mc::sqr(mean / 2), scope);
   }
 
   std::size_t at(int x, int y) const {
@@ -60,12 +61,13 @@ class Tiles {
   int width, height;
   std::vector<TileCost> tile_costs;
   std::vector<std::size_t> tile_of_pixel; ///< the tile of each pixel
-  double light = 0;                   ///< variance of one sample of all pixels that is due to paths from the lights
+  double light = 0;                       ///< variance of one sample of all pixels that is due to paths from the lights
 
  private:
   void add_variances(std::size_t tile, const PixelEstimate& pixel, double dark, ErrorScope scope) {
     light += (pixel.light_variance / (pixel.mean.square() + dark)).mean() * double(pixel.samples);
-    const Eigen::Array3d variance = pixel.variance - pixel.light_variance; // what more samples of the pixel make smaller
+    const Eigen::Array3d variance =
+        pixel.variance - pixel.light_variance; // what more samples of the pixel make smaller
     if (!(variance > 0).any()) return;
     const int x = static_cast<int>(tile) % width, y = static_cast<int>(tile) / width;
     const auto tiles_about = [&](auto&& visit) {
@@ -138,7 +140,8 @@ std::vector<double> unnormalized_rates_of(const Tiles& tiles, ErrorScope scope, 
           rays += w * tile_cost.rays;
         }
       if (variance > 0)
-        unnormalized_rates[tiles.at(x, y)] = scope == ErrorScope::image ? std::sqrt(variance / rays) : variance / weight;
+        unnormalized_rates[tiles.at(x, y)] =
+            scope == ErrorScope::image ? std::sqrt(variance / rays) : variance / weight;
     }
   });
   return unnormalized_rates;

@@ -8,7 +8,7 @@ namespace render {
 /// How many samples each pixel gets, relative to their mean over the picture, and how many paths start at the lights.
 struct SamplingPlan {
   std::vector<float> rates = {}; ///< of mean 1, row by row from the top; empty: all 1
-  double light_path_scale = 1;              ///< paths from the lights, relative to those that go with the mean
+  double light_path_scale = 1;   ///< paths from the lights, relative to those that go with the mean
 
   /// Of a pixel, where the mean over the picture is `mean`.
   std::uint32_t samples(std::size_t pixel, double mean) const {

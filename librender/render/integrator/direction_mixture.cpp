@@ -62,13 +62,16 @@ bool finds_all_lights(const Scene& scene, const Strategy& strategy) {
 }
 
 bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth) {
-  if (strategy.guiding_target != GuidingTarget::lights || strategy.guiding_fraction < 1 || lights_and_importance_targets(scene).empty()) return false;
+  if (strategy.guiding_target != GuidingTarget::lights || strategy.guiding_fraction < 1 ||
+      lights_and_importance_targets(scene).empty())
+    return false;
   return max_depth < 0 || max_depth > 2 || (max_depth == 2 && !scene.infinite_lights().empty());
 }
 
 DirectionMixture::DirectionMixture(const Scene& scene, const Strategy& strategy)
     : guiding_fraction_(strategy.guiding_fraction), uses_bsdf_(strategy.guiding_fraction < 1),
-      limited_by_absorption_(strategy.guiding_target == GuidingTarget::speculars || strategy.guiding_target == GuidingTarget::enclosing_speculars),
+      limited_by_absorption_(strategy.guiding_target == GuidingTarget::speculars ||
+                             strategy.guiding_target == GuidingTarget::enclosing_speculars),
       resamples_misses_(strategy.direct_lighting == DirectLighting::bsdf_only) {
   if (strategy.guiding_target == GuidingTarget::lights) target_shapes_ = lights_and_importance_targets(scene);
   if (strategy.guiding_target == GuidingTarget::importance_targets) target_shapes_ = importance_targets(scene);
@@ -79,7 +82,8 @@ DirectionMixture::DirectionMixture(const Scene& scene, const Strategy& strategy)
 }
 
 DirectionMixture::DirectionMixture(std::vector<const Shape*> targets, Float guiding_fraction)
-    : target_shapes_(std::move(targets)), guiding_fraction_(guiding_fraction), uses_bsdf_(guiding_fraction < 1), limited_by_absorption_(false), resamples_misses_(false) {
+    : target_shapes_(std::move(targets)), guiding_fraction_(guiding_fraction), uses_bsdf_(guiding_fraction < 1),
+      limited_by_absorption_(false), resamples_misses_(false) {
   if (!target_shapes_.empty()) target_distribution_.emplace(target_shapes_.size());
 }
 

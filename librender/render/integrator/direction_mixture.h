@@ -66,7 +66,8 @@ class DirectionMixture {
   /// guiding_fraction : of the directions go to the targets, which must outlive it; where there are none the BSDF is followed
   DirectionMixture(std::vector<const Shape*> targets, Float guiding_fraction);
 
-  template <class B, class Stream> std::optional<ScatterSample> sample(const ShadingPoint<B>& isect, Stream& stream) const {
+  template <class B, class Stream>
+  std::optional<ScatterSample> sample(const ShadingPoint<B>& isect, Stream& stream) const {
     if (!target_distribution_ || isect.bsdf.is_near_specular()) return sample_bsdf(isect, stream);
     const Vec2 u = stream.next2(); // u[0] also makes the choices, which are then as well spread as the directions
     const auto part = guiding_choice(isect).sample_index(u[0]);
@@ -84,10 +85,13 @@ class DirectionMixture {
   // Outcome 1 aims, 0 follows the BSDF.
   template <class B> mc::Bernoulli<Float> guiding_choice(const ShadingPoint<B>& isect) const {
     const Float guiding_fraction = isect.bsdf.has_delta() ? std::min(guiding_fraction_, Float(0.5)) : guiding_fraction_;
-    return mc::Bernoulli<Float>(limited_by_absorption_ ? std::min(guiding_fraction, std::max(1 - isect.bsdf.albedo(isect.wo), Float(0))) : guiding_fraction);
+    return mc::Bernoulli<Float>(limited_by_absorption_
+                                    ? std::min(guiding_fraction, std::max(1 - isect.bsdf.albedo(isect.wo), Float(0)))
+                                    : guiding_fraction);
   }
 
-  template <class B, class Stream> static std::optional<ScatterSample> sample_bsdf(const ShadingPoint<B>& isect, Stream& stream) {
+  template <class B, class Stream>
+  static std::optional<ScatterSample> sample_bsdf(const ShadingPoint<B>& isect, Stream& stream) {
     const Float uc = stream.next();
     const auto s = isect.bsdf.sample(isect.wo, uc, stream.next2());
     if (!s) return {};
@@ -99,7 +103,8 @@ class DirectionMixture {
 
   // The BSDF's part of the mixture, of probability pmf.
   template <class B>
-  std::optional<ScatterSample> sample_bsdf_part(const ShadingPoint<B>& isect, const Vec2& u, Float pmf, Float uc) const {
+  std::optional<ScatterSample> sample_bsdf_part(const ShadingPoint<B>& isect, const Vec2& u, Float pmf,
+                                                Float uc) const {
     const auto s = isect.bsdf.sample(isect.wo, uc, u);
     if (!s) return {};
     const Vec3 d = isect.frame.to_world(s->wi);
@@ -121,10 +126,12 @@ class DirectionMixture {
       return guided_sample(isect, wi, d, targets_pdf(isect, wi, d));
     }
     const auto target = target_distribution_->sample_index(u[0]);
-    const auto s = sample_target_direction(*target_shapes_[target.index], isect.point, {target.u_remapped, u[1]}, stream);
+    const auto s =
+        sample_target_direction(*target_shapes_[target.index], isect.point, {target.u_remapped, u[1]}, stream);
     if (!s) return {};
-    const Float density = mc::mixture_pdf(
-        *target_distribution_, [&](std::size_t i) { return i == target.index ? s->pdf : target_shapes_[i]->pdf(isect.point.p, s->wi); });
+    const Float density = mc::mixture_pdf(*target_distribution_, [&](std::size_t i) {
+      return i == target.index ? s->pdf : target_shapes_[i]->pdf(isect.point.p, s->wi);
+    });
     return guided_sample(isect, isect.frame.to_local(s->wi), s->wi, density);
   }
 
@@ -133,7 +140,7 @@ class DirectionMixture {
   // one that is not small nothing is lost but 3e-7: it saves a tenth of the time.
   template <class Stream>
   std::optional<DirectionSample> sample_target_direction(const Shape& target, const SurfacePoint& from, const Vec2& u,
-                                               Stream& stream, int tries = 8) const {
+                                                         Stream& stream, int tries = 8) const {
     constexpr Float small = 100; // [1/sr]
     const auto s = target.sample_direction(from.p, u);
     const auto is_met = [&](const Ray& ray) { return target.pdf(ray.o, ray.d) > 0; };
@@ -142,11 +149,12 @@ class DirectionMixture {
   }
 
   template <class B>
-  std::optional<ScatterSample> guided_sample(const ShadingPoint<B>& isect, const Vec3& wi, const Vec3& d, Float targets) const {
+  std::optional<ScatterSample> guided_sample(const ShadingPoint<B>& isect, const Vec3& wi, const Vec3& d,
+                                             Float targets) const {
     if (!same_geometric_side(isect, wi, d)) return {};
     const Float own = isect.bsdf.pdf(isect.wo, wi), density = combined_pdf(isect, own, targets);
-    return ScatterSample{d, isect.bsdf.eval(isect.wo, wi) * (std::abs(wi.z()) / density), density, isect.bsdf.eta(isect.wo, wi),
-                           density / own};
+    return ScatterSample{d, isect.bsdf.eval(isect.wo, wi) * (std::abs(wi.z()) / density), density,
+                         isect.bsdf.eta(isect.wo, wi), density / own};
   }
 
   // The density of the mixture, from those of its parts.
@@ -157,15 +165,17 @@ class DirectionMixture {
   template <class B> Float targets_pdf(const ShadingPoint<B>& isect, const Vec3& wi, const Vec3& d) const {
     if (target_shapes_.empty() && isect.bsdf.transmits()) return 1 / (4 * mc::pi<Float>);
     if (target_shapes_.empty()) return wi.z() * isect.wo.z() >= 0 ? 1 / (2 * mc::pi<Float>) : Float(0);
-    return mc::mixture_pdf(*target_distribution_, [&](std::size_t i) { return target_shapes_[i]->pdf(isect.point.p, d); });
+    return mc::mixture_pdf(*target_distribution_,
+                           [&](std::size_t i) { return target_shapes_[i]->pdf(isect.point.p, d); });
   }
 
-  std::vector<const Shape*> target_shapes_;                  ///< to aim at; none: the hemisphere, if there is a target
-  std::optional<mc::UniformDiscrete<Float>> target_distribution_; ///< the choice of one; none: the BSDF is always followed
+  std::vector<const Shape*> target_shapes_; ///< to aim at; none: the hemisphere, if there is a target
+  std::optional<mc::UniformDiscrete<Float>>
+      target_distribution_; ///< the choice of one; none: the BSDF is always followed
   Float guiding_fraction_;
-  bool uses_bsdf_; ///< directions of lobes that are no delta come from the BSDF too
-  bool limited_by_absorption_;  ///< no BSDF aims more often than it absorbs
-  bool resamples_misses_; ///< where directions miss what they were aimed at, others take their place
+  bool uses_bsdf_;             ///< directions of lobes that are no delta come from the BSDF too
+  bool limited_by_absorption_; ///< no BSDF aims more often than it absorbs
+  bool resamples_misses_;      ///< where directions miss what they were aimed at, others take their place
 };
 
 } // namespace render

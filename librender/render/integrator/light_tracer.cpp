@@ -11,7 +11,7 @@ namespace render {
 namespace {
 
 constexpr Float guiding_fraction = Float(0.8); // of the paths from lamps and points
-constexpr std::size_t max_caustic_bounds = 8;   // aiming at more would not pay
+constexpr std::size_t max_caustic_bounds = 8;  // aiming at more would not pay
 
 template <class Holds> std::vector<const Shape*> shapes_where(const Scene& scene, Holds&& holds) {
   std::vector<const Shape*> found;
@@ -121,13 +121,17 @@ std::vector<Strategy> complete_strategies(const Scene& scene) {
 }
 
 LightTracer::LightTracer(const Scene& scene, const Strategy& strategy, Float aspect, std::vector<Shape> caustic_bounds,
-                       const std::vector<double>& weights)
-    : scene_(&scene), light_path_rate_(double(strategy.light_path_rate)), tan_half_(scene.camera().tan_half(aspect)), light_distribution_(weights),
-      caustic_bounds_(std::move(caustic_bounds)), targeted_bounds_(without_enclosed_lights(scene, caustic_bounds_)), emission_mixture_(targeted_bounds_, guiding_fraction),
-      bsdf_mixture_({}, 0), camera_mixture_(scene, camera_strategy(strategy)), guiding_choice_(targeted_bounds_.empty() ? Float(0) : guiding_fraction),
-      has_media_(has_media(scene)), emission_bsdf_(Lambert(Spectrum::Ones())) {}
+                         const std::vector<double>& weights)
+    : scene_(&scene), light_path_rate_(double(strategy.light_path_rate)), tan_half_(scene.camera().tan_half(aspect)),
+      light_distribution_(weights), caustic_bounds_(std::move(caustic_bounds)),
+      targeted_bounds_(without_enclosed_lights(scene, caustic_bounds_)),
+      emission_mixture_(targeted_bounds_, guiding_fraction), bsdf_mixture_({}, 0),
+      camera_mixture_(scene, camera_strategy(strategy)),
+      guiding_choice_(targeted_bounds_.empty() ? Float(0) : guiding_fraction), has_media_(has_media(scene)),
+      emission_bsdf_(Lambert(Spectrum::Ones())) {}
 
-double LightTracer::point_emission_pdf(const Vec3& p, const Vec3& d, const std::optional<TargetedDirection>& targeted) const {
+double LightTracer::point_emission_pdf(const Vec3& p, const Vec3& d,
+                                       const std::optional<TargetedDirection>& targeted) const {
   const double uniform = double(guiding_choice_.pmf(0)) / (4 * mc::pi<double>);
   if (targeted_bounds_.empty()) return uniform;
   const Float at_targets = mc::mixture_pdf(mc::UniformDiscrete<Float>(targeted_bounds_.size()), [&](std::size_t i) {
@@ -136,7 +140,8 @@ double LightTracer::point_emission_pdf(const Vec3& p, const Vec3& d, const std::
   return uniform + double(guiding_choice_.pmf(1)) * double(at_targets);
 }
 
-auto LightTracer::sample_point_emission(const PointLight& lamp, double pmf, const Vec2& u) const -> std::optional<EmissionSample> {
+auto LightTracer::sample_point_emission(const PointLight& lamp, double pmf, const Vec2& u) const
+    -> std::optional<EmissionSample> {
   SurfacePoint point;
   point.p = lamp.position().cast<Float>();
   std::optional<TargetedDirection> targeted;
@@ -152,7 +157,8 @@ auto LightTracer::sample_point_emission(const PointLight& lamp, double pmf, cons
   }
   point.ns = point.ng;
   const double pdf = point_emission_pdf(point.p, point.ng, targeted);
-  return EmissionSample{{point.p, point.ng}, point, lamp.intensity(), 1 / (pmf * pdf), PartialMisWeight(1 / mc::sqr(pmf), pdf, 1)};
+  return EmissionSample{
+      {point.p, point.ng}, point, lamp.intensity(), 1 / (pmf * pdf), PartialMisWeight(1 / mc::sqr(pmf), pdf, 1)};
 }
 
 double LightTracer::parallel_emission_pdf(const Vec3& p, const Vec3& d) const {
@@ -166,21 +172,26 @@ double LightTracer::parallel_emission_pdf(const Vec3& p, const Vec3& d) const {
   return density;
 }
 
-double LightTracer::emission_pdf_squared(std::uint32_t light, const SurfacePoint* light_point, const Vec3& ref, const Vec3& wi) const {
+double LightTracer::emission_pdf_squared(std::uint32_t light, const SurfacePoint* light_point, const Vec3& ref,
+                                         const Vec3& wi) const {
   const double pmf = double(light_distribution_.pmf(light));
   if (!(pmf > 0)) return 0;
   if (const auto* point = std::get_if<PointLight>(&scene_->lights()[light])) {
     const Vec3d& p = point->position();
-    return mc::sqr(light_path_rate_ * pmf * point_emission_pdf(p.cast<Float>(), -wi) / (p - ref.cast<double>()).squaredNorm());
+    return mc::sqr(light_path_rate_ * pmf * point_emission_pdf(p.cast<Float>(), -wi) /
+                   (p - ref.cast<double>()).squaredNorm());
   }
   const auto* lamp = std::get_if<AreaLight>(&scene_->lights()[light]);
-  if (!lamp) return mc::sqr(light_path_rate_ * pmf * direction_pdf(scene_->lights()[light], ref, wi, nullptr) * parallel_emission_pdf(ref, wi));
+  if (!lamp)
+    return mc::sqr(light_path_rate_ * pmf * direction_pdf(scene_->lights()[light], ref, wi, nullptr) *
+                   parallel_emission_pdf(ref, wi));
   SurfacePoint side = *light_point;
   if (lamp->is_two_sided() && side.ng.dot(wi) > 0) side.ng = -side.ng;
   side.ns = side.ng;
   const auto frame = mc::Frame<Float>::from_z(side.ng);
   const double sides = lamp->is_two_sided() ? 2 : 1;
-  const double pdf = double(emission_mixture_.pdf(ShadingPoint<Bsdf>{emission_bsdf_, side, frame, Vec3::UnitZ()}, frame.to_local(-wi), -wi));
+  const double pdf = double(
+      emission_mixture_.pdf(ShadingPoint<Bsdf>{emission_bsdf_, side, frame, Vec3::UnitZ()}, frame.to_local(-wi), -wi));
   return mc::sqr(light_path_rate_ * pmf / lamp->shape().area() * pdf / sides);
 }
 

@@ -48,7 +48,8 @@ class LightTracer {
   /// Of paths that start from where the direction wi from `ref` meets a light, back along it, per path from the camera:
   /// the squared density [1/sr] times that per area, of the light's point `light_point`, or of lines along wi across it where
   /// they start at one point or at infinity (null); 0 for lights that none starts from.
-  double emission_pdf_squared(std::uint32_t light, const SurfacePoint* light_point, const Vec3& ref, const Vec3& wi) const;
+  double emission_pdf_squared(std::uint32_t light, const SurfacePoint* light_point, const Vec3& ref,
+                              const Vec3& wi) const;
 
   /// Per path from the camera.
   double light_path_rate() const { return light_path_rate_; }
@@ -70,21 +71,24 @@ class LightTracer {
 
  private:
   LightTracer(const Scene& scene, const Strategy& strategy, Float aspect, std::vector<Shape> caustic_bounds,
-             const std::vector<double>& weights);
+              const std::vector<double>& weights);
 
   struct EmissionSample {
     Ray ray;
     std::optional<SurfacePoint> point; ///< of the light, with the normals of the side that shines; none: infinitely far
     Spectrum beta = Spectrum::Zero();  ///< light that the path carries, of the unit `area`
-    double beta_scale = 0;                   ///< over the density, which no float need hold
+    double beta_scale = 0;             ///< over the density, which no float need hold
     PartialMisWeight partial_mis = {};
   };
-  template <class Stream> std::optional<EmissionSample> sample_emission(std::uint32_t light, const Vec2& u, Stream& stream) const;
   template <class Stream>
-  std::optional<EmissionSample> sample_area_emission(const AreaLight& lamp, double pmf, const Vec2& u, Stream& stream) const;
+  std::optional<EmissionSample> sample_emission(std::uint32_t light, const Vec2& u, Stream& stream) const;
+  template <class Stream>
+  std::optional<EmissionSample> sample_area_emission(const AreaLight& lamp, double pmf, const Vec2& u,
+                                                     Stream& stream) const;
   std::optional<EmissionSample> sample_point_emission(const PointLight& lamp, double pmf, const Vec2& u) const;
   template <class Stream>
-  std::optional<EmissionSample> sample_infinite_emission(const Light& light, double pmf, const Vec2& u, Stream& stream) const;
+  std::optional<EmissionSample> sample_infinite_emission(const Light& light, double pmf, const Vec2& u,
+                                                         Stream& stream) const;
   // Of directions from a point [1/sr]: for a direction aimed at one of the balls, this one says its own density.
   struct TargetedDirection {
     std::size_t target;
@@ -105,22 +109,26 @@ class LightTracer {
     double beta_scale;
     PartialMisWeight partial_mis;
     MediumStack media = {};
-    Float initial_beta_max = 0;          ///< the largest component of beta at first
-    double nee_pdf_squared = 0;  ///< squared density of the connection from the first vertex to the light [1/sr^2]
+    Float initial_beta_max = 0;    ///< the largest component of beta at first
+    double nee_pdf_squared = 0;    ///< squared density of the connection from the first vertex to the light [1/sr^2]
     bool from_delta_light = false; ///< the light is not met by chance
     int edges = 0;
   };
   // Density of paths from the camera that go on from `isect`, where they come from wi, by chance the way that this came.
   template <class B>
-  double camera_pdf_rev(const ShadingPoint<B>& isect, const LightSubpath& subpath, const Vec3& wi, bool near_specular, Float eta) const {
+  double camera_pdf_rev(const ShadingPoint<B>& isect, const LightSubpath& subpath, const Vec3& wi, bool near_specular,
+                        Float eta) const {
     if (near_specular) return reverse_pdf(isect.bsdf, isect.wo, wi, near_specular, eta);
-    return double(camera_mixture_.pdf(ShadingPoint<B>{isect.bsdf, isect.point, isect.frame, wi}, isect.wo, -subpath.ray.d));
+    return double(
+        camera_mixture_.pdf(ShadingPoint<B>{isect.bsdf, isect.point, isect.frame, wi}, isect.wo, -subpath.ray.d));
   }
   // Squared, with that of a connection.
   template <class B>
-  double pdf_rev_squared(const ShadingPoint<B>& isect, const LightSubpath& subpath, const Vec3& wi, bool near_specular, Float eta) const {
+  double pdf_rev_squared(const ShadingPoint<B>& isect, const LightSubpath& subpath, const Vec3& wi, bool near_specular,
+                         Float eta) const {
     const bool first = subpath.edges == 1;
-    const double by_chance = first && subpath.from_delta_light ? 0 : mc::sqr(camera_pdf_rev(isect, subpath, wi, near_specular, eta));
+    const double by_chance =
+        first && subpath.from_delta_light ? 0 : mc::sqr(camera_pdf_rev(isect, subpath, wi, near_specular, eta));
     return first && !near_specular ? by_chance + subpath.nee_pdf_squared : by_chance;
   }
   // Light meets a surface by its true cosine, and the BSDF reckons with that of the shading normal.
@@ -129,27 +137,29 @@ class LightTracer {
     return std::abs(isect.wo.z() / isect.frame.to_world(isect.wo).dot(isect.point.ng));
   }
   template <class Stream, class AddSplat>
-  void connect_to_camera(const SurfaceInteraction<Bsdf>& isect, const LightSubpath& subpath, Stream& stream, std::uint64_t& rays, const AddSplat& add_splat) const;
-  template <class Stream> bool scatter(const SurfaceInteraction<Bsdf>& isect, LightSubpath& subpath, Stream& stream) const;
+  void connect_to_camera(const SurfaceInteraction<Bsdf>& isect, const LightSubpath& subpath, Stream& stream,
+                         std::uint64_t& rays, const AddSplat& add_splat) const;
+  template <class Stream>
+  bool scatter(const SurfaceInteraction<Bsdf>& isect, LightSubpath& subpath, Stream& stream) const;
 
   const Scene* scene_;
   double light_path_rate_;
   Vec2 tan_half_;
   mc::TableDist1D<Float> light_distribution_;
-  std::vector<Shape> caustic_bounds_;        ///< balls that paths from infinite lights are aimed at
+  std::vector<Shape> caustic_bounds_;         ///< balls that paths from infinite lights are aimed at
   std::vector<const Shape*> targeted_bounds_; ///< those of them that paths from the others are aimed at
   DirectionMixture emission_mixture_, bsdf_mixture_, camera_mixture_;
   mc::Bernoulli<Float> guiding_choice_; ///< of paths from points
-  bool has_media_;              ///< some surface holds a medium
-  Bsdf emission_bsdf_;                 ///< as whose reflection a lamp's light leaves it
+  bool has_media_;                      ///< some surface holds a medium
+  Bsdf emission_bsdf_;                  ///< as whose reflection a lamp's light leaves it
 };
 
 /// The strategies that find every light of the scene, each once: without mis+lt where it is mis.
 std::vector<Strategy> complete_strategies(const Scene& scene);
 
 template <class Stream>
-std::optional<LightTracer::EmissionSample> LightTracer::sample_area_emission(const AreaLight& lamp, double pmf, const Vec2& u,
-                                                             Stream& stream) const {
+std::optional<LightTracer::EmissionSample> LightTracer::sample_area_emission(const AreaLight& lamp, double pmf,
+                                                                             const Vec2& u, Stream& stream) const {
   auto point = lamp.shape().sample_area(u);
   if (!point) return {};
   if (lamp.is_two_sided() && mc::Bernoulli<Float>(Float(0.5)).sample_index(stream.next()).index == 1)
@@ -159,13 +169,14 @@ std::optional<LightTracer::EmissionSample> LightTracer::sample_area_emission(con
   const auto next = emission_mixture_.sample(ShadingPoint<Bsdf>{emission_bsdf_, *point, frame, Vec3::UnitZ()}, stream);
   if (!next || is_black(next->weight)) return {};
   const double sides = lamp.is_two_sided() ? 2 : 1, area_pdf = pmf / lamp.shape().area();
-  return EmissionSample{point->spawn_ray(next->d), point, lamp.radiance() * next->weight, mc::pi<double> * sides / area_pdf,
-               PartialMisWeight(1 / mc::sqr(area_pdf), double(next->pdf) / sides, std::abs(double(point->ng.dot(next->d))))};
+  return EmissionSample{
+      point->spawn_ray(next->d), point, lamp.radiance() * next->weight, mc::pi<double> * sides / area_pdf,
+      PartialMisWeight(1 / mc::sqr(area_pdf), double(next->pdf) / sides, std::abs(double(point->ng.dot(next->d))))};
 }
 
 template <class Stream>
-std::optional<LightTracer::EmissionSample> LightTracer::sample_infinite_emission(const Light& light, double pmf, const Vec2& u,
-                                                               Stream& stream) const {
+std::optional<LightTracer::EmissionSample> LightTracer::sample_infinite_emission(const Light& light, double pmf,
+                                                                                 const Vec2& u, Stream& stream) const {
   const auto s = light.sample(Vec3::Zero(), u);
   if (!s || is_black(s->radiance)) return {};
   const std::size_t target = mc::UniformDiscrete<Float>(caustic_bounds_.size()).sample_index(stream.next()).index;
@@ -178,11 +189,13 @@ std::optional<LightTracer::EmissionSample> LightTracer::sample_infinite_emission
   const Vec3 p = (crossing + (scene_->bounds().exit_distance(crossing, wi) + aim.radius()) * wi).template cast<Float>();
   const double pdf = pmf * double(s->pdf), area_pdf = parallel_emission_pdf(p, s->wi);
   if (!(area_pdf > 0)) return {}; // rounding
-  return EmissionSample{{p, -s->wi}, {}, s->radiance / Float(pdf), 1 / area_pdf, PartialMisWeight(1 / mc::sqr(pdf), area_pdf, 1)};
+  return EmissionSample{
+      {p, -s->wi}, {}, s->radiance / Float(pdf), 1 / area_pdf, PartialMisWeight(1 / mc::sqr(pdf), area_pdf, 1)};
 }
 
 template <class Stream>
-std::optional<LightTracer::EmissionSample> LightTracer::sample_emission(std::uint32_t light, const Vec2& u, Stream& stream) const {
+std::optional<LightTracer::EmissionSample> LightTracer::sample_emission(std::uint32_t light, const Vec2& u,
+                                                                        Stream& stream) const {
   const auto pmf = double(light_distribution_.pmf(light));
   const Light& source = scene_->lights()[light];
   if (const auto* lamp = std::get_if<AreaLight>(&source)) return sample_area_emission(*lamp, pmf, u, stream);
@@ -198,7 +211,8 @@ void LightTracer::trace(Stream& stream, int max_depth, std::uint64_t& rays, cons
   const auto emission = sample_emission(light, {choice.u_remapped, u[1]}, stream);
   if (!emission) return;
   const SurfacePoint* source = emission->point ? &*emission->point : nullptr;
-  LightSubpath subpath{emission->ray, source ? source->p : emission->ray.o, emission->beta, emission->beta_scale, emission->partial_mis};
+  LightSubpath subpath{emission->ray, source ? source->p : emission->ray.o, emission->beta, emission->beta_scale,
+                       emission->partial_mis};
   subpath.from_delta_light = scene_->lights()[light].is_delta();
   subpath.initial_beta_max = subpath.beta.maxCoeff();
   if (has_media_) [[unlikely]]
@@ -214,25 +228,29 @@ void LightTracer::trace(Stream& stream, int max_depth, std::uint64_t& rays, cons
     const bool from_afar = subpath.edges == 1 && !source;
     const double distance2 = (point.p - subpath.previous_point).template cast<double>().squaredNorm();
     if (subpath.media.current) [[unlikely]]
-      subpath.beta *= subpath.media.current->transmittance(from_afar ? mc::infinity<Float> : Float(std::sqrt(distance2)));
+      subpath.beta *=
+          subpath.media.current->transmittance(from_afar ? mc::infinity<Float> : Float(std::sqrt(distance2)));
     const double cosine = std::abs(double(point.ng.dot(subpath.ray.d)));
-    if (subpath.edges == 1 && subpath.from_delta_light) subpath.partial_mis.add_vertex_from_point(cosine, from_afar ? 1 : distance2);
+    if (subpath.edges == 1 && subpath.from_delta_light)
+      subpath.partial_mis.add_vertex_from_point(cosine, from_afar ? 1 : distance2);
     else subpath.partial_mis.add_vertex(cosine, from_afar ? 1 : distance2);
     const auto frame = mc::Frame<Float>::from_z(point.ns);
     std::optional<Bsdf> varied;
     const SurfaceInteraction<Bsdf> isect{
-        {scene_->bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-subpath.ray.d)}, surface, subpath.media};
+        {scene_->bsdf(surface, *hit, point, varied), point, frame, frame.to_local(-subpath.ray.d)},
+        surface,
+        subpath.media};
     if (subpath.edges == 1)
       subpath.nee_pdf_squared = mc::sqr(double(scene_->light_pmf(point.p, light)) *
-                                 direction_pdf(scene_->lights()[light], point.p, -subpath.ray.d, source));
+                                        direction_pdf(scene_->lights()[light], point.p, -subpath.ray.d, source));
     if (subpath.edges > 1 && !isect.bsdf.is_near_specular()) connect_to_camera(isect, subpath, stream, rays, add_splat);
     if (!scatter(isect, subpath, stream)) return;
   }
 }
 
 template <class Stream, class AddSplat>
-void LightTracer::connect_to_camera(const SurfaceInteraction<Bsdf>& isect, const LightSubpath& subpath, Stream& stream, std::uint64_t& rays,
-                         const AddSplat& add_splat) const {
+void LightTracer::connect_to_camera(const SurfaceInteraction<Bsdf>& isect, const LightSubpath& subpath, Stream& stream,
+                                    std::uint64_t& rays, const AddSplat& add_splat) const {
   const ThinLens& camera = scene_->camera();
   const auto seen =
       camera.sample_wi(isect.point.p, tan_half_, camera.radius() > 0 ? stream.next2() : Vec2(Vec2::Zero()));
@@ -247,33 +265,37 @@ void LightTracer::connect_to_camera(const SurfaceInteraction<Bsdf>& isect, const
   if (transmittance == 0) return;
   const double from_camera =
       double(seen->direction_pdf) * std::abs(double(isect.point.ng.dot(seen->wi))) / mc::sqr(double(seen->distance));
-  const double mis_ratio = subpath.partial_mis.squared_ratio(pdf_rev_squared(isect, subpath, wi, false, 1)) * mc::sqr(from_camera / light_path_rate_);
+  const double mis_ratio = subpath.partial_mis.squared_ratio(pdf_rev_squared(isect, subpath, wi, false, 1)) *
+                           mc::sqr(from_camera / light_path_rate_);
   Spectrum value = transmittance * subpath.beta * f;
   if (const HomogeneousMedium* medium = isect.media(seen->wi).current) [[unlikely]]
     value *= medium->transmittance(seen->distance);
-  add_splat(seen->s, Spectrum(value * Float(subpath.beta_scale * from_camera / (light_path_rate_ * (1 + mis_ratio))) * shading_normal_correction(isect)));
+  add_splat(seen->s, Spectrum(value * Float(subpath.beta_scale * from_camera / (light_path_rate_ * (1 + mis_ratio))) *
+                              shading_normal_correction(isect)));
 }
 
-template <class Stream> bool LightTracer::scatter(const SurfaceInteraction<Bsdf>& isect, LightSubpath& subpath, Stream& stream) const {
+template <class Stream>
+bool LightTracer::scatter(const SurfaceInteraction<Bsdf>& isect, LightSubpath& subpath, Stream& stream) const {
   const auto next = bsdf_mixture_.sample(isect, stream);
   if (!next) return false;
   const bool near_specular = next->pdf == 0;
   const Vec3 wi = isect.frame.to_local(next->d);
   const double cosine = std::abs(double(isect.point.ng.dot(next->d)));
   // A connection to a light that no chance meets may use what chance follows as a narrow lobe.
-  const bool as_near_specular = near_specular && (subpath.edges > 1 || !subpath.from_delta_light || isect.bsdf.has_delta());
+  const bool as_near_specular =
+      near_specular && (subpath.edges > 1 || !subpath.from_delta_light || isect.bsdf.has_delta());
   Float pdf = next->pdf;
   if (near_specular) pdf = as_near_specular ? Float(1) : isect.bsdf.pdf(isect.wo, wi);
   // Light goes from wo to wi, and not all BSDFs are reciprocal; those of narrow lobes are but for the compression in
   // glass, which does not change what a path carries.
   const Spectrum weight = near_specular ? Spectrum(next->weight * (mc::sqr(next->eta) / std::abs(wi.z())))
-                                 : Spectrum(isect.bsdf.eval(wi, isect.wo) / next->pdf);
+                                        : Spectrum(isect.bsdf.eval(wi, isect.wo) / next->pdf);
   subpath.beta *= weight * (shading_normal_correction(isect) * Float(cosine));
   if (is_black(subpath.beta)) return false;
   subpath.partial_mis.scatter(pdf_rev_squared(isect, subpath, wi, as_near_specular, next->eta), double(pdf), cosine);
   if (subpath.edges >= 4) {
-    const Float survival =
-        std::clamp(4 * subpath.beta.maxCoeff() / subpath.initial_beta_max, std::numeric_limits<Float>::min(), Float(0.99));
+    const Float survival = std::clamp(4 * subpath.beta.maxCoeff() / subpath.initial_beta_max,
+                                      std::numeric_limits<Float>::min(), Float(0.99));
     const auto roulette = mc::russian_roulette<Float>(survival, stream.next());
     if (!roulette.survives) return false;
     subpath.beta *= roulette.weight;

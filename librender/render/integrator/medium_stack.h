@@ -28,7 +28,8 @@ template <class B> struct SurfaceInteraction : ShadingPoint<B> {
     const bool came_from_inside = this->frame.to_world(this->wo).dot(this->point.ng) < 0;
     const bool leaves_inside = d.dot(this->point.ng) < 0;
     if (came_from_inside == leaves_inside) return media_before;
-    return leaves_inside ? MediumStack{&*surface.interior, media_before.current} : MediumStack{media_before.outer, nullptr};
+    return leaves_inside ? MediumStack{&*surface.interior, media_before.current}
+                         : MediumStack{media_before.outer, nullptr};
   }
 };
 

@@ -24,7 +24,8 @@ class PartialMisWeight {
   PartialMisWeight() = default;
   /// initial_ratio : the squared density of what others have at this end, over that of starting there
   /// pdf_fwd   : of the first direction [1/sr]; cosine: of it where the path starts
-  PartialMisWeight(double initial_ratio, double pdf_fwd, double cosine) : squared_ratio_(initial_ratio), pdf_fwd_(pdf_fwd), cosine_(cosine) {}
+  PartialMisWeight(double initial_ratio, double pdf_fwd, double cosine)
+      : squared_ratio_(initial_ratio), pdf_fwd_(pdf_fwd), cosine_(cosine) {}
 
   /// At the next vertex.
   void add_vertex(double cosine, double distance2) {
@@ -46,11 +47,14 @@ class PartialMisWeight {
     cosine_ = cosine;
   }
   /// With the vertex before, to which others come back with the squared density `pdf_rev_squared` [1/sr^2].
-  double squared_ratio(double pdf_rev_squared) const { return squared_ratio_ * pdf_rev_squared * mc::sqr(rev_to_area_); }
+  double squared_ratio(double pdf_rev_squared) const {
+    return squared_ratio_ * pdf_rev_squared * mc::sqr(rev_to_area_);
+  }
 
  private:
   double squared_ratio_ = 1, pdf_fwd_ = 1, cosine_ = 1;
-  double rev_to_area_ = 0; ///< a density [1/sr] at the vertex just met, times this, is one per area at the vertex before
+  double rev_to_area_ =
+      0; ///< a density [1/sr] at the vertex just met, times this, is one per area at the vertex before
 };
 
 } // namespace render

@@ -70,7 +70,8 @@ template <class SceneType> class PathReuseIntegrator {
     Vec3 d;    ///< by which the owner came
     Float pdf; ///< of that [1/sr]
     Spectrum light = Spectrum::Zero();
-    std::vector<RadianceContribution> light_traced = {}; ///< that paths from the lights could have found, by the owner's odds
+    std::vector<RadianceContribution> light_traced =
+        {}; ///< that paths from the lights could have found, by the owner's odds
 
     void add(const RadianceContribution& contribution) {
       if (contribution.mis_ratio == 0) light += contribution.value;
@@ -81,18 +82,19 @@ template <class SceneType> class PathReuseIntegrator {
 
   /// An end as a fork sees it.
   struct Reconnection {
-    Spectrum f;     ///< beta f, and what is left of light on the way
-    double measure; ///< |cos| g: solid angle at the fork to area at the end, projected at both
-    double area_pdf; ///< per area at the end, of the fork's path there
-    double mis_ratio;    ///< of paths from the lights, but for a factor that is the same for all forks
+    Spectrum f;       ///< beta f, and what is left of light on the way
+    double measure;   ///< |cos| g: solid angle at the fork to area at the end, projected at both
+    double area_pdf;  ///< per area at the end, of the fork's path there
+    double mis_ratio; ///< of paths from the lights, but for a factor that is the same for all forks
   };
 
   // The rest of a path from its fork; an end if it can be shared, and whatever else it finds.
   template <class Stream, class AddRadiance>
-  std::optional<SharedVertex> extend_to_shared_vertex(std::size_t owner, const ForkVertex& fork, Stream& stream, std::uint64_t& rays,
-                            const AddRadiance& add_radiance) const;
+  std::optional<SharedVertex> extend_to_shared_vertex(std::size_t owner, const ForkVertex& fork, Stream& stream,
+                                                      std::uint64_t& rays, const AddRadiance& add_radiance) const;
 
-  std::optional<Reconnection> reconnect(const ForkVertex& fork, const SharedVertex& shared, bool is_owner, std::uint64_t& rays) const;
+  std::optional<Reconnection> reconnect(const ForkVertex& fork, const SharedVertex& shared, bool is_owner,
+                                        std::uint64_t& rays) const;
 
   // Gives all that see an end its light.
   void distribute(const SharedVertex& shared, const Forks& forks, std::uint64_t& rays, Radiances& radiances) const;
@@ -102,28 +104,31 @@ template <class SceneType> class PathReuseIntegrator {
 
 template <class SceneType>
 template <class Stream, class AddRadiance>
-auto PathReuseIntegrator<SceneType>::extend_to_shared_vertex(std::size_t owner, const ForkVertex& fork, Stream& stream, std::uint64_t& rays,
-                                       const AddRadiance& add_radiance) const -> std::optional<SharedVertex> {
+auto PathReuseIntegrator<SceneType>::extend_to_shared_vertex(std::size_t owner, const ForkVertex& fork, Stream& stream,
+                                                             std::uint64_t& rays, const AddRadiance& add_radiance) const
+    -> std::optional<SharedVertex> {
   PathState state = fork.state;
   typename Steps::PathVertex vertex;
   if (!steps_.sample_bsdf(fork.vertex.interaction(state), state, stream)) return {};
   if (!steps_.intersect_next(state, vertex, stream, rays, add_radiance)) return {};
   const auto isect = vertex.interaction(state);
   if (state.previous_pdf == 0 || !isect.bsdf.is_diffuse()) {
-    if (steps_.shade_and_scatter(isect, state, stream, rays, add_radiance)) steps_.trace_remaining(state, stream, rays, add_radiance);
+    if (steps_.shade_and_scatter(isect, state, stream, rays, add_radiance))
+      steps_.trace_remaining(state, stream, rays, add_radiance);
     return {};
   }
   SharedVertex shared{owner, vertex.point, state.ray.d, state.previous_pdf};
   const auto add_to_shared = [&](const RadianceContribution& light) { shared.add(light); };
   state.eta_scale *= state.beta.maxCoeff();
   state.beta = Spectrum::Ones();
-  if (steps_.shade_and_scatter(isect, state, stream, rays, add_to_shared)) steps_.trace_remaining(state, stream, rays, add_to_shared);
+  if (steps_.shade_and_scatter(isect, state, stream, rays, add_to_shared))
+    steps_.trace_remaining(state, stream, rays, add_to_shared);
   return shared.is_dark() ? std::nullopt : std::optional(std::move(shared));
 }
 
 template <class SceneType>
-auto PathReuseIntegrator<SceneType>::reconnect(const ForkVertex& fork, const SharedVertex& shared, bool is_owner, std::uint64_t& rays) const
-    -> std::optional<Reconnection> {
+auto PathReuseIntegrator<SceneType>::reconnect(const ForkVertex& fork, const SharedVertex& shared, bool is_owner,
+                                               std::uint64_t& rays) const -> std::optional<Reconnection> {
   const auto isect = fork.vertex.interaction(fork.state);
   if (isect.bsdf.is_near_specular()) return {};
   const Vec3d way = shared.point.p.template cast<double>() - isect.point.p.template cast<double>();
@@ -147,12 +152,12 @@ auto PathReuseIntegrator<SceneType>::reconnect(const ForkVertex& fork, const Sha
     f *= medium->transmittance(Float(distance));
   const double g = std::abs(double(d.dot(shared.point.ng))) / distance2;
   return Reconnection{f, transmittance * std::abs(double(wi.z())) * g, transmittance * double(pdf) * g,
-              steps_.mis_ratio_at(shared.point, isect, fork.state, d, pdf)};
+                      steps_.mis_ratio_at(shared.point, isect, fork.state, d, pdf)};
 }
 
 template <class SceneType>
 void PathReuseIntegrator<SceneType>::distribute(const SharedVertex& shared, const Forks& forks, std::uint64_t& rays,
-                                      Radiances& radiances) const {
+                                                Radiances& radiances) const {
   const ForkVertex& owner = forks[shared.owner];
   const auto own = reconnect(owner, shared, true, rays);
   if (!own) return;
@@ -160,7 +165,8 @@ void PathReuseIntegrator<SceneType>::distribute(const SharedVertex& shared, cons
   double density = 0;
   for (std::size_t i = 0; i < pixels; ++i) {
     if (i == shared.owner) reconnections[i] = own;
-    else if (forks[i].reached && forks[i].state.edges == owner.state.edges) reconnections[i] = reconnect(forks[i], shared, false, rays);
+    else if (forks[i].reached && forks[i].state.edges == owner.state.edges)
+      reconnections[i] = reconnect(forks[i], shared, false, rays);
     if (reconnections[i] && (reconnections[i]->mis_ratio > 0) != (own->mis_ratio > 0)) reconnections[i].reset();
     if (reconnections[i]) density += reconnections[i]->area_pdf;
   }
@@ -168,7 +174,9 @@ void PathReuseIntegrator<SceneType>::distribute(const SharedVertex& shared, cons
     if (!reconnections[i]) continue;
     Spectrum light = shared.light;
     for (const RadianceContribution& contribution : shared.light_traced)
-      light += RadianceContribution{contribution.value, contribution.mis_ratio * (reconnections[i]->mis_ratio / own->mis_ratio)}.weighted();
+      light += RadianceContribution{contribution.value,
+                                    contribution.mis_ratio * (reconnections[i]->mis_ratio / own->mis_ratio)}
+                   .weighted();
     radiances[i] += reconnections[i]->f * light * Float(reconnections[i]->measure / density);
   }
 }

@@ -17,7 +17,7 @@ namespace render {
 
 /// Light that a path finds.
 struct RadianceContribution {
-  Spectrum value;  ///< that counts if no path from the lights could have found it
+  Spectrum value;       ///< that counts if no path from the lights could have found it
   double mis_ratio = 0; ///< that one did
 
   Spectrum weighted() const { return mis_ratio == 0 ? value : Spectrum(value * Float(1 / (1 + mis_ratio))); }
@@ -26,14 +26,14 @@ struct RadianceContribution {
 /// A path under way.
 struct PathState {
   Ray ray;                          ///< to trace next
-  Vec3 previous_point;                    ///< where it comes from
+  Vec3 previous_point;              ///< where it comes from
   Spectrum beta = Spectrum::Ones(); ///< what light found along it counts
   Float previous_pdf = 0; ///< of its direction; 0: camera or narrow lobe, which no light sampling could have chosen
-  Float eta_scale = 1;        ///< times beta: what roulette goes by. Undoes the compression of radiance in glass
-  Float guiding_pdf_ratio = 1;    ///< density of its way since the last rough surface over that of following BSDFs alone
-  int edges = 0;          ///< traced so far
-  MediumStack media = {};       ///< that the ray goes through
-  PartialMisWeight partial_mis = {};         ///< of the paths from the lights
+  Float eta_scale = 1;    ///< times beta: what roulette goes by. Undoes the compression of radiance in glass
+  Float guiding_pdf_ratio = 1; ///< density of its way since the last rough surface over that of following BSDFs alone
+  int edges = 0;               ///< traced so far
+  MediumStack media = {};      ///< that the ray goes through
+  PartialMisWeight partial_mis = {}; ///< of the paths from the lights
 };
 
 /// The steps of paths through a scene, which must outlive it; what they are by is said at PathIntegrator.
@@ -62,7 +62,8 @@ template <class SceneType> class PathSteps {
   /// light_tracer : that find some of the light; null: none are traced. It must outlive this, too
   PathSteps(const SceneType& scene, const Strategy& strategy, int max_depth, const LightTracer* light_tracer)
       : scene_(scene), strategy_(strategy), max_depth_(max_depth),
-        direction_mixture_(light_tracer ? light_tracer->camera_mixture() : DirectionMixture(scene, strategy)), light_tracer_(light_tracer) {}
+        direction_mixture_(light_tracer ? light_tracer->camera_mixture() : DirectionMixture(scene, strategy)),
+        light_tracer_(light_tracer) {}
 
   const SceneType& scene() const { return scene_; }
   const DirectionMixture& direction_mixture() const { return direction_mixture_; }
@@ -89,7 +90,8 @@ template <class SceneType> class PathSteps {
   /// One edge of a path, to the place where it meets a surface; `add_radiance` is given the light at its end. False where the
   /// path ends there.
   template <class Stream, class AddRadiance>
-  bool intersect_next(PathState& state, PathVertex& vertex, Stream& stream, std::uint64_t& rays, const AddRadiance& add_radiance) const {
+  bool intersect_next(PathState& state, PathVertex& vertex, Stream& stream, std::uint64_t& rays,
+                      const AddRadiance& add_radiance) const {
     if (state.edges == max_depth_) return false;
     if (!state.beta.isFinite().all()) [[unlikely]] {
       add_radiance(RadianceContribution{state.beta}); // an invalid sample
@@ -102,7 +104,8 @@ template <class SceneType> class PathSteps {
         state.beta *= state.media.current->transmittance(mc::infinity<Float>);
       if (light_tracer_) [[unlikely]]
         state.partial_mis.add_vertex(1, 1); // a direction of the light
-      for (const std::uint32_t light : scene_.infinite_lights()) add_radiance(emitted_contribution(light, nullptr, state));
+      for (const std::uint32_t light : scene_.infinite_lights())
+        add_radiance(emitted_contribution(light, nullptr, state));
       return false;
     }
     vertex.surface = &scene_.surface(*hit);
@@ -119,7 +122,8 @@ template <class SceneType> class PathSteps {
 
   /// Follows a path to where it first meets a surface that is not a delta. False where it ends before.
   template <class Stream, class AddRadiance>
-  bool skip_delta_bounces(PathState& state, PathVertex& vertex, Stream& stream, std::uint64_t& rays, const AddRadiance& add_radiance) const {
+  bool skip_delta_bounces(PathState& state, PathVertex& vertex, Stream& stream, std::uint64_t& rays,
+                          const AddRadiance& add_radiance) const {
     while (intersect_next(state, vertex, stream, rays, add_radiance)) {
       if (!vertex.bsdf->is_delta()) return true;
       if (!scatter(vertex.interaction(state), state, stream)) return false;
@@ -138,14 +142,16 @@ template <class SceneType> class PathSteps {
 
   /// Light straight from the lights to where a path is, and its next direction; false where the path ends.
   template <class Stream, class AddRadiance>
-  bool shade_and_scatter(const Interaction& isect, PathState& state, Stream& stream, std::uint64_t& rays, const AddRadiance& add_radiance) const {
+  bool shade_and_scatter(const Interaction& isect, PathState& state, Stream& stream, std::uint64_t& rays,
+                         const AddRadiance& add_radiance) const {
     if (!isect.bsdf.is_delta()) sample_direct(isect, state, stream, rays, add_radiance);
     return scatter(isect, state, stream);
   }
 
   /// Light straight from the lights to where a path is.
   template <class Stream, class AddRadiance>
-  void sample_direct(const Interaction& isect, const PathState& state, Stream& stream, std::uint64_t& rays, const AddRadiance& add_radiance) const {
+  void sample_direct(const Interaction& isect, const PathState& state, Stream& stream, std::uint64_t& rays,
+                     const AddRadiance& add_radiance) const {
     if (!uses_nee() || !scene_.has_light_sampler()) return;
     RadianceContribution light = direct_contribution(isect, state, stream, rays);
     light.value *= state.beta;
@@ -158,18 +164,20 @@ template <class SceneType> class PathSteps {
   }
 
   /// The next direction; false where the path is absorbed.
-  template <class Stream> RENDER_FLAT bool sample_bsdf(const Interaction& isect, PathState& state, Stream& stream) const {
+  template <class Stream>
+  RENDER_FLAT bool sample_bsdf(const Interaction& isect, PathState& state, Stream& stream) const {
     const auto next = direction_mixture_.sample(isect, stream);
     if (!next) return false;
     state.beta *= next->weight;
     state.previous_pdf = next->pdf;
     state.eta_scale *= mc::sqr(next->eta);
-    state.guiding_pdf_ratio = next->pdf > 0 ? next->guiding_pdf_ratio : state.guiding_pdf_ratio * next->guiding_pdf_ratio;
+    state.guiding_pdf_ratio =
+        next->pdf > 0 ? next->guiding_pdf_ratio : state.guiding_pdf_ratio * next->guiding_pdf_ratio;
     if (is_black(state.beta)) return false;
     if (light_tracer_) [[unlikely]] {
       const bool near_specular = next->pdf == 0;
-      state.partial_mis.scatter(pdf_rev_squared(isect, state, isect.frame.to_local(next->d), near_specular, next->eta), near_specular ? 1 : double(next->pdf),
-                     std::abs(double(isect.point.ng.dot(next->d))));
+      state.partial_mis.scatter(pdf_rev_squared(isect, state, isect.frame.to_local(next->d), near_specular, next->eta),
+                                near_specular ? 1 : double(next->pdf), std::abs(double(isect.point.ng.dot(next->d))));
     }
     state.previous_point = isect.point.p;
     state.ray = isect.point.spawn_ray(next->d);
@@ -180,20 +188,25 @@ template <class SceneType> class PathSteps {
   /// The odds of paths from the lights where a path, at `isect`, would come to `next` by the direction d of density `pdf`
   /// [1/sr] if it looks the same from everywhere: but for a factor that does not depend on where it came from. 0 where
   /// there are none.
-  double mis_ratio_at(const SurfacePoint& next, const Interaction& isect, const PathState& state, const Vec3& d, Float pdf) const {
+  double mis_ratio_at(const SurfacePoint& next, const Interaction& isect, const PathState& state, const Vec3& d,
+                      Float pdf) const {
     if (!light_tracer_) [[likely]]
       return 0;
     PartialMisWeight partial_mis = state.partial_mis;
-    partial_mis.scatter(pdf_rev_squared(isect, state, isect.frame.to_local(d), false, 1), double(pdf), std::abs(double(isect.point.ng.dot(d))));
-    partial_mis.add_vertex(std::abs(double(next.ng.dot(d))), (next.p - isect.point.p).template cast<double>().squaredNorm());
+    partial_mis.scatter(pdf_rev_squared(isect, state, isect.frame.to_local(d), false, 1), double(pdf),
+                        std::abs(double(isect.point.ng.dot(d))));
+    partial_mis.add_vertex(std::abs(double(next.ng.dot(d))),
+                           (next.p - isect.point.p).template cast<double>().squaredNorm());
     return partial_mis.squared_ratio(mc::sqr(double(next.ns.dot(d))));
   }
 
   /// Whether a path survives Russian roulette.
   template <class Stream> static bool russian_roulette(PathState& state, Stream& stream) {
-    if (state.edges < 4 || !state.beta.isFinite().all()) return true; // of an invalid path roulette would leave no trace
-    const Float survival = std::clamp(std::max(Float(4), state.guiding_pdf_ratio) * state.beta.maxCoeff() * state.eta_scale,
-                                      std::numeric_limits<Float>::min(), Float(0.99));
+    if (state.edges < 4 || !state.beta.isFinite().all())
+      return true; // of an invalid path roulette would leave no trace
+    const Float survival =
+        std::clamp(std::max(Float(4), state.guiding_pdf_ratio) * state.beta.maxCoeff() * state.eta_scale,
+                   std::numeric_limits<Float>::min(), Float(0.99));
     const auto roulette = mc::russian_roulette<Float>(survival, stream.next());
     state.beta *= roulette.weight;
     return roulette.survives;
@@ -203,19 +216,22 @@ template <class SceneType> class PathSteps {
   bool uses_nee() const { return strategy_.direct_lighting != DirectLighting::bsdf_only; }
 
   // Light that what was met itself sends back along the path.
-  RadianceContribution emitted_contribution(std::uint32_t light, const SurfacePoint* light_point, const PathState& state) const {
+  RadianceContribution emitted_contribution(std::uint32_t light, const SurfacePoint* light_point,
+                                            const PathState& state) const {
     const Light& source = scene_.lights()[light];
     const Spectrum Le = source.Le(state.ray.d, light_point);
     if (is_black(Le) || !uses_nee() || !source.is_sampled()) return {state.beta * Le};
     Float weight = 1;
     if (state.previous_pdf > 0) {
       if (strategy_.direct_lighting == DirectLighting::nee) return {Spectrum::Zero()};
-      const Float other = scene_.light_pmf(state.previous_point, light) * source.pdf(state.previous_point, state.ray.d, light_point);
+      const Float other =
+          scene_.light_pmf(state.previous_point, light) * source.pdf(state.previous_point, state.ray.d, light_point);
       weight = mc::power_heuristic(state.previous_pdf, other);
     }
     RadianceContribution contribution{state.beta * (Le * weight)};
     if (light_tracer_ && state.edges > 2) [[unlikely]]
-      contribution.mis_ratio = double(weight) * state.partial_mis.squared_ratio(light_tracer_->emission_pdf_squared(light, light_point, state.previous_point, state.ray.d));
+      contribution.mis_ratio = double(weight) * state.partial_mis.squared_ratio(light_tracer_->emission_pdf_squared(
+                                                    light, light_point, state.previous_point, state.ray.d));
     return contribution;
   }
 
@@ -228,14 +244,16 @@ template <class SceneType> class PathSteps {
   }
 
   // Squared density with which paths from the lights go on from `isect`, where they come from wi, the way that this came.
-  static double pdf_rev_squared(const Interaction& isect, const PathState& state, const Vec3& wi, bool near_specular, Float eta) {
+  static double pdf_rev_squared(const Interaction& isect, const PathState& state, const Vec3& wi, bool near_specular,
+                                Float eta) {
     if (state.edges == 1) return near_specular ? 0 : 1; // they are connected to the camera there
     return mc::sqr(reverse_pdf(isect.bsdf, isect.wo, wi, near_specular, eta));
   }
 
   // Light from one direction towards a light, reflected toward wo.
   template <class Stream>
-  RENDER_FLAT RadianceContribution direct_contribution(const Interaction& isect, const PathState& state, Stream& stream, std::uint64_t& rays) const {
+  RENDER_FLAT RadianceContribution direct_contribution(const Interaction& isect, const PathState& state, Stream& stream,
+                                                       std::uint64_t& rays) const {
     const Vec2 u = stream.next2(); // u[0] also chooses the light, so that the choice is as well spread as the points
     const auto choice = scene_.sample_light(isect.point.p, u[0]);
     const Light& source = scene_.lights()[choice.index];
@@ -258,17 +276,19 @@ template <class SceneType> class PathSteps {
     const Float weight = shared ? mc::power_heuristic(pdf, direction_mixture_.pdf(isect, wi, s->wi)) : Float(1);
     RadianceContribution contribution{f * arriving * (std::abs(wi.z()) * weight / pdf)};
     if (light_tracer_ && state.edges > 1) [[unlikely]]
-      contribution.mis_ratio = double(weight) * nee_mis_ratio(isect, state, wi, *s, static_cast<std::uint32_t>(choice.index), pdf);
+      contribution.mis_ratio =
+          double(weight) * nee_mis_ratio(isect, state, wi, *s, static_cast<std::uint32_t>(choice.index), pdf);
     return contribution;
   }
 
   // The odds of paths from the lights against a connection of density `pdf` [1/sr].
-  double nee_mis_ratio(const Interaction& isect, const PathState& state, const Vec3& wi, const LightSample& s, std::uint32_t light,
-                    Float pdf) const {
+  double nee_mis_ratio(const Interaction& isect, const PathState& state, const Vec3& wi, const LightSample& s,
+                       std::uint32_t light, Float pdf) const {
     const SurfacePoint* end = s.point ? &*s.point : nullptr;
     const double at_light = end ? std::abs(double(end->ng.dot(s.wi))) : 1,
                  here = std::abs(double(isect.point.ng.dot(s.wi)));
-    return state.partial_mis.squared_ratio(pdf_rev_squared(isect, state, wi, false, 1)) * light_tracer_->emission_pdf_squared(light, end, isect.point.p, s.wi) *
+    return state.partial_mis.squared_ratio(pdf_rev_squared(isect, state, wi, false, 1)) *
+           light_tracer_->emission_pdf_squared(light, end, isect.point.p, s.wi) *
            mc::sqr(here / (double(pdf) * at_light));
   }
 

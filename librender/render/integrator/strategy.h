@@ -12,17 +12,17 @@ namespace render {
 /// What a strategy aims directions at.
 enum class GuidingTarget {
   none,
-  hemisphere, ///< every direction on the side of the path; on both where light goes through the surface
-  lights,     ///< the shapes of the lights, and the guides
-  importance_targets,     ///< the shapes that the scene marks as such
-  speculars,  ///< spheres of smooth glass or mirror, which may cast caustics of the lights
-  enclosing_speculars      ///< those of `speculars` that a lamp lies in, or reaches into
+  hemisphere,         ///< every direction on the side of the path; on both where light goes through the surface
+  lights,             ///< the shapes of the lights, and the guides
+  importance_targets, ///< the shapes that the scene marks as such
+  speculars,          ///< spheres of smooth glass or mirror, which may cast caustics of the lights
+  enclosing_speculars ///< those of `speculars` that a lamp lies in, or reaches into
 };
 
 /// How the light of sampled lights is found.
 enum class DirectLighting {
-  bsdf_only,     ///< where a path meets it
-  nee, ///< by a point of a light at every vertex; what a path meets by chance does not count
+  bsdf_only, ///< where a path meets it
+  nee,       ///< by a point of a light at every vertex; what a path meets by chance does not count
   mis        ///< weighted by the power heuristic [Veach97]
 };
 
@@ -30,10 +30,12 @@ enum class DirectLighting {
 struct Strategy {
   std::string_view name;
   GuidingTarget guiding_target;
-  Float guiding_fraction; ///< of the directions go to the target, the others follow the BSDF. 1: none but its delta lobes do
+  Float
+      guiding_fraction; ///< of the directions go to the target, the others follow the BSDF. 1: none but its delta lobes do
   DirectLighting direct_lighting;
-  Float light_path_rate = 0; ///< paths from the lights per path from the camera, in scenes where they pay, see LightTracer;
-                         ///< directions are aimed at `enclosing_speculars` alone there
+  Float light_path_rate =
+      0; ///< paths from the lights per path from the camera, in scenes where they pay, see LightTracer;
+         ///< directions are aimed at `enclosing_speculars` alone there
   std::string_view summary; ///< how it finds light, one sentence
   std::string_view use;     ///< when to use it, one sentence
 };
@@ -49,12 +51,14 @@ struct Strategy {
 ///           any t, and t = 1 with any s. Other pairs of bidirectional path tracing are left out. Light paths start in
 ///           scenes where they pay, see LightTracer; elsewhere it is mis, bit for bit
 inline constexpr auto strategies = std::to_array<Strategy>({
-    {"bsdf", GuidingTarget::none, 0, DirectLighting::bsdf_only, 0, "Follows the BSDF; light counts where a path hits it.",
+    {"bsdf", GuidingTarget::none, 0, DirectLighting::bsdf_only, 0,
+     "Follows the BSDF; light counts where a path hits it.",
      "For large lights or a sky, and as a reference. Finds no point or directional light."},
     {"hemisphere", GuidingTarget::hemisphere, 1, DirectLighting::bsdf_only, 0,
      "Takes uniform directions; light counts where a path hits it.",
      "To show the noise of directions that ignore the BSDF. Finds no point or directional light."},
-    {"light", GuidingTarget::lights, 1, DirectLighting::bsdf_only, 0, "Takes directions toward lights and importance targets only.",
+    {"light", GuidingTarget::lights, 1, DirectLighting::bsdf_only, 0,
+     "Takes directions toward lights and importance targets only.",
      "To show one light alone. Misses the light of other surfaces and of the sky."},
     {"mixture", GuidingTarget::lights, Float(0.5), DirectLighting::bsdf_only, 0,
      "Takes half of the directions toward the lights and half by the BSDF, weighted by the density of the mixture.",

@@ -69,7 +69,8 @@ Eigen::Array3d xyz_to_rgb(const Vec3d& xyz) {
   return (to_rgb * xyz).array();
 }
 
-Spectrum spectrum_to_rgb(const std::vector<SpectralSample>& samples, Illuminant illuminant, Extrapolation extrapolation) {
+Spectrum spectrum_to_rgb(const std::vector<SpectralSample>& samples, Illuminant illuminant,
+                         Extrapolation extrapolation) {
   mc::require(!samples.empty(), "spectrum: no samples; give wavelength:value pairs");
   for (std::size_t i = 0; i < samples.size(); ++i)
     mc::require(std::isfinite(samples[i].value) && std::isfinite(samples[i].wavelength) &&

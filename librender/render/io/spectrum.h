@@ -21,8 +21,8 @@ enum class Illuminant { equal_energy, d65 };
 /// What a spectrum is beyond its samples; of one sample, always constant.
 enum class Extrapolation {
   constant, ///< constant, as in lajolla
-  ramp, ///< linear to 0 within their mean distance, as in Mitsuba 0.6
-  zero  ///< 0, as in Mitsuba 3
+  ramp,     ///< linear to 0 within their mean distance, as in Mitsuba 0.6
+  zero      ///< 0, as in Mitsuba 3
 };
 
 /// Linear sRGB of a spectrum, piecewise linear between samples of increasing wavelength: the sum over 400..700 nm in

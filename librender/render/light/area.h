@@ -41,7 +41,9 @@ class AreaLight {
   double power(double) const {
     return mc::pi<double> * shape_->area() * double(luminance(radiance_)) * (two_sided_ ? 2 : 1);
   }
-  double irradiance(const Vec3& ref) const { return double(luminance(radiance_)) * shape_->projected_solid_angle_bound(ref); }
+  double irradiance(const Vec3& ref) const {
+    return double(luminance(radiance_)) * shape_->projected_solid_angle_bound(ref);
+  }
   bool is_delta() const { return false; }
   bool is_infinite() const { return false; }
   bool is_sampled() const { return true; }

@@ -16,7 +16,9 @@ class ConstantBackground {
   explicit ConstantBackground(const Spectrum& radiance)
       : radiance_(checked_radiance("constant background: radiance", radiance)) {}
 
-  Spectrum Le(const Vec3&, const SurfacePoint* light_point) const { return light_point ? Spectrum(Spectrum::Zero()) : radiance_; }
+  Spectrum Le(const Vec3&, const SurfacePoint* light_point) const {
+    return light_point ? Spectrum(Spectrum::Zero()) : radiance_;
+  }
   std::optional<LightSample> sample(const Vec3&, const Vec2& u) const {
     const Vec3 wi = mc::UniformSphere<Float>{}.sample(u);
     return LightSample{wi, radiance_, mc::UniformSphere<Float>{}.pdf(wi), {}};

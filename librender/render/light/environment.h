@@ -26,7 +26,9 @@ class Environment {
     return light_point ? Spectrum(Spectrum::Zero()) : radiance(place(wi));
   }
   std::optional<LightSample> sample(const Vec3&, const Vec2& u) const;
-  Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* light_point) const { return light_point ? Float(0) : density(place(wi)); }
+  Float pdf(const Vec3&, const Vec3& wi, const SurfacePoint* light_point) const {
+    return light_point ? Float(0) : density(place(wi));
+  }
   double power(double radius) const { return mc::pi<double> * mc::sqr(radius) * flux_; }
   double irradiance(const Vec3&) const { return flux_; }
   bool is_delta() const { return false; }

@@ -35,7 +35,7 @@ std::optional<LightSampler> LightSampler::create(std::span<const Light> lights, 
 }
 
 mc::ShortDiscrete<Float, LightSampler::max_weighted_lights> LightSampler::distribution_at(std::span<const Light> lights,
-                                                                  const Vec3& ref) const {
+                                                                                          const Vec3& ref) const {
   std::array<double, max_weighted_lights> weights;
   const std::span<double> used(weights.data(), candidates_.size());
   for (std::size_t i = 0; i < used.size(); ++i) used[i] = lights[candidates_[i]].irradiance(ref);
@@ -49,7 +49,8 @@ mc::ShortDiscrete<Float, LightSampler::max_weighted_lights> LightSampler::distri
 
 mc::DiscreteSample<Float> LightSampler::sample_index(std::span<const Light> lights, const Vec3& ref, Float u) const {
   if (candidates_.size() == 1) return {candidates_[0], 1, u};
-  const auto s = power_distribution_ ? power_distribution_->sample_index(u) : distribution_at(lights, ref).sample_index(u);
+  const auto s =
+      power_distribution_ ? power_distribution_->sample_index(u) : distribution_at(lights, ref).sample_index(u);
   return {candidates_[s.index], s.pmf, s.u_remapped};
 }
 
@@ -57,7 +58,8 @@ Float LightSampler::pmf(std::span<const Light> lights, const Vec3& ref, std::siz
   const auto candidate_index = candidate_index_[light];
   if (!candidate_index) return 0;
   if (candidates_.size() == 1) return 1;
-  return power_distribution_ ? power_distribution_->pmf(*candidate_index) : distribution_at(lights, ref).pmf(*candidate_index);
+  return power_distribution_ ? power_distribution_->pmf(*candidate_index)
+                             : distribution_at(lights, ref).pmf(*candidate_index);
 }
 
 } // namespace render

@@ -27,7 +27,11 @@ void SceneBuilder::add(Shape shape, const SurfaceProperties& properties) {
       surfaces_.size());
   if (!textured) shape.discard_uvs();
   if (!properties.emission && !properties.importance_target) shape.discard_sampling_table();
-  Surface surface{std::make_shared<const Shape>(std::move(shape)), properties.bsdf, {}, properties.importance_target, properties.interior};
+  Surface surface{std::make_shared<const Shape>(std::move(shape)),
+                  properties.bsdf,
+                  {},
+                  properties.importance_target,
+                  properties.interior};
   if (properties.emission) {
     surface.light = static_cast<std::uint32_t>(lights_.size());
     lights_.emplace_back(AreaLight(surface.shape, *properties.emission));

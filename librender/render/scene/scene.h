@@ -35,7 +35,7 @@ struct Surface {
   std::shared_ptr<const Shape> shape;
   BsdfId bsdf;
   std::optional<std::uint32_t> light;             ///< the light that it is; none: it does not shine
-  bool importance_target = false;                             ///< the scene asks strategies that aim at lights to aim at it too
+  bool importance_target = false;                 ///< the scene asks strategies that aim at lights to aim at it too
   std::optional<HomogeneousMedium> interior = {}; ///< on the side that its normals do not point to; none on the other
 };
 
@@ -57,7 +57,8 @@ class Scene {
   /// What covers a surface; of a texture only its kind, the rest varies.
   const Bsdf& bsdf(const Surface& surface) const { return material(surface).bsdf; }
   /// What covers it where it was hit, at `point`; made in `bsdf_storage` where a texture varies it.
-  const Bsdf& bsdf(const Surface& surface, const Hit& hit, const SurfacePoint& point, std::optional<Bsdf>& bsdf_storage) const {
+  const Bsdf& bsdf(const Surface& surface, const Hit& hit, const SurfacePoint& point,
+                   std::optional<Bsdf>& bsdf_storage) const {
     const Material& m = material(surface);
     if (!m.texture) [[likely]]
       return m.bsdf;

@@ -17,7 +17,7 @@ namespace detail {
 
 template <class SceneType, class Passes>
 [[gnu::noinline]] std::optional<Hit> nearest_hit_with_masks(const SceneType& scene, Ray& ray, std::uint64_t& rays,
-                                                     const Passes& passes) {
+                                                            const Passes& passes) {
   for (;;) {
     ++rays;
     const auto hit = scene.intersect(ray);
@@ -30,8 +30,8 @@ template <class SceneType, class Passes>
 }
 
 template <class SceneType>
-[[gnu::noinline]] Float shadow_transmittance_with_masks(const SceneType& scene, Ray ray, const std::optional<SurfacePoint>& end,
-                                              std::uint64_t& rays) {
+[[gnu::noinline]] Float shadow_transmittance_with_masks(const SceneType& scene, Ray ray,
+                                                        const std::optional<SurfacePoint>& end, std::uint64_t& rays) {
   Float share = 1;
   while (share > 0) {
     ++rays;
@@ -64,7 +64,8 @@ std::optional<Hit> nearest_hit(const SceneType& scene, Ray& ray, std::uint64_t& 
 /// The share of light that arrives along a ray, which ends at `end` if that is given: the product of what masks let
 /// through; 0 where anything else is in the way.
 template <class SceneType>
-Float shadow_transmittance(const SceneType& scene, const Ray& ray, const std::optional<SurfacePoint>& end, std::uint64_t& rays) {
+Float shadow_transmittance(const SceneType& scene, const Ray& ray, const std::optional<SurfacePoint>& end,
+                           std::uint64_t& rays) {
   if (scene.has_masks()) [[unlikely]]
     return detail::shadow_transmittance_with_masks(scene, ray, end, rays);
   ++rays;

@@ -86,7 +86,8 @@ concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint 
 };
 
 /// The direction towards the point that the shape samples: its sample_direction, where it knows none better.
-template <class S> std::optional<DirectionSample> sample_direction_by_point(const S& shape, const Vec3& ref, const Vec2& u) {
+template <class S>
+std::optional<DirectionSample> sample_direction_by_point(const S& shape, const Vec3& ref, const Vec2& u) {
   const auto s = shape.sample(ref, u);
   if (!s) return {};
   return DirectionSample{s->wi, std::max(s->pdf, shape.pdf(ref, s->wi))}; // rounding may carry it past the shape

@@ -53,8 +53,9 @@ class Sphere {
 
  private:
   SurfacePoint point(const Vec3d& direction) const; ///< of the surface in the unit `direction` from the centre
-  bool contains(const Vec3d& offset) const; ///< whether the sphere's point at this offset from the centre is the shape's
-  bool samples_cone(double d2) const;         ///< seen from squared distance d2: a whole sphere from outside
+  bool
+  contains(const Vec3d& offset) const; ///< whether the sphere's point at this offset from the centre is the shape's
+  bool samples_cone(double d2) const;  ///< seen from squared distance d2: a whole sphere from outside
   Float cone_pdf(double d2) const;
 
   Vec3d center_;

@@ -78,7 +78,8 @@ class TriangleMesh {
   std::vector<Vec3> positions_, normals_; ///< per vertex; no normals: flat
   std::vector<mc::Vec2<float>> uvs_;
   std::vector<Face> faces_;
-  std::optional<mc::TableDist1D<double>> triangle_distribution_; ///< of a triangle by its area; none where all are 0, or forgotten
+  std::optional<mc::TableDist1D<double>>
+      triangle_distribution_; ///< of a triangle by its area; none where all are 0, or forgotten
   double area_ = 0;
   Bounds bounds_;
   Float largest_radius2_ = 0; ///< of the ball about a triangle's centre

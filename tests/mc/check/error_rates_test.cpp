@@ -1,7 +1,7 @@
 // Samplers that nobody here chose: small runs of bench/mc/check/error_rates_bench.cpp with fixed seeds.
 
-#include <mc/check/regression_subjects.h>
 #include <mc/check/random_faults.h>
+#include <mc/check/regression_subjects.h>
 
 #include <mc/check/check_subject.h>
 
@@ -14,7 +14,8 @@ using mc::Verdict;
 // Each is rejected by chance once in 10000 runs.
 TEST(CheckerErrorRates, RandomCorrectDistributions_Pass) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    const mc::Report r = check_subject(checker_bench::random_correct(seed), {.samples = 50'000, .seed = seed, .alpha = 1e-4});
+    const mc::Report r =
+        check_subject(checker_bench::random_correct(seed), {.samples = 50'000, .seed = seed, .alpha = 1e-4});
     EXPECT_TRUE(r.passed()) << seed << ": " << r.to_string();
   }
 }
@@ -23,7 +24,8 @@ TEST(CheckerErrorRates, RandomCorrectDistributions_Pass) {
 // is rejected by chance once in 1000 runs.
 TEST(CheckerErrorRates, MassInThinLayers_IsNotMissed) {
   for (const std::uint64_t seed : {284u, 3407u, 3768u}) {
-    const mc::Report r = check_subject(checker_bench::random_correct(seed), {.samples = 100'000, .seed = seed, .alpha = 1e-3});
+    const mc::Report r =
+        check_subject(checker_bench::random_correct(seed), {.samples = 100'000, .seed = seed, .alpha = 1e-3});
     EXPECT_TRUE(r.passed()) << seed << ": " << r.to_string();
   }
 }
@@ -32,7 +34,8 @@ TEST(CheckerErrorRates, MassInThinLayers_IsNotMissed) {
 // runs.
 TEST(CheckerErrorRates, NarrowFeatures_Pass) {
   for (const std::uint64_t seed : {33u, 128u, 178u, 200u, 255u}) {
-    const mc::Report r = check_subject(checker_bench::random_narrow(seed), {.samples = 50'000, .seed = seed, .alpha = 1e-4});
+    const mc::Report r =
+        check_subject(checker_bench::random_narrow(seed), {.samples = 50'000, .seed = seed, .alpha = 1e-4});
     EXPECT_TRUE(r.passed()) << seed << ": " << r.to_string();
   }
 }

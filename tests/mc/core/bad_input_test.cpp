@@ -188,7 +188,10 @@ TEST(BadInput, TablesAndSamplers) {
   rows.push_back({[] { TableDist1D<double>::from_function([](double x) { return x - 1; }, 2); },
                   {"weights[0] = -0.75", "not finite and >= 0"}});
   rows.push_back({[] { BoxTree(0); }, {"BoxTree:", "dimension 0", "at least 1"}});
-  rows.push_back({[] { BoxTree(2, std::vector<BoxTreeNode>{{BoxTreeNode::leaf, nan}}); }, {"BoxTree:", "node 0", "nan"}});
+  rows.push_back({[] {
+                    BoxTree(2, std::vector<BoxTreeNode>{{BoxTreeNode::leaf, nan}});
+                  },
+                  {"BoxTree:", "node 0", "nan"}});
   rows.push_back({[] { TableDistTree<float, 3>(BoxTree(2)); }, {"TableDistTree:", "2 dimensions", "3 are needed"}});
   rows.push_back({[] { Stratified(0, 1, 2); }, {"Stratified:", "count 0", "at least 1"}});
   rows.push_back({[] { Stratified(4, 1, 0); }, {"Stratified:", "group 0", "at least 1"}});

@@ -186,7 +186,8 @@ TEST(Integrate, InfinitePoints_ErrorIsUnknown) {
   for (const Method method : methods) {
     const mc::Integral r = mc::integrate_unit(
         [](Unit u) { return u[0] < 1e-4 ? std::numeric_limits<double>::infinity() : u[1]; }, 2, with(method, 200'000));
-    EXPECT_NEAR(static_cast<double>(r.infinite_points), 1e-4 * 200'000, 18) << name(method); // 4 sigma of the random ones
+    EXPECT_NEAR(static_cast<double>(r.infinite_points), 1e-4 * 200'000, 18)
+        << name(method); // 4 sigma of the random ones
     EXPECT_EQ(r.error_bar, mc::ErrorBar::infinite_variance);
     EXPECT_THAT(r.to_string(), testing::HasSubstr(fmt::format("as is the integrand at {} points", r.infinite_points)));
   }

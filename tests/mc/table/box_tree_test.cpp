@@ -14,7 +14,7 @@ using mc::BoxTreeNode;
 
 // A random tree: planes anywhere in their boxes, weights over many orders of magnitude, zeros among them.
 std::vector<BoxTreeNode> random_nodes(std::uint64_t seed, int dim, int depth, std::vector<double> lo,
-                                   std::vector<double> hi) {
+                                      std::vector<double> hi) {
   const auto random = [&](std::uint64_t k) { return mc::hash_uniform<double>(seed, k); };
   if (depth == 0 || random(1) < 0.1)
     return {{BoxTreeNode::leaf, random(2) < 0.2 ? 0 : std::pow(10.0, 20 * random(3) - 10)}};
@@ -29,8 +29,9 @@ std::vector<BoxTreeNode> random_nodes(std::uint64_t seed, int dim, int depth, st
   return nodes;
 }
 BoxTree random_tree(std::uint64_t seed, int dim, int depth) {
-  std::vector<BoxTreeNode> nodes = random_nodes(seed, dim, depth, std::vector<double>(static_cast<std::size_t>(dim), 0.0),
-                                             std::vector<double>(static_cast<std::size_t>(dim), 1.0));
+  std::vector<BoxTreeNode> nodes =
+      random_nodes(seed, dim, depth, std::vector<double>(static_cast<std::size_t>(dim), 0.0),
+                   std::vector<double>(static_cast<std::size_t>(dim), 1.0));
   nodes.back().value = 1; // not all of them are 0
   return BoxTree(dim, nodes);
 }

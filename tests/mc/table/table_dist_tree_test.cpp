@@ -59,6 +59,8 @@ TEST(TableDistTree, BreaksAreItsPlanes) {
   EXPECT_EQ((table.cast<float>().pdf({0.9f, 0.9f})), static_cast<float>(table.pdf({0.9, 0.9})));
 }
 
-TEST(TableDistTree, RejectsTreesOfOtherDimensions) { EXPECT_THROW((mc::TableDistTree<double, 3>(mc::BoxTree(2))), mc::Error); }
+TEST(TableDistTree, RejectsTreesOfOtherDimensions) {
+  EXPECT_THROW((mc::TableDistTree<double, 3>(mc::BoxTree(2))), mc::Error);
+}
 
 } // namespace

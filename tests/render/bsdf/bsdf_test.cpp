@@ -41,8 +41,8 @@ TEST(Bsdf, SampleAgreesWithEvalPdfAndEta) {
   mc::Pcg random(7);
   for (const Float alpha : {Float(1e-4), Float(0.01), Float(1)})
     for (const Bsdf& bsdf :
-         {Bsdf(RoughConductor(half, one, TrowbridgeReitzFacets(alpha))), Bsdf(RoughConductor(half, one, BlinnPhongFacets(alpha))),
-          Bsdf(RoughPlastic(Float(1.5), alpha, half, one)),
+         {Bsdf(RoughConductor(half, one, TrowbridgeReitzFacets(alpha))),
+          Bsdf(RoughConductor(half, one, BlinnPhongFacets(alpha))), Bsdf(RoughPlastic(Float(1.5), alpha, half, one)),
           Bsdf(RoughPlastic<LajollaBase>(Float(1.5), alpha, half, one)), Bsdf(RoughDielectric(Float(1.5), alpha))})
       for (const double angle : {0.0, 60.0, 89.0, 89.9, 89.99, 91.0, 120.0}) {
         const Vec3 wo = support::at_degrees(angle);
@@ -63,9 +63,9 @@ TEST(Bsdf, AlbedoApproximatesMeanSampleWeight) {
   const Spectrum half = Spectrum::Constant(Float(0.5)), one = Spectrum::Ones();
   for (const Float alpha : {Float(0.01), Float(0.1), Float(0.3)})
     for (const Bsdf& bsdf :
-         {Bsdf(Lambert(half)), Bsdf(FuzzyMetal(half)), Bsdf(FuzzyMetal(half, alpha)), Bsdf(Dielectric(Float(1.5), half, half)),
-          Bsdf(SmoothConductor(half, 4 * one)), Bsdf(SmoothPlastic(Float(1.5), half, one)),
-          Bsdf(RoughConductor(half, 4 * one, TrowbridgeReitzFacets(alpha))),
+         {Bsdf(Lambert(half)), Bsdf(FuzzyMetal(half)), Bsdf(FuzzyMetal(half, alpha)),
+          Bsdf(Dielectric(Float(1.5), half, half)), Bsdf(SmoothConductor(half, 4 * one)),
+          Bsdf(SmoothPlastic(Float(1.5), half, one)), Bsdf(RoughConductor(half, 4 * one, TrowbridgeReitzFacets(alpha))),
           Bsdf(RoughConductor(half, 4 * one, BlinnPhongFacets(alpha))),
           Bsdf(RoughPlastic(Float(1.5), alpha, half, one)),
           Bsdf(RoughPlastic<LajollaBase>(Float(1.5), alpha, half, one)), Bsdf(RoughDielectric(Float(1.5), alpha))})

@@ -85,7 +85,8 @@ TEST(RoughConductor, LosesMultipleScattering) {
                          Row{0.6, {0.5931, 0.6247, 0.6939}, {0.7350, 0.8498, 0.9410}},
                          Row{1.0, {0.3230, 0.4091, 0.5114}, {0.4118, 0.6531, 0.8620}}})
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_NEAR(support::albedo(mirror<TrowbridgeReitzFacets>(row.alpha), cosines[i]), row.ggx[i], 0.001) << row.alpha;
+      EXPECT_NEAR(support::albedo(mirror<TrowbridgeReitzFacets>(row.alpha), cosines[i]), row.ggx[i], 0.001)
+          << row.alpha;
       EXPECT_NEAR(support::albedo(mirror<BlinnPhongFacets>(row.alpha), cosines[i]), row.blinn[i], 0.001) << row.alpha;
     }
 }

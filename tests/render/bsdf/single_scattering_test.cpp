@@ -20,7 +20,8 @@ using namespace render;
 double kept(const std::string& material, Float eta, Float alpha, double cosine) {
   const Spectrum one = Spectrum::Ones(), none = Spectrum::Zero();
   const int points = 4096;
-  if (material == "metal ggx") return support::albedo(RoughConductor(none, one, TrowbridgeReitzFacets(alpha)), cosine, points);
+  if (material == "metal ggx")
+    return support::albedo(RoughConductor(none, one, TrowbridgeReitzFacets(alpha)), cosine, points);
   if (material == "metal phong")
     return support::albedo(RoughConductor(none, one, BlinnPhongFacets(alpha)), cosine, points);
   if (material == "white paint") return support::albedo(RoughPlastic(eta, alpha, one, one), cosine, points);

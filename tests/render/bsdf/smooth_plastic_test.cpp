@@ -60,7 +60,8 @@ TEST(SmoothPlastic, IsThatOfTheFormulas) {
 
 TEST(SmoothPlastic, BlackLobesAreNotSampled) {
   const Vec3 wo = support::at_degrees(50);
-  const SmoothPlastic untextured(Float(1.5), Spectrum::Zero(), all_light), matt(Float(1.5), all_light, Spectrum::Zero());
+  const SmoothPlastic untextured(Float(1.5), Spectrum::Zero(), all_light),
+      matt(Float(1.5), all_light, Spectrum::Zero());
   for (const Float uc : {Float(0), Float(0.5), mc::one_minus_epsilon<Float>}) {
     EXPECT_TRUE(untextured.sample(wo, uc, Vec2(Float(0.3), Float(0.3)))->delta) << uc;
     EXPECT_FALSE(matt.sample(wo, uc, Vec2(Float(0.3), Float(0.3)))->delta) << uc;

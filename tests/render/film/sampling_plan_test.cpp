@@ -139,8 +139,10 @@ TEST(SamplingPlan, LightPathScaleFollowsVariance) {
     EXPECT_NEAR(film.light_rays(), 64 * double(rays), 1e-9);
     const SamplingPlan p = adaptive_plan(film, 0.25);
     // The largest that a path gave is half of what a set has, and its square is in the variance of pixels.
-    const double light_variance = film.estimate(3, 3).light_variance[0], of_samples = film.estimate(3, 3).variance[0] - light_variance;
-    EXPECT_NEAR(p.light_path_scale, std::clamp(std::sqrt(light_variance * 5 / (of_samples * double(rays))), 1.0, 4.0), 1e-9);
+    const double light_variance = film.estimate(3, 3).light_variance[0],
+                 of_samples = film.estimate(3, 3).variance[0] - light_variance;
+    EXPECT_NEAR(p.light_path_scale, std::clamp(std::sqrt(light_variance * 5 / (of_samples * double(rays))), 1.0, 4.0),
+                1e-9);
     return p.light_path_scale;
   };
   EXPECT_GT(plan(0.3, 40), 1.1);

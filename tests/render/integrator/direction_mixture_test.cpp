@@ -168,8 +168,8 @@ TEST(DirectionMixture, TinyAreaLights_AreHitBySampledRays) {
       const Vec2 u = stream.next2();
       point.p = Vec3(u[0] - Float(0.5), 0, u[1] - Float(0.5));
       point.error = std::numeric_limits<Float>::epsilon() * point.p.lpNorm<Eigen::Infinity>();
-      const auto one =
-          directions.sample(ShadingPoint<Lambert>{white, point, mc::Frame<Float>::from_z(point.ns), Vec3::UnitZ()}, stream);
+      const auto one = directions.sample(
+          ShadingPoint<Lambert>{white, point, mc::Frame<Float>::from_z(point.ns), Vec3::UnitZ()}, stream);
       missed += !one || !scene.intersect(point.spawn_ray(one->d));
     }
     return missed;

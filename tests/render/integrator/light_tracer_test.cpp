@@ -182,7 +182,8 @@ TEST(LightTracer, EnvironmentEmissionPdf_IntegratesToRate) {
     const Vec3 d = mc::UniformSphere<Float>{}.sample(random.point<Float, 2>());
     const Vec2 disk = mc::UniformDisk<Float>{}.sample(random.point<Float, 2>());
     const Vec3 p = Vec3(-1.5, Float(1.2), 1.5) + mc::Frame<Float>::from_z(d).to_world({disk[0], disk[1], 7});
-    moments.add(std::sqrt(paths->emission_pdf_squared(scene.infinite_lights()[0], nullptr, p, d)) * 4 * mc::sqr(mc::pi<double>));
+    moments.add(std::sqrt(paths->emission_pdf_squared(scene.infinite_lights()[0], nullptr, p, d)) * 4 *
+                mc::sqr(mc::pi<double>));
   }
   EXPECT_NEAR(moments.mean(), paths->light_path_rate(), 4 * moments.std_error());
   EXPECT_LE(moments.std_error(), 0.01 * paths->light_path_rate());

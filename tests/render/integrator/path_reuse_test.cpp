@@ -82,7 +82,8 @@ struct Corner {
     const BsdfId lamp = builder.add(Lambert(Spectrum::Constant(lamp_albedo)));
     add({0, 1.5, 0}, Vec3d::UnitX(), 90, 0.5, {lamp, Emission{Spectrum::Constant(5)}});
   }
-  void add(const Vec3d& at, const Vec3d& axis, double degrees, double half, const SceneBuilder::SurfaceProperties& cover) {
+  void add(const Vec3d& at, const Vec3d& axis, double degrees, double half,
+           const SceneBuilder::SurfaceProperties& cover) {
     builder.add(TriangleMesh::rectangle(Transform::translate(at) * Transform::rotate(axis, degrees) *
                                         Transform::scale({half, half, 1})),
                 cover);
@@ -169,7 +170,8 @@ TEST(PathReuse, ShadingNormalsLeakNothing) {
 // Two pixels see the room in a mirror: their paths have one edge more, which a longest path counts.
 TEST(PathReuse, DifferentPathLengths_AreNotShared) {
   Corner corner;
-  corner.add({1.3, -0.6, 1.5}, Vec3d::UnitY(), -60, 0.6, {corner.builder.add(FuzzyMetal(Spectrum::Constant(Float(0.9))))});
+  corner.add({1.3, -0.6, 1.5}, Vec3d::UnitY(), -60, 0.6,
+             {corner.builder.add(FuzzyMetal(Spectrum::Constant(Float(0.9))))});
   const Directions4 half_mirrored = {close[0], Vec3(Float(1.0), Float(-0.6), Float(-1.5)), close[1],
                                      Vec3(Float(1.05), Float(-0.6), Float(-1.5))};
   const Scene scene = corner.builder.build();

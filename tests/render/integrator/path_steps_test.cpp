@@ -47,7 +47,8 @@ TEST(PathSteps, SkipDeltaBouncesThroughMirrors) {
   StepStream stream(step_numbers, 0);
   std::uint64_t rays = 0;
   Sum sum;
-  ASSERT_TRUE(steps.skip_delta_bounces(state, vertex, stream, rays, [&](const RadianceContribution& contribution) { sum(contribution); }));
+  ASSERT_TRUE(steps.skip_delta_bounces(state, vertex, stream, rays,
+                                       [&](const RadianceContribution& contribution) { sum(contribution); }));
   EXPECT_EQ(state.edges, 2);
   EXPECT_EQ(rays, 2u);
   EXPECT_NEAR(vertex.point.p.z(), 2, 1e-6);

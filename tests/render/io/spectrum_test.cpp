@@ -53,9 +53,11 @@ TEST(Spectrum, BeyondItsSamples) {
   };
   EXPECT_LE((rgb(part, Extrapolation::ramp) - rgb(ramp, Extrapolation::constant)).abs().maxCoeff(), 1e-6);
   EXPECT_LE((rgb(part, Extrapolation::zero) - rgb(box, Extrapolation::constant)).abs().maxCoeff(), 1e-6);
-  EXPECT_LE((rgb(part, Extrapolation::constant) - rgb({{400, 1}, {700, 1}}, Extrapolation::zero)).abs().maxCoeff(), 1e-6);
+  EXPECT_LE((rgb(part, Extrapolation::constant) - rgb({{400, 1}, {700, 1}}, Extrapolation::zero)).abs().maxCoeff(),
+            1e-6);
   for (const Extrapolation beyond : {Extrapolation::constant, Extrapolation::ramp, Extrapolation::zero})
-    EXPECT_LE((rgb({{500, 1}}, beyond) - rgb(part, Extrapolation::constant)).abs().maxCoeff(), 1e-6) << "one sample is constant";
+    EXPECT_LE((rgb({{500, 1}}, beyond) - rgb(part, Extrapolation::constant)).abs().maxCoeff(), 1e-6)
+        << "one sample is constant";
 }
 
 } // namespace

@@ -35,7 +35,8 @@ TEST(SceneBuilder, ErrorsNameTheProblem) {
   EXPECT_THAT(message([&] { builder.add(flat, {gray, Emission{}}); }), testing::HasSubstr("needs an area > 0"));
   const BsdfId board = builder.add(TexturedLambert(Checkerboard(Spectrum::Zero(), Spectrum::Ones())));
   const Shape untextured = TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
-  EXPECT_THAT(message([&] { builder.add(untextured, {board}); }), testing::HasSubstr("shape 1 has no texture coordinates"));
+  EXPECT_THAT(message([&] { builder.add(untextured, {board}); }),
+              testing::HasSubstr("shape 1 has no texture coordinates"));
   EXPECT_THAT(message([&] { builder.add(untextured, {.bsdf = board, .missing_uv_reason = "a.obj: why"}); }),
               testing::EndsWith("which its texture needs: a.obj: why"));
   Material holes(Dielectric(Float(1.5)));

@@ -48,8 +48,9 @@ TEST_F(Converge, Expression_NeedsNoTruth) {
 }
 
 TEST_F(Converge, Scene_IsComparedWithAReference) {
-  const ProcessResult r = run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --strategies mis --max-spp 16 --report '" +
-                    path("page") + "'");
+  const ProcessResult r =
+      run(MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --strategies mis --max-spp 16 --report '" +
+          path("page") + "'");
   EXPECT_EQ(r.exit_code, 0) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("  mis stratified  RMS error "), HasSubstr("  mis sobol       RMS error "),
                               HasSubstr("from a reference of ")));
@@ -242,8 +243,8 @@ TEST_F(Converge, ListExplainsAuto) {
 
 // The first of three curves, which the interrupt cuts, is written with the N that it has.
 TEST_F(Converge, CtrlC_KeepsTheInterruptedCurve) {
-  const ProcessResult r = support::interrupt_carlo("converge pi --max-n 2e8 --threads 1 -o '" + path("out") + "' --report '" +
-                                         path("page") + "'");
+  const ProcessResult r = support::interrupt_carlo("converge pi --max-n 2e8 --threads 1 -o '" + path("out") +
+                                                   "' --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 130) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("; interrupted\r\n"),
                               HasSubstr("interrupted: 0 of 3 curves were finished, one more up to N = ")));

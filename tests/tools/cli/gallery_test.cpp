@@ -116,7 +116,8 @@ TEST_F(GalleryCommand, CtrlC_KeepsFinishedPictures) {
 TEST_F(GalleryCommand, RenderAcceptsASceneName) {
   const std::string name = "book3-cornell-glass-guided";
   ASSERT_EQ(run_carlo("gallery " + name + " --scale 0.04 --spp 8 --seed 3 -o " + path("out")).exit_code, 0);
-  const support::ProcessResult run = run_carlo("render " + name + " --size 24x24 --spp 8 --seed 3 -o " + path("one.exr"));
+  const support::ProcessResult run =
+      run_carlo("render " + name + " --size 24x24 --spp 8 --seed 3 -o " + path("one.exr"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
   const render::Image a = render::read_image(path("one.exr")), b = render::read_image(path("out/" + name + ".exr"));
   ASSERT_EQ(a.pixels.size(), b.pixels.size());

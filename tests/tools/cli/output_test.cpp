@@ -138,7 +138,8 @@ TEST_F(OutputTest, CtrlC_WritesFinishedResults) {
   EXPECT_THAT(mc::read_file(path("v.json")),
               AllOf(HasSubstr("\"interrupted\": true"), HasSubstr("\"passed\": false"), HasSubstr("\"name\": ")));
   // Within a case, of which more samples are asked for than any day has time for.
-  const ProcessResult one = support::interrupt_carlo("validate CosineHemisphere --threads 1 --samples 1e12", "in a cell");
+  const ProcessResult one =
+      support::interrupt_carlo("validate CosineHemisphere --threads 1 --samples 1e12", "in a cell");
   EXPECT_EQ(one.exit_code, 130) << one.output;
   EXPECT_THAT(one.output, HasSubstr("interrupted: 0 of 2 cases were finished"));
   const ProcessResult slips = support::interrupt_carlo("known-bugs --threads 1 --json '" + path("s.json") + "'");

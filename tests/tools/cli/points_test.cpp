@@ -152,7 +152,7 @@ TEST_F(Points, EqualPoints_HaveDistanceZero) {
 
 TEST_F(Points, Underflow_IsPrintedAsZero) {
   const ProcessResult run = run_carlo("points --points-file '" + write("small.csv", "1e-400,0.5\n0.75,0.125\n0,0.5\n") +
-                            "' -o '" + path("out") + "'");
+                                      "' -o '" + path("out") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.output;
   EXPECT_EQ(last_of(path("out/quality.csv"), "distance_periodic"), "0") << "the first is the third";
 }

@@ -73,7 +73,8 @@ TEST_F(Readme, ShownOutputMatchesTheCommands) {
   EXPECT_GE(all.size(), 8u);
   std::filesystem::create_directory_symlink(MC_SOURCE_DIR "/librender", folder / "librender");
   for (const Shown& shown : all) {
-    const support::ProcessResult run = support::run("cd '" + folder.string() + "' && '" CARLO_PATH "' " + shown.command);
+    const support::ProcessResult run =
+        support::run("cd '" + folder.string() + "' && '" CARLO_PATH "' " + shown.command);
     EXPECT_EQ(run.exit_code, 0) << shown.command;
     EXPECT_TRUE(matches(shown.output, lines(run.output))) << "$ carlo " << shown.command << "\n" << run.output;
   }

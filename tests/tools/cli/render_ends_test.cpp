@@ -26,7 +26,8 @@ struct RenderEnds : support::ScratchTest {
 TEST_F(RenderEnds, ReachesTheTargetError) {
   const std::string target = " --target-error 0.1 --size 32x32 -o ";
   for (const std::string more : {"", " --adaptive off", " --error-of worst"}) {
-    const support::ProcessResult run = run_carlo(fmt::format("render {}cbox.xml{}{}{}", scenes, more, target, path("a.exr")));
+    const support::ProcessResult run =
+        run_carlo(fmt::format("render {}cbox.xml{}{}{}", scenes, more, target, path("a.exr")));
     ASSERT_EQ(run.exit_code, 0) << run.output;
     std::smatch errors;
     ASSERT_TRUE(std::regex_search(run.output, errors, std::regex("error ([0-9.]+) % .worst block ([0-9.]+) %")))

@@ -84,7 +84,8 @@ TEST_F(RenderCommand, BadInput_IsReportedInOneLine) {
 // A folder stands where the file should go: true of root as well, whom permissions do not stop.
 TEST_F(RenderCommand, UnwritableOutput_IsReportedInOneLine) {
   std::filesystem::create_directory(path("taken.pfm"));
-  const support::ProcessResult run = run_carlo("render " + scenes + "cbox.xml --spp 1 --size 4x4 -o " + path("taken.pfm"));
+  const support::ProcessResult run =
+      run_carlo("render " + scenes + "cbox.xml --spp 1 --size 4x4 -o " + path("taken.pfm"));
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.output, HasSubstr("taken.pfm"));
   EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
@@ -244,9 +245,9 @@ TEST_F(RenderCommand, Resume_RejectsChangedFiles) {
 
 TEST_F(RenderCommand, ComparesStrategies) {
   const support::ProcessResult run = run_carlo("render " + scenes +
-                                     "sphere-light.xml --size 4x3 --spp 4 "
-                                     "--compare-strategies -o " +
-                                     path("s.png"));
+                                               "sphere-light.xml --size 4x3 --spp 4 "
+                                               "--compare-strategies -o " +
+                                               path("s.png"));
   ASSERT_EQ(run.exit_code, 0) << run.output;
   EXPECT_THAT(run.output, HasSubstr("same samples"));
   EXPECT_THAT(run.output, HasSubstr("1, 4, 16, 64, 256, 1024 samples per pixel"));
@@ -316,8 +317,9 @@ TEST_F(RenderCommand, StrategyThatMissesLight_IsWarnedAbout) {
 
 TEST_F(RenderCommand, ResultsDoNotDependOnThreadsAndHaveMetadata) {
   for (const char* threads : {"1", "2"}) {
-    const support::ProcessResult run = run_carlo("render " + scenes + "cbox.xml --spp 4 --size 24x16 --seed 5 --threads " +
-                                       threads + " -o " + path(threads) + ".exr");
+    const support::ProcessResult run =
+        run_carlo("render " + scenes + "cbox.xml --spp 4 --size 24x16 --seed 5 --threads " + threads + " -o " +
+                  path(threads) + ".exr");
     ASSERT_EQ(run.exit_code, 0) << run.output;
     EXPECT_THAT(run.output, AllOf(HasSubstr("samples/s"), HasSubstr("rays/s"),
                                   HasSubstr("mean relative standard error"), HasSubstr(" 0 invalid samples")));

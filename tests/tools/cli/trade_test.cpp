@@ -99,7 +99,8 @@ TEST_F(TradeCommand, ComparesBatchesWithSingleCalls) {
 
 TEST_F(TradeCommand, Scene_ListsMethodsAndBiases) {
   const std::string cbox = MC_SOURCE_DIR "/librender/scenes/cbox.xml --size 8x8 --samplers sobol --strategies ";
-  const ProcessResult r = run(cbox + "light,mis --max-spp 32 --cost rays --error 0.5,1e-6 --report '" + path("page") + "'");
+  const ProcessResult r =
+      run(cbox + "light,mis --max-spp 32 --cost rays --error 0.5,1e-6 --report '" + path("page") + "'");
   EXPECT_EQ(r.exit_code, 1) << r.output;
   EXPECT_THAT(r.output, AllOf(HasSubstr("cbox: 11 ways, millions of rays"), HasSubstr("  light sobol: bias "),
                               HasSubstr("  error 0.5: "), HasSubstr(" times faster than plain Monte Carlo\n"),
@@ -145,8 +146,9 @@ TEST_F(TradeCommand, Scene_ExcludesStrategiesThatMissLights) {
 
 TEST_F(TradeCommand, Scene_OfAovs) {
   // Without any light: in the dark if it were not ambient occlusion.
-  const ProcessResult r = run(MC_SOURCE_DIR "/librender/scenes/ambient-occlusion.xml --size 4x3 --samplers sobol --max-spp 32 "
-                                  "--strategies mis --cost rays --error 0.5");
+  const ProcessResult r =
+      run(MC_SOURCE_DIR "/librender/scenes/ambient-occlusion.xml --size 4x3 --samplers sobol --max-spp 32 "
+                        "--strategies mis --cost rays --error 0.5");
   EXPECT_EQ(r.exit_code, 0) << r.output;
 }
 

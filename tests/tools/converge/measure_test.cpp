@@ -77,11 +77,13 @@ TEST(Measure, NamedIntegralsConvergeAtTheirTheoreticalRates) {
   const auto list = methods({"random", "stratified", "sobol"});
   int known = 0;
   for (const UnitCubeIntegral& e : carlo::textbook_integrals())
-    for (const carlo::ConvergenceCurve& c : measure_convergence(in_process_target(e), list, {.max_n = 1 << 14, .seed = 5}).curves) {
+    for (const carlo::ConvergenceCurve& c :
+         measure_convergence(in_process_target(e), list, {.max_n = 1 << 14, .seed = 5}).curves) {
       if (!c.power_law || !c.theory) continue;
       ++known;
       const double half = c.power_law->slope - c.power_law->lo;
-      EXPECT_TRUE(c.theory->is_consistent_with(c.power_law->slope - 2 * half, c.power_law->slope + 2 * half, c.fit_center))
+      EXPECT_TRUE(
+          c.theory->is_consistent_with(c.power_law->slope - 2 * half, c.power_law->slope + 2 * half, c.fit_center))
           << e.name << ' ' << c.method->name << ": " << c.power_law->slope << " +- " << half;
     }
   EXPECT_EQ(known, 27);
@@ -99,7 +101,8 @@ TEST(Measure, NIsNotRounded) {
 // The reference is ten times surer than the smallest error.
 TEST(Measure, ReferenceIsMoreAccurateThanTheCurves) {
   const auto list = methods({"random", "sobol"});
-  const Measurement m = measure_convergence(in_process_target(ramp(std::numeric_limits<double>::quiet_NaN())), list, {.max_n = 256, .seed = 4});
+  const Measurement m = measure_convergence(in_process_target(ramp(std::numeric_limits<double>::quiet_NaN())), list,
+                                            {.max_n = 256, .seed = 4});
   EXPECT_LE(m.truth_error, 0.12 * m.curves[1].errors.back().rms);
   EXPECT_LT(m.curves[1].errors.back().lo, m.curves[1].errors.back().rms);
 }
@@ -108,7 +111,9 @@ TEST(Measure, OnlyWrongTruthsAreWarnedAbout) {
   const auto list = methods({"random", "stratified", "sobol"});
   EXPECT_FALSE(measure_convergence(in_process_target(ramp(0.5001)), list, {.max_n = 1024}).truth_warning.empty());
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
-    EXPECT_EQ(measure_convergence(in_process_target(ramp(0.5)), list, {.max_n = 256, .replicates = 16, .seed = seed}).truth_warning, "");
+    EXPECT_EQ(measure_convergence(in_process_target(ramp(0.5)), list, {.max_n = 256, .replicates = 16, .seed = seed})
+                  .truth_warning,
+              "");
 }
 
 TEST(Measure, ConstantsAreExact) {
@@ -168,8 +173,8 @@ TEST(Measure, Interrupt_LosesOnlyTheCurrentN) {
     std::atomic<bool> cancel = false;
     int steps = 0;
     const auto progress = [&](double, const std::string&) { cancel = ++steps == 12; };
-    const Measurement m =
-        measure_convergence(in_process_target(ramp(truth)), list, {.max_n = 1024, .seed = 6, .cancel = &cancel, .progress = progress});
+    const Measurement m = measure_convergence(in_process_target(ramp(truth)), list,
+                                              {.max_n = 1024, .seed = 6, .cancel = &cancel, .progress = progress});
     EXPECT_TRUE(m.interrupted);
     ASSERT_EQ(m.curves.size(), 2u);
     EXPECT_FALSE(m.curves[0].interrupted);
@@ -203,7 +208,7 @@ TEST(Measure, InterruptBeforeReference_HasNoCurves) {
   const auto progress = [&](double, const std::string&) { cancel = true; };
   const auto list = methods({"vegas", "random"});
   const Measurement m = measure_convergence(in_process_target(ramp(std::numeric_limits<double>::quiet_NaN())), list,
-                                {.max_n = 1 << 14, .cancel = &cancel, .progress = progress});
+                                            {.max_n = 1 << 14, .cancel = &cancel, .progress = progress});
   EXPECT_TRUE(m.interrupted);
   EXPECT_TRUE(m.curves.empty());
 }
@@ -216,7 +221,8 @@ TEST(Measure, InfiniteVariance_IsReported) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       UnitCubeIntegral e = ramp(std::numeric_limits<double>::quiet_NaN());
       e.f = [power](UnitCubeIntegral::UnitPoint u) { return std::pow(u[0], power); };
-      count += measure_convergence(in_process_target(e), list, {.max_n = 4096, .replicates = 8, .seed = seed}).heavy_tail.has_value();
+      count += measure_convergence(in_process_target(e), list, {.max_n = 4096, .replicates = 8, .seed = seed})
+                   .heavy_tail.has_value();
     }
     return count;
   };
@@ -250,7 +256,8 @@ TEST(Measure, ReplicatesThatAgreeByChance_AreNotTheReference) {
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
       UnitCubeIntegral e = ramp(std::numeric_limits<double>::quiet_NaN());
       e.f = [at](UnitCubeIntegral::UnitPoint u) { return u[0] < at ? 1.0 : 0.0; };
-      const Measurement m = measure_convergence(in_process_target(e), list, {.max_n = 16384, .error_goal = 1e-4, .seed = seed});
+      const Measurement m =
+          measure_convergence(in_process_target(e), list, {.max_n = 16384, .error_goal = 1e-4, .seed = seed});
       EXPECT_NEAR(m.truth, at, 1e-5) << at << " " << seed;
       off += std::abs(m.truth - at) > 3 * m.truth_error;
     }
@@ -311,7 +318,10 @@ TEST(Measure, FewReplicates_GiveNoWarning) {
   UnitCubeIntegral e = ramp(std::numeric_limits<double>::quiet_NaN());
   e.f = [](UnitCubeIntegral::UnitPoint u) { return std::exp(2 * u[0]); };
   for (std::uint64_t seed = 1; seed <= 100; ++seed)
-    EXPECT_EQ(measure_convergence(in_process_target(e), list, {.max_n = 1024, .replicates = 8, .seed = seed}).truth_warning, "") << seed;
+    EXPECT_EQ(
+        measure_convergence(in_process_target(e), list, {.max_n = 1024, .replicates = 8, .seed = seed}).truth_warning,
+        "")
+        << seed;
 }
 
 } // namespace

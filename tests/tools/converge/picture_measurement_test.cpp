@@ -15,7 +15,8 @@ namespace {
 
 using namespace carlo;
 
-RenderMethod method(const char* strategy, render::PixelSampler sampler, int depth = -1, SampleAllocation allocation = SampleAllocation::uniform) {
+RenderMethod method(const char* strategy, render::PixelSampler sampler, int depth = -1,
+                    SampleAllocation allocation = SampleAllocation::uniform) {
   return {render::strategy_from(strategy), sampler, depth, allocation};
 }
 
@@ -87,10 +88,11 @@ TEST(PictureMeasurement, SeparatesBiasFromNoise) {
 // What all pictures miss alike shows no noise, and was taken for a bias at seven of twenty seeds, of which these are.
 TEST_F(Caustics, RarelySampledLightIsNotBias) {
   const render::SceneFile file = ball();
-  const std::vector<RenderMethod> methods = {method("mixture", independent), method("nee", independent), method("mis", independent),
-                                        method("mis+lt", independent)};
+  const std::vector<RenderMethod> methods = {method("mixture", independent), method("nee", independent),
+                                             method("mis", independent), method("mis+lt", independent)};
   for (const std::uint64_t seed : {1u, 3u, 10u}) {
-    const PictureMeasurement p = measure_pictures(file, methods, {.width = 8, .height = 8, .max_spp = 16, .seed = seed});
+    const PictureMeasurement p =
+        measure_pictures(file, methods, {.width = 8, .height = 8, .max_spp = 16, .seed = seed});
     for (const Bias& b : p.biases) EXPECT_EQ(b.bias.lo, 0) << seed;
   }
 }
@@ -98,7 +100,8 @@ TEST_F(Caustics, RarelySampledLightIsNotBias) {
 // What was measured with fewer samples stands, and is what a run without an interrupt finds there.
 TEST(PictureMeasurement, Interrupt_LosesOnlyTheCurrentLevel) {
   const render::SceneFile file = scene("cbox");
-  const std::vector<RenderMethod> methods = {method("mis", sobol), method("nee", sobol, -1, SampleAllocation::adaptive)};
+  const std::vector<RenderMethod> methods = {method("mis", sobol),
+                                             method("nee", sobol, -1, SampleAllocation::adaptive)};
   PictureOptions o{.width = 8, .height = 8, .max_spp = 16, .cost_rays = true};
   const PictureMeasurement whole = measure_pictures(file, methods, o);
   std::atomic<bool> stop = false;
@@ -124,7 +127,8 @@ TEST_F(Lamp, ErrorBelowReferenceNoise_IsAnUpperBound) {
     <emitter type="constant"><rgb name="radiance" value="1,1,1"/></emitter>
     <shape type="sphere"><bsdf type="diffuse"><rgb name="reflectance" value="1,1,1"/></bsdf></shape></scene>)"));
   const std::vector<RenderMethod> methods = {method("bsdf", independent), method("hemisphere", independent)};
-  const PictureMeasurement p = measure_pictures(file, methods, {.width = 6, .height = 4, .max_spp = 16, .cost_rays = true});
+  const PictureMeasurement p =
+      measure_pictures(file, methods, {.width = 6, .height = 4, .max_spp = 16, .cost_rays = true});
   EXPECT_FALSE(p.measurement.curves[0].has_measurable_error() || p.measurement.curves[0].power_law);
   for (const mc::RmsError& e : p.measurement.curves[0].errors) {
     EXPECT_TRUE(e.is_bound);
@@ -138,8 +142,8 @@ TEST_F(Lamp, ErrorBelowReferenceNoise_IsAnUpperBound) {
 
 // A million times as much light is the same noise: errors, slopes and biases do not depend on its unit.
 TEST_F(Lamp, ResultsAreInvariantToRadianceScale) {
-  const std::vector<RenderMethod> methods = {method("mis", independent), method("mis", sobol, -1, SampleAllocation::adaptive),
-                                        method("mis", sobol, 1)};
+  const std::vector<RenderMethod> methods = {
+      method("mis", independent), method("mis", sobol, -1, SampleAllocation::adaptive), method("mis", sobol, 1)};
   const auto measured = [&](const char* radiance) {
     return measure_pictures(of(radiance), methods, {.width = 8, .height = 6, .max_spp = 32, .cost_rays = true});
   };
@@ -163,7 +167,8 @@ TEST_F(Lamp, ResultsAreInvariantToRadianceScale) {
 TEST(PictureMeasurement, NoiselessMethod_BreaksEvenAtItsBias) {
   const render::SceneFile file = scene("hard-shadows");
   const std::vector<RenderMethod> methods = {method("mis", sobol), method("mis", sobol, 1)};
-  const PictureMeasurement p = measure_pictures(file, methods, {.width = 4, .height = 3, .max_spp = 16, .cost_rays = true});
+  const PictureMeasurement p =
+      measure_pictures(file, methods, {.width = 4, .height = 3, .max_spp = 16, .cost_rays = true});
   const Bias& dark = p.biases[1];
   ASSERT_EQ(dark.noise, 0);
   ASSERT_TRUE(dark.break_even_error);
@@ -174,7 +179,8 @@ TEST(PictureMeasurement, NoiselessMethod_BreaksEvenAtItsBias) {
 TEST(PictureMeasurement, TimeLimit_IsNotAnInterrupt) {
   const render::SceneFile file = scene("cbox");
   const std::vector<RenderMethod> methods = {method("mis", sobol)};
-  const PictureMeasurement p = measure_pictures(file, methods, {.width = 8, .height = 8, .max_spp = 1 << 20, .seconds = 1e-3});
+  const PictureMeasurement p =
+      measure_pictures(file, methods, {.width = 8, .height = 8, .max_spp = 1 << 20, .seconds = 1e-3});
   EXPECT_FALSE(p.measurement.interrupted);
   ASSERT_EQ(p.measurement.curves.size(), 1u);
   EXPECT_EQ(p.measurement.curves[0].errors.size(), 1u);
@@ -193,7 +199,8 @@ TEST(PictureMeasurement, ChoiceIsReproducible) {
       return IntervalEstimate{one, one, one};
     });
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < count_ties(f.candidates, &TradeCandidate::seconds); ++i) names.push_back(curve_label(*f.candidates[i].curve));
+    for (std::size_t i = 0; i < count_ties(f.candidates, &TradeCandidate::seconds); ++i)
+      names.push_back(curve_label(*f.candidates[i].curve));
     return names;
   };
   const PictureMeasurement one = measure_pictures(file, methods, o);

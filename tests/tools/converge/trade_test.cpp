@@ -96,7 +96,9 @@ TEST(Trade, TiesRankFirst) {
       e.hi = 1.1 * e.rms;
     }
   for (mc::RmsError& e : m.curves[1].errors) e.lo = 0.99 * e.rms;
-  const carlo::CandidatesForError f = candidates_for_error(m, 1e-3, [](const ConvergenceCurve&, double) { return IntervalEstimate{1e-8, 1e-8, 1e-8}; });
+  const carlo::CandidatesForError f = candidates_for_error(m, 1e-3, [](const ConvergenceCurve&, double) {
+    return IntervalEstimate{1e-8, 1e-8, 1e-8};
+  });
   ASSERT_EQ(f.candidates.size(), 3u);
   EXPECT_EQ(curve_label(*f.candidates[0].curve), "sobol");
   EXPECT_EQ(curve_label(*f.candidates[1].curve), "halton");

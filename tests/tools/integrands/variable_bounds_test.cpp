@@ -42,7 +42,8 @@ std::string message(const std::string& box) {
 }
 
 TEST(VariableBounds, AcceptConstantExpressions) {
-  const std::vector<carlo::VariableBounds> bounds = carlo::parse_bounds("phi=-_pi: 2*_pi ,y=1/4:sqrt(2),z=-inf:(1+2)^2");
+  const std::vector<carlo::VariableBounds> bounds =
+      carlo::parse_bounds("phi=-_pi: 2*_pi ,y=1/4:sqrt(2),z=-inf:(1+2)^2");
   ASSERT_EQ(bounds.size(), 3u);
   EXPECT_EQ(bounds[0].lo, -M_PI);
   EXPECT_EQ(bounds[0].hi, 2 * M_PI);

@@ -18,7 +18,8 @@ struct Isolated : support::ScratchTest {
   ValidateCommandOptions after(const std::string& lines) const {
     ValidateCommandOptions o;
     o.sampler_command =
-        "python3 '" + write("program.py", "import os, time\n" + lines + "exec(open('" + sampler_program + "').read())\n") + "'";
+        "python3 '" +
+        write("program.py", "import os, time\n" + lines + "exec(open('" + sampler_program + "').read())\n") + "'";
     o.domain = "disk";
     o.samples = 20'000;
     o.memory = 0.5;

@@ -70,7 +70,8 @@ TEST_F(IntegrateOutput, DensityIsSavedAndReused) {
   EXPECT_EQ(cut.exit_code, 2);
   EXPECT_THAT(cut.output, HasSubstr("cut: density: the checksum at the end is missing"));
   EXPECT_THAT(support::run_carlo("integrate x -d x=0:1 --load-density " + file).output, HasSubstr("has 2 dimensions"));
-  const support::ProcessResult none = support::run_carlo("integrate x -d x=0:1 --method rqmc --save-density " + path("none"));
+  const support::ProcessResult none =
+      support::run_carlo("integrate x -d x=0:1 --method rqmc --save-density " + path("none"));
   EXPECT_EQ(none.exit_code, 2);
   EXPECT_THAT(none.output, testing::AllOf(HasSubstr("95 % in [0.49999"), HasSubstr("nothing was learned by rqmc")));
 }

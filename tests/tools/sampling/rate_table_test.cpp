@@ -2,8 +2,8 @@
 // theory() says, and its misses are explained.
 
 #include <integrands/rate_integrals.h>
-#include <sampling/theory.h>
 #include <sampling/sampling_methods.h>
+#include <sampling/theory.h>
 
 #include <mc/core/file.h>
 #include <mc/core/text.h>
@@ -68,10 +68,13 @@ TEST(RateTable, StatesTheTheoreticalRates) {
       ASSERT_TRUE(rate) << e.name << ' ' << w.name;
       EXPECT_EQ(row[stated], rate->to_string(4)) << e.name << ' ' << w.name;
       EXPECT_EQ(row[source], rate->source) << e.name << ' ' << w.name;
-      EXPECT_NEAR(number(row[at_these_n]), -rate->local_exponent(number(row[around_n])), 1e-3) << e.name << ' ' << w.name;
+      EXPECT_NEAR(number(row[at_these_n]), -rate->local_exponent(number(row[around_n])), 1e-3)
+          << e.name << ' ' << w.name;
       // The ends are rounded: within half a digit of theory either answer may be right.
       const double digit = 1e-4, n = number(row[around_n]), from = number(row[lo]), to = number(row[hi]);
-      if (rate->is_consistent_with(from - digit, to + digit, n) != rate->is_consistent_with(from + digit, to - digit, n)) continue;
+      if (rate->is_consistent_with(from - digit, to + digit, n) !=
+          rate->is_consistent_with(from + digit, to - digit, n))
+        continue;
       EXPECT_EQ(row[within], rate->is_consistent_with(from, to, n) ? "yes" : "no") << e.name << ' ' << w.name;
     }
 }

@@ -1,8 +1,8 @@
 // The rows of the table of rates, where they are known by heart, and where none may be missing.
 
 #include <integrands/find.h>
-#include <sampling/theory.h>
 #include <sampling/sampling_methods.h>
+#include <sampling/theory.h>
 
 #include <mc/core/file.h>
 #include <mc/core/types.h>
@@ -22,7 +22,9 @@ constexpr Class classes[] = {Class::smooth, Class::additive,  Class::periodic, C
                              Class::kink,   Class::axis_jump, Class::jump,     Class::corner};
 constexpr int dimensions[] = {1, 2, 3, 5, 8};
 
-double exponent(const char* method, Class of, int dim, double a = 0) { return theoretical_rate(method, {of, a}, dim)->exponent; }
+double exponent(const char* method, Class of, int dim, double a = 0) {
+  return theoretical_rate(method, {of, a}, dim)->exponent;
+}
 
 TEST(Theory, RatesOfEachClass) {
   EXPECT_EQ(exponent("random", Class::jump, 5), 0.5);
@@ -93,8 +95,9 @@ TEST(Theory, BoundsAreOneSided) {
     const char* text;
     bool faster, slower;
   };
-  for (const Case& c : {Case{RateBound::exact, "-1.00", false, false}, Case{RateBound::at_most, "no steeper than -1.00", false, true},
-                        Case{RateBound::at_least, "at least as steep as -1.00", true, false}}) {
+  for (const Case& c :
+       {Case{RateBound::exact, "-1.00", false, false}, Case{RateBound::at_most, "no steeper than -1.00", false, true},
+        Case{RateBound::at_least, "at least as steep as -1.00", true, false}}) {
     const ConvergenceRate rate{1, 0, "a source", c.bound};
     EXPECT_EQ(rate.to_string(2), c.text);
     EXPECT_TRUE(rate.is_consistent_with(-1.1, -0.9, 1000));

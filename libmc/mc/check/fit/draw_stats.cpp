@@ -52,7 +52,8 @@ constexpr std::uint64_t most_rounded = 3;
 // The density that a point without one has beside it. Of a sampler that is broken beyond doubt no more is asked: it may
 // answer slowly.
 std::optional<double> rounded_from(const Subject& s, const Subject::Draw& d, const DrawStats& stats) {
-  if (d.pdf_positive || d.kind != Kind::point || stats.zero_pdf.count + stats.non_finite_pdf.count > most_rounded) return {};
+  if (d.pdf_positive || d.kind != Kind::point || stats.zero_pdf.count + stats.non_finite_pdf.count > most_rounded)
+    return {};
   if (d.density == 0) // the way through the chart rounds, too
     if (const double there = s.density(d.v); there > 0 && std::isfinite(there)) return there;
   return adjacent_density(s, d.v);
@@ -99,7 +100,8 @@ std::optional<double> count_draw(const Subject& s, const Subject::Draw& d, std::
   const double off = weight_error(s, d);
   if (!(off <= s.weight_tolerance)) note(stats.weight, stream, index);
   // Not a number is worse than any.
-  stats.max_weight_error = std::max(stats.max_weight_error, std::isnan(off) ? std::numeric_limits<double>::infinity() : off);
+  stats.max_weight_error =
+      std::max(stats.max_weight_error, std::isnan(off) ? std::numeric_limits<double>::infinity() : off);
   if (d.kind == Kind::atom) {
     ++stats.atoms[static_cast<std::size_t>(d.atom)];
     return {};
@@ -193,7 +195,8 @@ std::vector<Check> check_draws(const Subject& s, const DrawStats& stats, bool op
   add("finite", stats.not_finite, Fault::not_finite, count(stats.not_finite), 0, "sample is not finite");
   add("in the domain", stats.outside, Fault::outside, count(stats.outside), 0, "sample is outside the domain");
   if (stats.non_finite_pdf.count > 0)
-    add("pdf finite at samples", stats.non_finite_pdf, Fault::not_finite, count(stats.non_finite_pdf), 0, "pdf is not finite");
+    add("pdf finite at samples", stats.non_finite_pdf, Fault::not_finite, count(stats.non_finite_pdf), 0,
+        "pdf is not finite");
   if (stats.negative_pdf.count > 0)
     add("pdf >= 0 at samples", stats.negative_pdf, Fault::negative, count(stats.negative_pdf), 0, "pdf is negative");
   DrawStats::Violation leak = stats.zero_pdf, edge = stats.boundary_non_finite_pdf;

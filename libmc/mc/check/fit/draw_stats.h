@@ -16,9 +16,10 @@ struct DrawStats {
     std::uint64_t count = 0, seed = 0, index = 0; ///< the witness is draw `index` of stream `seed`
   };
   Violation failed, outside, not_finite, weight;
-  Violation zero_pdf, non_finite_pdf;    ///< pdf = 0; it is not finite
-  Violation negative_pdf;         ///< pdf < 0
-  Violation boundary_zero_pdf, boundary_non_finite_pdf;  ///< the same where the density is right beside it: on a face of the chart, at a jump
+  Violation zero_pdf, non_finite_pdf; ///< pdf = 0; it is not finite
+  Violation negative_pdf;             ///< pdf < 0
+  Violation boundary_zero_pdf,
+      boundary_non_finite_pdf; ///< the same where the density is right beside it: on a face of the chart, at a jump
   double max_weight_error = 0; ///< largest |weight - 1| beyond what the density changes within four steps of rounding
   std::uint64_t draws = 0;
   std::vector<std::uint64_t> atoms; ///< count of each discrete outcome

@@ -28,7 +28,9 @@ double off(const OptionalSample& a, const OptionalSample& b) {
   return worst;
 }
 
-std::string describe(const AnyDistribution& s, const OptionalSample& drawn) { return drawn ? format_x(s, drawn->x) : "a failure"; }
+std::string describe(const AnyDistribution& s, const OptionalSample& drawn) {
+  return drawn ? format_x(s, drawn->x) : "a failure";
+}
 
 } // namespace
 

@@ -60,7 +60,9 @@ class Probe {
  private:
   // Whether the samples on both sides are right.
   bool is_single(const Uniforms& u) const {
-    const auto right = [&](const Uniforms& v) { return fault_of(to_chart(distribution_, distribution_.sample(v))).empty(); };
+    const auto right = [&](const Uniforms& v) {
+      return fault_of(to_chart(distribution_, distribution_.sample(v))).empty();
+    };
     for (std::size_t axis = 0; axis < static_cast<std::size_t>(distribution_.uniforms); ++axis) {
       const auto [lo, hi] = beside(distribution_, u[axis]);
       Uniforms below = u, above = u;
@@ -112,7 +114,8 @@ void probe_corners(const AnyDistribution& s, Probe& probe) {
 }
 
 // The six nearest numbers about t, and t - h, t, t + h.
-template <class S> void probe_about(const AnyDistribution& s, const Uniforms& start, std::size_t axis, S t, Probe& probe) {
+template <class S>
+void probe_about(const AnyDistribution& s, const Uniforms& start, std::size_t axis, S t, Probe& probe) {
   using std::nextafter;
   const S h = std::numeric_limits<S>::epsilon() / 2, below = nextafter(t, S(0)), above = nextafter(t, S(1));
   Uniforms u = start;
@@ -133,7 +136,8 @@ PointArray point_at(const AnyDistribution& s, Uniforms u, const Uniforms& start)
 // The numbers of a point of the domain as numbers of S.
 template <class S> std::vector<S> numbers_of(const AnyDistribution& s, const PointArray& x) {
   std::vector<S> numbers;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.point_size); ++i) numbers.push_back(static_cast<S>(x[i]));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.point_size); ++i)
+    numbers.push_back(static_cast<S>(x[i]));
   return numbers;
 }
 

@@ -17,7 +17,9 @@ bool same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::b
 template <std::size_t n> bool same(const std::array<double, n>& a, const std::array<double, n>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), [](double x, double y) { return same(x, y); });
 }
-bool same(const OptionalUniforms& a, const OptionalUniforms& b) { return a && b ? same(*a, *b) : a.has_value() == b.has_value(); }
+bool same(const OptionalUniforms& a, const OptionalUniforms& b) {
+  return a && b ? same(*a, *b) : a.has_value() == b.has_value();
+}
 bool same(const OptionalSample& a, const OptionalSample& b) {
   return a && b ? a->atom == b->atom && same(a->x, b->x) : a.has_value() == b.has_value();
 }
@@ -83,7 +85,8 @@ class RepeatedEvaluations {
   }
 
  private:
-  WorstError sample_{"determinism of sample", 0, Fault::nondeterministic}, pdf_{"determinism of pdf", 0, Fault::nondeterministic},
+  WorstError sample_{"determinism of sample", 0, Fault::nondeterministic},
+      pdf_{"determinism of pdf", 0, Fault::nondeterministic},
       invert_{"determinism of invert", 0, Fault::nondeterministic};
 };
 

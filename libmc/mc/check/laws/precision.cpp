@@ -19,7 +19,8 @@ std::string format_exact(const AnyDistribution& s, const OracleDistribution::Poi
 }
 
 // How far rounding u on the way carries the exact sample, as what maps u once more does: a mixture, a product.
-double off_by_rounding(const AnyDistribution& s, const AnyDistribution::Uniforms& u, const OracleDistribution::Point& exact) {
+double off_by_rounding(const AnyDistribution& s, const AnyDistribution::Uniforms& u,
+                       const OracleDistribution::Point& exact) {
   constexpr double steps = 4;
   double off = 0;
   for (std::size_t i = 0; i < 3; ++i) {

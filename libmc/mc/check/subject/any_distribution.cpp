@@ -201,7 +201,8 @@ void sample_each(const AnyDistribution& s, const std::vector<AnyDistribution::Un
     for (const AnyDistribution::Uniforms& one : u) take(s.sample(one));
 }
 
-void append_chart_samples(const AnyDistribution& s, const std::vector<AnyDistribution::Uniforms>& u, std::vector<Subject::Draw>& out) {
+void append_chart_samples(const AnyDistribution& s, const std::vector<AnyDistribution::Uniforms>& u,
+                          std::vector<Subject::Draw>& out) {
   sample_each(s, u, [&](const auto& drawn) { out.push_back(to_chart(s, drawn).draw); });
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Any sampler with its claimed density, its types erased: what the laws run over.
 
-#include <mc/check/subject/point_array.h>
 #include <mc/check/subject/oracle.h>
+#include <mc/check/subject/point_array.h>
 #include <mc/check/subject/subject.h>
 #include <mc/random/pcg.h>
 
@@ -39,7 +39,7 @@ struct AnyDomain {
     double jacobian = 0;
   };
   int dim = 0;            ///< of its chart; 0: no domain, discrete outcomes only
-  int point_size = 0;        ///< of a point
+  int point_size = 0;     ///< of a point
   std::vector<Axis> axes; ///< what the chart's coordinates stand for
   std::function<bool(const PointArray& x)> contains;
   std::function<Coordinates(const PointArray& x)> to_unit;

@@ -146,11 +146,12 @@ template <ContinuousDistribution O> [[gnu::cold]] OracleDistribution oracle_dist
   using Held = WarpOnDomain<O>;
   const auto oracle = std::make_shared<const Held>(Held{warp, warp.domain()});
   OracleDistribution e;
-  set_shared(e.sample, oracle, [](const Held& o, const OracleDistribution::Point& u) -> std::optional<OracleDistribution::Point> {
-    const auto drawn = o.warp.sample(to_point<UnitPoint>(u));
-    if (is_empty(drawn)) return {};
-    return to_array<Oracle, 3>(Point(unwrapped(drawn)));
-  });
+  set_shared(e.sample, oracle,
+             [](const Held& o, const OracleDistribution::Point& u) -> std::optional<OracleDistribution::Point> {
+               const auto drawn = o.warp.sample(to_point<UnitPoint>(u));
+               if (is_empty(drawn)) return {};
+               return to_array<Oracle, 3>(Point(unwrapped(drawn)));
+             });
   set_shared(e.pdf, oracle,
              [](const Held& o, const OracleDistribution::Point& x) { return Oracle(o.warp.pdf(to_point<Point>(x))); });
   set_shared(e.to_chart, oracle, [](const Held& o, const OracleDistribution::Point& x) {
@@ -293,10 +294,11 @@ template <ContinuousDistribution W> [[gnu::cold]] AnyDistribution make_distribut
       [shared](const UnitPointOf<W>& u) { return shared->sample(u); },
       [shared](const PointOf<W>& x) { return shared->pdf(x); });
   if constexpr (Invertible<W>)
-    detail::set_shared(s.invert, shared, [](const W& w, const PointArray& x) -> std::optional<AnyDistribution::Uniforms> {
-      const auto u = detail::to_array<double>(UnitPointOf<W>(w.invert(detail::to_point<PointOf<W>>(x))));
-      return AnyDistribution::Uniforms{u[0], u[1], u[2]};
-    });
+    detail::set_shared(
+        s.invert, shared, [](const W& w, const PointArray& x) -> std::optional<AnyDistribution::Uniforms> {
+          const auto u = detail::to_array<double>(UnitPointOf<W>(w.invert(detail::to_point<PointOf<W>>(x))));
+          return AnyDistribution::Uniforms{u[0], u[1], u[2]};
+        });
   if constexpr (requires { warp.breaks(); }) {
     std::size_t axis = 0;
     for (std::vector<double>& places : warp.breaks()) s.breaks[axis++] = std::move(places);

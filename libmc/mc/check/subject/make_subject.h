@@ -8,7 +8,8 @@ namespace mc {
 /// A sampler on a domain, its claimed density and perhaps the f it is for; see make_distribution.
 template <Domain D, class Draw, class Pdf, class F = std::nullptr_t>
 Subject make_subject(std::string name, const D& domain, Draw distribution, Pdf pdf, F f = nullptr) {
-  return make_subject(make_distribution(std::move(name), domain, std::move(distribution), std::move(pdf), std::move(f)));
+  return make_subject(
+      make_distribution(std::move(name), domain, std::move(distribution), std::move(pdf), std::move(f)));
 }
 
 /// A warp, or any struct with domain, sample and pdf. Float points are mapped to the chart in double, so the bins lose

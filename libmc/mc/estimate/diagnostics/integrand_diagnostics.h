@@ -17,10 +17,11 @@ namespace mc::detail {
 struct IntegrandDiagnostics {
   OctaveHistogram values = {};
   TailIndexEstimator tail = {};
-  std::array<TailIndexEstimator, 2> offset_tails = {}; ///< of f less the bounds of a constant, see IntegrationRun::floors; empty where that is 0
-  OctaveHistogram uniform_values = {};       ///< of f, where uniform points are but a part of a mixture
+  std::array<TailIndexEstimator, 2> offset_tails =
+      {}; ///< of f less the bounds of a constant, see IntegrationRun::floors; empty where that is 0
+  OctaveHistogram uniform_values = {};                  ///< of f, where uniform points are but a part of a mixture
   double lo = infinity<double>, hi = -infinity<double>; ///< of f, where points are drawn from a density
-  std::uint64_t infinite_count = 0;                           ///< values that were
+  std::uint64_t infinite_count = 0;                     ///< values that were
   double infinite_volume = 0; ///< that their points stand for, where all of a run stand for their number
 
   void merge(const IntegrandDiagnostics& other) {

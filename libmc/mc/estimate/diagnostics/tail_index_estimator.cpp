@@ -98,7 +98,8 @@ class TailIndexEstimator::Fit {
 };
 
 TailIndexEstimator::TailIndexEstimator(const OctaveHistogram& values) : top_(values.top_exponent()), uniform_(true) {
-  for (const std::uint64_t n : values.counts()) octave_volumes_.push_back({static_cast<double>(n), static_cast<double>(n)});
+  for (const std::uint64_t n : values.counts())
+    octave_volumes_.push_back({static_cast<double>(n), static_cast<double>(n)});
 }
 
 void TailIndexEstimator::raise(int top) {
@@ -106,7 +107,8 @@ void TailIndexEstimator::raise(int top) {
   if (top <= top_) return;
   std::vector<Octave> moved(octaves);
   for (int i = 0; i < octaves; ++i) {
-    moved[static_cast<std::size_t>(std::min(i + (top - top_), octaves - 1))] += octave_volumes_[static_cast<std::size_t>(i)];
+    moved[static_cast<std::size_t>(std::min(i + (top - top_), octaves - 1))] +=
+        octave_volumes_[static_cast<std::size_t>(i)];
   }
   octave_volumes_ = std::move(moved);
   top_ = top;
@@ -170,7 +172,8 @@ double TailIndexEstimator::index() const {
 
 bool TailIndexEstimator::infinite_variance() const {
   const Fit largest = fit(few);
-  if (!largest.known || largest.excess_z_score() < -1.5 || fit_to_many().excess_z_score() < -1) return false; // in deviations
+  if (!largest.known || largest.excess_z_score() < -1.5 || fit_to_many().excess_z_score() < -1)
+    return false; // in deviations
   return std::isfinite(index());
 }
 

@@ -61,9 +61,9 @@ class TailIndexEstimator {
   Fit fit(double error) const;
   Fit fit_to_many() const;
 
-  std::vector<Octave> octave_volumes_;               // octave_volumes_[i]: of exponent top_ - i; none before the first value
+  std::vector<Octave> octave_volumes_;          // octave_volumes_[i]: of exponent top_ - i; none before the first value
   int top_ = OctaveHistogram::exponent_of_zero; // of the first octave
-  bool uniform_ = false;                   // the points
+  bool uniform_ = false;                        // the points
 };
 
 } // namespace mc

@@ -39,7 +39,7 @@ Correlations correlations(const std::vector<std::vector<double>>& means) {
 }
 
 Correlations combine_independent(const Correlations& of_a, const Means& a, const Correlations& of_b, const Means& b,
-                      double share) {
+                                 double share) {
   const std::size_t n = a.size();
   // What either contributes to the error of the two.
   std::vector<double> from_a(n), from_b(n);

@@ -14,6 +14,7 @@ using Correlations = std::vector<double>;
 Correlations correlations(const std::vector<std::vector<double>>& means);
 
 /// Those of combine_independent(a, b, share), where a and b are independent.
-Correlations combine_independent(const Correlations& of_a, const Means& a, const Correlations& of_b, const Means& b, double share);
+Correlations combine_independent(const Correlations& of_a, const Means& a, const Correlations& of_b, const Means& b,
+                                 double share);
 
 } // namespace mc::detail

@@ -14,8 +14,8 @@
 namespace mc {
 
 using detail::Integrand;
-using detail::Outcome;
 using detail::IntegrationRun;
+using detail::Outcome;
 
 namespace {
 
@@ -26,8 +26,8 @@ void require_sane(int outputs, int dim, const IntegrateOptions& o) {
           "integrate: tolerances {} (relative) and {} (absolute) must be finite and >= 0", o.rel_error, o.abs_error);
   require(o.threads >= 0, "integrate: threads {} must be >= 0; 0 stands for all of the machine's", o.threads);
   require(o.confidence > 0 && o.confidence < 1, "integrate: confidence {} must lie in (0, 1)", o.confidence);
-  require(o.auxiliary_outputs < static_cast<std::size_t>(outputs), "integrate: {} of {} outputs are watched; 1 must not be",
-          o.auxiliary_outputs, outputs);
+  require(o.auxiliary_outputs < static_cast<std::size_t>(outputs),
+          "integrate: {} of {} outputs are watched; 1 must not be", o.auxiliary_outputs, outputs);
   require(o.replicates >= 2 && o.replicates <= 1u << 20,
           "integrate: {} replicates; between 2 and 2^20 are needed for an error", o.replicates);
   if (!o.density) return;

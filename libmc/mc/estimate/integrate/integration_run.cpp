@@ -49,12 +49,12 @@ void IntegrationRun::record_points(Sums& sums, std::span<const double> points, s
 }
 
 Sums IntegrationRun::evaluate(const PointSet& set, std::uint64_t first, std::uint64_t last, const Proposal& proposal,
-                   Keep keep) const {
+                              Keep keep) const {
   if (options.cancel && options.cancel->load()) throw Cancelled{};
   const auto d = static_cast<std::size_t>(dim);
   Sums sums{std::vector<ScaledMoments>(outputs), std::vector<IntegrandDiagnostics>(outputs)};
-  std::vector<double> u(block * d), values(outputs * block), columns(block), factors(block), shifts(block), offset_values(block),
-      scratch(d);
+  std::vector<double> u(block * d), values(outputs * block), columns(block), factors(block), shifts(block),
+      offset_values(block), scratch(d);
   for (; first < last; first += block) {
     const auto n = static_cast<std::size_t>(std::min(block, last - first));
     const std::span<double> points(u.data(), n * d), all(values.data(), n * outputs), column(columns.data(), n);
@@ -75,7 +75,8 @@ Sums IntegrationRun::evaluate(const PointSet& set, std::uint64_t first, std::uin
       if (!tail_offsets.empty() && tail_offsets[k][0] != 0)
         for (std::size_t j = 0; j < 2; ++j) {
           for (std::size_t i = 0; i < n; ++i) offset_values[i] = column[i] - tail_offsets[k][j];
-          sums.diagnostics[k].offset_tails[j].add({offset_values.data(), n}, {factors.data(), proposal.density ? n : 0});
+          sums.diagnostics[k].offset_tails[j].add({offset_values.data(), n},
+                                                  {factors.data(), proposal.density ? n : 0});
         }
       if (proposal.density) {
         if (proposal.part == Proposal::Part::uniform) sums.diagnostics[k].uniform_values.add(column);
@@ -99,8 +100,8 @@ Sums IntegrationRun::evaluate(const PointSet& set, std::uint64_t first, std::uin
   return sums;
 }
 
-std::vector<Sums> IntegrationRun::evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first, std::uint64_t count,
-                                    const Proposal& proposal, Keep keep) {
+std::vector<Sums> IntegrationRun::evaluate_all(const std::vector<PointSet>& sets, std::uint64_t first,
+                                               std::uint64_t count, const Proposal& proposal, Keep keep) {
   const std::uint64_t chunks = (count + chunk - 1) / chunk;
   std::vector<Sums> parts(sets.size() * chunks), results(sets.size());
   const auto task = [&](std::size_t i) {
@@ -123,8 +124,10 @@ std::vector<Sums> IntegrationRun::evaluate_all(const std::vector<PointSet>& sets
       const Moments& m = results[r].outputs[k].moments();
       const IntegrandDiagnostics& diagnostics = results[r].diagnostics[k];
       infinite += diagnostics.infinite_volume;
-      if (m.non_finite_count() > 0) throw_not_finite(m.non_finite_count(), count, m.first_non_finite(), sets[r], proposal);
-      if (infinite > most) throw_not_finite(diagnostics.infinite_count, count, *results[r].first_infinite, sets[r], proposal);
+      if (m.non_finite_count() > 0)
+        throw_not_finite(m.non_finite_count(), count, m.first_non_finite(), sets[r], proposal);
+      if (infinite > most)
+        throw_not_finite(diagnostics.infinite_count, count, *results[r].first_infinite, sets[r], proposal);
     }
   }
   if (tail_offsets.empty()) find_tail_offsets(results);
@@ -152,7 +155,7 @@ void IntegrationRun::find_tail_offsets(const std::vector<Sums>& first) {
 }
 
 void IntegrationRun::throw_not_finite(std::uint64_t bad, std::uint64_t count, std::uint64_t first, const PointSet& set,
-                        const Proposal& proposal) const {
+                                      const Proposal& proposal) const {
   std::vector<double> u(static_cast<std::size_t>(dim));
   std::vector<double> scratch(u.size());
   fill_points(set, first, dim, u);
@@ -162,7 +165,8 @@ void IntegrationRun::throw_not_finite(std::uint64_t bad, std::uint64_t count, st
   throw NotFinite(bad, count, std::move(u), fmt::format("u = ({})", point));
 }
 
-std::vector<PointSet> IntegrationRun::sobol_sets(std::uint64_t stream_id, std::uint32_t first, std::uint32_t last) const {
+std::vector<PointSet> IntegrationRun::sobol_sets(std::uint64_t stream_id, std::uint32_t first,
+                                                 std::uint32_t last) const {
   std::vector<PointSet> sets;
   for (std::uint32_t r = first; r < last; ++r) {
     const std::uint64_t seed = hash(options.seed, stream_id, r);
@@ -173,8 +177,8 @@ std::vector<PointSet> IntegrationRun::sobol_sets(std::uint64_t stream_id, std::u
 }
 
 std::vector<std::vector<double>> IntegrationRun::replicate_means(const std::vector<Sums>& replicates,
-                                                      const std::vector<Sums>& uniform,
-                                                      const Proposal& proposal) const {
+                                                                 const std::vector<Sums>& uniform,
+                                                                 const Proposal& proposal) const {
   std::vector<std::vector<double>> means(outputs);
   for (std::size_t k = 0; k < outputs; ++k)
     for (std::size_t r = 0; r < replicates.size(); ++r) {
@@ -186,8 +190,9 @@ std::vector<std::vector<double>> IntegrationRun::replicate_means(const std::vect
   return means;
 }
 
-Means IntegrationRun::means(const std::vector<Sums>& replicates, std::uint64_t points, std::vector<ReplicateHistory>& histories,
-                 const std::vector<Sums>& uniform, const Proposal& proposal, const std::vector<IntegrandDiagnostics>& discarded) const {
+Means IntegrationRun::means(const std::vector<Sums>& replicates, std::uint64_t points,
+                            std::vector<ReplicateHistory>& histories, const std::vector<Sums>& uniform,
+                            const Proposal& proposal, const std::vector<IntegrandDiagnostics>& discarded) const {
   histories.resize(outputs);
   AxisProfile profile;
   if (points <= AxisProfile::most)
@@ -201,7 +206,9 @@ Means IntegrationRun::means(const std::vector<Sums>& replicates, std::uint64_t p
     if (points <= AxisProfile::most)
       histories[k].add_axis_jump(profile.jump(k, static_cast<std::size_t>(dim), replicates.size()));
     all.push_back(mean_of_replicates(values[k], static_cast<double>(points), diagnostics, histories[k]));
-    if (k < primary_outputs()) all.back().unsampled_tail_bound = unsampled_tail_bound(diagnostics, all.back().error); // no density follows what is only watched
+    if (k < primary_outputs())
+      all.back().unsampled_tail_bound =
+          unsampled_tail_bound(diagnostics, all.back().error); // no density follows what is only watched
   }
   return all;
 }
@@ -230,7 +237,8 @@ void IntegrationRun::add_chi2(Round& round, const Means& means) {
 bool IntegrationRun::converged(const Means& all) const {
   return std::all_of(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(primary_outputs()), [&](const Mean& m) {
     const double error = estimate(m, calls).std_error;
-    return !m.zero_spread && std::isfinite(error) && (error <= options.abs_error || error <= options.rel_error * std::abs(m.value));
+    return !m.zero_spread && std::isfinite(error) &&
+           (error <= options.abs_error || error <= options.rel_error * std::abs(m.value));
   });
 }
 

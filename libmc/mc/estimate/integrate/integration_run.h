@@ -29,7 +29,7 @@ struct Proposal {
   static constexpr double uniform_share = 0.125;
 
   std::shared_ptr<const AdaptedDensity> density = {}; ///< none: uniform
-  std::vector<double> control_coefficients = {};                    ///< c of each output
+  std::vector<double> control_coefficients = {};      ///< c of each output
   Part part = Part::all;
 };
 
@@ -83,7 +83,9 @@ struct IntegrationRun {
   /// Outputs that are not only watched.
   std::size_t primary_outputs() const { return outputs - options.auxiliary_outputs; }
   /// Calls that may be recorded: 128 MB of points and values.
-  std::uint64_t max_recorded_calls() const { return (std::uint64_t{1} << 24) / (static_cast<std::uint64_t>(dim) + primary_outputs()); }
+  std::uint64_t max_recorded_calls() const {
+    return (std::uint64_t{1} << 24) / (static_cast<std::uint64_t>(dim) + primary_outputs());
+  }
 
   /// Points [first, first + count) of each set; one result per set, with the same bits for any number of threads.
   ///   throws : Error where the integrand is not finite, with the point; Cancelled
@@ -122,7 +124,7 @@ struct IntegrationRun {
   void record_points(Sums& sums, std::span<const double> points, std::span<const double> values) const;
   /// Throws: so many of `count` points of the set were bad, the one of index `first` the first.
   [[noreturn]] void throw_not_finite(std::uint64_t bad, std::uint64_t count, std::uint64_t first, const PointSet& set,
-                                  const Proposal& proposal) const;
+                                     const Proposal& proposal) const;
 };
 
 } // namespace mc::detail

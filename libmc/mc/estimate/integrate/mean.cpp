@@ -17,9 +17,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least = std::numeric_limits<double>::denorm_min(); // a mean below it need not be 0
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double jump_share = 0.75, constant_share = 1.5; // of one step of one replicate, in standard errors
-constexpr double light_tail_index = 8;                             // a tail of this index shows in no error
-constexpr double large_skewness = 1;                            // replicates that met something large, or did not
-constexpr std::size_t remembered_lengths = 4;                       // lengths that any jump is remembered for
+constexpr double light_tail_index = 8;                    // a tail of this index shows in no error
+constexpr double large_skewness = 1;                      // replicates that met something large, or did not
+constexpr std::size_t remembered_lengths = 4;             // lengths that any jump is remembered for
 
 // The jump that sets replicates apart: the widest gap between neighbours, if it is wider than those of a smooth
 // distribution or all of them lie in two narrow clusters.
@@ -65,13 +65,16 @@ double hidden_jump(const std::vector<double>& scaled_deviations) {
 }
 
 bool tail_bound_is_large(const Mean& m) { return std::abs(m.unsampled_tail_bound) > std::abs(m.value) / 16; }
-double total_error(const Mean& m) { return tail_bound_is_large(m) ? std::hypot(m.error, m.unsampled_tail_bound) : m.error; }
+double total_error(const Mean& m) {
+  return tail_bound_is_large(m) ? std::hypot(m.error, m.unsampled_tail_bound) : m.error;
+}
 } // namespace
 
 double ulp(double mean) { return std::numeric_limits<double>::epsilon() * std::abs(mean); }
 
 Estimate estimate(const Mean& m, std::uint64_t calls) {
-  return Estimate::from_student_t(m.value, m.reported_error_bar() == ErrorBar::known ? total_error(m) : infinity, m.dof, calls);
+  return Estimate::from_student_t(m.value, m.reported_error_bar() == ErrorBar::known ? total_error(m) : infinity, m.dof,
+                                  calls);
 }
 
 Estimate::Interval interval(const Mean& m, double confidence) {
@@ -140,7 +143,8 @@ double skew_of_mean(double skewness, double count) {
   return skewness * unbiased / (6 * std::sqrt(count));
 }
 
-Mean mean_of_replicates(std::span<const double> means, double points, const IntegrandDiagnostics& diagnostics, ReplicateHistory& history) {
+Mean mean_of_replicates(std::span<const double> means, double points, const IntegrandDiagnostics& diagnostics,
+                        ReplicateHistory& history) {
   const double r = static_cast<double>(means.size());
   double largest = 0;
   for (const double x : means) largest = std::max(largest, std::abs(x));

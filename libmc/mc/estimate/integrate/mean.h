@@ -1,8 +1,8 @@
 #pragma once
 /// Means whose error was estimated, and what two of them say of each other.
 
-#include <mc/estimate/integrate.h>
 #include <mc/estimate/diagnostics/integrand_diagnostics.h>
+#include <mc/estimate/integrate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,9 @@ struct Mean {
   bool zero_spread = false;
 
   /// What is said of the error bar.
-  ErrorBar reported_error_bar() const { return error_bar == ErrorBar::known && std::isinf(unsampled_tail_bound) ? ErrorBar::undersampled : error_bar; }
+  ErrorBar reported_error_bar() const {
+    return error_bar == ErrorBar::known && std::isinf(unsampled_tail_bound) ? ErrorBar::undersampled : error_bar;
+  }
 };
 using Means = std::vector<Mean>; ///< one per output
 
@@ -73,8 +75,8 @@ struct ReplicateHistory {
     bool balanced = false; ///< both are of three or more
   };
   double last_points = 0, last_deviation = 0; ///< of the last length, and of the replicates at it
-  double last_nonzero_deviation = 0;                 ///< the last deviation that was more than rounding
-  std::vector<Jump> jumps = {};     ///< at each length, that set replicates apart
+  double last_nonzero_deviation = 0;          ///< the last deviation that was more than rounding
+  std::vector<Jump> jumps = {};               ///< at each length, that set replicates apart
   std::vector<double> scaled_deviations = {}; ///< at each length, their deviation times the points
   double axis_jump = 0; ///< the largest jump across an axis that the AxisProfile showed at both of its last two lengths
   double last_axis_jump = std::numeric_limits<double>::infinity(); ///< at the last
@@ -100,6 +102,7 @@ struct ReplicateHistory {
 ///             last length showed, scaled as the variance of such a tail falls
 ///   error_bar : all_zero where every value was zero, else as error_bar_of says
 ///   diagnostics : the values behind it, and the tail of the integrand
-Mean mean_of_replicates(std::span<const double> means, double points, const IntegrandDiagnostics& diagnostics, ReplicateHistory& history);
+Mean mean_of_replicates(std::span<const double> means, double points, const IntegrandDiagnostics& diagnostics,
+                        ReplicateHistory& history);
 
 } // namespace mc::detail

@@ -15,7 +15,7 @@ struct Outcome {
   Means means;
   Method method;
   StopReason stop = StopReason::max_calls;
-  std::vector<IntegrandDiagnostics> diagnostics = {};                        ///< the values behind the means, one per output
+  std::vector<IntegrandDiagnostics> diagnostics = {}; ///< the values behind the means, one per output
   Correlations correlations = {};                     ///< of the means' errors
   std::shared_ptr<const AdaptedDensity> density = {}; ///< that was learned
 };
@@ -37,7 +37,8 @@ struct LearnedDensity {
 /// learning begins with their points, and gives nothing where they are better than what it learned, as far as both know
 /// their error. A density that the caller gave is used as it is where it fits, see DensityLearner::fits; else learning goes on
 /// from it. What a round says stands in `last`, unless baseline sequences said something already.
-std::optional<LearnedDensity> learn_density(IntegrationRun& run, const ReplicatedSequences* baseline, std::optional<Outcome>& last);
+std::optional<LearnedDensity> learn_density(IntegrationRun& run, const ReplicatedSequences* baseline,
+                                            std::optional<Outcome>& last);
 
 /// Sequences that double in length: rqmc, vegas, tree, or, for automatic, the best of them.
 Outcome replicated_rqmc(IntegrationRun& run, Method method, std::optional<Outcome>& last);

@@ -15,7 +15,13 @@ Mean of_values(const ScaledMoments& m, const IntegrandDiagnostics& diagnostics, 
   const double spread = m.std_error() / std::sqrt(1 - std::min(unsampled_variance_share, 0.9));
   const double unsampled_bound = diagnostics.constant() ? 1.5 * size / n : 0.0;
   const double skew = skew_of_mean(skewness(batch_means), static_cast<double>(batch_means.size()));
-  return {m.mean(), std::max({spread, unsampled_bound, ulp(m.mean())}), n - 1, skew, error_bar_of(diagnostics), 0, diagnostics.constant()};
+  return {m.mean(),
+          std::max({spread, unsampled_bound, ulp(m.mean())}),
+          n - 1,
+          skew,
+          error_bar_of(diagnostics),
+          0,
+          diagnostics.constant()};
 }
 
 // Of those batches that have values.

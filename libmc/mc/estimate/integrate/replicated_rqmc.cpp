@@ -23,11 +23,14 @@ class SequenceExtender {
   // The longest power of two that all replicates can reach.
   std::uint64_t max_affordable_length(const ReplicatedSequences& s) const {
     const auto each = run_.calls_left() / s.count;
-    return std::min(std::bit_floor(s.length + static_cast<std::uint64_t>(static_cast<double>(each) / s.calls_per_point())),
-                    ReplicatedSequences::max_length);
+    return std::min(
+        std::bit_floor(s.length + static_cast<std::uint64_t>(static_cast<double>(each) / s.calls_per_point())),
+        ReplicatedSequences::max_length);
   }
   // Points of all replicates that the calls left are enough for.
-  double points_left(const ReplicatedSequences& s) const { return static_cast<double>(run_.calls_left()) / s.calls_per_point(); }
+  double points_left(const ReplicatedSequences& s) const {
+    return static_cast<double>(run_.calls_left()) / s.calls_per_point();
+  }
   static std::uint64_t next_length(const ReplicatedSequences& s, std::uint64_t end) {
     return std::max(std::min<std::uint64_t>(16, end), 2 * s.length);
   }
@@ -41,7 +44,8 @@ class SequenceExtender {
   // To the end of the calls: all replicates at first, then as many as best_end_plan says.
   Outcome run_to_end(ReplicatedSequences& s) {
     const std::uint64_t most = max_affordable_length(s);
-    if (extend_until_converged(s, std::clamp(common_length(s), std::min<std::uint64_t>(16, most), most))) return std::move(out);
+    if (extend_until_converged(s, std::clamp(common_length(s), std::min<std::uint64_t>(16, most), most)))
+      return std::move(out);
     const EndPlan end = best_end_plan(s);
     if (end.count < s.count) s.keep_first(end.count);
     s.points_per_uniform_point = end.points_per_uniform_point;
@@ -92,14 +96,17 @@ class SequenceExtender {
   EndPlan best_end_plan(const ReplicatedSequences& s) const {
     EndPlan best{s.length, s.count, s.points_per_uniform_point};
     double least = std::numeric_limits<double>::infinity();
-    const double fallen = std::max(convergence_rate(s) / std::log(2.0), 1.0), uniform_share = s.uniform_variance_share();
+    const double fallen = std::max(convergence_rate(s) / std::log(2.0), 1.0),
+                 uniform_share = s.uniform_variance_share();
     const auto falls = [&](std::uint64_t from, std::uint64_t to) {
       return std::pow(static_cast<double>(to) / static_cast<double>(from), -fallen);
     };
-    for (std::uint64_t points_per_uniform_point = s.points_per_uniform_point; points_per_uniform_point > 0 && s.length > 0; points_per_uniform_point = uniform_share > 0 ? points_per_uniform_point / 2 : 0)
+    for (std::uint64_t points_per_uniform_point = s.points_per_uniform_point;
+         points_per_uniform_point > 0 && s.length > 0;
+         points_per_uniform_point = uniform_share > 0 ? points_per_uniform_point / 2 : 0)
       // Replicates that do not grow keep the uniform part they have.
-      for (std::uint64_t length = points_per_uniform_point < s.points_per_uniform_point ? 2 * s.length : s.length; length <= ReplicatedSequences::max_length;
-           length *= 2) {
+      for (std::uint64_t length = points_per_uniform_point < s.points_per_uniform_point ? 2 * s.length : s.length;
+           length <= ReplicatedSequences::max_length; length *= 2) {
         const std::uint64_t uniform_length = s.uniform_points(length, points_per_uniform_point);
         const double replicates = replicates_at_end(s, length + uniform_length);
         if (replicates < min_replicates(run_.options.replicates)) break;
@@ -152,7 +159,8 @@ class MethodSelector {
   std::optional<MethodCandidate> select(std::vector<MethodCandidate>& all) {
     for (std::uint64_t to = std::min<std::uint64_t>(16, baseline_.length); to <= baseline_.length; to *= 2) {
       for (MethodCandidate& c : all) c.sequences.extend(run_, to);
-      if (to >= 64 && all.size() > 1 && std::abs(lead_over_grid(all)) > clear && !means_differ(all)) eliminate(all, 1 - best(all));
+      if (to >= 64 && all.size() > 1 && std::abs(lead_over_grid(all)) > clear && !means_differ(all))
+        eliminate(all, 1 - best(all));
     }
     const std::size_t first = best(all);
     const bool ahead = lead_over_baseline(all[first]) > 0;
@@ -174,7 +182,8 @@ class MethodSelector {
   // By how much one is ahead, beyond doubt, in the logarithm of the variance.
   double lead_over_baseline(const MethodCandidate& c) const {
     if (has_fewer_known_errors(baseline_.means_history.back(), c.sequences.means_history.back())) return clear;
-    return predicted_log_variance_ratio(baseline_, c.sequences, doublings_, run_.uses_interlaced_points() ? of_interlacing : without_grid) -
+    return predicted_log_variance_ratio(baseline_, c.sequences, doublings_,
+                                        run_.uses_interlaced_points() ? of_interlacing : without_grid) -
            required_margin(c.sequences.means_history.back());
   }
   double lead_over_grid(const std::vector<MethodCandidate>& all) const {
@@ -185,7 +194,9 @@ class MethodSelector {
   static bool means_differ(const std::vector<MethodCandidate>& all) {
     return significantly_different(all[0].sequences.means_history.back(), all[1].sequences.means_history.back());
   }
-  std::size_t best(const std::vector<MethodCandidate>& all) const { return all.size() > 1 && lead_over_grid(all) > 0 ? 1 : 0; }
+  std::size_t best(const std::vector<MethodCandidate>& all) const {
+    return all.size() > 1 && lead_over_grid(all) > 0 ? 1 : 0;
+  }
 
   IntegrationRun& run_;
   const ReplicatedSequences& baseline_;
@@ -195,7 +206,9 @@ class MethodSelector {
 std::vector<MethodCandidate> make_candidates(const LearnedDensity& learned, std::uint32_t count) {
   std::vector<MethodCandidate> all;
   const auto propose = [&](Method method, std::uint64_t stream_id, std::shared_ptr<const AdaptedDensity> density) {
-    all.push_back({method, {.stream_id = stream_id, .count = count, .proposal = {std::move(density), learned.control_coefficients}}});
+    all.push_back(
+        {method,
+         {.stream_id = stream_id, .count = count, .proposal = {std::move(density), learned.control_coefficients}}});
   };
   // The rounds of learning have the stream ids between.
   const AdaptedDensity& density = *learned.density;
@@ -212,24 +225,30 @@ Outcome replicated_rqmc(IntegrationRun& run, Method method, std::optional<Outcom
   if (method == Method::rqmc) return extender.run_to_end(baseline);
   if (method == Method::automatic) {
     const std::uint64_t most = extender.max_affordable_length(baseline);
-    if (extender.extend_until_converged(baseline, std::max<std::uint64_t>(most / 16, 1))) return std::move(extender.out);
+    if (extender.extend_until_converged(baseline, std::max<std::uint64_t>(most / 16, 1)))
+      return std::move(extender.out);
     // What would have converged but for its length gets it.
-    if (run.converged(baseline.means) && extender.extend_until_converged(baseline, std::min(most, AxisProfile::most))) return std::move(extender.out);
+    if (run.converged(baseline.means) && extender.extend_until_converged(baseline, std::min(most, AxisProfile::most)))
+      return std::move(extender.out);
   }
 
-  const std::optional<LearnedDensity> learned = learn_density(run, method == Method::automatic ? &baseline : nullptr, last);
+  const std::optional<LearnedDensity> learned =
+      learn_density(run, method == Method::automatic ? &baseline : nullptr, last);
   baseline.discard_records();
   if (!learned) return extender.run_to_end(baseline);
   extender.out.density = learned->density;
   const bool selecting = method == Method::automatic;
-  std::vector<MethodCandidate> all = make_candidates(*learned, selecting ? min_replicates(run.options.replicates) : run.options.replicates);
+  std::vector<MethodCandidate> all =
+      make_candidates(*learned, selecting ? min_replicates(run.options.replicates) : run.options.replicates);
   if (method != Method::automatic) {
     MethodCandidate& c = method == Method::vegas ? all.front() : all.back();
     return extender.run_to_end(c.sequences);
   }
   // Of few calls none are left to hold against each other what was learned; a point costs two calls at most.
-  if (2 * all.size() * all.front().sequences.count * baseline.length > run.calls_left()) return extender.run_to_end(baseline);
-  std::optional<MethodCandidate> best = MethodSelector(run, baseline, extender.max_affordable_length(all.front().sequences)).select(all);
+  if (2 * all.size() * all.front().sequences.count * baseline.length > run.calls_left())
+    return extender.run_to_end(baseline);
+  std::optional<MethodCandidate> best =
+      MethodSelector(run, baseline, extender.max_affordable_length(all.front().sequences)).select(all);
   if (!best) return extender.run_to_end(baseline);
   extender.out.method = best->method;
   extender.set_outcome(best->sequences); // not yet good enough: it was chosen for the error that it shows here

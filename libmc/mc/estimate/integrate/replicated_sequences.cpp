@@ -16,8 +16,9 @@ double log_squared_ratio(double a, double b) {
 }
 
 // Sets [first, last) of a stream_id with their points [from, to).
-void add(IntegrationRun& run, std::uint64_t stream_id, std::uint32_t first, std::uint32_t last, std::uint64_t from, std::uint64_t to,
-         const Proposal& proposal, bool record, std::vector<PointSet>& sets, std::vector<Sums>& sums) {
+void add(IntegrationRun& run, std::uint64_t stream_id, std::uint32_t first, std::uint32_t last, std::uint64_t from,
+         std::uint64_t to, const Proposal& proposal, bool record, std::vector<PointSet>& sets,
+         std::vector<Sums>& sums) {
   if (sets.size() < last) {
     const std::vector<PointSet> more = run.sobol_sets(stream_id, static_cast<std::uint32_t>(sets.size()), last);
     sets.insert(sets.end(), more.begin(), more.end());
@@ -31,14 +32,15 @@ void add(IntegrationRun& run, std::uint64_t stream_id, std::uint32_t first, std:
 }
 
 // Both parts of the mixture, or the one there is, from so many points to all.
-Means grown(IntegrationRun& run, ReplicatedSequences& s, std::uint32_t first, std::uint64_t from, std::uint64_t uniform_from) {
+Means grown(IntegrationRun& run, ReplicatedSequences& s, std::uint32_t first, std::uint64_t from,
+            std::uint64_t uniform_from) {
   Proposal part = s.proposal;
   if (part.density) part.part = Proposal::Part::density;
   add(run, s.stream_id, first, s.count, from, s.length, part, s.record, s.sets, s.sums);
   if (part.density) {
     part.part = Proposal::Part::uniform;
-    add(run, s.stream_id + uniform_stream_offset, first, s.count, uniform_from, s.uniform_length, part, false, s.uniform_sets,
-        s.uniform_sums);
+    add(run, s.stream_id + uniform_stream_offset, first, s.count, uniform_from, s.uniform_length, part, false,
+        s.uniform_sets, s.uniform_sums);
   }
   return s.means = run.means(s.sums, s.length, s.histories, s.uniform_sums, s.proposal, s.discarded);
 }
@@ -105,7 +107,9 @@ double ReplicatedSequences::uniform_variance_share() const {
   return sum / static_cast<double>(outputs);
 }
 
-std::vector<IntegrandDiagnostics> ReplicatedSequences::diagnostics() const { return merged_diagnostics(uniform_sums, merged_diagnostics(sums, discarded)); }
+std::vector<IntegrandDiagnostics> ReplicatedSequences::diagnostics() const {
+  return merged_diagnostics(uniform_sums, merged_diagnostics(sums, discarded));
+}
 
 Correlations ReplicatedSequences::correlations(const IntegrationRun& run) const {
   return detail::correlations(run.replicate_means(sums, uniform_sums, proposal));
@@ -155,7 +159,8 @@ double required_margin(const Means& m) {
 double convergence_rate(const ReplicatedSequences& s) {
   const std::size_t end = s.means_history.size() - 1, steps = std::min<std::size_t>(end, 3);
   if (steps == 0) return 0;
-  return log_variance_ratio(s.means_history[end - steps], s.means_history[end]) / static_cast<double>(steps * s.means_history[end].size());
+  return log_variance_ratio(s.means_history[end - steps], s.means_history[end]) /
+         static_cast<double>(steps * s.means_history[end].size());
 }
 
 namespace {
@@ -179,7 +184,8 @@ double log_efficiency_gain(const ReplicatedSequences& s, std::size_t output) {
 }
 } // namespace
 
-double predicted_log_variance_ratio(const ReplicatedSequences& a, const ReplicatedSequences& b, double doublings, double expected) {
+double predicted_log_variance_ratio(const ReplicatedSequences& a, const ReplicatedSequences& b, double doublings,
+                                    double expected) {
   constexpr double before = 0.4; // of the first doubling: what has not gained yet may still
   constexpr double differ = 0.5; // of two gains, over their mean
   const Means &of_a = a.means_history.back(), &of_b = b.means_history.back();
@@ -187,9 +193,12 @@ double predicted_log_variance_ratio(const ReplicatedSequences& a, const Replicat
   const double noise = 2.0 / (a.count - 1) + 2.0 / (b.count - 1); // variance of the logarithm of their variances
   double sum = 0;
   for (std::size_t k = 0; k < of_a.size(); ++k) {
-    const double gain_a = log_efficiency_gain(a, k), gain_b = log_efficiency_gain(b, k), prior = sqr(differ * (gain_a + gain_b) / 2);
+    const double gain_a = log_efficiency_gain(a, k), gain_b = log_efficiency_gain(b, k),
+                 prior = sqr(differ * (gain_a + gain_b) / 2);
     if (significantly_different(of_a[k], of_b[k])) sum += log_variance_ratio({of_a[k]}, {of_b[k]});
-    else sum += log_squared_ratio(independent_error(a, k), independent_error(b, k)) + (gain_b - gain_a) * prior / (prior + noise);
+    else
+      sum += log_squared_ratio(independent_error(a, k), independent_error(b, k)) +
+             (gain_b - gain_a) * prior / (prior + noise);
     sum -= doublings * expected * (gain_a + before) / (doubled + 1);
   }
   return sum;

@@ -11,26 +11,29 @@ namespace mc::detail {
 
 /// Replicated Sobol' sequences, extended from step to step.
 struct ReplicatedSequences {
-  std::uint64_t stream_id;  ///< those of different stream ids are independent
-  std::uint32_t count;    ///< of replicates
-  Proposal proposal = {}; ///< with a density, its part of the mixture
-  bool record = false;    ///< keeps what was seen with the sums
+  std::uint64_t stream_id; ///< those of different stream ids are independent
+  std::uint32_t count;     ///< of replicates
+  Proposal proposal = {};  ///< with a density, its part of the mixture
+  bool record = false;     ///< keeps what was seen with the sums
   std::uint64_t length = 0;
   std::vector<PointSet> sets = {};
   std::vector<Sums> sums = {};
-  std::uint64_t points_per_uniform_point = 8; ///< points for each one of the uniform part, once the sequences are extended
+  std::uint64_t points_per_uniform_point =
+      8; ///< points for each one of the uniform part, once the sequences are extended
   std::uint64_t uniform_length = 0;
   std::vector<PointSet> uniform_sets = {};
   std::vector<Sums> uniform_sums = {};
-  std::vector<Means> means_history = {}; ///< at each length, of the outputs that are not only watched
-  Means means = {};                ///< the latest, of all
-  std::vector<IntegrandDiagnostics> discarded = {};   ///< by sequences that were dropped
+  std::vector<Means> means_history = {};            ///< at each length, of the outputs that are not only watched
+  Means means = {};                                 ///< the latest, of all
+  std::vector<IntegrandDiagnostics> discarded = {}; ///< by sequences that were dropped
   std::vector<ReplicateHistory> histories = {};
 
   static constexpr std::uint64_t max_length = std::uint64_t{1} << 32;
 
   /// Calls per point of a replicate.
-  double calls_per_point() const { return proposal.density ? 1 + 1 / static_cast<double>(points_per_uniform_point) : 1.0; }
+  double calls_per_point() const {
+    return proposal.density ? 1 + 1 / static_cast<double>(points_per_uniform_point) : 1.0;
+  }
   /// Calls of a replicate as long as it is now.
   std::uint64_t calls_per_replicate() const { return length + uniform_length; }
   /// How long the uniform part of so many points is; rounded up.
@@ -76,6 +79,7 @@ double convergence_rate(const ReplicatedSequences& s);
 /// more; both are as long. A dozen replicates know their variance badly, their points know well what it would be were
 /// they independent: what replicates gain over that counts the less the less there is of it. And for each
 /// doubling a gains as much as is `expected` of what each gained so far. Of means that are apart log_variance_ratio() counts.
-double predicted_log_variance_ratio(const ReplicatedSequences& a, const ReplicatedSequences& b, double doublings, double expected);
+double predicted_log_variance_ratio(const ReplicatedSequences& a, const ReplicatedSequences& b, double doublings,
+                                    double expected);
 
 } // namespace mc::detail

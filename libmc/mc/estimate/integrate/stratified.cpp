@@ -10,7 +10,8 @@ Outcome stratified(IntegrationRun& run, std::optional<Outcome>& last) {
   Outcome out{{}, Method::stratified};
   double weight = 0;
   std::vector<ReplicateHistory> histories;
-  for (std::uint64_t points = std::min<std::uint64_t>(64, run.calls_left() / run.options.replicates), round = 0;; ++round) {
+  for (std::uint64_t points = std::min<std::uint64_t>(64, run.calls_left() / run.options.replicates), round = 0;;
+       ++round) {
     std::vector<PointSet> sets;
     for (std::uint32_t r = 0; r < run.options.replicates; ++r)
       sets.emplace_back(JitteredBoxes{hash(run.options.seed, round, r), static_cast<std::uint32_t>(points)});

@@ -78,7 +78,8 @@ void Sums::merge(const Sums& other) {
   values.insert(values.end(), other.values.begin(), other.values.end());
 }
 
-std::vector<IntegrandDiagnostics> merged_diagnostics(const std::vector<Sums>& all, std::vector<IntegrandDiagnostics> before) {
+std::vector<IntegrandDiagnostics> merged_diagnostics(const std::vector<Sums>& all,
+                                                     std::vector<IntegrandDiagnostics> before) {
   for (const Sums& s : all) {
     before.resize(s.diagnostics.size());
     for (std::size_t k = 0; k < before.size(); ++k) before[k].merge(s.diagnostics[k]);

@@ -1,9 +1,9 @@
 #pragma once
 /// What the tasks of a run add up.
 
-#include <mc/estimate/moments.h>
 #include <mc/estimate/diagnostics/axis_profile.h>
 #include <mc/estimate/diagnostics/integrand_diagnostics.h>
+#include <mc/estimate/moments.h>
 
 #include <cstdint>
 #include <optional>
@@ -55,6 +55,7 @@ struct Sums {
 };
 
 /// What all of them saw of each output, beside what was seen before.
-std::vector<IntegrandDiagnostics> merged_diagnostics(const std::vector<Sums>& all, std::vector<IntegrandDiagnostics> before = {});
+std::vector<IntegrandDiagnostics> merged_diagnostics(const std::vector<Sums>& all,
+                                                     std::vector<IntegrandDiagnostics> before = {});
 
 } // namespace mc::detail

@@ -1,6 +1,6 @@
 #include <mc/core/error.h>
-#include <mc/estimate/integrate/mean.h>
 #include <mc/estimate/integrate/integration_run.h>
+#include <mc/estimate/integrate/mean.h>
 #include <mc/estimate/values/quantiles.h>
 
 #include <algorithm>
@@ -26,8 +26,8 @@ struct ReplicateValues {
     detail::IntegrandDiagnostics sizes;
     sizes.values.add(inside);
     detail::ReplicateHistory history;
-    return detail::interval(detail::mean_of_replicates(shares, static_cast<double>(replicates.front().size()), sizes, history),
-                            confidence);
+    return detail::interval(
+        detail::mean_of_replicates(shares, static_cast<double>(replicates.front().size()), sizes, history), confidence);
   }
 };
 
@@ -84,7 +84,8 @@ std::vector<Quantile> quantiles(const std::function<double(std::span<const doubl
   settings.threads = o.threads;
   settings.cancel = o.cancel;
   detail::IntegrationRun run{{.one = &f}, 1, dim, settings};
-  require(o.calls <= run.max_recorded_calls(), "quantiles: {} calls; at most {} values can be kept", o.calls, run.max_recorded_calls());
+  require(o.calls <= run.max_recorded_calls(), "quantiles: {} calls; at most {} values can be kept", o.calls,
+          run.max_recorded_calls());
   const ReplicateValues sampled = sample_replicates(run, points);
   std::vector<Quantile> all;
   for (const double p : probabilities) all.push_back(quantile(sampled, p, o.confidence));

@@ -18,7 +18,7 @@ struct MeshFile {
   std::vector<mc::Vec2<float>> uvs;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::string missing_uv_reason; ///< why there are no texture coordinates: "the face of line 7 has none"
-  std::size_t meshes = 1;  ///< in the file, of which this is one
+  std::size_t meshes = 1;        ///< in the file, of which this is one
 };
 
 /// The shape of a mesh file under `to_world`, its triangles turned to the side of the file's normals; without these a

@@ -133,7 +133,7 @@ std::vector<Triangle> triangulate_polygon(std::span<const Vec3d> corners) {
 }
 
 void append_triangulated(const std::vector<Vec3d>& positions, std::span<const std::uint32_t> polygon,
-                    std::vector<Triangle>& triangles) {
+                         std::vector<Triangle>& triangles) {
   if (polygon.size() == 3) { // most are
     triangles.push_back({polygon[0], polygon[1], polygon[2]});
     return;

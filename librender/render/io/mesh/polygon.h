@@ -20,6 +20,6 @@ std::vector<std::array<std::uint32_t, 3>> triangulate_polygon(std::span<const Ve
 
 /// The same of a polygon of `positions`, put behind the triangles that are there.
 void append_triangulated(const std::vector<Vec3d>& positions, std::span<const std::uint32_t> polygon,
-                    std::vector<std::array<std::uint32_t, 3>>& triangles);
+                         std::vector<std::array<std::uint32_t, 3>>& triangles);
 
 } // namespace render

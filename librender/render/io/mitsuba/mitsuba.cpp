@@ -83,7 +83,8 @@ class Reader {
     ShapeDescription s = read_plugin(shape_plugins(), e, context_);
     const BsdfId bsdf = s.bsdf ? *s.bsdf : context_.default_bsdf(s.emission.has_value());
     mc::with_context(e.where(), [&] {
-      context_.builder.add(std::move(s.shape), {bsdf, s.emission, s.importance_target, s.interior, s.missing_uv_reason});
+      context_.builder.add(std::move(s.shape),
+                           {bsdf, s.emission, s.importance_target, s.interior, s.missing_uv_reason});
     });
   }
 
@@ -132,7 +133,8 @@ Vec3d middle_of(const Scene& scene) {
   if (middle.norm() > 8 * (hi - lo).norm()) return middle;
   const Vec3d median = median_of(scene);
   const double here = coarseness_about(Vec3d::Zero(), scene), there = coarseness_about(median, scene);
-  return here > max_resolution_ratio / 8 && there < std::min(max_resolution_ratio, here / 4) ? median : Vec3d(Vec3d::Zero());
+  return here > max_resolution_ratio / 8 && there < std::min(max_resolution_ratio, here / 4) ? median
+                                                                                             : Vec3d(Vec3d::Zero());
 }
 
 // About the origin of the file, or about the scene where that is far from there. From afar its middle is seen vaguely,

@@ -72,7 +72,8 @@ void Declaration::require_dialect(const XmlElement& given, Context& context) con
   if (!is_lajolla && !mitsuba_alternative.empty())
     given.fail(fmt::format("'{}' is lajolla's; say {}, or --dialect lajolla", name, mitsuba_alternative));
   if (is_lajolla && !lajolla_alternative.empty())
-    context.warn(given, fmt::format("lajolla leaves {} out, here it counts; say {} instead", name, lajolla_alternative));
+    context.warn(given,
+                 fmt::format("lajolla leaves {} out, here it counts; say {} instead", name, lajolla_alternative));
 }
 
 Parameter<double> number(const std::string& name, const std::string& unit, const std::string& meaning) {

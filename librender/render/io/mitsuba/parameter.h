@@ -23,8 +23,10 @@ struct Declaration {
   bool has_effect = true;     ///< false: accepted, since it cannot change the picture
   std::optional<bool> only{}; ///< a switch that may only be given as what it is by default
   std::string departure = {}; ///< of the fallback from Mitsuba's own, as a warning; empty: none
-  std::string mitsuba_alternative = {};  ///< of a parameter that lajolla alone has: what to say in Mitsuba; empty: no such one
-  std::string lajolla_alternative = {};  ///< of one that lajolla leaves out, as a warning: what to say there; empty: no such one
+  std::string mitsuba_alternative =
+      {}; ///< of a parameter that lajolla alone has: what to say in Mitsuba; empty: no such one
+  std::string lajolla_alternative =
+      {}; ///< of one that lajolla leaves out, as a warning: what to say there; empty: no such one
 
   bool nested() const { return name.starts_with('<'); }
   /// Whether a child of a plugin is this parameter.

@@ -28,7 +28,8 @@ Vec3d vector_of(const XmlElement& element);
 Spectrum color_of(const XmlElement& element, Extrapolation extrapolation = Extrapolation::constant);
 /// The same of what reflects: wavelength:value pairs are seen in that light, and under D65 colours that the screen does
 /// not have become the nearest in [0, 1], as in Mitsuba 3.
-Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant, Extrapolation extrapolation = Extrapolation::constant);
+Spectrum reflectance_of(const XmlElement& element, Illuminant illuminant,
+                        Extrapolation extrapolation = Extrapolation::constant);
 /// lookAt, translate, scale, rotate and matrix, applied in the order in which they stand.
 Transform transform_of(const XmlElement& element);
 

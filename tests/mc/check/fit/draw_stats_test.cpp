@@ -127,7 +127,8 @@ TEST(DrawStats, InvalidDensityOnChartFace_IsMeasureZero) {
   };
   EXPECT_THAT(failed(300, 3, false), testing::ElementsAre(mc::Fault::measure_zero));
   EXPECT_THAT(failed(300, 3, true), testing::IsEmpty());
-  EXPECT_THAT(failed(0, 4, true), testing::ElementsAre(mc::Fault::zero_pdf)) << "rounding puts no four where nothing is";
+  EXPECT_THAT(failed(0, 4, true), testing::ElementsAre(mc::Fault::zero_pdf))
+      << "rounding puts no four where nothing is";
 }
 
 // In a sharp lobe of float the density before the point was rounded is another one: 2.4 % within four steps here.

@@ -182,7 +182,8 @@ TEST(Law, Boundary_PdfZeroAtOnePoint_IsMeasureZero) {
   EXPECT_EQ(tried(0.0f, 0, false).fault(), Fault::measure_zero) << tried(0.0f, 0, false).to_string();
   EXPECT_TRUE(tried(0.0, 0, true).passed()) << tried(0.0, 0, true).to_string();
   EXPECT_EQ(tried(0.0, 1e-7, true).fault(), Fault::boundary) << "more than one u";
-  AnyDistribution open = mc::make_distribution("|x|", mc::Interval<double>(-1, 1), root, [](double x) { return std::abs(x); });
+  AnyDistribution open =
+      mc::make_distribution("|x|", mc::Interval<double>(-1, 1), root, [](double x) { return std::abs(x); });
   open.open_interval = true;
   EXPECT_EQ(laws(open).fault(), Fault::measure_zero) << "it says that no u is 0: that excuses no other";
   EXPECT_THAT(laws(open).to_string(), HasSubstr("open_interval of the distribution itself excludes only u = 0"));

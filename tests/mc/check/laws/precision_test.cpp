@@ -30,6 +30,8 @@ struct Shifted : mc::UniformInterval<double> {
   template <mc::Real T> mc::UniformInterval<T> cast() const { return {T(0), T(1)}; }
 };
 
-TEST(PrecisionLaw, ErrorBeyondRoundingOfU_Fails) { EXPECT_NE(of_sample(check_laws(Shifted(0, 1), {.samples = 0})), "pass"); }
+TEST(PrecisionLaw, ErrorBeyondRoundingOfU_Fails) {
+  EXPECT_NE(of_sample(check_laws(Shifted(0, 1), {.samples = 0})), "pass");
+}
 
 } // namespace

@@ -104,7 +104,7 @@ TEST(Quantization, PointOutsideByFloatRounding_IsReported) {
     return mc::Vec3<double>(warp.sample(u.cast<float>()).cast<double>());
   };
   const auto s = mc::make_distribution("w", mc::Hemisphere<double>(), in_float,
-                                  [](const mc::Vec3<double>& w) { return w.z() / mc::pi<double>; });
+                                       [](const mc::Vec3<double>& w) { return w.z() / mc::pi<double>; });
   const mc::Report report = check_laws(s, {.samples = 20'000});
   EXPECT_EQ(report.verdict(), mc::Verdict::fail);
   EXPECT_THAT(report.to_string(), testing::ContainsRegex("its length 1 [+-] [0-9.]+e-0[78]" + excess.substr(0, 30)));

@@ -59,7 +59,7 @@ TEST(OctaveHistogram, UndersampledWhereFewValuesHoldTheSum) {
   EXPECT_FALSE(undersampled({0, 0, 1, 1, 0})); // a step that two points met
   EXPECT_FALSE(undersampled(std::vector<double>(1000, -3)));
   EXPECT_TRUE(undersampled({1, 1e-5, 1e-9, 0, 0}));
-  EXPECT_TRUE(undersampled({1, 1e-80, 1e-200}));                     // all but one below the octaves that are told apart
+  EXPECT_TRUE(undersampled({1, 1e-80, 1e-200})); // all but one below the octaves that are told apart
   EXPECT_TRUE(undersampled({1e-308, 1e-313, 1e-317, 5e-324, 0, 0})); // subnormal
   std::vector<double> one(1000);
   one.front() = -2;

@@ -10,9 +10,9 @@
 
 namespace {
 
-using mc::detail::ReplicateHistory;
 using mc::detail::Mean;
 using mc::detail::mean_of_replicates;
+using mc::detail::ReplicateHistory;
 
 constexpr std::size_t replicates = 24;
 
@@ -104,7 +104,8 @@ TEST(MeanOfReplicates, EqualReplicatesHaveAnError) {
   const mc::Estimate::Interval i = mc::detail::interval(constant, 0.95);
   EXPECT_NEAR(i.hi - 0.5, 0.5 * 3 / (64 * replicates), 0.05 * (i.hi - 0.5));
   ReplicateHistory nothing;
-  EXPECT_EQ(mean_of_replicates(std::vector<double>(replicates, 0.0), 64, diagnostics_of({0, 0}), nothing).error_bar, mc::ErrorBar::all_zero);
+  EXPECT_EQ(mean_of_replicates(std::vector<double>(replicates, 0.0), 64, diagnostics_of({0, 0}), nothing).error_bar,
+            mc::ErrorBar::all_zero);
 }
 
 TEST(MeanOfReplicates, IdenticalReplicates_SetZeroSpread) {
@@ -115,7 +116,8 @@ TEST(MeanOfReplicates, IdenticalReplicates_SetZeroSpread) {
   means[3] += 0.01;
   const Mean apart = mean_of_replicates(means, 128, diagnostics_of({0, 1}), history);
   EXPECT_FALSE(apart.zero_spread);
-  EXPECT_FALSE(mean_of_replicates(std::vector<double>(replicates, 0.5), 256, diagnostics_of({0, 1}), history).zero_spread);
+  EXPECT_FALSE(
+      mean_of_replicates(std::vector<double>(replicates, 0.5), 256, diagnostics_of({0, 1}), history).zero_spread);
   EXPECT_TRUE(mc::detail::combine_independent(equal, equal, 0.5).zero_spread);
   EXPECT_FALSE(mc::detail::combine_independent(equal, apart, 0.5).zero_spread);
 }
@@ -160,8 +162,9 @@ TEST(MeanOfReplicates, IdenticalAfterSpread_KeepsTheLastDeviation) {
   const double before = mean_of_replicates(means, 64, diagnostics_of({0, 0.5, 1}), history).error;
   EXPECT_LT(before, 2e-13);
   for (const double points : {128.0, 256.0})
-    EXPECT_NEAR(mean_of_replicates(std::vector<double>(replicates, 0.5), points, diagnostics_of({0, 0.5, 1}), history).error, before,
-                1e-3 * before);
+    EXPECT_NEAR(
+        mean_of_replicates(std::vector<double>(replicates, 0.5), points, diagnostics_of({0, 0.5, 1}), history).error,
+        before, 1e-3 * before);
 }
 
 // Where a tail makes an error the mean of two lengths, both may have come to agree.
@@ -177,7 +180,8 @@ TEST(MeanOfReplicates, IdenticalAfterSpread_HeavyTail_KeepsTheLastDeviation) {
   const double before = 1e-9 * std::sqrt((replicates + 1) / 12.0); // a uniform distribution's, of their mean
   mean_of_replicates(means, 64, cube, history);
   for (const double points : {128.0, 256.0, 512.0, 1024.0})
-    EXPECT_GE(mean_of_replicates(std::vector<double>(replicates, 1.5), points, cube, history).error, 0.7 * before) << points;
+    EXPECT_GE(mean_of_replicates(std::vector<double>(replicates, 1.5), points, cube, history).error, 0.7 * before)
+        << points;
 }
 
 // Of skewed replicates the next length may just have met nothing large.
@@ -238,7 +242,8 @@ TEST(MeanOfReplicates, IntervalsCoverJumps) {
     std::vector<double> means;
     for (std::uint64_t r = 0; r < replicates; ++r) means.push_back(mc::hash_uniform<double>(10, i, r) < p);
     ReplicateHistory history;
-    const mc::Estimate::Interval interval = mc::detail::interval(mean_of_replicates(means, 1, diagnostics_of({0, 1}), history), 0.95);
+    const mc::Estimate::Interval interval =
+        mc::detail::interval(mean_of_replicates(means, 1, diagnostics_of({0, 1}), history), 0.95);
     hits += interval.lo <= p && p <= interval.hi;
   }
   EXPECT_GE(hits / 4000.0, 0.93);

@@ -33,9 +33,12 @@ TEST(Methods, DoNotExceedMaxCalls) {
     };
     expect(plain, mc::Method::plain);
     expect(stratified, mc::Method::stratified);
-    expect([](detail::IntegrationRun& run, auto& last) { return replicated_rqmc(run, mc::Method::rqmc, last); }, mc::Method::rqmc);
-    expect([](detail::IntegrationRun& run, auto& last) { return replicated_rqmc(run, mc::Method::vegas, last); }, mc::Method::vegas);
-    expect([](detail::IntegrationRun& run, auto& last) { return replicated_rqmc(run, mc::Method::tree, last); }, mc::Method::tree);
+    expect([](detail::IntegrationRun& run, auto& last) { return replicated_rqmc(run, mc::Method::rqmc, last); },
+           mc::Method::rqmc);
+    expect([](detail::IntegrationRun& run, auto& last) { return replicated_rqmc(run, mc::Method::vegas, last); },
+           mc::Method::vegas);
+    expect([](detail::IntegrationRun& run, auto& last) { return replicated_rqmc(run, mc::Method::tree, last); },
+           mc::Method::tree);
   }
 }
 

@@ -80,7 +80,8 @@ TEST(ReplicatedSequences, ConvergenceRateIsThatOfTheVariance) {
 // the logarithm of that.
 ReplicatedSequences gaining(double deviation, double gain, std::uint32_t count = 12) {
   ReplicatedSequences s{.stream_id = 0, .count = count, .length = 256};
-  s.sums.resize(count, detail::Sums{std::vector<detail::ScaledMoments>(1), std::vector<detail::IntegrandDiagnostics>(1)});
+  s.sums.resize(count,
+                detail::Sums{std::vector<detail::ScaledMoments>(1), std::vector<detail::IntegrandDiagnostics>(1)});
   for (std::uint32_t r = 0; r < count; ++r) {
     std::vector<double> values(256);
     for (std::size_t i = 0; i < 256; ++i) values[i] = i % 2 == 0 ? deviation : -deviation;
@@ -94,7 +95,7 @@ ReplicatedSequences gaining(double deviation, double gain, std::uint32_t count =
 // expected of the next doublings is part of a ninth of .4, as these gained nothing in eight.
 TEST(ReplicatedSequences, PredictedRatio_NoGain_FollowsThePoints) {
   const ReplicatedSequences wide = gaining(0.1, 0), narrow = gaining(0.05, 0), lucky = gaining(0.1, 0.5),
-                  few = gaining(0.05, 0, 8);
+                            few = gaining(0.05, 0, 8);
   EXPECT_NEAR(detail::predicted_log_variance_ratio(wide, narrow, 5, 0), std::log(4), 1e-2);
   EXPECT_NEAR(detail::predicted_log_variance_ratio(narrow, wide, 5, 0), -std::log(4), 1e-2);
   EXPECT_NEAR(detail::predicted_log_variance_ratio(wide, few, 5, 0), std::log(4), 1e-2);
@@ -107,8 +108,10 @@ TEST(ReplicatedSequences, PredictedRatio_LargeGain_FollowsTheReplicates) {
   const ReplicatedSequences slow = gaining(0.01, 4), fast = gaining(0.01, 8), half = gaining(0.01, 1.4);
   EXPECT_NEAR(detail::predicted_log_variance_ratio(slow, fast, 0, 0.6), 4, 0.2);
   EXPECT_NEAR(detail::predicted_log_variance_ratio(fast, slow, 0, 0.6), -4, 0.2);
-  EXPECT_NEAR(detail::predicted_log_variance_ratio(fast, slow, 5, 0.6), detail::predicted_log_variance_ratio(fast, slow, 0, 0.6) - 3 * 8.4 / 9, 1e-3);
-  EXPECT_NEAR(detail::predicted_log_variance_ratio(half, slow, 5, 0.6), detail::predicted_log_variance_ratio(half, slow, 0, 0.6) - 3 * 1.8 / 9, 1e-2);
+  EXPECT_NEAR(detail::predicted_log_variance_ratio(fast, slow, 5, 0.6),
+              detail::predicted_log_variance_ratio(fast, slow, 0, 0.6) - 3 * 8.4 / 9, 1e-3);
+  EXPECT_NEAR(detail::predicted_log_variance_ratio(half, slow, 5, 0.6),
+              detail::predicted_log_variance_ratio(half, slow, 0, 0.6) - 3 * 1.8 / 9, 1e-2);
 }
 
 TEST(ReplicatedSequences, AddReplicatesEqualsAllAtOnce) {

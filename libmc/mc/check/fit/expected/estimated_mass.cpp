@@ -29,7 +29,8 @@ void EstimatedMass::add_part(double volume, std::span<const double, 4> density) 
   jump = std::max(jump, std::abs(off));
 }
 
-bool may_split(const Subject& s, const UnitBox& box, std::size_t axis, double place, const Subject::Coordinates& beside) {
+bool may_split(const Subject& s, const UnitBox& box, std::size_t axis, double place,
+               const Subject::Coordinates& beside) {
   const double least = std::min(place - box.lo[axis], box.hi[axis] - place);
   return least > 0 && least >= min_resolved_steps * rounding_step(s, beside, axis);
 }
@@ -76,7 +77,7 @@ void cut_axis(double lo, double hi, const std::vector<double>& breaks, std::size
 } // namespace
 
 void AntitheticPoints::add(const UnitBox& whole, int dim, const std::array<std::vector<double>, 3>& breaks,
-                       std::size_t per_axis, Pcg& random) {
+                           std::size_t per_axis, Pcg& random) {
   for (std::size_t d = 0; d < static_cast<std::size_t>(dim); ++d)
     cut_axis(whole.lo[d], whole.hi[d], breaks[d], per_axis, ends[d]);
   for (std::size_t i = 0; i + 1 < ends[0].size(); ++i)

@@ -37,7 +37,7 @@ double hidden_jump_variance(double points);
 /// Whether the parts of a box that is cut at a place are boxes, and so wide that rounded samples meet them as random
 /// points do; beside : a sample nearby.
 bool may_split(const Subject& subject, const UnitBox& box, std::size_t axis, double place,
-             const Subject::Coordinates& beside);
+               const Subject::Coordinates& beside);
 
 /// Its volume in the cube.
 double volume(const UnitBox& box, int dim);

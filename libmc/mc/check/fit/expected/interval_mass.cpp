@@ -11,8 +11,8 @@ namespace mc {
 namespace {
 
 constexpr std::size_t points_of_box = 4, most_near = 1024, most_pieces = 2048;
-constexpr double over_samples = 4, over_seen = 4;                // densities that say that something was missed
-constexpr int most_halvings = 64;                                // one after the other
+constexpr double over_samples = 4, over_seen = 4;                    // densities that say that something was missed
+constexpr int most_halvings = 64;                                    // one after the other
 constexpr std::array<double, 3> boxes_per_interval{512, 1024, 2048}; // in one, two and three dimensions
 
 struct NearPoint {
@@ -102,7 +102,8 @@ struct Cutter {
 
 } // namespace
 
-EstimatedMass interval_mass(const Subject& s, const Pilot& pilot, const IntervalQuery& query, std::uint64_t seed, Effort effort) {
+EstimatedMass interval_mass(const Subject& s, const Pilot& pilot, const IntervalQuery& query, std::uint64_t seed,
+                            Effort effort) {
   UnitBox whole, ranks;
   whole.lo[query.axis] = query.lo;
   whole.hi[query.axis] = query.hi;

@@ -34,6 +34,6 @@ enum class Effort : std::uint8_t { quick, full };
 /// but in empty layers, where the integral is only ever too small.
 ///   Source : stratified sampling, with two mirrored pairs each [Cochran77]
 EstimatedMass interval_mass(const Subject& subject, const Pilot& pilot, const IntervalQuery& query, std::uint64_t seed,
-                        Effort effort = Effort::full);
+                            Effort effort = Effort::full);
 
 } // namespace mc

@@ -121,8 +121,8 @@ ClaimedMass claimed_mass(const Subject& s, const CubatureResult& cubature, const
   const double rounding = std::max(s.mass_tolerance, 1e-12); // of sums of many terms
   const double total = cubature.total.value + outcomes, bound = cubature.total.error + rounding;
   mass.by_cubature = !cubature.invalid_point && cubature.total.error <= 1 / std::sqrt(n) &&
-                    std::abs(total - outcomes - uncapped.value) <= bound + agreed * by_points + uncapped.jump / 2 &&
-                    mass.estimated - total <= bound + agreed * by_samples + reference.jump / 2;
+                     std::abs(total - outcomes - uncapped.value) <= bound + agreed * by_points + uncapped.jump / 2 &&
+                     mass.estimated - total <= bound + agreed * by_samples + reference.jump / 2;
   mass.value = mass.by_cubature ? total : mass.estimated;
   if (!mass.by_cubature) {
     mass.error = 4 * mass.estimated_error;

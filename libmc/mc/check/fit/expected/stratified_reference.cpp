@@ -171,7 +171,8 @@ struct StratifiedReference::Builder {
   }
 };
 
-StratifiedReference::StratifiedReference(const Subject& s, const Pilot& pilot, const PilotCells& cells, std::uint64_t seed)
+StratifiedReference::StratifiedReference(const Subject& s, const Pilot& pilot, const PilotCells& cells,
+                                         std::uint64_t seed)
     : dim_(s.dim), cells_(static_cast<std::size_t>(cells.partition.size())), nodes_(1) {
   Builder builder(s, pilot, cells, *this, seed);
   add_cells(cells.partition, 1, 0, UnitBox{}, builder);
@@ -187,7 +188,8 @@ StratifiedReference::StratifiedReference(const Subject& s, const Pilot& pilot, c
 }
 
 // The nodes below a split of the cells, in the order of the cells.
-void StratifiedReference::add_cells(const Partition& cells, int split, std::size_t node, const UnitBox& box, Builder& builder) {
+void StratifiedReference::add_cells(const Partition& cells, int split, std::size_t node, const UnitBox& box,
+                                    Builder& builder) {
   if (split >= cells.size()) {
     const int cell = split - cells.size();
     return builder.split(node, static_cast<std::uint32_t>(cell), builder.of_cell(static_cast<std::size_t>(cell)), box,
@@ -228,7 +230,8 @@ void StratifiedReference::fill_guide(std::size_t node, Bin lo, Bin hi) {
       }
 }
 
-std::vector<const StratifiedReference::Stratum*> StratifiedReference::find_strata(std::span<const Subject::Coordinates> points) const {
+std::vector<const StratifiedReference::Stratum*>
+StratifiedReference::find_strata(std::span<const Subject::Coordinates> points) const {
   std::vector<std::uint32_t> at(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) at[i] = guide_[bin(points[i])];
   // Those that have not arrived at a stratum come first; no branch depends on where they go.

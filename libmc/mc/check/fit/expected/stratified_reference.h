@@ -58,7 +58,7 @@ class StratifiedReference {
   std::vector<const Stratum*> find_strata(std::span<const Subject::Coordinates> points) const;
 
   struct Goal {
-    double samples = 1e6;        ///< that will be counted: the variance need not be far below that of their counts
+    double samples = 1e6;             ///< that will be counted: the variance need not be far below that of their counts
     std::size_t min_points = 1 << 15; ///< points
     std::size_t max_points = 1 << 22;
   };
@@ -77,7 +77,7 @@ class StratifiedReference {
     EstimatedMass uncapped; ///< the integral of pdf itself, whatever exceeds the caps
     std::size_t evaluations = 0, passes = 0;
     std::optional<Subject::Coordinates> invalid_point; ///< first point where the density was negative or not finite
-    void take_means();                       ///< over the passes, whose sums the cells hold; adds up the total
+    void take_means(); ///< over the passes, whose sums the cells hold; adds up the total
   };
   CellMasses integrate(const Subject& subject, const Goal& goal, std::uint64_t seed, const PointVisitor& visit = {});
 

@@ -1,5 +1,5 @@
-#include <mc/check/fit/interior_density.h>
 #include <mc/check/fit/expected/stratified_reference.h>
+#include <mc/check/fit/interior_density.h>
 #include <mc/core/types.h>
 #include <mc/random/pcg.h>
 
@@ -110,13 +110,14 @@ struct StratifiedReference::Integration {
   }
 };
 
-StratifiedReference::CellMasses StratifiedReference::integrate(const Subject& s, const Goal& goal, std::uint64_t seed, const PointVisitor& visit) {
+StratifiedReference::CellMasses StratifiedReference::integrate(const Subject& s, const Goal& goal, std::uint64_t seed,
+                                                               const PointVisitor& visit) {
   Integration integration{s, *this, visit, Pcg(seed)};
   CellMasses& result = integration.result;
   result.cells.resize(cells_);
   const double most = static_cast<double>(goal.max_points),
-               points =
-                   std::max(static_cast<double>(goal.min_points), std::min(most / 8, goal.samples / samples_to_a_point));
+               points = std::max(static_cast<double>(goal.min_points),
+                                 std::min(most / 8, goal.samples / samples_to_a_point));
   const double each = points / static_cast<double>(4 * strata_.size());
   integration.parts = static_cast<std::size_t>(std::max(1.0, std::floor(std::pow(each, 1.0 / dim_) + 1e-9)));
   double boxes = 1;

@@ -124,10 +124,16 @@ bool is_rounding(const Subject& s, const Pilot& pilot, const AxisInterval& gap) 
 
 // The interval with the points of the pilot in it and beside it, and the mass that it would hold if it were like these.
 IntervalQuery query_around(const Pilot& pilot, const AxisInterval& interval) {
-  IntervalQuery query{interval.axis, interval.box.lo[interval.axis], interval.box.hi[interval.axis], {}, 0, interval.kind == AxisInterval::Kind::gap};
+  IntervalQuery query{interval.axis,
+                      interval.box.lo[interval.axis],
+                      interval.box.hi[interval.axis],
+                      {},
+                      0,
+                      interval.kind == AxisInterval::Kind::gap};
   constexpr double least = 64;
   const double inside = count_between(pilot.sorted[interval.axis], query.lo, query.hi);
-  query.near = pilot.nearest(interval.axis, 0.5 * (query.lo + query.hi), static_cast<std::size_t>(std::max(least, inside)));
+  query.near =
+      pilot.nearest(interval.axis, 0.5 * (query.lo + query.hi), static_cast<std::size_t>(std::max(least, inside)));
   double lo = query.lo, hi = query.hi;
   for (const std::uint32_t i : query.near) {
     lo = std::min(lo, pilot.points[i][interval.axis]);
@@ -140,7 +146,8 @@ IntervalQuery query_around(const Pilot& pilot, const AxisInterval& interval) {
 
 } // namespace
 
-std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pilot, const std::array<std::vector<double>, 3>& sorted) {
+std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pilot,
+                                              const std::array<std::vector<double>, 3>& sorted) {
   std::vector<AxisInterval> intervals;
   const auto add = [&](AxisInterval interval) {
     interval.mass = interval_mass(s, pilot, query_around(pilot, interval), intervals.size() + 1);
@@ -161,8 +168,8 @@ std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pil
   return intervals;
 }
 
-Check test_axis_intervals(const Subject& s, AxisInterval::Kind kind, const std::vector<AxisInterval>& intervals, double n, double mass,
-                 double alpha) {
+Check test_axis_intervals(const Subject& s, AxisInterval::Kind kind, const std::vector<AxisInterval>& intervals,
+                          double n, double mass, double alpha) {
   const bool atom = kind == AxisInterval::Kind::atom;
   Check c{atom ? "no atoms" : "no gaps",
           Verdict::pass,
@@ -186,9 +193,10 @@ Check test_axis_intervals(const Subject& s, AxisInterval::Kind kind, const std::
     if (p >= *c.p) continue;
     c.p = p;
     c.statistic = interval.count;
-    c.detail = fmt::format("{} contains {} samples, {:.3g} expected",
-                           describe_interval(s, interval.axis, interval.box.lo[interval.axis], interval.box.hi[interval.axis]), interval.count,
-                           n * interval.mass.value);
+    c.detail =
+        fmt::format("{} contains {} samples, {:.3g} expected",
+                    describe_interval(s, interval.axis, interval.box.lo[interval.axis], interval.box.hi[interval.axis]),
+                    interval.count, n * interval.mass.value);
   }
   if (*c.p <= sidak_level(alpha, c.share)) c.verdict = Verdict::fail;
   else c.detail.clear();

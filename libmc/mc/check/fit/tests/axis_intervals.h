@@ -29,7 +29,8 @@ struct AxisInterval {
 /// Per axis the place where most samples share one value up to rounding, if three or more do; the least and the
 /// greatest value, if two or more share it; and the gaps that are widest in spacings of the samples beside them: the
 /// widest inside, and those at both ends. `sorted` holds the coordinates of the samples by axis.
-std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pilot, const std::array<std::vector<double>, 3>& sorted);
+std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pilot,
+                                              const std::array<std::vector<double>, 3>& sorted);
 
 /// The intervals of one kind against their mass, on the side that the kind suspects: too many at an atom, none in a gap. A
 /// interval was chosen among as many as there are samples, which the p-value takes into account; four standard deviations
@@ -37,7 +38,7 @@ std::vector<AxisInterval> find_axis_intervals(const Subject& s, const Pilot& pil
 /// a sampler of 31 random bits, as coarse as is let pass, repeats itself, but hardly ever in its greatest value. Spends
 /// alpha_share(atoms) or alpha_share(gaps).
 ///   n, mass : samples drawn; what the density integrates to, 1 where samples may fail
-Check test_axis_intervals(const Subject& s, AxisInterval::Kind kind, const std::vector<AxisInterval>& intervals, double n, double mass,
-                 double alpha);
+Check test_axis_intervals(const Subject& s, AxisInterval::Kind kind, const std::vector<AxisInterval>& intervals,
+                          double n, double mass, double alpha);
 
 } // namespace mc

@@ -69,7 +69,7 @@ IntervalQuery MarginalBins::interval_query(const BinRange& range) const {
   }
   return {range.axis, range.lo,
           range.hi,   {axis.points.begin() + axis.first_points[first], axis.points.begin() + axis.first_points[last]},
-          0,        false};
+          0,          false};
 }
 
 bool MarginalBins::is_rounded(const Subject& s, const Pilot& pilot, const BinRange& range) const {
@@ -101,12 +101,12 @@ std::vector<MarginalBins::BinRange> MarginalBins::farthest_ranges(double& family
     for (std::size_t length = 1; 2 * length <= size; length *= 2)
       for (std::size_t lo = 0; lo + length <= size; lo += std::max<std::size_t>(length / 2, 1)) {
         BinRange range{axis.index,
-                lo,
-                lo + length,
-                lo > 0 ? axis.ends[lo - 1] : 0.0,
-                lo + length < size ? axis.ends[lo + length - 1] : 1.0,
-                {},
-                {}};
+                       lo,
+                       lo + length,
+                       lo > 0 ? axis.ends[lo - 1] : 0.0,
+                       lo + length < size ? axis.ends[lo + length - 1] : 1.0,
+                       {},
+                       {}};
         for (std::size_t i = lo; i < lo + length; ++i) range.counts.join(axis.bins[i]);
         range.compared = compare(range.counts, scale);
         range.expected = range.compared.expected;
@@ -125,7 +125,8 @@ std::vector<MarginalBins::BinRange> MarginalBins::farthest_ranges(double& family
 
 // The p-value of a run's count against an integral of its own, whose error is conceded; against the random points where
 // not all its samples count 1, and where these know better.
-void MarginalBins::BinRange::compute_p(const Subject& s, const Pilot& pilot, IntervalQuery query, double n, double mass, Effort effort) {
+void MarginalBins::BinRange::compute_p(const Subject& s, const Pilot& pilot, IntervalQuery query, double n, double mass,
+                                       Effort effort) {
   p = compared.p();
   expected = compared.expected;
   if (counts.observed_squares != counts.observed) return;
@@ -143,7 +144,8 @@ void MarginalBins::BinRange::compute_p(const Subject& s, const Pilot& pilot, Int
   p = binomial_tail(counts.observed, n, std::min(conceded / n, 1.0));
 }
 
-Check MarginalBins::test(const Subject& s, const Pilot& pilot, double n, double mass, double share, double alpha) const {
+Check MarginalBins::test(const Subject& s, const Pilot& pilot, double n, double mass, double share,
+                         double alpha) const {
   Check c{"marginal bins", Verdict::pass, 1.0, share, 0, 0, Fault::local, {}};
   double least = 1, family = 0;
   std::vector<BinRange> ranges = farthest_ranges(family);
@@ -158,8 +160,8 @@ Check MarginalBins::test(const Subject& s, const Pilot& pilot, double n, double 
     if (range.p >= least) continue;
     least = range.p;
     c.statistic = range.compared.z();
-    c.detail = fmt::format("{} contains {:.0f} samples, {:.1f} expected", describe_interval(s, range.axis, range.lo, range.hi),
-                           range.counts.observed, range.expected);
+    c.detail = fmt::format("{} contains {:.0f} samples, {:.1f} expected",
+                           describe_interval(s, range.axis, range.lo, range.hi), range.counts.observed, range.expected);
   }
   c.p = sidak(least, family);
   if (*c.p <= sidak_level(alpha, share)) c.verdict = Verdict::fail;

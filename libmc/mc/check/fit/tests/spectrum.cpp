@@ -89,7 +89,7 @@ SpectrumTest::SpectrumTest(int dim, double samples, double step) : dim_(dim) {
 }
 
 std::vector<Check> SpectrumTest::test(const WeightedCounts& all, double share, double alpha,
-                                  const char* coordinates) const {
+                                      const char* coordinates) const {
   double observed = 0, expected = 0, collisions = 0;
   for (const float o : observed_) observed += static_cast<double>(o);
   for (const float e : expected_) expected += static_cast<double>(e);

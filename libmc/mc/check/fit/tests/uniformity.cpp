@@ -12,7 +12,7 @@
 namespace mc {
 
 std::optional<Check> check_inverse_finite(const Subject& s, std::uint64_t seed, std::size_t n,
-                               const std::vector<Subject::Coordinates>& inverted) {
+                                          const std::vector<Subject::Coordinates>& inverted) {
   const auto is_lost = [](const Subject::Coordinates& u) {
     return !std::all_of(u.begin(), u.end(), [](double x) { return std::isfinite(x); });
   };

@@ -13,7 +13,7 @@ namespace mc {
 /// Fails where the inverse of a sample is not finite, of those that Subject::inverted gives for n draws of the stream
 /// `seed`; nothing where all are.
 std::optional<Check> check_inverse_finite(const Subject& s, std::uint64_t seed, std::size_t n,
-                               const std::vector<Subject::Coordinates>& inverted);
+                                          const std::vector<Subject::Coordinates>& inverted);
 
 /// Tests points of [0,1)^dim, dim 1 to 3, as one Check that spends `share` of alpha: along each axis
 /// Kolmogorov-Smirnov, mean and mean square, and for each pair of axes their correlation; the smallest p by Sidak over

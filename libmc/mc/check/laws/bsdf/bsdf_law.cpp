@@ -83,7 +83,7 @@ const char* cosine_hint(const Channels& stated, const Channels& f, const AnyBsdf
 }
 
 SampleDifference sample_difference(const AnyBsdf& bsdf, const Direction& wo, const AnyBsdf::Sample& d, double density,
-                                     const BsdfOptions& options) {
+                                   const BsdfOptions& options) {
   SampleDifference result{relative_difference(d.pdf, density), {"pdf", d.pdf, density, ""}};
   if (d.f.count == 0 && d.weight.count == 0) return result;
   const Channels f = bsdf.eval(wo, d.wi);
@@ -117,8 +117,9 @@ Lobes find_lobes(const AnyBsdf& bsdf, const Direction& wo, const BsdfOptions& op
   return lobes;
 }
 
-AnyDistribution::Sample make_sample(const AnyBsdf& bsdf, const AnyDomain& sphere, const Direction& wo, const AnyBsdf::Sample& d,
-                           const std::array<double, 2>& lobes, const BsdfOptions& options) {
+AnyDistribution::Sample make_sample(const AnyBsdf& bsdf, const AnyDomain& sphere, const Direction& wo,
+                                    const AnyBsdf::Sample& d, const std::array<double, 2>& lobes,
+                                    const BsdfOptions& options) {
   AnyDistribution::Sample drawn;
   drawn.x = {d.wi.x(), d.wi.y(), d.wi.z()};
   const auto scattered = throughput(d, options);
@@ -159,7 +160,7 @@ std::string describe_sample_at(const AnyBsdf& bsdf, const Direction& wo, const A
 AnyDistribution bsdf_distribution(const AnyBsdf& bsdf, const AnyBsdf::Direction& wo, const BsdfOptions& options) {
   const Lobes lobes = find_lobes(bsdf, wo, options);
   AnyDistribution s = bsdf.is_float ? detail::distribution_on(options.name, Sphere<float>{})
-                               : detail::distribution_on(options.name, Sphere<double>{});
+                                    : detail::distribution_on(options.name, Sphere<double>{});
   if (!lobes.continuous) s.domain.dim = 0;
   s.may_fail = true;
   s.open_interval = options.open_interval;

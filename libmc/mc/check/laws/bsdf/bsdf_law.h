@@ -16,7 +16,7 @@ namespace mc {
 /// f, both ways where that means something, and the density of one pair of directions.
 struct DirectionPair {
   AnyBsdf::Direction wi;
-  bool transmitted = false;    ///< wo and wi lie on two sides of the surface
+  bool transmitted = false; ///< wo and wi lie on two sides of the surface
   bool has_reverse = false; ///< f_reverse is f(wi, wo)
   Channels f, f_reverse;
   double pdf = 0;
@@ -28,7 +28,7 @@ struct BsdfView {
   AnyBsdf::Direction wo;
   const BsdfOptions& options;
   std::vector<DirectionPair> pairs; ///< at sampled wi and at uniform ones
-  bool transmissive = false;             ///< light crosses the surface, so directions on its other side mean something
+  bool transmissive = false;        ///< light crosses the surface, so directions on its other side mean something
 };
 
 struct BsdfFindings {

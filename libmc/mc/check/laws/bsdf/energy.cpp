@@ -11,7 +11,7 @@ namespace {
 // The white furnace: the share of light from everywhere that leaves along wo, the mean of f |cos| / pdf, per channel.
 // Those that the BSDF does not have repeat its last one.
 std::array<Moments, Channels::max_count> white_furnace(const BsdfView& view, const AnyBsdf::Direction& wo, int n,
-                                                  std::uint64_t seed) {
+                                                       std::uint64_t seed) {
   std::array<Moments, Channels::max_count> albedo;
   Pcg random(seed, 22);
   for (int i = 0; i < n; ++i) {

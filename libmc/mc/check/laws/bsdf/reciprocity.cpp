@@ -13,8 +13,8 @@ bool includes_cosine(const BsdfView& view, const DirectionPair& pair, double sca
 }
 
 std::string describe_pair(const BsdfView& view, const DirectionPair& pair, double scale) {
-  std::string text = fmt::format("f(wi, wo) is {}, should be {} as f(wo, wi){}, at {}", view.bsdf.format(pair.f_reverse),
-                                 view.bsdf.format(scaled(pair.f, scale)),
+  std::string text = fmt::format("f(wi, wo) is {}, should be {} as f(wo, wi){}, at {}",
+                                 view.bsdf.format(pair.f_reverse), view.bsdf.format(scaled(pair.f, scale)),
                                  scale == 1 ? "" : " times the squared ratio of the indices", describe(view, pair));
   if (includes_cosine(view, pair, scale))
     text += "; f / |cos wi| is reciprocal, so eval seems to include the cosine: set .cosine = false and .reciprocal = "

@@ -6,7 +6,8 @@ namespace mc {
 namespace {
 
 double excess(const Moments& m, double allowed, const RoughnessLimitOptions& options) {
-  return m.non_finite_count() ? HUGE_VAL : std::max(std::abs(m.mean()) - allowed - options.noise - 5 * m.std_error(), 0.0);
+  return m.non_finite_count() ? HUGE_VAL
+                              : std::max(std::abs(m.mean()) - allowed - options.noise - 5 * m.std_error(), 0.0);
 }
 
 // Of one draw: weight and weight wi of each channel, those that the BSDF does not have as its last one; absorption.

@@ -9,7 +9,7 @@ namespace mc::detail {
 namespace {
 constexpr double small = 1e-3, large = 1e-2; // variances of a point over the squared mean
 constexpr double enough = 8;                 // points that a variance must be made of
-constexpr double equal_factor = 12;              // times as many points as decide, and the grid is told of all
+constexpr double equal_factor = 12;          // times as many points as decide, and the grid is told of all
 constexpr double fewest = 256;               // points that the grid is told of at least
 } // namespace
 
@@ -64,7 +64,8 @@ void DensityLearner::measure() {
   log_second_moment_ = 0;
   for (std::size_t k = 0; k < outputs; ++k) {
     if (const double size = largest[k] * std::sqrt(square[k]); std::isfinite(1 / size)) scale_[k] = 1 / size;
-    if (mean[k] != 0) log_second_moment_ = std::max(log_second_moment_, std::log(std::max(square[k] / sqr(mean[k]), 1.0)));
+    if (mean[k] != 0)
+      log_second_moment_ = std::max(log_second_moment_, std::log(std::max(square[k] / sqr(mean[k]), 1.0)));
   }
 }
 
@@ -132,7 +133,8 @@ void DensityLearner::adapt_grid() {
     sum += value * samples.weights[i];
     squares += sqr(value * samples.weights[i]);
     for (std::size_t j = 0; j < dim_; ++j)
-      power[j * ImportanceGrid::bins + static_cast<std::size_t>(samples.points[i * dim_ + j] * ImportanceGrid::bins)] += x;
+      power[j * ImportanceGrid::bins + static_cast<std::size_t>(samples.points[i * dim_ + j] * ImportanceGrid::bins)] +=
+          x;
   }
   const double all = static_cast<double>(size()), decide = squares > 0 ? sqr(sum) / squares : all;
   const double effective_points = all * sqr(std::min(1.0, equal_factor * decide / all));

@@ -20,17 +20,18 @@ double log_variance_gain(const Means& round, std::uint64_t points, const Replica
   for (std::uint64_t length = 16; 2 * length <= points && at + 1 < baseline.means_history.size(); length *= 2) ++at;
   const auto lead = [&](std::size_t k) {
     const double more = std::log(static_cast<double>(points) / std::ldexp(16.0, static_cast<int>(k)));
-    return log_variance_ratio(baseline.means_history[k], round) - more * static_cast<double>(baseline.means_history[k].size());
+    return log_variance_ratio(baseline.means_history[k], round) -
+           more * static_cast<double>(baseline.means_history[k].size());
   };
   return std::max(lead(at), lead(baseline.means_history.size() - 1));
 }
 
 // A round of so many points of each replicate, drawn from a density; `last`, if any, becomes what it says.
-Means evaluate_round(IntegrationRun& run, std::shared_ptr<const AdaptedDensity> density, std::uint64_t stream_id, std::uint64_t points,
-                   DensityLearner* learner, std::optional<Outcome>* last) {
+Means evaluate_round(IntegrationRun& run, std::shared_ptr<const AdaptedDensity> density, std::uint64_t stream_id,
+                     std::uint64_t points, DensityLearner* learner, std::optional<Outcome>* last) {
   const Proposal proposal{.density = std::move(density)};
-  const std::vector<Sums> sums = run.evaluate_all(run.sobol_sets(stream_id, 0, run.options.replicates), 0, points, proposal,
-                                                  learner ? Keep::points : Keep::sums);
+  const std::vector<Sums> sums = run.evaluate_all(run.sobol_sets(stream_id, 0, run.options.replicates), 0, points,
+                                                  proposal, learner ? Keep::points : Keep::sums);
   if (learner) learner->learn(sums);
   std::vector<ReplicateHistory> histories;
   // Only the last round is held against the answer: it knew best where the integrand is. Earlier ones may have met too
@@ -49,13 +50,15 @@ Means evaluate_round(IntegrationRun& run, std::shared_ptr<const AdaptedDensity> 
 
 // Whether too little of some output was met to know its error.
 bool is_undersampled(const Means& means) {
-  return std::any_of(means.begin(), means.end(),
-                     [](const Mean& m) { return m.reported_error_bar() == ErrorBar::undersampled || m.reported_error_bar() == ErrorBar::all_zero; });
+  return std::any_of(means.begin(), means.end(), [](const Mean& m) {
+    return m.reported_error_bar() == ErrorBar::undersampled || m.reported_error_bar() == ErrorBar::all_zero;
+  });
 }
 
 // Whether some error is not known.
 bool has_unknown_error(const Means& means) {
-  return std::any_of(means.begin(), means.end(), [](const Mean& m) { return m.reported_error_bar() != ErrorBar::known; });
+  return std::any_of(means.begin(), means.end(),
+                     [](const Mean& m) { return m.reported_error_bar() != ErrorBar::known; });
 }
 
 // Whether a round of so many calls pays: the logarithm of the variance, if it goes on falling with that of the number
@@ -63,7 +66,8 @@ bool has_unknown_error(const Means& means) {
 //   fell : in the last round, of so many calls; `points_so_far` is the number of all points so far
 bool is_worthwhile(double fell, double last, double points_so_far, double calls, double left) {
   if (calls >= left) return false;
-  return last >= points_so_far || fell / -std::log1p(-last / points_so_far) * std::log1p(calls / points_so_far) > -std::log1p(-calls / left);
+  return last >= points_so_far ||
+         fell / -std::log1p(-last / points_so_far) * std::log1p(calls / points_so_far) > -std::log1p(-calls / left);
 }
 
 std::vector<double> values(const Means& means) {
@@ -79,11 +83,13 @@ struct DensityTrial {
 };
 // Tries it on a round of points drawn from it, and on uniform points: those of the baseline sequences or, without them, a
 // round as long. The learner learns from both, and goes on from that density.
-DensityTrial try_density(IntegrationRun& run, const ReplicatedSequences* baseline, std::uint64_t points, DensityLearner& learner, std::optional<Outcome>* latest) {
+DensityTrial try_density(IntegrationRun& run, const ReplicatedSequences* baseline, std::uint64_t points,
+                         DensityLearner& learner, std::optional<Outcome>* latest) {
   constexpr std::uint64_t uniform_stream = 20, given_stream = 21; // stream ids that no round of learning has
   DensityTrial all{{run.options.density, std::vector<double>(run.outputs)}};
   if (points == 0) return all;
-  if (!baseline) evaluate_round(run, std::make_shared<AdaptedDensity>(learner.density()), uniform_stream, points, &learner, latest);
+  if (!baseline)
+    evaluate_round(run, std::make_shared<AdaptedDensity>(learner.density()), uniform_stream, points, &learner, latest);
   const auto used = std::make_shared<AdaptedDensity>(*run.options.density);
   if (run.options.method == Method::vegas) used->tree.reset();
   learner.set_density(*used);
@@ -93,8 +99,10 @@ DensityTrial try_density(IntegrationRun& run, const ReplicatedSequences* baselin
 }
 } // namespace
 
-std::optional<LearnedDensity> learn_density(IntegrationRun& run, const ReplicatedSequences* baseline, std::optional<Outcome>& last) {
-  const std::uint64_t least = std::min<std::uint64_t>(run.options.max_calls / 4, 1 << 13), room = run.max_recorded_calls();
+std::optional<LearnedDensity> learn_density(IntegrationRun& run, const ReplicatedSequences* baseline,
+                                            std::optional<Outcome>& last) {
+  const std::uint64_t least = std::min<std::uint64_t>(run.options.max_calls / 4, 1 << 13),
+                      room = run.max_recorded_calls();
   const std::uint64_t budget = std::clamp<std::uint64_t>(run.options.max_calls / 32, least, std::max(room / 4, least));
   std::optional<Outcome>* latest = baseline ? nullptr : &last;
   DensityLearner learner(run);
@@ -112,8 +120,10 @@ std::optional<LearnedDensity> learn_density(IntegrationRun& run, const Replicate
   std::uint64_t calls = budget / 4, spent = 0;
   const std::uint64_t before_all = baseline ? baseline->length * baseline->count : 0;
   double lead = 0;
-  bool comparable = false; // by baseline sequences: where one of the two does not know its error, neither says which is better
-  const bool first_round_done = run.options.density || (baseline && run.calls >= calls && learner.log_second_moment() < wide);
+  bool comparable =
+      false; // by baseline sequences: where one of the two does not know its error, neither says which is better
+  const bool first_round_done =
+      run.options.density || (baseline && run.calls >= calls && learner.log_second_moment() < wide);
   for (std::uint64_t k = first_round_done ? 1 : 0; calls / run.options.replicates >= 8; ++k) {
     const std::uint64_t points = calls / run.options.replicates;
     const double before = learner.log_second_moment();
@@ -124,12 +134,16 @@ std::optional<LearnedDensity> learn_density(IntegrationRun& run, const Replicate
     if (baseline) lead = log_variance_gain(round, points, *baseline);
     comparable = baseline && !has_unknown_error(baseline->means_history.back()) && !has_unknown_error(round);
     // Hopeless: worse than the baseline sequences although no rare large values are left to be found.
-    if (comparable && k > 0 && learner.log_second_moment() < wide && lead < -required_margin(baseline->means_history.back()) - 0.5) return {};
-    const auto now = static_cast<double>(points * run.options.replicates), points_so_far = static_cast<double>(before_all + spent);
+    if (comparable && k > 0 && learner.log_second_moment() < wide &&
+        lead < -required_margin(baseline->means_history.back()) - 0.5)
+      return {};
+    const auto now = static_cast<double>(points * run.options.replicates),
+               points_so_far = static_cast<double>(before_all + spent);
     if (k >= 1) calls *= 2;
-    const bool searching = (!baseline || is_undersampled(baseline->means_history.back())) && learner.log_second_moment() > wide,
-               helps = is_worthwhile(before - learner.log_second_moment(), now, points_so_far, static_cast<double>(calls),
-                            static_cast<double>(run.calls_left())) ||
+    const bool searching =
+                   (!baseline || is_undersampled(baseline->means_history.back())) && learner.log_second_moment() > wide,
+               helps = is_worthwhile(before - learner.log_second_moment(), now, points_so_far,
+                                     static_cast<double>(calls), static_cast<double>(run.calls_left())) ||
                        lead > (learner.log_second_moment() > wide ? 0.2 : 0.7);
     const std::uint64_t most = std::min(run.options.max_calls / 5 * (searching ? 2 : 1), room);
     if (k >= 2 && (learner.log_second_moment() < 0.5 || !(searching || helps) || spent + calls > most)) break;

@@ -132,7 +132,9 @@ Parameter<Slope> slope() {
 }
 Parameter<Slope> alpha() { return slope().with_default({0.1}, "0.1").with_lajolla_default({0.01}, "0.01"); }
 /// lajolla's smooth materials are its rough ones with another default; `rough` is Mitsuba's one.
-Parameter<Slope> alpha_of_smooth(const std::string& rough) { return slope().with_default({0}, "0").lajolla_only(rough); }
+Parameter<Slope> alpha_of_smooth(const std::string& rough) {
+  return slope().with_default({0}, "0").lajolla_only(rough);
+}
 Parameter<std::optional<double>> roughness() {
   return optional(number("roughness", "", "the root of alpha, in [0, 1], instead of it"))
       .lajolla_only("alpha, its square");

@@ -63,7 +63,9 @@ Plugin<SensorSettings> sensor_plugin(std::string name, std::string meaning, Make
       number("farClip", "scene units", mc::infinity<double>, "what stands farther is cut away, > nearClip"),
       optional(number("focusDistance", "scene units", "to the plane in focus; of no effect for a pinhole"))
           .with_default(std::nullopt, "farClip, or 1e4"),
-      nested("film", "the picture", film_plugins).with_default(in_mitsuba, "hdrfilm").with_lajolla_default(with_lajolla_default, "hdrfilm"),
+      nested("film", "the picture", film_plugins)
+          .with_default(in_mitsuba, "hdrfilm")
+          .with_lajolla_default(with_lajolla_default, "hdrfilm"),
       nested("sampler", "how many samples", sampler_plugins).with_default(default_spp, "independent"), parameters...);
 }
 

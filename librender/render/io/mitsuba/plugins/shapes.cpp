@@ -115,7 +115,8 @@ template <class Make> struct Covered {
   Make make;
   template <class... Values>
   ShapeDescription operator()(const std::optional<BsdfId>& bsdf, const std::optional<Emission>& emission,
-                          const std::optional<HomogeneousMedium>& interior, bool importance_target, const Values&... values) const {
+                              const std::optional<HomogeneousMedium>& interior, bool importance_target,
+                              const Values&... values) const {
     Placed placed = make(values...);
     return {std::move(placed.shape), bsdf, emission, importance_target, interior, std::move(placed.missing_uv_reason)};
   }
@@ -123,11 +124,12 @@ template <class Make> struct Covered {
 
 // A row for a geometry, with the parameters that all shapes have.
 template <class Make, class... V>
-Plugin<ShapeDescription> shape_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
-  return plugin<ShapeDescription>(std::move(name), std::move(meaning), Covered<Make>{make}, bsdf_of_shape(),
-                              optional(nested("emitter", "makes it shine", surface_emitter_plugins)), medium_of_shape(),
-                              boolean("guide", "whether the strategies `mixture` and `guides` aim at it (ours)"),
-                              parameters...);
+Plugin<ShapeDescription> shape_plugin(std::string name, std::string meaning, Make make,
+                                      const Parameter<V>&... parameters) {
+  return plugin<ShapeDescription>(
+      std::move(name), std::move(meaning), Covered<Make>{make}, bsdf_of_shape(),
+      optional(nested("emitter", "makes it shine", surface_emitter_plugins)), medium_of_shape(),
+      boolean("guide", "whether the strategies `mixture` and `guides` aim at it (ours)"), parameters...);
 }
 
 HomogeneousMedium make_homogeneous(const Spectrum& absorption, const Spectrum& scattering) {
@@ -176,7 +178,8 @@ Parameter<std::optional<double>> max_smooth_angle() {
 
 // A row for a mesh in a file, with the parameters that all of those have.
 template <class Make, class... V>
-Plugin<ShapeDescription> mesh_plugin(std::string name, std::string meaning, Make make, const Parameter<V>&... parameters) {
+Plugin<ShapeDescription> mesh_plugin(std::string name, std::string meaning, Make make,
+                                     const Parameter<V>&... parameters) {
   return shape_plugin(
       std::move(name), std::move(meaning), make, file("filename", "the mesh, relative to the scene file"), to_world(),
       boolean("faceNormals", "whether it is flat: without the file's normals, or smooth ones where it has none"),

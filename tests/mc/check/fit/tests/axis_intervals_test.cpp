@@ -27,7 +27,8 @@ TEST(AxisIntervals, UniformSamples_HaveNoAtomsOrGaps) {
 
 TEST(AxisIntervals, ClampedCoordinate_IsAtom) {
   const auto found = intervals([](mc::Pcg& r) { return std::max(r.uniform<double>(), 1e-3); });
-  const auto atom = std::find_if(found.begin(), found.end(), [](const mc::AxisInterval& s) { return s.kind == IntervalKind::atom; });
+  const auto atom =
+      std::find_if(found.begin(), found.end(), [](const mc::AxisInterval& s) { return s.kind == IntervalKind::atom; });
   ASSERT_NE(atom, found.end());
   EXPECT_LE(atom->box.lo[0], 1e-3);
   EXPECT_GE(atom->box.hi[0], 1e-3);
@@ -42,7 +43,9 @@ mc::Verdict atoms(std::uint64_t seed, std::uint64_t n, int bits, double limit) {
       [=](mc::Pcg& r) { return std::min(-std::log(1 - std::ldexp(double(r.next64() >> (64 - bits)), -bits)), limit); },
       [](double x) { return std::exp(-x); });
   const mc::Pilot pilot = draw_pilot(s, seed, 8 * n);
-  return test_axis_intervals(s, IntervalKind::atom, find_axis_intervals(s, pilot, pilot.sorted), static_cast<double>(n), 1, 0.01).verdict;
+  return test_axis_intervals(s, IntervalKind::atom, find_axis_intervals(s, pilot, pilot.sorted), static_cast<double>(n),
+                             1, 0.01)
+      .verdict;
 }
 
 // Of 50000 samples four are expected above the limit: two or more in 91 of 100 runs, in fewer than 97 of 120 with
@@ -77,7 +80,8 @@ TEST(AxisIntervals, LobeThinnerThanInterval_IsNoAtom) {
           });
       for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         const mc::Pilot pilot = draw_pilot(s, seed, 160'000);
-        const mc::Check c = test_axis_intervals(s, IntervalKind::atom, find_axis_intervals(s, pilot, pilot.sorted), 20'000, 1, 0.01);
+        const mc::Check c =
+            test_axis_intervals(s, IntervalKind::atom, find_axis_intervals(s, pilot, pilot.sorted), 20'000, 1, 0.01);
         EXPECT_EQ(c.verdict, mc::Verdict::pass) << width << ", " << decay << ", seed " << seed << ": p = " << *c.p;
       }
     }
@@ -110,7 +114,8 @@ TEST(AxisIntervals, RoundedCoordinates_AreNoGap) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const mc::Pilot pilot = draw_pilot(s, seed, 800'000);
     for (const mc::AxisInterval& interval : find_axis_intervals(s, pilot, pilot.sorted))
-      EXPECT_NE(interval.kind, IntervalKind::gap) << interval.box.lo[interval.axis] << " to " << interval.box.hi[interval.axis];
+      EXPECT_NE(interval.kind, IntervalKind::gap)
+          << interval.box.lo[interval.axis] << " to " << interval.box.hi[interval.axis];
   }
 }
 

@@ -33,8 +33,6 @@ TEST(DensityRatioTest, CorrectSamples_RejectedAtMostAtAlpha) {
   EXPECT_GE(rejected, 8);
 }
 
-TEST(DensityRatioTest, SamplesIgnoreDensity_Fails) {
-  EXPECT_EQ(levels(1, false, 1e-3).verdict, mc::Verdict::fail);
-}
+TEST(DensityRatioTest, SamplesIgnoreDensity_Fails) { EXPECT_EQ(levels(1, false, 1e-3).verdict, mc::Verdict::fail); }
 
 } // namespace
