@@ -41,7 +41,7 @@ struct Scores {
   }
 };
 
-struct Way {
+struct RenderSetup {
   Strategy strategy;
   bool in_tile = false; ///< see measure
 
@@ -50,8 +50,8 @@ struct Way {
 
 // All that find what there is but those of pictures, not of rays; tiles, which share the same in every strategy, by
 // three.
-std::vector<Way> ways() {
-  std::vector<Way> all;
+std::vector<RenderSetup> ways() {
+  std::vector<RenderSetup> all;
   for (const Strategy& strategy : strategies)
     if (strategy.name != "light" && strategy.light_path_rate == 0) all.push_back({strategy});
   for (const char* name : {"mixture", "nee", "mis"}) all.push_back({strategy_from(name), true});
@@ -65,9 +65,9 @@ struct Run {
   std::map<std::string, Scores> scores = {};
 
   std::string_view state_of(const Family& family, const Strategy& strategy, const Measured& m) const {
-    const bool by_chance =
+    const bool bsdf_only =
         strategy.direct_lighting == DirectLighting::bsdf_only && strategy.guiding_target != GuidingTarget::lights;
-    if (by_chance && family.rarest * sets * points < 100) return "rare";
+    if (bsdf_only && family.rarest * sets * points < 100) return "rare";
     if (m.means.mean() == 0) return "dark";
     return m.outlier_dominated ? "undecided" : "decided";
   }
@@ -82,7 +82,7 @@ struct Run {
     }
     std::size_t turn = static_cast<std::size_t>(number);
     for (const Picture& picture : family.pictures)
-      for (const Way& way : ways())
+      for (const RenderSetup& way : ways())
         for (const auto sampler : {PixelSampler::independent, PixelSampler::stratified, PixelSampler::sobol}) {
           // Of what must look like the first, each way meets one sampler in turn.
           if (&picture != &family.pictures[0] && ++turn % 3 != 0) continue;

@@ -128,7 +128,7 @@ void add_spheres_seen(Catalogue& c) {
 }
 
 // A parallelogram cut into strips of growing width, each of two triangles.
-struct Strips {
+struct StripMesh {
   Vec3 corner{-1, Float(-0.5), 2}, e1{2, 0, Float(0.5)}, e2{Float(0.25), 1, 0};
   std::uint32_t count;
 
@@ -157,13 +157,13 @@ struct Strips {
   }
 };
 
-void add_strips_directions(Catalogue& c, const std::string& where, const Vec3& ref, const Strips& strips) {
+void add_strips_directions(Catalogue& c, const std::string& where, const Vec3& ref, const StripMesh& strips) {
   const mc::Patch<Float, 4> directions(strips.corner - ref, strips.e1, strips.e2);
   add_directions(c, "TriangleMesh", where, strips.mesh(), ref, directions,
                  directions.from_unit({Float(0.5), Float(0.5)}));
 }
 
-void add_strips_points(Catalogue& c, const std::string& where, const Vec3& ref, const Strips& strips) {
+void add_strips_points(Catalogue& c, const std::string& where, const Vec3& ref, const StripMesh& strips) {
   const TriangleMesh mesh = strips.mesh();
   const mc::Parallelogram<Float> domain(strips.corner, strips.e1, strips.e2);
   const auto image = [](const SurfacePoint& p) { return p.p; };

@@ -21,7 +21,7 @@ struct Axis {
     lo = std::min(lo, std::log10(x));
     hi = std::max(hi, std::log10(x));
   }
-  void widen() {
+  void extend() {
     const double margin = std::max(0.04 * (hi - lo), 0.02);
     lo -= margin;
     hi += margin;
@@ -57,8 +57,8 @@ class Panel {
         x_.hold(options.x(*e));
         y_.hold(e->rms);
       }
-    x_.widen();
-    y_.widen();
+    x_.extend();
+    y_.extend();
   }
 
   std::string svg() const {

@@ -171,11 +171,11 @@ mc::Moments render(Strategy strategy, std::uint64_t paths, std::uint64_t seed, i
 } // namespace
 
 std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, int threads) {
-  struct Way {
+  struct RenderSetup {
     CornellBox box;
     Strategy strategy;
   };
-  const Way ways[] = {
+  const RenderSetup ways[] = {
       {{"cosine and light, half each", "reference", "cosine directions; the density of a sample is the mixture's",
         true},
        mixed<cosine>},
@@ -190,7 +190,7 @@ std::vector<CornellBox> cornell_boxes(std::uint64_t paths, std::uint64_t seed, i
   };
   const double direct = light_in_view();
   std::vector<CornellBox> boxes;
-  for (const Way& way : ways) {
+  for (const RenderSetup& way : ways) {
     const bool reference = boxes.empty();
     const mc::Moments m = render(way.strategy, reference ? 4 * paths : paths, mc::hash(seed, boxes.size()), threads);
     CornellBox b = way.box;

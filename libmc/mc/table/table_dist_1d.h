@@ -33,32 +33,32 @@ template <Real S, class I = Interval<S>> struct PiecewiseConstantView {
   /// For u in the interval of outcome i: how far it is along it, in [0,1), and the point as far along cell i.
   S remapped(S u, std::size_t i) const { return clamp_to_unit(S(within(u, i))); }
   S point(S u, std::size_t i) const {
-    const Work v = (index(i) + within(u, i)) / index(cdf.size());
+    const Wide v = (index(i) + within(u, i)) / index(cdf.size());
     S x;
     if constexpr (std::same_as<I, UnitInterval>) x = S(v);
-    else x = std::clamp(S(Work(interval.lo) * (1 - v) + Work(interval.hi) * v), S(interval.lo), S(interval.hi));
+    else x = std::clamp(S(Wide(interval.lo) * (1 - v) + Wide(interval.hi) * v), S(interval.lo), S(interval.hi));
     return !std::floating_point<S> || cell(x) == i ? x : nudged(x, i);
   }
   S density(std::size_t i) const {
-    return S(Work(cdf.pmf(i)) * index(cdf.size()) / (Work(interval.hi) - Work(interval.lo)));
+    return S(Wide(cdf.pmf(i)) * index(cdf.size()) / (Wide(interval.hi) - Wide(interval.lo)));
   }
   S invert(S x) const {
     const std::size_t i = cell(x);
-    return clamp_to_unit(S(Work(cdf.cdf(i)) + (unit(x) * index(cdf.size()) - index(i)) * Work(cdf.pmf(i))));
+    return clamp_to_unit(S(Wide(cdf.cdf(i)) + (unit(x) * index(cdf.size()) - index(i)) * Wide(cdf.pmf(i))));
   }
   /// The cell that holds x; the outermost one beyond the ends.
   std::size_t cell(S x) const {
-    const Work v = unit(x) * index(cdf.size());
+    const Wide v = unit(x) * index(cdf.size());
     return v > 0 ? std::min(static_cast<std::size_t>(static_cast<std::int64_t>(static_cast<double>(v))), cdf.size() - 1)
                  : 0;
   }
 
  private:
   // A float has too few bits to count the cells of a large table, so it computes in double.
-  using Work = std::conditional_t<std::same_as<S, float>, double, S>;
-  static Work index(std::size_t i) { return Work(static_cast<double>(static_cast<std::int64_t>(i))); }
-  Work within(S u, std::size_t i) const { return (Work(u) - Work(cdf.cdf(i))) / Work(cdf.pmf(i)); }
-  Work unit(S x) const { return (Work(x) - Work(interval.lo)) / (Work(interval.hi) - Work(interval.lo)); }
+  using Wide = std::conditional_t<std::same_as<S, float>, double, S>;
+  static Wide index(std::size_t i) { return Wide(static_cast<double>(static_cast<std::int64_t>(i))); }
+  Wide within(S u, std::size_t i) const { return (Wide(u) - Wide(cdf.cdf(i))) / Wide(cdf.pmf(i)); }
+  Wide unit(S x) const { return (Wide(x) - Wide(interval.lo)) / (Wide(interval.hi) - Wide(interval.lo)); }
 
   // Rounding must not carry the point into a neighbouring cell, which may have weight 0.
   S nudged(S x, std::size_t i) const {

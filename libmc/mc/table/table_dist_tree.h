@@ -47,8 +47,8 @@ template <Real S, int N> class TableDistTree {
   Point sample(const Point& u) const {
     Point x = u;
     for (const BoxTree::AxisExtent& s : tree_.extents(tree_.leaf_of_u(u))) {
-      const Work v = (Work(u[s.axis]) - s.u_lo) / (Work(s.u_hi) - s.u_lo);
-      x[s.axis] = inside(s.x_lo + v * (Work(s.x_hi) - s.x_lo), s);
+      const Wide v = (Wide(u[s.axis]) - s.u_lo) / (Wide(s.u_hi) - s.u_lo);
+      x[s.axis] = inside(s.x_lo + v * (Wide(s.x_hi) - s.x_lo), s);
     }
     return x;
   }
@@ -65,8 +65,8 @@ template <Real S, int N> class TableDistTree {
   Point invert(const Point& x) const {
     Point u = x;
     for (const BoxTree::AxisExtent& s : tree_.extents(tree_.leaf_of_x(x))) {
-      const Work v = (Work(x[s.axis]) - s.x_lo) / (Work(s.x_hi) - s.x_lo);
-      u[s.axis] = std::min(S(s.u_lo + v * (Work(s.u_hi) - s.u_lo)), one_minus_epsilon<S>);
+      const Wide v = (Wide(x[s.axis]) - s.x_lo) / (Wide(s.x_hi) - s.x_lo);
+      u[s.axis] = std::min(S(s.u_lo + v * (Wide(s.u_hi) - s.u_lo)), one_minus_epsilon<S>);
     }
     return u;
   }
@@ -76,10 +76,10 @@ template <Real S, int N> class TableDistTree {
 
  private:
   // A float has too few bits for the planes of a large tree.
-  using Work = std::conditional_t<std::same_as<S, float>, double, S>;
+  using Wide = std::conditional_t<std::same_as<S, float>, double, S>;
 
   // Rounding must not carry the point into a neighbouring box, which may have weight 0.
-  static S inside(Work exact, const BoxTree::AxisExtent& s) {
+  static S inside(Wide exact, const BoxTree::AxisExtent& s) {
     S x = S(exact);
     if constexpr (std::floating_point<S>) {
       if (x < s.x_lo) x = std::nextafter(x, S(1));

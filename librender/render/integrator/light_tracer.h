@@ -127,9 +127,9 @@ class LightTracer {
   double pdf_rev_squared(const ShadingPoint<B>& isect, const LightSubpath& subpath, const Vec3& wi, bool near_specular,
                          Float eta) const {
     const bool first = subpath.edges == 1;
-    const double by_chance =
+    const double bsdf_pdf_squared =
         first && subpath.from_delta_light ? 0 : mc::sqr(camera_pdf_rev(isect, subpath, wi, near_specular, eta));
-    return first && !near_specular ? by_chance + subpath.nee_pdf_squared : by_chance;
+    return first && !near_specular ? bsdf_pdf_squared + subpath.nee_pdf_squared : bsdf_pdf_squared;
   }
   // Light meets a surface by its true cosine, and the BSDF reckons with that of the shading normal.
   template <class B> static Float shading_normal_correction(const ShadingPoint<B>& isect) {

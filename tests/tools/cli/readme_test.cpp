@@ -32,13 +32,13 @@ std::vector<std::string> lines(const std::string& text) {
   return all;
 }
 
-struct Shown {
+struct ReadmeCommand {
   std::string command;
   std::vector<std::string> output; ///< "..." stands for any lines
 };
 
-std::vector<Shown> commands(const std::string& readme) {
-  std::vector<Shown> all;
+std::vector<ReadmeCommand> commands(const std::string& readme) {
+  std::vector<ReadmeCommand> all;
   bool inside = false;
   for (const std::string& line : lines(readme)) {
     if (line.starts_with("```")) inside = false;
@@ -69,10 +69,10 @@ bool matches(const std::vector<std::string>& shown, const std::vector<std::strin
 struct Readme : support::ScratchTest {};
 
 TEST_F(Readme, ShownOutputMatchesTheCommands) {
-  const std::vector<Shown> all = commands(mc::read_file(MC_SOURCE_DIR "/README.md"));
+  const std::vector<ReadmeCommand> all = commands(mc::read_file(MC_SOURCE_DIR "/README.md"));
   EXPECT_GE(all.size(), 8u);
   std::filesystem::create_directory_symlink(MC_SOURCE_DIR "/librender", folder / "librender");
-  for (const Shown& shown : all) {
+  for (const ReadmeCommand& shown : all) {
     const support::ProcessResult run =
         support::run("cd '" + folder.string() + "' && '" CARLO_PATH "' " + shown.command);
     EXPECT_EQ(run.exit_code, 0) << shown.command;

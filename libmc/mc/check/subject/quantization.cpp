@@ -17,13 +17,13 @@ namespace {
 
 constexpr std::size_t least_points = 100;
 
-struct Seen {
+struct SampledPoint {
   PointArray x;
   AnyDomain::Coordinates v;
 };
 
-std::vector<Seen> draw_points(const AnyDistribution& s, std::uint64_t seed) {
-  std::vector<Seen> points;
+std::vector<SampledPoint> draw_points(const AnyDistribution& s, std::uint64_t seed) {
+  std::vector<SampledPoint> points;
   Pcg random(seed, 51);
   for (int i = 0; i < 1000; ++i) {
     const auto drawn = s.sample ? s.sample(random_uniforms(s, random)) : s.sample_stream(random);
@@ -44,9 +44,9 @@ constexpr int spare_bits = 1; // a float made of 23 random bits comes in steps o
 
 // Whether 1 - cos theta is a multiple of 2^-24, the distance of floats below 1, wherever that can be told, and not of
 // coarser steps.
-bool steps_at_pole(const std::vector<Seen>& points, const Axis& axis, std::size_t k) {
+bool steps_at_pole(const std::vector<SampledPoint>& points, const Axis& axis, std::size_t k) {
   std::size_t near = 0, whole = 0, moved = 0, fine = 0;
-  for (const Seen& p : points) {
+  for (const SampledPoint& p : points) {
     const double steps = axis.b * p.v[k] * 0x1p24, rounded = std::round(steps);
     if (!(steps < 0x1p16)) continue;
     ++near;
@@ -66,13 +66,13 @@ struct Step {
 };
 
 // The step of values that are floats, and not all the same one.
-template <class Value> std::optional<Step> step_of(const std::vector<Seen>& points, Value value) {
+template <class Value> std::optional<Step> step_of(const std::vector<SampledPoint>& points, Value value) {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   constexpr int none = std::numeric_limits<int>::max();
   bool differ = false;
   float largest = 0;
   int exponent = none;
-  for (const Seen& p : points) {
+  for (const SampledPoint& p : points) {
     const double x = value(p);
     const auto rounded = static_cast<float>(x);
     if (!(std::abs(x - static_cast<double>(rounded)) <= rounding * std::abs(x))) return {};
@@ -85,12 +85,12 @@ template <class Value> std::optional<Step> step_of(const std::vector<Seen>& poin
 }
 
 // Likewise of what is made of their coordinate k of the chart.
-template <class Value> std::optional<Step> step_at(const std::vector<Seen>& points, std::size_t k, Value value) {
-  return step_of(points, [&](const Seen& p) { return value(p.v[k]); });
+template <class Value> std::optional<Step> step_at(const std::vector<SampledPoint>& points, std::size_t k, Value value) {
+  return step_of(points, [&](const SampledPoint& p) { return value(p.v[k]); });
 }
 
 // The step of what the axis stands for, where it comes in any.
-std::optional<Step> step_of_axis(const std::vector<Seen>& points, const Axis& axis, std::size_t k) {
+std::optional<Step> step_of_axis(const std::vector<SampledPoint>& points, const Axis& axis, std::size_t k) {
   const auto step = [&](auto value) { return step_at(points, k, value); };
   switch (axis.scale) {
   case Axis::Scale::azimuth: {
@@ -116,7 +116,7 @@ std::string clause(const std::string& what, const std::optional<Step>& step, boo
 }
 
 // Of the axes first, which say more than the numbers of a point.
-std::string clause_of_all(const AnyDistribution& s, const std::vector<Seen>& points) {
+std::string clause_of_all(const AnyDistribution& s, const std::vector<SampledPoint>& points) {
   for (std::size_t k = 0; k < s.domain.axes.size(); ++k) {
     const Axis& axis = s.domain.axes[k];
     const std::string name = axis.scale == Axis::Scale::polar ? "cos " + axis.name : axis.name;
@@ -125,7 +125,7 @@ std::string clause_of_all(const AnyDistribution& s, const std::vector<Seen>& poi
   }
   for (std::size_t i = 0; i < static_cast<std::size_t>(s.domain.point_size); ++i) {
     const std::string name = s.domain.point_size == 1 ? "x" : fmt::format("x[{}]", i);
-    const std::string text = clause(name, step_of(points, [i](const Seen& p) { return p.x[i]; }), s.is_float);
+    const std::string text = clause(name, step_of(points, [i](const SampledPoint& p) { return p.x[i]; }), s.is_float);
     if (!text.empty()) return text;
   }
   return {};
@@ -157,7 +157,7 @@ bool is_float_in_full(double x) {
 } // namespace
 
 std::string describe_quantization(const AnyDistribution& s, std::uint64_t seed) {
-  const std::vector<Seen> points = draw_points(s, seed);
+  const std::vector<SampledPoint> points = draw_points(s, seed);
   if (points.size() < least_points) return {};
   for (std::size_t k = 0; k < s.domain.axes.size(); ++k) {
     const Axis& axis = s.domain.axes[k];

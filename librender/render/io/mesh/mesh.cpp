@@ -60,11 +60,11 @@ void require_valid_mesh(const MeshFile& file) {
 MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double degrees) {
   mc::require(degrees >= 0 && degrees <= 180, "maxSmoothAngle {} must lie in [0, 180] degrees", degrees);
   const double least = std::cos(degrees * mc::pi<double> / 180);
-  struct Side {
+  struct SmoothingGroup {
     Vec3d normal;
     std::uint32_t vertex;
   };
-  std::map<std::array<double, 5>, std::vector<Side>> sides; // of what is at a position and texture coordinate
+  std::map<std::array<double, 5>, std::vector<SmoothingGroup>> sides; // of what is at a position and texture coordinate
   MeshFile split;
   split.missing_uv_reason = file.missing_uv_reason;
   split.meshes = file.meshes;
@@ -76,7 +76,7 @@ MeshFile split_at_edges(const MeshFile& file, const Transform& to_world, double 
       const mc::Vec2<float> uv = file.uvs.empty() ? mc::Vec2<float>(0, 0) : file.uvs[v];
       auto& about = sides[{p[0], p[1], p[2], double(uv[0]), double(uv[1])}];
       auto side = std::find_if(about.begin(), about.end(),
-                               [&](const Side& s) { return s.normal == normal || s.normal.dot(normal) > least; });
+                               [&](const SmoothingGroup& s) { return s.normal == normal || s.normal.dot(normal) > least; });
       if (side == about.end()) {
         side = about.insert(side, {normal, static_cast<std::uint32_t>(split.positions.size())});
         split.positions.push_back(p);

@@ -10,11 +10,11 @@ namespace {
 using namespace render::mitsuba;
 
 // Where an element of each kind stands in a scene.
-struct Place {
+struct Placement {
   std::string before, after;
 };
 const std::string camera = "<sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/>";
-const std::map<std::string, Place> places = {
+const std::map<std::string, Placement> places = {
     {"integrator", {"", ""}},
     {"sensor", {"", ""}},
     {"film", {camera, "</sensor>"}},
@@ -50,7 +50,7 @@ std::string needed_but(const std::string& name, const PluginText& row) {
 struct PluginsTest : support::SceneTest {
   std::string said(const Kind& kind, const PluginText& row, const std::string& children) const {
     const std::string tag = kind.tag.substr(0, kind.tag.find(' '));
-    const Place& place = places.at(kind.tag);
+    const Placement& place = places.at(kind.tag);
     return refusal(place.before + "<" + tag + " id=\"its\" type=\"" + row.name + "\">\n" + children + "</" + tag + ">" +
                    place.after);
   }

@@ -9,10 +9,10 @@ namespace {
 
 const std::string scene_units = "scene units";
 
-struct Placed {
+struct PlacedShape {
   Shape shape;
   std::string missing_uv_reason; ///< why a mesh has no texture coordinates
-  Placed(Shape s, std::string why = {}) : shape(std::move(s)), missing_uv_reason(std::move(why)) {}
+  PlacedShape(Shape s, std::string why = {}) : shape(std::move(s)), missing_uv_reason(std::move(why)) {}
 };
 
 /// How the normals of a mesh are made.
@@ -21,28 +21,28 @@ struct Smoothing {
   std::optional<double> max_angle; ///< between faces [degrees]
 };
 
-Placed placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, const Smoothing& smoothing) {
+PlacedShape placed(const std::string& name, const MeshFile& mesh, const Transform& to_world, const Smoothing& smoothing) {
   return mc::with_context(name, [&] {
     const auto& [is_flat, max_angle] = smoothing;
     mc::require(!is_flat || !max_angle, "faceNormals and maxSmoothAngle contradict each other; give one");
     const std::string& why = mesh.missing_uv_reason;
-    return Placed(max_angle ? to_shape(split_at_edges(mesh, to_world, *max_angle), to_world)
+    return PlacedShape(max_angle ? to_shape(split_at_edges(mesh, to_world, *max_angle), to_world)
                             : to_shape(mesh, to_world, is_flat),
                   why.empty() ? why : fmt::format("{}: {}", name, why));
   });
 }
 
-Placed make_obj(const std::string& path, const Transform& to_world, bool face_normals,
+PlacedShape make_obj(const std::string& path, const Transform& to_world, bool face_normals,
                 const std::optional<double>& max_angle) {
   return placed(path, read_obj(path), to_world, {face_normals, max_angle});
 }
 
-Placed make_ply(const std::string& path, const Transform& to_world, bool face_normals,
+PlacedShape make_ply(const std::string& path, const Transform& to_world, bool face_normals,
                 const std::optional<double>& max_angle) {
   return placed(path, read_ply(path), to_world, {face_normals, max_angle});
 }
 
-Placed make_serialized(const std::string& path, const Transform& to_world, bool face_normals,
+PlacedShape make_serialized(const std::string& path, const Transform& to_world, bool face_normals,
                        const std::optional<double>& max_angle, int index) {
   return placed(fmt::format("{}: mesh {}", path, index), read_serialized(path, index), to_world,
                 {face_normals, max_angle});
@@ -117,7 +117,7 @@ template <class Make> struct Covered {
   ShapeDescription operator()(const std::optional<BsdfId>& bsdf, const std::optional<Emission>& emission,
                               const std::optional<HomogeneousMedium>& interior, bool importance_target,
                               const Values&... values) const {
-    Placed placed = make(values...);
+    PlacedShape placed = make(values...);
     return {std::move(placed.shape), bsdf, emission, importance_target, interior, std::move(placed.missing_uv_reason)};
   }
 };
