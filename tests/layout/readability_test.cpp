@@ -93,30 +93,23 @@ TEST(Readability, LongFunctionsAreDetected) {
   EXPECT_EQ(found[2].length, 4u);
 }
 
-TEST(Readability, FilesHaveAtMost400Lines) {
-  for (const fs::path& file : sources(everything)) EXPECT_LE(lines_of(file).size(), 400u) << file;
-}
-
 TEST(Readability, FunctionsHaveAtMost80Lines) {
   for (const fs::path& file : sources(everything))
     for (const Function& f : long_functions(lines_of(file), 80))
-      ADD_FAILURE() << file.string() << ":" << f.line << ": a function of " << f.length << " lines; 80 are the most";
+      ADD_FAILURE() << file.string() << ":" << f.line << ": a function of " << f.length
+                    << " lines; at most 80 fit on two screens, so that a reader keeps all of it in view";
 }
 
 TEST(Readability, LinesHaveAtMost120Columns) {
   for (const fs::path& file : sources(everything)) {
     const std::vector<std::string> lines = lines_of(file);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      // Columns, not bytes: what continues a character of UTF-8 takes no room.
-      const auto continues = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; };
-      const auto width =
-          lines[i].size() - static_cast<std::size_t>(std::count_if(lines[i].begin(), lines[i].end(), continues));
-      EXPECT_LE(width, 120u) << file.string() << ":" << i + 1;
-    }
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      EXPECT_LE(columns(lines[i]), 120u) << file.string() << ":" << i + 1
+                                         << ": longer lines wrap in reviews and terminals; clang-format breaks code";
   }
 }
 
-// Of simple values: what may also be arguments or a capture is left out.
+// Looks at assignments of simple values only: commas also separate arguments and captures.
 TEST(Readability, NoCommaOperatorBetweenAssignments) {
   static const std::regex two(R"(^\s*\w[\w.\[\]>-]* [-+*/|&]?= [^;"(){}[]*, \w[\w.\[\]>-]* [-+*/|&]?= .*;$)");
   EXPECT_TRUE(std::regex_match("  a.b = 1, c[i] += 2;", two));
@@ -124,16 +117,9 @@ TEST(Readability, NoCommaOperatorBetweenAssignments) {
   for (const fs::path& file : sources(everything)) {
     const std::vector<std::string> lines = lines_of(file);
     for (std::size_t i = 0; i < lines.size(); ++i)
-      EXPECT_FALSE(std::regex_match(lines[i], two)) << file.string() << ":" << i + 1 << ": " << lines[i];
+      EXPECT_FALSE(std::regex_match(lines[i], two))
+          << file.string() << ":" << i + 1 << ": two assignments read as one; give each a line: " << lines[i];
   }
-}
-
-// But for the warps, a family of one kind, of which one is read and the others follow.
-TEST(Readability, FoldersHaveAtMost15Sources) {
-  const std::set<std::string> families = {"libmc/mc/warp", "tests/mc/warp"};
-  std::map<std::string, int> count;
-  for (const fs::path& file : sources(everything)) ++count[file.parent_path().string()];
-  for (const auto& [folder, n] : count) EXPECT_TRUE(n <= 15 || families.contains(folder)) << folder << ": " << n;
 }
 
 using Graph = std::map<std::string, std::map<std::string, std::string>>; ///< from, to, and the place of an include

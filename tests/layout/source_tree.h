@@ -66,4 +66,10 @@ inline std::vector<Include> includes(const fs::path& folder) {
   return found;
 }
 
+// Columns of a line of UTF-8: bytes that continue a character take none.
+inline std::size_t columns(const std::string& line) {
+  return static_cast<std::size_t>(
+      std::count_if(line.begin(), line.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
 } // namespace layout
