@@ -285,6 +285,8 @@ int run_render(const RenderCommandOptions& options) {
 
 } // namespace
 
-Subcommand render_subcommand() { return make_subcommand<RenderCommandOptions>(render_about(), render_rows, render); }
+Subcommand render_subcommand() {
+  return make_subcommand<RenderCommandOptions>(render_about(), render_rows, run_render);
+}
 
 } // namespace carlo

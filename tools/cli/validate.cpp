@@ -275,7 +275,7 @@ int run_validate(const ValidateCommandOptions& options) {
 }
 
 Subcommand validate_subcommand() {
-  return make_subcommand<ValidateCommandOptions>(validate_about(), validate_rows, validate);
+  return make_subcommand<ValidateCommandOptions>(validate_about(), validate_rows, run_validate);
 }
 
 } // namespace carlo

@@ -38,7 +38,7 @@ std::string default_of(const Option& o) {
       return fmt::format("{}", *field);
     else return {};
   };
-  const std::string value = std::visit(text, o.target);
+  const std::string value = std::visit(text, o.destination);
   return value.empty() ? "" : fmt::format(" Default: {}.", value);
 }
 
@@ -103,7 +103,7 @@ std::string usage_of(const Subcommand& c) {
   std::string text = fmt::format("Usage: carlo {} [OPTIONS]", c.about.name);
   for (const Option& o : c.options) {
     if (!is_positional(o)) continue;
-    const bool is_list = std::holds_alternative<std::vector<std::string>*>(o.target);
+    const bool is_list = std::holds_alternative<std::vector<std::string>*>(o.destination);
     const std::string name = o.names + (is_list ? "..." : "");
     text += o.required ? " " + name : " [" + name + "]";
   }
