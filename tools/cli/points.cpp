@@ -85,7 +85,7 @@ void print(const QualityRow& r, int dim, std::size_t sets) {
   fmt::print("{}",
              wrapped(fmt::format("Means of L2 discrepancies are root mean squares. For random and jittered points the "
                                  "star discrepancy is the mean of {} sets, the distance and t of {}; the other "
-                                 "columns are exact.",
+                                 "values are expectations by formula.",
                                  reference_stars, reference_sets),
                      80));
 }

@@ -42,16 +42,16 @@ void add_metadata(render::RenderResult& result, const Provenance& from) {
 void warn_if_imprecise(const std::string& path, const render::Scene& scene) {
   if (const auto length = render::length_out_of_range(scene))
     std::fprintf(stderr,
-                 "carlo: warning: %s: %s %.3g across, and %s hold areas and squares of distances from %.2g to %.2g "
-                 "across; its light may be wrong. Scale the scene\n",
+                 "carlo: warning: %s: %s %.3g across; areas and squared distances in %s are precise from %.2g to %.2g "
+                 "across only. Its light may be wrong: scale the scene\n",
                  path.c_str(), *length < 1 ? "a lamp is" : "the scene is", *length,
                  sizeof(render::Float) == sizeof(float) ? "floats" : "doubles", render::min_length, render::max_length);
   const render::FloatResolution c = render::coarsest_resolution(scene);
   if (c.ratio <= render::max_resolution_ratio) return;
   std::fprintf(
       stderr,
-      "carlo: warning: %s: a surface %.3g across has coordinates of %.3g, where the next number is %.2g further; "
-      "its light and shadow may be wrong. Bring what lies far apart closer together\n",
+      "carlo: warning: %s: a surface %.3g across has coordinates of %.3g, which are rounded to multiples of %.2g. "
+      "Its light and shadow may be wrong: move its parts closer together\n",
       path.c_str(), c.size, c.distance, c.step);
 }
 

@@ -77,7 +77,7 @@ TEST_F(Converge, SceneTooLargeForFloat_IsWarnedAbout) {
     <shape type="sphere"><point name="center" x="0" y="0" z="5"/></shape>
     <shape type="sphere"><point name="center" x="0" y="0" z="3e20"/><float name="radius" value="1e20"/></shape>
     </scene>)");
-  const std::string warning = "carlo: warning: " + huge + ": the scene is 4.9e+20 across, and floats hold areas";
+  const std::string warning = "carlo: warning: " + huge + ": the scene is 4.9e+20 across; areas and squared distances in floats";
   for (const std::string command : {"converge ", "trade "}) {
     const std::string said =
         run_carlo(command + huge + " --size 4x4 --strategies mis --max-spp 32 --threads 1 -o '" + path("out") + "'")

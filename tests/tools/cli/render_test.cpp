@@ -295,7 +295,7 @@ TEST_F(RenderCommand, SceneTooLargeForFloat_IsWarnedAbout) {
   const support::ProcessResult fine = render_with(R"( x="1e6" y="0" z="0"/><float name="radius" value="1000"/>)");
   EXPECT_THAT(fine.output, Not(HasSubstr("warning")));
   const support::ProcessResult huge = render_with(R"( x="0" y="0" z="0"/><float name="radius" value="1e20"/>)");
-  EXPECT_THAT(huge.output, HasSubstr("pebble.xml: the scene is 3.46e+20 across, and floats hold areas"));
+  EXPECT_THAT(huge.output, HasSubstr("pebble.xml: the scene is 3.46e+20 across; areas and squared distances in floats"));
 }
 
 TEST_F(RenderCommand, SceneWithoutLightIsBlackWithAWarning) {
