@@ -31,8 +31,10 @@ void check(const Scene& scene, const RenderOptions& options) {
   mc::require(!options.target_error || *options.target_error > 0, "render: a target error of {}; it must be > 0",
               options.target_error.value_or(0));
   mc::require(!options.splat || !options.adaptive.value_or(false),
-              "render: splats are spent evenly; leave out splat or adaptive");
-  mc::require(!options.tiles || !options.splat, "render: tiles take no splats; leave out one of both");
+              "render: splats need the same number of samples in every pixel; leave out splat or adaptive");
+  mc::require(!options.tiles || !options.splat,
+              "render: tiles and splats both share samples between pixels, and the error bar allows for one of "
+              "them; leave out one");
   mc::require(options.max_depth == -1 || options.max_depth >= 1, "render: max depth {} must be -1 or at least 1",
               options.max_depth);
   mc::require(options.branches >= 1 && options.branches <= max_branches,

@@ -44,7 +44,7 @@ template <class SceneType> class PathReuseIntegrator {
   PathReuseIntegrator(const SceneType& scene, const PathOptions& options, const LightTracer* light_tracer = nullptr)
       : steps_(scene, options.strategy, options.max_depth, light_tracer) {
     mc::require(options.aov.kind == Aov::radiance,
-                "render: tiles share radiance, and normals or openness are to be shown; leave out tiles");
+                "render: tiles share radiance, not normals or ambient occlusion; leave out tiles");
   }
 
   /// Radiance that arrives along the rays of a tile's pixels, one sample of each. `rays` counts the rays traced.
