@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# What is read without being run: clang-tidy with the checks of .clang-tidy over every source, and whether each public
-# header compiles alone; or clang-tidy over the named sources. Of the benchmarks those against GSL and Embree are read
-# where these are installed. Usage: tools/lint.sh [FILE.cpp...]
+# Static checks: every public symbol is documented, each public header compiles alone, and clang-tidy passes over every
+# source with the checks of .clang-tidy; or clang-tidy over the named sources only. Benchmarks against GSL and Embree
+# are included where these libraries are installed. Usage: tools/lint.sh [FILE.cpp...]
 set -eu
 cd "$(dirname "$0")/.."
-./tools/bootstrap.sh clang-14 clang-tidy-14 libbenchmark-dev
+./tools/bootstrap.sh clang-14 clang-tidy-14 libbenchmark-dev doxygen
 cmake --preset lint >/dev/null
 cmake --build build/lint --target carlo_generated
 if [ $# -eq 0 ]; then
+  cmake --build build/lint --target docs # an undocumented public symbol is an error
   mapfile -t files < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' build/lint/compile_commands.json | grep "^$PWD/\(bench\|lib\|tests\|tools\)" | sort -u)
   ./tests/layout/headers_compile_alone.sh clang++-14 "$PWD" "$PWD/libmc" "$PWD/librender" \
     "$(pkg-config --cflags-only-I eigen3 | sed 's/-I//; s/ *$//')"
