@@ -4,10 +4,10 @@
 namespace mc {
 
 AliasTable::AliasTable(std::span<const double> weights) {
-  const Cdf cdf(weights); // checks the weights, and keeps every positive one reachable
+  const Cdf cdf(weights); // checks the weights and keeps every positive weight reachable
   const std::size_t n = cdf.size();
   bins_.resize(n);
-  std::vector<double> share(n); // of a bin, in units of 1 / n
+  std::vector<double> share(n); // share of a bin in units of 1 / n
   std::vector<std::uint32_t> small, large;
   for (std::size_t i = 0; i < n; ++i) {
     bins_[i].pmf = cdf.pmf(i);
@@ -25,8 +25,8 @@ AliasTable::AliasTable(std::span<const double> weights) {
       small.push_back(l);
     }
   }
-  // What remains is 1 up to rounding. An outcome of weight 0 cannot remain while a large one does; if rounding has used
-  // up the large ones, it gives its bin to the most likely outcome.
+  // The remaining shares are 1 up to rounding. An outcome of weight 0 stays small while a large outcome remains. If
+  // rounding has used up the large ones, it gives its bin to the most likely outcome.
   std::uint32_t likely = 0;
   for (std::uint32_t i = 0; i < n; ++i)
     if (pmf(i) > pmf(likely)) likely = i;

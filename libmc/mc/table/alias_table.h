@@ -9,13 +9,13 @@
 
 namespace mc {
 
-/// Walker's alias table in Vose's construction: one lookup whatever the number of outcomes. Unlike a CDF it is not
-/// monotone in u, so stratification of u is lost; prefer TableDist1D for low-discrepancy points.
-///   sample_index : the bin floor(u n) keeps its own outcome below a threshold and its alias above
-///   pmf          : w_i / sum w
-///   error        : the sampled probability of i differs from pmf(i) by at most 2^-52 per bin that points to it
-///   throws       : Error for no weights, a weight that is not finite and >= 0, or all weights 0
-///   Source       : [Walker74, Vose91]
+/// Walker's alias table in Vose's construction: one look-up for any number of outcomes. The map is not monotone in u,
+/// so it loses the stratification of u; prefer TableDist1D for low-discrepancy points.
+///   sample_index : bin floor(u n) gives its own outcome below a threshold and its alias above.
+///   pmf          : w_i / sum w.
+///   error        : the sampled probability of i differs from pmf(i) by at most 2^-52 for each bin that points to i.
+///   throws       : Error for no weights, a weight that is not finite and >= 0, or all weights 0.
+///   Source       : [Walker74, Vose91].
 class AliasTable {
  public:
   using Scalar = double;
@@ -28,7 +28,7 @@ class AliasTable {
     const auto i = static_cast<std::int64_t>(scaled);
     const Bin& bin = bins_[static_cast<std::size_t>(i)];
     const double v = scaled - static_cast<double>(i);
-    // Look-ups by 0 or 1 rather than a jump, which would be mispredicted as often as not.
+    // Look-ups by 0 or 1 replace a branch, which would often be mispredicted.
     const bool other = !(v < bin.threshold);
     const double from[] = {0, bin.threshold}, width[] = {bin.threshold, 1 - bin.threshold};
     const std::size_t outcome[] = {static_cast<std::size_t>(i), bin.alias};
@@ -40,7 +40,7 @@ class AliasTable {
  private:
   struct Bin {
     double threshold;
-    double pmf; // of the outcome of this index
+    double pmf; // probability of the outcome with the index of this bin
     std::uint32_t alias;
   };
   static double below_one(double v) { return v < 1 ? v : one_minus_epsilon<double>; }

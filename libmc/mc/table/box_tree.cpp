@@ -7,13 +7,13 @@
 
 namespace mc {
 
-// Walks the nodes once, a stack of sides behind it.
+// Builds the tree in one pass over the nodes. The call stack holds the sides of the current box.
 struct BoxTree::Builder {
   BoxTree& tree;
-  std::vector<double> weight;        // of each node: the sum of its leaves
-  std::vector<double> positive;      // how many of them have any
-  std::vector<std::size_t> after;    // index of the first node that is not below it
-  std::vector<AxisExtent> path = {}; // the sides that are cut, of the box so far
+  std::vector<double> weight;        // weight of each node: the sum over its leaves
+  std::vector<double> positive;      // number of leaves of positive weight below each node
+  std::vector<std::size_t> after;    // index of the first node after the subtree of each node
+  std::vector<AxisExtent> path = {}; // sides of the current box that were cut
 
   std::uint32_t build(std::size_t node) {
     const BoxTreeNode& n = tree.nodes_[node];
@@ -39,11 +39,11 @@ struct BoxTree::Builder {
     return split;
   }
 
-  // Leaves to both sides the share of their weight, and 2^-53 at least to each leaf that has any, so that what is cut
-  // again finds numbers between.
+  // The cut in u: splits [lo, hi) in proportion to the weights of the two subtrees. Leaves at least 2^-53 to each leaf
+  // of positive weight, so that later cuts find numbers in between.
   double cut_in_u(double lo, double hi, std::size_t below, std::size_t above) const {
     const double sum = weight[below] + weight[above];
-    // 0 / 0 where no point comes from: any share will do.
+    // With both weights 0, no u maps here and any share is valid.
     const double share = sum > 0 ? weight[below] / sum : 0.5;
     const double lowest = lo + 0x1p-53 * positive[below], highest = hi - 0x1p-53 * positive[above];
     return std::max(std::min(lo + share * (hi - lo), highest), lowest);
@@ -75,9 +75,9 @@ BoxTree::BoxTree(int dim, std::span<const BoxTreeNode> nodes)
   }
   require(largest > 0, "BoxTree: the weights of all leaves are 0; at least one must be > 0");
   int exponent;
-  std::frexp(largest, &exponent); // so that no sum overflows
+  std::frexp(largest, &exponent); // prevents overflow of the sums
   std::vector<double> weight(nodes.size()), positive(nodes.size());
-  std::vector<std::size_t> after(nodes.size()), open; // open: nodes whose parent has not been met
+  std::vector<std::size_t> after(nodes.size()), open; // open: nodes without a parent so far
   for (std::size_t i = nodes.size(); i-- > 0;) {
     if (nodes[i].axis == BoxTreeNode::leaf) {
       weight[i] = std::ldexp(nodes[i].value, -exponent);
@@ -100,9 +100,9 @@ BoxTree::BoxTree(int dim, std::span<const BoxTreeNode> nodes)
 namespace {
 struct MeasuredBox {
   std::vector<double> lo, hi;
-  double mean = 0, gain = 0; // gain: what is not flat in it
+  double mean = 0, gain = 0; // gain: standard deviation of f times volume
   std::uint32_t axis = 0;
-  std::size_t below = 0; // the first of its halves; 0: none
+  std::size_t below = 0; // index of the lower half, followed by the upper half; 0: none
 
   double volume() const {
     double v = 1;
@@ -112,8 +112,8 @@ struct MeasuredBox {
   double middle() const { return (lo[axis] + hi[axis]) / 2; }
 };
 
-// Points k = 1, 2, ... of a rank-1 sequence whose steps are powers of the root of x^(d + 1) = x + 1: spread over the
-// cube in any dimension, so that what lies off the middle is met as well.
+// Steps of a rank-1 sequence: powers of the root of x^(d + 1) = x + 1. Its points cover the cube in any dimension, so
+// features away from the middle are sampled too.
 std::vector<double> steps(std::size_t dim) {
   double root = 2;
   for (int i = 0; i < 60; ++i) root = std::pow(1 + root, 1 / static_cast<double>(dim + 1));
@@ -141,11 +141,11 @@ MeasuredBox measured(const std::function<double(std::span<const double>)>& f, st
     values.push_back(value);
     for (std::size_t a = 0; a < d; ++a) (counted[a] < 0.5 ? below : above)[a] += value / points;
   }
-  // Relative to the mean: the squares of small numbers vanish, those of large ones overflow.
+  // Relative to the mean: squares of small numbers would underflow, squares of large ones overflow.
   double squares = 0;
   for (const double value : values) squares += box.mean > 0 ? sqr(value / box.mean - 1) / points : 0.0;
   box.gain = box.volume() * box.mean * std::sqrt(squares);
-  // The axis that tells most apart, of equal ones the longest.
+  // Selects the axis with the largest difference between its halves; among equal axes the longest.
   double most = -1;
   for (std::size_t a = 0; a < d; ++a) {
     const double apart = std::abs(above[a] - below[a]) + 1e-3 * box.mean * (box.hi[a] - box.lo[a]);
@@ -164,7 +164,7 @@ BoxTree BoxTree::from_function(int dim, const std::function<double(std::span<con
   const auto d = static_cast<std::size_t>(dim);
   std::vector<MeasuredBox> boxes = {measured(f, std::vector<double>(d, 0.0), std::vector<double>(d, 1.0))};
   const auto less = [&](std::size_t a, std::size_t b) { return boxes[a].gain < boxes[b].gain; };
-  for (std::vector<std::size_t> open = {0}; open.size() < leaves;) { // a heap by gain
+  for (std::vector<std::size_t> open = {0}; open.size() < leaves;) { // a heap ordered by gain
     std::pop_heap(open.begin(), open.end(), less);
     const std::size_t at = open.back();
     open.pop_back();

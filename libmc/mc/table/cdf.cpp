@@ -27,27 +27,27 @@ void Cdf::fill(std::span<const double> weights, double* cumulative, std::uint32_
   }
   require(largest > 0, "table: all {} weights are 0; at least one must be > 0", n);
 
-  // Relative to the largest, so that neither 1e300 overflows nor denormals lose their bits.
+  // Scales by a power of two near the largest weight: 1e300 does not overflow, and denormals keep their bits.
   int exponent;
   std::frexp(largest, &exponent);
   CompensatedSum total;
   for (const double w : weights) total.add(std::ldexp(w, -exponent));
   const double scale = total.value();
 
-  // Ends are multiples of the spacing of uniform<double>, so its numbers meet each outcome exactly as often as pmf
-  // says.
+  // Ends are multiples of the spacing of uniform<double>, so exactly the share pmf(i) of its numbers falls on outcome
+  // i.
   constexpr double unit = 0x1p-53;
   CompensatedSum running;
   cumulative[0] = 0;
   for (std::size_t i = 0; i < n; ++i) {
     running.add(std::ldexp(weights[i], -exponent));
     double next = i < last ? std::min(std::nearbyint(running.value() / scale * 0x1p53) * unit, 1.0) : 1.0;
-    // A weight too small for the sum still gets the smallest interval.
+    // A weight that vanishes in the sum still gets the smallest interval.
     if (weights[i] > 0) next = std::max(next, cumulative[i] + unit);
     else next = cumulative[i];
     cumulative[i + 1] = next;
   }
-  // What was pushed beyond 1 is pushed back from the end; each positive weight keeps an interval.
+  // Moves ends beyond 1 back, from the last one down; each positive weight keeps an interval.
   double limit = 1;
   for (std::size_t i = n; i > 0 && (cumulative[i] > limit || i > last); --i) {
     cumulative[i] = limit;
@@ -59,7 +59,7 @@ void Cdf::fill(std::span<const double> weights, double* cumulative, std::uint32_
   std::size_t outcome = 0;
   const std::uint32_t cells = CdfView::cells(n);
   for (std::uint32_t k = 0; k <= cells; ++k) {
-    // The least u that the product of u and the number of cells, rounded, puts in cell k.
+    // The least u for which the rounded product of u and the number of cells lies in cell k.
     const double m = cells, start = k;
     double u = start / m;
     while (u * m < start) u = std::nextafter(u, 2.0);

@@ -1,5 +1,5 @@
 #pragma once
-/// Discrete distributions that need no table.
+/// Discrete distributions without a table.
 
 #include <mc/core/error.h>
 #include <mc/table/concept.h>
@@ -12,9 +12,9 @@
 namespace mc {
 
 /// The outcomes 0 .. n - 1, each with probability 1 / n.
-///   sample_index : floor(u n)
-///   error        : the share of u that meets an outcome differs from 1 / n by at most twice the spacing of u
-///   throws       : Error unless 1 <= n <= 2^24
+///   sample_index : floor(u n).
+///   error        : the share of u that selects an outcome differs from 1 / n by at most twice the spacing of u.
+///   throws       : Error unless 1 <= n <= 2^24.
 template <Real S> class UniformDiscrete {
  public:
   using Scalar = S;
@@ -25,7 +25,7 @@ template <Real S> class UniformDiscrete {
 
   DiscreteSample<S> sample_index(S u) const {
     using std::floor;
-    // Below n for every u below 1: the product of n and 1 - ulp lies more than half a step of S below n.
+    // Below n for every u < 1: n (1 - ulp) lies more than half a step of S below n.
     const S scaled = u * n_, i = floor(scaled);
     return {static_cast<std::size_t>(static_cast<std::int64_t>(i)), pmf_, scaled - i};
   }
@@ -37,10 +37,10 @@ template <Real S> class UniformDiscrete {
   S n_, pmf_;
 };
 
-/// Outcome 1 with probability p, else 0.
-///   sample_index : 1 for u < p
-///   error        : the share of u that meets an outcome differs from its pmf by at most the spacing of u
-///   throws       : Error unless 0 <= p <= 1
+/// Outcome 1 with probability p, else outcome 0.
+///   sample_index : 1 for u < p.
+///   error        : the share of u that selects an outcome differs from its pmf by at most the spacing of u.
+///   throws       : Error unless 0 <= p <= 1.
 template <Real S> class Bernoulli {
  public:
   using Scalar = S;
@@ -62,11 +62,11 @@ template <Real S> class Bernoulli {
   S p_;
 };
 
-/// Up to N outcomes with probabilities in proportion to their weights, found by walking along these: for a choice that
-/// is made once.
-///   error  : the share of u that meets an outcome differs from its pmf by at most 2 (size + 1) eps
-///            A weight below the smallest normal number times their sum counts as 0
-///   throws : Error unless there are 1 to N weights, finite and >= 0, with a finite sum > 0
+/// Up to N outcomes with probabilities proportional to their weights. Searches linearly: for a choice that is made
+/// once.
+///   error  : the share of u that selects an outcome differs from its pmf by at most 2 (size + 1) eps. A weight below
+///            the smallest normal number times the sum of weights counts as 0.
+///   throws : Error unless there are 1 to N weights, finite and >= 0, with a finite sum > 0.
 template <Real S, std::size_t N> class ShortDiscrete {
  public:
   using Scalar = S;
@@ -83,7 +83,7 @@ template <Real S, std::size_t N> class ShortDiscrete {
             "ShortDiscrete: the weights must be finite and >= 0 and their sum, {}, finite and > 0",
             static_cast<double>(sum_));
     using Limits = std::numeric_limits<S>;
-    if (sum_ < Limits::min() / Limits::epsilon()) [[unlikely]] { // denormals have too few bits for u times their sum
+    if (sum_ < Limits::min() / Limits::epsilon()) [[unlikely]] { // denormals have too few bits for u times the sum
       for (std::size_t i = 0; i < size_; ++i) weights_[i] /= sum_;
       sum_ = 1;
     }
@@ -102,13 +102,13 @@ template <Real S, std::size_t N> class ShortDiscrete {
       rest -= weights_[i];
       if (weights_[i] > 0) last = i;
     }
-    return {last, pmf(last), one_minus_epsilon<S>}; // rounding may leave a little of the last u
+    return {last, pmf(last), one_minus_epsilon<S>}; // rounding may leave a small rest for the last u
   }
   S pmf(std::size_t i) const { return weights_[i] / sum_; }
   std::size_t size() const { return size_; }
 
  private:
-  std::array<S, N> weights_; ///< the first size_ of them
+  std::array<S, N> weights_; ///< The first size_ entries are in use.
   std::size_t size_;
   S sum_ = 0;
 };

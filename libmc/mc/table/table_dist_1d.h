@@ -12,26 +12,28 @@
 
 namespace mc {
 
-/// The interval [0,1] as a type: the code of a table on it needs no division by the width.
+/// The interval [0,1] as a type. Code of a table on it needs no division by the width.
 struct UnitInterval {
   static constexpr int lo = 0, hi = 1;
 };
 
-/// The ends between n cells of equal width on [0,1].
+/// Interior ends of n cells of equal width on [0,1].
 inline std::vector<double> even_breaks(std::size_t n) {
   std::vector<double> breaks;
   for (std::size_t i = 1; i < n; ++i) breaks.push_back(static_cast<double>(i) / static_cast<double>(n));
   return breaks;
 }
 
-/// The geometry of TableDist1D over a cumulative table that lives elsewhere: n cells of equal width on an interval.
+/// The geometry of TableDist1D: n cells of equal width on an interval. Refers to a cumulative table stored elsewhere.
 template <Real S, class I = Interval<S>> struct PiecewiseConstantView {
-  CdfView cdf;
-  [[no_unique_address]] I interval;
+  CdfView cdf;                      ///< Cumulative table.
+  [[no_unique_address]] I interval; ///< Interval of the cells.
 
+  /// Outcome with an interval that contains u.
   std::size_t find(S u) const { return cdf.find(static_cast<double>(u)); }
-  /// For u in the interval of outcome i: how far it is along it, in [0,1), and the point as far along cell i.
+  /// Relative position of u in the interval of outcome i, in [0,1).
   S remapped(S u, std::size_t i) const { return clamp_to_unit(S(within(u, i))); }
+  /// Point at the relative position of u in cell i.
   S point(S u, std::size_t i) const {
     const Wide v = (index(i) + within(u, i)) / index(cdf.size());
     S x;
@@ -39,14 +41,16 @@ template <Real S, class I = Interval<S>> struct PiecewiseConstantView {
     else x = std::clamp(S(Wide(interval.lo) * (1 - v) + Wide(interval.hi) * v), S(interval.lo), S(interval.hi));
     return !std::floating_point<S> || cell(x) == i ? x : nudged(x, i);
   }
+  /// Density in cell i [1/length].
   S density(std::size_t i) const {
     return S(Wide(cdf.pmf(i)) * index(cdf.size()) / (Wide(interval.hi) - Wide(interval.lo)));
   }
+  /// The u that maps to x.
   S invert(S x) const {
     const std::size_t i = cell(x);
     return clamp_to_unit(S(Wide(cdf.cdf(i)) + (unit(x) * index(cdf.size()) - index(i)) * Wide(cdf.pmf(i))));
   }
-  /// The cell that holds x; the outermost one beyond the ends.
+  /// Cell that contains x; the outermost cell for x beyond the ends.
   std::size_t cell(S x) const {
     const Wide v = unit(x) * index(cdf.size());
     return v > 0 ? std::min(static_cast<std::size_t>(static_cast<std::int64_t>(static_cast<double>(v))), cdf.size() - 1)
@@ -54,17 +58,18 @@ template <Real S, class I = Interval<S>> struct PiecewiseConstantView {
   }
 
  private:
-  // A float has too few bits to count the cells of a large table, so it computes in double.
+  // A float has too few bits to count the cells of a large table, so float computes in double.
   using Wide = std::conditional_t<std::same_as<S, float>, double, S>;
   static Wide index(std::size_t i) { return Wide(static_cast<double>(static_cast<std::int64_t>(i))); }
   Wide within(S u, std::size_t i) const { return (Wide(u) - Wide(cdf.cdf(i))) / Wide(cdf.pmf(i)); }
   Wide unit(S x) const { return (Wide(x) - Wide(interval.lo)) / (Wide(interval.hi) - Wide(interval.lo)); }
 
-  // Rounding must not carry the point into a neighbouring cell, which may have weight 0.
+  // Moves x back into cell i. Rounding may have moved it into a neighbouring cell, which may have weight 0.
   S nudged(S x, std::size_t i) const {
     using std::abs, std::clamp, std::nextafter;
     const S lo = S(interval.lo), hi = S(interval.hi);
-    // To the next number first; where the distance from lo does not tell that one apart, by what it tells.
+    // First steps to the next number. If the distance from lo cannot resolve this step, uses the smallest step that it
+    // can resolve.
     const S step = std::numeric_limits<S>::epsilon() * std::max(S(abs(lo)), S(abs(x)));
     for (int k = 0; k < 6; ++k) {
       const std::size_t at = cell(x);
@@ -76,18 +81,17 @@ template <Real S, class I = Interval<S>> struct PiecewiseConstantView {
   }
 };
 
-/// n cells of equal width on [lo, hi], each chosen with probability proportional to its weight, uniform within: a
-/// DiscreteDistribution by index and an InvertibleWarp by point.
-///   sample : u -> cell i with cdf(i) <= u < cdf(i+1), then linear within it
-///   pdf    : pmf(i) n / (hi - lo) [1/length]; 0 outside and in cells of weight 0
-///            Points keep to their cell as long as S can tell it from its neighbours: cells no narrower than 8 eps
-///            max(|lo|, |hi|).
-///   invert : |invert(sample(u)) - u| <= 4 eps + 4 pmf(i) ulp(max(|x|, |lo|)) n / (hi - lo): eight roundings of x on
-///            the way there and back, magnified where cells are narrow
-///   reach  : an outcome less likely than the spacing of u (2^-24 float, 2^-53 double) is met only by a finer u
-///   throws : Error for no weights, a weight that is not finite and >= 0, all weights 0, or an interval whose width
-///            does not pass is_valid_scale
-///   Source : inverse transform sampling; see Cdf for the bounds
+/// n cells of equal width on [lo, hi]. A cell is chosen with probability proportional to its weight; points are uniform
+/// within. Models DiscreteDistribution (by index) and InvertibleWarp (by point).
+///   sample : selects the cell i with cdf(i) <= u < cdf(i+1), then maps its interval linearly to the cell. Points stay
+///            in their cell if cells are at least 8 eps max(|lo|, |hi|) wide.
+///   pdf    : pmf(i) n / (hi - lo) [1/length]; 0 outside and in cells of weight 0.
+///   invert : |invert(sample(u)) - u| <= 4 eps + 4 pmf(i) ulp(max(|x|, |lo|)) n / (hi - lo). The second term is the
+///            rounding of x in sample and invert, magnified in narrow cells.
+///   reach  : an outcome less likely than the spacing of u (2^-24 float, 2^-53 double) needs a finer u to occur.
+///   throws : Error for no weights, a weight that is not finite and >= 0, all weights 0, or an interval with a width
+///            that does not pass is_valid_scale.
+///   Source : inverse transform sampling; Cdf states the bounds.
 template <Real S> class TableDist1D {
  public:
   using Scalar = S;
@@ -102,7 +106,7 @@ template <Real S> class TableDist1D {
         static_cast<double>(interval.lo), static_cast<double>(interval.hi));
   }
 
-  /// Weights f(x) at the middle of each of n cells.
+  /// Distribution with weights f(x) at the centres of n cells.
   template <class F> static TableDist1D from_function(F&& f, std::size_t n, Interval<S> interval = {}) {
     std::vector<double> weights(n);
     for (std::size_t i = 0; i < n; ++i)
@@ -122,12 +126,13 @@ template <Real S> class TableDist1D {
   S sample(S u) const { return view().point(u, view().find(u)); }
   S pdf(S x) const { return interval_.contains(x) ? view().density(cell(x)) : S(0); }
   S invert(S x) const { return view().invert(x); }
-  /// The cell that holds x; the outermost one beyond the ends.
+  /// Cell that contains x; the outermost cell for x beyond the ends.
   std::size_t cell(S x) const { return view().cell(x); }
-  /// Where the density may jump, in coordinates of the chart.
+  /// Places where the density may jump, in coordinates of the chart.
   std::array<std::vector<double>, 1> breaks() const { return {even_breaks(size())}; }
   template <Real T> TableDist1D<T> cast() const { return TableDist1D<T>(cdf_, interval_.template cast<T>()); }
 
+  /// The cumulative table.
   const Cdf& cdf() const { return cdf_; }
 
  private:

@@ -7,22 +7,22 @@
 
 namespace mc {
 
-/// The distributions of the column given the row, one after the other: the arrays of a CdfView per row.
+/// Conditional distributions of the column for each row: the arrays of one CdfView per row, concatenated.
 struct ConditionalRows {
-  std::vector<double> cumulative;
-  std::vector<std::uint32_t> guide;
-  std::size_t width;
+  std::vector<double> cumulative;   ///< Cumulative probabilities, CdfView::ends(width) per row.
+  std::vector<std::uint32_t> guide; ///< Guide entries, CdfView::cells(width) + 1 per row.
+  std::size_t width;                ///< Number of columns.
 };
 
-/// width x height cells on the unit square, row by row (row 0 at y = 0), each chosen with probability proportional to
-/// its weight, uniform within.
-///   sample : u1 chooses the row, u0 the column in it -> (x, y)
-///   pdf    : pmf(row) pmf(column | row) width height [1/area]; 0 outside and in cells of weight 0
-///            Points keep to their cell as those of TableDist1D do: in float up to 2^20 rows and columns.
-///   invert : |invert(sample(u)) - u| <= 4 eps + 2 ulp times the density of the row, or of the column in it, for points
-///            that round to the cell they were drawn in
-///   throws : Error unless weights are width * height numbers, finite, >= 0, not all 0
-///   Source : inverse transform sampling of the marginal and the conditionals [PharrJakobHumphreys23] section A.5.6
+/// width x height cells on the unit square, in row order (row 0 at y = 0). A cell is chosen with probability
+/// proportional to its weight; points are uniform within.
+///   sample : u1 selects the row, u0 the column in it. Points stay in their cell as in TableDist1D: in float for up to
+///            2^20 rows and columns.
+///   pdf    : pmf(row) pmf(column | row) width height [1/area]; 0 outside and in cells of weight 0.
+///   invert : |invert(sample(u)) - u| <= 4 eps + 2 ulp times the density of the row, or of the column within it. Holds
+///            for points that round to their own cell.
+///   throws : Error unless weights are width * height numbers, finite, >= 0, not all 0.
+///   Source : inverse transform sampling of the marginal and the conditionals, [PharrJakobHumphreys23] section A.5.6.
 template <Real S> class TableDist2D {
  public:
   using Scalar = S;
@@ -31,7 +31,7 @@ template <Real S> class TableDist2D {
   TableDist2D(std::span<const double> weights, std::size_t width, std::size_t height)
       : TableDist2D(make_rows(weights, width, height)) {}
 
-  /// Weights f(x, y) at the middle of each cell.
+  /// Distribution with weights f(x, y) at the centres of the cells.
   template <class F> static TableDist2D from_function(F&& f, std::size_t width, std::size_t height) {
     std::vector<double> weights;
     weights.reserve(width * height);
@@ -42,8 +42,8 @@ template <Real S> class TableDist2D {
     return TableDist2D(weights, width, height);
   }
 
-  /// For a latitude-longitude image: row y spans theta in [pi y / height, pi (y + 1) / height], weighted by the solid
-  /// angle of the row, cos(theta_0) - cos(theta_1).
+  /// Distribution for a latitude-longitude image. Row y spans theta in [pi y / height, pi (y + 1) / height]; its
+  /// weights are multiplied by the solid angle of the row, cos(theta_0) - cos(theta_1).
   static TableDist2D from_lat_long(std::span<const double> weights, std::size_t width, std::size_t height) {
     const double largest = largest_of(weights, width, height), h = static_cast<double>(height);
     std::vector<double> scaled;
@@ -56,19 +56,22 @@ template <Real S> class TableDist2D {
     return TableDist2D(scaled, width, height);
   }
 
+  /// Number of columns.
   std::size_t width() const { return rows_.width; }
+  /// Number of rows.
   std::size_t height() const { return row_choice_.size(); }
-  /// Probability of the cell (column x, row y).
+  /// Probability of the cell at column x, row y.
   S pmf(std::size_t x, std::size_t y) const {
     return row_choice_.pmf(y) == 0 ? S(0) : S(row_choice_.pmf(y)) * S(row(y).cdf.pmf(x));
   }
 
-  /// A cell by its column x and row y.
+  /// A sampled cell.
   struct CellSample {
-    std::size_t x, y;
-    S pmf;              ///< > 0
-    Vec2<S> u_remapped; ///< uniform again, independent of the cell
+    std::size_t x, y;   ///< Column and row.
+    S pmf;              ///< Probability of the cell, > 0.
+    Vec2<S> u_remapped; ///< Uniform in [0,1)^2 and independent of the cell.
   };
+  /// Selects a cell with u.
   CellSample sample_index(const Vec2<S>& u) const {
     const std::size_t y = rows().find(u[1]);
     const auto columns = row(y);
@@ -90,7 +93,7 @@ template <Real S> class TableDist2D {
     return marginal == 0 ? S(0) : S(marginal * columns.density(columns.cell(p[0])));
   }
   Vec2<S> invert(const Vec2<S>& p) const { return {row(rows().cell(p[1])).invert(p[0]), rows().invert(p[1])}; }
-  /// Where the density may jump along x and y.
+  /// Places where the density may jump along x and y.
   std::array<std::vector<double>, 2> breaks() const { return {even_breaks(width()), even_breaks(height())}; }
   template <Real T> TableDist2D<T> cast() const { return TableDist2D<T>(rows_, row_choice_); }
 
@@ -102,7 +105,7 @@ template <Real S> class TableDist2D {
     std::vector<double> sums;
   };
 
-  // Checks them all.
+  // The largest weight. Checks the number and the values of all weights.
   static double largest_of(std::span<const double> weights, std::size_t width, std::size_t height) {
     require(width > 0 && height > 0 && weights.size() == width * height,
             "TableDist2D: {} weights for {}x{} cells; {} are needed", weights.size(), width, height, width * height);
@@ -119,7 +122,7 @@ template <Real S> class TableDist2D {
 
   static RowsWithSums make_rows(std::span<const double> weights, std::size_t width, std::size_t height) {
     const double largest = largest_of(weights, width, height);
-    // A power of two near 1 / largest: row sums neither overflow nor sink below the denormals.
+    // Scales by a power of two near 1 / largest: row sums neither overflow nor fall below the denormals.
     int exponent;
     std::frexp(largest, &exponent);
     const std::size_t ends = CdfView::ends(width), guides = CdfView::cells(width) + 1;
@@ -128,7 +131,7 @@ template <Real S> class TableDist2D {
     for (std::size_t y = 0; y < height; ++y) {
       bool empty = true;
       for (std::size_t x = 0; x < width; ++x) empty &= weights[y * width + x] == 0;
-      // A row of weight 0 is never chosen; it gets a uniform placeholder.
+      // A row of weight 0 is never selected; it gets a uniform placeholder.
       for (std::size_t x = 0; x < width; ++x) row[x] = empty ? 1 : weights[y * width + x];
       Cdf::fill(row, &result.rows.cumulative[y * ends], &result.rows.guide[y * guides]);
       CompensatedSum scaled;

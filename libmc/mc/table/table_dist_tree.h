@@ -11,17 +11,17 @@
 
 namespace mc {
 
-/// Boxes cut from the unit cube by planes, one after the other (a kd-tree), each chosen with probability proportional
-/// to its weight, uniform within: cells that are small where the density is.
-///   sample : each plane leaves a share of its axis of u to either side, the box of x that is met is mapped linearly;
-///            points keep to their box where it is wider than 4 eps
-///   pdf    : p / volume of the box that holds x [1/volume, in two dimensions 1/area]; 0 outside and in boxes of weight
-///            0. p is exactly the volume of u that the box is met for
-///   invert : |invert(sample(u)) - u| <= 4 eps + eps p' / x' for sides that are a share p' of u and x' of x: the
-///            rounding of x, magnified where boxes are narrow
-///   reach  : a box less likely than the spacing of u (2^-24 float, 2^-53 double along an axis) is met only by a finer
-///            u
-///   throws : what BoxTree throws, and Error for a tree of another dimension
+/// A partition of the unit cube into boxes by a kd-tree. A box is chosen with probability proportional to its weight;
+/// points are uniform within. Boxes can be small where the density is large.
+///   sample : finds the leaf of u, then maps its box of u linearly to its box of x. Points stay in their box if it is
+///            wider than 4 eps.
+///   pdf    : p / volume of the box that contains x [1/volume, in two dimensions 1/area]; 0 outside and in boxes of
+///            weight 0. p is exactly the volume of the u that map to the box.
+///   invert : |invert(sample(u)) - u| <= 4 eps + eps p' / x' for a side that spans a share p' of u and x' of x. The
+///            second term is the rounding of x, magnified in narrow boxes.
+///   reach  : a box less likely than the spacing of u (2^-24 float, 2^-53 double along an axis) needs a finer u to
+///            occur.
+///   throws : the errors of BoxTree, and Error for a tree of another dimension.
 template <Real S, int N> class TableDistTree {
  public:
   using Scalar = S;
@@ -33,7 +33,7 @@ template <Real S, int N> class TableDistTree {
     require(tree_.dim() == N, "TableDistTree: a tree of {} dimensions; {} are needed", tree_.dim(), N);
   }
 
-  /// As BoxTree::from_function, f a function of Vec<double, N>.
+  /// As BoxTree::from_function, for a function of Vec<double, N>.
   template <class F> static TableDistTree from_function(F&& f, std::size_t leaves) {
     return TableDistTree(BoxTree::from_function(
         N,
@@ -41,6 +41,7 @@ template <Real S, int N> class TableDistTree {
         leaves));
   }
 
+  /// The tree of boxes.
   const BoxTree& tree() const { return tree_; }
   Domain domain() const { return {}; }
 
@@ -70,7 +71,7 @@ template <Real S, int N> class TableDistTree {
     }
     return u;
   }
-  /// Where the density may jump along each axis.
+  /// Places where the density may jump along each axis.
   std::array<std::vector<double>, N> breaks() const;
   template <Real T> TableDistTree<T, N> cast() const { return TableDistTree<T, N>(tree_); }
 
@@ -78,7 +79,7 @@ template <Real S, int N> class TableDistTree {
   // A float has too few bits for the planes of a large tree.
   using Wide = std::conditional_t<std::same_as<S, float>, double, S>;
 
-  // Rounding must not carry the point into a neighbouring box, which may have weight 0.
+  // Keeps the point in its box: rounding may have moved it into a neighbouring box, which may have weight 0.
   static S inside(Wide exact, const BoxTree::AxisExtent& s) {
     S x = S(exact);
     if constexpr (std::floating_point<S>) {

@@ -7,15 +7,17 @@
 namespace mc {
 
 /// Uniform points with inner <= |p| <= outer, in polar coordinates.
-///   sample : u -> r^2 = inner^2 + u0 (outer^2 - inner^2), phi = 2 pi u1; with inner = 0 the polar map of the disk,
-///            which distorts strata near the centre where UniformDisk does not
-///   pdf    : 1 / (pi (outer - inner) (outer + inner)) [1/area]; 0 outside the ring, up to 4 eps outer
-///   invert : |invert(sample(u)) - u| <= 8 eps outer / (outer - inner): p does not know a thin ring's u0 better
-///   throws : Error unless 0 <= inner < outer, both finite, and the area passes is_valid_scale
-///   Source : [ShirleyWangZimmerman96]
+///   sample : r^2 = inner^2 + u0 (outer^2 - inner^2), phi = 2 pi u1. With inner = 0 this is the polar map of the disk;
+///            it distorts strata near the centre, and UniformDisk does not.
+///   pdf    : 1 / (pi (outer - inner) (outer + inner)) [1/area]; 0 outside the ring, up to a tolerance of 4 eps outer.
+///   invert : |invert(sample(u)) - u| <= 8 eps outer / (outer - inner). Rounding of p loses digits of u0 on a thin
+///            ring.
+///   throws : Error unless 0 <= inner < outer, both are finite, and the area passes is_valid_scale.
+///   Source : [ShirleyWangZimmerman96].
 template <Real S> struct UniformAnnulus {
   using Scalar = S;
   using Domain = Annulus<S>;
+  /// The ring, with its radii.
 
   Domain ring;
 

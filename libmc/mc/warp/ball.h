@@ -1,5 +1,5 @@
 #pragma once
-/// Uniform points of the ball.
+/// Uniform points of the unit ball.
 
 #include <mc/domain/ball.h>
 #include <mc/warp/concept.h>
@@ -9,10 +9,10 @@
 namespace mc {
 
 /// Uniform points with |p| <= 1.
-///   sample : r = cbrt(u0), z = r (1 - 2 u1), phi = 2 pi u2
-///   pdf    : 3 / (4 pi) [1/volume]; 0 for |p| > 1
-///   invert : |invert(sample(u)) - u| <= 8 eps
-///   Source : the inverse of the cumulative distribution of r, and [ShirleyWangZimmerman96] for the direction
+///   sample : r = cbrt(u0), z = r (1 - 2 u1), phi = 2 pi u2.
+///   pdf    : 3 / (4 pi) [1/volume]; 0 for |p| > 1.
+///   invert : |invert(sample(u)) - u| <= 8 eps.
+///   Source : inverse CDF of r; the direction as in [ShirleyWangZimmerman96].
 template <Real S> struct UniformBall {
   using Scalar = S;
   using Domain = Ball<S>;

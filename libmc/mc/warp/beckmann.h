@@ -10,14 +10,15 @@
 
 namespace mc {
 
-/// Normals of a surface with Gaussian slopes, density D(m) m_z.
-///   sample : slope (alpha_x r cos phi, alpha_y r sin phi), r^2 = -log(1 - u0), phi = 2 pi u1
-///   pdf    : exp(-r^2) / (pi alpha_x alpha_y m_z^3) [1/sr], r^2 = ((m_x / alpha_x)^2 + (m_y / alpha_y)^2) / m_z^2; 0
-///            below the horizon. Relative error (8 + 8 r^2) eps: the tail is ill-conditioned in m; r^2 < 1 for 63
-///            percent of the samples
-///   invert : |invert(sample(u)) - u| <= 16 eps
-///   throws : Error unless both roughnesses lie in [1e-6, 1e3]
-///   Source : [WalterEtAl07]; from the components of m, never from 1 - z^2, so a float normal suffices at alpha = 1e-4
+/// Normals of a surface with Gaussian slopes. The density is D(m) m_z.
+///   sample : slope (alpha_x r cos phi, alpha_y r sin phi) with r^2 = -log(1 - u0), phi = 2 pi u1.
+///   pdf    : exp(-r^2) / (pi alpha_x alpha_y m_z^3) [1/sr] with r^2 = ((m_x / alpha_x)^2 + (m_y / alpha_y)^2) / m_z^2;
+///            0 below the horizon. Relative error (8 + 8 r^2) eps: the tail is ill-conditioned in m. 63 % of the
+///            samples have r^2 < 1.
+///   invert : |invert(sample(u)) - u| <= 16 eps.
+///   throws : Error unless both roughnesses lie in [1e-6, 1e3].
+///   Source : [WalterEtAl07]. All terms use the components of m, never 1 - z^2, so a float normal suffices at alpha =
+///            1e-4.
 template <Real S> class BeckmannNormals {
  public:
   using Scalar = S;

@@ -6,18 +6,19 @@
 
 namespace mc {
 
-/// Density on [0,1]^2 that is bilinear between its values at the corners, up to normalisation.
-///   sample : y from the linear marginal by u1, then x from the linear conditional at y by u0
-///   pdf    : 4 w(x, y) / (w00 + w10 + w01 + w11) [1/area]; 0 outside
-///   invert : |invert(sample(u)) - u| <= 16 eps
-///            Values below min / eps of the largest count as 0
-///   throws : Error unless the values are finite, >= 0 and not all 0
-///   Source : [PharrJakobHumphreys23] section A.5.1; scaled by the largest value, and an edge of zeros is never reached
+/// Density on [0,1]^2 proportional to the bilinear interpolant w(x, y) of four corner values.
+///   sample : y from the linear marginal with u1, then x from the linear conditional density at y with u0.
+///   pdf    : 4 w(x, y) / (w00 + w10 + w01 + w11) [1/area]; 0 outside.
+///   invert : |invert(sample(u)) - u| <= 16 eps.
+///   throws : Error unless the values are finite, >= 0 and not all 0.
+///   Source : [PharrJakobHumphreys23] section A.5.1.
+/// The constructor scales the values so that the largest is 1. Values below min / eps of the largest count as 0.
+/// A sample never lands on an edge with two zero corners.
 template <Real S> struct Bilinear {
   using Scalar = S;
   using Domain = Square<S>;
 
-  S w00 = 1, w10 = 1, w01 = 1, w11 = 1; ///< w_xy at the corner (x, y), scaled so that the largest is 1
+  S w00 = 1, w10 = 1, w01 = 1, w11 = 1; ///< Value w_xy at the corner (x, y); the largest is 1.
 
   Bilinear() = default;
   Bilinear(S w00_, S w10_, S w01_, S w11_) : w00(w00_), w10(w10_), w01(w01_), w11(w11_) {
@@ -29,7 +30,8 @@ template <Real S> struct Bilinear {
             static_cast<double>(w10), static_cast<double>(w01), static_cast<double>(w11));
     for (S* w : {&w00, &w10, &w01, &w11}) {
       *w /= largest;
-      if (*w < std::numeric_limits<S>::min() / std::numeric_limits<S>::epsilon()) *w = 0; // its densities would vanish
+      // its densities would underflow
+      if (*w < std::numeric_limits<S>::min() / std::numeric_limits<S>::epsilon()) *w = 0;
     }
   }
 
@@ -52,7 +54,7 @@ template <Real S> struct Bilinear {
     const Linear<S> row = at(y);
     return {row.a, row.b};
   }
-  /// The values at the ends of a row, not scaled.
+  /// Unscaled values at the ends x = 0 and x = 1 of the row at height y.
   Linear<S> at(const S& y) const {
     Linear<S> row;
     row.a = (1 - y) * w00 + y * w01;

@@ -10,13 +10,13 @@
 
 namespace mc {
 
-/// Directions with density proportional to cos(theta)^n, n real.
-///   sample : 1 - z = 1 - (1 - u0)^(1 / (n+1)) by expm1 and log1p, phi = 2 pi u1
-///   pdf    : (n + 1) / (2 pi) (1 - t)^n [1/sr], t = 1 - z from x^2 + y^2 near the pole; 0 below the horizon. Relative
-///            error (8 + 4 n t) eps: the tail is ill-conditioned in w
-///   invert : |invert(sample(u)) - u| <= 16 eps for n >= 1; (1 - u0 is z^(n+1))
-///   throws : Error unless n is finite and >= 0
-///   Source : [Blinn77]
+/// Directions with density proportional to cos(theta)^n for real n.
+///   sample : 1 - z = 1 - (1 - u0)^(1 / (n + 1)) by expm1 and log1p, phi = 2 pi u1.
+///   pdf    : (n + 1) / (2 pi) (1 - t)^n [1/sr]; 0 below the horizon. t = 1 - z is computed from x^2 + y^2 near the
+///            pole. Relative error (8 + 4 n t) eps: the tail is ill-conditioned in w.
+///   invert : |invert(sample(u)) - u| <= 16 eps for n >= 1, where 1 - u0 = z^(n + 1).
+///   throws : Error unless n is finite and >= 0.
+///   Source : [Blinn77].
 template <Real S> class BlinnPhong {
  public:
   using Scalar = S;

@@ -9,10 +9,10 @@
 namespace mc {
 
 /// Uniform points on the unit disk by the low-distortion concentric map.
-///   sample : u in [0,1)^2 -> p in R^2, |p| <= 1
-///   pdf    : 1 / pi [1/area]; 0 for |p| > 1
-///   invert : |invert(sample(u)) - u| <= 8 eps
-///   Source : [ShirleyChiu97]. UniformDiskPolar distorts strata near the centre.
+///   sample : u in [0,1)^2 -> p in R^2, |p| <= 1.
+///   pdf    : 1 / pi [1/area]; 0 for |p| > 1.
+///   invert : |invert(sample(u)) - u| <= 8 eps.
+///   Source : [ShirleyChiu97]. The polar map (UniformDiskPolar) distorts strata near the centre.
 template <Real S> struct UniformDisk {
   using Scalar = S;
   using Domain = Disk<S>;
@@ -22,8 +22,9 @@ template <Real S> struct UniformDisk {
   Vec2<S> sample(const Vec2<S>& u) const {
     using std::abs;
     const S a = 2 * u[0] - 1, b = 2 * u[1] - 1;
-    // The wedge |a| > |b| measures the azimuth from the x axis, the other from the y axis: within an eighth of a turn
-    // of it.
+    // The wedge |a| > |b| measures the azimuth from the x axis, the other wedge from the y axis. Both angles stay
+    // within
+    // an eighth of a turn.
     const bool wide = abs(a) > abs(b);
     const S r = wide ? a : b, other = wide ? b : a;
     const CosSin<S> phi = cos_sin_octant<S>(other / (r == 0 ? S(1) : r) / 8);
@@ -51,11 +52,11 @@ template <Real S> struct UniformDisk {
   template <Real T> UniformDisk<T> cast() const { return {}; }
 };
 
-/// The same distribution by the polar map, kept for comparison: strata become slivers near the centre and bands at the
-/// rim.
-///   sample : r = sqrt(u0), phi = 2 pi u1, so that u0 = |p|^2
-///   pdf    : 1 / pi [1/area]; 0 for |p| > 1
-///   invert : |invert(sample(u)) - u| <= 8 eps
+/// Uniform points on the unit disk by the polar map, kept for comparison with UniformDisk.
+/// Strata become slivers near the centre and bands at the rim.
+///   sample : r = sqrt(u0), phi = 2 pi u1, so that u0 = |p|^2.
+///   pdf    : 1 / pi [1/area]; 0 for |p| > 1.
+///   invert : |invert(sample(u)) - u| <= 8 eps.
 template <Real S> struct UniformDiskPolar {
   using Scalar = S;
   using Domain = Disk<S>;

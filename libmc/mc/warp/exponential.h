@@ -9,11 +9,11 @@
 namespace mc {
 
 /// Exponential distribution on [0, inf).
-///   sample : x = -log(1 - u) / rate
+///   sample : x = -log(1 - u) / rate.
 ///   pdf    : rate exp(-rate x) [1/length]; 0 for x < 0. Relative error (2 + rate x) eps: the tail is ill-conditioned
-///            in x
-///   invert : |invert(sample(u)) - u| <= 8 eps
-///   throws : Error unless rate > 0 and 1 / rate passes is_valid_scale
+///            in x.
+///   invert : |invert(sample(u)) - u| <= 8 eps.
+///   throws : Error unless rate > 0 and 1 / rate passes is_valid_scale.
 template <Real S> struct Exponential {
   using Scalar = S;
   using Domain = HalfLine<S>;
@@ -45,11 +45,13 @@ template <Real S> struct Exponential {
 };
 
 /// Exponential distribution cut to [0, length]: decays for rate > 0, grows for rate < 0, uniform for rate = 0.
-///   sample : x = -log(1 - u (1 - e^-k)) / |rate|, k = |rate| length; mirrored for rate < 0. Where k > 1 and u > 1/2
-///            the logarithm is that of (1 - u) + u e^-k, which does not cancel
-///   pdf    : |rate| exp(-|rate| t) / (1 - e^-k) [1/length], t the distance from the dense end; 0 outside
-///   invert : |invert(sample(u)) - u| <= 16 eps; for rate < 0 max(16, k) eps, as the dense end is not at 0
-///   throws : Error unless rate and k are finite, and length and, unless k vanishes, 1 / |rate| pass is_valid_scale
+///   sample : x = -log(1 - u (1 - e^-k)) / |rate| with k = |rate| length; mirrored for rate < 0. For k > 1 and u > 1/2
+///            the argument of the logarithm is computed as (1 - u) + u e^-k, which does not cancel.
+///   pdf    : |rate| exp(-|rate| t) / (1 - e^-k) [1/length] at distance t from the dense end; 0 outside.
+///   invert : |invert(sample(u)) - u| <= 16 eps for rate >= 0, and max(16, k) eps for rate < 0: there the dense end is
+///            not at 0.
+///   throws : Error unless rate and k are finite and length passes is_valid_scale. Unless k vanishes, 1 / |rate| must
+///            pass it too.
 template <Real S> struct TrimmedExponential {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -72,9 +74,9 @@ template <Real S> struct TrimmedExponential {
     using std::expm1, std::exp, std::log, std::log1p, std::max, std::min;
     const S a = magnitude(), k = a * length;
     if (flat(k)) return min(S(u * length), length);
-    // 1 - u = 1 would reach the far end, whose density may underflow.
+    // With 1 - u = 1 the sample would be the far end, where the density may underflow.
     const S v = rate < 0 ? S(min(S(1 - u), one_minus_epsilon<S>)) : u;
-    const S tail = rate < 0 ? S(max(u, S(1 - one_minus_epsilon<S>))) : S(1 - u); // 1 - v, without its rounding
+    const S tail = rate < 0 ? S(max(u, S(1 - one_minus_epsilon<S>))) : S(1 - u); // 1 - v without its rounding
     const S rest = k > 1 && v > S(0.5) ? S(log(S(tail + v * S(exp(S(-k)))))) : S(log1p(S(v * S(expm1(S(-k))))));
     const S t = min(S(-rest / a), length);
     return rate < 0 ? S(length - t) : t;
@@ -97,7 +99,7 @@ template <Real S> struct TrimmedExponential {
  private:
   S magnitude() const { return rate < 0 ? S(-rate) : rate; }
   S from_dense_end(S x) const { return rate < 0 ? S(length - x) : x; }
-  /// e^-k differs from 1 by less than a rounding.
+  /// Whether the density is constant to rounding: e^-k differs from 1 by less than half an ulp.
   static bool flat(const S& k) { return k < std::numeric_limits<S>::epsilon() / 4; }
 };
 

@@ -1,11 +1,14 @@
 #pragma once
-/// Directions in which microfacets send light: reflected about a random normal, or refracted through it.
+/// Directions into which microfacets scatter light: reflected about a random normal, or refracted through it.
 ///
-/// A direction tells its normal by the half vector: s = wo + wi for reflection, s = wo + eta wi for refraction,
-/// normalized and turned upward. Rounding wi by eps turns that normal by eps / |s|, and a surface of roughness alpha
-/// amplifies this by 1 / alpha. So pdf(wi) is right for the wi that it is given, to its stated bound, yet away from
-/// grazing incidence it differs from the density at the normal that was drawn by up to 8 eps / (alpha |s|): half a
-/// percent for float, alpha = 1e-4 and |s| = 2. Whoever still has the normal has the density without that loss:
+/// The half vector recovers the normal of a direction: s = wo + wi for reflection, s = wo + eta wi for refraction,
+/// normalized and turned upward. An error of eps in wi turns this normal by eps / |s|. A surface of roughness alpha
+/// amplifies the turn by 1 / alpha.
+///
+/// Hence pdf(wi) satisfies its stated bound at the rounded wi. It may still differ from the density at the sampled normal,
+/// away from grazing incidence by up to 8 eps / (alpha |s|). For float, alpha = 1e-4 and |s| = 2 this is half a
+/// percent.
+/// A caller that still has the normal avoids the loss:
 ///   m = normals.sample(u);  wi = lobe.direction(m);  pdf = lobe.pdf_at_normal(m)
 
 #include <mc/core/dot.h>
@@ -17,7 +20,7 @@
 
 namespace mc {
 
-/// A distribution of normals that knows the direction it is seen from, as visible normals do.
+/// A distribution of normals that stores the direction wo from which the normals are visible.
 template <class N>
 concept VisibleNormalDistribution = Warp<N> && requires(const N n) {
   { n.wo() } -> std::convertible_to<PointOf<N>>;
@@ -25,8 +28,8 @@ concept VisibleNormalDistribution = Warp<N> && requires(const N n) {
 
 namespace detail {
 
-/// v / |v| - v of a vector that is unit up to rounding. Relative error that of |v|^2 - 1, taken with twice the digits
-/// of S.
+/// v / |v| - v for a vector v that is a unit vector up to rounding. |v|^2 - 1 is computed with twice the digits of S;
+/// its relative error is the relative error of the result.
 template <Real S> Vec3<S> normalization_correction(const Vec3<S>& v) {
   if constexpr (std::floating_point<S>) {
     S sum(-1), low(0);
@@ -41,19 +44,20 @@ template <Real S> Vec3<S> normalization_correction(const Vec3<S>& v) {
   }
 }
 
-/// A direction and the normals that it meets.
+/// A direction wo and the distribution of the normals at which it scatters.
 template <Warp N> struct MicrofacetGeometry {
   using S = typename N::Scalar;
   N normals;
   Vec3<S> wo;
-  S floor = 16 * std::numeric_limits<S>::epsilon(); ///< least |wo.m| at which wi still tells m from its neighbours
+  /// Least |wo.m| at which wi still determines m to working precision.
+  S floor = 16 * std::numeric_limits<S>::epsilon();
 
   void require_unit(const char* who) const {
     require(is_unit(wo), "{}: wo = ({}, {}, {}) must be a unit vector", who, static_cast<double>(wo.x()),
             static_cast<double>(wo.y()), static_cast<double>(wo.z()));
   }
 
-  /// The normal turned toward wo, and lifted to the floor where wo grazes it.
+  /// The normal m turned toward wo. At grazing incidence it is tilted until wo.m reaches `floor`.
   Vec3<S> facing(const Vec3<S>& m) const {
     const S c = accurate_dot(wo, m);
     const Vec3<S> n = c < 0 ? Vec3<S>(-m) : m;
@@ -66,21 +70,23 @@ template <Warp N> struct MicrofacetGeometry {
   Vec3<S> refract(const Vec3<S>& n, const S& eta) const {
     using std::sqrt;
     const S c = accurate_dot(wo, n), g = (eta - 1) * (eta + 1);
-    // c - eta cos_t without its cancellation.
+    // c - eta cos_t, written without its cancellation.
     return Vec3<S>(-wo - (g / (c + S(sqrt(S(g + c * c))))) * n).normalized();
   }
   bool refracts(const Vec3<S>& n, const S& eta) const {
     return sqr<S>(accurate_dot(wo, n)) + (eta - 1) * (eta + 1) > 0;
   }
 
-  /// wo + eta wi of the directions of both: what their lengths lack of 1 matters as much as a turn by the same amount.
+  /// wo + eta wi of the normalized directions. The deviation of a length from 1 matters as much as a turn by the same
+  /// amount, so it is corrected.
   Vec3<S> sum(const Vec3<S>& wi, const S& eta) const {
     using std::fma;
     const Vec3<S> rest = normalization_correction(wo) + eta * normalization_correction(wi);
     return Vec3<S>(S(fma(eta, wi.x(), wo.x())), S(fma(eta, wi.y(), wo.y())), S(fma(eta, wi.z(), wo.z()))) + rest;
   }
-  /// The upper one of the two normals +-s / |s|; a normal that rounding may have carried below the horizon counts as
-  /// above it.
+  /// The upper one of the two normals +-s / |s|. A normal that rounding may have moved below the horizon counts as
+  /// above
+  /// it.
   Vec3<S> upward(const Vec3<S>& s, const S& length) const {
     const S eps = std::numeric_limits<S>::epsilon();
     Vec3<S> h = s / length;
@@ -89,7 +95,9 @@ template <Warp N> struct MicrofacetGeometry {
     return h;
   }
 
-  /// pdf(m) / (4 |wo.m|), given 4 |wo.m|; visible normals know it with the cosine cancelled, for a wo of unit length.
+  /// pdf(m) / (4 |wo.m|), given four_cosines = 4 |wo.m|. Visible normals provide this quotient with the cosine
+  /// cancelled,
+  /// for wo of unit length.
   S reflected_pdf(const Vec3<S>& m, const S& four_cosines) const {
     if constexpr (std::floating_point<S> && requires { normals.pdf_reflected(m); }) return normals.pdf_reflected(m);
     else return normals.pdf(m) / four_cosines;
@@ -103,7 +111,7 @@ template <Warp N> struct MicrofacetGeometry {
     const S length = s.norm(); // 2 |wo.h|
     return length > 0 ? reflected_pdf(upward(s, length), S(2 * length)) : S(0);
   }
-  /// Jacobian eta^2 cos_t / (wo.h + eta wi.h)^2, [WalterEtAl07] equation 17; the sum in the denominator is |wo + eta
+  /// Jacobian eta^2 cos_t / (wo.h + eta wi.h)^2, [WalterEtAl07] equation 17. The sum in the denominator is |wo + eta
   /// wi|.
   S refracted_pdf_at(const Vec3<S>& m, const S& eta) const {
     using std::abs, std::sqrt;
@@ -122,7 +130,7 @@ template <Warp N> struct MicrofacetGeometry {
   }
   Vec2<S> invert(const Vec3<S>& s) const { return normals.invert(upward(s, s.norm())); }
 
-  /// wo is unit only in the narrower scalar.
+  /// Normalizes wo again: it is a unit vector only to the precision of S.
   template <Real T> auto cast() const {
     return MicrofacetGeometry<decltype(normals.template cast<T>())>{normals.template cast<T>(),
                                                                     cast_point<T>(wo).normalized()};
@@ -132,14 +140,15 @@ template <Warp N> struct MicrofacetGeometry {
 } // namespace detail
 
 /// wo reflected about a random normal.
-///   sample : wi = 2 (wo.m) m - wo for the sample m of the normals, which may face away from wo: still one-to-one.
-///            Within 64 eps
-///   pdf    : pdf(m) / (4 |wo.m|) [1/sr] at m = the half vector. Relative error that of the normals' pdf + 32 eps,
-///            but for m within 2 eps / |wo + wi| of the horizon, which may stand for the one below it
-///   invert : |invert(sample(u)) - u| <= 16 eps / (alpha |wo + wi|), the conditioning above, where the normals' own
-///            inverse is exact
-///   throws : Error unless wo is a unit vector
-///   Source : [WalterEtAl07] equation 14
+///   sample : wi = 2 (wo.m) m - wo for a sampled normal m, within 64 eps. m may face away from wo; the map is still
+///            one-to-one.
+///   pdf    : pdf(m) / (4 |wo.m|) [1/sr] at the half vector m. Relative error: 32 eps plus the relative error of the
+///            density of normals. Exception: a normal within 2 eps / |wo + wi| of the horizon may stand for its
+///            neighbour below the horizon.
+///   invert : |invert(sample(u)) - u| <= 16 eps / (alpha |wo + wi|) where invert of the normals is exact. The bound is
+///            the conditioning described at the top of this file.
+///   throws : Error unless wo is a unit vector.
+///   Source : [WalterEtAl07] equation 14.
 template <Warp N> class Reflected {
  public:
   using Scalar = typename N::Scalar;
@@ -156,8 +165,9 @@ template <Warp N> class Reflected {
   S pdf(const Vec3<S>& wi) const { return geometry_.reflected_pdf_of(wi); }
   Vec2<S> invert(const Vec3<S>& wi) const { return geometry_.invert(geometry_.sum(wi, S(1))); }
 
+  /// wo reflected about the normal m, or about -m if m faces away from wo.
   Vec3<S> direction(const Vec3<S>& m) const { return geometry_.reflect(geometry_.facing(m)); }
-  /// Density of direction(m) [1/sr], as accurate as the density of the normals at m.
+  /// Density of direction(m) [1/sr], as accurate as the density of normals at m.
   S pdf_at_normal(const Vec3<S>& m) const { return geometry_.reflected_pdf_at(m); }
 
   template <Real T> auto cast() const {
@@ -168,7 +178,7 @@ template <Warp N> class Reflected {
  private:
   template <Warp M> friend class Reflected;
   explicit Reflected(detail::MicrofacetGeometry<N> geometry)
-      : geometry_(std::move(geometry)) {} // wo is unit only in the narrower scalar
+      : geometry_(std::move(geometry)) {} // wo is a unit vector only to the precision of the narrower scalar
   detail::MicrofacetGeometry<N> geometry_;
 };
 
@@ -176,13 +186,14 @@ template <class S, class N> Reflected(const Vec3<S>&, N) -> Reflected<N>;
 template <class N> explicit Reflected(N) -> Reflected<N>;
 
 /// wo refracted through a random normal into a denser medium.
-///   eta    : index of refraction on the far side over that on wo's, in [1.0001, 1e4]; every normal refracts
+///   eta    : index of refraction on the far side divided by the index on the side of wo, in [1.0001, 1e4]. Every
+///            normal refracts.
 ///   sample : wi = -(wo + (eta^2 - 1) / (wo.m + eta cos_t) m) / eta by Snell's law, for the normal m turned toward wo.
-///            Within 64 eps
-///   pdf    : pdf(m) eta^2 cos_t / |wo + eta wi|^2 [1/sr]. Relative error (64 + 4 / |wo.m|) eps
-///   invert : |invert(sample(u)) - u| <= 16 eps eta / (alpha |wo + eta wi|), likewise
-///   throws : Error unless wo is a unit vector and eta in its range
-///   Source : [WalterEtAl07] equations 16 and 17
+///            Within 64 eps.
+///   pdf    : pdf(m) eta^2 cos_t / |wo + eta wi|^2 [1/sr]. Relative error (64 + 4 / |wo.m|) eps.
+///   invert : |invert(sample(u)) - u| <= 16 eps eta / (alpha |wo + eta wi|), as for Reflected.
+///   throws : Error unless wo is a unit vector and eta lies in its range.
+///   Source : [WalterEtAl07] equations 16 and 17.
 template <Warp N> class RefractedIn {
  public:
   using Scalar = typename N::Scalar;
@@ -203,8 +214,9 @@ template <Warp N> class RefractedIn {
   S pdf(const Vec3<S>& wi) const { return geometry_.refracted_pdf_of(wi, eta_); }
   Vec2<S> invert(const Vec3<S>& wi) const { return geometry_.invert(geometry_.sum(wi, eta_)); }
 
+  /// wo refracted through the normal m, turned toward wo.
   Vec3<S> direction(const Vec3<S>& m) const { return geometry_.refract(geometry_.facing(m), eta_); }
-  /// Density of direction(m) [1/sr], as accurate as the density of the normals at m.
+  /// Density of direction(m) [1/sr], as accurate as the density of normals at m.
   S pdf_at_normal(const Vec3<S>& m) const { return geometry_.refracted_pdf_at(m, eta_); }
 
   template <Real T> auto cast() const {
@@ -216,7 +228,7 @@ template <Warp N> class RefractedIn {
   template <Warp M> friend class RefractedIn;
   RefractedIn(detail::MicrofacetGeometry<N> geometry, S eta) : geometry_(std::move(geometry)), eta_(eta) {
     using std::sqrt;
-    if (eta > 1) geometry_.floor *= 1 + 1 / S(sqrt(S((eta - 1) * (eta + 1)))); // wi tells m to eps / |wo + eta wi|
+    if (eta > 1) geometry_.floor *= 1 + 1 / S(sqrt(S((eta - 1) * (eta + 1)))); // wi determines m to eps / |wo + eta wi|
   }
   void check() const {
     geometry_.require_unit("RefractedIn");
@@ -230,14 +242,14 @@ template <Warp N> class RefractedIn {
 template <class S, class N> RefractedIn(const Vec3<S>&, N, S) -> RefractedIn<N>;
 template <class N, class S> RefractedIn(N, S) -> RefractedIn<N>;
 
-/// wo refracted through a random normal into a rarer medium, or reflected where the normal reflects totally.
-///   eta    : index of refraction on the far side over that on wo's, in [1e-4, 0.9999]
-///   sample : the refraction of RefractedIn where (wo.m)^2 > 1 - eta^2, else the reflection. Within 64 eps / cos_t
-///   pdf    : the sum of both densities [1/sr]: a direction may be the refraction by one normal and the reflection by
-///            another. Relative error (64 + 4 / |wo.m| + 4 / cos_t) eps
-///   invert : none, for that reason
-///   throws : Error unless wo is a unit vector and eta in its range
-///   Source : [WalterEtAl07] equations 14, 16 and 17
+/// wo refracted through a random normal into a rarer medium, or reflected at a normal with total internal reflection.
+///   eta    : index of refraction on the far side divided by the index on the side of wo, in [1e-4, 0.9999].
+///   sample : the refraction of RefractedIn if (wo.m)^2 > 1 - eta^2, else the reflection. Within 64 eps / cos_t.
+///   pdf    : sum of both densities [1/sr]: one direction may be the refraction at one normal and the reflection at
+///            another. Relative error (64 + 4 / |wo.m| + 4 / cos_t) eps.
+///   invert : none, because two normals may give the same direction.
+///   throws : Error unless wo is a unit vector and eta lies in its range.
+///   Source : [WalterEtAl07] equations 14, 16 and 17.
 template <Warp N> class RefractedOut {
  public:
   using Scalar = typename N::Scalar;
@@ -256,18 +268,19 @@ template <Warp N> class RefractedOut {
   Domain domain() const { return {}; }
   Vec3<S> sample(const Vec2<S>& u) const { return direction(geometry_.normals.sample(u)); }
   S pdf(const Vec3<S>& wi) const {
-    // Rounding may carry a wi that was reflected at the critical angle beyond it, by less than this.
+    // Rounding may move a wi that was reflected at the critical angle beyond this angle, by less than `slack`.
     const S slack = 16 * std::numeric_limits<S>::epsilon();
     const bool total = geometry_.sum(wi, S(1)).squaredNorm() / 4 <= (1 - eta_) * (1 + eta_) + slack;
     return geometry_.refracted_pdf_of(wi, eta_) + (total ? geometry_.reflected_pdf_of(wi) : S(0));
   }
 
+  /// wo refracted at the normal m turned toward wo, or reflected there if m reflects totally.
   Vec3<S> direction(const Vec3<S>& m) const {
     const Vec3<S> n = geometry_.facing(m);
     return geometry_.refracts(n, eta_) ? geometry_.refract(n, eta_) : geometry_.reflect(n);
   }
-  /// Density of direction(m) [1/sr] by way of m alone: pdf less what other normals add. As accurate as the density of
-  /// the normals.
+  /// The part of pdf(direction(m)) that comes from m alone [1/sr], without other normals that give the same direction.
+  /// As accurate as the density of normals at m.
   S pdf_at_normal(const Vec3<S>& m) const {
     return geometry_.refracts(m, eta_) ? geometry_.refracted_pdf_at(m, eta_) : geometry_.reflected_pdf_at(m);
   }

@@ -10,10 +10,11 @@
 namespace mc {
 
 /// Uniform directions on the hemisphere.
-///   sample : u -> z = 1 - u0, phi = 2 pi u1
-///   pdf    : 1 / (2 pi) [1/sr]; 0 below the horizon
-///   invert : |invert(sample(u)) - u| <= 8 eps
-///   Source : [ShirleyWangZimmerman96]; 1 - z is kept instead of z, so directions near the pole keep their precision.
+///   sample : z = 1 - u0, phi = 2 pi u1.
+///   pdf    : 1 / (2 pi) [1/sr]; 0 below the horizon.
+///   invert : |invert(sample(u)) - u| <= 8 eps.
+///   Source : [ShirleyWangZimmerman96]. The map computes with 1 - z instead of z, so directions near the pole keep
+///            their precision.
 template <Real S> struct UniformHemisphere {
   using Scalar = S;
   using Domain = Hemisphere<S>;
@@ -25,12 +26,12 @@ template <Real S> struct UniformHemisphere {
   template <Real T> UniformHemisphere<T> cast() const { return {}; }
 };
 
-/// Directions with density proportional to cos(theta): a uniform point of the disk, lifted.
-///   sample : concentric disk point p, z = sqrt(1 - |p|^2), with 1 - |p|^2 taken from u without cancellation and at
-///            least eps / 2, half a step of u, so that the pdf of a sample is positive on the rim too
-///   pdf    : z / pi [1/sr]; 0 below the horizon
-///   invert : |invert(sample(u)) - u| <= 8 eps
-///   Source : [Malley88], the disk by [ShirleyChiu97]
+/// Directions with density proportional to cos(theta): a uniform point of the disk, lifted to the hemisphere.
+///   sample : concentric disk point p, z = sqrt(1 - |p|^2). 1 - |p|^2 is computed from u without cancellation. It is at
+///            least eps / 2, half a step of u, so the pdf of a sample is positive on the rim too.
+///   pdf    : z / pi [1/sr]; 0 below the horizon.
+///   invert : |invert(sample(u)) - u| <= 8 eps.
+///   Source : [Malley88]; the disk by [ShirleyChiu97].
 template <Real S> struct CosineHemisphere {
   using Scalar = S;
   using Domain = Hemisphere<S>;
@@ -39,7 +40,7 @@ template <Real S> struct CosineHemisphere {
   Vec3<S> sample(const Vec2<S>& u) const {
     using std::max, std::min, std::sqrt;
     const Vec2<S> p = UniformDisk<S>{}.sample(u);
-    // 1 - |p| is twice the distance to the nearest edge of the square, and exact.
+    // 1 - |p| is twice the distance to the nearest edge of the square, without rounding.
     const S t = 2 * min(min(u[0], S(1 - u[0])), min(u[1], S(1 - u[1])));
     return {p.x(), p.y(), S(sqrt(max(S(t * (2 - t)), S(std::numeric_limits<S>::epsilon() / 2))))};
   }

@@ -9,15 +9,15 @@
 namespace mc {
 
 /// Directions about +z with mean cosine g.
-///   made from : g, or 1 - |g| and the sign: a g near 1 no longer knows its distance from 1
-///   sample    : t = 2 u (1-g)^2 (1 + g (1-u)) / (1 - g + 2 g (1-u))^2 is 1 - cos for g >= 0: products and positive
-///               sums only, no division by g, so g = 0 needs no case of its own; g < 0 is mirrored
-///   pdf       : (1 - g^2) / (4 pi ((1-g)^2 + 2 g t)^(3/2)) [1/sr], t from x^2 + y^2 near the pole; relative error 16
-///               eps
-///   invert    : |invert(sample(u)) - u| <= 16 eps for |g| <= 0.9, 16 eps / (1 - |g|) beyond, where u in the backward
-///               half is packed into few bits of t
-///   throws    : Error unless |g| < 1, and (1 - |g|)^2 >= min / eps of the scalar: 3.2e-16 for float
-///   Source    : [HenyeyGreenstein41]
+///   made from : g, or 1 - |g| and the sign. A rounded g near 1 has lost most digits of 1 - |g|.
+///   sample    : t = 1 - cos = 2 u (1-g)^2 (1 + g (1-u)) / (1 - g + 2 g (1-u))^2 for g >= 0; mirrored for g < 0. The
+///               formula has products and positive sums only, and no division by g, so g = 0 is no special case.
+///   pdf       : (1 - g^2) / (4 pi ((1-g)^2 + 2 g t)^(3/2)) [1/sr], relative error 16 eps. t is computed from x^2 + y^2
+///               near the pole.
+///   invert    : |invert(sample(u)) - u| <= 16 eps for |g| <= 0.9, and 16 eps / (1 - |g|) beyond: there few bits of t
+///               must hold the u of the backward half.
+///   throws    : Error unless |g| < 1 and (1 - |g|)^2 >= min / eps of the scalar; for float this is 1 - |g| >= 3.2e-16.
+///   Source    : [HenyeyGreenstein41].
 template <Real S> class HenyeyGreenstein {
  public:
   using Scalar = S;
@@ -26,6 +26,7 @@ template <Real S> class HenyeyGreenstein {
   explicit HenyeyGreenstein(S g) : HenyeyGreenstein(g < 0 ? S(1 + g) : S(1 - g), g < 0) {
     require(g > -1 && g < 1, "HenyeyGreenstein: g = {} must lie in (-1, 1)", static_cast<double>(g));
   }
+  /// The distribution with 1 - |g| = h and g < 0 if `backward`.
   static HenyeyGreenstein from_one_minus_abs_g(S h, bool backward = false) {
     require(h > 0 && h * h >= std::numeric_limits<S>::min() / std::numeric_limits<S>::epsilon() && h <= 1,
             "HenyeyGreenstein: 1 - |g| = {} must lie in (0, 1], and its square must not be denormal",
@@ -63,7 +64,7 @@ template <Real S> class HenyeyGreenstein {
 
   S from_pole(const Vec3<S>& w) const { return one_minus_z<S>({w.x(), w.y(), front_ * w.z()}); }
 
-  S h_, g_, front_, scale_; ///< 1 - |g|, |g|, sign of g, (1 - g^2) / 4 pi
+  S h_, g_, front_, scale_; ///< 1 - |g|, |g|, sign of g, (1 - g^2) / (4 pi)
 };
 
 } // namespace mc

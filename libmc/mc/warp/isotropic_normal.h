@@ -8,16 +8,16 @@
 namespace mc {
 
 /// Isotropic normal distribution about the origin of the plane.
-///   sample : r = sigma sqrt(-2 log(1 - u0)), phi = 2 pi u1. 1 - u0 is never 0, so r is finite for every u
-///   pdf    : exp(-r^2 / (2 sigma^2)) / (2 pi sigma^2) [1/area]. Relative error (4 + (r / sigma)^2) eps
-///   invert : |invert(sample(u)) - u| <= 8 eps
-///   throws : Error unless sigma > 0 and sigma^2 passes is_valid_scale
-///   Source : [BoxMuller58]. Two independent normals by inverse CDF (Normal2D) distort strata less and cost more
+///   sample : r = sigma sqrt(-2 log(1 - u0)), phi = 2 pi u1. 1 - u0 is never 0, so r is finite for every u.
+///   pdf    : exp(-r^2 / (2 sigma^2)) / (2 pi sigma^2) [1/area]. Relative error (4 + (r / sigma)^2) eps.
+///   invert : |invert(sample(u)) - u| <= 8 eps.
+///   throws : Error unless sigma > 0 and sigma^2 passes is_valid_scale.
+///   Source : [BoxMuller58]. Two independent normals by inverse CDF (Normal2D) distort strata less and cost more.
 template <Real S> struct IsotropicNormal {
   using Scalar = S;
   using Domain = Plane<S>;
 
-  S sigma = 1;
+  S sigma = 1; ///< Standard deviation of each coordinate.
 
   IsotropicNormal() = default;
   explicit IsotropicNormal(S sigma_) : sigma(sigma_) {
@@ -43,7 +43,7 @@ template <Real S> struct IsotropicNormal {
   template <Real T> IsotropicNormal<T> cast() const { return IsotropicNormal<T>(T(sigma)); }
 
  private:
-  // log(1 - u) for small u too: the rounding of 1 - u is undone by a factor. Half the time of log1p.
+  // log(1 - u), accurate for small u too: a factor undoes the rounding of 1 - u. Faster than log1p.
   static S log_one_minus(const S& u) {
     using std::log;
     const S w = 1 - u, rounded = 1 - w;

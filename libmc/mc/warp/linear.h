@@ -6,19 +6,19 @@
 
 namespace mc {
 
-/// Density on [0,1] that goes linearly from a at 0 to b at 1 (up to normalisation).
-///   sample : x = (a + b) / (a w + sqrt((a w)^2 (1-u) + b^2 w)), w = 1 / u: the stable root of the quadratic in a form
-///            whose every operation goes one way with u, so that rounding keeps it monotone
-///   pdf    : 2 ((1-x) a + x b) / (a + b) [1/length]; 0 outside
-///   invert : |invert(sample(u)) - u| <= 8 eps
-///   throws : Error unless a, b are finite, >= 0 and not both 0
-///   Source : [PharrJakobHumphreys23] section 2.4.2; scaled by the larger value, so weights of 1e30 and 1e-30 do not
-///            overflow
+/// Density on [0,1] proportional to the line from a at x = 0 to b at x = 1.
+///   sample : x = (a + b) / (a w + sqrt((a w)^2 (1-u) + b^2 w)), w = 1 / u. This is the stable root of the quadratic.
+///            Every operation is monotone in u, so rounding keeps the sample monotone.
+///   pdf    : 2 ((1-x) a + x b) / (a + b) [1/length]; 0 outside.
+///   invert : |invert(sample(u)) - u| <= 8 eps.
+///   throws : Error unless a and b are finite, >= 0 and not both 0.
+///   Source : [PharrJakobHumphreys23] section 2.4.2. The values are scaled by the larger one, so weights of 1e30 and
+///            1e-30 do not overflow.
 template <Real S> struct Linear {
   using Scalar = S;
   using Domain = Interval<S>;
 
-  S a = 1, b = 1; ///< scaled so that the larger is 1
+  S a = 1, b = 1; ///< End values, scaled so that the larger is 1.
 
   Linear() = default;
   Linear(S a_, S b_) : a(a_), b(b_) {
@@ -34,7 +34,7 @@ template <Real S> struct Linear {
   Domain domain() const { return {}; }
   S sample(S u) const {
     using std::max, std::min, std::sqrt;
-    // With a = 0 the density vanishes at 0: u = 0 stands for half its step.
+    // For a = 0 the density vanishes at x = 0, so u = 0 is replaced by half a step of u.
     const S v = a == 0 ? S(max(u, S(std::numeric_limits<S>::epsilon() / 4))) : u;
     if (v == 0) return S(0);
     const S w = 1 / max(v, std::numeric_limits<S>::min()), aw = a * w;

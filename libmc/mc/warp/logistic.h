@@ -20,7 +20,7 @@ template <Real S> S sigmoid(const S& t) {
   return 1 / (1 + S(exp(S(-t))));
 }
 
-/// e^-t / (1 + e^-t)^2, even in t.
+/// e^-t / (1 + e^-t)^2. Even in t.
 template <Real S> S logistic_density(const S& t) {
   using std::abs, std::exp;
   const S e = S(exp(S(-S(abs(t)))));
@@ -30,10 +30,11 @@ template <Real S> S logistic_density(const S& t) {
 } // namespace detail
 
 /// Logistic distribution on the real line.
-///   sample : x = mean + scale log(u / (1 - u)); u = 0 stands for half its step, so x is finite
-///   pdf    : e^-t / (scale (1 + e^-t)^2), t = (x - mean) / scale [1/length]. Relative error (4 + |t|) eps for mean = 0
-///   invert : |invert(sample(u)) - u| <= 8 eps for mean = 0; a mean far from 0 costs its own rounding
-///   throws : Error unless mean is finite and scale passes is_valid_scale
+///   sample : x = mean + scale log(u / (1 - u)). u = 0 is replaced by half a step of u, so x is finite.
+///   pdf    : e^-t / (scale (1 + e^-t)^2) [1/length], t = (x - mean) / scale. Relative error (4 + |t|) eps for mean =
+///            0.
+///   invert : |invert(sample(u)) - u| <= 8 eps for mean = 0. A mean far from 0 adds the rounding of x.
+///   throws : Error unless mean is finite and scale passes is_valid_scale.
 template <Real S> struct Logistic {
   using Scalar = S;
   using Domain = RealLine<S>;
@@ -64,19 +65,21 @@ template <Real S> struct Logistic {
 };
 
 /// Logistic distribution of mean 0 cut to [lo, hi].
-///   sample : x = scale log(F / G) of the cut CDF F = F(lo) + u m and G = F(-hi) + (1 - u) m; the mass m of the
-///            interval is F(hi) F(-lo) (1 - e^((lo - hi) / scale)), so that nothing cancels in the tails. On intervals
-///            in a tail or shorter than scale the distance from the end is scale log(1 + odds), the odds of the mass up
-///            to x against the rest of the tail: all relative to the end, so that a tail may be as thin as S allows
-///   pdf    : the logistic density / m [1/length]; 0 outside. Relative error (8 + 2 d) eps, d the distance over scale
-///            from the end next to 0, or from 0 inside
-///   invert : |invert(sample(u)) - u| <= 8 eps max(1, max(|lo|, |hi|) / min(scale, hi - lo)): the rounding of x
-///   throws : Error unless lo < hi, both finite, scale and hi - lo pass is_valid_scale, and m does not underflow
+///   sample : x = scale log(F / G), where F = F(lo) + u m and G = F(-hi) + (1 - u) m belong to the logistic CDF. The
+///            mass of the interval is m = F(hi) F(-lo) (1 - e^((lo - hi) / scale)), which does not cancel in the tails.
+///   pdf    : logistic density / m [1/length]; 0 outside. Relative error (8 + 2 d) eps. d is the distance in units of
+///            scale from the end nearest to 0, or from 0 if the interval contains it.
+///   invert : |invert(sample(u)) - u| <= 8 eps max(1, max(|lo|, |hi|) / min(scale, hi - lo)). The rounding of x causes
+///            this bound.
+///   throws : Error unless lo < hi, both are finite, scale and hi - lo pass is_valid_scale, and m does not underflow.
+/// Intervals in a tail, or shorter than scale, use another form. There the distance from the inner end is scale log(1 +
+/// odds). The odds compare the mass between the end and x with the rest of the tail. All terms are relative to the end,
+/// so the tail may be as thin as S can represent.
 template <Real S> struct TrimmedLogistic {
   using Scalar = S;
   using Domain = Interval<S>;
 
-  S scale, lo, hi; ///< to be read: constants that belong to them are made with them
+  S scale, lo, hi; ///< Read only: the constructor derives further constants from them.
 
   TrimmedLogistic() : TrimmedLogistic(1, -1, 1) {}
   TrimmedLogistic(S scale_, S lo_, S hi_) : scale(scale_), lo(lo_), hi(hi_) {
@@ -125,13 +128,14 @@ template <Real S> struct TrimmedLogistic {
   template <Real T> TrimmedLogistic<T> cast() const { return {T(scale), T(lo), T(hi)}; }
 
  private:
-  // About 0, and longer than scale.
+  // Whether the interval contains 0 in its interior and is longer than scale.
   bool is_wide() const { return lo < 0 && hi > 0 && hi - lo > scale; }
-  // The end from which all else is seen, mirrored for an interval below 0.
+  // The reference end of an interval that is not wide; mirrored for an interval below 0.
   S inner() const { return hi > 0 ? lo : S(-hi); }
 
-  // Wide: m, F(lo), F(-hi). Else: the share of the tail beyond the end that the interval has, the rest of that tail,
-  // and 1 / F of the end: a share v of the interval ends where the odds are v mass_ high_ / (low_ + (1 - v) mass_).
+  // Wide intervals: m, F(lo), F(-hi). Other intervals: the share of the tail beyond the inner end that the interval
+  // contains, the rest of this tail, and 1 / F(inner end). The share v of the interval ends at odds v mass_ high_ /
+  // (low_ + (1 - v) mass_).
   S mass_, low_, high_;
 };
 

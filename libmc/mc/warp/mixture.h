@@ -11,13 +11,13 @@
 
 namespace mc {
 
-/// A weighted mixture of warps onto one domain. The first coordinate of u chooses the component and is then stretched
-/// back to [0,1), so stratification survives.
-///   pdf    : sum of w_i pdf_i(x); every component counts, whichever was sampled
-///   invert : none, since several u reach the same x
-///            A weight that vanishes beside the largest counts as 0
-///   throws : Error unless the weights are finite, >= 0 and not all 0
-///   Source : one-sample combination [Veach97] section 9.2.4
+/// A weighted mixture of warps onto one domain. The first coordinate of u selects the component. It is then stretched
+/// back to [0,1), which preserves stratification.
+///   pdf    : sum of w_i pdf_i(x) over all components, not only the sampled one.
+///   invert : none, because several u give the same x.
+///   throws : Error unless the weights are finite, >= 0 and not all 0.
+///   Source : one-sample combination, [Veach97] section 9.2.4.
+/// The weights are normalized to sum 1. Weights below min / eps of the largest count as 0.
 template <Warp First, Warp... Rest>
 requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class Mixture {
  public:
@@ -35,7 +35,7 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
       largest = std::max(largest, weights_[i]);
     }
     require(largest > 0, "Mixture: all {} weights are 0; at least one must be > 0", size);
-    // Relative to the largest first: the sum of weights near the largest number would overflow.
+    // Divides by the largest weight first: a sum of weights near the largest number would overflow.
     using Limits = std::numeric_limits<Scalar>;
     for (Scalar& w : weights_) {
       w /= largest;
@@ -49,7 +49,7 @@ requires(std::same_as<typename First::Domain, typename Rest::Domain>&&...) class
 
   typename Domain::Point sample(typename Domain::UnitPoint u) const {
     Scalar& uc = first_of(u);
-    // The last component with a positive weight takes what rounding leaves.
+    // Rounding may leave u above the sum of the weights: the last component of positive weight takes the rest.
     std::size_t last = size - 1;
     while (weights_[last] == 0) --last;
     std::size_t i = 0;

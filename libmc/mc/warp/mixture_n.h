@@ -1,5 +1,5 @@
 #pragma once
-/// Mixtures whose number of parts is known at run time.
+/// Mixtures with a number of components chosen at run time.
 
 #include <mc/core/error.h>
 #include <mc/table/concept.h>
@@ -10,9 +10,9 @@
 
 namespace mc {
 
-/// Density of a mixture: the sum of choice.pmf(i) pdf_of(i). Parts of probability 0 are not asked.
-///   To sample it: s = choice.sample_index(uc), then part s.index at u, where s.u_remapped may be a coordinate of u.
-///   So parts may be anything that can be sampled: shapes seen from a point, say.
+/// Density of a mixture: the sum of choice.pmf(i) pdf_of(i). Skips components of probability 0.
+/// To sample the mixture, draw s = choice.sample_index(uc), then sample component s.index at u. s.u_remapped may serve
+/// as a coordinate of u. Components may be of any kind, for example shapes sampled from a reference point.
 template <DiscreteDistribution C, class Pdf> typename C::Scalar mixture_pdf(const C& choice, Pdf&& pdf_of) {
   typename C::Scalar sum(0);
   for (std::size_t i = 0; i < choice.size(); ++i)
@@ -20,13 +20,13 @@ template <DiscreteDistribution C, class Pdf> typename C::Scalar mixture_pdf(cons
   return sum;
 }
 
-/// A mixture of n warps of one type, chosen by a discrete distribution. The first coordinate of u chooses the part and
-/// is then stretched back to [0,1), so stratification survives.
-///   domain : of the mixture; it must hold those of all parts, whose density outside their own is 0
-///   pdf    : sum of pmf(i) pdf_i(x); every part counts, whichever was sampled
-///   invert : none, since several u reach the same x
-///   throws : Error unless there are as many parts as outcomes of the choice
-///   Source : one-sample combination [Veach97] section 9.2.4
+/// A mixture of n warps of one type, chosen by a discrete distribution. The first coordinate of u selects the
+/// component. It is then stretched back to [0,1), which preserves stratification.
+///   domain : must contain the domains of all components. The density of a component is 0 outside its own domain.
+///   pdf    : sum of pmf(i) pdf_i(x) over all components, not only the sampled one.
+///   invert : none, because several u give the same x.
+///   throws : Error unless the number of components equals the number of outcomes of the choice.
+///   Source : one-sample combination, [Veach97] section 9.2.4.
 template <Domain D, class Part, DiscreteDistribution C>
 requires std::same_as<typename Part::Scalar, typename D::Scalar> && std::same_as<typename C::Scalar, typename D::Scalar>
 class MixtureN {

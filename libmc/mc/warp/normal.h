@@ -7,13 +7,13 @@
 
 namespace mc {
 
-/// Normal distribution on the real line, by its inverse CDF, so that strata of u stay strata of x.
-///   sample : x = mean - sigma sqrt(2) erfc^-1(2 u); u = 0 stands for half its step, so x is finite
-///   pdf    : exp(-t^2 / 2) / (sigma sqrt(2 pi)), t = (x - mean) / sigma [1/length]. Relative error (2 + t^2) eps: the
-///            density in the tail is ill-conditioned in x
-///   invert : |invert(sample(u)) - u| <= 16 eps for mean = 0
-///   throws : Error unless mean is finite and sigma passes is_valid_scale
-///   Source : erfc and its inverse from Boost.Math
+/// Normal distribution on the real line by its inverse CDF, which maps strata of u to strata of x.
+///   sample : x = mean - sigma sqrt(2) erfc^-1(2 u). u = 0 is replaced by half a step of u, so x is finite.
+///   pdf    : exp(-t^2 / 2) / (sigma sqrt(2 pi)) [1/length], t = (x - mean) / sigma. Relative error (2 + t^2) eps: the
+///            tail is ill-conditioned in x.
+///   invert : |invert(sample(u)) - u| <= 16 eps for mean = 0.
+///   throws : Error unless mean is finite and sigma passes is_valid_scale.
+///   Source : erfc and its inverse from Boost.Math.
 template <Real S> struct Normal {
   using Scalar = S;
   using Domain = RealLine<S>;

@@ -7,15 +7,16 @@
 namespace mc {
 
 /// Uniform points of a parallelogram in space.
-///   sample : origin + u0 a + u1 b
-///   pdf    : 1 / |a x b| [1/area]; 0 off the parallelogram, up to the rounding of a sample
-///   invert : |invert(sample(u)) - u| <= 16 eps for a parallelogram at the origin with edges at a wide angle; a distant
-///            origin or a narrow angle costs its own conditioning
-///   throws : Error unless the coordinates are finite and the area^2 passes is_valid_scale
+///   sample : origin + u0 a + u1 b.
+///   pdf    : 1 / |a x b| [1/area]; 0 off the parallelogram, up to the rounding of a sample.
+///   invert : |invert(sample(u)) - u| <= 16 eps for an origin at 0 and edges at a wide angle. A distant origin or a
+///            narrow angle adds its own conditioning.
+///   throws : Error unless the coordinates are finite and area^2 passes is_valid_scale.
 template <Real S> struct UniformParallelogram {
   using Scalar = S;
   using Domain = Parallelogram<S>;
 
+  /// The parallelogram: origin and edges a, b.
   Domain shape;
 
   Domain domain() const { return shape; }

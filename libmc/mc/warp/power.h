@@ -9,16 +9,16 @@
 namespace mc {
 
 /// Density on [0,1] proportional to x^n.
-///   sample : x = u^(1 / (n + 1)); u = 0 stands for half its step
-///   pdf    : (n + 1) x^n [1/length]; 0 outside
-///   invert : |invert(sample(u)) - u| <= (8 + n / 2) eps: for large n all samples lie close to 1, where x knows u to n
-///            eps
-///   throws : Error unless n is finite and >= 0
+///   sample : x = u^(1 / (n + 1)). u = 0 is replaced by half a step of u.
+///   pdf    : (n + 1) x^n [1/length]; 0 outside.
+///   invert : |invert(sample(u)) - u| <= (8 + n / 2) eps. For large n all samples lie close to 1, and x determines u
+///            only to n eps.
+///   throws : Error unless n is finite and >= 0.
 template <Real S> struct Power {
   using Scalar = S;
   using Domain = Interval<S>;
 
-  S n = 1;
+  S n = 1; ///< Exponent.
 
   Power() = default;
   explicit Power(S n_) : n(n_) {

@@ -8,9 +8,9 @@
 
 namespace mc {
 
-/// Independent pairs (a, b), the coordinates of u and of the point side by side; nest it for more.
-///   pdf    : pdf_a(a) pdf_b(b)
-///   invert : by the parts, with their bounds; present when both have one
+/// Independent pairs (a, b). Concatenates the coordinates of u and of the points; nest products for more factors.
+///   pdf    : pdf_a(a) pdf_b(b).
+///   invert : each factor separately, with the bounds of the factors. Present if both factors are invertible.
 template <Warp A, Warp B>
 requires std::same_as<typename A::Scalar, typename B::Scalar>
 struct Product {
@@ -19,8 +19,8 @@ struct Product {
   using Point = typename Domain::Point;
   using UnitPoint = typename Domain::UnitPoint;
 
-  A first;
-  B second;
+  A first;  ///< Distribution of a.
+  B second; ///< Distribution of b.
 
   Domain domain() const { return {first.domain(), second.domain()}; }
   Point sample(const UnitPoint& u) const {
@@ -38,8 +38,9 @@ struct Product {
 
 template <class A, class B> Product(A, B) -> Product<A, B>;
 
-/// The 2-D tent, and the 2-D Gaussian by inverse CDF, which keeps strata of u as strata of the plane.
+/// The 2-D tent.
 template <Real S> using Tent2D = Product<Tent<S>, Tent<S>>;
+/// The 2-D Gaussian by inverse CDF, which maps strata of u to strata of the plane.
 template <Real S> using Normal2D = Product<Normal<S>, Normal<S>>;
 
 } // namespace mc

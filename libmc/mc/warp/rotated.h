@@ -1,5 +1,5 @@
 #pragma once
-/// Distributions of directions about any axis.
+/// Distributions of directions about an arbitrary axis.
 
 #include <mc/core/error.h>
 #include <mc/domain/rotated.h>
@@ -9,21 +9,22 @@
 
 namespace mc {
 
-/// A distribution about +z turned to an axis n.
-///   sample : the direction in the frame of n
-///   pdf    : that of the direction in the frame [1/sr]; a direction on the rim of the support that rounding carried
-///            out by up to 8 eps counts as inside. A density that vanishes on the rim is ill-conditioned there: eps / z
-///            for the cosine
-///   invert : of the direction in the frame; ill-conditioned where the warp is near its pole, as the sum of the axes
-///            rounds to eps, so u0 of a uniform warp is known to eps and u1 to eps / sin(theta)
-///   throws : Error unless |n| = 1 to 32 eps
-///   Source : the frame of [DuffEtAl17]
+/// A distribution about +z, rotated to an axis n.
+///   sample : a direction of the warp, transformed from the frame of n to the world.
+///   pdf    : density of the warp at the direction in the frame [1/sr]. Rounding may move a direction on the rim of the
+///            support out by up to 8 eps; it still counts as inside. A density that vanishes on the rim is
+///            ill-conditioned there: the cosine density by eps / z.
+///   invert : invert of the warp at the direction in the frame. Ill-conditioned where the warp is near its pole,
+///            because the sum of the axes rounds to eps. For a uniform warp u0 is accurate to eps and u1 to eps /
+///            sin(theta).
+///   throws : Error unless |n| = 1 within 32 eps.
+///   Source : the frame of [DuffEtAl17].
 template <Warp W> struct Rotated {
   using Scalar = typename W::Scalar;
   using Domain = RotatedDomain<typename W::Domain>;
 
-  W warp;
-  Frame<Scalar> frame;
+  W warp;              ///< Distribution about +z.
+  Frame<Scalar> frame; ///< Orthonormal frame with z axis n.
 
   Rotated(W warp_, const Vec3<Scalar>& n) : warp(std::move(warp_)) {
     using std::abs;
@@ -40,7 +41,7 @@ template <Warp W> struct Rotated {
     return warp.invert(domain().to_local(w));
   }
   template <Real T> auto cast() const {
-    // A frame made anew from the axis is orthonormal to the precision of T.
+    // A new frame from the axis is orthonormal to the precision of T.
     return Rotated<decltype(warp.template cast<T>())>(warp.template cast<T>(), cast_point<T>(frame.z).normalized());
   }
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Many samples at once, one array per coordinate.
+/// Many samples at once, with one array per coordinate.
 
 #include <mc/core/error.h>
 #include <mc/warp/concept.h>
@@ -10,20 +10,20 @@
 
 namespace mc {
 
-/// One array per coordinate of u, and one per coordinate of the points of a warp.
+/// One array per coordinate of u.
 template <Warp W>
 using UnitColumns =
     std::array<std::span<const typename W::Scalar>, sizeof(UnitPointOf<W>) / sizeof(typename W::Scalar)>;
+/// One array per coordinate of the points of a warp.
 template <Warp W>
 using PointColumns = std::array<std::span<typename W::Scalar>, sizeof(PointOf<W>) / sizeof(typename W::Scalar)>;
 
-/// sample for every i, e.g. sample_n(CosineHemisphere<float>{}, {u0, u1}, {x, y, z}): the same code and the same bits,
-/// in a loop that the compiler turns into vector instructions where sample neither jumps nor calls: disk, annulus,
-/// sphere, hemispheres, cone, Henyey-Greenstein. With AVX2 or AVX-512 these take 1/5 of the time or less; any other
-/// warp takes that of a plain loop.
-///   bits   : of sample, if the caller too compiles with -ffp-contract=off
-///   arrays : an output may be an array of u; otherwise they must not overlap
-///   throws : Error unless all arrays have one size
+/// Calls warp.sample for every i, e.g. sample_n(CosineHemisphere<float>{}, {u0, u1}, {x, y, z}).
+/// The compiler vectorizes the loop if sample neither branches nor calls functions: disk, annulus, sphere, hemispheres,
+/// cone, Henyey-Greenstein. All other warps run as a plain loop.
+///   bits   : identical to sample, if the caller too compiles with -ffp-contract=off.
+///   arrays : an output may be an array of u; otherwise arrays must not overlap.
+///   throws : Error unless all arrays have the same size.
 template <Warp W> void sample_n(const W& warp, const UnitColumns<W>& u, const PointColumns<W>& x) {
   const std::size_t n = u[0].size();
   for (const auto& column : u)
@@ -32,7 +32,7 @@ template <Warp W> void sample_n(const W& warp, const UnitColumns<W>& u, const Po
   for (const auto& column : x)
     require(column.size() == n, "sample_n: {} numbers in an array of points, {} in those of u; as many are needed",
             column.size(), n);
-  // What a loop writes is on the stack, where nothing that it reads can be: the proof that compilers ask for.
+  // The loop writes to a local array, which cannot alias its inputs. Compilers need this proof to vectorize.
   constexpr std::size_t block = 64;
   std::array<std::array<typename W::Scalar, block>, std::tuple_size_v<PointColumns<W>>> out;
   for (std::size_t first = 0; first < n; first += block) {

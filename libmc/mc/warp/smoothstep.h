@@ -9,11 +9,12 @@
 namespace mc {
 
 /// Density on [0,1] proportional to the smooth step 3 x^2 - 2 x^3.
-///   sample : the root of x^3 (2 - x) = u by Newton's method from cbrt(u). The CDF is convex and the start lies above
-///            the root, so the iterates fall to it; the first that does not fall ends the search, and a last step with
-///            twice the digits makes the result monotone in u. u below eps / 4 stands for eps / 4, half a step
-///   pdf    : 2 x^2 (3 - 2 x) [1/length]; 0 outside
-///   invert : |invert(sample(u)) - u| <= 8 eps
+///   sample : root of x^3 (2 - x) = u by Newton's method from cbrt(u). u below eps / 4, half a step, is replaced by eps
+///            / 4.
+///   pdf    : 2 x^2 (3 - 2 x) [1/length]; 0 outside.
+///   invert : |invert(sample(u)) - u| <= 8 eps.
+/// The CDF is convex and the start lies above the root, so the iterates decrease to the root. The first iterate that
+/// does not decrease ends the loop. One last step with twice the digits makes the sample monotone in u.
 template <Real S> struct Smoothstep {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -29,7 +30,7 @@ template <Real S> struct Smoothstep {
   S invert(S x) const { return clamp_to_unit<S>(x * x * x * (2 - x)); }
   template <Real T> Smoothstep<T> cast() const { return {}; }
 
-  /// The x of x^3 (2 - x) = v > 0.
+  /// Solution x of x^3 (2 - x) = v for v > 0.
   static S root(const S& v) {
     using std::cbrt;
     S x = S(cbrt(v));
@@ -43,7 +44,7 @@ template <Real S> struct Smoothstep {
 
  private:
   static S slope(const S& x) { return 2 * x * x * (3 - 2 * x); }
-  // x^3 (2 - x) - v with twice the digits: the root is then rounded once, so that it never falls as v grows.
+  // x^3 (2 - x) - v with twice the digits. The root is then rounded once, so it never decreases as v grows.
   static S excess(const S& x, const S& v) {
     using std::fma;
     const S x2 = x * x, low2 = S(fma(x, x, S(-x2))), x3 = x2 * x, low3 = S(fma(x2, x, S(-x3))) + low2 * x;

@@ -7,10 +7,10 @@
 namespace mc {
 
 /// Uniform directions on the sphere.
-///   sample : u -> z = 1 - 2 u0, phi = 2 pi u1
-///   pdf    : 1 / (4 pi) [1/sr]
-///   invert : |invert(sample(u)) - u| <= 8 eps
-///   Source : [ShirleyWangZimmerman96]
+///   sample : z = 1 - 2 u0, phi = 2 pi u1.
+///   pdf    : 1 / (4 pi) [1/sr].
+///   invert : |invert(sample(u)) - u| <= 8 eps.
+///   Source : [ShirleyWangZimmerman96].
 template <Real S> struct UniformSphere {
   using Scalar = S;
   using Domain = Sphere<S>;

@@ -7,17 +7,18 @@
 
 namespace mc {
 
-/// Uniform directions, about +z, of the cone that a sphere fills; z points from the viewer to its centre (frame()).
-///   made from : the centre relative to the viewer, and the radius; the viewer may be anywhere
-///   sample    : outside, the cone with 1 - cos = s^2 / (1 + cos), s = radius / distance, which no distance cancels;
-///               next to the surface cos = sqrt(distance^2 - radius^2) / distance, from twice the digits; on the
-///               surface the hemisphere towards the centre; inside every direction
-///   pdf       : 1 / (2 pi (1 - cos)) [1/sr]; 0 outside the cone. Relative error 16 eps in the local frame: a world
-///               direction in S holds the offset from the axis only to eps, so narrower cones than eps need the local
-///               form
-///   invert    : |invert(sample(u)) - u| <= 16 eps
-///   throws    : Error unless the centre is finite, radius passes is_valid_scale, and radius / distance > 1e-18
-///   Source    : [ShirleyWangZimmerman96]
+/// Uniform directions in the cone that a sphere subtends. They are relative to frame(): z points from the viewer to the
+/// centre of the sphere.
+///   made from : the centre relative to the viewer, and the radius. The viewer may be anywhere.
+///   sample    : outside the sphere, the cone with 1 - cos = s^2 / (1 + cos), s = radius / distance; it does not cancel
+///               at any distance. Near the surface, cos = sqrt(distance^2 - radius^2) / distance with twice the digits.
+///               On the surface, the hemisphere towards the centre. Inside, all directions.
+///   pdf       : 1 / (2 pi (1 - cos)) [1/sr]; 0 outside the cone. Relative error 16 eps in the local frame. A world
+///               direction in S holds its offset from the axis only to eps, so cones narrower than eps need local
+///               directions.
+///   invert    : |invert(sample(u)) - u| <= 16 eps.
+///   throws    : Error unless the centre is finite, radius passes is_valid_scale, and radius / distance > 1e-18.
+///   Source    : [ShirleyWangZimmerman96].
 template <Real S> class SphereLight {
  public:
   using Scalar = S;
@@ -29,7 +30,9 @@ template <Real S> class SphereLight {
   Vec3<S> sample(const Vec2<S>& u) const { return cone_.sample(u); }
   S pdf(const Vec3<S>& w) const { return cone_.pdf(w); }
   Vec2<S> invert(const Vec3<S>& w) const { return cone_.invert(w); }
+  /// Frame with z from the viewer to the centre of the sphere.
   const Frame<S>& frame() const { return frame_; }
+  /// Solid angle of the cone [sr].
   S solid_angle() const { return 2 * pi<S> * cone_.domain().h; }
   template <Real T> SphereLight<T> cast() const { return {cast_point<T>(center_), T(radius_)}; }
 
@@ -39,7 +42,7 @@ template <Real S> class SphereLight {
         frame_(Frame<S>::from_z(distance > 0 ? Vec3<S>(center * (1 / distance)) : Vec3<S>(0, 0, 1))),
         cone_(UniformCone<S>::from_one_minus_cos(filled(center, radius, distance))) {}
 
-  // Eigen's stableNorm costs more than all the rest, and only lengths far from 1 need it.
+  // |v|. Eigen's stableNorm is slow, and only lengths far from 1 need it.
   static S length(const Vec3<S>& v) {
     using Limits = std::numeric_limits<S>;
     using std::sqrt;
@@ -48,7 +51,7 @@ template <Real S> class SphereLight {
     return v.allFinite() ? S(v.stableNorm()) : Limits::quiet_NaN();
   }
 
-  // 1 - cosine of the angle that the sphere fills.
+  // 1 - cosine of the half angle of the cone.
   static S filled(const Vec3<S>& center, const S& radius, const S& distance) {
     using std::frexp, std::isfinite, std::ldexp, std::sqrt;
     require(
@@ -60,10 +63,11 @@ template <Real S> class SphereLight {
     const S sine = radius / distance;
     require(sine > S(1e-18), "SphereLight: radius / distance = {} must exceed 1e-18", static_cast<double>(sine));
     if (sine < S(0.75)) return sine * sine / (1 + S(sqrt(S(1 - sine * sine))));
-    // Grazing: the cosine is the root of distance^2 - radius^2, which cancels; a rounded distance does not know it.
+    // Near the surface the cosine is the root of distance^2 - radius^2, which cancels. A rounded distance has too few
+    // digits for it.
     int exponent;
     frexp(radius, &exponent);
-    const auto scaled = [&](const S& x) { return S(ldexp(x, -exponent)); }; // squares stay in range and lose nothing
+    const auto scaled = [&](const S& x) { return S(ldexp(x, -exponent)); }; // keeps squares in range; exact
     const Vec<S, 4> sum(scaled(center.x()), scaled(center.y()), scaled(center.z()), scaled(radius));
     const Vec<S, 4> difference(sum[0], sum[1], sum[2], -sum[3]);
     const S root2 = accurate_dot<S, 4>(sum, difference);

@@ -5,20 +5,19 @@
 
 namespace mc {
 
-/// Uniform directions through a parallelogram seen from the origin.
-///   made from : the corner relative to the viewer, and the two edges from it
-///   sample    : arcs from the corner sweep the patch, first the half between edge1 and the diagonal, then the other;
-///               u0 is the share of the solid angle swept, along the arc 1 - cosine to the corner grows like u1.
-///               Continuous in u
-///   pdf       : 1 / solid angle [1/sr], relative error as SphericalTriangle, in double times the flatness once more:
-///               the corner across is itself rounded; 0 outside
-///   invert    : as SphericalTriangle
-///   throws    : Error unless corner and edges span a finite volume > 0
-///   Source    : a fan of two [Arvo95] triangles in the closed form of spherical_triangle.h. Rejected by measurement
-///               (bench_spherical_rectangle, float): the azimuthal cuts of Urena et al. 2013. Their solid angle, an
-///               excess of angles over 2 pi, is off by 1e-5 at 0.01 sr, by 4e-4 at 1e-4 sr and is lost below; the fan
-///               keeps 3 eps down to 1e-8 sr. A sample of the fan costs 0.7 times theirs, with construction 1.3 times.
-///               Beyond 6 sr, next to the horizon, the fan's samples are off by 1500 eps, theirs by 110
+/// Uniform directions through a parallelogram, viewed from the origin.
+///   made from : the corner relative to the viewer, and the two edges from it.
+///   sample    : arcs from the corner sweep the patch: first the half between edge1 and the diagonal, then the other
+///               half. u0 is the share of the solid angle swept. Along an arc, 1 - cosine to the corner is proportional
+///               to u1. Continuous in u.
+///   pdf       : 1 / solid angle [1/sr]; 0 outside. Relative error as for SphericalTriangle. In double it contains one
+///               more factor of the flatness, because the opposite corner is itself rounded.
+///   invert    : as for SphericalTriangle.
+///   throws    : Error unless corner and edges span a finite volume > 0.
+///   Source    : a fan of two [Arvo95] triangles in the closed form of spherical_triangle.h.
+/// The azimuthal cuts of Urena et al. 2013 were rejected. Their solid angle is an excess of angles over 2 pi, which
+/// cancels for small patches; the fan keeps its precision there. In exchange the fan takes longer to construct, and its
+/// samples are less accurate beyond 6 sr, next to the horizon. bench_spherical_rectangle compares both.
 template <Real S> class SphericalRectangle {
  public:
   using Scalar = S;
@@ -30,6 +29,7 @@ template <Real S> class SphericalRectangle {
         share_(first_.angle / (first_.angle + second_.angle)) {}
 
   Domain domain() const { return domain_; }
+  /// Solid angle of the patch [sr].
   S solid_angle() const { return S(first_.angle + second_.angle); }
   Vec3<S> sample(const Vec2<S>& u) const {
     const W u0(u[0]), u1(u[1]);
@@ -55,7 +55,7 @@ template <Real S> class SphericalRectangle {
   static Vec3<W> wide(const Vec3<S>& v) { return cast_point<W>(v); }
 
   Domain domain_;
-  detail::SphericalTriangleMap<W> first_, second_; ///< apex = the corner
+  detail::SphericalTriangleMap<W> first_, second_; ///< both have their apex at the corner
   W share_;
 };
 

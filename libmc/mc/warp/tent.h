@@ -1,5 +1,5 @@
 #pragma once
-/// The triangle distribution.
+/// The tent distribution.
 
 #include <mc/domain/interval.h>
 #include <mc/warp/concept.h>
@@ -7,11 +7,11 @@
 namespace mc {
 
 /// Density that falls linearly from the centre to 0 at distance radius.
-///   sample : x = center -+ radius (1 - sqrt(2 u)) for u < 1/2, mirrored above
-///   pdf    : (radius - |x - center|) / radius^2 [1/length]; 0 outside. At least the density half a step of u from the
-///            end, so that samples that round to the end keep a positive density
-///   invert : |invert(sample(u)) - u| <= 8 eps where center = 0; a centre far from 0 costs its own rounding
-///   throws : Error unless center is finite and radius passes is_valid_scale
+///   sample : x = center - radius (1 - sqrt(2 u)) for u < 1/2, mirrored for u > 1/2.
+///   pdf    : (radius - |x - center|) / radius^2 [1/length]; 0 outside. Inside, at least the density at half a step of
+///            u from the end: samples that round to the end keep a positive density.
+///   invert : |invert(sample(u)) - u| <= 8 eps for center = 0. A centre far from 0 adds the rounding of x.
+///   throws : Error unless center is finite and radius passes is_valid_scale.
 template <Real S> struct Tent {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -31,9 +31,10 @@ template <Real S> struct Tent {
   Domain domain() const { return {center - radius, center + radius}; }
   S sample(S u) const {
     using std::copysign, std::min, std::sqrt;
-    // Distance from the near end is radius sqrt(2 u): no cancellation, and never 0 at u = 0.
+    // The distance from the near end is radius sqrt(2 u). It does not cancel.
     const S r = radius * (1 - S(sqrt(S(2 * min(u, S(1 - u))))));
-    return center + S(copysign(r, S(u - S(0.5)))); // by the sign: a jump on u is never predicted
+    // copysign instead of a branch on random u, which no processor predicts
+    return center + S(copysign(r, S(u - S(0.5))));
   }
   S pdf(S x) const {
     using std::abs, std::max;

@@ -6,12 +6,12 @@
 
 namespace mc {
 
-/// Uniform barycentric coordinates (b0, b1) by folding the square along its diagonal without tearing it: neighbours in
-/// u stay neighbours in the triangle, so strata stay compact.
-///   sample : u0 < u1: (u0 / 2, u1 - u0 / 2), else (u0 - u1 / 2, u1 / 2)
-///   pdf    : 2 [1/area of the barycentric triangle]; 0 outside
-///   invert : |invert(sample(u)) - u| <= 4 eps
-///   Source : [Heitz19]
+/// Uniform barycentric coordinates (b0, b1). Folds the square along its diagonal without tearing it: neighbours in u
+/// stay neighbours in the triangle, so strata stay compact.
+///   sample : (u0 / 2, u1 - u0 / 2) if u0 < u1, else (u0 - u1 / 2, u1 / 2).
+///   pdf    : 2 [1/area of the barycentric triangle]; 0 outside.
+///   invert : |invert(sample(u)) - u| <= 4 eps.
+///   Source : [Heitz19].
 template <Real S> struct UniformTriangle {
   using Scalar = S;
   using Domain = Triangle<S>;

@@ -9,10 +9,10 @@
 namespace mc {
 
 /// Uniform numbers of [lo, hi].
-///   sample : x = lo + u (hi - lo), never above hi
-///   pdf    : 1 / (hi - lo) [1/length]; 0 outside
-///   invert : |invert(sample(u)) - u| <= 4 eps max(|lo|, |hi|) / (hi - lo): the rounding of x
-///   throws : Error unless lo < hi, both finite, and hi - lo passes is_valid_scale
+///   sample : x = lo + u (hi - lo), never above hi.
+///   pdf    : 1 / (hi - lo) [1/length]; 0 outside.
+///   invert : |invert(sample(u)) - u| <= 4 eps max(|lo|, |hi|) / (hi - lo). The rounding of x causes this bound.
+///   throws : Error unless lo < hi, both are finite, and hi - lo passes is_valid_scale.
 template <Real S> struct UniformInterval {
   using Scalar = S;
   using Domain = Interval<S>;
@@ -33,11 +33,12 @@ template <Real S> struct UniformInterval {
   template <Real T> UniformInterval<T> cast() const { return {T(interval.lo), T(interval.hi)}; }
 };
 
-/// Uniform points of an axis-aligned box, the coordinates of u along its sides.
-///   sample : x = lo + u (hi - lo), never above hi
-///   pdf    : 1 / volume [1/area, 1/volume]; 0 outside
-///   invert : |invert(sample(u)) - u| <= 4 eps max(|lo|, |hi|) / (hi - lo) in each coordinate
-///   throws : Error unless lo < hi, both finite, in each coordinate, and hi - lo and the volume pass is_valid_scale
+/// Uniform points of an axis-aligned box. Coordinate i of u varies coordinate i of the point.
+///   sample : x = lo + u (hi - lo), never above hi.
+///   pdf    : 1 / volume [1/area, 1/volume]; 0 outside.
+///   invert : |invert(sample(u)) - u| <= 4 eps max(|lo|, |hi|) / (hi - lo) in each coordinate.
+///   throws : Error unless lo < hi and both are finite in each coordinate, and hi - lo and the volume pass
+///            is_valid_scale.
 template <Real S, int N> struct UniformBox {
   using Scalar = S;
   using Domain = Box<S, N>;
