@@ -1,13 +1,13 @@
 #pragma once
-/// Dot product that keeps its relative precision when the terms nearly cancel.
+/// Dot product that stays accurate when the terms nearly cancel.
 
 #include <mc/core/types.h>
 
 namespace mc {
 
-/// a . b, as if computed with twice the digits of S and rounded once at the end.
-///   error  : |result - a.b| <= eps |a.b| + 8 eps^2 |a| |b|
-///   Source : Dot2 of [OgitaRumpOishi05]; float simply computes in double, where its products are exact
+/// Dot product a . b, accurate as if computed with twice the digits of S and rounded once at the end.
+///   error  : |result - a.b| <= eps |a.b| + 8 eps^2 |a| |b|.
+///   Source : Dot2 of [OgitaRumpOishi05]. The float version computes in double, where products of floats are exact.
 template <Real S, int N> S accurate_dot(const Vec<S, N>& a, const Vec<S, N>& b) {
   if constexpr (std::same_as<S, float>) {
     return static_cast<float>(a.template cast<double>().dot(b.template cast<double>()));

@@ -1,5 +1,5 @@
 #pragma once
-/// One way to refuse bad input, and one to assert what only a programmer can break.
+/// Errors for bad input, and assertions for programming errors.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,8 @@
 
 namespace mc {
 
-/// Bad data, a bad file or a bad argument. what() is one line: what, which, its value, what is needed.
+/// Exception for bad data, a bad file or a bad argument. The message is one line that names the value, its place and
+/// the allowed range.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -23,15 +24,15 @@ template <class... Args>
 }
 } // namespace detail
 
-/// Throws Error with the formatted message unless `ok`. Write the condition so that NaN fails it: `x >= 0`, never `!(x
-/// < 0)`.
+/// Throws Error with the formatted message unless `ok` is true. Write conditions that NaN fails: `x >= 0`, never `!(x <
+/// 0)`.
 template <class... Args>
 [[gnu::always_inline]] inline void require(bool ok, fmt::format_string<Args...> message, Args&&... args) {
   if (!ok) [[unlikely]]
     detail::refuse(message, std::forward<Args>(args)...); // out of line: callers are hot and small
 }
 
-/// Runs f; an Error that leaves it gains "where: " in front.
+/// Runs f and returns its result. Prefixes the message of an Error that f throws with "where: ".
 template <class F> decltype(auto) with_context(std::string_view where, F&& f) {
   try {
     return std::forward<F>(f)();
@@ -47,6 +48,7 @@ namespace detail {
 } // namespace mc
 
 #if defined(MC_CHECKED) || !defined(NDEBUG)
+/// Aborts with the expression and its place if x is false. Active in checked and debug builds only.
 #define MC_ASSERT(x) ((x) ? void() : ::mc::detail::assertion_failed(#x, __FILE__, __LINE__))
 #else
 #define MC_ASSERT(x) void()

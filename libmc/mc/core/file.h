@@ -1,5 +1,5 @@
 #pragma once
-/// Files that appear whole or not at all, and outputs that are no files.
+/// Reading files, and writing files atomically.
 
 #include <filesystem>
 #include <functional>
@@ -8,36 +8,36 @@
 
 namespace mc {
 
-/// Runs write(temporary) on a temporary name with the extension of `path`, then puts what it wrote in the place of
-/// `path`. Links are followed.
-///   a regular file, or nothing yet : the temporary file stands beside it and is renamed over it, so that an
-///             interrupted run leaves the old file or the new one, never half of one. Permissions are kept
-///   a device, a named pipe, a descriptor of this process (/dev/stdout) : stays, and the bytes are written through to
-///   it
-///   throws  : Error when the folder is missing or not writable, `path` is a folder or a socket, or the disk is full.
-///             The old content and nothing else is left when it throws, or when write does
+/// Calls write(temporary) with the name of a temporary file, then moves its content to `path`. Follows symbolic links.
+///   regular file, or no file yet : The temporary file lies in the same folder and is renamed over `path`. An
+///   interrupted run leaves the old file or the new file, never a partial file. Permissions are kept.
+///   device, named pipe or descriptor of this process (/dev/stdout) : It is kept, and the bytes are written to it.
+///   temporary : has the extension of `path`.
+///   throws    : Error if the folder is missing or not writable, if `path` is a folder or a socket, or if the disk is
+///               full. If this function or `write` throws, the old content remains and no other file is left.
 void replace_file(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
-/// Writes the bytes as replace_file does.
+/// Writes `bytes` to `path` with replace_file().
 void write_file(const std::string& path, std::string_view bytes);
 
-/// Refuses a place that replace_file would refuse, before the work for it is done. Changes nothing.
+/// Throws the errors of replace_file() that are known before writing. Changes nothing on disk.
 void require_writable(const std::string& path);
 
-/// The folder, made with those above it where it is missing.
-///   throws  : Error where it cannot be made, or where `first_file` could not be written in it
+/// Creates the folder `name` and its missing parents, and returns its path.
+///   throws  : Error if the folder cannot be created, or if `first_file` could not be written in it.
 std::filesystem::path make_output_folder(const std::string& name, const std::string& first_file);
 
-/// Whether two paths lead to one place, be there a file or not.
+/// Whether two paths name the same file system location. The file need not exist.
 bool is_same_path(const std::string& a, const std::string& b);
 
-/// ".exr" of "a/b.EXR": the last dot of the name and what follows, in small letters; "" where there is none.
+/// Extension of the file name in lower case, with its dot: ".exr" for "a/b.EXR". Returns "" if there is none.
 std::string lowercase_extension(const std::string& path);
 
-/// The whole file, or all that a pipe gives. Throws Error when it is missing, a folder or a device, or cannot be read.
+/// Returns the content of a file or of a pipe. Throws Error if `path` is missing, a folder or a device, or cannot be
+/// read.
 std::string read_file(const std::string& path);
 
-/// The same without the mark of its byte order that some programs put before text in UTF-8.
+/// Same as read_file(), without the byte order mark that some programs write at the start of UTF-8 text.
 std::string read_text(const std::string& path);
 
 } // namespace mc

@@ -1,5 +1,5 @@
 #pragma once
-/// Numbers and words in text, and what a message says about a name that is not known.
+/// Parsing of numbers and words, and suggestions for misspelled names.
 
 #include <mc/core/error.h>
 
@@ -12,28 +12,31 @@
 
 namespace mc {
 
-/// The number that all of a text is, "+1.5e3", "inf" and "nan" too: what is too small is 0 with its sign. Nothing where
-/// it is anything else or too large for a double: infinite is only what says so. Knows no locale.
+/// Parses a text that consists of one number, such as "+1.5e3", "inf" or "nan". Independent of the locale.
+///   underflow : returns 0 with the sign of the number.
+///   nullopt   : for any other text, and for a finite number too large for a double.
 std::optional<double> parse_double(std::string_view text);
 
-/// Without the white space at its ends, ends of lines too.
+/// The text without white space and line ends at its start and end.
 std::string_view trimmed(std::string_view text);
 
-/// With a question mark for every byte that is no printable ASCII: what a file calls things, in a message of one line.
+/// Replaces every byte outside printable ASCII by a question mark, so that names from files fit in one-line messages.
 std::string printable(std::string text);
 
-/// What stands between separators, trimmed: "a, b,,c" is "a", "b", "", "c".
+/// Splits at each separator and trims the parts: "a, b,,c" gives "a", "b", "", "c".
 std::vector<std::string_view> split(std::string_view text, char separator);
 
-/// Number of edits between two words: insert, delete or replace a character, or swap two neighbours.
-/// Source: [WagnerFischer74]
+/// Number of edits that turn one word into the other. An edit inserts, deletes or replaces a character, or swaps two
+/// neighbours.
+///   Source : [WagnerFischer74].
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// Edit distance of two names, where upper case, '-' and '_' do not count. Nothing where it exceeds a third of the
-/// letters of `word`, or 1 for a short word: then the names hardly mean the same.
+/// Edit distance of two names, ignoring case, '-' and '_'. Returns nullopt if it exceeds a third of the letters of
+/// `word`, or 1 for a short word: the names then hardly mean the same.
 std::optional<std::size_t> spelling_distance(std::string_view word, std::string_view name);
 
-/// "; did you mean 'sobol'?" for the entry of `known` whose spelling is nearest to `word`; empty when none is near.
+/// Returns "; did you mean 'sobol'?" for the entry of `known` that is spelled most like `word`, or "" if no entry is
+/// close.
 template <class Range> std::string did_you_mean(std::string_view word, const Range& known) {
   std::string_view best;
   std::optional<std::size_t> best_distance;
@@ -47,8 +50,9 @@ template <class Range> std::string did_you_mean(std::string_view word, const Ran
   return best.empty() ? std::string() : fmt::format("; did you mean '{}'?", best);
 }
 
-/// The place of `word` among the names of a kind of thing.
-///   throws : Error "unknown sampler 'sobal'; did you mean 'sobol'?; use one of independent, stratified, sobol"
+/// Index of `word` in `names`. `kind` names the kind of thing for the message.
+///   throws : Error such as "unknown sampler 'sobal'; did you mean 'sobol'?; use one of independent, stratified,
+///            sobol".
 template <class Range> std::size_t index_of(std::string_view kind, std::string_view word, const Range& names) {
   std::size_t i = 0;
   for (const auto& name : names) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Angles as fractions of a full turn, as uniform numbers give them: cosine and sine, and back.
+/// Cosine, sine and azimuth of angles in full turns, which uniform numbers in [0,1) give directly.
 
 #include <mc/core/types.h>
 
@@ -9,12 +9,13 @@
 
 namespace mc {
 
-template <Real S> struct CosSin { S cos, sin; };
+/// Cosine and sine of one angle.
+template <Real S> struct CosSin { S cos, sin; }; ///< Each in [-1, 1] up to rounding.
 
-/// Cosine and sine of t turns, |t| <= 1/8, by one polynomial each: no branch and no call, so loops over it vectorise.
-///   error  : 2 ulp for float and for double
-///   Source : interpolation at Chebyshev nodes of (cos(2 pi t) - 1) / t^2 and sin(2 pi t) / t in t^2; 2 pi as a sum of
-///            two numbers
+/// Cosine and sine of t turns, |t| <= 1/8. Each is one polynomial without branch or call, so that loops vectorise.
+///   error  : 2 ulp for float and for double.
+///   Source : Interpolation in t^2 at Chebyshev nodes of (cos(2 pi t) - 1) / t^2 and sin(2 pi t) / t, with 2 pi as a
+///            sum of two numbers.
 template <Real S> CosSin<S> cos_sin_octant(const S& t) {
   const S z = t * t;
   if constexpr (std::same_as<S, float>) {
@@ -41,14 +42,15 @@ template <Real S> CosSin<S> cos_sin_octant(const S& t) {
   }
 }
 
-/// Cosine and sine of u turns, u in [0, 1]: the nearest quarter is subtracted, which is exact; 2 pi u would be rounded.
-///   error : 2 ulp for float and for double, next to the zeros too
+/// Cosine and sine of u turns, u in [0, 1]. Subtracts the nearest quarter turn, which is exact, whereas 2 pi u would be
+/// rounded.
+///   error  : 2 ulp for float and for double, also near the zeros.
 template <Real S> CosSin<S> cos_sin(const S& u) {
   if constexpr (std::floating_point<S>) {
     const auto quarter = static_cast<std::int32_t>(4 * u + S(0.5));
     const CosSin<S> q = cos_sin_octant<S>(u - S(0.25) * static_cast<S>(quarter));
-    // An odd quarter exchanges sine and cosine, and the quarter gives the signs. Done on the bits: jumps that depend
-    // on random numbers are mispredicted.
+    // An odd quarter exchanges sine and cosine, and the quarter determines the signs. Bit operations avoid branches on
+    // random numbers, which are mispredicted.
     using Bits = BitsOf<S>;
     const Bits k = static_cast<Bits>(quarter), c = std::bit_cast<Bits>(q.cos), s = std::bit_cast<Bits>(q.sin);
     const Bits exchange = (c ^ s) & (Bits{0} - (k & 1));
@@ -78,11 +80,11 @@ template <std::floating_point S> S small_turn(S q) {
 
 } // namespace detail
 
-/// Azimuth of (x, y) as a fraction of a full turn, in [0,1); 0 at the origin. Half the time of atan2.
-///   error  : 2 ulp for float and for double
-///   Source : atan t = atan c + atan((t - c) / (1 + c t)), c the nearest of 0, 1/4, ... 1; the rest, at most 1/8, by
-///            interpolation at Chebyshev nodes of (atan(q) / q - 1) / (2 pi q^2) in q^2; 1 / (2 pi) as a sum of two
-///            numbers
+/// Azimuth of (x, y) in full turns, in [0,1). Returns 0 at the origin. Faster than atan2.
+///   error  : 2 ulp for float and for double.
+///   Source : atan t = atan c + atan((t - c) / (1 + c t)) with c the nearest of 0, 1/4, ... 1. The second argument is
+///            at most 1/8. Its atan is interpolated in q^2 at Chebyshev nodes of (atan(q) / q - 1) / (2 pi q^2), with 1
+///            / (2 pi) as a sum of two numbers.
 template <Real S> S azimuth_turns(const S& x, const S& y) {
   using std::abs, std::atan2;
   if constexpr (std::floating_point<S>) {
@@ -90,7 +92,7 @@ template <Real S> S azimuth_turns(const S& x, const S& y) {
     const S a = abs(x), b = abs(y), hi = choose<S>(b > a, b, a);
     if (hi >= Limits::min() / Limits::epsilon() && hi <= Limits::max() / 4) {
       constexpr std::array<S, 5> turns{0, S(0.03898956518868466273), S(0.073791808825216637088),
-                                       S(0.10241638234956672582), S(0.125)}; // of atan 0, 1/4, 1/2, 3/4, 1
+                                       S(0.10241638234956672582), S(0.125)}; // atan of 0, 1/4, 1/2, 3/4, 1 in turns
       const S lo = choose<S>(b > a, a, b);
       const int nearest = (lo > S(0.125) * hi) + (lo > S(0.375) * hi) + (lo > S(0.625) * hi) + (lo > S(0.875) * hi);
       const S c = S(0.25) * static_cast<S>(nearest);
@@ -102,18 +104,18 @@ template <Real S> S azimuth_turns(const S& x, const S& y) {
     }
   }
   if (x == 0 && y == 0) return S(0);
-  // Of denormal, huge and exact numbers.
+  // Denormal, huge and multiprecision numbers.
   const S t = S(atan2(y, x)) / (2 * pi<S>), wrapped = t < 0 ? S(t + 1) : t;
   return wrapped >= 1 ? S(0) : wrapped;
 }
 
-/// The point of the plane at radius r and azimuth u turns.
+/// Point of the plane at radius r and azimuth u [turns].
 template <Real S> Vec2<S> polar_point(const S& r, const S& u) {
   const CosSin<S> a = cos_sin<S>(u);
   return {r * a.cos, r * a.sin};
 }
 
-/// The direction of the given sine and cosine of the polar angle, at azimuth u turns.
+/// Direction with the given sine and cosine of the polar angle and azimuth u [turns].
 template <Real S> Vec3<S> polar_direction(const S& sin_theta, const S& cos_theta, const S& u) {
   const CosSin<S> a = cos_sin<S>(u);
   return {sin_theta * a.cos, sin_theta * a.sin, cos_theta};

@@ -12,7 +12,7 @@ constexpr std::uint64_t mix64(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// Hash of a key of any length, e.g. hash(seed, pixel, sample, dim). Each part is mixed in turn, so order matters.
+/// Hash of a key of any length, such as hash(seed, pixel, sample, dim). The order of the parts matters.
 template <class... Parts> constexpr std::uint64_t hash(std::uint64_t first, Parts... rest) {
   std::uint64_t h = mix64(first + 0x9e3779b97f4a7c15ULL);
   ((h = mix64((h ^ static_cast<std::uint64_t>(rest)) + 0x9e3779b97f4a7c15ULL)), ...);
