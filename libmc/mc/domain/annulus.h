@@ -8,10 +8,9 @@
 namespace mc {
 
 /// Points of the plane with inner <= |p| <= outer.
-///   chart  : v = ((|p|^2 - inner^2) / (outer^2 - inner^2), phi / 2 pi); uniform in area, so the Jacobian is the
-///            constant area
-///   error  : v0 is known to about eps outer / (outer - inner), the rounding of p
-///   throws : Error unless 0 <= inner < outer, both finite, and the area passes is_valid_scale
+///   chart  : v = ((|p|^2 - inner^2) / (outer^2 - inner^2), phi / 2 pi), uniform in area. The Jacobian is the area.
+///   error  : v0 is accurate to about eps outer / (outer - inner), the effect of rounding p.
+///   throws : Error unless 0 <= inner < outer, both are finite, and the area passes is_valid_scale().
 template <Real S> struct Annulus {
   using Scalar = S;
   using Point = Vec2<S>;
@@ -19,9 +18,11 @@ template <Real S> struct Annulus {
   static constexpr int dim = 2;
   static constexpr Measure measure = Measure::area;
 
-  S inner = 0, outer = 1;
+  S inner = 0, outer = 1; ///< Radii.
 
+  /// The unit disk.
   Annulus() = default;
+  /// The ring with these radii.
   Annulus(S inner_, S outer_) : inner(inner_), outer(outer_) {
     using std::isfinite;
     require(
@@ -31,6 +32,7 @@ template <Real S> struct Annulus {
         static_cast<double>(inner), static_cast<double>(outer));
   }
 
+  /// Area of the ring.
   S area() const { return pi<S> * (outer - inner) * (outer + inner); }
   Point from_unit(const UnitPoint& v) const {
     return polar_point<S>(safe_sqrt<S>(inner * inner + v[0] * ((outer - inner) * (outer + inner))), v[1]);

@@ -6,8 +6,8 @@
 namespace mc {
 
 /// Points of space with |p| <= 1.
-///   chart : v = (r^3, (1 - cos(theta)) / 2, phi / 2 pi); uniform in volume, so the Jacobian is the constant 4 pi / 3
-///   error : the azimuth and, next to the +z axis, the polar angle keep their relative precision at any radius
+///   chart : v = (r^3, (1 - cos(theta)) / 2, phi / 2 pi), uniform in volume. The Jacobian is the constant 4 pi / 3.
+///   error : The azimuth keeps its relative precision at any radius, and so does the polar angle near the +z axis.
 template <Real S> struct Ball {
   using Scalar = S;
   using Point = Vec3<S>;

@@ -6,9 +6,9 @@
 
 namespace mc {
 
-/// Points x with lo <= x <= hi in each coordinate. N = Eigen::Dynamic takes its dimension from the bounds.
-///   chart  : v = (x - lo) / (hi - lo); Jacobian: the volume. Rounding carries no point out of the box
-///   throws : Error unless lo and hi have the same dimension >= 1 and lo < hi, both finite, in each
+/// Points x with lo <= x <= hi in each coordinate. N = Eigen::Dynamic takes the dimension from the bounds.
+///   chart  : v = (x - lo) / (hi - lo). The Jacobian is the volume. Rounding never carries a point out of the box.
+///   throws : Error unless lo and hi have the same dimension >= 1, and lo < hi with both finite in each coordinate.
 template <Real S, int N> struct Box {
   using Scalar = S;
   using Point = Vec<S, N>;
@@ -16,9 +16,11 @@ template <Real S, int N> struct Box {
   static constexpr int dim = N;
   static constexpr Measure measure = N == 2 ? Measure::area : Measure::volume;
 
-  Point lo, hi;
+  Point lo, hi; ///< Lower and upper corner.
 
+  /// The unit cube.
   Box() requires(N != Eigen::Dynamic) : lo(Point::Zero()), hi(Point::Ones()) {}
+  /// The box with these corners.
   Box(const Point& lo_, const Point& hi_) : lo(lo_), hi(hi_) {
     using std::isfinite;
     require(lo.size() >= 1 && lo.size() == hi.size(),
@@ -29,13 +31,14 @@ template <Real S, int N> struct Box {
               static_cast<double>(hi[i]));
   }
 
+  /// Number of coordinates, also for N = Eigen::Dynamic.
   int dimension() const { return static_cast<int>(lo.size()); }
   Point from_unit(const UnitPoint& v) const {
     return (lo.array() * (1 - v.array()) + hi.array() * v.array()).max(lo.array()).min(hi.array()).matrix();
   }
   UnitPoint to_unit(const Point& x) const { return ((x - lo).array() / (hi - lo).array()).matrix(); }
   S jacobian(const UnitPoint&) const {
-    S volume = 1; // in order: Eigen multiplies as the instruction set suggests
+    S volume = 1; // sequential: Eigen's order of products depends on the instruction set
     for (Eigen::Index i = 0; i < lo.size(); ++i) volume *= hi[i] - lo[i];
     return volume;
   }
@@ -43,7 +46,7 @@ template <Real S, int N> struct Box {
   template <Real T> Box<T, N> cast() const { return {lo.template cast<T>().eval(), hi.template cast<T>().eval()}; }
 };
 
-/// The unit square, or any rectangle.
+/// A rectangle; by default the unit square.
 template <Real S> using Square = Box<S, 2>;
 
 } // namespace mc

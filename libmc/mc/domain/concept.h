@@ -1,5 +1,5 @@
 #pragma once
-/// What the checkers and integrators need to know about a set: a chart from the unit cube, and its measure.
+/// Domain: a set with a chart from the unit cube and a measure.
 
 #include <mc/core/types.h>
 
@@ -7,9 +7,15 @@
 
 namespace mc {
 
-/// What a density on the domain is measured against.
-enum class Measure { length, area, solid_angle, volume };
+/// Measure with respect to which densities on a domain are defined.
+enum class Measure {
+  length,      ///< Length on a line.
+  area,        ///< Area in a plane or on a surface.
+  solid_angle, ///< Solid angle on the unit sphere [sr].
+  volume       ///< Volume in space or in a box of any dimension.
+};
 
+/// Name of a measure for messages, such as "solid angle".
 constexpr std::string_view name(Measure m) {
   switch (m) {
   case Measure::length: return "length";
@@ -20,9 +26,10 @@ constexpr std::string_view name(Measure m) {
   return "";
 }
 
-/// Whether a distribution may have the width (or area, or volume) `scale` about `center`: [min / eps, max eps] of the
-/// scalar, so that no density about 1 / scale overflows or vanishes, tails included; and at least 8 eps |center|, the
-/// distance between numbers there.
+/// Whether a distribution about `center` may have the width (or area, or volume) `scale`.
+///   range  : scale in [min / eps, max eps] of S, so that densities near 1 / scale neither overflow nor vanish,
+///            including the tails.
+///   center : scale >= 8 eps |center|, the resolution of S at the center.
 template <Real S> bool is_valid_scale(const S& scale, const S& center = S(0)) {
   using Limits = std::numeric_limits<S>;
   using std::abs;
@@ -30,12 +37,12 @@ template <Real S> bool is_valid_scale(const S& scale, const S& center = S(0)) {
          scale >= 8 * Limits::epsilon() * S(abs(center));
 }
 
-/// A set X with a chart: from_unit maps the open unit cube (0,1)^dim onto X up to a set of measure zero, and
-///                       jacobian(v) is
-/// |dx/dv| in the measure of X, so  integral over X of f dx = integral over the cube of f(from_unit(v)) jacobian(v) dv.
-///   UnitPoint : Point<Scalar, dim> (a scalar when dim = 1)
-///   Point     : what a warp onto X returns (a scalar, Vec2, or a unit Vec3 for directions)
-///   contains  : membership to a few eps (unit length for directions); false for anything non-finite
+/// A set X with a chart. The chart maps the open unit cube (0,1)^dim onto X, up to a set of measure zero.
+///   jacobian(v) : |dx/dv| in the measure of X. The integral of f over X equals the integral of f(from_unit(v))
+///                 jacobian(v) over the cube.
+///   UnitPoint   : Point<Scalar, dim>, a scalar if dim = 1.
+///   Point       : The type of samples: a scalar, Vec2, or a unit Vec3 for directions.
+///   contains(x) : Membership to within a few eps, including unit length for directions. False for non-finite points.
 template <class D>
 concept Domain = requires(const D d, typename D::Point x, typename D::UnitPoint v) {
   typename D::Scalar;

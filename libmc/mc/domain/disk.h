@@ -7,7 +7,7 @@
 namespace mc {
 
 /// Points of the plane with |p| <= 1.
-///   chart : v = (|p|^2, phi / 2 pi); uniform in area, so the Jacobian is the constant pi
+///   chart : v = (|p|^2, phi / 2 pi), uniform in area. The Jacobian is the constant pi.
 template <Real S> struct Disk {
   using Scalar = S;
   using Point = Vec2<S>;

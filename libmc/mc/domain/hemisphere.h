@@ -7,8 +7,8 @@
 namespace mc {
 
 /// Unit vectors with z >= 0.
-///   chart : v = (1 - z, phi / 2 pi); uniform in solid angle, so the Jacobian is the constant 2 pi
-///   error : v keeps its relative precision at the pole, where 1 - z is taken from x^2 + y^2
+///   chart : v = (1 - z, phi / 2 pi), uniform in solid angle. The Jacobian is the constant 2 pi.
+///   error : v keeps its relative precision at the pole, where 1 - z is computed from x^2 + y^2.
 template <Real S> struct Hemisphere {
   using Scalar = S;
   using Point = Vec3<S>;

@@ -1,5 +1,5 @@
 #pragma once
-/// Intervals of the line: finite, half-infinite, infinite.
+/// Intervals of the real line: finite, half-infinite and infinite.
 
 #include <mc/core/error.h>
 #include <mc/domain/concept.h>
@@ -9,8 +9,8 @@
 namespace mc {
 
 /// The finite interval [lo, hi].
-///   chart  : v = (x - lo) / (hi - lo); Jacobian hi - lo. Rounding carries no point out of the interval
-///   throws : Error unless lo < hi, both and hi - lo finite
+///   chart  : v = (x - lo) / (hi - lo). The Jacobian is hi - lo. Rounding never carries a point out of the interval.
+///   throws : Error unless lo < hi, and lo, hi and hi - lo are finite.
 template <Real S> struct Interval {
   using Scalar = S;
   using Point = S;
@@ -18,9 +18,11 @@ template <Real S> struct Interval {
   static constexpr int dim = 1;
   static constexpr Measure measure = Measure::length;
 
-  S lo = 0, hi = 1;
+  S lo = 0, hi = 1; ///< Bounds.
 
+  /// The unit interval.
   Interval() = default;
+  /// The interval [lo_, hi_].
   Interval(S lo_, S hi_) : lo(lo_), hi(hi_) {
     using std::isfinite;
     require(isfinite(lo) && isfinite(hi) && lo < hi && isfinite(S(hi - lo)),
@@ -38,9 +40,9 @@ template <Real S> struct Interval {
   template <Real T> Interval<T> cast() const { return {T(lo), T(hi)}; }
 };
 
-/// The half line [origin, inf), or (-inf, origin] for a negative scale.
-///   chart  : x = origin + scale v / (1 - v)
-///   throws : Error unless origin is finite and scale is finite and not 0
+/// The half line [origin, inf), or (-inf, origin] for negative scale.
+///   chart  : x = origin + scale v / (1 - v).
+///   throws : Error unless origin is finite and scale is finite and not 0.
 template <Real S> struct HalfLine {
   using Scalar = S;
   using Point = S;
@@ -48,9 +50,11 @@ template <Real S> struct HalfLine {
   static constexpr int dim = 1;
   static constexpr Measure measure = Measure::length;
 
-  S origin = 0, scale = 1;
+  S origin = 0, scale = 1; ///< End point, and distance of the image of v = 1/2 from it.
 
+  /// The positive half line.
   HalfLine() = default;
+  /// The half line from origin_ in the direction of the sign of scale_.
   HalfLine(S origin_, S scale_) : origin(origin_), scale(scale_) {
     using std::isfinite;
     require(isfinite(origin) && isfinite(scale) && scale != 0,
@@ -75,8 +79,9 @@ template <Real S> struct HalfLine {
 };
 
 /// The real line.
-///   chart  : x = center + 2 scale w / (1 - w^2), w = 2 v - 1; about 70 % of the cube lies within 2 scale of the center
-///   throws : Error unless center is finite and scale is finite and > 0
+///   chart  : x = center + 2 scale w / (1 - w^2) with w = 2 v - 1. Most of the cube maps to within 2 scale of the
+///            center.
+///   throws : Error unless center is finite and scale is finite and > 0.
 template <Real S> struct RealLine {
   using Scalar = S;
   using Point = S;
@@ -84,9 +89,11 @@ template <Real S> struct RealLine {
   static constexpr int dim = 1;
   static constexpr Measure measure = Measure::length;
 
-  S center = 0, scale = 1;
+  S center = 0, scale = 1; ///< Image of v = 1/2, and width of the chart about it.
 
+  /// The real line with center 0 and scale 1.
   RealLine() = default;
+  /// The real line with this chart.
   RealLine(S center_, S scale_) : center(center_), scale(scale_) {
     using std::isfinite;
     require(isfinite(center) && isfinite(scale) && scale > 0,
@@ -98,7 +105,7 @@ template <Real S> struct RealLine {
   S to_unit(S x) const {
     using std::sqrt;
     const S t = (x - center) / scale;
-    // v = (1 + t / (1 + root)) / 2; for t < 0, root + t = 1 / (root - t) does not cancel.
+    // v = (1 + t / (1 + root)) / 2. For t < 0, root + t = 1 / (root - t) does not cancel.
     const S root = sqrt(S(1 + t * t));
     return (1 + (t < 0 ? S(1 / (root - t)) : S(root + t))) / (2 * (1 + root));
   }

@@ -9,8 +9,8 @@
 namespace mc {
 
 /// Points origin + v0 a + v1 b of R^3, v in [0,1]^2.
-///   chart  : v; the Jacobian is the area |a x b|
-///   throws : Error unless all coordinates are finite and the area^2 passes is_valid_scale
+///   chart  : v. The Jacobian is the area |a x b|.
+///   throws : Error unless all coordinates are finite and the squared area passes is_valid_scale().
 template <Real S> struct Parallelogram {
   using Scalar = S;
   using Point = Vec3<S>;
@@ -18,9 +18,11 @@ template <Real S> struct Parallelogram {
   static constexpr int dim = 2;
   static constexpr Measure measure = Measure::area;
 
-  Point origin = Point::Zero(), a = Point::UnitX(), b = Point::UnitY();
+  Point origin = Point::Zero(), a = Point::UnitX(), b = Point::UnitY(); ///< Corner and edge vectors.
 
+  /// The unit square in the plane z = 0.
   Parallelogram() = default;
+  /// The parallelogram with this corner and these edges.
   Parallelogram(const Point& origin_, const Point& a_, const Point& b_) : origin(origin_), a(a_), b(b_) {
     using std::isfinite;
     for (int i = 0; i < 3; ++i)
@@ -34,6 +36,7 @@ template <Real S> struct Parallelogram {
         static_cast<double>(area()));
   }
 
+  /// Area.
   S area() const { return cross<S>(a, b).norm(); }
   Point from_unit(const UnitPoint& v) const { return origin + v[0] * a + v[1] * b; }
   UnitPoint to_unit(const Point& x) const {
@@ -43,7 +46,7 @@ template <Real S> struct Parallelogram {
     return {min(max(v0, S(0)), S(1)), min(max(v1, S(0)), S(1))};
   }
   S jacobian(const UnitPoint&) const { return area(); }
-  /// In the plane and within the edges, to the rounding of a sample.
+  /// Whether x lies in the plane and within the edges, up to the rounding of a sample.
   bool contains(const Point& x) const {
     return (from_unit(to_unit(x)) - x).norm() <=
            16 * std::numeric_limits<S>::epsilon() * (origin.norm() + a.norm() + b.norm());

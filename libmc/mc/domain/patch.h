@@ -1,5 +1,5 @@
 #pragma once
-/// Planar patches seen from the origin, as sets of directions.
+/// Planar patches as sets of directions from the origin.
 
 #include <mc/core/error.h>
 #include <mc/domain/sphere.h>
@@ -7,19 +7,21 @@
 namespace mc {
 
 namespace detail {
-/// What patches compute in: float corners as doubles, so that a viewer next to the plane does not cancel their digits.
+/// Scalar for computations on patches. Float corners are widened to double, so that their digits do not cancel if the
+/// origin is close to the plane.
 template <Real S> using Wide = std::conditional_t<std::same_as<S, float>, double, S>;
 } // namespace detail
 
-/// Directions through the planar triangle (origin + s edge1 + t edge2; s, t >= 0, s + t <= 1), or with Corners = 4
-/// through the whole parallelogram (s, t <= 1).
-///   chart    : (s, t) = v for the parallelogram, v0 (1 - v1, v1) for the triangle; directions are normalized points
-///   jacobian : area element * distance of the plane / |p|^3
-///   contains : unit, and on the inner side of the planes through the edges up to 64 eps of distance
-///   error    : float computes in double; in double the chart loses a digit for each by which the size exceeds the
-///              height of the viewer over the plane
-///   throws   : Error unless the triple product of origin, edge1, edge2 is finite and not 0: the patch must not be seen
-///              edge-on
+/// Directions from the origin to a planar patch: to the triangle origin + s edge1 + t edge2 with s, t >= 0 and s + t <=
+/// 1, or to the parallelogram with s, t in [0, 1] if Corners = 4.
+///   chart    : (s, t) = v for the parallelogram, v0 (1 - v1, v1) for the triangle. Directions are the normalized
+///              points.
+///   jacobian : Area element * distance of the plane / |p|^3.
+///   contains : Unit length, and on the inner side of the planes through the edges up to a distance of 64 eps.
+///   error    : The float version computes in double. In double, the chart loses as many digits as the ratio of the
+///              patch size to the height of the origin over the plane has.
+///   throws   : Error unless the triple product of origin, edge1 and edge2 is finite and not 0, so that the patch is
+///              not edge-on.
 template <Real S, int Corners> struct Patch {
   using Scalar = S;
   using Point = Vec3<S>;
@@ -27,9 +29,11 @@ template <Real S, int Corners> struct Patch {
   static constexpr int dim = 2;
   static constexpr Measure measure = Measure::solid_angle;
 
-  Vec3<S> origin{0, 0, 1}, edge1{1, 0, 0}, edge2{0, 1, 0};
+  Vec3<S> origin{0, 0, 1}, edge1{1, 0, 0}, edge2{0, 1, 0}; ///< Corner relative to the viewer, and edge vectors.
 
+  /// A right triangle or square in the plane z = 1.
   Patch() = default;
+  /// The patch with this corner and these edges.
   Patch(const Vec3<S>& o, const Vec3<S>& e1, const Vec3<S>& e2) : origin(o), edge1(e1), edge2(e2) {
     using std::abs, std::isfinite;
     const S volume = abs(triple());
@@ -37,7 +41,9 @@ template <Real S, int Corners> struct Patch {
             static_cast<double>(volume));
   }
 
+  /// Triple product origin . (edge1 x edge2).
   S triple() const { return S(wide(origin).dot(cross<W>(wide(edge1), wide(edge2)))); }
+  /// Point of the patch at v of the chart, before normalization.
   Vec3<S> point(const UnitPoint& v) const {
     if constexpr (Corners == 4) return origin + v[0] * edge1 + v[1] * edge2;
     else return origin + v[0] * ((1 - v[1]) * edge1 + v[1] * edge2);
@@ -62,7 +68,7 @@ template <Real S, int Corners> struct Patch {
     const W sign = triple() > 0 ? W(1) : W(-1), far = p0.norm() + e1.norm() + e2.norm();
     const auto inside = [&](const Vec3<W>& p, const Vec3<W>& edge) {
       const Vec3<W> n = cross<W>(p, edge);
-      const W rounding = W(std::numeric_limits<S>::epsilon()) * n.norm() + // and that of the corners themselves
+      const W rounding = W(std::numeric_limits<S>::epsilon()) * n.norm() + // + rounding of the corners
                          std::numeric_limits<W>::epsilon() * far * edge.norm();
       return sign * n.dot(d) >= -64 * rounding;
     };
@@ -78,7 +84,9 @@ template <Real S, int Corners> struct Patch {
   static Vec3<W> wide(const Vec3<S>& v) { return cast_point<W>(v); }
 };
 
+/// Directions to a triangle.
 template <Real S> using TrianglePatch = Patch<S, 3>;
+/// Directions to a parallelogram.
 template <Real S> using ParallelogramPatch = Patch<S, 4>;
 
 } // namespace mc

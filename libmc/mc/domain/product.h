@@ -1,12 +1,12 @@
 #pragma once
-/// Products of domains, and the plane as one.
+/// Products of domains, and the plane as a product.
 
 #include <mc/domain/interval.h>
 
 namespace mc {
 
 namespace detail {
-/// Numbers in a point, and the part of a longer vector that holds it.
+/// Number of coordinates of a point, and access to its part of a longer vector.
 template <class P>
 constexpr int numbers = [] {
   if constexpr (requires { P::SizeAtCompileTime; }) return int(P::SizeAtCompileTime);
@@ -22,8 +22,8 @@ template <class V, class P> void put(V& v, int start, const P& p) {
 }
 } // namespace detail
 
-/// Pairs (a, b) of points of two domains, their coordinates in one vector.
-///   chart : those of a and b side by side; the Jacobian is the product
+/// Pairs (a, b) of points of two domains, with their coordinates in one vector.
+///   chart : The charts of the two domains in separate coordinates. The Jacobian is the product of their Jacobians.
 template <Domain A, Domain B>
 requires std::same_as<typename A::Scalar, typename B::Scalar>
 struct ProductDomain {
@@ -34,21 +34,27 @@ struct ProductDomain {
   static constexpr Measure measure =
       A::measure == Measure::length && B::measure == Measure::length ? Measure::area : Measure::volume;
 
-  A first;
-  B second;
+  A first;  ///< Domain of the leading coordinates.
+  B second; ///< Domain of the remaining coordinates.
 
+  /// Part of the point x in the first domain.
   static typename A::Point first_of(const Point& x) { return detail::part<typename A::Point>(x, 0); }
+  /// Part of the point x in the second domain.
   static typename B::Point second_of(const Point& x) { return detail::part<typename B::Point>(x, split); }
+  /// Part of the chart coordinates v of the first domain.
   static typename A::UnitPoint first_unit(const UnitPoint& v) { return detail::part<typename A::UnitPoint>(v, 0); }
+  /// Part of the chart coordinates v of the second domain.
   static typename B::UnitPoint second_unit(const UnitPoint& v) {
     return detail::part<typename B::UnitPoint>(v, A::dim);
   }
+  /// The pair (a, b) as one vector.
   static Point join(const typename A::Point& a, const typename B::Point& b) {
     Point x;
     detail::put(x, 0, a);
     detail::put(x, split, b);
     return x;
   }
+  /// The pair (a, b) of chart coordinates as one vector.
   static UnitPoint join_unit(const typename A::UnitPoint& a, const typename B::UnitPoint& b) {
     UnitPoint v;
     detail::put(v, 0, a);
@@ -70,7 +76,7 @@ struct ProductDomain {
   }
 };
 
-/// The plane, each axis by the chart of the real line.
+/// The plane. Each axis uses the chart of the real line.
 template <Real S> using Plane = ProductDomain<RealLine<S>, RealLine<S>>;
 
 } // namespace mc

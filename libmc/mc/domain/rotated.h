@@ -1,14 +1,14 @@
 #pragma once
-/// Sets of directions turned to another axis.
+/// Sets of directions rotated to another axis.
 
 #include <mc/core/frame.h>
 #include <mc/domain/sphere.h>
 
 namespace mc {
 
-/// The directions of D, a set about +z, in the frame whose z axis is the new axis.
-///   chart    : that of D in the frame
-///   contains : as D, but a direction on the rim that rounding carried out by up to 8 eps still counts
+/// The directions of D, a set about +z, rotated to the z axis of a frame.
+///   chart    : The chart of D in the frame.
+///   contains : As for D, but accepts directions that rounding carried out over the rim by up to 8 eps.
 template <Domain D> struct RotatedDomain {
   using Scalar = typename D::Scalar;
   using Point = typename D::Point;
@@ -16,16 +16,19 @@ template <Domain D> struct RotatedDomain {
   static constexpr int dim = D::dim;
   static constexpr Measure measure = D::measure;
 
-  D inner;
-  Frame<Scalar> frame;
+  D inner;             ///< The set about +z.
+  Frame<Scalar> frame; ///< Its z axis is the new axis.
 
+  /// Rotates a direction from the frame to the world.
   Point to_world(const Point& w) const { return frame.to_world(w).normalized(); }
+  /// Rotates a direction from the world to the frame. Moves a direction that is just outside of the rim inside.
   Point to_local(const Point& w) const {
     Point local = frame.to_local(w);
     if (!is_unit<Scalar>(w)) return local;
     local.normalize();
     if (inner.contains(local)) return local;
-    // Turned by 8 eps toward the axis: of a narrow cap the rim lies in x and y, not in z.
+    // Rotates by 8 eps toward the axis. Changes x and y as well as z, because x and y determine the rim of a narrow
+    // cap.
     using std::max, std::sqrt;
     const Scalar turn = 8 * std::numeric_limits<Scalar>::epsilon();
     const Scalar sine = sqrt(Scalar(local.x() * local.x() + local.y() * local.y()));

@@ -6,8 +6,8 @@
 
 namespace mc {
 
-/// |w| = 1 to 32 eps in the squared length; false for NaN. A direction reflected in h carries four times the error of
-/// |h|^2: renderers normalise h, which leaves 3 eps, and not what is reflected.
+/// Whether |w|^2 = 1 to within 32 eps. False for NaN. Reflection about h multiplies the error of |h|^2 by four.
+/// Renderers therefore normalise h, which leaves 3 eps, and not the reflected direction.
 template <Real S> bool is_unit(const Vec3<S>& w) {
   using std::abs;
   return abs(w.squaredNorm() - 1) <= 32 * std::numeric_limits<S>::epsilon();
@@ -19,13 +19,13 @@ template <Real S> S one_minus_abs_z(const Vec3<S>& w) {
   return (w.x() * w.x() + w.y() * w.y()) / (1 + S(abs(w.z())));
 }
 
-/// 1 - cos(theta) of a unit vector, without cancellation at the pole.
+/// 1 - cos(theta) of a unit vector, without cancellation at the +z pole.
 template <Real S> S one_minus_z(const Vec3<S>& w) { return choose<S>(w.z() > 0, one_minus_abs_z(w), S(1 - w.z())); }
 
 /// Unit vectors.
-///   chart : v = ((1 - z) / 2, phi / 2 pi); uniform in solid angle, so the Jacobian is the constant 4 pi
-///   error : v keeps its relative precision at the +z pole; so does 1 - v at the other where S is finer than what the
-///           direction was rounded to, as z alone would not
+///   chart : v = ((1 - z) / 2, phi / 2 pi), uniform in solid angle. The Jacobian is the constant 4 pi.
+///   error : v keeps its relative precision at the +z pole. 1 - v keeps its relative precision at the -z pole if S is
+///           finer than the type to which the direction was rounded.
 template <Real S> struct Sphere {
   using Scalar = S;
   using Point = Vec3<S>;

@@ -5,9 +5,9 @@
 
 namespace mc {
 
-/// Weights (b0, b1) of the first two vertices, b0 >= 0, b1 >= 0, b0 + b1 <= 1: the right triangle of area 1/2. Divide a
-/// density on it by twice the area of a world triangle to get the density there.
-///   chart : b0 = 1 - sqrt(1 - v0), b1 = (1 - b0) v1; uniform in area, so the Jacobian is the constant 1/2
+/// Weights (b0, b1) of the first two vertices: b0 >= 0, b1 >= 0, b0 + b1 <= 1. This is a right triangle of area 1/2. A
+/// density per world area is the density here divided by twice the area of the world triangle.
+///   chart : b0 = 1 - sqrt(1 - v0), b1 = (1 - b0) v1, uniform in area. The Jacobian is the constant 1/2.
 template <Real S> struct Triangle {
   using Scalar = S;
   using Point = Vec2<S>;

@@ -9,24 +9,29 @@
 
 namespace mc {
 
-/// How the digits of a Halton point are randomised. The permutations are random affine maps d -> a d + c modulo the
-/// prime base, which move any two digits to any two others with equal probability: all that the variance depends on
+/// Randomisation of the digits of a Halton point. The permutations are random affine maps d -> a d + c modulo the prime
+/// base. They map any two digits to any two others with equal probability, on which alone the variance depends
 /// [Matousek98].
-///   digits : one per digit position, the same for all points; keeps the sequence's regularity
-///   owen   : one per digit position and value of the digits before it (nested), so that errors of neighbouring bases
-///            decouple
-enum class HaltonScramble { digits, owen };
+enum class HaltonScramble {
+  /// One permutation per digit position, equal for all points. Keeps the regularity of the sequence.
+  digits,
+  /// One permutation per digit position and value of the digits before it (nested). Decouples neighbouring bases.
+  owen
+};
 
-/// Randomised Halton points: dimension `dim` is the index written backwards in the dim-th prime base. Dimensions from
-/// Halton::dimensions on are hashed independent ones.
-///   Any b^k consecutive indices aligned to b^k fall one into each interval [j, j + 1) b^-k of the dimension with base
-///   b. Cost grows with the number of digits of 2^32 in the base; prefer Sobol where counts are powers of two.
-///   From index 2^32 on digit-scrambled points repeat; nested ones differ in what lies below the digits of 2^32 only.
-///   Source : [Halton60]
+/// Randomised Halton points. Coordinate `dim` is the radical inverse of the index in the dim-th prime base. Dimensions
+/// from Halton::dimensions on are independent hashed numbers.
+///   strata : Among any b^k consecutive indices aligned to b^k, each interval [j, j + 1) b^-k of the dimension with
+///            base b contains one point.
+///   cost   : Grows with the number of digits of 2^32 in the base. Prefer Sobol for counts that are powers of two.
+///   index  : From 2^32 on, digit-scrambled points repeat, and nested points differ only below the digits of 2^32.
+///   Source : [Halton60].
 class Halton {
  public:
+  /// Number of dimensions of the construction.
   static constexpr std::uint32_t dimensions = 1024;
 
+  /// The randomisation that `seed` selects.
   explicit Halton(std::uint64_t seed = 0, HaltonScramble scramble = HaltonScramble::owen)
       : seed_(seed), scramble_(scramble) {}
 
@@ -35,7 +40,8 @@ class Halton {
     if (dim >= dimensions) return mix64(key ^ index);
     const bool nested = scramble_ == HaltonScramble::owen;
     const auto rest = static_cast<std::uint32_t>(index);
-    // Digits deeper than those of a 32-bit index: the same permutations for all points, or independent ones for each.
+    // Digits below those of a 32-bit index: equal for all points if digit-scrambled, independent for each point if
+    // nested.
     const std::uint64_t tail = nested ? hash(~key, index) : hash(~key);
     if (dim == 0) {
       const std::uint32_t x = nested ? owen_scramble(reverse_bits(rest), static_cast<std::uint32_t>(key >> 32))
@@ -45,6 +51,7 @@ class Halton {
     return scrambled(rest, base(dim), key, nested, tail);
   }
 
+  /// Prime base of dimension `dim`, dim < dimensions.
   static constexpr std::uint32_t base(std::uint32_t dim) { return primes[dim]; }
 
  private:

@@ -5,7 +5,7 @@
 
 namespace mc {
 
-/// Independent uniform numbers: a 64-bit hash of (seed, index, dim). RMS error of a mean falls as N^-1/2.
+/// Independent uniform numbers: a 64-bit hash of (seed, index, dim). The RMS error of a mean of N values is O(N^-1/2).
 struct Independent {
   std::uint64_t seed = 0;
 

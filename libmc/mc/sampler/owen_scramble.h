@@ -1,11 +1,11 @@
 #pragma once
-/// Nested uniform scrambling.
+/// Nested uniform (Owen) scrambling.
 
 #include <cstdint>
 
 namespace mc {
 
-/// The bits of x in reverse order. Plain arithmetic, so that loops over it vectorise.
+/// The bits of x in reverse order. Uses only arithmetic that compilers vectorise in loops.
 constexpr std::uint32_t reverse_bits(std::uint32_t x) {
   x = __builtin_bswap32(x);
   x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
@@ -13,7 +13,7 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
   return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
 }
 
-/// The same for 64 bits, or for two words of 32 at once.
+/// The bits of a 64-bit word in reverse order. Also reverses two packed 32-bit words at once and exchanges them.
 constexpr std::uint64_t reverse_bits64(std::uint64_t x) {
   x = __builtin_bswap64(x);
   x = ((x & 0x0f0f0f0f0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0f0f0f0f0fu);
@@ -21,8 +21,7 @@ constexpr std::uint64_t reverse_bits64(std::uint64_t x) {
   return ((x & 0x5555555555555555u) << 1) | ((x >> 1) & 0x5555555555555555u);
 }
 
-/// The hash of Owen's scrambling: a bit of the result depends on its own and lower bits only, so it acts on a reversed
-/// word.
+/// Owen's scrambling of a bit-reversed word. Each bit of the result depends only on the same and lower bits of x.
 constexpr std::uint32_t owen_scramble_reversed(std::uint32_t x, std::uint32_t seed) {
   x ^= x * 0x3d20adeau;
   x += seed;
@@ -32,9 +31,9 @@ constexpr std::uint32_t owen_scramble_reversed(std::uint32_t x, std::uint32_t se
   return x;
 }
 
-/// Owen's scrambling of the binary fraction x / 2^32: each bit is flipped by a random function of the bits above it, so
-/// any elementary interval maps onto one of the same size.
-///   Source : [Owen95]; the hash construction by [LaineKarras11], its constants by [Vegdahl21]
+/// Owen's scrambling of the binary fraction x / 2^32. Flips each bit by a random function of the bits above it, so
+/// every elementary interval maps to an elementary interval of the same size.
+///   Source : [Owen95]. The hash construction is by [LaineKarras11], its constants are by [Vegdahl21].
 constexpr std::uint32_t owen_scramble(std::uint32_t x, std::uint32_t seed) {
   return reverse_bits(owen_scramble_reversed(reverse_bits(x), seed));
 }

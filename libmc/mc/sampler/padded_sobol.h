@@ -1,16 +1,16 @@
 #pragma once
-/// Two-dimensional Sobol' points for any number of dimension pairs.
+/// Two-dimensional Sobol' points for any number of pairs of dimensions.
 
 #include <mc/sampler/concept.h>
 #include <mc/sampler/owen_scramble.h>
 
 namespace mc {
 
-/// The first two dimensions of Sobol's sequence, once per pair of dimensions (0,1), (2,3), ..., each pair
-/// Owen-scrambled and its points shuffled independently by the seed: every aligned power-of-two block of indices is a
-/// (0,m,2)-net in every pair.
-///   RMS error of smooth 2-D integrands near N^-3/2; pairs are uncorrelated with each other.
-///   Source : [Sobol67], shuffled scrambling [Burley20]
+/// The first two dimensions of Sobol's sequence for each pair of dimensions (0,1), (2,3), ... The seed Owen-scrambles
+/// each pair and shuffles its points independently.
+///   nets   : Every aligned power-of-two block of indices is a (0,m,2)-net in every pair.
+///   error  : RMS error near N^-3/2 for smooth two-dimensional integrands. Different pairs are uncorrelated.
+///   Source : [Sobol67], shuffled scrambling [Burley20].
 struct PaddedSobol {
   std::uint64_t seed = 0;
 
@@ -22,22 +22,25 @@ struct PaddedSobol {
     return (std::uint64_t{x} << 32) | (low & 0xffffffffu);
   }
 
-  /// Both coordinates of a pair at once, of 32 bits: a double has zeros where those of bits() go on.
+  /// Both coordinates of pair `number` of point `index`, with 32 random bits each. The lower bits of a double are zero,
+  /// in contrast to bits().
   template <Real S> Vec2<S> pair(std::uint64_t index, std::uint32_t number) const {
     return pair_key(number).template point<S>(index);
   }
 
-  /// What all points of a pair share, for callers that take many: pair(index, number) = pair_key(number).point(index).
+  /// The part of the computation that all points of a pair share: pair(index, number) = pair_key(number).point(index).
   struct PairKey {
-    std::uint64_t key, second;
+    std::uint64_t key, second; ///< Keys of the shuffle and of the second coordinate.
+    /// Both coordinates of point `index`.
     template <Real S> Vec2<S> point(std::uint64_t index) const {
       const std::uint32_t i = shuffled(index, key);
-      // One reversal for both: the lower half becomes the upper one.
+      // One reversal for both coordinates: it exchanges the halves.
       const std::uint64_t y = owen_scramble_reversed(pascal(i), static_cast<std::uint32_t>(second));
       const std::uint64_t x = reverse_bits64(y << 32 | reversed_first(i, key));
       return {uniform<S>(x & 0xffffffff00000000u), uniform<S>(x << 32)};
     }
   };
+  /// The key of pair `number`.
   PairKey pair_key(std::uint32_t number) const {
     const std::uint64_t key = hash(seed, number);
     return {key, mix64(key)};
@@ -50,7 +53,8 @@ struct PaddedSobol {
         owen_scramble_reversed(reversed(static_cast<std::uint32_t>(index)), static_cast<std::uint32_t>(key)));
   }
 
-  // Scrambled coordinates, with the leading bit last: the order in which the index gives them and the hash wants them.
+  // Scrambled coordinates with the leading bit last, the order in which the index provides the bits and the scrambling
+  // hash takes them.
   static std::uint32_t reversed_first(std::uint32_t i, std::uint64_t key) {
     return owen_scramble_reversed(i, static_cast<std::uint32_t>(key >> 32));
   }
@@ -58,8 +62,8 @@ struct PaddedSobol {
     return owen_scramble_reversed(pascal(i), static_cast<std::uint32_t>(mix64(key)));
   }
 
-  // Column k of the second generator matrix is row k of Pascal's triangle modulo 2; the product by the whole matrix is
-  // five shifts, since the triangle modulo 2 is a Kronecker power of [1 1; 0 1].
+  // Product of the second generator matrix with the index bits. Column k is row k of Pascal's triangle modulo 2. The
+  // triangle modulo 2 is a Kronecker power of [1 1; 0 1], so five shifts apply the whole matrix.
   static constexpr std::uint32_t pascal(std::uint32_t i) {
     i ^= (i & 0xaaaaaaaau) >> 1;
     i ^= (i & 0xccccccccu) >> 2;

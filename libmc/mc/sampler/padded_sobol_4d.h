@@ -5,16 +5,17 @@
 
 namespace mc {
 
-/// The first four dimensions of Sobol's sequence, once per group (0..3), (4..7), ..., each group Owen-scrambled and its
-/// points shuffled independently by the seed: for integrands of up to four variables that interact, such as a lens and
-/// a pixel.
-///   Every aligned block of 2^m indices is a (3,m,4)-net in every group, a (0,m,2)-net in its first two dimensions;
-///   groups are uncorrelated with each other. Where two variables at a time suffice, PaddedSobol is faster and every
-///   pair of it is a (0,m,2)-net
-///   index  : below 2^32
-///   Source : [Sobol67], direction numbers of [JoeKuo08], shuffled scrambling [Burley20]
+/// The first four dimensions of Sobol's sequence for each group of dimensions (0..3), (4..7), ... The seed
+/// Owen-scrambles each group and shuffles its points independently.
+///   nets   : Every aligned block of 2^m indices is a (3,m,4)-net in every group and a (0,m,2)-net in its first two
+///            dimensions. Different groups are uncorrelated.
+///   use    : For integrands of up to four variables that interact, such as a pixel and a lens. For two interacting
+///            variables PaddedSobol is faster, and all its pairs are (0,m,2)-nets.
+///   index  : Below 2^32.
+///   Source : [Sobol67], direction numbers of [JoeKuo08], shuffled scrambling [Burley20].
 class PaddedSobol4D {
  public:
+  /// The randomisation that `seed` selects.
   explicit PaddedSobol4D(std::uint64_t seed = 0) : seed_(seed) {}
 
   std::uint64_t bits(std::uint64_t index, std::uint32_t dim) const {

@@ -10,33 +10,36 @@
 
 namespace mc {
 
-/// Owen-scrambled Sobol' points: a (t,s)-sequence in base 2, each dimension scrambled independently by the seed.
-/// Dimensions from Sobol::dimensions on are hashed independent ones.
-///   index  : below 2^32
-///   RMS error of the mean of a smooth integrand near N^-3/2 when N is a power of two, never much worse than
-///   independent
+/// Owen-scrambled Sobol' points: a (t,s)-sequence in base 2 with an independent scrambling of each dimension.
+/// Dimensions from Sobol::dimensions on are independent hashed numbers.
+///   error  : The RMS error of the mean of a smooth integrand is near N^-3/2 if N is a power of two, and never much
+///            larger than for independent points.
+///   index  : Below 2^32.
 ///   Source : [Sobol67], direction numbers of [JoeKuo08] (new-joe-kuo-6, "D6") as tabulated in Boost.Random, scrambling
-///            [Owen95]
+///            [Owen95].
 class Sobol {
  public:
+  /// Number of dimensions of the construction.
   static constexpr std::uint32_t dimensions = 1024;
 
+  /// The scrambling that `seed` selects.
   explicit Sobol(std::uint64_t seed = 0) : seed_(seed), columns_(direction_numbers()) {}
 
   std::uint64_t bits(std::uint64_t index, std::uint32_t dim) const {
     const std::uint64_t key = hash(seed_, dim);
     const std::uint64_t low = mix64(key ^ index);
     if (dim >= dimensions) return low;
-    // After the reversal of 64 bits, the scrambled word of 32 is the upper half.
+    // The 64-bit reversal moves the scrambled 32-bit word to the upper half.
     const std::uint32_t last_first = reversed(static_cast<std::uint32_t>(index), dim);
     const std::uint64_t x = reverse_bits64(owen_scramble_reversed(last_first, static_cast<std::uint32_t>(key >> 32)));
     return x | (low & 0xffffffffu);
   }
 
-  /// The point before scrambling, as a fraction of 2^32.
+  /// Coordinate `dim` of point `index` before scrambling, in units of 2^-32.
   std::uint32_t unscrambled(std::uint32_t index, std::uint32_t dim) const { return reverse_bits(reversed(index, dim)); }
 
-  /// Coordinate `dim` of points first, first + 1, ...: the bits of coordinate<S>, several points at a time.
+  /// Coordinate `dim` of points first, first + 1, ... Equal to coordinate<S>() bit by bit, but computes several points
+  /// at a time.
   template <Real S> void fill(std::uint64_t first, std::uint32_t dim, std::span<S> out) const {
     if (dim >= dimensions) {
       for (std::size_t i = 0; i < out.size(); ++i) out[i] = uniform<S>(bits(first + i, dim));
@@ -62,8 +65,9 @@ class Sobol {
   }
 
  private:
-  // The point before scrambling, its leading bit last as the scrambling takes it: the exclusive or of the columns that
-  // the bits of the index choose. All 32 columns are read, since a jump per bit would be mispredicted.
+  // The coordinate before scrambling with its leading bit last, as the scrambling takes it. It is the exclusive or of
+  // the columns selected by the bits of the index. Reads all 32 columns, because a branch for each bit would be
+  // mispredicted.
   std::uint32_t reversed(std::uint32_t index, std::uint32_t dim) const {
     const std::uint32_t* column = columns_ + std::size_t{dim} * 32;
     std::uint32_t x = 0;
@@ -71,7 +75,7 @@ class Sobol {
     return x;
   }
 
-  /// dimensions x 32 columns, each with its leading bit last, built once per process.
+  /// Table of dimensions x 32 columns, each with its leading bit last. Built once per process.
   static const std::uint32_t* direction_numbers();
 
   std::uint64_t seed_;

@@ -11,16 +11,18 @@
 
 namespace mc {
 
-/// `count` jittered points: dimensions are taken in groups of `group`; in each group the cube is cut into `count` boxes
-/// of equal volume, about count^(1/group) along each side, and every box holds one point. Groups are shuffled against
-/// each other, so any number of dimensions may be used (padding). Any count works, not only perfect powers: the cube is
-/// cut into strata whose thickness is proportional to the number of boxes in them.
-///   An index >= count starts another independent set of `count` points.
-///   RMS error of the mean of a Lipschitz integrand of one group: count^(-1/2 - 1/group), for group 1 and 2 down to
-///   N^-3/2, N^-1 and, where the integrand jumps along a curve in the square, N^-3/4 [MitchellA96].
-///   throws : Error unless count >= 1 and group >= 1
+/// `count` jittered points. Takes dimensions in groups of `group` and cuts the cube of each group into `count` boxes of
+/// equal volume, about count^(1/group) along each side. Every box contains one point.
+///   count  : Any count works, not only perfect powers: the thickness of a stratum is proportional to its number of
+///            boxes.
+///   dimensions : Groups are shuffled independently, so any number of dimensions may be used.
+///   index  : Each further block of `count` indices is another independent set.
+///   error  : RMS error of the mean is count^(-1/2 - 1/group) for a Lipschitz integrand of one group. It is count^-3/4
+///            for an integrand with a jump along a curve in the square [MitchellA96].
+///   throws : Error unless count >= 1 and group >= 1.
 class Stratified {
  public:
+  /// A set of `count` points in groups of `group` dimensions, randomised by `seed`.
   explicit Stratified(std::uint32_t count, std::uint64_t seed = 0, std::uint32_t group = 2)
       : count_(count), group_(group), seed_(seed) {
     require(count >= 1, "Stratified: count {} must be at least 1", count);
@@ -35,7 +37,7 @@ class Stratified {
     return result;
   }
 
-  /// The first u.size() coordinates of a point, those of bits(): its boxes are looked for once.
+  /// The first u.size() coordinates of a point, equal to coordinate<double>(). Finds the box of each group only once.
   void point(std::uint64_t index, std::span<double> u) const {
     const auto dims = static_cast<std::uint32_t>(u.size());
     for (std::uint32_t first = 0; first < dims; first += group_)
@@ -45,6 +47,7 @@ class Stratified {
               });
   }
 
+  /// Number of points in a set.
   std::uint32_t count() const { return count_; }
 
  private:
@@ -52,8 +55,8 @@ class Stratified {
     std::uint32_t start, size;
   };
 
-  // Calls visit(axis, stratum, n) for the axes 0 to `last` of a group: the stratum that holds the point's box, of those
-  // that n boxes lie in.
+  // Calls visit(axis, stratum, n) for axes 0 to `last` of a group. `stratum` is the range of boxes, among the n boxes
+  // left, that contains the box of the point.
   template <class Visit>
   void descend(std::uint64_t index, std::uint32_t group, std::uint32_t last, Visit&& visit) const {
     std::uint32_t box = permute(static_cast<std::uint32_t>(index % count_), count_, hash(seed_, index / count_, group));
@@ -67,7 +70,7 @@ class Stratified {
     }
   }
 
-  // The stratum that holds `box` when n boxes are cut along the first of d remaining dimensions.
+  // The stratum that contains `box` when n boxes are cut along the first of d remaining dimensions.
   static Stratum stratum(std::uint32_t box, std::uint32_t n, std::uint32_t d) {
     if (d == 1) return {box, 1};
     const auto strata = std::clamp(static_cast<std::uint32_t>(std::lround(root(n, d))), 1u, n);
@@ -76,7 +79,8 @@ class Stratified {
     return {start_of(i), start_of(i + 1) - start_of(i)};
   }
 
-  // The d-th root. No integer is the d-th power of half an odd number, so rounding it is safe however it is found.
+  // The d-th root of n. No integer is the d-th power of half an odd number, so rounding the result is safe for any
+  // method.
   static double root(double n, std::uint32_t d) {
     switch (d) {
     case 2: return std::sqrt(n);
@@ -86,7 +90,7 @@ class Stratified {
     }
   }
 
-  // The stratum [start, start + size) of n boxes, jittered: exact 64-bit fractions, so never 1.
+  // A jittered point in the stratum [start, start + size) of n boxes, as an exact 64-bit binary fraction below 1.
   static std::uint64_t inside(const Stratum& s, std::uint32_t n, std::uint64_t jitter) {
     __extension__ using Wide = unsigned __int128;
     return static_cast<std::uint64_t>(((Wide{s.start} << 64) + Wide{s.size} * jitter) / n);
