@@ -1,44 +1,50 @@
 #pragma once
-/// How evenly points fill the unit cube: discrepancies that are means of squares, and the nearest two.
+/// Measures of uniformity of a point set in the unit cube: L2 discrepancies and the smallest distance.
 
 #include <mc/points/point_list.h>
 
 namespace mc {
 
-/// The root mean square, over all boxes [0, y) with y uniform in the cube, of (share of the points in the box) -
-/// (volume).
-///   cost   : n^2 dim / 2
-///   error  : the square is known to 1e-13 of 3^-dim
-///   random : the mean square of n independent points is (2^-dim - 3^-dim) / n
-///   Source : [Warnock72]
+/// L2 star discrepancy: root mean square of (share of the points in the box) - (volume) over all boxes [0, y), y
+/// uniform in the cube.
+///   cost   : n^2 dim / 2 operations.
+///   error  : The square is accurate to 1e-13 of 3^-dim.
+///   random : The mean square for n independent points is (2^-dim - 3^-dim) / n.
+///   Source : [Warnock72].
 double l2_star_discrepancy(PointList points);
 
-/// The same over all boxes that may wrap around the faces of the cube, corners and lengths uniform: no corner is
-/// special.
-///   cost, error, random : as l2_star_discrepancy
-///   Source : [HinrichsOettershagen16]
+/// Periodic L2 discrepancy: the same root mean square over all boxes that may wrap around the faces of the cube, with
+/// uniform corners and lengths. It treats all corners of the cube equally.
+///   cost, error, random : As for l2_star_discrepancy().
+///   Source : [HinrichsOettershagen16].
 double periodic_l2_discrepancy(PointList points);
 
-/// The wrap-around and the centered discrepancy, which add the same over all faces: uniformity of the projections too.
-/// Both are square roots; programs that print the square call it the discrepancy as well.
-///   Source : [Hickernell98]
+/// The wrap-around and the centered L2 discrepancy. Both add the same mean squares over all faces of the cube, and so
+/// also measure the uniformity of projections. Returns the square root, although some programs print the square under
+/// the same name.
+///   Source : [Hickernell98].
 double wraparound_discrepancy(PointList points);
+/// Centered L2 discrepancy; see wraparound_discrepancy().
 double centered_discrepancy(PointList points);
 
-/// Mean squares of the star and the periodic discrepancy of `count` jittered points, one in each cell of a grid of
-/// m^dim = count cells; m need not be whole, the square is then that of the formula. Of independent points:
-/// random_mean_square, for both.
+/// Expected squared L2 star and periodic discrepancies, for comparison with a point set.
+///   random   : `count` independent points, for both discrepancies.
+///   jittered : `count` = m^dim jittered points, one in each cell of a grid. If m is not whole, returns the value of
+///              the formula.
 double random_mean_square(double count, int dim);
+/// Expected squared L2 star discrepancy of jittered points; see random_mean_square().
 double jittered_star_mean_square(double count, int dim);
+/// Expected squared periodic L2 discrepancy of jittered points; see random_mean_square().
 double jittered_periodic_mean_square(double count, int dim);
 
-/// Smallest distance of two of the points in the plain and the periodic cube; infinity for one point.
-///   cost   : n^2 dim at most, less where the first axis tells points apart
-///   random : the mean periodic one of n independent points tends to Gamma(1 + 1/dim) (2 / (n^2 V))^(1/dim) with the
-///            volume V of the unit ball, where that is well below 1/2 [SilvermanBrown78]
+/// Smallest distance of two points in the cube, with and without wrapping around its faces.
 struct SmallestDistance {
-  double plain, periodic;
+  double plain, periodic; ///< Distances; infinity for a single point.
 };
+/// Smallest distances of a point set.
+///   cost   : At most n^2 dim operations. Less if the first axis separates the points.
+///   random : The mean periodic distance for n independent points tends to Gamma(1 + 1/dim) (2 / (n^2 V))^(1/dim) with
+///            V the volume of the unit ball, if that is well below 1/2 [SilvermanBrown78].
 SmallestDistance smallest_distance(PointList points);
 
 } // namespace mc

@@ -1,5 +1,5 @@
 #pragma once
-/// All boxes that may be worst, part by part.
+/// Branch and bound over all boxes for the star discrepancy.
 
 #include <mc/points/star_grid.h>
 
@@ -7,17 +7,20 @@
 
 namespace mc {
 
-/// Goes through all boxes [0, y) and [0, y] in parts that lie between two corners. A part whose boxes are all off by
-/// `bound` at most is left out. One along whose axes the points come in one by one, each along one axis alone, is
-/// solved at once: how many points a box holds is then the sum of those that came along each axis, and of each sum the
-/// largest and the smallest volume are found axis by axis. Any other is halved.
-///   work   : steps to be taken; each costs some ns
-///   Source : the parts of [DobkinEppsteinMitchell96], left out early as in [Thiemard01]
+/// Searches all boxes [0, y) and [0, y] for the largest error |share of points - volume|. Works on parts, which are
+/// sets of boxes with y between two corners.
+///   discard : A part is discarded if no box in it can have an error above `bound`.
+///   solve   : A part is solved at once if each point enters it along a single axis. The number of points in a box is
+///             then the sum of the numbers that entered along each axis. The largest and the smallest volume for each
+///             sum are found axis by axis.
+///   split   : Any other part is halved.
+///   Source  : The parts of [DobkinEppsteinMitchell96], discarded early as in [Thiemard01].
 struct StarCover {
-  double lower;       ///< the worst box that was met, or what it was at the beginning
-  double bound;       ///< parts whose boxes are off by no more are left out
-  std::uint64_t work; ///< steps left
-  /// Whether there was work enough; then no box is off by more than the larger of lower and bound.
+  double lower;       ///< Largest error found, starting from its initial value.
+  double bound;       ///< Parts without larger errors are discarded.
+  std::uint64_t work; ///< Steps left; each takes a few ns.
+  /// Runs the search. Returns true if it was completed: then no box has an error above max(lower, bound). Returns false
+  /// if `work` ran out.
   bool run(const StarGrid& grid);
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The star discrepancy: the worst box.
+/// Star discrepancy of a point set.
 
 #include <mc/points/point_list.h>
 
@@ -8,24 +8,25 @@
 
 namespace mc {
 
-/// Bounds of the star discrepancy; lower = upper where it was found exactly.
+/// Bounds of the star discrepancy.
 struct StarDiscrepancy {
-  double lower = 0, upper = 1;
+  double lower = 0, upper = 1; ///< Bounds; equal if the value was found exactly.
+  /// Whether the value was found exactly.
   bool exact() const { return lower == upper; }
 };
 
-/// The largest |share of the points in the box - volume| over all boxes [0, y) and [0, y] of the unit cube.
-///   method : a local search finds a box that is bad; a cover of all boxes then leaves out what is not worse and solves
-///            the rest exactly, in some n^(dim/2 + 1) steps. A part of the work is kept for covers, where that does
-///            not last, that leave out ever more, which bound the worst box from above. The bounds hold to rounding
-///   work   : steps, some 3 ns each. 1e9 suffice for 32768 points of Sobol' in two dimensions, 8192 in three, 1024 in
-///            four, 512 in five; beyond that the bounds stay apart, since the problem is hard
-///            [GnewuchWahlstromWinzen12]
-///   Source : [DobkinEppsteinMitchell96], [Thiemard01]; see star_cover.h
+/// Bounds the star discrepancy: the largest |share of the points in the box - volume| over all boxes [0, y) and [0, y]
+/// of the unit cube.
+///   method : A local search finds a box with a large error. A cover of all boxes then discards the boxes with smaller
+///            errors and solves the rest exactly, in about n^(dim/2 + 1) steps. If `work` does not suffice for that,
+///            covers that discard increasingly more boxes give the upper bound. The bounds hold up to rounding.
+///   work   : Number of steps of a few ns each. The default is exact for moderate sets in two to five dimensions. For
+///            larger sets the bounds remain apart, because the problem is hard [GnewuchWahlstromWinzen12].
+///   Source : [DobkinEppsteinMitchell96], [Thiemard01]; see star_cover.h.
 StarDiscrepancy star_discrepancy(PointList points, std::uint64_t work = 1'000'000'000);
 
-/// About the steps that an exact answer takes, from measurements: 0.15 n^(dim/2 + 1), from 6 dimensions on up to 20
-/// times less. Where a third more is not there, star_discrepancy hardly tries.
+/// Estimated number of steps for an exact answer: 0.15 n^(dim/2 + 1). The estimate may be up to 20 times too large from
+/// 6 dimensions on. If `work` is less than 4/3 of it, star_discrepancy() makes little attempt at an exact answer.
 double exact_star_steps(std::size_t count, std::size_t dim);
 
 } // namespace mc

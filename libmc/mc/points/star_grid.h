@@ -1,5 +1,5 @@
 #pragma once
-/// What the search for the worst box stands on: the coordinates of the points along each axis.
+/// Grid of the coordinates of a point set, and a lower bound of the star discrepancy on it.
 
 #include <mc/points/point_list.h>
 
@@ -8,19 +8,23 @@
 
 namespace mc {
 
-/// The coordinates that points have along each axis, ascending and each once, with 0 before and 1 behind them. A point
-/// is known by its ranks: where its coordinates stand there. Boxes that differ by no coordinate hold the same points,
-/// so a box is known by ranks, too: those of [0, y) and [0, y] that are worst have such corners.
+/// The distinct coordinates of the points along each axis in ascending order, preceded by 0 and followed by 1. A point
+/// is represented by its ranks, the positions of its coordinates in these lists. The boxes [0, y) and [0, y] of largest
+/// error have corners on this grid, so ranks represent boxes too.
 class StarGrid {
  public:
+  /// The grid of `points`.
   explicit StarGrid(PointList points);
 
+  /// Number of dimensions.
   std::size_t dim() const { return axes_.size(); }
+  /// Number of points.
   std::size_t size() const { return size_; }
+  /// Coordinates along axis k, from 0 to 1.
   const std::vector<double>& axis(std::size_t k) const { return axes_[k]; }
-  /// The ranks of point i, one for each axis.
+  /// Ranks of point i, one for each axis.
   const std::uint32_t* ranks(std::size_t i) const { return ranks_.data() + i * axes_.size(); }
-  /// The points in the order of their ranks along an axis.
+  /// Indices of the points in ascending order of their ranks along axis k.
   const std::vector<std::uint32_t>& order(std::size_t k) const { return orders_[k]; }
 
  private:
@@ -30,10 +34,10 @@ class StarGrid {
   std::vector<std::vector<std::uint32_t>> orders_;
 };
 
-/// A lower bound of the star discrepancy that is often the star discrepancy: from `starts` random corners, each
-/// coordinate in turn goes where it is worst while the others stay, until none can go on. Large corners are drawn more
-/// often, since bad boxes are large [GnewuchWahlstromWinzen12]; the line search is ours.
-///   cost : some 5 n dim^2 for each start
+/// Lower bound of the star discrepancy, often equal to it. Starts at `starts` random corners and moves one coordinate
+/// at a time to the place of largest error, until no move increases the error. Draws large corners more often, because
+/// boxes of large error are large [GnewuchWahlstromWinzen12]. The line search is our own.
+///   cost : About 5 n dim^2 operations per start.
 double star_ascent(const StarGrid& grid, int starts);
 
 } // namespace mc

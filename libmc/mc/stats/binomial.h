@@ -3,8 +3,8 @@
 
 namespace mc {
 
-/// P(X <= k) and P(X >= k) doubled, the smaller of the two, at most 1: exact two-sided tail of X ~ Binomial(n, p). For
-/// k and n that are not whole, by the incomplete beta function between them.
+/// Two-sided tail of X ~ Binomial(n, p): min(1, 2 P(X <= k), 2 P(X >= k)), exact. For k and n that are not whole,
+/// interpolates with the incomplete beta function.
 double binomial_tail(double k, double n, double p);
 
 } // namespace mc

@@ -1,5 +1,5 @@
 #pragma once
-/// Many tests under one family-wise error rate.
+/// Control of the family-wise error rate of many tests.
 
 #include <algorithm>
 #include <cmath>
@@ -8,20 +8,20 @@
 
 namespace mc {
 
-/// Adjusted p-value of the smallest of m independent p-values: 1 - (1 - p)^m, exact also where p is tiny.
-///   Source : [Sidak67]; conservative for two-sided normal statistics of any correlation
+/// Adjusted p-value of the smallest of m independent p-values: 1 - (1 - p)^m, accurate also for tiny p.
+///   Source : [Sidak67]. Conservative for two-sided normal statistics of any correlation.
 inline double sidak(double p, double m) { return p >= 1 ? 1.0 : std::clamp(-std::expm1(m * std::log1p(-p)), 0.0, 1.0); }
 
-/// Adjusted p-value of a test that spends a share of alpha: the test rejects at family-wise alpha when the result is at
-/// most alpha. Shares of a family add up to 1; equal shares are sidak(p, m).
+/// Adjusted p-value of a test with a share of the family-wise alpha. The test rejects if the result is at most alpha.
+/// The shares of a family add up to 1. Equal shares give sidak(p, m).
 inline double sidak_share(double p, double share) { return share > 0 ? sidak(p, 1 / share) : 1.0; }
 
-/// The level at which a test with this share of alpha rejects: sidak_share(level, share) = alpha.
+/// Level at which a test with this share of alpha rejects: sidak_share(level, share) = alpha.
 inline double sidak_level(double alpha, double share) { return -std::expm1(share * std::log1p(-alpha)); }
 
-/// Adjusted p-values by Holm's step-down method: those at most alpha are rejected, whatever the dependence of the
-/// tests.
-///   Source : [Holm79]
+/// Adjusted p-values by Holm's step-down method. Reject the tests with an adjusted value of at most alpha. Valid for
+/// any dependence between the tests.
+///   Source : [Holm79].
 inline std::vector<double> holm(const std::vector<double>& p) {
   std::vector<std::size_t> order(p.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

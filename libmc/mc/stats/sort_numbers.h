@@ -1,12 +1,12 @@
 #pragma once
-/// Sorting many numbers.
+/// Sorting of many numbers.
 
 #include <vector>
 
 namespace mc {
 
-/// Sorts numbers that are not NaN, ascending: in linear time where they spread evenly over their range, and once more
-/// for each 24 bits below it at which many crowd.
+/// Sorts numbers in ascending order; none may be NaN. Takes linear time if they spread evenly over their range. Each
+/// level of clustering below 2^-24 of the range costs one more pass.
 void sort_numbers(std::vector<double>& values);
 
 } // namespace mc
