@@ -21,10 +21,11 @@ namespace {
 
 fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? target.parent_path() : fs::path("."); }
 
-// Where the bytes go.
+// Destination of the bytes.
 struct OutputTarget {
-  fs::path target;               // no link
-  std::optional<int> descriptor; // of this process: /dev/stdout is a link into /proc/self/fd
+  fs::path target;               // not a symbolic link
+  std::optional<int> descriptor; // set for a descriptor of this process, because /dev/stdout is a link into
+                                 // /proc/self/fd
   fs::file_type type = fs::file_type::not_found;
 
   bool is_replaced() const {
@@ -71,7 +72,7 @@ OutputTarget require_writable_target(const std::string& path) {
 }
 
 void write_through(const OutputTarget& place, const std::string& path, std::string_view bytes) {
-  std::fflush(stdout); // what was printed before comes before
+  std::fflush(stdout); // keeps earlier output of this process before the bytes
   const int file =
       place.descriptor ? dup(*place.descriptor) : open(place.target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
   require(file >= 0, "cannot write '{}': {}", path, std::strerror(errno));
@@ -104,7 +105,7 @@ void replace(const OutputTarget& place, const std::string& path, const std::func
   }
 }
 
-// By way of a folder of our own, since not everything that writes a file can write a stream.
+// Writes through a file in a private temporary folder, because not every writer can write to a stream.
 void write_via_temporary(const OutputTarget& place, const std::string& path,
                          const std::function<void(const std::string&)>& write) {
   std::string folder = (fs::temp_directory_path() / "mc.XXXXXX").string();
@@ -126,7 +127,7 @@ void write_new(const std::string& file, const std::string& path, std::string_vie
   require(out != nullptr, "cannot write '{}': {}", path, std::strerror(errno));
   int failure = 0;
   if (std::fwrite(bytes.data(), 1, bytes.size(), out) != bytes.size()) failure = errno;
-  if (std::fclose(out) != 0 && failure == 0) failure = errno; // a full disk may show only here
+  if (std::fclose(out) != 0 && failure == 0) failure = errno; // a full disk may be reported only here
   require(failure == 0, "cannot write '{}': {}", path, std::strerror(failure));
 }
 

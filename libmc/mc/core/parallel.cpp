@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-// The thread sanitizer does not see how libtbb, which is not built for it, synchronises its threads: under it, plain
-// threads.
+// libtbb is not built for the thread sanitizer, which therefore cannot follow its synchronisation. Builds for that
+// sanitizer use plain threads instead.
 #if defined(__SANITIZE_THREAD__)
 #include <atomic>
 #include <exception>
@@ -39,7 +39,7 @@ void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>&
   };
   std::vector<std::jthread> pool;
   for (int i = 0; i < threads; ++i) pool.emplace_back(work);
-  pool.clear(); // joins
+  pool.clear(); // joins the threads
   if (first) std::rethrow_exception(first);
 }
 #else
@@ -50,8 +50,8 @@ void for_all(std::size_t n, int threads, const std::function<void(std::size_t)>&
   const auto loop = [&] { tbb::parallel_for(std::size_t{0}, n, f, tbb::simple_partitioner{}); };
   using tbb::global_control;
   const std::size_t limit = global_control::active_value(global_control::max_allowed_parallelism);
-  // Threads take 70 us to enter an arena of its own. In the one they are in, whoever waits for this loop must not begin
-  // anything else meanwhile.
+  // Entering a separate arena is slow for its threads, so the loop runs in the current arena if that has no more
+  // threads than allowed. Isolation keeps a thread that waits for this loop from starting unrelated tasks.
   if (static_cast<std::size_t>(threads) >= limit) tbb::this_task_arena::isolate(loop);
   else tbb::task_arena(threads).execute(loop);
 }

@@ -42,7 +42,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1); // distances of three prefixes of a
+  std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1); // distances of the last three prefixes of a
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 0; i < a.size(); ++i) {
     before = last;
@@ -59,7 +59,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 namespace {
 
-// Without '-' and '_', in lower case.
+// The letters in lower case, without '-' and '_'.
 std::string folded(std::string_view text) {
   std::string letters;
   for (const char c : text)

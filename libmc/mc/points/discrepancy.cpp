@@ -12,11 +12,12 @@ namespace mc {
 
 namespace {
 
-// 1 / n^2 times the sum of Product_k kernel(x_k, y_k) over all pairs of points, in both orders and with themselves.
+// 1 / n^2 times the sum of Product_k kernel(x_k, y_k) over all ordered pairs of points, including pairs of a point with
+// itself.
 template <class Kernel> double mean_over_pairs(PointList p, Kernel kernel) {
   CompensatedSum pairs, own;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    double row = 0; // of at most a few thousand terms of one sign
+    double row = 0; // needs no compensation: its terms have one sign
     for (std::size_t j = 0; j < i; ++j) {
       double product = 1;
       for (std::size_t k = 0; k < p.dim; ++k) product *= kernel(p[i][k], p[j][k]);
@@ -43,7 +44,7 @@ template <class Factor> double mean_over_points(PointList p, Factor factor) {
 
 double root(double square) { return std::sqrt(std::max(square, 0.0)); }
 
-// Distance on the circle of length 1.
+// Distance on a circle of length 1.
 double around(double x, double y) {
   const double d = std::abs(x - y);
   return std::min(d, 1 - d);
@@ -96,8 +97,8 @@ double centered_discrepancy(PointList p) {
 
 double random_mean_square(double count, int dim) { return (std::pow(2, -dim) - std::pow(3, -dim)) / count; }
 
-// The count in a cell that the box cuts varies as a share (1 - share) of its point; the mean of share over all boxes
-// and cells is 1/2 along an axis, that of its square 1/2 - 1 / (6 m).
+// The count in a cell cut by the box has variance s (1 - s), where s is the share of the cell inside the box. Along one
+// axis, the mean of s over all boxes and cells is 1/2, and the mean of its square is 1/2 - 1 / (6 m).
 double jittered_star_mean_square(double count, int dim) {
   const double m = std::pow(count, 1.0 / dim);
   return (std::pow(0.5, dim) - std::pow(0.5 - 1 / (6 * m), dim)) / count;
@@ -108,7 +109,8 @@ double jittered_periodic_mean_square(double count, int dim) {
   return (std::pow(0.5, dim) - std::pow(0.5 - 1 / (3 * m) + 1 / (6 * m * m), dim)) / count;
 }
 
-// From each point on in the order of the first axis and around, until that axis alone is too long a way.
+// Visits the points after each point in cyclic order of the first axis, until the distance along that axis alone is too
+// large.
 SmallestDistance smallest_distance(PointList p) {
   require_unit_points(p);
   std::vector<std::size_t> order(p.size());
@@ -119,13 +121,13 @@ SmallestDistance smallest_distance(PointList p) {
     for (std::size_t step = 1; step < p.size(); ++step) {
       const std::size_t j = i + step < p.size() ? i + step : i + step - p.size();
       const double *a = p[order[i]], *b = p[order[j]], gap = i < j ? b[0] - a[0] : 1 - (a[0] - b[0]);
-      if (gap * gap >= plain) break; // the periodic distance is not more than the plain one
+      if (gap * gap >= plain) break; // the periodic distance is at most the plain distance
       double wrapped = 0;
       for (std::size_t k = 0; k < p.dim && wrapped < plain; ++k) {
         const double t = around(a[k], b[k]);
         wrapped += t * t;
       }
-      if (wrapped >= plain) continue; // the plain distance is not less
+      if (wrapped >= plain) continue; // the plain distance is at least the periodic distance
       periodic = std::min(periodic, wrapped);
       double straight = 0;
       for (std::size_t k = 0; k < p.dim; ++k) straight += (a[k] - b[k]) * (a[k] - b[k]);

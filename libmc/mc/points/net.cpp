@@ -8,7 +8,7 @@ namespace mc {
 
 namespace {
 
-// Counts the points in the boxes that `halvings` along each axis make, and compares.
+// Whether each box of a grid with 2^halvings[k] intervals along axis k contains `expected` points.
 bool is_even(PointList p, const std::vector<int>& halvings, std::uint32_t expected,
              std::vector<std::uint32_t>& counts) {
   std::fill(counts.begin(), counts.end(), 0u);
@@ -18,17 +18,18 @@ bool is_even(PointList p, const std::vector<int>& halvings, std::uint32_t expect
       box = (box << halvings[k]) + static_cast<std::size_t>(std::ldexp(p[i][k], halvings[k]));
     if (++counts[box] > expected) return false;
   }
-  return true; // as many boxes as points over expected: none has fewer
+  return true; // no box has more than `expected`, so none has fewer
 }
 
-// All ways to halve the axes from `axis` on `left` times in all.
+// Enumerates all grids with a given total number of halvings.
 class Shapes {
  public:
   Shapes(PointList p, int halvings, std::uint64_t& work)
       : p_(p), work_(work), expected_(static_cast<std::uint32_t>(p.size() >> halvings)),
         counts_(std::size_t{1} << halvings), shape_(p.dim, 0) {}
 
-  // Nothing when the work does not suffice.
+  // Whether all grids with `left` halvings of the axes from `axis` on are even. Returns nullopt if the work does not
+  // suffice.
   std::optional<bool> all_even(std::size_t axis, int left) {
     if (axis + 1 == p_.dim) {
       shape_[axis] = left;

@@ -9,7 +9,7 @@ namespace mc {
 
 namespace {
 
-// The mean of power(x, y) over each ring. Half of the plane: the power at -f is that at f.
+// Mean of power(x, y) over each ring. Visits half of the plane, because the power at -f equals the power at f.
 template <class Power> std::vector<double> ring_means(int rings, Power power) {
   std::vector<double> sum(static_cast<std::size_t>(rings), 0.0), count = sum;
   for (int x = 0; x <= rings; ++x)
@@ -40,7 +40,7 @@ std::vector<double> radial_power_spectrum(PointList p, int rings) {
     for (int x = 0; x <= rings; ++x) {
       const Complex along_x = std::polar(1.0, -2 * pi<double> * x * p[i][0]);
       Complex* row = wave.data() + static_cast<std::size_t>(x) * side;
-      for (std::size_t y = 0; y < side; ++y) // not operator*, which asks for NaN
+      for (std::size_t y = 0; y < side; ++y) // operator* of std::complex would check for NaN
         row[y] += Complex(along_x.real() * along_y[y].real() - along_x.imag() * along_y[y].imag(),
                           along_x.real() * along_y[y].imag() + along_x.imag() * along_y[y].real());
     }

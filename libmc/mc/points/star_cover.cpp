@@ -9,7 +9,7 @@ namespace mc {
 
 namespace {
 
-// A point that some boxes of a part hold and others do not, and along how many axes that is so.
+// A point inside some boxes of a part and outside others, and the number of axes along which it enters.
 struct OpenPoint {
   std::uint32_t point, axes;
 };
@@ -17,10 +17,10 @@ struct OpenPoint {
 constexpr std::size_t block = 16;
 using Block = Eigen::Array<double, block, 1>;
 
-// Less than any volume, also times an edge, of which none is less than tiny.
+// `never` is below any volume, also after multiplication by an edge; `tiny` is a lower bound of the edges.
 constexpr double never = -1e300, tiny = 1e-290;
 
-// Volumes by the number of points, with a block of `never` before and behind them.
+// Volume for each number of points, padded on both sides by a block of `never`.
 struct Volumes {
   std::vector<double> padded;
   std::size_t size = 0;
@@ -32,8 +32,8 @@ struct Volumes {
   }
 };
 
-// The boxes of a part hold the points whose rank along axis k is at most g[k], lo[k] <= g[k] < hi[k]: of each of them
-// the closed box ends at coordinate g[k], the open one at the next.
+// A part is a range lo[k] <= g[k] < hi[k] of ranks. Its boxes contain the points whose rank along each axis k is at
+// most g[k]. The closed box of g ends at coordinate g[k], the open box at the next coordinate.
 class CoverSearch {
  public:
   CoverSearch(const StarGrid& grid, StarCover& cover)
@@ -55,7 +55,8 @@ class CoverSearch {
   }
 
  private:
-  // The part between lo and hi, whose open points are the last ones from `first` on. Takes them away again.
+  // Searches the part between lo and hi. Its open points are the entries of open_ from `first` on; this function
+  // removes them.
   bool part(std::size_t first, std::size_t inside) {
     const std::size_t open = open_.size() - first;
     double small = 1, large = 1;
@@ -79,14 +80,14 @@ class CoverSearch {
     return enough;
   }
 
-  // The axis to be halved, the number of axes if no point comes in along two of them: where many points do, and where
-  // the volume differs most, which keeps parts about as long along each axis.
+  // Axis to halve, or the number of axes if no point enters along two or more axes. Prefers an axis along which many
+  // such points enter and the volume varies most, which keeps parts about equally long along all axes.
   std::size_t tangled_axis(std::size_t first) {
     std::fill(tally_.begin(), tally_.end(), 0u);
     for (std::size_t i = first; i < open_.size(); ++i) {
       if (open_[i].axes < 2) continue;
       const std::uint32_t* rank = grid_.ranks(open_[i].point);
-      for (std::size_t k = 0; k < lo_.size(); ++k) tally_[k] += rank[k] > lo_[k]; // and below hi, since it is open
+      for (std::size_t k = 0; k < lo_.size(); ++k) tally_[k] += rank[k] > lo_[k]; // and below hi, because it is open
     }
     std::size_t found = lo_.size();
     double most = 0;
@@ -99,7 +100,8 @@ class CoverSearch {
     return found;
   }
 
-  // At the middle one of the points that come in along other axes, too: along this one it then no longer does.
+  // Halves at the median rank of the points that also enter along other axes. These points then no longer enter along
+  // this axis in one half.
   bool halve(std::size_t axis, std::size_t first, std::size_t inside) {
     middle_.resize(open_.size() - first);
     std::size_t tangled = 0;
@@ -139,7 +141,7 @@ class CoverSearch {
     return true;
   }
 
-  // There may be too little work left for what is being done; then the next part ends it.
+  // Subtracts work, but not below zero. The next part then stops the search.
   void spend(std::size_t products) { cover_.work -= std::min<std::uint64_t>(cover_.work, products / 8); }
 
   void solve(std::size_t first, std::size_t inside, bool may_lack, bool may_exceed) {
@@ -160,8 +162,8 @@ class CoverSearch {
     if (may_exceed) worst_of(inside, 1);
   }
 
-  // Of the open boxes (sign -1) or the closed ones (sign 1), all of whose volumes are taken times -sign so that the
-  // largest is looked for in both cases.
+  // Finds the worst open box (sign -1) or closed box (sign 1). Multiplies all volumes by -sign, so that both cases
+  // search a maximum.
   void worst_of(std::size_t inside, double sign) {
     volumes_.resize(1);
     *volumes_.at(0) = -sign;
@@ -183,9 +185,10 @@ class CoverSearch {
     }
   }
 
-  // edges_[j]: where boxes with j points of the slab end along axis k, the open ones at the next point or the part's
-  // end, the closed ones at the last point or the part's beginning. Of equal coordinates a box holds all or none; that
-  // only some are counted makes it look better than it is, and it is met as it is, too.
+  // edges_[j] is the edge along axis k of boxes that contain j points of the slab. Open boxes end at the next point or
+  // the end of the part, closed boxes at the last point or the start of the part. A box contains all or none of several
+  // points with equal coordinates. Counting only some of them underestimates its error, but another entry counts all of
+  // them.
   void edges(std::size_t k, double sign) {
     const std::vector<double>& x = grid_.axis(k);
     edges_.clear();
@@ -194,7 +197,7 @@ class CoverSearch {
     if (sign < 0) edges_.push_back(x[hi_[k]]);
   }
 
-  // The largest products of a volume and an edge for each sum of their points.
+  // Computes the largest product of a volume and an edge for each total number of points.
   void join() {
     const std::size_t size = volumes_.size;
     joined_.resize(size + edges_.size() - 1);
@@ -214,7 +217,7 @@ class CoverSearch {
   double n_;
   std::vector<std::uint32_t> lo_, hi_;
   std::vector<OpenPoint> open_;
-  // For one call each, here so that their memory is taken once.
+  // Scratch buffers of single calls, kept to allocate their memory once.
   std::vector<std::uint32_t> tally_, middle_;
   std::vector<std::vector<std::uint32_t>> slabs_;
   std::vector<std::size_t> fewest_first_;

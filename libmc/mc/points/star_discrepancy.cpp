@@ -8,8 +8,9 @@ namespace mc {
 
 namespace {
 
-// Covers for ever smaller bounds as long as the work lasts. The work for half the bound is guessed from the last two.
-// Three quarters of what is left may be spent on each, and half of that is aimed at, so that a wrong guess leaves some.
+// Runs covers with decreasing bounds while work is left. Extrapolates the work for half the bound from the last two
+// covers. A cover may spend three quarters of the remaining work and aims at half of that, so that a wrong guess leaves
+// some work.
 void lower_the_bound(const StarGrid& grid, StarDiscrepancy& found, std::uint64_t work) {
   double ratio = 0.5, before = 1, growth = std::pow(2.0, static_cast<double>(grid.dim()));
   while (ratio < 0.97 && work > grid.size() && !found.exact()) {
@@ -22,7 +23,7 @@ void lower_the_bound(const StarGrid& grid, StarDiscrepancy& found, std::uint64_t
     const double seen = std::pow(spent / before, std::log(0.5) / std::log(ratio));
     if (whole) {
       found.upper = std::max(cover.bound, cover.lower);
-      if (before > 1) growth = std::max(3.0, 2 * seen); // it grows itself as the bound falls
+      if (before > 1) growth = std::max(3.0, 2 * seen); // the growth itself increases as the bound falls
       before = std::max(spent, 1.0);
     } else {
       growth = 1.5 * std::max(growth, seen);

@@ -26,8 +26,8 @@ StarGrid::StarGrid(PointList p)
 
 namespace {
 
-// A box by ranks: it holds the points whose ranks are at most `last`. The closed one ends there, the open one at the
-// next coordinate.
+// Local search over boxes given by ranks. A box contains the points whose ranks are at most `last`. The closed box ends
+// there, the open box at the next coordinate.
 class Ascent {
  public:
   Ascent(const StarGrid& grid, bool closed) : grid_(grid), closed_(closed), last_(grid.dim()), outside_(grid.size()) {}
@@ -53,7 +53,7 @@ class Ascent {
  private:
   double edge(std::size_t k, std::uint32_t last) const { return grid_.axis(k)[last + !closed_]; }
 
-  // Moves the face across axis k to where the box is worst.
+  // Moves the face across axis k to the place of largest error and returns that error.
   double along(std::size_t k) {
     double area = 1;
     for (std::size_t j = 0; j < grid_.dim(); ++j)
@@ -83,7 +83,7 @@ class Ascent {
   const StarGrid& grid_;
   bool closed_;
   std::vector<std::uint32_t> last_;
-  std::vector<std::uint32_t> outside_; // of each point: the axes along which it lies outside
+  std::vector<std::uint32_t> outside_; // for each point, the number of axes along which it is outside
 };
 
 } // namespace

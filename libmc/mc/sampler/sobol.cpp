@@ -6,7 +6,8 @@
 
 namespace mc {
 
-// The recurrence of the direction numbers from a primitive polynomial over GF(2) and its first values [BratleyFox88].
+// Computes the direction numbers by the recurrence of a primitive polynomial over GF(2) from its first values
+// [BratleyFox88].
 const std::uint32_t* Sobol::direction_numbers() {
   static const std::vector<std::uint32_t> table = [] {
     using Table = boost::random::detail::qrng_tables::sobol;

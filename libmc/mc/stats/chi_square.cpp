@@ -28,8 +28,8 @@ double normal_quantile(double p) { return std::sqrt(2.0) * boost::math::erfc_inv
 
 double chi_square_noncentrality(double dof, double level, double power) {
   const double critical = chi_square_quantile(std::max(level, 1e-300), dof);
-  // For many degrees of freedom noncentral chi-square with lambda is about scale * chi-square with h degrees of
-  // freedom, by its first two moments.
+  // For many degrees of freedom, noncentral chi-square with noncentrality lambda is about scale times chi-square with h
+  // degrees of freedom. The two have equal first and second moments.
   const auto reached = [&](double lambda) {
     if (dof <= 20)
       return boost::math::cdf(boost::math::complement(boost::math::non_central_chi_squared(dof, lambda), critical));
@@ -62,7 +62,7 @@ ChiSquare chi_square(const std::vector<std::uint64_t>& observed, const std::vect
   require(std::abs(total_observed - total_expected) <= 1e-6 * total_observed,
           "chi_square: {} observed, {} expected in all: the totals must agree", total_observed, total_expected);
 
-  std::vector<std::pair<double, double>> cells; // observed, expected
+  std::vector<std::pair<double, double>> cells; // observed and expected counts
   double pool_observed = 0, pool_expected = 0;
   for (std::size_t i = 0; i < expected.size(); ++i) {
     pool_observed += static_cast<double>(observed[i]);

@@ -12,7 +12,7 @@ namespace mc {
 double kolmogorov_tail(double lambda) {
   if (!(lambda > 0)) return 1;
   if (lambda < 1) {
-    // The theta function's other expansion converges fast where the alternating one cancels.
+    // This expansion of the theta function converges fast for small lambda, where the alternating series cancels.
     double sum = 0;
     for (int k = 1; k < 20; k += 2)
       sum += std::exp(-k * k * std::numbers::pi * std::numbers::pi / (8 * lambda * lambda));

@@ -19,9 +19,9 @@ int largest_exponent(std::span<const double> x) {
 
 namespace {
 
-// Moments of errors in units of 2^exponent.
+// Moments of the errors in units of 2^exponent.
 struct ErrorMoments {
-  double squares = 0, fourths = 0; ///< means
+  double squares = 0, fourths = 0; ///< Means of the squares and fourth powers.
   int exponent = 0;
 
   ErrorMoments(std::span<const double> estimates, double truth) {
@@ -44,7 +44,7 @@ double error_kurtosis(std::span<const double> estimates, double truth) {
   return ErrorMoments(estimates, truth).kurtosis();
 }
 
-// The mean of r squares of kurtosis k has the relative variance (k - 1) / r, that of chi-square 2 / degrees.
+// The mean of r squares of kurtosis k has relative variance (k - 1) / r. Chi-square with d degrees of freedom has 2 / d.
 double effective_error_count(double r, double kurtosis) {
   return kurtosis > 3 ? std::max(1.0, 2 * r / (kurtosis - 1)) : r;
 }

@@ -13,14 +13,15 @@ namespace {
 constexpr int digit_bits = 12;
 constexpr std::size_t digits = std::size_t{1} << digit_bits;
 
-// Where the numbers of each digit begin.
+// Start index of the numbers with each digit.
 using Begins = std::array<std::uint32_t, digits + 1>;
 
 void accumulate(Begins& counts) {
   for (std::size_t d = 1; d <= digits; ++d) counts[d] += counts[d - 1];
 }
 
-// `other` has room for as many. What shares a key is sorted among itself, by finer keys where it is much.
+// Sorts `values` with `other` as a buffer of the same size. Sorts numbers with equal keys among themselves, by finer
+// keys if there are many.
 void sort_numbers(std::span<double> values, std::span<double> other) {
   if (values.size() < 1 << 12 || values.size() > std::numeric_limits<std::uint32_t>::max())
     return std::sort(values.begin(), values.end());
@@ -30,7 +31,7 @@ void sort_numbers(std::span<double> values, std::span<double> other) {
   const double scale = static_cast<double>(digits * digits - 1) / range;
   if (!(range <= std::numeric_limits<double>::max() && scale <= std::numeric_limits<double>::max()))
     return std::sort(values.begin(), values.end());
-  // Keys never fall where numbers rise. By their lower digit, then by the upper; equal digits keep their order.
+  // Keys are monotone in the numbers. Radix sort by the lower digit, then by the upper digit; both passes are stable.
   const auto key = [=](double v) { return static_cast<std::uint32_t>((v - lo) * scale); };
   Begins lower{}, upper{};
   for (const double v : values) {
@@ -41,7 +42,7 @@ void sort_numbers(std::span<double> values, std::span<double> other) {
   accumulate(upper);
   for (const double v : values) other[lower[key(v) & (digits - 1)]++] = v;
   for (const double v : other.first(values.size())) values[upper[key(v) >> digit_bits]++] = v;
-  // Numbers fall only among those of one key.
+  // Only numbers with equal keys can still be out of order.
   for (std::size_t i = 1; i < values.size(); ++i) {
     if (!(values[i] < values[i - 1])) continue;
     const std::uint32_t k = key(values[i]);

@@ -13,7 +13,7 @@ TTest t_test(double mean, double error, double dof, double value, double alpha) 
   require(std::isfinite(value), "t_test: value {} must be finite", value);
   require(alpha > 0 && alpha < 1, "t_test: alpha {} must lie in (0, 1)", alpha);
   TTest result;
-  // Equal values have no standard error: they agree or they do not.
+  // Equal values have no standard error: the test passes or fails exactly.
   if (!(error > 0)) {
     result.t = mean == value ? 0.0 : std::copysign(HUGE_VAL, mean - value);
     result.p = mean == value ? 1.0 : 0.0;
@@ -28,7 +28,7 @@ TTest t_test(double mean, double error, double dof, double value, double alpha) 
 }
 
 double welch_dof(double variance_a, double dof_a, double variance_b, double dof_b) {
-  const double sum = variance_a + variance_b; // a share of it does not underflow when squared
+  const double sum = variance_a + variance_b; // squares of shares of the sum do not underflow
   return sum > 0 ? 1 / (sqr(variance_a / sum) / dof_a + sqr(variance_b / sum) / dof_b) : dof_a + dof_b;
 }
 
