@@ -36,8 +36,8 @@ struct Strategy {
   Float light_path_rate =
       0; ///< paths from the lights per path from the camera, in scenes where they pay, see LightTracer;
          ///< directions are aimed at `enclosing_speculars` alone there
-  std::string_view summary; ///< how it finds light, one sentence
-  std::string_view use;     ///< when to use it, one sentence
+  std::string_view summary = {}; ///< how it finds light, one sentence
+  std::string_view use = {};     ///< when to use it, one sentence
 };
 
 /// All but `light` are unbiased, those that find by chance where no light is a point or a direction; of such lights
