@@ -16,8 +16,8 @@ namespace {
 
 using Node = BinaryTree::Node;
 
-// A Bounds in vector registers: its low sides in the first three lanes and, negative, its high ones in the fifth to the
-// seventh, so that one minimum joins two boxes.
+// Bounds in a vector register. The first three lanes hold the low sides, lanes five to seven the negated high sides, so
+// one minimum merges two boxes.
 struct Box {
   Lanes sides = mc::infinity<Float> - Lanes{};
 
@@ -30,7 +30,7 @@ struct Box {
   Bounds bounds() const { return {{sides[0], sides[1], sides[2]}, {-sides[4], -sides[5], -sides[6]}}; }
 };
 
-// A box to be sorted. Its number is in the spare lanes: whole numbers that a float holds.
+// A box with its index. The index is split over the two spare lanes into integers that a float represents exactly.
 struct Item {
   Lanes sides;
 
@@ -41,14 +41,14 @@ struct Item {
     return static_cast<std::uint32_t>(sides[3]) << 12 | static_cast<std::uint32_t>(sides[7]);
   }
   Float center(int axis) const { return Float(0.5) * sides[axis] - Float(0.5) * sides[axis + 4]; }
-  // As a box.
+  // The centre as a box.
   Lanes center() const {
     const Lanes half = Float(0.5) * sides;
     return half - __builtin_shufflevector(half, half, 4, 5, 6, 7, 0, 1, 2, 3);
   }
 };
 
-// Items of a node, and the boxes around them and around their centres.
+// A range of items with the bounds of their boxes and of their centres.
 struct Part {
   Box box = {}, centers = {};
   std::uint32_t first = 0, count = 0;
@@ -66,9 +66,10 @@ struct Part {
 };
 
 constexpr std::int32_t bins = 32;
-constexpr int deepest = BinaryTree::max_depth - 32; // beyond, halves are taken by count, which adds at most 32 levels
+constexpr int deepest = BinaryTree::max_depth - 32; // deeper nodes are halved by count, which adds at most 32 levels
 
-// Equal slices of a part's centres along each axis, a bin for each. An axis along which they do not differ has one.
+// Bins: equal slices of the centres of a part along each axis. An axis along which the centres do not differ has a
+// single bin.
 class Slices {
  public:
   explicit Slices(const Part& part) : count(std::min(bins, 8 + static_cast<std::int32_t>(part.count / 8))) {
@@ -103,7 +104,7 @@ struct Bin {
   }
 };
 
-// Of all axes.
+// Bins along all axes.
 struct Bins {
   Bin along[3][bins];
 
@@ -114,7 +115,7 @@ struct Bins {
 };
 
 Bins bins_of(std::span<const Item> items, const Slices& slices) {
-  constexpr std::size_t many = 1 << 16; // for one thread
+  constexpr std::size_t many = 1 << 16; // items for one thread
   if (items.size() > many)
     return mc::parallel_reduce<Bins>((items.size() + many - 1) / many, 0, [&](std::size_t i) {
       return bins_of(items.subspan(i * many, std::min(many, items.size() - i * many)), slices);
@@ -132,14 +133,14 @@ Bins bins_of(std::span<const Item> items, const Slices& slices) {
 }
 
 struct Border {
-  int axis = 0, bin = 0;              ///< the last bin on its left side
-  double cost = mc::infinity<double>; ///< infinite: there is none
+  int axis = 0, bin = 0;              ///< last bin on the left side
+  double cost = mc::infinity<double>; ///< infinite: no border
 };
 
-// As many lanes as whole blocks for `count` boxes have.
+// Number of lanes in whole blocks for `count` boxes.
 double filled(std::uint32_t count, std::uint32_t lanes) { return (count + lanes - 1) & ~(lanes - 1); }
 
-// The cheapest border along an axis: areas times lanes, on both sides.
+// The cheapest border along an axis. The cost is area times lanes, summed over both sides.
 Border cheapest_border(std::span<const Bin> along, int axis, std::uint32_t lanes) {
   std::array<double, bins> right;
   Bin sweep;
@@ -158,12 +159,12 @@ Border cheapest_border(std::span<const Bin> along, int axis, std::uint32_t lanes
   return best;
 }
 
-// The two halves of a part, whose items change places.
+// The two halves of a part. Splitting reorders its items.
 struct Halves {
   Part left, right;
 };
 
-// The first `count` items are those on the left.
+// Assigns the first `count` items to the left half.
 Halves halves_after(std::span<const Item> items, const Part& part, std::uint32_t count) {
   const auto part_of = [&](std::uint32_t first, std::uint32_t n) {
     Part half{.first = first, .count = n, .depth = part.depth + 1};
@@ -183,8 +184,8 @@ Halves halves_by_count(std::span<Item> items, const Part& part) {
 }
 
 Halves halves_at(std::span<Item> items, const Part& part, const Slices& slices, const Border& border) {
-  std::uint32_t end = 0;                                     // of those on the left
-  for (Item& item : items.subspan(part.first, part.count)) { // without a branch, which nothing could foretell
+  std::uint32_t end = 0;                                     // end of the left items
+  for (Item& item : items.subspan(part.first, part.count)) { // without a branch, which would be mispredicted
     const bool is_left = slices.is_up_to(border.bin, item, border.axis);
     std::swap(item, items[part.first + end]);
     end += is_left;
@@ -205,7 +206,7 @@ Halves halves_of(std::span<Item> items, const Part& part, std::uint32_t lanes) {
   return best.cost < mc::infinity<double> ? halves_at(items, part, slices, best) : halves_by_count(items, part);
 }
 
-// A node that is still to be halved.
+// A node that is still to be split.
 struct Open {
   std::uint32_t node;
   Part part;
@@ -213,7 +214,7 @@ struct Open {
 
 Node node_of(const Part& part) { return {part.box.bounds(), part.first, part.count, 0, 0, part.depth, 0}; }
 
-// Makes a node the parent of two new ones, and tells `open` of these.
+// Adds two children to a node and passes them to `open`.
 template <class F> void divide(std::vector<Node>& nodes, std::uint32_t node, const Halves& halves, F&& open) {
   const auto first = static_cast<std::uint32_t>(nodes.size());
   nodes[node].count = 0;
@@ -225,7 +226,7 @@ template <class F> void divide(std::vector<Node>& nodes, std::uint32_t node, con
   open(Open{first + 1, halves.right});
 }
 
-// The nodes among the first `limit` that are reached through such nodes, each before its children.
+// The nodes below `limit` that are reached through such nodes only, each before its children.
 std::vector<std::uint32_t> top_down(const std::vector<Node>& nodes, std::uint32_t limit) {
   std::vector<std::uint32_t> order, open = {0};
   order.reserve(limit);
@@ -240,9 +241,9 @@ std::vector<std::uint32_t> top_down(const std::vector<Node>& nodes, std::uint32_
   return order;
 }
 
-// Borders are drawn by the items of a node, before it is known which boxes these end up in. Now that it is, a child of
-// a node changes places with a child of the other one, where that makes the other one's box smaller. Nodes from `limit`
-// on, whose trees are finished, keep their children.
+// Tree rotations. The split of a node does not yet take the final boxes below it into account. A rotation swaps a child
+// of a node with a grandchild on the other side if this reduces the area of the other child. Nodes from `limit` on
+// belong to finished subtrees and keep their children.
 void rotate(std::vector<Node>& nodes, std::uint32_t limit) {
   const auto order = top_down(nodes, limit);
   const auto height_over = [&](std::uint32_t a, std::uint32_t b) {
@@ -255,7 +256,7 @@ void rotate(std::vector<Node>& nodes, std::uint32_t limit) {
     if (n.count > 0) continue;
     n.height = height_over(n.left, n.right);
     double best = 0;
-    Node* smaller = nullptr; // the child that gets the box when `out` of it and `in` change places
+    Node* smaller = nullptr; // the child with the new box after `out`, one of its children, and `in` are swapped
     Bounds box;
     std::uint32_t *in = nullptr, *out = nullptr;
     for (const auto& [child, sibling] : {std::pair(&n.left, &n.right), std::pair(&n.right, &n.left)}) {
@@ -282,14 +283,14 @@ void rotate(std::vector<Node>& nodes, std::uint32_t limit) {
   }
 }
 
-constexpr int rotations = 2; // more gain next to nothing
+constexpr int rotations = 2; // further rotations gain next to nothing
 
 struct Tree {
   std::vector<Node> nodes; ///< the root first
   std::vector<std::uint32_t> parents_first;
 };
 
-// The tree of a part.
+// Builds the tree of a part.
 Tree grown(std::span<Item> items, const Part& part, std::uint32_t lanes) {
   std::vector<Node> nodes = {node_of(part)};
   std::vector<Open> open;
@@ -310,10 +311,10 @@ Tree grown(std::span<Item> items, const Part& part, std::uint32_t lanes) {
 
 } // namespace
 
-// The large nodes of a level at once, and then the trees of the small ones.
+// Splits the large nodes level by level, then builds the subtrees of the small nodes in parallel.
 BinaryTree::BinaryTree(std::size_t count, const std::function<Bounds(std::size_t)>& box, std::uint32_t lanes)
     : order_(count) {
-  constexpr std::uint32_t large = 4096; // boxes; the tree of fewer takes one thread, in 128 KB
+  constexpr std::uint32_t large = 4096; // boxes; one thread builds the subtree of a smaller node within its cache
   std::vector<Item, HugePageAllocator<Item>> items(count);
   std::vector<Part> parts((count + large - 1) / large);
   mc::parallel_parts(count, large, 0, [&](std::size_t begin, std::size_t end) {
@@ -345,7 +346,7 @@ BinaryTree::BinaryTree(std::size_t count, const std::function<Bounds(std::size_t
   parents_first_.resize(1);
   for (std::size_t i = 0; i < small.size(); ++i) {
     auto& [nodes, order] = trees[i];
-    const auto offset = static_cast<std::uint32_t>(nodes_.size()) - 1; // its root is there already
+    const auto offset = static_cast<std::uint32_t>(nodes_.size()) - 1; // the root of the subtree exists already
     for (Node& n : nodes)
       if (n.count == 0) {
         n.left += offset;

@@ -10,29 +10,33 @@
 
 namespace render {
 
-/// Halves, halved again until they are few enough for a leaf.
-///   build : binned SAH [Wald07] with 8 to 32 bins, costs counted in leaves of `lanes` boxes, then rotated to smaller
-///           boxes [Kensler08]. By all of the machine's threads where there are many boxes; the same for any number.
+/// A binary bounding volume hierarchy, split until a node has few enough boxes for a leaf.
+///   build : binned SAH [Wald07] with 8 to 32 bins and costs counted in leaves of `lanes` boxes, followed by tree
+///           rotations [Kensler08]. Uses all threads of the machine for many boxes. The result does not depend on the
+///           number of threads.
 class BinaryTree {
  public:
+  /// A leaf or an inner node.
   struct Node {
-    Bounds box;
-    std::uint32_t first = 0, count = 0; ///< count > 0: a leaf over order()[first, first + count)
-    std::uint32_t left = 0, right = 0;  ///< children, of what is no leaf
-    int depth = 0, height = 0;          ///< levels above and below
+    Bounds box;                         ///< Bounds of all boxes below the node.
+    std::uint32_t first = 0, count = 0; ///< A leaf has count > 0 and consists of order()[first, first + count).
+    std::uint32_t left = 0, right = 0;  ///< Children of an inner node.
+    int depth = 0, height = 0;          ///< Number of levels above and below.
   };
-  static constexpr int max_depth = 96; ///< no more than these are above a leaf, however the boxes lie
+  static constexpr int max_depth = 96; ///< Maximum number of nodes above a leaf, for any arrangement of the boxes.
 
-  /// count : at least one
-  /// box   : of each, called by several threads
-  /// lanes : a power of two
+  /// Builds the tree.
+  ///   count : number of boxes, at least one.
+  ///   box   : returns the bounds of a box; called from several threads.
+  ///   lanes : maximum number of boxes in a leaf, a power of two.
   BinaryTree(std::size_t count, const std::function<Bounds(std::size_t)>& box, std::uint32_t lanes);
 
-  /// The root first.
+  /// All nodes, the root first.
   const std::vector<Node>& nodes() const { return nodes_; }
-  /// The boxes, those of a leaf together.
+  /// Indices of the boxes; the boxes of a leaf are contiguous.
   std::vector<std::uint32_t>& order() { return order_; }
-  /// All nodes, each before its children: first the top of the tree, and then trees below it, for a thread each.
+  /// All nodes, each before its children. The first list is the top of the tree; each further list is a subtree below
+  /// it, which one thread can process.
   const std::vector<std::vector<std::uint32_t>>& parents_first() const { return parents_first_; }
 
  private:

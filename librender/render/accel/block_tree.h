@@ -1,5 +1,5 @@
 #pragma once
-/// A tree whose leaves are blocks of eight primitives.
+/// A tree with blocks of eight primitives as leaves.
 
 #include <render/accel/wide_tree.h>
 #include <render/shape/shape.h>
@@ -14,19 +14,22 @@
 
 namespace render {
 
-/// A kind of leaf, Block, holds eight primitives of some shapes, spare lanes repeating the last one. It says
-///   Block::Primitive             : a primitive, as collect() finds it, with its bounds()
-///   Block::size(shape)           : how many primitives of this kind a shape has, useless ones included
-///   Block::collect(shape, index, begin, end, to) : writes the useful ones of [begin, end), which is not empty, to `to`
-///                                  and the following; says where they end
-///   Block::few                   : up to so many, every ray tries all blocks: they cost less than a tree
-///   Block::Prepared(ray)         : what the blocks need of a ray, computed once
-///   set(lane, primitive)         : fills a lane
-///   intersect<any>(ray, prepared, t_max, hit) : the nearest crossing with 0 < t < t_max, which becomes t_max and is
-///                                  told in `hit`; any: whether there is one, no more
+/// A tree over the primitives of one kind. A leaf is a Block of eight primitives; spare lanes repeat the last
+/// primitive. Block defines:
+///   Primitive         : one primitive, with bounds().
+///   size(shape)       : number of primitives of this kind in a shape, including degenerate ones.
+///   collect(shape, index, begin, end, to) : writes the valid primitives of the nonempty range [begin, end) to `to`.
+///   Returns the end of the output.
+///   max_brute_force   : up to this number of primitives, each ray tests all blocks, which is faster than a tree.
+///   RaySetup(ray)     : values of a ray that the blocks need, computed once per ray.
+///   set(lane, primitive) : fills a lane.
+///   intersect<any>(ray, setup, t_max, hit) : finds the nearest hit with 0 < t < t_max and stores it in t_max and
+///   `hit`. With any = true, only returns whether there is a hit.
 template <class Block> class BlockTree {
  public:
+  /// An empty tree, which no ray hits.
   BlockTree() = default;
+  /// Collects the primitives of all shapes and builds the tree.
   explicit BlockTree(std::span<const Shape* const> shapes) {
     const Primitives primitives = collected(shapes);
     const auto count = static_cast<std::uint32_t>(primitives.size());
@@ -49,9 +52,10 @@ template <class Block> class BlockTree {
     }
   }
 
+  /// Bounds of all primitives.
   const Bounds& bounds() const { return bounds_; }
 
-  /// As Block's intersect.
+  /// Intersects a ray with all blocks; arguments as for Block::intersect.
   template <bool any> bool intersect(const Ray& ray, Float& t_max, Hit& hit) const {
     if (blocks_.empty()) return false;
     const typename Block::RaySetup prepared(ray);
@@ -76,14 +80,15 @@ template <class Block> class BlockTree {
   using Primitives = std::vector<Primitive, HugePageAllocator<Primitive>>;
   static constexpr std::uint32_t lanes = 8;
 
-  // In the order of the shapes.
+  // All valid primitives in the order of the shapes.
   static Primitives collected(std::span<const Shape* const> shapes) {
-    std::vector<std::size_t> ends; // of each shape's primitives, useless ones included
+    std::vector<std::size_t> ends; // ends of the ranges of the shapes, degenerate primitives included
     for (const Shape* shape : shapes) ends.push_back((ends.empty() ? 0 : ends.back()) + Block::size(*shape));
     const std::size_t size = ends.empty() ? 0 : ends.back();
     Primitives all(size);
     constexpr std::size_t most = 4096;
-    std::vector<std::size_t> useful((size + most - 1) / most); // of each part, at its front
+    // number of valid primitives of each part, which are at its front
+    std::vector<std::size_t> useful((size + most - 1) / most);
     mc::parallel_parts(size, most, 0, [&](std::size_t begin, std::size_t end) {
       Primitive* to = &all[begin];
       auto shape = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), begin) - ends.begin());
@@ -109,8 +114,8 @@ template <class Block> class BlockTree {
       block.set(lane, primitives[order[leaf.first + std::min(lane, leaf.count - 1)]]);
   }
 
-  WideTree tree_;                                       ///< none for few
-  std::vector<Block, HugePageAllocator<Block>> blocks_; ///< one per leaf, or all
+  WideTree tree_;                                       ///< empty for few primitives
+  std::vector<Block, HugePageAllocator<Block>> blocks_; ///< one per leaf, or all blocks without a tree
   Bounds bounds_;
 };
 

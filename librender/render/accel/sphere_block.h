@@ -8,16 +8,18 @@
 
 namespace render {
 
-/// Eight spheres or caps, in double.
+/// Eight spheres or caps, intersected in double. A block type of BlockTree.
 class SphereBlock {
  public:
+  /// Up to this number of spheres, testing all blocks is faster than a tree.
   static constexpr std::uint32_t max_brute_force = 24;
 
+  /// One sphere and the index of its shape.
   struct Primitive {
     const Sphere* sphere;
     int shape;
 
-    /// Rounded outward, so that the float box holds the double sphere.
+    /// Bounds rounded outward, so that the float box contains the double sphere.
     Bounds bounds() const {
       Bounds b;
       const auto box = sphere->box();
@@ -28,16 +30,20 @@ class SphereBlock {
       return b;
     }
   };
+  /// Number of spheres in a shape: 1 for a sphere, else 0.
   static std::size_t size(const Shape& shape) { return std::holds_alternative<Sphere>(shape); }
+  /// Writes the sphere to `to`; returns the end of the output.
   static Primitive* collect(const Shape& shape, int index, std::size_t, std::size_t, Primitive* to) {
     *to = {&std::get<Sphere>(shape), index};
     return to + 1;
   }
 
+  /// The ray in double.
   struct RaySetup : Line {
     explicit RaySetup(const Ray& ray) : Line(ray.o.cast<double>(), ray.d.cast<double>()) {}
   };
 
+  /// Stores a sphere in a lane.
   void set(std::uint32_t lane, const Primitive& p) {
     const Sphere& s = *p.sphere;
     for (int a = 0; a < 3; ++a) {
@@ -50,6 +56,7 @@ class SphereBlock {
     shape_[lane] = p.shape;
   }
 
+  /// Nearest hit with 0 < t < t_max, stored in t_max and hit; with any = true, only whether there is a hit.
   template <bool any> bool intersect(const Ray&, const RaySetup& line, Float& t_max, Hit& hit) const {
     const EightDoubles ox = line.o.x() - center_[0], oy = line.o.y() - center_[1], oz = line.o.z() - center_[2];
     const auto pass = sphere_quadratic(ox, oy, oz, line, radius2_);
@@ -80,9 +87,9 @@ class SphereBlock {
 
  private:
   EightDoubles center_[3], radius2_;
-  EightDoubles axis_[3], cap_; ///< a point at `offset` from the centre belongs to the shape where offset . axis >= cap
+  EightDoubles axis_[3], cap_; ///< a point at `offset` from the centre belongs to the shape if offset . axis >= cap
   int shape_[8];
-  bool caps_ = false; ///< some lane is a cap
+  bool caps_ = false; ///< whether some lane is a cap
 };
 
 } // namespace render

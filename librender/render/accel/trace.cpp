@@ -1,5 +1,6 @@
-// What the rays do, once for each instruction set that CMakeLists.txt names by RENDER_TRACE. All of it is inlined here:
-// a function of a header that stood beside the others' would be called by machines that cannot run it.
+// Ray traversal, compiled once for each instruction set that CMakeLists.txt names by RENDER_TRACE. All of it is inlined
+// here. An out-of-line function from a header could be shared between the copies, and machines without its instructions
+// would call it.
 #include <render/accel/trees.h>
 
 namespace render {

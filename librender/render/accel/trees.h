@@ -1,5 +1,5 @@
 #pragma once
-/// The trees of a Bvh, and the two questions that rays ask them, compiled for one instruction set or for several.
+/// The trees of a Bvh and its two ray queries, compiled for one instruction set or for several.
 
 #include <render/accel/block_tree.h>
 #include <render/accel/bvh.h>
@@ -12,17 +12,18 @@ namespace render {
 
 static_assert(alignof(TriangleBlock) == 8 * sizeof(Float) && alignof(SphereBlock) == 8 * sizeof(double));
 
-/// A tree for each kind of leaf.
+/// One tree per block type.
 template <class... Block> struct BlockTrees : std::tuple<BlockTree<Block>...> {
   BlockTrees() = default;
   explicit BlockTrees(std::span<const Shape* const> shapes)
       : std::tuple<BlockTree<Block>...>(BlockTree<Block>(shapes)...) {}
 };
 
-/// The kinds of leaf, in the order in which a ray tries them.
+/// The trees of a Bvh, one per block type, in the order in which a ray tests them.
 struct Bvh::Trees : BlockTrees<TriangleBlock, SphereBlock> {
   using BlockTrees::BlockTrees;
 
+  /// Nearest hit of the ray, stored in hit; with any = true, only whether there is a hit.
   template <bool any> bool trace(const Ray& ray, Hit& hit) const {
     Float t_max = ray.t_max;
     bool found = false;
@@ -30,17 +31,20 @@ struct Bvh::Trees : BlockTrees<TriangleBlock, SphereBlock> {
     std::apply([&](const auto&... tree) { ((any && found ? void() : one(tree)), ...); }, kinds());
     return found;
   }
+  /// The trees as a tuple.
   const tuple& kinds() const { return *this; }
 };
 
-/// trace.cpp, compiled for an instruction set.
+/// The ray queries of trace.cpp, compiled for one instruction set.
 struct Bvh::Trace {
+  /// Nearest hit, stored in hit; returns whether there is one.
   bool (*nearest)(const Trees& trees, const Ray& ray, Hit& hit);
+  /// Whether there is any hit.
   bool (*any)(const Trees& trees, const Ray& ray, Hit& hit);
 };
 
-/// native where the library is made for this machine alone, else those that it chooses from when it is loaded: all give
-/// the same bits.
+/// Instances of Trace: `native` if the library is built for this machine only, else the three from which the library
+/// selects at load time. All give the same bits.
 extern const Bvh::Trace trace_native, trace_baseline, trace_avx2, trace_avx512;
 
 } // namespace render

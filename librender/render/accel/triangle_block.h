@@ -12,33 +12,38 @@
 
 namespace render {
 
-/// Eight triangles.
-///   inside or outside : watertight [WoopBenthinWald13], re-decided in double on an exact edge
-///   distance          : from the plane equation in double, since Woop's own is off by up to a percent
-///   Degenerate triangles are left out.
+/// Eight triangles. A block type of BlockTree.
+///   inside test : watertight [WoopBenthinWald13]; a hit exactly on an edge is decided again in double.
+///   distance    : from the plane equation in double. The distance of the watertight test can be far less accurate.
+/// Degenerate triangles are left out.
 class TriangleBlock {
  public:
   static constexpr std::uint32_t max_brute_force =
-      48; ///< six blocks of triangles cost less than a node and its sorted children
+      48; ///< Up to this number of triangles, testing all blocks is faster than a node and sorting its children.
 
+  /// One triangle of a mesh.
   struct Primitive {
-    const TriangleMesh* mesh;
-    int shape, prim;
+    const TriangleMesh* mesh; ///< Mesh of the triangle.
+    int shape, prim;          ///< Indices of the shape and of the triangle in its mesh.
 
+    /// Corners of the triangle.
     std::array<Vec3, 3> vertices() const { return mesh->vertices(static_cast<std::size_t>(prim)); }
+    /// Bounds of the triangle.
     Bounds bounds() const {
       Bounds b;
       for (const Vec3& p : vertices()) b.add(p);
       return b;
     }
   };
+  /// Number of triangles in a shape, degenerate ones included; 0 unless the shape is a mesh.
   static std::size_t size(const Shape& shape);
+  /// Writes the triangles of [begin, end) that are not degenerate to `to`; returns the end of the output.
   static Primitive* collect(const Shape& shape, int index, std::size_t begin, std::size_t end, Primitive* to);
 
-  /// The ray turned so that its longest axis is z and sheared to (0, 0, 1) [WoopBenthinWald13, section 3].
+  /// The ray, rotated so that its longest axis is z and sheared to (0, 0, 1) [WoopBenthinWald13, section 3].
   struct RaySetup {
-    int kx, ky, kz;
-    Float sx, sy;
+    int kx, ky, kz; ///< Permutation of the axes; kz is the longest axis of the direction.
+    Float sx, sy;   ///< Shear.
 
     explicit RaySetup(const Ray& ray) {
       const Vec3& d = ray.d;
@@ -51,6 +56,7 @@ class TriangleBlock {
     }
   };
 
+  /// Stores a triangle in a lane.
   void set(std::uint32_t lane, const Primitive& p) {
     const auto v = p.vertices();
     for (std::size_t k = 0; k < 3; ++k)
@@ -59,15 +65,16 @@ class TriangleBlock {
     prim_[lane] = p.prim;
   }
 
+  /// Nearest hit with 0 < t < t_max, stored in t_max and hit; with any = true, only whether there is a hit.
   template <bool any> bool intersect(const Ray& ray, const RaySetup& shear, Float& t_max, Hit& hit) const;
 
  private:
   Vec3d vertex(std::size_t k, int lane) const {
     return {double(v_[k][0][lane]), double(v_[k][1][lane]), double(v_[k][2][lane])};
   }
-  /// A ray meets the plane of a triangle at t = above / slope. Differences of floats and their products are all but
-  /// exact in double; those of doubles are compensated. Not kept in the block: few of its triangles are asked, and
-  /// their planes would take 256 bytes beside its 352.
+  /// The ray intersects the plane of a triangle at t = above / slope. Differences of floats and their products are
+  /// nearly exact in double; if Float is double, the products are compensated. The plane is not stored in the block:
+  /// few triangles of a block need it, and it would make the block much larger.
   struct PlaneCrossing {
     double above, slope;
   };
@@ -81,7 +88,7 @@ class TriangleBlock {
   int shape_[8], prim_[8];
 };
 
-// The signed areas opposite vertices 0, 1, 2 in the sheared frame are all of one sign: inside.
+// The ray hits if the signed areas opposite vertices 0, 1, 2 in the sheared frame have the same sign.
 template <bool any> bool TriangleBlock::intersect(const Ray& ray, const RaySetup& shear, Float& t_max, Hit& hit) const {
   Lanes x[3], y[3];
   for (int k = 0; k < 3; ++k) {
@@ -102,7 +109,8 @@ template <bool any> bool TriangleBlock::intersect(const Ray& ray, const RaySetup
     if (!(ahead > 0 && ahead < double(t_max) * std::abs(slope))) continue;
     double area0 = double(areas0[lane]), area1 = double(areas1[lane]), area2 = double(areas2[lane]);
     if (area0 == 0 || area1 == 0 || area2 == 0) [[unlikely]] {
-      // On an edge to float precision: products of floats are exact in double, so both neighbours decide alike.
+      // On an edge to float precision. Products of floats are exact in double, so both triangles at the edge decide
+      // consistently.
       const auto edge = [&](int a, int b) {
         return double(x[a][lane]) * double(y[b][lane]) - double(y[a][lane]) * double(x[b][lane]);
       };

@@ -7,12 +7,12 @@
 
 namespace render {
 
-/// Nodes and leaves of a part of the tree, counted from its own first ones.
+/// Nodes and leaves of a part of the tree. Indices count from the first node and leaf of the part.
 struct WideTree::Part {
   std::vector<Node> nodes;
   std::vector<Leaf> leaves;
   struct Hanging {
-    std::uint32_t root, node, child; ///< the binary node that is still to be made child `child` of `node`
+    std::uint32_t root, node, child; ///< the binary node that will become child `child` of `node`
   };
   std::vector<Hanging> hanging;
 };
@@ -32,8 +32,9 @@ WideTree::WideTree(std::size_t count, const std::function<Bounds(std::size_t)>& 
   order_ = std::move(tree.order());
 }
 
-// The node of eight children that a binary one becomes costs the chance that a ray meets it, its area: then those below
-// it cost least when the two halves of what they stand for do, for the best share of the children between the halves.
+// Dynamic programming over the binary tree. A node costs its area, which is proportional to the probability that a ray
+// hits it. costs[i][k] is the least cost of the subtree i when k children of a wide node replace it. The minimum is
+// over all ways to split the k children between the two halves.
 WideTree::Cuts WideTree::cheapest_cuts(const BinaryTree& tree) {
   const auto& binary = tree.nodes();
   Cuts cuts(binary.size());
@@ -41,7 +42,7 @@ WideTree::Cuts WideTree::cheapest_cuts(const BinaryTree& tree) {
   const auto cut = [&](std::uint32_t i) {
     auto& cost = costs[i];
     if (binary[i].count > 0) {
-      cost.fill(0); // leaves are there however nodes are cut
+      cost.fill(0); // leaves cost the same for every cut
       return;
     }
     const auto &left = costs[binary[i].left], &right = costs[binary[i].right];
@@ -66,7 +67,7 @@ WideTree::Cuts WideTree::cheapest_cuts(const BinaryTree& tree) {
   return cuts;
 }
 
-// Of the binary nodes from `limit` on, none but `root` is entered: they are left hanging.
+// Leaves binary nodes from `limit` on, other than `root`, in part.hanging instead of entering them.
 std::uint32_t WideTree::collapse(const BinaryTree& tree, const Cuts& cuts, std::uint32_t root, std::size_t limit,
                                  Part& part) {
   const auto& binary = tree.nodes();
@@ -86,7 +87,7 @@ std::uint32_t WideTree::collapse(const BinaryTree& tree, const Cuts& cuts, std::
   gather(gather, root, 8);
   Node node;
   for (std::uint32_t i = 0; i < 8; ++i) {
-    const Bounds box = i < n ? binary[open[i]].box : Bounds{}; // an empty box is never entered
+    const Bounds box = i < n ? binary[open[i]].box : Bounds{}; // no ray enters an empty box
     for (int a = 0; a < 3; ++a) {
       node.bounds[a][i] = box.lo[a];
       node.bounds[a + 3][i] = box.hi[a];
@@ -107,7 +108,7 @@ std::uint32_t WideTree::collapse(const BinaryTree& tree, const Cuts& cuts, std::
   return index;
 }
 
-// The top first, and then what hangs from it.
+// Concatenates the top and the parts below it.
 void WideTree::join(Part& top, const std::vector<Part>& parts) {
   std::vector<std::size_t> nodes = {top.nodes.size()}, leaves = {top.leaves.size()};
   for (const Part& part : parts) {

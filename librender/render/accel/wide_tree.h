@@ -12,34 +12,43 @@
 
 namespace render {
 
-/// The hierarchy. Leaves are blocks of up to `lanes` primitives that the owner intersects.
-///   build  : a BinaryTree, collapsed to the nodes of 8 children that rays meet least often [YlitieKarrasLaine17]
-///   ray    : IEEE slabs: 1/0 = inf, and a NaN from 0 * inf never rejects a box, so axis-parallel rays in box planes
-///            hit
+/// An 8-wide bounding volume hierarchy. Leaves are blocks of up to `lanes` primitives, which the owner intersects.
+///   build : a BinaryTree, collapsed to 8-wide nodes such that the expected number of node visits is minimal
+///           [YlitieKarrasLaine17].
+///   ray   : IEEE slab test. 1/0 = inf, and a NaN from 0 * inf never rejects a box, so axis-parallel rays in a box
+///           plane hit.
 class WideTree {
  public:
-  static constexpr std::uint32_t block = 4;
+  static constexpr std::uint32_t block = 4; ///< Default number of primitives in a leaf.
 
-  /// As BinaryTree; order()[first .. first + count) are then the boxes of a leaf.
+  /// Builds the tree over `count` boxes as BinaryTree does. A leaf consists of the boxes order()[first .. first +
+  /// count).
   WideTree(std::size_t count, const std::function<Bounds(std::size_t)>& box, std::uint32_t lanes = block);
+  /// An empty tree, which no ray enters.
   WideTree() = default;
 
+  /// Box indices in the order of the leaves.
   const std::vector<std::uint32_t>& order() const { return order_; }
+  /// A range of order().
   struct Leaf {
     std::uint32_t first, count;
   };
+  /// The leaves, indexed by the argument of the traversal callback.
   const std::vector<Leaf>& leaves() const { return leaves_; }
-  /// Gives back the memory of order() and leaves(), which rays do not read: what = {} would keep.
+  /// Frees the memory of order() and leaves(), which traversal does not read. Assigning {} would keep the memory.
   void discard_leaves() {
     order_ = decltype(order_)();
     leaves_ = decltype(leaves_)();
   }
+  /// Whether the tree has no nodes.
   bool empty() const { return nodes_.empty(); }
+  /// Bounds of all boxes.
   const Bounds& bounds() const { return bounds_; }
 
-  /// Calls leaf(index, t_max) for each leaf that the ray may enter before t_max; `leaf` may shorten t_max and returns
-  /// true to stop. Near leaves come first, or in any order where the first hit is as good as the nearest.
+  /// Order of leaves: near leaves first, or any order where one hit is as good as the nearest.
   enum class Order { near_first, any };
+  /// Calls leaf(index, t_max) for each leaf that the ray may enter before t_max. `leaf` may reduce t_max; it returns
+  /// true to stop.
   template <Order order_wanted = Order::near_first, class F>
   void traverse(const Ray& ray, Float& t_max, F&& leaf) const;
 
@@ -51,8 +60,8 @@ class WideTree {
   static constexpr std::uint32_t leaf_bit = 0x80000000u;
   static constexpr int stack_size = 768; ///< 7 per level; the builder bounds the depth
 
-  /// Of each binary node, for one to eight children that may stand for it: how many of them stand for its left half; 0
-  /// where it is cheaper as one.
+  /// cuts[node][k - 1]: if k children replace a binary node, the number of them that replace its left subtree. 0 if a
+  /// single child for the node is cheaper.
   using Cuts = std::vector<std::array<std::uint8_t, 8>>;
   static Cuts cheapest_cuts(const BinaryTree& tree);
   struct Part;
@@ -63,7 +72,7 @@ class WideTree {
   std::vector<Node, HugePageAllocator<Node>> nodes_;
   std::vector<Leaf> leaves_;
   std::vector<std::uint32_t> order_;
-  Bounds bounds_; ///< of all
+  Bounds bounds_; ///< of all boxes
 };
 
 template <WideTree::Order order_wanted, class F> void WideTree::traverse(const Ray& ray, Float& t_max, F&& leaf) const {
@@ -76,7 +85,7 @@ template <WideTree::Order order_wanted, class F> void WideTree::traverse(const R
   int size = 0;
 
   const Vec3 rd = ray.d.cwiseInverse();
-  // The far distance grows by more than the rounding of the slab products, so that no box is missed [Ize13].
+  // Enlarges the far distance by more than the rounding of the slab products, so that no box is missed [Ize13].
   const Vec3 rd_far = rd * (1 + 4 * std::numeric_limits<Float>::epsilon());
   Lanes o[3], r[3], r_far[3];
   int near[3], far[3];
@@ -101,7 +110,7 @@ template <WideTree::Order order_wanted, class F> void WideTree::traverse(const R
       }
       unsigned mask = detail::less_equal(enter, exit);
       if (mask != 0) {
-        // The nearest child next, the others on the stack with nearer ones on top.
+        // Visits the nearest child next. Pushes the others on the stack, nearer ones on top.
         const int first = __builtin_ctz(mask);
         mask &= mask - 1;
         current = node.child[first];

@@ -9,22 +9,26 @@ namespace render {
 
 /// An axis-aligned box; empty until something is added.
 struct Bounds {
+  /// Smallest and largest coordinates.
   Vec3 lo = Vec3::Constant(mc::infinity<Float>), hi = Vec3::Constant(-mc::infinity<Float>);
 
+  /// Extends the box to contain p.
   void add(const Vec3& p) {
     lo = lo.cwiseMin(p);
     hi = hi.cwiseMax(p);
   }
+  /// Extends the box to contain b.
   void add(const Bounds& b) {
     lo = lo.cwiseMin(b.lo);
     hi = hi.cwiseMax(b.hi);
   }
-  /// Half the surface area; 0 when empty.
+  /// Half the surface area; 0 for an empty box.
   Float half_area() const {
     const Vec3 e = hi - lo;
     return e.x() >= 0 ? e.x() * e.y() + e.y() * e.z() + e.z() * e.x() : Float(0);
   }
-  /// A t from which on no p + t d lies in the box, the least where any does.
+  /// For a line p + t d that crosses the box, the t at which it leaves. For other lines, no point with larger t lies in
+  /// the box.
   double exit_distance(const Vec3d& p, const Vec3d& d) const {
     double t = mc::infinity<double>;
     for (int i = 0; i < 3; ++i)

@@ -1,13 +1,13 @@
 #pragma once
-/// Calls on the members of a closed set.
+/// Calls on the alternatives of a closed set.
 
 #include <utility>
 #include <variant>
 
 namespace render {
 
-/// f(alternative) for a struct that inherits from its variant, which must hold a value. As std::visit, but by
-/// comparisons instead of a table of functions, so that the calls are inlined.
+/// Calls f with the alternative of a struct that inherits from its variant; the variant must hold a value. Like
+/// std::visit, but with comparisons instead of a table of functions, so that the calls are inlined.
 template <std::size_t i = 0, class... Kinds, class F>
 [[gnu::always_inline]] inline decltype(auto) dispatch(const std::variant<Kinds...>& kinds, F&& f) {
   if constexpr (i + 1 < sizeof...(Kinds)) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Memory for large arrays that are read at random places.
+/// Memory for large arrays with random access.
 
 #include <cstddef>
 #include <new>
@@ -11,26 +11,30 @@
 
 namespace render {
 
-/// An allocator that asks for pages of 2 MB where an array fills many of them: rays at random find less of a tree of
-/// 100 MB in the processor's table of pages of 4 KB. Elsewhere, and for smaller ones, as usual.
+/// An allocator that requests pages of 2 MB for arrays that span many of them. Traversal of a large tree by incoherent
+/// rays then causes fewer TLB misses than with pages of 4 KB. Smaller arrays, and other systems, use the default pages.
 template <class T> struct HugePageAllocator {
   using value_type = T;
 
   HugePageAllocator() = default;
   template <class U> HugePageAllocator(const HugePageAllocator<U>&) {}
 
+  /// Memory for n elements.
   T* allocate(std::size_t n) {
     void* p = ::operator new(n * sizeof(T), alignment(n));
 #if defined(__linux__)
-    if (large(n)) madvise(p, n * sizeof(T) / page * page, MADV_HUGEPAGE); // advice: what it answers does not matter
+    if (large(n)) madvise(p, n * sizeof(T) / page * page, MADV_HUGEPAGE); // only a hint; failure is harmless
 #endif
     return static_cast<T*>(p);
   }
-  /// Of what has no value to begin with, none is written: whoever fills an array touches its pages first.
+  /// Default-initializes: elements without initial values are not written, so the thread that fills them touches their
+  /// pages first.
   template <class U> void construct(U* p) { ::new (static_cast<void*>(p)) U; }
+  /// Constructs an element from arguments.
   template <class U, class... Args> void construct(U* p, Args&&... args) {
     ::new (static_cast<void*>(p)) U(std::forward<Args>(args)...);
   }
+  /// Frees the memory of n elements.
   void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }
 
   bool operator==(const HugePageAllocator&) const { return true; }

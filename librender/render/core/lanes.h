@@ -1,5 +1,5 @@
 #pragma once
-/// Eight numbers at once.
+/// Vectors of eight numbers.
 
 #include <render/core/types.h>
 
@@ -9,14 +9,15 @@
 
 namespace render {
 
-/// Eight lanes; the compiler maps them to the widest registers it may use. Aligned for these whichever they are, since
-/// code for one instruction set reads what code for another wrote.
+/// Eight Floats; the compiler maps them to the widest registers available. The alignment is fixed for all instruction
+/// sets: code for one set reads data that code for another set wrote.
 typedef Float Lanes __attribute__((vector_size(8 * sizeof(Float)), aligned(8 * sizeof(Float))));
+/// Eight doubles, with the same alignment for all instruction sets.
 typedef double EightDoubles __attribute__((vector_size(8 * sizeof(double)), aligned(8 * sizeof(double))));
 
 namespace detail {
 
-/// Bit i is set where lane i of the comparison a <= b holds.
+/// Bit i is set if a <= b in lane i.
 inline unsigned less_equal(const Lanes& a, const Lanes& b) {
 #if defined(__AVX__)
   if constexpr (sizeof(Float) == 4) {
@@ -35,7 +36,7 @@ inline unsigned less_equal(const Lanes& a, const Lanes& b) {
   return mask;
 }
 
-/// The larger or smaller of t and old; old where t is NaN, which is what the instructions do.
+/// The larger of t and old in each lane; old if t is NaN, as the max instruction does.
 inline Lanes larger(const Lanes& t, const Lanes& old) {
 #if defined(__AVX__)
   if constexpr (sizeof(Float) == 4)
@@ -44,6 +45,7 @@ inline Lanes larger(const Lanes& t, const Lanes& old) {
 #endif
   return t > old ? t : old;
 }
+/// The smaller of t and old in each lane; old if t is NaN.
 inline Lanes smaller(const Lanes& t, const Lanes& old) {
 #if defined(__AVX__)
   if constexpr (sizeof(Float) == 4)
@@ -53,19 +55,21 @@ inline Lanes smaller(const Lanes& t, const Lanes& old) {
   return t < old ? t : old;
 }
 
+/// Square root.
 inline double square_root(double x) { return std::sqrt(x); }
+/// Square root of each lane.
 inline EightDoubles square_root(const EightDoubles& x) {
 #if defined(__AVX512F__)
   return reinterpret_cast<const EightDoubles&>(static_cast<const __m512d&>(
       _mm512_mask_sqrt_pd(reinterpret_cast<const __m512d&>(x), 0xff, reinterpret_cast<const __m512d&>(x))));
 #else
   EightDoubles root;
-  for (int i = 0; i < 8; ++i) root[i] = std::sqrt(x[i]); // the compiler packs them
+  for (int i = 0; i < 8; ++i) root[i] = std::sqrt(x[i]); // the compiler vectorizes this loop
   return root;
 #endif
 }
 
-/// Bit i is set where a comparison of doubles holds in lane i.
+/// Bit i is set if the comparison of doubles holds in lane i.
 template <class Mask>
 requires(sizeof(Mask) == sizeof(EightDoubles)) unsigned lane_bits(const Mask& mask) {
 #if defined(__AVX512DQ__)

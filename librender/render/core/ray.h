@@ -5,11 +5,12 @@
 
 namespace render {
 
-/// Points o + t d for 0 < t < t_max. d is unit where the ray comes from camera or surface.
+/// Points o + t d for 0 < t < t_max. d is a unit vector for rays from a camera or surface.
 struct Ray {
-  Vec3 o, d;
-  Float t_max = mc::infinity<Float>;
+  Vec3 o, d;                         ///< Origin and direction.
+  Float t_max = mc::infinity<Float>; ///< Upper limit of t.
 
+  /// The point at parameter t.
   Vec3 at(Float t) const { return o + t * d; }
 };
 

@@ -5,30 +5,34 @@
 
 namespace render {
 
-/// Points p -> linear p + translation, in double; the identity by default.
+/// The affine map p -> linear p + translation, in double; the identity by default.
 struct Transform {
-  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
-  Vec3d translation = Vec3d::Zero();
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity(); ///< Linear part.
+  Vec3d translation = Vec3d::Zero();                    ///< Image of the origin.
 
-  /// The images of the axes and of the origin.
+  /// The map with the given images of the axes and of the origin.
   static Transform columns(const Vec3d& x, const Vec3d& y, const Vec3d& z, const Vec3d& origin);
+  /// Translation by v.
   static Transform translate(const Vec3d& v);
+  /// Scaling along the axes by s.
   static Transform scale(const Vec3d& s);
-  /// About `axis` through the origin, by Rodrigues' formula.
-  ///   throws : Error for an axis of length 0
+  /// Rotation about `axis` through the origin by Rodrigues' formula.
+  ///   throws : Error for an axis of length 0.
   static Transform rotate(const Vec3d& axis, double degrees);
-  /// The frame of a camera, x to its left, y up and z forward, as in Mitsuba.
-  ///   throws : Error where target - origin is 0 or parallel to up
+  /// The frame of a camera: x to its left, y up and z forward, as in Mitsuba.
+  ///   throws : Error if target - origin is 0 or parallel to up.
   static Transform look_at(const Vec3d& origin, const Vec3d& target, const Vec3d& up);
 
+  /// Image of a point.
   Vec3d point(const Vec3d& p) const;
+  /// Image of a vector.
   Vec3d vector(const Vec3d& v) const;
-  /// Outward normals stay outward, under mirroring too; not unit.
+  /// Image of a normal, not unit. Outward normals stay outward, also under mirroring.
   Vec3d normal(const Vec3d& n) const;
-  /// Whether it turns a right hand into a left one.
+  /// Whether the map reverses handedness.
   bool mirrors() const;
 
-  /// First `first`, then this.
+  /// The composition: applies `first`, then this map.
   Transform operator*(const Transform& first) const;
 };
 

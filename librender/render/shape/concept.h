@@ -1,5 +1,5 @@
 #pragma once
-/// What a shape gives: hits, surface points with error bounds, and samples of its area seen from a point.
+/// Concept of a shape: hits, surface points with error bounds, and samples of the shape from a reference point.
 
 #include <render/core/ray.h>
 
@@ -12,66 +12,71 @@
 
 namespace render {
 
-/// The nearest crossing of a ray: which primitive of which shape, and where on it.
+/// The nearest crossing of a ray with a shape.
 struct Hit {
-  double t = 0;         ///< in double, so that large triangles and far spheres are met at a point of theirs
-  int shape = 0;        ///< index into the scene's shapes
-  int prim = 0;         ///< triangle of a mesh; 0 for a sphere
-  Float b1 = 0, b2 = 0; ///< barycentric weights of vertices 1 and 2 (mesh only)
+  /// Ray parameter. In double, so that hits on large triangles and far spheres lie on the surface.
+  double t = 0;
+  int shape = 0;        ///< Index into the shapes of the scene.
+  int prim = 0;         ///< Triangle of a mesh; 0 for a sphere.
+  Float b1 = 0, b2 = 0; ///< Barycentric weights of vertices 1 and 2 (mesh only).
 };
 
-/// A point on a surface, computed so that its error is bounded.
-///   error : each coordinate of p is within `error` of the true surface
+/// A point on a surface with an error bound.
+///   error : each coordinate of p is within `error` of the true surface.
 struct SurfacePoint {
-  Vec3 p;
-  Float error = 0;
-  Vec3 ng;      ///< geometric normal, unit; the light-emitting side
-  Vec3 ns;      ///< shading normal, unit, same side as ng
-  int prim = 0; ///< triangle of a mesh; 0 for all else
+  Vec3 p;          ///< Position.
+  Float error = 0; ///< Error bound of each coordinate of p.
+  Vec3 ng;         ///< Geometric normal, unit; points to the light-emitting side.
+  Vec3 ns;         ///< Shading normal, unit, on the same side as ng.
+  int prim = 0;    ///< Triangle of a mesh; 0 for other shapes.
 
-  /// Ray origin moved along the normal, to the side that d points to, just beyond the error bound: a ray from there
-  /// meets this surface again only where it truly does. No scene-scale epsilon.
+  /// Ray origin just beyond the error bound, moved along the normal to the side of d. A ray from there hits this
+  /// surface again only where it truly does. There is no epsilon that depends on the scale of the scene.
   Vec3 offset_origin(const Vec3& d) const {
     // The surface lies within `error` of p in each coordinate, so within error * |n|_1 along the normal
-    // [PharrJakobHumphreys23, section 6.8.6]. Rounding the sum moves each coordinate by up to half an ulp: a whole one
-    // of the largest is added to the error.
+    // [PharrJakobHumphreys23, section 6.8.6]. Rounding the sum moves each coordinate by up to half an ulp, so a whole
+    // ulp of the largest coordinate is added.
     const Float rounding = std::numeric_limits<Float>::epsilon() * p.lpNorm<Eigen::Infinity>();
     const Float distance = (error + rounding) * ng.lpNorm<1>();
     return p + std::copysign(distance, d.dot(ng)) * ng;
   }
+  /// Ray from this point in direction d.
   Ray spawn_ray(const Vec3& d) const { return {offset_origin(d), d}; }
-  /// Ray to another surface point, which lies in direction d, that stops before it. None where the two are so close to
-  /// the plane of one that rounding turns the ray around: they do not see each other.
+  /// Ray to another surface point in direction d, which stops before that point. nullopt if both points are so close to
+  /// the plane of one of them that rounding reverses the ray: they are not mutually visible.
   std::optional<Ray> spawn_ray_to(const SurfacePoint& target, const Vec3& d) const;
 };
 
-/// A point of a shape chosen to illuminate a reference point.
+/// A point of a shape, sampled to illuminate a reference point.
 struct ShapeSample {
-  SurfacePoint point;
-  Vec3 wi;       ///< unit direction from the reference point
-  Float pdf = 0; ///< density of wi [1/sr] as seen from the reference point
+  SurfacePoint point; ///< The point.
+  Vec3 wi;            ///< Unit direction from the reference point.
+  Float pdf = 0;      ///< Density of wi [1/sr] at the reference point.
 };
 
 /// A direction towards a shape.
 struct DirectionSample {
-  Vec3 wi;       ///< unit
-  Float pdf = 0; ///< density of wi [1/sr], whichever point of the shape it meets
+  Vec3 wi;       ///< Unit direction from the reference point.
+  Float pdf = 0; ///< Density of wi [1/sr], summed over all points of the shape along it.
 };
 
 /// Shapes are a closed set (shape.h). Each models:
-///   sample(ref, u)    : u in [0,1)^2 -> a point of the shape as seen from ref, nullopt where none can be seen
-///   pdf(ref, wi, hit) : density [1/sr] with which sample(ref, .) picks wi, as far as it is due to the point `hit`
-///   pdf(ref, wi)      : density [1/sr] of the direction wi: the sum over all points where it meets the shape
-///   sample_direction(ref, u) : a direction towards a point of sample(ref, u), with its density pdf(ref, wi), whatever
-///                       rounding makes of the direction; nullopt where none leads there
-///   sample_area(u)    : a point of the shape, of density 1 / area(); nullopt where nothing is left that samples
-///   area()            : total area
-///   box()             : the axis-aligned box around it
-///   spread(ref)       : a bound of the projected solid angle [sr] that it fills at ref, however that faces; at most
-///                       pi, and close where it is far away and faces ref
-///   surface_point     : the point of a Hit
-///   has_uv(), uv(hit, its point) : texture coordinates, where it has them;  forget_uvs() : not any more
-///   forget_choice()   : what only sample reads is gone: for shapes that nothing aims at
+///   sample(ref, u)    : maps u in [0,1)^2 to a point of the shape and its direction from ref; nullopt if no point is
+///                       visible.
+///   pdf(ref, wi, hit) : density [1/sr] with which sample(ref, .) samples wi by the point `hit`.
+///   pdf(ref, wi)      : density [1/sr] of the direction wi: the sum over all points of the shape along wi.
+///   sample_direction(ref, u) : direction to a point of sample(ref, u), with its density pdf(ref, wi) > 0. Rounding of
+///                              the direction does not make the density 0. nullopt if there is no such direction.
+///   sample_area(u)    : a point of the shape with density 1 / area(). nullopt after discard_sampling_table().
+///   area()            : total area.
+///   box()             : axis-aligned bounding box.
+///   projected_solid_angle_bound(ref) : upper bound of the projected solid angle [sr] of the shape at ref, for any
+///                                      orientation of the receiver. At most pi, and close for a distant shape that
+///                                      faces ref.
+///   surface_point(ray, hit) : the point of a Hit.
+///   has_uv(), uv(hit, point) : texture coordinates, if the shape has any.
+///   discard_uvs()     : frees the texture coordinates.
+///   discard_sampling_table() : frees the data that only sampling reads, for shapes that are never sampled.
 template <class T>
 concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint hit, Ray ray, Hit h) {
   { s.sample(ref, u) } -> std::same_as<std::optional<ShapeSample>>;
@@ -85,12 +90,12 @@ concept ShapeLike = requires(const T s, Vec3 ref, Vec2 u, Vec3 wi, SurfacePoint 
   { s.surface_point(ray, h) } -> std::same_as<SurfacePoint>;
 };
 
-/// The direction towards the point that the shape samples: its sample_direction, where it knows none better.
+/// Direction to the point that shape.sample returns: the sample_direction of shapes without a better method.
 template <class S>
 std::optional<DirectionSample> sample_direction_by_point(const S& shape, const Vec3& ref, const Vec2& u) {
   const auto s = shape.sample(ref, u);
   if (!s) return {};
-  return DirectionSample{s->wi, std::max(s->pdf, shape.pdf(ref, s->wi))}; // rounding may carry it past the shape
+  return DirectionSample{s->wi, std::max(s->pdf, shape.pdf(ref, s->wi))}; // rounding may move wi off the shape
 }
 
 } // namespace render

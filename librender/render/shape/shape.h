@@ -7,7 +7,7 @@
 
 namespace render {
 
-/// One of the shapes; itself models ShapeLike.
+/// One of the shapes. Models ShapeLike, where the operations are documented.
 struct Shape : std::variant<TriangleMesh, Sphere> {
   using variant::variant;
 

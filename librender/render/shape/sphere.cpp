@@ -40,7 +40,7 @@ Sphere Sphere::with_uv_axes(const Eigen::Matrix3d& axes, double min_u) const {
 mc::Vec2<double> Sphere::uv(const Hit&, const SurfacePoint& point) const {
   const Vec3d d = uv_axes_.transpose() * (point.p.cast<double>() - center_);
   const double turn = std::atan2(d.y(), d.x()) / (2 * mc::pi<double>);
-  // The angle from the pole by its tangent: acos would lose half the digits there.
+  // The angle from the pole by its tangent: acos would lose half of the digits there.
   return {turn - std::floor(turn - min_u_), std::atan2(std::hypot(d.x(), d.y()), d.z()) / mc::pi<double>};
 }
 
@@ -61,7 +61,7 @@ SurfacePoint Sphere::point(const Vec3d& direction) const {
   SurfacePoint s;
   const Vec3d p = center_ + radius_ * direction;
   s.p = p.cast<Float>();
-  // Rounded once from double; double itself resolves the sphere to 2^-52 of its extent.
+  // Rounded once from double. Double itself resolves the sphere to 2^-52 of its extent.
   s.error = std::numeric_limits<Float>::epsilon() * s.p.lpNorm<Eigen::Infinity>() + Float(0x1p-50 * extent_);
   s.ng = (inside_out_ ? Vec3d(-direction) : direction).cast<Float>();
   s.ns = s.ng;
@@ -69,7 +69,8 @@ SurfacePoint Sphere::point(const Vec3d& direction) const {
 }
 
 SurfacePoint Sphere::surface_point(const Ray& ray, const Hit& hit) const {
-  // Projected, since t may be off by more than the error of a point of the sphere, which matters off it, not along it.
+  // Projects onto the sphere: t may be off by more than the error of a surface point. This error matters across the
+  // surface, not along it.
   return point((ray.o.cast<double>() + hit.t * ray.d.cast<double>() - center_).normalized());
 }
 
@@ -80,9 +81,8 @@ double Sphere::projected_solid_angle_bound(const Vec3& ref) const {
 double Sphere::area() const { return 2 * mc::pi<double> * radius_ * height_; }
 
 bool Sphere::samples_cone(double d2) const {
-  // Points of the sphere itself round to either side of it. Taken for outside, their cone would hold nothing but
-  // themselves.
-  // A cone narrower than this has a density that a float cannot tell.
+  // Points on the sphere round to either side of it. Their cone, if they counted as outside, would contain only
+  // themselves. The density in a narrower cone than the limit below overflows a float.
   return !is_cap() && d2 > outside2_ && radius_ * radius_ > 1e-36 * d2;
 }
 
@@ -96,9 +96,9 @@ std::optional<ShapeSample> Sphere::sample(const Vec3& ref, const Vec2& u) const 
   ShapeSample s;
   const double d2 = toward.squaredNorm();
   if (samples_cone(d2)) {
-    // A direction of the cone, and the near point of the sphere along it. mc::SphereLight would take 6 to 58 % longer,
-    // up to four times as long for the density alone, for its care at grazing distances: where is_cone() begins, this
-    // density is at most 2e-13 off (5e-9 if Float is double).
+    // A direction in the cone, and the near intersection along it. mc::SphereLight is slower because of its care at
+    // grazing distances. Where samples_cone() begins, the relative error of this density is at most 2e-13 (5e-9 if
+    // Float is double).
     const double d = std::sqrt(d2);
     const Vec3d local = mc::UniformCone<double>::from_sin2(radius_ * radius_ / d2).sample(v),
                 wi = mc::Frame<double>::from_z(toward / d).to_world(local);

@@ -7,26 +7,29 @@
 
 namespace render {
 
-/// A sphere, or the cap of it that lies within `height` of the pole `axis`. Intersected and sampled in double, so that
-/// the walls of smallpt (radius 1e5) and the ground of the book's scenes (radius 1000) are exact to a float ulp.
-///   normal : outward; inward when `inside_out`
-///   sample : a whole sphere seen from outside: uniform in the cone that it fills; otherwise uniform in area
-///   pdf    : 1 / (2 pi (1 - cos theta_max)), or distance^2 / (|cos| area) [1/sr]
-///   uv     : v the angle from the pole of its axes [pi], u the one about it [2 pi]
-///   throws : Error unless centre is finite, 0 < radius <= most_radius, axis is not 0 and 0 < height <= 2 radius
+/// A sphere, or the cap of a sphere within `height` of the pole `axis`. Intersected and sampled in double: the walls of
+/// smallpt (radius 1e5) and ground spheres of radius 1000 are exact to a float ulp.
+///   normal : outward; inward if `inside_out`.
+///   sample : uniform in the subtended cone for a whole sphere and ref outside; otherwise uniform in area.
+///   pdf    : 1 / (2 pi (1 - cos theta_max)), or distance^2 / (|cos| area) [1/sr].
+///   uv     : v is the angle from the pole of the texture axes [pi], u the angle about it [2 pi].
+///   throws : Error unless the centre is finite, 0 < radius <= max_radius, axis is not 0 and 0 < height <= 2 radius.
 class Sphere {
  public:
-  static constexpr double max_radius = double(std::numeric_limits<Float>::max()) / 4; ///< distances are Floats
+  /// Largest radius; distances are Floats.
+  static constexpr double max_radius = double(std::numeric_limits<Float>::max()) / 4;
 
+  /// A whole sphere.
   Sphere(const Vec3d& center, double radius, bool inside_out = false);
+  /// The cap of height `height` about the pole in direction `axis`.
   static Sphere cap(const Vec3d& center, double radius, const Vec3d& axis, double height, bool inside_out = false);
 
-  /// The same sphere with its texture turned: the columns are where u = 0 and u = 1/4 cross the equator, and the pole
-  /// v = 0; u goes from `min_u` to least_u + 1. At first they are x, y and z, and 0.
-  ///   throws : Error unless they are orthonormal, to 1e-6
+  /// The same sphere with rotated texture coordinates. The columns are the points with u = 0 and u = 1/4 on the
+  /// equator, and the pole v = 0. u ranges from min_u to min_u + 1. The default is x, y, z and 0.
+  ///   throws : Error unless the axes are orthonormal within 1e-6.
   Sphere with_uv_axes(const Eigen::Matrix3d& axes, double min_u = 0) const;
 
-  /// The nearest crossing with 0 < t < t_max.
+  /// Parameter of the nearest crossing with 0 < t < t_max.
   std::optional<double> intersect(const Ray& ray) const;
 
   std::optional<ShapeSample> sample(const Vec3& ref, const Vec2& u) const;
@@ -35,7 +38,7 @@ class Sphere {
   Float pdf(const Vec3& ref, const Vec3& wi, const SurfacePoint& hit) const;
   Float pdf(const Vec3& ref, const Vec3& wi) const;
   double area() const;
-  /// Of the whole sphere, of a cap too.
+  /// Bounding box of the whole sphere, even for a cap.
   Eigen::AlignedBox3d box() const { return {center_.array() - radius_, center_.array() + radius_}; }
   double projected_solid_angle_bound(const Vec3& ref) const;
   SurfacePoint surface_point(const Ray& ray, const Hit& hit) const;
@@ -45,17 +48,23 @@ class Sphere {
   void discard_uvs() {}
   void discard_sampling_table() {}
 
+  /// Centre of the sphere.
   const Vec3d& center() const { return center_; }
+  /// Radius of the sphere.
   double radius() const { return radius_; }
+  /// Unit direction from the centre to the pole of the cap.
   const Vec3d& axis() const { return axis_; }
+  /// Height of the cap; 2 radius() for a whole sphere.
   double height() const { return height_; }
+  /// Whether the shape is a cap rather than a whole sphere.
   bool is_cap() const { return height_ < 2 * radius_; }
 
  private:
-  SurfacePoint point(const Vec3d& direction) const; ///< of the surface in the unit `direction` from the centre
-  bool
-  contains(const Vec3d& offset) const; ///< whether the sphere's point at this offset from the centre is the shape's
-  bool samples_cone(double d2) const;  ///< seen from squared distance d2: a whole sphere from outside
+  SurfacePoint point(const Vec3d& direction) const; ///< surface point in the unit `direction` from the centre
+  /// Whether the point of the sphere at this offset from the centre belongs to the shape.
+  bool contains(const Vec3d& offset) const;
+  /// Whether `sample` uses the cone at squared distance d2: for a whole sphere from outside.
+  bool samples_cone(double d2) const;
   Float cone_pdf(double d2) const;
 
   Vec3d center_;
@@ -65,8 +74,8 @@ class Sphere {
   double min_u_ = 0;
   double height_;
   bool inside_out_;
-  double extent_;   ///< its largest coordinate is at most this
-  double outside2_; ///< squared distance from the centre of points that rounding cannot have put outside
+  double extent_;   ///< bound of the coordinates of the sphere
+  double outside2_; ///< least squared distance from the centre of a point that counts as outside, despite rounding
 };
 
 } // namespace render

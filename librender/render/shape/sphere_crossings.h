@@ -1,11 +1,11 @@
 #pragma once
-/// Where a line meets a sphere.
+/// Intersection of a line with a sphere.
 
 #include <render/core/lanes.h>
 
 namespace render {
 
-/// A line in double.
+/// A line o + t d in double, with |d|^2 and its inverse.
 struct Line {
   Vec3d o, d;
   double d2, inverse_d2;
@@ -14,19 +14,22 @@ struct Line {
       : o(origin), d(direction), d2(d.squaredNorm()), inverse_d2(1 / d2) {}
 };
 
-/// How a line o + t d passes spheres: one (T = double) or eight (EightDoubles); o relative to the centre.
-///   error  : the squared distance of the centre from the line is known without the cancellation of b^2 - 4 a c
-///   Source : [HainesGuntherAkenineMoller19]
+/// The quadratic equation of a line o + t d and a sphere, with o relative to the centre. T is double for one sphere,
+/// EightDoubles for eight.
+///   error  : the squared distance of the centre from the line is computed without the cancellation of b^2 - 4 a c.
+///   Source : [HainesGuntherAkenineMoller19].
 template <class T> struct SphereQuadratic {
-  T b;            ///< the centre is nearest at t = b / d^2
-  T c;            ///< squared distance of the centre from o, less radius^2
-  T discriminant; ///< radius^2 less the squared distance of the centre from the line
+  T b;            ///< The line is nearest to the centre at t = b / d^2.
+  T c;            ///< Squared distance of o from the centre, minus radius^2.
+  T discriminant; ///< radius^2 minus the squared distance of the centre from the line.
 
+  /// Whether the line crosses the sphere.
   auto crosses() const { return discriminant >= 0; }
-  /// Where it crosses at some t > 0: not where it leaves a sphere behind that does not hold o.
+  /// Whether the line crosses the sphere at some t > 0. False for a sphere behind o that does not contain o.
   auto crosses_ahead() const { return crosses() & ((b >= 0) | (c < 0)); }
 };
 
+/// The quadratic of `line` and a sphere with squared radius radius2; (ox, oy, oz) is line.o relative to the centre.
 template <class T>
 SphereQuadratic<T> sphere_quadratic(const T& ox, const T& oy, const T& oz, const Line& line, const T& radius2) {
   const Vec3d& d = line.d;
@@ -35,13 +38,14 @@ SphereQuadratic<T> sphere_quadratic(const T& ox, const T& oy, const T& oz, const
   return {b, ox * ox + oy * oy + oz * oz - radius2, radius2 - (px * px + py * py + pz * pz)};
 }
 
-/// Distances t0 <= t1 [lengths of d] of its crossings, where there are any; a NaN t is none.
+/// Parameters t0 <= t1 of the crossings. A NaN is no crossing.
 template <class T> struct SphereCrossings { T t0, t1; };
 
+/// The crossings of a line for which pass.crosses() holds.
 template <class T> SphereCrossings<T> sphere_crossings(const SphereQuadratic<T>& pass, const Line& line) {
   const T root = detail::square_root(pass.crosses() ? line.d2 * pass.discriminant : T{});
   const T q = pass.b < 0 ? pass.b - root : pass.b + root;
-  const T first = q * line.inverse_d2, second = pass.c / q; // q = 0 gives NaN, which is no crossing
+  const T first = q * line.inverse_d2, second = pass.c / q; // q = 0 gives NaN: no crossing
   return {first < second ? first : second, first < second ? second : first};
 }
 

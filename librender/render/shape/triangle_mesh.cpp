@@ -9,20 +9,20 @@ namespace render {
 
 namespace {
 
-// A vector along the normal, twice as long as the triangle is large.
+// A vector along the normal; its length is twice the area of the triangle.
 Vec3d area_normal(const std::array<Vec3, 3>& v) {
   const Vec3d a = v[0].cast<double>();
   return mc::cross<double>(v[1].cast<double>() - a, v[2].cast<double>() - a);
 }
 double area_of(const std::array<Vec3, 3>& v) { return area_normal(v).norm() / 2; }
 Vec3 center_of(const std::array<Vec3, 3>& v) { return (v[0] + v[1] + v[2]) * Float(1.0 / 3); }
-// Of the ball about the centre.
+// Squared radius of the ball about the centre that contains the triangle.
 Float radius2_of(const std::array<Vec3, 3>& v, const Vec3& center) {
   return std::max({(v[0] - center).squaredNorm(), (v[1] - center).squaredNorm(), (v[2] - center).squaredNorm()});
 }
 
-/// Where the line o + t d meets the plane of a triangle: barycentric weights of vertices 1 and 2, |cos| of the angle
-/// between d and the normal. NaN or infinite where it is parallel. Source: [MoellerTrumbore97]
+/// Crossing of the line o + t d with the plane of a triangle: t, the barycentric weights of vertices 1 and 2, and |cos|
+/// of the angle between d and the normal. NaN or infinite for a parallel line. Source: [MoellerTrumbore97].
 struct Crossing {
   double t, b1, b2, cosine;
 };
@@ -41,7 +41,7 @@ std::vector<Vec3> transformed(const std::vector<Vec3d>& points, const Transform&
   return result;
 }
 
-// Triangles whose geometric normal is the transformed one: a mirroring transform turns the winding, so turn it back.
+// Triangles with the transformed geometric normal. A mirroring transform reverses the winding, so it is swapped back.
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 Triangles wound(Triangles triangles, const Transform& to_world) {
   if (to_world.mirrors())
@@ -81,14 +81,14 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> positions, const std::vector<std::a
     for (const Vec3& p : v) bounds_.add(p);
   }
   if (area_ > 0) triangle_distribution_.emplace(areas);
-  constexpr Float straight = Float(2e-6); // to which files with six digits are rounded
+  constexpr Float straight = Float(2e-6); // rounding of files with six digits
   const auto is_flat = [&](const Face& f) {
     for (const std::uint32_t v : f.vertices)
       if (!((normals_[v].normalized() - f.normal).norm() < straight)) return false;
     return true;
   };
   if (!normals_.empty() && std::all_of(faces_.begin(), faces_.end(), is_flat))
-    normals_ = decltype(normals_)(); // gives back their memory, which = {} would keep
+    normals_ = decltype(normals_)(); // frees their memory, which assigning {} would keep
   for (const Vec3& p : positions_) error_ = std::max(error_, Float(0x1p-49) * p.lpNorm<Eigen::Infinity>());
 }
 
@@ -102,8 +102,8 @@ TriangleMesh TriangleMesh::box(const Transform& to_world) {
   std::vector<Vec3d> corners;
   Triangles triangles;
   std::vector<mc::Vec2<float>> uvs;
-  // Faces as quads, counter-clockwise seen from outside, from where u is 0 and v is 1 in Mitsuba's cube; bit k of a
-  // corner tells the sign of its coordinate k.
+  // Faces as quads, counter-clockwise from outside. A quad starts at the corner with u = 0 and v = 1 in the cube of
+  // Mitsuba. Bit k of a corner is the sign of coordinate k.
   for (const std::array<int, 4>& q :
        {std::array{4, 6, 2, 0}, {1, 3, 7, 5}, {1, 5, 4, 0}, {3, 2, 6, 7}, {3, 1, 0, 2}, {5, 7, 6, 4}}) {
     const auto first = static_cast<std::uint32_t>(corners.size());
@@ -144,8 +144,9 @@ mc::Vec2<double> TriangleMesh::uv(const Hit& hit, const SurfacePoint&) const {
   return (1 - b1 - b2) * uvs_[i].cast<double>() + b1 * uvs_[j].cast<double>() + b2 * uvs_[k].cast<double>();
 }
 
-// Not by the weights of the hit, of floats, which would slide the point along a large triangle. Rounding could carry a
-// point near an edge behind the triangle that joins there: a few errors towards the middle keep it before both.
+// The point comes from t, not from the float weights of the hit, which would move it along a large triangle. Rounding
+// could move a point near an edge behind the adjacent triangle. A step of a few errors towards the centre keeps it in
+// front of both.
 SurfacePoint TriangleMesh::surface_point(const Ray& ray, const Hit& hit) const {
   const auto triangle = static_cast<std::size_t>(hit.prim);
   const Vec3d p = ray.o.cast<double>() + hit.t * ray.d.cast<double>(),
@@ -206,7 +207,7 @@ std::optional<mc::SphericalTriangle<double>> TriangleMesh::near_triangle(const V
   const auto v = vertices(triangle);
   const Vec3 center = center_of(v), off = ref - center;
   const auto near = [&](Float radius2) { return off.squaredNorm() < Float(1.2) * radius2; };
-  if (!near(largest_radius2_)) return {}; // mostly so, and at less cost than this triangle's own radius
+  if (!near(largest_radius2_)) return {}; // usually decides, and costs less than the radius of this triangle
   const Float radius2 = radius2_of(v, center);
   if (!(near(radius2) && mc::sqr(off.dot(faces_[triangle].normal)) < radius2 / 16)) return {};
   const Vec3d p = v[0].cast<double>(), a = p - ref.cast<double>(), ab = v[1].cast<double>() - p,

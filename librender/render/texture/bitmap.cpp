@@ -21,7 +21,7 @@ void Bitmap::require_reflectance(std::string_view what) const {
 
 namespace {
 
-// The texels on both sides of a place in [0, n), which wraps, and how near the second one is.
+// The two texels next to a coordinate in [0, n), which wraps around, and the weight of the second texel.
 struct Neighbours {
   std::size_t first, second;
   Float weight;

@@ -1,5 +1,5 @@
 #pragma once
-/// A picture as a texture.
+/// An image texture.
 
 #include <render/texture/texels.h>
 #include <render/texture/uv_map.h>
@@ -8,14 +8,17 @@
 
 namespace render {
 
-/// Bilinear between texels whose centres are at ((x + 1/2) / width, (y + 1/2) / height), v = 0 being the upper edge of
-/// the top row; repeats.
-///   throws : Error unless all texels are finite
+/// An image, interpolated bilinearly and repeated. Texel centres are at ((x + 1/2) / width, (y + 1/2) / height); v = 0
+/// is the upper edge of the top row.
+///   throws : Error unless all texels are finite.
 class Bitmap {
  public:
+  /// A texture over the given texels.
   explicit Bitmap(std::shared_ptr<const Texels> texels, const UvMap& map = UvMap());
 
+  /// Colour at uv.
   Spectrum eval(const Vec2d& uv) const;
+  /// Throws Error that begins with `what` unless all texels lie in [0, 1].
   void require_reflectance(std::string_view what) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures that light or colour a scene.
+/// Images that illuminate or colour a scene.
 
 #include <render/core/types.h>
 
@@ -10,16 +10,17 @@
 
 namespace render {
 
-/// The values of a picture, row by row, the top row first. Shared by what uses it.
-///   throws : Error unless there are width * height values, at least one
+/// The values of an image in row order, the top row first. Shared by its users.
+///   throws : Error unless there are width * height values, at least one.
 struct Texels {
+  /// An image of w x h values; `file` appears in error messages.
   Texels(int w, int h, std::vector<Spectrum> v, const std::string& file = {})
       : width(w), height(h), values(std::move(v)), origin(file.empty() ? file : " of '" + file + "'") {
     mc::require(w >= 1 && h >= 1 && values.size() == static_cast<std::size_t>(w) * static_cast<std::size_t>(h),
                 "picture: {} values for {}x{}", values.size(), w, h);
   }
 
-  /// Throws Error "WHO: texel (1, 0) of 'FILE' = (2, 0, 0) WRONG" for the first value that is not good.
+  /// Throws Error "WHO: texel (1, 0) of 'FILE' = (2, 0, 0) WRONG" for the first value for which is_good is false.
   template <class F> void require_all(std::string_view who, std::string_view wrong, const F& is_good) const {
     const auto bad = std::find_if_not(values.begin(), values.end(), is_good);
     if (bad == values.end()) return;
@@ -28,9 +29,9 @@ struct Texels {
                                 (*bad)[1], (*bad)[2], wrong));
   }
 
-  int width, height;
-  std::vector<Spectrum> values;
-  std::string origin; ///< " of 'FILE'" for messages; empty where they come from no file
+  int width, height;            ///< Size in texels.
+  std::vector<Spectrum> values; ///< Values in row order.
+  std::string origin;           ///< " of 'FILE'" for error messages; empty if there is no file.
 };
 
 } // namespace render

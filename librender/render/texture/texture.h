@@ -7,10 +7,10 @@
 
 namespace render {
 
-/// A colour that varies over a surface. Each models:
-///   eval(uv)                 : the colour at a point of the surface
-///   require_reflectance(what) : throws Error that begins with `what` and names the place unless all of it lies in
-///                               [0, 1]
+/// A colour that varies over a surface. Each texture models:
+///   eval(uv)                  : the colour at texture coordinates uv.
+///   require_reflectance(what) : throws Error that begins with `what` and names the place, unless all values lie in [0,
+///   1].
 struct Texture : std::variant<Checkerboard, Bitmap> {
   using variant::variant;
 
