@@ -6,7 +6,7 @@ namespace render {
 
 namespace {
 
-constexpr std::size_t max_spheres = 8; // aiming at more would not pay
+constexpr std::size_t max_spheres = 8; // with more spheres aiming costs more than it gains
 
 std::vector<const Shape*> importance_targets(const Scene& scene) {
   std::vector<const Shape*> found;
@@ -31,7 +31,7 @@ std::vector<const Shape*> specular_spheres(const Scene& scene) {
   return found;
 }
 
-// Through which a path may meet a light; nothing meets a delta light.
+// Specular spheres through which a path may hit a light; none if all sampled lights are delta lights.
 std::vector<const Shape*> speculars(const Scene& scene) {
   const auto& lights = scene.lights();
   const bool meets =

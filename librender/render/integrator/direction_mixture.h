@@ -1,5 +1,5 @@
 #pragma once
-/// The choice of a direction where a path meets a surface.
+/// Sampling of the next direction at a path vertex.
 
 #include <render/integrator/strategy.h>
 #include <render/scene/scene.h>
@@ -15,74 +15,86 @@
 
 namespace render {
 
-/// Where a path meets a surface whose BSDF is a B.
+/// A path vertex with a BSDF of type B.
 template <class B> struct ShadingPoint {
+  /// BSDF at the vertex.
   const B& bsdf;
+  /// Position and normals.
   const SurfacePoint& point;
-  mc::Frame<Float> frame; ///< about the shading normal
-  Vec3 wo;                ///< in the frame
+  mc::Frame<Float> frame; ///< Local frame with the shading normal as z.
+  Vec3 wo;                ///< Direction toward the previous vertex, in the frame.
 };
 
-/// Whether the direction (wi in the frame, d in the world) lies on the same side of the true surface as of the one that
-/// the shading normal pretends: light must not leak through, nor be lost, where the two disagree.
+/// Whether scattering toward wi (d in world space) is reflection, or transmission, with respect to both the geometric
+/// and the shading normal. Directions on which the two normals disagree are rejected, so that light cannot leak through
+/// the surface.
 template <class B> bool same_geometric_side(const ShadingPoint<B>& isect, const Vec3& wi, const Vec3& d) {
   if (isect.point.ns == isect.point.ng) return true;
   const Float seen_from = isect.frame.to_world(isect.wo).dot(isect.point.ng);
   return (seen_from * d.dot(isect.point.ng) > 0) == (isect.wo.z() * wi.z() > 0);
 }
 
-/// Where a path goes next.
+/// A sampled next direction.
 struct ScatterSample {
-  Vec3 d;          ///< in the world
-  Spectrum weight; ///< f |cos| / density
-  Float pdf;       ///< [1/sr] among the directions that are no narrow lobe's; 0: of a narrow lobe, met by nothing else
-  Float eta;       ///< see BsdfSample
-  Float guiding_pdf_ratio; ///< density over that of following the BSDF alone: large where a small target was aimed at
+  Vec3 d;          ///< Direction in world space.
+  Spectrum weight; ///< f |cos| / density.
+  /// Density [1/sr] without near-specular lobes; 0 if such a lobe was sampled, which no other technique can sample.
+  Float pdf;
+  Float eta; ///< Index ratio of a refraction; see BsdfSample.
+  /// Density over the density of pure BSDF sampling: large if the direction was aimed at a small target.
+  Float guiding_pdf_ratio;
 };
 
-/// Whether the strategy finds every light of the scene: chance never meets a point light or a directional one.
+/// Whether the strategy can find every light of the scene. Strategies without next-event estimation never find point
+/// lights and directional lights.
 bool finds_all_lights(const Scene& scene, const Strategy& strategy);
 
-/// Whether the strategy leaves out light for good, since every direction goes to lamps or guides while paths are long
-/// enough, in edges (-1: no limit), to find light elsewhere: on other surfaces, or in the sky.
+/// Whether the strategy misses indirect light or sky light for good.
+/// This is so if all directions go to lights or importance targets and paths may have enough edges for other light.
+///   max_depth : largest number of edges; -1 for no limit.
 bool misses_light(const Scene& scene, const Strategy& strategy, int max_depth);
 
-/// Whether a lamp lies in the sphere, or its box reaches into it.
+/// Whether the sphere overlaps the bounding box of an area light.
 bool contains_area_light(const Scene& scene, const Sphere& sphere);
 
-/// A mixture of the BSDF and the targets of a strategy, each equally likely.
-///   sample : a direction, and its weight under the density of the whole mixture
-///   pdf    : that density [1/sr], narrow lobes excluded: sum of share / n pdf_i(wi) over the targets, and
-///            (1 - share) pdf_bsdf(wi) where share < 1
-///   A narrow BSDF is always followed. Where glass and mirrors are the target no BSDF aims more often than it absorbs:
-///   what follows it would weigh albedo / (1 - share) at every turn, and of the paths in a white room or in rough glass
-///   few would be left to carry all the light. Of those that go round in rough glass three in a thousand came through
-///   twenty turns.
-///   A delta lobe is only ever found by following the BSDF, so a BSDF with such a lobe is followed by half of the
-///   directions at least; where share = 1 its other lobes are left to the targets.
+/// Mixture of the BSDF and the targets of a strategy; all n targets are equally likely.
+///   sample : a direction with its weight under the density of the whole mixture.
+///   pdf    : a / n sum_i pdf_i(wi) + (1 - a) pdf_bsdf(wi) [1/sr] with the guiding fraction a; delta lobes excluded,
+///            and no BSDF term for a guiding fraction of 1.
+///   Source : [Veach97] section 9.2.4.
+/// The fraction a depends on the BSDF:
+///   - A near-specular BSDF is always sampled by itself.
+///   - A BSDF with a delta lobe has a <= 1/2, since only BSDF sampling finds a delta lobe. With a guiding fraction of 1
+///     its other lobes are left to the targets.
+///   - If the targets are glass or mirrors, a <= 1 - albedo. Otherwise BSDF samples weigh albedo / (1 - a) at every
+///     bounce. In a white room or in rough glass a few paths would then carry all the light.
 class DirectionMixture {
  public:
+  /// The mixture of a strategy, with its targets in the scene.
   DirectionMixture(const Scene& scene, const Strategy& strategy);
-  /// guiding_fraction : of the directions go to the targets, which must outlive it; where there are none the BSDF is followed
+  /// A mixture of the BSDF and given targets.
+  ///   guiding_fraction : probability of sampling a target; without targets the BSDF is always sampled.
+  ///   targets          : shapes, which must outlive the mixture.
   DirectionMixture(std::vector<const Shape*> targets, Float guiding_fraction);
 
+  /// Samples a direction. Returns nothing if the sample is absorbed or rejected by same_geometric_side().
   template <class B, class Stream>
   std::optional<ScatterSample> sample(const ShadingPoint<B>& isect, Stream& stream) const {
     if (!target_distribution_ || isect.bsdf.is_near_specular()) return sample_bsdf(isect, stream);
-    const Vec2 u = stream.next2(); // u[0] also makes the choices, which are then as well spread as the directions
+    const Vec2 u = stream.next2(); // u[0] also selects the part of the mixture, so that the selection is stratified
     const auto part = guiding_choice(isect).sample_index(u[0]);
     return part.index == 0 ? sample_bsdf_part(isect, Vec2(part.u_remapped, u[1]), part.pmf, stream.next())
                            : sample_target_part(isect, Vec2(part.u_remapped, u[1]), stream);
   }
 
-  /// wi in the frame, d the same in the world.
+  /// Density [1/sr] of a direction, given in the frame (wi) and in world space (d).
   template <class B> Float pdf(const ShadingPoint<B>& isect, const Vec3& wi, const Vec3& d) const {
     if (!target_distribution_) return isect.bsdf.pdf(isect.wo, wi);
     return combined_pdf(isect, uses_bsdf_ ? isect.bsdf.pdf(isect.wo, wi) : Float(0), targets_pdf(isect, wi, d));
   }
 
  private:
-  // Outcome 1 aims, 0 follows the BSDF.
+  // Outcome 1 samples a target, outcome 0 the BSDF.
   template <class B> mc::Bernoulli<Float> guiding_choice(const ShadingPoint<B>& isect) const {
     const Float guiding_fraction = isect.bsdf.has_delta() ? std::min(guiding_fraction_, Float(0.5)) : guiding_fraction_;
     return mc::Bernoulli<Float>(limited_by_absorption_
@@ -101,7 +113,7 @@ class DirectionMixture {
     return ScatterSample{d, s->f * (std::abs(s->wi.z()) / s->pdf), is_near_specular ? Float(0) : s->pdf, s->eta, 1};
   }
 
-  // The BSDF's part of the mixture, of probability pmf.
+  // Samples the BSDF, which was selected with probability pmf.
   template <class B>
   std::optional<ScatterSample> sample_bsdf_part(const ShadingPoint<B>& isect, const Vec2& u, Float pmf,
                                                 Float uc) const {
@@ -115,7 +127,7 @@ class DirectionMixture {
     return ScatterSample{d, s->f * (std::abs(s->wi.z()) / density), density, s->eta, density / s->pdf};
   }
 
-  // The targets' part.
+  // Samples a target.
   template <class B, class Stream>
   std::optional<ScatterSample> sample_target_part(const ShadingPoint<B>& isect, const Vec2& u, Stream& stream) const {
     if (target_shapes_.empty()) {
@@ -135,13 +147,13 @@ class DirectionMixture {
     return guided_sample(isect, isect.frame.to_local(s->wi), s->wi, density);
   }
 
-  // Rounding carries rays past the outline of a small target. Where light is found by meeting it alone that of these
-  // would be lost: another direction takes the place of theirs. A target that none meets is not tried for ever, and of
-  // one that is not small nothing is lost but 3e-7: it saves a tenth of the time.
+  // Samples a direction toward a target. Rounding makes some rays miss the outline of a small target. If only hits find
+  // light, such a miss loses light, so another direction is drawn. The number of tries is limited, since every ray may
+  // miss. For large targets the loss is negligible and the test is skipped.
   template <class Stream>
   std::optional<DirectionSample> sample_target_direction(const Shape& target, const SurfacePoint& from, const Vec2& u,
                                                          Stream& stream, int tries = 8) const {
-    constexpr Float small = 100; // [1/sr]
+    constexpr Float small = 100; // density [1/sr] above which a target counts as small
     const auto s = target.sample_direction(from.p, u);
     const auto is_met = [&](const Ray& ray) { return target.pdf(ray.o, ray.d) > 0; };
     if (!resamples_misses_ || tries == 0 || !s || s->pdf <= small || is_met(from.spawn_ray(s->wi))) return s;
@@ -157,7 +169,7 @@ class DirectionMixture {
                          isect.bsdf.eta(isect.wo, wi), density / own};
   }
 
-  // The density of the mixture, from those of its parts.
+  // Density of the mixture from the densities of its two parts.
   template <class B> Float combined_pdf(const ShadingPoint<B>& isect, Float own, Float targets) const {
     const auto part = guiding_choice(isect);
     return (uses_bsdf_ ? part.pmf(0) * own : Float(0)) + part.pmf(1) * targets;
@@ -169,13 +181,13 @@ class DirectionMixture {
                            [&](std::size_t i) { return target_shapes_[i]->pdf(isect.point.p, d); });
   }
 
-  std::vector<const Shape*> target_shapes_; ///< to aim at; none: the hemisphere, if there is a target
-  std::optional<mc::UniformDiscrete<Float>>
-      target_distribution_; ///< the choice of one; none: the BSDF is always followed
+  /// Shapes to aim at; empty: the hemisphere if target_distribution_ has a value.
+  std::vector<const Shape*> target_shapes_;
+  std::optional<mc::UniformDiscrete<Float>> target_distribution_; ///< Selects a target; none: only BSDF sampling.
   Float guiding_fraction_;
-  bool uses_bsdf_;             ///< directions of lobes that are no delta come from the BSDF too
-  bool limited_by_absorption_; ///< no BSDF aims more often than it absorbs
-  bool resamples_misses_;      ///< where directions miss what they were aimed at, others take their place
+  bool uses_bsdf_;             ///< Whether non-delta lobes are sampled, too.
+  bool limited_by_absorption_; ///< Guiding fraction <= 1 - albedo.
+  bool resamples_misses_;      ///< Draws again if a ray misses a small target.
 };
 
 } // namespace render

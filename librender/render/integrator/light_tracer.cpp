@@ -10,8 +10,9 @@ namespace render {
 
 namespace {
 
-constexpr Float guiding_fraction = Float(0.8); // of the paths from lamps and points
-constexpr std::size_t max_caustic_bounds = 8;  // aiming at more would not pay
+// share of light paths of lamps and points that are aimed at caustic bounds
+constexpr Float guiding_fraction = Float(0.8);
+constexpr std::size_t max_caustic_bounds = 8; // with more bounds aiming costs more than it gains
 
 template <class Holds> std::vector<const Shape*> shapes_where(const Scene& scene, Holds&& holds) {
   std::vector<const Shape*> found;
@@ -20,7 +21,7 @@ template <class Holds> std::vector<const Shape*> shapes_where(const Scene& scene
   return found;
 }
 
-// About the middle of its box; of radius 0 where nothing of it can be met.
+// A ball around the centre of a shape's bounding box; radius 0 if the shape is empty.
 struct Ball {
   Vec3d center = Vec3d::Zero();
   double radius = 0;
@@ -44,9 +45,9 @@ Ball bounding_ball(std::span<const Ball> balls) {
   return {all.center(), all.diagonal().norm() / 2};
 }
 
-// Balls around all that casts caustics, where these are many around glass and mirrors alone: nothing but paths from the
-// lights finds the caustics of parallel light. Of too many the largest have their own and all others one, which is then
-// no wider than it must be.
+// Balls around the shapes that cast caustics. If there are too many shapes, only glass and mirrors count: only light
+// paths find their caustics of parallel light. If there are still too many balls, the largest stay and one ball
+// encloses the others, so that this ball is as small as possible.
 std::vector<Shape> caustic_bounds_of(const Scene& scene) {
   auto casters = shapes_where(scene, [](const Bsdf& b) { return b.casts_caustics(); });
   if (casters.size() > max_caustic_bounds) {
@@ -69,7 +70,7 @@ std::vector<Shape> caustic_bounds_of(const Scene& scene) {
   return found;
 }
 
-// What a lamp reaches into it sees in all directions.
+// The balls that no area light overlaps. From a light inside or close to a ball, nearly all directions hit it.
 std::vector<const Shape*> without_enclosed_lights(const Scene& scene, const std::vector<Shape>& balls) {
   std::vector<const Shape*> found;
   for (const Shape& ball : balls)
@@ -77,15 +78,15 @@ std::vector<const Shape*> without_enclosed_lights(const Scene& scene, const std:
   return found;
 }
 
-// Light that glass throws onto what is seen comes from the lights, except where these lie in the glass: it then leaves
-// in all directions, of which few arrive where the camera looks, and is found from there.
+// Strategy of camera paths beside light paths. Light paths find caustics of lights outside the glass. Light from inside
+// the glass leaves in all directions and seldom reaches the camera's view, so camera paths aim at such glass.
 Strategy camera_strategy(Strategy strategy) {
   strategy.guiding_target = GuidingTarget::enclosing_speculars;
   return strategy;
 }
 
-// How often paths start from each light: by its power, a third of them from all alike as in LightSampler, since power
-// does not tell how much of it arrives. Infinite lights that are not sampled are found by chance alone.
+// Relative number of light paths of each light: its power, plus a uniform third as in LightSampler, because power does
+// not determine how much light reaches the view. Infinite lights without sampling get 0: only hits find them.
 std::vector<double> emission_weights(const Scene& scene, const std::vector<Shape>& balls) {
   double radius2 = 0, sum = 0, shining = 0;
   for (const Shape& ball : balls) radius2 += mc::sqr(std::get<Sphere>(ball).radius());

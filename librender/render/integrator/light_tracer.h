@@ -1,5 +1,5 @@
 #pragma once
-/// Paths from the lights, connected to the camera.
+/// Light tracing: paths from the lights, connected to the camera.
 
 #include <render/integrator/medium_stack.h>
 #include <render/integrator/mis_weights.h>
@@ -14,59 +14,64 @@
 
 namespace render {
 
-/// Light paths of a strategy, and how dense they are. Immutable, so threads share it.
-///   Path tracing hardly finds the light that glass or a mirror throws onto what is seen: where a path meets them by
-/// chance, and the lamp behind, all of it arrives at once. From the lamp it is found easily. Each vertex of a path from
-/// a light but the first is connected to the camera, and all three ways to find the same path, by chance, by a
-/// connection to the light and by one to the camera, are weighed by the power heuristic.
-///   Direct : light by way of one surface is left to paths from the camera, whose connections hardly err there, while
-///            how many paths happen to arrive in a pixel does
-///   Lights : chosen by their power, a third of the time all alike. Of shapes that shine a point uniform in area and a
-///            direction by the cosine, of points any direction; four in five of these are aimed at balls around what
-///            casts caustics, but for those that a lamp reaches into. Of environment maps and directional lights, for
-///            these balls alone, a direction as the light samples it and a point of a ball's disk across it. Of more
-///            than eight balls the seven largest stay, the others are one
-///   Paths  : follow the BSDFs; Russian roulette as of PathIntegrator
-///   Gain   : with an eighth as many as paths from the camera a picture takes .12 (book3-cornell-aluminium), .32
-///            (book3-cornell-glass), .41 (smallpt), .52 (metals), .57 (ground-glass), .70 (blinn-phong), .75
-///            (textures), .76 (materials), .83 (tinted-glass) and 1.0 (veach-mi) of the time of `mis` to a given error;
-///            a tenth or a fifth as many change that by up to a tenth, two fifths cost up to a fifth more. A ball of
-///            metal under a lamp of a fiftieth, a ninth or a third of its distance, with a fifth: .13, .17 and .64 at
-///            alpha .1, .41, .48 and .86 at .2, .9 to 1.2 at .3; at a fuzz of .3, .5 and .8 .25 to .70, .60 to .83 and
-///            1.1 to 1.2. CPU seconds times the variance of six seeds
-///   Source : [Veach97] chapter 10, of whose connections these are those at both ends; light through shading normals
-///            section 5.3
+/// Traces the light paths of a strategy and evaluates their densities. Immutable, so threads can share it. Every vertex
+/// of a light path but the first is connected to the camera (t = 1). The power heuristic combines three techniques:
+/// camera paths that hit a light (s = 0), camera paths that connect to a light (s = 1) and light paths. Camera paths
+/// rarely hit a small lamp behind glass or by way of a mirror, and each hit is bright. Light paths find such caustics
+/// easily.
+///   Direct : The first vertex is not connected. Camera paths find light by way of one surface with less noise, since
+///            the number of light paths that land in a pixel is random.
+///   Lights : chosen in proportion to their power, with a uniform third.
+///   Shapes : a point uniform in area; a direction by the cosine, or, with probability 4/5, toward caustic bounds.
+///   Points : a direction uniform on the sphere, or, with probability 4/5, toward caustic bounds.
+///   Infinite lights : a direction as the light samples it; an origin on a disk across a caustic bound.
+///   Caustic bounds : balls around the shapes that focus light, at most 8. If there are more, the 7 largest stay and
+///                    one ball encloses the others. Shapes and points do not aim at balls that an area light overlaps.
+///   Paths  : follow the BSDFs, with Russian roulette; see docs/methods/russian-roulette.md.
+///   Gain   : see docs/methods/light-tracing.md and notebooks-data/trade/scenes.csv.
+///   Source : [Veach97] chapter 10, techniques s = 0, s = 1 and t = 1; section 5.3 for shading normals.
 class LightTracer {
  public:
-  static constexpr int min_edges = 3; ///< of the paths that they find
+  /// Smallest number of edges of a light path, including the connection to the camera.
+  static constexpr int min_edges = 3;
 
-  /// None where the strategy has none, or the scene no light that they start from, or nothing narrow or transparent:
-  /// elsewhere they would cost more than they bring. None either where the filter is wider than SplatFilter can share.
-  ///   aspect : width / height of the film
+  /// Returns a light tracer, or nothing if light paths do not pay:
+  ///   - the strategy has no light paths,
+  ///   - no light of the scene can emit them,
+  ///   - no surface casts caustics, or
+  ///   - the radius of the pixel filter exceeds SplatFilter::max_radius.
+  ///   aspect : width / height of the film.
   static std::optional<LightTracer> create(const Scene& scene, const Strategy& strategy, Float aspect);
 
-  /// Of paths that start from where the direction wi from `ref` meets a light, back along it, per path from the camera:
-  /// the squared density [1/sr] times that per area, of the light's point `light_point`, or of lines along wi across it where
-  /// they start at one point or at infinity (null); 0 for lights that none starts from.
+  /// Squared density of light paths that start at the light and travel along -wi to `ref`, per camera path; 0 for
+  /// lights that emit no light paths.
+  ///   light_point : point of the light; null for infinite lights.
+  ///   Measure     : area lights: area of the light times solid angle. Point lights: area across wi at `ref`. Infinite
+  ///                 lights: solid angle times area across wi.
   double emission_pdf_squared(std::uint32_t light, const SurfacePoint* light_point, const Vec3& ref,
                               const Vec3& wi) const;
 
-  /// Per path from the camera.
+  /// Number of light paths per camera path.
   double light_path_rate() const { return light_path_rate_; }
 
-  /// Density of the direction d from the camera [1/sr], in paths over the whole film.
+  /// Density [1/sr] of the camera direction d for rays uniform over the whole film.
   double camera_pdf(const Vec3& d) const { return double(scene_->camera().direction_pdf(d, tan_half_)); }
 
-  /// The choice of directions of the paths from the camera beside them.
+  /// Direction sampling of the camera paths that are combined with these light paths.
   const DirectionMixture& camera_mixture() const { return camera_mixture_; }
 
-  /// Traces one path of at most max_depth edges to the camera (-1: no limit): give(s, value) for each of its
-  /// connections, where s is the point of the film, as of ThinLens::ray, or one beside it, and value what it counts of
-  /// the radiance there: of n paths over a film of N pixels, sum(value) / (n / (rate N)) is the radiance of a pixel.
+  /// Traces one light path and calls add_splat(s, value) for each connection to the camera.
+  ///   max_depth : largest number of edges, including the connection; -1 for no limit.
+  ///   s         : film point as in ThinLens::ray; it may lie outside the film.
+  ///   value     : radiance times the weight of the connection. For n light paths and a film of N pixels, sum(value) /
+  ///               (n / (rate N)) estimates the radiance of a pixel, with rate = light_path_rate().
+  ///   rays      : counts the rays traced.
   template <class Stream, class AddSplat>
   void trace(Stream& stream, int max_depth, std::uint64_t& rays, const AddSplat& add_splat) const;
 
-  LightTracer(LightTracer&&) = default; // targets_ are of casters_
+  /// Moving keeps the elements of caustic_bounds_ in place, so the pointers in targeted_bounds_ stay valid.
+  LightTracer(LightTracer&&) = default;
+  /// As the move constructor.
   LightTracer& operator=(LightTracer&&) = default;
 
  private:
@@ -75,9 +80,10 @@ class LightTracer {
 
   struct EmissionSample {
     Ray ray;
-    std::optional<SurfacePoint> point; ///< of the light, with the normals of the side that shines; none: infinitely far
-    Spectrum beta = Spectrum::Zero();  ///< light that the path carries, of the unit `area`
-    double beta_scale = 0;             ///< over the density, which no float need hold
+    /// Point of the light, with both normals on the emitting side; empty for infinite lights.
+    std::optional<SurfacePoint> point;
+    Spectrum beta = Spectrum::Zero(); ///< Throughput without beta_scale.
+    double beta_scale = 0; ///< Factor of the throughput in double: an inverse density may exceed the range of Float.
     PartialMisWeight partial_mis = {};
   };
   template <class Stream>
@@ -89,17 +95,18 @@ class LightTracer {
   template <class Stream>
   std::optional<EmissionSample> sample_infinite_emission(const Light& light, double pmf, const Vec2& u,
                                                          Stream& stream) const;
-  // Of directions from a point [1/sr]: for a direction aimed at one of the balls, this one says its own density.
+  // A direction that was aimed at caustic bound `target`, with its density [1/sr].
   struct TargetedDirection {
     std::size_t target;
     Float pdf;
   };
+  // Density [1/sr] of the direction d from a point light at p. `targeted`: the bound that d was sampled from.
   double point_emission_pdf(const Vec3& p, const Vec3& d, const std::optional<TargetedDirection>& targeted = {}) const;
-  // As LightLike's pdf; of the one direction of a delta light 1.
+  // As LightLike's pdf, but 1 for the only direction of a delta light.
   double direction_pdf(const Light& light, const Vec3& ref, const Vec3& wi, const SurfacePoint* light_point) const {
     return light.is_delta() ? 1 : double(light.pdf(ref, wi, light_point));
   }
-  // Per area across the line through p along d.
+  // Density [1/area], across the line through p along d, of light paths of an infinite light.
   double parallel_emission_pdf(const Vec3& p, const Vec3& d) const;
 
   struct LightSubpath {
@@ -109,12 +116,13 @@ class LightTracer {
     double beta_scale;
     PartialMisWeight partial_mis;
     MediumStack media = {};
-    Float initial_beta_max = 0;    ///< the largest component of beta at first
-    double nee_pdf_squared = 0;    ///< squared density of the connection from the first vertex to the light [1/sr^2]
-    bool from_delta_light = false; ///< the light is not met by chance
+    Float initial_beta_max = 0;    ///< Largest component of beta at emission.
+    double nee_pdf_squared = 0;    ///< Squared density of next-event estimation at the first vertex [1/sr^2].
+    bool from_delta_light = false; ///< The light cannot be hit.
     int edges = 0;
   };
-  // Density of paths from the camera that go on from `isect`, where they come from wi, by chance the way that this came.
+  // Density [1/sr] with which a camera path that arrives at `isect` from wi scatters back along the light path. For a
+  // near-specular lobe relative to the forward density, as in reverse_pdf().
   template <class B>
   double camera_pdf_rev(const ShadingPoint<B>& isect, const LightSubpath& subpath, const Vec3& wi, bool near_specular,
                         Float eta) const {
@@ -122,7 +130,8 @@ class LightTracer {
     return double(
         camera_mixture_.pdf(ShadingPoint<B>{isect.bsdf, isect.point, isect.frame, wi}, isect.wo, -subpath.ray.d));
   }
-  // Squared, with that of a connection.
+  // camera_pdf_rev() squared. At the first vertex the squared density of next-event estimation is added, and hits count
+  // 0 for a delta light.
   template <class B>
   double pdf_rev_squared(const ShadingPoint<B>& isect, const LightSubpath& subpath, const Vec3& wi, bool near_specular,
                          Float eta) const {
@@ -131,7 +140,8 @@ class LightTracer {
         first && subpath.from_delta_light ? 0 : mc::sqr(camera_pdf_rev(isect, subpath, wi, near_specular, eta));
     return first && !near_specular ? bsdf_pdf_squared + subpath.nee_pdf_squared : bsdf_pdf_squared;
   }
-  // Light meets a surface by its true cosine, and the BSDF reckons with that of the shading normal.
+  // Factor for shading normals: light arrives with the cosine to the geometric normal, and the BSDF uses the cosine to
+  // the shading normal ([Veach97] section 5.3).
   template <class B> static Float shading_normal_correction(const ShadingPoint<B>& isect) {
     if (isect.point.ns == isect.point.ng) return 1;
     return std::abs(isect.wo.z() / isect.frame.to_world(isect.wo).dot(isect.point.ng));
@@ -146,15 +156,16 @@ class LightTracer {
   double light_path_rate_;
   Vec2 tan_half_;
   mc::TableDist1D<Float> light_distribution_;
-  std::vector<Shape> caustic_bounds_;         ///< balls that paths from infinite lights are aimed at
-  std::vector<const Shape*> targeted_bounds_; ///< those of them that paths from the others are aimed at
+  std::vector<Shape> caustic_bounds_; ///< Balls that paths of infinite lights are aimed at.
+  /// Balls that paths of other lights are aimed at: no area light overlaps them.
+  std::vector<const Shape*> targeted_bounds_;
   DirectionMixture emission_mixture_, bsdf_mixture_, camera_mixture_;
-  mc::Bernoulli<Float> guiding_choice_; ///< of paths from points
-  bool has_media_;                      ///< some surface holds a medium
-  Bsdf emission_bsdf_;                  ///< as whose reflection a lamp's light leaves it
+  mc::Bernoulli<Float> guiding_choice_; ///< For paths of point lights: 1 aims, 0 is uniform.
+  bool has_media_;                      ///< Some surface has an interior medium.
+  Bsdf emission_bsdf_;                  ///< Cosine-distributed emission of area lights, as a BSDF.
 };
 
-/// The strategies that find every light of the scene, each once: without mis+lt where it is mis.
+/// The strategies that find every light of the scene. Leaves out mis+lt if it would equal mis.
 std::vector<Strategy> complete_strategies(const Scene& scene);
 
 template <class Stream>
@@ -185,7 +196,8 @@ std::optional<LightTracer::EmissionSample> LightTracer::sample_infinite_emission
   const Vec3d wi = s->wi.template cast<double>();
   const Vec3d across_ball = mc::Frame<Float>::from_z(s->wi).to_world({disk[0], disk[1], 0}).template cast<double>();
   const Vec3d crossing = aim.center() + aim.radius() * across_ball;
-  // No further away than before all that may shade the ball: a float resolves little of one beside a huge ground.
+  // The origin lies beyond everything that may shadow the ball, but no farther: floats at a large distance, as beside a
+  // huge ground plane, resolve a small ball poorly.
   const Vec3 p = (crossing + (scene_->bounds().exit_distance(crossing, wi) + aim.radius()) * wi).template cast<Float>();
   const double pdf = pmf * double(s->pdf), area_pdf = parallel_emission_pdf(p, s->wi);
   if (!(area_pdf > 0)) return {}; // rounding
@@ -281,13 +293,14 @@ bool LightTracer::scatter(const SurfaceInteraction<Bsdf>& isect, LightSubpath& s
   const bool near_specular = next->pdf == 0;
   const Vec3 wi = isect.frame.to_local(next->d);
   const double cosine = std::abs(double(isect.point.ng.dot(next->d)));
-  // A connection to a light that no chance meets may use what chance follows as a narrow lobe.
+  // A near-specular lobe counts as a delta lobe. The exception is a lobe of positive width at the first vertex after a
+  // delta light, since next-event estimation from the camera evaluates this lobe.
   const bool as_near_specular =
       near_specular && (subpath.edges > 1 || !subpath.from_delta_light || isect.bsdf.has_delta());
   Float pdf = next->pdf;
   if (near_specular) pdf = as_near_specular ? Float(1) : isect.bsdf.pdf(isect.wo, wi);
-  // Light goes from wo to wi, and not all BSDFs are reciprocal; those of narrow lobes are but for the compression in
-  // glass, which does not change what a path carries.
+  // Light travels from wo to wi, and BSDFs need not be reciprocal, so the arguments of eval are swapped. Near-specular
+  // lobes are reciprocal except for the compression of radiance in glass, which does not apply to light paths.
   const Spectrum weight = near_specular ? Spectrum(next->weight * (mc::sqr(next->eta) / std::abs(wi.z())))
                                         : Spectrum(isect.bsdf.eval(wi, isect.wo) / next->pdf);
   subpath.beta *= weight * (shading_normal_correction(isect) * Float(cosine));

@@ -8,10 +8,10 @@
 namespace render {
 
 MediumStack initial_media(const Scene& scene, Ray ray) {
-  constexpr int most = 256; // surfaces on the way
+  constexpr int most = 256; // largest number of surfaces along the ray
   std::array<const HomogeneousMedium*, 2> left = {};
   std::size_t found = 0;
-  int entered = 0; // bodies that lie ahead, not around
+  int entered = 0; // media that begin ahead of the origin and do not end yet
   for (int met = 0; met < most && found < left.size(); ++met) {
     const auto hit = scene.intersect(ray);
     if (!hit) break;

@@ -1,27 +1,28 @@
 #pragma once
-/// What absorbs the light of a path under way.
+/// Participating media along a path.
 
 #include <render/integrator/direction_mixture.h>
 
 namespace render {
 
-/// What absorbs a ray, and what lies around that: of bodies within bodies within bodies the outermost is forgotten.
+/// The medium of a ray and the medium around that medium. Deeper nesting is not stored.
 struct MediumStack {
-  const HomogeneousMedium *current = nullptr, *outer = nullptr; ///< null: nothing
+  const HomogeneousMedium *current = nullptr, *outer = nullptr; ///< Null for vacuum.
 };
 
-/// Through what a ray starts, as the surfaces tell that it would leave if nothing stopped it.
+/// Media at the origin of a ray, from the surfaces that the ray would leave if nothing stopped it.
 MediumStack initial_media(const Scene& scene, Ray ray);
 
-/// Whether anything in the scene absorbs.
+/// Whether any surface of the scene has an interior medium.
 bool has_media(const Scene& scene);
 
-/// Where a path meets a surface whose BSDF is a B.
+/// A path vertex on a surface, with a BSDF of type B and the media on the path.
 template <class B> struct SurfaceInteraction : ShadingPoint<B> {
+  /// The surface of the vertex.
   const Surface& surface;
-  MediumStack media_before; ///< through what the path came
+  MediumStack media_before; ///< Media before the vertex, on the side of the path.
 
-  /// Through what it leaves in the direction d.
+  /// Media beyond the vertex in the direction d.
   MediumStack media(const Vec3& d) const {
     if (!surface.interior) [[likely]]
       return media_before;

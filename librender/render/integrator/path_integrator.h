@@ -1,48 +1,49 @@
 #pragma once
-/// Path tracing from the camera, by any of the strategies of the books.
+/// Path tracing from the camera.
 
 #include <render/film/image.h>
 #include <render/integrator/path_steps.h>
 
 namespace render {
 
+/// Settings of a path tracer.
 struct PathOptions {
-  Strategy strategy = strategy_from("mis");
-  int max_depth = -1; ///< longest path in edges (1: light seen directly); -1: no limit
+  Strategy strategy = strategy_from("mis"); ///< How paths find light.
+  int max_depth = -1;                       ///< Largest number of edges (1: only directly visible light); -1: no limit.
+  /// The quantity to render.
   Aov aov = Aov::radiance;
-  int branches = 2; ///< ways on from where a path first meets a surface that is not a delta
+  int branches = 2; ///< Number of branches at the first non-delta vertex.
 };
 
-/// Traces paths through a scene, which must outlive it. Immutable, so threads share it.
-///   Where LightTracer find light, too, what a path finds counts less, and the rest is theirs to add.
-///   Lights that are not sampled (see LightLike) are met by following directions, in every strategy, and count fully.
-///   Caustics cannot be reached by connecting to a light. Therefore `mis` aims up to a quarter of its directions at the
-///   spheres of glass or mirror, where a scene has any: smallpt's box takes a quarter less time to a given error.
-///   A path splits where it first meets a surface that is not a delta, unless told otherwise in two, since two fifths
-///   of the time but little of the variance come from the way there and the light straight from the lights: a tenth to
-///   a fifth less time to a given error, no less with three or four branches. Source: [ArvoKirk90]
-///   Russian roulette: from the fourth edge on a path survives with four times the largest component of its throughput,
-///                     corrected for the compression of radiance in glass, at most .99. The factor balances variance
-///                     against cost: at one the Cornell box and smallpt's take a third more time to a given error.
-///                     Where a direction was aimed, and through glass from there, the factor is how much denser that
-///                     is than following the BSDF, if that is more than four: throughput towards a small lamp is as
-///                     small as the lamp, and all its light would come on paths that hardly ever survive.
-/// Times to a given error are measured as CPU seconds of `carlo render` times the relmse of `carlo compare` between two
-/// seeds.
+/// Path tracer: estimates the radiance along camera rays as the strategy says. The scene must outlive it. Immutable, so
+/// threads can share it.
+///   Unsampled lights : lights without is_sampled() are found by hits alone and count fully, in every strategy.
+///   Light paths : with a LightTracer, contributions carry MIS weights for light paths. The caller adds the light paths.
+///   Caustics    : connections to lights cannot find them. `mis` aims up to a quarter of its directions at spheres of
+///                 glass or mirror.
+///   Splitting   : a path splits at its first non-delta vertex, by default in two. The path to this vertex and the
+///                 direct lighting cost much of the time and contribute little of the variance [ArvoKirk90].
+///   Roulette    : from the fourth edge on a path survives with probability min(.99, max(4, g) max(beta) eta_scale).
+///                 The factor 4 balances variance against cost. g is the guiding pdf ratio since the last rough vertex:
+///                 throughput toward a small lamp is as small as the lamp, and without g its paths would rarely
+///                 survive.
+/// See docs/methods/path-tracing.md and docs/methods/russian-roulette.md.
 template <class SceneType> class PathIntegrator {
  public:
-  /// light_tracer : that find some of the light; null: none are traced. It must outlive this, too
+  /// Prepares path tracing of a scene.
+  ///   light_tracer : traces light paths of the same scene and must outlive this; null: no light paths.
   PathIntegrator(const SceneType& scene, const PathOptions& options, const LightTracer* light_tracer = nullptr)
       : steps_(scene, options.strategy, options.max_depth, light_tracer), aov_(options.aov),
         branches_(options.branches) {}
 
-  /// Radiance that arrives along `ray`, or what else is shown, one sample. `rays` counts the rays traced.
-  ///   media : through what the ray starts
+  /// Estimates the radiance that arrives along `ray`, or the AOV, with one sample. `rays` counts the rays traced.
+  ///   media : media at the origin of the ray.
   template <class Stream>
   Spectrum radiance(const Ray& ray, Stream& stream, std::uint64_t& rays, const MediumStack& media = {}) const;
 
  private:
-  // The normal of what a ray meets, as a colour.
+  // The shading normal n at the ray's hit as the colour (n + 1) / 2; the radiance of infinite lights if there is no
+  // hit.
   template <class Stream> Spectrum normal(Ray ray, Stream& stream, std::uint64_t& rays) const {
     if (const auto hit = steps_.nearest_hit(ray, stream, rays))
       return (steps_.scene().surface(*hit).shape->surface_point(ray, *hit).ns.array() + 1) / 2;
@@ -52,14 +53,14 @@ template <class SceneType> class PathIntegrator {
     return radiance;
   }
 
-  // Whether one direction from what a ray meets is open, of those that a uniform sky lights it from.
+  // Visibility along one cosine-distributed direction at the ray's hit; 1 if there is no hit.
   template <class Stream> Spectrum ambient_occlusion(Ray ray, Stream& stream, std::uint64_t& rays) const {
     const auto hit = steps_.nearest_hit(ray, stream, rays);
     if (!hit) return Spectrum::Ones();
     const SurfacePoint point = steps_.scene().surface(*hit).shape->surface_point(ray, *hit);
     const auto frame = mc::Frame<Float>::from_z(point.ns.dot(ray.d) < 0 ? point.ns : Vec3(-point.ns));
     const Vec3 d = frame.to_world(mc::CosineHemisphere<Float>{}.sample(stream.next2()));
-    if (d.dot(point.ng) * ray.d.dot(point.ng) >= 0) return Spectrum::Zero(); // into the true surface
+    if (d.dot(point.ng) * ray.d.dot(point.ng) >= 0) return Spectrum::Zero(); // below the geometric surface
     Ray shadow = point.spawn_ray(d);
     shadow.t_max = Float(aov_.max_distance);
     return Spectrum::Constant(shadow_transmittance(steps_.scene(), shadow, {}, rays));

@@ -1,5 +1,5 @@
 #pragma once
-/// Paths of neighbouring pixels that lend each other their ends.
+/// Path reuse between neighbouring pixels.
 
 #include <render/integrator/path_integrator.h>
 
@@ -8,46 +8,46 @@
 
 namespace render {
 
-/// A camera ray of a pixel, and what the rest of its path is made from.
+/// A camera ray of a pixel, with the random numbers for the rest of its path.
 template <class Stream> struct CameraRay {
+  /// The ray through the pixel.
   Ray ray;
-  MediumStack media; ///< through what it starts
+  MediumStack media; ///< Media at the origin of the ray.
+  /// Random numbers of the sample.
   Stream stream;
 };
 
-/// Path tracing for tiles of 2x2 pixels. The path of a pixel goes on in one direction where it first meets a surface
-/// that is not a delta. Where that leads to a diffuse surface, which looks the same from everywhere, the light that
-/// leaves it is found once and counts for all four: their paths could have come there, too. With pixel i at x_i, light
-/// L that leaves y, found by one of them, gives
-///   f_i |cos_i| g_i V_i L / sum_j p_j g_j V_j,  g = |cos at y| / |x - y|^2
-/// to each, the balance heuristic over the densities [1/sr] by which the others would have come to y. So up to four
-/// times as many paths light a pixel, for the price of three shadow rays. No pixel is biased; the noise of the four is
-/// alike, see noise_area.
-///   Shared : where y is diffuse, among paths of as many edges before, and not where the direction was a narrow lobe's.
-///            Paths from the lights weigh every path as if its own pixel had found it
-///   Gain   : the time of paths that share nothing but split in two, to a given error: .49 in book3-cornell-white, .55
-///            in arcade, .60 in cbox, .73 to .91 in leaves, book3-cornell-glass, smallpt, materials, veach-mi,
-///            book3-cornell-aluminium and textures, 1.35 in book1-cover, where neighbours see other balls. CPU seconds
-///            times the variance of six seeds, 64 samples a pixel. Two directions at each fork: .41 in
-///            book3-cornell-white, but 1.03 to 1.25 times as much as by one in all others except book1-cover (.89).
-///            Tiles of 4x4: .29 in book3-cornell-white, of noise that 16 pixels share
-///   Source : [BekaertSbertHalton02]; balance heuristic [Veach97] section 9.2
+/// Path tracer for tiles of 2x2 pixels that share diffuse vertices.
+/// The path of pixel i first reaches a non-delta vertex at x_i and continues there in one direction. If this leads to a
+/// diffuse surface at y, the radiance L that leaves y is estimated once and counts for all four pixels. Pixel i gets
+///   f_i |cos_i| g_i V_i L / sum_j p_j g_j V_j, with g = |cos at y| / |x - y|^2.
+/// p_j is the density [1/sr] with which pixel j would sample the direction to y: the weights are the balance heuristic.
+/// Each pixel gets up to four paths for the price of one path and three shadow rays. No pixel is biased. The noise of
+/// the four pixels is correlated; see noise_area.
+///   Shared : y is diffuse, the paths have the same number of edges before y, and no near-specular lobe was sampled at
+///            x_i. The MIS weight against light paths is computed for each pixel as if it had found the path.
+///   Gain   : see docs/methods/path-reuse.md and notebooks-data/adaptive/spp64.csv. It is lost where neighbouring
+///            pixels show different objects.
+///   Source : [BekaertSbertHalton02]; balance heuristic [Veach97] section 9.2.
 template <class SceneType> class PathReuseIntegrator {
  public:
+  /// Width and height of a tile [pixels].
   static constexpr int side = 2;
+  /// Number of pixels in a tile.
   static constexpr std::size_t pixels = side * side;
-  /// The variance of a sum of many pixels is at most this times the sum of their variances.
+  /// Bound of the noise area: the variance of a sum of many pixels is at most this times the sum of their variances.
   static constexpr double noise_area = pixels;
 
-  /// light_tracer : see PathIntegrator
-  ///   throws    : Error where something else than radiance is to be shown
+  /// Prepares path tracing of a scene.
+  ///   light_tracer : as for PathIntegrator.
+  ///   throws       : Error if options.aov is not radiance.
   PathReuseIntegrator(const SceneType& scene, const PathOptions& options, const LightTracer* light_tracer = nullptr)
       : steps_(scene, options.strategy, options.max_depth, light_tracer) {
     mc::require(options.aov.kind == Aov::radiance,
                 "render: tiles share radiance, not normals or ambient occlusion; leave out tiles");
   }
 
-  /// Radiance that arrives along the rays of a tile's pixels, one sample of each. `rays` counts the rays traced.
+  /// Estimates the radiance along the rays of a tile's pixels, with one sample each. `rays` counts the rays traced.
   template <class Stream>
   std::array<Spectrum, pixels> radiances(std::array<CameraRay<Stream>, pixels>& tile, std::uint64_t& rays) const;
 
@@ -55,7 +55,7 @@ template <class SceneType> class PathReuseIntegrator {
   using Steps = PathSteps<SceneType>;
   using Radiances = std::array<Spectrum, pixels>;
 
-  /// Where the path of a pixel first meets a surface that is not a delta.
+  /// First non-delta vertex of a pixel's path.
   struct ForkVertex {
     PathState state;
     typename Steps::PathVertex vertex;
@@ -63,15 +63,14 @@ template <class SceneType> class PathReuseIntegrator {
   };
   using Forks = std::array<ForkVertex, pixels>;
 
-  /// Where the path of a pixel came to a diffuse surface.
+  /// A diffuse vertex that a pixel's path reached.
   struct SharedVertex {
     std::size_t owner;
     SurfacePoint point;
-    Vec3 d;    ///< by which the owner came
-    Float pdf; ///< of that [1/sr]
+    Vec3 d;    ///< Direction in which the owner arrived.
+    Float pdf; ///< Density of d [1/sr].
     Spectrum light = Spectrum::Zero();
-    std::vector<RadianceContribution> light_traced =
-        {}; ///< that paths from the lights could have found, by the owner's odds
+    std::vector<RadianceContribution> light_traced = {}; ///< Contributions that light paths can find, too.
 
     void add(const RadianceContribution& contribution) {
       if (contribution.mis_ratio == 0) light += contribution.value;
@@ -80,15 +79,15 @@ template <class SceneType> class PathReuseIntegrator {
     bool is_dark() const { return light_traced.empty() && (light == 0).all(); }
   };
 
-  /// An end as a fork sees it.
+  /// Connection of a non-delta vertex (fork) to a shared vertex.
   struct Reconnection {
-    Spectrum f;       ///< beta f, and what is left of light on the way
-    double measure;   ///< |cos| g: solid angle at the fork to area at the end, projected at both
-    double area_pdf;  ///< per area at the end, of the fork's path there
-    double mis_ratio; ///< of paths from the lights, but for a factor that is the same for all forks
+    Spectrum f;       ///< beta f, with the transmittance of the medium.
+    double measure;   ///< V |cos_i| g: visibility, cosine at the fork, and solid angle to area at the shared vertex.
+    double area_pdf;  ///< Density of the fork's own path at the shared vertex [1/area], times V.
+    double mis_ratio; ///< Squared density ratio of light paths, up to a factor common to all forks.
   };
 
-  // The rest of a path from its fork; an end if it can be shared, and whatever else it finds.
+  // Traces a path beyond its fork. Returns its next vertex if it can be shared; adds all other light to the pixel.
   template <class Stream, class AddRadiance>
   std::optional<SharedVertex> extend_to_shared_vertex(std::size_t owner, const ForkVertex& fork, Stream& stream,
                                                       std::uint64_t& rays, const AddRadiance& add_radiance) const;
@@ -96,7 +95,7 @@ template <class SceneType> class PathReuseIntegrator {
   std::optional<Reconnection> reconnect(const ForkVertex& fork, const SharedVertex& shared, bool is_owner,
                                         std::uint64_t& rays) const;
 
-  // Gives all that see an end its light.
+  // Adds the light of a shared vertex to every pixel that can connect to it.
   void distribute(const SharedVertex& shared, const Forks& forks, std::uint64_t& rays, Radiances& radiances) const;
 
   Steps steps_;
@@ -141,7 +140,7 @@ auto PathReuseIntegrator<SceneType>::reconnect(const ForkVertex& fork, const Sha
   if (!same_geometric_side(isect, wi, d)) return {};
   Spectrum f = fork.state.beta * isect.bsdf.eval(isect.wo, wi);
   const Float pdf = is_owner ? shared.pdf : steps_.direction_mixture().pdf(isect, wi, d);
-  if (is_black(f) || !(pdf > 0)) return {}; // its path would never come there
+  if (is_black(f) || !(pdf > 0)) return {}; // its path could not have sampled y
   Float transmittance = 1;
   if (!is_owner || steps_.scene().has_masks()) {
     const auto ray = isect.point.spawn_ray_to(shared.point, d);

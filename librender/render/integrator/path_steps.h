@@ -1,12 +1,12 @@
 #pragma once
-/// What a path from the camera does, edge by edge.
+/// Building blocks of PathIntegrator and PathReuseIntegrator, edge by edge.
 
 #include <render/integrator/light_tracer.h>
 
 #include <mc/estimate/mis.h>
 
-// g++ gives up inlining where three kinds of streams share a file, and calls of a few instructions cost a twentieth of
-// the time. Under the sanitizers flat functions would take half an hour to compile.
+// g++ stops inlining if a file instantiates three stream types, and calls of a few instructions are then costly. Debug
+// and sanitizer builds leave flatten out, since it makes them very slow to compile.
 #if defined(NDEBUG)
 #define RENDER_FLAT [[gnu::flatten]]
 #else
@@ -17,84 +17,98 @@ namespace render {
 
 /// Light that a path finds.
 struct RadianceContribution {
-  Spectrum value;       ///< that counts if no path from the lights could have found it
-  double mis_ratio = 0; ///< that one did
+  Spectrum value;       ///< Contribution if no light path can find it.
+  double mis_ratio = 0; ///< Squared density of light paths over the squared density of this technique; 0: none find it.
 
+  /// The contribution with its MIS weight against light paths.
   Spectrum weighted() const { return mis_ratio == 0 ? value : Spectrum(value * Float(1 / (1 + mis_ratio))); }
 };
 
-/// A path under way.
+/// State carried along a camera path.
 struct PathState {
-  Ray ray;                          ///< to trace next
-  Vec3 previous_point;              ///< where it comes from
-  Spectrum beta = Spectrum::Ones(); ///< what light found along it counts
-  Float previous_pdf = 0; ///< of its direction; 0: camera or narrow lobe, which no light sampling could have chosen
-  Float eta_scale = 1;    ///< times beta: what roulette goes by. Undoes the compression of radiance in glass
-  Float guiding_pdf_ratio = 1; ///< density of its way since the last rough surface over that of following BSDFs alone
-  int edges = 0;               ///< traced so far
-  MediumStack media = {};      ///< that the ray goes through
-  PartialMisWeight partial_mis = {}; ///< of the paths from the lights
+  Ray ray;                          ///< Next ray to trace.
+  Vec3 previous_point;              ///< Previous vertex, or the origin on the camera.
+  Spectrum beta = Spectrum::Ones(); ///< Throughput: factor of the light found next.
+  /// Density [1/sr] of the last direction; 0 at the camera and after a near-specular lobe, which light sampling cannot
+  /// replace.
+  Float previous_pdf = 0;
+  /// Squared index ratio; times beta it is the importance for roulette, without the compression of radiance in glass.
+  Float eta_scale = 1;
+  /// Density of the directions since the last rough vertex over the density of pure BSDF sampling.
+  Float guiding_pdf_ratio = 1;
+  int edges = 0;                     ///< Number of edges so far.
+  MediumStack media = {};            ///< Media along the ray.
+  PartialMisWeight partial_mis = {}; ///< Ratio of light paths to this path.
 };
 
-/// The steps of paths through a scene, which must outlive it; what they are by is said at PathIntegrator.
+/// Building blocks of PathIntegrator; see there for the algorithm. The scene must outlive it.
 template <class SceneType> class PathSteps {
  public:
+  /// The scene's BSDF type.
   using BsdfType = std::remove_cvref_t<decltype(std::declval<SceneType>().bsdf(std::declval<Surface>()))>;
+  /// A vertex with its BSDF, frame and media.
   using Interaction = SurfaceInteraction<BsdfType>;
 
-  /// Where a path meets a surface. It stays where it is: its BSDF may be made in it.
+  /// A vertex on a surface. Not copyable: it may own the BSDF that it points to.
   struct PathVertex {
     PathVertex() = default;
     PathVertex(const PathVertex&) = delete;
     PathVertex& operator=(const PathVertex&) = delete;
 
+    /// Position and normals.
     SurfacePoint point;
+    /// The surface.
     const Surface* surface = nullptr;
+    /// The BSDF: the scene's, or bsdf_storage.
     const BsdfType* bsdf = nullptr;
-    std::optional<Bsdf> bsdf_storage; ///< of the BSDF where a texture varies it
+    std::optional<Bsdf> bsdf_storage; ///< The BSDF if a texture varies it.
 
+    /// The vertex with its shading frame, for a path that arrives by state.ray.
     Interaction interaction(const PathState& state) const {
       const auto frame = mc::Frame<Float>::from_z(point.ns);
       return {{*bsdf, point, frame, frame.to_local(-state.ray.d)}, *surface, state.media};
     }
   };
 
-  /// light_tracer : that find some of the light; null: none are traced. It must outlive this, too
+  /// Prepares path tracing of a scene.
+  ///   light_tracer : traces light paths of the same scene and must outlive this; null: no light paths.
   PathSteps(const SceneType& scene, const Strategy& strategy, int max_depth, const LightTracer* light_tracer)
       : scene_(scene), strategy_(strategy), max_depth_(max_depth),
         direction_mixture_(light_tracer ? light_tracer->camera_mixture() : DirectionMixture(scene, strategy)),
         light_tracer_(light_tracer) {}
 
+  /// The scene.
   const SceneType& scene() const { return scene_; }
+  /// Direction sampling of the strategy.
   const DirectionMixture& direction_mixture() const { return direction_mixture_; }
 
-  /// A path that starts by a ray of the camera.
-  ///   media : through what the ray starts
+  /// Starts a path with a camera ray.
+  ///   media : media at the origin of the ray.
   PathState start_path(const Ray& ray, const MediumStack& media) const {
     PathState state{ray, ray.o};
     state.media = media;
     if (light_tracer_) [[unlikely]]
       state.partial_mis = PartialMisWeight(1, light_tracer_->camera_pdf(ray.d), 0);
-    if (media.current || light_tracer_) [[unlikely]] // it fills what is cut away before the lens, too
+    if (media.current || light_tracer_) [[unlikely]] // the medium also fills the space before the near plane
       state.previous_point -= scene_.camera().near() / ray.d.dot(scene_.camera().forward()) * ray.d;
     return state;
   }
 
-  /// The nearest surface that a ray meets. See visibility.h: a mask is there or not, as chance has it.
+  /// The nearest hit of a ray. Each mask lets the ray pass with probability 1 - opacity; see visibility.h.
   template <class Stream> std::optional<Hit> nearest_hit(Ray& ray, Stream& stream, std::uint64_t& rays) const {
     return render::nearest_hit(scene_, ray, rays, [&](Float opacity) {
       return opacity == 0 || mc::Bernoulli<Float>(opacity).sample_index(stream.next()).index == 0;
     });
   }
 
-  /// One edge of a path, to the place where it meets a surface; `add_radiance` is given the light at its end. False where the
-  /// path ends there.
+  /// Traces one edge to the next vertex and passes the emission at its end to `add_radiance`. Returns false if the path
+  /// ends there.
   template <class Stream, class AddRadiance>
   bool intersect_next(PathState& state, PathVertex& vertex, Stream& stream, std::uint64_t& rays,
                       const AddRadiance& add_radiance) const {
     if (state.edges == max_depth_) return false;
     if (!state.beta.isFinite().all()) [[unlikely]] {
-      add_radiance(RadianceContribution{state.beta}); // an invalid sample
+      add_radiance(RadianceContribution{state.beta}); // reported as an invalid sample
       return false;
     }
     ++state.edges;
@@ -103,7 +117,7 @@ template <class SceneType> class PathSteps {
       if (state.media.current) [[unlikely]]
         state.beta *= state.media.current->transmittance(mc::infinity<Float>);
       if (light_tracer_) [[unlikely]]
-        state.partial_mis.add_vertex(1, 1); // a direction of the light
+        state.partial_mis.add_vertex(1, 1); // a direction of an infinite light
       for (const std::uint32_t light : scene_.infinite_lights())
         add_radiance(emitted_contribution(light, nullptr, state));
       return false;
@@ -120,7 +134,7 @@ template <class SceneType> class PathSteps {
     return true;
   }
 
-  /// Follows a path to where it first meets a surface that is not a delta. False where it ends before.
+  /// Follows a path to its first non-delta vertex. Returns false if the path ends before.
   template <class Stream, class AddRadiance>
   bool skip_delta_bounces(PathState& state, PathVertex& vertex, Stream& stream, std::uint64_t& rays,
                           const AddRadiance& add_radiance) const {
@@ -131,7 +145,7 @@ template <class SceneType> class PathSteps {
     return false;
   }
 
-  /// Gives `add_radiance` the light that is found along the rest of a path.
+  /// Traces a path to its end and passes the light that it finds to `add_radiance`.
   template <class Stream, class AddRadiance>
   void trace_remaining(PathState& state, Stream& stream, std::uint64_t& rays, const AddRadiance& add_radiance) const {
     PathVertex vertex;
@@ -140,7 +154,7 @@ template <class SceneType> class PathSteps {
     }
   }
 
-  /// Light straight from the lights to where a path is, and its next direction; false where the path ends.
+  /// Direct lighting at the vertex, and scattering. Returns false if the path ends.
   template <class Stream, class AddRadiance>
   bool shade_and_scatter(const Interaction& isect, PathState& state, Stream& stream, std::uint64_t& rays,
                          const AddRadiance& add_radiance) const {
@@ -148,7 +162,7 @@ template <class SceneType> class PathSteps {
     return scatter(isect, state, stream);
   }
 
-  /// Light straight from the lights to where a path is.
+  /// Direct lighting at the current vertex (next-event estimation).
   template <class Stream, class AddRadiance>
   void sample_direct(const Interaction& isect, const PathState& state, Stream& stream, std::uint64_t& rays,
                      const AddRadiance& add_radiance) const {
@@ -158,12 +172,12 @@ template <class SceneType> class PathSteps {
     add_radiance(light);
   }
 
-  /// The next direction, if the path goes on.
+  /// Samples the next direction and plays Russian roulette. Returns false if the path ends.
   template <class Stream> bool scatter(const Interaction& isect, PathState& state, Stream& stream) const {
     return sample_bsdf(isect, state, stream) && russian_roulette(state, stream);
   }
 
-  /// The next direction; false where the path is absorbed.
+  /// Samples the next direction. Returns false if the path is absorbed.
   template <class Stream>
   RENDER_FLAT bool sample_bsdf(const Interaction& isect, PathState& state, Stream& stream) const {
     const auto next = direction_mixture_.sample(isect, stream);
@@ -185,9 +199,9 @@ template <class SceneType> class PathSteps {
     return true;
   }
 
-  /// The odds of paths from the lights where a path, at `isect`, would come to `next` by the direction d of density `pdf`
-  /// [1/sr] if it looks the same from everywhere: but for a factor that does not depend on where it came from. 0 where
-  /// there are none.
+  /// Squared density ratio of light paths if a path at `isect` continued to `next` and `next` had a diffuse BSDF, up to
+  /// a factor that depends on `next` alone; 0 without light paths.
+  ///   d, pdf : direction from `isect` to `next`, with its density [1/sr].
   double mis_ratio_at(const SurfacePoint& next, const Interaction& isect, const PathState& state, const Vec3& d,
                       Float pdf) const {
     if (!light_tracer_) [[likely]]
@@ -200,10 +214,9 @@ template <class SceneType> class PathSteps {
     return partial_mis.squared_ratio(mc::sqr(double(next.ns.dot(d))));
   }
 
-  /// Whether a path survives Russian roulette.
+  /// Russian roulette. Returns whether the path survives, and scales its throughput.
   template <class Stream> static bool russian_roulette(PathState& state, Stream& stream) {
-    if (state.edges < 4 || !state.beta.isFinite().all())
-      return true; // of an invalid path roulette would leave no trace
+    if (state.edges < 4 || !state.beta.isFinite().all()) return true; // roulette would hide an invalid path
     const Float survival =
         std::clamp(std::max(Float(4), state.guiding_pdf_ratio) * state.beta.maxCoeff() * state.eta_scale,
                    std::numeric_limits<Float>::min(), Float(0.99));
@@ -215,7 +228,7 @@ template <class SceneType> class PathSteps {
  private:
   bool uses_nee() const { return strategy_.direct_lighting != DirectLighting::bsdf_only; }
 
-  // Light that what was met itself sends back along the path.
+  // Emission at the end of the last edge, with its MIS weight.
   RadianceContribution emitted_contribution(std::uint32_t light, const SurfacePoint* light_point,
                                             const PathState& state) const {
     const Light& source = scene_.lights()[light];
@@ -235,7 +248,7 @@ template <class SceneType> class PathSteps {
     return contribution;
   }
 
-  // What paths from the lights would have made of the edge.
+  // Adds the last edge to the density ratio of light paths.
   void update_partial_mis(const SurfacePoint& point, PathState& state) const {
     const double cosine = std::abs(double(point.ng.dot(state.ray.d)));
     const double distance2 = (point.p - state.previous_point).template cast<double>().squaredNorm();
@@ -243,18 +256,18 @@ template <class SceneType> class PathSteps {
     else state.partial_mis.add_vertex_from_point(cosine, distance2);
   }
 
-  // Squared density with which paths from the lights go on from `isect`, where they come from wi, the way that this came.
+  // Squared density with which a light path that arrives at `isect` from wi scatters back along this path.
   static double pdf_rev_squared(const Interaction& isect, const PathState& state, const Vec3& wi, bool near_specular,
                                 Float eta) {
-    if (state.edges == 1) return near_specular ? 0 : 1; // they are connected to the camera there
+    if (state.edges == 1) return near_specular ? 0 : 1; // at the first vertex light paths connect to the camera
     return mc::sqr(reverse_pdf(isect.bsdf, isect.wo, wi, near_specular, eta));
   }
 
-  // Light from one direction towards a light, reflected toward wo.
+  // Next-event estimation with one sampled light, without the path's throughput.
   template <class Stream>
   RENDER_FLAT RadianceContribution direct_contribution(const Interaction& isect, const PathState& state, Stream& stream,
                                                        std::uint64_t& rays) const {
-    const Vec2 u = stream.next2(); // u[0] also chooses the light, so that the choice is as well spread as the points
+    const Vec2 u = stream.next2(); // u[0] also selects the light, so that the selection is stratified
     const auto choice = scene_.sample_light(isect.point.p, u[0]);
     const Light& source = scene_.lights()[choice.index];
     if (isect.bsdf.is_near_specular() && !source.is_delta()) return {Spectrum::Zero()};
@@ -281,7 +294,7 @@ template <class SceneType> class PathSteps {
     return contribution;
   }
 
-  // The odds of paths from the lights against a connection of density `pdf` [1/sr].
+  // Squared density ratio of light paths to a connection of density `pdf` [1/sr].
   double nee_mis_ratio(const Interaction& isect, const PathState& state, const Vec3& wi, const LightSample& s,
                        std::uint32_t light, Float pdf) const {
     const SurfacePoint* end = s.point ? &*s.point : nullptr;

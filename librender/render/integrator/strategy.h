@@ -1,5 +1,5 @@
 #pragma once
-/// How a path chooses its directions and how the light that it finds counts.
+/// Strategies: how paths choose directions and find lights.
 
 #include <render/core/types.h>
 
@@ -9,47 +9,53 @@
 
 namespace render {
 
-/// What a strategy aims directions at.
+/// Shapes that a strategy aims directions at.
 enum class GuidingTarget {
+  /// No shapes: the BSDF alone.
   none,
-  hemisphere,         ///< every direction on the side of the path; on both where light goes through the surface
-  lights,             ///< the shapes of the lights, and the guides
-  importance_targets, ///< the shapes that the scene marks as such
-  speculars,          ///< spheres of smooth glass or mirror, which may cast caustics of the lights
-  enclosing_speculars ///< those of `speculars` that a lamp lies in, or reaches into
+  hemisphere,         ///< All directions on the side of wo; both sides if the BSDF transmits.
+  lights,             ///< Shapes of the lights, and importance targets.
+  importance_targets, ///< Shapes that the scene marks as importance targets.
+  speculars,          ///< Spheres of smooth glass or mirror, which may focus light.
+  enclosing_speculars ///< Specular spheres that an area light overlaps.
 };
 
-/// How the light of sampled lights is found.
+/// How direct lighting is estimated. It applies to sampled lights; see LightLike.
 enum class DirectLighting {
-  bsdf_only, ///< where a path meets it
-  nee,       ///< by a point of a light at every vertex; what a path meets by chance does not count
-  mis        ///< weighted by the power heuristic [Veach97]
+  bsdf_only, ///< Hits alone.
+  nee,       ///< Next-event estimation at every vertex; hits count only at the camera and after near-specular lobes.
+  mis        ///< Both, with the power heuristic [Veach97].
 };
 
-/// A row of the table below; the integrator does what it says.
+/// One row of the table of strategies.
 struct Strategy {
+  /// Name for users.
   std::string_view name;
+  /// Targets of directions.
   GuidingTarget guiding_target;
-  Float
-      guiding_fraction; ///< of the directions go to the target, the others follow the BSDF. 1: none but its delta lobes do
+  Float guiding_fraction; ///< Share of directions toward targets; 1: none by the BSDF except delta lobes.
+  /// How lights are found.
   DirectLighting direct_lighting;
-  Float light_path_rate =
-      0; ///< paths from the lights per path from the camera, in scenes where they pay, see LightTracer;
-         ///< directions are aimed at `enclosing_speculars` alone there
-  std::string_view summary = {}; ///< how it finds light, one sentence
-  std::string_view use = {};     ///< when to use it, one sentence
+  /// Number of light paths per camera path. Light paths start in scenes where they pay (LightTracer::create); camera
+  /// paths then aim at `enclosing_speculars` only.
+  Float light_path_rate = 0;
+  std::string_view summary = {}; ///< How it finds light, in one sentence.
+  std::string_view use = {};     ///< When to use it, in one sentence.
 };
 
-/// All but `light` are unbiased, those that find by chance where no light is a point or a direction; of such lights
-/// none but `mis+lt` finds what comes by way of smooth glass or a mirror, and that where it is seen directly.
-/// Where nothing is to aim at, the BSDF is followed.
-///   light : rough surfaces look towards lamps and guides alone, so that what else they would reflect is missed: the
-///           light of other surfaces and of the sky. See misses_light
-///   light, mixture, guides : as in [Shirley16], chapters 7, 8 and 10. Of a tiny lamp of triangles they lose what rays,
-///           rounded to float, miss at its outline: of a square 2e-9 times its distance over half its side
-///   mis+lt : path tracing plus light tracing: of the vertices s from the light and t from the camera, s = 0 and 1 with
-///           any t, and t = 1 with any s. Other pairs of bidirectional path tracing are left out. Light paths start in
-///           scenes where they pay, see LightTracer; elsewhere it is mis, bit for bit
+/// The table of strategies. Details are in docs/methods/path-tracing.md, direction-sampling.md and light-tracing.md.
+/// All strategies except `light` are unbiased for the lights that they can find:
+///   - Strategies without next-event estimation find no point lights and no directional lights.
+///   - Point and directional lights by way of smooth glass or a mirror are found by `mis+lt` alone, and there only on
+///     directly visible surfaces.
+/// Strategies without any target in the scene sample the BSDF.
+///   light  : rough surfaces look toward lights and importance targets alone. Light from other surfaces and from the
+///            sky is missing; see misses_light().
+///   light, mixture, guides : [Shirley16] chapters 7, 8 and 10. Rays rounded to float may miss a tiny lamp of triangles
+///                            at its outline. A square lamp loses about 2e-9 times its distance over half its side.
+///   mis+lt : path tracing plus light tracing. With s light vertices and t camera vertices it combines s = 0 and s = 1
+///            with any t, and t = 1 with any s. It is not bidirectional path tracing: other pairs (s, t) are left out.
+///            In scenes where light paths do not pay it equals `mis` bit for bit.
 inline constexpr auto strategies = std::to_array<Strategy>({
     {"bsdf", GuidingTarget::none, 0, DirectLighting::bsdf_only, 0,
      "Follows the BSDF; light counts where a path hits it.",
@@ -78,11 +84,11 @@ inline constexpr auto strategies = std::to_array<Strategy>({
      "bit."},
 });
 
-/// The names of all, in their order.
+/// Names of all strategies, in the order of the table.
 std::array<std::string_view, strategies.size()> strategy_names();
 
-/// The strategy of that name; "bidirectional", its former name, is mis+lt. Throws Error, naming the nearest strategy,
-/// for an unknown name.
+/// Returns the strategy with this name; "bidirectional" is a former name of mis+lt.
+///   throws : Error, with the nearest name, for an unknown name.
 const Strategy& strategy_from(std::string_view name);
 
 } // namespace render
