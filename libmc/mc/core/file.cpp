@@ -23,9 +23,9 @@ fs::path folder_of(const fs::path& target) { return target.has_parent_path() ? t
 
 // Destination of the bytes.
 struct OutputTarget {
-  fs::path target;               // not a symbolic link
-  std::optional<int> descriptor; // set for a descriptor of this process, because /dev/stdout is a link into
-                                 // /proc/self/fd
+  fs::path target; // not a symbolic link
+  // set for a descriptor of this process, because /dev/stdout is a link into /proc/self/fd
+  std::optional<int> descriptor;
   fs::file_type type = fs::file_type::not_found;
 
   bool is_replaced() const {

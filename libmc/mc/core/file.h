@@ -20,7 +20,7 @@ void replace_file(const std::string& path, const std::function<void(const std::s
 /// Writes `bytes` to `path` with replace_file().
 void write_file(const std::string& path, std::string_view bytes);
 
-/// Throws the errors of replace_file() that are known before writing. Changes nothing on disk.
+/// Throws the errors that replace_file() can detect before writing. Changes nothing on disk.
 void require_writable(const std::string& path);
 
 /// Creates the folder `name` and its missing parents, and returns its path.

@@ -1,5 +1,5 @@
 #pragma once
-/// Parallel loops whose results do not depend on the number of threads.
+/// Parallel loops with results that do not depend on the number of threads.
 
 #include <cstddef>
 #include <functional>

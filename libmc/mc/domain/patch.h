@@ -18,8 +18,8 @@ template <Real S> using Wide = std::conditional_t<std::same_as<S, float>, double
 ///              points.
 ///   jacobian : Area element * distance of the plane / |p|^3.
 ///   contains : Unit length, and on the inner side of the planes through the edges up to a distance of 64 eps.
-///   error    : The float version computes in double. In double, the chart loses as many digits as the ratio of the
-///              patch size to the height of the origin over the plane has.
+///   error    : The float version computes in double. In double, a patch of 10^k times the height of the origin over
+///              its plane costs k digits.
 ///   throws   : Error unless the triple product of origin, edge1 and edge2 is finite and not 0, so that the patch is
 ///              not edge-on.
 template <Real S, int Corners> struct Patch {

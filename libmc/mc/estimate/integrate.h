@@ -1,5 +1,5 @@
 #pragma once
-/// Integration to a wanted error.
+/// Numerical integration over the unit cube, a domain or a warp, to a given error. See docs/methods/integrate.md.
 
 #include <mc/core/error.h>
 #include <mc/domain/concept.h>
@@ -19,166 +19,186 @@
 
 namespace mc {
 
-/// How points are placed. `automatic` starts with rqmc, tries what vegas and tree learn when that has not converged by
-/// a 16th of the calls, and keeps the best of the three; plain above 1024 dimensions.
-enum class Method { automatic, plain, stratified, rqmc, vegas, tree };
+/// Integration method; see integrate_unit() for the algorithms.
+enum class Method {
+  automatic,  ///< Selects one of rqmc, vegas and tree during the run.
+  plain,      ///< Independent points.
+  stratified, ///< Jittered points.
+  rqmc,       ///< Scrambled Sobol' sequences.
+  vegas,      ///< rqmc with importance sampling by a learned grid.
+  tree        ///< rqmc with importance sampling by a learned grid and tree.
+};
+/// Name of a method, such as "rqmc".
 std::string_view name(Method method);
-/// Throws Error, naming the nearest method, for an unknown name.
+/// Inverse of name(). Throws Error for an unknown name; the message suggests the nearest method.
 Method parse_method(std::string_view name);
 
-/// Why integration ended.
-enum class StopReason { converged, max_calls, cancelled };
+/// Reason for the end of an integration.
+enum class StopReason {
+  converged, ///< A tolerance was reached.
+  max_calls, ///< The calls were exhausted.
+  cancelled  ///< IntegrateOptions::cancel became true.
+};
+/// Name of a reason.
 std::string_view name(StopReason stop);
 
-/// What is known of the error.
+/// Reliability of an error bar.
 enum class ErrorBar {
-  known,
-  all_zero,     ///< every value was zero: nothing tells how large those are that were not met
-  undersampled, ///< few points hold most of the integral, or values beyond those met may: the next may change it all
-  infinite_variance ///< the integrand is large on a volume that shrinks so slowly that no error bar holds, see TailIndexEstimator
+  known,            ///< The standard error is valid.
+  all_zero,         ///< All sampled values were zero; the error is unknown.
+  undersampled,     ///< A few samples dominate the estimate; the error is unreliable.
+  infinite_variance ///< The tail of the integrand is so heavy that its variance is infinite.
 };
+/// Name of an error bar.
 std::string_view name(ErrorBar bar);
 
-/// What integrate() throws for an integrand that is not finite: at so many of so many points, the first of which is u;
-/// `where` is that point as text.
+/// Exception of integrate() for an integrand that is not finite.
 struct NotFinite : Error {
+  /// `bad_points` of `of_points` values are not finite. `point` is the first of them and `where` its text in the
+  /// message.
   NotFinite(std::uint64_t bad_points, std::uint64_t of_points, std::vector<double> point, std::string_view where);
-  std::uint64_t bad, points;
-  std::vector<double> u;
+  std::uint64_t bad, points; ///< Number of points with such a value, and number of all points.
+  std::vector<double> u;     ///< The first such point.
 };
 
+/// Report to IntegrateOptions::progress.
 struct IntegrateProgress {
-  Estimate estimate;
-  std::uint64_t calls;
-  double seconds;
+  Estimate estimate;   ///< Current estimate.
+  std::uint64_t calls; ///< Number of evaluations of the integrand so far.
+  double seconds;      ///< Wall time so far [s].
 };
 
+/// Settings of integrate().
 struct IntegrateOptions {
-  double rel_error = 1e-3;             ///< stop when std_error <= rel_error |value| ...
-  double abs_error = 0;                ///< ... or std_error <= abs_error
-  std::uint64_t max_calls = 1'000'000; ///< never evaluate the integrand more often
-  Method method = Method::automatic;
-  std::uint64_t seed = 1;
-  int threads = 0;          ///< 0: all of the machine's; the result has the same bits for any number
-  double confidence = 0.95; ///< of the interval
-  /// Independent randomisations behind the error of stratified, rqmc, vegas and tree. Where a run uses up its calls,
-  /// its sequences are in the end more than these, or fewer and longer, whichever leaves less variance; but never fewer
-  /// than a third of them, nor than eight, unless fewer were asked for.
+  double rel_error = 1e-3;             ///< Stops when std_error <= rel_error |value| ...
+  double abs_error = 0;                ///< ... or when std_error <= abs_error.
+  std::uint64_t max_calls = 1'000'000; ///< Upper limit for the number of evaluations of the integrand.
+  Method method = Method::automatic;   ///< Integration method.
+  std::uint64_t seed = 1;              ///< Seed of all random numbers.
+  int threads = 0;                     ///< Number of threads, 0 for all. The result has the same bits for any number.
+  double confidence = 0.95;            ///< Confidence level of the interval.
+  /// Number of independent randomisations behind the error of stratified, rqmc, vegas and tree. A run that exhausts its
+  /// calls may end with more sequences, or with fewer and longer sequences, whichever gives less variance. It keeps at
+  /// least a third of this number and at least eight, unless fewer were requested.
   std::uint32_t replicates = 24;
-  /// Of an earlier run, or read from a file (see load_density), of this integrand or one like it. Short rounds of
-  /// uniform points and of its own try it: where it fits, vegas, tree and automatic take it for what they would have
-  /// learned; where it does not, they go on learning from it. As unbiased for any density.
+  /// Initial density for vegas, tree and automatic: from an earlier run or from load_density(), for the same or a
+  /// similar integrand. Short rounds of uniform points and of points from the density test it. If it fits, it replaces
+  /// learning; otherwise learning continues from it. The estimate is unbiased for any density.
   std::shared_ptr<const AdaptedDensity> density = {};
-  /// The last so many outputs need not be accurate: they neither end the run nor say where points go.
+  /// The last `auxiliary_outputs` outputs affect neither stopping nor adaptation.
   std::size_t auxiliary_outputs = 0;
-  std::function<void(const IntegrateProgress&)> progress = {};
-  const std::atomic<bool>* cancel = nullptr;
+  std::function<void(const IntegrateProgress&)> progress = {}; ///< Called after each round.
+  const std::atomic<bool>* cancel = nullptr;                   ///< Ends the integration when it becomes true.
 };
 
-/// What a run saw at one point of its way.
+/// Diagnostics of one round of a run.
 struct IntegrateRound {
-  Method method = Method::plain; ///< whose points these are
-  bool learning = false;         ///< a round that a density was learned from, or measured with
-  std::uint64_t calls = 0;       ///< so far, of the whole run
-  Estimate estimate = {};
-  ErrorBar error_bar = ErrorBar::known;
-  /// The square of the normal deviate by which it differs from the answer (of stratified: from the rounds before), as
-  /// added to Integral::chi2; not a number where the two share points.
+  Method method = Method::plain;        ///< Method of the points.
+  bool learning = false;                ///< Whether a density was learned from this round, or tested with it.
+  std::uint64_t calls = 0;              ///< Evaluations of the whole run so far.
+  Estimate estimate = {};               ///< Estimate after this round.
+  ErrorBar error_bar = ErrorBar::known; ///< Error bar after this round.
+  /// Squared normal deviate of the difference to the final answer, or for stratified to the rounds before. It is part
+  /// of Integral::chi2. NaN if both share points.
   double chi2 = 0;
 };
 
-/// An integral with its error bar and how it was found.
+/// Integral with its error bar and the history of the run.
 struct Integral {
-  Estimate estimate; ///< its std_error is infinite unless error_bar is known
-  /// Two-sided, Student t for replicates, longer on the side they are skewed to. Of a learned density it allows for
-  /// values larger than all that were met, see OctaveHistogram. All numbers unless error_bar is known.
+  Estimate estimate; ///< Estimate; std_error is infinite unless error_bar is known.
+  /// Two-sided confidence interval: Student t over the replicates, longer on the side of their skewness. For a learned
+  /// density it includes the possible contribution of values larger than all sampled values; see OctaveHistogram.
+  /// Contains all numbers unless error_bar is known.
   Estimate::Interval interval{};
-  ErrorBar error_bar = ErrorBar::known;
-  double tail_index = 0; ///< of the integrand, see TailIndexEstimator; infinite for a bounded one
-  std::uint64_t infinite_points =
-      0; ///< points where the integrand was infinite, which count as 0: the variance is infinite
-  std::uint64_t calls = 0;
-  double seconds = 0;
-  Method method = Method::plain; ///< the one picked
-  StopReason stop = StopReason::converged;
-  /// stratified, vegas and tree: how well independent rounds agree, each difference turned from Student's t into a
-  /// normal deviate and squared; near its dof. plain and rqmc: 0
+  ErrorBar error_bar = ErrorBar::known; ///< Reliability of the error.
+  double tail_index = 0;                ///< Tail index of the integrand; infinite if bounded. See TailIndexEstimator.
+  /// Number of points where the integrand was infinite. They count as 0, and the variance is infinite.
+  std::uint64_t infinite_points = 0;
+  std::uint64_t calls = 0;                 ///< Number of evaluations of the integrand.
+  double seconds = 0;                      ///< Wall time [s].
+  Method method = Method::plain;           ///< Method of the estimate.
+  StopReason stop = StopReason::converged; ///< Reason for the end of the run.
+  /// Agreement of independent rounds for stratified, vegas and tree; 0 for plain and rqmc. Each difference is converted
+  /// from Student's t to a normal deviate and squared. chi2 is near chi2_dof if the rounds agree.
   double chi2 = 0, chi2_dof = 0;
-  /// Whether the rounds agree: chi2 is exceeded by chance with probability over 1e-4. False: distrust the error bar.
+  /// Whether the rounds agree: the probability of a larger chi2 is above 1e-4. If false, the error bar is not reliable.
   bool consistent = true;
-  double confidence = 0.95; ///< of the interval
-  std::vector<IntegrateRound> rounds = {};
-  /// What was learned, whether it was used in the end or not; none where nothing was.
+  double confidence = 0.95;                ///< Confidence level of the interval.
+  std::vector<IntegrateRound> rounds = {}; ///< History of the run.
+  /// Learned density, even if the estimate does not use it. Null if none was learned.
   std::shared_ptr<const AdaptedDensity> density = {};
 
-  /// "1.3075 ± 0.00013 (standard error), 95 % in [1.3073, 1.3078]", or why there is no error bar; and a warning where
-  /// the rounds disagree.
+  /// Text such as "1.3075 ± 0.00013 (standard error), 95 % in [1.3073, 1.3078]", or the reason for a missing error bar.
+  /// Adds a warning if the rounds disagree.
   std::string to_string() const;
 };
+/// Writes to_string().
 std::ostream& operator<<(std::ostream& out, const Integral& r);
 
-/// Several integrals from the same calls.
+/// Several integrals from the same evaluations.
 struct VectorIntegral {
-  std::vector<Integral> outputs; ///< all fields but what is said of an integral and its error are common
-  /// Of the errors, row by row; from the values of plain in 32 batches, from the replicates of the other methods: off
-  /// by about (1 - c^2) / sqrt(23) for 24 of them.
+  /// One integral per output. Only the fields of the value and its error differ between outputs.
+  std::vector<Integral> outputs;
+  /// Correlation matrix of the errors, row by row. Estimated from 32 batches of values for plain and from the
+  /// replicates for the other methods. Its standard error is about (1 - c^2) / sqrt(R - 1) for R replicates.
   std::vector<double> correlations = {};
 
+  /// Correlation of the errors of outputs i and j.
   double correlation(std::size_t i, std::size_t j) const { return correlations[i * outputs.size() + j]; }
-  /// Of the errors: the squared std_error for i = j, not finite where an error is not known.
+  /// Covariance of the errors of outputs i and j: the squared std_error for i = j. Not finite if an error is unknown.
   double covariance(std::size_t i, std::size_t j) const {
     return correlation(i, j) * outputs[i].estimate.std_error * outputs[j].estimate.std_error;
   }
 };
 
-/// f(u, values) fills `values`, one per output, for a point u of the unit cube.
+/// f(u, values) fills `values` with one value per output for the point u of the unit cube.
 using VectorIntegrand = std::function<void(std::span<const double> u, std::span<double> values)>;
 
-/// Many points at a time, for what is faster in a loop of its own: f(points, values) is given up to 256 points, their
-/// coordinates one point after the other, and fills `values` likewise, as many for each point as there are outputs. The
-/// result has the same bits as that of one point at a time.
+/// Integrand that processes many points at a time. f(points, values) receives up to 256 points, with the coordinates of
+/// each point in sequence. It fills `values` with the outputs of each point in sequence. The result has the same bits
+/// as for single points.
 struct BatchIntegrand {
-  std::function<void(std::span<const double> points, std::span<double> values)> f;
+  std::function<void(std::span<const double> points, std::span<double> values)> f; ///< Evaluates the points.
 };
 
-/// The integral over the unit cube of f(u) du, f evaluated at points of [0,1)^dim, from several threads at once.
-///   plain      : independent points, error from the sample variance
-///   stratified : rounds of jittered grids of doubling size, error from replicates
-///   rqmc       : independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions,
-///                error from replicates
-///   vegas      : rqmc through an ImportanceGrid learned on a 32nd of the calls, or up to a quarter where those are
-///                few, up to a fifth where values are spread widely, and to two fifths where rare large ones may be
-///                left to be found; the last round it was learned on is the consistency check. The grid is frozen
-///                before the sequences start, so the estimate is unbiased; a ninth of the points are uniform, so that
-///                no value exceeds 8 times the integrand's, and the grid's own integral is subtracted, so that they
-///                cost little [OwenZhou00]; up to a half where most of the error would be theirs
-///   tree       : the same with a BoxTree within the grid, for what is no product of axes
-///   automatic  : learns from the points of rqmc that were made anyway, and gives up where rqmc is clearly ahead; else
-///                holds the error of vegas and tree, of a third of the replicates, against that of rqmc at the same
-///                length
-///   error      : without a tolerance, 66 to 71 % of runs lie within 1 std_error of the truth and 93 to 96.5 % within
-///                2, for every method over Genz's families [Genz87], and the 95 % intervals of vegas, tree and
-///                automatic hold it in 95 to 97 %; with and without a tolerance, 93 to 97 % of the
-///                95 % intervals of rqmc hold the truth on steps, kinks, shells and singularities of finite variance at
-///                random places. No error is 0 because replicates agree: what they could not see has a bound. None
-///                converges on fewer than 128 points of each replicate, nor where every value was 0, or the variance is
-///                infinite, as error_bar says
+/// Integral of f(u) over the unit cube [0,1)^dim. Calls f from several threads at once.
+///   plain      : Independent points. Error from the sample variance.
+///   stratified : Independent rounds of jittered points, doubling in size. Error from replicates.
+///   rqmc       : Independently scrambled Sobol' sequences that double in length, interlaced in one and two dimensions.
+///                Error from replicates.
+///   vegas      : rqmc through an ImportanceGrid that is learned first and then fixed, so the estimate is unbiased.
+///                Learning takes a 32nd of the calls, or up to a quarter of a small budget. It takes up to a fifth for
+///                widely spread values, and up to two fifths if rare large values may be missing. The last learning
+///                round is the consistency check. A ninth of the points is uniform, so that no weighted value exceeds 8
+///                times the integrand. The share rises to a half if most of the error comes from the uniform points.
+///                The known integral of the density serves as a control variate, which makes uniform points cheap
+///                [OwenZhou00].
+///   tree       : vegas with a BoxTree within the grid, for integrands that are no product over the axes.
+///   automatic  : rqmc first. If that has not converged by a 16th of the calls, learns a density from its points, and
+///                gives up if rqmc is clearly ahead. Compares the errors of vegas and tree, on a third of the
+///                replicates, with the error of rqmc at equal length, and continues with the best. Uses plain above
+///                1024 dimensions.
+///   error      : std_error and intervals have the coverage measured in docs/methods/integrate.md. Equal replicates
+///                never give error 0: a bound for undetected variation is added. No replicated method converges with
+///                                    fewer than 128 points per replicate, with all values 0, or with infinite
+///                                    variance. The error_bar then gives the reason.
 ///   throws     : Error for an empty f, dim < 1, a tolerance that is negative or not finite, max_calls too small for
-///                one round, confidence outside (0,1), threads < 0, a density of another dimension or for a method that
-///                has none, no output that is not watched; what the integrand throws, after all threads have
-///                stopped; NotFinite for an integrand that is not a number somewhere, or infinite on more than a
-///                thousandth of the volume; and when cancelled before anything was estimated
+///                one round, confidence outside (0,1), or threads < 0. Error for a density of another dimension or for
+///                a method without density, or if all outputs are auxiliary. NotFinite if the integrand is NaN at a
+///                point, or infinite on more than a thousandth of the volume. Error if cancelled before the first
+///                estimate, and any exception of the integrand, after all threads have stopped.
 Integral integrate_unit(const std::function<double(std::span<const double>)>& f, int dim,
                         const IntegrateOptions& options = {});
 
-/// The same for `outputs` integrands at once; converged when each of them is.
+/// Integrals of `outputs` integrands at once. Converges when all primary outputs have converged.
 VectorIntegral integrate_unit(const VectorIntegrand& f, int outputs, int dim, const IntegrateOptions& options = {});
 
+/// Same for an integrand that takes many points at a time.
 Integral integrate_unit(const BatchIntegrand& f, int dim, const IntegrateOptions& options = {});
+/// Same for several outputs of an integrand that takes many points at a time.
 VectorIntegral integrate_unit(const BatchIntegrand& f, int outputs, int dim, const IntegrateOptions& options = {});
 
-/// Replicated randomised quasi-Monte Carlo with `count` points in each of `replicates` randomisations, without a
-/// tolerance.
+/// Replicated randomised quasi-Monte Carlo without a tolerance: `count` points in each of `replicates` randomisations.
 Integral integrate_rqmc(const std::function<double(std::span<const double>)>& f, int dim, std::uint64_t count,
                         std::uint32_t replicates = 24, std::uint64_t seed = 1, int threads = 0);
 
@@ -201,7 +221,7 @@ template <Domain D> int dimension(const D& domain) {
 }
 } // namespace detail
 
-/// The integral of f over a domain, in the domain's measure.
+/// Integral of f over a domain, in the measure of the domain.
 template <class F, Domain D>
 requires std::invocable<F, typename D::Point> Integral integrate(F&& f, const D& domain,
                                                                  const IntegrateOptions& options = {}) {
@@ -213,7 +233,7 @@ requires std::invocable<F, typename D::Point> Integral integrate(F&& f, const D&
       detail::dimension(domain), options);
 }
 
-/// The integral of f over the domain of a warp, importance-sampled by the warp: the mean of f(x) / pdf(x).
+/// Integral of f over the domain of a warp, importance-sampled by the warp: the mean of f(x) / pdf(x).
 template <class F, Warp W>
 requires std::invocable<F, PointOf<W>> Integral integrate(F&& f, const W& warp, const IntegrateOptions& options = {}) {
   return integrate_unit(

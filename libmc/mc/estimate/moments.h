@@ -10,13 +10,14 @@
 
 namespace mc {
 
-/// Count, mean and sum of squared deviations of a stream of doubles, mergeable; non-finite values are counted apart and
-/// the first one's index is kept.
-///   error  : relative error of mean and variance O(eps) per merge, no cancellation [Welford62, ChanGolubLeVeque83],
-///            but for overflow of the variance where numbers lie more than 1e154 apart
-///   throws : estimate() throws Error when any value was not finite, or there are fewer than two
+/// Count, mean and sum of squared deviations of a stream of doubles; mergeable. Counts non-finite values separately and
+/// stores the index of the first.
+///   error  : Relative error of mean and variance is O(eps) per merge, without cancellation [Welford62,
+///            ChanGolubLeVeque83]. The variance overflows for values more than 1e154 apart.
+///   throws : estimate() throws Error if a value was not finite, or if there are fewer than two.
 class Moments {
  public:
+  /// Adds one value; `index` identifies it in error messages.
   void add(double x, std::uint64_t index = 0) {
     if (!std::isfinite(x)) [[unlikely]] {
       if (non_finite_++ == 0) first_non_finite_ = index;
@@ -28,13 +29,13 @@ class Moments {
     m2_ += delta * (x - mean_);
   }
 
-  /// Adds a block of values whose indices start at `first`: two passes over it instead of a division per value.
+  /// Adds a block of values with indices from `first` on, in two passes over it and without a division for each value.
   void add(std::span<const double> values, std::uint64_t first) {
     Moments block;
     double sum = 0;
     for (const double x : values) sum += x;
     const double n = static_cast<double>(values.size()), mean = sum / n;
-    if (!std::isfinite(sum)) { // or the sum overflowed: one by one
+    if (!std::isfinite(sum)) { // non-finite values or an overflow of the sum: add values singly
       for (std::size_t i = 0; i < values.size(); ++i) block.add(values[i], first + i);
     } else if (!values.empty()) {
       double squares = 0, rest = 0;
@@ -49,11 +50,12 @@ class Moments {
     merge(block);
   }
 
+  /// Adds the values of another stream.
   void merge(const Moments& other) {
     if (other.non_finite_ > 0 && non_finite_ == 0) first_non_finite_ = other.first_non_finite_;
     non_finite_ += other.non_finite_;
     if (other.count_ == 0) return;
-    if (count_ == 0) { // the products below overflow for large numbers
+    if (count_ == 0) { // the products below would overflow for large numbers
       count_ = other.count_;
       mean_ = other.mean_;
       m2_ = other.m2_;
@@ -66,7 +68,7 @@ class Moments {
     count_ += other.count_;
   }
 
-  /// What would be there had every value been multiplied by 2^power.
+  /// The moments of all values multiplied by 2^power.
   Moments scaled(int power) const {
     Moments m = *this;
     m.mean_ = std::ldexp(mean_, power);
@@ -74,16 +76,19 @@ class Moments {
     return m;
   }
 
+  /// Number of finite values.
   std::uint64_t count() const { return count_; }
+  /// Mean of the finite values.
   double mean() const { return mean_; }
   /// Unbiased sample variance; 0 for fewer than two values.
   double variance() const { return count_ > 1 ? m2_ / static_cast<double>(count_ - 1) : 0.0; }
-  /// Of the mean, as computed; estimate() widens it for the uncertainty of a variance of few values.
+  /// Standard error of the mean. estimate() widens it for the uncertainty of the variance.
   double std_error() const { return count_ > 1 ? std::sqrt(variance() / static_cast<double>(count_)) : 0.0; }
+  /// Number of non-finite values.
   std::uint64_t non_finite_count() const { return non_finite_; }
-  std::uint64_t first_non_finite() const { return first_non_finite_; } ///< index of the first non-finite value
+  std::uint64_t first_non_finite() const { return first_non_finite_; } ///< Index of the first non-finite value.
 
-  /// The mean with its error bar, count - 1 degrees of freedom behind it.
+  /// The mean with its error bar, with count - 1 degrees of freedom.
   Estimate estimate() const;
 
  private:

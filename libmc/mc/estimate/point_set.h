@@ -1,5 +1,5 @@
 #pragma once
-/// Points of the unit cube in blocks, for integrators.
+/// Point sets of integrate(), generated in blocks.
 
 #include <mc/sampler/independent.h>
 #include <mc/sampler/sobol.h>
@@ -11,38 +11,41 @@
 
 namespace mc {
 
-/// A Sobol' sequence of double precision points, Owen-scrambled by the seed.
+/// Owen-scrambled Sobol' sequence with coordinates of double precision.
 struct ScrambledSobol {
-  std::uint64_t seed = 0;
+  std::uint64_t seed = 0; ///< Seed of the scrambling.
 };
 
-/// Each coordinate interlaces the bits of two of a ScrambledSobol: a net of order 2, whose error for n points of a
-/// smooth integrand falls like n^-2.5 but for powers of log n, instead of n^-1.5: measured n^-2.4 in one dimension and
-/// below n^-2 in two. In five nothing is gained at 4096 points.
-///   Source : [Dick11]
+/// Each coordinate interlaces the bits of two coordinates of a ScrambledSobol. The result is a net of order 2. For
+/// smooth integrands, the RMS error is O(n^-2.5) up to powers of log n, instead of O(n^-1.5). The gain vanishes in
+/// higher dimensions at practical n; see docs/methods/point-sets.md.
+///   Source : [Dick11].
 struct InterlacedSobol {
-  std::uint64_t seed = 0;
+  std::uint64_t seed = 0; ///< Seed of the scrambling.
 };
 
-/// `count` jittered points, one to each of as many boxes of equal volume, as those of Stratified in groups of 8
-/// dimensions, but cheaper: the boxes of the first group come in order, so part of a set is no sample of the cube, and
-/// along an axis boxes are cut into the same number of strata throughout. A last group of fewer axes is cut finer.
-///   Points keep 2^-50 off the faces of their strata, more than they are rounded by: never 0 or 1.
+/// `count` jittered points, one in each of `count` boxes of equal volume, in groups of 8 dimensions. Like Stratified,
+/// but faster.
+///   order    : The boxes of the first group are in order, so a part of a set is no sample of the cube.
+///   strata   : Along an axis, all boxes are cut into the same number of strata. A last group with fewer axes is cut
+///              finer.
+///   rounding : Points stay 2^-50 away from the faces of their strata, more than the rounding error. They are never 0
+///              or 1.
 struct JitteredBoxes {
-  std::uint64_t seed = 0;
-  std::uint32_t count = 1; ///< at least 1
+  std::uint64_t seed = 0;  ///< Seed of the jitter.
+  std::uint32_t count = 1; ///< Number of points, at least 1.
 };
 
-/// The point sets that integrate() places its calls on.
+/// A point set of integrate().
 using PointSet = std::variant<Independent, JitteredBoxes, ScrambledSobol, InterlacedSobol>;
 
-/// Writes points first, first + 1, ... to u, the dim coordinates of each side by side; u.size() is a multiple of dim.
-///   Independent : the bits of coordinate<double>(sampler, index, dim)
-///   JitteredBoxes : indices below its count
-///   ScrambledSobol : the leading 32 bits of Sobol(seed), 20 hashed ones and the middle of their interval, so never 0
-///            or 1; a whole block at a time, since neighbours in the sequence share all but their low bits. Indices
-///            below 2^32
-///   InterlacedSobol : so too, with 26 bits each of its coordinates 2 d and 2 d + 1; dim at most 512
+/// Writes points first, first + 1, ... to u, with the dim coordinates of each point in sequence. u.size() must be a
+/// multiple of dim.
+///   Independent     : The bits of coordinate<double>(sampler, index, dim).
+///   JitteredBoxes   : Indices must be below its count.
+///   ScrambledSobol  : The leading 32 bits of Sobol(seed), then 20 hashed bits, at the middle of the interval of that
+///                     precision. Never 0 or 1. Indices must be below 2^32.
+///   InterlacedSobol : Same, with 26 bits from each of the coordinates 2 d and 2 d + 1. dim must be at most 512.
 void fill_points(const PointSet& set, std::uint64_t first, int dim, std::span<double> u);
 
 } // namespace mc

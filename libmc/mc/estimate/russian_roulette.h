@@ -1,5 +1,5 @@
 #pragma once
-/// Random termination and multiplication of an estimate without bias.
+/// Unbiased random termination and splitting of estimates.
 
 #include <mc/core/error.h>
 #include <mc/core/types.h>
@@ -9,17 +9,17 @@
 
 namespace mc {
 
-/// Whether to go on with an estimate, and the factor that keeps its mean.
-///   survives : with probability `probability`, decided by u in [0,1); `weight` is then 1 / probability, else 0
-///   error    : a probability is met to the spacing of u: 1.4e-3 of 1e-5 is too much where u is a float of 24 bits, and
-///              below 2^-24 (2^-53 in double) only a finer u keeps the mean
-///   throws   : Error unless the probability is at most 1 and at least the smallest normal number: with probability 0
-///              what is cut off could not be made up for
-///   Source   : [ArvoKirk90]
+/// Result of russian_roulette().
 template <Real S> struct Roulette {
-  bool survives;
-  S weight;
+  bool survives; ///< Whether the estimate continues.
+  S weight;      ///< Factor on a surviving estimate that keeps its mean: 1 / probability, or 0.
 };
+/// Decides with u in [0,1) whether an estimate continues. It survives with probability `probability`.
+///   error  : The survival probability is rounded to the spacing of u. Below 2^-24 for float, or 2^-53 for double, the
+///            mean is not kept.
+///   throws : Error unless the probability is at most 1 and at least the smallest normal number. Probability 0 would
+///            lose the contribution.
+///   Source : [ArvoKirk90].
 template <Real S> Roulette<S> russian_roulette(S probability, S u) {
   require(probability >= std::numeric_limits<S>::min() && probability <= 1,
           "russian_roulette: survival probability {} must lie in (0, 1], and not below {:.3g}",
@@ -27,17 +27,17 @@ template <Real S> Roulette<S> russian_roulette(S probability, S u) {
   return u < probability ? Roulette<S>{true, 1 / probability} : Roulette<S>{false, S(0)};
 }
 
-/// How many independent continuations an estimate gets, and the factor on each that keeps its mean.
-///   copies : the number next below or above `expected`, decided by u in [0,1), so that its mean is `expected`; below 1
-///            this is Russian roulette. `weight` is 1 / expected
-///   error  : as russian_roulette, of what `expected` exceeds a whole number by
-///   throws : Error unless `expected` is at least the smallest normal number and at most 2^20: more copies are a fault
-///            of whoever asks for them
-///   Source : [ArvoKirk90]
+/// Result of split().
 template <Real S> struct Splitting {
-  std::uint32_t copies;
-  S weight;
+  std::uint32_t copies; ///< Number of independent continuations.
+  S weight;             ///< Factor on each continuation that keeps the mean: 1 / expected.
 };
+/// Decides with u in [0,1) on the number of continuations: one of the two integers next to `expected`, with mean
+/// `expected`. Below 1 this is Russian roulette.
+///   error  : As for russian_roulette(), for the fractional part of `expected`.
+///   throws : Error unless `expected` is at least the smallest normal number and at most 2^20. More copies indicate an
+///            error of the caller.
+///   Source : [ArvoKirk90].
 template <Real S> Splitting<S> split(S expected, S u) {
   require(expected >= std::numeric_limits<S>::min() && expected <= S(1 << 20),
           "split: expected number of copies {} must lie in (0, 2^20], and not below {:.3g}",

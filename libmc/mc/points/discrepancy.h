@@ -24,7 +24,7 @@ double periodic_l2_discrepancy(PointList points);
 /// the same name.
 ///   Source : [Hickernell98].
 double wraparound_discrepancy(PointList points);
-/// Centered L2 discrepancy; see wraparound_discrepancy().
+/// Centered L2 discrepancy, as defined at wraparound_discrepancy().
 double centered_discrepancy(PointList points);
 
 /// Expected squared L2 star and periodic discrepancies, for comparison with a point set.
@@ -32,9 +32,9 @@ double centered_discrepancy(PointList points);
 ///   jittered : `count` = m^dim jittered points, one in each cell of a grid. If m is not whole, returns the value of
 ///              the formula.
 double random_mean_square(double count, int dim);
-/// Expected squared L2 star discrepancy of jittered points; see random_mean_square().
+/// Expected squared L2 star discrepancy of `count` jittered points.
 double jittered_star_mean_square(double count, int dim);
-/// Expected squared periodic L2 discrepancy of jittered points; see random_mean_square().
+/// Expected squared periodic L2 discrepancy of `count` jittered points.
 double jittered_periodic_mean_square(double count, int dim);
 
 /// Smallest distance of two points in the cube, with and without wrapping around its faces.

@@ -32,8 +32,8 @@ struct Volumes {
   }
 };
 
-// A part is a range lo[k] <= g[k] < hi[k] of ranks. Its boxes contain the points whose rank along each axis k is at
-// most g[k]. The closed box of g ends at coordinate g[k], the open box at the next coordinate.
+// A part is a range lo[k] <= g[k] < hi[k] of ranks. Its boxes contain the points with rank at most g[k] along each axis
+// k. The closed box of g ends at coordinate g[k], the open box at the next coordinate.
 class CoverSearch {
  public:
   CoverSearch(const StarGrid& grid, StarCover& cover)

@@ -22,7 +22,7 @@ struct StarDiscrepancy {
 ///            covers that discard increasingly more boxes give the upper bound. The bounds hold up to rounding.
 ///   work   : Number of steps of a few ns each. The default is exact for moderate sets in two to five dimensions. For
 ///            larger sets the bounds remain apart, because the problem is hard [GnewuchWahlstromWinzen12].
-///   Source : [DobkinEppsteinMitchell96], [Thiemard01]; see star_cover.h.
+///   Source : [DobkinEppsteinMitchell96], [Thiemard01]; star_cover.h has the details.
 StarDiscrepancy star_discrepancy(PointList points, std::uint64_t work = 1'000'000'000);
 
 /// Estimated number of steps for an exact answer: 0.15 n^(dim/2 + 1). The estimate may be up to 20 times too large from

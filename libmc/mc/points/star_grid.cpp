@@ -26,7 +26,7 @@ StarGrid::StarGrid(PointList p)
 
 namespace {
 
-// Local search over boxes given by ranks. A box contains the points whose ranks are at most `last`. The closed box ends
+// Local search over boxes given by ranks. A box contains the points with ranks of at most `last`. The closed box ends
 // there, the open box at the next coordinate.
 class Ascent {
  public:

@@ -40,7 +40,7 @@ class Halton {
     if (dim >= dimensions) return mix64(key ^ index);
     const bool nested = scramble_ == HaltonScramble::owen;
     const auto rest = static_cast<std::uint32_t>(index);
-    // Digits below those of a 32-bit index: equal for all points if digit-scrambled, independent for each point if
+    // Digits below the digits of a 32-bit index: equal for all points if digit-scrambled, independent for each point if
     // nested.
     const std::uint64_t tail = nested ? hash(~key, index) : hash(~key);
     if (dim == 0) {

@@ -1,5 +1,5 @@
 #pragma once
-/// A density that follows an integrand.
+/// Densities learned from an integrand.
 
 #include <mc/estimate/adapt/importance_grid.h>
 #include <mc/estimate/adapt/importance_tree.h>
@@ -9,18 +9,19 @@
 
 namespace mc {
 
-/// What was learned of where an integrand is: a grid that follows each axis, and within it, where that pays, a tree of
-/// boxes for what is no product of axes.
-///   map     : u in [0,1)^dim -> through the tree, then through the grid -> x in [0,1)^dim
-///   density : of x [1/volume]; the product of the two
+/// Density learned from an integrand: a grid that adapts to each axis and optionally, within the grid, a tree of boxes
+/// for integrands that are no product over the axes.
+///   map     : u in [0,1)^dim -> tree -> grid -> x in [0,1)^dim.
+///   density : The product of both densities at x [1/volume].
 struct AdaptedDensity {
-  ImportanceGrid grid;
-  std::optional<BoxTree> tree = {};
+  ImportanceGrid grid;              ///< Grid that adapts to each axis.
+  std::optional<BoxTree> tree = {}; ///< Tree in the coordinates of the grid.
 
+  /// Number of dimensions.
   int dim() const { return grid.dim(); }
-  /// Maps u to x, in place, and returns |dx/du| = 1 / density.
+  /// Maps u to x in place. Returns |dx/du| = 1 / density.
   double map(std::span<double> u) const { return (tree ? tree->map(u) : 1.0) * grid.map(u); }
-  /// The density at x; `scratch` has room for its coordinates.
+  /// Density at x. `scratch` must have room for the coordinates of x.
   double density(std::span<const double> x, std::span<double> scratch) const;
 };
 

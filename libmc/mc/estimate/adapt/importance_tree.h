@@ -1,5 +1,5 @@
 #pragma once
-/// Importance sampling learned from the integrand that is no product of axes: a tree of boxes.
+/// Importance sampling by a tree of boxes, learned from an integrand that is no product over the axes.
 
 #include <mc/table/box_tree.h>
 
@@ -9,25 +9,29 @@
 
 namespace mc {
 
-/// What was seen of an integrand: points of [0,1)^dim, its value at each, and how much of the volume the point stands
-/// for: 1 / (number of points x density that they were drawn from).
+/// Samples of an integrand: points of [0,1)^dim, values and weights. The weight is the volume that a point represents:
+/// 1 / (number of points x density of the point).
 struct WeightedSamples {
-  int dim = 0;
-  std::vector<double> points; ///< one after the other
-  std::vector<double> values, weights;
+  int dim = 0;                         ///< Number of dimensions.
+  std::vector<double> points;          ///< Coordinates, point after point.
+  std::vector<double> values, weights; ///< One value and one weight for each point.
 
+  /// Number of samples.
   std::size_t size() const { return values.size(); }
+  /// Coordinates of point i.
   std::span<const double> point(std::size_t i) const {
     return {points.data() + i * static_cast<std::size_t>(dim), static_cast<std::size_t>(dim)};
   }
 };
 
-/// Boxes for stratified importance sampling of an integrand: the probability of each is proportional to its volume
-/// times the root of the variance in it and a quarter of the squared mean, which is best for points that are spread
-/// evenly over the probabilities; a tenth stays uniform, and a fiftieth in every box that is cut, since what lies
-/// beside a peak may belong to it. A box is cut where one half of its points promises most, if the other half confirms
-/// it; no box has less than 16 points of each.
-///   Source : recursive stratification as in miser [PressFarrar90], with densities
+/// Learns boxes for stratified importance sampling of an integrand.
+///   weights : The probability of a box is proportional to its volume times the root of (variance + 1/4 squared mean)
+///             in it. This is optimal for points that are evenly spread over the probabilities.
+///   uniform : A tenth of the probability is uniform over the cube, and a fiftieth uniform over each box that is cut,
+///             because the neighbourhood of a peak may belong to it.
+///   cuts    : Half of the points proposes the cut of largest gain, and the other half must confirm it. Each box
+///             contains at least 16 points of each half.
+///   Source  : Recursive stratification as in miser [PressFarrar90], with densities.
 BoxTree importance_tree(const WeightedSamples& samples);
 
 } // namespace mc

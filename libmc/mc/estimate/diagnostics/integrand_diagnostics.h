@@ -13,17 +13,20 @@
 
 namespace mc::detail {
 
-/// What a run saw of an integrand: the values that it adds up, and the tail of f where those are not f itself.
+/// Diagnostics of an integrand f: the values that enter the mean, and the tail of f if these values are not f itself.
 struct IntegrandDiagnostics {
-  OctaveHistogram values = {};
-  TailIndexEstimator tail = {};
+  OctaveHistogram values = {};  ///< Values that enter the mean.
+  TailIndexEstimator tail = {}; ///< Tail of f; empty if the values are f.
   std::array<TailIndexEstimator, 2> offset_tails =
-      {}; ///< of f less the bounds of a constant, see IntegrationRun::floors; empty where that is 0
-  OctaveHistogram uniform_values = {};                  ///< of f, where uniform points are but a part of a mixture
-  double lo = infinity<double>, hi = -infinity<double>; ///< of f, where points are drawn from a density
-  std::uint64_t infinite_count = 0;                     ///< values that were
-  double infinite_volume = 0; ///< that their points stand for, where all of a run stand for their number
+      {}; ///< Tails of f minus the bounds IntegrationRun::tail_offsets; empty if these are 0.
+  /// Values of f at uniform points, if these are only a part of a mixture.
+  OctaveHistogram uniform_values = {};
+  double lo = infinity<double>, hi = -infinity<double>; ///< Range of f, if points are drawn from a density.
+  std::uint64_t infinite_count = 0;                     ///< Number of infinite values.
+  /// Volume that the points with infinite values represent, in units in which all points of a run sum to their number.
+  double infinite_volume = 0;
 
+  /// Adds the diagnostics of other points.
   void merge(const IntegrandDiagnostics& other) {
     infinite_count += other.infinite_count;
     infinite_volume += other.infinite_volume;
@@ -34,27 +37,30 @@ struct IntegrandDiagnostics {
     for (std::size_t i = 0; i < offset_tails.size(); ++i) offset_tails[i].merge(other.offset_tails[i]);
     uniform_values.merge(other.uniform_values);
   }
+  /// Extends the range by the values f.
   void add_to_range(std::span<const double> f) {
     for (const double x : f) {
       lo = std::min(lo, x);
       hi = std::max(hi, x);
     }
   }
-  /// Whether f was the same at all points.
+  /// Whether f was equal at all points.
   bool constant() const { return tail.empty() ? values.lo() == values.hi() : lo == hi; }
+  /// Tail index of f by TailIndexEstimator::index().
   double tail_index() const { return tail.empty() ? TailIndexEstimator(values).index() : tail.index(); }
-  /// The index that makes the variance infinite, or that of the tail.
+  /// Tail index that makes the variance infinite, or else the tail index of f.
   double decisive_tail_index() const {
     const double own = tail_index();
     if (!infinite_variance()) return own;
     if (offset_tails[0].infinite_variance()) return offset_tails[0].index();
     return std::isfinite(own) ? own : TailIndexEstimator(uniform_values).index();
   }
-  /// Two points so near that doubles cannot tell them apart may hold much of a singular integral. Where a density was
-  /// learned the uniform points alone may show it, too: a density that follows f down to neighbouring doubles makes the
-  /// end of these look like the end of a tail. They count from a thousand on, since to fewer a steep exponential looks
-  /// as heavy, only where their index is well below 2, since they do not show it well, and only where values went on
-  /// growing under the density, by 16 at least: of a ridge that few uniform points meet they do not.
+  /// Whether the variance of f is infinite. A singular integral may have a large part between neighbouring doubles. A
+  /// density that follows f down to neighbouring doubles makes the tail of f look bounded. In that case only the
+  /// uniform points reveal the heavy tail. They count under three conditions. There are at least a thousand, because a
+  /// steep exponential looks as heavy with fewer. Their index is well below 2, because their estimate is inaccurate.
+  /// The largest value under the density is at least 16 times the largest uniform value, in contrast to a ridge that
+  /// few uniform points reach.
   bool infinite_variance() const {
     if (infinite_count > 0) return true;
     if (tail.empty() ? TailIndexEstimator(values).infinite_variance() : tail.infinite_variance()) return true;

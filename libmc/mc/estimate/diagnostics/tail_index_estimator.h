@@ -1,5 +1,5 @@
 #pragma once
-/// How heavy the tail of an integrand is, whatever its points were drawn from.
+/// Tail index of an integrand, independent of the density of its points.
 
 #include <mc/core/types.h>
 #include <mc/estimate/diagnostics/octave_histogram.h>
@@ -12,44 +12,50 @@
 
 namespace mc {
 
-/// The volume of {|f| > t} by octaves of t, from points of any density q; mergeable with what others of the same
-/// density saw. The values f / q that a run adds up hide the tail of f: a q that was learned follows f as far as its
-/// points showed it. Farther out q is bounded, so that the variance of f / q is infinite where that of f is. Therefore
-/// f itself is looked at. The points of such a q reach as deep into the tail as the integral does, and each says how
-/// much volume it stands for.
+/// Estimates the tail index of |f| from weighted samples: the volume of {|f| > t} by octaves of t, from points of any
+/// density q. Estimators for the same density can be merged.
+/// The weighted values f / q would hide the tail of f, because a learned q follows f as far as its samples reach.
+/// Farther out q is bounded, so f / q has infinite variance if f has. The estimator therefore uses f
+/// itself. Points of such a q reach deep into the tail, and each represents a known volume.
 class TailIndexEstimator {
  public:
-  static constexpr int octaves = OctaveHistogram::octaves; ///< below the largest value; smaller ones are of the last
+  /// Number of octaves below the largest value. The last one also counts all smaller values.
+  static constexpr int octaves = OctaveHistogram::octaves;
 
+  /// Estimator without values.
   TailIndexEstimator() = default;
-  /// Of values at uniform points.
+  /// Estimator from values at uniform points.
   explicit TailIndexEstimator(const OctaveHistogram& values);
 
-  /// Values of f, and 1 / q of their points, none for uniform ones; values that are not finite are left out.
+  /// Adds values of f with 1 / q at their points, or without volumes for uniform points. Ignores non-finite values.
   void add(std::span<const double> values, std::span<const double> volumes = {});
+  /// Adds the values of another estimator.
   void merge(const TailIndexEstimator& other);
+  /// Whether there are no values.
   bool empty() const { return octave_volumes_.empty(); }
 
-  /// The index a of vol {|f| > t} ~ t^-a: the mean of f is finite for a > 1, its variance for a > 2. It is found from
-  /// the largest values alone, from as many as it takes for an index of 2 to have a standard error of .25. Infinity
-  /// where fewer were met, where f is seen to be bounded, and where the index grows with t, which that of a power does
-  /// not.
-  ///   error  : of a power law, a standard deviation of a / 8
-  ///   Source : maximum likelihood for the numbers of points in octaves, [Hill75] where each stands for as much volume
+  /// Index a of vol {|f| > t} ~ t^-a. The mean of f is finite for a > 1, its variance for a > 2. Uses enough of the
+  /// largest values to give an index of 2 a standard error of .25. Returns infinity if there are fewer values, if f is
+  /// bounded, or if the index grows with t, unlike the index of a power law.
+  ///   error  : Standard deviation a / 8 for a power law.
+  ///   Source : Maximum likelihood for the numbers of points in octaves; [Hill75] if all points have the same volume.
   double index() const;
 
-  /// Whether the variance of f is infinite. The largest values must agree with an index of 2 or less, and so must many
-  /// values: as many as it takes for an index of 2 to have a standard error of .06, or less if there are more than
-  /// 10'000 in all. An index just above 2 cannot be told from 2: x^-.5 is found to have infinite variance, and
-  /// sometimes so is a product of several x^-.4, whose tail looks lighter only very near 0.
+  /// Whether the variance of f is infinite. Both the largest values and many values must agree with an index of 2 or
+  /// less. Many means enough values to give an index of 2 a standard error of .06, or less beyond 10'000 values. An
+  /// index just above 2 cannot be distinguished from 2. x^-.5 gives true, and so does occasionally a product of several
+  /// x^-.4, because its tail becomes lighter only very near 0.
   bool infinite_variance() const;
-  /// The exponent of the largest value, see OctaveHistogram.
+  /// Biased exponent of the largest value, as in OctaveHistogram.
   int top_exponent() const { return top_; }
 
  private:
   struct Octave {
-    double volume = 0, square = 0;                                              // sums over its points
-    double points() const { return square > 0 ? volume * volume / square : 0; } // of equal volumes, as good
+    double volume = 0, square = 0; // Sums over the points of the octave.
+    double points() const {
+      return square > 0 ? volume * volume / square : 0;
+      // Number of points of equal volume with the same precision.
+    }
     double rate() const { return square > 0 ? volume / square : 0; }
     void operator+=(const Octave& o) {
       volume += o.volume;
@@ -61,9 +67,10 @@ class TailIndexEstimator {
   Fit fit(double error) const;
   Fit fit_to_many() const;
 
-  std::vector<Octave> octave_volumes_;          // octave_volumes_[i]: of exponent top_ - i; none before the first value
+  // octave_volumes_[i]: octave with exponent top_ - i; empty before the first value
+  std::vector<Octave> octave_volumes_;
   int top_ = OctaveHistogram::exponent_of_zero; // of the first octave
-  bool uniform_ = false;                        // the points
+  bool uniform_ = false;                        // whether the points are uniform
 };
 
 } // namespace mc

@@ -1,5 +1,5 @@
 #pragma once
-/// Which values a function takes, and how often.
+/// Quantiles of the values of a function.
 
 #include <mc/estimate/estimate.h>
 
@@ -11,28 +11,30 @@
 
 namespace mc {
 
+/// Settings of quantiles().
 struct QuantileOptions {
-  std::uint64_t calls = 98'304; ///< of the function, at most; a multiple of the replicates is used
-  std::uint32_t replicates = 24;
-  std::uint64_t seed = 1;
-  int threads = 0; ///< 0: all of the machine's; the result has the same bits for any number
-  double confidence = 0.95;
-  const std::atomic<bool>* cancel = nullptr; ///< ends the work once it is true
+  /// Upper limit for the number of evaluations; rounded down to a multiple of `replicates`.
+  std::uint64_t calls = 98'304;
+  std::uint32_t replicates = 24; ///< Number of independent randomisations.
+  std::uint64_t seed = 1;        ///< Seed of all random numbers.
+  int threads = 0; ///< Number of threads, 0 for all hardware threads. The result has the same bits for any number.
+  double confidence = 0.95;                  ///< Confidence level of the intervals.
+  const std::atomic<bool>* cancel = nullptr; ///< Cancels the computation when it becomes true.
 };
 
+/// A quantile and its confidence interval.
 struct Quantile {
-  double probability;
-  double value;                ///< the least that f stays at or below with this probability
-  Estimate::Interval interval; ///< of the value; an end is infinite where the calls cannot tell
+  double probability;          ///< Probability of values up to the quantile.
+  double value;                ///< The least t with P(f <= t) >= probability.
+  Estimate::Interval interval; ///< Interval of the quantile; infinite on a side that the samples cannot bound.
 };
 
 /// Quantiles of f(u), u uniform in [0,1)^dim, from independently scrambled Sobol' sequences.
-///   interval : all values t whose share of points at or below them, a mean of replicates with an interval of its own,
-///              agrees with the probability; measured over random integrands it holds the true quantile as often as
-///              `confidence` says. Of values that f takes with a probability of their own, the true one is within
-///   throws   : Error for an empty f, dim < 1, no probability or one outside (0, 1), fewer calls than two for each
-///              replicate or more values than fit into 128 MB, where f is not finite, with the point, and when
-///              cancelled
+///   interval : All t for which P(f <= t) agrees with the probability. That share is a mean over replicates with its
+///              own interval. If single values of f have positive probability, the interval contains the true quantile.
+///   throws   : Error for an empty f, dim < 1, no probability or a probability outside (0, 1), fewer than two calls for
+///              each replicate, more values than fit into 128 MB, a non-finite value of f, with its point, or if
+///              cancelled.
 std::vector<Quantile> quantiles(const std::function<double(std::span<const double>)>& f, int dim,
                                 std::span<const double> probabilities, const QuantileOptions& options = {});
 
