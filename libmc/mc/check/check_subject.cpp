@@ -292,8 +292,7 @@ void recognise_rotation(const Subject& s, const std::vector<Axis>& axes, const L
     if (axes[d].scale != Axis::Scale::azimuth) continue;
     const std::optional<double> turn = find_rotation(s, d, layout.pilot_cells->partition, layout.cells, pilot.points);
     if (!turn) continue;
-    first->detail +=
-        fmt::format("; a rotation of the samples by {:.3g} deg in {} explains the counts", 360 * *turn, axes[d].name);
+    prepend_finding(checks, fmt::format("the samples seem rotated by {:.3g} deg in {}", 360 * *turn, axes[d].name));
     for (Check& c : checks)
       if (of_shape(c)) c.fault = Fault::rotation;
   }

@@ -31,6 +31,24 @@ TEST(Summary, WorstCells_AreSortedAndOutcomesNamed) {
   EXPECT_EQ(e.outcomes[0].observed, 20);
 }
 
+TEST(Summary, WorstRegion_JoinsCellsAndNeedsFourSigma) {
+  mc::Subject s;
+  s.dim = 1;
+  s.axes = {{"x", mc::Axis::Scale::linear, 0, 8}};
+  s.describe_point = [](const mc::Subject::Coordinates& v) { return std::to_string(8 * v[0]).substr(0, 4); };
+  std::vector<mc::UnitBox> boxes;
+  for (int i = 0; i < 4; ++i) boxes.push_back({{0.25 * i, 0, 0}, {0.25 * i + 0.25, 1, 1}});
+  const auto worst = [&](double a, double b, double c, double d) {
+    return describe_worst_region(s, boxes, {cell(0.25, a), cell(0.25, b), cell(0.25, c), cell(0.25, d)});
+  };
+  EXPECT_EQ(worst(1200, 1200, 800, 800),
+            "region x 0 to 4, about 2.00, contains 2400 samples, 2000.0 expected (z = 12.6)");
+  EXPECT_EQ(worst(1200, 1000, 900, 900), "cell x 0 to 2, about 1.00, contains 1200 samples, 1000.0 expected (z = 7.3)");
+  EXPECT_EQ(worst(1010, 990, 1010, 990), "");
+  EXPECT_EQ(describe_worst_region({}, {}, {cell(0.5, 200), cell(0.5, 100)}),
+            "outcome 0 has 200 samples, 150.0 expected (z = 5.8)");
+}
+
 TEST(Summary, NamedAxes_UnnamedAreNumbered) {
   mc::Subject s;
   s.dim = 2;

@@ -64,9 +64,9 @@ template <class S> mc::AnyDistribution of_bits(int bits, S scale = 1) {
 }
 
 TEST(Quantization, CoarseSteps_AreReportedWithTheirWidth) {
-  EXPECT_EQ(mc::describe_quantization(of_bits<double>(16), 1), "x comes in steps of 1.5e-05 (2^-16)");
-  EXPECT_EQ(mc::describe_quantization(of_bits<float>(16), 1), "x comes in steps of 1.5e-05 (2^-16)");
-  EXPECT_EQ(mc::describe_quantization(of_bits<double>(20, 1024), 1), "x comes in steps of 0.00098 (2^-10)");
+  EXPECT_EQ(mc::describe_quantization(of_bits<double>(16), 1), "x has only multiples of 1.5e-05 (2^-16)");
+  EXPECT_EQ(mc::describe_quantization(of_bits<float>(16), 1), "x has only multiples of 1.5e-05 (2^-16)");
+  EXPECT_EQ(mc::describe_quantization(of_bits<double>(20, 1024), 1), "x has only multiples of 0.00098 (2^-10)");
   for (const int bits : {23, 24}) {
     EXPECT_THAT(mc::describe_quantization(of_bits<double>(bits), 1), HasSubstr("x is rounded to float"));
     EXPECT_EQ(mc::describe_quantization(of_bits<float>(bits), 1), "");
@@ -86,16 +86,16 @@ TEST(Quantization, CoarseAngleSteps_HaveUnit) {
   const auto smooth = [](double u) { return 1 - u; };
   EXPECT_EQ(mc::describe_quantization(sphere(smooth, smooth), 1), "");
   EXPECT_EQ(mc::describe_quantization(sphere([](double u) { return std::floor(1024 * u) / 1024; }, smooth), 1),
-            "cos theta comes in steps of 0.00098 (2^-10)");
+            "cos theta has only multiples of 0.00098 (2^-10)");
   EXPECT_EQ(mc::describe_quantization(sphere(smooth, [](double u) { return std::floor(1024 * u) / 1024; }), 1),
-            "phi comes in steps of 0.00098 turns (2^-10)");
+            "phi has only multiples of 0.00098 turns (2^-10)");
   // Within a narrow lobe, where a float would do no better than 2^-24.
   EXPECT_EQ(mc::describe_quantization(sphere([](double u) { return 1 - std::floor(256 * u) / 65536; }, smooth), 1),
-            "cos theta comes in steps of 1.5e-05 (2^-16)");
+            "cos theta has only multiples of 1.5e-05 (2^-16)");
 }
 
 const std::string excess =
-    ", as far off as float rounds: compute it in double, or declare float as the sampler's scalar";
+    ", off by the rounding error of float: compute it in double, or declare the distribution as float";
 
 // The cosine hemisphere over float, told as one over double.
 TEST(Quantization, PointOutsideByFloatRounding_IsReported) {
@@ -107,7 +107,7 @@ TEST(Quantization, PointOutsideByFloatRounding_IsReported) {
                                        [](const mc::Vec3<double>& w) { return w.z() / mc::pi<double>; });
   const mc::Report report = check_laws(s, {.samples = 20'000});
   EXPECT_EQ(report.verdict(), mc::Verdict::fail);
-  EXPECT_THAT(report.to_string(), testing::ContainsRegex("its length 1 [+-] [0-9.]+e-0[78]" + excess.substr(0, 30)));
+  EXPECT_THAT(report.to_string(), testing::ContainsRegex("of length 1 [+-] [0-9.]+e-0[78]" + excess.substr(0, 30)));
 }
 
 TEST(Quantization, OtherPointsOutside_AreNotReported) {

@@ -67,7 +67,7 @@ TEST(DescribeInterval, NamesPointOfDomain) {
   s.axes = {{"quantile of x"}, {"y"}};
   EXPECT_EQ(describe_interval(s, 0, 0.25, 0.5), "quantile of x in [0.25, 0.5]");
   s.describe_point = [](const mc::Subject::Coordinates& v) { return "x = " + std::to_string(10 * v[0]); };
-  EXPECT_EQ(describe_interval(s, 0, 0.25, 0.5), "quantile of x in [0.25, 0.5], as at x = 3.750000");
+  EXPECT_EQ(describe_interval(s, 0, 0.25, 0.5), "quantile of x in [0.25, 0.5], for example about x = 3.750000,");
 }
 
 } // namespace

@@ -32,7 +32,7 @@ TEST(FindRotation, SmallAndLargeRotations_AreFound) {
   for (const double degrees : {2.0, -3.0, 40.0, 90.0, -110.0, 180.0}) {
     const mc::Report r = check_subject(bent_cosine(degrees), {.samples = 200'000});
     EXPECT_EQ(r.fault(), Fault::rotation) << degrees << r.to_string();
-    const std::string text = r.to_string(), words = "phi were turned by ";
+    const std::string text = r.to_string(), words = "the samples seem rotated by ";
     const std::size_t at = text.find(words);
     ASSERT_NE(at, std::string::npos) << text;
     const double found = std::stod(text.substr(at + words.size()));
