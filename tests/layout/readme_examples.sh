@@ -7,13 +7,13 @@ readme=$1 header=$2 expected=$3
 awk -v header="$header" -v expected="$expected" '
   BEGIN { printf "" > expected }
   /^```/ {
-    if (not_installed) { if (not_installed == "cpp") body = body "}\n\n"; not_installed = "" }
-    else { not_installed = substr($0, 4); if (not_installed == "cpp") body = body "inline void example_" ++n "() {\n" "#line " NR + 1 " \"" FILENAME "\"\n" }
+    if (language) { if (language == "cpp") body = body "}\n\n"; language = "" }
+    else { language = substr($0, 4); if (language == "cpp") body = body "inline void example_" ++n "() {\n" "#line " NR + 1 " \"" FILENAME "\"\n" }
     next
   }
-  not_installed == "cpp" && /^#include/ { if (!seen[$0]++) includes = includes $0 "\n"; body = body "\n"; next }
-  not_installed == "cpp" { body = body $0 "\n" }
-  not_installed == "text" && n { print > expected }
+  language == "cpp" && /^#include/ { if (!seen[$0]++) includes = includes $0 "\n"; body = body "\n"; next }
+  language == "cpp" { body = body $0 "\n" }
+  language == "text" && n { print > expected }
   END {
     print "#pragma once\n" includes "\nnamespace readme {\n\n" body "inline void print_examples() {" > header
     for (i = 1; i <= n; ++i) print "  example_" i "();" > header
